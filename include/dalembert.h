@@ -1,0 +1,374 @@
+/* dalembert.h - geometric integrators for nonholonomic mechanics.  This header is the manual.
+ *
+ * What moves is a system, how it moves is an integrator; a run joins the two over one block of
+ * memory; a batch is the same run several lanes wide; measures look at what comes out.
+ *
+ *     d/dt L_v - L_q = Q + A^T h,   D(q,v,t) = 0,   A = dD/dv            (Lagrange-d'Alembert)
+ *     H = pi.pi/(2e) + pi.F(q,v,t) + p.v + mu_e pi_e                     (canonical lift, 4n+2)
+ *
+ * A. A. Deriglazov, arXiv:2510.24492; equation numbers (nhK) in this project are that paper's.
+ *
+ * Conventions.  Every function that can fail returns a dal_status and, where it takes a dal_error,
+ * fills it (it may be NULL).  [alloc] marks what allocates; create/free own memory, init borrows it.
+ * Nothing here prints, reads the environment, installs signals or keeps global state; two objects
+ * may be used from two threads.  Quantities are in the user's own units throughout. */
+#ifndef DALEMBERT_H
+#define DALEMBERT_H
+
+#include <stddef.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define DAL_VERSION "0.1.0"
+
+/* ---- statuses ------------------------------------------------------------------------------ */
+
+#define DAL_STATUS_LIST(X)                                                                         \
+    X(OK, "done")                                                                                  \
+    X(MEMORY, "out of memory")                                                                     \
+    X(ARGUMENT, "argument out of range")                                                           \
+    X(SYNTAX, "syntax error")                                                                      \
+    X(NAME, "unknown name")                                                                        \
+    X(MODEL, "the model cannot be used")                                                           \
+    X(TOO_LARGE, "too large")                                                                      \
+    X(INCONSISTENT, "the start violates a constraint")                                             \
+    X(RANK, "the constraints are rank-deficient at the start")                                     \
+    X(UNSUPPORTED, "the integrator needs what the system lacks")                                   \
+    X(SINGULAR, "a constraint became singular")                                                    \
+    X(SINGULAR_MASS, "the mass matrix became singular")                                            \
+    X(NOT_FINITE, "a value is not finite")                                                         \
+    X(NOT_CONVERGED, "the implicit equations did not converge")                                    \
+    X(GAUGE, "the gauge variable e reached zero")                                                  \
+    X(IO, "input or output failed")                                                                \
+    X(INTERRUPTED, "interrupted")
+
+typedef enum dal_status {
+#define X(code, text) DAL_##code,
+    DAL_STATUS_LIST(X)
+#undef X
+        DAL_STATUS_COUNT
+} dal_status;
+
+const char *dal_status_name(dal_status status); /* "DAL_SINGULAR" */
+const char *dal_status_text(dal_status status); /* "a constraint became singular" */
+
+enum { DAL_MESSAGE_SIZE = 320 };
+
+/* The caller's own record of a failure.  line and column count from 1; 0: no place in a text. */
+typedef struct dal_error {
+    dal_status status;
+    int line, column;
+    char message[DAL_MESSAGE_SIZE]; /* names the object and the value; no newline */
+} dal_error;
+
+/* ---- systems ------------------------------------------------------------------------------- */
+
+typedef struct dal_system dal_system;
+
+/* Where a system is evaluated.  work holds the parameter values first, [system->parameters]; the
+ * rest of its system->workspace doubles are the system's own (filled by prepare) and scratch. */
+typedef struct dal_at {
+    double t;
+    const double *q;  /* [n] coordinates */
+    const double *v;  /* [n] velocities, then [multipliers] vakonomic multipliers g */
+    const double *pi; /* [n] momenta of the velocities; adjoint only */
+    double *work;     /* [workspace] */
+} dal_at;
+
+/* Every callback is a pure function of *at (work beyond the parameters is scratch).  In the wide
+ * sets each array is interleaved, x[component*lanes + lane], aligned to its lanes; t is common.
+ * A callback that cannot answer returns a status, or leaves NaN in the lanes concerned. */
+typedef dal_status dal_callback(const dal_system *system, const dal_at *at, double *out);
+
+/* nw = n + multipliers below.  Matrices are row-major.  Only field is needed; what a NULL loses is
+ * said behind it. */
+typedef struct dal_callbacks {
+    dal_callback *field;      /* out[nw]: F, then dg/dt */
+    dal_callback *adjoint;    /* out[3n]: F, F_q^T pi, F_v^T pi          (NULL: no lifted space) */
+    dal_callback *jacobian;   /* out[nw*n + nw*nw]: F_q, F_(v,g)         (NULL: no Newton) */
+    dal_callback *constraint; /* out[m + m*n + n*m]: D, A, W^-1 A^T      (NULL: no +project) */
+    dal_callback *gauge;      /* out[1]: mu_e(t)                         (NULL: mu_e = 0) */
+    dal_callback *guards;     /* out[guards]: must keep their signs along a run: denominators and
+                                 the like of the constraints             (NULL: none) */
+} dal_callbacks;
+
+/* What is known of the constraints and of the energy; set by a model, or by hand. */
+enum {
+    DAL_D_LINEAR = 1 << 0,      /* every D linear or affine in v */
+    DAL_D_CONSTANT = 1 << 1,    /* every D linear in (q,v) with constant coefficients */
+    DAL_D_BILINEAR = 1 << 2,    /* every D bilinear: c.v + q^T B v + d.q */
+    DAL_D_QUADRATIC = 1 << 3,   /* every D a polynomial of degree <= 2 in (q,v) */
+    DAL_D_WATCHED = 1 << 4,     /* G can vanish along a run: compare the normals A step by step */
+    DAL_E_EXACT = 1 << 5,       /* dE/dt = 0 for every level of D */
+    DAL_E_WEAK = 1 << 6,        /* dE/dt = 0 on D = 0 only */
+    DAL_AUTONOMOUS = 1 << 7,    /* F does not depend on t */
+    DAL_MASS_CONSTANT = 1 << 8, /* W depends on parameters alone */
+    DAL_VAKONOMIC = 1 << 9
+};
+
+/* A second-order system with constraints, as a plain struct: filled by a model or by hand with
+ * designated initialisers; what is not named may stay zero. */
+struct dal_system {
+    const char *name;
+    const char *title, *reference;
+    int n;           /* coordinates, >= 1 */
+    int m;           /* constraints */
+    int multipliers; /* first-order variables beside v (vakonomic g); 0 or m */
+    int parameters, invariants, guards, tags;
+    unsigned properties;
+    const char *const *coordinate;      /* [n] names; NULL: q1, q2, ... */
+    const char *const *parameter;       /* [parameters] names */
+    const double *value;                /* [parameters] default values */
+    const char *const *invariant;       /* [invariants] names */
+    const char *const *guard;           /* [guards] "constraint 1: y1'" for messages */
+    const char *const *tag;             /* [tags] */
+    size_t workspace;                   /* doubles in dal_at.work; 0 means parameters */
+    dal_callbacks call;                 /* one lane */
+    const dal_callbacks *wide4, *wide8; /* the same, 4 and 8 lanes interleaved; NULL: lane by lane */
+    dal_callback *prepare;    /* completes work after a change of parameters; out unused */
+    dal_callback *start;      /* out[2n + multipliers + 1]: q, v, g, e at t = 0; NULL: 0 and e = 1 */
+    dal_callback *constraints;/* out[m]: D alone; needed when m > 0 */
+    dal_callback *energy;     /* out[1]: E = L_v.v - L; NULL: unknown */
+    dal_callback *invariant_values; /* out[invariants] */
+    dal_callback *exact;      /* out[2n]: q, v of the exact solution at at->t; NULL: unknown */
+    dal_callback *diagnose;   /* out[1]: why field is not finite here: returns DAL_SINGULAR with the
+                                 number of the constraint (from 1), DAL_SINGULAR_MASS, or DAL_OK */
+    void *data;               /* the owner's */
+};
+
+/* ---- models: systems from formulas --------------------------------------------------------- */
+
+typedef struct dal_model dal_model;
+
+/* The sections of a system file; lists and single values have no names. */
+#define DAL_SECTION_LIST(X)                                                                        \
+    X(TITLE, "title")                                                                              \
+    X(REFERENCE, "reference")                                                                      \
+    X(COORDINATES, "coordinates")     /* text: a name */                                           \
+    X(PARAMETERS, "parameters")       /* name, text: a number */                                   \
+    X(LET, "let")                     /* name, formula */                                          \
+    X(LAGRANGIAN, "lagrangian")       /* formula */                                                \
+    X(ACCELERATIONS, "accelerations") /* coordinate, formula; instead of a Lagrangian */           \
+    X(FORCES, "forces")               /* coordinate, formula */                                    \
+    X(CONSTRAINTS, "constraints")     /* formula */                                                \
+    X(MECHANICS, "mechanics")         /* lagrange-d'alembert (default) or vakonomic */             \
+    X(GAUGE, "gauge")                 /* e or mu_e, formula in t and parameters */                 \
+    X(START, "start")                 /* name, formula in parameters */                            \
+    X(INVARIANTS, "invariants")       /* name, formula */                                          \
+    X(EXACT, "exact")                 /* coordinate, formula in t and parameters */                \
+    X(TAGS, "tags")                   /* a word */
+
+typedef enum dal_section {
+#define X(code, text) DAL_SECTION_##code,
+    DAL_SECTION_LIST(X)
+#undef X
+        DAL_SECTION_COUNT
+} dal_section;
+
+/* An empty model, or NULL when memory is out. [alloc] */
+dal_model *dal_model_create(const char *name);
+void dal_model_free(dal_model *model);
+
+/* Adds one entry; texts are copied and parsed by dal_model_system, so the order of calls is free.
+ * line and column (from 1, or 0) say where the text stood, for messages. [alloc]
+ * Errors: DAL_NAME, DAL_SYNTAX, DAL_MODEL (duplicate), DAL_MEMORY. */
+dal_status dal_model_add(dal_model *model, dal_section section, const char *name,
+                         const char *text, int line, int column, dal_error *error);
+
+/* Reads a system file (YAML). [alloc]  The first takes the text itself, the second a path, the
+ * third the name of a system that travels inside the library ("chaplygin-sleigh"). */
+dal_status dal_model_read(dal_model **model, const char *name, const char *text, size_t length,
+                          dal_error *error);
+dal_status dal_model_read_file(dal_model **model, const char *path, dal_error *error);
+dal_status dal_model_builtin(dal_model **model, const char *name, dal_error *error);
+
+/* Name of built-in system number i, NULL past the last; and its YAML text. */
+const char *dal_builtin_name(int i);
+const char *dal_builtin_text(const char *name);
+
+/* The system of a complete model, owned by the model, made at the first call. [alloc]
+ * Errors: every fault of the formulas, with place; DAL_MODEL; DAL_TOO_LARGE. */
+dal_status dal_model_system(dal_model *model, const dal_system **system, dal_error *error);
+
+/* The tangent system, 2n coordinates (q, delta q): F and F_q dq + F_v dv, without constraints.
+ * A Runge-Kutta or polarised method applied to it is the exact tangent map of the method. [alloc] */
+dal_status dal_model_tangent(dal_model *model, const dal_system **system, dal_error *error);
+
+/* ---- integrators --------------------------------------------------------------------------- */
+
+/* What a descriptor claims; the conformance suite verifies it. */
+enum {
+    DAL_SYMMETRIC = 1 << 0,
+    DAL_SYMPLECTIC = 1 << 1,      /* on the canonical lift; says nothing about D or the energy */
+    DAL_KEEPS_BILINEAR = 1 << 2,  /* D bilinear in (q,v) */
+    DAL_KEEPS_QUADRATIC = 1 << 3, /* D quadratic in (q,v) */
+    DAL_KEEPS_D = 1 << 4,         /* every D */
+    DAL_EXPLICIT = 1 << 5,        /* on the physical space */
+    DAL_MODIFIER = 1 << 6         /* works on another integrator: NAME+this */
+};
+
+enum { DAL_NEEDS_FIELD = 1 << 0, DAL_NEEDS_CONSTRAINT = 1 << 1 };
+
+struct dal_step; /* dalembert_kernel.h */
+typedef dal_status dal_step_function(struct dal_step *step);
+
+/* A constant descriptor; its file in integrators/ holds the mathematics. */
+typedef struct dal_integrator {
+    const char *name, *alias; /* alias: another name, or NULL */
+    const char *summary, *reference;
+    int order;  /* 0 for a modifier: that of the inner method */
+    int stages; /* stages solved together or kept at once; sizes scratch and carried memory */
+    unsigned claims, needs;
+    dal_step_function *step;
+} dal_integrator;
+
+enum { DAL_CHAIN = 4 };
+
+/* An integrator and the modifiers around it, innermost first; unused places are NULL.
+ * An integrator outside the tree is used by its address: {{&my_integrator}}. */
+typedef struct dal_method {
+    const dal_integrator *chain[DAL_CHAIN];
+} dal_method;
+
+/* Built-in integrator or modifier number i, NULL past the last. */
+const dal_integrator *dal_integrator_at(int i);
+
+/* "rk4", "gauss8+project".  Errors: DAL_NAME with the nearest name. */
+dal_status dal_method_parse(dal_method *method, const char *name, dal_error *error);
+/* Writes the full name, at most size bytes with its NUL; returns buffer. */
+char *dal_method_name(const dal_method *method, char *buffer, size_t size);
+int dal_method_order(const dal_method *method);
+unsigned dal_method_claims(const dal_method *method); /* of the whole chain */
+
+/* ---- options ------------------------------------------------------------------------------- */
+
+typedef enum dal_space { DAL_LIFTED, DAL_PHYSICAL } dal_space;
+typedef enum dal_solver { DAL_SOLVER_AUTO, DAL_FIXED_POINT, DAL_NEWTON } dal_solver;
+
+/* type, name, default, least, greatest, words (for choices), help */
+#define DAL_OPTION_LIST(X)                                                                         \
+    X(double, step, 0.01, 0.0, 1e300, NULL, "step size h in units of t")                           \
+    X(int, space, DAL_LIFTED, 0, 1, "lifted|physical", "4n+2 canonical variables, or (q,v)")       \
+    X(int, solver, DAL_SOLVER_AUTO, 0, 2, "auto|fixed-point|newton",                               \
+      "how implicit equations are solved, always to stagnation at rounding level")                 \
+    X(int, iterations, 100, 1, 100000, NULL, "most iterations of an implicit equation")
+
+typedef struct dal_options {
+#define X(type, name, initial, least, greatest, words, help) type name;
+    DAL_OPTION_LIST(X)
+#undef X
+} dal_options;
+
+dal_options dal_options_default(void);
+/* Sets one option from text.  Errors: DAL_NAME (nearest name), DAL_ARGUMENT, DAL_SYNTAX. */
+dal_status dal_options_set(dal_options *options, const char *name, const char *text,
+                           dal_error *error);
+
+/* ---- runs ---------------------------------------------------------------------------------- */
+
+typedef struct dal_run dal_run;
+
+typedef struct dal_setting {
+    const char *name;
+    double value;
+} dal_setting;
+
+/* All that makes a run.  parameters: by name.  start: x, x', e, p_x, pi_x, pi_e, g1, ...; what is
+ * not named comes from the system.  e = INFINITY gives 1/e = 0, the adjoint system. */
+typedef struct dal_run_spec {
+    const dal_system *system;
+    dal_method method;
+    dal_options options;
+    const dal_setting *parameters, *start;
+    int parameter_count, start_count;
+} dal_run_spec;
+
+/* Bytes a run needs; 0 when the spec is not usable. */
+size_t dal_run_size(const dal_run_spec *spec);
+/* Places a run in the caller's memory (any alignment, dal_run_size bytes); nothing to free.
+ * The system and the descriptors must outlive it.  Errors: DAL_ARGUMENT, DAL_NAME (nearest name),
+ * DAL_UNSUPPORTED, DAL_INCONSISTENT (|D| beyond 1e-10 relative), DAL_RANK, DAL_GAUGE,
+ * DAL_NOT_FINITE, DAL_MEMORY (bytes too small). */
+dal_status dal_run_init(dal_run **run, void *memory, size_t bytes, const dal_run_spec *spec,
+                        dal_error *error);
+/* The same in memory of its own. [alloc] */
+dal_status dal_run_create(dal_run **run, const dal_run_spec *spec, dal_error *error);
+void dal_run_free(dal_run *run);
+
+/* One step, or count of them.  A step succeeds or leaves the run bitwise unchanged.  Errors:
+ * DAL_SINGULAR, DAL_SINGULAR_MASS, DAL_NOT_FINITE, DAL_NOT_CONVERGED, DAL_GAUGE; the error names
+ * the constraint and the time. */
+dal_status dal_run_step(dal_run *run, dal_error *error);
+dal_status dal_run_advance(dal_run *run, long long count, dal_error *error);
+
+const dal_system *dal_run_system(const dal_run *run);
+double dal_run_time(const dal_run *run);
+long long dal_run_steps(const dal_run *run);       /* taken since creation, also before a load */
+long long dal_run_evaluations(const dal_run *run); /* of the field, or of the lifted field */
+int dal_run_dimension(const dal_run *run); /* 4n+2 lifted; 2n + multipliers physical */
+/* [dimension] q, v, e, p, pi, pi_e (lifted) or q, v, g (physical); valid until the run is freed. */
+const double *dal_run_state(const dal_run *run);
+const double *dal_run_parameters(const dal_run *run); /* [parameters] values in force */
+/* Replaces time and state (nothing is checked but finiteness); clears all carried memory. */
+dal_status dal_run_set_state(dal_run *run, double t, const double *state, dal_error *error);
+/* Name of state component i: x, x', e, p_x, pi_x, pi_e, g1; returns buffer, or NULL past the end. */
+char *dal_run_name(const dal_run *run, int i, char *buffer, size_t size);
+
+/* All a run carries from step to step: *count doubles.  A copy of them is a checkpoint; load puts
+ * them into a run of the same spec.  Errors: DAL_ARGUMENT (wrong count), DAL_NOT_FINITE. */
+const double *dal_run_memory(const dal_run *run, size_t *count);
+dal_status dal_run_load(dal_run *run, const double *memory, size_t count, dal_error *error);
+
+/* Observables at the present state, in this order: D1..Dm, E (with an energy), H (lifted),
+ * |p|, |pi|, |pi_e| (lifted, max norms), invariants, error (with an exact solution that the start
+ * agrees with; max norm over q). */
+int dal_run_observables(const dal_run *run);
+char *dal_run_observable_name(const dal_run *run, int i, char *buffer, size_t size);
+dal_status dal_run_observe(dal_run *run, double *out);
+
+/* Looks on while a run goes.  sample is called for each row, poll now and then (about every 1000
+ * steps) between them; either may be NULL.  Any status but DAL_OK ends the run with that status. */
+typedef struct dal_observer {
+    void *user;
+    dal_status (*sample)(void *user, dal_run *run, long long row, double t);
+    dal_status (*poll)(void *user, dal_run *run);
+} dal_observer;
+
+/* Carries the run to time T and shows rows first_row..samples at t = row*T/samples, the last
+ * exactly T.  The trajectory is made of steps h alone: where a row falls between two steps, a
+ * shorter step of the same method from the earlier one gives it, and the trajectory goes on
+ * undisturbed.  A run interrupted between rows goes on with first_row = the first row not shown. */
+dal_status dal_run_sample(dal_run *run, double T, long long samples, long long first_row,
+                          const dal_observer *observer, dal_error *error);
+
+/* ---- batches ------------------------------------------------------------------------------- */
+
+typedef struct dal_batch dal_batch;
+
+/* count runs of one spec, stepped width (1, 4 or 8; 0: chosen) lanes at a time.  Lane by lane the
+ * bits are those of a single run.  [alloc] */
+dal_status dal_batch_create(dal_batch **batch, const dal_run_spec *spec, int count, int width,
+                            dal_error *error);
+void dal_batch_free(dal_batch *batch);
+/* Gives one lane its own parameters and start and puts it back to t = 0; settings as in the spec
+ * replace those of the spec.  Only before the first step. */
+dal_status dal_batch_start(dal_batch *batch, int lane, const dal_setting *parameters,
+                           int parameter_count, const dal_setting *start, int start_count,
+                           dal_error *error);
+/* Steps every lane that has not failed.  DAL_OK while any lane goes on; a failed lane keeps the
+ * state it had before the failing step. */
+dal_status dal_batch_advance(dal_batch *batch, long long count);
+int dal_batch_count(const dal_batch *batch);
+dal_status dal_batch_status(const dal_batch *batch, int lane, dal_error *error);
+double dal_batch_time(const dal_batch *batch, int lane);
+/* Copies a lane's state, [dimension] doubles as dal_run_state. */
+void dal_batch_state(const dal_batch *batch, int lane, double *state);
+
+#include "dalembert_measure.h"
+
+#ifdef __cplusplus
+}
+#endif
+#endif

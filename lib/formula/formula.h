@@ -1,0 +1,129 @@
+/* formula.h - formulas: text to a hash-consed expression graph, exact derivatives, and tapes.
+ *
+ *     text --parse--> graph --derivative, gradient--> graph --tapes--> numbers
+ *
+ * A graph only grows; a node is an index, its operands have smaller indices, so every pass over a
+ * graph is a loop and never a recursion.  Equal expressions are one node.  Constants are folded and
+ * 0, 1 and -1 simplified where this changes no value on the domain of the formula.
+ * When memory is out or the graph grows past its limit, the graph remembers it: nodes made from then
+ * on are 0, every function accepts node 0, and dal__graph_status tells. */
+#ifndef DAL_FORMULA_H
+#define DAL_FORMULA_H
+
+#include "dalembert.h"
+#include <stdbool.h>
+#include <stdint.h>
+
+typedef struct dal__graph dal__graph;
+typedef int32_t dal__node; /* 0: no node */
+
+/* Operations: code, arity, name in a formula (NULL: not callable by name). */
+#define DAL__OP_LIST(X)                                                                            \
+    X(NUMBER, 0, NULL)                                                                             \
+    X(SYMBOL, 0, NULL)                                                                             \
+    X(ADD, 2, NULL)                                                                                \
+    X(SUB, 2, NULL)                                                                                \
+    X(MUL, 2, NULL)                                                                                \
+    X(DIV, 2, NULL)                                                                                \
+    X(NEG, 1, NULL)                                                                                \
+    X(POW, 2, NULL)      /* real exponent */                                                       \
+    X(SQRT, 1, "sqrt")                                                                             \
+    X(EXP, 1, "exp")                                                                               \
+    X(LOG, 1, "log")                                                                               \
+    X(SIN, 1, "sin")                                                                               \
+    X(COS, 1, "cos")                                                                               \
+    X(TAN, 1, "tan")                                                                               \
+    X(ASIN, 1, "asin")                                                                             \
+    X(ACOS, 1, "acos")                                                                             \
+    X(ATAN, 1, "atan")                                                                             \
+    X(ATAN2, 2, "atan2")                                                                           \
+    X(SINH, 1, "sinh")                                                                             \
+    X(COSH, 1, "cosh")                                                                             \
+    X(TANH, 1, "tanh")                                                                             \
+    X(ASINH, 1, "asinh")                                                                           \
+    X(ABS, 1, "abs")                                                                               \
+    X(SIGN, 1, NULL)     /* derivative of abs */
+
+typedef enum dal__op {
+#define X(code, arity, name) DAL__##code,
+    DAL__OP_LIST(X)
+#undef X
+        DAL__OP_COUNT
+} dal__op;
+
+dal__graph *dal__graph_create(void); /* NULL: out of memory */
+void dal__graph_free(dal__graph *graph);
+dal_status dal__graph_status(const dal__graph *graph); /* DAL_OK, DAL_MEMORY or DAL_TOO_LARGE */
+int dal__graph_count(const dal__graph *graph);
+
+dal__node dal__number(dal__graph *graph, double value);
+dal__node dal__symbol(dal__graph *graph, int symbol); /* symbol >= 0, numbered by the caller */
+dal__node dal__apply(dal__graph *graph, dal__op op, dal__node a, dal__node b); /* b: 0 if unary */
+dal__node dal__add(dal__graph *graph, dal__node a, dal__node b);
+dal__node dal__sub(dal__graph *graph, dal__node a, dal__node b);
+dal__node dal__mul(dal__graph *graph, dal__node a, dal__node b);
+dal__node dal__div(dal__graph *graph, dal__node a, dal__node b);
+dal__node dal__neg(dal__graph *graph, dal__node a);
+
+/* Looking at a node. */
+typedef struct dal__view {
+    dal__op op;
+    dal__node a, b;
+    double value; /* NUMBER */
+    int symbol;   /* SYMBOL */
+} dal__view;
+dal__view dal__look(const dal__graph *graph, dal__node node);
+bool dal__is_number(const dal__graph *graph, dal__node node, double value);
+/* Whether node depends on a symbol with first <= symbol < end. */
+bool dal__depends(const dal__graph *graph, dal__node node, int first, int end);
+
+/* Exact derivatives: of f by each symbol (reverse mode, one sweep), out[count]; and along a
+ * direction: sum_i df/dsymbol_i * seed_i (forward mode). */
+void dal__gradient(dal__graph *graph, dal__node f, const int *symbols, int count, dal__node *out);
+dal__node dal__tangent(dal__graph *graph, dal__node f, const int *symbols, int count,
+                       const dal__node *seeds);
+/* f with each symbols[i] replaced by the node by[i]. */
+dal__node dal__substitute(dal__graph *graph, dal__node f, const int *symbols, int count,
+                          const dal__node *by);
+/* The value of a node; values[symbol].  A slow way for single questions (pivots, starts). [alloc] */
+double dal__evaluate(const dal__graph *graph, dal__node node, const double *values);
+
+/* ---- parser ---- */
+
+/* Turns a name (or name' when prime) into a node; on 0 it has filled *error with the status and
+ * message, the parser adds the place. */
+typedef dal__node dal__resolve(void *user, const char *name, size_t length, bool prime,
+                               dal_error *error);
+
+/* Parses one formula.  error->line and column are relative to text, from 1.  Errors: DAL_SYNTAX,
+ * DAL_NAME, DAL_TOO_LARGE (too deeply nested, or the graph), DAL_MEMORY. */
+dal_status dal__parse(dal__graph *graph, const char *text, size_t length, dal__resolve *resolve,
+                      void *user, dal__node *node, dal_error *error);
+
+/* ---- tapes ---- */
+
+/* All programs of one system over one block of numbers:
+ *     work = [ parameters | hoisted and constants | inputs | temporaries ]
+ * Symbols 0..parameters-1 are parameters, the next inputs symbols are inputs.  Nodes that depend on
+ * parameters alone are hoisted: computed by dal__tapes_prepare, not by each run of a program.
+ * A program's arithmetic for a node is the same in every program and at every width: same bits. */
+typedef struct dal__tapes dal__tapes;
+
+dal__tapes *dal__tapes_create(const dal__graph *graph, int parameters, int inputs);
+void dal__tapes_free(dal__tapes *tapes);
+/* Adds a program with these outputs and returns its number, from 0 (-1: out of memory). */
+int dal__tapes_add(dal__tapes *tapes, const dal__node *outputs, int count);
+/* Completes the set; afterwards it is constant.  Errors: DAL_MEMORY, DAL_TOO_LARGE. */
+dal_status dal__tapes_finish(dal__tapes *tapes);
+size_t dal__tapes_workspace(const dal__tapes *tapes); /* numbers in work */
+int dal__tapes_inputs(const dal__tapes *tapes);       /* where the inputs begin in work */
+int dal__tapes_length(const dal__tapes *tapes, int program); /* instructions, for reports */
+/* After the parameters in work have been set (one lane; a batch spreads the result). */
+void dal__tapes_prepare(const dal__tapes *tapes, double *work);
+/* Runs a program on the inputs in work and writes its outputs; work and out are interleaved by
+ * lanes and aligned to them. */
+void dal__tape_run_x1(const dal__tapes *tapes, int program, double *work, double *out);
+void dal__tape_run_x4(const dal__tapes *tapes, int program, double *work, double *out);
+void dal__tape_run_x8(const dal__tapes *tapes, int program, double *work, double *out);
+
+#endif
