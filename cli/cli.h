@@ -1,0 +1,143 @@
+/* cli.h - what the commands of the program share.
+ *
+ * A command is a function command_NAME(argc, argv), argv[0] being its own name; it returns the exit
+ * status.  stdout carries data only; messages begin with "dalembert: " and go to stderr.  The
+ * program never calls setlocale, so the C locale holds and a number is read and written the same
+ * everywhere. */
+#ifndef DAL_CLI_H
+#define DAL_CLI_H
+
+#include "dalembert.h"
+
+#include <stdio.h>
+
+/* name, synopsis, what it does */
+#define COMMAND_LIST(X)                                                                            \
+    X(list, "[systems|integrators] [--markdown]", "what travels inside the program")               \
+    X(check, "SYSTEM [OPTION]...", "what can be known of a system before a run")                   \
+    X(run, "SYSTEM --integrator NAME --step H --time T [OPTION]...", "integrate one system")       \
+    X(resume, "DIR", "go on with an interrupted run that writes to a directory")                   \
+    X(study, "[STUDY.yaml] [OPTION]...", "systems x integrators x steps: tables of drift")         \
+    X(report, "DIR", "figures and tables from a run or a study")
+
+#define X(name, synopsis, about) int command_##name(int argc, char **argv);
+COMMAND_LIST(X)
+#undef X
+
+/* ---- exit statuses ------------------------------------------------------------------------- */
+
+#define CLI_EXIT_LIST(X)                                                                           \
+    X(DONE, 0, "done")                                                                             \
+    X(CHECK, 1, "a check failed")                                                                  \
+    X(USAGE, 2, "usage or input error")                                                            \
+    X(FAILED, 3, "the integration failed; the rows so far are kept")                               \
+    X(IO, 4, "input or output failed, or memory ran out")                                          \
+    X(SIGNAL, 130, "interrupted")
+
+enum {
+#define X(code, number, text) CLI_##code = number,
+    CLI_EXIT_LIST(X)
+#undef X
+};
+
+/* The exit status a library status leads to while a run goes; cli_input_exit while the input is
+ * still being read and a run being made, where only memory is not the user's fault. */
+int cli_exit(dal_status status);
+int cli_input_exit(dal_status status);
+
+/* ---- messages ------------------------------------------------------------------------------ */
+
+#if defined(__GNUC__)
+#define CLI_PRINTF(f, a) __attribute__((format(printf, f, a)))
+#else
+#define CLI_PRINTF(f, a)
+#endif
+
+/* Prints "dalembert: MESSAGE" and returns exit_status, so that a caller can write
+ *     return cli_fail(CLI_USAGE, "unknown table '%s'", name); */
+int cli_fail(int exit_status, const char *format, ...) CLI_PRINTF(2, 3);
+/* "dalembert: unknown WHAT 'NAME'; did you mean 'NEAREST'?"; returns CLI_USAGE. */
+int cli_unknown(const char *what, const char *name, const char *const *names, int count);
+/* "dalembert: PLACE:line:column: message"; place may be NULL and line 0.  Returns exit_status. */
+int cli_error(int exit_status, const char *place, const dal_error *error);
+/* "dalembert: cannot VERB 'PATH': strerror(errno)"; returns CLI_IO. */
+int cli_io(const char *verb, const char *path);
+
+/* A line of progress that replaces the last one; nothing unless stderr is a terminal, and not more
+ * than ten times a second.  cli_progress_end wipes it; every message above does so too. */
+void cli_progress(const char *format, ...) CLI_PRINTF(1, 2);
+void cli_progress_end(void);
+
+/* ---- arguments ----------------------------------------------------------------------------- */
+
+typedef struct cli_option {
+    const char *name;  /* without its dashes */
+    const char *value; /* what --help calls its value; NULL: a flag */
+    const char *help;
+} cli_option;
+
+typedef struct cli_args {
+    const cli_option *options;
+    int count;
+    const char *notes; /* further paragraphs of --help, or NULL */
+    int argc, next, plain;
+    char **argv;
+    int status; /* CLI_GO_ON, or the exit status: help was printed or a message given */
+} cli_args;
+
+enum { CLI_GO_ON = -1, CLI_STOP = -2, CLI_PLAIN = -1 };
+
+/* Reads the arguments of a command one by one:
+ *     cli_args args = cli_begin(argc, argv, options, count, notes);
+ *     for (int k; (k = cli_next(&args, &value)) != CLI_STOP;) switch (k) ...
+ *     if (args.status != CLI_GO_ON) return args.status;
+ * cli_next gives the index of an option and its value, or CLI_PLAIN and an argument that is no
+ * option, or CLI_STOP.  --opt value and --opt=value; never an abbreviation; -- ends the options. */
+cli_args cli_begin(int argc, char **argv, const cli_option *options, int count, const char *notes);
+int cli_next(cli_args *args, const char **value);
+/* Ends the reading with an exit status, as a caller does that has printed a message. */
+void cli_stop(cli_args *args, int exit_status);
+/* The usage and options of a command, as --help prints them. */
+void cli_help(FILE *out, const char *command, const cli_option *options, int count,
+              const char *notes);
+
+/* A finite number, or an integer (1e6 is one) in least..greatest.  what names it in the message,
+ * "--time".  Return CLI_DONE or CLI_USAGE. */
+int cli_number(const char *what, const char *text, double *number);
+int cli_integer(const char *what, const char *text, long long least, long long greatest,
+                long long *number);
+/* Splits "NAME=VALUE" at its first '=': a setting whose name is allocated (free it).  An infinite
+ * value is taken for the name e alone.  Returns CLI_DONE, CLI_USAGE or CLI_IO. */
+int cli_setting(const char *what, const char *text, dal_setting *setting);
+
+/* ---- systems ------------------------------------------------------------------------------- */
+
+/* SYSTEM is a path when it holds '/' or ends in .yaml or .yml, or when no built-in system but a
+ * file has that name. */
+int cli_is_path(const char *system);
+/* Reads SYSTEM and makes its system, owned by *model.  Returns CLI_DONE, or prints and returns an
+ * exit status with *model NULL. */
+int cli_load(const char *system, dal_model **model, const dal_system **made);
+
+/* ---- output -------------------------------------------------------------------------------- */
+
+/* Writes x with 17 digits, as a double reads it back; minus zero as 0. */
+void cli_put(FILE *out, double x);
+/* Closes (or, for stdout, flushes) a file that was written to.  Returns CLI_DONE or, when any write
+ * of its life failed, prints and returns CLI_IO. */
+int cli_close(FILE *out, const char *path);
+/* Makes a directory unless it is there.  Returns CLI_DONE or prints and returns CLI_IO. */
+int cli_directory(const char *path);
+/* "DIR/NAME", allocated; NULL when memory is out. */
+char *cli_join(const char *directory, const char *name);
+
+/* ---- signals ------------------------------------------------------------------------------- */
+
+/* From the first call on SIGINT and SIGTERM only set a flag; a second one kills. */
+void cli_catch_signals(void);
+int cli_interrupted(void);
+
+/* Seconds of a clock that never goes back. */
+double cli_seconds(void);
+
+#endif
