@@ -1,5 +1,213 @@
-/* dalembert_measure.h - measures; a part of dalembert.h, never included by itself. */
+/* dalembert_measure.h - measures; a part of dalembert.h, never included by itself.
+ *
+ * A measure looks at a system or at a run from outside, through the same calls a user has, and
+ * never trusts what they say about themselves: derivatives are compared with differences, claims
+ * with numbers.  Differences are central, of order 8, so that their noise is near 1e-12.
+ *
+ * Nothing measured upstairs says anything about the constraints D or the energy downstairs: on
+ * p = pi = 0 every method, explicit Euler included, is the restriction of a symplectic one. */
 #ifndef DALEMBERT_MEASURE_H
 #define DALEMBERT_MEASURE_H
+
+/* ---- drift --------------------------------------------------------------------------------- */
+
+/* What became of one quantity x along a run: plain sums, to be copied or kept as one likes. */
+typedef struct dal_drift {
+    long long count;
+    double first, last; /* x at the first and at the last row */
+    double greatest;    /* max |x| */
+    double deviation;   /* max |x - first| */
+    double rate;        /* least-squares slope per unit of t; after dal_drift_finish */
+    double residue;     /* root mean square distance from that line; after dal_drift_finish */
+    double quarter[4];  /* max |x - first| within each quarter of the time from .. to */
+    double from, to;    /* the time the run is meant to cover */
+    double t, x;        /* running means */
+    double tt, tx, xx;  /* running sums of squares about the means */
+} dal_drift;
+
+/* Begins, adds one row of values[count], and ends the statistics of drift[count].  Rows come in
+ * any number, in increasing t.  A value that is not finite makes greatest and deviation infinite
+ * and is left out of the line.  finish may be called again after more rows. */
+void dal_drift_start(dal_drift *drift, int count, double from, double to);
+void dal_drift_add(dal_drift *drift, int count, double t, const double *values);
+void dal_drift_finish(dal_drift *drift, int count);
+
+/* What a drift amounts to, by this rule, with a scale (a natural size of x, in its unit):
+ *   EXACT     deviation = 0
+ *   ROUNDING  deviation <= 1e-12 scale
+ *   DRIFTS    deviation of the last quarter > 2.5 times that of the first, or the slope over the
+ *             whole time > 4 times the distance from the line (a bounded oscillation over one
+ *             period or more stays below 2.8)
+ *   BOUNDED   none of these
+ *   LOST      a value was not finite, or there was no row */
+#define DAL_VERDICT_LIST(X)                                                                        \
+    X(EXACT, "exact")                                                                              \
+    X(ROUNDING, "rounding")                                                                        \
+    X(BOUNDED, "bounded")                                                                          \
+    X(DRIFTS, "drifts")                                                                            \
+    X(LOST, "lost")
+
+typedef enum dal_verdict {
+#define X(code, text) DAL_VERDICT_##code,
+    DAL_VERDICT_LIST(X)
+#undef X
+        DAL_VERDICT_COUNT
+} dal_verdict;
+
+dal_verdict dal_drift_verdict(const dal_drift *drift, double scale); /* after dal_drift_finish */
+const char *dal_verdict_text(dal_verdict verdict);
+
+/* ---- a system under the hand --------------------------------------------------------------- */
+
+/* A system with parameter values in force and memory to evaluate it in, for one thread. */
+typedef struct dal_probe dal_probe;
+
+/* parameters by name, the rest as the system has them.  The system must outlive it. [alloc]
+ * Errors: DAL_NAME (nearest name), DAL_NOT_FINITE, DAL_MEMORY, those of prepare. */
+dal_status dal_probe_create(dal_probe **probe, const dal_system *system,
+                            const dal_setting *parameters, int parameter_count, dal_error *error);
+void dal_probe_free(dal_probe *probe);
+const dal_system *dal_probe_system(const dal_probe *probe);
+/* Calls any callback of the system; pi may be NULL where it is not used.  DAL_UNSUPPORTED when
+ * the callback is NULL. */
+dal_status dal_probe_call(dal_probe *probe, dal_callback *callback, double t, const double *q,
+                          const double *v, const double *pi, double *out);
+/* The start: out[2n + multipliers + 1] = q, v, g, e, with x, x', g1 and e replaced as named.
+ * Nothing is asked of the constraints.  Errors: DAL_NAME, those of the system. */
+dal_status dal_probe_start(dal_probe *probe, const dal_setting *start, int start_count, double *out,
+                           dal_error *error);
+
+/* A point of a system: v carries the multipliers g behind the velocities. */
+typedef struct dal_point {
+    double t;
+    const double *q, *v; /* [n], [n + multipliers] */
+} dal_point;
+
+/* d/dt of the count values of a callback along the motion, that is the derivative along
+ * (v, F, dg/dt, 1): out[count].  For D it must vanish on every level of D. [alloc]
+ * Errors: DAL_UNSUPPORTED, DAL_NOT_FINITE, DAL_MEMORY. */
+dal_status dal_measure_rate(dal_probe *probe, dal_callback *callback, int count,
+                            const dal_point *at, double *out);
+
+/* What the callbacks give as derivatives against differences of the values: the greatest
+ * |given - difference| / max(1, |given|); negative where there is nothing to compare. [alloc] */
+typedef struct dal_derivatives {
+    double jacobian; /* F_q, F_(v,g) */
+    double adjoint;  /* F_q^T pi, F_v^T pi, and its F against field */
+    double normal;   /* A = dD/dv */
+    double gram;     /* asymmetry of G = A W^-1 A^T, relative to its size */
+} dal_derivatives;
+dal_status dal_measure_derivatives(dal_probe *probe, const dal_point *at, dal_derivatives *out);
+
+/* The numerical rank of G = A W^-1 A^T, and its smallest pivot relative to the largest entry of
+ * G scaled to a unit diagonal (0 where G is singular). [alloc] */
+dal_status dal_measure_rank(dal_probe *probe, const dal_point *at, int *rank, double *pivot);
+
+/* Moves v[n] along W^-1 A^T until D = 0 (Newton, to stagnation).  DAL_NOT_CONVERGED when it does
+ * not; v is then as before. [alloc] */
+dal_status dal_measure_onto(dal_probe *probe, double t, const double *q, double *v);
+
+/* What D is as a function, by differences at points around *at: each is a necessary condition,
+ * met to rounding at every point tried. [alloc] */
+typedef struct dal_degree {
+    int linear;          /* affine in v */
+    int constant;        /* affine in (q,v) jointly */
+    int bilinear;        /* affine in v, and affine in q */
+    int quadratic;       /* of degree <= 2 in (q,v) jointly */
+    int parity;          /* D(q,-v) = +D: 1, -D: -1, neither: 0 (each constraint its own sign) */
+    int homogeneous;     /* v.D_v = k D with one k per constraint */
+    int reversible;      /* F(q,-v,-t) = F(q,v,t) */
+    double force_defect; /* greatest |F(q,-v,-t) - F(q,v,t)| met, relative to max(1, |F|) */
+} dal_degree;
+/* degree[m], when not NULL, receives the k of each constraint. */
+dal_status dal_measure_degree(dal_probe *probe, const dal_point *at, dal_degree *out,
+                              double *degree);
+
+/* ---- measures of a method ------------------------------------------------------------------ */
+
+enum { DAL_ORDER_LEVELS = 8 };
+
+/* Errors at time T for steps step, step/2, step/4, ..., and the slopes between them. */
+typedef struct dal_order {
+    int levels;
+    double step[DAL_ORDER_LEVELS], error[DAL_ORDER_LEVELS];
+    double slope[DAL_ORDER_LEVELS]; /* slope[i] between levels i-1 and i; slope[0] unused */
+    double order; /* the last slope whose errors both stand clear of rounding; NAN if none does */
+} dal_order;
+
+/* The observed order: max norm of the whole state at T against reference[dimension], or, when it
+ * is NULL, against gauss12 (or what method *judge says) with half the smallest step. [alloc]
+ * T must hold a whole number of the steps.  Errors: those of the runs, DAL_ARGUMENT. */
+dal_status dal_measure_order(const dal_run_spec *spec, double T, int levels,
+                             const dal_method *judge, const double *reference, dal_order *order,
+                             dal_error *error);
+
+/* Greatest entry of |J^T Omega J - Omega|, J the derivative of one step from the run's start (or
+ * from state[4n+2] at time t) by differences; pairs (q,p), (v,pi), (e,pi_e).  Lifted space only:
+ * DAL_UNSUPPORTED.  increment, relative to max(1, |x|); 0: 2e-3. [alloc] */
+dal_status dal_measure_symplecticity(const dal_run_spec *spec, double t, const double *state,
+                                     double increment, double *defect, dal_error *error);
+
+/* rho step rho step = id: greatest difference from the identity, relative to max(1, |x|), over
+ * one step from the start (or from state at time t).  rho turns time round, t -> -t, with
+ *     (q, v) -> (q, -v),      (q, v, e, p, pi, pi_e) -> (q, -v, e, -p, pi, -pi_e),
+ * the antisymplectic lift that leaves H = pi.pi/(2e) + pi.F + p.v alone when F(q,-v,-t) =
+ * F(q,v,t) and mu_e is odd in t; vakonomic g goes to -g where D is odd in v.  [alloc] */
+dal_status dal_measure_reversibility(const dal_run_spec *spec, double t, const double *state,
+                                     double *defect, dal_error *error);
+
+/* p.dq + pi.dv along steps of spec->method with 1/e = 0: (q,p,v,pi) from a lifted run with the
+ * start of spec (its p_x, pi_x name the covector), (dq,dv) from the tangent system of the same
+ * model (dal_model_tangent) in the physical space, beginning with direction[2n].  Constant for
+ * symplectic methods.  The drift is finished and covers every step. [alloc] */
+dal_status dal_measure_pairing(const dal_run_spec *spec, const dal_system *tangent,
+                               const double *direction, long long steps, dal_drift *drift,
+                               dal_error *error);
+
+/* ---- the action and Dirac's algebra -------------------------------------------------------- */
+
+/* S = int e/2 |q'' - F(q,q',t)|^2 dt (nh10) with constant e on the curve q[count*n] given at t0,
+ * t0 + h, ...: derivatives by differences of order 8, so the four points at either end only lend
+ * support; count >= 10. [alloc]  0 on solutions up to discretisation and rounding (about
+ * (2e-15/h^2)^2 and h^16), positive off them. */
+dal_status dal_measure_action(dal_probe *probe, double t0, double h, long long count,
+                              const double *q, double e, double *action);
+
+/* How far the discrete first-order action (nh23)
+ *     S = sum_k P_k.(X_(k+1) - X_k) - h H((X_k + X_(k+1))/2, P_k)
+ * is from stationary on a path: X_k [2n+1] = q, v, e at the count nodes, P_k [2n+1] = p, pi, pi_e
+ * the mean over each of the count-1 intervals, states[count*(4n+2)] the rows of a lifted run.
+ * The greatest |dS/dX_k| over inner nodes and |dS/dP_k|, divided by h: zero to rounding for
+ * implicit-midpoint, of the order of the error for others. [alloc] */
+dal_status dal_measure_stationarity(dal_probe *probe, double t0, double h, long long count,
+                                    const double *states, double *defect);
+
+/* A function on a phase space of 2N numbers z = (X, P). */
+typedef double dal_phase_function(void *user, const double *z);
+
+/* gradient[count] of f at z by differences; increments relative to max(1, |z|). z is used and
+ * put back. */
+void dal_measure_gradient(dal_phase_function *f, void *user, int count, double *z,
+                          double *gradient);
+/* {f,g} = sum f_X g_P - f_P g_X from two gradients [2*pairs]. */
+double dal_poisson(const double *f, const double *g, int pairs);
+
+/* Dirac's algebra of (nh14) in 6n+2: X = (q, v, lambda, e), P = (p, pi, pi_lambda, pi_e), with
+ * constraints pi_e, pi_lambda, p - lambda (primary), pi, lambda (secondary), all brackets by
+ * differences of the functions themselves.  Conservation asks, on the surface, for multipliers
+ * mu of the primary constraints with {phi, H_c} = 0 for every phi. */
+typedef struct dal_dirac {
+    int constraints;      /* 4n + 1 */
+    int second_class;     /* rank of the matrix of brackets on the surface; 2n */
+    int first_class;      /* the rest; 2n + 1 */
+    int free_multipliers; /* not determined by conservation; 1, the gauge mu_e */
+    double conservation;  /* least |{phi, H_c}| on the surface over all mu; 0 */
+    double multipliers;   /* distance of those mu from mu_q = v, mu_lambda = 0; 0 */
+    double secondary;     /* the same least |{phi, H_c}| of the primary ones where pi and lambda
+                             are not 0: positive, so that the secondary constraints are needed */
+    double hamiltonian;   /* |H_c| on the surface; 0 */
+} dal_dirac;
+/* Errors: DAL_UNSUPPORTED (vakonomic), DAL_NOT_FINITE, DAL_MEMORY. [alloc] */
+dal_status dal_measure_dirac(dal_probe *probe, const dal_point *at, double e, dal_dirac *out);
 
 #endif
