@@ -63,6 +63,11 @@ typedef struct dal_error {
     char message[DAL_MESSAGE_SIZE]; /* names the object and the value; no newline */
 } dal_error;
 
+/* The name among count nearest to name by edits (Damerau-Levenshtein), for "did you mean"; NULL
+ * when none is within a third of the length of name (at least two edits) and has a letter in
+ * common with it.  Names may hold NULLs. */
+const char *dal_nearest(const char *name, const char *const *names, int count);
+
 /* ---- systems ------------------------------------------------------------------------------- */
 
 typedef struct dal_system dal_system;

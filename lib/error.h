@@ -15,11 +15,7 @@
 dal_status dal__error(dal_error *error, dal_status status, int line, int column,
                       const char *format, ...) DAL__PRINTF(5, 6);
 
-/* The name among count nearest to name (Damerau-Levenshtein, not further than a third of its
- * length, at least 2), or NULL.  Names may hold NULLs. */
-const char *dal__nearest(const char *name, const char *const *names, int count);
-
-/* "unknown WHAT 'NAME'; did you mean 'NEAREST'?" with the status DAL_NAME. */
+/* "unknown WHAT 'NAME'; did you mean 'NEAREST'?" with the status DAL_NAME; see dal_nearest. */
 dal_status dal__unknown(dal_error *error, int line, int column, const char *what,
                         const char *name, const char *const *names, int count);
 

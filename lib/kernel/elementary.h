@@ -8,10 +8,10 @@
  * and n mod 4 says which of +-sin, +-cos is wanted.  Error below 0.85 ulp for |x| <= 1e7; beyond,
  * and for what is not finite, the lane concerned is libm's.
  *
- * Reduction (Cody and Waite 1980, chapter 8): pi/2 = P1 + P2 + P3 + P4, the first three of 31 bits
- * or fewer ending at 2^-29, 2^-60, 2^-91, so that n Pk is exact for |n| < 2^23 and each difference
- * with its remainder is exact in two doubles.  No x up to 1e7 comes nearer to a multiple of pi/2
- * than 2^-60, and n (pi/2 - P1 - P2 - P3 - P4) stays below 2^-120.
+ * Reduction (Cody and Waite 1980, chapter 8): pi/2 = P1 + P2 + P3 + P4, the first three of 30 bits
+ * ending at 2^-29, 2^-60, 2^-91, so that n Pk is exact for |n| < 2^23 and each difference with its
+ * remainder is exact in two doubles.  No double up to 1e7 but 0 comes nearer to a multiple of pi/2
+ * than 2^-61 (the nearest is at 29 pi/2), and n (pi/2 - P1 - P2 - P3 - P4) is below 2^-120.
  *
  * Coefficients: S and C are the polynomials of degree 5 that interpolate (sin x / x - 1)/x^2 and
  * (cos x - 1 + x^2/2)/x^4, in exact rationals from their Taylor series, at the six largest zeros

@@ -1,0 +1,111 @@
+/* error.c - statuses and their words, the caller's error record, the nearest name.
+ *
+ * The distance of two names is that of Damerau and Levenshtein in its "optimal string alignment"
+ * form: the least number of insertions, deletions, substitutions and swaps of neighbours.  It is
+ * counted in half edits, so that a letter in the wrong case costs less than a wrong letter. */
+#include "error.h"
+
+#include <limits.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+const char *dal_status_name(dal_status status)
+{
+    static const char *const name[] = {
+#define X(code, text) "DAL_" #code,
+        DAL_STATUS_LIST(X)
+#undef X
+    };
+    return (unsigned)status < DAL_STATUS_COUNT ? name[status] : "DAL_?";
+}
+
+const char *dal_status_text(dal_status status)
+{
+    static const char *const words[] = {
+#define X(code, text) text,
+        DAL_STATUS_LIST(X)
+#undef X
+    };
+    return (unsigned)status < DAL_STATUS_COUNT ? words[status] : "unknown status";
+}
+
+/* Names come from the user's text: whatever would break the line or the terminal is masked. */
+static void mask_control(char *text)
+{
+    for (; *text; text++)
+        if ((unsigned char)*text < ' ' || *text == 127) *text = '?';
+}
+
+dal_status dal__error(dal_error *error, dal_status status, int line, int column, const char *format,
+                      ...)
+{
+    if (!error) return status;
+    va_list arguments;
+    va_start(arguments, format);
+    *error = (dal_error){.status = status, .line = line, .column = column};
+    vsnprintf(error->message, sizeof error->message, format, arguments);
+    va_end(arguments);
+    mask_control(error->message);
+    return status;
+}
+
+enum { LONGEST = 63, CASE = 1, EDIT = 2, LEAST_LIMIT = 2 * EDIT };
+
+static int substitution(char a, char b)
+{
+    if (a == b) return 0;
+    char low = (char)(a | 0x20);
+    return (a ^ b) == 0x20 && low >= 'a' && low <= 'z' ? CASE : EDIT;
+}
+
+static int least(int a, int b) { return a < b ? a : b; }
+
+/* Half edits from a to b, neither longer than LONGEST.  row[k] holds the distances of the first
+ * i - k letters of a to every beginning of b. */
+static int distance(const char *a, const char *b)
+{
+    int row[3][LONGEST + 1] = {{0}}, la = (int)strlen(a), lb = (int)strlen(b);
+    for (int j = 0; j <= lb; j++) row[0][j] = j * EDIT;
+    for (int i = 1; i <= la; i++) {
+        memcpy(row[2], row[1], sizeof row[1]);
+        memcpy(row[1], row[0], sizeof row[0]);
+        row[0][0] = i * EDIT;
+        for (int j = 1; j <= lb; j++) {
+            int d = least(row[1][j], row[0][j - 1]) + EDIT;
+            d = least(d, row[1][j - 1] + substitution(a[i - 1], b[j - 1]));
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+                d = least(d, row[2][j - 2] + EDIT);
+            row[0][j] = d;
+        }
+    }
+    return row[0][lb];
+}
+
+const char *dal_nearest(const char *name, const char *const *names, int count)
+{
+    size_t length = strlen(name);
+    if (length > LONGEST) return NULL;
+    int limit = (int)length * EDIT / 3, best = INT_MAX;
+    if (limit < LEAST_LIMIT) limit = LEAST_LIMIT;
+    const char *nearest = NULL;
+    for (int i = 0; i < count; i++) {
+        size_t other = names[i] ? strlen(names[i]) : LONGEST + 1;
+        if (other > LONGEST) continue;
+        int d = distance(name, names[i]);
+        int everything = EDIT * (int)(other > length ? other : length);
+        if (d > limit || d >= everything || d >= best) continue;
+        best = d, nearest = names[i];
+    }
+    return nearest;
+}
+
+dal_status dal__unknown(dal_error *error, int line, int column, const char *what, const char *name,
+                        const char *const *names, int count)
+{
+    const char *nearest = dal_nearest(name, names, count);
+    if (!nearest)
+        return dal__error(error, DAL_NAME, line, column, "unknown %s '%.*s'", what, LONGEST, name);
+    return dal__error(error, DAL_NAME, line, column, "unknown %s '%s'; did you mean '%s'?", what,
+                      name, nearest);
+}
