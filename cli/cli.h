@@ -7,6 +7,12 @@
 #ifndef DAL_CLI_H
 #define DAL_CLI_H
 
+/* Before any header of the system: C11 alone has no fsync, sigaction or clock_gettime.  Hence this
+ * header comes first in every file. */
+#ifndef _POSIX_C_SOURCE
+#define _POSIX_C_SOURCE 200809L
+#endif
+
 #include "dalembert.h"
 
 #include <stdio.h>
@@ -74,6 +80,7 @@ typedef struct cli_option {
     const char *name;  /* without its dashes */
     const char *value; /* what --help calls its value; NULL: a flag */
     const char *help;
+    const char *initial; /* its default, up to a '|'; NULL: none to tell */
 } cli_option;
 
 typedef struct cli_args {

@@ -1,0 +1,151 @@
+/* job.c - from the options of a run to the run. */
+#include "job.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { SAMPLES_MOST = 1000000000 };
+
+/* One table of both kinds of option; words is NULL unless an option is one of several words. */
+static const struct {
+    const char *name, *value, *words, *initial, *help;
+} table[JOB_OPTIONS] = {
+#define X(name, value, initial, help) {#name, value, NULL, initial, help},
+    JOB_OPTION_LIST(X)
+#undef X
+#define X(type, name, initial, least, greatest, words, help) {#name, #type, words, #initial, help},
+        DAL_OPTION_LIST(X)
+#undef X
+};
+
+static int is_required(int option)
+{
+    return option == JOB_integrator || option == JOB_step || option == JOB_time;
+}
+
+void job_options(cli_option *options)
+{
+    for (int i = 0; i < JOB_OPTIONS; i++) {
+        const char *value = table[i].value;
+        if (strcmp(value, "double") == 0) value = "H";
+        if (strcmp(value, "int") == 0) value = "N";
+        /* Of several words the first is the default. */
+        const char *words = table[i].words;
+        options[i] = (cli_option){table[i].name, words ? words : value, table[i].help,
+                                  is_required(i) ? NULL
+                                  : words        ? words
+                                                 : table[i].initial};
+    }
+}
+
+int job_find(const char *name)
+{
+    for (int i = 0; i < JOB_OPTIONS; i++)
+        if (strcmp(table[i].name, name) == 0) return i;
+    return -1;
+}
+
+cli_job job_begin(void) { return (cli_job){.samples = 100, .options = dal_options_default()}; }
+
+static void free_settings(job_settings *settings)
+{
+    for (int i = 0; i < settings->count; i++) free((char *)settings->item[i].name);
+    free(settings->item);
+}
+
+void job_free(cli_job *job)
+{
+    dal_run_free(job->run);
+    dal_model_free(job->model);
+    free_settings(&job->set);
+    free_settings(&job->start);
+    *job = job_begin();
+}
+
+/* The last value given to a name holds. */
+static dal_setting *find_setting(job_settings *settings, const char *name)
+{
+    for (int i = 0; i < settings->count; i++)
+        if (strcmp(settings->item[i].name, name) == 0) return &settings->item[i];
+    return NULL;
+}
+
+static int add_setting(job_settings *settings, const char *what, const char *text)
+{
+    dal_setting given;
+    int status = cli_setting(what, text, &given);
+    if (status != CLI_DONE) return status;
+    dal_setting *before = find_setting(settings, given.name);
+    if (before) {
+        before->value = given.value;
+        free((char *)given.name);
+        return CLI_DONE;
+    }
+    size_t count = (size_t)settings->count + 1;
+    dal_setting *item = realloc(settings->item, count * sizeof *item);
+    if (!item) {
+        free((char *)given.name);
+        return cli_fail(CLI_IO, "out of memory");
+    }
+    settings->item = item;
+    settings->item[settings->count++] = given;
+    return CLI_DONE;
+}
+
+int job_take(cli_job *job, int option, const char *text)
+{
+    dal_error error = {0};
+    job->text[option] = text;
+    switch (option) {
+    case JOB_integrator:
+        if (dal_method_parse(&job->method, text, &error) == DAL_OK) return CLI_DONE;
+        return cli_error(CLI_USAGE, NULL, &error);
+    case JOB_time:
+        if (cli_number("--time", text, &job->time) != CLI_DONE) return CLI_USAGE;
+        if (job->time > 0.0) return CLI_DONE;
+        return cli_fail(CLI_USAGE, "--time: %s is not positive", text);
+    case JOB_samples:
+        return cli_integer("--samples", text, 1, SAMPLES_MOST, &job->samples);
+    case JOB_set:
+        return add_setting(&job->set, "--set", text);
+    case JOB_start:
+        return add_setting(&job->start, "--start", text);
+    default:
+        if (dal_options_set(&job->options, table[option].name, text, &error) == DAL_OK)
+            return CLI_DONE;
+        return cli_error(CLI_USAGE, NULL, &error);
+    }
+}
+
+static int check(const cli_job *job)
+{
+    if (!job->system) return cli_fail(CLI_USAGE, "the SYSTEM is missing");
+    for (int i = 0; i < JOB_OPTIONS; i++)
+        if (is_required(i) && !job->text[i])
+            return cli_fail(CLI_USAGE, "--%s is missing", table[i].name);
+    if (!(job->options.step > 0.0))
+        return cli_fail(CLI_USAGE, "--step: %s is not positive", job->text[JOB_step]);
+    if (job->options.step > job->time)
+        return cli_fail(CLI_USAGE, "--step: %s is larger than the time %s", job->text[JOB_step],
+                        job->text[JOB_time]);
+    return CLI_DONE;
+}
+
+int job_make(cli_job *job)
+{
+    int status = check(job);
+    if (status == CLI_DONE) status = cli_load(job->system, &job->model, &job->made);
+    if (status != CLI_DONE) return status;
+    dal_error error = {0};
+    dal_run_spec spec = {.system = job->made,
+                         .method = job->method,
+                         .options = job->options,
+                         .parameters = job->set.item,
+                         .parameter_count = job->set.count,
+                         .start = job->start.item,
+                         .start_count = job->start.count};
+    dal_status made = dal_run_create(&job->run, &spec, &error);
+    if (made == DAL_OK) return CLI_DONE;
+    job->run = NULL;
+    return cli_error(cli_input_exit(made), job->system, &error);
+}

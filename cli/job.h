@@ -1,0 +1,56 @@
+/* job.h - all that makes a run, as the command line or a run.yaml tells it. */
+#ifndef DAL_CLI_JOB_H
+#define DAL_CLI_JOB_H
+
+#include "cli.h"
+
+/* What the run itself does not know; the library's options come behind.
+ * name, value, default, help */
+#define JOB_OPTION_LIST(X)                                                                         \
+    X(integrator, "NAME", NULL, "rk4, gauss8+project, ...: see 'dalembert list integrators'")      \
+    X(time, "T", NULL, "integrate from t = 0 to t = T")                                            \
+    X(samples, "N", "100", "rows behind the first, at equal distances in t")                       \
+    X(set, "PARAMETER=V", NULL, "give a parameter another value; may be repeated")                 \
+    X(start, "NAME=V", NULL, "start x, x', e, p_x, pi_x, ... at V; may be repeated; e=inf")
+
+enum {
+#define X(name, value, initial, help) JOB_##name,
+    JOB_OPTION_LIST(X)
+#undef X
+#define X(type, name, initial, least, greatest, words, help) JOB_##name,
+        DAL_OPTION_LIST(X)
+#undef X
+            JOB_OPTIONS
+};
+
+typedef struct job_settings {
+    dal_setting *item; /* with names of their own */
+    int count;
+} job_settings;
+
+typedef struct cli_job {
+    const char *system;            /* a built-in name or a path; the caller's, as all texts here */
+    const char *text[JOB_OPTIONS]; /* as given, the last one; NULL: not given */
+    double time;
+    long long samples;
+    dal_options options;
+    job_settings set, start;
+    dal_method method;
+    dal_model *model;
+    const dal_system *made;
+    dal_run *run;
+} cli_job;
+
+/* A job of which nothing is known; job_free it. */
+cli_job job_begin(void);
+void job_free(cli_job *job);
+/* Fills options[JOB_OPTIONS] with what --help says of them. */
+void job_options(cli_option *options);
+/* The number of an option by its name, -1 for none. */
+int job_find(const char *name);
+/* Takes one option.  Returns CLI_DONE or prints and returns an exit status, as job_make. */
+int job_take(cli_job *job, int option, const char *text);
+/* When all has been taken: sees that nothing is missing and makes system, method and run. */
+int job_make(cli_job *job);
+
+#endif

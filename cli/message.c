@@ -1,0 +1,108 @@
+/* message.c - what the program says on stderr, and the exit statuses that go with it. */
+#include "cli.h"
+
+#include <errno.h>
+#include <stdarg.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+#define MAP(X)                                                                                     \
+    X(OK, DONE)                                                                                    \
+    X(MEMORY, IO)                                                                                  \
+    X(ARGUMENT, USAGE)                                                                             \
+    X(SYNTAX, USAGE)                                                                               \
+    X(NAME, USAGE)                                                                                 \
+    X(MODEL, USAGE)                                                                                \
+    X(TOO_LARGE, USAGE)                                                                            \
+    X(INCONSISTENT, USAGE)                                                                         \
+    X(RANK, USAGE)                                                                                 \
+    X(UNSUPPORTED, USAGE)                                                                          \
+    X(SINGULAR, FAILED)                                                                            \
+    X(SINGULAR_MASS, FAILED)                                                                       \
+    X(NOT_FINITE, FAILED)                                                                          \
+    X(NOT_CONVERGED, FAILED)                                                                       \
+    X(GAUGE, FAILED)                                                                               \
+    X(IO, IO)                                                                                      \
+    X(INTERRUPTED, SIGNAL)
+
+int cli_exit(dal_status status)
+{
+    static const int exits[DAL_STATUS_COUNT] = {
+#define X(code, exit) [DAL_##code] = CLI_##exit,
+        MAP(X)
+#undef X
+    };
+    return (unsigned)status < DAL_STATUS_COUNT ? exits[status] : CLI_FAILED;
+}
+
+int cli_input_exit(dal_status status)
+{
+    return status == DAL_OK || status == DAL_MEMORY ? cli_exit(status) : CLI_USAGE;
+}
+
+/* ---- messages ------------------------------------------------------------------------------ */
+
+static int progress_shown; /* columns of the line of progress now on the terminal */
+static double progress_time;
+
+void cli_progress_end(void)
+{
+    if (progress_shown) fprintf(stderr, "\r%*s\r", progress_shown, "");
+    progress_shown = 0;
+}
+
+void cli_progress(const char *format, ...)
+{
+    double now = cli_seconds();
+    if (!isatty(STDERR_FILENO) || (progress_shown && now - progress_time < 0.1)) return;
+    int before = progress_shown;
+    va_list list;
+    va_start(list, format);
+    fputc('\r', stderr);
+    progress_shown = vfprintf(stderr, format, list);
+    va_end(list);
+    if (before > progress_shown) fprintf(stderr, "%*s", before - progress_shown, "");
+    progress_time = now;
+}
+
+int cli_fail(int exit_status, const char *format, ...)
+{
+    va_list list;
+    va_start(list, format);
+    cli_progress_end();
+    fputs("dalembert: ", stderr);
+    vfprintf(stderr, format, list);
+    fputc('\n', stderr);
+    va_end(list);
+    return exit_status;
+}
+
+int cli_unknown(const char *what, const char *name, const char *const *names, int count)
+{
+    const char *nearest = dal_nearest(name, names, count);
+    if (nearest)
+        return cli_fail(CLI_USAGE, "unknown %s '%s'; did you mean '%s'?", what, name, nearest);
+    return cli_fail(CLI_USAGE, "unknown %s '%s'", what, name);
+}
+
+int cli_error(int exit_status, const char *place, const dal_error *error)
+{
+    if (!place) return cli_fail(exit_status, "%s", error->message);
+    if (error->line <= 0) return cli_fail(exit_status, "%s: %s", place, error->message);
+    if (error->column <= 0)
+        return cli_fail(exit_status, "%s:%d: %s", place, error->line, error->message);
+    return cli_fail(exit_status, "%s:%d:%d: %s", place, error->line, error->column, error->message);
+}
+
+int cli_io(const char *verb, const char *path)
+{
+    return cli_fail(CLI_IO, "cannot %s '%s': %s", verb, path, strerror(errno));
+}
+
+double cli_seconds(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}

@@ -1,0 +1,56 @@
+/* output.c - writing numbers and files so that no failure goes unseen. */
+#include "cli.h"
+
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+void cli_put(FILE *out, double x)
+{
+    /* Zero of either sign is common (p = pi = 0 on the surface) and quick to write. */
+    if (x == 0.0)
+        fputc('0', out);
+    else if (isnan(x))
+        fputs("nan", out);
+    else
+        fprintf(out, "%.17g", x);
+}
+
+int cli_close(FILE *out, const char *path)
+{
+    /* A full disk may show only when the buffer is flushed, and a network one only at close. */
+    int failed = ferror(out);
+    errno = failed ? EIO : 0;
+    if (fflush(out) != 0) failed = 1;
+    int reason = errno;
+    if (out != stdout && fclose(out) != 0 && !failed) {
+        failed = 1;
+        reason = errno;
+    }
+    errno = reason;
+    return failed ? cli_io("write", path) : CLI_DONE;
+}
+
+int cli_directory(const char *path)
+{
+    struct stat status;
+    if (mkdir(path, 0777) == 0) return CLI_DONE;
+    int reason = errno;
+    if (reason == EEXIST && stat(path, &status) == 0 && S_ISDIR(status.st_mode)) return CLI_DONE;
+    errno = reason;
+    return cli_io("make the directory", path);
+}
+
+char *cli_join(const char *directory, const char *name)
+{
+    size_t n = strlen(directory), m = strlen(name);
+    while (n > 1 && directory[n - 1] == '/') n--;
+    char *path = malloc(n + m + 2);
+    if (!path) return NULL;
+    memcpy(path, directory, n);
+    path[n] = '/';
+    memcpy(path + n + 1, name, m + 1);
+    return path;
+}
