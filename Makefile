@@ -1,32 +1,168 @@
-# dalembert - make, make check, make lint, make install; BUILD=dir puts everything elsewhere.
-BUILD   ?= build
-CC      ?= cc
-CFLAGS  ?= -O2 -g
-WARN     = -Wall -Wextra -Wpedantic -Wshadow -Wstrict-prototypes -Wmissing-prototypes -Wvla \
-           -Wpointer-arith -Wwrite-strings -Wno-psabi
-ALL      = -std=c11 $(WARN) -ffp-contract=off -fno-math-errno -fPIC -fvisibility=hidden \
-           -Iinclude -Ilib $(CFLAGS)
+# dalembert
+#
+#     make                  build/dalembert, build/libdalembert.a, build/libdalembert.so
+#     make check            all tests; the CUnit summary comes last
+#     make check-sanitize   the tests under the address and undefined-behaviour sanitizers
+#     make check-valgrind   the CUnit suites under valgrind
+#     make fuzz             each fuzz target for FUZZ_SECONDS
+#     make lint             the rules of the house
+#     make install          to PREFIX, below DESTDIR
+#
+# BUILD=dir puts everything elsewhere; CFLAGS=-O3\ -march=native changes the speed, never a bit.
+BUILD        ?= build
+PREFIX       ?= /usr/local
+CC           ?= cc
+CFLAGS       ?= -O2 -g
+FUZZ_SECONDS ?= 10
+FUZZ_CC      ?= clang
+
+WARN = -Wall -Wextra -Wpedantic -Wshadow -Wstrict-prototypes -Wmissing-prototypes -Wvla \
+       -Wpointer-arith -Wwrite-strings -Wno-psabi
+# No contraction and no reassociation: the bits of a trajectory are promised.
+EXACT = -ffp-contract=off -fno-math-errno
+ALL   = -std=c11 -D_POSIX_C_SOURCE=200809L $(WARN) $(EXACT) -fPIC -pthread -Iinclude -Ilib \
+        -I$(BUILD)/generated $(CFLAGS)
+LIBS  = -lyaml -lm -pthread
+
+VERSION := $(shell sed -n 's/^.define DAL_VERSION "\(.*\)"/\1/p' include/dalembert.h)
+SONAME  := libdalembert.so.$(firstword $(subst ., ,$(VERSION)))
 
 # Sources over num are compiled once per width: files named *_wide.c, and every integrator.
 WIDE_SRC = $(wildcard lib/*/*_wide.c integrators/*.c)
 LIB_SRC  = $(filter-out $(WIDE_SRC),$(wildcard lib/*.c lib/*/*.c))
-LIB_OBJ  = $(LIB_SRC:%.c=$(BUILD)/%.o) $(foreach w,1 4 8,$(WIDE_SRC:%.c=$(BUILD)/%_x$(w).o))
+LIB_OBJ  = $(LIB_SRC:%.c=$(BUILD)/%.o) $(call WIDE,$(WIDE_SRC)) $(BUILD)/generated/systems.o
+CLI_OBJ  = $(patsubst %.c,$(BUILD)/%.o,$(wildcard cli/*.c))
+WIDE     = $(foreach width,1 4 8,$(1:%.c=$(BUILD)/%_x$(width).o))
 
-all: $(BUILD)/libdalembert.a
+SUITES    = $(patsubst tests/test_%.c,%,$(filter-out %_wide.c,$(wildcard tests/test_*.c)))
+FUZZERS   = $(patsubst tests/%.c,%,$(wildcard tests/fuzz_*.c))
+TEST_SRC  = $(filter-out tests/fuzz_% %_wide.c,$(wildcard tests/*.c))
+TEST_OBJ  = $(TEST_SRC:%.c=$(BUILD)/%.o) $(call WIDE,$(wildcard tests/*_wide.c))
+TEST_LIBS = -lcunit -lmpfr -lgmp
 
-$(BUILD)/%_x1.o: %.c
+PROGRAM = $(BUILD)/dalembert
+STATIC  = $(BUILD)/libdalembert.a
+SHARED  = $(BUILD)/libdalembert.so
+KERNEL  = $(BUILD)/generated/dalembert_kernel.h
+SYSTEMS = $(BUILD)/generated/systems.c
+
+all: $(PROGRAM) $(STATIC) $(SHARED) $(KERNEL)
+
+# ---- objects ---------------------------------------------------------------------------------
+
+define COMPILE
+@mkdir -p $(@D)
+$(CC) $(ALL) $(LANES) -MMD -MP -c $< -o $@
+endef
+
+$(BUILD)/%_x1.o: LANES = -DDAL_LANES=1
+$(BUILD)/%_x4.o: LANES = -DDAL_LANES=4
+$(BUILD)/%_x8.o: LANES = -DDAL_LANES=8
+$(BUILD)/%_x1.o: %.c ; $(COMPILE)
+$(BUILD)/%_x4.o: %.c ; $(COMPILE)
+$(BUILD)/%_x8.o: %.c ; $(COMPILE)
+$(BUILD)/%.o: %.c ; $(COMPILE)
+
+$(STATIC): $(LIB_OBJ)
+	rm -f $@; $(AR) rcs $@ $^
+
+$(SHARED).$(VERSION): $(LIB_OBJ) tools/exports.map
+	$(CC) $(CFLAGS) $(LDFLAGS) -shared -Wl,-soname,$(SONAME) \
+	    -Wl,--version-script=tools/exports.map $(LIB_OBJ) $(LIBS) -o $@
+$(SHARED): $(SHARED).$(VERSION)
+	ln -sf $(<F) $(BUILD)/$(SONAME)
+	ln -sf $(SONAME) $@
+
+$(PROGRAM): $(CLI_OBJ) $(STATIC)
+	$(CC) $(CFLAGS) $(LDFLAGS) $^ $(LIBS) -o $@
+
+# ---- generated texts -------------------------------------------------------------------------
+
+# The systems travel inside the library.
+$(SYSTEMS): tools/embed.sh $(wildcard systems/*.yaml) systems
 	@mkdir -p $(@D)
-	$(CC) $(ALL) -DDAL_LANES=1 -MMD -MP -c $< -o $@
-$(BUILD)/%_x4.o: %.c
+	sh tools/embed.sh $(sort $(wildcard systems/*.yaml)) >$@.tmp && mv $@.tmp $@
+$(BUILD)/generated/%.o: $(BUILD)/generated/%.c ; $(COMPILE)
+
+# What an integrator outside the tree includes: one file that needs no other.
+$(KERNEL): tools/amalgamate.sh include/dalembert_kernel.h $(wildcard include/*.h lib/kernel/*.h)
 	@mkdir -p $(@D)
-	$(CC) $(ALL) -DDAL_LANES=4 -MMD -MP -c $< -o $@
-$(BUILD)/%_x8.o: %.c
+	sh tools/amalgamate.sh include/dalembert_kernel.h >$@.tmp && mv $@.tmp $@
+
+# The list of test suites changes with the files there are, so it is looked at in every run.
+$(BUILD)/generated/suites.inc: FORCE
 	@mkdir -p $(@D)
-	$(CC) $(ALL) -DDAL_LANES=8 -MMD -MP -c $< -o $@
-$(BUILD)/%.o: %.c
-	@mkdir -p $(@D)
-	$(CC) $(ALL) -MMD -MP -c $< -o $@
-$(BUILD)/libdalembert.a: $(LIB_OBJ)
-	rm -f $@; ar rcs $@ $^
-.PHONY: all
--include $(LIB_OBJ:.o=.d)
+	@for s in $(SUITES); do echo "X($$s)"; done >$@.tmp
+	@if cmp -s $@.tmp $@; then rm $@.tmp; else mv $@.tmp $@; fi
+$(BUILD)/tests/main.o: $(BUILD)/generated/suites.inc
+
+# ---- tests -----------------------------------------------------------------------------------
+
+# Allocation goes through tests/allocation.c, which can be told to fail.
+$(BUILD)/tests/suite: $(TEST_OBJ) $(STATIC)
+	$(CC) $(CFLAGS) $(LDFLAGS) -Wl,--wrap=malloc,--wrap=calloc,--wrap=realloc \
+	    $^ $(LIBS) $(TEST_LIBS) -o $@
+
+check: all $(BUILD)/tests/suite
+	@if [ -f tests/cli/run.sh ]; then sh tests/cli/run.sh $(PROGRAM); fi
+	@sh tests/install.sh "$(MAKE)" $(BUILD)
+	@$(BUILD)/tests/suite $(SUITE)
+
+check-sanitize:
+	$(MAKE) BUILD=$(BUILD)/sanitize check \
+	    CFLAGS="-O1 -g -fsanitize=address,undefined -fno-sanitize-recover=all"
+
+VALGRIND = valgrind -q --error-exitcode=99 --leak-check=full
+check-valgrind: $(BUILD)/tests/suite
+	$(VALGRIND) $(BUILD)/tests/suite $(SUITE)
+
+FUZZ_FLAGS = -O1 -g -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all
+fuzz:
+	$(MAKE) BUILD=$(BUILD)/fuzz CC=$(FUZZ_CC) CFLAGS="$(FUZZ_FLAGS)" run-fuzzers
+
+run-fuzzers: $(FUZZERS:%=$(BUILD)/tests/%)
+	@for f in $^; do mkdir -p $$f.corpus && \
+	    $$f -max_total_time=$(FUZZ_SECONDS) -print_final_stats=0 -artifact_prefix=$$f. \
+	        $$f.corpus || exit 1; done
+$(FUZZERS:%=$(BUILD)/tests/%): %: %.o $(STATIC)
+	$(CC) $(CFLAGS) -fsanitize=fuzzer $^ $(LIBS) -o $@
+
+lint: all
+	@CC="$(CC)" BUILD=$(BUILD) sh tools/lint/lint.sh
+
+# ---- installation ----------------------------------------------------------------------------
+
+BIN     = "$(DESTDIR)$(PREFIX)/bin"
+LIB     = "$(DESTDIR)$(PREFIX)/lib"
+INCLUDE = "$(DESTDIR)$(PREFIX)/include"
+MAN     = "$(DESTDIR)$(PREFIX)/share/man/man1"
+SHARE   = "$(DESTDIR)$(PREFIX)/share/dalembert"
+HEADERS = dalembert.h dalembert_measure.h dalembert_kernel.h
+LINKS   = libdalembert.so $(SONAME) libdalembert.so.$(VERSION)
+
+install: all
+	install -d $(BIN) $(LIB)/pkgconfig $(INCLUDE) $(MAN) $(SHARE)/systems
+	install $(PROGRAM) $(BIN)
+	install -m 644 $(STATIC) $(LIB)
+	install -m 644 $(SHARED).$(VERSION) $(LIB)
+	ln -sf libdalembert.so.$(VERSION) $(LIB)/$(SONAME)
+	ln -sf $(SONAME) $(LIB)/libdalembert.so
+	install -m 644 include/dalembert.h include/dalembert_measure.h $(KERNEL) $(INCLUDE)
+	sed 's|@PREFIX@|$(PREFIX)|; s|@VERSION@|$(VERSION)|' tools/dalembert.pc.in \
+	    >$(LIB)/pkgconfig/dalembert.pc
+	install -m 644 man/dalembert.1 $(MAN)
+	install -m 644 systems/*.yaml $(SHARE)/systems
+
+uninstall:
+	rm -f $(BIN)/dalembert $(LIB)/libdalembert.a $(LINKS:%=$(LIB)/%) $(HEADERS:%=$(INCLUDE)/%)
+	rm -f $(LIB)/pkgconfig/dalembert.pc $(MAN)/dalembert.1
+	rm -rf $(SHARE)
+
+clean:
+	rm -rf $(BUILD)
+
+FORCE:
+.PHONY: all check check-sanitize check-valgrind fuzz run-fuzzers lint install uninstall clean FORCE
+.SECONDARY:
+
+-include $(LIB_OBJ:.o=.d) $(CLI_OBJ:.o=.d) $(TEST_OBJ:.o=.d) $(FUZZERS:%=$(BUILD)/tests/%.d)

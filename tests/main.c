@@ -1,0 +1,47 @@
+/* main.c - runs the CUnit suites: all, or those named; --list names them. */
+#include <CUnit/Basic.h>
+#include <stdio.h>
+#include <string.h>
+
+#define X(name) void suite_##name(void);
+#include "suites.inc"
+#undef X
+
+static const struct {
+    const char *name;
+    void (*add)(void);
+} suites[] = {
+#define X(name) {#name, suite_##name},
+#include "suites.inc"
+#undef X
+};
+
+enum { SUITES = sizeof suites / sizeof suites[0] };
+
+static int add(const char *name)
+{
+    for (int i = 0; i < SUITES; i++)
+        if (strcmp(suites[i].name, name) == 0) return suites[i].add(), 1;
+    fprintf(stderr, "no suite '%s'; try --list\n", name);
+    return 0;
+}
+
+static int list(void)
+{
+    for (int i = 0; i < SUITES; i++) puts(suites[i].name);
+    return 0;
+}
+
+int main(int argc, char **argv)
+{
+    if (argc == 2 && strcmp(argv[1], "--list") == 0) return list();
+    if (CU_initialize_registry() != CUE_SUCCESS) return 2;
+    for (int i = 1; i < argc; i++)
+        if (!add(argv[i])) return 2;
+    for (int i = 0; argc == 1 && i < SUITES; i++) suites[i].add();
+    CU_basic_set_mode(CU_BRM_NORMAL);
+    int broken = CU_basic_run_tests() != CUE_SUCCESS;
+    unsigned failures = CU_get_number_of_failure_records();
+    CU_cleanup_registry();
+    return broken || failures > 0;
+}
