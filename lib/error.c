@@ -2,7 +2,8 @@
  *
  * The distance of two names is that of Damerau and Levenshtein in its "optimal string alignment"
  * form: the least number of insertions, deletions, substitutions and swaps of neighbours.  It is
- * counted in half edits, so that a letter in the wrong case costs less than a wrong letter. */
+ * counted in quarters of an edit, so that a letter in the wrong case costs less than a wrong
+ * letter. */
 #include "error.h"
 
 #include <limits.h>
@@ -50,7 +51,7 @@ dal_status dal__error(dal_error *error, dal_status status, int line, int column,
     return status;
 }
 
-enum { LONGEST = 63, CASE = 1, EDIT = 2, LEAST_LIMIT = 2 * EDIT };
+enum { LONGEST = 63, CASE = 1, EDIT = 4, LEAST_LIMIT = 2 * EDIT };
 
 static int substitution(char a, char b)
 {
@@ -61,7 +62,7 @@ static int substitution(char a, char b)
 
 static int least(int a, int b) { return a < b ? a : b; }
 
-/* Half edits from a to b, neither longer than LONGEST.  row[k] holds the distances of the first
+/* Quarter edits from a to b, neither longer than LONGEST.  row[k] holds the distances of the first
  * i - k letters of a to every beginning of b. */
 static int distance(const char *a, const char *b)
 {
