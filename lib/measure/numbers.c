@@ -1,0 +1,142 @@
+/* numbers.c - memory, differences of order 8 and small least squares for the measures. */
+#include "measure/measure.h"
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+double *dal__numbers(size_t rows, size_t columns)
+{
+    if (rows == 0 || columns == 0) rows = columns = 1;
+    return rows > SIZE_MAX / columns ? NULL : calloc(rows * columns, sizeof(double));
+}
+
+double dal__increment(double x) { return DAL__INCREMENT * fmax(1.0, fabs(x)); }
+
+double dal__greatest(const double *x, size_t count)
+{
+    double most = 0.0;
+    for (size_t i = 0; i < count; i++)
+        if (!(fabs(x[i]) <= most)) most = isnan(x[i]) ? INFINITY : fabs(x[i]);
+    return most;
+}
+
+double dal__distance(const double *a, const double *b, size_t count)
+{
+    double most = 0.0;
+    for (size_t i = 0; i < count; i++) {
+        double d = fabs(a[i] - b[i]) / fmax(1.0, fabs(a[i]));
+        if (!(d <= most)) most = isnan(d) ? INFINITY : d;
+    }
+    return most;
+}
+
+static const double difference[4] = {4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0};
+
+dal_status dal__differentiate(dal__curve *curve, void *user, double d, int count, double *scratch,
+                              double *out)
+{
+    for (int i = 0; i < count; i++) out[i] = 0.0;
+    for (int k = 4; k >= 1; k--) {
+        for (int side = -1; side <= 1; side += 2) {
+            DAL_TRY(curve(user, side * k * d, scratch));
+            double weight = side * difference[k - 1] / d;
+            for (int i = 0; i < count; i++) out[i] += weight * scratch[i];
+        }
+    }
+    return DAL_OK;
+}
+
+double dal__uniform(dal__random *random)
+{
+    random->state = random->state * 6364136223846793005u + 1442695040888963407u;
+    return (double)(random->state >> 11) * 0x1p-52 - 1.0;
+}
+
+/* ---- least squares ---- */
+
+typedef struct matrix {
+    int rows, columns;
+    double *a;     /* row-major; columns become orthonormal */
+    double *r;     /* [columns*columns] upper triangle */
+    double *place; /* [columns] where a pivoted column came from, kept as doubles */
+    double *norm;  /* [columns] */
+} matrix;
+
+static double column_dot(const matrix *m, int i, const double *x, int step)
+{
+    double sum = 0.0;
+    for (int k = 0; k < m->rows; k++) sum += m->a[k * m->columns + i] * x[k * step];
+    return sum;
+}
+
+static void swap(double *a, double *b)
+{
+    double c = *a;
+    *a = *b;
+    *b = c;
+}
+
+static void exchange(matrix *m, int i, int j)
+{
+    for (int k = 0; k < m->rows; k++) swap(&m->a[k * m->columns + i], &m->a[k * m->columns + j]);
+    for (int k = 0; k < i; k++) swap(&m->r[k * m->columns + i], &m->r[k * m->columns + j]);
+    swap(&m->place[i], &m->place[j]);
+}
+
+static double longest(matrix *m, int from, int *where)
+{
+    *where = from;
+    for (int i = from; i < m->columns; i++) {
+        m->norm[i] = sqrt(column_dot(m, i, m->a + i, m->columns));
+        if (m->norm[i] > m->norm[*where]) *where = i;
+    }
+    return m->norm[*where];
+}
+
+/* Column i becomes a unit vector, the later ones lose their part along it. */
+static void orthogonalise(matrix *m, int i, double norm)
+{
+    m->r[i * m->columns + i] = norm;
+    for (int k = 0; k < m->rows; k++) m->a[k * m->columns + i] /= norm;
+    for (int j = i + 1; j < m->columns; j++) {
+        double part = column_dot(m, i, m->a + j, m->columns);
+        m->r[i * m->columns + j] = part;
+        for (int k = 0; k < m->rows; k++)
+            m->a[k * m->columns + j] -= part * m->a[k * m->columns + i];
+    }
+}
+
+static void solve(matrix *m, int rank, double *right, double *x)
+{
+    for (int i = 0; i < m->columns; i++) m->norm[i] = x[i] = 0.0;
+    for (int i = 0; i < rank; i++) {
+        m->norm[i] = column_dot(m, i, right, 1);
+        for (int k = 0; k < m->rows; k++) right[k] -= m->norm[i] * m->a[k * m->columns + i];
+    }
+    for (int i = rank - 1; i >= 0; i--) {
+        for (int j = i + 1; j < rank; j++) m->norm[i] -= m->r[i * m->columns + j] * m->norm[j];
+        m->norm[i] /= m->r[i * m->columns + i];
+    }
+    for (int i = 0; i < rank; i++) x[(int)m->place[i]] = m->norm[i];
+}
+
+int dal__least_squares(int rows, int columns, double *a, double *right, double *x, double tolerance,
+                       double *pivot, double *work)
+{
+    size_t square = (size_t)columns * (size_t)columns;
+    matrix m = {rows, columns, a, work, work + square, work + square + columns};
+    double largest = 0.0, norm = 0.0;
+    int rank = 0, where;
+    for (int i = 0; i < columns; i++) m.place[i] = i;
+    for (; rank < columns; rank++) {
+        norm = longest(&m, rank, &where);
+        if (rank == 0) largest = norm;
+        if (!(norm > tolerance * largest) || norm < DBL_MIN) break;
+        exchange(&m, rank, where);
+        orthogonalise(&m, rank, norm);
+    }
+    if (pivot != NULL) *pivot = rank == columns && columns > 0 ? norm / largest : 0.0;
+    if (right != NULL) solve(&m, rank, right, x);
+    return rank;
+}

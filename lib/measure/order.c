@@ -1,0 +1,94 @@
+/* order.c - the observed order of a method: slopes of the error under halving of the step.
+ *
+ *     e_i = max_k |x_k(T; h/2^i) - x_k(T)| / max(1, |x_k(T)|),   slope_i = log2(e_(i-1) / e_i) */
+#include "measure/measure.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Errors below this hold too much rounding for a slope good to 0.1: sums of 1e3 steps with
+ * rounding 1e-16 each disturb it by a few percent. */
+static const double clear_of_rounding = 2e-13;
+
+/* The state of a run of the spec at T into out[dimension]. */
+static dal_status state_at(const dal_run_spec *spec, double T, double *out, dal_error *error)
+{
+    dal_run *run;
+    double steps = nearbyint(T / spec->options.step);
+    if (!(fabs(steps * spec->options.step - T) <= 1e-9 * fabs(T)) || steps < 1.0)
+        return dal__error(error, DAL_ARGUMENT, 0, 0,
+                          "time %g does not hold a whole number of steps %g", T,
+                          spec->options.step);
+    DAL_TRY(dal_run_create(&run, spec, error));
+    dal_status status = dal_run_advance(run, (long long)steps, error);
+    size_t count = (size_t)dal_run_dimension(run);
+    if (status == DAL_OK) memcpy(out, dal_run_state(run), count * sizeof(double));
+    dal_run_free(run);
+    return status;
+}
+
+static dal_status judge_state(const dal_run_spec *spec, double T, int levels,
+                              const dal_method *judge, double *out, dal_error *error)
+{
+    dal_run_spec finer = *spec;
+    if (judge != NULL)
+        finer.method = *judge;
+    else
+        DAL_TRY(dal_method_parse(&finer.method, "gauss12", error));
+    finer.options.step = ldexp(spec->options.step, -levels);
+    return state_at(&finer, T, out, error);
+}
+
+static void take_slopes(dal_order *o)
+{
+    o->order = NAN;
+    for (int i = 1; i < o->levels; i++) {
+        o->slope[i] = log2(o->error[i - 1] / o->error[i]);
+        if (o->error[i] > clear_of_rounding) o->order = o->slope[i];
+    }
+}
+
+static dal_status compare_levels(const dal_run_spec *spec, double T, const double *reference,
+                                 size_t count, double *state, dal_order *o, dal_error *error)
+{
+    for (int i = 0; i < o->levels; i++) {
+        dal_run_spec level = *spec;
+        o->step[i] = level.options.step = ldexp(spec->options.step, -i);
+        DAL_TRY(state_at(&level, T, state, error));
+        o->error[i] = dal__distance(reference, state, count);
+    }
+    take_slopes(o);
+    return DAL_OK;
+}
+
+static dal_status dimension_of(const dal_run_spec *spec, size_t *count, dal_error *error)
+{
+    dal_run *run;
+    DAL_TRY(dal_run_create(&run, spec, error));
+    *count = (size_t)dal_run_dimension(run);
+    dal_run_free(run);
+    return DAL_OK;
+}
+
+dal_status dal_measure_order(const dal_run_spec *spec, double T, int levels,
+                             const dal_method *judge, const double *reference, dal_order *order,
+                             dal_error *error)
+{
+    size_t count;
+    if (levels < 2 || levels > DAL_ORDER_LEVELS)
+        return dal__error(error, DAL_ARGUMENT, 0, 0, "levels = %d is not in 2..%d", levels,
+                          DAL_ORDER_LEVELS);
+    DAL_TRY(dimension_of(spec, &count, error));
+    double *block = dal__numbers(2, count);
+    if (block == NULL) return dal__error(error, DAL_MEMORY, 0, 0, "order: out of memory");
+    dal_status status = DAL_OK;
+    *order = (dal_order){.levels = levels};
+    if (reference == NULL) {
+        status = judge_state(spec, T, levels, judge, block, error);
+        reference = block;
+    }
+    if (status == DAL_OK)
+        status = compare_levels(spec, T, reference, count, block + count, order, error);
+    free(block);
+    return status;
+}
