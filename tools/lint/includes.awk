@@ -1,0 +1,35 @@
+# includes.awk - reads includes.txt, then sources, and names every include the house forbids.
+BEGIN {
+    libc = "<(errno|float|inttypes|limits|math|stdarg|stdbool|stddef|stdint|stdio|stdlib|string)\\.h>"
+    posix = "<(fcntl|pthread|signal|stdatomic|strings|termios|time|unistd|sys/[a-z]+)\\.h>"
+}
+FILENAME ~ /includes\.txt$/ {
+    if (/^#/ || NF == 0) next
+    rule = ""
+    for (i = 2; i <= NF; i++) {
+        pattern = $i == "LIBC" ? libc : $i == "POSIX" ? posix : $i
+        rule = rule (i > 2 ? "|" : "") "(" pattern ")"
+    }
+    allowed[$1] = "^(" rule ")$"
+    next
+}
+FNR == 1 { place = house(FILENAME) }
+/^[ \t]*#[ \t]*include/ {
+    name = $0
+    sub(/^[ \t]*#[ \t]*include[ \t]*/, "", name)
+    sub(/[ \t]*(\/\*.*)?$/, "", name)
+    if (place == "") print FILENAME ": stands in no place of the house"
+    else if (!fits(name)) print FILENAME ":" FNR ": " place " may not include " name
+}
+function house(file) {
+    do if (file in allowed) return file
+    while (sub(/\/[^\/]*$/, "", file))
+    return ""
+}
+# The project's own headers may stand in <> as well; a header in quotes is never the system's.
+function fits(name) {
+    if (name ~ allowed[place]) return 1
+    if (name !~ /^<dalembert/) return 0
+    gsub(/[<>]/, "\"", name)
+    return name ~ allowed[place]
+}

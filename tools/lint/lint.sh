@@ -1,0 +1,77 @@
+#!/bin/sh
+# lint.sh - the rules of the house, checked on sources and on object files.  Every check prints
+# what it finds, one finding a line; any finding fails.  BUILD names a finished plain build.
+cd "$(dirname "$0")/../.." || exit 2
+BUILD=${BUILD:-build}
+here=tools/lint
+failed=0
+
+check() { # TITLE COMMAND...: a finding is a line of output, or a command that fails
+    title=$1
+    shift
+    if findings=$("$@" 2>&1) && [ -z "$findings" ]; then
+        echo "lint: $title: ok"
+    else
+        echo "lint: $title:"
+        echo "$findings" | sed 's/^/    /'
+        failed=1
+    fi
+}
+
+sources() { find include lib integrators cli tests examples bench -name '*.[ch]' | sort; }
+objects() { find "$BUILD/lib" "$BUILD/integrators" -name '*.o' | sort; }
+
+format() {
+    for file in $(sources); do
+        clang-format --dry-run -Werror "$file" >/dev/null 2>&1 || echo "$file: run clang-format -i"
+    done
+}
+includes() { sources | xargs awk -f $here/includes.awk $here/includes.txt; }
+sizes() { sources | xargs awk 'length > 100 { print FILENAME ":" FNR ": longer than 100 columns" }
+    FNR == 401 { print FILENAME ": longer than 400 lines" }'; }
+functions() {
+    sources | xargs ctags -x --c-kinds=f --_xformat='%F %{line} %{end} %N' |
+        awk '$3 - $2 >= 40 { print $1 ":" $2 ": " $4 " has " $3 - $2 + 1 " lines (40 at most)" }'
+}
+scripts() {
+    for script in $(find tools tests .ci -name '*.sh' -o -path .ci/run); do
+        case $(head -n 1 "$script") in
+        *bash*) bash -n "$script" ;;
+        *) sh -n "$script" ;;
+        esac
+    done
+}
+
+prefix() {
+    objects | xargs nm -A -g --defined-only | awk '$NF !~ /^dal_/ { print $1 ": global " $NF }'
+}
+globals() {
+    objects | xargs objdump -t | awk '/file format/ { file = $1 }
+        $0 ~ / O? *(\.data|\.bss|\.tdata|\.tbss|\*COM\*)(\.[^r][^ \t]*)?\t/ && $NF !~ /^\./ {
+            print file " changeable " $NF }'
+}
+calls() { objects | xargs nm -A -u | awk -v build="$BUILD/" -f $here/calls.awk $here/calls.txt -; }
+
+exported() { nm -D --defined-only "$BUILD/libdalembert.so" | awk '{ print $3 }' | sort; }
+declared() {
+    ctags -x --c-kinds=p --_xformat='%N' include/dalembert.h include/dalembert_measure.h
+    sed -n 's/^X(\(.*\))$/dal_integrator_\1/p' integrators/integrators.def
+}
+exports() {
+    exported >"$BUILD/exported.txt"
+    declared | sort >"$BUILD/declared.txt"
+    comm -3 "$BUILD/exported.txt" "$BUILD/declared.txt" |
+        sed 's/^\t\(.*\)/\1 is declared but not exported/; t; s/$/ is exported but not declared/'
+}
+
+check "format" format
+check "who may include what" includes
+check "lines and files" sizes
+check "functions" functions
+check "scripts" scripts
+check "symbol prefix" prefix
+check "no changeable globals" globals
+check "calls of the library" calls
+check "the shared library exports what the headers declare" exports
+check "README" sh $here/readme.sh "$BUILD/dalembert"
+exit $failed
