@@ -133,6 +133,7 @@ void cli_put(FILE *out, double x);
 /* Closes (or, for stdout, flushes) a file that was written to.  Returns CLI_DONE or, when any write
  * of its life failed, prints and returns CLI_IO. */
 int cli_close(FILE *out, const char *path);
+int cli_ends_in(const char *text, const char *ending);
 /* Makes a directory unless it is there.  Returns CLI_DONE or prints and returns CLI_IO. */
 int cli_directory(const char *path);
 /* "DIR/NAME", allocated; NULL when memory is out. */

@@ -45,7 +45,7 @@ int job_find(const char *name)
     return -1;
 }
 
-cli_job job_begin(void) { return (cli_job){.samples = 100, .options = dal_options_default()}; }
+cli_job job_begin(void) { return (cli_job){.options = dal_options_default()}; }
 
 static void free_settings(job_settings *settings)
 {
@@ -117,12 +117,13 @@ int job_take(cli_job *job, int option, const char *text)
     }
 }
 
-static int check(const cli_job *job)
+static int check(cli_job *job)
 {
     if (!job->system) return cli_fail(CLI_USAGE, "the SYSTEM is missing");
     for (int i = 0; i < JOB_OPTIONS; i++)
         if (is_required(i) && !job->text[i])
             return cli_fail(CLI_USAGE, "--%s is missing", table[i].name);
+    if (!job->text[JOB_samples]) job_take(job, JOB_samples, table[JOB_samples].initial);
     if (!(job->options.step > 0.0))
         return cli_fail(CLI_USAGE, "--step: %s is not positive", job->text[JOB_step]);
     if (job->options.step > job->time)

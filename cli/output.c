@@ -33,6 +33,12 @@ int cli_close(FILE *out, const char *path)
     return failed ? cli_io("write", path) : CLI_DONE;
 }
 
+int cli_ends_in(const char *text, const char *ending)
+{
+    size_t n = strlen(text), m = strlen(ending);
+    return n >= m && strcmp(text + n - m, ending) == 0;
+}
+
 int cli_directory(const char *path)
 {
     struct stat status;

@@ -7,16 +7,11 @@
 
 enum { BUILTINS_MOST = 256 };
 
-static int ends_in(const char *text, const char *ending)
-{
-    size_t n = strlen(text), m = strlen(ending);
-    return n >= m && strcmp(text + n - m, ending) == 0;
-}
-
 int cli_is_path(const char *system)
 {
     struct stat status;
-    if (strchr(system, '/') || ends_in(system, ".yaml") || ends_in(system, ".yml")) return 1;
+    if (strchr(system, '/') || cli_ends_in(system, ".yaml") || cli_ends_in(system, ".yml"))
+        return 1;
     return !dal_builtin_text(system) && stat(system, &status) == 0;
 }
 

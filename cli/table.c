@@ -4,9 +4,10 @@
  * rows can be written over when a run ends early. */
 #include "table.h"
 
-#include <inttypes.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 enum { NPY_HEADER = 128 };
@@ -15,12 +16,6 @@ static int broken(cli_table *table)
 {
     table->broken = 1;
     return cli_io("write", table->path);
-}
-
-static int is_npy(const char *path)
-{
-    size_t n = strlen(path);
-    return n >= 4 && strcmp(path + n - 4, ".npy") == 0;
 }
 
 /* A name with a comma or a quote in it is quoted, as RFC 4180 has it. */
@@ -82,8 +77,9 @@ int table_create(cli_table *table, const char *path, char *const *names, int col
                  long long rows)
 {
     int standard = strcmp(path, "-") == 0;
-    *table = (cli_table){
-        .path = standard ? "standard output" : path, .npy = is_npy(path), .columns = columns};
+    *table = (cli_table){.path = standard ? "standard output" : path,
+                         .npy = cli_ends_in(path, ".npy"),
+                         .columns = columns};
     table->file = standard ? stdout : fopen(path, "wb");
     if (!table->file) return cli_io("write", path);
     if (!table->npy) return put_csv_header(table, names);
@@ -91,15 +87,30 @@ int table_create(cli_table *table, const char *path, char *const *names, int col
     return status == CLI_DONE ? put_column_file(table, names) : status;
 }
 
-int table_continue(cli_table *table, const char *path, int columns, long long rows,
-                   long long offset)
+static int cut(cli_table *table, long long offset)
+{
+    struct stat status;
+    if (fstat(fileno(table->file), &status) != 0) return broken(table);
+    if (status.st_size < (off_t)offset) {
+        table->broken = 1;
+        return cli_fail(CLI_USAGE, "'%s': shorter than the %lld bytes its checkpoint tells of",
+                        table->path, offset);
+    }
+    if (ftruncate(fileno(table->file), (off_t)offset) != 0) return broken(table);
+    return fseeko(table->file, (off_t)offset, SEEK_SET) == 0 ? CLI_DONE : broken(table);
+}
+
+int table_continue(cli_table *table, const char *path, int descriptor, char *const *names,
+                   int columns, long long rows, long long offset)
 {
     *table = (cli_table){.path = path, .columns = columns, .rows = rows};
-    table->file = fopen(path, "r+b");
-    if (!table->file) return cli_io("write", path);
-    if (ftruncate(fileno(table->file), (off_t)offset) != 0) return broken(table);
-    if (fseeko(table->file, (off_t)offset, SEEK_SET) != 0) return broken(table);
-    return CLI_DONE;
+    table->file = fdopen(descriptor, "r+b");
+    if (!table->file) {
+        close(descriptor);
+        return cli_io("write", path);
+    }
+    int status = cut(table, offset);
+    return status == CLI_DONE && offset == 0 ? put_csv_header(table, names) : status;
 }
 
 static void put_little_endian(FILE *out, double x)

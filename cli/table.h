@@ -16,11 +16,13 @@ typedef struct cli_table {
  * All functions return CLI_DONE or print and return CLI_IO. */
 int table_create(cli_table *table, const char *path, char *const *names, int columns,
                  long long rows);
-/* Goes on with a CSV file that is cut to its first offset bytes. */
-int table_continue(cli_table *table, const char *path, int columns, long long rows,
-                   long long offset);
+/* Goes on with a CSV file, given by its descriptor, which becomes the table's, behind its first
+ * offset bytes, which hold rows rows; the rest is cut off.  With offset 0 it begins anew.
+ * CLI_USAGE when the file is shorter. */
+int table_continue(cli_table *table, const char *path, int descriptor, char *const *names,
+                   int columns, long long rows, long long offset);
 int table_row(cli_table *table, const double *values);
-/* Brings all rows so far to the disk; *offset bytes. */
+/* Brings all rows so far to the disk: *offset bytes. */
 int table_settle(cli_table *table, long long *offset);
 /* Also corrects the header of a .npy file that got fewer rows than announced. */
 int table_close(cli_table *table);

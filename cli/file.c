@@ -1,0 +1,111 @@
+/* file.c - whole files: read, replace, recognise. */
+#include "file.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static char *read_all(FILE *file, size_t *length)
+{
+    size_t room = 4096, n = 0;
+    char *text = malloc(room + 1);
+    while (text) {
+        n += fread(text + n, 1, room - n, file);
+        if (n < room) break;
+        char *more = realloc(text, 2 * room + 1);
+        if (!more) {
+            free(text);
+            errno = ENOMEM;
+            return NULL;
+        }
+        text = more;
+        room *= 2;
+    }
+    if (text) text[n] = '\0';
+    *length = n;
+    return text;
+}
+
+char *file_read(const char *path, size_t *length)
+{
+    FILE *file = fopen(path, "rb");
+    char *text = file ? read_all(file, length) : NULL;
+    if (text && ferror(file)) {
+        free(text);
+        text = NULL;
+    }
+    if (!text) cli_io("read", path);
+    if (file) fclose(file);
+    return text;
+}
+
+static int write_all(int descriptor, const void *bytes, size_t length)
+{
+    const char *from = bytes;
+    while (length) {
+        ssize_t n = write(descriptor, from, length);
+        if (n < 0 && errno == EINTR) continue;
+        if (n < 0) return 0;
+        from += n;
+        length -= (size_t)n;
+    }
+    return fsync(descriptor) == 0;
+}
+
+/* A rename is on the disk when the directory is; where a directory cannot be synchronised
+ * (some network file systems) the rename is as safe as that system makes it. */
+static void settle_directory(const char *path)
+{
+    const char *slash = strrchr(path, '/');
+    char *directory = slash ? strndup(path, (size_t)(slash - path) + 1) : strdup(".");
+    int descriptor = directory ? open(directory, O_RDONLY) : -1;
+    if (descriptor >= 0) {
+        fsync(descriptor);
+        close(descriptor);
+    }
+    free(directory);
+}
+
+static int write_and_rename(const char *fresh, const char *path, const void *bytes, size_t length)
+{
+    int descriptor = open(fresh, O_WRONLY | O_CREAT | O_TRUNC, 0666);
+    if (descriptor < 0) return cli_io("write", fresh);
+    int written = write_all(descriptor, bytes, length);
+    int reason = errno;
+    if (close(descriptor) != 0 && written) {
+        written = 0;
+        reason = errno;
+    }
+    errno = reason;
+    if (!written) return cli_io("write", fresh);
+    if (rename(fresh, path) != 0) return cli_io("write", path);
+    settle_directory(path);
+    return CLI_DONE;
+}
+
+int file_replace(const char *path, const void *bytes, size_t length)
+{
+    static const char ending[] = ".new";
+    size_t n = strlen(path);
+    char *fresh = malloc(n + sizeof ending);
+    if (!fresh) return cli_fail(CLI_IO, "out of memory");
+    memcpy(fresh, path, n);
+    memcpy(fresh + n, ending, sizeof ending);
+    int status = write_and_rename(fresh, path, bytes, length);
+    free(fresh);
+    return status;
+}
+
+int file_remove(const char *path)
+{
+    return unlink(path) == 0 || errno == ENOENT ? CLI_DONE : cli_io("remove", path);
+}
+
+uint64_t file_hash(uint64_t hash, const void *bytes, size_t length)
+{
+    const unsigned char *byte = bytes;
+    for (size_t i = 0; i < length; i++) hash = (hash ^ byte[i]) * UINT64_C(0x100000001b3);
+    return hash;
+}

@@ -1,0 +1,201 @@
+/* record.c - looks on while a run goes and keeps what is seen. */
+#include "record.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { NAME_SIZE = 256 };
+
+/* ---- columns ------------------------------------------------------------------------------- */
+
+/* The norms |p|, |pi|, |pi_e| repeat what other columns say: they are for the summary alone. */
+static int is_column(const char *name) { return name[0] != '|'; }
+
+static const char *value_name(const cli_record *r, int i, char *buffer)
+{
+    const dal_run *run = r->job->run;
+    if (i == 0) return "t";
+    if (i <= r->dimension) return dal_run_name(run, i - 1, buffer, NAME_SIZE);
+    return dal_run_observable_name(run, i - 1 - r->dimension, buffer, NAME_SIZE);
+}
+
+static int name_values(cli_record *r, int count)
+{
+    char buffer[NAME_SIZE];
+    for (int i = 0; i < count; i++) {
+        const char *name = value_name(r, i, buffer);
+        r->names[i] = strdup(name ? name : "?");
+        if (!r->names[i]) return 0;
+        if (is_column(r->names[i])) r->column[r->columns++] = i;
+    }
+    return 1;
+}
+
+static int make_room(cli_record *r)
+{
+    r->dimension = dal_run_dimension(r->job->run);
+    r->observables = dal_run_observables(r->job->run);
+    size_t count = 1 + (size_t)r->dimension + (size_t)r->observables;
+    r->values = calloc(count, sizeof *r->values);
+    r->row = calloc(count, sizeof *r->row);
+    r->names = calloc(count, sizeof *r->names);
+    r->column = calloc(count, sizeof *r->column);
+    r->drift = calloc((size_t)r->observables + 1, sizeof *r->drift);
+    if (!r->values || !r->row || !r->names || !r->column || !r->drift ||
+        !name_values(r, (int)count))
+        return cli_fail(CLI_IO, "out of memory");
+    dal_drift_start(r->drift, r->observables, 0.0, r->job->time);
+    return CLI_DONE;
+}
+
+static int open_table(cli_record *r, const char *output)
+{
+    char **names = calloc((size_t)r->columns, sizeof *names);
+    if (!names) return cli_fail(CLI_IO, "out of memory");
+    for (int i = 0; i < r->columns; i++) names[i] = r->names[r->column[i]];
+    int status;
+    if (r->store) {
+        int descriptor = r->store->descriptor;
+        r->store->descriptor = -1;
+        status = table_continue(&r->table, r->store->rows, descriptor, names, r->columns,
+                                r->mark.row, r->mark.offset);
+    } else {
+        status = table_create(&r->table, output, names, r->columns, r->job->samples + 1);
+    }
+    free(names);
+    return status;
+}
+
+int record_open(cli_record *r, const cli_job *job, cli_store *store, const char *output)
+{
+    *r = (cli_record){.job = job, .store = store};
+    r->quiet = !store && strcmp(output, "-") == 0 && isatty(STDOUT_FILENO);
+    int status = make_room(r);
+    if (status == CLI_DONE && store)
+        status = store_load(store, &r->mark, job->run, r->drift, r->observables);
+    if (status == CLI_DONE && !record_is_finished(r)) status = open_table(r, output);
+    return status;
+}
+
+void record_close(cli_record *r)
+{
+    table_close(&r->table);
+    for (int i = 0; r->names && i < 1 + r->dimension + r->observables; i++) free(r->names[i]);
+    free(r->values);
+    free(r->row);
+    free(r->names);
+    free(r->column);
+    free(r->drift);
+}
+
+int record_is_finished(const cli_record *r) { return r->mark.row > r->job->samples; }
+
+/* ---- looking on ---------------------------------------------------------------------------- */
+
+/* Stops the clock of the steps while the program does something else, and starts it again. */
+static void pause_clock(cli_record *r) { r->mark.seconds += cli_seconds() - r->since; }
+static void start_clock(cli_record *r) { r->since = cli_seconds(); }
+
+static dal_status tell(cli_record *r, int exit_status)
+{
+    r->told = exit_status;
+    return exit_status == CLI_DONE ? DAL_OK : DAL_IO;
+}
+
+static dal_status take_row(cli_record *r, dal_run *run, double t)
+{
+    double *state = r->values + 1, *observed = state + r->dimension;
+    r->values[0] = t;
+    memcpy(state, dal_run_state(run), (size_t)r->dimension * sizeof *state);
+    dal_status status = dal_run_observe(run, observed);
+    if (status != DAL_OK) return status;
+    dal_drift_add(r->drift, r->observables, t, observed);
+    for (int i = 0; i < r->columns; i++) r->row[i] = r->values[r->column[i]];
+    r->mark.row++;
+    return tell(r, table_row(&r->table, r->row));
+}
+
+static void show(const cli_record *r, double t)
+{
+    double done = t / r->job->time;
+    if (r->quiet || !(done > 0.0)) return;
+    cli_progress("t = %.6g of %.6g, %.0f %%, %.0f s to go", t, r->job->time, 100.0 * done,
+                 r->mark.seconds * (1.0 - done) / done);
+}
+
+static dal_status sample(void *user, dal_run *run, long long row, double t)
+{
+    cli_record *r = user;
+    (void)row;
+    pause_clock(r);
+    dal_status status = take_row(r, run, t);
+    show(r, t);
+    start_clock(r);
+    return status;
+}
+
+static int save(cli_record *r, const dal_run *run)
+{
+    int status = table_settle(&r->table, &r->mark.offset);
+    if (status == CLI_DONE) status = store_save(r->store, &r->mark, run, r->drift, r->observables);
+    r->saved = cli_seconds();
+    return status;
+}
+
+static dal_status poll(void *user, dal_run *run)
+{
+    cli_record *r = user;
+    int interrupted = cli_interrupted();
+    dal_status status = DAL_OK;
+    pause_clock(r);
+    if (r->store && (interrupted || cli_seconds() - r->saved >= r->interval))
+        status = tell(r, save(r, run));
+    show(r, dal_run_time(run));
+    start_clock(r);
+    return status == DAL_OK && interrupted ? DAL_INTERRUPTED : status;
+}
+
+/* ---- the end ------------------------------------------------------------------------------- */
+
+static int explain(const cli_record *r, dal_status status, dal_error *error)
+{
+    if (status == DAL_OK) return CLI_DONE;
+    if (r->told != CLI_DONE) return r->told;
+    if (status == DAL_INTERRUPTED) {
+        const char *directory = r->store ? r->store->directory : NULL;
+        return directory
+                   ? cli_fail(CLI_SIGNAL, "interrupted; go on with: dalembert resume %s", directory)
+                   : cli_fail(CLI_SIGNAL, "interrupted; %lld rows are kept", r->mark.row);
+    }
+    if (error->message[0] == '\0')
+        snprintf(error->message, sizeof error->message, "%s", dal_status_text(status));
+    error->line = 0;
+    return cli_error(cli_exit(status), r->job->system, error);
+}
+
+/* The summary comes before the checkpoint that says "finished", so that it is never missing. */
+static int keep(cli_record *r, int status)
+{
+    int kept = CLI_DONE;
+    if (r->store && (status == CLI_DONE || status == CLI_FAILED))
+        kept = summary_write(r, r->store->summary);
+    if (r->store && status == CLI_DONE && kept == CLI_DONE) kept = save(r, r->job->run);
+    int closed = table_close(&r->table);
+    if (status != CLI_DONE) return status;
+    return kept != CLI_DONE ? kept : closed;
+}
+
+int record_go(cli_record *r)
+{
+    dal_observer observer = {.user = r, .sample = sample, .poll = poll};
+    dal_error error = {0};
+    r->saved = cli_seconds();
+    start_clock(r);
+    dal_status status =
+        dal_run_sample(r->job->run, r->job->time, r->job->samples, r->mark.row, &observer, &error);
+    pause_clock(r);
+    cli_progress_end();
+    dal_drift_finish(r->drift, r->observables);
+    return keep(r, explain(r, status, &error));
+}

@@ -1,0 +1,38 @@
+/* record.h - a run on its way: rows, statistics, progress and checkpoints. */
+#ifndef DAL_CLI_RECORD_H
+#define DAL_CLI_RECORD_H
+
+#include "job.h"
+#include "store.h"
+#include "table.h"
+
+typedef struct cli_record {
+    const cli_job *job;
+    cli_store *store; /* NULL: the rows go to a file or to stdout and nothing is kept beside them */
+    cli_table table;
+    int dimension, observables, columns;
+    double *values;   /* [1 + dimension + observables] t, state, all observables */
+    double *row;      /* [columns] the same without |p|, |pi|, |pi_e| */
+    char **names;     /* [1 + dimension + observables] of values */
+    int *column;      /* [columns] which of values a column is */
+    dal_drift *drift; /* [observables] */
+    cli_mark mark;
+    double interval;     /* seconds between checkpoints */
+    double since, saved; /* when the present stretch of steps began; the last checkpoint */
+    int quiet;           /* no line of progress: the rows themselves go to the terminal */
+    int told;            /* exit status of a failure of the program's own, already printed */
+} cli_record;
+
+/* Opens the table: output is a file or "-"; with a store, its rows.csv, going on where its
+ * checkpoint says.  record_close it in any case. */
+int record_open(cli_record *record, const cli_job *job, cli_store *store, const char *output);
+void record_close(cli_record *record);
+/* Integrates to the end.  Returns the exit status; what is to be said is printed. */
+int record_go(cli_record *record);
+int record_is_finished(const cli_record *record);
+
+/* The summary: one table for the eye, or summary.csv. */
+void summary_print(FILE *out, const cli_record *record);
+int summary_write(const cli_record *record, const char *path);
+
+#endif

@@ -1,0 +1,133 @@
+/* run.c - `dalembert run`: integrates one system and writes rows. */
+#include "run.h"
+
+#include "record.h"
+
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+const cli_option own_options[OWN_OPTIONS] = {
+#define X(name, value, initial, help) {#name, value, help, initial},
+    OWN_OPTION_LIST(X)
+#undef X
+};
+
+static const char run_notes[] =
+    "SYSTEM is a built-in name ('dalembert list systems') or the path of a system file.\n"
+    "\n"
+    "Rows are CSV with 17 digits: t, the coordinates, the velocities, on the lifted space e, p_*,\n"
+    "pi_*, pi_e, then D1.., E, H, the invariants and error; N+1 rows, from t = 0 to exactly T.\n"
+    "FILE.npy holds the same as float64 [rows][columns], FILE.npy.columns.txt the names.\n"
+    "A directory gets run.yaml, system.yaml (when SYSTEM is a file), rows.csv, summary.csv and a\n"
+    "checkpoint; 'dalembert resume DIR' goes on with it after any interruption, kill -9 included,\n"
+    "and ends in the same bytes.\n";
+
+/* A device or a pipe is written to as it is, whatever its name. */
+static int is_directory(const char *output)
+{
+    struct stat status;
+    if (strcmp(output, "-") == 0 || cli_ends_in(output, ".csv") || cli_ends_in(output, ".npy"))
+        return 0;
+    return stat(output, &status) != 0 || S_ISDIR(status.st_mode) || S_ISREG(status.st_mode);
+}
+
+static int take_interval(run_wishes *wishes, const char *text)
+{
+    int status = cli_number("--checkpoint", text, &wishes->interval);
+    if (status == CLI_DONE && wishes->interval < 0.0)
+        return cli_fail(CLI_USAGE, "--checkpoint: %s is negative", text);
+    return status;
+}
+
+run_wishes run_wish(void)
+{
+    run_wishes wishes = {.output = own_options[OWN_output - JOB_OPTIONS].initial};
+    take_interval(&wishes, own_options[OWN_checkpoint - JOB_OPTIONS].initial);
+    return wishes;
+}
+
+int run_take(run_wishes *wishes, int option, const char *text)
+{
+    switch (option) {
+    case OWN_output:
+        wishes->output = text;
+        break;
+    case OWN_checkpoint:
+        return take_interval(wishes, text);
+    case OWN_summary:
+        wishes->summary = 1;
+        break;
+    case OWN_force:
+        wishes->force = 1;
+        break;
+    }
+    return CLI_DONE;
+}
+
+int run_integrate(const cli_job *job, cli_store *store, const run_wishes *wishes)
+{
+    cli_record record;
+    int status = record_open(&record, job, store, wishes->output);
+    record.interval = wishes->interval;
+    if (status == CLI_DONE && record_is_finished(&record)) {
+        cli_fail(CLI_DONE, "'%s' is finished: %lld rows", store->directory, record.mark.row);
+    } else if (status == CLI_DONE) {
+        cli_catch_signals();
+        status = record_go(&record);
+        if (wishes->summary || isatty(STDERR_FILENO)) summary_print(stderr, &record);
+    }
+    record_close(&record);
+    return status;
+}
+
+/* ---- run ----------------------------------------------------------------------------------- */
+
+static int run_in_directory(const cli_job *job, const run_wishes *wishes)
+{
+    cli_store store;
+    int status = store_open(&store, wishes->output);
+    if (status != CLI_DONE) return status;
+    status = cli_directory(wishes->output);
+    if (status == CLI_DONE && store_is_run(&store) && !wishes->force)
+        status =
+            cli_fail(CLI_USAGE, "'%s' holds a run: go on with it by 'dalembert resume', or --force",
+                     wishes->output);
+    if (status == CLI_DONE) status = store_lock(&store);
+    if (status == CLI_DONE) status = store_describe(&store, job);
+    if (status == CLI_DONE) status = run_integrate(job, &store, wishes);
+    store_close(&store);
+    return status;
+}
+
+static int take(cli_job *job, run_wishes *wishes, int option, const char *value)
+{
+    if (option == CLI_PLAIN) {
+        if (job->system) return cli_fail(CLI_USAGE, "run: one SYSTEM only, not also '%s'", value);
+        job->system = value;
+        return CLI_DONE;
+    }
+    return option < JOB_OPTIONS ? job_take(job, option, value) : run_take(wishes, option, value);
+}
+
+int command_run(int argc, char **argv)
+{
+    cli_option options[RUN_OPTIONS];
+    job_options(options);
+    memcpy(options + JOB_OPTIONS, own_options, sizeof own_options);
+    cli_args args = cli_begin(argc, argv, options, RUN_OPTIONS, run_notes);
+    cli_job job = job_begin();
+    run_wishes wishes = run_wish();
+    const char *value;
+    for (int k; (k = cli_next(&args, &value)) != CLI_STOP;) {
+        int taken = take(&job, &wishes, k, value);
+        if (taken != CLI_DONE) cli_stop(&args, taken);
+    }
+    int status = args.status;
+    if (status == CLI_GO_ON) status = job_make(&job);
+    if (args.status == CLI_GO_ON && status == CLI_DONE)
+        status = is_directory(wishes.output) ? run_in_directory(&job, &wishes)
+                                             : run_integrate(&job, NULL, &wishes);
+    job_free(&job);
+    return status;
+}

@@ -1,0 +1,42 @@
+/* run.h - what `dalembert run` and `dalembert resume` share. */
+#ifndef DAL_CLI_RUN_H
+#define DAL_CLI_RUN_H
+
+#include "cli.h"
+#include "job.h"
+#include "store.h"
+
+/* The options of a run that do not concern the trajectory; they come behind those of the job.
+ * name, value, default, help */
+#define OWN_OPTION_LIST(X)                                                                         \
+    X(output, "FILE|DIR|-", "-", "write there: .csv, .npy, a directory, or stdout")                \
+    X(checkpoint, "SECONDS", "5", "a directory can be resumed from at most so long ago")           \
+    X(summary, NULL, NULL, "print the summary though stderr is no terminal")                       \
+    X(force, NULL, NULL, "write over a run that the directory holds")
+
+enum {
+    OWN_FIRST = JOB_OPTIONS - 1,
+#define X(name, value, initial, help) OWN_##name,
+    OWN_OPTION_LIST(X)
+#undef X
+        RUN_OPTIONS,
+    OWN_OPTIONS = RUN_OPTIONS - JOB_OPTIONS
+};
+
+extern const cli_option own_options[OWN_OPTIONS];
+
+/* What concerns the output alone. */
+typedef struct run_wishes {
+    const char *output;
+    double interval;
+    int summary, force;
+} run_wishes;
+
+/* What holds when nothing is said. */
+run_wishes run_wish(void);
+/* Takes one of these options.  Returns CLI_DONE or prints and returns an exit status. */
+int run_take(run_wishes *wishes, int option, const char *text);
+/* The integration itself, the job being made and the directory, if there is one, described. */
+int run_integrate(const cli_job *job, cli_store *store, const run_wishes *wishes);
+
+#endif

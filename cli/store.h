@@ -1,0 +1,59 @@
+/* store.h - a run that lives in a directory and can be gone on with after any interruption.
+ *
+ *     DIR/run.yaml      what was asked for
+ *     DIR/system.yaml   copy of the system file; absent for a built-in system
+ *     DIR/rows.csv      the rows
+ *     DIR/checkpoint    where the run stands: see store.c
+ *     DIR/summary.csv   when it is over: quantity, measure, value
+ *
+ * Every file but rows.csv is replaced as a whole, so each is old or new and never half of either;
+ * what rows.csv holds beyond the checkpoint is cut off before the run goes on. */
+#ifndef DAL_CLI_STORE_H
+#define DAL_CLI_STORE_H
+
+#include "cli.h"
+#include "job.h"
+
+#include <stdint.h>
+
+#define STORE_FILE_LIST(X)                                                                         \
+    X(settings, "run.yaml")                                                                        \
+    X(system, "system.yaml")                                                                       \
+    X(rows, "rows.csv")                                                                            \
+    X(checkpoint, "checkpoint")                                                                    \
+    X(summary, "summary.csv")
+
+typedef struct cli_store {
+    const char *directory; /* the caller's */
+#define X(name, file) char *name;
+    STORE_FILE_LIST(X)
+#undef X
+    char *text;           /* of run.yaml, where the texts of a job read from it live */
+    uint64_t fingerprint; /* of run.yaml and of the system */
+    int descriptor;       /* of rows.csv, locked; -1 before, and when a table has taken it */
+} cli_store;
+
+/* How far a run has come. */
+typedef struct cli_mark {
+    long long row, offset; /* the first row not in rows.csv, and where it begins */
+    double seconds;        /* spent in steps */
+} cli_mark;
+
+/* The names of the files in a directory.  All functions return CLI_DONE or print and return an
+ * exit status. */
+int store_open(cli_store *store, const char *directory);
+void store_close(cli_store *store);
+/* Whether the directory holds a run. */
+int store_is_run(const cli_store *store);
+/* Opens rows.csv, made if need be, for this process alone: CLI_USAGE when another has it. */
+int store_lock(cli_store *store);
+/* Describes a new run; what an older one left is removed. */
+int store_describe(cli_store *store, const cli_job *job);
+/* Reads the description into a new job. */
+int store_read(cli_store *store, cli_job *job);
+/* Writes the checkpoint, and reads it into run and drift; without one *mark is the beginning. */
+int store_save(const cli_store *store, const cli_mark *mark, const dal_run *run,
+               const dal_drift *drift, int drifts);
+int store_load(const cli_store *store, cli_mark *mark, dal_run *run, dal_drift *drift, int drifts);
+
+#endif
