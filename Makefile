@@ -104,8 +104,8 @@ $(BUILD)/tests/suite: $(TEST_OBJ) $(STATIC)
 	    $^ $(LIBS) $(TEST_LIBS) -o $@
 
 check: all $(BUILD)/tests/suite
-	@if [ -f tests/cli/run.sh ]; then sh tests/cli/run.sh $(PROGRAM); fi
-	@sh tests/install.sh "$(MAKE)" $(BUILD)
+	@sh tests/cli/run.sh $(PROGRAM)
+	@CC="$(CC)" CFLAGS="$(CFLAGS)" sh tests/install.sh "$(MAKE)" $(BUILD)
 	@$(BUILD)/tests/suite $(SUITE)
 
 check-sanitize:

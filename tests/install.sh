@@ -1,0 +1,60 @@
+#!/bin/sh
+# install.sh MAKE BUILD - installs into a temporary place, builds the examples against what is
+# installed there and nothing else, and compares what they print with closed forms.
+# CC and CFLAGS are those of the build.
+make=$1 build=$2
+cc=${CC:-cc}
+root=$(mktemp -d) || exit 1
+trap 'rm -rf "$root"' EXIT
+fail() { echo "install: $*" >&2; exit 1; }
+
+quiet() { "$@" >"$root/log" 2>&1 || { cat "$root/log" >&2; fail "$* failed"; }; }
+
+prefix=$root/usr
+quiet $make --no-print-directory BUILD="$build" PREFIX="$prefix" DESTDIR= install
+PKG_CONFIG_PATH=$prefix/lib/pkgconfig
+export PKG_CONFIG_PATH
+[ "$(pkg-config --modversion dalembert)" = "$("$prefix/bin/dalembert" --version | sed 's/.* //')" ] ||
+    fail "dalembert.pc and dalembert --version do not agree"
+
+# Each example against the shared and against the static library.
+for name in embed by_hand own_integrator; do
+    flags="-std=c11 -Wall -Wextra -Werror -Wno-psabi -ffp-contract=off $CFLAGS examples/$name.c"
+    quiet $cc $flags $(pkg-config --cflags --libs dalembert) -lm -o "$root/$name"
+    quiet $cc $flags $(pkg-config --cflags dalembert) "$prefix/lib/libdalembert.a" \
+        $(pkg-config --libs yaml-0.1) -lm -o "$root/$name-static"
+    LD_LIBRARY_PATH=$prefix/lib "$root/$name" >"$root/$name.txt" || fail "$name failed"
+    "$root/$name-static" >"$root/$name-static.txt" || fail "$name-static failed"
+    cmp "$root/$name.txt" "$root/$name-static.txt" || fail "$name: shared and static differ"
+done
+
+near='function near(a, b, tolerance) { d = a - b; if (d < 0) d = -d; if (!(d <= tolerance)) {
+    print FILENAME ": line " FNR ": " a " should be " b; bad = 1 } }
+    END { exit bad || NR != rows }'
+# Chaplygin's sleigh moves in a circle: y1 = sin t, y2 = 1 - cos t, phi = t.  gauss4 errs by
+# t h^4/4320 and less here; the projection holds D at rounding.
+awk "$near"' { near($1, FNR, 1e-12); near($2, sin($1), 1e-10); near($3, 1 - cos($1), 1e-10)
+    near($4, $1, 1e-12); near($5, cos($1), 1e-10); near($6, sin($1), 1e-10); near($7, 1, 1e-12)
+    near($8, 0, 1e-14) }' rows=10 "$root/embed.txt" || fail "embed is wrong"
+# The guided oscillator: x = c + (1 - c) cos t + 2 sin t, c = k^2/(1 + k^2), y = k (x - 1).
+awk "$near"' { x = 0.2 + 0.8 * cos(10) + 2 * sin(10); near($1, 10, 1e-12); near($2, x, 1e-7)
+    near($3, (x - 1) / 2, 1e-7); near($4, 0, 1e-13) }' rows=1 "$root/by_hand.txt" || fail "by_hand is wrong"
+# Heun's method: second order, h = 0.01, so wrong by some 1e-5, and not by 1e-4 or 1e-7.
+awk "$near"' { near($2, sin(1), 1e-4); near($3, 1 - cos(1), 1e-4); near($4, 1, 1e-12)
+    d = $2 - sin(1); if (d < 0) d = -d; if (d < 1e-7) bad = 1 }' rows=1 "$root/own_integrator.txt" ||
+    fail "own_integrator is wrong"
+
+# The program finds its built-in systems wherever it stands, and reads the installed files.
+"$prefix/bin/dalembert" check "$prefix/share/dalembert/systems/chaplygin-sleigh.yaml" \
+    >/dev/null || fail "the installed system file does not pass its check"
+[ -s "$prefix/share/man/man1/dalembert.1" ] || fail "no man page"
+[ "$(readlink "$prefix/lib/libdalembert.so")" = libdalembert.so.0 ] || fail "no soname link"
+
+# DESTDIR, with a space; uninstall leaves no file.
+quiet $make --no-print-directory BUILD="$build" PREFIX=/opt/dal DESTDIR="$root/a b" install
+[ -x "$root/a b/opt/dal/bin/dalembert" ] || fail "DESTDIR does not work"
+grep -q "^prefix=/opt/dal$" "$root/a b/opt/dal/lib/pkgconfig/dalembert.pc" ||
+    fail "dalembert.pc knows DESTDIR"
+quiet $make --no-print-directory BUILD="$build" PREFIX=/opt/dal DESTDIR="$root/a b" uninstall
+[ -z "$(find "$root/a b" -type f -o -type l)" ] || fail "uninstall leaves files"
+echo "install: ok"
