@@ -68,6 +68,11 @@ typedef struct dal_error {
  * common with it.  Names may hold NULLs. */
 const char *dal_nearest(const char *name, const char *const *names, int count);
 
+/* Reads a decimal number - sign, digits, one point, exponent, and nothing else - the same under
+ * every locale, correctly rounded.  Errors: DAL_SYNTAX, DAL_TOO_LARGE (overflow, or over 300
+ * characters). */
+dal_status dal_parse_number(const char *text, size_t length, double *value);
+
 /* ---- systems ------------------------------------------------------------------------------- */
 
 typedef struct dal_system dal_system;

@@ -15,7 +15,7 @@
 #define DAL_LANES 1
 #endif
 
-#define DAL__PASTE(a, b) a##b
+#define DAL__PASTE(a, b)  a##b
 #define DAL__PASTE2(a, b) DAL__PASTE(a, b)
 /* The name of a function that exists once per width: DAL_WIDE(f) is f_x1, f_x4 or f_x8. */
 #define DAL_WIDE(name) DAL__PASTE2(name##_x, DAL_LANES)
@@ -73,6 +73,8 @@ DAL_INLINE dal_mask dal_less_equal(num a, num b) { return DAL__COMPARE(a, <=, b)
 DAL_INLINE dal_mask dal_equal(num a, num b) { return DAL__COMPARE(a, ==, b); }
 DAL_INLINE num dal_max(num a, num b) { return dal_select(dal_less(a, b), b, a); }
 DAL_INLINE num dal_min(num a, num b) { return dal_select(dal_less(b, a), b, a); }
+/* a or b in every lane alike. */
+DAL_INLINE num dal_choose(int condition, num a, num b) { return condition ? a : b; }
 /* Lanes where x is neither infinite nor NaN. */
 DAL_INLINE dal_mask dal_finite(num x) { return dal_equal(x - x, dal_num(0.0)); }
 

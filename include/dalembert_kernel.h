@@ -1,0 +1,49 @@
+/* dalembert_kernel.h - all that an integrator source may see.
+ *
+ * An integrator advances a state y in place by one step h.  It is written once, in plain C over the
+ * type num (one double, or several lanes), and is compiled at each width; it must not branch on the
+ * value of one lane, keep anything outside *step, or call the system but through the functions
+ * here.
+ *
+ *     num, dal_select, dal_less, ...         lib/kernel/num.h           lanes
+ *     dal_sin, dal_cos, dal_exp, ...         lib/kernel/elementary.h    elementary functions
+ *     dal_step, dal_field, dal_update, ...   lib/kernel/step.h          one step: state, system
+ *     dal_invert, dal_multiply               lib/kernel/algebra.h       small dense algebra
+ *     dal_solve                              lib/kernel/solve.h         fixed point, Newton
+ *     dal_polarised_euler                    lib/kernel/polarised.h     symplectic Euler steps
+ *     dal_collocation                        lib/kernel/collocation.h   implicit Runge-Kutta steps
+ *
+ * A file ends with one DAL_INTEGRATOR for each method in it; one line in integrators.def (or,
+ * outside the tree, the descriptor's address in a dal_method) makes it known. */
+#ifndef DALEMBERT_KERNEL_H
+#define DALEMBERT_KERNEL_H
+
+#include "dalembert.h"
+
+#include "../lib/kernel/num.h"
+
+#include "../lib/kernel/elementary.h"
+
+#include "../lib/kernel/step.h"
+
+#include "../lib/kernel/algebra.h"
+
+#include "../lib/kernel/solve.h"
+
+#include "../lib/kernel/polarised.h"
+
+#include "../lib/kernel/collocation.h"
+
+/* Defines the constant descriptor dal_integrator_NAME; at the other widths only the library's
+ * registry sees it, under a name of its own. */
+#if DAL_LANES == 1
+#define DAL_INTEGRATOR(identifier, ...)                                                            \
+    extern const dal_integrator dal_integrator_##identifier;                                       \
+    const dal_integrator dal_integrator_##identifier = {__VA_ARGS__}
+#else
+#define DAL_INTEGRATOR(identifier, ...)                                                            \
+    extern const dal_integrator DAL_WIDE(dal__integrator_##identifier);                            \
+    const dal_integrator DAL_WIDE(dal__integrator_##identifier) = {__VA_ARGS__}
+#endif
+
+#endif

@@ -1,0 +1,24 @@
+/* implicit_midpoint.c - the implicit midpoint rule.
+ *
+ *     y1 = y + h f(t + h/2, (y + y1)/2)           (solved to rounding)
+ *
+ * The Gauss method with one stage; Hairer, Lubich, Wanner, Geometric Numerical Integration (2006),
+ * II.1.  Order 2, symmetric, symplectic on the lift; keeps D quadratic in (q,v). */
+#include <dalembert_kernel.h>
+
+static const double half[] = {0.5}, one[] = {1.0}, zero[] = {0.0};
+
+static const dal_tableau tableau = {.stages = 1,
+                                    .c = half,
+                                    .b = one,
+                                    .b_tail = zero,
+                                    .a = half,
+                                    .a_tail = zero,
+                                    .extrapolation = one};
+
+static dal_status step(dal_step *s) { return dal_collocation(s, &tableau); }
+
+DAL_INTEGRATOR(implicit_midpoint, .name = "implicit-midpoint", .summary = "implicit midpoint rule",
+               .reference = "Hairer, Lubich, Wanner 2006, II.1", .order = 2, .stages = 1,
+               .claims = DAL_SYMMETRIC | DAL_SYMPLECTIC | DAL_KEEPS_QUADRATIC,
+               .needs = DAL_NEEDS_FIELD, .step = step);

@@ -1,0 +1,32 @@
+/* rk4.c - the classical Runge-Kutta method.
+ *
+ *     k1 = f(t, y)                  k2 = f(t + h/2, y + h/2 k1)
+ *     k3 = f(t + h/2, y + h/2 k2)   k4 = f(t + h, y + h k3)
+ *     y1 = y + h/6 (k1 + 2 k2 + 2 k3 + k4)
+ *
+ * W. Kutta, Z. Math. Phys. 46 (1901) 435; Hairer, Norsett, Wanner, Solving ODEs I (1993), II.1.
+ * Order 4, explicit, four evaluations; keeps D with constant coefficients, no other. */
+#include <dalembert_kernel.h>
+
+static dal_status step(dal_step *s)
+{
+    const double h = s->h;
+    DAL_VECTOR(s, k1, s->dim);
+    DAL_VECTOR(s, k2, s->dim);
+    DAL_VECTOR(s, k3, s->dim);
+    DAL_VECTOR(s, k4, s->dim);
+    DAL_VECTOR(s, y, s->dim);
+    DAL_TRY(dal_field(s, s->t, s->y, k1));
+    for (int i = 0; i < s->dim; i++) y[i] = s->y[i] + 0.5 * h * k1[i];
+    DAL_TRY(dal_field(s, s->t + 0.5 * h, y, k2));
+    for (int i = 0; i < s->dim; i++) y[i] = s->y[i] + 0.5 * h * k2[i];
+    DAL_TRY(dal_field(s, s->t + 0.5 * h, y, k3));
+    for (int i = 0; i < s->dim; i++) y[i] = s->y[i] + h * k3[i];
+    DAL_TRY(dal_field(s, s->t + h, y, k4));
+    for (int i = 0; i < s->dim; i++) y[i] = h / 6.0 * ((k1[i] + k4[i]) + 2.0 * (k2[i] + k3[i]));
+    return dal_update(s, h, y);
+}
+
+DAL_INTEGRATOR(rk4, .name = "rk4", .summary = "classical Runge-Kutta", .reference = "Kutta 1901",
+               .order = 4, .stages = 4, .claims = DAL_EXPLICIT, .needs = DAL_NEEDS_FIELD,
+               .step = step);

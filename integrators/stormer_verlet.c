@@ -1,0 +1,22 @@
+/* stormer_verlet.c - generalised Stormer-Verlet, polarisation (1,0).
+ *
+ *     qh = q + h/2 v,   vh = v + h/2 F(qh, v)
+ *     v1 = vh + h/2 F(qh, v1)                     (solved to rounding)
+ *     q1 = qh + h/2 v1
+ *
+ * The composition of symplectic Euler (1,0) with its adjoint; Hairer, Lubich, Wanner,
+ * Geometric Numerical Integration (2006), VI.3.  Order 2, symmetric, symplectic on the lift;
+ * keeps D bilinear in (q,v). */
+#include <dalembert_kernel.h>
+
+static dal_status step(dal_step *s)
+{
+    const double half = 0.5 * s->h;
+    DAL_TRY(dal_polarised_euler(s, DAL_POLARISATION(1, 0), half));
+    return dal_polarised_euler(s, DAL_POLARISATION(0, 1), half);
+}
+
+DAL_INTEGRATOR(stormer_verlet, .name = "stormer-verlet", .summary = "generalised Stormer-Verlet",
+               .reference = "Hairer, Lubich, Wanner 2006, VI.3", .order = 2, .stages = 1,
+               .claims = DAL_SYMMETRIC | DAL_SYMPLECTIC | DAL_KEEPS_BILINEAR,
+               .needs = DAL_NEEDS_FIELD, .step = step);

@@ -1,0 +1,54 @@
+/* symplectic_euler.c - symplectic Euler in every polarisation (s_q, s_v) of the pairs (q,p),
+ * (v,pi).
+ *
+ *     (0,0)  q1 = q + h v    v1 = v + h F(q, v)      explicit Euler on p = pi = 0
+ *     (1,0)  q1 = q + h v    v1 = v + h F(q1, v)     explicit on p = pi = 0
+ *     (0,1)  v1 = v + h F(q, v1)    q1 = q + h v1    v1 solved to rounding
+ *     (1,1)  v1 = v + h F(q1, v1)   q1 = q + h v1    implicit Euler on p = pi = 0
+ *
+ * with the momenta as in dal_polarised_euler.  Hairer, Lubich, Wanner, Geometric Numerical
+ * Integration (2006), VI.3.  Order 1, symplectic on the lift whatever the polarisation; (1,0) and
+ * (0,1) keep D bilinear in (q,v). */
+#include <dalembert_kernel.h>
+
+static DAL_UNUSED const char reference[] = "Hairer, Lubich, Wanner 2006, VI.3";
+
+static dal_status step_00(dal_step *s)
+{
+    return dal_polarised_euler(s, DAL_POLARISATION(0, 0), s->h);
+}
+
+DAL_INTEGRATOR(symplectic_euler_00, .name = "symplectic-euler-00",
+               .summary = "symplectic Euler; explicit Euler on (q,v)", .reference = reference,
+               .order = 1, .stages = 1, .claims = DAL_SYMPLECTIC | DAL_EXPLICIT,
+               .needs = DAL_NEEDS_FIELD, .step = step_00);
+
+static dal_status step_10(dal_step *s)
+{
+    return dal_polarised_euler(s, DAL_POLARISATION(1, 0), s->h);
+}
+
+DAL_INTEGRATOR(symplectic_euler_10, .name = "symplectic-euler-10", .alias = "symplectic-euler",
+               .summary = "symplectic Euler, new q and old v", .reference = reference, .order = 1,
+               .stages = 1, .claims = DAL_SYMPLECTIC | DAL_KEEPS_BILINEAR | DAL_EXPLICIT,
+               .needs = DAL_NEEDS_FIELD, .step = step_10);
+
+static dal_status step_01(dal_step *s)
+{
+    return dal_polarised_euler(s, DAL_POLARISATION(0, 1), s->h);
+}
+
+DAL_INTEGRATOR(symplectic_euler_01, .name = "symplectic-euler-01",
+               .summary = "symplectic Euler, old q and new v", .reference = reference, .order = 1,
+               .stages = 1, .claims = DAL_SYMPLECTIC | DAL_KEEPS_BILINEAR, .needs = DAL_NEEDS_FIELD,
+               .step = step_01);
+
+static dal_status step_11(dal_step *s)
+{
+    return dal_polarised_euler(s, DAL_POLARISATION(1, 1), s->h);
+}
+
+DAL_INTEGRATOR(symplectic_euler_11, .name = "symplectic-euler-11",
+               .summary = "symplectic Euler; implicit Euler on (q,v)", .reference = reference,
+               .order = 1, .stages = 1, .claims = DAL_SYMPLECTIC, .needs = DAL_NEEDS_FIELD,
+               .step = step_11);

@@ -1,0 +1,84 @@
+/* algebra.h - small dense matrices over num, row-major. */
+#ifndef DAL_KERNEL_ALGEBRA_H
+#define DAL_KERNEL_ALGEBRA_H
+
+/* y[rows] = M x, M[rows*columns] */
+DAL_INLINE void dal_multiply(const num *m, int rows, int columns, const num *x, num *y)
+{
+    for (int i = 0; i < rows; i++) {
+        num sum = dal_num(0.0);
+        for (int j = 0; j < columns; j++) sum += m[i * columns + j] * x[j];
+        y[i] = sum;
+    }
+}
+
+/* g[m*m] = A B, the matrix G of m constraints: A[m*n], B[n*m]. */
+DAL_INLINE void dal_gram(const num *a, const num *b, int m, int n, num *g)
+{
+    for (int i = 0; i < m * m; i++) {
+        g[i] = dal_num(0.0);
+        for (int j = 0; j < n; j++) g[i] += a[i / m * n + j] * b[j * m + i % m];
+    }
+}
+
+/* Eliminates column k below the diagonal, without pivoting, and returns g_kk: the ratio of the
+ * leading minors k + 1 and k. */
+DAL_INLINE num dal_eliminate(num *g, int m, int k)
+{
+    for (int i = k + 1; i < m; i++) {
+        const num factor = g[i * m + k] / g[k * m + k];
+        for (int j = k; j < m; j++) g[i * m + j] -= factor * g[k * m + j];
+    }
+    return g[k * m + k];
+}
+
+/* Exchanges rows a and b of m where mask is set. */
+DAL_INLINE void dal__swap_rows(num *m, int columns, int a, int b, dal_mask mask)
+{
+    for (int j = 0; j < columns; j++) {
+        const num x = m[a * columns + j], y = m[b * columns + j];
+        m[a * columns + j] = dal_select(mask, y, x);
+        m[b * columns + j] = dal_select(mask, x, y);
+    }
+}
+
+/* Brings the largest entry of column k at or below the diagonal to the diagonal, in each lane. */
+DAL_INLINE void dal__pivot(num *m, num *inverse, int n, int k)
+{
+    for (int i = k + 1; i < n; i++) {
+        const dal_mask larger = dal_less(dal_abs(m[k * n + k]), dal_abs(m[i * n + k]));
+        if (!dal_any(larger)) continue;
+        dal__swap_rows(m, n, k, i, larger);
+        dal__swap_rows(inverse, n, k, i, larger);
+    }
+}
+
+/* row i -= factor * row k */
+DAL_INLINE void dal__eliminate(num *m, int n, int i, int k, num factor)
+{
+    for (int j = 0; j < n; j++) m[i * n + j] -= factor * m[k * n + j];
+}
+
+/* inverse[n*n] of m[n*n], which is destroyed: Gauss-Jordan with partial pivoting in each lane.
+ * A singular matrix leaves infinities or NaN.  The callers iterate to stagnation on a residual, so
+ * the inverse only sets the rate of convergence, never the result. */
+DAL_INLINE void dal_invert(num *m, num *inverse, int n)
+{
+    for (int i = 0; i < n * n; i++) inverse[i] = dal_num(i % (n + 1) == 0);
+    for (int k = 0; k < n; k++) {
+        dal__pivot(m, inverse, n, k);
+        const num scale = 1.0 / m[k * n + k];
+        for (int j = 0; j < n; j++) {
+            m[k * n + j] *= scale;
+            inverse[k * n + j] *= scale;
+        }
+        for (int i = 0; i < n; i++) {
+            if (i == k) continue;
+            const num factor = m[i * n + k];
+            dal__eliminate(m, n, i, k, factor);
+            dal__eliminate(inverse, n, i, k, factor);
+        }
+    }
+}
+
+#endif

@@ -1,0 +1,233 @@
+/* collocation.h - one step of an implicit Runge-Kutta method (a, b, c) with s stages.
+ *
+ * The unknowns are the stage slopes K_i of w = (v, g) and L_i of pi; the others follow:
+ *
+ *     V_i = w + h sum a_ij K_j              Q_i = q + h sum a_ij V_j          E_i = e + h sum a_ij
+ * mu_j Pi_i = pi + h sum a_ij L_j            P_i = p - h sum a_ij F_q^T Pi |_j K_i = F(Q_i, V_i,
+ * t_i) + Pi_i/E_i     L_i = -P_i - F_v^T Pi |_i         t_i = t + c_i h
+ *
+ * and y1 = y + h sum b_i (slope)_i.  For long runs (Hairer, McLachlan, Razakarivony, BIT 48 (2008)
+ * 231): each coefficient is head + tail, the head a multiple of 1/1024, summed apart; stages start
+ * from y + r; iteration to stagnation.  The first guess is the polynomial through the slopes of the
+ * last step where there was one of the same size, else the slopes at the present state. */
+#ifndef DAL_KERNEL_COLLOCATION_H
+#define DAL_KERNEL_COLLOCATION_H
+
+typedef struct dal_tableau {
+    int stages;
+    const double *c;             /* [s] */
+    const double *b, *b_tail;    /* [s] multiples of 1/1024, and the rest */
+    const double *a, *a_tail;    /* [s*s] */
+    const double *extrapolation; /* [s*s] Lagrange basis l_j(1 + c_i) on the nodes */
+} dal_tableau;
+
+typedef struct dal_stages {
+    const dal_tableau *method;
+    double h;
+    num *v, *q, *pi; /* [s*nw], [s*n], [s*n] */
+    num *f;          /* [s*3n] or [s*nw] */
+    num *w;          /* [s] 1/E_i */
+    num *mu;         /* [s] */
+    int stride;      /* of f */
+} dal_stages;
+
+/* h sum_j weight_j x[j*stride], heads and tails summed apart. */
+DAL_INLINE num dal__weighted(const double *head, const double *tail, int stages, double h,
+                             const num *x, int stride)
+{
+    num large = head[0] * x[0], small = tail[0] * x[0];
+    for (int j = 1; j < stages; j++) {
+        large += head[j] * x[j * stride];
+        small += tail[j] * x[j * stride];
+    }
+    return h * (large + small);
+}
+DAL_INLINE num dal__stage(const dal_stages *k, int i, const num *x, int stride)
+{
+    const int s = k->method->stages;
+    return dal__weighted(k->method->a + i * s, k->method->a_tail + i * s, s, k->h, x, stride);
+}
+DAL_INLINE num dal__end(const dal_stages *k, const num *x, int stride)
+{
+    return dal__weighted(k->method->b, k->method->b_tail, k->method->stages, k->h, x, stride);
+}
+
+/* Stage values base + (r + h sum a x) for count components. */
+DAL_INLINE void dal__stage_values(dal_step *s, const dal_stages *k, int first, int count,
+                                  const num *x, int stride, num *out)
+{
+    for (int i = 0; i < k->method->stages; i++)
+        for (int j = 0; j < count; j++)
+            out[i * count + j] =
+                s->y[first + j] + (s->r[first + j] + dal__stage(k, i, x + j, stride));
+}
+
+/* The slopes of pi: L_i = -(p + r - h sum a F_q^T Pi) - F_v^T Pi. */
+DAL_INLINE void dal__momentum_slopes(dal_step *s, const dal_stages *k, num *image)
+{
+    const int n = s->n, p = dal_at_p(s);
+    for (int i = 0; i < k->method->stages; i++)
+        for (int j = 0; j < n; j++) {
+            const num shift = s->r[p + j] - dal__stage(k, i, k->f + n + j, k->stride);
+            image[i * n + j] = -(s->y[p + j] + shift) - k->f[i * k->stride + 2 * n + j];
+        }
+}
+
+/* Asks the system at every stage. */
+DAL_INLINE void dal__ask_stages(dal_step *s, const dal_stages *k)
+{
+    for (int i = 0; i < k->method->stages; i++) {
+        const double t = s->t + k->method->c[i] * k->h;
+        const num *q = k->q + i * s->n, *v = k->v + i * s->nw;
+        if (s->lifted) dal_adjoint(s, t, q, v, k->pi + i * s->n, k->f + i * k->stride);
+        if (!s->lifted) dal_force(s, t, q, v, k->f + i * k->stride);
+    }
+}
+
+DAL_INLINE void dal__collocation_map(dal_step *s, dal_equation *eq)
+{
+    const dal_stages *k = eq->context;
+    const int n = s->n, nw = s->nw;
+    dal__stage_values(s, k, n, nw, eq->block[0].u, nw, k->v);
+    dal__stage_values(s, k, 0, n, k->v, nw, k->q);
+    if (s->lifted) dal__stage_values(s, k, dal_at_pi(s), n, eq->block[1].u, n, k->pi);
+    dal__ask_stages(s, k);
+    for (int i = 0; i < k->method->stages; i++)
+        for (int j = 0; j < nw; j++) {
+            const num f = k->f[i * k->stride + j];
+            eq->block[0].image[i * nw + j] = f;
+            if (s->lifted) eq->block[0].image[i * nw + j] = f + k->pi[i * n + j] * k->w[i];
+        }
+    if (s->lifted) dal__momentum_slopes(s, k, eq->block[1].image);
+}
+
+/* a and a a, rounded: good enough for Newton's matrix. */
+DAL_INLINE void dal__tableau_squared(const dal_tableau *m, double *a, double *a2)
+{
+    const int s = m->stages;
+    for (int i = 0; i < s * s; i++) a[i] = m->a[i] + m->a_tail[i];
+    for (int i = 0; i < s * s; i++) {
+        a2[i] = 0.0;
+        for (int j = 0; j < s; j++) a2[i] += a[i / s * s + j] * a[j * s + i % s];
+    }
+}
+
+DAL_INLINE dal_status dal__collocation_matrix(dal_step *s, dal_equation *eq)
+{
+    const dal_stages *k = eq->context;
+    const int stages = k->method->stages;
+    double a[DAL_MOST_STAGES * DAL_MOST_STAGES], a2[DAL_MOST_STAGES * DAL_MOST_STAGES];
+    DAL_VECTOR(s, jacobian, s->nw * s->n + s->nw * s->nw);
+    dal__tableau_squared(k->method, a, a2);
+    dal_jacobian(s, s->t + 0.5 * k->h, s->y, s->y + s->n, jacobian);
+    const dal_stage_matrix x = {stages, k->h, a, a2, 0}, p = {stages, -k->h, a, a2, 1};
+    DAL_TRY(dal_stage_inverse(s, &x, jacobian, &eq->block[0]));
+    return s->lifted ? dal_stage_inverse(s, &p, jacobian, &eq->block[1]) : DAL_OK;
+}
+
+/* First guess from the slopes at the present state: every stage alike. */
+DAL_INLINE dal_status dal__guess_present(dal_step *s, dal_stages *k, dal_equation *eq)
+{
+    DAL_VECTOR(s, dy, s->dim);
+    DAL_TRY(dal_field(s, s->t, s->y, dy));
+    for (int i = 0; i < k->method->stages; i++) {
+        memcpy(eq->block[0].u + i * s->nw, dy + s->n, (size_t)s->nw * sizeof *dy);
+        if (s->lifted)
+            memcpy(eq->block[1].u + i * s->n, dy + dal_at_pi(s), (size_t)s->n * sizeof *dy);
+    }
+    return DAL_OK;
+}
+
+/* First guess from the last step's polynomial, in the lanes that have one of this step size. */
+DAL_INLINE void dal__guess_last(dal_step *s, const dal_stages *k, dal_equation *eq)
+{
+    const dal_tableau *m = k->method;
+    const dal_mask known = dal_equal(*s->slopes_h, dal_num(k->h));
+    const num *last = s->slopes;
+    for (int b = 0; b < eq->blocks; b++) {
+        const int width = eq->block[b].size / m->stages;
+        for (int i = 0; i < eq->block[b].size; i++) {
+            num sum = dal_num(0.0);
+            for (int j = 0; j < m->stages; j++)
+                sum += m->extrapolation[i / width * m->stages + j] * last[j * width + i % width];
+            eq->block[b].u[i] = dal_select(known, sum, eq->block[b].u[i]);
+        }
+        last += eq->block[b].size;
+    }
+}
+
+DAL_INLINE dal_status dal__guess(dal_step *s, dal_stages *k, dal_equation *eq)
+{
+    if (dal_any(s->alive & ~dal_equal(*s->slopes_h, dal_num(k->h))))
+        DAL_TRY(dal__guess_present(s, k, eq));
+    dal__guess_last(s, k, eq);
+    return DAL_OK;
+}
+
+/* Keeps the slopes for the next step's guess. */
+DAL_INLINE void dal__keep_slopes(dal_step *s, const dal_stages *k, const dal_equation *eq)
+{
+    num *last = s->slopes;
+    for (int b = 0; b < eq->blocks; b++)
+        for (int i = 0; i < eq->block[b].size; i++, last++)
+            *last = dal_select(s->alive, eq->block[b].u[i], *last);
+    *s->slopes_h = dal_select(s->alive, dal_num(k->h), *s->slopes_h);
+}
+
+/* Stage values of the gauge variable, which is a function of time alone. */
+DAL_INLINE void dal__gauge_stages(dal_step *s, dal_stages *k)
+{
+    const dal_tableau *m = k->method;
+    for (int i = 0; i < m->stages; i++) k->mu[i] = dal_mu_e(s, s->t + m->c[i] * k->h);
+    for (int i = 0; i < m->stages; i++)
+        k->w[i] = 1.0 / (s->y[dal_at_e(s)] + dal__stage(k, i, k->mu, 1));
+}
+
+/* y1 - y from the solved stages. */
+DAL_INLINE dal_status dal__collocation_end(dal_step *s, const dal_stages *k, const dal_equation *eq)
+{
+    const int n = s->n, nw = s->nw;
+    DAL_VECTOR(s, d, s->dim);
+    for (int j = 0; j < n; j++) d[j] = dal__end(k, k->v + j, nw);
+    for (int j = 0; j < nw; j++) d[n + j] = dal__end(k, eq->block[0].u + j, nw);
+    if (s->lifted) {
+        num rate[DAL_MOST_STAGES];
+        for (int i = 0; i < k->method->stages; i++)
+            rate[i] = dal_gauge_rate(k->pi + i * n, n, k->w[i]);
+        for (int j = 0; j < n; j++) {
+            d[dal_at_p(s) + j] = -dal__end(k, k->f + n + j, k->stride);
+            d[dal_at_pi(s) + j] = dal__end(k, eq->block[1].u + j, n);
+        }
+        d[dal_at_e(s)] = dal__end(k, k->mu, 1);
+        d[dal_at_pi_e(s)] = dal__end(k, rate, 1);
+    }
+    return dal_update(s, k->h, d);
+}
+
+/* One step of size s->h from the present state and time; leaves the time advanced. */
+DAL_INLINE dal_status dal_collocation(dal_step *s, const dal_tableau *method)
+{
+    const int n = s->n, nw = s->nw, st = method->stages;
+    const int stride = s->lifted ? 3 * n : nw;
+    DAL_VECTOR(s, x, st * (2 * n + nw));
+    DAL_VECTOR(s, f, st * stride);
+    num w[DAL_MOST_STAGES], mu[DAL_MOST_STAGES];
+    dal_stages k = {method, s->h, x, x + st * nw, x + st * (nw + n), f, w, mu, stride};
+    dal_equation eq = {.blocks = 1 + s->lifted,
+                       .map = dal__collocation_map,
+                       .matrix = dal__collocation_matrix,
+                       .context = &k};
+    DAL_TRY(dal_block_init(s, &eq.block[0], st * nw, s->h, dal_max_norm(s->y + n, nw)));
+    if (s->lifted) {
+        dal__gauge_stages(s, &k);
+        const num size = dal_max(dal_max_norm(s->y + dal_at_pi(s), n),
+                                 dal_abs(dal_num(s->h)) * dal_max_norm(s->y + dal_at_p(s), n));
+        DAL_TRY(dal_block_init(s, &eq.block[1], st * n, s->h, size));
+    }
+    DAL_TRY(dal__guess(s, &k, &eq));
+    DAL_TRY(dal_solve(s, &eq));
+    dal__keep_slopes(s, &k, &eq);
+    return dal__collocation_end(s, &k, &eq);
+}
+
+#endif

@@ -1,0 +1,159 @@
+/* polarised.h - symplectic Euler steps of every polarisation.
+ *
+ * For each canonical pair (X, P) the Hamiltonian is evaluated at (X0, P1) where the polarisation is
+ * 0 and at (X1, P0) where it is 1:  X1 = X0 + h dH/dP,  P1 = P0 - h dH/dX.  With (s_q, s_v), and
+ * the pair (e, pi_e) and the time going with q, a star marking the argument so chosen,
+ *
+ *     q1 = q + h v*                     v1 = v + h (F(q*, v*, t*) + pi* / e*)
+ *     p1 = p - h F_q^T pi*              pi1 = pi - h (p* + F_v^T pi*)
+ *     e1 = e + h mu_e(t*)               pi_e1 = pi_e + h |pi*|^2 / (2 e*^2)
+ *
+ *     s_v = 0: v* = v known; pi* = pi1 solves  u = pi - h (p* + F_v^T u),  p* = p - [s_q=0] h F_q^T
+ * u s_v = 1: pi* = pi known; v* = v1 solves  u = v + h (F(q*, u, t*) + pi / e*),  q* = q + [s_q=1]
+ * h u
+ *
+ * Symplectic for every choice, as sum dX1 dP1 - dX dP = h d(dH) = 0; order 1.  The adjoint of
+ * (s_q, s_v) is (1-s_q, 1-s_v).  The physical space has the first line only; v stands for (v, g).
+ */
+#ifndef DAL_KERNEL_POLARISED_H
+#define DAL_KERNEL_POLARISED_H
+
+typedef struct dal_polarisation {
+    int q, v;
+} dal_polarisation;
+#define DAL_POLARISATION(q, v) ((dal_polarisation){(q), (v)})
+
+/* The starred arguments of one step. */
+typedef struct dal_euler {
+    dal_polarisation at;
+    double h, t;
+    num *q, *v, *p, *pi; /* [n], [nw], [n], [n] */
+    num *f;              /* [3n] or [nw]: what the system said last */
+    num w;               /* 1/e* */
+} dal_euler;
+
+/* q* for the velocity v*. */
+DAL_INLINE void dal__euler_q(dal_step *s, dal_euler *k)
+{
+    for (int i = 0; i < s->n; i++)
+        k->q[i] = dal_choose(k->at.q, s->y[i] + (k->h * k->v[i] + s->r[i]), s->y[i]);
+}
+
+/* h (F + pi* w), from the field last asked for. */
+DAL_INLINE num dal__euler_dv(const dal_step *s, const dal_euler *k, int i)
+{
+    return s->lifted ? k->h * (k->f[i] + k->pi[i] * k->w) : k->h * k->f[i];
+}
+
+/* s_v = 1: u = v1. */
+DAL_INLINE void dal__euler_map_v(dal_step *s, dal_equation *eq)
+{
+    dal_euler *k = eq->context;
+    memcpy(k->v, eq->block[0].u, (size_t)s->nw * sizeof *k->v);
+    dal__euler_q(s, k);
+    dal_force(s, k->t, k->q, k->v, k->f);
+    for (int i = 0; i < s->nw; i++)
+        eq->block[0].image[i] = s->y[s->n + i] + (dal__euler_dv(s, k, i) + s->r[s->n + i]);
+}
+
+/* p* for the momentum pi*, from the adjoint last asked for. */
+DAL_INLINE void dal__euler_p(dal_step *s, dal_euler *k)
+{
+    const int p = dal_at_p(s);
+    for (int i = 0; i < s->n; i++)
+        k->p[i] =
+            dal_choose(k->at.q, s->y[p + i], s->y[p + i] + (s->r[p + i] - k->h * k->f[s->n + i]));
+}
+
+/* s_v = 0: u = pi1. */
+DAL_INLINE void dal__euler_map_pi(dal_step *s, dal_equation *eq)
+{
+    dal_euler *k = eq->context;
+    const int n = s->n, pi = dal_at_pi(s);
+    memcpy(k->pi, eq->block[0].u, (size_t)n * sizeof *k->pi);
+    dal_adjoint(s, k->t, k->q, k->v, k->pi, k->f);
+    dal__euler_p(s, k);
+    for (int i = 0; i < n; i++)
+        eq->block[0].image[i] = s->y[pi + i] + (s->r[pi + i] - k->h * (k->p[i] + k->f[2 * n + i]));
+}
+
+/* 1 - h F_v - [s_q=1] h^2 F_q, or 1 + h F_v^T - [s_q=0] h^2 F_q^T. */
+DAL_INLINE dal_status dal__euler_matrix(dal_step *s, dal_equation *eq)
+{
+    static const double one = 1.0, zero = 0.0;
+    const dal_euler *k = eq->context;
+    DAL_VECTOR(s, jacobian, s->nw * s->n + s->nw * s->nw);
+    dal_jacobian(s, k->t, k->q, k->v, jacobian);
+    const int q_moves = k->at.v == k->at.q;
+    const dal_stage_matrix matrix = {1, k->at.v ? k->h : -k->h, &one, q_moves ? &one : &zero,
+                                     !k->at.v};
+    return dal_stage_inverse(s, &matrix, jacobian, &eq->block[0]);
+}
+
+/* Solves for v1 (s_v = 1) or pi1 (s_v = 0). */
+DAL_INLINE dal_status dal__euler_solve(dal_step *s, dal_euler *k)
+{
+    dal_equation eq = {.blocks = 1, .matrix = dal__euler_matrix, .context = k};
+    eq.map = k->at.v ? dal__euler_map_v : dal__euler_map_pi;
+    const int size = k->at.v ? s->nw : s->n, first = k->at.v ? s->n : dal_at_pi(s);
+    DAL_TRY(dal_block_init(s, &eq.block[0], size, 1.0, dal_max_norm(s->y + first, size)));
+    memcpy(eq.block[0].u, s->y + first, (size_t)size * sizeof(num));
+    DAL_TRY(dal_solve(s, &eq));
+    memcpy(k->at.v ? k->v : k->pi, eq.block[0].u, (size_t)size * sizeof(num));
+    return DAL_OK;
+}
+
+/* The momenta's half of the increments d. */
+DAL_INLINE void dal__euler_momenta(dal_step *s, const dal_euler *k, num mu, num *d)
+{
+    const int n = s->n;
+    for (int i = 0; i < n; i++) {
+        d[dal_at_p(s) + i] = -k->h * k->f[n + i];
+        d[dal_at_pi(s) + i] = -k->h * (k->p[i] + k->f[2 * n + i]);
+    }
+    d[dal_at_e(s)] = k->h * mu;
+    d[dal_at_pi_e(s)] = k->h * dal_gauge_rate(k->pi, n, k->w);
+}
+
+/* The field at the starred arguments, and from it all increments. */
+DAL_INLINE void dal__euler_increments(dal_step *s, dal_euler *k, num mu, num *d)
+{
+    const int n = s->n;
+    if (s->lifted) dal_adjoint(s, k->t, k->q, k->v, k->pi, k->f);
+    if (!s->lifted) dal_force(s, k->t, k->q, k->v, k->f);
+    if (s->lifted) dal__euler_p(s, k);
+    for (int i = 0; i < s->nw; i++) d[n + i] = dal__euler_dv(s, k, i);
+    for (int i = 0; i < n; i++) {
+        const num v1 = s->y[n + i] + (d[n + i] + s->r[n + i]);
+        d[i] = k->h * (k->at.v ? v1 : k->v[i]);
+    }
+    if (s->lifted) dal__euler_momenta(s, k, mu, d);
+}
+
+/* One step of size h from the present state and time. */
+DAL_INLINE dal_status dal_polarised_euler(dal_step *s, dal_polarisation at, double h)
+{
+    const size_t mark = s->used;
+    const int n = s->n, nw = s->nw;
+    DAL_VECTOR(s, x, 3 * n + nw);
+    DAL_VECTOR(s, f, 2 * n + nw);
+    DAL_VECTOR(s, d, s->dim);
+    dal_euler k = {at, h,           at.q ? s->t + h : s->t, x, x + n, x + n + nw, x + 2 * n + nw,
+                   f,  dal_num(0.0)};
+    num mu = dal_num(0.0);
+    memcpy(k.v, s->y + n, (size_t)nw * sizeof *k.v);
+    if (s->lifted) {
+        const num e = s->y[dal_at_e(s)];
+        mu = dal_mu_e(s, k.t);
+        k.w = 1.0 / dal_choose(at.q, e + h * mu, e);
+        memcpy(k.pi, s->y + dal_at_pi(s), (size_t)n * sizeof *k.pi);
+    }
+    dal__euler_q(s, &k);
+    if (at.v || s->lifted) DAL_TRY(dal__euler_solve(s, &k));
+    dal__euler_q(s, &k);
+    dal__euler_increments(s, &k, mu, d);
+    s->used = mark;
+    return dal_update(s, h, d);
+}
+
+#endif

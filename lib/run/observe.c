@@ -1,0 +1,104 @@
+/* observe.c - what can be said of the present state: D, E, H, norms, invariants, error. */
+#include "run/run.h"
+#include <dalembert_kernel.h>
+#include <stdio.h>
+
+/* The groups of observables in their order. */
+enum { GROUP_D, GROUP_E, GROUP_H, GROUP_NORMS, GROUP_INVARIANTS, GROUP_ERROR, GROUPS };
+
+static int group_size(const dal_run *run, int group)
+{
+    const dal_system *system = run->shape.system;
+    switch (group) {
+    case GROUP_D:
+        return system->constraints ? system->m : 0;
+    case GROUP_E:
+        return system->energy != NULL;
+    case GROUP_H:
+        return run->shape.lifted;
+    case GROUP_NORMS:
+        return run->shape.lifted ? 3 : 0;
+    case GROUP_INVARIANTS:
+        return system->invariant_values ? system->invariants : 0;
+    case GROUP_ERROR:
+        return run->exact;
+    }
+    return 0;
+}
+
+int dal_run_observables(const dal_run *run)
+{
+    int count = 0;
+    for (int group = 0; group < GROUPS; group++) count += group_size(run, group);
+    return count;
+}
+
+char *dal_run_observable_name(const dal_run *run, int i, char *buffer, size_t size)
+{
+    static const char *const fixed[] = {NULL, "E", "H", NULL, NULL, "error"};
+    static const char *const norms[] = {"|p|", "|pi|", "|pi_e|"};
+    const dal_system *system = run->shape.system;
+    int group = 0;
+    for (; i >= 0 && group < GROUPS && i >= group_size(run, group); group++)
+        i -= group_size(run, group);
+    if (i < 0 || group == GROUPS) return NULL;
+    if (group == GROUP_D)
+        snprintf(buffer, size, "D%d", i + 1);
+    else if (group == GROUP_NORMS)
+        snprintf(buffer, size, "%s", norms[i]);
+    else if (group == GROUP_INVARIANTS)
+        snprintf(buffer, size, "%s", system->invariant ? system->invariant[i] : "invariant");
+    else
+        snprintf(buffer, size, "%s", fixed[group]);
+    return buffer;
+}
+
+/* H = pi.pi/(2e) + pi.F + p.v + mu_e pi_e */
+static double hamiltonian(dal_run *run)
+{
+    const int n = run->shape.n;
+    const double *y = run->carried, *v = y + n, *p = y + 2 * n + 1, *pi = y + 3 * n + 1;
+    double *f = run->answer, mu = 0.0, sum = 0.0;
+    const double t = dal_run_time(run);
+    dal__engine_ask_x1(run->engine, DAL_ASK_FIELD, t, y, f);
+    dal__engine_ask_x1(run->engine, DAL_ASK_GAUGE, t, y, &mu);
+    for (int i = 0; i < n; i++)
+        sum += pi[i] * pi[i] * (0.5 / y[2 * n]) + pi[i] * f[i] + p[i] * v[i];
+    return sum + mu * y[4 * n + 1];
+}
+
+static void norms(const dal_run *run, double *out)
+{
+    const int n = run->shape.n;
+    out[0] = dal_max_norm(run->carried + 2 * n + 1, n);
+    out[1] = dal_max_norm(run->carried + 3 * n + 1, n);
+    out[2] = fabs(run->carried[4 * n + 1]);
+}
+
+static dal_status error_norm(dal_run *run, const dal_at *at, double *out)
+{
+    const dal_system *system = run->shape.system;
+    double *exact = run->answer;
+    DAL_TRY(system->exact(system, at, exact));
+    for (int i = 0; i < system->n; i++) exact[i] -= run->carried[i];
+    *out = dal_max_norm(exact, system->n);
+    return DAL_OK;
+}
+
+dal_status dal_run_observe(dal_run *run, double *out)
+{
+    const dal_system *system = run->shape.system;
+    const dal_at at = dal__here(run);
+    double *next = out;
+    for (int group = 0; group < GROUPS; next += group_size(run, group++)) {
+        if (group_size(run, group) == 0) continue;
+        if (group == GROUP_D) DAL_TRY(system->constraints(system, &at, next));
+        if (group == GROUP_E) DAL_TRY(system->energy(system, &at, next));
+        if (group == GROUP_H) *next = hamiltonian(run);
+        if (group == GROUP_NORMS) norms(run, next);
+        if (group == GROUP_INVARIANTS) DAL_TRY(system->invariant_values(system, &at, next));
+        if (group == GROUP_ERROR) DAL_TRY(error_norm(run, &at, next));
+    }
+    for (double *x = out; x < next; x++) *x += 0.0; /* no -0 */
+    return DAL_OK;
+}

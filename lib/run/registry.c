@@ -1,0 +1,132 @@
+/* registry.c - the integrators of the library, and methods by name: BASE+MODIFIER+... */
+#include "run/engine.h"
+#include <string.h>
+
+#define X(name)                                                                                    \
+    extern const dal_integrator dal_integrator_##name, dal__integrator_##name##_x4,                \
+        dal__integrator_##name##_x8;
+#include "../integrators/integrators.def"
+#undef X
+
+typedef struct entry {
+    const dal_integrator *width1, *width4, *width8;
+} entry;
+
+static const entry entries[] = {
+#define X(name)                                                                                    \
+    {&dal_integrator_##name, &dal__integrator_##name##_x4, &dal__integrator_##name##_x8},
+#include "../integrators/integrators.def"
+#undef X
+};
+
+enum { COUNT = sizeof entries / sizeof *entries };
+
+const dal_integrator *dal_integrator_at(int i)
+{
+    return i >= 0 && i < COUNT ? entries[i].width1 : NULL;
+}
+
+const dal_integrator *dal__integrator_wide(const dal_integrator *integrator, int width)
+{
+    if (width == 1) return integrator;
+    for (int i = 0; i < COUNT; i++)
+        if (entries[i].width1 == integrator)
+            return width == 4 ? entries[i].width4 : entries[i].width8;
+    return NULL;
+}
+
+static int is_modifier(const dal_integrator *integrator)
+{
+    return (integrator->claims & DAL_MODIFIER) != 0;
+}
+
+/* Finds an integrator (modifier = 0) or a modifier by name or alias. */
+static const dal_integrator *find(const char *name, int modifier)
+{
+    for (int i = 0; i < COUNT; i++) {
+        const dal_integrator *k = entries[i].width1;
+        if (is_modifier(k) != modifier) continue;
+        if (strcmp(k->name, name) == 0 || (k->alias && strcmp(k->alias, name) == 0)) return k;
+    }
+    return NULL;
+}
+
+static dal_status unknown(const char *name, int modifier, dal_error *error)
+{
+    const char *names[2 * COUNT];
+    for (int i = 0; i < COUNT; i++) {
+        const dal_integrator *k = entries[i].width1;
+        names[2 * i] = is_modifier(k) == modifier ? k->name : NULL;
+        names[2 * i + 1] = is_modifier(k) == modifier ? k->alias : NULL;
+    }
+    return dal__unknown(error, 0, 0, modifier ? "modifier" : "integrator", name, names, 2 * COUNT);
+}
+
+enum { NAME_SIZE = 64 };
+
+/* Copies the part of *name up to the next '+' and moves past it; 0 when it is too long. */
+static int next_part(const char **name, char *part)
+{
+    const size_t length = strcspn(*name, "+");
+    if (length >= NAME_SIZE) return 0;
+    memcpy(part, *name, length);
+    part[length] = '\0';
+    *name += length;
+    return 1;
+}
+
+dal_status dal_method_parse(dal_method *method, const char *name, dal_error *error)
+{
+    char part[NAME_SIZE];
+    const char *rest = name;
+    *method = (dal_method){{NULL}};
+    for (int i = 0;; i++) {
+        if (i == DAL_CHAIN)
+            return dal__error(error, DAL_ARGUMENT, 0, 0, "integrator '%.60s': at most %d modifiers",
+                              name, DAL_CHAIN - 1);
+        if (!next_part(&rest, part))
+            return dal__error(error, DAL_NAME, 0, 0, "integrator name '%.60s...' is too long",
+                              name);
+        method->chain[i] = find(part, i > 0);
+        if (!method->chain[i]) return unknown(part, i > 0, error);
+        if (*rest == '\0') return DAL_OK;
+        rest++;
+    }
+}
+
+char *dal_method_name(const dal_method *method, char *buffer, size_t size)
+{
+    size_t used = 0;
+    if (size > 0) buffer[0] = '\0';
+    for (int i = 0; i < DAL_CHAIN && method->chain[i]; i++) {
+        const char *parts[] = {i ? "+" : "", method->chain[i]->name};
+        for (int j = 0; j < 2; j++) {
+            const size_t length = strlen(parts[j]);
+            if (used + length + 1 > size) return buffer;
+            memcpy(buffer + used, parts[j], length + 1);
+            used += length;
+        }
+    }
+    return buffer;
+}
+
+int dal_method_order(const dal_method *method)
+{
+    int order = 0;
+    for (int i = 0; i < DAL_CHAIN && method->chain[i]; i++)
+        if (method->chain[i]->order > 0) order = method->chain[i]->order;
+    return order;
+}
+
+/* A modifier's claims replace those of the method inside, but what is kept stays kept. */
+unsigned dal_method_claims(const dal_method *method)
+{
+    const unsigned kept = DAL_KEEPS_BILINEAR | DAL_KEEPS_QUADRATIC | DAL_KEEPS_D | DAL_EXPLICIT;
+    unsigned claims = 0;
+    for (int i = 0; i < DAL_CHAIN && method->chain[i]; i++) {
+        const dal_integrator *k = method->chain[i];
+        claims =
+            is_modifier(k) ? (claims & kept) | (k->claims & ~(unsigned)DAL_MODIFIER) : k->claims;
+    }
+    return claims;
+}

@@ -1,0 +1,149 @@
+/* run.c - a run: one system, one method, one block of memory. */
+#include "run/run.h"
+#include <dalembert_kernel.h>
+#include <stdlib.h>
+
+static size_t round_up(size_t bytes) { return (bytes + 63) / 64 * 64; }
+
+/* Most numbers any question's answer has, with room for G beside a constraint's. */
+static size_t answer_count(const dal__shape *k)
+{
+    const size_t n = (size_t)k->n, nw = (size_t)k->nw, m = (size_t)k->m;
+    return 4 * n + 2 * nw + m + 2 * m * n + m * m + m + 2 + (size_t)k->system->invariants;
+}
+
+static size_t total_bytes(const dal__shape *k)
+{
+    const size_t numbers = k->carried + answer_count(k) + (size_t)(k->n + k->nw);
+    return 64 + round_up(sizeof(dal_run)) + round_up(numbers * sizeof(double)) +
+           dal__engine_bytes_x1(k);
+}
+
+size_t dal_run_size(const dal_run_spec *spec)
+{
+    dal__shape shape;
+    return dal__shape_init(&shape, spec, NULL) == DAL_OK ? total_bytes(&shape) : 0;
+}
+
+static dal_run *place(const dal__shape *shape, void *memory)
+{
+    char *at = (char *)memory + (round_up((uintptr_t)memory) - (uintptr_t)memory);
+    dal_run *run = (dal_run *)(void *)at;
+    *run = (dal_run){.shape = *shape};
+    at += round_up(sizeof *run);
+    run->shadow = (double *)(void *)at;
+    run->answer = run->shadow + shape->carried;
+    run->point = run->answer + answer_count(shape);
+    const size_t numbers = shape->carried + answer_count(shape) + (size_t)(shape->n + shape->nw);
+    at += round_up(numbers * sizeof(double));
+    run->engine = dal__engine_place_x1(shape, at, &run->carried, &run->work);
+    return run;
+}
+
+dal_status dal_run_init(dal_run **run, void *memory, size_t bytes, const dal_run_spec *spec,
+                        dal_error *error)
+{
+    dal__shape shape;
+    *run = NULL;
+    DAL_TRY(dal__shape_init(&shape, spec, error));
+    if (!memory || bytes < total_bytes(&shape))
+        return dal__error(error, DAL_MEMORY, 0, 0, "a run of %s needs %zu bytes, not %zu",
+                          shape.system->name ? shape.system->name : "this system",
+                          total_bytes(&shape), bytes);
+    dal_run *made = place(&shape, memory);
+    DAL_TRY(dal__run_start(made, spec->parameters, spec->parameter_count, spec->start,
+                           spec->start_count, error));
+    *run = made;
+    return DAL_OK;
+}
+
+dal_status dal_run_create(dal_run **run, const dal_run_spec *spec, dal_error *error)
+{
+    dal__shape shape;
+    *run = NULL;
+    DAL_TRY(dal__shape_init(&shape, spec, error));
+    const size_t bytes = total_bytes(&shape);
+    void *memory = malloc(bytes);
+    if (!memory) return dal__error(error, DAL_MEMORY, 0, 0, "no %zu bytes for a run", bytes);
+    const dal_status status = dal_run_init(run, memory, bytes, spec, error);
+    if (status == DAL_OK)
+        (*run)->owned = memory;
+    else
+        free(memory);
+    return status;
+}
+
+void dal_run_free(dal_run *run)
+{
+    if (run) free(run->owned);
+}
+
+dal_status dal__run_step(dal_run *run, double h)
+{
+    dal_status why = DAL_OK;
+    return dal__engine_step_x1(run->engine, h, 1u, &why) ? why : DAL_OK;
+}
+
+dal_status dal_run_step(dal_run *run, dal_error *error)
+{
+    const double h = run->shape.options.step;
+    const dal_status status = dal__run_step(run, h);
+    return status == DAL_OK ? DAL_OK : dal__explain(run, h, status, error);
+}
+
+dal_status dal_run_advance(dal_run *run, long long count, dal_error *error)
+{
+    for (long long i = 0; i < count; i++) DAL_TRY(dal_run_step(run, error));
+    return DAL_OK;
+}
+
+const dal_system *dal_run_system(const dal_run *run) { return run->shape.system; }
+int dal_run_dimension(const dal_run *run) { return run->shape.dim; }
+const double *dal_run_state(const dal_run *run) { return run->carried; }
+const double *dal_run_parameters(const dal_run *run) { return run->work; }
+
+double dal_run_time(const dal_run *run) { return run->carried[dal__at(&run->shape, DAL__TIME)]; }
+
+long long dal_run_steps(const dal_run *run)
+{
+    return (long long)run->carried[dal__at(&run->shape, DAL__STEPS)];
+}
+
+long long dal_run_evaluations(const dal_run *run)
+{
+    return (long long)run->carried[dal__at(&run->shape, DAL__EVALUATIONS)];
+}
+
+dal_status dal_run_set_state(dal_run *run, double t, const double *state, dal_error *error)
+{
+    const dal__shape *k = &run->shape;
+    for (int i = 0; i < k->dim; i++)
+        if (!isfinite(state[i]) && !(k->lifted && i == 2 * k->n && isinf(state[i])))
+            return dal__error(error, DAL_NOT_FINITE, 0, 0, "state component %d is not finite: %g",
+                              i + 1, state[i]);
+    if (!isfinite(t)) return dal__error(error, DAL_NOT_FINITE, 0, 0, "time %g is not finite", t);
+    memset(run->carried, 0, k->carried * sizeof *run->carried);
+    for (int i = 0; i < k->dim; i++) run->carried[i] = state[i] + 0.0;
+    run->carried[dal__at(k, DAL__TIME)] = t;
+    return DAL_OK;
+}
+
+const double *dal_run_memory(const dal_run *run, size_t *count)
+{
+    *count = run->shape.carried;
+    return run->carried;
+}
+
+dal_status dal_run_load(dal_run *run, const double *memory, size_t count, dal_error *error)
+{
+    const dal__shape *k = &run->shape;
+    if (count != k->carried)
+        return dal__error(error, DAL_ARGUMENT, 0, 0, "this run carries %zu numbers, not %zu",
+                          k->carried, count);
+    for (size_t i = 0; i < count; i++)
+        if (!isfinite(memory[i]) && !(k->lifted && i == 2 * (size_t)k->n && isinf(memory[i])))
+            return dal__error(error, DAL_NOT_FINITE, 0, 0, "carried number %zu is not finite",
+                              i + 1);
+    memcpy(run->carried, memory, count * sizeof *memory);
+    return DAL_OK;
+}

@@ -1,0 +1,84 @@
+/* sample.c - rows at t = row*T/samples from a trajectory of steps h.
+ *
+ * A row time counts as reached when it is nearer than ALIGNED steps, or than the rounding of the
+ * clock, to the time of a step; otherwise a side step gives the row and is then forgotten. */
+#include "run/run.h"
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+#define ALIGNED 1e-9
+
+enum { POLL = 1000 };
+
+typedef struct sampling {
+    dal_run *run;
+    const dal_observer *observer;
+    dal_error *error;
+    long long since_poll;
+} sampling;
+
+static dal_status stopped(dal_status status, const sampling *k)
+{
+    if (status == DAL_OK) return DAL_OK;
+    return dal__error(k->error, status, 0, 0, "%s at t = %.17g", dal_status_text(status),
+                      dal_run_time(k->run));
+}
+
+static dal_status poll(sampling *k)
+{
+    if (++k->since_poll < POLL || !k->observer->poll) return DAL_OK;
+    k->since_poll = 0;
+    return stopped(k->observer->poll(k->observer->user, k->run), k);
+}
+
+static dal_status show(sampling *k, long long row, double t)
+{
+    if (!k->observer->sample) return DAL_OK;
+    return stopped(k->observer->sample(k->observer->user, k->run, row, t), k);
+}
+
+/* A row between two steps: a step of size h from the present state, shown and taken back. */
+static dal_status side_step(sampling *k, double h, long long row, double t)
+{
+    dal_run *run = k->run;
+    const size_t bytes = run->shape.carried * sizeof *run->carried;
+    memcpy(run->shadow, run->carried, bytes);
+    const dal_status status = dal__run_step(run, h);
+    if (status != DAL_OK) return dal__explain(run, h, status, k->error);
+    const dal_status shown = show(k, row, t);
+    memcpy(run->carried, run->shadow, bytes);
+    return shown;
+}
+
+static dal_status go_to_row(sampling *k, long long row, double t)
+{
+    const double h = k->run->shape.options.step;
+    const double near = fmax(ALIGNED * h, 4.0 * DBL_EPSILON * fabs(t));
+    for (;;) {
+        const double left = t - dal_run_time(k->run);
+        if (left <= near) return show(k, row, t);
+        if (left < h - near) return side_step(k, left, row, t);
+        DAL_TRY(dal_run_step(k->run, k->error));
+        DAL_TRY(poll(k));
+    }
+}
+
+dal_status dal_run_sample(dal_run *run, double T, long long samples, long long first_row,
+                          const dal_observer *observer, dal_error *error)
+{
+    if (!(T > 0.0) || !isfinite(T))
+        return dal__error(error, DAL_ARGUMENT, 0, 0, "the time must be positive; it is %g", T);
+    if (run->shape.options.step > T)
+        return dal__error(error, DAL_ARGUMENT, 0, 0, "the step %g is larger than the time %g",
+                          run->shape.options.step, T);
+    if (samples < 1 || samples > 1LL << 53 || first_row < 0)
+        return dal__error(error, DAL_ARGUMENT, 0, 0, "samples must be at least 1; it is %lld",
+                          samples);
+    sampling k = {run, observer, error, 0};
+    for (long long row = first_row; row <= samples; row++) {
+        const double t = row == samples ? T : T * ((double)row / (double)samples);
+        DAL_TRY(go_to_row(&k, row, t));
+    }
+    return DAL_OK;
+}

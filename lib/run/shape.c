@@ -1,0 +1,106 @@
+/* shape.c - the dimensions and the memory of a run, and whether its parts fit together. */
+#include "run/engine.h"
+#include <math.h>
+#include <stdint.h>
+
+static dal_status refuse(dal_error *error, const dal__shape *k, const char *lacks)
+{
+    char name[128];
+    return dal__error(error, DAL_UNSUPPORTED, 0, 0, "%s cannot act on %s: the system has no %s",
+                      dal_method_name(&k->method, name, sizeof name),
+                      k->system->name ? k->system->name : "this system", lacks);
+}
+
+/* What the method, the space and the solver need, the system must have. */
+static dal_status check_needs(const dal__shape *k, dal_error *error)
+{
+    const dal_callbacks *call = &k->system->call;
+    unsigned needs = 0;
+    for (int i = 0; i < k->depth; i++) needs |= k->method.chain[i]->needs;
+    if (!call->field) return refuse(error, k, "field");
+    if (k->lifted && k->system->multipliers)
+        return refuse(error, k, "lifted space, being vakonomic; take the physical space");
+    if (k->lifted && !call->adjoint) return refuse(error, k, "lifted space: no adjoint");
+    if ((needs & DAL_NEEDS_CONSTRAINT) && k->m > 0 && !call->constraint)
+        return refuse(error, k, "constraint callback");
+    if (k->options.solver == DAL_NEWTON && !call->jacobian)
+        return refuse(error, k, "jacobian, which the solver newton needs");
+    return DAL_OK;
+}
+
+static dal_status check_system(const dal_system *system, dal_error *error)
+{
+    if (!system) return dal__error(error, DAL_ARGUMENT, 0, 0, "a run needs a system");
+    if (system->n < 1)
+        return dal__error(error, DAL_ARGUMENT, 0, 0, "a system needs coordinates; n is %d",
+                          system->n);
+    if (system->m < 0 || system->parameters < 0 || system->guards < 0 || system->invariants < 0)
+        return dal__error(error, DAL_ARGUMENT, 0, 0, "a dimension of the system is negative");
+    if (system->multipliers != 0 && system->multipliers != system->m)
+        return dal__error(error, DAL_ARGUMENT, 0, 0, "%d multipliers for %d constraints",
+                          system->multipliers, system->m);
+    return DAL_OK;
+}
+
+static dal_status check_options(const dal_options *o, dal_error *error)
+{
+    if (!(o->step > 0.0) || !isfinite(o->step))
+        return dal__error(error, DAL_ARGUMENT, 0, 0,
+                          "the step must be positive and finite; it is %g", o->step);
+    if (o->iterations < 1)
+        return dal__error(error, DAL_ARGUMENT, 0, 0, "iterations must be at least 1; it is %d",
+                          o->iterations);
+    return DAL_OK;
+}
+
+static dal_status check_chain(dal__shape *k, dal_error *error)
+{
+    const dal_method *method = &k->method;
+    while (k->depth < DAL_CHAIN && method->chain[k->depth]) {
+        const dal_integrator *link = method->chain[k->depth];
+        const int modifier = (link->claims & DAL_MODIFIER) != 0;
+        if (!link->step || link->stages < 0 || modifier != (k->depth > 0))
+            return dal__error(error, DAL_ARGUMENT, 0, 0,
+                              "'%s' is not usable as part %d of a method",
+                              link->name ? link->name : "?", k->depth + 1);
+        if (link->stages > k->stages) k->stages = link->stages;
+        k->depth++;
+    }
+    if (k->depth == 0) return dal__error(error, DAL_ARGUMENT, 0, 0, "a run needs an integrator");
+    return DAL_OK;
+}
+
+/* Numbers of memory, in floating point first so that nothing overflows. */
+static dal_status measure(dal__shape *k, dal_error *error)
+{
+    const double dim = k->dim, n = k->n, nw = k->nw, m = k->m, stages = k->stages;
+    const double matrix = (stages * nw) * (stages * nw) * (k->system->call.jacobian ? 4 : 0);
+    const double constraint = 4 * (m + 2 * m * n) + 8 * m * m;
+    const double scratch = (16 * stages + 16) * dim + matrix + nw * (n + nw) + constraint +
+                           2.0 * k->system->guards + 16 * n + 64;
+    if (scratch > 1e9 || k->stages > 1000)
+        return dal__error(error, DAL_TOO_LARGE, 0, 0, "a run with n = %d, m = %d needs %g numbers",
+                          k->n, k->m, scratch);
+    k->scratch = (size_t)scratch;
+    k->workspace = k->system->workspace ? k->system->workspace : (size_t)k->system->parameters;
+    k->slopes = k->stages * (k->nw + k->n);
+    k->carried = dal__at(k, DAL__SLOPES) + (size_t)k->slopes;
+    return DAL_OK;
+}
+
+dal_status dal__shape_init(dal__shape *k, const dal_run_spec *spec, dal_error *error)
+{
+    DAL_TRY(check_system(spec->system, error));
+    DAL_TRY(check_options(&spec->options, error));
+    *k = (dal__shape){.system = spec->system, .method = spec->method, .options = spec->options};
+    k->n = spec->system->n;
+    k->m = spec->system->m;
+    k->nw = k->n + spec->system->multipliers;
+    k->lifted = spec->options.space == DAL_LIFTED;
+    if (k->n > 100000 || k->m > k->n)
+        return dal__error(error, DAL_TOO_LARGE, 0, 0, "%d coordinates, %d constraints", k->n, k->m);
+    k->dim = k->lifted ? 4 * k->n + 2 : k->n + k->nw;
+    DAL_TRY(check_chain(k, error));
+    DAL_TRY(check_needs(k, error));
+    return measure(k, error);
+}

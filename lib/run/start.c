@@ -1,0 +1,173 @@
+/* start.c - parameters and start of a run: set by name, completed by the system, checked.
+ *
+ * A start is consistent when |D_a| <= 1e-10 |A_a| |v| (1-norm times max norm), and the constraints
+ * are independent when no pivot of G is below 1e-12 of its diagonal entry. */
+#include "run/run.h"
+#include <dalembert_kernel.h>
+
+#define CONSISTENT  1e-10
+#define INDEPENDENT 1e-12
+
+enum { NAME_SIZE = 128 };
+
+static dal_status unknown_parameter(const dal_system *system, const char *name, dal_error *error)
+{
+    return dal__unknown(error, 0, 0, "parameter", name, system->parameter, system->parameters);
+}
+
+static dal_status set_parameters(dal_run *run, const dal_setting *settings, int count,
+                                 dal_error *error)
+{
+    const dal_system *system = run->shape.system;
+    for (int i = 0; i < system->parameters; i++)
+        run->work[i] = system->value ? system->value[i] : 0.0;
+    for (int k = 0; k < count; k++) {
+        int i = 0;
+        while (i < system->parameters && system->parameter &&
+               strcmp(system->parameter[i], settings[k].name) != 0)
+            i++;
+        if (i == system->parameters || !system->parameter)
+            return unknown_parameter(system, settings[k].name, error);
+        if (!isfinite(settings[k].value))
+            return dal__error(error, DAL_ARGUMENT, 0, 0, "parameter %s: %g is not a finite number",
+                              settings[k].name, settings[k].value);
+        run->work[i] = settings[k].value;
+    }
+    const dal_at at = dal__here(run);
+    return system->prepare ? system->prepare(system, &at, NULL) : DAL_OK;
+}
+
+/* The name nearest to a start name that does not exist. */
+static dal_status unknown_start(const dal_run *run, const char *name, dal_error *error)
+{
+    char best[NAME_SIZE] = "", other[NAME_SIZE];
+    for (int i = 0; dal_run_name(run, i, other, sizeof other); i++) {
+        const char *pair[] = {*best ? best : NULL, other};
+        if (dal_nearest(name, pair, 2) == other) memcpy(best, other, sizeof best);
+    }
+    const char *names[] = {*best ? best : NULL};
+    return dal__unknown(error, 0, 0, run->shape.lifted ? "start name" : "start name (q, v space)",
+                        name, names, 1);
+}
+
+static dal_status override(dal_run *run, const dal_setting *settings, int count, dal_error *error)
+{
+    const int e = run->shape.lifted ? 2 * run->shape.n : -1;
+    char name[NAME_SIZE];
+    for (int k = 0; k < count; k++) {
+        int i = 0;
+        while (dal_run_name(run, i, name, sizeof name) && strcmp(name, settings[k].name) != 0) i++;
+        if (i == run->shape.dim) return unknown_start(run, settings[k].name, error);
+        if (!isfinite(settings[k].value) && !(i == e && isinf(settings[k].value)))
+            return dal__error(error, DAL_ARGUMENT, 0, 0, "start %s: %g is not a finite number",
+                              settings[k].name, settings[k].value);
+        run->carried[i] = settings[k].value;
+    }
+    return DAL_OK;
+}
+
+/* q, v, g and e as the system gives them; momenta are 0. */
+static dal_status default_start(dal_run *run, dal_error *error)
+{
+    const dal__shape *k = &run->shape;
+    const int first = k->n + k->nw;
+    memset(run->carried, 0, k->carried * sizeof *run->carried);
+    double *out = run->answer;
+    for (int i = 0; i <= first; i++) out[i] = i == first;
+    const dal_at at = {0.0, run->carried, run->carried + k->n, NULL, run->work};
+    if (k->system->start && k->system->start(k->system, &at, out) != DAL_OK)
+        return dal__error(error, DAL_NOT_FINITE, 0, 0, "%s has no start with these parameters",
+                          k->system->name ? k->system->name : "the system");
+    memcpy(run->carried, out, (size_t)first * sizeof *out);
+    if (k->lifted) run->carried[2 * k->n] = out[first];
+    return DAL_OK;
+}
+
+static dal_status check_finite(dal_run *run, dal_error *error)
+{
+    const int e = run->shape.lifted ? 2 * run->shape.n : -1;
+    char name[NAME_SIZE];
+    for (int i = 0; i < run->shape.dim; i++) {
+        run->carried[i] += 0.0; /* no -0: see lib/kernel/step.h */
+        if (i == e && run->carried[i] == 0.0)
+            return dal__error(error, DAL_GAUGE, 0, 0, "start e = 0: e must not vanish");
+        if (isnan(run->carried[i]) || (isinf(run->carried[i]) && i != e))
+            return dal__error(error, DAL_NOT_FINITE, 0, 0, "start %s is not finite: %g",
+                              dal_run_name(run, i, name, sizeof name), run->carried[i]);
+    }
+    return DAL_OK;
+}
+
+static dal_status check_consistent(const dal_run *run, const double *d, const double *a,
+                                   dal_error *error)
+{
+    const dal__shape *k = &run->shape;
+    const double speed = dal_max_norm(run->carried + k->n, k->n);
+    for (int i = 0; i < k->m; i++) {
+        double scale = 0.0;
+        for (int j = 0; j < k->n; j++) scale += fabs(a[i * k->n + j]);
+        if (fabs(d[i]) <= CONSISTENT * scale * speed) continue;
+        return dal__error(error, isfinite(d[i]) ? DAL_INCONSISTENT : DAL_NOT_FINITE, 0, 0,
+                          "the start violates constraint %d: D%d = %.6g", i + 1, i + 1, d[i]);
+    }
+    return DAL_OK;
+}
+
+/* Pivots of G = A B, each against its diagonal entry before elimination, constraint by constraint.
+ */
+static dal_status check_rank(const dal_run *run, const double *a, const double *b, double *g,
+                             dal_error *error)
+{
+    const int m = run->shape.m, n = run->shape.n;
+    double *diagonal = g + m * m;
+    dal_gram(a, b, m, n, g);
+    for (int i = 0; i < m; i++) diagonal[i] = fabs(g[i * m + i]);
+    for (int k = 0; k < m; k++) {
+        const double rest = dal_eliminate(g, m, k);
+        if (fabs(rest) > INDEPENDENT * diagonal[k] && isfinite(rest)) continue;
+        return dal__error(error, DAL_RANK, 0, 0,
+                          "constraint %d restricts no velocity at the start, or none that those "
+                          "before it leave free (pivot %g of G)",
+                          k + 1, rest);
+    }
+    return DAL_OK;
+}
+
+static dal_status check_constraints(dal_run *run, dal_error *error)
+{
+    const dal__shape *k = &run->shape;
+    const dal_callbacks *call = &k->system->call;
+    if (k->m == 0 || !call->constraint) return DAL_OK;
+    const int m = k->m, n = k->n;
+    const dal_at at = dal__here(run);
+    double *d = run->answer, *a = d + m, *b = a + m * n;
+    const dal_status status = call->constraint(k->system, &at, d);
+    if (status != DAL_OK)
+        return dal__error(error, status, 0, 0, "the constraints cannot be evaluated at the start");
+    DAL_TRY(check_consistent(run, d, a, error));
+    return check_rank(run, a, b, b + n * m, error);
+}
+
+/* The exact solution belongs to this run when it begins where the run does. */
+static bool exact_agrees(dal_run *run)
+{
+    const dal__shape *k = &run->shape;
+    const dal_at at = dal__here(run);
+    if (!k->system->exact || k->system->exact(k->system, &at, run->answer) != DAL_OK) return false;
+    const double size = 1.0 + dal_max_norm(run->carried, 2 * k->n);
+    for (int i = 0; i < 2 * k->n; i++)
+        if (!(fabs(run->answer[i] - run->carried[i]) <= CONSISTENT * size)) return false;
+    return true;
+}
+
+dal_status dal__run_start(dal_run *run, const dal_setting *parameters, int parameter_count,
+                          const dal_setting *start, int start_count, dal_error *error)
+{
+    DAL_TRY(set_parameters(run, parameters, parameter_count, error));
+    DAL_TRY(default_start(run, error));
+    DAL_TRY(override(run, start, start_count, error));
+    DAL_TRY(check_finite(run, error));
+    DAL_TRY(check_constraints(run, error));
+    run->exact = exact_agrees(run);
+    return DAL_OK;
+}
