@@ -3,19 +3,22 @@
  * Fixed point:          u <- u + d,           d = map(u) - u
  * Simplified Newton:    u <- u + M^-1 d,      M = 1 - map'(u) at the beginning of the step
  *
- * An iteration ends when every block has d = 0, or a d that is small and no longer decreases
- * (Hairer, McLachlan, Razakarivony, BIT 48 (2008) 231): not at a tolerance.  "Small" only tells
- * stagnation at rounding from divergence.  Each lane ends by itself and is then left alone, so its
- * bits do not depend on its neighbours.
+ * An iteration ends when every block has d = 0, or a d at rounding level that no longer decreases
+ * (Hairer, McLachlan, Razakarivony, BIT 48 (2008) 231), or one that twice in a row does not
+ * decrease and is small: not at a tolerance.  "Small" only tells stagnation from divergence.  Each
+ * lane ends by itself and is then left alone, so its bits do not depend on its neighbours.
  *
  * With the solver "auto" a lane whose fixed point contracts more slowly than DAL__SLOW, or not at
  * all, goes over to Newton and stays there (step->stiff, which is carried along). */
 #ifndef DAL_KERNEL_SOLVE_H
 #define DAL_KERNEL_SOLVE_H
 
-#define DAL__SLOW  0.3   /* Newton pays from here: a fixed point needs 36/log2(1/rate) sweeps */
-#define DAL__SMALL 1e-6  /* of the scale of the state: above it stagnation is divergence */
-#define DAL__NOISE 1e-12 /* of the scale of the state: below it no rate is measured */
+/* Newton pays from this rate on: a fixed point needs 36/log2(1/rate) sweeps. */
+#define DAL__SLOW 0.3
+/* Increments against the size of the state: rounding, stagnation, and where no rate is measured. */
+#define DAL__ROUNDING 1.4e-14
+#define DAL__SMALL    1e-6
+#define DAL__NOISE    1e-12
 
 /* One block of unknowns, [size]. */
 typedef struct dal_block {
@@ -26,6 +29,7 @@ typedef struct dal_block {
     double weight;   /* a change of u by d moves the state by weight*d */
     num scale;       /* size of the state it moves */
     num now, before; /* norms of the last two increments */
+    num stalls;      /* how often in a row the norm did not decrease */
 } dal_block;
 
 typedef struct dal_equation dal_equation;
@@ -72,13 +76,15 @@ DAL_INLINE void dal__advance(dal_block *b, dal_mask active, int newton)
     b->now = b->weight * norm + poison;
 }
 
-/* Lanes where a block's increment is zero, or small and no longer decreasing. */
-DAL_INLINE dal_mask dal__quiet(const dal_block *b)
+/* Lanes where a block's increment is zero or stagnates. */
+DAL_INLINE dal_mask dal__quiet(dal_block *b)
 {
     const num size = b->scale + b->weight * dal_max_norm(b->u, b->size);
-    const dal_mask stagnant =
-        dal_less_equal(b->before, b->now) & dal_less_equal(b->now, DAL__SMALL * size);
-    return dal_equal(b->now, dal_num(0.0)) | stagnant;
+    b->stalls = dal_select(dal_less_equal(b->before, b->now), b->stalls + 1.0, dal_num(0.0));
+    const dal_mask once = dal_less(dal_num(0.5), b->stalls),
+                   twice = dal_less(dal_num(1.5), b->stalls);
+    return dal_equal(b->now, dal_num(0.0)) | (once & dal_less_equal(b->now, DAL__ROUNDING * size)) |
+           (twice & dal_less_equal(b->now, DAL__SMALL * size));
 }
 
 DAL_INLINE dal_mask dal__slow(const dal_block *b)
@@ -93,7 +99,10 @@ DAL_INLINE dal_mask dal__iterate(dal_step *s, dal_equation *eq, dal_mask lanes, 
                                  dal_mask *slow)
 {
     dal_mask active = lanes;
-    for (int b = 0; b < eq->blocks; b++) eq->block[b].now = dal_num(INFINITY);
+    for (int b = 0; b < eq->blocks; b++) {
+        eq->block[b].now = dal_num(INFINITY);
+        eq->block[b].stalls = dal_num(0.0);
+    }
     for (int k = 0; k < s->iterations && dal_any(active); k++) {
         eq->map(s, eq);
         dal_mask quiet = dal_all(), finite = dal_all();
