@@ -5,8 +5,8 @@
  * A graph only grows; a node is an index, its operands have smaller indices, so every pass over a
  * graph is a loop and never a recursion.  Equal expressions are one node.  Constants are folded and
  * 0, 1 and -1 simplified where this changes no value on the domain of the formula.
- * When memory is out or the graph grows past its limit, the graph remembers it: nodes made from then
- * on are 0, every function accepts node 0, and dal__graph_status tells. */
+ * When memory is out or the graph grows past its limit, the graph remembers it: nodes made from
+ * then on are 0, every function accepts node 0, and dal__graph_status tells. */
 #ifndef DAL_FORMULA_H
 #define DAL_FORMULA_H
 
@@ -26,7 +26,7 @@ typedef int32_t dal__node; /* 0: no node */
     X(MUL, 2, NULL)                                                                                \
     X(DIV, 2, NULL)                                                                                \
     X(NEG, 1, NULL)                                                                                \
-    X(POW, 2, NULL)      /* real exponent */                                                       \
+    X(POW, 2, NULL) /* real exponent */                                                            \
     X(SQRT, 1, "sqrt")                                                                             \
     X(EXP, 1, "exp")                                                                               \
     X(LOG, 1, "log")                                                                               \
@@ -42,7 +42,7 @@ typedef int32_t dal__node; /* 0: no node */
     X(TANH, 1, "tanh")                                                                             \
     X(ASINH, 1, "asinh")                                                                           \
     X(ABS, 1, "abs")                                                                               \
-    X(SIGN, 1, NULL)     /* derivative of abs */
+    X(SIGN, 1, NULL) /* derivative of abs */
 
 typedef enum dal__op {
 #define X(code, arity, name) DAL__##code,
@@ -55,6 +55,11 @@ dal__graph *dal__graph_create(void); /* NULL: out of memory */
 void dal__graph_free(dal__graph *graph);
 dal_status dal__graph_status(const dal__graph *graph); /* DAL_OK, DAL_MEMORY or DAL_TOO_LARGE */
 int dal__graph_count(const dal__graph *graph);
+
+/* Symbols below parameters are constant along a run: what is made of them and of numbers alone is
+ * collected into coefficients, and dividing by it becomes multiplying by a reciprocal.  To be
+ * called before the first symbol is made; without it no symbol is a parameter. */
+void dal__graph_parameters(dal__graph *graph, int parameters);
 
 dal__node dal__number(dal__graph *graph, double value);
 dal__node dal__symbol(dal__graph *graph, int symbol); /* symbol >= 0, numbered by the caller */
@@ -85,7 +90,8 @@ dal__node dal__tangent(dal__graph *graph, dal__node f, const int *symbols, int c
 /* f with each symbols[i] replaced by the node by[i]. */
 dal__node dal__substitute(dal__graph *graph, dal__node f, const int *symbols, int count,
                           const dal__node *by);
-/* The value of a node; values[symbol].  A slow way for single questions (pivots, starts). [alloc] */
+/* The value of a node; values[symbol].  A slow way for single questions (pivots, starts). [alloc]
+ */
 double dal__evaluate(const dal__graph *graph, dal__node node, const double *values);
 
 /* ---- parser ---- */
@@ -96,9 +102,12 @@ typedef dal__node dal__resolve(void *user, const char *name, size_t length, bool
                                dal_error *error);
 
 /* Parses one formula.  error->line and column are relative to text, from 1.  Errors: DAL_SYNTAX,
- * DAL_NAME, DAL_TOO_LARGE (too deeply nested, or the graph), DAL_MEMORY. */
+ * DAL_NAME (also what resolve says), DAL_TOO_LARGE, DAL_MEMORY. */
 dal_status dal__parse(dal__graph *graph, const char *text, size_t length, dal__resolve *resolve,
                       void *user, dal__node *node, dal_error *error);
+
+/* Whether a name is that of a function, so that nothing else may carry it. */
+bool dal__is_function(const char *name, size_t length);
 
 /* ---- tapes ---- */
 
@@ -115,8 +124,8 @@ void dal__tapes_free(dal__tapes *tapes);
 int dal__tapes_add(dal__tapes *tapes, const dal__node *outputs, int count);
 /* Completes the set; afterwards it is constant.  Errors: DAL_MEMORY, DAL_TOO_LARGE. */
 dal_status dal__tapes_finish(dal__tapes *tapes);
-size_t dal__tapes_workspace(const dal__tapes *tapes); /* numbers in work */
-int dal__tapes_inputs(const dal__tapes *tapes);       /* where the inputs begin in work */
+size_t dal__tapes_workspace(const dal__tapes *tapes);        /* numbers in work */
+int dal__tapes_inputs(const dal__tapes *tapes);              /* where the inputs begin in work */
 int dal__tapes_length(const dal__tapes *tapes, int program); /* instructions, for reports */
 /* After the parameters in work have been set (one lane; a batch spreads the result). */
 void dal__tapes_prepare(const dal__tapes *tapes, double *work);

@@ -1,0 +1,36 @@
+/* arithmetic.h - what each operation computes from a (and b), over num.
+ *
+ * The one list behind constant folding, dal__evaluate and the tapes, so that they agree in every
+ * bit.  Products are rounded before they are added: the library is compiled without contraction. */
+#ifndef DAL_FORMULA_ARITHMETIC_H
+#define DAL_FORMULA_ARITHMETIC_H
+
+#include "kernel/elementary.h"
+
+#define DAL__UNARY_LIST(X)                                                                         \
+    X(NEG, -a)                                                                                     \
+    X(SQRT, dal_sqrt(a))                                                                           \
+    X(EXP, dal_exp(a))                                                                             \
+    X(LOG, dal_log(a))                                                                             \
+    X(SIN, dal_sin(a))                                                                             \
+    X(COS, dal_cos(a))                                                                             \
+    X(TAN, dal_tan(a))                                                                             \
+    X(ASIN, dal_asin(a))                                                                           \
+    X(ACOS, dal_acos(a))                                                                           \
+    X(ATAN, dal_atan(a))                                                                           \
+    X(SINH, dal_sinh(a))                                                                           \
+    X(COSH, dal_cosh(a))                                                                           \
+    X(TANH, dal_tanh(a))                                                                           \
+    X(ASINH, dal_asinh(a))                                                                         \
+    X(ABS, dal_abs(a))                                                                             \
+    X(SIGN, dal_sign(a))
+
+#define DAL__BINARY_LIST(X)                                                                        \
+    X(ADD, a + b)                                                                                  \
+    X(SUB, a - b)                                                                                  \
+    X(MUL, a *b)                                                                                   \
+    X(DIV, a / b)                                                                                  \
+    X(POW, dal_pow(a, b))                                                                          \
+    X(ATAN2, dal_atan2(a, b))
+
+#endif

@@ -1,0 +1,33 @@
+/* lexer.h - the words of a formula, for lib/formula alone. */
+#ifndef DAL_FORMULA_LEXER_H
+#define DAL_FORMULA_LEXER_H
+
+#include "formula/formula.h"
+
+typedef struct dal__token {
+    char kind; /* a character of + - * / ^ ( ) , or one of DAL__TOKEN_* */
+    bool prime;
+    int line, column;
+    const char *text; /* in the formula */
+    size_t length;    /* without the prime */
+    double value;     /* of a number */
+} dal__token;
+
+enum { DAL__TOKEN_END = 0, DAL__TOKEN_NUMBER = '0', DAL__TOKEN_NAME = 'a' };
+
+typedef struct dal__lexer {
+    const char *at, *end;
+    int line;
+    const char *line_start;
+} dal__lexer;
+
+dal__lexer dal__lexer_start(const char *text, size_t length);
+/* The next token.  Errors: DAL_SYNTAX. */
+dal_status dal__lexer_next(dal__lexer *lexer, dal__token *token, dal_error *error);
+
+/* Reads the longest decimal number [digits][.digits][e[+-]digits] at the start of text: how many
+ * characters it has (0: none there) and its nearest double, infinite when it is too large.  The
+ * same under every locale. */
+size_t dal__read_decimal(const char *text, size_t length, double *value);
+
+#endif

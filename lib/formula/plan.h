@@ -1,0 +1,34 @@
+/* plan.h - from nodes to the instructions of a program, for lib/formula alone. */
+#ifndef DAL_FORMULA_PLAN_H
+#define DAL_FORMULA_PLAN_H
+
+#include "error.h"
+#include "formula/graph.h"
+#include "formula/tape.h"
+
+/* Arrays are indexed by node, [last_node + 1]. */
+typedef struct dal__plan {
+    const dal__graph *graph;
+    dal__node last_node;
+    bool *constant;   /* depends on parameters alone */
+    uint8_t *reached; /* wanted by any program; then, by the present one */
+    uint32_t *place;  /* in work; DAL__NOWHERE while a temporary is not alive */
+    dal__node *host;  /* the ADD or SUB that takes this MUL into itself, or 0 */
+    dal__node *last;  /* the node whose instruction reads this one last */
+    int32_t *uses;    /* by operands and outputs */
+    uint32_t *free;   /* places of temporaries to be used again, as a stack */
+    size_t frees;
+} dal__plan;
+
+#define DAL__NOWHERE UINT32_MAX
+
+/* Reaches from all programs of tapes.  To be freed also when it failed. [alloc] */
+dal_status dal__plan_create(dal__plan *plan, const dal__tapes *tapes);
+void dal__plan_free(dal__plan *plan);
+/* The program of what is constant along a run, whose places are set. [alloc] */
+dal_status dal__plan_hoisted(dal__plan *plan, dal__tapes *tapes);
+/* One program: temporaries get places as they come and give them back after their last use; the
+ * workspace grows to hold them. [alloc] */
+dal_status dal__plan_program(dal__plan *plan, dal__tapes *tapes, dal__program *program);
+
+#endif

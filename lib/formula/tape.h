@@ -1,0 +1,45 @@
+/* tape.h - the inside of tapes, for lib/formula alone.
+ *
+ *     work = [ parameters | numbers | hoisted | inputs | temporaries ]
+ *
+ * An instruction is an operation, where it writes and where it reads, as places in work.  Beside
+ * the operations of the graph a tape has a few that do two of them at once; each still rounds
+ * twice. */
+#ifndef DAL_FORMULA_TAPE_H
+#define DAL_FORMULA_TAPE_H
+
+#include "formula/formula.h"
+
+enum {
+    DAL__SINCOS = DAL__OP_COUNT, /* d = sin a, b = cos a */
+    DAL__MUL_ADD,                /* d = a*b + c */
+    DAL__MUL_SUB,                /* d = a*b - c */
+    DAL__SUB_MUL                 /* d = c - a*b */
+};
+
+typedef struct dal__instruction {
+    uint32_t op, d, a, b, c;
+} dal__instruction;
+
+typedef struct dal__program {
+    dal__node *output; /* [outputs], then their places */
+    uint32_t *place;   /* [outputs] */
+    int outputs;
+    dal__instruction *code;
+    int length;
+} dal__program;
+
+struct dal__tapes {
+    const dal__graph *graph;
+    int parameters, inputs;
+    dal__program *program;
+    int programs, capacity;
+    dal__program hoisted; /* its outputs are unused */
+    double *number;       /* [numbers] */
+    int numbers;
+    size_t first_input, temporaries, workspace; /* places */
+};
+
+void dal__execute_x1(const dal__program *program, double *work);
+
+#endif

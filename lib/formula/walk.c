@@ -1,0 +1,102 @@
+/* walk.c - passes over a graph: what a node is made of, its value, substitution.
+ *
+ * Operands have smaller indices than what they make, so marking runs down the indices and computing
+ * runs up. */
+#include "formula/arithmetic.h"
+#include "formula/graph.h"
+#include <math.h>
+#include <stdlib.h>
+
+uint8_t *dal__reach(const dal__graph *graph, dal__node node)
+{
+    uint8_t *mark = calloc((size_t)node + 1, 1);
+    if (!mark) return NULL;
+    mark[node] = 1;
+    for (dal__node i = node; i > 0; i--) {
+        if (!mark[i]) continue;
+        mark[graph->node[i].a] = mark[graph->node[i].b] = 1;
+    }
+    mark[0] = 0;
+    return mark;
+}
+
+bool dal__depends(const dal__graph *graph, dal__node node, int first, int end)
+{
+    if (graph->node[node].fixed && first >= graph->parameters) return false;
+    uint8_t *mark = dal__reach(graph, node);
+    if (!mark) return true;
+    bool found = false;
+    for (dal__node i = node; i > 0 && !found; i--) {
+        const dal__record *r = &graph->node[i];
+        found = mark[i] && r->op == DAL__SYMBOL && r->symbol >= first && r->symbol < end;
+    }
+    free(mark);
+    return found;
+}
+
+double dal__operate(dal__op op, double a, double b)
+{
+    switch (op) {
+#define X(code, expression)                                                                        \
+    case DAL__##code:                                                                              \
+        return expression;
+        DAL__UNARY_LIST(X)
+        DAL__BINARY_LIST(X)
+#undef X
+    default:
+        return NAN;
+    }
+}
+
+double dal__evaluate(const dal__graph *graph, dal__node node, const double *values)
+{
+    uint8_t *mark = dal__reach(graph, node);
+    double *x = malloc(((size_t)node + 1) * sizeof *x), value = NAN;
+    if (mark && x) {
+        x[0] = NAN;
+        for (dal__node i = 1; i <= node; i++) {
+            const dal__record *r = &graph->node[i];
+            if (!mark[i]) continue;
+            x[i] = r->op == DAL__NUMBER   ? r->value
+                   : r->op == DAL__SYMBOL ? values[r->symbol]
+                                          : dal__operate((dal__op)r->op, x[r->a], x[r->b]);
+        }
+        value = x[node];
+    }
+    free(mark);
+    free(x);
+    return value;
+}
+
+static dal__node replaced(dal__graph *graph, dal__node i, const dal__node *image,
+                          const int *symbols, int count, const dal__node *by)
+{
+    dal__record r = graph->node[i];
+    if (r.op == DAL__NUMBER) return i;
+    if (r.op == DAL__SYMBOL) {
+        for (int k = 0; k < count; k++) {
+            if (symbols[k] == r.symbol) return by[k];
+        }
+        return i;
+    }
+    if (image[r.a] == r.a && image[r.b] == r.b) return i;
+    return dal__apply(graph, (dal__op)r.op, image[r.a], image[r.b]);
+}
+
+dal__node dal__substitute(dal__graph *graph, dal__node f, const int *symbols, int count,
+                          const dal__node *by)
+{
+    uint8_t *mark = dal__reach(graph, f);
+    dal__node *image = calloc((size_t)f + 1, sizeof *image), result = 0;
+    if (mark && image) {
+        for (dal__node i = 1; i <= f; i++) {
+            if (mark[i]) image[i] = replaced(graph, i, image, symbols, count, by);
+        }
+        result = image[f];
+    } else {
+        graph->status = DAL_MEMORY;
+    }
+    free(mark);
+    free(image);
+    return result;
+}
