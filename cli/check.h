@@ -1,0 +1,65 @@
+/* check.h - what the parts of `dalembert check` share: the system under examination, points about
+ * its start, and the lines of the report. */
+#ifndef DAL_CLI_CHECK_H
+#define DAL_CLI_CHECK_H
+
+#include "cli.h"
+
+/* How an item of the report ends. */
+#define CHECK_RESULT_LIST(X)                                                                       \
+    X(OK, "ok")                                                                                    \
+    X(FAIL, "FAIL")                                                                                \
+    X(INFO, "info")
+
+typedef enum check_result {
+#define X(code, text) CHECK_##code,
+    CHECK_RESULT_LIST(X)
+#undef X
+} check_result;
+
+enum { CHECK_POINTS = 8 };
+
+typedef struct check {
+    const dal_system *system;
+    dal_probe *probe;
+    const dal_setting *parameters;
+    int parameter_count;
+    double *start;                 /* [2n + multipliers + 1] q, v, g, e */
+    int n, m, nw, size;            /* nw = n + multipliers, size = n + nw */
+    int regular;                   /* F is finite at the start */
+    int near_count, surface_count; /* points that could be had, at most CHECK_POINTS */
+    double *near, *surface;        /* [count * size] about the start; the same moved onto D = 0 */
+    double *values;                /* scratch for the values of any one callback */
+    int items, failed;
+} check;
+
+/* The sections of the report, in its order. */
+#define CHECK_SECTION_LIST(X)                                                                      \
+    X(start, "start")                                                                              \
+    X(constraints, "constraints")                                                                  \
+    X(energy, "energy and invariants")                                                             \
+    X(reversal, "reversal of the motion")                                                          \
+    X(derivatives, "derivatives against differences")                                              \
+    X(exact, "exact solution")                                                                     \
+    X(algebra, "Dirac's algebra in 6n+2")                                                          \
+    X(action, "actions")
+
+#define X(name, title) void check_##name(check *c);
+CHECK_SECTION_LIST(X)
+#undef X
+
+/* One line of the report: what is examined, the result, and what was found. */
+void check_item(check *c, check_result result, const char *what, const char *format, ...)
+    CLI_PRINTF(4, 5);
+/* The same for a number that must not exceed a limit. */
+void check_bound(check *c, const char *what, double value, double limit);
+/* A line of further text under the last item. */
+void check_note(const char *format, ...) CLI_PRINTF(1, 2);
+
+dal_point check_point(const check *c, const double *x);
+/* Greatest |d/dt of the callback's values| along the motion over count points, or -1 when none of
+ * them gives any; value i alone unless i < 0. */
+double check_rate(check *c, dal_callback *callback, int values, int i, const double *points,
+                  int count);
+
+#endif

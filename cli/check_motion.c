@@ -1,0 +1,164 @@
+/* check_motion.c - energy, invariants, derivatives and the exact solution of a system.
+ *
+ * dE/dt = v.Q + sum_a h_a v.A_a: for D_a homogeneous of degree k in v the last is k h_a D_a, so E
+ * is conserved on D = 0 alone (weakly), and not at all for affine D such as a turntable's. */
+#include "check.h"
+
+#include <math.h>
+#include <string.h>
+
+/* A rate by differences counts as zero below this part of the size of what changes. */
+static const double zero = 1e-9;
+
+/* ---- energy ---- */
+
+typedef enum conservation { NOT, WEAK, EXACT } conservation;
+static const char *const conservation_text[] = {
+    "not conserved", "conserved on D = 0 alone (weakly)", "conserved on every level of D"};
+
+static conservation measured_conservation(check *c, double *on, double *off)
+{
+    *on = check_rate(c, c->system->energy, 1, 0, c->surface, c->surface_count);
+    *off = check_rate(c, c->system->energy, 1, 0, c->near, c->near_count);
+    return *off <= zero ? EXACT : *on <= zero ? WEAK : NOT;
+}
+
+static void check_one_energy(check *c)
+{
+    double on, off;
+    unsigned properties = c->system->properties;
+    conservation found = measured_conservation(c, &on, &off);
+    conservation claimed = properties & DAL_E_EXACT ? EXACT : properties & DAL_E_WEAK ? WEAK : NOT;
+    check_item(c, CHECK_INFO, "|dE/dt| along F, on D = 0", "%.2g", on);
+    if (c->m > 0) check_item(c, CHECK_INFO, "|dE/dt| along F, off D = 0", "%.2g", off);
+    check_item(c, found >= claimed ? CHECK_OK : CHECK_FAIL, "energy E", "%s%s",
+               conservation_text[found],
+               found < claimed   ? ", though the system claims more"
+               : found > claimed ? ", though its form does not show it"
+                                 : "");
+}
+
+void check_energy(check *c)
+{
+    const dal_system *s = c->system;
+    if (c->surface_count == 0 || c->near_count == 0) return;
+    if (s->energy == NULL)
+        check_item(c, CHECK_INFO, "energy E", "none is known: there is no Lagrangian");
+    else
+        check_one_energy(c);
+    for (int i = 0; i < s->invariants; i++) {
+        char what[32];
+        snprintf(what, sizeof what, "invariant %.20s", s->invariant[i]);
+        double rate =
+            check_rate(c, s->invariant_values, s->invariants, i, c->surface, c->surface_count);
+        check_bound(c, what, rate, zero);
+    }
+}
+
+/* ---- derivatives ---- */
+
+void check_derivatives(check *c)
+{
+    static const double limit = 1e-8;
+    dal_derivatives worst = {-1.0, -1.0, -1.0, -1.0}, d;
+    int points = 0;
+    for (int k = 0; k < c->near_count; k++) {
+        dal_point at = check_point(c, c->near + k * c->size);
+        if (dal_measure_derivatives(c->probe, &at, &d) != DAL_OK) continue;
+        points++;
+        worst.jacobian = fmax(worst.jacobian, d.jacobian);
+        worst.adjoint = fmax(worst.adjoint, d.adjoint);
+        worst.normal = fmax(worst.normal, d.normal);
+        worst.gram = fmax(worst.gram, d.gram);
+    }
+    if (points == 0) return;
+    const struct {
+        const char *what;
+        double value;
+    } items[] = {{"F_q, F_v", worst.jacobian},
+                 {"F_q^T pi, F_v^T pi of the lift", worst.adjoint},
+                 {"A = dD/dv", worst.normal},
+                 {"symmetry of G = A W^-1 A^T", worst.gram}};
+    for (size_t k = 0; k < sizeof items / sizeof items[0]; k++)
+        if (items[k].value >= 0.0) check_bound(c, items[k].what, items[k].value, limit);
+}
+
+/* ---- the exact solution ---- */
+
+enum { EXACT_TIMES = 4 };
+static const double exact_time[EXACT_TIMES] = {0.125, 0.375, 0.625, 0.875};
+
+typedef struct solution {
+    check *c;
+    double t, *x; /* the exact q, v at some time */
+    double *held; /* the same at time t; then their rates and F, each [2n] */
+} solution;
+
+static int exact_at(solution *w, double t, double *out)
+{
+    const dal_system *s = w->c->system;
+    return dal_probe_call(w->c->probe, s->exact, t, w->c->start, w->c->start, NULL, out) == DAL_OK;
+}
+
+/* d/dt of (q, v), order 8 with the increment d. */
+static int differentiate(solution *w, double d, double *rate)
+{
+    static const double weight[] = {4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0};
+    int count = 2 * w->c->n;
+    memset(rate, 0, (size_t)count * sizeof *rate);
+    for (int k = 1; k <= 4; k++) {
+        for (int side = -1; side <= 1; side += 2) {
+            if (!exact_at(w, w->t + side * k * d, w->x)) return 0;
+            for (int i = 0; i < count; i++) rate[i] += side * weight[k - 1] * w->x[i] / d;
+        }
+    }
+    return 1;
+}
+
+/* Largest |(q', v') - (v, F)| relative to the size of either. */
+static double residual(solution *w, double d)
+{
+    int n = w->c->n;
+    double *rate = w->held + 2 * n, *field = rate + 2 * n, most = 0.0;
+    if (!exact_at(w, w->t, w->held) || !differentiate(w, d, rate)) return INFINITY;
+    if (dal_probe_call(w->c->probe, w->c->system->call.field, w->t, w->held, w->held + n, NULL,
+                       field) != DAL_OK)
+        return INFINITY;
+    for (int i = 0; i < 2 * n; i++) {
+        double expected = i < n ? w->held[n + i] : field[i - n];
+        double gap = fabs(rate[i] - expected) / fmax(1.0, fabs(expected));
+        most = gap <= most ? most : isnan(gap) ? INFINITY : gap;
+    }
+    return most;
+}
+
+/* The smallest residual over increments: which is best depends on how fast the solution is. */
+static double best_residual(solution *w)
+{
+    double least = INFINITY;
+    for (double d = 0.02; d > 1e-4; d *= 0.5) least = fmin(least, residual(w, d));
+    return least;
+}
+
+static double start_distance(check *c, const double *exact)
+{
+    double most = 0.0;
+    for (int i = 0; i < 2 * c->n; i++)
+        most = fmax(most, fabs(exact[i] - c->start[i]) / fmax(1.0, fabs(c->start[i])));
+    return most;
+}
+
+void check_exact(check *c)
+{
+    solution w = {.c = c, .x = c->values, .held = c->values + 2 * c->n};
+    double worst = 0.0;
+    if (c->system->exact == NULL || !exact_at(&w, 0.0, w.x)) return;
+    double distance = start_distance(c, w.x);
+    check_item(c, distance <= zero ? CHECK_OK : CHECK_INFO, "exact solution at t = 0",
+               distance <= zero ? "the start, to %.2g" : "another start, %.2g away", distance);
+    for (int k = 0; k < EXACT_TIMES; k++) {
+        w.t = exact_time[k];
+        worst = fmax(worst, best_residual(&w));
+    }
+    check_bound(c, "residual of q' = v, v' = F, t < 1", worst, 1e-8);
+}

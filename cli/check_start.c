@@ -1,0 +1,164 @@
+/* check_start.c - the start, the constraints and the reversal of a system. */
+#include "check.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The library's own limit for a start. */
+static const double consistent = 1e-10;
+/* A value by differences counts as zero below this. */
+static const double zero = 1e-9;
+
+/* ---- the start ---- */
+
+/* max |D| relative to sum |A| |v|. */
+static int start_defect(check *c, double *defect)
+{
+    const dal_system *s = c->system;
+    double *block = c->values, size = 1.0;
+    if (s->call.constraint == NULL ||
+        dal_probe_call(c->probe, s->call.constraint, 0.0, c->start, c->start + c->n, NULL, block))
+        return 0;
+    *defect = 0.0;
+    for (int a = 0; a < c->m; a++) {
+        double sum = 0.0;
+        for (int i = 0; i < c->n; i++) sum += fabs(block[c->m + a * c->n + i] * c->start[c->n + i]);
+        size = fmax(size, sum);
+        *defect = isnan(block[a]) ? INFINITY : fmax(*defect, fabs(block[a]));
+    }
+    *defect /= size;
+    return 1;
+}
+
+static void start_rank(check *c)
+{
+    int rank = 0;
+    double pivot = 0.0;
+    dal_point at = check_point(c, c->start);
+    dal_status status = dal_measure_rank(c->probe, &at, &rank, &pivot);
+    if (status == DAL_UNSUPPORTED) return;
+    if (status != DAL_OK)
+        check_item(c, CHECK_FAIL, "rank of G at the start", "not to be had: %s",
+                   dal_status_text(status));
+    else
+        check_item(c, rank == c->m ? CHECK_OK : CHECK_FAIL, "rank of G at the start",
+                   "%d of %d, least pivot %.2g", rank, c->m, pivot);
+}
+
+void check_start(check *c)
+{
+    double defect = 0.0;
+    check_item(c, c->regular ? CHECK_OK : CHECK_FAIL, "F at the start", "%s",
+               c->regular ? "finite" : "not finite: the motion is not determined");
+    check_item(c, c->start[c->size] != 0.0 ? CHECK_OK : CHECK_FAIL, "gauge variable e", "%g",
+               c->start[c->size]);
+    if (c->m > 0 && start_defect(c, &defect))
+        check_bound(c, "|D| at the start", defect, consistent);
+    if (c->m > 0) start_rank(c);
+    check_item(c, c->near_count > 0 ? CHECK_OK : CHECK_FAIL, "points about the start",
+               "%d, of which %d could be moved onto D = 0", c->near_count, c->surface_count);
+}
+
+/* ---- what D is ---- */
+
+typedef struct claim {
+    unsigned flag;
+    const char *what;
+    int found;
+} claim;
+
+/* A claim that numbers contradict is a fault; one that is not made says nothing. */
+static void compare_claim(check *c, const claim *k)
+{
+    int claimed = (c->system->properties & k->flag) != 0;
+    check_result result = claimed ? (k->found ? CHECK_OK : CHECK_FAIL) : CHECK_INFO;
+    check_item(c, result, k->what, "%s%s", k->found ? "yes" : "no",
+               claimed == k->found ? ""
+               : claimed           ? ", though the system claims it"
+                                   : ", though its form does not show it");
+}
+
+static void say_degree(check *c, const dal_degree *d, const double *degree)
+{
+    char text[64] = "not homogeneous";
+    int written = 0;
+    for (int a = 0; d->homogeneous && a < c->m && written < 48; a++)
+        written += snprintf(text + written, sizeof text - (size_t)written, "%sD%d: %.4g",
+                            a > 0 ? ", " : "homogeneous of degree ", a + 1, degree[a] + 0.0);
+    check_item(c, CHECK_INFO, "degree of D in v", "%s%s", text, d->linear ? "; affine" : "");
+}
+
+enum { LINE = 72 };
+
+/* The names of the methods that claim any of these, on lines of their own. */
+static void say_keepers(check *c, unsigned claims)
+{
+    char text[LINE + 1] = "";
+    const char *head = "D is kept by";
+    for (int i = 0; dal_integrator_at(i) != NULL; i++) {
+        const dal_integrator *integrator = dal_integrator_at(i);
+        size_t used = strlen(text);
+        if ((integrator->claims & claims) == 0) continue;
+        if (used + strlen(integrator->name) + 3 > LINE - 20) {
+            if (head != NULL) check_item(c, CHECK_INFO, head, "%s", text);
+            if (head == NULL) check_note("%s", text);
+            head = NULL;
+            used = 0;
+        }
+        snprintf(text + used, sizeof text - used, "%s%s%.40s", used > 0 ? " " : "",
+                 integrator->claims & DAL_MODIFIER ? "+" : "", integrator->name);
+    }
+    if (head != NULL) check_item(c, CHECK_INFO, head, "%s", text);
+    if (head == NULL) check_note("%s", text);
+}
+
+static void say_kind(check *c, const dal_degree *d)
+{
+    const claim claims[] = {
+        {DAL_D_LINEAR, "D affine in v", d->linear},
+        {DAL_D_CONSTANT, "D linear, constant coefficients", d->constant},
+        {DAL_D_BILINEAR, "D bilinear in (q,v)", d->bilinear},
+        {DAL_D_QUADRATIC, "D quadratic in (q,v)", d->quadratic},
+    };
+    for (size_t k = 0; k < sizeof claims / sizeof claims[0]; k++) compare_claim(c, &claims[k]);
+    unsigned keep = DAL_KEEPS_D;
+    if (d->bilinear) keep |= DAL_KEEPS_BILINEAR;
+    if (d->quadratic) keep |= DAL_KEEPS_QUADRATIC;
+    if (d->constant)
+        check_item(c, CHECK_INFO, "D is kept by", "every method");
+    else
+        say_keepers(c, keep);
+}
+
+void check_constraints(check *c)
+{
+    dal_degree d;
+    dal_point at = check_point(c, c->start);
+    double *degree = calloc((size_t)c->m + 1, sizeof *degree);
+    if (c->m > 0 && degree != NULL && dal_measure_degree(c->probe, &at, &d, degree) == DAL_OK) {
+        dal_callback *D = c->system->constraints;
+        double on = check_rate(c, D, c->m, -1, c->surface, c->surface_count);
+        double off = check_rate(c, D, c->m, -1, c->near, c->near_count);
+        check_bound(c, "dD/dt along F, on D = 0", on, zero);
+        check_bound(c, "dD/dt along F, off D = 0", off, zero);
+        say_degree(c, &d, degree);
+        say_kind(c, &d);
+    }
+    free(degree);
+}
+
+/* ---- reversal ---- */
+
+void check_reversal(check *c)
+{
+    static const char *const parity[] = {"D(q,-v) = -D(q,v)", "neither even nor odd in v",
+                                         "D(q,-v) = +D(q,v)"};
+    dal_degree d;
+    dal_point at = check_point(c, c->start);
+    if (dal_measure_degree(c->probe, &at, &d, NULL) != DAL_OK) return;
+    check_item(c, CHECK_INFO, "F(q,-v,-t) = F(q,v,t)", "%s, greatest difference %.2g",
+               d.reversible ? "yes: reversible" : "no: not reversible under v -> -v",
+               d.force_defect);
+    if (c->m > 0) check_item(c, CHECK_INFO, "D under v -> -v", "%s", parity[d.parity + 1]);
+}
