@@ -12,12 +12,12 @@
 
 /* Fills *error (may be NULL) and returns status, so that a caller can write
  *     return dal__error(error, DAL_NAME, line, column, "unknown name '%s'", name); */
-dal_status dal__error(dal_error *error, dal_status status, int line, int column,
-                      const char *format, ...) DAL__PRINTF(5, 6);
+dal_status dal__error(dal_error *error, dal_status status, int line, int column, const char *format,
+                      ...) DAL__PRINTF(5, 6);
 
 /* "unknown WHAT 'NAME'; did you mean 'NEAREST'?" with the status DAL_NAME; see dal_nearest. */
-dal_status dal__unknown(dal_error *error, int line, int column, const char *what,
-                        const char *name, const char *const *names, int count);
+dal_status dal__unknown(dal_error *error, int line, int column, const char *what, const char *name,
+                        const char *const *names, int count);
 
 #define DAL_TRY(expression)                                                                        \
     do {                                                                                           \

@@ -33,6 +33,15 @@ functions() {
     sources | xargs ctags -x --c-kinds=f --_xformat='%F %{line} %{end} %N' |
         awk '$3 - $2 >= 40 { print $1 ":" $2 ": " $4 " has " $3 - $2 + 1 " lines (40 at most)" }'
 }
+# clang-format indents by four columns: a fourth level of control begins in column 17.
+nesting() {
+    sources | xargs awk '/^                +(} )?(if|for|while|do|switch|else)[ ({]/ {
+        print FILENAME ":" FNR ": more than 3 levels deep" }'
+}
+cplusplus() {
+    echo '#include <dalembert.h>' |
+        clang -x c++ -std=c++11 -Wall -Wextra -Wpedantic -fsyntax-only -Iinclude -
+}
 scripts() {
     for script in $(find tools tests .ci -name '*.sh' -o -path .ci/run); do
         case $(head -n 1 "$script") in
@@ -68,6 +77,8 @@ check "format" format
 check "who may include what" includes
 check "lines and files" sizes
 check "functions" functions
+check "nesting" nesting
+check "the public header in C++" cplusplus
 check "scripts" scripts
 check "symbol prefix" prefix
 check "no changeable globals" globals
