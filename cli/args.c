@@ -103,20 +103,11 @@ int cli_next(cli_args *args, const char **value)
 
 /* ---- numbers ------------------------------------------------------------------------------- */
 
-/* A decimal number and nothing else: strtod alone would take hex, "nan" and leading blanks. */
-static int read_decimal(const char *text, double *number)
-{
-    if (text[0] == '\0' || text[strspn(text, "+-.0123456789eE")] != '\0') return 0;
-    char *end;
-    *number = strtod(text, &end);
-    return *end == '\0';
-}
-
 int cli_number(const char *what, const char *text, double *number)
 {
-    if (!read_decimal(text, number))
-        return cli_fail(CLI_USAGE, "%s: '%s' is not a number", what, text);
-    if (!isfinite(*number)) return cli_fail(CLI_USAGE, "%s: '%s' is too large", what, text);
+    dal_status read = dal_parse_number(text, strlen(text), number);
+    if (read == DAL_TOO_LARGE) return cli_fail(CLI_USAGE, "%s: '%s' is too large", what, text);
+    if (read != DAL_OK) return cli_fail(CLI_USAGE, "%s: '%s' is not a number", what, text);
     return CLI_DONE;
 }
 
@@ -124,10 +115,9 @@ int cli_integer(const char *what, const char *text, long long least, long long g
                 long long *number)
 {
     double x;
-    /* Beyond 2^53 a double no longer tells one integer from the next. */
-    if (!read_decimal(text, &x) || !(fabs(x) <= 0x1p53) || x != floor(x))
-        return cli_fail(CLI_USAGE, "%s: '%s' is not an integer", what, text);
-    if (x < (double)least || x > (double)greatest)
+    if (cli_number(what, text, &x) != CLI_DONE) return CLI_USAGE;
+    if (x != floor(x)) return cli_fail(CLI_USAGE, "%s: %s is not an integer", what, text);
+    if (!(x >= (double)least && x <= (double)greatest))
         return cli_fail(CLI_USAGE, "%s: %s is not in %lld..%lld", what, text, least, greatest);
     *number = (long long)x;
     return CLI_DONE;

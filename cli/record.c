@@ -132,7 +132,9 @@ static dal_status sample(void *user, dal_run *run, long long row, double t)
     dal_status status = take_row(r, run, t);
     show(r, t);
     start_clock(r);
-    return status;
+    /* With a store the next poll ends the run: only there does the run stand where a checkpoint
+     * may be taken, and not within a step that shows a row between two others. */
+    return status == DAL_OK && !r->store && cli_interrupted() ? DAL_INTERRUPTED : status;
 }
 
 static int save(cli_record *r, const dal_run *run)

@@ -1,0 +1,67 @@
+# Runs that end before their time: the rows so far are kept, the message tells why and when.
+
+# breaks MESSAGE LEAST MOST ARGUMENT...: exit 3, LEAST..MOST lines of rows.
+breaks() {
+    message=$1 least=$2 most=$3
+    shift 3
+    try 3 run "$@"
+    says "^dalembert: .*$message"
+    lines=$(wc -l <out)
+    holds "$lines lines, not $least..$most" [ "$lines" -ge "$least" -a "$lines" -le "$most" ]
+}
+
+case_is "G singular: phi = pi/2 in (nh33)"
+# phi = t: of the rows at 0, 0.1, ... those up to 1.5 are before the singularity at pi/2.
+breaks 't = 1\.5[67]' 17 17 chaplygin-sleigh-nonlinear --integrator gauss8 --step 0.01 --time 3 \
+    --samples 30
+
+case_is "G singular: appell-hamel comes to rest"
+breaks 'constraint 1' 2 100 appell-hamel --integrator rk4 --step 0.01 --time 10
+
+case_is "e reaches 0"
+cat >gauge.yaml <<'END'
+coordinates: [x]
+lagrangian: x'^2/2
+gauge: {mu_e: -1}
+END
+# e = 1 - t: rows at 0, 0.1, ..., 0.9 at least.
+breaks 'e reached zero' 11 12 ./gauge.yaml --integrator rk4 --step 0.01 --time 2 --samples 20 \
+    --start pi_x=1e-3
+
+case_is "no convergence at a huge step"
+breaks 'did not converge' 2 11 contact-oscillator --integrator gauss8 --step 100 --time 1000 \
+    --samples 10 --solver fixed-point
+
+case_is "a failing run keeps the rows of a file"
+try 3 run chaplygin-sleigh-nonlinear --integrator gauss8 --step 0.01 --time 3 --samples 30 \
+    --output rows.csv
+holds "17 lines" [ "$(wc -l <rows.csv)" -eq 17 ]
+holds "whole lines" awk -F, 'NR == 1 { n = NF } NF != n { exit 1 }' rows.csv
+try 3 run chaplygin-sleigh-nonlinear --integrator gauss8 --step 0.01 --time 3 --samples 30 \
+    --output rows.npy
+holds "the header tells of 16 rows" sh -c 'head -c 128 rows.npy | grep -aq "(16, "'
+try 3 run chaplygin-sleigh-nonlinear --integrator gauss8 --step 0.01 --time 3 --samples 30 \
+    --output broken
+holds "17 lines" [ "$(wc -l <broken/rows.csv)" -eq 17 ]
+holds "a summary" grep -qx 'run,rows,16' broken/summary.csv
+
+case_is "output that cannot be written"
+sleigh="chaplygin-sleigh --integrator rk4 --step 0.001 --time 10 --samples 10000"
+try 4 run $sleigh --output missing/rows.csv
+says "^dalembert: cannot write 'missing/rows.csv': No such file or directory$"
+try 4 run $sleigh --output line.yaml/rows.npy
+says "cannot write 'line.yaml/rows.npy': Not a directory"
+try 4 run $sleigh --output missing/folder
+says "cannot make the directory 'missing/folder': No such file or directory"
+try 4 run $sleigh --output line.yaml
+says "cannot make the directory 'line.yaml': File exists"
+
+case_is "a full disk"
+try 4 run $sleigh --output /dev/full
+says "cannot write '/dev/full': No space left on device"
+for arguments in "run $sleigh" "run $sleigh --samples 1" list --help --version "run --help"; do
+    "$program" $arguments >/dev/full 2>err
+    status=$?
+    holds "exit $status, not 4: $arguments" [ $status -eq 4 ]
+    says "cannot write 'standard output': No space left on device"
+done

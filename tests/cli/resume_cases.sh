@@ -1,0 +1,123 @@
+# A run in a directory: described, interrupted, killed, gone on with.
+
+long="chaplygin-sleigh --integrator gauss8+project --step 0.001 --time 400 --samples 100003
+      --set omega=1.5 --start pi_phi=1e-8"
+
+# appears FILE: waits for it, at most ten seconds.
+appears() {
+    for i in 1 2 3 4 5 6 7 8 9 10; do
+        for j in 1 2 3 4 5 6 7 8 9 10; do
+            [ -e "$1" ] && return 0
+            sleep 0.1
+        done
+    done
+    return 1
+}
+
+case_is "a directory"
+try 0 run $long --output whole
+empty
+holds "rows" [ "$(wc -l <whole/rows.csv)" -eq 100005 ]
+holds "run.yaml names the system" grep -qx 'system: chaplygin-sleigh' whole/run.yaml
+holds "run.yaml has the settings" grep -qx '  omega: 1.5' whole/run.yaml
+holds "summary" grep -qx 'run,steps,400000' whole/summary.csv
+try 0 run $long
+holds "the rows are those of stdout" cmp out whole/rows.csv
+
+case_is "a directory is not written over"
+try 2 run $long --output whole
+says "'whole' holds a run"
+try 0 run ./line.yaml --integrator rk4 --step 0.1 --time 1 --output other
+try 0 run ./line.yaml --integrator rk4 --step 0.1 --time 1 --samples 5 --output other --force
+holds "7 lines" [ "$(wc -l <other/rows.csv)" -eq 7 ]
+holds "the system file was copied" cmp line.yaml other/system.yaml
+
+case_is "a finished run"
+try 0 resume whole
+says "'whole' is finished: 100004 rows"
+empty
+
+case_is "killed at any moment"
+"$program" run $long --checkpoint 0 --output killed 2>err &
+appears killed/checkpoint
+kill -9 $!
+wait $! 2>/dev/null
+holds "it was not running any more" [ $? -eq 137 ]
+for i in 1 2 3; do
+    "$program" resume killed --checkpoint 0.02 2>err &
+    sleep 0.1
+    kill -9 $! 2>/dev/null
+    wait $! 2>/dev/null
+done
+# A row half written when the power went is cut off.
+printf '1.5,0.9' >>killed/rows.csv
+try 0 resume killed
+holds "not the rows of a run never interrupted" cmp killed/rows.csv whole/rows.csv
+for directory in whole killed; do
+    grep -v '^run,ns_per_step,' $directory/summary.csv >$directory.summary
+done
+holds "not the summary of a run never interrupted" cmp killed.summary whole.summary
+
+case_is "killed before the first checkpoint"
+cp -r whole early
+rm early/checkpoint early/summary.csv
+printf 't,y1' >early/rows.csv
+try 0 resume early
+holds "not the rows of a run never interrupted" cmp early/rows.csv whole/rows.csv
+
+case_is "interrupted"
+for signal in INT TERM; do
+    rm -rf stopped
+    "$program" run $long --checkpoint 0 --output stopped 2>err &
+    appears stopped/checkpoint
+    kill -$signal $!
+    wait $!
+    status=$?
+    holds "exit $status, not 130, at SIG$signal" [ $status -eq 130 ]
+    says 'interrupted; go on with: dalembert resume stopped'
+done
+holds "whole lines" awk -F, 'NR == 1 { n = NF } NF != n { exit 1 }' stopped/rows.csv
+try 0 resume stopped
+holds "not the rows of a run never interrupted" cmp stopped/rows.csv whole/rows.csv
+"$program" run $long --time 1e9 --samples 1e7 >out 2>err &
+sleep 0.3
+kill -INT $!
+wait $!
+status=$?
+holds "exit $status, not 130" [ $status -eq 130 ]
+says 'interrupted; [0-9]+ rows are kept'
+holds "whole lines" awk -F, 'NR == 1 { n = NF } NF != n { exit 1 }' out
+
+case_is "two processes on one directory"
+"$program" run $long --time 1e6 --samples 1e6 --checkpoint 0 --output busy 2>err &
+other=$!
+appears busy/checkpoint
+try 2 resume busy
+says "busy/rows.csv': another process is writing to it"
+kill -9 $other
+wait $other 2>/dev/null
+
+case_is "what cannot be gone on with"
+try 2 resume missing
+says "'missing' holds no run"
+cp -r whole damaged
+printf 'x' | dd of=damaged/checkpoint bs=1 seek=100 conv=notrunc 2>/dev/null
+try 2 resume damaged
+says 'damaged/checkpoint: the checkpoint is damaged: its check sum is wrong'
+head -c 50 whole/checkpoint >damaged/checkpoint
+try 2 resume damaged
+says 'the checkpoint is damaged'
+echo no >damaged/checkpoint
+try 2 resume damaged
+says 'the checkpoint is damaged: it is too short'
+cp whole/checkpoint damaged/checkpoint
+sed 's/^step: .*/step: 0.002/' whole/run.yaml >damaged/run.yaml
+try 2 resume damaged
+says 'damaged/checkpoint: belongs to another run'
+echo 'stepp: 1' >>damaged/run.yaml
+try 2 resume damaged
+says "damaged/run.yaml:[0-9]+: unknown key 'stepp'"
+cp -r whole shorter
+: >shorter/rows.csv
+try 2 resume shorter
+says "shorter/rows.csv': shorter than the [0-9]+ bytes its checkpoint tells of"

@@ -1,0 +1,101 @@
+# What a run writes: columns, rows, digits.
+
+# rows FILE CONDITION: it holds, as awk has it, in every row but the header.
+rows() { awk -F, "NR > 1 && !($2) { bad = 1 } END { exit bad }" "$1"; }
+count() { [ "$(wc -l <"$1")" -eq "$2" ]; }
+
+case_is "columns on the lifted space"
+try 0 run ./plane.yaml --integrator rk4 --step 0.1 --time 1
+holds "header" [ "$(head -1 out)" = "t,x,y,x',y',e,p_x,p_y,pi_x,pi_y,pi_e,D1,E,H" ]
+try 0 run ./line.yaml --integrator rk4 --step 0.1 --time 1
+holds "header" [ "$(head -1 out)" = "t,x,x',e,p_x,pi_x,pi_e,E,H,c,error" ]
+
+case_is "columns on the physical space"
+try 0 run ./plane.yaml --integrator rk4 --step 0.1 --time 1 --space physical
+holds "header" [ "$(head -1 out)" = "t,x,y,x',y',D1,E" ]
+try 0 run chaplygin-sleigh-vakonomic --integrator rk4 --step 0.1 --time 1 --space physical
+prints "^t,y1,y2,phi,y1',y2',phi',g1,D1,E"
+
+case_is "N is 100 when nothing is said"
+try 0 run ./line.yaml --integrator rk4 --step 0.01 --time 1
+holds "102 lines" count out 102
+silent
+
+case_is "rows where steps divide the distances, and where not"
+for step in 0.1 0.05 0.03 0.7 1; do
+    try 0 run ./line.yaml --integrator rk4 --step $step --time 1 --samples 10
+    holds "12 lines, step $step" count out 12
+    holds "first row at 0, step $step" [ "$(sed -n '2s/,.*//p' out)" = 0 ]
+    holds "last row at 1, step $step" [ "$(sed -n '12s/,.*//p' out)" = 1 ]
+    holds "times, step $step" rows out '$1 - (NR - 2)/10 < 1e-15 && (NR - 2)/10 - $1 < 1e-15'
+done
+
+case_is "the last row is exactly T"
+try 0 run ./line.yaml --integrator rk4 --step 0.1 --time 0.7 --samples 7
+holds "last row" [ "$(tail -1 out | cut -d, -f1)" = 0.69999999999999996 ]
+
+case_is "1e1 is an integer"
+try 0 run ./line.yaml --integrator rk4 --step 0.1 --time 1 --samples 1e1
+holds "12 lines" count out 12
+
+case_is "the exact solution"
+try 0 run ./line.yaml --integrator gauss8 --step 0.01 --time 1
+holds "x = 1 - exp(-t)" rows out '($2 - 1 + exp(-$1))^2 < 1e-26 && $NF < 1e-13'
+holds "the invariant is 1" rows out '($(NF - 1) - 1)^2 < 1e-26'
+try 0 run chaplygin-sleigh --integrator gauss8 --step 0.01 --time 1
+holds "circle (nh30)" rows out '($2 - sin($1))^2 < 1e-26 && ($3 - 1 + cos($1))^2 < 1e-26'
+
+case_is "on the surface p, pi and H are 0, and 0 has no sign"
+holds "zeros" rows out '$9 == "0" && $12 == "0" && $15 == "0"'
+holds "no -0" sh -c '! grep -Eq "(^|,)-0(,|$)" out'
+try 0 run ./line.yaml --integrator rk4 --step 0.1 --time 1 --start x=-0 --start p_x=-0
+holds "no -0" sh -c '! grep -Eq "(^|,)-0(,|$)" out'
+
+case_is "17 digits come back as they were"
+try 0 run ./line.yaml --integrator rk4 --step 0.1 --time 1 --samples 1 --start x=0.1
+holds "0.1" [ "$(sed -n 2p out | cut -d, -f2)" = 0.10000000000000001 ]
+
+case_is "parameters and starts"
+try 0 run ./line.yaml --integrator gauss8 --step 0.01 --time 1 --set k=2
+holds "x = (1 - exp(-2t))/2" rows out '($2 - (1 - exp(-2*$1))/2)^2 < 1e-26'
+try 0 run ./line.yaml --integrator gauss8 --step 0.01 --time 1 --set k=2 --start "x'=3" \
+    --start pi_x=1e-8
+holds "v = 3 exp(-2t)" rows out '($3 - 3*exp(-2*$1))^2 < 1e-14'
+holds "the start" [ "$(sed -n 2p out | cut -d, -f6)" = 1e-08 ]
+try 0 run ./line.yaml --integrator gauss8 --step 0.01 --time 1 --start e=inf --start pi_x=1
+holds "1/e = 0: the motion is undisturbed" rows out '($2 - 1 + exp(-$1))^2 < 1e-26'
+
+case_is "files"
+try 0 run ./line.yaml --integrator rk4 --step 0.1 --time 1
+mv out standard
+try 0 run ./line.yaml --integrator rk4 --step 0.1 --time 1 --output rows.csv
+empty
+holds "the same as on stdout" cmp rows.csv standard
+try 0 run ./line.yaml --integrator rk4 --step 0.1 --time 1 --output -
+holds "the same as on stdout" cmp out standard
+
+case_is ".npy"
+try 0 run ./line.yaml --integrator rk4 --step 0.1 --time 1 --output rows.npy
+holds "size 128 + 101*11*8" [ "$(wc -c <rows.npy)" -eq 9016 ]
+holds "magic" [ "$(head -c 10 rows.npy | od -A n -t x1 | tr -d ' \n')" = 934e554d505901007600 ]
+head -c 128 rows.npy | tail -c +11 >header
+holds "header" grep -aq "'descr': '<f8', 'fortran_order': False, 'shape': (101, 11), } *$" header
+head -1 standard | tr , '\n' >names
+holds "names of the columns" cmp names rows.npy.columns.txt
+tail -c +129 rows.npy | od -A n -v -t f8 -w88 >numbers
+tail -n +2 standard | tr , ' ' | paste -d ' ' numbers - >both
+holds "numbers" awk '{ for (i = 1; i <= 11; i++) if ($i != $(i + 11)) exit 1 }' both
+
+case_is "summary"
+try 0 run ./line.yaml --integrator rk4 --step 0.1 --time 1 --summary
+says '^10 steps, [0-9]+ evaluations, [0-9.]+ ns per step$'
+says '^E +0\.5 '
+says '^\|p\| +0 +0 +0 +0 +0$'
+says '^error '
+holds "the rows are the same" cmp out standard
+
+case_is "no locale matters"
+for locale in de_DE.UTF-8 C.UTF-8; do
+    LC_ALL=$locale "$program" run ./line.yaml --integrator rk4 --step 0.1 --time 1 >out 2>err
+    holds "rows under $locale" cmp out standard
+done

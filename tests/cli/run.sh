@@ -1,0 +1,68 @@
+#!/bin/sh
+# run.sh PROGRAM - the program as its users see it: exit statuses, what it writes where, what it says
+# of bad input, and that nothing it wrote is lost when it is stopped, killed or out of room.
+#
+# A case runs the program by `try STATUS ARGUMENT...` and looks at out and err with `says`,
+# `prints` and `holds`; `case_is` names it.  Expected numbers are closed forms or counts.
+case $1 in /*) program=$1 ;; *) program=$PWD/$1 ;; esac
+[ -d "$program" ] && program=$program/dalembert
+[ -x "$program" ] || { echo "cli: no program '$program'"; exit 1; }
+here=$(cd "$(dirname "$0")" && pwd)
+work=$(mktemp -d) || exit 1
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
+LC_ALL=C
+export LC_ALL
+
+passed=0
+failed=0
+label=
+
+case_is() { label=$1; }
+pass() { passed=$((passed + 1)); }
+fail() {
+    failed=$((failed + 1))
+    echo "cli: FAILED: $label: $1"
+    sed 's/^/    stderr: /' err | head -3
+}
+# holds WHAT COMMAND...: the command must succeed.
+holds() {
+    what=$1
+    shift
+    if "$@" >/dev/null 2>&1; then pass; else fail "$what"; fi
+}
+try() {
+    expected=$1
+    shift
+    timeout 60 "$program" "$@" >out 2>err
+    status=$?
+    if [ $status -eq "$expected" ]; then pass; else fail "exit $status, not $expected: $*"; fi
+}
+says() { if grep -Eq -- "$1" err; then pass; else fail "stderr lacks /$1/"; fi; }
+prints() { if grep -Eq -- "$1" out; then pass; else fail "stdout lacks /$1/"; fi; }
+silent() { if [ -s err ]; then fail "stderr is not empty"; else pass; fi; }
+empty() { if [ -s out ]; then fail "stdout is not empty"; else pass; fi; }
+
+# A particle on a line with friction: no constraint, E known, exact solution x = 1 - exp(-t).
+cat >line.yaml <<'END'
+title: friction on a line
+coordinates: [x]
+parameters: {k: 1}
+lagrangian: x'^2/2
+forces: {x: -k*x'}
+start: {x': 1}
+invariants: {c: x' + k*x}
+exact: {x: (1 - exp(-k*t))/k}
+END
+# Two coordinates and a constant linear constraint.
+cat >plane.yaml <<'END'
+coordinates: [x, y]
+lagrangian: (x'^2 + y'^2)/2
+constraints: [x' - y']
+start: {x': 1, y': 1}
+END
+
+for part in "$here"/[a-z]*_cases.sh; do . "$part"; done
+
+echo "cli: $passed passed, $failed failed"
+[ $failed -eq 0 ]

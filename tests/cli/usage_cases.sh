@@ -1,0 +1,103 @@
+# Help, version, lists, and arguments that are no arguments.
+
+case_is "help"
+try 0 --help
+prints '^usage: dalembert COMMAND'
+prints '^  130 +interrupted$'
+silent
+try 0
+prints '^usage: dalembert COMMAND'
+
+case_is "version"
+try 0 --version
+prints '^dalembert [0-9]+\.[0-9]+\.[0-9]+$'
+
+case_is "help of every command"
+"$program" --help | sed -n '/^commands:/,/^$/s/^  \([a-z]*\) .*/\1/p' >commands
+for command in list check run resume study report; do
+    holds "--help does not tell of $command" grep -qx $command commands
+done
+while read -r command; do
+    try 0 "$command" --help
+    prints "^usage: dalembert $command"
+    silent
+done <commands
+
+case_is "every option of a run is told of"
+try 0 run --help
+for option in integrator step time samples space set start solver iterations output; do
+    prints "^  --$option "
+done
+
+case_is "unknown command"
+try 2 rnu
+says "^dalembert: unknown command 'rnu'; did you mean 'run'\?$"
+empty
+
+case_is "unknown option"
+try 2 --versoin
+says "unknown option '--versoin'; did you mean '--version'\?"
+try 2 run chaplygin-sleigh --integrater rk4
+says "unknown option '--integrater'; did you mean '--integrator'\?"
+try 2 resume --checkpont 1 there
+says "unknown option '--checkpont'; did you mean '--checkpoint'\?"
+
+case_is "options are never abbreviated"
+try 2 run chaplygin-sleigh --integ rk4 --step 0.1 --time 1
+says "unknown option '--integ'"
+try 2 run chaplygin-sleigh --integrator rk4 --step 0.1 --time 1 --sample 3
+says "unknown option '--sample'; did you mean '--samples'\?"
+
+case_is "missing options are named"
+try 2 run chaplygin-sleigh --step 0.1 --time 1
+says '^dalembert: --integrator is missing$'
+try 2 run chaplygin-sleigh --integrator rk4 --time 1
+says '^dalembert: --step is missing$'
+try 2 run chaplygin-sleigh --integrator rk4 --step 0.1
+says '^dalembert: --time is missing$'
+try 2 run --integrator rk4 --step 0.1 --time 1
+says 'SYSTEM is missing'
+try 2 resume
+says 'DIR is missing'
+
+case_is "missing and superfluous values"
+try 2 run chaplygin-sleigh --step
+says '^dalembert: --step needs a value'
+try 2 run chaplygin-sleigh --step --time 1
+says '^dalembert: --step needs a value'
+try 2 run chaplygin-sleigh --summary=yes
+says '^dalembert: --summary takes no value$'
+try 2 run chaplygin-sleigh knife-edge
+says "one SYSTEM only, not also 'knife-edge'"
+
+case_is "--opt=value is --opt value"
+try 0 run chaplygin-sleigh --integrator rk4 --step 0.1 --time 1
+mv out apart
+try 0 run --integrator=rk4 --step=0.1 --time=1 -- chaplygin-sleigh
+holds "the rows differ" cmp apart out
+
+case_is "lists"
+try 0 list
+prints '^system '
+prints '^integrator '
+silent
+try 0 list systems
+for system in chaplygin-sleigh chaplygin-sleigh-nonlinear chaplygin-sleigh-friction \
+    chaplygin-sleigh-vakonomic damped-oscillator nonholonomic-particle contact-oscillator \
+    knife-edge vertical-disk appell-hamel isokinetic; do
+    prints "^$system +[0-9]+ +[0-9]+ "
+done
+prints '^vertical-disk +4 +2 '
+try 0 list integrators
+for integrator in symplectic-euler-00 symplectic-euler-10 symplectic-euler-01 \
+    symplectic-euler-11 stormer-verlet rk4 implicit-midpoint gauss4 gauss6 gauss8 gauss10 \
+    gauss12 '\+project'; do
+    prints "^$integrator[ ,]"
+done
+prints '^rk4 +4 '
+prints '^gauss12 +12 '
+try 0 list --markdown
+prints '^\| `chaplygin-sleigh` +\|'
+prints '^\|-+\|'
+try 2 list sistems
+says "unknown table 'sistems'; did you mean 'systems'\?"
