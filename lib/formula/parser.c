@@ -8,6 +8,7 @@
 #include "error.h"
 #include "formula/lexer.h"
 #include <limits.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -75,7 +76,11 @@ static int binding(char kind)
 
 /* ---- messages ---- */
 
-static int shown(const dal__token *token) { return token->length < 60 ? (int)token->length : 60; }
+static int shown(const dal__token *token)
+{
+    size_t length = token->length + token->prime;
+    return length < 60 ? (int)length : 60;
+}
 
 static dal_status graph_fault(const parser *p)
 {
@@ -115,16 +120,21 @@ static dal_status wrong_arguments(const parser *p, const frame *f, int given)
                       called->name, called->arity, called->arity == 1 ? "" : "s", given);
 }
 
+/* A name that is no function stands before a bracket. */
 static dal_status unknown_function(const parser *p)
 {
+    const dal__token *t = &p->token;
     const char *names[DAL__OP_COUNT];
     char name[64];
+    dal_error ignored = {.status = DAL_OK};
+    if (p->resolve(p->user, t->text, t->length, t->prime, &ignored)) {
+        return dal__error(p->error, DAL_SYNTAX, t->line, t->column,
+                          "%.*s is not a function: write %.*s*(...) for a product", shown(t),
+                          t->text, shown(t), t->text);
+    }
     for (int op = 0; op < DAL__OP_COUNT; op++) names[op] = functions[op].name;
-    size_t length = p->token.length < sizeof name ? p->token.length : sizeof name - 1;
-    memcpy(name, p->token.text, length);
-    name[length] = '\0';
-    return dal__unknown(p->error, p->token.line, p->token.column, "function", name, names,
-                        DAL__OP_COUNT);
+    snprintf(name, sizeof name, "%.*s", shown(t), t->text);
+    return dal__unknown(p->error, t->line, t->column, "function", name, names, DAL__OP_COUNT);
 }
 
 /* ---- the stack ---- */
@@ -250,8 +260,8 @@ static dal_status operand(parser *p, dal__node *value)
             if (!*value) return graph_fault(p);
             break;
         default:
-            if (p->token.kind == ')' && top->kind == 'f') {
-                return wrong_arguments(p, top, top->arguments);
+            if (p->token.kind == ')' && top->kind == 'f' && top->arguments == 0) {
+                return wrong_arguments(p, top, 0);
             }
             return value_missing(p);
         }

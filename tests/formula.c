@@ -1,0 +1,48 @@
+/* formula.c - formulas for tests. */
+#include "formula.h"
+
+#include <CUnit/CUnit.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+static const char *const names[SYMBOLS] = {"a", "b", "x", "y", "z", "x'", "y'", "z'"};
+
+dal__node formula_resolve(void *user, const char *name, size_t length, bool prime, dal_error *error)
+{
+    for (int i = 0; i < SYMBOLS; i++) {
+        bool same = length == 1 && name[0] == names[i][0] && prime == (names[i][1] != '\0');
+        if (same) return dal__symbol(user, i);
+    }
+    error->status = DAL_NAME;
+    snprintf(error->message, sizeof error->message, "no such name: %.*s%s",
+             (int)(length < 60 ? length : 60), name, prime ? "'" : "");
+    return 0;
+}
+
+dal__graph *formula_graph(void)
+{
+    dal__graph *graph = dal__graph_create();
+    if (graph) dal__graph_parameters(graph, PARAMETERS);
+    return graph;
+}
+
+dal_status formula_parse(dal__graph *graph, const char *text, dal__node *node, dal_error *error)
+{
+    return dal__parse(graph, text, strlen(text), formula_resolve, graph, node, error);
+}
+
+dal__node formula_node(dal__graph *graph, const char *text)
+{
+    dal__node node = 0;
+    dal_error error = {.status = DAL_OK};
+    dal_status status = formula_parse(graph, text, &node, &error);
+    CU_ASSERT_EQUAL(status, DAL_OK);
+    if (status != DAL_OK) fprintf(stderr, "%s: %s\n", text, error.message);
+    return node;
+}
+
+double *formula_work(size_t doubles)
+{
+    size_t lane = 8 * sizeof(double);
+    return aligned_alloc(lane, (doubles * sizeof(double) / lane + 1) * lane);
+}

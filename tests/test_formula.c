@@ -1,0 +1,326 @@
+/* test_formula.c - the language of formulas: what it means, and what it says to what is wrong. */
+#include "allocation.h"
+#include "error.h"
+#include "formula.h"
+
+#include <CUnit/Basic.h>
+#include <locale.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <time.h>
+
+static const double point[SYMBOLS] = {1.3, -0.7, 0.3, 2.5, -1.25, 0.75, 4.0, -3.5};
+
+static double value_of(const char *text)
+{
+    dal__graph *graph = formula_graph();
+    double value = dal__evaluate(graph, formula_node(graph, text), point);
+    dal__graph_free(graph);
+    return value;
+}
+
+/* ---- meaning ---- */
+
+static void test_precedence(void)
+{
+    static const struct {
+        const char *text;
+        double value;
+    } cases[] = {
+        {"1 + 2*3", 7},       {"(1 + 2)*3", 9},   {"8 - 4 - 2", 2},   {"8 - (4 - 2)", 6},
+        {"16/4/2", 2},        {"16/(4/2)", 8},    {"2^3^2", 512},     {"(2^3)^2", 64},
+        {"-2^2", -4},         {"(-2)^2", 4},      {"2^-3", 0.125},    {"2^-2^2", 0.0625},
+        {"2*-3", -6},         {"-3 - -4", 1},     {"--5", 5},         {"+5 - +3", 2},
+        {"2*3^2", 18},        {"-2*3", -6},       {"6/-3", -2},       {"1 - 2 + 3", 2},
+        {"2^0.5^2", 0},       {"x' * 4", 3},      {"y'^2", 16},       {"- y' + z'", -7.5},
+        {"((((7))))", 7},     {"sqrt(2 + 2)", 2}, {"abs(-2) + 1", 3}, {"atan2(0, 1)", 0},
+        {"sqrt(abs(-9))", 3}, {"1\n+\n\t2\r", 3}, {"y*y'", 10},       {"y'-y", 1.5},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        double expected = strcmp(cases[i].text, "2^0.5^2") ? cases[i].value : exp2(0.25);
+        CU_ASSERT_DOUBLE_EQUAL(value_of(cases[i].text), expected, 0.0);
+    }
+}
+
+/* What is not negative and not folded: the value of each function by libm, at numbers and at
+ * symbols. */
+static void test_functions(void)
+{
+    static const struct {
+        const char *name;
+        double (*f)(double);
+    } functions[] = {{"sqrt", sqrt},   {"exp", exp},   {"log", log},   {"sin", sin},
+                     {"cos", cos},     {"tan", tan},   {"asin", asin}, {"acos", acos},
+                     {"atan", atan},   {"sinh", sinh}, {"cosh", cosh}, {"tanh", tanh},
+                     {"asinh", asinh}, {"abs", fabs}};
+    for (size_t i = 0; i < sizeof functions / sizeof functions[0]; i++) {
+        char number[32], symbol[32];
+        double expected = functions[i].f(point[X]);
+        snprintf(number, sizeof number, "%s(0.3)", functions[i].name);
+        snprintf(symbol, sizeof symbol, "%s(x)", functions[i].name);
+        CU_ASSERT_DOUBLE_EQUAL(value_of(number), expected, 2e-16);
+        CU_ASSERT_DOUBLE_EQUAL(value_of(symbol), expected, 2e-16);
+    }
+    CU_ASSERT_DOUBLE_EQUAL(value_of("atan2(y, z)"), atan2(2.5, -1.25), 0.0);
+    CU_ASSERT_DOUBLE_EQUAL(value_of("pi"), acos(-1.0), 0.0);
+    CU_ASSERT_DOUBLE_EQUAL(value_of("y^x"), pow(2.5, 0.3), 0.0);
+    CU_ASSERT_DOUBLE_EQUAL(value_of("y^1.5"), pow(2.5, 1.5), 0.0);
+}
+
+/* Hexadecimal constants are the nearest doubles, from the C standard's own conversion rules. */
+static void test_numbers(void)
+{
+    static const struct {
+        const char *text;
+        double value;
+    } cases[] = {
+        {"0.1", 0x1.999999999999ap-4},
+        {".5", 0.5},
+        {"5.", 5.0},
+        {"1e-3", 0x1.0624dd2f1a9fcp-10},
+        {"1E+3", 1000.0},
+        {"12.5e1", 125.0},
+        {"0.000125e4", 1.25},
+        {"00012", 12.0},
+        {"9007199254740993", 0x1p53}, /* a tie: to even */
+        {"9007199254740993.00000000000000000001", 0x1.0000000000001p53},
+        {"2.2250738585072011e-308", 0x0.fffffffffffffp-1022},
+        {"4.9406564584124654e-324", 0x1p-1074},
+        {"2e-324", 0.0},
+        {"1e-99999999999999999999", 0.0},
+        {"0e99999999999", 0.0},
+        {"1.7976931348623157e308", 0x1.fffffffffffffp1023},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        CU_ASSERT_DOUBLE_EQUAL(value_of(cases[i].text), cases[i].value, 0.0);
+    }
+}
+
+/* A tie that only the last of a thousand digits breaks. */
+static void test_long_number(void)
+{
+    char text[1100];
+    int n = snprintf(text, sizeof text, "9007199254740993.%01000d", 0);
+    CU_ASSERT_EQUAL(value_of(text), 0x1p53);
+    text[n - 1] = '1';
+    CU_ASSERT_EQUAL(value_of(text), 0x1.0000000000001p53);
+    n = snprintf(text, sizeof text, "0.%01000d1e1000", 0);
+    CU_ASSERT_EQUAL(value_of(text), 0.1);
+}
+
+static void test_locale(void)
+{
+    static const char *const comma[] = {"de_DE.UTF-8", "de_DE.utf8", "fr_FR.UTF-8", "de_DE"};
+    locale_t locale = (locale_t)0;
+    for (size_t i = 0; i < sizeof comma / sizeof comma[0] && !locale; i++) {
+        locale = newlocale(LC_ALL_MASK, comma[i], (locale_t)0);
+    }
+    if (!locale) {
+        fprintf(stderr, "(no locale with a decimal comma here) ");
+        return;
+    }
+    locale_t before = uselocale(locale);
+    char shown[8];
+    snprintf(shown, sizeof shown, "%.1f", 1.5);
+    CU_ASSERT_STRING_EQUAL(shown, "1,5");
+    CU_ASSERT_EQUAL(value_of("1.5 + .25e1"), 4.0);
+    uselocale(before);
+    freelocale(locale);
+}
+
+/* ---- errors ---- */
+
+static const struct {
+    const char *text;
+    dal_status status;
+    int line, column;
+    const char *message;
+} faults[] = {
+    {"", DAL_SYNTAX, 1, 1, "the formula is empty"},
+    {" \n ", DAL_SYNTAX, 1, 1, "the formula is empty"},
+    {"2x", DAL_SYNTAX, 1, 2, "write 2*x"},
+    {"x + 2.5 y'", DAL_SYNTAX, 1, 9, "write 2.5*y'"},
+    {"2(x)", DAL_SYNTAX, 1, 2, "write 2*("},
+    {"2sin(x)", DAL_SYNTAX, 1, 2, "write 2*sin"},
+    {"x y", DAL_SYNTAX, 1, 3, "an operator is missing before 'y'"},
+    {"(x)(y)", DAL_SYNTAX, 1, 4, "an operator is missing before '('"},
+    {"1.2.3", DAL_SYNTAX, 1, 4, "an operator is missing before '.3'"},
+    {"(x", DAL_SYNTAX, 1, 1, "'(' is never closed"},
+    {"x*((y + 1)", DAL_SYNTAX, 1, 3, "'(' is never closed"},
+    {"sin(x", DAL_SYNTAX, 1, 1, "'(' is never closed"},
+    {"x)", DAL_SYNTAX, 1, 2, "')' closes no '('"},
+    {"()", DAL_SYNTAX, 1, 2, "a value is missing before ')'"},
+    {"x +", DAL_SYNTAX, 1, 4, "a value is missing at the end"},
+    {"x + * y", DAL_SYNTAX, 1, 5, "a value is missing before '*'"},
+    {"-", DAL_SYNTAX, 1, 2, "a value is missing at the end"},
+    {"^2", DAL_SYNTAX, 1, 1, "a value is missing before '^'"},
+    {"x, y", DAL_SYNTAX, 1, 2, "',' stands outside"},
+    {"(x, y)", DAL_SYNTAX, 1, 3, "',' stands outside"},
+    {"sin(x, y)", DAL_SYNTAX, 1, 1, "sin takes 1 argument, not 2"},
+    {"1 + sqrt()", DAL_SYNTAX, 1, 5, "sqrt takes 1 argument, not 0"},
+    {"atan2(x)", DAL_SYNTAX, 1, 1, "atan2 takes 2 arguments, not 1"},
+    {"atan2(x, y, z)", DAL_SYNTAX, 1, 1, "atan2 takes 2 arguments, not 3"},
+    {"atan2(x,)", DAL_SYNTAX, 1, 9, "a value is missing before ')'"},
+    {"x + sin", DAL_SYNTAX, 1, 5, "sin is a function"},
+    {"x + sine(y)", DAL_NAME, 1, 5, "unknown function 'sine'; did you mean 'sin'?"},
+    {"SQRT(y)", DAL_NAME, 1, 1, "did you mean 'sqrt'?"},
+    {"x'(y)", DAL_SYNTAX, 1, 1, "x' is not a function: write x'*(...)"},
+    {"q'(y)", DAL_NAME, 1, 1, "unknown function 'q''"},
+    {"a + q'", DAL_NAME, 1, 5, "no such name: q'"},
+    {"x + pi'", DAL_NAME, 1, 5, "no such name: pi'"},
+    {"x\n + 3*\n  qq", DAL_NAME, 3, 3, "no such name: qq"},
+    {"x''", DAL_SYNTAX, 1, 3, "second derivative"},
+    {"x '", DAL_SYNTAX, 1, 3, "unexpected '"},
+    {"x/0", DAL_SYNTAX, 1, 2, "division by zero"},
+    {"1 + 1/(1 - 1)", DAL_SYNTAX, 1, 6, "division by zero"},
+    {"x/(y - y)", DAL_SYNTAX, 1, 2, "division by zero"},
+    {"0^-1", DAL_SYNTAX, 1, 2, "division by zero"},
+    {"1/(0*x)", DAL_SYNTAX, 1, 2, "division by zero"},
+    {"1e999", DAL_SYNTAX, 1, 1, "the number 1e999 is too large"},
+    {"x + .", DAL_SYNTAX, 1, 5, "unexpected '.'"},
+    {"x $ y", DAL_SYNTAX, 1, 3, "unexpected '$'"},
+    {"x = y", DAL_SYNTAX, 1, 3, "unexpected '='"},
+    {"x \xc2\xb7 y", DAL_SYNTAX, 1, 3, "unexpected byte 0xc2"},
+    {"x +\n\ty +\n \x01", DAL_SYNTAX, 3, 2, "unexpected byte 0x01"},
+    {"x**2", DAL_SYNTAX, 1, 3, "a value is missing before '*'"},
+};
+
+static void test_faults(void)
+{
+    for (size_t i = 0; i < sizeof faults / sizeof faults[0]; i++) {
+        dal__graph *graph = formula_graph();
+        dal__node node = 1;
+        dal_error error = {.status = DAL_OK};
+        dal_status status = formula_parse(graph, faults[i].text, &node, &error);
+        bool right = status == faults[i].status && error.status == status && node == 0 &&
+                     error.line == faults[i].line && error.column == faults[i].column &&
+                     strstr(error.message, faults[i].message);
+        CU_ASSERT(right);
+        if (!right) {
+            fprintf(stderr, "\n%s: %s %d:%d %s\n", faults[i].text, dal_status_name(status),
+                    error.line, error.column, error.message);
+        }
+        CU_ASSERT_EQUAL(formula_parse(graph, faults[i].text, &node, NULL), faults[i].status);
+        dal__graph_free(graph);
+    }
+}
+
+static void test_zero_byte(void)
+{
+    dal__graph *graph = formula_graph();
+    dal__node node;
+    dal_error error;
+    dal_status status = dal__parse(graph, "x + \0y", 6, formula_resolve, graph, &node, &error);
+    CU_ASSERT_EQUAL(status, DAL_SYNTAX);
+    CU_ASSERT_EQUAL(error.column, 5);
+    CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "unexpected byte 0x00"));
+    /* What lies behind the end is not read. */
+    CU_ASSERT_EQUAL(dal__parse(graph, "x + y'", 5, formula_resolve, graph, &node, &error), DAL_OK);
+    CU_ASSERT_EQUAL(dal__look(graph, node).op, DAL__ADD);
+    CU_ASSERT_EQUAL(dal__symbol(graph, Y), dal__look(graph, node).b);
+    dal__graph_free(graph);
+}
+
+static void test_function_names(void)
+{
+    CU_ASSERT(dal__is_function("sin", 3));
+    CU_ASSERT(dal__is_function("atan2", 5));
+    CU_ASSERT_FALSE(dal__is_function("atan2", 4) && !dal__is_function("atan", 4));
+    CU_ASSERT_FALSE(dal__is_function("si", 2));
+    CU_ASSERT_FALSE(dal__is_function("sign", 4));
+}
+
+/* ---- size ---- */
+
+/* count times piece, between a head and a tail. */
+static char *repeated(const char *head, const char *piece, const char *middle, const char *last,
+                      int count)
+{
+    size_t p = strlen(piece), l = strlen(last), size = (p + l) * (size_t)count;
+    char *text = malloc(strlen(head) + size + strlen(middle) + 1), *at = text;
+    at += sprintf(at, "%s", head);
+    for (int i = 0; i < count; i++, at += p) memcpy(at, piece, p);
+    at += sprintf(at, "%s", middle);
+    for (int i = 0; i < count; i++, at += l) memcpy(at, last, l);
+    *at = '\0';
+    return text;
+}
+
+static void check_repeated(const char *head, const char *piece, const char *middle,
+                           const char *last, int count, double expected)
+{
+    char *text = repeated(head, piece, middle, last, count);
+    double value = value_of(text);
+    CU_ASSERT_DOUBLE_EQUAL(value, expected, 1e-9 * fabs(expected));
+    free(text);
+}
+
+static void test_deep_nesting(void)
+{
+    check_repeated("", "(", "x", ")", 100000, 0.3);
+    check_repeated("", "-", "x", "", 100000, 0.3);
+    check_repeated("", "cos(", "x", ")", 20000, 0.7390851332151607); /* cos x = x */
+    check_repeated("", "1^", "x", "", 50000, 1.0);
+    check_repeated("", "atan2(0*x,", "y", ")", 10000, 0.0);
+}
+
+static void test_long_formulas(void)
+{
+    check_repeated("0", "+x*y", "", "", 25000, 25000 * 0.75);
+    check_repeated("y", "+1e-4*x", "", "", 14000, 2.5 + 14000 * 0.3e-4);
+    check_repeated("1", "*(1 + 1e-4*x)", "", "", 10000, pow(1.0 + 0.3e-4, 10000));
+}
+
+/* Ten thousand different terms, and a number of them per second that only a parser of linear cost
+ * reaches. */
+static void test_many_terms(void)
+{
+    enum { TERMS = 10000 };
+    char *text = malloc(32 * TERMS), *at = text;
+    double expected = 0.0;
+    for (int i = 1; i <= TERMS; i++) {
+        at += sprintf(at, "%ssin(%d*x)*y", i == 1 ? "" : "+", i);
+        expected += sin(i * 0.3) * 2.5;
+    }
+    clock_t start = clock();
+    CU_ASSERT_DOUBLE_EQUAL(value_of(text), expected, 1e-9);
+    CU_ASSERT((double)(clock() - start) / CLOCKS_PER_SEC < 5.0); /* 0.02 s without valgrind */
+    free(text);
+}
+
+static void test_out_of_memory(void)
+{
+    char *text = repeated("", "(sin(x)+", "y", ")", 500);
+    for (long n = 0;; n++) {
+        allocation_fail_after(n);
+        dal__node node = 0;
+        dal_error error;
+        dal__graph *graph = formula_graph();
+        dal_status status = graph ? formula_parse(graph, text, &node, &error) : DAL_MEMORY;
+        bool failed = allocation_failed();
+        allocation_fail_after(-1);
+        dal__graph_free(graph);
+        CU_ASSERT_EQUAL(status, failed ? DAL_MEMORY : DAL_OK);
+        if (!failed) break;
+    }
+    free(text);
+}
+
+void suite_formula(void);
+void suite_formula(void)
+{
+    CU_pSuite suite = CU_add_suite("formula", NULL, NULL);
+    CU_add_test(suite, "precedence and association", test_precedence);
+    CU_add_test(suite, "functions against libm", test_functions);
+    CU_add_test(suite, "numbers to the nearest double", test_numbers);
+    CU_add_test(suite, "numbers of a thousand digits", test_long_number);
+    CU_add_test(suite, "a decimal comma in the locale", test_locale);
+    CU_add_test(suite, "faults: line, column, message", test_faults);
+    CU_add_test(suite, "the byte 0, and the end", test_zero_byte);
+    CU_add_test(suite, "names of functions", test_function_names);
+    CU_add_test(suite, "deep nesting", test_deep_nesting);
+    CU_add_test(suite, "long formulas", test_long_formulas);
+    CU_add_test(suite, "ten thousand terms", test_many_terms);
+    CU_add_test(suite, "out of memory", test_out_of_memory);
+}
