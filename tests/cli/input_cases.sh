@@ -69,7 +69,7 @@ refuse 'bad\.yaml:3:1: .*lagrangian' bad.yaml $run
 
 case_is "formulas"
 system 'coordinates: [x]' "lagrangian: x'^2/2 - spring*x^2"
-refuse "bad\.yaml:2:23: .*'spring'" bad.yaml $run
+refuse "bad\.yaml:2:22: .*'spring'" bad.yaml $run
 system 'coordinates: [x]' "lagrangian: (x'^2/2"
 refuse 'bad\.yaml:2:[0-9]+: ' bad.yaml $run
 system 'coordinates: [x]' "lagrangian: x'^2/2)"

@@ -117,7 +117,7 @@ says 'damaged/checkpoint: belongs to another run'
 echo 'stepp: 1' >>damaged/run.yaml
 try 2 resume damaged
 says "damaged/run.yaml:[0-9]+: unknown key 'stepp'"
-cp -r whole shorter
+cp -r busy shorter
 : >shorter/rows.csv
 try 2 resume shorter
 says "shorter/rows.csv': shorter than the [0-9]+ bytes its checkpoint tells of"
