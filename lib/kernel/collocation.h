@@ -125,24 +125,25 @@ DAL_INLINE dal_status dal__collocation_matrix(dal_step *s, dal_equation *eq)
     return s->lifted ? dal_stage_inverse(s, &p, jacobian, &eq->block[1]) : DAL_OK;
 }
 
-/* First guess from the slopes at the present state: every stage alike. */
-DAL_INLINE dal_status dal__guess_present(dal_step *s, dal_stages *k, dal_equation *eq)
+/* Guess from the slopes at the present state, every stage alike, in the given lanes. */
+DAL_INLINE dal_status dal__guess_present(dal_step *s, dal_stages *k, dal_equation *eq,
+                                         dal_mask lanes)
 {
     DAL_VECTOR(s, dy, s->dim);
     DAL_TRY(dal_field(s, s->t, s->y, dy));
-    for (int i = 0; i < k->method->stages; i++) {
-        memcpy(eq->block[0].u + i * s->nw, dy + s->n, (size_t)s->nw * sizeof *dy);
-        if (s->lifted)
-            memcpy(eq->block[1].u + i * s->n, dy + dal_at_pi(s), (size_t)s->n * sizeof *dy);
+    for (int b = 0; b < eq->blocks; b++) {
+        const num *slope = dy + (b ? dal_at_pi(s) : s->n);
+        const int width = eq->block[b].size / k->method->stages;
+        for (int i = 0; i < eq->block[b].size; i++)
+            eq->block[b].u[i] = dal_select(lanes, slope[i % width], eq->block[b].u[i]);
     }
     return DAL_OK;
 }
 
-/* First guess from the last step's polynomial, in the lanes that have one of this step size. */
+/* Guess from the last step's polynomial. */
 DAL_INLINE void dal__guess_last(dal_step *s, const dal_stages *k, dal_equation *eq)
 {
     const dal_tableau *m = k->method;
-    const dal_mask known = dal_equal(*s->slopes_h, dal_num(k->h));
     const num *last = s->slopes;
     for (int b = 0; b < eq->blocks; b++) {
         const int width = eq->block[b].size / m->stages;
@@ -150,18 +151,28 @@ DAL_INLINE void dal__guess_last(dal_step *s, const dal_stages *k, dal_equation *
             num sum = dal_num(0.0);
             for (int j = 0; j < m->stages; j++)
                 sum += m->extrapolation[i / width * m->stages + j] * last[j * width + i % width];
-            eq->block[b].u[i] = dal_select(known, sum, eq->block[b].u[i]);
+            eq->block[b].u[i] = sum;
         }
         last += eq->block[b].size;
     }
 }
 
-DAL_INLINE dal_status dal__guess(dal_step *s, dal_stages *k, dal_equation *eq)
+/* Solves the stages from the last step's polynomial where there is one; where there is none, or
+ * where it led nowhere (it is far off when h is large), from the present slopes. */
+DAL_INLINE dal_status dal__solve_stages(dal_step *s, dal_stages *k, dal_equation *eq)
 {
-    if (dal_any(s->alive & ~dal_equal(*s->slopes_h, dal_num(k->h))))
-        DAL_TRY(dal__guess_present(s, k, eq));
+    const dal_mask lanes = s->alive, known = lanes & dal_equal(*s->slopes_h, dal_num(k->h));
     dal__guess_last(s, k, eq);
-    return DAL_OK;
+    s->alive = known;
+    if (dal_any(known)) (void)dal_solve(s, eq);
+    const dal_mask done = s->alive, left = lanes & ~done;
+    if (!dal_any(left)) return DAL_OK;
+    s->unconverged &= ~left;
+    s->alive = left;
+    DAL_TRY(dal__guess_present(s, k, eq, left));
+    const dal_status status = dal_solve(s, eq);
+    s->alive |= done;
+    return dal_any(s->alive) ? DAL_OK : status;
 }
 
 /* Keeps the slopes for the next step's guess. */
@@ -224,8 +235,7 @@ DAL_INLINE dal_status dal_collocation(dal_step *s, const dal_tableau *method)
                                  dal_abs(dal_num(s->h)) * dal_max_norm(s->y + dal_at_p(s), n));
         DAL_TRY(dal_block_init(s, &eq.block[1], st * n, s->h, size));
     }
-    DAL_TRY(dal__guess(s, &k, &eq));
-    DAL_TRY(dal_solve(s, &eq));
+    DAL_TRY(dal__solve_stages(s, &k, &eq));
     dal__keep_slopes(s, &k, &eq);
     return dal__collocation_end(s, &k, &eq);
 }

@@ -2,12 +2,20 @@
 #include "run/run.h"
 #include <dalembert_kernel.h>
 
-static dal_status singular(dal_run *run, const dal__cause *cause, double number, dal_error *error)
+static dal_status singular(const dal__cause *cause, double number, dal_error *error)
 {
-    (void)run;
     return dal__error(error, DAL_SINGULAR, 0, 0,
                       "constraint %d became singular near t = %.17g: G = A W^-1 A^T has no inverse",
                       (int)number, cause->t);
+}
+
+/* Whether the iteration had run away before the answer ceased to be finite: then the point says
+ * nothing about the system. */
+static bool ran_away(const dal_run *run, const dal__cause *cause)
+{
+    const dal__shape *k = &run->shape;
+    const double far = 1e8 * (1.0 + dal_max_norm(run->carried, k->n + k->nw));
+    return dal_max_norm(cause->q, k->n) > far || dal_max_norm(cause->v, k->nw) > far;
 }
 
 /* What the system itself says of the point where its answer was not finite; DAL_OK: nothing. */
@@ -16,9 +24,9 @@ static dal_status ask_system(dal_run *run, const dal__cause *cause, dal_error *e
     const dal_system *system = run->shape.system;
     const dal_at at = {cause->t, cause->q, cause->v, NULL, run->work};
     double number = 0.0;
-    if (!system->diagnose) return DAL_OK;
+    if (!system->diagnose || ran_away(run, cause)) return DAL_OK;
     const dal_status status = system->diagnose(system, &at, &number);
-    if (status == DAL_SINGULAR) return singular(run, cause, number, error);
+    if (status == DAL_SINGULAR) return singular(cause, number, error);
     if (status == DAL_SINGULAR_MASS)
         return dal__error(error, status, 0, 0, "the mass matrix became singular near t = %.17g",
                           cause->t);

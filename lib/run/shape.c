@@ -74,9 +74,9 @@ static dal_status check_chain(dal__shape *k, dal_error *error)
 static dal_status measure(dal__shape *k, dal_error *error)
 {
     const double dim = k->dim, n = k->n, nw = k->nw, m = k->m, stages = k->stages;
-    const double matrix = (stages * nw) * (stages * nw) * (k->system->call.jacobian ? 4 : 0);
+    const double matrix = (stages * nw) * (stages * nw) * (k->system->call.jacobian ? 6 : 0);
     const double constraint = 4 * (m + 2 * m * n) + 8 * m * m;
-    const double scratch = (16 * stages + 16) * dim + matrix + nw * (n + nw) + constraint +
+    const double scratch = (16 * stages + 16) * dim + matrix + 2 * nw * (n + nw) + constraint +
                            2.0 * k->system->guards + 16 * n + 64;
     if (scratch > 1e9 || k->stages > 1000)
         return dal__error(error, DAL_TOO_LARGE, 0, 0, "a run with n = %d, m = %d needs %g numbers",
