@@ -26,9 +26,17 @@ function house(file) {
     while (sub(/\/[^\/]*$/, "", file))
     return ""
 }
+function own(name, path, line, found) {
+    path = FILENAME
+    gsub(/"/, "", name)
+    sub(/[^\/]*$/, name, path)
+    found = (getline line < path) >= 0
+    close(path)
+    return found && name !~ /\//
+}
 # The project's own headers may stand in <> as well; a header in quotes is never the system's.
 function fits(name) {
-    if (name ~ allowed[place]) return 1
+    if (name ~ allowed[place] || ("OWN" ~ allowed[place] && own(name))) return 1
     if (name !~ /^<dalembert/) return 0
     gsub(/[<>]/, "\"", name)
     return name ~ allowed[place]

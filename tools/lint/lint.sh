@@ -54,10 +54,16 @@ scripts() {
 prefix() {
     objects | xargs nm -A -g --defined-only | awk '$NF !~ /^dal_/ { print $1 ": global " $NF }'
 }
+# Constant tables of addresses lie in .data.rel.ro; whatever else is not read-only is a variable.
 globals() {
-    objects | xargs objdump -t | awk '/file format/ { file = $1 }
-        $0 ~ / O? *(\.data|\.bss|\.tdata|\.tbss|\*COM\*)(\.[^r][^ \t]*)?\t/ && $NF !~ /^\./ {
-            print file " changeable " $NF }'
+    objects | xargs objdump -t | awk -F '\t' '/file format/ { file = $1; sub(/:.*/, "", file) }
+        NF == 2 {
+            n = split($1, word, " ")
+            split($2, symbol, " ")
+            section = word[n]
+            if (section !~ /^(\.(data|bss|tdata|tbss)|\*COM\*)/ || section ~ /^\.data\.rel\.ro/) next
+            if (symbol[2] !~ /^\./) print file ": changeable " symbol[2]
+        }'
 }
 calls() { objects | xargs nm -A -u | awk -v build="$BUILD/" -f $here/calls.awk $here/calls.txt -; }
 
