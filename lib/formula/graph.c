@@ -10,6 +10,7 @@ dal__graph *dal__graph_create(void)
 {
     dal__graph *graph = calloc(1, sizeof *graph);
     if (!graph) return NULL;
+    graph->limit = MOST_NODES;
     graph->table_bits = FIRST_BITS;
     graph->capacity = 1 << (FIRST_BITS - 1);
     graph->node = calloc((size_t)graph->capacity, sizeof *graph->node);
@@ -90,7 +91,7 @@ static dal__node keep(dal__graph *graph, dal__record r)
     if (graph->status) return 0;
     dal__node *at = place(graph, &r);
     if (*at) return *at;
-    if (graph->count >= MOST_NODES) return fail(graph, DAL_TOO_LARGE);
+    if (graph->count >= graph->limit) return fail(graph, DAL_TOO_LARGE);
     if (graph->count + 1 == graph->capacity) {
         if (!grow(graph)) return fail(graph, DAL_MEMORY);
         at = place(graph, &r);

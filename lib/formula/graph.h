@@ -27,6 +27,7 @@ struct dal__graph {
     dal__record *node; /* [capacity]; node[0] is NaN */
     dal__node *table;  /* [1 << table_bits] open addressing; 0: free */
     int count, capacity, table_bits;
+    int limit; /* of count */
     int parameters;
     int depth; /* of simplifications under way */
     dal_status status;
