@@ -46,7 +46,7 @@ DAL_INLINE num dal__from_bits(dal_mask bits) { return (num)bits; }
 /* x in the lanes where bit 1 of quadrant is clear, -x where it is set. */
 DAL_INLINE num dal__flip(num x, dal_mask quadrant)
 {
-    return dal__from_bits(dal__bits(x) ^ ((quadrant & 2) << 62));
+    return dal__from_bits(dal__bits(x) ^ (-(quadrant & 2) & INT64_MIN));
 }
 
 /* An angle brought to [-pi/4, pi/4]: r + tail, and the quadrant in the last two bits. */
