@@ -31,7 +31,7 @@ SONAME  := libdalembert.so.$(firstword $(subst ., ,$(VERSION)))
 WIDE_SRC = $(wildcard lib/*/*_wide.c integrators/*.c)
 LIB_SRC  = $(filter-out $(WIDE_SRC),$(wildcard lib/*.c lib/*/*.c))
 LIB_OBJ  = $(LIB_SRC:%.c=$(BUILD)/%.o) $(call WIDE,$(WIDE_SRC)) $(BUILD)/generated/systems.o
-CLI_OBJ  = $(patsubst %.c,$(BUILD)/%.o,$(wildcard cli/*.c))
+CLI_OBJ  = $(patsubst %.c,$(BUILD)/%.o,$(wildcard cli/*.c)) $(BUILD)/generated/study.o
 WIDE     = $(foreach width,1 4 8,$(1:%.c=$(BUILD)/%_x$(width).o))
 
 SUITES    = $(patsubst tests/test_%.c,%,$(filter-out %_wide.c,$(wildcard tests/test_*.c)))
@@ -82,6 +82,11 @@ $(PROGRAM): $(CLI_OBJ) $(STATIC)
 $(SYSTEMS): tools/embed.sh $(wildcard systems/*.yaml) systems
 	@mkdir -p $(@D)
 	sh tools/embed.sh $(sort $(wildcard systems/*.yaml)) >$@.tmp && mv $@.tmp $@
+# The built-in study travels inside the program.
+$(BUILD)/generated/study.c: tools/embed-text.sh bench/studies/canonical-drift.yaml
+	@mkdir -p $(@D)
+	sh tools/embed-text.sh study_builtin_text bench/studies/canonical-drift.yaml >$@.tmp
+	mv $@.tmp $@
 $(BUILD)/generated/%.o: $(BUILD)/generated/%.c ; $(COMPILE)
 
 # What an integrator outside the tree includes: one file that needs no other.
@@ -110,13 +115,13 @@ check: all $(BUILD)/tests/suite
 
 check-sanitize:
 	$(MAKE) BUILD=$(BUILD)/sanitize check \
-	    CFLAGS="-O1 -g -fsanitize=address,undefined -fno-sanitize-recover=all"
+	    CFLAGS="-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all"
 
 VALGRIND = valgrind -q --error-exitcode=99 --leak-check=full
 check-valgrind: $(BUILD)/tests/suite
 	$(VALGRIND) $(BUILD)/tests/suite $(SUITE)
 
-FUZZ_FLAGS = -O1 -g -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all
+FUZZ_FLAGS = -O1 -g -fno-omit-frame-pointer -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all
 fuzz:
 	$(MAKE) BUILD=$(BUILD)/fuzz CC=$(FUZZ_CC) CFLAGS="$(FUZZ_FLAGS)" run-fuzzers
 

@@ -1,0 +1,171 @@
+/* study.h - a study: systems x integrators x steps x starts, cell by cell.
+ *
+ *     study_plan    what is asked for, from a YAML text            study_plan.c, study_yaml.c
+ *     study_cell    one run and what became of it                  study_cell.c
+ *     study_pool    all cells on several threads                   study_pool.c
+ *     tables, CSV   what is told about the cells                   study_table.c, study_csv.c */
+#ifndef DAL_CLI_STUDY_H
+#define DAL_CLI_STUDY_H
+
+#include "cli.h"
+
+#include <pthread.h>
+#include <stdint.h>
+
+/* ---- the plan ---- */
+
+/* The keys of a study file: name, where it may stand, what it says.  Beside `systems` a key is the
+ * default of every system. */
+#define STUDY_KEY_LIST(X)                                                                          \
+    X(title, "study", "text")                                                                      \
+    X(systems, "study", "list of names, paths, or mappings of the keys below")                     \
+    X(integrators, "both", "list of names with modifiers; all, all+project: every integrator")     \
+    X(step, "both", "one step, or a list of at most 16")                                           \
+    X(time, "both", "integrate from 0 to this")                                                    \
+    X(samples, "both", "rows for the statistics (400)")                                            \
+    X(starts, "both", "list of physical, surface, displaced (all three)")                          \
+    X(displacement, "both", "size of p, pi where displaced (1e-8)")                                \
+    X(system, "system", "a built-in name or a path")                                               \
+    X(label, "system", "another name for tables and files")                                        \
+    X(set, "system", "parameter: value")                                                           \
+    X(start, "system", "name: value")
+
+/* Where a cell starts.  word, space, what it is */
+#define STUDY_START_LIST(X)                                                                        \
+    X(PHYSICAL, "physical", DAL_PHYSICAL, "(q,v) alone")                                           \
+    X(SURFACE, "surface", DAL_LIFTED, "lifted, on p = pi = 0")                                     \
+    X(DISPLACED, "displaced", DAL_LIFTED, "lifted, p and pi displaced")
+
+enum {
+#define X(code, word, space, about) STUDY_##code,
+    STUDY_START_LIST(X)
+#undef X
+        STUDY_STARTS
+};
+const char *study_start_word(int start);
+
+enum { STUDY_NAME = 80, STUDY_STEPS = 16 };
+
+/* One system of a study with all that is to be done with it. */
+typedef struct study_entry {
+    const char *name;  /* a built-in name or a path */
+    const char *label; /* what it is called in tables and files; no two entries share one */
+    dal_model *model;
+    const dal_system *system;
+    double step[STUDY_STEPS], time, displacement;
+    int steps, starts; /* starts: bit STUDY_x set */
+    long long samples;
+    dal_setting *set, *start;
+    int set_count, start_count;
+    dal_method *methods;
+    int method_count;
+    int first_cell, cells; /* its cells stand together */
+} study_entry;
+
+typedef struct study_cell study_cell;
+
+typedef struct study_plan {
+    const char *place; /* the file, for messages */
+    const char *title;
+    void *document; /* the parsed text, where the names live */
+    study_entry *entries;
+    int entry_count;
+    study_cell *cells;
+    int cell_count;
+} study_plan;
+
+/* Reads a plan and makes its systems and cells.  Return CLI_DONE or print and return an exit
+ * status; study_plan_free it in any case. */
+int study_plan_read(study_plan *plan, const char *place, const char *text, size_t length);
+void study_plan_free(study_plan *plan);
+
+/* ---- cells ---- */
+
+/* What is followed through time for the figures, window by window: code, column. */
+#define STUDY_TRACK_LIST(X)                                                                        \
+    X(D, "D")                   /* max |D_a| */                                                    \
+    X(E, "E")                   /* |E - E(0)| */                                                   \
+    X(H, "H")                   /* |H - H(0)| */                                                   \
+    X(P, "p")                   /* max |p| */                                                      \
+    X(PI, "pi")                 /* max |pi| */                                                     \
+    X(INVARIANTS, "invariants") /* max |I - I(0)| / max(1, |I(0)|) */                              \
+    X(ERROR, "error")           /* against the exact solution */
+
+enum {
+#define X(code, column) STUDY_TRACK_##code,
+    STUDY_TRACK_LIST(X)
+#undef X
+        STUDY_TRACKS
+};
+const char *study_track_column(int track);
+
+enum { STUDY_WINDOWS = 100 };
+
+/* Whether a cell has been run, and how that ended. */
+#define STUDY_STATE_LIST(X)                                                                        \
+    X(WAITING, "not run")                                                                          \
+    X(FINISHED, "done")                                                                            \
+    X(FAILED, "failed")   /* the run broke off, or could not begin */                              \
+    X(REFUSED, "refused") /* the integrator needs what the system lacks */
+
+typedef enum study_state {
+#define X(code, word) STUDY_##code,
+    STUDY_STATE_LIST(X)
+#undef X
+} study_state;
+const char *study_state_word(study_state state);
+
+struct study_cell {
+    const study_entry *entry;
+    const dal_method *method;
+    double step;
+    int start;
+    study_state state;
+    dal_error error;
+    double time; /* reached */
+    long long steps, evaluations;
+    double seconds;  /* of the thread's processor time, in steps */
+    uint64_t bits;   /* a hash of the bits of (q,v) at all samples */
+    int observables; /* the drifts, in the order of dal_run_observe */
+    dal_drift *drift;
+    char (*names)[STUDY_NAME]; /* [observables] */
+    double (*windows)[STUDY_TRACKS];
+    int window_count;
+};
+
+/* Runs a cell; stop is asked now and then.  Its state stays STUDY_WAITING when it was stopped.
+ * Returns DAL_OK, DAL_INTERRUPTED or DAL_MEMORY; what befalls the run is in the cell. */
+dal_status study_cell_run(study_cell *cell, int (*stop)(void));
+void study_cell_free(study_cell *cell);
+/* The drift of an observable by name, or NULL; the worst of D1, D2, ... and of the invariants. */
+const dal_drift *study_drift(const study_cell *cell, const char *name);
+const dal_drift *study_worst_constraint(const study_cell *cell);
+const dal_drift *study_worst_invariant(const study_cell *cell, const char **name);
+/* The natural size of an observable, for its verdict: H is judged by its own size, which the
+ * displacement sets, all others by max(1, |x|). */
+dal_verdict study_verdict(const study_cell *cell, const dal_drift *drift);
+/* The cell with the same method and step in (q,v), or NULL. */
+const study_cell *study_physical_twin(const study_plan *plan, const study_cell *cell);
+
+/* ---- running, telling ---- */
+
+typedef struct study_output study_output;
+
+/* Runs all cells on threads; written cells follow in order as they become complete.  Returns an
+ * exit status: CLI_DONE, CLI_SIGNAL, CLI_IO. */
+int study_pool_run(study_plan *plan, int threads, study_output *output);
+
+/* The files of a study below a directory:
+ *     cells.csv        a row per cell
+ *     quantities.csv   a row per cell and observable
+ *     series/LABEL.csv the tracks of the cells of an entry, window by window
+ * All functions return CLI_DONE or print and return CLI_IO. */
+int study_output_open(study_output **output, const char *directory);
+int study_output_cell(study_output *output, const study_plan *plan, const study_cell *cell);
+int study_output_close(study_output *output);
+
+/* The tables of one entry, and the note that belongs under all of them. */
+void study_print_entry(FILE *out, const study_plan *plan, const study_entry *entry);
+void study_print_note(FILE *out);
+
+#endif

@@ -1,0 +1,276 @@
+/* study_csv.c - the files of a study: every cell, every observable, every track. */
+#include "study.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct study_output {
+    char *cells_path, *quantities_path, *series_directory;
+    FILE *cells, *quantities, *series;
+    char *series_path;
+    const study_entry *series_entry;
+};
+
+static void put_text(FILE *out, const char *text)
+{
+    if (!strpbrk(text, ",\"\n")) {
+        fputs(text, out);
+        return;
+    }
+    fputc('"', out);
+    for (; *text; text++) {
+        if (*text == '"') fputc('"', out);
+        fputc(*text, out);
+    }
+    fputc('"', out);
+}
+
+/* ---- a row per cell ---- */
+
+/* A drift and its verdict, or count = 0 where the cell has none. */
+typedef struct quantity {
+    dal_drift drift;
+    const char *verdict, *name;
+} quantity;
+
+typedef struct row {
+    const study_plan *plan;
+    const study_cell *cell;
+    const study_entry *entry;
+    quantity D, E, H, p, pi, pi_e, invariant, error;
+    char method[STUDY_NAME];
+} row;
+
+static quantity make_quantity(const study_cell *cell, const dal_drift *drift, const char *name)
+{
+    quantity q = {.verdict = "", .name = ""};
+    if (!drift) return q;
+    return (quantity){*drift, dal_verdict_text(study_verdict(cell, drift)), name};
+}
+
+static quantity named(const study_cell *cell, const char *name)
+{
+    return make_quantity(cell, study_drift(cell, name), name);
+}
+
+static row make_row(const study_plan *plan, const study_cell *cell)
+{
+    row r = {.plan = plan, .cell = cell, .entry = cell->entry};
+    const char *invariant = "";
+    const dal_drift *worst = study_worst_invariant(cell, &invariant);
+    dal_method_name(cell->method, r.method, sizeof r.method);
+    r.D = make_quantity(cell, study_worst_constraint(cell), "D");
+    r.invariant = make_quantity(cell, worst, invariant);
+    r.E = named(cell, "E");
+    r.H = named(cell, "H");
+    r.p = named(cell, "|p|");
+    r.pi = named(cell, "|pi|");
+    r.pi_e = named(cell, "|pi_e|");
+    r.error = named(cell, "error");
+    return r;
+}
+
+static void put_number(FILE *out, const quantity *q, double value)
+{
+    if (q->drift.count > 0) cli_put(out, value);
+}
+
+static void put_same(FILE *out, const row *r)
+{
+    const study_cell *twin = study_physical_twin(r->plan, r->cell);
+    if (r->cell->start != STUDY_SURFACE || !twin || twin->state != STUDY_FINISHED) return;
+    if (r->cell->state == STUDY_FINISHED) fputs(r->cell->bits == twin->bits ? "yes" : "no", out);
+}
+
+/* column, how it is written */
+#define COLUMN_LIST(X)                                                                             \
+    X(label, put_text(out, r->entry->label))                                                       \
+    X(system, put_text(out, r->entry->name))                                                       \
+    X(integrator, put_text(out, r->method))                                                        \
+    X(start, fputs(study_start_word(r->cell->start), out))                                         \
+    X(step, cli_put(out, r->cell->step))                                                           \
+    X(time, cli_put(out, r->entry->time))                                                          \
+    X(state, fputs(study_state_word(r->cell->state), out))                                         \
+    X(status, fputs(dal_status_name(r->cell->error.status), out))                                  \
+    X(reached, cli_put(out, r->cell->time))                                                        \
+    X(steps, fprintf(out, "%lld", r->cell->steps))                                                 \
+    X(evaluations, fprintf(out, "%lld", r->cell->evaluations))                                     \
+    X(D_max, put_number(out, &r->D, r->D.drift.greatest))                                          \
+    X(D_rate, put_number(out, &r->D, r->D.drift.rate))                                             \
+    X(D_verdict, fputs(r->D.verdict, out))                                                         \
+    X(E_first, put_number(out, &r->E, r->E.drift.first))                                           \
+    X(E_deviation, put_number(out, &r->E, r->E.drift.deviation))                                   \
+    X(E_rate, put_number(out, &r->E, r->E.drift.rate))                                             \
+    X(E_verdict, fputs(r->E.verdict, out))                                                         \
+    X(H_first, put_number(out, &r->H, r->H.drift.first))                                           \
+    X(H_deviation, put_number(out, &r->H, r->H.drift.deviation))                                   \
+    X(H_rate, put_number(out, &r->H, r->H.drift.rate))                                             \
+    X(H_verdict, fputs(r->H.verdict, out))                                                         \
+    X(p_max, put_number(out, &r->p, r->p.drift.greatest))                                          \
+    X(pi_max, put_number(out, &r->pi, r->pi.drift.greatest))                                       \
+    X(pi_e_max, put_number(out, &r->pi_e, r->pi_e.drift.greatest))                                 \
+    X(invariant, put_text(out, r->invariant.name))                                                 \
+    X(invariant_deviation, put_number(out, &r->invariant, r->invariant.drift.deviation))           \
+    X(invariant_rate, put_number(out, &r->invariant, r->invariant.drift.rate))                     \
+    X(invariant_verdict, fputs(r->invariant.verdict, out))                                         \
+    X(error_max, put_number(out, &r->error, r->error.drift.greatest))                              \
+    X(same_as_physical, put_same(out, r))                                                          \
+    X(bits, fprintf(out, "%016llx", (unsigned long long)r->cell->bits))                            \
+    X(message, put_text(out, r->cell->error.message))                                              \
+    X(seconds, cli_put(out, r->cell->seconds))
+
+static void put_heads(FILE *out)
+{
+    const char *comma = "";
+#define X(name, how)                                                                               \
+    fprintf(out, "%s%s", comma, #name);                                                            \
+    comma = ",";
+    COLUMN_LIST(X)
+#undef X
+    fputc('\n', out);
+}
+
+static void put_cell(FILE *out, const row *r)
+{
+    int first = 1;
+#define X(name, how)                                                                               \
+    if (!first) fputc(',', out);                                                                   \
+    how;                                                                                           \
+    first = 0;
+    COLUMN_LIST(X)
+#undef X
+    fputc('\n', out);
+}
+
+/* ---- a row per observable ---- */
+
+static void put_key(FILE *out, const row *r)
+{
+    put_text(out, r->entry->label);
+    fputc(',', out);
+    put_text(out, r->method);
+    fprintf(out, ",%s,", study_start_word(r->cell->start));
+    cli_put(out, r->cell->step);
+}
+
+static void put_quantities(FILE *out, const row *r)
+{
+    for (int i = 0; i < r->cell->observables; i++) {
+        const dal_drift *d = &r->cell->drift[i];
+        const double numbers[] = {d->first,     d->last, d->greatest,
+                                  d->deviation, d->rate, d->residue};
+        put_key(out, r);
+        fputc(',', out);
+        put_text(out, r->cell->names[i]);
+        for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++) {
+            fputc(',', out);
+            cli_put(out, numbers[k]);
+        }
+        fprintf(out, ",%s\n", dal_verdict_text(study_verdict(r->cell, d)));
+    }
+}
+
+/* ---- tracks ---- */
+
+static void put_series(FILE *out, const row *r)
+{
+    for (int k = 0; k < r->cell->window_count; k++) {
+        put_key(out, r);
+        fputc(',', out);
+        cli_put(out, r->entry->time * (k + 1) / STUDY_WINDOWS);
+        for (int track = 0; track < STUDY_TRACKS; track++) {
+            fputc(',', out);
+            cli_put(out, r->cell->windows[k][track]);
+        }
+        fputc('\n', out);
+    }
+}
+
+static int close_series(study_output *output)
+{
+    int status = output->series ? cli_close(output->series, output->series_path) : CLI_DONE;
+    output->series = NULL;
+    free(output->series_path);
+    output->series_path = NULL;
+    return status;
+}
+
+static int open_series(study_output *output, const study_entry *entry)
+{
+    char name[512];
+    int status = close_series(output);
+    if (status != CLI_DONE) return status;
+    snprintf(name, sizeof name, "%s.csv", entry->label);
+    output->series_path = cli_join(output->series_directory, name);
+    if (!output->series_path) return cli_fail(CLI_IO, "out of memory");
+    output->series = fopen(output->series_path, "w");
+    if (!output->series) return cli_io("write", output->series_path);
+    output->series_entry = entry;
+    fputs("label,integrator,start,step,until", output->series);
+    for (int track = 0; track < STUDY_TRACKS; track++)
+        fprintf(output->series, ",%s", study_track_column(track));
+    fputc('\n', output->series);
+    return CLI_DONE;
+}
+
+/* ---- the whole ---- */
+
+static int open_file(FILE **file, char **path, const char *directory, const char *name)
+{
+    *path = cli_join(directory, name);
+    if (!*path) return cli_fail(CLI_IO, "out of memory");
+    *file = fopen(*path, "w");
+    return *file ? CLI_DONE : cli_io("write", *path);
+}
+
+static int open_all(study_output *o, const char *directory)
+{
+    int status = cli_directory(directory);
+    o->series_directory = cli_join(directory, "series");
+    if (!o->series_directory) return cli_fail(CLI_IO, "out of memory");
+    if (status == CLI_DONE) status = cli_directory(o->series_directory);
+    if (status == CLI_DONE) status = open_file(&o->cells, &o->cells_path, directory, "cells.csv");
+    if (status == CLI_DONE)
+        status = open_file(&o->quantities, &o->quantities_path, directory, "quantities.csv");
+    return status;
+}
+
+int study_output_open(study_output **output, const char *directory)
+{
+    study_output *o = *output = calloc(1, sizeof *o);
+    if (!o) return cli_fail(CLI_IO, "out of memory");
+    int status = open_all(o, directory);
+    if (status != CLI_DONE) return status;
+    put_heads(o->cells);
+    fputs("label,integrator,start,step,quantity,first,last,max,deviation,rate,residue,verdict\n",
+          o->quantities);
+    return CLI_DONE;
+}
+
+int study_output_cell(study_output *output, const study_plan *plan, const study_cell *cell)
+{
+    row r = make_row(plan, cell);
+    put_cell(output->cells, &r);
+    put_quantities(output->quantities, &r);
+    if (output->series_entry != cell->entry) {
+        int status = open_series(output, cell->entry);
+        if (status != CLI_DONE) return status;
+    }
+    put_series(output->series, &r);
+    if (fflush(output->cells) != 0) return cli_io("write", output->cells_path);
+    return CLI_DONE;
+}
+
+int study_output_close(study_output *o)
+{
+    if (!o) return CLI_DONE;
+    int status = close_series(o);
+    int cells = o->cells ? cli_close(o->cells, o->cells_path) : CLI_DONE;
+    int quantities = o->quantities ? cli_close(o->quantities, o->quantities_path) : CLI_DONE;
+    free(o->cells_path);
+    free(o->quantities_path);
+    free(o->series_directory);
+    free(o);
+    return status != CLI_DONE ? status : cells != CLI_DONE ? cells : quantities;
+}

@@ -1,0 +1,204 @@
+/* study_table.c - the tables of a study on stdout.
+ *
+ * Per system and step: the motion itself (D, E, invariants, error), whose numbers are those of
+ * (q,v) alone; and, started off p = pi = 0, what only the lift can show (H, p, pi). */
+#include "study.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { METHOD = 28, CELL = 32 };
+
+typedef struct line {
+    const study_plan *plan;
+    const study_cell *cell;
+    const dal_drift *D, *E, *H, *p, *pi, *invariant, *error;
+} line;
+
+/* ---- what stands in a column ---- */
+
+/* 3.4e-16; 0 where a quantity is exactly so. */
+static void say_size(char *text, const dal_drift *drift, double size)
+{
+    if (drift && drift->count > 0) snprintf(text, CELL, size == 0.0 ? "0" : "%.1e", size);
+}
+
+static void say_rate(char *text, const dal_drift *drift)
+{
+    if (drift && drift->count > 0)
+        snprintf(text, CELL, drift->rate == 0.0 ? "0" : "%+.0e", drift->rate);
+}
+
+static void say_verdict(char *text, const line *l, const dal_drift *drift)
+{
+    if (drift) snprintf(text, CELL, "%s", dal_verdict_text(study_verdict(l->cell, drift)));
+}
+
+static double greatest(const dal_drift *drift) { return drift ? drift->greatest : 0.0; }
+static double deviation(const dal_drift *drift) { return drift ? drift->deviation : 0.0; }
+
+static void say_twin(char *text, const line *l)
+{
+    const study_cell *twin = study_physical_twin(l->plan, l->cell);
+    if (l->cell->start != STUDY_SURFACE || !twin || twin->state != STUDY_FINISHED) return;
+    snprintf(text, CELL, "%s", twin->bits == l->cell->bits ? "same" : "DIFFERS");
+}
+
+static double per_step(const line *l, double x)
+{
+    return l->cell->steps > 0 ? x / (double)l->cell->steps : 0.0;
+}
+
+#define SPEED_LIST(X)                                                                              \
+    X("steps", "", 8, snprintf(text, CELL, "%lld", l->cell->steps))                                \
+    X("evals", "/step", 6,                                                                         \
+      snprintf(text, CELL, "%.1f", per_step(l, (double)l->cell->evaluations)))                     \
+    X("ns", "/step", 7, snprintf(text, CELL, "%.0f", per_step(l, 1e9 * l->cell->seconds)))
+
+/* head, second line of the head, width, what is said */
+#define MOTION_LIST(X)                                                                             \
+    X("max", "|D|", 8, say_size(text, l->D, greatest(l->D)))                                       \
+    X("D rate", "per t", 7, say_rate(text, l->D))                                                  \
+    X("D", "", 9, say_verdict(text, l, l->D))                                                      \
+    X("max", "|E-E0|", 8, say_size(text, l->E, deviation(l->E)))                                   \
+    X("E rate", "per t", 7, say_rate(text, l->E))                                                  \
+    X("E", "", 9, say_verdict(text, l, l->E))                                                      \
+    X("max", "|I-I0|", 8, say_size(text, l->invariant, deviation(l->invariant)))                   \
+    X("max", "error", 8, say_size(text, l->error, greatest(l->error)))                             \
+    X("(q,v)", "alone", 8, say_twin(text, l))                                                      \
+    SPEED_LIST(X)
+
+#define LIFT_LIST(X)                                                                               \
+    X("H0", "", 9, say_size(text, l->H, l->H ? l->H->first : 0.0))                                 \
+    X("max", "|H-H0|", 8, say_size(text, l->H, deviation(l->H)))                                   \
+    X("H rate", "per t", 7, say_rate(text, l->H))                                                  \
+    X("H", "", 9, say_verdict(text, l, l->H))                                                      \
+    X("max", "|p|", 8, say_size(text, l->p, greatest(l->p)))                                       \
+    X("max", "|pi|", 8, say_size(text, l->pi, greatest(l->pi)))                                    \
+    X("|pi| rate", "per t", 10, say_rate(text, l->pi))                                             \
+    X("max", "|D|", 8, say_size(text, l->D, greatest(l->D)))                                       \
+    SPEED_LIST(X)
+
+/* ---- a row ---- */
+
+static void put(FILE *out, int width, const char *text)
+{
+    fprintf(out, " %*s", width, text[0] ? text : "-");
+}
+
+#define PUT_COLUMN(head, second, width, what)                                                      \
+    {                                                                                              \
+        char text[CELL] = "";                                                                      \
+        what;                                                                                      \
+        put(out, width, text);                                                                     \
+    }
+
+static void put_motion(FILE *out, const line *l) { MOTION_LIST(PUT_COLUMN) }
+static void put_lift(FILE *out, const line *l) { LIFT_LIST(PUT_COLUMN) }
+
+#define PUT_HEAD(head, second, width, what)   fprintf(out, " %*s", width, head);
+#define PUT_SECOND(head, second, width, what) fprintf(out, " %*s", width, second);
+
+static void head_motion(FILE *out)
+{
+    fprintf(out, "  %-*s", METHOD, "integrator");
+    MOTION_LIST(PUT_HEAD)
+    fprintf(out, "\n  %-*s", METHOD, "");
+    MOTION_LIST(PUT_SECOND)
+    fputc('\n', out);
+}
+
+static void head_lift(FILE *out)
+{
+    fprintf(out, "  %-*s", METHOD, "integrator");
+    LIFT_LIST(PUT_HEAD)
+    fprintf(out, "\n  %-*s", METHOD, "");
+    LIFT_LIST(PUT_SECOND)
+    fputc('\n', out);
+}
+
+static line make_line(const study_plan *plan, const study_cell *c)
+{
+    return (line){.plan = plan,
+                  .cell = c,
+                  .D = study_worst_constraint(c),
+                  .E = study_drift(c, "E"),
+                  .H = study_drift(c, "H"),
+                  .p = study_drift(c, "|p|"),
+                  .pi = study_drift(c, "|pi|"),
+                  .invariant = study_worst_invariant(c, NULL),
+                  .error = study_drift(c, "error")};
+}
+
+/* A cell without numbers says why in their place. */
+static void put_state(FILE *out, const study_cell *c)
+{
+    fprintf(out, " %s", study_state_word(c->state));
+    if (c->state == STUDY_FAILED && c->steps > 0) fprintf(out, " after t = %.6g", c->time);
+    if (c->error.message[0]) fprintf(out, ": %s", c->error.message);
+}
+
+/* ---- tables ---- */
+
+typedef struct table {
+    const char *title;
+    void (*head)(FILE *out);
+    void (*row)(FILE *out, const line *l);
+} table;
+
+static const table tables[STUDY_STARTS] = {
+    [STUDY_PHYSICAL] = {"in (q,v) alone", head_motion, put_motion},
+    [STUDY_SURFACE] = {"lifted, on p = pi = 0", head_motion, put_motion},
+    [STUDY_DISPLACED] = {"lifted, p and pi displaced", head_lift, put_lift},
+};
+
+static void print_table(FILE *out, const study_plan *plan, const study_entry *e, double step,
+                        int start)
+{
+    fprintf(out, "\n %s, h = %g, T = %g\n", tables[start].title, step, e->time);
+    tables[start].head(out);
+    for (int i = e->first_cell; i < e->first_cell + e->cells; i++) {
+        const study_cell *c = &plan->cells[i];
+        char name[STUDY_NAME];
+        if (c->step != step || c->start != start) continue;
+        fprintf(out, "  %-*s", METHOD, dal_method_name(c->method, name, sizeof name));
+        line l = make_line(plan, c);
+        if (c->state == STUDY_FINISHED)
+            tables[start].row(out, &l);
+        else
+            put_state(out, c);
+        fputc('\n', out);
+    }
+}
+
+void study_print_entry(FILE *out, const study_plan *plan, const study_entry *e)
+{
+    fprintf(out, "\n%s%s%s\n", e->label, e->system->title ? ": " : "",
+            e->system->title ? e->system->title : "");
+    for (int h = 0; h < e->steps; h++)
+        for (int start = 0; start < STUDY_STARTS; start++) {
+            /* The numbers on the surface are those of (q,v); the files hold both. */
+            int repeats = start == STUDY_PHYSICAL && e->starts & 1 << STUDY_SURFACE;
+            if (e->starts & 1 << start && !repeats) print_table(out, plan, e, e->step[h], start);
+        }
+}
+
+void study_print_note(FILE *out)
+{
+    fputs(
+        "\n"
+        "What this shows.  On p = pi = 0 a lifted method is the same method on (q,v), bit for\n"
+        "bit ('same'), p and pi stay zero and so does H.  That a method is symplectic on the\n"
+        "lift says nothing there about D or the energy: every one-step method, explicit Euler\n"
+        "included, is the restriction of a symplectic one.  D and E are kept, or not, for other\n"
+        "reasons: the form of D, reversibility, projection.  What symplecticity does keep shows\n"
+        "off p = pi = 0, in H; there pi/e pushes v off D, and p, pi grow where the motion\n"
+        "contracts.  A projection has no canonical lift: it puts p = pi = 0 and H with them.\n"
+        "\n"
+        "Verdicts.  exact: never changed.  rounding: changed by at most 1e-12 of its size.\n"
+        "drifts: the last quarter of the time strays more than 2.5 times as far as the first, or\n"
+        "the slope over the whole time exceeds 4 times the distance from the line.  bounded: none\n"
+        "of these.  lost: not finite.  Rates are slopes of least squares.  I are the invariants\n"
+        "of the system, the worst of them; ns are of processor time.\n",
+        out);
+}

@@ -1,0 +1,154 @@
+/* study_yaml.c - nodes of a parsed YAML text, with messages that name their place. */
+#include "study_yaml.h"
+
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MESSAGE = 256, NAMES = 32 };
+
+int study_text_fail(const study_text *text, const yaml_node_t *node, const char *format, ...)
+{
+    char message[MESSAGE];
+    va_list list;
+    va_start(list, format);
+    vsnprintf(message, sizeof message, format, list);
+    va_end(list);
+    return cli_fail(CLI_USAGE, "%s:%zu:%zu: %s", text->place, node->start_mark.line + 1,
+                    node->start_mark.column + 1, message);
+}
+
+static int parser_fail(const char *place, const yaml_parser_t *parser)
+{
+    if (parser->error == YAML_MEMORY_ERROR) return cli_fail(CLI_IO, "out of memory");
+    return cli_fail(CLI_USAGE, "%s:%zu:%zu: %s", place, parser->problem_mark.line + 1,
+                    parser->problem_mark.column + 1,
+                    parser->problem ? parser->problem : "not YAML");
+}
+
+static int only_document(const char *place, yaml_parser_t *parser)
+{
+    yaml_document_t next;
+    if (!yaml_parser_load(parser, &next)) return parser_fail(place, parser);
+    const yaml_node_t *root = yaml_document_get_root_node(&next);
+    int status = CLI_DONE;
+    if (root) {
+        study_text text = {.place = place};
+        status = study_text_fail(&text, root, "a second document");
+    }
+    yaml_document_delete(&next);
+    return status;
+}
+
+int study_text_parse(study_text *text, const char *place, const char *bytes, size_t length)
+{
+    yaml_parser_t parser;
+    text->place = place;
+    if (!yaml_parser_initialize(&parser)) return cli_fail(CLI_IO, "out of memory");
+    yaml_parser_set_input_string(&parser, (const unsigned char *)bytes, length);
+    if (!yaml_parser_load(&parser, &text->document)) {
+        int status = parser_fail(place, &parser);
+        yaml_parser_delete(&parser);
+        memset(&text->document, 0, sizeof text->document);
+        return status;
+    }
+    int status = CLI_DONE;
+    if (!yaml_document_get_root_node(&text->document))
+        status = cli_fail(CLI_USAGE, "%s: the study is empty", place);
+    if (status == CLI_DONE) status = only_document(place, &parser);
+    yaml_parser_delete(&parser);
+    return status;
+}
+
+yaml_node_t *study_text_node(const study_text *text, int number)
+{
+    return yaml_document_get_node((yaml_document_t *)&text->document, number);
+}
+
+const char *study_text_scalar(const study_text *text, const yaml_node_t *node, const char *what)
+{
+    if (node->type != YAML_SCALAR_NODE) {
+        study_text_fail(text, node, "%s: a single value is wanted", what);
+        return NULL;
+    }
+    const char *value = (const char *)node->data.scalar.value;
+    if (strlen(value) == node->data.scalar.length) return value;
+    study_text_fail(text, node, "%s: a NUL in the text", what);
+    return NULL;
+}
+
+int study_text_number(const study_text *text, const yaml_node_t *node, const char *what,
+                      double *number)
+{
+    char place[MESSAGE];
+    const char *value = study_text_scalar(text, node, what);
+    if (!value) return CLI_USAGE;
+    snprintf(place, sizeof place, "%s:%zu:%zu: %s", text->place, node->start_mark.line + 1,
+             node->start_mark.column + 1, what);
+    return cli_number(place, value, number);
+}
+
+static int came_before(const study_text *text, const yaml_node_pair_t *first,
+                       const yaml_node_pair_t *pair, const char *name)
+{
+    for (; first < pair; first++) {
+        const yaml_node_t *key = study_text_node(text, first->key);
+        if (strcmp((const char *)key->data.scalar.value, name) == 0) return 1;
+    }
+    return 0;
+}
+
+static int unknown_key(const study_text *text, const yaml_node_t *node, const char *name,
+                       const study_key *keys, int count)
+{
+    const char *names[NAMES];
+    if (count > NAMES) count = NAMES;
+    for (int i = 0; i < count; i++) names[i] = keys[i].name;
+    const char *nearest = dal_nearest(name, names, count);
+    if (nearest)
+        return study_text_fail(text, node, "unknown key '%s'; did you mean '%s'?", name, nearest);
+    return study_text_fail(text, node, "unknown key '%s'", name);
+}
+
+static int take_pair(const study_text *text, const yaml_node_pair_t *pair, const study_key *keys,
+                     int count, void *user)
+{
+    const yaml_node_t *key = study_text_node(text, pair->key);
+    const char *name = (const char *)key->data.scalar.value;
+    for (int i = 0; i < count; i++) {
+        if (strcmp(keys[i].name, name) != 0) continue;
+        return keys[i].take ? keys[i].take(user, text, study_text_node(text, pair->value))
+                            : CLI_DONE;
+    }
+    return unknown_key(text, key, name, keys, count);
+}
+
+int study_text_mapping(const study_text *text, yaml_node_t *node, const char *what,
+                       const study_key *keys, int count, void *user)
+{
+    if (node->type != YAML_MAPPING_NODE)
+        return study_text_fail(text, node, "%s: keys and values are wanted", what);
+    const yaml_node_pair_t *first = node->data.mapping.pairs.start;
+    for (const yaml_node_pair_t *pair = first; pair < node->data.mapping.pairs.top; pair++) {
+        const yaml_node_t *key = study_text_node(text, pair->key);
+        const char *name = study_text_scalar(text, key, what);
+        if (!name) return CLI_USAGE;
+        if (came_before(text, first, pair, name))
+            return study_text_fail(text, key, "the key '%s' comes twice", name);
+        int status = take_pair(text, pair, keys, count, user);
+        if (status != CLI_DONE) return status;
+    }
+    return CLI_DONE;
+}
+
+int study_text_count(const yaml_node_t *node)
+{
+    if (node->type != YAML_SEQUENCE_NODE) return 1;
+    return (int)(node->data.sequence.items.top - node->data.sequence.items.start);
+}
+
+yaml_node_t *study_text_item(const study_text *text, yaml_node_t *node, int i)
+{
+    if (node->type != YAML_SEQUENCE_NODE) return node;
+    return study_text_node(text, node->data.sequence.items.start[i]);
+}
