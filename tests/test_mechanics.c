@@ -1,0 +1,378 @@
+/* test_mechanics.c - the equations of motion made from formulas, against finite differences of the
+ * same mechanics written in C, on bodies with all that makes them hard: time, a full mass matrix
+ * that depends on q (and one without positive diagonal), forces that depend on velocities, several
+ * constraints, linear and not. */
+#include "body.h"
+
+#include <CUnit/Basic.h>
+#include <math.h>
+#include <string.h>
+
+/* Differences are good to 1e-12 (body.h); the elimination behind them amplifies it. */
+#define BY_DIFFERENCES 1e-10
+
+/* ---- two hard bodies ---- */
+
+static const char hard_text[] =
+    "coordinates: [a, b, c, d]\n"
+    "parameters: {k: 0.3, w: 2}\n"
+    "let: {tilt: cos(a - b), slip: b'*d'}\n"
+    "lagrangian: >\n"
+    "  ((2 + sin(a))*a'^2 + (3 + cos(b)/2)*b'^2 + (1 + c^2/5)*c'^2 + w*d'^2)/2\n"
+    "  + k*tilt*a'*b' + b*c'*d'/5 + t*a'*d'/10 - a^2*b/2 - cos(c) + k*d*a'\n"
+    "forces: {a: -k*a' + sin(t), b: cos(w*t)*a, c: slip/5}\n"
+    "constraints:\n"
+    "  - a' - d'*sin(c) + k*cos(t)*b\n"
+    "  - b'*c' - 2/5*d'^2 + a*d'/10 - t/7\n";
+
+static double hard_lagrangian(int i, const double *q, const double *v, double t)
+{
+    (void)i;
+    return 0.5 * ((2 + sin(q[0])) * v[0] * v[0] + (3 + cos(q[1]) / 2) * v[1] * v[1] +
+                  (1 + q[2] * q[2] / 5) * v[2] * v[2] + 2 * v[3] * v[3]) +
+           0.3 * cos(q[0] - q[1]) * v[0] * v[1] + q[1] * v[2] * v[3] / 5 + t * v[0] * v[3] / 10 -
+           q[0] * q[0] * q[1] / 2 - cos(q[2]) + 0.3 * q[3] * v[0];
+}
+
+static double hard_force(int i, const double *q, const double *v, double t)
+{
+    return i == 0   ? -0.3 * v[0] + sin(t)
+           : i == 1 ? cos(2 * t) * q[0]
+           : i == 2 ? v[1] * v[3] / 5
+                    : 0.0;
+}
+
+static double hard_constraint(int a, const double *q, const double *v, double t)
+{
+    return a == 0 ? v[0] - v[3] * sin(q[2]) + 0.3 * cos(t) * q[1]
+                  : v[1] * v[2] - 0.4 * v[3] * v[3] + q[0] * v[3] / 10 - t / 7;
+}
+
+static const body_formulas hard = {4, 2, hard_lagrangian, hard_force, hard_constraint};
+
+/* Indefinite, with zeros on the diagonal of the mass matrix. */
+static const char null_text[] = "coordinates: [x, y, z, u]\n"
+                                "lagrangian: x'*y'*(1 + z^2/10) + z'^2/2 - (1 + x^2/5)*u'^2/2\n"
+                                "            + x'*u'*y/4 - x*y*z\n"
+                                "forces: {u: -x'/3}\n"
+                                "constraints: [x'*y' + z'^2/2 - u'^2/2 + 1/2 + t*x/9]\n"
+                                "start: {x': 0.5, y': 0.4, z': 0.2, u': 1.3}\n";
+
+static double null_lagrangian(int i, const double *q, const double *v, double t)
+{
+    (void)i, (void)t;
+    return v[0] * v[1] * (1 + q[2] * q[2] / 10) + v[2] * v[2] / 2 -
+           (1 + q[0] * q[0] / 5) * v[3] * v[3] / 2 + v[0] * v[3] * q[1] / 4 - q[0] * q[1] * q[2];
+}
+
+static double null_force(int i, const double *q, const double *v, double t)
+{
+    (void)q, (void)t;
+    return i == 3 ? -v[0] / 3 : 0.0;
+}
+
+static double null_constraint(int a, const double *q, const double *v, double t)
+{
+    (void)a;
+    return v[0] * v[1] + v[2] * v[2] / 2 - v[3] * v[3] / 2 + 0.5 + t * q[0] / 9;
+}
+
+static const body_formulas null_mass = {4, 1, null_lagrangian, null_force, null_constraint};
+
+static const struct {
+    const char *text;
+    const body_formulas *formulas;
+} bodies[] = {{hard_text, &hard}, {null_text, &null_mass}};
+enum { BODIES = sizeof bodies / sizeof *bodies };
+
+static const double q0[BODY_MOST] = {0.3, -0.4, 0.7, 0.2, -0.6, 0.5, 0.8, -0.1};
+static const double v0[BODY_MOST] = {0.5, 0.9, -0.3, 0.6, 0.4, -0.7, 0.2, 1.1};
+static const double t0 = 0.35;
+
+/* ---- field, constraint, energy ---- */
+
+static void test_field(void)
+{
+    for (int k = 0; k < BODIES; k++) {
+        body b = body_of_text(bodies[k].text);
+        double F[BODY_MOST], expected[BODY_MOST];
+        CU_ASSERT(body_call(&b, b.system->call.field, t0, q0, v0, F) == DAL_OK);
+        body_motion(bodies[k].formulas, q0, v0, t0, expected);
+        CU_ASSERT(body_distance(b.system->n, F, expected) < BY_DIFFERENCES);
+        body_free(&b);
+    }
+}
+
+static void test_accelerations(void)
+{
+    body b = body_of_text("coordinates: [x, y]\n"
+                          "accelerations: {x: -y' + sin(t)}\n"
+                          "forces: {y: x*x'}\n"
+                          "constraints: [x'^2 + 2*y'^2 - 1]\n");
+    double F[2], x = q0[0], vx = v0[0], vy = v0[1];
+    double bx = -vy + sin(t0), by = x * vx;
+    double h = -(2 * vx * bx + 4 * vy * by) / (4 * vx * vx + 16 * vy * vy);
+    double expected[] = {bx + 2 * vx * h, by + 4 * vy * h};
+    CU_ASSERT(body_call(&b, b.system->call.field, t0, q0, v0, F) == DAL_OK);
+    CU_ASSERT(body_distance(2, F, expected) < 1e-14);
+    CU_ASSERT(b.system->energy == NULL);
+    body_free(&b);
+}
+
+/* W^-1 A^T of column a, by elimination of differences. */
+static void expected_normal(const body_formulas *f, int a, double *out)
+{
+    double m[BODY_MOST * (BODY_MOST + 1)];
+    for (int i = 0; i < f->n; i++) {
+        for (int j = 0; j < f->n; j++) m[i * (f->n + 1) + j] = body_mass(f, i, j, q0, v0, t0);
+        m[i * (f->n + 1) + f->n] = body_by_v(f->constraint, a, i, q0, v0, t0);
+    }
+    body_solve(f->n, m);
+    for (int i = 0; i < f->n; i++) out[i * f->m + a] = m[i * (f->n + 1) + f->n];
+}
+
+static void test_constraint(void)
+{
+    for (int k = 0; k < BODIES; k++) {
+        const body_formulas *f = bodies[k].formulas;
+        int n = f->n, m = f->m;
+        body b = body_of_text(bodies[k].text);
+        double out[BODY_OUT], D[BODY_MOST], expected[BODY_OUT];
+        for (int a = 0; a < m; a++) {
+            expected[a] = f->constraint(a, q0, v0, t0);
+            for (int i = 0; i < n; i++)
+                expected[m + a * n + i] = body_by_v(f->constraint, a, i, q0, v0, t0);
+            expected_normal(f, a, expected + m + m * n);
+        }
+        CU_ASSERT(body_call(&b, b.system->call.constraint, t0, q0, v0, out) == DAL_OK);
+        CU_ASSERT(body_distance(m + 2 * m * n, out, expected) < BY_DIFFERENCES);
+        CU_ASSERT(body_call(&b, b.system->constraints, t0, q0, v0, D) == DAL_OK);
+        CU_ASSERT(memcmp(D, out, (size_t)m * sizeof *D) == 0);
+        body_free(&b);
+    }
+}
+
+static void test_energy(void)
+{
+    for (int k = 0; k < BODIES; k++) {
+        const body_formulas *f = bodies[k].formulas;
+        body b = body_of_text(bodies[k].text);
+        double E, expected = -f->lagrangian(0, q0, v0, t0);
+        for (int i = 0; i < f->n; i++)
+            expected += v0[i] * body_by_v(f->lagrangian, 0, i, q0, v0, t0);
+        CU_ASSERT(body_call(&b, b.system->energy, t0, q0, v0, &E) == DAL_OK);
+        CU_ASSERT(body_distance(1, &E, &expected) < BY_DIFFERENCES);
+        body_free(&b);
+    }
+}
+
+/* ---- derivatives of the field ---- */
+
+/* Column i of F_q (kind 0) or F_w, w = (v,g) (kind 1), by central differences of order 8. */
+static void column(const body *b, int kind, int i, double *out)
+{
+    static const double weight[] = {4.0 / 5, -1.0 / 5, 4.0 / 105, -1.0 / 280};
+    int nw = b->system->n + b->system->multipliers;
+    double x[2][BODY_MOST], above[BODY_MOST], below[BODY_MOST], h = 0.005;
+    memcpy(x[0], q0, sizeof q0);
+    memcpy(x[1], v0, sizeof v0);
+    for (int j = 0; j < nw; j++) out[j] = 0.0;
+    for (int k = 0; k < 4; k++) {
+        double centre = x[kind][i];
+        x[kind][i] = centre + (k + 1) * h;
+        body_call(b, b->system->call.field, t0, x[0], x[1], above);
+        x[kind][i] = centre - (k + 1) * h;
+        body_call(b, b->system->call.field, t0, x[0], x[1], below);
+        x[kind][i] = centre;
+        for (int j = 0; j < nw; j++) out[j] += weight[k] * (above[j] - below[j]) / h;
+    }
+}
+
+static void expected_jacobian(const body *b, double *out)
+{
+    int n = b->system->n, nw = n + b->system->multipliers;
+    double F[BODY_MOST];
+    for (int i = 0; i < n; i++) {
+        column(b, 0, i, F);
+        for (int j = 0; j < nw; j++) out[j * n + i] = F[j];
+    }
+    for (int i = 0; i < nw; i++) {
+        column(b, 1, i, F);
+        for (int j = 0; j < nw; j++) out[nw * n + j * nw + i] = F[j];
+    }
+}
+
+static void check_jacobian(const body *b)
+{
+    int n = b->system->n, nw = n + b->system->multipliers, count = nw * (n + nw);
+    double out[BODY_OUT], expected[BODY_OUT];
+    expected_jacobian(b, expected);
+    CU_ASSERT(body_call(b, b->system->call.jacobian, t0, q0, v0, out) == DAL_OK);
+    CU_ASSERT(body_distance(count, out, expected) < BY_DIFFERENCES);
+}
+
+/* F bit for bit, and the transposed products. */
+static void check_adjoint(const body *b)
+{
+    int n = b->system->n;
+    double out[3 * BODY_MOST], F[BODY_MOST], J[BODY_OUT], expected[2 * BODY_MOST] = {0.0};
+    const double pi[BODY_MOST] = {0.7, -1.2, 0.4, 0.9, -0.3, 0.8, 1.1, -0.6};
+    expected_jacobian(b, J);
+    for (int j = 0; j < n; j++)
+        for (int i = 0; i < n; i++) {
+            expected[i] += pi[j] * J[j * n + i];
+            expected[n + i] += pi[j] * J[n * n + j * n + i];
+        }
+    CU_ASSERT(body_pull(b, t0, q0, v0, pi, out) == DAL_OK);
+    CU_ASSERT(body_call(b, b->system->call.field, t0, q0, v0, F) == DAL_OK);
+    CU_ASSERT(memcmp(out, F, (size_t)n * sizeof *F) == 0);
+    CU_ASSERT(body_distance(2 * n, out + n, expected) < BY_DIFFERENCES);
+}
+
+static void test_derivatives(void)
+{
+    for (int k = 0; k < BODIES; k++) {
+        body b = body_of_text(bodies[k].text);
+        check_jacobian(&b);
+        check_adjoint(&b);
+        body_free(&b);
+    }
+}
+
+static void test_tangent(void)
+{
+    body b = body_of_text(hard_text), d = body_tangent(&b);
+    double J[BODY_OUT], F[2 * BODY_MOST], expected[2 * BODY_MOST];
+    int n = b.system->n;
+    expected_jacobian(&b, J);
+    body_call(&b, b.system->call.field, t0, q0, v0, expected);
+    for (int i = 0; i < n; i++) {
+        expected[n + i] = 0.0;
+        for (int j = 0; j < n; j++)
+            expected[n + i] += J[i * n + j] * q0[n + j] + J[n * n + i * n + j] * v0[n + j];
+    }
+    CU_ASSERT(d.system->n == 2 * n && d.system->m == 0);
+    CU_ASSERT_STRING_EQUAL(d.system->coordinate[0], "a");
+    CU_ASSERT_STRING_EQUAL(d.system->coordinate[n], "dq_a");
+    CU_ASSERT(body_call(&d, d.system->call.field, t0, q0, v0, F) == DAL_OK);
+    CU_ASSERT(memcmp(F, expected, (size_t)n * sizeof *F) == 0);
+    CU_ASSERT(body_distance(2 * n, F, expected) < BY_DIFFERENCES);
+    check_jacobian(&d);
+    check_adjoint(&d);
+    body_free(&d);
+    body_free(&b);
+}
+
+/* ---- vakonomic ---- */
+
+/* With L' = L - g.D the Euler-Lagrange equations of q and g are W F - sum g D_vv F - A^T g' = b',
+ * D_q v + D_t + A F = 0; here as residuals of the field. */
+static double multiplier[2];
+
+static double vakonomic_lagrangian(int i, const double *q, const double *v, double t)
+{
+    return hard_lagrangian(i, q, v, t) - multiplier[0] * hard_constraint(0, q, v, t) -
+           multiplier[1] * hard_constraint(1, q, v, t);
+}
+
+static void test_vakonomic(void)
+{
+    const body_formulas f = {4, 2, vakonomic_lagrangian, hard_force, hard_constraint};
+    char text[1024] = "mechanics: vakonomic\n";
+    strcat(text, hard_text);
+    body b = body_of_text(text);
+    double out[6], residual[6] = {0.0}, zero[6] = {0.0};
+    multiplier[0] = v0[4], multiplier[1] = v0[5];
+    CU_ASSERT(b.system->multipliers == 2 && b.system->properties & DAL_VAKONOMIC);
+    CU_ASSERT(b.system->call.adjoint == NULL);
+    CU_ASSERT(body_call(&b, b.system->call.field, t0, q0, v0, out) == DAL_OK);
+    for (int i = 0; i < 4; i++) {
+        residual[i] = -body_load(&f, i, q0, v0, t0);
+        for (int j = 0; j < 4; j++) residual[i] += body_mass(&f, i, j, q0, v0, t0) * out[j];
+        for (int a = 0; a < 2; a++) {
+            double A = body_by_v(hard_constraint, a, i, q0, v0, t0);
+            residual[i] -= A * out[4 + a];
+            residual[4 + a] += A * out[i];
+        }
+    }
+    for (int a = 0; a < 2; a++) residual[4 + a] += body_drift(&f, a, q0, v0, t0);
+    CU_ASSERT(body_distance(6, residual, zero) < BY_DIFFERENCES);
+    check_jacobian(&b);
+    body_free(&b);
+}
+
+/* ---- lanes ---- */
+
+/* Lane l of x is x0 moved by l/16, interleaved. */
+static void spread(int lanes, int count, const double *x, double *out)
+{
+    for (int i = 0; i < count; i++)
+        for (int l = 0; l < lanes; l++) out[i * lanes + l] = x[i] + l / 16.0;
+}
+
+static void pick(int lanes, int lane, int count, const double *wide, double *out)
+{
+    for (int i = 0; i < count; i++) out[i] = wide[i * lanes + lane];
+}
+
+typedef struct lanes_case {
+    const body *b;
+    dal_callback *single, *wide;
+    int lanes, outputs;
+} lanes_case;
+
+static void check_lanes(const lanes_case *c)
+{
+    _Alignas(64) double q[BODY_MOST * 8], v[BODY_MOST * 8], pi[BODY_MOST * 8], out[BODY_OUT * 8];
+    static double prepared[1 << 12];
+    int workspace = (int)c->b->system->workspace;
+    CU_ASSERT_FATAL(c->single && c->wide);
+    memcpy(prepared, c->b->work, (size_t)workspace * sizeof *prepared);
+    spread(c->lanes, BODY_MOST, q0, q);
+    spread(c->lanes, BODY_MOST, v0, v);
+    spread(c->lanes, BODY_MOST, v0, pi);
+    for (int i = 0; i < workspace; i++)
+        for (int l = 0; l < c->lanes; l++) c->b->work[i * c->lanes + l] = prepared[i];
+    dal_at at = {t0, q, v, pi, c->b->work};
+    CU_ASSERT(c->wide(c->b->system, &at, out) == DAL_OK);
+    memcpy(c->b->work, prepared, (size_t)workspace * sizeof *prepared);
+    for (int l = 0; l < c->lanes; l++) {
+        double q1[BODY_MOST], v1[BODY_MOST], pi1[BODY_MOST], one[BODY_OUT], lane[BODY_OUT];
+        pick(c->lanes, l, BODY_MOST, q, q1);
+        pick(c->lanes, l, BODY_MOST, v, v1);
+        pick(c->lanes, l, BODY_MOST, pi, pi1);
+        pick(c->lanes, l, c->outputs, out, lane);
+        dal_at point = {t0, q1, v1, pi1, c->b->work};
+        CU_ASSERT(c->single(c->b->system, &point, one) == DAL_OK);
+        CU_ASSERT(memcmp(one, lane, (size_t)c->outputs * sizeof *one) == 0);
+    }
+}
+
+static void test_lanes(void)
+{
+    body b = body_of_text(hard_text);
+    const dal_system *s = b.system;
+    for (int width = 4; width <= 8; width += 4) {
+        const dal_callbacks *wide = width == 4 ? s->wide4 : s->wide8;
+        check_lanes(&(lanes_case){&b, s->call.field, wide->field, width, 4});
+        check_lanes(&(lanes_case){&b, s->call.adjoint, wide->adjoint, width, 12});
+        check_lanes(&(lanes_case){&b, s->call.jacobian, wide->jacobian, width, 32});
+        check_lanes(&(lanes_case){&b, s->call.constraint, wide->constraint, width, 18});
+    }
+    CU_ASSERT(s->call.guards == NULL && s->call.gauge == NULL);
+    body_free(&b);
+}
+
+void suite_mechanics(void);
+void suite_mechanics(void)
+{
+    CU_pSuite suite = CU_add_suite("mechanics", NULL, NULL);
+    CU_add_test(suite, "field against differences", test_field);
+    CU_add_test(suite, "given accelerations", test_accelerations);
+    CU_add_test(suite, "D, A, W^-1 A^T", test_constraint);
+    CU_add_test(suite, "energy", test_energy);
+    CU_add_test(suite, "Jacobian and adjoint", test_derivatives);
+    CU_add_test(suite, "tangent system", test_tangent);
+    CU_add_test(suite, "vakonomic motion", test_vakonomic);
+    CU_add_test(suite, "lanes have the bits of one", test_lanes);
+}

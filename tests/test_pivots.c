@@ -1,0 +1,247 @@
+/* test_pivots.c - what a model finds out about its formulas: pivots that vanish on the way, guards,
+ * degrees of constraints, fate of the energy. */
+#include "body.h"
+
+#include <CUnit/Basic.h>
+#include <math.h>
+#include <stdbool.h>
+#include <string.h>
+
+/* ---- pivots ---- */
+
+/* W = (1 cos z; cos z 1) is singular where sin z = 0; its second pivot is 1 - cos^2 z. */
+static const char mass_text[] = "coordinates: [x, y, z]\n"
+                                "lagrangian: (x'^2 + y'^2 + z'^2)/2 + cos(z)*x'*y'\n"
+                                "start: {z: 1}\n";
+
+/* Parallel normals where z = pi/4. */
+static const char parallel_text[] = "coordinates: [x, y, z]\n"
+                                    "lagrangian: (x'^2 + y'^2 + z'^2)/2\n"
+                                    "constraints: [x' + y', cos(z)*x' + sin(z)*y']\n"
+                                    "start: {z: 0.2}\n";
+
+static int count_nan(int count, const double *x)
+{
+    int nan = 0;
+    for (int i = 0; i < count; i++) nan += isnan(x[i]) != 0;
+    return nan;
+}
+
+static dal_status diagnosis(const body *b, double z, double *which)
+{
+    double q[] = {0.1, 0.2, z}, v[] = {0.3, -0.4, 0.5};
+    return body_call(b, b->system->diagnose, 0.0, q, v, which);
+}
+
+/* 1 - cos^2 z is z^2: at 1e-8 nothing of it is left, at 1e-4 eight digits are. */
+static void test_singular_mass(void)
+{
+    body b = body_of_text(mass_text);
+    double v[] = {0.3, -0.4, 0.5}, out[18], which;
+    double bad[] = {0.1, 0.2, 1e-8}, good[] = {0.1, 0.2, 1e-4};
+    body_call(&b, b.system->call.field, 0.0, bad, v, out);
+    CU_ASSERT(count_nan(3, out) == 3);
+    body_call(&b, b.system->call.jacobian, 0.0, bad, v, out);
+    CU_ASSERT(count_nan(18, out) == 18);
+    body_pull(&b, 0.0, bad, v, v, out);
+    CU_ASSERT(count_nan(9, out) == 9);
+    body_call(&b, b.system->call.field, 0.0, good, v, out);
+    CU_ASSERT(count_nan(3, out) == 0);
+    CU_ASSERT(diagnosis(&b, 1e-8, &which) == DAL_SINGULAR_MASS);
+    CU_ASSERT(diagnosis(&b, 1e-4, &which) == DAL_OK);
+    body_free(&b);
+}
+
+static void test_dependent_constraints(void)
+{
+    body b = body_of_text(parallel_text);
+    double which = 0.0;
+    CU_ASSERT(diagnosis(&b, 0.2, &which) == DAL_OK);
+    CU_ASSERT(diagnosis(&b, atan(1.0), &which) == DAL_SINGULAR && which == 2.0);
+    body_free(&b);
+}
+
+static void test_singular_lane(void)
+{
+    body b = body_of_text(mass_text);
+    _Alignas(64) double out[3 * 4];
+    _Alignas(64) double q[] = {0, 0, 0, 0, 0, 0, 0, 0, 1, 1e-8, 0.5, 2};
+    _Alignas(64) double v[] = {1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
+    for (int i = (int)b.system->workspace; i-- > 0;)
+        for (int lane = 4; lane-- > 0;) b.work[4 * i + lane] = b.work[i];
+    body_call(&b, b.system->wide4->field, 0.0, q, v, out);
+    for (int i = 0; i < 3; i++) {
+        CU_ASSERT(isnan(out[4 * i + 1]));
+        CU_ASSERT(isfinite(out[4 * i]) && isfinite(out[4 * i + 2]) && isfinite(out[4 * i + 3]));
+    }
+    body_free(&b);
+}
+
+static void check_diagnosis(const char *system, const double *q, const double *v)
+{
+    body b = body_builtin(system);
+    double which = 0.0, F[3];
+    body_call(&b, b.system->call.field, 0.0, q, v, F);
+    CU_ASSERT(!isfinite(F[0]) || !isfinite(F[1]) || !isfinite(F[2]));
+    CU_ASSERT(body_call(&b, b.system->diagnose, 0.0, q, v, &which) == DAL_SINGULAR);
+    CU_ASSERT(which == 1.0);
+    body_free(&b);
+}
+
+static void test_singular_systems(void)
+{
+    check_diagnosis("appell-hamel", (double[]){0, 0, 0}, (double[]){0, 0, 0});
+    check_diagnosis("chaplygin-sleigh-nonlinear", (double[]){1, 1, 0}, (double[]){0, 1, 1});
+}
+
+/* Parameters alone, or a first pivot, are not watched: no pivots behind the outputs. */
+static void test_start_may_be_singular(void)
+{
+    body b = body_of_text("coordinates: [x, y, z]\n"
+                          "lagrangian: (x'^2 + y'^2 + z'^2)/2 - z\n"
+                          "constraints: [(x'^2 + y'^2 - z'^2)/2]\n");
+    double q[] = {0, 0, 0}, v[] = {0.6, 0.8, -1}, F[3];
+    body_call(&b, b.system->call.field, 0.0, q, v, F);
+    CU_ASSERT(fabs(F[2] + 0.5) < 1e-15); /* falls with g/(1 + nu^2) */
+    body_free(&b);
+}
+
+/* A pivot on the diagonal that vanishes at the start is not taken: W = (z 1; 1 0) at z = 0. */
+static void test_pivot_order(void)
+{
+    body b = body_of_text("coordinates: [x, y, z]\n"
+                          "lagrangian: z*x'^2/2 + x'*y' + z'^2/2 - x - 2*y\n");
+    double q[] = {0, 0, 0}, v[] = {0, 0, 0}, F[3];
+    body_call(&b, b.system->call.field, 0.0, q, v, F);
+    CU_ASSERT(F[0] == -2.0 && F[1] == -1.0 && F[2] == 0.0);
+    body_free(&b);
+}
+
+/* ---- guards ---- */
+
+static bool has_guard(const body *b, const char *name)
+{
+    for (int i = 0; i < b->system->guards; i++)
+        if (strcmp(b->system->guard[i], name) == 0) return true;
+    return false;
+}
+
+static void test_guards(void)
+{
+    body b = body_of_text("coordinates: [x, y]\n"
+                          "parameters: {a: 2}\n"
+                          "lagrangian: (x'^2 + y'^2)/2 + 1/x\n"
+                          "constraints: [x'/(y'*sqrt(t)) + tan(x)/a - (1 + y)^(-3)]\n"
+                          "start: {x': 1, y': 1}\n");
+    double q[] = {0.3, -0.2}, v[] = {0.5, 0.7}, out[4], sum = 0.0;
+    CU_ASSERT(b.system->guards == 4);
+    CU_ASSERT(has_guard(&b, "constraint 1: y'") && has_guard(&b, "constraint 1: t"));
+    CU_ASSERT(has_guard(&b, "constraint 1: cos(x)"));
+    CU_ASSERT(has_guard(&b, "constraint 1: a denominator"));
+    CU_ASSERT(body_call(&b, b.system->call.guards, 0.9, q, v, out) == DAL_OK);
+    for (int i = 0; i < 4; i++) sum += out[i];
+    CU_ASSERT(fabs(sum - (0.7 + 0.9 + cos(0.3) + 0.8)) < 1e-15);
+    body_free(&b);
+}
+
+/* ---- properties ---- */
+
+enum {
+    OF_D = DAL_D_LINEAR | DAL_D_CONSTANT | DAL_D_BILINEAR | DAL_D_QUADRATIC | DAL_D_WATCHED,
+    OF_E = DAL_E_EXACT | DAL_E_WEAK,
+    STRAIGHT = DAL_D_LINEAR | DAL_D_CONSTANT | DAL_D_BILINEAR | DAL_D_QUADRATIC
+};
+
+static const struct {
+    const char *constraint;
+    unsigned degree, energy;
+} constraints[] = {
+    {"2*x' - y'", STRAIGHT, DAL_E_WEAK},
+    {"2*x' - y' + x - 3", STRAIGHT, 0},
+    {"x' - y*y'", DAL_D_LINEAR | DAL_D_BILINEAR | DAL_D_QUADRATIC, DAL_E_WEAK},
+    {"x' - y*y' + y^2", DAL_D_LINEAR | DAL_D_QUADRATIC, 0},
+    {"x' - t*y'", DAL_D_LINEAR, DAL_E_WEAK},
+    {"x' - sin(y)*y'", DAL_D_LINEAR, DAL_E_WEAK},
+    {"x'^2 - y'^2", DAL_D_QUADRATIC | DAL_D_WATCHED, DAL_E_WEAK},
+    {"x'^2 + y'^2 - 1", DAL_D_QUADRATIC | DAL_D_WATCHED, 0},
+    {"x'^3 - x*y'^3", DAL_D_WATCHED, DAL_E_WEAK},
+    {"sqrt(x'^2 + y'^2) - exp(x)*y'", DAL_D_WATCHED, DAL_E_WEAK},
+    {"atan2(x', y') - x", DAL_D_WATCHED, DAL_E_EXACT},
+};
+
+static void test_constraint_properties(void)
+{
+    char text[256];
+    for (size_t k = 0; k < sizeof constraints / sizeof *constraints; k++) {
+        strcpy(text, "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\n"
+                     "start: {x': 1, y': 2}\nconstraints: [\"");
+        strcat(text, constraints[k].constraint);
+        strcat(text, "\"]\n");
+        body b = body_of_text(text);
+        CU_ASSERT((b.system->properties & OF_D) == constraints[k].degree);
+        CU_ASSERT((b.system->properties & OF_E) == constraints[k].energy);
+        body_free(&b);
+    }
+}
+
+static const struct {
+    const char *rest;
+    unsigned properties;
+} motions[] = {
+    {"lagrangian: (x'^2 + y'^2)/2 - x*y", DAL_E_EXACT | DAL_AUTONOMOUS | DAL_MASS_CONSTANT},
+    {"lagrangian: (x'^2 + y'^2)/2 - x*cos(t)", DAL_MASS_CONSTANT},
+    {"lagrangian: (x'^2 + (1 + x^2)*y'^2)/2", DAL_E_EXACT | DAL_AUTONOMOUS},
+    {"lagrangian: (x'^2 + y'^2)/2\nforces: {x: -x'}", DAL_AUTONOMOUS | DAL_MASS_CONSTANT},
+    /* A magnetic force does no work; this is seen by numbers only. */
+    {"lagrangian: (x'^2 + y'^2)/2\nforces: {x: exp(x)*y'/x', y: -exp(x)}",
+     DAL_E_EXACT | DAL_AUTONOMOUS | DAL_MASS_CONSTANT},
+    {"accelerations: {x: -x, y: -y}", DAL_AUTONOMOUS | DAL_MASS_CONSTANT},
+    {"accelerations: {x: -x*t}", DAL_MASS_CONSTANT},
+};
+
+static void test_motion_properties(void)
+{
+    char text[256];
+    for (size_t k = 0; k < sizeof motions / sizeof *motions; k++) {
+        strcpy(text, "coordinates: [x, y]\n");
+        strcat(text, motions[k].rest);
+        body b = body_of_text(text);
+        CU_ASSERT(b.system->properties == motions[k].properties);
+        body_free(&b);
+    }
+}
+
+/* ---- gauge, start ---- */
+
+static void test_gauge_and_start(void)
+{
+    body b = body_of_text("coordinates: [x, y]\n"
+                          "parameters: {m: 2, k: m/4}\n"
+                          "let: {fast: m*sqrt(k)}\n"
+                          "accelerations: {x: -k*x}\n"
+                          "gauge: {e: 3*k, mu_e: k*cos(t)}\n"
+                          "start: {y: m, x': fast}\n");
+    double out[5], expected[] = {0, 2, sqrt(0.5) * 2, 0, 1.5};
+    CU_ASSERT(b.system->value[1] == 0.5);
+    body_call(&b, b.system->start, 0.0, NULL, NULL, out);
+    CU_ASSERT(body_distance(5, out, expected) < 1e-15);
+    body_call(&b, b.system->call.gauge, 0.7, NULL, NULL, out);
+    CU_ASSERT(fabs(out[0] - 0.5 * cos(0.7)) < 1e-15);
+    body_free(&b);
+}
+
+void suite_pivots(void);
+void suite_pivots(void)
+{
+    CU_pSuite suite = CU_add_suite("pivots", NULL, NULL);
+    CU_add_test(suite, "singular mass matrix", test_singular_mass);
+    CU_add_test(suite, "dependent constraints", test_dependent_constraints);
+    CU_add_test(suite, "one lane of several", test_singular_lane);
+    CU_add_test(suite, "singularities of shipped systems", test_singular_systems);
+    CU_add_test(suite, "a start may be singular", test_start_may_be_singular);
+    CU_add_test(suite, "order of pivots", test_pivot_order);
+    CU_add_test(suite, "guards", test_guards);
+    CU_add_test(suite, "degree of D, fate of E", test_constraint_properties);
+    CU_add_test(suite, "properties of the motion", test_motion_properties);
+    CU_add_test(suite, "gauge and start", test_gauge_and_start);
+}
