@@ -1,0 +1,106 @@
+/* fixtures.c - systems and runs the suites share. */
+#include "fixtures.h"
+#include <CUnit/CUnit.h>
+#include <stdio.h>
+#include <string.h>
+
+const char fixture_full[] =
+    "title: full fixture\n"
+    "coordinates: [x, y, z, u]\n"
+    "parameters: {a: 0.3, b: 0.2}\n"
+    "lagrangian: >-\n"
+    "  (2 + cos(y))/2*x'^2 + (3 + x^2/4)/2*y'^2 + (1.5 + 0.2*sin(x))/2*z'^2 + (2 + "
+    "0.1*z^2)/2*u'^2\n"
+    "  + a*x'*y'*cos(z) + b*z'*u'*sin(y) + 0.15*x'*u' + 0.2*y*x'\n"
+    "  - (x^2 + 1.5*y^2 + z^2*y^2/2 + cos(u)) + 0.3*x*sin(t)\n"
+    "forces:\n"
+    "  x: -0.1*x' + 0.2*sin(2*t)\n"
+    "  y: 0.3*x'*z\n"
+    "  u: -0.2*u'*(1 + x^2) + 0.1*t\n"
+    "constraints:\n"
+    "  - z' - y*x' - 0.1*sin(t)\n"
+    "  - (u'^2 - x'^2 - y'^2)/2 + 0.1*x*x'\n"
+    "start: {x: 0, y: 0.5, z: 0.3, u: 0.2, x': 0.6, y': 0.8, z': 0.3, u': 1}\n"
+    "gauge: {e: 1.5, mu_e: 0.2*cos(t)}\n";
+
+const char fixture_gentle[] = "coordinates: [x, y, z, u]\n"
+                              "lagrangian: >-\n"
+                              "  (1 + 0.002*y)/2*x'^2 + (1.2 + 0.003*x)/2*y'^2 + (1.1 + "
+                              "0.002*u)/2*z'^2 + (1 + 0.001*z)/2*u'^2\n"
+                              "  + 0.2*x'*y' + (0.1 + 0.002*y)*z'*u' + 0.15*x'*u'\n"
+                              "  - (x^2 + 1.1*y^2 + 0.9*z^2 + u^2)/2 + 0.1*x*sin(0.7*t)\n"
+                              "forces: {x: -0.01*x' + 0.05*sin(t), y: 0.02*z', u: -0.01*u'}\n"
+                              "constraints:\n"
+                              "  - z' - 0.3*x' - 0.01*y*x' - 0.01*sin(t)\n"
+                              "  - u' - 0.5*y' + 0.003*x*y' + 0.002*x'*y'\n"
+                              "start: {x: 1, y: 0.5, z: 0.3, u: 0.2}\n"
+                              "gauge: {e: 1.5, mu_e: 0.02*cos(t)}\n";
+
+const char fixture_constant[] =
+    "coordinates: [x, y, z]\n"
+    "lagrangian: (x'^2 + y'^2 + z'^2)/2 - (x^2 + 2*y^2 + 3*z^2 + x^2*z^2)/2\n"
+    "constraints: [x' + 2*y' - z' + 0.3*x]\n"
+    "start: {x: 0.5, y: 0.3, z: -0.2, x': 0.35, y': -0.1, z': 0.3}\n";
+
+const char fixture_bilinear[] =
+    "coordinates: [x, y, z]\n"
+    "lagrangian: (x'^2 + y'^2 + z'^2)/2 - (x^2 + y^2 + z^2 + 0.3*x^2*z^2)/2\n"
+    "constraints: [x' + y*z']\n"
+    "start: {x: 0.8, y: 0.6, z: -0.5, x': -0.24, y': 0.7, z': 0.4}\n";
+
+const char fixture_quadratic[] =
+    "coordinates: [x, y, z]\n"
+    "lagrangian: (x'^2 + y'^2 + z'^2)/2 - (x^2 + 1.7*y^2 + 0.6*z^2)/2\n"
+    "constraints: [(x'^2 + y'^2 + z'^2 + 0.1*x^2 - 1)/2]\n"
+    "start: {x: 0, y: 0.3, z: 0.5, x': 0.6, y': 0, z': 0.8}\n";
+
+dal_model *fixture_model(const char *text)
+{
+    dal_model *model = NULL;
+    dal_error error = {0};
+    const dal_status status = strchr(text, '\n')
+                                  ? dal_model_read(&model, "fixture", text, strlen(text), &error)
+                                  : dal_model_builtin(&model, text, &error);
+    if (status != DAL_OK) printf("\n  %d:%d: %s\n", error.line, error.column, error.message);
+    CU_ASSERT_EQUAL_FATAL(status, DAL_OK);
+    return model;
+}
+
+const dal_system *fixture_system(dal_model *model)
+{
+    const dal_system *system = NULL;
+    dal_error error = {0};
+    const dal_status status = dal_model_system(model, &system, &error);
+    if (status != DAL_OK) printf("\n  %d:%d: %s\n", error.line, error.column, error.message);
+    CU_ASSERT_EQUAL_FATAL(status, DAL_OK);
+    return system;
+}
+
+dal_run_spec fixture_spec(const dal_system *system, const char *method, dal_space space,
+                          double step)
+{
+    dal_run_spec spec = {.system = system, .options = dal_options_default()};
+    CU_ASSERT_EQUAL_FATAL(dal_method_parse(&spec.method, method, NULL), DAL_OK);
+    spec.options.space = space;
+    spec.options.step = step;
+    return spec;
+}
+
+dal_run *fixture_run(const dal_run_spec *spec)
+{
+    dal_run *run = NULL;
+    dal_error error = {0};
+    const dal_status status = dal_run_create(&run, spec, &error);
+    if (status != DAL_OK) printf("\n  %s\n", error.message);
+    CU_ASSERT_EQUAL_FATAL(status, DAL_OK);
+    return run;
+}
+
+void fixture_displace(dal_run *run, double size)
+{
+    const int n = dal_run_system(run)->n;
+    double state[256];
+    memcpy(state, dal_run_state(run), (size_t)dal_run_dimension(run) * sizeof *state);
+    for (int i = 0; i < 2 * n; i++) state[2 * n + 1 + i] = size * (1.0 - 0.3 * i);
+    CU_ASSERT_EQUAL(dal_run_set_state(run, 0.0, state, NULL), DAL_OK);
+}

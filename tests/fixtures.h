@@ -1,0 +1,29 @@
+/* fixtures.h - systems and runs the suites share. */
+#ifndef FIXTURES_H
+#define FIXTURES_H
+
+#include <dalembert.h>
+
+/* Time-dependent and velocity-dependent forces, a full mass matrix that depends on q, m = 2 with
+ * one constraint nonlinear in v: style.md rule 12. */
+extern const char fixture_full[];
+/* The same features, but weak: methods of high order reach their asymptotic range before rounding.
+ */
+extern const char fixture_gentle[];
+/* D with constant coefficients; D bilinear in (q,v); D quadratic in v; all conservative. */
+extern const char fixture_constant[], fixture_bilinear[], fixture_quadratic[];
+
+/* A model from YAML text or (no newline in it) a built-in name; fails the test when it cannot. */
+dal_model *fixture_model(const char *text);
+const dal_system *fixture_system(dal_model *model);
+
+/* A spec with default options; method by name. */
+dal_run_spec fixture_spec(const dal_system *system, const char *method, dal_space space,
+                          double step);
+/* A run of it; NULL and a failed test when it cannot be made. */
+dal_run *fixture_run(const dal_run_spec *spec);
+
+/* Sets p_i and pi_i of a lifted run to a fixed pattern of the given size, at t = 0. */
+void fixture_displace(dal_run *run, double size);
+
+#endif

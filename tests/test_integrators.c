@@ -1,0 +1,296 @@
+/* test_integrators.c - conformance: what every descriptor claims, on fixtures with time-dependent
+ * and velocity-dependent forces, a full q-dependent mass matrix and m = 2. */
+#include "fixtures.h"
+#include <CUnit/CUnit.h>
+#include <math.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <string.h>
+
+/* Every integrator that is not a modifier, or, with project, with +project behind its name. */
+typedef void visit(const char *name, const dal_method *method, void *user);
+
+static void for_each(bool project, visit *visit, void *user)
+{
+    for (int i = 0; dal_integrator_at(i); i++) {
+        char name[64];
+        if (dal_integrator_at(i)->claims & DAL_MODIFIER) continue;
+        snprintf(name, sizeof name, "%s%s", dal_integrator_at(i)->name, project ? "+project" : "");
+        dal_method method;
+        CU_ASSERT_EQUAL_FATAL(dal_method_parse(&method, name, NULL), DAL_OK);
+        visit(name, &method, user);
+    }
+}
+
+/* ---- order: slope between two step counts in the asymptotic range of each order ---- */
+
+typedef struct window {
+    int order;
+    const char *fixture;
+    double T;
+    int coarse, fine;
+} window;
+
+static const window windows[] = {
+    {1, fixture_full, 1.0, 200, 400},   {2, fixture_full, 1.0, 40, 80},
+    {4, fixture_full, 1.0, 40, 80},     {6, fixture_full, 3.0, 54, 82},
+    {8, fixture_gentle, 20.0, 46, 82},  {10, fixture_gentle, 20.0, 25, 46},
+    {12, fixture_gentle, 20.0, 16, 25},
+};
+
+static const window *window_of(int order)
+{
+    for (size_t i = 0; i < sizeof windows / sizeof *windows; i++)
+        if (windows[i].order == order) return &windows[i];
+    CU_FAIL_FATAL("an order without a window");
+    return NULL;
+}
+
+/* The state at T after count steps. */
+static void end_state(dal_run_spec spec, double T, int count, double displacement, double *state)
+{
+    dal_error error;
+    spec.options.step = T / count;
+    dal_run *run = fixture_run(&spec);
+    if (displacement != 0.0) fixture_displace(run, displacement);
+    CU_ASSERT_EQUAL(dal_run_advance(run, count, &error), DAL_OK);
+    memcpy(state, dal_run_state(run), (size_t)dal_run_dimension(run) * sizeof *state);
+    dal_run_free(run);
+}
+
+static double observed_order(dal_run_spec spec, const window *w, double displacement, int dimension)
+{
+    double reference[64], state[64], error[2] = {0.0, 0.0};
+    dal_run_spec judge = spec;
+    CU_ASSERT_EQUAL(dal_method_parse(&judge.method, "gauss10", NULL), DAL_OK);
+    end_state(judge, w->T, 1500, displacement, reference);
+    for (int k = 0; k < 2; k++) {
+        end_state(spec, w->T, k ? w->fine : w->coarse, displacement, state);
+        for (int i = 0; i < dimension; i++)
+            error[k] = fmax(error[k], fabs(state[i] - reference[i]));
+    }
+    return log(error[0] / error[1]) / log((double)w->fine / w->coarse);
+}
+
+static void check_order(const char *name, const dal_method *method, void *user)
+{
+    const int order = dal_method_order(method);
+    const window *w = window_of(order);
+    dal_model *model = fixture_model(w->fixture);
+    const dal_system *system = fixture_system(model);
+    const bool projected = user != NULL;
+    for (int space = 0; space < 2; space++) {
+        /* Off the surface a projected method jumps back to it: its order is that on the surface. */
+        const double displacement = space == DAL_LIFTED && !projected ? 0.02 : 0.0;
+        const dal_run_spec spec = fixture_spec(system, name, (dal_space)space, 0.1);
+        const double seen = observed_order(spec, w, displacement, 2 * system->n);
+        if (!(fabs(seen - order) <= 0.1))
+            printf("\n  %s, space %d: observed order %.3f\n", name, space, seen);
+        CU_ASSERT(fabs(seen - order) <= 0.1);
+    }
+    dal_model_free(model);
+}
+
+static void test_order(void) { for_each(false, check_order, NULL); }
+static void test_order_projected(void) { for_each(true, check_order, (void *)windows); }
+
+/* ---- symplecticity and reversibility of the step map ---- */
+
+static void check_symplectic(const char *name, const dal_method *method, void *user)
+{
+    const dal_run_spec spec = fixture_spec(user, name, DAL_LIFTED, 0.1);
+    dal_run *run = fixture_run(&spec);
+    double defect = NAN;
+    fixture_displace(run, 0.3);
+    CU_ASSERT_EQUAL(dal_measure_symplecticity(&spec, 0.0, dal_run_state(run), 0.0, &defect, NULL),
+                    DAL_OK);
+    dal_run_free(run);
+    const bool claimed = (dal_method_claims(method) & DAL_SYMPLECTIC) != 0;
+    const bool good = claimed ? defect <= 1e-9 : defect >= 1e-7;
+    if (!good) printf("\n  %s: defect %.3e\n", name, defect);
+    CU_ASSERT(good);
+}
+
+static void test_symplectic(void)
+{
+    dal_model *model = fixture_model(fixture_full);
+    const dal_system *system = fixture_system(model);
+    for_each(false, check_symplectic, (void *)system);
+    for_each(true, check_symplectic, (void *)system);
+    dal_model_free(model);
+}
+
+static void check_symmetric(const char *name, const dal_method *method, void *user)
+{
+    double defect = NAN;
+    const dal_run_spec spec = fixture_spec(user, name, DAL_PHYSICAL, 0.2);
+    CU_ASSERT_EQUAL(dal_measure_reversibility(&spec, 0.0, NULL, &defect, NULL), DAL_OK);
+    const bool claimed = (dal_method_claims(method) & DAL_SYMMETRIC) != 0;
+    const bool good = claimed ? defect <= 1e-14 : defect >= 1e-7;
+    if (!good) printf("\n  %s: defect %.3e\n", name, defect);
+    CU_ASSERT(good);
+}
+
+static void test_symmetric(void)
+{
+    dal_model *model = fixture_model(fixture_bilinear);
+    for_each(false, check_symmetric, (void *)fixture_system(model));
+    dal_model_free(model);
+}
+
+/* ---- p.dq + pi.dv with 1/e = 0 ---- */
+
+static void check_pairing(const char *name, const dal_method *method, void *user)
+{
+    dal_model *model = user;
+    const dal_system *tangent = NULL;
+    const dal_setting start[] = {{"e", INFINITY}, {"p_x", 0.7}, {"p_z", -0.4}, {"pi_y", 1.1}};
+    const double direction[] = {0.3, -0.2, 0.5, 0.1, 0.4, -0.6};
+    dal_drift drift;
+    if (!(dal_method_claims(method) & DAL_SYMPLECTIC)) return;
+    CU_ASSERT_EQUAL_FATAL(dal_model_tangent(model, &tangent, NULL), DAL_OK);
+    dal_run_spec spec = fixture_spec(fixture_system(model), name, DAL_LIFTED, 0.005);
+    spec.start = start;
+    spec.start_count = 4;
+    CU_ASSERT_EQUAL(dal_measure_pairing(&spec, tangent, direction, 1000, &drift, NULL), DAL_OK);
+    if (!(drift.deviation <= 1e-13 * fmax(1.0, drift.greatest)))
+        printf("\n  %s: pairing moved by %.2e\n", name, drift.deviation);
+    CU_ASSERT(drift.deviation <= 1e-13 * fmax(1.0, drift.greatest));
+    CU_ASSERT(fabs(drift.first) > 0.1);
+}
+
+static void test_pairing(void)
+{
+    dal_model *model = fixture_model(fixture_bilinear);
+    for_each(false, check_pairing, model);
+    dal_model_free(model);
+}
+
+/* ---- on the surface: the same bits whatever the space and the gauge; p, pi, H exactly 0 ---- */
+
+static void surface_end(const dal_system *system, const char *name, dal_space space, double e,
+                        double *qv)
+{
+    const dal_setting start = {"e", e};
+    dal_run_spec spec = fixture_spec(system, name, space, 0.05);
+    double seen[32];
+    char label[32];
+    spec.start = &start;
+    spec.start_count = space == DAL_LIFTED;
+    dal_run *run = fixture_run(&spec);
+    CU_ASSERT_EQUAL(dal_run_advance(run, 200, NULL), DAL_OK);
+    memcpy(qv, dal_run_state(run), 2 * (size_t)system->n * sizeof *qv);
+    CU_ASSERT_EQUAL(dal_run_observe(run, seen), DAL_OK);
+    for (int i = 0; i < dal_run_observables(run); i++) {
+        dal_run_observable_name(run, i, label, sizeof label);
+        if (strcmp(label, "H") == 0 || label[0] == '|') CU_ASSERT_EQUAL(seen[i], 0.0);
+    }
+    dal_run_free(run);
+}
+
+static void check_surface(const char *name, const dal_method *method, void *user)
+{
+    double physical[32], lifted[32];
+    const dal_system *const *systems = user;
+    const size_t bytes = 2 * (size_t)systems[0]->n * sizeof(double);
+    (void)method;
+    surface_end(systems[0], name, DAL_PHYSICAL, 0.0, physical);
+    for (int i = 0; i < 2; i++) { /* another mu_e(t) */
+        surface_end(systems[i], name, DAL_LIFTED, 1.0, lifted);
+        CU_ASSERT_EQUAL(memcmp(physical, lifted, bytes), 0);
+        surface_end(systems[i], name, DAL_LIFTED, -7.0, lifted);
+        CU_ASSERT_EQUAL(memcmp(physical, lifted, bytes), 0);
+        surface_end(systems[i], name, DAL_LIFTED, INFINITY, lifted);
+        CU_ASSERT_EQUAL(memcmp(physical, lifted, bytes), 0);
+    }
+}
+
+static void test_surface(void)
+{
+    char other[4096];
+    snprintf(other, sizeof other, "%s", fixture_full);
+    char *gauge = strstr(other, "gauge:");
+    CU_ASSERT_PTR_NOT_NULL_FATAL(gauge);
+    strcpy(gauge, "gauge: {e: 3, mu_e: 0.05*exp(-t) - 0.01*t}\n");
+    dal_model *models[] = {fixture_model(fixture_full), fixture_model(other)};
+    const dal_system *systems[] = {fixture_system(models[0]), fixture_system(models[1])};
+    for_each(false, check_surface, systems);
+    for_each(true, check_surface, systems);
+    dal_model_free(models[0]);
+    dal_model_free(models[1]);
+}
+
+/* ---- D over 1e5 steps ---- */
+
+typedef struct keeps {
+    const char *fixture;
+    unsigned claim; /* 0: every method keeps this one */
+} keeps;
+
+static double greatest_d(const dal_system *system, const char *name, double h, long long count)
+{
+    const dal_run_spec spec = fixture_spec(system, name, DAL_PHYSICAL, h);
+    dal_run *run = fixture_run(&spec);
+    double seen[32], greatest = 0.0;
+    for (long long i = 0; i < count; i += 100) {
+        CU_ASSERT_EQUAL_FATAL(dal_run_advance(run, 100, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_run_observe(run, seen), DAL_OK);
+        for (int a = 0; a < system->m; a++) greatest = fmax(greatest, fabs(seen[a]));
+    }
+    dal_run_free(run);
+    return greatest;
+}
+
+static void check_keeps(const char *name, const dal_method *method, void *user)
+{
+    const keeps *k = user;
+    const unsigned claims = dal_method_claims(method);
+    const bool keeps = k->claim == 0 || (claims & (k->claim | DAL_KEEPS_D));
+    dal_model *model = fixture_model(k->fixture);
+    const dal_system *system = fixture_system(model);
+    const double d =
+        keeps ? greatest_d(system, name, 0.002, 100000) : greatest_d(system, name, 0.05, 1000);
+    if (keeps ? !(d <= 1e-13) : !(d > 1e-12)) printf("\n  %s: |D| %.2e\n", name, d);
+    if (keeps) CU_ASSERT(d <= 1e-13);
+    /* That the others lose it shows that the test sees a loss. */
+    if (!keeps && dal_method_order(method) <= 4) CU_ASSERT(d > 1e-12);
+    dal_model_free(model);
+}
+
+static void test_keeps_constant(void)
+{
+    keeps k = {fixture_constant, 0};
+    for_each(false, check_keeps, &k);
+}
+static void test_keeps_bilinear(void)
+{
+    keeps k = {fixture_bilinear, DAL_KEEPS_BILINEAR | DAL_KEEPS_QUADRATIC};
+    for_each(false, check_keeps, &k);
+}
+static void test_keeps_quadratic(void)
+{
+    keeps k = {fixture_quadratic, DAL_KEEPS_QUADRATIC};
+    for_each(false, check_keeps, &k);
+}
+static void test_project_keeps(void)
+{
+    keeps k = {fixture_quadratic, DAL_KEEPS_D};
+    for_each(true, check_keeps, &k);
+    k.fixture = "chaplygin-sleigh";
+    for_each(true, check_keeps, &k);
+}
+
+void suite_integrators(void)
+{
+    CU_pSuite suite = CU_add_suite("integrators", NULL, NULL);
+    CU_add_test(suite, "order, lifted off the surface and physical", test_order);
+    CU_add_test(suite, "order with +project", test_order_projected);
+    CU_add_test(suite, "symplectic on 4n+2, or not", test_symplectic);
+    CU_add_test(suite, "symmetric, or not", test_symmetric);
+    CU_add_test(suite, "adjoint pairing with 1/e = 0", test_pairing);
+    CU_add_test(suite, "on the surface: equal bits, zero momenta", test_surface);
+    CU_add_test(suite, "D linear with constant coefficients", test_keeps_constant);
+    CU_add_test(suite, "D bilinear", test_keeps_bilinear);
+    CU_add_test(suite, "D quadratic", test_keeps_quadratic);
+    CU_add_test(suite, "+project keeps every D", test_project_keeps);
+}
