@@ -113,17 +113,17 @@ check: all $(BUILD)/tests/suite
 	@CC="$(CC)" CFLAGS="$(CFLAGS)" sh tests/install.sh "$(MAKE)" $(BUILD)
 	@$(BUILD)/tests/suite $(SUITE)
 
+CHECKED = -O1 -g -fno-omit-frame-pointer -fno-sanitize-recover=all
 check-sanitize:
-	$(MAKE) BUILD=$(BUILD)/sanitize check \
-	    CFLAGS="-O1 -g -fno-omit-frame-pointer -fsanitize=address,undefined -fno-sanitize-recover=all"
+	$(MAKE) BUILD=$(BUILD)/sanitize CFLAGS="$(CHECKED) -fsanitize=address,undefined" check
 
 VALGRIND = valgrind -q --error-exitcode=99 --leak-check=full
 check-valgrind: $(BUILD)/tests/suite
 	$(VALGRIND) $(BUILD)/tests/suite $(SUITE)
 
-FUZZ_FLAGS = -O1 -g -fno-omit-frame-pointer -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all
 fuzz:
-	$(MAKE) BUILD=$(BUILD)/fuzz CC=$(FUZZ_CC) CFLAGS="$(FUZZ_FLAGS)" run-fuzzers
+	$(MAKE) BUILD=$(BUILD)/fuzz CC=$(FUZZ_CC) \
+	    CFLAGS="$(CHECKED) -fsanitize=fuzzer-no-link,address,undefined" run-fuzzers
 
 run-fuzzers: $(FUZZERS:%=$(BUILD)/tests/%)
 	@for f in $^; do mkdir -p $$f.corpus && \
