@@ -127,8 +127,9 @@ fuzz:
 
 run-fuzzers: $(FUZZERS:%=$(BUILD)/tests/%)
 	@for f in $^; do mkdir -p $$f.corpus && \
-	    $$f -max_total_time=$(FUZZ_SECONDS) -print_final_stats=0 -artifact_prefix=$$f. \
-	        $$f.corpus || exit 1; done
+	    $$f -verbosity=0 -max_total_time=$(FUZZ_SECONDS) -artifact_prefix=$$f. \
+	        $$f.corpus systems || exit 1; \
+	    echo "fuzz: $$(basename $$f): ok"; done
 $(FUZZERS:%=$(BUILD)/tests/%): %: %.o $(STATIC)
 	$(CC) $(CFLAGS) -fsanitize=fuzzer $^ $(LIBS) -o $@
 
