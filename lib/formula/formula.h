@@ -79,8 +79,9 @@ typedef struct dal__view {
 } dal__view;
 dal__view dal__look(const dal__graph *graph, dal__node node);
 bool dal__is_number(const dal__graph *graph, dal__node node, double value);
-/* Whether node depends on a symbol with first <= symbol < end. */
-bool dal__depends(const dal__graph *graph, dal__node node, int first, int end);
+/* Whether node depends on a symbol with first <= symbol < end; true when memory is out, which the
+ * graph remembers. */
+bool dal__depends(dal__graph *graph, dal__node node, int first, int end);
 
 /* Exact derivatives: of f by each symbol (reverse mode, one sweep), out[count]; and along a
  * direction: sum_i df/dsymbol_i * seed_i (forward mode). */
@@ -92,7 +93,7 @@ dal__node dal__substitute(dal__graph *graph, dal__node f, const int *symbols, in
                           const dal__node *by);
 /* The value of a node; values[symbol].  A slow way for single questions (pivots, starts). [alloc]
  */
-double dal__evaluate(const dal__graph *graph, dal__node node, const double *values);
+double dal__evaluate(dal__graph *graph, dal__node node, const double *values);
 
 /* ---- parser ---- */
 

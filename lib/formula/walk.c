@@ -20,11 +20,17 @@ uint8_t *dal__reach(const dal__graph *graph, dal__node node)
     return mark;
 }
 
-bool dal__depends(const dal__graph *graph, dal__node node, int first, int end)
+/* A question that could not be answered must not pass for an answer. */
+static void starve(dal__graph *graph)
+{
+    if (graph->status == DAL_OK) graph->status = DAL_MEMORY;
+}
+
+bool dal__depends(dal__graph *graph, dal__node node, int first, int end)
 {
     if (graph->node[node].fixed && first >= graph->parameters) return false;
     uint8_t *mark = dal__reach(graph, node);
-    if (!mark) return true;
+    if (!mark) return starve(graph), true;
     bool found = false;
     for (dal__node i = node; i > 0 && !found; i--) {
         const dal__record *r = &graph->node[i];
@@ -48,7 +54,7 @@ double dal__operate(dal__op op, double a, double b)
     }
 }
 
-double dal__evaluate(const dal__graph *graph, dal__node node, const double *values)
+double dal__evaluate(dal__graph *graph, dal__node node, const double *values)
 {
     uint8_t *mark = dal__reach(graph, node);
     double *x = malloc(((size_t)node + 1) * sizeof *x), value = NAN;
@@ -62,6 +68,8 @@ double dal__evaluate(const dal__graph *graph, dal__node node, const double *valu
                                           : dal__operate((dal__op)r->op, x[r->a], x[r->b]);
         }
         value = x[node];
+    } else {
+        starve(graph);
     }
     free(mark);
     free(x);

@@ -10,25 +10,31 @@
 
 /* ---- one formula ---- */
 
+/* What the formulas of a section are called in a message, before their name or number. */
+static const char *const labels[DAL_SECTION_COUNT] = {
+    [DAL_SECTION_PARAMETERS] = "parameter",  [DAL_SECTION_LET] = "let",
+    [DAL_SECTION_LAGRANGIAN] = "lagrangian", [DAL_SECTION_ACCELERATIONS] = "acceleration of",
+    [DAL_SECTION_FORCES] = "force on",       [DAL_SECTION_CONSTRAINTS] = "constraint",
+    [DAL_SECTION_GAUGE] = "gauge",           [DAL_SECTION_START] = "start of",
+    [DAL_SECTION_INVARIANTS] = "invariant",  [DAL_SECTION_EXACT] = "exact solution for",
+};
+
 /* The message gets the name of the entry, the place that of the formula. */
 static dal_status locate(const dal_model *model, const dal__entry *entry, dal_error *error,
                          const dal_error *inner)
 {
-    char label[128];
-    const char *section = dal__section_name(entry->section);
+    char name[96] = "";
     int number = 1;
     for (const dal__entry *other = model->entries; other < entry; other++)
         number += other->section == entry->section;
     if (entry->name)
-        snprintf(label, sizeof label, "%s of %.80s", section, entry->name);
+        snprintf(name, sizeof name, " %.80s", entry->name);
     else if (dal__section_shape(entry->section) == DAL__LIST)
-        snprintf(label, sizeof label, "%s, number %d", section, number);
-    else
-        snprintf(label, sizeof label, "%s", section);
+        snprintf(name, sizeof name, " %d", number);
     int line = entry->line ? entry->line : 1, column = entry->line ? entry->column : 1;
     return dal__error(error, inner->status, line + inner->line - 1,
-                      inner->line == 1 ? column + inner->column - 1 : inner->column, "%s: %s",
-                      label, inner->message);
+                      inner->line == 1 ? column + inner->column - 1 : inner->column, "%s%s: %s",
+                      labels[entry->section], name, inner->message);
 }
 
 static dal_status parse(dal_model *model, const dal__entry *entry, dal__scope scope,
@@ -45,6 +51,8 @@ static dal_status fault(const dal_model *model, const dal__entry *entry, dal_sta
                         dal_error *error, const char *message)
 {
     dal_error inner = {.status = status, .line = 1, .column = 1};
+    dal_status graph = dal__graph_status(model->equations.graph);
+    if (graph != DAL_OK) return dal__exhausted(graph, error);
     snprintf(inner.message, sizeof inner.message, "%s", message);
     return locate(model, entry, error, &inner);
 }
@@ -194,6 +202,14 @@ static dal_status parse_start(dal_model *model, dal_error *error)
     return DAL_OK;
 }
 
+static dal_status incomplete(const dal_model *model, int given, dal_error *error)
+{
+    const dal__entry *entry = dal__model_entry(model, DAL_SECTION_EXACT, 0);
+    return dal__error(error, DAL_MODEL, entry->name_line, entry->name_column,
+                      "exact has %d of %d coordinates: it needs a formula for each", given,
+                      model->equations.n);
+}
+
 /* Velocities of the exact solution are derivatives by t. */
 static dal_status parse_exact(dal_model *model, dal_error *error)
 {
@@ -202,10 +218,7 @@ static dal_status parse_exact(dal_model *model, dal_error *error)
     if (given == 0) return DAL_OK;
     for (int i = 0; i < e->n; i++) e->exact[i] = dal__number(e->graph, 0.0);
     DAL_TRY(by_coordinate(model, DAL_SECTION_EXACT, only(e, DAL__MAY_T), e->exact, error));
-    if (given < e->n)
-        return dal__error(error, DAL_MODEL, dal__model_entry(model, DAL_SECTION_EXACT, 0)->line, 0,
-                          "exact has %d of %d coordinates: it needs a formula for each", given,
-                          e->n);
+    if (given < e->n) return incomplete(model, given, error);
     dal__node one = dal__number(e->graph, 1.0);
     for (int i = 0; i < e->n; i++)
         e->exact[e->n + i] = dal__tangent(e->graph, e->exact[i], &e->t, 1, &one);
@@ -221,9 +234,10 @@ static dal_status check_sizes(const dal_model *model, dal_error *error)
     if (e->n > DAL__MOST_COORDINATES)
         return dal__error(error, DAL_TOO_LARGE, 0, 0, "%d coordinates; at most %d are possible",
                           e->n, (int)DAL__MOST_COORDINATES);
-    if (e->m > e->n)
-        return dal__error(error, DAL_RANK, 0, 0, "%d constraints on %d coordinates", e->m, e->n);
-    return DAL_OK;
+    if (e->m <= e->n) return DAL_OK;
+    const dal__entry *excess = dal__model_entry(model, DAL_SECTION_CONSTRAINTS, e->n);
+    return dal__error(error, DAL_RANK, excess->line, excess->column,
+                      "%d constraints on %d coordinates", e->m, e->n);
 }
 
 static dal_status read_mechanics(dal_model *model, dal_error *error)

@@ -158,6 +158,7 @@ static dal_status make_plan(dal_model *model, dal__linear *s, plan *p)
     move_off(e, point);
     evaluate(p, e, s->matrix, point);
     s->singular = order(p);
+    DAL_TRY(dal__graph_status(e->graph));
     return s->singular < 0 ? DAL_OK : DAL_SINGULAR;
 }
 

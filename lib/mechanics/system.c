@@ -101,7 +101,7 @@ static void describe(dal_model *model)
 
 dal_status dal_model_system(dal_model *model, const dal_system **system, dal_error *error)
 {
-    *system = &model->system;
+    *system = model->made ? &model->system : NULL;
     if (model->made) return DAL_OK;
     model->starved = false;
     DAL_TRY(dal__formulas(model, error));
@@ -114,6 +114,7 @@ dal_status dal_model_system(dal_model *model, const dal_system **system, dal_err
     if (status == DAL_OK) status = dal__programs_finish(&model->programs, &model->system);
     if (status != DAL_OK) return dal__exhausted(status, error);
     model->made = true;
+    *system = &model->system;
     return DAL_OK;
 }
 
@@ -177,7 +178,7 @@ static dal_status make_tangent(dal_model *model)
 dal_status dal_model_tangent(dal_model *model, const dal_system **system, dal_error *error)
 {
     const dal_system *plain;
-    *system = &model->tangent;
+    *system = model->tangent_made ? &model->tangent : NULL;
     if (model->tangent_made) return DAL_OK;
     DAL_TRY(dal_model_system(model, &plain, error));
     if (model->equations.multipliers)
@@ -187,5 +188,6 @@ dal_status dal_model_tangent(dal_model *model, const dal_system **system, dal_er
     dal_status status = make_tangent(model);
     if (status != DAL_OK) return dal__exhausted(status, error);
     model->tangent_made = true;
+    *system = &model->tangent;
     return DAL_OK;
 }

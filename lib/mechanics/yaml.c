@@ -19,7 +19,8 @@ typedef struct reader {
     const char *text;
     size_t length;
     dal_model *model;
-    unsigned seen; /* sections, a bit each */
+    size_t byte, character; /* the same place, counted both ways */
+    unsigned seen;          /* sections, a bit each */
     dal_error *error;
 } reader;
 
@@ -77,15 +78,17 @@ static dal_status next(reader *r)
 
 /* ---- scalars ---- */
 
-/* Byte offset of a mark: libyaml counts characters. */
-static size_t offset_of(const reader *r, yaml_mark_t mark)
+static bool begins_character(char c) { return ((unsigned char)c & 0xC0) != 0x80; }
+
+/* Byte offset of a mark: libyaml counts characters.  Marks come in order, so the count goes on from
+ * the last one. */
+static size_t offset_of(reader *r, yaml_mark_t mark)
 {
-    size_t i = 0;
-    for (size_t characters = 0; i < r->length; i++) {
-        if (((unsigned char)r->text[i] & 0xC0) == 0x80) continue;
-        if (characters++ == mark.index) break;
+    while (r->byte < r->length && r->character < mark.index) {
+        r->byte++;
+        r->character += r->byte == r->length || begins_character(r->text[r->byte]);
     }
-    return i;
+    return r->byte;
 }
 
 static char *copy(dal_model *model, const char *from, size_t length)

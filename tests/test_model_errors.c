@@ -1,0 +1,385 @@
+/* test_model_errors.c - bad system files: each with its status, its message and its place.  The
+ * place is marked by @ in the text, which the test takes out. */
+#include "allocation.h"
+
+#include <CUnit/Basic.h>
+#include <dalembert.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Lines that are right, to put wrong ones beside them. */
+#define XY "coordinates: [x, y]\n"
+#define L  "lagrangian: (x'^2 + y'^2)/2\n"
+
+typedef struct bad_file {
+    dal_status status;
+    const char *message, *text; /* no @: no place */
+} bad_file;
+
+/* ---- YAML ---- */
+
+static const bad_file yaml[] = {
+    {DAL_SYNTAX, "the file is empty", "@"},
+    {DAL_SYNTAX, "the file is empty", "# nothing\n@"},
+    {DAL_SYNTAX, "a system file is a mapping, as 'coordinates: [x, y]'", "@- a\n- b\n"},
+    {DAL_SYNTAX, "a system file is a mapping, as 'coordinates: [x, y]'", "@hello"},
+    {DAL_SYNTAX, "malformed YAML: found character that cannot start any token", "@\ttitle: x\n"},
+    {DAL_SYNTAX, "malformed YAML: mapping values are not allowed in this context",
+     "title: x\n  bad@: y\n"},
+    {DAL_SYNTAX, "malformed YAML: did not find expected ',' or ']'", "coordinates: [x, y\n@"},
+    {DAL_SYNTAX, "malformed YAML: found unexpected end of stream", "title: \"x\n@"},
+    {DAL_SYNTAX, "malformed YAML: invalid leading UTF-8 octet", "title: a\n# @\xff\n"},
+    {DAL_SYNTAX, "a second document begins here: a system file has one", XY L "@---\n" XY},
+    {DAL_SYNTAX, "anchors and aliases are not supported", "title: @&a x\n"},
+    {DAL_SYNTAX, "anchors and aliases are not supported", "title: @*a\n"},
+    {DAL_SYNTAX, "a text holds a NUL character", "title: @\"a\\0b\"\n"},
+    {DAL_SYNTAX, "a name is expected here", "@[title]: x\n"},
+    {DAL_NAME, "unknown key 'titel'; did you mean 'title'?", XY "@titel: x\n"},
+    {DAL_NAME, "unknown key '<<'", "@<<: {a: b}\n"},
+    {DAL_MODEL, "duplicate key 'title'", "title: x\n" L "@title: y\n"},
+    {DAL_SYNTAX, "coordinates must be a list", "coordinates: @x\n"},
+    {DAL_SYNTAX, "constraints must be a list", "constraints: @{a: b}\n"},
+    {DAL_SYNTAX, "lagrangian must be one text", "lagrangian: @[x]\n"},
+    {DAL_SYNTAX, "parameters must be a mapping of names", "parameters: @[m]\n"},
+    {DAL_SYNTAX, "forces must be a mapping of names", "forces:@\n"},
+    {DAL_SYNTAX, "a text is expected in coordinates", "coordinates: [@[x]]\n"},
+    {DAL_SYNTAX, "a text is expected in start", "start: {x: @{y: 1}}\n"},
+    {DAL_SYNTAX, "a name is expected here", "start: {@[x]: 1}\n"},
+};
+
+/* ---- names ---- */
+
+static const bad_file names[] = {
+    {DAL_MODEL, "duplicate 'x' in coordinates", "coordinates: [x, @x]\n"},
+    {DAL_MODEL, "duplicate 'm' in parameters", XY L "parameters: {m: 1, @m: 2}\n"},
+    {DAL_MODEL, "duplicate 'x' in start", XY L "start:\n  x: 1\n  @x: 1\n"},
+    {DAL_MODEL, "duplicate 'a' in tags", "tags: [a, @a]\n"},
+    {DAL_NAME, "'2y' in coordinates is not a name: a letter, then letters, digits and _",
+     "coordinates: [x, @2y]\n"},
+    {DAL_NAME, "'a b' in invariants is not a name: a letter, then letters, digits and _",
+     "invariants: {@a b: x}\n"},
+    {DAL_NAME, "'x''' in start is not a name: a letter, then letters, digits and _",
+     "start: {@x'': 1}\n"},
+    {DAL_NAME, "'x'' in forces is not a name: a letter, then letters, digits and _",
+     "forces: {@x': 1}\n"},
+    {DAL_MODEL, "parameter 'x': a coordinate already has this name", XY L "parameters: {@x: 1}\n"},
+    {DAL_MODEL, "let 'm': a parameter already has this name",
+     XY L "parameters: {m: 1}\nlet: {@m: 1}\n"},
+    {DAL_NAME, "coordinate 't': this name is reserved in formulas", "coordinates: [x, @t]\n" L},
+    {DAL_NAME, "coordinate 'e': this name is reserved in formulas", "coordinates: [x, @e]\n" L},
+    {DAL_NAME, "parameter 'pi': this name is reserved in formulas", XY L "parameters: {@pi: 3}\n"},
+    {DAL_NAME, "let 'sin': this name is reserved in formulas", XY L "let: {@sin: x}\n"},
+    {DAL_NAME, "coordinate 'E': this name is reserved for a column of the output",
+     "coordinates: [x, @E]\n" L},
+    {DAL_NAME, "coordinate 'D12': this name is reserved for a column of the output",
+     "coordinates: [x, @D12]\n" L},
+    {DAL_NAME, "coordinate 'p_x': this name is reserved for a column of the output",
+     "coordinates: [x, @p_x]\n" L},
+    {DAL_NAME, "coordinate 'pi_e': this name is reserved for a column of the output",
+     "coordinates: [x, @pi_e]\n" L},
+    {DAL_NAME, "coordinate 'g1': this name is reserved for a column of the output",
+     "mechanics: vakonomic\ncoordinates: [x, @g1]\n" L},
+    {DAL_NAME, "invariant 'H': this name is reserved for a column of the output",
+     XY L "invariants: {@H: x}\n"},
+    {DAL_NAME, "invariant 'error': this name is reserved for a column of the output",
+     XY L "invariants: {@error: x}\n"},
+    {DAL_MODEL, "invariant 'x': a coordinate already has this name", XY L "invariants: {@x: y}\n"},
+    {DAL_NAME, "unknown coordinate in forces 'yy'; did you mean 'y'?", XY L "forces: {@yy: 1}\n"},
+    {DAL_NAME, "unknown coordinate in accelerations 'z'", XY "accelerations: {@z: 1}\n"},
+    {DAL_NAME, "unknown coordinate in exact 'z'", XY L "exact: {x: 1, @z: 1}\n"},
+    {DAL_NAME, "unknown name in start 'yy''; did you mean 'y''?", XY L "start: {@yy': 1}\n"},
+    {DAL_NAME, "unknown name in start 'g1'",
+     XY L "mechanics: vakonomic\nstart: {@g1: 1}\n"}, /* there is no constraint */
+    {DAL_NAME, "the start of e belongs under gauge, as 'gauge: {e: 1}'", XY L "start: {@e: 2}\n"},
+    {DAL_NAME, "unknown entry of gauge 'mu'; did you mean 'mu_e'?", XY L "gauge: {@mu: 1}\n"},
+    {DAL_NAME, "unknown mechanics 'vakonomc'; did you mean 'vakonomic'?",
+     XY L "mechanics: @vakonomc\n"},
+};
+
+/* ---- formulas ---- */
+
+static const bad_file formulas[] = {
+    {DAL_NAME, "lagrangian: unknown name 'z'", XY "lagrangian: (x'^2 + @z'^2)/2\n"},
+    {DAL_NAME, "constraint 2: unknown name 'omgea'; did you mean 'omega'?",
+     "parameters: {omega: 1}\n" XY L "constraints:\n  - x'\n  - y' - @omgea\n"},
+    {DAL_NAME, "constraint 1: unknown function 'si'; did you mean 'sin'?",
+     XY L "constraints: [x'*@si(x)]\n"},
+    {DAL_NAME, "force on y: parameter 'm' has no velocity",
+     XY L "parameters: {m: 1}\nforces: {y: x*@m'}\n"},
+    {DAL_NAME, "invariant c: e is the gauge variable; exp(1) is Euler's number",
+     XY L "invariants: {c: x*@e^2}\n"},
+    {DAL_SYNTAX, "lagrangian: a '(' is never closed", XY "lagrangian: @(x'^2 + y'^2/2\n"},
+    {DAL_SYNTAX, "lagrangian: an operator is missing: write 2*x", XY "lagrangian: 2@x\n"},
+    {DAL_SYNTAX, "lagrangian: division by zero", XY "lagrangian: x'@/0\n"},
+    {DAL_SYNTAX, "lagrangian: the formula is empty", XY "lagrangian: '@'\n"},
+    {DAL_SYNTAX, "lagrangian: the formula is empty", XY "lagrangian:@\n"},
+    /* Places in every kind of YAML text. */
+    {DAL_NAME, "lagrangian: unknown name 'z'", XY "lagrangian: \"x'^2 + @z\"\n"},
+    {DAL_NAME, "lagrangian: unknown name 'z'", XY "lagrangian: 'x''^2 + y''^2 + @z'\n"},
+    {DAL_NAME, "lagrangian: unknown name 'z'", XY "lagrangian: x'^2\n  +\n    y'^2 + @z\n"},
+    {DAL_NAME, "lagrangian: unknown name 'z'", XY "lagrangian: |\n  x'^2\n  + @z\ntags: []\n"},
+    {DAL_NAME, "lagrangian: unknown name 'z'", XY "lagrangian: >-\n\n  x'^2\n    + @z\ntags: []\n"},
+    {DAL_NAME, "lagrangian: unknown name 'z'", "title: \"\xc3\xa4\"\n" XY "lagrangian: @z\n"},
+    {DAL_NAME, "lagrangian: unknown name 'z'", "\xef\xbb\xbf" XY "lagrangian: x + @z\n"},
+    {DAL_NAME, "lagrangian: unknown name 'z'", "# one\r\n" XY "lagrangian: x\r\n  + @z\r\n"},
+    /* What may stand where. */
+    {DAL_NAME, "parameter m: unknown name 'k'", XY L "parameters: {m: @k, k: 1}\n"},
+    {DAL_NAME, "let a: unknown name 'bcd'", XY L "let: {a: @bcd, bcd: 1}\n"},
+    {DAL_SYNTAX, "parameter m: the number 1e999 is too large", XY L "parameters: {m: @1e999}\n"},
+    {DAL_MODEL, "parameter m: the value is not finite", XY L "parameters: {m: @exp(1000)}\n"},
+    {DAL_MODEL, "start of x': the value is not finite", XY L "start: {x': @log(0)}\n"},
+    {DAL_NAME, "start of x: coordinate 'y' may not stand here: only parameters",
+     XY L "start: {x: 1 + @y}\n"},
+    {DAL_NAME, "start of x: the velocity of 'y' may not stand here: only parameters",
+     XY L "start: {x: @y'}\n"},
+    {DAL_NAME, "start of x: the time 't' may not stand here: only parameters",
+     XY L "start: {x: @t}\n"},
+    {DAL_NAME, "start of x: let 'a' may not stand here: only parameters",
+     XY L "let: {a: x'}\nstart: {x: @a}\n"},
+    {DAL_NAME, "gauge e: let 'a' may not stand here: only parameters",
+     XY L "let: {a: t}\ngauge: {e: @a}\n"},
+    {DAL_NAME, "gauge mu_e: coordinate 'x' may not stand here: only parameters and t",
+     XY L "gauge: {mu_e: t + @x}\n"},
+    {DAL_NAME, "exact solution for x: coordinate 'y' may not stand here: only parameters and t",
+     XY L "exact: {x: @y, y: 1}\n"},
+};
+
+/* ---- mechanics ---- */
+
+static const bad_file mechanics[] = {
+    {DAL_MODEL, "the system has no coordinates", L},
+    {DAL_MODEL, "the system has no coordinates", "coordinates: []\nlagrangian: 1\n"},
+    {DAL_MODEL, "the system has neither a lagrangian nor accelerations", XY},
+    {DAL_MODEL, "the system has both a lagrangian and accelerations",
+     XY L "accelerations: {@x: 1}\n"},
+    {DAL_MODEL, "vakonomic mechanics needs a lagrangian, not accelerations",
+     XY "mechanics: vakonomic\naccelerations: {@x: 1}\n"},
+    {DAL_MODEL, "exact has 1 of 2 coordinates: it needs a formula for each",
+     XY L "exact: {@x: t}\n"},
+    {DAL_SINGULAR_MASS,
+     "the mass matrix is singular: it does not determine the acceleration of 'y'",
+     XY "lagrangian: @x'^2/2 - y\n"},
+    {DAL_SINGULAR_MASS,
+     "the mass matrix is singular: it does not determine the acceleration of 'y'",
+     XY "lagrangian: @(x' + x*y')^2/2\n"},
+    {DAL_RANK, "constraint 1 does not depend on the velocities", XY L "constraints: [@x - y]\n"},
+    {DAL_RANK, "3 constraints on 2 coordinates", XY L "constraints: [x', y', @x' + y']\n"},
+    {DAL_RANK, "constraint 2 is not independent of the others: A W^-1 A^T is singular",
+     XY L "constraints: [x' + y', @x*(x' + y')]\nstart: {x: 1}\n"},
+};
+
+/* ---- the check ---- */
+
+static dal_status make(const char *text, size_t length, dal_error *error)
+{
+    dal_model *model;
+    const dal_system *system;
+    dal_status status = dal_model_read(&model, "text", text, length, error);
+    if (status == DAL_OK) status = dal_model_system(model, &system, error);
+    dal_model_free(model);
+    return status;
+}
+
+/* Columns count characters, so bytes that go on with one do not count; nor does the mark of the
+ * byte order. */
+static void place_of(const char *text, const char *at, int *line, int *column)
+{
+    *line = *column = at ? 1 : 0;
+    for (; at && text < at; text++) {
+        int continues = ((unsigned char)*text & 0xC0) == 0x80 || *text == '\xef';
+        *column = *text == '\n' ? 1 : *column + !continues;
+        *line += *text == '\n';
+    }
+}
+
+static void check(const bad_file *bad)
+{
+    char text[512];
+    const char *at = strchr(bad->text, '@');
+    int line, column;
+    dal_error error = {.line = -1};
+    place_of(bad->text, at, &line, &column);
+    strcpy(text, bad->text);
+    if (at) strcpy(text + (at - bad->text), at + 1);
+    dal_status status = make(text, strlen(text), &error);
+    int right = status == bad->status && error.status == status && error.line == line &&
+                error.column == column && strcmp(error.message, bad->message) == 0;
+    if (!right)
+        printf("\n%s    says %d:%d %s %s\n    not  %d:%d %s\n", bad->text, error.line, error.column,
+               dal_status_name(status), error.message, line, column, bad->message);
+    CU_ASSERT(right);
+}
+
+#define CHECK_ALL(list)                                                                            \
+    for (size_t i = 0; i < sizeof(list) / sizeof *(list); i++) check(&(list)[i])
+
+static void test_yaml(void) { CHECK_ALL(yaml); }
+static void test_names(void) { CHECK_ALL(names); }
+static void test_formulas(void) { CHECK_ALL(formulas); }
+static void test_mechanics(void) { CHECK_ALL(mechanics); }
+
+/* ---- what is no text ---- */
+
+static void test_bytes(void)
+{
+    dal_error error;
+    CU_ASSERT(make("title: a\n\0b", 11, &error) == DAL_SYNTAX);
+    CU_ASSERT_STRING_EQUAL(error.message, "the file holds a NUL byte");
+    CU_ASSERT(error.line == 2 && error.column == 1);
+    size_t length = ((size_t)1 << 22) + 1;
+    char *spaces = malloc(length);
+    CU_ASSERT_FATAL(spaces != NULL);
+    memset(spaces, ' ', length);
+    CU_ASSERT(make(spaces, length, &error) == DAL_TOO_LARGE);
+    CU_ASSERT_STRING_EQUAL(error.message, "more than 4194304 bytes in a system file");
+    CU_ASSERT(make(spaces, length - 1, &error) == DAL_SYNTAX);
+    CU_ASSERT_STRING_EQUAL(error.message, "the file is empty");
+    free(spaces);
+}
+
+static void check_file(const char *path, dal_status status, const char *message)
+{
+    dal_model *model;
+    dal_error error;
+    CU_ASSERT(dal_model_read_file(&model, path, &error) == status && model == NULL);
+    CU_ASSERT_STRING_EQUAL(error.message, message);
+}
+
+static void test_files(void)
+{
+    check_file("/nowhere/at-all.yaml", DAL_IO, "No such file or directory");
+    check_file("/", DAL_IO, "Is a directory");
+    check_file("/dev/null", DAL_SYNTAX, "the file is empty");
+    check_file("/dev/zero", DAL_TOO_LARGE, "more than 4194304 bytes in a system file");
+}
+
+static void test_builtin(void)
+{
+    dal_model *model;
+    dal_error error;
+    CU_ASSERT(dal_model_builtin(&model, "chaplygin-slegh", &error) == DAL_NAME && !model);
+    CU_ASSERT_STRING_EQUAL(error.message,
+                           "unknown system 'chaplygin-slegh'; did you mean 'chaplygin-sleigh'?");
+    CU_ASSERT(dal_builtin_text("chaplygin-slegh") == NULL);
+}
+
+static void test_many(void)
+{
+    dal_model *model = dal_model_create("many");
+    dal_error error;
+    char name[16];
+    dal_status status = DAL_OK;
+    for (int i = 0; status == DAL_OK && i < 300; i++) {
+        snprintf(name, sizeof name, "q%d", i);
+        status = dal_model_add(model, DAL_SECTION_COORDINATES, NULL, name, 0, 0, &error);
+    }
+    const dal_system *system;
+    CU_ASSERT(dal_model_system(model, &system, &error) == DAL_TOO_LARGE && system == NULL);
+    CU_ASSERT_STRING_EQUAL(error.message, "300 coordinates; at most 256 are possible");
+    for (int i = 300; status == DAL_OK && i < 5000; i++) {
+        snprintf(name, sizeof name, "q%d", i);
+        status = dal_model_add(model, DAL_SECTION_COORDINATES, NULL, name, 0, 0, &error);
+    }
+    CU_ASSERT(status == DAL_TOO_LARGE);
+    CU_ASSERT_STRING_EQUAL(error.message, "more than 4096 entries");
+    dal_model_free(model);
+}
+
+/* ---- by hand ---- */
+
+static void test_add(void)
+{
+    dal_model *model = dal_model_create("hand");
+    const dal_system *system;
+    dal_error error;
+    CU_ASSERT(dal_model_add(model, DAL_SECTION_FORCES, NULL, "1", 3, 4, &error) == DAL_ARGUMENT);
+    CU_ASSERT_STRING_EQUAL(error.message, "an entry of forces has a name and a text");
+    CU_ASSERT(dal_model_add(model, DAL_SECTION_TAGS, "a", "b", 3, 4, &error) == DAL_ARGUMENT);
+    CU_ASSERT_STRING_EQUAL(error.message, "an entry of tags has a text and no name");
+    CU_ASSERT(dal_model_add(model, DAL_SECTION_LAGRANGIAN, NULL, "x'^2/", 0, 0, NULL) == DAL_OK);
+    CU_ASSERT(dal_model_add(model, DAL_SECTION_LAGRANGIAN, NULL, "1", 0, 0, &error) == DAL_MODEL);
+    CU_ASSERT_STRING_EQUAL(error.message, "duplicate lagrangian");
+    CU_ASSERT(dal_model_add(model, DAL_SECTION_COORDINATES, NULL, "x", 0, 0, NULL) == DAL_OK);
+    CU_ASSERT(dal_model_system(model, &system, &error) == DAL_SYNTAX);
+    CU_ASSERT(error.line == 1 && error.column > 1); /* within the text itself */
+    dal_model_free(model);
+    dal_model_free(NULL);
+}
+
+static void test_add_after(void)
+{
+    dal_model *model;
+    const dal_system *system;
+    dal_error error;
+    CU_ASSERT_FATAL(dal_model_builtin(&model, "damped-oscillator", &error) == DAL_OK);
+    CU_ASSERT(dal_model_system(model, &system, &error) == DAL_OK);
+    CU_ASSERT(dal_model_add(model, DAL_SECTION_TAGS, NULL, "b", 0, 0, &error) == DAL_ARGUMENT);
+    CU_ASSERT_STRING_EQUAL(error.message,
+                           "'damped-oscillator' already has its system: nothing can be added");
+    dal_model_free(model);
+}
+
+static void test_vakonomic_tangent(void)
+{
+    dal_model *model;
+    const dal_system *system;
+    dal_error error;
+    CU_ASSERT_FATAL(dal_model_builtin(&model, "chaplygin-sleigh-vakonomic", &error) == DAL_OK);
+    CU_ASSERT(dal_model_tangent(model, &system, &error) == DAL_UNSUPPORTED && system == NULL);
+    CU_ASSERT_STRING_EQUAL(error.message, "'chaplygin-sleigh-vakonomic' has multipliers: there is "
+                                          "no tangent system for it");
+    dal_model_free(model);
+}
+
+/* ---- memory ---- */
+
+static dal_status whole_life(const char *name, dal_error *error)
+{
+    dal_model *model;
+    const dal_system *system;
+    dal_status status = dal_model_builtin(&model, name, error);
+    if (status == DAL_OK) status = dal_model_system(model, &system, error);
+    if (status == DAL_OK && system->multipliers == 0)
+        status = dal_model_tangent(model, &system, error);
+    dal_model_free(model);
+    return status;
+}
+
+/* Every allocation fails once; each time the outcome is a status and nothing is lost. */
+static void check_memory(const char *name)
+{
+    for (long n = 0;; n++) {
+        dal_error error = {.line = -1};
+        allocation_fail_after(n);
+        dal_status status = whole_life(name, &error);
+        int failed = allocation_failed();
+        allocation_fail_after(-1);
+        if (!failed) break;
+        CU_ASSERT(status == DAL_MEMORY && error.status == DAL_MEMORY);
+    }
+}
+
+static void test_memory(void)
+{
+    check_memory("vertical-disk");
+    check_memory("chaplygin-sleigh-vakonomic");
+}
+
+void suite_model_errors(void);
+void suite_model_errors(void)
+{
+    CU_pSuite suite = CU_add_suite("model errors", NULL, NULL);
+    CU_add_test(suite, "YAML", test_yaml);
+    CU_add_test(suite, "names", test_names);
+    CU_add_test(suite, "formulas", test_formulas);
+    CU_add_test(suite, "mechanics", test_mechanics);
+    CU_add_test(suite, "bytes", test_bytes);
+    CU_add_test(suite, "files", test_files);
+    CU_add_test(suite, "built-in systems", test_builtin);
+    CU_add_test(suite, "too many entries", test_many);
+    CU_add_test(suite, "models by hand", test_add);
+    CU_add_test(suite, "no entries after the system", test_add_after);
+    CU_add_test(suite, "no tangent of vakonomic motion", test_vakonomic_tangent);
+    CU_add_test(suite, "out of memory", test_memory);
+}
