@@ -228,12 +228,10 @@ DAL_INLINE dal_status dal_collocation(dal_step *s, const dal_tableau *method)
                        .map = dal__collocation_map,
                        .matrix = dal__collocation_matrix,
                        .context = &k};
-    DAL_TRY(dal_block_init(s, &eq.block[0], st * nw, s->h, dal_max_norm(s->y + n, nw)));
+    DAL_TRY(dal_block_init(s, &eq.block[0], st * nw, s->h, dal_velocity_scale(s, s->h)));
     if (s->lifted) {
         dal__gauge_stages(s, &k);
-        const num size = dal_max(dal_max_norm(s->y + dal_at_pi(s), n),
-                                 dal_abs(dal_num(s->h)) * dal_max_norm(s->y + dal_at_p(s), n));
-        DAL_TRY(dal_block_init(s, &eq.block[1], st * n, s->h, size));
+        DAL_TRY(dal_block_init(s, &eq.block[1], st * n, s->h, dal_momentum_scale(s, s->h)));
     }
     DAL_TRY(dal__solve_stages(s, &k, &eq));
     dal__keep_slopes(s, &k, &eq);

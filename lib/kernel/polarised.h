@@ -96,7 +96,8 @@ DAL_INLINE dal_status dal__euler_solve(dal_step *s, dal_euler *k)
     dal_equation eq = {.blocks = 1, .matrix = dal__euler_matrix, .context = k};
     eq.map = k->at.v ? dal__euler_map_v : dal__euler_map_pi;
     const int size = k->at.v ? s->nw : s->n, first = k->at.v ? s->n : dal_at_pi(s);
-    DAL_TRY(dal_block_init(s, &eq.block[0], size, 1.0, dal_max_norm(s->y + first, size)));
+    const num scale = k->at.v ? dal_velocity_scale(s, k->h) : dal_momentum_scale(s, k->h);
+    DAL_TRY(dal_block_init(s, &eq.block[0], size, 1.0, scale));
     memcpy(eq.block[0].u, s->y + first, (size_t)size * sizeof(num));
     DAL_TRY(dal_solve(s, &eq));
     memcpy(k->at.v ? k->v : k->pi, eq.block[0].u, (size_t)size * sizeof(num));

@@ -17,7 +17,7 @@
 #define DAL__SLOW 0.3
 /* Increments against the size of the state: rounding, stagnation, and where no rate is measured. */
 #define DAL__ROUNDING 1.4e-14
-#define DAL__SMALL    1e-6
+#define DAL__SMALL    1e-12
 #define DAL__NOISE    1e-12
 
 /* One block of unknowns, [size]. */
@@ -47,6 +47,18 @@ DAL_INLINE num dal_max_norm(const num *x, int count)
     num norm = dal_num(0.0);
     for (int i = 0; i < count; i++) norm = dal_max(norm, dal_abs(x[i]));
     return norm;
+}
+
+/* Sizes of the state for blocks that move v or pi: what rounding in q or p can do to them within a
+ * step that contracts. */
+DAL_INLINE num dal_velocity_scale(const dal_step *s, double h)
+{
+    return dal_max_norm(s->y + s->n, s->nw) + dal_max_norm(s->y, s->n) / dal_num(fabs(h));
+}
+DAL_INLINE num dal_momentum_scale(const dal_step *s, double h)
+{
+    return dal_max_norm(s->y + dal_at_pi(s), s->n) +
+           fabs(h) * dal_max_norm(s->y + dal_at_p(s), s->n);
 }
 
 /* Gives a block its memory. */

@@ -51,15 +51,68 @@ static dal_status turned(dal_run *run, const dal__cause *cause, double t, double
 {
     const dal_system *system = run->shape.system;
     if (cause->guard)
-        return dal__error(error, DAL_SINGULAR, 0, 0, "%s between t = %.17g and %.17g",
-                          system->guard ? system->guard[cause->guard - 1]
-                                        : "a guard of the constraints changes sign",
-                          t, t + h);
+        return dal__error(error, DAL_SINGULAR, 0, 0,
+                          "singular %s: it goes to zero near t = %.17g (step of %g)",
+                          system->guard ? system->guard[cause->guard - 1] : "a guard", t, t + h);
     return dal__error(
         error, DAL_SINGULAR, 0, 0,
         "constraint %d became singular between t = %.17g and %.17g: its normal turned "
         "by a right angle or more, so G = A W^-1 A^T vanished on the way",
         cause->constraint, t, t + h);
+}
+
+/* q, v a step further along the tangent, into run->shadow. */
+static bool predict(dal_run *run, double t, double h)
+{
+    const dal__shape *k = &run->shape;
+    double *f = run->answer;
+    if (dal__engine_ask_x1(run->engine, DAL_ASK_FIELD, t, run->carried, f) != DAL_OK) return false;
+    for (int i = 0; i < k->n; i++) run->shadow[i] = run->carried[i] + h * run->carried[k->n + i];
+    for (int i = 0; i < k->nw; i++) run->shadow[k->n + i] = run->carried[k->n + i] + h * f[i];
+    return true;
+}
+
+/* Asks at the present state and at the predicted one; where the second answer begins. */
+static double *ask_both(dal_run *run, int question, int size, double t, double h)
+{
+    double *first = run->answer, *second = first + size;
+    const bool good =
+        dal__engine_ask_x1(run->engine, question, t, run->carried, first) == DAL_OK &&
+        dal__engine_ask_x1(run->engine, question, t + h, run->shadow, second) == DAL_OK;
+    return good ? second : NULL;
+}
+
+static int vanishing_guard(dal_run *run, double t, double h)
+{
+    const int guards = run->shape.system->guards;
+    const double *g0 = run->answer, *g1 = ask_both(run, DAL_ASK_GUARDS, guards, t, h);
+    for (int i = 0; g1 && i < guards; i++)
+        if (!(g1[i] / g0[i] > 0.5)) return i + 1;
+    return 0;
+}
+
+static int vanishing_normal(dal_run *run, double t, double h)
+{
+    const int m = run->shape.m, n = run->shape.n, size = m + 2 * m * n;
+    if (!(run->shape.system->properties & DAL_D_WATCHED)) return 0;
+    const double *c0 = run->answer, *c1 = ask_both(run, DAL_ASK_CONSTRAINT, size, t, h);
+    double *g0 = run->answer + 2 * size, *g1 = g0 + m * m;
+    if (!c1) return 0;
+    dal_gram(c0 + m, c0 + m + m * n, m, n, g0);
+    dal_gram(c1 + m, c0 + m + m * n, m, n, g1);
+    for (int k = 0; k < m; k++)
+        if (!(dal_eliminate(g1, m, k) / dal_eliminate(g0, m, k) > 0.5)) return k + 1;
+    return 0;
+}
+
+/* Where the stages are not solved although the step is small, a constraint may be about to become
+ * singular: then, along the tangent, a guard or a normal loses more than half within the step. */
+static bool vanishes(dal_run *run, double t, double h, dal__cause *cause)
+{
+    if (!predict(run, t, h)) return false;
+    cause->guard = vanishing_guard(run, t, h);
+    if (!cause->guard) cause->constraint = vanishing_normal(run, t, h);
+    return cause->guard || cause->constraint;
 }
 
 static dal_status unsolved(dal_run *run, double t, double h, dal_error *error)
@@ -72,15 +125,25 @@ static dal_status unsolved(dal_run *run, double t, double h, dal_error *error)
                       run->shape.options.iterations);
 }
 
+/* Steps again, watching; a system that is not a pure function may now succeed, so the state is put
+ * back. */
+static void repeat(dal_run *run, double h, dal__cause *cause)
+{
+    const size_t bytes = run->shape.carried * sizeof *run->carried;
+    dal_status why = DAL_OK;
+    memcpy(run->shadow, run->carried, bytes);
+    dal__engine_trace_x1(run->engine, cause);
+    dal__engine_step_x1(run->engine, h, 1u, &why);
+    dal__engine_trace_x1(run->engine, NULL);
+    memcpy(run->carried, run->shadow, bytes);
+}
+
 dal_status dal__explain(dal_run *run, double h, dal_status status, dal_error *error)
 {
     const dal__shape *k = &run->shape;
     const double t = dal_run_time(run);
     dal__cause cause = {.q = run->point, .v = run->point + k->n};
-    dal__engine_trace_x1(run->engine, &cause);
-    dal_status again = DAL_OK;
-    dal__engine_step_x1(run->engine, h, 1u, &again);
-    dal__engine_trace_x1(run->engine, NULL);
+    repeat(run, h, &cause);
     if (status == DAL_GAUGE || (status != DAL_SINGULAR && gauge_crosses(run, t, h)))
         return dal__error(error, DAL_GAUGE, 0, 0,
                           "e reached zero between t = %.17g and %.17g: 1/e is not defined", t,
@@ -90,6 +153,8 @@ dal_status dal__explain(dal_run *run, double h, dal_status status, dal_error *er
         const dal_status said = ask_system(run, &cause, error);
         if (said != DAL_OK) return said;
     }
+    if (status == DAL_NOT_CONVERGED && vanishes(run, t, h, &cause))
+        return turned(run, &cause, t, h, error);
     if (status == DAL_NOT_CONVERGED) return unsolved(run, t, h, error);
     if (status == DAL_NOT_FINITE)
         return dal__error(error, status, 0, 0,

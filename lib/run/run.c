@@ -5,11 +5,12 @@
 
 static size_t round_up(size_t bytes) { return (bytes + 63) / 64 * 64; }
 
-/* Most numbers any question's answer has, with room for G beside a constraint's. */
+/* Most numbers any question's answer has, with room for two of a constraint's and their G. */
 static size_t answer_count(const dal__shape *k)
 {
     const size_t n = (size_t)k->n, nw = (size_t)k->nw, m = (size_t)k->m;
-    return 4 * n + 2 * nw + m + 2 * m * n + m * m + m + 2 + (size_t)k->system->invariants;
+    const size_t listed = (size_t)k->system->invariants + 2 * (size_t)k->system->guards;
+    return 4 * n + 2 * nw + 2 * (m + 2 * m * n) + 2 * m * m + m + 2 + listed;
 }
 
 static size_t total_bytes(const dal__shape *k)

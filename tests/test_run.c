@@ -1,0 +1,420 @@
+/* test_run.c - runs: creation and its errors, steps as transactions, failures and their causes,
+ * samples, checkpoints, the caller's memory. */
+#include "fixtures.h"
+#include <CUnit/CUnit.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- a system by hand: x'' = -x, and x'' = -x that fails now and then ---- */
+
+static dal_status oscillate(const dal_system *system, const dal_at *at, double *out)
+{
+    (void)system;
+    out[0] = -at->q[0];
+    return DAL_OK;
+}
+
+/* data: an int that counts down to a failure. */
+static dal_status fail_sometimes(const dal_system *system, const dal_at *at, double *out)
+{
+    int *left = system->data;
+    if (--*left == 0) return DAL_NOT_FINITE;
+    return oscillate(system, at, out);
+}
+
+static dal_status unit_start(const dal_system *system, const dal_at *at, double *out)
+{
+    (void)system;
+    (void)at;
+    out[0] = 1.0;
+    return DAL_OK;
+}
+
+static dal_system hand_made(dal_callback *field, void *data)
+{
+    return (dal_system){
+        .name = "hand", .n = 1, .call.field = field, .start = unit_start, .data = data};
+}
+
+static void test_by_hand(void)
+{
+    const dal_system system = hand_made(oscillate, NULL);
+    dal_run_spec spec = fixture_spec(&system, "gauss8", DAL_PHYSICAL, 0.1);
+    dal_run *run = fixture_run(&spec);
+    CU_ASSERT_EQUAL(dal_run_advance(run, 100, NULL), DAL_OK);
+    CU_ASSERT_DOUBLE_EQUAL(dal_run_state(run)[0], cos(10.0), 1e-13);
+    CU_ASSERT_DOUBLE_EQUAL(dal_run_state(run)[1], -sin(10.0), 1e-13);
+    CU_ASSERT_DOUBLE_EQUAL(dal_run_time(run), 10.0, 0.0);
+    CU_ASSERT_EQUAL(dal_run_steps(run), 100);
+    char name[16];
+    CU_ASSERT_STRING_EQUAL(dal_run_name(run, 1, name, sizeof name), "q1'");
+    CU_ASSERT_PTR_NULL(dal_run_name(run, 2, name, sizeof name));
+    dal_run_free(run);
+}
+
+/* ---- creation refuses what cannot work ---- */
+
+static void refused(const dal_run_spec *spec, dal_status status, const char *fragment)
+{
+    dal_run *run = NULL;
+    dal_error error = {0};
+    CU_ASSERT_EQUAL(dal_run_create(&run, spec, &error), status);
+    CU_ASSERT_EQUAL(error.status, status);
+    CU_ASSERT_PTR_NULL(run);
+    CU_ASSERT_PTR_NOT_NULL(strstr(error.message, fragment));
+}
+
+static void test_refusals(void)
+{
+    dal_model *model = fixture_model("chaplygin-sleigh");
+    const dal_system *system = fixture_system(model);
+    const double steps[] = {0.0, -0.1, NAN, INFINITY};
+    for (int i = 0; i < 4; i++) {
+        const dal_run_spec spec = fixture_spec(system, "rk4", DAL_LIFTED, steps[i]);
+        refused(&spec, DAL_ARGUMENT, "step");
+    }
+    const dal_system bare = hand_made(oscillate, NULL);
+    dal_run_spec spec = fixture_spec(&bare, "rk4", DAL_LIFTED, 0.1);
+    refused(&spec, DAL_UNSUPPORTED, "rk4 cannot act on hand");
+    spec = fixture_spec(&bare, "implicit-midpoint", DAL_PHYSICAL, 0.1);
+    spec.options.solver = DAL_NEWTON;
+    refused(&spec, DAL_UNSUPPORTED, "jacobian");
+    const dal_system empty = {.name = "empty", .n = 0, .call.field = oscillate};
+    spec = fixture_spec(&empty, "rk4", DAL_PHYSICAL, 0.1);
+    refused(&spec, DAL_ARGUMENT, "n is 0");
+    spec = fixture_spec(system, "rk4", DAL_PHYSICAL, 0.1);
+    spec.method.chain[0] = NULL;
+    refused(&spec, DAL_ARGUMENT, "integrator");
+    dal_model_free(model);
+}
+
+static void test_settings(void)
+{
+    dal_model *model = fixture_model("chaplygin-sleigh");
+    dal_run_spec spec = fixture_spec(fixture_system(model), "rk4", DAL_LIFTED, 0.1);
+    dal_setting bad = {"omeg", 1.0};
+    spec.parameters = &bad;
+    spec.parameter_count = 1;
+    refused(&spec, DAL_NAME, "'omega'");
+    spec.parameter_count = 0;
+    spec.start = &bad;
+    spec.start_count = 1;
+    bad = (dal_setting){"pi_ph", 1.0};
+    refused(&spec, DAL_NAME, "'pi_phi'");
+    bad = (dal_setting){"y2'", 0.1};
+    refused(&spec, DAL_INCONSISTENT, "constraint 1");
+    bad = (dal_setting){"e", 0.0};
+    refused(&spec, DAL_GAUGE, "e = 0");
+    bad = (dal_setting){"phi", NAN};
+    refused(&spec, DAL_ARGUMENT, "phi");
+    spec.options.space = DAL_PHYSICAL;
+    bad = (dal_setting){"p_phi", 1.0};
+    refused(&spec, DAL_NAME, "p_phi");
+    /* Start formulas follow the parameters: y1' = v0. */
+    const dal_setting speed = {"v0", 2.5};
+    spec.start_count = 0;
+    spec.parameters = &speed;
+    spec.parameter_count = 1;
+    dal_run *run = fixture_run(&spec);
+    CU_ASSERT_EQUAL(dal_run_state(run)[3], 2.5);
+    dal_run_free(run);
+    dal_model_free(model);
+}
+
+static dal_status stand_still(const dal_system *system, const dal_at *at, double *out)
+{
+    (void)system;
+    (void)at;
+    out[0] = out[1] = 0.0;
+    return DAL_OK;
+}
+
+/* D = (x' + y', 2 x' + 2 y'), unit masses. */
+static dal_status twice(const dal_system *system, const dal_at *at, double *out)
+{
+    static const double a[] = {1, 1, 2, 2}, b[] = {1, 2, 1, 2};
+    (void)system;
+    out[0] = at->v[0] + at->v[1];
+    out[1] = 2.0 * out[0];
+    memcpy(out + 2, a, sizeof a);
+    memcpy(out + 6, b, sizeof b);
+    return DAL_OK;
+}
+
+static void test_rank(void)
+{
+    /* By hand, as a model already refuses such formulas. */
+    const dal_system system = {.name = "twice",
+                               .n = 2,
+                               .m = 2,
+                               .call = {.field = stand_still, .constraint = twice},
+                               .constraints = stand_still};
+    const dal_run_spec spec = fixture_spec(&system, "rk4", DAL_PHYSICAL, 0.1);
+    refused(&spec, DAL_RANK, "constraint 2");
+}
+
+/* ---- a step succeeds or leaves the run bitwise unchanged ---- */
+
+static void test_transaction(void)
+{
+    static const char *const methods[] = {"rk4", "gauss6", "stormer-verlet", "rk4+project"};
+    for (int k = 0; k < 4; k++) {
+        int countdown = 1 << 20;
+        const dal_system system = hand_made(fail_sometimes, &countdown);
+        const dal_run_spec spec = fixture_spec(&system, methods[k], DAL_PHYSICAL, 0.1);
+        dal_run *run = fixture_run(&spec);
+        size_t count;
+        const double *memory = dal_run_memory(run, &count);
+        double *copy = malloc(count * sizeof *copy);
+        for (int step = 0; step < 50; step++) {
+            memcpy(copy, memory, count * sizeof *copy);
+            countdown = 1 + step % 9; /* fails at the first, second, ... evaluation */
+            const int expected = countdown;
+            const dal_status status = dal_run_step(run, NULL);
+            if (status == DAL_OK) continue;
+            CU_ASSERT(countdown < expected);
+            CU_ASSERT_EQUAL(memcmp(copy, memory, count * sizeof *copy), 0);
+            countdown = 1 << 20;
+            CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_OK);
+        }
+        /* The failures left no trace. */
+        countdown = 1 << 20;
+        dal_run *other = fixture_run(&spec);
+        CU_ASSERT_EQUAL(dal_run_advance(other, dal_run_steps(run), NULL), DAL_OK);
+        CU_ASSERT_EQUAL(memcmp(dal_run_state(run), dal_run_state(other), 2 * sizeof(double)), 0);
+        free(copy);
+        dal_run_free(run);
+        dal_run_free(other);
+    }
+}
+
+/* ---- failures name their cause ---- */
+
+static void fails(const char *name, const char *method, double h, long long steps,
+                  const dal_setting *start, int start_count, dal_status status,
+                  const char *fragment)
+{
+    dal_model *model = fixture_model(name);
+    dal_error error = {0};
+    dal_run_spec spec = fixture_spec(fixture_system(model), method, DAL_LIFTED, h);
+    spec.start = start;
+    spec.start_count = start_count;
+    dal_run *run = fixture_run(&spec);
+    CU_ASSERT_EQUAL(dal_run_advance(run, steps, &error), status);
+    if (!strstr(error.message, fragment)) printf("\n  %s: '%s'\n", method, error.message);
+    CU_ASSERT_PTR_NOT_NULL(strstr(error.message, fragment));
+    for (int i = 0; i < dal_run_dimension(run); i++) CU_ASSERT(isfinite(dal_run_state(run)[i]));
+    dal_run_free(run);
+    dal_model_free(model);
+}
+
+static void test_failures(void)
+{
+    static const char *const methods[] = {"rk4", "gauss4", "stormer-verlet+project"};
+    for (int i = 0; i < 3; i++)
+        fails("chaplygin-sleigh-nonlinear", methods[i], 0.01, 400, NULL, 0, DAL_SINGULAR,
+              "constraint 1");
+    const char *gauge = "coordinates: [x]\nlagrangian: x'^2/2\ngauge: {e: 1, mu_e: -1}\n";
+    fails(gauge, "rk4", 0.3, 10, NULL, 0, DAL_GAUGE, "e reached zero");
+    fails(gauge, "implicit-midpoint", 0.25, 10, NULL, 0, DAL_GAUGE, "e reached zero");
+    /* K = (v + h K/2)^2 + 1 has no real root from h = 1 on. */
+    const char *rootless = "coordinates: [x]\nlagrangian: x'^2/2\nforces: {x: x'^2 + 1}\n";
+    fails(rootless, "implicit-midpoint", 50.0, 10, NULL, 0, DAL_NOT_CONVERGED, "did not converge");
+    fails(rootless, "gauss6", 50.0, 10, NULL, 0, DAL_NOT_CONVERGED, "did not converge");
+    fails(rootless, "symplectic-euler-11", 50.0, 10, NULL, 0, DAL_NOT_CONVERGED,
+          "did not converge");
+    const char *pole =
+        "coordinates: [x]\nlagrangian: x'^2/2\nforces: {x: -sqrt(x)}\nstart: {x: 1}\n";
+    fails(pole, "rk4", 0.1, 100, NULL, 0, DAL_NOT_FINITE, "not finite");
+}
+
+/* A body under D = (x'^2 + y'^2 - z'^2)/2 thrown upwards comes to rest, where G = 0. */
+static void test_rest_is_singular(void)
+{
+    const char *text = "coordinates: [x, y, z]\n"
+                       "lagrangian: (x'^2 + y'^2 + z'^2)/2 - 9.81*z\n"
+                       "constraints: [(x'^2 + y'^2 - z'^2)/2]\n"
+                       "start: {x': 1, z': 1}\n";
+    static const char *const methods[] = {"rk4", "gauss8", "implicit-midpoint+project"};
+    static const double steps[] = {0.001, 0.013, 0.1};
+    for (int i = 0; i < 9; i++)
+        fails(text, methods[i / 3], steps[i % 3], 1000, NULL, 0, DAL_SINGULAR, "constraint 1");
+    const dal_setting falling = {"z'", -1.0};
+    dal_model *model = fixture_model(text);
+    dal_run_spec spec = fixture_spec(fixture_system(model), "gauss8", DAL_LIFTED, 0.013);
+    spec.start = &falling;
+    spec.start_count = 1;
+    dal_run *run = fixture_run(&spec);
+    CU_ASSERT_EQUAL(dal_run_advance(run, 100, NULL), DAL_OK);
+    dal_run_free(run);
+    dal_model_free(model);
+}
+
+/* ---- samples ---- */
+
+typedef struct rows {
+    long long count, stop_at;
+    double t[64], x[64];
+} rows;
+
+static dal_status keep_row(void *user, dal_run *run, long long row, double t)
+{
+    rows *r = user;
+    if (r->count == r->stop_at) return DAL_INTERRUPTED;
+    r->t[row] = t;
+    r->x[row] = dal_run_state(run)[0];
+    r->count++;
+    return DAL_OK;
+}
+
+static void sample(dal_run *run, double T, long long samples, long long first, rows *r)
+{
+    const dal_observer observer = {r, keep_row, NULL};
+    CU_ASSERT_EQUAL(dal_run_sample(run, T, samples, first, &observer, NULL), DAL_OK);
+}
+
+static void test_samples(void)
+{
+    const dal_system system = hand_made(oscillate, NULL);
+    const dal_run_spec spec = fixture_spec(&system, "gauss8", DAL_PHYSICAL, 0.3);
+    rows a = {.stop_at = 99}, b = {.stop_at = 99};
+    dal_run *run = fixture_run(&spec), *other = fixture_run(&spec);
+    sample(run, 10.0, 40, 0, &a); /* rows between steps, the last step cut short */
+    CU_ASSERT_EQUAL(a.count, 41);
+    CU_ASSERT_EQUAL(a.t[0], 0.0);
+    CU_ASSERT_EQUAL(a.t[40], 10.0);
+    for (int i = 0; i <= 40; i++) CU_ASSERT_DOUBLE_EQUAL(a.x[i], cos(a.t[i]), 1e-10);
+    CU_ASSERT_EQUAL(dal_run_steps(run), 33);
+    CU_ASSERT_EQUAL(dal_run_advance(other, 33, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(memcmp(dal_run_state(run), dal_run_state(other), 2 * sizeof(double)), 0);
+    dal_run_free(run);
+    dal_run_free(other);
+
+    /* Stopped at a row and taken up again from there: the same rows. */
+    run = fixture_run(&spec);
+    b.stop_at = 17;
+    const dal_observer observer = {&b, keep_row, NULL};
+    dal_error error;
+    CU_ASSERT_EQUAL(dal_run_sample(run, 10.0, 40, 0, &observer, &error), DAL_INTERRUPTED);
+    CU_ASSERT_EQUAL(error.status, DAL_INTERRUPTED);
+    b.stop_at = 99;
+    sample(run, 10.0, 40, 17, &b);
+    CU_ASSERT_EQUAL(memcmp(a.x, b.x, 41 * sizeof(double)), 0);
+    dal_run_free(run);
+
+    run = fixture_run(&spec);
+    CU_ASSERT_EQUAL(dal_run_sample(run, 0.1, 1, 0, &observer, &error), DAL_ARGUMENT);
+    CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "larger than the time"));
+    CU_ASSERT_EQUAL(dal_run_sample(run, NAN, 1, 0, &observer, &error), DAL_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_run_sample(run, 1.0, 0, 0, &observer, &error), DAL_ARGUMENT);
+    dal_run_free(run);
+}
+
+/* ---- checkpoints and the caller's memory ---- */
+
+static void test_checkpoint(void)
+{
+    dal_model *model = fixture_model(fixture_full);
+    const dal_run_spec spec = fixture_spec(fixture_system(model), "gauss8", DAL_LIFTED, 0.02);
+    dal_run *whole = fixture_run(&spec), *first = fixture_run(&spec), *second = fixture_run(&spec);
+    size_t count;
+    CU_ASSERT_EQUAL(dal_run_advance(whole, 80, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_advance(first, 37, NULL), DAL_OK);
+    const double *memory = dal_run_memory(first, &count);
+    CU_ASSERT_EQUAL(dal_run_load(second, memory, count, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_advance(second, 43, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(memcmp(dal_run_memory(whole, &count), dal_run_memory(second, &count),
+                           count * sizeof(double)),
+                    0);
+    CU_ASSERT_EQUAL(dal_run_load(second, memory, count - 1, NULL), DAL_ARGUMENT);
+    dal_run_free(whole);
+    dal_run_free(first);
+    dal_run_free(second);
+    dal_model_free(model);
+}
+
+static void test_own_memory(void)
+{
+    dal_model *model = fixture_model("vertical-disk");
+    const dal_run_spec spec =
+        fixture_spec(fixture_system(model), "gauss4+project", DAL_LIFTED, 0.1);
+    const size_t bytes = dal_run_size(&spec);
+    CU_ASSERT_FATAL(bytes > 0);
+    char *memory = malloc(bytes + 7);
+    dal_run *run = NULL, *other = fixture_run(&spec);
+    dal_error error;
+    CU_ASSERT_EQUAL(dal_run_init(&run, memory + 7, bytes - 1, &spec, &error), DAL_MEMORY);
+    CU_ASSERT_EQUAL_FATAL(dal_run_init(&run, memory + 7, bytes, &spec, &error), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_advance(run, 20, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_advance(other, 20, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(memcmp(dal_run_state(run), dal_run_state(other),
+                           sizeof(double) * (size_t)dal_run_dimension(run)),
+                    0);
+    dal_run_free(run); /* frees nothing */
+    dal_run_free(other);
+    free(memory);
+    dal_model_free(model);
+}
+
+/* ---- methods and options by text ---- */
+
+static void test_methods(void)
+{
+    dal_method method;
+    dal_error error;
+    char name[64];
+    CU_ASSERT_EQUAL(dal_method_parse(&method, "symplectic-euler+project", &error), DAL_OK);
+    CU_ASSERT_STRING_EQUAL(dal_method_name(&method, name, sizeof name),
+                           "symplectic-euler-10+project");
+    CU_ASSERT_EQUAL(dal_method_order(&method), 1);
+    CU_ASSERT_EQUAL(dal_method_claims(&method) & (DAL_SYMPLECTIC | DAL_SYMMETRIC), 0);
+    CU_ASSERT(dal_method_claims(&method) & DAL_KEEPS_D);
+    CU_ASSERT_EQUAL(dal_method_parse(&method, "gaus8", &error), DAL_NAME);
+    CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "'gauss8'"));
+    CU_ASSERT_EQUAL(dal_method_parse(&method, "gauss8+projct", &error), DAL_NAME);
+    CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "'project'"));
+    CU_ASSERT_EQUAL(dal_method_parse(&method, "project", &error), DAL_NAME);
+    CU_ASSERT_EQUAL(dal_method_parse(&method, "rk4+rk4", &error), DAL_NAME);
+    CU_ASSERT_EQUAL(dal_method_parse(&method, "", &error), DAL_NAME);
+    CU_ASSERT_EQUAL(dal_method_parse(&method, "rk4+", &error), DAL_NAME);
+}
+
+static void test_options(void)
+{
+    dal_options options = dal_options_default();
+    dal_error error;
+    CU_ASSERT_EQUAL(dal_options_set(&options, "step", "2.5e-3", &error), DAL_OK);
+    CU_ASSERT_EQUAL(options.step, 2.5e-3);
+    CU_ASSERT_EQUAL(dal_options_set(&options, "space", "physical", &error), DAL_OK);
+    CU_ASSERT_EQUAL(options.space, DAL_PHYSICAL);
+    CU_ASSERT_EQUAL(dal_options_set(&options, "iterations", "1e3", &error), DAL_OK);
+    CU_ASSERT_EQUAL(options.iterations, 1000);
+    const dal_options before = options;
+    CU_ASSERT_EQUAL(dal_options_set(&options, "space", "phys", &error), DAL_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_options_set(&options, "iterations", "1.5", &error), DAL_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_options_set(&options, "iterations", "0", &error), DAL_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_options_set(&options, "step", "0x1p-3", &error), DAL_SYNTAX);
+    CU_ASSERT_EQUAL(dal_options_set(&options, "step", "nan", &error), DAL_SYNTAX);
+    CU_ASSERT_EQUAL(dal_options_set(&options, "stepp", "1", &error), DAL_NAME);
+    CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "'step'"));
+    CU_ASSERT_EQUAL(memcmp(&before, &options, sizeof options), 0);
+}
+
+void suite_run(void)
+{
+    CU_pSuite suite = CU_add_suite("run", NULL, NULL);
+    CU_add_test(suite, "a system by hand", test_by_hand);
+    CU_add_test(suite, "what creation refuses", test_refusals);
+    CU_add_test(suite, "settings by name", test_settings);
+    CU_add_test(suite, "rank-deficient constraints", test_rank);
+    CU_add_test(suite, "a step is a transaction", test_transaction);
+    CU_add_test(suite, "failures name their cause", test_failures);
+    CU_add_test(suite, "G singular at rest", test_rest_is_singular);
+    CU_add_test(suite, "rows", test_samples);
+    CU_add_test(suite, "checkpoint", test_checkpoint);
+    CU_add_test(suite, "the caller's memory", test_own_memory);
+    CU_add_test(suite, "methods by name", test_methods);
+    CU_add_test(suite, "options by name", test_options);
+}
