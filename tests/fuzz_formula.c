@@ -30,7 +30,7 @@ static void require(bool condition)
     if (!condition) abort();
 }
 
-static void check_tape(const dal__graph *graph, const dal__node *nodes, int count)
+static void check_tape(dal__graph *graph, const dal__node *nodes, int count)
 {
     static const double values[SYMBOLS] = {1.3, -0.7, 0.3, 2.5, -1.25, 0.75};
     dal__tapes *tapes = dal__tapes_create(graph, PARAMETERS, INPUTS);

@@ -89,6 +89,7 @@ static void test_numbers(void)
         {"4.9406564584124654e-324", 0x1p-1074},
         {"2e-324", 0.0},
         {"1e-99999999999999999999", 0.0},
+        {"1e-18446744073709551617", 0.0}, /* 2^64 + 1 */
         {"0e99999999999", 0.0},
         {"1.7976931348623157e308", 0x1.fffffffffffffp1023},
     };
@@ -105,6 +106,8 @@ static void test_long_number(void)
     CU_ASSERT_EQUAL(value_of(text), 0x1p53);
     text[n - 1] = '1';
     CU_ASSERT_EQUAL(value_of(text), 0x1.0000000000001p53);
+    n = snprintf(text, sizeof text, "3%01000de-1000", 0);
+    CU_ASSERT_EQUAL(value_of(text), 3.0);
     n = snprintf(text, sizeof text, "0.%01000d1e1000", 0);
     CU_ASSERT_EQUAL(value_of(text), 0.1);
 }

@@ -57,10 +57,20 @@ static void test_same_node(void)
         {"x^0", "1"},
         {"x^1", "x"},
         {"1^x", "1"},
+        {"x^-0.5", "1/sqrt(x)"},
+        {"4^1.5", "8"},
         {"sqrt(x)^2", "x"},
         {"abs(-x)", "abs(x)"},
         {"abs(abs(x))", "abs(x)"},
         {"sin(-x)", "-sin(x)"},
+        {"cos(-x)", "cos(x)"},
+        {"tan(-x)", "-tan(x)"},
+        {"asin(-x)", "-asin(x)"},
+        {"atan(-x)", "-atan(x)"},
+        {"sinh(-x)", "-sinh(x)"},
+        {"cosh(-x)", "cosh(x)"},
+        {"tanh(-x)", "-tanh(x)"},
+        {"asinh(-x)", "-asinh(x)"},
         {"cos(y - x)", "cos(x - y)"},
         {"sin(y - x)", "-sin(x - y)"},
         {"sin(x)^2 + cos(x)^2", "1"},
@@ -78,6 +88,7 @@ static void test_same_node(void)
         CU_ASSERT_EQUAL(first, second);
         if (first != second) fprintf(stderr, "%s is not %s\n", same[i][0], same[i][1]);
     }
+    CU_ASSERT_EQUAL(dal__number(graph, -0.0), dal__number(graph, 0.0));
     dal__graph_free(graph);
 }
 
@@ -91,6 +102,9 @@ static void test_other_node(void)
         {"x", "x'"},
         {"sin(x)^2 - cos(x)^2", "1"},
         {"sin(x)^2 + cos(y)^2", "1"},
+        {"sin(x)*sin(y) + cos(x)^2", "1"},
+        {"exp(-x)", "exp(x)"},
+        {"acos(-x)", "acos(x)"},
         {"sin(x)^2*y + cos(x)^2*z", "1"},
         {"(x + 1e16) + 1", "x + (1e16 + 1)"}, /* 1e16 + 1 is no double */
         {"sqrt(x*x)", "x"},

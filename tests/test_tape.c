@@ -62,6 +62,7 @@ static const char *const formulas[] = {
     "x*x + x",
     "x - x*x",
     "x*sin(y) + y*cos(y)",
+    "cos(z')*sin(z')",
     "exp(a)*x + log(3*a)*y",
     "(x + y)*(x - y)/(z + 2)",
 };
@@ -99,14 +100,14 @@ static double *filled_work(const dal__tapes *tapes, int lanes, int round)
     return work;
 }
 
-static double expected(const dal__graph *graph, dal__node node, int round, int lane)
+static double expected(dal__graph *graph, dal__node node, int round, int lane)
 {
     double values[SYMBOLS] = {parameters[A], parameters[B]};
     for (int i = PARAMETERS; i < SYMBOLS; i++) values[i] = input(round, i, lane);
     return dal__evaluate(graph, node, values);
 }
 
-static void check_program(const dal__graph *graph, const dal__tapes *tapes, int program,
+static void check_program(dal__graph *graph, const dal__tapes *tapes, int program,
                           const dal__node *nodes, int count, int round)
 {
     for (int w = 0; w < WIDTHS; w++) {
@@ -210,9 +211,10 @@ static void test_places_are_reused(void)
 {
     enum { LINKS = 1000, LEAST = PARAMETERS + INPUTS, FEW = 4 };
     dal__graph *graph = formula_graph();
-    dal__node f = dal__symbol(graph, X), y = dal__symbol(graph, Y);
+    dal__node f = dal__symbol(graph, X), y = dal__symbol(graph, Y), z = dal__symbol(graph, Z);
     for (int i = 0; i < LINKS; i++) {
-        f = dal__apply(graph, i % 2 ? DAL__SIN : DAL__EXP, dal__mul(graph, f, y), 0);
+        dal__node g = dal__apply(graph, i % 2 ? DAL__SIN : DAL__EXP, f, 0);
+        f = dal__add(graph, dal__mul(graph, g, y), z);
     }
     dal__tapes *tapes = dal__tapes_create(graph, PARAMETERS, INPUTS);
     dal__tapes_add(tapes, &f, 1);

@@ -113,11 +113,11 @@ static int position(const int *symbols, int count, int symbol)
     return k;
 }
 
-/* Marks what f is made of and depends on one of the symbols; NULL when memory is out. [alloc] */
+/* Marks what f is made of and depends on one of the symbols; as dal__reach. [alloc] */
 static uint8_t *between(dal__graph *graph, dal__node f, const int *symbols, int count)
 {
     uint8_t *mark = dal__reach(graph, f);
-    if (!mark) return graph->status = DAL_MEMORY, NULL;
+    if (!mark) return NULL;
     for (dal__node i = 1; i <= f; i++) {
         const dal__record *r = &graph->node[i];
         if (!mark[i]) continue;
@@ -145,8 +145,7 @@ static void reverse(dal__graph *graph, dal__node f, const uint8_t *active, dal__
 void dal__gradient(dal__graph *graph, dal__node f, const int *symbols, int count, dal__node *out)
 {
     uint8_t *active = between(graph, f, symbols, count);
-    dal__node *adjoint = calloc((size_t)f + 1, sizeof *adjoint);
-    if (!adjoint) graph->status = DAL_MEMORY;
+    dal__node *adjoint = dal__per_node(graph, f, sizeof *adjoint);
     if (active && adjoint) reverse(graph, f, active, adjoint);
     for (int k = 0; k < count; k++) {
         dal__node x = dal__find_symbol(graph, symbols[k]);
@@ -172,8 +171,7 @@ dal__node dal__tangent(dal__graph *graph, dal__node f, const int *symbols, int c
                        const dal__node *seeds)
 {
     uint8_t *active = between(graph, f, symbols, count);
-    dal__node *tangent = calloc((size_t)f + 1, sizeof *tangent), result = number(graph, 0.0);
-    if (!tangent) graph->status = DAL_MEMORY;
+    dal__node *tangent = dal__per_node(graph, f, sizeof *tangent), result = number(graph, 0.0);
     for (dal__node i = 1; active && tangent && i <= f; i++) {
         dal__record r = graph->node[i];
         if (!active[i]) continue;

@@ -91,8 +91,8 @@ dal__node dal__tangent(dal__graph *graph, dal__node f, const int *symbols, int c
 /* f with each symbols[i] replaced by the node by[i]. */
 dal__node dal__substitute(dal__graph *graph, dal__node f, const int *symbols, int count,
                           const dal__node *by);
-/* The value of a node; values[symbol].  A slow way for single questions (pivots, starts). [alloc]
- */
+/* The value of a node; values[symbol].  A slow way for single questions (pivots, starts); NaN when
+ * memory is out, which the graph remembers. [alloc] */
 double dal__evaluate(dal__graph *graph, dal__node node, const double *values);
 
 /* ---- parser ---- */

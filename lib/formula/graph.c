@@ -131,6 +131,13 @@ dal__node dal__find_symbol(const dal__graph *graph, int symbol)
     return *place(graph, &(dal__record){.op = DAL__SYMBOL, .symbol = symbol, .fixed = fixed});
 }
 
+void *dal__per_node(dal__graph *graph, dal__node node, size_t size)
+{
+    void *zeros = calloc((size_t)node + 1, size);
+    if (!zeros && graph->status == DAL_OK) graph->status = DAL_MEMORY;
+    return zeros;
+}
+
 dal__view dal__look(const dal__graph *graph, dal__node node)
 {
     const dal__record *r = &graph->node[node];

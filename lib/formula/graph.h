@@ -13,7 +13,7 @@
 #include "formula/formula.h"
 
 /* Rules may call each other this deep; below, a node is made as it is. */
-enum { DAL__DEEPEST = 12 };
+enum { DAL__DEEPEST = 8 };
 
 typedef struct dal__record {
     double value; /* NUMBER */
@@ -55,8 +55,11 @@ dal__node dal__coefficients(dal__graph *graph, dal__node c, dal__node d);
 /* The node of an ADD or MUL with ordered operands. */
 dal__node dal__commute(dal__graph *graph, dal__op op, dal__node a, dal__node b);
 
-/* Marks node and all it is made of: [node + 1], or NULL when memory is out. [alloc] */
-uint8_t *dal__reach(const dal__graph *graph, dal__node node);
+/* Zeros for each node up to this one, [node + 1] of size bytes; NULL when memory is out, which the
+ * graph then remembers. [alloc] */
+void *dal__per_node(dal__graph *graph, dal__node node, size_t size);
+/* Marks node and all it is made of, [node + 1]; NULL likewise. [alloc] */
+uint8_t *dal__reach(dal__graph *graph, dal__node node);
 /* One operation on doubles, with the bits of a tape. */
 double dal__operate(dal__op op, double a, double b);
 

@@ -296,7 +296,8 @@ static dal_status comma(parser *p, dal__node *value)
         return dal__error(p->error, DAL_SYNTAX, p->token.line, p->token.column,
                           "',' stands outside the arguments of a function");
     }
-    if (f->arguments++ == 0) f->left = *value;
+    f->arguments++;
+    f->left = *value;
     return DAL_OK;
 }
 

@@ -102,7 +102,7 @@ static int count_uses(dal__plan *plan, const dal__program *program, dal__node to
         dal__node f = program->output[k];
         plan->reached[f] = 1;
         plan->last[f] = top + 1;
-        plan->uses[f] += 2; /* an output is never taken into a sum */
+        plan->uses[f]++;
     }
     for (dal__node i = top; i > 0; i--) {
         dal__view v = dal__look(plan->graph, i);

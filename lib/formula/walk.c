@@ -7,9 +7,9 @@
 #include <math.h>
 #include <stdlib.h>
 
-uint8_t *dal__reach(const dal__graph *graph, dal__node node)
+uint8_t *dal__reach(dal__graph *graph, dal__node node)
 {
-    uint8_t *mark = calloc((size_t)node + 1, 1);
+    uint8_t *mark = dal__per_node(graph, node, 1);
     if (!mark) return NULL;
     mark[node] = 1;
     for (dal__node i = node; i > 0; i--) {
@@ -20,17 +20,11 @@ uint8_t *dal__reach(const dal__graph *graph, dal__node node)
     return mark;
 }
 
-/* A question that could not be answered must not pass for an answer. */
-static void starve(dal__graph *graph)
-{
-    if (graph->status == DAL_OK) graph->status = DAL_MEMORY;
-}
-
 bool dal__depends(dal__graph *graph, dal__node node, int first, int end)
 {
     if (graph->node[node].fixed && first >= graph->parameters) return false;
     uint8_t *mark = dal__reach(graph, node);
-    if (!mark) return starve(graph), true;
+    if (!mark) return true;
     bool found = false;
     for (dal__node i = node; i > 0 && !found; i--) {
         const dal__record *r = &graph->node[i];
@@ -57,7 +51,7 @@ double dal__operate(dal__op op, double a, double b)
 double dal__evaluate(dal__graph *graph, dal__node node, const double *values)
 {
     uint8_t *mark = dal__reach(graph, node);
-    double *x = malloc(((size_t)node + 1) * sizeof *x), value = NAN;
+    double *x = dal__per_node(graph, node, sizeof *x), value = NAN;
     if (mark && x) {
         x[0] = NAN;
         for (dal__node i = 1; i <= node; i++) {
@@ -68,8 +62,6 @@ double dal__evaluate(dal__graph *graph, dal__node node, const double *values)
                                           : dal__operate((dal__op)r->op, x[r->a], x[r->b]);
         }
         value = x[node];
-    } else {
-        starve(graph);
     }
     free(mark);
     free(x);
@@ -95,14 +87,12 @@ dal__node dal__substitute(dal__graph *graph, dal__node f, const int *symbols, in
                           const dal__node *by)
 {
     uint8_t *mark = dal__reach(graph, f);
-    dal__node *image = calloc((size_t)f + 1, sizeof *image), result = 0;
+    dal__node *image = dal__per_node(graph, f, sizeof *image), result = 0;
     if (mark && image) {
         for (dal__node i = 1; i <= f; i++) {
             if (mark[i]) image[i] = replaced(graph, i, image, symbols, count, by);
         }
         result = image[f];
-    } else {
-        graph->status = DAL_MEMORY;
     }
     free(mark);
     free(image);
