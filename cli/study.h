@@ -24,11 +24,13 @@
     X(time, "both", "integrate from 0 to this")                                                    \
     X(samples, "both", "rows for the statistics (400)")                                            \
     X(starts, "both", "list of physical, surface, displaced (all three)")                          \
-    X(displacement, "both", "size of p, pi where displaced (1e-8)")                                \
+    X(displacement, "both", "size d of p, pi where displaced (1e-8)")                              \
     X(system, "system", "a built-in name or a path")                                               \
     X(label, "system", "another name for tables and files")                                        \
     X(set, "system", "parameter: value")                                                           \
-    X(start, "system", "name: value")
+    X(start, "system", "name: value")                                                              \
+    X(displace, "system",                                                                          \
+      "p_x: value in units of d; without it p = d, -d/2, .., pi = d/2, -d/3, ..")
 
 /* Where a cell starts.  word, space, what it is */
 #define STUDY_START_LIST(X)                                                                        \
@@ -55,8 +57,8 @@ typedef struct study_entry {
     double step[STUDY_STEPS], time, displacement;
     int steps, starts; /* starts: bit STUDY_x set */
     long long samples;
-    dal_setting *set, *start;
-    int set_count, start_count;
+    dal_setting *set, *start, *displace;
+    int set_count, start_count, displace_count;
     dal_method *methods;
     int method_count;
     int first_cell, cells; /* its cells stand together */

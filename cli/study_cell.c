@@ -38,7 +38,7 @@ static dal_status displace_run(walk *w)
 {
     const study_cell *c = w->cell;
     size_t size = (size_t)dal_run_dimension(w->run) * sizeof(double);
-    if (c->start != STUDY_DISPLACED) return DAL_OK;
+    if (c->start != STUDY_DISPLACED || c->entry->displace_count > 0) return DAL_OK;
     double *state = malloc(size);
     if (!state) return DAL_MEMORY;
     memcpy(state, dal_run_state(w->run), size);
@@ -46,6 +46,20 @@ static dal_status displace_run(walk *w)
     dal_status status = dal_run_set_state(w->run, 0.0, state, &w->cell->error);
     free(state);
     return status;
+}
+
+/* The start of the entry and, where it is displaced, the momenta by name; NULL: out of memory. */
+static dal_setting *start_settings(const study_cell *c, int *count)
+{
+    const study_entry *e = c->entry;
+    int displaced = c->start == STUDY_DISPLACED ? e->displace_count : 0;
+    dal_setting *list = calloc((size_t)e->start_count + (size_t)displaced + 1, sizeof *list);
+    *count = 0;
+    for (int i = 0; list && i < e->start_count; i++) list[(*count)++] = e->start[i];
+    for (int i = 0; list && i < displaced; i++)
+        list[(*count)++] =
+            (dal_setting){e->displace[i].name, e->displace[i].value * e->displacement};
+    return list;
 }
 
 static dal_status make_run(walk *w)
@@ -60,12 +74,14 @@ static dal_status make_run(walk *w)
                          .method = *w->cell->method,
                          .options = dal_options_default(),
                          .parameters = e->set,
-                         .parameter_count = e->set_count,
-                         .start = e->start,
-                         .start_count = e->start_count};
+                         .parameter_count = e->set_count};
+    dal_setting *start = start_settings(w->cell, &spec.start_count);
+    if (!start) return DAL_MEMORY;
+    spec.start = start;
     spec.options.step = w->cell->step;
     spec.options.space = space[w->cell->start];
     dal_status status = dal_run_create(&w->run, &spec, &w->cell->error);
+    free(start);
     return status == DAL_OK ? displace_run(w) : status;
 }
 

@@ -13,7 +13,7 @@
  * whole study has. */
 typedef struct draft {
     study_entry entry;
-    yaml_node_t *integrators, *set, *start, *systems;
+    yaml_node_t *integrators, *set, *start, *displace, *systems;
     const char *title;
 } draft;
 
@@ -117,6 +117,7 @@ static int take_starts(void *user, const study_text *text, yaml_node_t *value)
 KEEP_NODE(integrators)
 KEEP_NODE(set)
 KEEP_NODE(start)
+KEEP_NODE(displace)
 KEEP_NODE(systems)
 
 static const study_key keys[] = {
@@ -252,6 +253,8 @@ static int add_entry(study_plan *plan, const study_text *text, yaml_node_t *node
     if (status == CLI_DONE) status = read_settings(text, d.set, "set", &e->set, &e->set_count);
     if (status == CLI_DONE)
         status = read_settings(text, d.start, "start", &e->start, &e->start_count);
+    if (status == CLI_DONE)
+        status = read_settings(text, d.displace, "displace", &e->displace, &e->displace_count);
     return status == CLI_DONE ? cli_load(e->name, &e->model, &e->system) : status;
 }
 
@@ -321,6 +324,7 @@ void study_plan_free(study_plan *plan)
         free(e->methods);
         free(e->set);
         free(e->start);
+        free(e->displace);
     }
     if (plan->document) yaml_document_delete(&((study_text *)plan->document)->document);
     free(plan->document);
