@@ -141,7 +141,8 @@ char *cli_join(const char *directory, const char *name);
 
 /* ---- signals ------------------------------------------------------------------------------- */
 
-/* From the first call on SIGINT and SIGTERM only set a flag; a second one kills. */
+/* From the first call on SIGINT and SIGTERM only set a flag, a second one kills, and a file that
+ * may not grow is a failing write. */
 void cli_catch_signals(void);
 int cli_interrupted(void);
 

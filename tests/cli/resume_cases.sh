@@ -79,7 +79,7 @@ done
 holds "whole lines" awk -F, 'NR == 1 { n = NF } NF != n { exit 1 }' stopped/rows.csv
 try 0 resume stopped
 holds "not the rows of a run never interrupted" cmp stopped/rows.csv whole/rows.csv
-"$program" run $long --time 1e9 --samples 1e7 >out 2>err &
+"$program" run $long --time 1e4 --samples 1e6 >out 2>err &
 sleep 0.3
 kill -INT $!
 wait $!
@@ -87,6 +87,17 @@ status=$?
 holds "exit $status, not 130" [ $status -eq 130 ]
 says 'interrupted; [0-9]+ rows are kept'
 holds "whole lines" awk -F, 'NR == 1 { n = NF } NF != n { exit 1 }' out
+
+case_is "no room for more rows"
+(
+    ulimit -f 1000
+    exec "$program" run $long --checkpoint 0 --output full 2>err
+)
+status=$?
+holds "exit $status, not 4" [ $status -eq 4 ]
+says "cannot write 'full/(rows.csv|checkpoint.new)': File too large"
+try 0 resume full
+holds "not the rows of a run never interrupted" cmp full/rows.csv whole/rows.csv
 
 case_is "two processes on one directory"
 "$program" run $long --time 1e6 --samples 1e6 --checkpoint 0 --output busy 2>err &
@@ -111,6 +122,9 @@ echo no >damaged/checkpoint
 try 2 resume damaged
 says 'the checkpoint is damaged: it is too short'
 cp whole/checkpoint damaged/checkpoint
+sed 's/^dalembert: .*/dalembert: 0.0.0/' whole/run.yaml >damaged/run.yaml
+try 2 resume damaged
+says "damaged/run.yaml:2: made by another version, '0\.0\.0'"
 sed 's/^step: .*/step: 0.002/' whole/run.yaml >damaged/run.yaml
 try 2 resume damaged
 says 'damaged/checkpoint: belongs to another run'

@@ -48,7 +48,12 @@ holds "circle (nh30)" rows out '($2 - sin($1))^2 < 1e-26 && ($3 - 1 + cos($1))^2
 case_is "on the surface p, pi and H are 0, and 0 has no sign"
 holds "zeros" rows out '$9 == "0" && $12 == "0" && $15 == "0"'
 holds "no -0" sh -c '! grep -Eq "(^|,)-0(,|$)" out'
-try 0 run ./line.yaml --integrator rk4 --step 0.1 --time 1 --start x=-0 --start p_x=-0
+cat >minus.yaml <<'END'
+coordinates: [x]
+lagrangian: x'^2/2
+invariants: {minus: -x'}
+END
+try 0 run ./minus.yaml --integrator rk4 --step 0.1 --time 1 --start x=-0
 holds "no -0" sh -c '! grep -Eq "(^|,)-0(,|$)" out'
 
 case_is "17 digits come back as they were"
