@@ -143,9 +143,9 @@ void study_cell_free(study_cell *cell);
 const dal_drift *study_drift(const study_cell *cell, const char *name);
 const dal_drift *study_worst_constraint(const study_cell *cell);
 const dal_drift *study_worst_invariant(const study_cell *cell, const char **name);
-/* The natural size of an observable, for its verdict: H is judged by its own size, which the
- * displacement sets, all others by max(1, |x|). */
-dal_verdict study_verdict(const study_cell *cell, const dal_drift *drift);
+/* The verdict on a drift in a word.  H is judged by its own size, which the displacement sets, all
+ * others by max(1, |x|).  "-" for E of a system that does not conserve it. */
+const char *study_verdict(const study_cell *cell, const dal_drift *drift);
 /* The cell with the same method and step in (q,v), or NULL. */
 const study_cell *study_physical_twin(const study_plan *plan, const study_cell *cell);
 

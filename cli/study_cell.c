@@ -285,10 +285,13 @@ const dal_drift *study_worst_invariant(const study_cell *cell, const char **name
     return worst;
 }
 
-dal_verdict study_verdict(const study_cell *cell, const dal_drift *drift)
+const char *study_verdict(const study_cell *cell, const dal_drift *drift)
 {
+    int conserved = (cell->entry->system->properties & (DAL_E_EXACT | DAL_E_WEAK)) != 0;
     int own = drift == study_drift(cell, "H");
-    return dal_drift_verdict(drift, own ? drift->greatest : fmax(1.0, drift->greatest));
+    if (drift == study_drift(cell, "E") && !conserved) return "-";
+    double scale = own ? drift->greatest : fmax(1.0, drift->greatest);
+    return dal_verdict_text(dal_drift_verdict(drift, scale));
 }
 
 const study_cell *study_physical_twin(const study_plan *plan, const study_cell *cell)
