@@ -94,12 +94,16 @@ $(KERNEL): tools/amalgamate.sh include/dalembert_kernel.h $(wildcard include/*.h
 	@mkdir -p $(@D)
 	sh tools/amalgamate.sh include/dalembert_kernel.h >$@.tmp && mv $@.tmp $@
 
-# The list of test suites changes with the files there are, so it is looked at in every run.
-$(BUILD)/generated/suites.inc: FORCE
+# The test suites there are.  The list changes with the files, so it is looked at in every run;
+# suites.h, which declares them, goes before every test source.
+$(BUILD)/generated/suites.h: FORCE
 	@mkdir -p $(@D)
-	@for s in $(SUITES); do echo "X($$s)"; done >$@.tmp
+	@{ for s in $(SUITES); do echo "void suite_$$s(void);"; done; \
+	    printf '#define SUITE_LIST(X)'; for s in $(SUITES); do printf ' X(%s)' $$s; done; \
+	    echo; } >$@.tmp
 	@if cmp -s $@.tmp $@; then rm $@.tmp; else mv $@.tmp $@; fi
-$(BUILD)/tests/main.o: $(BUILD)/generated/suites.inc
+$(TEST_OBJ): $(BUILD)/generated/suites.h
+$(TEST_OBJ): ALL += -include suites.h
 
 # ---- tests -----------------------------------------------------------------------------------
 
@@ -108,18 +112,24 @@ $(BUILD)/tests/suite: $(TEST_OBJ) $(STATIC)
 	$(CC) $(CFLAGS) $(LDFLAGS) -Wl,--wrap=malloc,--wrap=calloc,--wrap=realloc \
 	    $^ $(LIBS) $(TEST_LIBS) -o $@
 
-check: all $(BUILD)/tests/suite
+# A locale with a decimal comma; where it cannot be made the tests that want one say so.
+$(BUILD)/locale:
+	@mkdir -p $@
+	-@localedef -f UTF-8 -i de_DE $@/de_DE.UTF-8 2>/dev/null
+RUN_SUITE = LOCPATH=$(BUILD)/locale
+
+check: all $(BUILD)/tests/suite $(BUILD)/locale
 	@sh tests/cli/run.sh $(PROGRAM)
 	@CC="$(CC)" CFLAGS="$(CFLAGS)" sh tests/install.sh "$(MAKE)" $(BUILD)
-	@$(BUILD)/tests/suite $(SUITE)
+	@$(RUN_SUITE) $(BUILD)/tests/suite $(SUITE)
 
 CHECKED = -O1 -g -fno-omit-frame-pointer -fno-sanitize-recover=all
 check-sanitize:
 	$(MAKE) BUILD=$(BUILD)/sanitize CFLAGS="$(CHECKED) -fsanitize=address,undefined" check
 
 VALGRIND = valgrind -q --error-exitcode=99 --leak-check=full
-check-valgrind: $(BUILD)/tests/suite
-	$(VALGRIND) $(BUILD)/tests/suite $(SUITE)
+check-valgrind: $(BUILD)/tests/suite $(BUILD)/locale
+	$(RUN_SUITE) $(VALGRIND) $(BUILD)/tests/suite --quick $(SUITE)
 
 fuzz:
 	$(MAKE) BUILD=$(BUILD)/fuzz CC=$(FUZZ_CC) \

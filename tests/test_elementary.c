@@ -221,7 +221,6 @@ static void test_rarer_functions_are_libm(void)
         }
 }
 
-void suite_elementary(void);
 void suite_elementary(void)
 {
     CU_pSuite suite = CU_add_suite("elementary functions", NULL, NULL);

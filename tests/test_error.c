@@ -84,7 +84,6 @@ static void test_unknown(void)
     CU_ASSERT_STRING_EQUAL(error.message, "unknown parameter 'mass'");
 }
 
-void suite_error(void);
 void suite_error(void)
 {
     CU_pSuite suite = CU_add_suite("errors", NULL, NULL);

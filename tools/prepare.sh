@@ -2,7 +2,7 @@
 # prepare.sh [lint] - installs, on Debian, the packages that building and testing need, and with
 # `lint` those of the whole continuous check; nothing happens when all are there.
 set -e
-packages='gcc libc6-dev make pkg-config libyaml-dev libcunit1-dev libmpfr-dev gnuplot-nox'
+packages='gcc libc6-dev make pkg-config libyaml-dev libcunit1-dev libmpfr-dev locales gnuplot-nox'
 if [ "$1" = lint ]; then
     packages="$packages binutils clang clang-format libclang-rt-14-dev universal-ctags valgrind"
 fi

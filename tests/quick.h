@@ -1,0 +1,8 @@
+/* quick.h - under valgrind, fifty times slower, long runs are cut short: `suite --quick`. */
+#ifndef QUICK_H
+#define QUICK_H
+
+/* count, or a hundredth of it in a quick run. */
+long long long_run(long long count);
+
+#endif
