@@ -46,7 +46,7 @@ static quantity make_quantity(const study_cell *cell, const dal_drift *drift, co
 {
     quantity q = {.verdict = "", .name = ""};
     if (!drift) return q;
-    return (quantity){*drift, dal_verdict_text(study_verdict(cell, drift)), name};
+    return (quantity){*drift, study_verdict(cell, drift), name};
 }
 
 static quantity named(const study_cell *cell, const char *name)
@@ -167,7 +167,7 @@ static void put_quantities(FILE *out, const row *r)
             fputc(',', out);
             cli_put(out, numbers[k]);
         }
-        fprintf(out, ",%s\n", dal_verdict_text(study_verdict(r->cell, d)));
+        fprintf(out, ",%s\n", study_verdict(r->cell, d));
     }
 }
 

@@ -31,7 +31,7 @@ static void say_rate(char *text, const dal_drift *drift)
 
 static void say_verdict(char *text, const line *l, const dal_drift *drift)
 {
-    if (drift) snprintf(text, CELL, "%s", dal_verdict_text(study_verdict(l->cell, drift)));
+    if (drift) snprintf(text, CELL, "%s", study_verdict(l->cell, drift));
 }
 
 static double greatest(const dal_drift *drift) { return drift ? drift->greatest : 0.0; }
@@ -192,13 +192,17 @@ void study_print_note(FILE *out)
         "lift says nothing there about D or the energy: every one-step method, explicit Euler\n"
         "included, is the restriction of a symplectic one.  D and E are kept, or not, for other\n"
         "reasons: the form of D, reversibility, projection.  What symplecticity does keep shows\n"
-        "off p = pi = 0, in H; there pi/e pushes v off D, and p, pi grow where the motion\n"
-        "contracts.  A projection has no canonical lift: it puts p = pi = 0 and H with them.\n"
+        "off p = pi = 0, in H.  There pi/e pushes v off D; p and pi grow where the motion\n"
+        "contracts or a coordinate is cyclic, and the error of H, linear in them, grows with\n"
+        "them: read it beside |p| and |pi|.  A projection has no canonical lift: it puts\n"
+        "p = pi = 0, and H with them.\n"
         "\n"
         "Verdicts.  exact: never changed.  rounding: changed by at most 1e-12 of its size.\n"
         "drifts: the last quarter of the time strays more than 2.5 times as far as the first, or\n"
         "the slope over the whole time exceeds 4 times the distance from the line.  bounded: none\n"
-        "of these.  lost: not finite.  Rates are slopes of least squares.  I are the invariants\n"
-        "of the system, the worst of them; ns are of processor time.\n",
+        "of these.  lost: not finite.  -: not to be judged, as E where the system itself does not\n"
+        "conserve it.  Rates are slopes of least squares.  I are the invariants of the system, "
+        "the\n"
+        "worst of them; ns are of processor time.\n",
         out);
 }
