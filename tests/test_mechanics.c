@@ -275,12 +275,17 @@ static double vakonomic_lagrangian(int i, const double *q, const double *v, doub
            multiplier[1] * hard_constraint(1, q, v, t);
 }
 
+static body vakonomic_body(void)
+{
+    char text[1024] = "mechanics: vakonomic\n";
+    strcat(text, hard_text);
+    return body_of_text(text);
+}
+
 static void test_vakonomic(void)
 {
     const body_formulas f = {4, 2, vakonomic_lagrangian, hard_force, hard_constraint};
-    char text[1024] = "mechanics: vakonomic\n";
-    strcat(text, hard_text);
-    body b = body_of_text(text);
+    body b = vakonomic_body();
     double out[6], residual[6] = {0.0}, zero[6] = {0.0};
     multiplier[0] = v0[4], multiplier[1] = v0[5];
     CU_ASSERT(b.system->multipliers == 2 && b.system->properties & DAL_VAKONOMIC);
@@ -363,6 +368,15 @@ static void test_lanes(void)
     body_free(&b);
 }
 
+static void test_lanes_of_multipliers(void)
+{
+    body b = vakonomic_body();
+    const dal_system *s = b.system;
+    check_lanes(&(lanes_case){&b, s->call.field, s->wide4->field, 4, 6});
+    check_lanes(&(lanes_case){&b, s->call.jacobian, s->wide8->jacobian, 8, 60});
+    body_free(&b);
+}
+
 void suite_mechanics(void);
 void suite_mechanics(void)
 {
@@ -375,4 +389,5 @@ void suite_mechanics(void)
     CU_add_test(suite, "tangent system", test_tangent);
     CU_add_test(suite, "vakonomic motion", test_vakonomic);
     CU_add_test(suite, "lanes have the bits of one", test_lanes);
+    CU_add_test(suite, "lanes of multipliers", test_lanes_of_multipliers);
 }

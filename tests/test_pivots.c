@@ -52,6 +52,17 @@ static void test_singular_mass(void)
     body_free(&b);
 }
 
+/* A parameter may take the mass away. */
+static void test_massless(void)
+{
+    body b = body_builtin("chaplygin-sleigh");
+    double which;
+    CU_ASSERT(diagnosis(&b, 0.2, &which) == DAL_OK);
+    body_set(&b, "I", 0.0);
+    CU_ASSERT(diagnosis(&b, 0.2, &which) == DAL_SINGULAR_MASS);
+    body_free(&b);
+}
+
 static void test_dependent_constraints(void)
 {
     body b = body_of_text(parallel_text);
@@ -92,6 +103,19 @@ static void test_singular_systems(void)
 {
     check_diagnosis("appell-hamel", (double[]){0, 0, 0}, (double[]){0, 0, 0});
     check_diagnosis("chaplygin-sleigh-nonlinear", (double[]){1, 1, 0}, (double[]){0, 1, 1});
+}
+
+/* A is regular here, but D_q v is not: no pivot tells. */
+static void test_singular_rate(void)
+{
+    body b = body_of_text("coordinates: [x, y, z]\n"
+                          "lagrangian: (x'^2 + y'^2 + z'^2)/2\n"
+                          "constraints: [x' + z', y' - sqrt(x)]\n"
+                          "start: {x: 1}\n");
+    double q[] = {0, 0, 0}, v[] = {1, 0, -1}, which = 0.0;
+    CU_ASSERT(body_call(&b, b.system->diagnose, 0.0, q, v, &which) == DAL_SINGULAR);
+    CU_ASSERT(which == 2.0);
+    body_free(&b);
 }
 
 /* Parameters alone, or a first pivot, are not watched: no pivots behind the outputs. */
@@ -230,18 +254,35 @@ static void test_gauge_and_start(void)
     body_free(&b);
 }
 
+static void test_start_of_multipliers(void)
+{
+    body b = body_of_text("coordinates: [x, y]\n"
+                          "lagrangian: (x'^2 + y'^2)/2\n"
+                          "constraints: [x' - y']\n"
+                          "mechanics: vakonomic\n"
+                          "gauge: {e: 7}\n"
+                          "start: {y: 2, x': 3, y': 3, g1: 5}\n");
+    double out[6], expected[] = {0, 2, 3, 3, 5, 7};
+    body_call(&b, b.system->start, 0.0, NULL, NULL, out);
+    CU_ASSERT(body_distance(6, out, expected) == 0.0);
+    body_free(&b);
+}
+
 void suite_pivots(void);
 void suite_pivots(void)
 {
     CU_pSuite suite = CU_add_suite("pivots", NULL, NULL);
     CU_add_test(suite, "singular mass matrix", test_singular_mass);
+    CU_add_test(suite, "no mass", test_massless);
     CU_add_test(suite, "dependent constraints", test_dependent_constraints);
     CU_add_test(suite, "one lane of several", test_singular_lane);
     CU_add_test(suite, "singularities of shipped systems", test_singular_systems);
+    CU_add_test(suite, "singular rate of a constraint", test_singular_rate);
     CU_add_test(suite, "a start may be singular", test_start_may_be_singular);
     CU_add_test(suite, "order of pivots", test_pivot_order);
     CU_add_test(suite, "guards", test_guards);
     CU_add_test(suite, "degree of D, fate of E", test_constraint_properties);
     CU_add_test(suite, "properties of the motion", test_motion_properties);
     CU_add_test(suite, "gauge and start", test_gauge_and_start);
+    CU_add_test(suite, "start of multipliers", test_start_of_multipliers);
 }

@@ -96,7 +96,7 @@ static void check_exact(const body *b)
 static void unlike(body *b)
 {
     for (int i = 0; i < b->system->parameters; i++)
-        body_set(b, b->system->parameter[i], b->system->value[i] * (1.1 + 0.07 * i));
+        body_set(b, b->system->parameter[i], b->system->value[i] * (1.1 + 0.07 * i) + 0.03);
 }
 
 static const char *const with_exact[] = {"chaplygin-sleigh",

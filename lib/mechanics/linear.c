@@ -204,29 +204,33 @@ static void note_pivot(dal__equations *e, const work *w, int k)
     int row = w->p->row[k], place = row * w->s->n + w->p->column[k];
     int last = w->p->column[k] > row ? w->p->column[k] : row;
     bool varying = dal__depends(e->graph, w->s->matrix[place], e->parameters, e->symbols);
-    if (!varying) return;
+    if (dal__look(e->graph, w->s->matrix[place]).op == DAL__NUMBER) return;
     e->pivot[e->pivots++] =
         (dal__pivot){.pivot = w->s->matrix[place],
                      .size = w->size[place],
                      .constraint = last >= w->s->border ? last - w->s->border + 1 : 0,
-                     .watched = w->p->flag[place] & TOUCHED};
+                     .watched = varying && w->p->flag[place] & TOUCHED};
+}
+
+/* Column j of the solution in the variable of pivot k, when those of the later pivots are known. */
+static dal__node substitute(work *w, int k, int j)
+{
+    int n = w->s->n, columns = w->s->columns, row = w->p->row[k];
+    dal__node x = w->s->rhs[row * columns + j];
+    for (int l = k + 1; l < n; l++) {
+        int c = w->p->column[l];
+        dal__node factor = w->s->matrix[row * n + c];
+        if (!is_zero(w, factor)) subtract(w, &x, factor, w->s->x[c * columns + j]);
+    }
+    return dal__mul(w->graph, x, w->reciprocal[k]);
 }
 
 static void back_substitute(work *w)
 {
-    int n = w->s->n, columns = w->s->columns;
-    for (int k = n; k-- > 0;) {
-        int row = w->p->row[k], own = w->p->column[k];
-        for (int j = 0; j < columns; j++) {
-            dal__node x = w->s->rhs[row * columns + j];
-            for (int l = k + 1; l < n; l++) {
-                int c = w->p->column[l];
-                if (!is_zero(w, w->s->matrix[row * n + c]))
-                    subtract(w, &x, w->s->matrix[row * n + c], w->s->x[c * columns + j]);
-            }
-            w->s->x[own * columns + j] = dal__mul(w->graph, x, w->reciprocal[k]);
-        }
-    }
+    int columns = w->s->columns;
+    for (int k = w->s->n; k-- > 0;)
+        for (int j = 0; j < columns; j++)
+            w->s->x[w->p->column[k] * columns + j] = substitute(w, k, j);
 }
 
 dal_status dal__linear_solve(dal_model *model, dal__linear *s)
