@@ -233,7 +233,6 @@ static void test_out_of_memory(void)
     }
 }
 
-void suite_derivative(void);
 void suite_derivative(void)
 {
     CU_pSuite suite = CU_add_suite("derivative", NULL, NULL);

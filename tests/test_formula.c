@@ -310,7 +310,6 @@ static void test_out_of_memory(void)
     free(text);
 }
 
-void suite_formula(void);
 void suite_formula(void)
 {
     CU_pSuite suite = CU_add_suite("formula", NULL, NULL);

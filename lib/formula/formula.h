@@ -4,7 +4,8 @@
  *
  * A graph only grows; a node is an index, its operands have smaller indices, so every pass over a
  * graph is a loop and never a recursion.  Equal expressions are one node.  Constants are folded and
- * 0, 1 and -1 simplified where this changes no value on the domain of the formula.
+ * sums, products and quotients brought into one form as for real numbers (product.c, sum.c): on the
+ * domain of a formula that changes no value but by rounding; 0*x and x/x lose their own gaps.
  * When memory is out or the graph grows past its limit, the graph remembers it: nodes made from
  * then on are 0, every function accepts node 0, and dal__graph_status tells. */
 #ifndef DAL_FORMULA_H
@@ -123,7 +124,8 @@ dal__tapes *dal__tapes_create(const dal__graph *graph, int parameters, int input
 void dal__tapes_free(dal__tapes *tapes);
 /* Adds a program with these outputs and returns its number, from 0 (-1: out of memory). */
 int dal__tapes_add(dal__tapes *tapes, const dal__node *outputs, int count);
-/* Completes the set; afterwards it is constant.  Errors: DAL_MEMORY, DAL_TOO_LARGE. */
+/* Completes the set; afterwards it is constant and needs the graph no more.  Errors: DAL_MEMORY,
+ * DAL_TOO_LARGE, DAL_ARGUMENT (an output is no node, or has a symbol that is neither). */
 dal_status dal__tapes_finish(dal__tapes *tapes);
 size_t dal__tapes_workspace(const dal__tapes *tapes);        /* numbers in work */
 int dal__tapes_inputs(const dal__tapes *tapes);              /* where the inputs begin in work */

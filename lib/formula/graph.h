@@ -49,9 +49,6 @@ dal__node dal__find_symbol(const dal__graph *graph, int symbol);
 /* A node as +-c*r with c >= 0 where c is a number, and back. */
 dal__term dal__split(dal__graph *graph, dal__node node);
 dal__node dal__attach(dal__graph *graph, dal__term term);
-/* The product of two fixed nodes without signs; 0 where a numeric factor would over- or underflow.
- */
-dal__node dal__coefficients(dal__graph *graph, dal__node c, dal__node d);
 /* The node of an ADD or MUL with ordered operands. */
 dal__node dal__commute(dal__graph *graph, dal__op op, dal__node a, dal__node b);
 

@@ -4,14 +4,12 @@
  * how often and where for the last time, and which products can be taken into a sum; one sweep up
  * writes the instructions and gives places in work to their results. */
 #include "formula/plan.h"
-#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 
-dal_status dal__plan_create(dal__plan *plan, const dal__tapes *tapes)
+static bool allocate(dal__plan *plan)
 {
-    size_t count = (size_t)dal__graph_count(tapes->graph) + 1;
-    *plan = (dal__plan){.graph = tapes->graph, .last_node = (dal__node)count - 1};
+    size_t count = (size_t)plan->last_node + 1;
     plan->constant = calloc(count, sizeof *plan->constant);
     plan->reached = calloc(count, sizeof *plan->reached);
     plan->place = malloc(count * sizeof *plan->place);
@@ -19,20 +17,28 @@ dal_status dal__plan_create(dal__plan *plan, const dal__tapes *tapes)
     plan->last = calloc(count, sizeof *plan->last);
     plan->uses = calloc(count, sizeof *plan->uses);
     plan->free = malloc(count * sizeof *plan->free);
-    bool complete = plan->constant && plan->reached && plan->place && plan->host && plan->last &&
-                    plan->uses && plan->free;
-    if (!complete) return DAL_MEMORY;
+    return plan->constant && plan->reached && plan->place && plan->host && plan->last &&
+           plan->uses && plan->free;
+}
+
+static bool is_constant(const dal__plan *plan, const dal__tapes *tapes, dal__view v)
+{
+    if (v.op == DAL__NUMBER) return true;
+    if (v.op == DAL__SYMBOL) return v.symbol < tapes->parameters;
+    return plan->constant[v.a] && (!v.b || plan->constant[v.b]);
+}
+
+dal_status dal__plan_create(dal__plan *plan, const dal__tapes *tapes)
+{
+    *plan = (dal__plan){.graph = tapes->graph, .last_node = dal__graph_count(tapes->graph)};
+    if (!allocate(plan)) return DAL_MEMORY;
     for (dal__node i = 1; i <= plan->last_node; i++) {
-        dal__view v = dal__look(plan->graph, i);
-        plan->constant[i] =
-            v.op == DAL__NUMBER ||
-            (v.op == DAL__SYMBOL ? v.symbol < tapes->parameters
-                                 : plan->constant[v.a] && (!v.b || plan->constant[v.b]));
+        plan->constant[i] = is_constant(plan, tapes, dal__look(plan->graph, i));
         plan->place[i] = DAL__NOWHERE;
     }
-    for (int p = 0; p < tapes->programs; p++) {
-        const dal__program *program = &tapes->program[p];
-        for (int k = 0; k < program->outputs; k++) plan->reached[program->output[k]] = 1;
+    for (int p = 0; p < tapes->count; p++) {
+        const dal__tape *tape = &tapes->tape[p];
+        for (int k = 0; k < tape->outputs; k++) plan->reached[tape->output[k]] = 1;
     }
     if (plan->reached[0]) return DAL_ARGUMENT;
     for (dal__node i = plan->last_node; i > 0; i--) {
@@ -63,14 +69,14 @@ static dal__instruction plain(const dal__plan *plan, dal__node i, dal__view v)
 
 dal_status dal__plan_hoisted(dal__plan *plan, dal__tapes *tapes)
 {
-    dal__program *program = &tapes->hoisted;
+    dal__tape *tape = &tapes->hoisted;
     size_t most = tapes->first_input + 1;
-    program->code = malloc(most * sizeof *program->code);
-    if (!program->code) return DAL_MEMORY;
+    tape->code = malloc(most * sizeof *tape->code);
+    if (!tape->code) return DAL_MEMORY;
     for (dal__node i = 1; i <= plan->last_node; i++) {
         dal__view v = dal__look(plan->graph, i);
         if (!plan->reached[i] || !plan->constant[i] || !v.a) continue;
-        program->code[program->length++] = plain(plan, i, v);
+        tape->code[tape->length++] = plain(plan, i, v);
     }
     return DAL_OK;
 }
@@ -81,25 +87,25 @@ static bool is_computed(const dal__plan *plan, dal__node i, dal__view v)
     return plan->reached[i] && !plan->constant[i] && v.op != DAL__SYMBOL;
 }
 
-static dal__node largest_output(const dal__program *program)
+static dal__node largest_output(const dal__tape *tape)
 {
     dal__node largest = 0;
-    for (int k = 0; k < program->outputs; k++) {
-        if (program->output[k] > largest) largest = program->output[k];
+    for (int k = 0; k < tape->outputs; k++) {
+        if (tape->output[k] > largest) largest = tape->output[k];
     }
     return largest;
 }
 
 /* Fills reached and uses for one program; the number of instructions it needs at most. */
-static int count_uses(dal__plan *plan, const dal__program *program, dal__node top)
+static int count_uses(dal__plan *plan, const dal__tape *tape, dal__node top)
 {
     int computed = 0;
     memset(plan->reached, 0, (size_t)top + 1);
     memset(plan->uses, 0, ((size_t)top + 1) * sizeof *plan->uses);
     memset(plan->last, 0, ((size_t)top + 1) * sizeof *plan->last);
     memset(plan->host, 0, ((size_t)top + 1) * sizeof *plan->host);
-    for (int k = 0; k < program->outputs; k++) {
-        dal__node f = program->output[k];
+    for (int k = 0; k < tape->outputs; k++) {
+        dal__node f = tape->output[k];
         plan->reached[f] = 1;
         plan->last[f] = top + 1;
         plan->uses[f]++;
@@ -149,14 +155,12 @@ static void release(dal__plan *plan, const dal__tapes *tapes, dal__node x, dal__
     plan->last[x] = 0;
 }
 
-static uint32_t take(dal__plan *plan, dal__tapes *tapes, size_t *used)
+static uint32_t take(dal__plan *plan, dal__tapes *tapes)
 {
     if (plan->frees > 0) return plan->free[--plan->frees];
-    uint32_t place = (uint32_t)(tapes->temporaries + (*used)++);
-    if (tapes->temporaries + *used > tapes->workspace) {
-        tapes->workspace = tapes->temporaries + *used;
-    }
-    return place;
+    size_t place = tapes->temporaries + plan->used++;
+    if (place >= tapes->workspace) tapes->workspace = place + 1;
+    return (uint32_t)place;
 }
 
 /* The sum or difference i of a product that was taken into it and something else. */
@@ -178,8 +182,7 @@ static dal__node partner(const dal__plan *plan, dal__view v, dal__node top)
     return x && x <= top && plan->reached[x] ? x : 0;
 }
 
-static void emit(dal__plan *plan, dal__tapes *tapes, dal__program *program, dal__node i,
-                 dal__node top, size_t *used)
+static void emit(dal__plan *plan, dal__tapes *tapes, dal__tape *tape, dal__node i, dal__node top)
 {
     dal__view v = dal__look(plan->graph, i);
     dal__node pair = partner(plan, v, top);
@@ -192,33 +195,32 @@ static void emit(dal__plan *plan, dal__tapes *tapes, dal__program *program, dal_
     }
     release(plan, tapes, v.a, i);
     release(plan, tapes, v.b, i);
-    code.d = plan->place[i] = take(plan, tapes, used);
+    if (pair) release(plan, tapes, v.a, pair);
+    code.d = plan->place[i] = take(plan, tapes);
     if (pair) {
-        plan->place[pair] = take(plan, tapes, used);
+        plan->place[pair] = take(plan, tapes);
         code.op = DAL__SINCOS;
         code.d = plan->place[v.op == DAL__SIN ? i : pair];
         code.b = plan->place[v.op == DAL__SIN ? pair : i];
     }
-    program->code[program->length++] = code;
+    tape->code[tape->length++] = code;
 }
 
-dal_status dal__plan_program(dal__plan *plan, dal__tapes *tapes, dal__program *program)
+dal_status dal__plan_tape(dal__plan *plan, dal__tapes *tapes, dal__tape *tape)
 {
-    dal__node top = largest_output(program);
-    size_t most = (size_t)count_uses(plan, program, top) + 1, used = 0;
-    program->code = malloc(most * sizeof *program->code);
-    if (!program->code) return DAL_MEMORY;
+    dal__node top = largest_output(tape);
+    size_t most = (size_t)count_uses(plan, tape, top) + 1;
+    tape->code = malloc(most * sizeof *tape->code);
+    if (!tape->code) return DAL_MEMORY;
     find_lives(plan, top);
-    plan->frees = 0;
+    plan->frees = plan->used = 0;
     for (dal__node i = 1; i <= top; i++) {
         bool wanted = is_computed(plan, i, dal__look(plan->graph, i)) && !plan->host[i];
-        if (wanted && plan->place[i] == DAL__NOWHERE) emit(plan, tapes, program, i, top, &used);
+        if (wanted && plan->place[i] == DAL__NOWHERE) emit(plan, tapes, tape, i, top);
     }
-    for (int k = 0; k < program->outputs; k++) program->place[k] = plan->place[program->output[k]];
+    for (int k = 0; k < tape->outputs; k++) tape->place[k] = plan->place[tape->output[k]];
     for (dal__node i = 1; i <= top; i++) {
-        if (plan->place[i] != DAL__NOWHERE && plan->place[i] >= tapes->temporaries) {
-            plan->place[i] = DAL__NOWHERE;
-        }
+        if (plan->place[i] >= tapes->temporaries) plan->place[i] = DAL__NOWHERE;
     }
     return DAL_OK;
 }

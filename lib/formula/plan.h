@@ -10,14 +10,14 @@
 typedef struct dal__plan {
     const dal__graph *graph;
     dal__node last_node;
-    bool *constant;   /* depends on parameters alone */
-    uint8_t *reached; /* wanted by any program; then, by the present one */
-    uint32_t *place;  /* in work; DAL__NOWHERE while a temporary is not alive */
-    dal__node *host;  /* the ADD or SUB that takes this MUL into itself, or 0 */
-    dal__node *last;  /* the node whose instruction reads this one last */
-    int32_t *uses;    /* by operands and outputs */
-    uint32_t *free;   /* places of temporaries to be used again, as a stack */
-    size_t frees;
+    bool *constant;     /* depends on parameters alone */
+    uint8_t *reached;   /* wanted by any program; then, by the present one */
+    uint32_t *place;    /* in work; DAL__NOWHERE while a temporary is not alive */
+    dal__node *host;    /* the ADD or SUB that takes this MUL into itself, or 0 */
+    dal__node *last;    /* the node whose instruction reads this one last */
+    int32_t *uses;      /* by operands and outputs */
+    uint32_t *free;     /* places of temporaries to be used again, as a stack */
+    size_t frees, used; /* temporaries: on that stack, and taken in all */
 } dal__plan;
 
 #define DAL__NOWHERE UINT32_MAX
@@ -29,6 +29,6 @@ void dal__plan_free(dal__plan *plan);
 dal_status dal__plan_hoisted(dal__plan *plan, dal__tapes *tapes);
 /* One program: temporaries get places as they come and give them back after their last use; the
  * workspace grows to hold them. [alloc] */
-dal_status dal__plan_program(dal__plan *plan, dal__tapes *tapes, dal__program *program);
+dal_status dal__plan_tape(dal__plan *plan, dal__tapes *tapes, dal__tape *tape);
 
 #endif

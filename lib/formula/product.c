@@ -92,7 +92,9 @@ static double take_number(dal__graph *graph, dal__node *c)
     return graph->node[r.a].value;
 }
 
-dal__node dal__coefficients(dal__graph *graph, dal__node c, dal__node d)
+/* The product of two fixed nodes without signs; 0 where a numeric factor would over- or underflow.
+ */
+static dal__node coefficients(dal__graph *graph, dal__node c, dal__node d)
 {
     if (is_one(graph, c)) return d;
     if (is_one(graph, d)) return c;
@@ -117,7 +119,7 @@ dal__node dal__mul(dal__graph *graph, dal__node a, dal__node b)
     dal__term x = dal__split(graph, a), y = dal__split(graph, b);
     if (graph->status) return 0;
     x.negative = x.negative != y.negative;
-    x.coefficient = dal__coefficients(graph, x.coefficient, y.coefficient);
+    x.coefficient = coefficients(graph, x.coefficient, y.coefficient);
     if (!x.coefficient) return dal__commute(graph, DAL__MUL, a, b);
     if (is_one(graph, x.rest)) {
         x.rest = y.rest;
@@ -154,7 +156,7 @@ static dal__node ratio(dal__graph *graph, dal__node c, dal__node d)
         return dal__number(graph, r.value / s.value);
     }
     if (s.op == DAL__DIV) {
-        dal__node product = dal__coefficients(graph, c, reciprocal(graph, d));
+        dal__node product = coefficients(graph, c, reciprocal(graph, d));
         if (product) return product;
     }
     return dal__intern(graph, DAL__DIV, c, d);
@@ -183,7 +185,7 @@ static dal__node fraction(dal__graph *graph, dal__node u, dal__node w)
 static dal__node divide_fixed(dal__graph *graph, dal__term x, dal__node c)
 {
     dal__node inverse = reciprocal(graph, c);
-    dal__node coefficient = inverse ? dal__coefficients(graph, x.coefficient, inverse) : 0;
+    dal__node coefficient = inverse ? coefficients(graph, x.coefficient, inverse) : 0;
     if (coefficient) {
         x.coefficient = coefficient;
     } else if (op_of(graph, x.coefficient) == DAL__NUMBER) {
@@ -209,7 +211,7 @@ dal__node dal__div(dal__graph *graph, dal__node a, dal__node b)
     }
     if (is_one(graph, y.rest)) return divide_fixed(graph, x, y.coefficient);
     dal__node inverse = reciprocal(graph, y.coefficient);
-    dal__node coefficient = inverse ? dal__coefficients(graph, x.coefficient, inverse) : 0;
+    dal__node coefficient = inverse ? coefficients(graph, x.coefficient, inverse) : 0;
     if (coefficient) {
         x.coefficient = coefficient;
         y.coefficient = one(graph);

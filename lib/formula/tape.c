@@ -1,6 +1,5 @@
-/* tape.c - the set of programs of one system: its life, and the layout of its block of numbers. */
+/* tape.c - the programs of one system: their life, and the layout of their block of numbers. */
 #include "formula/plan.h"
-#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -14,30 +13,30 @@ dal__tapes *dal__tapes_create(const dal__graph *graph, int parameters, int input
     return tapes;
 }
 
-static void program_free(dal__program *program)
+static void tape_free(dal__tape *tape)
 {
-    free(program->output);
-    free(program->place);
-    free(program->code);
+    free(tape->output);
+    free(tape->place);
+    free(tape->code);
 }
 
 void dal__tapes_free(dal__tapes *tapes)
 {
     if (!tapes) return;
-    for (int i = 0; i < tapes->programs; i++) program_free(&tapes->program[i]);
-    program_free(&tapes->hoisted);
-    free(tapes->program);
+    for (int i = 0; i < tapes->count; i++) tape_free(&tapes->tape[i]);
+    tape_free(&tapes->hoisted);
+    free(tapes->tape);
     free(tapes->number);
     free(tapes);
 }
 
 static bool make_room(dal__tapes *tapes)
 {
-    if (tapes->programs < tapes->capacity) return true;
+    if (tapes->count < tapes->capacity) return true;
     int capacity = tapes->capacity ? 2 * tapes->capacity : 16;
-    dal__program *program = realloc(tapes->program, (size_t)capacity * sizeof *program);
-    if (!program) return false;
-    tapes->program = program;
+    dal__tape *tape = realloc(tapes->tape, (size_t)capacity * sizeof *tape);
+    if (!tape) return false;
+    tapes->tape = tape;
     tapes->capacity = capacity;
     return true;
 }
@@ -45,14 +44,14 @@ static bool make_room(dal__tapes *tapes)
 int dal__tapes_add(dal__tapes *tapes, const dal__node *outputs, int count)
 {
     if (!make_room(tapes)) return -1;
-    dal__program program = {.outputs = count};
-    size_t places = count > 0 ? (size_t)count : 1;
-    program.output = calloc(places, sizeof *program.output);
-    program.place = calloc(places, sizeof *program.place);
-    if (!program.output || !program.place) return program_free(&program), -1;
-    if (count > 0) memcpy(program.output, outputs, places * sizeof *outputs);
-    tapes->program[tapes->programs] = program;
-    return tapes->programs++;
+    dal__tape tape = {.outputs = count};
+    size_t size = count > 0 ? (size_t)count : 1;
+    tape.output = calloc(size, sizeof *tape.output);
+    tape.place = calloc(size, sizeof *tape.place);
+    if (!tape.output || !tape.place) return tape_free(&tape), -1;
+    if (count > 0) memcpy(tape.output, outputs, size * sizeof *outputs);
+    tapes->tape[tapes->count] = tape;
+    return tapes->count++;
 }
 
 /* Places for all that is constant along a run, and for the inputs. */
@@ -92,8 +91,8 @@ static dal_status compile_all(dal__tapes *tapes, dal__plan *plan)
     DAL_TRY(lay_out(tapes, plan));
     tapes->workspace = tapes->temporaries;
     DAL_TRY(dal__plan_hoisted(plan, tapes));
-    for (int i = 0; i < tapes->programs; i++) {
-        DAL_TRY(dal__plan_program(plan, tapes, &tapes->program[i]));
+    for (int i = 0; i < tapes->count; i++) {
+        DAL_TRY(dal__plan_tape(plan, tapes, &tapes->tape[i]));
     }
     return DAL_OK;
 }
@@ -111,10 +110,7 @@ dal_status dal__tapes_finish(dal__tapes *tapes)
 size_t dal__tapes_workspace(const dal__tapes *tapes) { return tapes->workspace; }
 int dal__tapes_inputs(const dal__tapes *tapes) { return (int)tapes->first_input; }
 
-int dal__tapes_length(const dal__tapes *tapes, int program)
-{
-    return tapes->program[program].length;
-}
+int dal__tapes_length(const dal__tapes *tapes, int program) { return tapes->tape[program].length; }
 
 void dal__tapes_prepare(const dal__tapes *tapes, double *work)
 {

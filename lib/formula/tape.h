@@ -21,25 +21,26 @@ typedef struct dal__instruction {
     uint32_t op, d, a, b, c;
 } dal__instruction;
 
-typedef struct dal__program {
-    dal__node *output; /* [outputs], then their places */
-    uint32_t *place;   /* [outputs] */
+/* One program. */
+typedef struct dal__tape {
+    dal__node *output; /* [outputs] */
+    uint32_t *place;   /* [outputs] where they are when it has run */
     int outputs;
-    dal__instruction *code;
+    dal__instruction *code; /* [length] */
     int length;
-} dal__program;
+} dal__tape;
 
 struct dal__tapes {
     const dal__graph *graph;
     int parameters, inputs;
-    dal__program *program;
-    int programs, capacity;
-    dal__program hoisted; /* its outputs are unused */
-    double *number;       /* [numbers] */
+    dal__tape *tape; /* [count] */
+    int count, capacity;
+    dal__tape hoisted; /* computes what is constant along a run */
+    double *number;    /* [numbers] */
     int numbers;
     size_t first_input, temporaries, workspace; /* places */
 };
 
-void dal__execute_x1(const dal__program *program, double *work);
+void dal__execute_x1(const dal__tape *tape, double *work);
 
 #endif

@@ -2,12 +2,12 @@
 #include "formula/arithmetic.h"
 #include "formula/tape.h"
 
-void DAL_WIDE(dal__execute)(const dal__program *program, double *work);
-void DAL_WIDE(dal__execute)(const dal__program *program, double *work)
+void DAL_WIDE(dal__execute)(const dal__tape *tape, double *work);
+void DAL_WIDE(dal__execute)(const dal__tape *tape, double *work)
 {
     num *w = (num *)work;
-    const dal__instruction *end = program->code + program->length;
-    for (const dal__instruction *i = program->code; i < end; i++) {
+    const dal__instruction *end = tape->code + tape->length;
+    for (const dal__instruction *i = tape->code; i < end; i++) {
         switch (i->op) {
 #define X(code, expression)                                                                        \
     case DAL__##code: {                                                                            \
@@ -43,9 +43,9 @@ void DAL_WIDE(dal__execute)(const dal__program *program, double *work)
 
 void DAL_WIDE(dal__tape_run)(const dal__tapes *tapes, int program, double *work, double *out)
 {
-    const dal__program *p = &tapes->program[program];
-    DAL_WIDE(dal__execute)(p, work);
+    const dal__tape *tape = &tapes->tape[program];
+    DAL_WIDE(dal__execute)(tape, work);
     const num *w = (const num *)work;
     num *o = (num *)out;
-    for (int k = 0; k < p->outputs; k++) o[k] = w[p->place[k]];
+    for (int k = 0; k < tape->outputs; k++) o[k] = w[tape->place[k]];
 }
