@@ -9,9 +9,9 @@
  * A. A. Deriglazov, arXiv:2510.24492; equation numbers (nhK) in this project are that paper's.
  *
  * Conventions.  Every function that can fail returns a dal_status and, where it takes a dal_error,
- * fills it (it may be NULL).  [alloc] marks what allocates; create/free own memory, init borrows it.
- * Nothing here prints, reads the environment, installs signals or keeps global state; two objects
- * may be used from two threads.  Quantities are in the user's own units throughout. */
+ * fills it (it may be NULL).  [alloc] marks what allocates; create/free own memory, init borrows
+ * it.  Nothing here prints, reads the environment, installs signals or keeps global state; two
+ * objects may be used from two threads.  Quantities are in the user's own units throughout. */
 #ifndef DALEMBERT_H
 #define DALEMBERT_H
 
@@ -128,24 +128,24 @@ struct dal_system {
     int multipliers; /* first-order variables beside v (vakonomic g); 0 or m */
     int parameters, invariants, guards, tags;
     unsigned properties;
-    const char *const *coordinate;      /* [n] names; NULL: q1, q2, ... */
-    const char *const *parameter;       /* [parameters] names */
-    const double *value;                /* [parameters] default values */
-    const char *const *invariant;       /* [invariants] names */
-    const char *const *guard;           /* [guards] "constraint 1: y1'" for messages */
-    const char *const *tag;             /* [tags] */
-    size_t workspace;                   /* doubles in dal_at.work; 0 means parameters */
-    dal_callbacks call;                 /* one lane */
-    const dal_callbacks *wide4, *wide8; /* the same, 4 and 8 lanes interleaved; NULL: lane by lane */
-    dal_callback *prepare;    /* completes work after a change of parameters; out unused */
-    dal_callback *start;      /* out[2n + multipliers + 1]: q, v, g, e at t = 0; NULL: 0 and e = 1 */
-    dal_callback *constraints;/* out[m]: D alone; needed when m > 0 */
-    dal_callback *energy;     /* out[1]: E = L_v.v - L; NULL: unknown */
+    const char *const *coordinate; /* [n] names; NULL: q1, q2, ... */
+    const char *const *parameter;  /* [parameters] names */
+    const double *value;           /* [parameters] default values */
+    const char *const *invariant;  /* [invariants] names */
+    const char *const *guard;      /* [guards] "constraint 1: y1'" for messages */
+    const char *const *tag;        /* [tags] */
+    size_t workspace;              /* doubles in dal_at.work; 0 means parameters */
+    dal_callbacks call;            /* one lane */
+    const dal_callbacks *wide4, *wide8; /* 4, 8 lanes interleaved; NULL: lane by lane */
+    dal_callback *prepare; /* completes work after a change of parameters; out unused */
+    dal_callback *start;   /* out[2n + multipliers + 1]: q, v, g, e at t = 0; NULL: 0 and e = 1 */
+    dal_callback *constraints;      /* out[m]: D alone; needed when m > 0 */
+    dal_callback *energy;           /* out[1]: E = L_v.v - L; NULL: unknown */
     dal_callback *invariant_values; /* out[invariants] */
-    dal_callback *exact;      /* out[2n]: q, v of the exact solution at at->t; NULL: unknown */
-    dal_callback *diagnose;   /* out[1]: why field is not finite here: returns DAL_SINGULAR with the
-                                 number of the constraint (from 1), DAL_SINGULAR_MASS, or DAL_OK */
-    void *data;               /* the owner's */
+    dal_callback *exact;    /* out[2n]: q, v of the exact solution at at->t; NULL: unknown */
+    dal_callback *diagnose; /* out[1]: why field is not finite here: returns DAL_SINGULAR with the
+                               number of the constraint (from 1), DAL_SINGULAR_MASS, or DAL_OK */
+    void *data;             /* the owner's */
 };
 
 /* ---- models: systems from formulas --------------------------------------------------------- */
@@ -184,8 +184,8 @@ void dal_model_free(dal_model *model);
 /* Adds one entry; texts are copied and parsed by dal_model_system, so the order of calls is free.
  * line and column (from 1, or 0) say where the text stood, for messages. [alloc]
  * Errors: DAL_NAME, DAL_SYNTAX, DAL_MODEL (duplicate), DAL_MEMORY. */
-dal_status dal_model_add(dal_model *model, dal_section section, const char *name,
-                         const char *text, int line, int column, dal_error *error);
+dal_status dal_model_add(dal_model *model, dal_section section, const char *name, const char *text,
+                         int line, int column, dal_error *error);
 
 /* Reads a system file (YAML). [alloc]  The first takes the text itself, the second a path, the
  * third the name of a system that travels inside the library ("chaplygin-sleigh"). */
@@ -203,7 +203,7 @@ const char *dal_builtin_text(const char *name);
 dal_status dal_model_system(dal_model *model, const dal_system **system, dal_error *error);
 
 /* The tangent system, 2n coordinates (q, delta q): F and F_q dq + F_v dv, without constraints.
- * A Runge-Kutta or polarised method applied to it is the exact tangent map of the method. [alloc] */
+ * A Runge-Kutta or polarised method applied to it is its exact tangent map. [alloc] */
 dal_status dal_model_tangent(dal_model *model, const dal_system **system, dal_error *error);
 
 /* ---- integrators --------------------------------------------------------------------------- */
@@ -317,13 +317,13 @@ const dal_system *dal_run_system(const dal_run *run);
 double dal_run_time(const dal_run *run);
 long long dal_run_steps(const dal_run *run);       /* taken since creation, also before a load */
 long long dal_run_evaluations(const dal_run *run); /* of the field, or of the lifted field */
-int dal_run_dimension(const dal_run *run); /* 4n+2 lifted; 2n + multipliers physical */
+int dal_run_dimension(const dal_run *run);         /* 4n+2 lifted; 2n + multipliers physical */
 /* [dimension] q, v, e, p, pi, pi_e (lifted) or q, v, g (physical); valid until the run is freed. */
 const double *dal_run_state(const dal_run *run);
 const double *dal_run_parameters(const dal_run *run); /* [parameters] values in force */
 /* Replaces time and state (nothing is checked but finiteness); clears all carried memory. */
 dal_status dal_run_set_state(dal_run *run, double t, const double *state, dal_error *error);
-/* Name of state component i: x, x', e, p_x, pi_x, pi_e, g1; returns buffer, or NULL past the end. */
+/* Name of state component i: x, x', e, p_x, pi_x, pi_e, g1; returns buffer, NULL past the end. */
 char *dal_run_name(const dal_run *run, int i, char *buffer, size_t size);
 
 /* All a run carries from step to step: *count doubles.  A copy of them is a checkpoint; load puts
