@@ -128,14 +128,14 @@ struct dal_system {
     int multipliers; /* first-order variables beside v (vakonomic g); 0 or m */
     int parameters, invariants, guards, tags;
     unsigned properties;
-    const char *const *coordinate; /* [n] names; NULL: q1, q2, ... */
-    const char *const *parameter;  /* [parameters] names */
-    const double *value;           /* [parameters] default values */
-    const char *const *invariant;  /* [invariants] names */
-    const char *const *guard;      /* [guards] "constraint 1: y1'" for messages */
-    const char *const *tag;        /* [tags] */
-    size_t workspace;              /* doubles in dal_at.work; 0 means parameters */
-    dal_callbacks call;            /* one lane */
+    const char *const *coordinate;      /* [n] names; NULL: q1, q2, ... */
+    const char *const *parameter;       /* [parameters] names */
+    const double *value;                /* [parameters] default values */
+    const char *const *invariant;       /* [invariants] names */
+    const char *const *guard;           /* [guards] "constraint 1: y1'" for messages */
+    const char *const *tag;             /* [tags] */
+    size_t workspace;                   /* doubles in dal_at.work; 0 means parameters */
+    dal_callbacks call;                 /* one lane */
     const dal_callbacks *wide4, *wide8; /* 4, 8 lanes interleaved; NULL: lane by lane */
     dal_callback *prepare; /* completes work after a change of parameters; out unused */
     dal_callback *start;   /* out[2n + multipliers + 1]: q, v, g, e at t = 0; NULL: 0 and e = 1 */
