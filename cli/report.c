@@ -153,8 +153,8 @@ FILE *report_script(report *r, const char *name, int width, int height, char **p
     snprintf(file, sizeof file, "%s.%s", name, r->format);
     fputs("set output ", script);
     report_quote(script, file);
-    fputs("\nset datafile separator comma\nset datafile missing ''\nset tics nomirror\n"
-          "set border 3\nset grid back lw 0.5 lc rgb '#dddddd'\n",
+    fputs("\nset datafile separator comma\nset datafile missing ''\nset tics nomirror font ',9'\n"
+          "set border 3\nset grid back lt 1 lw 1 lc rgb '#e0e0e0'\n",
           script);
     return script;
 }

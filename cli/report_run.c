@@ -138,20 +138,30 @@ static void draw_drift(FILE *s, const rows *r)
     fputs("\nunset logscale y\nset format y\n", s);
 }
 
+/* The panel of a row and column out of two by two, or over both columns. */
+static void place(FILE *s, int row, int count, double left, double right)
+{
+    double height = 1.0 / count, bottom = (count - 1 - row) * height;
+    fprintf(s, "set lmargin at screen %.3f\nset rmargin at screen %.3f\n", left, right);
+    fprintf(s, "set bmargin at screen %.3f\nset tmargin at screen %.3f\n", bottom + 0.15 / count,
+            bottom + 0.90 / count);
+}
+
 static int draw(report *page, const rows *r)
 {
     char *path;
     int drift = r->observables<r->head.columns, plane = r->coordinates> 1;
     FILE *s = report_script(page, "run", 1100, drift ? 820 : 420, &path);
     if (!s) return CLI_IO;
-    fprintf(s,
-            "rows = '../rows.csv'\nleast(x) = x > 1e-17 ? x : 1e-17\nset key outside right top\n"
-            "set multiplot layout %d,1\n",
-            1 + drift);
-    if (plane) fprintf(s, "set multiplot layout %d,2\n", 1 + drift);
+    fputs("rows = '../rows.csv'\nleast(x) = x > 1e-17 ? x : 1e-17\nset key inside left top\n"
+          "set multiplot\n",
+          s);
+    place(s, 0, 1 + drift, 0.08, plane ? 0.45 : 0.84);
     draw_coordinates(s, r);
+    place(s, 0, 1 + drift, 0.62, 0.97);
     if (plane) draw_path(s, r);
-    if (drift && plane) fputs("set lmargin at screen 0.08\nset rmargin at screen 0.80\n", s);
+    place(s, 1, 1 + drift, 0.08, 0.80);
+    fputs("set key outside right top\n", s);
     if (drift) draw_drift(s, r);
     fputs("unset multiplot\n", s);
     return report_draw(page, s, path, "run", r->stride > 1 ? "Not every row is drawn." : "");

@@ -30,6 +30,7 @@ static void add_word(words *w, const char *text)
 typedef struct cells {
     report_csv csv;
     words labels, methods;
+    words plain; /* the methods that have no modifiers: each has a colour of its own */
 } cells;
 
 static const char *get(const cells *c, int row, const char *head)
@@ -145,14 +146,21 @@ static void survey(figure *f)
     if (f->shown.count == 0) f->shown = f->methods;
 }
 
-/* The place of a method's colour: that of the method without its modifiers. */
+/* The same for a method in all figures, with modifiers or without. */
 static int colour_of(const figure *f, const char *method)
 {
     char base[NAME];
     snprintf(base, sizeof base, "%.*s", (int)strcspn(method, "+"), method);
-    int i = word_at(&f->shown, method);
-    if (i < 0) i = word_at(&f->shown, base);
-    return i < 0 ? 0 : i;
+    int i = word_at(&f->c->plain, base);
+    return i < 0 ? word_at(&f->c->methods, method) : i;
+}
+
+/* lines lw 1.6 dt D lc rgb C: beyond the colours there are, dashes. */
+static void put_style(FILE *s, const figure *f, const char *method, double width)
+{
+    int i = colour_of(f, method);
+    fprintf(s, "with lines lw %g dt %d lc rgb '%s'", width, 1 + i / REPORT_COLOURS,
+            report_colour(i));
 }
 
 typedef struct panel {
@@ -162,23 +170,25 @@ typedef struct panel {
 static void place_panel(FILE *s, int k, int count)
 {
     int rows = count > 2 ? 2 : 1, row = k / 2, column = k % 2;
-    double height = 0.84 / rows, bottom = 0.07 + (rows - 1 - row) * (height + 0.03);
+    double height = 0.94 / rows, bottom = (rows - 1 - row) * height;
     double left = count == 1 ? 0.07 : 0.07 + column * 0.39, width = count == 1 ? 0.70 : 0.32;
     fprintf(s, "set lmargin at screen %.3f\nset rmargin at screen %.3f\n", left, left + width);
-    fprintf(s, "set bmargin at screen %.3f\nset tmargin at screen %.3f\n", bottom + 0.03,
-            bottom + height - 0.04);
+    fprintf(s, "set bmargin at screen %.3f\nset tmargin at screen %.3f\n", bottom + 0.16 / rows,
+            bottom + height - 0.09 / rows);
 }
 
 static void draw_curves(FILE *s, const figure *f, const panel *p)
 {
-    fprintf(s, "set title '%s'\nset xlabel 't'\nset logscale y\nunset logscale x\n", p->title);
+    const char *more = strcmp(p->start, "displaced") == 0 ? ", p and pi displaced" : "";
+    fprintf(s, "set title '%s%s'\nset xlabel 't'\nset logscale y\nunset logscale x\n", p->title,
+            more);
     fputs("set xrange [*:*]\nset yrange [*:*]\nplot \\\n", s);
     for (int i = 0; i < f->shown.count; i++) {
         fputs("  series using 'until':(pick(", s);
         report_quote(s, f->shown.word[i]);
-        fprintf(s, ", '%s', '%s', %s)) with lines lw 1.6 dt %d lc rgb '%s' notitle%s\n", p->start,
-                p->column, p->floor, 1 + i / REPORT_COLOURS, report_colour(i),
-                i + 1 < f->shown.count ? ", \\" : "");
+        fprintf(s, ", '%s', '%s', %s)) ", p->start, p->column, p->floor);
+        put_style(s, f, f->shown.word[i], 1.6);
+        fprintf(s, " notitle%s\n", i + 1 < f->shown.count ? ", \\" : "");
     }
 }
 
@@ -189,7 +199,8 @@ static void draw_work(FILE *s, const figure *f)
                                                                  : "greatest |I - I(0)|";
     fprintf(s, "set title '%s against work, open: with modifiers'\n", what);
     fputs("set xlabel 'evaluations per unit of t'\nset logscale xy\n"
-          "set xrange [*:*]\nset yrange [*:*]\nplot \\\n",
+          "set xrange [*:*] noextend\nset yrange [*:*]\nset offsets graph 0.06, graph 0.06\n"
+          "plot \\\n",
           s);
     for (int i = 0; i < f->methods.count; i++) {
         const char *method = f->methods.word[i];
@@ -211,8 +222,9 @@ static void draw_legend(FILE *s, const figure *f)
           "spacing 1.3\nplot [0:1][0:1] \\\n",
           s);
     for (int i = 0; i < f->shown.count; i++) {
-        fprintf(s, "  NaN with lines lw 3 dt %d lc rgb '%s' title ", 1 + i / REPORT_COLOURS,
-                report_colour(i));
+        fputs("  NaN ", s);
+        put_style(s, f, f->shown.word[i], 3.0);
+        fputs(" title ", s);
         report_quote(s, f->shown.word[i]);
         fputs(i + 1 < f->shown.count ? ", \\\n" : "\n", s);
     }
@@ -223,7 +235,7 @@ static void draw_panels(FILE *s, const figure *f)
     const panel panels[] = {
         {"max |D| within each hundredth of the time", f->plain, "D", "1e-17"},
         {"max |E - E(0)|", f->plain, "E", "1e-17"},
-        {"max |H - H(0)|, p and pi displaced", "displaced", "H", "1e-26"},
+        {"max |H - H(0)|", "displaced", "H", "1e-26"},
     };
     int has[] = {f->has_D, f->has_E, f->has_H}, work = f->accuracy != NULL, k = 0;
     int count = has[0] + has[1] + has[2] + work;
@@ -261,7 +273,7 @@ static void write_script(FILE *s, const figure *f)
             f->step);
     fputs("set format y '%.0e'\nunset key\nset multiplot title ", s);
     char title[2 * NAME];
-    snprintf(title, sizeof title, "%.80s, h = %.40s", f->label, f->step);
+    snprintf(title, sizeof title, "%.80s, h = %g", f->label, strtod(f->step, NULL));
     report_quote(s, title);
     fputc('\n', s);
     draw_panels(s, f);
@@ -303,6 +315,20 @@ static int draw_label(report *r, const cells *c, const char *label)
     return status;
 }
 
+/* The tables of the study as they were printed. */
+static void put_tables(report *r)
+{
+    char *path = cli_join(r->directory, "tables.txt");
+    FILE *file = path ? fopen(path, "r") : NULL;
+    free(path);
+    if (!file) return;
+    fputs("<h2>Tables</h2>\n<pre>", r->page);
+    char line[512];
+    while (fgets(line, sizeof line, file)) report_text(r->page, line);
+    fputs("</pre>\n", r->page);
+    fclose(file);
+}
+
 static int write_page(report *r, const cells *c)
 {
     int status = CLI_DONE;
@@ -312,6 +338,7 @@ static int write_page(report *r, const cells *c)
     for (int i = 0; i < c->labels.count && status == CLI_DONE; i++)
         status = draw_label(r, c, c->labels.word[i]);
     cli_progress_end();
+    put_tables(r);
     return status;
 }
 
@@ -323,6 +350,7 @@ int report_study(report *r)
     for (int row = 1; status == CLI_DONE && row < c->csv.rows; row++) {
         add_word(&c->labels, get(c, row, "label"));
         add_word(&c->methods, get(c, row, "integrator"));
+        if (!strchr(get(c, row, "integrator"), '+')) add_word(&c->plain, get(c, row, "integrator"));
     }
     if (status == CLI_DONE && c->labels.count == 0)
         status = cli_fail(CLI_USAGE, "'%s' has no rows", path);

@@ -46,6 +46,7 @@ static const char notes[] =
         "\n"
         "stdout gets a table per system, step and start; DIR gets\n"
         "  study.yaml        the study itself\n"
+        "  tables.txt        the tables\n"
         "  cells.csv         a row per cell (system, integrator, start, step)\n"
         "  quantities.csv    a row per cell and observable: first, last, max |x|, max |x - "
         "first|,\n"
@@ -85,12 +86,32 @@ static int any_failed(const study_plan *plan)
     return 0;
 }
 
-static int print_tables(const study_plan *plan)
+static void print_tables(FILE *out, const study_plan *plan)
 {
-    printf("%s\n", plan->title);
-    for (int i = 0; i < plan->entry_count; i++) study_print_entry(stdout, plan, &plan->entries[i]);
-    study_print_note(stdout);
-    return cli_close(stdout, "standard output");
+    fprintf(out, "%s\n", plan->title);
+    for (int i = 0; i < plan->entry_count; i++) study_print_entry(out, plan, &plan->entries[i]);
+    study_print_note(out);
+}
+
+static int keep_tables(const char *directory, const study_plan *plan)
+{
+    char *path = cli_join(directory, "tables.txt");
+    FILE *file = path ? fopen(path, "w") : NULL;
+    int status = file ? CLI_DONE : path ? cli_io("write", path) : cli_fail(CLI_IO, "out of memory");
+    if (file) {
+        print_tables(file, plan);
+        status = cli_close(file, path);
+    }
+    free(path);
+    return status;
+}
+
+static int tell_tables(const char *directory, const study_plan *plan)
+{
+    int kept = keep_tables(directory, plan);
+    print_tables(stdout, plan);
+    int told = cli_close(stdout, "standard output");
+    return kept != CLI_DONE ? kept : told;
 }
 
 static int copy_study(const char *directory, const char *text, size_t length)
@@ -113,10 +134,10 @@ static int run_plan(study_plan *plan, const wishes *w, const char *text, size_t 
     }
     int closed = study_output_close(output);
     if (status != CLI_DONE && status != CLI_SIGNAL) return status;
-    int printed = print_tables(plan);
+    int told = tell_tables(w->output, plan);
     if (status == CLI_SIGNAL)
         return cli_fail(status, "interrupted; finished cells are in '%s'", w->output);
-    if (printed != CLI_DONE || closed != CLI_DONE) return CLI_IO;
+    if (told != CLI_DONE || closed != CLI_DONE) return CLI_IO;
     return any_failed(plan) ? CLI_FAILED : CLI_DONE;
 }
 
