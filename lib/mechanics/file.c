@@ -1,7 +1,6 @@
 /* file.c - system files on disk and those that travel inside the library. */
-#ifndef DAL_WITHOUT_YAML
-
 #include "mechanics/mechanics.h"
+#ifndef DAL_WITHOUT_YAML
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>

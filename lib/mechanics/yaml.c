@@ -5,9 +5,8 @@
  * that line and column inside a formula are those of the file.  In single quotes '' becomes
  * "' ", which means the same to a formula and is as long.  Only double quotes with escapes and
  * texts that are no formulas are taken as libyaml unfolds them. */
-#ifndef DAL_WITHOUT_YAML
-
 #include "mechanics/mechanics.h"
+#ifndef DAL_WITHOUT_YAML
 #include <stdlib.h>
 #include <string.h>
 #include <yaml.h>
