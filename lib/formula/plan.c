@@ -195,7 +195,6 @@ static void emit(dal__plan *plan, dal__tapes *tapes, dal__tape *tape, dal__node 
     }
     release(plan, tapes, v.a, i);
     release(plan, tapes, v.b, i);
-    if (pair) release(plan, tapes, v.a, pair);
     code.d = plan->place[i] = take(plan, tapes);
     if (pair) {
         plan->place[pair] = take(plan, tapes);
@@ -215,8 +214,12 @@ dal_status dal__plan_tape(dal__plan *plan, dal__tapes *tapes, dal__tape *tape)
     find_lives(plan, top);
     plan->frees = plan->used = 0;
     for (dal__node i = 1; i <= top; i++) {
-        bool wanted = is_computed(plan, i, dal__look(plan->graph, i)) && !plan->host[i];
-        if (wanted && plan->place[i] == DAL__NOWHERE) emit(plan, tapes, tape, i, top);
+        dal__view v = dal__look(plan->graph, i);
+        if (!is_computed(plan, i, v) || plan->host[i]) continue;
+        if (plan->place[i] == DAL__NOWHERE)
+            emit(plan, tapes, tape, i, top);
+        else /* Came with its partner; only now has everything before it read the argument. */
+            release(plan, tapes, v.a, i);
     }
     for (int k = 0; k < tape->outputs; k++) tape->place[k] = plan->place[tape->output[k]];
     for (dal__node i = 1; i <= top; i++) {
