@@ -74,6 +74,9 @@ int run_integrate(const cli_job *job, cli_store *store, const run_wishes *wishes
         cli_fail(CLI_DONE, "'%s' is finished: %lld rows", store->directory, record.mark.row);
     } else if (status == CLI_DONE) {
         cli_catch_signals();
+        if (record.mark.row > 0)
+            cli_fail(CLI_DONE, "'%s' goes on from t = %g with row %lld", store->directory,
+                     dal_run_time(job->run), record.mark.row);
         status = record_go(&record);
         if (wishes->summary || isatty(STDERR_FILENO)) summary_print(stderr, &record);
     }

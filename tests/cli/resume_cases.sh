@@ -52,6 +52,7 @@ done
 # A row half written when the power went is cut off.
 printf '1.5,0.9' >>killed/rows.csv
 try 0 resume killed
+says "'killed' goes on from t = [0-9.]*[1-9][0-9.]* with row [1-9]"
 holds "not the rows of a run never interrupted" cmp killed/rows.csv whole/rows.csv
 for directory in whole killed; do
     grep -v '^run,ns_per_step,' $directory/summary.csv >$directory.summary
