@@ -173,6 +173,16 @@ typedef struct work {
     dal__node *reciprocal; /* [n] of the pivots */
 } work;
 
+/* x over pivot k.  One right-hand side is divided, with one rounding: that of a multiplied
+ * reciprocal would be the same at every step where the pivot is constant, and push D one way. */
+static dal__node over_pivot(work *w, dal__node x, int k)
+{
+    const plan *p = w->p;
+    dal__node pivot = w->s->matrix[p->row[k] * w->s->n + p->column[k]];
+    if (w->s->columns == 1) return dal__div(w->graph, x, pivot);
+    return dal__mul(w->graph, x, w->reciprocal[k]);
+}
+
 static bool is_zero(const work *w, dal__node node) { return dal__is_number(w->graph, node, 0.0); }
 
 static void subtract(work *w, dal__node *from, dal__node a, dal__node b)
@@ -186,7 +196,7 @@ static void eliminate_row(work *w, int k, int other)
     dal__node *below = w->s->matrix + other * n, *pivots = w->s->matrix + row * n;
     dal__node head = below[w->p->column[k]];
     if (is_zero(w, head)) return;
-    dal__node factor = dal__mul(w->graph, head, w->reciprocal[k]);
+    dal__node factor = over_pivot(w, head, k);
     for (int j = k + 1; j < n; j++) {
         int c = w->p->column[j];
         if (is_zero(w, pivots[c])) continue;
@@ -222,7 +232,7 @@ static dal__node substitute(work *w, int k, int j)
         dal__node factor = w->s->matrix[row * n + c];
         if (!is_zero(w, factor)) subtract(w, &x, factor, w->s->x[c * columns + j]);
     }
-    return dal__mul(w->graph, x, w->reciprocal[k]);
+    return over_pivot(w, x, k);
 }
 
 static void back_substitute(work *w)
