@@ -244,7 +244,7 @@ static void test_strong_friction(void)
 /* (nh36) as corrected; (nh35) has the constants p1 = m v0 and p2 = -g(0). */
 static void test_vakonomic_angle(void)
 {
-    double m = 1.3, I = 0.7, v0 = 1.1, p2 = -0.4, x[7], F[4], E[2];
+    double m = 1.3, I = 0.7, v0 = 1.1, p2 = -0.4, x[8], F[4], E[2];
     body b = body_builtin("chaplygin-sleigh-vakonomic");
     body_set(&b, "m", m), body_set(&b, "I", I), body_set(&b, "v0", v0), body_set(&b, "g0", -p2);
     start(&b, x);
