@@ -199,7 +199,7 @@ void study_print_note(FILE *out)
         "\n"
         "Verdicts.  exact: never changed.  rounding: changed by at most 1e-12 of its size.\n"
         "drifts: the last quarter of the time strays more than 2.5 times as far as the first, or\n"
-        "the slope over the whole time exceeds 4 times the distance from the line.  bounded: none\n"
+        "the slope over the whole time exceeds 5 times the distance from the line.  bounded: none\n"
         "of these.  lost: not finite.  -: not to be judged, as E where the system itself does not\n"
         "conserve it.  Rates are slopes of least squares.  I are the invariants of the system, "
         "the\n"

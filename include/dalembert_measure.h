@@ -21,7 +21,7 @@ typedef struct dal_drift {
     double residue;     /* root mean square distance from that line; after dal_drift_finish */
     double quarter[4];  /* max |x - first| within each quarter of the time from .. to */
     double from, to;    /* the time the run is meant to cover */
-    double t, x;        /* running means */
+    double t, x;        /* running means of t - from and x - first */
     double tt, tx, xx;  /* running sums of squares about the means */
 } dal_drift;
 
@@ -36,8 +36,8 @@ void dal_drift_finish(dal_drift *drift, int count);
  *   EXACT     deviation = 0
  *   ROUNDING  deviation <= 1e-12 scale
  *   DRIFTS    deviation of the last quarter > 2.5 times that of the first, or the slope over the
- *             whole time > 4 times the distance from the line (a bounded oscillation over one
- *             period or more stays below 2.8)
+ *             whole time > 5 times the distance from the line (a bounded oscillation over one
+ *             period or more stays below 4.4)
  *   BOUNDED   none of these
  *   LOST      a value was not finite, or there was no row */
 #define DAL_VERDICT_LIST(X)                                                                        \
@@ -114,7 +114,8 @@ typedef struct dal_degree {
     int constant;        /* affine in (q,v) jointly */
     int bilinear;        /* affine in v, and affine in q */
     int quadratic;       /* of degree <= 2 in (q,v) jointly */
-    int parity;          /* D(q,-v) = +D: 1, -D: -1, neither: 0 (each constraint its own sign) */
+    int parity;          /* D(q,-v,-t) = +D: 1, -D: -1, neither: 0; that of the first
+                            constraint, 0 when one has none */
     int homogeneous;     /* v.D_v = k D with one k per constraint */
     int reversible;      /* F(q,-v,-t) = F(q,v,t) */
     double force_defect; /* greatest |F(q,-v,-t) - F(q,v,t)| met, relative to max(1, |F|) */

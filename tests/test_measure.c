@@ -1,0 +1,484 @@
+/* test_measure.c - measures of a system: derivatives, constraints, brackets, actions. */
+#include "allocation.h"
+#include "fixtures.h"
+#include "measure/measure.h"
+#include <CUnit/CUnit.h>
+#include <math.h>
+#include <string.h>
+
+/* ---- a system by hand: x'' = -x^3 - v/2, with one claim that can be made wrong ---- */
+
+static double wrong; /* added to F_x where the system speaks of its derivatives */
+
+static dal_status cubic_field(const dal_system *s, const dal_at *at, double *out)
+{
+    (void)s;
+    out[0] = -at->q[0] * at->q[0] * at->q[0] - 0.5 * at->v[0];
+    return DAL_OK;
+}
+
+static dal_status cubic_jacobian(const dal_system *s, const dal_at *at, double *out)
+{
+    (void)s;
+    out[0] = -3.0 * at->q[0] * at->q[0] + wrong;
+    out[1] = -0.5;
+    return DAL_OK;
+}
+
+static dal_status cubic_adjoint(const dal_system *s, const dal_at *at, double *out)
+{
+    cubic_field(s, at, out);
+    out[1] = (-3.0 * at->q[0] * at->q[0] + wrong) * at->pi[0];
+    out[2] = -0.5 * at->pi[0];
+    return DAL_OK;
+}
+
+static dal_status cubic_energy(const dal_system *s, const dal_at *at, double *out)
+{
+    const double x2 = at->q[0] * at->q[0];
+    (void)s;
+    out[0] = 0.5 * at->v[0] * at->v[0] + 0.25 * x2 * x2;
+    return DAL_OK;
+}
+
+static const dal_system cubic = {
+    .name = "cubic",
+    .n = 1,
+    .call = {.field = cubic_field, .jacobian = cubic_jacobian, .adjoint = cubic_adjoint},
+    .energy = cubic_energy};
+
+static dal_probe *probe_of(const dal_system *system)
+{
+    dal_probe *probe = NULL;
+    CU_ASSERT_EQUAL_FATAL(dal_probe_create(&probe, system, NULL, 0, NULL), DAL_OK);
+    return probe;
+}
+
+/* ---- probe ---- */
+
+static void test_probe(void)
+{
+    dal_model *model = fixture_model("chaplygin-sleigh");
+    const dal_system *system = fixture_system(model);
+    const dal_setting set[] = {{"v0", 3.0}}, start[] = {{"phi'", 2.0}, {"e", 5.0}};
+    dal_probe *probe;
+    double x[7];
+    CU_ASSERT_EQUAL_FATAL(dal_probe_create(&probe, system, set, 1, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_probe_start(probe, start, 2, x, NULL), DAL_OK);
+    const double expected[] = {0, 0, 0, 3, 0, 2, 5};
+    for (int i = 0; i < 7; i++) CU_ASSERT_EQUAL(x[i], expected[i]);
+    /* E = (v0^2 + phi'^2)/2 */
+    double energy;
+    CU_ASSERT_EQUAL(dal_probe_call(probe, system->energy, 0.0, x, x + 3, NULL, &energy), DAL_OK);
+    CU_ASSERT_DOUBLE_EQUAL(energy, 6.5, 1e-15);
+    CU_ASSERT_EQUAL(dal_probe_call(probe, NULL, 0.0, x, x + 3, NULL, &energy), DAL_UNSUPPORTED);
+    dal_probe_free(probe);
+    dal_model_free(model);
+}
+
+static void test_probe_names(void)
+{
+    dal_model *model = fixture_model("chaplygin-sleigh");
+    const dal_setting set[] = {{"omge", 3.0}}, start[] = {{"phy", 2.0}}, inf = {"m", INFINITY};
+    dal_error error;
+    dal_probe *probe;
+    double x[7];
+    const dal_system *system = fixture_system(model);
+    CU_ASSERT_EQUAL(dal_probe_create(&probe, system, set, 1, &error), DAL_NAME);
+    CU_ASSERT_PTR_NULL(probe);
+    CU_ASSERT(strstr(error.message, "'omge'; did you mean 'omega'?") != NULL);
+    CU_ASSERT_EQUAL(dal_probe_create(&probe, system, &inf, 1, &error), DAL_NOT_FINITE);
+    probe = probe_of(system);
+    CU_ASSERT_EQUAL(dal_probe_start(probe, start, 1, x, &error), DAL_NAME);
+    CU_ASSERT(strstr(error.message, "'phy'; did you mean 'phi'?") != NULL);
+    dal_probe_free(probe);
+    dal_model_free(model);
+}
+
+/* ---- rates and derivatives ---- */
+
+static void test_rate(void)
+{
+    const double q = 0.8, v = -1.3;
+    const dal_point at = {0.0, &q, &v};
+    dal_probe *probe = probe_of(&cubic);
+    double rate;
+    /* dE/dt = v (v' + x^3) = -v^2/2 */
+    CU_ASSERT_EQUAL(dal_measure_rate(probe, cubic.energy, 1, &at, &rate), DAL_OK);
+    CU_ASSERT_DOUBLE_EQUAL(rate, -0.5 * v * v, 1e-12);
+    CU_ASSERT_EQUAL(dal_measure_rate(probe, NULL, 1, &at, &rate), DAL_UNSUPPORTED);
+    dal_probe_free(probe);
+}
+
+static void test_derivatives_find_faults(void)
+{
+    const double q = 0.8, v = -1.3;
+    const dal_point at = {0.0, &q, &v};
+    dal_probe *probe = probe_of(&cubic);
+    dal_derivatives d;
+    wrong = 0.0;
+    CU_ASSERT_EQUAL(dal_measure_derivatives(probe, &at, &d), DAL_OK);
+    CU_ASSERT(d.jacobian >= 0.0 && d.jacobian < 1e-12);
+    CU_ASSERT(d.adjoint >= 0.0 && d.adjoint < 1e-12);
+    CU_ASSERT(d.normal < 0.0 && d.gram < 0.0);
+    wrong = 1e-6;
+    CU_ASSERT_EQUAL(dal_measure_derivatives(probe, &at, &d), DAL_OK);
+    CU_ASSERT_DOUBLE_EQUAL(d.jacobian, 1e-6 / (3.0 * q * q - 1e-6), 1e-11);
+    CU_ASSERT(d.adjoint > 1e-8);
+    wrong = 0.0;
+    dal_probe_free(probe);
+}
+
+static void test_derivatives_of_systems(void)
+{
+    const char *const texts[] = {fixture_full, fixture_bilinear, fixture_quadratic, "vertical-disk",
+                                 "chaplygin-sleigh-nonlinear"};
+    for (size_t k = 0; k < sizeof texts / sizeof *texts; k++) {
+        dal_model *model = fixture_model(texts[k]);
+        dal_probe *probe = probe_of(fixture_system(model));
+        double x[16];
+        dal_derivatives d;
+        CU_ASSERT_EQUAL(dal_probe_start(probe, NULL, 0, x, NULL), DAL_OK);
+        const dal_point at = {0.3, x, x + fixture_system(model)->n};
+        CU_ASSERT_EQUAL(dal_measure_derivatives(probe, &at, &d), DAL_OK);
+        CU_ASSERT(d.jacobian >= 0.0 && d.jacobian < 1e-10);
+        CU_ASSERT(d.adjoint >= 0.0 && d.adjoint < 1e-10);
+        CU_ASSERT(d.normal >= 0.0 && d.normal < 1e-10);
+        CU_ASSERT(d.gram >= 0.0 && d.gram < 1e-14);
+        dal_probe_free(probe);
+        dal_model_free(model);
+    }
+}
+
+/* ---- constraints ---- */
+
+/* The second constraint repeats the first at z = 0, where the test looks. */
+static const char twice[] = "coordinates: [x, y, z]\n"
+                            "lagrangian: (x'^2 + y'^2 + z'^2)/2\n"
+                            "constraints: [x' - y', 3*x' - (3 + z)*y']\n"
+                            "start: {z: 1}\n";
+
+static void test_rank(void)
+{
+    const struct {
+        const char *text;
+        int rank;
+    } cases[] = {{"vertical-disk", 2}, {twice, 1}, {fixture_full, 2}, {"knife-edge", 1}};
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        dal_model *model = fixture_model(cases[k].text);
+        dal_probe *probe = probe_of(fixture_system(model));
+        double x[16], pivot;
+        int rank;
+        CU_ASSERT_EQUAL(dal_probe_start(probe, NULL, 0, x, NULL), DAL_OK);
+        if (cases[k].text == twice) x[2] = 0.0;
+        const dal_point at = {0.0, x, x + fixture_system(model)->n};
+        CU_ASSERT_EQUAL(dal_measure_rank(probe, &at, &rank, &pivot), DAL_OK);
+        CU_ASSERT_EQUAL(rank, cases[k].rank);
+        CU_ASSERT(rank == fixture_system(model)->m ? pivot > 0.01 : pivot == 0.0);
+        dal_probe_free(probe);
+        dal_model_free(model);
+    }
+}
+
+static void test_onto(void)
+{
+    dal_model *model = fixture_model(fixture_full);
+    const dal_system *system = fixture_system(model);
+    dal_probe *probe = probe_of(system);
+    const double q[] = {0.1, 0.4, 0.3, 0.2};
+    double v[] = {0.9, 0.7, 0.1, 1.3}, D[2];
+    CU_ASSERT_EQUAL(dal_measure_onto(probe, 0.4, q, v), DAL_OK);
+    CU_ASSERT_EQUAL(dal_probe_call(probe, system->constraints, 0.4, q, v, NULL, D), DAL_OK);
+    CU_ASSERT(fabs(D[0]) < 1e-15 && fabs(D[1]) < 1e-15);
+    dal_probe_free(probe);
+    dal_model_free(model);
+}
+
+/* x'^2 + y'^2 + 1 has no zero: v must come back as it was. */
+static void test_onto_nothing(void)
+{
+    dal_model *model = fixture_model("coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\n"
+                                     "constraints: [x'^2 + y'^2 + 1]\nstart: {x': 1}\n");
+    dal_probe *probe = probe_of(fixture_system(model));
+    const double q[] = {0.0, 0.0};
+    double v[] = {0.6, 0.3};
+    CU_ASSERT_NOT_EQUAL(dal_measure_onto(probe, 0.0, q, v), DAL_OK);
+    CU_ASSERT(v[0] == 0.6 && v[1] == 0.3);
+    dal_probe_free(probe);
+    dal_model_free(model);
+}
+
+#define PLANE "coordinates: [x, y, z]\nlagrangian: (x'^2 + y'^2 + z'^2)/2\nconstraints: "
+
+static void test_degree(void)
+{
+    const struct {
+        const char *text;
+        int linear, constant, bilinear, quadratic, parity, homogeneous, reversible;
+        double degree;
+    } cases[] = {
+        {PLANE "[x' + 2*y' - z']\n", 1, 1, 1, 1, -1, 1, 1, 1},
+        {PLANE "[x' + 2*y' - z' + 0.3*x]\n", 1, 1, 1, 1, 0, 0, 0, 0},
+        {PLANE "[x' + y*z']\n", 1, 0, 1, 1, -1, 1, 1, 1},
+        {PLANE "[x' + y*z' + 0.1*t]\n", 1, 0, 0, 0, -1, 0, 1, 0},
+        {PLANE "[x'*sin(z) - y'*cos(z)]\n", 1, 0, 0, 0, -1, 1, 1, 1},
+        {PLANE "[x'^2 + y'^2 - z'^2]\nstart: {x': 0.6, y': 0.8, z': 1}\n", 0, 0, 0, 1, 1, 1, 1, 2},
+        {PLANE "[x'^2 + y'^2 - z'^2 + y*x']\nstart: {x': 0.6, y': 0.8, z': 1}\n", 0, 0, 0, 1, 0, 0,
+         0, 0},
+        {PLANE "[x'^3 - y'^3]\nstart: {x': 1, y': 1}\n", 0, 0, 0, 0, -1, 1, 1, 3},
+    };
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        dal_model *model = fixture_model(cases[k].text);
+        dal_probe *probe = probe_of(fixture_system(model));
+        double x[7], degree = -1.0;
+        dal_degree d;
+        CU_ASSERT_EQUAL(dal_probe_start(probe, NULL, 0, x, NULL), DAL_OK);
+        const dal_point at = {0.0, x, x + 3};
+        CU_ASSERT_EQUAL(dal_measure_degree(probe, &at, &d, &degree), DAL_OK);
+        CU_ASSERT_EQUAL(d.linear, cases[k].linear);
+        CU_ASSERT_EQUAL(d.constant, cases[k].constant);
+        CU_ASSERT_EQUAL(d.bilinear, cases[k].bilinear);
+        CU_ASSERT_EQUAL(d.quadratic, cases[k].quadratic);
+        CU_ASSERT_EQUAL(d.parity, cases[k].parity);
+        CU_ASSERT_EQUAL(d.homogeneous, cases[k].homogeneous);
+        if (d.homogeneous) CU_ASSERT_DOUBLE_EQUAL(degree, cases[k].degree, 1e-9);
+        CU_ASSERT_EQUAL(d.reversible, cases[k].reversible);
+        dal_probe_free(probe);
+        dal_model_free(model);
+    }
+}
+
+/* ---- brackets ---- */
+
+/* z = (x, y, z; p_x, p_y, p_z): components of x cross p. */
+static double angular(void *user, const double *z)
+{
+    const int i = *(int *)user, j = (i + 1) % 3, k = (i + 2) % 3;
+    return z[j] * z[3 + k] - z[k] * z[3 + j];
+}
+
+static void test_brackets(void)
+{
+    double z[] = {0.3, -0.7, 1.1, 0.9, 0.2, -0.4}, gradient[3][6];
+    const double before = z[4];
+    for (int i = 0; i < 3; i++) dal_measure_gradient(angular, &i, 6, z, gradient[i]);
+    CU_ASSERT_EQUAL(z[4], before);
+    for (int i = 0; i < 3; i++) {
+        int j = (i + 1) % 3, k = (i + 2) % 3;
+        /* {L_i, L_j} = L_k */
+        CU_ASSERT_DOUBLE_EQUAL(dal_poisson(gradient[i], gradient[j], 3), angular(&k, z), 1e-12);
+        CU_ASSERT_DOUBLE_EQUAL(dal_poisson(gradient[j], gradient[i], 3), -angular(&k, z), 1e-12);
+    }
+}
+
+static dal_status dirac_of(const char *text, double (*phi)(void *, const double *, int),
+                           dal_dirac *out, int *n)
+{
+    dal_model *model = fixture_model(text);
+    const dal_system *system = fixture_system(model);
+    dal_probe *probe = probe_of(system);
+    double x[16];
+    CU_ASSERT_EQUAL(dal_probe_start(probe, NULL, 0, x, NULL), DAL_OK);
+    const dal_point at = {0.2, x, x + system->n};
+    const dal_status status =
+        phi ? dal__dirac(probe, &at, 1.5, phi, out) : dal_measure_dirac(probe, &at, 1.5, out);
+    *n = system->n;
+    dal_probe_free(probe);
+    dal_model_free(model);
+    return status;
+}
+
+static void test_dirac(void)
+{
+    const char *const texts[] = {fixture_full, "chaplygin-sleigh", "damped-oscillator",
+                                 "vertical-disk", "appell-hamel"};
+    for (size_t k = 0; k < sizeof texts / sizeof *texts; k++) {
+        dal_dirac d;
+        int n;
+        CU_ASSERT_EQUAL_FATAL(dirac_of(texts[k], NULL, &d, &n), DAL_OK);
+        CU_ASSERT_EQUAL(d.constraints, 4 * n + 1);
+        CU_ASSERT_EQUAL(d.second_class, 2 * n);
+        CU_ASSERT_EQUAL(d.first_class, 2 * n + 1);
+        CU_ASSERT_EQUAL(d.free_multipliers, 1);
+        CU_ASSERT(d.conservation < 1e-11 && d.multipliers < 1e-11 && d.hamiltonian < 1e-11);
+        CU_ASSERT(d.secondary > 0.01);
+    }
+    dal_dirac d;
+    int n;
+    CU_ASSERT_EQUAL(dirac_of("chaplygin-sleigh-vakonomic", NULL, &d, &n), DAL_UNSUPPORTED);
+}
+
+/* z = (q, v, lambda, e; p, pi, pi_lambda, pi_e).  Three ways to get the constraints wrong: p in
+ * place of p - lambda; v in place of pi; e pi_e + q in place of pi_e. */
+static double without_lambda(void *user, const double *z, int a)
+{
+    const dal__dirac_space *w = user;
+    const int k = a - 1 - w->n;
+    return k >= 0 && k < w->n ? z[3 * w->n + 1 + k] : dal__dirac_constraint(user, z, a);
+}
+
+static double velocities(void *user, const double *z, int a)
+{
+    const dal__dirac_space *w = user;
+    const int k = a - 1 - 2 * w->n;
+    return k >= 0 && k < w->n ? z[w->n + k] : dal__dirac_constraint(user, z, a);
+}
+
+static double mixed_gauge(void *user, const double *z, int a)
+{
+    return a == 0 ? dal__dirac_constraint(user, z, a) + z[0] : dal__dirac_constraint(user, z, a);
+}
+
+static void test_dirac_finds_wrong_constraints(void)
+{
+    double (*const wrongs[])(void *, const double *, int) = {without_lambda, velocities,
+                                                             mixed_gauge};
+    for (int k = 0; k < 3; k++) {
+        dal_dirac d;
+        int n;
+        CU_ASSERT_EQUAL_FATAL(dirac_of("chaplygin-sleigh", wrongs[k], &d, &n), DAL_OK);
+        CU_ASSERT(d.second_class != 2 * n || d.conservation > 0.01 || d.multipliers > 0.01);
+    }
+}
+
+/* ---- actions ---- */
+
+/* x = a t^2/2 where the law is x'' = 0: S = e/2 a^2 times the time the inner nodes cover. */
+static void test_action_closed_form(void)
+{
+    enum { NODES = 40 };
+    dal_model *model = fixture_model("coordinates: [x]\naccelerations: {x: 0}\n");
+    dal_probe *probe = probe_of(fixture_system(model));
+    const double h = 0.05, a = 0.7, e = 1.5;
+    double x[NODES], action;
+    for (int k = 0; k < NODES; k++) x[k] = 0.5 * a * h * k * h * k;
+    CU_ASSERT_EQUAL(dal_measure_action(probe, 0.0, h, NODES, x, e, &action), DAL_OK);
+    CU_ASSERT_DOUBLE_EQUAL(action, 0.5 * e * a * a * h * (NODES - 9), 1e-11);
+    CU_ASSERT_EQUAL(dal_measure_action(probe, 0.0, h, 9, x, e, &action), DAL_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_measure_action(probe, 0.0, 0.0, NODES, x, e, &action), DAL_ARGUMENT);
+    dal_probe_free(probe);
+    dal_model_free(model);
+}
+
+/* On the circle (nh30) the action of the sleigh vanishes; moved by s sin(t) along y1, which changes
+ * y1'' - F^1 by terms of order s, it does not. */
+static void test_action_of_the_sleigh(void)
+{
+    enum { NODES = 80 };
+    dal_model *model = fixture_model("chaplygin-sleigh");
+    dal_probe *probe = probe_of(fixture_system(model));
+    double q[3 * NODES], action[2];
+    for (int moved = 0; moved < 2; moved++) {
+        for (int k = 0; k < NODES; k++) {
+            const double t = 0.02 * k;
+            q[3 * k] = sin(t) + moved * 1e-3 * sin(3.0 * t);
+            q[3 * k + 1] = 1.0 - cos(t);
+            q[3 * k + 2] = t;
+        }
+        CU_ASSERT_EQUAL(dal_measure_action(probe, 0.0, 0.02, NODES, q, 1.0, &action[moved]),
+                        DAL_OK);
+    }
+    CU_ASSERT(action[0] < 1e-21);
+    CU_ASSERT(action[1] > 1e-6);
+    dal_probe_free(probe);
+    dal_model_free(model);
+}
+
+enum { STATES = 12, WIDE = 4 * 4 + 2 };
+
+static void trajectory(const dal_system *system, const char *method, double *states)
+{
+    const dal_run_spec spec = fixture_spec(system, method, DAL_LIFTED, 0.05);
+    dal_run *run = fixture_run(&spec);
+    const size_t width = (size_t)dal_run_dimension(run);
+    fixture_displace(run, 0.3);
+    for (size_t k = 0; k < STATES; k++) {
+        memcpy(states + k * width, dal_run_state(run), width * sizeof *states);
+        CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_OK);
+    }
+    dal_run_free(run);
+}
+
+/* (nh23) at midpoints is the discrete principle of the implicit midpoint rule and of no other. */
+static void test_stationarity(void)
+{
+    dal_model *model = fixture_model(fixture_full);
+    const dal_system *system = fixture_system(model);
+    dal_probe *probe = probe_of(system);
+    double states[STATES * WIDE], midpoint, other;
+    trajectory(system, "gauss4", states);
+    CU_ASSERT_EQUAL(dal_measure_stationarity(probe, 0.0, 0.05, STATES, states, &other), DAL_OK);
+    trajectory(system, "implicit-midpoint", states);
+    CU_ASSERT_EQUAL(dal_measure_stationarity(probe, 0.0, 0.05, STATES, states, &midpoint), DAL_OK);
+    CU_ASSERT(midpoint < 1e-10);
+    CU_ASSERT(other > 1e-6);
+    /* One node moved: no longer stationary. */
+    states[5 * WIDE + 1] += 1e-4;
+    CU_ASSERT_EQUAL(dal_measure_stationarity(probe, 0.0, 0.05, STATES, states, &other), DAL_OK);
+    CU_ASSERT(other > 1e-4);
+    dal_probe_free(probe);
+    dal_model_free(model);
+}
+
+/* ---- memory ---- */
+
+static dal_status all_measures(const dal_system *system)
+{
+    dal_probe *probe;
+    double x[16], numbers[16];
+    int rank;
+    dal_derivatives derivatives;
+    dal_degree degree;
+    dal_dirac dirac;
+    dal_status status = dal_probe_create(&probe, system, NULL, 0, NULL);
+    if (status != DAL_OK) return status;
+    status = dal_probe_start(probe, NULL, 0, x, NULL);
+    const dal_point at = {0.0, x, x + system->n};
+    if (!status) status = dal_measure_rate(probe, system->energy, 1, &at, numbers);
+    if (!status) status = dal_measure_derivatives(probe, &at, &derivatives);
+    if (!status) status = dal_measure_rank(probe, &at, &rank, numbers);
+    if (!status) status = dal_measure_onto(probe, 0.0, x, x + system->n);
+    if (!status) status = dal_measure_degree(probe, &at, &degree, NULL);
+    if (!status) status = dal_measure_dirac(probe, &at, 1.0, &dirac);
+    dal_probe_free(probe);
+    return status;
+}
+
+static void test_out_of_memory(void)
+{
+    dal_model *model = fixture_model("chaplygin-sleigh");
+    const dal_system *system = fixture_system(model);
+    long n = 0;
+    for (;; n++) {
+        allocation_fail_after(n);
+        const dal_status status = all_measures(system);
+        const int failed = allocation_failed();
+        allocation_fail_after(-1);
+        CU_ASSERT_EQUAL_FATAL(status, failed ? DAL_MEMORY : DAL_OK);
+        if (!failed) break;
+    }
+    CU_ASSERT(n >= 7);
+    dal_model_free(model);
+}
+
+void suite_measure(void)
+{
+    CU_pSuite suite = CU_add_suite("measures of a system", NULL, NULL);
+    CU_add_test(suite, "a probe", test_probe);
+    CU_add_test(suite, "unknown names", test_probe_names);
+    CU_add_test(suite, "rate along the motion", test_rate);
+    CU_add_test(suite, "wrong derivatives are found", test_derivatives_find_faults);
+    CU_add_test(suite, "derivatives of systems", test_derivatives_of_systems);
+    CU_add_test(suite, "rank of G", test_rank);
+    CU_add_test(suite, "onto D = 0", test_onto);
+    CU_add_test(suite, "onto a D without zero", test_onto_nothing);
+    CU_add_test(suite, "kinds of D", test_degree);
+    CU_add_test(suite, "brackets", test_brackets);
+    CU_add_test(suite, "Dirac's algebra", test_dirac);
+    CU_add_test(suite, "Dirac's algebra finds wrong constraints",
+                test_dirac_finds_wrong_constraints);
+    CU_add_test(suite, "the action, closed form", test_action_closed_form);
+    CU_add_test(suite, "the action of the sleigh", test_action_of_the_sleigh);
+    CU_add_test(suite, "the first-order action", test_stationarity);
+    CU_add_test(suite, "out of memory", test_out_of_memory);
+}

@@ -1,0 +1,276 @@
+/* test_stepmap.c - measures of a method: order, symplecticity, reversibility, pairing. */
+#include "allocation.h"
+#include "fixtures.h"
+#include "quick.h"
+#include <CUnit/CUnit.h>
+#include <math.h>
+#include <string.h>
+
+/* ---- order ---- */
+
+static void test_order(void)
+{
+    const struct {
+        const char *method;
+        double step, order;
+    } cases[] = {{"symplectic-euler-10", 0.005, 1.0},
+                 {"stormer-verlet", 0.025, 2.0},
+                 {"rk4", 0.025, 4.0},
+                 {"gauss4", 0.05, 4.0}};
+    dal_model *model = fixture_model(fixture_full);
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        const dal_run_spec spec =
+            fixture_spec(fixture_system(model), cases[k].method, DAL_PHYSICAL, cases[k].step);
+        dal_order order;
+        CU_ASSERT_EQUAL(dal_measure_order(&spec, 1.0, 3, NULL, NULL, &order, NULL), DAL_OK);
+        CU_ASSERT_DOUBLE_EQUAL(order.order, cases[k].order, 0.1);
+        CU_ASSERT_EQUAL(order.step[2], cases[k].step / 4.0);
+        CU_ASSERT(order.error[0] > order.error[1] && order.error[1] > order.error[2]);
+    }
+    dal_model_free(model);
+}
+
+/* Against the closed form; and nothing is claimed where rounding is all there is. */
+static void test_order_of_reference(void)
+{
+    dal_model *model = fixture_model("chaplygin-sleigh");
+    const double x[] = {sin(1.0), 1.0 - cos(1.0), 1.0, cos(1.0), sin(1.0), 1.0};
+    dal_run_spec spec = fixture_spec(fixture_system(model), "gauss6", DAL_PHYSICAL, 0.25);
+    dal_order order;
+    CU_ASSERT_EQUAL(dal_measure_order(&spec, 1.0, 3, NULL, x, &order, NULL), DAL_OK);
+    CU_ASSERT_DOUBLE_EQUAL(order.order, 6.0, 0.1);
+    spec = fixture_spec(fixture_system(model), "gauss12", DAL_PHYSICAL, 0.0625);
+    CU_ASSERT_EQUAL(dal_measure_order(&spec, 1.0, 2, NULL, x, &order, NULL), DAL_OK);
+    CU_ASSERT(isnan(order.order));
+    dal_model_free(model);
+}
+
+static void test_order_refuses(void)
+{
+    dal_model *model = fixture_model("chaplygin-sleigh");
+    const dal_run_spec spec = fixture_spec(fixture_system(model), "rk4", DAL_LIFTED, 0.3);
+    dal_order order;
+    dal_error error;
+    CU_ASSERT_EQUAL(dal_measure_order(&spec, 1.0, 3, NULL, NULL, &order, &error), DAL_ARGUMENT);
+    CU_ASSERT(strstr(error.message, "whole number of steps") != NULL);
+    CU_ASSERT_EQUAL(dal_measure_order(&spec, 0.9, 1, NULL, NULL, &order, &error), DAL_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_measure_order(&spec, 0.9, 9, NULL, NULL, &order, &error), DAL_ARGUMENT);
+    dal_model_free(model);
+}
+
+/* ---- symplecticity ---- */
+
+static const char oscillator[] = "coordinates: [x]\naccelerations: {x: -x}\nstart: {x: 0.7}\n";
+
+/* On p = pi = 0 the lifted oscillator is linear with the matrix B on (q, v, p, pi),
+ *     q' = v, v' = -q + pi/e, p' = pi, pi' = -p;
+ * rk4 steps by R(hB), R(z) = 1 + z + z^2/2 + z^3/6 + z^4/24, and because B is Hamiltonian
+ *     R(hB)^T Omega R(hB) - Omega = Omega (R(-hB) R(hB) - 1). */
+static void multiply(double a[4][4], double b[4][4], double out[4][4])
+{
+    for (int i = 0; i < 4; i++)
+        for (int j = 0; j < 4; j++) {
+            out[i][j] = 0.0;
+            for (int k = 0; k < 4; k++) out[i][j] += a[i][k] * b[k][j];
+        }
+}
+
+static void stability(double B[4][4], double h, double out[4][4])
+{
+    double term[4][4], next[4][4];
+    for (int i = 0; i < 4; i++)
+        for (int j = 0; j < 4; j++) out[i][j] = term[i][j] = i == j;
+    for (int k = 1; k <= 4; k++) {
+        multiply(term, B, next);
+        for (int i = 0; i < 4; i++)
+            for (int j = 0; j < 4; j++) out[i][j] += term[i][j] = next[i][j] * h / k;
+    }
+}
+
+static double expected_rk4_defect(double h)
+{
+    double B[4][4] = {{0, 1, 0, 0}, {-1, 0, 0, 1}, {0, 0, 0, 1}, {0, 0, -1, 0}};
+    double forward[4][4], backward[4][4], both[4][4], most = 0.0;
+    stability(B, h, forward);
+    stability(B, -h, backward);
+    multiply(backward, forward, both);
+    for (int i = 0; i < 4; i++)
+        for (int j = 0; j < 4; j++) most = fmax(most, fabs(both[i][j] - (i == j)));
+    return most;
+}
+
+static void test_symplecticity_closed_form(void)
+{
+    dal_model *model = fixture_model(oscillator);
+    const double h = 0.4;
+    dal_run_spec spec = fixture_spec(fixture_system(model), "rk4", DAL_LIFTED, h);
+    double defect;
+    CU_ASSERT_EQUAL(dal_measure_symplecticity(&spec, 0.0, NULL, 0.0, &defect, NULL), DAL_OK);
+    CU_ASSERT_DOUBLE_EQUAL(defect, expected_rk4_defect(h), 1e-11);
+    CU_ASSERT(defect > 1e-5);
+    dal_model_free(model);
+}
+
+static void test_symplecticity(void)
+{
+    const struct {
+        const char *method;
+        int symplectic;
+    } cases[] = {{"symplectic-euler-00", 1},
+                 {"symplectic-euler-10", 1},
+                 {"stormer-verlet", 1},
+                 {"implicit-midpoint", 1},
+                 {"gauss4", 1},
+                 {"rk4", 0},
+                 {"gauss4+project", 0}};
+    dal_model *model = fixture_model(fixture_full);
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        const dal_run_spec spec =
+            fixture_spec(fixture_system(model), cases[k].method, DAL_LIFTED, 0.1);
+        dal_run *run = fixture_run(&spec);
+        double defect;
+        fixture_displace(run, 0.5);
+        CU_ASSERT_EQUAL(
+            dal_measure_symplecticity(&spec, 0.3, dal_run_state(run), 0.0, &defect, NULL), DAL_OK);
+        CU_ASSERT(cases[k].symplectic ? defect < 1e-10 : defect > 1e-8);
+        dal_run_free(run);
+    }
+    const dal_run_spec spec = fixture_spec(fixture_system(model), "rk4", DAL_PHYSICAL, 0.1);
+    double defect;
+    CU_ASSERT_EQUAL(dal_measure_symplecticity(&spec, 0.0, NULL, 0.0, &defect, NULL),
+                    DAL_UNSUPPORTED);
+    dal_model_free(model);
+}
+
+/* ---- reversibility ---- */
+
+/* Explicit Euler on x'' = -x: rho Phi rho Phi = (1 - hA)(1 + hA) = 1 + h^2. */
+static void test_reversibility_closed_form(void)
+{
+    dal_model *model = fixture_model(oscillator);
+    const dal_run_spec spec =
+        fixture_spec(fixture_system(model), "symplectic-euler-00", DAL_PHYSICAL, 0.1);
+    double defect;
+    CU_ASSERT_EQUAL(dal_measure_reversibility(&spec, 0.0, NULL, &defect, NULL), DAL_OK);
+    CU_ASSERT_DOUBLE_EQUAL(defect, 0.1 * 0.1 * 0.7, 1e-15);
+    dal_model_free(model);
+}
+
+/* Off p = pi = 0 as well, where rho turns p and pi_e but not pi. */
+static void test_reversibility(void)
+{
+    const char *const systems[] = {"contact-oscillator", "chaplygin-sleigh", "appell-hamel"};
+    for (size_t k = 0; k < sizeof systems / sizeof *systems; k++) {
+        dal_model *model = fixture_model(systems[k]);
+        const char *const methods[] = {"implicit-midpoint", "gauss8", "stormer-verlet", "rk4"};
+        for (int i = 0; i < 4; i++) {
+            const dal_run_spec spec =
+                fixture_spec(fixture_system(model), methods[i], DAL_LIFTED, 0.2);
+            dal_run *run = fixture_run(&spec);
+            double defect;
+            fixture_displace(run, 0.5);
+            CU_ASSERT_EQUAL(
+                dal_measure_reversibility(&spec, 0.0, dal_run_state(run), &defect, NULL), DAL_OK);
+            CU_ASSERT(i < 3 ? defect < 1e-14 : defect > 1e-10);
+            dal_run_free(run);
+        }
+        dal_model_free(model);
+    }
+}
+
+/* A motion that friction makes irreversible is so with a symmetric method, too; a vakonomic one
+ * turns round when g changes its sign with v. */
+static void test_irreversible_and_vakonomic(void)
+{
+    dal_model *model = fixture_model("chaplygin-sleigh-friction");
+    dal_run_spec spec = fixture_spec(fixture_system(model), "gauss8", DAL_PHYSICAL, 0.1);
+    const double state[] = {0.1, 0.2, 0.3, 1.0, 0.5, 1.0};
+    double defect;
+    CU_ASSERT_EQUAL(dal_measure_reversibility(&spec, 0.0, state, &defect, NULL), DAL_OK);
+    CU_ASSERT(defect > 0.01);
+    dal_model_free(model);
+    model = fixture_model("chaplygin-sleigh-vakonomic");
+    spec = fixture_spec(fixture_system(model), "gauss8", DAL_PHYSICAL, 0.1);
+    CU_ASSERT_EQUAL(dal_measure_reversibility(&spec, 0.0, NULL, &defect, NULL), DAL_OK);
+    CU_ASSERT(defect < 1e-14);
+    dal_model_free(model);
+}
+
+/* ---- pairing ---- */
+
+static double pairing_of(const char *text, const char *method, long long steps)
+{
+    dal_model *model = fixture_model(text);
+    const dal_system *tangent = NULL;
+    const double direction[] = {0.3, -0.2, 0.5, 0.1, 0.4, -0.6};
+    const dal_setting start[] = {{"p_x", 0.7}, {"p_z", -0.4}, {"pi_y", 0.5}, {"e", 2.0}};
+    dal_drift drift;
+    CU_ASSERT_EQUAL_FATAL(dal_model_tangent(model, &tangent, NULL), DAL_OK);
+    dal_run_spec spec = fixture_spec(fixture_system(model), method, DAL_LIFTED, 0.05);
+    spec.start = start;
+    spec.start_count = 4;
+    CU_ASSERT_EQUAL(dal_measure_pairing(&spec, tangent, direction, steps, &drift, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(drift.count, steps + 1);
+    /* p.dq + pi.dv at the start */
+    CU_ASSERT_DOUBLE_EQUAL(drift.first, 0.7 * 0.3 - 0.4 * 0.5 + 0.5 * 0.4, 1e-15);
+    dal_model_free(model);
+    return drift.deviation;
+}
+
+static void test_pairing(void)
+{
+    const long long steps = long_run(100000) / 100;
+    CU_ASSERT(pairing_of(fixture_bilinear, "implicit-midpoint", steps) < 1e-13);
+    CU_ASSERT(pairing_of(fixture_bilinear, "stormer-verlet", steps) < 1e-13);
+    CU_ASSERT(pairing_of(fixture_bilinear, "symplectic-euler-10", 20) < 1e-13);
+    CU_ASSERT(pairing_of(fixture_bilinear, "rk4", steps) > 1e-9);
+}
+
+/* ---- memory ---- */
+
+static dal_status all_measures(const dal_run_spec *spec, const dal_system *tangent)
+{
+    const double direction[6] = {1.0};
+    double number;
+    dal_order order;
+    dal_drift drift;
+    dal_status status = dal_measure_order(spec, 0.5, 2, NULL, NULL, &order, NULL);
+    if (!status) status = dal_measure_symplecticity(spec, 0.0, NULL, 0.0, &number, NULL);
+    if (!status) status = dal_measure_reversibility(spec, 0.0, NULL, &number, NULL);
+    if (!status) status = dal_measure_pairing(spec, tangent, direction, 2, &drift, NULL);
+    return status;
+}
+
+static void test_out_of_memory(void)
+{
+    dal_model *model = fixture_model(fixture_bilinear);
+    const dal_system *tangent = NULL;
+    const dal_run_spec spec = fixture_spec(fixture_system(model), "rk4", DAL_LIFTED, 0.25);
+    CU_ASSERT_EQUAL_FATAL(dal_model_tangent(model, &tangent, NULL), DAL_OK);
+    long n = 0;
+    for (;; n++) {
+        allocation_fail_after(n);
+        const dal_status status = all_measures(&spec, tangent);
+        const int failed = allocation_failed();
+        allocation_fail_after(-1);
+        CU_ASSERT_EQUAL_FATAL(status, failed ? DAL_MEMORY : DAL_OK);
+        if (!failed) break;
+    }
+    CU_ASSERT(n >= 8);
+    dal_model_free(model);
+}
+
+void suite_stepmap(void)
+{
+    CU_pSuite suite = CU_add_suite("measures of a method", NULL, NULL);
+    CU_add_test(suite, "order", test_order);
+    CU_add_test(suite, "order against a closed form", test_order_of_reference);
+    CU_add_test(suite, "order: what is refused", test_order_refuses);
+    CU_add_test(suite, "symplecticity of rk4, closed form", test_symplecticity_closed_form);
+    CU_add_test(suite, "symplecticity", test_symplecticity);
+    CU_add_test(suite, "reversibility of Euler, closed form", test_reversibility_closed_form);
+    CU_add_test(suite, "reversibility off p = pi = 0", test_reversibility);
+    CU_add_test(suite, "irreversible and vakonomic motion", test_irreversible_and_vakonomic);
+    CU_add_test(suite, "pairing", test_pairing);
+    CU_add_test(suite, "out of memory", test_out_of_memory);
+}
