@@ -52,13 +52,12 @@ static dal_status turned(dal_run *run, const dal__cause *cause, double t, double
     const dal_system *system = run->shape.system;
     if (cause->guard)
         return dal__error(error, DAL_SINGULAR, 0, 0,
-                          "singular %s: it goes to zero near t = %.17g (step of %g)",
+                          "%s goes to zero between t = %.17g and %.17g: singular there",
                           system->guard ? system->guard[cause->guard - 1] : "a guard", t, t + h);
-    return dal__error(
-        error, DAL_SINGULAR, 0, 0,
-        "constraint %d became singular between t = %.17g and %.17g: its normal turned "
-        "by a right angle or more, so G = A W^-1 A^T vanished on the way",
-        cause->constraint, t, t + h);
+    return dal__error(error, DAL_SINGULAR, 0, 0,
+                      "constraint %d becomes singular between t = %.17g and %.17g: its normal "
+                      "shrinks or turns round, so that G = A W^-1 A^T vanishes",
+                      cause->constraint, t, t + h);
 }
 
 /* q, v a step further along the tangent, into run->shadow. */
