@@ -62,6 +62,7 @@ static const char *const formulas[] = {
     "x*x + x",
     "x - x*x",
     "x*sin(y) + y*cos(y)",
+    "sin(x*y) + exp(x*y)*z + tanh(x*y)*cos(x*y)",
     "cos(z')*sin(z')",
     "exp(a)*x + log(3*a)*y",
     "(x + y)*(x - y)/(z + 2)",
@@ -155,6 +156,37 @@ static void test_same_bits(void)
     }
     dal__tapes_free(tapes);
     dal__graph_free(graph);
+}
+
+static int below(unsigned *state, int n)
+{
+    *state = *state * 1664525u + 1013904223u;
+    return (int)((*state >> 8) % (unsigned)n);
+}
+
+/* Any operations on any nodes before them, and several of the last as outputs. */
+static void test_random_programs(void)
+{
+    enum { GRAPHS = 150, NODES = 60, OUTPUTS = 6 };
+    static const dal__op ops[] = {DAL__ADD, DAL__SUB, DAL__MUL, DAL__MUL, DAL__SIN,
+                                  DAL__COS, DAL__SIN, DAL__COS, DAL__DIV, DAL__TANH};
+    unsigned state = 1;
+    for (int g = 0; g < GRAPHS; g++) {
+        dal__graph *graph = formula_graph();
+        dal__node node[NODES];
+        for (int i = 0; i < NODES; i++) {
+            dal__op op = ops[below(&state, sizeof ops / sizeof ops[0])];
+            node[i] = i < SYMBOLS ? dal__symbol(graph, i)
+                                  : dal__apply(graph, op, node[below(&state, i)],
+                                               node[i - 1 - below(&state, 8)]);
+        }
+        dal__tapes *tapes = dal__tapes_create(graph, PARAMETERS, INPUTS);
+        dal__tapes_add(tapes, &node[NODES - OUTPUTS], OUTPUTS);
+        CU_ASSERT_EQUAL_FATAL(dal__tapes_finish(tapes), DAL_OK);
+        check_program(graph, tapes, 0, &node[NODES - OUTPUTS], OUTPUTS, g);
+        dal__tapes_free(tapes);
+        dal__graph_free(graph);
+    }
 }
 
 /* ---- how much work it is ---- */
@@ -305,6 +337,7 @@ void suite_tape(void)
 {
     CU_pSuite suite = CU_add_suite("tape", NULL, NULL);
     CU_add_test(suite, "the bits of evaluation at every width", test_same_bits);
+    CU_add_test(suite, "random programs", test_random_programs);
     CU_add_test(suite, "numbers of instructions", test_lengths);
     CU_add_test(suite, "places are used again", test_places_are_reused);
     CU_add_test(suite, "constants stay", test_constants_stay);

@@ -216,10 +216,11 @@ dal_status dal__plan_tape(dal__plan *plan, dal__tapes *tapes, dal__tape *tape)
     for (dal__node i = 1; i <= top; i++) {
         dal__view v = dal__look(plan->graph, i);
         if (!is_computed(plan, i, v) || plan->host[i]) continue;
-        if (plan->place[i] == DAL__NOWHERE)
+        if (plan->place[i] == DAL__NOWHERE) {
             emit(plan, tapes, tape, i, top);
-        else /* Came with its partner; only now has everything before it read the argument. */
+        } else { /* came with its partner, but others may have read the argument since */
             release(plan, tapes, v.a, i);
+        }
     }
     for (int k = 0; k < tape->outputs; k++) tape->place[k] = plan->place[tape->output[k]];
     for (dal__node i = 1; i <= top; i++) {
