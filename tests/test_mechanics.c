@@ -377,7 +377,6 @@ static void test_lanes_of_multipliers(void)
     body_free(&b);
 }
 
-void suite_mechanics(void);
 void suite_mechanics(void)
 {
     CU_pSuite suite = CU_add_suite("mechanics", NULL, NULL);

@@ -219,6 +219,19 @@ static void test_names(void) { CHECK_ALL(names); }
 static void test_formulas(void) { CHECK_ALL(formulas); }
 static void test_mechanics(void) { CHECK_ALL(mechanics); }
 
+/* Escapes and doubled quotes are those of YAML. */
+static void test_quotes(void)
+{
+    static const char *const texts[] = {XY "lagrangian: \"(x'^2 + \\x79'^2)/2\"\n",
+                                        XY "lagrangian: '(x''^2 + y''^2)/2'\n",
+                                        XY "lagrangian: |\n\n    (x'^2\n     + y'^2)/2\n",
+                                        XY "lagrangian: (x'^2 # half\nforces: {}\n"};
+    dal_error error;
+    for (int i = 0; i < 3; i++) CU_ASSERT(make(texts[i], strlen(texts[i]), &error) == DAL_OK);
+    CU_ASSERT(make(texts[3], strlen(texts[3]), &error) == DAL_SYNTAX);
+    CU_ASSERT_STRING_EQUAL(error.message, "lagrangian: a '(' is never closed");
+}
+
 /* ---- what is no text ---- */
 
 static void test_bytes(void)
@@ -366,7 +379,6 @@ static void test_memory(void)
     check_memory("chaplygin-sleigh-vakonomic");
 }
 
-void suite_model_errors(void);
 void suite_model_errors(void)
 {
     CU_pSuite suite = CU_add_suite("model errors", NULL, NULL);
@@ -374,6 +386,7 @@ void suite_model_errors(void)
     CU_add_test(suite, "names", test_names);
     CU_add_test(suite, "formulas", test_formulas);
     CU_add_test(suite, "mechanics", test_mechanics);
+    CU_add_test(suite, "quotes", test_quotes);
     CU_add_test(suite, "bytes", test_bytes);
     CU_add_test(suite, "files", test_files);
     CU_add_test(suite, "built-in systems", test_builtin);

@@ -268,7 +268,51 @@ static void test_start_of_multipliers(void)
     body_free(&b);
 }
 
-void suite_pivots(void);
+/* ---- models without YAML, and from a file ---- */
+
+static void test_by_hand(void)
+{
+    body sleigh = body_builtin("chaplygin-sleigh"), b = {.model = dal_model_create("by hand")};
+    static const struct {
+        dal_section section;
+        const char *name, *text;
+    } entries[] = {
+        {DAL_SECTION_CONSTRAINTS, NULL, "y1'*sin(phi) - y2'*cos(phi)"},
+        {DAL_SECTION_LAGRANGIAN, NULL, "m/2*(y1'^2 + y2'^2) + I/2*phi'^2"},
+        {DAL_SECTION_PARAMETERS, "m", "1"},
+        {DAL_SECTION_PARAMETERS, "I", "1"},
+        {DAL_SECTION_COORDINATES, NULL, "y1"},
+        {DAL_SECTION_COORDINATES, NULL, "y2"},
+        {DAL_SECTION_COORDINATES, NULL, "phi"},
+    };
+    double q[] = {0.1, 0.2, 0.3}, v[] = {0.4, 0.5, 0.6}, work[256] = {1, 1}, F[2][3];
+    dal_at at = {.q = q, .v = v, .work = work};
+    for (size_t i = 0; i < sizeof entries / sizeof *entries; i++)
+        CU_ASSERT(dal_model_add(b.model, entries[i].section, entries[i].name, entries[i].text, 0, 0,
+                                NULL) == DAL_OK);
+    CU_ASSERT_FATAL(dal_model_system(b.model, &b.system, NULL) == DAL_OK);
+    CU_ASSERT_FATAL(b.system->workspace <= sizeof work / sizeof *work);
+    CU_ASSERT_STRING_EQUAL(b.system->name, "by hand");
+    b.system->prepare(b.system, &at, NULL);
+    b.system->call.field(b.system, &at, F[0]);
+    body_call(&sleigh, sleigh.system->call.field, 0.0, q, v, F[1]);
+    CU_ASSERT(memcmp(F[0], F[1], sizeof F[0]) == 0);
+    body_free(&b);
+    body_free(&sleigh);
+}
+
+static void test_from_file(void)
+{
+    body b = {.work = NULL};
+    CU_ASSERT_FATAL(dal_model_read_file(&b.model, "systems/knife-edge.yaml", NULL) == DAL_OK);
+    CU_ASSERT(dal_model_system(b.model, &b.system, NULL) == DAL_OK);
+    CU_ASSERT_STRING_EQUAL(b.system->name, "knife-edge");
+    CU_ASSERT_STRING_EQUAL(b.system->title, "Knife edge on an inclined plane");
+    CU_ASSERT_STRING_EQUAL(b.system->parameter[3], "alpha");
+    CU_ASSERT(b.system->value[3] == 0.5);
+    body_free(&b);
+}
+
 void suite_pivots(void)
 {
     CU_pSuite suite = CU_add_suite("pivots", NULL, NULL);
@@ -285,4 +329,6 @@ void suite_pivots(void)
     CU_add_test(suite, "properties of the motion", test_motion_properties);
     CU_add_test(suite, "gauge and start", test_gauge_and_start);
     CU_add_test(suite, "start of multipliers", test_start_of_multipliers);
+    CU_add_test(suite, "a model by hand", test_by_hand);
+    CU_add_test(suite, "a model from a file", test_from_file);
 }

@@ -301,7 +301,6 @@ static void test_end_states(void)
                          0.5302439477038, 0.6089940474516});
 }
 
-void suite_systems(void);
 void suite_systems(void)
 {
     CU_pSuite suite = CU_add_suite("systems", NULL, NULL);
