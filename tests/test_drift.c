@@ -28,6 +28,8 @@ static double wave(double t) { return cos(2.0 * acos(-1.0) * t); }
 static double one_wave(double t) { return sin(0.2 * acos(-1.0) * t); }
 static double leaning_wave(double t) { return wave(t) + 2.0 * t; }
 static double growing_wave(double t) { return t * wave(t); }
+/* Jumps at once and then leans: the quarters are much alike, the line is not level. */
+static double jump(double t) { return t == 0.0 ? 0.0 : 10.0 + 0.5 * t; }
 static double growth(double t) { return exp(t); }
 static double broken(double t) { return t < 5.0 ? t : NAN; }
 
@@ -78,6 +80,7 @@ static void test_verdicts(void)
         {leaning_wave, 1.0, DAL_VERDICT_DRIFTS, "drifts"},
         {growing_wave, 1.0, DAL_VERDICT_DRIFTS, "drifts"},
         {growth, 1.0, DAL_VERDICT_DRIFTS, "drifts"},
+        {jump, 1.0, DAL_VERDICT_DRIFTS, "drifts"},
         {broken, 1.0, DAL_VERDICT_LOST, "lost"},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {

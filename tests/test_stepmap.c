@@ -135,10 +135,24 @@ static void test_symplecticity(void)
         CU_ASSERT(cases[k].symplectic ? defect < 1e-10 : defect > 1e-8);
         dal_run_free(run);
     }
-    const dal_run_spec spec = fixture_spec(fixture_system(model), "rk4", DAL_PHYSICAL, 0.1);
-    double defect;
-    CU_ASSERT_EQUAL(dal_measure_symplecticity(&spec, 0.0, NULL, 0.0, &defect, NULL),
+    dal_model_free(model);
+}
+
+static void test_symplecticity_place(void)
+{
+    dal_model *model = fixture_model(fixture_full);
+    dal_run_spec spec = fixture_spec(fixture_system(model), "rk4", DAL_LIFTED, 0.1);
+    dal_run *run = fixture_run(&spec);
+    double early, late;
+    fixture_displace(run, 0.5);
+    const double *state = dal_run_state(run);
+    CU_ASSERT_EQUAL(dal_measure_symplecticity(&spec, 0.0, state, 0.0, &early, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_measure_symplecticity(&spec, 0.9, state, 0.0, &late, NULL), DAL_OK);
+    CU_ASSERT(fabs(early - late) > 1e-3 * early);
+    spec.options.space = DAL_PHYSICAL;
+    CU_ASSERT_EQUAL(dal_measure_symplecticity(&spec, 0.0, NULL, 0.0, &early, NULL),
                     DAL_UNSUPPORTED);
+    dal_run_free(run);
     dal_model_free(model);
 }
 
@@ -176,6 +190,18 @@ static void test_reversibility(void)
         }
         dal_model_free(model);
     }
+}
+
+/* F(q,-v,-t) = F(q,v,t) where time enters by cos(t): the second step begins at minus the time. */
+static void test_reversibility_in_time(void)
+{
+    dal_model *model = fixture_model("coordinates: [x]\naccelerations: {x: -x*(1 + cos(t)/2)}\n");
+    const dal_run_spec spec = fixture_spec(fixture_system(model), "gauss4", DAL_PHYSICAL, 0.1);
+    const double state[] = {0.7, 0.4};
+    double defect;
+    CU_ASSERT_EQUAL(dal_measure_reversibility(&spec, 0.8, state, &defect, NULL), DAL_OK);
+    CU_ASSERT(defect < 1e-15);
+    dal_model_free(model);
 }
 
 /* A motion that friction makes irreversible is so with a symmetric method, too; a vakonomic one
@@ -268,8 +294,10 @@ void suite_stepmap(void)
     CU_add_test(suite, "order: what is refused", test_order_refuses);
     CU_add_test(suite, "symplecticity of rk4, closed form", test_symplecticity_closed_form);
     CU_add_test(suite, "symplecticity", test_symplecticity);
+    CU_add_test(suite, "symplecticity at a time, in a space", test_symplecticity_place);
     CU_add_test(suite, "reversibility of Euler, closed form", test_reversibility_closed_form);
     CU_add_test(suite, "reversibility off p = pi = 0", test_reversibility);
+    CU_add_test(suite, "reversibility where time enters", test_reversibility_in_time);
     CU_add_test(suite, "irreversible and vakonomic motion", test_irreversible_and_vakonomic);
     CU_add_test(suite, "pairing", test_pairing);
     CU_add_test(suite, "out of memory", test_out_of_memory);
