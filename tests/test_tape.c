@@ -9,8 +9,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 
-enum { MOST_OUTPUTS = 40 };
-
 typedef void runner(const dal__tapes *tapes, int program, double *work, double *out);
 static const struct {
     int lanes;
@@ -193,7 +191,7 @@ static void test_random_programs(void)
 
 static dal__tapes *tapes_of(dal__graph *graph, const char *const *texts, int count)
 {
-    dal__node nodes[MOST_OUTPUTS];
+    dal__node nodes[FORMULAS];
     for (int i = 0; i < count; i++) nodes[i] = formula_node(graph, texts[i]);
     dal__tapes *tapes = dal__tapes_create(graph, PARAMETERS, INPUTS);
     CU_ASSERT_EQUAL(dal__tapes_add(tapes, nodes, count), 0);
