@@ -51,7 +51,8 @@ static double hard_constraint(int a, const double *q, const double *v, double t)
 static const body_formulas hard = {4, 2, hard_lagrangian, hard_force, hard_constraint};
 
 /* Indefinite, with zeros on the diagonal of the mass matrix. */
-static const char null_text[] = "coordinates: [x, y, z, u]\n"
+static const char null_text[] = "mechanics: lagrange-d'alembert\n"
+                                "coordinates: [x, y, z, u]\n"
                                 "lagrangian: x'*y'*(1 + z^2/10) + z'^2/2 - (1 + x^2/5)*u'^2/2\n"
                                 "            + x'*u'*y/4 - x*y*z\n"
                                 "forces: {u: -x'/3}\n"

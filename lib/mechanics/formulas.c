@@ -100,6 +100,8 @@ static dal_status by_coordinate(dal_model *model, dal_section section, dal__scop
 
 /* ---- sections in order ---- */
 
+/* A default may be a formula in the defaults before it: it is evaluated here, once, and does not
+ * follow when those are changed later.  What must follow belongs under let. */
 static dal_status parse_parameters(dal_model *model, dal_error *error)
 {
     dal__equations *e = &model->equations;
