@@ -253,7 +253,8 @@ static sample random_formula(void)
         } else if (below(3) == 0) {
             tree[i] = unary(&tree[below(i)]);
         } else {
-            tree[i] = binary(&tree[below(i)], &tree[below(i)]);
+            const sample *left = &tree[below(i)], *right = &tree[below(i)];
+            tree[i] = binary(left, right);
         }
         if (strlen(tree[i].text) > 800) tree[i] = leaf();
     }

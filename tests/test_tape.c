@@ -174,9 +174,9 @@ static void test_random_programs(void)
         dal__node node[NODES];
         for (int i = 0; i < NODES; i++) {
             dal__op op = ops[below(&state, sizeof ops / sizeof ops[0])];
+            int any = below(&state, i + 1), near = i - below(&state, 8);
             node[i] = i < SYMBOLS ? dal__symbol(graph, i)
-                                  : dal__apply(graph, op, node[below(&state, i)],
-                                               node[i - 1 - below(&state, 8)]);
+                                  : dal__apply(graph, op, node[any - (any == i)], node[near - 1]);
         }
         dal__tapes *tapes = dal__tapes_create(graph, PARAMETERS, INPUTS);
         dal__tapes_add(tapes, &node[NODES - OUTPUTS], OUTPUTS);
