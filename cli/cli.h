@@ -22,7 +22,7 @@
     X(list, "[systems|integrators] [--markdown]", "what travels inside the program")               \
     X(check, "SYSTEM [OPTION]...", "what can be known of a system before a run")                   \
     X(run, "SYSTEM --integrator NAME --step H --time T [OPTION]...", "integrate one system")       \
-    X(resume, "DIR [OPTION]...", "go on with an interrupted run that writes to a directory")                   \
+    X(resume, "DIR [OPTION]...", "go on with a run that was interrupted")                          \
     X(study, "[STUDY.yaml] [OPTION]...", "systems x integrators x steps: tables of drift")         \
     X(report, "DIR [OPTION]...", "figures and tables from a run or a study")
 

@@ -15,6 +15,7 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 static void put_settings(FILE *out, const char *name, const job_settings *settings)
 {
@@ -155,7 +156,7 @@ static int read_line(reader *r, char *line)
 int store_read(cli_store *store, cli_job *job)
 {
     size_t length;
-    if (!store_is_run(store))
+    if (access(store->settings, F_OK) != 0)
         return cli_fail(CLI_USAGE, "'%s' holds no run: there is no %s", store->directory,
                         store->settings);
     store->text = file_read(store->settings, &length);

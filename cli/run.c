@@ -92,10 +92,12 @@ static int run_in_directory(const cli_job *job, const run_wishes *wishes)
     int status = store_open(&store, wishes->output);
     if (status != CLI_DONE) return status;
     status = cli_directory(wishes->output);
-    if (status == CLI_DONE && store_is_run(&store) && !wishes->force)
-        status =
-            cli_fail(CLI_USAGE, "'%s' holds a run: go on with it by 'dalembert resume', or --force",
-                     wishes->output);
+    const char *held = status == CLI_DONE && !wishes->force ? store_holds(&store) : NULL;
+    if (held)
+        status = cli_fail(CLI_USAGE,
+                          "'%s' is there already: 'dalembert resume' goes on with a run, --force "
+                          "writes over it",
+                          held);
     if (status == CLI_DONE) status = store_lock(&store);
     if (status == CLI_DONE) status = store_describe(&store, job);
     if (status == CLI_DONE) status = run_integrate(job, &store, wishes);

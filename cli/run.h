@@ -12,7 +12,7 @@
     X(output, "FILE|DIR|-", "-", "write there: .csv, .npy, a directory, or stdout")                \
     X(checkpoint, "SECONDS", "5", "a directory can be resumed from at most so long ago")           \
     X(summary, NULL, NULL, "print the summary though stderr is no terminal")                       \
-    X(force, NULL, NULL, "write over a run that the directory holds")
+    X(force, NULL, NULL, "write over what the directory holds of another run")
 
 enum {
     OWN_FIRST = JOB_OPTIONS - 1,

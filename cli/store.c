@@ -15,6 +15,7 @@
 #include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 typedef struct head {
@@ -49,7 +50,21 @@ void store_close(cli_store *store)
     *store = (cli_store){.descriptor = -1};
 }
 
-int store_is_run(const cli_store *store) { return access(store->settings, F_OK) == 0; }
+/* An empty rows.csv is all that a run leaves that was killed before it was described. */
+static int holds(const char *path)
+{
+    struct stat status;
+    return stat(path, &status) == 0 && status.st_size > 0;
+}
+
+const char *store_holds(const cli_store *store)
+{
+#define X(name, file)                                                                              \
+    if (holds(store->name)) return store->name;
+    STORE_FILE_LIST(X)
+#undef X
+    return NULL;
+}
 
 int store_lock(cli_store *store)
 {

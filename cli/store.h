@@ -43,8 +43,8 @@ typedef struct cli_mark {
  * exit status. */
 int store_open(cli_store *store, const char *directory);
 void store_close(cli_store *store);
-/* Whether the directory holds a run. */
-int store_is_run(const cli_store *store);
+/* A file in the directory that a new run would write over, or NULL. */
+const char *store_holds(const cli_store *store);
 /* Opens rows.csv, made if need be, for this process alone: CLI_USAGE when another has it. */
 int store_lock(cli_store *store);
 /* Describes a new run; what an older one left is removed. */

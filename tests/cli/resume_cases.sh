@@ -26,7 +26,12 @@ holds "the rows are those of stdout" cmp out whole/rows.csv
 
 case_is "a directory is not written over"
 try 2 run $long --output whole
-says "'whole' holds a run"
+says "'whole/run.yaml' is there already"
+mkdir -p mine
+echo 'not a copy' >mine/system.yaml
+try 2 run $long --output mine
+says "'mine/system.yaml' is there already"
+holds "the file was touched" grep -qx 'not a copy' mine/system.yaml
 try 0 run ./line.yaml --integrator rk4 --step 0.1 --time 1 --output other
 try 0 run ./line.yaml --integrator rk4 --step 0.1 --time 1 --samples 5 --output other --force
 holds "7 lines" [ "$(wc -l <other/rows.csv)" -eq 7 ]

@@ -1,100 +1,185 @@
-# check, study and report as commands: statuses, files, messages.
+# `dalembert study`: cells, tables, files, and what becomes of bad ones.
 
-case_is "check of every built-in system"
-for system in $("$program" list systems | awk 'NR > 2 { print $1 }'); do
-    try 0 check $system
-    prints '^[0-9]+ items, 0 failed$'
-    silent
-done
-
-case_is "a check that fails"
-# The exact solution of x'' = -x' is not t.
-sed 's/^exact:.*/exact: {x: t}/' line.yaml >wrong.yaml
-try 1 check ./wrong.yaml
-prints 'FAIL'
-
-case_is "check of what cannot be checked"
-try 2 check
-says 'SYSTEM is missing'
-try 2 check knife-egde
-says "unknown system 'knife-egde'; did you mean 'knife-edge'\?"
-try 2 check chaplygin-sleigh --set omege=1
-says "'omege'; did you mean 'omega'\?"
-
-cat >study.yaml <<'END'
-title: two of them
-systems: [chaplygin-sleigh, contact-oscillator]
-integrators: [rk4, symplectic-euler+project]
+cat >small.yaml <<'END'
+title: a small study
+integrators: [rk4, gauss4+project]
 step: [0.1, 0.05]
-time: 5
+time: 2
+systems:
+  - chaplygin-sleigh
+  - {system: plane.yaml, label: plane, starts: [surface, physical]}
 END
+# The cells of a column by its head.
+column() { awk -F, -v head="$1" 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == head) k = i; next }
+                                 { print $k }' "$2"; }
 
-case_is "study"
-try 0 study study.yaml --output one --threads 1
-prints '^two of them$'
-prints '^chaplygin-sleigh: '
-prints '^  rk4 '
+case_is "cells, tables and files"
+try 0 study small.yaml --output there
 silent
-holds "tables.txt" cmp out one/tables.txt
-# 2 systems x 2 integrators x 2 steps x 3 starts, and a line of names.
-holds "25 lines of cells" [ "$(wc -l <one/cells.csv)" -eq 25 ]
-try 0 study study.yaml --output two --threads 2
-for directory in one two; do sed 's/,[^,]*$//' $directory/cells.csv >$directory.cells; done
-holds "the number of threads matters" cmp one.cells two.cells
-holds "the number of threads matters" cmp one/quantities.csv two/quantities.csv
+prints '^a small study$'
+prints '^chaplygin-sleigh: '
+prints '^ lifted, p and pi displaced, h = 0.05, T = 2$'
+prints '^What this shows'
+for file in study.yaml tables.txt cells.csv quantities.csv series/chaplygin-sleigh.csv \
+    series/plane.csv; do
+    holds "$file is missing" test -s "there/$file"
+done
+holds "the study is not kept" cmp -s small.yaml there/study.yaml
+holds "the tables are not kept" cmp -s out there/tables.txt
+# 2 methods x 2 steps x (3 + 2) starts
+holds "not 20 cells" test "$(column state there/cells.csv | grep -c '^done$')" -eq 20
+holds "steps are not T/h" test "$(column steps there/cells.csv | sort -n | uniq | tr '\n' ' ')" = "20 40 "
+holds "lifted and (q,v) differ" test "$(column same_as_physical there/cells.csv | sort | uniq -c |
+    tr -d ' \n')" = "128yes"
+holds "D of the plane strays" test "$(grep '^plane' there/cells.csv |
+    awk -F, '$12 > 1e-14' | wc -l)" -eq 0
 
-case_is "study files with faults"
-try 2 study missing.yaml
-says "cannot read 'missing.yaml': No such file"
-sed 's/^integrators/integraters/' study.yaml >fault.yaml
-try 2 study fault.yaml
-says "^dalembert: fault\.yaml:3:1: .*'integraters'.*'integrators'"
-sed 's/rk4/rk5/' study.yaml >fault.yaml
-try 2 study fault.yaml
-says "^dalembert: fault\.yaml:3:15: .*'rk5'.*'rk4'"
-sed 's/contact-oscillator/contact-oscilator/' study.yaml >fault.yaml
-try 2 study fault.yaml
-says "^dalembert: .*'contact-oscilator'.*'contact-oscillator'"
-sed 's/0\.05/-0.05/' study.yaml >fault.yaml
-try 2 study fault.yaml
-says '^dalembert: fault\.yaml:4:1[3-4]: '
+case_is "the same on any number of threads"
+try 0 study small.yaml --output one --threads 1
+try 0 study small.yaml --output four --threads 4
+for file in quantities.csv series/plane.csv series/chaplygin-sleigh.csv; do
+    holds "$file differs" cmp -s "one/$file" "four/$file"
+done
+sed 's/,[^,]*$//' one/cells.csv >one.cells
+sed 's/,[^,]*$//' four/cells.csv >four.cells
+holds "cells.csv differs" cmp -s one.cells four.cells
 
-case_is "a cell that fails does not end the study"
-cat >singular.yaml <<'END'
-systems: [chaplygin-sleigh-nonlinear, chaplygin-sleigh]
+case_is "numbers with closed forms"
+cat >closed.yaml <<'END'
+integrators: [symplectic-euler-00]
+step: 0.5
+time: 1
+starts: physical
+systems: [line.yaml]
+END
+# explicit Euler on v' = -v, x' = v from (0, 1): v = 1/2, 1/4; x = 1/2, 3/4
+try 0 study closed.yaml --output there
+E_first=$(column E_first there/cells.csv)
+E_deviation=$(column E_deviation there/cells.csv)
+holds "E(0) = $E_first" test "$E_first" = 0.5
+holds "E(1) - E(0) = $E_deviation" test "$E_deviation" = 0.46875
+holds "x + x' moved" test "$(column invariant_verdict there/cells.csv)" = exact
+# E = 1/2, 1/8, 1/32 at 0, 1/2, 1: slope (1/32 - 1/2) / 1
+holds "the rate of E" test "$(column E_rate there/cells.csv)" = -0.46875
+
+case_is "a cell that fails is told of, and the study goes on"
+cat >failing.yaml <<'END'
+integrators: [rk4, gauss4]
+step: 0.01
+time: 3
+starts: physical
+systems:
+  - {system: appell-hamel, set: {w0: -1}}
+  - line.yaml
+END
+try 3 study failing.yaml --output there
+prints '^  rk4 +failed after t = [12]\.[0-9]+: .*constraint 1'
+holds "no failed cells" test "$(column state there/cells.csv | sort | uniq -c | tr -d ' \n')" = 2done2failed
+holds "the status is not told" grep -q DAL_SINGULAR there/cells.csv
+
+case_is "a cell that is refused is no failure"
+cat >refused.yaml <<'END'
+integrators: rk4
+step: 0.1
+time: 1
+systems: chaplygin-sleigh-vakonomic
+END
+try 0 study refused.yaml --output there
+prints '^  rk4 +refused: '
+holds "not 2 refused" test "$(column state there/cells.csv | grep -c refused)" -eq 2
+
+case_is "an interrupted study keeps what is finished"
+cat >endless.yaml <<'END'
 integrators: [rk4]
 step: 0.1
-time: 5
-starts: [physical]
+starts: physical
+systems:
+  - {system: line.yaml, label: short, time: 1}
+  - {system: line.yaml, label: endless, time: 1e12}
 END
-try 3 study singular.yaml --output singular
-holds "it is told of" grep -q 'DAL_SINGULAR' singular/cells.csv
-holds "the other is done" grep -q 'DAL_OK' singular/cells.csv
-
-case_is "study without room"
-"$program" study study.yaml --output three >/dev/full 2>err
+"$program" study endless.yaml --output there --threads 2 >out 2>err &
+pid=$!
+sleep 1
+kill -INT $pid
+wait $pid
 status=$?
-holds "exit $status, not 4" [ $status -eq 4 ]
-try 4 study study.yaml --output missing/folder
-says "missing/folder"
+holds "exit $status, not 130" test $status -eq 130
+says 'interrupted'
+holds "the finished cell is lost" grep -q '^short,.*,done,' there/cells.csv
+prints 'endless'
+prints '^  rk4 +not run'
 
-case_is "study interrupted"
-sed 's/^time:.*/time: 1e6/' study.yaml >long.yaml
-"$program" study long.yaml --output long >out 2>err &
-sleep 0.5
-kill -INT $!
-wait $!
-status=$?
-holds "exit $status, not 130" [ $status -eq 130 ]
+case_is "study files that are none"
+bad() {
+    printf "$1" >bad.yaml
+    try 2 study bad.yaml --output there
+    says "$2"
+    empty
+}
+bad 'systems: [line.yaml\n' 'bad.yaml:'
+bad '' 'the study is empty'
+bad 'title: x\n---\ntitle: y\n' 'a second document'
+bad 'titel: x\n' "bad.yaml:1:1: unknown key 'titel'; did you mean 'title'"
+bad 'title: x\ntitle: y\n' "bad.yaml:2:1: the key 'title' comes twice"
+bad 'title: x\n' 'the systems are missing'
+bad 'systems: [line.yaml]\n' 'the integrators are missing'
+bad 'integrators: rk4\nsystems: [line.yaml]\n' 'the step is missing'
+bad 'integrators: rk4\nstep: 1\nsystems: [line.yaml]\n' 'the time is missing'
+bad 'integrators: rk4\nstep: 2\ntime: 1\nsystems: [line.yaml]\n' 'step 2 is larger than the time 1'
+bad 'integrators: rk4\nstep: -1\ntime: 1\nsystems: [line.yaml]\n' 'bad.yaml:2:7: step: -1 is not positive'
+bad 'integrators: rk4\nstep: nan\ntime: 1\nsystems: [line.yaml]\n' "'nan' is not a number"
+bad 'integrators: rk5\nstep: 0.1\ntime: 1\nsystems: [line.yaml]\n' "bad.yaml:1:14: .*did you mean 'rk4'"
+bad 'integrators: rk4\nstep: 0.1\ntime: 1\nstarts: [surfaces]\nsystems: [line.yaml]\n' "'surfaces' is not"
+bad 'integrators: rk4\nstep: 0.1\ntime: 1\nsystems: [knife-egde]\n' "did you mean 'knife-edge'"
+bad 'integrators: rk4\nstep: 0.1\ntime: 1\nsystems: [knife-edge, knife-edge]\n' "two systems called 'knife-edge'"
+bad 'integrators: rk4\nstep: 0.1\ntime: 1\nsystems: [{system: knife-edge, tme: 1}]\n' "unknown key 'tme'; did you mean 'time'"
+bad 'integrators: rk4\nstep: 0.1\ntime: 1\nsystems: [{system: knife-edge, label: a/b}]\n' 'cannot name a file'
+bad 'integrators: rk4\nstep: 0.1\ntime: 1\nsystems: [{system: knife-edge, set: [m]}]\n' 'names and values are wanted'
+bad 'integrators: {rk4: 1}\nstep: 0.1\ntime: 1\nsystems: [knife-edge]\n' 'a single value is wanted'
+bad 'integrators: rk4\nstep: 0.1\ntime: 1\nsamples: 0\nsystems: [knife-edge]\n' 'not in 1\.\.'
+try 2 study nowhere.yaml --output there
+says 'nowhere.yaml'
+try 2 study small.yaml failing.yaml
+says 'more than one study'
+try 2 study small.yaml --threads 0 --output there
+says '0 is not in'
 
-case_is "report"
-try 2 report
-says 'DIR is missing'
-try 2 report missing
-says "'missing' holds neither a study"
-if command -v gnuplot >/dev/null; then
-    try 0 report one
-    holds "a page" [ -s one/report/index.html ]
-    try 0 report other
-    holds "a page" [ -s other/report/index.html ]
+case_is "a parameter that a cell does not know"
+printf 'integrators: rk4\nstep: 0.1\ntime: 1\nstarts: physical\nsystems: [{system: knife-edge, set: {omga: 1}}]\n' >bad.yaml
+try 3 study bad.yaml --output there
+prints "unknown parameter 'omga'; did you mean 'omega'"
+
+case_is "output that cannot be written"
+try 4 study small.yaml --output line.yaml
+says "line.yaml"
+try 4 study small.yaml --output /proc/nowhere
+says '/proc/nowhere'
+if [ -w /dev/full ]; then
+    "$program" study small.yaml --output there >/dev/full 2>err
+    status=$?
+    holds "exit $status, not 4, on a full disk" test $status -eq 4
+    says 'standard output'
 fi
+
+case_is "the built-in study"
+try 0 study --show
+holds "--show is not the file" cmp -s out "$here/../../bench/studies/canonical-drift.yaml"
+timeout 600 "$program" study --output builtin >out 2>err
+status=$?
+holds "exit $status" test $status -eq 0
+silent
+for system in damped-oscillator chaplygin-sleigh-friction chaplygin-sleigh \
+    chaplygin-sleigh-nonlinear chaplygin-sleigh-vakonomic contact-oscillator \
+    nonholonomic-particle knife-edge vertical-disk appell-hamel isokinetic; do
+    prints "^$system: "
+done
+holds "lifted and (q,v) differ somewhere" sh -c '! cut -d, -f31 builtin/cells.csv | grep -q no'
+long=$(grep '^nonholonomic-particle-long,' builtin/cells.csv)
+holds "not 1e5 steps" test "$(echo "$long" | cut -d, -f10 | sort -u)" = 100000
+holds "H of rk4 does not drift" test "$(echo "$long" | grep ',rk4,' | cut -d, -f22)" = drifts
+holds "H of a symplectic method drifts" test "$(echo "$long" | grep -v ',rk4,' | cut -d, -f22 |
+    grep -cv '^bounded$\|^rounding$')" -eq 0
+holds "D bilinear is not kept" test "$(grep -E '^(contact|nonholonomic-part)' builtin/cells.csv |
+    grep -E ',(symplectic-euler-(10|01)|stormer-verlet),surface,' | cut -d, -f14 | sort -u)" = rounding
+holds "D is not kept by +project" test "$(grep -E ',surface,' builtin/cells.csv |
+    grep '+project' | cut -d, -f14 | sort -u | tr '\n' ' ')" = " exact rounding "
