@@ -358,50 +358,6 @@ static void test_own_memory(void)
     dal_model_free(model);
 }
 
-/* ---- methods and options by text ---- */
-
-static void test_methods(void)
-{
-    dal_method method;
-    dal_error error;
-    char name[64];
-    CU_ASSERT_EQUAL(dal_method_parse(&method, "symplectic-euler+project", &error), DAL_OK);
-    CU_ASSERT_STRING_EQUAL(dal_method_name(&method, name, sizeof name),
-                           "symplectic-euler-10+project");
-    CU_ASSERT_EQUAL(dal_method_order(&method), 1);
-    CU_ASSERT_EQUAL(dal_method_claims(&method) & (DAL_SYMPLECTIC | DAL_SYMMETRIC), 0);
-    CU_ASSERT(dal_method_claims(&method) & DAL_KEEPS_D);
-    CU_ASSERT_EQUAL(dal_method_parse(&method, "gaus8", &error), DAL_NAME);
-    CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "'gauss8'"));
-    CU_ASSERT_EQUAL(dal_method_parse(&method, "gauss8+projct", &error), DAL_NAME);
-    CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "'project'"));
-    CU_ASSERT_EQUAL(dal_method_parse(&method, "project", &error), DAL_NAME);
-    CU_ASSERT_EQUAL(dal_method_parse(&method, "rk4+rk4", &error), DAL_NAME);
-    CU_ASSERT_EQUAL(dal_method_parse(&method, "", &error), DAL_NAME);
-    CU_ASSERT_EQUAL(dal_method_parse(&method, "rk4+", &error), DAL_NAME);
-}
-
-static void test_options(void)
-{
-    dal_options options = dal_options_default();
-    dal_error error;
-    CU_ASSERT_EQUAL(dal_options_set(&options, "step", "2.5e-3", &error), DAL_OK);
-    CU_ASSERT_EQUAL(options.step, 2.5e-3);
-    CU_ASSERT_EQUAL(dal_options_set(&options, "space", "physical", &error), DAL_OK);
-    CU_ASSERT_EQUAL(options.space, DAL_PHYSICAL);
-    CU_ASSERT_EQUAL(dal_options_set(&options, "iterations", "1e3", &error), DAL_OK);
-    CU_ASSERT_EQUAL(options.iterations, 1000);
-    const dal_options before = options;
-    CU_ASSERT_EQUAL(dal_options_set(&options, "space", "phys", &error), DAL_ARGUMENT);
-    CU_ASSERT_EQUAL(dal_options_set(&options, "iterations", "1.5", &error), DAL_ARGUMENT);
-    CU_ASSERT_EQUAL(dal_options_set(&options, "iterations", "0", &error), DAL_ARGUMENT);
-    CU_ASSERT_EQUAL(dal_options_set(&options, "step", "0x1p-3", &error), DAL_SYNTAX);
-    CU_ASSERT_EQUAL(dal_options_set(&options, "step", "nan", &error), DAL_SYNTAX);
-    CU_ASSERT_EQUAL(dal_options_set(&options, "stepp", "1", &error), DAL_NAME);
-    CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "'step'"));
-    CU_ASSERT_EQUAL(memcmp(&before, &options, sizeof options), 0);
-}
-
 void suite_run(void)
 {
     CU_pSuite suite = CU_add_suite("run", NULL, NULL);
@@ -415,6 +371,4 @@ void suite_run(void)
     CU_add_test(suite, "rows", test_samples);
     CU_add_test(suite, "checkpoint", test_checkpoint);
     CU_add_test(suite, "the caller's memory", test_own_memory);
-    CU_add_test(suite, "methods by name", test_methods);
-    CU_add_test(suite, "options by name", test_options);
 }
