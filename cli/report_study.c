@@ -125,9 +125,29 @@ static int belongs(const figure *f, int row)
     return is(f->c, row, "label", f->label) && is(f->c, row, "step", f->step);
 }
 
+/* A row counts when it is the motion itself, went to its end, and has a number to show. */
+static int shows_work(const figure *f, int row)
+{
+    return belongs(f, row) && is(f->c, row, "start", f->plain) && is(f->c, row, "state", "done") &&
+           get(f->c, row, f->accuracy)[0];
+}
+
+/* Which column can tell accuracy: the error, or what the system keeps. */
+static const char *find_accuracy(const figure *f)
+{
+    static const char *const columns[] = {"error_max", "invariant_deviation", "E_deviation"};
+    for (int row = 1; row < f->c->csv.rows; row++) {
+        if (!belongs(f, row) || is(f->c, row, "start", "displaced")) continue;
+        for (int k = 0; k < 3; k++) {
+            int kept = k < 2 || !is(f->c, row, "E_verdict", "-");
+            if (kept && get(f->c, row, columns[k])[0]) return columns[k];
+        }
+    }
+    return NULL;
+}
+
 static void survey(figure *f)
 {
-    static const char *const accuracies[] = {"error_max", "invariant_deviation", "E_deviation"};
     f->plain = "displaced";
     for (int row = 1; row < f->c->csv.rows; row++) {
         if (!belongs(f, row)) continue;
@@ -137,13 +157,14 @@ static void survey(figure *f)
         f->has_D |= get(f->c, row, "D_max")[0] != '\0';
         f->has_E |= get(f->c, row, "E_deviation")[0] != '\0';
         f->has_H |= is(f->c, row, "start", "displaced") && get(f->c, row, "H_deviation")[0];
-        if (is(f->c, row, "start", "displaced")) continue;
-        for (int k = 0; k < 3 && !f->accuracy; k++)
-            if (get(f->c, row, accuracies[k])[0]) f->accuracy = accuracies[k];
     }
     for (int m = 0; m < f->methods.count; m++)
         if (!strchr(f->methods.word[m], '+')) add_word(&f->shown, f->methods.word[m]);
     if (f->shown.count == 0) f->shown = f->methods;
+    f->accuracy = find_accuracy(f);
+    int points = 0;
+    for (int row = 1; f->accuracy && row < f->c->csv.rows; row++) points += shows_work(f, row);
+    if (points == 0) f->accuracy = NULL;
 }
 
 /* The same for a method in all figures, with modifiers or without. */
@@ -192,26 +213,34 @@ static void draw_curves(FILE *s, const figure *f, const panel *p)
     }
 }
 
+/* One point per method: x, y, its mark and its colour. */
+static void put_points(FILE *s, const figure *f)
+{
+    fputs("$work << END\n", s);
+    for (int row = 1; row < f->c->csv.rows; row++) {
+        if (!shows_work(f, row)) continue;
+        const char *method = get(f->c, row, "integrator");
+        double evaluations = strtod(get(f->c, row, "evaluations"), NULL);
+        double time = strtod(get(f->c, row, "time"), NULL);
+        fprintf(s, "%.17g,%s,%d,%ld\n", evaluations / time, get(f->c, row, f->accuracy),
+                strchr(method, '+') ? 6 : 7,
+                strtol(report_colour(colour_of(f, method)) + 1, NULL, 16));
+    }
+    fputs("END\n", s);
+}
+
 static void draw_work(FILE *s, const figure *f)
 {
     const char *what = strcmp(f->accuracy, "error_max") == 0     ? "greatest error"
                        : strcmp(f->accuracy, "E_deviation") == 0 ? "greatest |E - E(0)|"
                                                                  : "greatest |I - I(0)|";
+    put_points(s, f);
     fprintf(s, "set title '%s against work, open: with modifiers'\n", what);
     fputs("set xlabel 'evaluations per unit of t'\nset logscale xy\n"
           "set xrange [*:*] noextend\nset yrange [*:*]\nset offsets graph 0.06, graph 0.06\n"
-          "plot \\\n",
+          "plot $work using 1:(floor_at($2, 1e-17)):3:4 with points ps 1.1 lw 1.4 pt variable "
+          "lc rgb variable notitle\n",
           s);
-    for (int i = 0; i < f->methods.count; i++) {
-        const char *method = f->methods.word[i];
-        fputs("  cells using (work(", s);
-        report_quote(s, method);
-        fprintf(s,
-                ", '%s')):(floor_at(column('%s'), 1e-17)) with points pt %d ps 1.1 lw 1.4 "
-                "lc rgb '%s' notitle%s\n",
-                f->plain, f->accuracy, strchr(method, '+') ? 6 : 7,
-                report_colour(colour_of(f, method)), i + 1 < f->methods.count ? ", \\" : "");
-    }
 }
 
 static void draw_legend(FILE *s, const figure *f)
@@ -257,19 +286,10 @@ static void write_script(FILE *s, const figure *f)
     snprintf(path, sizeof path, "../series/%.80s.csv", f->label);
     fputs("series = ", s);
     report_quote(s, path);
-    fputs("\ncells = '../cells.csv'\n"
-          "floor_at(x, least) = x > least ? x : least\n",
-          s);
+    fputs("\nfloor_at(x, least) = x > least ? x : least\n", s);
     fprintf(s,
             "pick(m, start, name, least) = strcol('integrator') eq m && strcol('start') eq start "
             "\\\n    && column('step') == %s ? floor_at(column(name), least) : NaN\n",
-            f->step);
-    fputs("work(m, start) = strcol('label') eq ", s);
-    report_quote(s, f->label);
-    fprintf(s,
-            " && strcol('integrator') eq m \\\n    && strcol('start') eq start && strcol('state') "
-            "eq 'done' && column('step') == %s \\\n    ? column('evaluations') / column('time') : "
-            "NaN\n",
             f->step);
     fputs("set format y '%.0e'\nunset key\nset multiplot title ", s);
     char title[2 * NAME];

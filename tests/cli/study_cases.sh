@@ -73,7 +73,8 @@ systems:
   - line.yaml
 END
 try 3 study failing.yaml --output there
-prints '^  rk4 +failed after t = [12]\.[0-9]+: .*constraint 1'
+# z' = 1 comes to rest at t = z' (1 + nu^2)/g = 2
+prints '^  rk4 +failed after t = 2: constraint 1 '
 holds "no failed cells" test "$(column state there/cells.csv | sort | uniq -c | tr -d ' \n')" = 2done2failed
 holds "the status is not told" grep -q DAL_SINGULAR there/cells.csv
 
@@ -182,4 +183,4 @@ holds "H of a symplectic method drifts" test "$(echo "$long" | grep -v ',rk4,' |
 holds "D bilinear is not kept" test "$(grep -E '^(contact|nonholonomic-part)' builtin/cells.csv |
     grep -E ',(symplectic-euler-(10|01)|stormer-verlet),surface,' | cut -d, -f14 | sort -u)" = rounding
 holds "D is not kept by +project" test "$(grep -E ',surface,' builtin/cells.csv |
-    grep '+project' | cut -d, -f14 | sort -u | tr '\n' ' ')" = " exact rounding "
+    grep '+project' | cut -d, -f14 | sort -u | tr '\n' ' ')" = " rounding "
