@@ -69,8 +69,7 @@ typedef struct dal_error {
 const char *dal_nearest(const char *name, const char *const *names, int count);
 
 /* Reads a decimal number - sign, digits, one point, exponent, and nothing else - the same under
- * every locale, correctly rounded.  Errors: DAL_SYNTAX, DAL_TOO_LARGE (overflow, or over 300
- * characters). */
+ * every locale, correctly rounded.  Errors: DAL_SYNTAX, DAL_TOO_LARGE (overflow). */
 dal_status dal_parse_number(const char *text, size_t length, double *value);
 
 /* ---- systems ------------------------------------------------------------------------------- */

@@ -1,4 +1,4 @@
-/* error.h - how the library fills a caller's dal_error. */
+/* error.h - how the library fills a caller's dal_error, and reads numbers. */
 #ifndef DAL_ERROR_H
 #define DAL_ERROR_H
 
@@ -18,6 +18,11 @@ dal_status dal__error(dal_error *error, dal_status status, int line, int column,
 /* "unknown WHAT 'NAME'; did you mean 'NEAREST'?" with the status DAL_NAME; see dal_nearest. */
 dal_status dal__unknown(dal_error *error, int line, int column, const char *what, const char *name,
                         const char *const *names, int count);
+
+/* Reads the longest decimal number [digits][.digits][e[+-]digits] at the start of text: how many
+ * characters it has (0: none there) and its nearest double, infinite when it is too large.  The
+ * same under every locale. */
+size_t dal__read_decimal(const char *text, size_t length, double *value);
 
 #define DAL_TRY(expression)                                                                        \
     do {                                                                                           \

@@ -25,9 +25,4 @@ dal__lexer dal__lexer_start(const char *text, size_t length);
 /* The next token.  Errors: DAL_SYNTAX. */
 dal_status dal__lexer_next(dal__lexer *lexer, dal__token *token, dal_error *error);
 
-/* Reads the longest decimal number [digits][.digits][e[+-]digits] at the start of text: how many
- * characters it has (0: none there) and its nearest double, infinite when it is too large.  The
- * same under every locale. */
-size_t dal__read_decimal(const char *text, size_t length, double *value);
-
 #endif

@@ -5,8 +5,9 @@
  * The second form has no decimal point, the one thing strtod looks up in the locale.  Two doubles
  * and the point halfway between them have at most 767 digits, so of the digits behind that only
  * matters whether one is not 0: a last digit 1 says so. */
-#include "formula/lexer.h"
-#include <limits.h>
+#include "error.h"
+#include <math.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -69,4 +70,15 @@ size_t dal__read_decimal(const char *text, size_t length, double *value)
     snprintf(d.text + d.kept, sizeof d.text - (size_t)d.kept, "e%ld", d.exponent);
     *value = strtod(d.text, NULL);
     return i;
+}
+
+dal_status dal_parse_number(const char *text, size_t length, double *value)
+{
+    const size_t sign = length > 0 && (text[0] == '+' || text[0] == '-');
+    double size;
+    const size_t read = dal__read_decimal(text + sign, length - sign, &size);
+    if (read == 0 || read != length - sign) return DAL_SYNTAX;
+    if (!isfinite(size)) return DAL_TOO_LARGE;
+    *value = sign && text[0] == '-' ? -size : size;
+    return DAL_OK;
 }
