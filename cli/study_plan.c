@@ -272,14 +272,19 @@ static int read_systems(study_plan *plan, const study_text *text, const yaml_nod
     return status;
 }
 
-static void lay_out(const study_entry *e, study_cell *cell)
+static study_cell *lay_out_starts(study_cell cell, study_cell *place)
+{
+    for (cell.start = 0; cell.start < STUDY_STARTS; cell.start++)
+        if (cell.entry->starts & 1 << cell.start) *place++ = cell;
+    return place;
+}
+
+static void lay_out(const study_entry *e, study_cell *place)
 {
     for (int m = 0; m < e->method_count; m++)
         for (int h = 0; h < e->steps; h++)
-            for (int start = 0; start < STUDY_STARTS; start++)
-                if (e->starts & 1 << start)
-                    *cell++ = (study_cell){
-                        .entry = e, .method = &e->methods[m], .step = e->step[h], .start = start};
+            place = lay_out_starts(
+                (study_cell){.entry = e, .method = &e->methods[m], .step = e->step[h]}, place);
 }
 
 static int make_cells(study_plan *plan)

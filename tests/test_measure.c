@@ -209,47 +209,53 @@ static void test_onto_nothing(void)
 
 #define PLANE "coordinates: [x, y, z]\nlagrangian: (x'^2 + y'^2 + z'^2)/2\nconstraints: "
 
+typedef struct kind {
+    const char *text;
+    int linear, constant, bilinear, quadratic, parity, homogeneous, reversible;
+    double degree;
+} kind;
+
+static const kind kinds[] = {
+    {PLANE "[x' + 2*y' - z']\n", 1, 1, 1, 1, -1, 1, 1, 1},
+    {PLANE "[x' + 2*y' - z' + 0.3*x]\n", 1, 1, 1, 1, 0, 0, 0, 0},
+    {PLANE "[x' + 2*y' - 0.1*t]\n", 1, 0, 0, 0, -1, 0, 1, 0},
+    {PLANE "[x' + y*z']\n", 1, 0, 1, 1, -1, 1, 1, 1},
+    {PLANE "[x' + y*z' + 0.1*t]\n", 1, 0, 0, 0, -1, 0, 1, 0},
+    {PLANE "[x'*sin(z) - y'*cos(z)]\n", 1, 0, 0, 0, -1, 1, 1, 1},
+    {PLANE "[x'^2 + y'^2 - z'^2]\nstart: {x': 0.6, y': 0.8, z': 1}\n", 0, 0, 0, 1, 1, 1, 1, 2},
+    {PLANE "[x'^2 + y'^2 - z'^2 + y*x']\nstart: {x': 0.6, y': 0.8, z': 1}\n", 0, 0, 0, 1, 0, 0, 0,
+     0},
+    {PLANE "[x'^3 - y'^3]\nstart: {x': 1, y': 1}\n", 0, 0, 0, 0, -1, 1, 1, 3},
+    /* g goes to -g with v */
+    {PLANE "[x' + y*z']\nmechanics: vakonomic\nstart: {g1: 0.5}\n", 1, 0, 1, 1, -1, 1, 1, 1},
+    {PLANE "[x'^2 - y'^2]\nmechanics: vakonomic\nstart: {x': 1, y': 1, g1: 0.2}\n", 0, 0, 0, 1, 1,
+     1, 1, 2},
+};
+
+static void examine_kind(const kind *expected)
+{
+    dal_model *model = fixture_model(expected->text);
+    dal_probe *probe = probe_of(fixture_system(model));
+    double x[8], degree = -1.0;
+    dal_degree d;
+    CU_ASSERT_EQUAL(dal_probe_start(probe, NULL, 0, x, NULL), DAL_OK);
+    const dal_point at = {0.0, x, x + 3};
+    CU_ASSERT_EQUAL(dal_measure_degree(probe, &at, &d, &degree), DAL_OK);
+    CU_ASSERT_EQUAL(d.linear, expected->linear);
+    CU_ASSERT_EQUAL(d.constant, expected->constant);
+    CU_ASSERT_EQUAL(d.bilinear, expected->bilinear);
+    CU_ASSERT_EQUAL(d.quadratic, expected->quadratic);
+    CU_ASSERT_EQUAL(d.parity, expected->parity);
+    CU_ASSERT_EQUAL(d.homogeneous, expected->homogeneous);
+    if (d.homogeneous) CU_ASSERT_DOUBLE_EQUAL(degree, expected->degree, 1e-9);
+    CU_ASSERT_EQUAL(d.reversible, expected->reversible);
+    dal_probe_free(probe);
+    dal_model_free(model);
+}
+
 static void test_degree(void)
 {
-    const struct {
-        const char *text;
-        int linear, constant, bilinear, quadratic, parity, homogeneous, reversible;
-        double degree;
-    } cases[] = {
-        {PLANE "[x' + 2*y' - z']\n", 1, 1, 1, 1, -1, 1, 1, 1},
-        {PLANE "[x' + 2*y' - z' + 0.3*x]\n", 1, 1, 1, 1, 0, 0, 0, 0},
-        {PLANE "[x' + 2*y' - 0.1*t]\n", 1, 0, 0, 0, -1, 0, 1, 0},
-        {PLANE "[x' + y*z']\n", 1, 0, 1, 1, -1, 1, 1, 1},
-        {PLANE "[x' + y*z' + 0.1*t]\n", 1, 0, 0, 0, -1, 0, 1, 0},
-        {PLANE "[x'*sin(z) - y'*cos(z)]\n", 1, 0, 0, 0, -1, 1, 1, 1},
-        {PLANE "[x'^2 + y'^2 - z'^2]\nstart: {x': 0.6, y': 0.8, z': 1}\n", 0, 0, 0, 1, 1, 1, 1, 2},
-        {PLANE "[x'^2 + y'^2 - z'^2 + y*x']\nstart: {x': 0.6, y': 0.8, z': 1}\n", 0, 0, 0, 1, 0, 0,
-         0, 0},
-        {PLANE "[x'^3 - y'^3]\nstart: {x': 1, y': 1}\n", 0, 0, 0, 0, -1, 1, 1, 3},
-        /* g goes to -g with v */
-        {PLANE "[x' + y*z']\nmechanics: vakonomic\nstart: {g1: 0.5}\n", 1, 0, 1, 1, -1, 1, 1, 1},
-        {PLANE "[x'^2 - y'^2]\nmechanics: vakonomic\nstart: {x': 1, y': 1, g1: 0.2}\n", 0, 0, 0, 1,
-         1, 1, 1, 2},
-    };
-    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
-        dal_model *model = fixture_model(cases[k].text);
-        dal_probe *probe = probe_of(fixture_system(model));
-        double x[8], degree = -1.0;
-        dal_degree d;
-        CU_ASSERT_EQUAL(dal_probe_start(probe, NULL, 0, x, NULL), DAL_OK);
-        const dal_point at = {0.0, x, x + 3};
-        CU_ASSERT_EQUAL(dal_measure_degree(probe, &at, &d, &degree), DAL_OK);
-        CU_ASSERT_EQUAL(d.linear, cases[k].linear);
-        CU_ASSERT_EQUAL(d.constant, cases[k].constant);
-        CU_ASSERT_EQUAL(d.bilinear, cases[k].bilinear);
-        CU_ASSERT_EQUAL(d.quadratic, cases[k].quadratic);
-        CU_ASSERT_EQUAL(d.parity, cases[k].parity);
-        CU_ASSERT_EQUAL(d.homogeneous, cases[k].homogeneous);
-        if (d.homogeneous) CU_ASSERT_DOUBLE_EQUAL(degree, cases[k].degree, 1e-9);
-        CU_ASSERT_EQUAL(d.reversible, cases[k].reversible);
-        dal_probe_free(probe);
-        dal_model_free(model);
-    }
+    for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) examine_kind(&kinds[k]);
 }
 
 /* ---- memory ---- */
