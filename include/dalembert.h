@@ -261,7 +261,7 @@ typedef enum dal_solver { DAL_SOLVER_AUTO, DAL_FIXED_POINT, DAL_NEWTON } dal_sol
     X(double, step, 0.01, 0.0, 1e300, NULL, "step size h in units of t")                           \
     X(int, space, DAL_LIFTED, 0, 1, "lifted|physical", "4n+2 canonical variables, or (q,v)")       \
     X(int, solver, DAL_SOLVER_AUTO, 0, 2, "auto|fixed-point|newton",                               \
-      "how implicit equations are solved, always to stagnation at rounding level")                 \
+      "for implicit equations, always solved to rounding level")                                   \
     X(int, iterations, 100, 1, 100000, NULL, "most iterations of an implicit equation")
 
 typedef struct dal_options {
@@ -338,7 +338,8 @@ char *dal_run_observable_name(const dal_run *run, int i, char *buffer, size_t si
 dal_status dal_run_observe(dal_run *run, double *out);
 
 /* Looks on while a run goes.  sample is called for each row, poll now and then (about every 1000
- * steps) between them; either may be NULL.  Any status but DAL_OK ends the run with that status. */
+ * steps and rows between steps) between them; either may be NULL.  Any status but DAL_OK ends the
+ * run with that status. */
 typedef struct dal_observer {
     void *user;
     dal_status (*sample)(void *user, dal_run *run, long long row, double t);

@@ -60,57 +60,63 @@ static dal_status turned(dal_run *run, const dal__cause *cause, double t, double
                       cause->constraint, t, t + h);
 }
 
-/* q, v a step further along the tangent, into run->shadow. */
-static bool predict(dal_run *run, double t, double h)
+/* Where the stages are not solved although the step is small, a constraint may be about to become
+ * singular: a guard, or a pivot of G, that would vanish within NEAR steps at the rate of a short
+ * piece PIECE*h of the tangent. */
+#define PIECE 1e-4
+#define NEAR  4.0
+
+static bool would_vanish(double now, double then) { return !(1.0 - then / now < PIECE / NEAR); }
+
+/* q, v a piece dt of the tangent further, into run->shadow. */
+static bool predict(dal_run *run, double t, double dt)
 {
     const dal__shape *k = &run->shape;
     double *f = run->answer;
     if (dal__engine_ask_x1(run->engine, DAL_ASK_FIELD, t, run->carried, f) != DAL_OK) return false;
-    for (int i = 0; i < k->n; i++) run->shadow[i] = run->carried[i] + h * run->carried[k->n + i];
-    for (int i = 0; i < k->nw; i++) run->shadow[k->n + i] = run->carried[k->n + i] + h * f[i];
+    for (int i = 0; i < k->n; i++) run->shadow[i] = run->carried[i] + dt * run->carried[k->n + i];
+    for (int i = 0; i < k->nw; i++) run->shadow[k->n + i] = run->carried[k->n + i] + dt * f[i];
     return true;
 }
 
 /* Asks at the present state and at the predicted one; where the second answer begins. */
-static double *ask_both(dal_run *run, int question, int size, double t, double h)
+static double *ask_both(dal_run *run, int question, int size, double t, double dt)
 {
     double *first = run->answer, *second = first + size;
     const bool good =
         dal__engine_ask_x1(run->engine, question, t, run->carried, first) == DAL_OK &&
-        dal__engine_ask_x1(run->engine, question, t + h, run->shadow, second) == DAL_OK;
+        dal__engine_ask_x1(run->engine, question, t + dt, run->shadow, second) == DAL_OK;
     return good ? second : NULL;
 }
 
-static int vanishing_guard(dal_run *run, double t, double h)
+static int vanishing_guard(dal_run *run, double t, double dt)
 {
     const int guards = run->shape.system->guards;
-    const double *g0 = run->answer, *g1 = ask_both(run, DAL_ASK_GUARDS, guards, t, h);
+    const double *g0 = run->answer, *g1 = ask_both(run, DAL_ASK_GUARDS, guards, t, dt);
     for (int i = 0; g1 && i < guards; i++)
-        if (!(g1[i] / g0[i] > 0.5)) return i + 1;
+        if (would_vanish(g0[i], g1[i])) return i + 1;
     return 0;
 }
 
-static int vanishing_normal(dal_run *run, double t, double h)
+static int vanishing_normal(dal_run *run, double t, double dt)
 {
     const int m = run->shape.m, n = run->shape.n, size = m + 2 * m * n;
     if (!(run->shape.system->properties & DAL_D_WATCHED)) return 0;
-    const double *c0 = run->answer, *c1 = ask_both(run, DAL_ASK_CONSTRAINT, size, t, h);
+    const double *c0 = run->answer, *c1 = ask_both(run, DAL_ASK_CONSTRAINT, size, t, dt);
     double *g0 = run->answer + 2 * size, *g1 = g0 + m * m;
     if (!c1) return 0;
     dal_gram(c0 + m, c0 + m + m * n, m, n, g0);
-    dal_gram(c1 + m, c0 + m + m * n, m, n, g1);
+    dal_gram(c1 + m, c1 + m + m * n, m, n, g1);
     for (int k = 0; k < m; k++)
-        if (!(dal_eliminate(g1, m, k) / dal_eliminate(g0, m, k) > 0.5)) return k + 1;
+        if (would_vanish(dal_eliminate(g0, m, k), dal_eliminate(g1, m, k))) return k + 1;
     return 0;
 }
 
-/* Where the stages are not solved although the step is small, a constraint may be about to become
- * singular: then, along the tangent, a guard or a normal loses more than half within the step. */
 static bool vanishes(dal_run *run, double t, double h, dal__cause *cause)
 {
-    if (!predict(run, t, h)) return false;
-    cause->guard = vanishing_guard(run, t, h);
-    if (!cause->guard) cause->constraint = vanishing_normal(run, t, h);
+    if (!predict(run, t, PIECE * h)) return false;
+    cause->guard = vanishing_guard(run, t, PIECE * h);
+    if (!cause->guard) cause->constraint = vanishing_normal(run, t, PIECE * h);
     return cause->guard || cause->constraint;
 }
 

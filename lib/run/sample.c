@@ -48,7 +48,7 @@ static dal_status side_step(sampling *k, double h, long long row, double t)
     if (status != DAL_OK) return dal__explain(run, h, status, k->error);
     const dal_status shown = show(k, row, t);
     memcpy(run->carried, run->shadow, bytes);
-    return shown;
+    return shown == DAL_OK ? poll(k) : shown;
 }
 
 static dal_status go_to_row(sampling *k, long long row, double t)
