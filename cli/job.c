@@ -137,6 +137,8 @@ int job_make(cli_job *job)
     int status = check(job);
     if (status == CLI_DONE) status = cli_load(job->system, &job->model, &job->made);
     if (status != CLI_DONE) return status;
+    /* A system without a lift has one space alone; only an explicit --space=lifted is an error. */
+    if (!job->text[JOB_space] && !job->made->call.adjoint) job->options.space = DAL_PHYSICAL;
     dal_error error = {0};
     dal_run_spec spec = {.system = job->made,
                          .method = job->method,

@@ -259,7 +259,8 @@ typedef enum dal_solver { DAL_SOLVER_AUTO, DAL_FIXED_POINT, DAL_NEWTON } dal_sol
 /* type, name, default, least, greatest, words (for choices), help */
 #define DAL_OPTION_LIST(X)                                                                         \
     X(double, step, 0.01, 0.0, 1e300, NULL, "step size h in units of t")                           \
-    X(int, space, DAL_LIFTED, 0, 1, "lifted|physical", "4n+2 canonical variables, or (q,v)")       \
+    X(int, space, DAL_LIFTED, 0, 1, "lifted|physical",                                             \
+      "4n+2 canonical variables, or (q,v), all that vakonomic systems have")                       \
     X(int, solver, DAL_SOLVER_AUTO, 0, 2, "auto|fixed-point|newton",                               \
       "for implicit equations, always solved to rounding level")                                   \
     X(int, iterations, 100, 1, 100000, NULL, "most iterations of an implicit equation")

@@ -16,6 +16,11 @@ holds "header" [ "$(head -1 out)" = "t,x,y,x',y',D1,E" ]
 try 0 run chaplygin-sleigh-vakonomic --integrator rk4 --step 0.1 --time 1 --space physical
 prints "^t,y1,y2,phi,y1',y2',phi',g1,D1,E"
 
+case_is "a vakonomic system has the physical space alone"
+try 0 run chaplygin-sleigh-vakonomic --integrator rk4 --step 0.1 --time 1
+prints "^t,y1,y2,phi,y1',y2',phi',g1,D1,E"
+try 2 run chaplygin-sleigh-vakonomic --integrator rk4 --step 0.1 --time 1 --space lifted
+
 case_is "N is 100 when nothing is said"
 try 0 run ./line.yaml --integrator rk4 --step 0.01 --time 1
 holds "102 lines" count out 102
