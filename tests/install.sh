@@ -18,7 +18,7 @@ export PKG_CONFIG_PATH
     fail "dalembert.pc and dalembert --version do not agree"
 
 # Each example against the shared and against the static library.
-for name in embed by_hand own_integrator; do
+for name in embed by_hand own_integrator contact_chain isokinetic_fluid; do
     flags="-std=c11 -Wall -Wextra -Werror -Wno-psabi -ffp-contract=off $CFLAGS examples/$name.c"
     quiet $cc $flags $(pkg-config --cflags --libs dalembert) -lm -o "$root/$name"
     quiet $cc $flags $(pkg-config --cflags dalembert) "$prefix/lib/libdalembert.a" \
