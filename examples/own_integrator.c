@@ -7,7 +7,7 @@
 #include <dalembert_kernel.h>
 #include <stdio.h>
 
-static dal_status step(dal_step *s)
+DAL_INLINE dal_status step(dal_step *s)
 {
     DAL_VECTOR(s, k1, s->dim);
     DAL_VECTOR(s, k2, s->dim);
@@ -19,9 +19,8 @@ static dal_status step(dal_step *s)
     return dal_update(s, s->h, y);
 }
 
-DAL_INTEGRATOR(heun, .name = "heun", .summary = "Heun's method", .reference = "Heun 1900",
-               .order = 2, .stages = 2, .claims = DAL_EXPLICIT, .needs = DAL_NEEDS_FIELD,
-               .step = step);
+DAL_INTEGRATOR(heun, step, .name = "heun", .summary = "Heun's method", .reference = "Heun 1900",
+               .order = 2, .stages = 2, .claims = DAL_EXPLICIT, .needs = DAL_NEEDS_FIELD);
 
 int main(void)
 {

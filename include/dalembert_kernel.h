@@ -34,16 +34,17 @@
 
 #include "../lib/kernel/collocation.h"
 
-/* Defines the constant descriptor dal_integrator_NAME; at the other widths only the library's
- * registry sees it, under a name of its own. */
+/* DAL_INTEGRATOR(NAME, step function, the descriptor's other members): defines the constant
+ * descriptor dal_integrator_NAME; at the other widths only the library's registry sees it, under a
+ * name of its own. */
 #if DAL_LANES == 1
-#define DAL_INTEGRATOR(identifier, ...)                                                            \
+#define DAL_INTEGRATOR(identifier, function, ...)                                                  \
     extern const dal_integrator dal_integrator_##identifier;                                       \
-    const dal_integrator dal_integrator_##identifier = {__VA_ARGS__}
+    const dal_integrator dal_integrator_##identifier = {.step = (function), __VA_ARGS__}
 #else
-#define DAL_INTEGRATOR(identifier, ...)                                                            \
+#define DAL_INTEGRATOR(identifier, function, ...)                                                  \
     extern const dal_integrator DAL_WIDE(dal__integrator_##identifier);                            \
-    const dal_integrator DAL_WIDE(dal__integrator_##identifier) = {__VA_ARGS__}
+    const dal_integrator DAL_WIDE(dal__integrator_##identifier) = {.step = (function), __VA_ARGS__}
 #endif
 
 #endif

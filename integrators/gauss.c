@@ -135,18 +135,14 @@ static const double e6[] = {-1.56791634615187423369e-1, 5.46632254422443822806e-
 
 /* The method with s stages under its name. */
 #define GAUSS(s, order_, name_)                                                                    \
-    static const dal_tableau tableau##s = {.stages = s,                                            \
-                                           .c = c##s,                                              \
-                                           .b = b##s,                                              \
-                                           .b_tail = b##s##_tail,                                  \
-                                           .a = a##s,                                              \
-                                           .a_tail = a##s##_tail,                                  \
-                                           .extrapolation = e##s};                                 \
-    static dal_status step##s(dal_step *step) { return dal_collocation(step, &tableau##s); }       \
-    DAL_INTEGRATOR(gauss##order_, .name = name_, .summary = "Gauss-Legendre, " #s " stages",       \
-                   .reference = "Hairer, Lubich, Wanner 2006, II.1.3", .order = order_,            \
-                   .stages = s, .claims = DAL_SYMMETRIC | DAL_SYMPLECTIC | DAL_KEEPS_QUADRATIC,    \
-                   .needs = DAL_NEEDS_FIELD, .step = step##s)
+    static const dal_tableau tableau##s = {                                                        \
+        s, c##s, b##s, b##s##_tail, a##s, a##s##_tail, e##s,                                       \
+    };                                                                                             \
+    DAL_INLINE dal_status step##s(dal_step *step) { return dal_collocation(step, &tableau##s); }   \
+    DAL_INTEGRATOR(                                                                                \
+        gauss##order_, step##s, .name = name_, .summary = "Gauss-Legendre, " #s " stages",         \
+        .reference = "Hairer, Lubich, Wanner 2006, II.1.3", .order = order_, .stages = s,          \
+        .claims = DAL_SYMMETRIC | DAL_SYMPLECTIC | DAL_KEEPS_QUADRATIC, .needs = DAL_NEEDS_FIELD)
 
 GAUSS(2, 4, "gauss4");
 GAUSS(3, 6, "gauss6");

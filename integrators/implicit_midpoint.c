@@ -8,17 +8,12 @@
 
 static const double half[] = {0.5}, one[] = {1.0}, zero[] = {0.0};
 
-static const dal_tableau tableau = {.stages = 1,
-                                    .c = half,
-                                    .b = one,
-                                    .b_tail = zero,
-                                    .a = half,
-                                    .a_tail = zero,
-                                    .extrapolation = one};
+static const dal_tableau tableau = {1, half, one, zero, half, zero, one};
 
-static dal_status step(dal_step *s) { return dal_collocation(s, &tableau); }
+DAL_INLINE dal_status step(dal_step *s) { return dal_collocation(s, &tableau); }
 
-DAL_INTEGRATOR(implicit_midpoint, .name = "implicit-midpoint", .summary = "implicit midpoint rule",
+DAL_INTEGRATOR(implicit_midpoint, step, .name = "implicit-midpoint",
+               .summary = "implicit midpoint rule",
                .reference = "Hairer, Lubich, Wanner 2006, II.1", .order = 2, .stages = 1,
                .claims = DAL_SYMMETRIC | DAL_SYMPLECTIC | DAL_KEEPS_QUADRATIC,
-               .needs = DAL_NEEDS_FIELD, .step = step);
+               .needs = DAL_NEEDS_FIELD);

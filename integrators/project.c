@@ -17,72 +17,73 @@ typedef struct projection {
     num *shift;   /* [m] */
 } projection;
 
-static void ask(dal_step *s, projection *p)
+DAL_INLINE void ask(dal_step *s, projection *p)
 {
-    s->ask(s, DAL_ASK_CONSTRAINT, s->t, s->y, p->v, NULL, p->out);
+    dal_ask(s, DAL_ASK_CONSTRAINT, s->t, s->y, p->v, NULL, p->out);
 }
 
 /* The unknown is the change of v, whose scale is that of v. */
-static void map(dal_step *s, dal_equation *eq)
+DAL_INLINE void map(dal_step *s, dal_equation *eq)
 {
-    projection *p = eq->context;
-    for (int i = 0; i < s->n; i++) p->v[i] = p->u[i] + eq->block[0].u[i];
+    projection *p = (projection *)eq->context;
+    const int n = DAL_N(s), m = DAL_M(s);
+    DAL_EACH(i, n) p->v[i] = p->u[i] + eq->block[0].u[i];
     ask(s, p);
-    dal_multiply(p->inverse, s->m, s->m, p->out, p->shift);
-    dal_multiply(p->normals, s->n, s->m, p->shift, eq->block[0].image);
-    for (int i = 0; i < s->n; i++)
-        eq->block[0].image[i] = eq->block[0].u[i] - eq->block[0].image[i];
+    dal_multiply(p->inverse, m, m, p->out, p->shift);
+    dal_multiply(p->normals, n, m, p->shift, eq->block[0].image);
+    DAL_EACH(i, n) eq->block[0].image[i] = eq->block[0].u[i] - eq->block[0].image[i];
 }
 
 /* B and G^-1 at (q1, u). */
-static dal_status freeze(dal_step *s, projection *p)
+DAL_INLINE dal_status freeze(dal_step *s, projection *p)
 {
-    const int n = s->n, m = s->m;
-    DAL_VECTOR(s, g, m * m);
+    const int n = DAL_N(s), m = DAL_M(s);
+    DAL_VECTOR(s, g, DAL_M(s) * DAL_M(s));
     ask(s, p);
     const num *a = p->out + m, *b = p->out + m + m * n;
-    memcpy(p->normals, b, (size_t)(n * m) * sizeof *b);
+    DAL_EACH(i, n * m) p->normals[i] = b[i];
     dal_gram(a, b, m, n, g);
     dal_invert(g, p->inverse, m);
     return DAL_OK;
 }
 
-static dal_status project_velocity(dal_step *s)
+DAL_INLINE dal_status project_velocity(dal_step *s)
 {
-    const int n = s->n, m = s->m;
-    DAL_VECTOR(s, v, n);
-    DAL_VECTOR(s, out, m + 2 * m * n);
-    DAL_VECTOR(s, normals, n * m);
-    DAL_VECTOR(s, inverse, m * m);
-    DAL_VECTOR(s, shift, m);
+    const int n = DAL_N(s);
+    DAL_VECTOR(s, v, DAL_N(s));
+    DAL_VECTOR(s, out, DAL_M(s) + 2 * DAL_M(s) * DAL_N(s));
+    DAL_VECTOR(s, normals, DAL_N(s) * DAL_M(s));
+    DAL_VECTOR(s, inverse, DAL_M(s) * DAL_M(s));
+    DAL_VECTOR(s, shift, DAL_M(s));
+    DAL_BLOCK(s, change, DAL_N(s), 0);
     projection p = {s->y + n, v, out, normals, inverse, shift};
-    dal_equation eq = {.blocks = 1, .map = map, .context = &p};
-    DAL_TRY(dal_block_init(s, &eq.block[0], n, 1.0, dal_max_norm(s->y + n, n)));
-    for (int i = 0; i < n; i++) eq.block[0].u[i] = dal_num(0.0);
-    memcpy(v, s->y + n, (size_t)n * sizeof *v);
+    dal_equation eq = {{change}, 1, &p};
+    eq.block[0].scale = dal_max_norm(s->y + n, n);
+    DAL_EACH(i, n) eq.block[0].u[i] = dal_num(0.0);
+    DAL_EACH(i, n) v[i] = s->y[n + i];
     DAL_TRY(freeze(s, &p));
-    DAL_TRY(dal_solve(s, &eq));
+    DAL_TRY(dal_solve(s, &eq, map, NULL));
     dal_add(s, n, n, eq.block[0].u);
     return DAL_OK;
 }
 
-static void clear(dal_step *s, int first, int count)
+DAL_INLINE void clear(dal_step *s, int first, int count)
 {
-    for (int i = first; i < first + count; i++) {
-        s->y[i] = dal_select(s->alive, dal_num(0.0), s->y[i]);
-        s->r[i] = dal_select(s->alive, dal_num(0.0), s->r[i]);
+    DAL_EACH(i, count) {
+        s->y[first + i] = dal_select(s->alive, dal_num(0.0), s->y[first + i]);
+        s->r[first + i] = dal_select(s->alive, dal_num(0.0), s->r[first + i]);
     }
 }
 
-static dal_status step(dal_step *s)
+DAL_INLINE dal_status step(dal_step *s)
 {
     DAL_TRY(dal_inner(s, s->h));
-    if (s->m > 0) DAL_TRY(project_velocity(s));
-    if (s->lifted) clear(s, dal_at_p(s), 2 * s->n + 1);
+    if (DAL_M(s) > 0) DAL_TRY(project_velocity(s));
+    if (DAL_LIFTED(s)) clear(s, dal_at_p(s), 2 * DAL_N(s) + 1);
     return DAL_OK;
 }
 
-DAL_INTEGRATOR(project, .name = "project",
+DAL_INTEGRATOR(project, step, .name = "project",
                .summary = "after each step back to D = 0, p = pi = pi_e = 0, in the mass metric",
                .reference = "Hairer, Lubich, Wanner 2006, IV.4", .stages = 1,
-               .claims = DAL_MODIFIER | DAL_KEEPS_D, .needs = DAL_NEEDS_CONSTRAINT, .step = step);
+               .claims = DAL_MODIFIER | DAL_KEEPS_D, .needs = DAL_NEEDS_CONSTRAINT);

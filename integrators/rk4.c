@@ -8,25 +8,25 @@
  * Order 4, explicit, four evaluations; keeps D with constant coefficients, no other. */
 #include <dalembert_kernel.h>
 
-static dal_status step(dal_step *s)
+DAL_INLINE dal_status step(dal_step *s)
 {
     const double h = s->h;
-    DAL_VECTOR(s, k1, s->dim);
-    DAL_VECTOR(s, k2, s->dim);
-    DAL_VECTOR(s, k3, s->dim);
-    DAL_VECTOR(s, k4, s->dim);
-    DAL_VECTOR(s, y, s->dim);
+    DAL_VECTOR(s, k1, DAL_DIM(s));
+    DAL_VECTOR(s, k2, DAL_DIM(s));
+    DAL_VECTOR(s, k3, DAL_DIM(s));
+    DAL_VECTOR(s, k4, DAL_DIM(s));
+    DAL_VECTOR(s, y, DAL_DIM(s));
     DAL_TRY(dal_field(s, s->t, s->y, k1));
-    for (int i = 0; i < s->dim; i++) y[i] = s->y[i] + 0.5 * h * k1[i];
+    DAL_EACH(i, DAL_DIM(s)) y[i] = s->y[i] + 0.5 * h * k1[i];
     DAL_TRY(dal_field(s, s->t + 0.5 * h, y, k2));
-    for (int i = 0; i < s->dim; i++) y[i] = s->y[i] + 0.5 * h * k2[i];
+    DAL_EACH(i, DAL_DIM(s)) y[i] = s->y[i] + 0.5 * h * k2[i];
     DAL_TRY(dal_field(s, s->t + 0.5 * h, y, k3));
-    for (int i = 0; i < s->dim; i++) y[i] = s->y[i] + h * k3[i];
+    DAL_EACH(i, DAL_DIM(s)) y[i] = s->y[i] + h * k3[i];
     DAL_TRY(dal_field(s, s->t + h, y, k4));
-    for (int i = 0; i < s->dim; i++) y[i] = h / 6.0 * ((k1[i] + k4[i]) + 2.0 * (k2[i] + k3[i]));
+    DAL_EACH(i, DAL_DIM(s)) y[i] = h / 6.0 * ((k1[i] + k4[i]) + 2.0 * (k2[i] + k3[i]));
     return dal_update(s, h, y);
 }
 
-DAL_INTEGRATOR(rk4, .name = "rk4", .summary = "classical Runge-Kutta", .reference = "Kutta 1901",
-               .order = 4, .stages = 4, .claims = DAL_EXPLICIT, .needs = DAL_NEEDS_FIELD,
-               .step = step);
+DAL_INTEGRATOR(rk4, step, .name = "rk4", .summary = "classical Runge-Kutta",
+               .reference = "Kutta 1901", .order = 4, .stages = 4, .claims = DAL_EXPLICIT,
+               .needs = DAL_NEEDS_FIELD);

@@ -9,14 +9,15 @@
  * keeps D bilinear in (q,v). */
 #include <dalembert_kernel.h>
 
-static dal_status step(dal_step *s)
+DAL_INLINE dal_status step(dal_step *s)
 {
     const double half = 0.5 * s->h;
     DAL_TRY(dal_polarised_euler(s, DAL_POLARISATION(1, 0), half));
     return dal_polarised_euler(s, DAL_POLARISATION(0, 1), half);
 }
 
-DAL_INTEGRATOR(stormer_verlet, .name = "stormer-verlet", .summary = "generalised Stormer-Verlet",
+DAL_INTEGRATOR(stormer_verlet, step, .name = "stormer-verlet",
+               .summary = "generalised Stormer-Verlet",
                .reference = "Hairer, Lubich, Wanner 2006, VI.3", .order = 2, .stages = 1,
                .claims = DAL_SYMMETRIC | DAL_SYMPLECTIC | DAL_KEEPS_BILINEAR,
-               .needs = DAL_NEEDS_FIELD, .step = step);
+               .needs = DAL_NEEDS_FIELD);

@@ -13,42 +13,42 @@
 
 static DAL_UNUSED const char reference[] = "Hairer, Lubich, Wanner 2006, VI.3";
 
-static dal_status step_00(dal_step *s)
+DAL_INLINE dal_status step_00(dal_step *s)
 {
     return dal_polarised_euler(s, DAL_POLARISATION(0, 0), s->h);
 }
 
-DAL_INTEGRATOR(symplectic_euler_00, .name = "symplectic-euler-00",
+DAL_INTEGRATOR(symplectic_euler_00, step_00, .name = "symplectic-euler-00",
                .summary = "symplectic Euler; explicit Euler on (q,v)", .reference = reference,
                .order = 1, .stages = 1, .claims = DAL_SYMPLECTIC | DAL_EXPLICIT,
-               .needs = DAL_NEEDS_FIELD, .step = step_00);
+               .needs = DAL_NEEDS_FIELD);
 
-static dal_status step_10(dal_step *s)
+DAL_INLINE dal_status step_10(dal_step *s)
 {
     return dal_polarised_euler(s, DAL_POLARISATION(1, 0), s->h);
 }
 
-DAL_INTEGRATOR(symplectic_euler_10, .name = "symplectic-euler-10", .alias = "symplectic-euler",
-               .summary = "symplectic Euler, new q and old v", .reference = reference, .order = 1,
-               .stages = 1, .claims = DAL_SYMPLECTIC | DAL_KEEPS_BILINEAR | DAL_EXPLICIT,
-               .needs = DAL_NEEDS_FIELD, .step = step_10);
+DAL_INTEGRATOR(symplectic_euler_10, step_10, .name = "symplectic-euler-10",
+               .alias = "symplectic-euler", .summary = "symplectic Euler, new q and old v",
+               .reference = reference, .order = 1, .stages = 1,
+               .claims = DAL_SYMPLECTIC | DAL_KEEPS_BILINEAR | DAL_EXPLICIT,
+               .needs = DAL_NEEDS_FIELD);
 
-static dal_status step_01(dal_step *s)
+DAL_INLINE dal_status step_01(dal_step *s)
 {
     return dal_polarised_euler(s, DAL_POLARISATION(0, 1), s->h);
 }
 
-DAL_INTEGRATOR(symplectic_euler_01, .name = "symplectic-euler-01",
+DAL_INTEGRATOR(symplectic_euler_01, step_01, .name = "symplectic-euler-01",
                .summary = "symplectic Euler, old q and new v", .reference = reference, .order = 1,
-               .stages = 1, .claims = DAL_SYMPLECTIC | DAL_KEEPS_BILINEAR, .needs = DAL_NEEDS_FIELD,
-               .step = step_01);
+               .stages = 1, .claims = DAL_SYMPLECTIC | DAL_KEEPS_BILINEAR,
+               .needs = DAL_NEEDS_FIELD);
 
-static dal_status step_11(dal_step *s)
+DAL_INLINE dal_status step_11(dal_step *s)
 {
     return dal_polarised_euler(s, DAL_POLARISATION(1, 1), s->h);
 }
 
-DAL_INTEGRATOR(symplectic_euler_11, .name = "symplectic-euler-11",
+DAL_INTEGRATOR(symplectic_euler_11, step_11, .name = "symplectic-euler-11",
                .summary = "symplectic Euler; implicit Euler on (q,v)", .reference = reference,
-               .order = 1, .stages = 1, .claims = DAL_SYMPLECTIC, .needs = DAL_NEEDS_FIELD,
-               .step = step_11);
+               .order = 1, .stages = 1, .claims = DAL_SYMPLECTIC, .needs = DAL_NEEDS_FIELD);

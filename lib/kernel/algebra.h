@@ -5,9 +5,9 @@
 /* y[rows] = M x, M[rows*columns] */
 DAL_INLINE void dal_multiply(const num *m, int rows, int columns, const num *x, num *y)
 {
-    for (int i = 0; i < rows; i++) {
+    DAL_EACH(i, rows) {
         num sum = dal_num(0.0);
-        for (int j = 0; j < columns; j++) sum += m[i * columns + j] * x[j];
+        DAL_EACH(j, columns) sum += m[i * columns + j] * x[j];
         y[i] = sum;
     }
 }
@@ -15,9 +15,9 @@ DAL_INLINE void dal_multiply(const num *m, int rows, int columns, const num *x, 
 /* g[m*m] = A B, the matrix G of m constraints: A[m*n], B[n*m]. */
 DAL_INLINE void dal_gram(const num *a, const num *b, int m, int n, num *g)
 {
-    for (int i = 0; i < m * m; i++) {
+    DAL_EACH(i, m * m) {
         g[i] = dal_num(0.0);
-        for (int j = 0; j < n; j++) g[i] += a[i / m * n + j] * b[j * m + i % m];
+        DAL_EACH(j, n) g[i] += a[i / m * n + j] * b[j * m + i % m];
     }
 }
 
@@ -62,7 +62,7 @@ DAL_INLINE void dal__eliminate(num *m, int n, int i, int k, num factor)
 /* inverse[n*n] of m[n*n], which is destroyed: Gauss-Jordan with partial pivoting in each lane.
  * A singular matrix leaves infinities or NaN.  The callers iterate to stagnation on a residual, so
  * the inverse only sets the rate of convergence, never the result. */
-DAL_INLINE void dal_invert(num *m, num *inverse, int n)
+DAL_COLD void dal_invert(num *m, num *inverse, int n)
 {
     for (int i = 0; i < n * n; i++) inverse[i] = dal_num(i % (n + 1) == 0);
     for (int k = 0; k < n; k++) {

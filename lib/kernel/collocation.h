@@ -36,7 +36,8 @@ DAL_INLINE num dal__weighted(const double *head, const double *tail, int stages,
                              const num *x, int stride)
 {
     num large = head[0] * x[0], small = tail[0] * x[0];
-    for (int j = 1; j < stages; j++) {
+    DAL_EACH(i, stages - 1) {
+        const int j = i + 1;
         large += head[j] * x[j * stride];
         small += tail[j] * x[j * stride];
     }
@@ -44,20 +45,20 @@ DAL_INLINE num dal__weighted(const double *head, const double *tail, int stages,
 }
 DAL_INLINE num dal__stage(const dal_stages *k, int i, const num *x, int stride)
 {
-    const int s = k->method->stages;
+    const int s = DAL_STAGES(k->method);
     return dal__weighted(k->method->a + i * s, k->method->a_tail + i * s, s, k->h, x, stride);
 }
 DAL_INLINE num dal__end(const dal_stages *k, const num *x, int stride)
 {
-    return dal__weighted(k->method->b, k->method->b_tail, k->method->stages, k->h, x, stride);
+    return dal__weighted(k->method->b, k->method->b_tail, DAL_STAGES(k->method), k->h, x, stride);
 }
 
 /* Stage values base + (r + h sum a x) for count components. */
 DAL_INLINE void dal__stage_values(dal_step *s, const dal_stages *k, int first, int count,
                                   const num *x, int stride, num *out)
 {
-    for (int i = 0; i < k->method->stages; i++)
-        for (int j = 0; j < count; j++)
+    DAL_EACH(i, DAL_STAGES(k->method))
+        DAL_EACH(j, count)
             out[i * count + j] =
                 s->y[first + j] + (s->r[first + j] + dal__stage(k, i, x + j, stride));
 }
@@ -65,9 +66,9 @@ DAL_INLINE void dal__stage_values(dal_step *s, const dal_stages *k, int first, i
 /* The slopes of pi: L_i = -(p + r - h sum a F_q^T Pi) - F_v^T Pi. */
 DAL_INLINE void dal__momentum_slopes(dal_step *s, const dal_stages *k, num *image)
 {
-    const int n = s->n, p = dal_at_p(s);
-    for (int i = 0; i < k->method->stages; i++)
-        for (int j = 0; j < n; j++) {
+    const int n = DAL_N(s), p = dal_at_p(s);
+    DAL_EACH(i, DAL_STAGES(k->method))
+        DAL_EACH(j, n) {
             const num shift = s->r[p + j] - dal__stage(k, i, k->f + n + j, k->stride);
             image[i * n + j] = -(s->y[p + j] + shift) - k->f[i * k->stride + 2 * n + j];
         }
@@ -76,35 +77,35 @@ DAL_INLINE void dal__momentum_slopes(dal_step *s, const dal_stages *k, num *imag
 /* Asks the system at every stage. */
 DAL_INLINE void dal__ask_stages(dal_step *s, const dal_stages *k)
 {
-    for (int i = 0; i < k->method->stages; i++) {
+    DAL_EACH(i, DAL_STAGES(k->method)) {
         const double t = s->t + k->method->c[i] * k->h;
-        const num *q = k->q + i * s->n, *v = k->v + i * s->nw;
-        if (s->lifted) dal_adjoint(s, t, q, v, k->pi + i * s->n, k->f + i * k->stride);
-        if (!s->lifted) dal_force(s, t, q, v, k->f + i * k->stride);
+        const num *q = k->q + i * DAL_N(s), *v = k->v + i * DAL_NW(s);
+        if (DAL_LIFTED(s)) dal_adjoint(s, t, q, v, k->pi + i * DAL_N(s), k->f + i * k->stride);
+        if (!DAL_LIFTED(s)) dal_force(s, t, q, v, k->f + i * k->stride);
     }
 }
 
 DAL_INLINE void dal__collocation_map(dal_step *s, dal_equation *eq)
 {
-    const dal_stages *k = eq->context;
-    const int n = s->n, nw = s->nw;
+    const dal_stages *k = (const dal_stages *)eq->context;
+    const int n = DAL_N(s), nw = DAL_NW(s);
     dal__stage_values(s, k, n, nw, eq->block[0].u, nw, k->v);
     dal__stage_values(s, k, 0, n, k->v, nw, k->q);
-    if (s->lifted) dal__stage_values(s, k, dal_at_pi(s), n, eq->block[1].u, n, k->pi);
+    if (DAL_LIFTED(s)) dal__stage_values(s, k, dal_at_pi(s), n, eq->block[1].u, n, k->pi);
     dal__ask_stages(s, k);
-    for (int i = 0; i < k->method->stages; i++)
-        for (int j = 0; j < nw; j++) {
+    DAL_EACH(i, DAL_STAGES(k->method))
+        DAL_EACH(j, nw) {
             const num f = k->f[i * k->stride + j];
             eq->block[0].image[i * nw + j] = f;
-            if (s->lifted) eq->block[0].image[i * nw + j] = f + k->pi[i * n + j] * k->w[i];
+            if (DAL_LIFTED(s)) eq->block[0].image[i * nw + j] = f + k->pi[i * n + j] * k->w[i];
         }
-    if (s->lifted) dal__momentum_slopes(s, k, eq->block[1].image);
+    if (DAL_LIFTED(s)) dal__momentum_slopes(s, k, eq->block[1].image);
 }
 
 /* a and a a, rounded: good enough for Newton's matrix. */
 DAL_INLINE void dal__tableau_squared(const dal_tableau *m, double *a, double *a2)
 {
-    const int s = m->stages;
+    const int s = DAL_STAGES(m);
     for (int i = 0; i < s * s; i++) a[i] = m->a[i] + m->a_tail[i];
     for (int i = 0; i < s * s; i++) {
         a2[i] = 0.0;
@@ -114,74 +115,81 @@ DAL_INLINE void dal__tableau_squared(const dal_tableau *m, double *a, double *a2
 
 DAL_INLINE dal_status dal__collocation_matrix(dal_step *s, dal_equation *eq)
 {
-    const dal_stages *k = eq->context;
-    const int stages = k->method->stages;
+    const dal_stages *k = (const dal_stages *)eq->context;
+    const int stages = DAL_STAGES(k->method);
     double a[DAL_MOST_STAGES * DAL_MOST_STAGES], a2[DAL_MOST_STAGES * DAL_MOST_STAGES];
-    DAL_VECTOR(s, jacobian, s->nw * s->n + s->nw * s->nw);
+    DAL_VECTOR(s, jacobian, DAL_NW(s) * (DAL_N(s) + DAL_NW(s)));
+    DAL_VECTOR(s, m, DAL_STAGES(k->method) * DAL_NW(s) * DAL_STAGES(k->method) * DAL_NW(s));
     dal__tableau_squared(k->method, a, a2);
-    dal_jacobian(s, s->t + 0.5 * k->h, s->y, s->y + s->n, jacobian);
+    dal_jacobian(s, s->t + 0.5 * k->h, s->y, s->y + DAL_N(s), jacobian);
     const dal_stage_matrix x = {stages, k->h, a, a2, 0}, p = {stages, -k->h, a, a2, 1};
-    DAL_TRY(dal_stage_inverse(s, &x, jacobian, &eq->block[0]));
-    return s->lifted ? dal_stage_inverse(s, &p, jacobian, &eq->block[1]) : DAL_OK;
+    dal_stage_inverse(s, &x, jacobian, m, &eq->block[0]);
+    if (DAL_LIFTED(s)) dal_stage_inverse(s, &p, jacobian, m, &eq->block[1]);
+    return DAL_OK;
 }
 
 /* Guess from the slopes at the present state, every stage alike, in the given lanes. */
-DAL_INLINE dal_status dal__guess_present(dal_step *s, dal_stages *k, dal_equation *eq,
-                                         dal_mask lanes)
+DAL_INLINE void dal__guess_block(dal_block *b, int width, const num *slope, dal_mask lanes)
 {
-    DAL_VECTOR(s, dy, s->dim);
+    DAL_EACH(i, b->size) b->u[i] = dal_select(lanes, slope[i % width], b->u[i]);
+}
+DAL_INLINE dal_status dal__guess_present(dal_step *s, dal_equation *eq, dal_mask lanes)
+{
+    DAL_VECTOR(s, dy, DAL_DIM(s));
     DAL_TRY(dal_field(s, s->t, s->y, dy));
-    for (int b = 0; b < eq->blocks; b++) {
-        const num *slope = dy + (b ? dal_at_pi(s) : s->n);
-        const int width = eq->block[b].size / k->method->stages;
-        for (int i = 0; i < eq->block[b].size; i++)
-            eq->block[b].u[i] = dal_select(lanes, slope[i % width], eq->block[b].u[i]);
-    }
+    dal__guess_block(&eq->block[0], DAL_NW(s), dy + DAL_N(s), lanes);
+    if (DAL_LIFTED(s)) dal__guess_block(&eq->block[1], DAL_N(s), dy + dal_at_pi(s), lanes);
     return DAL_OK;
 }
 
 /* Guess from the last step's polynomial. */
-DAL_INLINE void dal__guess_last(dal_step *s, const dal_stages *k, dal_equation *eq)
+DAL_INLINE void dal__extrapolate(const dal_tableau *m, dal_block *b, int width, const num *last)
 {
-    const dal_tableau *m = k->method;
-    const num *last = s->slopes;
-    for (int b = 0; b < eq->blocks; b++) {
-        const int width = eq->block[b].size / m->stages;
-        for (int i = 0; i < eq->block[b].size; i++) {
-            num sum = dal_num(0.0);
-            for (int j = 0; j < m->stages; j++)
-                sum += m->extrapolation[i / width * m->stages + j] * last[j * width + i % width];
-            eq->block[b].u[i] = sum;
-        }
-        last += eq->block[b].size;
+    const int stages = DAL_STAGES(m);
+    DAL_EACH(i, b->size) {
+        num sum = dal_num(0.0);
+        DAL_EACH(j, stages)
+            sum += m->extrapolation[i / width * stages + j] * last[j * width + i % width];
+        b->u[i] = sum;
     }
+}
+DAL_INLINE void dal__guess_last(dal_step *s, const dal_tableau *m, dal_equation *eq)
+{
+    const num *momenta = s->slopes + DAL_STAGES(m) * DAL_NW(s);
+    dal__extrapolate(m, &eq->block[0], DAL_NW(s), s->slopes);
+    if (DAL_LIFTED(s)) dal__extrapolate(m, &eq->block[1], DAL_N(s), momenta);
 }
 
 /* Solves the stages from the last step's polynomial where there is one; where there is none, or
  * where it led nowhere (it is far off when h is large), from the present slopes. */
-DAL_INLINE dal_status dal__solve_stages(dal_step *s, dal_stages *k, dal_equation *eq)
+DAL_INLINE dal_status dal__solve_stages(dal_step *s, const dal_stages *k, dal_equation *eq)
 {
     const dal_mask lanes = s->alive, known = lanes & dal_equal(*s->slopes_h, dal_num(k->h));
-    dal__guess_last(s, k, eq);
+    dal_status status = DAL_OK;
+    dal__guess_last(s, k->method, eq);
     s->alive = known;
-    if (dal_any(known)) (void)dal_solve(s, eq);
+    if (dal_any(known)) (void)dal_solve(s, eq, dal__collocation_map, dal__collocation_matrix);
     const dal_mask done = s->alive, left = lanes & ~done;
-    if (!dal_any(left)) return DAL_OK;
-    s->unconverged &= ~left;
-    s->alive = left;
-    DAL_TRY(dal__guess_present(s, k, eq, left));
-    const dal_status status = dal_solve(s, eq);
-    s->alive |= done;
+    if (dal_any(left)) {
+        s->unconverged &= ~left;
+        s->alive = left;
+        DAL_TRY(dal__guess_present(s, eq, left));
+        status = dal_solve(s, eq, dal__collocation_map, dal__collocation_matrix);
+        s->alive |= done;
+    }
     return dal_any(s->alive) ? DAL_OK : status;
 }
 
 /* Keeps the slopes for the next step's guess. */
+DAL_INLINE void dal__keep_block(const dal_step *s, const dal_block *b, num *last)
+{
+    DAL_EACH(i, b->size) last[i] = dal_select(s->alive, b->u[i], last[i]);
+}
 DAL_INLINE void dal__keep_slopes(dal_step *s, const dal_stages *k, const dal_equation *eq)
 {
-    num *last = s->slopes;
-    for (int b = 0; b < eq->blocks; b++)
-        for (int i = 0; i < eq->block[b].size; i++, last++)
-            *last = dal_select(s->alive, eq->block[b].u[i], *last);
+    num *momenta = s->slopes + DAL_STAGES(k->method) * DAL_NW(s);
+    dal__keep_block(s, &eq->block[0], s->slopes);
+    if (DAL_LIFTED(s)) dal__keep_block(s, &eq->block[1], momenta);
     *s->slopes_h = dal_select(s->alive, dal_num(k->h), *s->slopes_h);
 }
 
@@ -189,49 +197,55 @@ DAL_INLINE void dal__keep_slopes(dal_step *s, const dal_stages *k, const dal_equ
 DAL_INLINE void dal__gauge_stages(dal_step *s, dal_stages *k)
 {
     const dal_tableau *m = k->method;
-    for (int i = 0; i < m->stages; i++) k->mu[i] = dal_mu_e(s, s->t + m->c[i] * k->h);
-    for (int i = 0; i < m->stages; i++)
-        k->w[i] = 1.0 / (s->y[dal_at_e(s)] + dal__stage(k, i, k->mu, 1));
+    DAL_EACH(i, DAL_STAGES(m)) k->mu[i] = dal_mu_e(s, s->t + m->c[i] * k->h);
+    DAL_EACH(i, DAL_STAGES(m)) k->w[i] = 1.0 / (s->y[dal_at_e(s)] + dal__stage(k, i, k->mu, 1));
+}
+
+/* The momenta's half of y1 - y. */
+DAL_INLINE dal_status dal__collocation_momenta(dal_step *s, const dal_stages *k,
+                                               const dal_equation *eq, num *d)
+{
+    const int n = DAL_N(s);
+    DAL_VECTOR(s, rate, DAL_STAGES(k->method));
+    DAL_EACH(i, DAL_STAGES(k->method)) rate[i] = dal_gauge_rate(k->pi + i * n, n, k->w[i]);
+    DAL_EACH(j, n) {
+        d[dal_at_p(s) + j] = -dal__end(k, k->f + n + j, k->stride);
+        d[dal_at_pi(s) + j] = dal__end(k, eq->block[1].u + j, n);
+    }
+    d[dal_at_e(s)] = dal__end(k, k->mu, 1);
+    d[dal_at_pi_e(s)] = dal__end(k, rate, 1);
+    return DAL_OK;
 }
 
 /* y1 - y from the solved stages. */
 DAL_INLINE dal_status dal__collocation_end(dal_step *s, const dal_stages *k, const dal_equation *eq)
 {
-    const int n = s->n, nw = s->nw;
-    DAL_VECTOR(s, d, s->dim);
-    for (int j = 0; j < n; j++) d[j] = dal__end(k, k->v + j, nw);
-    for (int j = 0; j < nw; j++) d[n + j] = dal__end(k, eq->block[0].u + j, nw);
-    if (s->lifted) {
-        num rate[DAL_MOST_STAGES];
-        for (int i = 0; i < k->method->stages; i++)
-            rate[i] = dal_gauge_rate(k->pi + i * n, n, k->w[i]);
-        for (int j = 0; j < n; j++) {
-            d[dal_at_p(s) + j] = -dal__end(k, k->f + n + j, k->stride);
-            d[dal_at_pi(s) + j] = dal__end(k, eq->block[1].u + j, n);
-        }
-        d[dal_at_e(s)] = dal__end(k, k->mu, 1);
-        d[dal_at_pi_e(s)] = dal__end(k, rate, 1);
-    }
+    const int n = DAL_N(s), nw = DAL_NW(s);
+    DAL_VECTOR(s, d, DAL_DIM(s));
+    DAL_EACH(j, n) d[j] = dal__end(k, k->v + j, nw);
+    DAL_EACH(j, nw) d[n + j] = dal__end(k, eq->block[0].u + j, nw);
+    if (DAL_LIFTED(s)) DAL_TRY(dal__collocation_momenta(s, k, eq, d));
     return dal_update(s, k->h, d);
 }
 
 /* One step of size s->h from the present state and time; leaves the time advanced. */
 DAL_INLINE dal_status dal_collocation(dal_step *s, const dal_tableau *method)
 {
-    const int n = s->n, nw = s->nw, st = method->stages;
-    const int stride = s->lifted ? 3 * n : nw;
-    DAL_VECTOR(s, x, st * (2 * n + nw));
-    DAL_VECTOR(s, f, st * stride);
-    num w[DAL_MOST_STAGES], mu[DAL_MOST_STAGES];
-    dal_stages k = {method, s->h, x, x + st * nw, x + st * (nw + n), f, w, mu, stride};
-    dal_equation eq = {.blocks = 1 + s->lifted,
-                       .map = dal__collocation_map,
-                       .matrix = dal__collocation_matrix,
-                       .context = &k};
-    DAL_TRY(dal_block_init(s, &eq.block[0], st * nw, s->h, dal_velocity_scale(s, s->h)));
-    if (s->lifted) {
+    DAL_VECTOR(s, v, DAL_STAGES(method) * DAL_NW(s));
+    DAL_VECTOR(s, q, DAL_STAGES(method) * DAL_N(s));
+    DAL_VECTOR(s, pi, DAL_STAGES(method) * DAL_N(s));
+    DAL_VECTOR(s, f, DAL_STAGES(method) * (2 * DAL_N(s) + DAL_NW(s)));
+    DAL_VECTOR(s, w, DAL_STAGES(method));
+    DAL_VECTOR(s, mu, DAL_STAGES(method));
+    DAL_BLOCK(s, slopes, DAL_STAGES(method) * DAL_NW(s), DAL_MAY_NEWTON(s));
+    DAL_BLOCK(s, momenta, DAL_LIFTED(s) * DAL_STAGES(method) * DAL_N(s), DAL_MAY_NEWTON(s));
+    dal_stages k = {method, s->h, v, q, pi, f, w, mu, DAL_LIFTED(s) ? 3 * DAL_N(s) : DAL_NW(s)};
+    dal_equation eq = {{slopes, momenta}, 1 + DAL_LIFTED(s), &k};
+    eq.block[0].weight = eq.block[1].weight = s->h;
+    eq.block[0].scale = dal_velocity_scale(s, s->h);
+    if (DAL_LIFTED(s)) {
         dal__gauge_stages(s, &k);
-        DAL_TRY(dal_block_init(s, &eq.block[1], st * n, s->h, dal_momentum_scale(s, s->h)));
+        eq.block[1].scale = dal_momentum_scale(s, s->h);
     }
     DAL_TRY(dal__solve_stages(s, &k, &eq));
     dal__keep_slopes(s, &k, &eq);

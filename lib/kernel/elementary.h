@@ -64,7 +64,8 @@ DAL_INLINE dal__angle dal__reduce(num x)
     num a = x - n * P1, b = n * P2, c = n * P3;
     num ab = a - b, abc = ab - c;
     num tail = ((a - ab) - b) + ((ab - abc) - c) - n * P4;
-    return (dal__angle){abc, tail, dal__bits(shifted)};
+    const dal__angle angle = {abc, tail, dal__bits(shifted)};
+    return angle;
 }
 
 /* sin(r + tail), r^2 = z. */
@@ -87,14 +88,18 @@ DAL_INLINE num dal__cos_kernel(num r, num tail, num z)
     return w + (((1.0 - w) - half) + (zz * C - r * tail));
 }
 
-DAL_INLINE void dal__sincos_beyond(num x, dal_mask beyond, num *s, num *c)
+/* near, but libm's sin x or cos x in the lanes beyond. */
+DAL_COLD num dal__sin_beyond(num x, dal_mask beyond, num near)
 {
-    for (int lane = 0; lane < DAL_LANES; lane++) {
-        if (!dal_mask_lane(beyond, lane)) continue;
-        double y = dal_lane(x, lane);
-        *s = dal_with_lane(*s, lane, sin(y));
-        *c = dal_with_lane(*c, lane, cos(y));
-    }
+    for (int lane = 0; lane < DAL_LANES; lane++)
+        if (dal_mask_lane(beyond, lane)) near = dal_with_lane(near, lane, sin(dal_lane(x, lane)));
+    return near;
+}
+DAL_COLD num dal__cos_beyond(num x, dal_mask beyond, num near)
+{
+    for (int lane = 0; lane < DAL_LANES; lane++)
+        if (dal_mask_lane(beyond, lane)) near = dal_with_lane(near, lane, cos(dal_lane(x, lane)));
+    return near;
 }
 
 DAL_INLINE void dal_sincos(num x, num *s, num *c)
@@ -108,7 +113,10 @@ DAL_INLINE void dal_sincos(num x, num *s, num *c)
     *c = dal__flip(dal_select(odd, sine, cosine), angle.quadrant + 1);
     *s = dal_select(dal_equal(x, dal_num(0.0)), x, *s); /* -0 keeps its sign */
     dal_mask beyond = ~dal_less_equal(dal_abs(x), dal_num(1e7));
-    if (dal_any(beyond)) dal__sincos_beyond(x, beyond, s, c);
+    if (dal_any(beyond)) {
+        *s = dal__sin_beyond(x, beyond, *s);
+        *c = dal__cos_beyond(x, beyond, *c);
+    }
 }
 
 DAL_INLINE num dal_sin(num x)

@@ -21,7 +21,20 @@
 #define DAL_WIDE(name) DAL__PASTE2(name##_x, DAL_LANES)
 
 #define DAL_UNUSED __attribute__((unused))
+
+/* A generated file defines DAL_SPECIALISED: there all sizes are constants and a whole step becomes
+ * one function, its loops over components unrolled where DAL_UNROLL says so. */
+#ifdef DAL_SPECIALISED
+#define DAL_INLINE static inline DAL_UNUSED __attribute__((always_inline))
+#define DAL_COLD   static DAL_UNUSED __attribute__((noinline, cold))
+#else
+#define DAL_UNROLL
 #define DAL_INLINE static inline DAL_UNUSED
+#define DAL_COLD   static inline DAL_UNUSED
+#endif
+
+/* for i = 0 .. count - 1 */
+#define DAL_EACH(i, count) DAL_UNROLL for (int i = 0; i < (count); i++)
 
 #if DAL_LANES == 1
 
@@ -43,8 +56,16 @@ DAL_INLINE int dal_mask_lane(dal_mask m, int lane) { return (void)lane, m != 0; 
 typedef double num __attribute__((vector_size(8 * DAL_LANES), may_alias));
 typedef int64_t dal_mask __attribute__((vector_size(8 * DAL_LANES), may_alias));
 
-DAL_INLINE num dal_num(double x) { return x - (num){0}; }
-DAL_INLINE dal_mask dal_all(void) { return ~(dal_mask){0}; }
+DAL_INLINE num dal_num(double x)
+{
+    const num zero = {0};
+    return x - zero;
+}
+DAL_INLINE dal_mask dal_all(void)
+{
+    const dal_mask none = {0};
+    return ~none;
+}
 DAL_INLINE num dal_select(dal_mask m, num a, num b)
 {
     return (num)(((dal_mask)a & m) | ((dal_mask)b & ~m));

@@ -21,7 +21,11 @@
 typedef struct dal_polarisation {
     int q, v;
 } dal_polarisation;
-#define DAL_POLARISATION(q, v) ((dal_polarisation){(q), (v)})
+DAL_INLINE dal_polarisation DAL_POLARISATION(int q, int v)
+{
+    const dal_polarisation at = {q, v};
+    return at;
+}
 
 /* The starred arguments of one step. */
 typedef struct dal_euler {
@@ -35,45 +39,46 @@ typedef struct dal_euler {
 /* q* for the velocity v*. */
 DAL_INLINE void dal__euler_q(dal_step *s, dal_euler *k)
 {
-    for (int i = 0; i < s->n; i++)
+    DAL_EACH(i, DAL_N(s))
         k->q[i] = dal_choose(k->at.q, s->y[i] + (k->h * k->v[i] + s->r[i]), s->y[i]);
 }
 
 /* h (F + pi* w), from the field last asked for. */
 DAL_INLINE num dal__euler_dv(const dal_step *s, const dal_euler *k, int i)
 {
-    return s->lifted ? k->h * (k->f[i] + k->pi[i] * k->w) : k->h * k->f[i];
+    return DAL_LIFTED(s) ? k->h * (k->f[i] + k->pi[i] * k->w) : k->h * k->f[i];
 }
 
 /* s_v = 1: u = v1. */
 DAL_INLINE void dal__euler_map_v(dal_step *s, dal_equation *eq)
 {
-    dal_euler *k = eq->context;
-    memcpy(k->v, eq->block[0].u, (size_t)s->nw * sizeof *k->v);
+    dal_euler *k = (dal_euler *)eq->context;
+    const int n = DAL_N(s);
+    DAL_EACH(i, DAL_NW(s)) k->v[i] = eq->block[0].u[i];
     dal__euler_q(s, k);
     dal_force(s, k->t, k->q, k->v, k->f);
-    for (int i = 0; i < s->nw; i++)
-        eq->block[0].image[i] = s->y[s->n + i] + (dal__euler_dv(s, k, i) + s->r[s->n + i]);
+    DAL_EACH(i, DAL_NW(s))
+        eq->block[0].image[i] = s->y[n + i] + (dal__euler_dv(s, k, i) + s->r[n + i]);
 }
 
 /* p* for the momentum pi*, from the adjoint last asked for. */
 DAL_INLINE void dal__euler_p(dal_step *s, dal_euler *k)
 {
-    const int p = dal_at_p(s);
-    for (int i = 0; i < s->n; i++)
+    const int n = DAL_N(s), p = dal_at_p(s);
+    DAL_EACH(i, n)
         k->p[i] =
-            dal_choose(k->at.q, s->y[p + i], s->y[p + i] + (s->r[p + i] - k->h * k->f[s->n + i]));
+            dal_choose(k->at.q, s->y[p + i], s->y[p + i] + (s->r[p + i] - k->h * k->f[n + i]));
 }
 
 /* s_v = 0: u = pi1. */
 DAL_INLINE void dal__euler_map_pi(dal_step *s, dal_equation *eq)
 {
-    dal_euler *k = eq->context;
-    const int n = s->n, pi = dal_at_pi(s);
-    memcpy(k->pi, eq->block[0].u, (size_t)n * sizeof *k->pi);
+    dal_euler *k = (dal_euler *)eq->context;
+    const int n = DAL_N(s), pi = dal_at_pi(s);
+    DAL_EACH(i, n) k->pi[i] = eq->block[0].u[i];
     dal_adjoint(s, k->t, k->q, k->v, k->pi, k->f);
     dal__euler_p(s, k);
-    for (int i = 0; i < n; i++)
+    DAL_EACH(i, n)
         eq->block[0].image[i] = s->y[pi + i] + (s->r[pi + i] - k->h * (k->p[i] + k->f[2 * n + i]));
 }
 
@@ -81,34 +86,43 @@ DAL_INLINE void dal__euler_map_pi(dal_step *s, dal_equation *eq)
 DAL_INLINE dal_status dal__euler_matrix(dal_step *s, dal_equation *eq)
 {
     static const double one = 1.0, zero = 0.0;
-    const dal_euler *k = eq->context;
-    DAL_VECTOR(s, jacobian, s->nw * s->n + s->nw * s->nw);
+    const dal_euler *k = (const dal_euler *)eq->context;
+    DAL_VECTOR(s, jacobian, DAL_NW(s) * (DAL_N(s) + DAL_NW(s)));
+    DAL_VECTOR(s, m, DAL_NW(s) * DAL_NW(s));
     dal_jacobian(s, k->t, k->q, k->v, jacobian);
     const int q_moves = k->at.v == k->at.q;
     const dal_stage_matrix matrix = {1, k->at.v ? k->h : -k->h, &one, q_moves ? &one : &zero,
                                      !k->at.v};
-    return dal_stage_inverse(s, &matrix, jacobian, &eq->block[0]);
+    dal_stage_inverse(s, &matrix, jacobian, m, &eq->block[0]);
+    return DAL_OK;
 }
 
 /* Solves for v1 (s_v = 1) or pi1 (s_v = 0). */
 DAL_INLINE dal_status dal__euler_solve(dal_step *s, dal_euler *k)
 {
-    dal_equation eq = {.blocks = 1, .matrix = dal__euler_matrix, .context = k};
-    eq.map = k->at.v ? dal__euler_map_v : dal__euler_map_pi;
-    const int size = k->at.v ? s->nw : s->n, first = k->at.v ? s->n : dal_at_pi(s);
-    const num scale = k->at.v ? dal_velocity_scale(s, k->h) : dal_momentum_scale(s, k->h);
-    DAL_TRY(dal_block_init(s, &eq.block[0], size, 1.0, scale));
-    memcpy(eq.block[0].u, s->y + first, (size_t)size * sizeof(num));
-    DAL_TRY(dal_solve(s, &eq));
-    memcpy(k->at.v ? k->v : k->pi, eq.block[0].u, (size_t)size * sizeof(num));
+    const int n = DAL_N(s), nw = DAL_NW(s), pi = dal_at_pi(s);
+    DAL_BLOCK(s, block, DAL_NW(s), DAL_MAY_NEWTON(s));
+    dal_equation eq = {{block}, 1, k};
+    if (k->at.v) {
+        eq.block[0].scale = dal_velocity_scale(s, k->h);
+        DAL_EACH(i, nw) eq.block[0].u[i] = s->y[n + i];
+        DAL_TRY(dal_solve(s, &eq, dal__euler_map_v, dal__euler_matrix));
+        DAL_EACH(i, nw) k->v[i] = eq.block[0].u[i];
+    } else {
+        eq.block[0].size = n;
+        eq.block[0].scale = dal_momentum_scale(s, k->h);
+        DAL_EACH(i, n) eq.block[0].u[i] = s->y[pi + i];
+        DAL_TRY(dal_solve(s, &eq, dal__euler_map_pi, dal__euler_matrix));
+        DAL_EACH(i, n) k->pi[i] = eq.block[0].u[i];
+    }
     return DAL_OK;
 }
 
 /* The momenta's half of the increments d. */
 DAL_INLINE void dal__euler_momenta(dal_step *s, const dal_euler *k, num mu, num *d)
 {
-    const int n = s->n;
-    for (int i = 0; i < n; i++) {
+    const int n = DAL_N(s);
+    DAL_EACH(i, n) {
         d[dal_at_p(s) + i] = -k->h * k->f[n + i];
         d[dal_at_pi(s) + i] = -k->h * (k->p[i] + k->f[2 * n + i]);
     }
@@ -119,41 +133,43 @@ DAL_INLINE void dal__euler_momenta(dal_step *s, const dal_euler *k, num mu, num 
 /* The field at the starred arguments, and from it all increments. */
 DAL_INLINE void dal__euler_increments(dal_step *s, dal_euler *k, num mu, num *d)
 {
-    const int n = s->n;
-    if (s->lifted) dal_adjoint(s, k->t, k->q, k->v, k->pi, k->f);
-    if (!s->lifted) dal_force(s, k->t, k->q, k->v, k->f);
-    if (s->lifted) dal__euler_p(s, k);
-    for (int i = 0; i < s->nw; i++) d[n + i] = dal__euler_dv(s, k, i);
-    for (int i = 0; i < n; i++) {
+    const int n = DAL_N(s);
+    if (DAL_LIFTED(s)) dal_adjoint(s, k->t, k->q, k->v, k->pi, k->f);
+    if (!DAL_LIFTED(s)) dal_force(s, k->t, k->q, k->v, k->f);
+    if (DAL_LIFTED(s)) dal__euler_p(s, k);
+    DAL_EACH(i, DAL_NW(s)) d[n + i] = dal__euler_dv(s, k, i);
+    DAL_EACH(i, n) {
         const num v1 = s->y[n + i] + (d[n + i] + s->r[n + i]);
         d[i] = k->h * (k->at.v ? v1 : k->v[i]);
     }
-    if (s->lifted) dal__euler_momenta(s, k, mu, d);
+    if (DAL_LIFTED(s)) dal__euler_momenta(s, k, mu, d);
 }
 
 /* One step of size h from the present state and time. */
 DAL_INLINE dal_status dal_polarised_euler(dal_step *s, dal_polarisation at, double h)
 {
-    const size_t mark = s->used;
-    const int n = s->n, nw = s->nw;
-    DAL_VECTOR(s, x, 3 * n + nw);
-    DAL_VECTOR(s, f, 2 * n + nw);
-    DAL_VECTOR(s, d, s->dim);
-    dal_euler k = {at, h,           at.q ? s->t + h : s->t, x, x + n, x + n + nw, x + 2 * n + nw,
-                   f,  dal_num(0.0)};
+    DAL_MARK(s);
+    const int n = DAL_N(s);
+    DAL_VECTOR(s, q, DAL_N(s));
+    DAL_VECTOR(s, v, DAL_NW(s));
+    DAL_VECTOR(s, p, DAL_N(s));
+    DAL_VECTOR(s, pi, DAL_N(s));
+    DAL_VECTOR(s, f, 2 * DAL_N(s) + DAL_NW(s));
+    DAL_VECTOR(s, d, DAL_DIM(s));
+    dal_euler k = {at, h, at.q ? s->t + h : s->t, q, v, p, pi, f, dal_num(0.0)};
     num mu = dal_num(0.0);
-    memcpy(k.v, s->y + n, (size_t)nw * sizeof *k.v);
-    if (s->lifted) {
+    DAL_EACH(i, DAL_NW(s)) v[i] = s->y[n + i];
+    if (DAL_LIFTED(s)) {
         const num e = s->y[dal_at_e(s)];
         mu = dal_mu_e(s, k.t);
         k.w = 1.0 / dal_choose(at.q, e + h * mu, e);
-        memcpy(k.pi, s->y + dal_at_pi(s), (size_t)n * sizeof *k.pi);
+        DAL_EACH(i, n) pi[i] = s->y[dal_at_pi(s) + i];
     }
     dal__euler_q(s, &k);
-    if (at.v || s->lifted) DAL_TRY(dal__euler_solve(s, &k));
+    if (at.v || DAL_LIFTED(s)) DAL_TRY(dal__euler_solve(s, &k));
     dal__euler_q(s, &k);
     dal__euler_increments(s, &k, mu, d);
-    s->used = mark;
+    DAL_RELEASE(s);
     return dal_update(s, h, d);
 }
 

@@ -32,20 +32,28 @@ typedef struct dal_block {
     num stalls;      /* how often in a row the norm did not decrease */
 } dal_block;
 
-typedef struct dal_equation dal_equation;
-struct dal_equation {
+typedef struct dal_equation {
     dal_block block[2];
-    int blocks;
-    void (*map)(dal_step *step, dal_equation *equation); /* u -> image, all blocks */
-    dal_status (*matrix)(dal_step *step,
-                         dal_equation *equation); /* fills inverse; NULL: no Newton */
+    int blocks; /* 1 or 2 */
     void *context;
-};
+} dal_equation;
+
+typedef void dal_map(dal_step *step, dal_equation *equation);          /* u -> image, all blocks */
+typedef dal_status dal_matrix(dal_step *step, dal_equation *equation); /* fills inverse */
+
+/* Declares a block of count unknowns with its memory; newton: it may get an inverse. */
+#define DAL_BLOCK(step, name, count, newton)                                                       \
+    DAL_VECTOR(step, name##_u, count);                                                             \
+    DAL_VECTOR(step, name##_image, count);                                                         \
+    DAL_VECTOR(step, name##_start, count);                                                         \
+    DAL_VECTOR(step, name##_inverse, (newton) ? (count) * (count) : 0);                            \
+    dal_block name = {(count), name##_u,     name##_image, name##_start, name##_inverse,           \
+                      1.0,     dal_num(0.0), dal_num(0.0), dal_num(0.0), dal_num(0.0)}
 
 DAL_INLINE num dal_max_norm(const num *x, int count)
 {
     num norm = dal_num(0.0);
-    for (int i = 0; i < count; i++) norm = dal_max(norm, dal_abs(x[i]));
+    DAL_EACH(i, count) norm = dal_max(norm, dal_abs(x[i]));
     return norm;
 }
 
@@ -53,31 +61,21 @@ DAL_INLINE num dal_max_norm(const num *x, int count)
  * step that contracts. */
 DAL_INLINE num dal_velocity_scale(const dal_step *s, double h)
 {
-    return dal_max_norm(s->y + s->n, s->nw) + dal_max_norm(s->y, s->n) / dal_num(fabs(h));
+    return dal_max_norm(s->y + DAL_N(s), DAL_NW(s)) +
+           dal_max_norm(s->y, DAL_N(s)) / dal_num(fabs(h));
 }
 DAL_INLINE num dal_momentum_scale(const dal_step *s, double h)
 {
-    return dal_max_norm(s->y + dal_at_pi(s), s->n) +
-           fabs(h) * dal_max_norm(s->y + dal_at_p(s), s->n);
-}
-
-/* Gives a block its memory. */
-DAL_INLINE dal_status dal_block_init(dal_step *s, dal_block *b, int size, double weight, num scale)
-{
-    DAL_VECTOR(s, u, size);
-    DAL_VECTOR(s, image, size);
-    DAL_VECTOR(s, start, size);
-    *b = (dal_block){.size = size, .u = u, .image = image, .start = start, .weight = weight};
-    b->scale = scale;
-    return DAL_OK;
+    return dal_max_norm(s->y + dal_at_pi(s), DAL_N(s)) +
+           fabs(h) * dal_max_norm(s->y + dal_at_p(s), DAL_N(s));
 }
 
 /* u += d (or M^-1 d) in the active lanes; b->now: the norm of the increment, NaN if not finite. */
 DAL_INLINE void dal__advance(dal_block *b, dal_mask active, int newton)
 {
     num norm = dal_num(0.0), poison = dal_num(0.0);
-    for (int i = 0; i < b->size; i++) b->image[i] -= b->u[i];
-    for (int i = 0; i < b->size; i++) {
+    DAL_EACH(i, b->size) b->image[i] -= b->u[i];
+    DAL_EACH(i, b->size) {
         num d = b->image[i];
         if (newton) dal_multiply(b->inverse + i * b->size, 1, b->size, b->image, &d);
         norm = dal_max(norm, dal_abs(d));
@@ -105,25 +103,35 @@ DAL_INLINE dal_mask dal__slow(const dal_block *b)
            dal_less(DAL__NOISE * (b->scale + b->weight * dal_max_norm(b->u, b->size)), b->now);
 }
 
-/* Iterates in the given lanes; returns those that stagnated.  *slow (unless NULL) receives lanes
- * that were given up after the third sweep because they contract slowly. */
-DAL_INLINE dal_mask dal__iterate(dal_step *s, dal_equation *eq, dal_mask lanes, int newton,
-                                 dal_mask *slow)
+DAL_INLINE void dal__begin_block(dal_block *b)
+{
+    b->now = dal_num(INFINITY);
+    b->stalls = dal_num(0.0);
+}
+
+/* Takes the new image into a block; lanes that are now quiet, and lanes that are still finite. */
+DAL_INLINE void dal__sweep(dal_block *b, dal_mask active, int newton, dal_mask *quiet,
+                           dal_mask *finite)
+{
+    dal__advance(b, active, newton);
+    *quiet &= dal__quiet(b);
+    *finite &= dal_finite(b->now);
+}
+
+/* Iterates in the given lanes; returns those that stagnated.  *slow receives lanes that were given
+ * up after the third sweep because they contract slowly, if they may be. */
+DAL_INLINE dal_mask dal__iterate(dal_step *s, dal_equation *eq, dal_map *map, dal_mask lanes,
+                                 int newton, int may_give_up, dal_mask *slow)
 {
     dal_mask active = lanes;
-    for (int b = 0; b < eq->blocks; b++) {
-        eq->block[b].now = dal_num(INFINITY);
-        eq->block[b].stalls = dal_num(0.0);
-    }
-    for (int k = 0; k < s->iterations && dal_any(active); k++) {
-        eq->map(s, eq);
+    dal__begin_block(&eq->block[0]);
+    if (eq->blocks > 1) dal__begin_block(&eq->block[1]);
+    for (int k = 0; k < DAL_ITERATIONS(s) && dal_any(active); k++) {
         dal_mask quiet = dal_all(), finite = dal_all();
-        for (int b = 0; b < eq->blocks; b++) {
-            dal__advance(&eq->block[b], active, newton);
-            quiet &= dal__quiet(&eq->block[b]);
-            finite &= dal_finite(eq->block[b].now);
-        }
-        if (slow && (k == 1 || k == 2)) {
+        map(s, eq);
+        dal__sweep(&eq->block[0], active, newton, &quiet, &finite);
+        if (eq->blocks > 1) dal__sweep(&eq->block[1], active, newton, &quiet, &finite);
+        if (may_give_up && (k == 1 || k == 2)) {
             *slow |= active & dal__slow(&eq->block[0]);
             finite &= ~*slow;
         }
@@ -133,25 +141,34 @@ DAL_INLINE dal_mask dal__iterate(dal_step *s, dal_equation *eq, dal_mask lanes, 
     return lanes & ~active;
 }
 
-/* Solves the equation from the guess in u; lanes that fail are recorded and no longer alive. */
-DAL_INLINE dal_status dal_solve(dal_step *s, dal_equation *eq)
+DAL_INLINE void dal__remember(dal_block *b)
 {
-    const int may_newton = eq->matrix && s->has_jacobian && s->solver != DAL_FIXED_POINT;
+    DAL_EACH(i, b->size) b->start[i] = b->u[i];
+}
+DAL_INLINE void dal__return(dal_block *b, dal_mask lanes)
+{
+    DAL_EACH(i, b->size) b->u[i] = dal_select(lanes, b->start[i], b->u[i]);
+}
+
+/* Solves the equation from the guess in u; lanes that fail are recorded and no longer alive.
+ * Without a matrix (NULL) there is no Newton. */
+DAL_INLINE dal_status dal_solve(dal_step *s, dal_equation *eq, dal_map *map, dal_matrix *matrix)
+{
+    const int may_newton = matrix && DAL_MAY_NEWTON(s);
     dal_mask stiff = dal_less(dal_num(0.5), *s->stiff);
     if (!may_newton) stiff &= ~dal_all();
-    if (may_newton && s->solver == DAL_NEWTON) stiff = dal_all();
-    for (int b = 0; b < eq->blocks; b++)
-        memcpy(eq->block[b].start, eq->block[b].u, (size_t)eq->block[b].size * sizeof(num));
+    if (may_newton && DAL_SOLVER(s) == DAL_NEWTON) stiff = dal_all();
+    dal__remember(&eq->block[0]);
+    if (eq->blocks > 1) dal__remember(&eq->block[1]);
 
     dal_mask slow = ~dal_all();
-    dal_mask solved = dal__iterate(s, eq, s->alive & ~stiff, 0, may_newton ? &slow : NULL);
+    dal_mask solved = dal__iterate(s, eq, map, s->alive & ~stiff, 0, may_newton, &slow);
     const dal_mask left = s->alive & ~solved;
     if (may_newton && dal_any(left)) {
-        for (int b = 0; b < eq->blocks; b++)
-            for (int i = 0; i < eq->block[b].size; i++)
-                eq->block[b].u[i] = dal_select(left, eq->block[b].start[i], eq->block[b].u[i]);
-        DAL_TRY(eq->matrix(s, eq));
-        solved |= dal__iterate(s, eq, left, 1, NULL);
+        dal__return(&eq->block[0], left);
+        if (eq->blocks > 1) dal__return(&eq->block[1], left);
+        DAL_TRY(matrix(s, eq));
+        solved |= dal__iterate(s, eq, map, left, 1, 0, &slow);
         *s->stiff = dal_select(left & solved, dal_num(1.0), *s->stiff);
     }
     s->unconverged |= s->alive & ~solved;
@@ -173,20 +190,18 @@ typedef struct dal_stage_matrix {
 /* Entry (i, j) of F_q padded with zeros, and of F_(v,g); or of their transposes. */
 DAL_INLINE num dal__fq(const dal_step *s, const num *jacobian, int i, int j)
 {
-    return j < s->n ? jacobian[i * s->n + j] : dal_num(0.0);
+    return j < DAL_N(s) ? jacobian[i * DAL_N(s) + j] : dal_num(0.0);
 }
 DAL_INLINE num dal__fv(const dal_step *s, const num *jacobian, int i, int j)
 {
-    return jacobian[s->nw * s->n + i * s->nw + j];
+    return jacobian[DAL_NW(s) * DAL_N(s) + i * DAL_NW(s) + j];
 }
 
-DAL_INLINE dal_status dal_stage_inverse(dal_step *s, const dal_stage_matrix *k, const num *jacobian,
-                                        dal_block *block)
+/* Fills block->inverse; m is scratch, [size*size]. */
+DAL_INLINE void dal_stage_inverse(dal_step *s, const dal_stage_matrix *k, const num *jacobian,
+                                  num *m, dal_block *block)
 {
     const int width = block->size / k->stages, size = block->size;
-    DAL_VECTOR(s, inverse, size * size);
-    const size_t mark = s->used;
-    DAL_VECTOR(s, m, size * size);
     for (int row = 0; row < size; row++) {
         for (int column = 0; column < size; column++) {
             const int i = row % width, j = column % width;
@@ -197,16 +212,13 @@ DAL_INLINE dal_status dal_stage_inverse(dal_step *s, const dal_stage_matrix *k, 
                                      k->z * k->z * k->a2[stage] * dal__fq(s, jacobian, x, y);
         }
     }
-    dal_invert(m, inverse, size);
-    block->inverse = inverse;
-    s->used = mark;
-    return DAL_OK;
+    dal_invert(m, block->inverse, size);
 }
 
 /* F_q, F_(v,g) at a point, [nw*n + nw*nw]. */
 DAL_INLINE void dal_jacobian(dal_step *s, double t, const num *q, const num *v, num *out)
 {
-    s->ask(s, DAL_ASK_JACOBIAN, t, q, v, NULL, out);
+    dal_ask(s, DAL_ASK_JACOBIAN, t, q, v, NULL, out);
 }
 
 #endif

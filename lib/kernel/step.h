@@ -30,6 +30,49 @@ typedef enum dal_question {
     DAL_ASK_GUARDS
 } dal_question;
 
+#ifdef DAL_SPECIALISED
+
+/* The dimensions are the generated file's constants, and all memory is local. */
+#define DAL_N(s)          DAL__N
+#define DAL_NW(s)         DAL__NW
+#define DAL_M(s)          DAL__M
+#define DAL_DIM(s)        DAL__DIM
+#define DAL_LIFTED(s)     DAL__LIFTED
+#define DAL_SOLVER(s)     DAL__SOLVER
+#define DAL_ITERATIONS(s) DAL__ITERATIONS
+#define DAL_MAY_NEWTON(s) DAL__NEWTON
+#define DAL_STAGES(t)     DAL__STAGES
+#define DAL__ROOM(count)  ((count) > 0 ? (count) : 1)
+
+#define DAL_VECTOR(step, name, count) num name[DAL__ROOM(count)]
+#define DAL_MARK(step)                (void)0
+#define DAL_RELEASE(step)             (void)0
+
+struct dal_step {
+    double t, h;
+    num y[DAL__DIM], r[DAL__DIM];
+    num stiff[1], slopes[DAL__ROOM(DAL__SLOPES)], slopes_h[1];
+    dal_mask alive, unconverged;
+    const dal_stored *work; /* parameters, and what is made of them alone */
+    long long evaluations;
+};
+
+/* The system as straight-line code, further down. */
+DAL_INLINE void dal_ask(dal_step *s, dal_question question, double t, const num *q, const num *v,
+                        const num *pi, num *out);
+
+#else
+
+#define DAL_N(s)          ((s)->n)
+#define DAL_NW(s)         ((s)->nw)
+#define DAL_M(s)          ((s)->m)
+#define DAL_DIM(s)        ((s)->dim)
+#define DAL_LIFTED(s)     ((s)->lifted)
+#define DAL_SOLVER(s)     ((s)->solver)
+#define DAL_ITERATIONS(s) ((s)->iterations)
+#define DAL_MAY_NEWTON(s) ((s)->has_jacobian && (s)->solver != DAL_FIXED_POINT)
+#define DAL_STAGES(t)     ((t)->stages) /* of a tableau */
+
 struct dal_step {
     double t, h; /* where the step begins, and its size; dal_update moves t */
     int n, nw, m, dim;
@@ -59,7 +102,7 @@ struct dal_step {
     long long evaluations; /* of the field or the lifted field */
 };
 
-/* count numbers of scratch, valid until the step ends or dal_release; their values are undefined.
+/* count numbers of scratch, valid until the step ends or DAL_RELEASE; their values are undefined.
  */
 DAL_INLINE num *dal_scratch(dal_step *s, int count)
 {
@@ -68,34 +111,45 @@ DAL_INLINE num *dal_scratch(dal_step *s, int count)
     return s->used <= s->room ? p : NULL;
 }
 
-/* Declares a scratch vector. */
+/* Declares a scratch vector.  The count must be made of constants and the macros above. */
 #define DAL_VECTOR(step, name, count)                                                              \
     num *const name = dal_scratch((step), (count));                                                \
     if (!name) return DAL_MEMORY
+/* From DAL_RELEASE on the vectors since DAL_MARK are gone. */
+#define DAL_MARK(step)    const size_t dal__mark = (step)->used
+#define DAL_RELEASE(step) (step)->used = dal__mark
+
+DAL_INLINE void dal_ask(dal_step *s, dal_question question, double t, const num *q, const num *v,
+                        const num *pi, num *out)
+{
+    s->ask(s, question, t, q, v, pi, out);
+}
+
+#endif
 
 /* Where the parts of a state begin. */
-DAL_INLINE int dal_at_v(const dal_step *s) { return s->n; }
-DAL_INLINE int dal_at_e(const dal_step *s) { return 2 * s->n; }
-DAL_INLINE int dal_at_p(const dal_step *s) { return 2 * s->n + 1; }
-DAL_INLINE int dal_at_pi(const dal_step *s) { return 3 * s->n + 1; }
-DAL_INLINE int dal_at_pi_e(const dal_step *s) { return 4 * s->n + 1; }
+DAL_INLINE int dal_at_v(const dal_step *s) { return DAL_N(s); }
+DAL_INLINE int dal_at_e(const dal_step *s) { return 2 * DAL_N(s); }
+DAL_INLINE int dal_at_p(const dal_step *s) { return 2 * DAL_N(s) + 1; }
+DAL_INLINE int dal_at_pi(const dal_step *s) { return 3 * DAL_N(s) + 1; }
+DAL_INLINE int dal_at_pi_e(const dal_step *s) { return 4 * DAL_N(s) + 1; }
 
 /* F(q, v, t), out[nw]; and F, F_q^T pi, F_v^T pi, out[3n]. */
 DAL_INLINE void dal_force(dal_step *s, double t, const num *q, const num *v, num *out)
 {
     s->evaluations++;
-    s->ask(s, DAL_ASK_FIELD, t, q, v, NULL, out);
+    dal_ask(s, DAL_ASK_FIELD, t, q, v, NULL, out);
 }
 DAL_INLINE void dal_adjoint(dal_step *s, double t, const num *q, const num *v, const num *pi,
                             num *out)
 {
     s->evaluations++;
-    s->ask(s, DAL_ASK_ADJOINT, t, q, v, pi, out);
+    dal_ask(s, DAL_ASK_ADJOINT, t, q, v, pi, out);
 }
 DAL_INLINE num dal_mu_e(dal_step *s, double t)
 {
     num mu;
-    s->ask(s, DAL_ASK_GAUGE, t, s->y, s->y + s->n, NULL, &mu);
+    dal_ask(s, DAL_ASK_GAUGE, t, s->y, s->y + DAL_N(s), NULL, &mu);
     return mu;
 }
 
@@ -103,7 +157,7 @@ DAL_INLINE num dal_mu_e(dal_step *s, double t)
 DAL_INLINE num dal_half_square(const num *u, int n)
 {
     num sum = dal_num(0.0);
-    for (int i = 0; i < n; i++) sum += u[i] * u[i];
+    DAL_EACH(i, n) sum += u[i] * u[i];
     return 0.5 * sum;
 }
 
@@ -118,61 +172,67 @@ DAL_INLINE num dal_gauge_rate(const num *pi, int n, num w)
  */
 DAL_INLINE dal_status dal_field(dal_step *s, double t, const num *y, num *dy)
 {
-    const int n = s->n;
-    memcpy(dy, y + n, (size_t)n * sizeof *dy);
-    if (!s->lifted) {
+    const int n = DAL_N(s);
+    DAL_EACH(i, n) dy[i] = y[n + i];
+    if (!DAL_LIFTED(s)) {
         dal_force(s, t, y, y + n, dy + n);
         return DAL_OK;
     }
-    const size_t mark = s->used;
-    DAL_VECTOR(s, f, 3 * n);
+    DAL_MARK(s);
+    DAL_VECTOR(s, f, 3 * DAL_N(s));
     const num *p = y + dal_at_p(s), *pi = y + dal_at_pi(s);
     const num w = 1.0 / y[dal_at_e(s)];
     dal_adjoint(s, t, y, y + n, pi, f);
-    for (int i = 0; i < n; i++) {
+    DAL_EACH(i, n) {
         dy[n + i] = f[i] + pi[i] * w;
         dy[dal_at_p(s) + i] = -f[n + i];
         dy[dal_at_pi(s) + i] = -p[i] - f[2 * n + i];
     }
     dy[dal_at_e(s)] = dal_mu_e(s, t);
     dy[dal_at_pi_e(s)] = dal_gauge_rate(pi, n, w);
-    s->used = mark;
+    DAL_RELEASE(s);
     return DAL_OK;
 }
 
 /* y + r += d for count components, compensated; lanes that are no longer alive stay as they are.
- * An infinite e swallows its increment and has no rounding error. */
+ * A sum is -0 only if both parts are, and y is not. */
 DAL_INLINE void dal_add(dal_step *s, int first, int count, const num *d)
 {
-    for (int i = 0; i < count; i++) {
+    DAL_EACH(i, count) {
         const num a = s->y[first + i], b = d[i] + s->r[first + i];
         const num sum = a + b, c = sum - a;
         const num error = (a - (sum - c)) + (b - c);
-        s->y[first + i] = dal_select(s->alive, sum + 0.0, a);
-        s->r[first + i] = dal_select(s->alive & dal_finite(error), error, dal_num(0.0));
+        s->y[first + i] = dal_select(s->alive, sum, a);
+        s->r[first + i] = dal_select(s->alive, error, s->r[first + i]);
     }
 }
 
 /* Ends a (sub)step of size h: y + r += d, d[dim], and t += h. */
 DAL_INLINE dal_status dal_update(dal_step *s, double h, const num *d)
 {
-    dal_add(s, 0, s->dim, d);
+    dal_add(s, 0, DAL_DIM(s), d);
+    if (DAL_LIFTED(s)) { /* an infinite e swallows its increment and has no rounding error */
+        num *error = s->r + dal_at_e(s);
+        *error = dal_select(dal_finite(*error), *error, dal_num(0.0));
+    }
     s->t += h;
     return DAL_OK;
 }
 
+#ifndef DAL_SPECIALISED
 /* A step of size h of the method inside the present modifier. */
 DAL_INLINE dal_status dal_inner(dal_step *s, double h)
 {
-    const size_t mark = s->used;
+    DAL_MARK(s);
     const double outer = s->h;
     s->h = h;
     s->depth--;
     const dal_status status = s->chain[s->depth]->step(s);
     s->depth++;
     s->h = outer;
-    s->used = mark;
+    DAL_RELEASE(s);
     return status;
 }
+#endif
 
 #endif
