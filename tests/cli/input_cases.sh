@@ -97,4 +97,4 @@ system 'coordinates: [x, y]' "lagrangian: (x'^2 + y'^2)/2" "constraints: [x' - y
 refuse 'rank|depend' bad.yaml $run
 
 case_is "an integrator that cannot act"
-refuse 'lifted space' chaplygin-sleigh-vakonomic $run
+refuse 'lifted space' chaplygin-sleigh-vakonomic $run --space lifted
