@@ -160,7 +160,7 @@ FILE *report_script(report *r, const char *name, int width, int height, char **p
 }
 
 /* Runs gnuplot on a script in DIR/report. */
-static int run_gnuplot(const report *r, const char *path)
+static int run_gnuplot(report *r, const char *path)
 {
     const char *slash = strrchr(path, '/'), *script = slash ? slash + 1 : path;
     int state;
@@ -174,7 +174,8 @@ static int run_gnuplot(const report *r, const char *path)
     while (waitpid(child, &state, 0) < 0)
         if (errno != EINTR) return cli_io("wait for", "gnuplot");
     if (WIFEXITED(state) && WEXITSTATUS(state) == 0) return CLI_DONE;
-    if (WIFEXITED(state) && WEXITSTATUS(state) == NOT_FOUND)
+    r->broken = WIFEXITED(state) && WEXITSTATUS(state) == NOT_FOUND;
+    if (r->broken)
         return cli_fail(CLI_IO, "gnuplot is not installed; the figures need it ('%s' is written)",
                         path);
     return cli_fail(CLI_IO, "gnuplot failed on '%s'", path);

@@ -18,6 +18,8 @@ time: 2
 systems:
   - {system: chaplygin-sleigh, label: "a <b> \"c\" 'd'"}
   - line.yaml
+  - {system: chaplygin-sleigh-vakonomic, label: vakonomic}
+  - {system: chaplygin-sleigh-vakonomic, label: refused, starts: surface}
 END
 try 0 study drawn.yaml --output drawn
 try 0 run chaplygin-sleigh --integrator gauss4 --step 0.1 --time 1 --output ran
@@ -28,6 +30,8 @@ if command -v gnuplot >/dev/null 2>&1; then
     silent
     prints '^drawn/report/index.html$'
     holds "no figure" grep -q '<svg' "drawn/report/a <b> \"c\" 'd'.svg"
+    holds "no figure of a study with refused cells" grep -q '<svg' drawn/report/vakonomic.svg
+    holds "no word of a study of refused cells" grep -q 'No run has numbers' drawn/report/index.html
     holds "no figure of the line" grep -q '<svg' drawn/report/line.yaml.svg
     holds "the label is not text" grep -q '<h2>a &lt;b&gt;' drawn/report/index.html
     holds "no verdicts" grep -q '<td class="drifts">' drawn/report/index.html
