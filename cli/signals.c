@@ -2,8 +2,10 @@
 #include "cli.h"
 
 #include <signal.h>
+#include <stdatomic.h>
 
-static volatile sig_atomic_t caught;
+/* Atomic because the threads of a study ask for it, too. */
+static atomic_int caught;
 
 /* The second signal finds the default action: a program that hangs can still be killed. */
 static void note(int number)

@@ -145,7 +145,7 @@ dal_status dal_measure_order(const dal_run_spec *spec, double T, int levels,
 
 /* Greatest entry of |J^T Omega J - Omega|, J the derivative of one step from the run's start (or
  * from state[4n+2] at time t) by differences; pairs (q,p), (v,pi), (e,pi_e).  Lifted space only:
- * DAL_UNSUPPORTED.  increment, relative to max(1, |x|); 0: 2e-3. [alloc] */
+ * DAL_UNSUPPORTED; e must be finite.  increment, relative to max(1, |x|); 0: 2e-3. [alloc] */
 dal_status dal_measure_symplecticity(const dal_run_spec *spec, double t, const double *state,
                                      double increment, double *defect, dal_error *error);
 
