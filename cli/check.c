@@ -51,8 +51,6 @@ void check_note(const char *format, ...)
 
 /* ---- points about the start ---- */
 
-dal_point check_point(const check *c, const double *x) { return (dal_point){0.0, x, x + c->n}; }
-
 static int finite(const double *x, int count)
 {
     for (int i = 0; i < count; i++)
@@ -60,10 +58,10 @@ static int finite(const double *x, int count)
     return 1;
 }
 
-static int field_is_finite(check *c, const double *x)
+static int field_is_finite(check *c, const dal_point *at)
 {
     dal_callback *field = c->system->call.field;
-    return dal_probe_call(c->probe, field, 0.0, x, x + c->n, NULL, c->values) == DAL_OK &&
+    return dal_probe_call(c->probe, field, at->t, at->q, at->v, NULL, c->values) == DAL_OK &&
            finite(c->values, c->nw);
 }
 
@@ -74,37 +72,38 @@ static double uniform(unsigned long long *state)
     return (double)(*state >> 11) * 0x1p-52 - 1.0;
 }
 
-static void draw_points(check *c)
+/* memory: CHECK_POINTS points of size numbers. */
+static void draw_points(check *c, double *memory)
 {
     unsigned long long random = 42;
     for (int k = 0; k < ATTEMPTS && c->near_count < CHECK_POINTS; k++) {
-        double *x = c->near + c->near_count * c->size;
+        double *x = memory + c->near_count * c->size;
         for (int i = 0; i < c->size; i++) {
             double reach = neighbourhood * fmax(1.0, fabs(c->start[i]));
             x[i] = c->start[i] + reach * uniform(&random);
         }
-        c->near_count += field_is_finite(c, x);
+        c->near[c->near_count] = (dal_point){fabs(uniform(&random)), x, x + c->n};
+        c->near_count += field_is_finite(c, &c->near[c->near_count]);
     }
 }
 
-static void move_points(check *c)
+static void move_points(check *c, double *memory)
 {
-    size_t bytes = (size_t)c->size * sizeof(double);
     for (int k = 0; k < c->near_count; k++) {
-        double *x = c->surface + c->surface_count * c->size;
-        memcpy(x, c->near + k * c->size, bytes);
-        if (dal_measure_onto(c->probe, 0.0, x, x + c->n) != DAL_OK) continue;
-        c->surface_count += field_is_finite(c, x);
+        double *x = memory + c->surface_count * c->size, t = c->near[k].t;
+        memcpy(x, c->near[k].q, (size_t)c->size * sizeof(double));
+        if (dal_measure_onto(c->probe, t, x, x + c->n) != DAL_OK) continue;
+        c->surface[c->surface_count] = (dal_point){t, x, x + c->n};
+        c->surface_count += field_is_finite(c, &c->surface[c->surface_count]);
     }
 }
 
-double check_rate(check *c, dal_callback *callback, int values, int i, const double *points,
+double check_rate(check *c, dal_callback *callback, int values, int i, const dal_point *points,
                   int count)
 {
     double most = -1.0;
     for (int k = 0; k < count; k++) {
-        dal_point at = check_point(c, points + k * c->size);
-        if (dal_measure_rate(c->probe, callback, values, &at, c->values) != DAL_OK) continue;
+        if (dal_measure_rate(c->probe, callback, values, &points[k], c->values) != DAL_OK) continue;
         for (int j = i < 0 ? 0 : i; j < (i < 0 ? values : i + 1); j++)
             most = fmax(most, fabs(c->values[j]));
     }
@@ -160,14 +159,14 @@ static int prepare(check *c, const dal_setting *start, int start_count)
     if (status != DAL_OK) return cli_error(cli_input_exit(status), NULL, &error);
     c->start = calloc(size + 1 + points + values_most(c->system), sizeof(double));
     if (c->start == NULL) return cli_fail(CLI_IO, "out of memory");
-    c->near = c->start + size + 1;
-    c->surface = c->near + CHECK_POINTS * size;
-    c->values = c->near + points;
+    double *near = c->start + size + 1;
+    c->values = near + points;
     status = dal_probe_start(c->probe, start, start_count, c->start, &error);
     if (status != DAL_OK) return cli_error(cli_input_exit(status), NULL, &error);
-    c->regular = field_is_finite(c, c->start);
-    draw_points(c);
-    move_points(c);
+    c->origin = (dal_point){0.0, c->start, c->start + c->n};
+    c->regular = field_is_finite(c, &c->origin);
+    draw_points(c, near);
+    move_points(c, near + CHECK_POINTS * size);
     return CLI_DONE;
 }
 

@@ -24,12 +24,14 @@ typedef struct check {
     dal_probe *probe;
     const dal_setting *parameters;
     int parameter_count;
-    double *start;                 /* [2n + multipliers + 1] q, v, g, e */
-    int n, m, nw, size;            /* nw = n + multipliers, size = n + nw */
-    int regular;                   /* F is finite at the start */
-    int near_count, surface_count; /* points that could be had, at most CHECK_POINTS */
-    double *near, *surface;        /* [count * size] about the start; the same moved onto D = 0 */
-    double *values;                /* scratch for the values of any one callback */
+    double *start;                   /* [2n + multipliers + 1] q, v, g, e */
+    int n, m, nw, size;              /* nw = n + multipliers, size = n + nw */
+    int regular;                     /* F is finite at the start */
+    dal_point origin;                /* the start, at t = 0 */
+    dal_point near[CHECK_POINTS];    /* points about the start, 0 <= t < 1 */
+    dal_point surface[CHECK_POINTS]; /* the same moved onto D = 0 */
+    int near_count, surface_count;
+    double *values; /* scratch for the values of any one callback */
     int items, failed;
 } check;
 
@@ -56,10 +58,9 @@ void check_bound(check *c, const char *what, double value, double limit);
 /* A line of further text under the last item. */
 void check_note(const char *format, ...) CLI_PRINTF(1, 2);
 
-dal_point check_point(const check *c, const double *x);
 /* Greatest |d/dt of the callback's values| along the motion over count points, or -1 when none of
  * them gives any; value i alone unless i < 0. */
-double check_rate(check *c, dal_callback *callback, int values, int i, const double *points,
+double check_rate(check *c, dal_callback *callback, int values, int i, const dal_point *points,
                   int count);
 
 #endif

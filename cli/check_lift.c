@@ -16,10 +16,9 @@ void check_algebra(check *c)
     static const double zero = 1e-9;
     dal_dirac d;
     int n = c->n;
-    const double *x = c->surface_count > 0 ? c->surface : c->start;
-    dal_point at = check_point(c, x);
+    const dal_point *at = c->surface_count > 0 ? &c->surface[0] : &c->origin;
     if (!c->regular || c->start[c->size] == 0.0 || isinf(c->start[c->size])) return;
-    if (dal_measure_dirac(c->probe, &at, c->start[c->size], &d) != DAL_OK) return;
+    if (dal_measure_dirac(c->probe, at, c->start[c->size], &d) != DAL_OK) return;
     check_item(c, d.second_class == 2 * n ? CHECK_OK : CHECK_FAIL, "second-class constraints",
                "rank %d of %d brackets' matrix, 2n = %d", d.second_class, d.constraints, 2 * n);
     check_item(c, d.first_class == 2 * n + 1 ? CHECK_OK : CHECK_FAIL, "first-class constraints",

@@ -35,8 +35,7 @@ static void start_rank(check *c)
 {
     int rank = 0;
     double pivot = 0.0;
-    dal_point at = check_point(c, c->start);
-    dal_status status = dal_measure_rank(c->probe, &at, &rank, &pivot);
+    dal_status status = dal_measure_rank(c->probe, &c->origin, &rank, &pivot);
     if (status == DAL_UNSUPPORTED) return;
     if (status != DAL_OK)
         check_item(c, CHECK_FAIL, "rank of G at the start", "not to be had: %s",
@@ -134,9 +133,9 @@ static void say_kind(check *c, const dal_degree *d)
 void check_constraints(check *c)
 {
     dal_degree d;
-    dal_point at = check_point(c, c->start);
     double *degree = calloc((size_t)c->m + 1, sizeof *degree);
-    if (c->m > 0 && degree != NULL && dal_measure_degree(c->probe, &at, &d, degree) == DAL_OK) {
+    if (c->m > 0 && degree != NULL &&
+        dal_measure_degree(c->probe, &c->origin, &d, degree) == DAL_OK) {
         dal_callback *D = c->system->constraints;
         double on = check_rate(c, D, c->m, -1, c->surface, c->surface_count);
         double off = check_rate(c, D, c->m, -1, c->near, c->near_count);
@@ -155,8 +154,7 @@ void check_reversal(check *c)
     static const char *const parity[] = {"D(q,-v) = -D(q,v)", "neither even nor odd in v",
                                          "D(q,-v) = +D(q,v)"};
     dal_degree d;
-    dal_point at = check_point(c, c->start);
-    if (dal_measure_degree(c->probe, &at, &d, NULL) != DAL_OK) return;
+    if (dal_measure_degree(c->probe, &c->origin, &d, NULL) != DAL_OK) return;
     check_item(c, CHECK_INFO, "F(q,-v,-t) = F(q,v,t)", "%s, greatest difference %.2g",
                d.reversible ? "yes: reversible" : "no: not reversible under v -> -v",
                d.force_defect);
