@@ -8,7 +8,8 @@
 #     make lint             the rules of the house
 #     make install          to PREFIX, below DESTDIR
 #
-# BUILD=dir puts everything elsewhere; CFLAGS=-O3\ -march=native changes the speed, never a bit.
+# BUILD=dir puts everything elsewhere; CFLAGS=-O3\ -march=native changes the speed, never a bit;
+# V=1 shows the commands.
 BUILD        ?= build
 PREFIX       ?= /usr/local
 CC           ?= cc
@@ -46,13 +47,15 @@ SHARED  = $(BUILD)/libdalembert.so
 KERNEL  = $(BUILD)/generated/dalembert_kernel.h
 SYSTEMS = $(BUILD)/generated/systems.c
 
+SAY = $(if $(V),,@echo '  $1 $@';)
+
 all: $(PROGRAM) $(STATIC) $(SHARED) $(KERNEL)
 
 # ---- objects ---------------------------------------------------------------------------------
 
 define COMPILE
 @mkdir -p $(@D)
-$(CC) $(ALL) $(LANES) -MMD -MP -c $< -o $@
+$(call SAY,cc)$(CC) $(ALL) $(LANES) -MMD -MP -c $< -o $@
 endef
 
 $(BUILD)/%_x1.o: LANES = -DDAL_LANES=1
@@ -64,24 +67,24 @@ $(BUILD)/%_x8.o: %.c ; $(COMPILE)
 $(BUILD)/%.o: %.c ; $(COMPILE)
 
 $(STATIC): $(LIB_OBJ)
-	rm -f $@; $(AR) rcs $@ $^
+	$(call SAY,ar)rm -f $@; $(AR) rcs $@ $^
 
 $(SHARED).$(VERSION): $(LIB_OBJ) tools/exports.map
-	$(CC) $(CFLAGS) $(LDFLAGS) -shared -Wl,-soname,$(SONAME) \
+	$(call SAY,ld)$(CC) $(CFLAGS) $(LDFLAGS) -shared -Wl,-soname,$(SONAME) \
 	    -Wl,--version-script=tools/exports.map $(LIB_OBJ) $(LIBS) -o $@
 $(SHARED): $(SHARED).$(VERSION)
-	ln -sf $(<F) $(BUILD)/$(SONAME)
-	ln -sf $(SONAME) $@
+	@ln -sf $(<F) $(BUILD)/$(SONAME)
+	@ln -sf $(SONAME) $@
 
 $(PROGRAM): $(CLI_OBJ) $(STATIC)
-	$(CC) $(CFLAGS) $(LDFLAGS) $^ $(LIBS) -o $@
+	$(call SAY,ld)$(CC) $(CFLAGS) $(LDFLAGS) $^ $(LIBS) -o $@
 
 # ---- generated texts -------------------------------------------------------------------------
 
 # The systems travel inside the library.
 $(SYSTEMS): tools/embed.sh $(wildcard systems/*.yaml) systems
 	@mkdir -p $(@D)
-	sh tools/embed.sh $(sort $(wildcard systems/*.yaml)) >$@.tmp && mv $@.tmp $@
+	$(call SAY,sh)sh tools/embed.sh $(sort $(wildcard systems/*.yaml)) >$@.tmp && mv $@.tmp $@
 # The built-in study travels inside the program.
 $(BUILD)/generated/study.c: tools/embed-text.sh bench/studies/canonical-drift.yaml
 	@mkdir -p $(@D)
@@ -92,7 +95,7 @@ $(BUILD)/generated/%.o: $(BUILD)/generated/%.c ; $(COMPILE)
 # What an integrator outside the tree includes: one file that needs no other.
 $(KERNEL): tools/amalgamate.sh include/dalembert_kernel.h $(wildcard include/*.h lib/kernel/*.h)
 	@mkdir -p $(@D)
-	sh tools/amalgamate.sh include/dalembert_kernel.h >$@.tmp && mv $@.tmp $@
+	$(call SAY,sh)sh tools/amalgamate.sh include/dalembert_kernel.h >$@.tmp && mv $@.tmp $@
 
 # The test suites there are.  The list changes with the files, so it is looked at in every run;
 # suites.h, which declares them, goes before every test source.
@@ -109,7 +112,7 @@ $(TEST_OBJ): ALL += -include suites.h
 
 # Allocation goes through tests/allocation.c, which can be told to fail.
 $(BUILD)/tests/suite: $(TEST_OBJ) $(STATIC)
-	$(CC) $(CFLAGS) $(LDFLAGS) -Wl,--wrap=malloc,--wrap=calloc,--wrap=realloc \
+	$(call SAY,ld)$(CC) $(CFLAGS) $(LDFLAGS) -Wl,--wrap=malloc,--wrap=calloc,--wrap=realloc \
 	    $^ $(LIBS) $(TEST_LIBS) -o $@
 
 # A locale with a decimal comma; where there is none the tests that want one say so.  (Not under
@@ -143,7 +146,7 @@ run-fuzzers: $(FUZZERS:%=$(BUILD)/tests/%)
 	        $$f.corpus systems || exit 1; \
 	    echo "fuzz: $$(basename $$f): ok"; done
 $(FUZZERS:%=$(BUILD)/tests/%): %: %.o $(STATIC)
-	$(CC) $(CFLAGS) -fsanitize=fuzzer $^ $(LIBS) -o $@
+	$(call SAY,ld)$(CC) $(CFLAGS) -fsanitize=fuzzer $^ $(LIBS) -o $@
 
 lint: all
 	@CC="$(CC)" BUILD=$(BUILD) sh tools/lint/lint.sh

@@ -42,7 +42,9 @@ static void test_options(void)
     CU_ASSERT_EQUAL(dal_options_set(&options, "step", "nan", &error), DAL_SYNTAX);
     CU_ASSERT_EQUAL(dal_options_set(&options, "stepp", "1", &error), DAL_NAME);
     CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "'step'"));
-    CU_ASSERT_EQUAL(memcmp(&before, &options, sizeof options), 0);
+#define X(type, name, ...) CU_ASSERT_EQUAL(options.name, before.name);
+    DAL_OPTION_LIST(X)
+#undef X
 }
 
 void suite_options(void)
