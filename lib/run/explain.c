@@ -9,12 +9,12 @@ static dal_status singular(const dal__cause *cause, double number, dal_error *er
                       (int)number, cause->t);
 }
 
-/* Whether the iteration had run away before the answer ceased to be finite: then the point says
- * nothing about the system. */
+/* Whether the numbers had run away, in the iteration or in the whole run, before the answer ceased
+ * to be finite: then overflow says nothing about the system. */
 static bool ran_away(const dal_run *run, const dal__cause *cause)
 {
     const dal__shape *k = &run->shape;
-    const double far = 1e8 * (1.0 + dal_max_norm(run->carried, k->n + k->nw));
+    const double far = fmin(1e8 * (1.0 + dal_max_norm(run->carried, k->n + k->nw)), 1e60);
     return dal_max_norm(cause->q, k->n) > far || dal_max_norm(cause->v, k->nw) > far;
 }
 
