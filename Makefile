@@ -182,6 +182,8 @@ uninstall:
 clean:
 	rm -rf $(BUILD)
 
+include bench/bench.mk
+
 FORCE:
 .PHONY: all check check-sanitize check-valgrind fuzz run-fuzzers lint install uninstall clean FORCE
 .SECONDARY:

@@ -1,24 +1,32 @@
 #!/bin/sh
-# bench/run.sh PROGRAM... - runs each bench program in fresh processes and prints the median ratio
-# of its two times with the spread.  A program prints "NAME OURS THEIRS" and fails if the two sides
-# do not reach the same end state.
-set -eu
+# run.sh CASES PROGRAMS OUTPUT - runs every contender of the case table in fresh processes, one after
+# the other, RUNS times (7); verifies that both sides of a case reach the same end state; prints the
+# median of each ratio with its spread as a table, and as JSON lines to OUTPUT.
+#
+# A goal that is not met is reported, not punished: the exit status is 1 only when a contender fails
+# or two end states differ.  A contender whose program was not built is skipped by name.
+set -u
+cases=$1 programs=$2 output=$3
 runs=${RUNS:-7}
-for program in "$@"; do
-    i=0
-    while [ "$i" -lt "$runs" ]; do
-        "$program"
-        i=$((i + 1))
-    done | awk '{ name = $1; ratio[NR] = $2 / $3; ours[NR] = $2; theirs[NR] = $3 }
-        function median(x, n,   i, j, t) {
-            for (i = 2; i <= n; i++)
-                for (j = i; j > 1 && x[j] < x[j-1]; j--) { t = x[j]; x[j] = x[j-1]; x[j-1] = t }
-            return n % 2 ? x[(n + 1) / 2] : (x[n / 2] + x[n / 2 + 1]) / 2
-        }
-        END {
-            if (NR == 0) exit 1
-            m = median(ratio, NR)
-            printf "%-18s ratio %.2f (%.2f to %.2f), %.1f ns against %.1f ns a step, %d processes\n",
-                name, m, ratio[1], ratio[NR], median(ours, NR), median(theirs, NR), NR
-        }'
+here=$(dirname "$0")
+log=$(mktemp) || exit 1
+trap 'rm -f "$log"' EXIT
+
+contenders() {
+    awk -F '|' '/^ *(#|$)/ { next } { for (i = 3; i <= 4; i++) {
+        gsub(/^ +| +$/, "", $i); if ($i != "" && !seen[$i]++) print $i } }' "$cases"
+}
+
+round=1
+while [ "$round" -le "$runs" ]; do
+    contenders | while read -r name; do
+        [ -x "$programs/${name%% *}" ] || { printf '%s\tskip\n' "$name"; continue; }
+        # shellcheck disable=SC2086 # the words of a contender are arguments
+        line=$("$programs"/$name </dev/null) || line=fail
+        printf '%s\t%s\n' "$name" "$line"
+    done >>"$log"
+    round=$((round + 1))
 done
+printf 'load %s, %s processes each, %s\n' "$(cut -d ' ' -f 1-3 /proc/loadavg)" "$runs" \
+    "$(sed -n 's/^model name[^:]*: //p' /proc/cpuinfo | head -n 1)"
+awk -F '\t' -v output="$output" -f "$here/report.awk" "$log" FS='|' "$cases"

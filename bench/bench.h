@@ -1,0 +1,82 @@
+/* bench.h - what the bench programs share, C or C++: the clock and the way they are called.
+ *
+ *     PROGRAM CONTENDER...      prints "NS v1 v2 ...": nanoseconds per step of one trajectory, and
+ *                               the state reached
+ *
+ * A contender's work begins at the start and makes a fixed number of steps, so that what is timed
+ * is also what is compared.  The time is the least of five rounds; BENCH_MS is the length of a
+ * round in milliseconds (20; 0 for a smoke run).  The process is fresh: bench/run.sh takes medians
+ * over several, since the layout of memory alone can make one of them slow. */
+#ifndef BENCH_H
+#define BENCH_H
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+
+#define BENCH_H_STEP 0.01 /* h of every contender, except on the fluid */
+
+enum { BENCH_ROUNDS = 5, BENCH_UNKNOWN = 77, BENCH_MOST = 2000 };
+
+/* One contender: work(self, end) makes `steps` steps of all trajectories and writes a state; it
+ * returns 0, or else failed. */
+typedef struct bench_job {
+    double steps; /* of one trajectory, times trajectories */
+    int size;     /* of the state */
+    int (*work)(void *self, double *end);
+    void *self;
+} bench_job;
+
+static inline double bench_now(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return 1e9 * (double)t.tv_sec + (double)t.tv_nsec;
+}
+
+/* Seconds are counted in ns; the state is that of the first round. */
+static inline int bench_measure(const bench_job *job)
+{
+    static double end[BENCH_MOST], later[BENCH_MOST];
+    const char *ms = getenv("BENCH_MS");
+    const double wanted = 1e6 * (ms ? atof(ms) : 20.0);
+    double best = INFINITY;
+    if (job->work(job->self, end)) return 1;
+    double begin = bench_now();
+    if (job->work(job->self, later)) return 1;
+    const long repeats = 1 + (long)(wanted / (bench_now() - begin));
+    for (int round = 0; round < BENCH_ROUNDS; round++) {
+        begin = bench_now();
+        for (long i = 0; i < repeats; i++)
+            if (job->work(job->self, later)) return 1;
+        best = fmin(best, (bench_now() - begin) / ((double)repeats * job->steps));
+    }
+    printf("%.5g", best);
+    for (int i = 0; i < job->size; i++) printf(" %.17g", end[i]);
+    putchar('\n');
+    return 0;
+}
+
+static inline int bench_unknown(int argc, char **argv)
+{
+    fprintf(stderr, "%s: no such contender:", argv[0]);
+    for (int i = 1; i < argc; i++) fprintf(stderr, " %s", argv[i]);
+    fputc('\n', stderr);
+    return BENCH_UNKNOWN;
+}
+
+/* Whether the arguments are exactly the words of name. */
+static inline int bench_is(int argc, char **argv, const char *name)
+{
+    char words[256] = "";
+    for (int i = 1; i < argc; i++) {
+        if (strlen(words) + strlen(argv[i]) + 2 > sizeof words) return 0;
+        if (i > 1) strcat(words, " ");
+        strcat(words, argv[i]);
+    }
+    return strcmp(words, name) == 0;
+}
+
+#endif

@@ -1,0 +1,43 @@
+# bench.mk - the timed comparisons; a part of the Makefile.
+#
+#     make bench            all cases of bench/cases.txt, RUNS=7 processes each; build/bench.jsonl
+#     make bench-smoke      the same with next to no work: does it all build, run and agree?
+#
+# Every program is built with the flags that made it fastest here: full optimisation for this
+# machine without packing scalars into vectors, and for the others, which promise no bits, with
+# contraction.  Peers that are not installed are left out.
+BENCH        = $(BUILD)/bench
+BENCH_FAST   = -O3 -march=native -fno-tree-slp-vectorize -fno-math-errno
+BENCH_PEER   = -std=gnu11 -Wall -Wextra $(BENCH_FAST) -Iinclude -Ilib
+BENCH_HAVE   = $(shell $(2) -fsyntax-only -include $(1) /dev/null 2>/dev/null && echo $(3))
+BENCH_CXX   ?= g++
+BENCH_PEERS  = $(call BENCH_HAVE,gsl/gsl_odeiv2.h,$(CC) -x c,gsl) \
+               $(call BENCH_HAVE,arkode/arkode_erkstep.h,$(CC) -x c,sundials) \
+               $(call BENCH_HAVE,boost/numeric/odeint/stepper/runge_kutta4.hpp,$(BENCH_CXX) -x c++,odeint)
+BENCH_HEADERS = $(wildcard bench/*.h examples/*.h lib/kernel/*.h) include/dalembert.h
+
+$(BENCH)/lib/libdalembert.a: FORCE
+	@$(MAKE) --no-print-directory BUILD=$(BENCH)/lib CFLAGS="-O3 -march=native" $@
+$(BENCH)/dal: bench/dal.c $(BENCH)/lib/libdalembert.a $(BENCH_HEADERS)
+	$(call SAY,cc)$(CC) -std=c11 $(WARN) $(EXACT) -O3 -march=native -Iinclude $< $(BENCH)/lib/libdalembert.a $(LIBS) -o $@
+$(BENCH)/hand: bench/hand.c $(BENCH_HEADERS)
+	@mkdir -p $(@D)
+	$(call SAY,cc)$(CC) $(BENCH_PEER) $< -lm -o $@
+$(BENCH)/gsl: bench/gsl.c $(BENCH_HEADERS)
+	@mkdir -p $(@D)
+	$(call SAY,cc)$(CC) $(BENCH_PEER) $< -lgsl -lgslcblas -lm -o $@
+$(BENCH)/sundials: bench/sundials.c $(BENCH_HEADERS)
+	@mkdir -p $(@D)
+	$(call SAY,cc)$(CC) $(BENCH_PEER) $< -lsundials_arkode -lsundials_nvecserial -lm -o $@
+$(BENCH)/odeint: bench/odeint.cpp $(BENCH_HEADERS)
+	@mkdir -p $(@D)
+	$(call SAY,c++)$(BENCH_CXX) -std=gnu++17 -Wall -Wextra -Wno-psabi -Wno-ignored-attributes $(BENCH_FAST) \
+	    -Iinclude -Ilib $< -o $@
+
+bench-programs: $(BENCH)/dal $(BENCH)/hand
+	@for peer in $(BENCH_PEERS); do $(MAKE) --no-print-directory $(BENCH)/$$peer || exit 1; done
+bench: bench-programs
+	@sh bench/run.sh bench/cases.txt $(BENCH) $(BUILD)/bench.jsonl
+bench-smoke: bench-programs
+	@RUNS=1 BENCH_MS=0 sh bench/run.sh bench/cases.txt $(BENCH) $(BENCH)/smoke.jsonl
+.PHONY: bench bench-programs bench-smoke

@@ -1,0 +1,156 @@
+/* dal.c - this library.
+ *
+ *     dal ENGINE METHOD SPACE SYSTEM
+ *
+ *     ENGINE   tape: formulas, interpreted; callback: the field as a C callback, written by hand;
+ *              batchN: formulas, N trajectories at once
+ *     METHOD   as dal_method_parse reads it          SPACE   physical, lifted
+ *     SYSTEM   A, B3 (bench/systems), B101, C (examples); C0: the fluid without pair forces, all
+ *              that is left of C being the integrator and the thermostat */
+#define _POSIX_C_SOURCE 200809L
+#include "../examples/contact_chain.h"
+#include "../examples/isokinetic_fluid.h"
+#include "bench.h"
+
+typedef double real;
+static inline void real_sincos(real x, real *s, real *c)
+{
+    *s = sin(x);
+    *c = cos(x);
+}
+#include "fields.h"
+
+#define FLUID_STEP 0.002
+
+typedef struct job {
+    dal_run_spec spec;
+    dal_run *run;
+    dal_batch *batch;
+    double start[BENCH_MOST * 2 + 2];
+    int steps, shown; /* a round; components of q and v */
+} job;
+
+static dal_status sleigh_callback(const dal_system *system, const dal_at *at, double *out)
+{
+    double y[SMALL_DIM], dy[SMALL_DIM];
+    (void)system;
+    memcpy(y, at->q, 3 * sizeof *y);
+    memcpy(y + 3, at->v, 3 * sizeof *y);
+    sleigh_field(y, dy);
+    memcpy(out, dy + 3, 3 * sizeof *y);
+    return DAL_OK;
+}
+
+static dal_status sleigh_start(const dal_system *system, const dal_at *at, double *out)
+{
+    (void)system, (void)at;
+    memcpy(out, sleigh_y, sizeof sleigh_y);
+    out[SMALL_DIM] = 1.0;
+    return DAL_OK;
+}
+
+static dal_status sleigh_constraints(const dal_system *system, const dal_at *at, double *out)
+{
+    (void)system;
+    out[0] = at->v[0] * sin(at->q[2]) - at->v[1] * cos(at->q[2]);
+    return DAL_OK;
+}
+
+static dal_status no_forces(const dal_system *system, const dal_at *at, double *out)
+{
+    (void)system;
+    memset(out, 0, FLUID_N * sizeof *out);
+    fluid_thermostat(at->v, out);
+    return DAL_OK;
+}
+
+static const dal_system sleigh_by_hand = {.name = "sleigh",
+                                          .n = 3,
+                                          .m = 1,
+                                          .call = {.field = sleigh_callback},
+                                          .start = sleigh_start,
+                                          .constraints = sleigh_constraints};
+
+/* The system of a name; formulas stand in bench/systems. */
+static const dal_system *find_system(const char *engine, const char *name, dal_error *error)
+{
+    static dal_system fluid;
+    const dal_system *system = NULL;
+    dal_model *model;
+    fluid = fluid_system;
+    if (strcmp(name, "C0") == 0) fluid.call.field = no_forces;
+    if (strcmp(name, "C") == 0 || strcmp(name, "C0") == 0) return &fluid;
+    if (strcmp(name, "B101") == 0) return &chain_system;
+    if (strcmp(engine, "callback") == 0) return strcmp(name, "A") == 0 ? &sleigh_by_hand : NULL;
+    const char *path =
+        strcmp(name, "A") == 0 ? "bench/systems/sleigh.yaml" : "bench/systems/chain3.yaml";
+    if (dal_model_read_file(&model, path, error) == DAL_OK) dal_model_system(model, &system, error);
+    return system;
+}
+
+/* From the start again, unless this is the first time. */
+static int work_run(void *self, double *end)
+{
+    job *j = self;
+    if (dal_run_set_state(j->run, 0.0, j->start, NULL)) return 1;
+    if (dal_run_advance(j->run, j->steps, NULL)) return 1;
+    memcpy(end, dal_run_state(j->run), (size_t)j->shown * sizeof *end);
+    return 0;
+}
+
+/* A batch goes on where it was; the harness keeps what the first call shows, from lane 0. */
+static int work_batch(void *self, double *end)
+{
+    job *j = self;
+    double state[64];
+    if (dal_batch_advance(j->batch, j->steps)) return 1;
+    dal_batch_state(j->batch, 0, state);
+    memcpy(end, state, (size_t)j->shown * sizeof *end);
+    return 0;
+}
+
+/* Lanes differ a little in the first coordinate, which no constraint at the start sees. */
+static int make_batch(job *j, int lanes, dal_error *error)
+{
+    const char *name = j->spec.system->coordinate[0];
+    if (dal_batch_create(&j->batch, &j->spec, lanes, 0, error)) return 1;
+    for (int i = 0; i < lanes; i++) {
+        const dal_setting start = {name, j->start[0] + 1e-3 * i};
+        if (dal_batch_start(j->batch, i, NULL, 0, &start, 1, error)) return 1;
+    }
+    return 0;
+}
+
+static int fail(const dal_error *error)
+{
+    fprintf(stderr, "dal: %s\n", error->message);
+    return 1;
+}
+
+static int make(job *j, char **argv, dal_error *error)
+{
+    dal_options *o = &j->spec.options;
+    j->spec.system = find_system(argv[1], argv[4], error);
+    if (!j->spec.system) return 1;
+    *o = dal_options_default();
+    o->step = argv[4][0] == 'C' ? FLUID_STEP : BENCH_H_STEP;
+    j->steps = argv[4][0] == 'C' ? 20 : j->spec.system->n > 3 ? 200 : 1000;
+    j->shown = 2 * j->spec.system->n;
+    if (dal_options_set(o, "space", argv[3], error)) return 1;
+    if (dal_method_parse(&j->spec.method, argv[2], error)) return 1;
+    if (dal_run_create(&j->run, &j->spec, error)) return 1;
+    memcpy(j->start, dal_run_state(j->run), (size_t)dal_run_dimension(j->run) * sizeof *j->start);
+    return strncmp(argv[1], "batch", 5) == 0 ? make_batch(j, atoi(argv[1] + 5), error) : 0;
+}
+
+int main(int argc, char **argv)
+{
+    static job j;
+    dal_error error = {0};
+    if (argc != 5) return bench_unknown(argc, argv);
+    if (make(&j, argv, &error)) return fail(&error);
+    const int lanes = j.batch ? dal_batch_count(j.batch) : 1;
+    const bench_job measured = {(double)j.steps * lanes, j.shown, j.batch ? work_batch : work_run,
+                                &j};
+    return bench_measure(&measured);
+}
