@@ -68,29 +68,29 @@ static inline dal_status chain_field(const dal_system *system, const dal_at *at,
     return DAL_OK;
 }
 
-/* out = b_q alpha, alpha = (pi_0 - beta, pi_zi - beta y_i, pi_yi). */
-static inline void chain_hessian(double eps, const double *z, const double *alpha, double *out)
+/* b_q alpha for z_i, alpha = (pi_0 - beta, pi_zi - beta y_i, pi_yi). */
+static inline double chain_hessian(double eps, const double *z, const double *alpha, int i)
 {
-    for (int i = 0; i <= CHAIN_K; i++) {
-        const double left = i > 0 ? z[i - 1] * alpha[i - 1] : 0.0;
-        const double right = i < CHAIN_K ? z[i + 1] * alpha[i + 1] : 0.0;
-        out[i] = -chain_spring(eps, z, i) * alpha[i] - 2.0 * eps * z[i] * (left + right);
-    }
-    for (int i = CHAIN_Y; i < CHAIN_N; i++) out[i] = -alpha[i];
+    const double left = i > 0 ? z[i - 1] * alpha[i - 1] : 0.0;
+    const double right = i < CHAIN_K ? z[i + 1] * alpha[i + 1] : 0.0;
+    return -chain_spring(eps, z, i) * alpha[i] - 2.0 * eps * z[i] * (left + right);
 }
 
 static inline dal_status chain_adjoint(const dal_system *system, const dal_at *at, double *out)
 {
     const double *y = at->q + CHAIN_Y, *vz = at->v + 1, *vy = at->v + CHAIN_Y, *pi = at->pi;
     double *F = out, *Fq = out + CHAIN_N, *Fv = out + 2 * CHAIN_N, alpha[CHAIN_N];
-    const double h = chain_force(at->work[0], at->q, at->v, F);
+    const double eps = at->work[0], h = chain_force(eps, at->q, at->v, F);
     const double beta = (pi[0] + chain_dot(y, pi + 1)) / (1.0 + chain_dot(y, y));
     (void)system;
     alpha[0] = pi[0] - beta;
     for (int i = 0; i < CHAIN_K; i++) alpha[1 + i] = pi[1 + i] - beta * y[i];
     for (int i = CHAIN_Y; i < CHAIN_N; i++) alpha[i] = pi[i];
-    chain_hessian(at->work[0], at->q, alpha, Fq);
-    for (int i = 0; i < CHAIN_K; i++) Fq[CHAIN_Y + i] += h * alpha[1 + i] - beta * F[1 + i];
+    Fq[0] = chain_hessian(eps, at->q, alpha, 0);
+    for (int i = 1; i < CHAIN_K; i++) Fq[i] = chain_hessian(eps, at->q, alpha, i);
+    Fq[CHAIN_K] = chain_hessian(eps, at->q, alpha, CHAIN_K);
+    for (int i = 0; i < CHAIN_K; i++)
+        Fq[CHAIN_Y + i] = h * alpha[1 + i] - beta * F[1 + i] - alpha[CHAIN_Y + i];
     Fv[0] = 0.0;
     for (int i = 0; i < CHAIN_K; i++) Fv[1 + i] = -beta * vy[i];
     for (int i = 0; i < CHAIN_K; i++) Fv[CHAIN_Y + i] = -beta * vz[i];

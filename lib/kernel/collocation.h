@@ -43,35 +43,59 @@ DAL_INLINE num dal__weighted(const double *head, const double *tail, int stages,
     }
     return h * (large + small);
 }
-DAL_INLINE num dal__stage(const dal_stages *k, int i, const num *x, int stride)
+/* The same for count components side by side; out must not overlap x. */
+#define DAL__WEIGHTED(stages)                                                                      \
+    DAL_EACH(c, count) out[c] = dal__weighted(head, tail, (stages), h, x + c, stride)
+DAL_INLINE void dal__weighted_all(const double *head, const double *tail, int stages, double h,
+                                  const num *x, int stride, int count, num *DAL_RESTRICT out)
 {
-    const int s = DAL_STAGES(k->method);
-    return dal__weighted(k->method->a + i * s, k->method->a_tail + i * s, s, k->h, x, stride);
+    switch (stages) { /* by its constants, so that a compiler unrolls the sum */
+    case 1:
+        DAL__WEIGHTED(1);
+        break;
+    case 2:
+        DAL__WEIGHTED(2);
+        break;
+    case 3:
+        DAL__WEIGHTED(3);
+        break;
+    default:
+        DAL__WEIGHTED(stages);
+    }
 }
-DAL_INLINE num dal__end(const dal_stages *k, const num *x, int stride)
+/* h sum b x for count components. */
+DAL_INLINE void dal__end(const dal_stages *k, const num *x, int stride, int count, num *out)
 {
-    return dal__weighted(k->method->b, k->method->b_tail, DAL_STAGES(k->method), k->h, x, stride);
+    dal__weighted_all(k->method->b, k->method->b_tail, DAL_STAGES(k->method), k->h, x, stride,
+                      count, out);
 }
 
 /* Stage values base + (r + h sum a x) for count components. */
 DAL_INLINE void dal__stage_values(dal_step *s, const dal_stages *k, int first, int count,
                                   const num *x, int stride, num *out)
 {
-    DAL_EACH(i, DAL_STAGES(k->method))
-        DAL_EACH(j, count)
-            out[i * count + j] =
-                s->y[first + j] + (s->r[first + j] + dal__stage(k, i, x + j, stride));
+    const int stages = DAL_STAGES(k->method);
+    const num *y = s->y + first, *r = s->r + first;
+    DAL_EACH(i, stages) {
+        num *DAL_RESTRICT value = out + i * count;
+        dal__weighted_all(k->method->a + i * stages, k->method->a_tail + i * stages, stages, k->h,
+                          x, stride, count, value);
+        DAL_EACH(j, count) value[j] = y[j] + (r[j] + value[j]);
+    }
 }
 
 /* The slopes of pi: L_i = -(p + r - h sum a F_q^T Pi) - F_v^T Pi. */
 DAL_INLINE void dal__momentum_slopes(dal_step *s, const dal_stages *k, num *image)
 {
-    const int n = DAL_N(s), p = dal_at_p(s);
-    DAL_EACH(i, DAL_STAGES(k->method))
-        DAL_EACH(j, n) {
-            const num shift = s->r[p + j] - dal__stage(k, i, k->f + n + j, k->stride);
-            image[i * n + j] = -(s->y[p + j] + shift) - k->f[i * k->stride + 2 * n + j];
-        }
+    const int n = DAL_N(s), stages = DAL_STAGES(k->method);
+    const num *p = s->y + dal_at_p(s), *r = s->r + dal_at_p(s);
+    DAL_EACH(i, stages) {
+        num *DAL_RESTRICT slope = image + i * n;
+        const num *Fv = k->f + i * k->stride + 2 * n;
+        dal__weighted_all(k->method->a + i * stages, k->method->a_tail + i * stages, stages, k->h,
+                          k->f + n, k->stride, n, slope);
+        DAL_EACH(j, n) slope[j] = -(p[j] + (r[j] - slope[j])) - Fv[j];
+    }
 }
 
 /* Asks the system at every stage. */
@@ -146,11 +170,11 @@ DAL_INLINE dal_status dal__guess_present(dal_step *s, dal_equation *eq, dal_mask
 DAL_INLINE void dal__extrapolate(const dal_tableau *m, dal_block *b, int width, const num *last)
 {
     const int stages = DAL_STAGES(m);
-    DAL_EACH(i, b->size) {
-        num sum = dal_num(0.0);
+    DAL_EACH(i, stages) {
+        num *DAL_RESTRICT u = b->u + i * width;
+        DAL_EACH(c, width) u[c] = dal_num(0.0);
         DAL_EACH(j, stages)
-            sum += m->extrapolation[i / width * stages + j] * last[j * width + i % width];
-        b->u[i] = sum;
+            DAL_EACH(c, width) u[c] += m->extrapolation[i * stages + j] * last[j * width + c];
     }
 }
 DAL_INLINE void dal__guess_last(dal_step *s, const dal_tableau *m, dal_equation *eq)
@@ -198,7 +222,11 @@ DAL_INLINE void dal__gauge_stages(dal_step *s, dal_stages *k)
 {
     const dal_tableau *m = k->method;
     DAL_EACH(i, DAL_STAGES(m)) k->mu[i] = dal_mu_e(s, s->t + m->c[i] * k->h);
-    DAL_EACH(i, DAL_STAGES(m)) k->w[i] = 1.0 / (s->y[dal_at_e(s)] + dal__stage(k, i, k->mu, 1));
+    const int stages = DAL_STAGES(m);
+    DAL_EACH(i, stages) {
+        const double *a = m->a + i * stages, *tail = m->a_tail + i * stages;
+        k->w[i] = 1.0 / (s->y[dal_at_e(s)] + dal__weighted(a, tail, stages, k->h, k->mu, 1));
+    }
 }
 
 /* The momenta's half of y1 - y. */
@@ -208,12 +236,12 @@ DAL_INLINE dal_status dal__collocation_momenta(dal_step *s, const dal_stages *k,
     const int n = DAL_N(s);
     DAL_VECTOR(s, rate, DAL_STAGES(k->method));
     DAL_EACH(i, DAL_STAGES(k->method)) rate[i] = dal_gauge_rate(k->pi + i * n, n, k->w[i]);
-    DAL_EACH(j, n) {
-        d[dal_at_p(s) + j] = -dal__end(k, k->f + n + j, k->stride);
-        d[dal_at_pi(s) + j] = dal__end(k, eq->block[1].u + j, n);
-    }
-    d[dal_at_e(s)] = dal__end(k, k->mu, 1);
-    d[dal_at_pi_e(s)] = dal__end(k, rate, 1);
+    num *const p = d + dal_at_p(s);
+    dal__end(k, k->f + n, k->stride, n, p);
+    DAL_EACH(j, n) p[j] = -p[j];
+    dal__end(k, eq->block[1].u, n, n, d + dal_at_pi(s));
+    dal__end(k, k->mu, 1, 1, d + dal_at_e(s));
+    dal__end(k, rate, 1, 1, d + dal_at_pi_e(s));
     return DAL_OK;
 }
 
@@ -222,8 +250,8 @@ DAL_INLINE dal_status dal__collocation_end(dal_step *s, const dal_stages *k, con
 {
     const int n = DAL_N(s), nw = DAL_NW(s);
     DAL_VECTOR(s, d, DAL_DIM(s));
-    DAL_EACH(j, n) d[j] = dal__end(k, k->v + j, nw);
-    DAL_EACH(j, nw) d[n + j] = dal__end(k, eq->block[0].u + j, nw);
+    dal__end(k, k->v, nw, n, d);
+    dal__end(k, eq->block[0].u, nw, nw, d + n);
     if (DAL_LIFTED(s)) DAL_TRY(dal__collocation_momenta(s, k, eq, d));
     return dal_update(s, k->h, d);
 }

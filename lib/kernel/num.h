@@ -39,6 +39,7 @@
 #if DAL_LANES == 1
 
 typedef double num;
+typedef double dal_stored;
 typedef int64_t dal_mask;
 
 DAL_INLINE num dal_num(double x) { return x; }
@@ -54,6 +55,8 @@ DAL_INLINE int dal_mask_lane(dal_mask m, int lane) { return (void)lane, m != 0; 
 #else
 
 typedef double num __attribute__((vector_size(8 * DAL_LANES), may_alias));
+/* A num in memory of doubles that need not be aligned to its lanes. */
+typedef double dal_stored __attribute__((vector_size(8 * DAL_LANES), may_alias, aligned(8)));
 typedef int64_t dal_mask __attribute__((vector_size(8 * DAL_LANES), may_alias));
 
 DAL_INLINE num dal_num(double x)
@@ -111,5 +114,89 @@ DAL_INLINE num dal_sqrt(num x)
     return r;
 }
 #endif
+
+#define DAL_RESTRICT __restrict
+
+/* Reductions over many numbers go by packs, which a compiler may not make by itself: the largest,
+ * and whether all are finite, since the order does not matter there; sums from DAL__LONG numbers
+ * on, in one order that all builds keep.  The functions over packs return how many numbers they saw
+ * to. */
+enum { DAL__PACK = 8, DAL__LONG = 16 };
+#if DAL_LANES == 1 && !defined DAL_SPECIALISED
+typedef double dal__pack __attribute__((vector_size(64), aligned(8), may_alias));
+typedef int64_t dal__pack_mask __attribute__((vector_size(64)));
+
+/* part = max(part, |x|) */
+DAL_INLINE void dal__pack_max(dal__pack *part, const dal__pack *x)
+{
+    const dal__pack_mask size = (dal__pack_mask)*x & INT64_MAX, less = *part < (dal__pack)size;
+    *part = (dal__pack)((size & less) | ((dal__pack_mask)*part & ~less));
+}
+DAL_INLINE int dal__norm_packs(const num *x, int count, num *norm)
+{
+    dal__pack part = {0};
+    int i = 0;
+    for (; i + DAL__PACK <= count; i += DAL__PACK) dal__pack_max(&part, (const dal__pack *)(x + i));
+    for (int j = 0; j < DAL__PACK; j++) *norm = dal_max(*norm, part[j]);
+    return i;
+}
+DAL_INLINE int dal__poison_packs(const num *x, int count, num *poison)
+{
+    dal__pack part = {0};
+    int i = 0;
+    for (; i + DAL__PACK <= count; i += DAL__PACK)
+        part += *(const dal__pack *)(x + i) - *(const dal__pack *)(x + i);
+    for (int j = 0; j < DAL__PACK; j++) *poison += part[j];
+    return i;
+}
+/* part_j += sum of u_i^2, i = j modulo the size of a pack */
+DAL_INLINE int dal__square_packs(const num *u, int count, num *part)
+{
+    dal__pack sum = {0};
+    int i = 0;
+    for (; i + DAL__PACK <= count; i += DAL__PACK)
+        sum += *(const dal__pack *)(u + i) * *(const dal__pack *)(u + i);
+    for (int j = 0; j < DAL__PACK; j++) part[j] = sum[j];
+    return i;
+}
+#else
+#define dal__norm_packs(x, count, norm)     0
+#define dal__poison_packs(x, count, poison) 0
+DAL_INLINE int dal__square_packs(const num *u, int count, num *part)
+{
+    DAL_EACH(i, count / DAL__PACK * DAL__PACK) part[i % DAL__PACK] += u[i] * u[i];
+    return count / DAL__PACK * DAL__PACK;
+}
+#endif
+
+DAL_INLINE num dal_max_norm(const num *x, int count)
+{
+    num norm = dal_num(0.0);
+    const int seen = dal__norm_packs(x, count, &norm);
+    DAL_EACH(i, count - seen) norm = dal_max(norm, dal_abs(x[seen + i]));
+    return norm;
+}
+
+/* 0, or NaN where one of them is not finite. */
+DAL_INLINE num dal_poison(const num *x, int count)
+{
+    num poison = dal_num(0.0);
+    const int seen = dal__poison_packs(x, count, &poison);
+    DAL_EACH(i, count - seen) poison += x[seen + i] - x[seen + i];
+    return poison;
+}
+
+/* |u|^2 */
+DAL_INLINE num dal_square(const num *u, int count)
+{
+    num part[DAL__PACK], sum = dal_num(0.0);
+    DAL_EACH(j, DAL__PACK) part[j] = dal_num(0.0);
+    const int seen = count < DAL__LONG ? 0 : dal__square_packs(u, count, part);
+    DAL_EACH(i, count - seen) sum += u[seen + i] * u[seen + i];
+    if (seen == 0) return sum;
+    return (((part[0] + part[4]) + (part[2] + part[6])) +
+            ((part[1] + part[5]) + (part[3] + part[7]))) +
+           sum;
+}
 
 #endif

@@ -50,13 +50,6 @@ typedef dal_status dal_matrix(dal_step *step, dal_equation *equation); /* fills 
     dal_block name = {(count), name##_u,     name##_image, name##_start, name##_inverse,           \
                       1.0,     dal_num(0.0), dal_num(0.0), dal_num(0.0), dal_num(0.0)}
 
-DAL_INLINE num dal_max_norm(const num *x, int count)
-{
-    num norm = dal_num(0.0);
-    DAL_EACH(i, count) norm = dal_max(norm, dal_abs(x[i]));
-    return norm;
-}
-
 /* Sizes of the state for blocks that move v or pi: what rounding in q or p can do to them within a
  * step that contracts. */
 DAL_INLINE num dal_velocity_scale(const dal_step *s, double h)
@@ -70,17 +63,41 @@ DAL_INLINE num dal_momentum_scale(const dal_step *s, double h)
            fabs(h) * dal_max_norm(s->y + dal_at_p(s), DAL_N(s));
 }
 
-/* u += d (or M^-1 d) in the active lanes; b->now: the norm of the increment, NaN if not finite. */
+#if DAL_LANES == 1 && !defined DAL_SPECIALISED
+/* d = image - u, u += d; norm and poison of d. */
+DAL_INLINE int dal__advance_packs(num *u, const num *image, int count, num *norm, num *poison)
+{
+    dal__pack largest = {0}, sum = {0};
+    int i = 0;
+    for (; i + DAL__PACK <= count; i += DAL__PACK) {
+        dal__pack *v = (dal__pack *)(u + i);
+        const dal__pack d = *(const dal__pack *)(image + i) - *v;
+        dal__pack_max(&largest, &d);
+        sum += d - d;
+        *v += d;
+    }
+    for (int j = 0; j < DAL__PACK; j++) *norm = dal_max(*norm, largest[j]);
+    for (int j = 0; j < DAL__PACK; j++) *poison += sum[j];
+    return i;
+}
+#else
+#define dal__advance_packs(u, image, count, norm, poison) 0
+#endif
+
+/* u += d (or M^-1 d) in the active lanes; b->now: the norm of the increment, NaN if not finite.  A
+ * pack belongs to one lane, which is active or nobody would call. */
 DAL_INLINE void dal__advance(dal_block *b, dal_mask active, int newton)
 {
     num norm = dal_num(0.0), poison = dal_num(0.0);
-    DAL_EACH(i, b->size) b->image[i] -= b->u[i];
-    DAL_EACH(i, b->size) {
-        num d = b->image[i];
-        if (newton) dal_multiply(b->inverse + i * b->size, 1, b->size, b->image, &d);
+    const int seen = newton ? 0 : dal__advance_packs(b->u, b->image, b->size, &norm, &poison);
+    num *u = b->u + seen, *image = b->image + seen;
+    DAL_EACH(i, b->size - seen) image[i] -= u[i];
+    DAL_EACH(i, b->size - seen) {
+        num d = image[i];
+        if (newton) dal_multiply(b->inverse + i * b->size, 1, b->size, image, &d);
         norm = dal_max(norm, dal_abs(d));
         poison += d - d;
-        b->u[i] = dal_select(active, b->u[i] + d, b->u[i]);
+        u[i] = dal_select(active, u[i] + d, u[i]);
     }
     b->before = b->now;
     b->now = b->weight * norm + poison;

@@ -153,24 +153,16 @@ DAL_INLINE num dal_mu_e(dal_step *s, double t)
     return mu;
 }
 
-/* |u|^2 / 2 */
-DAL_INLINE num dal_half_square(const num *u, int n)
-{
-    num sum = dal_num(0.0);
-    DAL_EACH(i, n) sum += u[i] * u[i];
-    return 0.5 * sum;
-}
-
 /* pi_e' = |pi/e|^2 / 2, with w = 1/e. */
 DAL_INLINE num dal_gauge_rate(const num *pi, int n, num w)
 {
-    return dal_half_square(pi, n) * (w * w);
+    return 0.5 * dal_square(pi, n) * (w * w);
 }
 
 /* The whole first-order field in the space of the run (theory.md, 2), dy[dim]:
  *     q' = v   v' = F + pi/e   e' = mu_e   p' = -F_q^T pi   pi' = -p - F_v^T pi   pi_e' = pi^2/2e^2
  */
-DAL_INLINE dal_status dal_field(dal_step *s, double t, const num *y, num *dy)
+DAL_INLINE dal_status dal_field(dal_step *s, double t, const num *y, num *DAL_RESTRICT dy)
 {
     const int n = DAL_N(s);
     DAL_EACH(i, n) dy[i] = y[n + i];
@@ -183,11 +175,9 @@ DAL_INLINE dal_status dal_field(dal_step *s, double t, const num *y, num *dy)
     const num *p = y + dal_at_p(s), *pi = y + dal_at_pi(s);
     const num w = 1.0 / y[dal_at_e(s)];
     dal_adjoint(s, t, y, y + n, pi, f);
-    DAL_EACH(i, n) {
-        dy[n + i] = f[i] + pi[i] * w;
-        dy[dal_at_p(s) + i] = -f[n + i];
-        dy[dal_at_pi(s) + i] = -p[i] - f[2 * n + i];
-    }
+    DAL_EACH(i, n) dy[n + i] = f[i] + pi[i] * w;
+    DAL_EACH(i, n) dy[dal_at_p(s) + i] = -f[n + i];
+    DAL_EACH(i, n) dy[dal_at_pi(s) + i] = -p[i] - f[2 * n + i];
     dy[dal_at_e(s)] = dal_mu_e(s, t);
     dy[dal_at_pi_e(s)] = dal_gauge_rate(pi, n, w);
     DAL_RELEASE(s);

@@ -157,13 +157,12 @@ dal_status DAL_WIDE(dal__engine_ask)(void *engine_, int question, double t, cons
 /* Lanes in which every component of the state is finite; 1/e stands for e. */
 static dal_mask finite(const engine *e)
 {
-    num sum = dal_num(0.0);
-    for (int i = 0; i < e->shape.dim; i++) {
-        num x = e->carried[i];
-        if (e->shape.lifted && i == 2 * e->shape.n) x = 1.0 / x;
-        sum += x - x;
-    }
-    return dal_equal(sum, dal_num(0.0));
+    const int dim = e->shape.dim, at_e = 2 * e->shape.n;
+    if (!e->shape.lifted) return dal_equal(dal_poison(e->carried, dim), dal_num(0.0));
+    const num w = 1.0 / e->carried[at_e];
+    return dal_equal(dal_poison(e->carried, at_e) + (w - w) +
+                         dal_poison(e->carried + at_e + 1, dim - at_e - 1),
+                     dal_num(0.0));
 }
 
 static dal_mask gauge_holds(const engine *e)
