@@ -45,6 +45,13 @@ static int answer_size(const dal__shape *k, dal_question question)
     return 0;
 }
 
+/* Numbers of the carried array that a step may change: an explicit method has no stage slopes. */
+static size_t changing(const engine *e)
+{
+    const bool is_explicit = (e->chain[0]->claims & DAL_EXPLICIT) != 0;
+    return is_explicit ? dal__at(&e->shape, DAL__SLOPES) : e->shape.carried;
+}
+
 /* Remembers the first answer that is not finite. */
 static void trace(engine *e, dal_question question, const dal_at *at, dal_status status,
                   const double *out)
@@ -60,20 +67,26 @@ static void trace(engine *e, dal_question question, const dal_at *at, dal_status
     memcpy(cause->v, at->v, (size_t)e->shape.nw * sizeof(double));
 }
 
+/* The answer where there is none. */
+static void fill(const engine *e, dal_question question, double value, num *out)
+{
+    const int size = answer_size(&e->shape, question);
+    for (int i = 0; i < size; i++) out[i] = dal_num(value);
+}
+
 static void ask(dal_step *s, dal_question question, double t, const num *q, const num *v,
                 const num *pi, num *out)
 {
     engine *e = s->owner;
-    const int size = answer_size(&e->shape, question);
-    if (!e->call[question]) { /* only the gauge may be missing here */
-        for (int i = 0; i < size; i++) out[i] = dal_num(0.0);
+    dal_callback *const call = e->call[question];
+    if (!call) { /* only the gauge may be missing here */
+        fill(e, question, 0.0, out);
         return;
     }
     const dal_at at = {t, (const double *)q, (const double *)v, (const double *)pi,
                        (double *)e->work};
-    const dal_status status = e->call[question](e->shape.system, &at, (double *)out);
-    if (status != DAL_OK)
-        for (int i = 0; i < size; i++) out[i] = dal_num(NAN);
+    const dal_status status = call(e->shape.system, &at, (double *)out);
+    if (status != DAL_OK) fill(e, question, NAN, out);
     if (DAL_LANES == 1 && e->cause) trace(e, question, &at, status, (const double *)out);
 }
 
@@ -271,7 +284,7 @@ unsigned DAL_WIDE(dal__engine_step)(void *engine_, double h, unsigned lanes, dal
     dal_step *s = &e->step;
     int first = 0;
     while (first < DAL_LANES - 1 && !(lanes >> first & 1)) first++;
-    memcpy(e->backup, e->carried, e->shape.carried * sizeof(num));
+    memcpy(e->backup, e->carried, changing(e) * sizeof(num));
     s->t = dal_lane(e->carried[dal__at(&e->shape, DAL__TIME)], first);
     s->h = h;
     s->alive = mask_of(lanes);
@@ -284,7 +297,7 @@ unsigned DAL_WIDE(dal__engine_step)(void *engine_, double h, unsigned lanes, dal
     const dal_mask moved = mask_of(lanes & ~failed);
     advance_clock(e, h, moved);
     if (failed)
-        for (size_t i = 0; i < e->shape.carried; i++)
+        for (size_t i = 0; i < changing(e); i++)
             e->carried[i] = dal_select(moved, e->carried[i], e->backup[i]);
     return failed;
 }
