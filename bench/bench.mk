@@ -34,10 +34,27 @@ $(BENCH)/odeint: bench/odeint.cpp $(BENCH_HEADERS)
 	$(call SAY,c++)$(BENCH_CXX) -std=gnu++17 -Wall -Wextra -Wno-psabi -Wno-ignored-attributes $(BENCH_FAST) \
 	    -Iinclude -Ilib $< -o $@
 
-bench-programs: $(BENCH)/dal $(BENCH)/hand
+$(BENCH)/peak: bench/peak.c $(BENCH_HEADERS)
+	@mkdir -p $(@D)
+	$(call SAY,cc)$(CC) $(BENCH_PEER) -Wno-psabi $< -lm -o $@
+
+# gen.METHOD.SPACE.SYSTEM.LANES, as many as the cases name.
+BENCH_GEN  = $(shell grep -o 'gen\.[^ |]*' bench/cases.txt | sort -u)
+BENCH_WORD = $(word $(1),$(subst ., ,$*))
+$(BENCH)/lib/dalembert: FORCE
+	@$(MAKE) --no-print-directory BUILD=$(BENCH)/lib CFLAGS="-O3 -march=native" $@
+$(BENCH)/gen.%.c: $(BENCH)/lib/dalembert
+	@$< generate bench/systems/$(call BENCH_WORD,3).yaml --integrator $(call BENCH_WORD,1) \
+	    --space $(call BENCH_WORD,2) --lanes $(call BENCH_WORD,4) --prefix gen -o $@
+$(BENCH)/gen.%: $(BENCH)/gen.%.c bench/gen.c bench/bench.h
+	$(call SAY,cc)$(CC) -std=c11 $(BENCH_FAST) $(EXACT) -DGENERATED='"$<"' -I. bench/gen.c -lm -o $@
+
+bench-programs: $(BENCH)/dal $(BENCH)/hand $(BENCH)/peak
+	@for gen in $(BENCH_GEN); do $(MAKE) --no-print-directory $(BENCH)/$$gen || exit 1; done
 	@for peer in $(BENCH_PEERS); do $(MAKE) --no-print-directory $(BENCH)/$$peer || exit 1; done
 bench: bench-programs
 	@sh bench/run.sh bench/cases.txt $(BENCH) $(BUILD)/bench.jsonl
 bench-smoke: bench-programs
 	@RUNS=1 BENCH_MS=0 sh bench/run.sh bench/cases.txt $(BENCH) $(BENCH)/smoke.jsonl
 .PHONY: bench bench-programs bench-smoke
+.PRECIOUS: $(BENCH)/gen.%.c

@@ -82,8 +82,8 @@ static const dal_system *find_system(const char *engine, const char *name, dal_e
     if (strcmp(name, "C") == 0 || strcmp(name, "C0") == 0) return &fluid;
     if (strcmp(name, "B101") == 0) return &chain_system;
     if (strcmp(engine, "callback") == 0) return strcmp(name, "A") == 0 ? &sleigh_by_hand : NULL;
-    const char *path =
-        strcmp(name, "A") == 0 ? "bench/systems/sleigh.yaml" : "bench/systems/chain3.yaml";
+    char path[64];
+    snprintf(path, sizeof path, "bench/systems/%.20s.yaml", name);
     if (dal_model_read_file(&model, path, error) == DAL_OK) dal_model_system(model, &system, error);
     return system;
 }

@@ -1,0 +1,28 @@
+/* gen.c - around a generated file, GENERATED, whose prefix is gen.
+ *
+ *     gen.METHOD.SPACE.SYSTEM.LANES       a program each; LANES trajectories at once
+ *
+ * made by `dalembert generate bench/systems/SYSTEM.yaml`; see bench.mk. */
+#define _POSIX_C_SOURCE 200809L
+#include GENERATED
+#include "bench.h"
+
+enum { STEPS = 1000, SHOWN = 2 * gen_COORDINATES };
+
+/* Lanes differ a little in the first coordinate, as in dal.c. */
+static int work(void *self, double *end)
+{
+    gen_state *state = self;
+    if (gen_start(state, NULL)) return 1;
+    for (int lane = 0; lane < gen_LANES; lane++) state->y[lane] += 1e-3 * lane;
+    const int status = gen_advance(state, BENCH_H_STEP, STEPS);
+    for (int i = 0; i < SHOWN; i++) end[i] = state->y[i * gen_LANES];
+    return status;
+}
+
+int main(void)
+{
+    static gen_state state;
+    const bench_job job = {(double)STEPS * gen_LANES, SHOWN, work, &state};
+    return bench_measure(&job);
+}
