@@ -31,7 +31,8 @@ SONAME  := libdalembert.so.$(firstword $(subst ., ,$(VERSION)))
 # Sources over num are compiled once per width: files named *_wide.c, and every integrator.
 WIDE_SRC = $(wildcard lib/*/*_wide.c integrators/*.c)
 LIB_SRC  = $(filter-out $(WIDE_SRC),$(wildcard lib/*.c lib/*/*.c))
-LIB_OBJ  = $(LIB_SRC:%.c=$(BUILD)/%.o) $(call WIDE,$(WIDE_SRC)) $(BUILD)/generated/systems.o
+LIB_OBJ  = $(LIB_SRC:%.c=$(BUILD)/%.o) $(call WIDE,$(WIDE_SRC)) $(BUILD)/generated/systems.o \
+           $(BUILD)/generated/sources.o
 CLI_OBJ  = $(patsubst %.c,$(BUILD)/%.o,$(wildcard cli/*.c)) $(BUILD)/generated/study.o
 WIDE     = $(foreach width,1 4 8,$(1:%.c=$(BUILD)/%_x$(width).o))
 
@@ -85,6 +86,11 @@ $(PROGRAM): $(CLI_OBJ) $(STATIC)
 $(SYSTEMS): tools/embed.sh $(wildcard systems/*.yaml) systems
 	@mkdir -p $(@D)
 	$(call SAY,sh)sh tools/embed.sh $(sort $(wildcard systems/*.yaml)) >$@.tmp && mv $@.tmp $@
+# So do the kernel and the integrators, for generated files.
+SOURCES = $(wildcard lib/kernel/*.h) lib/generate/stepper.h $(wildcard integrators/*.c)
+$(BUILD)/generated/sources.c: tools/embed-sources.sh $(SOURCES)
+	@mkdir -p $(@D)
+	sh tools/embed-sources.sh $(SOURCES) >$@.tmp && mv $@.tmp $@
 # The built-in study travels inside the program.
 $(BUILD)/generated/study.c: tools/embed-text.sh bench/studies/canonical-drift.yaml
 	@mkdir -p $(@D)

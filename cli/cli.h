@@ -24,6 +24,8 @@
     X(run, "SYSTEM --integrator NAME --step H --time T [OPTION]...", "integrate one system")       \
     X(resume, "DIR [OPTION]...", "go on with a run that was interrupted")                          \
     X(study, "[STUDY.yaml] [OPTION]...", "systems x integrators x steps: tables of drift")         \
+    X(generate, "SYSTEM --integrator NAME [OPTION]... -o FILE.c",                                  \
+      "one C file that steps a system and needs nothing else")                                     \
     X(report, "DIR [OPTION]...", "figures and tables from a run or a study")
 
 #define X(name, synopsis, about) int command_##name(int argc, char **argv);

@@ -28,6 +28,13 @@ for name in embed by_hand own_integrator contact_chain isokinetic_fluid; do
     cmp "$root/$name.txt" "$root/$name-static.txt" || fail "$name: shared and static differ"
 done
 
+# A generated file needs no library at all.
+quiet "$prefix/bin/dalembert" generate chaplygin-sleigh --integrator gauss4+project \
+    --prefix sleigh -o "$root/sleigh.c"
+quiet $cc -std=c11 -Wall -Wextra -Wpedantic -Werror -Wno-psabi $CFLAGS -I"$root" \
+    examples/generated.c -lm -o "$root/generated"
+"$root/generated" >"$root/generated.txt" || fail "generated failed"
+
 near='function near(a, b, tolerance) { d = a - b; if (d < 0) d = -d; if (!(d <= tolerance)) {
     print FILENAME ": line " FNR ": " a " should be " b; bad = 1 } }
     END { exit bad || NR != rows }'
@@ -36,6 +43,9 @@ near='function near(a, b, tolerance) { d = a - b; if (d < 0) d = -d; if (!(d <= 
 awk "$near"' { near($1, FNR, 1e-12); near($2, sin($1), 1e-10); near($3, 1 - cos($1), 1e-10)
     near($4, $1, 1e-12); near($5, cos($1), 1e-10); near($6, sin($1), 1e-10); near($7, 1, 1e-12)
     near($8, 0, 1e-14) }' rows=10 "$root/embed.txt" || fail "embed is wrong"
+awk "$near"' { near($1, FNR, 1e-12); near($2, sin($1), 1e-10); near($3, 1 - cos($1), 1e-10)
+    near($4, $1, 1e-12); near($5, 0, 1e-14) }' rows=10 "$root/generated.txt" ||
+    fail "generated is wrong"
 # The guided oscillator: x = c + (1 - c) cos t + 2 sin t, c = k^2/(1 + k^2), y = k (x - 1).
 awk "$near"' { x = 0.2 + 0.8 * cos(10) + 2 * sin(10); near($1, 10, 1e-12); near($2, x, 1e-7)
     near($3, (x - 1) / 2, 1e-7); near($4, 0, 1e-13) }' rows=1 "$root/by_hand.txt" || fail "by_hand is wrong"

@@ -138,4 +138,16 @@ void dal__tape_run_x1(const dal__tapes *tapes, int program, double *work, double
 void dal__tape_run_x4(const dal__tapes *tapes, int program, double *work, double *out);
 void dal__tape_run_x8(const dal__tapes *tapes, int program, double *work, double *out);
 
+/* Writes a program as C statements over num that set out[0], out[1], ...: its instructions one by
+ * one, so that it computes the same bits.  Input number i is called input[i].text; parameters and
+ * what was hoisted are w[place], their places in work.  The second writes what dal__tapes_prepare
+ * computes. */
+typedef struct dal__input_name {
+    char text[16];
+} dal__input_name;
+struct dal__text;
+void dal__tape_write(const dal__tapes *tapes, int program, const dal__input_name *input,
+                     struct dal__text *text);
+void dal__tapes_write_hoisted(const dal__tapes *tapes, struct dal__text *text);
+
 #endif

@@ -15,8 +15,8 @@ enum {
 };
 
 /* How the entries of a section stand in a file. */
-typedef enum dal__shape { DAL__SCALAR, DAL__LIST, DAL__MAPPING } dal__shape;
-dal__shape dal__section_shape(dal_section section);
+typedef enum dal__form { DAL__SCALAR, DAL__LIST, DAL__MAPPING } dal__form;
+dal__form dal__section_shape(dal_section section);
 const char *dal__section_name(dal_section section);
 
 /* One text of a model, and where it and its name stood. */
@@ -206,6 +206,8 @@ dal_status dal__programs_add(dal_model *model, dal__programs *programs, dal__pro
                              const dal__node *outputs, int count);
 /* Adds field, adjoint and jacobian of dx/dt = F: nw nodes, the first n of them accelerations. */
 dal_status dal__programs_add_motion(dal_model *model, dal__programs *programs, const dal__node *F);
+/* The programs of a model's system; NULL for another. */
+const dal__programs *dal__programs_of(const dal_system *system);
 /* Finishes the tapes and points the system to its callbacks. */
 dal_status dal__programs_finish(dal__programs *programs, dal_system *system);
 

@@ -18,7 +18,7 @@ static const char *const section_names[] = {
 
 const char *dal__section_name(dal_section section) { return section_names[section]; }
 
-dal__shape dal__section_shape(dal_section section)
+dal__form dal__section_shape(dal_section section)
 {
     switch (section) {
     case DAL_SECTION_TITLE:
@@ -145,7 +145,7 @@ static dal_status check_name(const dal__entry *entry, dal_error *error)
 
 static dal_status check_duplicate(const dal_model *model, const dal__entry *entry, dal_error *error)
 {
-    dal__shape shape = dal__section_shape(entry->section);
+    dal__form shape = dal__section_shape(entry->section);
     const char *name = shape == DAL__MAPPING ? entry->name : entry->text;
     const char *section = dal__section_name(entry->section);
     if (entry->section == DAL_SECTION_CONSTRAINTS) return DAL_OK;

@@ -124,6 +124,11 @@ static dal_status prepare(const dal_system *system, const dal_at *at, double *ou
     return DAL_OK;
 }
 
+const dal__programs *dal__programs_of(const dal_system *system)
+{
+    return system->prepare == prepare ? system->data : NULL;
+}
+
 dal_status dal__programs_finish(dal__programs *programs, dal_system *system)
 {
     DAL_TRY(dal__tapes_finish(programs->tapes));

@@ -1,0 +1,323 @@
+/* generate.c - one self-contained C file for one system, method and space; see generate.h. */
+#include "generate/generate.h"
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Straight-line code beyond these takes a compiler too long; Newton's matrices lie on the stack. */
+enum { MOST_INSTRUCTIONS = 20000, MOST_STACK = 1 << 22 };
+/* Loops over components are unrolled for steps up to this size. */
+enum { MOST_UNROLLED = 256, MOST_UNROLLED_DIM = 64 };
+
+/* ---- texts ---- */
+
+static bool is_word(char c)
+{
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+}
+
+void dal__put_template(dal__generation *g, const char *text)
+{
+    static const char word[] = "PREFIX";
+    for (const char *next; (next = strstr(text, word)); text = next + strlen(word)) {
+        dal__text_add(&g->text, text, (size_t)(next - text));
+        dal__text_put(&g->text, g->prefix);
+    }
+    dal__text_put(&g->text, text);
+}
+
+const char *dal__source_text(const char *name)
+{
+    for (const dal__source *k = dal__sources; k->name; k++)
+        if (strcmp(k->name, name) == 0) return k->text;
+    return "";
+}
+
+/* The integrator whose text has the name in quotes; kernel headers have none. */
+static const dal__source *source_of(const dal_integrator *integrator)
+{
+    char quoted[72];
+    snprintf(quoted, sizeof quoted, "\"%s\"", integrator->name);
+    for (const dal__source *k = dal__sources; k->name; k++)
+        if (strstr(k->name, ".c") && strstr(k->text, quoted)) return k;
+    return NULL;
+}
+
+bool dal__method_uses(const dal__generation *g, const char *word)
+{
+    for (int i = 0; i < g->shape.depth; i++)
+        if (strstr(g->source[i]->text, word)) return true;
+    return false;
+}
+
+bool dal__uses_newton(const dal__generation *g)
+{
+    const bool implicit =
+        dal__method_uses(g, "dal_polarised_euler") || dal__method_uses(g, "dal_collocation");
+    return implicit && g->spec->options.solver != DAL_FIXED_POINT &&
+           g->programs->program[DAL__PROGRAM_JACOBIAN].present;
+}
+
+bool dal__wants(const dal__generation *g, dal__program_code code)
+{
+    const bool watched = g->shape.system->properties & DAL_D_WATCHED;
+    if (!g->programs->program[code].present) return false;
+    switch (code) {
+    case DAL__PROGRAM_ADJOINT:
+    case DAL__PROGRAM_GAUGE:
+        return g->shape.lifted;
+    case DAL__PROGRAM_JACOBIAN:
+        return dal__uses_newton(g);
+    case DAL__PROGRAM_CONSTRAINT:
+        return watched || dal__method_uses(g, "DAL_ASK_CONSTRAINT");
+    case DAL__PROGRAM_DIAGNOSE:
+        return false;
+    default:
+        return true;
+    }
+}
+
+/* ---- what can be generated ---- */
+
+static dal_status check_method(dal__generation *g, dal_error *error)
+{
+    for (int i = 0; i < g->shape.depth; i++) {
+        const dal_integrator *link = g->spec->method.chain[i];
+        g->source[i] = dal__integrator_wide(link, 4) ? source_of(link) : NULL;
+        if (!g->source[i])
+            return dal__error(error, DAL_UNSUPPORTED, 0, 0,
+                              "'%s' is not an integrator of the library: its text is not known",
+                              link->name ? link->name : "?");
+        for (int j = 0; j < i; j++)
+            if (g->source[j] == g->source[i])
+                return dal__error(error, DAL_UNSUPPORTED, 0, 0,
+                                  "'%s' twice in a method cannot be generated", link->name);
+    }
+    return DAL_OK;
+}
+
+static dal_status check_size(const dal__generation *g, dal_error *error)
+{
+    double length = 0.0;
+    const double width = (double)g->spec->method.chain[0]->stages * g->shape.nw;
+    const double stack = dal__uses_newton(g) ? 4.0 * 8.0 * g->lanes * width * width : 0.0;
+    for (int code = 0; code < DAL__PROGRAM_COUNT; code++)
+        if (dal__wants(g, (dal__program_code)code))
+            length += dal__tapes_length(g->programs->tapes, g->programs->program[code].tape);
+    if (length > MOST_INSTRUCTIONS)
+        return dal__error(
+            error, DAL_TOO_LARGE, 0, 0,
+            "'%.80s' is too large for straight-line code: %.0f operations (%d at most)",
+            g->shape.system->name, length, MOST_INSTRUCTIONS);
+    if (stack > MOST_STACK)
+        return dal__error(error, DAL_TOO_LARGE, 0, 0,
+                          "Newton's matrices of '%.80s' take %.0f bytes of stack (%d at most); "
+                          "solver fixed-point needs none",
+                          g->shape.system->name, stack, MOST_STACK);
+    return DAL_OK;
+}
+
+/* A prefix of the caller's, or SYSTEM_METHOD. */
+static dal_status choose_prefix(dal__generation *g, const char *prefix, dal_error *error)
+{
+    char method[DAL__PREFIX_SIZE];
+    if (!prefix)
+        snprintf(g->prefix, sizeof g->prefix, "%.30s_%.30s", g->shape.system->name,
+                 dal_method_name(&g->spec->method, method, sizeof method));
+    else if (strlen(prefix) >= sizeof g->prefix)
+        return dal__error(error, DAL_ARGUMENT, 0, 0, "prefix '%.60s...' is too long", prefix);
+    else
+        snprintf(g->prefix, sizeof g->prefix, "%s", prefix);
+    for (char *c = g->prefix; *c; c++)
+        if (!is_word(*c) && prefix)
+            return dal__error(error, DAL_ARGUMENT, 0, 0, "prefix '%s' is not a C name", prefix);
+        else if (!is_word(*c))
+            *c = '_';
+    if (g->prefix[0] == '\0' || g->prefix[0] == '_' || (g->prefix[0] >= '0' && g->prefix[0] <= '9'))
+        return dal__error(error, DAL_ARGUMENT, 0, 0, "prefix '%s' does not begin with a letter",
+                          g->prefix);
+    return DAL_OK;
+}
+
+static bool is_width(int lanes)
+{
+    return lanes == 1 || lanes == 2 || lanes == 4 || lanes == 8 || lanes == 16;
+}
+
+static dal_status check(dal__generation *g, int lanes, const char *prefix, dal_error *error)
+{
+    if (!is_width(lanes))
+        return dal__error(error, DAL_ARGUMENT, 0, 0, "%d lanes: 1, 2, 4, 8 or 16 are possible",
+                          lanes);
+    DAL_TRY(dal__shape_init(&g->shape, g->spec, error));
+    g->programs = dal__programs_of(g->shape.system);
+    if (!g->programs)
+        return dal__error(error, DAL_UNSUPPORTED, 0, 0,
+                          "'%.80s' is not made from a model: its formulas are not known",
+                          g->shape.system->name ? g->shape.system->name : "this system");
+    DAL_TRY(check_method(g, error));
+    DAL_TRY(check_size(g, error));
+    return choose_prefix(g, prefix, error);
+}
+
+/* ---- the file ---- */
+
+static const char compiler[] =
+    "#ifdef __FAST_MATH__\n"
+    "#error \"the bits of a trajectory are promised: compile without -ffast-math\"\n"
+    "#endif\n"
+    "/* No contraction, whatever the command line says. */\n"
+    "#if defined(__clang__)\n"
+    "#pragma STDC FP_CONTRACT OFF\n"
+    "#else\n"
+    "#pragma GCC push_options\n"
+    "#pragma GCC optimize(\"fp-contract=off\", \"no-math-errno\", \"no-tree-slp-vectorize\")\n"
+    "#endif\n"
+    "#pragma GCC diagnostic push\n"
+    "#pragma GCC diagnostic ignored \"-Wunused-parameter\"\n"
+    "#pragma GCC diagnostic ignored \"-Wpsabi\"\n"
+    "#ifndef __clang__ /* stages that no sweep was made for are never used */\n"
+    "#pragma GCC diagnostic ignored \"-Wmaybe-uninitialized\"\n#endif\n\n";
+
+static const char end[] = "\n#pragma GCC diagnostic pop\n"
+                          "#ifndef __clang__\n"
+                          "#pragma GCC pop_options\n"
+                          "#endif\n"
+                          "#endif /* PREFIX_HEADER */\n";
+
+static void put_unrolling(dal__generation *g)
+{
+    const int stages = g->spec->method.chain[0]->stages;
+    const bool coupled = dal__method_uses(g, "dal_collocation");
+    const int width = g->shape.lifted ? 3 * g->shape.n : g->shape.nw;
+    const bool small =
+        g->shape.dim <= MOST_UNROLLED_DIM && (!coupled || stages * stages * width <= MOST_UNROLLED);
+    dal__text_put(&g->text, "#define DAL_SPECIALISED 1\n");
+    if (small)
+        dal__text_put(&g->text, "#if !defined(__clang__) && !defined(__OPTIMIZE_SIZE__)\n"
+                                "#define DAL_UNROLL _Pragma(\"GCC unroll 64\")\n"
+                                "#else\n#define DAL_UNROLL\n#endif\n");
+    else
+        dal__text_put(&g->text, "#define DAL_UNROLL\n");
+}
+
+static void put_constants(dal__generation *g)
+{
+    const dal__shape *k = &g->shape;
+    const int stages = g->spec->method.chain[0]->stages;
+    const bool collocation = dal__method_uses(g, "dal_collocation");
+    const bool solves = collocation || dal__method_uses(g, "dal_polarised_euler");
+    const bool is_explicit = dal_method_claims(&g->spec->method) & DAL_EXPLICIT;
+    const struct {
+        const char *name;
+        int value;
+    } list[] = {
+        {"N", k->n},
+        {"NW", k->nw},
+        {"M", k->m},
+        {"DIM", k->dim},
+        {"LIFTED", k->lifted},
+        {"STAGES", stages},
+        {"SLOPES", collocation ? k->slopes : 0},
+        {"SOLVER", k->options.solver},
+        {"ITERATIONS", k->options.iterations},
+        {"NEWTON", dal__uses_newton(g)},
+        {"EXPLICIT", is_explicit && k->depth == 1 && !(solves && k->lifted)},
+        {"GUARDS", k->system->guards},
+        {"WATCHED", k->m > 0 && dal__wants(g, DAL__PROGRAM_CONSTRAINT) &&
+                        (k->system->properties & DAL_D_WATCHED) != 0},
+        {"GAUGE", dal__wants(g, DAL__PROGRAM_GAUGE)},
+    };
+    dal__text_print(&g->text, "#define DAL_LANES %d\n", g->lanes);
+    for (size_t i = 0; i < sizeof list / sizeof *list; i++)
+        dal__text_print(&g->text, "#define DAL__%s %d\n", list[i].name, list[i].value);
+    dal__text_put(&g->text, "\ntypedef enum dal_status {\n");
+#define X(code, words) dal__text_put(&g->text, "    DAL_" #code ",\n");
+    DAL_STATUS_LIST(X)
+#undef X
+    dal__text_put(&g->text, "    DAL_STATUS_COUNT\n} dal_status;\n"
+                            "enum { DAL_SOLVER_AUTO, DAL_FIXED_POINT, DAL_NEWTON };\n\n");
+}
+
+/* The parts of the kernel that the method needs. */
+static void put_kernel(dal__generation *g)
+{
+    static const char *const always[] = {"num.h", "elementary.h", "step.h", "algebra.h"};
+    const bool euler = dal__method_uses(g, "dal_polarised_euler");
+    const bool collocation = dal__method_uses(g, "dal_collocation");
+    for (size_t i = 0; i < sizeof always / sizeof *always; i++)
+        dal__text_put(&g->text, dal__source_text(always[i]));
+    if (euler || collocation || dal__method_uses(g, "dal_solve"))
+        dal__text_put(&g->text, dal__source_text("solve.h"));
+    if (euler) dal__text_put(&g->text, dal__source_text("polarised.h"));
+    if (collocation) dal__text_put(&g->text, dal__source_text("collocation.h"));
+}
+
+/* rk4, implicit_midpoint: what an integrator is called in DAL_INTEGRATOR. */
+static void put_identifier(dal__generation *g, const dal_integrator *link)
+{
+    for (const char *c = link->name; *c; c++) dal__text_add(&g->text, *c == '-' ? "_" : c, 1);
+}
+
+static void put_method(dal__generation *g)
+{
+    dal__text *text = &g->text;
+    dal__text_put(text, "\n#define DAL_INTEGRATOR(identifier, function, ...) \\\n"
+                        "    DAL_INLINE dal_status dal__of_##identifier(dal_step *s) "
+                        "{ return function(s); } \\\n"
+                        "    typedef dal_step dal__after_##identifier\n\n");
+    for (int i = 0; i < g->shape.depth; i++) {
+        if (i > 0) {
+            dal__text_print(text,
+                            "DAL_INLINE dal_status dal__inner_%d(dal_step *s, double h)\n"
+                            "{\n    const double outer = s->h;\n    s->h = h;\n"
+                            "    const dal_status status = dal__of_",
+                            i);
+            put_identifier(g, g->spec->method.chain[i - 1]);
+            dal__text_print(text,
+                            "(s);\n    s->h = outer;\n    return status;\n}\n"
+                            "#undef dal_inner\n#define dal_inner dal__inner_%d\n",
+                            i);
+        }
+        dal__text_print(text, "#define step dal__step_%d\n", i);
+        dal__text_put(text, g->source[i]->text);
+        dal__text_put(text, "#undef step\n\n");
+    }
+    dal__text_put(text, "#define dal__method dal__of_");
+    put_identifier(g, g->spec->method.chain[g->shape.depth - 1]);
+    dal__text_put(text, "\n\n");
+}
+
+static void put_file(dal__generation *g)
+{
+    dal__put_interface(g);
+    dal__put_template(g, "\n#ifndef PREFIX_HEADER\n\n#include <math.h>\n#include <stddef.h>\n"
+                         "#include <stdint.h>\n#include <string.h>\n\n");
+    dal__put_template(g, compiler);
+    put_unrolling(g);
+    put_constants(g);
+    put_kernel(g);
+    dal__put_answers(g);
+    put_method(g);
+    dal__put_template(g, dal__source_text("stepper.h"));
+    dal__put_observe(g);
+    dal__put_names(g);
+    dal__put_template(g, end);
+}
+
+dal_status dal_generate(const dal_run_spec *spec, int lanes, const char *prefix, char **text,
+                        dal_error *error)
+{
+    dal__generation g = {.spec = spec, .lanes = lanes};
+    *text = NULL;
+    DAL_TRY(check(&g, lanes, prefix, error));
+    DAL_TRY(dal_run_create(&g.run, spec, error));
+    put_file(&g);
+    dal_run_free(g.run);
+    if (g.text.starved) {
+        dal__text_free(&g.text);
+        return dal__error(error, DAL_MEMORY, 0, 0, "no memory for a generated file");
+    }
+    *text = g.text.bytes;
+    return DAL_OK;
+}

@@ -1,0 +1,102 @@
+# `dalembert generate`: files that compile without a warning wherever there is a compiler, and whose
+# programs end in the very digits of `dalembert run`.
+
+cat >drive.c <<'END'
+#include "g.c"
+#include <stdio.h>
+int main(void)
+{
+    static g_state s;
+    if (g_start(&s, 0) || g_advance(&s, 0.0625, 30) || g_advance(&s, 0.0625, 70)) return 1;
+    printf("%.17g", g_time(&s, 0));
+    for (int i = 0; i < g_DIMENSION; i++) {
+        for (int lane = 1; lane < g_LANES; lane++)
+            if (s.y[i * g_LANES + lane] != s.y[i * g_LANES]) return 2;
+        printf(",%.17g", s.y[i * g_LANES]);
+    }
+    double out[g_OBSERVABLES * g_LANES + 1];
+    g_observe(&s, out);
+    for (int i = 0; i < g_OBSERVABLES; i++)
+        if (g_observable[i][0] != '|') printf(",%.17g", out[i * g_LANES]);
+    return printf("\n") < 0;
+}
+END
+strict="-Wall -Wextra -Wpedantic -Werror -Wno-psabi"
+there() { command -v "${1%% *}" >/dev/null 2>&1; }
+# same SYSTEM INTEGRATOR SPACE LANES COMPILER FLAGS...
+same() {
+    system=$1 method=$2 space=$3 lanes=$4 compiler=$5
+    shift 5
+    there "$compiler" || return 0
+    case_is "$system $method $space, $lanes lanes, $compiler $*"
+    try 0 generate "$system" --integrator "$method" --space "$space" --lanes "$lanes" \
+        --prefix g -o g.c
+    silent
+    empty
+    holds "it does not compile: $(cat cc.log)" sh -c \
+        "$compiler $* $strict drive.c -o driven -lm >cc.log 2>&1"
+    ./driven >generated.csv
+    try 0 run "$system" --integrator "$method" --space "$space" --step 0.0625 --time 6.25 --samples 1
+    sed -n '3p' out >interpreted.csv
+    holds "other digits: $(cat generated.csv) not $(cat interpreted.csv)" \
+        cmp -s generated.csv interpreted.csv
+}
+: >cc.log
+same chaplygin-sleigh rk4 physical 1 gcc -std=c11 -O3 -march=native
+same chaplygin-sleigh symplectic-euler-00 lifted 4 clang -std=c11 -O1 -march=native
+same contact-oscillator rk4 lifted 8 g++ -x c++ -std=c++17 -O2
+same contact-oscillator implicit-midpoint+project physical 1 clang++ -x c++ -std=c++17 -O2
+same nonholonomic-particle stormer-verlet+project lifted 1 gcc -std=c11 -O1
+same isokinetic gauss4 lifted 1 clang -std=c11 -O1 -march=native
+same chaplygin-sleigh-vakonomic gauss6 physical 2 gcc -std=c11 -O1
+same appell-hamel symplectic-euler-11 physical 16 gcc -std=c11 -O1 -march=native
+same vertical-disk rk4+project physical 1 gcc -std=c11 -Os -ffreestanding
+same chaplygin-sleigh-friction symplectic-euler-01 lifted 1 gcc -std=c11 -O0
+
+# What a microcontroller must supply.
+if there gcc; then
+    case_is "only libm and memcpy, memset are needed"
+    try 0 generate isokinetic --integrator gauss4+project --prefix g -o g.c
+    holds "it does not compile" gcc -std=c11 -Os -ffreestanding $strict -c g.c -o g.o
+    holds "it needs $(nm -u g.o | tr -d '\n')" test -z "$(nm -u g.o | awk '{ print $2 }' |
+        grep -Evx 'memcpy|memset|sin|cos|tan|exp|log|pow|a?sinh?|a?cosh?|a?tanh?|atan2|sqrt|fabs')"
+    case_is "declarations alone"
+    printf '#define g_HEADER\n#include "g.c"\nint main(void) { return g_LANES - 1; }\n' >head.c
+    holds "it is more than declarations" sh -c "gcc -std=c11 $strict head.c -o head && ./head"
+fi
+
+# Names and texts that are C to C.
+cat >hostile.yaml <<'END'
+title: "evil */ int x; /* \\ ??/ #error"
+coordinates: [num, out]
+parameters: {int: 1, INFINITY: 2, M_PI: 3, step: 1}
+lagrangian: int*(num'^2 + out'^2)/2 - INFINITY*num^2/2 - M_PI*out^2/2
+constraints: [num' - step*out']
+start: {num: 1, out: 1}
+END
+same hostile.yaml rk4 physical 1 gcc -std=c11 -O1
+same hostile.yaml rk4 physical 1 g++ -x c++ -std=c++17 -O1
+case_is "defaults from the command line"
+try 0 generate line.yaml --integrator rk4 --set k=0.5 --start "x'=3" --prefix g -o -
+prints '^    p.k = 0x1p-1;$'
+prints '^    y\[1\] = dal_num\(3.0\);$'
+
+case_is "errors of generate"
+try 2 generate
+says 'the SYSTEM is missing'
+try 2 generate line.yaml
+says '--integrator is missing'
+try 2 generate line.yaml --integrator rk4 --lanes 3
+says '3 lanes'
+try 2 generate line.yaml --integrator rk4 --lanes 99
+try 2 generate line.yaml --integrator rk4 --prefix '9x'
+says 'does not begin with a letter'
+try 2 generate line.yaml --integrator rk4 --prefix 'a;b'
+says 'not a C name'
+try 2 generate line.yaml --integrator rk5
+says "did you mean 'rk4'"
+try 2 generate line.yaml --integrator rk4 --set K=1
+try 2 generate chaplygin-sleigh-vakonomic --integrator rk4 --space lifted
+try 4 generate line.yaml --integrator rk4 -o nowhere/at/all.c
+says 'nowhere/at/all.c'
+empty

@@ -1,0 +1,116 @@
+/* test_generate.c - generated C files: what is refused, and that memory may run out anywhere.
+ * That they compile and give the bits of a run is tested in tests/cli/generate_cases.sh. */
+#include "allocation.h"
+#include "dalembert.h"
+#include "text.h"
+#include <CUnit/CUnit.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+static dal_model *model;
+static dal_run_spec spec;
+
+static int set_up(void)
+{
+    dal_error error;
+    spec = (dal_run_spec){.options = dal_options_default()};
+    if (dal_model_builtin(&model, "chaplygin-sleigh", &error) != DAL_OK) return 1;
+    if (dal_model_system(model, &spec.system, &error) != DAL_OK) return 1;
+    return dal_method_parse(&spec.method, "gauss4+project", &error) != DAL_OK;
+}
+
+static int tear_down(void)
+{
+    dal_model_free(model);
+    return 0;
+}
+
+static dal_status generate(const dal_run_spec *of, int lanes, const char *prefix, dal_error *error)
+{
+    char *text;
+    dal_status status = dal_generate(of, lanes, prefix, &text, error);
+    CU_ASSERT_EQUAL(text == NULL, status != DAL_OK);
+    free(text);
+    return status;
+}
+
+static void test_refusals(void)
+{
+    dal_error error;
+    dal_system by_hand = *spec.system;
+    by_hand.prepare = NULL;
+    dal_integrator own = *spec.method.chain[0];
+    dal_run_spec other = spec;
+    CU_ASSERT_EQUAL(generate(&spec, 3, NULL, &error), DAL_ARGUMENT);
+    CU_ASSERT_EQUAL(generate(&spec, 32, NULL, &error), DAL_ARGUMENT);
+    CU_ASSERT_EQUAL(generate(&spec, 1, "", &error), DAL_ARGUMENT);
+    CU_ASSERT_EQUAL(generate(&spec, 1, "a b", &error), DAL_ARGUMENT);
+    CU_ASSERT_EQUAL(generate(&spec, 1, "_a", &error), DAL_ARGUMENT);
+    other.system = &by_hand;
+    CU_ASSERT_EQUAL(generate(&other, 1, NULL, &error), DAL_UNSUPPORTED);
+    CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "chaplygin-sleigh"));
+    other = spec;
+    other.method.chain[0] = &own;
+    CU_ASSERT_EQUAL(generate(&other, 1, NULL, &error), DAL_UNSUPPORTED);
+    other = spec;
+    other.method.chain[2] = other.method.chain[1];
+    CU_ASSERT_EQUAL(generate(&other, 1, NULL, &error), DAL_UNSUPPORTED);
+    other = spec;
+    other.parameters = &(dal_setting){"nothing", 1.0};
+    other.parameter_count = 1;
+    CU_ASSERT_EQUAL(generate(&other, 1, NULL, &error), DAL_NAME);
+}
+
+/* Every integrator of the library must be found again in the texts it carries. */
+static void test_every_method(void)
+{
+    dal_error error;
+    for (int i = 0; dal_integrator_at(i); i++) {
+        const dal_integrator *k = dal_integrator_at(i);
+        dal_run_spec other = spec;
+        if (k->claims & DAL_MODIFIER)
+            other.method.chain[1] = k;
+        else
+            other.method = (dal_method){{k}};
+        CU_ASSERT_EQUAL(generate(&other, 8, NULL, &error), DAL_OK);
+    }
+}
+
+static void test_memory(void)
+{
+    dal_error error;
+    for (long n = 0;; n++) {
+        allocation_fail_after(n);
+        const dal_status status = generate(&spec, 1, NULL, &error);
+        if (!allocation_failed()) break;
+        CU_ASSERT_EQUAL(status, DAL_MEMORY);
+    }
+    allocation_fail_after(-1);
+}
+
+/* A number must come back with its bits from what strtod, or a C compiler, makes of its text. */
+static void test_numbers(void)
+{
+    const double number[] = {0.0, 1.0, 0.1, 1e-13, 4e15, 1e300, 0x1p-1074, 0x1.fffffffffffffp1023};
+    for (size_t i = 0; i < sizeof number / sizeof *number; i++) {
+        dal__text text = {0};
+        dal__text_number(&text, number[i]);
+        CU_ASSERT_EQUAL(strtod(text.bytes, NULL), number[i]);
+        dal__text_free(&text);
+        dal__text_number(&text, -number[i] - 1.0);
+        CU_ASSERT_EQUAL(text.bytes[0], '(');
+        CU_ASSERT_EQUAL(strtod(text.bytes + 1, NULL), -number[i] - 1.0);
+        dal__text_free(&text);
+    }
+}
+
+void suite_generate(void);
+void suite_generate(void)
+{
+    CU_pSuite suite = CU_add_suite("generate", set_up, tear_down);
+    CU_add_test(suite, "what cannot be generated is refused", test_refusals);
+    CU_add_test(suite, "every integrator", test_every_method);
+    CU_add_test(suite, "memory runs out", test_memory);
+    CU_add_test(suite, "numbers keep their bits", test_numbers);
+}
