@@ -71,6 +71,8 @@ int cli_fail(int exit_status, const char *format, ...)
     va_list list;
     va_start(list, format);
     cli_progress_end();
+    /* Where both go to one place, the message stands behind the rows, not within one. */
+    fflush(stdout);
     fputs("dalembert: ", stderr);
     vfprintf(stderr, format, list);
     fputc('\n', stderr);

@@ -109,3 +109,10 @@ for locale in de_DE.UTF-8 C.UTF-8; do
     LC_ALL=$locale "$program" run ./line.yaml --integrator rk4 --step 0.1 --time 1 >out 2>err
     holds "rows under $locale" cmp out standard
 done
+
+case_is "a message stands behind the rows, also in one stream"
+"$program" run chaplygin-sleigh-nonlinear --integrator rk4 --step 0.01 --time 2 >both 2>&1
+holds "rows, then the message" awk '
+    NR > 1 && !/^dalembert: / && !/^[0-9].*,[0-9]/ { bad = 1 }
+    /^dalembert: / { at = NR }
+    END { exit bad || at != NR || NR < 50 }' both
