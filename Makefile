@@ -28,18 +28,36 @@ LIBS  = -lyaml -lm -pthread
 VERSION := $(shell sed -n 's/^.define DAL_VERSION "\(.*\)"/\1/p' include/dalembert.h)
 SONAME  := libdalembert.so.$(firstword $(subst ., ,$(VERSION)))
 
-# Sources over num are compiled once per width: files named *_wide.c, and every integrator.
-WIDE_SRC = $(wildcard lib/*/*_wide.c integrators/*.c)
-LIB_SRC  = $(filter-out $(WIDE_SRC),$(wildcard lib/*.c lib/*/*.c))
-LIB_OBJ  = $(LIB_SRC:%.c=$(BUILD)/%.o) $(call WIDE,$(WIDE_SRC)) $(BUILD)/generated/systems.o \
-           $(BUILD)/generated/sources.o
-CLI_OBJ  = $(patsubst %.c,$(BUILD)/%.o,$(wildcard cli/*.c)) $(BUILD)/generated/study.o
-WIDE     = $(foreach width,1 4 8,$(1:%.c=$(BUILD)/%_x$(width).o))
+# Sources over num - files named *_wide.c, and every integrator - are compiled once per variant: a
+# number of lanes and an instruction set, chosen when a batch is made.  Of two with the same lanes
+# the better one comes later.  Blocks, x64, are made of groups of lanes, a register each; their
+# integrators are those of the group.
+VARIANTS        = x1 x4 x8 x64 $(VARIANTS_$(MACHINE))
+VARIANTS_x86_64 = x4_AVX2 x64_AVX2 x8_AVX512 x64_AVX512
+FLAGS_AVX2      = -mavx2 -mfma
+FLAGS_AVX512    = -mavx512f -mavx512dq -mavx512vl -mfma -mprefer-vector-width=512
+GROUP_BASE      = x2
+GROUP_AVX2      = x4
+GROUP_AVX512    = x8
+MACHINE        := $(firstword $(subst -, ,$(shell $(CC) -dumpmachine)))
+lanes           = $(patsubst x%,%,$(firstword $(subst _, ,$1)))
+instructions    = $(or $(word 2,$(subst _, ,$1)),BASE)
+group           = $(1:x64%=$(GROUP_$(instructions))%)
+GROUPS          = $(sort $(foreach variant,$(VARIANTS),$(call group,$(variant))))
+
+WIDE_SRC   = $(wildcard lib/*/*_wide.c)
+METHOD_SRC = $(wildcard integrators/*.c)
+LIB_SRC    = $(filter-out $(WIDE_SRC),$(wildcard lib/*.c lib/*/*.c))
+LIB_OBJ    = $(LIB_SRC:%.c=$(BUILD)/%.o) $(BUILD)/generated/systems.o \
+             $(BUILD)/generated/sources.o \
+             $(call WIDE,$(VARIANTS),$(WIDE_SRC)) $(call WIDE,$(GROUPS),$(METHOD_SRC))
+CLI_OBJ    = $(patsubst %.c,$(BUILD)/%.o,$(wildcard cli/*.c)) $(BUILD)/generated/study.o
+WIDE       = $(foreach variant,$1,$(2:%.c=$(BUILD)/%_$(variant).o))
 
 SUITES    = $(patsubst tests/test_%.c,%,$(filter-out %_wide.c,$(wildcard tests/test_*.c)))
 FUZZERS   = $(patsubst tests/%.c,%,$(wildcard tests/fuzz_*.c))
 TEST_SRC  = $(filter-out tests/fuzz_% %_wide.c,$(wildcard tests/*.c))
-TEST_OBJ  = $(TEST_SRC:%.c=$(BUILD)/%.o) $(call WIDE,$(wildcard tests/*_wide.c))
+TEST_OBJ  = $(TEST_SRC:%.c=$(BUILD)/%.o) $(call WIDE,$(GROUPS),$(wildcard tests/*_wide.c))
 TEST_LIBS = -lcunit -lmpfr -lgmp
 
 PROGRAM = $(BUILD)/dalembert
@@ -56,16 +74,16 @@ all: $(PROGRAM) $(STATIC) $(SHARED) $(KERNEL)
 
 define COMPILE
 @mkdir -p $(@D)
-$(call SAY,cc)$(CC) $(ALL) $(LANES) -MMD -MP -c $< -o $@
+$(call SAY,cc)$(CC) $(ALL) $(VARIANT) -MMD -MP -c $< -o $@
 endef
 
-$(BUILD)/%_x1.o: LANES = -DDAL_LANES=1
-$(BUILD)/%_x4.o: LANES = -DDAL_LANES=4
-$(BUILD)/%_x8.o: LANES = -DDAL_LANES=8
-$(BUILD)/%_x1.o: %.c ; $(COMPILE)
-$(BUILD)/%_x4.o: %.c ; $(COMPILE)
-$(BUILD)/%_x8.o: %.c ; $(COMPILE)
+define COMPILE_VARIANT
+$(BUILD)/%_$1.o: VARIANT = -DDAL_VARIANT=$1 -DDAL_LANES=$(lanes) -DDAL_GROUP=$(call lanes,$(group)) $(FLAGS_$(instructions))
+$(BUILD)/%_$1.o: %.c ; $$(COMPILE)
+endef
+$(foreach variant,$(sort $(VARIANTS) $(GROUPS)),$(eval $(call COMPILE_VARIANT,$(variant))))
 $(BUILD)/%.o: %.c ; $(COMPILE)
+$(LIB_OBJ) $(TEST_OBJ): | $(BUILD)/generated/variants.h
 
 $(STATIC): $(LIB_OBJ)
 	$(call SAY,ar)rm -f $@; $(AR) rcs $@ $^
@@ -97,6 +115,14 @@ $(BUILD)/generated/study.c: tools/embed-text.sh bench/studies/canonical-drift.ya
 	sh tools/embed-text.sh study_builtin_text bench/studies/canonical-drift.yaml >$@.tmp
 	mv $@.tmp $@
 $(BUILD)/generated/%.o: $(BUILD)/generated/%.c ; $(COMPILE)
+
+# The list of variants for lib/machine.h.
+$(BUILD)/generated/variants.h: Makefile
+	@mkdir -p $(@D)
+	@{ printf '#define DAL__VARIANT_LIST(X, name)'; \
+	    printf ' X(name, %s, %s, %s, %s)' $(foreach variant,$(filter-out x1,$(VARIANTS)),\
+	        $(variant) $(call lanes,$(variant)) $(call instructions,$(variant)) \
+	        $(call group,$(variant))); echo; } >$@
 
 # What an integrator outside the tree includes: one file that needs no other.
 $(KERNEL): tools/amalgamate.sh include/dalembert_kernel.h $(wildcard include/*.h lib/kernel/*.h)

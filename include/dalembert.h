@@ -127,15 +127,15 @@ struct dal_system {
     int multipliers; /* first-order variables beside v (vakonomic g); 0 or m */
     int parameters, invariants, guards, tags;
     unsigned properties;
-    const char *const *coordinate;      /* [n] names; NULL: q1, q2, ... */
-    const char *const *parameter;       /* [parameters] names */
-    const double *value;                /* [parameters] default values */
-    const char *const *invariant;       /* [invariants] names */
-    const char *const *guard;           /* [guards] "constraint 1: y1'" for messages */
-    const char *const *tag;             /* [tags] */
-    size_t workspace;                   /* doubles in dal_at.work; 0 means parameters */
-    dal_callbacks call;                 /* one lane */
-    const dal_callbacks *wide4, *wide8; /* 4, 8 lanes interleaved; NULL: lane by lane */
+    const char *const *coordinate;               /* [n] names; NULL: q1, q2, ... */
+    const char *const *parameter;                /* [parameters] names */
+    const double *value;                         /* [parameters] default values */
+    const char *const *invariant;                /* [invariants] names */
+    const char *const *guard;                    /* [guards] "constraint 1: y1'" for messages */
+    const char *const *tag;                      /* [tags] */
+    size_t workspace;                            /* doubles in dal_at.work; 0 means parameters */
+    dal_callbacks call;                          /* one lane */
+    const dal_callbacks *wide4, *wide8, *wide64; /* 4 ... lanes interleaved; NULL: fewer at once */
     dal_callback *prepare; /* completes work after a change of parameters; out unused */
     dal_callback *start;   /* out[2n + multipliers + 1]: q, v, g, e at t = 0; NULL: 0 and e = 1 */
     dal_callback *constraints;      /* out[m]: D alone; needed when m > 0 */
@@ -215,7 +215,8 @@ enum {
     DAL_KEEPS_QUADRATIC = 1 << 3, /* D quadratic in (q,v) */
     DAL_KEEPS_D = 1 << 4,         /* every D */
     DAL_EXPLICIT = 1 << 5,        /* on the physical space */
-    DAL_MODIFIER = 1 << 6         /* works on another integrator: NAME+this */
+    DAL_MODIFIER = 1 << 6,        /* works on another integrator: NAME+this */
+    DAL_COMPONENTWISE = 1 << 7    /* keeps no slopes; on (q,v) only adds multiples of v and F */
 };
 
 enum { DAL_NEEDS_FIELD = 1 << 0, DAL_NEEDS_CONSTRAINT = 1 << 1 };
@@ -358,8 +359,9 @@ dal_status dal_run_sample(dal_run *run, double T, long long samples, long long f
 
 typedef struct dal_batch dal_batch;
 
-/* count runs of one spec, stepped width (1, 4 or 8; 0: chosen) lanes at a time.  Lane by lane the
- * bits are those of a single run.  [alloc] */
+/* count runs of one spec, stepped several lanes at a time, each with the bits of a single run.
+ * width, the most lanes at a time: 1, 4, 8, 64 (only DAL_COMPONENTWISE methods on (q,v), else 8),
+ * 0: the fastest.  Different batches may be stepped in different threads.  [alloc] */
 dal_status dal_batch_create(dal_batch **batch, const dal_run_spec *spec, int count, int width,
                             dal_error *error);
 void dal_batch_free(dal_batch *batch);
@@ -369,7 +371,7 @@ dal_status dal_batch_start(dal_batch *batch, int lane, const dal_setting *parame
                            int parameter_count, const dal_setting *start, int start_count,
                            dal_error *error);
 /* Steps every lane that has not failed.  DAL_OK while any lane goes on; a failed lane keeps the
- * state it had before the failing step. */
+ * state it had before the failing step, and its neighbours go on at their speed. */
 dal_status dal_batch_advance(dal_batch *batch, long long count);
 int dal_batch_count(const dal_batch *batch);
 dal_status dal_batch_status(const dal_batch *batch, int lane, dal_error *error);

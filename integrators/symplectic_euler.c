@@ -20,7 +20,7 @@ DAL_INLINE dal_status step_00(dal_step *s)
 
 DAL_INTEGRATOR(symplectic_euler_00, step_00, .name = "symplectic-euler-00",
                .summary = "symplectic Euler; explicit Euler on (q,v)", .reference = reference,
-               .order = 1, .stages = 1, .claims = DAL_SYMPLECTIC | DAL_EXPLICIT,
+               .order = 1, .stages = 1, .claims = DAL_SYMPLECTIC | DAL_EXPLICIT | DAL_COMPONENTWISE,
                .needs = DAL_NEEDS_FIELD);
 
 DAL_INLINE dal_status step_10(dal_step *s)
@@ -31,7 +31,7 @@ DAL_INLINE dal_status step_10(dal_step *s)
 DAL_INTEGRATOR(symplectic_euler_10, step_10, .name = "symplectic-euler-10",
                .alias = "symplectic-euler", .summary = "symplectic Euler, new q and old v",
                .reference = reference, .order = 1, .stages = 1,
-               .claims = DAL_SYMPLECTIC | DAL_KEEPS_BILINEAR | DAL_EXPLICIT,
+               .claims = DAL_SYMPLECTIC | DAL_KEEPS_BILINEAR | DAL_EXPLICIT | DAL_COMPONENTWISE,
                .needs = DAL_NEEDS_FIELD);
 
 DAL_INLINE dal_status step_01(dal_step *s)

@@ -20,7 +20,7 @@ static void prepare(const body *b)
 
 static void take_work(body *b)
 {
-    size_t bytes = (8 * b->system->workspace + 8) * sizeof(double);
+    size_t bytes = 64 * b->system->workspace * sizeof(double) + 64;
     b->work = aligned_alloc(64, (bytes + 63) / 64 * 64);
     if (!b->work) exit(2);
     memset(b->work, 0, bytes);
@@ -86,6 +86,17 @@ dal_status body_pull(const body *b, double t, const double *q, const double *v, 
 {
     dal_at at = {.t = t, .q = q, .v = v, .pi = pi, .work = b->work};
     return b->system->call.adjoint(b->system, &at, out);
+}
+
+void body_spread(int lanes, int count, const double *x, double *wide)
+{
+    for (int i = 0; i < count; i++)
+        for (int l = 0; l < lanes; l++) wide[i * lanes + l] = x[i] + l / 16.0;
+}
+
+void body_pick(int lanes, int lane, int count, const double *wide, double *x)
+{
+    for (int i = 0; i < count; i++) x[i] = wide[i * lanes + lane];
 }
 
 /* ---- differences ---- */

@@ -10,7 +10,7 @@ enum { BODY_MOST = 8, BODY_OUT = 4 * BODY_MOST * BODY_MOST };
 typedef struct body {
     dal_model *model;
     const dal_system *system;
-    double *work; /* room for 8 lanes, aligned to them */
+    double *work; /* room for 64 lanes, aligned to 8 */
 } body;
 
 /* Both end the test program with a message when the text is no system. */
@@ -27,6 +27,10 @@ dal_status body_call(const body *b, dal_callback *call, double t, const double *
                      double *out);
 dal_status body_pull(const body *b, double t, const double *q, const double *v, const double *pi,
                      double *out);
+
+/* count numbers into lanes interleaved, lane l moved by l/16; and one lane of them back. */
+void body_spread(int lanes, int count, const double *x, double *wide);
+void body_pick(int lanes, int lane, int count, const double *wide, double *x);
 
 /* ---- the independent way ---- */
 

@@ -2,6 +2,8 @@
 #ifndef ELEMENTARY_TEST_H
 #define ELEMENTARY_TEST_H
 
+#include "machine.h"
+
 #define UNARY_LIST(X)                                                                              \
     X(sin) X(cos) X(tan) X(asin) X(acos) X(atan) X(sinh) X(cosh) X(tanh) X(asinh) X(exp) X(log)
 #define BINARY_LIST(X) X(atan2) X(pow)
@@ -19,6 +21,10 @@ enum function {
 /* out[i] = f(a[i], b[i]) for count values, a multiple of 8. */
 typedef void apply_function(enum function f, const double *a, const double *b, double *out,
                             int count);
-apply_function apply_x1, apply_x4, apply_x8;
+/* For a single number and for every group of lanes. */
+apply_function apply_x1;
+#define DECLARE(name, variant, lanes, set, group) apply_function name##_##group;
+DAL__VARIANT_LIST(DECLARE, apply)
+#undef DECLARE
 
 #endif

@@ -1,16 +1,28 @@
-/* test_batch.c - batches: lane by lane the bits of a single run, at every width, whatever the
- * neighbours do. */
+/* test_batch.c - batches: lane by lane the bits of a single run, in every variant this machine can
+ * run, whatever the neighbours do. */
 #include "fixtures.h"
+#include "run/batch.h"
 #include <CUnit/CUnit.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-enum { LANES = 11, STEPS = 40 };
+/* MANY takes a block of 64, one of 8 and one that is not full. */
+enum { FEW = 11, MANY = 75, STEPS = 40, ROOM = 32 };
+
+static const struct {
+    int width;
+    dal__instructions set;
+    dal__variant variant;
+} variants[] = {
+#define X(name, variant, lanes, set, group) {lanes, DAL__##set, name##_##variant},
+    X(DAL__VARIANT, x1, 1, BASE, x1) DAL__VARIANT_LIST(X, DAL__VARIANT)
+#undef X
+};
 
 /* Lane i has its own parameter and start. */
-static dal_setting lane_parameter(int i) { return (dal_setting){"a", 0.3 + 0.01 * i}; }
-static dal_setting lane_start(int i) { return (dal_setting){"u", 0.2 - 0.03 * i}; }
+static dal_setting lane_parameter(int i) { return (dal_setting){"a", 0.3 + 0.003 * i}; }
+static dal_setting lane_start(int i) { return (dal_setting){"u", 0.2 - 0.004 * i}; }
 
 static void single_end(dal_run_spec spec, int lane, double *state)
 {
@@ -20,33 +32,68 @@ static void single_end(dal_run_spec spec, int lane, double *state)
     spec.parameter_count = spec.start_count = 1;
     dal_run *run = fixture_run(&spec);
     CU_ASSERT_EQUAL(dal_run_advance(run, STEPS, NULL), DAL_OK);
+    CU_ASSERT_FATAL(dal_run_dimension(run) <= ROOM);
     memcpy(state, dal_run_state(run), (size_t)dal_run_dimension(run) * sizeof *state);
     dal_run_free(run);
 }
 
-static void same_bits(const dal_run_spec *spec, int width, int dimension)
+/* Runs a batch to its end and compares; takes it over. */
+static void check_batch(dal_batch *batch, int dimension, double (*single)[ROOM])
 {
-    dal_batch *batch = NULL;
-    double single[64], lane[64];
-    CU_ASSERT_EQUAL_FATAL(dal_batch_create(&batch, spec, LANES, width, NULL), DAL_OK);
-    for (int i = 0; i < LANES; i++) {
+    for (int i = 0; i < dal_batch_count(batch); i++) {
         const dal_setting parameter = lane_parameter(i), start = lane_start(i);
         CU_ASSERT_EQUAL(dal_batch_start(batch, i, &parameter, 1, &start, 1, NULL), DAL_OK);
     }
     CU_ASSERT_EQUAL(dal_batch_advance(batch, STEPS / 2), DAL_OK);
     CU_ASSERT_EQUAL(dal_batch_advance(batch, STEPS / 2), DAL_OK);
-    for (int i = 0; i < LANES; i++) {
-        single_end(*spec, i, single);
+    int wrong = 0;
+    for (int i = 0; i < dal_batch_count(batch); i++) {
+        double lane[ROOM];
         dal_batch_state(batch, i, lane);
-        CU_ASSERT_EQUAL(dal_batch_status(batch, i, NULL), DAL_OK);
-        CU_ASSERT_EQUAL(memcmp(single, lane, (size_t)dimension * sizeof *lane), 0);
+        wrong += memcmp(single[i], lane, (size_t)dimension * sizeof *lane) != 0;
+        wrong += dal_batch_status(batch, i, NULL) != DAL_OK;
     }
+    CU_ASSERT_EQUAL(wrong, 0);
     dal_batch_free(batch);
+}
+
+/* Blocks there are for methods that act on each component alone. */
+static bool in_blocks(const dal_run_spec *spec)
+{
+    return spec->options.space == DAL_PHYSICAL && !spec->method.chain[1] &&
+           (spec->method.chain[0]->claims & DAL_COMPONENTWISE);
+}
+
+static void check_variants(const dal_run_spec *spec, int count, int dimension,
+                           double (*single)[ROOM])
+{
+    for (int v = 0; v < DAL__VARIANTS; v++) {
+        dal_batch *batch = NULL;
+        const bool can = dal__machine_has(variants[v].set) &&
+                         (variants[v].width < DAL__BLOCK || in_blocks(spec));
+        const dal_status status =
+            dal__batch_create(&batch, spec, count, 0, variants[v].variant, NULL);
+        CU_ASSERT_EQUAL(status, can ? DAL_OK : DAL_UNSUPPORTED);
+        if (batch) check_batch(batch, dimension, single);
+    }
+}
+
+static void same_bits(const dal_run_spec *spec, int dimension)
+{
+    static const int widths[] = {0, 1, 4, 8, 64};
+    static double single[MANY][ROOM];
+    const int count = in_blocks(spec) ? MANY : FEW;
+    for (int i = 0; i < count; i++) single_end(*spec, i, single[i]);
+    check_variants(spec, count, dimension, single);
+    for (int w = 0; w < 5; w++) {
+        dal_batch *batch = NULL;
+        CU_ASSERT_EQUAL_FATAL(dal_batch_create(&batch, spec, count, widths[w], NULL), DAL_OK);
+        check_batch(batch, dimension, single);
+    }
 }
 
 static void test_same_bits(void)
 {
-    static const int widths[] = {1, 4, 8};
     dal_model *model = fixture_model(fixture_full);
     const dal_system *system = fixture_system(model);
     for (int i = 0; dal_integrator_at(i); i++) {
@@ -57,8 +104,7 @@ static void test_same_bits(void)
                      kind & 2 ? "+project" : "");
             const dal_space space = kind & 1 ? DAL_PHYSICAL : DAL_LIFTED;
             const dal_run_spec spec = fixture_spec(system, name, space, 0.02);
-            const int dimension = space == DAL_LIFTED ? 4 * system->n + 2 : 2 * system->n;
-            for (int w = 0; w < 3; w++) same_bits(&spec, widths[w], dimension);
+            same_bits(&spec, space == DAL_LIFTED ? 4 * system->n + 2 : 2 * system->n);
         }
     }
     dal_model_free(model);
@@ -93,30 +139,65 @@ static void test_mixed_stiffness(void)
 }
 
 /* A lane that fails stops, says why, keeps its last state; the others go on. */
+static void check_failing_lane(const dal_run_spec *spec, int count, int width, int bad)
+{
+    const dal_setting fast = {"s", 100.0}, none = {"s", 0.0};
+    dal_batch *batch = NULL;
+    dal_error error = {0};
+    CU_ASSERT_EQUAL_FATAL(dal_batch_create(&batch, spec, count, width, NULL), DAL_OK);
+    for (int i = 0; i < count; i++)
+        CU_ASSERT_EQUAL(dal_batch_start(batch, i, i == bad ? &fast : &none, 1, NULL, 0, NULL),
+                        DAL_OK);
+    CU_ASSERT_EQUAL(dal_batch_advance(batch, 100), DAL_OK);
+    for (int i = 0; i < count; i++) {
+        double state[2];
+        dal_batch_state(batch, i, state);
+        CU_ASSERT_EQUAL(dal_batch_status(batch, i, &error), i == bad ? DAL_NOT_FINITE : DAL_OK);
+        if (i != bad) CU_ASSERT_EQUAL(state[0], 1.0);
+        if (i != bad) CU_ASSERT_DOUBLE_EQUAL(dal_batch_time(batch, i), 1.0, 1e-15);
+        if (i == bad) CU_ASSERT(state[0] > 0.0 && dal_batch_time(batch, i) < 0.5);
+        if (i == bad) CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "not finite"));
+    }
+    dal_batch_free(batch);
+}
+
 static void test_failing_lane(void)
 {
     const char *text = "coordinates: [x]\nparameters: {s: 1}\nlagrangian: x'^2/2\n"
                        "forces: {x: -s*sqrt(x)}\nstart: {x: 1}\n";
     dal_model *model = fixture_model(text);
     const dal_run_spec spec = fixture_spec(fixture_system(model), "rk4", DAL_PHYSICAL, 0.01);
-    const dal_setting fast = {"s", 100.0}, none = {"s", 0.0};
-    dal_batch *batch = NULL;
-    dal_error error = {0};
-    CU_ASSERT_EQUAL_FATAL(dal_batch_create(&batch, &spec, 6, 4, NULL), DAL_OK);
-    for (int i = 0; i < 6; i++)
-        CU_ASSERT_EQUAL(dal_batch_start(batch, i, i == 2 ? &fast : &none, 1, NULL, 0, NULL),
-                        DAL_OK);
-    CU_ASSERT_EQUAL(dal_batch_advance(batch, 100), DAL_OK);
-    for (int i = 0; i < 6; i++) {
-        double state[2];
-        dal_batch_state(batch, i, state);
-        CU_ASSERT_EQUAL(dal_batch_status(batch, i, &error), i == 2 ? DAL_NOT_FINITE : DAL_OK);
-        if (i != 2) CU_ASSERT_EQUAL(state[0], 1.0);
-        if (i != 2) CU_ASSERT_DOUBLE_EQUAL(dal_batch_time(batch, i), 1.0, 1e-15);
-        if (i == 2) CU_ASSERT(state[0] > 0.0 && dal_batch_time(batch, i) < 0.5);
-        if (i == 2) CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "not finite"));
+    check_failing_lane(&spec, 6, 4, 2);
+    check_failing_lane(&spec, 6, 1, 5);
+    check_failing_lane(&spec, 13, 8, 12);
+    check_failing_lane(&spec, 64, 64, 63);
+    check_failing_lane(&spec, 90, 64, 70);
+    check_failing_lane(&spec, 50, 64, 0);
+    dal_model_free(model);
+}
+
+/* Normals are judged lane by lane: of many bodies that slide down, one was thrown upwards and comes
+ * to rest at t = 2/9.81, where its constraint is singular (test_rest_is_singular). */
+static void test_singular_lane(void)
+{
+    const char *text = "coordinates: [x, y, z]\n"
+                       "lagrangian: (x'^2 + y'^2 + z'^2)/2 - 9.81*z\n"
+                       "constraints: [(x'^2 + y'^2 - z'^2)/2]\n"
+                       "start: {x': 1, z': -1}\n";
+    dal_model *model = fixture_model(text);
+    const dal_run_spec spec = fixture_spec(fixture_system(model), "rk4", DAL_PHYSICAL, 0.013);
+    const dal_setting upwards = {"z'", 1.0};
+    static const int widths[] = {1, 8, 64};
+    for (int w = 0; w < 3; w++) {
+        dal_batch *batch = NULL;
+        CU_ASSERT_EQUAL_FATAL(dal_batch_create(&batch, &spec, 64, widths[w], NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_batch_start(batch, 37, NULL, 0, &upwards, 1, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_batch_advance(batch, 40), DAL_OK);
+        for (int i = 0; i < 64; i++)
+            CU_ASSERT_EQUAL(dal_batch_status(batch, i, NULL), i == 37 ? DAL_SINGULAR : DAL_OK);
+        CU_ASSERT_DOUBLE_EQUAL(dal_batch_time(batch, 37), 2.0 / 9.81, 2 * 0.013);
+        dal_batch_free(batch);
     }
-    dal_batch_free(batch);
     dal_model_free(model);
 }
 
@@ -141,8 +222,9 @@ static void test_arguments(void)
 void suite_batch(void)
 {
     CU_pSuite suite = CU_add_suite("batch", NULL, NULL);
-    CU_add_test(suite, "the bits of single runs, widths 1, 4, 8", test_same_bits);
+    CU_add_test(suite, "the bits of single runs in every variant", test_same_bits);
     CU_add_test(suite, "stiff and easy lanes side by side", test_mixed_stiffness);
     CU_add_test(suite, "a failing lane", test_failing_lane);
+    CU_add_test(suite, "a lane whose constraint turns singular", test_singular_lane);
     CU_add_test(suite, "arguments", test_arguments);
 }

@@ -3,6 +3,7 @@
  * that depends on q (and one without positive diagonal), forces that depend on velocities, several
  * constraints, linear and not. */
 #include "body.h"
+#include "mechanics/mechanics.h"
 
 #include <CUnit/Basic.h>
 #include <math.h>
@@ -309,18 +310,6 @@ static void test_vakonomic(void)
 
 /* ---- lanes ---- */
 
-/* Lane l of x is x0 moved by l/16, interleaved. */
-static void spread(int lanes, int count, const double *x, double *out)
-{
-    for (int i = 0; i < count; i++)
-        for (int l = 0; l < lanes; l++) out[i * lanes + l] = x[i] + l / 16.0;
-}
-
-static void pick(int lanes, int lane, int count, const double *wide, double *out)
-{
-    for (int i = 0; i < count; i++) out[i] = wide[i * lanes + lane];
-}
-
 typedef struct lanes_case {
     const body *b;
     dal_callback *single, *wide;
@@ -329,14 +318,15 @@ typedef struct lanes_case {
 
 static void check_lanes(const lanes_case *c)
 {
-    _Alignas(64) double q[BODY_MOST * 8], v[BODY_MOST * 8], pi[BODY_MOST * 8], out[BODY_OUT * 8];
+    _Alignas(64) double q[BODY_MOST * DAL__BLOCK], v[BODY_MOST * DAL__BLOCK],
+        pi[BODY_MOST * DAL__BLOCK], out[BODY_OUT * DAL__BLOCK];
     static double prepared[1 << 12];
     int workspace = (int)c->b->system->workspace;
     CU_ASSERT_FATAL(c->single && c->wide);
     memcpy(prepared, c->b->work, (size_t)workspace * sizeof *prepared);
-    spread(c->lanes, BODY_MOST, q0, q);
-    spread(c->lanes, BODY_MOST, v0, v);
-    spread(c->lanes, BODY_MOST, v0, pi);
+    body_spread(c->lanes, BODY_MOST, q0, q);
+    body_spread(c->lanes, BODY_MOST, v0, v);
+    body_spread(c->lanes, BODY_MOST, v0, pi);
     for (int i = 0; i < workspace; i++)
         for (int l = 0; l < c->lanes; l++) c->b->work[i * c->lanes + l] = prepared[i];
     dal_at at = {t0, q, v, pi, c->b->work};
@@ -344,28 +334,37 @@ static void check_lanes(const lanes_case *c)
     memcpy(c->b->work, prepared, (size_t)workspace * sizeof *prepared);
     for (int l = 0; l < c->lanes; l++) {
         double q1[BODY_MOST], v1[BODY_MOST], pi1[BODY_MOST], one[BODY_OUT], lane[BODY_OUT];
-        pick(c->lanes, l, BODY_MOST, q, q1);
-        pick(c->lanes, l, BODY_MOST, v, v1);
-        pick(c->lanes, l, BODY_MOST, pi, pi1);
-        pick(c->lanes, l, c->outputs, out, lane);
+        body_pick(c->lanes, l, BODY_MOST, q, q1);
+        body_pick(c->lanes, l, BODY_MOST, v, v1);
+        body_pick(c->lanes, l, BODY_MOST, pi, pi1);
+        body_pick(c->lanes, l, c->outputs, out, lane);
         dal_at point = {t0, q1, v1, pi1, c->b->work};
         CU_ASSERT(c->single(c->b->system, &point, one) == DAL_OK);
         CU_ASSERT(memcmp(one, lane, (size_t)c->outputs * sizeof *one) == 0);
     }
 }
 
+static void check_variant(const body *b, int width, const dal_callbacks *wide)
+{
+    const dal_callbacks *call = &b->system->call;
+    check_lanes(&(lanes_case){b, call->field, wide->field, width, 4});
+    check_lanes(&(lanes_case){b, call->adjoint, wide->adjoint, width, 12});
+    check_lanes(&(lanes_case){b, call->jacobian, wide->jacobian, width, 32});
+    check_lanes(&(lanes_case){b, call->constraint, wide->constraint, width, 18});
+    CU_ASSERT(!call->guards && !call->gauge);
+}
+
 static void test_lanes(void)
 {
     body b = body_of_text(hard_text);
-    const dal_system *s = b.system;
-    for (int width = 4; width <= 8; width += 4) {
-        const dal_callbacks *wide = width == 4 ? s->wide4 : s->wide8;
-        check_lanes(&(lanes_case){&b, s->call.field, wide->field, width, 4});
-        check_lanes(&(lanes_case){&b, s->call.adjoint, wide->adjoint, width, 12});
-        check_lanes(&(lanes_case){&b, s->call.jacobian, wide->jacobian, width, 32});
-        check_lanes(&(lanes_case){&b, s->call.constraint, wide->constraint, width, 18});
+    dal_callbacks wide;
+#define X(name, variant, lanes, set, group)                                                        \
+    if (dal__machine_has(DAL__##set)) {                                                            \
+        name##_##variant(b.system->data, &wide);                                                   \
+        check_variant(&b, lanes, &wide);                                                           \
     }
-    CU_ASSERT(s->call.guards == NULL && s->call.gauge == NULL);
+    DAL__VARIANT_LIST(X, dal__callbacks)
+#undef X
     body_free(&b);
 }
 
@@ -374,6 +373,7 @@ static void test_lanes_of_multipliers(void)
     body b = vakonomic_body();
     const dal_system *s = b.system;
     check_lanes(&(lanes_case){&b, s->call.field, s->wide4->field, 4, 6});
+    check_lanes(&(lanes_case){&b, s->call.field, s->wide64->field, 64, 6});
     check_lanes(&(lanes_case){&b, s->call.jacobian, s->wide8->jacobian, 8, 60});
     body_free(&b);
 }

@@ -12,9 +12,14 @@
 typedef void runner(const dal__tapes *tapes, int program, double *work, double *out);
 static const struct {
     int lanes;
+    dal__instructions set;
     runner *run;
-} widths[] = {{1, dal__tape_run_x1}, {4, dal__tape_run_x4}, {8, dal__tape_run_x8}};
-enum { WIDTHS = sizeof widths / sizeof widths[0] };
+} variants[] = {
+#define X(name, variant, lanes, set, group) {lanes, DAL__##set, name##_##variant},
+    X(dal__tape_run, x1, 1, BASE, x1) DAL__VARIANT_LIST(X, dal__tape_run)
+#undef X
+};
+enum { VARIANTS = sizeof variants / sizeof variants[0] };
 
 static bool same_bits(double x, double y)
 {
@@ -106,25 +111,33 @@ static double expected(dal__graph *graph, dal__node node, int round, int lane)
     return dal__evaluate(graph, node, values);
 }
 
+/* right[count*BLOCK]: what the outputs are in each lane. */
+static void check_variant(int v, const dal__tapes *tapes, int program, int count, int round,
+                          const double *right)
+{
+    const int lanes = variants[v].lanes;
+    double *work = filled_work(tapes, lanes, round);
+    double *out = formula_work((size_t)(count * lanes));
+    int wrong = 0;
+    variants[v].run(tapes, program, work, out);
+    for (int i = 0; i < count * lanes; i++)
+        wrong += !same_bits(out[i], right[i / lanes * DAL__BLOCK + i % lanes]);
+    CU_ASSERT_EQUAL(wrong, 0);
+    if (wrong > 0) fprintf(stderr, "program %d, variant %d: %d wrong\n", program, v, wrong);
+    free(work);
+    free(out);
+}
+
 static void check_program(dal__graph *graph, const dal__tapes *tapes, int program,
                           const dal__node *nodes, int count, int round)
 {
-    for (int w = 0; w < WIDTHS; w++) {
-        int lanes = widths[w].lanes;
-        double *work = filled_work(tapes, lanes, round);
-        double *out = formula_work((size_t)(count * lanes));
-        widths[w].run(tapes, program, work, out);
-        for (int i = 0; i < count * lanes; i++) {
-            double right = expected(graph, nodes[i / lanes], round, i % lanes);
-            CU_ASSERT(same_bits(out[i], right));
-            if (!same_bits(out[i], right)) {
-                fprintf(stderr, "output %d of program %d, lane %d of %d: %a, not %a\n", i / lanes,
-                        program, i % lanes, lanes, out[i], right);
-            }
-        }
-        free(work);
-        free(out);
-    }
+    double *right = formula_work((size_t)count * DAL__BLOCK);
+    for (int i = 0; i < count * DAL__BLOCK; i++)
+        right[i] = expected(graph, nodes[i / DAL__BLOCK], round, i % DAL__BLOCK);
+    for (int v = 0; v < VARIANTS; v++)
+        if (dal__machine_has(variants[v].set))
+            check_variant(v, tapes, program, count, round, right);
+    free(right);
 }
 
 /* All formulas in one program, each in one of its own, and their gradients in another. */

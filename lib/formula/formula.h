@@ -12,6 +12,7 @@
 #define DAL_FORMULA_H
 
 #include "dalembert.h"
+#include "machine.h"
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -134,9 +135,10 @@ int dal__tapes_length(const dal__tapes *tapes, int program); /* instructions, fo
 void dal__tapes_prepare(const dal__tapes *tapes, double *work);
 /* Runs a program on the inputs in work and writes its outputs; work and out are interleaved by
  * lanes and aligned to them. */
-void dal__tape_run_x1(const dal__tapes *tapes, int program, double *work, double *out);
-void dal__tape_run_x4(const dal__tapes *tapes, int program, double *work, double *out);
-void dal__tape_run_x8(const dal__tapes *tapes, int program, double *work, double *out);
+#define DAL__TAPE_RUN(name, variant, lanes, set, group)                                            \
+    void name##_##variant(const dal__tapes *tapes, int program, double *work, double *out);
+DAL__TAPE_RUN(dal__tape_run, x1, 1, BASE, x1)
+DAL__VARIANT_LIST(DAL__TAPE_RUN, dal__tape_run)
 
 /* Writes a program as C statements over num that set out[0], out[1], ...: its instructions one by
  * one, so that it computes the same bits.  Input number i is called input[i].text; parameters and

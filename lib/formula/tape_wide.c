@@ -1,42 +1,53 @@
-/* tape_wide.c - runs a program, over num. */
+/* tape_wide.c - runs a program, over num.
+ *
+ * An instruction acts on all groups of a block before the next one is looked at: what it costs to
+ * find out what to do is shared by all lanes. */
+#include "kernel/groups.h"
+
 #include "formula/arithmetic.h"
 #include "formula/tape.h"
+
+#define AT(place)  w[(size_t)(place)*DAL_GROUPS + g]
+#define EACH_GROUP for (size_t g = 0; g < DAL_GROUPS; g++)
 
 void DAL_WIDE(dal__execute)(const dal__tape *tape, double *work);
 void DAL_WIDE(dal__execute)(const dal__tape *tape, double *work)
 {
     num *w = (num *)work;
-    const dal__instruction *end = tape->code + tape->length;
-    for (const dal__instruction *i = tape->code; i < end; i++) {
-        switch (i->op) {
+    for (int k = 0; k < tape->length; k++) {
+        const dal__instruction i = tape->code[k]; /* a copy: no write to w can change it */
+        switch (i.op) {
 #define X(code, expression)                                                                        \
-    case DAL__##code: {                                                                            \
-        num a = w[i->a];                                                                           \
-        w[i->d] = expression;                                                                      \
-        break;                                                                                     \
-    }
+    case DAL__##code:                                                                              \
+        EACH_GROUP                                                                                 \
+        {                                                                                          \
+            num a = AT(i.a);                                                                       \
+            AT(i.d) = expression;                                                                  \
+        }                                                                                          \
+        break;
             DAL__UNARY_LIST(X)
 #undef X
 #define X(code, expression)                                                                        \
-    case DAL__##code: {                                                                            \
-        num a = w[i->a], b = w[i->b];                                                              \
-        w[i->d] = expression;                                                                      \
-        break;                                                                                     \
-    }
+    case DAL__##code:                                                                              \
+        EACH_GROUP                                                                                 \
+        {                                                                                          \
+            num a = AT(i.a), b = AT(i.b);                                                          \
+            AT(i.d) = expression;                                                                  \
+        }                                                                                          \
+        break;
             DAL__BINARY_LIST(X)
 #undef X
         case DAL__SINCOS:
-            dal_sincos(w[i->a], &w[i->d], &w[i->b]);
+            EACH_GROUP dal_sincos(AT(i.a), &AT(i.d), &AT(i.b));
             break;
-        case DAL__MUL_ADD:
-            w[i->d] = w[i->a] * w[i->b] + w[i->c];
-            break;
-        case DAL__MUL_SUB:
-            w[i->d] = w[i->a] * w[i->b] - w[i->c];
-            break;
-        case DAL__SUB_MUL:
-            w[i->d] = w[i->c] - w[i->a] * w[i->b];
-            break;
+#define X(code, expression)                                                                        \
+    case DAL__##code:                                                                              \
+        EACH_GROUP AT(i.d) = expression;                                                           \
+        break;
+            X(MUL_ADD, AT(i.a) * AT(i.b) + AT(i.c))
+            X(MUL_SUB, AT(i.a) * AT(i.b) - AT(i.c))
+            X(SUB_MUL, AT(i.c) - AT(i.a) * AT(i.b))
+#undef X
         }
     }
 }
@@ -47,5 +58,6 @@ void DAL_WIDE(dal__tape_run)(const dal__tapes *tapes, int program, double *work,
     DAL_WIDE(dal__execute)(tape, work);
     const num *w = (const num *)work;
     num *o = (num *)out;
-    for (int k = 0; k < tape->outputs; k++) o[k] = w[tape->place[k]];
+    for (int k = 0; k < tape->outputs; k++)
+        EACH_GROUP o[(size_t)k * DAL_GROUPS + g] = AT(tape->place[k]);
 }

@@ -1,9 +1,10 @@
 /* num.h - the number an integrator computes with: one double, or several lanes of doubles.
  *
- * A source written over num is compiled once for each DAL_LANES in {1, 4, 8}; every operation acts
- * lane by lane and is IEEE double in each, so a lane has the bits of a single run.  Comparisons
- * give a dal_mask (all bits set or none, per lane) that dal_select consumes; nothing branches on
- * the value of one lane.  num and double mix freely in + - * / : a double is every lane's value. */
+ * A source written over num is compiled once for each variant, a number DAL_LANES of lanes and an
+ * instruction set; every operation acts lane by lane and is IEEE double in each, so a lane has the
+ * bits of a single run.  Comparisons give a dal_mask (all bits set or none, per lane) that
+ * dal_select consumes; nothing branches on the value of one lane.  num and double mix freely in
+ * + - * / : a double is every lane's value. */
 #ifndef DAL_KERNEL_NUM_H
 #define DAL_KERNEL_NUM_H
 
@@ -17,8 +18,13 @@
 
 #define DAL__PASTE(a, b)  a##b
 #define DAL__PASTE2(a, b) DAL__PASTE(a, b)
-/* The name of a function that exists once per width: DAL_WIDE(f) is f_x1, f_x4 or f_x8. */
+/* The name of a function that exists once per variant: DAL_WIDE(f) is f_x1, f_x8, f_x8_AVX512, ...
+ */
+#ifdef DAL_VARIANT
+#define DAL_WIDE(name) DAL__PASTE2(name##_, DAL_VARIANT)
+#else
 #define DAL_WIDE(name) DAL__PASTE2(name##_x, DAL_LANES)
+#endif
 
 #define DAL_UNUSED __attribute__((unused))
 

@@ -1,5 +1,7 @@
-/* callbacks_wide.c - the callbacks of a model's system, one, four and eight lanes wide: inputs into
- * the work of the tape, the tape, and NaN in the lanes where a watched pivot has vanished. */
+/* callbacks_wide.c - the callbacks of a model's system, over num: inputs into the work of the tape,
+ * the tape, and NaN in the lanes where a watched pivot has vanished. */
+#include "kernel/groups.h"
+
 #include "kernel/num.h"
 #include "mechanics/mechanics.h"
 
@@ -8,31 +10,51 @@
 dal_status run_program(const dal_system *system, const dal_at *at, double *out,
                        dal__program_code code, unsigned reads);
 
-static void load(num *to, const double *from, int count)
+/* Lanes of a block. */
+enum { LANES = DAL_GROUPS * DAL_LANES };
+
+static void load(double *work, int place, const double *from, int count)
 {
+    num *to = (num *)(work + (size_t)place * LANES);
     const num *lanes = (const num *)from;
-    for (int i = 0; i < count; i++) to[i] = lanes[i];
+    for (int i = 0; i < count * DAL_GROUPS; i++) to[i] = lanes[i];
+}
+
+static void load_time(double *work, int place, double t)
+{
+    num *to = (num *)(work + (size_t)place * LANES);
+    for (int g = 0; g < DAL_GROUPS; g++) to[g] = dal_num(t);
 }
 
 static void load_inputs(const dal__programs *p, const dal_at *at, unsigned reads)
 {
-    num *work = (num *)at->work;
-    if (reads & DAL__T) work[p->t] = dal_num(at->t);
+    if (reads & DAL__T) load_time(at->work, p->t, at->t);
     if (reads & DAL__QV) {
-        load(work + p->q, at->q, p->n);
-        load(work + p->v, at->v, p->n);
-        load(work + p->g, at->v + p->n * DAL_LANES, p->multipliers);
+        load(at->work, p->q, at->q, p->n);
+        load(at->work, p->v, at->v, p->n);
+        load(at->work, p->g, at->v + p->n * LANES, p->multipliers);
     }
-    if (reads & DAL__PI) load(work + p->pi, at->pi, p->n);
+    if (reads & DAL__PI) load(at->work, p->pi, at->pi, p->n);
 }
 
 /* Lanes where every pivot exceeds its part of the size; a NaN exceeds nothing. */
 static dal_mask sound(const num *watched, int pivots)
 {
     dal_mask ok = dal_all();
-    for (int k = 0; k < pivots; k++)
-        ok &= dal_less(DAL__PIVOT_LEAST * watched[2 * k + 1], dal_abs(watched[2 * k]));
+    for (int k = 0; k < pivots; k++) {
+        const num pivot = watched[2 * k * DAL_GROUPS], size = watched[(2 * k + 1) * DAL_GROUPS];
+        ok &= dal_less(DAL__PIVOT_LEAST * size, dal_abs(pivot));
+    }
     return ok;
+}
+
+/* The outputs of one group of lanes, NaN where a pivot has vanished. */
+static void hand_over(const dal__program *program, const num *all, num *out)
+{
+    const num poison = dal_num(NAN);
+    const dal_mask ok = sound(all + program->outputs * DAL_GROUPS, program->watched);
+    for (int i = 0; i < program->outputs * DAL_GROUPS; i += DAL_GROUPS)
+        out[i] = dal_select(ok, all[i], poison);
 }
 
 dal_status run_program(const dal_system *system, const dal_at *at, double *out,
@@ -45,12 +67,10 @@ dal_status run_program(const dal_system *system, const dal_at *at, double *out,
         DAL_WIDE(dal__tape_run)(p->tapes, program->tape, at->work, out);
         return DAL_OK;
     }
-    double *scratch = at->work + p->scratch * DAL_LANES;
+    double *scratch = at->work + p->scratch * LANES;
     DAL_WIDE(dal__tape_run)(p->tapes, program->tape, at->work, scratch);
-    const num *all = (const num *)scratch;
-    num *to = (num *)out, poison = dal_num(NAN);
-    dal_mask ok = sound(all + program->outputs, program->watched);
-    for (int i = 0; i < program->outputs; i++) to[i] = dal_select(ok, all[i], poison);
+    for (int g = 0; g < DAL_GROUPS; g++)
+        hand_over(program, (const num *)scratch + g, (num *)out + g);
     return DAL_OK;
 }
 

@@ -110,7 +110,7 @@ typedef struct dal__programs {
     int t, q, v, pi, g; /* places of the inputs in work */
     size_t scratch;     /* place in work for outputs and watched pivots together */
     dal__program program[DAL__PROGRAM_COUNT];
-    dal_callbacks wide4, wide8;
+    dal_callbacks wide4, wide8, wide64;
 } dal__programs;
 
 /* A pivot must exceed this fraction of what it was subtracted from: some hundred times the rounding
@@ -213,9 +213,10 @@ dal_status dal__programs_finish(dal__programs *programs, dal_system *system);
 
 /* ---- callbacks_wide.c, callbacks.c ---- */
 
-void dal__callbacks_x1(const dal__programs *programs, dal_callbacks *call);
-void dal__callbacks_x4(const dal__programs *programs, dal_callbacks *call);
-void dal__callbacks_x8(const dal__programs *programs, dal_callbacks *call);
+#define DAL__CALLBACKS(name, variant, lanes, set, group)                                           \
+    void name##_##variant(const dal__programs *programs, dal_callbacks *call);
+DAL__CALLBACKS(dal__callbacks, x1, 1, BASE, x1)
+DAL__VARIANT_LIST(DAL__CALLBACKS, dal__callbacks)
 dal_status dal__run_program_x1(const dal_system *system, const dal_at *at, double *out,
                                dal__program_code code, unsigned reads);
 void dal__callbacks_single(const dal__programs *programs, dal_system *system);

@@ -137,10 +137,13 @@ dal_status dal__programs_finish(dal__programs *programs, dal_system *system)
     system->workspace = programs->scratch + scratch_room(programs);
     system->prepare = prepare;
     dal__callbacks_x1(programs, &system->call);
-    dal__callbacks_x4(programs, &programs->wide4);
-    dal__callbacks_x8(programs, &programs->wide8);
+#define X(name, variant, lanes, set, group)                                                        \
+    if (dal__machine_has(DAL__##set)) name##_##variant(programs, &programs->wide##lanes);
+    DAL__VARIANT_LIST(X, dal__callbacks)
+#undef X
     dal__callbacks_single(programs, system);
     system->wide4 = &programs->wide4;
     system->wide8 = &programs->wide8;
+    system->wide64 = &programs->wide64;
     return DAL_OK;
 }

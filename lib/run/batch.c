@@ -1,62 +1,121 @@
 /* batch.c - many runs of one spec, stepped several lanes at a time.
  *
- * A scalar run makes the starts and explains failures; blocks of width lanes do the steps.  A
- * system or an integrator without the width asked for is stepped one lane at a time: the bits are
- * the same. */
-#include "run/run.h"
-#include <stdint.h>
+ * A scalar run makes the starts and explains failures; blocks of lanes do the steps: as many of the
+ * widest kind as the count fills, then narrower ones.  Where a system or an integrator has no wide
+ * variants the blocks are one lane wide: the bits are the same. */
+#include "run/batch.h"
 #include <stdlib.h>
 #include <string.h>
 
+/* What differs from variant to variant, by number. */
+typedef struct engine_kind {
+    int width;
+    dal__instructions set;
+    size_t (*bytes)(const dal__shape *shape);
+    void *(*place)(const dal__shape *shape, void *memory, double **carried, double **work);
+    dal__lanes (*step)(void *engine, double h, dal__lanes alive, dal_status *why);
+} engine_kind;
+
+static const engine_kind kinds[DAL__VARIANTS] = {
+#define X(name, variant, lanes, set, group)                                                        \
+    {lanes, DAL__##set, name##_bytes_##variant, name##_place_##variant, name##_step_##variant},
+    X(dal__engine, x1, 1, BASE, x1) DAL__VARIANT_LIST(X, dal__engine)
+#undef X
+};
+
+/* The widths a batch may ask for, and the kinds it is made of, the widest first. */
+static const int widths[] = {DAL__BLOCK, 8, 4, 1};
+enum { WIDTHS = sizeof widths / sizeof *widths };
+typedef struct choice {
+    const engine_kind *kind[WIDTHS];
+    int count;
+} choice;
+
 typedef struct block {
+    const engine_kind *kind;
+    int first; /* the batch's lane that is its lane 0 */
     void *engine;
     double *carried, *work;
-    unsigned alive;
+    dal__lanes alive;
 } block;
 
 struct dal_batch {
     dal_run *scalar;
-    int width, count, blocks;
+    int count, blocks;
     block *block;     /* [blocks] */
     dal_error *error; /* [count] */
     void *memory;     /* of the engines */
 };
 
-/* What differs from width to width. */
-typedef struct width_table {
-    int width;
-    size_t (*bytes)(const dal__shape *shape);
-    void *(*place)(const dal__shape *shape, void *memory, double **carried, double **work);
-    unsigned (*step)(void *engine, double h, unsigned lanes, dal_status *why);
-} width_table;
+/* ---- which blocks ---- */
 
-static const width_table widths[] = {
-    {8, dal__engine_bytes_x8, dal__engine_place_x8, dal__engine_step_x8},
-    {4, dal__engine_bytes_x4, dal__engine_place_x4, dal__engine_step_x4},
-    {1, dal__engine_bytes_x1, dal__engine_place_x1, dal__engine_step_x1},
-};
-
-static const width_table *table(int width)
+static bool can(const dal__shape *k, dal__variant variant)
 {
-    const width_table *k = widths;
-    while (k->width != width) k++;
-    return k;
-}
-
-static bool available(const dal__shape *k, int width)
-{
-    if (width == 1) return true;
-    if (width == 4 ? !k->system->wide4 : !k->system->wide8) return false;
+    const int width = kinds[variant].width;
+    const dal_system *s = k->system;
+    if (variant == DAL__VARIANT_x1) return true;
+    if (!(width == 4 ? s->wide4 : width == 8 ? s->wide8 : s->wide64)) return false;
+    if (width == DAL__BLOCK && (k->lifted || k->depth > 1)) return false;
+    if (width == DAL__BLOCK && !(k->method.chain[0]->claims & DAL_COMPONENTWISE)) return false;
     for (int i = 0; i < k->depth; i++)
-        if (!dal__integrator_wide(k->method.chain[i], width)) return false;
-    return true;
+        if (!dal__integrator_wide(k->method.chain[i], variant)) return false;
+    return dal__machine_has(kinds[variant].set);
 }
 
-static int choose_width(const dal__shape *k, int width, int count)
+/* Whether what a step touches, scratch apart, takes no more than half of a second-level cache. */
+enum { NEAR = 1 << 19 };
+static bool is_near(const dal__shape *k, int width)
 {
-    if (width == 0) width = count >= 8 ? 8 : count >= 4 ? 4 : 1;
-    return available(k, width) ? width : 1;
+    const size_t numbers = 2 * k->carried + k->workspace;
+    return numbers * (size_t)width * sizeof(double) <= (size_t)NEAR;
 }
+
+/* The best kind of a width there is for a shape; NULL: none. */
+static const engine_kind *best_of(const dal__shape *k, int width)
+{
+    const engine_kind *best = NULL;
+    for (int v = 0; v < DAL__VARIANTS; v++)
+        if (kinds[v].width == width && can(k, (dal__variant)v)) best = &kinds[v];
+    return best;
+}
+
+/* The best kinds up to the width asked for (0: up to the one that pays).  A kind of several lanes
+ * that lacks the instruction set of a narrower one is slower than that. */
+static choice choose(const dal__shape *k, int width)
+{
+    choice made = {{NULL}, 0};
+    for (int i = 0; i < WIDTHS; i++) {
+        const engine_kind *best = best_of(k, widths[i]);
+        if (!best || (width ? widths[i] > width : widths[i] > 8 && !is_near(k, widths[i])))
+            continue;
+        while (made.count && made.kind[made.count - 1]->set < best->set) made.count--;
+        made.kind[made.count++] = best;
+    }
+    return made;
+}
+
+/* The kind of the next block when so many lanes remain: the widest that is more than half full. */
+static const engine_kind *next_kind(const choice *from, int remaining)
+{
+    int i = 0;
+    while (i < from->count - 1 && remaining <= from->kind[i]->width / 2) i++;
+    return from->kind[i];
+}
+
+static block *block_of(const dal_batch *batch, int lane)
+{
+    int low = 0, high = batch->blocks - 1;
+    while (low < high) {
+        const int middle = low + (high - low + 1) / 2;
+        if (batch->block[middle].first <= lane)
+            low = middle;
+        else
+            high = middle - 1;
+    }
+    return &batch->block[low];
+}
+
+/* ---- memory ---- */
 
 static void spread(double *wide, const double *single, size_t numbers, int width, int lane)
 {
@@ -68,49 +127,96 @@ static void gather(double *single, const double *wide, size_t numbers, int width
     for (size_t i = 0; i < numbers; i++) single[i] = wide[i * (size_t)width + (size_t)lane];
 }
 
-/* The scalar run's start and parameters into one lane. */
+/* The scalar run's start and parameters into one lane of a block. */
 static void put_lane(dal_batch *batch, const block *b, int lane)
 {
     const dal__shape *k = &batch->scalar->shape;
-    spread(b->carried, batch->scalar->carried, k->carried, batch->width, lane);
-    spread(b->work, batch->scalar->work, k->workspace, batch->width, lane);
+    spread(b->carried, batch->scalar->carried, k->carried, b->kind->width, lane);
+    spread(b->work, batch->scalar->work, k->workspace, b->kind->width, lane);
 }
 
 static void get_lane(dal_batch *batch, const block *b, int lane)
 {
     const dal__shape *k = &batch->scalar->shape;
-    gather(batch->scalar->carried, b->carried, k->carried, batch->width, lane);
-    gather(batch->scalar->work, b->work, k->workspace, batch->width, lane);
+    gather(batch->scalar->carried, b->carried, k->carried, b->kind->width, lane);
+    gather(batch->scalar->work, b->work, k->workspace, b->kind->width, lane);
+}
+
+enum { ALIGNMENT = DAL__BLOCK * sizeof(double) };
+
+static size_t round_up(size_t bytes) { return (bytes + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT; }
+
+/* The blocks the batch needs, and the bytes of their engines; false: more than there can be. */
+static bool measure(dal_batch *batch, const choice *from, size_t *bytes)
+{
+    *bytes = ALIGNMENT;
+    for (int done = 0; done < batch->count; batch->blocks++) {
+        const engine_kind *k = next_kind(from, batch->count - done);
+        const size_t more = round_up(k->bytes(&batch->scalar->shape));
+        if (more > SIZE_MAX / 2 - *bytes) return false;
+        *bytes += more;
+        done += k->width < batch->count - done ? k->width : batch->count - done;
+    }
+    return true;
 }
 
 /* Lanes past the count hold a copy of the start, so that they compute nothing unusual. */
-static void place_blocks(dal_batch *batch, const width_table *k, size_t bytes)
+static void place_block(dal_batch *batch, block *b, const engine_kind *kind, int first,
+                        void *memory)
 {
-    char *at = (char *)batch->memory + (64 - (uintptr_t)batch->memory % 64) % 64;
-    for (int i = 0; i < batch->blocks; i++, at += bytes) {
-        block *b = &batch->block[i];
-        b->engine = k->place(&batch->scalar->shape, at, &b->carried, &b->work);
-        for (int lane = 0; lane < batch->width; lane++) {
-            put_lane(batch, b, lane);
-            if (i * batch->width + lane < batch->count) b->alive |= 1u << lane;
-        }
+    *b = (block){.kind = kind, .first = first};
+    b->engine = kind->place(&batch->scalar->shape, memory, &b->carried, &b->work);
+    for (int lane = 0; lane < kind->width; lane++) {
+        put_lane(batch, b, lane);
+        if (first + lane < batch->count) b->alive |= (dal__lanes)1 << lane;
     }
 }
 
-static dal_status allocate(dal_batch *batch, dal_error *error)
+static void place_blocks(dal_batch *batch, const choice *from)
 {
-    const width_table *k = table(batch->width);
-    const size_t bytes = (k->bytes(&batch->scalar->shape) + 63) / 64 * 64;
-    const size_t blocks = (size_t)batch->blocks;
-    if (bytes <= (SIZE_MAX - 64) / blocks) {
-        batch->block = calloc(blocks, sizeof *batch->block);
+    char *at = (char *)batch->memory + (ALIGNMENT - (uintptr_t)batch->memory % ALIGNMENT);
+    for (int i = 0, first = 0; i < batch->blocks; i++) {
+        const engine_kind *k = next_kind(from, batch->count - first);
+        place_block(batch, &batch->block[i], k, first, at);
+        at += round_up(k->bytes(&batch->scalar->shape));
+        first += k->width;
+    }
+}
+
+static dal_status allocate(dal_batch *batch, const choice *from, dal_error *error)
+{
+    size_t bytes;
+    if (measure(batch, from, &bytes)) {
+        batch->block = calloc((size_t)batch->blocks, sizeof *batch->block);
         batch->error = calloc((size_t)batch->count, sizeof *batch->error);
-        batch->memory = malloc(bytes * blocks + 64);
+        batch->memory = malloc(bytes);
     }
     if (!batch->block || !batch->error || !batch->memory)
         return dal__error(error, DAL_MEMORY, 0, 0, "no memory for a batch of %d", batch->count);
-    place_blocks(batch, k, bytes);
+    place_blocks(batch, from);
     return DAL_OK;
+}
+
+dal_status dal__batch_create(dal_batch **batch, const dal_run_spec *spec, int count, int width,
+                             dal__variant only, dal_error *error)
+{
+    dal_batch *made = calloc(1, sizeof *made);
+    *batch = NULL;
+    if (!made) return dal__error(error, DAL_MEMORY, 0, 0, "no memory for a batch");
+    dal_status status = dal_run_create(&made->scalar, spec, error);
+    if (status == DAL_OK && only != DAL__VARIANTS && !can(&made->scalar->shape, only))
+        status = dal__error(error, DAL_UNSUPPORTED, 0, 0, "variant %d cannot run here", (int)only);
+    if (status == DAL_OK) {
+        const choice one = {{&kinds[only % DAL__VARIANTS]}, 1};
+        const choice from = only == DAL__VARIANTS ? choose(&made->scalar->shape, width) : one;
+        made->count = count;
+        status = allocate(made, &from, error);
+    }
+    if (status == DAL_OK)
+        *batch = made;
+    else
+        dal_batch_free(made);
+    return status;
 }
 
 dal_status dal_batch_create(dal_batch **batch, const dal_run_spec *spec, int count, int width,
@@ -119,22 +225,11 @@ dal_status dal_batch_create(dal_batch **batch, const dal_run_spec *spec, int cou
     *batch = NULL;
     if (count < 1)
         return dal__error(error, DAL_ARGUMENT, 0, 0, "a batch of %d runs is empty", count);
-    if (width != 0 && width != 1 && width != 4 && width != 8)
-        return dal__error(error, DAL_ARGUMENT, 0, 0, "width %d is not 0, 1, 4 or 8", width);
-    dal_batch *made = calloc(1, sizeof *made);
-    if (!made) return dal__error(error, DAL_MEMORY, 0, 0, "no memory for a batch");
-    dal_status status = dal_run_create(&made->scalar, spec, error);
-    if (status == DAL_OK) {
-        made->count = count;
-        made->width = choose_width(&made->scalar->shape, width, count);
-        made->blocks = (count - 1) / made->width + 1;
-        status = allocate(made, error);
-    }
-    if (status == DAL_OK)
-        *batch = made;
-    else
-        dal_batch_free(made);
-    return status;
+    bool known = width == 0;
+    for (int i = 0; i < WIDTHS; i++) known |= width == widths[i];
+    if (!known)
+        return dal__error(error, DAL_ARGUMENT, 0, 0, "width %d is not 0, 1, 4, 8 or 64", width);
+    return dal__batch_create(batch, spec, count, width, DAL__VARIANTS, error);
 }
 
 void dal_batch_free(dal_batch *batch)
@@ -147,10 +242,7 @@ void dal_batch_free(dal_batch *batch)
     free(batch);
 }
 
-static block *block_of(const dal_batch *batch, int lane)
-{
-    return &batch->block[lane / batch->width];
-}
+/* ---- use ---- */
 
 dal_status dal_batch_start(dal_batch *batch, int lane, const dal_setting *parameters,
                            int parameter_count, const dal_setting *start, int start_count,
@@ -160,36 +252,36 @@ dal_status dal_batch_start(dal_batch *batch, int lane, const dal_setting *parame
         return dal__error(error, DAL_ARGUMENT, 0, 0, "lane %d of %d does not exist", lane,
                           batch->count);
     DAL_TRY(dal__run_start(batch->scalar, parameters, parameter_count, start, start_count, error));
-    put_lane(batch, block_of(batch, lane), lane % batch->width);
+    const block *b = block_of(batch, lane);
+    put_lane(batch, b, lane - b->first);
     return DAL_OK;
 }
 
 /* The scalar run repeats the failing step, to say why. */
-static void record(dal_batch *batch, block *b, int first, unsigned failed, const dal_status *why)
+static void record(dal_batch *batch, block *b, dal__lanes failed, const dal_status *why)
 {
-    for (int lane = 0; lane < batch->width; lane++) {
+    for (int lane = 0; lane < b->kind->width; lane++) {
         if (!(failed >> lane & 1)) continue;
         get_lane(batch, b, lane);
         dal__explain(batch->scalar, batch->scalar->shape.options.step, why[lane],
-                     &batch->error[first + lane]);
+                     &batch->error[b->first + lane]);
     }
     b->alive &= ~failed;
 }
 
 dal_status dal_batch_advance(dal_batch *batch, long long count)
 {
-    const width_table *k = table(batch->width);
     const double h = batch->scalar->shape.options.step;
-    dal_status why[8] = {DAL_OK}, last = DAL_OK;
-    unsigned alive = 0;
+    dal_status why[DAL__BLOCK] = {DAL_OK}, last = DAL_OK;
+    bool alive = false;
     for (int i = 0; i < batch->blocks; i++) {
         block *b = &batch->block[i];
         for (long long step = 0; step < count && b->alive; step++) {
-            const unsigned failed = k->step(b->engine, h, b->alive, why);
-            if (failed) record(batch, b, i * batch->width, failed, why);
+            const dal__lanes failed = b->kind->step(b->engine, h, b->alive, why);
+            if (failed) record(batch, b, failed, why);
         }
-        alive |= b->alive;
-        if (!b->alive) last = batch->error[i * batch->width].status;
+        alive |= b->alive != 0;
+        if (!b->alive) last = batch->error[b->first].status;
     }
     return alive ? DAL_OK : last;
 }
@@ -207,16 +299,13 @@ dal_status dal_batch_status(const dal_batch *batch, int lane, dal_error *error)
 
 double dal_batch_time(const dal_batch *batch, int lane)
 {
-    double t;
     const size_t place = dal__at(&batch->scalar->shape, DAL__TIME);
-    const size_t width = (size_t)batch->width;
-    gather(&t, block_of(batch, lane)->carried + place * width, 1, batch->width,
-           lane % batch->width);
-    return t;
+    const block *b = block_of(batch, lane);
+    return b->carried[place * (size_t)b->kind->width + (size_t)(lane - b->first)];
 }
 
 void dal_batch_state(const dal_batch *batch, int lane, double *state)
 {
-    gather(state, block_of(batch, lane)->carried, (size_t)batch->scalar->shape.dim, batch->width,
-           lane % batch->width);
+    const block *b = block_of(batch, lane);
+    gather(state, b->carried, (size_t)batch->scalar->shape.dim, b->kind->width, lane - b->first);
 }

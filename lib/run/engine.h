@@ -4,13 +4,15 @@
  *               slopes[stages*(nw + n)]
  *
  * All that survives a step is the array `carried`; all else is scratch.  The engine exists once per
- * width (engine_wide.c); arrays are interleaved by lanes. */
+ * variant (engine_wide.c); arrays are interleaved by lanes. */
 #ifndef DAL_ENGINE_H
 #define DAL_ENGINE_H
 
 #include "dalembert.h"
 #include "error.h"
+#include "machine.h"
 #include <stdbool.h>
+#include <stdint.h>
 
 /* What a run is, apart from its values. */
 typedef struct dal__shape {
@@ -48,27 +50,38 @@ typedef struct dal__cause {
 /* Measures a spec; errors as dal_run_init. */
 dal_status dal__shape_init(dal__shape *shape, const dal_run_spec *spec, dal_error *error);
 
-/* The descriptor of a built-in integrator compiled at a width, NULL: there is none. */
-const dal_integrator *dal__integrator_wide(const dal_integrator *integrator, int width);
+/* The variants by number. */
+typedef enum dal__variant {
+    DAL__VARIANT_x1,
+#define X(name, variant, lanes, set, group) name##_##variant,
+    DAL__VARIANT_LIST(X, DAL__VARIANT)
+#undef X
+        DAL__VARIANTS
+} dal__variant;
 
-#define DAL__ENGINE(w)                                                                             \
-    size_t dal__engine_bytes_x##w(const dal__shape *shape);                                        \
-    void *dal__engine_place_x##w(const dal__shape *shape, void *memory, double **carried,          \
+/* The descriptor of a built-in integrator for a variant; NULL: there is none. */
+const dal_integrator *dal__integrator_wide(const dal_integrator *integrator, dal__variant variant);
+
+/* A set of lanes: bit i is lane i. */
+typedef uint64_t dal__lanes;
+
+#define DAL__ENGINE(name, variant, lanes, set, group)                                              \
+    size_t name##_bytes_##variant(const dal__shape *shape);                                        \
+    void *name##_place_##variant(const dal__shape *shape, void *memory, double **carried,          \
                                  double **work);                                                   \
-    unsigned dal__engine_step_x##w(void *engine, double h, unsigned lanes, dal_status *why);       \
-    dal_status dal__engine_ask_x##w(void *engine, int question, double t, const double *state,     \
+    dal__lanes name##_step_##variant(void *engine, double h, dal__lanes alive, dal_status *why);   \
+    dal_status name##_ask_##variant(void *engine, int question, double t, const double *state,     \
                                     double *out);                                                  \
-    void dal__engine_trace_x##w(void *engine, dal__cause *cause);
+    void name##_trace_##variant(void *engine, dal__cause *cause);
 
-/* For each width:
- * bytes   memory an engine needs, to be aligned to 64 bytes;
+/* For each variant:
+ * bytes   memory an engine needs, to be aligned to 64 bytes and to 8 bytes a lane;
  * place   makes one; *carried and *work receive its interleaved arrays (zeroed);
- * step    advances the lanes of a bit mask by h; returns the mask of those that failed, which are
- *         as they were, with why[lane] set;
+ * step    advances the lanes alive by h; returns those that failed, which are as they were, with
+ *         why[lane] set;
  * ask     evaluates the field etc. (dal_question) at a state (adjoint: with its own pi);
  * trace   from now on records causes of failure (NULL: stops). */
-DAL__ENGINE(1)
-DAL__ENGINE(4)
-DAL__ENGINE(8)
+DAL__ENGINE(dal__engine, x1, 1, BASE, x1)
+DAL__VARIANT_LIST(DAL__ENGINE, dal__engine)
 
 #endif

@@ -4,9 +4,12 @@
  * finite, e still on its side of zero, the guards of the constraints still on theirs, and no normal
  * of a watched constraint turned by a right angle or more: det(A1 B0) det(A0 B0) > 0 for all
  * leading minors, with B = W^-1 A^T.  A turn through a right angle within one step means that G = A
- * B vanished on the way (or that the step is far too large to tell). */
-#include "run/engine.h"
-#include <dalembert_kernel.h>
+ * B vanished on the way (or that the step is far too large to tell).
+ *
+ * A block of lanes is stepped as one system of DAL_GROUPS times as many components: its integrator,
+ * which acts on each component alike (DAL_COMPONENTWISE), need not know.  The engine and the system
+ * do: number i of lane l of group g is lane l of num i * DAL_GROUPS + g. */
+#include "run/lanes.h"
 
 typedef struct engine {
     dal_step step; /* first, so that step->owner is also the engine */
@@ -18,11 +21,13 @@ typedef struct engine {
 } engine;
 
 static size_t round_up(size_t bytes) { return (bytes + 63) / 64 * 64; }
+static size_t room(size_t numbers) { return round_up(numbers * DAL_GROUPS * sizeof(num)); }
 
 static const dal_callbacks *callbacks(const dal_system *system)
 {
-    if (DAL_LANES == 4) return system->wide4;
-    if (DAL_LANES == 8) return system->wide8;
+    if (LANES == 4) return system->wide4;
+    if (LANES == 8) return system->wide8;
+    if (LANES == (int)DAL__BLOCK) return system->wide64;
     return &system->call;
 }
 
@@ -45,11 +50,11 @@ static int answer_size(const dal__shape *k, dal_question question)
     return 0;
 }
 
-/* Numbers of the carried array that a step may change: an explicit method has no stage slopes. */
+/* Nums of the carried array that a step may change: some methods keep no stage slopes. */
 static size_t changing(const engine *e)
 {
-    const bool is_explicit = (e->chain[0]->claims & DAL_EXPLICIT) != 0;
-    return is_explicit ? dal__at(&e->shape, DAL__SLOPES) : e->shape.carried;
+    const bool forgets = (e->chain[0]->claims & DAL_COMPONENTWISE) != 0;
+    return (forgets ? dal__at(&e->shape, DAL__SLOPES) : e->shape.carried) * DAL_GROUPS;
 }
 
 /* Remembers the first answer that is not finite. */
@@ -70,7 +75,7 @@ static void trace(engine *e, dal_question question, const dal_at *at, dal_status
 /* The answer where there is none. */
 static void fill(const engine *e, dal_question question, double value, num *out)
 {
-    const int size = answer_size(&e->shape, question);
+    const int size = answer_size(&e->shape, question) * DAL_GROUPS;
     for (int i = 0; i < size; i++) out[i] = dal_num(value);
 }
 
@@ -87,20 +92,25 @@ static void ask(dal_step *s, dal_question question, double t, const num *q, cons
                        (double *)e->work};
     const dal_status status = call(e->shape.system, &at, (double *)out);
     if (status != DAL_OK) fill(e, question, NAN, out);
-    if (DAL_LANES == 1 && e->cause) trace(e, question, &at, status, (const double *)out);
+    if (LANES == 1 && e->cause) trace(e, question, &at, status, (const double *)out);
 }
 
 size_t DAL_WIDE(dal__engine_bytes)(const dal__shape *k)
 {
-    const size_t numbers = 2 * k->carried + k->workspace + k->scratch;
-    return round_up(sizeof(engine)) + 4 * 64 + numbers * sizeof(num);
+    return round_up(sizeof(engine)) + 2 * room(k->carried) + room(k->workspace) + room(k->scratch);
 }
 
 static num *take(char **at, size_t count)
 {
     num *p = (num *)(void *)*at;
-    *at += round_up(count * sizeof(num));
+    *at += room(count);
     return p;
+}
+
+/* Number `place` of those carried. */
+static num *carried_at(const engine *e, int place)
+{
+    return e->carried + dal__at(&e->shape, place) * DAL_GROUPS;
 }
 
 /* The step's fixed part. */
@@ -108,16 +118,19 @@ static void prepare_step(engine *e)
 {
     const dal__shape *k = &e->shape;
     dal_step *s = &e->step;
-    *s = (dal_step){.n = k->n, .nw = k->nw, .m = k->m, .dim = k->dim, .lifted = k->lifted};
+    *s = (dal_step){.m = k->m, .lifted = k->lifted};
+    s->n = k->n * DAL_GROUPS;
+    s->nw = k->nw * DAL_GROUPS;
+    s->dim = k->dim * DAL_GROUPS;
     s->y = e->carried;
-    s->r = e->carried + k->dim;
-    s->stiff = e->carried + dal__at(k, DAL__STIFF);
-    s->slopes_h = e->carried + dal__at(k, DAL__SLOPES_H);
-    s->slopes = e->carried + dal__at(k, DAL__SLOPES);
+    s->r = e->carried + s->dim;
+    s->stiff = carried_at(e, DAL__STIFF);
+    s->slopes_h = carried_at(e, DAL__SLOPES_H);
+    s->slopes = carried_at(e, DAL__SLOPES);
     s->solver = k->options.solver;
     s->iterations = k->options.iterations;
     s->has_jacobian = k->system->call.jacobian != NULL;
-    s->room = k->scratch;
+    s->room = k->scratch * DAL_GROUPS;
     s->chain = e->chain;
     s->ask = ask;
     s->owner = e;
@@ -129,10 +142,10 @@ void *DAL_WIDE(dal__engine_place)(const dal__shape *k, void *memory, double **ca
     char *at = memory;
     engine *e = memory;
     at += round_up(sizeof *e);
-    memset(memory, 0, DAL_WIDE(dal__engine_bytes)(k));
+    memset(memory, 0, DAL_WIDE(dal__engine_bytes)(k) - room(k->scratch));
     e->shape = *k;
     for (int i = 0; i < k->depth; i++)
-        e->chain[i] = dal__integrator_wide(k->method.chain[i], DAL_LANES);
+        e->chain[i] = dal__integrator_wide(k->method.chain[i], DAL_WIDE(DAL__VARIANT));
     const dal_callbacks *c = callbacks(k->system);
     e->call[DAL_ASK_FIELD] = c->field;
     e->call[DAL_ASK_ADJOINT] = c->adjoint;
@@ -162,26 +175,37 @@ dal_status DAL_WIDE(dal__engine_ask)(void *engine_, int question, double t, cons
     engine *e = engine_;
     const int n = e->shape.n;
     if (!e->call[question]) return DAL_UNSUPPORTED;
-    const dal_at at = {t, state, state + n * DAL_LANES, state + (3 * n + 1) * DAL_LANES,
-                       (double *)e->work};
+    const dal_at at = {t, state, state + n * LANES, state + (3 * n + 1) * LANES, (double *)e->work};
     return e->call[question](e->shape.system, &at, out);
 }
 
+/* ---- judging a step, group by group ---- */
+
+/* The sum of x - x over some components of a group: 0, or NaN where one is not finite. */
+static num poison(const engine *e, int group, int first, int count)
+{
+    const num *y = e->carried + first * DAL_GROUPS + group;
+    num sum = dal_num(0.0);
+    if (DAL_GROUPS == 1) return dal_poison(y, count);
+    for (int i = 0; i < count * DAL_GROUPS; i += DAL_GROUPS) sum += y[i] - y[i];
+    return sum;
+}
+
 /* Lanes in which every component of the state is finite; 1/e stands for e. */
-static dal_mask finite(const engine *e)
+static dal_mask finite(const engine *e, int group)
 {
     const int dim = e->shape.dim, at_e = 2 * e->shape.n;
-    if (!e->shape.lifted) return dal_equal(dal_poison(e->carried, dim), dal_num(0.0));
-    const num w = 1.0 / e->carried[at_e];
-    return dal_equal(dal_poison(e->carried, at_e) + (w - w) +
-                         dal_poison(e->carried + at_e + 1, dim - at_e - 1),
+    if (!e->shape.lifted) return dal_equal(poison(e, group, 0, dim), dal_num(0.0));
+    const num w = 1.0 / e->carried[at_e * DAL_GROUPS + group];
+    return dal_equal(poison(e, group, 0, at_e) + (w - w) +
+                         poison(e, group, at_e + 1, dim - at_e - 1),
                      dal_num(0.0));
 }
 
-static dal_mask gauge_holds(const engine *e)
+static dal_mask gauge_holds(const engine *e, int group)
 {
     if (!e->shape.lifted) return dal_all();
-    const int i = 2 * e->shape.n;
+    const int i = 2 * e->shape.n * DAL_GROUPS + group;
     return dal_less(dal_num(0.0), 1.0 / e->backup[i] * e->carried[i]) | ~dal_finite(e->carried[i]);
 }
 
@@ -191,33 +215,40 @@ static void note(int *which, dal_mask good, int number)
     if (!*which && !dal_mask_lane(good, 0)) *which = number;
 }
 
-static dal_mask guards_hold(engine *e)
+/* What the system says to a question before and after the step. */
+static void ask_twice(engine *e, dal_question question, num *before, num *after)
 {
-    const int count = e->shape.system->guards, n = e->shape.n;
     dal_step *s = &e->step;
-    dal_mask good = dal_all();
-    if (count == 0) return good;
-    num *before = dal_scratch(s, count), *after = dal_scratch(s, count);
-    const double t0 = s->t - s->h;
-    ask(s, DAL_ASK_GUARDS, t0, e->backup, e->backup + n, NULL, before);
-    ask(s, DAL_ASK_GUARDS, s->t, e->carried, e->carried + n, NULL, after);
-    for (int i = 0; i < count; i++) {
-        good &= dal_less(dal_num(0.0), before[i] * after[i]);
-        if (e->cause) note(&e->cause->guard, good, i + 1);
-    }
-    return good;
+    ask(s, question, s->t - s->h, e->backup, e->backup + s->n, NULL, before);
+    ask(s, question, s->t, e->carried, e->carried + s->n, NULL, after);
 }
 
-static dal_mask normals_hold(engine *e)
+static void guards_hold(engine *e, lane_mask *good)
 {
-    const int m = e->shape.m, n = e->shape.n, size = m + 2 * m * n;
+    const int count = e->shape.system->guards * DAL_GROUPS;
+    dal_step *s = &e->step;
+    if (count == 0) return;
+    num *before = dal_scratch(s, count), *after = dal_scratch(s, count);
+    ask_twice(e, DAL_ASK_GUARDS, before, after);
+    for (int i = 0; i < count; i++) {
+        good->group[i % DAL_GROUPS] &= dal_less(dal_num(0.0), before[i] * after[i]);
+        if (e->cause) note(&e->cause->guard, good->group[0], i + 1);
+    }
+}
+
+/* Numbers of one group, one behind the other. */
+static void pick(const num *from, int group, int count, num *to)
+{
+    for (int i = 0; i < count; i++) to[i] = from[i * DAL_GROUPS + group];
+}
+
+/* No normal of the group turned; c0, c1 are what the constraint said before and after. */
+static dal_mask group_normals_hold(engine *e, const num *c0, const num *c1)
+{
+    const int m = e->shape.m, n = e->shape.n;
     dal_step *s = &e->step;
     dal_mask good = dal_all();
-    if (!(e->shape.system->properties & DAL_D_WATCHED) || !e->call[DAL_ASK_CONSTRAINT]) return good;
-    num *c0 = dal_scratch(s, size), *c1 = dal_scratch(s, size);
     num *g0 = dal_scratch(s, m * m), *g1 = dal_scratch(s, m * m);
-    ask(s, DAL_ASK_CONSTRAINT, s->t - s->h, e->backup, e->backup + n, NULL, c0);
-    ask(s, DAL_ASK_CONSTRAINT, s->t, e->carried, e->carried + n, NULL, c1);
     dal_gram(c0 + m, c0 + m + m * n, m, n, g0);
     dal_gram(c1 + m, c0 + m + m * n, m, n, g1);
     for (int k = 0; k < m; k++) {
@@ -227,77 +258,117 @@ static dal_mask normals_hold(engine *e)
     return good;
 }
 
-static dal_mask mask_of(unsigned lanes)
+static void normals_hold(engine *e, lane_mask *good)
 {
-    dal_mask mask = ~dal_all();
-    for (int i = 0; i < DAL_LANES; i++)
-        if (lanes >> i & 1) mask |= dal_lane_mask(i);
-    return mask;
-}
-
-/* Records a reason for the lanes that lack `good`; returns them. */
-static unsigned reject(dal_mask good, unsigned lanes, dal_status status, dal_status *why)
-{
-    unsigned failed = 0;
-    for (int i = 0; i < DAL_LANES; i++) {
-        if (!(lanes >> i & 1) || dal_mask_lane(good, i)) continue;
-        failed |= 1u << i;
-        why[i] = status;
+    const int m = e->shape.m, n = e->shape.n, size = m + 2 * m * n;
+    dal_step *s = &e->step;
+    if (!(e->shape.system->properties & DAL_D_WATCHED) || !e->call[DAL_ASK_CONSTRAINT]) return;
+    num *before = dal_scratch(s, size * DAL_GROUPS), *after = dal_scratch(s, size * DAL_GROUPS);
+    num *c0 = dal_scratch(s, size), *c1 = dal_scratch(s, size);
+    ask_twice(e, DAL_ASK_CONSTRAINT, before, after);
+    for (int g = 0; g < DAL_GROUPS; g++) {
+        const size_t mark = s->used;
+        pick(before, g, size, c0);
+        pick(after, g, size, c1);
+        good->group[g] = group_normals_hold(e, c0, c1);
+        s->used = mark;
     }
-    return failed;
 }
 
-static unsigned accept(engine *e, unsigned lanes, dal_status status, dal_status *why)
+/* ---- a step ---- */
+
+/* Takes out of `left` the lanes that lack `good`, gives them their reason, and returns them. */
+static dal__lanes reject(lane_mask *left, const lane_mask *good, dal_status status, dal_status *why)
 {
-    const dal_mask solved = ~e->step.unconverged;
-    unsigned failed = 0;
-    if (status != DAL_OK && status != DAL_NOT_CONVERGED)
-        return reject(~dal_all(), lanes, status, why);
-    failed |= reject(solved, lanes, DAL_NOT_CONVERGED, why);
-    failed |= reject(gauge_holds(e), lanes & ~failed, DAL_GAUGE, why);
-    failed |= reject(finite(e), lanes & ~failed, DAL_NOT_FINITE, why);
-    if (failed == lanes) return failed;
+    lane_mask bad;
+    for (int g = 0; g < DAL_GROUPS; g++) {
+        bad.group[g] = left->group[g] & ~good->group[g];
+        left->group[g] &= good->group[g];
+    }
+    const dal__lanes lanes = lanes_of(&bad);
+    for (int i = 0; lanes && i < LANES; i++)
+        if (lanes >> i & 1) why[i] = status;
+    return lanes;
+}
+
+/* Takes the lanes that did not make the step out of `left`, which has the lanes alive, and returns
+ * them. */
+static dal__lanes judge(engine *e, lane_mask *left, dal__lanes alive, dal_status status,
+                        dal_status *why)
+{
+    lane_mask solved, gauge, sound, guards = all_lanes(), normals = guards;
+    const lane_mask none = mask_of(0);
+    dal__lanes failed = 0;
+    for (int g = 0; g < DAL_GROUPS; g++) {
+        solved.group[g] = ~e->step.unconverged;
+        gauge.group[g] = gauge_holds(e, g);
+        sound.group[g] = finite(e, g);
+    }
+    if (status != DAL_OK && status != DAL_NOT_CONVERGED) failed = reject(left, &none, status, why);
+    failed |= reject(left, &solved, DAL_NOT_CONVERGED, why);
+    failed |= reject(left, &gauge, DAL_GAUGE, why);
+    failed |= reject(left, &sound, DAL_NOT_FINITE, why);
+    if (failed == alive) return failed;
     e->step.used = 0;
-    failed |= reject(guards_hold(e), lanes & ~failed, DAL_SINGULAR, why);
-    failed |= reject(normals_hold(e), lanes & ~failed, DAL_SINGULAR, why);
-    return failed;
+    guards_hold(e, &guards);
+    failed |= reject(left, &guards, DAL_SINGULAR, why);
+    normals_hold(e, &normals);
+    return failed | reject(left, &normals, DAL_SINGULAR, why);
 }
 
 /* The clock of the lanes that made it, compensated, and the counters. */
-static void advance_clock(engine *e, double h, dal_mask moved)
+static void advance_clock(engine *e, double h, const lane_mask *moved)
 {
-    const dal__shape *k = &e->shape;
-    num *time = e->carried + dal__at(k, DAL__TIME);
-    num *error = e->carried + dal__at(k, DAL__TIME_ERROR);
-    const num a = *time, b = h + *error, sum = a + b, c = sum - a;
-    *error = dal_select(moved, (a - (sum - c)) + (b - c), *error);
-    *time = dal_select(moved, sum, a);
-    num *steps = e->carried + dal__at(k, DAL__STEPS);
-    num *evaluations = e->carried + dal__at(k, DAL__EVALUATIONS);
-    *steps = dal_select(moved, *steps + 1.0, *steps);
-    *evaluations = dal_select(moved, *evaluations + (double)e->step.evaluations, *evaluations);
+    num *time = carried_at(e, DAL__TIME), *error = carried_at(e, DAL__TIME_ERROR);
+    num *steps = carried_at(e, DAL__STEPS), *evaluations = carried_at(e, DAL__EVALUATIONS);
+    for (int g = 0; g < DAL_GROUPS; g++) {
+        const dal_mask m = moved->group[g];
+        const num a = time[g], b = h + error[g], sum = a + b, c = sum - a;
+        error[g] = dal_select(m, (a - (sum - c)) + (b - c), error[g]);
+        time[g] = dal_select(m, sum, a);
+        steps[g] = dal_select(m, steps[g] + 1.0, steps[g]);
+        evaluations[g] =
+            dal_select(m, evaluations[g] + (double)e->step.evaluations, evaluations[g]);
+    }
 }
 
-unsigned DAL_WIDE(dal__engine_step)(void *engine_, double h, unsigned lanes, dal_status *why)
+/* The lanes that did not move get back what they had. */
+static void restore(engine *e, const lane_mask *moved)
 {
-    engine *e = engine_;
-    dal_step *s = &e->step;
+    for (size_t i = 0; i < changing(e); i++)
+        e->carried[i] = dal_select(moved->group[i % DAL_GROUPS], e->carried[i], e->backup[i]);
+}
+
+/* The time of the first lane alive; all that are alive have the same. */
+static double time_of(const engine *e, dal__lanes alive)
+{
     int first = 0;
-    while (first < DAL_LANES - 1 && !(lanes >> first & 1)) first++;
+    while (first < LANES - 1 && !(alive >> first & 1)) first++;
+    return dal_lane(carried_at(e, DAL__TIME)[first / DAL_LANES], first % DAL_LANES);
+}
+
+static void begin_step(engine *e, double h, dal__lanes alive, const lane_mask *lanes)
+{
+    dal_step *s = &e->step;
     memcpy(e->backup, e->carried, changing(e) * sizeof(num));
-    s->t = dal_lane(e->carried[dal__at(&e->shape, DAL__TIME)], first);
+    s->t = time_of(e, alive);
     s->h = h;
-    s->alive = mask_of(lanes);
+    s->alive = DAL_GROUPS > 1 ? dal_all() : lanes->group[0];
     s->unconverged = ~dal_all();
     s->used = 0;
     s->evaluations = 0;
     s->depth = e->shape.depth - 1;
-    const dal_status status = e->chain[s->depth]->step(s);
-    const unsigned failed = accept(e, lanes, status, why);
-    const dal_mask moved = mask_of(lanes & ~failed);
-    advance_clock(e, h, moved);
-    if (failed)
-        for (size_t i = 0; i < changing(e); i++)
-            e->carried[i] = dal_select(moved, e->carried[i], e->backup[i]);
+}
+
+dal__lanes DAL_WIDE(dal__engine_step)(void *engine_, double h, dal__lanes alive, dal_status *why)
+{
+    engine *e = engine_;
+    lane_mask moved = mask_of(alive);
+    begin_step(e, h, alive, &moved);
+    const dal_status status = e->chain[e->step.depth]->step(&e->step);
+    const dal__lanes failed = judge(e, &moved, alive, status, why);
+    advance_clock(e, h, &moved);
+    const bool strayed = DAL_GROUPS > 1 && alive != ~(dal__lanes)0; /* lanes not alive moved */
+    if (failed || strayed) restore(e, &moved);
     return failed;
 }

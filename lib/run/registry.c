@@ -2,19 +2,17 @@
 #include "run/engine.h"
 #include <string.h>
 
+#define DECLARE(name, variant, lanes, set, group)                                                  \
+    extern const dal_integrator dal__integrator_##name##_##group;
 #define X(name)                                                                                    \
-    extern const dal_integrator dal_integrator_##name, dal__integrator_##name##_x4,                \
-        dal__integrator_##name##_x8;
+    extern const dal_integrator dal_integrator_##name;                                             \
+    DAL__VARIANT_LIST(DECLARE, name)
 #include "../integrators/integrators.def"
 #undef X
 
-typedef struct entry {
-    const dal_integrator *width1, *width4, *width8;
-} entry;
-
-static const entry entries[] = {
-#define X(name)                                                                                    \
-    {&dal_integrator_##name, &dal__integrator_##name##_x4, &dal__integrator_##name##_x8},
+#define ADDRESS(name, variant, lanes, set, group) &dal__integrator_##name##_##group,
+static const dal_integrator *const entries[][DAL__VARIANTS] = {
+#define X(name) {&dal_integrator_##name, DAL__VARIANT_LIST(ADDRESS, name)},
 #include "../integrators/integrators.def"
 #undef X
 };
@@ -23,15 +21,14 @@ enum { COUNT = sizeof entries / sizeof *entries };
 
 const dal_integrator *dal_integrator_at(int i)
 {
-    return i >= 0 && i < COUNT ? entries[i].width1 : NULL;
+    return i >= 0 && i < COUNT ? entries[i][DAL__VARIANT_x1] : NULL;
 }
 
-const dal_integrator *dal__integrator_wide(const dal_integrator *integrator, int width)
+const dal_integrator *dal__integrator_wide(const dal_integrator *integrator, dal__variant variant)
 {
-    if (width == 1) return integrator;
+    if (variant == DAL__VARIANT_x1) return integrator;
     for (int i = 0; i < COUNT; i++)
-        if (entries[i].width1 == integrator)
-            return width == 4 ? entries[i].width4 : entries[i].width8;
+        if (entries[i][DAL__VARIANT_x1] == integrator) return entries[i][variant];
     return NULL;
 }
 
@@ -44,7 +41,7 @@ static int is_modifier(const dal_integrator *integrator)
 static const dal_integrator *find(const char *name, int modifier)
 {
     for (int i = 0; i < COUNT; i++) {
-        const dal_integrator *k = entries[i].width1;
+        const dal_integrator *k = entries[i][DAL__VARIANT_x1];
         if (is_modifier(k) != modifier) continue;
         if (strcmp(k->name, name) == 0 || (k->alias && strcmp(k->alias, name) == 0)) return k;
     }
@@ -55,7 +52,7 @@ static dal_status unknown(const char *name, int modifier, dal_error *error)
 {
     const char *names[2 * COUNT];
     for (int i = 0; i < COUNT; i++) {
-        const dal_integrator *k = entries[i].width1;
+        const dal_integrator *k = entries[i][DAL__VARIANT_x1];
         names[2 * i] = is_modifier(k) == modifier ? k->name : NULL;
         names[2 * i + 1] = is_modifier(k) == modifier ? k->alias : NULL;
     }

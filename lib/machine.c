@@ -1,0 +1,19 @@
+/* machine.c - what this machine can do. */
+#include "machine.h"
+
+bool dal__machine_has(dal__instructions set)
+{
+    switch (set) {
+    case DAL__BASE:
+        return true;
+#if defined(__x86_64__)
+    case DAL__AVX2:
+        return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma");
+    case DAL__AVX512:
+        return __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+               __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("fma");
+#endif
+    default:
+        return false;
+    }
+}

@@ -1,0 +1,25 @@
+/* machine.h - the variants of the sources over num, and which of them this machine can run.
+ *
+ * A source over num is compiled once for each variant: a number of lanes and an instruction set.
+ * All give the same bits.  The Makefile holds the list and writes it to variants.h:
+ *
+ *     DAL__VARIANT_LIST(X, name):   X(name, x4, 4, BASE, x4) X(name, x64, 64, BASE, x2) ...
+ *
+ * with the name of what there is a variant of, the variant (its suffix), its lanes, its instruction
+ * set, and the group of lanes it is made of, whose integrators it uses (kernel/groups.h); of two
+ * variants with the same lanes the better one comes later.  x1, the single run, is not in it. */
+#ifndef DAL_MACHINE_H
+#define DAL_MACHINE_H
+
+#include "variants.h"
+#include <stdbool.h>
+
+/* The better the later. */
+typedef enum dal__instructions { DAL__BASE, DAL__AVX2, DAL__AVX512 } dal__instructions;
+
+enum { DAL__BLOCK = 64 }; /* lanes of a block, the most there are */
+
+/* Whether this machine has an instruction set; BASE is what the whole library is compiled for. */
+bool dal__machine_has(dal__instructions set);
+
+#endif
