@@ -30,14 +30,17 @@ typedef struct job {
     int steps, shown; /* a round; components of q and v */
 } job;
 
+/* The accelerations of sleigh_field, from q and v where they are. */
 static dal_status sleigh_callback(const dal_system *system, const dal_at *at, double *out)
 {
-    double y[SMALL_DIM], dy[SMALL_DIM];
+    const double *v = at->v;
+    double s, c;
     (void)system;
-    memcpy(y, at->q, 3 * sizeof *y);
-    memcpy(y + 3, at->v, 3 * sizeof *y);
-    sleigh_field(y, dy);
-    memcpy(out, dy + 3, 3 * sizeof *y);
+    real_sincos(at->q[2], &s, &c);
+    const double h = SLEIGH_G * s - (v[0] * c + v[1] * s) * v[2];
+    out[0] = h * s - SLEIGH_G;
+    out[1] = -(h * c);
+    out[2] = -SLEIGH_K * s;
     return DAL_OK;
 }
 

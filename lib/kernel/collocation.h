@@ -43,25 +43,34 @@ DAL_INLINE num dal__weighted(const double *head, const double *tail, int stages,
     }
     return h * (large + small);
 }
-/* The same for count components side by side; out must not overlap x. */
-#define DAL__WEIGHTED(stages)                                                                      \
-    DAL_EACH(c, count) out[c] = dal__weighted(head, tail, (stages), h, x + c, stride)
+/* The statement with STAGES a constant where there are few of them: the sum over the stages then
+ * unrolls, and components go side by side through vector registers. */
+#define DAL__BY_STAGES(stages, statement)                                                          \
+    switch (stages) {                                                                              \
+    case 1: {                                                                                      \
+        enum { STAGES = 1 };                                                                       \
+        statement;                                                                                 \
+    } break;                                                                                       \
+    case 2: {                                                                                      \
+        enum { STAGES = 2 };                                                                       \
+        statement;                                                                                 \
+    } break;                                                                                       \
+    case 3: {                                                                                      \
+        enum { STAGES = 3 };                                                                       \
+        statement;                                                                                 \
+    } break;                                                                                       \
+    default: {                                                                                     \
+        const int STAGES = (stages);                                                               \
+        statement;                                                                                 \
+    }                                                                                              \
+    }
+
+/* out = h sum_j weight_j x_j for count components side by side; out must not overlap x. */
 DAL_INLINE void dal__weighted_all(const double *head, const double *tail, int stages, double h,
                                   const num *x, int stride, int count, num *DAL_RESTRICT out)
 {
-    switch (stages) { /* by its constants, so that a compiler unrolls the sum */
-    case 1:
-        DAL__WEIGHTED(1);
-        break;
-    case 2:
-        DAL__WEIGHTED(2);
-        break;
-    case 3:
-        DAL__WEIGHTED(3);
-        break;
-    default:
-        DAL__WEIGHTED(stages);
-    }
+    DAL__BY_STAGES(stages,
+                   DAL_EACH(c, count) out[c] = dal__weighted(head, tail, STAGES, h, x + c, stride));
 }
 /* h sum b x for count components. */
 DAL_INLINE void dal__end(const dal_stages *k, const num *x, int stride, int count, num *out)
@@ -70,18 +79,21 @@ DAL_INLINE void dal__end(const dal_stages *k, const num *x, int stride, int coun
                       count, out);
 }
 
-/* Stage values base + (r + h sum a x) for count components. */
-DAL_INLINE void dal__stage_values(dal_step *s, const dal_stages *k, int first, int count,
-                                  const num *x, int stride, num *out)
+/* Stage values base + (r + h sum a x) for count components; out must not overlap x. */
+DAL_INLINE void dal__stage_value(const dal_step *s, const dal_stages *k, int i, int first,
+                                 int count, const num *x, int stride, num *DAL_RESTRICT out)
 {
     const int stages = DAL_STAGES(k->method);
+    const double *a = k->method->a + i * stages, *tail = k->method->a_tail + i * stages;
     const num *y = s->y + first, *r = s->r + first;
-    DAL_EACH(i, stages) {
-        num *DAL_RESTRICT value = out + i * count;
-        dal__weighted_all(k->method->a + i * stages, k->method->a_tail + i * stages, stages, k->h,
-                          x, stride, count, value);
-        DAL_EACH(j, count) value[j] = y[j] + (r[j] + value[j]);
-    }
+    DAL__BY_STAGES(stages, DAL_EACH(c, count) out[c] =
+                               y[c] + (r[c] + dal__weighted(a, tail, STAGES, k->h, x + c, stride)));
+}
+DAL_INLINE void dal__stage_values(const dal_step *s, const dal_stages *k, int first, int count,
+                                  const num *x, int stride, num *out)
+{
+    DAL_EACH(i, DAL_STAGES(k->method))
+        dal__stage_value(s, k, i, first, count, x, stride, out + i * count);
 }
 
 /* The slopes of pi: L_i = -(p + r - h sum a F_q^T Pi) - F_v^T Pi. */
@@ -98,14 +110,14 @@ DAL_INLINE void dal__momentum_slopes(dal_step *s, const dal_stages *k, num *imag
     }
 }
 
-/* Asks the system at every stage. */
-DAL_INLINE void dal__ask_stages(dal_step *s, const dal_stages *k)
+/* Asks the system at every stage; on the physical space F is the image of K. */
+DAL_INLINE void dal__ask_stages(dal_step *s, const dal_stages *k, num *image)
 {
     DAL_EACH(i, DAL_STAGES(k->method)) {
         const double t = s->t + k->method->c[i] * k->h;
         const num *q = k->q + i * DAL_N(s), *v = k->v + i * DAL_NW(s);
         if (DAL_LIFTED(s)) dal_adjoint(s, t, q, v, k->pi + i * DAL_N(s), k->f + i * k->stride);
-        if (!DAL_LIFTED(s)) dal_force(s, t, q, v, k->f + i * k->stride);
+        if (!DAL_LIFTED(s)) dal_force(s, t, q, v, image + i * DAL_NW(s));
     }
 }
 
@@ -113,17 +125,15 @@ DAL_INLINE void dal__collocation_map(dal_step *s, dal_equation *eq)
 {
     const dal_stages *k = (const dal_stages *)eq->context;
     const int n = DAL_N(s), nw = DAL_NW(s);
+    num *const image = eq->block[0].image;
     dal__stage_values(s, k, n, nw, eq->block[0].u, nw, k->v);
     dal__stage_values(s, k, 0, n, k->v, nw, k->q);
     if (DAL_LIFTED(s)) dal__stage_values(s, k, dal_at_pi(s), n, eq->block[1].u, n, k->pi);
-    dal__ask_stages(s, k);
+    dal__ask_stages(s, k, image);
+    if (!DAL_LIFTED(s)) return;
     DAL_EACH(i, DAL_STAGES(k->method))
-        DAL_EACH(j, nw) {
-            const num f = k->f[i * k->stride + j];
-            eq->block[0].image[i * nw + j] = f;
-            if (DAL_LIFTED(s)) eq->block[0].image[i * nw + j] = f + k->pi[i * n + j] * k->w[i];
-        }
-    if (DAL_LIFTED(s)) dal__momentum_slopes(s, k, eq->block[1].image);
+        DAL_EACH(j, n) image[i * n + j] = k->f[i * k->stride + j] + k->pi[i * n + j] * k->w[i];
+    dal__momentum_slopes(s, k, eq->block[1].image);
 }
 
 /* a and a a, rounded: good enough for Newton's matrix. */
@@ -166,16 +176,21 @@ DAL_INLINE dal_status dal__guess_present(dal_step *s, dal_equation *eq, dal_mask
     return DAL_OK;
 }
 
+/* u += factor x */
+DAL_INLINE void dal__add_multiple(num *DAL_RESTRICT u, double factor, const num *x, int count)
+{
+    DAL_EACH(i, count) u[i] += factor * x[i];
+}
+
 /* Guess from the last step's polynomial. */
 DAL_INLINE void dal__extrapolate(const dal_tableau *m, dal_block *b, int width, const num *last)
 {
     const int stages = DAL_STAGES(m);
-    DAL_EACH(i, stages) {
-        num *DAL_RESTRICT u = b->u + i * width;
-        DAL_EACH(c, width) u[c] = dal_num(0.0);
+    DAL_EACH(i, b->size) b->u[i] = dal_num(0.0);
+    DAL_EACH(i, stages)
         DAL_EACH(j, stages)
-            DAL_EACH(c, width) u[c] += m->extrapolation[i * stages + j] * last[j * width + c];
-    }
+            dal__add_multiple(b->u + i * width, m->extrapolation[i * stages + j], last + j * width,
+                              width);
 }
 DAL_INLINE void dal__guess_last(dal_step *s, const dal_tableau *m, dal_equation *eq)
 {
@@ -205,9 +220,11 @@ DAL_INLINE dal_status dal__solve_stages(dal_step *s, const dal_stages *k, dal_eq
 }
 
 /* Keeps the slopes for the next step's guess. */
-DAL_INLINE void dal__keep_block(const dal_step *s, const dal_block *b, num *last)
+DAL_INLINE void dal__keep_block(const dal_step *s, const dal_block *b, num *DAL_RESTRICT last)
 {
-    DAL_EACH(i, b->size) last[i] = dal_select(s->alive, b->u[i], last[i]);
+    const dal_mask alive = s->alive;
+    const num *u = b->u;
+    DAL_EACH(i, b->size) last[i] = dal_select(alive, u[i], last[i]);
 }
 DAL_INLINE void dal__keep_slopes(dal_step *s, const dal_stages *k, const dal_equation *eq)
 {

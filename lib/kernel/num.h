@@ -140,10 +140,15 @@ DAL_INLINE void dal__pack_max(dal__pack *part, const dal__pack *x)
 }
 DAL_INLINE int dal__norm_packs(const num *x, int count, num *norm)
 {
-    dal__pack part = {0};
+    dal__pack part[4] = {{0}}; /* four at a time: each waits for itself alone */
     int i = 0;
-    for (; i + DAL__PACK <= count; i += DAL__PACK) dal__pack_max(&part, (const dal__pack *)(x + i));
-    for (int j = 0; j < DAL__PACK; j++) *norm = dal_max(*norm, part[j]);
+    for (; i + 4 * DAL__PACK <= count; i += 4 * DAL__PACK)
+        for (int k = 0; k < 4; k++)
+            dal__pack_max(&part[k], (const dal__pack *)(x + i + k * DAL__PACK));
+    for (; i + DAL__PACK <= count; i += DAL__PACK)
+        dal__pack_max(&part[0], (const dal__pack *)(x + i));
+    for (int k = 1; k < 4; k++) dal__pack_max(&part[0], &part[k]);
+    for (int j = 0; j < DAL__PACK; j++) *norm = dal_max(*norm, part[0][j]);
     return i;
 }
 DAL_INLINE int dal__poison_packs(const num *x, int count, num *poison)

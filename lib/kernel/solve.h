@@ -64,20 +64,19 @@ DAL_INLINE num dal_momentum_scale(const dal_step *s, double h)
 }
 
 #if DAL_LANES == 1 && !defined DAL_SPECIALISED
-/* d = image - u, u += d; norm and poison of d. */
-DAL_INLINE int dal__advance_packs(num *u, const num *image, int count, num *norm, num *poison)
+/* image -= u, u += image; norm and poison of what is then in image. */
+DAL_INLINE int dal__advance_packs(num *u, num *image, int count, num *norm, num *poison)
 {
-    dal__pack largest = {0}, sum = {0};
+    dal__pack sum = {0};
     int i = 0;
     for (; i + DAL__PACK <= count; i += DAL__PACK) {
-        dal__pack *v = (dal__pack *)(u + i);
-        const dal__pack d = *(const dal__pack *)(image + i) - *v;
-        dal__pack_max(&largest, &d);
-        sum += d - d;
-        *v += d;
+        dal__pack *v = (dal__pack *)(u + i), *d = (dal__pack *)(image + i);
+        *d -= *v;
+        sum += *d - *d;
+        *v += *d;
     }
-    for (int j = 0; j < DAL__PACK; j++) *norm = dal_max(*norm, largest[j]);
     for (int j = 0; j < DAL__PACK; j++) *poison += sum[j];
+    dal__norm_packs(image, i, norm);
     return i;
 }
 #else

@@ -8,11 +8,14 @@
 #ifndef DAL_KERNEL_STEP_H
 #define DAL_KERNEL_STEP_H
 
+/* Without this a compiler takes what comes after many of them for cold and leaves it slow. */
+#define DAL_RARELY(condition) __builtin_expect(!!(condition), 0)
+
 #ifndef DAL_TRY
 #define DAL_TRY(expression)                                                                        \
     do {                                                                                           \
         dal_status dal__s = (expression);                                                          \
-        if (dal__s != DAL_OK) return dal__s;                                                       \
+        if (DAL_RARELY(dal__s != DAL_OK)) return dal__s;                                           \
     } while (0)
 #endif
 
@@ -114,7 +117,7 @@ DAL_INLINE num *dal_scratch(dal_step *s, int count)
 /* Declares a scratch vector.  The count must be made of constants and the macros above. */
 #define DAL_VECTOR(step, name, count)                                                              \
     num *const name = dal_scratch((step), (count));                                                \
-    if (!name) return DAL_MEMORY
+    if (DAL_RARELY(!name)) return DAL_MEMORY
 /* From DAL_RELEASE on the vectors since DAL_MARK are gone. */
 #define DAL_MARK(step)    const size_t dal__mark = (step)->used
 #define DAL_RELEASE(step) (step)->used = dal__mark
@@ -188,12 +191,14 @@ DAL_INLINE dal_status dal_field(dal_step *s, double t, const num *y, num *DAL_RE
  * A sum is -0 only if both parts are, and y is not. */
 DAL_INLINE void dal_add(dal_step *s, int first, int count, const num *d)
 {
+    num *const DAL_RESTRICT y = s->y + first, *const DAL_RESTRICT r = s->r + first;
+    const dal_mask alive = s->alive;
     DAL_EACH(i, count) {
-        const num a = s->y[first + i], b = d[i] + s->r[first + i];
+        const num a = y[i], b = d[i] + r[i];
         const num sum = a + b, c = sum - a;
         const num error = (a - (sum - c)) + (b - c);
-        s->y[first + i] = dal_select(s->alive, sum, a);
-        s->r[first + i] = dal_select(s->alive, error, s->r[first + i]);
+        y[i] = dal_select(alive, sum, a);
+        r[i] = dal_select(alive, error, r[i]);
     }
 }
 
