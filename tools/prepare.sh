@@ -1,10 +1,14 @@
 #!/bin/sh
-# prepare.sh [lint] - installs, on Debian, the packages that building and testing need, and with
-# `lint` those of the whole continuous check; nothing happens when all are there.
+# prepare.sh [lint|bench] - installs, on Debian, the packages that building and testing need, with
+# `lint` also those of the whole continuous check, with `bench` also the libraries that `make bench`
+# compares with; nothing happens when all are there.
 set -e
 packages='gcc libc6-dev make pkg-config libyaml-dev libcunit1-dev libmpfr-dev locales gnuplot-nox'
 if [ "$1" = lint ]; then
     packages="$packages binutils clang clang-format libclang-rt-14-dev universal-ctags valgrind"
+fi
+if [ "$1" = bench ]; then
+    packages="$packages g++ libgsl-dev libsundials-dev libboost-dev"
 fi
 missing=
 for package in $packages; do
