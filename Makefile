@@ -105,7 +105,8 @@ $(SYSTEMS): tools/embed.sh $(wildcard systems/*.yaml) systems
 	@mkdir -p $(@D)
 	$(call SAY,sh)sh tools/embed.sh $(sort $(wildcard systems/*.yaml)) >$@.tmp && mv $@.tmp $@
 # So do the kernel and the integrators, for generated files.
-SOURCES = $(wildcard lib/kernel/*.h) lib/generate/stepper.h $(wildcard integrators/*.c)
+SOURCES = $(wildcard lib/kernel/*.h) lib/generate/stepper.h lib/generate/caller.h \
+          $(wildcard integrators/*.c)
 $(BUILD)/generated/sources.c: tools/embed-sources.sh $(SOURCES)
 	@mkdir -p $(@D)
 	sh tools/embed-sources.sh $(SOURCES) >$@.tmp && mv $@.tmp $@
@@ -190,7 +191,7 @@ LIB     = "$(DESTDIR)$(PREFIX)/lib"
 INCLUDE = "$(DESTDIR)$(PREFIX)/include"
 MAN     = "$(DESTDIR)$(PREFIX)/share/man/man1"
 SHARE   = "$(DESTDIR)$(PREFIX)/share/dalembert"
-HEADERS = dalembert.h dalembert_measure.h dalembert_kernel.h
+HEADERS = dalembert.h dalembert_generate.h dalembert_measure.h dalembert_kernel.h
 LINKS   = libdalembert.so $(SONAME) libdalembert.so.$(VERSION)
 
 install: all
@@ -200,7 +201,8 @@ install: all
 	install -m 644 $(SHARED).$(VERSION) $(LIB)
 	ln -sf libdalembert.so.$(VERSION) $(LIB)/$(SONAME)
 	ln -sf $(SONAME) $(LIB)/libdalembert.so
-	install -m 644 include/dalembert.h include/dalembert_measure.h $(KERNEL) $(INCLUDE)
+	install -m 644 include/dalembert.h include/dalembert_generate.h include/dalembert_measure.h \
+	    $(KERNEL) $(INCLUDE)
 	sed 's|@PREFIX@|$(PREFIX)|; s|@VERSION@|$(VERSION)|' tools/dalembert.pc.in \
 	    >$(LIB)/pkgconfig/dalembert.pc
 	install -m 644 man/dalembert.1 $(MAN)

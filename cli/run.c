@@ -58,6 +58,8 @@ int run_take(run_wishes *wishes, int option, const char *text)
     case OWN_summary:
         wishes->summary = 1;
         break;
+    case OWN_native:
+        return native_read(text, &wishes->native);
     case OWN_force:
         wishes->force = 1;
         break;
@@ -77,6 +79,8 @@ int run_integrate(const cli_job *job, cli_store *store, const run_wishes *wishes
         if (record.mark.row > 0)
             cli_fail(CLI_DONE, "'%s' goes on from t = %g with row %lld", store->directory,
                      dal_run_time(job->run), record.mark.row);
+        native_use(job->run, &job->method, (job->time - dal_run_time(job->run)) / job->options.step,
+                   wishes->native);
         status = record_go(&record);
         if (wishes->summary || isatty(STDERR_FILENO)) summary_print(stderr, &record);
     }

@@ -18,11 +18,13 @@ typedef struct wishes {
     const char *study, *output;
     long long threads;
     int show;
+    cli_native native;
 } wishes;
 
 #define OPTION_LIST(X)                                                                             \
     X(output, "DIR", "the files go there", default_directory)                                      \
     X(threads, "N", "cells at a time; the results do not depend on it", "one per processor")       \
+    X(native, "auto|on|off", "compile the steps, which changes no bit: when it pays", "auto")      \
     X(show, NULL, "print the study file itself and do nothing", NULL)
 
 enum {
@@ -67,6 +69,8 @@ static int take(wishes *w, int option, const char *value)
         return CLI_DONE;
     case OPTION_threads:
         return cli_integer("--threads", value, 1, 256, &w->threads);
+    case OPTION_native:
+        return native_read(value, &w->native);
     case OPTION_show:
         w->show = 1;
         return CLI_DONE;
@@ -156,6 +160,7 @@ static int run_study(const wishes *w)
         fwrite(text, 1, length, stdout);
     else
         status = study_plan_read(&plan, w->study ? w->study : builtin_name, text, length);
+    for (int i = 0; i < plan.entry_count; i++) plan.entries[i].native = w->native;
     if (status == CLI_DONE && !w->show) status = run_plan(&plan, w, text, length);
     if (w->show) status = cli_close(stdout, "standard output");
     study_plan_free(&plan);

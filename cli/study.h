@@ -8,6 +8,7 @@
 #define DAL_CLI_STUDY_H
 
 #include "cli.h"
+#include "native.h"
 
 #include <pthread.h>
 #include <stdint.h>
@@ -62,6 +63,7 @@ typedef struct study_entry {
     dal_method *methods;
     int method_count;
     int first_cell, cells; /* its cells stand together */
+    cli_native native;
 } study_entry;
 
 typedef struct study_cell study_cell;

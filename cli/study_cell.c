@@ -82,6 +82,7 @@ static dal_status make_run(walk *w)
     spec.options.space = space[w->cell->start];
     dal_status status = dal_run_create(&w->run, &spec, &w->cell->error);
     free(start);
+    if (status == DAL_OK) native_use(w->run, w->cell->method, e->time / w->cell->step, e->native);
     return status == DAL_OK ? displace_run(w) : status;
 }
 

@@ -379,18 +379,7 @@ double dal_batch_time(const dal_batch *batch, int lane);
 /* Copies a lane's state, [dimension] doubles as dal_run_state. */
 void dal_batch_state(const dal_batch *batch, int lane, double *state);
 
-/* ---- generated C --------------------------------------------------------------------------- */
-
-/* Writes one self-contained C file that steps this system by this method on this space, lanes (1,
- * 2, 4, 8 or 16) at a time: *text, to be freed with free(); its first comment says how to call it.
- * The bits are those of a run of the same spec.  The system must be that of a model, the
- * integrators those of the library.  Parameters and start of the spec are the defaults of the file;
- * solver and iterations are fixed in it, the step is not.  prefix begins every public name (NULL:
- * SYSTEM_METHOD). [alloc]  Errors: as dal_run_create, DAL_ARGUMENT (lanes, prefix),
- * DAL_UNSUPPORTED, DAL_TOO_LARGE (for straight-line code). */
-dal_status dal_generate(const dal_run_spec *spec, int lanes, const char *prefix, char **text,
-                        dal_error *error);
-
+#include "dalembert_generate.h"
 #include "dalembert_measure.h"
 
 #ifdef __cplusplus

@@ -106,7 +106,7 @@ static int find_component(const dal_run *run, const char *name)
     return 0; /* the run has accepted the name */
 }
 
-static void put_start(dal__generation *g)
+void dal__put_start(dal__generation *g)
 {
     const dal__shape *k = &g->shape;
     const int first = k->n + k->nw;
@@ -130,6 +130,15 @@ static void put_start(dal__generation *g)
     dal__text_put(&g->text, "}\n\n");
 }
 
+static void put_single_programs(dal__generation *g)
+{
+    put_program(g, DAL__PROGRAM_START, "start_values");
+    put_program(g, DAL__PROGRAM_CONSTRAINTS, "constraints");
+    put_program(g, DAL__PROGRAM_ENERGY, "energy");
+    put_program(g, DAL__PROGRAM_INVARIANTS, "invariant_values");
+    put_program(g, DAL__PROGRAM_EXACT, "exact");
+}
+
 void dal__put_answers(dal__generation *g)
 {
     name_inputs(g);
@@ -138,14 +147,9 @@ void dal__put_answers(dal__generation *g)
 #define X(code, name, reads) put_program(g, DAL__PROGRAM_##code, #name);
     DAL__WIDE_LIST(X)
 #undef X
-    put_program(g, DAL__PROGRAM_START, "start_values");
-    put_program(g, DAL__PROGRAM_CONSTRAINTS, "constraints");
-    put_program(g, DAL__PROGRAM_ENERGY, "energy");
-    put_program(g, DAL__PROGRAM_INVARIANTS, "invariant_values");
-    put_program(g, DAL__PROGRAM_EXACT, "exact");
+    if (!g->native) put_single_programs(g);
     free(g->input);
     put_ask(g);
-    put_start(g);
 }
 
 /* ---- observables, in the order of dal_run_observables ---- */

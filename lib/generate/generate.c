@@ -288,11 +288,9 @@ static void put_method(dal__generation *g)
     dal__text_put(text, "\n\n");
 }
 
-static void put_file(dal__generation *g)
+/* Kernel, system, method and steps. */
+static void put_steps(dal__generation *g)
 {
-    dal__put_interface(g);
-    dal__put_template(g, "\n#ifndef PREFIX_HEADER\n\n#include <math.h>\n#include <stddef.h>\n"
-                         "#include <stdint.h>\n#include <string.h>\n\n");
     dal__put_template(g, compiler);
     put_unrolling(g);
     put_constants(g);
@@ -300,9 +298,47 @@ static void put_file(dal__generation *g)
     dal__put_answers(g);
     put_method(g);
     dal__put_template(g, dal__source_text("stepper.h"));
+}
+
+static void put_file(dal__generation *g)
+{
+    dal__put_interface(g);
+    dal__put_template(g, "\n#ifndef PREFIX_HEADER\n\n#include <math.h>\n#include <stddef.h>\n"
+                         "#include <stdint.h>\n#include <string.h>\n\n");
+    put_steps(g);
+    dal__put_start(g);
+    dal__put_template(g, dal__source_text("caller.h"));
     dal__put_observe(g);
     dal__put_names(g);
     dal__put_template(g, end);
+}
+
+/* Steps alone, and declarations instead of headers, which take a compiler longer to read. */
+static void put_native_file(dal__generation *g)
+{
+    dal__text_put(&g->text,
+                  "typedef __INT64_TYPE__ int64_t;\ntypedef __SIZE_TYPE__ size_t;\n"
+                  "#define INT64_MAX __INT64_MAX__\n#define INT64_MIN (-__INT64_MAX__ - 1)\n"
+                  "#define NULL ((void *)0)\n#define INFINITY __builtin_inf()\n"
+                  "#define NAN __builtin_nan(\"\")\n"
+                  "void *memcpy(void *, const void *, size_t);\n"
+                  "double sin(double), cos(double), tan(double), asin(double), acos(double);\n"
+                  "double atan(double), sinh(double), cosh(double), tanh(double), asinh(double);\n"
+                  "double exp(double), log(double), sqrt(double), fabs(double);\n"
+                  "double atan2(double, double), pow(double, double);\n");
+    dal__put_template(g, "long long PREFIX_lanes(double *, const double *, double, long long, "
+                         "unsigned, unsigned *, int *);\n");
+    put_steps(g);
+}
+
+static dal_status finish(dal__generation *g, char **text, dal_error *error)
+{
+    if (g->text.starved) {
+        dal__text_free(&g->text);
+        return dal__error(error, DAL_MEMORY, 0, 0, "no memory for a generated file");
+    }
+    *text = g->text.bytes;
+    return DAL_OK;
 }
 
 dal_status dal_generate(const dal_run_spec *spec, int lanes, const char *prefix, char **text,
@@ -314,10 +350,14 @@ dal_status dal_generate(const dal_run_spec *spec, int lanes, const char *prefix,
     DAL_TRY(dal_run_create(&g.run, spec, error));
     put_file(&g);
     dal_run_free(g.run);
-    if (g.text.starved) {
-        dal__text_free(&g.text);
-        return dal__error(error, DAL_MEMORY, 0, 0, "no memory for a generated file");
-    }
-    *text = g.text.bytes;
-    return DAL_OK;
+    return finish(&g, text, error);
+}
+
+dal_status dal__generate_native(const dal_run_spec *spec, int lanes, char **text, dal_error *error)
+{
+    dal__generation g = {.spec = spec, .lanes = lanes, .native = true};
+    *text = NULL;
+    DAL_TRY(check(&g, lanes, DAL__NATIVE_PREFIX, error));
+    put_native_file(&g);
+    return finish(&g, text, error);
 }

@@ -26,6 +26,7 @@ typedef struct dal__generation {
     const dal__source *source[DAL_CHAIN]; /* of each link */
     dal__input_name *input;               /* what the programs call their inputs */
     int lanes;
+    bool native; /* steps alone */
     char prefix[DAL__PREFIX_SIZE];
     dal__text text;
 } dal__generation;
@@ -40,12 +41,18 @@ bool dal__uses_newton(const dal__generation *g);
 /* Whether a program goes into the file. */
 bool dal__wants(const dal__generation *g, dal__program_code code);
 
+/* The steps alone, for native mode: the function DAL__NATIVE_PREFIX_lanes.  Takes nothing from the
+ * parameters and the start of the spec. [alloc] */
+#define DAL__NATIVE_PREFIX "dal_native"
+dal_status dal__generate_native(const dal_run_spec *spec, int lanes, char **text, dal_error *error);
+
 /* ---- interface.c: what a caller sees ---- */
 void dal__put_interface(dal__generation *g);
 void dal__put_names(dal__generation *g);
 
 /* ---- answers.c: the system ---- */
 void dal__put_answers(dal__generation *g);
+void dal__put_start(dal__generation *g);
 void dal__put_observe(dal__generation *g);
 
 #endif

@@ -76,27 +76,36 @@ dal_status dal_run_create(dal_run **run, const dal_run_spec *spec, dal_error *er
 
 void dal_run_free(dal_run *run)
 {
-    if (run) free(run->owned);
+    if (!run) return;
+    if (run->native.release) run->native.release(run->native.handle);
+    free(run->owned);
 }
 
-dal_status dal__run_step(dal_run *run, double h)
+static dal_status native_steps(dal_run *run, double h, long long count)
+{
+    unsigned failed = 0;
+    int why = DAL_OK;
+    run->native.steps(run->carried, run->work, h, count, 1u, &failed, &why);
+    return failed ? (dal_status)why : DAL_OK;
+}
+
+dal_status dal__run_steps(dal_run *run, double h, long long count)
 {
     dal_status why = DAL_OK;
-    return dal__engine_step_x1(run->engine, h, 1u, &why) ? why : DAL_OK;
-}
-
-dal_status dal_run_step(dal_run *run, dal_error *error)
-{
-    const double h = run->shape.options.step;
-    const dal_status status = dal__run_step(run, h);
-    return status == DAL_OK ? DAL_OK : dal__explain(run, h, status, error);
+    if (run->native.steps) return native_steps(run, h, count);
+    for (long long i = 0; i < count; i++)
+        if (dal__engine_step_x1(run->engine, h, 1u, &why)) return why;
+    return DAL_OK;
 }
 
 dal_status dal_run_advance(dal_run *run, long long count, dal_error *error)
 {
-    for (long long i = 0; i < count; i++) DAL_TRY(dal_run_step(run, error));
-    return DAL_OK;
+    const double h = run->shape.options.step;
+    const dal_status status = dal__run_steps(run, h, count);
+    return status == DAL_OK ? DAL_OK : dal__explain(run, h, status, error);
 }
+
+dal_status dal_run_step(dal_run *run, dal_error *error) { return dal_run_advance(run, 1, error); }
 
 const dal_system *dal_run_system(const dal_run *run) { return run->shape.system; }
 int dal_run_dimension(const dal_run *run) { return run->shape.dim; }

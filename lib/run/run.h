@@ -4,6 +4,15 @@
 
 #include "run/engine.h"
 
+/* Compiled steps, see lib/generate/native.c: up to count steps of the lanes in a mask, until one of
+ * them fails.  NULL: the engine steps. */
+typedef struct dal__native {
+    long long (*steps)(double *carried, const double *work, double h, long long count,
+                       unsigned lanes, unsigned *failed, int *why);
+    void *handle;
+    void (*release)(void *handle);
+} dal__native;
+
 struct dal_run {
     dal__shape shape;
     void *engine;    /* width 1 */
@@ -14,6 +23,7 @@ struct dal_run {
     double *point;   /* [n + nw] where a step went wrong */
     bool exact;      /* the exact solution belongs to this start */
     void *owned;     /* memory to free, or NULL */
+    dal__native native;
 };
 
 /* Names of state components, by place; NULL past the end. */
@@ -26,8 +36,8 @@ dal_status dal__run_start(dal_run *run, const dal_setting *parameters, int param
 /* Finds out why a step of size h failed with status, and says it. */
 dal_status dal__explain(dal_run *run, double h, dal_status status, dal_error *error);
 
-/* A step of size h with no explanation of a failure. */
-dal_status dal__run_step(dal_run *run, double h);
+/* count steps of size h, until one fails, with no explanation of a failure. */
+dal_status dal__run_steps(dal_run *run, double h, long long count);
 
 static inline dal_at dal__here(const dal_run *run)
 {

@@ -44,11 +44,18 @@ static dal_status side_step(sampling *k, double h, long long row, double t)
     dal_run *run = k->run;
     const size_t bytes = run->shape.carried * sizeof *run->carried;
     memcpy(run->shadow, run->carried, bytes);
-    const dal_status status = dal__run_step(run, h);
+    const dal_status status = dal__run_steps(run, h, 1);
     if (status != DAL_OK) return dal__explain(run, h, status, k->error);
     const dal_status shown = show(k, row, t);
     memcpy(run->carried, run->shadow, bytes);
     return shown == DAL_OK ? poll(k) : shown;
+}
+
+/* Steps that surely end before a row that is left away; the last two are taken one by one. */
+static long long steps_to(double left, double h)
+{
+    const double steps = left / h - 2.0;
+    return steps < 1.0 ? 1 : steps > POLL ? POLL : (long long)steps;
 }
 
 static dal_status go_to_row(sampling *k, long long row, double t)
@@ -59,7 +66,9 @@ static dal_status go_to_row(sampling *k, long long row, double t)
         const double left = t - dal_run_time(k->run);
         if (left <= near) return show(k, row, t);
         if (left < h - near) return side_step(k, left, row, t);
-        DAL_TRY(dal_run_step(k->run, k->error));
+        const long long steps = steps_to(left, h);
+        DAL_TRY(dal_run_advance(k->run, steps, k->error));
+        k->since_poll += steps - 1;
         DAL_TRY(poll(k));
     }
 }

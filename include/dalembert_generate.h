@@ -1,0 +1,35 @@
+/* dalembert_generate.h - steps compiled for one system and method: as a C file, or within a run.
+ *
+ * Part of dalembert.h, which includes it; the same conventions hold. */
+#ifndef DALEMBERT_GENERATE_H
+#define DALEMBERT_GENERATE_H
+
+#include "dalembert.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Writes one self-contained C file that steps this system by this method on this space, lanes (1,
+ * 2, 4, 8 or 16) at a time: *text, to be freed with free(); its first comment says how to call it.
+ * The bits are those of a run of the same spec.  The system must be that of a model, the
+ * integrators those of the library.  Parameters and start of the spec are the defaults of the file;
+ * solver and iterations are fixed in it, the step is not.  prefix begins every public name (NULL:
+ * SYSTEM_METHOD). [alloc]  Errors: as dal_run_create, DAL_ARGUMENT (lanes, prefix),
+ * DAL_UNSUPPORTED, DAL_TOO_LARGE (for straight-line code). */
+dal_status dal_generate(const dal_run_spec *spec, int lanes, const char *prefix, char **text,
+                        dal_error *error);
+
+/* Lets a run step by compiled code from now on: its steps are generated, compiled by cc and loaded,
+ * or taken from the cache directory (made if it is missing; it must belong to this user alone).
+ * Bits, checkpoints and errors stay the same; so on failure the run just goes on as before.  Starts
+ * a process and writes files, which nothing else here does; frees its code with the run, which must
+ * then be freed even when it was placed by dal_run_init. [alloc]
+ * Errors: DAL_UNSUPPORTED (no compiler; or as dal_generate), DAL_IO, DAL_TOO_LARGE, DAL_MEMORY. */
+dal_status dal_run_native(dal_run *run, const char *cache_directory, dal_error *error);
+int dal_run_is_native(const dal_run *run);
+
+#ifdef __cplusplus
+}
+#endif
+#endif

@@ -1,0 +1,105 @@
+# Native mode: compiled steps change no byte, and where they cannot be had the tape goes on.
+
+HOME=$work
+XDG_CACHE_HOME=$work/cache
+export HOME XDG_CACHE_HOME
+motion="nonholonomic-particle --integrator gauss4+project --step 0.01 --time 5"
+case_is "native: interpreted, for comparison"
+try 0 run $motion --native off --output tape.csv
+silent
+holds "off made a cache" test ! -e cache
+if there cc; then
+    case_is "native: the same bytes"
+    try 0 run $motion --native on --output native.csv
+    silent
+    holds "other bytes" cmp -s tape.csv native.csv
+    holds "not one object is kept" test "$(ls cache/dalembert | wc -l)" -eq 1
+    holds "the cache is not private" test "$(stat -c %a cache/dalembert)" = 700
+    object=$(ls cache/dalembert/*.so)
+    made=$(stat -c %i "$object")
+
+    case_is "native: taken from the cache, by checkpoints too"
+    try 0 run $motion --native on --output native.csv
+    holds "compiled anew" test "$(stat -c %i "$object")" = "$made"
+    try 0 run $motion --native on --output there
+    holds "other bytes" cmp -s tape.csv there/rows.csv
+
+    case_is "native: a corrupt object is compiled anew"
+    for damage in 'head -c 5000 "$object" >cut && cp cut "$object"' ': >"$object"' \
+        'printf x | dd of="$object" bs=1 seek=4444 conv=notrunc 2>dd.log'; do
+        eval "$damage"
+        try 0 run $motion --native on --output native.csv
+        silent
+        holds "other bytes" cmp -s tape.csv native.csv
+    done
+
+    case_is "native: two processes at once"
+    rm -rf cache
+    "$program" run $motion --native on --output one.csv 2>one.err &
+    "$program" run $motion --native on --output two.csv 2>two.err
+    wait
+    cat one.err two.err >err
+    silent
+    holds "other bytes" cmp -s tape.csv one.csv
+    holds "other bytes" cmp -s tape.csv two.csv
+    holds "not one object is kept" test "$(ls cache/dalembert | wc -l)" -eq 1
+
+    case_is "native: the same failure"
+    try 3 run chaplygin-sleigh-nonlinear --integrator rk4 --step 0.05 --time 5 --native off
+    cp out tape.csv
+    cp err tape.err
+    try 3 run chaplygin-sleigh-nonlinear --integrator rk4 --step 0.05 --time 5 --native on
+    holds "other bytes" cmp -s out tape.csv
+    holds "another message" cmp -s err tape.err
+    try 0 run $motion --native off --output tape.csv
+
+    case_is "native: a study"
+    printf '%s\n' 'title: t' 'integrators: [rk4, gauss4]' 'step: [0.1, 0.05]' 'time: 2' \
+        'systems: [chaplygin-sleigh]' >native.yaml
+    try 0 study native.yaml --output native-study --native on
+    silent
+    try 0 study native.yaml --output tape-study --native off
+    for file in quantities.csv series/chaplygin-sleigh.csv; do
+        holds "$file has other bytes" cmp -s native-study/$file tape-study/$file
+    done
+
+    case_is "native: a compiler that fails"
+    mkdir -p broken
+    printf '#!/bin/sh\nexit 1\n' >broken/cc
+    chmod +x broken/cc
+    rm -rf cache
+    PATH=$PWD/broken:$PATH try 0 run $motion --native on --output native.csv
+    says "steps are interpreted: the compiler 'cc' failed"
+    holds "other bytes" cmp -s tape.csv native.csv
+    holds "something is left in the cache" test -z "$(ls cache/dalembert)"
+fi
+
+case_is "native: no compiler"
+rm -rf cache
+mkdir -p none
+path=$PATH
+timeout=$(command -v timeout)
+PATH=$PWD/none
+"$timeout" 60 "$program" run $motion --native on --output native.csv >out 2>err
+status=$?
+PATH=$path
+holds "exit $status" test $status -eq 0
+says "steps are interpreted: no compiler 'cc'"
+holds "other bytes" cmp -s tape.csv native.csv
+
+case_is "native: a cache that is not private, or cannot be"
+mkdir -p cache/dalembert
+chmod 755 cache/dalembert
+try 0 run $motion --native on --output native.csv
+says 'steps are interpreted: .* is not a directory of this user alone'
+holds "other bytes" cmp -s tape.csv native.csv
+rm -rf cache
+: >cache
+try 0 run $motion --native on --output native.csv
+says 'steps are interpreted: cannot make the directory'
+rm cache
+XDG_CACHE_HOME= HOME= try 0 run $motion --native on --output native.csv
+says 'steps are interpreted: no directory'
+case_is "native: errors"
+try 2 run $motion --native yes
+says "'yes' is not auto, on or off"
