@@ -252,6 +252,28 @@ static void test_rest_is_singular(void)
     dal_model_free(model);
 }
 
+/* A snakeboard whose axles come to stand across it, phi = pi/2, where the two normals are parallel;
+ * and a normal that vanishes with a factor of D.  Between steps G recovers: nothing but the turn
+ * shows it.  (phi' is constant; phi = pi/2 at t = 2.14, x = 0 at t = 1.) */
+static void test_leapt_over(void)
+{
+    const char *board = "coordinates: [x, y, th, psi, phi]\n"
+                        "lagrangian: 0.6*(x'^2 + y'^2) + 0.4*th'^2 + 0.3*th'*psi' + 0.15*psi'^2"
+                        " + 0.1*phi'^2\n"
+                        "constraints:\n"
+                        "  - -sin(th + phi)*x' + cos(th + phi)*y' + 0.8*cos(phi)*th'\n"
+                        "  - -sin(th - phi)*x' + cos(th - phi)*y' - 0.8*cos(phi)*th'\n"
+                        "start: {phi: 0.5, x': 0.8, th': tan(0.5), psi': 0.9, phi': 0.5}\n";
+    const char *factor = "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\n"
+                         "constraints: [-2*(y' - 1)*sin(x)]\nstart: {x: -1, x': 1, y': 1}\n";
+    static const char *const methods[] = {"rk4", "gauss4", "stormer-verlet+project"};
+    static const double steps[] = {0.007, 0.013, 0.11};
+    for (int i = 0; i < 9; i++) {
+        fails(board, methods[i / 3], steps[i % 3], 400, NULL, 0, DAL_SINGULAR, "constraint 2");
+        fails(factor, methods[i / 3], steps[i % 3], 400, NULL, 0, DAL_SINGULAR, "a factor goes");
+    }
+}
+
 /* ---- samples ---- */
 
 typedef struct rows {
@@ -368,6 +390,7 @@ void suite_run(void)
     CU_add_test(suite, "a step is a transaction", test_transaction);
     CU_add_test(suite, "failures name their cause", test_failures);
     CU_add_test(suite, "G singular at rest", test_rest_is_singular);
+    CU_add_test(suite, "G singular between steps", test_leapt_over);
     CU_add_test(suite, "rows", test_samples);
     CU_add_test(suite, "checkpoint", test_checkpoint);
     CU_add_test(suite, "the caller's memory", test_own_memory);

@@ -181,7 +181,7 @@ static const struct {
      AFFINE | DAL_D_BILINEAR | DAL_D_QUADRATIC | DAL_E_WEAK | FIXED},
     {"contact-oscillator", 3, 1, 0, AFFINE | DAL_D_BILINEAR | DAL_D_QUADRATIC | DAL_E_WEAK | FIXED},
     {"knife-edge", 3, 1, 0, AFFINE | DAL_E_WEAK | FIXED},
-    {"vertical-disk", 4, 2, 0, AFFINE | DAL_E_WEAK | FIXED},
+    {"vertical-disk", 4, 2, 0, AFFINE | DAL_D_WATCHED | DAL_E_WEAK | FIXED},
     {"appell-hamel", 3, 1, 0, DAL_D_QUADRATIC | DAL_D_WATCHED | DAL_E_WEAK | FIXED},
     {"isokinetic", 2, 1, 0, DAL_D_QUADRATIC | DAL_D_WATCHED | FIXED},
 };

@@ -1,11 +1,12 @@
 /* guards.c - expressions of the constraints that must keep their signs along a run.
  *
  * Where a denominator passes through zero, or tan(x) through a pole, a step can leap over the
- * singularity without meeting it.  Guarded are the factors of every denominator and cos(x) for
- * every tan(x), as far as they depend on more than parameters. */
+ * singularity without meeting it; so it can where D = f(q,t) (...) loses its normal with f. Guarded
+ * are the factors of every denominator, cos(x) for every tan(x) and the factors of D itself that
+ * have no velocities in them, as far as they depend on more than parameters. */
 #include "mechanics/mechanics.h"
 
-enum { REACHED = 1, FACTOR = 2, MOST_GUARDS = 4096 };
+enum { REACHED = 1, FACTOR = 2, WHOLE = 4, MOST_GUARDS = 4096 };
 
 typedef struct search {
     dal_model *model;
@@ -23,12 +24,11 @@ static const char *symbol_text(dal_model *model, int symbol)
     return "t";
 }
 
-static void add_guard(search *s, dal__node node)
+static void add_guard(search *s, dal__node node, const char *text)
 {
     dal__equations *e = &s->model->equations;
     dal__view view = dal__look(e->graph, node);
     dal__view inner = view.op == DAL__COS ? dal__look(e->graph, view.a) : view;
-    const char *text = "a denominator";
     if (!dal__depends(e->graph, node, e->parameters, e->symbols)) return;
     s->full = s->full || e->guards == MOST_GUARDS;
     if (s->full) return;
@@ -41,7 +41,7 @@ static void add_guard(search *s, dal__node node)
         dal__model_print(s->model, "constraint %d: %s", s->constraint, text);
 }
 
-/* A denominator, or a factor of one: down to what is no product. */
+/* A denominator, or a factor of one or of D: down to what is no product. */
 static void split_factor(search *s, dal__node node, dal__view view)
 {
     switch (view.op) {
@@ -61,19 +61,29 @@ static void split_factor(search *s, dal__node node, dal__view view)
     case DAL__NUMBER:
         break;
     default:
-        add_guard(s, node);
+        add_guard(s, node, s->flag[node] & WHOLE ? "a factor" : "a denominator");
     }
+}
+
+/* D itself, or a factor of it. */
+static void split_whole(search *s, dal__node node, dal__view view)
+{
+    const dal__equations *e = &s->model->equations;
+    if (!dal__depends(e->graph, node, e->v, e->v + e->n)) s->flag[node] |= FACTOR;
+    if (view.op == DAL__MUL) s->flag[view.b] |= WHOLE;
+    if (view.op == DAL__MUL || view.op == DAL__DIV || view.op == DAL__NEG) s->flag[view.a] |= WHOLE;
 }
 
 static void visit(search *s, dal__node node)
 {
     dal__graph *graph = s->model->equations.graph;
     dal__view view = dal__look(graph, node);
+    if (s->flag[node] & WHOLE) split_whole(s, node, view);
     if (s->flag[node] & FACTOR) split_factor(s, node, view);
     if (view.a) s->flag[view.a] |= REACHED;
     if (view.b) s->flag[view.b] |= REACHED;
     if (view.op == DAL__DIV) s->flag[view.b] |= FACTOR;
-    if (view.op == DAL__TAN) add_guard(s, dal__apply(graph, DAL__COS, view.a, 0));
+    if (view.op == DAL__TAN) add_guard(s, dal__apply(graph, DAL__COS, view.a, 0), "a denominator");
     if (view.op != DAL__POW) return;
     dal__view exponent = dal__look(graph, view.b);
     if (exponent.op == DAL__NUMBER && exponent.value < 0.0) s->flag[view.a] |= FACTOR;
@@ -90,7 +100,7 @@ dal_status dal__guards(dal_model *model)
         s.constraint = a + 1;
         s.flag = dal__model_take(model, (size_t)count + 1, 1);
         if (!s.flag) break;
-        s.flag[e->constraint[a]] = REACHED;
+        s.flag[e->constraint[a]] = REACHED | WHOLE;
         for (dal__node node = e->constraint[a]; node > 0; node--)
             if (s.flag[node]) visit(&s, node);
     }

@@ -159,11 +159,14 @@ static unsigned degree(const dal__equations *e, dal__node D, dal__node *first, d
     return all;
 }
 
+/* Watched are normals that can vanish where no formula shows it: those of nonlinear constraints,
+ * and several that vary, which may become parallel (a snakeboard with its axles across). */
 static unsigned constraint_properties(const dal__equations *e, dal__node *first, dal__node *second)
 {
+    const unsigned steady = e->m > 1 ? DAL_D_CONSTANT : DAL_D_LINEAR;
     unsigned all = e->m ? ~0u : 0;
     for (int a = 0; a < e->m; a++) all &= degree(e, e->constraint[a], first, second);
-    if (e->m && !(all & DAL_D_LINEAR)) all |= DAL_D_WATCHED;
+    if (e->m && !(all & steady)) all |= DAL_D_WATCHED;
     return all;
 }
 
