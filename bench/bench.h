@@ -4,9 +4,10 @@
  *                               the state reached
  *
  * A contender's work begins at the start and makes a fixed number of steps, so that what is timed
- * is also what is compared.  The time is the least of five rounds; BENCH_MS is the length of a
- * round in milliseconds (20; 0 for a smoke run).  The process is fresh: bench/run.sh takes medians
- * over several, since the layout of memory alone can make one of them slow. */
+ * is also what is compared.  Time is that of the processor in this process, so that others on the
+ * machine do less harm, and the least of five rounds; BENCH_MS is the length of a round in
+ * milliseconds (20; 0 for a smoke run).  The process is fresh: bench/run.sh takes medians over
+ * several, since the layout of memory alone can make one of them slow. */
 #ifndef BENCH_H
 #define BENCH_H
 
@@ -29,14 +30,15 @@ typedef struct bench_job {
     void *self;
 } bench_job;
 
+/* In nanoseconds. */
 static inline double bench_now(void)
 {
     struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
     return 1e9 * (double)t.tv_sec + (double)t.tv_nsec;
 }
 
-/* Seconds are counted in ns; the state is that of the first round. */
+/* The state is that of the first round. */
 static inline int bench_measure(const bench_job *job)
 {
     static double end[BENCH_MOST], later[BENCH_MOST];

@@ -20,6 +20,8 @@ $(BENCH)/lib/libdalembert.a: FORCE
 	@$(MAKE) --no-print-directory BUILD=$(BENCH)/lib CFLAGS="-O3 -march=native" $@
 $(BENCH)/dal: bench/dal.c $(BENCH)/lib/libdalembert.a $(BENCH_HEADERS)
 	$(call SAY,cc)$(CC) -std=c11 $(WARN) $(EXACT) -O3 -march=native -Iinclude $< $(BENCH)/lib/libdalembert.a $(LIBS) -o $@
+$(BENCH)/native: bench/native.c $(BENCH)/lib/libdalembert.a $(BENCH_HEADERS)
+	$(call SAY,cc)$(CC) -std=c11 $(WARN) -Iinclude $< $(BENCH)/lib/libdalembert.a $(LIBS) -o $@
 $(BENCH)/hand: bench/hand.c $(BENCH_HEADERS)
 	@mkdir -p $(@D)
 	$(call SAY,cc)$(CC) $(BENCH_PEER) $< -lm -o $@
@@ -49,7 +51,7 @@ $(BENCH)/gen.%.c: $(BENCH)/lib/dalembert
 $(BENCH)/gen.%: $(BENCH)/gen.%.c bench/gen.c bench/bench.h
 	$(call SAY,cc)$(CC) -std=c11 $(BENCH_FAST) $(EXACT) -DGENERATED='"$<"' -I. bench/gen.c -lm -o $@
 
-bench-programs: $(BENCH)/dal $(BENCH)/hand $(BENCH)/peak
+bench-programs: $(BENCH)/dal $(BENCH)/native $(BENCH)/hand $(BENCH)/peak
 	@for gen in $(BENCH_GEN); do $(MAKE) --no-print-directory $(BENCH)/$$gen || exit 1; done
 	@for peer in $(BENCH_PEERS); do $(MAKE) --no-print-directory $(BENCH)/$$peer || exit 1; done
 bench: bench-programs
