@@ -176,8 +176,8 @@ static void test_failing_lane(void)
     dal_model_free(model);
 }
 
-/* Normals are judged lane by lane: of many bodies that slide down, one was thrown upwards and comes
- * to rest at t = 2/9.81, where its constraint is singular (test_rest_is_singular). */
+/* Normals are judged lane by lane: of many bodies that slide down along x, one was thrown upwards
+ * along y and comes to rest at t = 2/9.81, where its constraint is singular (see test_run.c). */
 static void test_singular_lane(void)
 {
     const char *text = "coordinates: [x, y, z]\n"
@@ -186,12 +186,12 @@ static void test_singular_lane(void)
                        "start: {x': 1, z': -1}\n";
     dal_model *model = fixture_model(text);
     const dal_run_spec spec = fixture_spec(fixture_system(model), "rk4", DAL_PHYSICAL, 0.013);
-    const dal_setting upwards = {"z'", 1.0};
+    const dal_setting upwards[] = {{"x'", 0.0}, {"y'", 1.0}, {"z'", 1.0}};
     static const int widths[] = {1, 8, 64};
     for (int w = 0; w < 3; w++) {
         dal_batch *batch = NULL;
         CU_ASSERT_EQUAL_FATAL(dal_batch_create(&batch, &spec, 64, widths[w], NULL), DAL_OK);
-        CU_ASSERT_EQUAL(dal_batch_start(batch, 37, NULL, 0, &upwards, 1, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_batch_start(batch, 37, NULL, 0, upwards, 3, NULL), DAL_OK);
         CU_ASSERT_EQUAL(dal_batch_advance(batch, 40), DAL_OK);
         for (int i = 0; i < 64; i++)
             CU_ASSERT_EQUAL(dal_batch_status(batch, i, NULL), i == 37 ? DAL_SINGULAR : DAL_OK);

@@ -10,7 +10,7 @@
 #define AT(place)  w[(size_t)(place)*DAL_GROUPS + g]
 #define EACH_GROUP for (size_t g = 0; g < DAL_GROUPS; g++)
 
-void DAL_WIDE(dal__execute)(const dal__tape *tape, double *work);
+__attribute__((flatten)) void DAL_WIDE(dal__execute)(const dal__tape *tape, double *work);
 void DAL_WIDE(dal__execute)(const dal__tape *tape, double *work)
 {
     num *w = (num *)work;

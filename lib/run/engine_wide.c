@@ -223,17 +223,18 @@ static void ask_twice(engine *e, dal_question question, num *before, num *after)
     ask(s, question, s->t, e->carried, e->carried + s->n, NULL, after);
 }
 
-static void guards_hold(engine *e, lane_mask *good)
+static lane_mask guards_hold(engine *e)
 {
     const int count = e->shape.system->guards * DAL_GROUPS;
     dal_step *s = &e->step;
-    if (count == 0) return;
+    lane_mask good = all_lanes();
     num *before = dal_scratch(s, count), *after = dal_scratch(s, count);
     ask_twice(e, DAL_ASK_GUARDS, before, after);
     for (int i = 0; i < count; i++) {
-        good->group[i % DAL_GROUPS] &= dal_less(dal_num(0.0), before[i] * after[i]);
-        if (e->cause) note(&e->cause->guard, good->group[0], i + 1);
+        good.group[i % DAL_GROUPS] &= dal_less(dal_num(0.0), before[i] * after[i]);
+        if (e->cause) note(&e->cause->guard, good.group[0], i + 1);
     }
+    return good;
 }
 
 /* Numbers of one group, one behind the other. */
@@ -258,11 +259,11 @@ static dal_mask group_normals_hold(engine *e, const num *c0, const num *c1)
     return good;
 }
 
-static void normals_hold(engine *e, lane_mask *good)
+static lane_mask normals_hold(engine *e)
 {
     const int m = e->shape.m, n = e->shape.n, size = m + 2 * m * n;
     dal_step *s = &e->step;
-    if (!(e->shape.system->properties & DAL_D_WATCHED) || !e->call[DAL_ASK_CONSTRAINT]) return;
+    lane_mask good;
     num *before = dal_scratch(s, size * DAL_GROUPS), *after = dal_scratch(s, size * DAL_GROUPS);
     num *c0 = dal_scratch(s, size), *c1 = dal_scratch(s, size);
     ask_twice(e, DAL_ASK_CONSTRAINT, before, after);
@@ -270,25 +271,46 @@ static void normals_hold(engine *e, lane_mask *good)
         const size_t mark = s->used;
         pick(before, g, size, c0);
         pick(after, g, size, c1);
-        good->group[g] = group_normals_hold(e, c0, c1);
+        good.group[g] = group_normals_hold(e, c0, c1);
         s->used = mark;
     }
+    return good;
 }
 
 /* ---- a step ---- */
 
 /* Takes out of `left` the lanes that lack `good`, gives them their reason, and returns them. */
-static dal__lanes reject(lane_mask *left, const lane_mask *good, dal_status status, dal_status *why)
+static dal__lanes reject(lane_mask *left, lane_mask good, dal_status status, dal_status *why)
 {
+    dal_mask any = ~dal_all();
+    for (int g = 0; g < DAL_GROUPS; g++) any |= left->group[g] & ~good.group[g];
+    if (!dal_any(any)) return 0;
     lane_mask bad;
     for (int g = 0; g < DAL_GROUPS; g++) {
-        bad.group[g] = left->group[g] & ~good->group[g];
-        left->group[g] &= good->group[g];
+        bad.group[g] = left->group[g] & ~good.group[g];
+        left->group[g] &= good.group[g];
     }
     const dal__lanes lanes = lanes_of(&bad);
-    for (int i = 0; lanes && i < LANES; i++)
+    for (int i = 0; i < LANES; i++)
         if (lanes >> i & 1) why[i] = status;
     return lanes;
+}
+
+/* The parts of judge that need not ask the system. */
+static dal__lanes judge_state(const engine *e, lane_mask *left, dal_status status, dal_status *why)
+{
+    lane_mask solved, gauge, sound;
+    dal__lanes failed = 0;
+    for (int g = 0; g < DAL_GROUPS; g++) {
+        solved.group[g] = ~e->step.unconverged;
+        gauge.group[g] = gauge_holds(e, g);
+        sound.group[g] = finite(e, g);
+    }
+    if (status != DAL_OK && status != DAL_NOT_CONVERGED)
+        failed = reject(left, mask_of(0), status, why);
+    if (dal_any(e->step.unconverged)) failed |= reject(left, solved, DAL_NOT_CONVERGED, why);
+    if (e->shape.lifted) failed |= reject(left, gauge, DAL_GAUGE, why);
+    return failed | reject(left, sound, DAL_NOT_FINITE, why);
 }
 
 /* Takes the lanes that did not make the step out of `left`, which has the lanes alive, and returns
@@ -296,24 +318,14 @@ static dal__lanes reject(lane_mask *left, const lane_mask *good, dal_status stat
 static dal__lanes judge(engine *e, lane_mask *left, dal__lanes alive, dal_status status,
                         dal_status *why)
 {
-    lane_mask solved, gauge, sound, guards = all_lanes(), normals = guards;
-    const lane_mask none = mask_of(0);
-    dal__lanes failed = 0;
-    for (int g = 0; g < DAL_GROUPS; g++) {
-        solved.group[g] = ~e->step.unconverged;
-        gauge.group[g] = gauge_holds(e, g);
-        sound.group[g] = finite(e, g);
-    }
-    if (status != DAL_OK && status != DAL_NOT_CONVERGED) failed = reject(left, &none, status, why);
-    failed |= reject(left, &solved, DAL_NOT_CONVERGED, why);
-    failed |= reject(left, &gauge, DAL_GAUGE, why);
-    failed |= reject(left, &sound, DAL_NOT_FINITE, why);
+    const dal_system *system = e->shape.system;
+    dal__lanes failed = judge_state(e, left, status, why);
     if (failed == alive) return failed;
     e->step.used = 0;
-    guards_hold(e, &guards);
-    failed |= reject(left, &guards, DAL_SINGULAR, why);
-    normals_hold(e, &normals);
-    return failed | reject(left, &normals, DAL_SINGULAR, why);
+    if (system->guards > 0) failed |= reject(left, guards_hold(e), DAL_SINGULAR, why);
+    if ((system->properties & DAL_D_WATCHED) && e->call[DAL_ASK_CONSTRAINT])
+        failed |= reject(left, normals_hold(e), DAL_SINGULAR, why);
+    return failed;
 }
 
 /* The clock of the lanes that made it, compensated, and the counters. */
