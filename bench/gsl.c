@@ -1,6 +1,7 @@
 /* gsl.c - GSL odeiv2, stepped through gsl_odeiv2_step_apply with a fixed step.
  *
  *     gsl rk4 A|B3     gsl rk2imp A     gsl rk4imp A
+ *     gsl driver A|B3                                rk4 by gsl_odeiv2_driver_apply_fixed_step
  *
  * Each of these takes, in one call of size 2h, one full step and two half steps of size h and keeps
  * the half steps: a call is two steps of the others, and the time printed is that of one accepted
@@ -22,7 +23,6 @@ static inline void real_sincos(real x, real *s, real *c)
 #include "fields.h"
 
 enum { STEPS = 1000 };
-static const double TOLERANCE = 1e-14;
 
 typedef struct job {
     const double *start;
@@ -78,6 +78,18 @@ static int work(void *self, double *y)
     return 0;
 }
 
+/* The same through the driver, which also estimates the error and compares it with a tolerance that
+ * never holds a step up. */
+static int work_driver(void *self, double *y)
+{
+    job *j = self;
+    double t = 0.0;
+    memcpy(y, j->start, SMALL_DIM * sizeof *y);
+    gsl_odeiv2_driver_reset(j->driver);
+    return gsl_odeiv2_driver_apply_fixed_step(j->driver, &t, 2.0 * BENCH_H_STEP, STEPS / 2, y) !=
+           GSL_SUCCESS;
+}
+
 int main(int argc, char **argv)
 {
     static job j;
@@ -86,17 +98,21 @@ int main(int argc, char **argv)
         const gsl_odeiv2_step_type *type;
         int (*field)(double t, const double *y, double *dy, void *unused);
         const double *start;
-    } contender[] = {{"rk4 A", gsl_odeiv2_step_rk4, sleigh, sleigh_y},
-                     {"rk4 B3", gsl_odeiv2_step_rk4, chain3, chain3_y},
-                     {"rk2imp A", gsl_odeiv2_step_rk2imp, sleigh, sleigh_y},
-                     {"rk4imp A", gsl_odeiv2_step_rk4imp, sleigh, sleigh_y}};
-    const bench_job measured = {STEPS, SMALL_DIM, work, &j};
+        double tolerance;
+        int (*work)(void *self, double *end);
+    } contender[] = {{"rk4 A", gsl_odeiv2_step_rk4, sleigh, sleigh_y, 1e-14, work},
+                     {"rk4 B3", gsl_odeiv2_step_rk4, chain3, chain3_y, 1e-14, work},
+                     {"driver A", gsl_odeiv2_step_rk4, sleigh, sleigh_y, 1.0, work_driver},
+                     {"driver B3", gsl_odeiv2_step_rk4, chain3, chain3_y, 1.0, work_driver},
+                     {"rk2imp A", gsl_odeiv2_step_rk2imp, sleigh, sleigh_y, 1e-14, work},
+                     {"rk4imp A", gsl_odeiv2_step_rk4imp, sleigh, sleigh_y, 1e-14, work}};
     for (size_t i = 0; i < sizeof contender / sizeof *contender; i++) {
         if (!bench_is(argc, argv, contender[i].name)) continue;
         j.start = contender[i].start;
         j.system = (gsl_odeiv2_system){contender[i].field, sleigh_jacobian, SMALL_DIM, NULL};
         j.driver = gsl_odeiv2_driver_alloc_y_new(&j.system, contender[i].type, BENCH_H_STEP,
-                                                 TOLERANCE, 0.0);
+                                                 contender[i].tolerance, 0.0);
+        const bench_job measured = {STEPS, SMALL_DIM, contender[i].work, &j};
         return bench_measure(&measured);
     }
     return bench_unknown(argc, argv);
