@@ -103,7 +103,7 @@ $(PROGRAM): $(CLI_OBJ) $(STATIC)
 # The systems travel inside the library.
 $(SYSTEMS): tools/embed.sh $(wildcard systems/*.yaml) systems
 	@mkdir -p $(@D)
-	$(call SAY,sh)sh tools/embed.sh $(sort $(wildcard systems/*.yaml)) >$@.tmp && mv $@.tmp $@
+	$(call SAY,sh)sh tools/embed.sh $(addsuffix .yaml,$(sort $(basename $(wildcard systems/*.yaml)))) >$@.tmp && mv $@.tmp $@
 # So do the kernel and the integrators, for generated files.
 SOURCES = $(wildcard lib/kernel/*.h) lib/generate/stepper.h lib/generate/caller.h \
           $(wildcard integrators/*.c)
