@@ -10,16 +10,18 @@ BENCH        = $(BUILD)/bench
 BENCH_FAST   = -O3 -march=native -fno-tree-slp-vectorize -fno-math-errno
 BENCH_PEER   = -std=gnu11 -Wall -Wextra $(BENCH_FAST) -Iinclude -Ilib
 BENCH_HAVE   = $(shell $(2) -fsyntax-only -include $(1) /dev/null 2>/dev/null && echo $(3))
+BENCH_RK4    = boost/numeric/odeint/stepper/runge_kutta4.hpp
 BENCH_CXX   ?= g++
 BENCH_PEERS  = $(call BENCH_HAVE,gsl/gsl_odeiv2.h,$(CC) -x c,gsl) \
                $(call BENCH_HAVE,arkode/arkode_erkstep.h,$(CC) -x c,sundials) \
-               $(call BENCH_HAVE,boost/numeric/odeint/stepper/runge_kutta4.hpp,$(BENCH_CXX) -x c++,odeint)
+               $(call BENCH_HAVE,$(BENCH_RK4),$(BENCH_CXX) -x c++,odeint)
 BENCH_HEADERS = $(wildcard bench/*.h examples/*.h lib/kernel/*.h) include/dalembert.h
 
 $(BENCH)/lib/libdalembert.a: FORCE
 	@$(MAKE) --no-print-directory BUILD=$(BENCH)/lib CFLAGS="-O3 -march=native" $@
 $(BENCH)/dal: bench/dal.c $(BENCH)/lib/libdalembert.a $(BENCH_HEADERS)
-	$(call SAY,cc)$(CC) -std=c11 $(WARN) $(EXACT) -O3 -march=native -Iinclude $< $(BENCH)/lib/libdalembert.a $(LIBS) -o $@
+	$(call SAY,cc)$(CC) -std=c11 $(WARN) $(EXACT) -O3 -march=native -Iinclude $< \
+	    $(BENCH)/lib/libdalembert.a $(LIBS) -o $@
 $(BENCH)/native: bench/native.c $(BENCH)/lib/libdalembert.a $(BENCH_HEADERS)
 	$(call SAY,cc)$(CC) -std=c11 $(WARN) -Iinclude $< $(BENCH)/lib/libdalembert.a $(LIBS) -o $@
 $(BENCH)/hand: bench/hand.c $(BENCH_HEADERS)
@@ -49,7 +51,8 @@ $(BENCH)/gen.%.c: $(BENCH)/lib/dalembert
 	@$< generate bench/systems/$(call BENCH_WORD,3).yaml --integrator $(call BENCH_WORD,1) \
 	    --space $(call BENCH_WORD,2) --lanes $(call BENCH_WORD,4) --prefix gen -o $@
 $(BENCH)/gen.%: $(BENCH)/gen.%.c bench/gen.c bench/bench.h
-	$(call SAY,cc)$(CC) -std=c11 $(BENCH_FAST) $(EXACT) -DGENERATED='"$<"' -I. bench/gen.c -lm -o $@
+	$(call SAY,cc)$(CC) -std=c11 -D_POSIX_C_SOURCE=200809L $(BENCH_FAST) $(EXACT) -Wno-psabi \
+	    -include $< bench/gen.c -lm -o $@
 
 bench-programs: $(BENCH)/dal $(BENCH)/native $(BENCH)/hand $(BENCH)/peak
 	@for gen in $(BENCH_GEN); do $(MAKE) --no-print-directory $(BENCH)/$$gen || exit 1; done

@@ -1,10 +1,8 @@
-/* gen.c - around a generated file, GENERATED, whose prefix is gen.
+/* gen.c - around a generated file whose prefix is gen, and which the compiler is told to include.
  *
  *     gen.METHOD.SPACE.SYSTEM.LANES       a program each; LANES trajectories at once
  *
  * made by `dalembert generate bench/systems/SYSTEM.yaml`; see bench.mk. */
-#define _POSIX_C_SOURCE 200809L
-#include GENERATED
 #include "bench.h"
 
 enum { STEPS = 1000, SHOWN = 2 * gen_COORDINATES };

@@ -31,7 +31,8 @@ function met(goal, value,   g) {
 # One line of the table and one of JSON; note takes the place of the numbers if there are none.
 function show(m, lo, hi, note,   ok, number) {
     ok = note == "" ? met(goal, m) : "null"
-    number = note == "" ? sprintf("%.4g,\"min\":%.4g,\"max\":%.4g", m, lo, hi) : "null,\"min\":null,\"max\":null"
+    number = "null,\"min\":null,\"max\":null"
+    if (note == "") number = sprintf("%.4g,\"min\":%.4g,\"max\":%.4g", m, lo, hi)
     printf "{\"case\":\"%s\",\"what\":\"%s\",\"median\":%s,\"goal\":%s,\"met\":%s}\n", name, what,
         number, goal == "-" ? "null" : "\"" goal "\"", ok >output
     if (note != "") printf "%-16s %-52s %s\n", name, what, note
@@ -58,7 +59,11 @@ FNR != 1 && !headed++ {
     factor = $5 + 0; goal = trim($6); tolerance = trim($7); same = ""
     if (A in missing) { show(0, 0, 0, "skipped: no program for " A); next }
     if (B in missing) { show(0, 0, 0, "skipped: no program for " B); next }
-    if (A in failed || B in failed) { show(0, 0, 0, "FAILED: " (A in failed ? A : B)); bad = 1; next }
+    if (A in failed || B in failed) {
+        show(0, 0, 0, "FAILED: " (A in failed ? A : B))
+        bad = 1
+        next
+    }
     if (tolerance != "-" && B != "") {
         d = distance(state[A], state[B])
         same = sprintf("%.0e", d)

@@ -1,7 +1,7 @@
 #!/bin/sh
-# run.sh CASES PROGRAMS OUTPUT - runs every contender of the case table in fresh processes, one after
-# the other, RUNS times (7); verifies that both sides of a case reach the same end state; prints the
-# median of each ratio with its spread as a table, and as JSON lines to OUTPUT.
+# run.sh CASES PROGRAMS OUTPUT - runs every contender of the case table in fresh processes, one
+# after the other, RUNS times (7); verifies that both sides of a case reach the same end state;
+# prints the median of each ratio with its spread as a table, and as JSON lines to OUTPUT.
 #
 # A goal that is not met is reported, not punished: the exit status is 1 only when a contender fails
 # or two end states differ.  A contender whose program was not built is skipped by name.
