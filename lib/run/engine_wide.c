@@ -347,8 +347,11 @@ static void advance_clock(engine *e, double h, const lane_mask *moved)
 /* The lanes that did not move get back what they had. */
 static void restore(engine *e, const lane_mask *moved)
 {
-    for (size_t i = 0; i < changing(e); i++)
-        e->carried[i] = dal_select(moved->group[i % DAL_GROUPS], e->carried[i], e->backup[i]);
+    for (size_t g = 0; g < DAL_GROUPS; g++) {
+        if (!dal_any(~moved->group[g])) continue;
+        for (size_t i = g; i < changing(e); i += DAL_GROUPS)
+            e->carried[i] = dal_select(moved->group[g], e->carried[i], e->backup[i]);
+    }
 }
 
 /* The time of the first lane alive; all that are alive have the same. */
