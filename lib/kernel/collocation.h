@@ -204,19 +204,19 @@ DAL_INLINE void dal__guess_last(dal_step *s, const dal_tableau *m, dal_equation 
 DAL_INLINE dal_status dal__solve_stages(dal_step *s, const dal_stages *k, dal_equation *eq)
 {
     const dal_mask lanes = s->alive, known = lanes & dal_equal(*s->slopes_h, dal_num(k->h));
+    dal_mask done = ~dal_all(), tried = known;
     dal_status status = DAL_OK;
     dal__guess_last(s, k->method, eq);
-    s->alive = known;
-    if (dal_any(known)) (void)dal_solve(s, eq, dal__collocation_map, dal__collocation_matrix);
-    const dal_mask done = s->alive, left = lanes & ~done;
-    if (dal_any(left)) {
-        s->unconverged &= ~left;
-        s->alive = left;
-        DAL_TRY(dal__guess_present(s, eq, left));
+    for (int guess = 0; guess < 2; guess++, tried = lanes & ~done) {
+        if (!dal_any(tried)) continue;
+        if (guess == 1) DAL_TRY(dal__guess_present(s, eq, tried));
+        s->unconverged &= ~tried;
+        s->alive = tried;
         status = dal_solve(s, eq, dal__collocation_map, dal__collocation_matrix);
-        s->alive |= done;
+        done |= s->alive;
     }
-    return dal_any(s->alive) ? DAL_OK : status;
+    s->alive = done;
+    return dal_any(done) ? DAL_OK : status;
 }
 
 /* Keeps the slopes for the next step's guess. */
