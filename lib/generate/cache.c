@@ -100,15 +100,32 @@ static int wait_for(pid_t process)
         const pid_t ended = waitpid(process, &status, tick < PATIENCE * 1000L ? WNOHANG : 0);
         if (ended == process) return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
         if (ended < 0 && errno != EINTR) return -1;
-        if (tick == PATIENCE * 1000L - 1) kill(process, SIGKILL);
+        if (tick == PATIENCE * 1000L - 1) kill(-process, SIGKILL); /* and what it started */
         nanosleep(&pause, NULL);
     }
+}
+
+/* Starts a command without input and output, as the head of a process group; 0 or an errno. */
+static int start(char **words, pid_t *process)
+{
+    posix_spawn_file_actions_t actions;
+    posix_spawnattr_t attributes;
+    if (posix_spawn_file_actions_init(&actions) != 0) return ENOMEM;
+    int refused = posix_spawnattr_init(&attributes);
+    if (!refused) {
+        posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
+        for (int file = 0; file < 3; file++)
+            posix_spawn_file_actions_addopen(&actions, file, "/dev/null", O_RDWR, 0);
+        refused = posix_spawnp(process, words[0], &actions, &attributes, words, environ);
+        posix_spawnattr_destroy(&attributes);
+    }
+    posix_spawn_file_actions_destroy(&actions);
+    return refused;
 }
 
 static dal_status compile(const char *source, const char *object, dal_error *error)
 {
     char *words[WORDS + 5];
-    posix_spawn_file_actions_t actions;
     pid_t process;
     int n = 0;
     for (; n < WORDS; n++) words[n] = (char *)command[n];
@@ -117,12 +134,7 @@ static dal_status compile(const char *source, const char *object, dal_error *err
     words[n++] = (char *)object;
     words[n++] = (char *)"-lm";
     words[n] = NULL;
-    if (posix_spawn_file_actions_init(&actions) != 0)
-        return dal__error(error, DAL_MEMORY, 0, 0, "no memory to start a compiler");
-    for (int file = 0; file < 3; file++)
-        posix_spawn_file_actions_addopen(&actions, file, "/dev/null", O_RDWR, 0);
-    const int refused = posix_spawnp(&process, words[0], &actions, NULL, words, environ);
-    posix_spawn_file_actions_destroy(&actions);
+    const int refused = start(words, &process);
     if (refused)
         return dal__error(error, DAL_UNSUPPORTED, 0, 0, "no compiler '%s': %s", words[0],
                           strerror(refused));
