@@ -139,8 +139,8 @@ void check_constraints(check *c)
         dal_callback *D = c->system->constraints;
         double on = check_rate(c, D, c->m, -1, c->surface, c->surface_count);
         double off = check_rate(c, D, c->m, -1, c->near, c->near_count);
-        check_bound(c, "dD/dt along F, on D = 0", on, zero);
-        check_bound(c, "dD/dt along F, off D = 0", off, zero);
+        if (c->surface_count > 0) check_bound(c, "dD/dt along F, on D = 0", on, zero);
+        if (c->near_count > 0) check_bound(c, "dD/dt along F, off D = 0", off, zero);
         say_degree(c, &d, degree);
         say_kind(c, &d);
     }

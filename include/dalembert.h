@@ -300,8 +300,8 @@ typedef struct dal_run_spec {
 size_t dal_run_size(const dal_run_spec *spec);
 /* Places a run in the caller's memory (any alignment, dal_run_size bytes); nothing to free.
  * The system and the descriptors must outlive it.  Errors: DAL_ARGUMENT, DAL_NAME (nearest name),
- * DAL_UNSUPPORTED, DAL_INCONSISTENT (|D| beyond 1e-10 relative), DAL_RANK, DAL_GAUGE,
- * DAL_NOT_FINITE, DAL_MEMORY (bytes too small). */
+ * DAL_UNSUPPORTED, DAL_INCONSISTENT (|D| beyond 1e-10 relative), DAL_RANK, DAL_SINGULAR_MASS,
+ * DAL_GAUGE, DAL_NOT_FINITE, DAL_MEMORY (bytes too small). */
 dal_status dal_run_init(dal_run **run, void *memory, size_t bytes, const dal_run_spec *spec,
                         dal_error *error);
 /* The same in memory of its own. [alloc] */

@@ -113,9 +113,24 @@ static dal_status check_consistent(const dal_run *run, const double *d, const do
     return DAL_OK;
 }
 
+/* Why constraint k has no pivot in G: W itself may have none. */
+static dal_status refuse_pivot(dal_run *run, int k, double pivot, dal_error *error)
+{
+    const dal_system *system = run->shape.system;
+    const dal_at at = dal__here(run);
+    double number = 0.0;
+    if (system->diagnose && system->diagnose(system, &at, &number) == DAL_SINGULAR_MASS)
+        return dal__error(error, DAL_SINGULAR_MASS, 0, 0,
+                          "the mass matrix is singular at the start");
+    return dal__error(error, DAL_RANK, 0, 0,
+                      "constraint %d restricts no velocity at the start, or none that those "
+                      "before it leave free (pivot %g of G)",
+                      k + 1, pivot);
+}
+
 /* Pivots of G = A B, each against its diagonal entry before elimination, constraint by constraint.
  */
-static dal_status check_rank(const dal_run *run, const double *a, const double *b, double *g,
+static dal_status check_rank(dal_run *run, const double *a, const double *b, double *g,
                              dal_error *error)
 {
     const int m = run->shape.m, n = run->shape.n;
@@ -125,10 +140,7 @@ static dal_status check_rank(const dal_run *run, const double *a, const double *
     for (int k = 0; k < m; k++) {
         const double rest = dal_eliminate(g, m, k);
         if (fabs(rest) > INDEPENDENT * diagonal[k] && isfinite(rest)) continue;
-        return dal__error(error, DAL_RANK, 0, 0,
-                          "constraint %d restricts no velocity at the start, or none that those "
-                          "before it leave free (pivot %g of G)",
-                          k + 1, rest);
+        return refuse_pivot(run, k, rest, error);
     }
     return DAL_OK;
 }

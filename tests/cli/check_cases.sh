@@ -64,6 +64,11 @@ case_is "no motion from rest"
 try 1 check appell-hamel --start "x'=0" --start "y'=0" --start "z'=0"
 prints '^  F at the start +FAIL'
 
+case_is "no point on D = 0: nothing is said of it"
+try 1 check chaplygin-sleigh --set m=0
+prints '^  rank of G at the start +FAIL'
+holds 'a verdict without a point' [ "$(grep -c 'on D = 0 *ok' out)" = 0 ]
+
 case_is "e = 0"
 try 1 check chaplygin-sleigh --start e=0
 prints '^  gauge variable e +FAIL'

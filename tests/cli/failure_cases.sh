@@ -25,6 +25,11 @@ try 2 run appell-hamel --integrator rk4 --step 0.01 --time 1 --set w0=0
 says '^dalembert: appell-hamel: constraint 1 '
 empty
 
+case_is "constraints on a body without mass"
+try 2 run chaplygin-sleigh --integrator rk4 --step 0.01 --time 1 --set m=0
+says '^dalembert: chaplygin-sleigh: the mass matrix is singular at the start$'
+empty
+
 case_is "e reaches 0"
 cat >gauge.yaml <<'END'
 coordinates: [x]
