@@ -58,6 +58,8 @@ void DAL_WIDE(dal__tape_run)(const dal__tapes *tapes, int program, double *work,
     DAL_WIDE(dal__execute)(tape, work);
     const num *w = (const num *)work;
     num *o = (num *)out;
-    for (int k = 0; k < tape->outputs; k++)
-        EACH_GROUP o[(size_t)k * DAL_GROUPS + g] = AT(tape->place[k]);
+    for (int k = 0; k < tape->outputs; k++) {
+        const uint32_t place = tape->place[k];
+        EACH_GROUP o[(size_t)k * DAL_GROUPS + g] = AT(place);
+    }
 }

@@ -50,11 +50,14 @@ static int answer_size(const dal__shape *k, dal_question question)
     return 0;
 }
 
-/* Nums of the carried array that a step may change: some methods keep no stage slopes. */
+/* Nums of the carried array that an integrator may change: some methods keep no stage slopes, and
+ * where they solve nothing they leave all but y and r alone. */
 static size_t changing(const engine *e)
 {
     const bool forgets = (e->chain[0]->claims & DAL_COMPONENTWISE) != 0;
-    return (forgets ? dal__at(&e->shape, DAL__SLOPES) : e->shape.carried) * DAL_GROUPS;
+    const bool solves = e->shape.lifted || e->shape.depth > 1;
+    if (!forgets) return e->shape.carried * DAL_GROUPS;
+    return dal__at(&e->shape, solves ? DAL__SLOPES : DAL__TIME) * DAL_GROUPS;
 }
 
 /* Remembers the first answer that is not finite. */
