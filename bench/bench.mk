@@ -18,7 +18,7 @@ BENCH_PEERS  = $(call BENCH_HAVE,gsl/gsl_odeiv2.h,$(CC) -x c,gsl) \
 BENCH_HEADERS = $(wildcard bench/*.h examples/*.h lib/kernel/*.h) include/dalembert.h
 
 $(BENCH)/lib/libdalembert.a: FORCE
-	@$(MAKE) --no-print-directory BUILD=$(BENCH)/lib CFLAGS="-O3 -march=native" $@
+	@$(MAKE) -s --no-print-directory BUILD=$(BENCH)/lib CFLAGS="-O3 -march=native" $@
 $(BENCH)/dal: bench/dal.c $(BENCH)/lib/libdalembert.a $(BENCH_HEADERS)
 	$(call SAY,cc)$(CC) -std=c11 $(WARN) $(EXACT) -O3 -march=native -Iinclude $< \
 	    $(BENCH)/lib/libdalembert.a $(LIBS) -o $@
@@ -46,7 +46,7 @@ $(BENCH)/peak: bench/peak.c $(BENCH_HEADERS)
 BENCH_GEN  = $(shell grep -o 'gen\.[^ |]*' bench/cases.txt | sort -u)
 BENCH_WORD = $(word $(1),$(subst ., ,$*))
 $(BENCH)/lib/dalembert: FORCE
-	@$(MAKE) --no-print-directory BUILD=$(BENCH)/lib CFLAGS="-O3 -march=native" $@
+	@$(MAKE) -s --no-print-directory BUILD=$(BENCH)/lib CFLAGS="-O3 -march=native" $@
 $(BENCH)/gen.%.c: $(BENCH)/lib/dalembert
 	@$< generate bench/systems/$(call BENCH_WORD,3).yaml --integrator $(call BENCH_WORD,1) \
 	    --space $(call BENCH_WORD,2) --lanes $(call BENCH_WORD,4) --prefix gen -o $@
@@ -55,8 +55,8 @@ $(BENCH)/gen.%: $(BENCH)/gen.%.c bench/gen.c bench/bench.h
 	    -include $< bench/gen.c -lm -o $@
 
 bench-programs: $(BENCH)/dal $(BENCH)/native $(BENCH)/hand $(BENCH)/peak
-	@for gen in $(BENCH_GEN); do $(MAKE) --no-print-directory $(BENCH)/$$gen || exit 1; done
-	@for peer in $(BENCH_PEERS); do $(MAKE) --no-print-directory $(BENCH)/$$peer || exit 1; done
+	@for gen in $(BENCH_GEN); do $(MAKE) -s --no-print-directory $(BENCH)/$$gen || exit 1; done
+	@for peer in $(BENCH_PEERS); do $(MAKE) -s --no-print-directory $(BENCH)/$$peer || exit 1; done
 bench: bench-programs
 	@sh bench/run.sh bench/cases.txt $(BENCH) $(BUILD)/bench.jsonl
 bench-smoke: bench-programs
