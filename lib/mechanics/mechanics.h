@@ -11,7 +11,8 @@
 enum {
     DAL__MOST_ENTRIES = 4096,    /* of a model, all sections together */
     DAL__MOST_COORDINATES = 256, /* W alone has the square of them */
-    DAL__MOST_BYTES = 1 << 22    /* of a system file */
+    DAL__MOST_BYTES = 1 << 22,   /* of a system file */
+    DAL__MOST_LETTERS = 100      /* of a name; pi_NAME has room in every buffer of 128 */
 };
 
 /* How the entries of a section stand in a file. */

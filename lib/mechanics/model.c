@@ -137,6 +137,10 @@ static dal_status check_name(const dal__entry *entry, dal_error *error)
     if (!name) return DAL_OK;
     size_t length = strlen(name);
     if (entry->section == DAL_SECTION_START && length && name[length - 1] == '\'') length--;
+    if (length > DAL__MOST_LETTERS && entry->section != DAL_SECTION_START)
+        return dal__error(error, DAL_TOO_LARGE, entry->name_line, entry->name_column,
+                          "'%.40s...' in %s has more than %d characters", name,
+                          dal__section_name(entry->section), (int)DAL__MOST_LETTERS);
     if (dal__is_name(name, length)) return DAL_OK;
     return dal__error(error, DAL_NAME, entry->name_line, entry->name_column,
                       "'%.80s' in %s is not a name: a letter, then letters, digits and _", name,

@@ -293,6 +293,7 @@ dal_status dal_model_read(dal_model **model, const char *name, const char *text,
 {
     static const char mark[] = "\xEF\xBB\xBF"; /* a byte order mark is no text */
     *model = NULL;
+    if (!text) return dal__error(error, DAL_ARGUMENT, 0, 0, "there is no text to read");
     if (length >= 3 && memcmp(text, mark, 3) == 0) text += 3, length -= 3;
     DAL_TRY(check_text(text, length, error));
     dal_model *made = dal_model_create(name);

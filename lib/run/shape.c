@@ -3,6 +3,9 @@
 #include <math.h>
 #include <stdint.h>
 
+/* Of scratch or of a workspace; sizes in bytes then stay far from overflow. */
+enum { MOST_NUMBERS = 1000000000 };
+
 static dal_status refuse(dal_error *error, const dal__shape *k, const char *lacks)
 {
     char name[128];
@@ -39,6 +42,9 @@ static dal_status check_system(const dal_system *system, dal_error *error)
     if (system->multipliers != 0 && system->multipliers != system->m)
         return dal__error(error, DAL_ARGUMENT, 0, 0, "%d multipliers for %d constraints",
                           system->multipliers, system->m);
+    if (system->workspace && system->workspace < (size_t)system->parameters)
+        return dal__error(error, DAL_ARGUMENT, 0, 0, "%d parameters in a workspace of %zu numbers",
+                          system->parameters, system->workspace);
     return DAL_OK;
 }
 
@@ -50,6 +56,10 @@ static dal_status check_options(const dal_options *o, dal_error *error)
     if (o->iterations < 1)
         return dal__error(error, DAL_ARGUMENT, 0, 0, "iterations must be at least 1; it is %d",
                           o->iterations);
+    if (o->space < DAL_LIFTED || o->space > DAL_PHYSICAL)
+        return dal__error(error, DAL_ARGUMENT, 0, 0, "there is no space number %d", o->space);
+    if (o->solver < DAL_SOLVER_AUTO || o->solver > DAL_NEWTON)
+        return dal__error(error, DAL_ARGUMENT, 0, 0, "there is no solver number %d", o->solver);
     return DAL_OK;
 }
 
@@ -78,11 +88,13 @@ static dal_status measure(dal__shape *k, dal_error *error)
     const double constraint = 4 * (m + 2 * m * n) + 8 * m * m;
     const double scratch = (16 * stages + 16) * dim + matrix + 2 * nw * (n + nw) + constraint +
                            2.0 * k->system->guards + 16 * n + 64;
-    if (scratch > 1e9 || k->stages > 1000)
+    if (scratch > MOST_NUMBERS || k->stages > 1000)
         return dal__error(error, DAL_TOO_LARGE, 0, 0, "a run with n = %d, m = %d needs %g numbers",
                           k->n, k->m, scratch);
     k->scratch = (size_t)scratch;
     k->workspace = k->system->workspace ? k->system->workspace : (size_t)k->system->parameters;
+    if (k->workspace > MOST_NUMBERS)
+        return dal__error(error, DAL_TOO_LARGE, 0, 0, "a workspace of %zu numbers", k->workspace);
     k->slopes = k->stages * (k->nw + k->n);
     k->carried = dal__at(k, DAL__SLOPES) + (size_t)k->slopes;
     return DAL_OK;

@@ -12,7 +12,8 @@ enum { NAME_SIZE = 128 };
 
 static dal_status unknown_parameter(const dal_system *system, const char *name, dal_error *error)
 {
-    return dal__unknown(error, 0, 0, "parameter", name, system->parameter, system->parameters);
+    const int known = system->parameter ? system->parameters : 0;
+    return dal__unknown(error, 0, 0, "parameter", name, system->parameter, known);
 }
 
 static dal_status set_parameters(dal_run *run, const dal_setting *settings, int count,
@@ -34,7 +35,10 @@ static dal_status set_parameters(dal_run *run, const dal_setting *settings, int 
         run->work[i] = settings[k].value;
     }
     const dal_at at = dal__here(run);
-    return system->prepare ? system->prepare(system, &at, NULL) : DAL_OK;
+    const dal_status status = system->prepare ? system->prepare(system, &at, NULL) : DAL_OK;
+    if (status == DAL_OK) return DAL_OK;
+    return dal__error(error, status, 0, 0, "%s cannot be prepared with these parameters",
+                      system->name ? system->name : "the system");
 }
 
 /* The name nearest to a start name that does not exist. */
@@ -89,8 +93,9 @@ static dal_status check_finite(dal_run *run, dal_error *error)
     char name[NAME_SIZE];
     for (int i = 0; i < run->shape.dim; i++) {
         run->carried[i] += 0.0; /* no -0: see lib/kernel/step.h */
-        if (i == e && run->carried[i] == 0.0)
-            return dal__error(error, DAL_GAUGE, 0, 0, "start e = 0: e must not vanish");
+        if (i == e && isinf(1.0 / run->carried[i]))
+            return dal__error(error, DAL_GAUGE, 0, 0, "start e = %g: e must not vanish",
+                              run->carried[i]);
         if (isnan(run->carried[i]) || (isinf(run->carried[i]) && i != e))
             return dal__error(error, DAL_NOT_FINITE, 0, 0, "start %s is not finite: %g",
                               dal_run_name(run, i, name, sizeof name), run->carried[i]);

@@ -1,0 +1,131 @@
+/* test_odd.c - a library called wrongly or unusually answers with a status: what the caller's
+ * structs may hold that no model would put there. */
+#include "fixtures.h"
+#include <CUnit/CUnit.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+static void refused(const dal_run_spec *spec, dal_status status, const char *fragment)
+{
+    dal_run *run = NULL;
+    dal_error error = {0};
+    CU_ASSERT_EQUAL(dal_run_create(&run, spec, &error), status);
+    CU_ASSERT_EQUAL(error.status, status);
+    CU_ASSERT_PTR_NULL(run);
+    CU_ASSERT_PTR_NOT_NULL(strstr(error.message, fragment));
+}
+
+static dal_status oscillate(const dal_system *system, const dal_at *at, double *out)
+{
+    (void)system;
+    out[0] = -at->q[0];
+    return DAL_OK;
+}
+
+static dal_status unprepared(const dal_system *system, const dal_at *at, double *out)
+{
+    (void)system;
+    (void)at;
+    (void)out;
+    return DAL_NOT_FINITE;
+}
+
+/* A struct filled by hand may say anything. */
+static void test_odd_systems(void)
+{
+    dal_system system = (dal_system){.name = "hand", .n = 1, .call.field = oscillate};
+    dal_run_spec spec = fixture_spec(&system, "rk4", DAL_PHYSICAL, 0.1);
+    system.workspace = SIZE_MAX;
+    refused(&spec, DAL_TOO_LARGE, "workspace");
+    CU_ASSERT_EQUAL(dal_run_size(&spec), 0);
+    system.workspace = 1;
+    system.parameters = 1000;
+    refused(&spec, DAL_ARGUMENT, "1000 parameters in a workspace of 1");
+    system.workspace = 0;
+    const dal_setting given = {"k", 1.0};
+    spec.parameters = &given;
+    spec.parameter_count = 1;
+    refused(&spec, DAL_NAME, "unknown parameter 'k'"); /* no parameter has a name */
+    spec.parameter_count = 0;
+    system.prepare = unprepared;
+    refused(&spec, DAL_NOT_FINITE, "hand cannot be prepared");
+}
+
+static void test_odd_starts(void)
+{
+    dal_model *model = fixture_model("chaplygin-sleigh");
+    const dal_setting massless = {"m", 0.0}, tiny = {"e", 1e-320}; /* 1/e overflows */
+    dal_run_spec spec = fixture_spec(fixture_system(model), "rk4", DAL_LIFTED, 0.1);
+    spec.parameters = &massless;
+    spec.parameter_count = 1;
+    refused(&spec, DAL_SINGULAR_MASS, "mass matrix is singular at the start");
+    spec.parameter_count = 0;
+    spec.start = &tiny;
+    spec.start_count = 1;
+    refused(&spec, DAL_GAUGE, "e must not vanish");
+    dal_model_free(model);
+}
+
+static void test_odd_options(void)
+{
+    const dal_system system = {.name = "hand", .n = 1, .call.field = oscillate};
+    dal_run_spec spec = fixture_spec(&system, "rk4", (dal_space)7, 0.1);
+    refused(&spec, DAL_ARGUMENT, "space number 7");
+    spec = fixture_spec(&system, "rk4", DAL_PHYSICAL, 0.1);
+    spec.options.solver = -1;
+    refused(&spec, DAL_ARGUMENT, "solver number -1");
+}
+
+static void test_no_text(void)
+{
+    dal_model *model;
+    dal_error error;
+    CU_ASSERT_EQUAL(dal_model_read(&model, "none", NULL, 0, &error), DAL_ARGUMENT);
+    CU_ASSERT_STRING_EQUAL(error.message, "there is no text to read");
+    CU_ASSERT_PTR_NULL(model);
+}
+
+/* A name of 100 letters serves everywhere; a longer one is refused where it is given. */
+static void test_long_names(void)
+{
+    char name[102], formula[128];
+    for (int length = 100; length <= 101; length++) {
+        dal_model *model = dal_model_create("long");
+        const dal_system *system;
+        dal_run *run;
+        dal_error error;
+        memset(name, 'q', sizeof name);
+        name[length] = '\0';
+        const dal_status status =
+            dal_model_add(model, DAL_SECTION_COORDINATES, NULL, name, 1, 15, &error);
+        if (length > 100) {
+            CU_ASSERT_EQUAL(status, DAL_TOO_LARGE);
+            CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "more than 100 characters"));
+        } else {
+            snprintf(formula, sizeof formula, "%s'^2/2", name);
+            CU_ASSERT_EQUAL(status, DAL_OK);
+            dal_model_add(model, DAL_SECTION_LAGRANGIAN, NULL, formula, 0, 0, NULL);
+            CU_ASSERT_EQUAL_FATAL(dal_model_system(model, &system, &error), DAL_OK);
+            dal_run_spec spec = fixture_spec(system, "rk4", DAL_LIFTED, 0.1);
+            snprintf(formula, sizeof formula, "pi_%s", name);
+            const dal_setting start = {formula, 1.0};
+            spec.start = &start;
+            spec.start_count = 1;
+            CU_ASSERT_EQUAL_FATAL(dal_run_create(&run, &spec, &error), DAL_OK);
+            CU_ASSERT_EQUAL(dal_run_state(run)[4], 1.0); /* q, v, e, p, pi */
+            dal_run_free(run);
+        }
+        dal_model_free(model);
+    }
+}
+
+void suite_odd(void)
+{
+    CU_pSuite suite = CU_add_suite("odd", NULL, NULL);
+    CU_add_test(suite, "systems by hand that say odd things", test_odd_systems);
+    CU_add_test(suite, "starts where something is infinite", test_odd_starts);
+    CU_add_test(suite, "options that no text gives", test_odd_options);
+    CU_add_test(suite, "a text that is none", test_no_text);
+    CU_add_test(suite, "long names", test_long_names);
+}
