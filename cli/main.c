@@ -1,7 +1,10 @@
 /* main.c - the program `dalembert`: finds the command and gives it the arguments. */
 #include "cli.h"
 
+#include <fcntl.h>
+#include <signal.h>
 #include <string.h>
+#include <unistd.h>
 
 typedef struct command {
     const char *name, *synopsis, *about;
@@ -88,8 +91,22 @@ static int own_option(const char *argument)
     return cli_close(stdout, "standard output");
 }
 
+/* A file opened while a standard stream is closed would take its number, and messages would end
+ * up among the rows.  What is opened here cannot be written to, so that a closed standard output
+ * is a failing write as before. */
+static void occupy_standard_streams(void)
+{
+    int descriptor;
+    do descriptor = open("/dev/null", O_RDONLY);
+    while (descriptor >= 0 && descriptor <= STDERR_FILENO);
+    if (descriptor >= 0) close(descriptor);
+}
+
 int main(int argc, char **argv)
 {
+    occupy_standard_streams();
+    /* A limit on the size of files is then a failing write like any other. */
+    signal(SIGXFSZ, SIG_IGN);
     if (argc < 2) {
         print_usage(stdout);
         return cli_close(stdout, "standard output");

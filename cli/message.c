@@ -7,6 +7,8 @@
 #include <time.h>
 #include <unistd.h>
 
+enum { MESSAGE_SIZE = 8192 }; /* room for a path of the greatest length, and more */
+
 #define MAP(X)                                                                                     \
     X(OK, DONE)                                                                                    \
     X(MEMORY, IO)                                                                                  \
@@ -66,17 +68,26 @@ void cli_progress(const char *format, ...)
     progress_time = now;
 }
 
+/* Names and paths stand in messages as the user gave them; a message is one line all the same,
+ * and nothing in it commands a terminal. */
+static void make_plain(char *text)
+{
+    for (; *text; text++)
+        if ((unsigned char)*text < ' ' || *text == 0x7f) *text = '?';
+}
+
 int cli_fail(int exit_status, const char *format, ...)
 {
+    char message[MESSAGE_SIZE];
     va_list list;
     va_start(list, format);
+    int length = vsnprintf(message, sizeof message, format, list);
+    va_end(list);
+    make_plain(message);
     cli_progress_end();
     /* Where both go to one place, the message stands behind the rows, not within one. */
     fflush(stdout);
-    fputs("dalembert: ", stderr);
-    vfprintf(stderr, format, list);
-    fputc('\n', stderr);
-    va_end(list);
+    fprintf(stderr, "dalembert: %s%s\n", message, length < MESSAGE_SIZE ? "" : "...");
     return exit_status;
 }
 

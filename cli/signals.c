@@ -22,8 +22,6 @@ void cli_catch_signals(void)
         sigemptyset(&action.sa_mask);
         sigaction(numbers[i], &action, NULL);
     }
-    /* A limit on the size of files is then a failing write like any other. */
-    signal(SIGXFSZ, SIG_IGN);
 }
 
 int cli_interrupted(void) { return caught; }

@@ -104,7 +104,7 @@ static int take_starts(void *user, const study_text *text, yaml_node_t *value)
                                    word);
         e->starts |= 1 << start;
     }
-    return CLI_DONE;
+    return e->starts ? CLI_DONE : study_text_fail(text, value, "starts: the list is empty");
 }
 
 #define KEEP_NODE(name)                                                                            \
@@ -192,8 +192,9 @@ static int add_methods(study_entry *e, const study_text *text, const yaml_node_t
 
 static int read_methods(study_entry *e, const study_text *text, yaml_node_t *node)
 {
-    int status = CLI_DONE;
-    for (int i = 0; i < study_text_count(node) && status == CLI_DONE; i++) {
+    int count = study_text_count(node), status = CLI_DONE;
+    if (count == 0) return study_text_fail(text, node, "integrators: the list is empty");
+    for (int i = 0; i < count && status == CLI_DONE; i++) {
         const yaml_node_t *item = study_text_item(text, node, i);
         const char *name = study_text_scalar(text, item, "integrators");
         status = name ? add_methods(e, text, item, name) : CLI_USAGE;
@@ -235,6 +236,37 @@ static const char *plain_label(const study_entry *e)
     return slash ? slash + 1 : e->name;
 }
 
+/* Whether the system knows the names; what else may be wrong with their values is for the cells. */
+static int check_names(const study_text *text, const yaml_node_t *node, const char *what,
+                       const study_entry *e, const dal_setting *start, int count)
+{
+    dal_run *run;
+    dal_error error = {0};
+    dal_run_spec spec = {.system = e->system,
+                         .method = e->methods[0],
+                         .options = dal_options_default(),
+                         .parameters = e->set,
+                         .parameter_count = e->set_count,
+                         .start = start,
+                         .start_count = count};
+    if (!node) return CLI_DONE;
+    if (!e->system->call.adjoint) spec.options.space = DAL_PHYSICAL;
+    dal_status made = dal_run_create(&run, &spec, &error);
+    if (made == DAL_OK) dal_run_free(run);
+    return made == DAL_NAME ? study_text_fail(text, node, "%s: %s", what, error.message) : CLI_DONE;
+}
+
+static int load_entry(study_entry *e, const study_text *text, const draft *d)
+{
+    int status = cli_load(e->name, &e->model, &e->system);
+    if (status == CLI_DONE) status = check_names(text, d->set, "set", e, NULL, 0);
+    if (status == CLI_DONE)
+        status = check_names(text, d->start, "start", e, e->start, e->start_count);
+    if (status == CLI_DONE)
+        status = check_names(text, d->displace, "displace", e, e->displace, e->displace_count);
+    return status;
+}
+
 static int add_entry(study_plan *plan, const study_text *text, yaml_node_t *node, const draft *base)
 {
     draft d = *base;
@@ -255,7 +287,7 @@ static int add_entry(study_plan *plan, const study_text *text, yaml_node_t *node
         status = read_settings(text, d.start, "start", &e->start, &e->start_count);
     if (status == CLI_DONE)
         status = read_settings(text, d.displace, "displace", &e->displace, &e->displace_count);
-    return status == CLI_DONE ? cli_load(e->name, &e->model, &e->system) : status;
+    return status == CLI_DONE ? load_entry(e, text, &d) : status;
 }
 
 /* ---- the whole ---- */

@@ -57,6 +57,14 @@ try 3 run chaplygin-sleigh-nonlinear --integrator gauss8 --step 0.01 --time 3 --
 holds "17 lines" [ "$(wc -l <broken/rows.csv)" -eq 17 ]
 holds "a summary" grep -qx 'run,rows,16' broken/summary.csv
 
+case_is "messages never go where the rows go"
+# With standard error closed, the file of rows must not become it.
+"$program" run chaplygin-sleigh-nonlinear --integrator gauss8 --step 0.01 --time 3 --samples 30 \
+    --output mute.csv 2>&-
+holds "rows and nothing else" cmp mute.csv rows.csv
+"$program" list >&- 2>err
+holds "a closed standard output is a failing write" [ $? -eq 4 ]
+
 case_is "output that cannot be written"
 sleigh="chaplygin-sleigh --integrator rk4 --step 0.001 --time 10 --samples 10000"
 try 4 run $sleigh --output missing/rows.csv

@@ -100,3 +100,11 @@ try 2 generate chaplygin-sleigh-vakonomic --integrator rk4 --space lifted
 try 4 generate line.yaml --integrator rk4 -o nowhere/at/all.c
 says 'nowhere/at/all.c'
 empty
+
+case_is "no room for a file"
+(
+    ulimit -f 4
+    exec "$program" generate knife-edge --integrator rk4 -o large.c 2>err
+)
+holds "exit 4" [ $? -eq 4 ]
+says "cannot write 'large.c.new': File too large"

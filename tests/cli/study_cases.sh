@@ -145,10 +145,17 @@ says 'more than one study'
 try 2 study small.yaml --threads 0 --output there
 says '0 is not in'
 
-case_is "a parameter that a cell does not know"
-printf 'integrators: rk4\nstep: 0.1\ntime: 1\nstarts: physical\nsystems: [{system: knife-edge, set: {omga: 1}}]\n' >bad.yaml
-try 3 study bad.yaml --output there
-prints "unknown parameter 'omga'; did you mean 'omega'"
+bad 'integrators: []\nstep: 0.1\ntime: 1\nsystems: [knife-edge]\n' 'bad.yaml:1:14: integrators: the list is empty'
+bad 'integrators: rk4\nstep: 0.1\ntime: 1\nstarts: []\nsystems: [knife-edge]\n' 'starts: the list is empty'
+
+case_is "names that a system does not know"
+common='integrators: rk4\nstep: 0.1\ntime: 1\n'
+bad "${common}systems: [{system: knife-edge, set: {omga: 1}}]\n" \
+    "bad.yaml:4:37: set: unknown parameter 'omga'; did you mean 'omega'"
+bad "${common}systems: [{system: knife-edge, start: {ph: 1}}]\n" \
+    "start: unknown start name 'ph'; did you mean 'phi'"
+bad "${common}systems: [{system: knife-edge, displace: {pi_ph: 1}}]\n" \
+    "displace: unknown start name 'pi_ph'; did you mean 'pi_phi'"
 
 case_is "output that cannot be written"
 try 4 study small.yaml --output line.yaml
