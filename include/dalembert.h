@@ -138,7 +138,7 @@ struct dal_system {
     const dal_callbacks *wide4, *wide8, *wide64; /* 4 ... lanes interleaved; NULL: fewer at once */
     dal_callback *prepare; /* completes work after a change of parameters; out unused */
     dal_callback *start;   /* out[2n + multipliers + 1]: q, v, g, e at t = 0; NULL: 0 and e = 1 */
-    dal_callback *constraints;      /* out[m]: D alone; needed when m > 0 */
+    dal_callback *constraints;      /* out[m]: D alone; NULL: D is not observed */
     dal_callback *energy;           /* out[1]: E = L_v.v - L; NULL: unknown */
     dal_callback *invariant_values; /* out[invariants] */
     dal_callback *exact;    /* out[2n]: q, v of the exact solution at at->t; NULL: unknown */

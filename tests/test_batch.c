@@ -223,6 +223,82 @@ static void test_arguments(void)
     dal_model_free(model);
 }
 
+/* ---- lanes that need different numbers of sweeps ---- */
+
+/* A falling disk, its momenta different in every lane. */
+static const char disk[] =
+    "coordinates: [X, Y, th, ph, ps]\n"
+    "let: {wn: ps' + ph'*cos(th)}\n"
+    "lagrangian: 0.65*(X'^2 + Y'^2 + (0.7*cos(th)*th')^2) + 0.1*(th'^2 + ph'^2*sin(th)^2) + "
+    "0.185*wn^2 - 1.9*sin(th)\n"
+    "constraints:\n"
+    "  - X' - 0.7*(th'*sin(th)*sin(ph) - wn*cos(ph))\n"
+    "  - Y' - 0.7*(-th'*sin(th)*cos(ph) - wn*sin(ph))\n"
+    "start:\n"
+    "  {th: 1.3, ph: 0.4, th': 0.3, ph': 0.5, ps': 1.7,\n"
+    "   X': 0.7*(0.3*sin(1.3)*sin(0.4) - (1.7 + 0.5*cos(1.3))*cos(0.4)),\n"
+    "   Y': 0.7*(-0.3*sin(1.3)*cos(0.4) - (1.7 + 0.5*cos(1.3))*sin(0.4))}\n";
+
+enum { UNEVEN = 64 };
+
+/* Sets lane i's start; how many settings. */
+static int uneven_start(int i, dal_setting *start)
+{
+    start[0] = (dal_setting){"p_X", i % 3 ? 0.1 * sin(i) : 0.0};
+    start[1] = (dal_setting){"pi_ps", i % 3 ? 0.1 * cos(i) : 0.0};
+    start[2] = (dal_setting){"e", 1.0 + 0.1 * (i % 11)};
+    return 3;
+}
+
+static bool same_as_single(dal_run_spec spec, const dal_batch *batch, int lane)
+{
+    dal_setting start[3];
+    double state[64];
+    spec.start_count = uneven_start(lane, start);
+    spec.start = start;
+    dal_run *run = fixture_run(&spec);
+    const dal_status status = dal_run_advance(run, 60, NULL);
+    dal_batch_state(batch, lane, state);
+    const size_t bytes = (size_t)dal_run_dimension(run) * sizeof *state;
+    const bool same = status == dal_batch_status(batch, lane, NULL) &&
+                      memcmp(state, dal_run_state(run), bytes) == 0;
+    dal_run_free(run);
+    return same;
+}
+
+/* What a lane keeps of its last sweep for the end of the step, or for Newton, must not change while
+ * its neighbours go on. */
+static void uneven_sweeps(const dal_system *system, const char *method)
+{
+    const dal_run_spec spec = fixture_spec(system, method, DAL_LIFTED, 0.02);
+    dal_batch *batch = NULL;
+    int differ = 0;
+    CU_ASSERT_EQUAL_FATAL(dal_batch_create(&batch, &spec, UNEVEN, 8, NULL), DAL_OK);
+    for (int lane = 0; lane < UNEVEN; lane++) {
+        dal_setting start[3];
+        const int count = uneven_start(lane, start);
+        CU_ASSERT_EQUAL(dal_batch_start(batch, lane, NULL, 0, start, count, NULL), DAL_OK);
+    }
+    CU_ASSERT_EQUAL(dal_batch_advance(batch, 60), DAL_OK);
+    for (int lane = 0; lane < UNEVEN; lane++) differ += !same_as_single(spec, batch, lane);
+    if (differ) printf("\n  %s: %d lanes differ\n", method, differ);
+    CU_ASSERT_EQUAL(differ, 0);
+    const dal_setting late = {"e", 2.0};
+    CU_ASSERT_EQUAL(dal_batch_start(batch, 0, NULL, 0, &late, 1, NULL), DAL_ARGUMENT);
+    dal_batch_free(batch);
+}
+
+static void test_uneven_sweeps(void)
+{
+    static const char *const methods[] = {"gauss4",           "gauss6",
+                                          "gauss12",          "gauss4+project",
+                                          "stormer-verlet",   "symplectic-euler-11",
+                                          "implicit-midpoint"};
+    dal_model *model = fixture_model(disk);
+    for (int i = 0; i < 7; i++) uneven_sweeps(fixture_system(model), methods[i]);
+    dal_model_free(model);
+}
+
 void suite_batch(void)
 {
     CU_pSuite suite = CU_add_suite("batch", NULL, NULL);
@@ -231,4 +307,5 @@ void suite_batch(void)
     CU_add_test(suite, "a failing lane", test_failing_lane);
     CU_add_test(suite, "a lane whose constraint turns singular", test_singular_lane);
     CU_add_test(suite, "arguments", test_arguments);
+    CU_add_test(suite, "lanes that need different numbers of sweeps", test_uneven_sweeps);
 }

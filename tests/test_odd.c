@@ -120,6 +120,35 @@ static void test_long_names(void)
     }
 }
 
+/* ---- runs asked for what they cannot do ---- */
+
+static dal_status interrupts(const dal_system *system, const dal_at *at, double *out)
+{
+    (void)system;
+    out[0] = -at->q[0];
+    return at->t > 0.5 ? DAL_INTERRUPTED : DAL_OK;
+}
+
+static void test_run_arguments(void)
+{
+    const dal_system system = {.name = "hand", .n = 1, .call.field = interrupts};
+    const dal_run_spec spec = fixture_spec(&system, "rk4", DAL_PHYSICAL, 0.1);
+    dal_error error = {0};
+    dal_run *run = fixture_run(&spec);
+    CU_ASSERT_EQUAL(dal_run_advance(run, -5, &error), DAL_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_run_sample(run, 0.3, 3, 0, NULL, &error), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_steps(run), 3);
+    CU_ASSERT_EQUAL(dal_run_sample(run, 0.5, 5, -1, NULL, &error), DAL_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_run_sample(run, 0.5, 5, 6, NULL, &error), DAL_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_run_sample(run, 0.5, 5, 0, NULL, &error), DAL_ARGUMENT);
+    CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "row 0 lies before"));
+    /* What the system says comes back. */
+    CU_ASSERT_EQUAL(dal_run_advance(run, 10, &error), DAL_INTERRUPTED);
+    CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "the system failed"));
+    CU_ASSERT_EQUAL(dal_run_steps(run), 5);
+    dal_run_free(run);
+}
+
 void suite_odd(void)
 {
     CU_pSuite suite = CU_add_suite("odd", NULL, NULL);
@@ -128,4 +157,5 @@ void suite_odd(void)
     CU_add_test(suite, "options that no text gives", test_odd_options);
     CU_add_test(suite, "a text that is none", test_no_text);
     CU_add_test(suite, "long names", test_long_names);
+    CU_add_test(suite, "arguments of runs", test_run_arguments);
 }

@@ -81,19 +81,23 @@ DAL_INLINE void dal__end(const dal_stages *k, const num *x, int stride, int coun
 
 /* Stage values base + (r + h sum a x) for count components; out must not overlap x. */
 DAL_INLINE void dal__stage_value(const dal_step *s, const dal_stages *k, int i, int first,
-                                 int count, const num *x, int stride, num *DAL_RESTRICT out)
+                                 int count, const num *x, int stride, dal_mask active,
+                                 num *DAL_RESTRICT out)
 {
+    (void)active; /* one lane that does not iterate asks for nothing */
     const int stages = DAL_STAGES(k->method);
     const double *a = k->method->a + i * stages, *tail = k->method->a_tail + i * stages;
     const num *y = s->y + first, *r = s->r + first;
-    DAL__BY_STAGES(stages, DAL_EACH(c, count) out[c] =
-                               y[c] + (r[c] + dal__weighted(a, tail, STAGES, k->h, x + c, stride)));
+    DAL__BY_STAGES(
+        stages,
+        DAL_EACH(c, count) out[c] = DAL_KEEP(
+            active, y[c] + (r[c] + dal__weighted(a, tail, STAGES, k->h, x + c, stride)), out[c]));
 }
 DAL_INLINE void dal__stage_values(const dal_step *s, const dal_stages *k, int first, int count,
-                                  const num *x, int stride, num *out)
+                                  const num *x, int stride, dal_mask active, num *out)
 {
     DAL_EACH(i, DAL_STAGES(k->method))
-        dal__stage_value(s, k, i, first, count, x, stride, out + i * count);
+        dal__stage_value(s, k, i, first, count, x, stride, active, out + i * count);
 }
 
 /* The slopes of pi: L_i = -(p + r - h sum a F_q^T Pi) - F_v^T Pi. */
@@ -126,9 +130,10 @@ DAL_INLINE void dal__collocation_map(dal_step *s, dal_equation *eq)
     const dal_stages *k = (const dal_stages *)eq->context;
     const int n = DAL_N(s), nw = DAL_NW(s);
     num *const image = eq->block[0].image;
-    dal__stage_values(s, k, n, nw, eq->block[0].u, nw, k->v);
-    dal__stage_values(s, k, 0, n, k->v, nw, k->q);
-    if (DAL_LIFTED(s)) dal__stage_values(s, k, dal_at_pi(s), n, eq->block[1].u, n, k->pi);
+    dal__stage_values(s, k, n, nw, eq->block[0].u, nw, eq->active, k->v);
+    dal__stage_values(s, k, 0, n, k->v, nw, eq->active, k->q);
+    if (DAL_LIFTED(s))
+        dal__stage_values(s, k, dal_at_pi(s), n, eq->block[1].u, n, eq->active, k->pi);
     dal__ask_stages(s, k, image);
     if (!DAL_LIFTED(s)) return;
     DAL_EACH(i, DAL_STAGES(k->method))
@@ -285,7 +290,7 @@ DAL_INLINE dal_status dal_collocation(dal_step *s, const dal_tableau *method)
     DAL_BLOCK(s, slopes, DAL_STAGES(method) * DAL_NW(s), DAL_MAY_NEWTON(s));
     DAL_BLOCK(s, momenta, DAL_LIFTED(s) * DAL_STAGES(method) * DAL_N(s), DAL_MAY_NEWTON(s));
     dal_stages k = {method, s->h, v, q, pi, f, w, mu, DAL_LIFTED(s) ? 3 * DAL_N(s) : DAL_NW(s)};
-    dal_equation eq = {{slopes, momenta}, 1 + DAL_LIFTED(s), &k};
+    dal_equation eq = {{slopes, momenta}, 1 + DAL_LIFTED(s), &k, dal_all()};
     eq.block[0].weight = eq.block[1].weight = s->h;
     eq.block[0].scale = dal_velocity_scale(s, s->h);
     if (DAL_LIFTED(s)) {

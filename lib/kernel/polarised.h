@@ -54,7 +54,7 @@ DAL_INLINE void dal__euler_map_v(dal_step *s, dal_equation *eq)
 {
     dal_euler *k = (dal_euler *)eq->context;
     const int n = DAL_N(s);
-    DAL_EACH(i, DAL_NW(s)) k->v[i] = eq->block[0].u[i];
+    DAL_EACH(i, DAL_NW(s)) k->v[i] = DAL_KEEP(eq->active, eq->block[0].u[i], k->v[i]);
     dal__euler_q(s, k);
     dal_force(s, k->t, k->q, k->v, k->f);
     DAL_EACH(i, DAL_NW(s))
@@ -102,7 +102,7 @@ DAL_INLINE dal_status dal__euler_solve(dal_step *s, dal_euler *k)
 {
     const int n = DAL_N(s), nw = DAL_NW(s), pi = dal_at_pi(s);
     DAL_BLOCK(s, block, DAL_NW(s), DAL_MAY_NEWTON(s));
-    dal_equation eq = {{block}, 1, k};
+    dal_equation eq = {{block}, 1, k, dal_all()};
     if (k->at.v) {
         eq.block[0].scale = dal_velocity_scale(s, k->h);
         DAL_EACH(i, nw) eq.block[0].u[i] = s->y[n + i];

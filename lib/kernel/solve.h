@@ -36,7 +36,16 @@ typedef struct dal_equation {
     dal_block block[2];
     int blocks; /* 1 or 2 */
     void *context;
+    dal_mask active; /* the lanes that still iterate */
 } dal_equation;
+
+/* What a map keeps beside the image for the end of the step is that of a lane's own last sweep: the
+ * sweeps its neighbours still need do not touch it. */
+#if DAL_LANES == 1
+#define DAL_KEEP(active, fresh, kept) (fresh)
+#else
+#define DAL_KEEP(active, fresh, kept) dal_select(active, fresh, kept)
+#endif
 
 typedef void dal_map(dal_step *step, dal_equation *equation);          /* u -> image, all blocks */
 typedef dal_status dal_matrix(dal_step *step, dal_equation *equation); /* fills inverse */
@@ -144,6 +153,7 @@ DAL_INLINE dal_mask dal__iterate(dal_step *s, dal_equation *eq, dal_map *map, da
     if (eq->blocks > 1) dal__begin_block(&eq->block[1]);
     for (int k = 0; k < DAL_ITERATIONS(s) && dal_any(active); k++) {
         dal_mask quiet = dal_all(), finite = dal_all();
+        eq->active = active;
         map(s, eq);
         dal__sweep(&eq->block[0], active, newton, &quiet, &finite);
         if (eq->blocks > 1) dal__sweep(&eq->block[1], active, newton, &quiet, &finite);

@@ -4,6 +4,7 @@
  * widest kind as the count fills, then narrower ones.  Where a system or an integrator has no wide
  * variants the blocks are one lane wide: the bits are the same. */
 #include "run/batch.h"
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -42,6 +43,7 @@ typedef struct block {
 struct dal_batch {
     dal_run *scalar;
     int count, blocks;
+    bool stepped;     /* lanes share their time: none may start anew */
     block *block;     /* [blocks] */
     dal_error *error; /* [count] */
     void *memory;     /* of the engines */
@@ -251,6 +253,9 @@ dal_status dal_batch_start(dal_batch *batch, int lane, const dal_setting *parame
     if (lane < 0 || lane >= batch->count)
         return dal__error(error, DAL_ARGUMENT, 0, 0, "lane %d of %d does not exist", lane,
                           batch->count);
+    if (batch->stepped)
+        return dal__error(error, DAL_ARGUMENT, 0, 0,
+                          "lane %d cannot start anew: its batch has been stepped", lane);
     DAL_TRY(dal__run_start(batch->scalar, parameters, parameter_count, start, start_count, error));
     const block *b = block_of(batch, lane);
     put_lane(batch, b, lane - b->first);
@@ -274,6 +279,7 @@ dal_status dal_batch_advance(dal_batch *batch, long long count)
     const double h = batch->scalar->shape.options.step;
     dal_status why[DAL__BLOCK] = {DAL_OK}, last = DAL_OK;
     bool alive = false;
+    batch->stepped = batch->stepped || count > 0;
     for (int i = 0; i < batch->blocks; i++) {
         block *b = &batch->block[i];
         for (long long step = 0; step < count && b->alive; step++) {
@@ -300,12 +306,14 @@ dal_status dal_batch_status(const dal_batch *batch, int lane, dal_error *error)
 double dal_batch_time(const dal_batch *batch, int lane)
 {
     const size_t place = dal__at(&batch->scalar->shape, DAL__TIME);
+    if (lane < 0 || lane >= batch->count) return NAN;
     const block *b = block_of(batch, lane);
     return b->carried[place * (size_t)b->kind->width + (size_t)(lane - b->first)];
 }
 
 void dal_batch_state(const dal_batch *batch, int lane, double *state)
 {
+    if (lane < 0 || lane >= batch->count) return;
     const block *b = block_of(batch, lane);
     gather(state, b->carried, (size_t)batch->scalar->shape.dim, b->kind->width, lane - b->first);
 }

@@ -157,6 +157,9 @@ dal_status dal__explain(dal_run *run, double h, dal_status status, dal_error *er
     if (cause.not_finite) {
         const dal_status said = ask_system(run, &cause, error);
         if (said != DAL_OK) return said;
+        if (cause.status != DAL_OK)
+            return dal__error(error, cause.status, 0, 0, "the system failed at t = %.17g: %s",
+                              cause.t, dal_status_text(cause.status));
     }
     if (status == DAL_NOT_CONVERGED && vanishes(run, t, h, &cause))
         return turned(run, &cause, t, h, error);

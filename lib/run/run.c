@@ -101,6 +101,8 @@ dal_status dal__run_steps(dal_run *run, double h, long long count)
 dal_status dal_run_advance(dal_run *run, long long count, dal_error *error)
 {
     const double h = run->shape.options.step;
+    if (count < 0)
+        return dal__error(error, DAL_ARGUMENT, 0, 0, "%lld steps: a run goes forward", count);
     const dal_status status = dal__run_steps(run, h, count);
     return status == DAL_OK ? DAL_OK : dal__explain(run, h, status, error);
 }

@@ -73,21 +73,39 @@ static dal_status go_to_row(sampling *k, long long row, double t)
     }
 }
 
+static double row_time(double T, long long row, long long samples)
+{
+    return row == samples ? T : T * ((double)row / (double)samples);
+}
+
+static dal_status check(const dal_run *run, double T, long long samples, long long first_row,
+                        dal_error *error)
+{
+    const double h = run->shape.options.step;
+    if (!(T > 0.0) || !isfinite(T))
+        return dal__error(error, DAL_ARGUMENT, 0, 0, "the time must be positive; it is %g", T);
+    if (h > T)
+        return dal__error(error, DAL_ARGUMENT, 0, 0, "the step %g is larger than the time %g", h,
+                          T);
+    if (samples < 1 || samples > 1LL << 53)
+        return dal__error(error, DAL_ARGUMENT, 0, 0, "samples must be at least 1; it is %lld",
+                          samples);
+    if (first_row < 0 || first_row > samples)
+        return dal__error(error, DAL_ARGUMENT, 0, 0, "there is no row %lld among 0..%lld",
+                          first_row, samples);
+    if (row_time(T, first_row, samples) < dal_run_time(run) - h)
+        return dal__error(error, DAL_ARGUMENT, 0, 0, "row %lld lies before the present t = %g",
+                          first_row, dal_run_time(run));
+    return DAL_OK;
+}
+
 dal_status dal_run_sample(dal_run *run, double T, long long samples, long long first_row,
                           const dal_observer *observer, dal_error *error)
 {
-    if (!(T > 0.0) || !isfinite(T))
-        return dal__error(error, DAL_ARGUMENT, 0, 0, "the time must be positive; it is %g", T);
-    if (run->shape.options.step > T)
-        return dal__error(error, DAL_ARGUMENT, 0, 0, "the step %g is larger than the time %g",
-                          run->shape.options.step, T);
-    if (samples < 1 || samples > 1LL << 53 || first_row < 0)
-        return dal__error(error, DAL_ARGUMENT, 0, 0, "samples must be at least 1; it is %lld",
-                          samples);
-    sampling k = {run, observer, error, 0};
-    for (long long row = first_row; row <= samples; row++) {
-        const double t = row == samples ? T : T * ((double)row / (double)samples);
-        DAL_TRY(go_to_row(&k, row, t));
-    }
+    static const dal_observer nobody = {NULL, NULL, NULL};
+    DAL_TRY(check(run, T, samples, first_row, error));
+    sampling k = {run, observer ? observer : &nobody, error, 0};
+    for (long long row = first_row; row <= samples; row++)
+        DAL_TRY(go_to_row(&k, row, row_time(T, row, samples)));
     return DAL_OK;
 }
