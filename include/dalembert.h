@@ -132,6 +132,7 @@ struct dal_system {
     const double *value;                         /* [parameters] default values */
     const char *const *invariant;                /* [invariants] names */
     const char *const *guard;                    /* [guards] "constraint 1: y1'" for messages */
+    int mass_guard;                              /* which guard, from 1, is det W; 0: none */
     const char *const *tag;                      /* [tags] */
     size_t workspace;                            /* doubles in dal_at.work; 0 means parameters */
     dal_callbacks call;                          /* one lane */

@@ -351,7 +351,8 @@ static void check_variant(const body *b, int width, const dal_callbacks *wide)
     check_lanes(&(lanes_case){b, call->adjoint, wide->adjoint, width, 12});
     check_lanes(&(lanes_case){b, call->jacobian, wide->jacobian, width, 32});
     check_lanes(&(lanes_case){b, call->constraint, wide->constraint, width, 18});
-    CU_ASSERT(!call->guards && !call->gauge);
+    check_lanes(&(lanes_case){b, call->guards, wide->guards, width, b->system->guards});
+    CU_ASSERT(b->system->mass_guard == 1 && !call->gauge);
 }
 
 static void test_lanes(void)

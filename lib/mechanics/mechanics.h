@@ -63,6 +63,7 @@ typedef struct dal__equations {
     dal__node *F;        /* [n + multipliers] */
     dal__node energy;    /* or 0 */
     dal__node *guard;    /* [guards] */
+    int mass_guard;      /* which of them is det W, from 1; 0: none */
     dal__pivot *pivot;   /* [pivots], room for 2 (n + m) */
     double *value;       /* [symbols]: default parameters, default start */
     int *symbol;         /* [symbols]: 0, 1, 2, ...; symbol + q are the symbols of q */

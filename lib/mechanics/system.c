@@ -88,6 +88,7 @@ static void describe(dal_model *model)
         .parameters = e->parameters,
         .invariants = e->invariants,
         .guards = e->guards,
+        .mass_guard = e->mass_guard,
         .tags = e->tags,
         .properties = e->properties,
         .coordinate = e->coordinate,

@@ -51,8 +51,9 @@ static dal_status turned(dal_run *run, const dal__cause *cause, double t, double
 {
     const dal_system *system = run->shape.system;
     if (cause->guard)
-        return dal__error(error, DAL_SINGULAR, 0, 0,
-                          "%s goes to zero between t = %.17g and %.17g: singular there",
+        return dal__error(error,
+                          cause->guard == system->mass_guard ? DAL_SINGULAR_MASS : DAL_SINGULAR, 0,
+                          0, "%s goes to zero between t = %.17g and %.17g: singular there",
                           system->guard ? system->guard[cause->guard - 1] : "a guard", t, t + h);
     return dal__error(error, DAL_SINGULAR, 0, 0,
                       "constraint %d becomes singular between t = %.17g and %.17g: its normal "
