@@ -278,6 +278,18 @@ DAL_INLINE dal_status dal__collocation_end(dal_step *s, const dal_stages *k, con
     return dal_update(s, k->h, d);
 }
 
+/* Lanes that do not iterate are computed with all the same: their stages stand at the present. */
+DAL_INLINE void dal__fill_stages(const dal_step *s, const dal_stages *k)
+{
+    if (DAL_LANES == 1) return;
+    const int n = DAL_N(s), nw = DAL_NW(s);
+    DAL_EACH(i, DAL_STAGES(k->method)) {
+        DAL_EACH(c, nw) k->v[i * nw + c] = s->y[n + c];
+        DAL_EACH(c, n) k->q[i * n + c] = s->y[c];
+        DAL_EACH(c, DAL_LIFTED(s) * n) k->pi[i * n + c] = s->y[dal_at_pi(s) + c];
+    }
+}
+
 /* One step of size s->h from the present state and time; leaves the time advanced. */
 DAL_INLINE dal_status dal_collocation(dal_step *s, const dal_tableau *method)
 {
@@ -297,6 +309,7 @@ DAL_INLINE dal_status dal_collocation(dal_step *s, const dal_tableau *method)
         dal__gauge_stages(s, &k);
         eq.block[1].scale = dal_momentum_scale(s, s->h);
     }
+    dal__fill_stages(s, &k);
     DAL_TRY(dal__solve_stages(s, &k, &eq));
     dal__keep_slopes(s, &k, &eq);
     return dal__collocation_end(s, &k, &eq);
