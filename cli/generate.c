@@ -67,16 +67,9 @@ static int generate(cli_job *job, const generate_wishes *wishes)
 {
     if (!job->system) return cli_fail(CLI_USAGE, "generate: the SYSTEM is missing");
     if (!job->text[JOB_integrator]) return cli_fail(CLI_USAGE, "generate: --integrator is missing");
-    int status = cli_load(job->system, &job->model, &job->made);
+    dal_run_spec spec;
+    int status = job_spec(job, &spec);
     if (status != CLI_DONE) return status;
-    if (!job->text[JOB_space] && !job->made->call.adjoint) job->options.space = DAL_PHYSICAL;
-    dal_run_spec spec = {.system = job->made,
-                         .method = job->method,
-                         .options = job->options,
-                         .parameters = job->set.item,
-                         .parameter_count = job->set.count,
-                         .start = job->start.item,
-                         .start_count = job->start.count};
     dal_error error = {0};
     char *text = NULL;
     dal_status made = dal_generate(&spec, (int)wishes->lanes, wishes->prefix, &text, &error);

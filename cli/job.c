@@ -132,21 +132,29 @@ static int check(cli_job *job)
     return CLI_DONE;
 }
 
-int job_make(cli_job *job)
+int job_spec(cli_job *job, dal_run_spec *spec)
 {
-    int status = check(job);
-    if (status == CLI_DONE) status = cli_load(job->system, &job->model, &job->made);
+    int status = cli_load(job->system, &job->model, &job->made);
     if (status != CLI_DONE) return status;
     /* A system without a lift has one space alone; only an explicit --space=lifted is an error. */
     if (!job->text[JOB_space] && !job->made->call.adjoint) job->options.space = DAL_PHYSICAL;
+    *spec = (dal_run_spec){.system = job->made,
+                           .method = job->method,
+                           .options = job->options,
+                           .parameters = job->set.item,
+                           .parameter_count = job->set.count,
+                           .start = job->start.item,
+                           .start_count = job->start.count};
+    return CLI_DONE;
+}
+
+int job_make(cli_job *job)
+{
+    int status = check(job);
+    dal_run_spec spec;
+    if (status == CLI_DONE) status = job_spec(job, &spec);
+    if (status != CLI_DONE) return status;
     dal_error error = {0};
-    dal_run_spec spec = {.system = job->made,
-                         .method = job->method,
-                         .options = job->options,
-                         .parameters = job->set.item,
-                         .parameter_count = job->set.count,
-                         .start = job->start.item,
-                         .start_count = job->start.count};
     dal_status made = dal_run_create(&job->run, &spec, &error);
     if (made == DAL_OK) return CLI_DONE;
     job->run = NULL;

@@ -50,6 +50,8 @@ void job_options(cli_option *options);
 int job_find(const char *name);
 /* Takes one option.  Returns CLI_DONE or prints and returns an exit status, as job_make. */
 int job_take(cli_job *job, int option, const char *text);
+/* Loads the system and makes the spec of its run; the space is settled here. */
+int job_spec(cli_job *job, dal_run_spec *spec);
 /* When all has been taken: sees that nothing is missing and makes system, method and run. */
 int job_make(cli_job *job);
 
