@@ -8,16 +8,7 @@
 
 enum { DAL__BLOCK_STEPS = 64 };
 
-/* Numbers behind y and r in what a step carries along. */
-enum {
-    DAL__TIME,
-    DAL__TIME_ERROR,
-    DAL__STEPS,
-    DAL__EVALUATIONS,
-    DAL__STIFF,
-    DAL__SLOPES_H,
-    DAL__FIRST_SLOPE
-};
+/* Where something of the clock, or the memory, is in the carried array. */
 #define DAL__AT(place) (2 * DAL__DIM + (place))
 
 typedef struct dal__clock {
@@ -34,9 +25,12 @@ DAL_INLINE void dal__load_step(dal_step *s, const dal_stored *carried)
 {
     DAL_EACH(i, DAL__DIM) s->y[i] = carried[i];
     DAL_EACH(i, DAL__DIM) s->r[i] = carried[DAL__DIM + i];
-    DAL_EACH(i, DAL__SLOPES) s->slopes[i] = carried[DAL__AT(DAL__FIRST_SLOPE) + i];
-    s->stiff[0] = carried[DAL__AT(DAL__STIFF)];
-    s->slopes_h[0] = carried[DAL__AT(DAL__SLOPES_H)];
+    carried += DAL__AT(DAL__MEMORY);
+#define X(member, count)                                                                           \
+    DAL_EACH(i, DAL__COUNT_##count) s->member[i] = carried[i];                                     \
+    carried += DAL__COUNT_##count;
+    DAL__MEMORY_LIST(X)
+#undef X
     s->evaluations = 0;
 }
 
@@ -51,13 +45,16 @@ DAL_INLINE void dal__store_step(const dal_step *s, const dal__clock *clock, long
     dal_stored *rest = carried + DAL__AT(0);
     DAL_EACH(i, DAL__DIM) dal__put(carried + i, lanes, s->y[i]);
     DAL_EACH(i, DAL__DIM) dal__put(carried + DAL__DIM + i, lanes, s->r[i]);
-    DAL_EACH(i, DAL__SLOPES) dal__put(rest + DAL__FIRST_SLOPE + i, lanes, s->slopes[i]);
-    dal__put(rest + DAL__STIFF, lanes, s->stiff[0]);
-    dal__put(rest + DAL__SLOPES_H, lanes, s->slopes_h[0]);
     dal__put(rest + DAL__TIME, lanes, dal_num(clock->time));
     dal__put(rest + DAL__TIME_ERROR, lanes, dal_num(clock->error));
     dal__put(rest + DAL__STEPS, lanes, rest[DAL__STEPS] + (double)steps);
     dal__put(rest + DAL__EVALUATIONS, lanes, rest[DAL__EVALUATIONS] + (double)s->evaluations);
+    rest += DAL__MEMORY;
+#define X(member, count)                                                                           \
+    DAL_EACH(i, DAL__COUNT_##count) dal__put(rest + i, lanes, s->member[i]);                       \
+    rest += DAL__COUNT_##count;
+    DAL__MEMORY_LIST(X)
+#undef X
 }
 
 /* Lanes in which every component of the state is finite; 1/e stands for e. */

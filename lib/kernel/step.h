@@ -8,6 +8,8 @@
 #ifndef DAL_KERNEL_STEP_H
 #define DAL_KERNEL_STEP_H
 
+#include "carried.h"
+
 /* Without this a compiler takes what comes after many of them for cold and leaves it slow. */
 #define DAL_RARELY(condition) __builtin_expect(!!(condition), 0)
 
@@ -46,6 +48,8 @@ typedef enum dal_question {
 #define DAL_MAY_NEWTON(s) DAL__NEWTON
 #define DAL_STAGES(t)     DAL__STAGES
 #define DAL__ROOM(count)  ((count) > 0 ? (count) : 1)
+#define DAL__COUNT_ONE    1
+#define DAL__COUNT_SLOPES DAL__SLOPES
 
 #define DAL_VECTOR(step, name, count) num name[DAL__ROOM(count)]
 #define DAL_MARK(step)                (void)0
@@ -54,7 +58,9 @@ typedef enum dal_question {
 struct dal_step {
     double t, h;
     num y[DAL__DIM], r[DAL__DIM];
-    num stiff[1], slopes[DAL__ROOM(DAL__SLOPES)], slopes_h[1];
+#define X(member, count) num member[DAL__ROOM(DAL__COUNT_##count)];
+    DAL__MEMORY_LIST(X)
+#undef X
     dal_mask alive, unconverged;
     const dal_stored *work; /* parameters, and what is made of them alone */
     long long evaluations;
@@ -82,10 +88,10 @@ struct dal_step {
     int lifted; /* 1 on the canonical space */
     num *y, *r; /* [dim] */
 
-    /* Carried from step to step beside the state. */
-    num *stiff;    /* [1] 1 where the fixed point was too slow and Newton took over */
-    num *slopes;   /* [stages*(nw + n)] stage slopes of the last collocation step */
-    num *slopes_h; /* [1] its step size, 0: none */
+    /* Carried from step to step beside the state, see carried.h. */
+#define X(member, count)  num *member;
+    DAL__MEMORY_LIST(X)
+#undef X
 
     dal_mask alive;       /* lanes that go on */
     dal_mask unconverged; /* lanes whose implicit equations were not solved */

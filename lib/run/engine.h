@@ -1,15 +1,13 @@
 /* engine.h - one step of one or several lanes as a transaction; internal to lib/run.
  *
- *     carried:  y[dim] | r[dim] | time, its rounding error, steps, evaluations, stiff, slopes_h |
- *               slopes[stages*(nw + n)]
- *
- * All that survives a step is the array `carried`; all else is scratch.  The engine exists once per
+ * All that survives a step is the array `carried` (kernel/carried.h).  The engine exists once per
  * variant (engine_wide.c); arrays are interleaved by lanes. */
 #ifndef DAL_ENGINE_H
 #define DAL_ENGINE_H
 
 #include "dalembert.h"
 #include "error.h"
+#include "kernel/carried.h"
 #include "machine.h"
 #include <stdbool.h>
 #include <stdint.h>
@@ -23,16 +21,11 @@ typedef struct dal__shape {
     size_t workspace, carried, scratch; /* numbers */
 } dal__shape;
 
-/* Places behind y and r in the carried array. */
-enum {
-    DAL__TIME,
-    DAL__TIME_ERROR,
-    DAL__STEPS,
-    DAL__EVALUATIONS,
-    DAL__STIFF,
-    DAL__SLOPES_H,
-    DAL__SLOPES
-};
+/* Numbers of what a method remembers, for DAL__MEMORY_LIST. */
+#define DAL__COUNT_ONE(shape)    1
+#define DAL__COUNT_SLOPES(shape) ((shape)->slopes)
+
+/* Where something of the clock, or the memory, is in the carried array. */
 static inline size_t dal__at(const dal__shape *shape, int place)
 {
     return 2 * (size_t)shape->dim + (size_t)place;

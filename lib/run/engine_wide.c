@@ -57,7 +57,7 @@ static size_t changing(const engine *e)
     const bool forgets = (e->chain[0]->claims & DAL_COMPONENTWISE) != 0;
     const bool solves = e->shape.lifted || e->shape.depth > 1;
     if (!forgets) return e->shape.carried * DAL_GROUPS;
-    return dal__at(&e->shape, solves ? DAL__SLOPES : DAL__TIME) * DAL_GROUPS;
+    return solves ? (size_t)(e->step.slopes - e->carried) : dal__at(&e->shape, 0) * DAL_GROUPS;
 }
 
 /* Remembers the first answer that is not finite. */
@@ -116,6 +116,17 @@ static num *carried_at(const engine *e, int place)
     return e->carried + dal__at(&e->shape, place) * DAL_GROUPS;
 }
 
+/* What the method remembers, one member behind the other. */
+static void place_memory(engine *e)
+{
+    num *at = carried_at(e, DAL__MEMORY);
+#define X(member, count)                                                                           \
+    e->step.member = at;                                                                           \
+    at += DAL__COUNT_##count(&e->shape) * DAL_GROUPS;
+    DAL__MEMORY_LIST(X)
+#undef X
+}
+
 /* The step's fixed part. */
 static void prepare_step(engine *e)
 {
@@ -127,13 +138,11 @@ static void prepare_step(engine *e)
     s->dim = k->dim * DAL_GROUPS;
     s->y = e->carried;
     s->r = e->carried + s->dim;
-    s->stiff = carried_at(e, DAL__STIFF);
-    s->slopes_h = carried_at(e, DAL__SLOPES_H);
-    s->slopes = carried_at(e, DAL__SLOPES);
     s->solver = k->options.solver;
     s->iterations = k->options.iterations;
     s->has_jacobian = k->system->call.jacobian != NULL;
     s->room = k->scratch * DAL_GROUPS;
+    place_memory(e);
     s->chain = e->chain;
     s->ask = ask;
     s->owner = e;
@@ -168,8 +177,7 @@ void *DAL_WIDE(dal__engine_place)(const dal__shape *k, void *memory, double **ca
 
 void DAL_WIDE(dal__engine_trace)(void *engine_, dal__cause *cause)
 {
-    engine *e = engine_;
-    e->cause = cause;
+    ((engine *)engine_)->cause = cause;
 }
 
 dal_status DAL_WIDE(dal__engine_ask)(void *engine_, int question, double t, const double *state,

@@ -96,7 +96,10 @@ static dal_status measure(dal__shape *k, dal_error *error)
     if (k->workspace > MOST_NUMBERS)
         return dal__error(error, DAL_TOO_LARGE, 0, 0, "a workspace of %zu numbers", k->workspace);
     k->slopes = k->stages * (k->nw + k->n);
-    k->carried = dal__at(k, DAL__SLOPES) + (size_t)k->slopes;
+    k->carried = dal__at(k, DAL__MEMORY);
+#define X(member, count) k->carried += (size_t)DAL__COUNT_##count(k);
+    DAL__MEMORY_LIST(X)
+#undef X
     return DAL_OK;
 }
 

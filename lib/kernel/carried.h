@@ -1,0 +1,27 @@
+/* carried.h - what is carried from step to step: one list, for the engine and for generated files.
+ *
+ *     carried:  y[dim] | r[dim] | the clock | what the method remembers
+ *
+ * All that survives a step is this array; all else is scratch. */
+#ifndef DAL_KERNEL_CARRIED_H
+#define DAL_KERNEL_CARRIED_H
+
+/* One number each: the time, compensated, and what is counted. */
+#define DAL__CLOCK_LIST(X) X(TIME) X(TIME_ERROR) X(STEPS) X(EVALUATIONS)
+
+/* Members of dal_step, and how many numbers each is: whoever uses the list says, by a macro
+ * DAL__COUNT_ONE etc.  The slopes come last, since most methods keep none. */
+#define DAL__MEMORY_LIST(X)                                                                        \
+    X(stiff, ONE)     /* 1 where the fixed point was too slow and Newton took over */              \
+    X(slopes_h, ONE)  /* the step size behind the slopes, 0: none */                               \
+    X(slopes, SLOPES) /* [stages*(nw + n)] stage slopes of the last collocation step */
+
+/* Places behind y and r. */
+enum {
+#define X(name) DAL__##name,
+    DAL__CLOCK_LIST(X)
+#undef X
+        DAL__MEMORY
+};
+
+#endif
