@@ -36,7 +36,7 @@ static dal__node function(dal__graph *graph, dal__op op, dal__node a)
     negative = negative && parity[op] < 0;
     dal__record r = graph->node[a];
     if (op == DAL__ABS && r.op == DAL__ABS) return a;
-    double value = r.op == DAL__NUMBER ? dal__operate(op, r.value, 0.0) : INFINITY;
+    double value = r.op == DAL__NUMBER ? dal__operate(op, r.value, 0.0, 0.0) : INFINITY;
     dal__node node = isfinite(value) ? dal__number(graph, value) : dal__intern(graph, op, a, 0);
     return negative ? dal__neg(graph, node) : node;
 }
@@ -58,7 +58,7 @@ static dal__node power(dal__graph *graph, dal__node a, dal__node b)
     if (s.op != DAL__NUMBER) {
         return dal__is_number(graph, a, 1.0) ? a : dal__intern(graph, DAL__POW, a, b);
     }
-    double value = r.op == DAL__NUMBER ? dal__operate(DAL__POW, r.value, s.value) : INFINITY;
+    double value = r.op == DAL__NUMBER ? dal__operate(DAL__POW, r.value, s.value, 0.0) : INFINITY;
     if (isfinite(value)) return dal__number(graph, value);
     if (fabs(s.value) <= MOST_FOLDS && s.value == floor(s.value)) {
         return integer_power(graph, a, (int)s.value);
@@ -74,7 +74,7 @@ static dal__node arc_tangent(dal__graph *graph, dal__node a, dal__node b)
 {
     dal__record r = graph->node[a], s = graph->node[b];
     if (r.op == DAL__NUMBER && s.op == DAL__NUMBER) {
-        return dal__number(graph, dal__operate(DAL__ATAN2, r.value, s.value));
+        return dal__number(graph, dal__operate(DAL__ATAN2, r.value, s.value, 0.0));
     }
     return dal__intern(graph, DAL__ATAN2, a, b);
 }

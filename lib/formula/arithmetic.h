@@ -1,7 +1,8 @@
 /* arithmetic.h - what each operation computes from a (and b), over num.
  *
  * The one list behind constant folding, dal__evaluate and the tapes, so that they agree in every
- * bit.  Products are rounded before they are added: the library is compiled without contraction. */
+ * bit.  The library is compiled without contraction: what is fused stands in DAL__FUSED_LIST, and
+ * which sums are is decided by dal__lower. */
 #ifndef DAL_FORMULA_ARITHMETIC_H
 #define DAL_FORMULA_ARITHMETIC_H
 
@@ -32,5 +33,11 @@
     X(DIV, a / b)                                                                                  \
     X(POW, dal_pow(a, b))                                                                          \
     X(ATAN2, dal_atan2(a, b))
+
+/* A sum that takes a product into itself: one rounding. */
+#define DAL__FUSED_LIST(X)                                                                         \
+    X(MUL_ADD, dal_fma(a, b, c))                                                                   \
+    X(MUL_SUB, dal_fma(a, b, -c))                                                                  \
+    X(SUB_MUL, dal_fma(-a, b, c))
 
 #endif

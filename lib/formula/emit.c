@@ -3,6 +3,7 @@
  * Every result is a constant of its own, x1, x2, ...; parameters and what is made of them alone
  * are w[place], as in work. */
 #include "formula/arithmetic.h"
+#include "formula/graph.h"
 #include "formula/tape.h"
 #include "text.h"
 #include <stdlib.h>
@@ -18,11 +19,8 @@ typedef struct writer {
 
 static const char *const expressions[] = {
 #define X(code, expression) [DAL__##code] = #expression,
-    DAL__UNARY_LIST(X) DAL__BINARY_LIST(X)
+    DAL__UNARY_LIST(X) DAL__BINARY_LIST(X) DAL__FUSED_LIST(X)
 #undef X
-        [DAL__MUL_ADD] = "a * b + c",
-    [DAL__MUL_SUB] = "a * b - c",
-    [DAL__SUB_MUL] = "c - a * b",
 };
 
 static bool is_number(const dal__tapes *tapes, uint32_t place)

@@ -52,12 +52,30 @@ dal__node dal__attach(dal__graph *graph, dal__term term);
 /* The node of an ADD or MUL with ordered operands. */
 dal__node dal__commute(dal__graph *graph, dal__op op, dal__node a, dal__node b);
 
+/* Operations that are computed as one: both functions of one argument; and a sum or difference one
+ * of whose operands is a product. */
+enum {
+    DAL__SINCOS = DAL__OP_COUNT, /* sin a and cos a */
+    DAL__MUL_ADD,                /* a*b + c, rounded once; so the next two */
+    DAL__MUL_SUB,                /* a*b - c */
+    DAL__SUB_MUL                 /* c - a*b */
+};
+
+/* A node as it is computed, wherever it is: an operation of the graph, or a fused one.  What is
+ * fused depends on the node alone: in a sum that is not fixed, a product that is not; of two
+ * products the one made later, so that the other is there when it is needed. */
+typedef struct dal__lowered {
+    int op;
+    dal__node a, b, c; /* 0 where there is none */
+} dal__lowered;
+dal__lowered dal__lower(const dal__graph *graph, dal__node node);
+
 /* Zeros for each node up to this one, [node + 1] of size bytes; NULL when memory is out, which the
  * graph then remembers. [alloc] */
 void *dal__per_node(dal__graph *graph, dal__node node, size_t size);
 /* Marks node and all it is made of, [node + 1]; NULL likewise. [alloc] */
 uint8_t *dal__reach(dal__graph *graph, dal__node node);
 /* One operation on doubles, with the bits of a tape. */
-double dal__operate(dal__op op, double a, double b);
+double dal__operate(int op, double a, double b, double c);
 
 #endif

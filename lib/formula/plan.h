@@ -13,9 +13,7 @@ typedef struct dal__plan {
     bool *constant;     /* depends on parameters alone */
     uint8_t *reached;   /* wanted by any program; then, by the present one */
     uint32_t *place;    /* in work; DAL__NOWHERE while a temporary is not alive */
-    dal__node *host;    /* the ADD or SUB that takes this MUL into itself, or 0 */
     dal__node *last;    /* the node whose instruction reads this one last */
-    int32_t *uses;      /* by operands and outputs */
     uint32_t *free;     /* places of temporaries to be used again, as a stack */
     size_t frees, used; /* temporaries: on that stack, and taken in all */
 } dal__plan;

@@ -3,19 +3,11 @@
  *     work = [ parameters | numbers | hoisted | inputs | temporaries ]
  *
  * An instruction is an operation, where it writes and where it reads, as places in work.  Beside
- * the operations of the graph a tape has a few that do two of them at once; each still rounds
- * twice. */
+ * the operations of the graph a tape has a few that do two of them at once (graph.h). */
 #ifndef DAL_FORMULA_TAPE_H
 #define DAL_FORMULA_TAPE_H
 
 #include "formula/formula.h"
-
-enum {
-    DAL__SINCOS = DAL__OP_COUNT, /* d = sin a, b = cos a */
-    DAL__MUL_ADD,                /* d = a*b + c */
-    DAL__MUL_SUB,                /* d = a*b - c */
-    DAL__SUB_MUL                 /* d = c - a*b */
-};
 
 typedef struct dal__instruction {
     uint32_t op, d, a, b, c;

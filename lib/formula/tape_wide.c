@@ -5,6 +5,7 @@
 #include "kernel/groups.h"
 
 #include "formula/arithmetic.h"
+#include "formula/graph.h"
 #include "formula/tape.h"
 
 #define AT(place)  w[(size_t)(place)*DAL_GROUPS + g]
@@ -42,11 +43,13 @@ void DAL_WIDE(dal__execute)(const dal__tape *tape, double *work)
             break;
 #define X(code, expression)                                                                        \
     case DAL__##code:                                                                              \
-        EACH_GROUP AT(i.d) = expression;                                                           \
+        EACH_GROUP                                                                                 \
+        {                                                                                          \
+            num a = AT(i.a), b = AT(i.b), c = AT(i.c);                                             \
+            AT(i.d) = expression;                                                                  \
+        }                                                                                          \
         break;
-            X(MUL_ADD, AT(i.a) * AT(i.b) + AT(i.c))
-            X(MUL_SUB, AT(i.a) * AT(i.b) - AT(i.c))
-            X(SUB_MUL, AT(i.c) - AT(i.a) * AT(i.b))
+            DAL__FUSED_LIST(X)
 #undef X
         }
     }

@@ -34,7 +34,24 @@ bool dal__depends(dal__graph *graph, dal__node node, int first, int end)
     return found;
 }
 
-double dal__operate(dal__op op, double a, double b)
+static bool is_product(const dal__graph *graph, dal__node node)
+{
+    return graph->node[node].op == DAL__MUL && !graph->node[node].fixed;
+}
+
+dal__lowered dal__lower(const dal__graph *graph, dal__node node)
+{
+    const dal__record *r = &graph->node[node];
+    const bool sum = r->op == DAL__ADD || r->op == DAL__SUB;
+    const bool first = sum && is_product(graph, r->a), second = sum && is_product(graph, r->b);
+    if (r->fixed || (!first && !second)) return (dal__lowered){r->op, r->a, r->b, 0};
+    const bool later = second && (!first || r->b > r->a);
+    const dal__record *product = &graph->node[later ? r->b : r->a];
+    const int op = r->op == DAL__ADD ? DAL__MUL_ADD : later ? DAL__SUB_MUL : DAL__MUL_SUB;
+    return (dal__lowered){op, product->a, product->b, later ? r->a : r->b};
+}
+
+double dal__operate(int op, double a, double b, double c)
 {
     switch (op) {
 #define X(code, expression)                                                                        \
@@ -42,6 +59,7 @@ double dal__operate(dal__op op, double a, double b)
         return expression;
         DAL__UNARY_LIST(X)
         DAL__BINARY_LIST(X)
+        DAL__FUSED_LIST(X)
 #undef X
     default:
         return NAN;
@@ -56,10 +74,11 @@ double dal__evaluate(dal__graph *graph, dal__node node, const double *values)
         x[0] = NAN;
         for (dal__node i = 1; i <= node; i++) {
             const dal__record *r = &graph->node[i];
+            const dal__lowered l = dal__lower(graph, i);
             if (!mark[i]) continue;
             x[i] = r->op == DAL__NUMBER   ? r->value
                    : r->op == DAL__SYMBOL ? values[r->symbol]
-                                          : dal__operate((dal__op)r->op, x[r->a], x[r->b]);
+                                          : dal__operate(l.op, x[l.a], x[l.b], x[l.c]);
         }
         value = x[node];
     }

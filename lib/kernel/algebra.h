@@ -7,7 +7,7 @@ DAL_INLINE void dal_multiply(const num *m, int rows, int columns, const num *x, 
 {
     DAL_EACH(i, rows) {
         num sum = dal_num(0.0);
-        DAL_EACH(j, columns) sum += m[i * columns + j] * x[j];
+        DAL_EACH(j, columns) sum = dal_fma(m[i * columns + j], x[j], sum);
         y[i] = sum;
     }
 }
@@ -17,7 +17,7 @@ DAL_INLINE void dal_gram(const num *a, const num *b, int m, int n, num *g)
 {
     DAL_EACH(i, m * m) {
         g[i] = dal_num(0.0);
-        DAL_EACH(j, n) g[i] += a[i / m * n + j] * b[j * m + i % m];
+        DAL_EACH(j, n) g[i] = dal_fma(a[i / m * n + j], b[j * m + i % m], g[i]);
     }
 }
 

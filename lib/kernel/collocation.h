@@ -31,17 +31,17 @@ typedef struct dal_stages {
     int stride;      /* of f */
 } dal_stages;
 
-/* h sum_j weight_j x[j*stride], heads and tails summed apart. */
-DAL_INLINE num dal__weighted(const double *head, const double *tail, int stages, double h,
-                             const num *x, int stride)
+/* sum_j weight_j x[j*stride], heads and tails summed apart. */
+DAL_INLINE num dal__weighted(const double *head, const double *tail, int stages, const num *x,
+                             int stride)
 {
     num large = head[0] * x[0], small = tail[0] * x[0];
     DAL_EACH(i, stages - 1) {
         const int j = i + 1;
-        large += head[j] * x[j * stride];
-        small += tail[j] * x[j * stride];
+        large = dal_fma(dal_num(head[j]), x[j * stride], large);
+        small = dal_fma(dal_num(tail[j]), x[j * stride], small);
     }
-    return h * (large + small);
+    return large + small;
 }
 /* The statement with STAGES a constant where there are few of them: the sum over the stages then
  * unrolls, and components go side by side through vector registers. */
@@ -69,8 +69,8 @@ DAL_INLINE num dal__weighted(const double *head, const double *tail, int stages,
 DAL_INLINE void dal__weighted_all(const double *head, const double *tail, int stages, double h,
                                   const num *x, int stride, int count, num *DAL_RESTRICT out)
 {
-    DAL__BY_STAGES(stages,
-                   DAL_EACH(c, count) out[c] = dal__weighted(head, tail, STAGES, h, x + c, stride));
+    DAL__BY_STAGES(stages, DAL_EACH(c, count) out[c] =
+                               h * dal__weighted(head, tail, STAGES, x + c, stride));
 }
 /* h sum b x for count components. */
 DAL_INLINE void dal__end(const dal_stages *k, const num *x, int stride, int count, num *out)
@@ -87,11 +87,11 @@ DAL_INLINE void dal__stage_value(const dal_step *s, const dal_stages *k, int i, 
     (void)active; /* one lane that does not iterate asks for nothing */
     const int stages = DAL_STAGES(k->method);
     const double *a = k->method->a + i * stages, *tail = k->method->a_tail + i * stages;
-    const num *y = s->y + first, *r = s->r + first;
+    const num *y = s->y + first, *r = s->r + first, h = dal_num(k->h);
     DAL__BY_STAGES(
-        stages,
-        DAL_EACH(c, count) out[c] = DAL_KEEP(
-            active, y[c] + (r[c] + dal__weighted(a, tail, STAGES, k->h, x + c, stride)), out[c]));
+        stages, DAL_EACH(c, count) out[c] = DAL_KEEP(
+                    active, y[c] + dal_fma(h, dal__weighted(a, tail, STAGES, x + c, stride), r[c]),
+                    out[c]));
 }
 DAL_INLINE void dal__stage_values(const dal_step *s, const dal_stages *k, int first, int count,
                                   const num *x, int stride, dal_mask active, num *out)
@@ -137,7 +137,8 @@ DAL_INLINE void dal__collocation_map(dal_step *s, dal_equation *eq)
     dal__ask_stages(s, k, image);
     if (!DAL_LIFTED(s)) return;
     DAL_EACH(i, DAL_STAGES(k->method))
-        DAL_EACH(j, n) image[i * n + j] = k->f[i * k->stride + j] + k->pi[i * n + j] * k->w[i];
+        DAL_EACH(j, n)
+            image[i * n + j] = dal_fma(k->pi[i * n + j], k->w[i], k->f[i * k->stride + j]);
     dal__momentum_slopes(s, k, eq->block[1].image);
 }
 
@@ -184,7 +185,7 @@ DAL_INLINE dal_status dal__guess_present(dal_step *s, dal_equation *eq, dal_mask
 /* u += factor x */
 DAL_INLINE void dal__add_multiple(num *DAL_RESTRICT u, double factor, const num *x, int count)
 {
-    DAL_EACH(i, count) u[i] += factor * x[i];
+    DAL_EACH(i, count) u[i] = dal_fma(dal_num(factor), x[i], u[i]);
 }
 
 /* Guess from the last step's polynomial. */
@@ -247,7 +248,8 @@ DAL_INLINE void dal__gauge_stages(dal_step *s, dal_stages *k)
     const int stages = DAL_STAGES(m);
     DAL_EACH(i, stages) {
         const double *a = m->a + i * stages, *tail = m->a_tail + i * stages;
-        k->w[i] = 1.0 / (s->y[dal_at_e(s)] + dal__weighted(a, tail, stages, k->h, k->mu, 1));
+        const num moved = k->h * dal__weighted(a, tail, stages, k->mu, 1);
+        k->w[i] = 1.0 / (s->y[dal_at_e(s)] + moved);
     }
 }
 

@@ -8,10 +8,12 @@
  * and n mod 4 says which of +-sin, +-cos is wanted.  Error below 0.85 ulp for |x| <= 1e7; beyond,
  * and for what is not finite, the lane concerned is libm's.
  *
- * Reduction (Cody and Waite 1980, chapter 8): pi/2 = P1 + P2 + P3 + P4, the first three of 30 bits
- * ending at 2^-29, 2^-60, 2^-91, so that n Pk is exact for |n| < 2^23 and each difference with its
- * remainder is exact in two doubles.  No double up to 1e7 but 0 comes nearer to a multiple of pi/2
- * than 2^-61 (the nearest is at 29 pi/2), and n (pi/2 - P1 - P2 - P3 - P4) is below 2^-120.
+ * Reduction (Cody and Waite 1980, chapter 8) with fused products: pi/2 = P1 + P2 + P3, each the
+ * double nearest to what is left, up to 2^-161.  For |x| <= 1e7, n < 2^23:  a = x - n P1 is exact,
+ * a multiple of 2^-53 below 1.  n P2 = b + rest exactly, |b| < 2^-30, so that a is a multiple of
+ * the last place of b and r = a - b with its rounding error (a - r) - b is exact too (Dekker 1971).
+ * No double up to 1e7 but 0 comes nearer to a multiple of pi/2 than 2^-61 (the nearest is at 29
+ * pi/2).
  *
  * Coefficients: S and C are the polynomials of degree 5 that interpolate (sin x / x - 1)/x^2 and
  * (cos x - 1 + x^2/2)/x^4, in exact rationals from their Taylor series, at the six largest zeros
@@ -57,35 +59,46 @@ typedef struct dal__angle {
 
 DAL_INLINE dal__angle dal__reduce(num x)
 {
-    const double two_over_pi = 0x1.45f306dc9c883p-1, P1 = 0x1.921fb548p+0, P2 = -0x1.de973dc8p-31,
-                 P3 = -0x1.9d9cceb8p-62, P4 = -0x1.1fc8f8cbb5bf7p-93;
-    const double shift = 0x1.8p52; /* puts the units of n into the last bits of shifted */
-    num shifted = x * two_over_pi + shift, n = shifted - shift;
-    num a = x - n * P1, b = n * P2, c = n * P3;
-    num ab = a - b, abc = ab - c;
-    num tail = ((a - ab) - b) + ((ab - abc) - c) - n * P4;
-    const dal__angle angle = {abc, tail, dal__bits(shifted)};
+    const num two_over_pi = dal_num(0x1.45f306dc9c883p-1);
+    const num P1 = dal_num(0x1.921fb54442d18p+0), P2 = dal_num(0x1.1a62633145c07p-54),
+              P3 = dal_num(-0x1.f1976b7ed8fbcp-110);
+    const num shift = dal_num(0x1.8p52); /* puts the units of n into the last bits of shifted */
+    num shifted = dal_fma(x, two_over_pi, shift), n = shifted - shift;
+    num a = dal_fma(-n, P1, x), b = n * P2, rest = dal_fma(n, P2, -b);
+    num r = a - b;
+    num tail = dal_fma(-n, P3, ((a - r) - b) - rest);
+    const dal__angle angle = {r, tail, dal__bits(shifted)};
     return angle;
+}
+
+/* c0 + c1 z + ... + c5 z^5, zz = z^2, the products side by side. */
+DAL_INLINE num dal__quintic(const double *c, num z, num zz)
+{
+    num low = dal_fma(z, dal_num(c[1]), dal_num(c[0]));
+    num middle = dal_fma(z, dal_num(c[3]), dal_num(c[2]));
+    num high = dal_fma(z, dal_num(c[5]), dal_num(c[4]));
+    return dal_fma(zz, dal_fma(zz, high, middle), low);
 }
 
 /* sin(r + tail), r^2 = z. */
 DAL_INLINE num dal__sin_kernel(num r, num tail, num z)
 {
-    num zz = z * z;
-    num S = (-0x1.5555555555549p-3 + z * 0x1.111111110f823p-7) +
-            zz * ((-0x1.a01a019c063e9p-13 + z * 0x1.71de356d7f5c2p-19) +
-                  zz * (-0x1.ae5e5df644004p-26 + z * 0x1.5d9088d79b4d8p-33));
-    return r + (tail * (1.0 - 0.5 * z) + (r * z) * S);
+    static const double S[] = {-0x1.5555555555549p-3,  0x1.111111110f823p-7,
+                               -0x1.a01a019c063e9p-13, 0x1.71de356d7f5c2p-19,
+                               -0x1.ae5e5df644004p-26, 0x1.5d9088d79b4d8p-33};
+    num moved = tail * dal_fma(z, dal_num(-0.5), dal_num(1.0));
+    return r + dal_fma(r * z, dal__quintic(S, z, z * z), moved);
 }
 
 /* cos(r + tail), r^2 = z; what 1 - z/2 loses to rounding is put back. */
 DAL_INLINE num dal__cos_kernel(num r, num tail, num z)
 {
-    num zz = z * z, half = 0.5 * z, w = 1.0 - half;
-    num C = (0x1.555555555554ep-5 + z * -0x1.6c16c16c15552p-10) +
-            zz * ((0x1.a01a019d06981p-16 + z * -0x1.27e4f84120a12p-22) +
-                  zz * (0x1.1eea0e0eaff16p-29 + z * -0x1.8fbed74f17e31p-37));
-    return w + (((1.0 - w) - half) + (zz * C - r * tail));
+    static const double C[] = {0x1.555555555554ep-5,  -0x1.6c16c16c15552p-10,
+                               0x1.a01a019d06981p-16, -0x1.27e4f84120a12p-22,
+                               0x1.1eea0e0eaff16p-29, -0x1.8fbed74f17e31p-37};
+    num zz = z * z, w = dal_fma(z, dal_num(-0.5), dal_num(1.0));
+    num lost = dal_fma(z, dal_num(-0.5), 1.0 - w);
+    return w + dal_fma(zz, dal__quintic(C, z, zz), dal_fma(-r, tail, lost));
 }
 
 /* near, but libm's sin x or cos x in the lanes beyond. */

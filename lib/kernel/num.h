@@ -108,10 +108,19 @@ DAL_INLINE num dal_choose(int condition, num a, num b) { return condition ? a : 
 /* Lanes where x is neither infinite nor NaN. */
 DAL_INLINE dal_mask dal_finite(num x) { return dal_equal(x - x, dal_num(0.0)); }
 
+/* a b + c, rounded once.  Where the processor has no instruction for it the C library computes it:
+ * the same bits, slowly. */
 #if DAL_LANES == 1
 DAL_INLINE num dal_abs(num x) { return fabs(x); }
 DAL_INLINE num dal_sqrt(num x) { return sqrt(x); }
+DAL_INLINE num dal_fma(num a, num b, num c) { return __builtin_fma(a, b, c); }
 #else
+DAL_INLINE num dal_fma(num a, num b, num c)
+{
+    num r;
+    for (int lane = 0; lane < DAL_LANES; lane++) r[lane] = __builtin_fma(a[lane], b[lane], c[lane]);
+    return r;
+}
 DAL_INLINE num dal_abs(num x) { return (num)((dal_mask)x & INT64_MAX); }
 DAL_INLINE num dal_sqrt(num x)
 {

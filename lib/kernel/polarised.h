@@ -40,13 +40,13 @@ typedef struct dal_euler {
 DAL_INLINE void dal__euler_q(dal_step *s, dal_euler *k)
 {
     DAL_EACH(i, DAL_N(s))
-        k->q[i] = dal_choose(k->at.q, s->y[i] + (k->h * k->v[i] + s->r[i]), s->y[i]);
+        k->q[i] = dal_choose(k->at.q, s->y[i] + dal_fma(dal_num(k->h), k->v[i], s->r[i]), s->y[i]);
 }
 
 /* h (F + pi* w), from the field last asked for. */
 DAL_INLINE num dal__euler_dv(const dal_step *s, const dal_euler *k, int i)
 {
-    return DAL_LIFTED(s) ? k->h * (k->f[i] + k->pi[i] * k->w) : k->h * k->f[i];
+    return k->h * (DAL_LIFTED(s) ? dal_fma(k->pi[i], k->w, k->f[i]) : k->f[i]);
 }
 
 /* s_v = 1: u = v1. */
@@ -66,8 +66,8 @@ DAL_INLINE void dal__euler_p(dal_step *s, dal_euler *k)
 {
     const int n = DAL_N(s), p = dal_at_p(s);
     DAL_EACH(i, n)
-        k->p[i] =
-            dal_choose(k->at.q, s->y[p + i], s->y[p + i] + (s->r[p + i] - k->h * k->f[n + i]));
+        k->p[i] = dal_choose(k->at.q, s->y[p + i],
+                             s->y[p + i] + dal_fma(dal_num(-k->h), k->f[n + i], s->r[p + i]));
 }
 
 /* s_v = 0: u = pi1. */
@@ -79,7 +79,8 @@ DAL_INLINE void dal__euler_map_pi(dal_step *s, dal_equation *eq)
     dal_adjoint(s, k->t, k->q, k->v, k->pi, k->f);
     dal__euler_p(s, k);
     DAL_EACH(i, n)
-        eq->block[0].image[i] = s->y[pi + i] + (s->r[pi + i] - k->h * (k->p[i] + k->f[2 * n + i]));
+        eq->block[0].image[i] =
+            s->y[pi + i] + dal_fma(dal_num(-k->h), k->p[i] + k->f[2 * n + i], s->r[pi + i]);
 }
 
 /* 1 - h F_v - [s_q=1] h^2 F_q, or 1 + h F_v^T - [s_q=0] h^2 F_q^T. */

@@ -3,8 +3,8 @@
  * The state y, [dim]:   physical  q[n], v[n], g[multipliers]              dim = n + nw
  *                       lifted    q[n], v[n], e, p[n], pi[n], pi_e        dim = 4n + 2
  * with nw = n + multipliers.  A state is kept as y + r, r the rounding error of the last sum
- * (compensated summation, Kahan 1965; two-sum, Knuth, TAOCP 2, 4.2.2), and y is never -0, so that
- * the same motion has the same bits on both spaces. */
+ * (compensated summation, Kahan, CACM 8 (1965) 40), and y is never -0, so that the same motion has
+ * the same bits on both spaces. */
 #ifndef DAL_KERNEL_STEP_H
 #define DAL_KERNEL_STEP_H
 
@@ -184,7 +184,7 @@ DAL_INLINE dal_status dal_field(dal_step *s, double t, const num *y, num *DAL_RE
     const num *p = y + dal_at_p(s), *pi = y + dal_at_pi(s);
     const num w = 1.0 / y[dal_at_e(s)];
     dal_adjoint(s, t, y, y + n, pi, f);
-    DAL_EACH(i, n) dy[n + i] = f[i] + pi[i] * w;
+    DAL_EACH(i, n) dy[n + i] = dal_fma(pi[i], w, f[i]);
     DAL_EACH(i, n) dy[dal_at_p(s) + i] = -f[n + i];
     DAL_EACH(i, n) dy[dal_at_pi(s) + i] = -p[i] - f[2 * n + i];
     dy[dal_at_e(s)] = dal_mu_e(s, t);
@@ -194,17 +194,17 @@ DAL_INLINE dal_status dal_field(dal_step *s, double t, const num *y, num *DAL_RE
 }
 
 /* y + r += d for count components, compensated; lanes that are no longer alive stay as they are.
- * A sum is -0 only if both parts are, and y is not. */
+ * The error is exact where |y| >= |d|, and else off by no more than the rounding of d itself.  A
+ * sum is -0 only if both parts are, and y is not. */
 DAL_INLINE void dal_add(dal_step *s, int first, int count, const num *d)
 {
     num *const DAL_RESTRICT y = s->y + first, *const DAL_RESTRICT r = s->r + first;
     const dal_mask alive = s->alive;
     DAL_EACH(i, count) {
         const num a = y[i], b = d[i] + r[i];
-        const num sum = a + b, c = sum - a;
-        const num error = (a - (sum - c)) + (b - c);
+        const num sum = a + b;
         y[i] = dal_select(alive, sum, a);
-        r[i] = dal_select(alive, error, r[i]);
+        r[i] = dal_select(alive, b - (sum - a), r[i]);
     }
 }
 
