@@ -30,10 +30,10 @@ SONAME  := libdalembert.so.$(firstword $(subst ., ,$(VERSION)))
 
 # Sources over num - files named *_wide.c, and every integrator - are compiled once per variant: a
 # number of lanes and an instruction set, chosen when a batch is made.  Of two with the same lanes
-# the better one comes later.  Blocks, x64, are made of groups of lanes, a register each; their
+# the better one comes later.  x1 is what others may call by name.  Blocks, x64, are made of groups of lanes, a register each; their
 # integrators are those of the group.
 VARIANTS        = x1 x4 x8 x64 $(VARIANTS_$(MACHINE))
-VARIANTS_x86_64 = x4_AVX2 x64_AVX2 x8_AVX512 x64_AVX512
+VARIANTS_x86_64 = x1_AVX2 x4_AVX2 x64_AVX2 x8_AVX512 x64_AVX512
 FLAGS_AVX2      = -mavx2 -mfma
 FLAGS_AVX512    = -mavx512f -mavx512dq -mavx512vl -mfma -mprefer-vector-width=512
 GROUP_BASE      = x2
@@ -78,7 +78,7 @@ $(call SAY,cc)$(CC) $(ALL) $(VARIANT) -MMD -MP -c $< -o $@
 endef
 
 define COMPILE_VARIANT
-$(BUILD)/%_$1.o: VARIANT = -DDAL_VARIANT=$1 -DDAL_LANES=$(lanes) -DDAL_GROUP=$(call lanes,$(group)) $(FLAGS_$(instructions))
+$(BUILD)/%_$1.o: VARIANT = $(if $(filter x1,$1),,-DDAL_VARIANT=$1) -DDAL_LANES=$(lanes) -DDAL_GROUP=$(call lanes,$(group)) $(FLAGS_$(instructions))
 $(BUILD)/%_$1.o: %.c ; $$(COMPILE)
 endef
 $(foreach variant,$(sort $(VARIANTS) $(GROUPS)),$(eval $(call COMPILE_VARIANT,$(variant))))

@@ -35,9 +35,9 @@
 #include "../lib/kernel/collocation.h"
 
 /* DAL_INTEGRATOR(NAME, step function, the descriptor's other members): defines the constant
- * descriptor dal_integrator_NAME; at the other widths only the library's registry sees it, under a
- * name of its own. */
-#if DAL_LANES == 1
+ * descriptor dal_integrator_NAME; the other variants are seen by the library's registry only, under
+ * names of their own. */
+#ifndef DAL_VARIANT
 #define DAL_INTEGRATOR(identifier, function, ...)                                                  \
     extern const dal_integrator dal_integrator_##identifier;                                       \
     const dal_integrator dal_integrator_##identifier = {.step = (function), __VA_ARGS__}

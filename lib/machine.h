@@ -7,7 +7,8 @@
  *
  * with the name of what there is a variant of, the variant (its suffix), its lanes, its instruction
  * set, and the group of lanes it is made of, whose integrators it uses (kernel/groups.h); of two
- * variants with the same lanes the better one comes later.  x1, the single run, is not in it. */
+ * variants with the same lanes the better one comes later.  x1, which every machine has and an
+ * integrator from outside may have alone, is not in it. */
 #ifndef DAL_MACHINE_H
 #define DAL_MACHINE_H
 

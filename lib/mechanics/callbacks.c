@@ -5,7 +5,8 @@
 #define X(code, name, reads)                                                                       \
     static dal_status name(const dal_system *system, const dal_at *at, double *out)                \
     {                                                                                              \
-        return dal__run_program_x1(system, at, out, DAL__PROGRAM_##code, reads);                   \
+        const dal__programs *p = system->data;                                                     \
+        return p->run(system, at, out, DAL__PROGRAM_##code, reads);                                \
     }
 DAL__SINGLE_LIST(X)
 #undef X
@@ -23,7 +24,7 @@ static dal_status diagnose(const dal_system *system, const dal_at *at, double *o
     const dal__programs *p = system->data;
     const dal__equations *e = p->equations;
     double *value = at->work + p->scratch;
-    DAL_TRY(dal__run_program_x1(system, at, value, DAL__PROGRAM_DIAGNOSE, DAL__T | DAL__QV));
+    DAL_TRY(p->run(system, at, value, DAL__PROGRAM_DIAGNOSE, DAL__T | DAL__QV));
     out[0] = 0.0;
     for (int k = 0; k < e->pivots; k++)
         if (e->pivot[k].constraint == 0 && vanished(value + 2 * k)) return DAL_SINGULAR_MASS;

@@ -5,11 +5,6 @@
 #include "kernel/num.h"
 #include "mechanics/mechanics.h"
 
-#define run_program DAL_WIDE(dal__run_program)
-
-dal_status run_program(const dal_system *system, const dal_at *at, double *out,
-                       dal__program_code code, unsigned reads);
-
 /* Lanes of a block. */
 enum { LANES = DAL_GROUPS * DAL_LANES };
 
@@ -57,8 +52,8 @@ static void hand_over(const dal__program *program, const num *all, num *out)
         out[i] = dal_select(ok, all[i], poison);
 }
 
-dal_status run_program(const dal_system *system, const dal_at *at, double *out,
-                       dal__program_code code, unsigned reads)
+static dal_status run_program(const dal_system *system, const dal_at *at, double *out,
+                              dal__program_code code, unsigned reads)
 {
     const dal__programs *p = system->data;
     const dal__program *program = &p->program[code];
@@ -82,10 +77,11 @@ dal_status run_program(const dal_system *system, const dal_at *at, double *out,
 DAL__WIDE_LIST(X)
 #undef X
 
-void DAL_WIDE(dal__callbacks)(const dal__programs *programs, dal_callbacks *call)
+dal__run_program *DAL_WIDE(dal__callbacks)(const dal__programs *programs, dal_callbacks *call)
 {
 #define X(code, name, reads)                                                                       \
     call->name = programs->program[DAL__PROGRAM_##code].present ? name : NULL;
     DAL__WIDE_LIST(X)
 #undef X
+    return run_program;
 }

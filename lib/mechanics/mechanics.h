@@ -104,6 +104,10 @@ typedef struct dal__program {
     int watched; /* pivots, each with its size, that follow the outputs */
 } dal__program;
 
+/* Evaluates a program on what it reads of *at. */
+typedef dal_status dal__run_program(const dal_system *system, const dal_at *at, double *out,
+                                    dal__program_code code, unsigned reads);
+
 /* What a dal_system of a model holds as its data. */
 typedef struct dal__programs {
     dal__tapes *tapes;
@@ -112,7 +116,8 @@ typedef struct dal__programs {
     int t, q, v, pi, g; /* places of the inputs in work */
     size_t scratch;     /* place in work for outputs and watched pivots together */
     dal__program program[DAL__PROGRAM_COUNT];
-    dal_callbacks wide4, wide8, wide64;
+    dal_callbacks wide1, wide4, wide8, wide64;
+    dal__run_program *run; /* a program of one lane */
 } dal__programs;
 
 /* A pivot must exceed this fraction of what it was subtracted from: some hundred times the rounding
@@ -215,12 +220,11 @@ dal_status dal__programs_finish(dal__programs *programs, dal_system *system);
 
 /* ---- callbacks_wide.c, callbacks.c ---- */
 
+/* Sets *call to the callbacks of a variant; what runs its programs. */
 #define DAL__CALLBACKS(name, variant, lanes, set, group)                                           \
-    void name##_##variant(const dal__programs *programs, dal_callbacks *call);
+    dal__run_program *name##_##variant(const dal__programs *programs, dal_callbacks *call);
 DAL__CALLBACKS(dal__callbacks, x1, 1, BASE, x1)
 DAL__VARIANT_LIST(DAL__CALLBACKS, dal__callbacks)
-dal_status dal__run_program_x1(const dal_system *system, const dal_at *at, double *out,
-                               dal__program_code code, unsigned reads);
 void dal__callbacks_single(const dal__programs *programs, dal_system *system);
 
 /* ---- builtin.c ---- */

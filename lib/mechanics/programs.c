@@ -136,11 +136,15 @@ dal_status dal__programs_finish(dal__programs *programs, dal_system *system)
     system->data = programs;
     system->workspace = programs->scratch + scratch_room(programs);
     system->prepare = prepare;
-    dal__callbacks_x1(programs, &system->call);
+    programs->run = dal__callbacks_x1(programs, &programs->wide1);
 #define X(name, variant, lanes, set, group)                                                        \
-    if (dal__machine_has(DAL__##set)) name##_##variant(programs, &programs->wide##lanes);
+    if (dal__machine_has(DAL__##set)) {                                                            \
+        dal__run_program *run = name##_##variant(programs, &programs->wide##lanes);                \
+        if (lanes == 1) programs->run = run;                                                       \
+    }
     DAL__VARIANT_LIST(X, dal__callbacks)
 #undef X
+    system->call = programs->wide1;
     dal__callbacks_single(programs, system);
     system->wide4 = &programs->wide4;
     system->wide8 = &programs->wide8;

@@ -8,32 +8,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* What differs from variant to variant, by number. */
-typedef struct engine_kind {
-    int width;
-    dal__instructions set;
-    size_t (*bytes)(const dal__shape *shape);
-    void *(*place)(const dal__shape *shape, void *memory, double **carried, double **work);
-    dal__lanes (*step)(void *engine, double h, dal__lanes alive, dal_status *why);
-} engine_kind;
-
-static const engine_kind kinds[DAL__VARIANTS] = {
-#define X(name, variant, lanes, set, group)                                                        \
-    {lanes, DAL__##set, name##_bytes_##variant, name##_place_##variant, name##_step_##variant},
-    X(dal__engine, x1, 1, BASE, x1) DAL__VARIANT_LIST(X, dal__engine)
-#undef X
-};
-
 /* The widths a batch may ask for, and the kinds it is made of, the widest first. */
 static const int widths[] = {DAL__BLOCK, 8, 4, 1};
 enum { WIDTHS = sizeof widths / sizeof *widths };
 typedef struct choice {
-    const engine_kind *kind[WIDTHS];
+    const dal__engine_kind *kind[WIDTHS];
     int count;
 } choice;
 
 typedef struct block {
-    const engine_kind *kind;
+    const dal__engine_kind *kind;
     int first; /* the batch's lane that is its lane 0 */
     void *engine;
     double *carried, *work;
@@ -51,19 +35,6 @@ struct dal_batch {
 
 /* ---- which blocks ---- */
 
-static bool can(const dal__shape *k, dal__variant variant)
-{
-    const int width = kinds[variant].width;
-    const dal_system *s = k->system;
-    if (variant == DAL__VARIANT_x1) return true;
-    if (!(width == 4 ? s->wide4 : width == 8 ? s->wide8 : s->wide64)) return false;
-    if (width == DAL__BLOCK && (k->lifted || k->depth > 1)) return false;
-    if (width == DAL__BLOCK && !(k->method.chain[0]->claims & DAL_COMPONENTWISE)) return false;
-    for (int i = 0; i < k->depth; i++)
-        if (!dal__integrator_wide(k->method.chain[i], variant)) return false;
-    return dal__machine_has(kinds[variant].set);
-}
-
 /* Whether what a step touches, scratch apart, takes no more than half of a second-level cache. */
 enum { NEAR = 1 << 19 };
 static bool is_near(const dal__shape *k, int width)
@@ -72,22 +43,13 @@ static bool is_near(const dal__shape *k, int width)
     return numbers * (size_t)width * sizeof(double) <= (size_t)NEAR;
 }
 
-/* The best kind of a width there is for a shape; NULL: none. */
-static const engine_kind *best_of(const dal__shape *k, int width)
-{
-    const engine_kind *best = NULL;
-    for (int v = 0; v < DAL__VARIANTS; v++)
-        if (kinds[v].width == width && can(k, (dal__variant)v)) best = &kinds[v];
-    return best;
-}
-
 /* The best kinds up to the width asked for (0: up to the one that pays).  A kind of several lanes
  * that lacks the instruction set of a narrower one is slower than that. */
 static choice choose(const dal__shape *k, int width)
 {
     choice made = {{NULL}, 0};
     for (int i = 0; i < WIDTHS; i++) {
-        const engine_kind *best = best_of(k, widths[i]);
+        const dal__engine_kind *best = dal__engine_best(k, widths[i]);
         if (!best || (width ? widths[i] > width : widths[i] > 8 && !is_near(k, widths[i])))
             continue;
         while (made.count && made.kind[made.count - 1]->set < best->set) made.count--;
@@ -97,7 +59,7 @@ static choice choose(const dal__shape *k, int width)
 }
 
 /* The kind of the next block when so many lanes remain: the widest that is more than half full. */
-static const engine_kind *next_kind(const choice *from, int remaining)
+static const dal__engine_kind *next_kind(const choice *from, int remaining)
 {
     int i = 0;
     while (i < from->count - 1 && remaining <= from->kind[i]->width / 2) i++;
@@ -153,7 +115,7 @@ static bool measure(dal_batch *batch, const choice *from, size_t *bytes)
 {
     *bytes = ALIGNMENT;
     for (int done = 0; done < batch->count; batch->blocks++) {
-        const engine_kind *k = next_kind(from, batch->count - done);
+        const dal__engine_kind *k = next_kind(from, batch->count - done);
         const size_t more = round_up(k->bytes(&batch->scalar->shape));
         if (more > SIZE_MAX / 2 - *bytes) return false;
         *bytes += more;
@@ -163,7 +125,7 @@ static bool measure(dal_batch *batch, const choice *from, size_t *bytes)
 }
 
 /* Lanes past the count hold a copy of the start, so that they compute nothing unusual. */
-static void place_block(dal_batch *batch, block *b, const engine_kind *kind, int first,
+static void place_block(dal_batch *batch, block *b, const dal__engine_kind *kind, int first,
                         void *memory)
 {
     *b = (block){.kind = kind, .first = first};
@@ -178,7 +140,7 @@ static void place_blocks(dal_batch *batch, const choice *from)
 {
     char *at = (char *)batch->memory + (ALIGNMENT - (uintptr_t)batch->memory % ALIGNMENT);
     for (int i = 0, first = 0; i < batch->blocks; i++) {
-        const engine_kind *k = next_kind(from, batch->count - first);
+        const dal__engine_kind *k = next_kind(from, batch->count - first);
         place_block(batch, &batch->block[i], k, first, at);
         at += round_up(k->bytes(&batch->scalar->shape));
         first += k->width;
@@ -206,10 +168,10 @@ dal_status dal__batch_create(dal_batch **batch, const dal_run_spec *spec, int co
     *batch = NULL;
     if (!made) return dal__error(error, DAL_MEMORY, 0, 0, "no memory for a batch");
     dal_status status = dal_run_create(&made->scalar, spec, error);
-    if (status == DAL_OK && only != DAL__VARIANTS && !can(&made->scalar->shape, only))
+    if (status == DAL_OK && only != DAL__VARIANTS && !dal__engine_can(&made->scalar->shape, only))
         status = dal__error(error, DAL_UNSUPPORTED, 0, 0, "variant %d cannot run here", (int)only);
     if (status == DAL_OK) {
-        const choice one = {{&kinds[only % DAL__VARIANTS]}, 1};
+        const choice one = {{&dal__engine_kinds[only % DAL__VARIANTS]}, 1};
         const choice from = only == DAL__VARIANTS ? choose(&made->scalar->shape, width) : one;
         made->count = count;
         status = allocate(made, &from, error);

@@ -77,4 +77,21 @@ typedef uint64_t dal__lanes;
 DAL__ENGINE(dal__engine, x1, 1, BASE, x1)
 DAL__VARIANT_LIST(DAL__ENGINE, dal__engine)
 
+/* The same by number. */
+typedef struct dal__engine_kind {
+    int width;
+    dal__instructions set;
+    size_t (*bytes)(const dal__shape *shape);
+    void *(*place)(const dal__shape *shape, void *memory, double **carried, double **work);
+    dal__lanes (*step)(void *engine, double h, dal__lanes alive, dal_status *why);
+    dal_status (*ask)(void *engine, int question, double t, const double *state, double *out);
+    void (*trace)(void *engine, dal__cause *cause);
+} dal__engine_kind;
+extern const dal__engine_kind dal__engine_kinds[DAL__VARIANTS];
+
+/* Whether machine, system and integrators have the variant; the best there is of a width, or NULL
+ * (of width 1 there is always one). */
+bool dal__engine_can(const dal__shape *shape, dal__variant variant);
+const dal__engine_kind *dal__engine_best(const dal__shape *shape, int width);
+
 #endif

@@ -40,8 +40,7 @@ static bool gauge_crosses(dal_run *run, double t, double h)
     const double e = run->carried[2 * run->shape.n];
     double mu[2] = {0.0, 0.0};
     for (int i = 0; i < 2; i++)
-        if (dal__engine_ask_x1(run->engine, DAL_ASK_GAUGE, t + i * h, run->carried, &mu[i]) !=
-            DAL_OK)
+        if (run->kind->ask(run->engine, DAL_ASK_GAUGE, t + i * h, run->carried, &mu[i]) != DAL_OK)
             return false;
     return e * (e + h * mu[0]) <= 0.0 || e * (e + h * mu[1]) <= 0.0;
 }
@@ -74,7 +73,7 @@ static bool predict(dal_run *run, double t, double dt)
 {
     const dal__shape *k = &run->shape;
     double *f = run->answer;
-    if (dal__engine_ask_x1(run->engine, DAL_ASK_FIELD, t, run->carried, f) != DAL_OK) return false;
+    if (run->kind->ask(run->engine, DAL_ASK_FIELD, t, run->carried, f) != DAL_OK) return false;
     for (int i = 0; i < k->n; i++) run->shadow[i] = run->carried[i] + dt * run->carried[k->n + i];
     for (int i = 0; i < k->nw; i++) run->shadow[k->n + i] = run->carried[k->n + i] + dt * f[i];
     return true;
@@ -84,9 +83,8 @@ static bool predict(dal_run *run, double t, double dt)
 static double *ask_both(dal_run *run, int question, int size, double t, double dt)
 {
     double *first = run->answer, *second = first + size;
-    const bool good =
-        dal__engine_ask_x1(run->engine, question, t, run->carried, first) == DAL_OK &&
-        dal__engine_ask_x1(run->engine, question, t + dt, run->shadow, second) == DAL_OK;
+    const bool good = run->kind->ask(run->engine, question, t, run->carried, first) == DAL_OK &&
+                      run->kind->ask(run->engine, question, t + dt, run->shadow, second) == DAL_OK;
     return good ? second : NULL;
 }
 
@@ -138,9 +136,9 @@ static void repeat(dal_run *run, double h, dal__cause *cause)
     const size_t bytes = run->shape.carried * sizeof *run->carried;
     dal_status why = DAL_OK;
     memcpy(run->shadow, run->carried, bytes);
-    dal__engine_trace_x1(run->engine, cause);
-    dal__engine_step_x1(run->engine, h, 1u, &why);
-    dal__engine_trace_x1(run->engine, NULL);
+    run->kind->trace(run->engine, cause);
+    run->kind->step(run->engine, h, 1u, &why);
+    run->kind->trace(run->engine, NULL);
     memcpy(run->carried, run->shadow, bytes);
 }
 

@@ -17,7 +17,7 @@ static size_t total_bytes(const dal__shape *k)
 {
     const size_t numbers = k->carried + answer_count(k) + (size_t)(k->n + k->nw);
     return 64 + round_up(sizeof(dal_run)) + round_up(numbers * sizeof(double)) +
-           dal__engine_bytes_x1(k);
+           dal__engine_best(k, 1)->bytes(k);
 }
 
 size_t dal_run_size(const dal_run_spec *spec)
@@ -37,7 +37,8 @@ static dal_run *place(const dal__shape *shape, void *memory)
     run->point = run->answer + answer_count(shape);
     const size_t numbers = shape->carried + answer_count(shape) + (size_t)(shape->n + shape->nw);
     at += round_up(numbers * sizeof(double));
-    run->engine = dal__engine_place_x1(shape, at, &run->carried, &run->work);
+    run->kind = dal__engine_best(shape, 1);
+    run->engine = run->kind->place(shape, at, &run->carried, &run->work);
     return run;
 }
 
@@ -94,7 +95,7 @@ dal_status dal__run_steps(dal_run *run, double h, long long count)
     dal_status why = DAL_OK;
     if (run->native.steps) return native_steps(run, h, count);
     for (long long i = 0; i < count; i++)
-        if (dal__engine_step_x1(run->engine, h, 1u, &why)) return why;
+        if (run->kind->step(run->engine, h, 1u, &why)) return why;
     return DAL_OK;
 }
 

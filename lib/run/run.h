@@ -15,7 +15,8 @@ typedef struct dal__native {
 
 struct dal_run {
     dal__shape shape;
-    void *engine;    /* width 1 */
+    const dal__engine_kind *kind; /* of one lane */
+    void *engine;
     double *carried; /* [shape.carried] the engine's own */
     double *work;    /* [shape.workspace] parameters, and the system's */
     double *shadow;  /* [shape.carried] state of the trajectory during a side step */

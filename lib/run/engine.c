@@ -1,0 +1,42 @@
+/* engine.c - which variant of the engine steps a run or a block of a batch. */
+#include "run/engine.h"
+
+const dal__engine_kind dal__engine_kinds[DAL__VARIANTS] = {
+#define X(name, variant, lanes, set, group)                                                        \
+    {lanes,                                                                                        \
+     DAL__##set,                                                                                   \
+     name##_bytes_##variant,                                                                       \
+     name##_place_##variant,                                                                       \
+     name##_step_##variant,                                                                        \
+     name##_ask_##variant,                                                                         \
+     name##_trace_##variant},
+    X(dal__engine, x1, 1, BASE, x1) DAL__VARIANT_LIST(X, dal__engine)
+#undef X
+};
+
+static bool has_callbacks(const dal_system *s, int width)
+{
+    return width == 1 || (width == 4 ? s->wide4 : width == 8 ? s->wide8 : s->wide64);
+}
+
+bool dal__engine_can(const dal__shape *k, dal__variant variant)
+{
+    const int width = dal__engine_kinds[variant].width;
+    if (variant == DAL__VARIANT_x1) return true;
+    if (!has_callbacks(k->system, width)) return false;
+    if (width == DAL__BLOCK && (k->lifted || k->depth > 1)) return false;
+    if (width == DAL__BLOCK && !(k->method.chain[0]->claims & DAL_COMPONENTWISE)) return false;
+    for (int i = 0; i < k->depth; i++)
+        if (!dal__integrator_wide(k->method.chain[i], variant)) return false;
+    return dal__machine_has(dal__engine_kinds[variant].set);
+}
+
+const dal__engine_kind *dal__engine_best(const dal__shape *k, int width)
+{
+    const dal__engine_kind *best = NULL;
+    for (int v = 0; v < DAL__VARIANTS; v++) {
+        const dal__engine_kind *kind = &dal__engine_kinds[v];
+        if (kind->width == width && dal__engine_can(k, (dal__variant)v)) best = kind;
+    }
+    return best;
+}
