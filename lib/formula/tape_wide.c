@@ -22,35 +22,18 @@ void DAL_WIDE(dal__execute)(const dal__tape *tape, double *work)
     case DAL__##code:                                                                              \
         EACH_GROUP                                                                                 \
         {                                                                                          \
-            num a = AT(i.a);                                                                       \
+            const num a = AT(i.a), b = AT(i.b), c = AT(i.c);                                       \
             AT(i.d) = expression;                                                                  \
+            (void)b, (void)c;                                                                      \
         }                                                                                          \
         break;
             DAL__UNARY_LIST(X)
-#undef X
-#define X(code, expression)                                                                        \
-    case DAL__##code:                                                                              \
-        EACH_GROUP                                                                                 \
-        {                                                                                          \
-            num a = AT(i.a), b = AT(i.b);                                                          \
-            AT(i.d) = expression;                                                                  \
-        }                                                                                          \
-        break;
             DAL__BINARY_LIST(X)
+            DAL__FUSED_LIST(X)
 #undef X
         case DAL__SINCOS:
             EACH_GROUP dal_sincos(AT(i.a), &AT(i.d), &AT(i.b));
             break;
-#define X(code, expression)                                                                        \
-    case DAL__##code:                                                                              \
-        EACH_GROUP                                                                                 \
-        {                                                                                          \
-            num a = AT(i.a), b = AT(i.b), c = AT(i.c);                                             \
-            AT(i.d) = expression;                                                                  \
-        }                                                                                          \
-        break;
-            DAL__FUSED_LIST(X)
-#undef X
         }
     }
 }

@@ -59,7 +59,7 @@ if there gcc; then
     try 0 generate isokinetic --integrator gauss4+project --prefix g -o g.c
     holds "it does not compile" gcc -std=c11 -Os -ffreestanding $strict -c g.c -o g.o
     holds "it needs $(nm -u g.o | tr -d '\n')" test -z "$(nm -u g.o | awk '{ print $2 }' |
-        grep -Evx 'memcpy|memset|sin|cos|tan|exp|log|pow|a?sinh?|a?cosh?|a?tanh?|atan2|sqrt|fabs')"
+        grep -Evx 'memcpy|memset|sin|cos|tan|exp|log|pow|a?sinh?|a?cosh?|a?tanh?|atan2|sqrt|fabs|fma')"
     case_is "declarations alone"
     printf '#define g_HEADER\n#include "g.c"\nint main(void) { return g_LANES - 1; }\n' >head.c
     holds "it is more than declarations" sh -c "gcc -std=c11 $strict head.c -o head && ./head"
