@@ -114,7 +114,8 @@ enum {
     DAL_E_WEAK = 1 << 6,        /* dE/dt = 0 on D = 0 only */
     DAL_AUTONOMOUS = 1 << 7,    /* F does not depend on t */
     DAL_MASS_CONSTANT = 1 << 8, /* W depends on parameters alone */
-    DAL_VAKONOMIC = 1 << 9
+    DAL_VAKONOMIC = 1 << 9,
+    DAL_SERVO = 1 << 10 /* reactions along directions B of their own, not along A^T */
 };
 
 /* A second-order system with constraints, as a plain struct: filled by a model or by hand with
@@ -163,6 +164,7 @@ typedef struct dal_model dal_model;
     X(ACCELERATIONS, "accelerations") /* coordinate, formula; instead of a Lagrangian */           \
     X(FORCES, "forces")               /* coordinate, formula */                                    \
     X(CONSTRAINTS, "constraints")     /* formula */                                                \
+    X(REACTIONS, "reactions")         /* constraint.coordinate, as 2.x: formula; see below */      \
     X(MECHANICS, "mechanics")         /* lagrange-d'alembert (default) or vakonomic */             \
     X(GAUGE, "gauge")                 /* e or mu_e, formula in t and parameters */                 \
     X(START, "start")                 /* name, formula in parameters */                            \
@@ -176,6 +178,12 @@ typedef enum dal_section {
 #undef X
         DAL_SECTION_COUNT
 } dal_section;
+
+/* Without reactions Chetaev's rule gives them: constraint a pushes along dD_a/dv.  With them it
+ * pushes along B_a(q,v,t), as an actuator does that enforces a servo constraint:
+ *     W dv/dt = b + B^T h,   (A W^-1 B^T) h = -(c + A W^-1 b)
+ * In a file reactions is a list parallel to constraints; its item a maps coordinates to the
+ * components of B_a, those not named being 0:    reactions: [{x: 1, theta: -l*cos(theta)}] */
 
 /* An empty model, or NULL when memory is out. [alloc] */
 dal_model *dal_model_create(const char *name);

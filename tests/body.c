@@ -221,7 +221,7 @@ void body_motion(const body_formulas *f, const double *q, const double *v, doubl
         for (int j = 0; j < n; j++) {
             double A = body_by_v(f->constraint, k, j, q, v, t);
             a[(n + k) * columns + j] = A;
-            a[j * columns + n + k] = -A;
+            a[j * columns + n + k] = f->reaction ? -f->reaction(k * n + j, q, v, t) : -A;
         }
         a[(n + k) * columns + size] = -body_drift(f, k, q, v, t);
     }

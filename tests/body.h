@@ -41,6 +41,7 @@ typedef struct body_formulas {
     body_function *lagrangian; /* index unused */
     body_function *force;      /* of coordinate index; NULL: none */
     body_function *constraint; /* number index */
+    body_function *reaction;   /* B, index a*n + i; NULL: A, by Chetaev's rule */
 } body_formulas;
 
 /* First derivative of f at x[i], x one of q, v (n each) or t, by the central difference of order 8
@@ -56,7 +57,7 @@ double body_drift(const body_formulas *f, int a, const double *q, const double *
 /* Solves the n equations in a[n*(n+1)] by elimination with row pivots; the last column becomes the
  * solution. */
 void body_solve(int n, double *a);
-/* F from W F - A^T h = b, A F = -c. */
+/* F from W F - B^T h = b, A F = -c. */
 void body_motion(const body_formulas *f, const double *q, const double *v, double t, double *F);
 
 /* max |a - b| over max(1, max |b|). */

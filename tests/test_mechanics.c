@@ -49,7 +49,7 @@ static double hard_constraint(int a, const double *q, const double *v, double t)
                   : v[1] * v[2] - 0.4 * v[3] * v[3] + q[0] * v[3] / 10 - t / 7;
 }
 
-static const body_formulas hard = {4, 2, hard_lagrangian, hard_force, hard_constraint};
+static const body_formulas hard = {4, 2, hard_lagrangian, hard_force, hard_constraint, NULL};
 
 /* Indefinite, with zeros on the diagonal of the mass matrix. */
 static const char null_text[] = "mechanics: lagrange-d'alembert\n"
@@ -79,7 +79,7 @@ static double null_constraint(int a, const double *q, const double *v, double t)
     return v[0] * v[1] + v[2] * v[2] / 2 - v[3] * v[3] / 2 + 0.5 + t * q[0] / 9;
 }
 
-static const body_formulas null_mass = {4, 1, null_lagrangian, null_force, null_constraint};
+static const body_formulas null_mass = {4, 1, null_lagrangian, null_force, null_constraint, NULL};
 
 static const struct {
     const char *text;
@@ -286,7 +286,7 @@ static body vakonomic_body(void)
 
 static void test_vakonomic(void)
 {
-    const body_formulas f = {4, 2, vakonomic_lagrangian, hard_force, hard_constraint};
+    const body_formulas f = {4, 2, vakonomic_lagrangian, hard_force, hard_constraint, NULL};
     body b = vakonomic_body();
     double out[6], residual[6] = {0.0}, zero[6] = {0.0};
     multiplier[0] = v0[4], multiplier[1] = v0[5];

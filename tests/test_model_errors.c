@@ -46,6 +46,11 @@ static const bad_file yaml[] = {
     {DAL_SYNTAX, "a text is expected in coordinates", "coordinates: [@[x]]\n"},
     {DAL_SYNTAX, "a text is expected in start", "start: {x: @{y: 1}}\n"},
     {DAL_SYNTAX, "a name is expected here", "start: {@[x]: 1}\n"},
+    {DAL_SYNTAX, "reactions must be a list of mappings", "reactions: @{x: 1}\n"},
+    {DAL_SYNTAX, "reactions must be a list of mappings", "reactions: [{x: 1}, @y]\n"},
+    {DAL_SYNTAX, "a text is expected in reactions", "reactions: [{x: @[1]}]\n"},
+    {DAL_SYNTAX, "this list is empty", "reactions: [@]\n"},
+    {DAL_SYNTAX, "this mapping is empty", "reactions: [{x: 1}, {@}]\n"},
 };
 
 /* ---- names ---- */
@@ -86,6 +91,9 @@ static const bad_file names[] = {
      XY L "invariants: {@error: x}\n"},
     {DAL_MODEL, "invariant 'x': a coordinate already has this name", XY L "invariants: {@x: y}\n"},
     {DAL_NAME, "unknown coordinate in forces 'yy'; did you mean 'y'?", XY L "forces: {@yy: 1}\n"},
+    {DAL_MODEL, "duplicate 'x' in reactions", "reactions: [{x: 1}, {x: 1, @x: 2}]\n"},
+    {DAL_NAME, "unknown coordinate in reactions 'xx'; did you mean 'x'?",
+     XY L "constraints: [x', y']\nreactions: [{x: 1}, {y: 1, @xx: 1}]\n"},
     {DAL_NAME, "unknown coordinate in accelerations 'z'", XY "accelerations: {@z: 1}\n"},
     {DAL_NAME, "unknown coordinate in exact 'z'", XY L "exact: {x: 1, @z: 1}\n"},
     {DAL_NAME, "unknown name in start 'yy''; did you mean 'y''?", XY L "start: {@yy': 1}\n"},
@@ -103,6 +111,8 @@ static const bad_file formulas[] = {
     {DAL_NAME, "lagrangian: unknown name 'z'", XY "lagrangian: (x'^2 + @z'^2)/2\n"},
     {DAL_NAME, "constraint 2: unknown name 'omgea'; did you mean 'omega'?",
      "parameters: {omega: 1}\n" XY L "constraints:\n  - x'\n  - y' - @omgea\n"},
+    {DAL_NAME, "reaction 2 on y: unknown name 'z'",
+     XY L "constraints: [x', y']\nreactions:\n  - {x: 1}\n  - {x: 1, y: x + @z}\n"},
     {DAL_NAME, "constraint 1: unknown function 'si'; did you mean 'sin'?",
      XY L "constraints: [x'*@si(x)]\n"},
     {DAL_NAME, "force on y: parameter 'm' has no velocity",
@@ -164,6 +174,15 @@ static const bad_file mechanics[] = {
      "the mass matrix is singular: it does not determine the acceleration of 'y'",
      XY "lagrangian: @(x' + x*y')^2/2\n"},
     {DAL_RANK, "constraint 1 does not depend on the velocities", XY L "constraints: [@x - y]\n"},
+    {DAL_MODEL, "vakonomic mechanics has no reactions: its multipliers take their place",
+     XY L "mechanics: vakonomic\nconstraints: [x']\nreactions: [{@x: 1}]\n"},
+    {DAL_MODEL, "reaction 2 has no constraint: there are 1",
+     XY L "constraints: [x']\nreactions: [{x: 1}, {@y: 1}]\n"},
+    {DAL_MODEL, "reaction 1 has no constraint: there are 0", XY L "reactions: [{@y: 1}]\n"},
+    {DAL_MODEL, "constraint 2 has no reaction: the list needs one for each",
+     XY L "constraints: [x', y']\nreactions: [{@x: 1}]\n"},
+    {DAL_RANK, "constraint 1 is not held by the reactions: A W^-1 B^T is singular",
+     XY L "constraints: [@x']\nreactions: [{y: 1}]\n"},
     {DAL_RANK, "3 constraints on 2 coordinates", XY L "constraints: [x', y', @x' + y']\n"},
     {DAL_RANK, "constraint 2 is not independent of the others: A W^-1 A^T is singular",
      XY L "constraints: [x' + y', @x*(x' + y')]\nstart: {x: 1}\n"},
@@ -299,52 +318,6 @@ static void test_many(void)
     dal_model_free(model);
 }
 
-/* ---- by hand ---- */
-
-static void test_add(void)
-{
-    dal_model *model = dal_model_create("hand");
-    const dal_system *system;
-    dal_error error;
-    CU_ASSERT(dal_model_add(model, DAL_SECTION_FORCES, NULL, "1", 3, 4, &error) == DAL_ARGUMENT);
-    CU_ASSERT_STRING_EQUAL(error.message, "an entry of forces has a name and a text");
-    CU_ASSERT(dal_model_add(model, DAL_SECTION_TAGS, "a", "b", 3, 4, &error) == DAL_ARGUMENT);
-    CU_ASSERT_STRING_EQUAL(error.message, "an entry of tags has a text and no name");
-    CU_ASSERT(dal_model_add(model, DAL_SECTION_LAGRANGIAN, NULL, "x'^2/", 0, 0, NULL) == DAL_OK);
-    CU_ASSERT(dal_model_add(model, DAL_SECTION_LAGRANGIAN, NULL, "1", 0, 0, &error) == DAL_MODEL);
-    CU_ASSERT_STRING_EQUAL(error.message, "duplicate lagrangian");
-    CU_ASSERT(dal_model_add(model, DAL_SECTION_COORDINATES, NULL, "x", 0, 0, NULL) == DAL_OK);
-    CU_ASSERT(dal_model_system(model, &system, &error) == DAL_SYNTAX);
-    CU_ASSERT(error.line == 1 && error.column > 1); /* within the text itself */
-    dal_model_free(model);
-    dal_model_free(NULL);
-}
-
-static void test_add_after(void)
-{
-    dal_model *model;
-    const dal_system *system;
-    dal_error error;
-    CU_ASSERT_FATAL(dal_model_builtin(&model, "damped-oscillator", &error) == DAL_OK);
-    CU_ASSERT(dal_model_system(model, &system, &error) == DAL_OK);
-    CU_ASSERT(dal_model_add(model, DAL_SECTION_TAGS, NULL, "b", 0, 0, &error) == DAL_ARGUMENT);
-    CU_ASSERT_STRING_EQUAL(error.message,
-                           "'damped-oscillator' already has its system: nothing can be added");
-    dal_model_free(model);
-}
-
-static void test_vakonomic_tangent(void)
-{
-    dal_model *model;
-    const dal_system *system;
-    dal_error error;
-    CU_ASSERT_FATAL(dal_model_builtin(&model, "chaplygin-sleigh-vakonomic", &error) == DAL_OK);
-    CU_ASSERT(dal_model_tangent(model, &system, &error) == DAL_UNSUPPORTED && system == NULL);
-    CU_ASSERT_STRING_EQUAL(error.message, "'chaplygin-sleigh-vakonomic' has multipliers: there is "
-                                          "no tangent system for it");
-    dal_model_free(model);
-}
-
 /* ---- memory ---- */
 
 static dal_status whole_life(const char *name, dal_error *error)
@@ -377,6 +350,7 @@ static void test_memory(void)
 {
     check_memory("vertical-disk");
     check_memory("chaplygin-sleigh-vakonomic");
+    check_memory("servo-pendulum");
 }
 
 void suite_model_errors(void)
@@ -391,8 +365,5 @@ void suite_model_errors(void)
     CU_add_test(suite, "files", test_files);
     CU_add_test(suite, "built-in systems", test_builtin);
     CU_add_test(suite, "too many entries", test_many);
-    CU_add_test(suite, "models by hand", test_add);
-    CU_add_test(suite, "no entries after the system", test_add_after);
-    CU_add_test(suite, "no tangent of vakonomic motion", test_vakonomic_tangent);
     CU_add_test(suite, "out of memory", test_memory);
 }

@@ -187,7 +187,9 @@ static const struct {
     {"x' - t*y'", DAL_D_LINEAR, DAL_E_WEAK},
     {"x' - sin(y)*y'", DAL_D_LINEAR, DAL_E_WEAK},
     {"x'^2 - y'^2", DAL_D_QUADRATIC | DAL_D_WATCHED, DAL_E_WEAK},
-    {"x'^2 + y'^2 - 1", DAL_D_QUADRATIC | DAL_D_WATCHED, 0},
+    {"x'^2 + y'^2 - 1", DAL_D_QUADRATIC | DAL_D_WATCHED, DAL_E_EXACT}, /* free: h = 0 */
+    {"x'^2 + y'^2 - 2 + x'", DAL_D_QUADRATIC | DAL_D_WATCHED, DAL_E_EXACT},
+    {"x'^2 + y'^2 - x", DAL_D_QUADRATIC | DAL_D_WATCHED, 0},
     {"x'^3 - x*y'^3", DAL_D_WATCHED, DAL_E_WEAK},
     {"sqrt(x'^2 + y'^2) - exp(x)*y'", DAL_D_WATCHED, DAL_E_WEAK},
     {"atan2(x', y') - x", DAL_D_WATCHED, DAL_E_EXACT},

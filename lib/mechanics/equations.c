@@ -1,10 +1,11 @@
 /* equations.c - the equations of motion, as nodes.
  *
  *     W = L_vv,  b = L_q - L_vq v - L_vt + Q,  A = D_v,  c = D_q v + D_t
- *     G = A W^-1 A^T,  G h = -(c + A W^-1 b),  F = W^-1 (b + A^T h)              (nh3)-(nh5)
+ *     G = A W^-1 B^T,  G h = -(c + A W^-1 b),  F = W^-1 (b + B^T h)              (nh3)-(nh5)
  *
- * Given accelerations are the case W = 1.  Vakonomic motion is that of L' = L - g.D with the
- * multipliers g as further variables:                                          (nh6), (nh35)
+ * with B = A by Chetaev's rule, or as the reactions say.  Given accelerations are the case W = 1.
+ * Vakonomic motion is that of L' = L - g.D with the multipliers g as further variables: (nh6),
+ * (nh35)
  *
  *     ( L'_vv  -A^T ) (dv/dt)   ( L'_q - L'_vq v - L'_vt + Q )
  *     (   A      0  ) (dg/dt) = (       - D_q v - D_t        )  */
@@ -88,24 +89,33 @@ static bool take_linear(dal_model *model, dal__linear *s, int n, int columns, in
     return !model->starved;
 }
 
-/* x = W^-1 (b, A^T), columns 0 and 1..m. */
+/* The column of W^-1 B_a; that of W^-1 A_a is 1 + a. */
+static int reaction_column(const dal__equations *e, int a) { return 1 + a + (e->servo ? e->m : 0); }
+
+/* x = W^-1 (b, A^T, B^T), the last only where it differs from A^T. */
 static dal_status solve_mass(dal_model *model, dal__linear *s)
 {
     const dal__equations *e = &model->equations;
-    int columns = 1 + e->m;
+    int columns = reaction_column(e, e->m);
     if (!take_linear(model, s, e->n, columns, e->n)) return DAL_MEMORY;
     for (int i = 0; i < e->n * e->n; i++) s->matrix[i] = e->W[i];
     for (int i = 0; i < e->n; i++) {
         s->rhs[i * columns] = e->b[i];
-        for (int a = 0; a < e->m; a++) s->rhs[i * columns + 1 + a] = e->A[a * e->n + i];
+        for (int a = 0; a < e->m; a++) {
+            s->rhs[i * columns + 1 + a] = e->A[a * e->n + i];
+            s->rhs[i * columns + reaction_column(e, a)] = e->B[a * e->n + i];
+        }
     }
     DAL_TRY(dal__linear_solve(model, s));
     for (int i = 0; i < e->n; i++)
-        for (int a = 0; a < e->m; a++) e->U[i * e->m + a] = s->x[i * columns + 1 + a];
+        for (int a = 0; a < e->m; a++) {
+            e->U[i * e->m + a] = s->x[i * columns + 1 + a];
+            e->R[i * e->m + a] = s->x[i * columns + reaction_column(e, a)];
+        }
     return DAL_OK;
 }
 
-/* A W^-1 x for column k of W^-1 (b, A^T). */
+/* A W^-1 x for column k of W^-1 (b, A^T, B^T). */
 static dal__node project(const dal__equations *e, int a, const dal__linear *mass, int k)
 {
     dal__node sum = dal__number(e->graph, 0.0);
@@ -123,8 +133,10 @@ static dal_status solve_reaction(dal_model *model, const dal__linear *mass, dal_
     for (int a = 0; a < e->m; a++) {
         dal__node pull = dal__add(e->graph, e->c[a], project(e, a, mass, 0));
         s->rhs[a] = dal__neg(e->graph, pull);
-        for (int b = a; b < e->m; b++)
-            s->matrix[a * e->m + b] = s->matrix[b * e->m + a] = project(e, a, mass, 1 + b);
+        for (int b = 0; b < e->m; b++)
+            s->matrix[a * e->m + b] = b < a && !e->servo
+                                          ? s->matrix[b * e->m + a]
+                                          : project(e, a, mass, reaction_column(e, b));
     }
     return dal__linear_solve(model, s);
 }
@@ -141,9 +153,12 @@ static dal_status singular_mass(const dal_model *model, int row, dal_error *erro
 static dal_status dependent_constraints(const dal_model *model, int row, dal_error *error)
 {
     const dal__entry *entry = dal__model_entry(model, DAL_SECTION_CONSTRAINTS, row);
-    return dal__error(error, DAL_RANK, entry->line, entry->column,
-                      "constraint %d is not independent of the others: A W^-1 A^T is singular",
-                      row + 1);
+    return dal__error(
+        error, DAL_RANK, entry->line, entry->column,
+        model->equations.servo
+            ? "constraint %d is not held by the reactions: A W^-1 B^T is singular"
+            : "constraint %d is not independent of the others: A W^-1 A^T is singular",
+        row + 1);
 }
 
 static dal_status solve_motion(dal_model *model, dal_error *error)
@@ -157,7 +172,7 @@ static dal_status solve_motion(dal_model *model, dal_error *error)
     if (status == DAL_SINGULAR) return dependent_constraints(model, reaction.singular, error);
     if (status != DAL_OK) return exhausted(model, error);
     for (int i = 0; i < e->n; i++) {
-        dal__node pushed = dal__dot(e->graph, e->m, e->U + i * e->m, reaction.x);
+        dal__node pushed = dal__dot(e->graph, e->m, e->R + i * e->m, reaction.x);
         e->F[i] = dal__add(e->graph, mass.x[i * mass.columns], pushed);
     }
     return DAL_OK;

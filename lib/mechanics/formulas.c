@@ -17,6 +17,7 @@ static const char *const labels[DAL_SECTION_COUNT] = {
     [DAL_SECTION_FORCES] = "force on",       [DAL_SECTION_CONSTRAINTS] = "constraint",
     [DAL_SECTION_GAUGE] = "gauge",           [DAL_SECTION_START] = "start of",
     [DAL_SECTION_INVARIANTS] = "invariant",  [DAL_SECTION_EXACT] = "exact solution for",
+    [DAL_SECTION_REACTIONS] = "reaction",
 };
 
 /* The message gets the name of the entry, the place that of the formula. */
@@ -27,7 +28,9 @@ static dal_status locate(const dal_model *model, const dal__entry *entry, dal_er
     int number = 1;
     for (const dal__entry *other = model->entries; other < entry; other++)
         number += other->section == entry->section;
-    if (entry->name)
+    if (entry->item)
+        snprintf(name, sizeof name, " %d on %.80s", entry->item, entry->name);
+    else if (entry->name)
         snprintf(name, sizeof name, " %.80s", entry->name);
     else if (dal__section_shape(entry->section) == DAL__LIST)
         snprintf(name, sizeof name, " %d", number);
@@ -82,7 +85,8 @@ static dal_status find_coordinate(const dal_model *model, const dal__entry *entr
                         e->coordinate, e->n);
 }
 
-/* Adds the formulas of a section to out[i] of their coordinates. */
+/* Adds the formulas of a section to out[i] of their coordinates; in a list of mappings each item
+ * has its row. */
 static dal_status by_coordinate(dal_model *model, dal_section section, dal__scope scope,
                                 dal__node *out, dal_error *error)
 {
@@ -93,6 +97,7 @@ static dal_status by_coordinate(dal_model *model, dal_section section, dal__scop
         if (entry->section != section) continue;
         DAL_TRY(find_coordinate(model, entry, &i, error));
         DAL_TRY(parse(model, entry, scope, &node, error));
+        if (entry->item) i += (entry->item - 1) * model->equations.n;
         out[i] = dal__add(model->equations.graph, out[i], node);
     }
     return DAL_OK;
@@ -145,6 +150,7 @@ static dal_status parse_dynamics(dal_model *model, dal_error *error)
     DAL_TRY(by_coordinate(model, DAL_SECTION_ACCELERATIONS, all, e->force, error));
     DAL_TRY(by_coordinate(model, DAL_SECTION_FORCES, all, e->force, error));
     DAL_TRY(parse_each(model, DAL_SECTION_CONSTRAINTS, all, e->m, e->constraint, error));
+    DAL_TRY(by_coordinate(model, DAL_SECTION_REACTIONS, all, e->B, error));
     all.may |= DAL__MAY_MULTIPLIERS;
     return parse_each(model, DAL_SECTION_INVARIANTS, all, e->invariants, e->invariant, error);
 }
@@ -310,8 +316,10 @@ static dal_status allocate(dal_model *model, dal_error *error)
     e->b = nodes(model, n, zero);
     e->momentum = nodes(model, n, zero);
     e->A = nodes(model, m * n, zero);
+    e->B = e->servo ? nodes(model, m * n, zero) : e->A;
     e->c = nodes(model, m, zero);
     e->U = nodes(model, n * m, 0);
+    e->R = e->servo ? nodes(model, n * m, zero) : e->U;
     e->F = nodes(model, n + m, zero);
     e->pivot = dal__model_take(model, (size_t)(2 * (n + m)), sizeof *e->pivot);
     e->value = dal__model_take(model, (size_t)e->symbols, sizeof *e->value);
@@ -344,6 +352,7 @@ dal_status dal__formulas(dal_model *model, dal_error *error)
     e->multipliers = e->vakonomic ? e->m : 0;
     DAL_TRY(check_sizes(model, error));
     DAL_TRY(check_dynamics(model, error));
+    DAL_TRY(dal__reactions(model, error));
     number_symbols(e);
     DAL_TRY(allocate(model, error));
     e->start[2 * e->n + e->multipliers] = dal__number(e->graph, 1.0);

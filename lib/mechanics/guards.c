@@ -1,4 +1,5 @@
-/* guards.c - expressions of the constraints, and det W, that must keep their signs along a run.
+/* guards.c - expressions of the constraints, det W and, with reactions of their own, det A W^-1
+ * B^T: they must keep their signs along a run.
  *
  * Where a denominator passes through zero, or tan(x) through a pole, a step can leap over the
  * singularity without meeting it; so it can where D = f(q,t) (...) loses its normal with f. Guarded
@@ -89,20 +90,27 @@ static void visit(search *s, dal__node node)
     if (exponent.op == DAL__NUMBER && exponent.value < 0.0) s->flag[view.a] |= FACTOR;
 }
 
-/* det W, the product of its pivots, where it varies along a run: W is singular where it passes
- * through zero, and a step can leap over that, too. */
-static void guard_mass(search *s)
+/* The product of the pivots of W or of A W^-1 B^T, where it varies along a run: the matrix is
+ * singular where it passes through zero, and a step can leap over that, too. */
+static bool guard_determinant(search *s, bool mass, const char *name)
 {
     dal__equations *e = &s->model->equations;
     dal__node det = dal__number(e->graph, 1.0);
     for (int k = 0; k < e->pivots; k++)
-        if (e->pivot[k].constraint == 0) det = dal__mul(e->graph, det, e->pivot[k].pivot);
-    if (e->vakonomic || !dal__depends(e->graph, det, e->parameters, e->symbols)) return;
+        if (mass == (e->pivot[k].constraint == 0)) det = dal__mul(e->graph, det, e->pivot[k].pivot);
+    if (e->vakonomic || !dal__depends(e->graph, det, e->parameters, e->symbols)) return false;
     s->full = s->full || e->guards == MOST_GUARDS;
-    if (s->full) return;
+    if (s->full) return false;
     e->guard[e->guards] = det;
-    e->guard_name[e->guards++] = "the mass matrix: det W";
-    e->mass_guard = e->guards;
+    e->guard_name[e->guards++] = name;
+    return true;
+}
+
+static void guard_determinants(search *s)
+{
+    dal__equations *e = &s->model->equations;
+    if (e->servo) guard_determinant(s, false, "the reactions: det A W^-1 B^T");
+    if (guard_determinant(s, true, "the mass matrix: det W")) e->mass_guard = e->guards;
 }
 
 dal_status dal__guards(dal_model *model)
@@ -120,7 +128,7 @@ dal_status dal__guards(dal_model *model)
         for (dal__node node = e->constraint[a]; node > 0; node--)
             if (s.flag[node]) visit(&s, node);
     }
-    if (!model->starved) guard_mass(&s);
+    if (!model->starved) guard_determinants(&s);
     if (model->starved) return DAL_MEMORY;
     return s.full ? DAL_TOO_LARGE : dal__graph_status(e->graph);
 }

@@ -16,8 +16,10 @@ enum {
 };
 
 /* How the entries of a section stand in a file. */
-typedef enum dal__form { DAL__SCALAR, DAL__LIST, DAL__MAPPING } dal__form;
+typedef enum dal__form { DAL__SCALAR, DAL__LIST, DAL__MAPPING, DAL__MAPPINGS } dal__form;
 dal__form dal__section_shape(dal_section section);
+/* Whether each entry has a name and a text. */
+bool dal__section_named(dal_section section);
 const char *dal__section_name(dal_section section);
 
 /* One text of a model, and where it and its name stood. */
@@ -26,6 +28,7 @@ typedef struct dal__entry {
     const char *name; /* NULL in lists and scalars */
     const char *text;
     int line, column, name_line, name_column;
+    int item; /* in a list of mappings: which, from 1; otherwise 0 */
 } dal__entry;
 
 /* A pivot of the elimination.  It must not be small against what it was subtracted from. */
@@ -40,7 +43,7 @@ typedef struct dal__pivot {
 typedef struct dal__equations {
     dal__graph *graph;
     int parameters, n, m, multipliers, invariants, lets, guards, pivots;
-    bool vakonomic, accelerations;
+    bool vakonomic, accelerations, servo;
     unsigned properties;
     /* First symbols of the inputs.  Twice the room for q, v and pi: the tangent system has 2n. */
     int t, q, v, pi, g, symbols;
@@ -58,8 +61,10 @@ typedef struct dal__equations {
     dal__node *b;        /* [n] */
     dal__node *momentum; /* [n]: L_v */
     dal__node *A;        /* [m*n] */
+    dal__node *B;        /* [m*n]: directions of the reactions; A itself by Chetaev's rule */
     dal__node *c;        /* [m] */
     dal__node *U;        /* [n*m]: W^-1 A^T, or 0s */
+    dal__node *R;        /* [n*m]: W^-1 B^T; U itself by Chetaev's rule */
     dal__node *F;        /* [n + multipliers] */
     dal__node energy;    /* or 0 */
     dal__node *guard;    /* [guards] */
@@ -169,6 +174,11 @@ typedef struct dal__scope {
 dal__node dal__resolve_name(void *scope, const char *name, size_t length, bool prime,
                             dal_error *error);
 
+/* ---- reactions.c ---- */
+
+/* Whether there are reactions of their own, and then one for each constraint. */
+dal_status dal__reactions(dal_model *model, dal_error *error);
+
 /* ---- formulas.c ---- */
 
 /* Parses all entries into nodes and evaluates the default parameters and start. */
@@ -198,9 +208,11 @@ dal__node dal__dot(dal__graph *graph, int count, const dal__node *a, const dal__
 /* d/dt along v without accelerations: f_q v + f_t. */
 dal__node dal__along(const dal__equations *e, dal__node f);
 
-/* ---- properties.c, guards.c ---- */
+/* ---- properties.c, energy.c, guards.c ---- */
 
 dal_status dal__properties(dal_model *model);
+/* Adds what is known of E to the properties. */
+dal_status dal__energy_properties(dal_model *model);
 dal_status dal__guards(dal_model *model);
 
 /* ---- programs.c ---- */

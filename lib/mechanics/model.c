@@ -30,9 +30,17 @@ dal__form dal__section_shape(dal_section section)
     case DAL_SECTION_CONSTRAINTS:
     case DAL_SECTION_TAGS:
         return DAL__LIST;
+    case DAL_SECTION_REACTIONS:
+        return DAL__MAPPINGS;
     default:
         return DAL__MAPPING;
     }
+}
+
+bool dal__section_named(dal_section section)
+{
+    dal__form shape = dal__section_shape(section);
+    return shape == DAL__MAPPING || shape == DAL__MAPPINGS;
 }
 
 /* ---- memory ---- */
@@ -150,16 +158,17 @@ static dal_status check_name(const dal__entry *entry, dal_error *error)
 static dal_status check_duplicate(const dal_model *model, const dal__entry *entry, dal_error *error)
 {
     dal__form shape = dal__section_shape(entry->section);
-    const char *name = shape == DAL__MAPPING ? entry->name : entry->text;
+    bool named = dal__section_named(entry->section);
+    const char *name = named ? entry->name : entry->text;
     const char *section = dal__section_name(entry->section);
     if (entry->section == DAL_SECTION_CONSTRAINTS) return DAL_OK;
     for (int k = 0; k < model->count; k++) {
         const dal__entry *other = &model->entries[k];
-        if (other->section != entry->section) continue;
+        if (other->section != entry->section || other->item != entry->item) continue;
         if (shape == DAL__SCALAR)
             return dal__error(error, DAL_MODEL, entry->name_line, entry->name_column,
                               "duplicate %s", section);
-        if (strcmp(shape == DAL__MAPPING ? other->name : other->text, name) == 0)
+        if (strcmp(named ? other->name : other->text, name) == 0)
             return dal__error(error, DAL_MODEL, entry->name_line, entry->name_column,
                               "duplicate '%.80s' in %s", name, section);
     }
@@ -168,11 +177,11 @@ static dal_status check_duplicate(const dal_model *model, const dal__entry *entr
 
 static dal_status check_entry(const dal_model *model, const dal__entry *entry, dal_error *error)
 {
-    bool mapping = dal__section_shape(entry->section) == DAL__MAPPING;
-    if (!entry->text || mapping != (entry->name != NULL))
+    bool named = dal__section_named(entry->section);
+    if (!entry->text || named != (entry->name != NULL))
         return dal__error(error, DAL_ARGUMENT, entry->name_line, entry->name_column,
                           "an entry of %s has %s", dal__section_name(entry->section),
-                          mapping ? "a name and a text" : "a text and no name");
+                          named ? "a name and a text" : "a text and no name");
     DAL_TRY(check_name(entry, error));
     return check_duplicate(model, entry, error);
 }
@@ -209,9 +218,24 @@ dal_status dal__model_insert(dal_model *model, dal__entry entry, dal_error *erro
     return DAL_OK;
 }
 
+/* "2.x" is x of item 2. */
+static dal_status split_item(dal__entry *entry, dal_error *error)
+{
+    const char *c = entry->name;
+    while (*c >= '0' && *c <= '9' && entry->item <= DAL__MOST_COORDINATES)
+        entry->item = 10 * entry->item + (*c++ - '0');
+    if (*c != '.' || entry->item < 1)
+        return dal__error(error, DAL_NAME, entry->name_line, entry->name_column,
+                          "'%.80s' in %s is not a constraint and a coordinate, as 1.x", entry->name,
+                          dal__section_name(entry->section));
+    entry->name = c + 1;
+    return DAL_OK;
+}
+
 dal_status dal_model_add(dal_model *model, dal_section section, const char *name, const char *text,
                          int line, int column, dal_error *error)
 {
-    return dal__model_insert(model, (dal__entry){section, name, text, line, column, line, column},
-                             error);
+    dal__entry entry = {section, name, text, line, column, line, column, 0};
+    if (section == DAL_SECTION_REACTIONS && name) DAL_TRY(split_item(&entry, error));
+    return dal__model_insert(model, entry, error);
 }

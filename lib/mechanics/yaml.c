@@ -156,8 +156,10 @@ static dal_status take_key(reader *r, dal__entry *entry)
 
 static dal_status wrong_shape(reader *r, dal_section section)
 {
-    static const char *const shapes[] = {
-        [DAL__SCALAR] = "one text", [DAL__LIST] = "a list", [DAL__MAPPING] = "a mapping of names"};
+    static const char *const shapes[] = {[DAL__SCALAR] = "one text",
+                                         [DAL__LIST] = "a list",
+                                         [DAL__MAPPING] = "a mapping of names",
+                                         [DAL__MAPPINGS] = "a list of mappings"};
     return dal__error(r->error, DAL_SYNTAX, line_of(r->event.start_mark),
                       column_of(r->event.start_mark), "%s must be %s", dal__section_name(section),
                       shapes[dal__section_shape(section)]);
@@ -188,16 +190,30 @@ static dal_status read_list(reader *r, dal_section section)
     }
 }
 
-static dal_status read_mapping(reader *r, dal_section section)
+static dal_status read_mapping(reader *r, dal_section section, int item)
 {
     if (r->event.type != YAML_MAPPING_START_EVENT) return wrong_shape(r, section);
-    for (;;) {
-        dal__entry entry = {.section = section};
+    for (int count = 0;; count++) {
+        dal__entry entry = {.section = section, .item = item};
         DAL_TRY(next(r));
+        if (r->event.type == YAML_MAPPING_END_EVENT && item && count == 0)
+            return here(r, DAL_SYNTAX, "this mapping is empty");
         if (r->event.type == YAML_MAPPING_END_EVENT) return DAL_OK;
         DAL_TRY(take_key(r, &entry));
         DAL_TRY(next(r));
         DAL_TRY(read_entry(r, entry));
+    }
+}
+
+static dal_status read_mappings(reader *r, dal_section section)
+{
+    if (r->event.type != YAML_SEQUENCE_START_EVENT) return wrong_shape(r, section);
+    for (int item = 1;; item++) {
+        DAL_TRY(next(r));
+        if (r->event.type == YAML_SEQUENCE_END_EVENT && item == 1)
+            return here(r, DAL_SYNTAX, "this list is empty");
+        if (r->event.type == YAML_SEQUENCE_END_EVENT) return DAL_OK;
+        DAL_TRY(read_mapping(r, section, item));
     }
 }
 
@@ -207,7 +223,9 @@ static dal_status read_section(reader *r, dal_section section)
     case DAL__LIST:
         return read_list(r, section);
     case DAL__MAPPING:
-        return read_mapping(r, section);
+        return read_mapping(r, section, 0);
+    case DAL__MAPPINGS:
+        return read_mappings(r, section);
     default:
         if (r->event.type != YAML_SCALAR_EVENT) return wrong_shape(r, section);
         return read_entry(r, (dal__entry){.section = section});
