@@ -36,6 +36,7 @@ VARIANTS        = x1 x4 x8 x64 $(VARIANTS_$(MACHINE))
 VARIANTS_x86_64 = x1_AVX2 x4_AVX2 x64_AVX2 x8_AVX512 x64_AVX512
 FLAGS_AVX2      = -mavx2 -mfma
 FLAGS_AVX512    = -mavx512f -mavx512dq -mavx512vl -mfma -mprefer-vector-width=512
+INSTRUCTIONS    = AVX2 AVX512
 GROUP_BASE      = x2
 GROUP_AVX2      = x4
 GROUP_AVX512    = x8
@@ -117,10 +118,13 @@ $(BUILD)/generated/study.c: tools/embed-text.sh bench/studies/canonical-drift.ya
 	mv $@.tmp $@
 $(BUILD)/generated/%.o: $(BUILD)/generated/%.c ; $(COMPILE)
 
-# The list of variants for lib/machine.h.
+# The lists of variants and of instruction sets for lib/machine.h.
 $(BUILD)/generated/variants.h: Makefile
 	@mkdir -p $(@D)
-	@{ printf '#define DAL__VARIANT_LIST(X, name)'; \
+	@{ printf '#define DAL__INSTRUCTIONS_LIST(X)'; \
+	    printf ' X(%s NULL)' 'BASE,' $(foreach set,$(INSTRUCTIONS),'$(set),$(FLAGS_$(set):%= "%",)'); \
+	    echo; \
+	    printf '#define DAL__VARIANT_LIST(X, name)'; \
 	    printf ' X(name, %s, %s, %s, %s)' $(foreach variant,$(filter-out x1,$(VARIANTS)),\
 	        $(variant) $(call lanes,$(variant)) $(call instructions,$(variant)) \
 	        $(call group,$(variant))); echo; } >$@

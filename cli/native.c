@@ -64,7 +64,7 @@ void native_use(dal_run *run, const dal_method *method, double steps, cli_native
     char *directory = cache_directory();
     if (!directory)
         tell("no directory to keep compiled ones in");
-    else if (dal_run_native(run, directory, &error) != DAL_OK)
+    else if (dal_run_native(run, &(dal_native_options){.cache = directory}, &error) != DAL_OK)
         tell(error.message);
     free(directory);
 }

@@ -20,14 +20,25 @@ extern "C" {
 dal_status dal_generate(const dal_run_spec *spec, int lanes, const char *prefix, char **text,
                         dal_error *error);
 
-/* Lets a run step by compiled code from now on: its steps are generated, compiled by cc and loaded,
- * or taken from the cache directory (made if it is missing; it must belong to this user alone).
- * Bits, checkpoints and errors stay the same; so on failure the run just goes on as before.  Starts
- * a process and writes files, which nothing else here does; frees its code with the run, which must
- * then be freed even when it was placed by dal_run_init. [alloc]
- * Errors: DAL_UNSUPPORTED (no compiler; or as dal_generate), DAL_IO, DAL_TOO_LARGE, DAL_MEMORY. */
-dal_status dal_run_native(dal_run *run, const char *cache_directory, dal_error *error);
+/* How steps are compiled and where they are kept; what is 0 or NULL is as said here. */
+typedef struct dal_native_options {
+    const char *cache;    /* a directory; made if it is missing; must be of this user alone */
+    const char *compiler; /* found along PATH, or a path; NULL: cc */
+    int patience;         /* seconds after which a compiler is ended; 0: 60 */
+} dal_native_options;
+
+/* Lets a run step by compiled code from now on: its steps are generated, compiled for this machine
+ * and loaded, or taken from the cache.  Bits, checkpoints and errors stay the same; so on failure
+ * the run just goes on as before.  Starts a process and writes files, which nothing else here does;
+ * frees its code with the run, which must then be freed even when it was placed by dal_run_init.
+ * [alloc]  Errors: DAL_UNSUPPORTED (no compiler, it failed or hung; or as dal_generate), DAL_IO
+ * (cache), DAL_ARGUMENT (no cache named), DAL_TOO_LARGE, DAL_MEMORY. */
+dal_status dal_run_native(dal_run *run, const dal_native_options *options, dal_error *error);
 int dal_run_is_native(const dal_run *run);
+
+/* The same for a batch: all its lanes, as many at a time as suit the machine. */
+dal_status dal_batch_native(dal_batch *batch, const dal_native_options *options, dal_error *error);
+int dal_batch_is_native(const dal_batch *batch);
 
 #ifdef __cplusplus
 }

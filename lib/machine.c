@@ -17,3 +17,10 @@ bool dal__machine_has(dal__instructions set)
         return false;
     }
 }
+
+dal__instructions dal__machine_best(void)
+{
+    int set = DAL__INSTRUCTION_SETS - 1;
+    while (!dal__machine_has((dal__instructions)set)) set--;
+    return (dal__instructions)set;
+}

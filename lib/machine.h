@@ -4,11 +4,13 @@
  * All give the same bits.  The Makefile holds the list and writes it to variants.h:
  *
  *     DAL__VARIANT_LIST(X, name):   X(name, x4, 4, BASE, x4) X(name, x64, 64, BASE, x2) ...
+ *     DAL__INSTRUCTIONS_LIST(X):    X(BASE, NULL) X(AVX2, "-mavx2", "-mfma", NULL) ...
  *
  * with the name of what there is a variant of, the variant (its suffix), its lanes, its instruction
  * set, and the group of lanes it is made of, whose integrators it uses (kernel/groups.h); of two
  * variants with the same lanes the better one comes later.  x1, which every machine has and an
- * integrator from outside may have alone, is not in it. */
+ * integrator from outside may have alone, is not in it.  An instruction set comes with what tells a
+ * compiler of it. */
 #ifndef DAL_MACHINE_H
 #define DAL_MACHINE_H
 
@@ -16,11 +18,17 @@
 #include <stdbool.h>
 
 /* The better the later. */
-typedef enum dal__instructions { DAL__BASE, DAL__AVX2, DAL__AVX512 } dal__instructions;
+typedef enum dal__instructions {
+#define X(set, ...) DAL__##set,
+    DAL__INSTRUCTIONS_LIST(X)
+#undef X
+        DAL__INSTRUCTION_SETS
+} dal__instructions;
 
 enum { DAL__BLOCK = 64 }; /* lanes of a block, the most there are */
 
 /* Whether this machine has an instruction set; BASE is what the whole library is compiled for. */
 bool dal__machine_has(dal__instructions set);
+dal__instructions dal__machine_best(void);
 
 #endif

@@ -4,13 +4,9 @@
 #include "dalembert.h"
 #include "text.h"
 #include <CUnit/CUnit.h>
-#include <dirent.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 static dal_model *model;
 static dal_run_spec spec;
@@ -109,99 +105,6 @@ static void test_numbers(void)
     }
 }
 
-/* ---- native mode ---- */
-
-static void remove_directory(const char *path)
-{
-    char name[512];
-    DIR *directory = opendir(path);
-    for (struct dirent *entry; directory && (entry = readdir(directory));) {
-        snprintf(name, sizeof name, "%s/%.200s", path, entry->d_name);
-        if (entry->d_name[0] != '.') unlink(name);
-    }
-    if (directory) closedir(directory);
-    rmdir(path);
-}
-
-static void same_memory(const dal_run *a, const dal_run *b)
-{
-    size_t m, n;
-    const double *x = dal_run_memory(a, &m), *y = dal_run_memory(b, &n);
-    CU_ASSERT_EQUAL_FATAL(m, n);
-    CU_ASSERT_EQUAL(memcmp(x, y, n * sizeof *x), 0);
-}
-
-/* A run that changes over in the middle, one that is loaded from it, and one that never does. */
-static void same_run(const dal_run_spec *of, const char *cache)
-{
-    dal_run *tape, *native, *loaded;
-    dal_error error;
-    size_t count;
-    CU_ASSERT_EQUAL_FATAL(dal_run_create(&tape, of, &error), DAL_OK);
-    CU_ASSERT_EQUAL_FATAL(dal_run_create(&native, of, &error), DAL_OK);
-    CU_ASSERT_EQUAL_FATAL(dal_run_create(&loaded, of, &error), DAL_OK);
-    CU_ASSERT_EQUAL(dal_run_advance(tape, 300, &error), DAL_OK);
-    CU_ASSERT_EQUAL(dal_run_advance(native, 100, &error), DAL_OK);
-    const dal_status status = dal_run_native(native, cache, &error);
-    if (status == DAL_UNSUPPORTED) puts("(no compiler here)");
-    CU_ASSERT_EQUAL(dal_run_is_native(native), status == DAL_OK);
-    CU_ASSERT_EQUAL(dal_run_advance(native, 135, &error), DAL_OK);
-    const double *memory = dal_run_memory(native, &count);
-    CU_ASSERT_EQUAL(dal_run_load(loaded, memory, count, &error), DAL_OK);
-    CU_ASSERT_EQUAL(dal_run_advance(native, 65, &error), DAL_OK);
-    CU_ASSERT_EQUAL(dal_run_advance(loaded, 65, &error), DAL_OK);
-    same_memory(native, tape);
-    same_memory(loaded, tape);
-    dal_run_free(tape);
-    dal_run_free(native);
-    dal_run_free(loaded);
-}
-
-/* Whatever cannot be allocated, the run is left stepping by its tape. */
-static void starved(const char *cache)
-{
-    dal_run *run;
-    dal_error error;
-    CU_ASSERT_EQUAL_FATAL(dal_run_create(&run, &spec, &error), DAL_OK);
-    for (long n = 0;; n++) {
-        allocation_fail_after(n);
-        const dal_status status = dal_run_native(run, cache, &error);
-        if (!allocation_failed()) break;
-        CU_ASSERT_EQUAL(dal_run_is_native(run), status == DAL_OK);
-    }
-    allocation_fail_after(-1);
-    CU_ASSERT_EQUAL(dal_run_step(run, &error), DAL_OK);
-    dal_run_free(run);
-}
-
-static void test_native(void)
-{
-    char cache[] = "/tmp/dal-native-XXXXXX";
-    const dal_setting slow = {"omega", 0.25};
-    CU_ASSERT_PTR_NOT_NULL_FATAL(mkdtemp(cache));
-    dal_run_spec other = spec;
-    other.parameters = &slow;
-    other.parameter_count = 1;
-    same_run(&other, cache);
-    starved(cache);
-    other.options.space = DAL_PHYSICAL;
-    CU_ASSERT_EQUAL(dal_method_parse(&other.method, "rk4", NULL), DAL_OK);
-    same_run(&other, cache);
-    remove_directory(cache);
-}
-
-static void test_native_refused(void)
-{
-    dal_run *run;
-    dal_error error;
-    CU_ASSERT_EQUAL_FATAL(dal_run_create(&run, &spec, &error), DAL_OK);
-    CU_ASSERT_EQUAL(dal_run_native(run, "/dev/null", &error), DAL_IO);
-    CU_ASSERT_EQUAL(dal_run_native(run, "/nowhere/at/all", &error), DAL_IO);
-    CU_ASSERT_FALSE(dal_run_is_native(run));
-    CU_ASSERT_EQUAL(dal_run_step(run, &error), DAL_OK);
-    dal_run_free(run);
-}
-
 void suite_generate(void);
 void suite_generate(void)
 {
@@ -209,7 +112,5 @@ void suite_generate(void)
     CU_add_test(suite, "what cannot be generated is refused", test_refusals);
     CU_add_test(suite, "every integrator", test_every_method);
     CU_add_test(suite, "memory runs out", test_memory);
-    CU_add_test(suite, "native: same bits", test_native);
-    CU_add_test(suite, "native: directories that cannot be used", test_native_refused);
     CU_add_test(suite, "numbers keep their bits", test_numbers);
 }

@@ -4,6 +4,7 @@
  * no loader looks, in a hash of its own bytes: what was cut short or changed is compiled anew.  It
  * is written under a name of its own and renamed, so that two processes never see half of one. */
 #include "generate/cache.h"
+#include "machine.h"
 #include <errno.h>
 #include <fcntl.h>
 #include <signal.h>
@@ -20,11 +21,39 @@
 
 extern char **environ;
 
-/* How it is compiled; the bits do not depend on it.  No -march: the directory may be shared by
- * machines. */
-static const char *const command[] = {"cc", "-x",      "c",     "-std=gnu11",       "-O2",
-                                      "-w", "-shared", "-fPIC", "-ffp-contract=off"};
-enum { WORDS = sizeof command / sizeof *command, PATH_SIZE = 1024, PATIENCE = 60 /* seconds */ };
+/* How it is compiled; the bits do not depend on it.  What is said of the machine goes into the name
+ * of the object, since machines may share a directory. */
+static const char *const usual[] = {"-x",      "c",     "-std=gnu11",        "-O2", "-w",
+                                    "-shared", "-fPIC", "-ffp-contract=off", NULL};
+static const char *const machine[][8] = {
+#define X(set, ...) {__VA_ARGS__},
+    DAL__INSTRUCTIONS_LIST(X)
+#undef X
+};
+enum { PATH_SIZE = 1024, PATIENCE = 60 /* seconds */ };
+
+/* A command under way. */
+typedef struct command {
+    char *word[32]; /* changed by nobody, though posix_spawn leaves that open */
+    int words, patience;
+} command;
+
+static void add_word(command *c, const char *word) { c->word[c->words++] = (char *)word; }
+
+static void add_words(command *c, const char *const *words)
+{
+    while (*words) add_word(c, *words++);
+}
+
+/* All but the files. */
+static command begin_command(const dal_native_options *options)
+{
+    command c = {.patience = options->patience > 0 ? options->patience : PATIENCE};
+    add_word(&c, options->compiler ? options->compiler : "cc");
+    add_words(&c, usual);
+    add_words(&c, machine[dal__machine_best()]);
+    return c;
+}
 
 /* FNV-1a, 64 bits. */
 static uint64_t hash(uint64_t h, const char *bytes, size_t length)
@@ -91,22 +120,38 @@ static dal_status write_new(const char *path, const char *bytes, size_t length, 
 
 /* ---- the compiler ---- */
 
-/* Waits for a process, at most PATIENCE; its exit status, or -1. */
-static int wait_for(pid_t process)
+/* What became of a process. */
+typedef struct outcome {
+    int status; /* as it ended with, or -1 */
+    bool hung;
+} outcome;
+
+/* Seconds since some time. */
+static double now(void)
+{
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+/* Waits for a process; past its time it is ended, with all that it started. */
+static outcome wait_for(pid_t process, int patience)
 {
     const struct timespec pause = {0, 1000000};
-    int status;
-    for (long tick = 0;; tick++) {
-        const pid_t ended = waitpid(process, &status, tick < PATIENCE * 1000L ? WNOHANG : 0);
-        if (ended == process) return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-        if (ended < 0 && errno != EINTR) return -1;
-        if (tick == PATIENCE * 1000L - 1) kill(-process, SIGKILL); /* and what it started */
+    const double last = now() + patience;
+    outcome out = {-1, false};
+    for (;;) {
+        int status;
+        const pid_t ended = waitpid(process, &status, out.hung ? 0 : WNOHANG);
+        if (ended == process && WIFEXITED(status)) out.status = WEXITSTATUS(status);
+        if (ended == process || (ended < 0 && errno != EINTR)) return out;
+        if (now() >= last) out.hung = kill(-process, SIGKILL) == 0;
         nanosleep(&pause, NULL);
     }
 }
 
 /* Starts a command without input and output, as the head of a process group; 0 or an errno. */
-static int start(char **words, pid_t *process)
+static int start(const command *c, pid_t *process)
 {
     posix_spawn_file_actions_t actions;
     posix_spawnattr_t attributes;
@@ -116,32 +161,30 @@ static int start(char **words, pid_t *process)
         posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
         for (int file = 0; file < 3; file++)
             posix_spawn_file_actions_addopen(&actions, file, "/dev/null", O_RDWR, 0);
-        refused = posix_spawnp(process, words[0], &actions, &attributes, words, environ);
+        refused = posix_spawnp(process, c->word[0], &actions, &attributes, c->word, environ);
         posix_spawnattr_destroy(&attributes);
     }
     posix_spawn_file_actions_destroy(&actions);
     return refused;
 }
 
-static dal_status compile(const char *source, const char *object, dal_error *error)
+static dal_status compile(command c, const char *source, const char *object, dal_error *error)
 {
-    char *words[WORDS + 5];
+    const char *const name = c.word[0], *const files[] = {source, "-o", object, "-lm", NULL};
     pid_t process;
-    int n = 0;
-    for (; n < WORDS; n++) words[n] = (char *)command[n];
-    words[n++] = (char *)source;
-    words[n++] = (char *)"-o";
-    words[n++] = (char *)object;
-    words[n++] = (char *)"-lm";
-    words[n] = NULL;
-    const int refused = start(words, &process);
+    add_words(&c, files);
+    const int refused = start(&c, &process);
     if (refused)
-        return dal__error(error, DAL_UNSUPPORTED, 0, 0, "no compiler '%s': %s", words[0],
+        return dal__error(error, DAL_UNSUPPORTED, 0, 0, "no compiler '%.200s': %s", name,
                           strerror(refused));
-    const int status = wait_for(process);
-    if (status == 0) return DAL_OK;
+    const outcome out = wait_for(process, c.patience);
+    if (out.status == 0) return DAL_OK;
+    if (out.hung)
+        return dal__error(error, DAL_UNSUPPORTED, 0, 0,
+                          "the compiler '%.200s' was ended after %d seconds", name, c.patience);
     return dal__error(error, DAL_UNSUPPORTED, 0, 0,
-                      status == 127 ? "no compiler '%s'" : "the compiler '%s' failed", words[0]);
+                      out.status == 127 ? "no compiler '%.200s'" : "the compiler '%.200s' failed",
+                      name);
 }
 
 /* ---- objects ---- */
@@ -175,14 +218,15 @@ static dal_status seal(const char *path, dal_error *error)
     return close(file) == 0 && written ? DAL_OK : failed(error, "seal", path);
 }
 
-static dal_status make_object(const char *text, const char *path, dal_error *error)
+static dal_status make_object(const command *c, const char *text, const char *path,
+                              dal_error *error)
 {
     char source[PATH_SIZE + 40], object[PATH_SIZE + 40];
     const void *mine = source; /* differs from thread to thread, as the process's number does not */
     snprintf(source, sizeof source, "%s.%ld.%p.c", path, (long)getpid(), mine);
     snprintf(object, sizeof object, "%s.%ld.%p.so", path, (long)getpid(), mine);
     dal_status status = write_new(source, text, strlen(text), error);
-    if (status == DAL_OK) status = compile(source, object, error);
+    if (status == DAL_OK) status = compile(*c, source, object, error);
     if (status == DAL_OK) status = seal(object, error);
     if (status == DAL_OK && rename(object, path) != 0) status = failed(error, "write", path);
     unlink(source);
@@ -190,18 +234,30 @@ static dal_status make_object(const char *text, const char *path, dal_error *err
     return status;
 }
 
-dal_status dal__cache_object(const char *directory, const char *text, char *path, size_t size,
-                             dal_error *error)
+/* A path that no compiler takes for an option, and no loader for a name to look for. */
+static dal_status name_object(const command *c, const char *directory, const char *text, char *path,
+                              size_t size, dal_error *error)
 {
     const size_t length = strlen(text);
     uint64_t one = hash(UINT64_C(0xcbf29ce484222325), text, length), two = hash(1, text, length);
-    for (int i = 0; i < WORDS; i++) one = hash(one, command[i], strlen(command[i]) + 1);
-    if (size > PATH_SIZE) size = PATH_SIZE;
-    if ((size_t)snprintf(path, size, "%s/%016llx%016llx.so", directory, (unsigned long long)one,
-                         (unsigned long long)two) >= size)
-        return dal__error(error, DAL_ARGUMENT, 0, 0, "the path '%.80s...' is too long", directory);
-    DAL_TRY(make_private(directory, error));
-    return is_whole(path) ? DAL_OK : make_object(text, path, error);
+    for (int i = 0; i < c->words; i++) one = hash(one, c->word[i], strlen(c->word[i]) + 1);
+    const int written =
+        snprintf(path, size, "%s%s/%016llx%016llx.so", directory[0] == '/' ? "" : "./", directory,
+                 (unsigned long long)one, (unsigned long long)two);
+    if (written > 0 && (size_t)written < size) return DAL_OK;
+    return dal__error(error, DAL_ARGUMENT, 0, 0, "the path '%.80s...' is too long", directory);
+}
+
+dal_status dal__cache_object(const dal_native_options *options, const char *text, char *path,
+                             size_t size, dal_error *error)
+{
+    if (!options || !options->cache || !options->cache[0])
+        return dal__error(error, DAL_ARGUMENT, 0, 0, "no directory to keep compiled steps in");
+    const command c = begin_command(options);
+    DAL_TRY(
+        name_object(&c, options->cache, text, path, size < PATH_SIZE ? size : PATH_SIZE, error));
+    DAL_TRY(make_private(options->cache, error));
+    return is_whole(path) ? DAL_OK : make_object(&c, text, path, error);
 }
 
 void dal__cache_forget(const char *path) { unlink(path); }

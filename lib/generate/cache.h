@@ -2,14 +2,14 @@
 #ifndef DAL_GENERATE_CACHE_H
 #define DAL_GENERATE_CACHE_H
 
+#include "dalembert.h"
 #include "error.h"
 
-/* The path of a shared object compiled from the text by cc, in path[size]: one that the directory
- * already holds, or made now.  The directory is made if it is missing; it must belong to this user
- * alone.  Errors: DAL_IO (directory, disk), DAL_UNSUPPORTED (no compiler, or it failed),
- * DAL_MEMORY. */
-dal_status dal__cache_object(const char *directory, const char *text, char *path, size_t size,
-                             dal_error *error);
+/* The path of a shared object compiled from the text for this machine, in path[size]: one that the
+ * cache already holds, or made now.  Errors: DAL_ARGUMENT, DAL_IO (cache), DAL_UNSUPPORTED (no
+ * compiler, it failed or hung), DAL_MEMORY. */
+dal_status dal__cache_object(const dal_native_options *options, const char *text, char *path,
+                             size_t size, dal_error *error);
 /* Forgets an object that could not be loaded. */
 void dal__cache_forget(const char *path);
 

@@ -31,6 +31,7 @@ struct dal_batch {
     block *block;     /* [blocks] */
     dal_error *error; /* [count] */
     void *memory;     /* of the engines */
+    dal__native native;
 };
 
 /* ---- which blocks ---- */
@@ -196,15 +197,65 @@ dal_status dal_batch_create(dal_batch **batch, const dal_run_spec *spec, int cou
     return dal__batch_create(batch, spec, count, width, DAL__VARIANTS, error);
 }
 
+static void free_blocks(dal_batch *batch)
+{
+    free(batch->block);
+    free(batch->error);
+    free(batch->memory);
+}
+
 void dal_batch_free(dal_batch *batch)
 {
     if (!batch) return;
     dal_run_free(batch->scalar);
-    free(batch->block);
-    free(batch->error);
-    free(batch->memory);
+    dal__native_free(&batch->native);
+    free_blocks(batch);
     free(batch);
 }
+
+/* ---- compiled steps ---- */
+
+const dal__shape *dal__batch_shape(const dal_batch *batch) { return &batch->scalar->shape; }
+
+/* A register's worth, or less where there are not so many: lanes that nobody asked for cost next to
+ * nothing, and code for other numbers of them would have to be compiled too. */
+int dal__batch_native_lanes(const dal_batch *batch)
+{
+    const int most = dal__machine_has(DAL__AVX512) ? 8 : 4;
+    if (batch->count == 1) return 1;
+    return batch->count <= 4 ? 4 : most;
+}
+
+/* The lanes of a batch as they are, in the blocks of another. */
+static void move_lanes(dal_batch *from, dal_batch *to)
+{
+    for (int lane = 0; lane < from->count; lane++) {
+        block *a = block_of(from, lane), *b = block_of(to, lane);
+        get_lane(from, a, lane - a->first);
+        put_lane(to, b, lane - b->first);
+        to->error[lane] = from->error[lane];
+        if (to->error[lane].status != DAL_OK) b->alive &= ~((dal__lanes)1 << (lane - b->first));
+    }
+}
+
+dal_status dal__batch_install(dal_batch *batch, int lanes, const dal__native *native,
+                              dal_error *error)
+{
+    const choice one = {{dal__engine_best(&batch->scalar->shape, lanes)}, 1};
+    dal_batch made = {.scalar = batch->scalar, .count = batch->count, .stepped = batch->stepped};
+    const dal_status status = allocate(&made, &one, error);
+    if (status != DAL_OK) {
+        free_blocks(&made);
+        return status;
+    }
+    move_lanes(batch, &made);
+    free_blocks(batch);
+    *batch = made;
+    batch->native = *native;
+    return DAL_OK;
+}
+
+int dal_batch_is_native(const dal_batch *batch) { return batch->native.steps != NULL; }
 
 /* ---- use ---- */
 
@@ -236,16 +287,36 @@ static void record(dal_batch *batch, block *b, dal__lanes failed, const dal_stat
     b->alive &= ~failed;
 }
 
+/* Up to count steps of a block, until a lane fails; the number of steps tried. */
+static long long step_block(dal_batch *batch, block *b, double h, long long count,
+                            dal__lanes *failed, dal_status *why)
+{
+    unsigned lanes = 0;
+    int said[DAL__BLOCK];
+    if (batch->native.steps) {
+        count =
+            batch->native.steps(b->carried, b->work, h, count, (unsigned)b->alive, &lanes, said);
+        for (int i = 0; i < b->kind->width; i++)
+            if (lanes >> i & 1) why[i] = (dal_status)said[i];
+        *failed = lanes;
+        return count;
+    }
+    for (long long step = 1; step <= count; step++)
+        if ((*failed = b->kind->step(b->engine, h, b->alive, why)) != 0) return step;
+    return count;
+}
+
 dal_status dal_batch_advance(dal_batch *batch, long long count)
 {
     const double h = batch->scalar->shape.options.step;
     dal_status why[DAL__BLOCK] = {DAL_OK}, last = DAL_OK;
+    dal__lanes failed = 0;
     bool alive = false;
     batch->stepped = batch->stepped || count > 0;
     for (int i = 0; i < batch->blocks; i++) {
         block *b = &batch->block[i];
-        for (long long step = 0; step < count && b->alive; step++) {
-            const dal__lanes failed = b->kind->step(b->engine, h, b->alive, why);
+        for (long long left = count; left > 0 && b->alive;) {
+            left -= step_block(batch, b, h, left, &failed, why);
             if (failed) record(batch, b, failed, why);
         }
         alive |= b->alive != 0;

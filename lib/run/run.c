@@ -78,7 +78,7 @@ dal_status dal_run_create(dal_run **run, const dal_run_spec *spec, dal_error *er
 void dal_run_free(dal_run *run)
 {
     if (!run) return;
-    if (run->native.release) run->native.release(run->native.handle);
+    dal__native_free(&run->native);
     free(run->owned);
 }
 

@@ -5,7 +5,7 @@
 #include "run/engine.h"
 
 /* Compiled steps, see lib/generate/native.c: up to count steps of the lanes in a mask, until one of
- * them fails.  NULL: the engine steps. */
+ * them fails; the number of steps tried.  NULL: the engine steps. */
 typedef struct dal__native {
     long long (*steps)(double *carried, const double *work, double h, long long count,
                        unsigned lanes, unsigned *failed, int *why);
@@ -26,6 +26,11 @@ struct dal_run {
     void *owned;     /* memory to free, or NULL */
     dal__native native;
 };
+
+static inline void dal__native_free(dal__native *native)
+{
+    if (native->release) native->release(native->handle);
+}
 
 /* Names of state components, by place; NULL past the end. */
 char *dal__state_name(const dal_system *system, bool lifted, int i, char *buffer, size_t size);

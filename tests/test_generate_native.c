@@ -1,0 +1,366 @@
+/* test_generate_native.c - native mode: runs and batches stepped by compiled code have the bits of
+ * their tapes, and whatever goes wrong with compiler or cache leaves them stepping by the tape. */
+#include "allocation.h"
+#include "fixtures.h"
+#include <CUnit/CUnit.h>
+#include <dirent.h>
+#include <fcntl.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <time.h>
+#include <unistd.h>
+
+/* Tests run in a directory of their own; paths in it need not be absolute. */
+static char place[] = "/tmp/dal-native-XXXXXX";
+static int before; /* the directory that was */
+static bool compiles;
+static const dal_native_options options = {.cache = "cache"};
+
+static void remove_folder(const char *path)
+{
+    char name[512];
+    DIR *folder = opendir(path);
+    for (struct dirent *entry; folder && (entry = readdir(folder));) {
+        snprintf(name, sizeof name, "%s/%.200s", path, entry->d_name);
+        if (entry->d_name[0] != '.') unlink(name);
+    }
+    if (folder) closedir(folder);
+    rmdir(path);
+}
+
+/* Plain files in a folder; -1: there is none. */
+static int files_in(const char *path)
+{
+    int count = 0;
+    DIR *folder = opendir(path);
+    if (!folder) return -1;
+    for (struct dirent *entry; (entry = readdir(folder));) count += entry->d_name[0] != '.';
+    closedir(folder);
+    return count;
+}
+
+static int set_up(void)
+{
+    before = open(".", O_RDONLY | O_DIRECTORY);
+    compiles = system("cc --version >/dev/null 2>&1") == 0;
+    if (!compiles) puts("(no compiler here)");
+    return before < 0 || !mkdtemp(place) || chdir(place) != 0;
+}
+
+static int tear_down(void)
+{
+    remove_folder("cache");
+    const int back = fchdir(before);
+    remove_folder(place);
+    return close(before) || back;
+}
+
+/* ---- runs ---- */
+
+static void same_memory(const dal_run *a, const dal_run *b)
+{
+    size_t m, n;
+    const double *x = dal_run_memory(a, &m), *y = dal_run_memory(b, &n);
+    CU_ASSERT_EQUAL_FATAL(m, n);
+    CU_ASSERT_EQUAL(memcmp(x, y, n * sizeof *x), 0);
+}
+
+/* A run that changes over in the middle, one that is loaded from it, and one that never does. */
+static void same_run(const dal_run_spec *of)
+{
+    dal_run *const tape = fixture_run(of), *const native = fixture_run(of);
+    dal_run *const loaded = fixture_run(of);
+    dal_error error;
+    size_t count;
+    CU_ASSERT_EQUAL(dal_run_advance(tape, 300, &error), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_advance(native, 100, &error), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_native(native, &options, &error), compiles ? DAL_OK : DAL_UNSUPPORTED);
+    CU_ASSERT_EQUAL(dal_run_is_native(native), compiles);
+    CU_ASSERT_EQUAL(dal_run_advance(native, 135, &error), DAL_OK);
+    const double *memory = dal_run_memory(native, &count);
+    CU_ASSERT_EQUAL(dal_run_load(loaded, memory, count, &error), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_advance(native, 65, &error), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_advance(loaded, 65, &error), DAL_OK);
+    same_memory(native, tape);
+    same_memory(loaded, tape);
+    dal_run_free(tape);
+    dal_run_free(native);
+    dal_run_free(loaded);
+}
+
+static void test_runs(void)
+{
+    dal_model *model = fixture_model("chaplygin-sleigh");
+    const dal_setting slow = {"omega", 0.25};
+    dal_run_spec spec = fixture_spec(fixture_system(model), "gauss4+project", DAL_LIFTED, 0.01);
+    spec.parameters = &slow;
+    spec.parameter_count = 1;
+    same_run(&spec);
+    spec = fixture_spec(spec.system, "rk4", DAL_PHYSICAL, 0.01);
+    same_run(&spec);
+    dal_model_free(model);
+}
+
+/* ---- batches ---- */
+
+enum { MOST_LANES = 13, STATE = 32 };
+
+/* Falls into the ground at x = 0, where its force ends to be a number; lane 0 soon, lane 8 later.
+ */
+static const char falling[] = "coordinates: [x, y]\nparameters: {s: 0}\n"
+                              "lagrangian: (x'^2 + y'^2)/2 - y^2/2\n"
+                              "forces: {x: -s*sqrt(x)}\nstart: {x: 1, y: 1}\n";
+
+static dal_batch *lanes_of(const dal_run_spec *spec, int count)
+{
+    dal_batch *batch = NULL;
+    CU_ASSERT_EQUAL_FATAL(dal_batch_create(&batch, spec, count, 0, NULL), DAL_OK);
+    for (int i = 0; i < count; i++) {
+        const dal_setting s = {"s", i == 0 ? 40.0 : i == 8 ? 4.0 : 0.01 * i};
+        const dal_setting start = {"y'", 0.1 * i};
+        CU_ASSERT_EQUAL(dal_batch_start(batch, i, &s, 1, &start, 1, NULL), DAL_OK);
+    }
+    return batch;
+}
+
+static void same_lane(const dal_batch *a, const dal_batch *b, int lane)
+{
+    double x[STATE] = {0.0}, y[STATE] = {0.0};
+    dal_error why_x = {0}, why_y = {0};
+    dal_batch_state(a, lane, x);
+    dal_batch_state(b, lane, y);
+    CU_ASSERT_EQUAL(memcmp(x, y, sizeof x), 0);
+    CU_ASSERT_EQUAL(dal_batch_time(a, lane), dal_batch_time(b, lane));
+    CU_ASSERT_EQUAL(dal_batch_status(a, lane, &why_x), dal_batch_status(b, lane, &why_y));
+    CU_ASSERT_STRING_EQUAL(why_x.message, why_y.message);
+}
+
+/* Changes over after some of 2000 steps: at the very first, or when one lane has failed already. */
+static void same_batch(const dal_run_spec *spec, int count, long long first)
+{
+    dal_batch *const tape = lanes_of(spec, count), *const native = lanes_of(spec, count);
+    dal_error error;
+    dal_batch_advance(tape, 1000);
+    dal_batch_advance(native, first);
+    CU_ASSERT_EQUAL(dal_batch_native(native, &options, &error),
+                    compiles ? DAL_OK : DAL_UNSUPPORTED);
+    CU_ASSERT_EQUAL(dal_batch_is_native(native), compiles);
+    dal_batch_advance(native, 1000 - first);
+    CU_ASSERT_EQUAL(dal_batch_advance(native, 1000), dal_batch_advance(tape, 1000));
+    for (int lane = 0; lane < count; lane++) same_lane(tape, native, lane);
+    CU_ASSERT_NOT_EQUAL(dal_batch_status(native, 0, NULL), DAL_OK);
+    dal_batch_free(tape);
+    dal_batch_free(native);
+}
+
+static void test_batches(void)
+{
+    static const int counts[] = {1, 3, 4, 8, MOST_LANES};
+    dal_model *model = fixture_model(falling);
+    const dal_system *falls = fixture_system(model);
+    const dal_run_spec simple = fixture_spec(falls, "rk4", DAL_PHYSICAL, 0.001);
+    const dal_run_spec lifted = fixture_spec(falls, "implicit-midpoint", DAL_LIFTED, 0.001);
+    for (int i = 0; i < 5; i++) same_batch(&simple, counts[i], 0);
+    same_batch(&simple, MOST_LANES, 700);
+    same_batch(&lifted, MOST_LANES, 700);
+    dal_model_free(model);
+}
+
+/* A batch that is native already may still be given its starts, and is not compiled again. */
+static void test_batch_start(void)
+{
+    dal_model *model = fixture_model(falling);
+    const dal_run_spec spec = fixture_spec(fixture_system(model), "rk4", DAL_PHYSICAL, 0.001);
+    const dal_setting start = {"y", 2.0};
+    dal_batch *const tape = lanes_of(&spec, 5), *const native = lanes_of(&spec, 5);
+    if (compiles) CU_ASSERT_EQUAL(dal_batch_native(native, &options, NULL), DAL_OK);
+    const dal_native_options nothing = {.cache = "/nowhere/at/all"};
+    if (compiles) CU_ASSERT_EQUAL(dal_batch_native(native, &nothing, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_batch_start(tape, 4, NULL, 0, &start, 1, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_batch_start(native, 4, NULL, 0, &start, 1, NULL), DAL_OK);
+    dal_batch_advance(tape, 100);
+    dal_batch_advance(native, 100);
+    for (int lane = 0; lane < 5; lane++) same_lane(tape, native, lane);
+    dal_batch_free(tape);
+    dal_batch_free(native);
+    dal_model_free(model);
+}
+
+/* ---- what goes wrong ---- */
+
+/* Whatever cannot be allocated, all is left stepping by its tape. */
+static void test_memory(void)
+{
+    dal_model *model = fixture_model(falling);
+    const dal_run_spec spec = fixture_spec(fixture_system(model), "rk4", DAL_PHYSICAL, 0.001);
+    dal_run *run = fixture_run(&spec);
+    dal_batch *tape = lanes_of(&spec, 5), *batch = lanes_of(&spec, 5);
+    for (long n = 0;; n++) {
+        allocation_fail_after(n);
+        const dal_status one = dal_run_native(run, &options, NULL);
+        const dal_status many = dal_batch_native(batch, &options, NULL);
+        if (!allocation_failed()) break;
+        CU_ASSERT_EQUAL(dal_run_is_native(run), one == DAL_OK);
+        CU_ASSERT_EQUAL(dal_batch_is_native(batch), many == DAL_OK);
+        CU_ASSERT_EQUAL(dal_batch_advance(batch, 10), DAL_OK);
+        CU_ASSERT_EQUAL(dal_batch_advance(tape, 10), DAL_OK);
+    }
+    allocation_fail_after(-1);
+    CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_OK);
+    for (int lane = 0; lane < 5; lane++) same_lane(tape, batch, lane);
+    dal_run_free(run);
+    dal_batch_free(batch);
+    dal_batch_free(tape);
+    dal_model_free(model);
+}
+
+static dal_run *new_run(dal_model *model)
+{
+    const dal_run_spec spec = fixture_spec(fixture_system(model), "rk4", DAL_PHYSICAL, 0.01);
+    return fixture_run(&spec);
+}
+
+/* Such options are refused for a reason, and the run goes on. */
+static void refused(const dal_native_options *with, dal_status expected, const char *why)
+{
+    dal_model *model = fixture_model(falling);
+    dal_run *run = new_run(model);
+    dal_error error = {0};
+    CU_ASSERT_EQUAL(dal_run_native(run, with, &error), expected);
+    if (!strstr(error.message, why)) printf("\n  '%s' lacks '%s'\n", error.message, why);
+    CU_ASSERT_PTR_NOT_NULL(strstr(error.message, why));
+    CU_ASSERT_FALSE(dal_run_is_native(run));
+    CU_ASSERT_EQUAL(dal_run_step(run, &error), DAL_OK);
+    dal_run_free(run);
+    dal_model_free(model);
+}
+
+static void refused_cache(const char *cache, dal_status expected, const char *why)
+{
+    refused(&(dal_native_options){.cache = cache}, expected, why);
+}
+
+static void test_cache_refused(void)
+{
+    static char long_name[2000];
+    memset(long_name, 'x', sizeof long_name - 1);
+    refused(NULL, DAL_ARGUMENT, "no directory");
+    refused_cache(NULL, DAL_ARGUMENT, "no directory");
+    refused_cache("", DAL_ARGUMENT, "no directory");
+    refused_cache(long_name, DAL_ARGUMENT, "too long");
+    refused_cache("/dev/null", DAL_IO, "/dev/null");
+    refused_cache("/nowhere/at/all", DAL_IO, "/nowhere/at/all");
+    CU_ASSERT_EQUAL_FATAL(mkdir("open", 0700), 0);
+    for (int mode = 0701; mode < 0730; mode += 007) { /* others search; the group reads; writes */
+        CU_ASSERT_EQUAL(chmod("open", (mode_t)mode), 0);
+        refused_cache("open", DAL_IO, "of this user alone");
+    }
+    CU_ASSERT_EQUAL(chmod("open", 0700), 0);
+    CU_ASSERT_EQUAL(symlink("open", "link"), 0);
+    refused_cache("link", DAL_IO, "of this user alone");
+    if (geteuid() == 0) { /* nobody else may give a directory away */
+        CU_ASSERT_EQUAL(chown("open", 12345, (gid_t)-1), 0);
+        refused_cache("open", DAL_IO, "of this user alone");
+    }
+    CU_ASSERT_EQUAL(files_in("open"), 0);
+    unlink("link");
+    remove_folder("open");
+}
+
+/* Names that a compiler could take for options, or a shell for commands. */
+static void test_cache_names(void)
+{
+    static const char *const names[] = {"-fplugin=x", "@list", "$(touch evil)", "; touch evil",
+                                        "-o"};
+    dal_model *model = fixture_model(falling);
+    for (int i = 0; i < 3 && compiles; i++) {
+        dal_run *run = new_run(model);
+        CU_ASSERT_EQUAL(dal_run_native(run, &(dal_native_options){.cache = names[i]}, NULL),
+                        DAL_OK);
+        CU_ASSERT_EQUAL(files_in(names[i]), 1);
+        dal_run_free(run);
+        remove_folder(names[i]);
+    }
+    CU_ASSERT_NOT_EQUAL(access("evil", F_OK), 0);
+    dal_model_free(model);
+}
+
+/* A compiler by the name of ./fake. */
+static void fake_compiler(const char *script)
+{
+    FILE *file = fopen("fake.new", "w");
+    CU_ASSERT_PTR_NOT_NULL_FATAL(file);
+    fprintf(file, "#!/bin/sh\n%s\n", script);
+    fclose(file);
+    chmod("fake.new", 0700);
+    rename("fake.new", "fake");
+}
+
+static void test_compilers_refused(void)
+{
+    const dal_native_options fake = {.cache = "cache", .compiler = "./fake", .patience = 1};
+    const int kept = (mkdir("cache", 0700), files_in("cache"));
+    refused(&(dal_native_options){.cache = "cache", .compiler = "./none"}, DAL_UNSUPPORTED,
+            "no compiler './none'");
+    fake_compiler("exit 1");
+    refused(&fake, DAL_UNSUPPORTED, "the compiler './fake' failed");
+    fake_compiler("kill -SEGV $$");
+    refused(&fake, DAL_UNSUPPORTED, "the compiler './fake' failed");
+    fake_compiler("exit 0"); /* and makes nothing */
+    refused(&fake, DAL_IO, "cannot seal");
+    fake_compiler("while [ $# -gt 2 ]; do shift; done; echo 'no object' >\"$1\"");
+    refused(&fake, DAL_IO, "cannot be loaded");
+    CU_ASSERT_EQUAL(files_in("cache"), kept);
+    unlink("fake");
+}
+
+/* One that hangs is ended, with what it started: that would else leave a file a second later. */
+static void test_compiler_hangs(void)
+{
+    const dal_native_options fake = {.cache = "cache", .compiler = "./fake", .patience = 1};
+    const struct timespec wait = {0, 900000000};
+    const time_t begin = time(NULL);
+    fake_compiler("(sleep 1.7; : >survived) &\nsleep 100 & wait");
+    refused(&fake, DAL_UNSUPPORTED, "the compiler './fake' was ended after 1 seconds");
+    CU_ASSERT(difftime(time(NULL), begin) < 50.0);
+    nanosleep(&wait, NULL);
+    CU_ASSERT_NOT_EQUAL(access("survived", F_OK), 0);
+    unlink("fake");
+}
+
+/* An object without the function, as another version might have left it, is made anew once. */
+static void test_foreign_object(void)
+{
+    const dal_native_options fake = {.cache = "cache", .compiler = "./fake"};
+    dal_model *model = fixture_model(falling);
+    dal_run *run = new_run(model);
+    fake_compiler("if [ -e seen ]; then exec cc \"$@\"; fi; : >seen\n"
+                  "echo 'int other;' >other.c; while [ $# -gt 2 ]; do shift; done\n"
+                  "exec cc -shared -fPIC other.c -o \"$1\"");
+    if (compiles) {
+        CU_ASSERT_EQUAL(dal_run_native(run, &fake, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(access("other.c", F_OK), 0);
+        CU_ASSERT_TRUE(dal_run_is_native(run));
+    }
+    CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_OK);
+    dal_run_free(run);
+    dal_model_free(model);
+}
+
+void suite_generate_native(void);
+void suite_generate_native(void)
+{
+    CU_pSuite suite = CU_add_suite("generate_native", set_up, tear_down);
+    CU_add_test(suite, "runs: same bits", test_runs);
+    CU_add_test(suite, "batches: same bits, same failures", test_batches);
+    CU_add_test(suite, "batches: starts after the change", test_batch_start);
+    CU_add_test(suite, "memory runs out", test_memory);
+    CU_add_test(suite, "directories that cannot be used", test_cache_refused);
+    CU_add_test(suite, "directories with odd names", test_cache_names);
+    CU_add_test(suite, "compilers that fail", test_compilers_refused);
+    CU_add_test(suite, "a compiler that hangs", test_compiler_hangs);
+    CU_add_test(suite, "an object of somebody else's", test_foreign_object);
+}
