@@ -164,7 +164,7 @@ static int list_systems(int markdown)
 
 /* ---- integrators --------------------------------------------------------------------------- */
 
-static void put_claims(sheet *s, unsigned claims)
+static void put_claims(sheet *s, unsigned claims, unsigned inherits)
 {
     static const struct {
         unsigned claim;
@@ -177,7 +177,7 @@ static void put_claims(sheet *s, unsigned claims)
     for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++)
         if (claims & texts[i].claim)
             n += (size_t)snprintf(line + n, sizeof line - n, "%s%s", n ? ", " : "", texts[i].text);
-    put(s, "%s", n ? line : "-");
+    put(s, "%s", n ? line : inherits & DAL_SYMMETRIC ? "as NAME" : "-");
 }
 
 static void put_integrator(sheet *s, const dal_integrator *integrator, int markdown)
@@ -193,7 +193,7 @@ static void put_integrator(sheet *s, const dal_integrator *integrator, int markd
         put(s, "%d", integrator->order);
     else
         put(s, "-");
-    put_claims(s, integrator->claims);
+    put_claims(s, integrator->claims, integrator->inherits);
     put(s, "%s", integrator->summary);
     put(s, "%s", integrator->reference);
 }
@@ -240,7 +240,8 @@ static const char notes[] =
     "energy E = L_v.v - L is kept by the motion; whether an exact solution is known.\n"
     "Integrators: 'symplectic lift' speaks of the 4n+2 canonical variables only and says nothing\n"
     "of D or of the energy; '... D' names the constraints whose level is kept to rounding.\n"
-    "A modifier +NAME is put behind an integrator: rk4+project.\n";
+    "A modifier +WORD is put behind an integrator, NAME+WORD: rk4+project.  'as NAME': it is and\n"
+    "keeps what NAME is and keeps.\n";
 
 static int find(const char *name)
 {

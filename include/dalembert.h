@@ -228,7 +228,13 @@ enum {
     DAL_COMPONENTWISE = 1 << 7    /* keeps no slopes; on (q,v) only adds multiples of v and F */
 };
 
-enum { DAL_NEEDS_FIELD = 1 << 0, DAL_NEEDS_CONSTRAINT = 1 << 1 };
+/* What it needs of the system or, a modifier, of the method inside. */
+enum {
+    DAL_NEEDS_FIELD = 1 << 0,
+    DAL_NEEDS_CONSTRAINT = 1 << 1,
+    DAL_NEEDS_SYMMETRIC = 1 << 2, /* a symmetric method */
+    DAL_NEEDS_ORDER_2 = 1 << 3    /* a method of order 2 */
+};
 
 struct dal_step; /* dalembert_kernel.h */
 typedef dal_status dal_step_function(struct dal_step *step);
@@ -240,6 +246,7 @@ typedef struct dal_integrator {
     int order;  /* 0 for a modifier: that of the inner method */
     int stages; /* stages solved together or kept at once; sizes scratch and carried memory */
     unsigned claims, needs;
+    unsigned inherits; /* a modifier: claims of the method inside that still hold around it */
     dal_step_function *step;
 } dal_integrator;
 

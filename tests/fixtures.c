@@ -1,6 +1,7 @@
 /* fixtures.c - systems and runs the suites share. */
 #include "fixtures.h"
 #include <CUnit/CUnit.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -103,4 +104,37 @@ void fixture_displace(dal_run *run, double size)
     memcpy(state, dal_run_state(run), (size_t)dal_run_dimension(run) * sizeof *state);
     for (int i = 0; i < 2 * n; i++) state[2 * n + 1 + i] = size * (1.0 - 0.3 * i);
     CU_ASSERT_EQUAL(dal_run_set_state(run, 0.0, state, NULL), DAL_OK);
+}
+
+const char *fixture_method(int i, char *name, size_t size)
+{
+    const dal_integrator *k = dal_integrator_at(i);
+    const char *inside = k->needs & DAL_NEEDS_ORDER_2 ? "stormer-verlet+" : "gauss4+";
+    snprintf(name, size, "%s%s", k->claims & DAL_MODIFIER ? inside : "", k->name);
+    return name;
+}
+
+/* The state at T after count steps. */
+static void end_state(dal_run_spec spec, double T, int count, double displacement, double *state)
+{
+    spec.options.step = T / count;
+    dal_run *run = fixture_run(&spec);
+    if (displacement != 0.0) fixture_displace(run, displacement);
+    CU_ASSERT_EQUAL(dal_run_advance(run, count, NULL), DAL_OK);
+    memcpy(state, dal_run_state(run), (size_t)dal_run_dimension(run) * sizeof *state);
+    dal_run_free(run);
+}
+
+double fixture_order(dal_run_spec spec, double T, int coarse, int fine, double displacement)
+{
+    double reference[64], state[64], error[2] = {0.0, 0.0};
+    dal_run_spec judge = spec;
+    CU_ASSERT_EQUAL(dal_method_parse(&judge.method, "gauss10", NULL), DAL_OK);
+    end_state(judge, T, 1500, displacement, reference);
+    for (int k = 0; k < 2; k++) {
+        end_state(spec, T, k ? fine : coarse, displacement, state);
+        for (int i = 0; i < 2 * spec.system->n; i++)
+            error[k] = fmax(error[k], fabs(state[i] - reference[i]));
+    }
+    return log(error[0] / error[1]) / log((double)fine / coarse);
 }

@@ -26,4 +26,12 @@ dal_run *fixture_run(const dal_run_spec *spec);
 /* Sets p_i and pi_i of a lifted run to a fixed pattern of the given size, at t = 0. */
 void fixture_displace(dal_run *run, double size);
 
+/* The name of a method with integrator number i on its outside: itself, or a modifier around one it
+ * can act on. */
+const char *fixture_method(int i, char *name, size_t size);
+
+/* Slope of the error in (q,v) at T, against gauss10 with 1500 steps, between two step counts; a
+ * lifted run is displaced first. */
+double fixture_order(dal_run_spec spec, double T, int coarse, int fine, double displacement);
+
 #endif

@@ -47,32 +47,6 @@ static const window *window_of(int order)
     return NULL;
 }
 
-/* The state at T after count steps. */
-static void end_state(dal_run_spec spec, double T, int count, double displacement, double *state)
-{
-    dal_error error;
-    spec.options.step = T / count;
-    dal_run *run = fixture_run(&spec);
-    if (displacement != 0.0) fixture_displace(run, displacement);
-    CU_ASSERT_EQUAL(dal_run_advance(run, count, &error), DAL_OK);
-    memcpy(state, dal_run_state(run), (size_t)dal_run_dimension(run) * sizeof *state);
-    dal_run_free(run);
-}
-
-static double observed_order(dal_run_spec spec, const window *w, double displacement, int dimension)
-{
-    double reference[64], state[64], error[2] = {0.0, 0.0};
-    dal_run_spec judge = spec;
-    CU_ASSERT_EQUAL(dal_method_parse(&judge.method, "gauss10", NULL), DAL_OK);
-    end_state(judge, w->T, 1500, displacement, reference);
-    for (int k = 0; k < 2; k++) {
-        end_state(spec, w->T, k ? w->fine : w->coarse, displacement, state);
-        for (int i = 0; i < dimension; i++)
-            error[k] = fmax(error[k], fabs(state[i] - reference[i]));
-    }
-    return log(error[0] / error[1]) / log((double)w->fine / w->coarse);
-}
-
 static void check_order(const char *name, const dal_method *method, void *user)
 {
     const int order = dal_method_order(method);
@@ -84,7 +58,7 @@ static void check_order(const char *name, const dal_method *method, void *user)
         /* Off the surface a projected method jumps back to it: its order is that on the surface. */
         const double displacement = space == DAL_LIFTED && !projected ? 0.02 : 0.0;
         const dal_run_spec spec = fixture_spec(system, name, (dal_space)space, 0.1);
-        const double seen = observed_order(spec, w, displacement, 2 * system->n);
+        const double seen = fixture_order(spec, w->T, w->coarse, w->fine, displacement);
         if (!(fabs(seen - order) <= 0.1))
             printf("\n  %s, space %d: observed order %.3f\n", name, space, seen);
         CU_ASSERT(fabs(seen - order) <= 0.1);

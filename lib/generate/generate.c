@@ -252,6 +252,8 @@ static void put_kernel(dal__generation *g)
         dal__text_put(&g->text, dal__source_text("solve.h"));
     if (euler) dal__text_put(&g->text, dal__source_text("polarised.h"));
     if (collocation) dal__text_put(&g->text, dal__source_text("collocation.h"));
+    if (dal__method_uses(g, "dal_substeps"))
+        dal__text_put(&g->text, dal__source_text("composition.h"));
 }
 
 /* rk4, implicit_midpoint: what an integrator is called in DAL_INTEGRATOR. */

@@ -305,7 +305,7 @@ DAL_INLINE dal_status dal_collocation(dal_step *s, const dal_tableau *method)
     DAL_BLOCK(s, momenta, DAL_LIFTED(s) * DAL_STAGES(method) * DAL_N(s), DAL_MAY_NEWTON(s));
     dal_stages k = {method, s->h, v, q, pi, f, w, mu, DAL_LIFTED(s) ? 3 * DAL_N(s) : DAL_NW(s)};
     dal_equation eq = {{slopes, momenta}, 1 + DAL_LIFTED(s), &k, dal_all()};
-    eq.block[0].weight = eq.block[1].weight = s->h;
+    eq.block[0].weight = eq.block[1].weight = fabs(s->h);
     eq.block[0].scale = dal_velocity_scale(s, s->h);
     if (DAL_LIFTED(s)) {
         dal__gauge_stages(s, &k);

@@ -115,15 +115,12 @@ int dal_method_order(const dal_method *method)
     return order;
 }
 
-/* A modifier's claims replace those of the method inside, but what is kept stays kept. */
 unsigned dal_method_claims(const dal_method *method)
 {
-    const unsigned kept = DAL_KEEPS_BILINEAR | DAL_KEEPS_QUADRATIC | DAL_KEEPS_D | DAL_EXPLICIT;
     unsigned claims = 0;
     for (int i = 0; i < DAL_CHAIN && method->chain[i]; i++) {
         const dal_integrator *k = method->chain[i];
-        claims =
-            is_modifier(k) ? (claims & kept) | (k->claims & ~(unsigned)DAL_MODIFIER) : k->claims;
+        claims = (claims & k->inherits) | (k->claims & ~(unsigned)DAL_MODIFIER);
     }
     return claims;
 }

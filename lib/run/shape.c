@@ -63,6 +63,25 @@ static dal_status check_options(const dal_options *o, dal_error *error)
     return DAL_OK;
 }
 
+/* A modifier must suit the method inside it, parts 0..depth-1 of the chain. */
+static dal_status check_inside(const dal_method *method, int depth, dal_error *error)
+{
+    const dal_integrator *outer = method->chain[depth];
+    dal_method inside = *method;
+    char name[128];
+    for (int i = depth; i < DAL_CHAIN; i++) inside.chain[i] = NULL;
+    dal_method_name(&inside, name, sizeof name);
+    const int order = dal_method_order(&inside);
+    if ((outer->needs & DAL_NEEDS_SYMMETRIC) && !(dal_method_claims(&inside) & DAL_SYMMETRIC))
+        return dal__error(error, DAL_UNSUPPORTED, 0, 0,
+                          "+%s needs a symmetric method: %s is not symmetric", outer->name, name);
+    if ((outer->needs & DAL_NEEDS_ORDER_2) && order != 2)
+        return dal__error(error, DAL_UNSUPPORTED, 0, 0,
+                          "+%s needs a method of order 2: %s is of order %d", outer->name, name,
+                          order);
+    return DAL_OK;
+}
+
 static dal_status check_chain(dal__shape *k, dal_error *error)
 {
     const dal_method *method = &k->method;
@@ -73,6 +92,7 @@ static dal_status check_chain(dal__shape *k, dal_error *error)
             return dal__error(error, DAL_ARGUMENT, 0, 0,
                               "'%s' is not usable as part %d of a method",
                               link->name ? link->name : "?", k->depth + 1);
+        if (modifier) DAL_TRY(check_inside(method, k->depth, error));
         if (link->stages > k->stages) k->stages = link->stages;
         k->depth++;
     }

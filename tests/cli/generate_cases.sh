@@ -52,6 +52,8 @@ same chaplygin-sleigh-vakonomic gauss6 physical 2 gcc -std=c11 -O1
 same appell-hamel symplectic-euler-11 physical 16 gcc -std=c11 -O1 -march=native
 same vertical-disk rk4+project physical 1 gcc -std=c11 -Os -ffreestanding
 same chaplygin-sleigh-friction symplectic-euler-01 lifted 1 gcc -std=c11 -O0
+same contact-oscillator stormer-verlet+yoshida4+project lifted 4 gcc -std=c11 -O1
+same nonholonomic-particle implicit-midpoint+sofroniou10 lifted 1 gcc -std=c11 -O2
 
 # What a microcontroller must supply.
 if there gcc; then

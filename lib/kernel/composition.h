@@ -1,0 +1,32 @@
+/* composition.h - a step made of shorter and longer ones, some of them backwards.
+ *
+ *     h = c_1 h + c_2 h + ... + c_k h,     c_(k+1-i) = c_i
+ *
+ * Rounded as they stand the sizes c_i h would end a little before or behind h in every step; here
+ * each is a multiple of the last place of h, and the middle (one, or two alike) takes what is left,
+ * so that they make up h as exactly as numbers near h can. */
+#ifndef DAL_KERNEL_COMPOSITION_H
+#define DAL_KERNEL_COMPOSITION_H
+
+enum { DAL_MOST_SUBSTEPS = 35 };
+
+typedef struct dal_composition {
+    int substeps;
+    const double *c; /* [(substeps - 1)/2] |c_i| < 2, up to the middle */
+} dal_composition;
+
+/* size[substeps] for a step of size h. */
+DAL_INLINE void dal_substeps(const dal_composition *k, double h, double *size)
+{
+    const int before = (k->substeps - 1) / 2, last = k->substeps - 1;
+    const double coarse = 4.0 * h; /* what is added to it loses its finer places */
+    double sum = 0.0;
+    for (int i = 0; i < before; i++) {
+        size[i] = size[last - i] = (k->c[i] * h + coarse) - coarse;
+        sum += 2.0 * size[i];
+    }
+    const double left = h - sum;
+    size[before] = size[last - before] = k->substeps % 2 ? left : 0.5 * left;
+}
+
+#endif

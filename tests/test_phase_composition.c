@@ -1,0 +1,243 @@
+/* test_phase_composition.c - compositions of symmetric methods, on the fixtures of the conformance
+ * suite: order over a wide range of h, what they inherit, what they refuse, and that their steps
+ * make up h. */
+#include "fixtures.h"
+#include "quick.h"
+#include <CUnit/CUnit.h>
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* The integrators' own file, tables and all, without its descriptors. */
+#include <dalembert_kernel.h>
+#undef DAL_INTEGRATOR
+#define DAL_INTEGRATOR(identifier, function, ...) enum { unused_##identifier }
+#include "../integrators/composition.c"
+
+/* Step counts between which each shows its order: a decade, or what rounding leaves of it. */
+static const struct composed {
+    const char *name;
+    int order, substeps;
+    const double *c;
+    const char *fixture;
+    double T;
+    int coarse, fine;
+} composed[] = {
+    {"yoshida4", 4, 3, c_yoshida4, fixture_full, 1.0, 16, 160},
+    {"suzuki4", 4, 5, c_suzuki4, fixture_full, 1.0, 16, 160},
+    {"yoshida6", 6, 7, c_yoshida6, fixture_gentle, 10.0, 24, 240},
+    {"kahan-li6", 6, 9, c_kahan_li6, fixture_gentle, 10.0, 16, 160},
+    {"suzuki8", 8, 15, c_suzuki8, fixture_gentle, 10.0, 30, 90},
+    {"kahan-li8", 8, 17, c_kahan_li8, fixture_gentle, 10.0, 24, 72},
+    {"sofroniou10", 10, 35, c_sofroniou10, fixture_gentle, 10.0, 14, 28},
+};
+enum { COMPOSED = sizeof composed / sizeof *composed };
+static const char *const bases[] = {"stormer-verlet", "implicit-midpoint"};
+
+static const char *join(const char *base, const char *modifier, const char *more)
+{
+    static char name[64];
+    snprintf(name, sizeof name, "%s+%s%s", base, modifier, more);
+    return name;
+}
+
+static void check_order(const struct composed *k, const char *name, double displacement)
+{
+    dal_model *model = fixture_model(k->fixture);
+    for (int space = 0; space < 2; space++) {
+        const dal_run_spec spec = fixture_spec(fixture_system(model), name, (dal_space)space, 0.1);
+        CU_ASSERT_EQUAL(dal_method_order(&spec.method), k->order);
+        const double seen =
+            fixture_order(spec, k->T, k->coarse, k->fine, space == DAL_LIFTED ? displacement : 0.0);
+        if (!(fabs(seen - k->order) <= 0.1))
+            printf("\n  %s, space %d: observed order %.3f\n", name, space, seen);
+        CU_ASSERT(fabs(seen - k->order) <= 0.1);
+    }
+    dal_model_free(model);
+}
+
+static void test_order(void)
+{
+    for (int i = 0; i < COMPOSED; i++)
+        for (int b = 0; b < 2; b++)
+            check_order(&composed[i], join(bases[b], composed[i].name, ""), 0.02);
+}
+
+/* Projected, the order is that on the surface. */
+static void test_order_projected(void)
+{
+    check_order(&composed[0], "stormer-verlet+yoshida4+project", 0.0);
+    check_order(&composed[5], "stormer-verlet+kahan-li8+project", 0.0);
+}
+
+static void test_symmetric(void)
+{
+    dal_model *model = fixture_model(fixture_bilinear);
+    for (int i = 0; i < COMPOSED; i++) {
+        for (int b = 0; b < 2; b++) {
+            double defect = NAN;
+            const dal_run_spec spec = fixture_spec(
+                fixture_system(model), join(bases[b], composed[i].name, ""), DAL_PHYSICAL, 0.2);
+            CU_ASSERT(dal_method_claims(&spec.method) & DAL_SYMMETRIC);
+            CU_ASSERT_EQUAL(dal_measure_reversibility(&spec, 0.0, NULL, &defect, NULL), DAL_OK);
+            if (!(defect <= 1e-14)) printf("\n  %s: defect %.2e\n", composed[i].name, defect);
+            CU_ASSERT(defect <= 1e-14);
+        }
+    }
+    dal_model_free(model);
+}
+
+static double symplectic_defect(const dal_run_spec *spec)
+{
+    double defect = NAN;
+    dal_run *run = fixture_run(spec);
+    fixture_displace(run, 0.3);
+    CU_ASSERT_EQUAL(dal_measure_symplecticity(spec, 0.0, dal_run_state(run), 0.0, &defect, NULL),
+                    DAL_OK);
+    dal_run_free(run);
+    return defect;
+}
+
+static void test_symplectic(void)
+{
+    dal_model *model = fixture_model(fixture_full);
+    for (int i = 0; i < COMPOSED; i++) {
+        for (int b = 0; b < 2; b++) {
+            const dal_run_spec spec = fixture_spec(
+                fixture_system(model), join(bases[b], composed[i].name, ""), DAL_LIFTED, 0.1);
+            const double defect = symplectic_defect(&spec);
+            CU_ASSERT(dal_method_claims(&spec.method) & DAL_SYMPLECTIC);
+            if (!(defect <= 1e-9)) printf("\n  %s: defect %.2e\n", composed[i].name, defect);
+            CU_ASSERT(defect <= 1e-9);
+        }
+    }
+    const dal_run_spec projected =
+        fixture_spec(fixture_system(model), "stormer-verlet+yoshida4+project", DAL_LIFTED, 0.1);
+    CU_ASSERT_FALSE(dal_method_claims(&projected.method) & (DAL_SYMPLECTIC | DAL_SYMMETRIC));
+    CU_ASSERT(symplectic_defect(&projected) >= 1e-7);
+    dal_model_free(model);
+}
+
+/* ---- D ---- */
+
+static double greatest_d(const char *fixture, const char *method, double h, long long count)
+{
+    dal_model *model = fixture_model(fixture);
+    const dal_run_spec spec = fixture_spec(fixture_system(model), method, DAL_PHYSICAL, h);
+    dal_run *run = fixture_run(&spec);
+    double seen[32], greatest = 0.0;
+    for (long long i = 0; i < count; i += 10) {
+        CU_ASSERT_EQUAL_FATAL(dal_run_advance(run, 10, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_run_observe(run, seen), DAL_OK);
+        for (int a = 0; a < spec.system->m; a++) greatest = fmax(greatest, fabs(seen[a]));
+    }
+    dal_run_free(run);
+    dal_model_free(model);
+    return greatest;
+}
+
+static void test_keeps(void)
+{
+    const long long count = long_run(2000);
+    for (int i = 0; i < COMPOSED; i++) {
+        const char *name = composed[i].name;
+        CU_ASSERT(greatest_d(fixture_bilinear, join(bases[0], name, ""), 0.02, count) <= 1e-13);
+        CU_ASSERT(greatest_d(fixture_quadratic, join(bases[1], name, ""), 0.02, count) <= 1e-13);
+    }
+    CU_ASSERT(greatest_d(fixture_quadratic, "stormer-verlet+suzuki4+project", 0.02, count) <=
+              1e-13);
+    /* What the method inside does not keep, its compositions do not. */
+    CU_ASSERT(greatest_d(fixture_quadratic, "stormer-verlet+suzuki4", 0.05, count) > 1e-12);
+}
+
+/* ---- on the surface the same bits on both spaces ---- */
+
+static void surface_end(const dal_system *system, const char *name, dal_space space, double *qv)
+{
+    const dal_run_spec spec = fixture_spec(system, name, space, 0.05);
+    dal_run *run = fixture_run(&spec);
+    CU_ASSERT_EQUAL(dal_run_advance(run, 100, NULL), DAL_OK);
+    memcpy(qv, dal_run_state(run), 2 * (size_t)system->n * sizeof *qv);
+    for (int i = 2 * system->n + 1; i < dal_run_dimension(run); i++)
+        CU_ASSERT_EQUAL(dal_run_state(run)[i], 0.0);
+    dal_run_free(run);
+}
+
+static void test_surface(void)
+{
+    dal_model *model = fixture_model(fixture_full);
+    const dal_system *system = fixture_system(model);
+    for (int i = 0; i < COMPOSED; i++) {
+        for (int b = 0; b < 2; b++) {
+            double physical[8], lifted[8];
+            surface_end(system, join(bases[b], composed[i].name, ""), DAL_PHYSICAL, physical);
+            surface_end(system, join(bases[b], composed[i].name, ""), DAL_LIFTED, lifted);
+            CU_ASSERT_EQUAL(memcmp(physical, lifted, sizeof lifted), 0);
+        }
+    }
+    dal_model_free(model);
+}
+
+/* ---- the steps ---- */
+
+/* They are the same both ways and make up h: exactly, where the middle is no longer than h. */
+static void check_sum(const struct composed *k, double h)
+{
+    double size[DAL_MOST_SUBSTEPS], middle;
+    long double sum = 0.0L;
+    const dal_composition table = {k->substeps, k->c};
+    dal_substeps(&table, h, size);
+    for (int i = 0; i < k->substeps; i++) {
+        sum += (long double)size[i];
+        CU_ASSERT_EQUAL(size[i], size[k->substeps - 1 - i]);
+        if (2 * i < k->substeps - 2) CU_ASSERT(fabs(size[i] - k->c[i] * h) <= 8 * DBL_EPSILON * h);
+    }
+    middle = fabs(size[k->substeps / 2]);
+    CU_ASSERT(fabsl(sum - (long double)h) <= (middle < h ? 0.0 : DBL_EPSILON * middle));
+}
+
+static void test_sum(void)
+{
+    static const double h[] = {0.1, 0.01, 1.0 / 3.0, 0.9999999999999999, 1e-7, 0.7};
+    for (int i = 0; i < COMPOSED; i++)
+        for (size_t j = 0; j < sizeof h / sizeof *h; j++) check_sum(&composed[i], h[j]);
+}
+
+/* ---- what cannot be composed ---- */
+
+static void refused(const dal_system *system, const char *name, const char *why)
+{
+    dal_run *run = NULL;
+    dal_error error = {0};
+    const dal_run_spec spec = fixture_spec(system, name, DAL_LIFTED, 0.1);
+    CU_ASSERT_EQUAL(dal_run_create(&run, &spec, &error), DAL_UNSUPPORTED);
+    if (!strstr(error.message, why)) printf("\n  %s\n", error.message);
+    CU_ASSERT_PTR_NOT_NULL(strstr(error.message, why));
+}
+
+static void test_refused(void)
+{
+    dal_model *model = fixture_model(fixture_full);
+    const dal_system *system = fixture_system(model);
+    refused(system, "rk4+yoshida4", "+yoshida4 needs a symmetric method: rk4 is not symmetric");
+    refused(system, "gauss4+suzuki8", "+suzuki8 needs a method of order 2: gauss4 is of order 4");
+    refused(system, "stormer-verlet+project+suzuki4",
+            "+suzuki4 needs a symmetric method: stormer-verlet+project is not symmetric");
+    refused(system, "stormer-verlet+yoshida4+yoshida6",
+            "+yoshida6 needs a method of order 2: stormer-verlet+yoshida4 is of order 4");
+    dal_model_free(model);
+}
+
+void suite_phase_composition(void)
+{
+    CU_pSuite suite = CU_add_suite("compositions", NULL, NULL);
+    CU_add_test(suite, "order, lifted off the surface and physical", test_order);
+    CU_add_test(suite, "order with +project", test_order_projected);
+    CU_add_test(suite, "symmetric", test_symmetric);
+    CU_add_test(suite, "symplectic on 4n+2", test_symplectic);
+    CU_add_test(suite, "D bilinear and D quadratic", test_keeps);
+    CU_add_test(suite, "on the surface: equal bits", test_surface);
+    CU_add_test(suite, "the steps make up h", test_sum);
+    CU_add_test(suite, "what is refused, and why", test_refused);
+}
