@@ -195,7 +195,8 @@ LIB     = "$(DESTDIR)$(PREFIX)/lib"
 INCLUDE = "$(DESTDIR)$(PREFIX)/include"
 MAN     = "$(DESTDIR)$(PREFIX)/share/man/man1"
 SHARE   = "$(DESTDIR)$(PREFIX)/share/dalembert"
-HEADERS = dalembert.h dalembert_generate.h dalembert_measure.h dalembert_kernel.h
+PUBLIC  = dalembert.h dalembert_method.h dalembert_generate.h dalembert_measure.h
+HEADERS = $(PUBLIC) dalembert_kernel.h
 LINKS   = libdalembert.so $(SONAME) libdalembert.so.$(VERSION)
 
 install: all
@@ -205,8 +206,7 @@ install: all
 	install -m 644 $(SHARED).$(VERSION) $(LIB)
 	ln -sf libdalembert.so.$(VERSION) $(LIB)/$(SONAME)
 	ln -sf $(SONAME) $(LIB)/libdalembert.so
-	install -m 644 include/dalembert.h include/dalembert_generate.h include/dalembert_measure.h \
-	    $(KERNEL) $(INCLUDE)
+	install -m 644 $(PUBLIC:%=include/%) $(KERNEL) $(INCLUDE)
 	sed 's|@PREFIX@|$(PREFIX)|; s|@VERSION@|$(VERSION)|' tools/dalembert.pc.in \
 	    >$(LIB)/pkgconfig/dalembert.pc
 	install -m 644 man/dalembert.1 $(MAN)

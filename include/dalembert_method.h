@@ -1,0 +1,58 @@
+/* dalembert_method.h - integrators, and methods made of them; a part of dalembert.h, never included
+ * by itself. */
+#ifndef DALEMBERT_METHOD_H
+#define DALEMBERT_METHOD_H
+
+/* What a descriptor claims; the conformance suite verifies it. */
+enum {
+    DAL_SYMMETRIC = 1 << 0,
+    DAL_SYMPLECTIC = 1 << 1,      /* on the canonical lift; says nothing about D or the energy */
+    DAL_KEEPS_BILINEAR = 1 << 2,  /* D bilinear in (q,v) */
+    DAL_KEEPS_QUADRATIC = 1 << 3, /* D quadratic in (q,v) */
+    DAL_KEEPS_D = 1 << 4,         /* every D */
+    DAL_EXPLICIT = 1 << 5,        /* on the physical space */
+    DAL_MODIFIER = 1 << 6,        /* works on another integrator: NAME+this */
+    DAL_COMPONENTWISE = 1 << 7    /* keeps no slopes; on (q,v) only adds multiples of v and F */
+};
+
+/* What it needs of the system or, a modifier, of the method inside. */
+enum {
+    DAL_NEEDS_FIELD = 1 << 0,
+    DAL_NEEDS_CONSTRAINT = 1 << 1,
+    DAL_NEEDS_SYMMETRIC = 1 << 2, /* a symmetric method */
+    DAL_NEEDS_ORDER_2 = 1 << 3    /* a method of order 2 */
+};
+
+struct dal_step; /* dalembert_kernel.h */
+typedef dal_status dal_step_function(struct dal_step *step);
+
+/* A constant descriptor; its file in integrators/ holds the mathematics. */
+typedef struct dal_integrator {
+    const char *name, *alias; /* alias: another name, or NULL */
+    const char *summary, *reference;
+    int order;  /* 0 for a modifier: that of the inner method */
+    int stages; /* stages solved together or kept at once; sizes scratch and carried memory */
+    unsigned claims, needs;
+    unsigned inherits; /* a modifier: claims of the method inside that still hold around it */
+    dal_step_function *step;
+} dal_integrator;
+
+enum { DAL_CHAIN = 4 };
+
+/* An integrator and the modifiers around it, innermost first; unused places are NULL.
+ * An integrator outside the tree is used by its address: {{&my_integrator}}. */
+typedef struct dal_method {
+    const dal_integrator *chain[DAL_CHAIN];
+} dal_method;
+
+/* Built-in integrator or modifier number i, NULL past the last. */
+const dal_integrator *dal_integrator_at(int i);
+
+/* "rk4", "gauss8+project".  Errors: DAL_NAME with the nearest name. */
+dal_status dal_method_parse(dal_method *method, const char *name, dal_error *error);
+/* Writes the full name, at most size bytes with its NUL; returns buffer. */
+char *dal_method_name(const dal_method *method, char *buffer, size_t size);
+int dal_method_order(const dal_method *method);
+unsigned dal_method_claims(const dal_method *method); /* of the whole chain */
+
+#endif
