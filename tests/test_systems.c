@@ -145,9 +145,9 @@ static void test_invariants(void)
 {
     for (int i = 0; dal_builtin_name(i); i++) {
         body b = body_builtin(dal_builtin_name(i));
-        check_invariants(&b);
+        if (b.system->invariants) check_invariants(&b);
         unlike(&b);
-        check_invariants(&b);
+        if (b.system->invariants) check_invariants(&b);
         body_free(&b);
     }
 }

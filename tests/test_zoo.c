@@ -1,0 +1,161 @@
+/* test_zoo.c - every system that travels inside the library: its tags against what the formulas
+ * say, its exact solution against a run, on (q,v) and on the lift. */
+#include "zoo.h"
+
+#include <CUnit/Basic.h>
+#include <math.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <string.h>
+
+static bool tagged(const dal_system *s, const char *tag)
+{
+    for (int i = 0; i < s->tags; i++)
+        if (strcmp(s->tag[i], tag) == 0) return true;
+    return false;
+}
+
+/* Says which system it was. */
+static void expect(const dal_system *s, bool truth, const char *what)
+{
+    if (!truth) fprintf(stderr, "  %s: %s\n", s->name, what);
+    CU_ASSERT(truth);
+}
+
+static void expect_tag(const dal_system *s, const char *tag, bool truth)
+{
+    expect(s, tagged(s, tag) == truth, tag);
+}
+
+static void each(void (*check)(const body *b))
+{
+    for (int i = 0; dal_builtin_name(i); i++) {
+        body b = body_builtin(dal_builtin_name(i));
+        check(&b);
+        body_free(&b);
+    }
+}
+
+/* ---- tags that the formulas decide ---- */
+
+static void check_energy(const body *b)
+{
+    const dal_system *s = b->system;
+    bool exact = s->properties & DAL_E_EXACT, weak = s->properties & DAL_E_WEAK;
+    expect_tag(s, "energy-exact", exact);
+    expect_tag(s, "energy-weak", weak);
+    expect_tag(s, "energy-not-conserved", s->energy && !exact && !weak);
+}
+
+static bool moves_with_time(const body *b)
+{
+    double q[BODY_MOST] = {0.3, -0.4, 0.7, 0.2, -0.6, 0.5, 0.8, -0.1}, D[2][BODY_MOST];
+    double v[2 * BODY_MOST] = {0.5, 0.9, -0.3, 0.6, 0.4, -0.7, 0.2, 1.1};
+    if (!b->system->m) return false;
+    for (int k = 0; k < 2; k++) body_call(b, b->system->constraints, 0.4 * k, q, v, D[k]);
+    return body_distance(b->system->m, D[0], D[1]) > 0.0;
+}
+
+static void check_constraint(const body *b)
+{
+    const dal_system *s = b->system;
+    unsigned p = s->properties;
+    bool some = s->m > 0, moving = moves_with_time(b);
+    bool polynomial = p & (DAL_D_CONSTANT | DAL_D_BILINEAR | DAL_D_QUADRATIC);
+    expect_tag(s, "linear", p & DAL_D_CONSTANT);
+    expect_tag(s, "bilinear", (p & DAL_D_BILINEAR) && !(p & DAL_D_CONSTANT));
+    expect_tag(s, "quadratic", (p & DAL_D_QUADRATIC) && !(p & DAL_D_BILINEAR));
+    expect_tag(s, "trigonometric", some && (p & DAL_D_LINEAR) && !polynomial && !moving);
+    expect_tag(s, "nonlinear", some && !(p & DAL_D_LINEAR));
+    expect_tag(s, "time-dependent", moving || !(p & DAL_AUTONOMOUS));
+    expect_tag(s, "servo", p & DAL_SERVO);
+}
+
+/* Exactly one of the two first words, at most one of each later pair, and no word unknown. */
+static void check_words(const body *b)
+{
+    static const char *const words[] = {
+        "reversible", "non-reversible", "integrable",    "chaotic",   "measure-preserving",
+        "attractor",  "energy-exact",   "energy-weak",   "linear",    "energy-not-conserved",
+        "bilinear",   "quadratic",      "trigonometric", "nonlinear", "time-dependent",
+        "servo",      "singular",       "dissipative",   "paper"};
+    const dal_system *s = b->system;
+    expect(s, tagged(s, words[0]) != tagged(s, words[1]), "reversible or not");
+    expect(s, !tagged(s, words[2]) || !tagged(s, words[3]), "integrable or chaotic");
+    expect(s, !tagged(s, words[4]) || !tagged(s, words[5]), "measure or attractor");
+    for (int i = 0; i < s->tags; i++) {
+        size_t k = 0, count = sizeof words / sizeof *words;
+        while (k < count && strcmp(s->tag[i], words[k]) != 0) k++;
+        expect(s, k < count, s->tag[i]);
+    }
+}
+
+static void test_energy(void) { each(check_energy); }
+static void test_constraint(void) { each(check_constraint); }
+static void test_words(void) { each(check_words); }
+
+/* ---- reversal and volume along the motion ---- */
+
+/* Whether (q, -v, -g, -t) moves as (q, v, g, t) does and stays on D = 0; x is at time t. */
+static double irreversibility(const body *b, double t, const double *x)
+{
+    int n = b->system->n, nw = n + b->system->multipliers;
+    double back[2 * BODY_MOST], F[2][2 * BODY_MOST], D[BODY_MOST], zero[BODY_MOST] = {0.0};
+    for (int i = 0; i < nw; i++) back[i] = -x[n + i];
+    body_call(b, b->system->call.field, t, x, x + n, F[0]);
+    body_call(b, b->system->call.field, -t, x, back, F[1]);
+    if (b->system->m) body_call(b, b->system->constraints, -t, x, back, D);
+    return fmax(body_distance(nw, F[1], F[0]),
+                b->system->m ? body_distance(b->system->m, D, zero) : 0.0);
+}
+
+static void check_reversal(const body *b)
+{
+    zoo z = zoo_default(b->system->name, 0.02);
+    double worst = 0.0;
+    for (int k = 1; k <= 5; k++) {
+        zoo_go(&z, 0.2 * k);
+        worst = fmax(worst, irreversibility(b, 0.2 * k, z.x));
+    }
+    expect(b->system, worst < 1e-12 || worst > 1e-3, "reversal in doubt");
+    expect_tag(b->system, "reversible", worst < 1e-12);
+    zoo_close(&z);
+}
+
+static void test_reversal(void) { each(check_reversal); }
+
+/* ---- exact solutions ---- */
+
+static void check_run(const body *b, dal_space space)
+{
+    int n = b->system->n;
+    double exact[2 * BODY_MOST], zero[2 * BODY_MOST] = {0.0};
+    zoo z = zoo_open(b->system->name, space, 1.0 / 128, (zoo_settings){0}, (zoo_settings){0});
+    for (int k = 1; k <= 4; k++) {
+        zoo_go(&z, 0.25 * k);
+        body_call(b, b->system->exact, 0.25 * k, NULL, NULL, exact);
+        expect(b->system, body_distance(2 * n, z.x, exact) < 1e-12, "exact solution");
+        if (space == DAL_LIFTED)
+            expect(b->system, body_distance(2 * n, z.x + 2 * n + 1, zero) == 0.0, "p = pi = 0");
+    }
+    zoo_close(&z);
+}
+
+static void check_exact(const body *b)
+{
+    if (!b->system->exact) return;
+    check_run(b, DAL_PHYSICAL);
+    if (b->system->call.adjoint) check_run(b, DAL_LIFTED);
+}
+
+static void test_exact(void) { each(check_exact); }
+
+void suite_zoo(void)
+{
+    CU_pSuite suite = CU_add_suite("zoo", NULL, NULL);
+    CU_add_test(suite, "tags of the energy", test_energy);
+    CU_add_test(suite, "tags of the constraints", test_constraint);
+    CU_add_test(suite, "vocabulary of tags", test_words);
+    CU_add_test(suite, "tags of reversal", test_reversal);
+    CU_add_test(suite, "exact solutions by gauss8", test_exact);
+}
