@@ -13,7 +13,8 @@
     X(prefix, "NAME", NULL, "what public names begin with (SYSTEM_INTEGRATOR)")
 
 /* The options of a job that a generated file has a use for. */
-#define TAKEN_LIST(X) X(integrator) X(space) X(solver) X(iterations) X(set) X(start)
+#define TAKEN_LIST(X)                                                                              \
+    X(integrator) X(space) X(solver) X(iterations) X(extend_energy) X(set) X(start)
 
 enum {
 #define X(name, value, initial, help) OWN_##name,

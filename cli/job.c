@@ -13,7 +13,8 @@ static const struct {
 #define X(name, value, initial, help) {#name, value, NULL, initial, help},
     JOB_OPTION_LIST(X)
 #undef X
-#define X(type, name, initial, least, greatest, words, help) {#name, #type, words, #initial, help},
+#define X(type, name, word, initial, least, greatest, words, help)                                 \
+    {word, #type, words, #initial, help},
         DAL_OPTION_LIST(X)
 #undef X
 };

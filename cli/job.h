@@ -17,7 +17,7 @@ enum {
 #define X(name, value, initial, help) JOB_##name,
     JOB_OPTION_LIST(X)
 #undef X
-#define X(type, name, initial, least, greatest, words, help) JOB_##name,
+#define X(type, name, word, initial, least, greatest, words, help) JOB_##name,
         DAL_OPTION_LIST(X)
 #undef X
             JOB_OPTIONS

@@ -24,6 +24,7 @@
     X(step, "both", "one step, or a list of at most 16")                                           \
     X(time, "both", "integrate from 0 to this")                                                    \
     X(samples, "both", "rows for the statistics (400)")                                            \
+    X(options, "both", "of the runs, but step and space: solver: newton, extend-energy: on, ..")   \
     X(starts, "both", "list of physical, surface, displaced (all three)")                          \
     X(displacement, "both", "size d of p, pi where displaced (1e-8)")                              \
     X(system, "system", "a built-in name or a path")                                               \
@@ -58,6 +59,7 @@ typedef struct study_entry {
     double step[STUDY_STEPS], time, displacement;
     int steps, starts; /* starts: bit STUDY_x set */
     long long samples;
+    dal_options options; /* all but step and space */
     dal_setting *set, *start, *displace;
     int set_count, start_count, displace_count;
     dal_method *methods;

@@ -72,7 +72,7 @@ static dal_status make_run(walk *w)
     const study_entry *e = w->cell->entry;
     dal_run_spec spec = {.system = e->system,
                          .method = *w->cell->method,
-                         .options = dal_options_default(),
+                         .options = e->options,
                          .parameters = e->set,
                          .parameter_count = e->set_count};
     dal_setting *start = start_settings(w->cell, &spec.start_count);

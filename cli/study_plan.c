@@ -89,6 +89,31 @@ static int take_samples(void *user, const study_text *text, yaml_node_t *value)
     return cli_integer(place, given, 1, 1000000000, &((draft *)user)->entry.samples);
 }
 
+static int take_option(study_entry *e, const study_text *text, const yaml_node_pair_t *pair)
+{
+    dal_error error = {0};
+    yaml_node_t *key = study_text_node(text, pair->key);
+    yaml_node_t *value = study_text_node(text, pair->value);
+    const char *name = study_text_scalar(text, key, "options");
+    const char *word = name ? study_text_scalar(text, value, name) : NULL;
+    if (!word) return CLI_USAGE;
+    if (strcmp(name, "step") == 0 || strcmp(name, "space") == 0)
+        return study_text_fail(text, key, "options: %s has a key of its own", name);
+    if (dal_options_set(&e->options, name, word, &error) == DAL_OK) return CLI_DONE;
+    return study_text_fail(text, key, "%s", error.message);
+}
+
+static int take_options(void *user, const study_text *text, yaml_node_t *value)
+{
+    int status = CLI_DONE;
+    if (value->type != YAML_MAPPING_NODE)
+        return study_text_fail(text, value, "options: names and values are wanted");
+    const yaml_node_pair_t *pair = value->data.mapping.pairs.start;
+    for (; pair < value->data.mapping.pairs.top && status == CLI_DONE; pair++)
+        status = take_option(&((draft *)user)->entry, text, pair);
+    return status;
+}
+
 static int take_starts(void *user, const study_text *text, yaml_node_t *value)
 {
     study_entry *e = &((draft *)user)->entry;
@@ -244,7 +269,7 @@ static int check_names(const study_text *text, const yaml_node_t *node, const ch
     dal_error error = {0};
     dal_run_spec spec = {.system = e->system,
                          .method = e->methods[0],
-                         .options = dal_options_default(),
+                         .options = e->options,
                          .parameters = e->set,
                          .parameter_count = e->set_count,
                          .start = start,
@@ -339,8 +364,10 @@ static int make_cells(study_plan *plan)
 int study_plan_read(study_plan *plan, const char *place, const char *bytes, size_t length)
 {
     study_text *text = calloc(1, sizeof *text);
-    draft base = {
-        .entry = {.samples = 400, .displacement = 1e-8, .starts = (1 << STUDY_STARTS) - 1}};
+    draft base = {.entry = {.samples = 400,
+                            .options = dal_options_default(),
+                            .displacement = 1e-8,
+                            .starts = (1 << STUDY_STARTS) - 1}};
     *plan = (study_plan){.place = place, .document = text};
     if (!text) return cli_fail(CLI_IO, "out of memory");
     int status = study_text_parse(text, place, bytes, length);

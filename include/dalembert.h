@@ -98,9 +98,11 @@ typedef struct dal_callbacks {
     dal_callback *adjoint;    /* out[3n]: F, F_q^T pi, F_v^T pi          (NULL: no lifted space) */
     dal_callback *jacobian;   /* out[nw*n + nw*nw]: F_q, F_(v,g)         (NULL: no Newton) */
     dal_callback *constraint; /* out[m + m*n + n*m]: D, A, W^-1 A^T      (NULL: no +project) */
-    dal_callback *gauge;      /* out[1]: mu_e(t)                         (NULL: mu_e = 0) */
-    dal_callback *guards;     /* out[guards]: must keep their signs along a run: denominators and
-                                 the like of the constraints             (NULL: none) */
+    dal_callback
+        *energy_normal;   /* out[1 + 3n]: E, E_q, E_v, W^-1 E_q   (NULL: no +project-energy) */
+    dal_callback *gauge;  /* out[1]: mu_e(t)                         (NULL: mu_e = 0) */
+    dal_callback *guards; /* out[guards]: must keep their signs along a run: denominators and
+                             the like of the constraints             (NULL: none) */
 } dal_callbacks;
 
 /* What is known of the constraints and of the energy; set by a model, or by hand. */
@@ -146,7 +148,9 @@ struct dal_system {
     dal_callback *exact;    /* out[2n]: q, v of the exact solution at at->t; NULL: unknown */
     dal_callback *diagnose; /* out[1]: why field is not finite here: returns DAL_SINGULAR with the
                                number of the constraint (from 1), DAL_SINGULAR_MASS, or DAL_OK */
-    void *data;             /* the owner's */
+    const dal_system *extended; /* the same with F continued off D = 0 so that E is exact, for the
+                                   option extend-energy; NULL: there is none */
+    void *data;                 /* the owner's */
 };
 
 /* ---- models: systems from formulas --------------------------------------------------------- */
@@ -221,17 +225,20 @@ dal_status dal_model_tangent(dal_model *model, const dal_system **system, dal_er
 typedef enum dal_space { DAL_LIFTED, DAL_PHYSICAL } dal_space;
 typedef enum dal_solver { DAL_SOLVER_AUTO, DAL_FIXED_POINT, DAL_NEWTON } dal_solver;
 
-/* type, name, default, least, greatest, words (for choices), help */
+/* type, name, its word outside C, default, least, greatest, words (for choices), help */
 #define DAL_OPTION_LIST(X)                                                                         \
-    X(double, step, 0.01, 0.0, 1e300, NULL, "step size h in units of t")                           \
-    X(int, space, DAL_LIFTED, 0, 1, "lifted|physical",                                             \
+    X(double, step, "step", 0.01, 0.0, 1e300, NULL, "step size h in units of t")                   \
+    X(int, space, "space", DAL_LIFTED, 0, 1, "lifted|physical",                                    \
       "4n+2 canonical variables, or (q,v), all that vakonomic systems have")                       \
-    X(int, solver, DAL_SOLVER_AUTO, 0, 2, "auto|fixed-point|newton",                               \
+    X(int, solver, "solver", DAL_SOLVER_AUTO, 0, 2, "auto|fixed-point|newton",                     \
       "for implicit equations, always solved to rounding level")                                   \
-    X(int, iterations, 100, 1, 100000, NULL, "most iterations of an implicit equation")
+    X(int, iterations, "iterations", 100, 1, 100000, NULL,                                         \
+      "most iterations of an implicit equation")                                                   \
+    X(int, extend_energy, "extend-energy", 0, 0, 1, "off|on",                                      \
+      "continue F off D = 0 so that E is kept there too")
 
 typedef struct dal_options {
-#define X(type, name, initial, least, greatest, words, help) type name;
+#define X(type, name, word, initial, least, greatest, words, help) type name;
     DAL_OPTION_LIST(X)
 #undef X
 } dal_options;

@@ -31,6 +31,7 @@ typedef enum dal_question {
     DAL_ASK_ADJOINT,
     DAL_ASK_JACOBIAN,
     DAL_ASK_CONSTRAINT,
+    DAL_ASK_ENERGY_NORMAL,
     DAL_ASK_GAUGE,
     DAL_ASK_GUARDS
 } dal_question;

@@ -89,6 +89,21 @@ static bool take_linear(dal_model *model, dal__linear *s, int n, int columns, in
     return !model->starved;
 }
 
+dal_status dal__solve_again(dal_model *model, int n, const dal__node *matrix, const dal__node *rhs,
+                            dal__node *x)
+{
+    dal__equations *e = &model->equations;
+    const int pivots = e->pivots;
+    dal__linear s;
+    if (!take_linear(model, &s, n, 1, n)) return DAL_MEMORY;
+    for (int i = 0; i < n * n; i++) s.matrix[i] = matrix[i];
+    for (int i = 0; i < n; i++) s.rhs[i] = rhs[i];
+    dal_status status = dal__linear_solve(model, &s);
+    e->pivots = pivots;
+    for (int i = 0; i < n; i++) x[i] = s.x[i];
+    return status;
+}
+
 /* The column of W^-1 B_a; that of W^-1 A_a is 1 + a. */
 static int reaction_column(const dal__equations *e, int a) { return 1 + a + (e->servo ? e->m : 0); }
 
@@ -171,6 +186,7 @@ static dal_status solve_motion(dal_model *model, dal_error *error)
     status = solve_reaction(model, &mass, &reaction);
     if (status == DAL_SINGULAR) return dependent_constraints(model, reaction.singular, error);
     if (status != DAL_OK) return exhausted(model, error);
+    for (int a = 0; a < e->m; a++) e->h[a] = reaction.x[a];
     for (int i = 0; i < e->n; i++) {
         dal__node pushed = dal__dot(e->graph, e->m, e->R + i * e->m, reaction.x);
         e->F[i] = dal__add(e->graph, mass.x[i * mass.columns], pushed);

@@ -65,8 +65,11 @@ typedef struct dal__equations {
     dal__node *c;        /* [m] */
     dal__node *U;        /* [n*m]: W^-1 A^T, or 0s */
     dal__node *R;        /* [n*m]: W^-1 B^T; U itself by Chetaev's rule */
+    dal__node *h;        /* [m]: multipliers of the constraints, not of vakonomic motion */
     dal__node *F;        /* [n + multipliers] */
     dal__node energy;    /* or 0 */
+    dal__node *normal;   /* [1 + 3n]: E, E_q, E_v, W^-1 E_q; or NULL */
+    dal__node *extended; /* [n]: F continued off D = 0 with E exact; or NULL */
     dal__node *guard;    /* [guards] */
     int mass_guard;      /* which of them is det W, from 1; 0: none */
     dal__pivot *pivot;   /* [pivots], room for 2 (n + m) */
@@ -85,6 +88,7 @@ enum { DAL__T = 1, DAL__QV = 2, DAL__PI = 4 };
     X(ADJOINT, adjoint, DAL__T | DAL__QV | DAL__PI)                                                \
     X(JACOBIAN, jacobian, DAL__T | DAL__QV)                                                        \
     X(CONSTRAINT, constraint, DAL__T | DAL__QV)                                                    \
+    X(ENERGY_NORMAL, energy_normal, DAL__T | DAL__QV)                                              \
     X(GAUGE, gauge, DAL__T)                                                                        \
     X(GUARDS, guards, DAL__T | DAL__QV)
 #define DAL__SINGLE_LIST(X)                                                                        \
@@ -137,8 +141,8 @@ struct dal_model {
     int count, capacity;
     dal__equations equations;
     bool made, tangent_made;
-    dal__programs programs, tangent_programs;
-    dal_system system, tangent;
+    dal__programs programs, tangent_programs, extended_programs;
+    dal_system system, tangent, extended;
 };
 
 /* ---- model.c ---- */
@@ -203,17 +207,22 @@ dal_status dal__linear_solve(dal_model *model, dal__linear *linear);
 /* ---- equations.c ---- */
 
 dal_status dal__equations_derive(dal_model *model, dal_error *error);
+/* matrix x = rhs for one right-hand side; appends no pivots, for a matrix solved before. */
+dal_status dal__solve_again(dal_model *model, int n, const dal__node *matrix, const dal__node *rhs,
+                            dal__node *x);
 /* sum_i a[i] b[i] of count nodes. */
 dal__node dal__dot(dal__graph *graph, int count, const dal__node *a, const dal__node *b);
 /* d/dt along v without accelerations: f_q v + f_t. */
 dal__node dal__along(const dal__equations *e, dal__node f);
 
-/* ---- properties.c, energy.c, guards.c ---- */
+/* ---- properties.c, energy.c, guards.c, conserved.c ---- */
 
 dal_status dal__properties(dal_model *model);
 /* Adds what is known of E to the properties. */
 dal_status dal__energy_properties(dal_model *model);
 dal_status dal__guards(dal_model *model);
+/* After the properties: what a conserved energy gives beside its value. */
+dal_status dal__conserved(dal_model *model);
 
 /* ---- programs.c ---- */
 

@@ -99,6 +99,7 @@ void dal_model_free(dal_model *model)
     if (!model) return;
     dal__tapes_free(model->programs.tapes);
     dal__tapes_free(model->tangent_programs.tapes);
+    dal__tapes_free(model->extended_programs.tapes);
     dal__graph_free(model->equations.graph);
     for (dal__block *block = model->blocks, *next; block; block = next) {
         next = block->next;

@@ -21,6 +21,7 @@ static bool watches(const dal__equations *e, const dal__pivot *pivot, dal__progr
     case DAL__PROGRAM_JACOBIAN:
         return pivot->watched;
     case DAL__PROGRAM_CONSTRAINT:
+    case DAL__PROGRAM_ENERGY_NORMAL:
         return pivot->watched && pivot->constraint == 0 && !e->vakonomic;
     default:
         return false;

@@ -50,15 +50,16 @@ static dal_status add_if(dal_model *model, dal__programs *programs, bool present
     return present ? dal__programs_add(model, programs, code, outputs, count) : DAL_OK;
 }
 
-static dal_status add_programs(dal_model *model)
+/* All programs of a system whose accelerations are F. */
+static dal_status add_programs(dal_model *model, dal__programs *p, const dal__node *F)
 {
     const dal__equations *e = &model->equations;
-    dal__programs *p = &model->programs;
     int start = 2 * e->n + e->multipliers + 1;
     DAL_TRY(dal__programs_begin(e, p, e->n, e->multipliers));
-    DAL_TRY(dal__programs_add_motion(model, p, e->F));
+    DAL_TRY(dal__programs_add_motion(model, p, F));
     DAL_TRY(add_constraint(model, p));
     DAL_TRY(add_diagnosis(model, p));
+    DAL_TRY(add_if(model, p, e->normal, DAL__PROGRAM_ENERGY_NORMAL, e->normal, 1 + 3 * e->n));
     DAL_TRY(add_if(model, p, e->mu, DAL__PROGRAM_GAUGE, &e->mu, 1));
     DAL_TRY(add_if(model, p, e->guards, DAL__PROGRAM_GUARDS, e->guard, e->guards));
     DAL_TRY(dal__programs_add(model, p, DAL__PROGRAM_START, e->start, start));
@@ -100,6 +101,20 @@ static void describe(dal_model *model)
     };
 }
 
+/* The same system with its energy exact: itself, another one, or none. */
+static dal_status make_extended(dal_model *model)
+{
+    const dal__equations *e = &model->equations;
+    if (e->properties & DAL_E_EXACT) model->system.extended = &model->system;
+    if (!e->extended) return DAL_OK;
+    model->extended = model->system;
+    model->extended.properties ^= DAL_E_WEAK | DAL_E_EXACT;
+    DAL_TRY(add_programs(model, &model->extended_programs, e->extended));
+    DAL_TRY(dal__programs_finish(&model->extended_programs, &model->extended));
+    model->system.extended = model->extended.extended = &model->extended;
+    return DAL_OK;
+}
+
 dal_status dal_model_system(dal_model *model, const dal_system **system, dal_error *error)
 {
     *system = model->made ? &model->system : NULL;
@@ -109,10 +124,12 @@ dal_status dal_model_system(dal_model *model, const dal_system **system, dal_err
     DAL_TRY(dal__equations_derive(model, error));
     dal_status status = dal__guards(model);
     if (status == DAL_OK) status = dal__properties(model);
+    if (status == DAL_OK) status = dal__conserved(model);
     if (status == DAL_OK) describe(model);
-    if (status == DAL_OK) status = add_programs(model);
+    if (status == DAL_OK) status = add_programs(model, &model->programs, model->equations.F);
     if (status == DAL_OK) status = dal__graph_status(model->equations.graph);
     if (status == DAL_OK) status = dal__programs_finish(&model->programs, &model->system);
+    if (status == DAL_OK) status = make_extended(model);
     if (status != DAL_OK) return dal__exhausted(status, error);
     model->made = true;
     *system = &model->system;

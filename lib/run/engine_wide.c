@@ -42,6 +42,8 @@ static int answer_size(const dal__shape *k, dal_question question)
         return k->nw * (k->n + k->nw);
     case DAL_ASK_CONSTRAINT:
         return k->m + 2 * k->m * k->n;
+    case DAL_ASK_ENERGY_NORMAL:
+        return 1 + 3 * k->n;
     case DAL_ASK_GAUGE:
         return 1;
     case DAL_ASK_GUARDS:
@@ -159,12 +161,10 @@ void *DAL_WIDE(dal__engine_place)(const dal__shape *k, void *memory, double **ca
     for (int i = 0; i < k->depth; i++)
         e->chain[i] = dal__integrator_wide(k->method.chain[i], DAL_WIDE(DAL__VARIANT));
     const dal_callbacks *c = callbacks(k->system);
-    e->call[DAL_ASK_FIELD] = c->field;
-    e->call[DAL_ASK_ADJOINT] = c->adjoint;
-    e->call[DAL_ASK_JACOBIAN] = c->jacobian;
-    e->call[DAL_ASK_CONSTRAINT] = c->constraint;
-    e->call[DAL_ASK_GAUGE] = c->gauge;
-    e->call[DAL_ASK_GUARDS] = c->guards;
+    dal_callback *const calls[] = {/* in the order of the questions */
+                                   c->field,         c->adjoint, c->jacobian, c->constraint,
+                                   c->energy_normal, c->gauge,   c->guards};
+    memcpy(e->call, calls, sizeof e->call);
     e->carried = take(&at, k->carried);
     e->backup = take(&at, k->carried);
     e->work = take(&at, k->workspace);

@@ -6,7 +6,7 @@
 dal_options dal_options_default(void)
 {
     return (dal_options){
-#define X(type, name, initial, least, greatest, words, help) .name = initial,
+#define X(type, name, word, initial, least, greatest, words, help) .name = initial,
         DAL_OPTION_LIST(X)
 #undef X
     };
@@ -61,8 +61,8 @@ dal_status dal_options_set(dal_options *options, const char *name, const char *t
                            dal_error *error)
 {
     static const option table[] = {
-#define X(type, name, initial, least, greatest, words, help)                                       \
-    {#name, words, least, greatest, DAL__WHOLE_##type},
+#define X(type, name, word, initial, least, greatest, words, help)                                 \
+    {word, words, least, greatest, DAL__WHOLE_##type},
         DAL_OPTION_LIST(X)
 #undef X
     };
@@ -70,9 +70,9 @@ dal_status dal_options_set(dal_options *options, const char *name, const char *t
     const char *names[COUNT];
     double value = 0.0;
     for (int i = 0; i < COUNT; i++) names[i] = table[i].name;
-#define X(type, field, initial, least, greatest, words, help)                                      \
-    if (strcmp(name, #field) == 0) {                                                               \
-        const option k = {#field, words, least, greatest, DAL__WHOLE_##type};                      \
+#define X(type, field, word, initial, least, greatest, words, help)                                \
+    if (strcmp(name, word) == 0) {                                                                 \
+        const option k = {word, words, least, greatest, DAL__WHOLE_##type};                        \
         DAL_TRY(parse(&k, text, &value, error));                                                   \
         options->field = (type)value;                                                              \
         return DAL_OK;                                                                             \

@@ -14,6 +14,30 @@ static dal_status refuse(dal_error *error, const dal__shape *k, const char *lack
                       k->system->name ? k->system->name : "this system", lacks);
 }
 
+/* Why there is nothing to keep of the energy; NULL where it is conserved. */
+static const char *energy_fault(const dal_system *system)
+{
+    if (system->properties & DAL_VAKONOMIC)
+        return "the energy of vakonomic motion is not that of L";
+    if (!system->energy) return "the system has no energy";
+    if (!(system->properties & (DAL_E_EXACT | DAL_E_WEAK)))
+        return "the motion does not conserve its energy";
+    return NULL;
+}
+
+/* With extend-energy the system is that with its energy exact. */
+static dal_status choose_system(dal__shape *k, dal_error *error)
+{
+    const char *fault = energy_fault(k->system), *name = k->system->name;
+    if (!k->options.extend_energy) return DAL_OK;
+    if (!fault && !k->system->extended) fault = "the system has no such extension";
+    if (fault)
+        return dal__error(error, DAL_UNSUPPORTED, 0, 0, "extend-energy cannot act on %s: %s",
+                          name ? name : "this system", fault);
+    k->system = k->system->extended;
+    return DAL_OK;
+}
+
 /* What the method, the space and the solver need, the system must have. */
 static dal_status check_needs(const dal__shape *k, dal_error *error)
 {
@@ -58,6 +82,9 @@ static dal_status check_options(const dal_options *o, dal_error *error)
                           o->iterations);
     if (o->space < DAL_LIFTED || o->space > DAL_PHYSICAL)
         return dal__error(error, DAL_ARGUMENT, 0, 0, "there is no space number %d", o->space);
+    if (o->extend_energy < 0 || o->extend_energy > 1)
+        return dal__error(error, DAL_ARGUMENT, 0, 0, "extend-energy is %d, not 0 or 1",
+                          o->extend_energy);
     if (o->solver < DAL_SOLVER_AUTO || o->solver > DAL_NEWTON)
         return dal__error(error, DAL_ARGUMENT, 0, 0, "there is no solver number %d", o->solver);
     return DAL_OK;
@@ -128,6 +155,7 @@ dal_status dal__shape_init(dal__shape *k, const dal_run_spec *spec, dal_error *e
     DAL_TRY(check_system(spec->system, error));
     DAL_TRY(check_options(&spec->options, error));
     *k = (dal__shape){.system = spec->system, .method = spec->method, .options = spec->options};
+    DAL_TRY(choose_system(k, error));
     k->n = spec->system->n;
     k->m = spec->system->m;
     k->nw = k->n + spec->system->multipliers;
