@@ -137,8 +137,11 @@ int job_spec(cli_job *job, dal_run_spec *spec)
 {
     int status = cli_load(job->system, &job->model, &job->made);
     if (status != CLI_DONE) return status;
-    /* A system without a lift has one space alone; only an explicit --space=lifted is an error. */
-    if (!job->text[JOB_space] && !job->made->call.adjoint) job->options.space = DAL_PHYSICAL;
+    /* Where the system or the method has no lift there is one space alone; only an explicit
+     * --space=lifted is an error. */
+    const int liftless =
+        !job->made->call.adjoint || dal_method_needs(&job->method) & DAL_NEEDS_PARTS;
+    if (!job->text[JOB_space] && liftless) job->options.space = DAL_PHYSICAL;
     *spec = (dal_run_spec){.system = job->made,
                            .method = job->method,
                            .options = job->options,

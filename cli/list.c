@@ -169,9 +169,15 @@ static void put_claims(sheet *s, unsigned claims, unsigned inherits)
     static const struct {
         unsigned claim;
         const char *text;
-    } texts[] = {{DAL_EXPLICIT, "explicit"},           {DAL_SYMMETRIC, "symmetric"},
-                 {DAL_SYMPLECTIC, "symplectic lift"},  {DAL_KEEPS_BILINEAR, "bilinear D"},
-                 {DAL_KEEPS_QUADRATIC, "quadratic D"}, {DAL_KEEPS_D, "every D"}};
+    } texts[] = {{DAL_EXPLICIT, "explicit"},
+                 {DAL_SYMMETRIC, "symmetric"},
+                 {DAL_SYMPLECTIC, "symplectic lift"},
+                 {DAL_KEEPS_BILINEAR, "bilinear D"},
+                 {DAL_KEEPS_QUADRATIC, "quadratic D"},
+                 {DAL_KEEPS_D, "every D"},
+                 {DAL_KEEPS_D_MIDPOINT, "D at midpoints"},
+                 {DAL_KEEPS_ENERGY, "energy"},
+                 {DAL_CARRIES_MULTIPLIER, "carries multipliers"}};
     char line[160] = "";
     size_t n = 0;
     for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++)

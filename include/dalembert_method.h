@@ -6,13 +6,17 @@
 /* What a descriptor claims; the conformance suite verifies it. */
 enum {
     DAL_SYMMETRIC = 1 << 0,
-    DAL_SYMPLECTIC = 1 << 1,      /* on the canonical lift; says nothing about D or the energy */
-    DAL_KEEPS_BILINEAR = 1 << 2,  /* D bilinear in (q,v) */
-    DAL_KEEPS_QUADRATIC = 1 << 3, /* D quadratic in (q,v) */
-    DAL_KEEPS_D = 1 << 4,         /* every D */
-    DAL_EXPLICIT = 1 << 5,        /* on the physical space */
-    DAL_MODIFIER = 1 << 6,        /* works on another integrator: NAME+this */
-    DAL_COMPONENTWISE = 1 << 7    /* keeps no slopes; on (q,v) only adds multiples of v and F */
+    DAL_SYMPLECTIC = 1 << 1,         /* on the canonical lift; says nothing about D or the energy */
+    DAL_KEEPS_BILINEAR = 1 << 2,     /* D bilinear in (q,v) */
+    DAL_KEEPS_QUADRATIC = 1 << 3,    /* D quadratic in (q,v) */
+    DAL_KEEPS_D = 1 << 4,            /* every D */
+    DAL_EXPLICIT = 1 << 5,           /* on the physical space */
+    DAL_MODIFIER = 1 << 6,           /* works on another integrator: NAME+this */
+    DAL_COMPONENTWISE = 1 << 7,      /* keeps no slopes; on (q,v) only adds multiples of v and F */
+    DAL_KEEPS_D_MIDPOINT = 1 << 8,   /* D((q0 + q1)/2, (q1 - q0)/h, t + h/2) = 0 in every step */
+    DAL_KEEPS_ENERGY = 1 << 9,       /* E, where the motion keeps it */
+    DAL_CARRIES_MULTIPLIER = 1 << 10 /* a map of (q, v, multipliers), which a run carries along;
+                                        symmetric and reversible in them */
 };
 
 /* What it needs of the system or, a modifier, of the method inside. */
@@ -20,7 +24,10 @@ enum {
     DAL_NEEDS_FIELD = 1 << 0,
     DAL_NEEDS_CONSTRAINT = 1 << 1,
     DAL_NEEDS_SYMMETRIC = 1 << 2, /* a symmetric method */
-    DAL_NEEDS_ORDER_2 = 1 << 3    /* a method of order 2 */
+    DAL_NEEDS_ORDER_2 = 1 << 3,   /* a method of order 2 */
+    DAL_NEEDS_PARTS = 1 << 4,     /* the parts of F; there is no such method off p = pi = 0 */
+    DAL_NEEDS_POTENTIAL = 1 << 5, /* U, and a constant W */
+    DAL_NEEDS_ISOKINETIC = 1 << 6 /* DAL_D_ISOKINETIC */
 };
 
 struct dal_step; /* dalembert_kernel.h */
@@ -54,5 +61,6 @@ dal_status dal_method_parse(dal_method *method, const char *name, dal_error *err
 char *dal_method_name(const dal_method *method, char *buffer, size_t size);
 int dal_method_order(const dal_method *method);
 unsigned dal_method_claims(const dal_method *method); /* of the whole chain */
+unsigned dal_method_needs(const dal_method *method);  /* of any of its links */
 
 #endif

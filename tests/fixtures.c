@@ -87,6 +87,14 @@ dal_run_spec fixture_spec(const dal_system *system, const char *method, dal_spac
     return spec;
 }
 
+bool fixture_serves(const dal_method *method, const dal_system *system, dal_space space)
+{
+    const unsigned needs = dal_method_needs(method);
+    if (needs & DAL_NEEDS_PARTS && space == DAL_LIFTED) return false;
+    if (needs & DAL_NEEDS_POTENTIAL && !(system->properties & DAL_MASS_CONSTANT)) return false;
+    return !(needs & DAL_NEEDS_ISOKINETIC) || system->properties & DAL_D_ISOKINETIC;
+}
+
 dal_run *fixture_run(const dal_run_spec *spec)
 {
     dal_run *run = NULL;

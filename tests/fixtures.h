@@ -3,6 +3,7 @@
 #define FIXTURES_H
 
 #include <dalembert.h>
+#include <stdbool.h>
 
 /* Time-dependent and velocity-dependent forces, a full mass matrix that depends on q, m = 2 with
  * one constraint nonlinear in v: style.md rule 12. */
@@ -20,6 +21,8 @@ const dal_system *fixture_system(dal_model *model);
 /* A spec with default options; method by name. */
 dal_run_spec fixture_spec(const dal_system *system, const char *method, dal_space space,
                           double step);
+/* Whether a method declares that it can act on a system in a space. */
+bool fixture_serves(const dal_method *method, const dal_system *system, dal_space space);
 /* A run of it; NULL and a failed test when it cannot be made. */
 dal_run *fixture_run(const dal_run_spec *spec);
 

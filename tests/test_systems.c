@@ -154,7 +154,11 @@ static void test_invariants(void)
 
 /* ---- what is known ---- */
 
-enum { AFFINE = DAL_D_LINEAR, FIXED = DAL_AUTONOMOUS | DAL_MASS_CONSTANT };
+enum {
+    POSITIONAL = DAL_PARTS_POSITIONAL,
+    AFFINE = DAL_D_LINEAR | POSITIONAL,
+    FIXED = DAL_AUTONOMOUS | DAL_MASS_CONSTANT
+};
 
 static const struct {
     const char *name;
@@ -164,7 +168,7 @@ static const struct {
     {"chaplygin-sleigh", 3, 1, 0, AFFINE | DAL_E_WEAK | FIXED},
     {"chaplygin-sleigh-nonlinear", 3, 1, 2, DAL_D_WATCHED | DAL_E_EXACT | FIXED},
     {"chaplygin-sleigh-friction", 3, 0, 0, FIXED},
-    {"chaplygin-sleigh-vakonomic", 3, 1, 0, AFFINE | DAL_E_WEAK | DAL_VAKONOMIC | FIXED},
+    {"chaplygin-sleigh-vakonomic", 3, 1, 0, DAL_D_LINEAR | DAL_E_WEAK | DAL_VAKONOMIC | FIXED},
     {"damped-oscillator", 1, 0, 0, FIXED},
     {"nonholonomic-particle", 3, 1, 0,
      AFFINE | DAL_D_BILINEAR | DAL_D_QUADRATIC | DAL_E_WEAK | FIXED},
@@ -172,7 +176,7 @@ static const struct {
     {"knife-edge", 3, 1, 0, AFFINE | DAL_E_WEAK | FIXED},
     {"vertical-disk", 4, 2, 0, AFFINE | DAL_D_WATCHED | DAL_E_WEAK | FIXED},
     {"appell-hamel", 3, 1, 0, DAL_D_QUADRATIC | DAL_D_WATCHED | DAL_E_WEAK | FIXED},
-    {"isokinetic", 2, 1, 0, DAL_D_QUADRATIC | DAL_D_WATCHED | FIXED},
+    {"isokinetic", 2, 1, 0, DAL_D_QUADRATIC | DAL_D_WATCHED | DAL_D_ISOKINETIC | FIXED},
 };
 enum { KNOWN = sizeof known / sizeof *known };
 

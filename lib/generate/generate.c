@@ -52,8 +52,9 @@ bool dal__method_uses(const dal__generation *g, const char *word)
 
 bool dal__uses_newton(const dal__generation *g)
 {
-    const bool implicit =
-        dal__method_uses(g, "dal_polarised_euler") || dal__method_uses(g, "dal_collocation");
+    const bool implicit = dal__method_uses(g, "dal_polarised_euler") ||
+                          dal__method_uses(g, "dal_collocation") ||
+                          dal__method_uses(g, "dal_impose");
     return implicit && g->spec->options.solver != DAL_FIXED_POINT &&
            g->programs->program[DAL__PROGRAM_JACOBIAN].present;
 }
@@ -61,6 +62,7 @@ bool dal__uses_newton(const dal__generation *g)
 bool dal__wants(const dal__generation *g, dal__program_code code)
 {
     const bool watched = g->shape.system->properties & DAL_D_WATCHED;
+    const bool imposes = dal_method_needs(&g->spec->method) & DAL_NEEDS_PARTS;
     if (!g->programs->program[code].present) return false;
     switch (code) {
     case DAL__PROGRAM_ADJOINT:
@@ -69,7 +71,11 @@ bool dal__wants(const dal__generation *g, dal__program_code code)
     case DAL__PROGRAM_JACOBIAN:
         return dal__uses_newton(g);
     case DAL__PROGRAM_CONSTRAINT:
-        return watched || dal__method_uses(g, "DAL_ASK_CONSTRAINT");
+        return watched || imposes || dal__method_uses(g, "DAL_ASK_CONSTRAINT");
+    case DAL__PROGRAM_PARTS:
+        return imposes;
+    case DAL__PROGRAM_POTENTIAL:
+        return dal_method_needs(&g->spec->method) & DAL_NEEDS_POTENTIAL;
     case DAL__PROGRAM_DIAGNOSE:
         return false;
     default:
@@ -221,6 +227,8 @@ static void put_constants(dal__generation *g)
         {"SLOPES", collocation ? k->slopes : 0},
         {"SOLVER", k->options.solver},
         {"ITERATIONS", k->options.iterations},
+        {"PROPERTIES", (int)k->system->properties},
+        {"REACTION", k->reaction},
         {"NEWTON", dal__uses_newton(g)},
         {"EXPLICIT", is_explicit && k->depth == 1 && !(solves && k->lifted)},
         {"GUARDS", k->system->guards},
@@ -236,7 +244,8 @@ static void put_constants(dal__generation *g)
     DAL_STATUS_LIST(X)
 #undef X
     dal__text_put(&g->text, "    DAL_STATUS_COUNT\n} dal_status;\n"
-                            "enum { DAL_SOLVER_AUTO, DAL_FIXED_POINT, DAL_NEWTON };\n\n");
+                            "enum { DAL_SOLVER_AUTO, DAL_FIXED_POINT, DAL_NEWTON };\n");
+    dal__text_print(&g->text, "enum { DAL_PARTS_POSITIONAL = %d };\n\n", DAL_PARTS_POSITIONAL);
 }
 
 /* The parts of the kernel that the method needs. */
@@ -248,12 +257,14 @@ static void put_kernel(dal__generation *g)
     const bool collocation = dal__method_uses(g, "dal_collocation");
     for (size_t i = 0; i < sizeof always / sizeof *always; i++)
         dal__text_put(&g->text, dal__source_text(always[i]));
-    if (euler || collocation || dal__method_uses(g, "dal_solve"))
+    const bool constrained = dal_method_needs(&g->spec->method) & DAL_NEEDS_PARTS;
+    if (euler || collocation || constrained || dal__method_uses(g, "dal_solve"))
         dal__text_put(&g->text, dal__source_text("solve.h"));
     if (euler) dal__text_put(&g->text, dal__source_text("polarised.h"));
     if (collocation) dal__text_put(&g->text, dal__source_text("collocation.h"));
     if (dal__method_uses(g, "dal_substeps"))
         dal__text_put(&g->text, dal__source_text("composition.h"));
+    if (constrained) dal__text_put(&g->text, dal__source_text("constrained.h"));
 }
 
 /* rk4, implicit_midpoint: what an integrator is called in DAL_INTEGRATOR. */

@@ -12,9 +12,11 @@
 /* Members of dal_step, and how many numbers each is: whoever uses the list says, by a macro
  * DAL__COUNT_ONE etc.  The slopes come last, since most methods keep none. */
 #define DAL__MEMORY_LIST(X)                                                                        \
-    X(stiff, ONE)     /* 1 where the fixed point was too slow and Newton took over */              \
-    X(slopes_h, ONE)  /* the step size behind the slopes, 0: none */                               \
-    X(slopes, SLOPES) /* [stages*(nw + n)] stage slopes of the last collocation step */
+    X(stiff, ONE)         /* 1 where the fixed point was too slow and Newton took over */          \
+    X(slopes_h, ONE)      /* the step size behind the slopes, 0: none */                           \
+    X(reacts, ONE)        /* 1 where reaction has been set */                                      \
+    X(reaction, REACTION) /* [m] the multipliers of the last step, of methods that carry them */   \
+    X(slopes, SLOPES)     /* [stages*(nw + n)] stage slopes of the last collocation step */
 
 /* Places behind y and r. */
 enum {

@@ -33,24 +33,29 @@ typedef enum dal_question {
     DAL_ASK_CONSTRAINT,
     DAL_ASK_ENERGY_NORMAL,
     DAL_ASK_GAUGE,
-    DAL_ASK_GUARDS
+    DAL_ASK_GUARDS,
+    DAL_ASK_PARTS,
+    DAL_ASK_POTENTIAL,
+    DAL_QUESTIONS
 } dal_question;
 
 #ifdef DAL_SPECIALISED
 
 /* The dimensions are the generated file's constants, and all memory is local. */
-#define DAL_N(s)          DAL__N
-#define DAL_NW(s)         DAL__NW
-#define DAL_M(s)          DAL__M
-#define DAL_DIM(s)        DAL__DIM
-#define DAL_LIFTED(s)     DAL__LIFTED
-#define DAL_SOLVER(s)     DAL__SOLVER
-#define DAL_ITERATIONS(s) DAL__ITERATIONS
-#define DAL_MAY_NEWTON(s) DAL__NEWTON
-#define DAL_STAGES(t)     DAL__STAGES
-#define DAL__ROOM(count)  ((count) > 0 ? (count) : 1)
-#define DAL__COUNT_ONE    1
-#define DAL__COUNT_SLOPES DAL__SLOPES
+#define DAL_N(s)            DAL__N
+#define DAL_NW(s)           DAL__NW
+#define DAL_M(s)            DAL__M
+#define DAL_DIM(s)          DAL__DIM
+#define DAL_LIFTED(s)       DAL__LIFTED
+#define DAL_SOLVER(s)       DAL__SOLVER
+#define DAL_ITERATIONS(s)   DAL__ITERATIONS
+#define DAL_MAY_NEWTON(s)   DAL__NEWTON
+#define DAL_PROPERTIES(s)   DAL__PROPERTIES
+#define DAL_STAGES(t)       DAL__STAGES
+#define DAL__ROOM(count)    ((count) > 0 ? (count) : 1)
+#define DAL__COUNT_ONE      1
+#define DAL__COUNT_SLOPES   DAL__SLOPES
+#define DAL__COUNT_REACTION DAL__REACTION
 
 #define DAL_VECTOR(step, name, count) num name[DAL__ROOM(count)]
 #define DAL_MARK(step)                (void)0
@@ -81,6 +86,7 @@ DAL_INLINE void dal_ask(dal_step *s, dal_question question, double t, const num 
 #define DAL_SOLVER(s)     ((s)->solver)
 #define DAL_ITERATIONS(s) ((s)->iterations)
 #define DAL_MAY_NEWTON(s) ((s)->has_jacobian && (s)->solver != DAL_FIXED_POINT)
+#define DAL_PROPERTIES(s) ((s)->properties)
 #define DAL_STAGES(t)     ((t)->stages) /* of a tableau */
 
 struct dal_step {
@@ -99,6 +105,7 @@ struct dal_step {
     int solver;           /* dal_solver */
     int iterations;       /* most iterations */
     int has_jacobian;
+    unsigned properties; /* of the system */
 
     num *scratch; /* bump allocator, see dal_scratch */
     size_t used, room;

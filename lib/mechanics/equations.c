@@ -122,6 +122,7 @@ static dal_status solve_mass(dal_model *model, dal__linear *s)
         }
     }
     DAL_TRY(dal__linear_solve(model, s));
+    for (int i = 0; i < e->n; i++) e->a[i] = s->x[i * columns];
     for (int i = 0; i < e->n; i++)
         for (int a = 0; a < e->m; a++) {
             e->U[i * e->m + a] = s->x[i * columns + 1 + a];

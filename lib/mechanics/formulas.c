@@ -320,6 +320,7 @@ static dal_status allocate(dal_model *model, dal_error *error)
     e->c = nodes(model, m, zero);
     e->U = nodes(model, n * m, 0);
     e->R = e->servo ? nodes(model, n * m, zero) : e->U;
+    e->a = nodes(model, n, 0);
     e->F = nodes(model, n + m, zero);
     e->h = nodes(model, m, zero);
     e->pivot = dal__model_take(model, (size_t)(2 * (n + m)), sizeof *e->pivot);

@@ -66,6 +66,7 @@ typedef struct dal__equations {
     dal__node *U;        /* [n*m]: W^-1 A^T, or 0s */
     dal__node *R;        /* [n*m]: W^-1 B^T; U itself by Chetaev's rule */
     dal__node *h;        /* [m]: multipliers of the constraints, not of vakonomic motion */
+    dal__node *a;        /* [n]: W^-1 b, or 0s */
     dal__node *F;        /* [n + multipliers] */
     dal__node energy;    /* or 0 */
     dal__node *normal;   /* [1 + 3n]: E, E_q, E_v, W^-1 E_q; or NULL */
@@ -90,7 +91,9 @@ enum { DAL__T = 1, DAL__QV = 2, DAL__PI = 4 };
     X(CONSTRAINT, constraint, DAL__T | DAL__QV)                                                    \
     X(ENERGY_NORMAL, energy_normal, DAL__T | DAL__QV)                                              \
     X(GAUGE, gauge, DAL__T)                                                                        \
-    X(GUARDS, guards, DAL__T | DAL__QV)
+    X(GUARDS, guards, DAL__T | DAL__QV)                                                            \
+    X(PARTS, parts, DAL__T | DAL__QV)                                                              \
+    X(POTENTIAL, potential, DAL__T | DAL__QV)
 #define DAL__SINGLE_LIST(X)                                                                        \
     X(START, start, 0)                                                                             \
     X(CONSTRAINTS, constraints, DAL__T | DAL__QV)                                                  \

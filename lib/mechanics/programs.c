@@ -22,6 +22,7 @@ static bool watches(const dal__equations *e, const dal__pivot *pivot, dal__progr
         return pivot->watched;
     case DAL__PROGRAM_CONSTRAINT:
     case DAL__PROGRAM_ENERGY_NORMAL:
+    case DAL__PROGRAM_PARTS:
         return pivot->watched && pivot->constraint == 0 && !e->vakonomic;
     default:
         return false;

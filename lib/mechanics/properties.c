@@ -47,6 +47,46 @@ static unsigned constraint_properties(const dal__equations *e, dal__node *first,
     return all;
 }
 
+/* ---- what methods that impose D ask ---- */
+
+static bool depends_on_v(const dal__equations *e, const dal__node *f, int count)
+{
+    for (int i = 0; i < count; i++)
+        if (dal__depends(e->graph, f[i], e->v, e->v + e->n)) return true;
+    return false;
+}
+
+/* A W_00 = D_00 W v, where D_00 is the first entry of D_vv and W constant: D = k (v.Wv/2 - K). */
+static bool is_isokinetic(const dal__equations *e, dal__node *row)
+{
+    dal__graph *graph = e->graph;
+    const dal__node *v = e->flow + 1;
+    if (e->m != 1 || e->servo || !dal__is_number(graph, e->c[0], 0.0)) return false;
+    if (dal__is_number(graph, e->W[0], 0.0)) return false;
+    dal__gradient(graph, e->A[0], e->symbol + e->v, e->n, row);
+    const dal__node first = row[0];
+    for (int i = 0; i < e->n; i++) {
+        dal__gradient(graph, e->A[i], e->symbol + e->v, e->n, row);
+        for (int j = 0; j < e->n; j++) {
+            dal__node wanted = dal__mul(graph, first, e->W[i * e->n + j]);
+            dal__node defect = dal__sub(graph, dal__mul(graph, row[j], e->W[0]), wanted);
+            if (!dal__is_number(graph, defect, 0.0)) return false;
+        }
+        dal__node rest = dal__sub(graph, e->A[i], dal__dot(graph, e->n, row, v));
+        if (!dal__is_number(graph, rest, 0.0)) return false;
+    }
+    return true;
+}
+
+static unsigned parts_properties(const dal__equations *e, dal__node *row)
+{
+    const int n = e->n, mn = e->m * e->n;
+    if (e->vakonomic || depends_on_v(e, e->a, n)) return 0;
+    if (!depends_on_v(e, e->A, mn) && !depends_on_v(e, e->R, mn)) return DAL_PARTS_POSITIONAL;
+    const bool steady = e->properties & DAL_MASS_CONSTANT;
+    return steady && is_isokinetic(e, row) ? DAL_D_ISOKINETIC : 0;
+}
+
 /* ---- the whole ---- */
 
 static unsigned motion_properties(const dal__equations *e)
@@ -68,5 +108,6 @@ dal_status dal__properties(dal_model *model)
     if (model->starved) return DAL_MEMORY;
     e->properties = motion_properties(e) | constraint_properties(e, first, second);
     DAL_TRY(dal__energy_properties(model));
+    e->properties |= parts_properties(e, first);
     return dal__graph_status(e->graph);
 }

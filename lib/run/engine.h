@@ -17,13 +17,14 @@ typedef struct dal__shape {
     const dal_system *system;
     dal_method method;
     dal_options options;
-    int n, nw, m, dim, lifted, depth, stages, slopes;
+    int n, nw, m, dim, lifted, depth, stages, slopes, reaction;
     size_t workspace, carried, scratch; /* numbers */
 } dal__shape;
 
 /* Numbers of what a method remembers, for DAL__MEMORY_LIST. */
-#define DAL__COUNT_ONE(shape)    1
-#define DAL__COUNT_SLOPES(shape) ((shape)->slopes)
+#define DAL__COUNT_ONE(shape)      1
+#define DAL__COUNT_SLOPES(shape)   ((shape)->slopes)
+#define DAL__COUNT_REACTION(shape) ((shape)->reaction)
 
 /* Where something of the clock, or the memory, is in the carried array. */
 static inline size_t dal__at(const dal__shape *shape, int place)
@@ -42,6 +43,9 @@ typedef struct dal__cause {
 
 /* Measures a spec; errors as dal_run_init. */
 dal_status dal__shape_init(dal__shape *shape, const dal_run_spec *spec, dal_error *error);
+
+/* Numbers in the answer to a dal_question. */
+int dal__answer_size(const dal__shape *shape, int question);
 
 /* The variants by number. */
 typedef enum dal__variant {

@@ -15,7 +15,7 @@ typedef struct engine {
     dal_step step; /* first, so that step->owner is also the engine */
     dal__shape shape;
     const dal_integrator *chain[DAL_CHAIN];
-    dal_callback *call[DAL_ASK_GUARDS + 1];
+    dal_callback *call[DAL_QUESTIONS];
     num *carried, *backup, *work;
     dal__cause *cause;
 } engine;
@@ -29,27 +29,6 @@ static const dal_callbacks *callbacks(const dal_system *system)
     if (LANES == 8) return system->wide8;
     if (LANES == (int)DAL__BLOCK) return system->wide64;
     return &system->call;
-}
-
-static int answer_size(const dal__shape *k, dal_question question)
-{
-    switch (question) {
-    case DAL_ASK_FIELD:
-        return k->nw;
-    case DAL_ASK_ADJOINT:
-        return 3 * k->n;
-    case DAL_ASK_JACOBIAN:
-        return k->nw * (k->n + k->nw);
-    case DAL_ASK_CONSTRAINT:
-        return k->m + 2 * k->m * k->n;
-    case DAL_ASK_ENERGY_NORMAL:
-        return 1 + 3 * k->n;
-    case DAL_ASK_GAUGE:
-        return 1;
-    case DAL_ASK_GUARDS:
-        return k->system->guards;
-    }
-    return 0;
 }
 
 /* Nums of the carried array that an integrator may change: some methods keep no stage slopes, and
@@ -68,7 +47,7 @@ static void trace(engine *e, dal_question question, const dal_at *at, dal_status
 {
     dal__cause *cause = e->cause;
     double sum = 0.0;
-    for (int i = 0; i < answer_size(&e->shape, question); i++) sum += out[i] - out[i];
+    for (int i = 0; i < dal__answer_size(&e->shape, question); i++) sum += out[i] - out[i];
     if (cause->not_finite || (sum == 0.0 && status == DAL_OK)) return;
     cause->not_finite = true;
     cause->status = status;
@@ -80,7 +59,7 @@ static void trace(engine *e, dal_question question, const dal_at *at, dal_status
 /* The answer where there is none. */
 static void fill(const engine *e, dal_question question, double value, num *out)
 {
-    const int size = answer_size(&e->shape, question) * DAL_GROUPS;
+    const int size = dal__answer_size(&e->shape, question) * DAL_GROUPS;
     for (int i = 0; i < size; i++) out[i] = dal_num(value);
 }
 
@@ -143,6 +122,7 @@ static void prepare_step(engine *e)
     s->solver = k->options.solver;
     s->iterations = k->options.iterations;
     s->has_jacobian = k->system->call.jacobian != NULL;
+    s->properties = k->system->properties;
     s->room = k->scratch * DAL_GROUPS;
     place_memory(e);
     s->chain = e->chain;
@@ -161,9 +141,10 @@ void *DAL_WIDE(dal__engine_place)(const dal__shape *k, void *memory, double **ca
     for (int i = 0; i < k->depth; i++)
         e->chain[i] = dal__integrator_wide(k->method.chain[i], DAL_WIDE(DAL__VARIANT));
     const dal_callbacks *c = callbacks(k->system);
-    dal_callback *const calls[] = {/* in the order of the questions */
-                                   c->field,         c->adjoint, c->jacobian, c->constraint,
-                                   c->energy_normal, c->gauge,   c->guards};
+    /* In the order of the questions. */
+    dal_callback *const calls[] = {c->field,      c->adjoint,       c->jacobian,
+                                   c->constraint, c->energy_normal, c->gauge,
+                                   c->guards,     c->parts,         c->potential};
     memcpy(e->call, calls, sizeof e->call);
     e->carried = take(&at, k->carried);
     e->backup = take(&at, k->carried);

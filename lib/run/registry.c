@@ -115,12 +115,20 @@ int dal_method_order(const dal_method *method)
     return order;
 }
 
+unsigned dal_method_needs(const dal_method *method)
+{
+    unsigned needs = 0;
+    for (int i = 0; i < DAL_CHAIN && method->chain[i]; i++) needs |= method->chain[i]->needs;
+    return needs;
+}
+
 unsigned dal_method_claims(const dal_method *method)
 {
     unsigned claims = 0;
     for (int i = 0; i < DAL_CHAIN && method->chain[i]; i++) {
         const dal_integrator *k = method->chain[i];
-        claims = (claims & k->inherits) | (k->claims & ~(unsigned)DAL_MODIFIER);
+        claims = (claims & (k->inherits | DAL_CARRIES_MULTIPLIER)) |
+                 (k->claims & ~(unsigned)DAL_MODIFIER);
     }
     return claims;
 }

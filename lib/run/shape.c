@@ -1,5 +1,6 @@
 /* shape.c - the dimensions and the memory of a run, and whether its parts fit together. */
 #include "run/engine.h"
+#include <dalembert_kernel.h>
 #include <math.h>
 #include <stdint.h>
 
@@ -38,12 +39,32 @@ static dal_status choose_system(dal__shape *k, dal_error *error)
     return DAL_OK;
 }
 
+/* What methods that impose D themselves need. */
+static dal_status check_parts(const dal__shape *k, unsigned needs, dal_error *error)
+{
+    const dal_system *s = k->system;
+    char name[128];
+    if (k->lifted)
+        return dal__error(error, DAL_UNSUPPORTED, 0, 0,
+                          "%s imposes D on (q,v) and has no lifted form; take the physical space",
+                          dal_method_name(&k->method, name, sizeof name));
+    if (!s->call.parts || s->multipliers) return refuse(error, k, "parts a, B of F = a + B h");
+    if (k->m > 0 && !s->call.constraint) return refuse(error, k, "constraint callback");
+    if (needs & DAL_NEEDS_POTENTIAL && !(s->properties & DAL_MASS_CONSTANT))
+        return refuse(error, k, "constant mass matrix");
+    if (needs & DAL_NEEDS_POTENTIAL && !s->call.potential)
+        return refuse(error, k, "potential (its accelerations are given, not a Lagrangian)");
+    if (needs & DAL_NEEDS_ISOKINETIC && !(s->properties & DAL_D_ISOKINETIC))
+        return refuse(error, k,
+                      "isokinetic constraint v.Wv/2 - K with constant W and forces of q and t");
+    return DAL_OK;
+}
+
 /* What the method, the space and the solver need, the system must have. */
 static dal_status check_needs(const dal__shape *k, dal_error *error)
 {
     const dal_callbacks *call = &k->system->call;
-    unsigned needs = 0;
-    for (int i = 0; i < k->depth; i++) needs |= k->method.chain[i]->needs;
+    const unsigned needs = dal_method_needs(&k->method);
     if (!call->field) return refuse(error, k, "field");
     if (k->lifted && k->system->multipliers)
         return refuse(error, k, "lifted space, being vakonomic; take the physical space");
@@ -52,7 +73,7 @@ static dal_status check_needs(const dal__shape *k, dal_error *error)
         return refuse(error, k, "constraint callback");
     if (k->options.solver == DAL_NEWTON && !call->jacobian)
         return refuse(error, k, "jacobian, which the solver newton needs");
-    return DAL_OK;
+    return needs & DAL_NEEDS_PARTS ? check_parts(k, needs, error) : DAL_OK;
 }
 
 static dal_status check_system(const dal_system *system, dal_error *error)
@@ -127,14 +148,45 @@ static dal_status check_chain(dal__shape *k, dal_error *error)
     return DAL_OK;
 }
 
+/* Numbers in the answer to a question. */
+int dal__answer_size(const dal__shape *k, int question)
+{
+    switch (question) {
+    case DAL_ASK_FIELD:
+        return k->nw;
+    case DAL_ASK_ADJOINT:
+        return 3 * k->n;
+    case DAL_ASK_JACOBIAN:
+        return k->nw * (k->n + k->nw);
+    case DAL_ASK_CONSTRAINT:
+        return k->m + 2 * k->m * k->n;
+    case DAL_ASK_ENERGY_NORMAL:
+        return 1 + 3 * k->n;
+    case DAL_ASK_GAUGE:
+        return 1;
+    case DAL_ASK_GUARDS:
+        return k->system->guards;
+    case DAL_ASK_PARTS:
+        return k->n + 2 * (k->m + k->m * k->n);
+    case DAL_ASK_POTENTIAL:
+        return 1 + 2 * k->n;
+    default:
+        return 0;
+    }
+}
+
 /* Numbers of memory, in floating point first so that nothing overflows. */
 static dal_status measure(dal__shape *k, dal_error *error)
 {
     const double dim = k->dim, n = k->n, nw = k->nw, m = k->m, stages = k->stages;
     const double matrix = (stages * nw) * (stages * nw) * (k->system->call.jacobian ? 6 : 0);
     const double constraint = 4 * (m + 2 * m * n) + 8 * m * m;
+    const bool imposes = dal_method_needs(&k->method) & DAL_NEEDS_PARTS;
+    const double equations = (stages + 1) * m;
+    const double parts =
+        imposes ? 2 * (stages + 2) * (n + 2 * m + 2 * m * n) + 4 * equations * equations : 0;
     const double scratch = (16 * stages + 16) * dim + matrix + 2 * nw * (n + nw) + constraint +
-                           2.0 * k->system->guards + 16 * n + 64;
+                           parts + 2.0 * k->system->guards + 16 * n + 64;
     if (scratch > MOST_NUMBERS || k->stages > 1000)
         return dal__error(error, DAL_TOO_LARGE, 0, 0, "a run with n = %d, m = %d needs %g numbers",
                           k->n, k->m, scratch);
@@ -143,6 +195,7 @@ static dal_status measure(dal__shape *k, dal_error *error)
     if (k->workspace > MOST_NUMBERS)
         return dal__error(error, DAL_TOO_LARGE, 0, 0, "a workspace of %zu numbers", k->workspace);
     k->slopes = k->stages * (k->nw + k->n);
+    k->reaction = dal_method_claims(&k->method) & DAL_CARRIES_MULTIPLIER ? k->m : 0;
     k->carried = dal__at(k, DAL__MEMORY);
 #define X(member, count) k->carried += (size_t)DAL__COUNT_##count(k);
     DAL__MEMORY_LIST(X)

@@ -1,0 +1,73 @@
+/* gni.c - the geometric nonholonomic integrator in RATTLE form.
+ *
+ *     vh = v0 + h/2 (a(q0,v0) + B(q0,v0) lambda0),   q1 = q0 + h vh
+ *     v1 = vh + h/2 (a(q1,v1) + B(q1,v1) lambda1),   D(q1, v1, t1) = 0
+ *
+ * lambda1 is the lambda0 of the next step; the first is that of the continuous motion.  S. Ferraro,
+ * D. Iglesias, D. Martin de Diego, Nonlinearity 21 (2008) 1911, and, in this form, Ferraro,
+ * Iglesias, Martin de Diego, Discrete Contin. Dyn. Syst. Suppl. (2009) 220.  vh -> vh of the next
+ * step is a reflection in D = 0: without forces, and with constant W, its kinetic energy is kept.
+ * Order 2, symmetric in (q, v, lambda), keeps every D; explicit where forces depend on q alone and
+ * D is linear. */
+#include <dalembert_kernel.h>
+
+typedef struct rattle {
+    dal_reaction reaction; /* first */
+    num *kick;             /* [n] h/2 (a0 + B0 lambda0) */
+    num *q1, *v1;          /* [n] */
+    num *after;            /* parts at (q1, v1) */
+} rattle;
+
+DAL_INLINE void map(dal_step *s, dal_equation *eq)
+{
+    rattle *k = (rattle *)eq->context;
+    const int n = DAL_N(s), m = DAL_M(s);
+    const double half = 0.5 * s->h;
+    DAL_EACH(i, n) k->v1[i] = dal_moved_v(s, i, eq->block[0].u[i]);
+    dal_parts(s, s->t + s->h, k->q1, k->v1, k->after);
+    DAL_EACH(i, n) k->reaction.free[i] = k->kick[i] + half * k->after[dal_at_a(s) + i];
+    DAL_EACH(i, n * m) k->reaction.normals[i] = half * k->after[dal_at_B(s) + i];
+    dal_react(s, eq, k->after);
+}
+
+/* The first half of the step. */
+DAL_INLINE dal_status begin(dal_step *s, num *kick)
+{
+    const int n = DAL_N(s), m = DAL_M(s);
+    DAL_VECTOR(s, before, DAL_PARTS(s));
+    DAL_VECTOR(s, lambda, DAL_M(s));
+    DAL_VECTOR(s, pull, DAL_N(s));
+    dal_parts(s, s->t, s->y, s->y + n, before);
+    DAL_TRY(dal_recall_multipliers(s, before, lambda));
+    dal_multiply(before + dal_at_B(s), n, m, lambda, pull);
+    DAL_EACH(i, n) kick[i] = 0.5 * s->h * (before[dal_at_a(s) + i] + pull[i]);
+    return DAL_OK;
+}
+
+DAL_INLINE dal_status step(dal_step *s)
+{
+    const int n = DAL_N(s);
+    const double h = s->h;
+    DAL_VECTOR(s, kick, DAL_N(s));
+    DAL_VECTOR(s, q1, DAL_N(s));
+    DAL_VECTOR(s, v1, DAL_N(s));
+    DAL_VECTOR(s, after, DAL_PARTS(s));
+    DAL_VECTOR(s, d, DAL_DIM(s));
+    DAL_BLOCK(s, block, DAL_N(s), DAL_MAY_NEWTON(s));
+    DAL_REACTION(s, reaction, 0.5 * s->h, 0.0);
+    rattle k = {reaction, kick, q1, v1, after};
+    dal_equation eq = dal_velocity_equation(s, block, &k);
+    DAL_TRY(begin(s, kick));
+    DAL_EACH(i, n) d[i] = h * dal_moved_v(s, i, kick[i]);
+    DAL_EACH(i, n) q1[i] = dal_moved_q(s, i, d[i]);
+    DAL_TRY(dal_impose(s, &eq, map, dal_positional(s)));
+    DAL_EACH(i, n) d[n + i] = eq.block[0].u[i];
+    dal_carry_multipliers(s, k.reaction.mu);
+    return dal_update(s, h, d);
+}
+
+DAL_INTEGRATOR(gni, step, .name = "gni", .alias = "nonholonomic-rattle",
+               .summary = "RATTLE with D on the velocities",
+               .reference = "Ferraro, Iglesias, Martin de Diego 2008", .order = 2, .stages = 1,
+               .claims = DAL_SYMMETRIC | DAL_KEEPS_D | DAL_CARRIES_MULTIPLIER,
+               .needs = DAL_NEEDS_FIELD | DAL_NEEDS_PARTS);

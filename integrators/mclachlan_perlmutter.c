@@ -1,0 +1,71 @@
+/* mclachlan_perlmutter.c - nonholonomic leapfrog with the constraint at the end of the step.
+ *
+ *     qh = q0 + h/2 v0
+ *     v1 - v0 = h/2 (a(qh,v0) + a(qh,v1)) + h/2 (B(qh,v0) + B(qh,v1)) lambda
+ *     q1 = qh + h/2 v1,   D(q1, v1, t1) = 0            a and B at t + h/2, solved to rounding
+ *
+ * R. McLachlan, M. Perlmutter, J. Nonlinear Sci. 16 (2006) 283, eq. 4.18, for linear D, where B
+ * depends on q alone; the mean of B serves nonlinear D and keeps the symmetry.  Order 2, symmetric,
+ * keeps every D.  With a mass matrix, a = W^-1 b and B = W^-1 A^T.  Where forces depend on q alone
+ * and D is linear only the m multipliers are solved for, one evaluation a step. */
+#include <dalembert_kernel.h>
+
+typedef struct leap {
+    dal_reaction reaction; /* first */
+    num *qh, *q1, *v1;     /* [n] */
+    num *before, *after;   /* parts at (qh, v0), (qh, v1) */
+    num *normals;          /* D, A at (q1, v1) */
+} leap;
+
+DAL_INLINE void take_mean(const dal_step *s, const leap *k)
+{
+    const int n = DAL_N(s), m = DAL_M(s), a = dal_at_a(s), B = dal_at_B(s);
+    const num *after = dal_positional(s) ? k->before : k->after;
+    const double half = 0.5 * s->h;
+    DAL_EACH(i, n) k->reaction.free[i] = half * (k->before[a + i] + after[a + i]);
+    DAL_EACH(i, n * m) k->reaction.normals[i] = half * (k->before[B + i] + after[B + i]);
+}
+
+DAL_INLINE void map(dal_step *s, dal_equation *eq)
+{
+    leap *k = (leap *)eq->context;
+    const int n = DAL_N(s);
+    const double h = s->h;
+    DAL_EACH(i, n) k->v1[i] = dal_moved_v(s, i, eq->block[0].u[i]);
+    DAL_EACH(i, n) k->q1[i] = dal_moved_q(s, i, 0.5 * h * (s->y[n + i] + k->v1[i]));
+    if (!dal_positional(s)) {
+        dal_parts(s, s->t + 0.5 * h, k->qh, k->v1, k->after);
+        take_mean(s, k);
+    }
+    dal_constraint(s, s->t + h, k->q1, k->v1, k->normals);
+    dal_react(s, eq, k->normals);
+}
+
+DAL_INLINE dal_status step(dal_step *s)
+{
+    const int n = DAL_N(s);
+    const double h = s->h;
+    DAL_VECTOR(s, qh, DAL_N(s));
+    DAL_VECTOR(s, q1, DAL_N(s));
+    DAL_VECTOR(s, v1, DAL_N(s));
+    DAL_VECTOR(s, before, DAL_PARTS(s));
+    DAL_VECTOR(s, after, DAL_PARTS(s));
+    DAL_VECTOR(s, normals, DAL_NORMALS(s));
+    DAL_VECTOR(s, d, DAL_DIM(s));
+    DAL_BLOCK(s, block, DAL_N(s), DAL_MAY_NEWTON(s));
+    DAL_REACTION(s, reaction, 0.5 * s->h, 0.0);
+    leap k = {reaction, qh, q1, v1, before, after, normals};
+    dal_equation eq = dal_velocity_equation(s, block, &k);
+    DAL_EACH(i, n) qh[i] = dal_moved_q(s, i, 0.5 * h * s->y[n + i]);
+    dal_parts(s, s->t + 0.5 * h, qh, s->y + n, before);
+    take_mean(s, &k);
+    DAL_TRY(dal_impose(s, &eq, map, DAL_M(s) == 0 && dal_positional(s)));
+    DAL_EACH(i, n) d[n + i] = eq.block[0].u[i];
+    DAL_EACH(i, n) d[i] = 0.5 * h * (s->y[n + i] + dal_moved_v(s, i, d[n + i]));
+    return dal_update(s, h, d);
+}
+
+DAL_INTEGRATOR(mclachlan_perlmutter, step, .name = "mclachlan-perlmutter",
+               .summary = "leapfrog with D at its end", .reference = "McLachlan, Perlmutter 2006",
+               .order = 2, .stages = 1, .claims = DAL_SYMMETRIC | DAL_KEEPS_D,
+               .needs = DAL_NEEDS_FIELD | DAL_NEEDS_PARTS);

@@ -1,0 +1,206 @@
+/* constrained.h - steps that impose the constraints themselves instead of following F.
+ *
+ *     q' = v,   v' = a + B lambda,   D(q, v, t) = 0;     a = W^-1 b,   B = W^-1 A^T
+ *
+ * A method that imposes D on one velocity seeks the increment w of v, and multipliers, with
+ *
+ *     w = free(w) + N(w) mu,     D(q(w), v + w, t) = 0.
+ *
+ * The multipliers are eliminated: in every sweep they are those for which the constraints hold to
+ * first order, so that w alone is iterated (solve.h), and what it stagnates at solves both:
+ *
+ *     (A N) mu = A (w - free) - D,     image = free + N mu
+ *
+ * D may be nonlinear, W may depend on q, v, t.  The sweeps contract like h; where they are too slow
+ * for that, Newton's matrix is 1 - z P F_v - z^2 P F_q with P = 1 - B G^-1 A at the beginning of
+ * the step: of the derivative of a sweep the part that can be large, since P B = 0 and the motion
+ * along the constraints is that of F.  (With reactions along directions of their own, B is W^-1 of
+ * those.) */
+#ifndef DAL_KERNEL_CONSTRAINED_H
+#define DAL_KERNEL_CONSTRAINED_H
+
+/* Numbers in an answer to DAL_ASK_PARTS, and where its parts lie: D, A, B as in one to
+ * DAL_ASK_CONSTRAINT, then a and c. */
+#define DAL_PARTS(s)    (2 * DAL_M(s) + DAL_N(s) + 2 * DAL_M(s) * DAL_N(s))
+#define DAL_NORMALS(s)  (DAL_M(s) + 2 * DAL_M(s) * DAL_N(s))
+#define DAL_SQUARE_M(s) (DAL_M(s) * DAL_M(s))
+DAL_INLINE int dal_at_A(const dal_step *s) { return DAL_M(s); }
+DAL_INLINE int dal_at_B(const dal_step *s) { return DAL_M(s) + DAL_M(s) * DAL_N(s); }
+DAL_INLINE int dal_at_a(const dal_step *s) { return DAL_NORMALS(s); }
+DAL_INLINE int dal_at_c(const dal_step *s) { return DAL_NORMALS(s) + DAL_N(s); }
+
+DAL_INLINE void dal_parts(dal_step *s, double t, const num *q, const num *v, num *out)
+{
+    s->evaluations++;
+    dal_ask(s, DAL_ASK_PARTS, t, q, v, NULL, out);
+}
+
+/* Without constraints there is no such question. */
+DAL_INLINE void dal_constraint(dal_step *s, double t, const num *q, const num *v, num *out)
+{
+    if (DAL_M(s) > 0) dal_ask(s, DAL_ASK_CONSTRAINT, t, q, v, NULL, out);
+}
+
+/* The present state moved by d: y + (r + d), for component i of q or of v. */
+DAL_INLINE num dal_moved_q(const dal_step *s, int i, num d) { return s->y[i] + (s->r[i] + d); }
+DAL_INLINE num dal_moved_v(const dal_step *s, int i, num d)
+{
+    return s->y[DAL_N(s) + i] + (s->r[DAL_N(s) + i] + d);
+}
+
+/* x = g^-1 rhs for a g[size*size] that is destroyed. */
+DAL_INLINE void dal_solve_small(num *g, num *inverse, int size, const num *rhs, num *x)
+{
+    if (size == 1)
+        inverse[0] = 1.0 / g[0];
+    else
+        dal_invert(g, inverse, size);
+    dal_multiply(inverse, size, size, rhs, x);
+}
+
+/* The multipliers of the continuous motion at the point of an answer: G h = -(c + A a). */
+DAL_INLINE dal_status dal_continuous_multipliers(dal_step *s, const num *parts, num *h)
+{
+    const int n = DAL_N(s), m = DAL_M(s);
+    const num *A = parts + dal_at_A(s), *c = parts + dal_at_c(s);
+    DAL_VECTOR(s, g, DAL_SQUARE_M(s));
+    DAL_VECTOR(s, inverse, DAL_SQUARE_M(s));
+    DAL_VECTOR(s, rhs, DAL_M(s));
+    dal_multiply(A, m, n, parts + dal_at_a(s), rhs);
+    DAL_EACH(i, m) rhs[i] = -(c[i] + rhs[i]);
+    dal_gram(A, parts + dal_at_B(s), m, n, g);
+    if (m > 0) dal_solve_small(g, inverse, m, rhs, h);
+    return DAL_OK;
+}
+
+/* The multipliers carried from the last step, or the continuous ones where there are none. */
+DAL_INLINE dal_status dal_recall_multipliers(dal_step *s, const num *parts, num *h)
+{
+    const dal_mask known = dal_less(dal_num(0.5), *s->reacts);
+    DAL_TRY(dal_continuous_multipliers(s, parts, h));
+    DAL_EACH(i, DAL_M(s)) h[i] = dal_select(known, s->reaction[i], h[i]);
+    return DAL_OK;
+}
+DAL_INLINE void dal_carry_multipliers(dal_step *s, const num *h)
+{
+    DAL_EACH(i, DAL_M(s)) s->reaction[i] = dal_select(s->alive, h[i], s->reaction[i]);
+    *s->reacts = dal_select(s->alive, dal_num(1.0), *s->reacts);
+}
+
+/* ---- one velocity ---- */
+
+/* The context of such an equation begins with this. */
+typedef struct dal_reaction {
+    dal_stage_matrix newton;        /* how Newton's matrix is made of P F_q and P F_v */
+    num *free, *normals;            /* [n], [n*m]: what w is made of; the map sets them */
+    num *mu;                        /* [m] multipliers of a lane's last sweep */
+    num *g, *inverse, *rhs, *fresh; /* [m*m], [m*m], [m], [m] */
+} dal_reaction;
+
+/* Declares one with its memory; v and v* move together by z. */
+#define DAL_REACTION(step, name, z, a2)                                                            \
+    static const double name##_one = 1.0, name##_a2 = (a2);                                        \
+    DAL_VECTOR(step, name##_free, DAL_N(step));                                                    \
+    DAL_VECTOR(step, name##_normals, DAL_N(step) * DAL_M(step));                                   \
+    DAL_VECTOR(step, name##_mu, DAL_M(step));                                                      \
+    DAL_VECTOR(step, name##_g, DAL_SQUARE_M(step));                                                \
+    DAL_VECTOR(step, name##_inverse, DAL_SQUARE_M(step));                                          \
+    DAL_VECTOR(step, name##_rhs, DAL_M(step));                                                     \
+    DAL_VECTOR(step, name##_fresh, DAL_M(step));                                                   \
+    DAL_EACH(i, DAL_M(step)) name##_mu[i] = dal_num(0.0);                                          \
+    dal_reaction name = {{1, (z), &name##_one, &name##_a2, 0},                                     \
+                         name##_free,                                                              \
+                         name##_normals,                                                           \
+                         name##_mu,                                                                \
+                         name##_g,                                                                 \
+                         name##_inverse,                                                           \
+                         name##_rhs,                                                               \
+                         name##_fresh}
+
+/* image = free + N mu with the mu for which D + A (image - w) = 0; D and A begin `normals`. */
+DAL_INLINE void dal_react(const dal_step *s, dal_equation *eq, const num *normals)
+{
+    const dal_reaction *k = (const dal_reaction *)eq->context;
+    const int n = DAL_N(s), m = DAL_M(s);
+    const num *A = normals + dal_at_A(s), *w = eq->block[0].u;
+    num *const image = eq->block[0].image;
+    DAL_EACH(i, n) image[i] = k->free[i];
+    if (m == 0) return;
+    DAL_EACH(i, m) {
+        num sum = -normals[i];
+        DAL_EACH(j, n) sum += A[i * n + j] * (w[j] - k->free[j]);
+        k->rhs[i] = sum;
+    }
+    dal_gram(A, k->normals, m, n, k->g);
+    dal_solve_small(k->g, k->inverse, m, k->rhs, k->fresh);
+    DAL_EACH(i, m) k->mu[i] = DAL_KEEP(eq->active, k->fresh[i], k->mu[i]);
+    DAL_EACH(i, n)
+        DAL_EACH(j, m) image[i] += k->normals[i * m + j] * k->fresh[j];
+}
+
+/* J <- P J for the n*columns matrix J. */
+DAL_INLINE dal_status dal__project_matrix(dal_step *s, const num *parts, int columns, num *J)
+{
+    const int n = DAL_N(s), m = DAL_M(s);
+    const num *A = parts + dal_at_A(s), *B = parts + dal_at_B(s);
+    DAL_VECTOR(s, g, DAL_SQUARE_M(s));
+    DAL_VECTOR(s, inverse, DAL_SQUARE_M(s));
+    DAL_VECTOR(s, across, DAL_M(s));
+    DAL_VECTOR(s, x, DAL_M(s));
+    dal_gram(A, B, m, n, g);
+    if (m > 0) dal_invert(g, inverse, m);
+    for (int c = 0; c < columns; c++) {
+        for (int i = 0; i < m; i++) {
+            across[i] = dal_num(0.0);
+            for (int j = 0; j < n; j++) across[i] += A[i * n + j] * J[j * columns + c];
+        }
+        dal_multiply(inverse, m, m, across, x);
+        for (int j = 0; j < n; j++)
+            for (int i = 0; i < m; i++) J[j * columns + c] -= B[j * m + i] * x[i];
+    }
+    return DAL_OK;
+}
+
+/* Newton's matrix; the context begins with a dal_stage_matrix. */
+DAL_INLINE dal_status dal_constrained_matrix(dal_step *s, dal_equation *eq)
+{
+    const dal_stage_matrix *k = (const dal_stage_matrix *)eq->context;
+    const int n = DAL_N(s);
+    DAL_VECTOR(s, parts, DAL_PARTS(s));
+    DAL_VECTOR(s, jacobian, 2 * DAL_N(s) * DAL_N(s));
+    DAL_VECTOR(s, matrix, DAL_STAGES(k) * DAL_N(s) * DAL_STAGES(k) * DAL_N(s));
+    dal_parts(s, s->t, s->y, s->y + n, parts);
+    dal_jacobian(s, s->t, s->y, s->y + n, jacobian);
+    DAL_TRY(dal__project_matrix(s, parts, n, jacobian));
+    DAL_TRY(dal__project_matrix(s, parts, n, jacobian + n * n));
+    dal_stage_inverse(s, k, jacobian, matrix, &eq->block[0]);
+    return DAL_OK;
+}
+
+/* Solves; `direct` says that the map does not depend on w but through D, and on that linearly: then
+ * one sweep is the solution. */
+DAL_INLINE dal_status dal_impose(dal_step *s, dal_equation *eq, dal_map *map, int direct)
+{
+    if (!direct) return dal_solve(s, eq, map, dal_constrained_matrix);
+    eq->active = s->alive;
+    map(s, eq);
+    DAL_EACH(i, DAL_N(s)) eq->block[0].u[i] = eq->block[0].image[i];
+    return DAL_OK;
+}
+
+/* Whether a and B do not depend on v, and D linearly. */
+DAL_INLINE int dal_positional(const dal_step *s)
+{
+    return (DAL_PROPERTIES(s) & DAL_PARTS_POSITIONAL) != 0;
+}
+
+/* An equation for the increment w of v, that begins at w = 0. */
+DAL_INLINE dal_equation dal_velocity_equation(const dal_step *s, dal_block block, void *context)
+{
+    dal_equation eq = {{block}, 1, context, dal_all()};
+    eq.block[0].scale = dal_velocity_scale(s, s->h);
+    DAL_EACH(i, block.size) eq.block[0].u[i] = dal_num(0.0);
+    return eq;
+}
+
+#endif

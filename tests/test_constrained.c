@@ -1,0 +1,189 @@
+/* test_constrained.c - methods that impose D themselves: what they are refused for, what they keep,
+ * their carried multipliers, and the long runs by which they differ. */
+#include "fixtures.h"
+#include "quick.h"
+#include "run/run.h"
+#include <CUnit/CUnit.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- refusals ---- */
+
+static dal_status refusal(const dal_system *system, const char *method, dal_space space,
+                          const char *reason)
+{
+    dal_run *run = NULL;
+    dal_error error = {0};
+    const dal_run_spec spec = fixture_spec(system, method, space, 0.1);
+    const dal_status status = dal_run_create(&run, &spec, &error);
+    dal_run_free(run);
+    if (status != DAL_OK && !strstr(error.message, reason)) printf("\n  %s\n", error.message);
+    CU_ASSERT(status == DAL_OK || strstr(error.message, reason) != NULL);
+    return status;
+}
+
+static void test_refusals(void)
+{
+    dal_model *full = fixture_model(fixture_full), *other;
+    dal_system system = *fixture_system(full);
+    CU_ASSERT_EQUAL(refusal(&system, "gni", DAL_LIFTED, "lifted"), DAL_UNSUPPORTED);
+    CU_ASSERT_EQUAL(refusal(&system, "gni", DAL_PHYSICAL, ""), DAL_OK);
+    system.call.parts = NULL;
+    CU_ASSERT_EQUAL(refusal(&system, "gni", DAL_PHYSICAL, "parts"), DAL_UNSUPPORTED);
+    other = fixture_model("chaplygin-sleigh-vakonomic");
+    CU_ASSERT_EQUAL(refusal(fixture_system(other), "mclachlan-perlmutter", DAL_PHYSICAL, "parts"),
+                    DAL_UNSUPPORTED);
+    dal_model_free(other);
+    dal_model_free(full);
+}
+
+/* ---- carried multipliers ---- */
+
+/* Where the multipliers lie among the carried numbers. */
+static double *multipliers(dal_run *run, double *memory)
+{
+    const size_t first = dal__at(&run->shape, DAL__MEMORY) + 2; /* behind stiff and slopes_h */
+    CU_ASSERT_EQUAL(memory[first], 1.0);                        /* they have been set */
+    return memory + first + 1;
+}
+
+/* A copy of the carried numbers; the caller frees it. */
+static double *memory_of(const dal_run *run, size_t *count)
+{
+    const double *memory = dal_run_memory(run, count);
+    double *copy = malloc(*count * sizeof *copy);
+    CU_ASSERT_PTR_NOT_NULL_FATAL(copy);
+    return memcpy(copy, memory, *count * sizeof *copy);
+}
+
+/* One step, turned round with its multipliers, which are even where D is odd in v, and one more
+ * step: back at the start, to rounding. */
+static double turning_defect(const char *method, const char *fixture, double sign)
+{
+    dal_model *model = fixture_model(fixture);
+    const dal_system *system = fixture_system(model);
+    const dal_run_spec spec = fixture_spec(system, method, DAL_PHYSICAL, 0.1);
+    dal_run *run = fixture_run(&spec);
+    size_t count;
+    double defect = 0.0, begin[64];
+    const int n = system->n;
+    CU_ASSERT_EQUAL(dal_run_advance(run, 3, NULL), DAL_OK);
+    memcpy(begin, dal_run_state(run), 2 * (size_t)n * sizeof *begin);
+    CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_OK);
+    double *memory = memory_of(run, &count);
+    for (int i = 0; i < n; i++) memory[n + i] = -memory[n + i];
+    for (int i = 0; i < n; i++) memory[run->shape.dim + n + i] = -memory[run->shape.dim + n + i];
+    for (int i = 0; i < system->m; i++) multipliers(run, memory)[i] *= sign;
+    CU_ASSERT_EQUAL(dal_run_load(run, memory, count, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_OK);
+    for (int i = 0; i < n; i++) {
+        defect = fmax(defect, fabs(dal_run_state(run)[i] - begin[i]));
+        defect = fmax(defect, fabs(dal_run_state(run)[n + i] + begin[n + i]));
+    }
+    free(memory);
+    dal_run_free(run);
+    dal_model_free(model);
+    return defect;
+}
+
+static const char *const carriers[] = {"gni"};
+enum { CARRIERS = sizeof carriers / sizeof *carriers };
+
+static void test_turning(void)
+{
+    for (int i = 0; i < CARRIERS; i++) {
+        CU_ASSERT(turning_defect(carriers[i], fixture_bilinear, 1.0) <= 1e-14);
+        CU_ASSERT(turning_defect(carriers[i], fixture_quadratic, -1.0) <= 1e-14);
+        CU_ASSERT(turning_defect(carriers[i], fixture_bilinear, -1.0) >= 1e-7);
+    }
+}
+
+/* A run set to a state begins anew, with the multipliers that belong to it: those of a fresh run.
+ */
+static void test_set_state(void)
+{
+    dal_model *model = fixture_model(fixture_full);
+    const dal_run_spec spec = fixture_spec(fixture_system(model), "gni", DAL_PHYSICAL, 0.05);
+    dal_run *run = fixture_run(&spec), *fresh = fixture_run(&spec);
+    double start[16];
+    size_t count;
+    memcpy(start, dal_run_state(run), 8 * sizeof *start);
+    CU_ASSERT_EQUAL(dal_run_advance(run, 7, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_set_state(run, 0.0, start, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_advance(run, 5, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_advance(fresh, 5, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(memcmp(dal_run_state(run), dal_run_state(fresh), 8 * sizeof *start), 0);
+    /* A checkpoint has them: without them the next step is another one. */
+    double *memory = memory_of(run, &count);
+    CU_ASSERT_EQUAL(dal_run_load(fresh, memory, count, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_step(fresh, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(memcmp(dal_run_state(run), dal_run_state(fresh), 8 * sizeof *start), 0);
+    CU_ASSERT_EQUAL(dal_run_set_state(fresh, memory[16], memory, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_step(fresh, NULL), DAL_OK);
+    CU_ASSERT_NOT_EQUAL(memcmp(dal_run_state(run), dal_run_state(fresh), 8 * sizeof *start), 0);
+    free(memory);
+    dal_run_free(run);
+    dal_run_free(fresh);
+    dal_model_free(model);
+}
+
+/* ---- long runs ---- */
+
+/* A pendulum drives a variable transmission; Modin and Verdier, Numer. Math. 145 (2020) 405. */
+static const char cvt[] = "coordinates: [xi, x, y]\n"
+                          "parameters: {eps: 0.2, w: 2.6}\n"
+                          "lagrangian: >-\n"
+                          "  (xi'^2 + x'^2 + y'^2)/2 - (x^2 + y^2)/2 + cos(xi)"
+                          " - eps/2*sin(2*xi)\n"
+                          "constraints: [y' + sin(xi)*x']\n"
+                          "start: {x: 1, xi': w}\n"
+                          "invariants: {Hf: (x^2 + y^2 + x'^2 + y'^2)/2}\n";
+
+/* d log(Hf)/dt by the values at T/2 and T. */
+static double growth(const dal_system *system, const char *method, double w, double h, double T)
+{
+    const dal_setting speed = {"w", w};
+    dal_run_spec spec = fixture_spec(system, method, DAL_PHYSICAL, h);
+    double seen[2][8];
+    spec.parameters = &speed;
+    spec.parameter_count = 1;
+    dal_run *run = fixture_run(&spec);
+    const int last = dal_run_observables(run) - 1;
+    for (int i = 0; i < 2; i++) {
+        CU_ASSERT_EQUAL_FATAL(dal_run_advance(run, llround(0.5 * T / h), NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_run_observe(run, seen[i]), DAL_OK);
+    }
+    dal_run_free(run);
+    return log(seen[1][last] / seen[0][last]) / (0.5 * T);
+}
+
+/* With a rotating driver McLachlan-Perlmutter loses the fibre energy, and gains it when the driver
+ * turns the other way, at a rate like h^2; with a librating one, and for gni, it stays. */
+static void test_transmission(void)
+{
+    dal_model *model = fixture_model(cvt);
+    const dal_system *system = fixture_system(model);
+    const double T = (double)long_run(8000);
+    const double coarse = growth(system, "mclachlan-perlmutter", 2.6, 0.1, T);
+    const double fine = growth(system, "mclachlan-perlmutter", 2.6, 0.05, T);
+    const double back = growth(system, "mclachlan-perlmutter", -2.6, 0.1, T);
+    /* About 1 % of it is the oscillation of Hf, which the two ends do not share. */
+    CU_ASSERT(coarse < -5e-5);
+    CU_ASSERT_DOUBLE_EQUAL(log2(coarse / fine), 2.0, 0.05);
+    CU_ASSERT_DOUBLE_EQUAL(back / coarse, -1.0, 0.05);
+    CU_ASSERT(fabs(growth(system, "mclachlan-perlmutter", 1.0, 0.1, T)) < 1e-6);
+    CU_ASSERT(fabs(growth(system, "gni", 2.6, 0.1, T)) < 1e-6);
+    dal_model_free(model);
+}
+
+void suite_constrained(void)
+{
+    CU_pSuite suite = CU_add_suite("constrained", NULL, NULL);
+    CU_add_test(suite, "refusals", test_refusals);
+    CU_add_test(suite, "turned round with its multipliers", test_turning);
+    CU_add_test(suite, "multipliers of a state set, and of a checkpoint", test_set_state);
+    CU_add_test(suite, "a driven transmission", test_transmission);
+}
