@@ -128,10 +128,23 @@ int cli_is_path(const char *system);
  * exit status with *model NULL. */
 int cli_load(const char *system, dal_model **model, const dal_system **made);
 
+/* ---- verdicts ------------------------------------------------------------------------------ */
+
+/* What became of an observable.  H is measured by its own size, which the start sets; all others
+ * by max(1, |x|). */
+void cli_judge(const char *observable, const dal_statistics *statistics, int aborted,
+               dal_finding *finding);
+/* The columns amplitude, rate, rate_low, rate_high, exponent, verdict, confidence of a CSV file:
+ * their heads, and the numbers with a comma before each. */
+extern const char cli_finding_heads[];
+void cli_put_finding(FILE *out, const dal_finding *finding);
+
 /* ---- output -------------------------------------------------------------------------------- */
 
 /* Writes x with 17 digits, as a double reads it back; minus zero as 0. */
 void cli_put(FILE *out, double x);
+/* Writes a cell of a CSV file; one with a comma or a quote in it is quoted, as RFC 4180 has it. */
+void cli_put_text(FILE *out, const char *text);
 /* Closes (or, for stdout, flushes) a file that was written to.  Returns CLI_DONE or, when any write
  * of its life failed, prints and returns CLI_IO. */
 int cli_close(FILE *out, const char *path);

@@ -65,6 +65,7 @@ static int copy(const char *from, const char *to)
 static int clear(const cli_store *store)
 {
     int status = file_remove(store->checkpoint);
+    if (status == CLI_DONE) status = file_remove(store->before);
     if (status == CLI_DONE) status = file_remove(store->summary);
     return status;
 }

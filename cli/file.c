@@ -68,10 +68,10 @@ static void settle_directory(const char *path)
     free(directory);
 }
 
-static int write_and_rename(const char *fresh, const char *path, const void *bytes, size_t length)
+int file_write(const char *path, const void *bytes, size_t length)
 {
-    int descriptor = open(fresh, O_WRONLY | O_CREAT | O_TRUNC, 0666);
-    if (descriptor < 0) return cli_io("write", fresh);
+    int descriptor = open(path, O_WRONLY | O_CREAT | O_TRUNC, 0666);
+    if (descriptor < 0) return cli_io("write", path);
     int written = write_all(descriptor, bytes, length);
     int reason = errno;
     if (close(descriptor) != 0 && written) {
@@ -79,9 +79,13 @@ static int write_and_rename(const char *fresh, const char *path, const void *byt
         reason = errno;
     }
     errno = reason;
-    if (!written) return cli_io("write", fresh);
-    if (rename(fresh, path) != 0) return cli_io("write", path);
-    settle_directory(path);
+    return written ? CLI_DONE : cli_io("write", path);
+}
+
+int file_rename(const char *from, const char *to)
+{
+    if (rename(from, to) != 0) return cli_io("write", to);
+    settle_directory(to);
     return CLI_DONE;
 }
 
@@ -93,7 +97,8 @@ int file_replace(const char *path, const void *bytes, size_t length)
     if (!fresh) return cli_fail(CLI_IO, "out of memory");
     memcpy(fresh, path, n);
     memcpy(fresh + n, ending, sizeof ending);
-    int status = write_and_rename(fresh, path, bytes, length);
+    int status = file_write(fresh, bytes, length);
+    if (status == CLI_DONE) status = file_rename(fresh, path);
     free(fresh);
     return status;
 }

@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { SAMPLES_MOST = 1000000000 };
+enum { SAMPLES_MOST = 1000000000, STATISTICS_MOST = 1000000000 };
 
 /* One table of both kinds of option; words is NULL unless an option is one of several words. */
 static const struct {
@@ -107,6 +107,8 @@ int job_take(cli_job *job, int option, const char *text)
         return cli_fail(CLI_USAGE, "--time: %s is not positive", text);
     case JOB_samples:
         return cli_integer("--samples", text, 1, SAMPLES_MOST, &job->samples);
+    case JOB_statistics:
+        return cli_integer("--statistics", text, 1, STATISTICS_MOST, &job->statistics);
     case JOB_set:
         return add_setting(&job->set, "--set", text);
     case JOB_start:
@@ -118,13 +120,21 @@ int job_take(cli_job *job, int option, const char *text)
     }
 }
 
+static void take_initial(cli_job *job, int option)
+{
+    if (job->text[option]) return;
+    job_take(job, option, table[option].initial);
+    job->text[option] = NULL;
+}
+
 static int check(cli_job *job)
 {
     if (!job->system) return cli_fail(CLI_USAGE, "the SYSTEM is missing");
     for (int i = 0; i < JOB_OPTIONS; i++)
         if (is_required(i) && !job->text[i])
             return cli_fail(CLI_USAGE, "--%s is missing", table[i].name);
-    if (!job->text[JOB_samples]) job_take(job, JOB_samples, table[JOB_samples].initial);
+    take_initial(job, JOB_samples);
+    take_initial(job, JOB_statistics);
     if (!(job->options.step > 0.0))
         return cli_fail(CLI_USAGE, "--step: %s is not positive", job->text[JOB_step]);
     if (job->options.step > job->time)

@@ -10,6 +10,7 @@
     X(integrator, "NAME", NULL, "rk4, gauss8+project, ...: see 'dalembert list integrators'")      \
     X(time, "T", NULL, "integrate from t = 0 to t = T")                                            \
     X(samples, "N", "100", "rows behind the first, at equal distances in t")                       \
+    X(statistics, "K", "1", "look at the observables after every K-th step, for the summary")      \
     X(set, "PARAMETER=V", NULL, "give a parameter another value; may be repeated")                 \
     X(start, "NAME=V", NULL, "start x, x', e, p_x, pi_x, ... at V; may be repeated; e=inf")
 
@@ -32,7 +33,7 @@ typedef struct cli_job {
     const char *system;            /* a built-in name or a path; the caller's, as all texts here */
     const char *text[JOB_OPTIONS]; /* as given, the last one; NULL: not given */
     double time;
-    long long samples;
+    long long samples, statistics;
     dal_options options;
     job_settings set, start;
     dal_method method;

@@ -18,6 +18,20 @@ void cli_put(FILE *out, double x)
         fprintf(out, "%.17g", x);
 }
 
+void cli_put_text(FILE *out, const char *text)
+{
+    if (!strpbrk(text, ",\"\n")) {
+        fputs(text, out);
+        return;
+    }
+    fputc('"', out);
+    for (; *text; text++) {
+        if (*text == '"') fputc('"', out);
+        fputc(*text, out);
+    }
+    fputc('"', out);
+}
+
 int cli_close(FILE *out, const char *path)
 {
     /* A full disk may show only when the buffer is flushed, and a network one only at close. */

@@ -41,11 +41,12 @@ static int make_room(cli_record *r)
     r->row = calloc(count, sizeof *r->row);
     r->names = calloc(count, sizeof *r->names);
     r->column = calloc(count, sizeof *r->column);
-    r->drift = calloc((size_t)r->observables + 1, sizeof *r->drift);
-    if (!r->values || !r->row || !r->names || !r->column || !r->drift ||
+    r->statistics = calloc((size_t)r->observables + 1, sizeof *r->statistics);
+    r->finding = calloc((size_t)r->observables + 1, sizeof *r->finding);
+    if (!r->values || !r->row || !r->names || !r->column || !r->statistics || !r->finding ||
         !name_values(r, (int)count))
         return cli_fail(CLI_IO, "out of memory");
-    dal_drift_start(r->drift, r->observables, 0.0, r->job->time);
+    dal_statistics_start(r->statistics, r->observables);
     return CLI_DONE;
 }
 
@@ -73,7 +74,7 @@ int record_open(cli_record *r, const cli_job *job, cli_store *store, const char 
     r->quiet = !store && strcmp(output, "-") == 0 && isatty(STDOUT_FILENO);
     int status = make_room(r);
     if (status == CLI_DONE && store)
-        status = store_load(store, &r->mark, job->run, r->drift, r->observables);
+        status = store_load(store, &r->mark, job->run, r->statistics, r->observables);
     if (status == CLI_DONE && !record_is_finished(r)) status = open_table(r, output);
     return status;
 }
@@ -86,10 +87,13 @@ void record_close(cli_record *r)
     free(r->row);
     free(r->names);
     free(r->column);
-    free(r->drift);
+    free(r->statistics);
+    free(r->finding);
 }
 
 int record_is_finished(const cli_record *r) { return r->mark.row > r->job->samples; }
+
+const char *record_observable(const cli_record *r, int i) { return r->names[1 + r->dimension + i]; }
 
 /* ---- looking on ---------------------------------------------------------------------------- */
 
@@ -110,10 +114,20 @@ static dal_status take_row(cli_record *r, dal_run *run, double t)
     memcpy(state, dal_run_state(run), (size_t)r->dimension * sizeof *state);
     dal_status status = dal_run_observe(run, observed);
     if (status != DAL_OK) return status;
-    dal_drift_add(r->drift, r->observables, t, observed);
     for (int i = 0; i < r->columns; i++) r->row[i] = r->values[r->column[i]];
     r->mark.row++;
     return tell(r, table_row(&r->table, r->row));
+}
+
+/* Every so many steps: what the summary is made of. */
+static dal_status follow(void *user, dal_run *run)
+{
+    cli_record *r = user;
+    double *observed = r->values + 1 + r->dimension;
+    const dal_status status = dal_run_observe(run, observed);
+    if (status == DAL_OK)
+        dal_statistics_add(r->statistics, r->observables, dal_run_time(run), observed);
+    return status;
 }
 
 static void show(const cli_record *r, double t)
@@ -140,7 +154,8 @@ static dal_status sample(void *user, dal_run *run, long long row, double t)
 static int save(cli_record *r, const dal_run *run)
 {
     int status = table_settle(&r->table, &r->mark.offset);
-    if (status == CLI_DONE) status = store_save(r->store, &r->mark, run, r->drift, r->observables);
+    if (status == CLI_DONE)
+        status = store_save(r->store, &r->mark, run, r->statistics, r->observables);
     r->saved = cli_seconds();
     return status;
 }
@@ -190,7 +205,8 @@ static int keep(cli_record *r, int status)
 
 int record_go(cli_record *r)
 {
-    dal_observer observer = {.user = r, .sample = sample, .poll = poll};
+    dal_observer observer = {
+        .user = r, .sample = sample, .poll = poll, .step = follow, .every = r->job->statistics};
     dal_error error = {0};
     r->saved = cli_seconds();
     start_clock(r);
@@ -198,6 +214,7 @@ int record_go(cli_record *r)
         dal_run_sample(r->job->run, r->job->time, r->job->samples, r->mark.row, &observer, &error);
     pause_clock(r);
     cli_progress_end();
-    dal_drift_finish(r->drift, r->observables);
+    for (int i = 0; i < r->observables; i++)
+        cli_judge(record_observable(r, i), &r->statistics[i], status != DAL_OK, &r->finding[i]);
     return keep(r, explain(r, status, &error));
 }

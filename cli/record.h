@@ -11,11 +11,12 @@ typedef struct cli_record {
     cli_store *store; /* NULL: the rows go to a file or to stdout and nothing is kept beside them */
     cli_table table;
     int dimension, observables, columns;
-    double *values;   /* [1 + dimension + observables] t, state, all observables */
-    double *row;      /* [columns] the same without |p|, |pi|, |pi_e| */
-    char **names;     /* [1 + dimension + observables] of values */
-    int *column;      /* [columns] which of values a column is */
-    dal_drift *drift; /* [observables] */
+    double *values;             /* [1 + dimension + observables] t, state, all observables */
+    double *row;                /* [columns] the same without |p|, |pi|, |pi_e| */
+    char **names;               /* [1 + dimension + observables] of values */
+    int *column;                /* [columns] which of values a column is */
+    dal_statistics *statistics; /* [observables] */
+    dal_finding *finding;       /* [observables] at the end */
     cli_mark mark;
     double interval;     /* seconds between checkpoints */
     double since, saved; /* when the present stretch of steps began; the last checkpoint */
@@ -30,6 +31,7 @@ void record_close(cli_record *record);
 /* Integrates to the end.  Returns the exit status; what is to be said is printed. */
 int record_go(cli_record *record);
 int record_is_finished(const cli_record *record);
+const char *record_observable(const cli_record *record, int i);
 
 /* The summary: one table for the eye, or summary.csv. */
 void summary_print(FILE *out, const cli_record *record);

@@ -210,7 +210,8 @@ static const char page_head[] =
     "th.turned { vertical-align: bottom; } th.turned span { writing-mode: vertical-rl;\n"
     "            transform: rotate(180deg); }\n"
     ".exact, .rounding { background: #d8efdc; } .bounded { background: #fdf3cf; }\n"
-    ".drifts { background: #f8d5cc; } .lost, .failed { background: #d9d9d9; }\n"
+    ".drift, .power, .exponential { background: #f8d5cc; }\n"
+    ".aborted, .data, .failed { background: #d9d9d9; }\n"
     "pre { font-size: 0.75rem; overflow-x: auto; }\n"
     "</style>\n";
 

@@ -21,7 +21,12 @@ static const char run_notes[] =
     "FILE.npy holds the same as float64 [rows][columns], FILE.npy.columns.txt the names.\n"
     "A directory gets run.yaml, system.yaml (when SYSTEM is a file), rows.csv, summary.csv and a\n"
     "checkpoint; 'dalembert resume DIR' goes on with it after any interruption, kill -9 included,\n"
-    "and ends in the same bytes.\n";
+    "and ends in the same bytes.\n"
+    "\n"
+    "The summary follows every observable at every step: maximum, final value, amplitude of its\n"
+    "oscillation, drift rate with its 95 % interval, exponent of growth, and a verdict with its\n"
+    "confidence: exact, rounding, bounded, linear drift, power law, exponential, aborted, not\n"
+    "enough data.\n";
 
 /* A device or a pipe is written to as it is, whatever its name. */
 static int is_directory(const char *output)

@@ -3,7 +3,8 @@
  *     DIR/run.yaml      what was asked for
  *     DIR/system.yaml   copy of the system file; absent for a built-in system
  *     DIR/rows.csv      the rows
- *     DIR/checkpoint    where the run stands: see store.c
+ *     DIR/checkpoint    where the run stands: see checkpoint.c
+ *     DIR/checkpoint.before  where it stood the time before
  *     DIR/summary.csv   when it is over: quantity, measure, value
  *
  * Every file but rows.csv is replaced as a whole, so each is old or new and never half of either;
@@ -21,6 +22,8 @@
     X(system, "system.yaml")                                                                       \
     X(rows, "rows.csv")                                                                            \
     X(checkpoint, "checkpoint")                                                                    \
+    X(before, "checkpoint.before")                                                                 \
+    X(fresh, "checkpoint.new")                                                                     \
     X(summary, "summary.csv")
 
 typedef struct cli_store {
@@ -51,9 +54,11 @@ int store_lock(cli_store *store);
 int store_describe(cli_store *store, const cli_job *job);
 /* Reads the description into a new job. */
 int store_read(cli_store *store, cli_job *job);
-/* Writes the checkpoint, and reads it into run and drift; without one *mark is the beginning. */
+/* Writes the checkpoint; and reads it, or where it is damaged the one before, into run and
+ * statistics[count].  Without one *mark is the beginning. */
 int store_save(const cli_store *store, const cli_mark *mark, const dal_run *run,
-               const dal_drift *drift, int drifts);
-int store_load(const cli_store *store, cli_mark *mark, dal_run *run, dal_drift *drift, int drifts);
+               const dal_statistics *statistics, int count);
+int store_load(const cli_store *store, cli_mark *mark, dal_run *run, dal_statistics *statistics,
+               int count);
 
 #endif

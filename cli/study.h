@@ -130,10 +130,10 @@ struct study_cell {
     dal_error error;
     double time; /* reached */
     long long steps, evaluations;
-    double seconds;  /* of the thread's processor time, in steps */
-    uint64_t bits;   /* a hash of the bits of (q,v) at all samples */
-    int observables; /* the drifts, in the order of dal_run_observe */
-    dal_drift *drift;
+    double seconds; /* of the thread's processor time, in steps */
+    uint64_t bits;  /* a hash of the bits of (q,v) at all samples */
+    int observables;
+    dal_finding *finding;      /* [observables] in the order of dal_run_observe */
     char (*names)[STUDY_NAME]; /* [observables] */
     double (*windows)[STUDY_TRACKS];
     int window_count;
@@ -143,13 +143,13 @@ struct study_cell {
  * Returns DAL_OK, DAL_INTERRUPTED or DAL_MEMORY; what befalls the run is in the cell. */
 dal_status study_cell_run(study_cell *cell, int (*stop)(void));
 void study_cell_free(study_cell *cell);
-/* The drift of an observable by name, or NULL; the worst of D1, D2, ... and of the invariants. */
-const dal_drift *study_drift(const study_cell *cell, const char *name);
-const dal_drift *study_worst_constraint(const study_cell *cell);
-const dal_drift *study_worst_invariant(const study_cell *cell, const char **name);
-/* The verdict on a drift in a word.  H is judged by its own size, which the displacement sets, all
- * others by max(1, |x|).  "-" for E of a system that does not conserve it. */
-const char *study_verdict(const study_cell *cell, const dal_drift *drift);
+/* What became of an observable by name, or NULL; of the worst of D1, D2, ... and of the invariants.
+ */
+const dal_finding *study_finding(const study_cell *cell, const char *name);
+const dal_finding *study_worst_constraint(const study_cell *cell);
+const dal_finding *study_worst_invariant(const study_cell *cell, const char **name);
+/* A verdict in words; "-" for E of a system that does not conserve it. */
+const char *study_verdict(const study_cell *cell, const dal_finding *finding);
 /* The cell with the same method and step in (q,v), or NULL. */
 const study_cell *study_physical_twin(const study_plan *plan, const study_cell *cell);
 

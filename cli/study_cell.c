@@ -19,6 +19,7 @@ typedef struct walk {
     int n, m;
     int energy, hamiltonian, momenta, invariants, error; /* places among the observables, or -1 */
     double *values, *first;                              /* [observables] */
+    dal_statistics *statistics;                          /* [observables] */
     long long total, samples;                            /* steps and rows behind the first */
 } walk;
 
@@ -99,11 +100,12 @@ static dal_status make_memory(walk *w)
 {
     study_cell *c = w->cell;
     size_t count = (size_t)(c->observables = dal_run_observables(w->run));
-    c->drift = calloc(count + 1, sizeof *c->drift);
+    c->finding = calloc(count + 1, sizeof *c->finding);
+    w->statistics = calloc(count + 1, sizeof *w->statistics);
     c->names = calloc(count + 1, sizeof *c->names);
     c->windows = calloc(STUDY_WINDOWS, sizeof *c->windows);
     w->values = calloc(2 * count + 1, sizeof *w->values);
-    if (!c->drift || !c->names || !c->windows || !w->values) return DAL_MEMORY;
+    if (!c->finding || !w->statistics || !c->names || !c->windows || !w->values) return DAL_MEMORY;
     w->first = w->values + count;
     for (int i = 0; i < c->observables; i++)
         dal_run_observable_name(w->run, i, c->names[i], sizeof c->names[i]);
@@ -153,7 +155,7 @@ static dal_status take_row(walk *w, long long row)
     dal_status status = dal_run_observe(w->run, w->values);
     if (status != DAL_OK) return status;
     if (row == 0) memcpy(w->first, w->values, (size_t)c->observables * sizeof(double));
-    dal_drift_add(c->drift, c->observables, dal_run_time(w->run), w->values);
+    dal_statistics_add(w->statistics, c->observables, dal_run_time(w->run), w->values);
     int window = (int)((double)row / (double)(w->samples + 1) * STUDY_WINDOWS);
     track(w, c->windows[window]);
     c->window_count = window + 1;
@@ -184,14 +186,15 @@ static dal_status advance_to(walk *w, long long step)
 static dal_status go(walk *w)
 {
     study_cell *c = w->cell;
-    dal_drift_start(c->drift, c->observables, 0.0, c->entry->time);
+    dal_statistics_start(w->statistics, c->observables);
     dal_status status = DAL_OK;
     for (long long row = 0; row <= w->samples && status == DAL_OK; row++) {
         long long step = llround((double)row / (double)w->samples * (double)w->total);
         status = advance_to(w, step);
         if (status == DAL_OK) status = take_row(w, row);
     }
-    dal_drift_finish(c->drift, c->observables);
+    for (int i = 0; i < c->observables; i++)
+        cli_judge(c->names[i], &w->statistics[i], status != DAL_OK, &c->finding[i]);
     c->time = dal_run_time(w->run);
     c->steps = dal_run_steps(w->run);
     c->evaluations = dal_run_evaluations(w->run);
@@ -223,13 +226,14 @@ dal_status study_cell_run(study_cell *cell, int (*stop)(void))
     if (status == DAL_OK) status = go(&w);
     conclude(cell, made, status);
     free(w.values);
+    free(w.statistics);
     dal_run_free(w.run);
     return status == DAL_INTERRUPTED || status == DAL_MEMORY ? status : DAL_OK;
 }
 
 void study_cell_free(study_cell *cell)
 {
-    free(cell->drift);
+    free(cell->finding);
     free(cell->names);
     free(cell->windows);
     *cell = (study_cell){
@@ -258,41 +262,39 @@ const char *study_state_word(study_state state)
     return words[state];
 }
 
-const dal_drift *study_drift(const study_cell *cell, const char *name)
+const dal_finding *study_finding(const study_cell *cell, const char *name)
 {
     int i = find(cell, name);
-    return i < 0 ? NULL : &cell->drift[i];
+    return i < 0 ? NULL : &cell->finding[i];
 }
 
-const dal_drift *study_worst_constraint(const study_cell *cell)
+const dal_finding *study_worst_constraint(const study_cell *cell)
 {
-    const dal_drift *worst = NULL;
+    const dal_finding *worst = NULL;
     int m = cell->entry->system->m;
     for (int a = 0; a < m && a < cell->observables; a++)
-        if (!worst || cell->drift[a].greatest > worst->greatest) worst = &cell->drift[a];
+        if (!worst || cell->finding[a].greatest > worst->greatest) worst = &cell->finding[a];
     return worst;
 }
 
-const dal_drift *study_worst_invariant(const study_cell *cell, const char **name)
+const dal_finding *study_worst_invariant(const study_cell *cell, const char **name)
 {
-    const dal_drift *worst = NULL;
+    const dal_finding *worst = NULL;
     const dal_system *s = cell->entry->system;
     for (int i = 0; i < s->invariants; i++) {
-        const dal_drift *drift = study_drift(cell, s->invariant[i]);
-        if (!drift || (worst && drift->deviation <= worst->deviation)) continue;
-        worst = drift;
+        const dal_finding *finding = study_finding(cell, s->invariant[i]);
+        if (!finding || (worst && finding->deviation <= worst->deviation)) continue;
+        worst = finding;
         if (name) *name = s->invariant[i];
     }
     return worst;
 }
 
-const char *study_verdict(const study_cell *cell, const dal_drift *drift)
+const char *study_verdict(const study_cell *cell, const dal_finding *finding)
 {
     int conserved = (cell->entry->system->properties & (DAL_E_EXACT | DAL_E_WEAK)) != 0;
-    int own = drift == study_drift(cell, "H");
-    if (drift == study_drift(cell, "E") && !conserved) return "-";
-    double scale = own ? drift->greatest : fmax(1.0, drift->greatest);
-    return dal_verdict_text(dal_drift_verdict(drift, scale));
+    if (finding == study_finding(cell, "E") && !conserved) return "-";
+    return dal_verdict_text(finding->verdict);
 }
 
 const study_cell *study_physical_twin(const study_plan *plan, const study_cell *cell)

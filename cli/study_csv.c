@@ -12,25 +12,11 @@ struct study_output {
     const study_entry *series_entry;
 };
 
-static void put_text(FILE *out, const char *text)
-{
-    if (!strpbrk(text, ",\"\n")) {
-        fputs(text, out);
-        return;
-    }
-    fputc('"', out);
-    for (; *text; text++) {
-        if (*text == '"') fputc('"', out);
-        fputc(*text, out);
-    }
-    fputc('"', out);
-}
-
 /* ---- a row per cell ---- */
 
-/* A drift and its verdict, or count = 0 where the cell has none. */
+/* What became of it and a verdict, or count = 0 where the cell has none. */
 typedef struct quantity {
-    dal_drift drift;
+    dal_finding finding;
     const char *verdict, *name;
 } quantity;
 
@@ -42,23 +28,23 @@ typedef struct row {
     char method[STUDY_NAME];
 } row;
 
-static quantity make_quantity(const study_cell *cell, const dal_drift *drift, const char *name)
+static quantity make_quantity(const study_cell *cell, const dal_finding *finding, const char *name)
 {
     quantity q = {.verdict = "", .name = ""};
-    if (!drift) return q;
-    return (quantity){*drift, study_verdict(cell, drift), name};
+    if (!finding) return q;
+    return (quantity){*finding, study_verdict(cell, finding), name};
 }
 
 static quantity named(const study_cell *cell, const char *name)
 {
-    return make_quantity(cell, study_drift(cell, name), name);
+    return make_quantity(cell, study_finding(cell, name), name);
 }
 
 static row make_row(const study_plan *plan, const study_cell *cell)
 {
     row r = {.plan = plan, .cell = cell, .entry = cell->entry};
     const char *invariant = "";
-    const dal_drift *worst = study_worst_invariant(cell, &invariant);
+    const dal_finding *worst = study_worst_invariant(cell, &invariant);
     dal_method_name(cell->method, r.method, sizeof r.method);
     r.D = make_quantity(cell, study_worst_constraint(cell), "D");
     r.invariant = make_quantity(cell, worst, invariant);
@@ -73,7 +59,7 @@ static row make_row(const study_plan *plan, const study_cell *cell)
 
 static void put_number(FILE *out, const quantity *q, double value)
 {
-    if (q->drift.count > 0) cli_put(out, value);
+    if (q->finding.count > 0) cli_put(out, value);
 }
 
 static void put_same(FILE *out, const row *r)
@@ -85,9 +71,9 @@ static void put_same(FILE *out, const row *r)
 
 /* column, how it is written */
 #define COLUMN_LIST(X)                                                                             \
-    X(label, put_text(out, r->entry->label))                                                       \
-    X(system, put_text(out, r->entry->name))                                                       \
-    X(integrator, put_text(out, r->method))                                                        \
+    X(label, cli_put_text(out, r->entry->label))                                                   \
+    X(system, cli_put_text(out, r->entry->name))                                                   \
+    X(integrator, cli_put_text(out, r->method))                                                    \
     X(start, fputs(study_start_word(r->cell->start), out))                                         \
     X(step, cli_put(out, r->cell->step))                                                           \
     X(time, cli_put(out, r->entry->time))                                                          \
@@ -96,28 +82,28 @@ static void put_same(FILE *out, const row *r)
     X(reached, cli_put(out, r->cell->time))                                                        \
     X(steps, fprintf(out, "%lld", r->cell->steps))                                                 \
     X(evaluations, fprintf(out, "%lld", r->cell->evaluations))                                     \
-    X(D_max, put_number(out, &r->D, r->D.drift.greatest))                                          \
-    X(D_rate, put_number(out, &r->D, r->D.drift.rate))                                             \
+    X(D_max, put_number(out, &r->D, r->D.finding.greatest))                                        \
+    X(D_rate, put_number(out, &r->D, r->D.finding.rate))                                           \
     X(D_verdict, fputs(r->D.verdict, out))                                                         \
-    X(E_first, put_number(out, &r->E, r->E.drift.first))                                           \
-    X(E_deviation, put_number(out, &r->E, r->E.drift.deviation))                                   \
-    X(E_rate, put_number(out, &r->E, r->E.drift.rate))                                             \
+    X(E_first, put_number(out, &r->E, r->E.finding.first))                                         \
+    X(E_deviation, put_number(out, &r->E, r->E.finding.deviation))                                 \
+    X(E_rate, put_number(out, &r->E, r->E.finding.rate))                                           \
     X(E_verdict, fputs(r->E.verdict, out))                                                         \
-    X(H_first, put_number(out, &r->H, r->H.drift.first))                                           \
-    X(H_deviation, put_number(out, &r->H, r->H.drift.deviation))                                   \
-    X(H_rate, put_number(out, &r->H, r->H.drift.rate))                                             \
+    X(H_first, put_number(out, &r->H, r->H.finding.first))                                         \
+    X(H_deviation, put_number(out, &r->H, r->H.finding.deviation))                                 \
+    X(H_rate, put_number(out, &r->H, r->H.finding.rate))                                           \
     X(H_verdict, fputs(r->H.verdict, out))                                                         \
-    X(p_max, put_number(out, &r->p, r->p.drift.greatest))                                          \
-    X(pi_max, put_number(out, &r->pi, r->pi.drift.greatest))                                       \
-    X(pi_e_max, put_number(out, &r->pi_e, r->pi_e.drift.greatest))                                 \
-    X(invariant, put_text(out, r->invariant.name))                                                 \
-    X(invariant_deviation, put_number(out, &r->invariant, r->invariant.drift.deviation))           \
-    X(invariant_rate, put_number(out, &r->invariant, r->invariant.drift.rate))                     \
+    X(p_max, put_number(out, &r->p, r->p.finding.greatest))                                        \
+    X(pi_max, put_number(out, &r->pi, r->pi.finding.greatest))                                     \
+    X(pi_e_max, put_number(out, &r->pi_e, r->pi_e.finding.greatest))                               \
+    X(invariant, cli_put_text(out, r->invariant.name))                                             \
+    X(invariant_deviation, put_number(out, &r->invariant, r->invariant.finding.deviation))         \
+    X(invariant_rate, put_number(out, &r->invariant, r->invariant.finding.rate))                   \
     X(invariant_verdict, fputs(r->invariant.verdict, out))                                         \
-    X(error_max, put_number(out, &r->error, r->error.drift.greatest))                              \
+    X(error_max, put_number(out, &r->error, r->error.finding.greatest))                            \
     X(same_as_physical, put_same(out, r))                                                          \
     X(bits, fprintf(out, "%016llx", (unsigned long long)r->cell->bits))                            \
-    X(message, put_text(out, r->cell->error.message))                                              \
+    X(message, cli_put_text(out, r->cell->error.message))                                          \
     X(seconds, cli_put(out, r->cell->seconds))
 
 static void put_heads(FILE *out)
@@ -147,9 +133,9 @@ static void put_cell(FILE *out, const row *r)
 
 static void put_key(FILE *out, const row *r)
 {
-    put_text(out, r->entry->label);
+    cli_put_text(out, r->entry->label);
     fputc(',', out);
-    put_text(out, r->method);
+    cli_put_text(out, r->method);
     fprintf(out, ",%s,", study_start_word(r->cell->start));
     cli_put(out, r->cell->step);
 }
@@ -157,17 +143,17 @@ static void put_key(FILE *out, const row *r)
 static void put_quantities(FILE *out, const row *r)
 {
     for (int i = 0; i < r->cell->observables; i++) {
-        const dal_drift *d = &r->cell->drift[i];
-        const double numbers[] = {d->first,     d->last, d->greatest,
-                                  d->deviation, d->rate, d->residue};
+        const dal_finding *d = &r->cell->finding[i];
+        const double numbers[] = {d->first, d->last, d->greatest, d->deviation};
         put_key(out, r);
         fputc(',', out);
-        put_text(out, r->cell->names[i]);
+        cli_put_text(out, r->cell->names[i]);
         for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++) {
             fputc(',', out);
             cli_put(out, numbers[k]);
         }
-        fprintf(out, ",%s\n", study_verdict(r->cell, d));
+        cli_put_finding(out, d);
+        fputc('\n', out);
     }
 }
 
@@ -243,8 +229,8 @@ int study_output_open(study_output **output, const char *directory)
     int status = open_all(o, directory);
     if (status != CLI_DONE) return status;
     put_heads(o->cells);
-    fputs("label,integrator,start,step,quantity,first,last,max,deviation,rate,residue,verdict\n",
-          o->quantities);
+    fprintf(o->quantities, "label,integrator,start,step,quantity,first,last,max,deviation,%s\n",
+            cli_finding_heads);
     return CLI_DONE;
 }
 

@@ -12,30 +12,30 @@ enum { METHOD = 28, CELL = 32 };
 typedef struct line {
     const study_plan *plan;
     const study_cell *cell;
-    const dal_drift *D, *E, *H, *p, *pi, *invariant, *error;
+    const dal_finding *D, *E, *H, *p, *pi, *invariant, *error;
 } line;
 
 /* ---- what stands in a column ---- */
 
 /* 3.4e-16; 0 where a quantity is exactly so. */
-static void say_size(char *text, const dal_drift *drift, double size)
+static void say_size(char *text, const dal_finding *finding, double size)
 {
-    if (drift && drift->count > 0) snprintf(text, CELL, size == 0.0 ? "0" : "%.1e", size);
+    if (finding && finding->count > 0) snprintf(text, CELL, size == 0.0 ? "0" : "%.1e", size);
 }
 
-static void say_rate(char *text, const dal_drift *drift)
+static void say_rate(char *text, const dal_finding *finding)
 {
-    if (drift && drift->count > 0)
-        snprintf(text, CELL, drift->rate == 0.0 ? "0" : "%+.0e", drift->rate);
+    if (finding && finding->count > 0)
+        snprintf(text, CELL, finding->rate == 0.0 ? "0" : "%+.0e", finding->rate);
 }
 
-static void say_verdict(char *text, const line *l, const dal_drift *drift)
+static void say_verdict(char *text, const line *l, const dal_finding *finding)
 {
-    if (drift) snprintf(text, CELL, "%s", study_verdict(l->cell, drift));
+    if (finding) snprintf(text, CELL, "%s", study_verdict(l->cell, finding));
 }
 
-static double greatest(const dal_drift *drift) { return drift ? drift->greatest : 0.0; }
-static double deviation(const dal_drift *drift) { return drift ? drift->deviation : 0.0; }
+static double greatest(const dal_finding *finding) { return finding ? finding->greatest : 0.0; }
+static double deviation(const dal_finding *finding) { return finding ? finding->deviation : 0.0; }
 
 static void say_twin(char *text, const line *l)
 {
@@ -59,10 +59,10 @@ static double per_step(const line *l, double x)
 #define MOTION_LIST(X)                                                                             \
     X("max", "|D|", 8, say_size(text, l->D, greatest(l->D)))                                       \
     X("D rate", "per t", 7, say_rate(text, l->D))                                                  \
-    X("D", "", 9, say_verdict(text, l, l->D))                                                      \
+    X("D", "", 15, say_verdict(text, l, l->D))                                                     \
     X("max", "|E-E0|", 8, say_size(text, l->E, deviation(l->E)))                                   \
     X("E rate", "per t", 7, say_rate(text, l->E))                                                  \
-    X("E", "", 9, say_verdict(text, l, l->E))                                                      \
+    X("E", "", 15, say_verdict(text, l, l->E))                                                     \
     X("max", "|I-I0|", 8, say_size(text, l->invariant, deviation(l->invariant)))                   \
     X("max", "error", 8, say_size(text, l->error, greatest(l->error)))                             \
     X("(q,v)", "alone", 8, say_twin(text, l))                                                      \
@@ -72,7 +72,7 @@ static double per_step(const line *l, double x)
     X("H0", "", 9, say_size(text, l->H, l->H ? l->H->first : 0.0))                                 \
     X("max", "|H-H0|", 8, say_size(text, l->H, deviation(l->H)))                                   \
     X("H rate", "per t", 7, say_rate(text, l->H))                                                  \
-    X("H", "", 9, say_verdict(text, l, l->H))                                                      \
+    X("H", "", 15, say_verdict(text, l, l->H))                                                     \
     X("max", "|p|", 8, say_size(text, l->p, greatest(l->p)))                                       \
     X("max", "|pi|", 8, say_size(text, l->pi, greatest(l->pi)))                                    \
     X("|pi| rate", "per t", 10, say_rate(text, l->pi))                                             \
@@ -122,12 +122,12 @@ static line make_line(const study_plan *plan, const study_cell *c)
     return (line){.plan = plan,
                   .cell = c,
                   .D = study_worst_constraint(c),
-                  .E = study_drift(c, "E"),
-                  .H = study_drift(c, "H"),
-                  .p = study_drift(c, "|p|"),
-                  .pi = study_drift(c, "|pi|"),
+                  .E = study_finding(c, "E"),
+                  .H = study_finding(c, "H"),
+                  .p = study_finding(c, "|p|"),
+                  .pi = study_finding(c, "|pi|"),
                   .invariant = study_worst_invariant(c, NULL),
-                  .error = study_drift(c, "error")};
+                  .error = study_finding(c, "error")};
 }
 
 /* A cell without numbers says why in their place. */
@@ -197,12 +197,13 @@ void study_print_note(FILE *out)
         "them: read it beside |p| and |pi|.  A projection has no canonical lift: it puts\n"
         "p = pi = 0, and H with them.\n"
         "\n"
-        "Verdicts.  exact: never changed.  rounding: changed by at most 1e-12 of its size.\n"
-        "drifts: the last quarter of the time strays more than 2.5 times as far as the first, or\n"
-        "the slope over the whole time exceeds 5 times the distance from the line.  bounded: none\n"
-        "of these.  lost: not finite.  -: not to be judged, as E where the system itself does not\n"
-        "conserve it.  Rates are slopes of least squares.  I are the invariants of the system, "
-        "the\n"
-        "worst of them; ns are of processor time.\n",
+        "Verdicts.  exact: never changed.  rounding: a random walk of rounding size, or changes\n"
+        "within some hundred roundings.  bounded: to and fro about one value.  linear drift, "
+        "power\n"
+        "law, exponential: grows so.  aborted: not finite.  not enough data: too few samples, or\n"
+        "too slow an oscillation, to tell.  quantities.csv has the confidence of each.  -: not to\n"
+        "be judged, as E where the system itself does not conserve it.  Rates are slopes of least\n"
+        "squares.  I are the invariants of the system, the worst of them; ns are of processor\n"
+        "time.\n",
         out);
 }

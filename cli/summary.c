@@ -1,6 +1,8 @@
 /* summary.c - what became of each quantity along a run. */
+#include "file.h"
 #include "record.h"
 
+#include <stdlib.h>
 #include <string.h>
 
 static double nanoseconds(const cli_record *r)
@@ -19,40 +21,37 @@ void summary_print(FILE *out, const cli_record *r)
             dal_run_time(job->run), r->mark.row);
     fprintf(out, "%lld steps, %lld evaluations, %.1f ns per step\n", dal_run_steps(job->run),
             dal_run_evaluations(job->run), nanoseconds(r));
-    fprintf(out, "%-12s %16s %16s %12s %12s %12s\n", "", "first", "last", "max | |", "max change",
-            "rate");
+    fprintf(out, "%-12s %14s %10s %10s %10s %21s %8s  %s\n", "", "final", "max | |", "amplitude",
+            "rate", "", "exponent", "verdict");
     for (int i = 0; i < r->observables; i++) {
-        const dal_drift *d = &r->drift[i];
-        fprintf(out, "%-12s %16.9g %16.9g %12.3g %12.3g %12.3g\n", r->names[1 + r->dimension + i],
-                d->first, d->last, d->greatest, d->deviation, d->rate);
+        const dal_finding *f = &r->finding[i];
+        fprintf(out, "%-12s %14.7g %10.3g %10.3g %+10.2e (%+.1e %+.1e) %8.2f  %s",
+                record_observable(r, i), f->last, f->greatest, f->amplitude, f->rate, f->rate_low,
+                f->rate_high, f->exponent, dal_verdict_text(f->verdict));
+        fprintf(out, f->confidence < 0.995 ? ", %.2f\n" : "\n", f->confidence);
     }
-}
-
-static void put(FILE *out, const char *quantity, const char *measure, double value)
-{
-    fprintf(out, "%s,%s,", quantity, measure);
-    cli_put(out, value);
-    fputc('\n', out);
 }
 
 int summary_write(const cli_record *r, const char *path)
 {
-    FILE *out = fopen(path, "w");
-    if (!out) return cli_io("write", path);
-    fputs("quantity,measure,value\n", out);
-    put(out, "run", "time", dal_run_time(r->job->run));
-    put(out, "run", "rows", (double)r->mark.row);
-    put(out, "run", "steps", (double)dal_run_steps(r->job->run));
-    put(out, "run", "evaluations", (double)dal_run_evaluations(r->job->run));
-    put(out, "run", "ns_per_step", nanoseconds(r));
+    char *text = NULL;
+    size_t length = 0;
+    FILE *out = open_memstream(&text, &length);
+    if (!out) return cli_fail(CLI_IO, "out of memory");
+    fprintf(out, "observable,first,final,maximum,deviation,%s\n", cli_finding_heads);
     for (int i = 0; i < r->observables; i++) {
-        const dal_drift *d = &r->drift[i];
-        const char *name = r->names[1 + r->dimension + i];
-        put(out, name, "first", d->first);
-        put(out, name, "last", d->last);
-        put(out, name, "max", d->greatest);
-        put(out, name, "max_change", d->deviation);
-        put(out, name, "rate", d->rate);
+        const dal_finding *f = &r->finding[i];
+        const double numbers[] = {f->first, f->last, f->greatest, f->deviation};
+        cli_put_text(out, record_observable(r, i));
+        for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++) {
+            fputc(',', out);
+            cli_put(out, numbers[k]);
+        }
+        cli_put_finding(out, f);
+        fputc('\n', out);
     }
-    return cli_close(out, path);
+    int status = cli_close(out, path);
+    if (status == CLI_DONE) status = file_replace(path, text, length);
+    free(text);
+    return status;
 }

@@ -18,26 +18,11 @@ static int broken(cli_table *table)
     return cli_io("write", table->path);
 }
 
-/* A name with a comma or a quote in it is quoted, as RFC 4180 has it. */
-static void put_name(FILE *out, const char *name)
-{
-    if (!strpbrk(name, ",\"\n")) {
-        fputs(name, out);
-        return;
-    }
-    fputc('"', out);
-    for (; *name; name++) {
-        if (*name == '"') fputc('"', out);
-        fputc(*name, out);
-    }
-    fputc('"', out);
-}
-
 static int put_csv_header(cli_table *table, char *const *names)
 {
     for (int i = 0; i < table->columns; i++) {
         if (i) fputc(',', table->file);
-        put_name(table->file, names[i]);
+        cli_put_text(table->file, names[i]);
     }
     fputc('\n', table->file);
     return ferror(table->file) ? broken(table) : CLI_DONE;

@@ -318,12 +318,14 @@ char *dal_run_observable_name(const dal_run *run, int i, char *buffer, size_t si
 dal_status dal_run_observe(dal_run *run, double *out);
 
 /* Looks on while a run goes.  sample is called for each row, poll now and then (about every 1000
- * steps and rows between steps) between them; either may be NULL.  Any status but DAL_OK ends the
- * run with that status. */
+ * steps and rows between steps) between them, step at the start and after every so many steps of
+ * the run; any may be NULL.  Any status but DAL_OK ends the run with that status. */
 typedef struct dal_observer {
     void *user;
     dal_status (*sample)(void *user, dal_run *run, long long row, double t);
     dal_status (*poll)(void *user, dal_run *run);
+    dal_status (*step)(void *user, dal_run *run);
+    long long every; /* steps between two calls of step; 0: it is not called */
 } dal_observer;
 
 /* Carries the run to time T and shows rows first_row..samples at t = row*T/samples, the last

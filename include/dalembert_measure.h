@@ -9,43 +9,58 @@
 #ifndef DALEMBERT_MEASURE_H
 #define DALEMBERT_MEASURE_H
 
-/* ---- drift --------------------------------------------------------------------------------- */
+/* ---- what becomes of a quantity along a run ------------------------------------------------ */
 
-/* What became of one quantity x along a run: plain sums, to be copied or kept as one likes. */
-typedef struct dal_drift {
-    long long count;
-    double first, last; /* x at the first and at the last row */
-    double greatest;    /* max |x| */
-    double deviation;   /* max |x - first| */
-    double rate;        /* least-squares slope per unit of t; after dal_drift_finish */
-    double residue;     /* root mean square distance from that line; after dal_drift_finish */
-    double quarter[4];  /* max |x - first| within each quarter of the time from .. to */
-    double from, to;    /* the time the run is meant to cover */
-    double t, x;        /* running means of t - from and x - first */
-    double tt, tx, xx;  /* running sums of squares about the means */
-} dal_drift;
+enum { DAL_BLOCKS = 64 };
 
-/* Begins, adds one row of values[count], and ends the statistics of drift[count].  Rows come in
- * any number, in increasing t.  A value that is not finite makes greatest and deviation infinite
- * and is left out of the line.  finish may be called again after more rows. */
-void dal_drift_start(dal_drift *drift, int count, double from, double to);
-void dal_drift_add(dal_drift *drift, int count, double t, const double *values);
-void dal_drift_finish(dal_drift *drift, int count);
+/* A block of successive values: its middle, and the mean, least and most of x. */
+typedef struct dal_mean {
+    double t, x, least, most;
+} dal_mean;
 
-/* What a drift amounts to, by this rule, with a scale (a natural size of x, in its unit):
- *   EXACT     deviation = 0
- *   ROUNDING  deviation <= 1e-12 scale
- *   DRIFTS    deviation of the last quarter > 2.5 times that of the first, or the slope over the
- *             whole time > 5 times the distance from the line (a bounded oscillation over one
- *             period or more stays below 4.4)
- *   BOUNDED   none of these
- *   LOST      a value was not finite, or there was no row */
+/* One quantity x followed value by value in constant memory, over 1e10 steps or more: plain
+ * numbers, to be copied or kept as one likes.  blocks[] hold the means of length values each. */
+typedef struct dal_statistics {
+    long long count;            /* finite values so far */
+    long long length;           /* values in a block; doubles when all blocks are full */
+    long long blocks;           /* full blocks */
+    long long open_count;       /* values in the open one */
+    long long lost;             /* 1 once a value was not finite */
+    double first, last;         /* x at the first and at the last value */
+    double least, most;         /* of all full blocks */
+    double from, to;            /* t at the first and at the last value */
+    dal_mean open;              /* its x is a sum, its t the time of its first value */
+    dal_mean block[DAL_BLOCKS]; /* x less first; least and most as they are */
+} dal_statistics;
+
+/* Begins the statistics of count quantities; adds one value of each, at increasing and about
+ * equally distant t.  A value that is not finite is left out and remembered as lost. */
+void dal_statistics_start(dal_statistics *statistics, int count);
+void dal_statistics_add(dal_statistics *statistics, int count, double t, const double *values);
+
+/* max |x| and max |x - first|; infinite when a value was lost. */
+double dal_statistics_greatest(const dal_statistics *statistics);
+double dal_statistics_deviation(const dal_statistics *statistics);
+
+/* What a quantity does in the long run.
+ *   EXACT        never changed
+ *   ROUNDING     a random walk (proportional to sqrt t) of steps of rounding size, or changes that
+ *                stay within some hundred roundings of its scale
+ *   BOUNDED      goes to and fro about one value
+ *   LINEAR       drifts at one rate, whatever oscillates about it
+ *   POWER        grows like another power of t, a random walk of larger steps included
+ *   EXPONENTIAL  grows by equal factors in equal times
+ *   ABORTED      a value was not finite, or the run ended before its time
+ *   UNDECIDED    too few values, or too slow an oscillation, to tell these apart */
 #define DAL_VERDICT_LIST(X)                                                                        \
     X(EXACT, "exact")                                                                              \
     X(ROUNDING, "rounding")                                                                        \
     X(BOUNDED, "bounded")                                                                          \
-    X(DRIFTS, "drifts")                                                                            \
-    X(LOST, "lost")
+    X(LINEAR, "linear drift")                                                                      \
+    X(POWER, "power law")                                                                          \
+    X(EXPONENTIAL, "exponential")                                                                  \
+    X(ABORTED, "aborted")                                                                          \
+    X(UNDECIDED, "not enough data")
 
 typedef enum dal_verdict {
 #define X(code, text) DAL_VERDICT_##code,
@@ -54,8 +69,24 @@ typedef enum dal_verdict {
         DAL_VERDICT_COUNT
 } dal_verdict;
 
-dal_verdict dal_drift_verdict(const dal_drift *drift, double scale); /* after dal_drift_finish */
 const char *dal_verdict_text(dal_verdict verdict);
+
+typedef struct dal_finding {
+    long long count;            /* values */
+    double first, last;         /* x at the first and at the last */
+    double greatest, deviation; /* max |x|, max |x - first| */
+    double amplitude;           /* half the range of x about the line of least squares */
+    double rate;                /* the slope of that line, per unit of t */
+    double rate_low, rate_high; /* its 95 % confidence interval, from the means of blocks */
+    double exponent;            /* of the envelope: max |x - first| grows like t^exponent */
+    dal_verdict verdict;
+    double confidence; /* 0..1: weight of the verdict among all that were tried */
+} dal_finding;
+
+/* Judges a quantity by a scale (its natural size, in its unit; roundings are measured by it).
+ * aborted: the run ended before its time.  More values may be added afterwards. */
+void dal_statistics_judge(const dal_statistics *statistics, double scale, int aborted,
+                          dal_finding *finding);
 
 /* ---- a system under the hand --------------------------------------------------------------- */
 
@@ -160,9 +191,9 @@ dal_status dal_measure_reversibility(const dal_run_spec *spec, double t, const d
 /* p.dq + pi.dv along steps of spec->method with 1/e = 0: (q,p,v,pi) from a lifted run with the
  * start of spec (its p_x, pi_x name the covector), (dq,dv) from the tangent system of the same
  * model (dal_model_tangent) in the physical space, beginning with direction[2n].  Constant for
- * symplectic methods.  The drift is finished and covers every step. [alloc] */
+ * symplectic methods.  The statistics cover every step. [alloc] */
 dal_status dal_measure_pairing(const dal_run_spec *spec, const dal_system *tangent,
-                               const double *direction, long long steps, dal_drift *drift,
+                               const double *direction, long long steps, dal_statistics *statistics,
                                dal_error *error);
 
 /* ---- the action and Dirac's algebra -------------------------------------------------------- */

@@ -306,7 +306,7 @@ static dal_status keep_row(void *user, dal_run *run, long long row, double t)
 
 static void sample(dal_run *run, double T, long long samples, long long first, rows *r)
 {
-    const dal_observer observer = {r, keep_row, NULL};
+    const dal_observer observer = {.user = r, .sample = keep_row};
     CU_ASSERT_EQUAL(dal_run_sample(run, T, samples, first, &observer, NULL), DAL_OK);
 }
 
@@ -330,7 +330,7 @@ static void test_samples(void)
     /* Stopped at a row and taken up again from there: the same rows. */
     run = fixture_run(&spec);
     b.stop_at = 17;
-    const dal_observer observer = {&b, keep_row, NULL};
+    const dal_observer observer = {.user = &b, .sample = keep_row};
     dal_error error;
     CU_ASSERT_EQUAL(dal_run_sample(run, 10.0, 40, 0, &observer, &error), DAL_INTERRUPTED);
     CU_ASSERT_EQUAL(error.status, DAL_INTERRUPTED);

@@ -230,17 +230,17 @@ static double pairing_of(const char *text, const char *method, long long steps)
     const dal_system *tangent = NULL;
     const double direction[] = {0.3, -0.2, 0.5, 0.1, 0.4, -0.6};
     const dal_setting start[] = {{"p_x", 0.7}, {"p_z", -0.4}, {"pi_y", 0.5}, {"e", 2.0}};
-    dal_drift drift;
+    dal_statistics pairing;
     CU_ASSERT_EQUAL_FATAL(dal_model_tangent(model, &tangent, NULL), DAL_OK);
     dal_run_spec spec = fixture_spec(fixture_system(model), method, DAL_LIFTED, 0.05);
     spec.start = start;
     spec.start_count = 4;
-    CU_ASSERT_EQUAL(dal_measure_pairing(&spec, tangent, direction, steps, &drift, NULL), DAL_OK);
-    CU_ASSERT_EQUAL(drift.count, steps + 1);
+    CU_ASSERT_EQUAL(dal_measure_pairing(&spec, tangent, direction, steps, &pairing, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(pairing.count, steps + 1);
     /* p.dq + pi.dv at the start */
-    CU_ASSERT_DOUBLE_EQUAL(drift.first, 0.7 * 0.3 - 0.4 * 0.5 + 0.5 * 0.4, 1e-15);
+    CU_ASSERT_DOUBLE_EQUAL(pairing.first, 0.7 * 0.3 - 0.4 * 0.5 + 0.5 * 0.4, 1e-15);
     dal_model_free(model);
-    return drift.deviation;
+    return dal_statistics_deviation(&pairing);
 }
 
 static void test_pairing(void)
@@ -259,11 +259,11 @@ static dal_status all_measures(const dal_run_spec *spec, const dal_system *tange
     const double direction[6] = {1.0};
     double number;
     dal_order order;
-    dal_drift drift;
+    dal_statistics pairing;
     dal_status status = dal_measure_order(spec, 0.5, 2, NULL, NULL, &order, NULL);
     if (!status) status = dal_measure_symplecticity(spec, 0.0, NULL, 0.0, &number, NULL);
     if (!status) status = dal_measure_reversibility(spec, 0.0, NULL, &number, NULL);
-    if (!status) status = dal_measure_pairing(spec, tangent, direction, 2, &drift, NULL);
+    if (!status) status = dal_measure_pairing(spec, tangent, direction, 2, &pairing, NULL);
     return status;
 }
 

@@ -23,18 +23,17 @@ static double pair(const pairing *w)
     return sum;
 }
 
-static dal_status follow(pairing *w, double h, long long steps, dal_drift *drift, dal_error *error)
+static dal_status follow(pairing *w, long long steps, dal_statistics *statistics, dal_error *error)
 {
-    double t = dal_run_time(w->lifted), value = pair(w);
-    dal_drift_start(drift, 1, t, t + h * (double)steps);
-    dal_drift_add(drift, 1, t, &value);
+    double value = pair(w);
+    dal_statistics_start(statistics, 1);
+    dal_statistics_add(statistics, 1, dal_run_time(w->lifted), &value);
     for (long long k = 0; k < steps; k++) {
         DAL_TRY(dal_run_step(w->lifted, error));
         DAL_TRY(dal_run_step(w->tangent, error));
         value = pair(w);
-        dal_drift_add(drift, 1, dal_run_time(w->lifted), &value);
+        dal_statistics_add(statistics, 1, dal_run_time(w->lifted), &value);
     }
-    dal_drift_finish(drift, 1);
     return DAL_OK;
 }
 
@@ -84,13 +83,13 @@ static dal_status open_pairing(pairing *w, const dal_run_spec *spec, const dal_s
 }
 
 dal_status dal_measure_pairing(const dal_run_spec *spec, const dal_system *tangent,
-                               const double *direction, long long steps, dal_drift *drift,
+                               const double *direction, long long steps, dal_statistics *statistics,
                                dal_error *error)
 {
     pairing w = {.n = spec->system->n};
     dal_status status = open_pairing(&w, spec, tangent, error);
     if (status == DAL_OK) status = start_tangent(&w, direction, error);
-    if (status == DAL_OK) status = follow(&w, spec->options.step, steps, drift, error);
+    if (status == DAL_OK) status = follow(&w, steps, statistics, error);
     dal_run_free(w.lifted);
     dal_run_free(w.tangent);
     return status;

@@ -38,6 +38,21 @@ static dal_status show(sampling *k, long long row, double t)
     return stopped(k->observer->sample(k->observer->user, k->run, row, t), k);
 }
 
+/* Up to count steps, shown where that is asked for. */
+static dal_status advance(sampling *k, long long count)
+{
+    const dal_observer *o = k->observer;
+    if (!o->step || o->every < 1) return dal_run_advance(k->run, count, k->error);
+    while (count > 0) {
+        const long long due = o->every - dal_run_steps(k->run) % o->every;
+        const long long steps = due < count ? due : count;
+        DAL_TRY(dal_run_advance(k->run, steps, k->error));
+        if (steps == due) DAL_TRY(stopped(o->step(o->user, k->run), k));
+        count -= steps;
+    }
+    return DAL_OK;
+}
+
 /* A row between two steps: a step of size h from the present state, shown and taken back. */
 static dal_status side_step(sampling *k, double h, long long row, double t)
 {
@@ -67,7 +82,7 @@ static dal_status go_to_row(sampling *k, long long row, double t)
         if (left <= near) return show(k, row, t);
         if (left < h - near) return side_step(k, left, row, t);
         const long long steps = steps_to(left, h);
-        DAL_TRY(dal_run_advance(k->run, steps, k->error));
+        DAL_TRY(advance(k, steps));
         k->since_poll += steps - 1;
         DAL_TRY(poll(k));
     }
@@ -102,9 +117,11 @@ static dal_status check(const dal_run *run, double T, long long samples, long lo
 dal_status dal_run_sample(dal_run *run, double T, long long samples, long long first_row,
                           const dal_observer *observer, dal_error *error)
 {
-    static const dal_observer nobody = {NULL, NULL, NULL};
+    static const dal_observer nobody = {0};
     DAL_TRY(check(run, T, samples, first_row, error));
     sampling k = {run, observer ? observer : &nobody, error, 0};
+    if (first_row == 0 && dal_run_steps(run) == 0 && k.observer->step && k.observer->every > 0)
+        DAL_TRY(stopped(k.observer->step(k.observer->user, run), &k));
     for (long long row = first_row; row <= samples; row++)
         DAL_TRY(go_to_row(&k, row, row_time(T, row, samples)));
     return DAL_OK;

@@ -34,7 +34,7 @@ if command -v gnuplot >/dev/null 2>&1; then
     holds "no word of a study of refused cells" grep -q 'No run has numbers' drawn/report/index.html
     holds "no figure of the line" grep -q '<svg' drawn/report/line.yaml.svg
     holds "the label is not text" grep -q '<h2>a &lt;b&gt;' drawn/report/index.html
-    holds "no verdicts" grep -q '<td class="drifts">' drawn/report/index.html
+    holds "no verdicts" grep -q '<td class="not enough data">' drawn/report/index.html
     holds "no tables" grep -q 'What this shows' drawn/report/index.html
 
     case_is "the report of a run"
