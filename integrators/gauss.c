@@ -136,7 +136,7 @@ static const double e6[] = {-1.56791634615187423369e-1, 5.46632254422443822806e-
 /* The method with s stages under its name. */
 #define GAUSS(s, order_, name_)                                                                    \
     static const dal_tableau tableau##s = {                                                        \
-        s, c##s, b##s, b##s##_tail, a##s, a##s##_tail, e##s,                                       \
+        s, c##s, b##s, b##s##_tail, a##s, a##s##_tail, e##s, a##s, a##s##_tail,                    \
     };                                                                                             \
     DAL_INLINE dal_status step##s(dal_step *step) { return dal_collocation(step, &tableau##s); }   \
     DAL_INTEGRATOR(                                                                                \

@@ -6,19 +6,22 @@
  * mu_j Pi_i = pi + h sum a_ij L_j            P_i = p - h sum a_ij F_q^T Pi |_j K_i = F(Q_i, V_i,
  * t_i) + Pi_i/E_i     L_i = -P_i - F_v^T Pi |_i         t_i = t + c_i h
  *
- * and y1 = y + h sum b_i (slope)_i.  For long runs (Hairer, McLachlan, Razakarivony, BIT 48 (2008)
- * 231): each coefficient is head + tail, the head a multiple of 1/1024, summed apart; stages start
- * from y + r; iteration to stagnation.  The first guess is the polynomial through the slopes of the
- * last step where there was one of the same size, else the slopes at the present state. */
+ * and y1 = y + h sum b_i (slope)_i.  A partitioned method has other coefficients for w and p than
+ * for q, e and pi, each the partner of the other: symplectic where b_i p_ij + b_j a_ji = b_i b_j.
+ * For long runs (Hairer, McLachlan, Razakarivony, BIT 48 (2008) 231): each coefficient is head +
+ * tail, the head a multiple of 1/1024, summed apart; stages start from y + r; iteration to
+ * stagnation.  The first guess is the polynomial through the slopes of the last step where there
+ * was one of the same size, else the slopes at the present state. */
 #ifndef DAL_KERNEL_COLLOCATION_H
 #define DAL_KERNEL_COLLOCATION_H
 
 typedef struct dal_tableau {
     int stages;
-    const double *c;             /* [s] */
-    const double *b, *b_tail;    /* [s] multiples of 1/1024, and the rest */
-    const double *a, *a_tail;    /* [s*s] */
-    const double *extrapolation; /* [s*s] Lagrange basis l_j(1 + c_i) on the nodes */
+    const double *c;                      /* [s] */
+    const double *b, *b_tail;             /* [s] multiples of 1/1024, and the rest */
+    const double *a, *a_tail;             /* [s*s] */
+    const double *extrapolation;          /* [s*s] Lagrange basis l_j(1 + c_i) on the nodes */
+    const double *partner, *partner_tail; /* [s*s] of w and p, where a is that of q, e and pi */
 } dal_tableau;
 
 typedef struct dal_stages {
@@ -79,25 +82,28 @@ DAL_INLINE void dal__end(const dal_stages *k, const num *x, int stride, int coun
                       count, out);
 }
 
-/* Stage values base + (r + h sum a x) for count components; out must not overlap x. */
-DAL_INLINE void dal__stage_value(const dal_step *s, const dal_stages *k, int i, int first,
-                                 int count, const num *x, int stride, dal_mask active,
+/* Stage values base + (r + h sum a x) for count components, by the coefficients a or their
+ * partner's; out must not overlap x. */
+DAL_INLINE void dal__stage_value(const dal_step *s, const dal_stages *k, int partner, int i,
+                                 int first, int count, const num *x, int stride, dal_mask active,
                                  num *DAL_RESTRICT out)
 {
     (void)active; /* one lane that does not iterate asks for nothing */
-    const int stages = DAL_STAGES(k->method);
-    const double *a = k->method->a + i * stages, *tail = k->method->a_tail + i * stages;
+    const dal_tableau *m = k->method;
+    const int stages = DAL_STAGES(m);
+    const double *a = (partner ? m->partner : m->a) + i * stages;
+    const double *tail = (partner ? m->partner_tail : m->a_tail) + i * stages;
     const num *y = s->y + first, *r = s->r + first, h = dal_num(k->h);
     DAL__BY_STAGES(
         stages, DAL_EACH(c, count) out[c] = DAL_KEEP(
                     active, y[c] + dal_fma(h, dal__weighted(a, tail, STAGES, x + c, stride), r[c]),
                     out[c]));
 }
-DAL_INLINE void dal__stage_values(const dal_step *s, const dal_stages *k, int first, int count,
-                                  const num *x, int stride, dal_mask active, num *out)
+DAL_INLINE void dal__stage_values(const dal_step *s, const dal_stages *k, int partner, int first,
+                                  int count, const num *x, int stride, dal_mask active, num *out)
 {
     DAL_EACH(i, DAL_STAGES(k->method))
-        dal__stage_value(s, k, i, first, count, x, stride, active, out + i * count);
+        dal__stage_value(s, k, partner, i, first, count, x, stride, active, out + i * count);
 }
 
 /* The slopes of pi: L_i = -(p + r - h sum a F_q^T Pi) - F_v^T Pi. */
@@ -108,8 +114,8 @@ DAL_INLINE void dal__momentum_slopes(dal_step *s, const dal_stages *k, num *imag
     DAL_EACH(i, stages) {
         num *DAL_RESTRICT slope = image + i * n;
         const num *Fv = k->f + i * k->stride + 2 * n;
-        dal__weighted_all(k->method->a + i * stages, k->method->a_tail + i * stages, stages, k->h,
-                          k->f + n, k->stride, n, slope);
+        dal__weighted_all(k->method->partner + i * stages, k->method->partner_tail + i * stages,
+                          stages, k->h, k->f + n, k->stride, n, slope);
         DAL_EACH(j, n) slope[j] = -(p[j] + (r[j] - slope[j])) - Fv[j];
     }
 }
@@ -130,10 +136,10 @@ DAL_INLINE void dal__collocation_map(dal_step *s, dal_equation *eq)
     const dal_stages *k = (const dal_stages *)eq->context;
     const int n = DAL_N(s), nw = DAL_NW(s);
     num *const image = eq->block[0].image;
-    dal__stage_values(s, k, n, nw, eq->block[0].u, nw, eq->active, k->v);
-    dal__stage_values(s, k, 0, n, k->v, nw, eq->active, k->q);
+    dal__stage_values(s, k, 1, n, nw, eq->block[0].u, nw, eq->active, k->v);
+    dal__stage_values(s, k, 0, 0, n, k->v, nw, eq->active, k->q);
     if (DAL_LIFTED(s))
-        dal__stage_values(s, k, dal_at_pi(s), n, eq->block[1].u, n, eq->active, k->pi);
+        dal__stage_values(s, k, 0, dal_at_pi(s), n, eq->block[1].u, n, eq->active, k->pi);
     dal__ask_stages(s, k, image);
     if (!DAL_LIFTED(s)) return;
     DAL_EACH(i, DAL_STAGES(k->method))
@@ -142,27 +148,35 @@ DAL_INLINE void dal__collocation_map(dal_step *s, dal_equation *eq)
     dal__momentum_slopes(s, k, eq->block[1].image);
 }
 
-/* a and a a, rounded: good enough for Newton's matrix. */
-DAL_INLINE void dal__tableau_squared(const dal_tableau *m, double *a, double *a2)
+/* Coefficients rounded to one number each, good enough for Newton's matrix, and products of them.
+ */
+DAL_INLINE void dal__rounded(int count, const double *head, const double *tail, double *a)
 {
-    const int s = DAL_STAGES(m);
-    for (int i = 0; i < s * s; i++) a[i] = m->a[i] + m->a_tail[i];
+    for (int i = 0; i < count; i++) a[i] = head[i] + tail[i];
+}
+DAL_INLINE void dal__product(int s, const double *a, const double *b, double *ab)
+{
     for (int i = 0; i < s * s; i++) {
-        a2[i] = 0.0;
-        for (int j = 0; j < s; j++) a2[i] += a[i / s * s + j] * a[j * s + i % s];
+        ab[i] = 0.0;
+        for (int j = 0; j < s; j++) ab[i] += a[i / s * s + j] * b[j * s + i % s];
     }
 }
 
 DAL_INLINE dal_status dal__collocation_matrix(dal_step *s, dal_equation *eq)
 {
+    enum { MOST = DAL_MOST_STAGES * DAL_MOST_STAGES };
     const dal_stages *k = (const dal_stages *)eq->context;
-    const int stages = DAL_STAGES(k->method);
-    double a[DAL_MOST_STAGES * DAL_MOST_STAGES], a2[DAL_MOST_STAGES * DAL_MOST_STAGES];
+    const dal_tableau *method = k->method;
+    const int stages = DAL_STAGES(method);
+    double a[MOST], b[MOST], ab[MOST], ba[MOST];
     DAL_VECTOR(s, jacobian, DAL_NW(s) * (DAL_N(s) + DAL_NW(s)));
     DAL_VECTOR(s, m, DAL_STAGES(k->method) * DAL_NW(s) * DAL_STAGES(k->method) * DAL_NW(s));
-    dal__tableau_squared(k->method, a, a2);
+    dal__rounded(stages * stages, method->a, method->a_tail, a);
+    dal__rounded(stages * stages, method->partner, method->partner_tail, b);
+    dal__product(stages, a, b, ab);
+    dal__product(stages, b, a, ba);
     dal_jacobian(s, s->t + 0.5 * k->h, s->y, s->y + DAL_N(s), jacobian);
-    const dal_stage_matrix x = {stages, k->h, a, a2, 0}, p = {stages, -k->h, a, a2, 1};
+    const dal_stage_matrix x = {stages, k->h, b, ab, 0}, p = {stages, -k->h, a, ba, 1};
     dal_stage_inverse(s, &x, jacobian, m, &eq->block[0]);
     if (DAL_LIFTED(s)) dal_stage_inverse(s, &p, jacobian, m, &eq->block[1]);
     return DAL_OK;
