@@ -124,6 +124,78 @@ static void check_reversal(const body *b)
 
 static void test_reversal(void) { each(check_reversal); }
 
+/* ---- what the motion keeps ---- */
+
+/* The trace of the derivative of (v, F, g') by (q, v, g). */
+static double divergence(const body *b, double t, const double *x)
+{
+    int n = b->system->n, nw = n + b->system->multipliers;
+    double out[BODY_OUT], sum = 0.0;
+    body_call(b, b->system->call.jacobian, t, x, x + n, out);
+    for (int i = 0; i < nw; i++) sum += out[nw * n + i * nw + i];
+    return sum;
+}
+
+/* The logarithm of the volume follows that of an invariant density, which may grow like log(t); on
+ * the way to an attractor it falls like t.  Its change from t = 10 to 20, by the trapezoidal rule.
+ */
+static void check_volume(const body *b)
+{
+    const dal_system *s = b->system;
+    const double step = 0.02;
+    double change = 0.0;
+    if (!tagged(s, "measure-preserving") && !tagged(s, "attractor")) return;
+    zoo z = zoo_default(s->name, step);
+    for (int k = 0; k <= 1000; k++) {
+        double weight = k < 500 ? 0.0 : k == 500 || k == 1000 ? step / 2 : step;
+        change += weight * divergence(b, k * step, z.x);
+        if (k < 1000) zoo_go(&z, (k + 1) * step);
+    }
+    expect(s, fabs(change) < 1.0 || change < -2.0, "volume in doubt");
+    expect_tag(s, "measure-preserving", fabs(change) < 1.0);
+    zoo_close(&z);
+}
+
+/* The rate of E by differences on the line x + s dx/dt. */
+static double energy_rate(const body *b, double t, const double *x)
+{
+    static const double weight[] = {4.0 / 5, -1.0 / 5, 4.0 / 105, -1.0 / 280}, step = 0.005;
+    int n = b->system->n, nw = n + b->system->multipliers;
+    double y[3 * BODY_MOST], slope[3 * BODY_MOST], sum = 0.0, E;
+    memcpy(slope, x + n, (size_t)n * sizeof *slope);
+    body_call(b, b->system->call.field, t, x, x + n, slope + n);
+    for (int k = -4; k <= 4; k++) {
+        if (k == 0) continue;
+        for (int i = 0; i < n + nw; i++) y[i] = x[i] + k * step * slope[i];
+        body_call(b, b->system->energy, t + k * step, y, y + n, &E);
+        sum += (k > 0 ? weight[k - 1] : -weight[-k - 1]) * E / step;
+    }
+    return sum;
+}
+
+/* E, as the properties say, on D = 0 and off it; and all invariants. */
+static void check_kept(const body *b)
+{
+    const dal_system *s = b->system;
+    bool exact = s->properties & DAL_E_EXACT, weak = s->properties & DAL_E_WEAK;
+    zoo z = zoo_default(s->name, 0.01);
+    double E = s->energy ? zoo_energy(&z) : 0.0, before[BODY_MOST], x[3 * BODY_MOST];
+    for (int i = 0; i < s->invariants; i++) before[i] = zoo_invariant(&z, i);
+    zoo_go(&z, 1.0);
+    for (int i = 0; i < s->invariants; i++) {
+        double now = zoo_invariant(&z, i);
+        expect(s, body_distance(1, &now, &before[i]) < 1e-12, s->invariant[i]);
+    }
+    double now = s->energy ? zoo_energy(&z) : 0.0;
+    if (s->energy) expect(s, (body_distance(1, &now, &E) < 1e-12) == (exact || weak), "E on D = 0");
+    for (int i = 0; i < 2 * s->n + s->multipliers; i++) x[i] = z.x[i] + 0.01 * (i + 1);
+    if (s->energy) expect(s, (fabs(energy_rate(b, 1.0, x)) < 1e-9) == exact, "E off D = 0");
+    zoo_close(&z);
+}
+
+static void test_volume(void) { each(check_volume); }
+static void test_kept(void) { each(check_kept); }
+
 /* ---- exact solutions ---- */
 
 static void check_run(const body *b, dal_space space)
@@ -157,5 +229,7 @@ void suite_zoo(void)
     CU_add_test(suite, "tags of the constraints", test_constraint);
     CU_add_test(suite, "vocabulary of tags", test_words);
     CU_add_test(suite, "tags of reversal", test_reversal);
+    CU_add_test(suite, "tags of the volume", test_volume);
+    CU_add_test(suite, "energy and invariants by gauss8", test_kept);
     CU_add_test(suite, "exact solutions by gauss8", test_exact);
 }
