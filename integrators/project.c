@@ -17,29 +17,29 @@ typedef struct projection {
     num *shift;   /* [m] */
 } projection;
 
-DAL_INLINE void ask(dal_step *s, projection *p)
+DAL_INLINE void ask_constraint(dal_step *s, projection *p)
 {
     dal_ask(s, DAL_ASK_CONSTRAINT, s->t, s->y, p->v, NULL, p->out);
 }
 
 /* The unknown is the change of v, whose scale is that of v. */
-DAL_INLINE void map(dal_step *s, dal_equation *eq)
+DAL_INLINE void projection_map(dal_step *s, dal_equation *eq)
 {
     projection *p = (projection *)eq->context;
     const int n = DAL_N(s), m = DAL_M(s);
     DAL_EACH(i, n) p->v[i] = p->u[i] + eq->block[0].u[i];
-    ask(s, p);
+    ask_constraint(s, p);
     dal_multiply(p->inverse, m, m, p->out, p->shift);
     dal_multiply(p->normals, n, m, p->shift, eq->block[0].image);
     DAL_EACH(i, n) eq->block[0].image[i] = eq->block[0].u[i] - eq->block[0].image[i];
 }
 
 /* B and G^-1 at (q1, u). */
-DAL_INLINE dal_status freeze(dal_step *s, projection *p)
+DAL_INLINE dal_status freeze_projection(dal_step *s, projection *p)
 {
     const int n = DAL_N(s), m = DAL_M(s);
     DAL_VECTOR(s, g, DAL_M(s) * DAL_M(s));
-    ask(s, p);
+    ask_constraint(s, p);
     const num *a = p->out + m, *b = p->out + m + m * n;
     DAL_EACH(i, n * m) p->normals[i] = b[i];
     dal_gram(a, b, m, n, g);
@@ -61,25 +61,17 @@ DAL_INLINE dal_status project_velocity(dal_step *s)
     eq.block[0].scale = dal_max_norm(s->y + n, n);
     DAL_EACH(i, n) eq.block[0].u[i] = dal_num(0.0);
     DAL_EACH(i, n) v[i] = s->y[n + i];
-    DAL_TRY(freeze(s, &p));
-    DAL_TRY(dal_solve(s, &eq, map, NULL));
+    DAL_TRY(freeze_projection(s, &p));
+    DAL_TRY(dal_solve(s, &eq, projection_map, NULL));
     dal_add(s, n, n, eq.block[0].u);
     return DAL_OK;
-}
-
-DAL_INLINE void clear(dal_step *s, int first, int count)
-{
-    DAL_EACH(i, count) {
-        s->y[first + i] = dal_select(s->alive, dal_num(0.0), s->y[first + i]);
-        s->r[first + i] = dal_select(s->alive, dal_num(0.0), s->r[first + i]);
-    }
 }
 
 DAL_INLINE dal_status step(dal_step *s)
 {
     DAL_TRY(dal_inner(s, s->h));
     if (DAL_M(s) > 0) DAL_TRY(project_velocity(s));
-    if (DAL_LIFTED(s)) clear(s, dal_at_p(s), 2 * DAL_N(s) + 1);
+    dal_clear_momenta(s);
     return DAL_OK;
 }
 

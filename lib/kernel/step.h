@@ -54,6 +54,7 @@ typedef enum dal_question {
 #define DAL_STAGES(t)       DAL__STAGES
 #define DAL__ROOM(count)    ((count) > 0 ? (count) : 1)
 #define DAL__COUNT_ONE      1
+#define DAL__COUNT_TWO      2
 #define DAL__COUNT_SLOPES   DAL__SLOPES
 #define DAL__COUNT_REACTION DAL__REACTION
 
@@ -71,6 +72,31 @@ struct dal_step {
     const dal_stored *work; /* parameters, and what is made of them alone */
     long long evaluations;
 };
+
+/* A copy of what the method remembers, and back from the copy in some lanes. */
+enum {
+    DAL__REMEMBERED = 0
+#define X(member, count) +DAL__COUNT_##count
+    DAL__MEMORY_LIST(X)
+#undef X
+};
+#define DAL_REMEMBERED(s) DAL__REMEMBERED
+DAL_INLINE void dal_remember(const dal_step *s, num *to)
+{
+#define X(member, count)                                                                           \
+    DAL_EACH(i, DAL__COUNT_##count) to[i] = s->member[i];                                          \
+    to += DAL__COUNT_##count;
+    DAL__MEMORY_LIST(X)
+#undef X
+}
+DAL_INLINE void dal_recall(dal_step *s, dal_mask lanes, const num *from)
+{
+#define X(member, count)                                                                           \
+    DAL_EACH(i, DAL__COUNT_##count) s->member[i] = dal_select(lanes, from[i], s->member[i]);       \
+    from += DAL__COUNT_##count;
+    DAL__MEMORY_LIST(X)
+#undef X
+}
 
 /* The system as straight-line code, further down. */
 DAL_INLINE void dal_ask(dal_step *s, dal_question question, double t, const num *q, const num *v,
@@ -99,6 +125,8 @@ struct dal_step {
 #define X(member, count)  num *member;
     DAL__MEMORY_LIST(X)
 #undef X
+    num *memory; /* [remembered] all these, one behind the other */
+    int remembered;
 
     dal_mask alive;       /* lanes that go on */
     dal_mask unconverged; /* lanes whose implicit equations were not solved */
@@ -136,6 +164,17 @@ DAL_INLINE num *dal_scratch(dal_step *s, int count)
 #define DAL_MARK(step)    const size_t dal__mark = (step)->used
 #define DAL_RELEASE(step) (step)->used = dal__mark
 
+/* A copy of what the method remembers, and back from the copy in some lanes. */
+#define DAL_REMEMBERED(s) ((s)->remembered)
+DAL_INLINE void dal_remember(const dal_step *s, num *to)
+{
+    DAL_EACH(i, s->remembered) to[i] = s->memory[i];
+}
+DAL_INLINE void dal_recall(dal_step *s, dal_mask lanes, const num *from)
+{
+    DAL_EACH(i, s->remembered) s->memory[i] = dal_select(lanes, from[i], s->memory[i]);
+}
+
 DAL_INLINE void dal_ask(dal_step *s, dal_question question, double t, const num *q, const num *v,
                         const num *pi, num *out)
 {
@@ -150,6 +189,16 @@ DAL_INLINE int dal_at_e(const dal_step *s) { return 2 * DAL_N(s); }
 DAL_INLINE int dal_at_p(const dal_step *s) { return 2 * DAL_N(s) + 1; }
 DAL_INLINE int dal_at_pi(const dal_step *s) { return 3 * DAL_N(s) + 1; }
 DAL_INLINE int dal_at_pi_e(const dal_step *s) { return 4 * DAL_N(s) + 1; }
+
+/* p = pi = pi_e = 0. */
+DAL_INLINE void dal_clear_momenta(dal_step *s)
+{
+    const int first = dal_at_p(s);
+    DAL_EACH(i, DAL_LIFTED(s) * (2 * DAL_N(s) + 1)) {
+        s->y[first + i] = dal_select(s->alive, dal_num(0.0), s->y[first + i]);
+        s->r[first + i] = dal_select(s->alive, dal_num(0.0), s->r[first + i]);
+    }
+}
 
 /* F(q, v, t), out[nw]; and F, F_q^T pi, F_v^T pi, out[3n]. */
 DAL_INLINE void dal_force(dal_step *s, double t, const num *q, const num *v, num *out)

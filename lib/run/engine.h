@@ -23,6 +23,7 @@ typedef struct dal__shape {
 
 /* Numbers of what a method remembers, for DAL__MEMORY_LIST. */
 #define DAL__COUNT_ONE(shape)      1
+#define DAL__COUNT_TWO(shape)      2
 #define DAL__COUNT_SLOPES(shape)   ((shape)->slopes)
 #define DAL__COUNT_REACTION(shape) ((shape)->reaction)
 

@@ -100,12 +100,13 @@ static num *carried_at(const engine *e, int place)
 /* What the method remembers, one member behind the other. */
 static void place_memory(engine *e)
 {
-    num *at = carried_at(e, DAL__MEMORY);
+    num *at = e->step.memory = carried_at(e, DAL__MEMORY);
 #define X(member, count)                                                                           \
     e->step.member = at;                                                                           \
     at += DAL__COUNT_##count(&e->shape) * DAL_GROUPS;
     DAL__MEMORY_LIST(X)
 #undef X
+    e->step.remembered = (int)(at - e->step.memory);
 }
 
 /* The step's fixed part. */
@@ -113,8 +114,7 @@ static void prepare_step(engine *e)
 {
     const dal__shape *k = &e->shape;
     dal_step *s = &e->step;
-    *s = (dal_step){.m = k->m, .lifted = k->lifted};
-    s->n = k->n * DAL_GROUPS;
+    *s = (dal_step){.m = k->m, .lifted = k->lifted, .n = k->n * DAL_GROUPS};
     s->nw = k->nw * DAL_GROUPS;
     s->dim = k->dim * DAL_GROUPS;
     s->y = e->carried;

@@ -60,6 +60,17 @@ static dal_status check_parts(const dal__shape *k, unsigned needs, dal_error *er
     return DAL_OK;
 }
 
+static dal_status check_energy(const dal__shape *k, dal_error *error)
+{
+    const char *fault = energy_fault(k->system), *name = k->system->name;
+    char method[128];
+    if (!fault && !k->system->call.energy_normal) fault = "the system has no energy_normal";
+    if (!fault) return DAL_OK;
+    return dal__error(error, DAL_UNSUPPORTED, 0, 0, "%s cannot act on %s: %s",
+                      dal_method_name(&k->method, method, sizeof method),
+                      name ? name : "this system", fault);
+}
+
 /* What the method, the space and the solver need, the system must have. */
 static dal_status check_needs(const dal__shape *k, dal_error *error)
 {
@@ -71,6 +82,7 @@ static dal_status check_needs(const dal__shape *k, dal_error *error)
     if (k->lifted && !call->adjoint) return refuse(error, k, "lifted space: no adjoint");
     if ((needs & DAL_NEEDS_CONSTRAINT) && k->m > 0 && !call->constraint)
         return refuse(error, k, "constraint callback");
+    if (needs & DAL_NEEDS_ENERGY) DAL_TRY(check_energy(k, error));
     if (k->options.solver == DAL_NEWTON && !call->jacobian)
         return refuse(error, k, "jacobian, which the solver newton needs");
     return needs & DAL_NEEDS_PARTS ? check_parts(k, needs, error) : DAL_OK;

@@ -1,0 +1,163 @@
+/* project_energy.c - the modifier NAME+project-energy: back to D = 0, to the energy E0 of the start
+ * and to p = pi = pi_e = 0 after every step.
+ *
+ *     (q, v, t1) = step of NAME
+ *     q1 = q - h^2 k N,   v1 = v - k v - B c,     D(q1, v1, t1) = 0,   E(q1, v1) = E0
+ *     B = W^-1 A^T,  N = W^-1 E_q,  at (q, v, t1);       v is W^-1 E_v
+ *
+ * along the normals of E and D in the metric of the masses, with h as the unit of time between q
+ * and v: with v alone E could not be mended where the motion turns round.  Newton's method to
+ * stagnation, its derivative frozen, and without what D does with q, which is of order h^2:
+ *
+ *     M = (  A B        A v              )
+ *         ( (A v)^T   v.E_v + h^2 E_q.N  )
+ *
+ * Hairer, Lubich, Wanner, Geometric Numerical Integration (2006), IV.4.  Keeps the order, every D,
+ * and E where it is a constant of the motion; loses symmetry, and symplecticity on the lift. */
+#include <dalembert_kernel.h>
+
+/* m + 1 unknowns and equations: those of D, then that of E. */
+#define LEVELS(s) (DAL_M(s) + 1)
+
+typedef struct level {
+    num *q0, *v0;         /* [n] what the step left */
+    num *q, *v;           /* [n] */
+    num *constraint;      /* [m + m*n + n*m] D, A, B */
+    num *energy;          /* [1 + 3n] E, E_q, E_v, N */
+    num *normals;         /* [n*(m + 1)] of v: B and v */
+    num *normal;          /* [n] of q/h: h N */
+    num *inverse;         /* [(m+1)*(m+1)] */
+    num *missing, *shift; /* [m + 1] */
+} level;
+
+/* What is missing at (q, v): D and E - E0. */
+DAL_INLINE void find_missing(dal_step *s, level *k)
+{
+    const int m = DAL_M(s);
+    if (m > 0) dal_ask(s, DAL_ASK_CONSTRAINT, s->t, k->q, k->v, NULL, k->constraint);
+    dal_ask(s, DAL_ASK_ENERGY_NORMAL, s->t, k->q, k->v, NULL, k->energy);
+    DAL_EACH(a, m) k->missing[a] = k->constraint[a];
+    k->missing[m] = k->energy[0] - s->level[0];
+}
+
+DAL_INLINE void level_map(dal_step *s, dal_equation *eq)
+{
+    level *k = (level *)eq->context;
+    const int n = DAL_N(s), levels = LEVELS(s);
+    const num *u = eq->block[0].u;
+    num *const image = eq->block[0].image;
+    DAL_EACH(i, n) k->v[i] = k->v0[i] + u[i];
+    DAL_EACH(i, n) k->q[i] = k->q0[i] + s->h * u[n + i];
+    find_missing(s, k);
+    dal_multiply(k->inverse, levels, levels, k->missing, k->shift);
+    dal_multiply(k->normals, n, levels, k->shift, image);
+    DAL_EACH(i, n) image[n + i] = k->normal[i] * k->shift[levels - 1];
+    DAL_EACH(i, 2 * n) image[i] = u[i] - image[i];
+}
+
+DAL_INLINE num dot(const num *a, const num *b, int count)
+{
+    num sum = dal_num(0.0);
+    DAL_EACH(i, count) sum += a[i] * b[i];
+    return sum;
+}
+
+/* The normals, and M in `matrix`, from what was asked at (q0, v0). */
+DAL_INLINE void take_normals(dal_step *s, level *k, num *matrix)
+{
+    const int n = DAL_N(s), m = DAL_M(s), levels = LEVELS(s);
+    const num *A = k->constraint + m, *B = A + m * n;
+    const num *Eq = k->energy + 1, *Ev = Eq + n, *N = Ev + n;
+    DAL_EACH(i, n) k->normal[i] = s->h * N[i];
+    DAL_EACH(i, n) {
+        DAL_EACH(a, m) k->normals[i * levels + a] = B[i * m + a];
+        k->normals[i * levels + m] = k->v0[i];
+    }
+    DAL_EACH(a, m) {
+        dal_multiply(A + a * n, 1, n, k->v0, &matrix[a * levels + m]);
+        matrix[m * levels + a] = matrix[a * levels + m];
+        DAL_EACH(b, m) {
+            num sum = dal_num(0.0);
+            DAL_EACH(i, n) sum += A[a * n + i] * B[i * m + b];
+            matrix[a * levels + b] = sum;
+        }
+    }
+    matrix[m * levels + m] = dot(Ev, k->v0, n) + s->h * dot(Eq, k->normal, n);
+}
+
+/* The size of v, and of q/h, against which rounding in them and in E is small. */
+DAL_INLINE num level_scale(const dal_step *s, const level *k, num whole)
+{
+    const int n = DAL_N(s);
+    const num weight = dal_abs(s->level[0] / whole);
+    return dal_velocity_scale(s, s->h) +
+           weight * (dal_max_norm(k->v0, n) + dal_max_norm(k->normal, n));
+}
+
+DAL_INLINE dal_status freeze_normals(dal_step *s, level *k, dal_equation *eq)
+{
+    const int n = DAL_N(s), levels = LEVELS(s);
+    DAL_VECTOR(s, matrix, LEVELS(s) * LEVELS(s));
+    DAL_EACH(i, n) {
+        k->q[i] = k->q0[i] = s->y[i];
+        k->v[i] = k->v0[i] = s->y[n + i];
+        eq->block[0].u[i] = eq->block[0].u[n + i] = dal_num(0.0);
+    }
+    find_missing(s, k);
+    take_normals(s, k, matrix);
+    eq->block[0].scale = level_scale(s, k, matrix[levels * levels - 1]);
+    dal_invert(matrix, k->inverse, levels);
+    return DAL_OK;
+}
+
+DAL_INLINE dal_status to_level(dal_step *s)
+{
+    DAL_VECTOR(s, q0, DAL_N(s));
+    DAL_VECTOR(s, v0, DAL_N(s));
+    DAL_VECTOR(s, q, DAL_N(s));
+    DAL_VECTOR(s, v, DAL_N(s));
+    DAL_VECTOR(s, constraint, DAL_M(s) + 2 * DAL_M(s) * DAL_N(s));
+    DAL_VECTOR(s, energy, 1 + 3 * DAL_N(s));
+    DAL_VECTOR(s, normals, DAL_N(s) * LEVELS(s));
+    DAL_VECTOR(s, normal, DAL_N(s));
+    DAL_VECTOR(s, inverse, LEVELS(s) * LEVELS(s));
+    DAL_VECTOR(s, missing, LEVELS(s));
+    DAL_VECTOR(s, shift, LEVELS(s));
+    DAL_BLOCK(s, change, 2 * DAL_N(s), 0); /* of v and of q/h */
+    level k = {q0, v0, q, v, constraint, energy, normals, normal, inverse, missing, shift};
+    dal_equation eq = {{change}, 1, &k, dal_all()};
+    DAL_TRY(freeze_normals(s, &k, &eq));
+    DAL_TRY(dal_solve(s, &eq, level_map, NULL));
+    DAL_EACH(i, DAL_N(s)) q[i] = s->h * eq.block[0].u[DAL_N(s) + i];
+    dal_add(s, 0, DAL_N(s), q);
+    dal_add(s, DAL_N(s), DAL_N(s), eq.block[0].u);
+    return DAL_OK;
+}
+
+/* level: E0 and, once it is known, 1. */
+DAL_INLINE dal_status note_energy(dal_step *s)
+{
+    const dal_mask fresh = s->alive & dal_less(s->level[1], dal_num(0.5));
+    DAL_VECTOR(s, energy, 1 + 3 * DAL_N(s));
+    if (!dal_any(fresh)) return DAL_OK;
+    dal_ask(s, DAL_ASK_ENERGY_NORMAL, s->t, s->y, s->y + DAL_N(s), NULL, energy);
+    s->level[0] = dal_select(fresh, energy[0], s->level[0]);
+    s->level[1] = dal_select(fresh, dal_num(1.0), s->level[1]);
+    return DAL_OK;
+}
+
+DAL_INLINE dal_status step(dal_step *s)
+{
+    DAL_TRY(note_energy(s));
+    DAL_TRY(dal_inner(s, s->h));
+    DAL_TRY(to_level(s));
+    dal_clear_momenta(s);
+    return DAL_OK;
+}
+
+DAL_INTEGRATOR(project_energy, step, .name = "project-energy",
+               .summary = "after each step back to D = 0, E = E(0), p = pi = pi_e = 0",
+               .reference = "Hairer, Lubich, Wanner 2006, IV.4", .stages = 1,
+               .claims = DAL_MODIFIER | DAL_KEEPS_D | DAL_KEEPS_ENERGY,
+               .needs = DAL_NEEDS_CONSTRAINT | DAL_NEEDS_ENERGY,
+               .inherits = DAL_KEEPS_BILINEAR | DAL_KEEPS_QUADRATIC | DAL_EXPLICIT);
