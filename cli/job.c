@@ -60,6 +60,8 @@ void job_free(cli_job *job)
     dal_model_free(job->model);
     free_settings(&job->set);
     free_settings(&job->start);
+    free(job->row_time);
+    free(job->list);
     *job = job_begin();
 }
 
@@ -107,6 +109,12 @@ int job_take(cli_job *job, int option, const char *text)
         return cli_fail(CLI_USAGE, "--time: %s is not positive", text);
     case JOB_samples:
         return cli_integer("--samples", text, 1, SAMPLES_MOST, &job->samples);
+    case JOB_sampling:
+        job->is_log = strcmp(text, "log") == 0;
+        if (job->is_log || strcmp(text, "linear") == 0) return CLI_DONE;
+        return cli_fail(CLI_USAGE, "--sampling: '%s' is not linear or log", text);
+    case JOB_times:
+        return job_take_times(job, text);
     case JOB_statistics:
         return cli_integer("--statistics", text, 1, STATISTICS_MOST, &job->statistics);
     case JOB_set:
@@ -131,15 +139,17 @@ static int check(cli_job *job)
 {
     if (!job->system) return cli_fail(CLI_USAGE, "the SYSTEM is missing");
     for (int i = 0; i < JOB_OPTIONS; i++)
-        if (is_required(i) && !job->text[i])
+        if (is_required(i) && !job->text[i] && !(i == JOB_time && job->times > 0))
             return cli_fail(CLI_USAGE, "--%s is missing", table[i].name);
-    take_initial(job, JOB_samples);
-    take_initial(job, JOB_statistics);
     if (!(job->options.step > 0.0))
         return cli_fail(CLI_USAGE, "--step: %s is not positive", job->text[JOB_step]);
+    take_initial(job, JOB_samples);
+    take_initial(job, JOB_statistics);
+    const int scheduled = job_schedule(job);
+    if (scheduled != CLI_DONE) return scheduled;
     if (job->options.step > job->time)
-        return cli_fail(CLI_USAGE, "--step: %s is larger than the time %s", job->text[JOB_step],
-                        job->text[JOB_time]);
+        return cli_fail(CLI_USAGE, "--step: %s is larger than the time %g", job->text[JOB_step],
+                        job->time);
     return CLI_DONE;
 }
 

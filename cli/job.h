@@ -10,6 +10,9 @@
     X(integrator, "NAME", NULL, "rk4, gauss8+project, ...: see 'dalembert list integrators'")      \
     X(time, "T", NULL, "integrate from t = 0 to t = T")                                            \
     X(samples, "N", "100", "rows behind the first, at equal distances in t")                       \
+    X(sampling, "linear|log", "linear",                                                            \
+      "rows at equal distances in t, or in log t, on whole steps")                                 \
+    X(times, "LIST|FILE", NULL, "rows at these times alone; T is the last of them when not given") \
     X(statistics, "K", "1", "look at the observables after every K-th step, for the summary")      \
     X(set, "PARAMETER=V", NULL, "give a parameter another value; may be repeated")                 \
     X(start, "NAME=V", NULL, "start x, x', e, p_x, pi_x, ... at V; may be repeated; e=inf")
@@ -34,6 +37,10 @@ typedef struct cli_job {
     const char *text[JOB_OPTIONS]; /* as given, the last one; NULL: not given */
     double time;
     long long samples, statistics;
+    int is_log;
+    double *row_time; /* [samples + 1]; NULL: at equal distances */
+    long long times;  /* given ones in it */
+    char *list;       /* those as a text */
     dal_options options;
     job_settings set, start;
     dal_method method;
@@ -51,6 +58,11 @@ void job_options(cli_option *options);
 int job_find(const char *name);
 /* Takes one option.  Returns CLI_DONE or prints and returns an exit status, as job_make. */
 int job_take(cli_job *job, int option, const char *text);
+/* Takes a list of times or the file that holds one; settles when rows are taken.  Return as
+ * job_take.  Other than equally distant rows must fit into memory. */
+enum { SCHEDULE_MOST = 100000000 };
+int job_take_times(cli_job *job, const char *given);
+int job_schedule(cli_job *job);
 /* Loads the system and makes the spec of its run; the space is settled here. */
 int job_spec(cli_job *job, dal_run_spec *spec);
 /* When all has been taken: sees that nothing is missing and makes system, method and run. */

@@ -98,7 +98,13 @@ const char *record_observable(const cli_record *r, int i) { return r->names[1 + 
 /* ---- looking on ---------------------------------------------------------------------------- */
 
 /* Stops the clock of the steps while the program does something else, and starts it again. */
-static void pause_clock(cli_record *r) { r->mark.seconds += cli_seconds() - r->since; }
+static void pause_clock(cli_record *r)
+{
+    const double gone = cli_seconds() - r->since;
+    r->mark.seconds += gone;
+    r->stretch += gone;
+}
+
 static void start_clock(cli_record *r) { r->since = cli_seconds(); }
 
 static dal_status tell(cli_record *r, int exit_status)
@@ -130,21 +136,13 @@ static dal_status follow(void *user, dal_run *run)
     return status;
 }
 
-static void show(const cli_record *r, double t)
-{
-    double done = t / r->job->time;
-    if (r->quiet || !(done > 0.0)) return;
-    cli_progress("t = %.6g of %.6g, %.0f %%, %.0f s to go", t, r->job->time, 100.0 * done,
-                 r->mark.seconds * (1.0 - done) / done);
-}
-
 static dal_status sample(void *user, dal_run *run, long long row, double t)
 {
     cli_record *r = user;
     (void)row;
     pause_clock(r);
     dal_status status = take_row(r, run, t);
-    show(r, t);
+    progress_show(r, t, 0);
     start_clock(r);
     /* With a store the next poll ends the run: only there does the run stand where a checkpoint
      * may be taken, and not within a step that shows a row between two others. */
@@ -168,7 +166,7 @@ static dal_status poll(void *user, dal_run *run)
     pause_clock(r);
     if (r->store && (interrupted || cli_seconds() - r->saved >= r->interval))
         status = tell(r, save(r, run));
-    show(r, dal_run_time(run));
+    progress_show(r, dal_run_time(run), 0);
     start_clock(r);
     return status == DAL_OK && interrupted ? DAL_INTERRUPTED : status;
 }
@@ -191,6 +189,11 @@ static int explain(const cli_record *r, dal_status status, dal_error *error)
     return cli_error(cli_exit(status), r->job->system, error);
 }
 
+static const char *state_word(int status)
+{
+    return status == CLI_DONE ? "done" : status == CLI_SIGNAL ? "interrupted" : "failed";
+}
+
 /* The summary comes before the checkpoint that says "finished", so that it is never missing. */
 static int keep(cli_record *r, int status)
 {
@@ -198,22 +201,38 @@ static int keep(cli_record *r, int status)
     if (r->store && (status == CLI_DONE || status == CLI_FAILED))
         kept = summary_write(r, r->store->summary);
     if (r->store && status == CLI_DONE && kept == CLI_DONE) kept = save(r, r->job->run);
+    if (r->store && kept == CLI_DONE && status != CLI_IO)
+        kept = manifest_write(r, state_word(status));
     int closed = table_close(&r->table);
     if (status != CLI_DONE) return status;
     return kept != CLI_DONE ? kept : closed;
 }
 
+static double row_time(void *user, long long row)
+{
+    const cli_record *r = user;
+    return r->job->row_time[row];
+}
+
 int record_go(cli_record *r)
 {
-    dal_observer observer = {
-        .user = r, .sample = sample, .poll = poll, .step = follow, .every = r->job->statistics};
+    dal_observer observer = {.user = r,
+                             .sample = sample,
+                             .poll = poll,
+                             .step = follow,
+                             .every = r->job->statistics,
+                             .row_time = r->job->row_time ? row_time : NULL};
     dal_error error = {0};
+    if (r->store && manifest_write(r, "running") != CLI_DONE) return CLI_IO;
     r->saved = cli_seconds();
+    r->begun = dal_run_time(r->job->run);
+    r->begun_steps = dal_run_steps(r->job->run);
     start_clock(r);
     dal_status status =
         dal_run_sample(r->job->run, r->job->time, r->job->samples, r->mark.row, &observer, &error);
     pause_clock(r);
     cli_progress_end();
+    progress_show(r, dal_run_time(r->job->run), 1);
     for (int i = 0; i < r->observables; i++)
         cli_judge(record_observable(r, i), &r->statistics[i], status != DAL_OK, &r->finding[i]);
     return keep(r, explain(r, status, &error));

@@ -6,6 +6,15 @@
 #include "store.h"
 #include "table.h"
 
+/* How progress is told.  code, word */
+#define PROGRESS_LIST(X) X(AUTO, auto) X(JSON, json) X(OFF, off)
+
+typedef enum cli_progress_kind {
+#define X(code, word) PROGRESS_##code,
+    PROGRESS_LIST(X)
+#undef X
+} cli_progress_kind;
+
 typedef struct cli_record {
     const cli_job *job;
     cli_store *store; /* NULL: the rows go to a file or to stdout and nothing is kept beside them */
@@ -18,10 +27,15 @@ typedef struct cli_record {
     dal_statistics *statistics; /* [observables] */
     dal_finding *finding;       /* [observables] at the end */
     cli_mark mark;
-    double interval;     /* seconds between checkpoints */
-    double since, saved; /* when the present stretch of steps began; the last checkpoint */
-    int quiet;           /* no line of progress: the rows themselves go to the terminal */
-    int told;            /* exit status of a failure of the program's own, already printed */
+    double interval;       /* seconds between checkpoints */
+    double since, saved;   /* when the present stretch of steps began; the last checkpoint */
+    double begun;          /* t at which this process took the run up, */
+    long long begun_steps; /* and its steps */
+    double stretch;        /* seconds spent in steps since */
+    double told_progress;  /* when the last line of JSON was written */
+    cli_progress_kind progress;
+    int quiet; /* no line of progress: the rows themselves go to the terminal */
+    int told;  /* exit status of a failure of the program's own, already printed */
 } cli_record;
 
 /* Opens the table: output is a file or "-"; with a store, its rows.csv, going on where its
@@ -33,8 +47,15 @@ int record_go(cli_record *record);
 int record_is_finished(const cli_record *record);
 const char *record_observable(const cli_record *record, int i);
 
+/* Reads a word of the list above.  Returns CLI_DONE or prints and returns CLI_USAGE. */
+int progress_read(const char *text, cli_progress_kind *kind);
+/* Tells how far the run has come, not too often; at the end in any case, where that is asked. */
+void progress_show(cli_record *record, double t, int at_the_end);
+
 /* The summary: one table for the eye, or summary.csv. */
 void summary_print(FILE *out, const cli_record *record);
 int summary_write(const cli_record *record, const char *path);
+/* manifest.json; state: running, done, failed, interrupted. */
+int manifest_write(const cli_record *record, const char *state);
 
 #endif

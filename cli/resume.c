@@ -22,7 +22,7 @@ static int resume(const char *directory, const run_wishes *wishes)
 
 int command_resume(int argc, char **argv)
 {
-    enum { FIRST = OWN_checkpoint - JOB_OPTIONS, COUNT = 3 };
+    enum { FIRST = OWN_checkpoint - JOB_OPTIONS, COUNT = OWN_force - OWN_checkpoint };
     cli_args args = cli_begin(argc, argv, own_options + FIRST, COUNT, notes);
     const char *value, *directory = NULL;
     run_wishes wishes = run_wish();

@@ -19,9 +19,9 @@ static const char run_notes[] =
     "Rows are CSV with 17 digits: t, the coordinates, the velocities, on the lifted space e, p_*,\n"
     "pi_*, pi_e, then D1.., E, H, the invariants and error; N+1 rows, from t = 0 to exactly T.\n"
     "FILE.npy holds the same as float64 [rows][columns], FILE.npy.columns.txt the names.\n"
-    "A directory gets run.yaml, system.yaml (when SYSTEM is a file), rows.csv, summary.csv and a\n"
-    "checkpoint; 'dalembert resume DIR' goes on with it after any interruption, kill -9 included,\n"
-    "and ends in the same bytes.\n"
+    "A directory gets run.yaml, manifest.json, system.yaml (when SYSTEM is a file), rows.csv,\n"
+    "summary.csv and a checkpoint; 'dalembert resume DIR' goes on with it after any interruption,\n"
+    "kill -9 included, and ends in the same bytes.\n"
     "\n"
     "The summary follows every observable at every step: maximum, final value, amplitude of its\n"
     "oscillation, drift rate with its 95 % interval, exponent of growth, and a verdict with its\n"
@@ -63,6 +63,8 @@ int run_take(run_wishes *wishes, int option, const char *text)
     case OWN_summary:
         wishes->summary = 1;
         break;
+    case OWN_progress:
+        return progress_read(text, &wishes->progress);
     case OWN_native:
         return native_read(text, &wishes->native);
     case OWN_force:
@@ -77,6 +79,7 @@ int run_integrate(const cli_job *job, cli_store *store, const run_wishes *wishes
     cli_record record;
     int status = record_open(&record, job, store, wishes->output);
     record.interval = wishes->interval;
+    record.progress = wishes->progress;
     if (status == CLI_DONE && record_is_finished(&record)) {
         cli_fail(CLI_DONE, "'%s' is finished: %lld rows", store->directory, record.mark.row);
     } else if (status == CLI_DONE) {

@@ -5,6 +5,7 @@
 #include "cli.h"
 #include "job.h"
 #include "native.h"
+#include "record.h"
 #include "store.h"
 
 /* The options of a run that do not concern the trajectory; they come behind those of the job.
@@ -13,6 +14,7 @@
     X(output, "FILE|DIR|-", "-", "write there: .csv, .npy, a directory, or stdout")                \
     X(checkpoint, "SECONDS", "5", "a directory can be resumed from at most so long ago")           \
     X(summary, NULL, NULL, "print the summary though stderr is no terminal")                       \
+    X(progress, "auto|json|off", "auto", "a line on a terminal, lines of JSON on stderr, or none") \
     X(native, "auto|on|off", "auto", "compile the steps, which changes no bit: when it pays")      \
     X(force, NULL, NULL, "write over what the directory holds of another run")
 
@@ -33,6 +35,7 @@ typedef struct run_wishes {
     double interval;
     int summary, force;
     cli_native native;
+    cli_progress_kind progress;
 } run_wishes;
 
 /* What holds when nothing is said. */

@@ -1,6 +1,7 @@
 /* store.h - a run that lives in a directory and can be gone on with after any interruption.
  *
  *     DIR/run.yaml      what was asked for
+ *     DIR/manifest.json the same with what ran it, and how far it came
  *     DIR/system.yaml   copy of the system file; absent for a built-in system
  *     DIR/rows.csv      the rows
  *     DIR/checkpoint    where the run stands: see checkpoint.c
@@ -19,6 +20,7 @@
 
 #define STORE_FILE_LIST(X)                                                                         \
     X(settings, "run.yaml")                                                                        \
+    X(manifest, "manifest.json")                                                                   \
     X(system, "system.yaml")                                                                       \
     X(rows, "rows.csv")                                                                            \
     X(checkpoint, "checkpoint")                                                                    \

@@ -326,6 +326,8 @@ typedef struct dal_observer {
     dal_status (*poll)(void *user, dal_run *run);
     dal_status (*step)(void *user, dal_run *run);
     long long every; /* steps between two calls of step; 0: it is not called */
+    /* t of each row, increasing, T for the last; NULL: row*T/samples */
+    double (*row_time)(void *user, long long row);
 } dal_observer;
 
 /* Carries the run to time T and shows rows first_row..samples at t = row*T/samples, the last

@@ -88,13 +88,14 @@ static dal_status go_to_row(sampling *k, long long row, double t)
     }
 }
 
-static double row_time(double T, long long row, long long samples)
+static double row_time(const dal_observer *o, double T, long long row, long long samples)
 {
+    if (o->row_time && row < samples) return o->row_time(o->user, row);
     return row == samples ? T : T * ((double)row / (double)samples);
 }
 
-static dal_status check(const dal_run *run, double T, long long samples, long long first_row,
-                        dal_error *error)
+static dal_status check(const dal_run *run, const dal_observer *observer, double T,
+                        long long samples, long long first_row, dal_error *error)
 {
     const double h = run->shape.options.step;
     if (!(T > 0.0) || !isfinite(T))
@@ -108,7 +109,7 @@ static dal_status check(const dal_run *run, double T, long long samples, long lo
     if (first_row < 0 || first_row > samples)
         return dal__error(error, DAL_ARGUMENT, 0, 0, "there is no row %lld among 0..%lld",
                           first_row, samples);
-    if (row_time(T, first_row, samples) < dal_run_time(run) - h)
+    if (row_time(observer, T, first_row, samples) < dal_run_time(run) - h)
         return dal__error(error, DAL_ARGUMENT, 0, 0, "row %lld lies before the present t = %g",
                           first_row, dal_run_time(run));
     return DAL_OK;
@@ -118,11 +119,12 @@ dal_status dal_run_sample(dal_run *run, double T, long long samples, long long f
                           const dal_observer *observer, dal_error *error)
 {
     static const dal_observer nobody = {0};
-    DAL_TRY(check(run, T, samples, first_row, error));
-    sampling k = {run, observer ? observer : &nobody, error, 0};
+    if (!observer) observer = &nobody;
+    DAL_TRY(check(run, observer, T, samples, first_row, error));
+    sampling k = {run, observer, error, 0};
     if (first_row == 0 && dal_run_steps(run) == 0 && k.observer->step && k.observer->every > 0)
         DAL_TRY(stopped(k.observer->step(k.observer->user, run), &k));
     for (long long row = first_row; row <= samples; row++)
-        DAL_TRY(go_to_row(&k, row, row_time(T, row, samples)));
+        DAL_TRY(go_to_row(&k, row, row_time(observer, T, row, samples)));
     return DAL_OK;
 }

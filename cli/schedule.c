@@ -1,0 +1,128 @@
+/* schedule.c - when the rows of a run are taken.
+ *
+ *     linear   t_k = k T/N                                     k = 0..N (nothing is made for it)
+ *     log      t_0 = 0, t_k = h round((T/h)^((k-1)/(N-1)))     steps that fall together are one row
+ *     times    as they were given, and T behind them when it is later */
+#include "file.h"
+#include "job.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+/* ---- logarithmic --------------------------------------------------------------------------- */
+
+static int schedule_log(cli_job *job)
+{
+    const double h = job->options.step, T = job->time, steps = floor(T / h * (1.0 + 1e-12));
+    const long long rows = job->samples;
+    double before = 0.0;
+    if (rows > SCHEDULE_MOST)
+        return cli_fail(CLI_USAGE, "--samples: %lld are too many for --sampling log", rows);
+    job->row_time = malloc(((size_t)rows + 2) * sizeof *job->row_time);
+    if (!job->row_time) return cli_fail(CLI_IO, "out of memory");
+    job->samples = 0;
+    job->row_time[0] = 0.0;
+    for (long long k = 1; k <= rows; k++) {
+        const double part = rows > 1 ? (double)(k - 1) / (double)(rows - 1) : 1.0;
+        const double step = fmin(floor(exp(part * log(steps)) + 0.5), steps);
+        if (step > before && step * h < T) job->row_time[++job->samples] = step * h;
+        before = fmax(before, step);
+    }
+    double *last = &job->row_time[job->samples];
+    if (*last < T * (1.0 - 1e-9) || job->samples == 0) last = &job->row_time[++job->samples];
+    *last = T;
+    return CLI_DONE;
+}
+
+/* ---- given --------------------------------------------------------------------------------- */
+
+static int add_time(cli_job *job, const char *text)
+{
+    double t;
+    if (cli_number("--times", text, &t) != CLI_DONE) return CLI_USAGE;
+    const long long count = job->times;
+    if (t < 0.0) return cli_fail(CLI_USAGE, "--times: %s is negative", text);
+    if (count > 0 && !(t > job->row_time[count - 1]))
+        return cli_fail(CLI_USAGE, "--times: %s does not come after the time before", text);
+    if (count == SCHEDULE_MOST) return cli_fail(CLI_USAGE, "--times: too many");
+    double *more = realloc(job->row_time, ((size_t)count + 2) * sizeof *more);
+    if (!more) return cli_fail(CLI_IO, "out of memory");
+    job->row_time = more;
+    job->row_time[job->times++] = t;
+    return CLI_DONE;
+}
+
+static int is_file(const char *text)
+{
+    struct stat status;
+    return stat(text, &status) == 0 && S_ISREG(status.st_mode);
+}
+
+/* Times between commas and white space; a line of a file may end in a remark behind #. */
+static int read_times(cli_job *job, char *text)
+{
+    int status = CLI_DONE;
+    for (char *remark = text; (remark = strchr(remark, '#'));)
+        while (*remark && *remark != '\n') *remark++ = ' ';
+    for (char *word = strtok(text, ", \t\r\n"); word && status == CLI_DONE;
+         word = strtok(NULL, ", \t\r\n"))
+        status = add_time(job, word);
+    if (status == CLI_DONE && job->times == 0) return cli_fail(CLI_USAGE, "--times: there is none");
+    return status;
+}
+
+/* What was read, as a list that needs no file. */
+static int write_list(cli_job *job)
+{
+    size_t length;
+    FILE *out = open_memstream(&job->list, &length);
+    if (!out) return cli_fail(CLI_IO, "out of memory");
+    for (long long i = 0; i < job->times; i++) {
+        if (i) fputc(',', out);
+        cli_put(out, job->row_time[i]);
+    }
+    if (cli_close(out, "memory") != CLI_DONE) return CLI_IO;
+    job->text[JOB_times] = job->list;
+    return CLI_DONE;
+}
+
+int job_take_times(cli_job *job, const char *given)
+{
+    size_t length;
+    char *text = is_file(given) ? file_read(given, &length) : strdup(given);
+    if (!text) return is_file(given) ? CLI_IO : cli_fail(CLI_IO, "out of memory");
+    free(job->row_time);
+    free(job->list);
+    job->row_time = NULL;
+    job->list = NULL;
+    job->times = 0;
+    int status = read_times(job, text);
+    free(text);
+    return status == CLI_DONE ? write_list(job) : status;
+}
+
+static int schedule_times(cli_job *job)
+{
+    const double last = job->row_time[job->times - 1];
+    if (job->text[JOB_samples] || job->text[JOB_sampling])
+        return cli_fail(CLI_USAGE, "--times: neither --samples nor --sampling goes with it");
+    if (!job->text[JOB_time]) job->time = last;
+    if (!(job->time > 0.0) || job->time < last)
+        return cli_fail(CLI_USAGE, "--times: %.17g is no time up to T = %g", last, job->time);
+    job->samples = job->times - 1;
+    if (job->time > last) job->row_time[++job->samples] = job->time;
+    if (job->samples > 0) return CLI_DONE;
+    /* A run has two rows at least: the start is the other. */
+    job->row_time[1] = job->row_time[0];
+    job->row_time[0] = 0.0;
+    job->samples = 1;
+    return CLI_DONE;
+}
+
+int job_schedule(cli_job *job)
+{
+    if (job->times > 0) return schedule_times(job);
+    return job->is_log ? schedule_log(job) : CLI_DONE;
+}

@@ -1,0 +1,61 @@
+# When rows are taken, how progress is told, what the manifest says.
+
+case_is "logarithmic rows"
+try 0 run ./line.yaml --integrator rk4 --step 0.01 --time 1000 --samples 6 --sampling log
+# 0, then h (T/h)^(k/5): 1, 10, ..., 1e5 steps
+holds "not at powers of ten" test "$(cut -d, -f1 out | tr '\n' ' ')" = \
+    "t 0 0.01 0.10000000000000001 1 10 100 1000 "
+try 0 run ./line.yaml --integrator rk4 --step 0.1 --time 1 --samples 50 --sampling log
+holds "rows that fall together" test "$(cut -d, -f1 out | sort -u | wc -l)" -eq "$(wc -l <out)"
+holds "not the 10 steps and 0" test "$(wc -l <out)" -eq 12
+try 2 run ./line.yaml --integrator rk4 --step 0.1 --time 1 --sampling cubic
+says "'cubic' is not linear or log"
+
+case_is "rows at given times"
+try 0 run ./line.yaml --integrator rk4 --step 0.1 --times 0.5,0.75,2
+holds "other times" test "$(cut -d, -f1 out | tr '\n' ' ')" = "t 0.5 0.75 2 "
+# x = 1 - exp(-t): error of rk4 below h^4/120 = 8e-7
+holds "another motion" awk -F, 'NR > 1 && ($2 - 1 + exp(-$1)) ^ 2 > 1e-12 { exit 1 }' out
+printf '0.5 # half\n0.75\n\n2\n' >times.txt
+mv out listed
+try 0 run ./line.yaml --integrator rk4 --step 0.1 --times times.txt
+holds "a file is not its list" cmp -s out listed
+try 0 run ./line.yaml --integrator rk4 --step 0.1 --times 0.5 --time 3
+holds "T is no row" test "$(cut -d, -f1 out | tr '\n' ' ')" = "t 0.5 3 "
+try 2 run ./line.yaml --integrator rk4 --step 0.1 --times 0.5,0.5
+says '--times: 0.5 does not come after the time before'
+try 2 run ./line.yaml --integrator rk4 --step 0.1 --times 0.5,4 --time 3
+says '--times: 4 is no time up to T = 3'
+try 2 run ./line.yaml --integrator rk4 --step 0.1 --times 1,x
+says "'x' is not a number"
+try 2 run ./line.yaml --integrator rk4 --step 0.1 --times ,
+says '--times: there is none'
+try 2 run ./line.yaml --integrator rk4 --step 0.1 --times 1 --samples 3
+says 'neither --samples nor --sampling'
+
+case_is "a directory with rows at given times goes on"
+try 0 run ./line.yaml --integrator rk4 --step 0.1 --times times.txt --output timed
+rm timed/checkpoint
+rm -f timed/checkpoint.before times.txt
+try 0 resume timed
+holds "other rows" cmp -s timed/rows.csv listed
+
+case_is "progress for scripts"
+try 0 run ./line.yaml --integrator rk4 --step 0.1 --time 5 --progress json
+says '^\{"t": 5, "time": 5, "steps": 50, "rows": 101, .*"remaining": 0, "deviation": \{"E": '
+try 0 run ./line.yaml --integrator rk4 --step 0.1 --time 5 --progress off
+silent
+try 2 run ./line.yaml --integrator rk4 --step 0.1 --time 5 --progress loud
+says "'loud' is not auto, json or off"
+
+case_is "the manifest"
+try 0 run ./line.yaml --integrator rk4 --step 0.1 --time 5 --set k=2 --output told
+holds "not done" grep -qx '  "status": "done",' told/manifest.json
+holds "not 50 steps" grep -qx '  "steps": 50,' told/manifest.json
+holds "no parameter" grep -qx '    "set": {"k": 2},' told/manifest.json
+
+case_is "statistics at every K-th step"
+try 0 run ./line.yaml --integrator rk4 --step 0.1 --time 5 --statistics 50 --output seldom
+# E = exp(-2 t)/2 at t = 0 and 5 alone: (exp(-10) - 1)/2 / 5
+holds "another rate" awk -F, '$1 == "E" && ($7 + 0.09999546) ^ 2 < 1e-12 { found = 1 }
+    END { exit !found }' seldom/summary.csv
