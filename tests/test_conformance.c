@@ -1,0 +1,236 @@
+/* test_conformance.c - what modified methods claim, every modifier on every kind of method it
+ * takes; that nothing is claimed that no suite verifies; and that a step that fails changes
+ * nothing. Plain methods: test_integrators.c.  Lanes: test_batch.c.  Generated code:
+ * test_generate_native.c.
+ */
+#include "fixtures.h"
+#include <CUnit/CUnit.h>
+#include <math.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <string.h>
+
+/* Conservative, with a full mass matrix that depends on q, m = 2, one D nonlinear in v. */
+static const char conservative[] =
+    "coordinates: [x, y, z, u]\n"
+    "lagrangian: >-\n"
+    "  (2 + cos(y))/2*x'^2 + (3 + x^2/4)/2*y'^2 + (1.5 + 0.2*sin(x))/2*z'^2 + (2 + "
+    "0.1*z^2)/2*u'^2\n"
+    "  + 0.3*x'*y'*cos(z) + 0.2*z'*u'*sin(y) - (x^2 + 1.5*y^2 + z^2*y^2/2 + cos(u))\n"
+    "constraints: [z' - y*x', (u'^2 - x'^2 - y'^2)/2]\n"
+    "start: {x: 0, y: 0.5, z: 0.3, u: 0.2, x': 0.6, y': 0.8, z': 0.3, u': 1}\n";
+
+/* Every claim there is, with its verification. */
+static const unsigned verified =
+    DAL_SYMMETRIC | DAL_SYMPLECTIC | DAL_KEEPS_BILINEAR | DAL_KEEPS_QUADRATIC | DAL_KEEPS_D |
+    DAL_KEEPS_ENERGY |                               /* here and in test_integrators.c */
+    DAL_KEEPS_D_MIDPOINT | DAL_CARRIES_MULTIPLIER |  /* test_constrained.c */
+    DAL_EXPLICIT | DAL_MODIFIER | DAL_COMPONENTWISE; /* the batches' and the generated steps */
+
+static void test_claims_known(void)
+{
+    for (int i = 0; dal_integrator_at(i); i++) {
+        const dal_integrator *k = dal_integrator_at(i);
+        if (k->claims & ~verified) printf("\n  %s: an unknown claim\n", k->name);
+        CU_ASSERT_EQUAL(k->claims & ~verified, 0);
+        CU_ASSERT_EQUAL(k->inherits & ~verified, 0);
+    }
+}
+
+typedef void visitor(const char *name, const dal_method *method, void *user);
+
+static bool takes(const dal_integrator *modifier, const dal_integrator *inside)
+{
+    if (modifier->needs & DAL_NEEDS_SYMMETRIC && !(inside->claims & DAL_SYMMETRIC)) return false;
+    return !(modifier->needs & DAL_NEEDS_ORDER_2) || inside->order == 2;
+}
+
+/* Every modifier on every method below order 8 that it takes, where the order can be seen. */
+static void for_each_modified(visitor *visit, void *user)
+{
+    for (int i = 0; dal_integrator_at(i); i++) {
+        for (int j = 0; dal_integrator_at(j); j++) {
+            const dal_integrator *inside = dal_integrator_at(i), *modifier = dal_integrator_at(j);
+            char name[96];
+            dal_method method;
+            if (inside->claims & DAL_MODIFIER || !(modifier->claims & DAL_MODIFIER)) continue;
+            if (inside->order > 6 || !takes(modifier, inside)) continue;
+            snprintf(name, sizeof name, "%s+%s", inside->name, modifier->name);
+            CU_ASSERT_EQUAL_FATAL(dal_method_parse(&method, name, NULL), DAL_OK);
+            visit(name, &method, user);
+        }
+    }
+}
+
+/* ---- order, where it is that of the method inside (compositions: test_phase_composition.c) ----
+ */
+
+static void check_order(const char *name, const dal_method *method, void *user)
+{
+    const int order = dal_method_order(method);
+    /* A decade of h; at order 6 what rounding leaves of it. */
+    const int coarse = order == 1 ? 200 : order < 6 ? 40 : 24, fine = (order < 6 ? 10 : 2) * coarse;
+    if (method->chain[1]->order || !fixture_serves(method, user, DAL_PHYSICAL)) return;
+    const dal_run_spec spec = fixture_spec(user, name, DAL_PHYSICAL, 0.1);
+    const double seen = fixture_order(spec, 1.0, coarse, fine, 0.0);
+    if (!(fabs(seen - order) <= 0.1)) printf("\n  %s: observed order %.3f\n", name, seen);
+    CU_ASSERT(fabs(seen - order) <= 0.1);
+}
+
+static void test_order(void)
+{
+    dal_model *model = fixture_model(conservative);
+    for_each_modified(check_order, (void *)fixture_system(model));
+    dal_model_free(model);
+}
+
+/* ---- symmetry ---- */
+
+static void check_symmetric(const char *name, const dal_method *method, void *user)
+{
+    double defect = NAN;
+    if (dal_method_claims(method) & DAL_CARRIES_MULTIPLIER) return;
+    if (!fixture_serves(method, user, DAL_PHYSICAL)) return;
+    const dal_run_spec spec = fixture_spec(user, name, DAL_PHYSICAL, 0.2);
+    CU_ASSERT_EQUAL(dal_measure_reversibility(&spec, 0.0, NULL, &defect, NULL), DAL_OK);
+    if (!(dal_method_claims(method) & DAL_SYMMETRIC)) return;
+    if (!(defect <= 1e-14)) printf("\n  %s: defect %.3e\n", name, defect);
+    CU_ASSERT(defect <= 1e-14);
+}
+
+static void test_symmetric(void)
+{
+    static const char *const names[] = {"contact-oscillator", "knife-edge", "appell-hamel"};
+    for (int i = 0; i < 3; i++) {
+        dal_model *model = fixture_model(i ? names[i] : fixture_bilinear);
+        for_each_modified(check_symmetric, (void *)fixture_system(model));
+        dal_model_free(model);
+    }
+}
+
+/* ---- D and E ---- */
+
+typedef struct strays {
+    double D, E;
+} strays;
+
+static strays strays_of(const dal_system *system, const char *name)
+{
+    const dal_run_spec spec = fixture_spec(system, name, DAL_PHYSICAL, 0.02);
+    dal_run *run = fixture_run(&spec);
+    double first[32], now[32];
+    strays most = {0.0, 0.0};
+    CU_ASSERT_EQUAL(dal_run_observe(run, first), DAL_OK);
+    for (int i = 0; i < 200; i++) {
+        CU_ASSERT_EQUAL_FATAL(dal_run_step(run, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_run_observe(run, now), DAL_OK);
+        for (int a = 0; a < system->m; a++) most.D = fmax(most.D, fabs(now[a]));
+        most.E = fmax(most.E, fabs(now[system->m] - first[system->m]));
+    }
+    dal_run_free(run);
+    return most;
+}
+
+static void check_kept(const char *name, const dal_method *method, void *user)
+{
+    const unsigned claims = dal_method_claims(method);
+    if (!fixture_serves(method, user, DAL_PHYSICAL)) return;
+    const strays most = strays_of(user, name);
+    const bool D = !(claims & DAL_KEEPS_D) || most.D <= 1e-14;
+    const bool E = !(claims & DAL_KEEPS_ENERGY) || most.E <= 1e-14;
+    if (!D || !E) printf("\n  %s: D %.2e, E %.2e\n", name, most.D, most.E);
+    CU_ASSERT(D);
+    CU_ASSERT(E);
+}
+
+static void test_kept(void)
+{
+    dal_model *model = fixture_model(conservative);
+    for_each_modified(check_kept, (void *)fixture_system(model));
+    const strays plain = strays_of(fixture_system(model), "rk4");
+    CU_ASSERT(plain.D > 1e-12); /* the test sees a loss */
+    CU_ASSERT(plain.E > 1e-12);
+    dal_model_free(model);
+}
+
+/* ---- a failed step changes nothing ---- */
+
+/* x falls through 0.3, where the potential ends. */
+static const char ending[] = "coordinates: [x, y, z]\n"
+                             "lagrangian: (x'^2 + y'^2 + z'^2)/2 + sqrt(x - 0.3) - z^2/2\n"
+                             "constraints: [z' - y*x']\n"
+                             "start: {x: 1, y: 0.3, x': -2, y': 0.5, z': -0.6}\n";
+
+static void check_untouched(const char *name, const dal_method *method, void *user)
+{
+    static double before[4096];
+    dal_status status = DAL_OK;
+    size_t count = 0;
+    if (!fixture_serves(method, user, DAL_PHYSICAL)) return;
+    const dal_run_spec spec = fixture_spec(user, name, DAL_PHYSICAL, 0.05);
+    dal_run *run = fixture_run(&spec);
+    for (int i = 0; i < 100 && status == DAL_OK; i++) {
+        const double *memory = dal_run_memory(run, &count);
+        memcpy(before, memory, count * sizeof *memory);
+        status = dal_run_step(run, NULL);
+    }
+    if (status == DAL_OK) printf("\n  %s: no step failed\n", name);
+    CU_ASSERT_NOT_EQUAL(status, DAL_OK);
+    CU_ASSERT_EQUAL(memcmp(before, dal_run_memory(run, &count), count * sizeof *before), 0);
+    dal_run_free(run);
+}
+
+static void test_untouched(void)
+{
+    dal_model *model = fixture_model(ending);
+    const dal_system *system = fixture_system(model);
+    for_each_modified(check_untouched, (void *)system);
+    for (int i = 0; dal_integrator_at(i); i++) {
+        const dal_method plain = {{dal_integrator_at(i)}};
+        if (dal_integrator_at(i)->claims & DAL_MODIFIER) continue;
+        check_untouched(dal_integrator_at(i)->name, &plain, (void *)system);
+    }
+    dal_model_free(model);
+}
+
+/* ---- refusals ---- */
+
+static void refused(const char *text, const char *name, dal_space space, const char *reason)
+{
+    dal_model *model = fixture_model(text);
+    const dal_run_spec spec = fixture_spec(fixture_system(model), name, space, 0.1);
+    dal_error error = {0};
+    dal_run *run = NULL;
+    CU_ASSERT_EQUAL(dal_run_create(&run, &spec, &error), DAL_UNSUPPORTED);
+    CU_ASSERT_PTR_NULL(run);
+    if (!strstr(error.message, reason)) printf("\n  %s: %s\n", name, error.message);
+    CU_ASSERT_PTR_NOT_NULL(strstr(error.message, reason));
+    dal_model_free(model);
+}
+
+static void test_refused(void)
+{
+    static const char accelerations[] = "coordinates: [x]\naccelerations: {x: -x}\n";
+    refused("contact-oscillator", "rk4+symmetric-project", DAL_PHYSICAL,
+            "+symmetric-project needs a symmetric method: rk4 is not symmetric");
+    refused("contact-oscillator", "gauss4+project+symmetric-project", DAL_PHYSICAL,
+            "gauss4+project is not symmetric");
+    refused("isokinetic", "rk4+project-energy", DAL_LIFTED,
+            "rk4+project-energy cannot act on isokinetic: the motion does not conserve its energy");
+    refused("chaplygin-sleigh-vakonomic", "rk4+project-energy", DAL_PHYSICAL, "vakonomic");
+    refused(accelerations, "rk4+project-energy", DAL_PHYSICAL, "the system has no energy");
+    refused("contact-oscillator", "gni", DAL_LIFTED, "take the physical space");
+    refused("contact-oscillator", "gauss4+yoshida4", DAL_LIFTED, "needs a method of order 2");
+    refused("chaplygin-sleigh-vakonomic", "rk4", DAL_LIFTED, "vakonomic");
+}
+
+void suite_conformance(void)
+{
+    CU_pSuite suite = CU_add_suite("conformance", NULL, NULL);
+    CU_add_test(suite, "no claim without a test", test_claims_known);
+    CU_add_test(suite, "modifiers: order", test_order);
+    CU_add_test(suite, "modifiers: symmetric", test_symmetric);
+    CU_add_test(suite, "modifiers: D and E", test_kept);
+    CU_add_test(suite, "a step that fails changes nothing", test_untouched);
+    CU_add_test(suite, "refused with the reason", test_refused);
+}
