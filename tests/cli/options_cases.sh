@@ -57,3 +57,14 @@ says "extended.yaml:7:55: unknown option 'extend-energie'; did you mean 'extend-
 sed -i 's/extend-energie: on/step: 3/' extended.yaml
 try 2 study extended.yaml --output kept
 says "options: step has a key of its own"
+
+case_is "a method that cannot serve is refused with the reason"
+refuses() { # REASON SYSTEM INTEGRATOR SPACE
+    try 2 run $2 --integrator $3 --step 0.1 --time 1 --space $4
+    says "$1"
+    empty
+}
+refuses "rk4 is not symmetric" contact-oscillator rk4+symmetric-project physical
+refuses "the motion does not conserve its energy" isokinetic rk4+project-energy physical
+refuses "take the physical space" contact-oscillator gni lifted
+refuses "needs a method of order 2: gauss4 is of order 4" contact-oscillator gauss4+yoshida4 lifted
