@@ -63,6 +63,17 @@ says "'killed' goes on from t = [0-9.]*[1-9][0-9.]* with row [1-9]"
 holds "not the rows of a run never interrupted" cmp killed/rows.csv whole/rows.csv
 holds "not the summary of a run never interrupted" cmp killed/summary.csv whole/summary.csv
 
+case_is "killed between putting the old checkpoint aside and the new one in place"
+cp -r killed between
+rm between/checkpoint.before between/summary.csv
+mv between/checkpoint between/checkpoint.before
+try 0 resume between
+says "'between' is finished"
+rm between/checkpoint.before
+try 0 resume between
+holds "not the rows of a run never interrupted" cmp between/rows.csv whole/rows.csv
+holds "not the summary of a run never interrupted" cmp between/summary.csv whole/summary.csv
+
 case_is "killed before the first checkpoint"
 cp -r whole early
 rm -f early/checkpoint early/checkpoint.before early/summary.csv
