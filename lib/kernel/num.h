@@ -115,11 +115,32 @@ DAL_INLINE num dal_abs(num x) { return fabs(x); }
 DAL_INLINE num dal_sqrt(num x) { return sqrt(x); }
 DAL_INLINE num dal_fma(num a, num b, num c) { return __builtin_fma(a, b, c); }
 #else
+/* Compilers do not reliably make one instruction of a loop over the lanes, so it is named where
+ * there is one, for as many lanes as a register holds. */
+#if defined __AVX512F__ && DAL_LANES >= 8
+#define DAL__REGISTER      8
+#define DAL__FUSE(a, b, c) __builtin_ia32_vfmaddpd512_mask(a, b, c, (unsigned char)-1, 4)
+#elif defined __FMA__ && DAL_LANES >= 4
+#define DAL__REGISTER      4
+#define DAL__FUSE(a, b, c) __builtin_ia32_vfmaddpd256(a, b, c)
+#elif defined __FMA__
+#define DAL__REGISTER      2
+#define DAL__FUSE(a, b, c) __builtin_ia32_vfmaddpd(a, b, c)
+#else
+#define DAL__REGISTER      1
+#define DAL__FUSE(a, b, c) ((dal__register){__builtin_fma((a)[0], (b)[0], (c)[0])})
+#endif
+typedef double dal__register __attribute__((vector_size(8 * DAL__REGISTER)));
+
 DAL_INLINE num dal_fma(num a, num b, num c)
 {
-    num r;
-    for (int lane = 0; lane < DAL_LANES; lane++) r[lane] = __builtin_fma(a[lane], b[lane], c[lane]);
-    return r;
+    union {
+        num all;
+        dal__register part[DAL_LANES / DAL__REGISTER];
+    } x = {a}, y = {b}, z = {c};
+    for (int i = 0; i < DAL_LANES / DAL__REGISTER; i++)
+        x.part[i] = DAL__FUSE(x.part[i], y.part[i], z.part[i]);
+    return x.all;
 }
 DAL_INLINE num dal_abs(num x) { return (num)((dal_mask)x & INT64_MAX); }
 DAL_INLINE num dal_sqrt(num x)
