@@ -12,20 +12,20 @@ DAL_INLINE dal_status step(dal_step *s)
 {
     const double h = s->h;
     const num half = dal_num(0.5 * h), whole = dal_num(h), two = dal_num(2.0);
-    DAL_VECTOR(s, k1, DAL_DIM(s));
-    DAL_VECTOR(s, k2, DAL_DIM(s));
-    DAL_VECTOR(s, k3, DAL_DIM(s));
-    DAL_VECTOR(s, k4, DAL_DIM(s));
     DAL_VECTOR(s, y, DAL_DIM(s));
-    DAL_TRY(dal_field(s, s->t, s->y, k1));
-    DAL_EACH(i, DAL_DIM(s)) y[i] = dal_fma(half, k1[i], s->y[i]);
-    DAL_TRY(dal_field(s, s->t + 0.5 * h, y, k2));
-    DAL_EACH(i, DAL_DIM(s)) y[i] = dal_fma(half, k2[i], s->y[i]);
-    DAL_TRY(dal_field(s, s->t + 0.5 * h, y, k3));
-    DAL_EACH(i, DAL_DIM(s)) y[i] = dal_fma(whole, k3[i], s->y[i]);
-    DAL_TRY(dal_field(s, s->t + h, y, k4));
-    DAL_EACH(i, DAL_DIM(s)) y[i] = h / 6.0 * dal_fma(two, k2[i] + k3[i], k1[i] + k4[i]);
-    return dal_update(s, h, y);
+    DAL_VECTOR(s, k, DAL_DIM(s));
+    DAL_VECTOR(s, sum, DAL_DIM(s)); /* k1 + 2 k2 + 2 k3 + k4 */
+    DAL_TRY(dal_field(s, s->t, s->y, sum));
+    DAL_EACH(i, DAL_DIM(s)) y[i] = dal_fma(half, sum[i], s->y[i]);
+    DAL_TRY(dal_field(s, s->t + 0.5 * h, y, k));
+    DAL_EACH(i, DAL_DIM(s)) y[i] = dal_fma(half, k[i], s->y[i]);
+    DAL_EACH(i, DAL_DIM(s)) sum[i] = dal_fma(two, k[i], sum[i]);
+    DAL_TRY(dal_field(s, s->t + 0.5 * h, y, k));
+    DAL_EACH(i, DAL_DIM(s)) y[i] = dal_fma(whole, k[i], s->y[i]);
+    DAL_EACH(i, DAL_DIM(s)) sum[i] = dal_fma(two, k[i], sum[i]);
+    DAL_TRY(dal_field(s, s->t + h, y, k));
+    DAL_EACH(i, DAL_DIM(s)) sum[i] += k[i];
+    return dal_update_multiple(s, h, h / 6.0, sum);
 }
 
 DAL_INTEGRATOR(rk4, step, .name = "rk4", .summary = "classical Runge-Kutta",

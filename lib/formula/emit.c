@@ -1,7 +1,7 @@
 /* emit.c - programs as straight-line C over num: the arithmetic of the tape, written out.
  *
  * Every result is a constant of its own, x1, x2, ...; parameters and what is made of them alone
- * are w[place], as in work. */
+ * are DAL_WORK(place), with their places in work. */
 #include "formula/arithmetic.h"
 #include "formula/graph.h"
 #include "formula/tape.h"
@@ -38,7 +38,7 @@ static void put_operand(const writer *w, uint32_t place, bool bare)
         dal__text_number(w->text, tapes->number[place - (uint32_t)tapes->parameters]);
         if (!bare) dal__text_put(w->text, ")");
     } else if (place < tapes->first_input) {
-        dal__text_print(w->text, "w[%u]", place);
+        dal__text_print(w->text, "DAL_WORK(%u)", place);
     } else if (place < tapes->temporaries) {
         dal__text_put(w->text, w->input[place - tapes->first_input].text);
     } else {
@@ -106,7 +106,7 @@ void dal__tapes_write_hoisted(const dal__tapes *tapes, dal__text *text)
 {
     const writer w = {.tapes = tapes, .text = text};
     for (int i = 0; i < tapes->hoisted.length; i++) {
-        dal__text_print(text, "    w[%u] = ", tapes->hoisted.code[i].d);
+        dal__text_print(text, "    DAL_WORK(%u) = ", tapes->hoisted.code[i].d);
         put_expression(&w, &tapes->hoisted.code[i]);
         dal__text_put(text, ";\n");
     }

@@ -28,18 +28,18 @@ void PREFIX_set(PREFIX_state *state, int lane, const PREFIX_parameters *paramete
 {
     const double *value = (const double *)parameters;
     for (int i = 0; i < PREFIX_PARAMETERS; i++) state->work[i * PREFIX_LANES + lane] = value[i];
-    dal__hoist((dal_stored *)state->work);
+    dal__hoist((dal_stored *)state->work + lane / DAL_LANES);
 }
 
 int PREFIX_start_lane(PREFIX_state *state, int lane, const PREFIX_parameters *parameters)
 {
     num y[DAL__DIM];
     PREFIX_set(state, lane, parameters);
-    dal__start((const dal_stored *)state->work, y);
+    dal__start((const dal_stored *)state->work + lane / DAL_LANES, y);
     for (int i = 0; i < PREFIX_CARRIED; i++) state->y[i * PREFIX_LANES + lane] = 0.0;
     state->status[lane] = DAL_OK;
     for (int i = 0; i < DAL__DIM; i++) {
-        const double x = dal_lane(y[i], lane);
+        const double x = dal_lane(y[i], lane % DAL_LANES);
         const int is_e = DAL__LIFTED && i == 2 * DAL__N;
         if (x != x || (!is_e && x - x != 0.0)) state->status[lane] = DAL_NOT_FINITE;
         state->y[i * PREFIX_LANES + lane] = x + 0.0;
@@ -90,13 +90,15 @@ static void dal__observe(dal_step *s, double t, num *out);
 
 void PREFIX_observe(const PREFIX_state *state, double *out)
 {
-    dal_step s;
-    num value[DAL__ROOM(PREFIX_OBSERVABLES)];
-    const double t = PREFIX_time(state, 0);
-    s.work = (const dal_stored *)state->work;
-    dal__load_step(&s, (const dal_stored *)state->y);
-    dal__observe(&s, t, value);
-    for (int i = 0; i < PREFIX_OBSERVABLES; i++)
-        for (int lane = 0; lane < PREFIX_LANES; lane++)
-            out[i * PREFIX_LANES + lane] = dal_lane(value[i], lane) + 0.0;
+    DAL__EACH_GROUP
+    {
+        dal_step s;
+        num value[DAL__ROOM(PREFIX_OBSERVABLES)];
+        s.work = (const dal_stored *)state->work + g;
+        dal__load_step(&s, (const dal_stored *)state->y + g);
+        dal__observe(&s, PREFIX_time(state, 0), value);
+        for (int i = 0; i < PREFIX_OBSERVABLES; i++)
+            for (int lane = 0; lane < DAL_LANES; lane++)
+                out[i * PREFIX_LANES + g * DAL_LANES + lane] = dal_lane(value[i], lane) + 0.0;
+    }
 }

@@ -207,6 +207,19 @@ static void put_unrolling(dal__generation *g)
         dal__text_put(&g->text, "#define DAL_UNROLL\n");
 }
 
+/* Lanes go by registers, as large as the processor has them, one group after the other. */
+static void put_lanes(dal__generation *g)
+{
+    dal__text_print(&g->text, "#define DAL_LANES %d\n", g->lanes);
+    dal__text_put(&g->text, "#if DAL_LANES > 8 && defined __AVX512F__\n#define DAL_GROUP 8\n"
+                            "#elif DAL_LANES > 4 && defined __AVX__ && !defined __AVX512F__\n"
+                            "#define DAL_GROUP 4\n"
+                            "#elif DAL_LANES > 2 && !defined __AVX__\n"
+                            "#define DAL_GROUP 2\n#endif\n");
+    dal__text_put(&g->text, dal__source_text("groups.h"));
+    dal__text_put(&g->text, "#define DAL_WORK(place) w[(place) * DAL_GROUPS]\n");
+}
+
 static void put_constants(dal__generation *g)
 {
     const dal__shape *k = &g->shape;
@@ -236,7 +249,7 @@ static void put_constants(dal__generation *g)
                         (k->system->properties & DAL_D_WATCHED) != 0},
         {"GAUGE", dal__wants(g, DAL__PROGRAM_GAUGE)},
     };
-    dal__text_print(&g->text, "#define DAL_LANES %d\n", g->lanes);
+    put_lanes(g);
     for (size_t i = 0; i < sizeof list / sizeof *list; i++)
         dal__text_print(&g->text, "#define DAL__%s %d\n", list[i].name, list[i].value);
     dal__text_put(&g->text, "\ntypedef enum dal_status {\n");

@@ -4,9 +4,15 @@
  * word PREFIX becomes the prefix of the file.  Steps go in blocks from the stored state and are
  * stored at a block's end, when all lanes are solved and finite; otherwise the block is done again
  * step by step up to the one that fails.  What makes a lane fail is what lib/run/engine_wide.c
- * says, in the same order. */
+ * says, in the same order.
+ *
+ * More lanes than a register holds go group by group within each step: a processor that looks ahead
+ * then works on one group while the other waits for its results.  Number i of group g is number
+ * i * DAL_GROUPS + g of an array. */
 
 enum { DAL__BLOCK_STEPS = 64 };
+
+#define DAL__EACH_GROUP for (int g = 0; g < DAL_GROUPS; g++)
 
 /* Where something of the clock, or the memory, is in the carried array. */
 #define DAL__AT(place) (2 * DAL__DIM + (place))
@@ -18,17 +24,25 @@ typedef struct dal__clock {
 /* Lanes that passed each test so far. */
 typedef struct dal__verdict {
     dal_status status;
-    dal_mask solved, gauge, regular;
+    dal_mask solved, gauge, finite, regular;
 } dal__verdict;
+
+/* The steps of all groups. */
+typedef struct dal__team {
+    dal_step step[DAL_GROUPS];
+    dal_mask lanes[DAL_GROUPS]; /* those that go on */
+    dal__verdict verdict[DAL_GROUPS];
+    dal__clock clock;
+} dal__team;
 
 DAL_INLINE void dal__load_step(dal_step *s, const dal_stored *carried)
 {
-    DAL_EACH(i, DAL__DIM) s->y[i] = carried[i];
-    DAL_EACH(i, DAL__DIM) s->r[i] = carried[DAL__DIM + i];
-    carried += DAL__AT(DAL__MEMORY);
+    DAL_EACH(i, DAL__DIM) s->y[i] = carried[i * DAL_GROUPS];
+    DAL_EACH(i, DAL__DIM) s->r[i] = carried[(DAL__DIM + i) * DAL_GROUPS];
+    carried += DAL__AT(DAL__MEMORY) * DAL_GROUPS;
 #define X(member, count)                                                                           \
-    DAL_EACH(i, DAL__COUNT_##count) s->member[i] = carried[i];                                     \
-    carried += DAL__COUNT_##count;
+    DAL_EACH(i, DAL__COUNT_##count) s->member[i] = carried[i * DAL_GROUPS];                        \
+    carried += DAL__COUNT_##count * DAL_GROUPS;
     DAL__MEMORY_LIST(X)
 #undef X
     s->evaluations = 0;
@@ -42,17 +56,19 @@ DAL_INLINE void dal__put(dal_stored *to, dal_mask lanes, num value)
 DAL_INLINE void dal__store_step(const dal_step *s, const dal__clock *clock, long long steps,
                                 dal_mask lanes, dal_stored *carried)
 {
-    dal_stored *rest = carried + DAL__AT(0);
-    DAL_EACH(i, DAL__DIM) dal__put(carried + i, lanes, s->y[i]);
-    DAL_EACH(i, DAL__DIM) dal__put(carried + DAL__DIM + i, lanes, s->r[i]);
-    dal__put(rest + DAL__TIME, lanes, dal_num(clock->time));
-    dal__put(rest + DAL__TIME_ERROR, lanes, dal_num(clock->error));
-    dal__put(rest + DAL__STEPS, lanes, rest[DAL__STEPS] + (double)steps);
-    dal__put(rest + DAL__EVALUATIONS, lanes, rest[DAL__EVALUATIONS] + (double)s->evaluations);
-    rest += DAL__MEMORY;
+    dal_stored *rest = carried + DAL__AT(0) * DAL_GROUPS;
+    dal_stored *const counted = rest + DAL__STEPS * DAL_GROUPS;
+    dal_stored *const asked = rest + DAL__EVALUATIONS * DAL_GROUPS;
+    DAL_EACH(i, DAL__DIM) dal__put(carried + i * DAL_GROUPS, lanes, s->y[i]);
+    DAL_EACH(i, DAL__DIM) dal__put(carried + (DAL__DIM + i) * DAL_GROUPS, lanes, s->r[i]);
+    dal__put(rest + DAL__TIME * DAL_GROUPS, lanes, dal_num(clock->time));
+    dal__put(rest + DAL__TIME_ERROR * DAL_GROUPS, lanes, dal_num(clock->error));
+    dal__put(counted, lanes, *counted + (double)steps);
+    dal__put(asked, lanes, *asked + (double)s->evaluations);
+    rest += DAL__MEMORY * DAL_GROUPS;
 #define X(member, count)                                                                           \
-    DAL_EACH(i, DAL__COUNT_##count) dal__put(rest + i, lanes, s->member[i]);                       \
-    rest += DAL__COUNT_##count;
+    DAL_EACH(i, DAL__COUNT_##count) dal__put(rest + i * DAL_GROUPS, lanes, s->member[i]);          \
+    rest += DAL__COUNT_##count * DAL_GROUPS;
     DAL__MEMORY_LIST(X)
 #undef X
 }
@@ -102,12 +118,20 @@ DAL_INLINE void dal__tick(dal__clock *clock, double h)
     clock->time = sum;
 }
 
-DAL_INLINE void dal__one_step(dal_step *s, dal__clock *clock, double h, dal_mask lanes,
-                              dal__verdict *so_far)
+DAL_INLINE dal_mask dal__mask_of(unsigned lanes)
+{
+    dal_mask mask = ~dal_all();
+    for (int i = 0; i < DAL_LANES; i++)
+        if (lanes >> i & 1) mask |= dal_lane_mask(i);
+    return mask;
+}
+
+/* A step of one group from a time that all share. */
+DAL_INLINE void dal__one_step(dal_step *s, double t, double h, dal_mask lanes, dal__verdict *so_far)
 {
     num y0[DAL__DIM];
     DAL_EACH(i, DAL__DIM) y0[i] = s->y[i];
-    s->t = clock->time;
+    s->t = t;
     s->h = h;
     s->alive = DAL__EXPLICIT ? dal_all() : lanes;
     s->unconverged = ~dal_all();
@@ -121,41 +145,82 @@ DAL_INLINE void dal__one_step(dal_step *s, dal__clock *clock, double h, dal_mask
     }
     if (DAL__GUARDS) so_far->regular &= dal__guards_hold(s, y0);
     if (DAL__WATCHED) so_far->regular &= dal__normals_hold(s, y0);
-    dal__tick(clock, h);
 }
 
-DAL_INLINE dal_mask dal__mask_of(unsigned lanes)
+/* Whether a lane that goes on has failed, its finiteness apart. */
+DAL_INLINE int dal__failed(const dal__verdict *v, dal_mask lanes)
 {
-    dal_mask mask = ~dal_all();
-    for (int i = 0; i < DAL_LANES; i++)
-        if (lanes >> i & 1) mask |= dal_lane_mask(i);
-    return mask;
+    return v->status != DAL_OK || dal_any(~(v->solved & v->gauge & v->regular) & lanes);
 }
 
 /* Up to count steps, until one lane fails; the number that all lanes made. */
-DAL_INLINE long long dal__block(dal_step *s, dal__clock *clock, double h, long long count,
-                                dal_mask lanes, dal__verdict *verdict)
+DAL_INLINE long long dal__block(dal__team *team, double h, long long count)
 {
-    const dal__verdict good = {DAL_OK, dal_all(), dal_all(), dal_all()};
-    *verdict = good;
     for (long long k = 0; k < count; k++) {
-        dal__one_step(s, clock, h, lanes, verdict);
-        const dal_mask bad = ~(verdict->solved & verdict->gauge & verdict->regular);
-        if (verdict->status != DAL_OK || dal_any(bad & lanes)) return k;
+        int failed = 0;
+        DAL__EACH_GROUP
+        {
+            dal__verdict *verdict = &team->verdict[g];
+            dal__one_step(&team->step[g], team->clock.time, h, team->lanes[g], verdict);
+            failed |= dal__failed(verdict, team->lanes[g]);
+        }
+        dal__tick(&team->clock, h);
+        if (failed) return k;
     }
     return count;
 }
 
+/* The state of all groups, before the next block. */
+DAL_INLINE void dal__load_team(dal__team *team, const dal_stored *carried, const double *work,
+                               unsigned lanes)
+{
+    const dal__verdict good = {DAL_OK, dal_all(), dal_all(), dal_all(), dal_all()};
+    const double *const number = (const double *)carried;
+    int first = 0;
+    while (first < PREFIX_LANES - 1 && !(lanes >> first & 1)) first++;
+    team->clock.time = number[DAL__AT(DAL__TIME) * PREFIX_LANES + first];
+    team->clock.error = number[DAL__AT(DAL__TIME_ERROR) * PREFIX_LANES + first];
+    DAL__EACH_GROUP
+    {
+        team->step[g].work = (const dal_stored *)work + g;
+        team->lanes[g] = dal__mask_of(lanes >> (g * DAL_LANES));
+        team->verdict[g] = good;
+        dal__load_step(&team->step[g], carried + g);
+    }
+}
+
+/* Whether a lane that goes on is not finite. */
+DAL_INLINE int dal__look_at_states(dal__team *team)
+{
+    int failed = 0;
+    DAL__EACH_GROUP
+    {
+        team->verdict[g].finite = dal__finite_state(&team->step[g]);
+        failed |= dal_any(~team->verdict[g].finite & team->lanes[g]);
+    }
+    return failed;
+}
+
+DAL_INLINE void dal__store_team(const dal__team *team, long long steps, unsigned lanes,
+                                dal_stored *carried)
+{
+    DAL__EACH_GROUP
+    dal__store_step(&team->step[g], &team->clock, steps, dal__mask_of(lanes >> (g * DAL_LANES)),
+                    carried + g);
+}
+
 /* Why each failing lane failed; the mask of those that did. */
-DAL_COLD unsigned dal__judge(const dal__verdict *verdict, dal_mask finite, unsigned lanes, int *why)
+DAL_COLD unsigned dal__judge(const dal__team *team, unsigned lanes, int *why)
 {
     unsigned failed = 0;
-    for (int i = 0; i < DAL_LANES; i++) {
+    for (int i = 0; i < PREFIX_LANES; i++) {
+        const dal__verdict *verdict = &team->verdict[i / DAL_LANES];
+        const int lane = i % DAL_LANES;
         int status = DAL_OK;
-        if (!dal_mask_lane(verdict->regular, i)) status = DAL_SINGULAR;
-        if (!dal_mask_lane(finite, i)) status = DAL_NOT_FINITE;
-        if (!dal_mask_lane(verdict->gauge, i)) status = DAL_GAUGE;
-        if (!dal_mask_lane(verdict->solved, i)) status = DAL_NOT_CONVERGED;
+        if (!dal_mask_lane(verdict->regular, lane)) status = DAL_SINGULAR;
+        if (!dal_mask_lane(verdict->finite, lane)) status = DAL_NOT_FINITE;
+        if (!dal_mask_lane(verdict->gauge, lane)) status = DAL_GAUGE;
+        if (!dal_mask_lane(verdict->solved, lane)) status = DAL_NOT_CONVERGED;
         if (verdict->status != DAL_OK) status = verdict->status;
         if (status == DAL_OK || !(lanes >> i & 1)) continue;
         failed |= 1u << i;
@@ -168,29 +233,22 @@ long long PREFIX_lanes(double *carried_, const double *work, double h, long long
                        unsigned lanes, unsigned *failed, int *why)
 {
     dal_stored *const carried = (dal_stored *)carried_;
-    const dal_mask alive = dal__mask_of(lanes);
     long long done = 0, most = DAL__BLOCK_STEPS;
-    int first = 0;
-    while (first < DAL_LANES - 1 && !(lanes >> first & 1)) first++;
     *failed = 0;
     while (done < count && lanes) {
         const long long block = count - done < most ? count - done : most;
-        dal_step s;
-        dal__verdict verdict;
-        dal__clock clock = {dal_lane(carried[DAL__AT(DAL__TIME)], first),
-                            dal_lane(carried[DAL__AT(DAL__TIME_ERROR)], first)};
-        s.work = (const dal_stored *)work;
-        dal__load_step(&s, carried);
-        const long long made = dal__block(&s, &clock, h, block, alive, &verdict);
-        const dal_mask finite = dal__finite_state(&s);
-        if (made == block && !dal_any(~finite & alive)) {
-            dal__store_step(&s, &clock, block, alive, carried);
+        dal__team team;
+        dal__load_team(&team, carried, work, lanes);
+        const long long made = dal__block(&team, h, block);
+        const int unsound = dal__look_at_states(&team);
+        if (made == block && !unsound) {
+            dal__store_team(&team, block, lanes, carried);
             done += block;
         } else if (block > 1) {
             most = 1;
         } else {
-            *failed = dal__judge(&verdict, finite, lanes, why);
-            dal__store_step(&s, &clock, 1, dal__mask_of(lanes & ~*failed), carried);
+            *failed = dal__judge(&team, lanes, why);
+            dal__store_team(&team, 1, lanes & ~*failed, carried);
             return done + 1;
         }
     }

@@ -68,18 +68,18 @@ DAL_INLINE num dal__weighted(const double *head, const double *tail, int stages,
     }                                                                                              \
     }
 
-/* out = h sum_j weight_j x_j for count components side by side; out must not overlap x. */
-DAL_INLINE void dal__weighted_all(const double *head, const double *tail, int stages, double h,
-                                  const num *x, int stride, int count, num *DAL_RESTRICT out)
+/* out = sum_j weight_j x_j for count components side by side; out must not overlap x. */
+DAL_INLINE void dal__weighted_all(const double *head, const double *tail, int stages, const num *x,
+                                  int stride, int count, num *DAL_RESTRICT out)
 {
-    DAL__BY_STAGES(stages, DAL_EACH(c, count) out[c] =
-                               h * dal__weighted(head, tail, STAGES, x + c, stride));
+    DAL__BY_STAGES(stages,
+                   DAL_EACH(c, count) out[c] = dal__weighted(head, tail, STAGES, x + c, stride));
 }
-/* h sum b x for count components. */
+/* sum b x for count components. */
 DAL_INLINE void dal__end(const dal_stages *k, const num *x, int stride, int count, num *out)
 {
-    dal__weighted_all(k->method->b, k->method->b_tail, DAL_STAGES(k->method), k->h, x, stride,
-                      count, out);
+    dal__weighted_all(k->method->b, k->method->b_tail, DAL_STAGES(k->method), x, stride, count,
+                      out);
 }
 
 /* Stage values base + (r + h sum a x) for count components, by the coefficients a or their
@@ -115,8 +115,8 @@ DAL_INLINE void dal__momentum_slopes(dal_step *s, const dal_stages *k, num *imag
         num *DAL_RESTRICT slope = image + i * n;
         const num *Fv = k->f + i * k->stride + 2 * n;
         dal__weighted_all(k->method->partner + i * stages, k->method->partner_tail + i * stages,
-                          stages, k->h, k->f + n, k->stride, n, slope);
-        DAL_EACH(j, n) slope[j] = -(p[j] + (r[j] - slope[j])) - Fv[j];
+                          stages, k->f + n, k->stride, n, slope);
+        DAL_EACH(j, n) slope[j] = -(p[j] + dal_fma(dal_num(-k->h), slope[j], r[j])) - Fv[j];
     }
 }
 
@@ -267,7 +267,7 @@ DAL_INLINE void dal__gauge_stages(dal_step *s, dal_stages *k)
     }
 }
 
-/* The momenta's half of y1 - y. */
+/* The momenta's half of (y1 - y)/h. */
 DAL_INLINE dal_status dal__collocation_momenta(dal_step *s, const dal_stages *k,
                                                const dal_equation *eq, num *d)
 {
@@ -283,7 +283,7 @@ DAL_INLINE dal_status dal__collocation_momenta(dal_step *s, const dal_stages *k,
     return DAL_OK;
 }
 
-/* y1 - y from the solved stages. */
+/* (y1 - y)/h from the solved stages, and the end of the step. */
 DAL_INLINE dal_status dal__collocation_end(dal_step *s, const dal_stages *k, const dal_equation *eq)
 {
     const int n = DAL_N(s), nw = DAL_NW(s);
@@ -291,7 +291,7 @@ DAL_INLINE dal_status dal__collocation_end(dal_step *s, const dal_stages *k, con
     dal__end(k, k->v, nw, n, d);
     dal__end(k, eq->block[0].u, nw, nw, d + n);
     if (DAL_LIFTED(s)) DAL_TRY(dal__collocation_momenta(s, k, eq, d));
-    return dal_update(s, k->h, d);
+    return dal_update_multiple(s, k->h, k->h, d);
 }
 
 /* Lanes that do not iterate are computed with all the same: their stages stand at the present. */

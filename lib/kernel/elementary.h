@@ -2,8 +2,8 @@
  *
  * sin and cos are our own, so that a lane of a batch has the bits of a single run:
  *
- *     n = nearest integer to x 2/pi,   r + tail = x - n pi/2,   |r| <= pi/4,
- *     sin r = r + r^3 S(r^2),          cos r = 1 - r^2/2 + r^4 C(r^2),
+ *     n = nearest integer to x 2/pi,   r - tail = x - n pi/2,   |r| <= pi/4,
+ *     sin r = r - r^3 S(r^2),          cos r = 1 - r^2/2 + r^4 C(r^2),
  *
  * and n mod 4 says which of +-sin, +-cos is wanted.  Error below 0.85 ulp for |x| <= 1e7; beyond,
  * and for what is not finite, the lane concerned is libm's.
@@ -15,7 +15,7 @@
  * No double up to 1e7 but 0 comes nearer to a multiple of pi/2 than 2^-61 (the nearest is at 29
  * pi/2).
  *
- * Coefficients: S and C are the polynomials of degree 5 that interpolate (sin x / x - 1)/x^2 and
+ * Coefficients: S and C are the polynomials of degree 5 that interpolate (1 - sin x / x)/x^2 and
  * (cos x - 1 + x^2/2)/x^4, in exact rationals from their Taylor series, at the six largest zeros
  * of the Chebyshev polynomial T7 (T8), placed on z = x^2 so that its smallest (second smallest)
  * zero is z = 0 and its interval ends at (pi/4)^2: x^2 S and x^4 C then err almost evenly, by
@@ -48,10 +48,10 @@ DAL_INLINE num dal__from_bits(dal_mask bits) { return (num)bits; }
 /* x in the lanes where bit 1 of quadrant is clear, -x where it is set. */
 DAL_INLINE num dal__flip(num x, dal_mask quadrant)
 {
-    return dal__from_bits(dal__bits(x) ^ (-(quadrant & 2) & INT64_MIN));
+    return dal__from_bits(dal__bits(x) ^ ((quadrant << 62) & INT64_MIN));
 }
 
-/* An angle brought to [-pi/4, pi/4]: r + tail, and the quadrant in the last two bits. */
+/* An angle brought to [-pi/4, pi/4]: r - tail, and the quadrant in the last two bits. */
 typedef struct dal__angle {
     num r, tail;
     dal_mask quadrant;
@@ -60,13 +60,13 @@ typedef struct dal__angle {
 DAL_INLINE dal__angle dal__reduce(num x)
 {
     const num two_over_pi = dal_num(0x1.45f306dc9c883p-1);
-    const num P1 = dal_num(0x1.921fb54442d18p+0), P2 = dal_num(0x1.1a62633145c07p-54),
-              P3 = dal_num(-0x1.f1976b7ed8fbcp-110);
+    const num P1 = dal_num(0x1.921fb54442d18p+0), P2 = dal_num(0x1.1a62633145c07p-54);
+    const num P3 = dal_num(-0x1.f1976b7ed8fbcp-110);
     const num shift = dal_num(0x1.8p52); /* puts the units of n into the last bits of shifted */
     num shifted = dal_fma(x, two_over_pi, shift), n = shifted - shift;
-    num a = dal_fma(-n, P1, x), b = n * P2, rest = dal_fma(n, P2, -b);
+    num a = dal_fma(n, -P1, x), b = n * P2, rest = dal_fma(n, P2, -b);
     num r = a - b;
-    num tail = dal_fma(-n, P3, ((a - r) - b) - rest);
+    num tail = dal_fma(n, P3, rest - ((a - r) - b));
     const dal__angle angle = {r, tail, dal__bits(shifted)};
     return angle;
 }
@@ -80,25 +80,25 @@ DAL_INLINE num dal__quintic(const double *c, num z, num zz)
     return dal_fma(zz, dal_fma(zz, high, middle), low);
 }
 
-/* sin(r + tail), r^2 = z. */
-DAL_INLINE num dal__sin_kernel(num r, num tail, num z)
+/* sin(r - tail), r^2 = z.  What is taken from r is +0 where r is -0, which thus keeps its sign. */
+DAL_INLINE num dal__sin_kernel(num r, num tail, num z, num zz)
 {
-    static const double S[] = {-0x1.5555555555549p-3,  0x1.111111110f823p-7,
-                               -0x1.a01a019c063e9p-13, 0x1.71de356d7f5c2p-19,
-                               -0x1.ae5e5df644004p-26, 0x1.5d9088d79b4d8p-33};
+    static const double S[] = {0x1.5555555555549p-3,  -0x1.111111110f823p-7,
+                               0x1.a01a019c063e9p-13, -0x1.71de356d7f5c2p-19,
+                               0x1.ae5e5df644004p-26, -0x1.5d9088d79b4d8p-33};
     num moved = tail * dal_fma(z, dal_num(-0.5), dal_num(1.0));
-    return r + dal_fma(r * z, dal__quintic(S, z, z * z), moved);
+    return r - dal_fma(r * z, dal__quintic(S, z, zz), moved);
 }
 
-/* cos(r + tail), r^2 = z; what 1 - z/2 loses to rounding is put back. */
-DAL_INLINE num dal__cos_kernel(num r, num tail, num z)
+/* cos(r - tail), r^2 = z; what 1 - z/2 loses to rounding is put back. */
+DAL_INLINE num dal__cos_kernel(num r, num tail, num z, num zz)
 {
     static const double C[] = {0x1.555555555554ep-5,  -0x1.6c16c16c15552p-10,
                                0x1.a01a019d06981p-16, -0x1.27e4f84120a12p-22,
                                0x1.1eea0e0eaff16p-29, -0x1.8fbed74f17e31p-37};
-    num zz = z * z, w = dal_fma(z, dal_num(-0.5), dal_num(1.0));
+    num w = dal_fma(z, dal_num(-0.5), dal_num(1.0));
     num lost = dal_fma(z, dal_num(-0.5), 1.0 - w);
-    return w + dal_fma(zz, dal__quintic(C, z, zz), dal_fma(-r, tail, lost));
+    return w + dal_fma(zz, dal__quintic(C, z, zz), dal_fma(r, tail, lost));
 }
 
 /* near, but libm's sin x or cos x in the lanes beyond. */
@@ -118,13 +118,12 @@ DAL_COLD num dal__cos_beyond(num x, dal_mask beyond, num near)
 DAL_INLINE void dal_sincos(num x, num *s, num *c)
 {
     dal__angle angle = dal__reduce(x);
-    num z = angle.r * angle.r;
-    num sine = dal__sin_kernel(angle.r, angle.tail, z);
-    num cosine = dal__cos_kernel(angle.r, angle.tail, z);
+    num z = angle.r * angle.r, zz = z * z;
+    num sine = dal__sin_kernel(angle.r, angle.tail, z, zz);
+    num cosine = dal__cos_kernel(angle.r, angle.tail, z, zz);
     dal_mask odd = -(angle.quadrant & 1);
     *s = dal__flip(dal_select(odd, cosine, sine), angle.quadrant);
     *c = dal__flip(dal_select(odd, sine, cosine), angle.quadrant + 1);
-    *s = dal_select(dal_equal(x, dal_num(0.0)), x, *s); /* -0 keeps its sign */
     dal_mask beyond = ~dal_less_equal(dal_abs(x), dal_num(1e7));
     if (dal_any(beyond)) {
         *s = dal__sin_beyond(x, beyond, *s);

@@ -79,12 +79,23 @@ DAL_INLINE num dal_select(dal_mask m, num a, num b)
 {
     return (num)(((dal_mask)a & m) | ((dal_mask)b & ~m));
 }
+#if defined __AVX512F__ && DAL_LANES == 8
+DAL_INLINE int dal_any(dal_mask m)
+{
+    typedef long long bits __attribute__((vector_size(64)));
+    const bits none = {0};
+    return __builtin_ia32_cmpq512_mask((bits)m, none, 4, (unsigned char)-1) != 0; /* 4: differs */
+}
+#elif defined __AVX__ && DAL_LANES == 4
+DAL_INLINE int dal_any(dal_mask m) { return __builtin_ia32_movmskpd256((num)m) != 0; }
+#else
 DAL_INLINE int dal_any(dal_mask m)
 {
     int64_t any = 0;
     for (int lane = 0; lane < DAL_LANES; lane++) any |= m[lane];
     return any != 0;
 }
+#endif
 DAL_INLINE double dal_lane(num x, int lane) { return x[lane]; }
 DAL_INLINE num dal_with_lane(num x, int lane, double value) { return x[lane] = value, x; }
 DAL_INLINE dal_mask dal_lane_mask(int lane)

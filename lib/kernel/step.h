@@ -250,31 +250,41 @@ DAL_INLINE dal_status dal_field(dal_step *s, double t, const num *y, num *DAL_RE
     return DAL_OK;
 }
 
-/* y + r += d for count components, compensated; lanes that are no longer alive stay as they are.
- * The error is exact where |y| >= |d|, and else off by no more than the rounding of d itself.  A
- * sum is -0 only if both parts are, and y is not. */
-DAL_INLINE void dal_add(dal_step *s, int first, int count, const num *d)
+/* y + r += factor*d for count components, compensated; lanes that are no longer alive stay as they
+ * are. The error is exact where |y| >= |d|, and else off by no more than the rounding of d itself.
+ * A sum is -0 only if both parts are, and y is not. */
+DAL_INLINE void dal_add_multiple(dal_step *s, int first, int count, double factor, const num *d)
 {
     num *const DAL_RESTRICT y = s->y + first, *const DAL_RESTRICT r = s->r + first;
     const dal_mask alive = s->alive;
+    const num f = dal_num(factor);
     DAL_EACH(i, count) {
-        const num a = y[i], b = d[i] + r[i];
+        const num a = y[i], b = dal_fma(f, d[i], r[i]);
         const num sum = a + b;
         y[i] = dal_select(alive, sum, a);
         r[i] = dal_select(alive, b - (sum - a), r[i]);
     }
 }
 
-/* Ends a (sub)step of size h: y + r += d, d[dim], and t += h. */
-DAL_INLINE dal_status dal_update(dal_step *s, double h, const num *d)
+DAL_INLINE void dal_add(dal_step *s, int first, int count, const num *d)
 {
-    dal_add(s, 0, DAL_DIM(s), d);
+    dal_add_multiple(s, first, count, 1.0, d);
+}
+
+/* Ends a (sub)step of size h: y + r += factor*d, d[dim], and t += h. */
+DAL_INLINE dal_status dal_update_multiple(dal_step *s, double h, double factor, const num *d)
+{
+    dal_add_multiple(s, 0, DAL_DIM(s), factor, d);
     if (DAL_LIFTED(s)) { /* an infinite e swallows its increment and has no rounding error */
         num *error = s->r + dal_at_e(s);
         *error = dal_select(dal_finite(*error), *error, dal_num(0.0));
     }
     s->t += h;
     return DAL_OK;
+}
+DAL_INLINE dal_status dal_update(dal_step *s, double h, const num *d)
+{
+    return dal_update_multiple(s, h, 1.0, d);
 }
 
 #ifndef DAL_SPECIALISED
