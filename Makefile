@@ -106,7 +106,7 @@ $(SYSTEMS): tools/embed.sh $(wildcard systems/*.yaml) systems
 	@mkdir -p $(@D)
 	$(call SAY,sh)sh tools/embed.sh $(addsuffix .yaml,$(sort $(basename $(wildcard systems/*.yaml)))) >$@.tmp && mv $@.tmp $@
 # So do the kernel and the integrators, for generated files.
-SOURCES = $(wildcard lib/kernel/*.h) lib/generate/stepper.h lib/generate/caller.h \
+SOURCES = $(wildcard lib/kernel/*.h) lib/generate/ask.h lib/generate/stepper.h lib/generate/caller.h \
           $(wildcard integrators/*.c)
 $(BUILD)/generated/sources.c: tools/embed-sources.sh $(SOURCES)
 	@mkdir -p $(@D)

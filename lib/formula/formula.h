@@ -142,8 +142,8 @@ DAL__VARIANT_LIST(DAL__TAPE_RUN, dal__tape_run)
 
 /* Writes a program as C statements over num that set out[0], out[1], ...: its instructions one by
  * one, so that it computes the same bits.  Input number i is called input[i].text; parameters and
- * what was hoisted are DAL_WORK(place), with their places in work.  The second writes what dal__tapes_prepare
- * computes. */
+ * what was hoisted are DAL_WORK(place), with their places in work.  The second writes what
+ * dal__tapes_prepare computes. */
 typedef struct dal__input_name {
     char text[16];
 } dal__input_name;

@@ -57,7 +57,7 @@ static void put_question(dal__generation *g, dal__program_code code, const char 
     dal__text_print(&g->text, "    case DAL_ASK_%s: {\n        num all[%d];\n", question,
                     all > 0 ? all : 1);
     if (is_inlined(g, code)) {
-        dal__text_print(&g->text, "        dal__%s(s->work, t, q, v, pi, all);\n", name);
+        dal__text_print(&g->text, "        dal__%s(work, t, q, v, pi, all);\n", name);
     } else {
         const bool momenta = code == DAL__PROGRAM_ADJOINT;
         dal__text_put(&g->text, "        num q_[DAL__N], v_[DAL__NW], pi_[DAL__N];\n"
@@ -65,7 +65,7 @@ static void put_question(dal__generation *g, dal__program_code code, const char 
                                 "        DAL_EACH(i, DAL__NW) v_[i] = v[i];\n");
         dal__text_print(&g->text, "        DAL_EACH(i, DAL__N) pi_[i] = %s;\n",
                         momenta ? "pi[i]" : "dal_num(0.0)");
-        dal__text_print(&g->text, "        dal__%s(s->work, t, q_, v_, pi_, all);\n", name);
+        dal__text_print(&g->text, "        dal__%s(work, t, q_, v_, pi_, all);\n", name);
     }
     dal__text_print(&g->text, "        dal__keep_sound(all, %d, %d, out);\n        break;\n    }\n",
                     outputs, p->watched);
@@ -84,8 +84,10 @@ static void put_ask(dal__generation *g)
     dal__text_put(&g->text, " * all[outputs + 2 * k + 1], dal_abs(all[outputs + 2 * k]));\n"
                             "    DAL_EACH(i, outputs) out[i] = dal_select(ok, all[i], "
                             "dal_num(NAN));\n}\n\n"
-                            "DAL_INLINE void dal_ask(dal_step *s, dal_question question, double t, "
-                            "const num *q,\n    const num *v, const num *pi, num *out)\n{\n"
+                            "/* The answer for one group of lanes. */\n"
+                            "DAL_INLINE void dal__ask_group(const dal_stored *work, dal_question "
+                            "question, double t,\n    const num *q, const num *v, const num *pi, "
+                            "num *out)\n{\n"
                             "    switch (question) {\n");
 #define X(code, name, reads) put_question(g, DAL__PROGRAM_##code, #code, #name);
     DAL__WIDE_LIST(X)
@@ -94,6 +96,7 @@ static void put_ask(dal__generation *g)
         dal__text_put(&g->text, "    case DAL_ASK_GAUGE:\n        out[0] = dal_num(0.0);\n"
                                 "        break;\n");
     dal__text_put(&g->text, "    default:\n        break;\n    }\n}\n\n");
+    dal__text_put(&g->text, dal__source_text("ask.h"));
 }
 
 /* ---- parameters and start ---- */
@@ -167,15 +170,16 @@ void dal__put_observe(dal__generation *g)
     const dal_system *system = g->shape.system;
     dal__text *text = &g->text;
     int next = 0;
-    dal__text_put(text, "\nstatic void dal__observe(dal_step *s, double t, num *out)\n{\n"
-                        "    const num *q = s->y, *v = s->y + DAL__N;\n"
-                        "    const dal_stored *w = s->work;\n"
-                        "    (void)q, (void)v, (void)w, (void)t, (void)out;\n");
+    dal__text_put(
+        text,
+        "\nstatic void dal__observe(const dal_stored *w, double t, const num *y, num *out)\n{\n"
+        "    const num *q = y, *v = y + DAL__N;\n"
+        "    (void)q, (void)v, (void)w, (void)t, (void)out;\n");
     if (system->constraints) dal__text_put(text, "    dal__constraints(w, t, q, v, NULL, out);\n");
     next += system->constraints ? system->m : 0;
     if (system->energy)
         dal__text_print(text, "    dal__energy(w, t, q, v, NULL, out + %d);\n", next++);
-    if (g->shape.lifted) dal__text_print(text, "    dal__observe_lift(s, t, out + %d);\n", next);
+    if (g->shape.lifted) dal__text_print(text, "    dal__observe_lift(w, t, y, out + %d);\n", next);
     next += g->shape.lifted ? 4 : 0;
     if (system->invariant_values)
         dal__text_print(text, "    dal__invariant_values(w, t, q, v, NULL, out + %d);\n", next);

@@ -61,42 +61,40 @@ int PREFIX_start(PREFIX_state *state, const PREFIX_parameters *parameters)
 }
 
 /* H = pi.pi/(2e) + pi.F + p.v + mu_e pi_e */
-DAL_INLINE num dal__hamiltonian(const dal_step *s, const num *f, num mu)
+DAL_INLINE num dal__hamiltonian(const num *y, const num *f, num mu)
 {
     const int n = DAL__N, e = DAL__LIFTED ? 2 * n : 0;
-    const num *v = s->y + n, *p = s->y + e + DAL__LIFTED, *pi = p + DAL__LIFTED * n;
+    const num *v = y + n, *p = y + e + DAL__LIFTED, *pi = p + DAL__LIFTED * n;
     num sum = dal_num(0.0);
-    for (int i = 0; i < n; i++) sum += pi[i] * pi[i] * (0.5 / s->y[e]) + pi[i] * f[i] + p[i] * v[i];
-    return sum + mu * s->y[DAL__DIM - 1];
+    for (int i = 0; i < n; i++) sum += pi[i] * pi[i] * (0.5 / y[e]) + pi[i] * f[i] + p[i] * v[i];
+    return sum + mu * y[DAL__DIM - 1];
 }
 
 /* H and the max norms of p, pi, pi_e. */
-DAL_INLINE void dal__observe_lift(dal_step *s, double t, num *out)
+DAL_INLINE void dal__observe_lift(const dal_stored *work, double t, const num *y, num *out)
 {
     const int n = DAL__N, e = DAL__LIFTED ? 2 * n : 0;
     num f[DAL__NW], mu;
-    dal_ask(s, DAL_ASK_FIELD, t, s->y, s->y + n, NULL, f);
-    dal_ask(s, DAL_ASK_GAUGE, t, s->y, s->y + n, NULL, &mu);
-    out[0] = dal__hamiltonian(s, f, mu);
+    dal__ask_group(work, DAL_ASK_FIELD, t, y, y + n, NULL, f);
+    dal__ask_group(work, DAL_ASK_GAUGE, t, y, y + n, NULL, &mu);
+    out[0] = dal__hamiltonian(y, f, mu);
     out[1] = out[2] = dal_num(0.0);
     for (int i = 0; i < n; i++) {
-        out[1] = dal_max(out[1], dal_abs(s->y[e + DAL__LIFTED + i]));
-        out[2] = dal_max(out[2], dal_abs(s->y[e + DAL__LIFTED * (n + 1) + i]));
+        out[1] = dal_max(out[1], dal_abs(y[e + DAL__LIFTED + i]));
+        out[2] = dal_max(out[2], dal_abs(y[e + DAL__LIFTED * (n + 1) + i]));
     }
-    out[3] = dal_abs(s->y[DAL__DIM - 1]);
+    out[3] = dal_abs(y[DAL__DIM - 1]);
 }
 
-static void dal__observe(dal_step *s, double t, num *out);
+static void dal__observe(const dal_stored *work, double t, const num *y, num *out);
 
 void PREFIX_observe(const PREFIX_state *state, double *out)
 {
-    DAL__EACH_GROUP
-    {
-        dal_step s;
-        num value[DAL__ROOM(PREFIX_OBSERVABLES)];
-        s.work = (const dal_stored *)state->work + g;
-        dal__load_step(&s, (const dal_stored *)state->y + g);
-        dal__observe(&s, PREFIX_time(state, 0), value);
+    for (int g = 0; g < DAL_GROUPS; g++) {
+        num y[DAL__DIM], value[DAL__ROOM(PREFIX_OBSERVABLES)];
+        const dal_stored *from = (const dal_stored *)state->y + g;
+        for (int i = 0; i < DAL__DIM; i++) y[i] = from[i * DAL_GROUPS];
+        dal__observe((const dal_stored *)state->work + g, PREFIX_time(state, 0), y, value);
         for (int i = 0; i < PREFIX_OBSERVABLES; i++)
             for (int lane = 0; lane < DAL_LANES; lane++)
                 out[i * PREFIX_LANES + g * DAL_LANES + lane] = dal_lane(value[i], lane) + 0.0;

@@ -207,7 +207,14 @@ static void put_unrolling(dal__generation *g)
         dal__text_put(&g->text, "#define DAL_UNROLL\n");
 }
 
-/* Lanes go by registers, as large as the processor has them, one group after the other. */
+/* Whether the groups of lanes can be stepped as one larger system. */
+static bool is_joined(const dal__generation *g)
+{
+    const unsigned claims = g->shape.method.chain[0]->claims;
+    return g->shape.depth == 1 && !g->shape.lifted && (claims & DAL_COMPONENTWISE) != 0;
+}
+
+/* Lanes go by registers, as large as the processor has them. */
 static void put_lanes(dal__generation *g)
 {
     dal__text_print(&g->text, "#define DAL_LANES %d\n", g->lanes);
@@ -218,6 +225,8 @@ static void put_lanes(dal__generation *g)
                             "#define DAL_GROUP 2\n#endif\n");
     dal__text_put(&g->text, dal__source_text("groups.h"));
     dal__text_put(&g->text, "#define DAL_WORK(place) w[(place) * DAL_GROUPS]\n");
+    dal__text_print(&g->text, "enum { DAL_JOINED = %s, DAL_TEAM = DAL_GROUPS / DAL_JOINED };\n",
+                    is_joined(g) ? "DAL_GROUPS" : "1");
 }
 
 static void put_constants(dal__generation *g)

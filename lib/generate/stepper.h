@@ -6,13 +6,14 @@
  * step by step up to the one that fails.  What makes a lane fail is what lib/run/engine_wide.c
  * says, in the same order.
  *
- * More lanes than a register holds go group by group within each step: a processor that looks ahead
- * then works on one group while the other waits for its results.  Number i of group g is number
- * i * DAL_GROUPS + g of an array. */
+ * A register full of lanes is a group, and number i of group g is number i * DAL_GROUPS + g of an
+ * array.  All groups go forward together, so that a processor which looks ahead works on one while
+ * another waits for its results: as one larger system where the method allows it (DAL_JOINED groups
+ * to a dal_step), else one step of each after the other (DAL_TEAM of them). */
 
-enum { DAL__BLOCK_STEPS = 64 };
+enum { DAL__BLOCK_STEPS = 64, DAL__ALL = DAL_GROUPS * DAL_LANES };
 
-#define DAL__EACH_GROUP for (int g = 0; g < DAL_GROUPS; g++)
+#define DAL__EACH_MEMBER for (int g = 0; g < DAL_TEAM; g++)
 
 /* Where something of the clock, or the memory, is in the carried array. */
 #define DAL__AT(place) (2 * DAL__DIM + (place))
@@ -21,89 +22,115 @@ typedef struct dal__clock {
     double time, error; /* compensated */
 } dal__clock;
 
+/* Lanes of the groups of one dal_step. */
+typedef struct dal__lanes {
+    dal_mask group[DAL_JOINED];
+} dal__lanes;
+
 /* Lanes that passed each test so far. */
 typedef struct dal__verdict {
     dal_status status;
-    dal_mask solved, gauge, finite, regular;
+    dal__lanes solved, gauge, finite, regular;
 } dal__verdict;
 
-/* The steps of all groups. */
 typedef struct dal__team {
-    dal_step step[DAL_GROUPS];
-    dal_mask lanes[DAL_GROUPS]; /* those that go on */
-    dal__verdict verdict[DAL_GROUPS];
+    dal_step step[DAL_TEAM];
+    dal__lanes lanes[DAL_TEAM]; /* those that go on */
+    dal__verdict verdict[DAL_TEAM];
     dal__clock clock;
 } dal__team;
 
+/* ---- the stored state ---- */
+
 DAL_INLINE void dal__load_step(dal_step *s, const dal_stored *carried)
 {
-    DAL_EACH(i, DAL__DIM) s->y[i] = carried[i * DAL_GROUPS];
-    DAL_EACH(i, DAL__DIM) s->r[i] = carried[(DAL__DIM + i) * DAL_GROUPS];
+    DAL_EACH(i, DAL_DIM(s)) s->y[i] = carried[i * DAL_TEAM];
+    DAL_EACH(i, DAL_DIM(s)) s->r[i] = carried[DAL__DIM * DAL_GROUPS + i * DAL_TEAM];
     carried += DAL__AT(DAL__MEMORY) * DAL_GROUPS;
 #define X(member, count)                                                                           \
-    DAL_EACH(i, DAL__COUNT_##count) s->member[i] = carried[i * DAL_GROUPS];                        \
+    DAL_EACH(i, DAL__COUNT_##count * DAL_JOINED) s->member[i] = carried[i * DAL_TEAM];             \
     carried += DAL__COUNT_##count * DAL_GROUPS;
     DAL__MEMORY_LIST(X)
 #undef X
     s->evaluations = 0;
 }
 
-DAL_INLINE void dal__put(dal_stored *to, dal_mask lanes, num value)
+/* Number i of those that begin at to becomes value in the lanes of its group. */
+DAL_INLINE void dal__put(dal_stored *to, int i, const dal__lanes *lanes, num value)
 {
-    *to = dal_select(lanes, value, *to);
+    to += i * DAL_TEAM;
+    *to = dal_select(lanes->group[i % DAL_JOINED], value, *to);
+}
+
+/* The clock of group j. */
+DAL_INLINE void dal__store_clock(const dal_step *s, const dal__clock *clock, long long steps,
+                                 const dal__lanes *lanes, int j, dal_stored *to)
+{
+    const int made = DAL__STEPS * DAL_JOINED + j, asked = DAL__EVALUATIONS * DAL_JOINED + j;
+    dal__put(to, DAL__TIME * DAL_JOINED + j, lanes, dal_num(clock->time));
+    dal__put(to, DAL__TIME_ERROR * DAL_JOINED + j, lanes, dal_num(clock->error));
+    dal__put(to, made, lanes, to[made * DAL_TEAM] + (double)steps);
+    dal__put(to, asked, lanes, to[asked * DAL_TEAM] + (double)s->evaluations);
 }
 
 DAL_INLINE void dal__store_step(const dal_step *s, const dal__clock *clock, long long steps,
-                                dal_mask lanes, dal_stored *carried)
+                                const dal__lanes *lanes, dal_stored *carried)
 {
-    dal_stored *rest = carried + DAL__AT(0) * DAL_GROUPS;
-    dal_stored *const counted = rest + DAL__STEPS * DAL_GROUPS;
-    dal_stored *const asked = rest + DAL__EVALUATIONS * DAL_GROUPS;
-    DAL_EACH(i, DAL__DIM) dal__put(carried + i * DAL_GROUPS, lanes, s->y[i]);
-    DAL_EACH(i, DAL__DIM) dal__put(carried + (DAL__DIM + i) * DAL_GROUPS, lanes, s->r[i]);
-    dal__put(rest + DAL__TIME * DAL_GROUPS, lanes, dal_num(clock->time));
-    dal__put(rest + DAL__TIME_ERROR * DAL_GROUPS, lanes, dal_num(clock->error));
-    dal__put(counted, lanes, *counted + (double)steps);
-    dal__put(asked, lanes, *asked + (double)s->evaluations);
-    rest += DAL__MEMORY * DAL_GROUPS;
+    DAL_EACH(i, DAL_DIM(s)) dal__put(carried, i, lanes, s->y[i]);
+    DAL_EACH(i, DAL_DIM(s)) dal__put(carried + DAL__DIM * DAL_GROUPS, i, lanes, s->r[i]);
+    DAL_EACH(j, DAL_JOINED)
+        dal__store_clock(s, clock, steps, lanes, j, carried + DAL__AT(0) * DAL_GROUPS);
+    carried += DAL__AT(DAL__MEMORY) * DAL_GROUPS;
 #define X(member, count)                                                                           \
-    DAL_EACH(i, DAL__COUNT_##count) dal__put(rest + i * DAL_GROUPS, lanes, s->member[i]);          \
-    rest += DAL__COUNT_##count * DAL_GROUPS;
+    DAL_EACH(i, DAL__COUNT_##count * DAL_JOINED) dal__put(carried, i, lanes, s->member[i]);        \
+    carried += DAL__COUNT_##count * DAL_GROUPS;
     DAL__MEMORY_LIST(X)
 #undef X
 }
 
-/* Lanes in which every component of the state is finite; 1/e stands for e. */
-DAL_INLINE dal_mask dal__finite_state(const dal_step *s)
+/* ---- judging a step, group by group ---- */
+
+/* Lanes in which every component of a group's state is finite; 1/e stands for e. */
+DAL_INLINE dal_mask dal__finite_state(const dal_step *s, int group)
 {
     num sum = dal_num(0.0);
     DAL_EACH(i, DAL__DIM) {
-        const num x = dal_choose(DAL__LIFTED && i == 2 * DAL__N, 1.0 / s->y[i], s->y[i]);
+        const num y = s->y[i * DAL_JOINED + group];
+        const num x = dal_choose(DAL__LIFTED && i == 2 * DAL__N, 1.0 / y, y);
         sum += x - x;
     }
     return dal_equal(sum, dal_num(0.0));
 }
 
-/* The guards of the constraints keep their signs over the step from y0. */
-DAL_INLINE dal_mask dal__guards_hold(dal_step *s, const num *y0)
+/* What the system says of a group, before and after the step from y0. */
+DAL_INLINE void dal__ask_twice(const dal_step *s, int group, dal_question question, const num *y0,
+                               num *before, num *after)
+{
+    num a[DAL__N + DAL__NW], b[DAL__N + DAL__NW];
+    dal__pick(y0, group, DAL__N + DAL__NW, a);
+    dal__pick(s->y, group, DAL__N + DAL__NW, b);
+    dal__ask_group(s->work + group, question, s->t - s->h, a, a + DAL__N, NULL, before);
+    dal__ask_group(s->work + group, question, s->t, b, b + DAL__N, NULL, after);
+}
+
+/* The guards of the constraints keep their signs. */
+DAL_INLINE dal_mask dal__guards_hold(const dal_step *s, int group, const num *y0)
 {
     num before[DAL__ROOM(DAL__GUARDS)], after[DAL__ROOM(DAL__GUARDS)];
     dal_mask good = dal_all();
-    dal_ask(s, DAL_ASK_GUARDS, s->t - s->h, y0, y0 + DAL__N, NULL, before);
-    dal_ask(s, DAL_ASK_GUARDS, s->t, s->y, s->y + DAL__N, NULL, after);
+    dal__ask_twice(s, group, DAL_ASK_GUARDS, y0, before, after);
     DAL_EACH(i, DAL__GUARDS) good &= dal_less(dal_num(0.0), before[i] * after[i]);
     return good;
 }
 
 /* No normal turned by a right angle: det(A1 B0) det(A0 B0) > 0 for all leading minors. */
-DAL_INLINE dal_mask dal__normals_hold(dal_step *s, const num *y0)
+DAL_INLINE dal_mask dal__normals_hold(const dal_step *s, int group, const num *y0)
 {
     const int m = DAL__M, n = DAL__N;
     num c0[DAL__ROOM(DAL__M + 2 * DAL__M * DAL__N)], c1[DAL__ROOM(DAL__M + 2 * DAL__M * DAL__N)];
     num g0[DAL__ROOM(DAL__M * DAL__M)], g1[DAL__ROOM(DAL__M * DAL__M)];
     dal_mask good = dal_all();
-    dal_ask(s, DAL_ASK_CONSTRAINT, s->t - s->h, y0, y0 + n, NULL, c0);
-    dal_ask(s, DAL_ASK_CONSTRAINT, s->t, s->y, s->y + n, NULL, c1);
+    dal__ask_twice(s, group, DAL_ASK_CONSTRAINT, y0, c0, c1);
     dal_gram(c0 + m, c0 + m + m * n, m, n, g0);
     dal_gram(c1 + m, c0 + m + m * n, m, n, g1);
     DAL_EACH(k, m)
@@ -111,12 +138,69 @@ DAL_INLINE dal_mask dal__normals_hold(dal_step *s, const num *y0)
     return good;
 }
 
+DAL_INLINE dal_mask dal__gauge_holds(const dal_step *s, int group, const num *y0)
+{
+    const int at_e = DAL__DIM > 2 * DAL__N ? 2 * DAL__N : 0;
+    const num e0 = y0[at_e * DAL_JOINED + group], e = s->y[at_e * DAL_JOINED + group];
+    return dal_less(dal_num(0.0), 1.0 / e0 * e) | ~dal_finite(e);
+}
+
+/* Whether a lane that goes on has failed, its finiteness apart. */
+DAL_INLINE int dal__failed(const dal__verdict *v, const dal__lanes *lanes)
+{
+    dal_mask bad = ~dal_all();
+    DAL_EACH(j, DAL_JOINED)
+        bad |= ~(v->solved.group[j] & v->gauge.group[j] & v->regular.group[j]) & lanes->group[j];
+    return v->status != DAL_OK || dal_any(bad);
+}
+
+/* ---- steps ---- */
+
 DAL_INLINE void dal__tick(dal__clock *clock, double h)
 {
     const double a = clock->time, b = h + clock->error, sum = a + b, c = sum - a;
     clock->error = (a - (sum - c)) + (b - c);
     clock->time = sum;
 }
+
+/* A step of one member from a time that all share. */
+DAL_INLINE void dal__one_step(dal_step *s, double t, double h, const dal__lanes *lanes,
+                              dal__verdict *so_far)
+{
+    num y0[DAL__DIM * DAL_JOINED];
+    DAL_EACH(i, DAL_DIM(s)) y0[i] = s->y[i];
+    s->t = t;
+    s->h = h;
+    s->alive = DAL__EXPLICIT ? dal_all() : lanes->group[0];
+    s->unconverged = ~dal_all();
+    const dal_status status = dal__method(s);
+    if (status != DAL_OK && status != DAL_NOT_CONVERGED) so_far->status = status;
+    DAL_EACH(j, DAL_JOINED) {
+        so_far->solved.group[j] &= ~s->unconverged;
+        if (DAL__LIFTED && DAL__GAUGE) so_far->gauge.group[j] &= dal__gauge_holds(s, j, y0);
+        if (DAL__GUARDS) so_far->regular.group[j] &= dal__guards_hold(s, j, y0);
+        if (DAL__WATCHED) so_far->regular.group[j] &= dal__normals_hold(s, j, y0);
+    }
+}
+
+/* Up to count steps, until one lane fails; the number that all lanes made. */
+DAL_INLINE long long dal__block(dal__team *team, double h, long long count)
+{
+    for (long long k = 0; k < count; k++) {
+        int failed = 0;
+        DAL__EACH_MEMBER
+        {
+            dal__verdict *verdict = &team->verdict[g];
+            dal__one_step(&team->step[g], team->clock.time, h, &team->lanes[g], verdict);
+            failed |= dal__failed(verdict, &team->lanes[g]);
+        }
+        dal__tick(&team->clock, h);
+        if (failed) return k;
+    }
+    return count;
+}
+
+/* ---- blocks of steps ---- */
 
 DAL_INLINE dal_mask dal__mask_of(unsigned lanes)
 {
@@ -126,101 +210,68 @@ DAL_INLINE dal_mask dal__mask_of(unsigned lanes)
     return mask;
 }
 
-/* A step of one group from a time that all share. */
-DAL_INLINE void dal__one_step(dal_step *s, double t, double h, dal_mask lanes, dal__verdict *so_far)
+/* Those of member g. */
+DAL_INLINE dal__lanes dal__lanes_of(unsigned lanes, int g)
 {
-    num y0[DAL__DIM];
-    DAL_EACH(i, DAL__DIM) y0[i] = s->y[i];
-    s->t = t;
-    s->h = h;
-    s->alive = DAL__EXPLICIT ? dal_all() : lanes;
-    s->unconverged = ~dal_all();
-    const dal_status status = dal__method(s);
-    if (status != DAL_OK && status != DAL_NOT_CONVERGED) so_far->status = status;
-    so_far->solved &= ~s->unconverged;
-    if (DAL__LIFTED && DAL__GAUGE) {
-        const num e = s->y[DAL__DIM > 2 * DAL__N ? 2 * DAL__N : 0];
-        const num e0 = y0[DAL__DIM > 2 * DAL__N ? 2 * DAL__N : 0];
-        so_far->gauge &= dal_less(dal_num(0.0), 1.0 / e0 * e) | ~dal_finite(e);
-    }
-    if (DAL__GUARDS) so_far->regular &= dal__guards_hold(s, y0);
-    if (DAL__WATCHED) so_far->regular &= dal__normals_hold(s, y0);
+    dal__lanes these;
+    DAL_EACH(j, DAL_JOINED) these.group[j] = dal__mask_of(lanes >> ((g + j) * DAL_LANES));
+    return these;
 }
 
-/* Whether a lane that goes on has failed, its finiteness apart. */
-DAL_INLINE int dal__failed(const dal__verdict *v, dal_mask lanes)
-{
-    return v->status != DAL_OK || dal_any(~(v->solved & v->gauge & v->regular) & lanes);
-}
-
-/* Up to count steps, until one lane fails; the number that all lanes made. */
-DAL_INLINE long long dal__block(dal__team *team, double h, long long count)
-{
-    for (long long k = 0; k < count; k++) {
-        int failed = 0;
-        DAL__EACH_GROUP
-        {
-            dal__verdict *verdict = &team->verdict[g];
-            dal__one_step(&team->step[g], team->clock.time, h, team->lanes[g], verdict);
-            failed |= dal__failed(verdict, team->lanes[g]);
-        }
-        dal__tick(&team->clock, h);
-        if (failed) return k;
-    }
-    return count;
-}
-
-/* The state of all groups, before the next block. */
 DAL_INLINE void dal__load_team(dal__team *team, const dal_stored *carried, const double *work,
                                unsigned lanes)
 {
-    const dal__verdict good = {DAL_OK, dal_all(), dal_all(), dal_all(), dal_all()};
+    const dal__lanes all = dal__lanes_of(~0u, 0);
+    const dal__verdict good = {DAL_OK, all, all, all, all};
     const double *const number = (const double *)carried;
     int first = 0;
-    while (first < PREFIX_LANES - 1 && !(lanes >> first & 1)) first++;
-    team->clock.time = number[DAL__AT(DAL__TIME) * PREFIX_LANES + first];
-    team->clock.error = number[DAL__AT(DAL__TIME_ERROR) * PREFIX_LANES + first];
-    DAL__EACH_GROUP
+    while (first < DAL__ALL - 1 && !(lanes >> first & 1)) first++;
+    team->clock.time = number[DAL__AT(DAL__TIME) * DAL__ALL + first];
+    team->clock.error = number[DAL__AT(DAL__TIME_ERROR) * DAL__ALL + first];
+    DAL__EACH_MEMBER
     {
         team->step[g].work = (const dal_stored *)work + g;
-        team->lanes[g] = dal__mask_of(lanes >> (g * DAL_LANES));
+        team->lanes[g] = dal__lanes_of(lanes, g);
         team->verdict[g] = good;
         dal__load_step(&team->step[g], carried + g);
+    }
+}
+
+DAL_INLINE void dal__store_team(const dal__team *team, long long steps, unsigned lanes,
+                                dal_stored *carried)
+{
+    DAL__EACH_MEMBER
+    {
+        const dal__lanes these = dal__lanes_of(lanes, g);
+        dal__store_step(&team->step[g], &team->clock, steps, &these, carried + g);
     }
 }
 
 /* Whether a lane that goes on is not finite. */
 DAL_INLINE int dal__look_at_states(dal__team *team)
 {
-    int failed = 0;
-    DAL__EACH_GROUP
-    {
-        team->verdict[g].finite = dal__finite_state(&team->step[g]);
-        failed |= dal_any(~team->verdict[g].finite & team->lanes[g]);
+    dal_mask bad = ~dal_all();
+    DAL__EACH_MEMBER
+    DAL_EACH(j, DAL_JOINED) {
+        const dal_mask finite = dal__finite_state(&team->step[g], j);
+        team->verdict[g].finite.group[j] = finite;
+        bad |= ~finite & team->lanes[g].group[j];
     }
-    return failed;
-}
-
-DAL_INLINE void dal__store_team(const dal__team *team, long long steps, unsigned lanes,
-                                dal_stored *carried)
-{
-    DAL__EACH_GROUP
-    dal__store_step(&team->step[g], &team->clock, steps, dal__mask_of(lanes >> (g * DAL_LANES)),
-                    carried + g);
+    return dal_any(bad);
 }
 
 /* Why each failing lane failed; the mask of those that did. */
 DAL_COLD unsigned dal__judge(const dal__team *team, unsigned lanes, int *why)
 {
     unsigned failed = 0;
-    for (int i = 0; i < PREFIX_LANES; i++) {
-        const dal__verdict *verdict = &team->verdict[i / DAL_LANES];
-        const int lane = i % DAL_LANES;
+    for (int i = 0; i < DAL__ALL; i++) {
+        const int group = i / DAL_LANES, lane = i % DAL_LANES, j = group % DAL_JOINED;
+        const dal__verdict *verdict = &team->verdict[group / DAL_JOINED];
         int status = DAL_OK;
-        if (!dal_mask_lane(verdict->regular, lane)) status = DAL_SINGULAR;
-        if (!dal_mask_lane(verdict->finite, lane)) status = DAL_NOT_FINITE;
-        if (!dal_mask_lane(verdict->gauge, lane)) status = DAL_GAUGE;
-        if (!dal_mask_lane(verdict->solved, lane)) status = DAL_NOT_CONVERGED;
+        if (!dal_mask_lane(verdict->regular.group[j], lane)) status = DAL_SINGULAR;
+        if (!dal_mask_lane(verdict->finite.group[j], lane)) status = DAL_NOT_FINITE;
+        if (!dal_mask_lane(verdict->gauge.group[j], lane)) status = DAL_GAUGE;
+        if (!dal_mask_lane(verdict->solved.group[j], lane)) status = DAL_NOT_CONVERGED;
         if (verdict->status != DAL_OK) status = verdict->status;
         if (status == DAL_OK || !(lanes >> i & 1)) continue;
         failed |= 1u << i;

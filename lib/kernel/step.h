@@ -41,11 +41,13 @@ typedef enum dal_question {
 
 #ifdef DAL_SPECIALISED
 
-/* The dimensions are the generated file's constants, and all memory is local. */
-#define DAL_N(s)            DAL__N
-#define DAL_NW(s)           DAL__NW
+/* The dimensions are the generated file's constants, and all memory is local.  DAL_JOINED groups of
+ * lanes are stepped as one system of so many times as many components: number i of group j is
+ * number i * DAL_JOINED + j. */
+#define DAL_N(s)            (DAL__N * DAL_JOINED)
+#define DAL_NW(s)           (DAL__NW * DAL_JOINED)
 #define DAL_M(s)            DAL__M
-#define DAL_DIM(s)          DAL__DIM
+#define DAL_DIM(s)          (DAL__DIM * DAL_JOINED)
 #define DAL_LIFTED(s)       DAL__LIFTED
 #define DAL_SOLVER(s)       DAL__SOLVER
 #define DAL_ITERATIONS(s)   DAL__ITERATIONS
@@ -64,8 +66,8 @@ typedef enum dal_question {
 
 struct dal_step {
     double t, h;
-    num y[DAL__DIM], r[DAL__DIM];
-#define X(member, count) num member[DAL__ROOM(DAL__COUNT_##count)];
+    num y[DAL__DIM * DAL_JOINED], r[DAL__DIM * DAL_JOINED];
+#define X(member, count) num member[DAL__ROOM(DAL__COUNT_##count) * DAL_JOINED];
     DAL__MEMORY_LIST(X)
 #undef X
     dal_mask alive, unconverged;

@@ -1,0 +1,23 @@
+/* ask.h - what an integrator asks, in a generated file: the answers of all groups of lanes that are
+ * stepped as one system (kernel/step.h); travels as text like stepper.h. */
+
+DAL_INLINE void dal__pick(const num *from, int group, int count, num *to)
+{
+    DAL_EACH(i, count) to[i] = from[i * DAL_JOINED + group];
+}
+
+DAL_INLINE void dal_ask(dal_step *s, dal_question question, double t, const num *q, const num *v,
+                        const num *pi, num *out)
+{
+    if (DAL_JOINED == 1) {
+        dal__ask_group(s->work, question, t, q, v, pi, out);
+        return;
+    }
+    DAL_EACH(j, DAL_JOINED) { /* what joined systems are asked for is the field */
+        num q_[DAL__N], v_[DAL__NW], answer[DAL__NW];
+        dal__pick(q, j, DAL__N, q_);
+        dal__pick(v, j, DAL__NW, v_);
+        dal__ask_group(s->work + j, question, t, q_, v_, NULL, answer);
+        DAL_EACH(i, DAL__NW) out[i * DAL_JOINED + j] = answer[i];
+    }
+}
