@@ -137,10 +137,9 @@ DAL_INLINE num dal_fma(num a, num b, num c) { return __builtin_fma(a, b, c); }
 #elif defined __FMA__
 #define DAL__REGISTER      2
 #define DAL__FUSE(a, b, c) __builtin_ia32_vfmaddpd(a, b, c)
-#else
-#define DAL__REGISTER      1
-#define DAL__FUSE(a, b, c) ((dal__register){__builtin_fma((a)[0], (b)[0], (c)[0])})
 #endif
+
+#ifdef DAL__FUSE
 typedef double dal__register __attribute__((vector_size(8 * DAL__REGISTER)));
 
 DAL_INLINE num dal_fma(num a, num b, num c)
@@ -153,6 +152,14 @@ DAL_INLINE num dal_fma(num a, num b, num c)
         x.part[i] = DAL__FUSE(x.part[i], y.part[i], z.part[i]);
     return x.all;
 }
+#else
+DAL_INLINE num dal_fma(num a, num b, num c)
+{
+    num r = a;
+    for (int lane = 0; lane < DAL_LANES; lane++) r[lane] = __builtin_fma(a[lane], b[lane], c[lane]);
+    return r;
+}
+#endif
 DAL_INLINE num dal_abs(num x) { return (num)((dal_mask)x & INT64_MAX); }
 DAL_INLINE num dal_sqrt(num x)
 {
