@@ -153,6 +153,45 @@ static void test_kept(void)
     dal_model_free(model);
 }
 
+/* ---- lanes ---- */
+
+enum { LANES = 9 }; /* a block of eight, and one alone */
+
+static void check_lanes(const char *name, const dal_method *method, void *user)
+{
+    double state[64];
+    dal_batch *batch = NULL;
+    if (!fixture_serves(method, user, DAL_PHYSICAL)) return;
+    dal_run_spec spec = fixture_spec(user, name, DAL_PHYSICAL, 0.05);
+    spec.start_count = 1;
+    spec.start = &(dal_setting){"u", 0.0};
+    CU_ASSERT_EQUAL_FATAL(dal_batch_create(&batch, &spec, LANES, 0, NULL), DAL_OK);
+    for (int i = 0; i < LANES; i++) {
+        const dal_setting start = {"u", 0.1 * i};
+        CU_ASSERT_EQUAL(dal_batch_start(batch, i, NULL, 0, &start, 1, NULL), DAL_OK);
+    }
+    CU_ASSERT_EQUAL(dal_batch_advance(batch, 10), DAL_OK);
+    for (int i = 0; i < LANES; i++) {
+        spec.start = &(dal_setting){"u", 0.1 * i};
+        dal_run *run = fixture_run(&spec);
+        CU_ASSERT_EQUAL(dal_run_advance(run, 10, NULL), DAL_OK);
+        dal_batch_state(batch, i, state);
+        const size_t bytes = (size_t)dal_run_dimension(run) * sizeof *state;
+        const bool same = memcmp(state, dal_run_state(run), bytes) == 0;
+        if (!same) printf("\n  %s: lane %d has other bits\n", name, i);
+        CU_ASSERT(same);
+        dal_run_free(run);
+    }
+    dal_batch_free(batch);
+}
+
+static void test_lanes(void)
+{
+    dal_model *model = fixture_model(conservative);
+    for_each_modified(check_lanes, (void *)fixture_system(model));
+    dal_model_free(model);
+}
+
 /* ---- a failed step changes nothing ---- */
 
 /* x falls through 0.3, where the potential ends. */
@@ -231,6 +270,7 @@ void suite_conformance(void)
     CU_add_test(suite, "modifiers: order", test_order);
     CU_add_test(suite, "modifiers: symmetric", test_symmetric);
     CU_add_test(suite, "modifiers: D and E", test_kept);
+    CU_add_test(suite, "modifiers: lanes have the bits of single runs", test_lanes);
     CU_add_test(suite, "a step that fails changes nothing", test_untouched);
     CU_add_test(suite, "refused with the reason", test_refused);
 }
