@@ -188,7 +188,8 @@ DAL_INLINE void dal__pack_max(dal__pack *part, const dal__pack *x)
 }
 DAL_INLINE int dal__norm_packs(const num *x, int count, num *norm)
 {
-    dal__pack part[4] = {{0}}; /* four at a time: each waits for itself alone */
+    if (count < DAL__PACK) return 0; /* the rest would cost more than a few numbers do */
+    dal__pack part[4] = {{0}};       /* four at a time: each waits for itself alone */
     int i = 0;
     for (; i + 4 * DAL__PACK <= count; i += 4 * DAL__PACK)
         for (int k = 0; k < 4; k++)
