@@ -3,6 +3,7 @@
 #     make                  build/dalembert, build/libdalembert.a, build/libdalembert.so
 #     make check            all tests; the CUnit summary comes last
 #     make check-sanitize   the tests under the address and undefined-behaviour sanitizers
+#     make check-bits       generated code in every way, hours: BITS_JOBS at a time
 #     make check-valgrind   the CUnit suites under valgrind
 #     make fuzz             each fuzz target for FUZZ_SECONDS
 #     make lint             the rules of the house
@@ -169,6 +170,11 @@ check-sanitize:
 	$(MAKE) BUILD=$(BUILD)/sanitize CFLAGS="$(CHECKED) -fsanitize=address,undefined" \
 	    RUN_SUITE= check
 
+# build/tests/suite --bits 3/500 compares a five-hundredth of it.
+BITS_JOBS ?= $(shell nproc)
+check-bits: $(BUILD)/tests/suite
+	@seq $(BITS_JOBS) | xargs -P $(BITS_JOBS) -I{} $< --bits {}/$(BITS_JOBS)
+
 VALGRIND = valgrind -q --error-exitcode=99 --leak-check=full
 check-valgrind: $(BUILD)/tests/suite
 	$(VALGRIND) $(BUILD)/tests/suite --quick $(SUITE)
@@ -223,7 +229,7 @@ clean:
 include bench/bench.mk
 
 FORCE:
-.PHONY: all check check-sanitize check-valgrind fuzz run-fuzzers lint install uninstall clean FORCE
+.PHONY: all check check-bits check-sanitize check-valgrind fuzz run-fuzzers lint install uninstall clean FORCE
 .SECONDARY:
 
 -include $(LIB_OBJ:.o=.d) $(CLI_OBJ:.o=.d) $(TEST_OBJ:.o=.d) $(FUZZERS:%=$(BUILD)/tests/%.d)

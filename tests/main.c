@@ -1,5 +1,6 @@
-/* main.c - runs the CUnit suites: all, or those named; --list names them, --quick cuts long runs.
- */
+/* main.c - runs the CUnit suites: all, or those named; --list names them, --quick cuts long runs;
+ * --bits PART/PARTS compares generated code instead, see bits.h. */
+#include "bits.h"
 #include "quick.h"
 
 #include <CUnit/Basic.h>
@@ -38,6 +39,7 @@ static int list(void)
 int main(int argc, char **argv)
 {
     if (argc == 2 && strcmp(argv[1], "--list") == 0) return list();
+    if (argc == 3 && strcmp(argv[1], "--bits") == 0) return bits_part(argv[2]);
     if (argc > 1 && strcmp(argv[1], "--quick") == 0) quick = 1, argc--, argv++;
     if (CU_initialize_registry() != CUE_SUCCESS) return 2;
     for (int i = 1; i < argc; i++)
