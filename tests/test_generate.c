@@ -48,6 +48,11 @@ static void test_refusals(void)
     CU_ASSERT_EQUAL(generate(&spec, 1, "", &error), DAL_ARGUMENT);
     CU_ASSERT_EQUAL(generate(&spec, 1, "a b", &error), DAL_ARGUMENT);
     CU_ASSERT_EQUAL(generate(&spec, 1, "_a", &error), DAL_ARGUMENT);
+    CU_ASSERT_EQUAL(generate(&spec, 1, "9a", &error), DAL_ARGUMENT);
+    CU_ASSERT_EQUAL(generate(&spec, 1, "a;b", &error), DAL_ARGUMENT);
+    CU_ASSERT_EQUAL(generate(&spec, 1, "dal", &error), DAL_ARGUMENT);
+    CU_ASSERT_EQUAL(generate(&spec, 1, "DAL_", &error), DAL_ARGUMENT);
+    CU_ASSERT_EQUAL(generate(&spec, 1, "dalton", &error), DAL_OK);
     other.system = &by_hand;
     CU_ASSERT_EQUAL(generate(&other, 1, NULL, &error), DAL_UNSUPPORTED);
     CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "chaplygin-sleigh"));
@@ -76,6 +81,55 @@ static void test_every_method(void)
         const bool serves = fixture_serves(&other.method, spec.system, other.options.space);
         CU_ASSERT_EQUAL(generate(&other, 8, NULL, &error), serves ? DAL_OK : DAL_UNSUPPORTED);
     }
+}
+
+/* Whatever a file, and so a system, is called: the names in the text are C. */
+static void test_odd_names(void)
+{
+    static const char *const odd[] = {"3body",    "dal", "DAL_", "_x", "a b;system(\"x\")",
+                                      "*/ int x;"};
+    dal_error error;
+    for (size_t i = 0; i < sizeof odd / sizeof *odd; i++) {
+        dal_system other = *spec.system;
+        dal_run_spec with = spec;
+        char *text = NULL;
+        other.name = odd[i];
+        other.title = NULL;
+        with.system = &other;
+        CU_ASSERT_EQUAL(dal_generate(&with, 1, NULL, &text, &error), DAL_OK);
+        if (!text) continue;
+        const char *name = strstr(text, "typedef struct ") + strlen("typedef struct ");
+        const size_t length = strspn(name, "abcdefghijklmnopqrstuvwxyzADL0123456789_");
+        CU_ASSERT(name[0] >= 'a' && name[0] <= 'z' && strncmp(name, "dal_", 4) != 0);
+        CU_ASSERT_EQUAL(strncmp(name + length, " {", 2), 0);
+        free(text);
+    }
+}
+
+/* Terms of a force, each of other frequency: more than straight-line code can be made of. */
+static void test_too_large(void)
+{
+    enum { TERMS = 4000, ROOM = 32 };
+    char *formula = malloc(TERMS * ROOM), *end = formula;
+    dal_model *large = dal_model_create("large");
+    dal_run_spec of = {.options = dal_options_default()};
+    dal_run *run = NULL;
+    dal_error error;
+    for (int i = 0; i < TERMS; i++) end += snprintf(end, ROOM, "+ sin(%d*x)", i + 2);
+    dal_model_add(large, DAL_SECTION_COORDINATES, NULL, "x", 0, 0, &error);
+    dal_model_add(large, DAL_SECTION_LAGRANGIAN, NULL, "x'^2/2", 0, 0, &error);
+    dal_model_add(large, DAL_SECTION_FORCES, "x", formula + 1, 0, 0, &error);
+    CU_ASSERT_EQUAL_FATAL(dal_model_system(large, &of.system, &error), DAL_OK);
+    CU_ASSERT_EQUAL(dal_method_parse(&of.method, "rk4", &error), DAL_OK);
+    CU_ASSERT_EQUAL(generate(&of, 1, NULL, &error), DAL_TOO_LARGE);
+    CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "'large' is too large for straight-line code"));
+    CU_ASSERT_EQUAL_FATAL(dal_run_create(&run, &of, &error), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_native(run, &(dal_native_options){.cache = "/nowhere"}, &error),
+                    DAL_TOO_LARGE);
+    CU_ASSERT_EQUAL(dal_run_step(run, &error), DAL_OK);
+    dal_run_free(run);
+    dal_model_free(large);
+    free(formula);
 }
 
 static void test_memory(void)
@@ -112,6 +166,8 @@ void suite_generate(void)
     CU_pSuite suite = CU_add_suite("generate", set_up, tear_down);
     CU_add_test(suite, "what cannot be generated is refused", test_refusals);
     CU_add_test(suite, "every integrator", test_every_method);
+    CU_add_test(suite, "systems with odd names", test_odd_names);
+    CU_add_test(suite, "a system too large", test_too_large);
     CU_add_test(suite, "memory runs out", test_memory);
     CU_add_test(suite, "numbers keep their bits", test_numbers);
 }
