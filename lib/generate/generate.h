@@ -46,6 +46,11 @@ bool dal__wants(const dal__generation *g, dal__program_code code);
 #define DAL__NATIVE_PREFIX "dal_native"
 dal_status dal__generate_native(const dal_run_spec *spec, int lanes, char **text, dal_error *error);
 
+/* ---- prefix.c ---- */
+
+/* A prefix of the caller's, or (NULL) SYSTEM_METHOD.  Errors: DAL_ARGUMENT. */
+dal_status dal__choose_prefix(dal__generation *g, const char *prefix, dal_error *error);
+
 /* ---- interface.c: what a caller sees ---- */
 void dal__put_interface(dal__generation *g);
 void dal__put_names(dal__generation *g);
