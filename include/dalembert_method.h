@@ -28,7 +28,9 @@ enum {
     DAL_NEEDS_PARTS = 1 << 4,      /* the parts of F; there is no such method off p = pi = 0 */
     DAL_NEEDS_POTENTIAL = 1 << 5,  /* U, and a constant W */
     DAL_NEEDS_ISOKINETIC = 1 << 6, /* DAL_D_ISOKINETIC */
-    DAL_NEEDS_ENERGY = 1 << 7      /* an energy that is conserved, and its normal */
+    DAL_NEEDS_ENERGY = 1 << 7,     /* an energy that is conserved, and its normal */
+    DAL_NEEDS_JACOBIAN = 1 << 8,   /* F_q and F_v, on the lifted space */
+    DAL_NEEDS_RUNGE_KUTTA = 1 << 9 /* an explicit method that calls dal_field alone */
 };
 
 struct dal_step; /* dalembert_kernel.h */

@@ -119,7 +119,9 @@ void fixture_displace(dal_run *run, double size)
 const char *fixture_method(int i, char *name, size_t size)
 {
     const dal_integrator *k = dal_integrator_at(i);
-    const char *inside = k->needs & DAL_NEEDS_ORDER_2 ? "stormer-verlet+" : "gauss4+";
+    const char *inside = k->needs & DAL_NEEDS_ORDER_2       ? "stormer-verlet+"
+                         : k->needs & DAL_NEEDS_RUNGE_KUTTA ? "rk4+"
+                                                            : "gauss4+";
     snprintf(name, size, "%s%s", k->claims & DAL_MODIFIER ? inside : "", k->name);
     return name;
 }

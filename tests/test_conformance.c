@@ -42,6 +42,8 @@ typedef void visitor(const char *name, const dal_method *method, void *user);
 static bool takes(const dal_integrator *modifier, const dal_integrator *inside)
 {
     if (modifier->needs & DAL_NEEDS_SYMMETRIC && !(inside->claims & DAL_SYMMETRIC)) return false;
+    if (modifier->needs & DAL_NEEDS_RUNGE_KUTTA)
+        return (inside->claims & DAL_COMPONENTWISE) && !(inside->claims & DAL_SYMPLECTIC);
     return !(modifier->needs & DAL_NEEDS_ORDER_2) || inside->order == 2;
 }
 

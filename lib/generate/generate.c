@@ -54,6 +54,12 @@ bool dal__uses_newton(const dal__generation *g)
            g->programs->program[DAL__PROGRAM_JACOBIAN].present;
 }
 
+/* A modifier steps tangent vectors in the place of the momenta. */
+static bool follows_tangents(const dal__generation *g)
+{
+    return g->shape.lifted && (dal_method_needs(&g->spec->method) & DAL_NEEDS_JACOBIAN);
+}
+
 bool dal__wants(const dal__generation *g, dal__program_code code)
 {
     const bool watched = g->shape.system->properties & DAL_D_WATCHED;
@@ -64,7 +70,7 @@ bool dal__wants(const dal__generation *g, dal__program_code code)
     case DAL__PROGRAM_GAUGE:
         return g->shape.lifted;
     case DAL__PROGRAM_JACOBIAN:
-        return dal__uses_newton(g);
+        return dal__uses_newton(g) || follows_tangents(g);
     case DAL__PROGRAM_CONSTRAINT:
         return watched || imposes || dal__method_uses(g, "DAL_ASK_CONSTRAINT");
     case DAL__PROGRAM_PARTS:
@@ -202,6 +208,18 @@ static void put_lanes(dal__generation *g)
                     is_joined(g) ? "DAL_GROUPS" : "1");
 }
 
+/* What the kernel takes from the public header. */
+static void put_enums(dal__generation *g)
+{
+    dal__text_put(&g->text, "\ntypedef enum dal_status {\n");
+#define X(code, words) dal__text_put(&g->text, "    DAL_" #code ",\n");
+    DAL_STATUS_LIST(X)
+#undef X
+    dal__text_put(&g->text, "    DAL_STATUS_COUNT\n} dal_status;\n"
+                            "enum { DAL_SOLVER_AUTO, DAL_FIXED_POINT, DAL_NEWTON };\n");
+    dal__text_print(&g->text, "enum { DAL_PARTS_POSITIONAL = %d };\n\n", DAL_PARTS_POSITIONAL);
+}
+
 static void put_constants(dal__generation *g)
 {
     const dal__shape *k = &g->shape;
@@ -225,6 +243,7 @@ static void put_constants(dal__generation *g)
         {"PROPERTIES", (int)k->system->properties},
         {"REACTION", k->reaction},
         {"NEWTON", dal__uses_newton(g)},
+        {"TANGENT", follows_tangents(g)},
         {"EXPLICIT", is_explicit && k->depth == 1 && !(solves && k->lifted)},
         {"GUARDS", k->system->guards},
         {"WATCHED", k->m > 0 && dal__wants(g, DAL__PROGRAM_CONSTRAINT) &&
@@ -234,13 +253,6 @@ static void put_constants(dal__generation *g)
     put_lanes(g);
     for (size_t i = 0; i < sizeof list / sizeof *list; i++)
         dal__text_print(&g->text, "#define DAL__%s %d\n", list[i].name, list[i].value);
-    dal__text_put(&g->text, "\ntypedef enum dal_status {\n");
-#define X(code, words) dal__text_put(&g->text, "    DAL_" #code ",\n");
-    DAL_STATUS_LIST(X)
-#undef X
-    dal__text_put(&g->text, "    DAL_STATUS_COUNT\n} dal_status;\n"
-                            "enum { DAL_SOLVER_AUTO, DAL_FIXED_POINT, DAL_NEWTON };\n");
-    dal__text_print(&g->text, "enum { DAL_PARTS_POSITIONAL = %d };\n\n", DAL_PARTS_POSITIONAL);
 }
 
 /* The parts of the kernel that the method needs. */
@@ -303,6 +315,7 @@ static void put_steps(dal__generation *g)
     dal__put_template(g, compiler);
     put_unrolling(g);
     put_constants(g);
+    put_enums(g);
     put_kernel(g);
     dal__put_answers(g);
     put_method(g);

@@ -52,6 +52,7 @@ typedef enum dal_question {
 #define DAL_SOLVER(s)       DAL__SOLVER
 #define DAL_ITERATIONS(s)   DAL__ITERATIONS
 #define DAL_MAY_NEWTON(s)   DAL__NEWTON
+#define DAL_TANGENT(s)      DAL__TANGENT
 #define DAL_PROPERTIES(s)   DAL__PROPERTIES
 #define DAL_STAGES(t)       DAL__STAGES
 #define DAL__ROOM(count)    ((count) > 0 ? (count) : 1)
@@ -61,6 +62,7 @@ typedef enum dal_question {
 #define DAL__COUNT_REACTION DAL__REACTION
 
 #define DAL_VECTOR(step, name, count) num name[DAL__ROOM(count)]
+#define DAL_SET_TANGENT(step, on)     (void)0
 #define DAL_MARK(step)                (void)0
 #define DAL_RELEASE(step)             (void)0
 
@@ -113,6 +115,7 @@ DAL_INLINE void dal_ask(dal_step *s, dal_question question, double t, const num 
 #define DAL_LIFTED(s)     ((s)->lifted)
 #define DAL_SOLVER(s)     ((s)->solver)
 #define DAL_ITERATIONS(s) ((s)->iterations)
+#define DAL_TANGENT(s)    ((s)->tangent)
 #define DAL_MAY_NEWTON(s) ((s)->has_jacobian && (s)->solver != DAL_FIXED_POINT)
 #define DAL_PROPERTIES(s) ((s)->properties)
 #define DAL_STAGES(t)     ((t)->stages) /* of a tableau */
@@ -120,8 +123,9 @@ DAL_INLINE void dal_ask(dal_step *s, dal_question question, double t, const num 
 struct dal_step {
     double t, h; /* where the step begins, and its size; dal_update moves t */
     int n, nw, m, dim;
-    int lifted; /* 1 on the canonical space */
-    num *y, *r; /* [dim] */
+    int lifted;  /* 1 on the canonical space */
+    int tangent; /* 1 while p, pi hold a tangent vector (dq, dv) */
+    num *y, *r;  /* [dim] */
 
     /* Carried from step to step beside the state, see carried.h. */
 #define X(member, count)  num *member;
@@ -162,12 +166,14 @@ DAL_INLINE num *dal_scratch(dal_step *s, int count)
 #define DAL_VECTOR(step, name, count)                                                              \
     num *const name = dal_scratch((step), (count));                                                \
     if (DAL_RARELY(!name)) return DAL_MEMORY
+/* From now on dal_field steps a tangent vector in the place of p and pi, or no longer. */
+#define DAL_SET_TANGENT(step, on) (step)->tangent = (on)
 /* From DAL_RELEASE on the vectors since DAL_MARK are gone. */
-#define DAL_MARK(step)    const size_t dal__mark = (step)->used
-#define DAL_RELEASE(step) (step)->used = dal__mark
+#define DAL_MARK(step)            const size_t dal__mark = (step)->used
+#define DAL_RELEASE(step)         (step)->used = dal__mark
 
 /* A copy of what the method remembers, and back from the copy in some lanes. */
-#define DAL_REMEMBERED(s) ((s)->remembered)
+#define DAL_REMEMBERED(s)         ((s)->remembered)
 DAL_INLINE void dal_remember(const dal_step *s, num *to)
 {
     DAL_EACH(i, s->remembered) to[i] = s->memory[i];
@@ -227,6 +233,27 @@ DAL_INLINE num dal_gauge_rate(const num *pi, int n, num w)
     return 0.5 * dal_square(pi, n) * (w * w);
 }
 
+/* The field of x' = f, dx' = Df dx, with the tangent vector dx in the place of p and pi. */
+DAL_INLINE dal_status dal__tangent_field(dal_step *s, double t, const num *y, num *DAL_RESTRICT dy)
+{
+    const int n = DAL_N(s), dq = dal_at_p(s), dv = dal_at_pi(s);
+    DAL_MARK(s);
+    DAL_VECTOR(s, jacobian, 2 * DAL_N(s) * DAL_N(s));
+    dal_force(s, t, y, y + n, dy + n);
+    dal_ask(s, DAL_ASK_JACOBIAN, t, y, y + n, NULL, jacobian);
+    DAL_EACH(i, n) {
+        num sum = dal_num(0.0);
+        DAL_EACH(j, n) sum = dal_fma(jacobian[i * n + j], y[dq + j], sum);
+        DAL_EACH(j, n) sum = dal_fma(jacobian[(n + i) * n + j], y[dv + j], sum);
+        dy[dq + i] = y[dv + i];
+        dy[dv + i] = sum;
+    }
+    dy[dal_at_e(s)] = dal_mu_e(s, t);
+    dy[dal_at_pi_e(s)] = dal_num(0.0);
+    DAL_RELEASE(s);
+    return DAL_OK;
+}
+
 /* The whole first-order field in the space of the run (theory.md, 2), dy[dim]:
  *     q' = v   v' = F + pi/e   e' = mu_e   p' = -F_q^T pi   pi' = -p - F_v^T pi   pi_e' = pi^2/2e^2
  */
@@ -238,6 +265,7 @@ DAL_INLINE dal_status dal_field(dal_step *s, double t, const num *y, num *DAL_RE
         dal_force(s, t, y, y + n, dy + n);
         return DAL_OK;
     }
+    if (DAL_TANGENT(s)) return dal__tangent_field(s, t, y, dy);
     DAL_MARK(s);
     DAL_VECTOR(s, f, 3 * DAL_N(s));
     const num *p = y + dal_at_p(s), *pi = y + dal_at_pi(s);

@@ -83,6 +83,8 @@ static dal_status check_needs(const dal__shape *k, dal_error *error)
     if ((needs & DAL_NEEDS_CONSTRAINT) && k->m > 0 && !call->constraint)
         return refuse(error, k, "constraint callback");
     if (needs & DAL_NEEDS_ENERGY) DAL_TRY(check_energy(k, error));
+    if ((needs & DAL_NEEDS_JACOBIAN) && k->lifted && !call->jacobian)
+        return refuse(error, k, "jacobian");
     if (k->options.solver == DAL_NEWTON && !call->jacobian)
         return refuse(error, k, "jacobian, which the solver newton needs");
     return needs & DAL_NEEDS_PARTS ? check_parts(k, needs, error) : DAL_OK;
@@ -123,6 +125,12 @@ static dal_status check_options(const dal_options *o, dal_error *error)
     return DAL_OK;
 }
 
+/* Those that are symplectic treat p and pi in other ways than q and v. */
+static bool is_runge_kutta(unsigned claims)
+{
+    return (claims & DAL_EXPLICIT) && (claims & DAL_COMPONENTWISE) && !(claims & DAL_SYMPLECTIC);
+}
+
 /* A modifier must suit the method inside it, parts 0..depth-1 of the chain. */
 static dal_status check_inside(const dal_method *method, int depth, dal_error *error)
 {
@@ -139,6 +147,11 @@ static dal_status check_inside(const dal_method *method, int depth, dal_error *e
         return dal__error(error, DAL_UNSUPPORTED, 0, 0,
                           "+%s needs a method of order 2: %s is of order %d", outer->name, name,
                           order);
+    if ((outer->needs & DAL_NEEDS_RUNGE_KUTTA) && !is_runge_kutta(dal_method_claims(&inside)))
+        return dal__error(error, DAL_UNSUPPORTED, 0, 0,
+                          "+%s needs an explicit Runge-Kutta method that is not symplectic by "
+                          "itself: %s is not one",
+                          outer->name, name);
     return DAL_OK;
 }
 

@@ -56,6 +56,8 @@ same contact-oscillator stormer-verlet+yoshida4+project lifted 4 gcc -std=c11 -O
 same nonholonomic-particle implicit-midpoint+sofroniou10 lifted 1 gcc -std=c11 -O2
 same knife-edge bm6 lifted 2 gcc -std=c11 -O1
 same isokinetic lobatto6 lifted 2 gcc -std=c11 -O1
+same contact-oscillator rk4+lift lifted 2 gcc -std=c11 -O1
+same knife-edge dop853 lifted 1 clang -std=c11 -O1
 
 # What a microcontroller must supply.
 if there gcc; then

@@ -1,0 +1,104 @@
+/* lift.c - the modifier NAME+lift: the exact cotangent lift of an explicit Runge-Kutta step.
+ *
+ *     x1 = Phi(x),   P1 = DPhi(x)^-T P                 x = (q, v), P = (p, pi), Phi = step of NAME
+ *
+ * is symplectic whatever Phi is, and on P = 0 has the bits of NAME.  The columns of DPhi come from
+ * Phi itself: a Runge-Kutta step of  x' = f, dx' = Df dx  is (Phi, DPhi dx) exactly.  With columns
+ * c_j = DPhi u_j - u_j of the unit vectors,
+ *
+ *     (1 + C)^T d = -C^T P,   P1 = P + d
+ *
+ * The rest of H, pi^2/(2e), is a flow v' = pi/e, pi_e' = pi^2/(2e^2), half before and half after
+ * (Strang 1968).  Sanz-Serna, SIAM Rev. 58 (2016) 3, has the principle.  Order: that of NAME on
+ * p = pi = 0 and where 1/e = 0, else 2.  Costs 2n steps of NAME with F_q, F_v. */
+#include <dalembert_kernel.h>
+
+/* The flow of pi^2/(2e) over a time h; where it stands still, q, v keep the bits of NAME. */
+DAL_INLINE dal_status drift(dal_step *s, double h)
+{
+    const int n = DAL_N(s);
+    const num *pi = s->y + dal_at_pi(s), w = 1.0 / s->y[dal_at_e(s)];
+    num rate = h * dal_gauge_rate(pi, n, w);
+    DAL_VECTOR(s, d, DAL_N(s));
+    DAL_EACH(i, n) d[i] = h * (pi[i] * w);
+    const dal_mask alive = s->alive;
+    s->alive &= ~dal_equal(rate, dal_num(0.0));
+    dal_add(s, n, n, d);
+    dal_add(s, dal_at_pi_e(s), 1, &rate);
+    s->alive = alive;
+    return DAL_OK;
+}
+
+/* Puts numbers into the state, in the lanes alive. */
+DAL_INLINE void put(dal_step *s, int first, int count, const num *y, const num *r)
+{
+    DAL_EACH(i, count) {
+        s->y[first + i] = dal_select(s->alive, y[i], s->y[first + i]);
+        s->r[first + i] = dal_select(s->alive, r[i], s->r[first + i]);
+    }
+}
+
+/* column = DPhi u - u, u the unit vector number j; unit and zero are scratch, [2n]. */
+DAL_INLINE dal_status differentiate(dal_step *s, int j, num *unit, num *zero, num *column)
+{
+    const int p = dal_at_p(s), size = 2 * DAL_N(s);
+    for (int i = 0; i < size; i++) unit[i] = dal_num(i == j);
+    for (int i = 0; i < size; i++) zero[i] = dal_num(0.0);
+    put(s, p, size, unit, zero);
+    DAL_SET_TANGENT(s, 1);
+    const dal_status status = dal_inner(s, s->h);
+    DAL_SET_TANGENT(s, 0);
+    for (int i = 0; i < size; i++) column[i] = (s->y[p + i] - unit[i]) + s->r[p + i];
+    return status;
+}
+
+/* d = -(1 + C)^-T C^T P; the columns are the rows of C^T and become those of (1 + C)^T. */
+DAL_INLINE dal_status pull(dal_step *s, num *columns, const num *momenta, num *d)
+{
+    const int size = 2 * DAL_N(s);
+    DAL_VECTOR(s, inverse, 4 * DAL_N(s) * DAL_N(s));
+    DAL_VECTOR(s, image, 2 * DAL_N(s));
+    dal_multiply(columns, size, size, momenta, image);
+    for (int i = 0; i < size; i++) columns[i * size + i] += 1.0;
+    dal_invert(columns, inverse, size);
+    dal_multiply(inverse, size, size, image, d);
+    for (int i = 0; i < size; i++) d[i] = -d[i];
+    return DAL_OK;
+}
+
+/* (x, e, P) -> (Phi(x), e1, DPhi^-T P) */
+DAL_INLINE dal_status flow(dal_step *s)
+{
+    const int p = dal_at_p(s), size = 2 * DAL_N(s);
+    const double t = s->t;
+    DAL_VECTOR(s, y, 4 * DAL_N(s) + 1);
+    DAL_VECTOR(s, r, 4 * DAL_N(s) + 1);
+    DAL_VECTOR(s, columns, 4 * DAL_N(s) * DAL_N(s));
+    DAL_VECTOR(s, unit, 2 * DAL_N(s));
+    DAL_VECTOR(s, d, 2 * DAL_N(s));
+    for (int i = 0; i < p + size; i++) y[i] = s->y[i];
+    for (int i = 0; i < p + size; i++) r[i] = s->r[i];
+    for (int j = 0; j < size; j++) {
+        put(s, 0, p, y, r);
+        s->t = t;
+        DAL_TRY(differentiate(s, j, unit, d, columns + j * size));
+    }
+    DAL_TRY(pull(s, columns, y + p, d));
+    put(s, p, size, y + p, r + p);
+    dal_add(s, p, size, d);
+    return DAL_OK;
+}
+
+DAL_INLINE dal_status step(dal_step *s)
+{
+    if (!DAL_LIFTED(s)) return dal_inner(s, s->h);
+    DAL_TRY(drift(s, 0.5 * s->h));
+    DAL_TRY(flow(s));
+    return drift(s, 0.5 * s->h);
+}
+
+DAL_INTEGRATOR(
+    lift, step, .name = "lift",
+    .summary = "cotangent lift of an explicit Runge-Kutta method; order 2 off p = pi = 0",
+    .reference = "Sanz-Serna 2016", .stages = 4, .claims = DAL_MODIFIER | DAL_SYMPLECTIC,
+    .needs = DAL_NEEDS_RUNGE_KUTTA | DAL_NEEDS_JACOBIAN, .inherits = DAL_EXPLICIT);
