@@ -14,6 +14,7 @@
  *     dal_collocation                        lib/kernel/collocation.h   implicit Runge-Kutta steps
  *     dal_substeps                           lib/kernel/composition.h   steps made of steps
  *     dal_parts, dal_react, dal_impose       lib/kernel/constrained.h   steps that impose D
+ *     dal_spark_advance                      lib/kernel/spark.h         the same with stages
  *
  * A file ends with one DAL_INTEGRATOR for each method in it; one line in integrators.def (or,
  * outside the tree, the descriptor's address in a dal_method) makes it known. */
@@ -39,6 +40,8 @@
 #include "../lib/kernel/composition.h"
 
 #include "../lib/kernel/constrained.h"
+
+#include "../lib/kernel/spark.h"
 
 /* DAL_INTEGRATOR(NAME, step function, the descriptor's other members): defines the constant
  * descriptor dal_integrator_NAME; the other variants are seen by the library's registry only, under

@@ -18,7 +18,7 @@ typedef struct rattle {
     num *after;            /* parts at (q1, v1) */
 } rattle;
 
-DAL_INLINE void map(dal_step *s, dal_equation *eq)
+DAL_INLINE void rattle_map(dal_step *s, dal_equation *eq)
 {
     rattle *k = (rattle *)eq->context;
     const int n = DAL_N(s), m = DAL_M(s);
@@ -31,7 +31,7 @@ DAL_INLINE void map(dal_step *s, dal_equation *eq)
 }
 
 /* The first half of the step. */
-DAL_INLINE dal_status begin(dal_step *s, num *kick)
+DAL_INLINE dal_status rattle_begin(dal_step *s, num *kick)
 {
     const int n = DAL_N(s), m = DAL_M(s);
     DAL_VECTOR(s, before, DAL_PARTS(s));
@@ -57,10 +57,10 @@ DAL_INLINE dal_status step(dal_step *s)
     DAL_REACTION(s, reaction, 0.5 * s->h, 0.0);
     rattle k = {reaction, kick, q1, v1, after};
     dal_equation eq = dal_velocity_equation(s, block, &k);
-    DAL_TRY(begin(s, kick));
+    DAL_TRY(rattle_begin(s, kick));
     DAL_EACH(i, n) d[i] = h * dal_moved_v(s, i, kick[i]);
     DAL_EACH(i, n) q1[i] = dal_moved_q(s, i, d[i]);
-    DAL_TRY(dal_impose(s, &eq, map, dal_positional(s)));
+    DAL_TRY(dal_impose(s, &eq, rattle_map, dal_positional(s)));
     DAL_EACH(i, n) d[n + i] = eq.block[0].u[i];
     dal_carry_multipliers(s, k.reaction.mu);
     return dal_update(s, h, d);

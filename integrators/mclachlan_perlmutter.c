@@ -26,7 +26,7 @@ DAL_INLINE void take_mean(const dal_step *s, const leap *k)
     DAL_EACH(i, n * m) k->reaction.normals[i] = half * (k->before[B + i] + after[B + i]);
 }
 
-DAL_INLINE void map(dal_step *s, dal_equation *eq)
+DAL_INLINE void leap_map(dal_step *s, dal_equation *eq)
 {
     leap *k = (leap *)eq->context;
     const int n = DAL_N(s);
@@ -59,7 +59,7 @@ DAL_INLINE dal_status step(dal_step *s)
     DAL_EACH(i, n) qh[i] = dal_moved_q(s, i, 0.5 * h * s->y[n + i]);
     dal_parts(s, s->t + 0.5 * h, qh, s->y + n, before);
     take_mean(s, &k);
-    DAL_TRY(dal_impose(s, &eq, map, DAL_M(s) == 0 && dal_positional(s)));
+    DAL_TRY(dal_impose(s, &eq, leap_map, DAL_M(s) == 0 && dal_positional(s)));
     DAL_EACH(i, n) d[n + i] = eq.block[0].u[i];
     DAL_EACH(i, n) d[i] = 0.5 * h * (s->y[n + i] + dal_moved_v(s, i, d[n + i]));
     return dal_update(s, h, d);

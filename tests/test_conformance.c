@@ -44,6 +44,9 @@ static bool takes(const dal_integrator *modifier, const dal_integrator *inside)
     if (modifier->needs & DAL_NEEDS_SYMMETRIC && !(inside->claims & DAL_SYMMETRIC)) return false;
     if (modifier->needs & DAL_NEEDS_RUNGE_KUTTA)
         return (inside->claims & DAL_COMPONENTWISE) && !(inside->claims & DAL_SYMPLECTIC);
+    const bool turns_D = inside->claims & DAL_KEEPS_D_MIDPOINT && !(inside->claims & DAL_KEEPS_D);
+    const unsigned projects = DAL_NEEDS_SYMMETRIC | DAL_NEEDS_CONSTRAINT;
+    if (turns_D && (modifier->needs & projects) == projects) return false;
     return !(modifier->needs & DAL_NEEDS_ORDER_2) || inside->order == 2;
 }
 

@@ -49,7 +49,7 @@ bool dal__uses_newton(const dal__generation *g)
 {
     const bool implicit = dal__method_uses(g, "dal_polarised_euler") ||
                           dal__method_uses(g, "dal_collocation") ||
-                          dal__method_uses(g, "dal_impose");
+                          dal__method_uses(g, "dal_impose") || dal__method_uses(g, "dal_spark");
     return implicit && g->spec->options.solver != DAL_FIXED_POINT &&
            g->programs->program[DAL__PROGRAM_JACOBIAN].present;
 }
@@ -272,6 +272,7 @@ static void put_kernel(dal__generation *g)
     if (dal__method_uses(g, "dal_substeps"))
         dal__text_put(&g->text, dal__source_text("composition.h"));
     if (constrained) dal__text_put(&g->text, dal__source_text("constrained.h"));
+    if (dal__method_uses(g, "dal_spark")) dal__text_put(&g->text, dal__source_text("spark.h"));
 }
 
 /* rk4, implicit_midpoint: what an integrator is called in DAL_INTEGRATOR. */

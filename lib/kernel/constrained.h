@@ -78,12 +78,12 @@ DAL_INLINE dal_status dal_recall_multipliers(dal_step *s, const num *parts, num 
 {
     const dal_mask known = dal_less(dal_num(0.5), *s->reacts);
     DAL_TRY(dal_continuous_multipliers(s, parts, h));
-    DAL_EACH(i, DAL_M(s)) h[i] = dal_select(known, s->reaction[i], h[i]);
+    DAL_EACH(i, DAL_CARRIED(s)) h[i] = dal_select(known, s->reaction[i], h[i]);
     return DAL_OK;
 }
 DAL_INLINE void dal_carry_multipliers(dal_step *s, const num *h)
 {
-    DAL_EACH(i, DAL_M(s)) s->reaction[i] = dal_select(s->alive, h[i], s->reaction[i]);
+    DAL_EACH(i, DAL_CARRIED(s)) s->reaction[i] = dal_select(s->alive, h[i], s->reaction[i]);
     *s->reacts = dal_select(s->alive, dal_num(1.0), *s->reacts);
 }
 

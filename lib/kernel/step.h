@@ -54,6 +54,7 @@ typedef enum dal_question {
 #define DAL_MAY_NEWTON(s)   DAL__NEWTON
 #define DAL_TANGENT(s)      DAL__TANGENT
 #define DAL_PROPERTIES(s)   DAL__PROPERTIES
+#define DAL_CARRIED(s)      DAL__REACTION /* multipliers carried: m, or 0 */
 #define DAL_STAGES(t)       DAL__STAGES
 #define DAL__ROOM(count)    ((count) > 0 ? (count) : 1)
 #define DAL__COUNT_ONE      1
@@ -118,6 +119,7 @@ DAL_INLINE void dal_ask(dal_step *s, dal_question question, double t, const num 
 #define DAL_TANGENT(s)    ((s)->tangent)
 #define DAL_MAY_NEWTON(s) ((s)->has_jacobian && (s)->solver != DAL_FIXED_POINT)
 #define DAL_PROPERTIES(s) ((s)->properties)
+#define DAL_CARRIED(s)    ((s)->m)
 #define DAL_STAGES(t)     ((t)->stages) /* of a tableau */
 
 struct dal_step {

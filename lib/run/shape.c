@@ -143,6 +143,11 @@ static dal_status check_inside(const dal_method *method, int depth, dal_error *e
     if ((outer->needs & DAL_NEEDS_SYMMETRIC) && !(dal_method_claims(&inside) & DAL_SYMMETRIC))
         return dal__error(error, DAL_UNSUPPORTED, 0, 0,
                           "+%s needs a symmetric method: %s is not symmetric", outer->name, name);
+    if ((outer->needs & DAL_NEEDS_SYMMETRIC) && (outer->needs & DAL_NEEDS_CONSTRAINT) &&
+        (dal_method_claims(&inside) & (DAL_KEEPS_D | DAL_KEEPS_D_MIDPOINT)) == DAL_KEEPS_D_MIDPOINT)
+        return dal__error(error, DAL_UNSUPPORTED, 0, 0,
+                          "+%s has no solution around %s, which turns D into -D in every step",
+                          outer->name, name);
     if ((outer->needs & DAL_NEEDS_ORDER_2) && order != 2)
         return dal__error(error, DAL_UNSUPPORTED, 0, 0,
                           "+%s needs a method of order 2: %s is of order %d", outer->name, name,

@@ -58,6 +58,15 @@ same knife-edge bm6 lifted 2 gcc -std=c11 -O1
 same isokinetic lobatto6 lifted 2 gcc -std=c11 -O1
 same contact-oscillator rk4+lift lifted 2 gcc -std=c11 -O1
 same knife-edge dop853 lifted 1 clang -std=c11 -O1
+same appell-hamel gni physical 4 gcc -std=c11 -O2
+same vertical-disk mclachlan-perlmutter physical 1 clang -std=c11 -O1
+same isokinetic isokinetic-splitting physical 4 gcc -std=c11 -O1
+same contact-oscillator discrete-gradient+project physical 1 gcc -std=c11 -O2 -march=native
+same appell-hamel dla physical 8 gcc -std=c11 -O1
+same vertical-disk spark4 physical 1 gcc -std=c11 -O1
+same chaplygin-sleigh lobatto-nonholonomic6 physical 2 clang -std=c11 -O1
+same contact-oscillator gauss-spark4 physical 1 g++ -x c++ -std=c++17 -O1
+same damped-oscillator spark2 physical 1 gcc -std=c11 -O1
 
 # What a microcontroller must supply.
 if there gcc; then

@@ -1,0 +1,87 @@
+/* dla.c - discrete Lagrange-d'Alembert equations of the midpoint rule.
+ *
+ *     D1 Ld(q_k,q_k+1) + D2 Ld(q_k-1,q_k) + h A(q_k)^T lambda_k = 0,
+ *     D((q_k + q_k+1)/2, (q_k+1 - q_k)/h, t + h/2) = 0,    Ld = h L((q0 + q1)/2, (q1 - q0)/h, t +
+ * h/2)
+ *
+ * J. Cortes, S. Martinez, Nonlinearity 14 (2001) 1365, here as a map of (q, v) on D = 0.  The
+ * impulse lambda_k at a node is divided between the step that ends there, whose part brings v onto
+ * D = 0, and the one that begins:
+ *
+ *     vb = v0 + h/2 a(qb, vb) + h/2 B(q0, v0) mu,   qb = q0 + h/2 vb,   D(qb, vb, t + h/2) = 0
+ *     v1 = vb + h/2 a(qb, vb) + h/2 B(q1, v1) nu,   q1 = q0 + h vb,     D(q1, v1, t1) = 0
+ *
+ * so that the q are those of the two-step equations (D linear, W constant; else this is the same
+ * with the midpoint rule for v' = a, and for B at the node's velocity).  Order 2, symmetric, keeps
+ * every D, and D at the midpoints. */
+#include <dalembert_kernel.h>
+
+typedef struct midpoint {
+    dal_reaction reaction; /* first */
+    num *qb, *vb;          /* [n] */
+    num *parts;            /* at (qb, vb); then at the end */
+} midpoint;
+
+/* w = vb - v0; the normals stand as they are. */
+DAL_INLINE void map_midpoint(dal_step *s, dal_equation *eq)
+{
+    midpoint *k = (midpoint *)eq->context;
+    const double half = 0.5 * s->h;
+    DAL_EACH(i, DAL_N(s)) k->vb[i] = dal_moved_v(s, i, eq->block[0].u[i]);
+    DAL_EACH(i, DAL_N(s)) k->qb[i] = dal_moved_q(s, i, half * k->vb[i]);
+    dal_parts(s, s->t + half, k->qb, k->vb, k->parts);
+    DAL_EACH(i, DAL_N(s)) k->reaction.free[i] = half * k->parts[dal_at_a(s) + i];
+    dal_react(s, eq, k->parts);
+}
+
+/* w = v1 - v0; what is free stands as it is. */
+DAL_INLINE void map_end(dal_step *s, dal_equation *eq)
+{
+    midpoint *k = (midpoint *)eq->context;
+    const int n = DAL_N(s), m = DAL_M(s);
+    DAL_EACH(i, n) k->vb[i] = dal_moved_v(s, i, eq->block[0].u[i]);
+    dal_parts(s, s->t + s->h, k->qb, k->vb, k->parts);
+    DAL_EACH(i, n * m) k->reaction.normals[i] = 0.5 * s->h * k->parts[dal_at_B(s) + i];
+    dal_react(s, eq, k->parts);
+}
+
+/* To the midpoint; leaves vb, and v0 moved by all but the last impulse. */
+DAL_INLINE dal_status go_to_midpoint(dal_step *s, midpoint *k)
+{
+    const int n = DAL_N(s), m = DAL_M(s);
+    DAL_BLOCK(s, block, DAL_N(s), DAL_MAY_NEWTON(s));
+    dal_equation eq = dal_velocity_equation(s, block, k);
+    dal_parts(s, s->t, s->y, s->y + n, k->parts);
+    DAL_EACH(i, n * m) k->reaction.normals[i] = 0.5 * s->h * k->parts[dal_at_B(s) + i];
+    DAL_TRY(dal_impose(s, &eq, map_midpoint, 0));
+    DAL_EACH(i, n) k->vb[i] = dal_moved_v(s, i, eq.block[0].u[i]);
+    DAL_EACH(i, n) k->qb[i] = dal_moved_q(s, i, 0.5 * s->h * k->vb[i]);
+    dal_parts(s, s->t + 0.5 * s->h, k->qb, k->vb, k->parts);
+    DAL_EACH(i, n) k->reaction.free[i] = eq.block[0].u[i] + 0.5 * s->h * k->parts[dal_at_a(s) + i];
+    return DAL_OK;
+}
+
+DAL_INLINE dal_status step(dal_step *s)
+{
+    const int n = DAL_N(s);
+    DAL_VECTOR(s, qb, DAL_N(s));
+    DAL_VECTOR(s, vb, DAL_N(s));
+    DAL_VECTOR(s, parts, DAL_PARTS(s));
+    DAL_VECTOR(s, d, DAL_DIM(s));
+    DAL_BLOCK(s, block, DAL_N(s), 0);
+    DAL_REACTION(s, reaction, 0.5 * s->h, 1.0);
+    midpoint k = {reaction, qb, vb, parts};
+    DAL_TRY(go_to_midpoint(s, &k));
+    dal_equation eq = dal_velocity_equation(s, block, &k);
+    DAL_EACH(i, n) d[i] = s->h * vb[i];
+    DAL_EACH(i, n) qb[i] = dal_moved_q(s, i, d[i]);
+    DAL_EACH(i, n) eq.block[0].u[i] = reaction.free[i];
+    DAL_TRY(dal_solve(s, &eq, map_end, NULL));
+    DAL_EACH(i, n) d[n + i] = eq.block[0].u[i];
+    return dal_update(s, s->h, d);
+}
+
+DAL_INTEGRATOR(dla, step, .name = "dla", .summary = "discrete Lagrange-d'Alembert, midpoint",
+               .reference = "Cortes, Martinez 2001", .order = 2, .stages = 1,
+               .claims = DAL_SYMMETRIC | DAL_KEEPS_D | DAL_KEEPS_D_MIDPOINT,
+               .needs = DAL_NEEDS_FIELD | DAL_NEEDS_PARTS);
