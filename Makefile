@@ -34,7 +34,7 @@ SONAME  := libdalembert.so.$(firstword $(subst ., ,$(VERSION)))
 # the better one comes later.  x1 is what others may call by name.  Blocks, x64, are made of groups of lanes, a register each; their
 # integrators are those of the group.
 VARIANTS        = x1 x4 x8 x64 $(VARIANTS_$(MACHINE))
-VARIANTS_x86_64 = x1_AVX2 x4_AVX2 x64_AVX2 x8_AVX512 x64_AVX512
+VARIANTS_x86_64 = x1_AVX2 x4_AVX2 x64_AVX2 x1_AVX512 x8_AVX512 x64_AVX512
 FLAGS_AVX2      = -mavx2 -mfma
 FLAGS_AVX512    = -mavx512f -mavx512dq -mavx512vl -mfma -mprefer-vector-width=512
 INSTRUCTIONS    = AVX2 AVX512

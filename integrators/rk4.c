@@ -18,11 +18,15 @@ DAL_INLINE dal_status step(dal_step *s)
     DAL_TRY(dal_field(s, s->t, s->y, sum));
     DAL_EACH(i, DAL_DIM(s)) y[i] = dal_fma(half, sum[i], s->y[i]);
     DAL_TRY(dal_field(s, s->t + 0.5 * h, y, k));
-    DAL_EACH(i, DAL_DIM(s)) y[i] = dal_fma(half, k[i], s->y[i]);
-    DAL_EACH(i, DAL_DIM(s)) sum[i] = dal_fma(two, k[i], sum[i]);
+    DAL_EACH(i, DAL_DIM(s)) {
+        y[i] = dal_fma(half, k[i], s->y[i]);
+        sum[i] = dal_fma(two, k[i], sum[i]);
+    }
     DAL_TRY(dal_field(s, s->t + 0.5 * h, y, k));
-    DAL_EACH(i, DAL_DIM(s)) y[i] = dal_fma(whole, k[i], s->y[i]);
-    DAL_EACH(i, DAL_DIM(s)) sum[i] = dal_fma(two, k[i], sum[i]);
+    DAL_EACH(i, DAL_DIM(s)) {
+        y[i] = dal_fma(whole, k[i], s->y[i]);
+        sum[i] = dal_fma(two, k[i], sum[i]);
+    }
     DAL_TRY(dal_field(s, s->t + h, y, k));
     DAL_EACH(i, DAL_DIM(s)) sum[i] += k[i];
     return dal_update_multiple(s, h, h / 6.0, sum);
