@@ -106,8 +106,10 @@ typedef struct dal_callbacks {
     dal_callback *parts;     /* out[m + m*n + n*m + n + m]: D, A, R, a, c of F = a + R h: R is
                                 W^-1 B^T, B = A by Chetaev's rule, a = W^-1 b, c = D_q v + D_t
                                                         (NULL: no methods that impose D) */
-    dal_callback *potential; /* out[1 + 2n]: U, U_q, W v of L = v.Wv/2 + g.v - U, W constant
-                                                        (NULL: no discrete-gradient) */
+    dal_callback *potential; /* out[3n]: of L = v.Wv/2 + g.v - U, W constant, for each coordinate
+                                U, U_q.v and v.Wv of those it is coupled with by U and W: 0 for
+                                the first two where that U is quadratic
+                                                         (NULL: no discrete-gradient) */
 } dal_callbacks;
 
 /* What is known of the constraints and of the energy; set by a model, or by hand. */

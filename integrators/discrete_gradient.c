@@ -10,36 +10,31 @@
  *     E1 - E0 = h vb.Q + h lambda.(A vb)
  *
  * where A vb = 0 for D linear or homogeneous in v: what E the motion keeps is kept to rounding.
- * O. Verdier's odelab has it for linear D.  Order 2, symmetric; keeps the energy, and D at the
- * midpoints: at the nodes D errs by O(h^2), bounded. */
+ * O. Verdier's odelab has it for linear D.  Coordinates that neither U nor W couple have a kappa of
+ * their own, so that energies of parts that D does not couple are kept one by one; it is 0 where U
+ * is quadratic.  Order 2, symmetric; keeps the energy, and D at the midpoints: at the nodes D errs
+ * by O(h^2), bounded. */
 #include <dalembert_kernel.h>
 
-/* A mean kinetic energy below this part of U, and the correction is below the rounding of U. */
-#define STILL 0x1p-52
+/* Where v.Wv is below this part of U, kappa d is left away: it is a third power of v and changes
+ * the energy by less than rounding, while the rounding of U would be divided by v. */
+#define STILL 0x1p-30
 
 typedef struct gradient {
     dal_reaction reaction; /* first */
     num *q, *vb;           /* [n] */
     num *parts;            /* at (qb, vb) */
-    num *potential;        /* U, U_q, W vb */
-    num U0;
+    num *U0, *mid, *end;   /* [3n] U, U_q.v, v.Wv at q0, qb, q1, with vb */
 } gradient;
 
-/* kappa h^2; q is left at q1. */
-DAL_INLINE num gradient_slope(dal_step *s, gradient *k)
+/* h^2 kappa for coordinate i. */
+DAL_INLINE num gradient_slope(const dal_step *s, const gradient *k, int i)
 {
     const int n = DAL_N(s);
-    const double t = s->t + 0.5 * s->h, h = s->h;
-    const num *U_q = k->potential + 1, *Wv = U_q + n;
-    num power = dal_num(0.0), square = dal_num(0.0);
-    dal_ask(s, DAL_ASK_POTENTIAL, t, k->q, k->vb, NULL, k->potential);
-    DAL_EACH(i, n) power += U_q[i] * k->vb[i];
-    DAL_EACH(i, n) square += Wv[i] * k->vb[i];
-    DAL_EACH(i, n) k->q[i] = dal_moved_q(s, i, h * k->vb[i]);
-    dal_ask(s, DAL_ASK_POTENTIAL, t, k->q, k->vb, NULL, k->potential);
-    const num U1 = k->potential[0], size = dal_abs(U1) + dal_abs(k->U0);
-    return dal_select(dal_less(STILL * size, dal_abs(square)), ((U1 - k->U0) - h * power) / square,
-                      dal_num(0.0));
+    const num U0 = k->U0[i], U1 = k->end[i], square = k->mid[2 * n + i];
+    const num excess = (U1 - U0) - s->h * k->mid[n + i];
+    const dal_mask moves = dal_less(STILL * (dal_abs(U0) + dal_abs(U1)), dal_abs(square));
+    return dal_select(moves, excess / square, dal_num(0.0));
 }
 
 /* w = vb - v0 */
@@ -47,12 +42,16 @@ DAL_INLINE void gradient_map(dal_step *s, dal_equation *eq)
 {
     gradient *k = (gradient *)eq->context;
     const int n = DAL_N(s), m = DAL_M(s);
-    const double half = 0.5 * s->h;
+    const double half = 0.5 * s->h, t = s->t + half;
     DAL_EACH(i, n) k->vb[i] = dal_moved_v(s, i, eq->block[0].u[i]);
     DAL_EACH(i, n) k->q[i] = dal_moved_q(s, i, half * k->vb[i]);
-    dal_parts(s, s->t + half, k->q, k->vb, k->parts);
-    const num kappa = gradient_slope(s, k);
-    DAL_EACH(i, n) k->reaction.free[i] = half * k->parts[dal_at_a(s) + i] - 0.5 * kappa * k->vb[i];
+    dal_parts(s, t, k->q, k->vb, k->parts);
+    dal_ask(s, DAL_ASK_POTENTIAL, t, k->q, k->vb, NULL, k->mid);
+    DAL_EACH(i, n) k->q[i] = dal_moved_q(s, i, s->h * k->vb[i]);
+    dal_ask(s, DAL_ASK_POTENTIAL, t, k->q, k->vb, NULL, k->end);
+    DAL_EACH(i, n)
+        k->reaction.free[i] =
+            half * k->parts[dal_at_a(s) + i] - 0.5 * gradient_slope(s, k, i) * k->vb[i];
     DAL_EACH(i, n * m) k->reaction.normals[i] = half * k->parts[dal_at_B(s) + i];
     dal_react(s, eq, k->parts);
 }
@@ -63,14 +62,15 @@ DAL_INLINE dal_status step(dal_step *s)
     DAL_VECTOR(s, q, DAL_N(s));
     DAL_VECTOR(s, vb, DAL_N(s));
     DAL_VECTOR(s, parts, DAL_PARTS(s));
-    DAL_VECTOR(s, potential, 1 + 2 * DAL_N(s));
+    DAL_VECTOR(s, U0, 3 * DAL_N(s));
+    DAL_VECTOR(s, mid, 3 * DAL_N(s));
+    DAL_VECTOR(s, end, 3 * DAL_N(s));
     DAL_VECTOR(s, d, DAL_DIM(s));
     DAL_BLOCK(s, block, DAL_N(s), DAL_MAY_NEWTON(s));
     DAL_REACTION(s, reaction, 0.5 * s->h, 1.0);
-    gradient k = {reaction, q, vb, parts, potential, dal_num(0.0)};
+    gradient k = {reaction, q, vb, parts, U0, mid, end};
     dal_equation eq = dal_velocity_equation(s, block, &k);
-    dal_ask(s, DAL_ASK_POTENTIAL, s->t + 0.5 * s->h, s->y, s->y + n, NULL, potential);
-    k.U0 = potential[0];
+    dal_ask(s, DAL_ASK_POTENTIAL, s->t + 0.5 * s->h, s->y, s->y + n, NULL, U0);
     DAL_TRY(dal_impose(s, &eq, gradient_map, 0));
     DAL_EACH(i, n) d[i] = s->h * dal_moved_v(s, i, eq.block[0].u[i]);
     DAL_EACH(i, n) d[n + i] = 2.0 * eq.block[0].u[i];

@@ -174,39 +174,29 @@ static void test_set_state(void)
 
 /* ---- long runs ---- */
 
-/* A pendulum drives a variable transmission; Modin and Verdier, Numer. Math. 145 (2020) 405. */
-static const char cvt[] = "coordinates: [xi, x, y]\n"
-                          "parameters: {eps: 0.2, w: 2.6}\n"
-                          "lagrangian: >-\n"
-                          "  (xi'^2 + x'^2 + y'^2)/2 - (x^2 + y^2)/2 + cos(xi)"
-                          " - eps/2*sin(2*xi)\n"
-                          "constraints: [y' + sin(xi)*x']\n"
-                          "start: {x: 1, xi': w}\n"
-                          "invariants: {Hf: (x^2 + y^2 + x'^2 + y'^2)/2}\n";
-
 /* d log(Hf)/dt by the values at T/2 and T. */
-static double growth(const dal_system *system, const char *method, double w, double h, double T)
+static double growth(const dal_system *system, const char *method, double spin, double h, double T)
 {
-    const dal_setting speed = {"w", w};
+    const dal_setting speed = {"spin", spin};
     dal_run_spec spec = fixture_spec(system, method, DAL_PHYSICAL, h);
     double seen[2][8];
     spec.parameters = &speed;
     spec.parameter_count = 1;
     dal_run *run = fixture_run(&spec);
-    const int last = dal_run_observables(run) - 1;
+    const int Hf = dal_run_observables(run) - 2;
     for (int i = 0; i < 2; i++) {
         CU_ASSERT_EQUAL_FATAL(dal_run_advance(run, llround(0.5 * T / h), NULL), DAL_OK);
         CU_ASSERT_EQUAL(dal_run_observe(run, seen[i]), DAL_OK);
     }
     dal_run_free(run);
-    return log(seen[1][last] / seen[0][last]) / (0.5 * T);
+    return log(seen[1][Hf] / seen[0][Hf]) / (0.5 * T);
 }
 
 /* With a rotating driver McLachlan-Perlmutter loses the fibre energy, and gains it when the driver
  * turns the other way, at a rate like h^2; with a librating one, and for gni, it stays. */
 static void test_transmission(void)
 {
-    dal_model *model = fixture_model(cvt);
+    dal_model *model = fixture_model("pendulum-cvt");
     const dal_system *system = fixture_system(model);
     const double T = (double)long_run(8000);
     const double coarse = growth(system, "mclachlan-perlmutter", 2.6, 0.1, T);
@@ -218,6 +208,86 @@ static void test_transmission(void)
     CU_ASSERT_DOUBLE_EQUAL(back / coarse, -1.0, 0.05);
     CU_ASSERT(fabs(growth(system, "mclachlan-perlmutter", 1.0, 0.1, T)) < 1e-6);
     CU_ASSERT(fabs(growth(system, "gni", 2.6, 0.1, T)) < 1e-6);
+    CU_ASSERT(fabs(growth(system, "discrete-gradient", 2.6, 0.1, T)) < 1e-16);
+    CU_ASSERT(growth(system, "implicit-midpoint", 2.6, 0.1, T) > 5e-5);
+    dal_model_free(model);
+}
+
+/* The greatest |E - E(0)| within the next count rows, steps apart that no period divides. */
+static double greatest_change(dal_run *run, double E, long long count)
+{
+    double seen[8], most = 0.0;
+    for (long long i = 0; i < count; i++) {
+        CU_ASSERT_EQUAL_FATAL(dal_run_advance(run, 37, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_run_observe(run, seen), DAL_OK);
+        most = fmax(most, fabs(seen[1] - E));
+    }
+    return most;
+}
+
+/* Contact oscillator, h = 2 sin(pi/40), forty steps to a period: the error of the energy in the
+ * last of many periods is what it was in the first. */
+static void test_bounded(void)
+{
+    const double h = 2.0 * sin(acos(-1.0) / 40.0);
+    const long long rows = long_run(10000) * 40 / 37 / 10;
+    dal_model *model = fixture_model("contact-oscillator");
+    const dal_run_spec spec =
+        fixture_spec(fixture_system(model), "mclachlan-perlmutter", DAL_PHYSICAL, h);
+    dal_run *run = fixture_run(&spec);
+    double seen[8];
+    CU_ASSERT_EQUAL(dal_run_observe(run, seen), DAL_OK);
+    const double first = greatest_change(run, seen[1], rows);
+    greatest_change(run, seen[1], 8 * rows);
+    const double last = greatest_change(run, seen[1], rows);
+    CU_ASSERT(first > 1e-3 && first < h * h);
+    CU_ASSERT_DOUBLE_EQUAL(last / first, 1.0, 0.02);
+    dal_run_free(run);
+    dal_model_free(model);
+}
+
+enum { STARTS = 41 };
+
+/* The spread of E over the lanes: their root mean square distance from the mean. */
+static double spread(const dal_batch *batch, dal_probe *probe)
+{
+    const dal_system *system = dal_probe_system(probe);
+    double state[16], E[STARTS], mean = 0.0, sum = 0.0;
+    for (int i = 0; i < STARTS; i++) {
+        dal_batch_state(batch, i, state);
+        CU_ASSERT_EQUAL(
+            dal_probe_call(probe, system->energy, 0.0, state, state + system->n, NULL, &E[i]),
+            DAL_OK);
+        mean += E[i] / STARTS;
+    }
+    for (int i = 0; i < STARTS; i++) sum += (E[i] - mean) * (E[i] - mean);
+    return sqrt(sum / STARTS);
+}
+
+/* Chaotic oscillators from 41 starts of one energy: the energies walk at random, apart like the
+ * square root of time.  With 41 of them a spread is known to 11 %. */
+static void test_walk(void)
+{
+    const long long steps = long_run(5000);
+    dal_model *model = fixture_model("chaotic-oscillators");
+    const dal_run_spec spec =
+        fixture_spec(fixture_system(model), "mclachlan-perlmutter", DAL_PHYSICAL, 0.2);
+    dal_batch *batch = NULL;
+    dal_probe *probe = NULL;
+    CU_ASSERT_EQUAL_FATAL(dal_batch_create(&batch, &spec, STARTS, 0, NULL), DAL_OK);
+    CU_ASSERT_EQUAL_FATAL(dal_probe_create(&probe, spec.system, NULL, 0, NULL), DAL_OK);
+    for (int i = 0; i < STARTS; i++) {
+        const dal_setting angle = {"angle", acos(-1.0) * i / 80.0};
+        CU_ASSERT_EQUAL(dal_batch_start(batch, i, &angle, 1, NULL, 0, NULL), DAL_OK);
+    }
+    CU_ASSERT(spread(batch, probe) < 1e-14);
+    CU_ASSERT_EQUAL(dal_batch_advance(batch, steps), DAL_OK);
+    const double early = spread(batch, probe);
+    CU_ASSERT_EQUAL(dal_batch_advance(batch, 15 * steps), DAL_OK);
+    const double ratio = spread(batch, probe) / early;
+    CU_ASSERT(steps < 5000 || (ratio > 2.3 && ratio < 7.0));
+    dal_probe_free(probe);
+    dal_batch_free(batch);
     dal_model_free(model);
 }
 
@@ -229,4 +299,6 @@ void suite_constrained(void)
     CU_add_test(suite, "multipliers to begin with", test_beginning);
     CU_add_test(suite, "multipliers of a state set, and of a checkpoint", test_set_state);
     CU_add_test(suite, "a driven transmission", test_transmission);
+    CU_add_test(suite, "bounded energy", test_bounded);
+    CU_add_test(suite, "energies that walk", test_walk);
 }

@@ -57,26 +57,27 @@ typedef struct dal__equations {
     dal__node *exact;      /* [2n] or all 0 */
     dal__node mu;          /* mu_e, or 0 */
     /* Derived. */
-    dal__node *W;        /* [n*n] */
-    dal__node *b;        /* [n] */
-    dal__node *momentum; /* [n]: L_v */
-    dal__node *A;        /* [m*n] */
-    dal__node *B;        /* [m*n]: directions of the reactions; A itself by Chetaev's rule */
-    dal__node *c;        /* [m] */
-    dal__node *U;        /* [n*m]: W^-1 A^T, or 0s */
-    dal__node *R;        /* [n*m]: W^-1 B^T; U itself by Chetaev's rule */
-    dal__node *h;        /* [m]: multipliers of the constraints, not of vakonomic motion */
-    dal__node *a;        /* [n]: W^-1 b, or 0s */
-    dal__node *F;        /* [n + multipliers] */
-    dal__node energy;    /* or 0 */
-    dal__node *normal;   /* [1 + 3n]: E, E_q, E_v, W^-1 E_q; or NULL */
-    dal__node *extended; /* [n]: F continued off D = 0 with E exact; or NULL */
-    dal__node *guard;    /* [guards] */
-    int mass_guard;      /* which of them is det W, from 1; 0: none */
-    dal__pivot *pivot;   /* [pivots], room for 2 (n + m) */
-    double *value;       /* [symbols]: default parameters, default start */
-    int *symbol;         /* [symbols]: 0, 1, 2, ...; symbol + q are the symbols of q */
-    dal__node *flow;     /* [1 + n]: d/dt of (t, q), that is 1 and v */
+    dal__node *W;         /* [n*n] */
+    dal__node *b;         /* [n] */
+    dal__node *momentum;  /* [n]: L_v */
+    dal__node *A;         /* [m*n] */
+    dal__node *B;         /* [m*n]: directions of the reactions; A itself by Chetaev's rule */
+    dal__node *c;         /* [m] */
+    dal__node *U;         /* [n*m]: W^-1 A^T, or 0s */
+    dal__node *R;         /* [n*m]: W^-1 B^T; U itself by Chetaev's rule */
+    dal__node *h;         /* [m]: multipliers of the constraints, not of vakonomic motion */
+    dal__node *a;         /* [n]: W^-1 b, or 0s */
+    dal__node *F;         /* [n + multipliers] */
+    dal__node energy;     /* or 0 */
+    dal__node *normal;    /* [1 + 3n]: E, E_q, E_v, W^-1 E_q; or NULL */
+    dal__node *potential; /* [3n], see potential.c; or NULL */
+    dal__node *extended;  /* [n]: F continued off D = 0 with E exact; or NULL */
+    dal__node *guard;     /* [guards] */
+    int mass_guard;       /* which of them is det W, from 1; 0: none */
+    dal__pivot *pivot;    /* [pivots], room for 2 (n + m) */
+    double *value;        /* [symbols]: default parameters, default start */
+    int *symbol;          /* [symbols]: 0, 1, 2, ...; symbol + q are the symbols of q */
+    dal__node *flow;      /* [1 + n]: d/dt of (t, q), that is 1 and v */
     /* Names. */
     const char **parameter, **coordinate, **let_name, **invariant_name, **guard_name, **tag;
     int tags;
@@ -226,6 +227,10 @@ dal_status dal__energy_properties(dal_model *model);
 dal_status dal__guards(dal_model *model);
 /* After the properties: what a conserved energy gives beside its value. */
 dal_status dal__conserved(dal_model *model);
+
+/* ---- potential.c ---- */
+
+dal_status dal__potential(dal_model *model);
 
 /* ---- programs.c ---- */
 

@@ -43,25 +43,6 @@ static dal_status add_parts(dal_model *model, dal__programs *programs)
     return dal__programs_add(model, programs, DAL__PROGRAM_PARTS, out, count);
 }
 
-/* U, U_q and W v; L is a polynomial of degree 2 in v with -U for its constant term, so that
- * U = L_v.v - v.Wv/2 - L. */
-static dal_status add_potential(dal_model *model, dal__programs *programs)
-{
-    const dal__equations *e = &model->equations;
-    dal__graph *graph = e->graph;
-    if (e->vakonomic || !e->energy || !(e->properties & DAL_MASS_CONSTANT)) return DAL_OK;
-    dal__node *out = take(model, 1 + 2 * e->n), *rest = take(model, e->n);
-    dal__node still = dal__number(graph, 0.0);
-    if (!out || !rest) return DAL_MEMORY;
-    for (int i = 0; i < e->n; i++) {
-        out[1 + e->n + i] = dal__dot(graph, e->n, e->W + i * e->n, e->flow + 1);
-        rest[i] = still;
-    }
-    out[0] = dal__neg(graph, dal__substitute(graph, e->lagrangian, e->symbol + e->v, e->n, rest));
-    dal__gradient(graph, out[0], e->symbol + e->q, e->n, out + 1);
-    return dal__programs_add(model, programs, DAL__PROGRAM_POTENTIAL, out, 1 + 2 * e->n);
-}
-
 static dal_status add_diagnosis(dal_model *model, dal__programs *programs)
 {
     const dal__equations *e = &model->equations;
@@ -94,7 +75,7 @@ static dal_status add_programs(dal_model *model, dal__programs *p, const dal__no
     DAL_TRY(dal__programs_add_motion(model, p, F));
     DAL_TRY(add_constraint(model, p));
     DAL_TRY(add_parts(model, p));
-    DAL_TRY(add_potential(model, p));
+    DAL_TRY(add_if(model, p, e->potential, DAL__PROGRAM_POTENTIAL, e->potential, 3 * e->n));
     DAL_TRY(add_diagnosis(model, p));
     DAL_TRY(add_if(model, p, e->normal, DAL__PROGRAM_ENERGY_NORMAL, e->normal, 1 + 3 * e->n));
     DAL_TRY(add_if(model, p, e->mu, DAL__PROGRAM_GAUGE, &e->mu, 1));
@@ -162,6 +143,7 @@ dal_status dal_model_system(dal_model *model, const dal_system **system, dal_err
     dal_status status = dal__guards(model);
     if (status == DAL_OK) status = dal__properties(model);
     if (status == DAL_OK) status = dal__conserved(model);
+    if (status == DAL_OK) status = dal__potential(model);
     if (status == DAL_OK) describe(model);
     if (status == DAL_OK) status = add_programs(model, &model->programs, model->equations.F);
     if (status == DAL_OK) status = dal__graph_status(model->equations.graph);

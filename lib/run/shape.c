@@ -199,7 +199,7 @@ int dal__answer_size(const dal__shape *k, int question)
     case DAL_ASK_PARTS:
         return k->n + 2 * (k->m + k->m * k->n);
     case DAL_ASK_POTENTIAL:
-        return 1 + 2 * k->n;
+        return 3 * k->n;
     default:
         return 0;
     }
