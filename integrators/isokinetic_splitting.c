@@ -10,8 +10,7 @@
  *
  * D. Minary, G. Martyna, M. Tuckerman, J. Chem. Phys. 118 (2003) 2510; Tuckerman, Statistical
  * Mechanics (2010), 4.12.  For an indefinite W sinh becomes sin where b < 0. 2K = v.A/k, f.v =
- * a.A(v)/k, f.a = a.A(a)/k all come from A = k W v.  Order 2, symmetric, explicit, keeps D: what
- * rounding does to it is scaled away in every step. */
+ * a.A(v)/k, f.a = a.A(a)/k all come from A = k W v.  Order 2, symmetric, explicit, keeps D. */
 #include <dalembert_kernel.h>
 
 typedef struct growth {
@@ -61,19 +60,6 @@ DAL_INLINE dal_status turn(dal_step *s, const num *q, num *dv)
     return DAL_OK;
 }
 
-/* Back onto D = 0 along v1, as far as rounding has led away: D(v1 - v1 D/(A v1)) = 0. */
-DAL_INLINE dal_status scale(dal_step *s, const num *q, num *dv)
-{
-    const int n = DAL_N(s);
-    DAL_VECTOR(s, v1, DAL_N(s));
-    DAL_VECTOR(s, normals, DAL_NORMALS(s));
-    DAL_EACH(i, n) v1[i] = dal_moved_v(s, i, dv[i]);
-    dal_constraint(s, s->t + 0.5 * s->h, q, v1, normals);
-    const num excess = normals[0] / dot(v1, normals + dal_at_A(s), n);
-    DAL_EACH(i, n) dv[i] -= excess * v1[i];
-    return DAL_OK;
-}
-
 DAL_INLINE dal_status step(dal_step *s)
 {
     const int n = DAL_N(s);
@@ -82,7 +68,6 @@ DAL_INLINE dal_status step(dal_step *s)
     DAL_VECTOR(s, d, DAL_DIM(s));
     DAL_EACH(i, n) q[i] = dal_moved_q(s, i, 0.5 * h * s->y[n + i]);
     DAL_TRY(turn(s, q, d + n));
-    DAL_TRY(scale(s, q, d + n));
     DAL_EACH(i, n) d[i] = 0.5 * h * (s->y[n + i] + dal_moved_v(s, i, d[n + i]));
     return dal_update(s, h, d);
 }
