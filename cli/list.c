@@ -177,7 +177,8 @@ static void put_claims(sheet *s, unsigned claims, unsigned inherits)
                  {DAL_KEEPS_D, "every D"},
                  {DAL_KEEPS_D_MIDPOINT, "D at midpoints"},
                  {DAL_KEEPS_ENERGY, "energy"},
-                 {DAL_CARRIES_MULTIPLIER, "carries multipliers"}};
+                 {DAL_CARRIES_MULTIPLIER, "carries multipliers"},
+                 {DAL_ADAPTIVE, "adaptive"}};
     char line[160] = "";
     size_t n = 0;
     for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++)
@@ -247,7 +248,7 @@ static const char notes[] =
     "Integrators: 'symplectic lift' speaks of the 4n+2 canonical variables only and says nothing\n"
     "of D or of the energy; '... D' names the constraints whose level is kept to rounding.\n"
     "A modifier +WORD is put behind an integrator, NAME+WORD: rk4+project.  'as NAME': it is and\n"
-    "keeps what NAME is and keeps.\n";
+    "keeps what NAME is and keeps.  'adaptive' takes --tolerance.\n";
 
 static int find(const char *name)
 {

@@ -244,7 +244,9 @@ typedef enum dal_solver { DAL_SOLVER_AUTO, DAL_FIXED_POINT, DAL_NEWTON } dal_sol
     X(int, iterations, "iterations", 100, 1, 100000, NULL,                                         \
       "most iterations of an implicit equation")                                                   \
     X(int, extend_energy, "extend-energy", 0, 0, 1, "off|on",                                      \
-      "continue F off D = 0 so that E is kept there too")
+      "continue F off D = 0 so that E is kept there too")                                          \
+    X(double, tolerance, "tolerance", 0, 0.0, 1.0, NULL,                                           \
+      "error, absolute and relative, of the substeps that dop853 divides h into; 0: none")
 
 typedef struct dal_options {
 #define X(type, name, word, initial, least, greatest, words, help) type name;

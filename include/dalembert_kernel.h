@@ -13,6 +13,7 @@
  *     dal_polarised_euler                    lib/kernel/polarised.h     symplectic Euler steps
  *     dal_collocation                        lib/kernel/collocation.h   implicit Runge-Kutta steps
  *     dal_substeps                           lib/kernel/composition.h   steps made of steps
+ *     dal_control                            lib/kernel/adaptive.h      steps under error control
  *     dal_parts, dal_react, dal_impose       lib/kernel/constrained.h   steps that impose D
  *     dal_spark_advance                      lib/kernel/spark.h         the same with stages
  *
@@ -38,6 +39,8 @@
 #include "../lib/kernel/collocation.h"
 
 #include "../lib/kernel/composition.h"
+
+#include "../lib/kernel/adaptive.h"
 
 #include "../lib/kernel/constrained.h"
 

@@ -6,17 +6,18 @@
 /* What a descriptor claims; the conformance suite verifies it. */
 enum {
     DAL_SYMMETRIC = 1 << 0,
-    DAL_SYMPLECTIC = 1 << 1,         /* on the canonical lift; says nothing about D or the energy */
-    DAL_KEEPS_BILINEAR = 1 << 2,     /* D bilinear in (q,v) */
-    DAL_KEEPS_QUADRATIC = 1 << 3,    /* D quadratic in (q,v) */
-    DAL_KEEPS_D = 1 << 4,            /* every D */
-    DAL_EXPLICIT = 1 << 5,           /* on the physical space */
-    DAL_MODIFIER = 1 << 6,           /* works on another integrator: NAME+this */
-    DAL_COMPONENTWISE = 1 << 7,      /* keeps no slopes; on (q,v) only adds multiples of v and F */
-    DAL_KEEPS_D_MIDPOINT = 1 << 8,   /* D((q0 + q1)/2, (q1 - q0)/h, t + h/2) = 0 in every step */
-    DAL_KEEPS_ENERGY = 1 << 9,       /* E, where the motion keeps it */
-    DAL_CARRIES_MULTIPLIER = 1 << 10 /* a map of (q, v, multipliers), which a run carries along;
-                                        symmetric and reversible in them */
+    DAL_SYMPLECTIC = 1 << 1,       /* on the canonical lift; says nothing about D or the energy */
+    DAL_KEEPS_BILINEAR = 1 << 2,   /* D bilinear in (q,v) */
+    DAL_KEEPS_QUADRATIC = 1 << 3,  /* D quadratic in (q,v) */
+    DAL_KEEPS_D = 1 << 4,          /* every D */
+    DAL_EXPLICIT = 1 << 5,         /* on the physical space */
+    DAL_MODIFIER = 1 << 6,         /* works on another integrator: NAME+this */
+    DAL_COMPONENTWISE = 1 << 7,    /* keeps no slopes; on (q,v) only adds multiples of v and F */
+    DAL_KEEPS_D_MIDPOINT = 1 << 8, /* D((q0 + q1)/2, (q1 - q0)/h, t + h/2) = 0 in every step */
+    DAL_KEEPS_ENERGY = 1 << 9,     /* E, where the motion keeps it */
+    DAL_CARRIES_MULTIPLIER = 1 << 10, /* a map of (q, v, multipliers), which a run carries along;
+                                         symmetric and reversible in them */
+    DAL_ADAPTIVE = 1 << 11 /* divides a step h by itself where the option tolerance is not 0 */
 };
 
 /* What it needs of the system or, a modifier, of the method inside. */

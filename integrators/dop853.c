@@ -4,7 +4,8 @@
  *
  * Dormand, Prince; Hairer, Norsett, Wanner, Solving ODEs I (1993), II.5, II.10.  Digits as in
  * Hairer's dop853.f and Williams' dop853 (BSD).  Order 8, explicit, twelve evaluations; keeps D
- * with constant coefficients, no other. */
+ * with constant coefficients, no other.  With a tolerance the sizes of substeps follow the two
+ * estimates of the error in dop853.f. */
 #include <dalembert_kernel.h>
 
 /* clang-format off */
@@ -58,24 +59,91 @@ DAL_INLINE void add_slopes(int dim, int count, const double *weight, const num *
     }
 }
 
-DAL_INLINE dal_status step(dal_step *s)
+/* k_i of a step of size h, from the first on that is not known yet, and the sum of b_i k_i. */
+DAL_INLINE dal_status slopes(dal_step *s, double size, int first, num *k, num *sum)
 {
     const int dim = DAL_DIM(s);
-    const num h = dal_num(s->h);
-    DAL_VECTOR(s, k, STAGES_853 * DAL_DIM(s));
-    DAL_VECTOR(s, sum, DAL_DIM(s));
+    const num h = dal_num(size);
     DAL_EACH(stage, STAGES_853) {
+        if (stage < first) continue;
         DAL_EACH(i, dim) sum[i] = dal_num(0.0);
         add_slopes(dim, stage, a853 + stage * (stage - 1) / 2, k, sum);
         DAL_EACH(i, dim) sum[i] = dal_fma(h, sum[i], s->y[i]);
-        DAL_TRY(dal_field(s, s->t + c853[stage] * s->h, sum, k + stage * dim));
+        DAL_TRY(dal_field(s, s->t + c853[stage] * size, sum, k + stage * dim));
     }
     DAL_EACH(i, dim) sum[i] = dal_num(0.0);
     add_slopes(dim, STAGES_853, b853, k, sum);
-    DAL_EACH(i, dim) sum[i] *= h;
+    return DAL_OK;
+}
+
+#ifdef DAL_CONTROLLED
+/* clang-format off */
+/* The weights of the method of order 3 inside, bhh; and those of order 8 less those of order 5, er:
+ * what they sum to vanishes up to h^3, h^5. */
+static const double third853[] = {0.244094488188976377952755905512, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0,
+    0.0, 0.733846688281611857341361741547, 0.0, 0.0, 0.220588235294117647058823529412e-1};
+static const double fifth853[] = {0.1312004499419488073250102996e-1, 0.0, 0.0, 0.0, 0.0,
+    -1.225156446376204440720569753, -0.4957589496572501915214079952,
+    1.664377182454986536961530415, -0.3503288487499736816886487290,
+    0.3341791187130174790297318841, 0.8192320648511571246570742613e-1,
+    -0.2235530786388629525884427845e-1};
+/* clang-format on */
+
+/* error / tolerance over count components from first on:
+ *     |h| |e5|^2 / sqrt(count (|e5|^2 + |e3|^2/100)),   e_i in units of tolerance (1 + |y_i|) */
+static double error853(const dal_step *s, const dal_trial *k, const num *e3, const num *e5,
+                       int first, int count)
+{
+    double square3 = 0.0, square5 = 0.0;
+    for (int i = first; i < first + count; i++) {
+        const double size = dal_max(dal_abs(s->y[i]), dal_abs(s->y[i] + k->change[i]));
+        const double unit = s->tolerance + s->tolerance * size;
+        square3 += e3[i] / unit * (e3[i] / unit);
+        square5 += e5[i] / unit * (e5[i] / unit);
+    }
+    const double both = square5 + 0.01 * square3;
+    return both == 0.0 ? 0.0 : fabs(k->h) * square5 / sqrt(count * both);
+}
+
+/* The error of (q,v) and that of (p,pi) each by itself, and none of e and pi_e, so that the
+ * substeps of (q,v) on the surface know neither the space nor the gauge. */
+static dal_status attempt853(dal_step *s, dal_trial *k)
+{
+    const int dim = DAL_DIM(s), n = DAL_N(s);
+    DAL_MARK(s);
+    DAL_VECTOR(s, e3, DAL_DIM(s));
+    DAL_VECTOR(s, e5, DAL_DIM(s));
+    DAL_TRY(slopes(s, k->h, k->again ? 1 : 0, k->slopes, k->change));
+    DAL_EACH(i, dim) e3[i] = -k->change[i];
+    DAL_EACH(i, dim) e5[i] = 0.0;
+    add_slopes(dim, STAGES_853, third853, k->slopes, e3);
+    add_slopes(dim, STAGES_853, fifth853, k->slopes, e5);
+    DAL_EACH(i, dim) k->change[i] *= k->h;
+    double error = error853(s, k, e3, e5, 0, n + DAL_NW(s));
+    if (DAL_LIFTED(s)) {
+        const double momenta = error853(s, k, e3, e5, dal_at_p(s), 2 * n);
+        if (momenta > error || isnan(momenta)) error = momenta;
+    }
+    k->ratio = sqrt(sqrt(sqrt(error)));
+    DAL_RELEASE(s);
+    return DAL_OK;
+}
+#endif
+
+DAL_INLINE dal_status step(dal_step *s)
+{
+    DAL_VECTOR(s, k, STAGES_853 * DAL_DIM(s));
+    DAL_VECTOR(s, sum, DAL_DIM(s));
+#ifdef DAL_CONTROLLED
+    if (DAL_CONTROLLED(s))
+        return dal_control(s, attempt853, &(dal_trial){.slopes = k, .change = sum});
+#endif
+    DAL_TRY(slopes(s, s->h, 0, k, sum));
+    const num h = dal_num(s->h);
+    DAL_EACH(i, DAL_DIM(s)) sum[i] *= h;
     return dal_update(s, s->h, sum);
 }
 
 DAL_INTEGRATOR(dop853, step, .name = "dop853", .summary = "Dormand-Prince, 12 stages",
                .reference = "Hairer, Norsett, Wanner 1993, II.5", .order = 8, .stages = 2,
-               .claims = DAL_EXPLICIT | DAL_COMPONENTWISE, .needs = DAL_NEEDS_FIELD);
+               .claims = DAL_EXPLICIT | DAL_COMPONENTWISE | DAL_ADAPTIVE, .needs = DAL_NEEDS_FIELD);

@@ -160,4 +160,4 @@ DAL_INTEGRATOR(project_energy, step, .name = "project-energy",
                .reference = "Hairer, Lubich, Wanner 2006, IV.4", .stages = 1,
                .claims = DAL_MODIFIER | DAL_KEEPS_D | DAL_KEEPS_ENERGY,
                .needs = DAL_NEEDS_CONSTRAINT | DAL_NEEDS_ENERGY,
-               .inherits = DAL_KEEPS_BILINEAR | DAL_KEEPS_QUADRATIC | DAL_EXPLICIT);
+               .inherits = DAL_KEEPS_BILINEAR | DAL_KEEPS_QUADRATIC | DAL_EXPLICIT | DAL_ADAPTIVE);

@@ -28,11 +28,15 @@ static void apply(const long double *x, long double *out)
 }
 
 /* Coefficients up to 43 with rounding in their last places enter. */
-static void check_sum(const long double *x, long double expected)
+static void check_weighted(const double *weight, const long double *x, long double expected)
 {
     long double sum = 0.0L;
-    for (int i = 0; i < STAGES_853; i++) sum += (long double)b853[i] * x[i];
+    for (int i = 0; i < STAGES_853; i++) sum += (long double)weight[i] * x[i];
     CU_ASSERT(fabsl(sum - expected) <= 1e3L * DBL_EPSILON);
+}
+static void check_sum(const long double *x, long double expected)
+{
+    check_weighted(b853, x, expected);
 }
 
 /* Trees with a stem of m edges under k leaves, sum b A^m c^(k-1): all of them up to order 8. */
@@ -74,6 +78,32 @@ static void test_times(void)
     for (int i = 0; i < STAGES_853; i++) ones[i] = 1.0L;
     apply(ones, x);
     for (int i = 0; i < STAGES_853; i++) CU_ASSERT(fabsl(x[i] - c853[i]) <= 1e2L * DBL_EPSILON);
+}
+
+static void multiply(const long double *x, const long double *y, long double *out)
+{
+    for (int i = 0; i < STAGES_853; i++) out[i] = x[i] * y[i];
+}
+
+/* The estimates of the error: third853 solves the conditions of the trees up to order 3, fifth853
+ * is orthogonal to all 17 up to order 5. */
+static void test_estimates(void)
+{
+    static const double third[] = {1.0, 1.0 / 2.0, 1.0 / 3.0, 1.0 / 6.0};
+    long double x[17][STAGES_853];
+    for (int i = 0; i < STAGES_853; i++) x[0][i] = 1.0L;
+    for (int i = 0; i < STAGES_853; i++) x[1][i] = c853[i];
+    multiply(x[1], x[1], x[2]);
+    apply(x[1], x[3]);
+    multiply(x[1], x[2], x[4]);
+    multiply(x[1], x[3], x[5]);
+    apply(x[2], x[6]);
+    apply(x[3], x[7]);
+    for (int i = 0; i < 4; i++) multiply(x[1], x[4 + i], x[8 + i]);
+    for (int i = 0; i < 4; i++) apply(x[4 + i], x[12 + i]);
+    multiply(x[3], x[3], x[16]);
+    for (int i = 0; i < 4; i++) check_weighted(third853, x[i], third[i]);
+    for (int i = 0; i < 17; i++) check_weighted(fifth853, x[i], 0.0L);
 }
 
 /* ---- the lift ---- */
@@ -206,6 +236,7 @@ void suite_phase_lift(void)
     CU_add_test(suite, "dop853: tall trees", test_tall_trees);
     CU_add_test(suite, "dop853: bushy trees", test_bushy_trees);
     CU_add_test(suite, "dop853: times of the stages", test_times);
+    CU_add_test(suite, "dop853: orders of the estimates of its error", test_estimates);
     CU_add_test(suite, "the lift is symplectic", test_symplectic);
     CU_add_test(suite, "adjoint pairing with 1/e = 0", test_pairing);
     CU_add_test(suite, "on the surface: the bits of the base", test_surface);

@@ -135,6 +135,9 @@ static dal_status check(dal__generation *g, int lanes, const char *prefix, dal_e
         return dal__error(error, DAL_ARGUMENT, 0, 0, "%d lanes: 1, 2, 4, 8 or 16 are possible",
                           lanes);
     DAL_TRY(dal__shape_init(&g->shape, g->spec, error));
+    if (g->spec->options.tolerance > 0.0)
+        return dal__error(error, DAL_UNSUPPORTED, 0, 0,
+                          "steps under a tolerance are not generated: each lane has its own");
     g->programs = dal__programs_of(g->shape.system);
     if (!g->programs)
         return dal__error(error, DAL_UNSUPPORTED, 0, 0,

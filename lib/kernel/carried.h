@@ -16,6 +16,7 @@
     X(slopes_h, ONE)      /* the step size behind the slopes, 0: none */                           \
     X(reacts, ONE)        /* 1 where reaction has been set */                                      \
     X(reaction, REACTION) /* [m] the multipliers of the last step, of methods that carry them */   \
+    X(substep, ONE)       /* the size planned for the next substep, 0: there is no plan */         \
     X(level, TWO)         /* the energy of the start, and 1 when it is known */                    \
     X(slopes, SLOPES)     /* [stages*(nw + n)] stage slopes of the last collocation step */
 

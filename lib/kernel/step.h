@@ -142,6 +142,7 @@ struct dal_step {
     int iterations;       /* most iterations */
     int has_jacobian;
     unsigned properties; /* of the system */
+    double tolerance;    /* of substeps, 0: the step is not to be divided */
 
     num *scratch; /* bump allocator, see dal_scratch */
     size_t used, room;

@@ -23,6 +23,7 @@ bool dal__engine_can(const dal__shape *k, dal__variant variant)
 {
     const int width = dal__engine_kinds[variant].width;
     if (variant == DAL__VARIANT_x1) return true;
+    if (width > 1 && k->options.tolerance > 0.0) return false; /* each lane has its own substeps */
     if (!has_callbacks(k->system, width)) return false;
     if (width == DAL__BLOCK && (k->lifted || k->depth > 1)) return false;
     if (width == DAL__BLOCK && !(k->method.chain[0]->claims & DAL_COMPONENTWISE)) return false;

@@ -39,6 +39,8 @@ typedef struct dal__cause {
     dal_status status;     /* what the system said */
     double t;              /* where */
     double *q, *v;         /* [n], [nw] */
+    double reached;        /* time at which the substeps ended */
+    double substep;        /* the one planned then, 0: too small to be told from none */
     int guard, constraint; /* which guard or normal turned, from 1; 0: none */
 } dal__cause;
 

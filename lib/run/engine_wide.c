@@ -32,11 +32,11 @@ static const dal_callbacks *callbacks(const dal_system *system)
 }
 
 /* Nums of the carried array that an integrator may change: some methods keep no stage slopes, and
- * where they solve nothing they leave all but y and r alone. */
+ * where they neither solve nor divide anything they leave all but y and r alone. */
 static size_t changing(const engine *e)
 {
     const bool forgets = (e->chain[0]->claims & DAL_COMPONENTWISE) != 0;
-    const bool solves = e->shape.lifted || e->shape.depth > 1;
+    const bool solves = e->shape.lifted || e->shape.depth > 1 || e->shape.options.tolerance > 0.0;
     if (!forgets) return e->shape.carried * DAL_GROUPS;
     return solves ? (size_t)(e->step.slopes - e->carried) : dal__at(&e->shape, 0) * DAL_GROUPS;
 }
@@ -123,6 +123,7 @@ static void prepare_step(engine *e)
     s->iterations = k->options.iterations;
     s->has_jacobian = k->system->call.jacobian != NULL;
     s->properties = k->system->properties;
+    s->tolerance = k->options.tolerance;
     s->room = k->scratch * DAL_GROUPS;
     place_memory(e);
     s->chain = e->chain;
@@ -367,12 +368,21 @@ static void begin_step(engine *e, double h, dal__lanes alive, const lane_mask *l
     s->depth = e->shape.depth - 1;
 }
 
+/* How far the substeps came, if somebody wants to know. */
+static void note_progress(engine *e)
+{
+    if (!e->cause) return;
+    e->cause->reached = e->step.t;
+    e->cause->substep = dal_lane(e->step.substep[0], 0);
+}
+
 dal__lanes DAL_WIDE(dal__engine_step)(void *engine_, double h, dal__lanes alive, dal_status *why)
 {
     engine *e = engine_;
     lane_mask moved = mask_of(alive);
     begin_step(e, h, alive, &moved);
     const dal_status status = e->chain[e->step.depth]->step(&e->step);
+    note_progress(e);
     const dal__lanes failed = judge(e, &moved, alive, status, why);
     advance_clock(e, h, &moved);
     const bool strayed = DAL_GROUPS > 1 && alive != ~(dal__lanes)0; /* lanes not alive moved */

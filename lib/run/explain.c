@@ -129,6 +129,23 @@ static dal_status unsolved(dal_run *run, double t, double h, dal_error *error)
                       run->shape.options.iterations);
 }
 
+/* The control of the step size gave up. */
+static dal_status undivided(dal_run *run, const dal__cause *cause, double t, double h,
+                            dal_error *error)
+{
+    const double tolerance = run->shape.options.tolerance;
+    if (cause->substep > 0.0)
+        return dal__error(
+            error, DAL_NOT_CONVERGED, 0, 0,
+            "too many substeps (more than %d) for tolerance %g in the step of %g from "
+            "t = %.17g: at t = %.17g their size is %g",
+            DAL__MOST_TRIALS, tolerance, h, t, cause->reached, cause->substep);
+    return dal__error(error, DAL_NOT_CONVERGED, 0, 0,
+                      "the step size went to zero at t = %.17g in the step of %g from t = %.17g: "
+                      "no substep there keeps the error within tolerance %g",
+                      cause->reached, h, t, tolerance);
+}
+
 /* Steps again, watching; a system that is not a pure function may now succeed, so the state is put
  * back. */
 static void repeat(dal_run *run, double h, dal__cause *cause)
@@ -162,6 +179,8 @@ dal_status dal__explain(dal_run *run, double h, dal_status status, dal_error *er
     }
     if (status == DAL_NOT_CONVERGED && vanishes(run, t, h, &cause))
         return turned(run, &cause, t, h, error);
+    if (status == DAL_NOT_CONVERGED && k->options.tolerance > 0.0 && cause.reached < t + h)
+        return undivided(run, &cause, t, h, error);
     if (status == DAL_NOT_CONVERGED) return unsolved(run, t, h, error);
     if (status == DAL_NOT_FINITE)
         return dal__error(error, status, 0, 0,

@@ -120,6 +120,9 @@ static dal_status check_options(const dal_options *o, dal_error *error)
     if (o->extend_energy < 0 || o->extend_energy > 1)
         return dal__error(error, DAL_ARGUMENT, 0, 0, "extend-energy is %d, not 0 or 1",
                           o->extend_energy);
+    if (!(o->tolerance >= 0.0 && o->tolerance <= 1.0))
+        return dal__error(error, DAL_ARGUMENT, 0, 0, "the tolerance must be from 0 to 1; it is %g",
+                          o->tolerance);
     if (o->solver < DAL_SOLVER_AUTO || o->solver > DAL_NEWTON)
         return dal__error(error, DAL_ARGUMENT, 0, 0, "there is no solver number %d", o->solver);
     return DAL_OK;
@@ -176,6 +179,15 @@ static dal_status check_chain(dal__shape *k, dal_error *error)
     }
     if (k->depth == 0) return dal__error(error, DAL_ARGUMENT, 0, 0, "a run needs an integrator");
     return DAL_OK;
+}
+
+static dal_status check_control(const dal__shape *k, dal_error *error)
+{
+    char name[128];
+    if (k->options.tolerance == 0.0 || dal_method_claims(&k->method) & DAL_ADAPTIVE) return DAL_OK;
+    return dal__error(error, DAL_UNSUPPORTED, 0, 0,
+                      "%s has no control of its step size: a tolerance cannot be kept, take 0",
+                      dal_method_name(&k->method, name, sizeof name));
 }
 
 /* Numbers in the answer to a question. */
@@ -247,6 +259,7 @@ dal_status dal__shape_init(dal__shape *k, const dal_run_spec *spec, dal_error *e
         return dal__error(error, DAL_TOO_LARGE, 0, 0, "%d coordinates, %d constraints", k->n, k->m);
     k->dim = k->lifted ? 4 * k->n + 2 : k->n + k->nw;
     DAL_TRY(check_chain(k, error));
+    DAL_TRY(check_control(k, error));
     DAL_TRY(check_needs(k, error));
     return measure(k, error);
 }

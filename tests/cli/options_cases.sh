@@ -68,3 +68,39 @@ refuses "rk4 is not symmetric" contact-oscillator rk4+symmetric-project physical
 refuses "the motion does not conserve its energy" isokinetic rk4+project-energy physical
 refuses "take the physical space" contact-oscillator gni lifted
 refuses "needs a method of order 2: gauss4 is of order 4" contact-oscillator gauss4+yoshida4 lifted
+
+case_is "tolerance: the error follows it, whatever the step"
+error_at_end() { awk -F, 'END { print $NF }' "$1"; }
+for tolerance in 1e-5 1e-10; do
+    try 0 run knife-edge --integrator dop853 --step 5 --time 10 --samples 1 \
+        --tolerance $tolerance --output $tolerance.csv
+    silent
+done
+holds "errors $(error_at_end 1e-5.csv), $(error_at_end 1e-10.csv)" \
+    awk "BEGIN { exit !($(error_at_end 1e-10.csv) < 1e-3 * $(error_at_end 1e-5.csv)) }"
+
+case_is "tolerance: interpreted, with one line that says so, and the same bytes"
+try 0 run knife-edge --integrator dop853 --step 5 --time 10 --samples 1 \
+    --tolerance 1e-10 --native on --output native.csv
+says "steps are interpreted: steps under a tolerance are not generated"
+holds "other bytes" cmp -s 1e-10.csv native.csv
+
+case_is "tolerance: resumed"
+motion="knife-edge --integrator dop853 --tolerance 1e-9 --step 0.7 --time 10 --samples 9"
+try 0 run $motion --output whole.csv
+try 0 run $motion --output divided
+try 0 resume divided
+holds "not kept in run.yaml" grep -q '^tolerance: 1e-9$' divided/run.yaml
+holds "other bytes" cmp -s whole.csv divided/rows.csv
+
+case_is "tolerance: refused with the reason"
+try 2 run knife-edge --integrator rk4 --step 0.1 --time 1 --tolerance 1e-6
+says "rk4 has no control of its step size"
+try 2 run knife-edge --integrator dop853+lift --step 0.1 --time 1 --tolerance 1e-6
+says "dop853.lift has no control of its step size"
+try 2 run knife-edge --integrator dop853 --step 0.1 --time 1 --tolerance -1
+says "option tolerance: -1 is not a number from 0 to 1"
+
+case_is "tolerance: listed and explained"
+try 0 list integrators
+holds "not listed" grep -q '^dop853 .*adaptive' out
