@@ -77,6 +77,8 @@ bool dal__wants(const dal__generation *g, dal__program_code code)
         return imposes;
     case DAL__PROGRAM_POTENTIAL:
         return dal_method_needs(&g->spec->method) & DAL_NEEDS_POTENTIAL;
+    case DAL__PROGRAM_ENERGY_NORMAL:
+        return dal__method_uses(g, "DAL_ASK_ENERGY_NORMAL");
     case DAL__PROGRAM_DIAGNOSE:
         return false;
     default:
