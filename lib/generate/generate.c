@@ -346,7 +346,8 @@ static void put_file(dal__generation *g)
 static void put_native_file(dal__generation *g)
 {
     dal__text_put(&g->text,
-                  "typedef __INT64_TYPE__ int64_t;\ntypedef __SIZE_TYPE__ size_t;\n"
+                  "typedef __INT64_TYPE__ int64_t;\ntypedef __UINT64_TYPE__ uint64_t;\ntypedef "
+                  "__SIZE_TYPE__ size_t;\n"
                   "#define INT64_MAX __INT64_MAX__\n#define INT64_MIN (-__INT64_MAX__ - 1)\n"
                   "#define NULL ((void *)0)\n#define INFINITY __builtin_inf()\n"
                   "#define NAN __builtin_nan(\"\")\n"

@@ -28,6 +28,7 @@
 #include "num.h"
 
 #if DAL_LANES == 1
+typedef uint64_t dal__unsigned;
 DAL_INLINE dal_mask dal__bits(num x)
 {
     dal_mask bits;
@@ -41,6 +42,7 @@ DAL_INLINE num dal__from_bits(dal_mask bits)
     return x;
 }
 #else
+typedef uint64_t dal__unsigned __attribute__((vector_size(8 * DAL_LANES), may_alias));
 DAL_INLINE dal_mask dal__bits(num x) { return (dal_mask)x; }
 DAL_INLINE num dal__from_bits(dal_mask bits) { return (num)bits; }
 #endif
@@ -48,7 +50,7 @@ DAL_INLINE num dal__from_bits(dal_mask bits) { return (num)bits; }
 /* x in the lanes where bit 1 of quadrant is clear, -x where it is set. */
 DAL_INLINE num dal__flip(num x, dal_mask quadrant)
 {
-    return dal__from_bits(dal__bits(x) ^ ((quadrant << 62) & INT64_MIN));
+    return dal__from_bits(dal__bits(x) ^ ((dal_mask)((dal__unsigned)quadrant << 62) & INT64_MIN));
 }
 
 /* An angle brought to [-pi/4, pi/4]: r - tail, and the quadrant in the last two bits. */
