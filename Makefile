@@ -176,8 +176,10 @@ check-bits: $(BUILD)/tests/suite
 	@seq $(BITS_JOBS) | xargs -P $(BITS_JOBS) -I{} $< --bits {}/$(BITS_JOBS)
 
 VALGRIND = valgrind -q --error-exitcode=99 --leak-check=full
+# For the memory alone: valgrind's own fused multiply-add gets signs of zeros and last places wrong,
+# so that asserts about bits (exit status 1) count in the other runs only.
 check-valgrind: $(BUILD)/tests/suite
-	$(VALGRIND) $(BUILD)/tests/suite --quick $(SUITE)
+	@$(VALGRIND) $(BUILD)/tests/suite --quick $(SUITE); test $$? -le 1
 
 fuzz:
 	$(MAKE) BUILD=$(BUILD)/fuzz CC=$(FUZZ_CC) \
