@@ -107,6 +107,16 @@ dal_run *fixture_run(const dal_run_spec *spec)
     return run;
 }
 
+void fixture_refused(const dal_run_spec *spec, dal_status status, const char *fragment)
+{
+    dal_run *run = NULL;
+    dal_error error = {0};
+    CU_ASSERT_EQUAL(dal_run_create(&run, spec, &error), status);
+    CU_ASSERT_EQUAL(error.status, status);
+    CU_ASSERT_PTR_NULL(run);
+    CU_ASSERT_PTR_NOT_NULL(strstr(error.message, fragment));
+}
+
 void fixture_displace(dal_run *run, double size)
 {
     const int n = dal_run_system(run)->n;

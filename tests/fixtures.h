@@ -26,6 +26,9 @@ bool fixture_serves(const dal_method *method, const dal_system *system, dal_spac
 /* A run of it; NULL and a failed test when it cannot be made. */
 dal_run *fixture_run(const dal_run_spec *spec);
 
+/* A run of it is refused with this status and a message that has this fragment. */
+void fixture_refused(const dal_run_spec *spec, dal_status status, const char *fragment);
+
 /* Sets p_i and pi_i of a lifted run to a fixed pattern of the given size, at t = 0. */
 void fixture_displace(dal_run *run, double size);
 

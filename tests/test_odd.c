@@ -6,16 +6,6 @@
 #include <stdio.h>
 #include <string.h>
 
-static void refused(const dal_run_spec *spec, dal_status status, const char *fragment)
-{
-    dal_run *run = NULL;
-    dal_error error = {0};
-    CU_ASSERT_EQUAL(dal_run_create(&run, spec, &error), status);
-    CU_ASSERT_EQUAL(error.status, status);
-    CU_ASSERT_PTR_NULL(run);
-    CU_ASSERT_PTR_NOT_NULL(strstr(error.message, fragment));
-}
-
 static dal_status oscillate(const dal_system *system, const dal_at *at, double *out)
 {
     (void)system;
@@ -37,19 +27,19 @@ static void test_odd_systems(void)
     dal_system system = (dal_system){.name = "hand", .n = 1, .call.field = oscillate};
     dal_run_spec spec = fixture_spec(&system, "rk4", DAL_PHYSICAL, 0.1);
     system.workspace = SIZE_MAX;
-    refused(&spec, DAL_TOO_LARGE, "workspace");
+    fixture_refused(&spec, DAL_TOO_LARGE, "workspace");
     CU_ASSERT_EQUAL(dal_run_size(&spec), 0);
     system.workspace = 1;
     system.parameters = 1000;
-    refused(&spec, DAL_ARGUMENT, "1000 parameters in a workspace of 1");
+    fixture_refused(&spec, DAL_ARGUMENT, "1000 parameters in a workspace of 1");
     system.workspace = 0;
     const dal_setting given = {"k", 1.0};
     spec.parameters = &given;
     spec.parameter_count = 1;
-    refused(&spec, DAL_NAME, "unknown parameter 'k'"); /* no parameter has a name */
+    fixture_refused(&spec, DAL_NAME, "unknown parameter 'k'"); /* no parameter has a name */
     spec.parameter_count = 0;
     system.prepare = unprepared;
-    refused(&spec, DAL_NOT_FINITE, "hand cannot be prepared");
+    fixture_refused(&spec, DAL_NOT_FINITE, "hand cannot be prepared");
 }
 
 static void test_odd_starts(void)
@@ -59,11 +49,11 @@ static void test_odd_starts(void)
     dal_run_spec spec = fixture_spec(fixture_system(model), "rk4", DAL_LIFTED, 0.1);
     spec.parameters = &massless;
     spec.parameter_count = 1;
-    refused(&spec, DAL_SINGULAR_MASS, "mass matrix is singular at the start");
+    fixture_refused(&spec, DAL_SINGULAR_MASS, "mass matrix is singular at the start");
     spec.parameter_count = 0;
     spec.start = &tiny;
     spec.start_count = 1;
-    refused(&spec, DAL_GAUGE, "e must not vanish");
+    fixture_refused(&spec, DAL_GAUGE, "e must not vanish");
     dal_model_free(model);
 }
 
@@ -71,10 +61,10 @@ static void test_odd_options(void)
 {
     const dal_system system = {.name = "hand", .n = 1, .call.field = oscillate};
     dal_run_spec spec = fixture_spec(&system, "rk4", (dal_space)7, 0.1);
-    refused(&spec, DAL_ARGUMENT, "space number 7");
+    fixture_refused(&spec, DAL_ARGUMENT, "space number 7");
     spec = fixture_spec(&system, "rk4", DAL_PHYSICAL, 0.1);
     spec.options.solver = -1;
-    refused(&spec, DAL_ARGUMENT, "solver number -1");
+    fixture_refused(&spec, DAL_ARGUMENT, "solver number -1");
 }
 
 static void test_no_text(void)

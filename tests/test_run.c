@@ -56,16 +56,6 @@ static void test_by_hand(void)
 
 /* ---- creation refuses what cannot work ---- */
 
-static void refused(const dal_run_spec *spec, dal_status status, const char *fragment)
-{
-    dal_run *run = NULL;
-    dal_error error = {0};
-    CU_ASSERT_EQUAL(dal_run_create(&run, spec, &error), status);
-    CU_ASSERT_EQUAL(error.status, status);
-    CU_ASSERT_PTR_NULL(run);
-    CU_ASSERT_PTR_NOT_NULL(strstr(error.message, fragment));
-}
-
 static void test_refusals(void)
 {
     dal_model *model = fixture_model("chaplygin-sleigh");
@@ -73,20 +63,20 @@ static void test_refusals(void)
     const double steps[] = {0.0, -0.1, NAN, INFINITY};
     for (int i = 0; i < 4; i++) {
         const dal_run_spec spec = fixture_spec(system, "rk4", DAL_LIFTED, steps[i]);
-        refused(&spec, DAL_ARGUMENT, "step");
+        fixture_refused(&spec, DAL_ARGUMENT, "step");
     }
     const dal_system bare = hand_made(oscillate, NULL);
     dal_run_spec spec = fixture_spec(&bare, "rk4", DAL_LIFTED, 0.1);
-    refused(&spec, DAL_UNSUPPORTED, "rk4 cannot act on hand");
+    fixture_refused(&spec, DAL_UNSUPPORTED, "rk4 cannot act on hand");
     spec = fixture_spec(&bare, "implicit-midpoint", DAL_PHYSICAL, 0.1);
     spec.options.solver = DAL_NEWTON;
-    refused(&spec, DAL_UNSUPPORTED, "jacobian");
+    fixture_refused(&spec, DAL_UNSUPPORTED, "jacobian");
     const dal_system empty = {.name = "empty", .n = 0, .call.field = oscillate};
     spec = fixture_spec(&empty, "rk4", DAL_PHYSICAL, 0.1);
-    refused(&spec, DAL_ARGUMENT, "n is 0");
+    fixture_refused(&spec, DAL_ARGUMENT, "n is 0");
     spec = fixture_spec(system, "rk4", DAL_PHYSICAL, 0.1);
     spec.method.chain[0] = NULL;
-    refused(&spec, DAL_ARGUMENT, "integrator");
+    fixture_refused(&spec, DAL_ARGUMENT, "integrator");
     dal_model_free(model);
 }
 
@@ -97,21 +87,21 @@ static void test_settings(void)
     dal_setting bad = {"omeg", 1.0};
     spec.parameters = &bad;
     spec.parameter_count = 1;
-    refused(&spec, DAL_NAME, "'omega'");
+    fixture_refused(&spec, DAL_NAME, "'omega'");
     spec.parameter_count = 0;
     spec.start = &bad;
     spec.start_count = 1;
     bad = (dal_setting){"pi_ph", 1.0};
-    refused(&spec, DAL_NAME, "'pi_phi'");
+    fixture_refused(&spec, DAL_NAME, "'pi_phi'");
     bad = (dal_setting){"y2'", 0.1};
-    refused(&spec, DAL_INCONSISTENT, "constraint 1");
+    fixture_refused(&spec, DAL_INCONSISTENT, "constraint 1");
     bad = (dal_setting){"e", 0.0};
-    refused(&spec, DAL_GAUGE, "e = 0");
+    fixture_refused(&spec, DAL_GAUGE, "e = 0");
     bad = (dal_setting){"phi", NAN};
-    refused(&spec, DAL_ARGUMENT, "phi");
+    fixture_refused(&spec, DAL_ARGUMENT, "phi");
     spec.options.space = DAL_PHYSICAL;
     bad = (dal_setting){"p_phi", 1.0};
-    refused(&spec, DAL_NAME, "p_phi");
+    fixture_refused(&spec, DAL_NAME, "p_phi");
     /* Start formulas follow the parameters: y1' = v0. */
     const dal_setting speed = {"v0", 2.5};
     spec.start_count = 0;
@@ -152,7 +142,7 @@ static void test_rank(void)
                                .call = {.field = stand_still, .constraint = twice},
                                .constraints = stand_still};
     const dal_run_spec spec = fixture_spec(&system, "rk4", DAL_PHYSICAL, 0.1);
-    refused(&spec, DAL_RANK, "constraint 2");
+    fixture_refused(&spec, DAL_RANK, "constraint 2");
 }
 
 /* ---- a step succeeds or leaves the run bitwise unchanged ---- */
