@@ -114,6 +114,7 @@ void fixture_refused(const dal_run_spec *spec, dal_status status, const char *fr
     CU_ASSERT_EQUAL(dal_run_create(&run, spec, &error), status);
     CU_ASSERT_EQUAL(error.status, status);
     CU_ASSERT_PTR_NULL(run);
+    if (!strstr(error.message, fragment)) printf("\n  %s\n", error.message);
     CU_ASSERT_PTR_NOT_NULL(strstr(error.message, fragment));
 }
 

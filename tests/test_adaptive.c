@@ -255,16 +255,6 @@ static void test_projected(void)
 
 /* ---- refusals and failures ---- */
 
-static void refused(const dal_run_spec *spec, dal_status status, const char *reason)
-{
-    dal_error error = {0};
-    dal_run *run = NULL;
-    CU_ASSERT_EQUAL(dal_run_create(&run, spec, &error), status);
-    if (!strstr(error.message, reason)) printf("\n  %s\n", error.message);
-    CU_ASSERT_PTR_NOT_NULL(strstr(error.message, reason));
-    dal_run_free(run);
-}
-
 /* Who claims control takes a tolerance, and nobody else does. */
 static void test_claims(void)
 {
@@ -280,15 +270,15 @@ static void test_claims(void)
         if (dal_method_claims(&method) & DAL_ADAPTIVE)
             dal_run_free(fixture_run(&spec));
         else
-            refused(&spec, DAL_UNSUPPORTED, name);
+            fixture_refused(&spec, DAL_UNSUPPORTED, name);
     }
     dal_run_spec spec = fixture_spec(fixture_system(model), "dop853+lift", DAL_LIFTED, 0.1);
     spec.options.tolerance = 1e-6;
-    refused(&spec, DAL_UNSUPPORTED, "dop853+lift has no control of its step size");
+    fixture_refused(&spec, DAL_UNSUPPORTED, "dop853+lift has no control of its step size");
     spec = spec_of(spec.system, DAL_LIFTED, 0.1, -1e-6);
-    refused(&spec, DAL_ARGUMENT, "the tolerance must be from 0 to 1; it is -1e-06");
+    fixture_refused(&spec, DAL_ARGUMENT, "the tolerance must be from 0 to 1; it is -1e-06");
     spec.options.tolerance = NAN;
-    refused(&spec, DAL_ARGUMENT, "the tolerance must be from 0 to 1");
+    fixture_refused(&spec, DAL_ARGUMENT, "the tolerance must be from 0 to 1");
     dal_model_free(model);
 }
 

@@ -244,12 +244,7 @@ static void refused(const char *text, const char *name, dal_space space, const c
 {
     dal_model *model = fixture_model(text);
     const dal_run_spec spec = fixture_spec(fixture_system(model), name, space, 0.1);
-    dal_error error = {0};
-    dal_run *run = NULL;
-    CU_ASSERT_EQUAL(dal_run_create(&run, &spec, &error), DAL_UNSUPPORTED);
-    CU_ASSERT_PTR_NULL(run);
-    if (!strstr(error.message, reason)) printf("\n  %s: %s\n", name, error.message);
-    CU_ASSERT_PTR_NOT_NULL(strstr(error.message, reason));
+    fixture_refused(&spec, DAL_UNSUPPORTED, reason);
     dal_model_free(model);
 }
 
