@@ -2,14 +2,9 @@
 #include "report.h"
 #include "file.h"
 
-#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
-enum { NOT_FOUND = 127 };
 
 /* ---- texts ---- */
 
@@ -25,26 +20,6 @@ void report_text(FILE *page, const char *text)
         else
             fputc(*text, page);
     }
-}
-
-void report_quote(FILE *script, const char *text)
-{
-    fputc('"', script);
-    for (; *text; text++) {
-        if (*text == '"' || *text == '\\') fputc('\\', script);
-        /* Back quotes would run a command. */
-        fputc(*text == '`' ? '\'' : *text, script);
-    }
-    fputc('"', script);
-}
-
-/* First-order methods in warm colours, then green and black, then Gauss from violet to blue. */
-const char *report_colour(int i)
-{
-    static const char *const colour[REPORT_COLOURS] = {"#e6a700", "#d95f02", "#c51b2c", "#8c2d04",
-                                                       "#1b9e49", "#000000", "#7a7a7a", "#c994c7",
-                                                       "#9e5fc0", "#5e4fa2", "#2b83ba", "#08306b"};
-    return colour[i % REPORT_COLOURS];
 }
 
 /* ---- CSV ---- */
@@ -134,57 +109,16 @@ const char *report_csv_get(const report_csv *csv, int row, const char *head)
     return "";
 }
 
-/* ---- gnuplot ---- */
+/* ---- figures ---- */
 
 FILE *report_script(report *r, const char *name, int width, int height, char **path)
 {
-    char file[512];
-    snprintf(file, sizeof file, "%s.gp", name);
-    *path = cli_join(r->place, file);
-    FILE *script = *path ? fopen(*path, "w") : NULL;
-    if (!script) {
-        cli_io("write", *path ? *path : name);
-        free(*path);
-        return NULL;
-    }
-    int png = strcmp(r->format, "png") == 0;
-    fprintf(script, "set terminal %s size %d,%d noenhanced font 'sans,11' background 'white'\n",
-            png ? "pngcairo" : "svg dynamic", width, height);
-    snprintf(file, sizeof file, "%s.%s", name, r->format);
-    fputs("set output ", script);
-    report_quote(script, file);
-    fputs("\nset datafile separator comma\nset datafile missing ''\nset tics nomirror font ',9'\n"
-          "set border 3\nset grid back lt 1 lw 1 lc rgb '#e0e0e0'\n",
-          script);
-    return script;
-}
-
-/* Runs gnuplot on a script in DIR/report. */
-static int run_gnuplot(report *r, const char *path)
-{
-    const char *slash = strrchr(path, '/'), *script = slash ? slash + 1 : path;
-    int state;
-    fflush(NULL);
-    pid_t child = fork();
-    if (child < 0) return cli_io("run", "gnuplot");
-    if (child == 0) {
-        if (chdir(r->place) == 0) execlp("gnuplot", "gnuplot", script, (char *)NULL);
-        _exit(errno == ENOENT ? NOT_FOUND : 1);
-    }
-    while (waitpid(child, &state, 0) < 0)
-        if (errno != EINTR) return cli_io("wait for", "gnuplot");
-    if (WIFEXITED(state) && WEXITSTATUS(state) == 0) return CLI_DONE;
-    r->broken = WIFEXITED(state) && WEXITSTATUS(state) == NOT_FOUND;
-    if (r->broken)
-        return cli_fail(CLI_IO, "gnuplot is not installed; the figures need it ('%s' is written)",
-                        path);
-    return cli_fail(CLI_IO, "gnuplot failed on '%s'", path);
+    return gnuplot_open(r->place, name, r->format, width, height, path);
 }
 
 int report_draw(report *r, FILE *script, char *path, const char *name, const char *caption)
 {
-    int status = cli_close(script, path);
-    if (status == CLI_DONE) status = run_gnuplot(r, path);
+    int status = gnuplot_draw(r->place, script, path, &r->broken);
     free(path);
     if (status != CLI_DONE) return status;
     fputs("<figure><img src=\"", r->page);

@@ -7,6 +7,7 @@
 #define DAL_CLI_REPORT_H
 
 #include "cli.h"
+#include "gnuplot.h"
 
 typedef struct report {
     const char *directory; /* that of the study or run */
@@ -28,11 +29,6 @@ int report_draw(report *r, FILE *script, char *path, const char *name, const cha
 
 /* Text in which &, < and > are taken care of. */
 void report_text(FILE *page, const char *text);
-/* A string of gnuplot, in quotes. */
-void report_quote(FILE *script, const char *text);
-/* The colours of the curves, one after the other. */
-const char *report_colour(int i);
-enum { REPORT_COLOURS = 12 };
 
 /* A CSV file in memory: cell(row, column), row 0 being the heads. */
 typedef struct report_csv {

@@ -92,8 +92,8 @@ static int colour_of(const figure *f, const char *method)
 static void put_style(FILE *s, const figure *f, const char *method, double width)
 {
     int i = colour_of(f, method);
-    fprintf(s, "with lines lw %g dt %d lc rgb '%s'", width, 1 + i / REPORT_COLOURS,
-            report_colour(i));
+    fprintf(s, "with lines lw %g dt %d lc rgb '%s'", width, 1 + i / GNUPLOT_COLOURS,
+            gnuplot_colour(i));
 }
 
 typedef struct panel {
@@ -123,7 +123,7 @@ static void draw_curves(FILE *s, const figure *f, const panel *p)
     fputs("set xrange [*:*]\nset yrange [*:*]\nplot \\\n", s);
     for (int i = 0; i < f->shown.count; i++) {
         fputs("  series using 'until':(pick(", s);
-        report_quote(s, f->shown.word[i]);
+        gnuplot_quote(s, f->shown.word[i]);
         fprintf(s, ", '%s', '%s', %s)) ", p->start, p->column, p->floor);
         put_style(s, f, f->shown.word[i], 1.6);
         fprintf(s, " notitle%s\n", i + 1 < f->shown.count ? ", \\" : "");
@@ -141,7 +141,7 @@ static void put_points(FILE *s, const figure *f)
         double time = strtod(report_get(f->c, row, "time"), NULL);
         fprintf(s, "%.17g,%s,%d,%ld\n", evaluations / time, report_get(f->c, row, f->accuracy),
                 strchr(method, '+') ? 6 : 7,
-                strtol(report_colour(colour_of(f, method)) + 1, NULL, 16));
+                strtol(gnuplot_colour(colour_of(f, method)) + 1, NULL, 16));
     }
     fputs("END\n", s);
 }
@@ -171,7 +171,7 @@ static void draw_legend(FILE *s, const figure *f)
         fputs("  NaN ", s);
         put_style(s, f, f->shown.word[i], 3.0);
         fputs(" title ", s);
-        report_quote(s, f->shown.word[i]);
+        gnuplot_quote(s, f->shown.word[i]);
         fputs(i + 1 < f->shown.count ? ", \\\n" : "\n", s);
     }
 }
@@ -201,7 +201,7 @@ static void write_script(FILE *s, const figure *f)
     char path[NAME + 32];
     snprintf(path, sizeof path, "../series/%.80s.csv", f->label);
     fputs("series = ", s);
-    report_quote(s, path);
+    gnuplot_quote(s, path);
     fputs("\nfloor_at(x, least) = x > least ? x : least\n", s);
     fprintf(s,
             "pick(m, start, name, least) = strcol('integrator') eq m && strcol('start') eq start "
@@ -210,7 +210,7 @@ static void write_script(FILE *s, const figure *f)
     fputs("set format y '%.0e'\nunset key\nset multiplot title ", s);
     char title[2 * NAME];
     snprintf(title, sizeof title, "%.80s, h = %g", f->label, strtod(f->step, NULL));
-    report_quote(s, title);
+    gnuplot_quote(s, title);
     fputc('\n', s);
     draw_panels(s, f);
     fputs("unset multiplot\n", s);

@@ -5,7 +5,7 @@
 #include <string.h>
 
 /* Of more rows than these a figure shows every k-th; of more curves the first ones. */
-enum { POINTS = 4000, CURVES = REPORT_COLOURS };
+enum { POINTS = 4000, CURVES = GNUPLOT_COLOURS };
 
 typedef struct rows {
     report_csv head; /* the heads and the first row */
@@ -85,17 +85,17 @@ static const char *first_of(const rows *r, int column)
 static void begin_panel(FILE *s, const char *title, const char *xlabel)
 {
     fputs("set title ", s);
-    report_quote(s, title);
+    gnuplot_quote(s, title);
     fputs("\nset xlabel ", s);
-    report_quote(s, xlabel);
+    gnuplot_quote(s, xlabel);
     fputc('\n', s);
 }
 
 static void put_curve(FILE *s, const rows *r, const char *using, const char *title, int i)
 {
     fprintf(s, "%s  rows every %lld using %s with lines lw 1.6 lc rgb '%s' title ",
-            i > 0 ? ", \\\n" : "", r->stride, using, report_colour(CURVES - 1 - 2 * i % CURVES));
-    report_quote(s, title);
+            i > 0 ? ", \\\n" : "", r->stride, using, gnuplot_colour(CURVES - 1 - 2 * i % CURVES));
+    gnuplot_quote(s, title);
 }
 
 static void draw_coordinates(FILE *s, const rows *r)
@@ -114,7 +114,7 @@ static void draw_path(FILE *s, const rows *r)
 {
     begin_panel(s, "path", name_of(r, 1));
     fputs("set ylabel ", s);
-    report_quote(s, name_of(r, 2));
+    gnuplot_quote(s, name_of(r, 2));
     fputs("\nset size ratio -1\nplot \\\n", s);
     put_curve(s, r, "2:3", "", 0);
     fputs("\nset size noratio\nunset ylabel\n", s);
