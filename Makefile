@@ -25,6 +25,9 @@ EXACT = -ffp-contract=off -fno-math-errno
 ALL   = -std=c11 -D_POSIX_C_SOURCE=200809L $(WARN) $(EXACT) -fPIC -pthread -Iinclude -Ilib \
         -I$(BUILD)/generated $(CFLAGS)
 LIBS  = -lyaml -lm -pthread
+# Threads of the program, for cli/pool.c alone; without OpenMP it has one.
+OPENMP = $(eval OPENMP := $(shell echo 'int main(void) { return 0; }' | \
+         $(CC) -fopenmp -x c - -o /dev/null 2>/dev/null && echo -fopenmp))$(OPENMP)
 
 VERSION := $(shell sed -n 's/^.define DAL_VERSION "\(.*\)"/\1/p' include/dalembert.h)
 SONAME  := libdalembert.so.$(firstword $(subst ., ,$(VERSION)))
@@ -97,8 +100,9 @@ $(SHARED): $(SHARED).$(VERSION)
 	@ln -sf $(<F) $(BUILD)/$(SONAME)
 	@ln -sf $(SONAME) $@
 
+$(BUILD)/cli/pool.o: ALL += $(OPENMP)
 $(PROGRAM): $(CLI_OBJ) $(STATIC)
-	$(call SAY,ld)$(CC) $(CFLAGS) $(LDFLAGS) $^ $(LIBS) -o $@
+	$(call SAY,ld)$(CC) $(CFLAGS) $(LDFLAGS) $^ $(LIBS) $(OPENMP) -o $@
 
 # ---- generated texts -------------------------------------------------------------------------
 

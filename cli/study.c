@@ -1,10 +1,10 @@
 /* study.c - `dalembert study`: systems x integrators x steps x starts, in tables and files. */
 #include "study.h"
 #include "file.h"
+#include "pool.h"
 
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 /* The study that travels inside the program: bench/studies/canonical-drift.yaml. */
 extern const char study_builtin_text[];
@@ -23,7 +23,8 @@ typedef struct wishes {
 
 #define OPTION_LIST(X)                                                                             \
     X(output, "DIR", "the files go there", default_directory)                                      \
-    X(threads, "N", "cells at a time; the results do not depend on it", "one per processor")       \
+    X(threads, "N", "cells at a time; the results do not depend on it",                            \
+      "OMP_NUM_THREADS or one per processor")                                                      \
     X(native, "auto|on|off", "compile the steps, which changes no bit: when it pays", "auto")      \
     X(show, NULL, "print the study file itself and do nothing", NULL)
 
@@ -68,7 +69,7 @@ static int take(wishes *w, int option, const char *value)
         w->output = value;
         return CLI_DONE;
     case OPTION_threads:
-        return cli_integer("--threads", value, 1, 256, &w->threads);
+        return cli_integer("--threads", value, 1, POOL_MOST, &w->threads);
     case OPTION_native:
         return native_read(value, &w->native);
     case OPTION_show:
@@ -134,8 +135,12 @@ static int run_plan(study_plan *plan, const wishes *w, const char *text, size_t 
     if (status == CLI_DONE) status = copy_study(w->output, text, length);
     if (status == CLI_DONE) {
         cli_catch_signals();
-        status = study_pool_run(plan, (int)w->threads, output);
+        status = study_pool_run(plan, (int)w->threads);
     }
+    for (int i = 0; i < plan->cell_count && (status == CLI_DONE || status == CLI_SIGNAL); i++)
+        if (plan->cells[i].state != STUDY_WAITING &&
+            study_output_cell(output, plan, &plan->cells[i]) != CLI_DONE)
+            status = CLI_IO;
     int closed = study_output_close(output);
     if (status != CLI_DONE && status != CLI_SIGNAL) return status;
     int told = tell_tables(w->output, plan);
@@ -168,15 +173,9 @@ static int run_study(const wishes *w)
     return status;
 }
 
-static long processors(void)
-{
-    long count = sysconf(_SC_NPROCESSORS_ONLN);
-    return count < 1 ? 1 : count;
-}
-
 int command_study(int argc, char **argv)
 {
-    wishes w = {.output = default_directory, .threads = processors()};
+    wishes w = {.output = default_directory, .threads = pool_threads()};
     cli_args args = cli_begin(argc, argv, options, OPTIONS, notes);
     const char *value;
     for (int k; (k = cli_next(&args, &value)) != CLI_STOP;) {

@@ -10,7 +10,6 @@
 #include "cli.h"
 #include "native.h"
 
-#include <pthread.h>
 #include <stdint.h>
 
 /* ---- the plan ---- */
@@ -157,9 +156,8 @@ const study_cell *study_physical_twin(const study_plan *plan, const study_cell *
 
 typedef struct study_output study_output;
 
-/* Runs all cells on threads; written cells follow in order as they become complete.  Returns an
- * exit status: CLI_DONE, CLI_SIGNAL, CLI_IO. */
-int study_pool_run(study_plan *plan, int threads, study_output *output);
+/* Runs all cells on threads.  Returns an exit status: CLI_DONE, CLI_SIGNAL, CLI_IO. */
+int study_pool_run(study_plan *plan, int threads);
 
 /* The files of a study below a directory:
  *     cells.csv        a row per cell
