@@ -233,6 +233,7 @@ dal_status dal_model_tangent(dal_model *model, const dal_system **system, dal_er
 
 typedef enum dal_space { DAL_LIFTED, DAL_PHYSICAL } dal_space;
 typedef enum dal_solver { DAL_SOLVER_AUTO, DAL_FIXED_POINT, DAL_NEWTON } dal_solver;
+typedef enum dal_sums { DAL_SUMS_COMPENSATED, DAL_SUMS_PLAIN } dal_sums;
 
 /* type, name, its word outside C, default, least, greatest, words (for choices), help */
 #define DAL_OPTION_LIST(X)                                                                         \
@@ -246,7 +247,13 @@ typedef enum dal_solver { DAL_SOLVER_AUTO, DAL_FIXED_POINT, DAL_NEWTON } dal_sol
     X(int, extend_energy, "extend-energy", 0, 0, 1, "off|on",                                      \
       "continue F off D = 0 so that E is kept there too")                                          \
     X(double, tolerance, "tolerance", 0, 0.0, 1.0, NULL,                                           \
-      "error, absolute and relative, of the substeps that dop853 divides h into; 0: none")
+      "error, absolute and relative, of the substeps that dop853 divides h into; 0: none")         \
+    X(double, solve_to, "solve-to", 0, 0.0, 1.0, NULL,                                             \
+      "relative change at which an implicit equation counts as solved; 0: rounding level")         \
+    X(int, extra_sweeps, "extra-sweeps", 0, 0, 1000, NULL,                                         \
+      "iterations of an implicit equation after it is solved")                                     \
+    X(int, sums, "sums", DAL_SUMS_COMPENSATED, 0, 1, "compensated|plain",                          \
+      "how steps are added to the state")
 
 typedef struct dal_options {
 #define X(type, name, word, initial, least, greatest, words, help) type name;

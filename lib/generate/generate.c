@@ -246,6 +246,8 @@ static void put_constants(dal__generation *g)
         {"SLOPES", collocation ? k->slopes : 0},
         {"SOLVER", k->options.solver},
         {"ITERATIONS", k->options.iterations},
+        {"EXTRA_SWEEPS", k->options.extra_sweeps},
+        {"PLAIN", k->options.sums == DAL_SUMS_PLAIN},
         {"PROPERTIES", (int)k->system->properties},
         {"REACTION", k->reaction},
         {"NEWTON", dal__uses_newton(g)},
@@ -259,6 +261,9 @@ static void put_constants(dal__generation *g)
     put_lanes(g);
     for (size_t i = 0; i < sizeof list / sizeof *list; i++)
         dal__text_print(&g->text, "#define DAL__%s %d\n", list[i].name, list[i].value);
+    dal__text_put(&g->text, "#define DAL__SOLVE_TO ");
+    dal__text_number(&g->text, k->options.solve_to);
+    dal__text_put(&g->text, "\n");
 }
 
 /* The parts of the kernel that the method needs. */

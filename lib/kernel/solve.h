@@ -6,7 +6,9 @@
  * An iteration ends when every block has d = 0, or a d at rounding level that no longer decreases
  * (Hairer, McLachlan, Razakarivony, BIT 48 (2008) 231), or one that twice in a row does not
  * decrease and is small: not at a tolerance.  "Small" only tells stagnation from divergence.  Each
- * lane ends by itself and is then left alone, so its bits do not depend on its neighbours.
+ * lane ends by itself and is then left alone, so its bits do not depend on its neighbours.  To see
+ * what the solver does to a run one can ask it to end earlier (DAL_SOLVE_TO) or to iterate on
+ * (DAL_EXTRA_SWEEPS).
  *
  * With the solver "auto" a lane whose fixed point contracts more slowly than DAL__SLOW, or not at
  * all, goes over to Newton and stays there (step->stiff, which is carried along). */
@@ -111,15 +113,19 @@ DAL_INLINE void dal__advance(dal_block *b, dal_mask active, int newton)
     b->now = b->weight * norm + poison;
 }
 
-/* Lanes where a block's increment is zero or stagnates. */
-DAL_INLINE dal_mask dal__quiet(dal_block *b)
+/* Lanes where a block's increment is zero or stagnates, or is as small as was asked for. */
+DAL_INLINE dal_mask dal__quiet(const dal_step *s, dal_block *b)
 {
     const num size = b->scale + b->weight * dal_max_norm(b->u, b->size);
     b->stalls = dal_select(dal_less_equal(b->before, b->now), b->stalls + 1.0, dal_num(0.0));
     const dal_mask once = dal_less(dal_num(0.5), b->stalls),
                    twice = dal_less(dal_num(1.5), b->stalls);
-    return dal_equal(b->now, dal_num(0.0)) | (once & dal_less_equal(b->now, DAL__ROUNDING * size)) |
-           (twice & dal_less_equal(b->now, DAL__SMALL * size));
+    const dal_mask stagnates = dal_equal(b->now, dal_num(0.0)) |
+                               (once & dal_less_equal(b->now, DAL__ROUNDING * size)) |
+                               (twice & dal_less_equal(b->now, DAL__SMALL * size));
+    if (DAL_RARELY(DAL_SOLVE_TO(s) > 0.0))
+        return stagnates | dal_less_equal(b->now, DAL_SOLVE_TO(s) * size);
+    return stagnates;
 }
 
 DAL_INLINE dal_mask dal__slow(const dal_block *b)
@@ -135,12 +141,24 @@ DAL_INLINE void dal__begin_block(dal_block *b)
 }
 
 /* Takes the new image into a block; lanes that are now quiet, and lanes that are still finite. */
-DAL_INLINE void dal__sweep(dal_block *b, dal_mask active, int newton, dal_mask *quiet,
-                           dal_mask *finite)
+DAL_INLINE void dal__sweep(const dal_step *s, dal_block *b, dal_mask active, int newton,
+                           dal_mask *quiet, dal_mask *finite)
 {
     dal__advance(b, active, newton);
-    *quiet &= dal__quiet(b);
+    *quiet &= dal__quiet(s, b);
     *finite &= dal_finite(b->now);
+}
+
+/* The sweeps that were asked for beyond the solution. */
+DAL_INLINE void dal__sweep_on(dal_step *s, dal_equation *eq, dal_map *map, dal_mask lanes,
+                              int newton)
+{
+    eq->active = lanes;
+    for (int k = 0; k < DAL_EXTRA_SWEEPS(s) && dal_any(lanes); k++) {
+        map(s, eq);
+        dal__advance(&eq->block[0], lanes, newton);
+        if (eq->blocks > 1) dal__advance(&eq->block[1], lanes, newton);
+    }
 }
 
 /* Iterates in the given lanes; returns those that stagnated.  *slow receives lanes that were given
@@ -155,8 +173,8 @@ DAL_INLINE dal_mask dal__iterate(dal_step *s, dal_equation *eq, dal_map *map, da
         dal_mask quiet = dal_all(), finite = dal_all();
         eq->active = active;
         map(s, eq);
-        dal__sweep(&eq->block[0], active, newton, &quiet, &finite);
-        if (eq->blocks > 1) dal__sweep(&eq->block[1], active, newton, &quiet, &finite);
+        dal__sweep(s, &eq->block[0], active, newton, &quiet, &finite);
+        if (eq->blocks > 1) dal__sweep(s, &eq->block[1], active, newton, &quiet, &finite);
         if (may_give_up && (k == 1 || k == 2)) {
             *slow |= active & dal__slow(&eq->block[0]);
             finite &= ~*slow;
@@ -164,7 +182,9 @@ DAL_INLINE dal_mask dal__iterate(dal_step *s, dal_equation *eq, dal_map *map, da
         lanes &= finite | ~active;
         active &= finite & ~quiet;
     }
-    return lanes & ~active;
+    lanes &= ~active;
+    if (DAL_RARELY(DAL_EXTRA_SWEEPS(s) > 0)) dal__sweep_on(s, eq, map, lanes, newton);
+    return lanes;
 }
 
 DAL_INLINE void dal__remember(dal_block *b)

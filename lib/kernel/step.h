@@ -51,6 +51,9 @@ typedef enum dal_question {
 #define DAL_LIFTED(s)       DAL__LIFTED
 #define DAL_SOLVER(s)       DAL__SOLVER
 #define DAL_ITERATIONS(s)   DAL__ITERATIONS
+#define DAL_SOLVE_TO(s)     DAL__SOLVE_TO
+#define DAL_EXTRA_SWEEPS(s) DAL__EXTRA_SWEEPS
+#define DAL_PLAIN(s)        DAL__PLAIN
 #define DAL_MAY_NEWTON(s)   DAL__NEWTON
 #define DAL_TANGENT(s)      DAL__TANGENT
 #define DAL_PROPERTIES(s)   DAL__PROPERTIES
@@ -109,18 +112,21 @@ DAL_INLINE void dal_ask(dal_step *s, dal_question question, double t, const num 
 
 #else
 
-#define DAL_N(s)          ((s)->n)
-#define DAL_NW(s)         ((s)->nw)
-#define DAL_M(s)          ((s)->m)
-#define DAL_DIM(s)        ((s)->dim)
-#define DAL_LIFTED(s)     ((s)->lifted)
-#define DAL_SOLVER(s)     ((s)->solver)
-#define DAL_ITERATIONS(s) ((s)->iterations)
-#define DAL_TANGENT(s)    ((s)->tangent)
-#define DAL_MAY_NEWTON(s) ((s)->has_jacobian && (s)->solver != DAL_FIXED_POINT)
-#define DAL_PROPERTIES(s) ((s)->properties)
-#define DAL_CARRIED(s)    ((s)->m)
-#define DAL_STAGES(t)     ((t)->stages) /* of a tableau */
+#define DAL_N(s)            ((s)->n)
+#define DAL_NW(s)           ((s)->nw)
+#define DAL_M(s)            ((s)->m)
+#define DAL_DIM(s)          ((s)->dim)
+#define DAL_LIFTED(s)       ((s)->lifted)
+#define DAL_SOLVER(s)       ((s)->solver)
+#define DAL_ITERATIONS(s)   ((s)->iterations)
+#define DAL_SOLVE_TO(s)     ((s)->solve_to)
+#define DAL_EXTRA_SWEEPS(s) ((s)->extra_sweeps)
+#define DAL_PLAIN(s)        ((s)->plain)
+#define DAL_TANGENT(s)      ((s)->tangent)
+#define DAL_MAY_NEWTON(s)   ((s)->has_jacobian && (s)->solver != DAL_FIXED_POINT)
+#define DAL_PROPERTIES(s)   ((s)->properties)
+#define DAL_CARRIED(s)      ((s)->m)
+#define DAL_STAGES(t)       ((t)->stages) /* of a tableau */
 
 struct dal_step {
     double t, h; /* where the step begins, and its size; dal_update moves t */
@@ -130,7 +136,7 @@ struct dal_step {
     num *y, *r;  /* [dim] */
 
     /* Carried from step to step beside the state, see carried.h. */
-#define X(member, count)  num *member;
+#define X(member, count)    num *member;
     DAL__MEMORY_LIST(X)
 #undef X
     num *memory; /* [remembered] all these, one behind the other */
@@ -140,6 +146,9 @@ struct dal_step {
     dal_mask unconverged; /* lanes whose implicit equations were not solved */
     int solver;           /* dal_solver */
     int iterations;       /* most iterations */
+    double solve_to;      /* a relative change that is small enough; 0: where rounding stops it */
+    int extra_sweeps;     /* iterations of what is solved */
+    int plain;            /* 1: sums without compensation, r stays 0 */
     int has_jacobian;
     unsigned properties; /* of the system */
     double tolerance;    /* of substeps, 0: the step is not to be divided */
@@ -297,6 +306,8 @@ DAL_INLINE void dal_add_multiple(dal_step *s, int first, int count, double facto
         y[i] = dal_select(alive, sum, a);
         r[i] = dal_select(alive, b - (sum - a), r[i]);
     }
+    if (DAL_RARELY(DAL_PLAIN(s)))
+        DAL_EACH(i, count) r[i] = dal_select(alive, dal_num(0.0), r[i]);
 }
 
 DAL_INLINE void dal_add(dal_step *s, int first, int count, const num *d)

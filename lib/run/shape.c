@@ -125,6 +125,12 @@ static dal_status check_options(const dal_options *o, dal_error *error)
                           o->tolerance);
     if (o->solver < DAL_SOLVER_AUTO || o->solver > DAL_NEWTON)
         return dal__error(error, DAL_ARGUMENT, 0, 0, "there is no solver number %d", o->solver);
+#define X(type, name, word, initial, least, greatest, words, help)                                 \
+    if (!(o->name >= least && o->name <= greatest))                                                \
+        return dal__error(error, DAL_ARGUMENT, 0, 0, "option %s: %g is not from %g to %g", word,   \
+                          (double)o->name, (double)least, (double)greatest);
+    DAL_OPTION_LIST(X)
+#undef X
     return DAL_OK;
 }
 

@@ -1,0 +1,141 @@
+/* test_twins.c - the options that twins of a run differ by: sums, and how far equations are solved.
+ */
+#include "fixtures.h"
+#include <CUnit/CUnit.h>
+#include <math.h>
+#include <string.h>
+
+static const char free_motion[] = "coordinates: [x]\nlagrangian: x'^2/2\nstart: {x': 0.1}\n";
+static const char oscillator[] =
+    "coordinates: [x]\nlagrangian: (x'^2 - x^2)/2\nstart: {x: 1, x': 0.5}\n";
+
+/* x + h v again and again: plain sums are those of a loop, and compensated ones lose nothing. */
+static void test_sums(void)
+{
+    enum { STEPS = 100000 };
+    const double h = 0.01, v = 0.1;
+    dal_model *model = fixture_model(free_motion);
+    dal_run_spec spec = fixture_spec(fixture_system(model), "symplectic-euler-10", DAL_PHYSICAL, h);
+    dal_run *exact = fixture_run(&spec);
+    spec.options.sums = DAL_SUMS_PLAIN;
+    dal_run *plain = fixture_run(&spec);
+    double x = 0.0;
+    for (int i = 0; i < STEPS; i++) x += h * v;
+    CU_ASSERT_EQUAL(dal_run_advance(exact, STEPS, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_advance(plain, STEPS, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_state(plain)[0], x);
+    /* One product of h v, rounded, in each step; the sum itself is right to a rounding or two. */
+    const double right = STEPS * (h * v);
+    CU_ASSERT(fabs(dal_run_state(exact)[0] - right) <= 3e-16 * right);
+    CU_ASSERT(fabs(x - right) > 1e-13 * right);
+    dal_run_free(exact);
+    dal_run_free(plain);
+    dal_model_free(model);
+}
+
+static dal_run *stepped(const dal_run_spec *spec, int steps)
+{
+    dal_run *run = fixture_run(spec);
+    CU_ASSERT_EQUAL(dal_run_advance(run, steps, NULL), DAL_OK);
+    return run;
+}
+
+/* The midpoint rule's fixed point contracts by (h/2)^2 on an oscillator: what a sweep that changes
+ * less than the tolerance leaves is smaller still, and what is left is not nothing. */
+static void test_looser(void)
+{
+    static const double tolerance[] = {1e-3, 1e-5, 1e-7, 1e-9};
+    dal_model *model = fixture_model(oscillator);
+    dal_run_spec spec = fixture_spec(fixture_system(model), "implicit-midpoint", DAL_PHYSICAL, 0.5);
+    spec.options.solver = DAL_FIXED_POINT;
+    dal_run *solved = stepped(&spec, 1);
+    long long evaluations = 0;
+    for (size_t i = 0; i < sizeof tolerance / sizeof *tolerance; i++) {
+        spec.options.solve_to = tolerance[i];
+        dal_run *loose = stepped(&spec, 1);
+        const double left = fabs(dal_run_state(loose)[1] - dal_run_state(solved)[1]);
+        CU_ASSERT(left > 1e-6 * tolerance[i]);
+        CU_ASSERT(left < 2 * tolerance[i]);
+        CU_ASSERT(dal_run_evaluations(loose) > evaluations);
+        evaluations = dal_run_evaluations(loose);
+        dal_run_free(loose);
+    }
+    CU_ASSERT(dal_run_evaluations(solved) > evaluations);
+    dal_run_free(solved);
+    dal_model_free(model);
+}
+
+/* A sweep of the midpoint rule is one evaluation, and one more changes no more than roundings. */
+static void test_tighter(void)
+{
+    dal_model *model = fixture_model(oscillator);
+    dal_run_spec spec = fixture_spec(fixture_system(model), "implicit-midpoint", DAL_PHYSICAL, 0.5);
+    spec.options.solver = DAL_FIXED_POINT;
+    dal_run *solved = stepped(&spec, 1);
+    spec.options.extra_sweeps = 3;
+    dal_run *more = stepped(&spec, 1);
+    CU_ASSERT_EQUAL(dal_run_evaluations(more), dal_run_evaluations(solved) + 3);
+    for (int i = 0; i < 2; i++)
+        CU_ASSERT(fabs(dal_run_state(more)[i] - dal_run_state(solved)[i]) < 1e-15);
+    /* Early stopping and then sweeps again: each contracts by 1/16. */
+    spec.options.solve_to = 1e-4;
+    dal_run *again = stepped(&spec, 1);
+    spec.options.extra_sweeps = 0;
+    dal_run *loose = stepped(&spec, 1);
+    const double before = dal_run_state(loose)[1] - dal_run_state(solved)[1];
+    const double after = dal_run_state(again)[1] - dal_run_state(solved)[1];
+    CU_ASSERT(fabs(fabs(after / before) * 16 * 16 * 16 - 1) < 1e-3);
+    dal_run_free(solved);
+    dal_run_free(more);
+    dal_run_free(again);
+    dal_run_free(loose);
+    dal_model_free(model);
+}
+
+/* Every lane has the bits of a run of its own. */
+static void test_lanes(void)
+{
+    enum { COUNT = 5, STEPS = 50, STATE = 64 };
+    dal_model *model = fixture_model(fixture_full);
+    dal_run_spec spec = fixture_spec(fixture_system(model), "gauss6+project", DAL_LIFTED, 0.02);
+    spec.options.solve_to = 1e-6;
+    spec.options.extra_sweeps = 1;
+    spec.options.sums = DAL_SUMS_PLAIN;
+    dal_run *run = stepped(&spec, STEPS);
+    dal_batch *batch = NULL;
+    CU_ASSERT_EQUAL_FATAL(dal_batch_create(&batch, &spec, COUNT, 0, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_batch_advance(batch, STEPS), DAL_OK);
+    const size_t bytes = (size_t)dal_run_dimension(run) * sizeof(double);
+    for (int lane = 0; lane < COUNT; lane++) {
+        double state[STATE];
+        dal_batch_state(batch, lane, state);
+        CU_ASSERT_EQUAL(memcmp(state, dal_run_state(run), bytes), 0);
+    }
+    dal_batch_free(batch);
+    dal_run_free(run);
+    dal_model_free(model);
+}
+
+static void test_refused(void)
+{
+    dal_model *model = fixture_model(oscillator);
+    dal_run_spec spec = fixture_spec(fixture_system(model), "implicit-midpoint", DAL_PHYSICAL, 0.5);
+    spec.options.solve_to = -1e-3;
+    fixture_refused(&spec, DAL_ARGUMENT, "option solve-to: -0.001 is not from 0 to 1");
+    spec.options.solve_to = NAN;
+    fixture_refused(&spec, DAL_ARGUMENT, "option solve-to: nan");
+    spec.options.solve_to = 0.0;
+    spec.options.sums = 2;
+    fixture_refused(&spec, DAL_ARGUMENT, "option sums: 2 is not from 0 to 1");
+    dal_model_free(model);
+}
+
+void suite_twins(void)
+{
+    CU_pSuite suite = CU_add_suite("twins", NULL, NULL);
+    CU_add_test(suite, "plain and compensated sums", test_sums);
+    CU_add_test(suite, "a looser solver", test_looser);
+    CU_add_test(suite, "a solver that goes on", test_tighter);
+    CU_add_test(suite, "lanes have the bits of runs", test_lanes);
+    CU_add_test(suite, "what is refused", test_refused);
+}
