@@ -2,28 +2,30 @@
  *
  * Little-endian words of 64 bits, doubles by their bits:
  *
- *     head       the word DALCHK02, the fingerprint of the run, the mark, the counts of what
- * follows memory     [memory] all that the run carries from step to step statistics
- * [statistics][words] of each observable sum        FNV-1a of all before
+ *     head        the word DALCHK03, then as below
+ *     memory      [memory] all that the run carries from step to step
+ *     statistics  [statistics * words] those of each observable, in a layout that has a number
+ *     sum         FNV-1a of all before
  *
  * The file is written beside, brought to the disk and renamed, and the one before is kept: where
- * the newer one is damaged the run goes on from the older.  DALCHK01 had the same head and memory
- * and other statistics, in the byte order of its machine; such a run goes on, its statistics begin
- * anew. */
+ * the newer one is damaged, or the rows are not those it tells of, the run goes on from the older.
+ * Nothing in it is ever run or followed.  Formats 01 and 02, of versions that wrote rows.csv, are
+ * refused; a later format raises the number and reads this one, too. */
 #include "file.h"
 #include "store.h"
 
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 typedef struct head {
-    uint64_t magic, fingerprint;
-    int64_t row, offset;
-    double seconds;
-    uint64_t memory, statistics;
+    uint64_t magic;
+    uint64_t fingerprint; /* of the input of the run */
+    int64_t row;          /* rows in trajectory.npy, */
+    table_sum sum;        /* and their sum */
+    double seconds;       /* spent in steps */
+    uint64_t memory, statistics, words, layout;
 } head;
 
 enum {
@@ -32,8 +34,7 @@ enum {
     WORDS = sizeof(dal_statistics) / WORD, /* each member is one of 64 bits */
 };
 
-static const uint64_t magic_1 = UINT64_C(0x31304b48434c4144); /* "DALCHK01" */
-static const uint64_t magic_2 = UINT64_C(0x32304b48434c4144); /* "DALCHK02" */
+static const uint64_t magic = UINT64_C(0x33304b48434c4144); /* "DALCHK03" */
 
 /* ---- saving -------------------------------------------------------------------------------- */
 
@@ -59,8 +60,15 @@ int store_save(const cli_store *store, const cli_mark *mark, const dal_run *run,
 {
     size_t memory_count;
     const double *memory = dal_run_memory(run, &memory_count);
-    const head h = {magic_2,       store->fingerprint,     mark->row,      mark->offset,
-                    mark->seconds, (uint64_t)memory_count, (uint64_t)count};
+    const head h = {.magic = magic,
+                    .fingerprint = store->fingerprint,
+                    .row = mark->row,
+                    .sum = mark->sum,
+                    .seconds = mark->seconds,
+                    .memory = memory_count,
+                    .statistics = (uint64_t)count,
+                    .words = WORDS,
+                    .layout = DAL_STATISTICS_LAYOUT};
     const size_t words = HEAD_WORDS + memory_count + (size_t)count * WORDS;
     unsigned char *text = malloc((words + 1) * WORD);
     if (!text) return cli_fail(CLI_IO, "out of memory");
@@ -102,52 +110,58 @@ static int damaged(const image *m, const char *how)
     return cli_fail(CLI_USAGE, "%s: the checkpoint is damaged: %s", m->path, how);
 }
 
+/* The first six letters are common to all formats, the last two number it. */
+static int check_format(const image *m, size_t length)
+{
+    const size_t letters = sizeof magic - 2;
+    if (length < sizeof magic || memcmp(m->text, "DALCHK", letters) != 0)
+        return damaged(m, length < sizeof magic ? "it is too short" : "it does not begin as one");
+    if (memcmp(m->text + letters, "03", 2) == 0) return CLI_DONE;
+    return cli_fail(CLI_USAGE,
+                    "%s: of format %.2s; dalembert " DAL_VERSION " goes on with format 03 alone",
+                    m->path, (const char *)m->text + letters);
+}
+
 static int check_sum(image *m, size_t length)
 {
     uint64_t sum;
     m->words = length / WORD - 1;
     if (length % WORD || length < (HEAD_WORDS + 1) * WORD) return damaged(m, "it is too short");
     take(take(m->text, &m->head, HEAD_WORDS) + (m->words - HEAD_WORDS) * WORD, &sum, 1);
-    if (m->head.magic != magic_1 && m->head.magic != magic_2)
-        return damaged(m, "it does not begin as one");
-    if (sum != file_hash(FILE_HASH_START, m->text, m->words * WORD))
-        return damaged(m, "its check sum is wrong");
-    return CLI_DONE;
+    if (sum == file_hash(FILE_HASH_START, m->text, m->words * WORD)) return CLI_DONE;
+    return damaged(m, "its check sum is wrong");
+}
+
+/* Whether the statistics are such as this version makes. */
+static int is_present(const head *h)
+{
+    return h->layout == DAL_STATISTICS_LAYOUT && h->words == WORDS;
 }
 
 static int check_sizes(const image *m, int count)
 {
-    const uint64_t room = m->words - HEAD_WORDS, memory = m->head.memory;
-    if (memory > room || m->head.statistics != (uint64_t)count)
-        return damaged(m, "its size is wrong");
-    if (m->head.magic == magic_2 && room - memory != (uint64_t)count * WORDS)
-        return damaged(m, "its size is wrong");
-    return CLI_DONE;
+    const head *h = &m->head;
+    const uint64_t room = m->words - HEAD_WORDS, most = UINT64_C(1) << 32;
+    if (h->row >= 0 && h->memory <= room && h->words < most && h->statistics == (uint64_t)count &&
+        room - h->memory == h->statistics * h->words)
+        return CLI_DONE;
+    return damaged(m, "its size is wrong");
 }
 
-/* The rows the checkpoint counts on must be there. */
-static int check_rows(const cli_store *store, const image *m)
-{
-    struct stat rows;
-    if (stat(store->rows, &rows) == 0 && rows.st_size >= (off_t)m->head.offset) return CLI_DONE;
-    return cli_fail(CLI_USAGE, "'%s': shorter than the %lld bytes its checkpoint tells of",
-                    store->rows, (long long)m->head.offset);
-}
-
-static int read_image(const cli_store *store, const char *path, int count, image *m)
+static int read_image(const cli_store *store, const cli_table *table, int count, image *m)
 {
     size_t length;
-    *m = (image){.path = path};
-    m->text = (unsigned char *)file_read(path, &length);
+    m->text = (unsigned char *)file_read(m->path, &length);
     if (!m->text) return CLI_IO;
-    int status = check_sum(m, length);
+    int status = check_format(m, length);
+    if (status == CLI_DONE) status = check_sum(m, length);
     if (status == CLI_DONE && m->head.fingerprint != store->fingerprint)
         return cli_fail(CLI_USAGE,
                         "%s: belongs to another run: its description or the system was "
                         "changed",
-                        path);
+                        m->path);
     if (status == CLI_DONE) status = check_sizes(m, count);
-    return status == CLI_DONE ? check_rows(store, m) : status;
+    return status == CLI_DONE ? table_holds(table, m->head.row, &m->head.sum) : status;
 }
 
 static int put_in_force(const image *m, cli_mark *mark, dal_run *run, dal_statistics *statistics)
@@ -160,19 +174,19 @@ static int put_in_force(const image *m, cli_mark *mark, dal_run *run, dal_statis
     const dal_status loaded = dal_run_load(run, memory, count, &error);
     free(memory);
     if (loaded != DAL_OK) return cli_error(CLI_USAGE, m->path, &error);
-    *mark = (cli_mark){m->head.row, m->head.offset, m->head.seconds};
-    if (m->head.magic == magic_2)
+    *mark = (cli_mark){m->head.row, m->head.sum, m->head.seconds};
+    if (is_present(&m->head))
         take(place, statistics, m->head.statistics * WORDS);
     else
-        cli_fail(CLI_DONE, "%s: of an older version: the statistics begin here", m->path);
+        cli_fail(CLI_DONE, "%s: of another version: the statistics begin here", m->path);
     return CLI_DONE;
 }
 
-static int load(const cli_store *store, const char *path, cli_mark *mark, dal_run *run,
-                dal_statistics *statistics, int count)
+static int load(const cli_store *store, const char *path, const cli_table *table, cli_mark *mark,
+                dal_run *run, dal_statistics *statistics, int count)
 {
-    image m;
-    int status = read_image(store, path, count, &m);
+    image m = {.path = path};
+    int status = read_image(store, table, count, &m);
     if (status == CLI_DONE) status = put_in_force(&m, mark, run, statistics);
     free(m.text);
     return status;
@@ -180,15 +194,15 @@ static int load(const cli_store *store, const char *path, cli_mark *mark, dal_ru
 
 static int is_there(const char *path) { return access(path, F_OK) == 0 || errno != ENOENT; }
 
-int store_load(const cli_store *store, cli_mark *mark, dal_run *run, dal_statistics *statistics,
-               int count)
+int store_load(const cli_store *store, const cli_table *table, cli_mark *mark, dal_run *run,
+               dal_statistics *statistics, int count)
 {
     *mark = (cli_mark){0};
     const int newer = is_there(store->checkpoint), older = is_there(store->before);
     if (!newer && !older) return CLI_DONE;
-    if (!newer) return load(store, store->before, mark, run, statistics, count);
-    const int status = load(store, store->checkpoint, mark, run, statistics, count);
+    if (!newer) return load(store, store->before, table, mark, run, statistics, count);
+    const int status = load(store, store->checkpoint, table, mark, run, statistics, count);
     if (status == CLI_DONE || !older) return status;
     cli_fail(CLI_DONE, "the one before is tried: %s", store->before);
-    return load(store, store->before, mark, run, statistics, count);
+    return load(store, store->before, table, mark, run, statistics, count);
 }

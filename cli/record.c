@@ -50,33 +50,29 @@ static int make_room(cli_record *r)
     return CLI_DONE;
 }
 
+/* With a store the table goes on where its checkpoint says. */
 static int open_table(cli_record *r, const char *output)
 {
     char **names = calloc((size_t)r->columns, sizeof *names);
     if (!names) return cli_fail(CLI_IO, "out of memory");
     for (int i = 0; i < r->columns; i++) names[i] = r->names[r->column[i]];
-    int status;
-    if (r->store) {
-        int descriptor = r->store->descriptor;
-        r->store->descriptor = -1;
-        status = table_continue(&r->table, r->store->rows, descriptor, names, r->columns,
-                                r->mark.row, r->mark.offset);
-    } else {
-        status = table_create(&r->table, output, names, r->columns, r->job->samples + 1);
-    }
+    cli_store *s = r->store;
+    int status = s ? table_adopt(&r->table, s->rows, s->descriptor, names, r->columns)
+                   : table_create(&r->table, output, names, r->columns);
     free(names);
-    return status;
+    if (!s) return status;
+    s->descriptor = -1;
+    if (status == CLI_DONE)
+        status = store_load(s, &r->table, &r->mark, r->job->run, r->statistics, r->observables);
+    return status == CLI_DONE ? table_go_on(&r->table, r->mark.row, &r->mark.sum) : status;
 }
 
 int record_open(cli_record *r, const cli_job *job, cli_store *store, const char *output)
 {
     *r = (cli_record){.job = job, .store = store};
     r->quiet = !store && strcmp(output, "-") == 0 && isatty(STDOUT_FILENO);
-    int status = make_room(r);
-    if (status == CLI_DONE && store)
-        status = store_load(store, &r->mark, job->run, r->statistics, r->observables);
-    if (status == CLI_DONE && !record_is_finished(r)) status = open_table(r, output);
-    return status;
+    const int status = make_room(r);
+    return status == CLI_DONE ? open_table(r, output) : status;
 }
 
 void record_close(cli_record *r)
@@ -151,7 +147,8 @@ static dal_status sample(void *user, dal_run *run, long long row, double t)
 
 static int save(cli_record *r, const dal_run *run)
 {
-    int status = table_settle(&r->table, &r->mark.offset);
+    int status = table_settle(&r->table);
+    r->mark.sum = r->table.sum;
     if (status == CLI_DONE)
         status = store_save(r->store, &r->mark, run, r->statistics, r->observables);
     r->saved = cli_seconds();

@@ -38,7 +38,7 @@ typedef struct cli_record {
     int told;  /* exit status of a failure of the program's own, already printed */
 } cli_record;
 
-/* Opens the table: output is a file or "-"; with a store, its rows.csv, going on where its
+/* Opens the table: output is a file or "-"; with a store, its trajectory.npy, going on where its
  * checkpoint says.  record_close it in any case. */
 int record_open(cli_record *record, const cli_job *job, cli_store *store, const char *output);
 void record_close(cli_record *record);

@@ -174,10 +174,11 @@ static int holds(const char *directory, const char *name)
 
 static int make_report(report *r)
 {
-    int study = holds(r->directory, "cells.csv"), run = holds(r->directory, "rows.csv");
-    if (!study && !run)
-        return cli_fail(CLI_USAGE, "'%s' holds neither a study (cells.csv) nor a run (rows.csv)",
-                        r->directory);
+    const char *place = r->directory;
+    int study = holds(place, "cells.csv");
+    if (!study && !holds(place, "trajectory.npy") && !holds(place, "rows.csv"))
+        return cli_fail(CLI_USAGE,
+                        "'%s' holds neither a study (cells.csv) nor a run (trajectory.npy)", place);
     int status = open_page(r);
     if (status == CLI_DONE) status = study ? report_study(r) : report_run(r);
     if (r->page) {

@@ -1,6 +1,8 @@
 /* report_run.c - the page of a run: its coordinates, its path, and what should not change. */
 #include "report.h"
 
+#include "rows.h"
+
 #include <stdlib.h>
 #include <string.h>
 
@@ -8,36 +10,14 @@
 enum { POINTS = 4000, CURVES = GNUPLOT_COLOURS };
 
 typedef struct rows {
-    report_csv head; /* the heads and the first row */
-    long long count, stride;
+    cli_rows table;
+    double *first; /* [columns] of the first row */
+    long long stride;
     int coordinates; /* in columns 1.. */
     int observables; /* the first column behind the state */
 } rows;
 
 /* ---- reading ---- */
-
-/* The first lines of a file, allocated; NULL when memory is out. */
-static char *read_lines(FILE *file, int lines)
-{
-    size_t length = 0, room = 256;
-    char *text = malloc(room);
-    for (int c; text && lines > 0 && (c = fgetc(file)) != EOF; lines -= c == '\n') {
-        text[length++] = (char)c;
-        if (length < room) continue;
-        char *more = realloc(text, room *= 2);
-        if (!more) free(text);
-        text = more;
-    }
-    if (text) text[length] = '\0';
-    return text;
-}
-
-static long long count_lines(FILE *file)
-{
-    long long lines = 0;
-    for (int c; (c = fgetc(file)) != EOF;) lines += c == '\n';
-    return lines;
-}
 
 static int is_observable(const char *name)
 {
@@ -49,38 +29,54 @@ static int is_observable(const char *name)
  * or E; only behind the velocities is a column an observable. */
 static void find_columns(rows *r)
 {
-    const report_csv *csv = &r->head;
-    int primes = 0;
-    while (1 + r->coordinates < csv->columns && !strchr(csv->cell[1 + r->coordinates], '\''))
+    const cli_rows *t = &r->table;
+    while (1 + r->coordinates < t->columns && !strchr(t->name[1 + r->coordinates], '\''))
         r->coordinates++;
-    primes = 1 + 2 * r->coordinates;
-    for (r->observables = primes; r->observables < csv->columns; r->observables++)
-        if (is_observable(csv->cell[r->observables])) break;
+    for (r->observables = 1 + 2 * r->coordinates; r->observables < t->columns; r->observables++)
+        if (is_observable(t->name[r->observables])) break;
 }
 
-static int read_rows(rows *r, const char *path)
+/* Every stride-th row goes to DIR/report/run.dat, where gnuplot finds it. */
+static int put_rows(rows *r, FILE *out)
 {
-    FILE *file = fopen(path, "r");
-    if (!file) return cli_io("read", path);
-    char *text = read_lines(file, 2);
-    int status = text ? report_csv_take(&r->head, text, path) : cli_fail(CLI_IO, "out of memory");
-    r->count = 1 + count_lines(file);
-    r->stride = 1 + r->count / POINTS;
-    fclose(file);
-    if (status == CLI_DONE && r->head.rows < 2)
-        status = cli_fail(CLI_USAGE, "'%s' has no rows", path);
+    cli_rows *t = &r->table;
+    int more;
+    for (long long k = 0; (more = rows_next(t)) > 0; k++) {
+        if (k == 0) memcpy(r->first, t->row, (size_t)t->columns * sizeof *r->first);
+        if (k % r->stride) continue;
+        for (int i = 0; i < t->columns; i++) {
+            if (i) fputc(',', out);
+            cli_put(out, t->row[i]);
+        }
+        fputc('\n', out);
+    }
+    return more < 0 ? CLI_IO : CLI_DONE;
+}
+
+static int read_rows(rows *r, const report *page)
+{
+    cli_rows *t = &r->table;
+    if (t->count == 0) return cli_fail(CLI_USAGE, "'%s' has no rows", t->path);
+    r->stride = 1 + t->count / POINTS;
+    r->first = calloc((size_t)t->columns, sizeof *r->first);
+    char *path = cli_join(page->place, "run.dat");
+    FILE *out = path && r->first ? fopen(path, "w") : NULL;
+    int status = CLI_DONE;
+    if (!path || !r->first) status = cli_fail(CLI_IO, "out of memory");
+    if (status == CLI_DONE && !out) status = cli_io("write", path);
+    if (status == CLI_DONE) status = put_rows(r, out);
+    if (out) {
+        const int closed = cli_close(out, path);
+        if (status == CLI_DONE) status = closed;
+    }
+    free(path);
     if (status == CLI_DONE) find_columns(r);
     return status;
 }
 
 /* ---- drawing ---- */
 
-static const char *name_of(const rows *r, int column) { return r->head.cell[column]; }
-
-static const char *first_of(const rows *r, int column)
-{
-    return r->head.cell[r->head.columns + column];
-}
+static const char *name_of(const rows *r, int column) { return r->table.name[column]; }
 
 static void begin_panel(FILE *s, const char *title, const char *xlabel)
 {
@@ -91,10 +87,10 @@ static void begin_panel(FILE *s, const char *title, const char *xlabel)
     fputc('\n', s);
 }
 
-static void put_curve(FILE *s, const rows *r, const char *using, const char *title, int i)
+static void put_curve(FILE *s, const char *using, const char *title, int i)
 {
-    fprintf(s, "%s  rows every %lld using %s with lines lw 1.6 lc rgb '%s' title ",
-            i > 0 ? ", \\\n" : "", r->stride, using, gnuplot_colour(CURVES - 1 - 2 * i % CURVES));
+    fprintf(s, "%s  rows using %s with lines lw 1.6 lc rgb '%s' title ", i > 0 ? ", \\\n" : "",
+            using, gnuplot_colour(CURVES - 1 - 2 * i % CURVES));
     gnuplot_quote(s, title);
 }
 
@@ -105,7 +101,7 @@ static void draw_coordinates(FILE *s, const rows *r)
     fputs("plot \\\n", s);
     for (int i = 0; i < r->coordinates && i < CURVES; i++) {
         snprintf(using, sizeof using, "1:%d", 2 + i);
-        put_curve(s, r, using, name_of(r, 1 + i), i);
+        put_curve(s, using, name_of(r, 1 + i), i);
     }
     fputc('\n', s);
 }
@@ -116,7 +112,7 @@ static void draw_path(FILE *s, const rows *r)
     fputs("set ylabel ", s);
     gnuplot_quote(s, name_of(r, 2));
     fputs("\nset size ratio -1\nplot \\\n", s);
-    put_curve(s, r, "2:3", "", 0);
+    put_curve(s, "2:3", "", 0);
     fputs("\nset size noratio\nunset ylabel\n", s);
 }
 
@@ -126,14 +122,14 @@ static void draw_drift(FILE *s, const rows *r)
     char using[128], title[96];
     begin_panel(s, "what should be kept: |x|, or |x - x(0)|; 0 is drawn at 1e-17", "t");
     fputs("set logscale y\nset format y '%.0e'\nplot \\\n", s);
-    for (int i = 0; r->observables + i < r->head.columns && i < CURVES; i++) {
+    for (int i = 0; r->observables + i < r->table.columns && i < CURVES; i++) {
         int column = r->observables + i;
         const char *name = name_of(r, column);
         int plain = strcmp(name, "error") == 0 || (name[0] == 'D' && is_observable(name));
-        snprintf(using, sizeof using, "1:(least(abs($%d - (%.40s))))", column + 1,
-                 plain ? "0" : first_of(r, column));
+        snprintf(using, sizeof using, "1:(least(abs($%d - (%.17g))))", column + 1,
+                 plain ? 0.0 : r->first[column]);
         snprintf(title, sizeof title, plain ? "|%.80s|" : "|%.80s - first|", name);
-        put_curve(s, r, using, title, i);
+        put_curve(s, using, title, i);
     }
     fputs("\nunset logscale y\nset format y\n", s);
 }
@@ -150,10 +146,10 @@ static void place(FILE *s, int row, int count, double left, double right)
 static int draw(report *page, const rows *r)
 {
     char *path;
-    int drift = r->observables<r->head.columns, plane = r->coordinates> 1;
+    int drift = r->observables<r->table.columns, plane = r->coordinates> 1;
     FILE *s = report_script(page, "run", 1100, drift ? 820 : 420, &path);
     if (!s) return CLI_IO;
-    fputs("rows = '../rows.csv'\nleast(x) = x > 1e-17 ? x : 1e-17\nset key inside left top\n"
+    fputs("rows = 'run.dat'\nleast(x) = x > 1e-17 ? x : 1e-17\nset key inside left top\n"
           "set multiplot\n",
           s);
     place(s, 0, 1 + drift, 0.08, plane ? 0.45 : 0.84);
@@ -198,15 +194,16 @@ static void add_summary(report *r)
 
 int report_run(report *r)
 {
-    rows table = {.count = 0};
-    char *path = cli_join(r->directory, "rows.csv");
-    int status = path ? read_rows(&table, path) : cli_fail(CLI_IO, "out of memory");
+    rows table = {.stride = 1};
+    int status = rows_open(&table.table, r->directory);
+    if (status != CLI_DONE) return status;
+    status = read_rows(&table, r);
     if (status == CLI_DONE) {
         fputs("<title>A run</title></head><body>\n<h1>A run</h1>\n", r->page);
         status = draw(r, &table);
     }
     if (status == CLI_DONE) add_summary(r);
-    report_csv_free(&table.head);
-    free(path);
+    free(table.first);
+    rows_close(&table.table);
     return status;
 }

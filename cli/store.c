@@ -30,7 +30,7 @@ void store_close(cli_store *store)
     *store = (cli_store){.descriptor = -1};
 }
 
-/* An empty rows.csv is all that a run leaves that was killed before it was described. */
+/* An empty trajectory.npy is all that a run leaves that was killed before it was described. */
 static int holds(const char *path)
 {
     struct stat status;

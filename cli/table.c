@@ -1,16 +1,24 @@
 /* table.c - tables of doubles as CSV or .npy.
  *
- * The .npy header (numpy.lib.format, version 1.0) is padded to 128 bytes, so that the number of
- * rows can be written over when a run ends early. */
+ * A .npy file grows: rows are gathered and written many at a time, and only then the header tells
+ * of them, so that whatever kills the process leaves a file that can be read.
+ *
+ * The sum of rows takes word number i, 64 bits, into lane i mod 4,
+ *
+ *     s <- (rotate(s, 23) xor word) K,
+ *
+ * with K odd, so that any one word that changes changes it, and four words are under way at once.
+ */
 #include "table.h"
 
-#include <stdint.h>
+#include <errno.h>
+#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { NPY_HEADER = 128 };
+enum { WORD = 8, BUFFER_BYTES = 1 << 18 };
 
 static int broken(cli_table *table)
 {
@@ -18,8 +26,202 @@ static int broken(cli_table *table)
     return cli_io("write", table->path);
 }
 
-static int put_csv_header(cli_table *table, char *const *names)
+/* ---- the sum ------------------------------------------------------------------------------- */
+
+static uint64_t mix(uint64_t sum, uint64_t word)
 {
+    return ((sum << 23 | sum >> 41) ^ word) * UINT64_C(0x9e3779b97f4a7c15);
+}
+
+static uint64_t word_at(const unsigned char *bytes)
+{
+    uint64_t word = 0;
+    for (int i = 0; i < WORD; i++) word |= (uint64_t)bytes[i] << 8 * i;
+    return word;
+}
+
+/* The sum of count words more, behind the first before. */
+static table_sum add_words(table_sum sum, long long before, const unsigned char *bytes,
+                           long long count)
+{
+    for (long long i = 0; i < count; i++) {
+        uint64_t *lane = &sum.lane[(uint64_t)(before + i) % TABLE_LANES];
+        *lane = mix(*lane, word_at(bytes + i * WORD));
+    }
+    return sum;
+}
+
+/* ---- .npy ---------------------------------------------------------------------------------- */
+
+static size_t row_bytes(const cli_table *table) { return (size_t)table->columns * WORD; }
+
+static off_t place_of(const cli_table *table, long long row)
+{
+    return (off_t)(table->header.length + (size_t)row * row_bytes(table));
+}
+
+/* Writes at a place; *written bytes are surely there afterwards. */
+static int write_at(int descriptor, const void *bytes, size_t length, off_t place, size_t *written)
+{
+    for (*written = 0; *written < length;) {
+        const ssize_t n = pwrite(descriptor, (const char *)bytes + *written, length - *written,
+                                 place + (off_t)*written);
+        if (n < 0 && errno != EINTR) return 0;
+        if (n > 0) *written += (size_t)n;
+    }
+    return 1;
+}
+
+/* The last line of the header, which alone changes. */
+static int announce(cli_table *table)
+{
+    const size_t place = table->header.length - NPY_LINE;
+    size_t written;
+    npy_announce(&table->header, table->rows);
+    return write_at(table->descriptor, table->header.text + place, NPY_LINE, (off_t)place,
+                    &written);
+}
+
+/* Writes the rows that wait.  Of a write that fails the whole rows count. */
+static int flush(cli_table *table)
+{
+    size_t written;
+    const int done =
+        write_at(table->descriptor, table->buffer, (size_t)table->waiting * row_bytes(table),
+                 place_of(table, table->rows), &written);
+    const int reason = errno;
+    const long long whole = (long long)(written / row_bytes(table));
+    table->sum =
+        add_words(table->sum, table->rows * table->columns, table->buffer, whole * table->columns);
+    table->rows += whole;
+    table->waiting = 0;
+    if (done) return CLI_DONE;
+    announce(table);
+    errno = reason;
+    return broken(table);
+}
+
+static int begin_anew(cli_table *table)
+{
+    size_t written;
+    table->rows = 0;
+    table->sum = (table_sum){{0}};
+    npy_announce(&table->header, 0);
+    if (ftruncate(table->descriptor, 0) == 0 &&
+        write_at(table->descriptor, table->header.text, table->header.length, 0, &written))
+        return CLI_DONE;
+    return broken(table);
+}
+
+static int make_buffer(cli_table *table, char *const *names)
+{
+    const size_t rows = BUFFER_BYTES / row_bytes(table);
+    table->room = rows ? (long long)rows : 1;
+    table->buffer = malloc((size_t)table->room * row_bytes(table));
+    if (!table->buffer) return cli_fail(CLI_IO, "out of memory");
+    return npy_describe(&table->header, names, table->columns);
+}
+
+int table_adopt(cli_table *table, const char *path, int descriptor, char *const *names, int columns)
+{
+    *table = (cli_table){.path = path, .columns = columns, .descriptor = descriptor};
+    const int status = make_buffer(table, names);
+    if (status == CLI_DONE) return CLI_DONE;
+    free(table->buffer);
+    table->buffer = NULL;
+    close(descriptor);
+    return status;
+}
+
+static int other_columns(const cli_table *table)
+{
+    const size_t length = table->header.length - NPY_LINE;
+    char *text = malloc(length);
+    const int other = !text || pread(table->descriptor, text, length, 0) != (ssize_t)length ||
+                      memcmp(text, table->header.text, length) != 0;
+    free(text);
+    return other;
+}
+
+/* Reads the first rows, bufferful by bufferful, and gives their sum. */
+static int sum_rows(const cli_table *table, long long rows, table_sum *sum)
+{
+    *sum = (table_sum){{0}};
+    for (long long row = 0; row < rows; row += table->room) {
+        const long long count = rows - row < table->room ? rows - row : table->room;
+        const size_t length = (size_t)count * row_bytes(table);
+        const ssize_t n = pread(table->descriptor, table->buffer, length, place_of(table, row));
+        if (n < 0) return cli_io("read", table->path);
+        if ((size_t)n < length)
+            return cli_fail(CLI_USAGE, "'%s': shorter than the %lld rows its checkpoint tells of",
+                            table->path, rows);
+        *sum = add_words(*sum, row * table->columns, table->buffer, count * table->columns);
+    }
+    return CLI_DONE;
+}
+
+int table_holds(const cli_table *table, long long rows, const table_sum *sum)
+{
+    table_sum found;
+    if (rows == 0) return CLI_DONE;
+    if (other_columns(table))
+        return cli_fail(CLI_USAGE, "'%s': its columns are not those of the run", table->path);
+    const int status = sum_rows(table, rows, &found);
+    if (status != CLI_DONE || memcmp(&found, sum, sizeof found) == 0) return status;
+    return cli_fail(CLI_USAGE, "'%s': its first %lld rows were changed since the checkpoint",
+                    table->path, rows);
+}
+
+int table_go_on(cli_table *table, long long rows, const table_sum *sum)
+{
+    if (rows == 0) return begin_anew(table);
+    table->rows = rows;
+    table->sum = *sum;
+    if (ftruncate(table->descriptor, place_of(table, rows)) != 0 || !announce(table))
+        return broken(table);
+    return CLI_DONE;
+}
+
+static int create_npy(cli_table *table, const char *path, char *const *names, int columns)
+{
+    const int descriptor = open(path, O_RDWR | O_CREAT | O_TRUNC, 0666);
+    if (descriptor < 0) return cli_io("write", path);
+    const int status = table_adopt(table, path, descriptor, names, columns);
+    return status == CLI_DONE ? begin_anew(table) : status;
+}
+
+static int put_row(cli_table *table, const double *values)
+{
+    unsigned char *place = table->buffer + (size_t)table->waiting * row_bytes(table);
+    for (int i = 0; i < table->columns; i++) npy_put(place + (size_t)i * WORD, values[i]);
+    return ++table->waiting < table->room ? CLI_DONE : flush(table);
+}
+
+static int settle_npy(cli_table *table)
+{
+    if (flush(table) != CLI_DONE) return CLI_IO;
+    if (fsync(table->descriptor) != 0 || !announce(table)) return broken(table);
+    return CLI_DONE;
+}
+
+static int close_npy(cli_table *table)
+{
+    if (!table->broken && flush(table) == CLI_DONE && !announce(table)) broken(table);
+    if (close(table->descriptor) != 0 && !table->broken) broken(table);
+    free(table->header.text);
+    free(table->buffer);
+    table->buffer = NULL;
+    return table->broken ? CLI_IO : CLI_DONE;
+}
+
+/* ---- CSV ----------------------------------------------------------------------------------- */
+
+static int create_csv(cli_table *table, const char *path, char *const *names)
+{
+    const int standard = strcmp(path, "-") == 0;
+    table->path = standard ? "standard output" : path;
+    table->file = standard ? stdout : fopen(path, "wb");
+    if (!table->file) return cli_io("write", path);
     for (int i = 0; i < table->columns; i++) {
         if (i) fputc(',', table->file);
         cli_put_text(table->file, names[i]);
@@ -28,122 +230,50 @@ static int put_csv_header(cli_table *table, char *const *names)
     return ferror(table->file) ? broken(table) : CLI_DONE;
 }
 
-static int put_npy_header(cli_table *table, long long rows)
-{
-    char header[NPY_HEADER + 1] = "\x93NUMPY\x01";
-    header[8] = (char)(NPY_HEADER - 10);
-    int n = 10 + snprintf(header + 10, NPY_HEADER - 10,
-                          "{'descr': '<f8', 'fortran_order': False, 'shape': (%lld, %d), }", rows,
-                          table->columns);
-    memset(header + n, ' ', (size_t)(NPY_HEADER - n));
-    header[NPY_HEADER - 1] = '\n';
-    table->announced = rows;
-    if (fwrite(header, 1, NPY_HEADER, table->file) != NPY_HEADER) return broken(table);
-    return CLI_DONE;
-}
-
-static int put_column_file(const cli_table *table, char *const *names)
-{
-    static const char ending[] = ".columns.txt";
-    size_t n = strlen(table->path);
-    char *path = malloc(n + sizeof ending);
-    if (!path) return cli_fail(CLI_IO, "out of memory");
-    memcpy(path, table->path, n);
-    memcpy(path + n, ending, sizeof ending);
-    FILE *file = fopen(path, "w");
-    int status = file ? CLI_DONE : cli_io("write", path);
-    for (int i = 0; file && i < table->columns; i++) fprintf(file, "%s\n", names[i]);
-    if (file) status = cli_close(file, path);
-    free(path);
-    return status;
-}
-
-int table_create(cli_table *table, const char *path, char *const *names, int columns,
-                 long long rows)
-{
-    int standard = strcmp(path, "-") == 0;
-    *table = (cli_table){.path = standard ? "standard output" : path,
-                         .npy = cli_ends_in(path, ".npy"),
-                         .columns = columns};
-    table->file = standard ? stdout : fopen(path, "wb");
-    if (!table->file) return cli_io("write", path);
-    if (!table->npy) return put_csv_header(table, names);
-    int status = put_npy_header(table, rows);
-    return status == CLI_DONE ? put_column_file(table, names) : status;
-}
-
-static int cut(cli_table *table, long long offset)
-{
-    struct stat status;
-    if (fstat(fileno(table->file), &status) != 0) return broken(table);
-    if (status.st_size < (off_t)offset) {
-        table->broken = 1;
-        return cli_fail(CLI_USAGE, "'%s': shorter than the %lld bytes its checkpoint tells of",
-                        table->path, offset);
-    }
-    if (ftruncate(fileno(table->file), (off_t)offset) != 0) return broken(table);
-    return fseeko(table->file, (off_t)offset, SEEK_SET) == 0 ? CLI_DONE : broken(table);
-}
-
-int table_continue(cli_table *table, const char *path, int descriptor, char *const *names,
-                   int columns, long long rows, long long offset)
-{
-    *table = (cli_table){.path = path, .columns = columns, .rows = rows};
-    table->file = fdopen(descriptor, "r+b");
-    if (!table->file) {
-        close(descriptor);
-        return cli_io("write", path);
-    }
-    int status = cut(table, offset);
-    return status == CLI_DONE && offset == 0 ? put_csv_header(table, names) : status;
-}
-
-static void put_little_endian(FILE *out, double x)
-{
-    uint64_t bits;
-    unsigned char bytes[8];
-    memcpy(&bits, &x, sizeof bits);
-    for (int i = 0; i < 8; i++) bytes[i] = (unsigned char)(bits >> 8 * i);
-    fwrite(bytes, 1, sizeof bytes, out);
-}
-
-int table_row(cli_table *table, const double *values)
+static int put_line(cli_table *table, const double *values)
 {
     for (int i = 0; i < table->columns; i++) {
-        if (table->npy) {
-            put_little_endian(table->file, values[i] == 0.0 ? 0.0 : values[i]);
-        } else {
-            if (i) fputc(',', table->file);
-            cli_put(table->file, values[i]);
-        }
+        if (i) fputc(',', table->file);
+        cli_put(table->file, values[i]);
     }
-    if (!table->npy) fputc('\n', table->file);
+    fputc('\n', table->file);
     if (ferror(table->file)) return broken(table);
     table->rows++;
     return CLI_DONE;
 }
 
-int table_settle(cli_table *table, long long *offset)
-{
-    if (fflush(table->file) != 0 || fsync(fileno(table->file)) != 0) return broken(table);
-    *offset = (long long)ftello(table->file);
-    return *offset < 0 ? broken(table) : CLI_DONE;
-}
-
-int table_close(cli_table *table)
+static int close_csv(cli_table *table)
 {
     FILE *file = table->file;
-    if (!file) return CLI_DONE;
-    /* Each of these that fails sets broken. */
-    if (table->npy && !table->broken && table->rows != table->announced) {
-        if (fseeko(file, 0, SEEK_SET) == 0)
-            put_npy_header(table, table->rows);
-        else
-            broken(table);
-    }
     table->file = NULL;
     if (!table->broken) return cli_close(file, table->path);
     /* The failure has been told already; closing would tell it again. */
     if (file != stdout) fclose(file);
     return CLI_IO;
+}
+
+/* ---- either -------------------------------------------------------------------------------- */
+
+int table_create(cli_table *table, const char *path, char *const *names, int columns)
+{
+    *table = (cli_table){.columns = columns};
+    return cli_ends_in(path, ".npy") ? create_npy(table, path, names, columns)
+                                     : create_csv(table, path, names);
+}
+
+int table_row(cli_table *table, const double *values)
+{
+    return table->file ? put_line(table, values) : put_row(table, values);
+}
+
+int table_settle(cli_table *table)
+{
+    if (!table->file) return settle_npy(table);
+    return fflush(table->file) == 0 ? CLI_DONE : broken(table);
+}
+
+int table_close(cli_table *table)
+{
+    if (table->file) return close_csv(table);
+    return table->buffer ? close_npy(table) : CLI_DONE;
 }

@@ -3,28 +3,43 @@
 #define DAL_CLI_TABLE_H
 
 #include "cli.h"
+#include "npy.h"
+
+#include <stdint.h>
+
+/* A check sum of rows in their order: see table.c. */
+enum { TABLE_LANES = 4 };
+typedef struct table_sum {
+    uint64_t lane[TABLE_LANES];
+} table_sum;
 
 typedef struct cli_table {
-    FILE *file;
     const char *path; /* the caller's */
-    int npy, columns, broken;
-    long long rows, announced; /* written; said by the header of a .npy file */
+    int columns, broken;
+    FILE *file; /* of CSV; NULL for .npy, of which the rest is */
+    int descriptor;
+    npy_header header;
+    unsigned char *buffer;   /* [room * columns] numbers */
+    long long room, waiting; /* rows in it */
+    long long rows;          /* in the file */
+    table_sum sum;           /* of those */
 } cli_table;
 
-/* Makes the file, "-" being stdout, and writes the names of the columns.  A path ending in .npy
- * holds float64 [rows][columns], little-endian; the names then go to PATH.columns.txt, one a line.
- * All functions return CLI_DONE or print and return CLI_IO. */
-int table_create(cli_table *table, const char *path, char *const *names, int columns,
-                 long long rows);
-/* Goes on with a CSV file, given by its descriptor, which becomes the table's, behind its first
- * offset bytes, which hold rows rows; the rest is cut off.  With offset 0 it begins anew.
- * CLI_USAGE when the file is shorter. */
-int table_continue(cli_table *table, const char *path, int descriptor, char *const *names,
-                   int columns, long long rows, long long offset);
+/* Makes the file, "-" being stdout, and writes the names of the columns; a path ending in .npy
+ * holds a structured array of them.  All functions return CLI_DONE or print and return CLI_IO. */
+int table_create(cli_table *table, const char *path, char *const *names, int columns);
+/* Takes over the descriptor of a .npy file that may hold rows already, or nothing. */
+int table_adopt(cli_table *table, const char *path, int descriptor, char *const *names,
+                int columns);
+/* Whether such a file holds these columns and begins with so many rows of that sum: CLI_USAGE and
+ * a message when not. */
+int table_holds(const cli_table *table, long long rows, const table_sum *sum);
+/* Goes on behind the first rows of it, of that sum; the rest is cut off. */
+int table_go_on(cli_table *table, long long rows, const table_sum *sum);
 int table_row(cli_table *table, const double *values);
-/* Brings all rows so far to the disk: *offset bytes. */
-int table_settle(cli_table *table, long long *offset);
-/* Also corrects the header of a .npy file that got fewer rows than announced. */
+/* Brings all rows so far to the disk, and then their number. */
+int table_settle(cli_table *table);
+/* The file tells of all rows that are in it whole, also after a failure. */
 int table_close(cli_table *table);
 
 #endif

@@ -13,6 +13,10 @@
 
 enum { DAL_BLOCKS = 64 };
 
+/* Another number whenever the members of dal_statistics or their meaning change: who keeps them in
+ * a file knows by it what they are.  Each member is of 64 bits and none points anywhere. */
+enum { DAL_STATISTICS_LAYOUT = 1 };
+
 /* A block of successive values: its middle, and the mean, least and most of x. */
 typedef struct dal_mean {
     double t, x, least, most;

@@ -51,10 +51,10 @@ holds "17 lines" [ "$(wc -l <rows.csv)" -eq 17 ]
 holds "whole lines" awk -F, 'NR == 1 { n = NF } NF != n { exit 1 }' rows.csv
 try 3 run chaplygin-sleigh-nonlinear --integrator gauss8 --step 0.01 --time 3 --samples 30 \
     --output rows.npy
-holds "the header tells of 16 rows" sh -c 'head -c 128 rows.npy | grep -aq "(16, "'
+holds "the header tells of 16 rows" tells rows.npy 16
 try 3 run chaplygin-sleigh-nonlinear --integrator gauss8 --step 0.01 --time 3 --samples 30 \
     --output broken
-holds "17 lines" [ "$(wc -l <broken/rows.csv)" -eq 17 ]
+holds "other rows" cmp rows.npy broken/trajectory.npy
 holds "a summary" grep -q '^D1,.*,aborted,1$' broken/summary.csv
 
 case_is "messages never go where the rows go"

@@ -21,8 +21,9 @@ if there cc; then
     case_is "native: taken from the cache, by checkpoints too"
     try 0 run $motion --native on --output native.csv
     holds "compiled anew" test "$(stat -c %i "$object")" = "$made"
+    try 0 run $motion --native off --output tape.npy
     try 0 run $motion --native on --output there
-    holds "other bytes" cmp -s tape.csv there/rows.csv
+    holds "other bytes" cmp -s tape.npy there/trajectory.npy
 
     case_is "native: a corrupt object is compiled anew"
     for damage in 'head -c 5000 "$object" >cut && cp cut "$object"' ': >"$object"' \

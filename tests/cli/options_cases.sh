@@ -25,10 +25,11 @@ if there cc; then
 fi
 
 case_is "extend-energy: resumed"
+try 0 run $motion --extend-energy on --native off --output on.npy
 try 0 run $motion --extend-energy on --native off --output kept
 try 0 resume kept
 holds "not kept in run.yaml" grep -q '^extend-energy: on$' kept/run.yaml
-holds "other bytes" cmp -s on.csv kept/rows.csv
+holds "other bytes" cmp -s on.npy kept/trajectory.npy
 
 case_is "extend-energy: refused with the reason"
 try 2 run isokinetic --integrator rk4 --step 0.1 --time 1 --extend-energy on
@@ -87,11 +88,11 @@ holds "other bytes" cmp -s 1e-10.csv native.csv
 
 case_is "tolerance: resumed"
 motion="knife-edge --integrator dop853 --tolerance 1e-9 --step 0.7 --time 10 --samples 9"
-try 0 run $motion --output whole.csv
+try 0 run $motion --output whole.npy
 try 0 run $motion --output divided
 try 0 resume divided
 holds "not kept in run.yaml" grep -q '^tolerance: 1e-9$' divided/run.yaml
-holds "other bytes" cmp -s whole.csv divided/rows.csv
+holds "other bytes" cmp -s whole.npy divided/trajectory.npy
 
 case_is "tolerance: refused with the reason"
 try 2 run knife-edge --integrator rk4 --step 0.1 --time 1 --tolerance 1e-6

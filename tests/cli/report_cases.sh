@@ -5,7 +5,7 @@ try 2 report
 says 'the DIR is missing'
 mkdir -p hollow
 try 2 report hollow
-says "'hollow' holds neither a study \(cells.csv\) nor a run \(rows.csv\)"
+says "'hollow' holds neither a study \(cells.csv\) nor a run \(trajectory.npy\)"
 try 2 report nowhere
 says "'nowhere' holds neither"
 try 2 report hollow --format gif

@@ -17,14 +17,14 @@ appears() {
 case_is "a directory"
 try 0 run $long --output whole
 empty
-holds "rows" [ "$(wc -l <whole/rows.csv)" -eq 100005 ]
+holds "rows" tells whole/trajectory.npy 100004
 holds "run.yaml names the system" grep -qx 'system: chaplygin-sleigh' whole/run.yaml
 holds "run.yaml has the settings" grep -qx '  omega: 1.5' whole/run.yaml
 holds "the heads of the summary" grep -qx "observable,first,final,maximum,deviation,amplitude,rate,\
 rate_low,rate_high,exponent,verdict,confidence" whole/summary.csv
 holds "D1 is not kept to rounding" grep -q '^D1,.*,rounding,1$' whole/summary.csv
-try 0 run $long
-holds "the rows are those of stdout" cmp out whole/rows.csv
+try 0 run $long --output whole.npy
+holds "the rows are those of a file" cmp whole.npy whole/trajectory.npy
 
 case_is "a directory is not written over"
 try 2 run $long --output whole
@@ -36,7 +36,7 @@ says "'mine/system.yaml' is there already"
 holds "the file was touched" grep -qx 'not a copy' mine/system.yaml
 try 0 run ./line.yaml --integrator rk4 --step 0.1 --time 1 --output other
 try 0 run ./line.yaml --integrator rk4 --step 0.1 --time 1 --samples 5 --output other --force
-holds "7 lines" [ "$(wc -l <other/rows.csv)" -eq 7 ]
+holds "6 rows" tells other/trajectory.npy 6
 holds "the system file was copied" cmp line.yaml other/system.yaml
 
 case_is "a finished run"
@@ -57,10 +57,10 @@ for i in 1 2 3; do
     wait $! 2>/dev/null
 done
 # A row half written when the power went is cut off.
-printf '1.5,0.9' >>killed/rows.csv
+printf '1.5,0.9' >>killed/trajectory.npy
 try 0 resume killed
 says "'killed' goes on from t = [0-9.]*[1-9][0-9.]* with row [1-9]"
-holds "not the rows of a run never interrupted" cmp killed/rows.csv whole/rows.csv
+holds "not the rows of a run never interrupted" cmp killed/trajectory.npy whole/trajectory.npy
 holds "not the summary of a run never interrupted" cmp killed/summary.csv whole/summary.csv
 
 case_is "killed between putting the old checkpoint aside and the new one in place"
@@ -71,15 +71,15 @@ try 0 resume between
 says "'between' is finished"
 rm between/checkpoint.before
 try 0 resume between
-holds "not the rows of a run never interrupted" cmp between/rows.csv whole/rows.csv
+holds "not the rows of a run never interrupted" cmp between/trajectory.npy whole/trajectory.npy
 holds "not the summary of a run never interrupted" cmp between/summary.csv whole/summary.csv
 
 case_is "killed before the first checkpoint"
 cp -r whole early
 rm -f early/checkpoint early/checkpoint.before early/summary.csv
-printf 't,y1' >early/rows.csv
+head -c 100 whole/trajectory.npy >early/trajectory.npy
 try 0 resume early
-holds "not the rows of a run never interrupted" cmp early/rows.csv whole/rows.csv
+holds "not the rows of a run never interrupted" cmp early/trajectory.npy whole/trajectory.npy
 
 case_is "interrupted"
 for signal in INT TERM; do
@@ -92,9 +92,8 @@ for signal in INT TERM; do
     holds "exit $status, not 130, at SIG$signal" [ $status -eq 130 ]
     says 'interrupted; go on with: dalembert resume stopped'
 done
-holds "whole lines" awk -F, 'NR == 1 { n = NF } NF != n { exit 1 }' stopped/rows.csv
 try 0 resume stopped
-holds "not the rows of a run never interrupted" cmp stopped/rows.csv whole/rows.csv
+holds "not the rows of a run never interrupted" cmp stopped/trajectory.npy whole/trajectory.npy
 "$program" run $long --time 1e4 --samples 1e6 >out 2>err &
 sleep 0.3
 kill -INT $!
@@ -111,16 +110,16 @@ case_is "no room for more rows"
 )
 status=$?
 holds "exit $status, not 4" [ $status -eq 4 ]
-says "cannot write 'full/(rows.csv|checkpoint.new)': File too large"
+says "cannot write 'full/(trajectory.npy|checkpoint.new)': File too large"
 try 0 resume full
-holds "not the rows of a run never interrupted" cmp full/rows.csv whole/rows.csv
+holds "not the rows of a run never interrupted" cmp full/trajectory.npy whole/trajectory.npy
 
 case_is "two processes on one directory"
 "$program" run $long --time 1e6 --samples 1e6 --checkpoint 0 --output busy 2>err &
 other=$!
 appears busy/checkpoint
 try 2 resume busy
-says "busy/rows.csv': another process is writing to it"
+says "busy/trajectory.npy': another process is writing to it"
 kill -9 $other
 wait $other 2>/dev/null
 
@@ -134,7 +133,7 @@ printf x | dd of=older/checkpoint bs=1 seek=100 conv=notrunc 2>/dev/null
 try 0 resume older
 says 'older/checkpoint: the checkpoint is damaged: its check sum is wrong'
 says 'the one before is tried: older/checkpoint.before'
-holds "not the rows of a run never interrupted" cmp older/rows.csv whole/rows.csv
+holds "not the rows of a run never interrupted" cmp older/trajectory.npy whole/trajectory.npy
 holds "not the summary of a run never interrupted" cmp older/summary.csv whole/summary.csv
 rm -f damaged/checkpoint.before
 try 2 resume damaged
@@ -156,6 +155,6 @@ echo 'stepp: 1' >>damaged/run.yaml
 try 2 resume damaged
 says "damaged/run.yaml:[0-9]+: unknown key 'stepp'"
 cp -r busy shorter
-: >shorter/rows.csv
+: >shorter/trajectory.npy
 try 2 resume shorter
-says "shorter/rows.csv': shorter than the [0-9]+ bytes its checkpoint tells of"
+says "shorter/trajectory.npy': its columns are not those of the run"

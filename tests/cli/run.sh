@@ -43,6 +43,9 @@ prints() { if grep -Eq -- "$1" out; then pass; else fail "stdout lacks /$1/"; fi
 silent() { if [ -s err ]; then fail "stderr is not empty"; else pass; fi; }
 empty() { if [ -s out ]; then fail "stdout is not empty"; else pass; fi; }
 
+# tells FILE ROWS: the header of a .npy file counts so many.
+tells() { head -c 8192 "$1" | grep -aq "'shape': ($2,), }"; }
+
 # A particle on a line with friction: no constraint, E known, exact solution x = 1 - exp(-t).
 cat >line.yaml <<'END'
 title: friction on a line

@@ -18,6 +18,7 @@ holds "other times" test "$(cut -d, -f1 out | tr '\n' ' ')" = "t 0.5 0.75 2 "
 holds "another motion" awk -F, 'NR > 1 && ($2 - 1 + exp(-$1)) ^ 2 > 1e-12 { exit 1 }' out
 printf '0.5 # half\n0.75\n\n2\n' >times.txt
 mv out listed
+try 0 run ./line.yaml --integrator rk4 --step 0.1 --times times.txt --output listed.npy
 try 0 run ./line.yaml --integrator rk4 --step 0.1 --times times.txt
 holds "a file is not its list" cmp -s out listed
 try 0 run ./line.yaml --integrator rk4 --step 0.1 --times 0.5 --time 3
@@ -38,7 +39,7 @@ try 0 run ./line.yaml --integrator rk4 --step 0.1 --times times.txt --output tim
 rm timed/checkpoint
 rm -f timed/checkpoint.before times.txt
 try 0 resume timed
-holds "other rows" cmp -s timed/rows.csv listed
+holds "other rows" cmp -s timed/trajectory.npy listed.npy
 
 case_is "progress for scripts"
 try 0 run ./line.yaml --integrator rk4 --step 0.1 --time 5 --progress json

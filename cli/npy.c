@@ -1,0 +1,179 @@
+/* npy.c - arrays of named doubles in a file of numpy.
+ *
+ *     "\x93NUMPY" 1 0, the length of the text as 16 bits, or 2 0 and 32 bits where that is too
+ * little
+ *     {'descr': [('t', '<f8'), ("x'", '<f8')], 'fortran_order': False,       , blanks
+ *     'shape': (3,), }                                                       , blanks, end of line
+ *     3 rows of two little-endian doubles
+ *
+ * as numpy.lib.format has it.  The last line of the header is 64 bytes long and begins at a
+ * multiple of 64, so that the number of rows is replaced by one write within one sector and is the
+ * old one or the new one at any moment.  Rows behind that number are not read. */
+#include "npy.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { PREFIX_1 = 10, PREFIX_2 = 12, MOST_1 = 65535 };
+
+static const char magic[] = "\x93NUMPY";
+enum { MAGIC = sizeof magic - 1 };
+
+/* ---- writing ------------------------------------------------------------------------------- */
+
+static void put_names(FILE *out, char *const *names, int columns)
+{
+    fputs("{'descr': [", out);
+    for (int i = 0; i < columns; i++) {
+        const char quote = strchr(names[i], '\'') ? '"' : '\'';
+        fprintf(out, "%s(%c%s%c, '<f8')", i ? ", " : "", quote, names[i], quote);
+    }
+    fputs("], 'fortran_order': False,", out);
+}
+
+static size_t round_up(size_t n) { return (n + NPY_LINE - 1) / NPY_LINE * NPY_LINE; }
+
+/* The lowest byte comes first. */
+static void put_length(char *bytes, size_t length, int count)
+{
+    for (int i = 0; i < count; i++) bytes[i] = (char)(length >> 8 * i & 0xff);
+}
+
+static int place(npy_header *header, const char *names, size_t length)
+{
+    size_t prefix = PREFIX_1;
+    header->length = round_up(prefix + length) + NPY_LINE;
+    if (header->length - prefix > MOST_1) {
+        prefix = PREFIX_2;
+        header->length = round_up(prefix + length) + NPY_LINE;
+    }
+    header->text = malloc(header->length);
+    if (!header->text) return cli_fail(CLI_IO, "out of memory");
+    memset(header->text, ' ', header->length);
+    memcpy(header->text, magic, MAGIC);
+    header->text[MAGIC] = prefix == PREFIX_1 ? 1 : 2;
+    header->text[MAGIC + 1] = 0;
+    put_length(header->text + MAGIC + 2, header->length - prefix, (int)prefix - MAGIC - 2);
+    memcpy(header->text + prefix, names, length);
+    npy_announce(header, 0);
+    return CLI_DONE;
+}
+
+int npy_describe(npy_header *header, char *const *names, int columns)
+{
+    char *text = NULL;
+    size_t length = 0;
+    *header = (npy_header){0};
+    FILE *out = open_memstream(&text, &length);
+    if (!out) return cli_fail(CLI_IO, "out of memory");
+    put_names(out, names, columns);
+    int status = cli_close(out, "memory");
+    if (status == CLI_DONE) status = place(header, text, length);
+    free(text);
+    return status;
+}
+
+void npy_announce(npy_header *header, long long rows)
+{
+    char *line = header->text + header->length - NPY_LINE;
+    const int n = snprintf(line, NPY_LINE, "'shape': (%lld,), }", rows);
+    memset(line + n, ' ', (size_t)(NPY_LINE - n));
+    line[NPY_LINE - 1] = '\n';
+}
+
+void npy_put(unsigned char *bytes, double x)
+{
+    uint64_t bits;
+    x = isnan(x) ? (double)NAN : x + 0.0;
+    memcpy(&bits, &x, sizeof bits);
+    for (int i = 0; i < 8; i++) bytes[i] = (unsigned char)(bits >> 8 * i);
+}
+
+/* ---- reading ------------------------------------------------------------------------------- */
+
+double npy_get(const unsigned char *bytes)
+{
+    uint64_t bits = 0;
+    double x;
+    for (int i = 0; i < 8; i++) bits |= (uint64_t)bytes[i] << 8 * i;
+    memcpy(&x, &bits, sizeof x);
+    return x;
+}
+
+static int not_ours(const char *path)
+{
+    return cli_fail(CLI_USAGE, "'%s' is no .npy file of named doubles", path);
+}
+
+/* The text of the header, allocated; NULL when there is none. */
+static char *read_header(FILE *file, size_t *offset)
+{
+    unsigned char prefix[PREFIX_2];
+    size_t length = 0;
+    if (fread(prefix, 1, PREFIX_1, file) != PREFIX_1 || memcmp(prefix, magic, MAGIC) != 0)
+        return NULL;
+    *offset = prefix[MAGIC] == 1 ? PREFIX_1 : PREFIX_2;
+    if (fread(prefix + PREFIX_1, 1, *offset - PREFIX_1, file) != *offset - PREFIX_1) return NULL;
+    for (size_t i = *offset; i > MAGIC + 2; i--) length = length << 8 | prefix[i - 1];
+    char *text = malloc(length + 1);
+    if (!text) return NULL;
+    const size_t n = fread(text, 1, length, file);
+    text[n] = '\0';
+    *offset += length;
+    if (n == length) return text;
+    free(text);
+    return NULL;
+}
+
+/* Takes ('NAME', '<f8') at *at, which then stands behind it, and ends the name with a NUL. */
+static char *take_name(char **at)
+{
+    static const char type[] = ", '<f8')";
+    char *open = strchr(*at, '(');
+    char *name = open && (open[1] == '\'' || open[1] == '"') ? open + 2 : NULL;
+    char *end = name ? strchr(name, open[1]) : NULL;
+    if (!end || strncmp(end + 1, type, sizeof type - 1) != 0) return NULL;
+    *end = '\0';
+    *at = end + sizeof type;
+    return name;
+}
+
+/* The names are moved to the beginning of the text, for names[0] to own it. */
+static int take_names(npy_columns *c, char *text)
+{
+    static const char begin[] = "{'descr': [", end[] = "], 'fortran_order': False,";
+    size_t most = 1;
+    if (strncmp(text, begin, sizeof begin - 1) != 0) return 0;
+    for (const char *p = text; *p; p++) most += *p == '(';
+    c->names = calloc(most, sizeof *c->names);
+    char *at = text + sizeof begin - 1, *to = text;
+    while (c->names && *at != ']') {
+        char *name = take_name(&at);
+        if (!name) return 0;
+        c->names[c->columns++] = memmove(to, name, strlen(name) + 1);
+        to += strlen(to) + 1;
+        if (*at == ',') at++;
+    }
+    if (!c->columns || strncmp(at, end, sizeof end - 1) != 0) return 0;
+    at = strstr(at, "'shape': (");
+    return at && sscanf(at, "'shape': (%lld,)", &c->rows) == 1 && c->rows >= 0;
+}
+
+int npy_read(npy_columns *columns, FILE *file, const char *path)
+{
+    *columns = (npy_columns){0};
+    char *text = read_header(file, &columns->offset);
+    if (!text) return ferror(file) ? cli_io("read", path) : not_ours(path);
+    if (take_names(columns, text)) return CLI_DONE;
+    if (columns->columns == 0) free(text);
+    npy_forget(columns);
+    return not_ours(path);
+}
+
+void npy_forget(npy_columns *columns)
+{
+    if (columns->columns) free(columns->names[0]);
+    free(columns->names);
+    *columns = (npy_columns){0};
+}
