@@ -112,6 +112,27 @@ typedef struct dal_callbacks {
                                                          (NULL: no discrete-gradient) */
 } dal_callbacks;
 
+/* How a system is drawn in the plane, of no consequence for its motion: numbers, 0 where not given
+ * (x, y: where; angle: the heading, from x to y; steer: of board and racer, the turn of axles and
+ * arm; width: of a disk, breadth over length as seen), and the words there are for a body. */
+#define DAL_PICTURE_LIST(X)                                                                        \
+    X(X, "x") X(Y, "y") X(ANGLE, "angle") X(STEER, "steer") X(WIDTH, "width")
+#define DAL_BODY_LIST(X)                                                                           \
+    X(POINT, "point")                                                                              \
+    X(SLEIGH, "sleigh")                                                                            \
+    X(BLADE, "blade") X(DISK, "disk") X(BALL, "ball") X(ROBOT, "robot") X(BOARD, "board")          \
+        X(RACER, "racer")
+enum {
+#define X(code, name) DAL_PICTURE_##code,
+    DAL_PICTURE_LIST(X) DAL_PICTURE_COUNT
+#undef X
+};
+typedef enum dal_body {
+#define X(code, name) DAL_BODY_##code,
+    DAL_BODY_LIST(X) DAL_BODY_COUNT
+#undef X
+} dal_body;
+
 /* What is known of the constraints and of the energy; set by a model, or by hand. */
 enum {
     DAL_D_LINEAR = 1 << 0,      /* every D linear or affine in v */
@@ -155,6 +176,8 @@ struct dal_system {
     dal_callback *energy;           /* out[1]: E = L_v.v - L; NULL: unknown */
     dal_callback *invariant_values; /* out[invariants] */
     dal_callback *exact;    /* out[2n]: q, v of the exact solution at at->t; NULL: unknown */
+    dal_callback *picture;  /* out[DAL_PICTURE_COUNT]; NULL: not to be drawn */
+    dal_body body;          /* what is drawn there */
     dal_callback *diagnose; /* out[1]: why field is not finite here: returns DAL_SINGULAR with the
                                number of the constraint (from 1), DAL_SINGULAR_MASS, or DAL_OK */
     const dal_system *extended; /* the same with F continued off D = 0 so that E is exact, for the
@@ -183,7 +206,8 @@ typedef struct dal_model dal_model;
     X(START, "start")                 /* name, formula in parameters */                            \
     X(INVARIANTS, "invariants")       /* name, formula */                                          \
     X(EXACT, "exact")                 /* coordinate, formula in t and parameters */                \
-    X(TAGS, "tags")                   /* a word */
+    X(TAGS, "tags")                   /* a word */                                                 \
+    X(PICTURE, "picture")             /* x, y, angle, ..: formula; body: a word */
 
 typedef enum dal_section {
 #define X(code, text) DAL_SECTION_##code,
@@ -196,7 +220,8 @@ typedef enum dal_section {
  * pushes along B_a(q,v,t), as an actuator does that enforces a servo constraint:
  *     W dv/dt = b + B^T h,   (A W^-1 B^T) h = -(c + A W^-1 b)
  * In a file reactions is a list parallel to constraints; its item a maps coordinates to the
- * components of B_a, those not named being 0:    reactions: [{x: 1, theta: -l*cos(theta)}] */
+ * components of B_a, those not named being 0:    reactions: [{x: 1, theta: -l*cos(theta)}]
+ * picture has x and y at least:    picture: {x: y1, y: y2, angle: phi, body: sleigh} */
 
 /* An empty model, or NULL when memory is out. [alloc] */
 dal_model *dal_model_create(const char *name);

@@ -101,6 +101,13 @@ static const bad_file names[] = {
      XY L "mechanics: vakonomic\nstart: {@g1: 1}\n"}, /* there is no constraint */
     {DAL_NAME, "the start of e belongs under gauge, as 'gauge: {e: 1}'", XY L "start: {@e: 2}\n"},
     {DAL_NAME, "unknown entry of gauge 'mu'; did you mean 'mu_e'?", XY L "gauge: {@mu: 1}\n"},
+    {DAL_NAME, "unknown entry of picture 'angel'; did you mean 'angle'?",
+     XY L "picture: {x: x, y: y, @angel: 0}\n"},
+    {DAL_NAME, "unknown body 'sleigth'; did you mean 'sleigh'?",
+     XY L "picture: {x: x, y: y, body: @sleigth}\n"},
+    {DAL_MODEL, "picture has no y: it needs x and y", XY L "picture: {@x: x, angle: y}\n"},
+    {DAL_NAME, "picture width: unknown name 'z'", XY L "picture: {x: x, y: y, width: 2*@z}\n"},
+    {DAL_SYNTAX, "picture must be a mapping of names", XY L "picture: @sleigh\n"},
     {DAL_NAME, "unknown mechanics 'vakonomc'; did you mean 'vakonomic'?",
      XY L "mechanics: @vakonomc\n"},
 };

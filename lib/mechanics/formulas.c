@@ -17,7 +17,7 @@ static const char *const labels[DAL_SECTION_COUNT] = {
     [DAL_SECTION_FORCES] = "force on",       [DAL_SECTION_CONSTRAINTS] = "constraint",
     [DAL_SECTION_GAUGE] = "gauge",           [DAL_SECTION_START] = "start of",
     [DAL_SECTION_INVARIANTS] = "invariant",  [DAL_SECTION_EXACT] = "exact solution for",
-    [DAL_SECTION_REACTIONS] = "reaction",
+    [DAL_SECTION_REACTIONS] = "reaction",    [DAL_SECTION_PICTURE] = "picture",
 };
 
 /* The message gets the name of the entry, the place that of the formula. */
@@ -40,7 +40,7 @@ static dal_status locate(const dal_model *model, const dal__entry *entry, dal_er
                       labels[entry->section], name, inner->message);
 }
 
-static dal_status parse(dal_model *model, const dal__entry *entry, dal__scope scope,
+dal_status dal__formula(dal_model *model, const dal__entry *entry, dal__scope scope,
                         dal__node *node, dal_error *error)
 {
     dal_error inner = {.line = 1, .column = 1};
@@ -96,7 +96,7 @@ static dal_status by_coordinate(dal_model *model, dal_section section, dal__scop
         int i;
         if (entry->section != section) continue;
         DAL_TRY(find_coordinate(model, entry, &i, error));
-        DAL_TRY(parse(model, entry, scope, &node, error));
+        DAL_TRY(dal__formula(model, entry, scope, &node, error));
         if (entry->item) i += (entry->item - 1) * model->equations.n;
         out[i] = dal__add(model->equations.graph, out[i], node);
     }
@@ -113,7 +113,7 @@ static dal_status parse_parameters(dal_model *model, dal_error *error)
     for (int i = 0; i < e->parameters; i++) {
         const dal__entry *entry = dal__model_entry(model, DAL_SECTION_PARAMETERS, i);
         dal__node node;
-        DAL_TRY(parse(model, entry, (dal__scope){.parameters = i}, &node, error));
+        DAL_TRY(dal__formula(model, entry, (dal__scope){.parameters = i}, &node, error));
         e->value[i] = dal__evaluate(e->graph, node, e->value);
         if (!isfinite(e->value[i]))
             return fault(model, entry, DAL_MODEL, error, "the value is not finite");
@@ -127,8 +127,8 @@ static dal_status parse_lets(dal_model *model, dal_error *error)
     for (int i = 0; i < e->lets; i++) {
         dal__scope scope = everything(e);
         scope.lets = i;
-        DAL_TRY(
-            parse(model, dal__model_entry(model, DAL_SECTION_LET, i), scope, &e->let[i], error));
+        DAL_TRY(dal__formula(model, dal__model_entry(model, DAL_SECTION_LET, i), scope, &e->let[i],
+                             error));
     }
     return DAL_OK;
 }
@@ -137,7 +137,7 @@ static dal_status parse_each(dal_model *model, dal_section section, dal__scope s
                              dal__node *out, dal_error *error)
 {
     for (int i = 0; i < count; i++)
-        DAL_TRY(parse(model, dal__model_entry(model, section, i), scope, &out[i], error));
+        DAL_TRY(dal__formula(model, dal__model_entry(model, section, i), scope, &out[i], error));
     return DAL_OK;
 }
 
@@ -168,7 +168,7 @@ static dal_status parse_gauge(dal_model *model, dal_error *error)
         if (k < 0)
             return dal__unknown(error, entry->name_line, entry->name_column, "entry of gauge",
                                 entry->name, names, 2);
-        DAL_TRY(parse(model, entry, only(e, k ? DAL__MAY_T : 0), out[k], error));
+        DAL_TRY(dal__formula(model, entry, only(e, k ? DAL__MAY_T : 0), out[k], error));
     }
     return DAL_OK;
 }
@@ -203,7 +203,7 @@ static dal_status parse_start(dal_model *model, dal_error *error)
         if (i < 0)
             return dal__unknown(error, entry->name_line, entry->name_column, "name in start",
                                 entry->name, names, count);
-        DAL_TRY(parse(model, entry, only(e, 0), &e->start[i], error));
+        DAL_TRY(dal__formula(model, entry, only(e, 0), &e->start[i], error));
         if (!isfinite(dal__evaluate(e->graph, e->start[i], e->value)))
             return fault(model, entry, DAL_MODEL, error, "the value is not finite");
     }
@@ -312,6 +312,7 @@ static dal_status allocate(dal_model *model, dal_error *error)
     e->start = nodes(model, 2 * n + m + 1, zero);
     e->invariant = nodes(model, e->invariants, zero);
     e->exact = nodes(model, 2 * n, 0);
+    e->picture = e->pictured ? nodes(model, DAL_PICTURE_COUNT, zero) : NULL;
     e->W = nodes(model, n * n, zero);
     e->b = nodes(model, n, zero);
     e->momentum = nodes(model, n, zero);
@@ -352,6 +353,7 @@ dal_status dal__formulas(dal_model *model, dal_error *error)
     DAL_TRY(dal__names(model, error));
     e->m = dal__model_count(model, DAL_SECTION_CONSTRAINTS);
     e->multipliers = e->vakonomic ? e->m : 0;
+    e->pictured = dal__model_count(model, DAL_SECTION_PICTURE) > 0;
     DAL_TRY(check_sizes(model, error));
     DAL_TRY(check_dynamics(model, error));
     DAL_TRY(dal__reactions(model, error));
@@ -364,6 +366,7 @@ dal_status dal__formulas(dal_model *model, dal_error *error)
     DAL_TRY(parse_gauge(model, error));
     DAL_TRY(parse_start(model, error));
     DAL_TRY(parse_exact(model, error));
+    DAL_TRY(dal__picture(model, error));
     evaluate_start(e);
     dal_status status = dal__graph_status(e->graph);
     return status == DAL_OK ? DAL_OK : dal__exhausted(status, error);

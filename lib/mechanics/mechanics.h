@@ -43,7 +43,7 @@ typedef struct dal__pivot {
 typedef struct dal__equations {
     dal__graph *graph;
     int parameters, n, m, multipliers, invariants, lets, guards, pivots;
-    bool vakonomic, accelerations, servo;
+    bool vakonomic, accelerations, servo, pictured;
     unsigned properties;
     /* First symbols of the inputs.  Twice the room for q, v and pi: the tangent system has 2n. */
     int t, q, v, pi, g, symbols;
@@ -56,6 +56,8 @@ typedef struct dal__equations {
     dal__node *invariant;  /* [invariants] */
     dal__node *exact;      /* [2n] or all 0 */
     dal__node mu;          /* mu_e, or 0 */
+    dal__node *picture;    /* [DAL_PICTURE_COUNT], or NULL */
+    dal_body body;
     /* Derived. */
     dal__node *W;         /* [n*n] */
     dal__node *b;         /* [n] */
@@ -100,6 +102,7 @@ enum { DAL__T = 1, DAL__QV = 2, DAL__PI = 4 };
     X(CONSTRAINTS, constraints, DAL__T | DAL__QV)                                                  \
     X(ENERGY, energy, DAL__T | DAL__QV)                                                            \
     X(INVARIANTS, invariant_values, DAL__T | DAL__QV)                                              \
+    X(PICTURE, picture, DAL__T | DAL__QV)                                                          \
     X(EXACT, exact, DAL__T)
 
 typedef enum dal__program_code {
@@ -187,7 +190,16 @@ dal__node dal__resolve_name(void *scope, const char *name, size_t length, bool p
 /* Whether there are reactions of their own, and then one for each constraint. */
 dal_status dal__reactions(dal_model *model, dal_error *error);
 
+/* ---- picture.c ---- */
+
+/* Parses the picture, if there is one. */
+dal_status dal__picture(dal_model *model, dal_error *error);
+
 /* ---- formulas.c ---- */
+
+/* Parses the text of an entry; the message of an error gets the entry's name and place. */
+dal_status dal__formula(dal_model *model, const dal__entry *entry, dal__scope scope,
+                        dal__node *node, dal_error *error);
 
 /* Parses all entries into nodes and evaluates the default parameters and start. */
 dal_status dal__formulas(dal_model *model, dal_error *error);

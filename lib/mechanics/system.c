@@ -83,6 +83,7 @@ static dal_status add_programs(dal_model *model, dal__programs *p, const dal__no
     DAL_TRY(dal__programs_add(model, p, DAL__PROGRAM_START, e->start, start));
     DAL_TRY(add_if(model, p, e->energy, DAL__PROGRAM_ENERGY, &e->energy, 1));
     DAL_TRY(add_if(model, p, e->invariants, DAL__PROGRAM_INVARIANTS, e->invariant, e->invariants));
+    DAL_TRY(add_if(model, p, e->picture, DAL__PROGRAM_PICTURE, e->picture, DAL_PICTURE_COUNT));
     return add_if(model, p, e->exact[0], DAL__PROGRAM_EXACT, e->exact, 2 * e->n);
 }
 
@@ -116,6 +117,7 @@ static void describe(dal_model *model)
         .invariant = e->invariant_name,
         .guard = e->guard_name,
         .tag = e->tag,
+        .body = e->body,
     };
 }
 

@@ -1,0 +1,108 @@
+/* test_picture.c - how systems say they are drawn. */
+#include "body.h"
+
+#include <CUnit/Basic.h>
+#include <math.h>
+#include <string.h>
+
+static const char drawn[] = "coordinates: [x, theta]\n"
+                            "parameters: {l: 2}\n"
+                            "let: {bob: l*sin(theta)}\n"
+                            "lagrangian: (x'^2 + theta'^2)/2\n"
+                            "constraints: [x' - theta']\n"
+                            "picture: {width: theta'*t, x: x + bob, y: -l*cos(theta), body: disk,\n"
+                            "          angle: theta/4}\n";
+
+static void test_numbers(void)
+{
+    const double q[] = {0.5, 0.3}, v[] = {0.0, 0.7};
+    double out[DAL_PICTURE_COUNT];
+    body b = body_of_text(drawn);
+    body_set(&b, "l", 3.0);
+    CU_ASSERT(b.system->body == DAL_BODY_DISK);
+    CU_ASSERT_FATAL(b.system->picture != NULL);
+    CU_ASSERT(body_call(&b, b.system->picture, 2.0, q, v, out) == DAL_OK);
+    CU_ASSERT(fabs(out[DAL_PICTURE_X] - (0.5 + 3.0 * sin(0.3))) < 1e-15);
+    CU_ASSERT(fabs(out[DAL_PICTURE_Y] + 3.0 * cos(0.3)) < 1e-15);
+    CU_ASSERT(out[DAL_PICTURE_ANGLE] == 0.3 / 4);
+    CU_ASSERT(out[DAL_PICTURE_STEER] == 0.0);
+    CU_ASSERT(fabs(out[DAL_PICTURE_WIDTH] - 1.4) < 1e-15);
+    body_free(&b);
+}
+
+static void test_absent(void)
+{
+    body b = body_of_text("coordinates: [x]\nlagrangian: x'^2\n");
+    CU_ASSERT(b.system->picture == NULL);
+    body_free(&b);
+}
+
+/* A body in plain view is a point unless it says what it is. */
+static void test_point(void)
+{
+    body b = body_of_text("coordinates: [x, y]\nlagrangian: x'^2 + y'^2\npicture: {x: x, y: y}\n");
+    CU_ASSERT(b.system->picture != NULL && b.system->body == DAL_BODY_POINT);
+    body_free(&b);
+}
+
+/* ---- what is drawn rolls or glides along its heading ---- */
+
+static int rolls(const dal_system *s)
+{
+    return s->m > 0 && s->picture &&
+           (s->body == DAL_BODY_SLEIGH || s->body == DAL_BODY_BLADE || s->body == DAL_BODY_RACER ||
+            s->body == DAL_BODY_ROBOT);
+}
+
+/* The velocity of the place across the heading, by the central difference along q + s v. */
+static double slip(const body *b, const double *x)
+{
+    static const double s = 1e-5;
+    double q[BODY_MOST], out[3][DAL_PICTURE_COUNT];
+    for (int k = -1; k <= 1; k++) {
+        for (int i = 0; i < b->system->n; i++) q[i] = x[i] + k * s * x[b->system->n + i];
+        CU_ASSERT(body_call(b, b->system->picture, 0.0, q, x + b->system->n, out[k + 1]) == DAL_OK);
+    }
+    double dx = (out[2][DAL_PICTURE_X] - out[0][DAL_PICTURE_X]) / (2 * s);
+    double dy = (out[2][DAL_PICTURE_Y] - out[0][DAL_PICTURE_Y]) / (2 * s);
+    double angle = out[1][DAL_PICTURE_ANGLE];
+    return dy * cos(angle) - dx * sin(angle);
+}
+
+/* At the start and, turned, at t = 0.6, where RK4 with h = 0.001 keeps D to 1e-10. */
+static void check_rolling(const body *b)
+{
+    dal_run *run;
+    dal_run_spec spec = {.system = b->system, .options = dal_options_default()};
+    spec.options.step = 0.001;
+    spec.options.space = DAL_PHYSICAL;
+    CU_ASSERT(dal_method_parse(&spec.method, "rk4", NULL) == DAL_OK);
+    CU_ASSERT_FATAL(dal_run_create(&run, &spec, NULL) == DAL_OK);
+    CU_ASSERT(fabs(slip(b, dal_run_state(run))) < 1e-9);
+    CU_ASSERT(dal_run_advance(run, 600, NULL) == DAL_OK);
+    CU_ASSERT(fabs(slip(b, dal_run_state(run))) < 1e-9);
+    dal_run_free(run);
+}
+
+static void test_rolling(void)
+{
+    int found = 0;
+    for (int i = 0; dal_builtin_name(i); i++) {
+        body b = body_builtin(dal_builtin_name(i));
+        if (rolls(b.system)) {
+            check_rolling(&b);
+            found++;
+        }
+        body_free(&b);
+    }
+    CU_ASSERT(found >= 9);
+}
+
+void suite_picture(void)
+{
+    CU_pSuite suite = CU_add_suite("picture", NULL, NULL);
+    CU_add_test(suite, "the numbers of a picture", test_numbers);
+    CU_add_test(suite, "no picture", test_absent);
+    CU_add_test(suite, "a point", test_point);
+    CU_add_test(suite, "bodies move along their heading", test_rolling);
+}
