@@ -120,8 +120,8 @@ typedef struct dal_callbacks {
 #define DAL_BODY_LIST(X)                                                                           \
     X(POINT, "point")                                                                              \
     X(SLEIGH, "sleigh")                                                                            \
-    X(BLADE, "blade") X(DISK, "disk") X(BALL, "ball") X(ROBOT, "robot") X(BOARD, "board")          \
-        X(RACER, "racer")
+    X(BLADE, "blade")                                                                              \
+    X(DISK, "disk") X(BALL, "ball") X(ROBOT, "robot") X(BOARD, "board") X(RACER, "racer")
 enum {
 #define X(code, name) DAL_PICTURE_##code,
     DAL_PICTURE_LIST(X) DAL_PICTURE_COUNT
@@ -185,74 +185,8 @@ struct dal_system {
     void *data;                 /* the owner's */
 };
 
-/* ---- models: systems from formulas --------------------------------------------------------- */
-
-typedef struct dal_model dal_model;
-
-/* The sections of a system file; lists and single values have no names. */
-#define DAL_SECTION_LIST(X)                                                                        \
-    X(TITLE, "title")                                                                              \
-    X(REFERENCE, "reference")                                                                      \
-    X(COORDINATES, "coordinates")     /* text: a name */                                           \
-    X(PARAMETERS, "parameters")       /* name, text: a number */                                   \
-    X(LET, "let")                     /* name, formula */                                          \
-    X(LAGRANGIAN, "lagrangian")       /* formula */                                                \
-    X(ACCELERATIONS, "accelerations") /* coordinate, formula; instead of a Lagrangian */           \
-    X(FORCES, "forces")               /* coordinate, formula */                                    \
-    X(CONSTRAINTS, "constraints")     /* formula */                                                \
-    X(REACTIONS, "reactions")         /* constraint.coordinate, as 2.x: formula; see below */      \
-    X(MECHANICS, "mechanics")         /* lagrange-d'alembert (default) or vakonomic */             \
-    X(GAUGE, "gauge")                 /* e or mu_e, formula in t and parameters */                 \
-    X(START, "start")                 /* name, formula in parameters */                            \
-    X(INVARIANTS, "invariants")       /* name, formula */                                          \
-    X(EXACT, "exact")                 /* coordinate, formula in t and parameters */                \
-    X(TAGS, "tags")                   /* a word */                                                 \
-    X(PICTURE, "picture")             /* x, y, angle, ..: formula; body: a word */
-
-typedef enum dal_section {
-#define X(code, text) DAL_SECTION_##code,
-    DAL_SECTION_LIST(X)
-#undef X
-        DAL_SECTION_COUNT
-} dal_section;
-
-/* Without reactions Chetaev's rule gives them: constraint a pushes along dD_a/dv.  With them it
- * pushes along B_a(q,v,t), as an actuator does that enforces a servo constraint:
- *     W dv/dt = b + B^T h,   (A W^-1 B^T) h = -(c + A W^-1 b)
- * In a file reactions is a list parallel to constraints; its item a maps coordinates to the
- * components of B_a, those not named being 0:    reactions: [{x: 1, theta: -l*cos(theta)}]
- * picture has x and y at least:    picture: {x: y1, y: y2, angle: phi, body: sleigh} */
-
-/* An empty model, or NULL when memory is out. [alloc] */
-dal_model *dal_model_create(const char *name);
-void dal_model_free(dal_model *model);
-
-/* Adds one entry; texts are copied and parsed by dal_model_system, so the order of calls is free.
- * line and column (from 1, or 0) say where the text stood, for messages. [alloc]
- * Errors: DAL_NAME, DAL_SYNTAX, DAL_MODEL (duplicate), DAL_MEMORY. */
-dal_status dal_model_add(dal_model *model, dal_section section, const char *name, const char *text,
-                         int line, int column, dal_error *error);
-
-/* Reads a system file (YAML). [alloc]  The first takes the text itself, the second a path, the
- * third the name of a system that travels inside the library ("chaplygin-sleigh"). */
-dal_status dal_model_read(dal_model **model, const char *name, const char *text, size_t length,
-                          dal_error *error);
-dal_status dal_model_read_file(dal_model **model, const char *path, dal_error *error);
-dal_status dal_model_builtin(dal_model **model, const char *name, dal_error *error);
-
-/* Name of built-in system number i, NULL past the last; and its YAML text. */
-const char *dal_builtin_name(int i);
-const char *dal_builtin_text(const char *name);
-
-/* The system of a complete model, owned by the model, made at the first call. [alloc]
- * Errors: every fault of the formulas, with place; DAL_MODEL; DAL_TOO_LARGE. */
-dal_status dal_model_system(dal_model *model, const dal_system **system, dal_error *error);
-
-/* The tangent system, 2n coordinates (q, delta q): F and F_q dq + F_v dv, without constraints.
- * A Runge-Kutta or polarised method applied to it is its exact tangent map. [alloc] */
-dal_status dal_model_tangent(dal_model *model, const dal_system **system, dal_error *error);
-
 #include "dalembert_method.h"
+#include "dalembert_model.h"
 
 /* ---- options ------------------------------------------------------------------------------- */
 
