@@ -47,6 +47,24 @@ static const char notes[] =
     STUDY_KEY_LIST(X)
 #undef X
         "\n"
+        "Values are one number, a list, {from: 0, to: 1, count: 11}, {from: 0, to: 1, by: 0.1}, "
+        "or,\n"
+        "for parameters and starts, {between: [0, 1]}: drawn, once for each of the seeds, as a\n"
+        "function of seed and name alone; where something of the start is drawn, its velocities\n"
+        "are then brought onto D = 0.  Every combination of values is a system of the study, "
+        "called\n"
+        "LABEL_name=value...\n"
+        "\n"
+        "expect: label, or system, or all; then integrator, or all; then quantity: a verdict, a "
+        "list\n"
+        "of them, bounds of its size {at most: 1e-9, at least: 0}, or a mapping of verdict:, "
+        "max:,\n"
+        "deviation:, final:, amplitude:, rate:, rate_low:, rate_high:, exponent:, confidence: "
+        "with\n"
+        "such bounds.  D is the worst of the constraints; state is done, failed or refused.  "
+        "Exit\n"
+        "status 1 when something is not as expected.\n"
+        "\n"
         "stdout gets a table per system, step and start; DIR gets\n"
         "  study.yaml        the study itself\n"
         "  tables.txt        the tables\n"
@@ -54,6 +72,7 @@ static const char notes[] =
         "  quantities.csv    a row per cell and observable: first, last, max |x|, max |x - "
         "first|,\n"
         "                    least-squares rate, distance from that line, verdict\n"
+        "  expectations.csv  what was expected and what was found, where something was\n"
         "  series/LABEL.csv  for figures: maxima within each hundredth of the time\n"
         "All but processor times are the same bytes in every run, whatever the number of threads.\n"
         "\n"
@@ -87,7 +106,9 @@ static int take(wishes *w, int option, const char *value)
 static int any_failed(const study_plan *plan)
 {
     for (int i = 0; i < plan->cell_count; i++)
-        if (plan->cells[i].state == STUDY_FAILED) return 1;
+        if (plan->cells[i].state == STUDY_FAILED &&
+            !study_failure_is_expected(plan, &plan->cells[i]))
+            return 1;
     return 0;
 }
 
@@ -96,6 +117,7 @@ static void print_tables(FILE *out, const study_plan *plan)
     fprintf(out, "%s\n", plan->title);
     for (int i = 0; i < plan->entry_count; i++) study_print_entry(out, plan, &plan->entries[i]);
     study_print_note(out);
+    study_print_expectations(out, plan);
 }
 
 static int keep_tables(const char *directory, const study_plan *plan)
@@ -111,9 +133,18 @@ static int keep_tables(const char *directory, const study_plan *plan)
     return status;
 }
 
+static int keep_expectations(const char *directory, const study_plan *plan)
+{
+    char *path = cli_join(directory, "expectations.csv");
+    int status = path ? study_keep_expectations(plan, path) : cli_fail(CLI_IO, "out of memory");
+    free(path);
+    return status;
+}
+
 static int tell_tables(const char *directory, const study_plan *plan)
 {
     int kept = keep_tables(directory, plan);
+    if (kept == CLI_DONE) kept = keep_expectations(directory, plan);
     print_tables(stdout, plan);
     int told = cli_close(stdout, "standard output");
     return kept != CLI_DONE ? kept : told;
@@ -147,7 +178,8 @@ static int run_plan(study_plan *plan, const wishes *w, const char *text, size_t 
     if (status == CLI_SIGNAL)
         return cli_fail(status, "interrupted; finished cells are in '%s'", w->output);
     if (told != CLI_DONE || closed != CLI_DONE) return CLI_IO;
-    return any_failed(plan) ? CLI_FAILED : CLI_DONE;
+    if (any_failed(plan)) return CLI_FAILED;
+    return study_judge(plan) > 0 ? CLI_CHECK : CLI_DONE;
 }
 
 static int run_study(const wishes *w)
@@ -164,7 +196,7 @@ static int run_study(const wishes *w)
     if (w->show)
         fwrite(text, 1, length, stdout);
     else
-        status = study_plan_read(&plan, w->study ? w->study : builtin_name, text, length);
+        status = study_plan_read(&plan, w->study ? w->study : builtin_name, text, length, NULL);
     for (int i = 0; i < plan.entry_count; i++) plan.entries[i].native = w->native;
     if (status == CLI_DONE && !w->show) status = run_plan(&plan, w, text, length);
     if (w->show) status = cli_close(stdout, "standard output");

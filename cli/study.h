@@ -19,17 +19,20 @@
 #define STUDY_KEY_LIST(X)                                                                          \
     X(title, "study", "text")                                                                      \
     X(systems, "study", "list of names, paths, or mappings of the keys below")                     \
+    X(expect, "study", "label: {integrator: {quantity: what must become of it}}; see below")       \
     X(integrators, "both", "list of names with modifiers; all, all+project: every integrator")     \
-    X(step, "both", "one step, or a list of at most 16")                                           \
-    X(time, "both", "integrate from 0 to this")                                                    \
-    X(samples, "both", "rows for the statistics (400)")                                            \
+    X(step, "both", "one step, or at most 16")                                                     \
+    X(time, "both", "integrate from 0 to this, in whole steps")                                    \
+    X(samples, "both", "rows kept of each run (400)")                                              \
+    X(statistics, "both", "look at the quantities after every K-th step (1)")                      \
+    X(seeds, "both", "integers; an entry for each of them where something is drawn")               \
     X(options, "both", "of the runs, but step and space: solver: newton, extend-energy: on, ..")   \
     X(starts, "both", "list of physical, surface, displaced (all three)")                          \
     X(displacement, "both", "size d of p, pi where displaced (1e-8)")                              \
     X(system, "system", "a built-in name or a path")                                               \
     X(label, "system", "another name for tables and files")                                        \
-    X(set, "system", "parameter: value")                                                           \
-    X(start, "system", "name: value")                                                              \
+    X(set, "system", "parameter: values")                                                          \
+    X(start, "system", "name: values")                                                             \
     X(displace, "system",                                                                          \
       "p_x: value in units of d; without it p = d, -d/2, .., pi = d/2, -d/3, ..")
 
@@ -49,18 +52,32 @@ const char *study_start_word(int start);
 
 enum { STUDY_NAME = 80, STUDY_STEPS = 16 };
 
-/* One system of a study with all that is to be done with it. */
+/* The options of the library, by number and by word. */
+enum {
+#define X(type, name, word, initial, least, greatest, words, help) STUDY_OPTION_##name,
+    DAL_OPTION_LIST(X)
+#undef X
+        STUDY_OPTIONS
+};
+const char *study_option_word(int option);
+
+/* One system of a study, with one value for each of its settings, and all that is to be done with
+ * it.  Entries that differ in these values alone come from one group, stand together and share
+ * model and methods, which belong to the first of them. */
 typedef struct study_entry {
     const char *name;  /* a built-in name or a path */
-    const char *label; /* what it is called in tables and files; no two entries share one */
+    const char *group; /* its label in the file, or what stands for one */
+    char *label;       /* what it is called in tables and files; no two entries share one */
+    int is_first;      /* of its group */
     dal_model *model;
     const dal_system *system;
     double step[STUDY_STEPS], time, displacement;
     int steps, starts; /* starts: bit STUDY_x set */
-    long long samples;
-    dal_options options; /* all but step and space */
+    long long samples, statistics;
+    const char *option[STUDY_OPTIONS]; /* what was said; NULL: nothing.  All but step and space */
     dal_setting *set, *start, *displace;
     int set_count, start_count, displace_count;
+    char *names; /* of velocities, where start names those that were brought onto D = 0 */
     dal_method *methods;
     int method_count;
     int first_cell, cells; /* its cells stand together */
@@ -68,21 +85,28 @@ typedef struct study_entry {
 } study_entry;
 
 typedef struct study_cell study_cell;
+typedef struct study_expectation study_expectation;
 
 typedef struct study_plan {
-    const char *place; /* the file, for messages */
+    const char *place;  /* the file, for messages */
+    const char *copies; /* where copies of system files are read instead; NULL: nowhere */
     const char *title;
     void *document; /* the parsed text, where the names live */
     study_entry *entries;
     int entry_count;
     study_cell *cells;
     int cell_count;
+    study_expectation *expectations;
+    int expectation_count;
 } study_plan;
 
-/* Reads a plan and makes its systems and cells.  Return CLI_DONE or print and return an exit
- * status; study_plan_free it in any case. */
-int study_plan_read(study_plan *plan, const char *place, const char *text, size_t length);
+/* Reads a plan and makes its systems and cells; copies as in study_plan, which keeps it.  Returns
+ * CLI_DONE or prints and returns an exit status; study_plan_free it in any case. */
+int study_plan_read(study_plan *plan, const char *place, const char *text, size_t length,
+                    const char *copies);
 void study_plan_free(study_plan *plan);
+/* DIRECTORY/LABEL.yaml, where the copy of a system file lies; allocated, NULL: out of memory. */
+char *study_system_copy(const char *directory, const study_entry *entry);
 
 /* ---- cells ---- */
 
@@ -167,6 +191,13 @@ int study_pool_run(study_plan *plan, int threads);
 int study_output_open(study_output **output, const char *directory);
 int study_output_cell(study_output *output, const study_plan *plan, const study_cell *cell);
 int study_output_close(study_output *output);
+
+/* How many expectations are not met; whether one of them says that this cell fails.  Their table,
+ * if there are any; and a file with all of them: CLI_DONE, or prints and returns CLI_IO. */
+int study_judge(const study_plan *plan);
+int study_failure_is_expected(const study_plan *plan, const study_cell *cell);
+void study_print_expectations(FILE *out, const study_plan *plan);
+int study_keep_expectations(const study_plan *plan, const char *path);
 
 /* The tables of one entry, and the note that belongs under all of them. */
 void study_print_entry(FILE *out, const study_plan *plan, const study_entry *entry);

@@ -63,6 +63,14 @@ static dal_setting *start_settings(const study_cell *c, int *count)
     return list;
 }
 
+static dal_options options_of(const study_entry *e)
+{
+    dal_options options = dal_options_default();
+    for (int i = 0; i < STUDY_OPTIONS; i++)
+        if (e->option[i]) dal_options_set(&options, study_option_word(i), e->option[i], NULL);
+    return options;
+}
+
 static dal_status make_run(walk *w)
 {
     static const dal_space space[] = {
@@ -73,7 +81,7 @@ static dal_status make_run(walk *w)
     const study_entry *e = w->cell->entry;
     dal_run_spec spec = {.system = e->system,
                          .method = *w->cell->method,
-                         .options = e->options,
+                         .options = options_of(e),
                          .parameters = e->set,
                          .parameter_count = e->set_count};
     dal_setting *start = start_settings(w->cell, &spec.start_count);

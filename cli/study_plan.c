@@ -1,187 +1,43 @@
-/* study_plan.c - from the text of a study to its cells.
- *
- * Keys beside `systems` are defaults for every system; a system may be a name or a mapping that
- * overrides them.  'dalembert study --help' lists the keys. */
+/* study_plan.c - from the keys of a study to its entries and cells. */
 #include "study.h"
+#include "study_draft.h"
+#include "study_expect.h"
 #include "study_yaml.h"
 
-#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* What the keys are read into: an entry, the nodes that wait for its system, and what only the
- * whole study has. */
-typedef struct draft {
-    study_entry entry;
-    yaml_node_t *integrators, *set, *start, *displace, *systems;
-    const char *title;
-} draft;
-
-static const char *const start_words[] = {
-#define X(code, word, space, about) word,
-    STUDY_START_LIST(X)
-#undef X
-};
-
-const char *study_start_word(int start) { return start_words[start]; }
-
-/* ---- the keys ---- */
-
-static int take_title(void *user, const study_text *text, yaml_node_t *value)
-{
-    draft *d = user;
-    d->title = study_text_scalar(text, value, "title");
-    return d->title ? CLI_DONE : CLI_USAGE;
-}
-
-static int take_system(void *user, const study_text *text, yaml_node_t *value)
-{
-    draft *d = user;
-    d->entry.name = study_text_scalar(text, value, "system");
-    return d->entry.name ? CLI_DONE : CLI_USAGE;
-}
-
-static int take_label(void *user, const study_text *text, yaml_node_t *value)
-{
-    draft *d = user;
-    d->entry.label = study_text_scalar(text, value, "label");
-    if (!d->entry.label) return CLI_USAGE;
-    if (d->entry.label[0] && !strchr(d->entry.label, '/') && d->entry.label[0] != '.')
-        return CLI_DONE;
-    return study_text_fail(text, value, "label: '%s' cannot name a file", d->entry.label);
-}
-
-static int take_positive(const study_text *text, yaml_node_t *value, const char *what, double *x)
-{
-    int status = study_text_number(text, value, what, x);
-    if (status != CLI_DONE || *x > 0.0) return status;
-    return study_text_fail(text, value, "%s: %g is not positive", what, *x);
-}
-
-static int take_step(void *user, const study_text *text, yaml_node_t *value)
-{
-    study_entry *e = &((draft *)user)->entry;
-    e->steps = study_text_count(value);
-    if (e->steps < 1 || e->steps > STUDY_STEPS)
-        return study_text_fail(text, value, "step: %d values, not 1..%d", e->steps, STUDY_STEPS);
-    int status = CLI_DONE;
-    for (int i = 0; i < e->steps && status == CLI_DONE; i++)
-        status = take_positive(text, study_text_item(text, value, i), "step", &e->step[i]);
-    return status;
-}
-
-static int take_time(void *user, const study_text *text, yaml_node_t *value)
-{
-    return take_positive(text, value, "time", &((draft *)user)->entry.time);
-}
-
-static int take_displacement(void *user, const study_text *text, yaml_node_t *value)
-{
-    return take_positive(text, value, "displacement", &((draft *)user)->entry.displacement);
-}
-
-static int take_samples(void *user, const study_text *text, yaml_node_t *value)
-{
-    char place[256];
-    const char *given = study_text_scalar(text, value, "samples");
-    if (!given) return CLI_USAGE;
-    snprintf(place, sizeof place, "%s:%zu: samples", text->place, value->start_mark.line + 1);
-    return cli_integer(place, given, 1, 1000000000, &((draft *)user)->entry.samples);
-}
-
-static int take_option(study_entry *e, const study_text *text, const yaml_node_pair_t *pair)
-{
-    dal_error error = {0};
-    yaml_node_t *key = study_text_node(text, pair->key);
-    yaml_node_t *value = study_text_node(text, pair->value);
-    const char *name = study_text_scalar(text, key, "options");
-    const char *word = name ? study_text_scalar(text, value, name) : NULL;
-    if (!word) return CLI_USAGE;
-    if (strcmp(name, "step") == 0 || strcmp(name, "space") == 0)
-        return study_text_fail(text, key, "options: %s has a key of its own", name);
-    if (dal_options_set(&e->options, name, word, &error) == DAL_OK) return CLI_DONE;
-    return study_text_fail(text, key, "%s", error.message);
-}
-
-static int take_options(void *user, const study_text *text, yaml_node_t *value)
-{
-    int status = CLI_DONE;
-    if (value->type != YAML_MAPPING_NODE)
-        return study_text_fail(text, value, "options: names and values are wanted");
-    const yaml_node_pair_t *pair = value->data.mapping.pairs.start;
-    for (; pair < value->data.mapping.pairs.top && status == CLI_DONE; pair++)
-        status = take_option(&((draft *)user)->entry, text, pair);
-    return status;
-}
-
-static int take_starts(void *user, const study_text *text, yaml_node_t *value)
-{
-    study_entry *e = &((draft *)user)->entry;
-    e->starts = 0;
-    for (int i = 0; i < study_text_count(value); i++) {
-        const yaml_node_t *item = study_text_item(text, value, i);
-        const char *word = study_text_scalar(text, item, "starts");
-        if (!word) return CLI_USAGE;
-        int start = 0;
-        while (start < STUDY_STARTS && strcmp(start_words[start], word) != 0) start++;
-        if (start == STUDY_STARTS)
-            return study_text_fail(text, item, "starts: '%s' is not physical, surface or displaced",
-                                   word);
-        e->starts |= 1 << start;
-    }
-    return e->starts ? CLI_DONE : study_text_fail(text, value, "starts: the list is empty");
-}
-
-#define KEEP_NODE(name)                                                                            \
-    static int take_##name(void *user, const study_text *text, yaml_node_t *value)                 \
-    {                                                                                              \
-        (void)text;                                                                                \
-        ((draft *)user)->name = value;                                                             \
-        return CLI_DONE;                                                                           \
-    }
-KEEP_NODE(integrators)
-KEEP_NODE(set)
-KEEP_NODE(start)
-KEEP_NODE(displace)
-KEEP_NODE(systems)
-
-static const study_key keys[] = {
-#define X(name, scope, help) {#name, take_##name},
-    STUDY_KEY_LIST(X)
-#undef X
-};
-
-/* The list begins with the keys of the whole study, then those of both, then those of a system. */
-enum {
-#define X(name, scope, help) KEY_##name,
-    STUDY_KEY_LIST(X)
-#undef X
-        KEYS,
-    FIRST_OF_SYSTEM = KEY_integrators,
-    KEYS_OF_STUDY = KEY_system,
-    KEYS_OF_SYSTEM = KEYS - FIRST_OF_SYSTEM
-};
-
 /* ---- settings and methods ---- */
 
-static int read_settings(const study_text *text, yaml_node_t *node, const char *what,
-                         dal_setting **list, int *count)
+/* Momenta in units of the displacement: one value each. */
+static int read_displace(study_entry *e, const study_text *text, yaml_node_t *node)
 {
     if (!node) return CLI_DONE;
     if (node->type != YAML_MAPPING_NODE)
-        return study_text_fail(text, node, "%s: names and values are wanted", what);
+        return study_text_fail(text, node, "displace: names and values are wanted");
     const yaml_node_pair_t *pair = node->data.mapping.pairs.start;
     size_t most = (size_t)(node->data.mapping.pairs.top - pair);
-    *list = calloc(most + 1, sizeof **list);
-    if (!*list) return cli_fail(CLI_IO, "out of memory");
+    e->displace = calloc(most + 1, sizeof *e->displace);
+    if (!e->displace) return cli_fail(CLI_IO, "out of memory");
     for (; pair < node->data.mapping.pairs.top; pair++) {
-        dal_setting *s = &(*list)[(*count)++];
-        s->name = study_text_scalar(text, study_text_node(text, pair->key), what);
+        dal_setting *s = &e->displace[e->displace_count++];
+        yaml_node_t *key = study_text_node(text, pair->key);
+        s->name = study_text_scalar(text, key, "displace");
         if (!s->name) return CLI_USAGE;
-        int status = study_text_number(text, study_text_node(text, pair->value), what, &s->value);
+        yaml_node_t *value = study_text_node(text, pair->value);
+        int status = study_text_number(text, value, "displace", &s->value);
         if (status != CLI_DONE) return status;
     }
     return CLI_DONE;
+}
+
+static int has_method(const study_entry *e, const dal_method *method)
+{
+    char name[STUDY_NAME], other[STUDY_NAME];
+    dal_method_name(method, name, sizeof name);
+    for (int i = 0; i < e->method_count; i++)
+        if (strcmp(name, dal_method_name(&e->methods[i], other, sizeof other)) == 0) return 1;
+    return 0;
 }
 
 static int add_method(study_entry *e, const study_text *text, const yaml_node_t *node,
@@ -194,7 +50,7 @@ static int add_method(study_entry *e, const study_text *text, const yaml_node_t 
     e->methods = methods;
     if (dal_method_parse(&methods[e->method_count], name, &error) != DAL_OK)
         return study_text_fail(text, node, "%s", error.message);
-    e->method_count++;
+    if (!has_method(e, &methods[e->method_count])) e->method_count++;
     return CLI_DONE;
 }
 
@@ -229,7 +85,7 @@ static int read_methods(study_entry *e, const study_text *text, yaml_node_t *nod
 
 /* ---- entries ---- */
 
-static int check_entry(const study_text *text, const yaml_node_t *node, const draft *d)
+static int check_entry(const study_text *text, const yaml_node_t *node, const study_draft *d)
 {
     const study_entry *e = &d->entry;
     if (!e->name) return study_text_fail(text, node, "the system is missing");
@@ -254,7 +110,7 @@ static int unique_label(const study_plan *plan, const study_text *text, const ya
     return CLI_DONE;
 }
 
-/* A path labels its entry by the file's name without folders and ending. */
+/* A path labels its entry by the file's name without folders. */
 static const char *plain_label(const study_entry *e)
 {
     const char *slash = strrchr(e->name, '/');
@@ -269,7 +125,7 @@ static int check_names(const study_text *text, const yaml_node_t *node, const ch
     dal_error error = {0};
     dal_run_spec spec = {.system = e->system,
                          .method = e->methods[0],
-                         .options = e->options,
+                         .options = dal_options_default(),
                          .parameters = e->set,
                          .parameter_count = e->set_count,
                          .start = start,
@@ -281,51 +137,133 @@ static int check_names(const study_text *text, const yaml_node_t *node, const ch
     return made == DAL_NAME ? study_text_fail(text, node, "%s: %s", what, error.message) : CLI_DONE;
 }
 
-static int load_entry(study_entry *e, const study_text *text, const draft *d)
+char *study_system_copy(const char *directory, const study_entry *e)
 {
-    int status = cli_load(e->name, &e->model, &e->system);
-    if (status == CLI_DONE) status = check_names(text, d->set, "set", e, NULL, 0);
-    if (status == CLI_DONE)
-        status = check_names(text, d->start, "start", e, e->start, e->start_count);
-    if (status == CLI_DONE)
-        status = check_names(text, d->displace, "displace", e, e->displace, e->displace_count);
+    size_t length;
+    char *name = NULL;
+    FILE *out = open_memstream(&name, &length);
+    if (!out) return NULL;
+    fprintf(out, "%s.yaml", e->label);
+    char *path = fclose(out) == 0 ? cli_join(directory, name) : NULL;
+    free(name);
+    return path;
+}
+
+/* A name that is neither a path nor a system is told with its place. */
+static int check_system(const study_text *text, const yaml_node_t *node, const char *name)
+{
+    enum { MOST = 256 };
+    const char *names[MOST];
+    int count = 0;
+    if (cli_is_path(name) || dal_builtin_text(name)) return CLI_DONE;
+    while (count < MOST && (names[count] = dal_builtin_name(count))) count++;
+    return study_unknown(text, node, "system", name, names, count);
+}
+
+/* The file itself, or the copy of it that a directory keeps. */
+static int load_system(study_plan *plan, study_entry *e)
+{
+    if (!plan->copies || !cli_is_path(e->name)) return cli_load(e->name, &e->model, &e->system);
+    char *path = study_system_copy(plan->copies, e);
+    if (!path) return cli_fail(CLI_IO, "out of memory");
+    int status = cli_load(path, &e->model, &e->system);
+    free(path);
     return status;
 }
 
-static int add_entry(study_plan *plan, const study_text *text, yaml_node_t *node, const draft *base)
+/* ---- groups ---- */
+
+typedef struct group {
+    study_plan *plan;
+    const study_text *text;
+    yaml_node_t *node; /* of the system */
+    study_draft draft;
+    study_variants *variants;
+} group;
+
+/* What the first of a group reads, the others share. */
+static int load_first(group *g, study_entry *e)
 {
-    draft d = *base;
-    int status =
-        node->type == YAML_MAPPING_NODE
-            ? study_text_mapping(text, node, "a system", keys + FIRST_OF_SYSTEM, KEYS_OF_SYSTEM, &d)
-            : take_system(&d, text, node);
-    if (status == CLI_DONE) status = check_entry(text, node, &d);
-    if (status != CLI_DONE) return status;
+    int status = read_methods(e, g->text, g->draft.integrators);
+    if (status == CLI_DONE) status = check_system(g->text, g->node, e->name);
+    return status == CLI_DONE ? load_system(g->plan, e) : status;
+}
+
+static void share(study_entry *e, const study_entry *first)
+{
+    e->model = first->model;
+    e->system = first->system;
+    e->methods = first->methods;
+    e->method_count = first->method_count;
+}
+
+static int check_all_names(const group *g, const study_entry *e)
+{
+    const study_draft *d = &g->draft;
+    int status = check_names(g->text, d->set, "set", e, NULL, 0);
+    if (status == CLI_DONE)
+        status = check_names(g->text, d->start, "start", e, e->start, e->start_count);
+    if (status == CLI_DONE)
+        status = check_names(g->text, d->displace, "displace", e, e->displace, e->displace_count);
+    return status;
+}
+
+static int add_variant(group *g, int i, const study_entry *first)
+{
+    study_plan *plan = g->plan;
     study_entry *e = &plan->entries[plan->entry_count];
-    *e = d.entry;
-    if (!e->label) e->label = plain_label(e);
-    status = unique_label(plan, text, node, e);
+    *e = g->draft.entry;
+    e->is_first = i == 0;
+    int status = study_variants_take(g->variants, i, e);
+    if (status == CLI_DONE) status = unique_label(plan, g->text, g->node, e);
     plan->entry_count++;
-    if (status == CLI_DONE) status = read_methods(e, text, d.integrators);
-    if (status == CLI_DONE) status = read_settings(text, d.set, "set", &e->set, &e->set_count);
-    if (status == CLI_DONE)
-        status = read_settings(text, d.start, "start", &e->start, &e->start_count);
-    if (status == CLI_DONE)
-        status = read_settings(text, d.displace, "displace", &e->displace, &e->displace_count);
-    return status == CLI_DONE ? load_entry(e, text, &d) : status;
+    if (status == CLI_DONE) status = read_displace(e, g->text, g->draft.displace);
+    if (status != CLI_DONE) return status;
+    if (i == 0)
+        status = load_first(g, e);
+    else
+        share(e, first);
+    if (status == CLI_DONE && i == 0) status = check_all_names(g, e);
+    return status == CLI_DONE ? study_variants_onto(g->variants, e) : status;
+}
+
+static int add_variants(group *g, int count)
+{
+    study_plan *plan = g->plan;
+    const int before = plan->entry_count;
+    const size_t room = (size_t)before + (size_t)count;
+    study_entry *entries = realloc(plan->entries, room * sizeof *entries);
+    if (!entries) return cli_fail(CLI_IO, "out of memory");
+    plan->entries = entries;
+    int status = CLI_DONE;
+    for (int i = 0; i < count && status == CLI_DONE; i++)
+        status = add_variant(g, i, &entries[before]);
+    return status;
+}
+
+static int add_group(study_plan *plan, const study_text *text, yaml_node_t *node,
+                     const study_draft *base)
+{
+    group g = {.plan = plan, .text = text, .node = node, .draft = *base};
+    int count = 0, status = study_draft_system(&g.draft, text, node);
+    if (status == CLI_DONE) status = check_entry(text, node, &g.draft);
+    if (status != CLI_DONE) return status;
+    if (!g.draft.entry.group) g.draft.entry.group = plain_label(&g.draft.entry);
+    status = study_variants_read(&g.variants, text, &g.draft, &count);
+    if (status == CLI_DONE) status = add_variants(&g, count);
+    study_variants_free(g.variants);
+    return status;
 }
 
 /* ---- the whole ---- */
 
 static int read_systems(study_plan *plan, const study_text *text, const yaml_node_t *root,
-                        const draft *base)
+                        const study_draft *base)
 {
     int count = base->systems ? study_text_count(base->systems) : 0, status = CLI_DONE;
     if (count == 0) return study_text_fail(text, root, "the systems are missing");
-    plan->entries = calloc((size_t)count, sizeof *plan->entries);
-    if (!plan->entries) return cli_fail(CLI_IO, "out of memory");
     for (int i = 0; i < count && status == CLI_DONE; i++)
-        status = add_entry(plan, text, study_text_item(text, base->systems, i), base);
+        status = add_group(plan, text, study_text_item(text, base->systems, i), base);
     return status;
 }
 
@@ -361,38 +299,47 @@ static int make_cells(study_plan *plan)
     return CLI_DONE;
 }
 
-int study_plan_read(study_plan *plan, const char *place, const char *bytes, size_t length)
+int study_plan_read(study_plan *plan, const char *place, const char *bytes, size_t length,
+                    const char *copies)
 {
     study_text *text = calloc(1, sizeof *text);
-    draft base = {.entry = {.samples = 400,
-                            .options = dal_options_default(),
-                            .displacement = 1e-8,
-                            .starts = (1 << STUDY_STARTS) - 1}};
-    *plan = (study_plan){.place = place, .document = text};
+    study_draft base = {.entry = {.samples = 400,
+                                  .statistics = 1,
+                                  .displacement = 1e-8,
+                                  .starts = (1 << STUDY_STARTS) - 1}};
+    *plan = (study_plan){.place = place, .document = text, .copies = copies};
     if (!text) return cli_fail(CLI_IO, "out of memory");
     int status = study_text_parse(text, place, bytes, length);
     if (status != CLI_DONE) return status;
     yaml_node_t *root = yaml_document_get_root_node(&text->document);
-    status = study_text_mapping(text, root, "a study", keys, KEYS_OF_STUDY, &base);
+    status = study_draft_study(&base, text, root);
     plan->title = base.title ? base.title : place;
     if (status == CLI_DONE) status = read_systems(plan, text, root, &base);
-    return status == CLI_DONE ? make_cells(plan) : status;
+    if (status == CLI_DONE) status = make_cells(plan);
+    return status == CLI_DONE ? study_expect_read(plan, text, base.expect) : status;
+}
+
+static void free_entry(study_entry *e)
+{
+    if (e->is_first) {
+        dal_model_free(e->model);
+        free(e->methods);
+    }
+    free(e->label);
+    free(e->names);
+    free(e->set);
+    free(e->start);
+    free(e->displace);
 }
 
 void study_plan_free(study_plan *plan)
 {
     for (int i = 0; i < plan->cell_count && plan->cells; i++) study_cell_free(&plan->cells[i]);
-    for (int i = 0; i < plan->entry_count; i++) {
-        study_entry *e = &plan->entries[i];
-        dal_model_free(e->model);
-        free(e->methods);
-        free(e->set);
-        free(e->start);
-        free(e->displace);
-    }
+    for (int i = 0; i < plan->entry_count; i++) free_entry(&plan->entries[i]);
     if (plan->document) yaml_document_delete(&((study_text *)plan->document)->document);
     free(plan->document);
     free(plan->entries);
     free(plan->cells);
+    free(plan->expectations);
     *plan = (study_plan){0};
 }

@@ -18,6 +18,14 @@ int study_text_fail(const study_text *text, const yaml_node_t *node, const char 
                     node->start_mark.column + 1, message);
 }
 
+int study_unknown(const study_text *text, const yaml_node_t *node, const char *what,
+                  const char *name, const char *const *names, int count)
+{
+    const char *nearest = dal_nearest(name, names, count);
+    if (!nearest) return study_text_fail(text, node, "unknown %s '%s'", what, name);
+    return study_text_fail(text, node, "unknown %s '%s'; did you mean '%s'?", what, name, nearest);
+}
+
 static int parser_fail(const char *place, const yaml_parser_t *parser)
 {
     if (parser->error == YAML_MEMORY_ERROR) return cli_fail(CLI_IO, "out of memory");
@@ -77,14 +85,20 @@ const char *study_text_scalar(const study_text *text, const yaml_node_t *node, c
     return NULL;
 }
 
+void study_text_place(const study_text *text, const yaml_node_t *node, const char *what,
+                      char *place, size_t size)
+{
+    snprintf(place, size, "%s:%zu:%zu: %s", text->place, node->start_mark.line + 1,
+             node->start_mark.column + 1, what);
+}
+
 int study_text_number(const study_text *text, const yaml_node_t *node, const char *what,
                       double *number)
 {
     char place[MESSAGE];
     const char *value = study_text_scalar(text, node, what);
     if (!value) return CLI_USAGE;
-    snprintf(place, sizeof place, "%s:%zu:%zu: %s", text->place, node->start_mark.line + 1,
-             node->start_mark.column + 1, what);
+    study_text_place(text, node, what, place, sizeof place);
     return cli_number(place, value, number);
 }
 
@@ -104,10 +118,7 @@ static int unknown_key(const study_text *text, const yaml_node_t *node, const ch
     const char *names[NAMES];
     if (count > NAMES) count = NAMES;
     for (int i = 0; i < count; i++) names[i] = keys[i].name;
-    const char *nearest = dal_nearest(name, names, count);
-    if (nearest)
-        return study_text_fail(text, node, "unknown key '%s'; did you mean '%s'?", name, nearest);
-    return study_text_fail(text, node, "unknown key '%s'", name);
+    return study_unknown(text, node, "key", name, names, count);
 }
 
 static int take_pair(const study_text *text, const yaml_node_pair_t *pair, const study_key *keys,

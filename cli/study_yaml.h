@@ -22,6 +22,12 @@ int study_text_parse(study_text *text, const char *place, const char *bytes, siz
 /* "PLACE:line:column: message" about a node; returns CLI_USAGE. */
 int study_text_fail(const study_text *text, const yaml_node_t *node, const char *format, ...)
     CLI_PRINTF(3, 4);
+/* The same for a name that is not among count; tells the nearest. */
+int study_unknown(const study_text *text, const yaml_node_t *node, const char *what,
+                  const char *name, const char *const *names, int count);
+/* "PLACE:line:column: WHAT" for messages of others about a node. */
+void study_text_place(const study_text *text, const yaml_node_t *node, const char *what,
+                      char *place, size_t size);
 /* A node of the document by its number. */
 yaml_node_t *study_text_node(const study_text *text, int number);
 /* The text of a scalar, which lives as long as the document; NULL after a message. */

@@ -1,0 +1,213 @@
+/* study_draft.c - the keys of a study file, one by one.
+ *
+ * Keys beside `systems` are defaults for every system; a system may be a name or a mapping that
+ * overrides them.  'dalembert study --help' lists the keys. */
+#include "study_draft.h"
+
+#include "study_values.h"
+
+#include <string.h>
+
+static const char *const start_words[] = {
+#define X(code, word, space, about) word,
+    STUDY_START_LIST(X)
+#undef X
+};
+
+const char *study_start_word(int start) { return start_words[start]; }
+
+/* ---- texts and numbers ---- */
+
+static int take_title(void *user, const study_text *text, yaml_node_t *value)
+{
+    study_draft *d = user;
+    d->title = study_text_scalar(text, value, "title");
+    return d->title ? CLI_DONE : CLI_USAGE;
+}
+
+static int take_system(void *user, const study_text *text, yaml_node_t *value)
+{
+    study_draft *d = user;
+    d->entry.name = study_text_scalar(text, value, "system");
+    return d->entry.name ? CLI_DONE : CLI_USAGE;
+}
+
+static int take_label(void *user, const study_text *text, yaml_node_t *value)
+{
+    study_draft *d = user;
+    const char *label = d->entry.group = study_text_scalar(text, value, "label");
+    if (!label) return CLI_USAGE;
+    if (label[0] && !strchr(label, '/') && label[0] != '.') return CLI_DONE;
+    return study_text_fail(text, value, "label: '%s' cannot name a file", label);
+}
+
+static int take_positive(const study_text *text, yaml_node_t *value, const char *what, double *x)
+{
+    int status = study_text_number(text, value, what, x);
+    if (status != CLI_DONE || *x > 0.0) return status;
+    return study_text_fail(text, value, "%s: %g is not positive", what, *x);
+}
+
+static int keep_steps(study_entry *e, const study_text *text, const yaml_node_t *node,
+                      const study_values *values)
+{
+    if (values->is_drawn) return study_text_fail(text, node, "step: it cannot be drawn");
+    if (values->count > STUDY_STEPS)
+        return study_text_fail(text, node, "step: %d values, not 1..%d", values->count,
+                               STUDY_STEPS);
+    e->steps = values->count;
+    for (int i = 0; i < e->steps; i++) {
+        e->step[i] = values->value[i];
+        if (!(e->step[i] > 0.0))
+            return study_text_fail(text, node, "step: %g is not positive", e->step[i]);
+        for (int k = 0; k < i; k++)
+            if (e->step[k] == e->step[i])
+                return study_text_fail(text, node, "step: %g comes twice", e->step[i]);
+    }
+    return CLI_DONE;
+}
+
+static int take_step(void *user, const study_text *text, yaml_node_t *value)
+{
+    study_values values;
+    int status = study_values_read(&values, text, value, "step");
+    if (status == CLI_DONE)
+        status = keep_steps(&((study_draft *)user)->entry, text, value, &values);
+    study_values_free(&values);
+    return status;
+}
+
+static int take_time(void *user, const study_text *text, yaml_node_t *value)
+{
+    return take_positive(text, value, "time", &((study_draft *)user)->entry.time);
+}
+
+static int take_displacement(void *user, const study_text *text, yaml_node_t *value)
+{
+    return take_positive(text, value, "displacement", &((study_draft *)user)->entry.displacement);
+}
+
+static int take_integer(const study_text *text, const yaml_node_t *value, const char *what,
+                        long long *number)
+{
+    char place[256];
+    const char *given = study_text_scalar(text, value, what);
+    if (!given) return CLI_USAGE;
+    study_text_place(text, value, what, place, sizeof place);
+    return cli_integer(place, given, 1, 1000000000, number);
+}
+
+static int take_samples(void *user, const study_text *text, yaml_node_t *value)
+{
+    return take_integer(text, value, "samples", &((study_draft *)user)->entry.samples);
+}
+
+static int take_statistics(void *user, const study_text *text, yaml_node_t *value)
+{
+    return take_integer(text, value, "statistics", &((study_draft *)user)->entry.statistics);
+}
+
+/* ---- options of the runs ---- */
+
+static const char *const option_words[STUDY_OPTIONS] = {
+#define X(type, name, word, initial, least, greatest, words, help) word,
+    DAL_OPTION_LIST(X)
+#undef X
+};
+
+const char *study_option_word(int option) { return option_words[option]; }
+
+static int take_option(study_entry *e, const study_text *text, const yaml_node_pair_t *pair)
+{
+    dal_error error = {0};
+    dal_options options = dal_options_default();
+    yaml_node_t *key = study_text_node(text, pair->key);
+    yaml_node_t *value = study_text_node(text, pair->value);
+    const char *name = study_text_scalar(text, key, "options");
+    const char *word = name ? study_text_scalar(text, value, name) : NULL;
+    if (!word) return CLI_USAGE;
+    if (strcmp(name, "step") == 0 || strcmp(name, "space") == 0)
+        return study_text_fail(text, key, "options: %s has a key of its own", name);
+    if (dal_options_set(&options, name, word, &error) != DAL_OK)
+        return study_text_fail(text, key, "%s", error.message);
+    for (int i = 0; i < STUDY_OPTIONS; i++)
+        if (strcmp(option_words[i], name) == 0) e->option[i] = word;
+    return CLI_DONE;
+}
+
+static int take_options(void *user, const study_text *text, yaml_node_t *value)
+{
+    int status = CLI_DONE;
+    if (value->type != YAML_MAPPING_NODE)
+        return study_text_fail(text, value, "options: names and values are wanted");
+    const yaml_node_pair_t *pair = value->data.mapping.pairs.start;
+    for (; pair < value->data.mapping.pairs.top && status == CLI_DONE; pair++)
+        status = take_option(&((study_draft *)user)->entry, text, pair);
+    return status;
+}
+
+/* ---- starts ---- */
+
+static int take_starts(void *user, const study_text *text, yaml_node_t *value)
+{
+    study_entry *e = &((study_draft *)user)->entry;
+    e->starts = 0;
+    for (int i = 0; i < study_text_count(value); i++) {
+        const yaml_node_t *item = study_text_item(text, value, i);
+        const char *word = study_text_scalar(text, item, "starts");
+        if (!word) return CLI_USAGE;
+        int start = 0;
+        while (start < STUDY_STARTS && strcmp(start_words[start], word) != 0) start++;
+        if (start == STUDY_STARTS)
+            return study_text_fail(text, item, "starts: '%s' is not physical, surface or displaced",
+                                   word);
+        e->starts |= 1 << start;
+    }
+    return e->starts ? CLI_DONE : study_text_fail(text, value, "starts: the list is empty");
+}
+
+/* ---- what waits for the system ---- */
+
+#define KEEP_NODE(name)                                                                            \
+    static int take_##name(void *user, const study_text *text, yaml_node_t *value)                 \
+    {                                                                                              \
+        (void)text;                                                                                \
+        ((study_draft *)user)->name = value;                                                       \
+        return CLI_DONE;                                                                           \
+    }
+KEEP_NODE(integrators)
+KEEP_NODE(set)
+KEEP_NODE(start)
+KEEP_NODE(displace)
+KEEP_NODE(seeds)
+KEEP_NODE(systems)
+KEEP_NODE(expect)
+
+static const study_key keys[] = {
+#define X(name, scope, help) {#name, take_##name},
+    STUDY_KEY_LIST(X)
+#undef X
+};
+
+/* The list begins with the keys of the whole study, then those of both, then those of a system. */
+enum {
+#define X(name, scope, help) KEY_##name,
+    STUDY_KEY_LIST(X)
+#undef X
+        KEYS,
+    FIRST_OF_SYSTEM = KEY_integrators,
+    KEYS_OF_STUDY = KEY_system,
+    KEYS_OF_SYSTEM = KEYS - FIRST_OF_SYSTEM
+};
+
+int study_draft_study(study_draft *draft, const study_text *text, yaml_node_t *node)
+{
+    return study_text_mapping(text, node, "a study", keys, KEYS_OF_STUDY, draft);
+}
+
+int study_draft_system(study_draft *draft, const study_text *text, yaml_node_t *node)
+{
+    if (node->type != YAML_MAPPING_NODE) return take_system(draft, text, node);
+    return study_text_mapping(text, node, "a system", keys + FIRST_OF_SYSTEM, KEYS_OF_SYSTEM,
+                              draft);
+}

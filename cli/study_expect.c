@@ -1,0 +1,262 @@
+/* study_expect.c - what a study states beforehand, read from its file.
+ *
+ *     expect:
+ *       LABEL:                              a label, that of a group, a system, or all
+ *         INTEGRATOR:                       as in the study, or all
+ *           QUANTITY: bounded               a verdict
+ *           QUANTITY: [exact, rounding]     one of several
+ *           QUANTITY: {at most: 1e-10}      its size: max |x| for D, error and momenta, else
+ *                                           max |x - first|
+ *           QUANTITY: {verdict: linear drift, rate: {at least: -2e-3, at most: -1e-3}}
+ *           state: failed                   of the run: done, failed, refused
+ *
+ * A quantity is one of quantities.csv, or D, the worst of the constraints.  What is said of
+ * something the study does not contain is an error. */
+#include "study_expect.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct reader {
+    study_plan *plan;
+    const study_text *text;
+    const char *label, *method;
+    study_expectation expectation; /* the present one */
+} reader;
+
+static int add(reader *r, const yaml_node_t *node)
+{
+    study_plan *plan = r->plan;
+    const size_t count = (size_t)plan->expectation_count + 1;
+    study_expectation *all = realloc(plan->expectations, count * sizeof *all);
+    if (!all) return cli_fail(CLI_IO, "out of memory");
+    plan->expectations = all;
+    r->expectation.line = node->start_mark.line + 1;
+    all[plan->expectation_count++] = r->expectation;
+    return CLI_DONE;
+}
+
+/* ---- words ---- */
+
+typedef struct words {
+    const char *what;
+    const char *const *word;
+    int count;
+} words;
+
+static const char *const verdict_words[] = {
+#define X(code, text) text,
+    DAL_VERDICT_LIST(X)
+#undef X
+};
+
+static const char *const state_words[] = {
+#define X(code, word) word,
+    STUDY_STATE_LIST(X)
+#undef X
+};
+
+static int is_state(const study_expectation *x) { return strcmp(x->quantity, "state") == 0; }
+
+static words words_of(const study_expectation *x)
+{
+    if (is_state(x)) return (words){"state", state_words, sizeof state_words / sizeof(char *)};
+    return (words){"verdict", verdict_words, sizeof verdict_words / sizeof(char *)};
+}
+
+static int add_words(reader *r, yaml_node_t *node)
+{
+    const words known = words_of(&r->expectation);
+    r->expectation.words = 0;
+    r->expectation.field = -1;
+    for (int i = 0; i < study_text_count(node); i++) {
+        const yaml_node_t *item = study_text_item(r->text, node, i);
+        const char *word = study_text_scalar(r->text, item, known.what);
+        if (!word) return CLI_USAGE;
+        int k = 0;
+        while (k < known.count && strcmp(known.word[k], word) != 0) k++;
+        if (k == known.count) return study_unknown(r->text, item, known.what, word, known.word, k);
+        r->expectation.words |= 1u << k;
+    }
+    if (r->expectation.words == 0)
+        return study_text_fail(r->text, node, "expect: the list is empty");
+    return add(r, node);
+}
+
+/* ---- bounds ---- */
+
+static int take_most(void *user, const study_text *text, yaml_node_t *value)
+{
+    return study_text_number(text, value, "at most", &((reader *)user)->expectation.most);
+}
+
+static int take_least(void *user, const study_text *text, yaml_node_t *value)
+{
+    return study_text_number(text, value, "at least", &((reader *)user)->expectation.least);
+}
+
+static int add_bound(reader *r, int field, yaml_node_t *node)
+{
+    static const study_key keys[] = {{"at most", take_most}, {"at least", take_least}};
+    r->expectation.field = field;
+    r->expectation.words = 0;
+    r->expectation.least = -INFINITY;
+    r->expectation.most = INFINITY;
+    int status = study_text_mapping(r->text, node, "bounds", keys, 2, r);
+    if (status != CLI_DONE) return status;
+    if (isinf(r->expectation.least) && isinf(r->expectation.most))
+        return study_text_fail(r->text, node, "bounds: 'at most' or 'at least' is wanted");
+    return add(r, node);
+}
+
+#define TAKE_FIELD(name, member)                                                                   \
+    static int take_##name(void *user, const study_text *text, yaml_node_t *value)                 \
+    {                                                                                              \
+        (void)text;                                                                                \
+        return add_bound(user, STUDY_FIELD_##name, value);                                         \
+    }
+STUDY_FIELD_LIST(TAKE_FIELD)
+#undef TAKE_FIELD
+
+static int take_verdict(void *user, const study_text *text, yaml_node_t *value)
+{
+    (void)text;
+    return add_words(user, value);
+}
+
+/* The size that the tables show. */
+static int size_field(const char *quantity)
+{
+    const int is_size = quantity[0] == '|' || strcmp(quantity, "error") == 0;
+    return is_size || study_is_constraint(quantity) ? STUDY_FIELD_max : STUDY_FIELD_deviation;
+}
+
+static int has_key(const study_text *text, const yaml_node_t *node, const char *name)
+{
+    const yaml_node_pair_t *pair = node->data.mapping.pairs.start;
+    for (; pair < node->data.mapping.pairs.top; pair++) {
+        const yaml_node_t *key = study_text_node(text, pair->key);
+        if (key->type == YAML_SCALAR_NODE &&
+            strcmp((const char *)key->data.scalar.value, name) == 0)
+            return 1;
+    }
+    return 0;
+}
+
+static int add_mapping(reader *r, yaml_node_t *node)
+{
+    static const study_key keys[] = {{"verdict", take_verdict},
+#define X(name, member) {#name, take_##name},
+                                     STUDY_FIELD_LIST(X)
+#undef X
+    };
+    if (is_state(&r->expectation)) return study_text_fail(r->text, node, "state: words are wanted");
+    if (has_key(r->text, node, "at most") || has_key(r->text, node, "at least"))
+        return add_bound(r, size_field(r->expectation.quantity), node);
+    return study_text_mapping(r->text, node, "expect", keys, sizeof keys / sizeof keys[0], r);
+}
+
+/* ---- what the study contains ---- */
+
+static const char *const lifted_names[] = {"H", "|p|", "|pi|", "|pi_e|"};
+
+static int has_quantity(const study_entry *e, const char *name)
+{
+    const dal_system *s = e->system;
+    const int lifted = s->call.adjoint && e->starts & ~(1 << STUDY_PHYSICAL);
+    if (strcmp(name, "state") == 0) return 1;
+    if (strcmp(name, "E") == 0) return s->energy != NULL;
+    if (strcmp(name, "error") == 0) return s->exact != NULL;
+    if (study_is_constraint(name)) return s->constraints && atoi(name + 1) <= s->m && s->m > 0;
+    for (size_t i = 0; lifted && i < sizeof lifted_names / sizeof(char *); i++)
+        if (strcmp(lifted_names[i], name) == 0) return 1;
+    for (int i = 0; i < s->invariants; i++)
+        if (strcmp(s->invariant[i], name) == 0) return 1;
+    return 0;
+}
+
+static int check_label(const reader *r, const yaml_node_t *node)
+{
+    const study_plan *plan = r->plan;
+    const char **names = calloc((size_t)plan->entry_count + 1, sizeof *names);
+    int found = 0;
+    if (!names) return cli_fail(CLI_IO, "out of memory");
+    for (int i = 0; i < plan->entry_count; i++) {
+        names[i] = plan->entries[i].label;
+        found |= study_is_called(&plan->entries[i], r->label);
+    }
+    int status = found ? CLI_DONE
+                       : study_unknown(r->text, node, "label of this study", r->label, names,
+                                       plan->entry_count);
+    free(names);
+    return status;
+}
+
+static int check_method(const reader *r, const yaml_node_t *node)
+{
+    for (int i = 0; i < r->plan->entry_count; i++) {
+        const study_entry *e = &r->plan->entries[i];
+        for (int k = 0; study_is_called(e, r->label) && k < e->method_count; k++)
+            if (study_method_is_called(&e->methods[k], r->method)) return CLI_DONE;
+    }
+    return study_text_fail(r->text, node, "expect: '%s' is not run with '%s' in this study",
+                           r->label, r->method);
+}
+
+static int check_quantity(const reader *r, const yaml_node_t *node, const char *name)
+{
+    for (int i = 0; i < r->plan->entry_count; i++) {
+        const study_entry *e = &r->plan->entries[i];
+        if (study_is_called(e, r->label) && has_quantity(e, name)) return CLI_DONE;
+    }
+    return study_text_fail(r->text, node, "expect: '%s' has no quantity '%s' in this study",
+                           r->label, name);
+}
+
+/* ---- the levels of the mapping ---- */
+
+typedef int taker(reader *r, const yaml_node_t *key, const char *name, yaml_node_t *value);
+
+static int each_pair(reader *r, yaml_node_t *node, const char *what, taker *take)
+{
+    int status = CLI_DONE;
+    if (node->type != YAML_MAPPING_NODE)
+        return study_text_fail(r->text, node, "expect: %s are wanted", what);
+    yaml_node_pair_t *pair = node->data.mapping.pairs.start;
+    for (; pair < node->data.mapping.pairs.top && status == CLI_DONE; pair++) {
+        const yaml_node_t *key = study_text_node(r->text, pair->key);
+        const char *name = study_text_scalar(r->text, key, "expect");
+        if (!name) return CLI_USAGE;
+        status = take(r, key, name, study_text_node(r->text, pair->value));
+    }
+    return status;
+}
+
+static int take_quantity(reader *r, const yaml_node_t *key, const char *name, yaml_node_t *value)
+{
+    int status = check_quantity(r, key, name);
+    r->expectation = (study_expectation){.label = r->label, .method = r->method, .quantity = name};
+    if (status != CLI_DONE) return status;
+    return value->type == YAML_MAPPING_NODE ? add_mapping(r, value) : add_words(r, value);
+}
+
+static int take_method(reader *r, const yaml_node_t *key, const char *name, yaml_node_t *value)
+{
+    r->method = name;
+    int status = check_method(r, key);
+    return status == CLI_DONE ? each_pair(r, value, "quantities", take_quantity) : status;
+}
+
+static int take_label(reader *r, const yaml_node_t *key, const char *name, yaml_node_t *value)
+{
+    r->label = name;
+    int status = check_label(r, key);
+    return status == CLI_DONE ? each_pair(r, value, "integrators", take_method) : status;
+}
+
+int study_expect_read(study_plan *plan, const study_text *text, yaml_node_t *node)
+{
+    reader r = {.plan = plan, .text = text};
+    return node ? each_pair(&r, node, "labels", take_label) : CLI_DONE;
+}

@@ -1,0 +1,47 @@
+/* study_expect.h - what a study states beforehand of its own results. */
+#ifndef DAL_CLI_STUDY_EXPECT_H
+#define DAL_CLI_STUDY_EXPECT_H
+
+#include "study.h"
+#include "study_yaml.h"
+
+/* What bounds may be set to: name, member of dal_finding. */
+#define STUDY_FIELD_LIST(X)                                                                        \
+    X(max, greatest)                                                                               \
+    X(deviation, deviation)                                                                        \
+    X(final, last)                                                                                 \
+    X(amplitude, amplitude)                                                                        \
+    X(rate, rate)                                                                                  \
+    X(rate_low, rate_low)                                                                          \
+    X(rate_high, rate_high)                                                                        \
+    X(exponent, exponent)                                                                          \
+    X(confidence, confidence)
+
+enum {
+#define X(name, member) STUDY_FIELD_##name,
+    STUDY_FIELD_LIST(X)
+#undef X
+        STUDY_FIELDS
+};
+
+/* One thing that is asked: one of some words, or a number within bounds. */
+struct study_expectation {
+    const char *label, *method, *quantity; /* as they are written */
+    size_t line;
+    unsigned words;     /* bit k: verdict k, or state k for the quantity "state"; 0: bounds */
+    int field;          /* STUDY_FIELD_x that is bounded, -1: none */
+    double least, most; /* infinite where there is no bound */
+};
+
+/* Reads `expect`, node being NULL where there is none; the entries are complete.  Returns CLI_DONE
+ * or prints and returns an exit status. */
+int study_expect_read(study_plan *plan, const study_text *text, yaml_node_t *node);
+
+/* Whether an entry is meant by a label: its own, its group's, its system's, or all; and a method
+ * by its name or all. */
+int study_is_called(const study_entry *entry, const char *label);
+int study_method_is_called(const dal_method *method, const char *name);
+/* D, D1, D2, ... */
+int study_is_constraint(const char *quantity);
+
+#endif
