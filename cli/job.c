@@ -110,9 +110,7 @@ int job_take(cli_job *job, int option, const char *text)
     case JOB_samples:
         return cli_integer("--samples", text, 1, SAMPLES_MOST, &job->samples);
     case JOB_sampling:
-        job->is_log = strcmp(text, "log") == 0;
-        if (job->is_log || strcmp(text, "linear") == 0) return CLI_DONE;
-        return cli_fail(CLI_USAGE, "--sampling: '%s' is not linear or log", text);
+        return job_take_sampling(job, text);
     case JOB_times:
         return job_take_times(job, text);
     case JOB_statistics:

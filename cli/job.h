@@ -10,8 +10,8 @@
     X(integrator, "NAME", NULL, "rk4, gauss8+project, ...: see 'dalembert list integrators'")      \
     X(time, "T", NULL, "integrate from t = 0 to t = T")                                            \
     X(samples, "N", "100", "rows behind the first, at equal distances in t")                       \
-    X(sampling, "linear|log", "linear",                                                            \
-      "rows at equal distances in t, or in log t, on whole steps")                                 \
+    X(sampling, "linear|log|steps", "linear",                                                      \
+      "rows at equal distances in t; in log t, on whole steps; in t, on whole steps")              \
     X(times, "LIST|FILE", NULL, "rows at these times alone; T is the last of them when not given") \
     X(statistics, "K", "1", "look at the observables after every K-th step, for the summary")      \
     X(set, "PARAMETER=V", NULL, "give a parameter another value; may be repeated")                 \
@@ -32,12 +32,21 @@ typedef struct job_settings {
     int count;
 } job_settings;
 
+/* code, word */
+#define JOB_SAMPLING_LIST(X) X(LINEAR, linear) X(LOG, log) X(STEPS, steps)
+
+typedef enum job_sampling {
+#define X(code, word) JOB_SAMPLING_##code,
+    JOB_SAMPLING_LIST(X)
+#undef X
+} job_sampling;
+
 typedef struct cli_job {
     const char *system;            /* a built-in name or a path; the caller's, as all texts here */
     const char *text[JOB_OPTIONS]; /* as given, the last one; NULL: not given */
     double time;
     long long samples, statistics;
-    int is_log;
+    job_sampling sampling;
     double *row_time; /* [samples + 1]; NULL: at equal distances */
     long long times;  /* given ones in it */
     char *list;       /* those as a text */
@@ -58,10 +67,12 @@ void job_options(cli_option *options);
 int job_find(const char *name);
 /* Takes one option.  Returns CLI_DONE or prints and returns an exit status, as job_make. */
 int job_take(cli_job *job, int option, const char *text);
-/* Takes a list of times or the file that holds one; settles when rows are taken.  Return as
+/* Takes a list of times or the file that holds one, or a word above; settles when rows are taken.
+ *  Return as
  * job_take.  Other than equally distant rows must fit into memory. */
 enum { SCHEDULE_MOST = 100000000 };
 int job_take_times(cli_job *job, const char *given);
+int job_take_sampling(cli_job *job, const char *word);
 int job_schedule(cli_job *job);
 /* Loads the system and makes the spec of its run; the space is settled here. */
 int job_spec(cli_job *job, dal_run_spec *spec);

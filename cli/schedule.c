@@ -2,6 +2,7 @@
  *
  *     linear   t_k = k T/N                                     k = 0..N (nothing is made for it)
  *     log      t_0 = 0, t_k = h round((T/h)^((k-1)/(N-1)))     steps that fall together are one row
+ *     steps    t_k = h round(k N/S)                            k = 0..S, N = round(T/h), T = h N
  *     times    as they were given, and T behind them when it is later */
 #include "file.h"
 #include "job.h"
@@ -33,6 +34,27 @@ static int schedule_log(cli_job *job)
     double *last = &job->row_time[job->samples];
     if (*last < T * (1.0 - 1e-9) || job->samples == 0) last = &job->row_time[++job->samples];
     *last = T;
+    return CLI_DONE;
+}
+
+/* ---- on whole steps ------------------------------------------------------------------------ */
+
+static int schedule_steps(cli_job *job)
+{
+    const double h = job->options.step;
+    if (h > job->time) return CLI_DONE; /* told by who checks the step */
+    const long long steps = llround(job->time / h);
+    if (job->samples > steps) job->samples = steps;
+    if (job->samples > SCHEDULE_MOST)
+        return cli_fail(CLI_USAGE, "--samples: %lld are too many for --sampling steps",
+                        job->samples);
+    job->row_time = malloc(((size_t)job->samples + 1) * sizeof *job->row_time);
+    if (!job->row_time) return cli_fail(CLI_IO, "out of memory");
+    for (long long k = 0; k <= job->samples; k++) {
+        const double part = (double)k / (double)job->samples;
+        job->row_time[k] = (double)llround(part * (double)steps) * h;
+    }
+    job->time = job->row_time[job->samples];
     return CLI_DONE;
 }
 
@@ -121,8 +143,30 @@ static int schedule_times(cli_job *job)
     return CLI_DONE;
 }
 
+int job_take_sampling(cli_job *job, const char *word)
+{
+    static const char *const words[] = {
+#define X(code, word) #word,
+        JOB_SAMPLING_LIST(X)
+#undef X
+    };
+    for (size_t i = 0; i < sizeof words / sizeof words[0]; i++) {
+        if (strcmp(words[i], word) != 0) continue;
+        job->sampling = (job_sampling)i;
+        return CLI_DONE;
+    }
+    return cli_fail(CLI_USAGE, "--sampling: '%s' is not linear, log or steps", word);
+}
+
 int job_schedule(cli_job *job)
 {
     if (job->times > 0) return schedule_times(job);
-    return job->is_log ? schedule_log(job) : CLI_DONE;
+    switch (job->sampling) {
+    case JOB_SAMPLING_LOG:
+        return schedule_log(job);
+    case JOB_SAMPLING_STEPS:
+        return schedule_steps(job);
+    default:
+        return CLI_DONE;
+    }
 }

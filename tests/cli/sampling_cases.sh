@@ -8,8 +8,16 @@ holds "not at powers of ten" test "$(cut -d, -f1 out | tr '\n' ' ')" = \
 try 0 run ./line.yaml --integrator rk4 --step 0.1 --time 1 --samples 50 --sampling log
 holds "rows that fall together" test "$(cut -d, -f1 out | sort -u | wc -l)" -eq "$(wc -l <out)"
 holds "not the 10 steps and 0" test "$(wc -l <out)" -eq 12
+# 10 steps (T/h = 10.3) in 4 parts: after 2.5, 5, 7.5 and 10 steps, halves away from zero
+try 0 run ./line.yaml --integrator rk4 --step 0.125 --time 1.29 --samples 4 --sampling steps
+holds "rows after 0, 3, 5, 8 and 10 steps" [ "$(cut -d, -f1 out | tr '\n' ' ')" = \
+    "t 0 0.375 0.625 1 1.25 " ]
+try 0 run ./line.yaml --integrator rk4 --step 0.125 --time 0.25 --sampling steps
+holds "no more rows than steps" [ "$(cut -d, -f1 out | tr '\n' ' ')" = "t 0 0.125 0.25 " ]
+try 2 run ./line.yaml --integrator rk4 --step 0.1 --time 0.06 --sampling steps
+says "0.1 is larger than the time 0.06"
 try 2 run ./line.yaml --integrator rk4 --step 0.1 --time 1 --sampling cubic
-says "'cubic' is not linear or log"
+says "'cubic' is not linear, log or steps"
 
 case_is "rows at given times"
 try 0 run ./line.yaml --integrator rk4 --step 0.1 --times 0.5,0.75,2
