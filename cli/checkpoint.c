@@ -77,9 +77,9 @@ int store_save(const cli_store *store, const cli_mark *mark, const dal_run *run,
     place = append(place, statistics, (size_t)count * WORDS);
     const uint64_t sum = file_hash(FILE_HASH_START, text, words * WORD);
     append(place, &sum, 1);
-    int status = file_write(store->fresh, text, (words + 1) * WORD);
+    int status = file_write(store->fresh, text, (words + 1) * WORD, store->settle);
     if (status == CLI_DONE) status = keep_the_one_before(store);
-    if (status == CLI_DONE) status = file_rename(store->fresh, store->checkpoint);
+    if (status == CLI_DONE) status = file_rename(store->fresh, store->checkpoint, store->settle);
     free(text);
     return status;
 }

@@ -1,49 +1,74 @@
-/* describe.c - run.yaml: the options of a run, as they were given, in a form that can be read.
+/* describe.c - what a run was asked for: "input" in its manifest.json, the options as they were
+ * given, and the only place where they are kept.
  *
- *     dalembert: 0.1.0
- *     system: chaplygin-sleigh
- *     integrator: gauss8
- *     step: 0.01
- *     time: 1e4
- *     set:
- *       m: 2
+ *     "input": {
+ *       "system": "chaplygin-sleigh",            or "system.yaml", the copy beside
+ *       "integrator": "gauss8",
+ *       "step": "0.01",
+ *       "time": "1e4",
+ *       "set": {"m": 2},
+ *       "start": {"e": "inf"}
+ *     },
  *
- * It is written and read here; of YAML it uses "key: value" lines, one level of indentation and
- * comments. */
+ * Its text is kept as it stands there whatever else is written anew, and with the text of the
+ * system it is signed: a checkpoint goes with one description alone. */
 #include "file.h"
+#include "json.h"
 #include "store.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
+static const char copy_name[] = "system.yaml";
+
+/* ---- writing ------------------------------------------------------------------------------- */
+
+/* e may be infinite, which JSON has no number for. */
 static void put_settings(FILE *out, const char *name, const job_settings *settings)
 {
-    if (settings->count) fprintf(out, "%s:\n", name);
+    fprintf(out, ",\n    \"%s\": {", name);
     for (int i = 0; i < settings->count; i++) {
-        fprintf(out, "  %s: ", settings->item[i].name);
-        cli_put(out, settings->item[i].value);
-        fputc('\n', out);
+        const dal_setting *s = &settings->item[i];
+        const char *before = i ? ", " : "";
+        if (isfinite(s->value))
+            json_number_member(out, before, s->name, s->value);
+        else
+            json_text_member(out, before, s->name, "inf");
     }
+    fputc('}', out);
 }
 
-static void put_job(FILE *out, const cli_job *job, const char *system)
+/* Allocated; NULL after a message. */
+static char *describe(const cli_job *job)
 {
     cli_option options[JOB_OPTIONS];
+    char *text = NULL;
+    size_t length = 0;
+    FILE *out = open_memstream(&text, &length);
+    if (!out) {
+        cli_fail(CLI_IO, "out of memory");
+        return NULL;
+    }
     job_options(options);
-    fputs("# A run of dalembert; 'dalembert resume' with this directory goes on with it.\n", out);
-    fprintf(out, "dalembert: " DAL_VERSION "\nsystem: %s\n", system);
+    fputc('{', out);
+    json_text_member(out, "\n    ", "system", cli_is_path(job->system) ? copy_name : job->system);
     for (int i = 0; i < JOB_OPTIONS; i++)
         if (job->text[i] && i != JOB_set && i != JOB_start)
-            fprintf(out, "%s: %s\n", options[i].name, job->text[i]);
+            json_text_member(out, ",\n    ", options[i].name, job->text[i]);
     put_settings(out, options[JOB_set].name, &job->set);
     put_settings(out, options[JOB_start].name, &job->start);
+    fputs("\n  }", out);
+    if (cli_close(out, "memory") == CLI_DONE) return text;
+    free(text);
+    return NULL;
 }
 
 /* The text of a system: of a built-in one from the library, of any other from its file. */
-static int sign(cli_store *store, const char *description, size_t length, const char *builtin)
+static int sign(cli_store *store, const char *builtin)
 {
-    uint64_t hash = file_hash(FILE_HASH_START, description, length);
+    const uint64_t hash = file_hash(FILE_HASH_START, store->input, strlen(store->input));
     size_t n = builtin ? strlen(builtin) : 0;
     char *text = builtin ? NULL : file_read(store->system, &n);
     if (!builtin && !text) return CLI_IO;
@@ -52,130 +77,188 @@ static int sign(cli_store *store, const char *description, size_t length, const 
     return CLI_DONE;
 }
 
-static int copy(const char *from, const char *to)
+static int copy(const cli_store *store, const char *from)
 {
     size_t length;
     char *text = file_read(from, &length);
     if (!text) return CLI_IO;
-    int status = file_replace(to, text, length);
+    int status = file_swap(store->system, text, length, store->settle);
     free(text);
     return status;
 }
 
+/* All that another run may have left, but for the rows, which the table begins anew, and the copy,
+ * which may be what this run is made from. */
 static int clear(const cli_store *store)
 {
-    int status = file_remove(store->checkpoint);
-    if (status == CLI_DONE) status = file_remove(store->before);
-    if (status == CLI_DONE) status = file_remove(store->summary);
+    int status = CLI_DONE;
+#define X(name, file)                                                                              \
+    if (status == CLI_DONE && store->name != store->rows && store->name != store->system)          \
+        status = file_remove(store->name);
+    STORE_FILE_LIST(X)
+#undef X
     return status;
 }
 
 int store_describe(cli_store *store, const cli_job *job)
 {
-    int is_path = cli_is_path(job->system);
+    const int is_path = cli_is_path(job->system);
     int status = clear(store);
     if (status == CLI_DONE)
-        status = is_path ? copy(job->system, store->system) : file_remove(store->system);
+        status = is_path ? copy(store, job->system) : file_remove(store->system);
     if (status != CLI_DONE) return status;
-    char *text = NULL;
-    size_t length = 0;
-    FILE *out = open_memstream(&text, &length);
-    if (!out) return cli_fail(CLI_IO, "out of memory");
-    put_job(out, job, is_path ? "system.yaml" : job->system);
-    status = cli_close(out, store->settings);
-    if (status == CLI_DONE)
-        status = sign(store, text, length, is_path ? NULL : dal_builtin_text(job->system));
-    if (status == CLI_DONE) status = file_replace(store->settings, text, length);
-    free(text);
-    return status;
+    store->input = describe(job);
+    if (!store->input) return CLI_IO;
+    status = sign(store, is_path ? NULL : dal_builtin_text(job->system));
+    const cli_mark nothing = {.row = 0};
+    return status == CLI_DONE ? manifest_write(store, job, &nothing, "running", "") : status;
+}
+
+int store_is_of(const cli_store *store, const cli_job *job)
+{
+    char *input = describe(job);
+    if (!input) return CLI_IO;
+    const int same = strcmp(input, store->input) == 0;
+    free(input);
+    return same
+               ? CLI_DONE
+               : cli_fail(CLI_USAGE, "'%s' holds another run: its input differs", store->directory);
 }
 
 /* ---- reading ------------------------------------------------------------------------------- */
 
-typedef struct reader {
-    cli_store *store;
-    cli_job *job;
-    int line, section; /* section: JOB_set or JOB_start within one, else -1 */
-} reader;
-
-static int fault(const reader *r, const char *what, const char *text)
+static const char *name_of(const study_text *text, const yaml_node_pair_t *pair)
 {
-    return cli_fail(CLI_USAGE, "%s:%d: %s '%s'", r->store->settings, r->line, what, text);
+    return study_text_scalar(text, study_text_node(text, pair->key), "manifest");
 }
 
-/* "NAME=VALUE" out of a line of a section; job_take copies it. */
-static int take_setting(reader *r, const char *key, const char *value)
+static const yaml_node_t *find(const study_text *text, const yaml_node_t *mapping, const char *name)
 {
-    size_t n = strlen(key), m = strlen(value);
-    char *text = malloc(n + m + 2);
-    if (!text) return cli_fail(CLI_IO, "out of memory");
-    memcpy(text, key, n);
-    text[n] = '=';
-    memcpy(text + n + 1, value, m + 1);
-    int status = job_take(r->job, r->section, text);
-    r->job->text[r->section] = NULL;
-    free(text);
+    const yaml_node_pair_t *pair = mapping->data.mapping.pairs.start;
+    for (; pair < mapping->data.mapping.pairs.top; pair++) {
+        const char *key = name_of(text, pair);
+        if (!key) return NULL;
+        if (strcmp(key, name) == 0) return study_text_node(text, pair->value);
+    }
+    return NULL;
+}
+
+/* "NAME=VALUE" out of "set" or "start"; job_take copies it. */
+static int take_setting(cli_job *job, int option, const char *name, const char *value)
+{
+    char *given = NULL;
+    size_t length;
+    FILE *out = open_memstream(&given, &length);
+    if (!out) return cli_fail(CLI_IO, "out of memory");
+    fprintf(out, "%s=%s", name, value);
+    int status = cli_close(out, "memory");
+    if (status == CLI_DONE) status = job_take(job, option, given);
+    job->text[option] = NULL;
+    free(given);
     return status;
 }
 
-static int take(reader *r, const char *key, const char *value)
+static int take_settings(cli_job *job, int option, const study_text *text, const yaml_node_t *node)
 {
-    int option = job_find(key);
-    r->section = -1;
-    if (strcmp(key, "system") == 0) {
-        /* The copy in the directory is meant, wherever the program was started. */
-        r->job->system = strcmp(value, "system.yaml") == 0 ? r->store->system : value;
-        return CLI_DONE;
+    if (node->type != YAML_MAPPING_NODE)
+        return study_text_fail(text, node, "names and values are wanted");
+    const yaml_node_pair_t *pair = node->data.mapping.pairs.start;
+    for (; pair < node->data.mapping.pairs.top; pair++) {
+        const char *name = name_of(text, pair);
+        const char *value =
+            name ? study_text_scalar(text, study_text_node(text, pair->value), name) : NULL;
+        const int status = value ? take_setting(job, option, name, value) : CLI_USAGE;
+        if (status != CLI_DONE) return status;
     }
-    if (strcmp(key, "dalembert") == 0)
-        return strcmp(value, DAL_VERSION) == 0 ? CLI_DONE
-                                               : fault(r, "made by another version,", value);
-    if (option < 0) return fault(r, "unknown key", key);
-    if (option != JOB_set && option != JOB_start) return job_take(r->job, option, value);
-    r->section = option;
     return CLI_DONE;
 }
 
-static char *trim(char *text)
+/* The copy in the directory is meant, wherever the program was started. */
+static int take(const cli_store *store, cli_job *job, const char *name, const yaml_node_t *node)
 {
-    char *end = text + strlen(text);
-    while (end > text && strchr(" \t\r", end[-1])) *--end = '\0';
-    return text + strspn(text, " \t");
+    const study_text *text = store->text;
+    const int option = job_find(name), is_system = strcmp(name, "system") == 0;
+    if (option == JOB_set || option == JOB_start) return take_settings(job, option, text, node);
+    if (option < 0 && !is_system)
+        return study_text_fail(text, node, "unknown option '%s' of a run", name);
+    const char *value = study_text_scalar(text, node, name);
+    if (!value) return CLI_USAGE;
+    if (!is_system) return job_take(job, option, value);
+    job->system = strcmp(value, copy_name) == 0 ? store->system : value;
+    return CLI_DONE;
 }
 
-static int read_line(reader *r, char *line)
+static int take_all(const cli_store *store, cli_job *job, const yaml_node_t *input)
 {
-    int inner = line[0] == ' ';
-    char *text = trim(line), *colon = strstr(text, ":");
-    if (text[0] == '\0' || text[0] == '#') return CLI_DONE;
-    if (!colon || (inner && r->section < 0)) return fault(r, "not 'key: value':", text);
-    *colon = '\0';
-    return inner ? take_setting(r, trim(text), trim(colon + 1))
-                 : take(r, trim(text), trim(colon + 1));
+    const yaml_node_pair_t *pair = input->data.mapping.pairs.start;
+    for (; pair < input->data.mapping.pairs.top; pair++) {
+        const char *name = name_of(store->text, pair);
+        const yaml_node_t *value = study_text_node(store->text, pair->value);
+        const int status = name ? take(store, job, name, value) : CLI_USAGE;
+        if (status != CLI_DONE) return status;
+    }
+    if (job->system) return CLI_DONE;
+    return study_text_fail(store->text, input, "the system is missing");
+}
+
+/* What an older version made is gone on with, if its checkpoint can be read. */
+static int check_version(const study_text *text, const yaml_node_t *root)
+{
+    int made[3] = {0}, present[3] = {0};
+    const yaml_node_t *node = find(text, root, "dalembert");
+    const char *version = node ? study_text_scalar(text, node, "version") : "0";
+    if (!version) return CLI_USAGE;
+    sscanf(version, "%d.%d.%d", &made[0], &made[1], &made[2]);
+    sscanf(DAL_VERSION, "%d.%d.%d", &present[0], &present[1], &present[2]);
+    for (int i = 0; i < 3; i++) {
+        if (made[i] > present[i])
+            return study_text_fail(text, node, "made by dalembert %s; this is " DAL_VERSION,
+                                   version);
+        if (made[i] == present[i]) continue;
+        cli_fail(CLI_DONE, "%s: made by dalembert %s; the bits may differ from here on",
+                 text->place, version);
+        return CLI_DONE;
+    }
+    return CLI_DONE;
+}
+
+/* All of a manifest is ASCII, so that the marks of libyaml, in letters, are places of bytes. */
+static int keep_input(cli_store *store, const char *bytes, const yaml_node_t *input)
+{
+    const size_t begin = input->start_mark.index, end = input->end_mark.index;
+    store->input = strndup(bytes + begin, end - begin);
+    return store->input ? CLI_DONE : cli_fail(CLI_IO, "out of memory");
+}
+
+static int read_manifest(cli_store *store, cli_job *job, const char *bytes, size_t length)
+{
+    store->text = calloc(1, sizeof *store->text);
+    if (!store->text) return cli_fail(CLI_IO, "out of memory");
+    int status = study_text_parse(store->text, store->manifest, bytes, length);
+    if (status != CLI_DONE) return status;
+    const yaml_node_t *root = yaml_document_get_root_node(&store->text->document), *input = NULL;
+    if (root->type == YAML_MAPPING_NODE) input = find(store->text, root, "input");
+    if (!input || input->type != YAML_MAPPING_NODE)
+        return study_text_fail(store->text, root, "there is no input of a run");
+    status = check_version(store->text, root);
+    if (status == CLI_DONE) status = keep_input(store, bytes, input);
+    return status == CLI_DONE ? take_all(store, job, input) : status;
 }
 
 int store_read(cli_store *store, cli_job *job)
 {
     size_t length;
-    if (access(store->settings, F_OK) != 0)
+    if (access(store->old_settings, F_OK) == 0)
+        return cli_fail(CLI_USAGE,
+                        "'%s' is of an older version, which kept run.yaml and rows.csv: its rows "
+                        "can be reported, the run cannot be gone on with",
+                        store->directory);
+    if (access(store->manifest, F_OK) != 0)
         return cli_fail(CLI_USAGE, "'%s' holds no run: there is no %s", store->directory,
-                        store->settings);
-    store->text = file_read(store->settings, &length);
-    if (!store->text) return CLI_IO;
-    /* Reading cuts the text into pieces, so what is signed is what was there before. */
-    char *whole = malloc(length + 1);
-    if (!whole) return cli_fail(CLI_IO, "out of memory");
-    memcpy(whole, store->text, length + 1);
-    reader r = {store, job, 0, -1};
-    int status = CLI_DONE;
-    for (char *line = store->text, *next; line && status == CLI_DONE; line = next) {
-        next = strchr(line, '\n');
-        if (next) *next++ = '\0';
-        r.line++;
-        status = read_line(&r, line);
-    }
-    if (status == CLI_DONE && !job->system) status = fault(&r, "missing key", "system");
-    if (status == CLI_DONE) status = sign(store, whole, length, dal_builtin_text(job->system));
-    free(whole);
-    return status;
+                        store->manifest);
+    char *bytes = file_read(store->manifest, &length);
+    if (!bytes) return CLI_IO;
+    int status = read_manifest(store, job, bytes, length);
+    free(bytes);
+    return status == CLI_DONE ? sign(store, dal_builtin_text(job->system)) : status;
 }

@@ -41,7 +41,7 @@ char *file_read(const char *path, size_t *length)
     return text;
 }
 
-static int write_all(int descriptor, const void *bytes, size_t length)
+static int write_all(int descriptor, const void *bytes, size_t length, int settle)
 {
     const char *from = bytes;
     while (length) {
@@ -51,7 +51,7 @@ static int write_all(int descriptor, const void *bytes, size_t length)
         from += n;
         length -= (size_t)n;
     }
-    return fsync(descriptor) == 0;
+    return !settle || fsync(descriptor) == 0;
 }
 
 /* A rename is on the disk when the directory is; where a directory cannot be synchronised
@@ -68,11 +68,11 @@ static void settle_directory(const char *path)
     free(directory);
 }
 
-int file_write(const char *path, const void *bytes, size_t length)
+int file_write(const char *path, const void *bytes, size_t length, int settle)
 {
     int descriptor = open(path, O_WRONLY | O_CREAT | O_TRUNC, 0666);
     if (descriptor < 0) return cli_io("write", path);
-    int written = write_all(descriptor, bytes, length);
+    int written = write_all(descriptor, bytes, length, settle);
     int reason = errno;
     if (close(descriptor) != 0 && written) {
         written = 0;
@@ -82,14 +82,14 @@ int file_write(const char *path, const void *bytes, size_t length)
     return written ? CLI_DONE : cli_io("write", path);
 }
 
-int file_rename(const char *from, const char *to)
+int file_rename(const char *from, const char *to, int settle)
 {
     if (rename(from, to) != 0) return cli_io("write", to);
-    settle_directory(to);
+    if (settle) settle_directory(to);
     return CLI_DONE;
 }
 
-int file_replace(const char *path, const void *bytes, size_t length)
+int file_swap(const char *path, const void *bytes, size_t length, int settle)
 {
     static const char ending[] = ".new";
     size_t n = strlen(path);
@@ -97,10 +97,15 @@ int file_replace(const char *path, const void *bytes, size_t length)
     if (!fresh) return cli_fail(CLI_IO, "out of memory");
     memcpy(fresh, path, n);
     memcpy(fresh + n, ending, sizeof ending);
-    int status = file_write(fresh, bytes, length);
-    if (status == CLI_DONE) status = file_rename(fresh, path);
+    int status = file_write(fresh, bytes, length, settle);
+    if (status == CLI_DONE) status = file_rename(fresh, path, settle);
     free(fresh);
     return status;
+}
+
+int file_replace(const char *path, const void *bytes, size_t length)
+{
+    return file_swap(path, bytes, length, 1);
 }
 
 int file_remove(const char *path)

@@ -8,12 +8,14 @@
 
 /* The bytes of a file and a NUL, allocated; NULL after a message. */
 char *file_read(const char *path, size_t *length);
-/* Writes a file and brings it to the disk; renames one, and brings that to the disk. */
-int file_write(const char *path, const void *bytes, size_t length);
-int file_rename(const char *from, const char *to);
-/* Writes PATH.new, brings it to the disk and renames it, so that PATH is never half written.
- * Returns CLI_DONE or prints and returns CLI_IO. */
+/* Writes a file; renames one.  With settle they wait until that is on the disk, so that it outlives
+ * a power cut and not only the process. */
+int file_write(const char *path, const void *bytes, size_t length, int settle);
+int file_rename(const char *from, const char *to, int settle);
+/* Writes PATH.new and renames it, so that PATH is never half written; the first waits for the disk.
+ * Return CLI_DONE or print and return CLI_IO. */
 int file_replace(const char *path, const void *bytes, size_t length);
+int file_swap(const char *path, const void *bytes, size_t length, int settle);
 /* Removes a file that may be absent. */
 int file_remove(const char *path);
 

@@ -153,7 +153,7 @@ static int check(cli_job *job)
 
 int job_spec(cli_job *job, dal_run_spec *spec)
 {
-    int status = cli_load(job->system, &job->model, &job->made);
+    int status = job->made ? CLI_DONE : cli_load(job->system, &job->model, &job->made);
     if (status != CLI_DONE) return status;
     /* Where the system or the method has no lift there is one space alone; only an explicit
      * --space=lifted is an error. */

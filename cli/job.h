@@ -1,4 +1,4 @@
-/* job.h - all that makes a run, as the command line or a run.yaml tells it. */
+/* job.h - all that makes a run, as the command line or a manifest.json tells it. */
 #ifndef DAL_CLI_JOB_H
 #define DAL_CLI_JOB_H
 
@@ -54,7 +54,7 @@ typedef struct cli_job {
     job_settings set, start;
     dal_method method;
     dal_model *model;
-    const dal_system *made;
+    const dal_system *made; /* may be set beforehand; nothing is loaded then */
     dal_run *run;
 } cli_job;
 

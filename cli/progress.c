@@ -1,5 +1,6 @@
 /* progress.c - how far a run has come: a line that replaces itself on a terminal, or lines of JSON
  * on stderr for scripts. */
+#include "json.h"
 #include "record.h"
 
 #include <math.h>
@@ -44,31 +45,17 @@ static void show_line(const cli_record *r, double t)
                  dal_statistics_deviation(&r->statistics[0]));
 }
 
-/* JSON has no infinity. */
-static void put_number(const char *name, double x)
-{
-    fprintf(stderr, "\"%s\": ", name);
-    if (isfinite(x))
-        cli_put(stderr, x);
-    else
-        fputs("null", stderr);
-}
-
 static void show_json(const cli_record *r, double t)
 {
-    fputc('{', stderr);
-    put_number("t", t);
-    fputs(", ", stderr);
-    put_number("time", r->job->time);
-    fprintf(stderr, ", \"steps\": %lld, \"rows\": %lld, ", dal_run_steps(r->job->run), r->mark.row);
-    put_number("seconds", r->mark.seconds);
-    fputs(", ", stderr);
-    put_number("remaining", t >= r->job->time ? 0.0 : remaining(r, t));
+    json_number_member(stderr, "{", "t", t);
+    json_number_member(stderr, ", ", "time", r->job->time);
+    fprintf(stderr, ", \"steps\": %lld, \"rows\": %lld", dal_run_steps(r->job->run), r->mark.row);
+    json_number_member(stderr, ", ", "seconds", r->mark.seconds);
+    json_number_member(stderr, ", ", "remaining", t >= r->job->time ? 0.0 : remaining(r, t));
     fputs(", \"deviation\": {", stderr);
-    for (int i = 0; i < r->observables; i++) {
-        if (i) fputs(", ", stderr);
-        put_number(record_observable(r, i), dal_statistics_deviation(&r->statistics[i]));
-    }
+    for (int i = 0; i < r->observables; i++)
+        json_number_member(stderr, i ? ", " : "", record_observable(r, i),
+                           dal_statistics_deviation(&r->statistics[i]));
     fputs("}}\n", stderr);
 }
 

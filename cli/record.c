@@ -67,12 +67,26 @@ static int open_table(cli_record *r, const char *output)
     return status == CLI_DONE ? table_go_on(&r->table, r->mark.row, &r->mark.sum) : status;
 }
 
+static int interrupted(void *user)
+{
+    (void)user;
+    return cli_interrupted();
+}
+
+static void judge(cli_record *r, int aborted)
+{
+    for (int i = 0; i < r->observables; i++)
+        cli_judge(record_observable(r, i), &r->statistics[i], aborted, &r->finding[i]);
+}
+
 int record_open(cli_record *r, const cli_job *job, cli_store *store, const char *output)
 {
-    *r = (cli_record){.job = job, .store = store};
+    *r = (cli_record){.job = job, .store = store, .stop = interrupted};
     r->quiet = !store && strcmp(output, "-") == 0 && isatty(STDOUT_FILENO);
-    const int status = make_room(r);
-    return status == CLI_DONE ? open_table(r, output) : status;
+    int status = make_room(r);
+    if (status == CLI_DONE) status = open_table(r, output);
+    if (status == CLI_DONE && record_is_finished(r)) judge(r, 0);
+    return status;
 }
 
 void record_close(cli_record *r)
@@ -142,12 +156,12 @@ static dal_status sample(void *user, dal_run *run, long long row, double t)
     start_clock(r);
     /* With a store the next poll ends the run: only there does the run stand where a checkpoint
      * may be taken, and not within a step that shows a row between two others. */
-    return status == DAL_OK && !r->store && cli_interrupted() ? DAL_INTERRUPTED : status;
+    return status == DAL_OK && !r->store && r->stop(r->stop_user) ? DAL_INTERRUPTED : status;
 }
 
 static int save(cli_record *r, const dal_run *run)
 {
-    int status = table_settle(&r->table);
+    int status = table_settle(&r->table, r->store->settle);
     r->mark.sum = r->table.sum;
     if (status == CLI_DONE)
         status = store_save(r->store, &r->mark, run, r->statistics, r->observables);
@@ -155,35 +169,44 @@ static int save(cli_record *r, const dal_run *run)
     return status;
 }
 
+/* What is worth a checkpoint by the clock is worth waiting for the disk from now on. */
+static int save_to_last(cli_record *r, const dal_run *run)
+{
+    int status = CLI_DONE;
+    if (!r->store->settle) {
+        r->store->settle = 1;
+        status = manifest_write(r->store, r->job, &r->mark, "running", "");
+    }
+    return status == CLI_DONE ? save(r, run) : status;
+}
+
 static dal_status poll(void *user, dal_run *run)
 {
     cli_record *r = user;
-    int interrupted = cli_interrupted();
+    const int stop = r->stop(r->stop_user);
     dal_status status = DAL_OK;
     pause_clock(r);
-    if (r->store && (interrupted || cli_seconds() - r->saved >= r->interval))
+    if (r->store && cli_seconds() - r->saved >= r->interval)
+        status = tell(r, save_to_last(r, run));
+    else if (r->store && stop)
         status = tell(r, save(r, run));
     progress_show(r, dal_run_time(run), 0);
     start_clock(r);
-    return status == DAL_OK && interrupted ? DAL_INTERRUPTED : status;
+    return status == DAL_OK && stop ? DAL_INTERRUPTED : status;
 }
 
 /* ---- the end ------------------------------------------------------------------------------- */
 
-static int explain(const cli_record *r, dal_status status, dal_error *error)
+/* The exit status of an end, and a message where none was given yet. */
+static int conclude(const cli_record *r, dal_status status, dal_error *error)
 {
     if (status == DAL_OK) return CLI_DONE;
+    if (r->told != CLI_DONE || status == DAL_INTERRUPTED) error->message[0] = '\0';
     if (r->told != CLI_DONE) return r->told;
-    if (status == DAL_INTERRUPTED) {
-        const char *directory = r->store ? r->store->directory : NULL;
-        return directory
-                   ? cli_fail(CLI_SIGNAL, "interrupted; go on with: dalembert resume %s", directory)
-                   : cli_fail(CLI_SIGNAL, "interrupted; %lld rows are kept", r->mark.row);
-    }
-    if (error->message[0] == '\0')
+    if (status != DAL_INTERRUPTED && error->message[0] == '\0')
         snprintf(error->message, sizeof error->message, "%s", dal_status_text(status));
     error->line = 0;
-    return cli_error(cli_exit(status), r->job->system, error);
+    return cli_exit(status);
 }
 
 static const char *state_word(int status)
@@ -191,15 +214,17 @@ static const char *state_word(int status)
     return status == CLI_DONE ? "done" : status == CLI_SIGNAL ? "interrupted" : "failed";
 }
 
-/* The summary comes before the checkpoint that says "finished", so that it is never missing. */
-static int keep(cli_record *r, int status)
+/* The summary comes before the checkpoint that says "finished", so that it is never missing.  A run
+ * that failed keeps where it stood: going on with it fails again at once. */
+static int keep(cli_record *r, int status, const char *why)
 {
     int kept = CLI_DONE;
-    if (r->store && (status == CLI_DONE || status == CLI_FAILED))
+    if (r->store && (status == CLI_DONE || status == CLI_FAILED)) {
         kept = summary_write(r, r->store->summary);
-    if (r->store && status == CLI_DONE && kept == CLI_DONE) kept = save(r, r->job->run);
+        if (kept == CLI_DONE) kept = save(r, r->job->run);
+    }
     if (r->store && kept == CLI_DONE && status != CLI_IO)
-        kept = manifest_write(r, state_word(status));
+        kept = manifest_write(r->store, r->job, &r->mark, state_word(status), why);
     int closed = table_close(&r->table);
     if (status != CLI_DONE) return status;
     return kept != CLI_DONE ? kept : closed;
@@ -211,7 +236,7 @@ static double row_time(void *user, long long row)
     return r->job->row_time[row];
 }
 
-int record_go(cli_record *r)
+int record_go(cli_record *r, dal_error *error)
 {
     dal_observer observer = {.user = r,
                              .sample = sample,
@@ -219,18 +244,19 @@ int record_go(cli_record *r)
                              .step = follow,
                              .every = r->job->statistics,
                              .row_time = r->job->row_time ? row_time : NULL};
-    dal_error error = {0};
-    if (r->store && manifest_write(r, "running") != CLI_DONE) return CLI_IO;
+    *error = (dal_error){0};
+    if (r->store && r->mark.row > 0 &&
+        manifest_write(r->store, r->job, &r->mark, "running", "") != CLI_DONE)
+        return CLI_IO;
     r->saved = cli_seconds();
     r->begun = dal_run_time(r->job->run);
     r->begun_steps = dal_run_steps(r->job->run);
     start_clock(r);
     dal_status status =
-        dal_run_sample(r->job->run, r->job->time, r->job->samples, r->mark.row, &observer, &error);
+        dal_run_sample(r->job->run, r->job->time, r->job->samples, r->mark.row, &observer, error);
     pause_clock(r);
     cli_progress_end();
     progress_show(r, dal_run_time(r->job->run), 1);
-    for (int i = 0; i < r->observables; i++)
-        cli_judge(record_observable(r, i), &r->statistics[i], status != DAL_OK, &r->finding[i]);
-    return keep(r, explain(r, status, &error));
+    judge(r, status != DAL_OK);
+    return keep(r, conclude(r, status, error), error->message);
 }

@@ -25,7 +25,7 @@ typedef struct cli_record {
     char **names;               /* [1 + dimension + observables] of values */
     int *column;                /* [columns] which of values a column is */
     dal_statistics *statistics; /* [observables] */
-    dal_finding *finding;       /* [observables] at the end */
+    dal_finding *finding;       /* [observables] when the run is finished or has failed */
     cli_mark mark;
     double interval;       /* seconds between checkpoints */
     double since, saved;   /* when the present stretch of steps began; the last checkpoint */
@@ -34,6 +34,8 @@ typedef struct cli_record {
     double stretch;        /* seconds spent in steps since */
     double told_progress;  /* when the last line of JSON was written */
     cli_progress_kind progress;
+    int (*stop)(void *user); /* whether to end the run; cli_interrupted unless set */
+    void *stop_user;
     int quiet; /* no line of progress: the rows themselves go to the terminal */
     int told;  /* exit status of a failure of the program's own, already printed */
 } cli_record;
@@ -42,8 +44,9 @@ typedef struct cli_record {
  * checkpoint says.  record_close it in any case. */
 int record_open(cli_record *record, const cli_job *job, cli_store *store, const char *output);
 void record_close(cli_record *record);
-/* Integrates to the end.  Returns the exit status; what is to be said is printed. */
-int record_go(cli_record *record);
+/* Integrates to the end.  Returns CLI_DONE; CLI_FAILED and the like with the reason in *error;
+ * CLI_SIGNAL; or CLI_IO and such that has been told, with no message in *error. */
+int record_go(cli_record *record, dal_error *error);
 int record_is_finished(const cli_record *record);
 const char *record_observable(const cli_record *record, int i);
 
@@ -55,7 +58,5 @@ void progress_show(cli_record *record, double t, int at_the_end);
 /* The summary: one table for the eye, or summary.csv. */
 void summary_print(FILE *out, const cli_record *record);
 int summary_write(const cli_record *record, const char *path);
-/* manifest.json; state: running, done, failed, interrupted. */
-int manifest_write(const cli_record *record, const char *state);
 
 #endif

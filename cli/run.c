@@ -19,7 +19,7 @@ static const char run_notes[] =
     "Rows are CSV with 17 digits: t, the coordinates, the velocities, on the lifted space e, p_*,\n"
     "pi_*, pi_e, then D1.., E, H, the invariants and error; N+1 rows, from t = 0 to exactly T.\n"
     "FILE.npy holds the same as an array of numpy with the names of the columns.\n"
-    "A directory gets run.yaml, manifest.json, system.yaml (when SYSTEM is a file),\n"
+    "A directory gets manifest.json, system.yaml (when SYSTEM is a file),\n"
     "trajectory.npy, summary.csv and a checkpoint; 'dalembert resume DIR' goes on with it after "
     "any interruption,\n"
     "kill -9 included, and ends in the same bytes.\n"
@@ -75,9 +75,21 @@ int run_take(run_wishes *wishes, int option, const char *text)
     return CLI_DONE;
 }
 
+/* What is to be said of an end that has not been told. */
+static void tell_end(const cli_record *r, int status, const dal_error *error)
+{
+    if (status == CLI_SIGNAL && r->store)
+        cli_fail(status, "interrupted; go on with: dalembert resume %s", r->store->directory);
+    else if (status == CLI_SIGNAL)
+        cli_fail(status, "interrupted; %lld rows are kept", r->mark.row);
+    else if (status != CLI_DONE && error->message[0])
+        cli_error(status, r->job->system, error);
+}
+
 int run_integrate(const cli_job *job, cli_store *store, const run_wishes *wishes)
 {
     cli_record record;
+    dal_error error;
     int status = record_open(&record, job, store, wishes->output);
     record.interval = wishes->interval;
     record.progress = wishes->progress;
@@ -90,7 +102,8 @@ int run_integrate(const cli_job *job, cli_store *store, const run_wishes *wishes
                      dal_run_time(job->run), record.mark.row);
         native_use(job->run, &job->method, (job->time - dal_run_time(job->run)) / job->options.step,
                    wishes->native);
-        status = record_go(&record);
+        status = record_go(&record, &error);
+        tell_end(&record, status, &error);
         if (wishes->summary || isatty(STDERR_FILENO)) summary_print(stderr, &record);
     }
     record_close(&record);

@@ -9,7 +9,7 @@
 
 int store_open(cli_store *store, const char *directory)
 {
-    *store = (cli_store){.directory = directory, .descriptor = -1};
+    *store = (cli_store){.directory = directory, .descriptor = -1, .settle = 1};
 #define X(name, file) store->name = cli_join(directory, file);
     STORE_FILE_LIST(X)
 #undef X
@@ -25,7 +25,9 @@ void store_close(cli_store *store)
 #define X(name, file) free(store->name);
     STORE_FILE_LIST(X)
 #undef X
+    if (store->text) yaml_document_delete(&store->text->document);
     free(store->text);
+    free(store->input);
     if (store->descriptor >= 0) close(store->descriptor);
     *store = (cli_store){.descriptor = -1};
 }
@@ -45,6 +47,8 @@ const char *store_holds(const cli_store *store)
 #undef X
     return NULL;
 }
+
+int store_is_described(const cli_store *store) { return access(store->manifest, F_OK) == 0; }
 
 int store_lock(cli_store *store)
 {

@@ -1,7 +1,6 @@
 /* store.h - a run that lives in a directory and can be gone on with after any interruption.
  *
- *     DIR/run.yaml      what was asked for
- *     DIR/manifest.json the same with what ran it, and how far it came
+ *     DIR/manifest.json what was asked for, what ran it, and how far it came
  *     DIR/system.yaml   copy of the system file; absent for a built-in system
  *     DIR/trajectory.npy     the rows: see npy.c
  *     DIR/checkpoint    where the run stands: see checkpoint.c
@@ -15,25 +14,29 @@
 
 #include "cli.h"
 #include "job.h"
+#include "study_yaml.h"
 #include "table.h"
 
 #define STORE_FILE_LIST(X)                                                                         \
-    X(settings, "run.yaml")                                                                        \
     X(manifest, "manifest.json")                                                                   \
     X(system, "system.yaml")                                                                       \
     X(rows, "trajectory.npy")                                                                      \
     X(checkpoint, "checkpoint")                                                                    \
     X(before, "checkpoint.before")                                                                 \
     X(fresh, "checkpoint.new")                                                                     \
-    X(summary, "summary.csv")
+    X(summary, "summary.csv")                                                                      \
+    X(old_settings, "run.yaml") /* of versions before this format, */                              \
+    X(old_rows, "rows.csv")     /* which are reported and written over alone */
 
 typedef struct cli_store {
     const char *directory; /* the caller's */
 #define X(name, file) char *name;
     STORE_FILE_LIST(X)
 #undef X
-    char *text;           /* of run.yaml, where the texts of a job read from it live */
-    uint64_t fingerprint; /* of run.yaml and of the system */
+    study_text *text;     /* manifest.json as it was read, where the texts of its job live */
+    char *input;          /* what was asked for, as it stands in manifest.json */
+    uint64_t fingerprint; /* of that and of the system */
+    int settle;           /* whether to wait until what is written is on the disk */
     int descriptor;       /* of trajectory.npy, locked; -1 before, and when a table has taken it */
 } cli_store;
 
@@ -54,8 +57,15 @@ const char *store_holds(const cli_store *store);
 int store_lock(cli_store *store);
 /* Describes a new run; what an older one left is removed. */
 int store_describe(cli_store *store, const cli_job *job);
-/* Reads the description into a new job. */
+/* Reads the description into a new job, whose texts live as long as the store. */
 int store_read(cli_store *store, cli_job *job);
+/* Whether a run is described there. */
+int store_is_described(const cli_store *store);
+/* Whether what was read is the description of this job: CLI_USAGE and a message when not. */
+int store_is_of(const cli_store *store, const cli_job *job);
+/* manifest.json; state: running, done, failed, interrupted; why: a message, or "". */
+int manifest_write(const cli_store *store, const cli_job *job, const cli_mark *mark,
+                   const char *state, const char *why);
 /* Writes the checkpoint; and reads it into run and statistics[count], or the one before where it is
  * damaged or the rows are not those it tells of.  Without one *mark is the beginning. */
 int store_save(const cli_store *store, const cli_mark *mark, const dal_run *run,

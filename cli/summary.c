@@ -51,7 +51,7 @@ int summary_write(const cli_record *r, const char *path)
         fputc('\n', out);
     }
     int status = cli_close(out, path);
-    if (status == CLI_DONE) status = file_replace(path, text, length);
+    if (status == CLI_DONE) status = file_swap(path, text, length, r->store->settle);
     free(text);
     return status;
 }

@@ -124,7 +124,7 @@ static int make_buffer(cli_table *table, char *const *names)
 
 int table_adopt(cli_table *table, const char *path, int descriptor, char *const *names, int columns)
 {
-    *table = (cli_table){.path = path, .columns = columns, .descriptor = descriptor};
+    *table = (cli_table){.path = path, .columns = columns, .descriptor = descriptor, .rows = -1};
     const int status = make_buffer(table, names);
     if (status == CLI_DONE) return CLI_DONE;
     free(table->buffer);
@@ -197,16 +197,17 @@ static int put_row(cli_table *table, const double *values)
     return ++table->waiting < table->room ? CLI_DONE : flush(table);
 }
 
-static int settle_npy(cli_table *table)
+static int settle_npy(cli_table *table, int settle)
 {
     if (flush(table) != CLI_DONE) return CLI_IO;
-    if (fsync(table->descriptor) != 0 || !announce(table)) return broken(table);
+    if ((settle && fsync(table->descriptor) != 0) || !announce(table)) return broken(table);
     return CLI_DONE;
 }
 
 static int close_npy(cli_table *table)
 {
-    if (!table->broken && flush(table) == CLI_DONE && !announce(table)) broken(table);
+    const int begun = table->rows >= 0 && !table->broken;
+    if (begun && flush(table) == CLI_DONE && !announce(table)) broken(table);
     if (close(table->descriptor) != 0 && !table->broken) broken(table);
     free(table->header.text);
     free(table->buffer);
@@ -266,9 +267,9 @@ int table_row(cli_table *table, const double *values)
     return table->file ? put_line(table, values) : put_row(table, values);
 }
 
-int table_settle(cli_table *table)
+int table_settle(cli_table *table, int settle)
 {
-    if (!table->file) return settle_npy(table);
+    if (!table->file) return settle_npy(table, settle);
     return fflush(table->file) == 0 ? CLI_DONE : broken(table);
 }
 

@@ -21,7 +21,7 @@ typedef struct cli_table {
     npy_header header;
     unsigned char *buffer;   /* [room * columns] numbers */
     long long room, waiting; /* rows in it */
-    long long rows;          /* in the file */
+    long long rows;          /* in the file; -1: it is only looked at so far */
     table_sum sum;           /* of those */
 } cli_table;
 
@@ -37,8 +37,8 @@ int table_holds(const cli_table *table, long long rows, const table_sum *sum);
 /* Goes on behind the first rows of it, of that sum; the rest is cut off. */
 int table_go_on(cli_table *table, long long rows, const table_sum *sum);
 int table_row(cli_table *table, const double *values);
-/* Brings all rows so far to the disk, and then their number. */
-int table_settle(cli_table *table);
+/* Writes all rows so far and then their number; with settle the rows are on the disk before. */
+int table_settle(cli_table *table, int settle);
 /* The file tells of all rows that are in it whole, also after a failure. */
 int table_close(cli_table *table);
 

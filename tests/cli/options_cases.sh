@@ -28,7 +28,7 @@ case_is "extend-energy: resumed"
 try 0 run $motion --extend-energy on --native off --output on.npy
 try 0 run $motion --extend-energy on --native off --output kept
 try 0 resume kept
-holds "not kept in run.yaml" grep -q '^extend-energy: on$' kept/run.yaml
+holds "not kept in the manifest" grep -q '^    "extend-energy": "on",$' kept/manifest.json
 holds "other bytes" cmp -s on.npy kept/trajectory.npy
 
 case_is "extend-energy: refused with the reason"
@@ -91,7 +91,7 @@ motion="knife-edge --integrator dop853 --tolerance 1e-9 --step 0.7 --time 10 --s
 try 0 run $motion --output whole.npy
 try 0 run $motion --output divided
 try 0 resume divided
-holds "not kept in run.yaml" grep -q '^tolerance: 1e-9$' divided/run.yaml
+holds "not kept in the manifest" grep -q '^    "tolerance": "1e-9",$' divided/manifest.json
 holds "other bytes" cmp -s whole.npy divided/trajectory.npy
 
 case_is "tolerance: refused with the reason"

@@ -18,8 +18,8 @@ case_is "a directory"
 try 0 run $long --output whole
 empty
 holds "rows" tells whole/trajectory.npy 100004
-holds "run.yaml names the system" grep -qx 'system: chaplygin-sleigh' whole/run.yaml
-holds "run.yaml has the settings" grep -qx '  omega: 1.5' whole/run.yaml
+holds "it names the system" grep -qx '    "system": "chaplygin-sleigh",' whole/manifest.json
+holds "it has the settings" grep -qx '    "set": {"omega": 1.5},' whole/manifest.json
 holds "the heads of the summary" grep -qx "observable,first,final,maximum,deviation,amplitude,rate,\
 rate_low,rate_high,exponent,verdict,confidence" whole/summary.csv
 holds "D1 is not kept to rounding" grep -q '^D1,.*,rounding,1$' whole/summary.csv
@@ -28,7 +28,7 @@ holds "the rows are those of a file" cmp whole.npy whole/trajectory.npy
 
 case_is "a directory is not written over"
 try 2 run $long --output whole
-says "'whole/run.yaml' is there already"
+says "'whole/manifest.json' is there already"
 mkdir -p mine
 echo 'not a copy' >mine/system.yaml
 try 2 run $long --output mine
@@ -145,16 +145,36 @@ echo no >damaged/checkpoint
 try 2 resume damaged
 says 'the checkpoint is damaged: it is too short'
 cp whole/checkpoint damaged/checkpoint
-sed 's/^dalembert: .*/dalembert: 0.0.0/' whole/run.yaml >damaged/run.yaml
+sed 's/^  "dalembert": .*/  "dalembert": "9.8.7",/' whole/manifest.json >damaged/manifest.json
 try 2 resume damaged
-says "damaged/run.yaml:2: made by another version, '0\.0\.0'"
-sed 's/^step: .*/step: 0.002/' whole/run.yaml >damaged/run.yaml
+says 'damaged/manifest.json:2:16: made by dalembert 9\.8\.7; this is [0-9.]+$'
+sed 's/^  "dalembert": .*/  "dalembert": "0.0.1",/' whole/manifest.json >damaged/manifest.json
+cp -r whole aged && cp damaged/manifest.json aged
+try 0 resume aged
+says 'aged/manifest.json: made by dalembert 0\.0\.1; the bits may differ from here on$'
+sed 's/"step": ".*"/"step": "0.002"/' whole/manifest.json >damaged/manifest.json
 try 2 resume damaged
 says 'damaged/checkpoint: belongs to another run'
-echo 'stepp: 1' >>damaged/run.yaml
+sed 's/"step"/"stepp"/' whole/manifest.json >damaged/manifest.json
 try 2 resume damaged
-says "damaged/run.yaml:[0-9]+: unknown key 'stepp'"
+says "damaged/manifest.json:[0-9]+:[0-9]+: unknown option 'stepp' of a run"
+for text in '' '{' '[1]' '{"input": 1}' '{"dalembert": [1], "input": {}}' '{"input": {}}' \
+    '{"input": {"system": ["x"]}}' '{"input": {"set": "x"}}' '{"input": {"set": {"x": []}}}'; do
+    echo "$text" >damaged/manifest.json
+    try 2 resume damaged
+done
+rm damaged/manifest.json
+try 2 resume damaged
+says "'damaged' holds no run: there is no damaged/manifest.json"
 cp -r busy shorter
 : >shorter/trajectory.npy
 try 2 resume shorter
 says "shorter/trajectory.npy': its columns are not those of the run"
+
+case_is "a directory of the versions before trajectory.npy"
+mkdir -p former
+echo 'system: chaplygin-sleigh' >former/run.yaml
+try 0 run ./line.yaml --integrator rk4 --step 0.1 --time 1 --output former/rows.csv
+try 2 resume former
+says "'former' is of an older version, which kept run.yaml and rows.csv: its rows can be reported"
+command -v gnuplot >/dev/null 2>&1 && try 0 report former

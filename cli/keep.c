@@ -1,0 +1,40 @@
+/* keep.c - a run in a directory of its own, begun or gone on with. */
+#include "keep.h"
+
+static const double interval = 5.0; /* seconds between checkpoints */
+
+static int go_on(cli_keep *keep, const cli_job *job)
+{
+    cli_job held = job_begin();
+    int status = store_read(&keep->store, &held);
+    if (status == CLI_DONE) status = store_is_of(&keep->store, job);
+    job_free(&held);
+    return status;
+}
+
+int keep_open(cli_keep *keep, const cli_job *job, const char *directory)
+{
+    cli_store *store = &keep->store;
+    *keep = (cli_keep){0};
+    int status = store_open(store, directory);
+    if (status != CLI_DONE) return status;
+    store->settle = 0;
+    status = cli_directory(directory);
+    if (status == CLI_DONE) status = store_lock(store);
+    if (status == CLI_DONE)
+        status = store_is_described(store) ? go_on(keep, job) : store_describe(store, job);
+    if (status == CLI_DONE) status = record_open(&keep->record, job, store, directory);
+    keep->record.interval = interval;
+    keep->record.progress = PROGRESS_OFF;
+    return status;
+}
+
+int keep_go(cli_keep *keep, dal_error *error) { return record_go(&keep->record, error); }
+
+int keep_is_finished(const cli_keep *keep) { return record_is_finished(&keep->record); }
+
+void keep_close(cli_keep *keep)
+{
+    record_close(&keep->record);
+    store_close(&keep->store);
+}

@@ -1,0 +1,24 @@
+/* keep.h - a run in a directory of its own, begun or gone on with, for commands that make many. */
+#ifndef DAL_CLI_KEEP_H
+#define DAL_CLI_KEEP_H
+
+#include "record.h"
+
+typedef struct cli_keep {
+    cli_store store;
+    cli_record record;
+} cli_keep;
+
+/* Makes the directory and describes the run in it, or, where this run is there already, stands
+ * where its checkpoint says.  Nothing is printed but failures of files and input; with different
+ * directories it may be done in several threads.  Nothing waits for the disk until the run is
+ * longer than a checkpoint's interval: what a power cut takes of a shorter one is done anew.
+ * Returns CLI_DONE, CLI_USAGE (another run or another process is there, or what is there is
+ * damaged) or CLI_IO; keep_close it in any case. */
+int keep_open(cli_keep *keep, const cli_job *job, const char *directory);
+/* As record_go; not when it is finished. */
+int keep_go(cli_keep *keep, dal_error *error);
+int keep_is_finished(const cli_keep *keep);
+void keep_close(cli_keep *keep);
+
+#endif
