@@ -264,6 +264,7 @@ dal_status dal_run_advance(dal_run *run, long long count, dal_error *error);
 
 const dal_system *dal_run_system(const dal_run *run);
 double dal_run_time(const dal_run *run);
+double dal_run_step_size(const dal_run *run);      /* h */
 long long dal_run_steps(const dal_run *run);       /* taken since creation, also before a load */
 long long dal_run_evaluations(const dal_run *run); /* of the field, or of the lifted field */
 int dal_run_dimension(const dal_run *run);         /* 4n+2 lifted; 2n + multipliers physical */
@@ -307,6 +308,12 @@ typedef struct dal_observer {
 dal_status dal_run_sample(dal_run *run, double T, long long samples, long long first_row,
                           const dal_observer *observer, dal_error *error);
 
+/* A step of size h by the run's method from its present state: look sees the run there, then all is
+ * taken back, bit for bit.  look must not move the run.  Errors: those of a step, the run being as
+ * it was; DAL_ARGUMENT; what look returns. */
+dal_status dal_run_aside(dal_run *run, double h, dal_status (*look)(void *user, dal_run *run),
+                         void *user, dal_error *error);
+
 /* ---- batches ------------------------------------------------------------------------------- */
 
 typedef struct dal_batch dal_batch;
@@ -333,6 +340,8 @@ void dal_batch_state(const dal_batch *batch, int lane, double *state);
 
 #include "dalembert_generate.h"
 #include "dalembert_measure.h"
+
+#include "dalembert_motion.h"
 
 #ifdef __cplusplus
 }

@@ -139,11 +139,18 @@ static double above(const line *l, const dal_mean *b, double x)
 
 /* The 97.5 % quantile of Student's distribution, expanded about that of the normal one (Fisher,
  * Cornish 1960, DOI 10.1080/00401706.1960.10489895): better than 1 % from 3 degrees on. */
-static double student(double freedom)
+double dal__student(double freedom)
 {
     static const double c[] = {1.959964, 2.372212, 2.822501, 2.555850};
     const double f = 1.0 / fmax(freedom, 1.0);
     return c[0] + f * (c[1] + f * (c[2] + f * c[3]));
+}
+
+double dal__inflation(double square, double product, int n)
+{
+    /* Residues lean against each other by 2/n even where the values do not. */
+    const double rho = fmin(fmax(product / square + 2.0 / n, 0.0), 1.0 - 1.0 / n);
+    return (1.0 + rho) / (1.0 - rho);
 }
 
 /* Half the width of the interval about the slope. */
@@ -158,10 +165,8 @@ static double uncertainty(const line *l, const dal_mean *block, int n)
         before = r;
     }
     if (!(square > 0.0)) return 0.0;
-    /* Residues lean against each other by 2/n even where the values do not. */
-    const double rho = fmin(fmax(product / square + 2.0 / n, 0.0), 1.0 - 1.0 / n);
-    const double inflation = (1.0 + rho) / (1.0 - rho);
-    return student(n / inflation - 2.0) * sqrt(square / (n - 2) / l->tt * inflation);
+    const double inflation = dal__inflation(square, product, n);
+    return dal__student(n / inflation - 2.0) * sqrt(square / (n - 2) / l->tt * inflation);
 }
 
 /* Half the range about the line; what the line itself rises within a block does not count. */

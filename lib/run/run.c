@@ -117,6 +117,8 @@ const double *dal_run_parameters(const dal_run *run) { return run->work; }
 
 double dal_run_time(const dal_run *run) { return run->carried[dal__at(&run->shape, DAL__TIME)]; }
 
+double dal_run_step_size(const dal_run *run) { return run->shape.options.step; }
+
 long long dal_run_steps(const dal_run *run)
 {
     return (long long)run->carried[dal__at(&run->shape, DAL__STEPS)];

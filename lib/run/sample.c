@@ -53,16 +53,38 @@ static dal_status advance(sampling *k, long long count)
     return DAL_OK;
 }
 
+dal_status dal_run_aside(dal_run *run, double h, dal_status (*look)(void *user, dal_run *run),
+                         void *user, dal_error *error)
+{
+    const size_t bytes = run->shape.carried * sizeof *run->carried;
+    if (!isfinite(h))
+        return dal__error(error, DAL_ARGUMENT, 0, 0, "a step aside must be finite; it is %g", h);
+    memcpy(run->shadow, run->carried, bytes);
+    dal_status status = dal__run_steps(run, h, 1);
+    if (status != DAL_OK) return dal__explain(run, h, status, error);
+    status = look(user, run);
+    memcpy(run->carried, run->shadow, bytes);
+    return status;
+}
+
+typedef struct side_row {
+    sampling *k;
+    long long row;
+    double t;
+} side_row;
+
+static dal_status show_aside(void *user, dal_run *run)
+{
+    const side_row *r = user;
+    (void)run;
+    return show(r->k, r->row, r->t);
+}
+
 /* A row between two steps: a step of size h from the present state, shown and taken back. */
 static dal_status side_step(sampling *k, double h, long long row, double t)
 {
-    dal_run *run = k->run;
-    const size_t bytes = run->shape.carried * sizeof *run->carried;
-    memcpy(run->shadow, run->carried, bytes);
-    const dal_status status = dal__run_steps(run, h, 1);
-    if (status != DAL_OK) return dal__explain(run, h, status, k->error);
-    const dal_status shown = show(k, row, t);
-    memcpy(run->carried, run->shadow, bytes);
+    side_row r = {k, row, t};
+    const dal_status shown = dal_run_aside(k->run, h, show_aside, &r, k->error);
     return shown == DAL_OK ? poll(k) : shown;
 }
 

@@ -1,0 +1,321 @@
+/* test_section.c - steps aside, and the crossings of a Poincare section. */
+#include "allocation.h"
+#include "fixtures.h"
+#include <CUnit/CUnit.h>
+#include <math.h>
+#include <string.h>
+
+static const double pi = 3.14159265358979323846;
+
+/* x = cos t, with sections g of its own. */
+#define OSCILLATOR(g)                                                                              \
+    "coordinates: [x]\nlagrangian: (x'^2 - x^2)/2\nstart: {x: 1}\ninvariants: {g: " g "}\n"
+
+enum { MOST = 64 };
+
+typedef struct record {
+    int count;
+    double t[MOST], g[MOST];
+    int direction[MOST];
+    long long number[MOST];
+    int polls, stop_after;
+} record;
+
+static dal_status note(void *user, dal_run *run, const dal_crossing *crossing)
+{
+    record *r = user;
+    double seen[MOST];
+    CU_ASSERT_FATAL(r->count < MOST);
+    CU_ASSERT_EQUAL(dal_run_time(run), crossing->t);
+    CU_ASSERT_EQUAL(dal_run_observe(run, seen), DAL_OK);
+    const dal_system *s = dal_run_system(run);
+    const int lifted = dal_run_dimension(run) > 2 * s->n + s->multipliers;
+    r->g[r->count] = seen[s->m + (s->energy != NULL) + (lifted ? 4 : 0)];
+    r->t[r->count] = crossing->t;
+    r->direction[r->count] = crossing->direction;
+    r->number[r->count++] = crossing->number;
+    return r->count == r->stop_after ? DAL_INTERRUPTED : DAL_OK;
+}
+
+static dal_status poll(void *user, dal_run *run)
+{
+    (void)run;
+    ((record *)user)->polls++;
+    return DAL_OK;
+}
+
+/* The crossings of invariant 1 by a run. */
+static dal_status cross(dal_run *run, double T, int direction, record *r, dal_crossings *found,
+                        dal_error *error)
+{
+    const dal_system *s = dal_run_system(run);
+    const dal_poincare section = {.callback = s->invariant_values,
+                                  .count = s->invariants,
+                                  .direction = direction,
+                                  .user = r,
+                                  .cross = note,
+                                  .poll = poll};
+    return dal_run_crossings(run, T, &section, found, error);
+}
+
+/* The same of a fixture from its start. */
+static record crossings_of(const char *text, const char *method, double step, double T,
+                           int direction, dal_crossings *found)
+{
+    dal_model *model = fixture_model(text);
+    const dal_run_spec spec = fixture_spec(fixture_system(model), method, DAL_PHYSICAL, step);
+    dal_run *run = fixture_run(&spec);
+    dal_error error = {0};
+    record r = {0};
+    const dal_status status = cross(run, T, direction, &r, found, &error);
+    if (status != DAL_OK) printf("\n  %s\n", error.message);
+    CU_ASSERT_EQUAL(status, DAL_OK);
+    dal_run_free(run);
+    dal_model_free(model);
+    return r;
+}
+
+/* ---- a step aside ---- */
+
+static dal_status copy_x(void *user, dal_run *run)
+{
+    double *out = user;
+    out[0] = dal_run_time(run);
+    out[1] = dal_run_state(run)[0];
+    return out[1] < 0.0 ? DAL_INTERRUPTED : DAL_OK;
+}
+
+static void test_aside(void)
+{
+    dal_model *model = fixture_model(OSCILLATOR("x"));
+    const dal_run_spec spec = fixture_spec(fixture_system(model), "gauss12", DAL_LIFTED, 0.25);
+    dal_run *run = fixture_run(&spec);
+    double seen[2], before[256];
+    size_t count;
+    CU_ASSERT_EQUAL(dal_run_step_size(run), 0.25);
+    CU_ASSERT_EQUAL(dal_run_advance(run, 3, NULL), DAL_OK);
+    const double *memory = dal_run_memory(run, &count);
+    CU_ASSERT_FATAL(count < 256);
+    memcpy(before, memory, count * sizeof *memory);
+    CU_ASSERT_EQUAL(dal_run_aside(run, 0.125, copy_x, seen, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(seen[0], 0.875);
+    CU_ASSERT_DOUBLE_EQUAL(seen[1], cos(0.875), 1e-15);
+    /* Backwards, and beyond the step; what look returns is returned. */
+    CU_ASSERT_EQUAL(dal_run_aside(run, -0.5, copy_x, seen, NULL), DAL_OK);
+    CU_ASSERT_DOUBLE_EQUAL(seen[1], cos(0.25), 1e-13);
+    CU_ASSERT_EQUAL(dal_run_aside(run, 1.0, copy_x, seen, NULL), DAL_INTERRUPTED);
+    CU_ASSERT_EQUAL(dal_run_aside(run, NAN, copy_x, seen, NULL), DAL_ARGUMENT);
+    CU_ASSERT_EQUAL(memcmp(before, memory, count * sizeof *memory), 0);
+    dal_run_free(run);
+    dal_model_free(model);
+}
+
+/* ---- crossings of a known motion ---- */
+
+/* cos t = 0 at pi/2 + k pi, downwards first. */
+static void test_times(void)
+{
+    dal_crossings found;
+    const record r = crossings_of(OSCILLATOR("x"), "gauss12", 0.1, 20.0, 0, &found);
+    CU_ASSERT_EQUAL_FATAL(r.count, 6);
+    CU_ASSERT(found.down == 3 && found.up == 3 && found.touches == 0);
+    for (int k = 0; k < 6; k++) {
+        CU_ASSERT_DOUBLE_EQUAL(r.t[k], pi / 2.0 + k * pi, 1e-14 * (2 + k));
+        CU_ASSERT_DOUBLE_EQUAL(r.g[k], 0.0, 2e-16 * 20.0);
+        CU_ASSERT_EQUAL(r.direction[k], k % 2 ? 1 : -1);
+        CU_ASSERT_EQUAL(r.number[k], k + 1);
+    }
+}
+
+static void test_directions(void)
+{
+    for (int direction = -1; direction <= 1; direction += 2) {
+        dal_crossings found;
+        const record r = crossings_of(OSCILLATOR("x"), "gauss12", 0.1, 20.0, direction, &found);
+        CU_ASSERT_EQUAL_FATAL(r.count, 3);
+        CU_ASSERT(found.down == 3 && found.up == 3);
+        for (int k = 0; k < 3; k++) {
+            const double first = direction < 0 ? 0.5 : 1.5;
+            CU_ASSERT_DOUBLE_EQUAL(r.t[k], (first + 2 * k) * pi, 1e-13);
+            CU_ASSERT_EQUAL(r.direction[k], direction);
+            CU_ASSERT_EQUAL(r.number[k], k + 1);
+        }
+    }
+}
+
+/* A section of t alone: the phase 3 t + 1 of a forcing. */
+static void test_in_time(void)
+{
+    dal_crossings found;
+    const record r = crossings_of(OSCILLATOR("sin(3*t + 1)"), "rk4", 0.05, 10.0, 1, &found);
+    CU_ASSERT_EQUAL_FATAL(r.count, 4);
+    for (int k = 0; k < 4; k++)
+        CU_ASSERT_DOUBLE_EQUAL(r.t[k], (2.0 * pi * (k + 1) - 1.0) / 3.0, 1e-14);
+}
+
+/* Between two steps x exceeds 0.999 and falls again: crossings a = arccos 0.999 about 2 pi k. */
+static void test_pairs_in_a_step(void)
+{
+    dal_crossings found;
+    const double a = acos(0.999);
+    const record r = crossings_of(OSCILLATOR("x - 0.999"), "gauss12", 0.1, 20.0, 0, &found);
+    CU_ASSERT_EQUAL_FATAL(r.count, 7);
+    CU_ASSERT(found.down == 4 && found.up == 3 && found.touches == 0);
+    for (int k = 0; k < 7; k++)
+        CU_ASSERT_DOUBLE_EQUAL(r.t[k], 2.0 * pi * ((k + 1) / 2) + (k % 2 ? -a : a), 2e-12);
+}
+
+/* x = 1 is reached but not crossed, at 2 pi k. */
+static void test_touches(void)
+{
+    dal_crossings found;
+    record r = crossings_of(OSCILLATOR("x - 1"), "gauss12", 0.1, 20.0, 0, &found);
+    CU_ASSERT(r.count == 0 && found.down == 0 && found.up == 0);
+    CU_ASSERT_EQUAL(found.touches, 3);
+    r = crossings_of(OSCILLATOR("1 - x"), "gauss12", 0.1, 20.0, 0, &found);
+    CU_ASSERT(r.count == 0 && found.touches == 3);
+    /* A minimum that stays away from 0 is nothing. */
+    r = crossings_of(OSCILLATOR("x - 1.001"), "gauss12", 0.1, 20.0, 0, &found);
+    CU_ASSERT(r.count == 0 && found.touches == 0);
+}
+
+/* g = 0 exactly at a step: (t - 1)^2 touches there, t - 1 crosses there, once. */
+static void test_on_a_step(void)
+{
+    dal_crossings found;
+    record r = crossings_of("coordinates: [x]\naccelerations: {x: 2}\n"
+                            "start: {x: 1, x': -2}\ninvariants: {g: x}\n",
+                            "rk4", 0.25, 2.0, 0, &found);
+    CU_ASSERT(r.count == 0 && found.touches == 1);
+    r = crossings_of("coordinates: [x]\naccelerations: {x: 0}\n"
+                     "start: {x: -1, x': 1}\ninvariants: {g: x}\n",
+                     "rk4", 0.25, 2.0, 0, &found);
+    CU_ASSERT_EQUAL_FATAL(r.count, 1);
+    CU_ASSERT(r.t[0] == 1.0 && r.direction[0] == 1 && found.touches == 0);
+    /* A start on the section is no crossing. */
+    r = crossings_of("coordinates: [x]\naccelerations: {x: 0}\n"
+                     "start: {x': 1}\ninvariants: {g: x}\n",
+                     "rk4", 0.25, 2.0, 0, &found);
+    CU_ASSERT(r.count == 0 && found.up == 0);
+}
+
+/* ---- every method, either space ---- */
+
+static void cross_with(dal_model *model, const char *method, dal_space space)
+{
+    dal_run_spec spec = fixture_spec(fixture_system(model), method, space, 0.05);
+    if (!fixture_serves(&spec.method, spec.system, space)) return;
+    dal_run *run = fixture_run(&spec), *plain = fixture_run(&spec);
+    dal_crossings found;
+    dal_error error = {0};
+    record r = {0};
+    size_t count;
+    const dal_status status = cross(run, 9.0, 0, &r, &found, &error);
+    if (status != DAL_OK) printf("\n  %s: %s\n", method, error.message);
+    CU_ASSERT_EQUAL(status, DAL_OK);
+    CU_ASSERT_EQUAL(r.count, 3);
+    for (int k = 0; k < r.count; k++) {
+        CU_ASSERT_DOUBLE_EQUAL(r.g[k], 0.0, 1e-15);
+        CU_ASSERT_DOUBLE_EQUAL(r.t[k], (k + 1) * pi - atan(6.0 / 7.0), 0.05);
+    }
+    CU_ASSERT_EQUAL(dal_run_advance(plain, 180, NULL), DAL_OK);
+    const double *a = dal_run_memory(run, &count), *b = dal_run_memory(plain, &count);
+    CU_ASSERT_EQUAL(memcmp(a, b, count * sizeof *a), 0);
+    dal_run_free(run);
+    dal_run_free(plain);
+}
+
+/* y = 0.6 cos t + 0.7 sin t, whatever D does to x and z.  The trajectory is that of a run without
+ * sections, and the crossings lie on it to rounding. */
+static void test_methods(void)
+{
+    char name[128];
+    dal_model *model =
+        fixture_model("coordinates: [x, y, z]\n"
+                      "lagrangian: (x'^2 + y'^2 + z'^2)/2 - (x^2 + y^2 + z^2)/2\n"
+                      "constraints: [x' + y*z']\n"
+                      "start: {x: 0.8, y: 0.6, z: -0.5, x': -0.24, y': 0.7, z': 0.4}\n"
+                      "invariants: {g: y}\n");
+    for (int i = 0; dal_integrator_at(i) != NULL; i++) {
+        cross_with(model, fixture_method(i, name, sizeof name), DAL_PHYSICAL);
+        cross_with(model, fixture_method(i, name, sizeof name), DAL_LIFTED);
+    }
+    dal_model_free(model);
+}
+
+/* ---- what is refused, and ends ---- */
+
+static void test_refuses(void)
+{
+    dal_model *model = fixture_model(OSCILLATOR("log(0.5 - t)"));
+    const dal_run_spec spec = fixture_spec(fixture_system(model), "rk4", DAL_PHYSICAL, 0.1);
+    dal_run *run = fixture_run(&spec);
+    dal_crossings found;
+    dal_error error;
+    record r = {0};
+    CU_ASSERT_EQUAL(cross(run, 0.95, 0, &r, &found, &error), DAL_ARGUMENT);
+    CU_ASSERT(strstr(error.message, "whole number of steps") != NULL);
+    CU_ASSERT_EQUAL(cross(run, 0.0, 0, &r, &found, &error), DAL_ARGUMENT);
+    CU_ASSERT_EQUAL(cross(run, 1.0, 0, &r, &found, &error), DAL_NOT_FINITE);
+    CU_ASSERT(strstr(error.message, "no value at t = 0.5") != NULL);
+    const dal_poincare wrong = {.callback = spec.system->invariant_values, .count = 1, .index = 1};
+    CU_ASSERT_EQUAL(dal_run_crossings(run, 1.0, &wrong, &found, &error), DAL_ARGUMENT);
+    CU_ASSERT(strstr(error.message, "value 2 of 1") != NULL);
+    dal_run_free(run);
+    dal_model_free(model);
+}
+
+static void test_stops(void)
+{
+    dal_model *model = fixture_model(OSCILLATOR("x"));
+    const dal_run_spec spec = fixture_spec(fixture_system(model), "rk4", DAL_PHYSICAL, 0.01);
+    dal_run *run = fixture_run(&spec);
+    dal_crossings found;
+    record r = {.stop_after = 2};
+    CU_ASSERT_EQUAL(cross(run, 40.0, 0, &r, &found, NULL), DAL_INTERRUPTED);
+    CU_ASSERT_EQUAL(r.count, 2);
+    dal_run_free(run);
+    run = fixture_run(&spec);
+    r = (record){0};
+    CU_ASSERT_EQUAL(cross(run, 40.0, 0, &r, &found, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(r.polls, 4);
+    dal_run_free(run);
+    dal_model_free(model);
+}
+
+static void test_out_of_memory(void)
+{
+    dal_model *model = fixture_model(OSCILLATOR("x - 0.999"));
+    const dal_run_spec spec = fixture_spec(fixture_system(model), "rk4", DAL_PHYSICAL, 0.1);
+    long n = 0;
+    for (;; n++) {
+        dal_run *run = fixture_run(&spec);
+        dal_crossings found;
+        record r = {0};
+        allocation_fail_after(n);
+        const dal_status status = cross(run, 7.0, 0, &r, &found, NULL);
+        const int failed = allocation_failed();
+        allocation_fail_after(-1);
+        dal_run_free(run);
+        CU_ASSERT_EQUAL_FATAL(status, failed ? DAL_MEMORY : DAL_OK);
+        if (!failed) break;
+    }
+    CU_ASSERT(n >= 4);
+    dal_model_free(model);
+}
+
+void suite_section(void)
+{
+    CU_pSuite suite = CU_add_suite("Poincare sections", NULL, NULL);
+    CU_add_test(suite, "a step aside", test_aside);
+    CU_add_test(suite, "times of crossings", test_times);
+    CU_add_test(suite, "directions", test_directions);
+    CU_add_test(suite, "a section in time", test_in_time);
+    CU_add_test(suite, "pairs within a step", test_pairs_in_a_step);
+    CU_add_test(suite, "touches", test_touches);
+    CU_add_test(suite, "g = 0 at a step", test_on_a_step);
+    CU_add_test(suite, "every method", test_methods);
+    CU_add_test(suite, "what is refused", test_refuses);
+    CU_add_test(suite, "ends when told", test_stops);
+    CU_add_test(suite, "out of memory", test_out_of_memory);
+}

@@ -1,0 +1,364 @@
+/* test_spectrum.c - means with intervals, Lyapunov exponents, phase volume. */
+#include "allocation.h"
+#include "fixtures.h"
+#include "quick.h"
+#include <CUnit/CUnit.h>
+#include <math.h>
+#include <string.h>
+
+/* ---- means ---- */
+
+static double noise(unsigned *state)
+{
+    *state = *state * 1664525u + 1013904223u;
+    return (double)(*state >> 8) / (1 << 24) - 0.5;
+}
+
+static void test_mean(void)
+{
+    dal_statistics s;
+    dal_average a;
+    double x = 0.1;
+    dal_statistics_start(&s, 1);
+    dal_statistics_mean(&s, &a);
+    CU_ASSERT(isnan(a.mean));
+    for (int i = 0; i < 1000; i++) dal_statistics_add(&s, 1, i, &x);
+    dal_statistics_mean(&s, &a);
+    CU_ASSERT_EQUAL(a.mean, 0.1);
+    CU_ASSERT(a.low == 0.1 && a.high == 0.1);
+    /* 1, 2, .., 1003: the open block counts too. */
+    dal_statistics_start(&s, 1);
+    for (int i = 1; i <= 1003; i++) dal_statistics_add(&s, 1, i, &(double){i});
+    dal_statistics_mean(&s, &a);
+    CU_ASSERT_DOUBLE_EQUAL(a.mean, 502.0, 1e-11);
+    CU_ASSERT_DOUBLE_EQUAL(a.high - a.mean, a.mean - a.low, 1e-11);
+    x = INFINITY;
+    dal_statistics_add(&s, 1, 1004.0, &x);
+    dal_statistics_mean(&s, &a);
+    CU_ASSERT(isnan(a.mean));
+}
+
+/* x_i = r x_(i-1) + noise about 3: how often the interval holds 3. */
+static int covered(double r, int trials)
+{
+    unsigned state = 7;
+    int inside = 0;
+    for (int k = 0; k < trials; k++) {
+        dal_statistics s;
+        dal_average a;
+        double x = 0.0;
+        dal_statistics_start(&s, 1);
+        for (int i = -50; i < 4000; i++) {
+            x = r * x + noise(&state);
+            if (i >= 0) dal_statistics_add(&s, 1, i, &(double){3.0 + x});
+        }
+        dal_statistics_mean(&s, &a);
+        inside += a.low <= 3.0 && 3.0 <= a.high;
+    }
+    return inside;
+}
+
+/* 95 % of 400 is 380, its deviation 4.4. */
+static void test_mean_coverage(void)
+{
+    const int white = covered(0.0, 400), coloured = covered(0.98, 400);
+    CU_ASSERT(white >= 365 && white < 400);
+    CU_ASSERT(coloured >= 365 && coloured < 400);
+}
+
+/* ---- exponents ---- */
+
+/* The spectrum of a fixture after a transient and then steps more. */
+static dal_spectrum *spectrum_of(dal_model *model, const char *method, double step,
+                                 long long transient, long long steps)
+{
+    const dal_system *tangent = NULL;
+    dal_spectrum *s = NULL;
+    dal_error error = {0};
+    const dal_run_spec spec = fixture_spec(fixture_system(model), method, DAL_PHYSICAL, step);
+    CU_ASSERT_EQUAL_FATAL(dal_model_tangent(model, &tangent, NULL), DAL_OK);
+    CU_ASSERT_EQUAL_FATAL(dal_spectrum_create(&s, &spec, tangent, 0, &error), DAL_OK);
+    CU_ASSERT_EQUAL(dal_spectrum_advance(s, transient, &error), DAL_OK);
+    dal_spectrum_forget(s);
+    CU_ASSERT_EQUAL(dal_spectrum_advance(s, steps, &error), DAL_OK);
+    return s;
+}
+
+static double exponent(const dal_spectrum *s, int i)
+{
+    dal_average a;
+    dal_spectrum_exponent(s, i, &a);
+    CU_ASSERT(a.low <= a.mean && a.mean <= a.high);
+    return a.mean;
+}
+
+static double sum_of(const dal_spectrum *s)
+{
+    dal_average a;
+    dal_spectrum_sum(s, &a);
+    return a.mean;
+}
+
+static double divergence_of(const dal_spectrum *s)
+{
+    dal_average a;
+    dal_spectrum_divergence(s, &a);
+    return a.mean;
+}
+
+/* log|R(a + ib)| of the stability functions R = 1 + z + z^2/2 + z^3/6 + z^4/24 by Horner's rule,
+ * and R = (1 + z/2)/(1 - z/2). */
+static double log_rk4(double a, double b)
+{
+    double x = 1.0, y = 0.0;
+    for (int k = 4; k >= 1; k--) {
+        const double next = 1.0 + (a * x - b * y) / k;
+        y = (a * y + b * x) / k;
+        x = next;
+    }
+    return log(hypot(x, y));
+}
+
+static double log_midpoint(double a, double b)
+{
+    return log(hypot(1.0 + a / 2.0, b / 2.0) / hypot(1.0 - a / 2.0, b / 2.0));
+}
+
+/* x'' = x: the step map is R(h A) with A's eigenvalues 1 and -1 and orthogonal eigenvectors. */
+static void test_saddle(void)
+{
+    const double h = 0.1;
+    dal_model *model = fixture_model("coordinates: [x]\naccelerations: {x: x}\nstart: {x: 0}\n");
+    dal_spectrum *s = spectrum_of(model, "rk4", h, 300, 200);
+    CU_ASSERT(dal_spectrum_is_exact(s));
+    CU_ASSERT(dal_spectrum_is_whole(s));
+    CU_ASSERT_EQUAL_FATAL(dal_spectrum_count(s), 2);
+    CU_ASSERT_DOUBLE_EQUAL(exponent(s, 0), log_rk4(h, 0.0) / h, 1e-13);
+    CU_ASSERT_DOUBLE_EQUAL(exponent(s, 1), log_rk4(-h, 0.0) / h, 1e-13);
+    CU_ASSERT_EQUAL(divergence_of(s), 0.0);
+    dal_spectrum_free(s);
+    dal_model_free(model);
+}
+
+/* x'' = -x - k x': a spiral; det J = |R(h lambda)|^2 in every step. */
+static void test_spiral(void)
+{
+    const double h = 0.1, k = 0.3;
+    const double a = -h * k / 2.0, b = h * sqrt(1.0 - k * k / 4.0);
+    const double by_rk4 = log_rk4(a, b) / h, by_midpoint = log_midpoint(a, b) / h;
+    dal_model *model =
+        fixture_model("coordinates: [x]\naccelerations: {x: -x - 0.3*x'}\nstart: {x: 1}\n");
+    dal_spectrum *s = spectrum_of(model, "rk4", h, 0, 20000);
+    CU_ASSERT_DOUBLE_EQUAL(sum_of(s), 2.0 * by_rk4, 1e-13);
+    CU_ASSERT_DOUBLE_EQUAL(divergence_of(s), -k, 1e-15);
+    CU_ASSERT_DOUBLE_EQUAL(exponent(s, 0), by_rk4, 1e-3); /* turning vectors: 2/T at most */
+    CU_ASSERT_DOUBLE_EQUAL(exponent(s, 1), by_rk4, 1e-3);
+    dal_spectrum_free(s);
+    s = spectrum_of(model, "implicit-midpoint", h, 0, 100);
+    CU_ASSERT_DOUBLE_EQUAL(sum_of(s), 2.0 * by_midpoint, 1e-13);
+    dal_spectrum_free(s);
+    dal_model_free(model);
+}
+
+/* Lorenz's system as velocities: 0.9056, 0, -14.5723 (Sprott, Chaos and Time-Series Analysis, 2003,
+ * 4.8.2), three 0 of the coordinates; the divergence is -(10 + 1 + 8/3) everywhere. */
+static const char lorenz[] = "coordinates: [a, b, c]\n"
+                             "accelerations: {a: 10*(b' - a'), b: a'*(28 - c') - b',\n"
+                             "                c: a'*b' - 8/3*c'}\n"
+                             "start: {a': 1, b': 1, c': 20}\n";
+
+static void test_lorenz(void)
+{
+    dal_model *model = fixture_model(lorenz);
+    const long long steps = long_run(40000);
+    dal_spectrum *s = spectrum_of(model, "rk4", 0.01, steps / 20, steps);
+    const double near = 0.05 * sqrt(40000.0 / (double)steps);
+    dal_average a;
+    CU_ASSERT_DOUBLE_EQUAL(exponent(s, 0), 0.9056, near);
+    dal_spectrum_exponent(s, 0, &a);
+    CU_ASSERT(a.low < 0.9056 && 0.9056 < a.high && a.high - a.low < 4.0 * near);
+    for (int i = 1; i < 5; i++) CU_ASSERT_DOUBLE_EQUAL(exponent(s, i), 0.0, near);
+    CU_ASSERT_DOUBLE_EQUAL(exponent(s, 5), -14.5723, near);
+    CU_ASSERT_DOUBLE_EQUAL(divergence_of(s), -41.0 / 3.0, 1e-12);
+    CU_ASSERT_DOUBLE_EQUAL(sum_of(s), -41.0 / 3.0, 1e-3);
+    dal_spectrum_free(s);
+    dal_model_free(model);
+}
+
+/* Henon and Heiles at E = 1/8, a chaotic orbit; a symplectic map has exponents in pairs. */
+static void test_pairs(void)
+{
+    dal_model *model = fixture_model("coordinates: [x, y]\n"
+                                     "lagrangian: >-\n"
+                                     "  (x'^2 + y'^2 - x^2 - y^2)/2 - x^2*y + y^3/3\n"
+                                     "start: {y: -0.25, x': 0.4208127057650699}\n");
+    dal_spectrum *s = spectrum_of(model, "stormer-verlet", 0.05, 1000, long_run(40000));
+    CU_ASSERT_DOUBLE_EQUAL(sum_of(s), 0.0, 1e-13);
+    CU_ASSERT_EQUAL(divergence_of(s), 0.0);
+    dal_average a;
+    dal_spectrum_exponent(s, 0, &a);
+    CU_ASSERT(a.low > 0.02 && a.high < 0.15);
+    CU_ASSERT_DOUBLE_EQUAL(exponent(s, 0) + exponent(s, 3), 0.0, 1e-2);
+    CU_ASSERT_DOUBLE_EQUAL(exponent(s, 1), 0.0, 1e-2);
+    CU_ASSERT_DOUBLE_EQUAL(exponent(s, 2), 0.0, 1e-2);
+    dal_spectrum_free(s);
+    dal_model_free(model);
+}
+
+/* ---- the tangent system against differences ---- */
+
+static void compare_ways(dal_model *model, const char *method)
+{
+    const dal_system *tangent = NULL;
+    dal_spectrum *way[2] = {NULL, NULL};
+    const dal_run_spec spec = fixture_spec(fixture_system(model), method, DAL_PHYSICAL, 0.05);
+    CU_ASSERT_EQUAL_FATAL(dal_model_tangent(model, &tangent, NULL), DAL_OK);
+    for (int k = 0; k < 2; k++) {
+        const dal_system *given = k == 0 ? tangent : NULL;
+        CU_ASSERT_EQUAL_FATAL(dal_spectrum_create(&way[k], &spec, given, 0, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_spectrum_advance(way[k], 10, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_spectrum_is_exact(way[k]), k == 0);
+    }
+    for (int i = 0; i < dal_spectrum_count(way[0]); i++)
+        CU_ASSERT_DOUBLE_EQUAL(exponent(way[0], i), exponent(way[1], i), 1e-9);
+    CU_ASSERT_DOUBLE_EQUAL(divergence_of(way[0]), divergence_of(way[1]), 0.0);
+    for (int k = 0; k < 2; k++) dal_spectrum_free(way[k]);
+}
+
+static void test_ways(void)
+{
+    static const char *const methods[] = {
+        "rk4", "symplectic-euler-10",       "stormer-verlet", "gauss4", "lobatto4", "dop853",
+        "bm4", "implicit-midpoint+yoshida4"};
+    dal_model *model = fixture_model(fixture_full);
+    for (size_t i = 0; i < sizeof methods / sizeof *methods; i++) compare_ways(model, methods[i]);
+    dal_model_free(model);
+}
+
+/* ---- what a step map has ---- */
+
+static void test_rank(void)
+{
+    static const char *const forcing[] = {"gauss4+project", "mclachlan-perlmutter", "dla"};
+    dal_model *model = fixture_model("chaplygin-sleigh-offset");
+    const dal_system *tangent = NULL;
+    dal_spectrum *s = NULL;
+    dal_error error;
+    CU_ASSERT_EQUAL_FATAL(dal_model_tangent(model, &tangent, NULL), DAL_OK);
+    for (size_t i = 0; i < sizeof forcing / sizeof *forcing; i++) {
+        const dal_run_spec spec =
+            fixture_spec(fixture_system(model), forcing[i], DAL_PHYSICAL, 0.05);
+        CU_ASSERT_EQUAL_FATAL(dal_spectrum_create(&s, &spec, tangent, 0, &error), DAL_OK);
+        CU_ASSERT_EQUAL(dal_spectrum_count(s), 5);
+        CU_ASSERT(dal_spectrum_is_whole(s) && !dal_spectrum_is_exact(s));
+        CU_ASSERT_EQUAL(dal_spectrum_advance(s, 20, &error), DAL_OK);
+        dal_spectrum_free(s);
+        CU_ASSERT_EQUAL(dal_spectrum_create(&s, &spec, NULL, 2, &error), DAL_OK);
+        CU_ASSERT(!dal_spectrum_is_whole(s));
+        dal_spectrum_free(s);
+        CU_ASSERT_EQUAL(dal_spectrum_create(&s, &spec, tangent, 6, &error), DAL_ARGUMENT);
+        CU_ASSERT_PTR_NULL(s);
+        CU_ASSERT(strstr(error.message, "the step map has 5") != NULL);
+    }
+    dal_model_free(model);
+}
+
+/* On D = 0 the sum is the divergence whatever forces D: the mean over the surface is the same. */
+static void test_attractor(void)
+{
+    static const char *const methods[] = {"gauss4", "gauss4+project"};
+    dal_model *model = fixture_model("chaplygin-sleigh-offset");
+    for (int i = 0; i < 2; i++) {
+        dal_spectrum *s = spectrum_of(model, methods[i], 0.02, 500, 500);
+        CU_ASSERT(divergence_of(s) < -0.1);
+        CU_ASSERT_DOUBLE_EQUAL(sum_of(s), divergence_of(s), 1e-3);
+        dal_spectrum_free(s);
+    }
+    dal_model_free(model);
+}
+
+static void test_vakonomic(void)
+{
+    dal_model *model = fixture_model("chaplygin-sleigh-vakonomic");
+    dal_spectrum *s = NULL;
+    const dal_run_spec spec = fixture_spec(fixture_system(model), "gauss6", DAL_PHYSICAL, 0.05);
+    CU_ASSERT_EQUAL_FATAL(dal_spectrum_create(&s, &spec, NULL, 0, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_spectrum_count(s), 7);
+    CU_ASSERT_EQUAL(dal_spectrum_advance(s, 100, NULL), DAL_OK);
+    CU_ASSERT_DOUBLE_EQUAL(sum_of(s), divergence_of(s), 1e-5);
+    dal_spectrum_free(s);
+    dal_model_free(model);
+}
+
+static void test_same_bits(void)
+{
+    dal_model *model = fixture_model(fixture_full);
+    const dal_run_spec spec = fixture_spec(fixture_system(model), "gauss4", DAL_PHYSICAL, 0.05);
+    dal_run *run = fixture_run(&spec);
+    dal_spectrum *s = spectrum_of(model, "gauss4", 0.05, 7, 23);
+    size_t count, other;
+    CU_ASSERT_EQUAL(dal_run_advance(run, 30, NULL), DAL_OK);
+    const double *memory = dal_run_memory(run, &count);
+    CU_ASSERT_EQUAL(
+        memcmp(memory, dal_run_memory(dal_spectrum_run(s), &other), count * sizeof *memory), 0);
+    dal_spectrum_free(s);
+    dal_run_free(run);
+    dal_model_free(model);
+}
+
+/* ---- what is refused ---- */
+
+static void test_refuses(void)
+{
+    dal_model *model = fixture_model("chaplygin-sleigh");
+    dal_spectrum *s = NULL;
+    dal_error error;
+    dal_run_spec spec = fixture_spec(fixture_system(model), "gni", DAL_PHYSICAL, 0.05);
+    CU_ASSERT_EQUAL(dal_spectrum_create(&s, &spec, NULL, 0, &error), DAL_UNSUPPORTED);
+    CU_ASSERT(strstr(error.message, "carries a multiplier") != NULL);
+    spec = fixture_spec(fixture_system(model), "dop853", DAL_PHYSICAL, 0.05);
+    spec.options.tolerance = 1e-8;
+    CU_ASSERT_EQUAL(dal_spectrum_create(&s, &spec, NULL, 0, &error), DAL_UNSUPPORTED);
+    CU_ASSERT(strstr(error.message, "tolerance") != NULL);
+    spec.options.tolerance = 0.0;
+    CU_ASSERT_EQUAL(dal_spectrum_create(&s, &spec, NULL, -1, &error), DAL_ARGUMENT);
+    CU_ASSERT_PTR_NULL(s);
+    dal_model_free(model);
+}
+
+static void test_out_of_memory(void)
+{
+    dal_model *model = fixture_model(fixture_bilinear);
+    const dal_run_spec spec = fixture_spec(fixture_system(model), "rk4", DAL_PHYSICAL, 0.25);
+    long n = 0;
+    for (;; n++) {
+        dal_spectrum *s = NULL;
+        allocation_fail_after(n);
+        const dal_status status = dal_spectrum_create(&s, &spec, NULL, 0, NULL);
+        const int failed = allocation_failed();
+        allocation_fail_after(-1);
+        dal_spectrum_free(s);
+        CU_ASSERT_EQUAL_FATAL(status, failed ? DAL_MEMORY : DAL_OK);
+        if (!failed) break;
+    }
+    CU_ASSERT(n >= 7);
+    dal_model_free(model);
+}
+
+void suite_spectrum(void)
+{
+    CU_pSuite suite = CU_add_suite("exponents and volume", NULL, NULL);
+    CU_add_test(suite, "mean", test_mean);
+    CU_add_test(suite, "mean: how often the interval holds it", test_mean_coverage);
+    CU_add_test(suite, "a saddle, closed form", test_saddle);
+    CU_add_test(suite, "a spiral, closed form", test_spiral);
+    CU_add_test(suite, "Lorenz", test_lorenz);
+    CU_add_test(suite, "Henon and Heiles: pairs", test_pairs);
+    CU_add_test(suite, "tangent system against differences", test_ways);
+    CU_add_test(suite, "directions of a step map", test_rank);
+    CU_add_test(suite, "an attractor", test_attractor);
+    CU_add_test(suite, "vakonomic motion", test_vakonomic);
+    CU_add_test(suite, "the trajectory is that of a run", test_same_bits);
+    CU_add_test(suite, "what is refused", test_refuses);
+    CU_add_test(suite, "out of memory", test_out_of_memory);
+}
