@@ -6,14 +6,14 @@
  * II.1.  Order 2, symmetric, symplectic on the lift; keeps D quadratic in (q,v). */
 #include <dalembert_kernel.h>
 
-static const double half[] = {0.5}, one[] = {1.0}, zero[] = {0.0};
+static const double half[] = {0.5}, one[] = {1.0};
 
-static const dal_tableau tableau = {1, half, one, zero, half, zero, one, half, zero};
+static const dal_tableau tableau = {1, half, one, NULL, half, NULL, one, half, NULL};
 
 DAL_INLINE dal_status step(dal_step *s) { return dal_collocation(s, &tableau); }
 
 DAL_INTEGRATOR(implicit_midpoint, step, .name = "implicit-midpoint",
                .summary = "implicit midpoint rule",
                .reference = "Hairer, Lubich, Wanner 2006, II.1", .order = 2, .stages = 1,
-               .claims = DAL_SYMMETRIC | DAL_SYMPLECTIC | DAL_KEEPS_QUADRATIC,
+               .claims = DAL_SYMMETRIC | DAL_SYMPLECTIC | DAL_KEEPS_QUADRATIC | DAL_REMEMBERS,
                .needs = DAL_NEEDS_FIELD);

@@ -23,9 +23,10 @@ static const char conservative[] =
 /* Every claim there is, with its verification. */
 static const unsigned verified =
     DAL_SYMMETRIC | DAL_SYMPLECTIC | DAL_KEEPS_BILINEAR | DAL_KEEPS_QUADRATIC | DAL_KEEPS_D |
-    DAL_KEEPS_ENERGY |                               /* here and in test_integrators.c */
-    DAL_KEEPS_D_MIDPOINT | DAL_CARRIES_MULTIPLIER |  /* test_constrained.c */
-    DAL_ADAPTIVE |                                   /* test_adaptive.c */
+    DAL_KEEPS_ENERGY |                              /* here and in test_integrators.c */
+    DAL_KEEPS_D_MIDPOINT | DAL_CARRIES_MULTIPLIER | /* test_constrained.c */
+    DAL_ADAPTIVE |                                  /* test_adaptive.c */
+    DAL_REMEMBERS | /* that a checkpoint has the slopes: test_run.c */
     DAL_EXPLICIT | DAL_MODIFIER | DAL_COMPONENTWISE; /* the batches' and the generated steps */
 
 static void test_claims_known(void)

@@ -32,7 +32,7 @@ static const struct composed {
     {"kahan-li6", 6, 9, c_kahan_li6, fixture_gentle, 10.0, 16, 160},
     {"suzuki8", 8, 15, c_suzuki8, fixture_gentle, 10.0, 30, 90},
     {"kahan-li8", 8, 17, c_kahan_li8, fixture_gentle, 10.0, 24, 72},
-    {"sofroniou10", 10, 35, c_sofroniou10, fixture_gentle, 10.0, 14, 28},
+    {"sofroniou10", 10, 35, c_sofroniou10, fixture_gentle, 10.0, 12, 24},
 };
 static const struct composed alternating[] = {
     {"mclachlan4", 4, 10, c_mclachlan4, fixture_full, 1.0, 16, 160},

@@ -243,7 +243,7 @@ static void put_constants(dal__generation *g)
         {"DIM", k->dim},
         {"LIFTED", k->lifted},
         {"STAGES", stages},
-        {"SLOPES", collocation ? k->slopes : 0},
+        {"SLOPES", k->slopes},
         {"SOLVER", k->options.solver},
         {"ITERATIONS", k->options.iterations},
         {"EXTRA_SWEEPS", k->options.extra_sweeps},

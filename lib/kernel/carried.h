@@ -2,7 +2,9 @@
  *
  *     carried:  y[dim] | r[dim] | the clock | what the method remembers
  *
- * All that survives a step is this array; all else is scratch. */
+ * All that survives a step is this array; all else is scratch.  The slopes are those of a method
+ * that asks for them (DAL_REMEMBERS_SLOPES), [1 + DAL__DIFFERENCES][stages*(nw + n)]: see
+ * collocation.h. */
 #ifndef DAL_KERNEL_CARRIED_H
 #define DAL_KERNEL_CARRIED_H
 
@@ -18,7 +20,10 @@
     X(reaction, REACTION) /* [m] the multipliers of the last step, of methods that carry them */   \
     X(substep, ONE)       /* the size planned for the next substep, 0: there is no plan */         \
     X(level, TWO)         /* the energy of the start, and 1 when it is known */                    \
-    X(slopes, SLOPES)     /* [stages*(nw + n)] stage slopes of the last collocation step */
+    X(slopes, SLOPES)     /* stage slopes of the last collocation step, and differences */
+
+/* Differences kept beside the slopes. */
+enum { DAL__DIFFERENCES = 4 };
 
 /* Places behind y and r. */
 enum {

@@ -10,8 +10,15 @@
  * for q, e and pi, each the partner of the other: symplectic where b_i p_ij + b_j a_ji = b_i b_j.
  * For long runs (Hairer, McLachlan, Razakarivony, BIT 48 (2008) 231): each coefficient is head +
  * tail, the head a multiple of 1/1024, summed apart; stages start from y + r; iteration to
- * stagnation.  The first guess is the polynomial through the slopes of the last step where there
- * was one of the same size, else the slopes at the present state. */
+ * stagnation; the step ends with the stages of the slopes it ended at.
+ *
+ * The first guess goes on with the polynomial through the slopes K of the last step, corrected by
+ * how far the same was off before: with miss_k = K_k - E K_(k-1), E the extrapolation,
+ *
+ *     guess_(k+1) = E K_k + miss_k + D miss_k + D^2 miss_k + D^3 miss_k,   D x_k = x_k - x_(k-1),
+ *
+ * of which each term gains an order in h.  In a first step, or where it leads nowhere (it is far
+ * off when h is large), it is the slopes at the present state. */
 #ifndef DAL_KERNEL_COLLOCATION_H
 #define DAL_KERNEL_COLLOCATION_H
 
@@ -24,26 +31,30 @@ typedef struct dal_tableau {
     const double *partner, *partner_tail; /* [s*s] of w and p, where a is that of q, e and pi */
 } dal_tableau;
 
+DAL_INLINE const double *dal__tail(const double *tail, int first)
+{
+    return tail ? tail + first : tail;
+}
+
 typedef struct dal_stages {
     const dal_tableau *method;
     double h;
     num *v, *q, *pi; /* [s*nw], [s*n], [s*n] */
-    num *f;          /* [s*3n] or [s*nw] */
+    num *f, *force;  /* [s*3n] or [s*nw]; [s*n] of it kept: F_q^T Pi */
     num *w;          /* [s] 1/E_i */
     num *mu;         /* [s] */
     int stride;      /* of f */
 } dal_stages;
 
-/* sum_j weight_j x[j*stride], heads and tails summed apart. */
+/* sum_j weight_j x[j*stride], heads and tails (NULL: all 0) summed apart. */
 DAL_INLINE num dal__weighted(const double *head, const double *tail, int stages, const num *x,
                              int stride)
 {
-    num large = head[0] * x[0], small = tail[0] * x[0];
-    DAL_EACH(i, stages - 1) {
-        const int j = i + 1;
-        large = dal_fma(dal_num(head[j]), x[j * stride], large);
-        small = dal_fma(dal_num(tail[j]), x[j * stride], small);
-    }
+    num large = head[0] * x[0];
+    DAL_EACH(i, stages - 1) large = dal_fma(dal_num(head[i + 1]), x[(i + 1) * stride], large);
+    if (!tail) return large;
+    num small = tail[0] * x[0];
+    DAL_EACH(i, stages - 1) small = dal_fma(dal_num(tail[i + 1]), x[(i + 1) * stride], small);
     return large + small;
 }
 /* The statement with STAGES a constant where there are few of them: the sum over the stages then
@@ -85,25 +96,23 @@ DAL_INLINE void dal__end(const dal_stages *k, const num *x, int stride, int coun
 /* Stage values base + (r + h sum a x) for count components, by the coefficients a or their
  * partner's; out must not overlap x. */
 DAL_INLINE void dal__stage_value(const dal_step *s, const dal_stages *k, int partner, int i,
-                                 int first, int count, const num *x, int stride, dal_mask active,
+                                 int first, int count, const num *x, int stride,
                                  num *DAL_RESTRICT out)
 {
-    (void)active; /* one lane that does not iterate asks for nothing */
     const dal_tableau *m = k->method;
     const int stages = DAL_STAGES(m);
     const double *a = (partner ? m->partner : m->a) + i * stages;
-    const double *tail = (partner ? m->partner_tail : m->a_tail) + i * stages;
+    const double *tail = dal__tail(partner ? m->partner_tail : m->a_tail, i * stages);
     const num *y = s->y + first, *r = s->r + first, h = dal_num(k->h);
-    DAL__BY_STAGES(
-        stages, DAL_EACH(c, count) out[c] = DAL_KEEP(
-                    active, y[c] + dal_fma(h, dal__weighted(a, tail, STAGES, x + c, stride), r[c]),
-                    out[c]));
+    DAL__BY_STAGES(stages,
+                   DAL_EACH(c, count) out[c] =
+                       y[c] + dal_fma(h, dal__weighted(a, tail, STAGES, x + c, stride), r[c]));
 }
 DAL_INLINE void dal__stage_values(const dal_step *s, const dal_stages *k, int partner, int first,
-                                  int count, const num *x, int stride, dal_mask active, num *out)
+                                  int count, const num *x, int stride, num *out)
 {
     DAL_EACH(i, DAL_STAGES(k->method))
-        dal__stage_value(s, k, partner, i, first, count, x, stride, active, out + i * count);
+        dal__stage_value(s, k, partner, i, first, count, x, stride, out + i * count);
 }
 
 /* The slopes of pi: L_i = -(p + r - h sum a F_q^T Pi) - F_v^T Pi. */
@@ -114,10 +123,22 @@ DAL_INLINE void dal__momentum_slopes(dal_step *s, const dal_stages *k, num *imag
     DAL_EACH(i, stages) {
         num *DAL_RESTRICT slope = image + i * n;
         const num *Fv = k->f + i * k->stride + 2 * n;
-        dal__weighted_all(k->method->partner + i * stages, k->method->partner_tail + i * stages,
-                          stages, k->f + n, k->stride, n, slope);
+        dal__weighted_all(k->method->partner + i * stages,
+                          dal__tail(k->method->partner_tail, i * stages), stages, k->f + n,
+                          k->stride, n, slope);
         DAL_EACH(j, n) slope[j] = -(p[j] + dal_fma(dal_num(-k->h), slope[j], r[j])) - Fv[j];
     }
+}
+
+/* The stages' F_q^T Pi for the end of the step: those of a lane's own last sweep. */
+DAL_INLINE void dal__keep_forces(const dal_step *s, const dal_stages *k, dal_mask active)
+{
+    (void)active; /* one lane that does not iterate asks for nothing */
+    const int n = DAL_N(s);
+    DAL_EACH(i, DAL_STAGES(k->method))
+        DAL_EACH(j, n)
+            k->force[i * n + j] =
+                DAL_KEEP(active, k->f[i * k->stride + n + j], k->force[i * n + j]);
 }
 
 /* Asks the system at every stage; on the physical space F is the image of K. */
@@ -136,12 +157,12 @@ DAL_INLINE void dal__collocation_map(dal_step *s, dal_equation *eq)
     const dal_stages *k = (const dal_stages *)eq->context;
     const int n = DAL_N(s), nw = DAL_NW(s);
     num *const image = eq->block[0].image;
-    dal__stage_values(s, k, 1, n, nw, eq->block[0].u, nw, eq->active, k->v);
-    dal__stage_values(s, k, 0, 0, n, k->v, nw, eq->active, k->q);
-    if (DAL_LIFTED(s))
-        dal__stage_values(s, k, 0, dal_at_pi(s), n, eq->block[1].u, n, eq->active, k->pi);
+    dal__stage_values(s, k, 1, n, nw, eq->block[0].u, nw, k->v);
+    dal__stage_values(s, k, 0, 0, n, k->v, nw, k->q);
+    if (DAL_LIFTED(s)) dal__stage_values(s, k, 0, dal_at_pi(s), n, eq->block[1].u, n, k->pi);
     dal__ask_stages(s, k, image);
     if (!DAL_LIFTED(s)) return;
+    dal__keep_forces(s, k, eq->active);
     DAL_EACH(i, DAL_STAGES(k->method))
         DAL_EACH(j, n)
             image[i * n + j] = dal_fma(k->pi[i * n + j], k->w[i], k->f[i * k->stride + j]);
@@ -152,7 +173,7 @@ DAL_INLINE void dal__collocation_map(dal_step *s, dal_equation *eq)
  */
 DAL_INLINE void dal__rounded(int count, const double *head, const double *tail, double *a)
 {
-    for (int i = 0; i < count; i++) a[i] = head[i] + tail[i];
+    for (int i = 0; i < count; i++) a[i] = head[i] + (tail ? tail[i] : 0.0);
 }
 DAL_INLINE void dal__product(int s, const double *a, const double *b, double *ab)
 {
@@ -202,8 +223,12 @@ DAL_INLINE void dal__add_multiple(num *DAL_RESTRICT u, double factor, const num 
     DAL_EACH(i, count) u[i] = dal_fma(dal_num(factor), x[i], u[i]);
 }
 
-/* Guess from the last step's polynomial. */
-DAL_INLINE void dal__extrapolate(const dal_tableau *m, dal_block *b, int width, const num *last)
+/* What is kept of a block: slopes, misses, their differences, each behind the other. */
+DAL_INLINE int dal__kept(const dal_step *s, int stages) { return stages * (DAL_NW(s) + DAL_N(s)); }
+
+/* Guess from the last step's polynomial and from how far it was off before. */
+DAL_INLINE void dal__extrapolate(const dal_tableau *m, dal_block *b, int width, const num *last,
+                                 int stride)
 {
     const int stages = DAL_STAGES(m);
     DAL_EACH(i, b->size) b->u[i] = dal_num(0.0);
@@ -211,32 +236,64 @@ DAL_INLINE void dal__extrapolate(const dal_tableau *m, dal_block *b, int width, 
         DAL_EACH(j, stages)
             dal__add_multiple(b->u + i * width, m->extrapolation[i * stages + j], last + j * width,
                               width);
-}
-DAL_INLINE void dal__guess_last(dal_step *s, const dal_tableau *m, dal_equation *eq)
-{
-    const num *momenta = s->slopes + DAL_STAGES(m) * DAL_NW(s);
-    dal__extrapolate(m, &eq->block[0], DAL_NW(s), s->slopes);
-    if (DAL_LIFTED(s)) dal__extrapolate(m, &eq->block[1], DAL_N(s), momenta);
+    DAL_EACH(d, DAL__DIFFERENCES)
+        DAL_EACH(i, b->size) b->u[i] += last[(d + 1) * stride + i];
 }
 
-/* Solves the stages from the last step's polynomial where there is one; where there is none, or
- * where it led nowhere (it is far off when h is large), from the present slopes. */
+/* Keeps how far the polynomial was off and the differences, where it served; else nothing. */
+DAL_INLINE void dal__keep_misses(const dal_block *b, dal_mask lanes, dal_mask served,
+                                 num *DAL_RESTRICT last, int stride)
+{
+    DAL_EACH(i, b->size) {
+        num miss = b->u[i] - b->start[i];
+        DAL_EACH(d, DAL__DIFFERENCES) miss += last[(d + 1) * stride + i];
+        DAL_EACH(d, DAL__DIFFERENCES) {
+            num *const kept = last + (d + 1) * stride + i, before = *kept;
+            *kept = dal_select(lanes, dal_select(served, miss, dal_num(0.0)), before);
+            miss -= before;
+        }
+    }
+}
+
+/* Solves the stages in the lanes tried, which are then those where that was possible. */
+DAL_INLINE dal_status dal__try_guess(dal_step *s, dal_equation *eq, dal_mask *tried)
+{
+    dal_status status = DAL_OK;
+    s->unconverged &= ~*tried;
+    s->alive = *tried;
+    if (dal_any(*tried)) status = dal_solve(s, eq, dal__collocation_map, dal__collocation_matrix);
+    *tried = s->alive;
+    return status;
+}
+
+/* From the last step's polynomial, where there is one. */
+DAL_INLINE dal_mask dal__go_on(dal_step *s, const dal_stages *k, dal_equation *eq)
+{
+    const int stages = DAL_STAGES(k->method), stride = dal__kept(s, stages);
+    const dal_mask lanes = s->alive;
+    num *momenta = s->slopes + stages * DAL_NW(s);
+    dal_mask served = lanes & dal_equal(*s->slopes_h, dal_num(k->h));
+    dal__extrapolate(k->method, &eq->block[0], DAL_NW(s), s->slopes, stride);
+    if (DAL_LIFTED(s)) dal__extrapolate(k->method, &eq->block[1], DAL_N(s), momenta, stride);
+    dal__try_guess(s, eq, &served);
+    dal__keep_misses(&eq->block[0], lanes, served, s->slopes, stride);
+    if (DAL_LIFTED(s)) dal__keep_misses(&eq->block[1], lanes, served, momenta, stride);
+    return served;
+}
+
+/* Solves the stages: where the polynomial leads nowhere, from the present slopes. */
 DAL_INLINE dal_status dal__solve_stages(dal_step *s, const dal_stages *k, dal_equation *eq)
 {
-    const dal_mask lanes = s->alive, known = lanes & dal_equal(*s->slopes_h, dal_num(k->h));
-    dal_mask done = ~dal_all(), tried = known;
+    const dal_mask lanes = s->alive;
+    const dal_mask served = DAL_SLOPES(s) ? dal__go_on(s, k, eq) : ~dal_all();
+    dal_mask rest = lanes & ~served;
     dal_status status = DAL_OK;
-    dal__guess_last(s, k->method, eq);
-    for (int guess = 0; guess < 2; guess++, tried = lanes & ~done) {
-        if (!dal_any(tried)) continue;
-        if (guess == 1) DAL_TRY(dal__guess_present(s, eq, tried));
-        s->unconverged &= ~tried;
-        s->alive = tried;
-        status = dal_solve(s, eq, dal__collocation_map, dal__collocation_matrix);
-        done |= s->alive;
+    if (dal_any(rest)) {
+        DAL_TRY(dal__guess_present(s, eq, rest));
+        status = dal__try_guess(s, eq, &rest);
     }
-    s->alive = done;
-    return dal_any(done) ? DAL_OK : status;
+    s->alive = served | rest;
+    return dal_any(s->alive) ? DAL_OK : status;
 }
 
 /* Keeps the slopes for the next step's guess. */
@@ -248,6 +305,7 @@ DAL_INLINE void dal__keep_block(const dal_step *s, const dal_block *b, num *DAL_
 }
 DAL_INLINE void dal__keep_slopes(dal_step *s, const dal_stages *k, const dal_equation *eq)
 {
+    if (!DAL_SLOPES(s)) return;
     num *momenta = s->slopes + DAL_STAGES(k->method) * DAL_NW(s);
     dal__keep_block(s, &eq->block[0], s->slopes);
     if (DAL_LIFTED(s)) dal__keep_block(s, &eq->block[1], momenta);
@@ -261,7 +319,7 @@ DAL_INLINE void dal__gauge_stages(dal_step *s, dal_stages *k)
     DAL_EACH(i, DAL_STAGES(m)) k->mu[i] = dal_mu_e(s, s->t + m->c[i] * k->h);
     const int stages = DAL_STAGES(m);
     DAL_EACH(i, stages) {
-        const double *a = m->a + i * stages, *tail = m->a_tail + i * stages;
+        const double *a = m->a + i * stages, *tail = dal__tail(m->a_tail, i * stages);
         const num moved = k->h * dal__weighted(a, tail, stages, k->mu, 1);
         k->w[i] = 1.0 / (s->y[dal_at_e(s)] + moved);
     }
@@ -275,7 +333,7 @@ DAL_INLINE dal_status dal__collocation_momenta(dal_step *s, const dal_stages *k,
     DAL_VECTOR(s, rate, DAL_STAGES(k->method));
     DAL_EACH(i, DAL_STAGES(k->method)) rate[i] = dal_gauge_rate(k->pi + i * n, n, k->w[i]);
     num *const p = d + dal_at_p(s);
-    dal__end(k, k->f + n, k->stride, n, p);
+    dal__end(k, k->force, n, n, p);
     DAL_EACH(j, n) p[j] = -p[j];
     dal__end(k, eq->block[1].u, n, n, d + dal_at_pi(s));
     dal__end(k, k->mu, 1, 1, d + dal_at_e(s));
@@ -288,22 +346,12 @@ DAL_INLINE dal_status dal__collocation_end(dal_step *s, const dal_stages *k, con
 {
     const int n = DAL_N(s), nw = DAL_NW(s);
     DAL_VECTOR(s, d, DAL_DIM(s));
+    dal__stage_values(s, k, 1, n, nw, eq->block[0].u, nw, k->v);
+    if (DAL_LIFTED(s)) dal__stage_values(s, k, 0, dal_at_pi(s), n, eq->block[1].u, n, k->pi);
     dal__end(k, k->v, nw, n, d);
     dal__end(k, eq->block[0].u, nw, nw, d + n);
     if (DAL_LIFTED(s)) DAL_TRY(dal__collocation_momenta(s, k, eq, d));
     return dal_update_multiple(s, k->h, k->h, d);
-}
-
-/* Lanes that do not iterate are computed with all the same: their stages stand at the present. */
-DAL_INLINE void dal__fill_stages(const dal_step *s, const dal_stages *k)
-{
-    if (DAL_LANES == 1) return;
-    const int n = DAL_N(s), nw = DAL_NW(s);
-    DAL_EACH(i, DAL_STAGES(k->method)) {
-        DAL_EACH(c, nw) k->v[i * nw + c] = s->y[n + c];
-        DAL_EACH(c, n) k->q[i * n + c] = s->y[c];
-        DAL_EACH(c, DAL_LIFTED(s) * n) k->pi[i * n + c] = s->y[dal_at_pi(s) + c];
-    }
 }
 
 /* One step of size s->h from the present state and time; leaves the time advanced. */
@@ -313,11 +361,13 @@ DAL_INLINE dal_status dal_collocation(dal_step *s, const dal_tableau *method)
     DAL_VECTOR(s, q, DAL_STAGES(method) * DAL_N(s));
     DAL_VECTOR(s, pi, DAL_STAGES(method) * DAL_N(s));
     DAL_VECTOR(s, f, DAL_STAGES(method) * (2 * DAL_N(s) + DAL_NW(s)));
+    DAL_VECTOR(s, force, DAL_STAGES(method) * DAL_N(s));
     DAL_VECTOR(s, w, DAL_STAGES(method));
     DAL_VECTOR(s, mu, DAL_STAGES(method));
     DAL_BLOCK(s, slopes, DAL_STAGES(method) * DAL_NW(s), DAL_MAY_NEWTON(s));
     DAL_BLOCK(s, momenta, DAL_LIFTED(s) * DAL_STAGES(method) * DAL_N(s), DAL_MAY_NEWTON(s));
-    dal_stages k = {method, s->h, v, q, pi, f, w, mu, DAL_LIFTED(s) ? 3 * DAL_N(s) : DAL_NW(s)};
+    dal_stages k = {method, s->h,  v, q,  pi,
+                    f,      force, w, mu, DAL_LIFTED(s) ? 3 * DAL_N(s) : DAL_NW(s)};
     dal_equation eq = {{slopes, momenta}, 1 + DAL_LIFTED(s), &k, dal_all()};
     eq.block[0].weight = eq.block[1].weight = fabs(s->h);
     eq.block[0].scale = dal_velocity_scale(s, s->h);
@@ -325,7 +375,6 @@ DAL_INLINE dal_status dal_collocation(dal_step *s, const dal_tableau *method)
         dal__gauge_stages(s, &k);
         eq.block[1].scale = dal_momentum_scale(s, s->h);
     }
-    dal__fill_stages(s, &k);
     DAL_TRY(dal__solve_stages(s, &k, &eq));
     dal__keep_slopes(s, &k, &eq);
     return dal__collocation_end(s, &k, &eq);

@@ -58,6 +58,7 @@ typedef enum dal_question {
 #define DAL_TANGENT(s)      DAL__TANGENT
 #define DAL_PROPERTIES(s)   DAL__PROPERTIES
 #define DAL_CARRIED(s)      DAL__REACTION /* multipliers carried: m, or 0 */
+#define DAL_SLOPES(s)       DAL__SLOPES   /* numbers kept of slopes, or 0 */
 #define DAL_STAGES(t)       DAL__STAGES
 #define DAL__ROOM(count)    ((count) > 0 ? (count) : 1)
 #define DAL__COUNT_ONE      1
@@ -126,6 +127,7 @@ DAL_INLINE void dal_ask(dal_step *s, dal_question question, double t, const num 
 #define DAL_MAY_NEWTON(s)   ((s)->has_jacobian && (s)->solver != DAL_FIXED_POINT)
 #define DAL_PROPERTIES(s)   ((s)->properties)
 #define DAL_CARRIED(s)      ((s)->m)
+#define DAL_SLOPES(s)       ((s)->slopes_kept)
 #define DAL_STAGES(t)       ((t)->stages) /* of a tableau */
 
 struct dal_step {
@@ -141,6 +143,7 @@ struct dal_step {
 #undef X
     num *memory; /* [remembered] all these, one behind the other */
     int remembered;
+    int slopes_kept;
 
     dal_mask alive;       /* lanes that go on */
     dal_mask unconverged; /* lanes whose implicit equations were not solved */

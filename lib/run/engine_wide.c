@@ -31,14 +31,13 @@ static const dal_callbacks *callbacks(const dal_system *system)
     return &system->call;
 }
 
-/* Nums of the carried array that an integrator may change: some methods keep no stage slopes, and
- * where they neither solve nor divide anything they leave all but y and r alone. */
+/* Nums of the carried array that an integrator may change: where it neither solves nor divides
+ * anything it leaves all but y and r alone. */
 static size_t changing(const engine *e)
 {
-    const bool forgets = (e->chain[0]->claims & DAL_COMPONENTWISE) != 0;
-    const bool solves = e->shape.lifted || e->shape.depth > 1 || e->shape.options.tolerance > 0.0;
-    if (!forgets) return e->shape.carried * DAL_GROUPS;
-    return solves ? (size_t)(e->step.slopes - e->carried) : dal__at(&e->shape, 0) * DAL_GROUPS;
+    const bool alone = !e->shape.lifted && e->shape.depth == 1 && e->shape.options.tolerance == 0.0;
+    const bool plain = alone && (e->chain[0]->claims & DAL_COMPONENTWISE);
+    return (plain ? dal__at(&e->shape, 0) : e->shape.carried) * DAL_GROUPS;
 }
 
 /* Remembers the first answer that is not finite. */
@@ -107,6 +106,7 @@ static void place_memory(engine *e)
     DAL__MEMORY_LIST(X)
 #undef X
     e->step.remembered = (int)(at - e->step.memory);
+    e->step.slopes_kept = e->shape.slopes;
 }
 
 /* The step's fixed part. */

@@ -242,7 +242,8 @@ static dal_status measure(dal__shape *k, dal_error *error)
     k->workspace = k->system->workspace ? k->system->workspace : (size_t)k->system->parameters;
     if (k->workspace > MOST_NUMBERS)
         return dal__error(error, DAL_TOO_LARGE, 0, 0, "a workspace of %zu numbers", k->workspace);
-    k->slopes = k->stages * (k->nw + k->n);
+    const bool remembers = k->method.chain[0]->claims & DAL_REMEMBERS;
+    k->slopes = remembers ? (1 + DAL__DIFFERENCES) * k->stages * (k->nw + k->n) : 0;
     k->reaction = dal_method_claims(&k->method) & DAL_CARRIES_MULTIPLIER ? k->m : 0;
     k->carried = dal__at(k, DAL__MEMORY);
 #define X(member, count) k->carried += (size_t)DAL__COUNT_##count(k);
