@@ -182,6 +182,8 @@ struct dal_system {
                                number of the constraint (from 1), DAL_SINGULAR_MASS, or DAL_OK */
     const dal_system *extended; /* the same with F continued off D = 0 so that E is exact, for the
                                    option extend-energy; NULL: there is none */
+    const dal_system *in_long;  /* the same with long numbers in the place of doubles, its
+                                   workspace too, for the option precision; NULL: there is none */
     void *data;                 /* the owner's */
 };
 
@@ -192,6 +194,7 @@ struct dal_system {
 
 typedef enum dal_space { DAL_LIFTED, DAL_PHYSICAL } dal_space;
 typedef enum dal_solver { DAL_SOLVER_AUTO, DAL_FIXED_POINT, DAL_NEWTON } dal_solver;
+typedef enum dal_precision { DAL_DOUBLE, DAL_LONG_NUMBERS } dal_precision;
 typedef enum dal_sums { DAL_SUMS_COMPENSATED, DAL_SUMS_PLAIN } dal_sums;
 
 /* type, name, its word outside C, default, least, greatest, words (for choices), help */
@@ -212,7 +215,9 @@ typedef enum dal_sums { DAL_SUMS_COMPENSATED, DAL_SUMS_PLAIN } dal_sums;
     X(int, extra_sweeps, "extra-sweeps", 0, 0, 1000, NULL,                                         \
       "iterations of an implicit equation after it is solved")                                     \
     X(int, sums, "sums", DAL_SUMS_COMPENSATED, 0, 1, "compensated|plain",                          \
-      "how steps are added to the state")
+      "how steps are added to the state")                                                          \
+    X(int, precision, "precision", DAL_DOUBLE, 0, 1, "double|long",                                \
+      "numbers of a run; long: the longest there are, some hundred times slower")
 
 typedef struct dal_options {
 #define X(type, name, word, initial, least, greatest, words, help) type name;

@@ -38,7 +38,7 @@ static void check_tape(dal__graph *graph, const dal__node *nodes, int count)
     require(dal__tapes_finish(tapes) == DAL_OK);
     double *work = malloc(dal__tapes_workspace(tapes) * sizeof *work), out[3];
     memcpy(work, values, PARAMETERS * sizeof *work);
-    dal__tapes_prepare(tapes, work);
+    dal__tapes_prepare_x1(tapes, work);
     memcpy(work + dal__tapes_inputs(tapes), values + PARAMETERS, INPUTS * sizeof *work);
     dal__tape_run_x1(tapes, 0, work, out);
     for (int i = 0; i < count; i++) {

@@ -92,7 +92,7 @@ static double *filled_work(const dal__tapes *tapes, int lanes, int round)
     double *single = formula_work(size), *work = formula_work(size * (size_t)lanes);
     for (size_t i = 0; i < size * (size_t)lanes; i++) work[i] = NAN;
     memcpy(single, parameters, sizeof parameters);
-    dal__tapes_prepare(tapes, single);
+    dal__tapes_prepare_x1(tapes, single);
     int first = dal__tapes_inputs(tapes);
     for (int lane = 0; lane < lanes; lane++) {
         for (int i = 0; i < first; i++) work[i * lanes + lane] = single[i];
@@ -286,7 +286,7 @@ static void test_constants_stay(void)
     dal__graph_free(graph);
 }
 
-/* New parameter values come into force with dal__tapes_prepare, without a new tape. */
+/* New parameter values come into force with dal__tapes_prepare_x1, without a new tape. */
 static void test_parameters_change(void)
 {
     static const char *const texts[] = {"x*exp(a)/(a + b)", "sqrt(a) - b"};
@@ -296,7 +296,7 @@ static void test_parameters_change(void)
     for (double a = 1.0; a < 4.0; a++) {
         work[A] = a;
         work[B] = 0.5;
-        dal__tapes_prepare(tapes, work);
+        dal__tapes_prepare_x1(tapes, work);
         for (int i = 0; i < INPUTS; i++) work[dal__tapes_inputs(tapes) + i] = 2.0;
         dal__tape_run_x1(tapes, 0, work, out);
         CU_ASSERT_DOUBLE_EQUAL(out[0], 2.0 * exp(a) / (a + 0.5), 1e-14);

@@ -117,7 +117,7 @@ bool dal__is_function(const char *name, size_t length);
 /* All programs of one system over one block of numbers:
  *     work = [ parameters | hoisted and constants | inputs | temporaries ]
  * Symbols 0..parameters-1 are parameters, the next inputs symbols are inputs.  Nodes that depend on
- * parameters alone are hoisted: computed by dal__tapes_prepare, not by each run of a program.
+ * parameters alone are hoisted: computed by dal__tapes_prepare_x1, not by each run of a program.
  * A program's arithmetic for a node is the same in every program and at every width: same bits. */
 typedef struct dal__tapes dal__tapes;
 
@@ -131,8 +131,10 @@ dal_status dal__tapes_finish(dal__tapes *tapes);
 size_t dal__tapes_workspace(const dal__tapes *tapes);        /* numbers in work */
 int dal__tapes_inputs(const dal__tapes *tapes);              /* where the inputs begin in work */
 int dal__tapes_length(const dal__tapes *tapes, int program); /* instructions, for reports */
-/* After the parameters in work have been set (one lane; a batch spreads the result). */
-void dal__tapes_prepare(const dal__tapes *tapes, double *work);
+/* After the parameters in work have been set: one lane (a batch spreads the result), and one of
+ * long numbers. */
+void dal__tapes_prepare_x1(const dal__tapes *tapes, double *work);
+void dal__tapes_prepare_x1_LONGER(const dal__tapes *tapes, double *work);
 /* Runs a program on the inputs in work and writes its outputs; work and out are interleaved by
  * lanes and aligned to them. */
 #define DAL__TAPE_RUN(name, variant, lanes, set, group)                                            \
@@ -143,7 +145,7 @@ DAL__VARIANT_LIST(DAL__TAPE_RUN, dal__tape_run)
 /* Writes a program as C statements over num that set out[0], out[1], ...: its instructions one by
  * one, so that it computes the same bits.  Input number i is called input[i].text; parameters and
  * what was hoisted are DAL_WORK(place), with their places in work.  The second writes what
- * dal__tapes_prepare computes. */
+ * dal__tapes_prepare_x1 computes. */
 typedef struct dal__input_name {
     char text[16];
 } dal__input_name;

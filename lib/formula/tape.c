@@ -111,10 +111,3 @@ size_t dal__tapes_workspace(const dal__tapes *tapes) { return tapes->workspace; 
 int dal__tapes_inputs(const dal__tapes *tapes) { return (int)tapes->first_input; }
 
 int dal__tapes_length(const dal__tapes *tapes, int program) { return tapes->tape[program].length; }
-
-void dal__tapes_prepare(const dal__tapes *tapes, double *work)
-{
-    size_t bytes = (size_t)tapes->numbers * sizeof *work;
-    memcpy(work + tapes->parameters, tapes->number, bytes);
-    dal__execute_x1(&tapes->hoisted, work);
-}

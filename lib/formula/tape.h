@@ -33,6 +33,4 @@ struct dal__tapes {
     size_t first_input, temporaries, workspace; /* places */
 };
 
-void dal__execute_x1(const dal__tape *tape, double *work);
-
 #endif

@@ -49,3 +49,12 @@ void DAL_WIDE(dal__tape_run)(const dal__tapes *tapes, int program, double *work,
         EACH_GROUP o[(size_t)k * DAL_GROUPS + g] = AT(place);
     }
 }
+
+#if DAL_LANES == 1
+void DAL_WIDE(dal__tapes_prepare)(const dal__tapes *tapes, double *work)
+{
+    num *numbers = (num *)work + tapes->parameters;
+    for (int i = 0; i < tapes->numbers; i++) numbers[i] = dal_num(tapes->number[i]);
+    DAL_WIDE(dal__execute)(&tapes->hoisted, work);
+}
+#endif

@@ -140,6 +140,8 @@ static dal_status check(dal__generation *g, int lanes, const char *prefix, dal_e
     if (g->spec->options.tolerance > 0.0)
         return dal__error(error, DAL_UNSUPPORTED, 0, 0,
                           "steps under a tolerance are not generated: each lane has its own");
+    if (g->spec->options.precision != DAL_DOUBLE)
+        return dal__error(error, DAL_UNSUPPORTED, 0, 0, "steps in long numbers are not generated");
     g->programs = dal__programs_of(g->shape.system);
     if (!g->programs)
         return dal__error(error, DAL_UNSUPPORTED, 0, 0,

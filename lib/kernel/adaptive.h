@@ -62,18 +62,19 @@ DAL_INLINE double dal__plan(const dal_trial *trial, double size, double planned)
 DAL_INLINE dal_status dal_control(dal_step *s, dal_attempt *attempt, dal_trial *trial)
 {
     const double t = s->t, whole = fabs(s->h), direction = s->h < 0.0 ? -1.0 : 1.0;
-    double left = whole, *planned = s->substep;
-    if (!(*planned > 0.0)) *planned = whole;
+    double left = whole, planned = dal_lane(*s->substep, 0);
+    if (!(planned > 0.0)) planned = whole;
     trial->again = 0;
     for (int count = 0; count < DAL__MOST_TRIALS; count++) {
-        const double size = dal__substep(whole, left, *planned);
+        const double size = dal__substep(whole, left, planned);
         if (!(size > 0.0)) {
-            *planned = 0.0;
+            *s->substep = dal_num(0.0);
             break;
         }
         trial->h = direction * size;
         DAL_TRY(attempt(s, trial));
-        *planned = dal__plan(trial, size, *planned);
+        planned = dal__plan(trial, size, planned);
+        *s->substep = dal_num(planned);
         trial->again = !(trial->ratio <= 1.0);
         if (trial->again) continue;
         DAL_TRY(dal_update(s, trial->h, trial->change));

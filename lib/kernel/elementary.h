@@ -21,11 +21,13 @@
  * zero is z = 0 and its interval ends at (pi/4)^2: x^2 S and x^4 C then err almost evenly, by
  * 9.5e-18 and 8.2e-19 with coefficients rounded to double.
  *
- * The rarer functions call libm in each lane. */
+ * The rarer functions call libm in each lane.  Long numbers have those of the C library. */
 #ifndef DAL_KERNEL_ELEMENTARY_H
 #define DAL_KERNEL_ELEMENTARY_H
 
 #include "num.h"
+
+#ifndef DAL_LONG
 
 #if DAL_LANES == 1
 typedef uint64_t dal__unsigned;
@@ -133,6 +135,16 @@ DAL_INLINE void dal_sincos(num x, num *s, num *c)
     }
 }
 
+#else
+
+DAL_INLINE void dal_sincos(num x, num *s, num *c)
+{
+    *s = DAL_IN_LONG(sin)(x);
+    *c = DAL_IN_LONG(cos)(x);
+}
+
+#endif
+
 DAL_INLINE num dal_sin(num x)
 {
     num s, c;
@@ -159,6 +171,18 @@ DAL_INLINE num dal_sign(num x)
     X(tan) X(asin) X(acos) X(atan) X(sinh) X(cosh) X(tanh) X(asinh) X(exp) X(log)
 #define DAL__LIBM_BINARY(X) X(atan2) X(pow)
 
+#ifdef DAL_LONG
+#define X(f)                                                                                       \
+    DAL_DECLARE_LONG(f)                                                                            \
+    DAL_INLINE num dal_##f(num x) { return DAL_IN_LONG(f)(x); }
+DAL__LIBM_UNARY(X)
+#undef X
+#define X(f)                                                                                       \
+    DAL_DECLARE_LONG2(f)                                                                           \
+    DAL_INLINE num dal_##f(num a, num b) { return DAL_IN_LONG(f)(a, b); }
+DAL__LIBM_BINARY(X)
+#undef X
+#else
 #define X(f)                                                                                       \
     DAL_INLINE num dal_##f(num x)                                                                  \
     {                                                                                              \
@@ -179,5 +203,6 @@ DAL__LIBM_UNARY(X)
     }
 DAL__LIBM_BINARY(X)
 #undef X
+#endif
 
 #endif

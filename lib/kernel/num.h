@@ -4,13 +4,18 @@
  * instruction set; every operation acts lane by lane and is IEEE double in each, so a lane has the
  * bits of a single run.  Comparisons give a dal_mask (all bits set or none, per lane) that
  * dal_select consumes; nothing branches on the value of one lane.  num and double mix freely in
- * + - * / : a double is every lane's value. */
+ * + - * / : a double is every lane's value.  With DAL_LONG there is one lane of a longer number
+ * (long.h). */
 #ifndef DAL_KERNEL_NUM_H
 #define DAL_KERNEL_NUM_H
 
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
+
+#ifdef DAL_LONG
+#include "long.h"
+#endif
 
 #ifndef DAL_LANES
 #define DAL_LANES 1
@@ -44,7 +49,13 @@
 
 #if DAL_LANES == 1
 
+#ifdef DAL_LONG
+typedef dal_long num;
+#define DAL_FINER DAL_LONG_FINER /* a unit in the last place, to that of a double */
+#else
 typedef double num;
+#define DAL_FINER 1.0
+#endif
 typedef double dal_stored;
 typedef int64_t dal_mask;
 
@@ -60,6 +71,7 @@ DAL_INLINE int dal_mask_lane(dal_mask m, int lane) { return (void)lane, m != 0; 
 
 #else
 
+#define DAL_FINER 1.0
 typedef double num __attribute__((vector_size(8 * DAL_LANES), may_alias));
 /* A num in memory of doubles that need not be aligned to its lanes. */
 typedef double dal_stored __attribute__((vector_size(8 * DAL_LANES), may_alias, aligned(8)));
@@ -130,7 +142,11 @@ DAL_INLINE dal_mask dal_finite(num x) { return dal_equal(x - x, dal_num(0.0)); }
 
 /* a b + c, rounded once.  Where the processor has no instruction for it the C library computes it:
  * the same bits, slowly. */
-#if DAL_LANES == 1
+#ifdef DAL_LONG
+DAL_INLINE num dal_abs(num x) { return DAL_IN_LONG(fabs)(x); }
+DAL_INLINE num dal_sqrt(num x) { return DAL_IN_LONG(sqrt)(x); }
+DAL_INLINE num dal_fma(num a, num b, num c) { return a * b + c; } /* the rounding is no matter */
+#elif DAL_LANES == 1
 DAL_INLINE num dal_abs(num x) { return fabs(x); }
 DAL_INLINE num dal_sqrt(num x) { return sqrt(x); }
 DAL_INLINE num dal_fma(num a, num b, num c) { return __builtin_fma(a, b, c); }
@@ -185,7 +201,7 @@ DAL_INLINE num dal_sqrt(num x)
  * on, in one order that all builds keep.  The functions over packs return how many numbers they saw
  * to. */
 enum { DAL__PACK = 8, DAL__LONG = 16 };
-#if DAL_LANES == 1 && !defined DAL_SPECIALISED
+#if DAL_LANES == 1 && !defined DAL_SPECIALISED && !defined DAL_LONG
 typedef double dal__pack __attribute__((vector_size(64), aligned(8), may_alias));
 typedef int64_t dal__pack_mask __attribute__((vector_size(64)));
 

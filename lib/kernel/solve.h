@@ -18,9 +18,9 @@
 /* Newton pays from this rate on: a fixed point needs 36/log2(1/rate) sweeps. */
 #define DAL__SLOW 0.3
 /* Increments against the size of the state: rounding, stagnation, and where no rate is measured. */
-#define DAL__ROUNDING 1.4e-14
-#define DAL__SMALL    1e-12
-#define DAL__NOISE    1e-12
+#define DAL__ROUNDING (1.4e-14 * DAL_FINER)
+#define DAL__SMALL    (1e-12 * DAL_FINER)
+#define DAL__NOISE    (1e-12 * DAL_FINER)
 
 /* One block of unknowns, [size]. */
 typedef struct dal_block {
@@ -74,7 +74,7 @@ DAL_INLINE num dal_momentum_scale(const dal_step *s, double h)
            fabs(h) * dal_max_norm(s->y + dal_at_p(s), DAL_N(s));
 }
 
-#if DAL_LANES == 1 && !defined DAL_SPECIALISED
+#if DAL_LANES == 1 && !defined DAL_SPECIALISED && !defined DAL_LONG
 /* image -= u, u += image; norm and poison of what is then in image. */
 DAL_INLINE int dal__advance_packs(num *u, num *image, int count, num *norm, num *poison)
 {

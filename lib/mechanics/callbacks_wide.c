@@ -5,19 +5,19 @@
 #include "kernel/num.h"
 #include "mechanics/mechanics.h"
 
-/* Lanes of a block. */
-enum { LANES = DAL_GROUPS * DAL_LANES };
+/* Doubles that a number takes: one for each lane, or more for a longer one. */
+enum { WIDTH = DAL_GROUPS * (int)(sizeof(num) / sizeof(double)) };
 
 static void load(double *work, int place, const double *from, int count)
 {
-    num *to = (num *)(work + (size_t)place * LANES);
+    num *to = (num *)(work + (size_t)place * WIDTH);
     const num *lanes = (const num *)from;
     for (int i = 0; i < count * DAL_GROUPS; i++) to[i] = lanes[i];
 }
 
 static void load_time(double *work, int place, double t)
 {
-    num *to = (num *)(work + (size_t)place * LANES);
+    num *to = (num *)(work + (size_t)place * WIDTH);
     for (int g = 0; g < DAL_GROUPS; g++) to[g] = dal_num(t);
 }
 
@@ -27,7 +27,7 @@ static void load_inputs(const dal__programs *p, const dal_at *at, unsigned reads
     if (reads & DAL__QV) {
         load(at->work, p->q, at->q, p->n);
         load(at->work, p->v, at->v, p->n);
-        load(at->work, p->g, at->v + p->n * LANES, p->multipliers);
+        load(at->work, p->g, at->v + p->n * WIDTH, p->multipliers);
     }
     if (reads & DAL__PI) load(at->work, p->pi, at->pi, p->n);
 }
@@ -62,7 +62,7 @@ static dal_status run_program(const dal_system *system, const dal_at *at, double
         DAL_WIDE(dal__tape_run)(p->tapes, program->tape, at->work, out);
         return DAL_OK;
     }
-    double *scratch = at->work + p->scratch * LANES;
+    double *scratch = at->work + p->scratch * WIDTH;
     DAL_WIDE(dal__tape_run)(p->tapes, program->tape, at->work, scratch);
     for (int g = 0; g < DAL_GROUPS; g++)
         hand_over(program, (const num *)scratch + g, (num *)out + g);

@@ -136,6 +136,12 @@ typedef struct dal__programs {
     dal__run_program *run; /* a program of one lane */
 } dal__programs;
 
+/* A system again, its numbers being long. */
+typedef struct dal__in_long {
+    dal__programs programs; /* the same; not their owner */
+    dal_system system;
+} dal__in_long;
+
 /* A pivot must exceed this fraction of what it was subtracted from: some hundred times the rounding
  * of the subtraction, so that three digits of it are true. */
 #define DAL__PIVOT_LEAST 1e-13
@@ -256,8 +262,8 @@ dal_status dal__programs_add(dal_model *model, dal__programs *programs, dal__pro
 dal_status dal__programs_add_motion(dal_model *model, dal__programs *programs, const dal__node *F);
 /* The programs of a model's system; NULL for another. */
 const dal__programs *dal__programs_of(const dal_system *system);
-/* Finishes the tapes and points the system to its callbacks. */
-dal_status dal__programs_finish(dal__programs *programs, dal_system *system);
+/* Finishes the tapes and points the system to its callbacks, and to itself in long numbers. */
+dal_status dal__programs_finish(dal_model *model, dal__programs *programs, dal_system *system);
 
 /* ---- callbacks_wide.c, callbacks.c ---- */
 

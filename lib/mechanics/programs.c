@@ -2,6 +2,7 @@
  *
  * A program's outputs are followed by the pivots it divides by, each with its size; the callbacks
  * check them lane by lane and leave NaN where one has vanished. */
+#include "kernel/long.h"
 #include "mechanics/mechanics.h"
 
 dal_status dal__programs_begin(const dal__equations *e, dal__programs *programs, int n,
@@ -122,7 +123,32 @@ static dal_status prepare(const dal_system *system, const dal_at *at, double *ou
 {
     const dal__programs *programs = system->data;
     (void)out;
-    dal__tapes_prepare(programs->tapes, at->work);
+    dal__tapes_prepare_x1(programs->tapes, at->work);
+    return DAL_OK;
+}
+
+static dal_status prepare_in_long(const dal_system *system, const dal_at *at, double *out)
+{
+    const dal__programs *programs = system->data;
+    (void)out;
+    dal__tapes_prepare_x1_LONGER(programs->tapes, at->work);
+    return DAL_OK;
+}
+
+/* The same programs over long numbers, as a system of its own. */
+static dal_status make_in_long(dal_model *model, const dal__programs *programs, dal_system *system)
+{
+    if (DAL_LONG_DIGITS <= DBL_MANT_DIG) return DAL_OK;
+    dal__in_long *k = dal__model_take(model, 1, sizeof *k);
+    if (!k) return DAL_MEMORY;
+    k->programs = *programs;
+    k->programs.run = dal__callbacks_x1_LONGER(&k->programs, &k->programs.wide1);
+    k->system = *system;
+    k->system.data = &k->programs;
+    k->system.prepare = prepare_in_long;
+    k->system.call = k->programs.wide1;
+    k->system.wide4 = k->system.wide8 = k->system.wide64 = NULL;
+    system->in_long = &k->system;
     return DAL_OK;
 }
 
@@ -131,7 +157,7 @@ const dal__programs *dal__programs_of(const dal_system *system)
     return system->prepare == prepare ? system->data : NULL;
 }
 
-dal_status dal__programs_finish(dal__programs *programs, dal_system *system)
+dal_status dal__programs_finish(dal_model *model, dal__programs *programs, dal_system *system)
 {
     DAL_TRY(dal__tapes_finish(programs->tapes));
     place_inputs(programs);
@@ -151,5 +177,5 @@ dal_status dal__programs_finish(dal__programs *programs, dal_system *system)
     system->wide4 = &programs->wide4;
     system->wide8 = &programs->wide8;
     system->wide64 = &programs->wide64;
-    return DAL_OK;
+    return make_in_long(model, programs, system);
 }

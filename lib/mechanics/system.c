@@ -130,7 +130,7 @@ static dal_status make_extended(dal_model *model)
     model->extended = model->system;
     model->extended.properties ^= DAL_E_WEAK | DAL_E_EXACT;
     DAL_TRY(add_programs(model, &model->extended_programs, e->extended));
-    DAL_TRY(dal__programs_finish(&model->extended_programs, &model->extended));
+    DAL_TRY(dal__programs_finish(model, &model->extended_programs, &model->extended));
     model->system.extended = model->extended.extended = &model->extended;
     return DAL_OK;
 }
@@ -149,7 +149,7 @@ dal_status dal_model_system(dal_model *model, const dal_system **system, dal_err
     if (status == DAL_OK) describe(model);
     if (status == DAL_OK) status = add_programs(model, &model->programs, model->equations.F);
     if (status == DAL_OK) status = dal__graph_status(model->equations.graph);
-    if (status == DAL_OK) status = dal__programs_finish(&model->programs, &model->system);
+    if (status == DAL_OK) status = dal__programs_finish(model, &model->programs, &model->system);
     if (status == DAL_OK) status = make_extended(model);
     if (status != DAL_OK) return dal__exhausted(status, error);
     model->made = true;
@@ -211,7 +211,7 @@ static dal_status make_tangent(dal_model *model)
                                   .parameter = e->parameter,
                                   .value = e->value};
     DAL_TRY(add_tangent_programs(model));
-    return dal__programs_finish(&model->tangent_programs, &model->tangent);
+    return dal__programs_finish(model, &model->tangent_programs, &model->tangent);
 }
 
 dal_status dal_model_tangent(dal_model *model, const dal_system **system, dal_error *error)

@@ -194,6 +194,8 @@ dal_status dal_batch_create(dal_batch **batch, const dal_run_spec *spec, int cou
     for (int i = 0; i < WIDTHS; i++) known |= width == widths[i];
     if (!known)
         return dal__error(error, DAL_ARGUMENT, 0, 0, "width %d is not 0, 1, 4, 8 or 64", width);
+    if (spec->options.precision != DAL_DOUBLE)
+        return dal__error(error, DAL_UNSUPPORTED, 0, 0, "a batch has no lanes of long numbers");
     return dal__batch_create(batch, spec, count, width, DAL__VARIANTS, error);
 }
 

@@ -171,7 +171,7 @@ dal_status DAL_WIDE(dal__engine_ask)(void *engine_, int question, double t, cons
     engine *e = engine_;
     const int n = e->shape.n;
     if (!e->call[question]) return DAL_UNSUPPORTED;
-    const dal_at at = {t, state, state + n * LANES, state + (3 * n + 1) * LANES, (double *)e->work};
+    const dal_at at = {t, state, state + n * WIDTH, state + (3 * n + 1) * WIDTH, (double *)e->work};
     return e->call[question](e->shape.system, &at, out);
 }
 

@@ -9,6 +9,8 @@
 
 /* The lanes that are stepped together. */
 enum { LANES = DAL_GROUPS * DAL_LANES };
+/* Doubles that one of their numbers takes: one for each, or more for a longer number. */
+enum { WIDTH = DAL_GROUPS * (int)(sizeof(num) / sizeof(double)) };
 
 /* Lanes of all groups. */
 typedef struct lane_mask {

@@ -13,11 +13,27 @@ static size_t answer_count(const dal__shape *k)
     return 4 * n + 2 * nw + 2 * (m + 2 * m * n) + 2 * m * m + m + 2 + listed;
 }
 
+/* Doubles in what a run carries. */
+static size_t remembered(const dal__shape *k)
+{
+    return k->options.precision == DAL_DOUBLE ? k->carried : k->carried * dal__long_width();
+}
+
+/* Doubles beside those of the engines. */
+static size_t own_numbers(const dal__shape *k)
+{
+    return remembered(k) + answer_count(k) + (size_t)(k->n + k->nw);
+}
+
+static size_t long_bytes(const dal__shape *k)
+{
+    return k->options.precision == DAL_DOUBLE ? 0 : dal__long_bytes(k, answer_count(k));
+}
+
 static size_t total_bytes(const dal__shape *k)
 {
-    const size_t numbers = k->carried + answer_count(k) + (size_t)(k->n + k->nw);
-    return 64 + round_up(sizeof(dal_run)) + round_up(numbers * sizeof(double)) +
-           dal__engine_best(k, 1)->bytes(k);
+    return 64 + round_up(sizeof(dal_run)) + round_up(own_numbers(k) * sizeof(double)) +
+           round_up(dal__engine_best(k, 1)->bytes(k)) + long_bytes(k);
 }
 
 size_t dal_run_size(const dal_run_spec *spec)
@@ -33,12 +49,15 @@ static dal_run *place(const dal__shape *shape, void *memory)
     *run = (dal_run){.shape = *shape};
     at += round_up(sizeof *run);
     run->shadow = (double *)(void *)at;
-    run->answer = run->shadow + shape->carried;
+    run->answer = run->shadow + remembered(shape);
     run->point = run->answer + answer_count(shape);
-    const size_t numbers = shape->carried + answer_count(shape) + (size_t)(shape->n + shape->nw);
-    at += round_up(numbers * sizeof(double));
+    at += round_up(own_numbers(shape) * sizeof(double));
     run->kind = dal__engine_best(shape, 1);
     run->engine = run->kind->place(shape, at, &run->carried, &run->work);
+    run->memory = run->carried;
+    run->remembered = remembered(shape);
+    at += round_up(run->kind->bytes(shape));
+    if (long_bytes(shape) > 0) dal__long_place(run, at, answer_count(shape));
     return run;
 }
 
@@ -55,6 +74,7 @@ dal_status dal_run_init(dal_run **run, void *memory, size_t bytes, const dal_run
     dal_run *made = place(&shape, memory);
     DAL_TRY(dal__run_start(made, spec->parameters, spec->parameter_count, spec->start,
                            spec->start_count, error));
+    if (made->long_run.engine) DAL_TRY(dal__long_begin(made));
     *run = made;
     return DAL_OK;
 }
@@ -90,9 +110,18 @@ static dal_status native_steps(dal_run *run, double h, long long count)
     return failed ? (dal_status)why : DAL_OK;
 }
 
+static dal_status long_steps(dal_run *run, double h, long long count)
+{
+    dal_status status = DAL_OK;
+    for (long long i = 0; i < count && status == DAL_OK; i++) status = dal__long_step(run, h);
+    dal__long_pull(run);
+    return status;
+}
+
 dal_status dal__run_steps(dal_run *run, double h, long long count)
 {
     dal_status why = DAL_OK;
+    if (run->long_run.engine) return long_steps(run, h, count);
     if (run->native.steps) return native_steps(run, h, count);
     for (long long i = 0; i < count; i++)
         if (run->kind->step(run->engine, h, 1u, &why)) return why;
@@ -140,25 +169,46 @@ dal_status dal_run_set_state(dal_run *run, double t, const double *state, dal_er
     memset(run->carried, 0, k->carried * sizeof *run->carried);
     for (int i = 0; i < k->dim; i++) run->carried[i] = state[i] + 0.0;
     run->carried[dal__at(k, DAL__TIME)] = t;
+    if (run->long_run.engine) dal__long_push(run);
     return DAL_OK;
 }
 
 const double *dal_run_memory(const dal_run *run, size_t *count)
 {
-    *count = run->shape.carried;
-    return run->carried;
+    *count = run->remembered;
+    return run->memory;
+}
+
+/* Carried number i of a memory, in doubles. */
+static double number_in(const dal_run *run, const double *memory, size_t i)
+{
+    return run->long_run.engine ? dal__long_rounded(memory, i) : memory[i];
 }
 
 dal_status dal_run_load(dal_run *run, const double *memory, size_t count, dal_error *error)
 {
     const dal__shape *k = &run->shape;
-    if (count != k->carried)
+    if (count != run->remembered)
         return dal__error(error, DAL_ARGUMENT, 0, 0, "this run carries %zu numbers, not %zu",
-                          k->carried, count);
-    for (size_t i = 0; i < count; i++)
-        if (!isfinite(memory[i]) && !(k->lifted && i == 2 * (size_t)k->n && isinf(memory[i])))
+                          run->remembered, count);
+    for (size_t i = 0; i < k->carried; i++) {
+        const double x = number_in(run, memory, i);
+        if (!isfinite(x) && !(k->lifted && i == 2 * (size_t)k->n && isinf(x)))
             return dal__error(error, DAL_NOT_FINITE, 0, 0, "carried number %zu is not finite",
                               i + 1);
-    memcpy(run->carried, memory, count * sizeof *memory);
+    }
+    memcpy(run->memory, memory, count * sizeof *memory);
+    if (run->long_run.engine) dal__long_pull(run);
     return DAL_OK;
+}
+
+void dal__run_keep(dal_run *run)
+{
+    memcpy(run->shadow, run->memory, run->remembered * sizeof *run->memory);
+}
+
+void dal__run_put_back(dal_run *run)
+{
+    memcpy(run->memory, run->shadow, run->remembered * sizeof *run->memory);
+    if (run->long_run.engine) dal__long_pull(run);
 }

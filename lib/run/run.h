@@ -13,17 +13,29 @@ typedef struct dal__native {
     void (*release)(void *handle);
 } dal__native;
 
+/* The engine of a run in long numbers, and what belongs to it; see long.c. */
+typedef struct dal__long_run {
+    dal__shape shape; /* of the system in long numbers */
+    void *engine;     /* NULL: the run is in doubles */
+    double *carried;  /* [shape.carried] its own long numbers, each in the place of some doubles */
+    double *work;     /* [shape.workspace] likewise */
+    double *answer;   /* scratch for what the system says, likewise */
+} dal__long_run;
+
 struct dal_run {
     dal__shape shape;
     const dal__engine_kind *kind; /* of one lane */
     void *engine;
-    double *carried; /* [shape.carried] the engine's own */
-    double *work;    /* [shape.workspace] parameters, and the system's */
-    double *shadow;  /* [shape.carried] state of the trajectory during a side step */
-    double *answer;  /* scratch for what the system says */
-    double *point;   /* [n + nw] where a step went wrong */
-    bool exact;      /* the exact solution belongs to this start */
-    void *owned;     /* memory to free, or NULL */
+    double *carried; /* [shape.carried] the engine's own; in long numbers: rounded from those */
+    double *memory; /* [remembered] all that is carried from step to step: carried, or long_run's */
+    size_t remembered;
+    dal__long_run long_run;
+    double *work;   /* [shape.workspace] parameters, and the system's */
+    double *shadow; /* [remembered] state of the trajectory during a side step */
+    double *answer; /* scratch for what the system says */
+    double *point;  /* [n + nw] where a step went wrong */
+    bool exact;     /* the exact solution belongs to this start */
+    void *owned;    /* memory to free, or NULL */
     dal__native native;
 };
 
@@ -44,6 +56,25 @@ dal_status dal__explain(dal_run *run, double h, dal_status status, dal_error *er
 
 /* count steps of size h, until one fails, with no explanation of a failure. */
 dal_status dal__run_steps(dal_run *run, double h, long long count);
+
+/* Remembers all that is carried, and goes back to that. */
+void dal__run_keep(dal_run *run);
+void dal__run_put_back(dal_run *run);
+
+/* ---- long.c: a run in long numbers ---- */
+
+/* Bytes for its engine, aligned to 64; doubles that one of its numbers takes. */
+size_t dal__long_bytes(const dal__shape *shape, size_t answers);
+size_t dal__long_width(void);
+void dal__long_place(dal_run *run, char *memory, size_t answers);
+/* Takes over parameters, state and clock of the run in doubles; and gives it them, rounded. */
+dal_status dal__long_begin(dal_run *run);
+void dal__long_push(dal_run *run);
+void dal__long_pull(dal_run *run);
+dal_status dal__long_step(dal_run *run, double h);
+/* As dal_run_observe, and the numbers of a memory of this run rounded to doubles. */
+dal_status dal__long_observe(dal_run *run, double *out);
+double dal__long_rounded(const double *memory, size_t i);
 
 static inline dal_at dal__here(const dal_run *run)
 {

@@ -56,14 +56,13 @@ static dal_status advance(sampling *k, long long count)
 dal_status dal_run_aside(dal_run *run, double h, dal_status (*look)(void *user, dal_run *run),
                          void *user, dal_error *error)
 {
-    const size_t bytes = run->shape.carried * sizeof *run->carried;
     if (!isfinite(h))
         return dal__error(error, DAL_ARGUMENT, 0, 0, "a step aside must be finite; it is %g", h);
-    memcpy(run->shadow, run->carried, bytes);
+    dal__run_keep(run);
     dal_status status = dal__run_steps(run, h, 1);
     if (status != DAL_OK) return dal__explain(run, h, status, error);
     status = look(user, run);
-    memcpy(run->carried, run->shadow, bytes);
+    dal__run_put_back(run);
     return status;
 }
 

@@ -25,7 +25,7 @@ done <commands
 
 case_is "every option of a run is told of"
 try 0 run --help
-for option in integrator step time samples space set start solver iterations extend-energy tolerance solve-to extra-sweeps sums output; do
+for option in integrator step time samples space set start solver iterations extend-energy tolerance solve-to extra-sweeps sums precision output; do
     prints "^  --$option "
 done
 

@@ -1,0 +1,176 @@
+/* long.c - a run in long numbers: an engine of the variant x1_LONGER behind a run in doubles.
+ *
+ * The run in doubles makes the start, explains failures and shows the state; after every step it
+ * gets time, state and all it carries from the long engine, rounded.  Observables are computed in
+ * long numbers and then rounded, so that a D of 1e-30 is seen as that.  dal__shape_init sees to it
+ * that there is a system, and a method, in long numbers. */
+#define DAL_LONG
+#include "run/run.h"
+#include <dalembert_kernel.h>
+
+enum { MORE_ITERATIONS = 3 }; /* a fixed point needs more sweeps for more digits */
+
+static const dal__engine_kind *kind(void) { return &dal__engine_kinds[DAL__VARIANT_x1_LONGER]; }
+static size_t round_up(size_t bytes) { return (bytes + 63) / 64 * 64; }
+
+size_t dal__long_width(void) { return sizeof(num) / sizeof(double); }
+
+dal_status dal__long_check(const dal__shape *k, dal_error *error)
+{
+    if (DAL_LONG_DIGITS <= DBL_MANT_DIG)
+        return dal__error(error, DAL_UNSUPPORTED, 0, 0,
+                          "long numbers: there are none longer than double here");
+    if (!k->system->in_long)
+        return dal__error(error, DAL_UNSUPPORTED, 0, 0,
+                          "long numbers: %.80s has no form in them, not being made from a model",
+                          k->system->name ? k->system->name : "this system");
+    for (int i = 0; i < k->depth; i++)
+        if (!dal__integrator_wide(k->method.chain[i], DAL__VARIANT_x1_LONGER))
+            return dal__error(error, DAL_UNSUPPORTED, 0, 0,
+                              "long numbers: '%.80s' has no form in them, not being the library's",
+                              k->method.chain[i]->name ? k->method.chain[i]->name : "?");
+    return DAL_OK;
+}
+
+/* ---- memory ---- */
+
+static dal__shape shape_of(const dal__shape *k)
+{
+    dal__shape in_long = *k;
+    in_long.system = k->system->in_long;
+    in_long.options.iterations *= MORE_ITERATIONS;
+    return in_long;
+}
+
+size_t dal__long_bytes(const dal__shape *k, size_t answers)
+{
+    const dal__shape in_long = shape_of(k);
+    return round_up(kind()->bytes(&in_long)) + round_up(answers * sizeof(num));
+}
+
+void dal__long_place(dal_run *run, char *memory, size_t answers)
+{
+    dal__long_run *k = &run->long_run;
+    k->shape = shape_of(&run->shape);
+    k->answer = (double *)(void *)memory;
+    memory += round_up(answers * sizeof(num));
+    k->engine = kind()->place(&k->shape, memory, &k->carried, &k->work);
+    run->memory = k->carried;
+}
+
+/* ---- to and from doubles ---- */
+
+static void lengthen(double *to, const double *from, size_t count)
+{
+    num *x = (num *)(void *)to;
+    for (size_t i = 0; i < count; i++) x[i] = from[i];
+}
+
+static void shorten(double *to, const double *from, size_t count)
+{
+    const num *x = (const num *)(const void *)from;
+    for (size_t i = 0; i < count; i++) to[i] = (double)x[i];
+}
+
+double dal__long_rounded(const double *memory, size_t i)
+{
+    num x;
+    memcpy(&x, memory + i * dal__long_width(), sizeof x);
+    return (double)x;
+}
+
+void dal__long_push(dal_run *run)
+{
+    lengthen(run->long_run.carried, run->carried, run->shape.carried);
+}
+
+void dal__long_pull(dal_run *run)
+{
+    shorten(run->carried, run->long_run.carried, run->shape.carried);
+}
+
+static dal_at here(const dal_run *run)
+{
+    const dal__long_run *k = &run->long_run;
+    const size_t at_v = (size_t)run->shape.n * dal__long_width();
+    return (dal_at){dal_run_time(run), k->carried, k->carried + at_v, NULL, k->work};
+}
+
+dal_status dal__long_begin(dal_run *run)
+{
+    const dal__long_run *k = &run->long_run;
+    const dal_system *system = k->shape.system;
+    lengthen(k->work, run->work, (size_t)system->parameters);
+    dal__long_push(run);
+    const dal_at at = here(run);
+    return system->prepare ? system->prepare(system, &at, NULL) : DAL_OK;
+}
+
+dal_status dal__long_step(dal_run *run, double h)
+{
+    dal_status why = DAL_OK;
+    return kind()->step(run->long_run.engine, h, 1u, &why) ? why : DAL_OK;
+}
+
+/* ---- observables, in the order of observe.c ---- */
+
+/* Puts count values of a callback behind *out; nothing where there is none. */
+static dal_status put(const dal_run *run, dal_callback *callback, int count, double **out)
+{
+    const dal__long_run *k = &run->long_run;
+    const dal_at at = here(run);
+    if (!callback) return DAL_OK;
+    DAL_TRY(callback(k->shape.system, &at, k->answer));
+    shorten(*out, k->answer, (size_t)count);
+    *out += count;
+    return DAL_OK;
+}
+
+/* H = pi.pi/(2e) + pi.F + p.v + mu_e pi_e, and the norms of p, pi, pi_e. */
+static dal_status put_lifted(const dal_run *run, double **out)
+{
+    const int n = run->shape.n;
+    const dal__long_run *k = &run->long_run;
+    const num *y = (const num *)(const void *)k->carried, *v = y + n, *p = y + 2 * n + 1;
+    const num *pi = y + 3 * n + 1, *f = (const num *)(const void *)k->answer;
+    const dal_callbacks *call = &k->shape.system->call;
+    const dal_at at = here(run);
+    num sum = 0.0;
+    if (call->gauge) {
+        DAL_TRY(call->gauge(k->shape.system, &at, k->answer));
+        sum = f[0] * y[4 * n + 1];
+    }
+    DAL_TRY(call->field(k->shape.system, &at, k->answer));
+    for (int i = 0; i < n; i++)
+        sum += pi[i] * pi[i] * (0.5 / y[2 * n]) + pi[i] * f[i] + p[i] * v[i];
+    *(*out)++ = (double)sum;
+    *(*out)++ = (double)dal_max_norm(p, n);
+    *(*out)++ = (double)dal_max_norm(pi, n);
+    *(*out)++ = (double)dal_abs(y[4 * n + 1]);
+    return DAL_OK;
+}
+
+static dal_status put_error(const dal_run *run, double **out)
+{
+    const dal__long_run *k = &run->long_run;
+    const dal_at at = here(run);
+    const num *y = (const num *)(const void *)k->carried;
+    num *exact = (num *)(void *)k->answer;
+    DAL_TRY(k->shape.system->exact(k->shape.system, &at, k->answer));
+    for (int i = 0; i < run->shape.n; i++) exact[i] -= y[i];
+    *(*out)++ = (double)dal_max_norm(exact, run->shape.n);
+    return DAL_OK;
+}
+
+dal_status dal__long_observe(dal_run *run, double *out)
+{
+    const dal_system *system = run->long_run.shape.system;
+    double *next = out;
+    DAL_TRY(put(run, system->constraints, system->m, &next));
+    DAL_TRY(put(run, system->energy, 1, &next));
+    if (run->shape.lifted) DAL_TRY(put_lifted(run, &next));
+    DAL_TRY(put(run, system->invariant_values, system->invariants, &next));
+    if (run->exact) DAL_TRY(put_error(run, &next));
+    for (double *x = out; x < next; x++) *x += 0.0; /* no -0 */
+    return DAL_OK;
+}
