@@ -22,7 +22,7 @@
     X(list, "[systems|integrators] [--markdown]", "what travels inside the program")               \
     X(check, "SYSTEM [OPTION]...", "what can be known of a system before a run")                   \
     X(run, "SYSTEM --integrator NAME --step H --time T [OPTION]...", "integrate one system")       \
-    X(resume, "DIR [OPTION]...", "go on with a run that was interrupted")                          \
+    X(resume, "DIR [OPTION]...", "go on with a run or a study that was interrupted")               \
     X(study, "[STUDY.yaml] [OPTION]...", "systems x integrators x steps: tables of drift")         \
     X(generate, "SYSTEM --integrator NAME [OPTION]... -o FILE.c",                                  \
       "one C file that steps a system and needs nothing else")                                     \

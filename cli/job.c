@@ -170,11 +170,16 @@ int job_spec(cli_job *job, dal_run_spec *spec)
     return CLI_DONE;
 }
 
+int job_settle(cli_job *job, dal_run_spec *spec)
+{
+    const int status = check(job);
+    return status == CLI_DONE ? job_spec(job, spec) : status;
+}
+
 int job_make(cli_job *job)
 {
-    int status = check(job);
     dal_run_spec spec;
-    if (status == CLI_DONE) status = job_spec(job, &spec);
+    const int status = job_settle(job, &spec);
     if (status != CLI_DONE) return status;
     dal_error error = {0};
     dal_status made = dal_run_create(&job->run, &spec, &error);

@@ -76,7 +76,8 @@ int job_take_sampling(cli_job *job, const char *word);
 int job_schedule(cli_job *job);
 /* Loads the system and makes the spec of its run; the space is settled here. */
 int job_spec(cli_job *job, dal_run_spec *spec);
-/* When all has been taken: sees that nothing is missing and makes system, method and run. */
+/* When all has been taken: sees that nothing is missing and makes the spec; and the run as well. */
+int job_settle(cli_job *job, dal_run_spec *spec);
 int job_make(cli_job *job);
 
 #endif

@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <sys/utsname.h>
 
-static void put_machine(FILE *out)
+void manifest_machine(FILE *out)
 {
     struct utsname machine;
     fputs(",\n  \"machine\": {", out);
@@ -45,7 +45,7 @@ int manifest_write(const cli_store *store, const cli_job *job, const cli_mark *m
     if (!out) return cli_fail(CLI_IO, "out of memory");
     json_text_member(out, "{\n  ", "dalembert", DAL_VERSION);
     fprintf(out, ",\n  \"input\": %s", store->input);
-    put_machine(out);
+    manifest_machine(out);
     put_state(out, job, mark, state);
     if (why[0]) json_text_member(out, ",\n  ", "message", why);
     fputs("\n}\n", out);

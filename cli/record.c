@@ -255,7 +255,7 @@ int record_go(cli_record *r, dal_error *error)
     dal_status status =
         dal_run_sample(r->job->run, r->job->time, r->job->samples, r->mark.row, &observer, error);
     pause_clock(r);
-    cli_progress_end();
+    if (r->progress != PROGRESS_OFF) cli_progress_end();
     progress_show(r, dal_run_time(r->job->run), 1);
     judge(r, status != DAL_OK);
     return keep(r, conclude(r, status, error), error->message);

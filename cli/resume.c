@@ -1,11 +1,34 @@
-/* resume.c - `dalembert resume`: goes on with a run that lives in a directory. */
+/* resume.c - `dalembert resume`: goes on with a run or a study that lives in a directory. */
+#include "pool.h"
 #include "run.h"
+#include "study_house.h"
+
+#include <string.h>
 
 static const char notes[] =
-    "DIR is what 'dalembert run --output DIR' made.  The rows will be, byte for byte, those of a\n"
-    "run that was never interrupted.  A finished run is left alone.\n";
+    "DIR is what 'dalembert run --output DIR' or 'dalembert study --output DIR' made.  The rows "
+    "will\n"
+    "be, byte for byte, those of a run that was never interrupted.  A finished run is left alone.\n"
+    "The unfinished runs of a study are gone on with, and the tables made; of shards, those that\n"
+    "were begun in DIR.  --threads is for studies, --summary and --progress are for runs.\n";
 
-static int resume(const char *directory, const run_wishes *wishes)
+/* Those of the options of a run that may be chosen anew, and one of a study behind. */
+enum {
+    FIRST = OWN_checkpoint - JOB_OPTIONS,
+    OF_RUN = OWN_force - OWN_checkpoint,
+    OPTION_threads = OF_RUN,
+    OPTIONS
+};
+
+static int holds_study(const char *directory)
+{
+    study_house house;
+    const int holds = house_open(&house, directory) == CLI_DONE && house_holds_study(&house);
+    house_close(&house);
+    return holds;
+}
+
+static int resume_run(const char *directory, const run_wishes *wishes)
 {
     cli_store store;
     cli_job job = job_begin();
@@ -20,23 +43,37 @@ static int resume(const char *directory, const run_wishes *wishes)
     return status;
 }
 
+static int resume(const char *directory, const run_wishes *wishes, long long threads)
+{
+    if (!holds_study(directory)) return resume_run(directory, wishes);
+    return study_resume(directory, &(study_means){(int)threads, wishes->interval, wishes->native});
+}
+
+static int take(run_wishes *wishes, long long *threads, const char **directory, int option,
+                const char *value)
+{
+    if (option == OPTION_threads) return cli_integer("--threads", value, 1, POOL_MOST, threads);
+    if (option != CLI_PLAIN) return run_take(wishes, OWN_checkpoint + option, value);
+    if (*directory) return cli_fail(CLI_USAGE, "resume: one DIR only, not also '%s'", value);
+    *directory = value;
+    return CLI_DONE;
+}
+
 int command_resume(int argc, char **argv)
 {
-    enum { FIRST = OWN_checkpoint - JOB_OPTIONS, COUNT = OWN_force - OWN_checkpoint };
-    cli_args args = cli_begin(argc, argv, own_options + FIRST, COUNT, notes);
+    cli_option options[OPTIONS];
+    memcpy(options, own_options + FIRST, OF_RUN * sizeof *options);
+    options[OPTION_threads] = (cli_option){"threads", "N", "cells of a study at a time",
+                                           "OMP_NUM_THREADS or one per processor"};
+    cli_args args = cli_begin(argc, argv, options, OPTIONS, notes);
     const char *value, *directory = NULL;
+    long long threads = pool_threads();
     run_wishes wishes = run_wish();
     for (int k; (k = cli_next(&args, &value)) != CLI_STOP;) {
-        int taken = CLI_DONE;
-        if (k != CLI_PLAIN)
-            taken = run_take(&wishes, OWN_checkpoint + k, value);
-        else if (directory)
-            taken = cli_fail(CLI_USAGE, "resume: one DIR only, not also '%s'", value);
-        else
-            directory = value;
+        const int taken = take(&wishes, &threads, &directory, k, value);
         if (taken != CLI_DONE) cli_stop(&args, taken);
     }
     if (args.status != CLI_GO_ON) return args.status;
     if (!directory) return cli_fail(CLI_USAGE, "resume: the DIR is missing");
-    return resume(directory, &wishes);
+    return resume(directory, &wishes, threads);
 }

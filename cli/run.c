@@ -38,10 +38,10 @@ static int is_directory(const char *output)
     return stat(output, &status) != 0 || S_ISDIR(status.st_mode) || S_ISREG(status.st_mode);
 }
 
-static int take_interval(run_wishes *wishes, const char *text)
+int run_take_interval(const char *text, double *interval)
 {
-    int status = cli_number("--checkpoint", text, &wishes->interval);
-    if (status == CLI_DONE && wishes->interval < 0.0)
+    int status = cli_number("--checkpoint", text, interval);
+    if (status == CLI_DONE && *interval < 0.0)
         return cli_fail(CLI_USAGE, "--checkpoint: %s is negative", text);
     return status;
 }
@@ -49,7 +49,7 @@ static int take_interval(run_wishes *wishes, const char *text)
 run_wishes run_wish(void)
 {
     run_wishes wishes = {.output = own_options[OWN_output - JOB_OPTIONS].initial};
-    take_interval(&wishes, own_options[OWN_checkpoint - JOB_OPTIONS].initial);
+    run_take_interval(own_options[OWN_checkpoint - JOB_OPTIONS].initial, &wishes.interval);
     return wishes;
 }
 
@@ -60,7 +60,7 @@ int run_take(run_wishes *wishes, int option, const char *text)
         wishes->output = text;
         break;
     case OWN_checkpoint:
-        return take_interval(wishes, text);
+        return run_take_interval(text, &wishes->interval);
     case OWN_summary:
         wishes->summary = 1;
         break;

@@ -40,8 +40,10 @@ typedef struct run_wishes {
 
 /* What holds when nothing is said. */
 run_wishes run_wish(void);
-/* Takes one of these options.  Returns CLI_DONE or prints and returns an exit status. */
+/* Takes one of these options, or the value of --checkpoint.  Returns CLI_DONE or prints and returns
+ * an exit status. */
 int run_take(run_wishes *wishes, int option, const char *text);
+int run_take_interval(const char *text, double *interval);
 /* The integration itself, the job being made and the directory, if there is one, described. */
 int run_integrate(const cli_job *job, cli_store *store, const run_wishes *wishes);
 

@@ -2,6 +2,8 @@
 #include "study.h"
 #include "file.h"
 #include "pool.h"
+#include "run.h"
+#include "study_house.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -17,7 +19,9 @@ static const char default_directory[] = "dalembert-study";
 typedef struct wishes {
     const char *study, *output;
     long long threads;
-    int show;
+    double interval;
+    study_shard shard;
+    int show, force;
     cli_native native;
 } wishes;
 
@@ -25,7 +29,10 @@ typedef struct wishes {
     X(output, "DIR", "the files go there", default_directory)                                      \
     X(threads, "N", "cells at a time; the results do not depend on it",                            \
       "OMP_NUM_THREADS or one per processor")                                                      \
+    X(checkpoint, "SECONDS", "a run can be resumed from at most so long ago", "5")                 \
+    X(shard, "K/N", "every N-th cell from the K-th on; 'dalembert merge' joins the shards", NULL)  \
     X(native, "auto|on|off", "compile the steps, which changes no bit: when it pays", "auto")      \
+    X(force, NULL, "write over what the directory holds", NULL)                                    \
     X(show, NULL, "print the study file itself and do nothing", NULL)
 
 enum {
@@ -66,20 +73,46 @@ static const char notes[] =
         "status 1 when something is not as expected.\n"
         "\n"
         "stdout gets a table per system, step and start; DIR gets\n"
-        "  study.yaml        the study itself\n"
+        "  study.yaml        the study itself; systems/ copies of system files\n"
+        "  runs/NAME/        a directory per cell (system, integrator, start, step), as 'dalembert "
+        "run'\n"
+        "                    makes it, whose rows are taken after whole numbers of steps\n"
+        "  manifest.json     what ran the study, and how far it came; of shards shard-K-of-N.json\n"
         "  tables.txt        the tables\n"
-        "  cells.csv         a row per cell (system, integrator, start, step)\n"
-        "  quantities.csv    a row per cell and observable: first, last, max |x|, max |x - "
-        "first|,\n"
-        "                    least-squares rate, distance from that line, verdict\n"
+        "  cells.csv         a row per cell\n"
+        "  quantities.csv    a row per cell and quantity: first, last, max |x|, max |x - first|, "
+        "and "
+        "the\n"
+        "                    columns of summary.csv, from a look at every step\n"
         "  expectations.csv  what was expected and what was found, where something was\n"
-        "  series/LABEL.csv  for figures: maxima within each hundredth of the time\n"
-        "All but processor times are the same bytes in every run, whatever the number of threads.\n"
+        "  series/LABEL.csv  for figures: maxima of the rows within each hundredth of the time\n"
+        "All but times, manifests and checkpoints are the same bytes in every run, whatever the "
+        "number\n"
+        "of threads, interrupted and resumed, in shards and merged.\n"
         "\n"
-        "A cell that fails is told in its row and the study goes on; the exit status is then 3.  "
-        "A\n"
-        "cell is refused, which is no failure, where the integrator needs what the system lacks.\n"
-        "After an interruption (130) the files hold all cells that were finished.\n";
+        "'dalembert resume DIR' goes on with a study that was interrupted, kill -9 included; what "
+        "is\n"
+        "finished is not run again.  Shards may share one DIR.  They print tables of their own "
+        "cells\n"
+        "and leave no tables behind: 'dalembert merge' makes these.\n"
+        "\n"
+        "A cell that fails is told in its row and the study goes on; the exit status is then 3, "
+        "unless\n"
+        "the study expects it.  A cell is refused, which is no failure, where the integrator needs "
+        "what\n"
+        "the system lacks.\n";
+
+static int take_shard(wishes *w, const char *text)
+{
+    const char *slash = strchr(text, '/');
+    char number[32];
+    if (!slash || (size_t)(slash - text) >= sizeof number)
+        return cli_fail(CLI_USAGE, "--shard: '%s' is not K/N", text);
+    snprintf(number, sizeof number, "%.*s", (int)(slash - text), text);
+    int status = cli_integer("--shard", slash + 1, 1, 1000000, &w->shard.count);
+    if (status != CLI_DONE) return status;
+    return cli_integer("--shard", number, 1, w->shard.count, &w->shard.number);
+}
 
 static int take(wishes *w, int option, const char *value)
 {
@@ -89,8 +122,15 @@ static int take(wishes *w, int option, const char *value)
         return CLI_DONE;
     case OPTION_threads:
         return cli_integer("--threads", value, 1, POOL_MOST, &w->threads);
+    case OPTION_checkpoint:
+        return run_take_interval(value, &w->interval);
+    case OPTION_shard:
+        return take_shard(w, value);
     case OPTION_native:
         return native_read(value, &w->native);
+    case OPTION_force:
+        w->force = 1;
+        return CLI_DONE;
     case OPTION_show:
         w->show = 1;
         return CLI_DONE;
@@ -101,113 +141,60 @@ static int take(wishes *w, int option, const char *value)
     }
 }
 
-/* ---- the study ---- */
+/* ---- running ---- */
 
-static int any_failed(const study_plan *plan)
+static int run_cells(study_plan *plan, const study_house *house, const study_means *means)
 {
-    for (int i = 0; i < plan->cell_count; i++)
-        if (plan->cells[i].state == STUDY_FAILED &&
-            !study_failure_is_expected(plan, &plan->cells[i]))
-            return 1;
-    return 0;
+    cli_catch_signals();
+    plan->interval = means->interval;
+    for (int i = 0; i < plan->entry_count; i++) plan->entries[i].native = means->native;
+    return house_finish(house, plan, study_pool_run(plan, means->threads));
 }
 
-static void print_tables(FILE *out, const study_plan *plan)
+/* A study that is over is written over where nobody named the directory: each is so by default. */
+static int begin(const wishes *w, study_house *house, study_plan *plan, const char *text,
+                 size_t length)
 {
-    fprintf(out, "%s\n", plan->title);
-    for (int i = 0; i < plan->entry_count; i++) study_print_entry(out, plan, &plan->entries[i]);
-    study_print_note(out);
-    study_print_expectations(out, plan);
+    int status = house_open(house, w->output ? w->output : default_directory);
+    if (status != CLI_DONE) return status;
+    const int force = w->force || (!w->output && house_is_finished(house));
+    return house_begin(house, plan, text, length, w->shard, force);
 }
 
-static int keep_tables(const char *directory, const study_plan *plan)
+static int run_text(const wishes *w, const char *text, size_t length)
 {
-    char *path = cli_join(directory, "tables.txt");
-    FILE *file = path ? fopen(path, "w") : NULL;
-    int status = file ? CLI_DONE : path ? cli_io("write", path) : cli_fail(CLI_IO, "out of memory");
-    if (file) {
-        print_tables(file, plan);
-        status = cli_close(file, path);
-    }
-    free(path);
+    study_plan plan = {0};
+    study_house house = {0};
+    const study_means means = {(int)w->threads, w->interval, w->native};
+    const char *name = w->study ? w->study : builtin_name;
+    int status = study_plan_read(&plan, name, text, length, NULL);
+    if (status == CLI_DONE) status = begin(w, &house, &plan, text, length);
+    if (status == CLI_DONE) status = run_cells(&plan, &house, &means);
+    study_plan_free(&plan);
+    house_close(&house);
     return status;
-}
-
-static int keep_expectations(const char *directory, const study_plan *plan)
-{
-    char *path = cli_join(directory, "expectations.csv");
-    int status = path ? study_keep_expectations(plan, path) : cli_fail(CLI_IO, "out of memory");
-    free(path);
-    return status;
-}
-
-static int tell_tables(const char *directory, const study_plan *plan)
-{
-    int kept = keep_tables(directory, plan);
-    if (kept == CLI_DONE) kept = keep_expectations(directory, plan);
-    print_tables(stdout, plan);
-    int told = cli_close(stdout, "standard output");
-    return kept != CLI_DONE ? kept : told;
-}
-
-static int copy_study(const char *directory, const char *text, size_t length)
-{
-    char *path = cli_join(directory, "study.yaml");
-    if (!path) return cli_fail(CLI_IO, "out of memory");
-    int status = file_replace(path, text, length);
-    free(path);
-    return status;
-}
-
-static int run_plan(study_plan *plan, const wishes *w, const char *text, size_t length)
-{
-    study_output *output = NULL;
-    int status = study_output_open(&output, w->output);
-    if (status == CLI_DONE) status = copy_study(w->output, text, length);
-    if (status == CLI_DONE) {
-        cli_catch_signals();
-        status = study_pool_run(plan, (int)w->threads);
-    }
-    for (int i = 0; i < plan->cell_count && (status == CLI_DONE || status == CLI_SIGNAL); i++)
-        if (plan->cells[i].state != STUDY_WAITING &&
-            study_output_cell(output, plan, &plan->cells[i]) != CLI_DONE)
-            status = CLI_IO;
-    int closed = study_output_close(output);
-    if (status != CLI_DONE && status != CLI_SIGNAL) return status;
-    int told = tell_tables(w->output, plan);
-    if (status == CLI_SIGNAL)
-        return cli_fail(status, "interrupted; finished cells are in '%s'", w->output);
-    if (told != CLI_DONE || closed != CLI_DONE) return CLI_IO;
-    if (any_failed(plan)) return CLI_FAILED;
-    return study_judge(plan) > 0 ? CLI_CHECK : CLI_DONE;
 }
 
 static int run_study(const wishes *w)
 {
-    study_plan plan = {0};
-    char *own = NULL;
-    const char *text = study_builtin_text;
     size_t length = strlen(study_builtin_text);
-    if (w->study) {
-        text = own = file_read(w->study, &length);
-        if (!own) return CLI_USAGE;
-    }
+    char *own = w->study ? file_read(w->study, &length) : NULL;
+    if (w->study && !own) return CLI_USAGE;
+    const char *text = own ? own : study_builtin_text;
     int status = CLI_DONE;
-    if (w->show)
+    if (w->show) {
         fwrite(text, 1, length, stdout);
-    else
-        status = study_plan_read(&plan, w->study ? w->study : builtin_name, text, length, NULL);
-    for (int i = 0; i < plan.entry_count; i++) plan.entries[i].native = w->native;
-    if (status == CLI_DONE && !w->show) status = run_plan(&plan, w, text, length);
-    if (w->show) status = cli_close(stdout, "standard output");
-    study_plan_free(&plan);
+        status = cli_close(stdout, "standard output");
+    } else {
+        status = run_text(w, text, length);
+    }
     free(own);
     return status;
 }
 
 int command_study(int argc, char **argv)
 {
-    wishes w = {.output = default_directory, .threads = pool_threads()};
+    wishes w = {.threads = pool_threads(), .interval = run_wish().interval};
     cli_args args = cli_begin(argc, argv, options, OPTIONS, notes);
     const char *value;
     for (int k; (k = cli_next(&args, &value)) != CLI_STOP;) {
@@ -215,4 +202,18 @@ int command_study(int argc, char **argv)
         if (status != CLI_DONE) cli_stop(&args, status);
     }
     return args.status == CLI_GO_ON ? run_study(&w) : args.status;
+}
+
+/* ---- going on ---- */
+
+int study_resume(const char *directory, const study_means *means)
+{
+    study_plan plan = {0};
+    study_house house = {0};
+    int status = house_open(&house, directory);
+    if (status == CLI_DONE) status = house_read(&house, &plan);
+    if (status == CLI_DONE) status = run_cells(&plan, &house, means);
+    study_plan_free(&plan);
+    house_close(&house);
+    return status;
 }

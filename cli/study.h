@@ -38,9 +38,9 @@
 
 /* Where a cell starts.  word, space, what it is */
 #define STUDY_START_LIST(X)                                                                        \
-    X(PHYSICAL, "physical", DAL_PHYSICAL, "(q,v) alone")                                           \
-    X(SURFACE, "surface", DAL_LIFTED, "lifted, on p = pi = 0")                                     \
-    X(DISPLACED, "displaced", DAL_LIFTED, "lifted, p and pi displaced")
+    X(PHYSICAL, "physical", "physical", "(q,v) alone")                                             \
+    X(SURFACE, "surface", "lifted", "lifted, on p = pi = 0")                                       \
+    X(DISPLACED, "displaced", "lifted", "lifted, p and pi displaced")
 
 enum {
 #define X(code, word, space, about) STUDY_##code,
@@ -63,7 +63,7 @@ const char *study_option_word(int option);
 
 /* One system of a study, with one value for each of its settings, and all that is to be done with
  * it.  Entries that differ in these values alone come from one group, stand together and share
- * model and methods, which belong to the first of them. */
+ * model, copy and methods, which belong to the first of them. */
 typedef struct study_entry {
     const char *name;  /* a built-in name or a path */
     const char *group; /* its label in the file, or what stands for one */
@@ -71,6 +71,7 @@ typedef struct study_entry {
     int is_first;      /* of its group */
     dal_model *model;
     const dal_system *system;
+    char *copy; /* of the system file, in the directory of the study; NULL: a built-in system */
     double step[STUDY_STEPS], time, displacement;
     int steps, starts; /* starts: bit STUDY_x set */
     long long samples, statistics;
@@ -90,6 +91,8 @@ typedef struct study_expectation study_expectation;
 typedef struct study_plan {
     const char *place;  /* the file, for messages */
     const char *copies; /* where copies of system files are read instead; NULL: nowhere */
+    const char *runs;   /* where the directories of the runs are */
+    double interval;    /* seconds between checkpoints of a run */
     const char *title;
     void *document; /* the parsed text, where the names live */
     study_entry *entries;
@@ -149,6 +152,7 @@ struct study_cell {
     const dal_method *method;
     double step;
     int start;
+    int elsewhere; /* it belongs to another shard */
     study_state state;
     dal_error error;
     double time; /* reached */
@@ -162,10 +166,22 @@ struct study_cell {
     int window_count;
 };
 
-/* Runs a cell; stop is asked now and then.  Its state stays STUDY_WAITING when it was stopped.
- * Returns DAL_OK, DAL_INTERRUPTED or DAL_MEMORY; what befalls the run is in the cell. */
-dal_status study_cell_run(study_cell *cell, int (*stop)(void));
+/* Asked now and then while a run goes: whether it is to stop, with a checkpoint. */
+typedef struct study_watch {
+    int (*stop)(void *user);
+    void *user;
+} study_watch;
+
+/* Runs a cell in its directory, or goes on with it, or reads what is finished; watch may be NULL,
+ * for interruptions alone.  What befalls the run is in the cell; its state stays STUDY_WAITING
+ * when it was stopped.  Returns CLI_DONE; CLI_SIGNAL when it was stopped; or prints and returns an
+ * exit status.  Different cells may be run by different threads. */
+int study_cell_run(const study_plan *plan, study_cell *cell, const study_watch *watch);
 void study_cell_free(study_cell *cell);
+/* Its name, which is that of its directory below plan->runs; and that directory.  Allocated, NULL
+ * when memory is out. */
+char *study_cell_name(const study_cell *cell);
+char *study_cell_directory(const study_plan *plan, const study_cell *cell);
 /* What became of an observable by name, or NULL; of the worst of D1, D2, ... and of the invariants.
  */
 const dal_finding *study_finding(const study_cell *cell, const char *name);
@@ -178,9 +194,22 @@ const study_cell *study_physical_twin(const study_plan *plan, const study_cell *
 
 /* ---- running, telling ---- */
 
+/* What concerns the running alone. */
+typedef struct study_means {
+    int threads;
+    double interval; /* seconds between checkpoints of a run */
+    cli_native native;
+} study_means;
+
+/* Goes on with the study in a directory.  Returns the exit status. */
+int study_resume(const char *directory, const study_means *means);
+
 typedef struct study_output study_output;
 
-/* Runs all cells on threads.  Returns an exit status: CLI_DONE, CLI_SIGNAL, CLI_IO. */
+/* The cells by falling cost, so that none is left for the end; allocated, NULL: out of memory. */
+int *study_order(const study_plan *plan);
+/* Runs all cells that are not elsewhere, on threads.  Returns CLI_DONE, CLI_SIGNAL when it was
+ * interrupted, or the exit status of the first failure of the program's own, which was told. */
 int study_pool_run(study_plan *plan, int threads);
 
 /* The files of a study below a directory:

@@ -1,98 +1,113 @@
-/* study_cell.c - one cell of a study: a run, its statistics and its tracks.
+/* study_cell.c - one cell of a study: a run in a directory of its own, and what became of it.
  *
- * Rows are taken after whole numbers of steps, round(k N/S) of N steps for row k of S, so that the
- * trajectory is that of the steps alone. */
+ * What is told of a cell is read from that directory, whether the run was made now, taken up, or
+ * finished before: quantities from the statistics in its checkpoint, tracks from its rows.  Rows
+ * are taken after whole numbers of steps, so that the trajectory is that of the steps alone. */
+#include "file.h"
+#include "keep.h"
+#include "rows.h"
 #include "study.h"
 
 #include <math.h>
+#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
-/* Steps between two looks at the flag of interruption. */
-enum { CHUNK = 1000 };
+enum { TEXT = 512 };
 
 typedef struct walk {
+    const study_plan *plan;
     study_cell *cell;
-    dal_run *run;
-    int (*stop)(void);
+    cli_job job;
+    char **text; /* of its options */
+    size_t texts;
+    char *directory;
+    cli_keep keep;
+    cli_rows rows;
     int n, m;
     int energy, hamiltonian, momenta, invariants, error; /* places among the observables, or -1 */
     double *values, *first;                              /* [observables] */
-    dal_statistics *statistics;                          /* [observables] */
-    long long total, samples;                            /* steps and rows behind the first */
 } walk;
 
-/* ---- making the run ---- */
+/* ---- the job ---- */
 
-/* p_i = d, -d/2, d/3, ... and pi_i = d/2, -d/3, ...: no two alike, and not along the motion. */
-static void displace(int n, double size, double *state)
+CLI_PRINTF(3, 4) static int give(walk *w, int option, const char *format, ...)
 {
-    for (int i = 0; i < n; i++) {
-        double sign = i % 2 ? -1.0 : 1.0;
-        state[2 * n + 1 + i] = sign * size / (i + 1);
-        state[3 * n + 1 + i] = sign * size / (i + 2);
-    }
+    char text[TEXT];
+    va_list list;
+    va_start(list, format);
+    vsnprintf(text, sizeof text, format, list);
+    va_end(list);
+    char **more = realloc(w->text, (w->texts + 1) * sizeof *more);
+    if (more) w->text = more;
+    char *own = more ? strdup(text) : NULL;
+    if (!own) return cli_fail(CLI_IO, "out of memory");
+    w->text[w->texts++] = own;
+    return job_take(&w->job, option, own);
 }
 
-static dal_status displace_run(walk *w)
+static int give_settings(walk *w, int option, const dal_setting *setting, int count, double unit)
 {
-    const study_cell *c = w->cell;
-    size_t size = (size_t)dal_run_dimension(w->run) * sizeof(double);
-    if (c->start != STUDY_DISPLACED || c->entry->displace_count > 0) return DAL_OK;
-    double *state = malloc(size);
-    if (!state) return DAL_MEMORY;
-    memcpy(state, dal_run_state(w->run), size);
-    displace(w->n, c->entry->displacement, state);
-    dal_status status = dal_run_set_state(w->run, 0.0, state, &w->cell->error);
-    free(state);
+    int status = CLI_DONE;
+    for (int i = 0; i < count && status == CLI_DONE; i++)
+        status = give(w, option, "%s=%.17g", setting[i].name, setting[i].value * unit);
     return status;
 }
 
-/* The start of the entry and, where it is displaced, the momenta by name; NULL: out of memory. */
-static dal_setting *start_settings(const study_cell *c, int *count)
+/* p_i = d, -d/2, d/3, ... and pi_i = d/2, -d/3, ...: no two alike, and not along the motion. */
+static int displace(walk *w, double size)
 {
-    const study_entry *e = c->entry;
-    int displaced = c->start == STUDY_DISPLACED ? e->displace_count : 0;
-    dal_setting *list = calloc((size_t)e->start_count + (size_t)displaced + 1, sizeof *list);
-    *count = 0;
-    for (int i = 0; list && i < e->start_count; i++) list[(*count)++] = e->start[i];
-    for (int i = 0; list && i < displaced; i++)
-        list[(*count)++] =
-            (dal_setting){e->displace[i].name, e->displace[i].value * e->displacement};
-    return list;
+    const dal_system *s = w->cell->entry->system;
+    int status = CLI_DONE;
+    for (int i = 0; i < s->n && status == CLI_DONE; i++) {
+        const double signed_size = i % 2 ? -size : size;
+        status = give(w, JOB_start, "p_%s=%.17g", s->coordinate[i], signed_size / (i + 1));
+        if (status == CLI_DONE)
+            status = give(w, JOB_start, "pi_%s=%.17g", s->coordinate[i], signed_size / (i + 2));
+    }
+    return status;
 }
 
-static dal_options options_of(const study_entry *e)
+static int give_start(walk *w)
 {
-    dal_options options = dal_options_default();
-    for (int i = 0; i < STUDY_OPTIONS; i++)
-        if (e->option[i]) dal_options_set(&options, study_option_word(i), e->option[i], NULL);
-    return options;
+    const study_entry *e = w->cell->entry;
+    int status = give_settings(w, JOB_start, e->start, e->start_count, 1.0);
+    if (status != CLI_DONE || w->cell->start != STUDY_DISPLACED) return status;
+    if (e->displace_count == 0) return displace(w, e->displacement);
+    return give_settings(w, JOB_start, e->displace, e->displace_count, e->displacement);
 }
 
-static dal_status make_run(walk *w)
+static int give_options(walk *w)
 {
-    static const dal_space space[] = {
-#define X(code, word, kind, about) kind,
+    const study_entry *e = w->cell->entry;
+    int status = CLI_DONE;
+    for (int i = 0; i < STUDY_OPTIONS && status == CLI_DONE; i++)
+        if (e->option[i]) status = give(w, job_find(study_option_word(i)), "%s", e->option[i]);
+    return status;
+}
+
+static int give_all(walk *w)
+{
+    static const char *const space[] = {
+#define X(code, word, space, about) space,
         STUDY_START_LIST(X)
 #undef X
     };
-    const study_entry *e = w->cell->entry;
-    dal_run_spec spec = {.system = e->system,
-                         .method = *w->cell->method,
-                         .options = options_of(e),
-                         .parameters = e->set,
-                         .parameter_count = e->set_count};
-    dal_setting *start = start_settings(w->cell, &spec.start_count);
-    if (!start) return DAL_MEMORY;
-    spec.start = start;
-    spec.options.step = w->cell->step;
-    spec.options.space = space[w->cell->start];
-    dal_status status = dal_run_create(&w->run, &spec, &w->cell->error);
-    free(start);
-    if (status == DAL_OK) native_use(w->run, w->cell->method, e->time / w->cell->step, e->native);
-    return status == DAL_OK ? displace_run(w) : status;
+    const study_cell *c = w->cell;
+    const study_entry *e = c->entry;
+    char method[STUDY_NAME];
+    w->job.made = e->system;
+    w->job.system = e->copy ? e->copy : e->name;
+    int status = give(w, JOB_integrator, "%s", dal_method_name(c->method, method, sizeof method));
+    if (status == CLI_DONE) status = give(w, JOB_step, "%.17g", c->step);
+    if (status == CLI_DONE) status = give(w, JOB_time, "%.17g", e->time);
+    if (status == CLI_DONE) status = give(w, JOB_samples, "%lld", e->samples);
+    if (status == CLI_DONE) status = give(w, JOB_sampling, "steps");
+    if (status == CLI_DONE) status = give(w, JOB_statistics, "%lld", e->statistics);
+    if (status == CLI_DONE) status = give(w, JOB_space, "%s", space[c->start]);
+    if (status == CLI_DONE) status = give_options(w);
+    if (status == CLI_DONE) status = give_settings(w, JOB_set, e->set, e->set_count, 1.0);
+    return status == CLI_DONE ? give_start(w) : status;
 }
 
 /* ---- memory and places ---- */
@@ -104,28 +119,56 @@ static int find(const study_cell *c, const char *name)
     return -1;
 }
 
-static dal_status make_memory(walk *w)
+static int make_memory(walk *w)
 {
     study_cell *c = w->cell;
-    size_t count = (size_t)(c->observables = dal_run_observables(w->run));
-    c->finding = calloc(count + 1, sizeof *c->finding);
-    w->statistics = calloc(count + 1, sizeof *w->statistics);
-    c->names = calloc(count + 1, sizeof *c->names);
+    const cli_record *r = &w->keep.record;
+    const size_t count = (size_t)r->observables + 1;
+    c->finding = calloc(count, sizeof *c->finding);
+    c->names = calloc(count, sizeof *c->names);
     c->windows = calloc(STUDY_WINDOWS, sizeof *c->windows);
-    w->values = calloc(2 * count + 1, sizeof *w->values);
-    if (!c->finding || !w->statistics || !c->names || !c->windows || !w->values) return DAL_MEMORY;
+    w->values = calloc(2 * count, sizeof *w->values);
+    if (!c->finding || !c->names || !c->windows || !w->values)
+        return cli_fail(CLI_IO, "out of memory");
     w->first = w->values + count;
-    for (int i = 0; i < c->observables; i++)
-        dal_run_observable_name(w->run, i, c->names[i], sizeof c->names[i]);
+    c->observables = r->observables;
+    for (int i = 0; i < c->observables; i++) {
+        c->finding[i] = r->finding[i];
+        snprintf(c->names[i], sizeof c->names[i], "%s", record_observable(r, i));
+    }
+    w->n = c->entry->system->n;
+    w->m = c->entry->system->m;
     w->energy = find(c, "E");
     w->hamiltonian = find(c, "H");
     w->momenta = find(c, "|p|");
     w->error = find(c, "error");
     w->invariants = c->observables - c->entry->system->invariants - (w->error >= 0);
-    return DAL_OK;
+    return CLI_DONE;
 }
 
 /* ---- rows ---- */
+
+static double max_norm(const double *x, int count)
+{
+    double most = 0.0;
+    for (int i = 0; i < count; i++)
+        if (!(fabs(x[i]) <= most)) most = fabs(x[i]);
+    return most;
+}
+
+/* The observables of a row, in which |p|, |pi| and |pi_e| are left out: they follow from p, pi. */
+static void take_values(walk *w)
+{
+    const double *row = w->rows.row, *p = row + 2 + 2 * w->n;
+    const double *next = row + w->rows.columns - w->cell->observables;
+    if (w->momenta >= 0) next += 3;
+    for (int i = 0; i < w->cell->observables; i++) {
+        if (w->momenta >= 0 && i >= w->momenta && i < w->momenta + 3)
+            w->values[i] = max_norm(p + (i - w->momenta) * w->n, i < w->momenta + 2 ? w->n : 1);
+        else
+            w->values[i] = *next++;
+    }
+}
 
 static void raise_to(double *most, double x)
 {
@@ -148,95 +191,107 @@ static void track(const walk *w, double *most)
     if (w->error >= 0) raise_to(&most[STUDY_TRACK_ERROR], x[w->error]);
 }
 
-/* FNV-1a over the bytes of (q,v). */
-static void hash_state(walk *w)
-{
-    const unsigned char *bytes = (const unsigned char *)dal_run_state(w->run);
-    size_t count = 2 * (size_t)w->n * sizeof(double);
-    for (size_t i = 0; i < count; i++)
-        w->cell->bits = (w->cell->bits ^ bytes[i]) * UINT64_C(0x100000001b3);
-}
-
-static dal_status take_row(walk *w, long long row)
+static void take_row(walk *w, long long k)
 {
     study_cell *c = w->cell;
-    dal_status status = dal_run_observe(w->run, w->values);
-    if (status != DAL_OK) return status;
-    if (row == 0) memcpy(w->first, w->values, (size_t)c->observables * sizeof(double));
-    dal_statistics_add(w->statistics, c->observables, dal_run_time(w->run), w->values);
-    int window = (int)((double)row / (double)(w->samples + 1) * STUDY_WINDOWS);
+    const double samples = (double)w->job.samples;
+    take_values(w);
+    if (k == 0) memcpy(w->first, w->values, (size_t)c->observables * sizeof *w->first);
+    const int window = (int)((double)k / (samples + 1.0) * STUDY_WINDOWS);
     track(w, c->windows[window]);
     c->window_count = window + 1;
-    hash_state(w);
-    return DAL_OK;
+    c->bits = file_hash(c->bits, w->rows.row + 1, 2 * (size_t)w->n * sizeof(double));
 }
 
-static double thread_seconds(void)
+static int read_rows(walk *w)
 {
-    struct timespec now;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+    int status = rows_open(&w->rows, w->directory);
+    if (status != CLI_DONE) return status;
+    w->cell->bits = FILE_HASH_START;
+    int more = 1;
+    for (long long k = 0; k <= w->job.samples && (more = rows_next(&w->rows)) > 0; k++)
+        take_row(w, k);
+    rows_close(&w->rows);
+    return more < 0 ? CLI_IO : CLI_DONE;
 }
 
-static dal_status advance_to(walk *w, long long step)
+/* ---- the run ---- */
+
+static void fail(study_cell *c, study_state state, dal_status status)
 {
-    while (dal_run_steps(w->run) < step) {
-        long long count = step - dal_run_steps(w->run);
-        if (w->stop()) return DAL_INTERRUPTED;
-        double before = thread_seconds();
-        dal_status status = dal_run_advance(w->run, count < CHUNK ? count : CHUNK, &w->cell->error);
-        w->cell->seconds += thread_seconds() - before;
-        if (status != DAL_OK) return status;
-    }
-    return DAL_OK;
+    c->state = state;
+    c->error.status = status;
+    if (!c->error.message[0])
+        snprintf(c->error.message, sizeof c->error.message, "%s", dal_status_text(status));
 }
 
-static dal_status go(walk *w)
+/* The run itself; a cell whose run cannot be made is settled thereby. */
+static int make_run(walk *w)
+{
+    dal_run_spec spec;
+    study_cell *c = w->cell;
+    int status = give_all(w);
+    if (status == CLI_DONE) status = job_settle(&w->job, &spec);
+    if (status != CLI_DONE) return status;
+    const dal_status made = dal_run_create(&w->job.run, &spec, &c->error);
+    if (made == DAL_MEMORY) return cli_fail(CLI_IO, "out of memory");
+    if (made == DAL_OK) return CLI_DONE;
+    w->job.run = NULL;
+    fail(c, made == DAL_UNSUPPORTED ? STUDY_REFUSED : STUDY_FAILED, made);
+    return CLI_DONE;
+}
+
+static int collect(walk *w, const dal_error *error, int ended)
 {
     study_cell *c = w->cell;
-    dal_statistics_start(w->statistics, c->observables);
-    dal_status status = DAL_OK;
-    for (long long row = 0; row <= w->samples && status == DAL_OK; row++) {
-        long long step = llround((double)row / (double)w->samples * (double)w->total);
-        status = advance_to(w, step);
-        if (status == DAL_OK) status = take_row(w, row);
-    }
-    for (int i = 0; i < c->observables; i++)
-        cli_judge(c->names[i], &w->statistics[i], status != DAL_OK, &c->finding[i]);
-    c->time = dal_run_time(w->run);
-    c->steps = dal_run_steps(w->run);
-    c->evaluations = dal_run_evaluations(w->run);
-    return status;
+    int status = make_memory(w);
+    if (status == CLI_DONE) status = read_rows(w);
+    if (status != CLI_DONE) return status;
+    c->time = dal_run_time(w->job.run);
+    c->steps = dal_run_steps(w->job.run);
+    c->evaluations = dal_run_evaluations(w->job.run);
+    c->seconds = w->keep.record.mark.seconds;
+    c->state = STUDY_FINISHED;
+    c->error = *error;
+    if (ended == CLI_FAILED) fail(c, STUDY_FAILED, error->status);
+    return CLI_DONE;
 }
 
-static void conclude(study_cell *c, int made, dal_status status)
+static int go(walk *w, const study_watch *watch)
 {
-    if (status == DAL_INTERRUPTED || status == DAL_MEMORY) {
-        study_cell_free(c);
-        return;
+    const study_entry *e = w->cell->entry;
+    dal_error error = {0};
+    int ended = keep_open(&w->keep, &w->job, w->directory);
+    if (ended == CLI_DONE && !keep_is_finished(&w->keep)) {
+        const double left = (double)(w->job.time - dal_run_time(w->job.run));
+        if (watch) {
+            w->keep.record.stop = watch->stop;
+            w->keep.record.stop_user = watch->user;
+        }
+        w->keep.record.interval = w->plan->interval;
+        native_use(w->job.run, w->cell->method, left / w->cell->step, e->native);
+        ended = keep_go(&w->keep, &error);
     }
-    if (status != DAL_OK && !c->error.message[0])
-        snprintf(c->error.message, sizeof c->error.message, "%s", dal_status_text(status));
-    c->error.status = status;
-    c->state = status == DAL_OK ? STUDY_FINISHED : made ? STUDY_FAILED : STUDY_REFUSED;
-    if (!made && status != DAL_UNSUPPORTED) c->state = STUDY_FAILED;
+    if (ended != CLI_DONE && ended != CLI_FAILED) return ended;
+    return collect(w, &error, ended);
 }
 
-dal_status study_cell_run(study_cell *cell, int (*stop)(void))
+int study_cell_run(const study_plan *plan, study_cell *cell, const study_watch *watch)
 {
-    walk w = {.cell = cell, .stop = stop, .n = cell->entry->system->n, .m = cell->entry->system->m};
-    cell->bits = UINT64_C(0xcbf29ce484222325);
-    w.total = llround(cell->entry->time / cell->step);
-    w.samples = cell->entry->samples < w.total ? cell->entry->samples : w.total;
-    dal_status status = make_run(&w);
-    int made = status == DAL_OK;
-    if (made) status = make_memory(&w);
-    if (status == DAL_OK) status = go(&w);
-    conclude(cell, made, status);
+    walk w = {.plan = plan, .cell = cell, .job = job_begin()};
+    int status = make_run(&w);
+    if (status == CLI_DONE && w.job.run) {
+        w.directory = study_cell_directory(plan, cell);
+        status = w.directory ? go(&w, watch) : cli_fail(CLI_IO, "out of memory");
+        keep_close(&w.keep);
+    }
+    if (status != CLI_DONE) study_cell_free(cell);
+    for (size_t i = 0; i < w.texts; i++) free(w.text[i]);
+    free(w.text);
+    free(w.directory);
     free(w.values);
-    free(w.statistics);
-    dal_run_free(w.run);
-    return status == DAL_INTERRUPTED || status == DAL_MEMORY ? status : DAL_OK;
+    job_free(&w.job);
+    return status;
 }
 
 void study_cell_free(study_cell *cell)
@@ -244,74 +299,9 @@ void study_cell_free(study_cell *cell)
     free(cell->finding);
     free(cell->names);
     free(cell->windows);
-    *cell = (study_cell){
-        .entry = cell->entry, .method = cell->method, .step = cell->step, .start = cell->start};
-}
-
-/* ---- what is asked of a finished cell ---- */
-
-const char *study_track_column(int track)
-{
-    static const char *const column[] = {
-#define X(code, name) name,
-        STUDY_TRACK_LIST(X)
-#undef X
-    };
-    return column[track];
-}
-
-const char *study_state_word(study_state state)
-{
-    static const char *const words[] = {
-#define X(code, word) word,
-        STUDY_STATE_LIST(X)
-#undef X
-    };
-    return words[state];
-}
-
-const dal_finding *study_finding(const study_cell *cell, const char *name)
-{
-    int i = find(cell, name);
-    return i < 0 ? NULL : &cell->finding[i];
-}
-
-const dal_finding *study_worst_constraint(const study_cell *cell)
-{
-    const dal_finding *worst = NULL;
-    int m = cell->entry->system->m;
-    for (int a = 0; a < m && a < cell->observables; a++)
-        if (!worst || cell->finding[a].greatest > worst->greatest) worst = &cell->finding[a];
-    return worst;
-}
-
-const dal_finding *study_worst_invariant(const study_cell *cell, const char **name)
-{
-    const dal_finding *worst = NULL;
-    const dal_system *s = cell->entry->system;
-    for (int i = 0; i < s->invariants; i++) {
-        const dal_finding *finding = study_finding(cell, s->invariant[i]);
-        if (!finding || (worst && finding->deviation <= worst->deviation)) continue;
-        worst = finding;
-        if (name) *name = s->invariant[i];
-    }
-    return worst;
-}
-
-const char *study_verdict(const study_cell *cell, const dal_finding *finding)
-{
-    int conserved = (cell->entry->system->properties & (DAL_E_EXACT | DAL_E_WEAK)) != 0;
-    if (finding == study_finding(cell, "E") && !conserved) return "-";
-    return dal_verdict_text(finding->verdict);
-}
-
-const study_cell *study_physical_twin(const study_plan *plan, const study_cell *cell)
-{
-    const study_entry *e = cell->entry;
-    for (int i = e->first_cell; i < e->first_cell + e->cells; i++) {
-        const study_cell *c = &plan->cells[i];
-        if (c->method == cell->method && c->step == cell->step && c->start == STUDY_PHYSICAL)
-            return c;
-    }
-    return NULL;
+    *cell = (study_cell){.entry = cell->entry,
+                         .method = cell->method,
+                         .step = cell->step,
+                         .start = cell->start,
+                         .elsewhere = cell->elsewhere};
 }

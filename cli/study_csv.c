@@ -69,6 +69,16 @@ static void put_same(FILE *out, const row *r)
     if (r->cell->state == STUDY_FINISHED) fputs(r->cell->bits == twin->bits ? "yes" : "no", out);
 }
 
+/* Its directory below that of the study; a cell whose run could not be made has none. */
+static void put_run(FILE *out, const row *r)
+{
+    char *name = r->cell->observables > 0 ? study_cell_name(r->cell) : NULL;
+    char *run = name ? cli_join("runs", name) : NULL;
+    if (run) cli_put_text(out, run);
+    free(run);
+    free(name);
+}
+
 /* column, how it is written */
 #define COLUMN_LIST(X)                                                                             \
     X(label, cli_put_text(out, r->entry->label))                                                   \
@@ -103,6 +113,7 @@ static void put_same(FILE *out, const row *r)
     X(error_max, put_number(out, &r->error, r->error.finding.greatest))                            \
     X(same_as_physical, put_same(out, r))                                                          \
     X(bits, fprintf(out, "%016llx", (unsigned long long)r->cell->bits))                            \
+    X(run, put_run(out, r))                                                                        \
     X(message, cli_put_text(out, r->cell->error.message))                                          \
     X(seconds, cli_put(out, r->cell->seconds))
 

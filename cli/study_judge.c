@@ -41,7 +41,7 @@ static const dal_finding *find(const study_expectation *x, const study_cell *c)
 /* Whether a cell has what is asked for. */
 static int is_judged(const study_expectation *x, const study_cell *c)
 {
-    if (!is_meant(x, c) || c->state == STUDY_WAITING) return 0;
+    if (!is_meant(x, c) || c->elsewhere || c->state == STUDY_WAITING) return 0;
     return is_state(x) || (c->state != STUDY_REFUSED && find(x, c));
 }
 

@@ -164,11 +164,9 @@ static int check_system(const study_text *text, const yaml_node_t *node, const c
 static int load_system(study_plan *plan, study_entry *e)
 {
     if (!plan->copies || !cli_is_path(e->name)) return cli_load(e->name, &e->model, &e->system);
-    char *path = study_system_copy(plan->copies, e);
-    if (!path) return cli_fail(CLI_IO, "out of memory");
-    int status = cli_load(path, &e->model, &e->system);
-    free(path);
-    return status;
+    e->copy = study_system_copy(plan->copies, e);
+    if (!e->copy) return cli_fail(CLI_IO, "out of memory");
+    return cli_load(e->copy, &e->model, &e->system);
 }
 
 /* ---- groups ---- */
@@ -193,6 +191,7 @@ static void share(study_entry *e, const study_entry *first)
 {
     e->model = first->model;
     e->system = first->system;
+    e->copy = first->copy;
     e->methods = first->methods;
     e->method_count = first->method_count;
 }
@@ -313,7 +312,7 @@ int study_plan_read(study_plan *plan, const char *place, const char *bytes, size
     if (status != CLI_DONE) return status;
     yaml_node_t *root = yaml_document_get_root_node(&text->document);
     status = study_draft_study(&base, text, root);
-    plan->title = base.title ? base.title : place;
+    plan->title = base.title ? base.title : "A study";
     if (status == CLI_DONE) status = read_systems(plan, text, root, &base);
     if (status == CLI_DONE) status = make_cells(plan);
     return status == CLI_DONE ? study_expect_read(plan, text, base.expect) : status;
@@ -323,6 +322,7 @@ static void free_entry(study_entry *e)
 {
     if (e->is_first) {
         dal_model_free(e->model);
+        free(e->copy);
         free(e->methods);
     }
     free(e->label);

@@ -7,12 +7,14 @@
 
 #include <stdlib.h>
 
+static const double interval = 0.2; /* seconds between two looks at the progress */
+
 typedef struct work {
     study_plan *plan;
-    int *order; /* cells by falling cost */
-    int done;
-    dal_status status; /* DAL_MEMORY once it ran out */
-    double began;
+    int *order;
+    int done, count;
+    int status; /* CLI_DONE, or that of the first failure of the program's own */
+    double began, told;
 } work;
 
 /* Stages times steps, and more where implicit equations are solved on the wider space. */
@@ -37,7 +39,7 @@ static int by_cost(const void *a, const void *b)
     return x->cell < y->cell ? -1 : x->cell > y->cell;
 }
 
-static int *rank_cells(const study_plan *plan)
+int *study_order(const study_plan *plan)
 {
     const size_t count = (size_t)plan->cell_count;
     ranked *list = calloc(count + 1, sizeof *list);
@@ -57,33 +59,54 @@ static int *rank_cells(const study_plan *plan)
 static void tell(void *user)
 {
     work *w = user;
-    w->done++;
-    cli_progress("study: %d of %d cells, %.0f s", w->done, w->plan->cell_count,
-                 cli_seconds() - w->began);
+    w->told = cli_seconds();
+    cli_progress("study: %d of %d cells, %.0f s", w->done, w->count, w->told - w->began);
 }
 
-static void run_out(void *user)
+typedef struct ending {
+    work *work;
+    int status;
+} ending;
+
+static void note(void *user)
+{
+    const ending *e = user;
+    work *w = e->work;
+    if (e->status == CLI_DONE) w->done++;
+    if (w->status == CLI_DONE && e->status != CLI_SIGNAL) w->status = e->status;
+    tell(w);
+}
+
+static void look(void *user)
 {
     work *w = user;
-    w->status = DAL_MEMORY;
+    if (cli_seconds() - w->told > interval) tell(w);
+}
+
+/* Asked by each run now and then. */
+static int stop(void *user)
+{
+    pool_alone(look, user);
+    return cli_interrupted();
 }
 
 static void run_cell(void *user, int i)
 {
     work *w = user;
-    if (cli_interrupted()) return;
-    const dal_status status = study_cell_run(&w->plan->cells[w->order[i]], cli_interrupted);
-    if (status == DAL_MEMORY) pool_alone(run_out, w);
-    if (status == DAL_OK) pool_alone(tell, w);
+    study_cell *cell = &w->plan->cells[w->order[i]];
+    if (cell->elsewhere || cli_interrupted()) return;
+    ending e = {w, study_cell_run(w->plan, cell, &(study_watch){stop, w})};
+    pool_alone(note, &e);
 }
 
 int study_pool_run(study_plan *plan, int threads)
 {
-    work w = {.plan = plan, .order = rank_cells(plan), .began = cli_seconds()};
+    work w = {.plan = plan, .order = study_order(plan), .began = cli_seconds()};
     if (!w.order) return cli_fail(CLI_IO, "out of memory");
+    for (int i = 0; i < plan->cell_count; i++) w.count += !plan->cells[i].elsewhere;
     pool_run(plan->cell_count, threads, run_cell, &w);
     cli_progress_end();
     free(w.order);
-    if (w.status == DAL_MEMORY) return cli_fail(CLI_IO, "out of memory");
+    if (w.status != CLI_DONE) return w.status;
     return cli_interrupted() ? CLI_SIGNAL : CLI_DONE;
 }

@@ -160,7 +160,7 @@ static void print_table(FILE *out, const study_plan *plan, const study_entry *e,
     for (int i = e->first_cell; i < e->first_cell + e->cells; i++) {
         const study_cell *c = &plan->cells[i];
         char name[STUDY_NAME];
-        if (c->step != step || c->start != start) continue;
+        if (c->elsewhere || c->step != step || c->start != start) continue;
         fprintf(out, "  %-*s", METHOD, dal_method_name(c->method, name, sizeof name));
         line l = make_line(plan, c);
         if (c->state == STUDY_FINISHED)
@@ -203,7 +203,7 @@ void study_print_note(FILE *out)
         "law, exponential: grows so.  aborted: not finite.  not enough data: too few samples, or\n"
         "too slow an oscillation, to tell.  quantities.csv has the confidence of each.  -: not to\n"
         "be judged, as E where the system itself does not conserve it.  Rates are slopes of least\n"
-        "squares.  I are the invariants of the system, the worst of them; ns are of processor\n"
-        "time.\n",
+        "squares.  All look at every step.  I are the invariants of the system, the worst of\n"
+        "them; ns are of the clock, looking on included.\n",
         out);
 }

@@ -47,16 +47,16 @@ systems:
   - {system: contact-oscillator, label: off}
   - {system: contact-oscillator, label: on, options: {extend-energy: on}}
 END2
-try 0 study extended.yaml --output kept
+try 0 study extended.yaml --output in-study
 loss() { awk -F, -v label="$1" 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == "E_deviation") k = i }
-                                $1 == label { print $k }' kept/cells.csv; }
+                                $1 == label { print $k }' in-study/cells.csv; }
 holds "E_deviation: $(loss off), $(loss on)" \
     awk "BEGIN { exit !($(loss off) > 4e-13 && $(loss on) < 2e-13) }"
 sed -i 's/extend-energy/extend-energie/' extended.yaml
-try 2 study extended.yaml --output kept
+try 2 study extended.yaml --output in-study
 says "extended.yaml:7:55: unknown option 'extend-energie'; did you mean 'extend-energy'"
 sed -i 's/extend-energie: on/step: 3/' extended.yaml
-try 2 study extended.yaml --output kept
+try 2 study extended.yaml --output in-study
 says "options: step has a key of its own"
 
 case_is "a method that cannot serve is refused with the reason"

@@ -14,7 +14,7 @@ column() { awk -F, -v head="$1" 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == h
                                  { print $k }' "$2"; }
 
 case_is "cells, tables and files"
-try 0 study small.yaml --output there
+try 0 study small.yaml --output there --force
 silent
 prints '^a small study$'
 prints '^chaplygin-sleigh: '
@@ -53,7 +53,7 @@ starts: physical
 systems: [line.yaml]
 END
 # explicit Euler on v' = -v, x' = v from (0, 1): v = 1/2, 1/4; x = 1/2, 3/4
-try 0 study closed.yaml --output there
+try 0 study closed.yaml --output there --force
 E_first=$(column E_first there/cells.csv)
 E_deviation=$(column E_deviation there/cells.csv)
 holds "E(0) = $E_first" test "$E_first" = 0.5
@@ -72,7 +72,7 @@ systems:
   - {system: appell-hamel, set: {w0: -1}}
   - line.yaml
 END
-try 3 study failing.yaml --output there
+try 3 study failing.yaml --output there --force
 # z' = 1 comes to rest at t = z' (1 + nu^2)/g = 2
 prints '^  rk4 +failed after t = 2: constraint 1 '
 holds "no failed cells" test "$(column state there/cells.csv | sort | uniq -c | tr -d ' \n')" = 2done2failed
@@ -85,7 +85,7 @@ step: 0.1
 time: 1
 systems: chaplygin-sleigh-vakonomic
 END
-try 0 study refused.yaml --output there
+try 0 study refused.yaml --output there --force
 prints '^  rk4 +refused: '
 holds "not 2 refused" test "$(column state there/cells.csv | grep -c refused)" -eq 2
 
@@ -98,7 +98,7 @@ systems:
   - {system: line.yaml, label: short, time: 1}
   - {system: line.yaml, label: endless, time: 1e12}
 END
-"$program" study endless.yaml --output there --threads 2 >out 2>err &
+"$program" study endless.yaml --output there --force --threads 2 >out 2>err &
 pid=$!
 sleep 1
 kill -INT $pid
@@ -109,11 +109,13 @@ says 'interrupted'
 holds "the finished cell is lost" grep -q '^short,.*,done,' there/cells.csv
 prints 'endless'
 prints '^  rk4 +not run'
+holds "the unfinished run has no checkpoint" test -s there/runs/endless_rk4_physical_0.1/checkpoint
+holds "the manifest" grep -q '"cells": {"not run": 1, "done": 1, "failed": 0' there/manifest.json
 
 case_is "study files that are none"
 bad() {
     printf "$1" >bad.yaml
-    try 2 study bad.yaml --output there
+    try 2 study bad.yaml --output there --force
     says "$2"
     empty
 }
@@ -138,11 +140,11 @@ bad 'integrators: rk4\nstep: 0.1\ntime: 1\nsystems: [{system: knife-edge, label:
 bad 'integrators: rk4\nstep: 0.1\ntime: 1\nsystems: [{system: knife-edge, set: [m]}]\n' 'names and values are wanted'
 bad 'integrators: {rk4: 1}\nstep: 0.1\ntime: 1\nsystems: [knife-edge]\n' 'a single value is wanted'
 bad 'integrators: rk4\nstep: 0.1\ntime: 1\nsamples: 0\nsystems: [knife-edge]\n' 'not in 1\.\.'
-try 2 study nowhere.yaml --output there
+try 2 study nowhere.yaml --output there --force
 says 'nowhere.yaml'
 try 2 study small.yaml failing.yaml
 says 'more than one study'
-try 2 study small.yaml --threads 0 --output there
+try 2 study small.yaml --threads 0 --output there --force
 says '0 is not in'
 
 bad 'integrators: []\nstep: 0.1\ntime: 1\nsystems: [knife-edge]\n' 'bad.yaml:1:14: integrators: the list is empty'
@@ -157,13 +159,35 @@ bad "${common}systems: [{system: knife-edge, start: {ph: 1}}]\n" \
 bad "${common}systems: [{system: knife-edge, displace: {pi_ph: 1}}]\n" \
     "displace: unknown start name 'pi_ph'; did you mean 'pi_phi'"
 
+case_is "a study is not written over"
+cp small.yaml other.yaml
+echo '# other' >>other.yaml
+try 0 study small.yaml --output held
+try 2 study other.yaml --output held
+says "'held/study.yaml' is there already: 'dalembert resume held' goes on with it, --force writes"
+try 2 study small.yaml --output held
+try 2 study small.yaml --output held --shard 1/2
+try 0 study closed.yaml --output held --force
+holds "runs of the old study" test "$(ls held/runs | tr '\n' ' ')" = "line.yaml_symplectic-euler-00_physical_0.5 "
+holds "series of the old study" test "$(ls held/series | tr '\n' ' ')" = "line.yaml.csv "
+try 0 run line.yaml --integrator rk4 --step 0.1 --time 1 --output of-a-run
+try 2 study small.yaml --output of-a-run
+says "'of-a-run/manifest.json' is there already"
+# By default each is written over the one before, when that is over.
+try 0 study small.yaml
+try 0 study closed.yaml
+holds "not the last one" cmp -s closed.yaml dalembert-study/study.yaml
+sed -i 's/"status": "done"/"status": "running"/' dalembert-study/manifest.json
+try 2 study small.yaml
+says "'dalembert-study/study.yaml' is there already"
+
 case_is "output that cannot be written"
 try 4 study small.yaml --output line.yaml
 says "line.yaml"
 try 4 study small.yaml --output /proc/nowhere
 says '/proc/nowhere'
 if [ -w /dev/full ]; then
-    "$program" study small.yaml --output there >/dev/full 2>err
+    "$program" study small.yaml --output there --force >/dev/full 2>err
     status=$?
     holds "exit $status, not 4, on a full disk" test $status -eq 4
     says 'standard output'

@@ -10,7 +10,7 @@ printf "$common"'systems:
     set: {k: {from: 1, to: 2, count: 3}}
     start: {x: [0, 3], "x'"'"'": 2}
 ' >values.yaml
-try 0 study values.yaml --output there
+try 0 study values.yaml --output there --force
 silent
 holds "labels: $(labels)" test "$(labels)" = \
     "line_k=1_x=0 line_k=1_x=3 line_k=1.5_x=0 line_k=1.5_x=3 line_k=2_x=0 line_k=2_x=3 "
@@ -21,7 +21,7 @@ holds "c: $first_c" test "$first_c" = "2 5 2 6.5 2 8 "
 case_is "ranges"
 printf 'integrators: rk4\nstep: {from: 0.5, to: 0.1, by: -0.2}\ntime: 1\nstarts: physical\n'"
 systems: [{system: line.yaml, set: {k: {from: 0, to: 0.3, by: 0.1}}}]\n" >ranges.yaml
-try 0 study ranges.yaml --output there
+try 0 study ranges.yaml --output there --force
 steps=$(column step there/cells.csv | sort -u | awk '{ printf "%.3g ", $1 }')
 holds "steps $steps" test "$steps" = "0.1 0.3 0.5 "
 holds "labels $(labels)" test "$(labels)" = \
@@ -31,14 +31,14 @@ case_is "draws"
 # 1 + u with SplitMix64 as study_values.c has it, computed elsewhere: x' = 1.2850.. and 1.4568..
 printf "${common}seeds: [1, 7]\nsystems: [{system: line.yaml, start: {x': {between: [1, 2]}}}]\n" \
     >draws.yaml
-try 0 study draws.yaml --output there
+try 0 study draws.yaml --output there --force
 holds "labels $(labels)" test "$(labels)" = "line.yaml_seed=1 line.yaml_seed=7 "
 E_first=$(column E_first there/cells.csv | tr '\n' ' ')
 holds "E(0) = $E_first" test "$E_first" = "0.82568526102259454 1.061239195889158 "
 # Drawn off x' = y', brought back along the mass metric: both become the mean.
 printf "${common}seeds: 7\nsystems: [{system: plane.yaml, start: {x': {between: [0, 1]}}}]\n" \
     >onto.yaml
-try 0 study onto.yaml --output there
+try 0 study onto.yaml --output there --force
 E_first=$(column E_first there/cells.csv)
 holds "E(0) = $E_first" awk "BEGIN { exit !($E_first - 0.53061959794457902 < 4e-16 && 0.53061959794457902 - $E_first < 4e-16) }"
 
@@ -52,14 +52,14 @@ expect:\n'"$1" >expect.yaml
 expecting '  line: {all: {c: {max: {at most: 2}, final: {at least: 0.9}}, E: {at least: 0.4}}}
   line_k=1: {rk4: {error: {at most: 1e-6}, c: [exact, rounding], state: done}}
   appell-hamel: {rk4: {state: failed, D: aborted}, gauss4: {D1: aborted}}\n'
-try 0 study expect.yaml --output there
+try 0 study expect.yaml --output there --force
 prints '^Expectations: 18 of 18 are met\.$'
 holds "18 rows and a head" test "$(wc -l <there/expectations.csv)" -eq 19
 holds "all met" test "$(column met there/expectations.csv | sort -u)" = yes
 # E of x' = exp(-t) falls from 1/2 to exp(-6)/2: by 0.49876
 expecting '  line_k=1: {rk4: {E: {deviation: {at most: 0.4987}, final: {at least: 0.01}}, c: power law}}
   appell-hamel: {all: {state: [failed, refused]}}\n'
-try 1 study expect.yaml --output there
+try 1 study expect.yaml --output there --force
 prints '^Expectations: 2 of 5 are met\.$'
 prints '^  line_k=1 .* rk4 .* E: expected deviation <= 0\.4987, found 0\.499 \(line 9\)$'
 prints '^  line_k=1 .* E: expected final >= 0\.01, found 0\.00124 \(line 9\)$'
@@ -68,12 +68,12 @@ holds "three not met" test "$(column met there/expectations.csv | grep -c no)" -
 holds "the table is not kept" grep -q '^Expectations: 2 of 5' there/tables.txt
 # A failure that nobody expected counts for more.
 expecting '  line: {rk4: {c: exponential}}\n'
-try 3 study expect.yaml --output there
+try 3 study expect.yaml --output there --force
 
 case_is "statements about what is not there"
 unexpected() {
     expecting "$1"
-    try 2 study expect.yaml --output there
+    try 2 study expect.yaml --output there --force
     says "$2"
     empty
 }

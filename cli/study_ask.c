@@ -1,0 +1,106 @@
+/* study_ask.c - what is asked of a cell: its names, and its findings by name. */
+#include "study.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- names ---- */
+
+static int reads_back(const char *text, double x) { return strtod(text, NULL) == x; }
+
+/* LABEL_INTEGRATOR_START_STEP, the step with as few digits as tell it; no two cells share one. */
+char *study_cell_name(const study_cell *c)
+{
+    char method[STUDY_NAME], step[32], *name = NULL;
+    size_t length;
+    for (int digits = 1; digits <= 17; digits++) {
+        snprintf(step, sizeof step, "%.*g", digits, c->step);
+        if (reads_back(step, c->step)) break;
+    }
+    FILE *out = open_memstream(&name, &length);
+    if (!out) return NULL;
+    fprintf(out, "%s_%s_%s_%s", c->entry->label, dal_method_name(c->method, method, sizeof method),
+            study_start_word(c->start), step);
+    if (fclose(out) == 0) return name;
+    free(name);
+    return NULL;
+}
+
+char *study_cell_directory(const study_plan *plan, const study_cell *c)
+{
+    char *name = study_cell_name(c);
+    char *directory = name ? cli_join(plan->runs, name) : NULL;
+    free(name);
+    return directory;
+}
+
+/* ---- words ---- */
+
+const char *study_track_column(int track)
+{
+    static const char *const column[] = {
+#define X(code, name) name,
+        STUDY_TRACK_LIST(X)
+#undef X
+    };
+    return column[track];
+}
+
+const char *study_state_word(study_state state)
+{
+    static const char *const words[] = {
+#define X(code, word) word,
+        STUDY_STATE_LIST(X)
+#undef X
+    };
+    return words[state];
+}
+
+/* ---- findings ---- */
+
+const dal_finding *study_finding(const study_cell *cell, const char *name)
+{
+    for (int i = 0; i < cell->observables; i++)
+        if (strcmp(cell->names[i], name) == 0) return &cell->finding[i];
+    return NULL;
+}
+
+const dal_finding *study_worst_constraint(const study_cell *cell)
+{
+    const dal_finding *worst = NULL;
+    int m = cell->entry->system->m;
+    for (int a = 0; a < m && a < cell->observables; a++)
+        if (!worst || cell->finding[a].greatest > worst->greatest) worst = &cell->finding[a];
+    return worst;
+}
+
+const dal_finding *study_worst_invariant(const study_cell *cell, const char **name)
+{
+    const dal_finding *worst = NULL;
+    const dal_system *s = cell->entry->system;
+    for (int i = 0; i < s->invariants; i++) {
+        const dal_finding *finding = study_finding(cell, s->invariant[i]);
+        if (!finding || (worst && finding->deviation <= worst->deviation)) continue;
+        worst = finding;
+        if (name) *name = s->invariant[i];
+    }
+    return worst;
+}
+
+const char *study_verdict(const study_cell *cell, const dal_finding *finding)
+{
+    int conserved = (cell->entry->system->properties & (DAL_E_EXACT | DAL_E_WEAK)) != 0;
+    if (finding == study_finding(cell, "E") && !conserved) return "-";
+    return dal_verdict_text(finding->verdict);
+}
+
+const study_cell *study_physical_twin(const study_plan *plan, const study_cell *cell)
+{
+    const study_entry *e = cell->entry;
+    for (int i = e->first_cell; i < e->first_cell + e->cells; i++) {
+        const study_cell *c = &plan->cells[i];
+        if (c->method == cell->method && c->step == cell->step && c->start == STUDY_PHYSICAL)
+            return c;
+    }
+    return NULL;
+}

@@ -1,0 +1,73 @@
+/* study_house.h - a study that lives in a directory and can be gone on with after any interruption.
+ *
+ *     DIR/study.yaml         the study itself; written last, so that with it all else is there
+ *     DIR/systems/LABEL.yaml copies of system files
+ *     DIR/runs/NAME/         a run each, as 'dalembert run --output' makes them
+ *     DIR/manifest.json      what ran the study and how far it came, or, where shards were run,
+ *     DIR/shard-K-of-N.json  the same of each of them
+ *     DIR/tables.txt, cells.csv, quantities.csv, expectations.csv, series/LABEL.csv
+ *                            when it is over or interrupted */
+#ifndef DAL_CLI_STUDY_HOUSE_H
+#define DAL_CLI_STUDY_HOUSE_H
+
+#include "study.h"
+
+#define HOUSE_FILE_LIST(X)                                                                         \
+    X(study, "study.yaml")                                                                         \
+    X(systems, "systems")                                                                          \
+    X(runs, "runs")                                                                                \
+    X(series, "series")                                                                            \
+    X(manifest, "manifest.json")                                                                   \
+    X(tables, "tables.txt")                                                                        \
+    X(cells, "cells.csv")                                                                          \
+    X(quantities, "quantities.csv")                                                                \
+    X(expectations, "expectations.csv")
+
+/* Cells k, k + n, k + 2n, ... of n shards; count 0: all cells, HOUSE_SHARDS: those of all shards
+ * that the directory tells of. */
+enum { HOUSE_SHARDS = -1 };
+
+typedef struct study_shard {
+    long long number, count;
+} study_shard;
+
+typedef struct study_house {
+    const char *directory; /* the caller's */
+#define X(name, file) char *name;
+    HOUSE_FILE_LIST(X)
+#undef X
+    char *text; /* of study.yaml, as it was read */
+    size_t length;
+    study_shard shard; /* what of the study is run */
+} study_house;
+
+/* The names of the files in a directory.  All functions return CLI_DONE or print and return an
+ * exit status. */
+int house_open(study_house *house, const char *directory);
+void house_close(study_house *house);
+int house_holds_study(const study_house *house);
+/* Whether a whole study is there, and is over. */
+int house_is_finished(const study_house *house);
+
+/* Makes the directory, the copies of system files and the description; a study that is there is
+ * written over with force alone, and a shard joins it when it is the same.  The plan's cells then
+ * have their place there, and those of other shards are elsewhere. */
+int house_begin(study_house *house, study_plan *plan, const char *text, size_t length,
+                study_shard shard, int force);
+/* Reads the plan of the study that is there, or of those of its shards that are. */
+int house_read(study_house *house, study_plan *plan);
+
+/* manifest.json, or those of the shards; state: running, interrupted, failed, unmet, done. */
+int house_tell(const study_house *house, const study_plan *plan, const char *state);
+/* When cells have been run, with the status this ended with: the tables to stdout and, of a whole
+ * study, all files.  Returns the exit status of the program. */
+int house_finish(const study_house *house, const study_plan *plan, int status);
+
+/* Calls visit for each shard that the directory tells of. */
+typedef int house_visitor(const study_house *house, study_shard shard, void *user);
+int house_each_shard(const study_house *house, house_visitor *visit, void *user);
+/* Where the manifest of a shard is, or of the whole; allocated, NULL: out of memory. */
+char *house_manifest(const study_house *house, study_shard shard);
+int house_is_of(study_shard shard, int cell);
+
+#endif
