@@ -3,6 +3,7 @@
 #     make                  build/dalembert, build/libdalembert.a, build/libdalembert.so
 #     make check            all tests; the CUnit summary comes last
 #     make check-sanitize   the tests under the address and undefined-behaviour sanitizers
+#     make check-kill       runs killed at KILLS random moments and gone on with
 #     make check-bits       generated code in every way, hours: BITS_JOBS at a time
 #     make check-valgrind   the CUnit suites under valgrind
 #     make fuzz             each fuzz target for FUZZ_SECONDS
@@ -175,6 +176,10 @@ CHECKED = -O1 -g -fno-omit-frame-pointer -fno-sanitize-recover=all
 check-sanitize:
 	$(MAKE) BUILD=$(BUILD)/sanitize CFLAGS="$(CHECKED) -fsanitize=address,undefined" \
 	    RUN_SUITE= check
+
+KILLS ?= 1000
+check-kill: all
+	@KILLS=$(KILLS) sh tests/cli/run.sh $(PROGRAM) kill
 
 # build/tests/suite --bits 3/500 compares a five-hundredth of it.
 BITS_JOBS ?= $(shell nproc)

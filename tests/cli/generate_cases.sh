@@ -22,7 +22,6 @@ int main(void)
 }
 END
 strict="-Wall -Wextra -Wpedantic -Werror -Wno-psabi"
-there() { command -v "${1%% *}" >/dev/null 2>&1; }
 # same SYSTEM INTEGRATOR SPACE LANES COMPILER FLAGS...
 same() {
     system=$1 method=$2 space=$3 lanes=$4 compiler=$5

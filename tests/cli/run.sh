@@ -1,15 +1,19 @@
 #!/bin/sh
-# run.sh PROGRAM - the program as its users see it: exit statuses, what it writes where, what it says
+# run.sh PROGRAM [PART]... - the program as its users see it: exit statuses, what it writes where, what it says
 # of bad input, and that nothing it wrote is lost when it is stopped, killed or out of room.
 #
 # A case runs the program by `try STATUS ARGUMENT...` and looks at out and err with `says`,
-# `prints` and `holds`; `case_is` names it.  Expected numbers are closed forms or counts.
+# `prints` and `holds`; `case_is` names it.  Expected numbers are closed forms or counts.  PARTs are
+# files, PART_cases.sh; all of them when none is named.
 case $1 in /*) program=$1 ;; *) program=$PWD/$1 ;; esac
+shift
+parts=$*
 [ -d "$program" ] && program=$program/dalembert
 [ -x "$program" ] || { echo "cli: no program '$program'"; exit 1; }
 here=$(cd "$(dirname "$0")" && pwd)
 work=$(mktemp -d) || exit 1
-trap 'rm -rf "$work"' EXIT
+memory=
+trap 'rm -rf "$work" ${memory:+"$memory"}' EXIT
 cd "$work" || exit 1
 LC_ALL=C
 export LC_ALL
@@ -43,6 +47,8 @@ prints() { if grep -Eq -- "$1" out; then pass; else fail "stdout lacks /$1/"; fi
 silent() { if [ -s err ]; then fail "stderr is not empty"; else pass; fi; }
 empty() { if [ -s out ]; then fail "stdout is not empty"; else pass; fi; }
 
+# there COMMAND...: it can be run here.
+there() { command -v "${1%% *}" >/dev/null 2>&1; }
 # tells FILE ROWS: the header of a .npy file counts so many.
 tells() { head -c 8192 "$1" | grep -aq "'shape': ($2,), }"; }
 
@@ -65,7 +71,10 @@ constraints: [x' - y']
 start: {x': 1, y': 1}
 END
 
-for part in "$here"/[a-z]*_cases.sh; do . "$part"; done
+for part in "$here"/[a-z]*_cases.sh; do
+    name=$(basename "$part" _cases.sh)
+    case " ${parts:-$name} " in *" $name "*) . "$part" ;; esac
+done
 
 echo "cli: $passed passed, $failed failed"
 [ $failed -eq 0 ]

@@ -1,0 +1,79 @@
+# Runs that are killed (SIGKILL) at random moments, again and again, and gone on with: the bytes are
+# those of a run that was left alone.  KILLS, 52 when not given, is how many there are in all; SEED
+# draws the moments.  Between two kills the file of rows must be one that can be read.
+
+# Where there is a file system in memory it is used: a moment is then one of the program, not one of
+# waiting for the disk.
+
+memory=$(mktemp -d -p /dev/shm 2>/dev/null) && cd "$memory"
+XDG_CACHE_HOME=$work/kill_cache
+export XDG_CACHE_HOME
+seed=${SEED:-$(date +%s)}
+kills_left=${KILLS:-52}
+killed=0
+
+milliseconds() { echo $(($(date +%s%N) / 1000000)); }
+
+# whole_rows FILE: the file ends behind the rows that its header tells of, or later.
+whole_rows() {
+    [ -s "$1" ] || return 0 # killed before there was a header
+    set -- "$1" "$(head -c 8192 "$1" | tr -cd ' -~\n' | sed -n "1s/.*'shape': (\([0-9]*\),).*/\1/p")"
+    [ -n "$2" ] && [ "$(wc -c <"$1")" -ge $((header_bytes + $2 * row_bytes)) ]
+}
+
+# one_life MOMENT COMMAND...: runs it for so many seconds at most; true when it was killed.
+one_life() {
+    life=$1
+    shift
+    "$program" "$@" >out 2>err &
+    sleep "$life"
+    kill -9 $! 2>/dev/null
+    wait $! 2>/dev/null
+    [ $? -eq 137 ]
+}
+
+# survive DIR SPAN RUN...: killed at up to four moments within SPAN seconds each, then left alone.
+survive() {
+    folder=$1
+    span=$2
+    shift 2
+    rm -rf "$folder"
+    for moment in $(awk -v seed=$((seed + kills_left)) -v span="$span" \
+        'BEGIN { srand(seed); for (i = 0; i < 4; i++) printf "%.4f\n", span * rand() }'); do
+        if [ -e "$folder/manifest.json" ]; then set -- resume "$folder" --native $native; fi
+        if [ -e "$folder" ] && [ "$1" = run ]; then set -- "$@" --force; fi
+        one_life "$moment" "$@" --checkpoint 0 || continue
+        killed=$((killed + 1))
+        kills_left=$((kills_left - 1))
+        holds "rows that cannot be read" whole_rows "$folder/trajectory.npy"
+    done
+    [ -e "$folder/manifest.json" ] && set -- resume "$folder" --native $native
+    try 0 "$@"
+}
+
+motion="chaplygin-sleigh --integrator rk4 --step 0.001 --samples 20011 --set omega=1.5"
+try 0 run $motion --time 200 --output unkilled --native off
+names=$(head -c 8192 unkilled/trajectory.npy | tr -cd '(' | wc -c)
+row_bytes=$((8 * (names - 1)))
+header_bytes=$(($(wc -c <unkilled/trajectory.npy) - 20012 * row_bytes))
+
+natives=off
+there cc && natives="off on"
+share=$((kills_left / $(echo $natives | wc -w)))
+for native in $natives; do
+    case_is "killed at random moments, --native $native, seed $seed"
+    [ $native = on ] && try 0 run $motion --time 0.1 --samples 1 --native on
+    begun=$(milliseconds)
+    try 0 run $motion --time 200 --output unkilled2 --force --native $native --checkpoint 0
+    span=$(awk "BEGIN { print ($(milliseconds) - $begun) / 1000 }")
+    until_left=$((kills_left - share))
+    [ $native = "${natives##* }" ] && until_left=0
+    while [ $kills_left -gt $until_left ]; do
+        survive killed_often "$span" run $motion --time 200 --output killed_often --native $native
+        holds "other rows" cmp unkilled/trajectory.npy killed_often/trajectory.npy
+        holds "another summary" cmp unkilled/summary.csv killed_often/summary.csv
+        [ $failed -gt 0 ] && break
+    done
+done
+cd "$work" || exit 1
+echo "cli: $killed kills at random moments, seed $seed"
