@@ -24,6 +24,10 @@ $(BENCH)/dal: bench/dal.c $(BENCH)/lib/libdalembert.a $(BENCH_HEADERS)
 	    $(BENCH)/lib/libdalembert.a $(LIBS) -o $@
 $(BENCH)/native: bench/native.c $(BENCH)/lib/libdalembert.a $(BENCH_HEADERS)
 	$(call SAY,cc)$(CC) -std=c11 $(WARN) -Iinclude $< $(BENCH)/lib/libdalembert.a $(LIBS) -o $@
+BENCH_TABLE = $(patsubst %,$(BUILD)/cli/%.o,table npy output message)
+$(BENCH)/rows: bench/rows.c $(BENCH_TABLE) $(BENCH_HEADERS)
+	@mkdir -p $(@D)
+	$(call SAY,cc)$(CC) -std=c11 $(WARN) -O2 -Iinclude $< $(BENCH_TABLE) $(STATIC) $(LIBS) -o $@
 $(BENCH)/hand: bench/hand.c $(BENCH_HEADERS)
 	@mkdir -p $(@D)
 	$(call SAY,cc)$(CC) $(BENCH_PEER) $< -lm -o $@
@@ -54,7 +58,7 @@ $(BENCH)/gen.%: $(BENCH)/gen.%.c bench/gen.c bench/bench.h
 	$(call SAY,cc)$(CC) -std=c11 -D_POSIX_C_SOURCE=200809L $(BENCH_FAST) $(EXACT) -Wno-psabi \
 	    -include $< bench/gen.c -lm -o $@
 
-bench-programs: $(BENCH)/dal $(BENCH)/native $(BENCH)/hand $(BENCH)/peak
+bench-programs: $(BENCH)/dal $(BENCH)/rows $(BENCH)/native $(BENCH)/hand $(BENCH)/peak
 	@for gen in $(BENCH_GEN); do $(MAKE) -s --no-print-directory $(BENCH)/$$gen || exit 1; done
 	@for peer in $(BENCH_PEERS); do $(MAKE) -s --no-print-directory $(BENCH)/$$peer || exit 1; done
 bench: bench-programs

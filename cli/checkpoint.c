@@ -13,6 +13,7 @@
  * refused; a later format raises the number and reads this one, too. */
 #include "file.h"
 #include "store.h"
+#include "word.h"
 
 #include <errno.h>
 #include <stdlib.h>
@@ -29,7 +30,6 @@ typedef struct head {
 } head;
 
 enum {
-    WORD = sizeof(uint64_t),
     HEAD_WORDS = sizeof(head) / WORD,
     WORDS = sizeof(dal_statistics) / WORD, /* each member is one of 64 bits */
 };
@@ -44,7 +44,8 @@ static unsigned char *append(unsigned char *place, const void *words, size_t cou
     for (size_t i = 0; i < count; i++, from += WORD) {
         uint64_t word;
         memcpy(&word, from, sizeof word);
-        for (int k = 0; k < WORD; k++) *place++ = (unsigned char)(word >> 8 * k);
+        word_put(place, word);
+        place += WORD;
     }
     return place;
 }
@@ -98,9 +99,9 @@ static const unsigned char *take(const unsigned char *place, void *words, size_t
 {
     unsigned char *to = words;
     for (size_t i = 0; i < count; i++, to += WORD) {
-        uint64_t word = 0;
-        for (int k = 0; k < WORD; k++) word |= (uint64_t)*place++ << 8 * k;
+        const uint64_t word = word_get(place);
         memcpy(to, &word, sizeof word);
+        place += WORD;
     }
     return place;
 }

@@ -10,6 +10,7 @@
  * multiple of 64, so that the number of rows is replaced by one write within one sector and is the
  * old one or the new one at any moment.  Rows behind that number are not read. */
 #include "npy.h"
+#include "word.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -82,23 +83,24 @@ void npy_announce(npy_header *header, long long rows)
     line[NPY_LINE - 1] = '\n';
 }
 
-void npy_put(unsigned char *bytes, double x)
+void npy_put(unsigned char *bytes, const double *values, int count)
 {
-    uint64_t bits;
-    x = isnan(x) ? (double)NAN : x + 0.0;
-    memcpy(&bits, &x, sizeof bits);
-    for (int i = 0; i < 8; i++) bytes[i] = (unsigned char)(bits >> 8 * i);
+    for (int i = 0; i < count; i++) {
+        const double x = isnan(values[i]) ? (double)NAN : values[i] + 0.0;
+        uint64_t bits;
+        memcpy(&bits, &x, sizeof bits);
+        word_put(bytes + WORD * i, bits);
+    }
 }
 
 /* ---- reading ------------------------------------------------------------------------------- */
 
-double npy_get(const unsigned char *bytes)
+void npy_get(const unsigned char *bytes, double *values, int count)
 {
-    uint64_t bits = 0;
-    double x;
-    for (int i = 0; i < 8; i++) bits |= (uint64_t)bytes[i] << 8 * i;
-    memcpy(&x, &bits, sizeof x);
-    return x;
+    for (int i = 0; i < count; i++) {
+        const uint64_t bits = word_get(bytes + WORD * i);
+        memcpy(&values[i], &bits, sizeof bits);
+    }
 }
 
 static int not_ours(const char *path)

@@ -32,9 +32,9 @@ typedef struct npy_columns {
 int npy_read(npy_columns *columns, FILE *file, const char *path);
 void npy_forget(npy_columns *columns);
 
-/* The eight bytes of a number in such a file, and back.  Zero has no sign there and what is not a
- * number one form, for equal runs to give equal files. */
-void npy_put(unsigned char *bytes, double x);
-double npy_get(const unsigned char *bytes);
+/* Numbers as they stand in such a file, eight bytes each, and back.  Zero has no sign there and
+ * what is not a number one form, for equal runs to give equal files. */
+void npy_put(unsigned char *bytes, const double *values, int count);
+void npy_get(const unsigned char *bytes, double *values, int count);
 
 #endif

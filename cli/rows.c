@@ -34,7 +34,7 @@ static int next_npy(cli_rows *r)
         if (!ferror(r->file)) cli_fail(CLI_IO, "'%s': shorter than it tells", r->path);
         return ferror(r->file) ? failed(r) : -1;
     }
-    for (int i = 0; i < r->columns; i++) r->row[i] = npy_get(r->bytes + 8 * i);
+    npy_get(r->bytes, r->row, r->columns);
     return 1;
 }
 

@@ -10,6 +10,7 @@
  * with K odd, so that any one word that changes changes it, and four words are under way at once.
  */
 #include "table.h"
+#include "word.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -18,7 +19,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { WORD = 8, BUFFER_BYTES = 1 << 18 };
+enum { BUFFER_BYTES = 1 << 20 };
 
 static int broken(cli_table *table)
 {
@@ -33,22 +34,34 @@ static uint64_t mix(uint64_t sum, uint64_t word)
     return ((sum << 23 | sum >> 41) ^ word) * UINT64_C(0x9e3779b97f4a7c15);
 }
 
-static uint64_t word_at(const unsigned char *bytes)
+static void add_word(table_sum *sum, long long place, const unsigned char *bytes)
 {
-    uint64_t word = 0;
-    for (int i = 0; i < WORD; i++) word |= (uint64_t)bytes[i] << 8 * i;
-    return word;
+    uint64_t *lane = &sum->lane[(uint64_t)place % TABLE_LANES];
+    *lane = mix(*lane, word_get(bytes));
 }
 
-/* The sum of count words more, behind the first before. */
-static table_sum add_words(table_sum sum, long long before, const unsigned char *bytes,
-                           long long count)
+/* Words of all lanes, round by round. */
+static void add_rounds(table_sum *sum, const unsigned char *bytes, long long rounds)
 {
-    for (long long i = 0; i < count; i++) {
-        uint64_t *lane = &sum.lane[(uint64_t)(before + i) % TABLE_LANES];
-        *lane = mix(*lane, word_at(bytes + i * WORD));
+    uint64_t s0 = sum->lane[0], s1 = sum->lane[1], s2 = sum->lane[2], s3 = sum->lane[3];
+    for (; rounds > 0; rounds--, bytes += TABLE_LANES * WORD) {
+        s0 = mix(s0, word_get(bytes));
+        s1 = mix(s1, word_get(bytes + WORD));
+        s2 = mix(s2, word_get(bytes + 2 * WORD));
+        s3 = mix(s3, word_get(bytes + 3 * WORD));
     }
-    return sum;
+    *sum = (table_sum){{s0, s1, s2, s3}};
+}
+
+/* Adds count words, behind those before. */
+static void add_words(table_sum *sum, long long before, const unsigned char *bytes, long long count)
+{
+    long long i = 0;
+    for (; i < count && (before + i) % TABLE_LANES; i++)
+        add_word(sum, before + i, bytes + i * WORD);
+    const long long rounds = (count - i) / TABLE_LANES;
+    add_rounds(sum, bytes + i * WORD, rounds);
+    for (i += rounds * TABLE_LANES; i < count; i++) add_word(sum, before + i, bytes + i * WORD);
 }
 
 /* ---- .npy ---------------------------------------------------------------------------------- */
@@ -91,8 +104,7 @@ static int flush(cli_table *table)
                  place_of(table, table->rows), &written);
     const int reason = errno;
     const long long whole = (long long)(written / row_bytes(table));
-    table->sum =
-        add_words(table->sum, table->rows * table->columns, table->buffer, whole * table->columns);
+    add_words(&table->sum, table->rows * table->columns, table->buffer, whole * table->columns);
     table->rows += whole;
     table->waiting = 0;
     if (done) return CLI_DONE;
@@ -155,7 +167,7 @@ static int sum_rows(const cli_table *table, long long rows, table_sum *sum)
         if ((size_t)n < length)
             return cli_fail(CLI_USAGE, "'%s': shorter than the %lld rows its checkpoint tells of",
                             table->path, rows);
-        *sum = add_words(*sum, row * table->columns, table->buffer, count * table->columns);
+        add_words(sum, row * table->columns, table->buffer, count * table->columns);
     }
     return CLI_DONE;
 }
@@ -193,7 +205,7 @@ static int create_npy(cli_table *table, const char *path, char *const *names, in
 static int put_row(cli_table *table, const double *values)
 {
     unsigned char *place = table->buffer + (size_t)table->waiting * row_bytes(table);
-    for (int i = 0; i < table->columns; i++) npy_put(place + (size_t)i * WORD, values[i]);
+    npy_put(place, values, table->columns);
     return ++table->waiting < table->room ? CLI_DONE : flush(table);
 }
 
