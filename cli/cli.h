@@ -24,6 +24,7 @@
     X(run, "SYSTEM --integrator NAME --step H --time T [OPTION]...", "integrate one system")       \
     X(resume, "DIR [OPTION]...", "go on with a run or a study that was interrupted")               \
     X(study, "[STUDY.yaml] [OPTION]...", "systems x integrators x steps: tables of drift")         \
+    X(order, "SYSTEM [OPTION]...", "error against step and against work, for every integrator")    \
     X(generate, "SYSTEM --integrator NAME [OPTION]... -o FILE.c",                                  \
       "one C file that steps a system and needs nothing else")                                     \
     X(report, "DIR [OPTION]...", "figures and tables from a run or a study")
@@ -127,6 +128,10 @@ int cli_is_path(const char *system);
 /* Reads SYSTEM and makes its system, owned by *model.  Returns CLI_DONE, or prints and returns an
  * exit status with *model NULL. */
 int cli_load(const char *system, dal_model **model, const dal_system **made);
+/* The same in two parts, between which something may be added to the model; cli_make frees it where
+ * it fails, place being what the message names. */
+int cli_read(const char *system, dal_model **model);
+int cli_make(const char *place, dal_model **model, const dal_system **made);
 
 /* ---- verdicts ------------------------------------------------------------------------------ */
 
@@ -151,6 +156,8 @@ int cli_close(FILE *out, const char *path);
 int cli_ends_in(const char *text, const char *ending);
 /* Makes a directory unless it is there.  Returns CLI_DONE or prints and returns CLI_IO. */
 int cli_directory(const char *path);
+/* Whether an output is a directory: not "-", no .csv or .npy, no device and no pipe. */
+int cli_is_directory(const char *output);
 /* "DIR/NAME", allocated; NULL when memory is out. */
 char *cli_join(const char *directory, const char *name);
 
@@ -161,7 +168,8 @@ char *cli_join(const char *directory, const char *name);
 void cli_catch_signals(void);
 int cli_interrupted(void);
 
-/* Seconds of a clock that never goes back. */
+/* Seconds of a clock that never goes back; and of this thread's processor time. */
 double cli_seconds(void);
+double cli_thread_seconds(void);
 
 #endif

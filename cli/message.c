@@ -113,9 +113,12 @@ int cli_io(const char *verb, const char *path)
     return cli_fail(CLI_IO, "cannot %s '%s': %s", verb, path, strerror(errno));
 }
 
-double cli_seconds(void)
+static double seconds_of(clockid_t clock)
 {
     struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
+    clock_gettime(clock, &now);
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
+
+double cli_seconds(void) { return seconds_of(CLOCK_MONOTONIC); }
+double cli_thread_seconds(void) { return seconds_of(CLOCK_THREAD_CPUTIME_ID); }

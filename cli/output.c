@@ -63,6 +63,15 @@ int cli_directory(const char *path)
     return cli_io("make the directory", path);
 }
 
+/* A device or a pipe is written to as it is, whatever its name. */
+int cli_is_directory(const char *output)
+{
+    struct stat status;
+    if (strcmp(output, "-") == 0 || cli_ends_in(output, ".csv") || cli_ends_in(output, ".npy"))
+        return 0;
+    return stat(output, &status) != 0 || S_ISDIR(status.st_mode) || S_ISREG(status.st_mode);
+}
+
 char *cli_join(const char *directory, const char *name)
 {
     size_t n = strlen(directory), m = strlen(name);

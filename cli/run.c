@@ -4,7 +4,6 @@
 #include "record.h"
 
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 const cli_option own_options[OWN_OPTIONS] = {
@@ -28,15 +27,6 @@ static const char run_notes[] =
     "oscillation, drift rate with its 95 % interval, exponent of growth, and a verdict with its\n"
     "confidence: exact, rounding, bounded, linear drift, power law, exponential, aborted, not\n"
     "enough data.\n";
-
-/* A device or a pipe is written to as it is, whatever its name. */
-static int is_directory(const char *output)
-{
-    struct stat status;
-    if (strcmp(output, "-") == 0 || cli_ends_in(output, ".csv") || cli_ends_in(output, ".npy"))
-        return 0;
-    return stat(output, &status) != 0 || S_ISDIR(status.st_mode) || S_ISREG(status.st_mode);
-}
 
 int run_take_interval(const char *text, double *interval)
 {
@@ -157,7 +147,7 @@ int command_run(int argc, char **argv)
     int status = args.status;
     if (status == CLI_GO_ON) status = job_make(&job);
     if (args.status == CLI_GO_ON && status == CLI_DONE)
-        status = is_directory(wishes.output) ? run_in_directory(&job, &wishes)
+        status = cli_is_directory(wishes.output) ? run_in_directory(&job, &wishes)
                                              : run_integrate(&job, NULL, &wishes);
     job_free(&job);
     return status;

@@ -40,18 +40,26 @@ static int read_builtin(const char *name, dal_model **model)
     return read == DAL_OK ? CLI_DONE : cli_error(cli_input_exit(read), name, &error);
 }
 
-int cli_load(const char *system, dal_model **model, const dal_system **made)
+int cli_read(const char *system, dal_model **model)
 {
-    dal_error error = {0};
     *model = NULL;
     int status = cli_is_path(system) ? read_path(system, model) : read_builtin(system, model);
-    if (status != CLI_DONE) {
-        *model = NULL;
-        return status;
-    }
+    if (status != CLI_DONE) *model = NULL;
+    return status;
+}
+
+int cli_make(const char *place, dal_model **model, const dal_system **made)
+{
+    dal_error error = {0};
     dal_status make = dal_model_system(*model, made, &error);
     if (make == DAL_OK) return CLI_DONE;
     dal_model_free(*model);
     *model = NULL;
-    return cli_error(cli_input_exit(make), system, &error);
+    return cli_error(cli_input_exit(make), place, &error);
+}
+
+int cli_load(const char *system, dal_model **model, const dal_system **made)
+{
+    int status = cli_read(system, model);
+    return status == CLI_DONE ? cli_make(system, model, made) : status;
 }

@@ -163,13 +163,19 @@ dal_status dal_measure_degree(dal_probe *probe, const dal_point *at, dal_degree 
 
 enum { DAL_ORDER_LEVELS = 8 };
 
-/* Errors at time T for steps step, step/2, step/4, ..., and the slopes between them. */
+/* Errors at time T for falling steps (step, step/2, step/4, ... where dal_measure_order made them),
+ * what they cost, and the slopes between them. */
 typedef struct dal_order {
     int levels;
     double step[DAL_ORDER_LEVELS], error[DAL_ORDER_LEVELS];
-    double slope[DAL_ORDER_LEVELS]; /* slope[i] between levels i-1 and i; slope[0] unused */
-    double order; /* the last slope whose errors both stand clear of rounding; NAN if none does */
+    long long evaluations[DAL_ORDER_LEVELS]; /* of the field */
+    double slope[DAL_ORDER_LEVELS]; /* slope[i] between levels i-1 and i; slope[0] is NaN */
+    double order; /* the last slope whose errors both stand clear of rounding; NaN if none does */
 } dal_order;
+
+/* Fills in slope and order from levels, step and error; errors within ten times noise, that of the
+ * reference they were taken against, count no more than rounding does. */
+void dal_order_slopes(dal_order *order, double noise);
 
 /* The observed order: max norm of the whole state at T against reference[dimension], or, when it
  * is NULL, against gauss12 (or what method *judge says) with half the smallest step. [alloc]

@@ -45,6 +45,34 @@ static void test_order_of_reference(void)
     dal_model_free(model);
 }
 
+/* Slopes of errors h^3 and their noise; rk4 asks F four times a step. */
+static void test_order_slopes(void)
+{
+    dal_order order = {.levels = 4,
+                       .step = {1.0, 0.5, 0.1, 0.01},
+                       .error = {8e-3, 1e-3, 8e-6, 8e-9},
+                       .slope = {1.0}};
+    dal_order_slopes(&order, 0.0);
+    CU_ASSERT(isnan(order.slope[0]));
+    for (int i = 1; i < 4; i++) CU_ASSERT_DOUBLE_EQUAL(order.slope[i], 3.0, 1e-14);
+    CU_ASSERT_DOUBLE_EQUAL(order.order, 3.0, 1e-14);
+    order.error[3] = 1e-3;
+    dal_order_slopes(&order, 1e-6);
+    CU_ASSERT_EQUAL(order.order, order.slope[1]);
+    dal_order_slopes(&order, 1e-2);
+    CU_ASSERT(isnan(order.order));
+}
+
+static void test_order_work(void)
+{
+    dal_model *model = fixture_model("chaplygin-sleigh");
+    const dal_run_spec spec = fixture_spec(fixture_system(model), "rk4", DAL_PHYSICAL, 0.25);
+    dal_order order;
+    CU_ASSERT_EQUAL(dal_measure_order(&spec, 1.0, 3, NULL, NULL, &order, NULL), DAL_OK);
+    for (int i = 0; i < 3; i++) CU_ASSERT_EQUAL(order.evaluations[i], 16LL << i);
+    dal_model_free(model);
+}
+
 static void test_order_refuses(void)
 {
     dal_model *model = fixture_model("chaplygin-sleigh");
@@ -291,6 +319,8 @@ void suite_stepmap(void)
     CU_pSuite suite = CU_add_suite("measures of a method", NULL, NULL);
     CU_add_test(suite, "order", test_order);
     CU_add_test(suite, "order against a closed form", test_order_of_reference);
+    CU_add_test(suite, "order: slopes", test_order_slopes);
+    CU_add_test(suite, "order: work", test_order_work);
     CU_add_test(suite, "order: what is refused", test_order_refuses);
     CU_add_test(suite, "symplecticity of rk4, closed form", test_symplecticity_closed_form);
     CU_add_test(suite, "symplecticity", test_symplecticity);

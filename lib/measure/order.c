@@ -1,6 +1,7 @@
 /* order.c - the observed order of a method: slopes of the error under halving of the step.
  *
- *     e_i = max_k |x_k(T; h/2^i) - x_k(T)| / max(1, |x_k(T)|),   slope_i = log2(e_(i-1) / e_i) */
+ *     e_i = max_k |x_k(T; h_i) - x_k(T)| / max(1, |x_k(T)|),   h_i = h/2^i
+ *     slope_i = log(e_(i-1) / e_i) / log(h_(i-1) / h_i) */
 #include "measure/measure.h"
 #include <math.h>
 #include <stdlib.h>
@@ -11,7 +12,8 @@
 static const double clear_of_rounding = 2e-13;
 
 /* The state of a run of the spec at T into out[dimension]. */
-static dal_status state_at(const dal_run_spec *spec, double T, double *out, dal_error *error)
+static dal_status state_at(const dal_run_spec *spec, double T, double *out, long long *evaluations,
+                           dal_error *error)
 {
     dal_run *run;
     double steps = nearbyint(T / spec->options.step);
@@ -23,6 +25,7 @@ static dal_status state_at(const dal_run_spec *spec, double T, double *out, dal_
     dal_status status = dal_run_advance(run, (long long)steps, error);
     size_t count = (size_t)dal_run_dimension(run);
     if (status == DAL_OK) memcpy(out, dal_run_state(run), count * sizeof(double));
+    *evaluations = dal_run_evaluations(run);
     dal_run_free(run);
     return status;
 }
@@ -31,20 +34,22 @@ static dal_status judge_state(const dal_run_spec *spec, double T, int levels,
                               const dal_method *judge, double *out, dal_error *error)
 {
     dal_run_spec finer = *spec;
+    long long evaluations;
     if (judge != NULL)
         finer.method = *judge;
     else
         DAL_TRY(dal_method_parse(&finer.method, "gauss12", error));
     finer.options.step = ldexp(spec->options.step, -levels);
-    return state_at(&finer, T, out, error);
+    return state_at(&finer, T, out, &evaluations, error);
 }
 
-static void take_slopes(dal_order *o)
+void dal_order_slopes(dal_order *o, double noise)
 {
-    o->order = NAN;
+    const double clear = fmax(clear_of_rounding, 10.0 * noise);
+    o->order = o->slope[0] = NAN;
     for (int i = 1; i < o->levels; i++) {
-        o->slope[i] = log2(o->error[i - 1] / o->error[i]);
-        if (o->error[i] > clear_of_rounding) o->order = o->slope[i];
+        o->slope[i] = log(o->error[i - 1] / o->error[i]) / log(o->step[i - 1] / o->step[i]);
+        if (o->error[i - 1] > clear && o->error[i] > clear) o->order = o->slope[i];
     }
 }
 
@@ -54,10 +59,10 @@ static dal_status compare_levels(const dal_run_spec *spec, double T, const doubl
     for (int i = 0; i < o->levels; i++) {
         dal_run_spec level = *spec;
         o->step[i] = level.options.step = ldexp(spec->options.step, -i);
-        DAL_TRY(state_at(&level, T, state, error));
+        DAL_TRY(state_at(&level, T, state, &o->evaluations[i], error));
         o->error[i] = dal__distance(reference, state, count);
     }
-    take_slopes(o);
+    dal_order_slopes(o, 0.0);
     return DAL_OK;
 }
 

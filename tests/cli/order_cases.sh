@@ -1,0 +1,77 @@
+# `dalembert order`: errors, orders and costs of many methods at once.
+
+# The error of rk4 on v' = -v after N steps h, v(0) = 1, is |R(-h)^N - exp(-N h)|; x has the same.
+case_is "errors in closed form"
+try 0 order line.yaml --integrators rk4,gauss4 --steps 0.5,0.25,0.125 --time 2 --output line.csv
+silent
+prints '^against the exact solution$'
+prints '^rk4 +4 +4\.[01][0-9] '
+prints '^gauss4 +4 +4\.0[0-9] .* [0-9.]+ +[0-9.]+$'
+holds "other errors" awk -F, '
+    $2 == "rk4" { h = $5; R = 1 - h + h^2/2 - h^3/6 + h^4/24; e = R^$6 - exp(-2)
+        if ($6 != 2 / h || ($7 - e)^2 > (1e-9 * e)^2 || $9 != 4 * $6) exit 1
+        if (before && ($8 - log(before / e) / log(2))^2 > 1e-12) exit 1
+        if (!before && $8 != "") exit 1
+        before = e; rows++ }
+    END { exit rows != 3 }' line.csv
+holds "other heads" test "$(head -1 line.csv)" = \
+    "label,integrator,stated_order,observed_order,step,steps,error,slope,evaluations,seconds,state,message"
+
+case_is "a reference of its own where the exact solution begins elsewhere"
+try 0 order line.yaml --integrators rk4 --start "x'=2" --step 0.5 --levels 3 --time 2
+prints '^against gauss12 with h = 0\.0625, itself within [0-9]e-1[0-9]$'
+prints '^rk4 +4 +4\.[01]'
+
+case_is "modifiers, refusals and failures"
+try 0 order chaplygin-sleigh --integrators gauss4+project,isokinetic-splitting --time 1 --output few.csv
+prints '^gauss4\+project +4 +[34]\.[09]'
+prints '^isokinetic-splitting: refused: .* has no isokinetic constraint'
+holds "no row of the refused" grep -Eq '^chaplygin-sleigh,isokinetic-splitting,2,,,,,,,,refused,' few.csv
+try 3 order pursuit --integrators rk4 --steps 0.5,0.25 --time 100
+try 2 order chaplygin-sleigh-vakonomic --integrators rk4 --time 1 --space lifted --start p_x=1
+cat >stiff.yaml <<'END'
+coordinates: [x]
+accelerations: {x: 0.001*sqrt(4 - x'^2) - 10*x'}
+start: {x': 1}
+END
+try 3 order stiff.yaml --integrators symplectic-euler-00,gauss4 --steps 1,0.05 --time 2
+prints '^symplectic-euler-00 +1 +- +- [0-9]'
+prints '^symplectic-euler-00: failed: '
+
+case_is "all methods, any number of threads"
+try 0 order chaplygin-sleigh --time 1 --threads 1 --output one.csv
+holds "fewer than 25 methods" test "$(cut -d, -f2 one.csv | sort -u | wc -l)" -ge 26
+try 0 order chaplygin-sleigh --time 1 --threads 2 --output two.csv
+cut -d, -f1-9,11- one.csv >one.cut
+cut -d, -f1-9,11- two.csv >two.cut
+holds "the numbers depend on threads" cmp one.cut two.cut
+
+case_is "diagrams"
+if command -v gnuplot >/dev/null 2>&1; then
+    try 0 order line.yaml --integrators rk4,gauss4 --time 1 --output orders
+    for name in order work; do
+        holds "no $name.svg" grep -q '<svg' orders/$name.svg
+        holds "rk4 is not in $name.svg" grep -q 'rk4' orders/$name.svg
+    done
+fi
+
+case_is "orders: bad input"
+try 2 order
+says 'the SYSTEM is missing'
+try 2 order line.yaml --integrators rk5
+says "unknown integrator 'rk5'; did you mean 'rk4'"
+try 2 order line.yaml --integrators rk4,,gauss4
+says "is not a list between commas"
+try 2 order line.yaml --steps 0.3,0.1
+says 'the time 10 does not hold a whole number of steps 0.3'
+try 2 order line.yaml --steps 0.1,0.2
+says 'steps: 0.2 is not positive and below the one before'
+try 2 order line.yaml --steps 0.1
+says 'an order needs two steps'
+try 2 order line.yaml --levels 9
+says '9 is not in 2\.\.8'
+try 2 order line.yaml --samples 3
+says 'unknown option'
+try 2 order line.yaml plane.yaml
+says 'one SYSTEM only'
+[ -e /dev/full ] && try 4 order line.yaml --integrators rk4 --time 1 --output /dev/full
