@@ -25,7 +25,7 @@ typedef struct head {
     uint64_t fingerprint; /* of the input of the run */
     int64_t row;          /* rows in trajectory.npy, */
     table_sum sum;        /* and their sum */
-    double seconds;       /* spent in steps */
+    double seconds;       /* spent in steps and rows */
     uint64_t memory, statistics, words, layout;
 } head;
 

@@ -76,6 +76,8 @@ int cli_io(const char *verb, const char *path);
  * than ten times a second.  cli_progress_end wipes it; every message above does so too. */
 void cli_progress(const char *format, ...) CLI_PRINTF(1, 2);
 void cli_progress_end(void);
+/* Columns of the terminal on stderr, 80 where it does not say. */
+int cli_width(void);
 
 /* ---- arguments ----------------------------------------------------------------------------- */
 

@@ -4,6 +4,7 @@
 #include <errno.h>
 #include <stdarg.h>
 #include <string.h>
+#include <sys/ioctl.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -54,16 +55,25 @@ void cli_progress_end(void)
     progress_shown = 0;
 }
 
+int cli_width(void)
+{
+    struct winsize size;
+    const int told = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+    return told ? size.ws_col : 80;
+}
+
+/* A line that is longer than the terminal is wide would not be replaced by the next one. */
 void cli_progress(const char *format, ...)
 {
-    double now = cli_seconds();
+    char line[512];
+    const double now = cli_seconds();
     if (!isatty(STDERR_FILENO) || (progress_shown && now - progress_time < 0.1)) return;
-    int before = progress_shown;
+    const int before = progress_shown, width = cli_width() - 1;
     va_list list;
     va_start(list, format);
-    fputc('\r', stderr);
-    progress_shown = vfprintf(stderr, format, list);
+    vsnprintf(line, sizeof line, format, list);
     va_end(list);
+    progress_shown = fprintf(stderr, "\r%.*s", width, line) - 1;
     if (before > progress_shown) fprintf(stderr, "%*s", before - progress_shown, "");
     progress_time = now;
 }

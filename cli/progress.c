@@ -1,12 +1,20 @@
 /* progress.c - how far a run has come: a line that replaces itself on a terminal, or lines of JSON
- * on stderr for scripts. */
+ * on stderr for scripts.
+ *
+ *     t = 4310 (43 %), 1.63e+07 steps/s, 35 s to go, moved: D1 2.2e-16, E 3.1e-12
+ *
+ * moved is max |x - first|, of as many observables as the terminal has room for. */
 #include "json.h"
 #include "record.h"
 
 #include <math.h>
+#include <stdarg.h>
 #include <string.h>
 
-static const double json_interval = 1.0; /* seconds between two lines of JSON */
+/* Seconds between two lines. */
+static const double json_interval = 1.0, line_interval = 0.1;
+
+enum { LINE = 256 };
 
 int progress_read(const char *text, cli_progress_kind *kind)
 {
@@ -31,18 +39,57 @@ static double remaining(const cli_record *r, double t)
     return gone > 0.0 ? r->stretch * (r->job->time - t) / gone : INFINITY;
 }
 
+/* Appends to a line as long as there is room; a piece that does not fit is left out as a whole. */
+static int append(char *line, int *length, int room, const char *format, ...)
+{
+    char piece[LINE];
+    va_list list;
+    va_start(list, format);
+    const int n = vsnprintf(piece, sizeof piece, format, list);
+    va_end(list);
+    if (n < 0 || *length + n > room) return 0;
+    memcpy(line + *length, piece, (size_t)n + 1);
+    *length += n;
+    return 1;
+}
+
+static void append_remaining(char *line, int *length, int room, double seconds)
+{
+    static const struct {
+        double most, seconds;
+        const char *unit;
+    } unit[] = {{120, 1, "s"}, {7200, 60, "min"}, {172800, 3600, "h"}, {INFINITY, 86400, "days"}};
+    int i = 0;
+    if (!isfinite(seconds)) return;
+    while (seconds >= unit[i].most) i++;
+    append(line, length, room, ", %.0f %s to go", seconds / unit[i].seconds, unit[i].unit);
+}
+
+/* The norms of p and pi are for the summary. */
+static void append_moved(char *line, int *length, int room, const cli_record *r)
+{
+    const char *before = ", moved: ";
+    for (int i = 0; i < r->observables; i++) {
+        const char *name = record_observable(r, i);
+        if (name[0] == '|') continue;
+        if (!append(line, length, room, "%s%s %.1e", before, name,
+                    dal_statistics_deviation(&r->statistics[i])))
+            return;
+        before = ", ";
+    }
+}
+
 static void show_line(const cli_record *r, double t)
 {
-    const double rate =
-        r->stretch > 0.0 ? (double)(dal_run_steps(r->job->run) - r->begun_steps) / r->stretch : 0.0;
-    if (r->observables == 0) {
-        cli_progress("t = %.6g of %.6g, %.3g steps/s, %.0f s to go", t, r->job->time, rate,
-                     remaining(r, t));
-        return;
-    }
-    cli_progress("t = %.6g of %.6g, %.3g steps/s, %.0f s to go, %s moved by %.1e", t, r->job->time,
-                 rate, remaining(r, t), record_observable(r, 0),
-                 dal_statistics_deviation(&r->statistics[0]));
+    char line[LINE] = "";
+    int length = 0;
+    const int width = cli_width() - 1, room = width < LINE ? width : LINE - 1;
+    const long long steps = dal_run_steps(r->job->run) - r->begun_steps;
+    append(line, &length, room, "t = %.6g (%.0f %%)", t, floor(100.0 * t / r->job->time));
+    if (r->stretch > 0.0) append(line, &length, room, ", %.2e steps/s", (double)steps / r->stretch);
+    append_remaining(line, &length, room, remaining(r, t));
+    append_moved(line, &length, room, r);
+    cli_progress("%s", line);
 }
 
 static void show_json(const cli_record *r, double t)
@@ -61,10 +108,13 @@ static void show_json(const cli_record *r, double t)
 
 void progress_show(cli_record *r, double t, int at_the_end)
 {
+    const int json = r->progress == PROGRESS_JSON;
     const double now = cli_seconds();
-    if (r->progress == PROGRESS_AUTO && !r->quiet && !at_the_end) show_line(r, t);
-    if (r->progress != PROGRESS_JSON || (!at_the_end && now - r->told_progress < json_interval))
-        return;
+    if (r->progress == PROGRESS_OFF || (!json && (r->quiet || at_the_end))) return;
+    if (!at_the_end && now - r->told_progress < (json ? json_interval : line_interval)) return;
     r->told_progress = now;
-    show_json(r, t);
+    if (json)
+        show_json(r, t);
+    else
+        show_line(r, t);
 }

@@ -82,7 +82,8 @@ static void judge(cli_record *r, int aborted)
 int record_open(cli_record *r, const cli_job *job, cli_store *store, const char *output)
 {
     *r = (cli_record){.job = job, .store = store, .stop = interrupted};
-    r->quiet = !store && strcmp(output, "-") == 0 && isatty(STDOUT_FILENO);
+    r->quiet =
+        !isatty(STDERR_FILENO) || (!store && strcmp(output, "-") == 0 && isatty(STDOUT_FILENO));
     int status = make_room(r);
     if (status == CLI_DONE) status = open_table(r, output);
     if (status == CLI_DONE && record_is_finished(r)) judge(r, 0);
@@ -107,7 +108,7 @@ const char *record_observable(const cli_record *r, int i) { return r->names[1 + 
 
 /* ---- looking on ---------------------------------------------------------------------------- */
 
-/* Stops the clock of the steps while the program does something else, and starts it again. */
+/* Stops the clock of steps and rows while the program does something else, and starts it again. */
 static void pause_clock(cli_record *r)
 {
     const double gone = cli_seconds() - r->since;
@@ -150,10 +151,7 @@ static dal_status sample(void *user, dal_run *run, long long row, double t)
 {
     cli_record *r = user;
     (void)row;
-    pause_clock(r);
-    dal_status status = take_row(r, run, t);
-    progress_show(r, t, 0);
-    start_clock(r);
+    const dal_status status = take_row(r, run, t);
     /* With a store the next poll ends the run: only there does the run stand where a checkpoint
      * may be taken, and not within a step that shows a row between two others. */
     return status == DAL_OK && !r->store && r->stop(r->stop_user) ? DAL_INTERRUPTED : status;

@@ -31,12 +31,12 @@ typedef struct cli_record {
     double since, saved;   /* when the present stretch of steps began; the last checkpoint */
     double begun;          /* t at which this process took the run up, */
     long long begun_steps; /* and its steps */
-    double stretch;        /* seconds spent in steps since */
+    double stretch;        /* seconds spent in steps and rows since */
     double told_progress;  /* when the last line of JSON was written */
     cli_progress_kind progress;
     int (*stop)(void *user); /* whether to end the run; cli_interrupted unless set */
     void *stop_user;
-    int quiet; /* no line of progress: the rows themselves go to the terminal */
+    int quiet; /* no line of progress: no terminal, or the rows themselves go to it */
     int told;  /* exit status of a failure of the program's own, already printed */
 } cli_record;
 

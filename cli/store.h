@@ -44,7 +44,7 @@ typedef struct cli_store {
 typedef struct cli_mark {
     long long row;  /* the first row not in trajectory.npy, */
     table_sum sum;  /* and the sum of those in it */
-    double seconds; /* spent in steps */
+    double seconds; /* spent in steps and rows */
 } cli_mark;
 
 /* The names of the files in a directory.  All functions return CLI_DONE or print and return an
