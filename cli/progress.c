@@ -1,7 +1,7 @@
 /* progress.c - how far a run has come: a line that replaces itself on a terminal, or lines of JSON
  * on stderr for scripts.
  *
- *     t = 4310 (43 %), 1.63e+07 steps/s, 35 s to go, moved: D1 2.2e-16, E 3.1e-12
+ *     t = 4310 (43 %), 35 s to go, 1.63e+07 steps/s, moved: D1 2.2e-16, E 3.1e-12
  *
  * moved is max |x - first|, of as many observables as the terminal has room for. */
 #include "json.h"
@@ -72,7 +72,7 @@ static void append_moved(char *line, int *length, int room, const cli_record *r)
     for (int i = 0; i < r->observables; i++) {
         const char *name = record_observable(r, i);
         if (name[0] == '|') continue;
-        if (!append(line, length, room, "%s%s %.1e", before, name,
+        if (!append(line, length, room, "%s%s %.2g", before, name,
                     dal_statistics_deviation(&r->statistics[i])))
             return;
         before = ", ";
@@ -86,8 +86,8 @@ static void show_line(const cli_record *r, double t)
     const int width = cli_width() - 1, room = width < LINE ? width : LINE - 1;
     const long long steps = dal_run_steps(r->job->run) - r->begun_steps;
     append(line, &length, room, "t = %.6g (%.0f %%)", t, floor(100.0 * t / r->job->time));
-    if (r->stretch > 0.0) append(line, &length, room, ", %.2e steps/s", (double)steps / r->stretch);
     append_remaining(line, &length, room, remaining(r, t));
+    if (r->stretch > 0.0) append(line, &length, room, ", %.2e steps/s", (double)steps / r->stretch);
     append_moved(line, &length, room, r);
     cli_progress("%s", line);
 }

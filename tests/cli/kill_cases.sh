@@ -53,8 +53,7 @@ survive() {
 
 motion="chaplygin-sleigh --integrator rk4 --step 0.001 --samples 20011 --set omega=1.5"
 try 0 run $motion --time 200 --output unkilled --native off
-names=$(head -c 8192 unkilled/trajectory.npy | tr -cd '(' | wc -c)
-row_bytes=$((8 * (names - 1)))
+row_bytes=$((8 * $(columns_of unkilled/trajectory.npy)))
 header_bytes=$(($(wc -c <unkilled/trajectory.npy) - 20012 * row_bytes))
 
 natives=off

@@ -92,6 +92,9 @@ for signal in INT TERM; do
     holds "exit $status, not 130, at SIG$signal" [ $status -eq 130 ]
     says 'interrupted; go on with: dalembert resume stopped'
 done
+cp -r stopped cut
+cp -r stopped flipped
+cp -r stopped early_flip
 try 0 resume stopped
 holds "not the rows of a run never interrupted" cmp stopped/trajectory.npy whole/trajectory.npy
 "$program" run $long --time 1e4 --samples 1e6 >out 2>err &
@@ -102,6 +105,44 @@ status=$?
 holds "exit $status, not 130" [ $status -eq 130 ]
 says 'interrupted; [0-9]+ rows are kept'
 holds "whole lines" awk -F, 'NR == 1 { n = NF } NF != n { exit 1 }' out
+
+# word FILE K: number k of its words of 64 bits, from 0.  flip FILE BYTE: changes one byte of it.
+word() { od -A n -t d8 -j $((8 * $2)) -N 8 "$1" | tr -d ' '; }
+flip() {
+    old=$(od -A n -t u1 -j "$2" -N 1 "$1" | tr -d ' ')
+    printf "\\$(printf %o $(((old + 1) % 256)))" | dd of="$1" bs=1 seek="$2" conv=notrunc 2>/dev/null
+}
+
+case_is "rows that are not those of the checkpoint"
+columns=$(columns_of whole.npy)
+header=$(($(wc -c <whole.npy) - 100004 * columns * 8))
+last=$((header + $(word cut/checkpoint 2) * columns * 8 - 8))
+holds "checkpoints of one row" test "$(word cut/checkpoint 2)" -gt "$(word cut/checkpoint.before 2)"
+truncate -s $last cut/trajectory.npy
+flip flipped/trajectory.npy $last
+for folder in cut flipped; do
+    try 0 resume $folder
+    says "the one before is tried: $folder/checkpoint.before"
+    holds "not the rows of a run never interrupted" cmp $folder/trajectory.npy whole/trajectory.npy
+    holds "not the summary of a run never interrupted" cmp $folder/summary.csv whole/summary.csv
+done
+flip early_flip/trajectory.npy $((header + 100))
+cp early_flip/trajectory.npy kept.npy
+try 2 resume early_flip
+says "early_flip/trajectory.npy': its first [0-9]+ rows were changed since the checkpoint"
+holds "it was written to" cmp kept.npy early_flip/trajectory.npy
+
+case_is "bytes of a checkpoint that are changed or missing"
+size=$(wc -c <flipped/checkpoint)
+rm flipped/checkpoint.before
+cp flipped/checkpoint good
+for place in 0 6 8 20 60 100 1000 $((size - 8)) $((size - 1)); do
+    cp good flipped/checkpoint
+    flip flipped/checkpoint $place
+    try 2 resume flipped
+    head -c $place good >flipped/checkpoint
+    try 2 resume flipped
+done
 
 case_is "no room for more rows"
 (

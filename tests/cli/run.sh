@@ -51,6 +51,7 @@ empty() { if [ -s out ]; then fail "stdout is not empty"; else pass; fi; }
 there() { command -v "${1%% *}" >/dev/null 2>&1; }
 # tells FILE ROWS: the header of a .npy file counts so many.
 tells() { head -c 8192 "$1" | grep -aq "'shape': ($2,), }"; }
+columns_of() { head -c 8192 "$1" | grep -ao "'<f8'" | wc -l; }
 
 # A particle on a line with friction: no constraint, E known, exact solution x = 1 - exp(-t).
 cat >line.yaml <<'END'

@@ -68,3 +68,16 @@ try 0 run ./line.yaml --integrator rk4 --step 0.1 --time 5 --statistics 50 --out
 # E = exp(-2 t)/2 at t = 0 and 5 alone: (exp(-10) - 1)/2 / 5
 holds "another rate" awk -F, '$1 == "E" && ($7 + 0.09999546) ^ 2 < 1e-12 { found = 1 }
     END { exit !found }' seldom/summary.csv
+
+if there script && there stty; then
+    case_is "progress on a terminal fits its width"
+    for width in 70 40 20; do
+        script -qec "stty cols $width; '$program' run ./line.yaml --integrator gauss4 --step 0.01 \
+            --time 3000 --native off --output typed --force" /dev/null >typed.txt </dev/null
+        tr '\r' '\n' <typed.txt | grep '^t = ' >lines.txt
+        holds "no lines, $width" test "$(wc -l <lines.txt)" -ge 2
+        holds "longer than $width" awk "length(\$0) >= $width { exit 1 }" lines.txt
+        [ $width -gt 20 ] && holds "no time to go, $width" grep -q ' %), [0-9]* s to go' lines.txt
+        [ $width -gt 40 ] && holds "no drift" grep -q ', moved: E 0\.[0-9]*' lines.txt
+    done
+fi
