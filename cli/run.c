@@ -148,7 +148,7 @@ int command_run(int argc, char **argv)
     if (status == CLI_GO_ON) status = job_make(&job);
     if (args.status == CLI_GO_ON && status == CLI_DONE)
         status = cli_is_directory(wishes.output) ? run_in_directory(&job, &wishes)
-                                             : run_integrate(&job, NULL, &wishes);
+                                                 : run_integrate(&job, NULL, &wishes);
     job_free(&job);
     return status;
 }
