@@ -1,6 +1,8 @@
 /* gnuplot.c - writing scripts for gnuplot and running them. */
 #include "gnuplot.h"
 
+#include "file.h"
+
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
@@ -20,13 +22,19 @@ void gnuplot_quote(FILE *script, const char *text)
     fputc('"', script);
 }
 
-/* First-order methods in warm colours, then green and black, then Gauss from violet to blue. */
+/* Of middling luminance (0.17 to 0.25), so that each stands out on white and on black alike, by a
+ * contrast of 3.6 at least. */
 const char *gnuplot_colour(int i)
 {
-    static const char *const colour[GNUPLOT_COLOURS] = {"#e6a700", "#d95f02", "#c51b2c", "#8c2d04",
-                                                        "#1b9e49", "#000000", "#7a7a7a", "#c994c7",
-                                                        "#9e5fc0", "#5e4fa2", "#2b83ba", "#08306b"};
+    static const char *const colour[GNUPLOT_COLOURS] = {"#d9600f", "#2f80d0", "#3d9a3d", "#d1479f",
+                                                        "#12908e", "#9a5fd0", "#94851a", "#d33b4b"};
     return colour[i % GNUPLOT_COLOURS];
+}
+
+void gnuplot_style(FILE *script, int i)
+{
+    static const char *const dash[] = {"solid", "'- '", "'.'"};
+    fprintf(script, "lc rgb '%s' dt %s", gnuplot_colour(i), dash[i / GNUPLOT_COLOURS % 3]);
 }
 
 FILE *gnuplot_open(const char *directory, const char *name, const char *format, int width,
@@ -41,13 +49,14 @@ FILE *gnuplot_open(const char *directory, const char *name, const char *format, 
         free(*path);
         return NULL;
     }
-    fprintf(script, "set terminal %s size %d,%d noenhanced font 'sans,11' background 'white'\n",
-            strcmp(format, "png") == 0 ? "pngcairo" : "svg dynamic", width, height);
+    fprintf(script, "set terminal %s size %d,%d noenhanced font 'sans,11'\n",
+            strcmp(format, "png") == 0 ? "pngcairo background 'white'" : "svg dynamic", width,
+            height);
     snprintf(file, sizeof file, "%s.%s", name, format);
     fputs("set output ", script);
     gnuplot_quote(script, file);
-    fputs("\nset datafile separator comma\nset datafile missing ''\nset tics nomirror font ',9'\n"
-          "set border 3\nset grid back lt 1 lw 1 lc rgb '#e0e0e0'\n",
+    fputs("\nset datafile separator comma\nset datafile missing ''\nset tics nomirror font ',10'\n"
+          "set border 3\nset grid back lt 1 lw 1 lc rgb '#c0808080'\n",
           script);
     return script;
 }
@@ -73,9 +82,45 @@ static int run(const char *directory, const char *path, int *missing)
     return cli_fail(CLI_IO, "gnuplot failed on '%s'", path);
 }
 
+/* What is black in a figure without background is light where the reader likes the dark. */
+static const char style[] =
+    "<style>@media (prefers-color-scheme: dark) {\n"
+    "[stroke='black'], [stroke='rgb(  0,   0,   0)'] { stroke: #e4e4e4; }\n"
+    "[fill='black'], [fill='rgb(  0,   0,   0)'] { fill: #e4e4e4; }\n"
+    "[color='black'], [color='rgb(  0,   0,   0)'] { color: #e4e4e4; } }</style>\n";
+
+/* Puts the style in the place of gnuplot's title. */
+static int put_style(const char *path)
+{
+    static const char title[] = "<title>Gnuplot</title>\n", end[] = "</desc>\n";
+    size_t length;
+    char *text = file_read(path, &length);
+    if (!text) return CLI_IO;
+    char *head = strstr(text, title), *rest = head ? strstr(head, end) : NULL;
+    FILE *file = rest ? fopen(path, "w") : NULL;
+    int status = CLI_DONE;
+    if (rest && !file) status = cli_io("write", path);
+    if (file) {
+        fwrite(text, 1, (size_t)(head - text), file);
+        fputs(style, file);
+        fputs(rest + sizeof end - 1, file);
+        status = cli_close(file, path);
+    }
+    free(text);
+    return status;
+}
+
 int gnuplot_draw(const char *directory, FILE *script, const char *path, int *missing)
 {
     int status = cli_close(script, path);
     *missing = 0;
-    return status == CLI_DONE ? run(directory, path, missing) : status;
+    if (status == CLI_DONE) status = run(directory, path, missing);
+    if (status != CLI_DONE) return status;
+    /* NAME.gp has drawn NAME.svg or NAME.png. */
+    char *figure = malloc(strlen(path) + 2);
+    if (!figure) return cli_fail(CLI_IO, "out of memory");
+    sprintf(figure, "%.*ssvg", (int)strlen(path) - 2, path);
+    if (access(figure, F_OK) == 0) status = put_style(figure);
+    free(figure);
+    return status;
 }

@@ -1,13 +1,12 @@
-/* report.h - figures and a page from the files of a study or of a run.
+/* report.h - a page and figures from the files of a study or of a run.
  *
- *     DIR/report/index.html   the page
- *     DIR/report/NAME.gp      a gnuplot script, to be changed and run again by hand
+ *     DIR/report/index.html   the page, which needs no other file
+ *     DIR/report/NAME.gp      a gnuplot script with its data, to be changed and run again by hand
  *     DIR/report/NAME.svg     what it draws (or .png) */
 #ifndef DAL_CLI_REPORT_H
 #define DAL_CLI_REPORT_H
 
 #include "cli.h"
-#include "gnuplot.h"
 
 typedef struct report {
     const char *directory; /* that of the study or run */
@@ -15,34 +14,79 @@ typedef struct report {
     const char *format;    /* "svg" or "png" */
     FILE *page;
     char *page_path;
-    int broken; /* there is no gnuplot, so that no other figure need be tried */
+    int missing; /* there is no gnuplot: scripts are written, figures are not */
 } report;
 
 /* Each returns CLI_DONE or prints and returns an exit status. */
 int report_study(report *r);
 int report_run(report *r);
 
-/* Begins DIR/report/NAME.gp with the terminal and the output NAME.svg; report_draw closes the
- * script, runs gnuplot on it and puts the figure on the page. */
-FILE *report_script(report *r, const char *name, int width, int height, char **path);
-int report_draw(report *r, FILE *script, char *path, const char *name, const char *caption);
+/* ---- the page: report_page.c ---- */
 
-/* Text in which &, < and > are taken care of. */
+int report_open(report *r);
+int report_close(report *r);
+/* Ends the head and begins the body with the title as its heading. */
+void report_title(report *r, const char *title);
+/* Text in which &, <, > and quotes are taken care of. */
 void report_text(FILE *page, const char *text);
+void report_element(FILE *page, const char *element, const char *text);
+/* A cell of a table for a verdict, in words and in colour, and a number beneath it. */
+void report_verdict(FILE *page, const char *verdict, const char *number);
+/* A file of the directory, word for word, as something to unfold; nothing where there is none. */
+void report_file(report *r, const char *name, const char *summary);
+/* The figure DIR/report/NAME.svg, inside the page; alt says in words what it shows. */
+int report_embed(report *r, const char *name, const char *alt, const char *caption);
 
-/* A CSV file in memory: cell(row, column), row 0 being the heads. */
+/* ---- plots: report_plot.c ---- */
+
+enum { PLOT_CURVES = 12, PLOT_TITLE = 96, PLOT_NAME = 192 };
+
+typedef struct plot_curve {
+    char title[PLOT_TITLE]; /* "" keeps it out of the key */
+    int ink;                /* black instead of a colour */
+    double (*at)[2];
+    int count, room;
+} plot_curve;
+
+/* A figure of curves over common axes. */
+typedef struct report_plot {
+    char name[PLOT_NAME], title[PLOT_NAME], xlabel[PLOT_TITLE], ylabel[PLOT_TITLE];
+    const char *caption, *nothing;  /* nothing: what the page says when no curve has a point */
+    int log_x, log_y, marks, alike; /* marks: points, too; alike: one scale on both axes */
+    plot_curve curve[PLOT_CURVES + 2];
+    int count, starved;
+} report_plot;
+
+/* Begins the next curve; points go to the last one.  What is not finite, or has no logarithm where
+ * one is needed, is left out. */
+plot_curve *report_curve(report_plot *plot, const char *title);
+void report_point(report_plot *plot, double x, double y);
+/* Lifts the pen. */
+void report_lift(report_plot *plot);
+/* Draws it on the page and frees the points. */
+int report_draw(report *r, report_plot *plot);
+/* log y over log x between the last point and the one at a tenth of its x: the slope of an
+ * envelope; NAN where there is none. */
+double report_slope(const plot_curve *curve);
+
+/* The path of the run in a directory, with its body, where the system has a picture. */
+int report_path(report *r, const char *run, const char *name, const char *caption);
+
+/* ---- CSV files in memory: report_csv.c ---- */
+
+/* cell(row, column), row 0 being the heads. */
 typedef struct report_csv {
     char *text, **cell;
     int rows, columns;
 } report_csv;
 int report_csv_read(report_csv *csv, const char *path);
-/* The same of an allocated text, which it takes over; NULL when a message was given. */
-int report_csv_take(report_csv *csv, char *text, const char *path);
 void report_csv_free(report_csv *csv);
-/* The text of row and head; "" when there is no such column or the row is short. */
+/* The text of row and head; "" when there is no such column or the row is short.  And its number,
+ * NAN for no text. */
 const char *report_csv_get(const report_csv *csv, int row, const char *head);
+double report_csv_number(const report_csv *csv, int row, const char *head);
 
-/* ---- the cells of a study ---- */
+/* ---- the cells of a study: report_study.c ---- */
 
 enum { REPORT_WORDS = 512 };
 
@@ -51,20 +95,19 @@ typedef struct report_words {
     const char *word[REPORT_WORDS];
     int count;
 } report_words;
-int report_word_at(const report_words *words, const char *text); /* -1: not there */
 void report_add_word(report_words *words, const char *text);
 
 typedef struct report_cells {
     report_csv csv;
     report_words labels, methods;
-    report_words plain; /* the methods that have no modifiers: each has a colour of its own */
 } report_cells;
 const char *report_get(const report_cells *cells, int row, const char *head);
 int report_is(const report_cells *cells, int row, const char *head, const char *text);
+/* The row of a cell started like this, or else like that; -1: none has numbers. */
+int report_find(const report_cells *cells, const char *label, const char *method, const char *step,
+                const char *start, const char *other);
 
-/* The figure number (from 1) of a label, at one step, with up to four panels: D and E on
- * p = pi = 0, H off it, and the error against the work. */
-int report_figure(report *r, const report_cells *cells, const char *label, const char *step,
-                  int number);
+/* The figures of a label: report_figure.c. */
+int report_figures(report *r, const report_cells *cells, const char *label);
 
 #endif

@@ -1,239 +1,280 @@
-/* report_figure.c - the figure of one system of a study at one step. */
+/* report_figure.c - the figures of one label of a study.
+ *
+ * At each step the envelopes of what should not change, max |x - x(0)| up to t, over t, log-log: a
+ * drift ~ t^k is a line of slope k.  Over all steps the error against the work and, where there are
+ * several, against h.  And the path of the most accurate run. */
 #include "report.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { NAME = 80 };
+/* column of series/LABEL.csv, the start whose runs are shown and another that has the same numbers,
+ * title, file name, what is said when it never changes */
+#define TRACK_LIST(X)                                                                              \
+    X("D", "physical", "surface", "Constraints", "max |D|", "D", "D stays 0 with every method.")   \
+    X("E", "physical", "surface", "Energy", "max |E - E(0)|", "E", NULL)                           \
+    X("invariants", "physical", "surface", "Invariants", "max |I - I(0)|", "I", NULL)              \
+    X("H", "displaced", "displaced", "H, started off p = pi = 0", "max |H - H(0)|", "H", NULL)     \
+    X("error", "physical", "surface", "Error", "max |q - exact|", "error", NULL)
+
+typedef struct track {
+    const char *column, *start, *other, *title, *ylabel, *name, *nothing;
+} track;
+
+static const track tracks[] = {
+#define X(column, start, other, title, ylabel, name, nothing)                                      \
+    {column, start, other, title, ylabel, name, nothing},
+    TRACK_LIST(X)
+#undef X
+};
+
+enum { TRACKS = sizeof tracks / sizeof tracks[0] };
 
 typedef struct figure {
+    report *r;
     const report_cells *c;
-    const char *label, *step;
-    const char *plain;       /* the start that shows the motion itself: surface, or physical */
-    report_words methods;    /* all of the label */
-    report_words shown;      /* those drawn as curves: without modifiers, if there are such */
-    int has_D, has_E, has_H; /* some cell has numbers */
-    const char *accuracy;    /* the column that tells errors: error_max, ... */
+    const char *label;
+    report_csv series;
+    report_words methods; /* those drawn: without modifiers, if there are such */
+    report_words steps;
+    const char *accuracy; /* the column that tells errors; NULL: none does */
 } figure;
 
-static int belongs(const figure *f, int row)
-{
-    return report_is(f->c, row, "label", f->label) && report_is(f->c, row, "step", f->step);
-}
+/* ---- what there is ---- */
 
-/* A row counts when it is the motion itself, went to its end, and has a number to show. */
-static int shows_work(const figure *f, int row)
+static int find_plain(const figure *f, const char *method, const char *step)
 {
-    return belongs(f, row) && report_is(f->c, row, "start", f->plain) &&
-           report_is(f->c, row, "state", "done") && report_get(f->c, row, f->accuracy)[0];
+    return report_find(f->c, f->label, method, step, "physical", "surface");
 }
 
 /* Which column can tell accuracy: the error, or what the system keeps. */
 static const char *find_accuracy(const figure *f)
 {
     static const char *const columns[] = {"error_max", "invariant_deviation", "E_deviation"};
-    for (int row = 1; row < f->c->csv.rows; row++) {
-        if (!belongs(f, row) || report_is(f->c, row, "start", "displaced")) continue;
-        for (int k = 0; k < 3; k++) {
+    for (int k = 0; k < 3; k++)
+        for (int row = 1; row < f->c->csv.rows; row++) {
             int kept = k < 2 || !report_is(f->c, row, "E_verdict", "-");
-            if (kept && report_get(f->c, row, columns[k])[0]) return columns[k];
+            if (report_is(f->c, row, "label", f->label) && kept &&
+                report_get(f->c, row, columns[k])[0])
+                return columns[k];
         }
-    }
     return NULL;
 }
 
-/* Whether a row of the figure has numbers: a run that was refused has none. */
-static int has_numbers(const figure *f, int row)
+static void add_methods(figure *f, int modified)
 {
-    return belongs(f, row) && strcmp(report_get(f->c, row, "steps"), "0") != 0;
-}
-
-static void find_start(figure *f)
-{
-    f->plain = "displaced";
-    for (int row = 1; row < f->c->csv.rows; row++)
-        if (has_numbers(f, row) && strcmp(f->plain, "surface") != 0 &&
-            !report_is(f->c, row, "start", "displaced"))
-            f->plain = report_get(f->c, row, "start");
+    for (int row = 1; row < f->c->csv.rows; row++) {
+        const char *method = report_get(f->c, row, "integrator");
+        if (report_is(f->c, row, "label", f->label) && !report_is(f->c, row, "steps", "0") &&
+            (modified || !strchr(method, '+')))
+            report_add_word(&f->methods, method);
+    }
 }
 
 static void survey(figure *f)
 {
-    find_start(f);
-    for (int row = 1; row < f->c->csv.rows; row++) {
-        int plain = report_is(f->c, row, "start", f->plain);
-        if (!has_numbers(f, row)) continue;
-        report_add_word(&f->methods, report_get(f->c, row, "integrator"));
-        f->has_D |= plain && report_get(f->c, row, "D_max")[0];
-        f->has_E |= plain && report_get(f->c, row, "E_deviation")[0];
-        f->has_H |=
-            report_is(f->c, row, "start", "displaced") && report_get(f->c, row, "H_deviation")[0];
-    }
-    for (int m = 0; m < f->methods.count; m++)
-        if (!strchr(f->methods.word[m], '+')) report_add_word(&f->shown, f->methods.word[m]);
-    if (f->shown.count == 0) f->shown = f->methods;
+    for (int row = 1; row < f->c->csv.rows; row++)
+        if (report_is(f->c, row, "label", f->label))
+            report_add_word(&f->steps, report_get(f->c, row, "step"));
+    add_methods(f, 0);
+    if (f->methods.count == 0) add_methods(f, 1);
     f->accuracy = find_accuracy(f);
-    int points = 0;
-    for (int row = 1; f->accuracy && row < f->c->csv.rows; row++) points += shows_work(f, row);
-    if (points == 0) f->accuracy = NULL;
 }
 
-/* The same for a method in all figures, with modifiers or without. */
-static int colour_of(const figure *f, const char *method)
+static int read_series(figure *f)
 {
-    char base[NAME];
-    snprintf(base, sizeof base, "%.*s", (int)strcspn(method, "+"), method);
-    int i = report_word_at(&f->c->plain, base);
-    if (i < 0) i = report_word_at(&f->c->methods, method);
-    return i < 0 ? 0 : i;
+    char name[PLOT_NAME];
+    snprintf(name, sizeof name, "series/%.160s.csv", f->label);
+    char *path = cli_join(f->r->directory, name);
+    int status = path ? report_csv_read(&f->series, path) : cli_fail(CLI_IO, "out of memory");
+    free(path);
+    return status;
 }
 
-/* lines lw 1.6 dt D lc rgb C: beyond the colours there are, dashes. */
-static void put_style(FILE *s, const figure *f, const char *method, double width)
+/* ---- envelopes ---- */
+
+/* The rows of a cell stand together: the first, or -1. */
+static int find_rows(const figure *f, const char *method, const char *step, const char *start)
 {
-    int i = colour_of(f, method);
-    fprintf(s, "with lines lw %g dt %d lc rgb '%s'", width, 1 + i / GNUPLOT_COLOURS,
-            gnuplot_colour(i));
+    for (int row = 1; row < f->series.rows; row++)
+        if (strcmp(report_csv_get(&f->series, row, "integrator"), method) == 0 &&
+            strcmp(report_csv_get(&f->series, row, "step"), step) == 0 &&
+            strcmp(report_csv_get(&f->series, row, "start"), start) == 0)
+            return row;
+    return -1;
 }
 
-typedef struct panel {
-    const char *title, *start, *column, *floor;
-} panel;
-
-static int panel_count(const figure *f)
+static int same_cell(const figure *f, int row, int first)
 {
-    return f->has_D + f->has_E + f->has_H + (f->accuracy != NULL);
+    static const char *const keys[] = {"integrator", "step", "start"};
+    for (int k = 0; k < 3; k++)
+        if (strcmp(report_csv_get(&f->series, row, keys[k]),
+                   report_csv_get(&f->series, first, keys[k])) != 0)
+            return 0;
+    return 1;
 }
 
-static void place_panel(FILE *s, int k, int count)
+static void add_envelope(const figure *f, report_plot *plot, const char *method, const char *step,
+                         const track *t)
 {
-    int rows = count > 2 ? 2 : 1, row = k / 2, column = k % 2;
-    double height = 0.94 / rows, bottom = (rows - 1 - row) * height;
-    double left = count == 1 ? 0.07 : 0.07 + column * 0.39, width = count == 1 ? 0.70 : 0.32;
-    fprintf(s, "set lmargin at screen %.3f\nset rmargin at screen %.3f\n", left, left + width);
-    fprintf(s, "set bmargin at screen %.3f\nset tmargin at screen %.3f\n", bottom + 0.16 / rows,
-            bottom + height - 0.09 / rows);
+    char slope[32] = "";
+    int row = report_find(f->c, f->label, method, step, t->start, t->other);
+    int first = row < 0 ? -1 : find_rows(f, method, step, report_get(f->c, row, "start"));
+    if (first < 0) return;
+    plot_curve *curve = report_curve(plot, method);
+    double most = 0.0;
+    for (row = first; row < f->series.rows && same_cell(f, row, first); row++) {
+        const double x = report_csv_number(&f->series, row, t->column);
+        if (!(x <= most)) most = x;
+        report_point(plot, report_csv_number(&f->series, row, "until"), most);
+    }
+    if (curve->count == 0)
+        snprintf(slope, sizeof slope, most == 0.0 ? " (0)" : " (not finite)");
+    else if (isfinite(report_slope(curve)))
+        snprintf(slope, sizeof slope, " (%.2g)", report_slope(curve) + 0.0);
+    snprintf(curve->title, sizeof curve->title, "%.60s%s", method, slope);
 }
 
-static void draw_curves(FILE *s, const figure *f, const panel *p)
+/* A file name of a label, of what is drawn and of numbers that tell figures apart. */
+static void name_plot(report_plot *plot, const figure *f, const char *what, int step, int part)
 {
-    const char *more = strcmp(p->start, "displaced") == 0 ? ", p and pi displaced" : "";
-    fprintf(s, "set title '%s%s'\nset xlabel 't'\nset logscale y\nunset logscale x\n", p->title,
-            more);
-    fputs("set xrange [*:*]\nset yrange [*:*]\nplot \\\n", s);
-    for (int i = 0; i < f->shown.count; i++) {
-        fputs("  series using 'until':(pick(", s);
-        gnuplot_quote(s, f->shown.word[i]);
-        fprintf(s, ", '%s', '%s', %s)) ", p->start, p->column, p->floor);
-        put_style(s, f, f->shown.word[i], 1.6);
-        fprintf(s, " notitle%s\n", i + 1 < f->shown.count ? ", \\" : "");
+    char more[48] = "";
+    if (step > 0) snprintf(more, sizeof more, "-h%d", step + 1);
+    if (part > 0) snprintf(more + strlen(more), sizeof more - strlen(more), "-%d", part + 1);
+    snprintf(plot->name, sizeof plot->name, "%.120s-%s%s", f->label, what, more);
+}
+
+static int draw_track(const figure *f, const track *t, int step, int part)
+{
+    report_plot plot = {.log_x = 1,
+                        .log_y = 1,
+                        .xlabel = "t",
+                        .nothing = part ? NULL : t->nothing,
+                        .caption = "Greatest up to t; in brackets the slope over the last tenfold "
+                                   "of t: 0 bounded, 1 linear."};
+    name_plot(&plot, f, t->name, step, part);
+    snprintf(plot.title, sizeof plot.title, "%s, h = %g", t->title,
+             strtod(f->steps.word[step], NULL));
+    snprintf(plot.ylabel, sizeof plot.ylabel, "%s", t->ylabel);
+    const int first = part * PLOT_CURVES;
+    for (int m = first; m < f->methods.count && m < first + PLOT_CURVES; m++)
+        add_envelope(f, &plot, f->methods.word[m], f->steps.word[step], t);
+    return report_draw(f->r, &plot);
+}
+
+/* ---- error against work and step ---- */
+
+static void add_errors(const figure *f, report_plot *plot, const char *method, int against_work)
+{
+    report_curve(plot, method);
+    for (int h = 0; h < f->steps.count; h++) {
+        const int row = find_plain(f, method, f->steps.word[h]);
+        if (row < 0 || !report_is(f->c, row, "state", "done")) continue;
+        const double work = report_csv_number(&f->c->csv, row, "evaluations") /
+                            report_csv_number(&f->c->csv, row, "time");
+        report_point(plot, against_work ? work : strtod(f->steps.word[h], NULL),
+                     report_csv_number(&f->c->csv, row, f->accuracy));
     }
 }
 
-/* One point per method: x, y, its mark and its colour. */
-static void put_points(FILE *s, const figure *f)
+static int draw_errors(const figure *f, int against_work, int part)
 {
-    fputs("$work << END\n", s);
+    const char *what = strcmp(f->accuracy, "error_max") == 0     ? "max error"
+                       : strcmp(f->accuracy, "E_deviation") == 0 ? "max |E - E(0)|"
+                                                                 : "max |I - I(0)|";
+    report_plot plot = {.log_x = 1, .log_y = 1, .marks = 1};
+    plot.caption = against_work ? "Lower left is better: less error for less work."
+                                : "A method of order p is a line of slope p.";
+    name_plot(&plot, f, against_work ? "work" : "order", 0, part);
+    snprintf(plot.title, sizeof plot.title, against_work ? "Work and precision" : "Order");
+    snprintf(plot.xlabel, sizeof plot.xlabel, "%s",
+             against_work ? "evaluations of F per unit of t" : "step h");
+    snprintf(plot.ylabel, sizeof plot.ylabel, "%s", what);
+    const int first = part * PLOT_CURVES;
+    for (int m = first; m < f->methods.count && m < first + PLOT_CURVES; m++)
+        add_errors(f, &plot, f->methods.word[m], against_work);
+    return report_draw(f->r, &plot);
+}
+
+/* ---- the path of one run ---- */
+
+/* The most accurate run that is kept; -1: none is. */
+static int best_run(const figure *f)
+{
+    int best = -1;
+    double least = INFINITY;
     for (int row = 1; row < f->c->csv.rows; row++) {
-        if (!shows_work(f, row)) continue;
-        const char *method = report_get(f->c, row, "integrator");
-        double evaluations = strtod(report_get(f->c, row, "evaluations"), NULL);
-        double time = strtod(report_get(f->c, row, "time"), NULL);
-        fprintf(s, "%.17g,%s,%d,%ld\n", evaluations / time, report_get(f->c, row, f->accuracy),
-                strchr(method, '+') ? 6 : 7,
-                strtol(gnuplot_colour(colour_of(f, method)) + 1, NULL, 16));
+        if (!report_is(f->c, row, "label", f->label) || !report_get(f->c, row, "run")[0] ||
+            !report_is(f->c, row, "state", "done") || report_is(f->c, row, "start", "displaced"))
+            continue;
+        double error = f->accuracy ? report_csv_number(&f->c->csv, row, f->accuracy) : 0.0;
+        if (best >= 0 && !(error < least)) continue;
+        best = row;
+        least = error;
     }
-    fputs("END\n", s);
+    return best;
 }
 
-static void draw_work(FILE *s, const figure *f)
+static int draw_path(const figure *f)
 {
-    const char *what = strcmp(f->accuracy, "error_max") == 0     ? "greatest error"
-                       : strcmp(f->accuracy, "E_deviation") == 0 ? "greatest |E - E(0)|"
-                                                                 : "greatest |I - I(0)|";
-    put_points(s, f);
-    fprintf(s, "set title '%s against work, open: with modifiers'\n", what);
-    fputs("set xlabel 'evaluations per unit of t'\nset logscale xy\n"
-          "set xrange [*:*] noextend\nset yrange [*:*]\nset offsets graph 0.06, graph 0.06\n"
-          "plot $work using 1:(floor_at($2, 1e-17)):3:4 with points ps 1.1 lw 1.4 pt variable "
-          "lc rgb variable notitle\n",
-          s);
+    char name[PLOT_NAME], run[PLOT_NAME], caption[2 * PLOT_NAME];
+    const int row = best_run(f);
+    if (row < 0) return CLI_DONE;
+    snprintf(run, sizeof run, "runs/%.160s", report_get(f->c, row, "run"));
+    snprintf(name, sizeof name, "%.120s-path", f->label);
+    snprintf(caption, sizeof caption, "The path as %.80s has it with h = %g.",
+             report_get(f->c, row, "integrator"), report_csv_number(&f->c->csv, row, "step"));
+    char *path = cli_join(f->r->directory, run);
+    int status = path ? report_path(f->r, path, name, caption) : cli_fail(CLI_IO, "out of memory");
+    free(path);
+    return status;
 }
 
-static void draw_legend(FILE *s, const figure *f)
+/* ---- the whole ---- */
+
+static int draw_part(const figure *f, int part)
 {
-    fputs("set lmargin at screen 0.80\nset rmargin at screen 0.99\nset tmargin at screen 0.93\n"
-          "set bmargin at screen 0.1\nunset border\nunset tics\nunset title\nunset xlabel\n"
-          "unset logscale\nset key at graph 0, graph 1 left top Left reverse samplen 2 "
-          "spacing 1.3\nplot [0:1][0:1] \\\n",
-          s);
-    for (int i = 0; i < f->shown.count; i++) {
-        fputs("  NaN ", s);
-        put_style(s, f, f->shown.word[i], 3.0);
-        fputs(" title ", s);
-        gnuplot_quote(s, f->shown.word[i]);
-        fputs(i + 1 < f->shown.count ? ", \\\n" : "\n", s);
+    int status = CLI_DONE;
+    for (int h = 0; h < f->steps.count; h++)
+        for (int k = 0; k < TRACKS && status == CLI_DONE; k++)
+            status = draw_track(f, &tracks[k], h, part);
+    if (status == CLI_DONE && f->accuracy) status = draw_errors(f, 1, part);
+    if (status == CLI_DONE && f->accuracy && f->steps.count > 1) status = draw_errors(f, 0, part);
+    return status;
+}
+
+static int draw_all(const figure *f)
+{
+    int status = CLI_DONE, parts = (f->methods.count + PLOT_CURVES - 1) / PLOT_CURVES;
+    for (int part = 0; part < parts && status == CLI_DONE; part++) {
+        if (part) {
+            const char *first = f->methods.word[part * PLOT_CURVES];
+            fputs("<details><summary>further methods: ", f->r->page);
+            report_text(f->r->page, first);
+            fputs(" ...</summary>\n", f->r->page);
+        }
+        fputs("<div class=\"figures\">\n", f->r->page);
+        if (part == 0) status = draw_path(f);
+        if (status == CLI_DONE) status = draw_part(f, part);
+        fputs(part ? "</div></details>\n" : "</div>\n", f->r->page);
     }
+    return status;
 }
 
-static void draw_panels(FILE *s, const figure *f)
-{
-    const panel panels[] = {
-        {"max |D| within each hundredth of the time", f->plain, "D", "1e-17"},
-        {"max |E - E(0)|", f->plain, "E", "1e-17"},
-        {"max |H - H(0)|", "displaced", "H", "1e-26"},
-    };
-    int has[] = {f->has_D, f->has_E, f->has_H}, count = panel_count(f), k = 0;
-    for (int i = 0; i < 3; i++) {
-        if (!has[i]) continue;
-        place_panel(s, k++, count);
-        draw_curves(s, f, &panels[i]);
-    }
-    if (f->accuracy) {
-        place_panel(s, k, count);
-        draw_work(s, f);
-    }
-    draw_legend(s, f);
-}
-
-static void write_script(FILE *s, const figure *f)
-{
-    char path[NAME + 32];
-    snprintf(path, sizeof path, "../series/%.80s.csv", f->label);
-    fputs("series = ", s);
-    gnuplot_quote(s, path);
-    fputs("\nfloor_at(x, least) = x > least ? x : least\n", s);
-    fprintf(s,
-            "pick(m, start, name, least) = strcol('integrator') eq m && strcol('start') eq start "
-            "\\\n    && column('step') == %s ? floor_at(column(name), least) : NaN\n",
-            f->step);
-    fputs("set format y '%.0e'\nunset key\nset multiplot title ", s);
-    char title[2 * NAME];
-    snprintf(title, sizeof title, "%.80s, h = %g", f->label, strtod(f->step, NULL));
-    gnuplot_quote(s, title);
-    fputc('\n', s);
-    draw_panels(s, f);
-    fputs("unset multiplot\n", s);
-}
-
-int report_figure(report *r, const report_cells *c, const char *label, const char *step, int number)
+int report_figures(report *r, const report_cells *c, const char *label)
 {
     figure *f = calloc(1, sizeof *f);
-    char name[2 * NAME], *path;
     if (!f) return cli_fail(CLI_IO, "out of memory");
-    *f = (figure){.c = c, .label = label, .step = step};
+    *f = (figure){.r = r, .c = c, .label = label};
     survey(f);
-    if (f->methods.count == 0) {
-        free(f);
+    int status = CLI_DONE;
+    if (f->methods.count == 0)
         fputs("<p>No run has numbers to show.</p>\n", r->page);
-        return CLI_DONE;
-    }
-    snprintf(name, sizeof name, number > 1 ? "%.80s-%d" : "%.80s", label, number);
-    FILE *script = report_script(r, name, 1200, panel_count(f) > 2 ? 820 : 480, &path);
-    if (script) write_script(script, f);
+    else
+        status = read_series(f);
+    if (status == CLI_DONE && f->methods.count > 0) status = draw_all(f);
+    report_csv_free(&f->series);
     free(f);
-    if (!script) return CLI_IO;
-    return report_draw(r, script, path, name,
-                       "Maxima within each hundredth of the time; what is smaller is drawn at "
-                       "1e-17, H at 1e-26.");
+    return status;
 }

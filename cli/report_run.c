@@ -1,209 +1,353 @@
-/* report_run.c - the page of a run: its coordinates, its path, and what should not change. */
+/* report_run.c - the page of a run: what was asked for, its path, its coordinates, and what should
+ * not change, over t and as envelopes over log t. */
 #include "report.h"
 
 #include "rows.h"
+#include "store.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Of more rows than these a figure shows every k-th; of more curves the first ones. */
-enum { POINTS = 4000, CURVES = GNUPLOT_COLOURS };
+/* Of more rows than these a figure over t shows every k-th; an envelope has a point for every so
+ * many per cent of t. */
+enum { POINTS = 2000 };
+static const double denser = 1.02;
 
-typedef struct rows {
-    cli_rows table;
-    double *first; /* [columns] of the first row */
-    long long stride;
-    int coordinates; /* in columns 1.. */
+/* What is drawn over t: code, file name, title, label of the axis, what is said of nothing but 0 */
+#define GROUP_LIST(X)                                                                              \
+    X(COORDINATES, "coordinates", "Coordinates", "q", NULL)                                        \
+    X(D, "D", "Constraints", "D", "D is exactly 0 at all rows.")                                   \
+    X(E, "E", "Energy", "E - E(0)", "E never changes.")                                            \
+    X(H, "H", "H of the lift", "H - H(0)", "H never changes.")                                     \
+    X(INVARIANTS, "I", "Invariants", "I - I(0)", "The invariants never change.")                   \
+    X(ERROR, "error", "Error", "max |q - exact|", "The error is exactly 0.")
+
+enum {
+#define X(code, name, title, ylabel, nothing) GROUP_##code,
+    GROUP_LIST(X)
+#undef X
+        GROUPS
+};
+
+typedef struct run_page {
+    report *r;
+    cli_rows rows;
+    int n;           /* coordinates, in columns 1.. */
     int observables; /* the first column behind the state */
-} rows;
+    double *first;   /* [columns] of the first row */
+    double *most;    /* [columns] so far */
+    double told;     /* t of the last point of the envelopes */
+    report_plot plot[GROUPS], drift;
+    int *group, *place; /* [columns] which plot, or -1; which curve of it */
+    int *envelope;      /* [columns] which curve of the drift, or -1 */
+} run_page;
 
-/* ---- reading ---- */
+/* ---- columns ---- */
+
+static int is_numbered(const char *name)
+{
+    return name[0] == 'D' && name[1] && name[1 + strspn(name + 1, "0123456789")] == '\0';
+}
 
 static int is_observable(const char *name)
 {
-    return strcmp(name, "E") == 0 || strcmp(name, "H") == 0 ||
-           (name[0] == 'D' && name[1] && name[1 + strspn(name + 1, "0123456789")] == '\0');
+    return strcmp(name, "E") == 0 || strcmp(name, "H") == 0 || is_numbered(name);
+}
+
+static int group_of(const run_page *run, int column)
+{
+    const char *name = run->rows.name[column];
+    if (column <= run->n) return GROUP_COORDINATES;
+    if (column < run->observables) return -1;
+    if (is_numbered(name)) return GROUP_D;
+    if (strcmp(name, "E") == 0) return GROUP_E;
+    if (strcmp(name, "H") == 0) return GROUP_H;
+    return strcmp(name, "error") == 0 ? GROUP_ERROR : GROUP_INVARIANTS;
 }
 
 /* t, q, q', rest of the state, then D1.., E, H, invariants, error.  A coordinate may be called D1
  * or E; only behind the velocities is a column an observable. */
-static void find_columns(rows *r)
+static void find_columns(run_page *run)
 {
-    const cli_rows *t = &r->table;
-    while (1 + r->coordinates < t->columns && !strchr(t->name[1 + r->coordinates], '\''))
-        r->coordinates++;
-    for (r->observables = 1 + 2 * r->coordinates; r->observables < t->columns; r->observables++)
-        if (is_observable(t->name[r->observables])) break;
+    const cli_rows *t = &run->rows;
+    while (1 + run->n < t->columns && !strchr(t->name[1 + run->n], '\'')) run->n++;
+    for (run->observables = 1 + 2 * run->n; run->observables < t->columns; run->observables++)
+        if (is_observable(t->name[run->observables])) break;
 }
 
-/* Every stride-th row goes to DIR/report/run.dat, where gnuplot finds it. */
-static int put_rows(rows *r, FILE *out)
+/* A curve for each column, as long as there is room for them. */
+static void place_columns(run_page *run)
 {
-    cli_rows *t = &r->table;
-    int more;
-    for (long long k = 0; (more = rows_next(t)) > 0; k++) {
-        if (k == 0) memcpy(r->first, t->row, (size_t)t->columns * sizeof *r->first);
-        if (k % r->stride) continue;
-        for (int i = 0; i < t->columns; i++) {
-            if (i) fputc(',', out);
-            cli_put(out, t->row[i]);
-        }
-        fputc('\n', out);
+    for (int i = 1; i < run->rows.columns; i++) {
+        run->group[i] = group_of(run, i);
+        run->envelope[i] = -1;
+        if (run->group[i] < 0) continue;
+        report_plot *plot = &run->plot[run->group[i]];
+        run->place[i] = plot->count;
+        if (plot->count < PLOT_CURVES)
+            report_curve(plot, run->rows.name[i]);
+        else
+            run->group[i] = -1;
+        if (i < run->observables || run->drift.count >= PLOT_CURVES) continue;
+        run->envelope[i] = run->drift.count;
+        report_curve(&run->drift, run->rows.name[i]);
     }
-    return more < 0 ? CLI_IO : CLI_DONE;
 }
 
-static int read_rows(rows *r, const report *page)
+static void name_plots(run_page *run)
 {
-    cli_rows *t = &r->table;
-    if (t->count == 0) return cli_fail(CLI_USAGE, "'%s' has no rows", t->path);
-    r->stride = 1 + t->count / POINTS;
-    r->first = calloc((size_t)t->columns, sizeof *r->first);
-    char *path = cli_join(page->place, "run.dat");
-    FILE *out = path && r->first ? fopen(path, "w") : NULL;
-    int status = CLI_DONE;
-    if (!path || !r->first) status = cli_fail(CLI_IO, "out of memory");
-    if (status == CLI_DONE && !out) status = cli_io("write", path);
-    if (status == CLI_DONE) status = put_rows(r, out);
-    if (out) {
-        const int closed = cli_close(out, path);
-        if (status == CLI_DONE) status = closed;
+    static const char *const texts[][4] = {
+#define X(code, name, title, ylabel, nothing) {name, title, ylabel, nothing},
+        GROUP_LIST(X)
+#undef X
+    };
+    for (int g = 0; g < GROUPS; g++) {
+        report_plot *plot = &run->plot[g];
+        snprintf(plot->name, sizeof plot->name, "%s", texts[g][0]);
+        snprintf(plot->title, sizeof plot->title, "%s", texts[g][1]);
+        snprintf(plot->ylabel, sizeof plot->ylabel, "%s", texts[g][2]);
+        snprintf(plot->xlabel, sizeof plot->xlabel, "t");
+        plot->caption = "";
+        plot->nothing = texts[g][3];
     }
-    free(path);
-    if (status == CLI_DONE) find_columns(r);
-    return status;
+    run->drift = (report_plot){
+        .name = "drift",
+        .title = "Drift of what should not change",
+        .xlabel = "t",
+        .ylabel = "greatest |x - x(0)|",
+        .log_x = 1,
+        .log_y = 1,
+        .nothing = "Nothing that should not change has changed.",
+        .caption = "Greatest up to t; in brackets the slope over the last tenfold of t: 0 bounded, "
+                   "1 linear."};
 }
 
-/* ---- drawing ---- */
+/* ---- rows ---- */
 
-static const char *name_of(const rows *r, int column) { return r->table.name[column]; }
-
-static void begin_panel(FILE *s, const char *title, const char *xlabel)
+/* Points go to the last curve of a plot, so the others are hidden for a moment. */
+static void add(report_plot *plot, int curve, double x, double y)
 {
-    fputs("set title ", s);
-    gnuplot_quote(s, title);
-    fputs("\nset xlabel ", s);
-    gnuplot_quote(s, xlabel);
-    fputc('\n', s);
+    const int count = plot->count;
+    plot->count = curve + 1;
+    report_point(plot, x, y);
+    plot->count = count;
 }
 
-static void put_curve(FILE *s, const char *using, const char *title, int i)
+/* D and error are what they are; all else is measured from its start. */
+static double value(const run_page *run, int i)
 {
-    fprintf(s, "%s  rows using %s with lines lw 1.6 lc rgb '%s' title ", i > 0 ? ", \\\n" : "",
-            using, gnuplot_colour(CURVES - 1 - 2 * i % CURVES));
-    gnuplot_quote(s, title);
+    const int g = run->group[i];
+    const int plain = g == GROUP_COORDINATES || g == GROUP_D || g == GROUP_ERROR;
+    return plain ? run->rows.row[i] : run->rows.row[i] - run->first[i];
 }
 
-static void draw_coordinates(FILE *s, const rows *r)
+static void take_row(run_page *run, long long k)
 {
-    char using[64];
-    begin_panel(s, "coordinates", "t");
-    fputs("plot \\\n", s);
-    for (int i = 0; i < r->coordinates && i < CURVES; i++) {
-        snprintf(using, sizeof using, "1:%d", 2 + i);
-        put_curve(s, using, name_of(r, 1 + i), i);
+    const cli_rows *t = &run->rows;
+    const long long stride = 1 + t->count / POINTS, last = t->count - 1;
+    const double now = t->row[0];
+    const int tell = now >= denser * run->told || k == last;
+    if (k == 0) memcpy(run->first, t->row, (size_t)t->columns * sizeof *run->first);
+    for (int i = 1; i < t->columns; i++) {
+        if (run->group[i] < 0) continue;
+        const double x = value(run, i);
+        if (k % stride == 0 || k == last) add(&run->plot[run->group[i]], run->place[i], now, x);
+        if (!(fabs(x) <= run->most[i])) run->most[i] = fabs(x);
+        if (tell && run->envelope[i] >= 0) add(&run->drift, run->envelope[i], now, run->most[i]);
     }
-    fputc('\n', s);
+    if (tell) run->told = now;
 }
 
-static void draw_path(FILE *s, const rows *r)
+static void tell_slopes(run_page *run)
 {
-    begin_panel(s, "path", name_of(r, 1));
-    fputs("set ylabel ", s);
-    gnuplot_quote(s, name_of(r, 2));
-    fputs("\nset size ratio -1\nplot \\\n", s);
-    put_curve(s, "2:3", "", 0);
-    fputs("\nset size noratio\nunset ylabel\n", s);
-}
-
-/* What a run keeps is drawn as its distance from the first row, D and error as they are. */
-static void draw_drift(FILE *s, const rows *r)
-{
-    char using[128], title[96];
-    begin_panel(s, "what should be kept: |x|, or |x - x(0)|; 0 is drawn at 1e-17", "t");
-    fputs("set logscale y\nset format y '%.0e'\nplot \\\n", s);
-    for (int i = 0; r->observables + i < r->table.columns && i < CURVES; i++) {
-        int column = r->observables + i;
-        const char *name = name_of(r, column);
-        int plain = strcmp(name, "error") == 0 || (name[0] == 'D' && is_observable(name));
-        snprintf(using, sizeof using, "1:(least(abs($%d - (%.17g))))", column + 1,
-                 plain ? 0.0 : r->first[column]);
-        snprintf(title, sizeof title, plain ? "|%.80s|" : "|%.80s - first|", name);
-        put_curve(s, using, title, i);
+    for (int i = run->observables; i < run->rows.columns; i++) {
+        if (run->envelope[i] < 0) continue;
+        plot_curve *curve = &run->drift.curve[run->envelope[i]];
+        const double slope = report_slope(curve);
+        char more[32] = "";
+        if (curve->count == 0) snprintf(more, sizeof more, " (0)");
+        if (isfinite(slope)) snprintf(more, sizeof more, " (%.2g)", slope + 0.0);
+        snprintf(curve->title, sizeof curve->title, "%.60s%s", run->rows.name[i], more);
     }
-    fputs("\nunset logscale y\nset format y\n", s);
 }
 
-/* The panel of a row and column out of two by two, or over both columns. */
-static void place(FILE *s, int row, int count, double left, double right)
+static int draw_figures(run_page *run)
 {
-    double height = 1.0 / count, bottom = (count - 1 - row) * height;
-    fprintf(s, "set lmargin at screen %.3f\nset rmargin at screen %.3f\n", left, right);
-    fprintf(s, "set bmargin at screen %.3f\nset tmargin at screen %.3f\n", bottom + 0.15 / count,
-            bottom + 0.90 / count);
-}
-
-static int draw(report *page, const rows *r)
-{
-    char *path;
-    int drift = r->observables<r->table.columns, plane = r->coordinates> 1;
-    FILE *s = report_script(page, "run", 1100, drift ? 820 : 420, &path);
-    if (!s) return CLI_IO;
-    fputs("rows = 'run.dat'\nleast(x) = x > 1e-17 ? x : 1e-17\nset key inside left top\n"
-          "set multiplot\n",
-          s);
-    place(s, 0, 1 + drift, 0.08, plane ? 0.45 : 0.84);
-    draw_coordinates(s, r);
-    place(s, 0, 1 + drift, 0.62, 0.97);
-    if (plane) draw_path(s, r);
-    place(s, 1, 1 + drift, 0.08, 0.80);
-    fputs("set key outside right top\n", s);
-    if (drift) draw_drift(s, r);
-    fputs("unset multiplot\n", s);
-    return report_draw(page, s, path, "run", r->stride > 1 ? "Not every row is drawn." : "");
-}
-
-static void put_summary(FILE *page, const report_csv *csv)
-{
-    fputs("<h2>Summary</h2>\n<table>", page);
-    for (int row = 0; row < csv->rows; row++) {
-        fputs("<tr>", page);
-        for (int column = 0; column < csv->columns; column++) {
-            fputs(row == 0 ? "<th>" : "<td>", page);
-            report_text(page, csv->cell[row * csv->columns + column]);
-            fputs(row == 0 ? "</th>" : "</td>", page);
-        }
-        fputs("</tr>\n", page);
+    int more, status = CLI_DONE;
+    name_plots(run);
+    place_columns(run);
+    for (long long k = 0; (more = rows_next(&run->rows)) > 0; k++) take_row(run, k);
+    if (more < 0) status = CLI_IO;
+    tell_slopes(run);
+    int drawn = report_draw(run->r, &run->drift);
+    for (int g = 0; g < GROUPS; g++) {
+        if (status == CLI_DONE) status = drawn;
+        drawn = report_draw(run->r, &run->plot[g]);
     }
-    fputs("</table>\n", page);
+    return status == CLI_DONE ? drawn : status;
+}
+
+static int make_memory(run_page *run)
+{
+    const size_t columns = (size_t)run->rows.columns;
+    if (run->rows.count == 0) return cli_fail(CLI_USAGE, "'%s' has no rows", run->rows.path);
+    run->first = calloc(2 * columns, sizeof *run->first);
+    run->group = calloc(3 * columns, sizeof *run->group);
+    if (!run->first || !run->group) return cli_fail(CLI_IO, "out of memory");
+    run->most = run->first + columns;
+    run->place = run->group + columns;
+    run->envelope = run->place + columns;
+    return CLI_DONE;
+}
+
+/* ---- the summary ---- */
+
+static void put_quantity(FILE *page, const report_csv *csv, int row)
+{
+    static const char *const columns[] = {"first", "final",    "maximum",   "deviation",
+                                          "rate",  "rate_low", "rate_high", "exponent"};
+    fputs("<tr>", page);
+    report_element(page, "th scope=\"row\"", report_csv_get(csv, row, "observable"));
+    report_verdict(page, report_csv_get(csv, row, "verdict"), "");
+    fprintf(page, "<td>%.2f</td>", report_csv_number(csv, row, "confidence"));
+    for (size_t k = 0; k < sizeof columns / sizeof columns[0]; k++)
+        fprintf(page, "<td>%.4g</td>", report_csv_number(csv, row, columns[k]));
+    fputs("</tr>\n", page);
 }
 
 /* summary.csv is there when the run is over. */
-static void add_summary(report *r)
+static int put_summary(report *r)
 {
     report_csv csv = {0};
     char *path = cli_join(r->directory, "summary.csv");
     FILE *there = path ? fopen(path, "r") : NULL;
+    int status = CLI_DONE;
     if (there) {
         fclose(there);
-        if (report_csv_read(&csv, path) == CLI_DONE) put_summary(r->page, &csv);
+        status = report_csv_read(&csv, path);
+        fputs("<h2>Verdicts</h2>\n<div class=\"wide\" tabindex=\"0\"><table><thead><tr><td></td>"
+              "<th>verdict</th><th>confi&shy;dence</th><th>first</th><th>final</th><th>max |x|</th>"
+              "<th>max |x − first|</th><th>rate</th><th>rate, from</th><th>to (95 %)</th>"
+              "<th>exponent</th></tr></thead>\n<tbody>",
+              r->page);
+        for (int row = 1; row < csv.rows; row++) put_quantity(r->page, &csv, row);
+        fputs("</tbody></table></div>\n", r->page);
         report_csv_free(&csv);
     }
     free(path);
+    return status;
+}
+
+/* ---- what was asked for ---- */
+
+/* A word of a shell's command. */
+static void put_word(FILE *page, const char *word)
+{
+    static const char plain[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789"
+                                "_-+./,:=@%";
+    if (word[0] && word[strspn(word, plain)] == '\0') {
+        report_text(page, word);
+        return;
+    }
+    fputc('\'', page);
+    for (const char *c = word; *c; c++) {
+        char letter[] = {*c, '\0'};
+        if (*c == '\'')
+            fputs("'\\''", page);
+        else
+            report_text(page, letter);
+    }
+    fputc('\'', page);
+}
+
+/* The shortest digits that are read back as the same number. */
+static void put_settings(FILE *page, const char *option, const job_settings *settings)
+{
+    char text[256];
+    for (int i = 0; i < settings->count; i++) {
+        const dal_setting *s = &settings->item[i];
+        for (int digits = 6; digits <= 17; digits++) {
+            snprintf(text, sizeof text, "%.120s=%.*g", s->name, digits, s->value);
+            if (strtod(strchr(text, '=') + 1, NULL) == s->value) break;
+        }
+        fprintf(page, " --%s ", option);
+        put_word(page, text);
+    }
+}
+
+static void put_command(FILE *page, const cli_job *job)
+{
+    cli_option options[JOB_OPTIONS];
+    job_options(options);
+    fputs("<h2>How to make it again</h2>\n<pre tabindex=\"0\">dalembert run ", page);
+    put_word(page, job->system);
+    for (int i = 0; i < JOB_OPTIONS; i++) {
+        if (!job->text[i] || i == JOB_set || i == JOB_start) continue;
+        fprintf(page, " --%s ", options[i].name);
+        put_word(page, job->text[i]);
+    }
+    put_settings(page, "set", &job->set);
+    put_settings(page, "start", &job->start);
+    fputs(" --output DIR</pre>\n", page);
+}
+
+static void put_heading(report *r, const cli_job *job)
+{
+    char title[2 * PLOT_NAME];
+    const char *method = job->text[JOB_integrator];
+    snprintf(title, sizeof title, "%.80s by %.80s", job->system ? job->system : "A run",
+             method ? method : "?");
+    report_title(r, job->system ? title : "A run");
+}
+
+/* What the directory says of its run; nothing where it says nothing. */
+static int read_job(const report *r, cli_store *store, cli_job *job)
+{
+    int status = store_open(store, r->directory);
+    FILE *there = status == CLI_DONE ? fopen(store->manifest, "r") : NULL;
+    if (!there) return status;
+    fclose(there);
+    return store_read(store, job);
+}
+
+/* ---- the page ---- */
+
+static int write_page(run_page *run, const cli_job *job)
+{
+    report *r = run->r;
+    put_heading(r, job);
+    int status = put_summary(r);
+    fputs("<h2>Figures</h2>\n<div class=\"figures\">\n", r->page);
+    if (status == CLI_DONE && job->system)
+        status =
+            report_path(r, r->directory, "path", "The body at nine instants, equally far apart.");
+    if (status == CLI_DONE) status = draw_figures(run);
+    fputs("</div>\n", r->page);
+    if (job->system) put_command(r->page, job);
+    report_file(r, "manifest.json", "what it was made with: manifest.json");
+    return status;
 }
 
 int report_run(report *r)
 {
-    rows table = {.stride = 1};
-    int status = rows_open(&table.table, r->directory);
-    if (status != CLI_DONE) return status;
-    status = read_rows(&table, r);
+    cli_store store = {.descriptor = -1};
+    cli_job job = job_begin();
+    run_page *run = calloc(1, sizeof *run);
+    if (!run) return cli_fail(CLI_IO, "out of memory");
+    run->r = r;
+    int status = rows_open(&run->rows, r->directory), opened = status == CLI_DONE;
+    if (opened) status = make_memory(run);
+    if (status == CLI_DONE) status = read_job(r, &store, &job);
     if (status == CLI_DONE) {
-        fputs("<title>A run</title></head><body>\n<h1>A run</h1>\n", r->page);
-        status = draw(r, &table);
+        find_columns(run);
+        status = write_page(run, &job);
     }
-    if (status == CLI_DONE) add_summary(r);
-    free(table.first);
-    rows_close(&table.table);
+    if (opened) rows_close(&run->rows);
+    free(run->first);
+    free(run->group);
+    free(run);
+    job_free(&job);
+    store_close(&store);
     return status;
 }

@@ -1,23 +1,19 @@
-/* report_study.c - the page of a study: what becomes of D, E and H with each method.
+/* report_study.c - the page of a study: what becomes of D, E, the invariants and H with each
+ * method.
  *
- * First three tables, methods against systems; then a figure per system and step; then the tables
- * of the study itself. */
+ * First the tables of verdicts, methods against systems; then the figures of each system; then what
+ * was asked for, and the tables of the study as they were printed. */
 #include "report.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-int report_word_at(const report_words *words, const char *text)
-{
-    for (int i = 0; i < words->count; i++)
-        if (strcmp(words->word[i], text) == 0) return i;
-    return -1;
-}
-
 void report_add_word(report_words *words, const char *text)
 {
-    if (report_word_at(words, text) < 0 && words->count < REPORT_WORDS)
-        words->word[words->count++] = text;
+    for (int i = 0; i < words->count; i++)
+        if (strcmp(words->word[i], text) == 0) return;
+    if (words->count < REPORT_WORDS) words->word[words->count++] = text;
 }
 
 const char *report_get(const report_cells *cells, int row, const char *head)
@@ -30,119 +26,196 @@ int report_is(const report_cells *cells, int row, const char *head, const char *
     return strcmp(report_get(cells, row, head), text) == 0;
 }
 
+int report_find(const report_cells *cells, const char *label, const char *method, const char *step,
+                const char *start, const char *other)
+{
+    int found = -1;
+    for (int row = 1; row < cells->csv.rows; row++) {
+        if (!report_is(cells, row, "label", label) || !report_is(cells, row, "step", step) ||
+            !report_is(cells, row, "integrator", method) ||
+            report_is(cells, row, "state", "refused"))
+            continue;
+        if (report_is(cells, row, "start", start)) return row;
+        if (report_is(cells, row, "start", other)) found = row;
+    }
+    return found;
+}
+
 /* ---- tables of verdicts ---- */
 
 typedef struct theme {
     const char *title, *start, *other, *value, *verdict;
 } theme;
 
+/* On p = pi = 0 the lifted run has the bits of the physical one, so that either will do. */
 static const theme themes[] = {
-    {"Constraints: max |D| on p = π = 0", "surface", "physical", "D_max", "D_verdict"},
-    {"Energy: max |E − E(0)| on p = π = 0", "surface", "physical", "E_deviation", "E_verdict"},
+    {"Constraints: max |D|", "physical", "surface", "D_max", "D_verdict"},
+    {"Energy: max |E − E(0)|", "physical", "surface", "E_deviation", "E_verdict"},
+    {"Invariants of the systems: max |I − I(0)|, the worst of each", "physical", "surface",
+     "invariant_deviation", "invariant_verdict"},
     {"Hamiltonian of the lift: max |H − H(0)|, started off p = π = 0", "displaced", "displaced",
      "H_deviation", "H_verdict"},
 };
 
-/* The row of a method and a label at the first step, -1 for none. */
-static int find_row(const report_cells *c, const char *method, const char *label, const theme *t)
+/* A column of the tables: a label at a step. */
+typedef struct column {
+    const char *label, *step;
+    int alone; /* the only step of its label */
+} column;
+
+typedef struct columns {
+    column at[REPORT_WORDS];
+    int count;
+} columns;
+
+static int same_text(const char *a, const char *b) { return strcmp(a, b) == 0; }
+
+static void add_column(columns *all, const char *label, const char *step)
 {
-    int other = -1;
-    for (int row = 1; row < c->csv.rows; row++) {
-        if (!report_is(c, row, "label", label) || !report_is(c, row, "integrator", method))
-            continue;
-        if (report_is(c, row, "start", t->start)) return row;
-        if (other < 0 && report_is(c, row, "start", t->other)) other = row;
+    int alone = 1;
+    for (int i = 0; i < all->count; i++) {
+        if (!same_text(all->at[i].label, label)) continue;
+        if (same_text(all->at[i].step, step)) return;
+        alone = all->at[i].alone = 0;
     }
-    return other;
+    if (all->count < REPORT_WORDS) all->at[all->count++] = (column){label, step, alone};
 }
 
-static void put_value(FILE *page, const report_cells *c, int row, const theme *t)
+/* Whether a theme has anything to say about a column. */
+static int has_value(const report_cells *c, const column *at, const theme *t)
 {
+    for (int row = 1; row < c->csv.rows; row++)
+        if (report_is(c, row, "label", at->label) && report_is(c, row, "step", at->step) &&
+            (report_is(c, row, "start", t->start) || report_is(c, row, "start", t->other)) &&
+            report_get(c, row, t->value)[0])
+            return 1;
+    return 0;
+}
+
+static void put_cell(FILE *page, const report_cells *c, int row, const theme *t)
+{
+    char number[32] = "";
     const char *value = row < 0 ? "" : report_get(c, row, t->value);
+    const char *verdict = row < 0 ? "" : report_get(c, row, t->verdict);
+    const double size = strtod(value, NULL);
+    if (value[0]) snprintf(number, sizeof number, size == 0.0 ? "0" : "%.1e", size);
     if (row >= 0 && report_is(c, row, "state", "failed"))
-        fputs("<td class=\"failed\">failed</td>", page);
-    else if (value[0])
-        fprintf(page, "<td class=\"%s\">%.1e</td>", report_get(c, row, t->verdict),
-                strtod(value, NULL));
+        report_verdict(page, "failed", number);
+    else if (!value[0])
+        fputs("<td>–</td>", page);
     else
-        fputs("<td></td>", page);
+        report_verdict(page, strcmp(verdict, "-") == 0 ? "not conserved" : verdict, number);
 }
 
-static void put_theme(FILE *page, const report_cells *c, const theme *t)
+static void put_heads(FILE *page, const columns *all)
 {
-    fprintf(page, "<h3>%s</h3>\n<table><tr><th></th>", t->title);
-    for (int i = 0; i < c->labels.count; i++) {
-        fputs("<th class=\"turned\"><span>", page);
-        report_text(page, c->labels.word[i]);
-        fputs("</span></th>", page);
+    fputs("<table><thead><tr><td></td>", page);
+    for (int i = 0; i < all->count; i++) {
+        fputs("<th scope=\"col\">", page);
+        report_text(page, all->at[i].label);
+        if (!all->at[i].alone)
+            fprintf(page, "<br><small>h = %g</small>", strtod(all->at[i].step, NULL));
+        fputs("</th>", page);
     }
-    fputs("</tr>\n", page);
-    for (int m = 0; m < c->methods.count; m++) {
-        fputs("<tr><td>", page);
-        report_text(page, c->methods.word[m]);
-        fputs("</td>", page);
-        for (int i = 0; i < c->labels.count; i++)
-            put_value(page, c, find_row(c, c->methods.word[m], c->labels.word[i], t), t);
-        fputs("</tr>\n", page);
-    }
-    fputs("</table>\n", page);
+    fputs("</tr></thead>\n<tbody>", page);
 }
+
+/* A method that no system of the table could use is left out. */
+static void put_method(FILE *page, const report_cells *c, const columns *all, const char *method,
+                       const theme *t)
+{
+    int rows[REPORT_WORDS], found = 0;
+    for (int i = 0; i < all->count; i++) {
+        const column *at = &all->at[i];
+        rows[i] = report_find(c, at->label, method, at->step, t->start, t->other);
+        found |= rows[i] >= 0;
+    }
+    if (!found) return;
+    fputs("<tr>", page);
+    report_element(page, "th scope=\"row\"", method);
+    for (int i = 0; i < all->count; i++) put_cell(page, c, rows[i], t);
+    fputs("</tr>\n", page);
+}
+
+static void put_theme(FILE *page, const report_cells *c, const columns *all, const theme *t)
+{
+    columns shown = {.count = 0};
+    for (int i = 0; i < all->count; i++)
+        if (has_value(c, &all->at[i], t)) shown.at[shown.count++] = all->at[i];
+    if (shown.count == 0) return;
+    fprintf(page, "<h3>%s</h3>\n<div class=\"wide\" tabindex=\"0\">", t->title);
+    put_heads(page, &shown);
+    for (int m = 0; m < c->methods.count; m++) put_method(page, c, &shown, c->methods.word[m], t);
+    fputs("</tbody></table></div>\n", page);
+}
+
+/* ---- the page ---- */
 
 static const char introduction[] =
-    "<p>Green: exact, or changed by rounding alone. Yellow: bounded. Red: drifts. Grey: the run\n"
-    "broke off. Empty: there is no such quantity, or the method needs what the system lacks.</p>\n"
+    "<p>Each cell has a verdict and a size; – : the method needs what the system lacks.</p>\n"
+    "<ul class=\"key\">\n"
+    "<li class=\"exact\">exact: never changed; rounding: changed by rounding alone</li>\n"
+    "<li class=\"bounded\">bounded: to and fro about one value</li>\n"
+    "<li class=\"drift\">linear drift, power law, exponential: grows so</li>\n"
+    "<li class=\"failed\">failed, aborted: the run broke off; not enough data: too few samples, or "
+    "too slow an oscillation, to tell</li>\n"
+    "</ul>\n"
     "<p>On p = π = 0 a lifted method is the same method on (q,v), bit for bit. That a method is\n"
     "symplectic on the lift says nothing there about D or the energy: every one-step method,\n"
     "explicit Euler included, is the restriction of a symplectic one. D and E are kept, or not,\n"
     "for other reasons: the form of D, reversibility, projection. What symplecticity does keep\n"
     "shows off p = π = 0, in H. A projection has no canonical lift.</p>\n";
 
-/* ---- figures ---- */
-
-/* All steps of a label. */
-static int draw_label(report *r, const report_cells *c, const char *label)
+static void put_contents(FILE *page, const report_cells *c)
 {
-    report_words steps = {.count = 0};
-    int status = CLI_DONE;
-    fputs("<h2>", r->page);
-    report_text(r->page, label);
-    fputs("</h2>\n", r->page);
-    for (int row = 1; row < c->csv.rows; row++)
-        if (report_is(c, row, "label", label)) report_add_word(&steps, report_get(c, row, "step"));
-    for (int i = 0; i < steps.count && !r->broken; i++) {
-        cli_progress("report: %s", label);
-        int drawn = report_figure(r, c, label, steps.word[i], i + 1);
-        if (status == CLI_DONE) status = drawn;
+    fputs("<p>Figures:", page);
+    for (int i = 0; i < c->labels.count; i++) {
+        fprintf(page, "%s <a href=\"#s%d\">", i ? "," : "", i + 1);
+        report_text(page, c->labels.word[i]);
+        fputs("</a>", page);
     }
-    return status;
+    fputs(".</p>\n", page);
 }
 
-/* The tables of the study as they were printed. */
-static void put_tables(report *r)
+static void put_themes(FILE *page, const report_cells *c)
 {
-    char *path = cli_join(r->directory, "tables.txt");
-    FILE *file = path ? fopen(path, "r") : NULL;
-    free(path);
-    if (!file) return;
-    fputs("<h2>Tables</h2>\n<pre>", r->page);
-    char line[512];
-    while (fgets(line, sizeof line, file)) report_text(r->page, line);
-    fputs("</pre>\n", r->page);
-    fclose(file);
+    columns *all = calloc(1, sizeof *all);
+    if (!all) return;
+    for (int row = 1; row < c->csv.rows; row++)
+        add_column(all, report_get(c, row, "label"), report_get(c, row, "step"));
+    for (size_t k = 0; k < sizeof themes / sizeof themes[0]; k++)
+        put_theme(page, c, all, &themes[k]);
+    free(all);
+}
+
+static void put_origin(report *r)
+{
+    fputs("<h2>How to make it again</h2>\n"
+          "<pre>dalembert study study.yaml --output DIR\ndalembert report DIR</pre>\n",
+          r->page);
+    report_file(r, "study.yaml", "study.yaml");
+    report_file(r, "manifest.json", "what it was made with: manifest.json");
+    report_file(r, "tables.txt", "the tables as they were printed: tables.txt");
 }
 
 static int write_page(report *r, const report_cells *c)
 {
     int status = CLI_DONE;
-    fputs("<title>Study of drift</title></head><body>\n<h1>Study of drift</h1>\n", r->page);
+    report_title(r, "A study of drift");
+    fprintf(r->page, "<p>%d runs: %d systems, %d methods.</p>\n", c->csv.rows - 1, c->labels.count,
+            c->methods.count);
+    put_contents(r->page, c);
     fputs(introduction, r->page);
-    for (size_t k = 0; k < sizeof themes / sizeof themes[0]; k++) put_theme(r->page, c, &themes[k]);
-    for (int i = 0; i < c->labels.count && !r->broken; i++) {
-        int drawn = draw_label(r, c, c->labels.word[i]);
+    put_themes(r->page, c);
+    for (int i = 0; i < c->labels.count && status != CLI_IO; i++) {
+        cli_progress("report: %s", c->labels.word[i]);
+        fprintf(r->page, "<h2 id=\"s%d\">", i + 1);
+        report_text(r->page, c->labels.word[i]);
+        fputs("</h2>\n", r->page);
+        int drawn = report_figures(r, c, c->labels.word[i]);
         if (status == CLI_DONE) status = drawn;
     }
-    cli_progress_end();
-    put_tables(r);
+    put_origin(r);
     return status;
 }
 
@@ -154,8 +227,6 @@ int report_study(report *r)
     for (int row = 1; status == CLI_DONE && row < c->csv.rows; row++) {
         report_add_word(&c->labels, report_get(c, row, "label"));
         report_add_word(&c->methods, report_get(c, row, "integrator"));
-        if (!strchr(report_get(c, row, "integrator"), '+'))
-            report_add_word(&c->plain, report_get(c, row, "integrator"));
     }
     if (status == CLI_DONE && c->labels.count == 0)
         status = cli_fail(CLI_USAGE, "'%s' has no rows", path);

@@ -113,8 +113,9 @@ typedef struct dal_callbacks {
 } dal_callbacks;
 
 /* How a system is drawn in the plane, of no consequence for its motion: numbers, 0 where not given
- * (x, y: where; angle: the heading, from x to y; steer: of board and racer, the turn of axles and
- * arm; width: of a disk, breadth over length as seen), and the words there are for a body. */
+ * (x, y: where; angle: the heading, from x to y; steer: of a board the turn of its front axle, its
+ * other one turning against it, of a racer that of its arm; width: of a disk, breadth over length
+ * as seen), and the words there are for a body. */
 #define DAL_PICTURE_LIST(X)                                                                        \
     X(X, "x") X(Y, "y") X(ANGLE, "angle") X(STEER, "steer") X(WIDTH, "width")
 #define DAL_BODY_LIST(X)                                                                           \
