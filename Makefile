@@ -4,6 +4,7 @@
 #     make check            all tests; the CUnit summary comes last
 #     make check-sanitize   the tests under the address and undefined-behaviour sanitizers
 #     make check-kill       runs killed at KILLS random moments and gone on with
+#     make check-browser    the pages of the report in headless Chromium; a part of check
 #     make check-bits       generated code in every way, hours: BITS_JOBS at a time
 #     make check-valgrind   the CUnit suites under valgrind
 #     make fuzz             each fuzz target for FUZZ_SECONDS
@@ -170,7 +171,11 @@ RUN_SUITE = LOCPATH=$(BUILD)/locale
 check: all $(BUILD)/tests/suite $(BUILD)/locale
 	@sh tests/cli/run.sh $(PROGRAM)
 	@CC="$(CC)" CFLAGS="$(CFLAGS)" sh tests/install.sh "$(MAKE)" $(BUILD)
+	@sh tests/browser/run.sh $(PROGRAM)
 	@$(RUN_SUITE) $(BUILD)/tests/suite $(SUITE)
+
+check-browser: all
+	@sh tests/browser/run.sh $(PROGRAM)
 
 CHECKED = -O1 -g -fno-omit-frame-pointer -fno-sanitize-recover=all
 check-sanitize:
@@ -242,7 +247,7 @@ clean:
 include bench/bench.mk
 
 FORCE:
-.PHONY: all check check-bits check-sanitize check-valgrind fuzz run-fuzzers lint install uninstall clean FORCE
+.PHONY: all check check-bits check-browser check-sanitize check-valgrind fuzz run-fuzzers lint install uninstall clean FORCE
 .SECONDARY:
 
 -include $(LIB_OBJ:.o=.d) $(CLI_OBJ:.o=.d) $(TEST_OBJ:.o=.d) $(FUZZERS:%=$(BUILD)/tests/%.d)

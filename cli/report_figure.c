@@ -132,7 +132,7 @@ static void add_envelope(const figure *f, report_plot *plot, const char *method,
     if (curve->count == 0)
         snprintf(slope, sizeof slope, most == 0.0 ? " (0)" : " (not finite)");
     else if (isfinite(report_slope(curve)))
-        snprintf(slope, sizeof slope, " (%.2g)", report_slope(curve) + 0.0);
+        snprintf(slope, sizeof slope, " (%.1f)", fabs(report_slope(curve)));
     snprintf(curve->title, sizeof curve->title, "%.60s%s", method, slope);
 }
 
@@ -199,7 +199,7 @@ static int draw_errors(const figure *f, int against_work, int part)
 
 /* ---- the path of one run ---- */
 
-/* The most accurate run that is kept; -1: none is. */
+/* The most accurate run that was kept; -1: none was. */
 static int best_run(const figure *f)
 {
     int best = -1;
@@ -218,14 +218,13 @@ static int best_run(const figure *f)
 
 static int draw_path(const figure *f)
 {
-    char name[PLOT_NAME], run[PLOT_NAME], caption[2 * PLOT_NAME];
+    char name[PLOT_NAME], caption[2 * PLOT_NAME];
     const int row = best_run(f);
     if (row < 0) return CLI_DONE;
-    snprintf(run, sizeof run, "runs/%.160s", report_get(f->c, row, "run"));
     snprintf(name, sizeof name, "%.120s-path", f->label);
     snprintf(caption, sizeof caption, "The path as %.80s has it with h = %g.",
              report_get(f->c, row, "integrator"), report_csv_number(&f->c->csv, row, "step"));
-    char *path = cli_join(f->r->directory, run);
+    char *path = cli_join(f->r->directory, report_get(f->c, row, "run"));
     int status = path ? report_path(f->r, path, name, caption) : cli_fail(CLI_IO, "out of memory");
     free(path);
     return status;

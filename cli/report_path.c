@@ -10,6 +10,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 /* Of more rows than these every k-th is drawn; instants at which the body is; its half length as a
  * part of the extent of the path; points of a circle. */
@@ -177,12 +178,13 @@ static int draw(path *p, report *r, const char *name, const char *caption)
     return status == CLI_DONE ? drawn : status;
 }
 
-/* What the run was, from its directory.  Those of older versions may have forgotten. */
+/* What the run was, from its directory, which may be gone: a study needs it no more. */
 static int load(path *p, const char *run)
 {
     dal_run_spec spec;
     dal_error error;
     int status = store_open(&p->store, run);
+    if (status == CLI_DONE && access(p->store.manifest, F_OK) != 0) return CLI_DONE;
     if (status == CLI_DONE) status = store_read(&p->store, &p->job);
     if (status == CLI_DONE) status = job_spec(&p->job, &spec);
     if (status != CLI_DONE || !p->job.made->picture) return status;

@@ -144,9 +144,9 @@ static void put_margins(FILE *s, const report_plot *plot)
 {
     const double height = figure_height(plot), key = KEY_ROW * key_rows(plot);
     fprintf(s,
-            "set lmargin at screen 0.2\nset rmargin at screen 0.965\n"
+            "set lmargin at screen 0.215\nset rmargin at screen 0.965\n"
             "set tmargin at screen %.4f\nset bmargin at screen %.4f\n"
-            "set key at screen 0.02, screen %.4f left top Left reverse maxrows %d samplen 3 "
+            "set key at screen 0.02, screen %.4f left top Left reverse maxrows %d samplen 2.5 "
             "width -1 font ',10'\n",
             1.0 - 32.0 / height, (48.0 + key) / height, (key + 3.0) / height, key_rows(plot));
 }

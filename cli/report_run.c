@@ -167,7 +167,7 @@ static void tell_slopes(run_page *run)
         const double slope = report_slope(curve);
         char more[32] = "";
         if (curve->count == 0) snprintf(more, sizeof more, " (0)");
-        if (isfinite(slope)) snprintf(more, sizeof more, " (%.2g)", slope + 0.0);
+        if (isfinite(slope)) snprintf(more, sizeof more, " (%.1f)", fabs(slope));
         snprintf(curve->title, sizeof curve->title, "%.60s%s", run->rows.name[i], more);
     }
 }

@@ -1,0 +1,83 @@
+// page.js - runs inside a page of the report and tells its parent what is wrong with it.
+addEventListener('load', () => {
+    const [page, width] = location.hash.slice(1).split(',');
+    const scheme = matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light';
+    const say = text => parent.postMessage(text, '*');
+    const fault = text => say(`fault: ${scheme}, ${page}, ${width}: ${text}`);
+    const count = {texts: 0, figures: 0, letters: 0};
+
+    // WCAG 2: contrast of two colours, of a text at least 4.5, of a line at least 3.
+    const luminance = rgb => {
+        const [r, g, b] = rgb.map(c => (c /= 255) <= 0.03928 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4);
+        return 0.2126 * r + 0.7152 * g + 0.0722 * b;
+    };
+    const parts = colour => (colour.match(/[\d.]+/g) || []).map(Number);
+    const contrast = (a, b) => {
+        const [x, y] = [luminance(parts(a).slice(0, 3)), luminance(parts(b).slice(0, 3))];
+        return (Math.max(x, y) + 0.05) / (Math.min(x, y) + 0.05);
+    };
+    const ground = element => {
+        for (let e = element; e; e = e.parentElement) {
+            const colour = getComputedStyle(e).backgroundColor, alpha = parts(colour)[3];
+            if (alpha === undefined || alpha > 0.99) return colour;
+        }
+        return 'rgb(255, 255, 255)';
+    };
+    const paper = ground(document.body);
+
+    // What scrolls by itself may be wider than the page; nothing else may.
+    document.querySelectorAll('details').forEach(d => d.open = true);
+    if (document.documentElement.scrollWidth > innerWidth)
+        fault(`the page is ${document.documentElement.scrollWidth} wide`);
+    for (const e of document.querySelectorAll('h1, h2, h3, p, li, figcaption, summary, th, td, pre')) {
+        const box = e.getBoundingClientRect(), style = getComputedStyle(e);
+        const name = `<${e.tagName.toLowerCase()}> "${e.textContent.trim().slice(0, 40)}"`;
+        count.texts++;
+        if (!e.closest('.wide') && (box.left < 0 || box.right > innerWidth + 0.5)) fault(`${name} is cut off`);
+        if (e.tagName !== 'PRE' && !e.closest('.wide') && e.scrollWidth > e.clientWidth + 1 &&
+            style.display !== 'inline') fault(`${name} flows over`);
+        if (e.textContent.trim() && contrast(style.color, ground(e)) < 4.5)
+            fault(`${name} is faint: ${style.color} on ${ground(e)}`);
+        if (parseFloat(style.fontSize) < 10) fault(`${name} has letters of ${style.fontSize}`);
+    }
+
+    // A figure is unpacked and laid out as it stands on the page, so that its letters have boxes.
+    const look = (image, name) => {
+        const box = image.getBoundingClientRect(), holder = document.createElement('div');
+        holder.style = `position: absolute; left: 0; top: 0; width: ${box.width}px`;
+        holder.innerHTML = new TextDecoder().decode(
+            Uint8Array.from(atob(image.src.split(',')[1]), c => c.charCodeAt(0)));
+        document.body.append(holder);
+        const frame = holder.querySelector('svg').getBoundingClientRect();
+        const texts = [...holder.querySelectorAll('text')].filter(t => t.textContent.trim());
+        const boxes = texts.map(t => t.getBoundingClientRect());
+        texts.forEach((t, i) => {
+            const b = boxes[i], what = `${name}: "${t.textContent.trim()}"`;
+            count.letters++;
+            if (b.left < frame.left - 0.5 || b.right > frame.right + 0.5 || b.top < frame.top - 0.5 ||
+                b.bottom > frame.bottom + 0.5) fault(`${what} is cut off`);
+            if (contrast(getComputedStyle(t).fill, paper) < 4.5) fault(`${what} is faint`);
+            if (b.height < 8 && b.width < 8) fault(`${what} is too small`);
+            for (let j = 0; j < i; j++) {
+                const o = boxes[j];
+                if (Math.min(b.right, o.right) - Math.max(b.left, o.left) > 1 &&
+                    Math.min(b.bottom, o.bottom) - Math.max(b.top, o.top) > 2.5)
+                    fault(`${what} covers "${texts[j].textContent.trim()}"`);
+            }
+        });
+        for (const line of holder.querySelectorAll('g[id^=gnuplot_plot] path[stroke]')) {
+            const colour = getComputedStyle(line).stroke;
+            if (contrast(colour, paper) < 3) fault(`${name}: a line of ${colour} is faint`);
+        }
+        holder.remove();
+    };
+    for (const image of document.images) {
+        const name = image.alt.slice(0, 60);
+        count.figures++;
+        if (!image.alt) fault('a figure without words');
+        if (!image.complete || !image.naturalWidth) fault(`${name}: is not drawn`);
+        else look(image, name);
+    }
+    say(`looked: ${scheme}, ${page}, ${width} pixels: ` +
+        `${count.texts} texts, ${count.figures} figures with ${count.letters} labels`);
+});

@@ -1,0 +1,67 @@
+#!/bin/sh
+# run.sh PROGRAM - the pages of `dalembert report` in headless Chromium: in light and dark, 1280 and
+# 400 pixels wide, nothing is cut off, covered or too faint; page.js looks, inside each page.
+case $1 in /*) program=$1 ;; *) program=$PWD/$1 ;; esac
+here=$(cd "$(dirname "$0")" && pwd)
+for browser in chromium chromium-browser google-chrome; do
+    command -v $browser >/dev/null 2>&1 && break
+    browser=
+done
+for tool in ${browser:-chromium} gnuplot; do
+    command -v $tool >/dev/null 2>&1 || { echo "browser: skipped, $tool is not installed"; exit 0; }
+done
+work=$(mktemp -d) || exit 1
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
+
+cat >looks.yaml <<'END_OF_STUDY'
+title: The looks of a report
+integrators: [all, rk4+project]
+step: [0.1, 0.05]
+time: 4
+systems:
+  - chaplygin-sleigh
+  - {system: nonholonomic-particle, label: "a label <that> is \"rather\" long, and has words in it"}
+  - {system: damped-oscillator, integrators: [rk4, symplectic-euler-11], step: 0.5, time: 40}
+END_OF_STUDY
+{
+    "$program" study looks.yaml --output study
+    "$program" report study
+    "$program" run snakeboard --integrator gauss4 --step 0.05 --time 5 --output run
+    "$program" report run
+} >log 2>&1 || { cat log; exit 1; }
+
+# Each page with the script in it, in a frame of each width; the frames send home what they find.
+for page in study run; do
+    { cat $page/report/index.html; echo '<script>'; cat "$here/page.js"; echo '</script>'; } >$page.html
+done
+cat >frames.html <<'END_OF_PAGE'
+<body><pre id="found">found:
+</pre><script>
+addEventListener('message', e => found.textContent += e.data + '\n');
+for (const page of ['study', 'run'])
+    for (const width of [1280, 400]) {
+        const frame = document.createElement('iframe');
+        frame.src = `${page}.html#${page},${width}`;
+        frame.style = `width: ${width}px; height: 900px; border: 0`;
+        document.body.append(frame);
+    }
+</script></body>
+END_OF_PAGE
+
+failed=0
+for scheme in light dark; do
+    dark=$([ $scheme = dark ] && echo 0 || echo 1)
+    timeout 120 $browser --headless --no-sandbox --disable-gpu --disable-background-networking \
+        --user-data-dir="$work/profile" --blink-settings=preferredColorScheme=$dark \
+        --window-size=1400,1000 --virtual-time-budget=60000 --dump-dom "file://$work/frames.html" \
+        >dom 2>messages
+    pages=$(grep -c "^looked: $scheme," dom)
+    faults=$(grep -c '^fault:' dom)
+    grep '^fault:' dom | head -20
+    [ "$pages" -eq 4 ] || { echo "browser: $pages of 4 pages were looked at"; head -5 messages; }
+    [ "$pages" -eq 4 ] && [ "$faults" -eq 0 ] || failed=1
+    sed -n "s/^looked: /browser: /p" dom
+done
+[ $failed -eq 0 ] && echo "browser: ok"
+exit $failed
