@@ -1,0 +1,149 @@
+/* test_late.c - runs near step 1e10: the count of steps, the clock and the times of rows.
+ *
+ * The clock is a sum with its residue.  As long as k < 2^50 or so, every sum is a multiple of the
+ * last place of h that fits into both together, so that nothing is ever lost and
+ *     t_k = k h, rounded once.
+ * A late step differs from the first in nothing but the clock: the motion of a system that does not
+ * know the time must have the same bits. */
+#include "fixtures.h"
+#include "run/run.h"
+#include <CUnit/CUnit.h>
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+static const char oscillator[] = "coordinates: [x]\nlagrangian: x'^2/2 - x^2/2\nstart: {x: 1}\n";
+static const double h = 0.01;
+static const long long late = 10000000000LL;
+
+/* Puts the clock and the count of a run at step k. */
+static void put_late(dal_run *run, long long k)
+{
+    size_t count;
+    double memory[256];
+    const double *now = dal_run_memory(run, &count);
+    CU_ASSERT_FATAL(count <= sizeof memory / sizeof *memory);
+    memcpy(memory, now, count * sizeof *memory);
+    const double t = (double)k * h;
+    memory[dal__at(&run->shape, DAL__TIME)] = t;
+    memory[dal__at(&run->shape, DAL__TIME_ERROR)] = fma((double)k, h, -t);
+    memory[dal__at(&run->shape, DAL__STEPS)] = (double)k;
+    CU_ASSERT_EQUAL(dal_run_load(run, memory, count, NULL), DAL_OK);
+}
+
+static void check_clock(const dal_system *system, const char *method, dal_space space)
+{
+    const dal_run_spec spec = fixture_spec(system, method, space, h);
+    dal_run *early = fixture_run(&spec), *run = fixture_run(&spec);
+    put_late(run, late);
+    for (int i = 1; i <= 1000; i++) {
+        CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_OK);
+        if (dal_run_time(run) != (double)(late + i) * h) CU_FAIL("the clock is not k h");
+    }
+    CU_ASSERT_EQUAL(dal_run_steps(run), late + 1000);
+    CU_ASSERT_EQUAL(dal_run_advance(early, 1000, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(memcmp(dal_run_state(early), dal_run_state(run),
+                           (size_t)dal_run_dimension(run) * sizeof(double)),
+                    0);
+    dal_run_free(early);
+    dal_run_free(run);
+}
+
+static void test_clock(void)
+{
+    dal_model *model = fixture_model(oscillator);
+    check_clock(fixture_system(model), "rk4", DAL_PHYSICAL);
+    check_clock(fixture_system(model), "gauss4", DAL_LIFTED);
+    check_clock(fixture_system(model), "stormer-verlet", DAL_PHYSICAL);
+    dal_model_free(model);
+}
+
+/* The clock from step 0 on, 200000 steps, against k h. */
+static void test_from_the_start(void)
+{
+    dal_model *model = fixture_model(oscillator);
+    dal_run_spec spec = fixture_spec(fixture_system(model), "symplectic-euler", DAL_PHYSICAL, h);
+    dal_run *run = fixture_run(&spec);
+    for (long long k = 1; k <= 200000; k++) {
+        CU_ASSERT_EQUAL_FATAL(dal_run_step(run, NULL), DAL_OK);
+        if (dal_run_time(run) != (double)k * h) {
+            CU_FAIL("the clock is not k h");
+            break;
+        }
+    }
+    dal_run_free(run);
+    dal_model_free(model);
+}
+
+/* ---- rows ---- */
+
+enum { ROWS = 8 };
+
+typedef struct seen {
+    int count, most;
+    double t[ROWS], x[ROWS];
+    long long steps[ROWS];
+} seen;
+
+static dal_status see(void *user, dal_run *run, long long row, double t)
+{
+    seen *s = user;
+    (void)row;
+    s->t[s->count] = t;
+    s->x[s->count] = dal_run_state(run)[0];
+    s->steps[s->count] = dal_run_steps(run);
+    return ++s->count == s->most ? DAL_INTERRUPTED : DAL_OK;
+}
+
+static void test_rows_on_steps(void)
+{
+    dal_model *model = fixture_model(oscillator);
+    const dal_run_spec spec = fixture_spec(fixture_system(model), "rk4", DAL_PHYSICAL, h);
+    dal_run *run = fixture_run(&spec);
+    const long long rows = late / 1000 + 3;
+    const double T = (double)(1000 * rows) * h;
+    seen s = {.most = ROWS};
+    const dal_observer observer = {.user = &s, .sample = see};
+    put_late(run, late);
+    CU_ASSERT_EQUAL(dal_run_sample(run, T, rows, rows - 2, &observer, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(s.count, 3);
+    for (int i = 0; i < 3; i++) {
+        CU_ASSERT_EQUAL(s.steps[i], late + 1000 * (i + 1));
+        CU_ASSERT_DOUBLE_EQUAL(s.t[i], (double)s.steps[i] * h, T * DBL_EPSILON);
+    }
+    CU_ASSERT_EQUAL(s.t[2], T);
+    dal_run_free(run);
+    dal_model_free(model);
+}
+
+/* Rows in the middle of steps, from x = 1, x' = 0 at the late step: x = cos(t - late h), as far as
+ * t itself is known. */
+static void test_rows_between_steps(void)
+{
+    dal_model *model = fixture_model(oscillator);
+    const dal_run_spec spec = fixture_spec(fixture_system(model), "gauss8", DAL_PHYSICAL, h);
+    dal_run *run = fixture_run(&spec);
+    const long long steps = late + 1000;
+    const double T = (double)steps * h;
+    seen s = {.most = ROWS};
+    const dal_observer observer = {.user = &s, .sample = see};
+    put_late(run, late);
+    CU_ASSERT_EQUAL(dal_run_sample(run, T, 2 * steps, 2 * late + 1, &observer, NULL),
+                    DAL_INTERRUPTED);
+    CU_ASSERT_EQUAL(s.count, ROWS);
+    for (int i = 0; i < s.count; i++) {
+        CU_ASSERT_DOUBLE_EQUAL(s.t[i], ((double)late + 0.5 * (i + 1)) * h, T * DBL_EPSILON);
+        CU_ASSERT_DOUBLE_EQUAL(s.x[i], cos(0.5 * h * (i + 1)), 2.0 * T * DBL_EPSILON);
+    }
+    dal_run_free(run);
+    dal_model_free(model);
+}
+
+void suite_late(void)
+{
+    CU_pSuite suite = CU_add_suite("late", NULL, NULL);
+    CU_add_test(suite, "the clock near step 1e10", test_clock);
+    CU_add_test(suite, "the clock from the start", test_from_the_start);
+    CU_add_test(suite, "rows on steps", test_rows_on_steps);
+    CU_add_test(suite, "rows between steps", test_rows_between_steps);
+}
