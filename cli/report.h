@@ -43,7 +43,7 @@ enum { PLOT_CURVES = 12, PLOT_TITLE = 96, PLOT_NAME = 192 };
 
 typedef struct plot_curve {
     char title[PLOT_TITLE]; /* "" keeps it out of the key */
-    int ink;                /* black instead of a colour */
+    int ink, dots;          /* black instead of a colour; points without lines */
     double (*at)[2];
     int count, room;
 } plot_curve;

@@ -222,7 +222,8 @@ static int draw_path(const figure *f)
     const int row = best_run(f);
     if (row < 0) return CLI_DONE;
     snprintf(name, sizeof name, "%.120s-path", f->label);
-    snprintf(caption, sizeof caption, "The path as %.80s has it with h = %g.",
+    snprintf(caption, sizeof caption,
+             "The path as %.80s has it with h = %g; the body is not to scale.",
              report_get(f->c, row, "integrator"), report_csv_number(&f->c->csv, row, "step"));
     char *path = cli_join(f->r->directory, report_get(f->c, row, "run"));
     int status = path ? report_path(f->r, path, name, caption) : cli_fail(CLI_IO, "out of memory");

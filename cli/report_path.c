@@ -159,6 +159,17 @@ static int take_row(path *p, report_plot *plot, long long k)
     return CLI_DONE;
 }
 
+/* Rows that are too far apart for lines between them to be the path. */
+static int is_rough(const path *p, const plot_curve *curve)
+{
+    const double far = 0.2 * fmax(p->high[0] - p->low[0], p->high[1] - p->low[1]);
+    int rough = 0;
+    for (int i = 1; i < curve->count; i++)
+        rough += hypot(curve->at[i][0] - curve->at[i - 1][0],
+                       curve->at[i][1] - curve->at[i - 1][1]) > far;
+    return 10 * rough > curve->count;
+}
+
 static int draw(path *p, report *r, const char *name, const char *caption)
 {
     static const char *const words[] = {
@@ -168,11 +179,13 @@ static int draw(path *p, report *r, const char *name, const char *caption)
     };
     report_plot plot = {.xlabel = "x", .ylabel = "y", .alike = 1, .caption = caption};
     snprintf(plot.name, sizeof plot.name, "%s", name);
-    snprintf(plot.title, sizeof plot.title, "Path of the %s (not to scale)", words[p->body]);
+    snprintf(plot.title, sizeof plot.title, p->body == DAL_BODY_POINT ? "Path" : "Path of the %s",
+             words[p->body]);
     report_curve(&plot, "");
     int more, status = CLI_DONE;
     for (long long k = 0; status == CLI_DONE && (more = rows_next(&p->rows)) != 0; k++)
         status = more < 0 ? CLI_IO : take_row(p, &plot, k);
+    plot.curve[0].dots = is_rough(p, &plot.curve[0]);
     draw_bodies(p, &plot);
     int drawn = report_draw(r, &plot);
     return status == CLI_DONE ? drawn : status;

@@ -7,8 +7,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Of the figure without its key, higher with one scale on both axes, and of a row of the key. */
-enum { WIDTH = 420, HEIGHT = 290, SQUARE = 380, KEY_ROW = 16, KEY_COLUMNS = 2 };
+/* Of the figure without its key, and of a row of the key. */
+enum { WIDTH = 420, HEIGHT = 290, KEY_ROW = 16, KEY_COLUMNS = 2 };
+/* Above and below the axes; between them at least and at most; left and right ends of the axes as
+ * parts of the width. */
+enum { ABOVE = 32, BELOW = 48, FRAME = ABOVE + BELOW, LEAST = 100, MOST = 340 };
+#define LEFT  0.215
+#define RIGHT 0.965
 
 /* ---- points ---- */
 
@@ -134,9 +139,15 @@ static int key_rows(const report_plot *plot)
     return (titles + KEY_COLUMNS - 1) / KEY_COLUMNS;
 }
 
+/* One scale on both axes makes a figure as high as its path. */
 static int figure_height(const report_plot *plot)
 {
-    return (plot->alike ? SQUARE : HEIGHT) + KEY_ROW * key_rows(plot);
+    double low[2], high[2], height = HEIGHT - FRAME;
+    for (int k = 0; k < 2; k++) range(plot, k, &low[k], &high[k]);
+    if (plot->alike && high[0] > low[0])
+        height = (RIGHT - LEFT) * WIDTH * (high[1] - low[1]) / (high[0] - low[0]);
+    height = fmin(fmax(height, LEAST), MOST);
+    return FRAME + (int)height + KEY_ROW * key_rows(plot);
 }
 
 /* The key stands below, as wide as the figure. */
@@ -144,11 +155,28 @@ static void put_margins(FILE *s, const report_plot *plot)
 {
     const double height = figure_height(plot), key = KEY_ROW * key_rows(plot);
     fprintf(s,
-            "set lmargin at screen 0.215\nset rmargin at screen 0.965\n"
+            "set lmargin at screen %.4f\nset rmargin at screen %.4f\n"
             "set tmargin at screen %.4f\nset bmargin at screen %.4f\n"
             "set key at screen 0.02, screen %.4f left top Left reverse maxrows %d samplen 2.5 "
             "width -1 font ',10'\n",
-            1.0 - 32.0 / height, (48.0 + key) / height, (key + 3.0) / height, key_rows(plot));
+            LEFT, RIGHT, 1.0 - ABOVE / height, (BELOW + key) / height, (key + 3.0) / height,
+            key_rows(plot));
+}
+
+/* One scale on both axes, and tics equally far apart: 1, 2 or 5 times a power of ten. */
+static void put_alike(FILE *s, const report_plot *plot)
+{
+    double low, high, extent = 0.0;
+    for (int k = 0; k < 2; k++) {
+        range(plot, k, &low, &high);
+        extent = fmax(extent, high - low);
+    }
+    fputs("set size ratio -1\nset offsets graph 0.06, graph 0.06, graph 0.06, graph 0.06\n", s);
+    if (!(extent > 0.0)) return;
+    const double least = extent / 6.0, power = pow(10.0, floor(log10(least)));
+    const double times = least <= power ? 1.0 : least <= 2.0 * power ? 2.0 : 5.0;
+    const double step = least <= 5.0 * power ? times * power : 10.0 * power;
+    fprintf(s, "set xtics %.9g\nset ytics %.9g\n", step, step);
 }
 
 static void put_axes(FILE *s, const report_plot *plot)
@@ -158,10 +186,7 @@ static void put_axes(FILE *s, const report_plot *plot)
     put_text(s, "ylabel", plot->ylabel);
     put_axis(s, "x", plot, 0, plot->log_x);
     put_axis(s, "y", plot, 1, plot->log_y);
-    if (plot->alike)
-        fputs("set size ratio -1\nset offsets graph 0.06, graph 0.06, "
-              "graph 0.06, graph 0.06\n",
-              s);
+    if (plot->alike) put_alike(s, plot);
     put_margins(s, plot);
 }
 
@@ -189,11 +214,15 @@ static void put_curves(FILE *s, const report_plot *plot)
         const plot_curve *curve = &plot->curve[i];
         if (curve->count)
             fprintf(s, "  $curve%d using 1:2 with %s ", i + 1,
-                    plot->marks ? "linespoints" : "lines");
+                    curve->dots   ? "points pt 7 ps 0.2"
+                    : plot->marks ? "linespoints"
+                                  : "lines");
         else
             fprintf(s, "  keyentry with %s ", plot->marks ? "linespoints" : "lines");
         if (curve->ink)
             fputs("lw 1.2 lc rgb 'black'", s);
+        else if (curve->dots)
+            fprintf(s, "lc rgb '%s'", gnuplot_colour(i));
         else {
             fputs("lw 1.8 ", s);
             gnuplot_style(s, i);

@@ -8,6 +8,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 /* Of more rows than these a figure over t shows every k-th; an envelope has a point for every so
  * many per cent of t. */
@@ -301,13 +302,13 @@ static void put_heading(report *r, const cli_job *job)
     report_title(r, job->system ? title : "A run");
 }
 
-/* What the directory says of its run; nothing where it says nothing. */
+/* What the directory says of its run; nothing where it says nothing, or in an older way. */
 static int read_job(const report *r, cli_store *store, cli_job *job)
 {
     int status = store_open(store, r->directory);
-    FILE *there = status == CLI_DONE ? fopen(store->manifest, "r") : NULL;
-    if (!there) return status;
-    fclose(there);
+    if (status != CLI_DONE || access(store->manifest, F_OK) != 0 ||
+        access(store->old_settings, F_OK) == 0)
+        return status;
     return store_read(store, job);
 }
 
@@ -320,8 +321,8 @@ static int write_page(run_page *run, const cli_job *job)
     int status = put_summary(r);
     fputs("<h2>Figures</h2>\n<div class=\"figures\">\n", r->page);
     if (status == CLI_DONE && job->system)
-        status =
-            report_path(r, r->directory, "path", "The body at nine instants, equally far apart.");
+        status = report_path(r, r->directory, "path",
+                             "At nine instants, equally far apart; the body is not to scale.");
     if (status == CLI_DONE) status = draw_figures(run);
     fputs("</div>\n", r->page);
     if (job->system) put_command(r->page, job);

@@ -5,6 +5,9 @@
  * was asked for, and the tables of the study as they were printed. */
 #include "report.h"
 
+#include "file.h"
+#include "study_yaml.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -198,10 +201,46 @@ static void put_origin(report *r)
     report_file(r, "tables.txt", "the tables as they were printed: tables.txt");
 }
 
+static void put_title(report *r, const study_text *text)
+{
+    const yaml_node_t *root = study_text_node(text, 1);
+    const char *title = "A study of drift";
+    const yaml_node_pair_t *pair = NULL, *end = NULL;
+    if (root && root->type == YAML_MAPPING_NODE) {
+        pair = root->data.mapping.pairs.start;
+        end = root->data.mapping.pairs.top;
+    }
+    for (; pair < end; pair++) {
+        const yaml_node_t *key = study_text_node(text, pair->key);
+        const yaml_node_t *value = study_text_node(text, pair->value);
+        if (key->type == YAML_SCALAR_NODE && value->type == YAML_SCALAR_NODE &&
+            strcmp((const char *)key->data.scalar.value, "title") == 0)
+            title = (const char *)value->data.scalar.value;
+    }
+    report_title(r, title);
+}
+
+/* The title that study.yaml has. */
+static int begin_page(report *r)
+{
+    study_text text = {.place = "study.yaml"};
+    size_t length = 0;
+    char *path = cli_join(r->directory, "study.yaml");
+    char *bytes = path ? file_read(path, &length) : NULL;
+    int status = bytes ? study_text_parse(&text, path, bytes, length) : CLI_IO;
+    if (status == CLI_DONE) {
+        put_title(r, &text);
+        yaml_document_delete(&text.document);
+    }
+    free(bytes);
+    free(path);
+    return status;
+}
+
 static int write_page(report *r, const report_cells *c)
 {
-    int status = CLI_DONE;
-    report_title(r, "A study of drift");
+    int status = begin_page(r);
+    if (status != CLI_DONE) return status;
     fprintf(r->page, "<p>%d runs: %d systems, %d methods.</p>\n", c->csv.rows - 1, c->labels.count,
             c->methods.count);
     put_contents(r->page, c);

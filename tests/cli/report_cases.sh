@@ -12,6 +12,7 @@ try 2 report hollow --format gif
 says "'gif' is neither svg nor png"
 
 cat >drawn.yaml <<'END_OF_STUDY'
+title: Three & more
 integrators: [rk4, gauss4, gauss4+project]
 step: [0.1, 0.05]
 time: 2
@@ -40,6 +41,8 @@ if command -v gnuplot >/dev/null 2>&1; then
     holds "no work-precision diagram" grep -q '<svg' drawn/report/line.yaml-work.svg
     holds "the label is not text" grep -q '<h2 id="s1">a &lt;b&gt; &quot;c&quot;' $page
     holds "no verdicts in words and colour" grep -q '<td class="verdict rounding">rounding<br>' $page
+    holds "no title" grep -q '<h1>Three &amp; more</h1>' $page
+    holds "no path of the best run" grep -q '<svg' "drawn/report/a <b> \"c\" 'd'-path.svg"
     holds "no column for each step" grep -q '<th scope="col">line.yaml<br><small>h = 0.05' $page
     holds "no study file" grep -q 'integrators: \[rk4, gauss4, gauss4+project\]' $page
     holds "no tables" grep -q 'What this shows' $page
@@ -77,6 +80,20 @@ if command -v gnuplot >/dev/null 2>&1; then
     try 0 report ran --format png
     holds "no picture" test -s ran/report/path.png
     holds "no picture on the page" grep -q 'data:image/png;base64,iVBOR' ran/report/index.html
+
+    case_is "the runs of a study are gone"
+    rm -rf drawn/runs
+    try 0 report drawn
+    silent
+
+    case_is "a run of an older version"
+    mkdir -p older
+    echo 'dalembert: 0.1.0' >older/run.yaml
+    echo '{}' >older/manifest.json
+    printf 't,x,x\\047,E\n0,1,0,1\n1,2,0,1\n' >older/rows.csv
+    try 0 report older
+    silent
+    holds "no rows of it" grep -q '^1,2$' older/report/coordinates.gp
 
     case_is "a column that is not finite everywhere"
     cat >burst.yaml <<'END_OF_SYSTEM'
