@@ -25,6 +25,7 @@
     X(resume, "DIR [OPTION]...", "go on with a run or a study that was interrupted")               \
     X(study, "[STUDY.yaml] [OPTION]...", "systems x integrators x steps: tables of drift")         \
     X(order, "SYSTEM [OPTION]...", "error against step and against work, for every integrator")    \
+    X(merge, "DIR... --output DIR", "join the shards of a study")                                  \
     X(generate, "SYSTEM --integrator NAME [OPTION]... -o FILE.c",                                  \
       "one C file that steps a system and needs nothing else")                                     \
     X(report, "DIR [OPTION]...", "figures and tables from a run or a study")

@@ -4,6 +4,7 @@
 #include "store.h"
 
 #include <stdlib.h>
+#include <string.h>
 #include <sys/utsname.h>
 
 void manifest_machine(FILE *out)
@@ -53,4 +54,15 @@ int manifest_write(const cli_store *store, const cli_job *job, const cli_mark *m
     if (status == CLI_DONE) status = file_swap(store->manifest, text, length, store->settle);
     free(text);
     return status;
+}
+
+/* A line break stands in no text of JSON, so that nothing else reads so. */
+int manifest_is_over(const char *path)
+{
+    size_t length;
+    char *text = file_read(path, &length);
+    const int over = text && (strstr(text, "\n  \"status\": \"done\"") ||
+                              strstr(text, "\n  \"status\": \"failed\""));
+    free(text);
+    return over;
 }

@@ -79,6 +79,11 @@ static void judge(cli_record *r, int aborted)
         cli_judge(record_observable(r, i), &r->statistics[i], aborted, &r->finding[i]);
 }
 
+static const char *state_word(int status)
+{
+    return status == CLI_DONE ? "done" : status == CLI_SIGNAL ? "interrupted" : "failed";
+}
+
 int record_open(cli_record *r, const cli_job *job, cli_store *store, const char *output)
 {
     *r = (cli_record){.job = job, .store = store, .stop = interrupted};
@@ -86,8 +91,12 @@ int record_open(cli_record *r, const cli_job *job, cli_store *store, const char 
         !isatty(STDERR_FILENO) || (!store && strcmp(output, "-") == 0 && isatty(STDOUT_FILENO));
     int status = make_room(r);
     if (status == CLI_DONE) status = open_table(r, output);
-    if (status == CLI_DONE && record_is_finished(r)) judge(r, 0);
-    return status;
+    if (status != CLI_DONE || !record_is_finished(r)) return status;
+    judge(r, 0);
+    /* Killed between its last checkpoint and the manifest. */
+    return manifest_is_over(store->manifest)
+               ? CLI_DONE
+               : manifest_write(store, job, &r->mark, state_word(CLI_DONE), "");
 }
 
 void record_close(cli_record *r)
@@ -205,11 +214,6 @@ static int conclude(const cli_record *r, dal_status status, dal_error *error)
         snprintf(error->message, sizeof error->message, "%s", dal_status_text(status));
     error->line = 0;
     return cli_exit(status);
-}
-
-static const char *state_word(int status)
-{
-    return status == CLI_DONE ? "done" : status == CLI_SIGNAL ? "interrupted" : "failed";
 }
 
 /* The summary comes before the checkpoint that says "finished", so that it is never missing.  A run

@@ -66,6 +66,8 @@ int store_is_of(const cli_store *store, const cli_job *job);
 /* manifest.json; state: running, done, failed, interrupted; why: a message, or "". */
 int manifest_write(const cli_store *store, const cli_job *job, const cli_mark *mark,
                    const char *state, const char *why);
+/* Whether a manifest says that its run is done or has failed. */
+int manifest_is_over(const char *path);
 /* ", "machine": {...}" for it. */
 void manifest_machine(FILE *out);
 /* Writes the checkpoint; and reads it into run and statistics[count], or the one before where it is

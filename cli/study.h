@@ -178,6 +178,8 @@ typedef struct study_watch {
  * exit status.  Different cells may be run by different threads. */
 int study_cell_run(const study_plan *plan, study_cell *cell, const study_watch *watch);
 void study_cell_free(study_cell *cell);
+/* Whether the run of a cell can be made at all: a refused one has none. */
+int study_cell_can_run(study_cell *cell);
 /* Its name, which is that of its directory below plan->runs; and that directory.  Allocated, NULL
  * when memory is out. */
 char *study_cell_name(const study_cell *cell);

@@ -276,6 +276,15 @@ static int go(walk *w, const study_watch *watch)
     return collect(w, &error, ended);
 }
 
+static void leave(walk *w)
+{
+    for (size_t i = 0; i < w->texts; i++) free(w->text[i]);
+    free(w->text);
+    free(w->directory);
+    free(w->values);
+    job_free(&w->job);
+}
+
 int study_cell_run(const study_plan *plan, study_cell *cell, const study_watch *watch)
 {
     walk w = {.plan = plan, .cell = cell, .job = job_begin()};
@@ -286,12 +295,17 @@ int study_cell_run(const study_plan *plan, study_cell *cell, const study_watch *
         keep_close(&w.keep);
     }
     if (status != CLI_DONE) study_cell_free(cell);
-    for (size_t i = 0; i < w.texts; i++) free(w.text[i]);
-    free(w.text);
-    free(w.directory);
-    free(w.values);
-    job_free(&w.job);
+    leave(&w);
     return status;
+}
+
+int study_cell_can_run(study_cell *cell)
+{
+    walk w = {.cell = cell, .job = job_begin()};
+    const int can = make_run(&w) == CLI_DONE && w.job.run;
+    leave(&w);
+    study_cell_free(cell);
+    return can;
 }
 
 void study_cell_free(study_cell *cell)

@@ -5,6 +5,7 @@
 
 #include <dirent.h>
 #include <errno.h>
+#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -190,19 +191,40 @@ static int check_place(const study_house *house, const char *text, size_t length
                     held, house->directory);
 }
 
+static int make(study_house *house, study_plan *plan, const char *text, size_t length, int is_shard,
+                int force)
+{
+    int status = force ? clear(house) : check_place(house, text, length, is_shard);
+    if (status == CLI_DONE) status = cli_directory(house->runs);
+    if (status == CLI_DONE) status = copy_systems(house, plan);
+    if (status == CLI_DONE) status = house_tell(house, plan, "running");
+    return status == CLI_DONE ? file_replace(house->study, text, length) : status;
+}
+
+/* Shards that begin in one directory at the same time come one after the other: the descriptor of
+ * a locked file, -1 where that cannot be had (some network file systems know no locks). */
+static int lock(const study_house *house)
+{
+    struct flock whole = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
+    char *path = cli_join(house->directory, "lock");
+    const int descriptor = path ? open(path, O_RDWR | O_CREAT, 0666) : -1;
+    if (descriptor >= 0) fcntl(descriptor, F_SETLKW, &whole);
+    free(path);
+    return descriptor;
+}
+
 int house_begin(study_house *house, study_plan *plan, const char *text, size_t length,
                 study_shard shard, int force)
 {
     int status = cli_directory(house->directory);
-    if (status == CLI_DONE && !force) status = check_place(house, text, length, shard.count > 0);
-    if (status == CLI_DONE && force) status = clear(house);
-    if (status == CLI_DONE) status = cli_directory(house->runs);
-    if (status == CLI_DONE) status = copy_systems(house, plan);
+    if (status != CLI_DONE) return status;
     plan->runs = house->runs;
     house->shard = shard;
     for (int i = 0; i < plan->cell_count; i++) plan->cells[i].elsewhere = !house_is_of(shard, i);
-    if (status == CLI_DONE) status = house_tell(house, plan, "running");
-    return status == CLI_DONE ? file_replace(house->study, text, length) : status;
+    const int locked = lock(house);
+    status = make(house, plan, text, length, shard.count > 0, force);
+    if (locked >= 0) close(locked);
+    return status;
 }
 
 /* ---- reading ---- */

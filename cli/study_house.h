@@ -6,7 +6,8 @@
  *     DIR/manifest.json      what ran the study and how far it came, or, where shards were run,
  *     DIR/shard-K-of-N.json  the same of each of them
  *     DIR/tables.txt, cells.csv, quantities.csv, expectations.csv, series/LABEL.csv
- *                            when it is over or interrupted */
+ *                            when it is over or interrupted
+ *     DIR/lock               empty; shards that begin at the same time take turns by it */
 #ifndef DAL_CLI_STUDY_HOUSE_H
 #define DAL_CLI_STUDY_HOUSE_H
 

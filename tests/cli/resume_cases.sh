@@ -3,17 +3,6 @@
 long="chaplygin-sleigh --integrator gauss8+project --step 0.001 --time 400 --samples 100003
       --set omega=1.5 --start pi_phi=1e-8"
 
-# appears FILE: waits for it, at most ten seconds.
-appears() {
-    for i in 1 2 3 4 5 6 7 8 9 10; do
-        for j in 1 2 3 4 5 6 7 8 9 10; do
-            [ -e "$1" ] && return 0
-            sleep 0.1
-        done
-    done
-    return 1
-}
-
 case_is "a directory"
 try 0 run $long --output whole
 empty

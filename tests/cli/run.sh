@@ -53,6 +53,28 @@ there() { command -v "${1%% *}" >/dev/null 2>&1; }
 tells() { head -c 8192 "$1" | grep -aq "'shape': ($2,), }"; }
 columns_of() { head -c 8192 "$1" | grep -ao "'<f8'" | wc -l; }
 
+# appears FILE: waits for it, at most ten seconds.
+appears() {
+    for i in 1 2 3 4 5 6 7 8 9 10; do
+        for j in 1 2 3 4 5 6 7 8 9 10; do
+            [ -e "$1" ] && return 0
+            sleep 0.1
+        done
+    done
+    return 1
+}
+# The cells of a column by its head.
+column() { awk -F, -v head="$1" 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == head) k = i; next }
+                                 { print $k }' "$2"; }
+
+# bad TEXT PATTERN: a study file that is refused.
+bad() {
+    printf "$1" >bad.yaml
+    try 2 study bad.yaml --output there --force
+    says "$2"
+    empty
+}
+
 # A particle on a line with friction: no constraint, E known, exact solution x = 1 - exp(-t).
 cat >line.yaml <<'END'
 title: friction on a line

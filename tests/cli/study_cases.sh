@@ -9,10 +9,6 @@ systems:
   - chaplygin-sleigh
   - {system: plane.yaml, label: plane, starts: [surface, physical]}
 END
-# The cells of a column by its head.
-column() { awk -F, -v head="$1" 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == head) k = i; next }
-                                 { print $k }' "$2"; }
-
 case_is "cells, tables and files"
 try 0 study small.yaml --output there --force
 silent
@@ -113,12 +109,6 @@ holds "the unfinished run has no checkpoint" test -s there/runs/endless_rk4_phys
 holds "the manifest" grep -q '"cells": {"not run": 1, "done": 1, "failed": 0' there/manifest.json
 
 case_is "study files that are none"
-bad() {
-    printf "$1" >bad.yaml
-    try 2 study bad.yaml --output there --force
-    says "$2"
-    empty
-}
 bad 'systems: [line.yaml\n' 'bad.yaml:'
 bad '' 'the study is empty'
 bad 'title: x\n---\ntitle: y\n' 'a second document'

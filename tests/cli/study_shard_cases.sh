@@ -1,0 +1,170 @@
+# Studies in pieces: interrupted and killed anywhere, in shards and merged, by several processes.
+
+cat >pieces.yaml <<'END2'
+title: many short runs and a long one
+integrators: [gauss4+project, rk4]
+step: [0.02, 0.01]
+time: 40
+samples: 50
+systems:
+  - contact-oscillator
+  - {system: plane.yaml, label: plane, starts: physical, time: 4000, step: 0.01}
+  - {system: chaplygin-sleigh-vakonomic, integrators: rk4}
+  - {system: appell-hamel, starts: physical, set: {w0: -1}}
+expect:
+  plane: {all: {D: [exact, rounding]}}
+  appell-hamel: {all: {state: failed}}
+END2
+# All bytes but those that tell of times: the last column of cells.csv, the ns of the tables.
+untimed() { sed 's/,[^,]*$//' "$1/cells.csv" && sed 's/ *[0-9]*$//' "$1/tables.txt"; }
+same_study() {
+    untimed "$1" >one.untimed
+    untimed "$2" >other.untimed
+    cmp one.untimed other.untimed && ! diff -rq "$1" "$2" 2>&1 |
+        grep -v '/checkpoint\|: checkpoint\|/manifest.json\|cells.csv\|tables.txt\|: shard-\|: lock'
+}
+
+case_is "a study in pieces: the whole"
+try 0 study pieces.yaml --output whole-study --threads 1
+silent
+holds "not 3 kinds of cells" test "$(column state whole-study/cells.csv | sort | uniq -c |
+    tr -d ' \n')" = 16done4failed4refused
+runs=$(ls whole-study/runs | wc -l)
+holds "$runs runs, not 20" test "$runs" -eq 20
+for name in $(column run whole-study/cells.csv | grep .); do
+    holds "$name" test -s "whole-study/$name/trajectory.npy" -a -s "whole-study/$name/summary.csv"
+done
+try 0 study pieces.yaml --output two-threads --threads 2
+holds "two threads make other bytes" same_study whole-study two-threads
+OMP_NUM_THREADS=2
+export OMP_NUM_THREADS
+try 0 study pieces.yaml --output two-threads --force
+unset OMP_NUM_THREADS
+holds "OMP_NUM_THREADS makes other bytes" same_study whole-study two-threads
+try 0 resume whole-study
+prints '^many short runs and a long one$'
+holds "a finished study changes" same_study whole-study two-threads
+
+# kill_study SEED THREADS: kill -9 at random moments, until it is over.
+kill_study() {
+    rm -rf killed-study
+    begin="study pieces.yaml --output killed-study"
+    killed=0
+    for delay in $(awk -v seed="$1" 'BEGIN { srand(seed)
+        for (i = 0; i < 12; i++) print 0.02 + 0.2 * rand() }'); do
+        [ -e killed-study/study.yaml ] && begin="resume killed-study"
+        "$program" $begin --threads "$2" --checkpoint 0.01 >out 2>err &
+        sleep "$delay"
+        kill -9 $! 2>/dev/null && killed=$((killed + 1))
+        wait $! 2>/dev/null
+        # before the description was there, it begins anew over whatever there is
+        [ -e killed-study/study.yaml ] || begin="$begin --force"
+    done
+    try 0 $begin --threads "$2"
+    holds "killed $killed times with seed $1, $2 threads: other bytes" \
+        same_study whole-study killed-study
+}
+case_is "a study in pieces: killed at any moment"
+seed=$(date +%s)
+echo "cli: a study is killed with seeds $seed and $((seed + 1))"
+kill_study "$seed" 1
+kill_study $((seed + 1)) 2
+
+case_is "a study in pieces: interrupted"
+"$program" study pieces.yaml --output stopped-study --threads 1 --checkpoint 0 >out 2>err &
+pid=$!
+appears stopped-study/study.yaml
+kill -INT $pid
+wait $pid
+status=$?
+holds "exit $status, not 130" test $status -eq 130
+says 'interrupted; go on with: dalembert resume stopped-study'
+holds "interrupted" grep -q '"status": "interrupted"' stopped-study/manifest.json
+mkdir elsewhere
+cd elsewhere
+try 0 resume ../stopped-study
+cd ..
+holds "other bytes" same_study whole-study stopped-study
+
+case_is "a study in pieces: a damaged run"
+cp -r whole-study damaged-study
+run=damaged-study/runs/plane_rk4_physical_0.01
+rm -f $run/checkpoint.before
+printf 'x' | dd of=$run/checkpoint bs=1 seek=100 conv=notrunc 2>/dev/null
+try 2 resume damaged-study
+says 'plane_rk4_physical_0.01/checkpoint: the checkpoint is damaged'
+rm -r $run
+try 0 resume damaged-study
+holds "other bytes" same_study whole-study damaged-study
+
+case_is "shards in directories of their own"
+for k in 1 2 3; do
+    try 0 study pieces.yaml --output shard-$k --shard $k/3
+    holds "a shard leaves tables" test ! -e shard-$k/tables.txt -a ! -e shard-$k/cells.csv
+    holds "its manifest" grep -q '"status": "done"' shard-$k/shard-$k-of-3.json
+done
+prints '^contact-oscillator: '
+count=$(ls shard-1/runs shard-2/runs shard-3/runs | grep -c _)
+holds "$count runs, not 20" test "$count" -eq 20
+try 0 merge shard-1 shard-2 shard-3 --output merged
+prints '^Expectations: 6 of 6 are met\.$'
+holds "other bytes" same_study whole-study merged
+try 2 merge shard-1 shard-2 shard-3 --output merged
+says "'merged/study.yaml' is there already"
+try 0 merge shard-3 shard-1 shard-2 --output merged --force
+holds "other bytes in another order" same_study whole-study merged
+
+case_is "shards in one directory"
+for k in 1 2; do "$program" study pieces.yaml --output shared --shard $k/2 >out.$k 2>err.$k & done
+wait
+cat err.1 err.2 >err
+silent
+try 2 study pieces.yaml --output shared
+says "'shared/study.yaml' is there already"
+sed 's/short/other/' pieces.yaml >another.yaml
+try 2 study another.yaml --output shared --shard 1/2
+says "'shared/study.yaml' is another study"
+try 0 merge shared --output shared
+holds "other bytes" same_study whole-study shared
+
+case_is "a shard that was interrupted"
+"$program" study pieces.yaml --output shard-b --shard 2/2 --threads 1 --checkpoint 0 >out 2>err &
+pid=$!
+appears shard-b/study.yaml
+kill -INT $pid
+wait $pid
+status=$?
+holds "exit $status, not 130" test $status -eq 130
+try 0 study pieces.yaml --output shard-a --shard 1/2
+try 2 merge shard-a shard-b --output halves
+holds "not told" grep -Eq "in none of the directories|is not finished: dalembert resume" err
+try 0 resume shard-b
+try 0 merge shard-a shard-b --output halves
+holds "other bytes" same_study whole-study halves
+
+case_is "what cannot be merged"
+try 2 merge shard-1 shard-3 --output joined
+says "_.*' is in none of the directories: a shard is missing"
+try 2 merge shard-1 shard-2 shard-3 shard-a --output joined
+says "' is in 'shard-.' and in 'shard-a'"
+try 2 merge shard-1 shard-1 --output joined
+says "'shard-1' is given twice"
+sed 's/short/shorter/' shard-2/study.yaml >retitled
+mv retitled shard-2/study.yaml
+try 2 merge shard-1 shard-2 shard-3 --output joined
+says "'shard-2' and 'shard-1' are of two studies: 'shard-2/study.yaml' and"
+cp shard-1/study.yaml shard-2/study.yaml
+echo '# changed' >>shard-2/systems/plane.yaml
+try 2 merge shard-1 shard-2 shard-3 --output joined
+says "'shard-2/systems/plane.yaml' and 'shard-1/systems/plane.yaml' differ"
+try 2 merge shard-1 nowhere --output joined
+says "'nowhere' holds no study"
+try 2 merge --output joined
+says 'the DIRs are missing'
+try 2 merge shard-1
+says '--output is missing'
+for shard in 0/2 3/2 2 1/x x/2 1/; do
+    try 2 study pieces.yaml --output joined --shard $shard
+    says '--shard: '
+done
+holds "something was made" test ! -e joined
