@@ -9,6 +9,7 @@
 #     make check-valgrind   the CUnit suites under valgrind
 #     make fuzz             each fuzz target for FUZZ_SECONDS
 #     make lint             the rules of the house
+#     make gallery          the pictures that the README shows
 #     make install          to PREFIX, below DESTDIR
 #
 # BUILD=dir puts everything elsewhere; CFLAGS=-O3\ -march=native changes the speed, never a bit;
@@ -212,6 +213,10 @@ $(FUZZERS:%=$(BUILD)/tests/%): %: %.o $(STATIC)
 lint: all
 	@CC="$(CC)" BUILD=$(BUILD) sh tools/lint/lint.sh
 
+# The pictures of the README.
+gallery: all
+	@sh tools/gallery.sh $(PROGRAM) docs/gallery
+
 # ---- installation ----------------------------------------------------------------------------
 
 BIN     = "$(DESTDIR)$(PREFIX)/bin"
@@ -247,7 +252,7 @@ clean:
 include bench/bench.mk
 
 FORCE:
-.PHONY: all check check-bits check-browser check-sanitize check-valgrind fuzz run-fuzzers lint install uninstall clean FORCE
+.PHONY: all check check-bits check-browser check-sanitize check-valgrind fuzz run-fuzzers gallery lint install uninstall clean FORCE
 .SECONDARY:
 
 -include $(LIB_OBJ:.o=.d) $(CLI_OBJ:.o=.d) $(TEST_OBJ:.o=.d) $(FUZZERS:%=$(BUILD)/tests/%.d)
