@@ -8,6 +8,7 @@
 #     make check-bits       generated code in every way, hours: BITS_JOBS at a time
 #     make check-valgrind   the CUnit suites under valgrind
 #     make fuzz             each fuzz target for FUZZ_SECONDS
+#     make mpi              build/dalembert-mpi, where there is Open MPI
 #     make lint             the rules of the house
 #     make gallery          the pictures that the README shows
 #     make install          to PREFIX, below DESTDIR
@@ -109,6 +110,16 @@ $(BUILD)/cli/pool.o: ALL += $(OPENMP)
 $(PROGRAM): $(CLI_OBJ) $(STATIC)
 	$(call SAY,ld)$(CC) $(CFLAGS) $(LDFLAGS) $^ $(LIBS) $(OPENMP) -o $@
 
+# Studies on the processes of a cluster, by Open MPI: everything of the program but its main.
+MPI_PROGRAM = $(BUILD)/dalembert-mpi
+MPICC      ?= mpicc
+MPI_CFLAGS  = $(patsubst -I%,-isystem%,$(shell $(MPICC) --showme:compile))
+mpi: $(MPI_PROGRAM)
+$(BUILD)/cli/mpi/dalembert_mpi.o: ALL += $(MPI_CFLAGS)
+$(MPI_PROGRAM): $(BUILD)/cli/mpi/dalembert_mpi.o $(filter-out %/cli/main.o,$(CLI_OBJ)) $(STATIC)
+	$(call SAY,ld)$(CC) $(CFLAGS) $(LDFLAGS) $^ $(LIBS) $(OPENMP) \
+	    $(shell $(MPICC) --showme:link) -o $@
+
 # ---- generated texts -------------------------------------------------------------------------
 
 # The systems travel inside the library.
@@ -169,7 +180,8 @@ $(BUILD)/locale:
 	-@localedef -f UTF-8 -i de_DE $@/de_DE.UTF-8 2>/dev/null
 RUN_SUITE = LOCPATH=$(BUILD)/locale
 
-check: all $(BUILD)/tests/suite $(BUILD)/locale
+HAS_MPI = $(shell command -v $(MPICC) >/dev/null && echo $(MPI_PROGRAM))
+check: all $(HAS_MPI) $(BUILD)/tests/suite $(BUILD)/locale
 	@sh tests/cli/run.sh $(PROGRAM)
 	@CC="$(CC)" CFLAGS="$(CFLAGS)" sh tests/install.sh "$(MAKE)" $(BUILD)
 	@sh tests/browser/run.sh $(PROGRAM)
@@ -230,7 +242,7 @@ LINKS   = libdalembert.so $(SONAME) libdalembert.so.$(VERSION)
 
 install: all
 	install -d $(BIN) $(LIB)/pkgconfig $(INCLUDE) $(MAN) $(SHARE)/systems
-	install $(PROGRAM) $(BIN)
+	install $(PROGRAM) $(wildcard $(MPI_PROGRAM)) $(BIN)
 	install -m 644 $(STATIC) $(LIB)
 	install -m 644 $(SHARED).$(VERSION) $(LIB)
 	ln -sf libdalembert.so.$(VERSION) $(LIB)/$(SONAME)
@@ -242,7 +254,7 @@ install: all
 	install -m 644 systems/*.yaml $(SHARE)/systems
 
 uninstall:
-	rm -f $(BIN)/dalembert $(LIB)/libdalembert.a $(LINKS:%=$(LIB)/%) $(HEADERS:%=$(INCLUDE)/%)
+	rm -f $(BIN)/dalembert $(BIN)/dalembert-mpi $(LIB)/libdalembert.a $(LINKS:%=$(LIB)/%) $(HEADERS:%=$(INCLUDE)/%)
 	rm -f $(LIB)/pkgconfig/dalembert.pc $(MAN)/dalembert.1
 	rm -rf $(SHARE)
 
@@ -252,7 +264,7 @@ clean:
 include bench/bench.mk
 
 FORCE:
-.PHONY: all check check-bits check-browser check-sanitize check-valgrind fuzz run-fuzzers gallery lint install uninstall clean FORCE
+.PHONY: all check check-bits check-browser check-sanitize check-valgrind fuzz run-fuzzers gallery lint install uninstall clean FORCE mpi
 .SECONDARY:
 
 -include $(LIB_OBJ:.o=.d) $(CLI_OBJ:.o=.d) $(TEST_OBJ:.o=.d) $(FUZZERS:%=$(BUILD)/tests/%.d)

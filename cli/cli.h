@@ -34,6 +34,15 @@
 COMMAND_LIST(X)
 #undef X
 
+typedef struct cli_command {
+    const char *name, *synopsis, *about;
+    int (*call)(int argc, char **argv);
+} cli_command;
+
+/* A command by its name, NULL for none; what the program says of itself. */
+const cli_command *cli_find(const char *name);
+void cli_usage(FILE *out);
+
 /* ---- exit statuses ------------------------------------------------------------------------- */
 
 #define CLI_EXIT_LIST(X)                                                                           \

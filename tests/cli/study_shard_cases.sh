@@ -168,3 +168,34 @@ for shard in 0/2 3/2 2 1/x x/2 1/; do
     says '--shard: '
 done
 holds "something was made" test ! -e joined
+
+# By Open MPI, where `make mpi` has made the program and there is mpirun.
+mpi_program=$(dirname "$program")/dalembert-mpi
+by_mpi() {
+    expected=$1
+    shift
+    # Leaks are Open MPI's own.
+    ASAN_OPTIONS=detect_leaks=0 timeout 60 mpirun --allow-run-as-root --oversubscribe \
+        --mca mpi_yield_when_idle 1 "$@" >out 2>err
+    status=$?
+    if [ $status -eq "$expected" ]; then pass; else fail "exit $status, not $expected: $*"; fi
+}
+if [ -x "$mpi_program" ] && command -v mpirun >/dev/null; then
+    case_is "a study by MPI"
+    by_mpi 0 -n 2 "$mpi_program" pieces.yaml --output by-mpi
+    prints '^Expectations: 6 of 6 are met\.$'
+    holds "other bytes" same_study whole-study by-mpi
+    by_mpi 2 -n 2 "$mpi_program" pieces.yaml --output by-mpi
+    says "'by-mpi/study.yaml' is there already"
+    rm -r by-mpi/runs/plane* by-mpi/cells.csv
+    by_mpi 0 -n 3 "$mpi_program" --resume --output by-mpi
+    holds "other bytes, gone on with" same_study whole-study by-mpi
+    by_mpi 2 -n 2 "$mpi_program" nowhere.yaml --output by-mpi
+    says "cannot read 'nowhere.yaml'"
+    by_mpi 2 -n 2 "$mpi_program" pieces.yaml
+    says '--output is missing'
+    by_mpi 0 -n 2 "$mpi_program" --help
+    prints '^usage: mpirun dalembert-mpi'
+else
+    echo "cli: a study by MPI: skipped: no $mpi_program (make mpi), or no mpirun"
+fi

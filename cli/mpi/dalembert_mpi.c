@@ -1,0 +1,258 @@
+/* dalembert_mpi.c - the program `dalembert-mpi`: a study on the processes of a cluster.
+ *
+ *     mpirun -n 64 dalembert-mpi STUDY.yaml --output DIR
+ *
+ * DIR lies where all processes see it.  Rank 0 describes the study there and hands out the cells,
+ * the costliest first, while it runs cells itself: between steps it looks who has asked.  What
+ * passes between processes is the number of a cell; all else goes through the directories of the
+ * runs, so that the study can be interrupted and gone on with, by this program or by
+ * `dalembert resume`, to the same bytes.  At the end rank 0 reads them and makes the tables. */
+#include "../file.h"
+#include "../pool.h"
+#include "../run.h"
+#include "../study_house.h"
+
+#include <mpi.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define OPTION_LIST(X)                                                                             \
+    X(output, "DIR", "the files go there", NULL)                                                   \
+    X(checkpoint, "SECONDS", "a run can be resumed from at most so long ago", "5")                 \
+    X(native, "auto|on|off", "compile the steps, which changes no bit: when it pays", "auto")      \
+    X(force, NULL, "write over what the directory holds", NULL)                                    \
+    X(resume, NULL, "go on with the study in DIR", NULL)
+
+enum {
+#define X(name, value, help, initial) OPTION_##name,
+    OPTION_LIST(X)
+#undef X
+        OPTIONS
+};
+
+static const cli_option options[] = {
+#define X(name, value, help, initial) {#name, value, help, initial},
+    OPTION_LIST(X)
+#undef X
+};
+
+static const char notes[] =
+    "Runs a study, as 'dalembert study' does, with a process for each cell at a time; to be "
+    "started\n"
+    "by mpirun.  DIR must be seen by all processes.  The results are the same bytes.\n";
+
+/* What all ranks must know; the texts of the study are read from its directory. */
+enum { PATH = 4096 };
+typedef struct wishes {
+    char output[PATH];
+    double interval;
+    int native, force, resume, status; /* status: what rank 0 found of the arguments */
+    const char *study;                 /* of rank 0 alone */
+} wishes;
+
+static int take(wishes *w, int option, const char *value)
+{
+    cli_native native;
+    switch (option) {
+    case OPTION_output:
+        if (strlen(value) >= sizeof w->output)
+            return cli_fail(CLI_USAGE, "--output: the path is too long");
+        memcpy(w->output, value, strlen(value) + 1);
+        return CLI_DONE;
+    case OPTION_checkpoint:
+        return run_take_interval(value, &w->interval);
+    case OPTION_native:
+        if (native_read(value, &native) != CLI_DONE) return CLI_USAGE;
+        w->native = native;
+        return CLI_DONE;
+    case OPTION_force:
+        w->force = 1;
+        return CLI_DONE;
+    case OPTION_resume:
+        w->resume = 1;
+        return CLI_DONE;
+    default:
+        if (w->study) return cli_fail(CLI_USAGE, "more than one study: '%s'", value);
+        w->study = value;
+        return CLI_DONE;
+    }
+}
+
+static int check(const wishes *w)
+{
+    if (!w->output[0]) return cli_fail(CLI_USAGE, "--output is missing");
+    if (w->resume && w->study)
+        return cli_fail(CLI_USAGE, "--resume: the study is the one in '%s'", w->output);
+    if (!w->resume && !w->study) return cli_fail(CLI_USAGE, "the STUDY.yaml is missing");
+    return CLI_GO_ON;
+}
+
+static int read_arguments(wishes *w, int argc, char **argv)
+{
+    cli_args args = cli_begin(argc, argv, options, OPTIONS, notes);
+    const char *value;
+    for (int k; (k = cli_next(&args, &value)) != CLI_STOP;) {
+        const int taken = take(w, k, value);
+        if (taken != CLI_DONE) cli_stop(&args, taken);
+    }
+    return args.status == CLI_GO_ON ? check(w) : args.status;
+}
+
+/* ---- the study ---- */
+
+/* Describes a new study in its directory, where all ranks then read it. */
+static int describe(const wishes *w)
+{
+    size_t length;
+    study_plan plan = {0};
+    study_house house = {0};
+    const study_shard whole = {0};
+    char *text = file_read(w->study, &length);
+    if (!text) return CLI_USAGE;
+    int status = study_plan_read(&plan, w->study, text, length, NULL);
+    if (status == CLI_DONE) status = house_open(&house, w->output);
+    if (status == CLI_DONE) status = house_begin(&house, &plan, text, length, whole, w->force);
+    study_plan_free(&plan);
+    house_close(&house);
+    free(text);
+    return status;
+}
+
+typedef struct team {
+    study_plan *plan;
+    int *order;
+    int rank, size;
+    int next;    /* of rank 0: the place in order of the next cell */
+    int waiting; /* of rank 0: how many others will still ask */
+} team;
+
+enum { ASK, ANSWER };
+
+/* ---- handing out cells ---- */
+
+static int next_cell(team *t)
+{
+    while (t->next < t->plan->cell_count && !cli_interrupted()) {
+        const int cell = t->order[t->next++];
+        if (!t->plan->cells[cell].elsewhere) return cell;
+    }
+    return -1;
+}
+
+static void answer_one(team *t)
+{
+    MPI_Status from;
+    int nothing, cell = next_cell(t);
+    MPI_Recv(&nothing, 1, MPI_INT, MPI_ANY_SOURCE, ASK, MPI_COMM_WORLD, &from);
+    MPI_Send(&cell, 1, MPI_INT, from.MPI_SOURCE, ANSWER, MPI_COMM_WORLD);
+    if (cell < 0) t->waiting--;
+}
+
+/* Answers all who have asked by now. */
+static void answer(team *t)
+{
+    for (int asked = 1; asked && t->waiting > 0;) {
+        MPI_Iprobe(MPI_ANY_SOURCE, ASK, MPI_COMM_WORLD, &asked, MPI_STATUS_IGNORE);
+        if (asked) answer_one(t);
+    }
+}
+
+static int ask(void)
+{
+    int cell = -1;
+    MPI_Send(&cell, 1, MPI_INT, 0, ASK, MPI_COMM_WORLD);
+    MPI_Recv(&cell, 1, MPI_INT, 0, ANSWER, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+    return cell;
+}
+
+static int stop(void *user)
+{
+    team *t = user;
+    if (t->rank == 0) answer(t);
+    return cli_interrupted();
+}
+
+/* A failure of one rank's own leaves the cells to the others. */
+static int run_cells(team *t)
+{
+    const study_watch watch = {stop, t};
+    int status = CLI_DONE;
+    for (int cell; status == CLI_DONE && (cell = t->rank == 0 ? next_cell(t) : ask()) >= 0;) {
+        status = study_cell_run(t->plan, &t->plan->cells[cell], &watch);
+        study_cell_free(&t->plan->cells[cell]);
+        if (t->rank == 0) answer(t);
+    }
+    if (t->rank > 0 && status != CLI_DONE)
+        while (ask() >= 0) continue;
+    while (t->rank == 0 && t->waiting > 0) answer_one(t);
+    return status;
+}
+
+/* ---- the whole ---- */
+
+/* The worst status of all ranks. */
+static int agree(int status)
+{
+    int worst;
+    MPI_Allreduce(&status, &worst, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
+    return worst;
+}
+
+static int finish(study_plan *plan, const study_house *house, int status)
+{
+    if (status == CLI_SIGNAL)
+        return cli_fail(status, "interrupted; go on with: dalembert resume %s", house->directory);
+    if (status != CLI_DONE) return status;
+    return house_finish(house, plan, study_pool_run(plan, pool_threads()));
+}
+
+static int run_study(const wishes *w, int rank, int size)
+{
+    study_plan plan = {0};
+    study_house house = {0};
+    team t = {.plan = &plan, .rank = rank, .size = size, .waiting = size - 1};
+    int status = house_open(&house, w->output);
+    if (status == CLI_DONE) status = house_read(&house, &plan);
+    t.order = study_order(&plan);
+    if (!t.order) status = cli_fail(CLI_IO, "out of memory");
+    plan.interval = w->interval;
+    for (int i = 0; i < plan.entry_count; i++) plan.entries[i].native = (cli_native)w->native;
+    status = agree(status);
+    if (status == CLI_DONE) {
+        cli_catch_signals();
+        status = agree(run_cells(&t));
+        if (status == CLI_DONE && cli_interrupted()) status = CLI_SIGNAL;
+        if (rank == 0) status = finish(&plan, &house, status);
+    }
+    free(t.order);
+    study_plan_free(&plan);
+    house_close(&house);
+    return status;
+}
+
+static int start(int argc, char **argv, int rank, int size)
+{
+    wishes w = {.interval = run_wish().interval};
+    if (rank == 0) {
+        w.status = read_arguments(&w, argc, argv);
+        const int described = w.status == CLI_GO_ON && !w.resume ? describe(&w) : CLI_DONE;
+        if (described != CLI_DONE) w.status = described;
+    }
+    MPI_Bcast(&w, sizeof w, MPI_BYTE, 0, MPI_COMM_WORLD);
+    return w.status == CLI_GO_ON ? run_study(&w, rank, size) : w.status;
+}
+
+int main(int argc, char **argv)
+{
+    static char name[] = "mpirun dalembert-mpi STUDY.yaml --output DIR";
+    int rank, size;
+    MPI_Init(&argc, &argv);
+    MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+    MPI_Comm_size(MPI_COMM_WORLD, &size);
+    argv[0] = name;
+    /* Of a status all ranks return the same, so that mpirun does not blame one of them. */
+    int status = start(argc, argv, rank, size);
+    MPI_Bcast(&status, 1, MPI_INT, 0, MPI_COMM_WORLD);
+    MPI_Finalize();
+    return status;
+}
