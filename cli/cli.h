@@ -123,6 +123,11 @@ void cli_stop(cli_args *args, int exit_status);
 void cli_help(FILE *out, const char *command, const cli_option *options, int count,
               const char *notes);
 
+/* A text from the present column on, in lines of at most 80, further ones at hanging; and the
+ * paragraphs and items of notes. */
+void cli_fold(FILE *out, const char *text, int column, int hanging);
+void cli_fold_notes(FILE *out, const char *notes);
+
 /* A finite number, or an integer (1e6 is one) in least..greatest.  what names it in the message,
  * "--time".  Return CLI_DONE or CLI_USAGE. */
 int cli_number(const char *what, const char *text, double *number);

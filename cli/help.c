@@ -40,29 +40,39 @@ void cli_usage(FILE *out)
           out);
     for (int i = 0; i < COMMANDS; i++)
         fprintf(out, "  %-8s %s\n", commands[i].name, commands[i].about);
-    fputs(
-        "\n'dalembert COMMAND --help' tells about a command, 'dalembert --version' the version.\n",
-        out);
+    fputs("\n'dalembert COMMAND --help' tells about a command, 'dalembert --version' of\n"
+          "the program.\n",
+          out);
     print_exits(out);
+}
+
+/* Options in front, what they do behind, below a long one. */
+static void print_option(FILE *out, const cli_option *option)
+{
+    enum { BEHIND = 26 };
+    char text[512];
+    int column = fprintf(out, option->value ? "  --%s %s" : "  --%s%s", option->name,
+                         option->value ? option->value : "");
+    if (column > BEHIND - 2) {
+        fputc('\n', out);
+        column = 0;
+    }
+    fprintf(out, "%*s", BEHIND - column, "");
+    snprintf(text, sizeof text, option->initial ? "%s (%.*s)" : "%s", option->help,
+             option->initial ? (int)strcspn(option->initial, "|") : 0, option->initial);
+    cli_fold(out, text, BEHIND, BEHIND);
 }
 
 void cli_help(FILE *out, const char *name, const cli_option *options, int count, const char *notes)
 {
+    static const cli_option help = {"help", NULL, "print this", NULL};
     const cli_command *found = cli_find(name);
-    if (found)
-        fprintf(out, "usage: dalembert %s %s\n%s\n", name, found->synopsis, found->about);
-    else
-        fprintf(out, "usage: %s [OPTION]...\n", name);
-    fputs("\noptions:\n", out);
-    for (int i = 0; i < count; i++) {
-        char left[64];
-        snprintf(left, sizeof left, "--%s%s%s", options[i].name, options[i].value ? " " : "",
-                 options[i].value ? options[i].value : "");
-        fprintf(out, "  %-36s %s", left, options[i].help);
-        const char *initial = options[i].initial;
-        if (initial) fprintf(out, " (%.*s)", (int)strcspn(initial, "|"), initial);
-        fputc('\n', out);
-    }
-    fprintf(out, "  %-36s %s\n", "--help", "print this");
-    if (notes) fprintf(out, "\n%s", notes);
+    fprintf(out, "usage: dalembert %s ", name);
+    cli_fold(out, found ? found->synopsis : "", 17 + (int)strlen(name), 17);
+    fprintf(out, "%s\n\noptions:\n", found ? found->about : "");
+    for (int i = 0; i < count; i++) print_option(out, &options[i]);
+    print_option(out, &help);
+    if (!notes) return;
+    fputc('\n', out);
+    cli_fold_notes(out, notes);
 }

@@ -4,6 +4,7 @@
 #include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 enum { COLUMNS_MOST = 8 };
 
@@ -67,28 +68,62 @@ static int width(const char *text)
     return n;
 }
 
-static void put_row(const sheet *s, int first, const int *widths, int markdown)
+static void put_markdown(const sheet *s, int first, const int *widths)
 {
     for (int i = 0; i < s->columns; i++) {
         const char *text = s->cell[first + i];
-        int last = i == s->columns - 1, pad = widths[i] - width(text);
-        if (markdown)
-            printf("| %s%*s ", text, pad, "");
-        else
-            printf("%s%*s", text, last ? 0 : pad + 2, "");
+        printf("| %s%*s ", text, widths[i] - width(text), "");
+    }
+    puts("|");
+}
+
+/* The columns from number fits on go to lines of their own, below. */
+static void put_row(const sheet *s, int first, const int *widths, int fits)
+{
+    char rest[1024] = "";
+    size_t n = 0;
+    for (int i = 0; i < fits; i++) {
+        const char *text = s->cell[first + i];
+        printf("%s%*s", text, i == fits - 1 ? 0 : widths[i] - width(text) + 2, "");
+    }
+    putchar('\n');
+    for (int i = fits; i < s->columns && n < sizeof rest; i++)
+        n += (size_t)snprintf(rest + n, sizeof rest - n, "%s%s", i > fits ? "; " : "    ",
+                              s->cell[first + i]);
+    if (n) cli_fold(stdout, rest, 0, 4);
+}
+
+static void put_rule(const int *widths, int fits, int markdown)
+{
+    for (int i = 0; i < fits; i++) {
+        int dashes = widths[i] + (markdown ? 2 : 0);
+        if (markdown) putchar('|');
+        while (dashes-- > 0) putchar('-');
+        if (!markdown && i < fits - 1) fputs("  ", stdout);
     }
     puts(markdown ? "|" : "");
 }
 
-static void put_rule(const sheet *s, const int *widths, int markdown)
+/* How many columns stand side by side: all, unless a terminal is too narrow for that. */
+static int count_fits(const sheet *s, const int *widths)
 {
-    for (int i = 0; i < s->columns; i++) {
-        int dashes = widths[i] + (markdown ? 2 : 0);
-        if (markdown) putchar('|');
-        while (dashes-- > 0) putchar('-');
-        if (!markdown && i < s->columns - 1) fputs("  ", stdout);
+    const int most = isatty(STDOUT_FILENO) ? cli_width() : 0;
+    int fits = 0, used = 0;
+    if (most == 0) return s->columns;
+    while (fits < s->columns && used + widths[fits] <= most) used += widths[fits++] + 2;
+    return fits > 0 ? fits : 1;
+}
+
+static void put_table(const sheet *s, const int *widths, int markdown)
+{
+    const int fits = markdown ? s->columns : count_fits(s, widths);
+    for (int k = 0; k < s->cells; k += s->columns) {
+        if (markdown)
+            put_markdown(s, k, widths);
+        else
+            put_row(s, k, widths, fits);
+        if (k == 0) put_rule(widths, fits, markdown);
     }
-    puts(markdown ? "|" : "");
 }
 
 static int end(sheet *s, int markdown)
@@ -98,11 +133,10 @@ static int end(sheet *s, int markdown)
         int w = width(s->cell[k]), i = k % s->columns;
         if (w > widths[i]) widths[i] = w;
     }
-    if (s->failed) status = cli_fail(CLI_IO, "out of memory");
-    for (int k = 0; !s->failed && k < s->cells; k += s->columns) {
-        put_row(s, k, widths, markdown);
-        if (k == 0) put_rule(s, widths, markdown);
-    }
+    if (s->failed)
+        status = cli_fail(CLI_IO, "out of memory");
+    else
+        put_table(s, widths, markdown);
     for (int k = 0; k < s->cells; k++) free(s->cell[k]);
     free(s->cell);
     return status;

@@ -23,6 +23,24 @@ while read -r command; do
     silent
 done <commands
 
+case_is "no help is wider than 80 columns"
+while read -r command; do
+    try 0 "$command" --help
+    holds "$command" awk 'length($0) > 80 { exit 1 }' out
+done <commands
+try 0 study --help
+prints '^  runs/NAME/        a directory per cell \(system, integrator, start, step\), as$'
+prints "^                    'dalembert run' makes it, whose rows are taken after whole$"
+
+if command -v script >/dev/null 2>&1; then
+    case_is "tables on a terminal of 80 columns"
+    script -qec "stty cols 80; '$program' list" /dev/null </dev/null | tr -d '\r' >narrow
+    holds "a line is wider" awk 'length($0) > 80 { exit 1 }' narrow
+    holds "a title is lost" grep -q "^    Chaplygin's symmetric sleigh, linear constraint$" narrow
+    try 0 list
+    prints '^chaplygin-sleigh  .*yes    Chaplygin.s symmetric sleigh, linear constraint$'
+fi
+
 case_is "every option of a run is told of"
 try 0 run --help
 for option in integrator step time samples space set start solver iterations extend-energy tolerance solve-to extra-sweeps sums precision output; do
