@@ -197,7 +197,7 @@ check-sanitize:
 
 KILLS ?= 1000
 check-kill: all
-	@KILLS=$(KILLS) sh tests/cli/run.sh $(PROGRAM) kill
+	@CALLS=1 KILLS=$(KILLS) sh tests/cli/run.sh $(PROGRAM) kill
 
 # build/tests/suite --bits 3/500 compares a five-hundredth of it.
 BITS_JOBS ?= $(shell nproc)

@@ -74,5 +74,29 @@ for native in $natives; do
         [ $failed -gt 0 ] && break
     done
 done
+
+# With CALLS set, which takes half a minute: killed, or told that the disk is full, at each call of
+# the system that changes a file.
+if [ -n "${CALLS:-}" ] && there strace; then
+    motion="$motion --samples 3000 --time 6 --native off"
+    try 0 run $motion --output undisturbed
+    for call in pwrite64 write rename fsync ftruncate unlink mkdir; do
+        rm -rf counted
+        strace -o calls -e trace=$call "$program" run $motion --checkpoint 0 --output counted
+        for how in signal=KILL error=ENOSPC; do
+            case_is "$how at every $call"
+            for i in $(seq "$(grep -ac "^$call" calls)"); do
+                rm -rf injected
+                strace -o calls.log -e trace=$call -e inject=$call:$how:when="$i" "$program" \
+                    run $motion --checkpoint 0 --output injected >out 2>err
+                set -- run $motion --output injected --force
+                [ -e injected/manifest.json ] && set -- resume injected
+                try 0 "$@"
+                holds "other rows, call $i" cmp undisturbed/trajectory.npy injected/trajectory.npy
+                holds "another summary, call $i" cmp undisturbed/summary.csv injected/summary.csv
+            done
+        done
+    done 2>killed.log
+fi
 cd "$work" || exit 1
 echo "cli: $killed kills at random moments, seed $seed"
