@@ -67,9 +67,14 @@ void cli_help(FILE *out, const char *name, const cli_option *options, int count,
 {
     static const cli_option help = {"help", NULL, "print this", NULL};
     const cli_command *found = cli_find(name);
-    fprintf(out, "usage: dalembert %s ", name);
-    cli_fold(out, found ? found->synopsis : "", 17 + (int)strlen(name), 17);
-    fprintf(out, "%s\n\noptions:\n", found ? found->about : "");
+    if (found) {
+        const int column = fprintf(out, "usage: dalembert %s ", name);
+        cli_fold(out, found->synopsis, column, 17);
+        fprintf(out, "%s\n", found->about);
+    } else {
+        fprintf(out, "usage: %s [OPTION]...\n", name);
+    }
+    fputs("\noptions:\n", out);
     for (int i = 0; i < count; i++) print_option(out, &options[i]);
     print_option(out, &help);
     if (!notes) return;
