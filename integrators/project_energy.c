@@ -90,7 +90,7 @@ DAL_INLINE num level_scale(const dal_step *s, const level *k, num whole)
 {
     const int n = DAL_N(s);
     const num weight = dal_abs(s->level[0] / whole);
-    return dal_velocity_scale(s, s->h) +
+    return dal_velocity_scale(s, s->h, 0) +
            weight * (dal_max_norm(k->v0, n) + dal_max_norm(k->normal, n));
 }
 
@@ -105,7 +105,7 @@ DAL_INLINE dal_status freeze_normals(dal_step *s, level *k, dal_equation *eq)
     }
     find_missing(s, k);
     take_normals(s, k, matrix);
-    eq->block[0].scale = level_scale(s, k, matrix[levels * levels - 1]);
+    eq->block[0].scale[0] = level_scale(s, k, matrix[levels * levels - 1]);
     dal_invert(matrix, k->inverse, levels);
     return DAL_OK;
 }
@@ -125,7 +125,7 @@ DAL_INLINE dal_status to_level(dal_step *s)
     DAL_VECTOR(s, shift, LEVELS(s));
     DAL_BLOCK(s, change, 2 * DAL_N(s), 0); /* of v and of q/h */
     level k = {q0, v0, q, v, constraint, energy, normals, normal, inverse, missing, shift};
-    dal_equation eq = {{change}, 1, &k, dal_all()};
+    dal_equation eq = {{change}, 1, &k, {dal_all()}};
     DAL_TRY(freeze_normals(s, &k, &eq));
     DAL_TRY(dal_solve(s, &eq, level_map, NULL));
     DAL_EACH(i, DAL_N(s)) q[i] = s->h * eq.block[0].u[DAL_N(s) + i];
@@ -137,7 +137,7 @@ DAL_INLINE dal_status to_level(dal_step *s)
 /* level: E0 and, once it is known, 1. */
 DAL_INLINE dal_status note_energy(dal_step *s)
 {
-    const dal_mask fresh = s->alive & dal_less(s->level[1], dal_num(0.5));
+    const dal_mask fresh = s->alive[0] & dal_less(s->level[1], dal_num(0.5));
     DAL_VECTOR(s, energy, 1 + 3 * DAL_N(s));
     if (!dal_any(fresh)) return DAL_OK;
     dal_ask(s, DAL_ASK_ENERGY_NORMAL, s->t, s->y, s->y + DAL_N(s), NULL, energy);

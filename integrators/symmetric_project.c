@@ -31,20 +31,20 @@ DAL_INLINE void push_velocity(dal_step *s, const reflection *k, const num *B, co
 /* The step of NAME from (q0, v0 + B0 mu), in the active lanes. */
 DAL_INLINE void step_inside(dal_step *s, reflection *k, const num *mu, dal_mask active)
 {
-    const dal_mask alive = s->alive;
-    const dal_mask unconverged = s->unconverged;
+    const dal_mask alive = s->alive[0];
+    const dal_mask unconverged = s->unconverged[0];
     DAL_EACH(i, DAL_DIM(s)) s->y[i] = dal_select(active, k->y0[i], s->y[i]);
     DAL_EACH(i, DAL_DIM(s)) s->r[i] = dal_select(active, k->r0[i], s->r[i]);
     dal_recall(s, active, k->memory0);
     s->t = k->t0;
-    s->alive = active;
+    s->alive[0] = active;
     push_velocity(s, k, k->B0, mu);
     const dal_status status = dal_inner(s, s->h);
     if (status != DAL_OK && status != DAL_NOT_CONVERGED) k->status = status;
-    k->failed = active & ~s->alive;
+    k->failed = active & ~s->alive[0];
     s->t = k->t0 + s->h;
-    s->alive = alive;
-    s->unconverged = unconverged;
+    s->alive[0] = alive;
+    s->unconverged[0] = unconverged;
 }
 
 DAL_INLINE void reflection_map(dal_step *s, dal_equation *eq)
@@ -52,16 +52,16 @@ DAL_INLINE void reflection_map(dal_step *s, dal_equation *eq)
     reflection *k = (reflection *)eq->context;
     const int n = DAL_N(s), m = DAL_M(s);
     const num *mu = eq->block[0].u, *v1 = eq->block[1].u, *v = s->y + n;
-    const dal_mask alive = s->alive;
-    step_inside(s, k, mu, eq->active);
-    s->alive = eq->active;
+    const dal_mask alive = s->alive[0];
+    step_inside(s, k, mu, eq->active[0]);
+    s->alive[0] = eq->active[0];
     dal_ask(s, DAL_ASK_CONSTRAINT, s->t, s->y, v1, NULL, k->out);
     push_velocity(s, k, k->out + m + m * n, mu);
     dal_ask(s, DAL_ASK_CONSTRAINT, s->t, s->y, v, NULL, k->out);
     dal_multiply(k->inverse, m, m, k->out, k->shift);
     DAL_EACH(a, m) eq->block[0].image[a] = dal_select(k->failed, dal_num(NAN), mu[a] - k->shift[a]);
     DAL_EACH(i, n) eq->block[1].image[i] = v[i];
-    s->alive = alive;
+    s->alive[0] = alive;
 }
 
 /* All that a step from here may change, and the constraint here. */
@@ -78,8 +78,8 @@ DAL_INLINE dal_status begin_reflection(dal_step *s, reflection *k, dal_equation 
     dal_gram(A, B, m, n, g);
     DAL_EACH(i, m * m) g[i] = 2.0 * g[i];
     dal_invert(g, k->inverse, m);
-    eq->block[1].scale = dal_velocity_scale(s, s->h);
-    eq->block[0].scale = eq->block[1].scale / dal_max_norm(B, n * m);
+    eq->block[1].scale[0] = dal_velocity_scale(s, s->h, 0);
+    eq->block[0].scale[0] = eq->block[1].scale[0] / dal_max_norm(B, n * m);
     DAL_EACH(a, m) eq->block[0].u[a] = dal_num(0.0);
     DAL_EACH(i, n) eq->block[1].u[i] = s->y[n + i];
     return DAL_OK;
@@ -98,7 +98,7 @@ DAL_INLINE dal_status reflect(dal_step *s)
     DAL_BLOCK(s, mu, DAL_M(s), 0);
     DAL_BLOCK(s, v1, DAL_N(s), 0);
     reflection k = {s->t, y0, r0, memory0, B0, inverse, out, push, shift, ~dal_all(), DAL_OK};
-    dal_equation eq = {{mu, v1}, 2, &k, dal_all()};
+    dal_equation eq = {{mu, v1}, 2, &k, {dal_all()}};
     DAL_TRY(begin_reflection(s, &k, &eq));
     const dal_status status = dal_solve(s, &eq, reflection_map, NULL);
     return k.status == DAL_OK ? status : k.status;

@@ -6,6 +6,15 @@ DAL_INLINE void dal__pick(const num *from, int group, int count, num *to)
     DAL_EACH(i, count) to[i] = from[i * DAL_JOINED + group];
 }
 
+DAL_INLINE void dal_ask_group(dal_step *s, int group, dal_question question, double t, const num *q,
+                              const num *v, num *out)
+{
+    num q_[DAL__N], v_[DAL__NW];
+    dal__pick(q, group, DAL__N, q_);
+    dal__pick(v, group, DAL__NW, v_);
+    dal__ask_group(s->work + group, question, t, q_, v_, NULL, out);
+}
+
 DAL_INLINE void dal_ask(dal_step *s, dal_question question, double t, const num *q, const num *v,
                         const num *pi, num *out)
 {
@@ -14,10 +23,8 @@ DAL_INLINE void dal_ask(dal_step *s, dal_question question, double t, const num 
         return;
     }
     DAL_EACH(j, DAL_JOINED) { /* what joined systems are asked for is the field */
-        num q_[DAL__N], v_[DAL__NW], answer[DAL__NW];
-        dal__pick(q, j, DAL__N, q_);
-        dal__pick(v, j, DAL__NW, v_);
-        dal__ask_group(s->work + j, question, t, q_, v_, NULL, answer);
+        num answer[DAL__NW];
+        dal_ask_group(s, j, question, t, q, v, answer);
         DAL_EACH(i, DAL__NW) out[i * DAL_JOINED + j] = answer[i];
     }
 }

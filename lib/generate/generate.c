@@ -194,11 +194,14 @@ static void put_unrolling(dal__generation *g)
         dal__text_put(&g->text, "#define DAL_UNROLL\n");
 }
 
-/* Whether the groups of lanes can be stepped as one larger system. */
+/* Whether the groups of lanes can be stepped as one larger system: implicit stages of two groups
+ * find room in the registers where there are few of them. */
 static bool is_joined(const dal__generation *g)
 {
     const unsigned claims = g->shape.method.chain[0]->claims;
-    return g->shape.depth == 1 && !g->shape.lifted && (claims & DAL_COMPONENTWISE) != 0;
+    const bool few = claims & DAL_REMEMBERS && g->shape.method.chain[0]->stages <= 2;
+    const bool can = claims & DAL_COMPONENTWISE || few;
+    return g->shape.depth == 1 && !g->shape.lifted && can;
 }
 
 /* Lanes go by registers, as large as the processor has them. */

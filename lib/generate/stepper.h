@@ -171,12 +171,12 @@ DAL_INLINE void dal__one_step(dal_step *s, double t, double h, const dal__lanes 
     DAL_EACH(i, DAL_DIM(s)) y0[i] = s->y[i];
     s->t = t;
     s->h = h;
-    s->alive = DAL__EXPLICIT ? dal_all() : lanes->group[0];
-    s->unconverged = ~dal_all();
+    DAL_EACH(j, DAL_JOINED) s->alive[j] = DAL__EXPLICIT ? dal_all() : lanes->group[j];
+    DAL_EACH(j, DAL_JOINED) s->unconverged[j] = ~dal_all();
     const dal_status status = dal__method(s);
     if (status != DAL_OK && status != DAL_NOT_CONVERGED) so_far->status = status;
     DAL_EACH(j, DAL_JOINED) {
-        so_far->solved.group[j] &= ~s->unconverged;
+        so_far->solved.group[j] &= ~s->unconverged[j];
         if (DAL__LIFTED && DAL__GAUGE) so_far->gauge.group[j] &= dal__gauge_holds(s, j, y0);
         if (DAL__GUARDS) so_far->regular.group[j] &= dal__guards_hold(s, j, y0);
         if (DAL__WATCHED) so_far->regular.group[j] &= dal__normals_hold(s, j, y0);

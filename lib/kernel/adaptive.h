@@ -82,7 +82,7 @@ DAL_INLINE dal_status dal_control(dal_step *s, dal_attempt *attempt, dal_trial *
         s->t = t + direction * (whole - left);
         if (left == 0.0) return DAL_OK;
     }
-    s->unconverged = dal_all();
+    s->unconverged[0] = dal_all();
     return DAL_NOT_CONVERGED;
 }
 

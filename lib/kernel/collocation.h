@@ -162,7 +162,7 @@ DAL_INLINE void dal__collocation_map(dal_step *s, dal_equation *eq)
     if (DAL_LIFTED(s)) dal__stage_values(s, k, 0, dal_at_pi(s), n, eq->block[1].u, n, k->pi);
     dal__ask_stages(s, k, image);
     if (!DAL_LIFTED(s)) return;
-    dal__keep_forces(s, k, eq->active);
+    dal__keep_forces(s, k, eq->active[0]);
     DAL_EACH(i, DAL_STAGES(k->method))
         DAL_EACH(j, n)
             image[i * n + j] = dal_fma(k->pi[i * n + j], k->w[i], k->f[i * k->stride + j]);
@@ -190,25 +190,28 @@ DAL_INLINE dal_status dal__collocation_matrix(dal_step *s, dal_equation *eq)
     const dal_tableau *method = k->method;
     const int stages = DAL_STAGES(method);
     double a[MOST], b[MOST], ab[MOST], ba[MOST];
-    DAL_VECTOR(s, jacobian, DAL_NW(s) * (DAL_N(s) + DAL_NW(s)));
-    DAL_VECTOR(s, m, DAL_STAGES(k->method) * DAL_NW(s) * DAL_STAGES(k->method) * DAL_NW(s));
+    DAL_VECTOR(s, jacobian, DAL_NW(s) * (DAL_N(s) + DAL_NW(s)) / DAL_JOINED);
+    DAL_VECTOR(s, m,
+               DAL_STAGES(k->method) * DAL_NW(s) * DAL_STAGES(k->method) * DAL_NW(s) / DAL_JOINED);
     dal__rounded(stages * stages, method->a, method->a_tail, a);
     dal__rounded(stages * stages, method->partner, method->partner_tail, b);
     dal__product(stages, a, b, ab);
     dal__product(stages, b, a, ba);
-    dal_jacobian(s, s->t + 0.5 * k->h, s->y, s->y + DAL_N(s), jacobian);
     const dal_stage_matrix x = {stages, k->h, b, ab, 0}, p = {stages, -k->h, a, ba, 1};
-    dal_stage_inverse(s, &x, jacobian, m, &eq->block[0]);
-    if (DAL_LIFTED(s)) dal_stage_inverse(s, &p, jacobian, m, &eq->block[1]);
+    for (int j = 0; j < DAL_JOINED; j++) {
+        dal_jacobian(s, j, s->t + 0.5 * k->h, s->y, s->y + DAL_N(s), jacobian);
+        dal_stage_inverse(s, &x, jacobian, m, &eq->block[0], j);
+        if (DAL_LIFTED(s)) dal_stage_inverse(s, &p, jacobian, m, &eq->block[1], j);
+    }
     return DAL_OK;
 }
 
 /* Guess from the slopes at the present state, every stage alike, in the given lanes. */
-DAL_INLINE void dal__guess_block(dal_block *b, int width, const num *slope, dal_mask lanes)
+DAL_INLINE void dal__guess_block(dal_block *b, int width, const num *slope, const dal_mask *lanes)
 {
-    DAL_EACH(i, b->size) b->u[i] = dal_select(lanes, slope[i % width], b->u[i]);
+    DAL_EACH(i, DAL_SIZE(b)) b->u[i] = dal_select(lanes[i % DAL_JOINED], slope[i % width], b->u[i]);
 }
-DAL_INLINE dal_status dal__guess_present(dal_step *s, dal_equation *eq, dal_mask lanes)
+DAL_INLINE dal_status dal__guess_present(dal_step *s, dal_equation *eq, const dal_mask *lanes)
 {
     DAL_VECTOR(s, dy, DAL_DIM(s));
     DAL_TRY(dal_field(s, s->t, s->y, dy));
@@ -231,25 +234,26 @@ DAL_INLINE void dal__extrapolate(const dal_tableau *m, dal_block *b, int width, 
                                  int stride)
 {
     const int stages = DAL_STAGES(m);
-    DAL_EACH(i, b->size) b->u[i] = dal_num(0.0);
+    DAL_EACH(i, DAL_SIZE(b)) b->u[i] = dal_num(0.0);
     DAL_EACH(i, stages)
         DAL_EACH(j, stages)
             dal__add_multiple(b->u + i * width, m->extrapolation[i * stages + j], last + j * width,
                               width);
     DAL_EACH(d, DAL__DIFFERENCES)
-        DAL_EACH(i, b->size) b->u[i] += last[(d + 1) * stride + i];
+        DAL_EACH(i, DAL_SIZE(b)) b->u[i] += last[(d + 1) * stride + i];
 }
 
 /* Keeps how far the polynomial was off and the differences, where it served; else nothing. */
-DAL_INLINE void dal__keep_misses(const dal_block *b, dal_mask lanes, dal_mask served,
+DAL_INLINE void dal__keep_misses(const dal_block *b, const dal_mask *lanes, const dal_mask *served,
                                  num *DAL_RESTRICT last, int stride)
 {
-    DAL_EACH(i, b->size) {
+    DAL_EACH(i, DAL_SIZE(b)) {
+        const int j = i % DAL_JOINED;
         num miss = b->u[i] - b->start[i];
         DAL_EACH(d, DAL__DIFFERENCES) miss += last[(d + 1) * stride + i];
         DAL_EACH(d, DAL__DIFFERENCES) {
             num *const kept = last + (d + 1) * stride + i, before = *kept;
-            *kept = dal_select(lanes, dal_select(served, miss, dal_num(0.0)), before);
+            *kept = dal_select(lanes[j], dal_select(served[j], miss, dal_num(0.0)), before);
             miss -= before;
         }
     }
@@ -259,57 +263,97 @@ DAL_INLINE void dal__keep_misses(const dal_block *b, dal_mask lanes, dal_mask se
 DAL_INLINE dal_status dal__try_guess(dal_step *s, dal_equation *eq, dal_mask *tried)
 {
     dal_status status = DAL_OK;
-    s->unconverged &= ~*tried;
-    s->alive = *tried;
-    if (dal_any(*tried)) status = dal_solve(s, eq, dal__collocation_map, dal__collocation_matrix);
-    *tried = s->alive;
+    DAL_EACH(j, DAL_JOINED) s->unconverged[j] &= ~tried[j];
+    DAL_EACH(j, DAL_JOINED) s->alive[j] = tried[j];
+    if (dal__any(tried)) status = dal_solve(s, eq, dal__collocation_map, dal__collocation_matrix);
+    DAL_EACH(j, DAL_JOINED) tried[j] = s->alive[j];
     return status;
 }
 
-/* From the last step's polynomial, where there is one. */
-DAL_INLINE dal_mask dal__go_on(dal_step *s, const dal_stages *k, dal_equation *eq)
+DAL_INLINE num *dal__kept_momenta(dal_step *s, const dal_stages *k)
 {
-    const int stages = DAL_STAGES(k->method), stride = dal__kept(s, stages);
-    const dal_mask lanes = s->alive;
-    num *momenta = s->slopes + stages * DAL_NW(s);
-    dal_mask served = lanes & dal_equal(*s->slopes_h, dal_num(k->h));
+    return s->slopes + DAL_STAGES(k->method) * DAL_NW(s);
+}
+
+DAL_INLINE void dal__guess_last(dal_step *s, const dal_stages *k, dal_equation *eq)
+{
+    const int stride = dal__kept(s, DAL_STAGES(k->method));
     dal__extrapolate(k->method, &eq->block[0], DAL_NW(s), s->slopes, stride);
-    if (DAL_LIFTED(s)) dal__extrapolate(k->method, &eq->block[1], DAL_N(s), momenta, stride);
-    dal__try_guess(s, eq, &served);
+    if (DAL_LIFTED(s))
+        dal__extrapolate(k->method, &eq->block[1], DAL_N(s), dal__kept_momenta(s, k), stride);
+}
+DAL_INLINE void dal__look_back(dal_step *s, const dal_stages *k, const dal_equation *eq,
+                               const dal_mask *lanes, const dal_mask *served)
+{
+    const int stride = dal__kept(s, DAL_STAGES(k->method));
     dal__keep_misses(&eq->block[0], lanes, served, s->slopes, stride);
-    if (DAL_LIFTED(s)) dal__keep_misses(&eq->block[1], lanes, served, momenta, stride);
-    return served;
+    if (DAL_LIFTED(s))
+        dal__keep_misses(&eq->block[1], lanes, served, dal__kept_momenta(s, k), stride);
+}
+
+/* From the last step's polynomial, where there is one; *served: where that was enough. */
+DAL_INLINE void dal__go_on(dal_step *s, const dal_stages *k, dal_equation *eq, dal_mask *served)
+{
+    dal_mask lanes[DAL_JOINED];
+    DAL_EACH(j, DAL_JOINED) lanes[j] = s->alive[j];
+    DAL_EACH(j, DAL_JOINED) served[j] = lanes[j] & dal_equal(s->slopes_h[j], dal_num(k->h));
+    dal__guess_last(s, k, eq);
+    dal__try_guess(s, eq, served);
+    dal__look_back(s, k, eq, lanes, served);
 }
 
 /* Solves the stages: where the polynomial leads nowhere, from the present slopes. */
 DAL_INLINE dal_status dal__solve_stages(dal_step *s, const dal_stages *k, dal_equation *eq)
 {
-    const dal_mask lanes = s->alive;
-    const dal_mask served = DAL_SLOPES(s) ? dal__go_on(s, k, eq) : ~dal_all();
-    dal_mask rest = lanes & ~served;
+    dal_mask served[DAL_JOINED], rest[DAL_JOINED];
     dal_status status = DAL_OK;
-    if (dal_any(rest)) {
+    DAL_EACH(j, DAL_JOINED) rest[j] = s->alive[j];
+    DAL_EACH(j, DAL_JOINED) served[j] = ~dal_all();
+    if (DAL_SLOPES(s)) dal__go_on(s, k, eq, served);
+    DAL_EACH(j, DAL_JOINED) rest[j] &= ~served[j];
+    if (dal__any(rest)) {
         DAL_TRY(dal__guess_present(s, eq, rest));
-        status = dal__try_guess(s, eq, &rest);
+        status = dal__try_guess(s, eq, rest);
     }
-    s->alive = served | rest;
-    return dal_any(s->alive) ? DAL_OK : status;
+    DAL_EACH(j, DAL_JOINED) s->alive[j] = served[j] | rest[j];
+    return dal__any(s->alive) ? DAL_OK : status;
+}
+
+/* The same where nothing but the fixed point from the polynomial is needed in any lane; else
+ * DAL_NOT_CONVERGED, and nothing has happened. */
+DAL_INLINE dal_status dal__solve_at_once(dal_step *s, const dal_stages *k, dal_equation *eq)
+{
+    dal_mask solved[DAL_JOINED], left[DAL_JOINED];
+    if (!DAL_SLOPES(s) || (DAL_MAY_NEWTON(s) && DAL_SOLVER(s) == DAL_NEWTON))
+        return DAL_NOT_CONVERGED;
+    DAL_EACH(j, DAL_JOINED) {
+        left[j] = s->alive[j] & ~dal_equal(s->slopes_h[j], dal_num(k->h));
+        if (DAL_MAY_NEWTON(s)) left[j] |= s->alive[j] & dal_less(dal_num(0.5), s->stiff[j]);
+        solved[j] = s->alive[j];
+    }
+    if (DAL_RARELY(dal__any(left))) return DAL_NOT_CONVERGED;
+    dal__guess_last(s, k, eq);
+    dal__remember(&eq->block[0]);
+    if (eq->blocks > 1) dal__remember(&eq->block[1]);
+    dal__iterate(s, eq, dal__collocation_map, solved, 0, DAL_MAY_NEWTON(s));
+    DAL_EACH(j, DAL_JOINED) left[j] = s->alive[j] & ~solved[j];
+    if (DAL_RARELY(dal__any(left))) return DAL_NOT_CONVERGED;
+    dal__look_back(s, k, eq, solved, solved);
+    return DAL_OK;
 }
 
 /* Keeps the slopes for the next step's guess. */
 DAL_INLINE void dal__keep_block(const dal_step *s, const dal_block *b, num *DAL_RESTRICT last)
 {
-    const dal_mask alive = s->alive;
     const num *u = b->u;
-    DAL_EACH(i, b->size) last[i] = dal_select(alive, u[i], last[i]);
+    DAL_EACH(i, DAL_SIZE(b)) last[i] = dal_select(s->alive[i % DAL_JOINED], u[i], last[i]);
 }
 DAL_INLINE void dal__keep_slopes(dal_step *s, const dal_stages *k, const dal_equation *eq)
 {
     if (!DAL_SLOPES(s)) return;
-    num *momenta = s->slopes + DAL_STAGES(k->method) * DAL_NW(s);
     dal__keep_block(s, &eq->block[0], s->slopes);
-    if (DAL_LIFTED(s)) dal__keep_block(s, &eq->block[1], momenta);
-    *s->slopes_h = dal_select(s->alive, dal_num(k->h), *s->slopes_h);
+    if (DAL_LIFTED(s)) dal__keep_block(s, &eq->block[1], dal__kept_momenta(s, k));
+    DAL_EACH(j, DAL_JOINED) s->slopes_h[j] = dal_select(s->alive[j], dal_num(k->h), s->slopes_h[j]);
 }
 
 /* Stage values of the gauge variable, which is a function of time alone. */
@@ -354,8 +398,7 @@ DAL_INLINE dal_status dal__collocation_end(dal_step *s, const dal_stages *k, con
     return dal_update_multiple(s, k->h, k->h, d);
 }
 
-/* One step of size s->h from the present state and time; leaves the time advanced. */
-DAL_INLINE dal_status dal_collocation(dal_step *s, const dal_tableau *method)
+DAL_INLINE dal_status dal__collocate(dal_step *s, const dal_tableau *method, int at_once)
 {
     DAL_VECTOR(s, v, DAL_STAGES(method) * DAL_NW(s));
     DAL_VECTOR(s, q, DAL_STAGES(method) * DAL_N(s));
@@ -368,16 +411,40 @@ DAL_INLINE dal_status dal_collocation(dal_step *s, const dal_tableau *method)
     DAL_BLOCK(s, momenta, DAL_LIFTED(s) * DAL_STAGES(method) * DAL_N(s), DAL_MAY_NEWTON(s));
     dal_stages k = {method, s->h,  v, q,  pi,
                     f,      force, w, mu, DAL_LIFTED(s) ? 3 * DAL_N(s) : DAL_NW(s)};
-    dal_equation eq = {{slopes, momenta}, 1 + DAL_LIFTED(s), &k, dal_all()};
+    dal_equation eq = {{slopes, momenta}, 1 + DAL_LIFTED(s), &k, {dal_all()}};
     eq.block[0].weight = eq.block[1].weight = fabs(s->h);
-    eq.block[0].scale = dal_velocity_scale(s, s->h);
+    DAL_EACH(j, DAL_JOINED) eq.block[0].scale[j] = dal_velocity_scale(s, s->h, j);
     if (DAL_LIFTED(s)) {
         dal__gauge_stages(s, &k);
-        eq.block[1].scale = dal_momentum_scale(s, s->h);
+        eq.block[1].scale[0] = dal_momentum_scale(s, s->h, 0);
     }
-    DAL_TRY(dal__solve_stages(s, &k, &eq));
+    DAL_TRY(at_once ? dal__solve_at_once(s, &k, &eq) : dal__solve_stages(s, &k, &eq));
     dal__keep_slopes(s, &k, &eq);
     return dal__collocation_end(s, &k, &eq);
 }
+
+/* One step of size s->h from the present state and time; leaves the time advanced. */
+#ifdef DAL_SPECIALISED
+/* What is rarely needed is kept out of the way, so that the rest finds room in registers. */
+DAL_COLD dal_status dal__collocate_anew(dal_step *s, const dal_tableau *method)
+{
+    return dal__collocate(s, method, 0);
+}
+DAL_INLINE dal_status dal_collocation(dal_step *s, const dal_tableau *method)
+{
+    const long long evaluations = s->evaluations;
+    if (dal__collocate(s, method, 1) == DAL_OK) return DAL_OK;
+    s->evaluations = evaluations;
+    dal_step again = *s;
+    const dal_status status = dal__collocate_anew(&again, method);
+    *s = again;
+    return status;
+}
+#else
+DAL_INLINE dal_status dal_collocation(dal_step *s, const dal_tableau *method)
+{
+    return dal__collocate(s, method, 0);
+}
+#endif
 
 #endif

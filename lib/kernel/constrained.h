@@ -83,8 +83,8 @@ DAL_INLINE dal_status dal_recall_multipliers(dal_step *s, const num *parts, num 
 }
 DAL_INLINE void dal_carry_multipliers(dal_step *s, const num *h)
 {
-    DAL_EACH(i, DAL_CARRIED(s)) s->reaction[i] = dal_select(s->alive, h[i], s->reaction[i]);
-    *s->reacts = dal_select(s->alive, dal_num(1.0), *s->reacts);
+    DAL_EACH(i, DAL_CARRIED(s)) s->reaction[i] = dal_select(s->alive[0], h[i], s->reaction[i]);
+    *s->reacts = dal_select(s->alive[0], dal_num(1.0), *s->reacts);
 }
 
 /* ---- one velocity ---- */
@@ -133,7 +133,7 @@ DAL_INLINE void dal_react(const dal_step *s, dal_equation *eq, const num *normal
     }
     dal_gram(A, k->normals, m, n, k->g);
     dal_solve_small(k->g, k->inverse, m, k->rhs, k->fresh);
-    DAL_EACH(i, m) k->mu[i] = DAL_KEEP(eq->active, k->fresh[i], k->mu[i]);
+    DAL_EACH(i, m) k->mu[i] = DAL_KEEP(eq->active[0], k->fresh[i], k->mu[i]);
     DAL_EACH(i, n)
         DAL_EACH(j, m) image[i] += k->normals[i * m + j] * k->fresh[j];
 }
@@ -170,10 +170,10 @@ DAL_INLINE dal_status dal_constrained_matrix(dal_step *s, dal_equation *eq)
     DAL_VECTOR(s, jacobian, 2 * DAL_N(s) * DAL_N(s));
     DAL_VECTOR(s, matrix, DAL_STAGES(k) * DAL_N(s) * DAL_STAGES(k) * DAL_N(s));
     dal_parts(s, s->t, s->y, s->y + n, parts);
-    dal_jacobian(s, s->t, s->y, s->y + n, jacobian);
+    dal_jacobian(s, 0, s->t, s->y, s->y + n, jacobian);
     DAL_TRY(dal__project_matrix(s, parts, n, jacobian));
     DAL_TRY(dal__project_matrix(s, parts, n, jacobian + n * n));
-    dal_stage_inverse(s, k, jacobian, matrix, &eq->block[0]);
+    dal_stage_inverse(s, k, jacobian, matrix, &eq->block[0], 0);
     return DAL_OK;
 }
 
@@ -182,7 +182,7 @@ DAL_INLINE dal_status dal_constrained_matrix(dal_step *s, dal_equation *eq)
 DAL_INLINE dal_status dal_impose(dal_step *s, dal_equation *eq, dal_map *map, int direct)
 {
     if (!direct) return dal_solve(s, eq, map, dal_constrained_matrix);
-    eq->active = s->alive;
+    eq->active[0] = s->alive[0];
     map(s, eq);
     DAL_EACH(i, DAL_N(s)) eq->block[0].u[i] = eq->block[0].image[i];
     return DAL_OK;
@@ -197,8 +197,8 @@ DAL_INLINE int dal_positional(const dal_step *s)
 /* An equation for the increment w of v, that begins at w = 0. */
 DAL_INLINE dal_equation dal_velocity_equation(const dal_step *s, dal_block block, void *context)
 {
-    dal_equation eq = {{block}, 1, context, dal_all()};
-    eq.block[0].scale = dal_velocity_scale(s, s->h);
+    dal_equation eq = {{block}, 1, context, {dal_all()}};
+    eq.block[0].scale[0] = dal_velocity_scale(s, s->h, 0);
     DAL_EACH(i, block.size) eq.block[0].u[i] = dal_num(0.0);
     return eq;
 }

@@ -54,7 +54,7 @@ DAL_INLINE void dal__euler_map_v(dal_step *s, dal_equation *eq)
 {
     dal_euler *k = (dal_euler *)eq->context;
     const int n = DAL_N(s);
-    DAL_EACH(i, DAL_NW(s)) k->v[i] = DAL_KEEP(eq->active, eq->block[0].u[i], k->v[i]);
+    DAL_EACH(i, DAL_NW(s)) k->v[i] = DAL_KEEP(eq->active[0], eq->block[0].u[i], k->v[i]);
     dal__euler_q(s, k);
     dal_force(s, k->t, k->q, k->v, k->f);
     DAL_EACH(i, DAL_NW(s))
@@ -90,11 +90,11 @@ DAL_INLINE dal_status dal__euler_matrix(dal_step *s, dal_equation *eq)
     const dal_euler *k = (const dal_euler *)eq->context;
     DAL_VECTOR(s, jacobian, DAL_NW(s) * (DAL_N(s) + DAL_NW(s)));
     DAL_VECTOR(s, m, DAL_NW(s) * DAL_NW(s));
-    dal_jacobian(s, k->t, k->q, k->v, jacobian);
+    dal_jacobian(s, 0, k->t, k->q, k->v, jacobian);
     const int q_moves = k->at.v == k->at.q;
     const dal_stage_matrix matrix = {1, k->at.v ? k->h : -k->h, &one, q_moves ? &one : &zero,
                                      !k->at.v};
-    dal_stage_inverse(s, &matrix, jacobian, m, &eq->block[0]);
+    dal_stage_inverse(s, &matrix, jacobian, m, &eq->block[0], 0);
     return DAL_OK;
 }
 
@@ -103,15 +103,15 @@ DAL_INLINE dal_status dal__euler_solve(dal_step *s, dal_euler *k)
 {
     const int n = DAL_N(s), nw = DAL_NW(s), pi = dal_at_pi(s);
     DAL_BLOCK(s, block, DAL_NW(s), DAL_MAY_NEWTON(s));
-    dal_equation eq = {{block}, 1, k, dal_all()};
+    dal_equation eq = {{block}, 1, k, {dal_all()}};
     if (k->at.v) {
-        eq.block[0].scale = dal_velocity_scale(s, k->h);
+        eq.block[0].scale[0] = dal_velocity_scale(s, k->h, 0);
         DAL_EACH(i, nw) eq.block[0].u[i] = s->y[n + i];
         DAL_TRY(dal_solve(s, &eq, dal__euler_map_v, dal__euler_matrix));
         DAL_EACH(i, nw) k->v[i] = eq.block[0].u[i];
     } else {
         eq.block[0].size = n;
-        eq.block[0].scale = dal_momentum_scale(s, k->h);
+        eq.block[0].scale[0] = dal_momentum_scale(s, k->h, 0);
         DAL_EACH(i, n) eq.block[0].u[i] = s->y[pi + i];
         DAL_TRY(dal_solve(s, &eq, dal__euler_map_pi, dal__euler_matrix));
         DAL_EACH(i, n) k->pi[i] = eq.block[0].u[i];

@@ -10,6 +10,8 @@
  * what the solver does to a run one can ask it to end earlier (DAL_SOLVE_TO) or to iterate on
  * (DAL_EXTRA_SWEEPS).
  *
+ * Groups of lanes that are stepped as one system (DAL_JOINED) have norms and masks of their own.
+ *
  * With the solver "auto" a lane whose fixed point contracts more slowly than DAL__SLOW, or not at
  * all, goes over to Newton and stays there (step->stiff, which is carried along). */
 #ifndef DAL_KERNEL_SOLVE_H
@@ -24,21 +26,21 @@
 
 /* One block of unknowns, [size]. */
 typedef struct dal_block {
+    num scale[DAL_JOINED];                   /* size of the state it moves */
+    num now[DAL_JOINED], before[DAL_JOINED]; /* norms of the last two increments */
+    num stalls[DAL_JOINED];                  /* how often in a row the norm did not decrease */
+    double weight;                           /* a change of u by d moves the state by weight*d */
     int size;
-    num *u, *image;  /* the unknowns; what map made of them */
-    num *start;      /* [size] a copy of the first guess, for a second attempt */
-    num *inverse;    /* [size*size] M^-1, Newton only */
-    double weight;   /* a change of u by d moves the state by weight*d */
-    num scale;       /* size of the state it moves */
-    num now, before; /* norms of the last two increments */
-    num stalls;      /* how often in a row the norm did not decrease */
+    num *u, *image; /* the unknowns; what map made of them */
+    num *start;     /* [size] a copy of the first guess, for a second attempt */
+    num *inverse;   /* [size*size] M^-1 (of each group), Newton only */
 } dal_block;
 
 typedef struct dal_equation {
     dal_block block[2];
     int blocks; /* 1 or 2 */
     void *context;
-    dal_mask active; /* the lanes that still iterate */
+    dal_mask active[DAL_JOINED]; /* the lanes that still iterate */
 } dal_equation;
 
 /* What a map keeps beside the image for the end of the step is that of a lane's own last sweep: the
@@ -52,26 +54,51 @@ typedef struct dal_equation {
 typedef void dal_map(dal_step *step, dal_equation *equation);          /* u -> image, all blocks */
 typedef dal_status dal_matrix(dal_step *step, dal_equation *equation); /* fills inverse */
 
+/* Its size.  Compilers lose sight of the constant where groups are joined; a file then has but one.
+ */
+#if defined DAL_SPECIALISED
+#define DAL_SIZE(b) (DAL_JOINED > 1 ? DAL__STAGES * DAL__NW * DAL_JOINED : (b)->size)
+#else
+#define DAL_SIZE(b) ((b)->size)
+#endif
+
 /* Declares a block of count unknowns with its memory; newton: it may get an inverse. */
 #define DAL_BLOCK(step, name, count, newton)                                                       \
     DAL_VECTOR(step, name##_u, count);                                                             \
     DAL_VECTOR(step, name##_image, count);                                                         \
     DAL_VECTOR(step, name##_start, count);                                                         \
-    DAL_VECTOR(step, name##_inverse, (newton) ? (count) * (count) : 0);                            \
-    dal_block name = {(count), name##_u,     name##_image, name##_start, name##_inverse,           \
-                      1.0,     dal_num(0.0), dal_num(0.0), dal_num(0.0), dal_num(0.0)}
+    DAL_VECTOR(step, name##_inverse, (newton) ? (count) * (count) / DAL_JOINED : 0);               \
+    dal_block name = {                                                                             \
+        {dal_num(0.0)}, {dal_num(0.0)}, {dal_num(0.0)}, {dal_num(0.0)}, 1.0,                       \
+        (count),        name##_u,       name##_image,   name##_start,   name##_inverse}
 
-/* Sizes of the state for blocks that move v or pi: what rounding in q or p can do to them within a
- * step that contracts. */
-DAL_INLINE num dal_velocity_scale(const dal_step *s, double h)
+DAL_INLINE int dal__any(const dal_mask *lanes)
 {
-    return dal_max_norm(s->y + DAL_N(s), DAL_NW(s)) +
-           dal_max_norm(s->y, DAL_N(s)) / dal_num(fabs(h));
+    dal_mask some = lanes[0];
+    DAL_EACH(j, DAL_JOINED - 1) some |= lanes[j + 1];
+    return dal_any(some);
 }
-DAL_INLINE num dal_momentum_scale(const dal_step *s, double h)
+
+/* The max norm of what belongs to group j. */
+DAL_INLINE num dal__group_norm(const num *x, int count, int j)
 {
-    return dal_max_norm(s->y + dal_at_pi(s), DAL_N(s)) +
-           fabs(h) * dal_max_norm(s->y + dal_at_p(s), DAL_N(s));
+    if (DAL_JOINED == 1) return dal_max_norm(x, count);
+    num norm = dal_num(0.0);
+    DAL_EACH(i, count / DAL_JOINED) norm = dal_max(norm, dal_abs(x[i * DAL_JOINED + j]));
+    return norm;
+}
+
+/* Sizes of a group's state for blocks that move v or pi: what rounding in q or p can do to them
+ * within a step that contracts. */
+DAL_INLINE num dal_velocity_scale(const dal_step *s, double h, int group)
+{
+    return dal__group_norm(s->y + DAL_N(s), DAL_NW(s), group) +
+           dal__group_norm(s->y, DAL_N(s), group) / dal_num(fabs(h));
+}
+DAL_INLINE num dal_momentum_scale(const dal_step *s, double h, int group)
+{
+    return dal__group_norm(s->y + dal_at_pi(s), DAL_N(s), group) +
+           fabs(h) * dal__group_norm(s->y + dal_at_p(s), DAL_N(s), group);
 }
 
 #if DAL_LANES == 1 && !defined DAL_SPECIALISED && !defined DAL_LONG
@@ -94,106 +121,137 @@ DAL_INLINE int dal__advance_packs(num *u, num *image, int count, num *norm, num 
 #define dal__advance_packs(u, image, count, norm, poison) 0
 #endif
 
-/* u += d (or M^-1 d) in the active lanes; b->now: the norm of the increment, NaN if not finite.  A
- * pack belongs to one lane, which is active or nobody would call. */
-DAL_INLINE void dal__advance(dal_block *b, dal_mask active, int newton)
+/* Row i of M^-1 image. */
+DAL_INLINE num dal__newton(const dal_block *b, int i)
 {
-    num norm = dal_num(0.0), poison = dal_num(0.0);
-    const int seen = newton ? 0 : dal__advance_packs(b->u, b->image, b->size, &norm, &poison);
-    num *u = b->u + seen, *image = b->image + seen;
-    DAL_EACH(i, b->size - seen) image[i] -= u[i];
-    DAL_EACH(i, b->size - seen) {
-        num d = image[i];
-        if (newton) dal_multiply(b->inverse + i * b->size, 1, b->size, image, &d);
-        norm = dal_max(norm, dal_abs(d));
-        poison += d - d;
-        u[i] = dal_select(active, u[i] + d, u[i]);
-    }
-    b->before = b->now;
-    b->now = b->weight * norm + poison;
+    const int rows = DAL_SIZE(b) / DAL_JOINED, group = i % DAL_JOINED;
+    const num *row = b->inverse + (group * rows + i / DAL_JOINED) * rows;
+    num sum = dal_num(0.0);
+    DAL_EACH(k, rows) sum = dal_fma(row[k], b->image[k * DAL_JOINED + group], sum);
+    return sum;
 }
 
-/* Lanes where a block's increment is zero or stagnates, or is as small as was asked for. */
-DAL_INLINE dal_mask dal__quiet(const dal_step *s, dal_block *b)
+/* u += d (or M^-1 d) in the active lanes; b->now: the norm of the increment, NaN if not finite.  A
+ * pack belongs to one lane, which is active or nobody would call. */
+DAL_INLINE void dal__advance(dal_block *b, const dal_mask *active, int newton)
 {
-    const num size = b->scale + b->weight * dal_max_norm(b->u, b->size);
-    b->stalls = dal_select(dal_less_equal(b->before, b->now), b->stalls + 1.0, dal_num(0.0));
-    const dal_mask once = dal_less(dal_num(0.5), b->stalls),
-                   twice = dal_less(dal_num(1.5), b->stalls);
-    const dal_mask stagnates = dal_equal(b->now, dal_num(0.0)) |
-                               (once & dal_less_equal(b->now, DAL__ROUNDING * size)) |
-                               (twice & dal_less_equal(b->now, DAL__SMALL * size));
+    num norm[DAL_JOINED], poison[DAL_JOINED];
+    DAL_EACH(j, DAL_JOINED) norm[j] = poison[j] = dal_num(0.0);
+    const int seen = newton ? 0 : dal__advance_packs(b->u, b->image, DAL_SIZE(b), norm, poison);
+    num *u = b->u + seen, *image = b->image + seen;
+    DAL_EACH(i, DAL_SIZE(b) - seen) image[i] -= u[i];
+    DAL_EACH(i, DAL_SIZE(b) - seen) {
+        const int j = i % DAL_JOINED;
+        const num d = newton ? dal__newton(b, i) : image[i];
+        norm[j] = dal_max(norm[j], dal_abs(d));
+        poison[j] += d - d;
+        u[i] = dal_select(active[j], u[i] + d, u[i]);
+    }
+    DAL_EACH(j, DAL_JOINED) {
+        b->before[j] = b->now[j];
+        b->now[j] = b->weight * norm[j] + poison[j];
+    }
+}
+
+DAL_INLINE num dal__size(const dal_block *b, int j)
+{
+    return b->scale[j] + b->weight * dal__group_norm(b->u, DAL_SIZE(b), j);
+}
+
+/* Lanes of a group where a block's increment is zero or stagnates, or is as small as was asked for.
+ */
+DAL_INLINE dal_mask dal__quiet(const dal_step *s, dal_block *b, int j)
+{
+    const num now = b->now[j], size = dal__size(b, j);
+    b->stalls[j] = dal_select(dal_less_equal(b->before[j], now), b->stalls[j] + 1.0, dal_num(0.0));
+    const dal_mask once = dal_less(dal_num(0.5), b->stalls[j]),
+                   twice = dal_less(dal_num(1.5), b->stalls[j]);
+    const dal_mask stagnates = dal_equal(now, dal_num(0.0)) |
+                               (once & dal_less_equal(now, DAL__ROUNDING * size)) |
+                               (twice & dal_less_equal(now, DAL__SMALL * size));
     if (DAL_RARELY(DAL_SOLVE_TO(s) > 0.0))
-        return stagnates | dal_less_equal(b->now, DAL_SOLVE_TO(s) * size);
+        return stagnates | dal_less_equal(now, DAL_SOLVE_TO(s) * size);
     return stagnates;
 }
 
-DAL_INLINE dal_mask dal__slow(const dal_block *b)
+DAL_INLINE dal_mask dal__slow(const dal_block *b, int j)
 {
-    return dal_less(DAL__SLOW * b->before, b->now) &
-           dal_less(DAL__NOISE * (b->scale + b->weight * dal_max_norm(b->u, b->size)), b->now);
+    return dal_less(DAL__SLOW * b->before[j], b->now[j]) &
+           dal_less(DAL__NOISE * dal__size(b, j), b->now[j]);
 }
 
 DAL_INLINE void dal__begin_block(dal_block *b)
 {
-    b->now = dal_num(INFINITY);
-    b->stalls = dal_num(0.0);
+    DAL_EACH(j, DAL_JOINED) b->now[j] = dal_num(INFINITY);
+    DAL_EACH(j, DAL_JOINED) b->stalls[j] = dal_num(0.0);
 }
 
-/* Takes the new image into a block; lanes that are now quiet, and lanes that are still finite. */
-DAL_INLINE void dal__sweep(const dal_step *s, dal_block *b, dal_mask active, int newton,
-                           dal_mask *quiet, dal_mask *finite)
+/* One sweep of all blocks in the active lanes. */
+DAL_INLINE void dal__sweep(dal_step *s, dal_equation *eq, dal_map *map, int newton)
 {
-    dal__advance(b, active, newton);
-    *quiet &= dal__quiet(s, b);
-    *finite &= dal_finite(b->now);
+    map(s, eq);
+    dal__advance(&eq->block[0], eq->active, newton);
+    if (eq->blocks > 1) dal__advance(&eq->block[1], eq->active, newton);
 }
 
-/* The sweeps that were asked for beyond the solution. */
-DAL_INLINE void dal__sweep_on(dal_step *s, dal_equation *eq, dal_map *map, dal_mask lanes,
-                              int newton)
+/* Behind sweep k: the lanes of a group that have failed leave `lanes`; those, and the ones that are
+ * quiet, leave the active ones. */
+DAL_INLINE void dal__judge_sweep(dal_step *s, dal_equation *eq, int j, int may_give_up, int k,
+                                 dal_mask *lanes, dal_mask *slow)
 {
-    eq->active = lanes;
-    for (int k = 0; k < DAL_EXTRA_SWEEPS(s) && dal_any(lanes); k++) {
-        map(s, eq);
-        dal__advance(&eq->block[0], lanes, newton);
-        if (eq->blocks > 1) dal__advance(&eq->block[1], lanes, newton);
+    const dal_mask active = eq->active[j];
+    dal_mask quiet = dal__quiet(s, &eq->block[0], j), finite = dal_finite(eq->block[0].now[j]);
+    if (eq->blocks > 1) {
+        quiet &= dal__quiet(s, &eq->block[1], j);
+        finite &= dal_finite(eq->block[1].now[j]);
     }
+    if (may_give_up && (k == 1 || k == 2)) {
+        *slow |= active & dal__slow(&eq->block[0], j);
+        finite &= ~*slow;
+    }
+    *lanes &= finite | ~active;
+    eq->active[j] = active & finite & ~quiet;
 }
 
-/* Iterates in the given lanes; returns those that stagnated.  *slow receives lanes that were given
- * up after the third sweep because they contract slowly, if they may be. */
-DAL_INLINE dal_mask dal__iterate(dal_step *s, dal_equation *eq, dal_map *map, dal_mask lanes,
-                                 int newton, int may_give_up, dal_mask *slow)
+/* Iterates in the given lanes and leaves those that stagnated; not those that were given up after
+ * the third sweep because they contract slowly, if they may be. */
+DAL_INLINE void dal__iterate(dal_step *s, dal_equation *eq, dal_map *map, dal_mask *lanes,
+                             int newton, int may_give_up)
 {
-    dal_mask active = lanes;
+    dal_mask slow[DAL_JOINED];
     dal__begin_block(&eq->block[0]);
     if (eq->blocks > 1) dal__begin_block(&eq->block[1]);
-    for (int k = 0; k < DAL_ITERATIONS(s) && dal_any(active); k++) {
-        dal_mask quiet = dal_all(), finite = dal_all();
-        eq->active = active;
-        map(s, eq);
-        dal__sweep(s, &eq->block[0], active, newton, &quiet, &finite);
-        if (eq->blocks > 1) dal__sweep(s, &eq->block[1], active, newton, &quiet, &finite);
-        if (may_give_up && (k == 1 || k == 2)) {
-            *slow |= active & dal__slow(&eq->block[0]);
-            finite &= ~*slow;
-        }
-        lanes &= finite | ~active;
-        active &= finite & ~quiet;
+    DAL_EACH(j, DAL_JOINED) slow[j] = ~dal_all();
+    DAL_EACH(j, DAL_JOINED) eq->active[j] = lanes[j];
+    for (int k = 0; k < DAL_ITERATIONS(s) && dal__any(eq->active); k++) {
+        dal__sweep(s, eq, map, newton);
+        DAL_EACH(j, DAL_JOINED) dal__judge_sweep(s, eq, j, may_give_up, k, &lanes[j], &slow[j]);
     }
-    lanes &= ~active;
-    if (DAL_RARELY(DAL_EXTRA_SWEEPS(s) > 0)) dal__sweep_on(s, eq, map, lanes, newton);
-    return lanes;
+    DAL_EACH(j, DAL_JOINED) lanes[j] &= ~eq->active[j];
+    DAL_EACH(j, DAL_JOINED) eq->active[j] = lanes[j];
+    for (int k = 0; k < DAL_EXTRA_SWEEPS(s); k++) dal__sweep(s, eq, map, newton);
 }
 
 DAL_INLINE void dal__remember(dal_block *b)
 {
-    DAL_EACH(i, b->size) b->start[i] = b->u[i];
+    DAL_EACH(i, DAL_SIZE(b)) b->start[i] = b->u[i];
 }
-DAL_INLINE void dal__return(dal_block *b, dal_mask lanes)
+DAL_INLINE void dal__return(dal_block *b, const dal_mask *lanes)
 {
-    DAL_EACH(i, b->size) b->u[i] = dal_select(lanes, b->start[i], b->u[i]);
+    DAL_EACH(i, DAL_SIZE(b)) b->u[i] = dal_select(lanes[i % DAL_JOINED], b->start[i], b->u[i]);
+}
+
+/* Newton's method from the first guess in the lanes left; leaves those where it stagnated, which
+ * are stiff from now on. */
+DAL_INLINE dal_status dal__solve_stiff(dal_step *s, dal_equation *eq, dal_map *map,
+                                       dal_matrix *matrix, dal_mask *left)
+{
+    dal__return(&eq->block[0], left);
+    if (eq->blocks > 1) dal__return(&eq->block[1], left);
+    DAL_TRY(matrix(s, eq));
+    dal__iterate(s, eq, map, left, 1, 0);
+    DAL_EACH(j, DAL_JOINED) s->stiff[j] = dal_select(left[j], dal_num(1.0), s->stiff[j]);
+    return DAL_OK;
 }
 
 /* Solves the equation from the guess in u; lanes that fail are recorded and no longer alive.
@@ -201,25 +259,25 @@ DAL_INLINE void dal__return(dal_block *b, dal_mask lanes)
 DAL_INLINE dal_status dal_solve(dal_step *s, dal_equation *eq, dal_map *map, dal_matrix *matrix)
 {
     const int may_newton = matrix && DAL_MAY_NEWTON(s);
-    dal_mask stiff = dal_less(dal_num(0.5), *s->stiff);
-    if (!may_newton) stiff &= ~dal_all();
-    if (may_newton && DAL_SOLVER(s) == DAL_NEWTON) stiff = dal_all();
+    dal_mask solved[DAL_JOINED], left[DAL_JOINED];
+    DAL_EACH(j, DAL_JOINED) {
+        solved[j] = s->alive[j];
+        if (may_newton) solved[j] &= ~dal_less(dal_num(0.5), s->stiff[j]);
+        if (may_newton && DAL_SOLVER(s) == DAL_NEWTON) solved[j] = ~dal_all();
+    }
     dal__remember(&eq->block[0]);
     if (eq->blocks > 1) dal__remember(&eq->block[1]);
-
-    dal_mask slow = ~dal_all();
-    dal_mask solved = dal__iterate(s, eq, map, s->alive & ~stiff, 0, may_newton, &slow);
-    const dal_mask left = s->alive & ~solved;
-    if (may_newton && dal_any(left)) {
-        dal__return(&eq->block[0], left);
-        if (eq->blocks > 1) dal__return(&eq->block[1], left);
-        DAL_TRY(matrix(s, eq));
-        solved |= dal__iterate(s, eq, map, left, 1, 0, &slow);
-        *s->stiff = dal_select(left & solved, dal_num(1.0), *s->stiff);
+    dal__iterate(s, eq, map, solved, 0, may_newton);
+    DAL_EACH(j, DAL_JOINED) left[j] = s->alive[j] & ~solved[j];
+    if (may_newton && dal__any(left)) {
+        DAL_TRY(dal__solve_stiff(s, eq, map, matrix, left));
+        DAL_EACH(j, DAL_JOINED) solved[j] |= left[j];
     }
-    s->unconverged |= s->alive & ~solved;
-    s->alive &= solved;
-    return dal_any(s->alive) ? DAL_OK : DAL_NOT_CONVERGED;
+    DAL_EACH(j, DAL_JOINED) {
+        s->unconverged[j] |= s->alive[j] & ~solved[j];
+        s->alive[j] &= solved[j];
+    }
+    return dal__any(s->alive) ? DAL_OK : DAL_NOT_CONVERGED;
 }
 
 /* The matrix of stage equations for frozen F_q, F_v (jacobian as dal_callbacks):
@@ -236,18 +294,20 @@ typedef struct dal_stage_matrix {
 /* Entry (i, j) of F_q padded with zeros, and of F_(v,g); or of their transposes. */
 DAL_INLINE num dal__fq(const dal_step *s, const num *jacobian, int i, int j)
 {
-    return j < DAL_N(s) ? jacobian[i * DAL_N(s) + j] : dal_num(0.0);
+    const int n = DAL_N(s) / DAL_JOINED;
+    return j < n ? jacobian[i * n + j] : dal_num(0.0);
 }
 DAL_INLINE num dal__fv(const dal_step *s, const num *jacobian, int i, int j)
 {
-    return jacobian[DAL_NW(s) * DAL_N(s) + i * DAL_NW(s) + j];
+    const int n = DAL_N(s) / DAL_JOINED, nw = DAL_NW(s) / DAL_JOINED;
+    return jacobian[nw * n + i * nw + j];
 }
 
-/* Fills block->inverse; m is scratch, [size*size]. */
+/* Fills block->inverse for a group; m is scratch, of the same size. */
 DAL_INLINE void dal_stage_inverse(dal_step *s, const dal_stage_matrix *k, const num *jacobian,
-                                  num *m, dal_block *block)
+                                  num *m, dal_block *block, int group)
 {
-    const int width = block->size / k->stages, size = block->size;
+    const int size = DAL_SIZE(block) / DAL_JOINED, width = size / k->stages;
     for (int row = 0; row < size; row++) {
         for (int column = 0; column < size; column++) {
             const int i = row % width, j = column % width;
@@ -258,13 +318,13 @@ DAL_INLINE void dal_stage_inverse(dal_step *s, const dal_stage_matrix *k, const 
                                      k->z * k->z * k->a2[stage] * dal__fq(s, jacobian, x, y);
         }
     }
-    dal_invert(m, block->inverse, size);
+    dal_invert(m, block->inverse + group * size * size, size);
 }
 
-/* F_q, F_(v,g) at a point, [nw*n + nw*nw]. */
-DAL_INLINE void dal_jacobian(dal_step *s, double t, const num *q, const num *v, num *out)
+/* F_q, F_(v,g) of a group at a point of all, [nw*n + nw*nw]. */
+DAL_INLINE void dal_jacobian(dal_step *s, int group, double t, const num *q, const num *v, num *out)
 {
-    dal_ask(s, DAL_ASK_JACOBIAN, t, q, v, NULL, out);
+    dal_ask_group(s, group, DAL_ASK_JACOBIAN, t, q, v, out);
 }
 
 #endif

@@ -156,7 +156,7 @@ DAL_INLINE void dal__spark_map(dal_step *s, dal_equation *eq)
                 image[(i + first) * n + c] += B[c * m + a] * k->L[i * m + a];
     }
     for (int a = 0; a < m; a++)
-        k->last[a] = DAL_KEEP(eq->active, k->L[(count - 1) * m + a], k->last[a]);
+        k->last[a] = DAL_KEEP(eq->active[0], k->L[(count - 1) * m + a], k->last[a]);
 }
 
 /* L_1, where it is carried, and the first guess: F at the present state for every K. */
@@ -226,9 +226,9 @@ DAL_INLINE dal_status dal_spark_advance(dal_step *s, const dal_spark *method)
                         inverse,
                         rhs,
                         L};
-    dal_equation eq = {{block}, 1, &k, dal_all()};
+    dal_equation eq = {{block}, 1, &k, {dal_all()}};
     eq.block[0].weight = fabs(s->h);
-    eq.block[0].scale = dal_velocity_scale(s, s->h);
+    eq.block[0].scale[0] = dal_velocity_scale(s, s->h, 0);
     dal__spark_product(method, product);
     DAL_TRY(dal__spark_begin(s, &k, &eq));
     DAL_TRY(dal_solve(s, &eq, dal__spark_map, dal_constrained_matrix));

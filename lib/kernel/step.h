@@ -77,7 +77,7 @@ struct dal_step {
 #define X(member, count) num member[DAL__ROOM(DAL__COUNT_##count) * DAL_JOINED];
     DAL__MEMORY_LIST(X)
 #undef X
-    dal_mask alive, unconverged;
+    dal_mask alive[DAL_JOINED], unconverged[DAL_JOINED];
     const dal_stored *work; /* parameters, and what is made of them alone */
     long long evaluations;
 };
@@ -110,8 +110,13 @@ DAL_INLINE void dal_recall(dal_step *s, dal_mask lanes, const num *from)
 /* The system as straight-line code, further down. */
 DAL_INLINE void dal_ask(dal_step *s, dal_question question, double t, const num *q, const num *v,
                         const num *pi, num *out);
+/* The answer for one group of lanes alone. */
+DAL_INLINE void dal_ask_group(dal_step *s, int group, dal_question question, double t, const num *q,
+                              const num *v, num *out);
 
 #else
+
+enum { DAL_JOINED = 1 };
 
 #define DAL_N(s)            ((s)->n)
 #define DAL_NW(s)           ((s)->nw)
@@ -145,13 +150,13 @@ struct dal_step {
     int remembered;
     int slopes_kept;
 
-    dal_mask alive;       /* lanes that go on */
-    dal_mask unconverged; /* lanes whose implicit equations were not solved */
-    int solver;           /* dal_solver */
-    int iterations;       /* most iterations */
-    double solve_to;      /* a relative change that is small enough; 0: where rounding stops it */
-    int extra_sweeps;     /* iterations of what is solved */
-    int plain;            /* 1: sums without compensation, r stays 0 */
+    dal_mask alive[DAL_JOINED];       /* lanes that go on */
+    dal_mask unconverged[DAL_JOINED]; /* lanes whose implicit equations were not solved */
+    int solver;                       /* dal_solver */
+    int iterations;                   /* most iterations */
+    double solve_to;  /* a relative change that is small enough; 0: where rounding stops it */
+    int extra_sweeps; /* iterations of what is solved */
+    int plain;        /* 1: sums without compensation, r stays 0 */
     int has_jacobian;
     unsigned properties; /* of the system */
     double tolerance;    /* of substeps, 0: the step is not to be divided */
@@ -203,6 +208,12 @@ DAL_INLINE void dal_ask(dal_step *s, dal_question question, double t, const num 
 {
     s->ask(s, question, t, q, v, pi, out);
 }
+DAL_INLINE void dal_ask_group(dal_step *s, int group, dal_question question, double t, const num *q,
+                              const num *v, num *out)
+{
+    (void)group;
+    dal_ask(s, question, t, q, v, NULL, out);
+}
 
 #endif
 
@@ -218,8 +229,8 @@ DAL_INLINE void dal_clear_momenta(dal_step *s)
 {
     const int first = dal_at_p(s);
     DAL_EACH(i, DAL_LIFTED(s) * (2 * DAL_N(s) + 1)) {
-        s->y[first + i] = dal_select(s->alive, dal_num(0.0), s->y[first + i]);
-        s->r[first + i] = dal_select(s->alive, dal_num(0.0), s->r[first + i]);
+        s->y[first + i] = dal_select(s->alive[0], dal_num(0.0), s->y[first + i]);
+        s->r[first + i] = dal_select(s->alive[0], dal_num(0.0), s->r[first + i]);
     }
 }
 
@@ -301,16 +312,18 @@ DAL_INLINE dal_status dal_field(dal_step *s, double t, const num *y, num *DAL_RE
 DAL_INLINE void dal_add_multiple(dal_step *s, int first, int count, double factor, const num *d)
 {
     num *const DAL_RESTRICT y = s->y + first, *const DAL_RESTRICT r = s->r + first;
-    const dal_mask alive = s->alive;
     const num f = dal_num(factor);
+    dal_mask alive[DAL_JOINED];
+    DAL_EACH(j, DAL_JOINED) alive[j] = s->alive[j];
     DAL_EACH(i, count) {
+        const dal_mask lanes = alive[i % DAL_JOINED];
         const num a = y[i], b = dal_fma(f, d[i], r[i]);
         const num sum = a + b;
-        y[i] = dal_select(alive, sum, a);
-        r[i] = dal_select(alive, b - (sum - a), r[i]);
+        y[i] = dal_select(lanes, sum, a);
+        r[i] = dal_select(lanes, b - (sum - a), r[i]);
     }
     if (DAL_RARELY(DAL_PLAIN(s)))
-        DAL_EACH(i, count) r[i] = dal_select(alive, dal_num(0.0), r[i]);
+        DAL_EACH(i, count) r[i] = dal_select(alive[i % DAL_JOINED], dal_num(0.0), r[i]);
 }
 
 DAL_INLINE void dal_add(dal_step *s, int first, int count, const num *d)

@@ -298,13 +298,13 @@ static dal__lanes judge_state(const engine *e, lane_mask *left, dal_status statu
     lane_mask solved, gauge, sound;
     dal__lanes failed = 0;
     for (int g = 0; g < DAL_GROUPS; g++) {
-        solved.group[g] = ~e->step.unconverged;
+        solved.group[g] = ~e->step.unconverged[0];
         gauge.group[g] = gauge_holds(e, g);
         sound.group[g] = finite(e, g);
     }
     if (status != DAL_OK && status != DAL_NOT_CONVERGED)
         failed = reject(left, mask_of(0), status, why);
-    if (dal_any(e->step.unconverged)) failed |= reject(left, solved, DAL_NOT_CONVERGED, why);
+    if (dal_any(e->step.unconverged[0])) failed |= reject(left, solved, DAL_NOT_CONVERGED, why);
     if (e->shape.lifted) failed |= reject(left, gauge, DAL_GAUGE, why);
     return failed | reject(left, sound, DAL_NOT_FINITE, why);
 }
@@ -364,8 +364,8 @@ static void begin_step(engine *e, double h, dal__lanes alive, const lane_mask *l
     memcpy(e->backup, e->carried, changing(e) * sizeof(num));
     s->t = time_of(e, alive);
     s->h = h;
-    s->alive = DAL_GROUPS > 1 ? dal_all() : lanes->group[0];
-    s->unconverged = ~dal_all();
+    s->alive[0] = DAL_GROUPS > 1 ? dal_all() : lanes->group[0];
+    s->unconverged[0] = ~dal_all();
     s->used = 0;
     s->evaluations = 0;
     s->depth = e->shape.depth - 1;
