@@ -11,6 +11,7 @@
  *     dal_invert, dal_multiply               lib/kernel/algebra.h       small dense algebra
  *     dal_solve                              lib/kernel/solve.h         fixed point, Newton
  *     dal_polarised_euler                    lib/kernel/polarised.h     symplectic Euler steps
+ *     dal_tableau                            lib/kernel/tableau.h       coefficients, weighted sums
  *     dal_collocation                        lib/kernel/collocation.h   implicit Runge-Kutta steps
  *     dal_substeps                           lib/kernel/composition.h   steps made of steps
  *     dal_control                            lib/kernel/adaptive.h      steps under error control
@@ -35,6 +36,8 @@
 #include "../lib/kernel/solve.h"
 
 #include "../lib/kernel/polarised.h"
+
+#include "../lib/kernel/tableau.h"
 
 #include "../lib/kernel/collocation.h"
 

@@ -55,7 +55,7 @@ bool dal__uses_newton(const dal__generation *g)
 }
 
 /* A modifier steps tangent vectors in the place of the momenta. */
-static bool follows_tangents(const dal__generation *g)
+bool dal__follows_tangents(const dal__generation *g)
 {
     return g->shape.lifted && (dal_method_needs(&g->spec->method) & DAL_NEEDS_JACOBIAN);
 }
@@ -70,7 +70,7 @@ bool dal__wants(const dal__generation *g, dal__program_code code)
     case DAL__PROGRAM_GAUGE:
         return g->shape.lifted;
     case DAL__PROGRAM_JACOBIAN:
-        return dal__uses_newton(g) || follows_tangents(g);
+        return dal__uses_newton(g) || dal__follows_tangents(g);
     case DAL__PROGRAM_CONSTRAINT:
         return watched || imposes || dal__method_uses(g, "DAL_ASK_CONSTRAINT");
     case DAL__PROGRAM_PARTS:
@@ -194,31 +194,6 @@ static void put_unrolling(dal__generation *g)
         dal__text_put(&g->text, "#define DAL_UNROLL\n");
 }
 
-/* Whether the groups of lanes can be stepped as one larger system: implicit stages of two groups
- * find room in the registers where there are few of them. */
-static bool is_joined(const dal__generation *g)
-{
-    const unsigned claims = g->shape.method.chain[0]->claims;
-    const bool few = claims & DAL_REMEMBERS && g->shape.method.chain[0]->stages <= 2;
-    const bool can = claims & DAL_COMPONENTWISE || few;
-    return g->shape.depth == 1 && !g->shape.lifted && can;
-}
-
-/* Lanes go by registers, as large as the processor has them. */
-static void put_lanes(dal__generation *g)
-{
-    dal__text_print(&g->text, "#define DAL_LANES %d\n", g->lanes);
-    dal__text_put(&g->text, "#if DAL_LANES > 8 && defined __AVX512F__\n#define DAL_GROUP 8\n"
-                            "#elif DAL_LANES > 4 && defined __AVX__ && !defined __AVX512F__\n"
-                            "#define DAL_GROUP 4\n"
-                            "#elif DAL_LANES > 2 && !defined __AVX__\n"
-                            "#define DAL_GROUP 2\n#endif\n");
-    dal__text_put(&g->text, dal__source_text("groups.h"));
-    dal__text_put(&g->text, "#define DAL_WORK(place) w[(place) * DAL_GROUPS]\n");
-    dal__text_print(&g->text, "enum { DAL_JOINED = %s, DAL_TEAM = DAL_GROUPS / DAL_JOINED };\n",
-                    is_joined(g) ? "DAL_GROUPS" : "1");
-}
-
 /* What the kernel takes from the public header. */
 static void put_enums(dal__generation *g)
 {
@@ -229,46 +204,6 @@ static void put_enums(dal__generation *g)
     dal__text_put(&g->text, "    DAL_STATUS_COUNT\n} dal_status;\n"
                             "enum { DAL_SOLVER_AUTO, DAL_FIXED_POINT, DAL_NEWTON };\n");
     dal__text_print(&g->text, "enum { DAL_PARTS_POSITIONAL = %d };\n\n", DAL_PARTS_POSITIONAL);
-}
-
-static void put_constants(dal__generation *g)
-{
-    const dal__shape *k = &g->shape;
-    const int stages = g->spec->method.chain[0]->stages;
-    const bool collocation = dal__method_uses(g, "dal_collocation");
-    const bool solves = collocation || dal__method_uses(g, "dal_polarised_euler");
-    const bool is_explicit = dal_method_claims(&g->spec->method) & DAL_EXPLICIT;
-    const struct {
-        const char *name;
-        int value;
-    } list[] = {
-        {"N", k->n},
-        {"NW", k->nw},
-        {"M", k->m},
-        {"DIM", k->dim},
-        {"LIFTED", k->lifted},
-        {"STAGES", stages},
-        {"SLOPES", k->slopes},
-        {"SOLVER", k->options.solver},
-        {"ITERATIONS", k->options.iterations},
-        {"EXTRA_SWEEPS", k->options.extra_sweeps},
-        {"PLAIN", k->options.sums == DAL_SUMS_PLAIN},
-        {"PROPERTIES", (int)k->system->properties},
-        {"REACTION", k->reaction},
-        {"NEWTON", dal__uses_newton(g)},
-        {"TANGENT", follows_tangents(g)},
-        {"EXPLICIT", is_explicit && k->depth == 1 && !(solves && k->lifted)},
-        {"GUARDS", k->system->guards},
-        {"WATCHED", k->m > 0 && dal__wants(g, DAL__PROGRAM_CONSTRAINT) &&
-                        (k->system->properties & DAL_D_WATCHED) != 0},
-        {"GAUGE", dal__wants(g, DAL__PROGRAM_GAUGE)},
-    };
-    put_lanes(g);
-    for (size_t i = 0; i < sizeof list / sizeof *list; i++)
-        dal__text_print(&g->text, "#define DAL__%s %d\n", list[i].name, list[i].value);
-    dal__text_put(&g->text, "#define DAL__SOLVE_TO ");
-    dal__text_number(&g->text, k->options.solve_to);
-    dal__text_put(&g->text, "\n");
 }
 
 /* The parts of the kernel that the method needs. */
@@ -284,6 +219,7 @@ static void put_kernel(dal__generation *g)
     if (euler || collocation || constrained || dal__method_uses(g, "dal_solve"))
         dal__text_put(&g->text, dal__source_text("solve.h"));
     if (euler) dal__text_put(&g->text, dal__source_text("polarised.h"));
+    if (collocation) dal__text_put(&g->text, dal__source_text("tableau.h"));
     if (collocation) dal__text_put(&g->text, dal__source_text("collocation.h"));
     if (dal__method_uses(g, "dal_substeps"))
         dal__text_put(&g->text, dal__source_text("composition.h"));
@@ -331,7 +267,7 @@ static void put_steps(dal__generation *g)
 {
     dal__put_template(g, compiler);
     put_unrolling(g);
-    put_constants(g);
+    dal__put_constants(g);
     put_enums(g);
     put_kernel(g);
     dal__put_answers(g);

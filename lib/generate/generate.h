@@ -38,6 +38,7 @@ const char *dal__source_text(const char *name);
 /* Whether the text of the method uses a word. */
 bool dal__method_uses(const dal__generation *g, const char *word);
 bool dal__uses_newton(const dal__generation *g);
+bool dal__follows_tangents(const dal__generation *g);
 /* Whether a program goes into the file. */
 bool dal__wants(const dal__generation *g, dal__program_code code);
 
@@ -50,6 +51,9 @@ dal_status dal__generate_native(const dal_run_spec *spec, int lanes, char **text
 
 /* A prefix of the caller's, or (NULL) SYSTEM_METHOD.  Errors: DAL_ARGUMENT. */
 dal_status dal__choose_prefix(dal__generation *g, const char *prefix, dal_error *error);
+
+/* ---- constants.c ---- */
+void dal__put_constants(dal__generation *g);
 
 /* ---- interface.c: what a caller sees ---- */
 void dal__put_interface(dal__generation *g);

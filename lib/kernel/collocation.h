@@ -22,20 +22,6 @@
 #ifndef DAL_KERNEL_COLLOCATION_H
 #define DAL_KERNEL_COLLOCATION_H
 
-typedef struct dal_tableau {
-    int stages;
-    const double *c;                      /* [s] */
-    const double *b, *b_tail;             /* [s] multiples of 1/1024, and the rest */
-    const double *a, *a_tail;             /* [s*s] */
-    const double *extrapolation;          /* [s*s] Lagrange basis l_j(1 + c_i) on the nodes */
-    const double *partner, *partner_tail; /* [s*s] of w and p, where a is that of q, e and pi */
-} dal_tableau;
-
-DAL_INLINE const double *dal__tail(const double *tail, int first)
-{
-    return tail ? tail + first : tail;
-}
-
 typedef struct dal_stages {
     const dal_tableau *method;
     double h;
@@ -46,46 +32,6 @@ typedef struct dal_stages {
     int stride;      /* of f */
 } dal_stages;
 
-/* sum_j weight_j x[j*stride], heads and tails (NULL: all 0) summed apart. */
-DAL_INLINE num dal__weighted(const double *head, const double *tail, int stages, const num *x,
-                             int stride)
-{
-    num large = head[0] * x[0];
-    DAL_EACH(i, stages - 1) large = dal_fma(dal_num(head[i + 1]), x[(i + 1) * stride], large);
-    if (!tail) return large;
-    num small = tail[0] * x[0];
-    DAL_EACH(i, stages - 1) small = dal_fma(dal_num(tail[i + 1]), x[(i + 1) * stride], small);
-    return large + small;
-}
-/* The statement with STAGES a constant where there are few of them: the sum over the stages then
- * unrolls, and components go side by side through vector registers. */
-#define DAL__BY_STAGES(stages, statement)                                                          \
-    switch (stages) {                                                                              \
-    case 1: {                                                                                      \
-        enum { STAGES = 1 };                                                                       \
-        statement;                                                                                 \
-    } break;                                                                                       \
-    case 2: {                                                                                      \
-        enum { STAGES = 2 };                                                                       \
-        statement;                                                                                 \
-    } break;                                                                                       \
-    case 3: {                                                                                      \
-        enum { STAGES = 3 };                                                                       \
-        statement;                                                                                 \
-    } break;                                                                                       \
-    default: {                                                                                     \
-        const int STAGES = (stages);                                                               \
-        statement;                                                                                 \
-    }                                                                                              \
-    }
-
-/* out = sum_j weight_j x_j for count components side by side; out must not overlap x. */
-DAL_INLINE void dal__weighted_all(const double *head, const double *tail, int stages, const num *x,
-                                  int stride, int count, num *DAL_RESTRICT out)
-{
-    DAL__BY_STAGES(stages,
-                   DAL_EACH(c, count) out[c] = dal__weighted(head, tail, STAGES, x + c, stride));
-}
 /* sum b x for count components. */
 DAL_INLINE void dal__end(const dal_stages *k, const num *x, int stride, int count, num *out)
 {
@@ -167,20 +113,6 @@ DAL_INLINE void dal__collocation_map(dal_step *s, dal_equation *eq)
         DAL_EACH(j, n)
             image[i * n + j] = dal_fma(k->pi[i * n + j], k->w[i], k->f[i * k->stride + j]);
     dal__momentum_slopes(s, k, eq->block[1].image);
-}
-
-/* Coefficients rounded to one number each, good enough for Newton's matrix, and products of them.
- */
-DAL_INLINE void dal__rounded(int count, const double *head, const double *tail, double *a)
-{
-    for (int i = 0; i < count; i++) a[i] = head[i] + (tail ? tail[i] : 0.0);
-}
-DAL_INLINE void dal__product(int s, const double *a, const double *b, double *ab)
-{
-    for (int i = 0; i < s * s; i++) {
-        ab[i] = 0.0;
-        for (int j = 0; j < s; j++) ab[i] += a[i / s * s + j] * b[j * s + i % s];
-    }
 }
 
 DAL_INLINE dal_status dal__collocation_matrix(dal_step *s, dal_equation *eq)
