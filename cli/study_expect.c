@@ -8,6 +8,7 @@
  *           QUANTITY: {at most: 1e-10}      its size: max |x| for D, error and momenta, else
  *                                           max |x - first|
  *           QUANTITY: {verdict: linear drift, rate: {at least: -2e-3, at most: -1e-3}}
+ *           QUANTITY: [{step: 0.1, ..}, {step: 0.05, start: surface, ..}]   of these cells alone
  *           state: failed                   of the run: done, failed, refused
  *
  * A quantity is one of quantities.csv, or D, the worst of the constraints.  What is said of
@@ -96,18 +97,23 @@ static int take_least(void *user, const study_text *text, yaml_node_t *value)
     return study_text_number(text, value, "at least", &((reader *)user)->expectation.least);
 }
 
-static int add_bound(reader *r, int field, yaml_node_t *node)
+static int add_bounds(reader *r, int field, yaml_node_t *node, const study_key *keys, int count)
 {
-    static const study_key keys[] = {{"at most", take_most}, {"at least", take_least}};
     r->expectation.field = field;
     r->expectation.words = 0;
     r->expectation.least = -INFINITY;
     r->expectation.most = INFINITY;
-    int status = study_text_mapping(r->text, node, "bounds", keys, 2, r);
+    int status = study_text_mapping(r->text, node, "bounds", keys, count, r);
     if (status != CLI_DONE) return status;
     if (isinf(r->expectation.least) && isinf(r->expectation.most))
         return study_text_fail(r->text, node, "bounds: 'at most' or 'at least' is wanted");
     return add(r, node);
+}
+
+static int add_bound(reader *r, int field, yaml_node_t *node)
+{
+    static const study_key keys[] = {{"at most", take_most}, {"at least", take_least}};
+    return add_bounds(r, field, node, keys, 2);
 }
 
 #define TAKE_FIELD(name, member)                                                                   \
@@ -125,6 +131,61 @@ static int take_verdict(void *user, const study_text *text, yaml_node_t *value)
     return add_words(user, value);
 }
 
+/* ---- which cells ---- */
+
+static yaml_node_t *value_of(const study_text *text, const yaml_node_t *node, const char *name)
+{
+    const yaml_node_pair_t *pair = node->data.mapping.pairs.start;
+    for (; pair < node->data.mapping.pairs.top; pair++) {
+        const yaml_node_t *key = study_text_node(text, pair->key);
+        if (key->type == YAML_SCALAR_NODE &&
+            strcmp((const char *)key->data.scalar.value, name) == 0)
+            return study_text_node(text, pair->value);
+    }
+    return NULL;
+}
+
+static int take_step(void *user, const study_text *text, yaml_node_t *value)
+{
+    return study_text_number(text, value, "step", &((reader *)user)->expectation.step);
+}
+
+static int take_start(void *user, const study_text *text, yaml_node_t *value)
+{
+    const char *known[STUDY_STARTS], *word = study_text_scalar(text, value, "start");
+    int start = 0;
+    if (!word) return CLI_USAGE;
+    for (int i = 0; i < STUDY_STARTS; i++) known[i] = study_start_word(i);
+    while (start < STUDY_STARTS && strcmp(known[start], word) != 0) start++;
+    ((reader *)user)->expectation.start = start;
+    return start < STUDY_STARTS ? CLI_DONE
+                                : study_unknown(text, value, "start", word, known, STUDY_STARTS);
+}
+
+static int contains(const reader *r)
+{
+    const study_expectation *x = &r->expectation;
+    for (int i = 0; i < r->plan->cell_count; i++)
+        if (study_is_meant(x, &r->plan->cells[i])) return 1;
+    return 0;
+}
+
+/* These two are taken before the others, which they hold for, wherever they stand. */
+static int take_cells(reader *r, yaml_node_t *node)
+{
+    const struct {
+        const char *name;
+        int (*take)(void *user, const study_text *text, yaml_node_t *value);
+    } which[] = {{"step", take_step}, {"start", take_start}};
+    for (size_t i = 0; i < sizeof which / sizeof which[0]; i++) {
+        yaml_node_t *value = value_of(r->text, node, which[i].name);
+        const int status = value ? which[i].take(r, r->text, value) : CLI_DONE;
+        if (status != CLI_DONE) return status;
+    }
+    if (contains(r)) return CLI_DONE;
+    return study_text_fail(r->text, node, "expect: the study has no such step and start");
+}
+
 /* The size that the tables show. */
 static int size_field(const char *quantity)
 {
@@ -132,28 +193,29 @@ static int size_field(const char *quantity)
     return is_size || study_is_constraint(quantity) ? STUDY_FIELD_max : STUDY_FIELD_deviation;
 }
 
-static int has_key(const study_text *text, const yaml_node_t *node, const char *name)
+/* Bounds of the size stand beside the cells they hold for; all else has keys of its own. */
+static int add_size(reader *r, yaml_node_t *node)
 {
-    const yaml_node_pair_t *pair = node->data.mapping.pairs.start;
-    for (; pair < node->data.mapping.pairs.top; pair++) {
-        const yaml_node_t *key = study_text_node(text, pair->key);
-        if (key->type == YAML_SCALAR_NODE &&
-            strcmp((const char *)key->data.scalar.value, name) == 0)
-            return 1;
-    }
-    return 0;
+    static const study_key keys[] = {
+        {"at most", take_most}, {"at least", take_least}, {"step", NULL}, {"start", NULL}};
+    return add_bounds(r, size_field(r->expectation.quantity), node, keys,
+                      sizeof keys / sizeof keys[0]);
 }
 
 static int add_mapping(reader *r, yaml_node_t *node)
 {
     static const study_key keys[] = {{"verdict", take_verdict},
+                                     {"step", NULL},
+                                     {"start", NULL},
 #define X(name, member) {#name, take_##name},
                                      STUDY_FIELD_LIST(X)
 #undef X
     };
     if (is_state(&r->expectation)) return study_text_fail(r->text, node, "state: words are wanted");
-    if (has_key(r->text, node, "at most") || has_key(r->text, node, "at least"))
-        return add_bound(r, size_field(r->expectation.quantity), node);
+    const int status = take_cells(r, node);
+    if (status != CLI_DONE) return status;
+    if (value_of(r->text, node, "at most") || value_of(r->text, node, "at least"))
+        return add_size(r, node);
     return study_text_mapping(r->text, node, "expect", keys, sizeof keys / sizeof keys[0], r);
 }
 
@@ -233,12 +295,24 @@ static int each_pair(reader *r, yaml_node_t *node, const char *what, taker *take
     return status;
 }
 
+/* A word, a list of words, a mapping, or a list of mappings. */
+static int take_one(reader *r, const char *name, yaml_node_t *value)
+{
+    r->expectation =
+        (study_expectation){.label = r->label, .method = r->method, .quantity = name, .start = -1};
+    return value->type == YAML_MAPPING_NODE ? add_mapping(r, value) : add_words(r, value);
+}
+
 static int take_quantity(reader *r, const yaml_node_t *key, const char *name, yaml_node_t *value)
 {
     int status = check_quantity(r, key, name);
-    r->expectation = (study_expectation){.label = r->label, .method = r->method, .quantity = name};
-    if (status != CLI_DONE) return status;
-    return value->type == YAML_MAPPING_NODE ? add_mapping(r, value) : add_words(r, value);
+    const int count = study_text_count(value);
+    const int is_list = value->type == YAML_SEQUENCE_NODE && count > 0 &&
+                        study_text_item(r->text, value, 0)->type == YAML_MAPPING_NODE;
+    if (status == CLI_DONE && !is_list) return take_one(r, name, value);
+    for (int i = 0; i < count && status == CLI_DONE; i++)
+        status = take_one(r, name, study_text_item(r->text, value, i));
+    return status;
 }
 
 static int take_method(reader *r, const yaml_node_t *key, const char *name, yaml_node_t *value)

@@ -27,6 +27,8 @@ enum {
 /* One thing that is asked: one of some words, or a number within bounds. */
 struct study_expectation {
     const char *label, *method, *quantity; /* as they are written */
+    double step;                           /* of this alone; 0: of all */
+    int start;                             /* of this alone; -1: of all */
     size_t line;
     unsigned words;     /* bit k: verdict k, or state k for the quantity "state"; 0: bounds */
     int field;          /* STUDY_FIELD_x that is bounded, -1: none */
@@ -41,6 +43,8 @@ int study_expect_read(study_plan *plan, const study_text *text, yaml_node_t *nod
  * by its name or all. */
 int study_is_called(const study_entry *entry, const char *label);
 int study_method_is_called(const dal_method *method, const char *name);
+/* Whether something is said of a cell. */
+int study_is_meant(const study_expectation *expectation, const study_cell *cell);
 /* D, D1, D2, ... */
 int study_is_constraint(const char *quantity);
 

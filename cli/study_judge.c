@@ -27,8 +27,10 @@ int study_is_constraint(const char *quantity)
 
 static int is_state(const study_expectation *x) { return strcmp(x->quantity, "state") == 0; }
 
-static int is_meant(const study_expectation *x, const study_cell *c)
+int study_is_meant(const study_expectation *x, const study_cell *c)
 {
+    if (x->step > 0.0 && x->step != c->step) return 0;
+    if (x->start >= 0 && x->start != c->start) return 0;
     return study_is_called(c->entry, x->label) && study_method_is_called(c->method, x->method);
 }
 
@@ -41,7 +43,7 @@ static const dal_finding *find(const study_expectation *x, const study_cell *c)
 /* Whether a cell has what is asked for. */
 static int is_judged(const study_expectation *x, const study_cell *c)
 {
-    if (!is_meant(x, c) || c->elsewhere || c->state == STUDY_WAITING) return 0;
+    if (!study_is_meant(x, c) || c->elsewhere || c->state == STUDY_WAITING) return 0;
     return is_state(x) || (c->state != STUDY_REFUSED && find(x, c));
 }
 
@@ -116,7 +118,7 @@ static int judge_all(FILE *out, const study_plan *plan, teller *tell, int *count
         int judged = 0, waiting = 0;
         for (int k = 0; k < plan->cell_count; k++) {
             const study_cell *c = &plan->cells[k];
-            waiting |= is_meant(x, c) && c->state == STUDY_WAITING;
+            waiting |= study_is_meant(x, c) && c->state == STUDY_WAITING;
             if (!is_judged(x, c)) continue;
             const int met = is_met(x, c);
             judged++;

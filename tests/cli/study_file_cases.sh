@@ -70,6 +70,15 @@ holds "the table is not kept" grep -q '^Expectations: 2 of 5' there/tables.txt
 expecting '  line: {rk4: {c: exponential}}\n'
 try 3 study expect.yaml --output there --force
 
+case_is "statements about some cells"
+printf 'integrators: rk4\nstep: [0.1, 0.2]\ntime: 1\nsystems: [plane.yaml]\nexpect:\n  plane.yaml:\n'"\
+    rk4: {E: [{step: 0.1, at most: 1}, {start: surface, final: {at most: 0.5}}],
+          state: done}\n" >some.yaml
+try 1 study some.yaml --output there --force
+# E = 1 throughout: the first holds at 3 starts, the second at none of 2 steps; 6 states
+prints '^Expectations: 9 of 11 are met\.$'
+prints '^  plane.yaml +rk4 +surface +h = 0.2 +E: expected final <= 0.5, found 1 \(line 7\)$'
+
 case_is "statements about what is not there"
 unexpected() {
     expecting "$1"
@@ -85,6 +94,11 @@ unexpected '  line: {rk4: {D: exact}}\n' \
     "expect.yaml:9:16: expect: 'line' has no quantity 'D' in this study"
 unexpected '  line: {rk4: {H: exact}}\n' "has no quantity 'H'"
 unexpected '  appell-hamel: {rk4: {D2: exact}}\n' "has no quantity 'D2'"
+unexpected '  line: {rk4: {c: [{step: 0.1, verdict: exact}]}}\n' \
+    "expect.yaml:9:20: expect: the study has no such step and start"
+unexpected '  line: {rk4: {c: {start: surface, verdict: exact}}}\n' 'no such step and start'
+unexpected '  line: {rk4: {c: {start: surfac, verdict: exact}}}\n' \
+    "expect.yaml:9:27: unknown start 'surfac'; did you mean 'surface'"
 unexpected '  line: {rk4: {c: exat}}\n' \
     "expect.yaml:9:19: unknown verdict 'exat'; did you mean 'exact'"
 unexpected '  line: {rk4: {state: dne}}\n' "unknown state 'dne'; did you mean 'done'"
