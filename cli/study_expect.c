@@ -2,7 +2,7 @@
  *
  *     expect:
  *       LABEL:                              a label, that of a group, a system, or all
- *         INTEGRATOR:                       as in the study, or all
+ *         INTEGRATOR:                       as in the study, or all, or all+project and the like
  *           QUANTITY: bounded               a verdict
  *           QUANTITY: [exact, rounding]     one of several
  *           QUANTITY: {at most: 1e-10}      its size: max |x| for D, error and momenta, else

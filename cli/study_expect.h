@@ -40,7 +40,7 @@ struct study_expectation {
 int study_expect_read(study_plan *plan, const study_text *text, yaml_node_t *node);
 
 /* Whether an entry is meant by a label: its own, its group's, its system's, or all; and a method
- * by its name or all. */
+ * by its name, or all, or all with modifiers: those with just these. */
 int study_is_called(const study_entry *entry, const char *label);
 int study_method_is_called(const dal_method *method, const char *name);
 /* Whether something is said of a cell. */

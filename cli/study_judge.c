@@ -17,7 +17,9 @@ int study_is_called(const study_entry *e, const char *label)
 int study_method_is_called(const dal_method *method, const char *name)
 {
     char own[STUDY_NAME];
-    return strcmp(name, "all") == 0 || strcmp(name, dal_method_name(method, own, sizeof own)) == 0;
+    dal_method_name(method, own, sizeof own);
+    if (strncmp(name, "all+", 4) == 0) return strcmp(own + strcspn(own, "+"), name + 3) == 0;
+    return strcmp(name, "all") == 0 || strcmp(name, own) == 0;
 }
 
 int study_is_constraint(const char *quantity)

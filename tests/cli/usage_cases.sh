@@ -30,7 +30,7 @@ while read -r command; do
 done <commands
 try 0 study --help
 prints '^  runs/NAME/        a directory per cell \(system, integrator, start, step\), as$'
-prints "^                    'dalembert run' makes it, whose rows are taken after whole$"
+prints "^                    'run' makes it, with rows after whole numbers of steps$"
 
 if command -v script >/dev/null 2>&1; then
     case_is "tables on a terminal of 80 columns"
