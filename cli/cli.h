@@ -24,8 +24,14 @@
     X(run, "SYSTEM --integrator NAME --step H --time T [OPTION]...", "integrate one system")       \
     X(resume, "DIR [OPTION]...", "go on with a run or a study that was interrupted")               \
     X(study, "[STUDY.yaml] [OPTION]...", "systems x integrators x steps: tables of drift")         \
-    X(order, "SYSTEM [OPTION]...", "error against step and against work, for every integrator")    \
     X(merge, "DIR... --output DIR", "join the shards of a study")                                  \
+    X(order, "SYSTEM [OPTION]...", "error against step and against work, for every integrator")    \
+    X(section, "SYSTEM --on FORMULA --integrator NAME --step H --time T [OPTION]...",              \
+      "where a motion crosses a surface")                                                          \
+    X(lyapunov, "SYSTEM --integrator NAME --step H --time T [OPTION]...",                          \
+      "Lyapunov exponents of a motion")                                                            \
+    X(volume, "SYSTEM --integrator NAME --step H --time T [OPTION]...",                            \
+      "at what rate the volume of the phase space changes")                                        \
     X(generate, "SYSTEM --integrator NAME [OPTION]... -o FILE.c",                                  \
       "one C file that steps a system and needs nothing else")                                     \
     X(report, "DIR [OPTION]...", "figures and tables from a run or a study")

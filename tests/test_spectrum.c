@@ -1,70 +1,10 @@
-/* test_spectrum.c - means with intervals, Lyapunov exponents, phase volume. */
+/* test_spectrum.c - Lyapunov exponents and phase volume. */
 #include "allocation.h"
 #include "fixtures.h"
 #include "quick.h"
 #include <CUnit/CUnit.h>
 #include <math.h>
 #include <string.h>
-
-/* ---- means ---- */
-
-static double noise(unsigned *state)
-{
-    *state = *state * 1664525u + 1013904223u;
-    return (double)(*state >> 8) / (1 << 24) - 0.5;
-}
-
-static void test_mean(void)
-{
-    dal_statistics s;
-    dal_average a;
-    double x = 0.1;
-    dal_statistics_start(&s, 1);
-    dal_statistics_mean(&s, &a);
-    CU_ASSERT(isnan(a.mean));
-    for (int i = 0; i < 1000; i++) dal_statistics_add(&s, 1, i, &x);
-    dal_statistics_mean(&s, &a);
-    CU_ASSERT_EQUAL(a.mean, 0.1);
-    CU_ASSERT(a.low == 0.1 && a.high == 0.1);
-    /* 1, 2, .., 1003: the open block counts too. */
-    dal_statistics_start(&s, 1);
-    for (int i = 1; i <= 1003; i++) dal_statistics_add(&s, 1, i, &(double){i});
-    dal_statistics_mean(&s, &a);
-    CU_ASSERT_DOUBLE_EQUAL(a.mean, 502.0, 1e-11);
-    CU_ASSERT_DOUBLE_EQUAL(a.high - a.mean, a.mean - a.low, 1e-11);
-    x = INFINITY;
-    dal_statistics_add(&s, 1, 1004.0, &x);
-    dal_statistics_mean(&s, &a);
-    CU_ASSERT(isnan(a.mean));
-}
-
-/* x_i = r x_(i-1) + noise about 3: how often the interval holds 3. */
-static int covered(double r, int trials)
-{
-    unsigned state = 7;
-    int inside = 0;
-    for (int k = 0; k < trials; k++) {
-        dal_statistics s;
-        dal_average a;
-        double x = 0.0;
-        dal_statistics_start(&s, 1);
-        for (int i = -50; i < 4000; i++) {
-            x = r * x + noise(&state);
-            if (i >= 0) dal_statistics_add(&s, 1, i, &(double){3.0 + x});
-        }
-        dal_statistics_mean(&s, &a);
-        inside += a.low <= 3.0 && 3.0 <= a.high;
-    }
-    return inside;
-}
-
-/* 95 % of 400 is 380, its deviation 4.4. */
-static void test_mean_coverage(void)
-{
-    const int white = covered(0.0, 400), coloured = covered(0.98, 400);
-    CU_ASSERT(white >= 365 && white < 400);
-    CU_ASSERT(coloured >= 365 && coloured < 400);
-}
 
 /* ---- exponents ---- */
 
@@ -167,20 +107,22 @@ static const char lorenz[] = "coordinates: [a, b, c]\n"
                              "                c: a'*b' - 8/3*c'}\n"
                              "start: {a': 1, b': 1, c': 20}\n";
 
+enum { LONG = 40000 };
+
 static void test_lorenz(void)
 {
     dal_model *model = fixture_model(lorenz);
-    const long long steps = long_run(40000);
-    dal_spectrum *s = spectrum_of(model, "rk4", 0.01, steps / 20, steps);
-    const double near = 0.05 * sqrt(40000.0 / (double)steps);
+    const long long steps = long_run(LONG);
+    dal_spectrum *s = spectrum_of(model, "rk4", 0.01, 2000, steps);
     dal_average a;
-    CU_ASSERT_DOUBLE_EQUAL(exponent(s, 0), 0.9056, near);
-    dal_spectrum_exponent(s, 0, &a);
-    CU_ASSERT(a.low < 0.9056 && 0.9056 < a.high && a.high - a.low < 4.0 * near);
-    for (int i = 1; i < 5; i++) CU_ASSERT_DOUBLE_EQUAL(exponent(s, i), 0.0, near);
-    CU_ASSERT_DOUBLE_EQUAL(exponent(s, 5), -14.5723, near);
     CU_ASSERT_DOUBLE_EQUAL(divergence_of(s), -41.0 / 3.0, 1e-12);
     CU_ASSERT_DOUBLE_EQUAL(sum_of(s), -41.0 / 3.0, 1e-3);
+    dal_spectrum_exponent(s, 0, &a);
+    if (steps == LONG) {
+        CU_ASSERT(a.low < 0.9056 && 0.9056 < a.high && a.high - a.low < 0.2);
+        for (int i = 1; i < 5; i++) CU_ASSERT_DOUBLE_EQUAL(exponent(s, i), 0.0, 0.05);
+        CU_ASSERT_DOUBLE_EQUAL(exponent(s, 5), -14.5723, 0.05);
+    }
     dal_spectrum_free(s);
     dal_model_free(model);
 }
@@ -192,15 +134,18 @@ static void test_pairs(void)
                                      "lagrangian: >-\n"
                                      "  (x'^2 + y'^2 - x^2 - y^2)/2 - x^2*y + y^3/3\n"
                                      "start: {y: -0.25, x': 0.4208127057650699}\n");
-    dal_spectrum *s = spectrum_of(model, "stormer-verlet", 0.05, 1000, long_run(40000));
+    const long long steps = long_run(LONG);
+    dal_spectrum *s = spectrum_of(model, "stormer-verlet", 0.05, 1000, steps);
+    dal_average a;
     CU_ASSERT_DOUBLE_EQUAL(sum_of(s), 0.0, 1e-13);
     CU_ASSERT_EQUAL(divergence_of(s), 0.0);
-    dal_average a;
     dal_spectrum_exponent(s, 0, &a);
-    CU_ASSERT(a.low > 0.02 && a.high < 0.15);
-    CU_ASSERT_DOUBLE_EQUAL(exponent(s, 0) + exponent(s, 3), 0.0, 1e-2);
-    CU_ASSERT_DOUBLE_EQUAL(exponent(s, 1), 0.0, 1e-2);
-    CU_ASSERT_DOUBLE_EQUAL(exponent(s, 2), 0.0, 1e-2);
+    if (steps == LONG) {
+        CU_ASSERT(a.low > 0.02 && a.high < 0.15);
+        CU_ASSERT_DOUBLE_EQUAL(exponent(s, 0) + exponent(s, 3), 0.0, 1e-2);
+        CU_ASSERT_DOUBLE_EQUAL(exponent(s, 1), 0.0, 1e-2);
+        CU_ASSERT_DOUBLE_EQUAL(exponent(s, 2), 0.0, 1e-2);
+    }
     dal_spectrum_free(s);
     dal_model_free(model);
 }
@@ -263,6 +208,50 @@ static void test_rank(void)
     dal_model_free(model);
 }
 
+/* ---- what the shipped systems say of their measure ---- */
+
+static bool has_tag(const dal_system *system, const char *tag)
+{
+    for (int i = 0; i < system->tags; i++)
+        if (strcmp(system->tag[i], tag) == 0) return true;
+    return false;
+}
+
+/* A density of the phase space that grows without bound along a motion that does not return spoils
+ * the mean: y = b t of the free particle, the speed on the incline. */
+static bool returns(const char *name)
+{
+    return strcmp(name, "nonholonomic-particle-free") != 0 &&
+           strcmp(name, "chaplygin-sleigh-incline") != 0;
+}
+
+static void check_tags(dal_model *model, const char *name)
+{
+    const dal_system *system = fixture_system(model);
+    const bool kept = has_tag(system, "measure-preserving"), lost = has_tag(system, "attractor");
+    dal_average a;
+    CU_ASSERT(!kept || !lost);
+    if (system->multipliers || !returns(name) || !(kept || lost)) return;
+    dal_spectrum *s = spectrum_of(model, "rk4", 0.05, 0, 500);
+    dal_spectrum_divergence(s, &a);
+    const bool is_zero = fabs(a.mean) < 1e-14 || (a.low < 0.0 && 0.0 < a.high);
+    const bool is_right = kept ? is_zero : a.mean < -0.1;
+    if (!is_right) printf("\n  %s: %g (%g %g)\n", name, a.mean, a.low, a.high);
+    CU_ASSERT(is_right);
+    CU_ASSERT_DOUBLE_EQUAL(sum_of(s), a.mean, 1e-2);
+    dal_spectrum_free(s);
+}
+
+static void test_tags(void)
+{
+    const char *name;
+    for (int i = 0; (name = dal_builtin_name(i)) != NULL; i++) {
+        dal_model *model = fixture_model(name);
+        check_tags(model, name);
+        dal_model_free(model);
+    }
+}
+
 /* On D = 0 the sum is the divergence whatever forces D: the mean over the surface is the same. */
 static void test_attractor(void)
 {
@@ -274,6 +263,20 @@ static void test_attractor(void)
         CU_ASSERT_DOUBLE_EQUAL(sum_of(s), divergence_of(s), 1e-3);
         dal_spectrum_free(s);
     }
+    dal_model_free(model);
+}
+
+/* The sleigh with J = I + m a^2 = 4, m = a = 1: on D = 0 the divergence is -(m a/J) v with v = V
+ * tanh tau and dtau/dt = V/4, so that its integral is -log(cosh tau/cosh tau0). */
+static void test_full_turn(void)
+{
+    dal_model *model = fixture_model("chaplygin-sleigh-full-turn");
+    const double V = sqrt(0.8 * 0.8 + 1.0), tau0 = asinh(-0.8), T = 10.0;
+    const double exact = -log(cosh(tau0 + V / 4.0 * T) / cosh(tau0)) / T;
+    dal_spectrum *s = spectrum_of(model, "gauss8", 0.02, 0, 500);
+    CU_ASSERT_DOUBLE_EQUAL(sum_of(s), exact, 1e-6);
+    CU_ASSERT_DOUBLE_EQUAL(divergence_of(s), exact, 1e-5);
+    dal_spectrum_free(s);
     dal_model_free(model);
 }
 
@@ -348,8 +351,6 @@ static void test_out_of_memory(void)
 void suite_spectrum(void)
 {
     CU_pSuite suite = CU_add_suite("exponents and volume", NULL, NULL);
-    CU_add_test(suite, "mean", test_mean);
-    CU_add_test(suite, "mean: how often the interval holds it", test_mean_coverage);
     CU_add_test(suite, "a saddle, closed form", test_saddle);
     CU_add_test(suite, "a spiral, closed form", test_spiral);
     CU_add_test(suite, "Lorenz", test_lorenz);
@@ -357,6 +358,8 @@ void suite_spectrum(void)
     CU_add_test(suite, "tangent system against differences", test_ways);
     CU_add_test(suite, "directions of a step map", test_rank);
     CU_add_test(suite, "an attractor", test_attractor);
+    CU_add_test(suite, "a full turn of the sleigh, closed form", test_full_turn);
+    CU_add_test(suite, "the measures of the shipped systems", test_tags);
     CU_add_test(suite, "vakonomic motion", test_vakonomic);
     CU_add_test(suite, "the trajectory is that of a run", test_same_bits);
     CU_add_test(suite, "what is refused", test_refuses);

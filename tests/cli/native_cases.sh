@@ -26,7 +26,7 @@ if there cc; then
     holds "other bytes" cmp -s tape.npy there/trajectory.npy
 
     case_is "native: a corrupt object is compiled anew"
-    for damage in 'head -c 5000 "$object" >cut && cp cut "$object"' ': >"$object"' \
+    for damage in 'head -c 5000 "$object" > first_half && cp first_half "$object"' ': >"$object"' \
         'printf x | dd of="$object" bs=1 seek=4444 conv=notrunc 2>dd.log'; do
         eval "$damage"
         try 0 run $motion --native on --output native.csv

@@ -1,0 +1,314 @@
+/* section.c - `dalembert section`: where a motion crosses a surface g(q,v,t) = 0.
+ *
+ * The formula of g becomes one more invariant of the system's model, so that it may name whatever
+ * invariants may, and is evaluated as they are. */
+#include "analysis.h"
+#include "gnuplot.h"
+#include "native.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+/* name, value, default, help */
+#define OWN_LIST(X)                                                                                \
+    X(on, "FORMULA[=VALUE]", NULL, "the surface: x - 1, y*x' = 0.5, sin(3*t)")                     \
+    X(direction, "up|down|both", "both", "crossings from below it to above, from above, or all")   \
+    X(transient, "T0", "0", "leave out what is crossed before")                                    \
+    X(axes, "X,Y", NULL, "columns of the picture; otherwise the last coordinate and its velocity") \
+    X(native, "auto|on|off", "auto", "compile the steps, which changes no bit: when it pays")      \
+    X(output, "DIR|FILE|-", "-", "write there: .csv, .npy, a directory with a picture, or stdout")
+
+enum {
+#define X(name, value, initial, help) OWN_##name,
+    OWN_LIST(X)
+#undef X
+        OWN_OPTIONS
+};
+
+static const cli_option own[OWN_OPTIONS] = {
+#define X(name, value, initial, help) {#name, value, help, initial},
+    OWN_LIST(X)
+#undef X
+};
+
+static const char notes[] =
+    "SYSTEM is a built-in name or the path of a system file.  The formula may name coordinates,\n"
+    "velocities, parameters, what the system file has under let, and t.\n"
+    "\n"
+    "A crossing is found where the formula changes its sign within a step: a step of another size\n"
+    "of the same method, from where that one began, meets it to rounding.  So the trajectory is "
+    "that\n"
+    "of 'dalembert run'.  Pairs of crossings within one step are found too; a touch is no "
+    "crossing\n"
+    "and is counted apart; a start on the surface is none.\n"
+    "\n"
+    "Rows are CSV with 17 digits: crossing (from 1), t, direction (1 or -1), then the state as\n"
+    "'dalembert run' has it.  A directory gets section.csv and, by gnuplot, section.svg with its\n"
+    "script.\n";
+
+enum { NAME = 80 };
+
+/* What comes before the state in a row. */
+enum { COLUMN_CROSSING, COLUMN_T, COLUMN_DIRECTION, COLUMNS_BEFORE };
+
+typedef struct wishes {
+    const char *on, *axes, *output;
+    int direction;
+    double transient;
+    cli_native native;
+} wishes;
+
+typedef struct section {
+    cli_job job;
+    const wishes *w;
+    cli_table table;
+    int columns;
+    char **names; /* [columns], pieces of one text */
+    double *row;
+    long long rows;
+    int told; /* exit status of a failure of the program's own */
+} section;
+
+static int take_direction(wishes *w, const char *value)
+{
+    static const char *const words[] = {"down", "both", "up"};
+    for (int i = 0; i < 3; i++) {
+        if (strcmp(value, words[i]) != 0) continue;
+        w->direction = i - 1;
+        return CLI_DONE;
+    }
+    return cli_fail(CLI_USAGE, "--direction: '%s' is not up, down or both", value);
+}
+
+static int take(void *user, int k, const char *value)
+{
+    wishes *w = user;
+    switch (k) {
+    case OWN_on:
+        w->on = value;
+        return CLI_DONE;
+    case OWN_direction:
+        return take_direction(w, value);
+    case OWN_transient:
+        return cli_number("--transient", value, &w->transient);
+    case OWN_axes:
+        w->axes = value;
+        return CLI_DONE;
+    case OWN_native:
+        return native_read(value, &w->native);
+    default:
+        w->output = value;
+        return CLI_DONE;
+    }
+}
+
+/* ---- the model with the section among its invariants --------------------------------------- */
+
+/* "A = B" means (A) - (B); allocated. */
+static char *formula_of(const char *on)
+{
+    const char *equals = strchr(on, '=');
+    if (!equals) return strdup(on);
+    const size_t size = strlen(on) + 8;
+    char *text = malloc(size);
+    if (text) snprintf(text, size, "(%.*s)-(%s)", (int)(equals - on), on, equals + 1);
+    return text;
+}
+
+static int load(section *s)
+{
+    cli_job *job = &s->job;
+    const dal_system *plain;
+    dal_model *model = NULL;
+    dal_error error = {0};
+    /* First without the section: then what is wrong later is wrong with it. */
+    int status = cli_load(job->system, &model, &plain);
+    dal_model_free(model);
+    if (status == CLI_DONE) status = cli_read(job->system, &job->model);
+    if (status != CLI_DONE) return status;
+    char *formula = formula_of(s->w->on);
+    if (!formula) return cli_fail(CLI_IO, "out of memory");
+    const dal_status added =
+        dal_model_add(job->model, DAL_SECTION_INVARIANTS, "the_section", formula, 0, 0, &error);
+    if (added != DAL_OK)
+        status = cli_error(cli_input_exit(added), "--on", &error);
+    else
+        status = cli_make("--on", &job->model, &job->made);
+    free(formula);
+    return status;
+}
+
+/* ---- rows ---------------------------------------------------------------------------------- */
+
+static int name_columns(section *s)
+{
+    static const char *const before[COLUMNS_BEFORE] = {"crossing", "t", "direction"};
+    s->columns = COLUMNS_BEFORE + dal_run_dimension(s->job.run);
+    s->names = calloc((size_t)s->columns, sizeof *s->names);
+    s->row = calloc((size_t)s->columns, sizeof *s->row);
+    char *text = calloc((size_t)s->columns, NAME);
+    if (s->names && text) s->names[0] = text;
+    if (!s->names || !text || !s->row) {
+        free(s->names ? NULL : text);
+        return cli_fail(CLI_IO, "out of memory");
+    }
+    for (int i = 0; i < s->columns; i++) {
+        s->names[i] = text + i * NAME;
+        if (i < COLUMNS_BEFORE)
+            snprintf(s->names[i], NAME, "%s", before[i]);
+        else
+            dal_run_name(s->job.run, i - COLUMNS_BEFORE, s->names[i], NAME);
+    }
+    return CLI_DONE;
+}
+
+static dal_status cross(void *user, dal_run *run, const dal_crossing *crossing)
+{
+    section *s = user;
+    if (crossing->t < s->w->transient) return DAL_OK;
+    s->row[COLUMN_CROSSING] = (double)++s->rows;
+    s->row[COLUMN_T] = crossing->t;
+    s->row[COLUMN_DIRECTION] = crossing->direction;
+    memcpy(s->row + COLUMNS_BEFORE, dal_run_state(run),
+           (size_t)dal_run_dimension(run) * sizeof *s->row);
+    s->told = table_row(&s->table, s->row);
+    return s->told == CLI_DONE ? DAL_OK : DAL_IO;
+}
+
+static dal_status poll(void *user, dal_run *run)
+{
+    const section *s = user;
+    cli_progress("t = %.6g of %.6g, %lld crossings", dal_run_time(run), s->job.time, s->rows);
+    return cli_interrupted() ? DAL_INTERRUPTED : DAL_OK;
+}
+
+static int ended(const section *s, dal_status status, const dal_error *error)
+{
+    if (status == DAL_OK) return CLI_DONE;
+    if (s->told != CLI_DONE) return s->told;
+    if (status == DAL_INTERRUPTED) return CLI_SIGNAL;
+    return cli_error(status == DAL_ARGUMENT ? CLI_USAGE : cli_exit(status), s->job.system, error);
+}
+
+static int go(section *s, const char *path)
+{
+    dal_error error = {0};
+    dal_crossings found = {0};
+    const dal_system *system = s->job.made;
+    const dal_poincare poincare = {.callback = system->invariant_values,
+                                   .count = system->invariants,
+                                   .index = system->invariants - 1,
+                                   .direction = s->w->direction,
+                                   .user = s,
+                                   .cross = cross,
+                                   .poll = poll};
+    int status = table_create(&s->table, path, s->names, s->columns);
+    if (status == CLI_DONE) {
+        native_use(s->job.run, &s->job.method, s->job.time / s->job.options.step, s->w->native);
+        cli_catch_signals();
+        const dal_status crossed =
+            dal_run_crossings(s->job.run, s->job.time, &poincare, &found, &error);
+        cli_progress_end();
+        status = ended(s, crossed, &error);
+    }
+    const int closed = table_close(&s->table);
+    FILE *out = strcmp(path, "-") == 0 ? stderr : stdout;
+    if (out == stdout || isatty(STDERR_FILENO))
+        fprintf(out, "t = %g: %lld upwards, %lld downwards, %lld touches; %lld rows\n",
+                dal_run_time(s->job.run), found.up, found.down, found.touches, s->rows);
+    return status == CLI_DONE ? closed : status;
+}
+
+/* ---- the picture --------------------------------------------------------------------------- */
+
+static int find_column(const section *s, const char *name)
+{
+    for (int i = 1; i < s->columns; i++)
+        if (strcmp(s->names[i], name) == 0) return i;
+    cli_unknown("column", name, (const char *const *)s->names, s->columns);
+    return -1;
+}
+
+static int find_axes(const section *s, int axis[2])
+{
+    const int n = s->job.made->n;
+    char first[NAME];
+    axis[0] = COLUMNS_BEFORE + n - 1;
+    axis[1] = axis[0] + n;
+    if (!s->w->axes) return CLI_DONE;
+    const size_t length = strcspn(s->w->axes, ",");
+    if (!s->w->axes[length] || length >= sizeof first)
+        return cli_fail(CLI_USAGE, "--axes: '%s' is not two columns, X,Y", s->w->axes);
+    memcpy(first, s->w->axes, length);
+    first[length] = '\0';
+    axis[0] = find_column(s, first);
+    axis[1] = axis[0] < 0 ? -1 : find_column(s, s->w->axes + length + 1);
+    return axis[1] < 0 ? CLI_USAGE : CLI_DONE;
+}
+
+static int draw(const section *s, const char *directory, const int axis[2])
+{
+    char *path, title[256];
+    int missing;
+    FILE *script = gnuplot_open(directory, "section", "svg", 800, 600, &path);
+    if (!script) return CLI_IO;
+    snprintf(title, sizeof title, "%.80s: %.80s, h = %g, t to %g", s->job.system, s->w->on,
+             s->job.options.step, dal_run_time(s->job.run));
+    fputs("set title ", script);
+    gnuplot_quote(script, title);
+    fputs("\nset xlabel ", script);
+    gnuplot_quote(script, s->names[axis[0]]);
+    fputs("\nset ylabel ", script);
+    gnuplot_quote(script, s->names[axis[1]]);
+    fputs("\nset key outside top right reverse Left\nset offsets graph 0.02, graph 0.02, "
+          "graph 0.02, graph 0.02\nside(d, x) = column('direction') == d ? x : NaN\nplot \\\n",
+          script);
+    for (int side = 1; side >= -1; side -= 2) {
+        if (s->w->direction == -side) continue;
+        fprintf(script,
+                "  'section.csv' using (side(%d, column(%d))):%d with points pt 7 ps 0.3 "
+                "lc rgb '%s' title '%s'%s\n",
+                side, axis[0] + 1, axis[1] + 1, gnuplot_colour(side > 0 ? 11 : 1),
+                side > 0 ? "upwards" : "downwards", side > 0 && s->w->direction == 0 ? ", \\" : "");
+    }
+    const int status = gnuplot_draw(directory, script, path, &missing);
+    free(path);
+    return status;
+}
+
+/* ---- the command --------------------------------------------------------------------------- */
+
+static int run(section *s)
+{
+    analysis_place place = {0};
+    int axis[2] = {0, 0};
+    if (!s->w->on) return cli_fail(CLI_USAGE, "--on is missing");
+    int status = load(s);
+    if (status == CLI_DONE) status = job_make(&s->job);
+    if (status == CLI_DONE) status = name_columns(s);
+    if (status == CLI_DONE) status = find_axes(s, axis);
+    if (status == CLI_DONE) status = analysis_open(&place, s->w->output, "section");
+    if (status == CLI_DONE) status = go(s, place.table);
+    const int whole = status == CLI_DONE || status == CLI_SIGNAL;
+    if (whole && place.directory && s->rows > 0) {
+        const int drawn = draw(s, place.directory, axis);
+        if (status == CLI_DONE) status = drawn;
+    }
+    free(place.table);
+    return status;
+}
+
+int command_section(int argc, char **argv)
+{
+    const analysis_command command = {own, OWN_OPTIONS, NULL, 0, notes, take};
+    wishes w = {.output = own[OWN_output].initial};
+    section s = {.job = job_begin(), .w = &w};
+    int status = analysis_read(argc, argv, &command, &s.job, &w);
+    if (status == CLI_GO_ON) status = run(&s);
+    if (s.names) free(s.names[0]);
+    free(s.names);
+    free(s.row);
+    job_free(&s.job);
+    return status;
+}

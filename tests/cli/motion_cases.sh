@@ -1,0 +1,118 @@
+# `dalembert section`, `lyapunov`, `volume`: closed forms through the command line.
+
+cat >osc.yaml <<'END'
+coordinates: [x]
+parameters: {level: 0.999}
+lagrangian: (x'^2 - x^2)/2
+start: {x: 1}
+END
+cat >saddle.yaml <<'END'
+coordinates: [x]
+accelerations: {x: x}
+END
+fine="--integrator gauss12 --step 0.1 --time 20"
+
+# cos t = 0 at pi/2 + k pi, downwards first.
+case_is "crossings in closed form"
+try 0 section osc.yaml --on x $fine
+silent
+prints "^crossing,t,direction,x,x'"
+holds "other crossings" awk -F, 'NR > 1 { k = NR - 2; t = (k + 0.5) * 3.14159265358979324
+    if ($1 != NR - 1 || ($2 - t)^2 > 1e-24 || $3 != (k % 2 ? 1 : -1) || $4^2 > 1e-28) exit 1 }
+    END { exit NR != 7 }' out
+cp out both.csv
+try 0 section osc.yaml --on x $fine --direction up
+holds "not 3 upwards" awk -F, 'NR > 1 && $3 != 1 { exit 1 } END { exit NR != 4 }' out
+try 0 section osc.yaml --on x $fine --transient 10
+holds "not 3 behind t = 10" awk -F, 'NR > 1 && $2 < 10 { exit 1 } END { exit NR != 4 }' out
+try 0 section osc.yaml --on "x = level" $fine
+holds "not 7 at the level" test "$(wc -l <out)" -eq 8
+try 0 section osc.yaml --on "x = 1" $fine --output touch.csv
+prints '^t = 20: 0 upwards, 0 downwards, 3 touches; 0 rows$'
+
+case_is "a directory of crossings"
+if command -v gnuplot >/dev/null 2>&1; then
+    try 0 section osc.yaml --on x $fine --output crossed --axes "t,x'"
+    prints '^t = 20: 3 upwards, 3 downwards, 0 touches; 6 rows$'
+    holds "other rows" cmp both.csv crossed/section.csv
+    holds "no picture" grep -q '<svg' crossed/section.svg
+fi
+
+case_is "crossings: bad input"
+try 2 section osc.yaml $fine
+says '--on is missing'
+try 2 section osc.yaml --on "x +" $fine
+says '--on:1:4: .*a value is missing'
+try 2 section osc.yaml --on levl $fine
+says "--on:1:1: .*'levl'.*did you mean 'level'"
+try 2 section osc.yaml --on x $fine --direction sideways
+says "'sideways' is not up, down or both"
+try 2 section osc.yaml --on x $fine --axes "x,y"
+says "unknown column 'y'"
+try 2 section osc.yaml --on x $fine --axes x
+says "'x' is not two columns"
+try 2 section osc.yaml --on x --integrator rk4 --step 0.3 --time 20
+says 'does not hold a whole number of steps 0.3'
+try 3 section osc.yaml --on "log(5 - t)" --integrator rk4 --step 0.1 --time 20
+says 'the section has no value at t = 5'
+[ -e /dev/full ] && try 4 section osc.yaml --on x $fine --output /dev/full
+
+# x'' = x by rk4: R(z) = 1 + z + z^2/2 + z^3/6 + z^4/24 at z = h and -h.
+case_is "exponents in closed form"
+try 0 lyapunov saddle.yaml --integrator rk4 --step 0.1 --time 20 --transient 30 --output saddle.csv
+silent
+prints '^the derivative of the step exact'
+prints '^exponent 1 +0\.999999 .* positive$'
+prints '^exponent 2 +-0\.999999 .* negative$'
+prints '^their sum .* all$'
+prints '^divergence of F +0 '
+holds "other exponents" awk -F, '
+    NR == 1 && $0 != "t,lambda1,lambda2,divergence" { exit 1 }
+    NR > 1 { for (s = 1; s > -2; s -= 2) { h = s * 0.1
+            l = log(1 + h * (1 + h/2 * (1 + h/3 * (1 + h/4)))) / 0.1
+            if (($(s > 0 ? 2 : 3) - l)^2 > 1e-24) exit 1 }
+        if ($4 != 0) exit 1 }
+    END { exit NR != 101 || ($1 - 50)^2 > 1e-20 }' saddle.csv
+try 0 lyapunov chaplygin-sleigh --integrator gauss4+project --step 0.1 --time 5 --exponents 2
+prints 'by differences of order 8$'
+prints '^their sum .* not all$'
+
+case_is "exponents: bad input"
+try 2 lyapunov saddle.yaml --integrator rk4 --step 0.1 --time 5 --exponents 3
+says '3 exponents are asked for; the step map has 2'
+try 2 lyapunov chaplygin-sleigh --integrator gni --step 0.1 --time 5
+says 'gni carries a multiplier'
+try 2 lyapunov saddle.yaml --integrator rk4 --step 0.1 --time 5 --space lifted
+says 'unknown option'
+try 2 lyapunov saddle.yaml --integrator rk4 --step 0.1 --time 5 --transient -1
+says 'transient: -1 is negative'
+try 2 lyapunov saddle.yaml --integrator rk4 --step 0.1
+says 'time is missing'
+
+# x'' = -x' by rk4: J = ((1, *), (0, R(-h))).
+case_is "volumes in closed form"
+try 0 volume line.yaml --integrator rk4 --step 0.1 --time 10 --output shrinks.csv
+prints '^divergence of F +-1 .* shrinks$'
+prints '^2 of 2 directions'
+holds "another rate" awk -F, '
+    NR == 1 && $0 != "t,divergence,step" { exit 1 }
+    NR > 1 { h = -0.1; l = log(1 + h * (1 + h/2 * (1 + h/3 * (1 + h/4)))) / 0.1
+        if (($2 + 1)^2 > 1e-26 || ($3 - l)^2 > 1e-24) exit 1 }
+    END { exit NR != 101 }' shrinks.csv
+try 0 volume osc.yaml --integrator stormer-verlet --step 0.1 --time 10
+prints '^divergence of F +0 .* kept at every step$'
+prints '^log.det J./h of a step .* kept at every step$'
+try 0 volume chaplygin-sleigh-offset --integrator gauss4+project --step 0.1 --time 50
+prints '^log.det J./h of a step .* shrinks$'
+prints '^5 of 6 directions'
+
+case_is "an interrupted look keeps its means"
+timeout --preserve-status -s INT 1 "$program" lyapunov osc.yaml --integrator rk4 --step 0.01 \
+    --time 1e7 --rows 100000 --output early.csv >out 2>err
+holds "not 130" test $? -eq 130
+prints '^exponent 2 '
+holds "no rows" test "$(wc -l <early.csv)" -gt 2
+if command -v gnuplot >/dev/null 2>&1; then
+    try 0 volume line.yaml --integrator rk4 --step 0.1 --time 10 --output volumes
+    holds "no picture" grep -q '<svg' volumes/volume.svg
+fi
