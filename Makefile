@@ -107,6 +107,7 @@ $(SHARED): $(SHARED).$(VERSION)
 	@ln -sf $(SONAME) $@
 
 $(BUILD)/cli/pool.o: ALL += $(OPENMP)
+$(BUILD)/cli/manifest.o: ALL += -DCLI_FLAGS='"$(strip $(EXACT) $(CFLAGS))"'
 $(PROGRAM): $(CLI_OBJ) $(STATIC)
 	$(call SAY,ld)$(CC) $(CFLAGS) $(LDFLAGS) $^ $(LIBS) $(OPENMP) -o $@
 

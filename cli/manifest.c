@@ -7,6 +7,19 @@
 #include <string.h>
 #include <sys/utsname.h>
 
+#if defined(__clang__)
+#define COMPILER __VERSION__
+#elif defined(__GNUC__)
+#define COMPILER "gcc " __VERSION__
+#else
+#define COMPILER "unknown"
+#endif
+
+/* The Makefile tells how this program was compiled. */
+#ifndef CLI_FLAGS
+#define CLI_FLAGS ""
+#endif
+
 void manifest_machine(FILE *out)
 {
     struct utsname machine;
@@ -17,11 +30,9 @@ void manifest_machine(FILE *out)
         json_text_member(out, ",\n    ", "processor", machine.machine);
         fputc(',', out);
     }
-#ifdef __VERSION__
-    json_text_member(out, "\n    ", "compiler", __VERSION__);
-#else
-    fputs("\n    \"compiler\": null", out);
-#endif
+    json_text_member(out, "\n    ", "compiler", COMPILER);
+    json_text_member(out, ",\n    ", "flags", CLI_FLAGS);
+    json_text_member(out, ",\n    ", "libyaml", yaml_get_version_string());
     fputs("\n  }", out);
 }
 

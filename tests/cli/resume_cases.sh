@@ -208,3 +208,15 @@ try 0 run ./line.yaml --integrator rk4 --step 0.1 --time 1 --output former/rows.
 try 2 resume former
 says "'former' is of an older version, which kept run.yaml and rows.csv: its rows can be reported"
 command -v gnuplot >/dev/null 2>&1 && try 0 report former
+case_is "rows that are none"
+for bytes in 0 9 50 200; do
+    cp -r other ragged
+    head -c $bytes other/trajectory.npy >ragged/trajectory.npy
+    try 2 report ragged
+    says "'ragged/trajectory.npy' is no .npy file of named doubles"
+    rm -r ragged
+done
+cp -r other ragged
+sed 's/(6,)/(7,)/' other/trajectory.npy >ragged/trajectory.npy
+try 4 report ragged
+says "'ragged/trajectory.npy': shorter than it tells"
