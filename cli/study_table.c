@@ -13,6 +13,7 @@ typedef struct line {
     const study_plan *plan;
     const study_cell *cell;
     const dal_finding *D, *E, *H, *p, *pi, *invariant, *error;
+    int only; /* there is no lifted form of the method */
 } line;
 
 /* ---- what stands in a column ---- */
@@ -39,6 +40,7 @@ static double deviation(const dal_finding *finding) { return finding ? finding->
 
 static void say_twin(char *text, const line *l)
 {
+    if (l->only) snprintf(text, CELL, "only");
     const study_cell *twin = study_physical_twin(l->plan, l->cell);
     if (l->cell->start != STUDY_SURFACE || !twin || twin->state != STUDY_FINISHED) return;
     snprintf(text, CELL, "%s", twin->bits == l->cell->bits ? "same" : "DIFFERS");
@@ -152,6 +154,14 @@ static const table tables[STUDY_STARTS] = {
     [STUDY_DISPLACED] = {"lifted, p and pi displaced", head_lift, put_lift},
 };
 
+/* A method that has no lifted form has its numbers in (q,v) alone, where those on the surface would
+ * be the same. */
+static const study_cell *cell_shown(const study_plan *plan, const study_cell *c)
+{
+    const study_cell *twin = c->start == STUDY_SURFACE ? study_physical_twin(plan, c) : NULL;
+    return c->state == STUDY_REFUSED && twin && twin->state == STUDY_FINISHED ? twin : c;
+}
+
 static void print_table(FILE *out, const study_plan *plan, const study_entry *e, double step,
                         int start)
 {
@@ -162,7 +172,9 @@ static void print_table(FILE *out, const study_plan *plan, const study_entry *e,
         char name[STUDY_NAME];
         if (c->elsewhere || c->step != step || c->start != start) continue;
         fprintf(out, "  %-*s", METHOD, dal_method_name(c->method, name, sizeof name));
+        c = cell_shown(plan, c);
         line l = make_line(plan, c);
+        l.only = c->start != start;
         if (c->state == STUDY_FINISHED)
             tables[start].row(out, &l);
         else
@@ -185,11 +197,14 @@ void study_print_entry(FILE *out, const study_plan *plan, const study_entry *e)
 
 void study_print_note(FILE *out)
 {
-    fputs(
+    cli_fold_notes(
+        out,
         "\n"
         "What this shows.  On p = pi = 0 a lifted method is the same method on (q,v), bit for\n"
-        "bit ('same'), p and pi stay zero and so does H.  That a method is symplectic on the\n"
-        "lift says nothing there about D or the energy: every one-step method, explicit Euler\n"
+        "bit ('same'), p and pi stay zero and so does H; a method that has no lifted form is "
+        "shown\n"
+        "in (q,v) alone ('only').  That a method is symplectic on the lift says nothing there\n"
+        "about D or the energy: every one-step method, explicit Euler\n"
         "included, is the restriction of a symplectic one.  D and E are kept, or not, for other\n"
         "reasons: the form of D, reversibility, projection.  What symplecticity does keep shows\n"
         "off p = pi = 0, in H.  There pi/e pushes v off D; p and pi grow where the motion\n"
@@ -198,12 +213,11 @@ void study_print_note(FILE *out)
         "p = pi = 0, and H with them.\n"
         "\n"
         "Verdicts.  exact: never changed.  rounding: a random walk of rounding size, or changes\n"
-        "within some hundred roundings.  bounded: to and fro about one value.  linear drift, "
-        "power\n"
-        "law, exponential: grows so.  aborted: not finite.  not enough data: too few samples, or\n"
+        "within some hundred roundings.  bounded: to and fro about one value.  linear drift,\n"
+        "power law, exponential: grows so.  aborted: not finite.  not enough data: too few "
+        "samples, or\n"
         "too slow an oscillation, to tell.  quantities.csv has the confidence of each.  -: not to\n"
         "be judged, as E where the system itself does not conserve it.  Rates are slopes of least\n"
         "squares.  All look at every step.  I are the invariants of the system, the worst of\n"
-        "them; ns are of the clock, looking on included.\n",
-        out);
+        "them; ns are of the clock, looking on included.\n");
 }

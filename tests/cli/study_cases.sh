@@ -83,6 +83,8 @@ systems: chaplygin-sleigh-vakonomic
 END
 try 0 study refused.yaml --output there --force
 prints '^  rk4 +refused: '
+# Vakonomic motion is in (q,v) alone, where its ten steps are shown: they take four evaluations each.
+prints '^  rk4 .* only +10 +4\.0 '
 holds "not 2 refused" test "$(column state there/cells.csv | grep -c refused)" -eq 2
 
 case_is "an interrupted study keeps what is finished"
