@@ -237,7 +237,7 @@ LIB     = "$(DESTDIR)$(PREFIX)/lib"
 INCLUDE = "$(DESTDIR)$(PREFIX)/include"
 MAN     = "$(DESTDIR)$(PREFIX)/share/man/man1"
 SHARE   = "$(DESTDIR)$(PREFIX)/share/dalembert"
-PUBLIC  = dalembert.h dalembert_model.h dalembert_method.h dalembert_generate.h dalembert_measure.h
+PUBLIC  = $(filter-out dalembert_kernel.h,$(notdir $(wildcard include/*.h)))
 HEADERS = $(PUBLIC) dalembert_kernel.h
 LINKS   = libdalembert.so $(SONAME) libdalembert.so.$(VERSION)
 

@@ -6,6 +6,7 @@
 #include "gnuplot.h"
 #include "native.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -15,7 +16,7 @@
     X(on, "FORMULA[=VALUE]", NULL, "the surface: x - 1, y*x' = 0.5, sin(3*t)")                     \
     X(direction, "up|down|both", "both", "crossings from below it to above, from above, or all")   \
     X(transient, "T0", "0", "leave out what is crossed before")                                    \
-    X(axes, "X,Y", NULL, "columns of the picture; otherwise the last coordinate and its velocity") \
+    X(axes, "X,Y", NULL, "columns of the picture (the last coordinate that varies, its velocity)") \
     X(native, "auto|on|off", "auto", "compile the steps, which changes no bit: when it pays")      \
     X(output, "DIR|FILE|-", "-", "write there: .csv, .npy, a directory with a picture, or stdout")
 
@@ -64,8 +65,8 @@ typedef struct section {
     const wishes *w;
     cli_table table;
     int columns;
-    char **names; /* [columns], pieces of one text */
-    double *row;
+    char **names;               /* [columns], pieces of one text */
+    double *row, *least, *most; /* [columns] of a row, and of all */
     long long rows;
     int told; /* exit status of a failure of the program's own */
 } section;
@@ -146,14 +147,18 @@ static int name_columns(section *s)
     static const char *const before[COLUMNS_BEFORE] = {"crossing", "t", "direction"};
     s->columns = COLUMNS_BEFORE + dal_run_dimension(s->job.run);
     s->names = calloc((size_t)s->columns, sizeof *s->names);
-    s->row = calloc((size_t)s->columns, sizeof *s->row);
+    s->row = calloc(3 * (size_t)s->columns, sizeof *s->row);
     char *text = calloc((size_t)s->columns, NAME);
     if (s->names && text) s->names[0] = text;
     if (!s->names || !text || !s->row) {
         free(s->names ? NULL : text);
         return cli_fail(CLI_IO, "out of memory");
     }
+    s->least = s->row + s->columns;
+    s->most = s->least + s->columns;
     for (int i = 0; i < s->columns; i++) {
+        s->least[i] = INFINITY;
+        s->most[i] = -INFINITY;
         s->names[i] = text + i * NAME;
         if (i < COLUMNS_BEFORE)
             snprintf(s->names[i], NAME, "%s", before[i]);
@@ -172,6 +177,10 @@ static dal_status cross(void *user, dal_run *run, const dal_crossing *crossing)
     s->row[COLUMN_DIRECTION] = crossing->direction;
     memcpy(s->row + COLUMNS_BEFORE, dal_run_state(run),
            (size_t)dal_run_dimension(run) * sizeof *s->row);
+    for (int i = 0; i < s->columns; i++) {
+        s->least[i] = fmin(s->least[i], s->row[i]);
+        s->most[i] = fmax(s->most[i], s->row[i]);
+    }
     s->told = table_row(&s->table, s->row);
     return s->told == CLI_DONE ? DAL_OK : DAL_IO;
 }
@@ -230,12 +239,11 @@ static int find_column(const section *s, const char *name)
     return -1;
 }
 
+/* The columns that were asked for, or -1 and -1. */
 static int find_axes(const section *s, int axis[2])
 {
-    const int n = s->job.made->n;
     char first[NAME];
-    axis[0] = COLUMNS_BEFORE + n - 1;
-    axis[1] = axis[0] + n;
+    axis[0] = axis[1] = -1;
     if (!s->w->axes) return CLI_DONE;
     const size_t length = strcspn(s->w->axes, ",");
     if (!s->w->axes[length] || length >= sizeof first)
@@ -245,6 +253,22 @@ static int find_axes(const section *s, int axis[2])
     axis[0] = find_column(s, first);
     axis[1] = axis[0] < 0 ? -1 : find_column(s, s->w->axes + length + 1);
     return axis[1] < 0 ? CLI_USAGE : CLI_DONE;
+}
+
+static int varies(const section *s, int column)
+{
+    return s->most[column] - s->least[column] > 1e-9 * fmax(1.0, fabs(s->most[column]));
+}
+
+/* Otherwise the last coordinate that is not the same in all rows, and its velocity; or t. */
+static void choose_axes(const section *s, int axis[2])
+{
+    const int n = s->job.made->n;
+    if (axis[0] >= 0) return;
+    for (int i = n - 1; i >= 0 && axis[0] < 0; i--)
+        if (varies(s, COLUMNS_BEFORE + i)) axis[0] = COLUMNS_BEFORE + i;
+    axis[1] = axis[0] < 0 ? COLUMNS_BEFORE + 2 * n - 1 : axis[0] + n;
+    if (axis[0] < 0) axis[0] = COLUMN_T;
 }
 
 static int draw(const section *s, const char *directory, const int axis[2])
@@ -282,7 +306,7 @@ static int draw(const section *s, const char *directory, const int axis[2])
 static int run(section *s)
 {
     analysis_place place = {0};
-    int axis[2] = {0, 0};
+    int axis[2] = {-1, -1};
     if (!s->w->on) return cli_fail(CLI_USAGE, "--on is missing");
     int status = load(s);
     if (status == CLI_DONE) status = job_make(&s->job);
@@ -292,6 +316,7 @@ static int run(section *s)
     if (status == CLI_DONE) status = go(s, place.table);
     const int whole = status == CLI_DONE || status == CLI_SIGNAL;
     if (whole && place.directory && s->rows > 0) {
+        choose_axes(s, axis);
         const int drawn = draw(s, place.directory, axis);
         if (status == CLI_DONE) status = drawn;
     }

@@ -232,7 +232,8 @@ static dal_status allocate(dal_spectrum *s, dal_error *error)
     return DAL_OK;
 }
 
-/* How many directions a step from the start leaves: behind them R_ii is 0, or noise. */
+/* How many directions a step from the start leaves: behind them R_ii is 0, or noise.  The vectors
+ * stay as that step left them: where it forces D = 0 they are tangent to that surface by then. */
 static dal_status find_rank(dal_spectrum *s)
 {
     dal_error ignored;
@@ -244,7 +245,7 @@ static dal_status find_rank(dal_spectrum *s)
     orthonormalise(s, s->dimension);
     s->error = error;
     while (s->rank < s->dimension && s->growth[s->rank] > lost_direction) s->rank++;
-    return draw_vectors(s);
+    return DAL_OK;
 }
 
 static dal_status make(dal_spectrum *s, const dal_run_spec *spec, const dal_system *tangent,
