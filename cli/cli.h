@@ -32,6 +32,8 @@
       "Lyapunov exponents of a motion")                                                            \
     X(volume, "SYSTEM --integrator NAME --step H --time T [OPTION]...",                            \
       "at what rate the volume of the phase space changes")                                        \
+    X(explain, "SYSTEM --integrator NAME --step H --time T [OPTION]...",                           \
+      "what the drift of a run comes from")                                                        \
     X(generate, "SYSTEM --integrator NAME [OPTION]... -o FILE.c",                                  \
       "one C file that steps a system and needs nothing else")                                     \
     X(report, "DIR [OPTION]...", "figures and tables from a run or a study")

@@ -347,6 +347,7 @@ void dal_batch_state(const dal_batch *batch, int lane, double *state);
 #include "dalembert_generate.h"
 #include "dalembert_measure.h"
 
+#include "dalembert_causes.h"
 #include "dalembert_motion.h"
 
 #ifdef __cplusplus

@@ -69,8 +69,7 @@ calls() { objects | xargs nm -A -u | awk -v build="$BUILD/" -f $here/calls.awk $
 
 exported() { nm -D --defined-only "$BUILD/libdalembert.so" | awk '{ print $3 }' | sort; }
 declared() {
-    ctags -x --c-kinds=p --_xformat='%N' include/dalembert.h include/dalembert_m*.h \
-        include/dalembert_generate.h
+    ctags -x --c-kinds=p --_xformat='%N' include/dalembert.h include/dalembert_[!k]*.h
     sed -n 's/^X(\(.*\))$/dal_integrator_\1/p' integrators/integrators.def
 }
 exports() {

@@ -1,0 +1,47 @@
+# explain: what a drift comes from.
+
+case_is "explain: truncation of rk4 on the sleigh"
+try 0 explain chaplygin-sleigh --integrator rk4 --space physical --step 0.1 --time 30 --long-steps 200
+silent
+prints "^chaplygin-sleigh, rk4, physical, h = 0.1: 300 steps, the first 200 in long numbers too$"
+prints "^D1: "
+prints "^    truncation    1 .*falls by 1[56].* = 2\^[34]\.[90].* when the step is halved$"
+prints "^exact: spin$"
+prints "^no run with equations solved less far: the method solves no equations$"
+
+case_is "explain: CSV"
+try 0 explain chaplygin-sleigh --integrator gauss8 --space physical --step 0.1 --time 30 \
+    --solve-to 1e-8 --long-steps 200 --output why.csv
+silent
+empty
+holds "heads" grep -q '^observable,kind,name,steps,share,margin,rate,rate_low,rate_high,deviation,verdict,words$' why.csv
+sed 's/"[^"]*"/words/' why.csv >plain.csv
+holds "columns" awk -F, 'NF != 12 { exit 1 }' plain.csv
+holds "the solver's share" awk -F, '$1 == "D1" && $3 == "solver" && $5 > 0.99 { found = 1 } END { exit !found }' why.csv
+holds "rows" awk -F, '$1 == "D1" { n[$2]++ } END { exit !(n["run"] == 9 && n["cause"] == 5) }' why.csv
+try 0 explain chaplygin-sleigh --integrator gauss8 --space physical --step 0.1 --time 30 \
+    --solve-to 1e-8 --long-steps 200 --output -
+holds "other rows on standard output" cmp -s out why.csv
+
+case_is "explain: no long numbers"
+try 0 explain line.yaml --integrator rk4 --step 0.1 --time 10 --long-steps 0
+prints "no long numbers: not asked for"
+
+case_is "explain: bad input"
+try 2 explain chaplygin-sleigh --integrator rk4 --step 0.1
+says "--time is missing"
+try 2 explain chaplygin-sleigh --integrator rk5 --step 0.1 --time 1
+says "did you mean 'rk4'"
+try 2 explain chaplygin-sleigh --integrator rk4 --step 0.1 --time 1 --samples 5
+says "unknown option '--samples'"
+try 2 explain chaplygin-sleigh --integrator rk4 --step 0.1 --time 1 --output why.txt
+says "does not end in .csv"
+try 2 explain chaplygin-sleigh --integrator rk4 --step 0.1 --time 1 --long-steps -1
+says "not in 0"
+try 4 explain chaplygin-sleigh --integrator rk4 --step 0.1 --time 1 --output /nowhere/why.csv
+says "cannot create"
+
+case_is "explain: a run that fails"
+try 3 explain chaplygin-sleigh --integrator implicit-midpoint --step 0.1 --time 1 --iterations 1
+says "did not converge"
+empty

@@ -1,0 +1,277 @@
+/* test_explain.c - what drifts come from, where it is known beforehand. */
+#include "fixtures.h"
+#include <CUnit/CUnit.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+static dal_explanation *explained(const dal_run_spec *spec, long long steps, long long early)
+{
+    dal_explanation *e = NULL;
+    dal_error error = {0};
+    const dal_status status = dal_explain(spec, steps, early, NULL, &e, &error);
+    if (status != DAL_OK) printf("\n  %s\n", error.message);
+    CU_ASSERT_EQUAL_FATAL(status, DAL_OK);
+    return e;
+}
+
+static int number_of(const dal_explanation *e, const char *name)
+{
+    for (int i = 0; i < e->observables; i++)
+        if (strcmp(e->of[i].name, name) == 0) return i;
+    CU_FAIL("no such observable");
+    return 0;
+}
+
+static const dal_attribution *of(const dal_explanation *e, const char *name)
+{
+    return &e->of[number_of(e, name)];
+}
+
+static double sum_of_shares(const dal_attribution *a)
+{
+    double sum = 0.0;
+    for (int k = DAL_CAUSE_TRUNCATION; k <= DAL_CAUSE_ROUNDING; k++)
+        sum += isnan(a->share[k]) ? 0.0 : a->share[k];
+    return sum;
+}
+
+static int says(const dal_explanation *e, const char *name, dal_cause cause, const char *fragment)
+{
+    char words[512];
+    dal_cause_words(e, number_of(e, name), cause, words, sizeof words);
+    const int found = strstr(words, fragment) != NULL;
+    if (!found) printf("\n  '%s' lacks '%s'\n", words, fragment);
+    return found;
+}
+
+/* rk4 does not keep the sleigh's D, which its truncation moves like h^4; nor, without D = 0, E.
+ * With +project D stays, and E moves like h^5 alone. */
+static void test_truncation(void)
+{
+    dal_model *model = fixture_model("chaplygin-sleigh");
+    dal_run_spec spec = fixture_spec(fixture_system(model), "rk4", DAL_PHYSICAL, 0.1);
+    dal_explanation *e = explained(&spec, 600, 400);
+    const dal_attribution *d = of(e, "D1"), *energy = of(e, "E");
+    CU_ASSERT(fabs(d->share[DAL_CAUSE_TRUNCATION] - 1.0) < 1e-6);
+    CU_ASSERT(fabs(d->order - 4.0) < 0.05);
+    CU_ASSERT(d->share[DAL_CAUSE_ROUNDING] < 1e-6);
+    CU_ASSERT_EQUAL(d->share[DAL_CAUSE_SOLVER], 0.0);
+    CU_ASSERT(d->share[DAL_CAUSE_PROJECTION] > 1.0 - 1e-9);
+    CU_ASSERT(energy->share[DAL_CAUSE_PROJECTION] > 0.99);
+    CU_ASSERT(fabs(energy->share[DAL_CAUSE_TRUNCATION] - 1.0) < 1e-6);
+    CU_ASSERT(says(e, "D1", DAL_CAUSE_TRUNCATION, "falls by 16 = 2^4.00") ||
+              says(e, "D1", DAL_CAUSE_TRUNCATION, "falls by 15.9 = 2^3.99"));
+    CU_ASSERT(says(e, "D1", DAL_CAUSE_SOLVER, "solves no equations"));
+    dal_explanation_free(e);
+    spec = fixture_spec(spec.system, "rk4+project", DAL_PHYSICAL, 0.1);
+    e = explained(&spec, 600, 400);
+    CU_ASSERT(e->projects);
+    CU_ASSERT(fabs(of(e, "E")->order - 5.0) < 0.05);
+    CU_ASSERT(of(e, "E")->by_rate);
+    CU_ASSERT(fabs(of(e, "E")->share[DAL_CAUSE_TRUNCATION] - 1.0) < 1e-4);
+    CU_ASSERT_EQUAL(of(e, "D1")->share[DAL_CAUSE_PROJECTION], 0.0);
+    CU_ASSERT(of(e, "D1")->twin[DAL_TWIN_PROJECTION].deviation > 1e-5);
+    CU_ASSERT(fabs(of(e, "D1")->share[DAL_CAUSE_ROUNDING] - 1.0) < 1e-9);
+    CU_ASSERT(says(e, "D1", DAL_CAUSE_TRUNCATION, "nothing of it is left"));
+    dal_explanation_free(e);
+    dal_model_free(model);
+}
+
+/* On a constraint nonlinear in v, whose forces do work: E changes by the motion itself. */
+static void test_nonlinear(void)
+{
+    dal_model *model = fixture_model("isokinetic");
+    const dal_run_spec spec = fixture_spec(fixture_system(model), "rk4", DAL_PHYSICAL, 0.05);
+    dal_explanation *e = explained(&spec, 400, 200);
+    const dal_attribution *d = of(e, "D1"), *energy = of(e, "E");
+    CU_ASSERT(fabs(d->share[DAL_CAUSE_TRUNCATION] - 1.0) < 1e-5);
+    CU_ASSERT(fabs(d->order - 4.0) < 0.1);
+    CU_ASSERT(energy->is_motion);
+    CU_ASSERT(isnan(energy->share[DAL_CAUSE_TRUNCATION]));
+    CU_ASSERT(says(e, "E", DAL_CAUSE_TRUNCATION, "the motion itself"));
+    dal_explanation_free(e);
+    dal_model_free(model);
+}
+
+/* The midpoint rule keeps a bilinear D, and its one coefficient is 1/2: what moves is rounding. */
+static void test_rounding(void)
+{
+    dal_model *model = fixture_model("contact-oscillator");
+    const dal_run_spec spec =
+        fixture_spec(fixture_system(model), "implicit-midpoint", DAL_PHYSICAL, 0.1);
+    dal_explanation *e = explained(&spec, 2000, 500);
+    const dal_attribution *d = of(e, "D1");
+    CU_ASSERT(fabs(d->share[DAL_CAUSE_ROUNDING] - 1.0) < 1e-9);
+    CU_ASSERT(d->is_nothing);
+    CU_ASSERT(fabs(d->share[DAL_CAUSE_TRUNCATION]) < 1e-12);
+    CU_ASSERT_EQUAL(d->share[DAL_CAUSE_COEFFICIENTS], 0.0);
+    CU_ASSERT(!(d->share[DAL_CAUSE_SOLVER] > 0.0));
+    CU_ASSERT(says(e, "D1", DAL_CAUSE_TRUNCATION, "in long numbers nothing of it is left"));
+    /* E, which this method does not keep, drifts by truncation. */
+    CU_ASSERT(fabs(of(e, "E")->share[DAL_CAUSE_TRUNCATION] - 1.0) < 1e-6);
+    CU_ASSERT(fabs(of(e, "E")->order - 2.0) < 0.1);
+    dal_explanation_free(e);
+    dal_model_free(model);
+}
+
+/* Equations solved to 1e-8: what the solver leaves moves D by far more than truncation does, whose
+ * part is as large as when they are solved. */
+static void test_solver(void)
+{
+    dal_model *model = fixture_model("chaplygin-sleigh");
+    dal_run_spec spec = fixture_spec(fixture_system(model), "gauss8", DAL_PHYSICAL, 0.1);
+    dal_explanation *solved = explained(&spec, 400, 400);
+    spec.options.solve_to = 1e-8;
+    dal_explanation *e = explained(&spec, 400, 400);
+    const dal_attribution *d = of(e, "D1");
+    CU_ASSERT(d->solver_tells);
+    CU_ASSERT(d->share[DAL_CAUSE_SOLVER] > 0.99);
+    CU_ASSERT(d->share[DAL_CAUSE_TRUNCATION] < 0.01);
+    CU_ASSERT(d->share[DAL_CAUSE_ROUNDING] < 0.01);
+    CU_ASSERT(d->by_rate);
+    CU_ASSERT(fabs(sum_of_shares(d) - 1.0) < 1e-9);
+    CU_ASSERT(d->twin[DAL_TWIN_LOOSER].deviation > 3 * d->all.deviation);
+    CU_ASSERT(d->twin[DAL_TWIN_TIGHTER].deviation < 0.01 * d->all.deviation);
+    CU_ASSERT_EQUAL(d->twin[DAL_TWIN_LONG].deviation,
+                    of(solved, "D1")->twin[DAL_TWIN_LONG].deviation);
+    CU_ASSERT(says(e, "D1", DAL_CAUSE_SOLVER, "solved to rounding"));
+    dal_explanation_free(solved);
+    dal_explanation_free(e);
+    dal_model_free(model);
+}
+
+/* gauss8 keeps a bilinear D but for its coefficients, which are good to 20 digits: what they do to
+ * D in a unit of time is proportional to h (h^2 in a step), and far below rounding. */
+static void test_coefficients(void)
+{
+    dal_model *model = fixture_model("contact-oscillator");
+    const dal_run_spec spec = fixture_spec(fixture_system(model), "gauss8", DAL_PHYSICAL, 0.1);
+    dal_explanation *e = explained(&spec, 600, 600);
+    const dal_attribution *d = of(e, "D1");
+    CU_ASSERT(fabs(d->order - 1.0) < 0.1);
+    CU_ASSERT_EQUAL(d->share[DAL_CAUSE_TRUNCATION], 0.0);
+    CU_ASSERT(fabs(d->share[DAL_CAUSE_COEFFICIENTS]) > 1e-8);
+    CU_ASSERT(fabs(d->share[DAL_CAUSE_COEFFICIENTS]) < 1e-3);
+    CU_ASSERT(fabs(d->share[DAL_CAUSE_ROUNDING] - 1.0) < 1e-3);
+    CU_ASSERT(says(e, "D1", DAL_CAUSE_COEFFICIENTS, "coefficients are doubles"));
+    dal_explanation_free(e);
+    dal_model_free(model);
+}
+
+/* x + h v in plain sums: all of the error is rounding, and goes in compensated ones. */
+static void test_sums(void)
+{
+    dal_model *model = fixture_model("coordinates: [x]\nlagrangian: x'^2/2\nstart: {x': 0.1}\n"
+                                     "exact: {x: 0.1*t}\n");
+    dal_run_spec spec =
+        fixture_spec(fixture_system(model), "symplectic-euler-10", DAL_PHYSICAL, 0.01);
+    spec.options.sums = DAL_SUMS_PLAIN;
+    dal_explanation *e = explained(&spec, 20000, 20000);
+    const dal_attribution *error = of(e, "error");
+    CU_ASSERT(fabs(error->share[DAL_CAUSE_ROUNDING] - 1.0) < 0.05);
+    CU_ASSERT(error->twin[DAL_TWIN_SUMS].deviation < 0.05 * error->all.deviation);
+    CU_ASSERT(says(e, "error", DAL_CAUSE_ROUNDING, "with compensated sums"));
+    dal_explanation_free(e);
+    dal_model_free(model);
+}
+
+/* ---- what cannot be had ---- */
+
+static dal_status field(const dal_system *system, const dal_at *at, double *out)
+{
+    (void)system;
+    out[0] = -at->q[0];
+    return DAL_OK;
+}
+static dal_status energy(const dal_system *system, const dal_at *at, double *out)
+{
+    (void)system;
+    out[0] = 0.5 * (at->v[0] * at->v[0] + at->q[0] * at->q[0]);
+    return DAL_OK;
+}
+static dal_status start(const dal_system *system, const dal_at *at, double *out)
+{
+    (void)system, (void)at;
+    out[0] = 1.0;
+    out[1] = 0.0;
+    return DAL_OK;
+}
+
+/* Without long numbers halving alone tells: rk4 on an oscillator loses energy like h^5. */
+static void test_by_hand(void)
+{
+    const dal_system spring = {
+        .name = "spring", .n = 1, .call = {.field = field}, .energy = energy, .start = start};
+    const dal_run_spec spec = fixture_spec(&spring, "rk4", DAL_PHYSICAL, 0.1);
+    dal_explanation *e = explained(&spec, 1000, 100);
+    const dal_attribution *loss = of(e, "E");
+    CU_ASSERT_EQUAL(e->early, 0);
+    CU_ASSERT_PTR_NOT_NULL(strstr(e->why[DAL_TWIN_LONG], "spring has no form in them"));
+    CU_ASSERT_PTR_NOT_NULL(strstr(e->why[DAL_TWIN_PROJECTION], "no constraint"));
+    CU_ASSERT(fabs(loss->order - 5.0) < 0.05);
+    CU_ASSERT(isnan(loss->share[DAL_CAUSE_ROUNDING]));
+    CU_ASSERT(isnan(loss->share[DAL_CAUSE_COEFFICIENTS]));
+    CU_ASSERT(says(e, "E", DAL_CAUSE_ROUNDING, "no long numbers"));
+    dal_explanation_free(e);
+}
+
+typedef struct watch {
+    int calls, most, runs;
+    double done;
+} watch;
+
+static dal_status step(void *user, double done)
+{
+    watch *w = user;
+    CU_ASSERT(done >= w->done && done <= 1.0);
+    w->done = done;
+    return ++w->calls < w->most ? DAL_OK : DAL_INTERRUPTED;
+}
+static void begin(void *user, dal_run *run, long long steps)
+{
+    (void)run;
+    CU_ASSERT(steps >= 50);
+    ((watch *)user)->runs++;
+}
+
+static void test_observer(void)
+{
+    dal_model *model = fixture_model("knife-edge");
+    dal_run_spec spec = fixture_spec(fixture_system(model), "gauss4", DAL_PHYSICAL, 0.1);
+    dal_explanation *e = NULL;
+    dal_error error = {0};
+    watch w = {.most = 1 << 30};
+    const dal_explain_observer observer = {&w, step, begin};
+    CU_ASSERT_EQUAL(dal_explain(&spec, 100, 50, &observer, &e, &error), DAL_OK);
+    CU_ASSERT_EQUAL(w.runs, 8); /* the run, five twins, and the early ones in doubles */
+    CU_ASSERT(w.done > 0.99);
+    dal_explanation_free(e);
+    const int all = w.calls;
+    for (int most = 1; most < all; most += all / 7) {
+        w = (watch){.most = most};
+        CU_ASSERT_EQUAL(dal_explain(&spec, 100, 50, &observer, &e, &error), DAL_INTERRUPTED);
+        CU_ASSERT_PTR_NULL(e);
+    }
+    CU_ASSERT_EQUAL(dal_explain(&spec, 0, 50, NULL, &e, &error), DAL_ARGUMENT);
+    spec.options.precision = DAL_LONG_NUMBERS;
+    CU_ASSERT_EQUAL(dal_explain(&spec, 100, 50, NULL, &e, &error), DAL_ARGUMENT);
+    spec.options.precision = DAL_DOUBLE;
+    spec.options.iterations = 1;
+    CU_ASSERT_EQUAL(dal_explain(&spec, 100, 50, NULL, &e, &error), DAL_NOT_CONVERGED);
+    CU_ASSERT_PTR_NULL(e);
+    dal_model_free(model);
+}
+
+void suite_explain(void)
+{
+    CU_pSuite suite = CU_add_suite("explain", NULL, NULL);
+    CU_add_test(suite, "truncation", test_truncation);
+    CU_add_test(suite, "a nonlinear constraint", test_nonlinear);
+    CU_add_test(suite, "rounding", test_rounding);
+    CU_add_test(suite, "the solver", test_solver);
+    CU_add_test(suite, "coefficients", test_coefficients);
+    CU_add_test(suite, "sums", test_sums);
+    CU_add_test(suite, "without long numbers", test_by_hand);
+    CU_add_test(suite, "looking on", test_observer);
+}
