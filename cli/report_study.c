@@ -11,6 +11,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 void report_add_word(report_words *words, const char *text)
 {
@@ -152,6 +153,59 @@ static void put_theme(FILE *page, const report_cells *c, const columns *all, con
     fputs("</tbody></table></div>\n", page);
 }
 
+/* ---- expectations ---- */
+
+static void put_expectation(FILE *page, const report_csv *csv, int row)
+{
+    const int met = strcmp(report_csv_get(csv, row, "met"), "yes") == 0;
+    fputs("<tr>", page);
+    report_element(page, "th scope=\"row\"", report_csv_get(csv, row, "label"));
+    report_element(page, "td", report_csv_get(csv, row, "integrator"));
+    report_element(page, "td", report_csv_get(csv, row, "start"));
+    fprintf(page, "<td>%g</td>", report_csv_number(csv, row, "step"));
+    report_element(page, "td", report_csv_get(csv, row, "quantity"));
+    report_element(page, "td", report_csv_get(csv, row, "expected"));
+    report_element(page, "td", report_csv_get(csv, row, "found"));
+    fprintf(page, "<td class=\"%s\">%s</td></tr>\n", met ? "exact" : "drift",
+            met ? "met" : "not met");
+}
+
+/* Those that are not met stand open on the page, all of them below. */
+static void put_expectations(FILE *page, const report_csv *csv, int all)
+{
+    fputs("<div class=\"wide\" tabindex=\"0\"><table><thead><tr><th>system</th><th>integrator</th>"
+          "<th>start</th><th>h</th><th>quantity</th><th>expected</th><th>found</th><th></th></tr>"
+          "</thead>\n<tbody>",
+          page);
+    for (int row = 1; row < csv->rows; row++)
+        if (all || strcmp(report_csv_get(csv, row, "met"), "yes") != 0)
+            put_expectation(page, csv, row);
+    fputs("</tbody></table></div>\n", page);
+}
+
+/* What the study says must become of its runs; a study need not say anything. */
+static int tell_expectations(report *r)
+{
+    report_csv csv = {.text = NULL};
+    char *path = cli_join(r->directory, "expectations.csv");
+    int status = path ? CLI_DONE : cli_fail(CLI_IO, "out of memory"), met = 0;
+    if (path && access(path, F_OK) == 0) {
+        status = report_csv_read(&csv, path);
+        for (int row = 1; row < csv.rows; row++)
+            met += strcmp(report_csv_get(&csv, row, "met"), "yes") == 0;
+    }
+    if (csv.rows > 1) {
+        fprintf(r->page, "<h2>Expectations</h2>\n<p>%d of %d are met.</p>\n", met, csv.rows - 1);
+        if (met < csv.rows - 1) put_expectations(r->page, &csv, 0);
+        fputs("<details><summary>all of them</summary>\n", r->page);
+        put_expectations(r->page, &csv, 1);
+        fputs("</details>\n", r->page);
+    }
+    report_csv_free(&csv);
+    free(path);
+    return status;
+}
+
 /* ---- the page ---- */
 
 static const char introduction[] =
@@ -246,6 +300,7 @@ static int write_page(report *r, const report_cells *c)
     put_contents(r->page, c);
     fputs(introduction, r->page);
     put_themes(r->page, c);
+    status = tell_expectations(r);
     for (int i = 0; i < c->labels.count && status != CLI_IO; i++) {
         cli_progress("report: %s", c->labels.word[i]);
         fprintf(r->page, "<h2 id=\"s%d\">", i + 1);

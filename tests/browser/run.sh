@@ -19,13 +19,14 @@ title: The looks of a report
 integrators: [all, rk4+project]
 step: [0.1, 0.05]
 time: 4
+expect: {chaplygin-sleigh: {rk4: {D: rounding, state: done}}}
 systems:
   - chaplygin-sleigh
   - {system: nonholonomic-particle, label: "a label <that> is \"rather\" long, and has words in it"}
   - {system: damped-oscillator, integrators: [rk4, symplectic-euler-11], step: 0.5, time: 40}
 END_OF_STUDY
 {
-    "$program" study looks.yaml --output study
+    "$program" study looks.yaml --output study || [ $? -eq 1 ]
     "$program" report study
     "$program" run snakeboard --integrator gauss4 --step 0.05 --time 5 --output run
     "$program" report run

@@ -21,8 +21,10 @@ systems:
   - line.yaml
   - {system: chaplygin-sleigh-vakonomic, label: vakonomic}
   - {system: chaplygin-sleigh-vakonomic, label: refused, starts: surface}
+expect:
+  line.yaml: {rk4: {state: done, E: {at most: 1e-30}}, gauss4: {state: done}}
 END_OF_STUDY
-try 0 study drawn.yaml --output drawn
+try 1 study drawn.yaml --output drawn
 try 0 run chaplygin-sleigh --integrator gauss4 --step 0.1 --time 6.283185307179586 --samples 80 \
     --set v0=0.1 --output ran
 page=drawn/report/index.html
@@ -42,6 +44,9 @@ if command -v gnuplot >/dev/null 2>&1; then
     holds "the label is not text" grep -q '<h2 id="s1">a &lt;b&gt; &quot;c&quot;' $page
     holds "no verdicts in words and colour" grep -q '<td class="verdict rounding">rounding<br>' $page
     holds "no title" grep -q '<h1>Three &amp; more</h1>' $page
+    # With both steps, from three starts: both methods go to the end, E of rk4 is not that small.
+    holds "no count of expectations" grep -q '<p>12 of 18 are met.</p>' $page
+    holds "no failed expectation" grep -q '<td>E</td><td>.*1e-30</td><td>.*<td class="drift">not met' $page
     holds "no path of the best run" grep -q '<svg' "drawn/report/a <b> \"c\" 'd'-path.svg"
     holds "no column for each step" grep -q '<th scope="col">line.yaml<br><small>h = 0.05' $page
     holds "no study file" grep -q 'integrators: \[rk4, gauss4, gauss4+project\]' $page
