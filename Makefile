@@ -128,7 +128,7 @@ $(SYSTEMS): tools/embed.sh $(wildcard systems/*.yaml) systems
 	@mkdir -p $(@D)
 	$(call SAY,sh)sh tools/embed.sh $(addsuffix .yaml,$(sort $(basename $(wildcard systems/*.yaml)))) >$@.tmp && mv $@.tmp $@
 # So do the kernel and the integrators, for generated files.
-SOURCES = $(wildcard lib/kernel/*.h) lib/generate/ask.h lib/generate/stepper.h lib/generate/caller.h \
+SOURCES = $(wildcard lib/kernel/*.h) $(addprefix lib/generate/,ask.h stepper.h lift.h caller.h looks.h) \
           $(wildcard integrators/*.c)
 $(BUILD)/generated/sources.c: tools/embed-sources.sh $(SOURCES)
 	@mkdir -p $(@D)

@@ -6,10 +6,12 @@
 #include <string.h>
 #include <sys/stat.h>
 
-/* A compiler takes some 1e8 ns for a small system.  The tape needs about so many for a step, by
- * coordinate, and compiled code a third of them; three times what must be saved is asked for. */
+/* A compiler takes some 1e8 ns for a small system.  The tape needs about so many for a step or a
+ * look, by coordinate, and compiled code a third of them or less; three times what must be saved is
+ * asked for. */
 #define NS_EXPLICIT 100.0
 #define NS_IMPLICIT 1000.0
+#define NS_LOOK     50.0
 #define WORTH_WHILE 5e8
 
 int native_read(const char *text, cli_native *native)
@@ -28,11 +30,9 @@ int native_read(const char *text, cli_native *native)
     return cli_fail(CLI_USAGE, "--native: '%s' is not auto, on or off", text);
 }
 
-static int pays(const dal_run *run, const dal_method *method, double steps)
+static int pays(const dal_run *run, double cost, double times)
 {
-    const int is_explicit = (dal_method_claims(method) & DAL_EXPLICIT) != 0;
-    const double cost = is_explicit ? NS_EXPLICIT : NS_IMPLICIT;
-    return steps * cost * dal_run_system(run)->n > WORTH_WHILE;
+    return times * cost * dal_run_system(run)->n > WORTH_WHILE;
 }
 
 /* $XDG_CACHE_HOME/dalembert or ~/.cache/dalembert, allocated; the library makes the last part. */
@@ -50,21 +50,38 @@ static char *cache_directory(void)
     return directory;
 }
 
-/* Once, though the runs may be many and on several threads. */
-static void tell(const char *why)
+/* Each once, though the runs may be many and on several threads. */
+static void tell(atomic_flag *told, const char *what, const char *why)
 {
-    static atomic_flag told = ATOMIC_FLAG_INIT;
-    if (!atomic_flag_test_and_set(&told)) cli_fail(CLI_DONE, "steps are interpreted: %s", why);
+    if (!atomic_flag_test_and_set(told)) cli_fail(CLI_DONE, "%s are interpreted: %s", what, why);
+}
+
+typedef dal_status compilation(dal_run *run, const dal_native_options *options, dal_error *error);
+
+static void compile(dal_run *run, compilation *of, atomic_flag *told, const char *what)
+{
+    dal_error error = {0};
+    char *directory = cache_directory();
+    if (!directory)
+        tell(told, what, "no directory to keep compiled ones in");
+    else if (of(run, &(dal_native_options){.cache = directory}, &error) != DAL_OK)
+        tell(told, what, error.message);
+    free(directory);
 }
 
 void native_use(dal_run *run, const dal_method *method, double steps, cli_native native)
 {
-    dal_error error = {0};
-    if (native == NATIVE_OFF || (native == NATIVE_AUTO && !pays(run, method, steps))) return;
-    char *directory = cache_directory();
-    if (!directory)
-        tell("no directory to keep compiled ones in");
-    else if (dal_run_native(run, &(dal_native_options){.cache = directory}, &error) != DAL_OK)
-        tell(error.message);
-    free(directory);
+    static atomic_flag told = ATOMIC_FLAG_INIT;
+    const int is_explicit = (dal_method_claims(method) & DAL_EXPLICIT) != 0;
+    const int wanted =
+        native == NATIVE_ON ||
+        (native == NATIVE_AUTO && pays(run, is_explicit ? NS_EXPLICIT : NS_IMPLICIT, steps));
+    if (wanted) compile(run, dal_run_native, &told, "steps");
+}
+
+void native_look(dal_run *run, double looks, cli_native native)
+{
+    static atomic_flag told = ATOMIC_FLAG_INIT;
+    const int wanted = native == NATIVE_ON || (native == NATIVE_AUTO && pays(run, NS_LOOK, looks));
+    if (wanted) compile(run, dal_run_native_observables, &told, "observables");
 }

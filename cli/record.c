@@ -146,14 +146,13 @@ static dal_status take_row(cli_record *r, dal_run *run, double t)
 }
 
 /* Every so many steps: what the summary is made of. */
-static dal_status follow(void *user, dal_run *run)
+static dal_status follow(void *user, dal_run *run, int looks, const double *t, const double *values,
+                         size_t stride)
 {
     cli_record *r = user;
-    double *observed = r->values + 1 + r->dimension;
-    const dal_status status = dal_run_observe(run, observed);
-    if (status == DAL_OK)
-        dal_statistics_add(r->statistics, r->observables, dal_run_time(run), observed);
-    return status;
+    (void)run;
+    dal_statistics_add_many(r->statistics, r->observables, looks, t, values, stride);
+    return DAL_OK;
 }
 
 static dal_status sample(void *user, dal_run *run, long long row, double t)
@@ -243,7 +242,7 @@ int record_go(cli_record *r, dal_error *error)
     dal_observer observer = {.user = r,
                              .sample = sample,
                              .poll = poll,
-                             .step = follow,
+                             .values = follow,
                              .every = r->job->statistics,
                              .row_time = r->job->row_time ? row_time : NULL};
     *error = (dal_error){0};

@@ -90,8 +90,9 @@ int run_integrate(const cli_job *job, cli_store *store, const run_wishes *wishes
         if (record.mark.row > 0)
             cli_fail(CLI_DONE, "'%s' goes on from t = %g with row %lld", store->directory,
                      dal_run_time(job->run), record.mark.row);
-        native_use(job->run, &job->method, (job->time - dal_run_time(job->run)) / job->options.step,
-                   wishes->native);
+        const double steps = (job->time - dal_run_time(job->run)) / job->options.step;
+        native_use(job->run, &job->method, steps, wishes->native);
+        native_look(job->run, steps / (double)job->statistics, wishes->native);
         status = record_go(&record, &error);
         tell_end(&record, status, &error);
         if (wishes->summary || isatty(STDERR_FILENO)) summary_print(stderr, &record);

@@ -296,13 +296,18 @@ dal_status dal_run_observe(dal_run *run, double *out);
 
 /* Looks on while a run goes.  sample is called for each row, poll now and then (about every 1000
  * steps and rows between steps) between them, step at the start and after every so many steps of
- * the run; any may be NULL.  Any status but DAL_OK ends the run with that status. */
+ * the run.  values, which is called in the place of step, receives the observables of those steps,
+ * `looks` of them at a time, and each in turn: observable i at t[k] is values[i * stride + k]; the
+ * run then stands at or behind the last, before the next.  It is made for every step of long runs.
+ * Any may be NULL.  Any status but DAL_OK ends the run with that status. */
 typedef struct dal_observer {
     void *user;
     dal_status (*sample)(void *user, dal_run *run, long long row, double t);
     dal_status (*poll)(void *user, dal_run *run);
     dal_status (*step)(void *user, dal_run *run);
-    long long every; /* steps between two calls of step; 0: it is not called */
+    dal_status (*values)(void *user, dal_run *run, int looks, const double *t, const double *values,
+                         size_t stride);
+    long long every; /* steps between two looks by step or values; 0: there are none */
     /* t of each row, increasing, T for the last; NULL: row*T/samples */
     double (*row_time)(void *user, long long row);
 } dal_observer;

@@ -36,7 +36,13 @@ typedef struct dal_native_options {
 dal_status dal_run_native(dal_run *run, const dal_native_options *options, dal_error *error);
 int dal_run_is_native(const dal_run *run);
 
-/* The same for a batch: all its lanes, as many at a time as suit the machine. */
+/* Compiles the observables too, for dal_observer.values: many looks at a time, with the same bits.
+ * They are another object than the steps, which may be compiled or not.  [alloc]  Errors: as above,
+ * DAL_TOO_LARGE where straight-line code would be too long. */
+dal_status dal_run_native_observables(dal_run *run, const dal_native_options *options,
+                                      dal_error *error);
+
+/* Steps for a batch: all its lanes, as many at a time as suit the machine. */
 dal_status dal_batch_native(dal_batch *batch, const dal_native_options *options, dal_error *error);
 int dal_batch_is_native(const dal_batch *batch);
 

@@ -2,8 +2,8 @@
  * their tapes, and whatever goes wrong with compiler or cache leaves them stepping by the tape. */
 #include "allocation.h"
 #include "fixtures.h"
+#include "folder.h"
 #include <CUnit/CUnit.h>
-#include <dirent.h>
 #include <fcntl.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -19,29 +19,6 @@ static int before; /* the directory that was */
 static bool compiles;
 static const dal_native_options options = {.cache = "cache"};
 
-static void remove_folder(const char *path)
-{
-    char name[512];
-    DIR *folder = opendir(path);
-    for (struct dirent *entry; folder && (entry = readdir(folder));) {
-        snprintf(name, sizeof name, "%s/%.200s", path, entry->d_name);
-        if (entry->d_name[0] != '.') unlink(name);
-    }
-    if (folder) closedir(folder);
-    rmdir(path);
-}
-
-/* Plain files in a folder; -1: there is none. */
-static int files_in(const char *path)
-{
-    int count = 0;
-    DIR *folder = opendir(path);
-    if (!folder) return -1;
-    for (struct dirent *entry; (entry = readdir(folder));) count += entry->d_name[0] != '.';
-    closedir(folder);
-    return count;
-}
-
 static int set_up(void)
 {
     before = open(".", O_RDONLY | O_DIRECTORY);
@@ -52,9 +29,9 @@ static int set_up(void)
 
 static int tear_down(void)
 {
-    remove_folder("cache");
+    folder_remove("cache");
     const int back = fchdir(before);
-    remove_folder(place);
+    folder_remove(place);
     return close(before) || back;
 }
 
@@ -271,9 +248,9 @@ static void test_cache_refused(void)
         CU_ASSERT_EQUAL(chown("open", 12345, (gid_t)-1), 0);
         refused_cache("open", DAL_IO, "of this user alone");
     }
-    CU_ASSERT_EQUAL(files_in("open"), 0);
+    CU_ASSERT_EQUAL(folder_files("open"), 0);
     unlink("link");
-    remove_folder("open");
+    folder_remove("open");
 }
 
 /* Names that a compiler could take for options, or a shell for commands. */
@@ -286,9 +263,9 @@ static void test_cache_names(void)
         dal_run *run = new_run(model);
         CU_ASSERT_EQUAL(dal_run_native(run, &(dal_native_options){.cache = names[i]}, NULL),
                         DAL_OK);
-        CU_ASSERT_EQUAL(files_in(names[i]), 1);
+        CU_ASSERT_EQUAL(folder_files(names[i]), 1);
         dal_run_free(run);
-        remove_folder(names[i]);
+        folder_remove(names[i]);
     }
     CU_ASSERT_NOT_EQUAL(access("evil", F_OK), 0);
     dal_model_free(model);
@@ -308,7 +285,7 @@ static void fake_compiler(const char *script)
 static void test_compilers_refused(void)
 {
     const dal_native_options fake = {.cache = "cache", .compiler = "./fake", .patience = 1};
-    const int kept = (mkdir("cache", 0700), files_in("cache"));
+    const int kept = (mkdir("cache", 0700), folder_files("cache"));
     refused(&(dal_native_options){.cache = "cache", .compiler = "./none"}, DAL_UNSUPPORTED,
             "no compiler './none'");
     fake_compiler("exit 1");
@@ -319,7 +296,7 @@ static void test_compilers_refused(void)
     refused(&fake, DAL_IO, "cannot seal");
     fake_compiler("while [ $# -gt 2 ]; do shift; done; echo 'no object' >\"$1\"");
     refused(&fake, DAL_IO, "cannot be loaded");
-    CU_ASSERT_EQUAL(files_in("cache"), kept);
+    CU_ASSERT_EQUAL(folder_files("cache"), kept);
     unlink("fake");
 }
 

@@ -1,8 +1,9 @@
 /* test_statistics.c - what is kept of a quantity along a run, against closed forms. */
+#include "measure/statistics.h"
 #include <CUnit/CUnit.h>
-#include <dalembert.h>
 #include <math.h>
 #include <stdint.h>
+#include <string.h>
 
 enum { VALUES = 1024 }; /* fills blocks to the last: 32 of 32 */
 
@@ -116,7 +117,7 @@ static void test_blocks_double(void)
     }
 }
 
-/* ---- the interval of the rate ---- */
+/* ---- many at a time ---- */
 
 /* SplitMix64 (Steele, Lea, Flood 2014, DOI 10.1145/2660193.2660195), uniform on [-1, 1). */
 static double chance(uint64_t *state)
@@ -126,6 +127,77 @@ static double chance(uint64_t *state)
     z = (z ^ z >> 27) * UINT64_C(0x94d049bb133111eb);
     return (double)((z ^ z >> 31) >> 11) * 0x1p-52 - 1.0;
 }
+
+enum { QUANTITIES = 3, LOOKS = 5000, STRIDE = LOOKS + 3 };
+
+/* Noise beside a value, a line, and noise in which now and then a value is none. */
+static void fill_looks(double *t, double *x)
+{
+    uint64_t state = 7;
+    for (int k = 0; k < LOOKS; k++) {
+        t[k] = 0.01 * k;
+        x[k] = 1e3 + chance(&state);
+        x[STRIDE + k] = 3.0 * t[k];
+        x[2 * STRIDE + k] = chance(&state);
+        if (k % 371 == 200) x[2 * STRIDE + k] = k % 2 ? NAN : INFINITY;
+    }
+}
+
+/* In portions of any size: the same bits as one by one. */
+static void test_many(void)
+{
+    static double t[LOOKS], x[QUANTITIES * STRIDE];
+    static const int most[] = {1, 5, 8, 64, 300, LOOKS};
+    dal_statistics one[QUANTITIES], many[QUANTITIES];
+    fill_looks(t, x);
+    dal_statistics_start(one, QUANTITIES);
+    for (int k = 0; k < LOOKS; k++) {
+        const double values[] = {x[k], x[STRIDE + k], x[2 * STRIDE + k]};
+        dal_statistics_add(one, QUANTITIES, t[k], values);
+    }
+    CU_ASSERT(one[2].lost && one[2].count < LOOKS && one[1].count == LOOKS);
+    for (size_t i = 0; i < sizeof most / sizeof most[0]; i++) {
+        uint64_t state = i;
+        dal_statistics_start(many, QUANTITIES);
+        for (int k = 0, portion; k < LOOKS; k += portion) {
+            portion = (int)(most[i] * 0.5 * (1.0 + fabs(chance(&state)))) + 1;
+            portion = portion < LOOKS - k ? portion : LOOKS - k;
+            dal_statistics_add_many(many, QUANTITIES, portion, t + k, x + k, STRIDE);
+        }
+        CU_ASSERT(memcmp(one, many, sizeof one) == 0);
+    }
+}
+
+/* Packs of every variant: the parts of the sum, and a tally left alone by what is not finite. */
+static void test_packs(void)
+{
+    typedef bool tally_packs(dal__tally *, double, int, const double *);
+    static const struct {
+        dal__instructions set;
+        tally_packs *add;
+    } variants[] = {{DAL__BASE, dal__tally_packs_x1},
+#define X(name, variant, lanes, set, group) {DAL__##set, name##_##variant},
+                    DAL__VARIANT_LIST(X, dal__tally_packs)
+#undef X
+    };
+    double x[3 * DAL_PARTS];
+    for (int k = 0; k < 3 * DAL_PARTS; k++) x[k] = k * k;
+    for (size_t i = 0; i < sizeof variants / sizeof variants[0]; i++) {
+        if (!dal__machine_has(variants[i].set)) continue;
+        dal__tally tally = {.least = 5.0, .most = 5.0, .sum = {1.0}};
+        CU_ASSERT(variants[i].add(&tally, 2.0, 3, x));
+        CU_ASSERT(tally.least == 0.0 && tally.most == 529.0);
+        for (int k = 0; k < DAL_PARTS; k++) /* k^2 + (k + 8)^2 + (k + 16)^2 - 3 * 2 */
+            CU_ASSERT_EQUAL(tally.sum[k], 3 * k * k + 48 * k + 320 - 6 + (k == 0));
+        const dal__tally before = tally;
+        x[11] = i % 2 ? NAN : -INFINITY;
+        CU_ASSERT(!variants[i].add(&tally, 2.0, 3, x));
+        CU_ASSERT(memcmp(&tally, &before, sizeof tally) == 0);
+        x[11] = 121.0;
+    }
+}
+
+/* ---- the interval of the rate ---- */
 
 /* Out of 1000 series of noise with a memory of 1/(1 - memory) values about a line of slope 1. */
 static int intervals_that_hold(double memory)
@@ -196,6 +268,8 @@ void suite_statistics(void)
     CU_add_test(suite, "exponents", test_exponents);
     CU_add_test(suite, "extremes", test_extremes);
     CU_add_test(suite, "blocks double", test_blocks_double);
+    CU_add_test(suite, "many at a time", test_many);
+    CU_add_test(suite, "packs", test_packs);
     CU_add_test(suite, "intervals of the rate", test_intervals);
     CU_add_test(suite, "no values, values that are not finite", test_nothing_and_nonsense);
 }

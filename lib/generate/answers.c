@@ -17,7 +17,7 @@ static void name_inputs(dal__generation *g)
     g->input = calloc((size_t)count + 1, sizeof *g->input);
     g->text.starved |= !g->input;
     if (!g->input) return;
-    snprintf(g->input[p->t - first].text, sizeof g->input->text, "dal_num(t)");
+    snprintf(g->input[p->t - first].text, sizeof g->input->text, "DAL_TIME(t)");
     for (int i = 0; i < p->n; i++) {
         snprintf(g->input[p->q - first + i].text, sizeof g->input->text, "q[%d]", i);
         snprintf(g->input[p->v - first + i].text, sizeof g->input->text, "v[%d]", i);
@@ -39,7 +39,7 @@ static void put_program(dal__generation *g, dal__program_code code, const char *
 {
     if (!dal__wants(g, code)) return;
     dal__text_print(&g->text,
-                    "%s void dal__%s(const dal_stored *w, double t, const num *q, const num *v,\n"
+                    "%s void dal__%s(const dal_stored *w, dal_time t, const num *q, const num *v,\n"
                     "    const num *pi, num *out)\n{\n",
                     is_inlined(g, code) ? "DAL_INLINE" : "DAL_COLD", name);
     dal__tape_write(g->programs->tapes, g->programs->program[code].tape, g->input, &g->text);
@@ -86,7 +86,7 @@ static void put_ask(dal__generation *g)
                             "dal_num(NAN));\n}\n\n"
                             "/* The answer for one group of lanes. */\n"
                             "DAL_INLINE void dal__ask_group(const dal_stored *work, dal_question "
-                            "question, double t,\n    const num *q, const num *v, const num *pi, "
+                            "question, dal_time t,\n    const num *q, const num *v, const num *pi, "
                             "num *out)\n{\n"
                             "    switch (question) {\n");
 #define X(code, name, reads) put_question(g, DAL__PROGRAM_##code, #code, #name);
@@ -96,7 +96,6 @@ static void put_ask(dal__generation *g)
         dal__text_put(&g->text, "    case DAL_ASK_GAUGE:\n        out[0] = dal_num(0.0);\n"
                                 "        break;\n");
     dal__text_put(&g->text, "    default:\n        break;\n    }\n}\n\n");
-    dal__text_put(&g->text, dal__source_text("ask.h"));
 }
 
 /* ---- parameters and start ---- */
@@ -135,7 +134,7 @@ void dal__put_start(dal__generation *g)
 
 static void put_single_programs(dal__generation *g)
 {
-    put_program(g, DAL__PROGRAM_START, "start_values");
+    if (g->product == DAL__FILE) put_program(g, DAL__PROGRAM_START, "start_values");
     put_program(g, DAL__PROGRAM_CONSTRAINTS, "constraints");
     put_program(g, DAL__PROGRAM_ENERGY, "energy");
     put_program(g, DAL__PROGRAM_INVARIANTS, "invariant_values");
@@ -146,11 +145,16 @@ void dal__put_answers(dal__generation *g)
 {
     name_inputs(g);
     if (!g->input) return;
+    dal__text_put(&g->text, g->product == DAL__LOOKS
+                                ? "\n/* Each lane has its time. */\n"
+                                  "typedef num dal_time;\n#define DAL_TIME(t) (t)\n"
+                                : "\n/* All lanes have one time. */\n"
+                                  "typedef double dal_time;\n#define DAL_TIME(t) dal_num(t)\n");
     dal__text_put(&g->text, "\n/* ---- the system ---- */\n\n");
 #define X(code, name, reads) put_program(g, DAL__PROGRAM_##code, #name);
     DAL__WIDE_LIST(X)
 #undef X
-    if (!g->native) put_single_programs(g);
+    if (g->product == DAL__FILE || g->product == DAL__LOOKS) put_single_programs(g);
     free(g->input);
     put_ask(g);
 }
@@ -172,7 +176,7 @@ void dal__put_observe(dal__generation *g)
     int next = 0;
     dal__text_put(
         text,
-        "\nstatic void dal__observe(const dal_stored *w, double t, const num *y, num *out)\n{\n"
+        "\nstatic void dal__observe(const dal_stored *w, dal_time t, const num *y, num *out)\n{\n"
         "    const num *q = y, *v = y + DAL__N;\n"
         "    (void)q, (void)v, (void)w, (void)t, (void)out;\n");
     if (system->constraints) dal__text_put(text, "    dal__constraints(w, t, q, v, NULL, out);\n");
@@ -189,7 +193,7 @@ void dal__put_observe(dal__generation *g)
                         "    num exact[2 * DAL__N];\n"
                         "    dal__exact(w, t, q, v, NULL, exact);\n"
                         "    out[%d] = dal_num(0.0);\n"
-                        "    for (int i = 0; i < DAL__N; i++)\n"
+                        "    DAL_EACH(i, DAL__N)\n"
                         "        out[%d] = dal_max(out[%d], dal_abs(exact[i] - q[i]));\n",
                         next, next, next);
     dal__text_put(text, "}\n");

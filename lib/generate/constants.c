@@ -57,6 +57,7 @@ void dal__put_constants(dal__generation *g)
         {"WATCHED", k->m > 0 && dal__wants(g, DAL__PROGRAM_CONSTRAINT) &&
                         (k->system->properties & DAL_D_WATCHED) != 0},
         {"GAUGE", dal__wants(g, DAL__PROGRAM_GAUGE)},
+        {"TRACED", g->product == DAL__TRACE},
     };
     put_lanes(g);
     for (size_t i = 0; i < sizeof list / sizeof *list; i++)

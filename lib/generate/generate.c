@@ -60,11 +60,20 @@ bool dal__follows_tangents(const dal__generation *g)
     return g->shape.lifted && (dal_method_needs(&g->spec->method) & DAL_NEEDS_JACOBIAN);
 }
 
+/* What the observables are made of. */
+static bool observes(const dal__generation *g, dal__program_code code)
+{
+    if (code == DAL__PROGRAM_FIELD || code == DAL__PROGRAM_GAUGE) return g->shape.lifted;
+    return code == DAL__PROGRAM_CONSTRAINTS || code == DAL__PROGRAM_ENERGY ||
+           code == DAL__PROGRAM_INVARIANTS || code == DAL__PROGRAM_EXACT;
+}
+
 bool dal__wants(const dal__generation *g, dal__program_code code)
 {
+    if (!g->programs->program[code].present) return false;
+    if (g->product == DAL__LOOKS) return observes(g, code);
     const bool watched = g->shape.system->properties & DAL_D_WATCHED;
     const bool imposes = dal_method_needs(&g->spec->method) & DAL_NEEDS_PARTS;
-    if (!g->programs->program[code].present) return false;
     switch (code) {
     case DAL__PROGRAM_ADJOINT:
     case DAL__PROGRAM_GAUGE:
@@ -108,8 +117,9 @@ static dal_status check_method(dal__generation *g, dal_error *error)
 static dal_status check_size(const dal__generation *g, dal_error *error)
 {
     double length = 0.0;
-    const double width = (double)g->spec->method.chain[0]->stages * g->shape.nw;
-    const double stack = dal__uses_newton(g) ? 4.0 * 8.0 * g->lanes * width * width : 0.0;
+    const double width = (double)g->shape.stages * g->shape.nw;
+    const bool newton = g->product != DAL__LOOKS && dal__uses_newton(g);
+    const double stack = newton ? 4.0 * 8.0 * g->lanes * width * width : 0.0;
     for (int code = 0; code < DAL__PROGRAM_COUNT; code++)
         if (dal__wants(g, (dal__program_code)code))
             length += dal__tapes_length(g->programs->tapes, g->programs->program[code].tape);
@@ -131,23 +141,34 @@ static bool is_width(int lanes)
     return lanes == 1 || lanes == 2 || lanes == 4 || lanes == 8 || lanes == 16;
 }
 
-static dal_status check(dal__generation *g, int lanes, const char *prefix, dal_error *error)
+/* The programs of the system. */
+static dal_status find_programs(dal__generation *g, dal_error *error)
 {
-    if (!is_width(lanes))
-        return dal__error(error, DAL_ARGUMENT, 0, 0, "%d lanes: 1, 2, 4, 8 or 16 are possible",
-                          lanes);
-    DAL_TRY(dal__shape_init(&g->shape, g->spec, error));
+    g->programs = dal__programs_of(g->shape.system);
+    if (g->programs) return DAL_OK;
+    return dal__error(error, DAL_UNSUPPORTED, 0, 0,
+                      "'%.80s' is not made from a model: its formulas are not known",
+                      g->shape.system->name ? g->shape.system->name : "this system");
+}
+
+static dal_status check_steps(dal__generation *g, dal_error *error)
+{
     if (g->spec->options.tolerance > 0.0)
         return dal__error(error, DAL_UNSUPPORTED, 0, 0,
                           "steps under a tolerance are not generated: each lane has its own");
     if (g->spec->options.precision != DAL_DOUBLE)
         return dal__error(error, DAL_UNSUPPORTED, 0, 0, "steps in long numbers are not generated");
-    g->programs = dal__programs_of(g->shape.system);
-    if (!g->programs)
-        return dal__error(error, DAL_UNSUPPORTED, 0, 0,
-                          "'%.80s' is not made from a model: its formulas are not known",
-                          g->shape.system->name ? g->shape.system->name : "this system");
-    DAL_TRY(check_method(g, error));
+    return check_method(g, error);
+}
+
+dal_status dal__generation_check(dal__generation *g, const char *prefix, dal_error *error)
+{
+    if (!is_width(g->lanes))
+        return dal__error(error, DAL_ARGUMENT, 0, 0, "%d lanes: 1, 2, 4, 8 or 16 are possible",
+                          g->lanes);
+    if (g->product != DAL__LOOKS) DAL_TRY(dal__shape_init(&g->shape, g->spec, error));
+    DAL_TRY(find_programs(g, error));
+    if (g->product != DAL__LOOKS) DAL_TRY(check_steps(g, error));
     DAL_TRY(check_size(g, error));
     return dal__choose_prefix(g, prefix, error);
 }
@@ -171,6 +192,8 @@ static const char compiler[] =
     "#pragma GCC diagnostic ignored \"-Wpsabi\"\n"
     "#ifndef __clang__ /* stages that no sweep was made for are never used */\n"
     "#pragma GCC diagnostic ignored \"-Wmaybe-uninitialized\"\n#endif\n\n";
+
+void dal__put_compiler(dal__generation *g) { dal__put_template(g, compiler); }
 
 static const char end[] = "\n#pragma GCC diagnostic pop\n"
                           "#ifndef __clang__\n"
@@ -263,14 +286,15 @@ static void put_method(dal__generation *g)
 }
 
 /* Kernel, system, method and steps. */
-static void put_steps(dal__generation *g)
+void dal__put_steps(dal__generation *g)
 {
-    dal__put_template(g, compiler);
+    dal__put_compiler(g);
     put_unrolling(g);
     dal__put_constants(g);
     put_enums(g);
     put_kernel(g);
     dal__put_answers(g);
+    dal__text_put(&g->text, dal__source_text("ask.h"));
     put_method(g);
     dal__put_template(g, dal__source_text("stepper.h"));
 }
@@ -280,34 +304,16 @@ static void put_file(dal__generation *g)
     dal__put_interface(g);
     dal__put_template(g, "\n#ifndef PREFIX_HEADER\n\n#include <math.h>\n#include <stddef.h>\n"
                          "#include <stdint.h>\n#include <string.h>\n\n");
-    put_steps(g);
+    dal__put_steps(g);
     dal__put_start(g);
+    dal__text_put(&g->text, dal__source_text("lift.h"));
     dal__put_template(g, dal__source_text("caller.h"));
     dal__put_observe(g);
     dal__put_names(g);
     dal__put_template(g, end);
 }
 
-/* Steps alone, and declarations instead of headers, which take a compiler longer to read. */
-static void put_native_file(dal__generation *g)
-{
-    dal__text_put(&g->text,
-                  "typedef __INT64_TYPE__ int64_t;\ntypedef __UINT64_TYPE__ uint64_t;\ntypedef "
-                  "__SIZE_TYPE__ size_t;\n"
-                  "#define INT64_MAX __INT64_MAX__\n#define INT64_MIN (-__INT64_MAX__ - 1)\n"
-                  "#define NULL ((void *)0)\n#define INFINITY __builtin_inf()\n"
-                  "#define NAN __builtin_nan(\"\")\n"
-                  "void *memcpy(void *, const void *, size_t);\n"
-                  "double sin(double), cos(double), tan(double), asin(double), acos(double);\n"
-                  "double atan(double), sinh(double), cosh(double), tanh(double), asinh(double);\n"
-                  "double exp(double), log(double), sqrt(double), fabs(double);\n"
-                  "double atan2(double, double), pow(double, double);\n");
-    dal__put_template(g, "long long PREFIX_lanes(double *, const double *, double, long long, "
-                         "unsigned, unsigned *, int *);\n");
-    put_steps(g);
-}
-
-static dal_status finish(dal__generation *g, char **text, dal_error *error)
+dal_status dal__generation_finish(dal__generation *g, char **text, dal_error *error)
 {
     if (g->text.starved) {
         dal__text_free(&g->text);
@@ -322,18 +328,11 @@ dal_status dal_generate(const dal_run_spec *spec, int lanes, const char *prefix,
 {
     dal__generation g = {.spec = spec, .lanes = lanes};
     *text = NULL;
-    DAL_TRY(check(&g, lanes, prefix, error));
-    DAL_TRY(dal_run_create(&g.run, spec, error));
+    DAL_TRY(dal__generation_check(&g, prefix, error));
+    dal_run *run;
+    DAL_TRY(dal_run_create(&run, spec, error));
+    g.run = run;
     put_file(&g);
-    dal_run_free(g.run);
-    return finish(&g, text, error);
-}
-
-dal_status dal__generate_native(const dal_run_spec *spec, int lanes, char **text, dal_error *error)
-{
-    dal__generation g = {.spec = spec, .lanes = lanes, .native = true};
-    *text = NULL;
-    DAL_TRY(check(&g, lanes, DAL__NATIVE_PREFIX, error));
-    put_native_file(&g);
-    return finish(&g, text, error);
+    dal_run_free(run);
+    return dal__generation_finish(&g, text, error);
 }

@@ -18,15 +18,19 @@ extern const dal__source dal__sources[];
 
 enum { DAL__PREFIX_SIZE = 64 };
 
+/* What is made: a whole file; for native mode, the steps of some lanes, those of one lane which may
+ * leave a trace of its states, and the observables of many states. */
+typedef enum dal__product { DAL__FILE, DAL__LANES, DAL__TRACE, DAL__LOOKS } dal__product;
+
 typedef struct dal__generation {
     const dal_run_spec *spec;
-    dal_run *run; /* at its start; knows names and observables */
+    const dal_run *run; /* knows names and observables */
     dal__shape shape;
     const dal__programs *programs;
     const dal__source *source[DAL_CHAIN]; /* of each link */
     dal__input_name *input;               /* what the programs call their inputs */
     int lanes;
-    bool native; /* steps alone */
+    dal__product product;
     char prefix[DAL__PREFIX_SIZE];
     dal__text text;
 } dal__generation;
@@ -42,10 +46,24 @@ bool dal__follows_tangents(const dal__generation *g);
 /* Whether a program goes into the file. */
 bool dal__wants(const dal__generation *g, dal__program_code code);
 
-/* The steps alone, for native mode: the function DAL__NATIVE_PREFIX_lanes.  Takes nothing from the
- * parameters and the start of the spec. [alloc] */
+/* Sees whether it can be made, and sets shape, programs, sources and prefix. */
+dal_status dal__generation_check(dal__generation *g, const char *prefix, dal_error *error);
+dal_status dal__generation_finish(dal__generation *g, char **text, dal_error *error);
+/* What keeps a compiler exact; kernel, system, method and steps. */
+void dal__put_compiler(dal__generation *g);
+void dal__put_steps(dal__generation *g);
+
+/* ---- native_text.c: what native mode compiles ---- */
+
 #define DAL__NATIVE_PREFIX "dal_native"
-dal_status dal__generate_native(const dal_run_spec *spec, int lanes, char **text, dal_error *error);
+/* The steps alone, DAL__LANES or DAL__TRACE: the function DAL__NATIVE_PREFIX_lanes or _traced.
+ * Takes nothing from the parameters and the start of the spec. [alloc] */
+dal_status dal__generate_native(const dal_run_spec *spec, dal__product product, int lanes,
+                                char **text, dal_error *error);
+/* The observables of a run of this shape, wherever it stands: the function
+ * DAL__NATIVE_PREFIX_looks. [alloc] */
+dal_status dal__generate_looks(const dal__shape *shape, const dal_run *run, char **text,
+                               dal_error *error);
 
 /* ---- prefix.c ---- */
 

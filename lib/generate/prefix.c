@@ -43,7 +43,7 @@ dal_status dal__choose_prefix(dal__generation *g, const char *prefix, dal_error 
     for (const char *c = prefix; *c; c++)
         if (!is_word(*c)) fault = "is not a C name";
     if (!fault && !is_letter(prefix[0])) fault = "does not begin with a letter";
-    if (is_kernels(prefix) && !g->native) fault = "is the kernel's own";
+    if (is_kernels(prefix) && g->product == DAL__FILE) fault = "is the kernel's own";
     if (fault) return dal__error(error, DAL_ARGUMENT, 0, 0, "prefix '%s' %s", prefix, fault);
     snprintf(g->prefix, sizeof g->prefix, "%s", prefix);
     return DAL_OK;

@@ -183,8 +183,22 @@ DAL_INLINE void dal__one_step(dal_step *s, double t, double h, const dal__lanes 
     }
 }
 
+/* Where the state after each step goes, of a single lane: number i of step k to to[i * stride + k],
+ * the time as the number behind the last; NULL: nowhere. */
+typedef struct dal__trace {
+    double *to;
+    long long stride;
+} dal__trace;
+
+DAL_INLINE void dal__leave_trace(const dal__team *team, const dal__trace *trace, long long k)
+{
+    const num *y = team->step[0].y;
+    DAL_EACH(i, DAL__DIM) trace->to[i * trace->stride + k] = dal_lane(y[i], 0);
+    trace->to[DAL__DIM * trace->stride + k] = team->clock.time;
+}
+
 /* Up to count steps, until one lane fails; the number that all lanes made. */
-DAL_INLINE long long dal__block(dal__team *team, double h, long long count)
+DAL_INLINE long long dal__block(dal__team *team, double h, long long count, const dal__trace *trace)
 {
     for (long long k = 0; k < count; k++) {
         int failed = 0;
@@ -196,6 +210,7 @@ DAL_INLINE long long dal__block(dal__team *team, double h, long long count)
         }
         dal__tick(&team->clock, h);
         if (failed) return k;
+        if (DAL__TRACED && trace->to) dal__leave_trace(team, trace, k);
     }
     return count;
 }
@@ -280,8 +295,9 @@ DAL_COLD unsigned dal__judge(const dal__team *team, unsigned lanes, int *why)
     return failed;
 }
 
-long long PREFIX_lanes(double *carried_, const double *work, double h, long long count,
-                       unsigned lanes, unsigned *failed, int *why)
+DAL_INLINE long long dal__take_steps(double *carried_, const double *work, double h,
+                                     long long count, unsigned lanes, unsigned *failed, int *why,
+                                     dal__trace trace)
 {
     dal_stored *const carried = (dal_stored *)carried_;
     long long done = 0, most = DAL__BLOCK_STEPS;
@@ -290,11 +306,12 @@ long long PREFIX_lanes(double *carried_, const double *work, double h, long long
         const long long block = count - done < most ? count - done : most;
         dal__team team;
         dal__load_team(&team, carried, work, lanes);
-        const long long made = dal__block(&team, h, block);
+        const long long made = dal__block(&team, h, block, &trace);
         const int unsound = dal__look_at_states(&team);
         if (made == block && !unsound) {
             dal__store_team(&team, block, lanes, carried);
             done += block;
+            if (trace.to) trace.to += block;
         } else if (block > 1) {
             most = 1;
         } else {
@@ -305,3 +322,19 @@ long long PREFIX_lanes(double *carried_, const double *work, double h, long long
     }
     return done;
 }
+
+#if DAL__TRACED
+long long PREFIX_traced(double *carried, const double *work, double h, long long count,
+                        unsigned *failed, int *why, double *to, long long stride)
+{
+    const dal__trace trace = {to, stride};
+    return dal__take_steps(carried, work, h, count, 1u, failed, why, trace);
+}
+#else
+long long PREFIX_lanes(double *carried, const double *work, double h, long long count,
+                       unsigned lanes, unsigned *failed, int *why)
+{
+    const dal__trace nowhere = {0, 0};
+    return dal__take_steps(carried, work, h, count, lanes, failed, why, nowhere);
+}
+#endif

@@ -26,7 +26,7 @@ void dal_statistics_mean(const dal_statistics *s, dal_average *average)
 {
     dal_mean block[DAL_BLOCKS];
     const int n = dal__blocks(s, block);
-    double sum = s->open_count > 0 ? s->open.x : 0.0;
+    double sum = s->open_count > 0 ? dal__open_sum(s) : 0.0;
     for (int i = 0; i < n; i++) sum += block[i].x * (double)s->length;
     const double mean = s->lost || s->count == 0 ? NAN : s->first + sum / (double)s->count;
     const double margin = uncertainty(block, n);

@@ -30,41 +30,54 @@ static void halve(dal_statistics *s)
     s->length *= 2;
 }
 
+double dal__open_sum(const dal_statistics *s)
+{
+    const double *a = s->open_sum;
+    return ((a[0] + a[4]) + (a[2] + a[6])) + ((a[1] + a[5]) + (a[3] + a[7]));
+}
+
 static void close_block(dal_statistics *s, double t)
 {
-    const double length = (double)s->length;
-    s->block[s->blocks++] =
-        (dal_mean){0.5 * (s->open.t + t), s->open.x / length, s->open.least, s->open.most};
+    s->block[s->blocks++] = (dal_mean){0.5 * (s->open_t + t), dal__open_sum(s) / (double)s->length,
+                                       s->open_least, s->open_most};
+    s->least = fmin(s->least, s->open_least);
+    s->most = fmax(s->most, s->open_most);
     s->open_count = 0;
     if (s->blocks == DAL_BLOCKS) halve(s);
 }
 
-static void begin(dal_statistics *s, double t, double x)
+static void open_block(dal_statistics *s, double t, double x)
 {
     if (s->count == 0) {
         s->first = s->least = s->most = x;
         s->from = t;
     }
-    s->open = (dal_mean){t, 0.0, x, x};
+    s->open_t = t;
+    s->open_least = s->open_most = x;
+    memset(s->open_sum, 0, sizeof s->open_sum);
 }
 
-static inline void add_one(dal_statistics *s, double t, double x)
+/* Counts values up to x at t. */
+static void move_on(dal_statistics *s, int values, double t, double x)
+{
+    s->last = x;
+    s->to = t;
+    s->count += values;
+    s->open_count += values;
+    if (s->open_count == s->length) close_block(s, t);
+}
+
+static void add_one(dal_statistics *s, double t, double x)
 {
     if (!(fabs(x) < INFINITY)) {
         s->lost = 1;
         return;
     }
-    if (s->open_count == 0) begin(s, t, x);
-    s->open.x += x - s->first;
-    s->open.least = x < s->open.least ? x : s->open.least;
-    s->open.most = x > s->open.most ? x : s->open.most;
-    s->last = x;
-    s->to = t;
-    s->count++;
-    if (++s->open_count < s->length) return;
-    s->least = fmin(s->least, s->open.least);
-    s->most = fmax(s->most, s->open.most);
-    close_block(s, t);
+    if (s->open_count == 0) open_block(s, t, x);
+    s->open_sum[s->open_count % DAL_PARTS] += x - s->first;
+    s->open_least = x < s->open_least ? x : s->open_least;
+    s->open_most = x > s->open_most ? x : s->open_most;
+    move_on(s, 1, t, x);
 }
 
 void dal_statistics_add(dal_statistics *s, int count, double t, const double *values)
@@ -72,16 +85,76 @@ void dal_statistics_add(dal_statistics *s, int count, double t, const double *va
     for (int i = 0; i < count; i++) add_one(&s[i], t, values[i]);
 }
 
+/* ---- many values ---- */
+
+typedef bool tally_packs(dal__tally *tally, double first, int packs, const double *values);
+
+/* For the best instructions of the machine: all variants give the same. */
+static tally_packs *best_tally(void)
+{
+    tally_packs *best = dal__tally_packs_x1;
+#define X(name, variant, lanes, set, group)                                                        \
+    if (dal__machine_has(DAL__##set)) best = name##_##variant;
+    DAL__VARIANT_LIST(X, dal__tally_packs)
+#undef X
+    return best;
+}
+
+/* Whole packs at the end of what the open block has, as many as it still takes. */
+static int packs_ahead(const dal_statistics *s, int values)
+{
+    if (s->open_count % DAL_PARTS != 0) return 0;
+    const long long left = s->length - s->open_count;
+    return (int)(left < values ? left : values) / DAL_PARTS;
+}
+
+static bool add_packs(dal_statistics *s, tally_packs *add, int packs, const double *t,
+                      const double *x)
+{
+    const int values = packs * DAL_PARTS;
+    if (!(fabs(x[0]) < INFINITY)) return false;
+    if (s->open_count == 0) open_block(s, t[0], x[0]);
+    dal__tally tally = {.least = s->open_least, .most = s->open_most};
+    memcpy(tally.sum, s->open_sum, sizeof tally.sum);
+    if (!add(&tally, s->first, packs, x)) return false;
+    memcpy(s->open_sum, tally.sum, sizeof tally.sum);
+    s->open_least = tally.least;
+    s->open_most = tally.most;
+    move_on(s, values, t[values - 1], x[values - 1]);
+    return true;
+}
+
+static void add_series(dal_statistics *s, tally_packs *add, int values, const double *t,
+                       const double *x)
+{
+    for (int k = 0; k < values;) {
+        const int packs = packs_ahead(s, values - k);
+        if (packs > 0 && add_packs(s, add, packs, t + k, x + k)) {
+            k += packs * DAL_PARTS;
+            continue;
+        }
+        const int end = packs > 0 ? k + DAL_PARTS : k + 1;
+        for (; k < end; k++) add_one(s, t[k], x[k]);
+    }
+}
+
+void dal_statistics_add_many(dal_statistics *s, int count, int looks, const double *t,
+                             const double *values, size_t stride)
+{
+    tally_packs *const add = best_tally();
+    for (int i = 0; i < count; i++) add_series(&s[i], add, looks, t, values + (size_t)i * stride);
+}
+
 /* ---- extremes ---- */
 
 static double least(const dal_statistics *s)
 {
-    return s->open_count ? fmin(s->least, s->open.least) : s->least;
+    return s->open_count ? fmin(s->least, s->open_least) : s->least;
 }
 
 static double most(const dal_statistics *s)
 {
-    return s->open_count ? fmax(s->most, s->open.most) : s->most;
+    return s->open_count ? fmax(s->most, s->open_most) : s->most;
 }
 
 double dal_statistics_greatest(const dal_statistics *s)

@@ -13,6 +13,12 @@ static size_t answer_count(const dal__shape *k)
     return 4 * n + 2 * nw + 2 * (m + 2 * m * n) + 2 * m * m + m + 2 + listed;
 }
 
+/* A time and the most observables there can be. */
+static size_t look_count(const dal__shape *k)
+{
+    return 1 + (size_t)k->m + 6 + (size_t)k->system->invariants;
+}
+
 /* Doubles in what a run carries. */
 static size_t remembered(const dal__shape *k)
 {
@@ -22,7 +28,7 @@ static size_t remembered(const dal__shape *k)
 /* Doubles beside those of the engines. */
 static size_t own_numbers(const dal__shape *k)
 {
-    return remembered(k) + answer_count(k) + (size_t)(k->n + k->nw);
+    return remembered(k) + answer_count(k) + (size_t)(k->n + k->nw) + look_count(k);
 }
 
 static size_t long_bytes(const dal__shape *k)
@@ -51,6 +57,9 @@ static dal_run *place(const dal__shape *shape, void *memory)
     run->shadow = (double *)(void *)at;
     run->answer = run->shadow + remembered(shape);
     run->point = run->answer + answer_count(shape);
+    run->looks.times = run->point + shape->n + shape->nw;
+    run->looks.values = run->looks.times + 1;
+    run->looks.room = 1;
     at += round_up(own_numbers(shape) * sizeof(double));
     run->kind = dal__engine_best(shape, 1);
     run->engine = run->kind->place(shape, at, &run->carried, &run->work);
@@ -99,6 +108,8 @@ void dal_run_free(dal_run *run)
 {
     if (!run) return;
     dal__native_free(&run->native);
+    dal__native_free(&run->looks.code);
+    free(run->looks.states);
     free(run->owned);
 }
 
@@ -106,7 +117,7 @@ static dal_status native_steps(dal_run *run, double h, long long count)
 {
     unsigned failed = 0;
     int why = DAL_OK;
-    run->native.steps(run->carried, run->work, h, count, 1u, &failed, &why);
+    run->native.traced(run->carried, run->work, h, count, &failed, &why, NULL, 0);
     return failed ? (dal_status)why : DAL_OK;
 }
 
@@ -122,7 +133,7 @@ dal_status dal__run_steps(dal_run *run, double h, long long count)
 {
     dal_status why = DAL_OK;
     if (run->long_run.engine) return long_steps(run, h, count);
-    if (run->native.steps) return native_steps(run, h, count);
+    if (run->native.traced) return native_steps(run, h, count);
     for (long long i = 0; i < count; i++)
         if (run->kind->step(run->engine, h, 1u, &why)) return why;
     return DAL_OK;

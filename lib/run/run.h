@@ -4,11 +4,19 @@
 
 #include "run/engine.h"
 
-/* Compiled steps, see lib/generate/native.c: up to count steps of the lanes in a mask, until one of
- * them fails; the number of steps tried.  NULL: the engine steps. */
+/* Compiled code, see lib/generate/native.c; of the functions an object has one.  carried, work and
+ * states are as everywhere; lanes are a mask. */
 typedef struct dal__native {
+    /* Up to count steps until a lane fails; the number of steps tried. */
     long long (*steps)(double *carried, const double *work, double h, long long count,
                        unsigned lanes, unsigned *failed, int *why);
+    /* The same of one lane; number i of the state after step k goes to states[i * stride + k], the
+     * time behind the last number.  states may be NULL. */
+    long long (*traced)(double *carried, const double *work, double h, long long count,
+                        unsigned *failed, int *why, double *states, long long stride);
+    /* The observables of such states: number i of state k at values[i * stride + k]. */
+    void (*looks)(const double *states, long long stride, long long count, const double *work,
+                  double *values);
     void *handle;
     void (*release)(void *handle);
 } dal__native;
@@ -21,6 +29,16 @@ typedef struct dal__long_run {
     double *work;     /* [shape.workspace] likewise */
     double *answer;   /* scratch for what the system says, likewise */
 } dal__long_run;
+
+/* Where the observables of successive looks at a run are collected, up to room of them: observable
+ * i of look k is values[i * room + k]. */
+typedef struct dal__looks {
+    int room;
+    double *states; /* [dim * room], to be evaluated together; NULL: every look is at once */
+    double *times;  /* [room], behind states */
+    double *values; /* [observables * room] */
+    dal__native code;
+} dal__looks;
 
 struct dal_run {
     dal__shape shape;
@@ -37,6 +55,7 @@ struct dal_run {
     bool exact;     /* the exact solution belongs to this start */
     void *owned;    /* memory to free, or NULL */
     dal__native native;
+    dal__looks looks;
 };
 
 static inline void dal__native_free(dal__native *native)
@@ -53,6 +72,14 @@ dal_status dal__run_start(dal_run *run, const dal_setting *parameters, int param
 
 /* Finds out why a step of size h failed with status, and says it. */
 dal_status dal__explain(dal_run *run, double h, dal_status status, dal_error *error);
+
+/* Follows count steps and hands the looks over to observer->values; or the start alone. */
+dal_status dal__follow(dal_run *run, const dal_observer *observer, long long count,
+                       dal_error *error);
+dal_status dal__follow_start(dal_run *run, const dal_observer *observer, dal_error *error);
+
+/* status, which an observer returned, and what is said of it. */
+dal_status dal__stopped(const dal_run *run, dal_status status, dal_error *error);
 
 /* count steps of size h, until one fails, with no explanation of a failure. */
 dal_status dal__run_steps(dal_run *run, double h, long long count);

@@ -9,7 +9,7 @@
 
 #define ALIGNED 1e-9
 
-enum { POLL = 1000 };
+enum { POLL = 1024 };
 
 typedef struct sampling {
     dal_run *run;
@@ -20,9 +20,7 @@ typedef struct sampling {
 
 static dal_status stopped(dal_status status, const sampling *k)
 {
-    if (status == DAL_OK) return DAL_OK;
-    return dal__error(k->error, status, 0, 0, "%s at t = %.17g", dal_status_text(status),
-                      dal_run_time(k->run));
+    return dal__stopped(k->run, status, k->error);
 }
 
 static dal_status poll(sampling *k)
@@ -42,6 +40,7 @@ static dal_status show(sampling *k, long long row, double t)
 static dal_status advance(sampling *k, long long count)
 {
     const dal_observer *o = k->observer;
+    if (o->values && o->every > 0) return dal__follow(k->run, o, count, k->error);
     if (!o->step || o->every < 1) return dal_run_advance(k->run, count, k->error);
     while (count > 0) {
         const long long due = o->every - dal_run_steps(k->run) % o->every;
@@ -87,11 +86,13 @@ static dal_status side_step(sampling *k, double h, long long row, double t)
     return shown == DAL_OK ? poll(k) : shown;
 }
 
-/* Steps that surely end before a row that is left away; the last two are taken one by one. */
-static long long steps_to(double left, double h)
+/* Steps that surely end before a row that is left away, the last two are taken one by one; and not
+ * beyond a step at which looks are handed over anyway. */
+static long long steps_to(const dal_run *run, double left, double h)
 {
     const double steps = left / h - 2.0;
-    return steps < 1.0 ? 1 : steps > POLL ? POLL : (long long)steps;
+    const long long most = POLL - (dal_run_steps(run) + 1) % POLL;
+    return steps < 1.0 ? 1 : steps > (double)most ? most : (long long)steps;
 }
 
 static dal_status go_to_row(sampling *k, long long row, double t)
@@ -102,7 +103,7 @@ static dal_status go_to_row(sampling *k, long long row, double t)
         const double left = t - dal_run_time(k->run);
         if (left <= near) return show(k, row, t);
         if (left < h - near) return side_step(k, left, row, t);
-        const long long steps = steps_to(left, h);
+        const long long steps = steps_to(k->run, left, h);
         DAL_TRY(advance(k, steps));
         k->since_poll += steps - 1;
         DAL_TRY(poll(k));
@@ -136,6 +137,14 @@ static dal_status check(const dal_run *run, const dal_observer *observer, double
     return DAL_OK;
 }
 
+static dal_status look_at_start(const sampling *k)
+{
+    const dal_observer *o = k->observer;
+    if (o->every < 1) return DAL_OK;
+    if (o->values) return dal__follow_start(k->run, o, k->error);
+    return o->step ? stopped(o->step(o->user, k->run), k) : DAL_OK;
+}
+
 dal_status dal_run_sample(dal_run *run, double T, long long samples, long long first_row,
                           const dal_observer *observer, dal_error *error)
 {
@@ -143,8 +152,7 @@ dal_status dal_run_sample(dal_run *run, double T, long long samples, long long f
     if (!observer) observer = &nobody;
     DAL_TRY(check(run, observer, T, samples, first_row, error));
     sampling k = {run, observer, error, 0};
-    if (first_row == 0 && dal_run_steps(run) == 0 && k.observer->step && k.observer->every > 0)
-        DAL_TRY(stopped(k.observer->step(k.observer->user, run), &k));
+    if (first_row == 0 && dal_run_steps(run) == 0) DAL_TRY(look_at_start(&k));
     for (long long row = first_row; row <= samples; row++)
         DAL_TRY(go_to_row(&k, row, row_time(observer, T, row, samples)));
     return DAL_OK;

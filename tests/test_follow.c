@@ -1,0 +1,236 @@
+/* test_follow.c - observables of many steps at a time: the bits of dal_run_observe after each step,
+ * whether steps and observables are compiled or not, and wherever a run is cut in pieces. */
+#include "fixtures.h"
+#include "folder.h"
+#include <CUnit/CUnit.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MOST_LOOKS = 1200, MOST_OBSERVABLES = 16, STEPS = 701 };
+
+static char place[] = "/tmp/dal-follow-XXXXXX";
+static int compiles;
+
+static int set_up(void)
+{
+    compiles = system("cc --version >/dev/null 2>&1") == 0;
+    if (!compiles) puts("(no compiler here)");
+    return !mkdtemp(place);
+}
+
+static int tear_down(void)
+{
+    folder_remove(place);
+    return 0;
+}
+
+/* ---- systems ---- */
+
+static const char vakonomic[] = "coordinates: [x, y]\nmechanics: vakonomic\n"
+                                "lagrangian: (x'^2 + y'^2)/2 - x^2*y/5\n"
+                                "constraints: [x' - cos(x)*y']\n"
+                                "start: {x: 0.3, y': 0.4, x': 0.4*cos(0.3)}\n";
+
+/* Falls into the ground at x = 0, where its force ends to be a number. */
+static const char falling[] = "coordinates: [x, y]\n"
+                              "lagrangian: (x'^2 + y'^2)/2 - y^2/2\n"
+                              "forces: {x: -sqrt(x)}\nstart: {x: 1, y: 1}\n";
+
+typedef struct subject {
+    const char *system, *method;
+    dal_space space;
+    int starts;
+} subject;
+
+/* p and pi away from 0, so that H and the norms say something. */
+static const dal_setting away[] = {{"p_x", 0.1}, {"pi_y", -0.2}, {"pi_e", 0.3}};
+
+static const subject subjects[] = {{"chaplygin-sleigh", "rk4", DAL_PHYSICAL, 0},
+                                   {"chaplygin-sleigh", "gauss4", DAL_LIFTED, 0},
+                                   {fixture_full, "rk4", DAL_LIFTED, 3},
+                                   {vakonomic, "rk4", DAL_PHYSICAL, 0}};
+
+static dal_run *run_of(const subject *s, const dal_system *system)
+{
+    dal_run_spec spec = fixture_spec(system, s->method, s->space, 0.01);
+    spec.start = away;
+    spec.start_count = s->starts;
+    return fixture_run(&spec);
+}
+
+/* ---- looks ---- */
+
+typedef struct series {
+    int looks, observables, most_at_once, refuse;
+    double t[MOST_LOOKS], x[MOST_OBSERVABLES][MOST_LOOKS];
+    dal_statistics statistics[MOST_OBSERVABLES];
+} series;
+
+static void begin(series *s, const dal_run *run)
+{
+    memset(s, 0, sizeof *s);
+    s->refuse = MOST_LOOKS;
+    s->observables = dal_run_observables(run);
+    dal_statistics_start(s->statistics, s->observables);
+}
+
+static dal_status take_one(void *user, dal_run *run)
+{
+    series *s = user;
+    double x[MOST_OBSERVABLES];
+    const dal_status status = dal_run_observe(run, x);
+    s->t[s->looks] = dal_run_time(run);
+    for (int i = 0; i < s->observables; i++) s->x[i][s->looks] = x[i];
+    dal_statistics_add(s->statistics, s->observables, dal_run_time(run), x);
+    s->looks++;
+    return status;
+}
+
+static dal_status take_many(void *user, dal_run *run, int looks, const double *t, const double *x,
+                            size_t stride)
+{
+    series *s = user;
+    CU_ASSERT_FATAL(s->looks + looks <= MOST_LOOKS && looks > 0);
+    CU_ASSERT(t[looks - 1] <= dal_run_time(run));
+    memcpy(s->t + s->looks, t, (size_t)looks * sizeof *t);
+    for (int i = 0; i < s->observables; i++)
+        memcpy(s->x[i] + s->looks, x + (size_t)i * stride, (size_t)looks * sizeof *x);
+    dal_statistics_add_many(s->statistics, s->observables, looks, t, x, stride);
+    s->looks += looks;
+    if (looks > s->most_at_once) s->most_at_once = looks;
+    return s->looks > s->refuse ? DAL_INTERRUPTED : DAL_OK;
+}
+
+/* A row on every step or between two of them, or only at the end. */
+static dal_status sample(dal_run *run, series *s, bool many, long long every, long long rows,
+                         long long first_row, long long last_row)
+{
+    const dal_observer observer = {.user = s,
+                                   .step = many ? NULL : take_one,
+                                   .values = many ? take_many : NULL,
+                                   .every = every};
+    const double T = 0.01 * STEPS * (double)last_row / (double)rows;
+    return dal_run_sample(run, T, last_row, first_row, &observer, NULL);
+}
+
+static void compile(dal_run *run, bool steps, bool observables)
+{
+    const dal_native_options options = {.cache = place};
+    if (steps && compiles) CU_ASSERT_EQUAL(dal_run_native(run, &options, NULL), DAL_OK);
+    if (observables && compiles)
+        CU_ASSERT_EQUAL(dal_run_native_observables(run, &options, NULL), DAL_OK);
+}
+
+/* ---- the same bits ---- */
+
+static void same_series(const subject *of, const dal_system *system, int way)
+{
+    static series one, many;
+    const long long every = way & 4 ? 3 : 1, rows = way & 8 ? 40 : 1;
+    dal_run *const plain = run_of(of, system), *const run = run_of(of, system);
+    begin(&one, plain);
+    begin(&many, run);
+    compile(run, way & 1, way & 2);
+    CU_ASSERT_EQUAL(sample(plain, &one, false, every, rows, 0, rows), DAL_OK);
+    CU_ASSERT_EQUAL(sample(run, &many, true, every, rows, 0, rows), DAL_OK);
+    CU_ASSERT_EQUAL(one.looks, 1 + STEPS / every);
+    CU_ASSERT(one.observables > 0 && one.x[0][0] == one.x[0][0]);
+    CU_ASSERT_EQUAL(memcmp(one.t, many.t, sizeof one.t), 0);
+    CU_ASSERT_EQUAL(memcmp(one.x, many.x, sizeof one.x), 0);
+    CU_ASSERT_EQUAL(memcmp(one.statistics, many.statistics, sizeof one.statistics), 0);
+    if (compiles && way == 3) CU_ASSERT(many.most_at_once > 100);
+    dal_run_free(plain);
+    dal_run_free(run);
+}
+
+static void test_bits(void)
+{
+    for (size_t i = 0; i < sizeof subjects / sizeof subjects[0]; i++) {
+        dal_model *model = fixture_model(subjects[i].system);
+        for (int way = 0; way < 16; way++) same_series(&subjects[i], fixture_system(model), way);
+        dal_model_free(model);
+    }
+}
+
+/* Broken off after every row, and gone on with by another run, compiled or not. */
+static void test_pieces(void)
+{
+    static series whole, pieces;
+    enum { ROWS = 23 };
+    dal_model *model = fixture_model(subjects[0].system);
+    const dal_system *system = fixture_system(model);
+    dal_run *run = run_of(&subjects[0], system), *other = run_of(&subjects[0], system);
+    size_t count;
+    begin(&whole, run);
+    begin(&pieces, run);
+    compile(run, true, true);
+    CU_ASSERT_EQUAL(sample(run, &whole, true, 1, ROWS, 0, ROWS), DAL_OK);
+    for (int row = 0; row < ROWS; row++) {
+        CU_ASSERT_EQUAL(sample(other, &pieces, true, 1, ROWS, row + (row > 0), row + 1), DAL_OK);
+        const double *memory = dal_run_memory(other, &count);
+        dal_run *const next = run_of(&subjects[0], system);
+        compile(next, row % 3, row % 2);
+        CU_ASSERT_EQUAL(dal_run_load(next, memory, count, NULL), DAL_OK);
+        dal_run_free(other);
+        other = next;
+    }
+    CU_ASSERT_EQUAL(memcmp(whole.x, pieces.x, sizeof whole.x), 0);
+    CU_ASSERT_EQUAL(memcmp(whole.statistics, pieces.statistics, sizeof whole.statistics), 0);
+    dal_run_free(run);
+    dal_run_free(other);
+    dal_model_free(model);
+}
+
+/* ---- ends before their time ---- */
+
+/* All looks before the step that fails are handed over. */
+static void test_failure(void)
+{
+    static series one, many;
+    const subject fall = {falling, "rk4", DAL_PHYSICAL, 0};
+    dal_model *model = fixture_model(falling);
+    dal_run *plain = run_of(&fall, fixture_system(model));
+    for (int way = 0; way < 4; way++) {
+        dal_run *run = run_of(&fall, fixture_system(model));
+        begin(&one, run);
+        begin(&many, run);
+        compile(run, way & 1, way & 2);
+        if (way == 0) CU_ASSERT_EQUAL(sample(plain, &one, false, 1, 1, 0, 1), DAL_NOT_FINITE);
+        CU_ASSERT_EQUAL(sample(run, &many, true, 1, 1, 0, 1), DAL_NOT_FINITE);
+        CU_ASSERT_EQUAL(many.looks, 1 + dal_run_steps(run));
+        CU_ASSERT_EQUAL(dal_run_steps(run), dal_run_steps(plain));
+        CU_ASSERT_EQUAL(many.t[many.looks - 1], dal_run_time(plain));
+        double x[MOST_OBSERVABLES];
+        CU_ASSERT_EQUAL(dal_run_observe(plain, x), DAL_OK);
+        CU_ASSERT_EQUAL(many.x[0][many.looks - 1], x[0]);
+        dal_run_free(run);
+    }
+    dal_run_free(plain);
+    dal_model_free(model);
+}
+
+/* An observer that wants no more ends the run where it stands. */
+static void test_refusal(void)
+{
+    static series s;
+    dal_model *model = fixture_model(subjects[0].system);
+    for (int way = 0; way < 4; way++) {
+        dal_run *run = run_of(&subjects[0], fixture_system(model));
+        begin(&s, run);
+        s.refuse = 300;
+        compile(run, way & 1, way & 2);
+        CU_ASSERT_EQUAL(sample(run, &s, true, 1, 1, 0, 1), DAL_INTERRUPTED);
+        CU_ASSERT(s.looks > 300 && dal_run_steps(run) == s.looks - 1);
+        dal_run_free(run);
+    }
+    dal_model_free(model);
+}
+
+void suite_follow(void)
+{
+    CU_pSuite suite = CU_add_suite("observables of many steps", set_up, tear_down);
+    CU_add_test(suite, "the same bits", test_bits);
+    CU_add_test(suite, "in pieces", test_pieces);
+    CU_add_test(suite, "a step fails", test_failure);
+    CU_add_test(suite, "an observer ends it", test_refusal);
+}
