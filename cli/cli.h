@@ -36,7 +36,7 @@
       "what the drift of a run comes from")                                                        \
     X(generate, "SYSTEM --integrator NAME [OPTION]... -o FILE.c",                                  \
       "one C file that steps a system and needs nothing else")                                     \
-    X(report, "DIR [OPTION]...", "figures and tables from a run or a study")
+    X(report, "DIR [OPTION]...", "a page of a run, a study or orders: verdicts, figures")
 
 #define X(name, synopsis, about) int command_##name(int argc, char **argv);
 COMMAND_LIST(X)

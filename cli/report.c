@@ -14,15 +14,28 @@ static int holds(const char *directory, const char *name)
     return found;
 }
 
+/* What a directory is told by, and what makes its page. */
+static const struct {
+    const char *file;
+    int (*write)(report *r);
+} kinds[] = {{"cells.csv", report_study},
+             {"trajectory.npy", report_run},
+             {"rows.csv", report_run},
+             {"order.csv", report_order}};
+
+enum { KINDS = sizeof kinds / sizeof kinds[0] };
+
 static int make_report(report *r)
 {
-    const char *place = r->directory;
-    int study = holds(place, "cells.csv");
-    if (!study && !holds(place, "trajectory.npy") && !holds(place, "rows.csv"))
+    int kind = 0;
+    while (kind < KINDS && !holds(r->directory, kinds[kind].file)) kind++;
+    if (kind == KINDS)
         return cli_fail(CLI_USAGE,
-                        "'%s' holds neither a study (cells.csv) nor a run (trajectory.npy)", place);
+                        "'%s' holds neither a study (cells.csv) nor a run (trajectory.npy) nor "
+                        "orders (order.csv)",
+                        r->directory);
     int status = report_open(r);
-    if (status == CLI_DONE) status = study ? report_study(r) : report_run(r);
+    if (status == CLI_DONE) status = kinds[kind].write(r);
     int closed = report_close(r);
     cli_progress_end();
     if (status == CLI_DONE) status = closed;
@@ -48,10 +61,10 @@ static const cli_option options[] = {
 };
 
 static const char notes[] =
-    "DIR is what 'dalembert study' or 'dalembert run --output DIR' made.  DIR/report/index.html "
-    "is\n"
-    "one page with everything in it; the figures, and the gnuplot scripts that draw them, stand\n"
-    "beside it.  Without gnuplot the page has no figures.\n";
+    "DIR is what 'dalembert study', 'dalembert run --output DIR' or 'dalembert order --output "
+    "DIR'\n"
+    "made.  DIR/report/index.html is one page with everything in it; the figures, and the gnuplot\n"
+    "scripts that draw them, stand beside it.  Without gnuplot the page has no figures.\n";
 
 static int take(report *r, int option, const char *value)
 {

@@ -1,4 +1,4 @@
-/* report.h - a page and figures from the files of a study or of a run.
+/* report.h - a page and figures from the files of a study, of a run, or of `dalembert order`.
  *
  *     DIR/report/index.html   the page, which needs no other file
  *     DIR/report/NAME.gp      a gnuplot script with its data, to be changed and run again by hand
@@ -20,6 +20,7 @@ typedef struct report {
 /* Each returns CLI_DONE or prints and returns an exit status. */
 int report_study(report *r);
 int report_run(report *r);
+int report_order(report *r);
 
 /* ---- the page: report_page.c ---- */
 

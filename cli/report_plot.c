@@ -13,7 +13,7 @@ enum { WIDTH = 420, HEIGHT = 290, KEY_ROW = 16, KEY_COLUMNS = 2 };
  * parts of the width. */
 enum { ABOVE = 32, BELOW = 48, FRAME = ABOVE + BELOW, LEAST = 100, MOST = 340 };
 #define LEFT  0.215
-#define RIGHT 0.965
+#define RIGHT 0.95
 
 /* ---- points ---- */
 
@@ -98,7 +98,8 @@ static void put_decades(FILE *s, const char *axis, const report_plot *plot, int 
     double below = floor(log10(least)), above = ceil(log10(most));
     if (above <= below) above = below + 1.0;
     if (k == 0 && most >= 100.0 * least) {
-        fprintf(s, "set logscale %s\nset %srange [%.17g:%.17g]\n", axis, axis, least, most);
+        fprintf(s, "set logscale %s\nset %srange [%.17g:%.17g]\nset format %s '%%g'\n", axis, axis,
+                least, most, axis);
         return;
     }
     fprintf(s, "set logscale %s\nset %srange [1e%.0f:1e%.0f]\nset format %s '%s'\n", axis, axis,

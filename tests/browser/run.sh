@@ -30,17 +30,19 @@ END_OF_STUDY
     "$program" report study
     "$program" run snakeboard --integrator gauss4 --step 0.05 --time 5 --output run
     "$program" report run
+    "$program" order chaplygin-sleigh --levels 3 --time 2 --output orders
+    "$program" report orders
 } >log 2>&1 || { cat log; exit 1; }
 
 # Each page with the script in it, in a frame of each width; the frames send home what they find.
-for page in study run; do
+for page in study run orders; do
     { cat $page/report/index.html; echo '<script>'; cat "$here/page.js"; echo '</script>'; } >$page.html
 done
 cat >frames.html <<'END_OF_PAGE'
 <body><pre id="found">found:
 </pre><script>
 addEventListener('message', e => found.textContent += e.data + '\n');
-for (const page of ['study', 'run'])
+for (const page of ['study', 'run', 'orders'])
     for (const width of [1280, 400]) {
         const frame = document.createElement('iframe');
         frame.src = `${page}.html#${page},${width}`;
@@ -60,8 +62,8 @@ for scheme in light dark; do
     pages=$(grep -c "^looked: $scheme," dom)
     faults=$(grep -c '^fault:' dom)
     grep '^fault:' dom | head -20
-    [ "$pages" -eq 4 ] || { echo "browser: $pages of 4 pages were looked at"; head -5 messages; }
-    [ "$pages" -eq 4 ] && [ "$faults" -eq 0 ] || failed=1
+    [ "$pages" -eq 6 ] || { echo "browser: $pages of 6 pages were looked at"; head -5 messages; }
+    [ "$pages" -eq 6 ] && [ "$faults" -eq 0 ] || failed=1
     sed -n "s/^looked: /browser: /p" dom
 done
 [ $failed -eq 0 ] && echo "browser: ok"

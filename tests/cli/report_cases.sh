@@ -5,7 +5,7 @@ try 2 report
 says 'the DIR is missing'
 mkdir -p hollow
 try 2 report hollow
-says "'hollow' holds neither a study \(cells.csv\) nor a run \(trajectory.npy\)"
+says "'hollow' holds neither a study \(cells.csv\) nor a run \(trajectory.npy\) nor orders \(order.csv\)"
 try 2 report nowhere
 says "'nowhere' holds neither"
 try 2 report hollow --format gif
@@ -85,6 +85,18 @@ if command -v gnuplot >/dev/null 2>&1; then
     try 0 report ran --format png
     holds "no picture" test -s ran/report/path.png
     holds "no picture on the page" grep -q 'data:image/png;base64,iVBOR' ran/report/index.html
+
+    case_is "the report of orders"
+    try 0 order line.yaml --integrators rk4,gauss4,isokinetic-splitting --levels 3 --time 1 \
+        --output orders
+    try 0 report orders
+    silent
+    holds "no row of a method" sh -c "grep '<th scope=\"row\">rk4</th><td>4</td>' \
+        orders/report/index.html | grep -Eq '<td>(3.9|4.0)[0-9]</td>(<td>[0-9.]+e-[0-9]+</td>){3}</tr>'"
+    holds "no reason" grep -q '<li>isokinetic-splitting: ' orders/report/index.html
+    for figure in order work time; do
+        holds "no figure $figure" grep -q '<svg' orders/report/$figure.svg
+    done
 
     case_is "the runs of a study are gone"
     rm -rf drawn/runs
