@@ -14,7 +14,7 @@ mkdir -p "$2"
 for directory in study disk board; do
     "$program" report "$work/$directory" >/dev/null
 done
-cp "$work/study/report/transmission-I.svg" "$2/drift.svg"
+cp "$work/study/report/transmission-E.svg" "$2/drift.svg"
 cp "$work/study/report/sleigh-work.svg" "$2/work.svg"
 cp "$work/disk/report/path.svg" "$2/disk.svg"
 cp "$work/board/report/path.svg" "$2/board.svg"
