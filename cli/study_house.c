@@ -150,7 +150,7 @@ static int equals(const char *path, const char *text, size_t length)
 static int copy_system(const study_house *house, study_entry *e)
 {
     size_t length;
-    if (!e->is_first || !cli_is_path(e->name)) return CLI_DONE;
+    if (!e->is_first || (!e->copy && !cli_is_path(e->name))) return CLI_DONE;
     char *path = study_system_copy(house->systems, e);
     char *text = path ? file_read(e->copy ? e->copy : e->name, &length) : NULL;
     int status = text ? CLI_DONE : path ? CLI_IO : cli_fail(CLI_IO, "out of memory");

@@ -6,6 +6,7 @@
 
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 /* ---- settings and methods ---- */
 
@@ -160,13 +161,25 @@ static int check_system(const study_text *text, const yaml_node_t *node, const c
     return study_unknown(text, node, "system", name, names, count);
 }
 
-/* The file itself, or the copy of it that a directory keeps. */
-static int load_system(study_plan *plan, study_entry *e)
+/* Where a directory keeps copies, what has one was a file, wherever the program is started now. */
+static int find_copy(const study_plan *plan, study_entry *e)
 {
-    if (!plan->copies || !cli_is_path(e->name)) return cli_load(e->name, &e->model, &e->system);
+    if (!plan->copies) return CLI_DONE;
     e->copy = study_system_copy(plan->copies, e);
     if (!e->copy) return cli_fail(CLI_IO, "out of memory");
-    return cli_load(e->copy, &e->model, &e->system);
+    if (access(e->copy, F_OK) == 0 || cli_is_path(e->name)) return CLI_DONE;
+    free(e->copy);
+    e->copy = NULL;
+    return CLI_DONE;
+}
+
+static int load_system(const study_plan *plan, const study_text *text, const yaml_node_t *node,
+                       study_entry *e)
+{
+    int status = find_copy(plan, e);
+    if (status == CLI_DONE && !e->copy) status = check_system(text, node, e->name);
+    if (status != CLI_DONE) return status;
+    return cli_load(e->copy ? e->copy : e->name, &e->model, &e->system);
 }
 
 /* ---- groups ---- */
@@ -183,8 +196,7 @@ typedef struct group {
 static int load_first(group *g, study_entry *e)
 {
     int status = read_methods(e, g->text, g->draft.integrators);
-    if (status == CLI_DONE) status = check_system(g->text, g->node, e->name);
-    return status == CLI_DONE ? load_system(g->plan, e) : status;
+    return status == CLI_DONE ? load_system(g->plan, g->text, g->node, e) : status;
 }
 
 static void share(study_entry *e, const study_entry *first)

@@ -27,6 +27,24 @@ holds "steps $steps" test "$steps" = "0.1 0.3 0.5 "
 holds "labels $(labels)" test "$(labels)" = \
     "line.yaml_k=0 line.yaml_k=0.1 line.yaml_k=0.2 line.yaml_k=0.3 "
 
+case_is "quantities are looked at in every step, or every K-th"
+cat >swing.yaml <<'END2'
+coordinates: [x]
+lagrangian: x'^2/2 - x^2/2
+start: {x': 1}
+invariants: {seen: x}
+END2
+# |x| = |sin t| is 1 within half a step of pi/2 and 0 at both rows; at steps 0, 314, 628 it is below
+# 2e-3.  (x is no invariant: it is called one to be looked at.)
+printf 'integrators: gauss4\nstep: 0.01\ntime: 6.28\nsamples: 1\nstarts: physical
+systems: [{system: swing.yaml, label: each}, {system: swing.yaml, label: few, statistics: 314}]
+expect:
+  each: {gauss4: {seen: {max: {at least: 0.99998, at most: 1}, final: {at most: 0}}}}
+  few: {gauss4: {seen: {max: {at most: 4e-3}}}}\n' >looks.yaml
+try 0 study looks.yaml --output there --force
+holds "not 2 rows" test "$(od -An -c -N 512 there/runs/each_gauss4_physical_0.01/trajectory.npy |
+    tr -d ' \n' | grep -c "(2,)")" -eq 1
+
 case_is "draws"
 # 1 + u with SplitMix64 as study_values.c has it, computed elsewhere: x' = 1.2850.. and 1.4568..
 printf "${common}seeds: [1, 7]\nsystems: [{system: line.yaml, start: {x': {between: [1, 2]}}}]\n" \

@@ -1,5 +1,6 @@
 # Studies in pieces: interrupted and killed anywhere, in shards and merged, by several processes.
 
+cp plane.yaml plane
 cat >pieces.yaml <<'END2'
 title: many short runs and a long one
 integrators: [gauss4+project, rk4]
@@ -8,7 +9,7 @@ time: 40
 samples: 50
 systems:
   - contact-oscillator
-  - {system: plane.yaml, label: plane, starts: physical, time: 4000, step: 0.01}
+  - {system: plane, label: plane, starts: physical, time: 4000, step: 0.01}
   - {system: chaplygin-sleigh-vakonomic, integrators: rk4}
   - {system: appell-hamel, starts: physical, set: {w0: -1}}
 expect:
