@@ -29,6 +29,11 @@ static int make_report(report *r)
 {
     int kind = 0;
     while (kind < KINDS && !holds(r->directory, kinds[kind].file)) kind++;
+    if (kind == KINDS && holds(r->directory, "study.yaml"))
+        return cli_fail(CLI_USAGE,
+                        "'%s' holds a study that is not finished: 'dalembert resume' goes on with "
+                        "it, 'dalembert merge' joins shards",
+                        r->directory);
     if (kind == KINDS)
         return cli_fail(CLI_USAGE,
                         "'%s' holds neither a study (cells.csv) nor a run (trajectory.npy) nor "

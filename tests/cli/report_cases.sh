@@ -8,6 +8,9 @@ try 2 report hollow
 says "'hollow' holds neither a study \(cells.csv\) nor a run \(trajectory.npy\) nor orders \(order.csv\)"
 try 2 report nowhere
 says "'nowhere' holds neither"
+mkdir -p begun && touch begun/study.yaml
+try 2 report begun
+says "'begun' holds a study that is not finished: 'dalembert resume' goes on"
 try 2 report hollow --format gif
 says "'gif' is neither svg nor png"
 
