@@ -191,10 +191,23 @@ static int check_place(const study_house *house, const char *text, size_t length
                     held, house->directory);
 }
 
+/* What is left of a study that was killed while it was begun, or written over: there is nothing in
+ * it to be gone on with. */
+static int is_left_over(const study_house *house)
+{
+    size_t length;
+    if (is_there(house->study) || !is_there(house->manifest)) return 0;
+    char *text = file_read(house->manifest, &length);
+    const int is_of_study = text && strstr(text, "\n  \"study\": \"");
+    free(text);
+    return is_of_study;
+}
+
 static int make(study_house *house, study_plan *plan, const char *text, size_t length, int is_shard,
                 int force)
 {
-    int status = force ? clear(house) : check_place(house, text, length, is_shard);
+    const int begin_anew = force || is_left_over(house);
+    int status = begin_anew ? clear(house) : check_place(house, text, length, is_shard);
     if (status == CLI_DONE) status = cli_directory(house->runs);
     if (status == CLI_DONE) status = copy_systems(house, plan);
     if (status == CLI_DONE) status = house_tell(house, plan, "running");

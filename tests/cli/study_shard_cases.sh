@@ -58,9 +58,8 @@ kill_study() {
         sleep "$delay"
         kill -9 $! 2>/dev/null && killed=$((killed + 1))
         wait $! 2>/dev/null
-        # before the description was there, it begins anew over whatever there is
-        [ -e killed-study/study.yaml ] || begin="$begin --force"
     done
+    [ -e killed-study/study.yaml ] && begin="resume killed-study"
     try 0 $begin --threads "$2"
     holds "killed $killed times with seed $1, $2 threads: other bytes" \
         same_study whole-study killed-study
@@ -70,6 +69,13 @@ seed=$(date +%s)
 echo "cli: a study is killed with seeds $seed and $((seed + 1))"
 kill_study "$seed" 1
 kill_study $((seed + 1)) 2
+
+case_is "a study in pieces: killed before it was described"
+mkdir begun-study
+cp -r whole-study/runs whole-study/systems whole-study/manifest.json begun-study
+sed 's/short/other/; s/time: 40$/time: 20/' pieces.yaml >another.yaml
+try 0 study another.yaml --output begun-study
+holds "not begun anew" grep -q '^contact-oscillator,.*,20,done' begun-study/cells.csv
 
 case_is "a study in pieces: interrupted"
 "$program" study pieces.yaml --output stopped-study --threads 1 --checkpoint 0 >out 2>err &
@@ -122,7 +128,6 @@ cat err.1 err.2 >err
 silent
 try 2 study pieces.yaml --output shared
 says "'shared/study.yaml' is there already"
-sed 's/short/other/' pieces.yaml >another.yaml
 try 2 study another.yaml --output shared --shard 1/2
 says "'shared/study.yaml' is another study"
 try 0 merge shared --output shared
