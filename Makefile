@@ -206,10 +206,8 @@ check-bits: $(BUILD)/tests/suite
 	@seq $(BITS_JOBS) | xargs -P $(BITS_JOBS) -I{} $< --bits {}/$(BITS_JOBS)
 
 VALGRIND = valgrind -q --error-exitcode=99 --leak-check=full
-# For the memory alone: runs are short here, too short for some drifts to show, and valgrind's own
-# fused multiply-add loses the sign of a zero.  Asserts (exit status 1) count in the other runs.
 check-valgrind: $(BUILD)/tests/suite
-	@$(VALGRIND) $(BUILD)/tests/suite --quick $(SUITE); test $$? -le 1
+	@$(VALGRIND) $(BUILD)/tests/suite --quick $(SUITE)
 
 fuzz:
 	$(MAKE) BUILD=$(BUILD)/fuzz CC=$(FUZZ_CC) \

@@ -197,9 +197,17 @@ static double value(enum function f, double a, double b)
     return out[0];
 }
 
+/* Valgrind's own fused multiply-add loses the sign of a zero; processors keep it. */
+static int fma_keeps_sign(void)
+{
+    const volatile double zero = -0.0, one = 1.0;
+    return signbit(fma(zero, one, zero)) != 0;
+}
+
 static void test_special(void)
 {
-    CU_ASSERT(value(F_sin, -0.0, 0.0) == 0.0 && signbit(value(F_sin, -0.0, 0.0)));
+    const double least = value(F_sin, -0.0, 0.0);
+    CU_ASSERT(least == 0.0 && (signbit(least) || !fma_keeps_sign()));
     CU_ASSERT(value(F_sin, 0.0, 0.0) == 0.0 && !signbit(value(F_sin, 0.0, 0.0)));
     CU_ASSERT(value(F_cos, -0.0, 0.0) == 1.0);
     CU_ASSERT(isnan(value(F_sin, INFINITY, 0.0)) && isnan(value(F_cos, -INFINITY, 0.0)));

@@ -348,6 +348,7 @@ DAL_INLINE dal_status dal__collocate(dal_step *s, const dal_tableau *method, int
     DAL_EACH(j, DAL_JOINED) eq.block[0].scale[j] = dal_velocity_scale(s, s->h, j);
     if (DAL_LIFTED(s)) {
         dal__gauge_stages(s, &k);
+        DAL_EACH(i, DAL_STAGES(method) * DAL_N(s)) force[i] = dal_num(0.0);
         eq.block[1].scale[0] = dal_momentum_scale(s, s->h, 0);
     }
     DAL_TRY(at_once ? dal__solve_at_once(s, &k, &eq) : dal__solve_stages(s, &k, &eq));
