@@ -118,11 +118,12 @@ const char *record_observable(const cli_record *r, int i) { return r->names[1 + 
 /* ---- looking on ---------------------------------------------------------------------------- */
 
 /* Stops the clock of steps and rows while the program does something else, and starts it again. */
-static void pause_clock(cli_record *r)
+static double pause_clock(cli_record *r)
 {
     const double gone = cli_seconds() - r->since;
     r->mark.seconds += gone;
     r->stretch += gone;
+    return gone;
 }
 
 static void start_clock(cli_record *r) { r->since = cli_seconds(); }
@@ -186,12 +187,21 @@ static int save_to_last(cli_record *r, const dal_run *run)
     return status == CLI_DONE ? save(r, run) : status;
 }
 
+/* Polls come some ten to a hundred times a second, however slow the steps. */
+static void pace(dal_observer *observer, double gone)
+{
+    enum { MOST = 1024 };
+    const double soon = 0.01, late = 0.1;
+    if (gone < soon && observer->polling < MOST) observer->polling *= 2;
+    if (gone > late && observer->polling > 1) observer->polling /= 2;
+}
+
 static dal_status poll(void *user, dal_run *run)
 {
     cli_record *r = user;
     const int stop = r->stop(r->stop_user);
     dal_status status = DAL_OK;
-    pause_clock(r);
+    pace(&r->observer, pause_clock(r));
     if (r->store && cli_seconds() - r->saved >= r->interval)
         status = tell(r, save_to_last(r, run));
     else if (r->store && stop)
@@ -239,12 +249,13 @@ static double row_time(void *user, long long row)
 
 int record_go(cli_record *r, dal_error *error)
 {
-    dal_observer observer = {.user = r,
-                             .sample = sample,
-                             .poll = poll,
-                             .values = follow,
-                             .every = r->job->statistics,
-                             .row_time = r->job->row_time ? row_time : NULL};
+    r->observer = (dal_observer){.user = r,
+                                 .sample = sample,
+                                 .poll = poll,
+                                 .values = follow,
+                                 .every = r->job->statistics,
+                                 .row_time = r->job->row_time ? row_time : NULL,
+                                 .polling = 1};
     *error = (dal_error){0};
     if (r->store && r->mark.row > 0 &&
         manifest_write(r->store, r->job, &r->mark, "running", "") != CLI_DONE)
@@ -253,8 +264,8 @@ int record_go(cli_record *r, dal_error *error)
     r->begun = dal_run_time(r->job->run);
     r->begun_steps = dal_run_steps(r->job->run);
     start_clock(r);
-    dal_status status =
-        dal_run_sample(r->job->run, r->job->time, r->job->samples, r->mark.row, &observer, error);
+    dal_status status = dal_run_sample(r->job->run, r->job->time, r->job->samples, r->mark.row,
+                                       &r->observer, error);
     pause_clock(r);
     if (r->progress != PROGRESS_OFF) cli_progress_end();
     progress_show(r, dal_run_time(r->job->run), 1);

@@ -27,6 +27,7 @@ typedef struct cli_record {
     dal_statistics *statistics; /* [observables] */
     dal_finding *finding;       /* [observables] when the run is finished or has failed */
     cli_mark mark;
+    dal_observer observer;
     double interval;       /* seconds between checkpoints */
     double since, saved;   /* when the present stretch of steps began; the last checkpoint */
     double begun;          /* t at which this process took the run up, */

@@ -294,8 +294,8 @@ int dal_run_observables(const dal_run *run);
 char *dal_run_observable_name(const dal_run *run, int i, char *buffer, size_t size);
 dal_status dal_run_observe(dal_run *run, double *out);
 
-/* Looks on while a run goes.  sample is called for each row, poll now and then (about every 1000
- * steps and rows between steps) between them, step at the start and after every so many steps of
+/* Looks on while a run goes.  sample is called for each row, poll now and then (about every 1024
+ * steps and rows between steps, or every polling) between them, step at the start and after every so many steps of
  * the run.  values, which is called in the place of step, receives the observables of those steps,
  * `looks` of them at a time, and each in turn: observable i at t[k] is values[i * stride + k]; the
  * run then stands at or behind the last, before the next.  It is made for every step of long runs.
@@ -310,6 +310,9 @@ typedef struct dal_observer {
     long long every; /* steps between two looks by step or values; 0: there are none */
     /* t of each row, increasing, T for the last; NULL: row*T/samples */
     double (*row_time)(void *user, long long row);
+    /* Steps and rows from one poll to the next, rounded down to a power of two, 1024 at most; 0:
+     * 1024.  poll may change it: where steps are slow it will want to be called more often. */
+    long long polling;
 } dal_observer;
 
 /* Carries the run to time T and shows rows first_row..samples at t = row*T/samples, the last

@@ -337,6 +337,43 @@ static void test_samples(void)
     dal_run_free(run);
 }
 
+/* ---- polls ---- */
+
+typedef struct polled {
+    dal_observer observer;
+    long long before, gap; /* the step of the last poll, the most steps between two */
+} polled;
+
+/* Asks for fewer polls from step 512 on. */
+static dal_status note_poll(void *user, dal_run *run)
+{
+    polled *p = user;
+    const long long step = dal_run_steps(run), gap = step - p->before;
+    if (gap > p->gap) p->gap = gap;
+    p->before = step;
+    if (step >= 512 && p->observer.polling == 9) p->observer.polling = 100;
+    return DAL_OK;
+}
+
+/* 9 is rounded down to 8; without a wish there are 1024 steps from one to the next. */
+static void test_polls(void)
+{
+    const dal_system system = hand_made(oscillate, NULL);
+    const dal_run_spec spec = fixture_spec(&system, "rk4", DAL_PHYSICAL, 0.1);
+    static const struct {
+        long long polling, steps, gap;
+    } cases[] = {{1, 500, 1}, {9, 500, 8}, {9, 5000, 64}, {0, 5000, 1024}, {5000, 5000, 1024}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        dal_run *run = fixture_run(&spec);
+        polled p = {.observer = {.user = &p, .poll = note_poll, .polling = cases[i].polling}};
+        const double T = 0.1 * (double)cases[i].steps;
+        CU_ASSERT_EQUAL(dal_run_sample(run, T, 1, 0, &p.observer, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(p.gap, cases[i].gap);
+        CU_ASSERT(cases[i].steps - p.before <= 2 * cases[i].gap);
+        dal_run_free(run);
+    }
+}
+
 void suite_run(void)
 {
     CU_pSuite suite = CU_add_suite("run", NULL, NULL);
@@ -350,4 +387,5 @@ void suite_run(void)
     CU_add_test(suite, "G singular between steps", test_leapt_over);
     CU_add_test(suite, "W singular on the way", test_mass_is_singular);
     CU_add_test(suite, "rows", test_samples);
+    CU_add_test(suite, "polls", test_polls);
 }

@@ -23,9 +23,18 @@ static dal_status stopped(dal_status status, const sampling *k)
     return dal__stopped(k->run, status, k->error);
 }
 
+/* A power of two, so that polls fall together with whole groups of looks. */
+static long long polling(const sampling *k)
+{
+    const long long wanted = k->observer->polling;
+    long long most = POLL;
+    while (wanted > 0 && most > wanted) most /= 2;
+    return most;
+}
+
 static dal_status poll(sampling *k)
 {
-    if (++k->since_poll < POLL || !k->observer->poll) return DAL_OK;
+    if (++k->since_poll < polling(k) || !k->observer->poll) return DAL_OK;
     k->since_poll = 0;
     return stopped(k->observer->poll(k->observer->user, k->run), k);
 }
@@ -86,12 +95,15 @@ static dal_status side_step(sampling *k, double h, long long row, double t)
     return shown == DAL_OK ? poll(k) : shown;
 }
 
+/* Whether the run stands where a group of looks has just been handed over. */
+static bool ends_group(const sampling *k) { return (dal_run_steps(k->run) + 1) % polling(k) == 0; }
+
 /* Steps that surely end before a row that is left away, the last two are taken one by one; and not
  * beyond a step at which looks are handed over anyway. */
-static long long steps_to(const dal_run *run, double left, double h)
+static long long steps_to(const sampling *k, double left, double h)
 {
     const double steps = left / h - 2.0;
-    const long long most = POLL - (dal_run_steps(run) + 1) % POLL;
+    const long long group = polling(k), most = group - (dal_run_steps(k->run) + 1) % group;
     return steps < 1.0 ? 1 : steps > (double)most ? most : (long long)steps;
 }
 
@@ -103,9 +115,9 @@ static dal_status go_to_row(sampling *k, long long row, double t)
         const double left = t - dal_run_time(k->run);
         if (left <= near) return show(k, row, t);
         if (left < h - near) return side_step(k, left, row, t);
-        const long long steps = steps_to(k->run, left, h);
+        const long long steps = steps_to(k, left, h);
         DAL_TRY(advance(k, steps));
-        k->since_poll += steps - 1;
+        k->since_poll += ends_group(k) ? polling(k) : steps - 1;
         DAL_TRY(poll(k));
     }
 }
