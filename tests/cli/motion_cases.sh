@@ -77,6 +77,18 @@ try 0 lyapunov chaplygin-sleigh --integrator gauss4+project --step 0.1 --time 5 
 prints 'by differences of order 8$'
 prints '^their sum .* not all$'
 
+case_is "a motion that ends early keeps its means"
+cat >ending.yaml <<'END'
+coordinates: [x]
+accelerations: {x: sqrt(2.5 - t)*0.1 - x}
+start: {x: 1}
+END
+try 3 lyapunov ending.yaml --integrator rk4 --step 0.1 --time 5 --output ending.csv
+says 'not finite'
+prints 'means over t = 0 \.\. 2\.4$'
+prints '^exponent 2 '
+holds "rows behind the end" awk -F, 'NR > 1 && $1 > 2.6 { exit 1 } END { exit NR < 20 }' ending.csv
+
 case_is "exponents: bad input"
 try 2 lyapunov saddle.yaml --integrator rk4 --step 0.1 --time 5 --exponents 3
 says '3 exponents are asked for; the step map has 2'
@@ -107,7 +119,7 @@ prints '^log.det J./h of a step .* shrinks$'
 prints '^5 of 6 directions'
 
 case_is "an interrupted look keeps its means"
-timeout --preserve-status -s INT 1 "$program" lyapunov osc.yaml --integrator rk4 --step 0.01 \
+timeout --preserve-status -k 20 -s INT 1 "$program" lyapunov osc.yaml --integrator rk4 --step 0.01 \
     --time 1e7 --rows 100000 --output early.csv >out 2>err
 holds "not 130" test $? -eq 130
 prints '^exponent 2 '
