@@ -2,6 +2,7 @@
 #
 #     make bench            all cases of bench/cases.txt, RUNS=7 processes each; build/bench.jsonl
 #     make bench-smoke      the same with next to no work: does it all build, run and agree?
+#     make bench-long       1e9 steps of the sleigh with statistics at every step: some 40 s
 #
 # Every program is built with the flags that made it fastest here: full optimisation for this
 # machine without packing scalars into vectors, and for the others, which promise no bits, with
@@ -28,6 +29,8 @@ BENCH_TABLE = $(patsubst %,$(BUILD)/cli/%.o,table npy output message)
 $(BENCH)/rows: bench/rows.c $(BENCH_TABLE) $(BENCH_HEADERS)
 	@mkdir -p $(@D)
 	$(call SAY,cc)$(CC) -std=c11 $(WARN) -O2 -Iinclude $< $(BENCH_TABLE) $(STATIC) $(LIBS) -o $@
+$(BENCH)/statistics: bench/statistics.c $(BENCH)/lib/libdalembert.a $(BENCH_HEADERS)
+	$(call SAY,cc)$(CC) -std=c11 $(WARN) -Iinclude $< $(BENCH)/lib/libdalembert.a $(LIBS) -o $@
 $(BENCH)/hand: bench/hand.c $(BENCH_HEADERS)
 	@mkdir -p $(@D)
 	$(call SAY,cc)$(CC) $(BENCH_PEER) $< -lm -o $@
@@ -58,7 +61,7 @@ $(BENCH)/gen.%: $(BENCH)/gen.%.c bench/gen.c bench/bench.h
 	$(call SAY,cc)$(CC) -std=c11 -D_POSIX_C_SOURCE=200809L $(BENCH_FAST) $(EXACT) -Wno-psabi \
 	    -include $< bench/gen.c -lm -o $@
 
-bench-programs: $(BENCH)/dal $(BENCH)/rows $(BENCH)/native $(BENCH)/hand $(BENCH)/peak
+bench-programs: $(BENCH)/dal $(BENCH)/rows $(BENCH)/native $(BENCH)/statistics $(BENCH)/hand $(BENCH)/peak
 	@for gen in $(BENCH_GEN); do $(MAKE) -s --no-print-directory $(BENCH)/$$gen || exit 1; done
 	@for peer in $(BENCH_PEERS); do $(MAKE) -s --no-print-directory $(BENCH)/$$peer || exit 1; done
 bench: bench-programs
@@ -67,3 +70,10 @@ bench-smoke: bench-programs
 	@RUNS=1 BENCH_MS=0 sh bench/run.sh bench/cases.txt $(BENCH) $(BENCH)/smoke.jsonl
 .PHONY: bench bench-programs bench-smoke
 .PRECIOUS: $(BENCH)/gen.%.c
+
+bench-long: $(PROGRAM)
+	@mkdir -p $(BENCH)
+	$(if $(wildcard /usr/bin/time),/usr/bin/time -f "%e s; at most %M KiB of memory") $(PROGRAM) run \
+	    chaplygin-sleigh --integrator rk4 --space physical --step 0.01 --time 1e7 --native on \
+	    --output $(BENCH)/long --force --summary
+.PHONY: bench-long

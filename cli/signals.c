@@ -3,15 +3,28 @@
 
 #include <signal.h>
 #include <stdatomic.h>
+#include <time.h>
 
 /* Atomic because the threads of a study ask for it, too. */
 static atomic_int caught;
+static atomic_llong first; /* when, in ms */
 
-/* The second signal finds the default action: a program that hangs can still be killed. */
+enum { ONE_REQUEST = 500 /* ms */ };
+
+/* timeout(1) and other launchers signal a program and then its group: that is one request.  A later
+ * signal finds the default action: a program that hangs can still be killed. */
 static void note(int number)
 {
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    const long long ms = 1000LL * now.tv_sec + now.tv_nsec / 1000000;
+    if (!caught) {
+        first = ms;
+    } else if (ms - first > ONE_REQUEST) {
+        signal(number, SIG_DFL);
+        raise(number);
+    }
     caught = 1;
-    signal(number, SIG_DFL);
 }
 
 void cli_catch_signals(void)

@@ -82,7 +82,7 @@ int dal_run_is_native(const dal_run *run) { return run->native.traced != NULL; }
 /* Looks at a time: whole registers of any machine, that stay in its nearest cache. */
 static int room_for_looks(int numbers)
 {
-    enum { REGISTER = 8, MOST = 256, NEAR = 32768 / sizeof(double) };
+    enum { REGISTER = 8, MOST = 248, NEAR = 32768 / sizeof(double) };
     const int room = NEAR / numbers / REGISTER * REGISTER;
     return room > MOST ? MOST : room < REGISTER ? REGISTER : room;
 }

@@ -9,7 +9,7 @@
 
 #define ALIGNED 1e-9
 
-enum { POLL = 1024 };
+enum { POLL = 992 /* whole blocks of looks, lib/generate/native.c */ };
 
 typedef struct sampling {
     dal_run *run;

@@ -118,6 +118,7 @@ try 0 volume chaplygin-sleigh-offset --integrator gauss4+project --step 0.1 --ti
 prints '^log.det J./h of a step .* shrinks$'
 prints '^5 of 6 directions'
 
+# timeout signals the program and then its group: two signals, one request.
 case_is "an interrupted look keeps its means"
 timeout --preserve-status -k 20 -s INT 1 "$program" lyapunov osc.yaml --integrator rk4 --step 0.01 \
     --time 1e7 --rows 100000 --output early.csv >out 2>err

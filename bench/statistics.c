@@ -1,0 +1,88 @@
+/* statistics.c - what it costs to follow every observable at every step, with compiled steps.
+ *
+ *     statistics METHOD SPACE SYSTEM         SYSTEM: a built-in name
+ *
+ * A run goes on and on, in stretches that are followed and bare by turns.  Prints the least time of
+ * a followed stretch by the least of a bare one, and the state reached; with BENCH_NS in the
+ * environment the nanoseconds of a step, bare and followed, too. */
+#define _POSIX_C_SOURCE 200809L
+#include "bench.h"
+#include <dalembert.h>
+
+enum { STRETCHES = 20, MOST = 64, LEAST_STEPS = 2048 };
+
+typedef struct job {
+    dal_run_spec spec;
+    dal_run *run;
+    dal_statistics statistics[MOST];
+    int observables;
+} job;
+
+static dal_status follow(void *user, dal_run *run, int looks, const double *t, const double *values,
+                         size_t stride)
+{
+    job *j = user;
+    (void)run;
+    dal_statistics_add_many(j->statistics, j->observables, looks, t, values, stride);
+    return DAL_OK;
+}
+
+/* The time of some steps, in ns each; negative where they failed. */
+static double stretch(job *j, long long steps, int followed)
+{
+    const dal_observer observer = {.user = j, .values = followed ? follow : NULL, .every = 1};
+    const double h = j->spec.options.step;
+    const long long end = dal_run_steps(j->run) + steps;
+    const double begin = bench_now();
+    const dal_status status = dal_run_sample(j->run, (double)end * h, 1, 1, &observer, NULL);
+    return status == DAL_OK ? (bench_now() - begin) / (double)steps : -1.0;
+}
+
+static int measure(job *j)
+{
+    const char *ms = getenv("BENCH_MS");
+    double least[2] = {INFINITY, INFINITY};
+    const double one = stretch(j, LEAST_STEPS, 1);
+    if (!(one > 0.0)) return 1;
+    const long long steps = LEAST_STEPS + (long long)(1e6 * (ms ? atof(ms) : 20.0) / one);
+    for (int i = 0; i < STRETCHES; i++) {
+        const double time = stretch(j, steps, i % 2);
+        if (time < 0.0) return 1;
+        least[i % 2] = fmin(least[i % 2], time);
+    }
+    printf("%.5g", least[1] / least[0]);
+    if (getenv("BENCH_NS")) printf(" (%.5g, %.5g)", least[0], least[1]);
+    for (int i = 0; i < 2 * j->spec.system->n; i++) printf(" %.17g", dal_run_state(j->run)[i]);
+    putchar('\n');
+    return 0;
+}
+
+static int make(job *j, char **argv, const char *cache, dal_error *error)
+{
+    static dal_model *model;
+    const dal_native_options native = {.cache = cache};
+    j->spec.options = dal_options_default();
+    j->spec.options.step = BENCH_H_STEP;
+    if (dal_model_builtin(&model, argv[3], error) ||
+        dal_model_system(model, &j->spec.system, error) ||
+        dal_method_parse(&j->spec.method, argv[1], error) ||
+        dal_options_set(&j->spec.options, "space", argv[2], error) ||
+        dal_run_create(&j->run, &j->spec, error) || dal_run_native(j->run, &native, error) ||
+        dal_run_native_observables(j->run, &native, error))
+        return 1;
+    j->observables = dal_run_observables(j->run);
+    dal_statistics_start(j->statistics, j->observables);
+    return j->observables > MOST;
+}
+
+int main(int argc, char **argv)
+{
+    static job j;
+    dal_error error = {0};
+    char cache[4096];
+    if (argc != 4) return bench_unknown(argc, argv);
+    snprintf(cache, sizeof cache, "%s.cache", argv[0]); /* beside the program, made once */
+    const int failed = make(&j, argv, cache, &error) || measure(&j);
+    if (failed) fprintf(stderr, "statistics: %s\n", error.message);
+    return failed;
+}
