@@ -294,9 +294,9 @@ int dal_run_observables(const dal_run *run);
 char *dal_run_observable_name(const dal_run *run, int i, char *buffer, size_t size);
 dal_status dal_run_observe(dal_run *run, double *out);
 
-/* Looks on while a run goes.  sample is called for each row, poll now and then between
- * them (every 992 steps and rows, or every polling), step at the start and after every so many steps
- * of the run.  values, which is called in the place of step, receives the observables of those steps,
+/* Looks on while a run goes.  sample is called for each row, poll now and then between them (every
+ * 992 steps and rows, or every polling), step at the start and after every so many steps of the
+ * run. values, which is called in the place of step, receives the observables of those steps,
  * `looks` of them at a time, and each in turn: observable i at t[k] is values[i * stride + k]; the
  * run then stands at or behind the last, before the next.  It is made for every step of long runs.
  * Any may be NULL.  Any status but DAL_OK ends the run with that status. */
@@ -310,8 +310,8 @@ typedef struct dal_observer {
     long long every; /* steps between two looks by step or values; 0: there are none */
     /* t of each row, increasing, T for the last; NULL: row*T/samples */
     double (*row_time)(void *user, long long row);
-    /* Steps and rows from one poll to the next: 992, 496, 248, 124, ... 1, whichever is not
-     * more; 0: 992.  poll may change it: where steps are slow it will want to be called more often. */
+    /* Steps and rows from one poll to the next: 992, 496, 248, 124, ... 1, whichever is not more;
+     * 0: 992.  poll may change it: where steps are slow it will want to be called more often. */
     long long polling;
 } dal_observer;
 
