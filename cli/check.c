@@ -184,18 +184,15 @@ static int examine(cli_job *job)
     return status;
 }
 
-#define OPTION_LIST(X)                                                                             \
-    X(set, "PARAMETER=V", "give a parameter another value; may be repeated")                       \
-    X(start, "NAME=V", "start x, x', e or g1 at V; may be repeated")
+/* name, value, default, help */
+#define OWN_LIST(X)                                                                                \
+    X(set, "PARAMETER=V", NULL, "give a parameter another value; may be repeated")                 \
+    X(start, "NAME=V", NULL, "start x, x', e or g1 at V; may be repeated")
 
-static const cli_option options[] = {
-#define X(name, value, help) {#name, value, help, NULL},
-    OPTION_LIST(X)
-#undef X
-};
+static const cli_option options[] = {OWN_LIST(CLI_OPTION)};
 static const int job_option[] = {
-#define X(name, value, help) JOB_##name,
-    OPTION_LIST(X)
+#define X(name, value, initial, help) JOB_##name,
+    OWN_LIST(X)
 #undef X
 };
 

@@ -106,6 +106,11 @@ typedef struct cli_option {
     const char *initial; /* its default, up to a '|'; NULL: none to tell */
 } cli_option;
 
+/* A command's options are one list of X(name, value, initial, help), which gives their table and
+ * the numbers of those that are its own. */
+#define CLI_OPTION(name, value, initial, help) {#name, value, help, initial},
+#define CLI_OWN(name, value, initial, help)    OWN_##name,
+
 typedef struct cli_args {
     const cli_option *options;
     int count;

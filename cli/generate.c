@@ -46,11 +46,7 @@ typedef struct generate_wishes {
 
 static void list_options(cli_option *options)
 {
-    static const cli_option own[] = {
-#define X(name, value, initial, help) {#name, value, help, initial},
-        OWN_LIST(X)
-#undef X
-    };
+    static const cli_option own[] = {OWN_LIST(CLI_OPTION)};
     cli_option all[JOB_OPTIONS];
     job_options(all);
     memcpy(options, own, sizeof own);

@@ -15,11 +15,7 @@ enum {
         OPTIONS
 };
 
-static const cli_option options[OPTIONS] = {
-#define X(name, value, initial, help) {#name, value, help, initial},
-    SPECTRUM_OPTION_LIST(X) OWN_LIST(X)
-#undef X
-};
+static const cli_option options[OPTIONS] = {SPECTRUM_OPTION_LIST(CLI_OPTION) OWN_LIST(CLI_OPTION)};
 
 static const char notes[] =
     "SYSTEM is a built-in name or the path of a system file.  On (q,v) tangent vectors are moved "

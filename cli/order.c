@@ -14,18 +14,9 @@
     X(threads, "N", NULL, "runs at a time (one per processor); no number depends on it")           \
     X(output, "DIR|FILE.csv", NULL, "the same as CSV; a directory gets the diagrams as well")
 
-enum {
-#define X(name, value, initial, help) OWN_##name,
-    OWN_LIST(X)
-#undef X
-        OWN_OPTIONS
-};
+enum { OWN_LIST(CLI_OWN) OWN_OPTIONS };
 
-static const cli_option own[OWN_OPTIONS] = {
-#define X(name, value, initial, help) {#name, value, help, initial},
-    OWN_LIST(X)
-#undef X
-};
+static const cli_option own[OWN_OPTIONS] = {OWN_LIST(CLI_OPTION)};
 
 static const int without[] = {JOB_integrator};
 

@@ -50,20 +50,12 @@ static int make_report(report *r)
     return status == CLI_DONE ? cli_close(stdout, "standard output") : status;
 }
 
-#define OPTION_LIST(X) X(format, "svg|png", "what the figures are", "svg")
+/* name, value, default, help */
+#define OWN_LIST(X) X(format, "svg|png", "svg", "what the figures are")
 
-enum {
-#define X(name, value, help, initial) OPTION_##name,
-    OPTION_LIST(X)
-#undef X
-        OPTIONS
-};
+enum { OWN_LIST(CLI_OWN) OWN_OPTIONS };
 
-static const cli_option options[] = {
-#define X(name, value, help, initial) {#name, value, help, initial},
-    OPTION_LIST(X)
-#undef X
-};
+static const cli_option options[] = {OWN_LIST(CLI_OPTION)};
 
 static const char notes[] =
     "DIR is what 'dalembert study', 'dalembert run --output DIR' or 'dalembert order --output "
@@ -73,7 +65,7 @@ static const char notes[] =
 
 static int take(report *r, int option, const char *value)
 {
-    if (option == OPTION_format) {
+    if (option == OWN_format) {
         r->format = value;
         if (strcmp(value, "svg") == 0 || strcmp(value, "png") == 0) return CLI_DONE;
         return cli_fail(CLI_USAGE, "--format: '%s' is neither svg nor png", value);
@@ -86,7 +78,7 @@ static int take(report *r, int option, const char *value)
 int command_report(int argc, char **argv)
 {
     report r = {.format = "svg"};
-    cli_args args = cli_begin(argc, argv, options, OPTIONS, notes);
+    cli_args args = cli_begin(argc, argv, options, OWN_OPTIONS, notes);
     const char *value;
     for (int k; (k = cli_next(&args, &value)) != CLI_STOP;) {
         int status = take(&r, k, value);

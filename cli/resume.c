@@ -14,8 +14,8 @@ static const char notes[] =
 
 /* Those of the options of a run that may be chosen anew, and one of a study behind. */
 enum {
-    FIRST = OWN_checkpoint - JOB_OPTIONS,
-    OF_RUN = OWN_force - OWN_checkpoint,
+    FIRST = RUN_checkpoint - JOB_OPTIONS,
+    OF_RUN = RUN_force - RUN_checkpoint,
     OPTION_threads = OF_RUN,
     OPTIONS
 };
@@ -53,7 +53,7 @@ static int take(run_wishes *wishes, long long *threads, const char **directory, 
                 const char *value)
 {
     if (option == OPTION_threads) return cli_integer("--threads", value, 1, POOL_MOST, threads);
-    if (option != CLI_PLAIN) return run_take(wishes, OWN_checkpoint + option, value);
+    if (option != CLI_PLAIN) return run_take(wishes, RUN_checkpoint + option, value);
     if (*directory) return cli_fail(CLI_USAGE, "resume: one DIR only, not also '%s'", value);
     *directory = value;
     return CLI_DONE;
@@ -62,7 +62,7 @@ static int take(run_wishes *wishes, long long *threads, const char **directory, 
 int command_resume(int argc, char **argv)
 {
     cli_option options[OPTIONS];
-    memcpy(options, own_options + FIRST, OF_RUN * sizeof *options);
+    memcpy(options, run_options + FIRST, OF_RUN * sizeof *options);
     options[OPTION_threads] = (cli_option){"threads", "N", "cells of a study at a time",
                                            "OMP_NUM_THREADS or one per processor"};
     cli_args args = cli_begin(argc, argv, options, OPTIONS, notes);

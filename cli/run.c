@@ -6,11 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
-const cli_option own_options[OWN_OPTIONS] = {
-#define X(name, value, initial, help) {#name, value, help, initial},
-    OWN_OPTION_LIST(X)
-#undef X
-};
+const cli_option run_options[RUN_OWN] = {RUN_OPTION_LIST(CLI_OPTION)};
 
 static const char run_notes[] =
     "SYSTEM is a built-in name ('dalembert list systems') or the path of a system file.\n"
@@ -38,27 +34,27 @@ int run_take_interval(const char *text, double *interval)
 
 run_wishes run_wish(void)
 {
-    run_wishes wishes = {.output = own_options[OWN_output - JOB_OPTIONS].initial};
-    run_take_interval(own_options[OWN_checkpoint - JOB_OPTIONS].initial, &wishes.interval);
+    run_wishes wishes = {.output = run_options[RUN_output - JOB_OPTIONS].initial};
+    run_take_interval(run_options[RUN_checkpoint - JOB_OPTIONS].initial, &wishes.interval);
     return wishes;
 }
 
 int run_take(run_wishes *wishes, int option, const char *text)
 {
     switch (option) {
-    case OWN_output:
+    case RUN_output:
         wishes->output = text;
         break;
-    case OWN_checkpoint:
+    case RUN_checkpoint:
         return run_take_interval(text, &wishes->interval);
-    case OWN_summary:
+    case RUN_summary:
         wishes->summary = 1;
         break;
-    case OWN_progress:
+    case RUN_progress:
         return progress_read(text, &wishes->progress);
-    case OWN_native:
+    case RUN_native:
         return native_read(text, &wishes->native);
-    case OWN_force:
+    case RUN_force:
         wishes->force = 1;
         break;
     }
@@ -136,7 +132,7 @@ int command_run(int argc, char **argv)
 {
     cli_option options[RUN_OPTIONS];
     job_options(options);
-    memcpy(options + JOB_OPTIONS, own_options, sizeof own_options);
+    memcpy(options + JOB_OPTIONS, run_options, sizeof run_options);
     cli_args args = cli_begin(argc, argv, options, RUN_OPTIONS, run_notes);
     cli_job job = job_begin();
     run_wishes wishes = run_wish();

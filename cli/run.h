@@ -10,7 +10,7 @@
 
 /* The options of a run that do not concern the trajectory; they come behind those of the job.
  * name, value, default, help */
-#define OWN_OPTION_LIST(X)                                                                         \
+#define RUN_OPTION_LIST(X)                                                                         \
     X(output, "FILE|DIR|-", "-", "write there: .csv, .npy, a directory, or stdout")                \
     X(checkpoint, "SECONDS", "5", "a directory can be resumed from at most so long ago")           \
     X(summary, NULL, NULL, "print the summary though stderr is no terminal")                       \
@@ -19,15 +19,15 @@
     X(force, NULL, NULL, "write over what the directory holds of another run")
 
 enum {
-    OWN_FIRST = JOB_OPTIONS - 1,
-#define X(name, value, initial, help) OWN_##name,
-    OWN_OPTION_LIST(X)
+    RUN_FIRST = JOB_OPTIONS - 1,
+#define X(name, value, initial, help) RUN_##name,
+    RUN_OPTION_LIST(X)
 #undef X
         RUN_OPTIONS,
-    OWN_OPTIONS = RUN_OPTIONS - JOB_OPTIONS
+    RUN_OWN = RUN_OPTIONS - JOB_OPTIONS
 };
 
-extern const cli_option own_options[OWN_OPTIONS];
+extern const cli_option run_options[RUN_OWN];
 
 /* What concerns the output alone. */
 typedef struct run_wishes {

@@ -20,18 +20,9 @@
     X(native, "auto|on|off", "auto", "compile the steps, which changes no bit: when it pays")      \
     X(output, "DIR|FILE|-", "-", "write there: .csv, .npy, a directory with a picture, or stdout")
 
-enum {
-#define X(name, value, initial, help) OWN_##name,
-    OWN_LIST(X)
-#undef X
-        OWN_OPTIONS
-};
+enum { OWN_LIST(CLI_OWN) OWN_OPTIONS };
 
-static const cli_option own[OWN_OPTIONS] = {
-#define X(name, value, initial, help) {#name, value, help, initial},
-    OWN_LIST(X)
-#undef X
-};
+static const cli_option own[OWN_OPTIONS] = {OWN_LIST(CLI_OPTION)};
 
 static const char notes[] =
     "SYSTEM is a built-in name or the path of a system file.  The formula may name coordinates,\n"

@@ -25,28 +25,20 @@ typedef struct wishes {
     cli_native native;
 } wishes;
 
-#define OPTION_LIST(X)                                                                             \
-    X(output, "DIR", "the files go there", default_directory)                                      \
-    X(threads, "N", "cells at a time; the results do not depend on it",                            \
-      "OMP_NUM_THREADS or one per processor")                                                      \
-    X(checkpoint, "SECONDS", "a run can be resumed from at most so long ago", "5")                 \
-    X(shard, "K/N", "every N-th cell from the K-th on; 'dalembert merge' joins the shards", NULL)  \
-    X(native, "auto|on|off", "compile the steps, which changes no bit: when it pays", "auto")      \
-    X(force, NULL, "write over what the directory holds", NULL)                                    \
-    X(show, NULL, "print the study file itself and do nothing", NULL)
+/* name, value, default, help */
+#define OWN_LIST(X)                                                                                \
+    X(output, "DIR", default_directory, "the files go there")                                      \
+    X(threads, "N", "OMP_NUM_THREADS or one per processor",                                        \
+      "cells at a time; the results do not depend on it")                                          \
+    X(checkpoint, "SECONDS", "5", "a run can be resumed from at most so long ago")                 \
+    X(shard, "K/N", NULL, "every N-th cell from the K-th on; 'dalembert merge' joins the shards")  \
+    X(native, "auto|on|off", "auto", "compile the steps, which changes no bit: when it pays")      \
+    X(force, NULL, NULL, "write over what the directory holds")                                    \
+    X(show, NULL, NULL, "print the study file itself and do nothing")
 
-enum {
-#define X(name, value, help, initial) OPTION_##name,
-    OPTION_LIST(X)
-#undef X
-        OPTIONS
-};
+enum { OWN_LIST(CLI_OWN) OWN_OPTIONS };
 
-static const cli_option options[] = {
-#define X(name, value, help, initial) {#name, value, help, initial},
-    OPTION_LIST(X)
-#undef X
-};
+static const cli_option options[] = {OWN_LIST(CLI_OPTION)};
 
 static const char notes[] =
     "Without a file the built-in study is run.  A study file is YAML; its keys:\n"
@@ -107,21 +99,21 @@ static int take_shard(wishes *w, const char *text)
 static int take(wishes *w, int option, const char *value)
 {
     switch (option) {
-    case OPTION_output:
+    case OWN_output:
         w->output = value;
         return CLI_DONE;
-    case OPTION_threads:
+    case OWN_threads:
         return cli_integer("--threads", value, 1, POOL_MOST, &w->threads);
-    case OPTION_checkpoint:
+    case OWN_checkpoint:
         return run_take_interval(value, &w->interval);
-    case OPTION_shard:
+    case OWN_shard:
         return take_shard(w, value);
-    case OPTION_native:
+    case OWN_native:
         return native_read(value, &w->native);
-    case OPTION_force:
+    case OWN_force:
         w->force = 1;
         return CLI_DONE;
-    case OPTION_show:
+    case OWN_show:
         w->show = 1;
         return CLI_DONE;
     default:
@@ -185,7 +177,7 @@ static int run_study(const wishes *w)
 int command_study(int argc, char **argv)
 {
     wishes w = {.threads = pool_threads(), .interval = run_wish().interval};
-    cli_args args = cli_begin(argc, argv, options, OPTIONS, notes);
+    cli_args args = cli_begin(argc, argv, options, OWN_OPTIONS, notes);
     const char *value;
     for (int k; (k = cli_next(&args, &value)) != CLI_STOP;) {
         int status = take(&w, k, value);

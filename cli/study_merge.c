@@ -14,23 +14,15 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-#define OPTION_LIST(X)                                                                             \
-    X(output, "DIR", "the whole study goes there; may be one of those that are merged")            \
-    X(threads, "N", "runs read at a time")                                                         \
-    X(force, NULL, "write over what the directory holds, unless it is one of those")
+/* name, value, default, help */
+#define OWN_LIST(X)                                                                                \
+    X(output, "DIR", NULL, "the whole study goes there; may be one of those that are merged")      \
+    X(threads, "N", NULL, "runs read at a time")                                                   \
+    X(force, NULL, NULL, "write over what the directory holds, unless it is one of those")
 
-enum {
-#define X(name, value, help) OPTION_##name,
-    OPTION_LIST(X)
-#undef X
-        OPTIONS
-};
+enum { OWN_LIST(CLI_OWN) OWN_OPTIONS };
 
-static const cli_option options[] = {
-#define X(name, value, help) {#name, value, help, NULL},
-    OPTION_LIST(X)
-#undef X
-};
+static const cli_option options[] = {OWN_LIST(CLI_OPTION)};
 
 static const char notes[] =
     "Each DIR is what 'dalembert study --shard K/N --output DIR' made; the shards may have shared\n"
@@ -245,12 +237,12 @@ static int merge_into(merge *m, const char *output, int threads)
 static int take(merge *m, const char **output, long long *threads, int option, const char *value)
 {
     switch (option) {
-    case OPTION_output:
+    case OWN_output:
         *output = value;
         return CLI_DONE;
-    case OPTION_threads:
+    case OWN_threads:
         return cli_integer("--threads", value, 1, POOL_MOST, threads);
-    case OPTION_force:
+    case OWN_force:
         m->force = 1;
         return CLI_DONE;
     default:
@@ -271,7 +263,7 @@ int command_merge(int argc, char **argv)
 {
     merge *m = calloc(1, sizeof *m);
     if (!m) return cli_fail(CLI_IO, "out of memory");
-    cli_args args = cli_begin(argc, argv, options, OPTIONS, notes);
+    cli_args args = cli_begin(argc, argv, options, OWN_OPTIONS, notes);
     const char *value, *output = NULL;
     long long threads = pool_threads();
     for (int k; (k = cli_next(&args, &value)) != CLI_STOP;) {

@@ -9,11 +9,7 @@
 
 #include <math.h>
 
-static const cli_option options[SPECTRUM_OPTIONS] = {
-#define X(name, value, initial, help) {#name, value, help, initial},
-    SPECTRUM_OPTION_LIST(X)
-#undef X
-};
+static const cli_option options[SPECTRUM_OPTIONS] = {SPECTRUM_OPTION_LIST(CLI_OPTION)};
 
 static const char notes[] =
     "SYSTEM is a built-in name or the path of a system file.  Followed along the run are the "

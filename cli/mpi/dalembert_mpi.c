@@ -16,25 +16,17 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define OPTION_LIST(X)                                                                             \
-    X(output, "DIR", "the files go there", NULL)                                                   \
-    X(checkpoint, "SECONDS", "a run can be resumed from at most so long ago", "5")                 \
-    X(native, "auto|on|off", "compile the steps, which changes no bit: when it pays", "auto")      \
-    X(force, NULL, "write over what the directory holds", NULL)                                    \
-    X(resume, NULL, "go on with the study in DIR", NULL)
+/* name, value, default, help */
+#define OWN_LIST(X)                                                                                \
+    X(output, "DIR", NULL, "the files go there")                                                   \
+    X(checkpoint, "SECONDS", "5", "a run can be resumed from at most so long ago")                 \
+    X(native, "auto|on|off", "auto", "compile the steps, which changes no bit: when it pays")      \
+    X(force, NULL, NULL, "write over what the directory holds")                                    \
+    X(resume, NULL, NULL, "go on with the study in DIR")
 
-enum {
-#define X(name, value, help, initial) OPTION_##name,
-    OPTION_LIST(X)
-#undef X
-        OPTIONS
-};
+enum { OWN_LIST(CLI_OWN) OWN_OPTIONS };
 
-static const cli_option options[] = {
-#define X(name, value, help, initial) {#name, value, help, initial},
-    OPTION_LIST(X)
-#undef X
-};
+static const cli_option options[] = {OWN_LIST(CLI_OPTION)};
 
 static const char notes[] =
     "Runs a study, as 'dalembert study' does, with a process for each cell at a time; to be "
@@ -54,21 +46,21 @@ static int take(wishes *w, int option, const char *value)
 {
     cli_native native;
     switch (option) {
-    case OPTION_output:
+    case OWN_output:
         if (strlen(value) >= sizeof w->output)
             return cli_fail(CLI_USAGE, "--output: the path is too long");
         memcpy(w->output, value, strlen(value) + 1);
         return CLI_DONE;
-    case OPTION_checkpoint:
+    case OWN_checkpoint:
         return run_take_interval(value, &w->interval);
-    case OPTION_native:
+    case OWN_native:
         if (native_read(value, &native) != CLI_DONE) return CLI_USAGE;
         w->native = native;
         return CLI_DONE;
-    case OPTION_force:
+    case OWN_force:
         w->force = 1;
         return CLI_DONE;
-    case OPTION_resume:
+    case OWN_resume:
         w->resume = 1;
         return CLI_DONE;
     default:
@@ -89,7 +81,7 @@ static int check(const wishes *w)
 
 static int read_arguments(wishes *w, int argc, char **argv)
 {
-    cli_args args = cli_begin(argc, argv, options, OPTIONS, notes);
+    cli_args args = cli_begin(argc, argv, options, OWN_OPTIONS, notes);
     const char *value;
     for (int k; (k = cli_next(&args, &value)) != CLI_STOP;) {
         const int taken = take(w, k, value);
