@@ -79,10 +79,12 @@ static void say_solver(const sheet *s)
 }
 
 /* Whether roundings of products with the step go to one side: a drift that is no more with a step
- * of few digits. */
+ * of few digits, which the intervals of both must tell apart. */
 static int is_one_sided(const sheet *s)
 {
-    return s->e->ran[DAL_TWIN_SHORT] && s->a->all_by_rate &&
+    const dal_finding *all = &s->a->all, *other = &s->a->twin[DAL_TWIN_SHORT];
+    const int apart = other->rate_low > all->rate_high || other->rate_high < all->rate_low;
+    return s->e->ran[DAL_TWIN_SHORT] && s->a->all_by_rate && apart &&
            s->a->share[DAL_CAUSE_ROUNDING] > 0.5 && times(s, DAL_TWIN_SHORT) < one_sided;
 }
 
