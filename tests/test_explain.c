@@ -1,5 +1,6 @@
 /* test_explain.c - what drifts come from, where it is known beforehand. */
 #include "fixtures.h"
+#include "quick.h"
 #include <CUnit/CUnit.h>
 #include <math.h>
 #include <stdio.h>
@@ -166,13 +167,14 @@ static void test_one_side(void)
 {
     dal_model *model = fixture_model("contact-oscillator");
     dal_run_spec spec = fixture_spec(fixture_system(model), "implicit-midpoint", DAL_PHYSICAL, 0.1);
-    dal_explanation *e = explained(&spec, 400000, 1000);
+    const bool full = long_run(400000) == 400000; /* a slow drift does not show in a quick run */
+    dal_explanation *e = explained(&spec, long_run(400000), long_run(1000));
     const dal_attribution *d = of(e, "D1");
-    CU_ASSERT(d->all_by_rate);
+    CU_ASSERT(!full || d->all_by_rate);
     CU_ASSERT(e->ran[DAL_TWIN_SHORT]);
-    CU_ASSERT(fabs(d->twin[DAL_TWIN_HALVED].rate / d->all.rate - 1.0) < 0.3);
-    CU_ASSERT(fabs(d->twin[DAL_TWIN_SHORT].rate) < 0.25 * fabs(d->all.rate));
-    CU_ASSERT(says(e, "D1", DAL_CAUSE_ROUNDING, "round to one side"));
+    CU_ASSERT(!full || fabs(d->twin[DAL_TWIN_HALVED].rate / d->all.rate - 1.0) < 0.3);
+    CU_ASSERT(!full || fabs(d->twin[DAL_TWIN_SHORT].rate) < 0.25 * fabs(d->all.rate));
+    CU_ASSERT(!full || says(e, "D1", DAL_CAUSE_ROUNDING, "round to one side"));
     dal_explanation_free(e);
     spec.options.step = 0.125;
     e = explained(&spec, 10, 0);
