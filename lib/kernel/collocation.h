@@ -230,6 +230,7 @@ DAL_INLINE void dal__go_on(dal_step *s, const dal_stages *k, dal_equation *eq, d
     DAL_EACH(j, DAL_JOINED) lanes[j] = s->alive[j];
     DAL_EACH(j, DAL_JOINED) served[j] = lanes[j] & dal_equal(s->slopes_h[j], dal_num(k->h));
     dal__guess_last(s, k, eq);
+    dal__remember_guess(eq); /* read below where nothing is tried, too */
     dal__try_guess(s, eq, served);
     dal__look_back(s, k, eq, lanes, served);
 }
@@ -265,8 +266,7 @@ DAL_INLINE dal_status dal__solve_at_once(dal_step *s, const dal_stages *k, dal_e
     }
     if (DAL_RARELY(dal__any(left))) return DAL_NOT_CONVERGED;
     dal__guess_last(s, k, eq);
-    dal__remember(&eq->block[0]);
-    if (eq->blocks > 1) dal__remember(&eq->block[1]);
+    dal__remember_guess(eq);
     dal__iterate(s, eq, dal__collocation_map, solved, 0, DAL_MAY_NEWTON(s));
     DAL_EACH(j, DAL_JOINED) left[j] = s->alive[j] & ~solved[j];
     if (DAL_RARELY(dal__any(left))) return DAL_NOT_CONVERGED;

@@ -236,6 +236,11 @@ DAL_INLINE void dal__remember(dal_block *b)
 {
     DAL_EACH(i, DAL_SIZE(b)) b->start[i] = b->u[i];
 }
+DAL_INLINE void dal__remember_guess(dal_equation *eq)
+{
+    dal__remember(&eq->block[0]);
+    if (eq->blocks > 1) dal__remember(&eq->block[1]);
+}
 DAL_INLINE void dal__return(dal_block *b, const dal_mask *lanes)
 {
     DAL_EACH(i, DAL_SIZE(b)) b->u[i] = dal_select(lanes[i % DAL_JOINED], b->start[i], b->u[i]);
@@ -265,8 +270,7 @@ DAL_INLINE dal_status dal_solve(dal_step *s, dal_equation *eq, dal_map *map, dal
         if (may_newton) solved[j] &= ~dal_less(dal_num(0.5), s->stiff[j]);
         if (may_newton && DAL_SOLVER(s) == DAL_NEWTON) solved[j] = ~dal_all();
     }
-    dal__remember(&eq->block[0]);
-    if (eq->blocks > 1) dal__remember(&eq->block[1]);
+    dal__remember_guess(eq);
     dal__iterate(s, eq, map, solved, 0, may_newton);
     DAL_EACH(j, DAL_JOINED) left[j] = s->alive[j] & ~solved[j];
     if (may_newton && dal__any(left)) {
