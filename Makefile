@@ -207,9 +207,11 @@ BITS_BUILDS ?= 12
 check-bits: $(BUILD)/tests/suite
 	@seq $(BITS_JOBS) | xargs -P $(BITS_JOBS) -I{} $< --bits {}/$(BITS_JOBS)/$(BITS_BUILDS)
 
+# For the memory alone, and what crashes: valgrind's long double has 64 bits, its fused multiply-add
+# loses the sign of a zero, so that asserts on bits (exit status 1) count in the other runs.
 VALGRIND = valgrind -q --error-exitcode=99 --leak-check=full
 check-valgrind: $(BUILD)/tests/suite
-	@$(VALGRIND) $(BUILD)/tests/suite --quick $(SUITE)
+	@$(VALGRIND) $(BUILD)/tests/suite --quick $(SUITE); test $$? -le 1
 
 fuzz:
 	$(MAKE) BUILD=$(BUILD)/fuzz CC=$(FUZZ_CC) \

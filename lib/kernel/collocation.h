@@ -175,20 +175,22 @@ DAL_INLINE void dal__extrapolate(const dal_tableau *m, dal_block *b, int width, 
         DAL_EACH(i, DAL_SIZE(b)) b->u[i] += last[(d + 1) * stride + i];
 }
 
-/* Keeps how far the polynomial was off and the differences, where it served; else nothing. */
-DAL_INLINE void dal__keep_misses(const dal_block *b, const dal_mask *lanes, const dal_mask *served,
+/* Keeps how far the polynomial was off and the differences, where it served; else nothing.  The
+ * first guess is needed no more: the misses take its place. */
+DAL_INLINE void dal__keep_misses(dal_block *b, const dal_mask *lanes, const dal_mask *served,
                                  num *DAL_RESTRICT last, int stride)
 {
-    DAL_EACH(i, DAL_SIZE(b)) {
-        const int j = i % DAL_JOINED;
-        num miss = b->u[i] - b->start[i];
-        DAL_EACH(d, DAL__DIFFERENCES) miss += last[(d + 1) * stride + i];
-        DAL_EACH(d, DAL__DIFFERENCES) {
+    num *const miss = b->start;
+    DAL_EACH(i, DAL_SIZE(b)) miss[i] = b->u[i] - miss[i];
+    DAL_EACH(d, DAL__DIFFERENCES)
+        DAL_EACH(i, DAL_SIZE(b)) miss[i] += last[(d + 1) * stride + i];
+    DAL_EACH(d, DAL__DIFFERENCES)
+        DAL_EACH(i, DAL_SIZE(b)) {
+            const int j = i % DAL_JOINED;
             num *const kept = last + (d + 1) * stride + i, before = *kept;
-            *kept = dal_select(lanes[j], dal_select(served[j], miss, dal_num(0.0)), before);
-            miss -= before;
+            *kept = dal_select(lanes[j], dal_select(served[j], miss[i], dal_num(0.0)), before);
+            miss[i] -= before;
         }
-    }
 }
 
 /* Solves the stages in the lanes tried, which are then those where that was possible. */
@@ -214,7 +216,7 @@ DAL_INLINE void dal__guess_last(dal_step *s, const dal_stages *k, dal_equation *
     if (DAL_LIFTED(s))
         dal__extrapolate(k->method, &eq->block[1], DAL_N(s), dal__kept_momenta(s, k), stride);
 }
-DAL_INLINE void dal__look_back(dal_step *s, const dal_stages *k, const dal_equation *eq,
+DAL_INLINE void dal__look_back(dal_step *s, const dal_stages *k, dal_equation *eq,
                                const dal_mask *lanes, const dal_mask *served)
 {
     const int stride = dal__kept(s, DAL_STAGES(k->method));
