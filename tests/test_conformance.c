@@ -239,6 +239,44 @@ static void test_untouched(void)
     dal_model_free(model);
 }
 
+/* ---- motions that come to rest in part ---- */
+
+/* The sleigh ends straight on, phi' falls like exp(-t) below the roundings of x' and y': then phi'
+ * alone answers to what is left of D, and increments decrease without end. */
+static void test_rest(void)
+{
+    static const char *const names[] = {"rk4+project",
+                                        "gauss4+project",
+                                        "gauss4+symmetric-project",
+                                        "rk4+project-energy",
+                                        "gauss-spark2",
+                                        "mclachlan-perlmutter",
+                                        "gauss-spark4",
+                                        "dla",
+                                        "spark2",
+                                        "spark4",
+                                        "spark6"};
+    static const double lengths[] = {0.15, 0.5, 1.0};
+    dal_model *model = fixture_model("chaplygin-sleigh-offset");
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+        for (int k = 0; k < 3; k++) {
+            const dal_setting a = {"a", lengths[k]};
+            dal_run_spec spec = fixture_spec(fixture_system(model), names[i], DAL_PHYSICAL, 0.1);
+            spec.parameters = &a;
+            spec.parameter_count = 1;
+            dal_run *run = fixture_run(&spec);
+            double found[16];
+            const dal_status status = dal_run_advance(run, 3000, NULL);
+            CU_ASSERT_EQUAL(status, DAL_OK);
+            if (status != DAL_OK) printf("\n  %s, a = %g\n", names[i], lengths[k]);
+            dal_run_observe(run, found);
+            CU_ASSERT(fabs(found[0]) < 1e-14);
+            CU_ASSERT(fabs(dal_run_state(run)[5]) < 1e-14);
+            dal_run_free(run);
+        }
+    dal_model_free(model);
+}
+
 /* ---- refusals ---- */
 
 static void refused(const char *text, const char *name, dal_space space, const char *reason)
@@ -274,5 +312,6 @@ void suite_conformance(void)
     CU_add_test(suite, "modifiers: D and E", test_kept);
     CU_add_test(suite, "modifiers: lanes have the bits of single runs", test_lanes);
     CU_add_test(suite, "a step that fails changes nothing", test_untouched);
+    CU_add_test(suite, "a motion that comes to rest in part", test_rest);
     CU_add_test(suite, "refused with the reason", test_refused);
 }

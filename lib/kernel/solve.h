@@ -5,7 +5,9 @@
  *
  * An iteration ends when every block has d = 0, or a d at rounding level that no longer decreases
  * (Hairer, McLachlan, Razakarivony, BIT 48 (2008) 231), or one that twice in a row does not
- * decrease and is small: not at a tolerance.  "Small" only tells stagnation from divergence.  Each
+ * decrease and is small: not at a tolerance.  "Small" only tells stagnation from divergence.  Where
+ * some components are smaller than the roundings of others, they alone may answer to d, which then
+ * decreases without end: after a few sweeps a d far below rounding level is an end, too.  Each
  * lane ends by itself and is then left alone, so its bits do not depend on its neighbours.  To see
  * what the solver does to a run one can ask it to end earlier (DAL_SOLVE_TO) or to iterate on
  * (DAL_EXTRA_SWEEPS).
@@ -23,6 +25,9 @@
 #define DAL__ROUNDING (1.4e-14 * DAL_FINER)
 #define DAL__SMALL    (1e-12 * DAL_FINER)
 #define DAL__NOISE    (1e-12 * DAL_FINER)
+/* Far below rounding, and after how many sweeps that is enough. */
+#define DAL__NOTHING (1e-17 * DAL_FINER)
+#define DAL__PATIENT 8
 
 /* One block of unknowns, [size]. */
 typedef struct dal_block {
@@ -158,17 +163,18 @@ DAL_INLINE num dal__size(const dal_block *b, int j)
     return b->scale[j] + b->weight * dal__group_norm(b->u, DAL_SIZE(b), j);
 }
 
-/* Lanes of a group where a block's increment is zero or stagnates, or is as small as was asked for.
- */
-DAL_INLINE dal_mask dal__quiet(const dal_step *s, dal_block *b, int j)
+/* Lanes of a group where in sweep k a block's increment is zero or stagnates, or is as small as was
+ * asked for. */
+DAL_INLINE dal_mask dal__quiet(const dal_step *s, dal_block *b, int j, int k)
 {
     const num now = b->now[j], size = dal__size(b, j);
     b->stalls[j] = dal_select(dal_less_equal(b->before[j], now), b->stalls[j] + 1.0, dal_num(0.0));
     const dal_mask once = dal_less(dal_num(0.5), b->stalls[j]),
                    twice = dal_less(dal_num(1.5), b->stalls[j]);
-    const dal_mask stagnates = dal_equal(now, dal_num(0.0)) |
-                               (once & dal_less_equal(now, DAL__ROUNDING * size)) |
-                               (twice & dal_less_equal(now, DAL__SMALL * size));
+    dal_mask stagnates = dal_equal(now, dal_num(0.0)) |
+                         (once & dal_less_equal(now, DAL__ROUNDING * size)) |
+                         (twice & dal_less_equal(now, DAL__SMALL * size));
+    if (DAL_RARELY(k >= DAL__PATIENT)) stagnates |= dal_less_equal(now, DAL__NOTHING * size);
     if (DAL_RARELY(DAL_SOLVE_TO(s) > 0.0))
         return stagnates | dal_less_equal(now, DAL_SOLVE_TO(s) * size);
     return stagnates;
@@ -200,9 +206,9 @@ DAL_INLINE void dal__judge_sweep(dal_step *s, dal_equation *eq, int j, int may_g
                                  dal_mask *lanes, dal_mask *slow)
 {
     const dal_mask active = eq->active[j];
-    dal_mask quiet = dal__quiet(s, &eq->block[0], j), finite = dal_finite(eq->block[0].now[j]);
+    dal_mask quiet = dal__quiet(s, &eq->block[0], j, k), finite = dal_finite(eq->block[0].now[j]);
     if (eq->blocks > 1) {
-        quiet &= dal__quiet(s, &eq->block[1], j);
+        quiet &= dal__quiet(s, &eq->block[1], j, k);
         finite &= dal_finite(eq->block[1].now[j]);
     }
     if (may_give_up && (k == 1 || k == 2)) {
