@@ -4,6 +4,7 @@
  * test_generate_native.c.
  */
 #include "fixtures.h"
+#include "quick.h"
 #include <CUnit/CUnit.h>
 #include <math.h>
 #include <stdbool.h>
@@ -257,6 +258,7 @@ static void test_rest(void)
                                         "spark4",
                                         "spark6"};
     static const double lengths[] = {0.15, 0.5, 1.0};
+    const long long steps = long_run(3000);
     dal_model *model = fixture_model("chaplygin-sleigh-offset");
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         for (int k = 0; k < 3; k++) {
@@ -266,12 +268,12 @@ static void test_rest(void)
             spec.parameter_count = 1;
             dal_run *run = fixture_run(&spec);
             double found[16];
-            const dal_status status = dal_run_advance(run, 3000, NULL);
+            const dal_status status = dal_run_advance(run, steps, NULL);
             CU_ASSERT_EQUAL(status, DAL_OK);
             if (status != DAL_OK) printf("\n  %s, a = %g\n", names[i], lengths[k]);
             dal_run_observe(run, found);
             CU_ASSERT(fabs(found[0]) < 1e-14);
-            CU_ASSERT(fabs(dal_run_state(run)[5]) < 1e-14);
+            CU_ASSERT(steps < 3000 || fabs(dal_run_state(run)[5]) < 1e-14);
             dal_run_free(run);
         }
     dal_model_free(model);
