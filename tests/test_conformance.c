@@ -279,6 +279,25 @@ static void test_rest(void)
     dal_model_free(model);
 }
 
+/* Velocities grow like exp(0.7 t), while D = 0 is a difference of their squares: 1e-16 |v|^2 of it
+ * is rounding, at v = 500 a change of v by 1e-11 |v| already. */
+static void test_cancellation(void)
+{
+    static const char *const names[] = {"gauss4+project", "gauss4+symmetric-project",
+                                        "mclachlan-perlmutter", "dla", "spark4"};
+    dal_model *model = fixture_model("relativistic-em");
+    for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+        const dal_run_spec spec = fixture_spec(fixture_system(model), names[i], DAL_PHYSICAL, 0.1);
+        dal_run *run = fixture_run(&spec);
+        double found[16];
+        CU_ASSERT_EQUAL(dal_run_advance(run, 100, NULL), DAL_OK);
+        dal_run_observe(run, found);
+        CU_ASSERT(fabs(found[0]) < 1e-9);
+        dal_run_free(run);
+    }
+    dal_model_free(model);
+}
+
 /* ---- refusals ---- */
 
 static void refused(const char *text, const char *name, dal_space space, const char *reason)
@@ -315,5 +334,6 @@ void suite_conformance(void)
     CU_add_test(suite, "modifiers: lanes have the bits of single runs", test_lanes);
     CU_add_test(suite, "a step that fails changes nothing", test_untouched);
     CU_add_test(suite, "a motion that comes to rest in part", test_rest);
+    CU_add_test(suite, "cancellation in D", test_cancellation);
     CU_add_test(suite, "refused with the reason", test_refused);
 }

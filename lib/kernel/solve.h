@@ -5,9 +5,10 @@
  *
  * An iteration ends when every block has d = 0, or a d at rounding level that no longer decreases
  * (Hairer, McLachlan, Razakarivony, BIT 48 (2008) 231), or one that twice in a row does not
- * decrease and is small: not at a tolerance.  "Small" only tells stagnation from divergence.  Where
- * some components are smaller than the roundings of others, they alone may answer to d, which then
- * decreases without end: after a few sweeps a d far below rounding level is an end, too.  Each
+ * decrease and is small: not at a tolerance.  "Small" only tells stagnation from divergence.  After
+ * a few sweeps there are two more ends: a d far below rounding level, for where some components are
+ * smaller than the roundings of others, they alone may answer to d, which then decreases without
+ * end; and a small d than which some sweeps brought no less, cycles of roundings.  Each
  * lane ends by itself and is then left alone, so its bits do not depend on its neighbours.  To see
  * what the solver does to a run one can ask it to end earlier (DAL_SOLVE_TO) or to iterate on
  * (DAL_EXTRA_SWEEPS).
@@ -25,15 +26,18 @@
 #define DAL__ROUNDING (1.4e-14 * DAL_FINER)
 #define DAL__SMALL    (1e-12 * DAL_FINER)
 #define DAL__NOISE    (1e-12 * DAL_FINER)
-/* Far below rounding, and after how many sweeps that is enough. */
-#define DAL__NOTHING (1e-17 * DAL_FINER)
+/* After so many sweeps: far below rounding; and roundings, where so many more bring none less. */
 #define DAL__PATIENT 8
+#define DAL__NOTHING (1e-17 * DAL_FINER)
+#define DAL__CYCLE   6
+#define DAL__CYCLING (1e-10 * DAL_FINER)
 
 /* One block of unknowns, [size]. */
 typedef struct dal_block {
     num scale[DAL_JOINED];                   /* size of the state it moves */
     num now[DAL_JOINED], before[DAL_JOINED]; /* norms of the last two increments */
     num stalls[DAL_JOINED];                  /* how often in a row the norm did not decrease */
+    num late[2][DAL_JOINED];                 /* the least norm of late, and the sweeps since then */
     double weight;                           /* a change of u by d moves the state by weight*d */
     int size;
     num *u, *image; /* the unknowns; what map made of them */
@@ -74,7 +78,7 @@ typedef dal_status dal_matrix(dal_step *step, dal_equation *equation); /* fills 
     DAL_VECTOR(step, name##_start, count);                                                         \
     DAL_VECTOR(step, name##_inverse, (newton) ? (count) * (count) / DAL_JOINED : 0);               \
     dal_block name = {                                                                             \
-        {dal_num(0.0)}, {dal_num(0.0)}, {dal_num(0.0)}, {dal_num(0.0)}, 1.0,                       \
+        {dal_num(0.0)}, {dal_num(0.0)}, {dal_num(0.0)}, {dal_num(0.0)}, {{dal_num(0.0)}}, 1.0,     \
         (count),        name##_u,       name##_image,   name##_start,   name##_inverse}
 
 DAL_INLINE int dal__any(const dal_mask *lanes)
@@ -163,6 +167,17 @@ DAL_INLINE num dal__size(const dal_block *b, int j)
     return b->scale[j] + b->weight * dal__group_norm(b->u, DAL_SIZE(b), j);
 }
 
+/* Whether an increment is small enough after many sweeps. */
+DAL_INLINE dal_mask dal__is_enough(dal_block *b, int j, int k, num now, num size)
+{
+    num *least = &b->late[0][j], *since = &b->late[1][j];
+    const dal_mask less = k > DAL__PATIENT ? dal_less(now, *least) : dal_all();
+    *least = dal_select(less, now, *least);
+    *since = dal_select(less, dal_num(0.0), *since + 1.0);
+    return dal_less_equal(now, DAL__NOTHING * size) |
+           (dal_less_equal(now, DAL__CYCLING * size) & dal_less(dal_num(DAL__CYCLE - 0.5), *since));
+}
+
 /* Lanes of a group where in sweep k a block's increment is zero or stagnates, or is as small as was
  * asked for. */
 DAL_INLINE dal_mask dal__quiet(const dal_step *s, dal_block *b, int j, int k)
@@ -174,7 +189,7 @@ DAL_INLINE dal_mask dal__quiet(const dal_step *s, dal_block *b, int j, int k)
     dal_mask stagnates = dal_equal(now, dal_num(0.0)) |
                          (once & dal_less_equal(now, DAL__ROUNDING * size)) |
                          (twice & dal_less_equal(now, DAL__SMALL * size));
-    if (DAL_RARELY(k >= DAL__PATIENT)) stagnates |= dal_less_equal(now, DAL__NOTHING * size);
+    if (DAL_RARELY(k >= DAL__PATIENT)) stagnates |= dal__is_enough(b, j, k, now, size);
     if (DAL_RARELY(DAL_SOLVE_TO(s) > 0.0))
         return stagnates | dal_less_equal(now, DAL_SOLVE_TO(s) * size);
     return stagnates;

@@ -49,6 +49,8 @@ empty() { if [ -s out ]; then fail "stdout is not empty"; else pass; fi; }
 
 # there COMMAND...: it can be run here.
 there() { command -v "${1%% *}" >/dev/null 2>&1; }
+# whether commands can be given a terminal: there are machines without
+terminal() { there script && there stty && script -qec true /dev/null >/dev/null 2>&1 </dev/null; }
 # tells FILE ROWS: the header of a .npy file counts so many.
 tells() { head -c 8192 "$1" | grep -aq "'shape': ($2,), }"; }
 columns_of() { head -c 8192 "$1" | grep -ao "'<f8'" | wc -l; }

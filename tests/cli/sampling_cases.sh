@@ -69,7 +69,7 @@ try 0 run ./line.yaml --integrator rk4 --step 0.1 --time 5 --statistics 50 --out
 holds "another rate" awk -F, '$1 == "E" && ($7 + 0.09999546) ^ 2 < 1e-12 { found = 1 }
     END { exit !found }' seldom/summary.csv
 
-if there script && there stty; then
+if terminal; then
     case_is "progress on a terminal fits its width"
     for width in 70 40 20; do
         script -qec "stty cols $width; '$program' run ./line.yaml --integrator gauss4 --step 0.01 \

@@ -32,7 +32,7 @@ try 0 study --help
 prints '^  runs/NAME/        a directory per cell \(system, integrator, start, step\), as$'
 prints "^                    'run' makes it, with rows after whole numbers of steps$"
 
-if command -v script >/dev/null 2>&1; then
+if terminal; then
     case_is "tables on a terminal of 80 columns"
     script -qec "stty cols 80; '$program' list" /dev/null </dev/null | tr -d '\r' >narrow
     holds "a line is wider" awk 'length($0) > 80 { exit 1 }' narrow
