@@ -37,7 +37,7 @@ typedef struct dal_block {
     num scale[DAL_JOINED];                   /* size of the state it moves */
     num now[DAL_JOINED], before[DAL_JOINED]; /* norms of the last two increments */
     num stalls[DAL_JOINED];                  /* how often in a row the norm did not decrease */
-    num late[2][DAL_JOINED];                 /* the least norm of late, and the sweeps since then */
+    num best[2][DAL_JOINED];                 /* the least norm, and the sweeps since then */
     double weight;                           /* a change of u by d moves the state by weight*d */
     int size;
     num *u, *image; /* the unknowns; what map made of them */
@@ -167,15 +167,17 @@ DAL_INLINE num dal__size(const dal_block *b, int j)
     return b->scale[j] + b->weight * dal__group_norm(b->u, DAL_SIZE(b), j);
 }
 
-/* Whether an increment is small enough after many sweeps. */
+/* Whether it is zero, or small enough after many sweeps. */
 DAL_INLINE dal_mask dal__is_enough(dal_block *b, int j, int k, num now, num size)
 {
-    num *least = &b->late[0][j], *since = &b->late[1][j];
-    const dal_mask less = k > DAL__PATIENT ? dal_less(now, *least) : dal_all();
+    const double nothing = k < DAL__PATIENT ? 0.0 : DAL__NOTHING;
+    const double cycling = k < DAL__PATIENT ? 0.0 : DAL__CYCLING;
+    num *least = &b->best[0][j], *since = &b->best[1][j];
+    const dal_mask less = dal_less(now, *least);
     *least = dal_select(less, now, *least);
     *since = dal_select(less, dal_num(0.0), *since + 1.0);
-    return dal_less_equal(now, DAL__NOTHING * size) |
-           (dal_less_equal(now, DAL__CYCLING * size) & dal_less(dal_num(DAL__CYCLE - 0.5), *since));
+    return dal_less_equal(now, nothing * size) |
+           (dal_less_equal(now, cycling * size) & dal_less(dal_num(DAL__CYCLE - 0.5), *since));
 }
 
 /* Lanes of a group where in sweep k a block's increment is zero or stagnates, or is as small as was
@@ -186,10 +188,9 @@ DAL_INLINE dal_mask dal__quiet(const dal_step *s, dal_block *b, int j, int k)
     b->stalls[j] = dal_select(dal_less_equal(b->before[j], now), b->stalls[j] + 1.0, dal_num(0.0));
     const dal_mask once = dal_less(dal_num(0.5), b->stalls[j]),
                    twice = dal_less(dal_num(1.5), b->stalls[j]);
-    dal_mask stagnates = dal_equal(now, dal_num(0.0)) |
-                         (once & dal_less_equal(now, DAL__ROUNDING * size)) |
-                         (twice & dal_less_equal(now, DAL__SMALL * size));
-    if (DAL_RARELY(k >= DAL__PATIENT)) stagnates |= dal__is_enough(b, j, k, now, size);
+    const dal_mask stagnates = dal__is_enough(b, j, k, now, size) |
+                               (once & dal_less_equal(now, DAL__ROUNDING * size)) |
+                               (twice & dal_less_equal(now, DAL__SMALL * size));
     if (DAL_RARELY(DAL_SOLVE_TO(s) > 0.0))
         return stagnates | dal_less_equal(now, DAL_SOLVE_TO(s) * size);
     return stagnates;
@@ -205,6 +206,8 @@ DAL_INLINE void dal__begin_block(dal_block *b)
 {
     DAL_EACH(j, DAL_JOINED) b->now[j] = dal_num(INFINITY);
     DAL_EACH(j, DAL_JOINED) b->stalls[j] = dal_num(0.0);
+    DAL_EACH(j, DAL_JOINED) b->best[0][j] = dal_num(INFINITY);
+    DAL_EACH(j, DAL_JOINED) b->best[1][j] = dal_num(0.0);
 }
 
 /* One sweep of all blocks in the active lanes. */
