@@ -17,9 +17,7 @@
     X(integrator) X(space) X(solver) X(iterations) X(extend_energy) X(set) X(start)
 
 enum {
-#define X(name, value, initial, help) OWN_##name,
-    OWN_LIST(X)
-#undef X
+    OWN_LIST(CLI_OWN)
 #define X(name) TAKEN_##name,
         TAKEN_LIST(X)
 #undef X

@@ -7,13 +7,7 @@
 /* name, value, default, help; behind those of spectrum.h */
 #define OWN_LIST(X) X(exponents, "K", NULL, "so many of them, the largest; otherwise all")
 
-enum {
-    OWN_FIRST = SPECTRUM_OPTIONS - 1,
-#define X(name, value, initial, help) OWN_##name,
-    OWN_LIST(X)
-#undef X
-        OPTIONS
-};
+enum { OWN_FIRST = SPECTRUM_OPTIONS - 1, OWN_LIST(CLI_OWN) OPTIONS };
 
 static const cli_option options[OPTIONS] = {SPECTRUM_OPTION_LIST(CLI_OPTION) OWN_LIST(CLI_OPTION)};
 
