@@ -170,8 +170,9 @@ $(TEST_OBJ): ALL += -include suites.h
 # ---- tests -----------------------------------------------------------------------------------
 
 # Allocation goes through tests/allocation.c, which can be told to fail.
+WRAPPED = malloc calloc realloc aligned_alloc
 $(BUILD)/tests/suite: $(TEST_OBJ) $(STATIC)
-	$(call SAY,ld)$(CC) $(CFLAGS) $(LDFLAGS) -Wl,--wrap=malloc,--wrap=calloc,--wrap=realloc \
+	$(call SAY,ld)$(CC) $(CFLAGS) $(LDFLAGS) $(WRAPPED:%=-Wl,--wrap=%) \
 	    $^ $(LIBS) $(TEST_LIBS) -o $@
 
 # A locale with a decimal comma; where there is none the tests that want one say so.  (Not under

@@ -1,4 +1,4 @@
-/* allocation.c - malloc, calloc and realloc of the test program (linked with --wrap). */
+/* allocation.c - malloc, calloc, realloc and aligned_alloc of the tests (linked with --wrap). */
 #include "allocation.h"
 
 #include <stddef.h>
@@ -28,9 +28,11 @@ static int refuse(void)
 void *__real_malloc(size_t size);
 void *__real_calloc(size_t count, size_t size);
 void *__real_realloc(void *memory, size_t size);
+void *__real_aligned_alloc(size_t alignment, size_t size);
 void *__wrap_malloc(size_t size);
 void *__wrap_calloc(size_t count, size_t size);
 void *__wrap_realloc(void *memory, size_t size);
+void *__wrap_aligned_alloc(size_t alignment, size_t size);
 
 void *__wrap_malloc(size_t size) { return refuse() ? NULL : __real_malloc(size); }
 
@@ -42,4 +44,9 @@ void *__wrap_calloc(size_t count, size_t size)
 void *__wrap_realloc(void *memory, size_t size)
 {
     return refuse() ? NULL : __real_realloc(memory, size);
+}
+
+void *__wrap_aligned_alloc(size_t alignment, size_t size)
+{
+    return refuse() ? NULL : __real_aligned_alloc(alignment, size);
 }

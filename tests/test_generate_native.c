@@ -200,6 +200,32 @@ static void test_memory(void)
     dal_model_free(model);
 }
 
+/* The same of compiled observables. */
+static void test_memory_for_looks(void)
+{
+    dal_model *model = fixture_model(falling);
+    const dal_run_spec spec = fixture_spec(fixture_system(model), "rk4", DAL_PHYSICAL, 0.001);
+    dal_run *run = fixture_run(&spec);
+    double first, again;
+    dal_error error = {0};
+    int room = 0;
+    CU_ASSERT_EQUAL(dal_run_observables(run), 1);
+    CU_ASSERT_EQUAL(dal_run_observe(run, &first), DAL_OK);
+    for (long n = 0;; n++) {
+        allocation_fail_after(n);
+        const dal_status status = dal_run_native_observables(run, &options, &error);
+        if (!allocation_failed()) break;
+        CU_ASSERT_NOT_EQUAL(status, DAL_OK);
+        room += strstr(error.message, "looks at a run") != NULL;
+        CU_ASSERT_EQUAL(dal_run_observe(run, &again), DAL_OK);
+        CU_ASSERT(again == first);
+    }
+    allocation_fail_after(-1);
+    CU_ASSERT_EQUAL(room, compiles);
+    dal_run_free(run);
+    dal_model_free(model);
+}
+
 static dal_run *new_run(dal_model *model)
 {
     const dal_run_spec spec = fixture_spec(fixture_system(model), "rk4", DAL_PHYSICAL, 0.01);
@@ -341,6 +367,7 @@ void suite_generate_native(void)
     CU_add_test(suite, "batches: same bits, same failures", test_batches);
     CU_add_test(suite, "batches: starts after the change", test_batch_start);
     CU_add_test(suite, "memory runs out", test_memory);
+    CU_add_test(suite, "memory for looks runs out", test_memory_for_looks);
     CU_add_test(suite, "directories that cannot be used", test_cache_refused);
     CU_add_test(suite, "directories with odd names", test_cache_names);
     CU_add_test(suite, "compilers that fail", test_compilers_refused);

@@ -184,15 +184,18 @@ static void test_packs(void)
     for (int k = 0; k < 3 * DAL_PARTS; k++) x[k] = k * k;
     for (size_t i = 0; i < sizeof variants / sizeof variants[0]; i++) {
         if (!dal__machine_has(variants[i].set)) continue;
-        dal__tally tally = {.least = 5.0, .most = 5.0, .sum = {1.0}};
+        double sum[DAL_PARTS] = {1.0}, sum_before[DAL_PARTS];
+        dal__tally tally = {sum, 5.0, 5.0};
         CU_ASSERT(variants[i].add(&tally, 2.0, 3, x));
         CU_ASSERT(tally.least == 0.0 && tally.most == 529.0);
         for (int k = 0; k < DAL_PARTS; k++) /* k^2 + (k + 8)^2 + (k + 16)^2 - 3 * 2 */
-            CU_ASSERT_EQUAL(tally.sum[k], 3 * k * k + 48 * k + 320 - 6 + (k == 0));
+            CU_ASSERT_EQUAL(sum[k], 3 * k * k + 48 * k + 320 - 6 + (k == 0));
         const dal__tally before = tally;
+        memcpy(sum_before, sum, sizeof sum);
         x[11] = i % 2 ? NAN : -INFINITY;
         CU_ASSERT(!variants[i].add(&tally, 2.0, 3, x));
         CU_ASSERT(memcmp(&tally, &before, sizeof tally) == 0);
+        CU_ASSERT(memcmp(sum, sum_before, sizeof sum) == 0);
         x[11] = 121.0;
     }
 }

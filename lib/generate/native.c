@@ -79,21 +79,25 @@ dal_status dal_run_native(dal_run *run, const dal_native_options *options, dal_e
 
 int dal_run_is_native(const dal_run *run) { return run->native.traced != NULL; }
 
+enum { REGISTER = 8 }; /* numbers in the widest; as many as a line of the cache has */
+
 /* Looks at a time: whole registers of any machine, that stay in its nearest cache. */
 static int room_for_looks(int numbers)
 {
-    enum { REGISTER = 8, MOST = 248, NEAR = 32768 / sizeof(double) };
+    enum { MOST = 248, NEAR = 32768 / sizeof(double) };
     const int room = NEAR / numbers / REGISTER * REGISTER;
     return room > MOST ? MOST : room < REGISTER ? REGISTER : room;
 }
 
-/* Zeros at first: a register is read as a whole. */
+/* Zeros at first: a register is read as a whole, and none of them lies across two lines. */
 static dal_status make_room(dal__looks *looks, int dimension, int observables, dal_error *error)
 {
     const int numbers = dimension + 1 + observables, room = room_for_looks(numbers);
-    double *const memory = calloc((size_t)numbers * (size_t)room, sizeof *memory);
+    const size_t bytes = sizeof(double) * (size_t)numbers * (size_t)room;
+    double *const memory = aligned_alloc(REGISTER * sizeof(double), bytes);
     if (!memory)
         return dal__error(error, DAL_MEMORY, 0, 0, "no memory for %d looks at a run", room);
+    memset(memory, 0, bytes);
     looks->room = room;
     looks->states = memory;
     looks->times = memory + (size_t)dimension * (size_t)room;

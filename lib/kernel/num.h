@@ -126,15 +126,20 @@ DAL_INLINE dal_mask dal_less_equal(num a, num b) { return DAL__COMPARE(a, <=, b)
 DAL_INLINE dal_mask dal_equal(num a, num b) { return DAL__COMPARE(a, ==, b); }
 #if DAL_LANES == 1
 DAL_INLINE num dal_max(num a, num b) { return a < b ? b : a; }
+DAL_INLINE num dal_min(num a, num b) { return b < a ? b : a; }
 #elif defined __AVX512F__ && DAL_LANES == 8 && !defined __clang__ /* which finds it by itself */
 DAL_INLINE num dal_max(num a, num b)
 {
     return __builtin_ia32_maxpd512_mask(b, a, a, (unsigned char)-1, 4);
 }
+DAL_INLINE num dal_min(num a, num b)
+{
+    return __builtin_ia32_minpd512_mask(b, a, a, (unsigned char)-1, 4);
+}
 #else
 DAL_INLINE num dal_max(num a, num b) { return dal_select(dal_less(a, b), b, a); }
-#endif
 DAL_INLINE num dal_min(num a, num b) { return dal_select(dal_less(b, a), b, a); }
+#endif
 /* a or b in every lane alike. */
 DAL_INLINE num dal_choose(int condition, num a, num b) { return condition ? a : b; }
 /* Lanes where x is neither infinite nor NaN. */

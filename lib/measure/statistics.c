@@ -114,10 +114,8 @@ static bool add_packs(dal_statistics *s, tally_packs *add, int packs, const doub
     const int values = packs * DAL_PARTS;
     if (!(fabs(x[0]) < INFINITY)) return false;
     if (s->open_count == 0) open_block(s, t[0], x[0]);
-    dal__tally tally = {.least = s->open_least, .most = s->open_most};
-    memcpy(tally.sum, s->open_sum, sizeof tally.sum);
+    dal__tally tally = {s->open_sum, s->open_least, s->open_most};
     if (!add(&tally, s->first, packs, x)) return false;
-    memcpy(s->open_sum, tally.sum, sizeof tally.sum);
     s->open_least = tally.least;
     s->open_most = tally.most;
     move_on(s, values, t[values - 1], x[values - 1]);

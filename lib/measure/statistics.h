@@ -7,7 +7,7 @@
 
 /* Of the open block: the parts of the sum of x - first, and the range of x. */
 typedef struct dal__tally {
-    double sum[DAL_PARTS], least, most;
+    double *sum /* [DAL_PARTS] */, least, most;
 } dal__tally;
 
 /* Adds packs of DAL_PARTS values each, the first of them at part 0; once per variant.  False, and
