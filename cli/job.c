@@ -143,12 +143,7 @@ static int check(cli_job *job)
         return cli_fail(CLI_USAGE, "--step: %s is not positive", job->text[JOB_step]);
     take_initial(job, JOB_samples);
     take_initial(job, JOB_statistics);
-    const int scheduled = job_schedule(job);
-    if (scheduled != CLI_DONE) return scheduled;
-    if (job->options.step > job->time)
-        return cli_fail(CLI_USAGE, "--step: %s is larger than the time %g", job->text[JOB_step],
-                        job->time);
-    return CLI_DONE;
+    return job_schedule(job);
 }
 
 int job_spec(cli_job *job, dal_run_spec *spec)

@@ -67,13 +67,15 @@ void job_options(cli_option *options);
 int job_find(const char *name);
 /* Takes one option.  Returns CLI_DONE or prints and returns an exit status, as job_make. */
 int job_take(cli_job *job, int option, const char *text);
-/* Takes a list of times or the file that holds one, or a word above; settles when rows are taken.
- *  Return as
- * job_take.  Other than equally distant rows must fit into memory. */
+/* Takes a list of times or the file that holds one, or a word above; settles when rows are taken,
+ * and that the time holds a step.  Return as job_take.  Other than equally distant rows must fit
+ * into memory. */
 enum { SCHEDULE_MOST = 100000000 };
 int job_take_times(cli_job *job, const char *given);
 int job_take_sampling(cli_job *job, const char *word);
 int job_schedule(cli_job *job);
+/* Sees that there are no more steps in a time than a double counts. */
+int job_count(const cli_job *job, double time);
 /* Loads the system and makes the spec of its run; the space is settled here. */
 int job_spec(cli_job *job, dal_run_spec *spec);
 /* When all has been taken: sees that nothing is missing and makes the spec; and the run as well. */

@@ -141,7 +141,7 @@ static int check_steps(const order_study *s)
     if (s->levels < 2) return cli_fail(CLI_USAGE, "--steps: an order needs two steps at least");
     for (int i = 0; i < s->levels; i++) {
         const double count = round(T / s->step[i]);
-        if (count < 1.0 || fabs(count * s->step[i] - T) > 1e-9 * T)
+        if (!(count >= 1.0 && count < 0x1p53) || fabs(count * s->step[i] - T) > 1e-9 * T)
             return cli_fail(CLI_USAGE, "the time %g does not hold a whole number of steps %.9g", T,
                             s->step[i]);
     }

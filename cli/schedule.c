@@ -42,7 +42,6 @@ static int schedule_log(cli_job *job)
 static int schedule_steps(cli_job *job)
 {
     const double h = job->options.step;
-    if (h > job->time) return CLI_DONE; /* told by who checks the step */
     const long long steps = llround(job->time / h);
     if (job->samples > steps) job->samples = steps;
     if (job->samples > SCHEDULE_MOST)
@@ -158,9 +157,22 @@ int job_take_sampling(cli_job *job, const char *word)
     return cli_fail(CLI_USAGE, "--sampling: '%s' is not linear, log or steps", word);
 }
 
+int job_count(const cli_job *job, double time)
+{
+    const double h = job->options.step, steps = time / h;
+    if (steps <= 0x1p53) return CLI_DONE;
+    return cli_fail(CLI_USAGE, "--step: %g steps of %g up to %g are more than can be counted",
+                    steps, h, time);
+}
+
 int job_schedule(cli_job *job)
 {
-    if (job->times > 0) return schedule_times(job);
+    int status = job->times > 0 ? schedule_times(job) : CLI_DONE;
+    if (status == CLI_DONE && job->options.step > job->time)
+        status = cli_fail(CLI_USAGE, "--step: %s is larger than the time %g", job->text[JOB_step],
+                          job->time);
+    if (status == CLI_DONE) status = job_count(job, job->time);
+    if (status != CLI_DONE || job->times > 0) return status;
     switch (job->sampling) {
     case JOB_SAMPLING_LOG:
         return schedule_log(job);

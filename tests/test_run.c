@@ -332,6 +332,8 @@ static void test_samples(void)
     run = fixture_run(&spec);
     CU_ASSERT_EQUAL(dal_run_sample(run, 0.1, 1, 0, &observer, &error), DAL_ARGUMENT);
     CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "larger than the time"));
+    CU_ASSERT_EQUAL(dal_run_sample(run, 1e300, 1, 0, &observer, &error), DAL_ARGUMENT);
+    CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "more than can be counted"));
     CU_ASSERT_EQUAL(dal_run_sample(run, NAN, 1, 0, &observer, &error), DAL_ARGUMENT);
     CU_ASSERT_EQUAL(dal_run_sample(run, 1.0, 0, 0, &observer, &error), DAL_ARGUMENT);
     dal_run_free(run);

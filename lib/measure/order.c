@@ -17,7 +17,8 @@ static dal_status state_at(const dal_run_spec *spec, double T, double *out, long
 {
     dal_run *run;
     double steps = nearbyint(T / spec->options.step);
-    if (!(fabs(steps * spec->options.step - T) <= 1e-9 * fabs(T)) || steps < 1.0)
+    if (!(steps >= 1.0 && steps < 0x1p53) ||
+        !(fabs(steps * spec->options.step - T) <= 1e-9 * fabs(T)))
         return dal__error(error, DAL_ARGUMENT, 0, 0,
                           "time %g does not hold a whole number of steps %g", T,
                           spec->options.step);

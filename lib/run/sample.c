@@ -7,7 +7,8 @@
 #include <math.h>
 #include <string.h>
 
-#define ALIGNED 1e-9
+#define ALIGNED    1e-9
+#define MOST_STEPS 0x1p53
 
 enum { POLL = 992 /* whole blocks of looks, lib/generate/native.c */ };
 
@@ -137,7 +138,10 @@ static dal_status check(const dal_run *run, const dal_observer *observer, double
     if (h > T)
         return dal__error(error, DAL_ARGUMENT, 0, 0, "the step %g is larger than the time %g", h,
                           T);
-    if (samples < 1 || samples > 1LL << 53)
+    if (T / h > MOST_STEPS)
+        return dal__error(error, DAL_ARGUMENT, 0, 0,
+                          "%g steps of %g are more than can be counted (2^53)", T / h, h);
+    if (samples < 1 || (double)samples > MOST_STEPS)
         return dal__error(error, DAL_ARGUMENT, 0, 0, "samples must be at least 1; it is %lld",
                           samples);
     if (first_row < 0 || first_row > samples)

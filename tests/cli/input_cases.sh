@@ -20,6 +20,9 @@ refuse "step.*'?inf'? is not a number" chaplygin-sleigh --integrator rk4 --step 
 refuse "step.*'?0\.1x'? is not a number" chaplygin-sleigh --integrator rk4 --step 0.1x --time 1
 refuse "step.*'?0,1'? is not a number" chaplygin-sleigh --integrator rk4 --step 0,1 --time 1
 refuse '--step: 2 is larger than the time 1' chaplygin-sleigh --integrator rk4 --step 2 --time 1
+refuse 'more than can be counted' chaplygin-sleigh --integrator rk4 --step 1e-16 --time 1
+refuse 'more than can be counted' chaplygin-sleigh --integrator rk4 --step 1e-300 --times 0,1
+refuse 'more than can be counted' chaplygin-sleigh --integrator rk4 --step 1e-300 --time 1 --sampling log
 
 case_is "times and samples"
 refuse '--time: 0 is not positive' chaplygin-sleigh --integrator rk4 --step 0.1 --time 0

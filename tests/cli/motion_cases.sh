@@ -98,6 +98,8 @@ try 2 lyapunov saddle.yaml --integrator rk4 --step 0.1 --time 5 --space lifted
 says 'unknown option'
 try 2 lyapunov saddle.yaml --integrator rk4 --step 0.1 --time 5 --transient -1
 says 'transient: -1 is negative'
+try 2 lyapunov saddle.yaml --integrator rk4 --step 0.1 --time 5 --transient 1e30
+says 'more than can be counted'
 try 2 lyapunov saddle.yaml --integrator rk4 --step 0.1
 says 'time is missing'
 

@@ -64,6 +64,8 @@ try 2 order line.yaml --integrators rk4,,gauss4
 says "is not a list between commas"
 try 2 order line.yaml --steps 0.3,0.1
 says 'the time 10 does not hold a whole number of steps 0.3'
+try 2 order line.yaml --step 1e-300 --time 1
+says 'does not hold a whole number of steps 1e-300'
 try 2 order line.yaml --steps 0.1,0.2
 says 'steps: 0.2 is not positive and below the one before'
 try 2 order line.yaml --steps 0.1
