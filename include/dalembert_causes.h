@@ -11,9 +11,8 @@
  *
  * at every moment, and so for the rates of lines of least squares: these shares add up to 1.
  * Coefficients of a method, as doubles, stay what they are in long numbers; their part does not
- * fall with the step as truncation does.  Products with a step whose digits repeat, as those of 0.1
- * do, round to one side more often than to the other: a step of few digits next to it does not.
- * What projection does is seen by a twin without it, or with it, and stands beside the others. */
+ * fall with the step as truncation does.  What projection does is seen by a twin without it, or
+ * with it, and stands beside the others. */
 #ifndef DALEMBERT_CAUSES_H
 #define DALEMBERT_CAUSES_H
 
@@ -23,7 +22,6 @@
     X(LOOSER, "looser", "equations solved less far")                                               \
     X(TIGHTER, "tighter", "equations solved further, by two sweeps")                               \
     X(SUMS, "sums", "plain sums, or compensated ones")                                             \
-    X(SHORT, "short-step", "a step of 10 binary digits, next to this")                             \
     X(PROJECTION, "projection", "with +project, or without")                                       \
     X(LONG, "long", "long numbers, solved further")                                                \
     X(LONG_HALVED, "long-half-step", "long numbers, solved further, half the step")

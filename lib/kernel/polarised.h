@@ -43,22 +43,28 @@ DAL_INLINE void dal__euler_q(dal_step *s, dal_euler *k)
         k->q[i] = dal_choose(k->at.q, s->y[i] + dal_fma(dal_num(k->h), k->v[i], s->r[i]), s->y[i]);
 }
 
-/* h (F + pi* w), from the field last asked for. */
-DAL_INLINE num dal__euler_dv(const dal_step *s, const dal_euler *k, int i)
+/* F + pi* w, from the field last asked for. */
+DAL_INLINE num dal__euler_rate_v(const dal_step *s, const dal_euler *k, int i)
 {
-    return k->h * (DAL_LIFTED(s) ? dal_fma(k->pi[i], k->w, k->f[i]) : k->f[i]);
+    return DAL_LIFTED(s) ? dal_fma(k->pi[i], k->w, k->f[i]) : k->f[i];
+}
+
+/* v1 for that rate, to the bits of the update. */
+DAL_INLINE num dal__euler_v1(const dal_step *s, const dal_euler *k, int i, num rate)
+{
+    const int v = DAL_N(s) + i;
+    return s->y[v] + dal_fma(dal_num(k->h), rate, s->r[v]);
 }
 
 /* s_v = 1: u = v1. */
 DAL_INLINE void dal__euler_map_v(dal_step *s, dal_equation *eq)
 {
     dal_euler *k = (dal_euler *)eq->context;
-    const int n = DAL_N(s);
     DAL_EACH(i, DAL_NW(s)) k->v[i] = DAL_KEEP(eq->active[0], eq->block[0].u[i], k->v[i]);
     dal__euler_q(s, k);
     dal_force(s, k->t, k->q, k->v, k->f);
     DAL_EACH(i, DAL_NW(s))
-        eq->block[0].image[i] = s->y[n + i] + (dal__euler_dv(s, k, i) + s->r[n + i]);
+        eq->block[0].image[i] = dal__euler_v1(s, k, i, dal__euler_rate_v(s, k, i));
 }
 
 /* p* for the momentum pi*, from the adjoint last asked for. */
@@ -119,30 +125,27 @@ DAL_INLINE dal_status dal__euler_solve(dal_step *s, dal_euler *k)
     return DAL_OK;
 }
 
-/* The momenta's half of the increments d. */
+/* The momenta's half of the rates d. */
 DAL_INLINE void dal__euler_momenta(dal_step *s, const dal_euler *k, num mu, num *d)
 {
     const int n = DAL_N(s);
     DAL_EACH(i, n) {
-        d[dal_at_p(s) + i] = -k->h * k->f[n + i];
-        d[dal_at_pi(s) + i] = -k->h * (k->p[i] + k->f[2 * n + i]);
+        d[dal_at_p(s) + i] = -k->f[n + i];
+        d[dal_at_pi(s) + i] = -(k->p[i] + k->f[2 * n + i]);
     }
-    d[dal_at_e(s)] = k->h * mu;
-    d[dal_at_pi_e(s)] = k->h * dal_gauge_rate(k->pi, n, k->w);
+    d[dal_at_e(s)] = mu;
+    d[dal_at_pi_e(s)] = dal_gauge_rate(k->pi, n, k->w);
 }
 
-/* The field at the starred arguments, and from it all increments. */
-DAL_INLINE void dal__euler_increments(dal_step *s, dal_euler *k, num mu, num *d)
+/* The field at the starred arguments, and from it the rates of all components. */
+DAL_INLINE void dal__euler_rates(dal_step *s, dal_euler *k, num mu, num *d)
 {
     const int n = DAL_N(s);
     if (DAL_LIFTED(s)) dal_adjoint(s, k->t, k->q, k->v, k->pi, k->f);
     if (!DAL_LIFTED(s)) dal_force(s, k->t, k->q, k->v, k->f);
     if (DAL_LIFTED(s)) dal__euler_p(s, k);
-    DAL_EACH(i, DAL_NW(s)) d[n + i] = dal__euler_dv(s, k, i);
-    DAL_EACH(i, n) {
-        const num v1 = s->y[n + i] + (d[n + i] + s->r[n + i]);
-        d[i] = k->h * (k->at.v ? v1 : k->v[i]);
-    }
+    DAL_EACH(i, DAL_NW(s)) d[n + i] = dal__euler_rate_v(s, k, i);
+    DAL_EACH(i, n) d[i] = k->at.v ? dal__euler_v1(s, k, i, d[n + i]) : k->v[i];
     if (DAL_LIFTED(s)) dal__euler_momenta(s, k, mu, d);
 }
 
@@ -169,9 +172,9 @@ DAL_INLINE dal_status dal_polarised_euler(dal_step *s, dal_polarisation at, doub
     dal__euler_q(s, &k);
     if (at.v || DAL_LIFTED(s)) DAL_TRY(dal__euler_solve(s, &k));
     dal__euler_q(s, &k);
-    dal__euler_increments(s, &k, mu, d);
+    dal__euler_rates(s, &k, mu, d);
     DAL_RELEASE(s);
-    return dal_update(s, h, d);
+    return dal_update_multiple(s, h, h, d);
 }
 
 #endif

@@ -8,9 +8,9 @@
  * decrease and is small: not at a tolerance.  "Small" only tells stagnation from divergence.  After
  * a few sweeps there are two more ends: a d far below rounding level, for where some components are
  * smaller than the roundings of others, they alone may answer to d, which then decreases without
- * end; and a small d than which some sweeps brought no less, cycles of roundings.  Each
- * lane ends by itself and is then left alone, so its bits do not depend on its neighbours.  To see
- * what the solver does to a run one can ask it to end earlier (DAL_SOLVE_TO) or to iterate on
+ * end, however slowly; and a small d than which some sweeps brought no less, cycles of roundings.
+ * Each lane ends by itself and is then left alone, so its bits do not depend on its neighbours.  To
+ * see what the solver does to a run one can ask it to end earlier (DAL_SOLVE_TO) or to iterate on
  * (DAL_EXTRA_SWEEPS).
  *
  * Groups of lanes that are stepped as one system (DAL_JOINED) have norms and masks of their own.
@@ -26,9 +26,11 @@
 #define DAL__ROUNDING (1.4e-14 * DAL_FINER)
 #define DAL__SMALL    (1e-12 * DAL_FINER)
 #define DAL__NOISE    (1e-12 * DAL_FINER)
-/* After so many sweeps: far below rounding; and roundings, where so many more bring none less. */
+/* After so many sweeps: far below rounding, after twice as many below it; and roundings, where so
+ * many more bring none less. */
 #define DAL__PATIENT 8
 #define DAL__NOTHING (1e-17 * DAL_FINER)
+#define DAL__LITTLE  (1e-16 * DAL_FINER)
 #define DAL__CYCLE   6
 #define DAL__CYCLING (1e-10 * DAL_FINER)
 
@@ -170,7 +172,9 @@ DAL_INLINE num dal__size(const dal_block *b, int j)
 /* Whether it is zero, or small enough after many sweeps. */
 DAL_INLINE dal_mask dal__is_enough(dal_block *b, int j, int k, num now, num size)
 {
-    const double nothing = k < DAL__PATIENT ? 0.0 : DAL__NOTHING;
+    const double nothing = k < DAL__PATIENT       ? 0.0
+                           : k < 2 * DAL__PATIENT ? DAL__NOTHING
+                                                  : DAL__LITTLE;
     const double cycling = k < DAL__PATIENT ? 0.0 : DAL__CYCLING;
     num *least = &b->best[0][j], *since = &b->best[1][j];
     const dal_mask less = dal_less(now, *least);

@@ -2,9 +2,9 @@
  *
  * The state y, [dim]:   physical  q[n], v[n], g[multipliers]              dim = n + nw
  *                       lifted    q[n], v[n], e, p[n], pi[n], pi_e        dim = 4n + 2
- * with nw = n + multipliers.  A state is kept as y + r, r the rounding error of the last sum
- * (compensated summation, Kahan, CACM 8 (1965) 40), and y is never -0, so that the same motion has
- * the same bits on both spaces. */
+ * with nw = n + multipliers.  A state is kept as y + r, r what has been rounded off so far,
+ * products with h included (compensated summation, Kahan, CACM 8 (1965) 40), and y is never -0, so
+ * that the same motion has the same bits on both spaces. */
 #ifndef DAL_KERNEL_STEP_H
 #define DAL_KERNEL_STEP_H
 
@@ -307,8 +307,9 @@ DAL_INLINE dal_status dal_field(dal_step *s, double t, const num *y, num *DAL_RE
 }
 
 /* y + r += factor*d for count components, compensated; lanes that are no longer alive stay as they
- * are. The error is exact where |y| >= |d|, and else off by no more than the rounding of d itself.
- * A sum is -0 only if both parts are, and y is not. */
+ * are.  What y has no room for is factor*d less what y has gained: nothing is lost where |y| >=
+ * |d|, product included, and else no more than the rounding of d itself.  A sum is -0 only if both
+ * parts are, and y is not. */
 DAL_INLINE void dal_add_multiple(dal_step *s, int first, int count, double factor, const num *d)
 {
     num *const DAL_RESTRICT y = s->y + first, *const DAL_RESTRICT r = s->r + first;
@@ -317,10 +318,9 @@ DAL_INLINE void dal_add_multiple(dal_step *s, int first, int count, double facto
     DAL_EACH(j, DAL_JOINED) alive[j] = s->alive[j];
     DAL_EACH(i, count) {
         const dal_mask lanes = alive[i % DAL_JOINED];
-        const num a = y[i], b = dal_fma(f, d[i], r[i]);
-        const num sum = a + b;
+        const num a = y[i], sum = a + dal_fma(f, d[i], r[i]);
         y[i] = dal_select(lanes, sum, a);
-        r[i] = dal_select(lanes, b - (sum - a), r[i]);
+        r[i] = dal_select(lanes, dal_fma(f, d[i], a - sum) + r[i], r[i]);
     }
     if (DAL_RARELY(DAL_PLAIN(s)))
         DAL_EACH(i, count) r[i] = dal_select(alive[i % DAL_JOINED], dal_num(0.0), r[i]);

@@ -14,7 +14,7 @@
 enum { LOOKS = 1 << 15, LONGER = 100 /* times slower, to tell how much is done */ };
 
 static const double looser = 1e-10, looser_by = 1e3;
-enum { FURTHER = 2 /* sweeps */, FEW_DIGITS = 10 };
+enum { FURTHER = 2 }; /* sweeps */
 
 typedef struct twins {
     dal_explanation *of;
@@ -89,13 +89,6 @@ static const char *project(dal_run_spec *spec)
     return NULL;
 }
 
-static double short_step(double step)
-{
-    int exponent;
-    const double digits = frexp(step, &exponent);
-    return ldexp(rint(ldexp(digits, FEW_DIGITS)), exponent - FEW_DIGITS);
-}
-
 /* Makes the spec of a run that of a twin; why there is none, NULL: there is. */
 static const char *become(dal_run_spec *spec, dal_twin twin)
 {
@@ -120,10 +113,6 @@ static const char *become(dal_run_spec *spec, dal_twin twin)
         break;
     case DAL_TWIN_HALVED:
         o->step *= 0.5;
-        return NULL;
-    case DAL_TWIN_SHORT:
-        if (o->step == short_step(o->step)) return "the step has no more binary digits than 10";
-        o->step = short_step(o->step);
         return NULL;
     default:
         break;

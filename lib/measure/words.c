@@ -11,9 +11,6 @@ typedef struct sheet {
     size_t size;
 } sheet;
 
-/* A drift that a step of few digits makes so much smaller is that of its products. */
-static const double one_sided = 0.25;
-
 /* How many times as large the drift of a twin of the whole run is. */
 static double times(const sheet *s, dal_twin twin)
 {
@@ -78,27 +75,11 @@ static void say_solver(const sheet *s)
         snprintf(s->text, s->size, "two sweeps more change no more than roundings do");
 }
 
-/* Whether roundings of products with the step go to one side: a drift that is no more with a step
- * of few digits, which the intervals of both must tell apart. */
-static int is_one_sided(const sheet *s)
-{
-    const dal_finding *all = &s->a->all, *other = &s->a->twin[DAL_TWIN_SHORT];
-    const int apart = other->rate_low > all->rate_high || other->rate_high < all->rate_low;
-    return s->e->ran[DAL_TWIN_SHORT] && s->a->all_by_rate && apart &&
-           s->a->share[DAL_CAUSE_ROUNDING] > 0.5 && times(s, DAL_TWIN_SHORT) < one_sided;
-}
-
 static void say_rounding(const sheet *s)
 {
     const char *sums = s->e->spec.options.sums == DAL_SUMS_PLAIN ? "compensated" : "plain";
     if (s->e->early == 0)
         snprintf(s->text, s->size, "no long numbers: %s", s->e->why[DAL_TWIN_LONG]);
-    else if (is_one_sided(s))
-        snprintf(
-            s->text, s->size,
-            "that much goes in long numbers, and with a step of few binary digits the drift is "
-            "%.3g times this: products with the step round to one side",
-            times(s, DAL_TWIN_SHORT));
     else if (!s->e->ran[DAL_TWIN_SUMS])
         snprintf(s->text, s->size, "that much goes in long numbers");
     else
