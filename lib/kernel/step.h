@@ -318,9 +318,10 @@ DAL_INLINE void dal_add_multiple(dal_step *s, int first, int count, double facto
     DAL_EACH(j, DAL_JOINED) alive[j] = s->alive[j];
     DAL_EACH(i, count) {
         const dal_mask lanes = alive[i % DAL_JOINED];
-        const num a = y[i], sum = a + dal_fma(f, d[i], r[i]);
+        const num a = y[i], b = d[i], before = r[i];
+        const num sum = a + dal_fma(f, b, before);
         y[i] = dal_select(lanes, sum, a);
-        r[i] = dal_select(lanes, dal_fma(f, d[i], a - sum) + r[i], r[i]);
+        r[i] = dal_select(lanes, dal_fma(f, b, a - sum) + before, before);
     }
     if (DAL_RARELY(DAL_PLAIN(s)))
         DAL_EACH(i, count) r[i] = dal_select(alive[i % DAL_JOINED], dal_num(0.0), r[i]);
