@@ -241,6 +241,7 @@ for kept in "$here"/data/run-*; do
     cp -r "$kept" taken
     try 0 resume taken --native off
     says "'taken' goes on from t = 10 with row 1[01]"
+    says 'made by dalembert 0\.1\.0; the bits may differ from here on'
     grep -q "of another version: the statistics begin here" err || summary=1
     try 0 run taken/system.yaml --integrator rk4 --step 0.01 --time 40 --samples 40 \
         --space physical --native off --output fresh
