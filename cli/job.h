@@ -74,8 +74,11 @@ enum { SCHEDULE_MOST = 100000000 };
 int job_take_times(cli_job *job, const char *given);
 int job_take_sampling(cli_job *job, const char *word);
 int job_schedule(cli_job *job);
-/* Sees that there are no more steps in a time than a double counts. */
-int job_count(const cli_job *job, double time);
+/* What is wrong with a step where there is not one in a time, or more than a double counts; NULL:
+ * nothing.  The same said of --step. */
+enum { SCHEDULE_TEXT = 128 };
+const char *schedule_fault(double step, double time, char text[SCHEDULE_TEXT]);
+int job_check_step(const cli_job *job, double time);
 /* Loads the system and makes the spec of its run; the space is settled here. */
 int job_spec(cli_job *job, dal_run_spec *spec);
 /* When all has been taken: sees that nothing is missing and makes the spec; and the run as well. */

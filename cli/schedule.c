@@ -8,6 +8,7 @@
 #include "job.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -157,21 +158,30 @@ int job_take_sampling(cli_job *job, const char *word)
     return cli_fail(CLI_USAGE, "--sampling: '%s' is not linear, log or steps", word);
 }
 
-int job_count(const cli_job *job, double time)
+const char *schedule_fault(double step, double time, char text[SCHEDULE_TEXT])
 {
-    const double h = job->options.step, steps = time / h;
-    if (steps <= 0x1p53) return CLI_DONE;
-    return cli_fail(CLI_USAGE, "--step: %g steps of %g up to %g are more than can be counted",
-                    steps, h, time);
+    if (step > time)
+        snprintf(text, SCHEDULE_TEXT, "%.15g is larger than the time %g", step, time);
+    else if (time / step > 0x1p53)
+        snprintf(text, SCHEDULE_TEXT,
+                 "%.15g is too small: %g steps of %g are more than can be counted", step,
+                 time / step, step);
+    else
+        return NULL;
+    return text;
+}
+
+int job_check_step(const cli_job *job, double time)
+{
+    char text[SCHEDULE_TEXT];
+    const char *fault = schedule_fault(job->options.step, time, text);
+    return fault ? cli_fail(CLI_USAGE, "--step: %s", fault) : CLI_DONE;
 }
 
 int job_schedule(cli_job *job)
 {
     int status = job->times > 0 ? schedule_times(job) : CLI_DONE;
-    if (status == CLI_DONE && job->options.step > job->time)
-        status = cli_fail(CLI_USAGE, "--step: %s is larger than the time %g", job->text[JOB_step],
-                          job->time);
-    if (status == CLI_DONE) status = job_count(job, job->time);
+    if (status == CLI_DONE) status = job_check_step(job, job->time);
     if (status != CLI_DONE || job->times > 0) return status;
     switch (job->sampling) {
     case JOB_SAMPLING_LOG:

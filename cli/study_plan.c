@@ -1,4 +1,5 @@
 /* study_plan.c - from the keys of a study to its entries and cells. */
+#include "job.h"
 #include "study.h"
 #include "study_draft.h"
 #include "study_expect.h"
@@ -95,12 +96,9 @@ static int check_entry(const study_text *text, const yaml_node_t *node, const st
     if (e->steps == 0) return study_text_fail(text, node, "%s: the step is missing", e->name);
     if (!(e->time > 0.0)) return study_text_fail(text, node, "%s: the time is missing", e->name);
     for (int i = 0; i < e->steps; i++) {
-        if (e->step[i] > e->time)
-            return study_text_fail(text, node, "%s: step %g is larger than the time %g", e->name,
-                                   e->step[i], e->time);
-        if (e->time / e->step[i] > 0x1p53)
-            return study_text_fail(text, node, "%s: %g steps of %g are more than can be counted",
-                                   e->name, e->time / e->step[i], e->step[i]);
+        char said[SCHEDULE_TEXT];
+        const char *fault = schedule_fault(e->step[i], e->time, said);
+        if (fault) return study_text_fail(text, node, "%s: step %s", e->name, fault);
     }
     return CLI_DONE;
 }
