@@ -69,7 +69,7 @@ SUITES    = $(patsubst tests/test_%.c,%,$(filter-out %_wide.c,$(wildcard tests/t
 FUZZERS   = $(patsubst tests/%.c,%,$(wildcard tests/fuzz_*.c))
 TEST_SRC  = $(filter-out tests/fuzz_% %_wide.c,$(wildcard tests/*.c))
 TEST_OBJ  = $(TEST_SRC:%.c=$(BUILD)/%.o) $(call WIDE,$(GROUPS),$(wildcard tests/*_wide.c))
-TEST_LIBS = -lcunit -lmpfr -lgmp
+TEST_LIBS = -lcunit -lmpfr -lgmp -ljansson
 
 PROGRAM = $(BUILD)/dalembert
 STATIC  = $(BUILD)/libdalembert.a
@@ -171,9 +171,13 @@ $(TEST_OBJ): ALL += -include suites.h
 
 # Allocation goes through tests/allocation.c, which can be told to fail.
 WRAPPED = malloc calloc realloc aligned_alloc
-$(BUILD)/tests/suite: $(TEST_OBJ) $(STATIC)
+# Of the program the tests use what they call.
+$(BUILD)/tests/program.a: $(filter-out %/main.o,$(CLI_OBJ))
+	@mkdir -p $(@D)
+	$(call SAY,ar)rm -f $@; $(AR) rcs $@ $^
+$(BUILD)/tests/suite: $(TEST_OBJ) $(BUILD)/tests/program.a $(STATIC)
 	$(call SAY,ld)$(CC) $(CFLAGS) $(LDFLAGS) $(WRAPPED:%=-Wl,--wrap=%) \
-	    $^ $(LIBS) $(TEST_LIBS) -o $@
+	    $^ $(LIBS) $(OPENMP) $(TEST_LIBS) -o $@
 
 # A locale with a decimal comma; where there is none the tests that want one say so.  (Not under
 # the leak checkers: with LOCPATH the C library's newlocale leaks.)

@@ -1,13 +1,13 @@
-/* describe.c - what a run was asked for: "input" in its manifest.json, the options as they were
- * given, and the only place where they are kept.
+/* describe.c - the options of a run as they were given: "input" in its manifest.json, the only
+ * place where they are kept.
  *
  *     "input": {
  *       "system": "chaplygin-sleigh",            or "system.yaml", the copy beside
  *       "integrator": "gauss8",
- *       "step": "0.01",
- *       "time": "1e4",
+ *       "step": 0.01,                            as given: the digits are kept
+ *       "time": 1e4,
  *       "set": {"m": 2},
- *       "start": {"e": "inf"}
+ *       "start": {"e": "inf"}                    the only number that JSON has none for
  *     },
  *
  * Its text is kept as it stands there whatever else is written anew, and with the text of the
@@ -55,7 +55,9 @@ static char *describe(const cli_job *job)
     fputc('{', out);
     json_text_member(out, "\n    ", "system", cli_is_path(job->system) ? copy_name : job->system);
     for (int i = 0; i < JOB_OPTIONS; i++)
-        if (job->text[i] && i != JOB_set && i != JOB_start)
+        if (job->text[i] && job_is_number(i))
+            json_given_member(out, ",\n    ", options[i].name, job->text[i]);
+        else if (job->text[i] && i != JOB_set && i != JOB_start)
             json_text_member(out, ",\n    ", options[i].name, job->text[i]);
     put_settings(out, options[JOB_set].name, &job->set);
     put_settings(out, options[JOB_start].name, &job->start);
@@ -114,15 +116,16 @@ int store_describe(cli_store *store, const cli_job *job)
     return status == CLI_DONE ? manifest_write(store, job, &nothing, "running", "") : status;
 }
 
-int store_is_of(const cli_store *store, const cli_job *job)
+/* Both are described in the present way, whatever version wrote the directory. */
+int store_is_of(const cli_store *store, const cli_job *held, const cli_job *job)
 {
-    char *input = describe(job);
-    if (!input) return CLI_IO;
-    const int same = strcmp(input, store->input) == 0;
-    free(input);
-    return same
-               ? CLI_DONE
-               : cli_fail(CLI_USAGE, "'%s' holds another run: its input differs", store->directory);
+    char *one = describe(held), *other = one ? describe(job) : NULL;
+    int status = other ? CLI_DONE : CLI_IO;
+    if (other && strcmp(one, other) != 0)
+        status = cli_fail(CLI_USAGE, "'%s' holds another run: its input differs", store->directory);
+    free(one);
+    free(other);
+    return status;
 }
 
 /* ---- reading ------------------------------------------------------------------------------- */
@@ -130,17 +133,6 @@ int store_is_of(const cli_store *store, const cli_job *job)
 static const char *name_of(const study_text *text, const yaml_node_pair_t *pair)
 {
     return study_text_scalar(text, study_text_node(text, pair->key), "manifest");
-}
-
-static const yaml_node_t *find(const study_text *text, const yaml_node_t *mapping, const char *name)
-{
-    const yaml_node_pair_t *pair = mapping->data.mapping.pairs.start;
-    for (; pair < mapping->data.mapping.pairs.top; pair++) {
-        const char *key = name_of(text, pair);
-        if (!key) return NULL;
-        if (strcmp(key, name) == 0) return study_text_node(text, pair->value);
-    }
-    return NULL;
 }
 
 /* "NAME=VALUE" out of "set" or "start"; job_take copies it. */
@@ -205,7 +197,7 @@ static int take_all(const cli_store *store, cli_job *job, const yaml_node_t *inp
 static int check_version(const study_text *text, const yaml_node_t *root)
 {
     int made[3] = {0}, present[3] = {0};
-    const yaml_node_t *node = find(text, root, "dalembert");
+    const yaml_node_t *node = json_find(text, root, "dalembert");
     const char *version = node ? study_text_scalar(text, node, "version") : "0";
     if (!version) return CLI_USAGE;
     sscanf(version, "%d.%d.%d", &made[0], &made[1], &made[2]);
@@ -222,27 +214,20 @@ static int check_version(const study_text *text, const yaml_node_t *root)
     return CLI_DONE;
 }
 
-/* All of a manifest is ASCII, so that the marks of libyaml, in letters, are places of bytes. */
-static int keep_input(cli_store *store, const char *bytes, const yaml_node_t *input)
-{
-    const size_t begin = input->start_mark.index, end = input->end_mark.index;
-    store->input = strndup(bytes + begin, end - begin);
-    return store->input ? CLI_DONE : cli_fail(CLI_IO, "out of memory");
-}
-
 static int read_manifest(cli_store *store, cli_job *job, const char *bytes, size_t length)
 {
     store->text = calloc(1, sizeof *store->text);
     if (!store->text) return cli_fail(CLI_IO, "out of memory");
-    int status = study_text_parse(store->text, store->manifest, bytes, length);
+    int status = json_parse(store->text, store->manifest, bytes, length);
     if (status != CLI_DONE) return status;
-    const yaml_node_t *root = yaml_document_get_root_node(&store->text->document), *input = NULL;
-    if (root->type == YAML_MAPPING_NODE) input = find(store->text, root, "input");
+    const yaml_node_t *root = yaml_document_get_root_node(&store->text->document);
+    const yaml_node_t *input = json_find(store->text, root, "input");
     if (!input || input->type != YAML_MAPPING_NODE)
         return study_text_fail(store->text, root, "there is no input of a run");
     status = check_version(store->text, root);
-    if (status == CLI_DONE) status = keep_input(store, bytes, input);
-    return status == CLI_DONE ? take_all(store, job, input) : status;
+    if (status != CLI_DONE) return status;
+    store->input = json_source(bytes, input);
+    return store->input ? take_all(store, job, input) : cli_fail(CLI_IO, "out of memory");
 }
 
 int store_read(cli_store *store, cli_job *job)

@@ -39,6 +39,20 @@ void job_options(cli_option *options)
     }
 }
 
+int job_is_number(int option)
+{
+    switch (option) {
+    case JOB_integrator:
+    case JOB_sampling:
+    case JOB_times:
+    case JOB_set:
+    case JOB_start:
+        return 0;
+    default:
+        return !table[option].words;
+    }
+}
+
 int job_find(const char *name)
 {
     for (int i = 0; i < JOB_OPTIONS; i++)

@@ -63,6 +63,8 @@ cli_job job_begin(void);
 void job_free(cli_job *job);
 /* Fills options[JOB_OPTIONS] with what --help says of them. */
 void job_options(cli_option *options);
+/* Whether an option takes one number. */
+int job_is_number(int option);
 /* The number of an option by its name, -1 for none. */
 int job_find(const char *name);
 /* Takes one option.  Returns CLI_DONE or prints and returns an exit status, as job_make. */

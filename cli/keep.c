@@ -7,7 +7,7 @@ static int go_on(cli_keep *keep, const cli_job *job)
 {
     cli_job held = job_begin();
     int status = store_read(&keep->store, &held);
-    if (status == CLI_DONE) status = store_is_of(&keep->store, job);
+    if (status == CLI_DONE) status = store_is_of(&keep->store, &held, job);
     job_free(&held);
     return status;
 }

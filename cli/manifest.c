@@ -67,13 +67,10 @@ int manifest_write(const cli_store *store, const cli_job *job, const cli_mark *m
     return status;
 }
 
-/* A line break stands in no text of JSON, so that nothing else reads so. */
 int manifest_is_over(const char *path)
 {
-    size_t length;
-    char *text = file_read(path, &length);
-    const int over = text && (strstr(text, "\n  \"status\": \"done\"") ||
-                              strstr(text, "\n  \"status\": \"failed\""));
-    free(text);
+    char *state = json_file_text(path, "status");
+    const int over = state && (strcmp(state, "done") == 0 || strcmp(state, "failed") == 0);
+    free(state);
     return over;
 }

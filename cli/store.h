@@ -61,8 +61,8 @@ int store_describe(cli_store *store, const cli_job *job);
 int store_read(cli_store *store, cli_job *job);
 /* Whether a run is described there. */
 int store_is_described(const cli_store *store);
-/* Whether what was read is the description of this job: CLI_USAGE and a message when not. */
-int store_is_of(const cli_store *store, const cli_job *job);
+/* Whether the job that was read there and another are one: CLI_USAGE and a message when not. */
+int store_is_of(const cli_store *store, const cli_job *held, const cli_job *job);
 /* manifest.json; state: running, done, failed, interrupted; why: a message, or "". */
 int manifest_write(const cli_store *store, const cli_job *job, const cli_mark *mark,
                    const char *state, const char *why);

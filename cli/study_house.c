@@ -2,6 +2,7 @@
 #include "study_house.h"
 
 #include "file.h"
+#include "json.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -38,12 +39,10 @@ int house_holds_study(const study_house *house) { return is_there(house->study);
 
 int house_is_finished(const study_house *house)
 {
-    size_t length;
-    if (!is_there(house->study) || !is_there(house->manifest)) return 0;
-    char *text = file_read(house->manifest, &length);
-    const int finished = text && (strstr(text, "\n  \"status\": \"done\"") ||
-                                  strstr(text, "\n  \"status\": \"unmet\""));
-    free(text);
+    if (!is_there(house->study)) return 0;
+    char *state = json_file_text(house->manifest, "status");
+    const int finished = state && (strcmp(state, "done") == 0 || strcmp(state, "unmet") == 0);
+    free(state);
     return finished;
 }
 
@@ -195,11 +194,10 @@ static int check_place(const study_house *house, const char *text, size_t length
  * it to be gone on with. */
 static int is_left_over(const study_house *house)
 {
-    size_t length;
-    if (is_there(house->study) || !is_there(house->manifest)) return 0;
-    char *text = file_read(house->manifest, &length);
-    const int is_of_study = text && strstr(text, "\n  \"study\": \"");
-    free(text);
+    if (is_there(house->study)) return 0;
+    char *title = json_file_text(house->manifest, "study");
+    const int is_of_study = title != NULL;
+    free(title);
     return is_of_study;
 }
 

@@ -91,7 +91,7 @@ motion="knife-edge --integrator dop853 --tolerance 1e-9 --step 0.7 --time 10 --s
 try 0 run $motion --output whole.npy
 try 0 run $motion --output divided
 try 0 resume divided
-holds "not kept in the manifest" grep -q '^    "tolerance": "1e-9",$' divided/manifest.json
+holds "not kept in the manifest" grep -q '^    "tolerance": 1e-9,$' divided/manifest.json
 holds "other bytes" cmp -s whole.npy divided/trajectory.npy
 
 case_is "tolerance: refused with the reason"

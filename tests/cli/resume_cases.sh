@@ -182,7 +182,7 @@ sed 's/^  "dalembert": .*/  "dalembert": "0.0.1",/' whole/manifest.json >damaged
 cp -r whole aged && cp damaged/manifest.json aged
 try 0 resume aged
 says 'aged/manifest.json: made by dalembert 0\.0\.1; the bits may differ from here on$'
-sed 's/"step": ".*"/"step": "0.002"/' whole/manifest.json >damaged/manifest.json
+sed 's/"step": [0-9.]*/"step": 0.002/' whole/manifest.json >damaged/manifest.json
 try 2 resume damaged
 says 'damaged/checkpoint: belongs to another run'
 sed 's/"step"/"stepp"/' whole/manifest.json >damaged/manifest.json
