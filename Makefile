@@ -167,6 +167,12 @@ $(BUILD)/generated/suites.h: FORCE
 $(TEST_OBJ): $(BUILD)/generated/suites.h
 $(TEST_OBJ): ALL += -include suites.h
 
+# The public functions, as lists FUNCTIONS_dalembert(X): each has a test of its arguments.
+$(BUILD)/generated/functions.h: tools/functions.awk $(wildcard include/*.h)
+	@mkdir -p $(@D)
+	@awk -f tools/functions.awk include/dalembert.h include/dalembert_[!k]*.h >$@.tmp && mv $@.tmp $@
+$(BUILD)/tests/test_null.o $(BUILD)/tests/test_null_measure.o: $(BUILD)/generated/functions.h
+
 # ---- tests -----------------------------------------------------------------------------------
 
 # Allocation goes through tests/allocation.c, which can be told to fail.

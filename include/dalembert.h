@@ -9,9 +9,13 @@
  * A. A. Deriglazov, arXiv:2510.24492; equation numbers (nhK) in this project are that paper's.
  *
  * Conventions.  Every function that can fail returns a dal_status and, where it takes a dal_error,
- * fills it (it may be NULL).  [alloc] marks what allocates; create/free own memory, init borrows
- * it.  Nothing here prints, reads the environment, installs signals or keeps global state; two
- * objects may be used from two threads.  Quantities are in the user's own units throughout. */
+ * fills it (it may be NULL).  A NULL pointer where an object, a text, numbers or a place for a
+ * result is required, a NULL name in a dal_setting and a negative count are errors: DAL_ARGUMENT.
+ * A function without a status then returns 0, NaN or NULL, writes NaN to its result, or does
+ * nothing.  *_free(NULL) does nothing.  What may be NULL besides is said at its place.  [alloc]
+ * marks what allocates; create/free own memory, init borrows it.  Nothing here prints, reads the
+ * environment, installs signals or keeps global state; two objects may be used from two threads.
+ * Quantities are in the user's own units throughout. */
 #ifndef DALEMBERT_H
 #define DALEMBERT_H
 
@@ -255,7 +259,7 @@ size_t dal_run_size(const dal_run_spec *spec);
 /* Places a run in the caller's memory (any alignment, dal_run_size bytes); nothing to free.
  * The system and the descriptors must outlive it.  Errors: DAL_ARGUMENT, DAL_NAME (nearest name),
  * DAL_UNSUPPORTED, DAL_INCONSISTENT (|D| beyond 1e-10 relative), DAL_RANK, DAL_SINGULAR_MASS,
- * DAL_GAUGE, DAL_NOT_FINITE, DAL_MEMORY (bytes too small). */
+ * DAL_GAUGE, DAL_NOT_FINITE, DAL_MEMORY (too few bytes). */
 dal_status dal_run_init(dal_run **run, void *memory, size_t bytes, const dal_run_spec *spec,
                         dal_error *error);
 /* The same in memory of its own. [alloc] */
@@ -318,7 +322,8 @@ typedef struct dal_observer {
 /* Carries the run to time T and shows rows first_row..samples at t = row*T/samples, the last
  * exactly T.  The trajectory is made of steps h alone: where a row falls between two steps, a
  * shorter step of the same method from the earlier one gives it, and the trajectory goes on
- * undisturbed.  A run interrupted between rows goes on with first_row = the first row not shown. */
+ * undisturbed.  A run interrupted between rows goes on with first_row = the first row not shown.
+ * observer may be NULL. */
 dal_status dal_run_sample(dal_run *run, double T, long long samples, long long first_row,
                           const dal_observer *observer, dal_error *error);
 
@@ -349,7 +354,8 @@ dal_status dal_batch_advance(dal_batch *batch, long long count);
 int dal_batch_count(const dal_batch *batch);
 dal_status dal_batch_status(const dal_batch *batch, int lane, dal_error *error);
 double dal_batch_time(const dal_batch *batch, int lane);
-/* Copies a lane's state, [dimension] doubles as dal_run_state. */
+/* Copies a lane's state, [dimension] doubles as dal_run_state; nothing for a lane that does not
+ * exist. */
 void dal_batch_state(const dal_batch *batch, int lane, double *state);
 
 #include "dalembert_generate.h"

@@ -94,14 +94,15 @@ typedef struct dal_explain_observer {
 } dal_explain_observer;
 
 /* Runs a spec for so many steps, its twins beside it, the first early steps in long numbers too,
- * and finds what every observable's drift comes from.  A twin that cannot be had is left out; its
- * reason is kept.  [alloc]  Errors: those of the run itself, DAL_ARGUMENT, DAL_MEMORY. */
+ * and finds what every observable's drift comes from.  observer may be NULL.  A twin that cannot be
+ * had is left out; its reason is kept.  [alloc]  Errors: those of the run itself, DAL_ARGUMENT,
+ * DAL_MEMORY. */
 dal_status dal_explain(const dal_run_spec *spec, long long steps, long long early,
                        const dal_explain_observer *observer, dal_explanation **explanation,
                        dal_error *error);
 void dal_explanation_free(dal_explanation *explanation);
 
-/* How a share was found, in words; returns buffer. */
+/* How a share was found, in words; returns buffer, NULL where there is no such observable. */
 char *dal_cause_words(const dal_explanation *explanation, int observable, dal_cause cause,
                       char *buffer, size_t size);
 

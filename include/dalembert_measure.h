@@ -110,7 +110,7 @@ dal_status dal_probe_create(dal_probe **probe, const dal_system *system,
                             const dal_setting *parameters, int parameter_count, dal_error *error);
 void dal_probe_free(dal_probe *probe);
 const dal_system *dal_probe_system(const dal_probe *probe);
-/* Calls any callback of the system; pi may be NULL where it is not used.  DAL_UNSUPPORTED when
+/* Calls any callback of the system; pi may be NULL but for the adjoint.  DAL_UNSUPPORTED when
  * the callback is NULL. */
 dal_status dal_probe_call(dal_probe *probe, dal_callback *callback, double t, const double *q,
                           const double *v, const double *pi, double *out);

@@ -39,7 +39,7 @@ typedef enum dal_section {
  * components of B_a, those not named being 0:    reactions: [{x: 1, theta: -l*cos(theta)}]
  * picture has x and y at least:    picture: {x: y1, y: y2, angle: phi, body: sleigh} */
 
-/* An empty model, or NULL when memory is out. [alloc] */
+/* An empty model, or NULL when memory is out; without a name (NULL) it is called "". [alloc] */
 dal_model *dal_model_create(const char *name);
 void dal_model_free(dal_model *model);
 
@@ -50,7 +50,8 @@ dal_status dal_model_add(dal_model *model, dal_section section, const char *name
                          int line, int column, dal_error *error);
 
 /* Reads a system file (YAML). [alloc]  The first takes the text itself, the second a path, the
- * third the name of a system that travels inside the library ("chaplygin-sleigh"). */
+ * third the name of a system that travels inside the library ("chaplygin-sleigh").  The name of a
+ * text may be NULL. */
 dal_status dal_model_read(dal_model **model, const char *name, const char *text, size_t length,
                           dal_error *error);
 dal_status dal_model_read_file(dal_model **model, const char *path, dal_error *error);

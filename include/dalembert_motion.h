@@ -46,7 +46,8 @@ int dal_spectrum_is_exact(const dal_spectrum *spectrum); /* J by the tangent sys
 /* Whether the vectors span the space, so that their sum is log|det J|/h. */
 int dal_spectrum_is_whole(const dal_spectrum *spectrum);
 
-/* Exponent i, from 0; they come in falling order when the vectors have had time to turn. */
+/* Exponent i, from 0 (NaN past the last); they come in falling order when the vectors have had time
+ * to turn. */
 void dal_spectrum_exponent(const dal_spectrum *spectrum, int i, dal_average *average);
 /* Of the sum of the exponents. */
 void dal_spectrum_sum(const dal_spectrum *spectrum, dal_average *average);

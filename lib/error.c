@@ -85,7 +85,7 @@ static int distance(const char *a, const char *b)
 
 const char *dal_nearest(const char *name, const char *const *names, int count)
 {
-    size_t length = strlen(name);
+    size_t length = name && names ? strlen(name) : LONGEST + 1;
     if (length > LONGEST) return NULL;
     int limit = (int)length * EDIT / 3, best = INT_MAX;
     if (limit < LEAST_LIMIT) limit = LEAST_LIMIT;

@@ -326,8 +326,10 @@ dal_status dal__generation_finish(dal__generation *g, char **text, dal_error *er
 dal_status dal_generate(const dal_run_spec *spec, int lanes, const char *prefix, char **text,
                         dal_error *error)
 {
+    DAL_REQUIRE(text, error);
     dal__generation g = {.spec = spec, .lanes = lanes};
     *text = NULL;
+    DAL_TRY(dal__check_spec(spec, error));
     DAL_TRY(dal__generation_check(&g, prefix, error));
     dal_run *run;
     DAL_TRY(dal_run_create(&run, spec, error));

@@ -73,11 +73,12 @@ static dal_status compiled_steps(const dal__shape *shape, dal__product product, 
 
 dal_status dal_run_native(dal_run *run, const dal_native_options *options, dal_error *error)
 {
+    DAL_REQUIRE(run, error);
     if (dal_run_is_native(run)) return DAL_OK;
     return compiled_steps(&run->shape, DAL__TRACE, 1, options, &run->native, error);
 }
 
-int dal_run_is_native(const dal_run *run) { return run->native.traced != NULL; }
+int dal_run_is_native(const dal_run *run) { return run && run->native.traced != NULL; }
 
 enum { REGISTER = 8 }; /* numbers in the widest; as many as a line of the cache has */
 
@@ -108,6 +109,7 @@ static dal_status make_room(dal__looks *looks, int dimension, int observables, d
 dal_status dal_run_native_observables(dal_run *run, const dal_native_options *options,
                                       dal_error *error)
 {
+    DAL_REQUIRE(run, error);
     dal__native code = {0};
     char *text;
     if (run->looks.states || dal_run_observables(run) == 0) return DAL_OK;
@@ -127,6 +129,7 @@ dal_status dal_run_native_observables(dal_run *run, const dal_native_options *op
 
 dal_status dal_batch_native(dal_batch *batch, const dal_native_options *options, dal_error *error)
 {
+    DAL_REQUIRE(batch, error);
     const int lanes = dal__batch_native_lanes(batch);
     dal__native native = {0};
     if (dal_batch_is_native(batch)) return DAL_OK;

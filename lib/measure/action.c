@@ -45,6 +45,9 @@ static dal_status lagrangian(dal_probe *probe, double t, double h, const double 
 dal_status dal_measure_action(dal_probe *probe, double t0, double h, long long count,
                               const double *q, double e, double *action)
 {
+    DAL_REQUIRE(probe, NULL);
+    DAL_REQUIRE(q, NULL);
+    DAL_REQUIRE(action, NULL);
     const dal_system *s = dal_probe_system(probe);
     if (s->multipliers > 0) return DAL_UNSUPPORTED;
     if (count < 10 || !(h > 0.0)) return DAL_ARGUMENT;
@@ -117,6 +120,9 @@ static double variation(path *w, const double *row, int inner)
 dal_status dal_measure_stationarity(dal_probe *probe, double t0, double h, long long count,
                                     const double *states, double *defect)
 {
+    DAL_REQUIRE(probe, NULL);
+    DAL_REQUIRE(states, NULL);
+    DAL_REQUIRE(defect, NULL);
     const dal_system *s = dal_probe_system(probe);
     if (s->multipliers > 0) return DAL_UNSUPPORTED;
     if (count < 3 || !(h > 0.0)) return DAL_ARGUMENT;

@@ -204,6 +204,9 @@ static void examine(survey *w, dal_degree *out, double *degree)
 dal_status dal_measure_degree(dal_probe *probe, const dal_point *at, dal_degree *out,
                               double *degree)
 {
+    DAL_REQUIRE(probe, NULL);
+    DAL_REQUIRE_POINT(at);
+    DAL_REQUIRE(out, NULL);
     const dal_system *s = dal_probe_system(probe);
     if (s->m > 0 && s->constraints == NULL) return DAL_UNSUPPORTED;
     size_t nw = (size_t)s->n + (size_t)s->multipliers, x = (size_t)s->n + nw;

@@ -39,6 +39,10 @@ static dal_status rate_in(flow *f, int count, double *scratch, double *out)
 dal_status dal_measure_rate(dal_probe *probe, dal_callback *callback, int count,
                             const dal_point *at, double *out)
 {
+    DAL_REQUIRE(probe, NULL);
+    DAL_REQUIRE_POINT(at);
+    DAL_REQUIRE(out, NULL);
+    DAL_REQUIRE_COUNT(count, NULL);
     const dal_system *s = dal_probe_system(probe);
     int n = s->n, nw = s->n + s->multipliers;
     if (callback == NULL) return DAL_UNSUPPORTED;
@@ -180,6 +184,9 @@ static dal_status compare_all(desk *d, const dal_point *at, dal_derivatives *out
 
 dal_status dal_measure_derivatives(dal_probe *probe, const dal_point *at, dal_derivatives *out)
 {
+    DAL_REQUIRE(probe, NULL);
+    DAL_REQUIRE_POINT(at);
+    DAL_REQUIRE(out, NULL);
     const dal_system *s = dal_probe_system(probe);
     size_t n = (size_t)s->n, nw = n + (size_t)s->multipliers, m = (size_t)s->m;
     size_t rows = nw > m ? nw : m, columns = n + nw;

@@ -33,6 +33,7 @@ static dal_status vary(void *user, double s, double *out)
 
 void dal_measure_gradient(dal_phase_function *f, void *user, int count, double *z, double *gradient)
 {
+    if (!f || !z || !gradient) return;
     double scratch;
     for (int j = 0; j < count; j++) {
         varied w = {f, user, z, j, z[j]};
@@ -42,6 +43,7 @@ void dal_measure_gradient(dal_phase_function *f, void *user, int count, double *
 
 double dal_poisson(const double *f, const double *g, int pairs)
 {
+    if (!f || !g || pairs < 0) return NAN;
     double sum = 0.0;
     for (int i = 0; i < pairs; i++) sum += f[i] * g[pairs + i] - f[pairs + i] * g[i];
     return sum;
@@ -205,5 +207,8 @@ dal_status dal__dirac(dal_probe *probe, const dal_point *at, double e,
 
 dal_status dal_measure_dirac(dal_probe *probe, const dal_point *at, double e, dal_dirac *out)
 {
+    DAL_REQUIRE(probe, NULL);
+    DAL_REQUIRE_POINT(at);
+    DAL_REQUIRE(out, NULL);
     return dal__dirac(probe, at, e, dal__dirac_constraint, out);
 }

@@ -45,6 +45,10 @@ static void scale_gram(double *gram, double *size, int m)
 
 dal_status dal_measure_rank(dal_probe *probe, const dal_point *at, int *rank, double *pivot)
 {
+    DAL_REQUIRE(probe, NULL);
+    DAL_REQUIRE_POINT(at);
+    DAL_REQUIRE(rank, NULL);
+    DAL_REQUIRE(pivot, NULL);
     const dal_system *s = dal_probe_system(probe);
     size_t n = (size_t)s->n, m = (size_t)s->m;
     double *block = dal__numbers(1, m * (1 + 2 * n) + m * m + m + m * (m + 2));
@@ -113,6 +117,9 @@ static dal_status stagnate(projection *p)
 
 dal_status dal_measure_onto(dal_probe *probe, double t, const double *q, double *v)
 {
+    DAL_REQUIRE(probe, NULL);
+    DAL_REQUIRE(q, NULL);
+    DAL_REQUIRE(v, NULL);
     const dal_system *s = dal_probe_system(probe);
     size_t n = (size_t)s->n, m = (size_t)s->m;
     size_t bytes = (n + (size_t)s->multipliers) * sizeof(double);

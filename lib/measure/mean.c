@@ -25,6 +25,11 @@ static double uncertainty(const dal_mean *block, int n)
 void dal_statistics_mean(const dal_statistics *s, dal_average *average)
 {
     dal_mean block[DAL_BLOCKS];
+    if (!average) return;
+    if (!s) {
+        *average = (dal_average){NAN, NAN, NAN};
+        return;
+    }
     const int n = dal__blocks(s, block);
     double sum = s->open_count > 0 ? dal__open_sum(s) : 0.0;
     for (int i = 0; i < n; i++) sum += block[i].x * (double)s->length;

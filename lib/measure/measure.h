@@ -33,6 +33,14 @@ dal_status dal__differentiate(dal__curve *curve, void *user, double d, int count
 int dal__least_squares(int rows, int columns, double *a, double *right, double *x, double tolerance,
                        double *pivot, double *work /* [columns*(columns+2)] */);
 
+/* A public function requires a point with q and v. */
+#define DAL_REQUIRE_POINT(at)                                                                      \
+    do {                                                                                           \
+        DAL_REQUIRE(at, NULL);                                                                     \
+        DAL_REQUIRE((at)->q, NULL);                                                                \
+        DAL_REQUIRE((at)->v, NULL);                                                                \
+    } while (0)
+
 /* A small deterministic generator, uniform on [-1, 1). */
 typedef struct dal__random {
     uint64_t state;

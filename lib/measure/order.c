@@ -46,9 +46,10 @@ static dal_status judge_state(const dal_run_spec *spec, double T, int levels,
 
 void dal_order_slopes(dal_order *o, double noise)
 {
+    if (!o) return;
     const double clear = fmax(clear_of_rounding, 10.0 * noise);
     o->order = o->slope[0] = NAN;
-    for (int i = 1; i < o->levels; i++) {
+    for (int i = 1; i < o->levels && i < DAL_ORDER_LEVELS; i++) {
         o->slope[i] = log(o->error[i - 1] / o->error[i]) / log(o->step[i - 1] / o->step[i]);
         if (o->error[i - 1] > clear && o->error[i] > clear) o->order = o->slope[i];
     }
@@ -80,6 +81,8 @@ dal_status dal_measure_order(const dal_run_spec *spec, double T, int levels,
                              const dal_method *judge, const double *reference, dal_order *order,
                              dal_error *error)
 {
+    DAL_REQUIRE(order, error);
+    DAL_TRY(dal__check_spec(spec, error));
     size_t count;
     if (levels < 2 || levels > DAL_ORDER_LEVELS)
         return dal__error(error, DAL_ARGUMENT, 0, 0, "levels = %d is not in 2..%d", levels,

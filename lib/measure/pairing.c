@@ -86,6 +86,15 @@ dal_status dal_measure_pairing(const dal_run_spec *spec, const dal_system *tange
                                const double *direction, long long steps, dal_statistics *statistics,
                                dal_error *error)
 {
+    DAL_REQUIRE(tangent, error);
+    DAL_REQUIRE(direction, error);
+    DAL_REQUIRE(statistics, error);
+    DAL_REQUIRE_COUNT(steps, error);
+    DAL_TRY(dal__check_spec(spec, error));
+    if (tangent->n != 2 * spec->system->n)
+        return dal__error(error, DAL_ARGUMENT, 0, 0,
+                          "a tangent system of %d coordinates for a system of %d", tangent->n,
+                          spec->system->n);
     pairing w = {.n = spec->system->n};
     dal_status status = open_pairing(&w, spec, tangent, error);
     if (status == DAL_OK) status = start_tangent(&w, direction, error);

@@ -14,19 +14,20 @@ static dal_status set_parameter(dal_probe *probe, const dal_setting *setting, da
 {
     const dal_system *s = probe->system;
     for (int i = 0; i < s->parameters; i++) {
-        if (strcmp(s->parameter[i], setting->name) != 0) continue;
+        if (s->parameter == NULL || strcmp(s->parameter[i], setting->name) != 0) continue;
         probe->work[i] = setting->value;
         if (isfinite(setting->value)) return DAL_OK;
         return dal__error(error, DAL_NOT_FINITE, 0, 0, "parameter %s = %g is not finite",
                           setting->name, setting->value);
     }
-    return dal__unknown(error, 0, 0, "parameter", setting->name, s->parameter, s->parameters);
+    return dal__unknown(error, 0, 0, "parameter", setting->name, s->parameter,
+                        s->parameter != NULL ? s->parameters : 0);
 }
 
 static dal_status fill(dal_probe *probe, const dal_setting *parameters, int count, dal_error *error)
 {
     const dal_system *s = probe->system;
-    for (int i = 0; i < s->parameters; i++) probe->work[i] = s->value[i];
+    for (int i = 0; i < s->parameters; i++) probe->work[i] = s->value ? s->value[i] : 0.0;
     for (int i = 0; i < count; i++) DAL_TRY(set_parameter(probe, &parameters[i], error));
     if (s->prepare == NULL) return DAL_OK;
     dal_status status = s->prepare(s, &(dal_at){.work = probe->work}, NULL);
@@ -38,6 +39,10 @@ static dal_status fill(dal_probe *probe, const dal_setting *parameters, int coun
 dal_status dal_probe_create(dal_probe **probe, const dal_system *system,
                             const dal_setting *parameters, int parameter_count, dal_error *error)
 {
+    DAL_REQUIRE(probe, error);
+    *probe = NULL;
+    DAL_REQUIRE(system, error);
+    DAL_TRY(dal__check_settings(parameters, parameter_count, "parameters", error));
     size_t size = system->workspace;
     if (size < (size_t)system->parameters) size = (size_t)system->parameters;
     *probe = calloc(1, sizeof **probe);
@@ -63,12 +68,17 @@ void dal_probe_free(dal_probe *probe)
     free(probe);
 }
 
-const dal_system *dal_probe_system(const dal_probe *probe) { return probe->system; }
+const dal_system *dal_probe_system(const dal_probe *probe) { return probe ? probe->system : NULL; }
 
 dal_status dal_probe_call(dal_probe *probe, dal_callback *callback, double t, const double *q,
                           const double *v, const double *pi, double *out)
 {
+    DAL_REQUIRE(probe, NULL);
+    DAL_REQUIRE(q, NULL);
+    DAL_REQUIRE(v, NULL);
+    DAL_REQUIRE(out, NULL);
     if (callback == NULL) return DAL_UNSUPPORTED;
+    if (callback == probe->system->call.adjoint) DAL_REQUIRE(pi, NULL);
     return callback(probe->system, &(dal_at){t, q, v, pi, probe->work}, out);
 }
 
@@ -113,6 +123,9 @@ static dal_status set_start(const dal_system *s, const dal_setting *setting, dou
 dal_status dal_probe_start(dal_probe *probe, const dal_setting *start, int start_count, double *out,
                            dal_error *error)
 {
+    DAL_REQUIRE(probe, error);
+    DAL_REQUIRE(out, error);
+    DAL_TRY(dal__check_settings(start, start_count, "start values", error));
     const dal_system *s = probe->system;
     int count = 2 * s->n + s->multipliers + 1;
     for (int i = 0; i < count; i++) out[i] = i == count - 1 ? 1.0 : 0.0;

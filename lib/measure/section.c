@@ -267,6 +267,9 @@ static dal_status check(const dal_run *run, double T, const dal_poincare *p, dal
 dal_status dal_run_crossings(dal_run *run, double T, const dal_poincare *section,
                              dal_crossings *found, dal_error *error)
 {
+    DAL_REQUIRE(run, error);
+    DAL_REQUIRE(section, error);
+    DAL_REQUIRE(found, error);
     const double h = dal_run_step_size(run);
     search w = {.run = run, .section = section, .found = found, .error = error, .h = h};
     *found = (dal_crossings){0};

@@ -168,6 +168,8 @@ static dal_status take_step(dal_spectrum *s)
 
 dal_status dal_spectrum_advance(dal_spectrum *s, long long steps, dal_error *error)
 {
+    DAL_REQUIRE(s, error);
+    DAL_REQUIRE_COUNT(steps, error);
     dal_status status = DAL_OK;
     s->error = error;
     for (; steps > 0 && status == DAL_OK; steps--) status = take_step(s);
@@ -175,7 +177,10 @@ dal_status dal_spectrum_advance(dal_spectrum *s, long long steps, dal_error *err
     return status;
 }
 
-void dal_spectrum_forget(dal_spectrum *s) { dal_statistics_start(s->statistics, s->count + 2); }
+void dal_spectrum_forget(dal_spectrum *s)
+{
+    if (s) dal_statistics_start(s->statistics, s->count + 2);
+}
 
 /* ---- making one ---- */
 
@@ -187,10 +192,14 @@ static int is_exact(const dal_run_spec *spec, const dal_system *tangent)
            !(dal_method_needs(&spec->method) & ~of_field);
 }
 
-static dal_status check(const dal_run_spec *spec, dal_error *error)
+static dal_status check(const dal_run_spec *spec, const dal_system *tangent, dal_error *error)
 {
     char name[128];
     dal_method_name(&spec->method, name, sizeof name);
+    if (tangent && tangent->n != 2 * spec->system->n)
+        return dal__error(error, DAL_ARGUMENT, 0, 0,
+                          "a tangent system of %d coordinates for a system of %d", tangent->n,
+                          spec->system->n);
     if (dal_method_claims(&spec->method) & DAL_CARRIES_MULTIPLIER)
         return dal__error(error, DAL_UNSUPPORTED, 0, 0,
                           "%s carries a multiplier along: its step is no map of (q,v) alone", name);
@@ -269,8 +278,10 @@ static dal_status make(dal_spectrum *s, const dal_run_spec *spec, const dal_syst
 dal_status dal_spectrum_create(dal_spectrum **spectrum, const dal_run_spec *spec,
                                const dal_system *tangent, int count, dal_error *error)
 {
+    DAL_REQUIRE(spectrum, error);
     *spectrum = NULL;
-    DAL_TRY(check(spec, error));
+    DAL_TRY(dal__check_spec(spec, error));
+    DAL_TRY(check(spec, tangent, error));
     dal_spectrum *s = calloc(1, sizeof *s);
     if (s == NULL) return dal__error(error, DAL_MEMORY, 0, 0, "spectrum: out of memory");
     const dal_status status = make(s, spec, tangent, count, error);
@@ -294,22 +305,28 @@ void dal_spectrum_free(dal_spectrum *s)
 
 /* ---- what is asked of it ---- */
 
-const dal_run *dal_spectrum_run(const dal_spectrum *s) { return s->run; }
-int dal_spectrum_count(const dal_spectrum *s) { return s->count; }
-int dal_spectrum_is_exact(const dal_spectrum *s) { return s->exact; }
-int dal_spectrum_is_whole(const dal_spectrum *s) { return s->count == s->rank; }
+const dal_run *dal_spectrum_run(const dal_spectrum *s) { return s ? s->run : NULL; }
+int dal_spectrum_count(const dal_spectrum *s) { return s ? s->count : 0; }
+int dal_spectrum_is_exact(const dal_spectrum *s) { return s && s->exact; }
+int dal_spectrum_is_whole(const dal_spectrum *s) { return s && s->count == s->rank; }
+
+/* The mean of number i of growth; NaN where there is no such number. */
+static void mean_of(const dal_spectrum *s, int i, dal_average *average)
+{
+    dal_statistics_mean(s && i >= 0 ? &s->statistics[i] : NULL, average);
+}
 
 void dal_spectrum_exponent(const dal_spectrum *s, int i, dal_average *average)
 {
-    dal_statistics_mean(&s->statistics[i], average);
+    mean_of(s, s && i < s->count ? i : -1, average);
 }
 
 void dal_spectrum_sum(const dal_spectrum *s, dal_average *average)
 {
-    dal_spectrum_exponent(s, s->count, average);
+    mean_of(s, s ? s->count : -1, average);
 }
 
 void dal_spectrum_divergence(const dal_spectrum *s, dal_average *average)
 {
-    dal_spectrum_exponent(s, s->count + 1, average);
+    mean_of(s, s ? s->count + 1 : -1, average);
 }

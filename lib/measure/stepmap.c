@@ -95,6 +95,8 @@ static double omega_defect(const double *columns, int dimension)
 dal_status dal_measure_symplecticity(const dal_run_spec *spec, double t, const double *state,
                                      double increment, double *defect, dal_error *error)
 {
+    DAL_REQUIRE(defect, error);
+    DAL_TRY(dal__check_spec(spec, error));
     stepmap m;
     if (spec->options.space != DAL_LIFTED)
         return dal__error(error, DAL_UNSUPPORTED, 0, 0,
@@ -141,6 +143,7 @@ static void turn_round(int n, int dimension, double sign, double *z)
 dal_status dal_measure_reversibility(const dal_run_spec *spec, double t, const double *state,
                                      double *defect, dal_error *error)
 {
+    DAL_REQUIRE(defect, error);
     stepmap m;
     double sign;
     DAL_TRY(open_map(&m, spec, t, state, 1, error));

@@ -329,7 +329,9 @@ dal_status dal_explain(const dal_run_spec *spec, long long steps, long long earl
                        const dal_explain_observer *observer, dal_explanation **explanation,
                        dal_error *error)
 {
+    DAL_REQUIRE(explanation, error);
     *explanation = NULL;
+    DAL_TRY(dal__check_spec(spec, error));
     if (steps < 1 || early < 0)
         return dal__error(error, DAL_ARGUMENT, 0, 0, "%lld steps, %lld of them in long numbers",
                           steps, early);

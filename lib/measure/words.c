@@ -103,6 +103,7 @@ char *dal_cause_words(const dal_explanation *e, int observable, dal_cause cause,
 {
     static void (*const say[])(const sheet *) = {say_truncation, say_coefficients, say_solver,
                                                  say_rounding, say_projection};
+    if (!e || !buffer || observable < 0 || observable >= e->observables) return NULL;
     const sheet s = {e, &e->of[observable], buffer, size};
     if (size > 0) buffer[0] = '\0';
     if (!(s.a->all.deviation > 0.0))

@@ -11,7 +11,7 @@ const char *dal_builtin_name(int i)
 
 const char *dal_builtin_text(const char *name)
 {
-    for (const dal__builtin *b = dal__builtins; b->name; b++)
+    for (const dal__builtin *b = dal__builtins; name && b->name; b++)
         if (strcmp(b->name, name) == 0) return b->text;
     return NULL;
 }

@@ -33,9 +33,11 @@ static void name_of(const char *path, char *name, size_t size)
 
 dal_status dal_model_read_file(dal_model **model, const char *path, dal_error *error)
 {
+    DAL_REQUIRE(model, error);
     char name[256];
     size_t length = 0;
     *model = NULL;
+    DAL_REQUIRE(path, error);
     errno = 0;
     FILE *file = fopen(path, "rb");
     if (!file) return io_error(error);
@@ -52,9 +54,11 @@ dal_status dal_model_read_file(dal_model **model, const char *path, dal_error *e
 
 dal_status dal_model_builtin(dal_model **model, const char *name, dal_error *error)
 {
+    DAL_REQUIRE(model, error);
     const char *names[64], *text = dal_builtin_text(name);
     int count = 0;
     *model = NULL;
+    DAL_REQUIRE(name, error);
     if (text) return dal_model_read(model, name, text, strlen(text), error);
     while (count < 64 && dal_builtin_name(count)) {
         names[count] = dal_builtin_name(count);

@@ -236,6 +236,7 @@ static dal_status split_item(dal__entry *entry, dal_error *error)
 dal_status dal_model_add(dal_model *model, dal_section section, const char *name, const char *text,
                          int line, int column, dal_error *error)
 {
+    DAL_REQUIRE(model, error);
     dal__entry entry = {section, name, text, line, column, line, column, 0};
     if (section == DAL_SECTION_REACTIONS && name) DAL_TRY(split_item(&entry, error));
     return dal__model_insert(model, entry, error);

@@ -137,8 +137,10 @@ static dal_status make_extended(dal_model *model)
 
 dal_status dal_model_system(dal_model *model, const dal_system **system, dal_error *error)
 {
-    *system = model->made ? &model->system : NULL;
-    if (model->made) return DAL_OK;
+    DAL_REQUIRE(system, error);
+    *system = NULL;
+    DAL_REQUIRE(model, error);
+    if (model->made) return *system = &model->system, DAL_OK;
     model->starved = false;
     DAL_TRY(dal__formulas(model, error));
     DAL_TRY(dal__equations_derive(model, error));
@@ -216,9 +218,11 @@ static dal_status make_tangent(dal_model *model)
 
 dal_status dal_model_tangent(dal_model *model, const dal_system **system, dal_error *error)
 {
+    DAL_REQUIRE(system, error);
+    *system = NULL;
+    DAL_REQUIRE(model, error);
     const dal_system *plain;
-    *system = model->tangent_made ? &model->tangent : NULL;
-    if (model->tangent_made) return DAL_OK;
+    if (model->tangent_made) return *system = &model->tangent, DAL_OK;
     DAL_TRY(dal_model_system(model, &plain, error));
     if (model->equations.multipliers)
         return dal__error(error, DAL_UNSUPPORTED, 0, 0,

@@ -309,6 +309,7 @@ static dal_status read_text(dal_model *model, const char *text, size_t length, d
 dal_status dal_model_read(dal_model **model, const char *name, const char *text, size_t length,
                           dal_error *error)
 {
+    DAL_REQUIRE(model, error);
     static const char mark[] = "\xEF\xBB\xBF"; /* a byte order mark is no text */
     *model = NULL;
     if (!text) return dal__error(error, DAL_ARGUMENT, 0, 0, "there is no text to read");

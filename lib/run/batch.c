@@ -187,7 +187,9 @@ dal_status dal__batch_create(dal_batch **batch, const dal_run_spec *spec, int co
 dal_status dal_batch_create(dal_batch **batch, const dal_run_spec *spec, int count, int width,
                             dal_error *error)
 {
+    DAL_REQUIRE(batch, error);
     *batch = NULL;
+    DAL_TRY(dal__check_spec(spec, error));
     if (count < 1)
         return dal__error(error, DAL_ARGUMENT, 0, 0, "a batch of %d runs is empty", count);
     bool known = width == 0;
@@ -257,7 +259,7 @@ dal_status dal__batch_install(dal_batch *batch, int lanes, const dal__native *na
     return DAL_OK;
 }
 
-int dal_batch_is_native(const dal_batch *batch) { return batch->native.steps != NULL; }
+int dal_batch_is_native(const dal_batch *batch) { return batch && batch->native.steps != NULL; }
 
 /* ---- use ---- */
 
@@ -265,12 +267,15 @@ dal_status dal_batch_start(dal_batch *batch, int lane, const dal_setting *parame
                            int parameter_count, const dal_setting *start, int start_count,
                            dal_error *error)
 {
+    DAL_REQUIRE(batch, error);
     if (lane < 0 || lane >= batch->count)
         return dal__error(error, DAL_ARGUMENT, 0, 0, "lane %d of %d does not exist", lane,
                           batch->count);
     if (batch->stepped)
         return dal__error(error, DAL_ARGUMENT, 0, 0,
                           "lane %d cannot start anew: its batch has been stepped", lane);
+    DAL_TRY(dal__check_settings(parameters, parameter_count, "parameters", error));
+    DAL_TRY(dal__check_settings(start, start_count, "start values", error));
     DAL_TRY(dal__run_start(batch->scalar, parameters, parameter_count, start, start_count, error));
     const block *b = block_of(batch, lane);
     put_lane(batch, b, lane - b->first);
@@ -310,6 +315,8 @@ static long long step_block(dal_batch *batch, block *b, double h, long long coun
 
 dal_status dal_batch_advance(dal_batch *batch, long long count)
 {
+    DAL_REQUIRE(batch, NULL);
+    DAL_REQUIRE_COUNT(count, NULL);
     const double h = batch->scalar->shape.options.step;
     dal_status why[DAL__BLOCK] = {DAL_OK}, last = DAL_OK;
     dal__lanes failed = 0;
@@ -327,10 +334,11 @@ dal_status dal_batch_advance(dal_batch *batch, long long count)
     return alive ? DAL_OK : last;
 }
 
-int dal_batch_count(const dal_batch *batch) { return batch->count; }
+int dal_batch_count(const dal_batch *batch) { return batch ? batch->count : 0; }
 
 dal_status dal_batch_status(const dal_batch *batch, int lane, dal_error *error)
 {
+    DAL_REQUIRE(batch, error);
     if (lane < 0 || lane >= batch->count)
         return dal__error(error, DAL_ARGUMENT, 0, 0, "lane %d of %d does not exist", lane,
                           batch->count);
@@ -340,15 +348,15 @@ dal_status dal_batch_status(const dal_batch *batch, int lane, dal_error *error)
 
 double dal_batch_time(const dal_batch *batch, int lane)
 {
+    if (!batch || lane < 0 || lane >= batch->count) return NAN;
     const size_t place = dal__at(&batch->scalar->shape, DAL__TIME);
-    if (lane < 0 || lane >= batch->count) return NAN;
     const block *b = block_of(batch, lane);
     return b->carried[place * (size_t)b->kind->width + (size_t)(lane - b->first)];
 }
 
 void dal_batch_state(const dal_batch *batch, int lane, double *state)
 {
-    if (lane < 0 || lane >= batch->count) return;
+    if (!batch || !state || lane < 0 || lane >= batch->count) return;
     const block *b = block_of(batch, lane);
     gather(state, b->carried, (size_t)batch->scalar->shape.dim, b->kind->width, lane - b->first);
 }

@@ -29,7 +29,7 @@ static int group_size(const dal_run *run, int group)
 int dal_run_observables(const dal_run *run)
 {
     int count = 0;
-    for (int group = 0; group < GROUPS; group++) count += group_size(run, group);
+    for (int group = 0; run && group < GROUPS; group++) count += group_size(run, group);
     return count;
 }
 
@@ -37,6 +37,7 @@ char *dal_run_observable_name(const dal_run *run, int i, char *buffer, size_t si
 {
     static const char *const fixed[] = {NULL, "E", "H", NULL, NULL, "error"};
     static const char *const norms[] = {"|p|", "|pi|", "|pi_e|"};
+    if (!run || !buffer) return NULL;
     const dal_system *system = run->shape.system;
     int group = 0;
     for (; i >= 0 && group < GROUPS && i >= group_size(run, group); group++)
@@ -87,6 +88,8 @@ static dal_status error_norm(dal_run *run, const dal_at *at, double *out)
 
 dal_status dal_run_observe(dal_run *run, double *out)
 {
+    DAL_REQUIRE(run, NULL);
+    DAL_REQUIRE(out, NULL);
     const dal_system *system = run->shape.system;
     const dal_at at = dal__here(run);
     double *next = out;

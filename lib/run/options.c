@@ -67,6 +67,9 @@ dal_status dal_options_set(dal_options *options, const char *name, const char *t
 #undef X
     };
     enum { COUNT = sizeof table / sizeof *table };
+    DAL_REQUIRE(options, error);
+    DAL_REQUIRE(name, error);
+    DAL_REQUIRE(text, error);
     const char *names[COUNT];
     double value = 0.0;
     for (int i = 0; i < COUNT; i++) names[i] = table[i].name;

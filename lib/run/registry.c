@@ -74,6 +74,8 @@ static int next_part(const char **name, char *part)
 
 dal_status dal_method_parse(dal_method *method, const char *name, dal_error *error)
 {
+    DAL_REQUIRE(method, error);
+    DAL_REQUIRE(name, error);
     char part[NAME_SIZE];
     const char *rest = name;
     *method = (dal_method){{NULL}};
@@ -94,9 +96,10 @@ dal_status dal_method_parse(dal_method *method, const char *name, dal_error *err
 char *dal_method_name(const dal_method *method, char *buffer, size_t size)
 {
     size_t used = 0;
+    if (!method || !buffer) return NULL;
     if (size > 0) buffer[0] = '\0';
     for (int i = 0; i < DAL_CHAIN && method->chain[i]; i++) {
-        const char *parts[] = {i ? "+" : "", method->chain[i]->name};
+        const char *parts[] = {i ? "+" : "", method->chain[i]->name ? method->chain[i]->name : "?"};
         for (int j = 0; j < 2; j++) {
             const size_t length = strlen(parts[j]);
             if (used + length + 1 > size) return buffer;
@@ -110,7 +113,7 @@ char *dal_method_name(const dal_method *method, char *buffer, size_t size)
 int dal_method_order(const dal_method *method)
 {
     int order = 0;
-    for (int i = 0; i < DAL_CHAIN && method->chain[i]; i++)
+    for (int i = 0; method && i < DAL_CHAIN && method->chain[i]; i++)
         if (method->chain[i]->order > 0) order = method->chain[i]->order;
     return order;
 }
@@ -118,14 +121,15 @@ int dal_method_order(const dal_method *method)
 unsigned dal_method_needs(const dal_method *method)
 {
     unsigned needs = 0;
-    for (int i = 0; i < DAL_CHAIN && method->chain[i]; i++) needs |= method->chain[i]->needs;
+    for (int i = 0; method && i < DAL_CHAIN && method->chain[i]; i++)
+        needs |= method->chain[i]->needs;
     return needs;
 }
 
 unsigned dal_method_claims(const dal_method *method)
 {
     unsigned claims = 0;
-    for (int i = 0; i < DAL_CHAIN && method->chain[i]; i++) {
+    for (int i = 0; method && i < DAL_CHAIN && method->chain[i]; i++) {
         const dal_integrator *k = method->chain[i];
         claims = (claims & (k->inherits | DAL_CARRIES_MULTIPLIER)) |
                  (k->claims & ~(unsigned)DAL_MODIFIER);

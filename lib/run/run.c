@@ -73,10 +73,12 @@ static dal_run *place(const dal__shape *shape, void *memory)
 dal_status dal_run_init(dal_run **run, void *memory, size_t bytes, const dal_run_spec *spec,
                         dal_error *error)
 {
+    DAL_REQUIRE(run, error);
     dal__shape shape;
     *run = NULL;
+    DAL_REQUIRE(memory, error);
     DAL_TRY(dal__shape_init(&shape, spec, error));
-    if (!memory || bytes < total_bytes(&shape))
+    if (bytes < total_bytes(&shape))
         return dal__error(error, DAL_MEMORY, 0, 0, "a run of %s needs %zu bytes, not %zu",
                           shape.system->name ? shape.system->name : "this system",
                           total_bytes(&shape), bytes);
@@ -90,6 +92,7 @@ dal_status dal_run_init(dal_run **run, void *memory, size_t bytes, const dal_run
 
 dal_status dal_run_create(dal_run **run, const dal_run_spec *spec, dal_error *error)
 {
+    DAL_REQUIRE(run, error);
     dal__shape shape;
     *run = NULL;
     DAL_TRY(dal__shape_init(&shape, spec, error));
@@ -141,6 +144,7 @@ dal_status dal__run_steps(dal_run *run, double h, long long count)
 
 dal_status dal_run_advance(dal_run *run, long long count, dal_error *error)
 {
+    DAL_REQUIRE(run, error);
     const double h = run->shape.options.step;
     if (count < 0)
         return dal__error(error, DAL_ARGUMENT, 0, 0, "%lld steps: a run goes forward", count);
@@ -150,27 +154,32 @@ dal_status dal_run_advance(dal_run *run, long long count, dal_error *error)
 
 dal_status dal_run_step(dal_run *run, dal_error *error) { return dal_run_advance(run, 1, error); }
 
-const dal_system *dal_run_system(const dal_run *run) { return run->shape.system; }
-int dal_run_dimension(const dal_run *run) { return run->shape.dim; }
-const double *dal_run_state(const dal_run *run) { return run->carried; }
-const double *dal_run_parameters(const dal_run *run) { return run->work; }
+const dal_system *dal_run_system(const dal_run *run) { return run ? run->shape.system : NULL; }
+int dal_run_dimension(const dal_run *run) { return run ? run->shape.dim : 0; }
+const double *dal_run_state(const dal_run *run) { return run ? run->carried : NULL; }
+const double *dal_run_parameters(const dal_run *run) { return run ? run->work : NULL; }
 
-double dal_run_time(const dal_run *run) { return run->carried[dal__at(&run->shape, DAL__TIME)]; }
+double dal_run_time(const dal_run *run)
+{
+    return run ? run->carried[dal__at(&run->shape, DAL__TIME)] : NAN;
+}
 
-double dal_run_step_size(const dal_run *run) { return run->shape.options.step; }
+double dal_run_step_size(const dal_run *run) { return run ? run->shape.options.step : NAN; }
 
 long long dal_run_steps(const dal_run *run)
 {
-    return (long long)run->carried[dal__at(&run->shape, DAL__STEPS)];
+    return run ? (long long)run->carried[dal__at(&run->shape, DAL__STEPS)] : 0;
 }
 
 long long dal_run_evaluations(const dal_run *run)
 {
-    return (long long)run->carried[dal__at(&run->shape, DAL__EVALUATIONS)];
+    return run ? (long long)run->carried[dal__at(&run->shape, DAL__EVALUATIONS)] : 0;
 }
 
 dal_status dal_run_set_state(dal_run *run, double t, const double *state, dal_error *error)
 {
+    DAL_REQUIRE(run, error);
+    DAL_REQUIRE(state, error);
     const dal__shape *k = &run->shape;
     for (int i = 0; i < k->dim; i++)
         if (!isfinite(state[i]) && !(k->lifted && i == 2 * k->n && isinf(state[i])))
@@ -186,8 +195,8 @@ dal_status dal_run_set_state(dal_run *run, double t, const double *state, dal_er
 
 const double *dal_run_memory(const dal_run *run, size_t *count)
 {
-    *count = run->remembered;
-    return run->memory;
+    if (count) *count = run ? run->remembered : 0;
+    return run && count ? run->memory : NULL;
 }
 
 /* Carried number i of a memory, in doubles. */
@@ -198,6 +207,8 @@ static double number_in(const dal_run *run, const double *memory, size_t i)
 
 dal_status dal_run_load(dal_run *run, const double *memory, size_t count, dal_error *error)
 {
+    DAL_REQUIRE(run, error);
+    DAL_REQUIRE(memory, error);
     const dal__shape *k = &run->shape;
     if (count != run->remembered)
         return dal__error(error, DAL_ARGUMENT, 0, 0, "this run carries %zu numbers, not %zu",

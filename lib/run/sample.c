@@ -65,6 +65,8 @@ static dal_status advance(sampling *k, long long count)
 dal_status dal_run_aside(dal_run *run, double h, dal_status (*look)(void *user, dal_run *run),
                          void *user, dal_error *error)
 {
+    DAL_REQUIRE(run, error);
+    DAL_REQUIRE(look, error);
     if (!isfinite(h))
         return dal__error(error, DAL_ARGUMENT, 0, 0, "a step aside must be finite; it is %g", h);
     dal__run_keep(run);
@@ -165,6 +167,7 @@ dal_status dal_run_sample(dal_run *run, double T, long long samples, long long f
                           const dal_observer *observer, dal_error *error)
 {
     static const dal_observer nobody = {0};
+    DAL_REQUIRE(run, error);
     if (!observer) observer = &nobody;
     DAL_TRY(check(run, observer, T, samples, first_row, error));
     sampling k = {run, observer, error, 0};

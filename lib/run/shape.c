@@ -92,7 +92,6 @@ static dal_status check_needs(const dal__shape *k, dal_error *error)
 
 static dal_status check_system(const dal_system *system, dal_error *error)
 {
-    if (!system) return dal__error(error, DAL_ARGUMENT, 0, 0, "a run needs a system");
     if (system->n < 1)
         return dal__error(error, DAL_ARGUMENT, 0, 0, "a system needs coordinates; n is %d",
                           system->n);
@@ -254,6 +253,7 @@ static dal_status measure(dal__shape *k, dal_error *error)
 
 dal_status dal__shape_init(dal__shape *k, const dal_run_spec *spec, dal_error *error)
 {
+    DAL_TRY(dal__check_spec(spec, error));
     DAL_TRY(check_system(spec->system, error));
     DAL_TRY(check_options(&spec->options, error));
     *k = (dal__shape){.system = spec->system, .method = spec->method, .options = spec->options};

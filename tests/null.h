@@ -1,0 +1,48 @@
+/* null.h - the rule for NULL, NULL names and negative counts: see dalembert.h, conventions.
+ *
+ * A suite has a test null_NAME for every function of the lists that tools/functions.awk makes of
+ * the headers: without one it is not linked. */
+#ifndef NULL_H
+#define NULL_H
+
+#include "functions.h"
+#include <CUnit/CUnit.h>
+#include <dalembert.h>
+#include <math.h>
+#include <stddef.h>
+
+/* Where the calls under test report. */
+static dal_error *error;
+
+/* DAL_ARGUMENT, from a call that hands error over, with a message, and without a record too. */
+#define REFUSED(call)                                                                              \
+    do {                                                                                           \
+        dal_error record = {0};                                                                    \
+        error = &record;                                                                           \
+        CU_ASSERT_EQUAL((call), DAL_ARGUMENT);                                                     \
+        CU_ASSERT(record.status == DAL_ARGUMENT && record.message[0] != '\0');                     \
+        error = NULL;                                                                              \
+        CU_ASSERT_EQUAL((call), DAL_ARGUMENT);                                                     \
+    } while (0)
+/* The same of a function that takes no record. */
+#define REFUSED_STATUS(call) CU_ASSERT_EQUAL((call), DAL_ARGUMENT)
+
+/* Settings that nobody may give, as "settings, count". */
+#define COUNT_NEGATIVE   NULL, -1
+#define SETTINGS_MISSING NULL, 2
+static const dal_setting nameless[] = {{NULL, 1.0}};
+#define NAME_MISSING nameless, 1
+
+/* A spec of the Chaplygin sleigh and its model, made where CUnit allows no assertion. */
+static inline dal_status open_spec(dal_model **model, dal_run_spec *spec)
+{
+    *spec = (dal_run_spec){.options = dal_options_default()};
+    dal_status status = dal_model_builtin(model, "chaplygin-sleigh", NULL);
+    if (status == DAL_OK) status = dal_model_system(*model, &spec->system, NULL);
+    return status == DAL_OK ? dal_method_parse(&spec->method, "rk4", NULL) : status;
+}
+
+#define DECLARE_NULL_TEST(name) static void null_##name(void);
+#define ADD_NULL_TEST(name)     CU_add_test(suite, #name, null_##name);
+
+#endif

@@ -1,0 +1,383 @@
+/* test_null.c - NULL, nameless settings and negative counts, given to systems, methods, runs,
+ * batches and generated code. */
+#include "null.h"
+#include <stdlib.h>
+#include <string.h>
+
+FUNCTIONS_dalembert(DECLARE_NULL_TEST) FUNCTIONS_dalembert_method(DECLARE_NULL_TEST)
+    FUNCTIONS_dalembert_model(DECLARE_NULL_TEST) FUNCTIONS_dalembert_generate(DECLARE_NULL_TEST)
+
+    /* ---- what the functions are given where they are given anything ---- */
+
+    static dal_model *model;
+static dal_run_spec spec;
+static dal_run *run;
+static dal_batch *batch;
+static dal_method method;
+static char buffer[64];
+static double numbers[64];
+
+static int open_objects(void)
+{
+    const dal_status opened = open_spec(&model, &spec);
+    method = spec.method;
+    return opened != DAL_OK || dal_run_create(&run, &spec, NULL) != DAL_OK ||
+           dal_batch_create(&batch, &spec, 3, 0, NULL) != DAL_OK;
+}
+
+static int close_objects(void)
+{
+    dal_batch_free(batch);
+    dal_run_free(run);
+    dal_model_free(model);
+    return 0;
+}
+
+/* Specs that no function may take, and none at all. */
+enum { BAD_SPECS = 8 };
+static const dal_run_spec *bad_spec(int i)
+{
+    static dal_run_spec bad;
+    bad = spec;
+    if (i == 1) bad.system = NULL;
+    if (i == 2) bad.parameter_count = -1;
+    if (i == 3) bad.parameter_count = 2;
+    if (i == 4) bad.parameters = nameless, bad.parameter_count = 1;
+    if (i == 5) bad.start_count = -1;
+    if (i == 6) bad.start_count = 2;
+    if (i == 7) bad.start = nameless, bad.start_count = 1;
+    return i == 0 ? NULL : &bad;
+}
+
+/* ---- statuses and numbers ---- */
+
+static void null_dal_status_name(void) { CU_ASSERT_PTR_NOT_NULL(dal_status_name((dal_status)-1)); }
+static void null_dal_status_text(void) { CU_ASSERT_PTR_NOT_NULL(dal_status_text((dal_status)-1)); }
+
+static void null_dal_nearest(void)
+{
+    const char *const names[] = {"a", NULL};
+    CU_ASSERT_PTR_NULL(dal_nearest(NULL, names, 2));
+    CU_ASSERT_PTR_NULL(dal_nearest("a", NULL, 2));
+    CU_ASSERT_PTR_NULL(dal_nearest("a", names, -1));
+    CU_ASSERT_PTR_EQUAL(dal_nearest("a", names, 2), names[0]);
+}
+
+static void null_dal_parse_number(void)
+{
+    REFUSED_STATUS(dal_parse_number(NULL, 1, numbers));
+    REFUSED_STATUS(dal_parse_number("1", 1, NULL));
+}
+
+static void null_dal_options_default(void) { CU_ASSERT(dal_options_default().step > 0.0); }
+
+static void null_dal_options_set(void)
+{
+    dal_options options = dal_options_default();
+    REFUSED(dal_options_set(NULL, "step", "1", error));
+    REFUSED(dal_options_set(&options, NULL, "1", error));
+    REFUSED(dal_options_set(&options, "step", NULL, error));
+}
+
+/* ---- runs ---- */
+
+static void null_dal_run_size(void)
+{
+    CU_ASSERT(dal_run_size(&spec) > 0);
+    for (int i = 0; i < BAD_SPECS; i++) CU_ASSERT_EQUAL(dal_run_size(bad_spec(i)), 0);
+}
+
+static void null_dal_run_init(void)
+{
+    const size_t bytes = dal_run_size(&spec);
+    void *memory = malloc(bytes);
+    dal_run *made = run;
+    REFUSED(dal_run_init(NULL, memory, bytes, &spec, error));
+    REFUSED(dal_run_init(&made, NULL, bytes, &spec, error));
+    CU_ASSERT_PTR_NULL(made);
+    for (int i = 0; i < BAD_SPECS; i++)
+        REFUSED(dal_run_init(&made, memory, bytes, bad_spec(i), error));
+    free(memory);
+}
+
+static void null_dal_run_create(void)
+{
+    dal_run *made = run;
+    REFUSED(dal_run_create(NULL, &spec, error));
+    for (int i = 0; i < BAD_SPECS; i++) REFUSED(dal_run_create(&made, bad_spec(i), error));
+    CU_ASSERT_PTR_NULL(made);
+}
+
+static void null_dal_run_free(void) { dal_run_free(NULL); }
+static void null_dal_run_step(void) { REFUSED(dal_run_step(NULL, error)); }
+
+static void null_dal_run_advance(void)
+{
+    REFUSED(dal_run_advance(NULL, 1, error));
+    REFUSED(dal_run_advance(run, -1, error));
+    CU_ASSERT_EQUAL(dal_run_advance(run, 0, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_steps(run), 0);
+}
+
+static void null_dal_run_system(void) { CU_ASSERT_PTR_NULL(dal_run_system(NULL)); }
+static void null_dal_run_time(void) { CU_ASSERT(isnan(dal_run_time(NULL))); }
+static void null_dal_run_step_size(void) { CU_ASSERT(isnan(dal_run_step_size(NULL))); }
+static void null_dal_run_steps(void) { CU_ASSERT_EQUAL(dal_run_steps(NULL), 0); }
+static void null_dal_run_evaluations(void) { CU_ASSERT_EQUAL(dal_run_evaluations(NULL), 0); }
+static void null_dal_run_dimension(void) { CU_ASSERT_EQUAL(dal_run_dimension(NULL), 0); }
+static void null_dal_run_state(void) { CU_ASSERT_PTR_NULL(dal_run_state(NULL)); }
+static void null_dal_run_parameters(void) { CU_ASSERT_PTR_NULL(dal_run_parameters(NULL)); }
+
+static void null_dal_run_set_state(void)
+{
+    REFUSED(dal_run_set_state(NULL, 0.0, numbers, error));
+    REFUSED(dal_run_set_state(run, 0.0, NULL, error));
+}
+
+static void null_dal_run_name(void)
+{
+    CU_ASSERT_PTR_NULL(dal_run_name(NULL, 0, buffer, sizeof buffer));
+    CU_ASSERT_PTR_NULL(dal_run_name(run, 0, NULL, sizeof buffer));
+    CU_ASSERT_PTR_NULL(dal_run_name(run, -1, buffer, sizeof buffer));
+}
+
+static void null_dal_run_memory(void)
+{
+    size_t count = 7;
+    CU_ASSERT_PTR_NULL(dal_run_memory(NULL, &count));
+    CU_ASSERT_EQUAL(count, 0);
+    CU_ASSERT_PTR_NULL(dal_run_memory(run, NULL));
+}
+
+static void null_dal_run_load(void)
+{
+    size_t count;
+    const double *memory = dal_run_memory(run, &count);
+    REFUSED(dal_run_load(NULL, memory, count, error));
+    REFUSED(dal_run_load(run, NULL, count, error));
+}
+
+static void null_dal_run_observables(void) { CU_ASSERT_EQUAL(dal_run_observables(NULL), 0); }
+
+static void null_dal_run_observable_name(void)
+{
+    CU_ASSERT_PTR_NULL(dal_run_observable_name(NULL, 0, buffer, sizeof buffer));
+    CU_ASSERT_PTR_NULL(dal_run_observable_name(run, 0, NULL, sizeof buffer));
+    CU_ASSERT_PTR_NULL(dal_run_observable_name(run, -1, buffer, sizeof buffer));
+}
+
+static void null_dal_run_observe(void)
+{
+    REFUSED_STATUS(dal_run_observe(NULL, numbers));
+    REFUSED_STATUS(dal_run_observe(run, NULL));
+}
+
+static void null_dal_run_sample(void)
+{
+    REFUSED(dal_run_sample(NULL, 1.0, 1, 0, NULL, error));
+    REFUSED(dal_run_sample(run, 1.0, -1, 0, NULL, error));
+    REFUSED(dal_run_sample(run, 1.0, 1, -1, NULL, error));
+    CU_ASSERT_EQUAL(dal_run_sample(run, 1.0, 1, 0, NULL, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_sample(run, 2.0, 1, 1, &(dal_observer){.every = -1}, NULL), DAL_OK);
+}
+
+static dal_status see(void *user, dal_run *seen) { return user || !seen ? DAL_IO : DAL_OK; }
+
+static void null_dal_run_aside(void)
+{
+    REFUSED(dal_run_aside(NULL, 0.1, see, NULL, error));
+    REFUSED(dal_run_aside(run, 0.1, NULL, NULL, error));
+    CU_ASSERT_EQUAL(dal_run_aside(run, 0.1, see, NULL, NULL), DAL_OK);
+}
+
+/* ---- batches ---- */
+
+static void null_dal_batch_create(void)
+{
+    dal_batch *made = batch;
+    REFUSED(dal_batch_create(NULL, &spec, 3, 0, error));
+    for (int i = 0; i < BAD_SPECS; i++) REFUSED(dal_batch_create(&made, bad_spec(i), 3, 0, error));
+    REFUSED(dal_batch_create(&made, &spec, -1, 0, error));
+    REFUSED(dal_batch_create(&made, &spec, 3, -1, error));
+    CU_ASSERT_PTR_NULL(made);
+}
+
+static void null_dal_batch_free(void) { dal_batch_free(NULL); }
+
+static void null_dal_batch_start(void)
+{
+    REFUSED(dal_batch_start(NULL, 0, NULL, 0, NULL, 0, error));
+    REFUSED(dal_batch_start(batch, -1, NULL, 0, NULL, 0, error));
+    REFUSED(dal_batch_start(batch, 0, COUNT_NEGATIVE, NULL, 0, error));
+    REFUSED(dal_batch_start(batch, 0, SETTINGS_MISSING, NULL, 0, error));
+    REFUSED(dal_batch_start(batch, 0, NAME_MISSING, NULL, 0, error));
+    REFUSED(dal_batch_start(batch, 0, NULL, 0, COUNT_NEGATIVE, error));
+    REFUSED(dal_batch_start(batch, 0, NULL, 0, SETTINGS_MISSING, error));
+    REFUSED(dal_batch_start(batch, 0, NULL, 0, NAME_MISSING, error));
+}
+
+/* A batch refused to go backwards has not been stepped: its lanes may still start anew. */
+static void null_dal_batch_advance(void)
+{
+    REFUSED_STATUS(dal_batch_advance(NULL, 1));
+    REFUSED_STATUS(dal_batch_advance(batch, -1));
+    CU_ASSERT_EQUAL(dal_batch_start(batch, 0, NULL, 0, NULL, 0, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_batch_time(batch, 0), 0.0);
+}
+
+static void null_dal_batch_count(void) { CU_ASSERT_EQUAL(dal_batch_count(NULL), 0); }
+
+static void null_dal_batch_status(void)
+{
+    REFUSED(dal_batch_status(NULL, 0, error));
+    REFUSED(dal_batch_status(batch, -1, error));
+}
+
+static void null_dal_batch_time(void)
+{
+    CU_ASSERT(isnan(dal_batch_time(NULL, 0)));
+    CU_ASSERT(isnan(dal_batch_time(batch, -1)));
+}
+
+static void null_dal_batch_state(void)
+{
+    numbers[0] = 7.0;
+    dal_batch_state(NULL, 0, numbers);
+    dal_batch_state(batch, -1, numbers);
+    dal_batch_state(batch, 0, NULL);
+    CU_ASSERT_EQUAL(numbers[0], 7.0);
+}
+
+/* ---- methods ---- */
+
+static void null_dal_integrator_at(void) { CU_ASSERT_PTR_NULL(dal_integrator_at(-1)); }
+
+static void null_dal_method_parse(void)
+{
+    dal_method parsed;
+    REFUSED(dal_method_parse(NULL, "rk4", error));
+    REFUSED(dal_method_parse(&parsed, NULL, error));
+}
+
+static void null_dal_method_name(void)
+{
+    CU_ASSERT_PTR_NULL(dal_method_name(NULL, buffer, sizeof buffer));
+    CU_ASSERT_PTR_NULL(dal_method_name(&method, NULL, sizeof buffer));
+}
+
+static void null_dal_method_order(void) { CU_ASSERT_EQUAL(dal_method_order(NULL), 0); }
+static void null_dal_method_claims(void) { CU_ASSERT_EQUAL(dal_method_claims(NULL), 0); }
+static void null_dal_method_needs(void) { CU_ASSERT_EQUAL(dal_method_needs(NULL), 0); }
+
+/* ---- models ---- */
+
+static void null_dal_model_create(void)
+{
+    dal_model *nobody = dal_model_create(NULL);
+    CU_ASSERT_PTR_NOT_NULL(nobody);
+    dal_model_free(nobody);
+}
+
+static void null_dal_model_free(void) { dal_model_free(NULL); }
+
+static void null_dal_model_add(void)
+{
+    dal_model *made = dal_model_create("made");
+    REFUSED(dal_model_add(NULL, DAL_SECTION_TITLE, NULL, "text", 0, 0, error));
+    REFUSED(dal_model_add(made, DAL_SECTION_TITLE, NULL, NULL, 0, 0, error));
+    REFUSED(dal_model_add(made, DAL_SECTION_START, NULL, "1", 0, 0, error));
+    REFUSED(dal_model_add(made, DAL_SECTION_START, "x", NULL, 0, 0, error));
+    REFUSED(dal_model_add(made, DAL_SECTION_REACTIONS, NULL, "1", 0, 0, error));
+    REFUSED(dal_model_add(made, (dal_section)-1, "x", "1", 0, 0, error));
+    dal_model_free(made);
+}
+
+static void null_dal_model_read(void)
+{
+    dal_model *made = model;
+    REFUSED(dal_model_read(NULL, "name", "coordinates: [x]", 16, error));
+    REFUSED(dal_model_read(&made, "name", NULL, 16, error));
+    CU_ASSERT_PTR_NULL(made);
+    CU_ASSERT_EQUAL(dal_model_read(&made, NULL, "coordinates: [x]", 16, NULL), DAL_OK);
+    dal_model_free(made);
+}
+
+static void null_dal_model_read_file(void)
+{
+    dal_model *made = model;
+    REFUSED(dal_model_read_file(NULL, "systems/contact-oscillator.yaml", error));
+    REFUSED(dal_model_read_file(&made, NULL, error));
+    CU_ASSERT_PTR_NULL(made);
+}
+
+static void null_dal_model_builtin(void)
+{
+    dal_model *made = model;
+    REFUSED(dal_model_builtin(NULL, "chaplygin-sleigh", error));
+    REFUSED(dal_model_builtin(&made, NULL, error));
+    CU_ASSERT_PTR_NULL(made);
+}
+
+static void null_dal_builtin_name(void) { CU_ASSERT_PTR_NULL(dal_builtin_name(-1)); }
+static void null_dal_builtin_text(void) { CU_ASSERT_PTR_NULL(dal_builtin_text(NULL)); }
+
+static void null_dal_model_system(void)
+{
+    const dal_system *system = spec.system;
+    REFUSED(dal_model_system(model, NULL, error));
+    REFUSED(dal_model_system(NULL, &system, error));
+    CU_ASSERT_PTR_NULL(system);
+}
+
+static void null_dal_model_tangent(void)
+{
+    const dal_system *system = spec.system;
+    REFUSED(dal_model_tangent(model, NULL, error));
+    REFUSED(dal_model_tangent(NULL, &system, error));
+    CU_ASSERT_PTR_NULL(system);
+}
+
+/* ---- compiled steps ---- */
+
+static void null_dal_generate(void)
+{
+    char *text = buffer;
+    REFUSED(dal_generate(&spec, 1, NULL, NULL, error));
+    for (int i = 0; i < BAD_SPECS; i++) REFUSED(dal_generate(bad_spec(i), 1, NULL, &text, error));
+    REFUSED(dal_generate(&spec, -1, NULL, &text, error));
+    CU_ASSERT_PTR_NULL(text);
+}
+
+static const dal_native_options nowhere = {NULL, NULL, 0};
+
+static void null_dal_run_native(void)
+{
+    REFUSED(dal_run_native(NULL, &nowhere, error));
+    REFUSED(dal_run_native(run, NULL, error));
+    REFUSED(dal_run_native(run, &nowhere, error));
+}
+
+static void null_dal_run_is_native(void) { CU_ASSERT_EQUAL(dal_run_is_native(NULL), 0); }
+
+static void null_dal_run_native_observables(void)
+{
+    REFUSED(dal_run_native_observables(NULL, &nowhere, error));
+    REFUSED(dal_run_native_observables(run, NULL, error));
+    REFUSED(dal_run_native_observables(run, &nowhere, error));
+}
+
+static void null_dal_batch_native(void)
+{
+    REFUSED(dal_batch_native(NULL, &nowhere, error));
+    REFUSED(dal_batch_native(batch, NULL, error));
+    REFUSED(dal_batch_native(batch, &nowhere, error));
+}
+
+static void null_dal_batch_is_native(void) { CU_ASSERT_EQUAL(dal_batch_is_native(NULL), 0); }
+
+void suite_null(void)
+{
+    CU_pSuite suite = CU_add_suite("NULL and negative counts", open_objects, close_objects);
+    FUNCTIONS_dalembert(ADD_NULL_TEST) FUNCTIONS_dalembert_method(ADD_NULL_TEST)
+        FUNCTIONS_dalembert_model(ADD_NULL_TEST) FUNCTIONS_dalembert_generate(ADD_NULL_TEST)
+}

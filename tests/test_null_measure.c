@@ -1,0 +1,350 @@
+/* test_null_measure.c - NULL, nameless settings and negative counts, given to measures. */
+#include "null.h"
+
+FUNCTIONS_dalembert_measure(DECLARE_NULL_TEST) FUNCTIONS_dalembert_causes(DECLARE_NULL_TEST)
+    FUNCTIONS_dalembert_motion(DECLARE_NULL_TEST)
+
+    /* ---- what the functions are given where they are given anything ---- */
+
+    static dal_model *model;
+static const dal_system *system, *tangent;
+static dal_run_spec spec, no_system, bad_count;
+static dal_run *run;
+static dal_probe *probe;
+static dal_spectrum *spectrum;
+static dal_explanation *explanation;
+static dal_point at;
+static double numbers[256];
+
+static int open_objects(void)
+{
+    if (open_spec(&model, &spec) != DAL_OK) return 1;
+    system = spec.system;
+    no_system = bad_count = spec;
+    no_system.system = NULL;
+    bad_count.parameter_count = -1;
+    at = (dal_point){0.0, numbers, numbers + system->n};
+    return dal_run_create(&run, &spec, NULL) != DAL_OK ||
+           dal_probe_create(&probe, system, NULL, 0, NULL) != DAL_OK ||
+           dal_model_tangent(model, &tangent, NULL) != DAL_OK ||
+           dal_spectrum_create(&spectrum, &spec, NULL, 1, NULL) != DAL_OK ||
+           dal_explain(&spec, 10, 0, NULL, &explanation, NULL) != DAL_OK;
+}
+
+static int close_objects(void)
+{
+    dal_explanation_free(explanation);
+    dal_spectrum_free(spectrum);
+    dal_probe_free(probe);
+    dal_run_free(run);
+    dal_model_free(model);
+    return 0;
+}
+
+/* A call with a spec in every bad form. */
+#define REFUSED_SPECS(bad, call)                                                                   \
+    do {                                                                                           \
+        const dal_run_spec *const bad_specs[] = {NULL, &no_system, &bad_count};                    \
+        for (int bad_number = 0; bad_number < 3; bad_number++) {                                   \
+            const dal_run_spec *bad = bad_specs[bad_number];                                       \
+            REFUSED(call);                                                                         \
+        }                                                                                          \
+    } while (0)
+
+/* A call with a point in every bad form. */
+#define REFUSED_POINTS(bad, call)                                                                  \
+    do {                                                                                           \
+        const dal_point no_q = {0.0, NULL, at.v}, no_v = {0.0, at.q, NULL};                        \
+        const dal_point *const bad_points[] = {NULL, &no_q, &no_v};                                \
+        for (int bad_number = 0; bad_number < 3; bad_number++) {                                   \
+            const dal_point *bad = bad_points[bad_number];                                         \
+            REFUSED_STATUS(call);                                                                  \
+        }                                                                                          \
+    } while (0)
+
+/* ---- probes ---- */
+
+static void null_dal_probe_create(void)
+{
+    dal_probe *made = probe;
+    REFUSED(dal_probe_create(NULL, system, NULL, 0, error));
+    REFUSED(dal_probe_create(&made, NULL, NULL, 0, error));
+    REFUSED(dal_probe_create(&made, system, COUNT_NEGATIVE, error));
+    REFUSED(dal_probe_create(&made, system, SETTINGS_MISSING, error));
+    REFUSED(dal_probe_create(&made, system, NAME_MISSING, error));
+    CU_ASSERT_PTR_NULL(made);
+}
+
+static void null_dal_probe_free(void) { dal_probe_free(NULL); }
+static void null_dal_probe_system(void) { CU_ASSERT_PTR_NULL(dal_probe_system(NULL)); }
+
+static void null_dal_probe_call(void)
+{
+    dal_callback *field = system->call.field, *adjoint = system->call.adjoint;
+    REFUSED_STATUS(dal_probe_call(NULL, field, 0.0, at.q, at.v, NULL, numbers));
+    REFUSED_STATUS(dal_probe_call(probe, field, 0.0, NULL, at.v, NULL, numbers));
+    REFUSED_STATUS(dal_probe_call(probe, field, 0.0, at.q, NULL, NULL, numbers));
+    REFUSED_STATUS(dal_probe_call(probe, field, 0.0, at.q, at.v, NULL, NULL));
+    REFUSED_STATUS(dal_probe_call(probe, adjoint, 0.0, at.q, at.v, NULL, numbers));
+    CU_ASSERT_EQUAL(dal_probe_call(probe, NULL, 0.0, at.q, at.v, NULL, numbers), DAL_UNSUPPORTED);
+}
+
+static void null_dal_probe_start(void)
+{
+    REFUSED(dal_probe_start(NULL, NULL, 0, numbers, error));
+    REFUSED(dal_probe_start(probe, NULL, 0, NULL, error));
+    REFUSED(dal_probe_start(probe, COUNT_NEGATIVE, numbers, error));
+    REFUSED(dal_probe_start(probe, SETTINGS_MISSING, numbers, error));
+    REFUSED(dal_probe_start(probe, NAME_MISSING, numbers, error));
+}
+
+/* ---- measures of a system ---- */
+
+static void null_dal_measure_rate(void)
+{
+    dal_callback *field = system->call.field;
+    REFUSED_STATUS(dal_measure_rate(NULL, field, 1, &at, numbers));
+    REFUSED_STATUS(dal_measure_rate(probe, field, -1, &at, numbers));
+    REFUSED_POINTS(bad, dal_measure_rate(probe, field, 1, bad, numbers));
+    REFUSED_STATUS(dal_measure_rate(probe, field, 1, &at, NULL));
+}
+
+static void null_dal_measure_derivatives(void)
+{
+    dal_derivatives out;
+    REFUSED_STATUS(dal_measure_derivatives(NULL, &at, &out));
+    REFUSED_POINTS(bad, dal_measure_derivatives(probe, bad, &out));
+    REFUSED_STATUS(dal_measure_derivatives(probe, &at, NULL));
+}
+
+static void null_dal_measure_rank(void)
+{
+    int rank;
+    double pivot;
+    REFUSED_STATUS(dal_measure_rank(NULL, &at, &rank, &pivot));
+    REFUSED_POINTS(bad, dal_measure_rank(probe, bad, &rank, &pivot));
+    REFUSED_STATUS(dal_measure_rank(probe, &at, NULL, &pivot));
+    REFUSED_STATUS(dal_measure_rank(probe, &at, &rank, NULL));
+}
+
+static void null_dal_measure_onto(void)
+{
+    REFUSED_STATUS(dal_measure_onto(NULL, 0.0, numbers, numbers + 8));
+    REFUSED_STATUS(dal_measure_onto(probe, 0.0, NULL, numbers + 8));
+    REFUSED_STATUS(dal_measure_onto(probe, 0.0, numbers, NULL));
+}
+
+static void null_dal_measure_degree(void)
+{
+    dal_degree out;
+    REFUSED_STATUS(dal_measure_degree(NULL, &at, &out, NULL));
+    REFUSED_POINTS(bad, dal_measure_degree(probe, bad, &out, NULL));
+    REFUSED_STATUS(dal_measure_degree(probe, &at, NULL, NULL));
+    CU_ASSERT_EQUAL(dal_measure_degree(probe, &at, &out, NULL), DAL_OK);
+}
+
+/* ---- measures of a method ---- */
+
+static void null_dal_order_slopes(void) { dal_order_slopes(NULL, 0.0); }
+
+static void null_dal_measure_order(void)
+{
+    dal_order order;
+    REFUSED_SPECS(bad, dal_measure_order(bad, 1.0, 2, NULL, NULL, &order, error));
+    REFUSED(dal_measure_order(&spec, 1.0, -1, NULL, NULL, &order, error));
+    REFUSED(dal_measure_order(&spec, 1.0, 2, NULL, NULL, NULL, error));
+    CU_ASSERT_EQUAL(dal_measure_order(&spec, 1.0, 2, NULL, NULL, &order, NULL), DAL_OK);
+}
+
+static void null_dal_measure_symplecticity(void)
+{
+    double defect;
+    REFUSED_SPECS(bad, dal_measure_symplecticity(bad, 0.0, NULL, 0.0, &defect, error));
+    REFUSED(dal_measure_symplecticity(&spec, 0.0, NULL, 0.0, NULL, error));
+}
+
+static void null_dal_measure_reversibility(void)
+{
+    double defect;
+    REFUSED_SPECS(bad, dal_measure_reversibility(bad, 0.0, NULL, &defect, error));
+    REFUSED(dal_measure_reversibility(&spec, 0.0, NULL, NULL, error));
+}
+
+static void null_dal_measure_pairing(void)
+{
+    dal_statistics s;
+    REFUSED_SPECS(bad, dal_measure_pairing(bad, tangent, numbers, 1, &s, error));
+    REFUSED(dal_measure_pairing(&spec, NULL, numbers, 1, &s, error));
+    REFUSED(dal_measure_pairing(&spec, system, numbers, 1, &s, error)); /* not of 2n coordinates */
+    REFUSED(dal_measure_pairing(&spec, tangent, NULL, 1, &s, error));
+    REFUSED(dal_measure_pairing(&spec, tangent, numbers, -1, &s, error));
+    REFUSED(dal_measure_pairing(&spec, tangent, numbers, 1, NULL, error));
+}
+
+/* ---- the action and Dirac's algebra ---- */
+
+static void null_dal_measure_action(void)
+{
+    double action;
+    REFUSED_STATUS(dal_measure_action(NULL, 0.0, 0.1, 10, numbers, 1.0, &action));
+    REFUSED_STATUS(dal_measure_action(probe, 0.0, 0.1, -1, numbers, 1.0, &action));
+    REFUSED_STATUS(dal_measure_action(probe, 0.0, 0.1, 10, NULL, 1.0, &action));
+    REFUSED_STATUS(dal_measure_action(probe, 0.0, 0.1, 10, numbers, 1.0, NULL));
+}
+
+static void null_dal_measure_stationarity(void)
+{
+    double defect;
+    REFUSED_STATUS(dal_measure_stationarity(NULL, 0.0, 0.1, 10, numbers, &defect));
+    REFUSED_STATUS(dal_measure_stationarity(probe, 0.0, 0.1, -1, numbers, &defect));
+    REFUSED_STATUS(dal_measure_stationarity(probe, 0.0, 0.1, 10, NULL, &defect));
+    REFUSED_STATUS(dal_measure_stationarity(probe, 0.0, 0.1, 10, numbers, NULL));
+}
+
+static double first(void *user, const double *z) { return user ? NAN : z[0]; }
+
+static void null_dal_measure_gradient(void)
+{
+    double z = 1.0, gradient = 7.0;
+    dal_measure_gradient(NULL, NULL, 1, &z, &gradient);
+    dal_measure_gradient(first, NULL, 1, NULL, &gradient);
+    dal_measure_gradient(first, NULL, 1, &z, NULL);
+    dal_measure_gradient(first, NULL, -1, &z, &gradient);
+    CU_ASSERT(z == 1.0 && gradient == 7.0);
+}
+
+static void null_dal_poisson(void)
+{
+    CU_ASSERT(isnan(dal_poisson(NULL, numbers, 1)));
+    CU_ASSERT(isnan(dal_poisson(numbers, NULL, 1)));
+    CU_ASSERT(isnan(dal_poisson(numbers, numbers, -1)));
+}
+
+static void null_dal_measure_dirac(void)
+{
+    dal_dirac out;
+    REFUSED_STATUS(dal_measure_dirac(NULL, &at, 1.0, &out));
+    REFUSED_POINTS(bad, dal_measure_dirac(probe, bad, 1.0, &out));
+    REFUSED_STATUS(dal_measure_dirac(probe, &at, 1.0, NULL));
+}
+
+/* ---- what a drift comes from ---- */
+
+static void null_dal_twin_name(void) { CU_ASSERT_STRING_EQUAL(dal_twin_name((dal_twin)-1), "?"); }
+static void null_dal_twin_text(void) { CU_ASSERT_STRING_EQUAL(dal_twin_text((dal_twin)-1), "?"); }
+
+static void null_dal_cause_name(void)
+{
+    CU_ASSERT_STRING_EQUAL(dal_cause_name((dal_cause)-1), "?");
+}
+
+static void null_dal_explain(void)
+{
+    dal_explanation *made = explanation;
+    REFUSED_SPECS(bad, dal_explain(bad, 10, 0, NULL, &made, error));
+    CU_ASSERT_PTR_NULL(made);
+    REFUSED(dal_explain(&spec, -1, 0, NULL, &made, error));
+    REFUSED(dal_explain(&spec, 10, -1, NULL, &made, error));
+    REFUSED(dal_explain(&spec, 10, 0, NULL, NULL, error));
+}
+
+static void null_dal_explanation_free(void) { dal_explanation_free(NULL); }
+
+static void null_dal_cause_words(void)
+{
+    char buffer[DAL_MESSAGE_SIZE];
+    const int count = explanation->observables;
+    CU_ASSERT_PTR_NULL(dal_cause_words(NULL, 0, DAL_CAUSE_SOLVER, buffer, sizeof buffer));
+    CU_ASSERT_PTR_NULL(dal_cause_words(explanation, 0, DAL_CAUSE_SOLVER, NULL, sizeof buffer));
+    CU_ASSERT_PTR_NULL(dal_cause_words(explanation, -1, DAL_CAUSE_SOLVER, buffer, sizeof buffer));
+    CU_ASSERT_PTR_NULL(
+        dal_cause_words(explanation, count, DAL_CAUSE_SOLVER, buffer, sizeof buffer));
+}
+
+/* ---- motions ---- */
+
+static int is_nan(const dal_average *a)
+{
+    return isnan(a->mean) && isnan(a->low) && isnan(a->high);
+}
+
+static void null_dal_statistics_mean(void)
+{
+    dal_average average = {0.0, 0.0, 0.0};
+    dal_statistics_mean(NULL, &average);
+    CU_ASSERT(is_nan(&average));
+    dal_statistics_mean(&(dal_statistics){0}, NULL);
+}
+
+static void null_dal_spectrum_create(void)
+{
+    dal_spectrum *made = spectrum;
+    REFUSED_SPECS(bad, dal_spectrum_create(&made, bad, NULL, 0, error));
+    CU_ASSERT_PTR_NULL(made);
+    REFUSED(dal_spectrum_create(NULL, &spec, NULL, 0, error));
+    REFUSED(dal_spectrum_create(&made, &spec, NULL, -1, error));
+    REFUSED(dal_spectrum_create(&made, &spec, system, 0, error)); /* not of 2n coordinates */
+}
+
+static void null_dal_spectrum_free(void) { dal_spectrum_free(NULL); }
+
+static void null_dal_spectrum_advance(void)
+{
+    REFUSED(dal_spectrum_advance(NULL, 1, error));
+    REFUSED(dal_spectrum_advance(spectrum, -1, error));
+}
+
+static void null_dal_spectrum_forget(void) { dal_spectrum_forget(NULL); }
+static void null_dal_spectrum_run(void) { CU_ASSERT_PTR_NULL(dal_spectrum_run(NULL)); }
+static void null_dal_spectrum_count(void) { CU_ASSERT_EQUAL(dal_spectrum_count(NULL), 0); }
+static void null_dal_spectrum_is_exact(void) { CU_ASSERT_EQUAL(dal_spectrum_is_exact(NULL), 0); }
+static void null_dal_spectrum_is_whole(void) { CU_ASSERT_EQUAL(dal_spectrum_is_whole(NULL), 0); }
+
+static void null_dal_spectrum_exponent(void)
+{
+    for (int k = 0; k < 3; k++) {
+        dal_average average = {0.0, 0.0, 0.0};
+        dal_spectrum_exponent(k ? spectrum : NULL, k == 1 ? -1 : k == 2 ? 1 : 0, &average);
+        CU_ASSERT(is_nan(&average));
+    }
+    dal_spectrum_exponent(spectrum, 0, NULL);
+}
+
+static void null_dal_spectrum_sum(void)
+{
+    dal_average average = {0.0, 0.0, 0.0};
+    dal_spectrum_sum(NULL, &average);
+    CU_ASSERT(is_nan(&average));
+    dal_spectrum_sum(spectrum, NULL);
+}
+
+static void null_dal_spectrum_divergence(void)
+{
+    dal_average average = {0.0, 0.0, 0.0};
+    dal_spectrum_divergence(NULL, &average);
+    CU_ASSERT(is_nan(&average));
+    dal_spectrum_divergence(spectrum, NULL);
+}
+
+static void null_dal_run_crossings(void)
+{
+    dal_crossings found;
+    dal_poincare section = {.callback = system->energy, .count = 1};
+    REFUSED(dal_run_crossings(NULL, 1.0, &section, &found, error));
+    REFUSED(dal_run_crossings(run, 1.0, NULL, &found, error));
+    REFUSED(dal_run_crossings(run, 1.0, &section, NULL, error));
+    section.index = -1;
+    REFUSED(dal_run_crossings(run, 1.0, &section, &found, error));
+    section = (dal_poincare){.callback = system->energy, .count = -1};
+    REFUSED(dal_run_crossings(run, 1.0, &section, &found, error));
+    section = (dal_poincare){.count = 1};
+    REFUSED(dal_run_crossings(run, 1.0, &section, &found, error));
+}
+
+void suite_null_measure(void)
+{
+    CU_pSuite suite =
+        CU_add_suite("NULL and negative counts: measures", open_objects, close_objects);
+    FUNCTIONS_dalembert_measure(ADD_NULL_TEST) FUNCTIONS_dalembert_causes(ADD_NULL_TEST)
+        FUNCTIONS_dalembert_motion(ADD_NULL_TEST)
+}

@@ -1,0 +1,12 @@
+# functions.awk - lists the functions that each public header declares: FUNCTIONS_HEADER(X).
+FNR == 1 {
+    name = FILENAME
+    gsub("^.*/|[.]h$", "", name)
+    printf "%s#define FUNCTIONS_%s(X)", (NR > 1 ? "\n" : ""), name
+}
+# Not yet: dal_statistics_*, dal_verdict_text, which are being rewritten.
+/dal_(statistics_[^m]|(verdict|trend|size)_)/ { next }
+/^[a-z]/ && !/^(typedef|static|extern)/ && match($0, "[ *]dal_[a-z0-9_]+[(]") {
+    printf " X(%s)", substr($0, RSTART + 1, RLENGTH - 2)
+}
+END { print "" }
