@@ -36,7 +36,7 @@
       "what the drift of a run comes from")                                                        \
     X(generate, "SYSTEM --integrator NAME [OPTION]... -o FILE.c",                                  \
       "one C file that steps a system and needs nothing else")                                     \
-    X(report, "DIR [OPTION]...", "a page of a run, a study or orders: verdicts, figures")
+    X(report, "DIR [OPTION]...", "a page of a run, a study or orders: trends, figures")
 
 #define X(name, synopsis, about) int command_##name(int argc, char **argv);
 COMMAND_LIST(X)
@@ -163,16 +163,19 @@ int cli_load(const char *system, dal_model **model, const dal_system **made);
 int cli_read(const char *system, dal_model **model);
 int cli_make(const char *place, dal_model **model, const dal_system **made);
 
-/* ---- verdicts ------------------------------------------------------------------------------ */
+/* ---- trends ------------------------------------------------------------------------------ */
 
-/* What became of an observable.  H is measured by its own size, which the start sets; all others
- * by max(1, |x|). */
-void cli_judge(const char *observable, const dal_statistics *statistics, int aborted,
-               dal_finding *finding);
-/* The columns amplitude, rate, rate_low, rate_high, exponent, verdict, confidence of a CSV file:
- * their heads, and the numbers with a comma before each. */
-extern const char cli_finding_heads[];
-void cli_put_finding(FILE *out, const dal_finding *finding);
+/* The columns amplitude, rate, rate_low, rate_high, exponent, size, trend, confidence of a CSV
+ * file: their heads, and the cells with a comma before each; what cannot be stated is empty. */
+extern const char cli_trend_heads[];
+void cli_put_trend(FILE *out, const dal_trend *trend);
+/* Size and trend as words; "" where the motion need not conserve the quantity. */
+const char *cli_size_word(const dal_trend *trend);
+const char *cli_trend_word(const dal_trend *trend);
+/* The trend for a reader: "linear", "linear, 0.87" (its confidence, where it is no certainty),
+ * "none, |drift| <= 1.2e-15" (the largest drift that the interval of the rate admits over the run),
+ * or that the motion does not conserve the quantity.  Returns buffer. */
+char *cli_trend_text(const dal_trend *trend, char *buffer, size_t size);
 
 /* ---- output -------------------------------------------------------------------------------- */
 

@@ -49,7 +49,7 @@ static void begin(void *user, dal_run *run, long long steps)
 
 /* ---- in words ---- */
 
-static void print_rate(const dal_finding *f, double whole)
+static void print_rate(const dal_trend *f, double whole)
 {
     printf("%+10.2e (%+.1e %+.1e)  %9.2e", f->rate, f->rate_low, f->rate_high, f->deviation);
     if (whole > 0.0) printf("  x %.3g", f->deviation / whole);
@@ -93,7 +93,12 @@ static void print_cause(const dal_explanation *e, int i, dal_cause cause)
 static void print_one(const dal_explanation *e, int i)
 {
     const dal_attribution *a = &e->of[i];
-    printf("%s: %s\n", a->name, dal_verdict_text(a->all.verdict));
+    char text[128];
+    cli_trend_text(&a->all, text, sizeof text);
+    if (a->all.conservation == DAL_CONSERVED)
+        printf("%s: %s; trend: %s\n", a->name, dal_size_text(a->all.size), text);
+    else
+        printf("%s: %s\n", a->name, text);
     for (int k = 0; k < DAL_CAUSES; k++) print_cause(e, i, (dal_cause)k);
     printf("    %-48s %-31s %10s\n", "", "rate", "deviation");
     printf("    all %-44lld ", e->steps);
@@ -140,13 +145,15 @@ static void put_numbers(FILE *out, const double *numbers, int count)
 }
 
 static void put_run(FILE *out, const char *observable, const char *name, long long steps,
-                    const dal_finding *f)
+                    const dal_trend *f)
 {
     const double numbers[] = {f->rate, f->rate_low, f->rate_high, f->deviation};
     cli_put_text(out, observable);
     fprintf(out, ",run,%s,%lld,,", name, steps);
     put_numbers(out, numbers, 4);
-    fprintf(out, ",%s,\n", dal_verdict_text(f->verdict));
+    fprintf(out, ",%s,%s,", cli_size_word(f), cli_trend_word(f));
+    if (f->conservation == DAL_CONSERVED) fprintf(out, "%.3g", f->confidence);
+    fputs(",\n", out);
 }
 
 static void put_cause(FILE *out, const dal_explanation *e, int i, dal_cause cause)
@@ -158,15 +165,15 @@ static void put_cause(FILE *out, const dal_explanation *e, int i, dal_cause caus
     fprintf(out, ",cause,%s,%lld", dal_cause_name(cause),
             cause == DAL_CAUSE_PROJECTION || e->early == 0 ? e->steps : e->early);
     put_numbers(out, numbers, 2);
-    fputs(",,,,,,", out);
+    fputs(",,,,,,,,", out);
     cli_put_text(out, dal_cause_words(e, i, cause, words, sizeof words));
     fputc('\n', out);
 }
 
 static void put_all(FILE *out, const dal_explanation *e)
 {
-    fputs("observable,kind,name,steps,share,margin,rate,rate_low,rate_high,deviation,verdict,words"
-          "\n",
+    fputs("observable,kind,name,steps,share,margin,rate,rate_low,rate_high,deviation,size,trend,"
+          "confidence,words\n",
           out);
     for (int i = 0; i < e->observables; i++) {
         const dal_attribution *a = &e->of[i];

@@ -42,8 +42,8 @@ static int make_room(cli_record *r)
     r->names = calloc(count, sizeof *r->names);
     r->column = calloc(count, sizeof *r->column);
     r->statistics = calloc((size_t)r->observables + 1, sizeof *r->statistics);
-    r->finding = calloc((size_t)r->observables + 1, sizeof *r->finding);
-    if (!r->values || !r->row || !r->names || !r->column || !r->statistics || !r->finding ||
+    r->trend = calloc((size_t)r->observables + 1, sizeof *r->trend);
+    if (!r->values || !r->row || !r->names || !r->column || !r->statistics || !r->trend ||
         !name_values(r, (int)count))
         return cli_fail(CLI_IO, "out of memory");
     dal_statistics_start(r->statistics, r->observables);
@@ -73,12 +73,6 @@ static int interrupted(void *user)
     return cli_interrupted();
 }
 
-static void judge(cli_record *r, int aborted)
-{
-    for (int i = 0; i < r->observables; i++)
-        cli_judge(record_observable(r, i), &r->statistics[i], aborted, &r->finding[i]);
-}
-
 static const char *state_word(int status)
 {
     return status == CLI_DONE ? "done" : status == CLI_SIGNAL ? "interrupted" : "failed";
@@ -92,7 +86,7 @@ int record_open(cli_record *r, const cli_job *job, cli_store *store, const char 
     int status = make_room(r);
     if (status == CLI_DONE) status = open_table(r, output);
     if (status != CLI_DONE || !record_is_finished(r)) return status;
-    judge(r, 0);
+    dal_run_classify(job->run, r->statistics, 0, r->trend);
     /* Killed between its last checkpoint and the manifest. */
     return manifest_is_over(store->manifest)
                ? CLI_DONE
@@ -108,7 +102,7 @@ void record_close(cli_record *r)
     free(r->names);
     free(r->column);
     free(r->statistics);
-    free(r->finding);
+    free(r->trend);
 }
 
 int record_is_finished(const cli_record *r) { return r->mark.row > r->job->samples; }
@@ -269,6 +263,6 @@ int record_go(cli_record *r, dal_error *error)
     pause_clock(r);
     if (r->progress != PROGRESS_OFF) cli_progress_end();
     progress_show(r, dal_run_time(r->job->run), 1);
-    judge(r, status != DAL_OK);
+    dal_run_classify(r->job->run, r->statistics, status != DAL_OK, r->trend);
     return keep(r, conclude(r, status, error), error->message);
 }

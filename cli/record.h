@@ -25,7 +25,7 @@ typedef struct cli_record {
     char **names;               /* [1 + dimension + observables] of values */
     int *column;                /* [columns] which of values a column is */
     dal_statistics *statistics; /* [observables] */
-    dal_finding *finding;       /* [observables] when the run is finished or has failed */
+    dal_trend *trend;           /* [observables] when the run is finished or has failed */
     cli_mark mark;
     dal_observer observer;
     double interval;       /* seconds between checkpoints */

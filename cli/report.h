@@ -31,8 +31,9 @@ void report_title(report *r, const char *title);
 /* Text in which &, <, > and quotes are taken care of. */
 void report_text(FILE *page, const char *text);
 void report_element(FILE *page, const char *element, const char *text);
-/* A cell of a table for a verdict, in words and in colour, and a number beneath it. */
-void report_verdict(FILE *page, const char *verdict, const char *number);
+/* A cell of a table for a size and a trend, in words and in colour, and a number beneath them.
+ * Without both it holds the number alone. */
+void report_trend(FILE *page, const char *size, const char *trend, const char *number);
 /* A file of the directory, word for word, as something to unfold; nothing where there is none. */
 void report_file(report *r, const char *name, const char *summary);
 /* The figure DIR/report/NAME.svg, inside the page; alt says in words what it shows. */

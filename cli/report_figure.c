@@ -54,7 +54,7 @@ static const char *find_accuracy(const figure *f)
     static const char *const columns[] = {"error_max", "invariant_deviation", "E_deviation"};
     for (int k = 0; k < 3; k++)
         for (int row = 1; row < f->c->csv.rows; row++) {
-            int kept = k < 2 || !report_is(f->c, row, "E_verdict", "-");
+            int kept = k < 2 || !report_is(f->c, row, "E_trend", "");
             if (report_is(f->c, row, "label", f->label) && kept &&
                 report_get(f->c, row, columns[k])[0])
                 return columns[k];

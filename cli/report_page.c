@@ -32,11 +32,25 @@ void report_element(FILE *page, const char *element, const char *text)
     fprintf(page, "</%.*s>", (int)strcspn(element, " "), element);
 }
 
-/* The words of a verdict are the classes of its colour: "linear drift" is of the class drift. */
-void report_verdict(FILE *page, const char *verdict, const char *number)
+/* The colour of a cell: a trend that grows is never that of no trend, whatever its size. */
+static const char *class_of(const char *size, const char *trend)
 {
-    fprintf(page, "<td class=\"verdict %s\">%s", verdict, verdict);
-    if (number[0]) fprintf(page, "<br><small>%s</small>", number);
+    static const char *const off[] = {"", "failed", "aborted", "undecided"};
+    static const char *const stays[] = {"none", "settles"};
+    for (size_t i = 0; i < sizeof off / sizeof off[0]; i++)
+        if (strcmp(trend, off[i]) == 0) return "off";
+    for (size_t i = 0; i < sizeof stays / sizeof stays[0]; i++)
+        if (strcmp(trend, stays[i]) == 0) return strcmp(size, "larger") == 0 ? "bounded" : "kept";
+    return strcmp(size, "larger") == 0 ? "drift" : "small";
+}
+
+void report_trend(FILE *page, const char *size, const char *trend, const char *number)
+{
+    const int is_exact = strcmp(size, "exact") == 0;
+    fprintf(page, "<td class=\"trend %s\">", class_of(size, trend));
+    if (size[0] && !is_exact) fprintf(page, "%s<br>", size);
+    fputs(is_exact ? "exact" : trend, page);
+    if (number[0]) fprintf(page, "%s<small>%s</small>", trend[0] ? "<br>" : "", number);
     fputs("</td>", page);
 }
 
@@ -118,9 +132,9 @@ static const char head[] =
     "th { font-weight: 600; overflow-wrap: anywhere; }\n"
     "tbody th { text-align: left; overflow-wrap: normal; position: sticky; left: 0;\n"
     "  background: var(--paper); }\n"
-    ".exact, .rounding { background: var(--kept); } .bounded { background: var(--bounded); }\n"
-    ".drift, .power, .exponential { background: var(--drift); font-weight: 600; }\n"
-    ".aborted, .data, .failed { background: var(--off); }\n"
+    ".kept, .small { background: var(--kept); } .small { font-weight: 600; }\n"
+    ".bounded { background: var(--bounded); } .off { background: var(--off); }\n"
+    ".drift { background: var(--drift); font-weight: 600; }\n"
     "ul.key { list-style: none; padding: 0; max-width: 48rem; }\n"
     ".key li { padding: 0.1rem 0.5rem; border: 1px solid var(--line); }\n"
     "a { color: inherit; }\n"

@@ -204,21 +204,44 @@ static int make_memory(run_page *run)
 
 /* ---- the summary ---- */
 
-static void put_quantity(FILE *page, const report_csv *csv, int row)
+static void put_number(FILE *page, const report_csv *csv, int row, const char *head)
 {
-    static const char *const columns[] = {"first", "final",    "maximum",   "deviation",
-                                          "rate",  "rate_low", "rate_high", "exponent"};
+    const double x = report_csv_number(csv, row, head);
+    if (isnan(x))
+        fputs("<td>–</td>", page);
+    else
+        fprintf(page, "<td>%.4g</td>", x);
+}
+
+/* The largest drift over a time that the interval of the rate admits, where there is no
+ * trend. */
+static void say_drift(char *text, size_t size, const report_csv *csv, int row, double time)
+{
+    const double most = fmax(fabs(report_csv_number(csv, row, "rate_low")),
+                             fabs(report_csv_number(csv, row, "rate_high")));
+    const int is_exact = strcmp(report_csv_get(csv, row, "size"), "exact") == 0;
+    text[0] = '\0';
+    if (!is_exact && strcmp(report_csv_get(csv, row, "trend"), "none") == 0)
+        snprintf(text, size, "|drift| ≤ %.1e", most * time);
+}
+
+static void put_quantity(FILE *page, const report_csv *csv, int row, double time)
+{
+    static const char *const columns[] = {"confidence", "first",     "final",
+                                          "maximum",    "deviation", "rate",
+                                          "rate_low",   "rate_high", "exponent"};
     fputs("<tr>", page);
     report_element(page, "th scope=\"row\"", report_csv_get(csv, row, "observable"));
-    report_verdict(page, report_csv_get(csv, row, "verdict"), "");
-    fprintf(page, "<td>%.2f</td>", report_csv_number(csv, row, "confidence"));
+    char drift[64];
+    say_drift(drift, sizeof drift, csv, row, time);
+    report_trend(page, report_csv_get(csv, row, "size"), report_csv_get(csv, row, "trend"), drift);
     for (size_t k = 0; k < sizeof columns / sizeof columns[0]; k++)
-        fprintf(page, "<td>%.4g</td>", report_csv_number(csv, row, columns[k]));
+        put_number(page, csv, row, columns[k]);
     fputs("</tr>\n", page);
 }
 
 /* summary.csv is there when the run is over. */
-static int put_summary(report *r)
+static int put_summary(report *r, double time)
 {
     report_csv csv = {0};
     char *path = cli_join(r->directory, "summary.csv");
@@ -227,12 +250,14 @@ static int put_summary(report *r)
     if (there) {
         fclose(there);
         status = report_csv_read(&csv, path);
-        fputs("<h2>Verdicts</h2>\n<div class=\"wide\" tabindex=\"0\"><table><thead><tr><td></td>"
-              "<th>verdict</th><th>confi&shy;dence</th><th>first</th><th>final</th><th>max |x|</th>"
+        fputs("<h2>Size and trend</h2>\n<div class=\"wide\" "
+              "tabindex=\"0\"><table><thead><tr><td></td>"
+              "<th>size, trend</th><th>confi&shy;dence</th><th>first</th><th>final</th><th>max "
+              "|x|</th>"
               "<th>max |x − first|</th><th>rate</th><th>rate, from</th><th>to (95 %)</th>"
               "<th>exponent</th></tr></thead>\n<tbody>",
               r->page);
-        for (int row = 1; row < csv.rows; row++) put_quantity(r->page, &csv, row);
+        for (int row = 1; row < csv.rows; row++) put_quantity(r->page, &csv, row, time);
         fputs("</tbody></table></div>\n", r->page);
         report_csv_free(&csv);
     }
@@ -318,7 +343,7 @@ static int write_page(run_page *run, const cli_job *job)
 {
     report *r = run->r;
     put_heading(r, job);
-    int status = put_summary(r);
+    int status = put_summary(r, job->time);
     fputs("<h2>Figures</h2>\n<div class=\"figures\">\n", r->page);
     if (status == CLI_DONE && job->system)
         status = report_path(r, r->directory, "path",

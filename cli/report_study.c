@@ -1,8 +1,8 @@
 /* report_study.c - the page of a study: what becomes of D, E, the invariants and H with each
  * method.
  *
- * First the tables of verdicts, methods against systems; then the figures of each system; then what
- * was asked for, and the tables of the study as they were printed. */
+ * First the tables of sizes and trends, methods against systems; then the figures of each system;
+ * then the expectations, and the tables of the study as they were printed. */
 #include "report.h"
 
 #include "file.h"
@@ -45,20 +45,20 @@ int report_find(const report_cells *cells, const char *label, const char *method
     return found;
 }
 
-/* ---- tables of verdicts ---- */
+/* ---- tables of sizes and trends ---- */
 
 typedef struct theme {
-    const char *title, *start, *other, *value, *verdict;
+    const char *title, *start, *other, *value, *size, *trend;
 } theme;
 
 /* On p = pi = 0 the lifted run has the bits of the physical one, so that either will do. */
 static const theme themes[] = {
-    {"Constraints: max |D|", "physical", "surface", "D_max", "D_verdict"},
-    {"Energy: max |E − E(0)|", "physical", "surface", "E_deviation", "E_verdict"},
+    {"Constraints: max |D|", "physical", "surface", "D_max", "D_size", "D_trend"},
+    {"Energy: max |E − E(0)|", "physical", "surface", "E_deviation", "E_size", "E_trend"},
     {"Invariants of the systems: max |I − I(0)|, the worst of each", "physical", "surface",
-     "invariant_deviation", "invariant_verdict"},
+     "invariant_deviation", "invariant_size", "invariant_trend"},
     {"Hamiltonian of the lift: max |H − H(0)|, started off p = π = 0", "displaced", "displaced",
-     "H_deviation", "H_verdict"},
+     "H_deviation", "H_size", "H_trend"},
 };
 
 /* A column of the tables: a label at a step. */
@@ -100,15 +100,14 @@ static void put_cell(FILE *page, const report_cells *c, int row, const theme *t)
 {
     char number[32] = "";
     const char *value = row < 0 ? "" : report_get(c, row, t->value);
-    const char *verdict = row < 0 ? "" : report_get(c, row, t->verdict);
     const double size = strtod(value, NULL);
     if (value[0]) snprintf(number, sizeof number, size == 0.0 ? "0" : "%.1e", size);
     if (row >= 0 && report_is(c, row, "state", "failed"))
-        report_verdict(page, "failed", number);
+        report_trend(page, "", "failed", number);
     else if (!value[0])
         fputs("<td>–</td>", page);
     else
-        report_verdict(page, strcmp(verdict, "-") == 0 ? "not conserved" : verdict, number);
+        report_trend(page, report_get(c, row, t->size), report_get(c, row, t->trend), number);
 }
 
 static void put_heads(FILE *page, const columns *all)
@@ -166,7 +165,7 @@ static void put_expectation(FILE *page, const report_csv *csv, int row)
     report_element(page, "td", report_csv_get(csv, row, "quantity"));
     report_element(page, "td", report_csv_get(csv, row, "expected"));
     report_element(page, "td", report_csv_get(csv, row, "found"));
-    fprintf(page, "<td class=\"%s\">%s</td></tr>\n", met ? "exact" : "drift",
+    fprintf(page, "<td class=\"%s\">%s</td></tr>\n", met ? "kept" : "drift",
             met ? "met" : "not met");
 }
 
@@ -209,13 +208,21 @@ static int tell_expectations(report *r)
 /* ---- the page ---- */
 
 static const char introduction[] =
-    "<p>Each cell has a verdict and a size; – : the method needs what the system lacks.</p>\n"
+    "<p>Each cell has a size, a trend and the number that the heading names; – : the method "
+    "needs what the system lacks.</p>\n"
     "<ul class=\"key\">\n"
-    "<li class=\"exact\">exact: never changed; rounding: changed by rounding alone</li>\n"
-    "<li class=\"bounded\">bounded: to and fro about one value</li>\n"
-    "<li class=\"drift\">linear drift, power law, exponential: grows so</li>\n"
-    "<li class=\"failed\">failed, aborted: the run broke off; not enough data: too few samples, or "
-    "too slow an oscillation, to tell</li>\n"
+    "<li class=\"kept\">exact: never changed; rounding: no larger than roundings of so many steps "
+    "make, and no trend: it stays about one value, or changes once (settles)</li>\n"
+    "<li class=\"small\">rounding, and a trend: a random walk, or a drift of roundings to one "
+    "side</li>\n"
+    "<li class=\"bounded\">larger, none: larger than roundings, about one value; settles: changes "
+    "once</li>\n"
+    "<li class=\"drift\">larger, and random walk, linear, power law, exponential, growing "
+    "oscillation: grows so</li>\n"
+    "<li class=\"off\">failed, aborted: the run broke off; undecided: too few samples, or too "
+    "slow an oscillation, to decide; a number alone: E where the motion of the run need not "
+    "conserve "
+    "it</li>\n"
     "</ul>\n"
     "<p>On p = π = 0 a lifted method is the same method on (q,v), bit for bit. That a method is\n"
     "symplectic on the lift says nothing there about D or the energy: every one-step method,\n"

@@ -20,9 +20,13 @@ static const char run_notes[] =
     "kill -9 included, and ends in the same bytes.\n"
     "\n"
     "The summary follows every observable at every step: maximum, final value, amplitude of its\n"
-    "oscillation, drift rate with its 95 % interval, exponent of growth, and a verdict with its\n"
-    "confidence: exact, rounding, bounded, linear drift, power law, exponential, aborted, not\n"
-    "enough data.\n";
+    "oscillation, drift rate with its 95 % interval, exponent of growth; its size: exact, "
+    "rounding\n"
+    "or larger; and its trend: none, settles, random walk, linear, power law, exponential, "
+    "growing\n"
+    "oscillation, undecided or aborted, with a confidence.  E has neither size nor trend where "
+    "the\n"
+    "motion does not conserve it.\n";
 
 int run_take_interval(const char *text, double *interval)
 {

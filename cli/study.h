@@ -160,7 +160,7 @@ struct study_cell {
     double seconds; /* of the thread's processor time, in steps */
     uint64_t bits;  /* a hash of the bits of (q,v) at all samples */
     int observables;
-    dal_finding *finding;      /* [observables] in the order of dal_run_observe */
+    dal_trend *trend;          /* [observables] in the order of dal_run_observe */
     char (*names)[STUDY_NAME]; /* [observables] */
     double (*windows)[STUDY_TRACKS];
     int window_count;
@@ -186,11 +186,9 @@ char *study_cell_name(const study_cell *cell);
 char *study_cell_directory(const study_plan *plan, const study_cell *cell);
 /* What became of an observable by name, or NULL; of the worst of D1, D2, ... and of the invariants.
  */
-const dal_finding *study_finding(const study_cell *cell, const char *name);
-const dal_finding *study_worst_constraint(const study_cell *cell);
-const dal_finding *study_worst_invariant(const study_cell *cell, const char **name);
-/* A verdict in words; "-" for E of a system that does not conserve it. */
-const char *study_verdict(const study_cell *cell, const dal_finding *finding);
+const dal_trend *study_trend(const study_cell *cell, const char *name);
+const dal_trend *study_worst_constraint(const study_cell *cell);
+const dal_trend *study_worst_invariant(const study_cell *cell, const char **name);
 /* The cell with the same method and step in (q,v), or NULL. */
 const study_cell *study_physical_twin(const study_plan *plan, const study_cell *cell);
 

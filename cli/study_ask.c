@@ -1,4 +1,4 @@
-/* study_ask.c - what is asked of a cell: its names, and its findings by name. */
+/* study_ask.c - what is asked of a cell: its names, and its trends by name. */
 #include "study.h"
 
 #include <stdlib.h>
@@ -56,42 +56,35 @@ const char *study_state_word(study_state state)
     return words[state];
 }
 
-/* ---- findings ---- */
+/* ---- trends ---- */
 
-const dal_finding *study_finding(const study_cell *cell, const char *name)
+const dal_trend *study_trend(const study_cell *cell, const char *name)
 {
     for (int i = 0; i < cell->observables; i++)
-        if (strcmp(cell->names[i], name) == 0) return &cell->finding[i];
+        if (strcmp(cell->names[i], name) == 0) return &cell->trend[i];
     return NULL;
 }
 
-const dal_finding *study_worst_constraint(const study_cell *cell)
+const dal_trend *study_worst_constraint(const study_cell *cell)
 {
-    const dal_finding *worst = NULL;
+    const dal_trend *worst = NULL;
     int m = cell->entry->system->m;
     for (int a = 0; a < m && a < cell->observables; a++)
-        if (!worst || cell->finding[a].greatest > worst->greatest) worst = &cell->finding[a];
+        if (!worst || cell->trend[a].max_abs > worst->max_abs) worst = &cell->trend[a];
     return worst;
 }
 
-const dal_finding *study_worst_invariant(const study_cell *cell, const char **name)
+const dal_trend *study_worst_invariant(const study_cell *cell, const char **name)
 {
-    const dal_finding *worst = NULL;
+    const dal_trend *worst = NULL;
     const dal_system *s = cell->entry->system;
     for (int i = 0; i < s->invariants; i++) {
-        const dal_finding *finding = study_finding(cell, s->invariant[i]);
-        if (!finding || (worst && finding->deviation <= worst->deviation)) continue;
-        worst = finding;
+        const dal_trend *trend = study_trend(cell, s->invariant[i]);
+        if (!trend || (worst && trend->deviation <= worst->deviation)) continue;
+        worst = trend;
         if (name) *name = s->invariant[i];
     }
     return worst;
-}
-
-const char *study_verdict(const study_cell *cell, const dal_finding *finding)
-{
-    int conserved = (cell->entry->system->properties & (DAL_E_EXACT | DAL_E_WEAK)) != 0;
-    if (finding == study_finding(cell, "E") && !conserved) return "-";
-    return dal_verdict_text(finding->verdict);
 }
 
 const study_cell *study_physical_twin(const study_plan *plan, const study_cell *cell)

@@ -124,16 +124,16 @@ static int make_memory(walk *w)
     study_cell *c = w->cell;
     const cli_record *r = &w->keep.record;
     const size_t count = (size_t)r->observables + 1;
-    c->finding = calloc(count, sizeof *c->finding);
+    c->trend = calloc(count, sizeof *c->trend);
     c->names = calloc(count, sizeof *c->names);
     c->windows = calloc(STUDY_WINDOWS, sizeof *c->windows);
     w->values = calloc(2 * count, sizeof *w->values);
-    if (!c->finding || !c->names || !c->windows || !w->values)
+    if (!c->trend || !c->names || !c->windows || !w->values)
         return cli_fail(CLI_IO, "out of memory");
     w->first = w->values + count;
     c->observables = r->observables;
     for (int i = 0; i < c->observables; i++) {
-        c->finding[i] = r->finding[i];
+        c->trend[i] = r->trend[i];
         snprintf(c->names[i], sizeof c->names[i], "%s", record_observable(r, i));
     }
     w->n = c->entry->system->n;
@@ -310,7 +310,7 @@ int study_cell_can_run(study_cell *cell)
 
 void study_cell_free(study_cell *cell)
 {
-    free(cell->finding);
+    free(cell->trend);
     free(cell->names);
     free(cell->windows);
     *cell = (study_cell){.entry = cell->entry,

@@ -14,10 +14,10 @@ struct study_output {
 
 /* ---- a row per cell ---- */
 
-/* What became of it and a verdict, or count = 0 where the cell has none. */
+/* What became of it, or count = 0 where the cell has none. */
 typedef struct quantity {
-    dal_finding finding;
-    const char *verdict, *name;
+    dal_trend trend;
+    const char *name;
 } quantity;
 
 typedef struct row {
@@ -28,26 +28,24 @@ typedef struct row {
     char method[STUDY_NAME];
 } row;
 
-static quantity make_quantity(const study_cell *cell, const dal_finding *finding, const char *name)
+static quantity make_quantity(const dal_trend *trend, const char *name)
 {
-    quantity q = {.verdict = "", .name = ""};
-    if (!finding) return q;
-    return (quantity){*finding, study_verdict(cell, finding), name};
+    return trend ? (quantity){*trend, name} : (quantity){.name = ""};
 }
 
 static quantity named(const study_cell *cell, const char *name)
 {
-    return make_quantity(cell, study_finding(cell, name), name);
+    return make_quantity(study_trend(cell, name), name);
 }
 
 static row make_row(const study_plan *plan, const study_cell *cell)
 {
     row r = {.plan = plan, .cell = cell, .entry = cell->entry};
     const char *invariant = "";
-    const dal_finding *worst = study_worst_invariant(cell, &invariant);
+    const dal_trend *worst = study_worst_invariant(cell, &invariant);
     dal_method_name(cell->method, r.method, sizeof r.method);
-    r.D = make_quantity(cell, study_worst_constraint(cell), "D");
-    r.invariant = make_quantity(cell, worst, invariant);
+    r.D = make_quantity(study_worst_constraint(cell), "D");
+    r.invariant = make_quantity(worst, invariant);
     r.E = named(cell, "E");
     r.H = named(cell, "H");
     r.p = named(cell, "|p|");
@@ -59,7 +57,17 @@ static row make_row(const study_plan *plan, const study_cell *cell)
 
 static void put_number(FILE *out, const quantity *q, double value)
 {
-    if (q->finding.count > 0) cli_put(out, value);
+    if (q->trend.count > 0) cli_put(out, value);
+}
+
+static void put_size(FILE *out, const quantity *q)
+{
+    if (q->trend.count > 0) fputs(cli_size_word(&q->trend), out);
+}
+
+static void put_trend(FILE *out, const quantity *q)
+{
+    if (q->trend.count > 0) fputs(cli_trend_word(&q->trend), out);
 }
 
 static void put_same(FILE *out, const row *r)
@@ -92,25 +100,29 @@ static void put_run(FILE *out, const row *r)
     X(reached, cli_put(out, r->cell->time))                                                        \
     X(steps, fprintf(out, "%lld", r->cell->steps))                                                 \
     X(evaluations, fprintf(out, "%lld", r->cell->evaluations))                                     \
-    X(D_max, put_number(out, &r->D, r->D.finding.greatest))                                        \
-    X(D_rate, put_number(out, &r->D, r->D.finding.rate))                                           \
-    X(D_verdict, fputs(r->D.verdict, out))                                                         \
-    X(E_first, put_number(out, &r->E, r->E.finding.first))                                         \
-    X(E_deviation, put_number(out, &r->E, r->E.finding.deviation))                                 \
-    X(E_rate, put_number(out, &r->E, r->E.finding.rate))                                           \
-    X(E_verdict, fputs(r->E.verdict, out))                                                         \
-    X(H_first, put_number(out, &r->H, r->H.finding.first))                                         \
-    X(H_deviation, put_number(out, &r->H, r->H.finding.deviation))                                 \
-    X(H_rate, put_number(out, &r->H, r->H.finding.rate))                                           \
-    X(H_verdict, fputs(r->H.verdict, out))                                                         \
-    X(p_max, put_number(out, &r->p, r->p.finding.greatest))                                        \
-    X(pi_max, put_number(out, &r->pi, r->pi.finding.greatest))                                     \
-    X(pi_e_max, put_number(out, &r->pi_e, r->pi_e.finding.greatest))                               \
+    X(D_max, put_number(out, &r->D, r->D.trend.max_abs))                                           \
+    X(D_rate, put_number(out, &r->D, r->D.trend.rate))                                             \
+    X(D_size, put_size(out, &r->D))                                                                \
+    X(D_trend, put_trend(out, &r->D))                                                              \
+    X(E_first, put_number(out, &r->E, r->E.trend.first))                                           \
+    X(E_deviation, put_number(out, &r->E, r->E.trend.deviation))                                   \
+    X(E_rate, put_number(out, &r->E, r->E.trend.rate))                                             \
+    X(E_size, put_size(out, &r->E))                                                                \
+    X(E_trend, put_trend(out, &r->E))                                                              \
+    X(H_first, put_number(out, &r->H, r->H.trend.first))                                           \
+    X(H_deviation, put_number(out, &r->H, r->H.trend.deviation))                                   \
+    X(H_rate, put_number(out, &r->H, r->H.trend.rate))                                             \
+    X(H_size, put_size(out, &r->H))                                                                \
+    X(H_trend, put_trend(out, &r->H))                                                              \
+    X(p_max, put_number(out, &r->p, r->p.trend.max_abs))                                           \
+    X(pi_max, put_number(out, &r->pi, r->pi.trend.max_abs))                                        \
+    X(pi_e_max, put_number(out, &r->pi_e, r->pi_e.trend.max_abs))                                  \
     X(invariant, cli_put_text(out, r->invariant.name))                                             \
-    X(invariant_deviation, put_number(out, &r->invariant, r->invariant.finding.deviation))         \
-    X(invariant_rate, put_number(out, &r->invariant, r->invariant.finding.rate))                   \
-    X(invariant_verdict, fputs(r->invariant.verdict, out))                                         \
-    X(error_max, put_number(out, &r->error, r->error.finding.greatest))                            \
+    X(invariant_deviation, put_number(out, &r->invariant, r->invariant.trend.deviation))           \
+    X(invariant_rate, put_number(out, &r->invariant, r->invariant.trend.rate))                     \
+    X(invariant_size, put_size(out, &r->invariant))                                                \
+    X(invariant_trend, put_trend(out, &r->invariant))                                              \
+    X(error_max, put_number(out, &r->error, r->error.trend.max_abs))                               \
     X(same_as_physical, put_same(out, r))                                                          \
     X(bits, fprintf(out, "%016llx", (unsigned long long)r->cell->bits))                            \
     X(run, put_run(out, r))                                                                        \
@@ -154,8 +166,8 @@ static void put_key(FILE *out, const row *r)
 static void put_quantities(FILE *out, const row *r)
 {
     for (int i = 0; i < r->cell->observables; i++) {
-        const dal_finding *d = &r->cell->finding[i];
-        const double numbers[] = {d->first, d->last, d->greatest, d->deviation};
+        const dal_trend *d = &r->cell->trend[i];
+        const double numbers[] = {d->first, d->last, d->max_abs, d->deviation};
         put_key(out, r);
         fputc(',', out);
         cli_put_text(out, r->cell->names[i]);
@@ -163,7 +175,7 @@ static void put_quantities(FILE *out, const row *r)
             fputc(',', out);
             cli_put(out, numbers[k]);
         }
-        cli_put_finding(out, d);
+        cli_put_trend(out, d);
         fputc('\n', out);
     }
 }
@@ -241,7 +253,7 @@ int study_output_open(study_output **output, const char *directory)
     if (status != CLI_DONE) return status;
     put_heads(o->cells);
     fprintf(o->quantities, "label,integrator,start,step,quantity,first,last,max,deviation,%s\n",
-            cli_finding_heads);
+            cli_trend_heads);
     return CLI_DONE;
 }
 

@@ -3,16 +3,17 @@
  *     expect:
  *       LABEL:                              a label, that of a group, a system, or all
  *         INTEGRATOR:                       as in the study, or all, or all+project and the like
- *           QUANTITY: bounded               a verdict
- *           QUANTITY: [exact, rounding]     one of several
+ *           QUANTITY: rounding              a size, or a trend
+ *           QUANTITY: [exact, none]         one of several
  *           QUANTITY: {at most: 1e-10}      its size: max |x| for D, error and momenta, else
  *                                           max |x - first|
- *           QUANTITY: {verdict: linear drift, rate: {at least: -2e-3, at most: -1e-3}}
+ *           QUANTITY: {trend: linear, rate: {at least: -2e-3, at most: -1e-3}}
  *           QUANTITY: [{step: 0.1, ..}, {step: 0.05, start: surface, ..}]   of these cells alone
  *           state: failed                   of the run: done, failed, refused
  *
  * A quantity is one of quantities.csv, or D, the worst of the constraints.  What is said of
- * something the study does not contain is an error. */
+ * something the study does not contain is an error, and so is a size or a trend of E where no
+ * system meant conserves it. */
 #include "study_expect.h"
 
 #include <math.h>
@@ -40,48 +41,68 @@ static int add(reader *r, const yaml_node_t *node)
 
 /* ---- words ---- */
 
+/* The words for a value, and which bit of an expectation the first of them is. */
 typedef struct words {
     const char *what;
     const char *const *word;
-    int count;
+    int count, first;
 } words;
 
-static const char *const verdict_words[] = {
-#define X(code, text) text,
-    DAL_VERDICT_LIST(X)
-#undef X
-};
+#define WORD(code, word) word,
+static const char *const trend_words[] = {DAL_SIZE_LIST(WORD) DAL_TREND_LIST(WORD)};
+static const char *const state_words[] = {STUDY_STATE_LIST(WORD)};
+#undef WORD
 
-static const char *const state_words[] = {
-#define X(code, word) word,
-    STUDY_STATE_LIST(X)
-#undef X
-};
+static const words any_words = {"size or trend", trend_words, DAL_SIZE_COUNT + DAL_TREND_COUNT, 0};
+static const words of_size = {"size", trend_words, DAL_SIZE_COUNT, 0};
+static const words of_trend = {"trend", trend_words + DAL_SIZE_COUNT, DAL_TREND_COUNT,
+                               DAL_SIZE_COUNT};
+static const words of_state = {"state", state_words, sizeof state_words / sizeof(char *), 0};
 
 static int is_state(const study_expectation *x) { return strcmp(x->quantity, "state") == 0; }
 
-static words words_of(const study_expectation *x)
+static int refuse_word(reader *r, const yaml_node_t *node, const words *known, const char *word)
 {
-    if (is_state(x)) return (words){"state", state_words, sizeof state_words / sizeof(char *)};
-    return (words){"verdict", verdict_words, sizeof verdict_words / sizeof(char *)};
+    static const char *const renamed[][2] = {
+        {"bounded", "none"}, {"linear drift", "linear"}, {"not enough data", "undecided"}};
+    for (size_t i = 0; i < sizeof renamed / sizeof renamed[0]; i++)
+        if (strcmp(word, renamed[i][0]) == 0)
+            return study_text_fail(r->text, node, "expect: '%s' is now the trend '%s'", word,
+                                   renamed[i][1]);
+    return study_unknown(r->text, node, known->what, word, known->word, known->count);
 }
 
-static int add_words(reader *r, yaml_node_t *node)
+/* Whether a system that is meant conserves E, at least on D = 0. */
+static int is_conserved(const reader *r)
 {
-    const words known = words_of(&r->expectation);
-    r->expectation.words = 0;
-    r->expectation.field = -1;
+    for (int i = 0; i < r->plan->entry_count; i++) {
+        const study_entry *e = &r->plan->entries[i];
+        if (study_is_called(e, r->label) && e->system->properties & (DAL_E_EXACT | DAL_E_WEAK))
+            return 1;
+    }
+    return 0;
+}
+
+static int add_words(reader *r, yaml_node_t *node, const words *known)
+{
+    study_expectation *x = &r->expectation;
+    x->words = 0;
+    x->field = -1;
+    if (strcmp(x->quantity, "E") == 0 && !is_conserved(r))
+        return study_text_fail(r->text, node,
+                               "expect: E has neither size nor trend, since the motion of '%s' "
+                               "does not conserve it",
+                               r->label);
     for (int i = 0; i < study_text_count(node); i++) {
         const yaml_node_t *item = study_text_item(r->text, node, i);
-        const char *word = study_text_scalar(r->text, item, known.what);
+        const char *word = study_text_scalar(r->text, item, known->what);
         if (!word) return CLI_USAGE;
         int k = 0;
-        while (k < known.count && strcmp(known.word[k], word) != 0) k++;
-        if (k == known.count) return study_unknown(r->text, item, known.what, word, known.word, k);
-        r->expectation.words |= 1u << k;
+        while (k < known->count && strcmp(known->word[k], word) != 0) k++;
+        if (k == known->count) return refuse_word(r, item, known, word);
+        x->words |= 1u << (known->first + k);
     }
-    if (r->expectation.words == 0)
-        return study_text_fail(r->text, node, "expect: the list is empty");
+    if (x->words == 0) return study_text_fail(r->text, node, "expect: the list is empty");
     return add(r, node);
 }
 
@@ -125,10 +146,16 @@ static int add_bound(reader *r, int field, yaml_node_t *node)
 STUDY_FIELD_LIST(TAKE_FIELD)
 #undef TAKE_FIELD
 
-static int take_verdict(void *user, const study_text *text, yaml_node_t *value)
+static int take_size(void *user, const study_text *text, yaml_node_t *value)
 {
     (void)text;
-    return add_words(user, value);
+    return add_words(user, value, &of_size);
+}
+
+static int take_trend(void *user, const study_text *text, yaml_node_t *value)
+{
+    (void)text;
+    return add_words(user, value, &of_trend);
 }
 
 /* ---- which cells ---- */
@@ -204,14 +231,17 @@ static int add_size(reader *r, yaml_node_t *node)
 
 static int add_mapping(reader *r, yaml_node_t *node)
 {
-    static const study_key keys[] = {{"verdict", take_verdict},
+    static const study_key keys[] = {{"size", take_size},
+                                     {"trend", take_trend},
                                      {"step", NULL},
                                      {"start", NULL},
 #define X(name, member) {#name, take_##name},
                                      STUDY_FIELD_LIST(X)
 #undef X
     };
+    yaml_node_t *old = value_of(r->text, node, "verdict");
     if (is_state(&r->expectation)) return study_text_fail(r->text, node, "state: words are wanted");
+    if (old) return study_text_fail(r->text, old, "expect: 'verdict' is now 'size' and 'trend'");
     const int status = take_cells(r, node);
     if (status != CLI_DONE) return status;
     if (value_of(r->text, node, "at most") || value_of(r->text, node, "at least"))
@@ -300,7 +330,8 @@ static int take_one(reader *r, const char *name, yaml_node_t *value)
 {
     r->expectation =
         (study_expectation){.label = r->label, .method = r->method, .quantity = name, .start = -1};
-    return value->type == YAML_MAPPING_NODE ? add_mapping(r, value) : add_words(r, value);
+    if (value->type == YAML_MAPPING_NODE) return add_mapping(r, value);
+    return add_words(r, value, is_state(&r->expectation) ? &of_state : &any_words);
 }
 
 static int take_quantity(reader *r, const yaml_node_t *key, const char *name, yaml_node_t *value)

@@ -5,9 +5,9 @@
 #include "study.h"
 #include "study_yaml.h"
 
-/* What bounds may be set to: name, member of dal_finding. */
+/* What bounds may be set to: name, member of dal_trend. */
 #define STUDY_FIELD_LIST(X)                                                                        \
-    X(max, greatest)                                                                               \
+    X(max, max_abs)                                                                                \
     X(deviation, deviation)                                                                        \
     X(final, last)                                                                                 \
     X(amplitude, amplitude)                                                                        \
@@ -30,8 +30,9 @@ struct study_expectation {
     double step;                           /* of this alone; 0: of all */
     int start;                             /* of this alone; -1: of all */
     size_t line;
-    unsigned words;     /* bit k: verdict k, or state k for the quantity "state"; 0: bounds */
-    int field;          /* STUDY_FIELD_x that is bounded, -1: none */
+    unsigned words;     /* bit k: size k, bit DAL_SIZE_COUNT + k: trend k, any of which will do; of
+                           the quantity "state" bit k: state k; 0: bounds */
+    int field;          /* STUDY_FIELD_x that has bounds, -1: none */
     double least, most; /* infinite where there is no bound */
 };
 

@@ -36,25 +36,36 @@ int study_is_meant(const study_expectation *x, const study_cell *c)
     return study_is_called(c->entry, x->label) && study_method_is_called(c->method, x->method);
 }
 
-static const dal_finding *find(const study_expectation *x, const study_cell *c)
+static const dal_trend *find(const study_expectation *x, const study_cell *c)
 {
     if (strcmp(x->quantity, "D") == 0) return study_worst_constraint(c);
-    return study_finding(c, x->quantity);
+    return study_trend(c, x->quantity);
 }
 
-/* Whether a cell has what is asked for. */
+/* Of what the motion need not conserve there are numbers, but neither size nor trend. */
+static int is_stated(const study_expectation *x, const dal_trend *trend)
+{
+    const int is_number =
+        x->field >= 0 && x->field != STUDY_FIELD_exponent && x->field != STUDY_FIELD_confidence;
+    return is_number || trend->conservation == DAL_CONSERVED;
+}
+
+/* Whether a cell has what is asked for.  A label may mean several systems; E that one of them never
+ * conserves is nothing to speak of. */
 static int is_judged(const study_expectation *x, const study_cell *c)
 {
     if (!study_is_meant(x, c) || c->elsewhere || c->state == STUDY_WAITING) return 0;
-    return is_state(x) || (c->state != STUDY_REFUSED && find(x, c));
+    if (is_state(x)) return 1;
+    const dal_trend *trend = c->state == STUDY_REFUSED ? NULL : find(x, c);
+    return trend && (is_stated(x, trend) || trend->conservation != DAL_NOT_CONSERVED);
 }
 
 /* ---- one comparison ---- */
 
-static double field_of(const dal_finding *finding, int field)
+static double field_of(const dal_trend *trend, int field)
 {
     const double value[] = {
-#define X(name, member) finding->member,
+#define X(name, member) trend->member,
         STUDY_FIELD_LIST(X)
 #undef X
     };
@@ -74,10 +85,19 @@ static const char *field_name(int field)
 static int is_met(const study_expectation *x, const study_cell *c)
 {
     if (is_state(x)) return x->words >> c->state & 1;
-    const dal_finding *finding = find(x, c);
-    if (x->field < 0) return x->words >> finding->verdict & 1;
-    const double value = field_of(finding, x->field);
+    const dal_trend *trend = find(x, c);
+    if (!is_stated(x, trend)) return 0;
+    if (x->field < 0)
+        return (x->words >> trend->size | x->words >> (DAL_SIZE_COUNT + trend->trend)) & 1;
+    const double value = field_of(trend, x->field);
     return value >= x->least && value <= x->most;
+}
+
+static const char *word_of(const study_expectation *x, unsigned bit)
+{
+    if (is_state(x)) return study_state_word((study_state)bit);
+    if (bit < DAL_SIZE_COUNT) return dal_size_text((dal_size_class)bit);
+    return dal_trend_text((dal_trend_class)(bit - DAL_SIZE_COUNT));
 }
 
 static void put_expected(FILE *out, const study_expectation *x)
@@ -85,8 +105,7 @@ static void put_expected(FILE *out, const study_expectation *x)
     const char *separator = "";
     for (unsigned k = 0; x->words >> k; k++) {
         if (!(x->words >> k & 1)) continue;
-        fprintf(out, "%s%s", separator,
-                is_state(x) ? study_state_word((study_state)k) : dal_verdict_text((dal_verdict)k));
+        fprintf(out, "%s%s", separator, word_of(x, k));
         separator = " or ";
     }
     if (x->field < 0) return;
@@ -95,14 +114,26 @@ static void put_expected(FILE *out, const study_expectation *x)
     if (x->most < INFINITY) fprintf(out, "%s <= %g", x->least > -INFINITY ? "," : "", x->most);
 }
 
+/* The size where a size is expected, the trend where a trend is. */
+static void put_words(FILE *out, const study_expectation *x, const dal_trend *trend)
+{
+    const unsigned sizes = (1u << DAL_SIZE_COUNT) - 1u;
+    const int has_size = (x->words & sizes) != 0, has_trend = (x->words & ~sizes) != 0;
+    fprintf(out, "%s%s%s", has_size ? dal_size_text(trend->size) : "",
+            has_size && has_trend ? " and " : "", has_trend ? dal_trend_text(trend->trend) : "");
+}
+
 static void put_found(FILE *out, const study_expectation *x, const study_cell *c)
 {
-    if (is_state(x))
+    const dal_trend *trend = is_state(x) ? NULL : find(x, c);
+    if (!trend)
         fputs(study_state_word(c->state), out);
-    else if (x->field < 0)
-        fputs(dal_verdict_text(find(x, c)->verdict), out);
+    else if (!is_stated(x, trend))
+        fputs(dal_conservation_text(trend->conservation), out);
+    else if (x->field >= 0)
+        fprintf(out, "%.3g", field_of(trend, x->field));
     else
-        fprintf(out, "%.3g", field_of(find(x, c), x->field));
+        put_words(out, x, trend);
 }
 
 /* ---- all of them ---- */
@@ -151,7 +182,8 @@ int study_failure_is_expected(const study_plan *plan, const study_cell *cell)
 {
     for (int i = 0; i < plan->expectation_count; i++) {
         const study_expectation *x = &plan->expectations[i];
-        const unsigned word = is_state(x) ? STUDY_FAILED : DAL_VERDICT_ABORTED;
+        const unsigned word =
+            is_state(x) ? STUDY_FAILED : (unsigned)DAL_SIZE_COUNT + DAL_TREND_ABORTED;
         if (is_judged(x, cell) && x->field < 0 && x->words >> word & 1) return 1;
     }
     return 0;
@@ -199,9 +231,9 @@ static void put_row(FILE *out, const study_expectation *x, const study_cell *c, 
     cli_put_text(out, x->quantity);
     fputs(",\"", out);
     put_expected(out, x);
-    fputs("\",", out);
+    fputs("\",\"", out);
     if (c) put_found(out, x, c);
-    fprintf(out, ",%s\n", met ? "yes" : "no");
+    fprintf(out, "\",%s\n", met ? "yes" : "no");
 }
 
 int study_keep_expectations(const study_plan *plan, const char *path)

@@ -12,31 +12,35 @@ enum { METHOD = 28, CELL = 32 };
 typedef struct line {
     const study_plan *plan;
     const study_cell *cell;
-    const dal_finding *D, *E, *H, *p, *pi, *invariant, *error;
+    const dal_trend *D, *E, *H, *p, *pi, *invariant, *error;
     int only; /* there is no lifted form of the method */
 } line;
 
 /* ---- what stands in a column ---- */
 
 /* 3.4e-16; 0 where a quantity is exactly so. */
-static void say_size(char *text, const dal_finding *finding, double size)
+static void say_size(char *text, const dal_trend *trend, double size)
 {
-    if (finding && finding->count > 0) snprintf(text, CELL, size == 0.0 ? "0" : "%.1e", size);
+    if (trend && trend->count > 0) snprintf(text, CELL, size == 0.0 ? "0" : "%.1e", size);
 }
 
-static void say_rate(char *text, const dal_finding *finding)
+static void say_rate(char *text, const dal_trend *trend)
 {
-    if (finding && finding->count > 0)
-        snprintf(text, CELL, finding->rate == 0.0 ? "0" : "%+.0e", finding->rate);
+    if (trend && trend->count > 0)
+        snprintf(text, CELL, trend->rate == 0.0 ? "0" : "%+.0e", trend->rate);
 }
 
-static void say_verdict(char *text, const line *l, const dal_finding *finding)
+/* "rounding, linear"; "exact" says it all. */
+static void say_trend(char *text, const dal_trend *trend)
 {
-    if (finding) snprintf(text, CELL, "%s", study_verdict(l->cell, finding));
+    if (!trend || trend->conservation != DAL_CONSERVED) return;
+    snprintf(text, CELL, "%s", dal_size_text(trend->size));
+    if (trend->size == DAL_SIZE_EXACT) return;
+    snprintf(text + strlen(text), CELL - strlen(text), ", %s", dal_trend_text(trend->trend));
 }
 
-static double greatest(const dal_finding *finding) { return finding ? finding->greatest : 0.0; }
-static double deviation(const dal_finding *finding) { return finding ? finding->deviation : 0.0; }
+static double max_abs(const dal_trend *trend) { return trend ? trend->max_abs : 0.0; }
+static double deviation(const dal_trend *trend) { return trend ? trend->deviation : 0.0; }
 
 static void say_twin(char *text, const line *l)
 {
@@ -59,14 +63,14 @@ static double per_step(const line *l, double x)
 
 /* head, second line of the head, width, what is said */
 #define MOTION_LIST(X)                                                                             \
-    X("max", "|D|", 8, say_size(text, l->D, greatest(l->D)))                                       \
+    X("max", "|D|", 8, say_size(text, l->D, max_abs(l->D)))                                        \
     X("D rate", "per t", 7, say_rate(text, l->D))                                                  \
-    X("D", "", 15, say_verdict(text, l, l->D))                                                     \
+    X("D", "", 20, say_trend(text, l->D))                                                          \
     X("max", "|E-E0|", 8, say_size(text, l->E, deviation(l->E)))                                   \
     X("E rate", "per t", 7, say_rate(text, l->E))                                                  \
-    X("E", "", 15, say_verdict(text, l, l->E))                                                     \
+    X("E", "", 20, say_trend(text, l->E))                                                          \
     X("max", "|I-I0|", 8, say_size(text, l->invariant, deviation(l->invariant)))                   \
-    X("max", "error", 8, say_size(text, l->error, greatest(l->error)))                             \
+    X("max", "error", 8, say_size(text, l->error, max_abs(l->error)))                              \
     X("(q,v)", "alone", 8, say_twin(text, l))                                                      \
     SPEED_LIST(X)
 
@@ -74,11 +78,11 @@ static double per_step(const line *l, double x)
     X("H0", "", 9, say_size(text, l->H, l->H ? l->H->first : 0.0))                                 \
     X("max", "|H-H0|", 8, say_size(text, l->H, deviation(l->H)))                                   \
     X("H rate", "per t", 7, say_rate(text, l->H))                                                  \
-    X("H", "", 15, say_verdict(text, l, l->H))                                                     \
-    X("max", "|p|", 8, say_size(text, l->p, greatest(l->p)))                                       \
-    X("max", "|pi|", 8, say_size(text, l->pi, greatest(l->pi)))                                    \
+    X("H", "", 20, say_trend(text, l->H))                                                          \
+    X("max", "|p|", 8, say_size(text, l->p, max_abs(l->p)))                                        \
+    X("max", "|pi|", 8, say_size(text, l->pi, max_abs(l->pi)))                                     \
     X("|pi| rate", "per t", 10, say_rate(text, l->pi))                                             \
-    X("max", "|D|", 8, say_size(text, l->D, greatest(l->D)))                                       \
+    X("max", "|D|", 8, say_size(text, l->D, max_abs(l->D)))                                        \
     SPEED_LIST(X)
 
 /* ---- a row ---- */
@@ -124,12 +128,12 @@ static line make_line(const study_plan *plan, const study_cell *c)
     return (line){.plan = plan,
                   .cell = c,
                   .D = study_worst_constraint(c),
-                  .E = study_finding(c, "E"),
-                  .H = study_finding(c, "H"),
-                  .p = study_finding(c, "|p|"),
-                  .pi = study_finding(c, "|pi|"),
+                  .E = study_trend(c, "E"),
+                  .H = study_trend(c, "H"),
+                  .p = study_trend(c, "|p|"),
+                  .pi = study_trend(c, "|pi|"),
                   .invariant = study_worst_invariant(c, NULL),
-                  .error = study_finding(c, "error")};
+                  .error = study_trend(c, "error")};
 }
 
 /* A cell without numbers says why in their place. */
@@ -212,12 +216,13 @@ void study_print_note(FILE *out)
         "them: read it beside |p| and |pi|.  A projection has no canonical lift: it puts\n"
         "p = pi = 0, and H with them.\n"
         "\n"
-        "Verdicts.  exact: never changed.  rounding: a random walk of rounding size, or changes\n"
-        "within some hundred roundings.  bounded: to and fro about one value.  linear drift,\n"
-        "power law, exponential: grows so.  aborted: not finite.  not enough data: too few "
-        "samples, or\n"
-        "too slow an oscillation, to tell.  quantities.csv has the confidence of each.  -: not to\n"
-        "be judged, as E where the system itself does not conserve it.  Rates are slopes of least\n"
+        "Sizes.  exact: never changed.  rounding: what roundings of so many steps make.  larger:\n"
+        "larger than that.  Trends.  none: about one value.  settles: changes once.  random walk,\n"
+        "linear, power law, exponential, growing oscillation: grows so.  undecided: too few\n"
+        "samples, or too slow an oscillation, to decide.  aborted: not finite.  quantities.csv "
+        "has\n"
+        "the confidence of each.  -: E where the motion need not conserve it: never, or off D = 0\n"
+        "where it does so on D = 0 only.  Rates are slopes of least\n"
         "squares.  All look at every step.  I are the invariants of the system, the worst of\n"
         "them; ns are of the clock, looking on included.\n");
 }

@@ -2,6 +2,7 @@
 #include "file.h"
 #include "record.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -9,6 +10,16 @@ static double nanoseconds(const cli_record *r)
 {
     long long steps = dal_run_steps(r->job->run);
     return steps > 0 ? 1e9 * r->mark.seconds / (double)steps : 0.0;
+}
+
+static void print_observable(FILE *out, const char *name, const dal_trend *f)
+{
+    char text[128], exponent[32] = "-";
+    const int is_stated = f->conservation == DAL_CONSERVED;
+    if (is_stated && !isnan(f->exponent)) snprintf(exponent, sizeof exponent, "%.2f", f->exponent);
+    fprintf(out, "%-12s %14.7g %10.3g %10.3g %+10.2e (%+.1e %+.1e) %8s %9s  %s\n", name, f->last,
+            f->max_abs, f->amplitude, f->rate, f->rate_low, f->rate_high, exponent,
+            is_stated ? dal_size_text(f->size) : "-", cli_trend_text(f, text, sizeof text));
 }
 
 void summary_print(FILE *out, const cli_record *r)
@@ -21,15 +32,10 @@ void summary_print(FILE *out, const cli_record *r)
             dal_run_time(job->run), r->mark.row);
     fprintf(out, "%lld steps, %lld evaluations, %.1f ns per step\n", dal_run_steps(job->run),
             dal_run_evaluations(job->run), nanoseconds(r));
-    fprintf(out, "%-12s %14s %10s %10s %10s %21s %8s  %s\n", "", "final", "max | |", "amplitude",
-            "rate", "", "exponent", "verdict");
-    for (int i = 0; i < r->observables; i++) {
-        const dal_finding *f = &r->finding[i];
-        fprintf(out, "%-12s %14.7g %10.3g %10.3g %+10.2e (%+.1e %+.1e) %8.2f  %s",
-                record_observable(r, i), f->last, f->greatest, f->amplitude, f->rate, f->rate_low,
-                f->rate_high, f->exponent, dal_verdict_text(f->verdict));
-        fprintf(out, f->confidence < 0.995 ? ", %.2f\n" : "\n", f->confidence);
-    }
+    fprintf(out, "%-12s %14s %10s %10s %10s %21s %8s %9s  %s\n", "", "final", "max | |",
+            "amplitude", "rate", "", "exponent", "size", "trend");
+    for (int i = 0; i < r->observables; i++)
+        print_observable(out, record_observable(r, i), &r->trend[i]);
 }
 
 int summary_write(const cli_record *r, const char *path)
@@ -38,16 +44,16 @@ int summary_write(const cli_record *r, const char *path)
     size_t length = 0;
     FILE *out = open_memstream(&text, &length);
     if (!out) return cli_fail(CLI_IO, "out of memory");
-    fprintf(out, "observable,first,final,maximum,deviation,%s\n", cli_finding_heads);
+    fprintf(out, "observable,first,final,maximum,deviation,%s\n", cli_trend_heads);
     for (int i = 0; i < r->observables; i++) {
-        const dal_finding *f = &r->finding[i];
-        const double numbers[] = {f->first, f->last, f->greatest, f->deviation};
+        const dal_trend *f = &r->trend[i];
+        const double numbers[] = {f->first, f->last, f->max_abs, f->deviation};
         cli_put_text(out, record_observable(r, i));
         for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++) {
             fputc(',', out);
             cli_put(out, numbers[k]);
         }
-        cli_put_finding(out, f);
+        cli_put_trend(out, f);
         fputc('\n', out);
     }
     int status = cli_close(out, path);

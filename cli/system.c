@@ -1,4 +1,4 @@
-/* system.c - finding the system a command is about. */
+/* system.c - trend the system a command is about. */
 #include "cli.h"
 
 #include <errno.h>

@@ -55,12 +55,12 @@ const char *dal_cause_name(dal_cause cause);
 /* What one observable does, and why. */
 typedef struct dal_attribution {
     char name[64];
-    dal_finding all;             /* along the whole run */
-    dal_finding early;           /* along those steps of it that long numbers were spent on */
-    dal_finding twin[DAL_TWINS]; /* where twins ran */
-    dal_finding rounding;        /* early: solved further, less the same in long numbers */
-    dal_finding solver;          /* early: the run, less solved further */
-    dal_finding both;            /* early: the run, less long numbers solved further */
+    dal_trend all;             /* along the whole run */
+    dal_trend early;           /* along those steps of it that long numbers were spent on */
+    dal_trend twin[DAL_TWINS]; /* where twins ran */
+    dal_trend rounding;        /* early: solved further, less the same in long numbers */
+    dal_trend solver;          /* early: the run, less solved further */
+    dal_trend both;            /* early: the run, less long numbers solved further */
     int by_rate;      /* what is compared early: rates (where the run clearly drifts), else greatest
                          deviations */
     int all_by_rate;  /* the same for the whole run */

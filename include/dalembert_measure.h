@@ -50,54 +50,100 @@ void dal_statistics_add_many(dal_statistics *statistics, int count, int looks, c
                              const double *values, size_t stride);
 
 /* max |x| and max |x - first|; infinite when a value was lost. */
-double dal_statistics_greatest(const dal_statistics *statistics);
+double dal_statistics_max_abs(const dal_statistics *statistics);
 double dal_statistics_deviation(const dal_statistics *statistics);
 
-/* What a quantity does in the long run.
- *   EXACT        never changed
- *   ROUNDING     a random walk (proportional to sqrt t) of steps of rounding size, or changes that
- *                stay within some hundred roundings of its scale
- *   BOUNDED      goes to and fro about one value
- *   LINEAR       drifts at one rate, whatever oscillates about it
- *   POWER        grows like another power of t, a random walk of larger steps included
- *   EXPONENTIAL  grows by equal factors in equal times
- *   ABORTED      a value was not finite, or the run ended before its time
- *   UNDECIDED    too few values, or too slow an oscillation, to tell these apart */
-#define DAL_VERDICT_LIST(X)                                                                        \
-    X(EXACT, "exact")                                                                              \
-    X(ROUNDING, "rounding")                                                                        \
-    X(BOUNDED, "bounded")                                                                          \
-    X(LINEAR, "linear drift")                                                                      \
-    X(POWER, "power law")                                                                          \
-    X(EXPONENTIAL, "exponential")                                                                  \
-    X(ABORTED, "aborted")                                                                          \
-    X(UNDECIDED, "not enough data")
+/* Whether the deviation of a quantity is what roundings make.  code, word
+ *   EXACT     the quantity never changed
+ *   ROUNDING  its deviation is what roundings of so many steps make
+ *   LARGER    its deviation is larger */
+#define DAL_SIZE_LIST(SIZE) SIZE(EXACT, "exact") SIZE(ROUNDING, "rounding") SIZE(LARGER, "larger")
 
-typedef enum dal_verdict {
-#define X(code, text) DAL_VERDICT_##code,
-    DAL_VERDICT_LIST(X)
-#undef X
-        DAL_VERDICT_COUNT
-} dal_verdict;
+typedef enum dal_size_class {
+#define SIZE_CODE(code, word) DAL_SIZE_##code,
+    DAL_SIZE_LIST(SIZE_CODE)
+#undef SIZE_CODE
+        DAL_SIZE_COUNT
+} dal_size_class;
 
-const char *dal_verdict_text(dal_verdict verdict);
+/* What a quantity does in the long run.  code, word
+ *   NONE         it stays about one value
+ *   SETTLES      it changes once and then stays about one value
+ *   RANDOM_WALK  its steps are independent: it grows like sqrt(t)
+ *   LINEAR       it drifts at one rate, whatever oscillates about the line
+ *   POWER        it grows like another power of t
+ *   EXPONENTIAL  it grows by equal factors in equal times
+ *   GROWING      it oscillates about one value, with a growing amplitude
+ *   UNDECIDED    too few values, or too slow an oscillation, to tell these apart
+ *   ABORTED      a value was not finite, or the run ended before its time */
+#define DAL_TREND_LIST(TREND)                                                                      \
+    TREND(NONE, "none")                                                                            \
+    TREND(SETTLES, "settles")                                                                      \
+    TREND(RANDOM_WALK, "random walk")                                                              \
+    TREND(LINEAR, "linear")                                                                        \
+    TREND(POWER, "power law")                                                                      \
+    TREND(EXPONENTIAL, "exponential")                                                              \
+    TREND(GROWING, "growing oscillation")                                                          \
+    TREND(UNDECIDED, "undecided")                                                                  \
+    TREND(ABORTED, "aborted")
 
-typedef struct dal_finding {
+typedef enum dal_trend_class {
+#define TREND_CODE(code, word) DAL_TREND_##code,
+    DAL_TREND_LIST(TREND_CODE)
+#undef TREND_CODE
+        DAL_TREND_COUNT
+} dal_trend_class;
+
+/* Whether the motion of a run conserves a quantity.  code, text
+ *   CONSERVED      it does, or should
+ *   NOT_CONSERVED  it need not: forces that depend on time, affine constraints, ...
+ *   OFF_SURFACE    it does on D = 0 only, which the run has left by more than roundings
+ *   MOVED_BY_PI    pi/e moves (q,v), which is lifted and off pi = 0 */
+#define DAL_CONSERVATION_LIST(CONSERVATION)                                                        \
+    CONSERVATION(CONSERVED, "conserved")                                                           \
+    CONSERVATION(NOT_CONSERVED, "not conserved by the motion")                                     \
+    CONSERVATION(OFF_SURFACE, "conserved on D = 0 only")                                           \
+    CONSERVATION(MOVED_BY_PI, "not conserved where pi is not 0")
+
+typedef enum dal_conservation {
+#define CONSERVATION_CODE(code, text) DAL_##code,
+    DAL_CONSERVATION_LIST(CONSERVATION_CODE)
+#undef CONSERVATION_CODE
+} dal_conservation;
+
+const char *dal_size_text(dal_size_class size);    /* "rounding" */
+const char *dal_trend_text(dal_trend_class trend); /* "random walk" */
+const char *dal_conservation_text(dal_conservation conservation);
+
+/* Size and trend of a quantity x, and the numbers of the one description behind both. */
+typedef struct dal_trend {
     long long count;            /* values */
     double first, last;         /* x at the first and at the last */
-    double greatest, deviation; /* max |x|, max |x - first| */
-    double amplitude;           /* half the range of x about the line of least squares */
-    double rate;                /* the slope of that line, per unit of t */
-    double rate_low, rate_high; /* its 95 % confidence interval, from the means of blocks */
-    double exponent;            /* of the envelope: max |x - first| grows like t^exponent */
-    dal_verdict verdict;
-    double confidence; /* 0..1: weight of the verdict among all that were tried */
-} dal_finding;
+    double max_abs, deviation;  /* max |x|, max |x - first| */
+    double amplitude;           /* half the range of x about the fitted line */
+    double rate;                /* slope of the line, per unit of t */
+    double rate_low, rate_high; /* its 95 % interval */
+    double max_drift; /* the largest |drift| over the whole series that this interval admits */
+    double exponent; /* of t: 1 linear, 1/2 random walk, 0 none and settles, fitted for a power law;
+                         NaN where none can be stated */
+    dal_size_class size;
+    dal_trend_class trend;
+    double confidence;             /* 0..1, of the trend */
+    dal_conservation conservation; /* unless DAL_CONSERVED, exponent, size, trend and confidence
+                                      state nothing; see dal_run_classify */
+} dal_trend;
 
-/* Judges a quantity by a scale (its natural size, in its unit; roundings are measured by it).
+/* Classifies a quantity by a scale (its natural size, in its unit; roundings are measured by it).
  * aborted: the run ended before its time.  More values may be added afterwards. */
-void dal_statistics_judge(const dal_statistics *statistics, double scale, int aborted,
-                          dal_finding *finding);
+void dal_statistics_classify(const dal_statistics *statistics, double scale, int aborted,
+                             dal_trend *trend);
+
+/* Classifies all observables of a run: statistics[count] and trend[count] in the order of
+ * dal_run_observe.  The scale of H is its own size, which the start sets; that of all others is
+ * max(1, max |x|).  E is DAL_CONSERVED where the motion conserves it on every level of D, or on
+ * D = 0 while max |D| is rounding-sized; all else always is. */
+void dal_run_classify(const dal_run *run, const dal_statistics *statistics, int aborted,
+                      dal_trend *trend);
 
 /* ---- a system under the hand --------------------------------------------------------------- */
 

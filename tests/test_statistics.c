@@ -20,11 +20,11 @@ static dal_statistics statistics_of(signal *x, double T, int values)
     return s;
 }
 
-static dal_finding finding_of(signal *x, double T)
+static dal_trend finding_of(signal *x, double T)
 {
     const dal_statistics s = statistics_of(x, T, VALUES);
-    dal_finding f;
-    dal_statistics_judge(&s, 1.0, 0, &f);
+    dal_trend f;
+    dal_statistics_classify(&s, 1.0, 0, &f);
     return f;
 }
 
@@ -41,10 +41,10 @@ static void test_line(void)
     CU_ASSERT_EQUAL(s.count, VALUES);
     CU_ASSERT_EQUAL(s.blocks, 32);
     CU_ASSERT_EQUAL(s.length, 32);
-    const dal_finding f = finding_of(line, 10.0);
+    const dal_trend f = finding_of(line, 10.0);
     CU_ASSERT_EQUAL(f.first, 3.0);
     CU_ASSERT_DOUBLE_EQUAL(f.last, -17.0, 1e-14);
-    CU_ASSERT_DOUBLE_EQUAL(f.greatest, 17.0, 1e-14);
+    CU_ASSERT_DOUBLE_EQUAL(f.max_abs, 17.0, 1e-14);
     CU_ASSERT_DOUBLE_EQUAL(f.deviation, 20.0, 1e-14);
     CU_ASSERT_DOUBLE_EQUAL(f.rate, -2.0, 1e-13);
     CU_ASSERT(f.rate_low <= -2.0 + 1e-13 && f.rate_high >= -2.0 - 1e-13);
@@ -67,7 +67,7 @@ static void test_slope_of_a_wave(void)
 
 static void test_amplitude(void)
 {
-    const dal_finding f = finding_of(leaning_wave, 10.0);
+    const dal_trend f = finding_of(leaning_wave, 10.0);
     CU_ASSERT_DOUBLE_EQUAL(f.amplitude, 1.0, 0.02);
     CU_ASSERT_DOUBLE_EQUAL(f.rate, 2.0, 0.01);
 }
@@ -90,7 +90,7 @@ static void test_extremes(void)
             const double x = k == place ? -7.0 : 1.0;
             dal_statistics_add(&s, 1, k, &x);
         }
-        CU_ASSERT_EQUAL(dal_statistics_greatest(&s), 7.0);
+        CU_ASSERT_EQUAL(dal_statistics_max_abs(&s), 7.0);
         CU_ASSERT_EQUAL(dal_statistics_deviation(&s), 8.0);
     }
 }
@@ -209,7 +209,7 @@ static int intervals_that_hold(double memory)
     uint64_t state = 11;
     for (int i = 0; i < 1000; i++) {
         dal_statistics s;
-        dal_finding f;
+        dal_trend f;
         double noise = 0.0;
         dal_statistics_start(&s, 1);
         for (int k = 0; k < 2000; k++) {
@@ -217,7 +217,7 @@ static int intervals_that_hold(double memory)
             const double x = 0.001 * k + noise;
             dal_statistics_add(&s, 1, 0.001 * k, &x);
         }
-        dal_statistics_judge(&s, 1e9, 0, &f); /* roundings are not the question here */
+        dal_statistics_classify(&s, 1e9, 0, &f); /* roundings are not the question here */
         hold += f.rate_low <= 1.0 && f.rate_high >= 1.0;
     }
     return hold;
@@ -233,32 +233,32 @@ static void test_intervals(void)
 
 /* ---- nothing and nonsense ---- */
 
-static dal_verdict verdict_of(const dal_statistics *s)
+static dal_trend_class trend_of(const dal_statistics *s)
 {
-    dal_finding f;
-    dal_statistics_judge(s, 1.0, 0, &f);
+    dal_trend f;
+    dal_statistics_classify(s, 1.0, 0, &f);
     CU_ASSERT(f.confidence > 0.0 && f.confidence <= 1.0);
-    return f.verdict;
+    return f.trend;
 }
 
 static void test_nothing_and_nonsense(void)
 {
     dal_statistics s[2];
-    dal_finding f;
+    dal_trend f;
     dal_statistics_start(s, 2);
-    CU_ASSERT_EQUAL(verdict_of(&s[0]), DAL_VERDICT_ABORTED);
+    CU_ASSERT_EQUAL(trend_of(&s[0]), DAL_TREND_ABORTED);
     const double rows[][2] = {{1.0, 1.0}, {2.0, INFINITY}, {3.0, 1.0}};
     for (int k = 0; k < 3; k++) dal_statistics_add(s, 2, 0.5 * k, rows[k]);
-    CU_ASSERT_EQUAL(dal_statistics_greatest(&s[0]), 3.0);
-    dal_statistics_judge(&s[0], 1.0, 0, &f);
+    CU_ASSERT_EQUAL(dal_statistics_max_abs(&s[0]), 3.0);
+    dal_statistics_classify(&s[0], 1.0, 0, &f);
     CU_ASSERT_DOUBLE_EQUAL(f.rate, 2.0, 1e-14);
-    CU_ASSERT_EQUAL(f.verdict, DAL_VERDICT_UNDECIDED);
+    CU_ASSERT_EQUAL(f.trend, DAL_TREND_UNDECIDED);
     /* What is not finite is counted nowhere but in the maxima. */
-    CU_ASSERT(isinf(dal_statistics_greatest(&s[1])) && isinf(dal_statistics_deviation(&s[1])));
+    CU_ASSERT(isinf(dal_statistics_max_abs(&s[1])) && isinf(dal_statistics_deviation(&s[1])));
     CU_ASSERT_EQUAL(s[1].count, 2);
-    CU_ASSERT_EQUAL(verdict_of(&s[1]), DAL_VERDICT_ABORTED);
-    dal_statistics_judge(&s[0], 1.0, 1, &f);
-    CU_ASSERT_EQUAL(f.verdict, DAL_VERDICT_ABORTED);
+    CU_ASSERT_EQUAL(trend_of(&s[1]), DAL_TREND_ABORTED);
+    dal_statistics_classify(&s[0], 1.0, 1, &f);
+    CU_ASSERT_EQUAL(f.trend, DAL_TREND_ABORTED);
 }
 
 void suite_statistics(void)

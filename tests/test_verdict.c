@@ -108,25 +108,26 @@ static double diffusion(series *s, double t) { return 1e3 * walk(s, t) / 0x1p-53
 typedef double value(series *s, double t);
 
 #define KIND_LIST(X)                                                                               \
-    X(exact, EXACT)                                                                                \
-    X(white, BOUNDED)                                                                              \
-    X(red, BOUNDED)                                                                                \
-    X(oscillation, BOUNDED)                                                                        \
-    X(walk, ROUNDING)                                                                              \
-    X(line, LINEAR)                                                                                \
-    X(slow_trend, LINEAR)                                                                          \
-    X(bow, POWER)                                                                                  \
-    X(explosion, EXPONENTIAL)                                                                      \
-    X(relaxation, BOUNDED)                                                                         \
-    X(resonance, POWER)                                                                            \
-    X(diffusion, POWER)
+    X(exact, EXACT, NONE)                                                                          \
+    X(white, LARGER, NONE)                                                                         \
+    X(red, LARGER, NONE)                                                                           \
+    X(oscillation, LARGER, NONE)                                                                   \
+    X(walk, ROUNDING, NONE)                                                                        \
+    X(line, LARGER, LINEAR)                                                                        \
+    X(slow_trend, LARGER, LINEAR)                                                                  \
+    X(bow, LARGER, POWER)                                                                          \
+    X(explosion, LARGER, EXPONENTIAL)                                                              \
+    X(relaxation, LARGER, NONE)                                                                    \
+    X(resonance, LARGER, POWER)                                                                    \
+    X(diffusion, LARGER, POWER)
 
 static const struct {
     const char *name;
     value *of;
-    dal_verdict verdict;
+    dal_size_class size;
+    dal_trend_class trend;
 } kinds[] = {
-#define X(name, verdict) {#name, name, DAL_VERDICT_##verdict},
+#define X(name, size, trend) {#name, name, DAL_SIZE_##size, DAL_TREND_##trend},
     KIND_LIST(X)
 #undef X
 };
@@ -154,11 +155,11 @@ static series make_series(uint64_t seed)
     return s;
 }
 
-static dal_finding finding_of(value *x, uint64_t seed)
+static dal_trend trend_of(value *x, uint64_t seed)
 {
     series s = make_series(seed);
     dal_statistics statistics;
-    dal_finding finding;
+    dal_trend trend;
     dal_statistics_start(&statistics, 1);
     const int plain = x == exact || x == walk;
     for (int k = 0; k <= s.length; k++) {
@@ -166,8 +167,8 @@ static dal_finding finding_of(value *x, uint64_t seed)
         const double sample = plain ? own : s.offset + s.size * own;
         dal_statistics_add(&statistics, 1, 100.0 * t, &sample);
     }
-    dal_statistics_judge(&statistics, 1.0, 0, &finding);
-    return finding;
+    dal_statistics_classify(&statistics, 1.0, 0, &trend);
+    return trend;
 }
 
 /* ---- the matrix ---- */
@@ -176,16 +177,19 @@ static void test_matrix(void)
 {
     const int count = (int)long_run(SERIES);
     printf("\n%24s", "");
-    for (int v = 0; v < DAL_VERDICT_COUNT; v++) printf(" %15s", dal_verdict_text(v));
+    for (int v = 0; v < DAL_TREND_COUNT; v++) printf(" %15s", dal_trend_text(v));
     printf("\n");
     for (int k = 0; k < KINDS; k++) {
-        int said[DAL_VERDICT_COUNT] = {0};
-        for (int i = 0; i < count; i++)
-            said[finding_of(kinds[k].of, (uint64_t)(k * SERIES + i)).verdict]++;
+        int said[DAL_TREND_COUNT] = {0}, right = 0;
+        for (int i = 0; i < count; i++) {
+            const dal_trend f = trend_of(kinds[k].of, (uint64_t)(k * SERIES + i));
+            said[f.trend]++;
+            right += f.trend == kinds[k].trend && f.size == kinds[k].size;
+        }
         printf("%24s", kinds[k].name);
-        for (int v = 0; v < DAL_VERDICT_COUNT; v++) printf(" %15d", said[v]);
+        for (int v = 0; v < DAL_TREND_COUNT; v++) printf(" %15d", said[v]);
         printf("\n");
-        CU_ASSERT(said[kinds[k].verdict] >= count * LEAST_RIGHT / 100);
+        CU_ASSERT(right >= count * LEAST_RIGHT / 100);
     }
 }
 
@@ -207,17 +211,17 @@ static double spike(int k) { return k == 0 ? 1.0 : 0.0; }
 static double growing(int k) { return exp(9.0 * k / LONG) * cos(2.0 * k); }
 static double broken(int k) { return k < 4000 ? 1.0 : NAN; }
 
-static dal_finding follow(signal *x, double scale, int count)
+static dal_trend follow(signal *x, double scale, int count)
 {
     dal_statistics statistics;
-    dal_finding finding;
+    dal_trend trend;
     dal_statistics_start(&statistics, 1);
     for (int k = 0; k <= count; k++) {
         const double own = x(k);
         dal_statistics_add(&statistics, 1, 0.1 * k, &own);
     }
-    dal_statistics_judge(&statistics, scale, 0, &finding);
-    return finding;
+    dal_statistics_classify(&statistics, scale, 0, &trend);
+    return trend;
 }
 
 static void test_peculiarities(void)
@@ -226,30 +230,33 @@ static void test_peculiarities(void)
         signal *x;
         double scale;
         int count;
-        dal_verdict verdict;
+        dal_size_class size;
+        dal_trend_class trend;
     } cases[] = {
-        {constant, 1.0, LONG, DAL_VERDICT_EXACT},
-        {constant, 1.0, 1, DAL_VERDICT_EXACT},
-        {constant, 1.0, 0, DAL_VERDICT_UNDECIDED},
-        {few_bits, 1.0, LONG, DAL_VERDICT_ROUNDING},
-        {few_bits, 1e-6, LONG, DAL_VERDICT_BOUNDED},
-        {small_line, 1.0, LONG, DAL_VERDICT_ROUNDING},
-        {steady_drift, 1.0, LONG, DAL_VERDICT_LINEAR},
-        {steady_drift, 1e6, LONG, DAL_VERDICT_ROUNDING},
-        {steady_drift, 1.0, 30, DAL_VERDICT_UNDECIDED},
-        {curved_drift, 1.0, LONG, DAL_VERDICT_LINEAR},
-        {half_wave, 1.0, LONG, DAL_VERDICT_UNDECIDED},
-        {one_wave, 1.0, LONG, DAL_VERDICT_UNDECIDED},
-        {four_waves, 1.0, LONG, DAL_VERDICT_BOUNDED},
-        {spike, 1.0, LONG, DAL_VERDICT_BOUNDED},
-        {growing, 1.0, LONG, DAL_VERDICT_EXPONENTIAL},
-        {broken, 1.0, LONG, DAL_VERDICT_ABORTED},
+        {constant, 1.0, LONG, DAL_SIZE_EXACT, DAL_TREND_NONE},
+        {constant, 1.0, 1, DAL_SIZE_EXACT, DAL_TREND_NONE},
+        {constant, 1.0, 0, DAL_SIZE_LARGER, DAL_TREND_UNDECIDED},
+        {few_bits, 1.0, LONG, DAL_SIZE_ROUNDING, DAL_TREND_NONE},
+        {few_bits, 1e-6, LONG, DAL_SIZE_LARGER, DAL_TREND_NONE},
+        {small_line, 1.0, LONG, DAL_SIZE_ROUNDING, DAL_TREND_NONE},
+        {steady_drift, 1.0, LONG, DAL_SIZE_LARGER, DAL_TREND_LINEAR},
+        {steady_drift, 1e6, LONG, DAL_SIZE_ROUNDING, DAL_TREND_NONE},
+        {steady_drift, 1.0, 30, DAL_SIZE_LARGER, DAL_TREND_UNDECIDED},
+        {curved_drift, 1.0, LONG, DAL_SIZE_LARGER, DAL_TREND_LINEAR},
+        {half_wave, 1.0, LONG, DAL_SIZE_LARGER, DAL_TREND_UNDECIDED},
+        {one_wave, 1.0, LONG, DAL_SIZE_LARGER, DAL_TREND_UNDECIDED},
+        {four_waves, 1.0, LONG, DAL_SIZE_LARGER, DAL_TREND_NONE},
+        {spike, 1.0, LONG, DAL_SIZE_LARGER, DAL_TREND_NONE},
+        {growing, 1.0, LONG, DAL_SIZE_LARGER, DAL_TREND_EXPONENTIAL},
+        {broken, 1.0, LONG, DAL_SIZE_LARGER, DAL_TREND_ABORTED},
     };
     for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        const dal_finding f = follow(cases[i].x, cases[i].scale, cases[i].count);
-        if (f.verdict != cases[i].verdict)
-            printf("\n  case %zu: %s, %g", i, dal_verdict_text(f.verdict), f.confidence);
-        CU_ASSERT_EQUAL(f.verdict, cases[i].verdict);
+        const dal_trend f = follow(cases[i].x, cases[i].scale, cases[i].count);
+        if (f.size != cases[i].size || f.trend != cases[i].trend)
+            printf("\n  case %zu: %s, %s, %g", i, dal_size_text(f.size), dal_trend_text(f.trend),
+                   f.confidence);
+        CU_ASSERT_EQUAL(f.size, cases[i].size);
+        CU_ASSERT_EQUAL(f.trend, cases[i].trend);
         CU_ASSERT(f.confidence > 0.0 && f.confidence <= 1.0);
     }
 }

@@ -26,26 +26,26 @@ const char *dal_cause_name(dal_cause cause)
     return (unsigned)cause < DAL_CAUSES ? names[cause] : "?";
 }
 
-static double half_width(const dal_finding *f) { return 0.5 * (f->rate_high - f->rate_low); }
+static double half_width(const dal_trend *f) { return 0.5 * (f->rate_high - f->rate_low); }
 
-static int drifts(const dal_finding *f, double time)
+static int drifts(const dal_trend *f, double time)
 {
     return fabs(f->rate) > half_width(f) && fabs(f->rate) * time >= 0.5 * f->deviation;
 }
 
-static double size_of(const dal_finding *f, int by_rate)
+static double size_of(const dal_trend *f, int by_rate)
 {
     return by_rate ? fabs(f->rate) : f->deviation;
 }
 
 /* log2 of what halving divides by; NaN where there is nothing left. */
-static double order_of(const dal_finding *whole, const dal_finding *halved, int by_rate)
+static double order_of(const dal_trend *whole, const dal_trend *halved, int by_rate)
 {
     const double a = size_of(whole, by_rate), b = size_of(halved, by_rate);
     return a > 0.0 && b > 0.0 ? log2(a / b) : NAN;
 }
 
-static void put_share(dal_attribution *a, dal_cause cause, const dal_finding *part)
+static void put_share(dal_attribution *a, dal_cause cause, const dal_trend *part)
 {
     const double whole = size_of(&a->early, a->by_rate);
     a->share[cause] = a->by_rate ? part->rate / a->early.rate : part->deviation / whole;
@@ -56,7 +56,7 @@ static void put_share(dal_attribution *a, dal_cause cause, const dal_finding *pa
  * as the method's order says. */
 static int is_of_coefficients(const dal_explanation *e, const dal_attribution *a)
 {
-    const double scale = fmax(1.0, a->early.greatest);
+    const double scale = fmax(1.0, a->early.max_abs);
     const double most = coefficient_roundings * DBL_EPSILON * scale * (double)e->early;
     const int order = dal_method_order(&e->spec.method);
     return a->twin[DAL_TWIN_LONG].deviation <= most && !isnan(a->order) &&
@@ -67,10 +67,10 @@ static int is_of_coefficients(const dal_explanation *e, const dal_attribution *a
  * not fall with the step at all. */
 static void weigh_long(const dal_explanation *e, dal_attribution *a)
 {
-    const dal_finding *in_long = &a->twin[DAL_TWIN_LONG];
+    const dal_trend *in_long = &a->twin[DAL_TWIN_LONG];
     const double whole = size_of(&a->early, a->by_rate);
     a->is_nothing = size_of(in_long, a->by_rate) <= nothing * whole ||
-                    in_long->deviation <= 2.0 * DBL_EPSILON * a->early.greatest;
+                    in_long->deviation <= 2.0 * DBL_EPSILON * a->early.max_abs;
     if (!a->is_nothing) a->order = order_of(in_long, &a->twin[DAL_TWIN_LONG_HALVED], a->by_rate);
     const int coefficients = is_of_coefficients(e, a);
     a->is_motion = !coefficients && a->order < half_an_order;
@@ -99,7 +99,7 @@ static void share_by_halving(const dal_explanation *e, dal_attribution *a)
 {
     const double whole = size_of(&a->all, a->all_by_rate);
     if (!e->ran[DAL_TWIN_HALVED] || !(whole > 0.0)) return;
-    const dal_finding *half = &a->twin[DAL_TWIN_HALVED];
+    const dal_trend *half = &a->twin[DAL_TWIN_HALVED];
     a->order = order_of(&a->all, half, a->all_by_rate);
     const double divisor = exp2(dal_method_order(&e->spec.method));
     if (fabs(a->order - dal_method_order(&e->spec.method)) < half_an_order)

@@ -155,7 +155,7 @@ static double most(const dal_statistics *s)
     return s->open_count ? fmax(s->most, s->open_most) : s->most;
 }
 
-double dal_statistics_greatest(const dal_statistics *s)
+double dal_statistics_max_abs(const dal_statistics *s)
 {
     return s->lost ? INFINITY : fmax(fabs(least(s)), fabs(most(s)));
 }
@@ -272,21 +272,22 @@ static double exponent(const dal_mean *block, int n)
 
 /* ---- the whole ---- */
 
-void dal_statistics_judge(const dal_statistics *s, double scale, int aborted, dal_finding *finding)
+void dal_statistics_classify(const dal_statistics *s, double scale, int aborted, dal_trend *trend)
 {
     dal_mean block[DAL_BLOCKS];
     const int n = dal__blocks(s, block);
     const line l = fit_line(block, n);
     const double margin = uncertainty(&l, block, n);
-    *finding = (dal_finding){.count = s->count,
-                             .first = s->first,
-                             .last = s->last,
-                             .greatest = dal_statistics_greatest(s),
-                             .deviation = dal_statistics_deviation(s),
-                             .amplitude = amplitude(&l, block, n),
-                             .rate = l.slope,
-                             .rate_low = l.slope - margin,
-                             .rate_high = l.slope + margin,
-                             .exponent = exponent(block, n)};
-    dal__classify(s, scale, aborted, finding);
+    *trend = (dal_trend){.count = s->count,
+                         .first = s->first,
+                         .last = s->last,
+                         .max_abs = dal_statistics_max_abs(s),
+                         .deviation = dal_statistics_deviation(s),
+                         .amplitude = amplitude(&l, block, n),
+                         .rate = l.slope,
+                         .rate_low = l.slope - margin,
+                         .rate_high = l.slope + margin,
+                         .max_drift = (fabs(l.slope) + margin) * (s->to - s->from),
+                         .exponent = exponent(block, n)};
+    dal__classify(s, scale, aborted, trend);
 }

@@ -28,8 +28,7 @@ double dal__inflation(double square, double product, int n);
 /* The sum of x - first in the open block. */
 double dal__open_sum(const dal_statistics *statistics);
 
-/* Fills in verdict and confidence. */
-void dal__classify(const dal_statistics *statistics, double scale, int aborted,
-                   dal_finding *finding);
+/* Fills in size, trend and confidence. */
+void dal__classify(const dal_statistics *statistics, double scale, int aborted, dal_trend *trend);
 
 #endif

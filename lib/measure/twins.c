@@ -20,6 +20,7 @@ typedef struct twins {
     dal_explanation *of;
     const dal_explain_observer *observer;
     dal_statistics *series; /* [DAL__SERIES][observables] */
+    dal_trend *trends;      /* [DAL__SERIES][observables] */
     double *values;         /* [4][observables] */
     double work, done;
     dal_error *error;
@@ -269,28 +270,27 @@ static dal_status run_early(twins *w)
 
 /* ---- the whole ---- */
 
-/* H is measured by its own size, all others by max(1, |x|). */
-static void judge(const twins *w, int which, int i, dal_finding *finding)
+static const dal_trend *trend_of(const twins *w, int which, int i)
 {
-    const dal_statistics *s = series(w, which) + i;
-    const double greatest = dal_statistics_greatest(s);
-    if (s->count == 0) return;
-    const bool is_h = strcmp(w->of->of[i].name, "H") == 0;
-    dal_statistics_judge(s, is_h ? greatest : fmax(1.0, greatest), 0, finding);
+    return w->trends + (size_t)which * (size_t)w->of->observables + i;
 }
 
-static void judge_all(twins *w)
+static void classify_all(twins *w, const dal_run *run)
 {
+    for (int which = 0; which < DAL__SERIES; which++)
+        if (w->of->observables > 0 && series(w, which)->count > 0)
+            dal_run_classify(run, series(w, which), 0,
+                             w->trends + (size_t)which * (size_t)w->of->observables);
     for (int i = 0; i < w->of->observables; i++) {
         dal_attribution *a = &w->of->of[i];
-        judge(w, DAL__ALL, i, &a->all);
+        a->all = *trend_of(w, DAL__ALL, i);
         for (int k = 0; k < DAL_TWINS; k++)
-            if (w->of->ran[k]) judge(w, 1 + k, i, &a->twin[k]);
+            if (w->of->ran[k]) a->twin[k] = *trend_of(w, 1 + k, i);
         if (w->of->early > 0) {
-            judge(w, DAL__EARLY_RUN, i, &a->early);
-            judge(w, DAL__EARLY_ROUNDING, i, &a->rounding);
-            judge(w, DAL__EARLY_SOLVER, i, &a->solver);
-            judge(w, DAL__EARLY_BOTH, i, &a->both);
+            a->early = *trend_of(w, DAL__EARLY_RUN, i);
+            a->rounding = *trend_of(w, DAL__EARLY_ROUNDING, i);
+            a->solver = *trend_of(w, DAL__EARLY_SOLVER, i);
+            a->both = *trend_of(w, DAL__EARLY_BOTH, i);
         }
         dal__attribute(w->of, a);
     }
@@ -303,8 +303,9 @@ static dal_status allocate(twins *w, const dal_run *run)
     w->of->observables = count;
     w->of->of = calloc(room, sizeof *w->of->of);
     w->series = calloc(room * DAL__SERIES, sizeof *w->series);
+    w->trends = calloc(room * DAL__SERIES, sizeof *w->trends);
     w->values = dal__numbers(room, ABREAST);
-    if (!w->of->of || !w->series || !w->values)
+    if (!w->of->of || !w->series || !w->trends || !w->values)
         return dal__error(w->error, DAL_MEMORY, 0, 0, "out of memory");
     for (int i = 0; i < count; i++)
         dal_run_observable_name(run, i, w->of->of[i].name, sizeof w->of->of[i].name);
@@ -318,10 +319,10 @@ static dal_status run_all(twins *w)
     DAL_TRY(create(w, &w->of->spec, w->of->steps, &run, w->error));
     dal_status status = allocate(w, run);
     if (status == DAL_OK) status = follow(w, run, DAL__ALL, 1, w->error);
-    dal_run_free(run);
     for (int k = 0; k < DAL_TWIN_LONG && status == DAL_OK; k++) status = run_twin(w, (dal_twin)k);
     if (status == DAL_OK && w->of->early > 0) status = run_early(w);
-    if (status == DAL_OK) judge_all(w);
+    if (status == DAL_OK) classify_all(w, run);
+    dal_run_free(run);
     return status;
 }
 
@@ -350,6 +351,7 @@ dal_status dal_explain(const dal_run_spec *spec, long long steps, long long earl
     w.work = (DAL_TWIN_LONG + 2.0) * (double)made->steps + 3.0 * LONGER * (double)made->early;
     const dal_status status = run_all(&w);
     free(w.series);
+    free(w.trends);
     free(w.values);
     if (status == DAL_OK)
         *explanation = made;

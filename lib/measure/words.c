@@ -14,7 +14,7 @@ typedef struct sheet {
 /* How many times as large the drift of a twin of the whole run is. */
 static double times(const sheet *s, dal_twin twin)
 {
-    const dal_finding *all = &s->a->all, *other = &s->a->twin[twin];
+    const dal_trend *all = &s->a->all, *other = &s->a->twin[twin];
     return s->a->all_by_rate ? fabs(other->rate / all->rate) : other->deviation / all->deviation;
 }
 

@@ -14,9 +14,9 @@ try 0 explain chaplygin-sleigh --integrator gauss8 --space physical --step 0.1 -
     --solve-to 1e-8 --long-steps 200 --output why.csv
 silent
 empty
-holds "heads" grep -q '^observable,kind,name,steps,share,margin,rate,rate_low,rate_high,deviation,verdict,words$' why.csv
+holds "heads" grep -q '^observable,kind,name,steps,share,margin,rate,rate_low,rate_high,deviation,size,trend,confidence,words$' why.csv
 sed 's/"[^"]*"/words/' why.csv >plain.csv
-holds "columns" awk -F, 'NF != 12 { exit 1 }' plain.csv
+holds "columns" awk -F, 'NF != 14 { exit 1 }' plain.csv
 holds "the solver's share" awk -F, '$1 == "D1" && $3 == "solver" && $5 > 0.99 { found = 1 } END { exit !found }' why.csv
 holds "rows" awk -F, '$1 == "D1" { n[$2]++ } END { exit !(n["run"] == 9 && n["cause"] == 5) }' why.csv
 try 0 explain chaplygin-sleigh --integrator gauss8 --space physical --step 0.1 --time 30 \

@@ -45,7 +45,7 @@ if command -v gnuplot >/dev/null 2>&1; then
     holds "no order diagram" grep -q '<svg' drawn/report/line.yaml-order.svg
     holds "no work-precision diagram" grep -q '<svg' drawn/report/line.yaml-work.svg
     holds "the label is not text" grep -q '<h2 id="s1">a &lt;b&gt; &quot;c&quot;' $page
-    holds "no verdicts in words and colour" grep -q '<td class="verdict rounding">rounding<br>' $page
+    holds "no sizes and trends in words and colour" grep -q '<td class="trend kept">rounding<br>none<br>' $page
     holds "no title" grep -q '<h1>Three &amp; more</h1>' $page
     # With both steps, from three starts: both methods go to the end, E of rk4 is not that small.
     holds "no count of expectations" grep -q '<p>12 of 18 are met.</p>' $page
@@ -74,7 +74,7 @@ if command -v gnuplot >/dev/null 2>&1; then
     silent
     holds "no path" grep -q '<svg' ran/report/path.svg
     holds "no drift" grep -q '<svg' ran/report/drift.svg
-    holds "no verdicts" grep -q '<th scope="row">D1</th><td class="verdict ' ran/report/index.html
+    holds "no trends" grep -q '<th scope="row">D1</th><td class="trend ' ran/report/index.html
     holds "no command" grep -q 'dalembert run chaplygin-sleigh --integrator gauss4 .*--set v0=0.1' \
         ran/report/index.html
     # The sleigh goes round a circle of radius v0/omega = 0.1 about (0, 0.1).

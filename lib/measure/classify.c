@@ -1,0 +1,67 @@
+/* classify.c - size and trend of all observables of a run.
+ *
+ * E = L_v.v - L changes at the rate v.Q + sum_a h_a v.A_a, which may vanish on every level of D, on
+ * D = 0 alone, or not at all; off p = pi = 0 the lift adds the force pi/e, which does work.  What
+ * the motion need not conserve has no drift that a method could be blamed for. */
+#include "dalembert.h"
+#include <float.h>
+#include <math.h>
+
+/* Roundings of a start that was brought to D = 0. */
+static const double start_roundings = 4096 * DBL_EPSILON;
+
+/* Places among the observables of a run; -1: it has none. */
+typedef struct places {
+    int constraints, energy, hamiltonian, pi;
+} places;
+
+static places find_places(const dal_run *run)
+{
+    const dal_system *s = dal_run_system(run);
+    const int m = s->constraints ? s->m : 0, has_energy = s->energy != NULL;
+    const int is_lifted = dal_run_dimension(run) == 4 * s->n + 2;
+    return (places){.constraints = m,
+                    .energy = has_energy ? m : -1,
+                    .hamiltonian = is_lifted ? m + has_energy : -1,
+                    .pi = is_lifted ? m + has_energy + 2 : -1};
+}
+
+static int is_on_surface(const dal_trend *constraint)
+{
+    return constraint->size != DAL_SIZE_LARGER && fabs(constraint->first) <= start_roundings;
+}
+
+static dal_conservation conservation_of_energy(const dal_run *run, const places *at,
+                                               const dal_trend *trend)
+{
+    const dal_system *s = dal_run_system(run);
+    if (!(s->properties & (DAL_E_EXACT | DAL_E_WEAK))) return DAL_NOT_CONSERVED;
+    if (at->pi >= 0 && trend[at->pi].max_abs > 0.0 && isfinite(dal_run_state(run)[2 * s->n]))
+        return DAL_MOVED_BY_PI;
+    if (s->properties & DAL_E_EXACT) return DAL_CONSERVED;
+    for (int a = 0; a < at->constraints; a++)
+        if (!is_on_surface(&trend[a])) return DAL_OFF_SURFACE;
+    return DAL_CONSERVED;
+}
+
+const char *dal_conservation_text(dal_conservation conservation)
+{
+    static const char *const text[] = {
+#define CONSERVATION_TEXT(code, text) text,
+        DAL_CONSERVATION_LIST(CONSERVATION_TEXT)
+#undef CONSERVATION_TEXT
+    };
+    return (unsigned)conservation < sizeof text / sizeof text[0] ? text[conservation] : "?";
+}
+
+void dal_run_classify(const dal_run *run, const dal_statistics *statistics, int aborted,
+                      dal_trend *trend)
+{
+    const places at = find_places(run);
+    for (int i = 0; i < dal_run_observables(run); i++) {
+        const double own = dal_statistics_max_abs(&statistics[i]);
+        const double scale = i == at.hamiltonian ? own : fmax(1.0, own);
+        dal_statistics_classify(&statistics[i], scale, aborted, &trend[i]);
+    }
+    if (at.energy >= 0) trend[at.energy].conservation = conservation_of_energy(run, &at, trend);
+}
