@@ -261,6 +261,26 @@ static void null_dal_cause_words(void)
         dal_cause_words(explanation, count, DAL_CAUSE_SOLVER, buffer, sizeof buffer));
 }
 
+/* ---- trends ---- */
+
+static void null_dal_statistics_max_abs(void) { CU_ASSERT(isnan(dal_statistics_max_abs(NULL))); }
+
+static void null_dal_conservation_text(void)
+{
+    CU_ASSERT_STRING_EQUAL(dal_conservation_text((dal_conservation)-1), "?");
+}
+
+static void null_dal_run_classify(void)
+{
+    dal_statistics statistics[16];
+    dal_trend trend[16] = {{.count = -7}};
+    dal_statistics_start(statistics, 16);
+    dal_run_classify(NULL, statistics, 0, trend);
+    dal_run_classify(run, NULL, 0, trend);
+    dal_run_classify(run, statistics, 0, NULL);
+    CU_ASSERT_EQUAL(trend[0].count, -7);
+}
+
 /* ---- motions ---- */
 
 static int is_nan(const dal_average *a)

@@ -57,6 +57,7 @@ const char *dal_conservation_text(dal_conservation conservation)
 void dal_run_classify(const dal_run *run, const dal_statistics *statistics, int aborted,
                       dal_trend *trend)
 {
+    if (!run || !statistics || !trend) return;
     const places at = find_places(run);
     for (int i = 0; i < dal_run_observables(run); i++) {
         const double own = dal_statistics_max_abs(&statistics[i]);

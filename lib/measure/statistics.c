@@ -157,6 +157,7 @@ static double most(const dal_statistics *s)
 
 double dal_statistics_max_abs(const dal_statistics *s)
 {
+    if (!s) return NAN;
     return s->lost ? INFINITY : fmax(fabs(least(s)), fabs(most(s)));
 }
 
