@@ -28,10 +28,14 @@ static const char notes[] =
     "The error is the greatest difference in q and v at T, relative to max(1, |x|), from the "
     "exact\n"
     "solution where the system has one that begins at this start; else from gauss12 with half the\n"
-    "smallest step, whose own error is told.  The order is the slope between the last two steps\n"
-    "whose errors stand clear of rounding and of that error.  Methods that cannot serve the "
-    "system\n"
-    "are listed with the reason; the exit status is 3 when one failed on its way.\n"
+    "smallest step, whose own error is told.  The order found is the slope between the last two\n"
+    "of three steps whose errors are above rounding, above ten times that error and below half "
+    "the\n"
+    "solution, where their two slopes agree so far that the next term of the error moves it by "
+    "0.1\n"
+    "at most; elsewhere none is found ('-').  Methods that cannot serve the system are listed "
+    "with\n"
+    "the reason; the exit status is 3 when one failed on its way.\n"
     "\n"
     "DIR gets order.csv, and by gnuplot order.svg (error against step) and work.svg (error "
     "against\n"
@@ -138,7 +142,7 @@ static int list_steps(order_study *s, const wishes *w)
 static int check_steps(const order_study *s)
 {
     const double T = s->job.time;
-    if (s->levels < 2) return cli_fail(CLI_USAGE, "--steps: an order needs two steps at least");
+    if (s->levels < 2) return cli_fail(CLI_USAGE, "--steps: a slope needs two steps at least");
     for (int i = 0; i < s->levels; i++) {
         const double count = round(T / s->step[i]);
         if (!(count >= 1.0 && count < 0x1p53) || fabs(count * s->step[i] - T) > 1e-9 * T)

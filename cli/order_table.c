@@ -47,6 +47,13 @@ static const char *reason(const order_method *m, int levels)
     return "";
 }
 
+static int any_without_order(const order_study *s)
+{
+    for (int i = 0; i < s->method_count; i++)
+        if (s->methods[i].state != ORDER_REFUSED && isnan(s->methods[i].order.order)) return 1;
+    return 0;
+}
+
 void order_print(FILE *out, const order_study *s)
 {
     fprintf(out, "%s, error of (q,v) at t = %g, %s\nagainst %s\n\n", s->job.system, s->job.time,
@@ -54,6 +61,10 @@ void order_print(FILE *out, const order_study *s)
     print_heads(out, s);
     for (int i = 0; i < s->method_count; i++)
         if (s->methods[i].state != ORDER_REFUSED) print_method(out, s, &s->methods[i]);
+    if (any_without_order(s))
+        fputs("\nno order found (-): the last slopes do not agree (the steps are too large), or\n"
+              "fewer than three errors lie between rounding and half the solution\n",
+              out);
     for (int i = 0; i < s->method_count; i++) {
         const order_method *m = &s->methods[i];
         if (m->state == ORDER_DONE) continue;

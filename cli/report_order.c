@@ -64,7 +64,9 @@ static void put_table(const orders *o)
         fprintf(page, "<th>h = %g</th>", strtod(o->steps.word[h], NULL));
     fputs("</tr></thead>\n<tbody>", page);
     for (int m = 0; m < o->methods.count; m++) put_method(o, o->methods.word[m]);
-    fputs("</tbody></table></div>\n", page);
+    fputs("</tbody></table></div>\n<p>An order is found where two successive slopes of the error "
+          "agree.</p>\n",
+          page);
 }
 
 /* Methods that cannot serve the system, and why. */

@@ -4,8 +4,9 @@
  * never trusts what they say about themselves: derivatives are compared with differences, claims
  * with numbers.  Differences are central, of order 8, so that their noise is near 1e-12.
  *
- * Nothing measured upstairs says anything about the constraints D or the energy downstairs: on
- * p = pi = 0 every method, explicit Euler included, is the restriction of a symplectic one. */
+ * Symplecticity on the lifted space says nothing about D or the energy of the motion itself: on
+ * p = pi = 0 every one-step method whose step on (q,v) is locally invertible, explicit Euler
+ * included, is the restriction of a symplectic map. */
 #ifndef DALEMBERT_MEASURE_H
 #define DALEMBERT_MEASURE_H
 
@@ -223,11 +224,14 @@ typedef struct dal_order {
     double step[DAL_ORDER_LEVELS], error[DAL_ORDER_LEVELS];
     long long evaluations[DAL_ORDER_LEVELS]; /* of the field */
     double slope[DAL_ORDER_LEVELS]; /* slope[i] between levels i-1 and i; slope[0] is NaN */
-    double order; /* the last slope whose errors both stand clear of rounding; NaN if none does */
+    double order;                   /* NaN: none can be stated */
 } dal_order;
 
-/* Fills in slope and order from levels, step and error; errors within ten times noise, that of the
- * reference they were taken against, count no more than rounding does. */
+/* Fills in slope and order from levels, step and error.  Of the last three errors that are above
+ * rounding (2e-13, and ten times noise, the error of the reference they were taken against) and
+ * below half the solution, the order is the second slope, where the two slopes agree so far that
+ * the next term of the error moves it by 0.1 at most.  Else it is NaN: the steps are not in the
+ * asymptotic range, or fewer than three errors tell of the method. */
 void dal_order_slopes(dal_order *order, double noise);
 
 /* The observed order: max norm of the whole state at T against reference[dimension], or, when it

@@ -56,11 +56,65 @@ static void test_order_slopes(void)
     CU_ASSERT(isnan(order.slope[0]));
     for (int i = 1; i < 4; i++) CU_ASSERT_DOUBLE_EQUAL(order.slope[i], 3.0, 1e-14);
     CU_ASSERT_DOUBLE_EQUAL(order.order, 3.0, 1e-14);
-    order.error[3] = 1e-3;
-    dal_order_slopes(&order, 1e-6);
-    CU_ASSERT_EQUAL(order.order, order.slope[1]);
-    dal_order_slopes(&order, 1e-2);
+    dal_order_slopes(&order, 1e-7); /* 8e-6 is above ten times that, 8e-9 is not */
+    CU_ASSERT_EQUAL(order.order, order.slope[2]);
+    dal_order_slopes(&order, 1e-6); /* two errors are left */
     CU_ASSERT(isnan(order.order));
+}
+
+static double order_of(int levels, double step, const double *error)
+{
+    dal_order order = {.levels = levels};
+    for (int i = 0; i < levels; i++) {
+        order.step[i] = ldexp(step, -i);
+        order.error[i] = error[i];
+    }
+    dal_order_slopes(&order, 0.0);
+    return order.order;
+}
+
+/* No order where the errors tell of none: one slope alone, slopes that do not agree, errors of the
+ * size of the solution, of rounding, and none. */
+static void test_no_order(void)
+{
+    const double inf = INFINITY;
+    const double two[] = {1e-2, 1e-3}, jump[] = {0.3, 0.2, 5e-6}, bend[] = {0.4, 0.2, 0.07, 0.02};
+    const double saturated[] = {1.7, 1.4, 0.49, 0.171}, flat[] = {0.9, 0.8, 0.71, 0.63};
+    const double rounding[] = {1e-5, 1e-9, 1e-13, 2e-16}, failed[] = {NAN, NAN, 0.02, 0.01};
+    const double infinite[] = {inf, inf, 0.02, 0.01}, zero[] = {1e-3, 1e-4, 0.0, 0.0};
+    const double apart[] = {1e-2, 1e-3, 3e-3, 1e-3, 8e-4};
+    CU_ASSERT(isnan(order_of(2, 0.1, two)));
+    CU_ASSERT(isnan(order_of(3, 0.1, jump)));
+    CU_ASSERT(isnan(order_of(4, 0.1, bend)));
+    CU_ASSERT(isnan(order_of(4, 0.1, saturated)));
+    CU_ASSERT(isnan(order_of(4, 0.1, flat)));
+    CU_ASSERT(isnan(order_of(4, 0.1, rounding)));
+    CU_ASSERT(isnan(order_of(4, 0.1, failed)));
+    CU_ASSERT(isnan(order_of(4, 0.1, infinite)));
+    CU_ASSERT(isnan(order_of(4, 0.1, zero)));
+    CU_ASSERT(isnan(order_of(5, 0.1, apart)));
+}
+
+/* e = C h^p (1 + a h): the order is found for small a and not for large ones, and where it is found
+ * it is p to about 0.1, whatever the ratios of the steps. */
+static void test_order_and_the_next_term(void)
+{
+    static const double steps[][3] = {{0.1, 0.05, 0.025}, {0.1, 0.07, 0.02}, {0.1, 0.01, 0.008}};
+    int found = 0;
+    for (int k = 0; k < 3 * 8 * 61; k++) {
+        const double *h = steps[k % 3], p = 1 + k / 3 % 8, a = 0.3 * (k / 24 - 30);
+        dal_order order = {.levels = 3};
+        for (int i = 0; i < 3; i++) {
+            order.step[i] = h[i];
+            order.error[i] = 0.1 * pow(h[i] / h[0], p) * (1.0 + a * h[i]);
+        }
+        dal_order_slopes(&order, 0.0);
+        const double off = order.slope[2] - p;
+        if (fabs(off) < 0.05) CU_ASSERT(order.order == order.slope[2]);
+        if (fabs(off) > 0.15) CU_ASSERT(isnan(order.order));
+        found += !isnan(order.order);
+    }
+    CU_ASSERT(found > 200 && found < 1400);
 }
 
 static void test_order_work(void)
@@ -320,6 +374,8 @@ void suite_stepmap(void)
     CU_add_test(suite, "order", test_order);
     CU_add_test(suite, "order against a closed form", test_order_of_reference);
     CU_add_test(suite, "order: slopes", test_order_slopes);
+    CU_add_test(suite, "order: none to be found", test_no_order);
+    CU_add_test(suite, "order: the next term", test_order_and_the_next_term);
     CU_add_test(suite, "order: work", test_order_work);
     CU_add_test(suite, "order: what is refused", test_order_refuses);
     CU_add_test(suite, "symplecticity of rk4, closed form", test_symplecticity_closed_form);

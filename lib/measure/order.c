@@ -1,7 +1,18 @@
 /* order.c - the observed order of a method: slopes of the error under halving of the step.
  *
  *     e_i = max_k |x_k(T; h_i) - x_k(T)| / max(1, |x_k(T)|),   h_i = h/2^i
- *     slope_i = log(e_(i-1) / e_i) / log(h_(i-1) / h_i) */
+ *     slope_i = log(e_(i-1) / e_i) / log(h_(i-1) / h_i)
+ *
+ * With e = C h^p (1 + a h + ..) the next term of the error moves a slope from p by
+ *
+ *     slope_i - p = a g_i + ..,   g_i = (h_(i-1) - h_i) / log(h_(i-1) / h_i),
+ *
+ * so that two successive slopes tell how far the second is from p:
+ *
+ *     slope_i - p = (slope_(i-1) - slope_i) g_i / (g_(i-1) - g_i)
+ *
+ * (for halved steps their difference; a third of it, and overestimated, where the next term is
+ * a h^2).  An order is stated where that is small. */
 #include "measure/measure.h"
 #include <math.h>
 #include <stdlib.h>
@@ -10,6 +21,10 @@
 /* Errors below this hold too much rounding for a slope good to 0.1: sums of 1e3 steps with
  * rounding 1e-16 each disturb it by a few percent. */
 static const double clear_of_rounding = 2e-13;
+/* An error near the size of the solution is bounded by that, not by the step. */
+static const double below_the_solution = 0.5;
+/* How far the next term of the error may move an order that is stated. */
+static const double order_tolerance = 0.1;
 
 /* The state of a run of the spec at T into out[dimension]. */
 static dal_status state_at(const dal_run_spec *spec, double T, double *out, long long *evaluations,
@@ -44,15 +59,37 @@ static dal_status judge_state(const dal_run_spec *spec, double T, int levels,
     return state_at(&finer, T, out, &evaluations, error);
 }
 
+/* Errors of three steps from level i-2 on are those of the method. */
+static int are_clear(const dal_order *o, int i, double clear)
+{
+    for (int k = i - 2; k <= i; k++)
+        if (!(o->error[k] > clear && o->error[k] < below_the_solution)) return 0;
+    return 1;
+}
+
+static double mean_step(const dal_order *o, int i)
+{
+    return (o->step[i - 1] - o->step[i]) / log(o->step[i - 1] / o->step[i]);
+}
+
+/* Whether slope i is the order up to what the next term of the error may be. */
+static int is_asymptotic(const dal_order *o, int i)
+{
+    const double g = mean_step(o, i), before = mean_step(o, i - 1);
+    return fabs(o->slope[i - 1] - o->slope[i]) * g <= order_tolerance * (before - g);
+}
+
 void dal_order_slopes(dal_order *o, double noise)
 {
     if (!o) return;
+    const int levels = o->levels < DAL_ORDER_LEVELS ? o->levels : DAL_ORDER_LEVELS;
     const double clear = fmax(clear_of_rounding, 10.0 * noise);
     o->order = o->slope[0] = NAN;
-    for (int i = 1; i < o->levels && i < DAL_ORDER_LEVELS; i++) {
+    for (int i = 1; i < levels; i++)
         o->slope[i] = log(o->error[i - 1] / o->error[i]) / log(o->step[i - 1] / o->step[i]);
-        if (o->error[i - 1] > clear && o->error[i] > clear) o->order = o->slope[i];
-    }
+    int last = levels - 1;
+    while (last >= 2 && !are_clear(o, last, clear)) last--;
+    if (last >= 2 && is_asymptotic(o, last)) o->order = o->slope[last];
 }
 
 static dal_status compare_levels(const dal_run_spec *spec, double T, const double *reference,
