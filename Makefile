@@ -10,6 +10,7 @@
 #     make fuzz             each fuzz target for FUZZ_SECONDS
 #     make mpi              build/dalembert-mpi, where there is Open MPI
 #     make lint             the rules of the house
+#     make mutants          whether the tests notice COUNT faults, drawn by SEED, planted in MODULE
 #     make gallery          the pictures that the README shows
 #     make install          to PREFIX, below DESTDIR
 #
@@ -239,6 +240,13 @@ $(FUZZERS:%=$(BUILD)/tests/%): %: %.o $(STATIC)
 lint: all
 	@CC="$(CC)" BUILD=$(BUILD) sh tools/lint/lint.sh
 
+# Faults planted one by one: make mutants MODULE=lib/measure/section.c, or MODULE=integrators; see
+# tools/mutants/mutants.sh.
+SEED  ?= 1
+COUNT ?= 20
+mutants:
+	@CC="$(CC)" BUILD="$(BUILD)" sh tools/mutants/mutants.sh "$(MODULE)" $(SEED) $(COUNT)
+
 # The pictures of the README.
 gallery: all
 	@sh tools/gallery.sh $(PROGRAM) docs/gallery
@@ -278,7 +286,7 @@ clean:
 include bench/bench.mk
 
 FORCE:
-.PHONY: all check check-bits check-browser check-sanitize check-valgrind fuzz run-fuzzers gallery lint install uninstall clean FORCE mpi
+.PHONY: all check check-bits check-browser check-sanitize check-valgrind fuzz run-fuzzers gallery lint mutants install uninstall clean FORCE mpi
 .SECONDARY:
 
 -include $(LIB_OBJ:.o=.d) $(CLI_OBJ:.o=.d) $(TEST_OBJ:.o=.d) $(FUZZERS:%=$(BUILD)/tests/%.d)

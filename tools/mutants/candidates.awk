@@ -1,0 +1,132 @@
+# candidates.awk - every mutation of a C source that mutants.sh knows, one a line:
+#
+#     FILE  LINE  OPERATOR  MUTATED LINE          (separated by tabs)
+#
+# Sources are formatted by clang-format: binary operators stand between spaces, one statement a
+# line.  Comments, strings, preprocessor lines and declarations are left alone.
+
+function emit(operator, text) {
+    if (text != $0) printf "%s\t%d\t%s\t%s\n", FILENAME, FNR, operator, text
+}
+# The line with count characters from place on replaced.
+function replaced(place, count, by) { return substr($0, 1, place - 1) by substr($0, place + count) }
+
+# Every occurrence of an operator between spaces.
+function swap(operator, name, by,    from, at, text) {
+    text = " " operator " "
+    for (from = 1; (at = index(substr(code, from), text)) > 0; from += at) {
+        at += from - 1
+        emit(name, replaced(at, length(text), " " by " "))
+        at -= from - 1
+    }
+}
+
+# code is the line with comments and texts blanked, so that places in both agree.
+function blank(    i, c, out, quote) {
+    out = ""
+    quote = ""
+    for (i = 1; i <= length($0); i++) {
+        c = substr($0, i, 1)
+        if (comment) {
+            if (substr($0, i, 2) == "*/") { comment = 0; out = out "  "; i++ } else out = out " "
+        } else if (quote != "") {
+            if (c == "\\") { out = out "@@"; i++; continue }
+            if (c == quote) quote = ""
+            out = out "@"
+        } else if (substr($0, i, 2) == "/*") { comment = 1; out = out "  "; i++ }
+        else if (c == "\"" || c == "'") { quote = c; out = out "@" }
+        else out = out c
+    }
+    return out
+}
+
+# The place of the parenthesis that closes the one at from; 0: not on this line.
+function closing(from,    i, depth, c) {
+    for (i = from; i <= length(code); i++) {
+        c = substr(code, i, 1)
+        if (c == "(") depth++
+        if (c == ")" && --depth == 0) return i
+    }
+    return 0
+}
+
+function negate(word,    at, open, end) {
+    at = match(code, "(^|[ }])" word " [(]")
+    if (!at) return
+    open = at + RLENGTH - 1
+    end = closing(open)
+    if (end) emit("negated", replaced(open, end - open + 1, "(!" substr($0, open, end - open + 1) ")"))
+}
+
+function constants(    from, rest, at, text, before, whole) {
+    for (from = 1; match(rest = substr(code, from), /[0-9][0-9a-fA-FxX.]*([eEp][-+]?[0-9]+)?[uUlLfF]*/); from = at + length(text)) {
+        at = from + RSTART - 1
+        text = substr(rest, RSTART, RLENGTH)
+        before = at > 1 ? substr(code, at - 1, 1) : ""
+        if (before ~ /[A-Za-z0-9_.]/) continue
+        if (text ~ /^[0-9]+$/) {
+            emit("constant", replaced(at, length(text), text + 1))
+            if (text > 1) emit("constant", replaced(at, length(text), text - 1))
+        } else if (text ~ /^[0-9.]+e-[0-9]+$/) {
+            emit("constant", replaced(at, length(text), "1e7 * " text))
+            emit("constant", replaced(at, length(text), "1e-7 * " text))
+        } else if (text ~ /^[0-9]+[.][0-9]*$/) {
+            emit("constant", replaced(at, length(text), text + 1 ".0"))
+        }
+    }
+}
+
+function is_statement(text) {
+    if (text !~ /;$/ || text ~ /[{}]/ || text !~ /^[A-Za-z_(*]/) return 0
+    if (text ~ /^(return|break|continue|goto|typedef|static|extern|const|enum|else|for|do|case|default)/) return 0
+    if (text ~ /^(unsigned|struct|long|signed) /) return 0
+    if (text ~ /^[A-Za-z_][A-Za-z_0-9]*( const)? [*]*[A-Za-z_][A-Za-z_0-9]*( =|;|\[|,)/) return 0
+    return text !~ /^[A-Za-z_0-9]+ [(][*]/
+}
+
+function deleted(    text, copy, opened, closed) {
+    text = code
+    sub(/^ +/, "", text)
+    sub(/ +$/, "", text)
+    copy = text
+    opened = gsub(/[(]/, "", copy)
+    closed = gsub(/[)]/, "", copy)
+    if (code !~ /^    / || opened != closed || !whole_before || !is_statement(text)) return
+    emit("deleted", substr(code, 1, match(code, /[^ ]/) - 1) ";")
+}
+
+FNR == 1 { comment = 0; directive = 0; whole_before = 1 }
+{
+    code = blank()
+    skip = directive || code ~ /^[ \t]*#/
+    directive = skip && code ~ /\\$/
+    if (skip && code ~ /^#define [A-Z_0-9]+ +[-0-9.ex+]+ *$/) constants()
+    if (skip || code ~ /^[ \t]*$/) next
+    if (code !~ /^[a-z].*[)]$|^[a-z][^=]*,$/) {
+        swap("<", "comparison", "<=")
+        swap("<", "comparison", ">=")
+        swap("<=", "comparison", "<")
+        swap("<=", "comparison", ">")
+        swap(">", "comparison", ">=")
+        swap(">", "comparison", "<=")
+        swap(">=", "comparison", ">")
+        swap(">=", "comparison", "<")
+        swap("==", "comparison", "!=")
+        swap("!=", "comparison", "==")
+        swap("&&", "logic", "||")
+        swap("||", "logic", "&&")
+        swap("+", "arithmetic", "-")
+        swap("-", "arithmetic", "+")
+        swap("*", "arithmetic", "/")
+        swap("/", "arithmetic", "*")
+        swap("+=", "arithmetic", "-=")
+        swap("-=", "arithmetic", "+=")
+        if (code !~ /^ *((static|const|unsigned) )*[a-z_0-9]+ [*]*[a-z_A-Z0-9]+\[/) constants()
+        negate("if")
+        negate("while")
+        deleted()
+    }
+    text = code
+    sub(/ +$/, "", text)
+    whole_before = text ~ /[;{}:)]$/ || text == ""
+}

@@ -1,0 +1,137 @@
+#!/bin/sh
+# mutants.sh MODULE SEED COUNT - whether the tests notice faults planted in MODULE, a source file or a
+# directory of lib/ or integrators/; `make mutants` calls it.
+#
+# A mutant is a copy of the sources with one line changed (candidates.awk): a comparison exchanged or
+# off by one, && for ||, + for -, * for /, a constant changed, a condition negated, a statement
+# deleted.  SEED draws COUNT of all those that MODULE has.  Each is built below BUILD/mutants, at -O1
+# and without the variants for instruction sets, since a source of several widths must be changed in
+# all of them.  The suites of the module (suites.txt) run until one fails, then the parts of the
+# command line; a mutant that takes LIMIT times as long as the sources themselves is ended and counts
+# as noticed, as one that crashes does.
+#
+# A mutant that does not compile, or has the same machine code, is drawn again.  Those that no test
+# can notice are listed with their reason in equivalent.txt.  The others that are left are the
+# survivors: FILE:LINE, the operator and the changed line.  More than one survivor in ten fails.
+module=$1 seed=$2 wanted=$3
+here=$(cd "$(dirname "$0")" && pwd)
+root=$(cd "$here/../.." && pwd)
+LIMIT=${LIMIT:-6}
+BUILD=${BUILD:-build}
+place=$root/$BUILD/mutants
+case $BUILD in /*) place=$BUILD/mutants ;; esac
+tree=$place/tree
+variants="x1 x1_LONGER x4 x8 x64"
+CC=${CC:-cc}
+unset MAKEFLAGS MFLAGS MAKELEVEL
+cd "$root" || exit 2
+[ -e "$module" ] || { echo "mutants: no module '$module'; MODULE=lib/measure/section.c" >&2; exit 2; }
+
+# The sources as they are, below the tree.
+copy_sources() {
+    mkdir -p "$tree" "$place/tmp"
+    find Makefile README.md include lib integrators cli tests systems tools examples bench docs man \
+        -type f | while read -r file; do
+        cmp -s "$file" "$tree/$file" && continue
+        mkdir -p "$tree/$(dirname "$file")"
+        cp "$file" "$tree/$file"
+    done
+}
+build() {
+    make -s -C "$tree" -j"$(nproc)" BUILD=build CC="$CC" CFLAGS=-O1 VARIANTS="$variants" "$@" \
+        >"$place/make.log" 2>&1
+}
+# tests_of FILE KIND: the suites, or the parts of the command line (KIND cli), of a file.
+tests_of() {
+    awk -v file="$1" -v kind="$2" '/^#/ || NF == 0 { next }
+        $1 == "quick" { for (i = 2; i <= NF; i++) quick = quick " " $i; next }
+        index(file, $1) == 1 && length($1) >= best { best = length($1); line = $0 }
+        END {
+            parts = suites = ""
+            n = split(line, word, " ")
+            for (i = 2; i <= n; i++)
+                if (word[i] == "cli") cli = 1
+                else if (cli) parts = parts " " word[i]
+                else suites = suites " " word[i]
+            if (kind == "cli") { print parts; exit }
+            n = split(suites quick, word, " ")
+            for (i = 1; i <= n; i++) if (!(word[i] in seen)) { seen[word[i]] = 1; print word[i] }
+        }' "$here/suites.txt"
+}
+# limited SECONDS COMMAND...: in the tree, within a time and a memory that faults may not exceed.
+limited() {
+    seconds=$1
+    shift
+    (cd "$tree" && ulimit -v 8000000 && TMPDIR=$place/tmp exec timeout -k 2 "$seconds" "$@") \
+        >"$place/test.log" 2>&1
+}
+# The suites there are: those of the list that this version does not have are passed over.
+known() { for suite in $1; do grep -qx "$suite" "$place/suites" && echo "$suite"; done; }
+# passes FILE SECONDS: whether all tests of a file pass; names the test that does not.
+passes() {
+    for suite in $(known "$(tests_of "$1" suites)"); do
+        noticed=$suite
+        limited "$2" build/tests/suite --quick "$suite" || return
+    done
+    parts=$(tests_of "$1" cli)
+    noticed="cli $parts"
+    [ -z "$parts" ] && return 0
+    build build/dalembert && limited "$((10 * $2))" sh tests/cli/run.sh build/dalembert $parts
+}
+is_listed() { grep -Fqx "$1: $(echo "$2" | sed 's/^ *//')" "$here/equivalent.txt"; }
+
+# ---- the sources themselves ----
+
+copy_sources
+build build/tests/suite || { cat "$place/make.log"; echo "mutants: the sources do not build"; exit 2; }
+cp "$tree/build/tests/suite" "$place/suite"
+"$place/suite" --list >"$place/suites"
+find "$module" -name '*.[ch]' | sort | xargs awk -f "$here/candidates.awk" |
+    awk -v seed="$seed" 'BEGIN { FS = OFS = "\t"; x = (seed * 48271 + 11) % 2147483646 + 1 }
+        { x = (16807 * x) % 2147483647; print x, $0 }' | sort -n | cut -f2- >"$place/candidates"
+began=$(date +%s)
+for file in $(cut -f1 "$place/candidates" | sort -u); do tests_of "$file" suites; done | sort -u \
+    >"$place/needed"
+for suite in $(known "$(cat "$place/needed")"); do
+    limited 600 build/tests/suite --quick "$suite" ||
+        { cat "$place/test.log"; echo "mutants: $suite fails without a mutant"; exit 2; }
+done
+limit=$((LIMIT * ($(date +%s) - began) / 4 + 10))
+
+# ---- mutants ----
+
+count=0 killed=0 late=0 survived=0 listed=0 same=0 broken=0
+tab=$(printf '\t')
+exec 3<"$place/candidates"
+while [ "$count" -lt "$wanted" ] && IFS= read -r candidate <&3; do
+    file=$(echo "$candidate" | cut -f1)
+    line=$(echo "$candidate" | cut -f2)
+    operator=$(echo "$candidate" | cut -f3)
+    text=$(printf '%s\n' "$candidate" | cut -f4-)
+    if is_listed "$file" "$text"; then
+        listed=$((listed + 1))
+        continue
+    fi
+    TEXT=$text awk -v line="$line" 'FNR == line { print ENVIRON["TEXT"]; next } { print }' "$file" \
+        >"$tree/$file"
+    if ! build build/tests/suite; then
+        broken=$((broken + 1))
+    elif cmp -s "$tree/build/tests/suite" "$place/suite"; then
+        same=$((same + 1))
+    else
+        count=$((count + 1))
+        passes "$file" "$limit"
+        case $? in
+        0) survived=$((survived + 1))
+           printf 'survived  %s:%s: %s:%s\n' "$file" "$line" "$operator" "$text" ;;
+        124 | 137) late=$((late + 1)) ;;
+        *) killed=$((killed + 1)) ;;
+        esac
+        [ -n "$V" ] && printf '          %s:%s: %s: %s (%s)\n' "$file" "$line" "$operator" "$text" "$noticed"
+    fi
+    cp "$file" "$tree/$file"
+done
+echo "mutants: $module, SEED=$seed: $count mutants, $((killed + late)) noticed ($late by their time)," \
+    "$survived survived; beside them $listed listed as equivalent, $same of the same machine code," \
+    "$broken that do not compile"
+[ $((10 * survived)) -le "$count" ]
