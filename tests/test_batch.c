@@ -181,6 +181,44 @@ static void test_failing_lane(void)
     dal_model_free(model);
 }
 
+/* A field that fails in the lane with start x = 2 while broken, and is sound again later. */
+static bool broken;
+static dal_status breaks(const dal_system *system, const dal_at *at, double *out)
+{
+    (void)system;
+    out[0] = broken && at->q[0] == 2.0 ? NAN : 0.0;
+    return DAL_OK;
+}
+
+/* A lane that has failed is never stepped again, though it could be. */
+static void test_failed_lane_stays(void)
+{
+    const dal_system system = {.name = "breaks", .n = 1, .call.field = breaks};
+    const dal_run_spec spec = fixture_spec(&system, "rk4", DAL_PHYSICAL, 0.25);
+    const dal_setting start = {"q1", 2.0};
+    dal_batch *batch = NULL;
+    CU_ASSERT_EQUAL_FATAL(dal_batch_create(&batch, &spec, 3, 0, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_batch_start(batch, 1, NULL, 0, &start, 1, NULL), DAL_OK);
+    broken = true;
+    CU_ASSERT_EQUAL(dal_batch_advance(batch, 4), DAL_OK);
+    broken = false;
+    CU_ASSERT_EQUAL(dal_batch_advance(batch, 4), DAL_OK);
+    for (int i = 0; i < 3; i++) {
+        CU_ASSERT_EQUAL(dal_batch_status(batch, i, NULL), i == 1 ? DAL_NOT_FINITE : DAL_OK);
+        CU_ASSERT_EQUAL(dal_batch_time(batch, i), i == 1 ? 0.0 : 2.0);
+    }
+    dal_batch_free(batch);
+    /* With no lane left the status is that of a lane. */
+    CU_ASSERT_EQUAL_FATAL(dal_batch_create(&batch, &spec, 1, 0, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_batch_start(batch, 0, NULL, 0, &start, 1, NULL), DAL_OK);
+    broken = true;
+    CU_ASSERT_EQUAL(dal_batch_advance(batch, 4), DAL_NOT_FINITE);
+    broken = false;
+    CU_ASSERT_EQUAL(dal_batch_advance(batch, 4), DAL_NOT_FINITE);
+    CU_ASSERT_EQUAL(dal_batch_time(batch, 0), 0.0);
+    dal_batch_free(batch);
+}
+
 /* Normals are judged lane by lane: of many bodies that slide down along x, one was thrown upwards
  * along y and comes to rest at t = 2/9.81, where its constraint is singular (see test_run.c). */
 static void test_singular_lane(void)
@@ -306,6 +344,7 @@ void suite_batch(void)
     CU_add_test(suite, "the bits of single runs in every variant", test_same_bits);
     CU_add_test(suite, "stiff and easy lanes side by side", test_mixed_stiffness);
     CU_add_test(suite, "a failing lane", test_failing_lane);
+    CU_add_test(suite, "a failed lane stays where it is", test_failed_lane_stays);
     CU_add_test(suite, "a lane whose constraint turns singular", test_singular_lane);
     CU_add_test(suite, "arguments", test_arguments);
     CU_add_test(suite, "lanes that need different numbers of sweeps", test_uneven_sweeps);

@@ -81,7 +81,7 @@ enum { ROWS = 8 };
 
 typedef struct seen {
     int count, most;
-    double t[ROWS], x[ROWS];
+    double t[ROWS], x[ROWS], clock[ROWS];
     long long steps[ROWS];
 } seen;
 
@@ -89,6 +89,7 @@ static dal_status see(void *user, dal_run *run, long long row, double t)
 {
     seen *s = user;
     (void)row;
+    s->clock[s->count] = dal_run_time(run);
     s->t[s->count] = t;
     s->x[s->count] = dal_run_state(run)[0];
     s->steps[s->count] = dal_run_steps(run);
@@ -112,6 +113,64 @@ static void test_rows_on_steps(void)
         CU_ASSERT_DOUBLE_EQUAL(s.t[i], (double)s.steps[i] * h, T * DBL_EPSILON);
     }
     CU_ASSERT_EQUAL(s.t[2], T);
+    dal_run_free(run);
+    dal_model_free(model);
+}
+
+/* Row number row a few last places of t from the end of step late + row + 1. */
+static const double off[] = {0.0, 5.0, -5.0, 7.0, -7.0, 0.0, 0.0};
+
+static double near_steps(void *user, long long row)
+{
+    const double t = (double)(late + row + 1) * h;
+    (void)user;
+    return t + off[row] * (nextafter(t, INFINITY) - t);
+}
+
+/* The rounding of the clock is 4 DBL_EPSILON t, 5.96 of the last places that t = 1e8 has: a row
+ * nearer than that to a step is shown at the step, one farther off at its own time. */
+static void test_rows_near_steps(void)
+{
+    dal_model *model = fixture_model(oscillator);
+    const dal_run_spec spec = fixture_spec(fixture_system(model), "rk4", DAL_PHYSICAL, h);
+    dal_run *run = fixture_run(&spec);
+    seen s = {.most = ROWS};
+    const dal_observer observer = {.user = &s, .sample = see, .row_time = near_steps};
+    put_late(run, late);
+    CU_ASSERT_EQUAL(dal_run_sample(run, (double)(late + 7) * h, 6, 0, &observer, NULL), DAL_OK);
+    CU_ASSERT_EQUAL_FATAL(s.count, 7);
+    for (int i = 0; i < 7; i++) {
+        const double step = (double)(late + i + 1) * h;
+        CU_ASSERT_EQUAL(s.t[i], i < 6 ? near_steps(NULL, i) : step);
+        CU_ASSERT_EQUAL(s.clock[i], fabs(off[i]) < 6.0 ? step : s.t[i]);
+        CU_ASSERT_EQUAL(s.steps[i], late + i + 1 + (off[i] > 6.0));
+    }
+    dal_run_free(run);
+    dal_model_free(model);
+}
+
+/* Early in a run the tolerance is 1e-9 of a step. */
+static double near_step_one(void *user, long long row)
+{
+    static const double part[] = {0.0, 1.0 - 1.1e-9, 1.0 - 0.9e-9, 1.0 + 0.9e-9, 1.0 + 1.1e-9};
+    (void)user;
+    return part[row] * h;
+}
+
+static void test_rows_near_early_steps(void)
+{
+    dal_model *model = fixture_model(oscillator);
+    const dal_run_spec spec = fixture_spec(fixture_system(model), "rk4", DAL_PHYSICAL, h);
+    dal_run *run = fixture_run(&spec);
+    seen s = {.most = ROWS};
+    const dal_observer observer = {.user = &s, .sample = see, .row_time = near_step_one};
+    CU_ASSERT_EQUAL(dal_run_sample(run, 2.0 * h, 5, 0, &observer, NULL), DAL_OK);
+    CU_ASSERT_EQUAL_FATAL(s.count, 6);
+    for (int i = 0; i < 6; i++) {
+        const double t = i < 5 ? near_step_one(NULL, i) : 2.0 * h;
+        CU_ASSERT_EQUAL(s.t[i], t);
+        CU_ASSERT_DOUBLE_EQUAL(s.clock[i], i == 2 || i == 3 ? h : t, 1e-17);
+    }
     dal_run_free(run);
     dal_model_free(model);
 }
@@ -145,5 +204,7 @@ void suite_late(void)
     CU_add_test(suite, "the clock near step 1e10", test_clock);
     CU_add_test(suite, "the clock from the start", test_from_the_start);
     CU_add_test(suite, "rows on steps", test_rows_on_steps);
+    CU_add_test(suite, "rows beside steps", test_rows_near_steps);
+    CU_add_test(suite, "rows beside early steps", test_rows_near_early_steps);
     CU_add_test(suite, "rows between steps", test_rows_between_steps);
 }

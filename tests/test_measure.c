@@ -258,6 +258,30 @@ static void test_degree(void)
     for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) examine_kind(&kinds[k]);
 }
 
+/* A friction k x' changes F by 2 k x' under v -> -v, x' being drawn from 1 +- 0.3 and F below 1: the
+ * defect is between 2 k and 2.6 k, and 1e-10 of it parts reversible from not. */
+static void test_nearly_reversible(void)
+{
+    static const double frictions[] = {0.0, 1e-12, 3.7e-11, 5.1e-11, 1e-9, 1e-4};
+    for (int i = 0; i < 6; i++) {
+        dal_model *model = fixture_model("coordinates: [x]\nparameters: {k: 0}\n"
+                                         "accelerations: {x: -0.5*x - k*x'}\nstart: {x': 1}\n");
+        const dal_setting k = {"k", frictions[i]};
+        dal_probe *probe;
+        double x[3];
+        dal_degree d;
+        CU_ASSERT_EQUAL_FATAL(dal_probe_create(&probe, fixture_system(model), &k, 1, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_probe_start(probe, NULL, 0, x, NULL), DAL_OK);
+        const dal_point at = {0.0, x, x + 1};
+        CU_ASSERT_EQUAL(dal_measure_degree(probe, &at, &d, NULL), DAL_OK);
+        CU_ASSERT(d.force_defect >= 2.0 * frictions[i] - 1e-15);
+        CU_ASSERT(d.force_defect <= 2.6 * frictions[i] + 1e-15);
+        CU_ASSERT_EQUAL(d.reversible, i < 3);
+        dal_probe_free(probe);
+        dal_model_free(model);
+    }
+}
+
 /* ---- memory ---- */
 
 static dal_status all_measures(const dal_system *system)
@@ -311,5 +335,6 @@ void suite_measure(void)
     CU_add_test(suite, "onto D = 0", test_onto);
     CU_add_test(suite, "onto a D without zero", test_onto_nothing);
     CU_add_test(suite, "kinds of D", test_degree);
+    CU_add_test(suite, "reversible within 1e-10", test_nearly_reversible);
     CU_add_test(suite, "out of memory", test_out_of_memory);
 }

@@ -165,6 +165,30 @@ static void test_pairs_in_a_step(void)
         CU_ASSERT_DOUBLE_EQUAL(r.t[k], 2.0 * pi * ((k + 1) / 2) + (k % 2 ? -a : a), 2e-12);
 }
 
+/* g = +-((t - c)^2 - d^2), which rk4 follows exactly, with its minimum at c in a step of 0.25 beside
+ * t = 1, the step where |g| is least: behind it or before it, so that both crossings c -+ d lie in
+ * the step after t = 1, or in the one before. */
+static void test_pairs_on_either_side(void)
+{
+    static const double place[] = {0.95, 0.9, 1.05, 1.1};
+    for (int i = 0; i < 8; i++) {
+        const double c = place[i % 4], d = 0.04, up = i < 4 ? -1.0 : 1.0;
+        char text[256];
+        dal_crossings found;
+        snprintf(text, sizeof text,
+                 "coordinates: [x]\naccelerations: {x: 2}\nstart: {x: %.17g, x': %.17g}\n"
+                 "invariants: {g: %g*x}\n",
+                 c * c - d * d, -2.0 * c, up);
+        const record r = crossings_of(text, "rk4", 0.25, 3.0, 0, &found);
+        CU_ASSERT_EQUAL_FATAL(r.count, 2);
+        CU_ASSERT(found.up == 1 && found.down == 1 && found.touches == 0);
+        CU_ASSERT_DOUBLE_EQUAL(r.t[0], c - d, 1e-14);
+        CU_ASSERT_DOUBLE_EQUAL(r.t[1], c + d, 1e-14);
+        CU_ASSERT(r.direction[0] == -up && r.direction[1] == up);
+        CU_ASSERT(r.number[0] == 1 && r.number[1] == 2);
+    }
+}
+
 /* x = 1 is reached but not crossed, at 2 pi k. */
 static void test_touches(void)
 {
@@ -312,6 +336,7 @@ void suite_section(void)
     CU_add_test(suite, "directions", test_directions);
     CU_add_test(suite, "a section in time", test_in_time);
     CU_add_test(suite, "pairs within a step", test_pairs_in_a_step);
+    CU_add_test(suite, "pairs in the step before or after", test_pairs_on_either_side);
     CU_add_test(suite, "touches", test_touches);
     CU_add_test(suite, "g = 0 at a step", test_on_a_step);
     CU_add_test(suite, "every method", test_methods);

@@ -36,6 +36,9 @@ copy_sources() {
         mkdir -p "$tree/$(dirname "$file")"
         cp "$file" "$tree/$file"
     done
+    (cd "$tree" && find . -path ./build -prune -o -type f -print) | while read -r file; do
+        [ -e "$file" ] || rm "$tree/$file"
+    done
 }
 build() {
     make -s -C "$tree" -j"$(nproc)" BUILD=build CC="$CC" CFLAGS=-O1 VARIANTS="$variants" "$@" \
