@@ -30,9 +30,6 @@ EXACT = -ffp-contract=off -fno-math-errno
 ALL   = -std=c11 -D_POSIX_C_SOURCE=200809L $(WARN) $(EXACT) -fPIC -pthread -Iinclude -Ilib \
         -I$(BUILD)/generated $(CFLAGS)
 LIBS  = -lyaml -lm -pthread
-# Threads of the program, for cli/pool.c alone; without OpenMP it has one.
-OPENMP = $(eval OPENMP := $(shell echo 'int main(void) { return 0; }' | \
-         $(CC) -fopenmp -x c - -o /dev/null 2>/dev/null && echo -fopenmp))$(OPENMP)
 
 VERSION := $(shell sed -n 's/^.define DAL_VERSION "\(.*\)"/\1/p' include/dalembert.h)
 SONAME  := libdalembert.so.$(firstword $(subst ., ,$(VERSION)))
@@ -107,10 +104,9 @@ $(SHARED): $(SHARED).$(VERSION)
 	@ln -sf $(<F) $(BUILD)/$(SONAME)
 	@ln -sf $(SONAME) $@
 
-$(BUILD)/cli/pool.o: ALL += $(OPENMP)
 $(BUILD)/cli/manifest.o: ALL += -DCLI_FLAGS='"$(strip $(EXACT) $(CFLAGS))"'
 $(PROGRAM): $(CLI_OBJ) $(STATIC)
-	$(call SAY,ld)$(CC) $(CFLAGS) $(LDFLAGS) $^ $(LIBS) $(OPENMP) -o $@
+	$(call SAY,ld)$(CC) $(CFLAGS) $(LDFLAGS) $^ $(LIBS) -o $@
 
 # Studies on the processes of a cluster, by Open MPI: everything of the program but its main.
 MPI_PROGRAM = $(BUILD)/dalembert-mpi
@@ -119,7 +115,7 @@ MPI_CFLAGS  = $(patsubst -I%,-isystem%,$(shell $(MPICC) --showme:compile))
 mpi: $(MPI_PROGRAM)
 $(BUILD)/cli/mpi/dalembert_mpi.o: ALL += $(MPI_CFLAGS)
 $(MPI_PROGRAM): $(BUILD)/cli/mpi/dalembert_mpi.o $(filter-out %/cli/main.o,$(CLI_OBJ)) $(STATIC)
-	$(call SAY,ld)$(CC) $(CFLAGS) $(LDFLAGS) $^ $(LIBS) $(OPENMP) \
+	$(call SAY,ld)$(CC) $(CFLAGS) $(LDFLAGS) $^ $(LIBS) \
 	    $(shell $(MPICC) --showme:link) -o $@
 
 # ---- generated texts -------------------------------------------------------------------------

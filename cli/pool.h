@@ -4,8 +4,7 @@
 
 enum { POOL_MOST = 256 };
 
-/* How many threads are wanted where nothing is said: OMP_NUM_THREADS, else one per processor; 1
- * where the program was compiled without OpenMP. */
+/* How many threads are wanted where nothing is said: OMP_NUM_THREADS, else one per processor. */
 int pool_threads(void);
 /* work(user, i) for i = 0..count-1, each once, taken in this order by whichever of the threads is
  * free. */

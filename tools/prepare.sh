@@ -5,7 +5,7 @@
 set -e
 packages='gcc libc6-dev make pkg-config libyaml-dev libcunit1-dev libmpfr-dev libjansson-dev locales gnuplot-nox'
 if [ "$1" = lint ]; then
-    packages="$packages binutils clang clang-format libclang-rt-14-dev universal-ctags valgrind libomp-dev openmpi-bin libopenmpi-dev chromium"
+    packages="$packages binutils clang clang-format libclang-rt-14-dev universal-ctags valgrind openmpi-bin libopenmpi-dev chromium"
 fi
 if [ "$1" = bench ]; then
     packages="$packages g++ libgsl-dev libsundials-dev libboost-dev"
