@@ -67,6 +67,6 @@ int analysis_open(analysis_place *place, const char *output, const char *name)
         if (status != CLI_DONE) return status;
         place->directory = output;
     }
-    place->table = place->directory ? cli_join(output, file) : strdup(output);
-    return place->table ? CLI_DONE : cli_fail(CLI_IO, "out of memory");
+    place->table = place->directory ? cli_join(output, file) : cli_strdup(output);
+    return CLI_DONE;
 }

@@ -39,10 +39,7 @@ static int unknown(cli_args *args, const char *argument, size_t length)
     for (int i = 0; i < args->count && count < NAMES_MOST - 1; i++)
         names[count++] = args->options[i].name;
     names[count++] = "help";
-    char *name = malloc(length + 1);
-    if (!name) return stop(args, cli_fail(CLI_IO, "out of memory"));
-    memcpy(name, argument, length);
-    name[length] = '\0';
+    char *name = cli_strndup(argument, length);
     const char *bare = name + strspn(name, "-");
     const char *nearest = dal_nearest(bare, names, count);
     int status = nearest ? cli_fail(CLI_USAGE, "%s: unknown option '%s'; did you mean '--%s'?",
@@ -133,11 +130,7 @@ int cli_setting(const char *what, const char *text, dal_setting *setting)
     const char *equals = strchr(text, '=');
     if (!equals || equals == text)
         return cli_fail(CLI_USAGE, "%s: '%s' is not NAME=VALUE", what, text);
-    size_t length = (size_t)(equals - text);
-    char *name = malloc(length + 1);
-    if (!name) return cli_fail(CLI_IO, "out of memory");
-    memcpy(name, text, length);
-    name[length] = '\0';
+    char *name = cli_strndup(text, (size_t)(equals - text));
     int status = CLI_DONE;
     if (strcmp(name, "e") == 0 && is_infinity(equals + 1))
         setting->value = INFINITY;

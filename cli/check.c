@@ -92,7 +92,7 @@ static void move_points(check *c, double *memory)
     for (int k = 0; k < c->near_count; k++) {
         double *x = memory + c->surface_count * c->size, t = c->near[k].t;
         memcpy(x, c->near[k].q, (size_t)c->size * sizeof(double));
-        if (dal_measure_onto(c->probe, t, x, x + c->n) != DAL_OK) continue;
+        if (!cli_is_ok(dal_measure_onto(c->probe, t, x, x + c->n))) continue;
         c->surface[c->surface_count] = (dal_point){t, x, x + c->n};
         c->surface_count += field_is_finite(c, &c->surface[c->surface_count]);
     }
@@ -103,7 +103,8 @@ double check_rate(check *c, dal_callback *callback, int values, int i, const dal
 {
     double most = -1.0;
     for (int k = 0; k < count; k++) {
-        if (dal_measure_rate(c->probe, callback, values, &points[k], c->values) != DAL_OK) continue;
+        if (!cli_is_ok(dal_measure_rate(c->probe, callback, values, &points[k], c->values)))
+            continue;
         for (int j = i < 0 ? 0 : i; j < (i < 0 ? values : i + 1); j++)
             most = fmax(most, fabs(c->values[j]));
     }
@@ -157,8 +158,7 @@ static int prepare(check *c, const dal_setting *start, int start_count)
     dal_status status =
         dal_probe_create(&c->probe, c->system, c->parameters, c->parameter_count, &error);
     if (status != DAL_OK) return cli_error(cli_input_exit(status), NULL, &error);
-    c->start = calloc(size + 1 + points + values_most(c->system), sizeof(double));
-    if (c->start == NULL) return cli_fail(CLI_IO, "out of memory");
+    c->start = cli_calloc(size + 1 + points + values_most(c->system), sizeof(double));
     double *near = c->start + size + 1;
     c->values = near + points;
     status = dal_probe_start(c->probe, start, start_count, c->start, &error);

@@ -18,7 +18,7 @@ void check_algebra(check *c)
     int n = c->n;
     const dal_point *at = c->surface_count > 0 ? &c->surface[0] : &c->origin;
     if (!c->regular || c->start[c->size] == 0.0 || isinf(c->start[c->size])) return;
-    if (dal_measure_dirac(c->probe, at, c->start[c->size], &d) != DAL_OK) return;
+    if (!cli_is_ok(dal_measure_dirac(c->probe, at, c->start[c->size], &d))) return;
     check_item(c, d.second_class == 2 * n ? CHECK_OK : CHECK_FAIL, "second-class constraints",
                "rank %d of %d brackets' matrix, 2n = %d", d.second_class, d.constraints, 2 * n);
     check_item(c, d.first_class == 2 * n + 1 ? CHECK_OK : CHECK_FAIL, "first-class constraints",
@@ -54,7 +54,7 @@ static int open_track(track *w, const char *method, dal_space space)
     spec.options.step = w->h;
     spec.options.space = space;
     return dal_method_parse(&spec.method, method, NULL) == DAL_OK &&
-           dal_run_create(&w->run, &spec, NULL) == DAL_OK;
+           cli_is_ok(dal_run_create(&w->run, &spec, NULL));
 }
 
 static int follow(track *w, int nodes)
@@ -83,10 +83,10 @@ static int actions(track *w, double *computed, double *perturbed)
     double e = c->start[c->size];
     int done = open_track(w, "gauss8", DAL_PHYSICAL) &&
                dal_run_set_state(w->run, 0.0, c->start, NULL) == DAL_OK && follow(w, NODES) &&
-               dal_measure_action(c->probe, 0.0, w->h, NODES, w->row, e, computed) == DAL_OK;
+               cli_is_ok(dal_measure_action(c->probe, 0.0, w->h, NODES, w->row, e, computed));
     if (done) {
         perturb(w, 1e-3);
-        done = dal_measure_action(c->probe, 0.0, w->h, NODES, w->row, e, perturbed) == DAL_OK;
+        done = cli_is_ok(dal_measure_action(c->probe, 0.0, w->h, NODES, w->row, e, perturbed));
     }
     dal_run_free(w->run);
     w->run = NULL;
@@ -99,8 +99,8 @@ static void check_second_order(check *c)
     track w = {.c = c, .h = 0.01, .width = c->n};
     double computed = INFINITY, perturbed = 0.0;
     int done = 0;
-    w.row = calloc((size_t)NODES * (size_t)c->n, sizeof(double));
-    for (int k = 0; w.row != NULL && k < REFINEMENTS && !(computed < 1e-9 * perturbed); k++) {
+    w.row = cli_calloc((size_t)NODES * (size_t)c->n, sizeof(double));
+    for (int k = 0; k < REFINEMENTS && !(computed < 1e-9 * perturbed); k++) {
         done |= actions(&w, &computed, &perturbed);
         w.h *= 0.25;
     }
@@ -120,14 +120,14 @@ static int stationarity(check *c, const char *method, double *defect)
 {
     track w = {.c = c, .h = 0.01, .width = 4 * c->n + 2};
     size_t width = (size_t)w.width;
-    w.row = calloc((LIFTED_NODES + 1) * width, sizeof(double));
-    int done = w.row != NULL && open_track(&w, method, DAL_LIFTED);
+    w.row = cli_calloc((LIFTED_NODES + 1) * width, sizeof(double));
+    int done = open_track(&w, method, DAL_LIFTED);
     if (done) {
         double *state = w.row + LIFTED_NODES * width;
         memcpy(state, c->start, (size_t)(c->size + 1) * sizeof(double));
         displace(c, state);
         done = dal_run_set_state(w.run, 0.0, state, NULL) == DAL_OK && follow(&w, LIFTED_NODES) &&
-               dal_measure_stationarity(c->probe, 0.0, w.h, LIFTED_NODES, w.row, defect) == DAL_OK;
+               cli_is_ok(dal_measure_stationarity(c->probe, 0.0, w.h, LIFTED_NODES, w.row, defect));
     }
     dal_run_free(w.run);
     free(w.row);

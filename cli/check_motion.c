@@ -63,7 +63,7 @@ void check_derivatives(check *c)
     dal_derivatives worst = {-1.0, -1.0, -1.0, -1.0}, d;
     int points = 0;
     for (int k = 0; k < c->near_count; k++) {
-        if (dal_measure_derivatives(c->probe, &c->near[k], &d) != DAL_OK) continue;
+        if (!cli_is_ok(dal_measure_derivatives(c->probe, &c->near[k], &d))) continue;
         points++;
         worst.jacobian = fmax(worst.jacobian, d.jacobian);
         worst.adjoint = fmax(worst.adjoint, d.adjoint);

@@ -37,7 +37,7 @@ static void start_rank(check *c)
     double pivot = 0.0;
     dal_status status = dal_measure_rank(c->probe, &c->origin, &rank, &pivot);
     if (status == DAL_UNSUPPORTED) return;
-    if (status != DAL_OK)
+    if (!cli_is_ok(status))
         check_item(c, CHECK_FAIL, "rank of G at the start", "not to be had: %s",
                    dal_status_text(status));
     else
@@ -133,9 +133,8 @@ static void say_kind(check *c, const dal_degree *d)
 void check_constraints(check *c)
 {
     dal_degree d;
-    double *degree = calloc((size_t)c->m + 1, sizeof *degree);
-    if (c->m > 0 && degree != NULL &&
-        dal_measure_degree(c->probe, &c->origin, &d, degree) == DAL_OK) {
+    double *degree = cli_calloc((size_t)c->m + 1, sizeof *degree);
+    if (c->m > 0 && cli_is_ok(dal_measure_degree(c->probe, &c->origin, &d, degree))) {
         dal_callback *D = c->system->constraints;
         double on = check_rate(c, D, c->m, -1, c->surface, c->surface_count);
         double off = check_rate(c, D, c->m, -1, c->near, c->near_count);
@@ -154,7 +153,7 @@ void check_reversal(check *c)
     static const char *const parity[] = {"D(q,-v) = -D(q,v)", "neither even nor odd in v",
                                          "D(q,-v) = +D(q,v)"};
     dal_degree d;
-    if (dal_measure_degree(c->probe, &c->origin, &d, NULL) != DAL_OK) return;
+    if (!cli_is_ok(dal_measure_degree(c->probe, &c->origin, &d, NULL))) return;
     check_item(c, CHECK_INFO, "F(q,-v,-t) = F(q,v,t)", "%s, greatest difference %.2g",
                d.reversible ? "yes: reversible" : "no: not reversible under v -> -v",
                d.force_defect);

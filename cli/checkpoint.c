@@ -71,16 +71,18 @@ int store_save(const cli_store *store, const cli_mark *mark, const dal_run *run,
                     .words = WORDS,
                     .layout = DAL_STATISTICS_LAYOUT};
     const size_t words = HEAD_WORDS + memory_count + (size_t)count * WORDS;
-    unsigned char *text = malloc((words + 1) * WORD);
-    if (!text) return cli_fail(CLI_IO, "out of memory");
+    unsigned char *text = cli_malloc((words + 1) * WORD);
     unsigned char *place = append(text, &h, HEAD_WORDS);
     place = append(place, memory, memory_count);
     place = append(place, statistics, (size_t)count * WORDS);
     const uint64_t sum = file_hash(FILE_HASH_START, text, words * WORD);
     append(place, &sum, 1);
+    cli_hold_files();
     int status = file_write(store->fresh, text, (words + 1) * WORD, store->settle);
     if (status == CLI_DONE) status = keep_the_one_before(store);
     if (status == CLI_DONE) status = file_rename(store->fresh, store->checkpoint, store->settle);
+    if (status != CLI_DONE) unlink(store->fresh);
+    cli_release_files();
     free(text);
     return status;
 }
@@ -169,8 +171,7 @@ static int put_in_force(const image *m, cli_mark *mark, dal_run *run, dal_statis
 {
     dal_error error = {0};
     const size_t count = m->head.memory;
-    double *memory = malloc((count + 1) * sizeof *memory);
-    if (!memory) return cli_fail(CLI_IO, "out of memory");
+    double *memory = cli_malloc((count + 1) * sizeof *memory);
     const unsigned char *place = take(m->text + HEAD_WORDS * WORD, memory, count);
     const dal_status loaded = dal_run_load(run, memory, count, &error);
     free(memory);

@@ -15,6 +15,7 @@
 
 #include "dalembert.h"
 
+#include <stdarg.h>
 #include <stdio.h>
 
 /* name, synopsis, what it does */
@@ -85,7 +86,8 @@ int cli_input_exit(dal_status status);
 int cli_fail(int exit_status, const char *format, ...) CLI_PRINTF(2, 3);
 /* "dalembert: unknown WHAT 'NAME'; did you mean 'NEAREST'?"; returns CLI_USAGE. */
 int cli_unknown(const char *what, const char *name, const char *const *names, int count);
-/* "dalembert: PLACE:line:column: message"; place may be NULL and line 0.  Returns exit_status. */
+/* "dalembert: PLACE:line:column: message"; place may be NULL and line 0.  Returns exit_status, or
+ * CLI_IO where memory ran out. */
 int cli_error(int exit_status, const char *place, const dal_error *error);
 /* "dalembert: cannot VERB 'PATH': strerror(errno)"; returns CLI_IO. */
 int cli_io(const char *verb, const char *path);
@@ -96,6 +98,34 @@ void cli_progress(const char *format, ...) CLI_PRINTF(1, 2);
 void cli_progress_end(void);
 /* Columns of the terminal on stderr, 80 where it does not say. */
 int cli_width(void);
+
+/* ---- memory -------------------------------------------------------------------------------- */
+
+/* Without memory the program ends: a message, status 4; cli_io does so where that is the reason. */
+_Noreturn void cli_out_of_memory(void);
+/* Between these two calls a lack of memory in another thread does not end the program: files that
+ * belong together are written as a whole. */
+void cli_hold_files(void);
+void cli_release_files(void);
+/* Whether a function of the library returned DAL_OK; the program ends where it was DAL_MEMORY. */
+int cli_is_ok(dal_status status);
+
+/* As the functions of the C library, but they never return NULL, for no bytes either. */
+void *cli_malloc(size_t size);
+void *cli_calloc(size_t count, size_t size);
+void *cli_realloc(void *memory, size_t size);
+char *cli_strdup(const char *text);
+char *cli_strndup(const char *text, size_t length);
+/* getline of the C library: the length of the next line, below 0 at the end or after a failure. */
+long long cli_getline(char **line, size_t *capacity, FILE *file);
+/* What printf would print, allocated. */
+char *cli_format(const char *format, ...) CLI_PRINTF(1, 2);
+char *cli_format_list(const char *format, va_list list) CLI_PRINTF(1, 0);
+
+/* A file whose text is in memory: *text, allocated, and its *length are complete when the file is
+ * closed. */
+FILE *cli_memstream_open(char **text, size_t *length);
+void cli_memstream_close(FILE *out);
 
 /* ---- arguments ----------------------------------------------------------------------------- */
 
@@ -191,7 +221,7 @@ int cli_ends_in(const char *text, const char *ending);
 int cli_directory(const char *path);
 /* Whether an output is a directory: not "-", no .csv or .npy, no device and no pipe. */
 int cli_is_directory(const char *output);
-/* "DIR/NAME", allocated; NULL when memory is out. */
+/* "DIR/NAME", allocated. */
 char *cli_join(const char *directory, const char *name);
 
 /* ---- signals ------------------------------------------------------------------------------- */

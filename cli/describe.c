@@ -40,17 +40,13 @@ static void put_settings(FILE *out, const char *name, const job_settings *settin
     fputc('}', out);
 }
 
-/* Allocated; NULL after a message. */
+/* Allocated. */
 static char *describe(const cli_job *job)
 {
     cli_option options[JOB_OPTIONS];
-    char *text = NULL;
-    size_t length = 0;
-    FILE *out = open_memstream(&text, &length);
-    if (!out) {
-        cli_fail(CLI_IO, "out of memory");
-        return NULL;
-    }
+    char *text;
+    size_t length;
+    FILE *out = cli_memstream_open(&text, &length);
     job_options(options);
     fputc('{', out);
     json_text_member(out, "\n    ", "system", cli_is_path(job->system) ? copy_name : job->system);
@@ -62,9 +58,8 @@ static char *describe(const cli_job *job)
     put_settings(out, options[JOB_set].name, &job->set);
     put_settings(out, options[JOB_start].name, &job->start);
     fputs("\n  }", out);
-    if (cli_close(out, "memory") == CLI_DONE) return text;
-    free(text);
-    return NULL;
+    cli_memstream_close(out);
+    return text;
 }
 
 /* The text of a system: of a built-in one from the library, of any other from its file. */
@@ -110,7 +105,6 @@ int store_describe(cli_store *store, const cli_job *job)
         status = is_path ? copy(store, job->system) : file_remove(store->system);
     if (status != CLI_DONE) return status;
     store->input = describe(job);
-    if (!store->input) return CLI_IO;
     status = sign(store, is_path ? NULL : dal_builtin_text(job->system));
     const cli_mark nothing = {.row = 0};
     return status == CLI_DONE ? manifest_write(store, job, &nothing, "running", "") : status;
@@ -119,9 +113,9 @@ int store_describe(cli_store *store, const cli_job *job)
 /* Both are described in the present way, whatever version wrote the directory. */
 int store_is_of(const cli_store *store, const cli_job *held, const cli_job *job)
 {
-    char *one = describe(held), *other = one ? describe(job) : NULL;
-    int status = other ? CLI_DONE : CLI_IO;
-    if (other && strcmp(one, other) != 0)
+    char *one = describe(held), *other = describe(job);
+    int status = CLI_DONE;
+    if (strcmp(one, other) != 0)
         status = cli_fail(CLI_USAGE, "'%s' holds another run: its input differs", store->directory);
     free(one);
     free(other);
@@ -138,13 +132,12 @@ static const char *name_of(const study_text *text, const yaml_node_pair_t *pair)
 /* "NAME=VALUE" out of "set" or "start"; job_take copies it. */
 static int take_setting(cli_job *job, int option, const char *name, const char *value)
 {
-    char *given = NULL;
+    char *given;
     size_t length;
-    FILE *out = open_memstream(&given, &length);
-    if (!out) return cli_fail(CLI_IO, "out of memory");
+    FILE *out = cli_memstream_open(&given, &length);
     fprintf(out, "%s=%s", name, value);
-    int status = cli_close(out, "memory");
-    if (status == CLI_DONE) status = job_take(job, option, given);
+    cli_memstream_close(out);
+    const int status = job_take(job, option, given);
     job->text[option] = NULL;
     free(given);
     return status;
@@ -216,8 +209,7 @@ static int check_version(const study_text *text, const yaml_node_t *root)
 
 static int read_manifest(cli_store *store, cli_job *job, const char *bytes, size_t length)
 {
-    store->text = calloc(1, sizeof *store->text);
-    if (!store->text) return cli_fail(CLI_IO, "out of memory");
+    store->text = cli_calloc(1, sizeof *store->text);
     int status = json_parse(store->text, store->manifest, bytes, length);
     if (status != CLI_DONE) return status;
     const yaml_node_t *root = yaml_document_get_root_node(&store->text->document);
@@ -227,7 +219,7 @@ static int read_manifest(cli_store *store, cli_job *job, const char *bytes, size
     status = check_version(store->text, root);
     if (status != CLI_DONE) return status;
     store->input = json_source(bytes, input);
-    return store->input ? take_all(store, job, input) : cli_fail(CLI_IO, "out of memory");
+    return take_all(store, job, input);
 }
 
 int store_read(cli_store *store, cli_job *job)

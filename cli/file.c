@@ -10,20 +10,14 @@
 static char *read_all(FILE *file, size_t *length)
 {
     size_t room = 4096, n = 0;
-    char *text = malloc(room + 1);
-    while (text) {
+    char *text = cli_malloc(room + 1);
+    for (;;) {
         n += fread(text + n, 1, room - n, file);
         if (n < room) break;
-        char *more = realloc(text, 2 * room + 1);
-        if (!more) {
-            free(text);
-            errno = ENOMEM;
-            return NULL;
-        }
-        text = more;
         room *= 2;
+        text = cli_realloc(text, room + 1);
     }
-    if (text) text[n] = '\0';
+    text[n] = '\0';
     *length = n;
     return text;
 }
@@ -59,8 +53,8 @@ static int write_all(int descriptor, const void *bytes, size_t length, int settl
 static void settle_directory(const char *path)
 {
     const char *slash = strrchr(path, '/');
-    char *directory = slash ? strndup(path, (size_t)(slash - path) + 1) : strdup(".");
-    int descriptor = directory ? open(directory, O_RDONLY) : -1;
+    char *directory = slash ? cli_strndup(path, (size_t)(slash - path) + 1) : cli_strdup(".");
+    const int descriptor = open(directory, O_RDONLY);
     if (descriptor >= 0) {
         fsync(descriptor);
         close(descriptor);
@@ -91,14 +85,12 @@ int file_rename(const char *from, const char *to, int settle)
 
 int file_swap(const char *path, const void *bytes, size_t length, int settle)
 {
-    static const char ending[] = ".new";
-    size_t n = strlen(path);
-    char *fresh = malloc(n + sizeof ending);
-    if (!fresh) return cli_fail(CLI_IO, "out of memory");
-    memcpy(fresh, path, n);
-    memcpy(fresh + n, ending, sizeof ending);
+    char *fresh = cli_format("%s.new", path);
+    cli_hold_files();
     int status = file_write(fresh, bytes, length, settle);
     if (status == CLI_DONE) status = file_rename(fresh, path, settle);
+    if (status != CLI_DONE) unlink(fresh);
+    cli_release_files();
     free(fresh);
     return status;
 }

@@ -43,9 +43,9 @@ FILE *gnuplot_open(const char *directory, const char *name, const char *format, 
     char file[512];
     snprintf(file, sizeof file, "%s.gp", name);
     *path = cli_join(directory, file);
-    FILE *script = *path ? fopen(*path, "w") : NULL;
+    FILE *script = fopen(*path, "w");
     if (!script) {
-        cli_io("write", *path ? *path : name);
+        cli_io("write", *path);
         free(*path);
         return NULL;
     }
@@ -117,9 +117,7 @@ int gnuplot_draw(const char *directory, FILE *script, const char *path, int *mis
     if (status == CLI_DONE) status = run(directory, path, missing);
     if (status != CLI_DONE) return status;
     /* NAME.gp has drawn NAME.svg or NAME.png. */
-    char *figure = malloc(strlen(path) + 2);
-    if (!figure) return cli_fail(CLI_IO, "out of memory");
-    sprintf(figure, "%.*ssvg", (int)strlen(path) - 2, path);
+    char *figure = cli_format("%.*ssvg", (int)strlen(path) - 2, path);
     if (access(figure, F_OK) == 0) status = put_style(figure);
     free(figure);
     return status;

@@ -99,12 +99,7 @@ static int add_setting(job_settings *settings, const char *what, const char *tex
         return CLI_DONE;
     }
     size_t count = (size_t)settings->count + 1;
-    dal_setting *item = realloc(settings->item, count * sizeof *item);
-    if (!item) {
-        free((char *)given.name);
-        return cli_fail(CLI_IO, "out of memory");
-    }
-    settings->item = item;
+    settings->item = cli_realloc(settings->item, count * sizeof *settings->item);
     settings->item[settings->count++] = given;
     return CLI_DONE;
 }

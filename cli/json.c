@@ -185,7 +185,7 @@ static size_t byte_of(const char *bytes, size_t character)
 char *json_source(const char *bytes, const yaml_node_t *value)
 {
     const size_t begin = byte_of(bytes, value->start_mark.index);
-    return strndup(bytes + begin, byte_of(bytes, value->end_mark.index) - begin);
+    return cli_strndup(bytes + begin, byte_of(bytes, value->end_mark.index) - begin);
 }
 
 static char *find_text(const char *path, const char *bytes, size_t length, const char *name)
@@ -196,7 +196,7 @@ static char *find_text(const char *path, const char *bytes, size_t length, const
         const yaml_node_t *root = yaml_document_get_root_node(&text.document);
         const yaml_node_t *node = json_find(&text, root, name);
         const char *value = node ? study_text_scalar(&text, node, name) : NULL;
-        if (value && !(copy = strdup(value))) cli_fail(CLI_IO, "out of memory");
+        if (value) copy = cli_strdup(value);
     }
     yaml_document_delete(&text.document);
     return copy;

@@ -29,7 +29,7 @@ enum { JSON_DEPTH = 32 };
 int json_parse(study_text *text, const char *place, const char *bytes, size_t length);
 /* A member of an object; NULL: it has none of that name. */
 const yaml_node_t *json_find(const study_text *text, const yaml_node_t *object, const char *name);
-/* What stands for a value in the bytes that were parsed, allocated; NULL: out of memory. */
+/* What stands for a value in the bytes that were parsed, allocated. */
 char *json_source(const char *bytes, const yaml_node_t *value);
 /* A text of the object in a file, allocated; NULL where the file or the text is not there, after a
  * message where the file cannot be read. */

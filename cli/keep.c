@@ -16,10 +16,9 @@ int keep_open(cli_keep *keep, const cli_job *job, const char *directory)
 {
     cli_store *store = &keep->store;
     *keep = (cli_keep){0};
-    int status = store_open(store, directory);
-    if (status != CLI_DONE) return status;
+    store_open(store, directory);
     store->settle = 0;
-    status = cli_directory(directory);
+    int status = cli_directory(directory);
     if (status == CLI_DONE) status = store_lock(store);
     if (status == CLI_DONE)
         status = store_is_described(store) ? go_on(keep, job) : store_describe(store, job);

@@ -10,48 +10,26 @@ enum { COLUMNS_MOST = 8 };
 
 /* A table of texts; the first row holds the headings. */
 typedef struct sheet {
-    int columns, cells, room, failed;
+    int columns, cells, room;
     char **cell;
 } sheet;
 
 static void put(sheet *s, const char *format, ...) CLI_PRINTF(2, 3);
 
-static char *print(const char *format, va_list list)
+static void grow(sheet *s)
 {
-    va_list again;
-    va_copy(again, list);
-    int n = vsnprintf(NULL, 0, format, again);
-    va_end(again);
-    char *text = n < 0 ? NULL : malloc((size_t)n + 1);
-    if (text) vsnprintf(text, (size_t)n + 1, format, list);
-    return text;
-}
-
-static int grow(sheet *s)
-{
-    if (s->cells < s->room) return 1;
-    int room = s->room ? 2 * s->room : 64;
-    char **cell = realloc(s->cell, (size_t)room * sizeof *cell);
-    if (!cell) return 0;
-    s->cell = cell;
-    s->room = room;
-    return 1;
+    if (s->cells < s->room) return;
+    s->room = s->room ? 2 * s->room : 64;
+    s->cell = cli_realloc(s->cell, (size_t)s->room * sizeof *s->cell);
 }
 
 static void put(sheet *s, const char *format, ...)
 {
     va_list list;
-    if (s->failed || !grow(s)) {
-        s->failed = 1;
-        return;
-    }
+    grow(s);
     va_start(list, format);
-    s->cell[s->cells] = print(format, list);
+    s->cell[s->cells++] = cli_format_list(format, list);
     va_end(list);
-    if (s->cell[s->cells])
-        s->cells++;
-    else
-        s->failed = 1;
 }
 
 static void begin(sheet *s, int columns, const char *const *headings)
@@ -128,18 +106,15 @@ static void put_table(const sheet *s, const int *widths, int markdown)
 
 static int end(sheet *s, int markdown)
 {
-    int widths[COLUMNS_MOST] = {0}, status = CLI_DONE;
+    int widths[COLUMNS_MOST] = {0};
     for (int k = 0; k < s->cells; k++) {
         int w = width(s->cell[k]), i = k % s->columns;
         if (w > widths[i]) widths[i] = w;
     }
-    if (s->failed)
-        status = cli_fail(CLI_IO, "out of memory");
-    else
-        put_table(s, widths, markdown);
+    put_table(s, widths, markdown);
     for (int k = 0; k < s->cells; k++) free(s->cell[k]);
     free(s->cell);
-    return status;
+    return CLI_DONE;
 }
 
 /* ---- systems ------------------------------------------------------------------------------- */

@@ -83,8 +83,7 @@ static int print(const spectrum_study *s)
 static char **name_columns(int count)
 {
     enum { NAME = 24 };
-    char **names = calloc((size_t)count + 2, sizeof *names + NAME);
-    if (!names) return NULL;
+    char **names = cli_calloc((size_t)count + 2, sizeof *names + NAME);
     char *text = (char *)(names + count + 2);
     for (int i = 0; i < count + 2; i++) {
         names[i] = text + i * NAME;
@@ -101,7 +100,6 @@ static int go(spectrum_study *s)
     if (status != CLI_DONE) return status;
     const int count = dal_spectrum_count(s->spectrum);
     char **names = name_columns(count);
-    if (!names) return cli_fail(CLI_IO, "out of memory");
     const spectrum_table table = {"lyapunov", "mean so far", count + 1, names, fill};
     status = spectrum_run(s, &table);
     free(names);

@@ -51,18 +51,17 @@ static void put_state(FILE *out, const cli_job *job, const cli_mark *mark, const
 int manifest_write(const cli_store *store, const cli_job *job, const cli_mark *mark,
                    const char *state, const char *why)
 {
-    char *text = NULL;
-    size_t length = 0;
-    FILE *out = open_memstream(&text, &length);
-    if (!out) return cli_fail(CLI_IO, "out of memory");
+    char *text;
+    size_t length;
+    FILE *out = cli_memstream_open(&text, &length);
     json_text_member(out, "{\n  ", "dalembert", DAL_VERSION);
     fprintf(out, ",\n  \"input\": %s", store->input);
     manifest_machine(out);
     put_state(out, job, mark, state);
     if (why[0]) json_text_member(out, ",\n  ", "message", why);
     fputs("\n}\n", out);
-    int status = cli_close(out, store->manifest);
-    if (status == CLI_DONE) status = file_swap(store->manifest, text, length, store->settle);
+    cli_memstream_close(out);
+    const int status = file_swap(store->manifest, text, length, store->settle);
     free(text);
     return status;
 }

@@ -111,6 +111,7 @@ int cli_unknown(const char *what, const char *name, const char *const *names, in
 
 int cli_error(int exit_status, const char *place, const dal_error *error)
 {
+    if (error->status == DAL_MEMORY) exit_status = CLI_IO;
     if (!place) return cli_fail(exit_status, "%s", error->message);
     if (error->line <= 0) return cli_fail(exit_status, "%s: %s", place, error->message);
     if (error->column <= 0)
@@ -120,6 +121,7 @@ int cli_error(int exit_status, const char *place, const dal_error *error)
 
 int cli_io(const char *verb, const char *path)
 {
+    if (errno == ENOMEM) cli_out_of_memory();
     return cli_fail(CLI_IO, "cannot %s '%s': %s", verb, path, strerror(errno));
 }
 

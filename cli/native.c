@@ -44,8 +44,8 @@ static char *cache_directory(void)
         if (!home || home[0] != '/') return NULL;
         cache = own = cli_join(home, ".cache");
     }
-    if (cache) mkdir(cache, 0700); /* may be there; if it cannot be made, the library will say so */
-    char *directory = cache ? cli_join(cache, "dalembert") : NULL;
+    mkdir(cache, 0700); /* may be there; if it cannot be made, the library will say so */
+    char *directory = cli_join(cache, "dalembert");
     free(own);
     return directory;
 }
@@ -62,10 +62,12 @@ static void compile(dal_run *run, compilation *of, atomic_flag *told, const char
 {
     dal_error error = {0};
     char *directory = cache_directory();
+    dal_status status = DAL_OK;
     if (!directory)
         tell(told, what, "no directory to keep compiled ones in");
-    else if (of(run, &(dal_native_options){.cache = directory}, &error) != DAL_OK)
-        tell(told, what, error.message);
+    else
+        status = of(run, &(dal_native_options){.cache = directory}, &error);
+    if (!cli_is_ok(status)) tell(told, what, error.message);
     free(directory);
 }
 

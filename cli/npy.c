@@ -41,7 +41,7 @@ static void put_length(char *bytes, size_t length, int count)
     for (int i = 0; i < count; i++) bytes[i] = (char)(length >> 8 * i & 0xff);
 }
 
-static int place(npy_header *header, const char *names, size_t length)
+static void place(npy_header *header, const char *names, size_t length)
 {
     size_t prefix = PREFIX_1;
     header->length = round_up(prefix + length) + NPY_LINE;
@@ -49,8 +49,7 @@ static int place(npy_header *header, const char *names, size_t length)
         prefix = PREFIX_2;
         header->length = round_up(prefix + length) + NPY_LINE;
     }
-    header->text = malloc(header->length);
-    if (!header->text) return cli_fail(CLI_IO, "out of memory");
+    header->text = cli_malloc(header->length);
     memset(header->text, ' ', header->length);
     memcpy(header->text, magic, MAGIC);
     header->text[MAGIC] = prefix == PREFIX_1 ? 1 : 2;
@@ -58,21 +57,18 @@ static int place(npy_header *header, const char *names, size_t length)
     put_length(header->text + MAGIC + 2, header->length - prefix, (int)prefix - MAGIC - 2);
     memcpy(header->text + prefix, names, length);
     npy_announce(header, 0);
-    return CLI_DONE;
 }
 
-int npy_describe(npy_header *header, char *const *names, int columns)
+void npy_describe(npy_header *header, char *const *names, int columns)
 {
-    char *text = NULL;
-    size_t length = 0;
+    char *text;
+    size_t length;
     *header = (npy_header){0};
-    FILE *out = open_memstream(&text, &length);
-    if (!out) return cli_fail(CLI_IO, "out of memory");
+    FILE *out = cli_memstream_open(&text, &length);
     put_names(out, names, columns);
-    int status = cli_close(out, "memory");
-    if (status == CLI_DONE) status = place(header, text, length);
+    cli_memstream_close(out);
+    place(header, text, length);
     free(text);
-    return status;
 }
 
 void npy_announce(npy_header *header, long long rows)
@@ -118,8 +114,7 @@ static char *read_header(FILE *file, size_t *offset)
     *offset = prefix[MAGIC] == 1 ? PREFIX_1 : PREFIX_2;
     if (fread(prefix + PREFIX_1, 1, *offset - PREFIX_1, file) != *offset - PREFIX_1) return NULL;
     for (size_t i = *offset; i > MAGIC + 2; i--) length = length << 8 | prefix[i - 1];
-    char *text = malloc(length + 1);
-    if (!text) return NULL;
+    char *text = cli_malloc(length + 1);
     const size_t n = fread(text, 1, length, file);
     text[n] = '\0';
     *offset += length;
@@ -148,9 +143,9 @@ static int take_names(npy_columns *c, char *text)
     size_t most = 1;
     if (strncmp(text, begin, sizeof begin - 1) != 0) return 0;
     for (const char *p = text; *p; p++) most += *p == '(';
-    c->names = calloc(most, sizeof *c->names);
+    c->names = cli_calloc(most, sizeof *c->names);
     char *at = text + sizeof begin - 1, *to = text;
-    while (c->names && *at != ']') {
+    while (*at != ']') {
         char *name = take_name(&at);
         if (!name) return 0;
         c->names[c->columns++] = memmove(to, name, strlen(name) + 1);

@@ -15,7 +15,7 @@ typedef struct npy_header {
 } npy_header;
 
 /* Returns CLI_DONE or prints and returns CLI_IO. */
-int npy_describe(npy_header *header, char *const *names, int columns);
+void npy_describe(npy_header *header, char *const *names, int columns);
 /* Puts a number of rows into it. */
 void npy_announce(npy_header *header, long long rows);
 

@@ -75,10 +75,9 @@ static int add_method(order_study *s, const char *name)
     dal_method method;
     if (dal_method_parse(&method, name, &error) != DAL_OK)
         return cli_error(CLI_USAGE, NULL, &error);
-    order_method *list = realloc(s->methods, ((size_t)s->method_count + 1) * sizeof *list);
-    if (!list) return cli_fail(CLI_IO, "out of memory");
-    s->methods = list;
-    list += s->method_count++;
+    const size_t count = (size_t)s->method_count + 1;
+    s->methods = cli_realloc(s->methods, count * sizeof *s->methods);
+    order_method *list = s->methods + s->method_count++;
     *list = (order_method){.method = method};
     dal_method_name(&method, list->name, sizeof list->name);
     return CLI_DONE;

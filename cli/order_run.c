@@ -90,11 +90,13 @@ static int exact_reference(order_study *s)
     const cli_job *job = &s->job;
     dal_probe *probe = NULL;
     double *start = s->reference + s->numbers, off = 0.0;
-    int found = system->exact && !system->multipliers &&
-                dal_probe_create(&probe, system, job->set.item, job->set.count, NULL) == DAL_OK;
-    found = found &&
-            dal_probe_start(probe, job->start.item, job->start.count, start, NULL) == DAL_OK &&
-            dal_probe_call(probe, system->exact, 0.0, start, start, NULL, s->reference) == DAL_OK;
+    dal_status made = DAL_UNSUPPORTED;
+    if (system->exact && !system->multipliers)
+        made = dal_probe_create(&probe, system, job->set.item, job->set.count, NULL);
+    int found =
+        cli_is_ok(made) &&
+        dal_probe_start(probe, job->start.item, job->start.count, start, NULL) == DAL_OK &&
+        dal_probe_call(probe, system->exact, 0.0, start, start, NULL, s->reference) == DAL_OK;
     if (found) off = distance(s, start);
     found =
         found && off <= 1e-10 &&
@@ -129,8 +131,7 @@ int order_reference(order_study *s)
 {
     dal_error error = {0};
     s->numbers = 2 * s->job.made->n + s->job.made->multipliers;
-    s->reference = calloc(2 * (size_t)s->numbers + 1, sizeof(double));
-    if (!s->reference) return cli_fail(CLI_IO, "out of memory");
+    s->reference = cli_calloc(2 * (size_t)s->numbers + 1, sizeof(double));
     if (exact_reference(s)) return CLI_DONE;
     dal_status status = judged_by(s, "gauss12", &error);
     if (status == DAL_NOT_CONVERGED) status = judged_by(s, "dop853", &error);
@@ -147,11 +148,11 @@ static void run_cell(void *user, int i)
     order_method *m = &s->methods[i / s->levels];
     const int level = s->levels - 1 - i % s->levels; /* the longest first */
     const dal_run_spec spec = spec_of(s, &m->method, s->step[level]);
-    double *out = calloc((size_t)s->numbers + 1, sizeof *out);
+    double *out = cli_calloc((size_t)s->numbers + 1, sizeof *out);
     dal_error *why = &m->why[level];
     outcome o = {0};
     m->seconds[level] = INFINITY;
-    why->status = out ? DAL_OK : DAL_MEMORY;
+    why->status = DAL_OK;
     for (int k = 0; k < REPEATS && why->status == DAL_OK; k++) {
         why->status = end_of(s, &spec, out, &o, why);
         m->seconds[level] = fmin(m->seconds[level], o.seconds);
@@ -159,7 +160,7 @@ static void run_cell(void *user, int i)
     }
     m->order.step[level] = s->step[level];
     m->order.evaluations[level] = o.evaluations;
-    m->order.error[level] = why->status == DAL_OK ? distance(s, out) : NAN;
+    m->order.error[level] = cli_is_ok(why->status) ? distance(s, out) : NAN;
     free(out);
 }
 
@@ -180,9 +181,6 @@ int order_run(order_study *s)
 {
     pool_run(s->method_count * s->levels, s->threads, run_cell, s);
     if (cli_interrupted()) return CLI_SIGNAL;
-    for (int i = 0; i < s->method_count; i++) {
-        conclude(s, &s->methods[i]);
-        if (s->methods[i].why[0].status == DAL_MEMORY) return cli_fail(CLI_IO, "out of memory");
-    }
+    for (int i = 0; i < s->method_count; i++) conclude(s, &s->methods[i]);
     return CLI_DONE;
 }

@@ -76,8 +76,7 @@ char *cli_join(const char *directory, const char *name)
 {
     size_t n = strlen(directory), m = strlen(name);
     while (n > 1 && directory[n - 1] == '/') n--;
-    char *path = malloc(n + m + 2);
-    if (!path) return NULL;
+    char *path = cli_malloc(n + m + 2);
     memcpy(path, directory, n);
     path[n] = '/';
     memcpy(path + n + 1, name, m + 1);

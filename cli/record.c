@@ -20,50 +20,46 @@ static const char *value_name(const cli_record *r, int i, char *buffer)
     return dal_run_observable_name(run, i - 1 - r->dimension, buffer, NAME_SIZE);
 }
 
-static int name_values(cli_record *r, int count)
+static void name_values(cli_record *r, int count)
 {
     char buffer[NAME_SIZE];
     for (int i = 0; i < count; i++) {
         const char *name = value_name(r, i, buffer);
-        r->names[i] = strdup(name ? name : "?");
-        if (!r->names[i]) return 0;
+        r->names[i] = cli_strdup(name ? name : "?");
         if (is_column(r->names[i])) r->column[r->columns++] = i;
     }
-    return 1;
 }
 
-static int make_room(cli_record *r)
+static void make_room(cli_record *r)
 {
     r->dimension = dal_run_dimension(r->job->run);
     r->observables = dal_run_observables(r->job->run);
     size_t count = 1 + (size_t)r->dimension + (size_t)r->observables;
-    r->values = calloc(count, sizeof *r->values);
-    r->row = calloc(count, sizeof *r->row);
-    r->names = calloc(count, sizeof *r->names);
-    r->column = calloc(count, sizeof *r->column);
-    r->statistics = calloc((size_t)r->observables + 1, sizeof *r->statistics);
-    r->trend = calloc((size_t)r->observables + 1, sizeof *r->trend);
-    if (!r->values || !r->row || !r->names || !r->column || !r->statistics || !r->trend ||
-        !name_values(r, (int)count))
-        return cli_fail(CLI_IO, "out of memory");
+    r->values = cli_calloc(count, sizeof *r->values);
+    r->row = cli_calloc(count, sizeof *r->row);
+    r->names = cli_calloc(count, sizeof *r->names);
+    r->column = cli_calloc(count, sizeof *r->column);
+    r->statistics = cli_calloc((size_t)r->observables + 1, sizeof *r->statistics);
+    r->trend = cli_calloc((size_t)r->observables + 1, sizeof *r->trend);
+    name_values(r, (int)count);
     dal_statistics_start(r->statistics, r->observables);
-    return CLI_DONE;
 }
 
 /* With a store the table goes on where its checkpoint says. */
 static int open_table(cli_record *r, const char *output)
 {
-    char **names = calloc((size_t)r->columns, sizeof *names);
-    if (!names) return cli_fail(CLI_IO, "out of memory");
+    char **names = cli_calloc((size_t)r->columns, sizeof *names);
     for (int i = 0; i < r->columns; i++) names[i] = r->names[r->column[i]];
     cli_store *s = r->store;
-    int status = s ? table_adopt(&r->table, s->rows, s->descriptor, names, r->columns)
-                   : table_create(&r->table, output, names, r->columns);
+    int status = CLI_DONE;
+    if (s)
+        table_adopt(&r->table, s->rows, s->descriptor, names, r->columns);
+    else
+        status = table_create(&r->table, output, names, r->columns);
     free(names);
     if (!s) return status;
     s->descriptor = -1;
-    if (status == CLI_DONE)
-        status = store_load(s, &r->table, &r->mark, r->job->run, r->statistics, r->observables);
+    status = store_load(s, &r->table, &r->mark, r->job->run, r->statistics, r->observables);
     return status == CLI_DONE ? table_go_on(&r->table, r->mark.row, &r->mark.sum) : status;
 }
 
@@ -83,8 +79,8 @@ int record_open(cli_record *r, const cli_job *job, cli_store *store, const char 
     *r = (cli_record){.job = job, .store = store, .stop = interrupted};
     r->quiet =
         !isatty(STDERR_FILENO) || (!store && strcmp(output, "-") == 0 && isatty(STDOUT_FILENO));
-    int status = make_room(r);
-    if (status == CLI_DONE) status = open_table(r, output);
+    make_room(r);
+    const int status = open_table(r, output);
     if (status != CLI_DONE || !record_is_finished(r)) return status;
     dal_run_classify(job->run, r->statistics, 0, r->trend);
     /* Killed between its last checkpoint and the manifest. */
@@ -170,13 +166,15 @@ static int save(cli_record *r, const dal_run *run)
     return status;
 }
 
-/* What is worth a checkpoint by the clock is worth waiting for the disk from now on. */
+/* What is worth a checkpoint by the clock is worth waiting for the disk from now on.  The rows come
+ * before the manifest: without memory for it the program ends, and the rows are kept. */
 static int save_to_last(cli_record *r, const dal_run *run)
 {
     int status = CLI_DONE;
     if (!r->store->settle) {
+        status = table_settle(&r->table, 0);
         r->store->settle = 1;
-        status = manifest_write(r->store, r->job, &r->mark, "running", "");
+        if (status == CLI_DONE) status = manifest_write(r->store, r->job, &r->mark, "running", "");
     }
     return status == CLI_DONE ? save(r, run) : status;
 }
@@ -225,7 +223,8 @@ static int keep(cli_record *r, int status, const char *why)
 {
     int kept = CLI_DONE;
     if (r->store && (status == CLI_DONE || status == CLI_FAILED)) {
-        kept = summary_write(r, r->store->summary);
+        kept = table_settle(&r->table, 0);
+        if (kept == CLI_DONE) kept = summary_write(r, r->store->summary);
         if (kept == CLI_DONE) kept = save(r, r->job->run);
     }
     if (r->store && kept == CLI_DONE && status != CLI_IO)

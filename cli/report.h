@@ -56,7 +56,7 @@ typedef struct report_plot {
     const char *caption, *nothing;  /* nothing: what the page says when no curve has a point */
     int log_x, log_y, marks, alike; /* marks: points, too; alike: one scale on both axes */
     plot_curve curve[PLOT_CURVES + 2];
-    int count, starved;
+    int count;
 } report_plot;
 
 /* Begins the next curve; points go to the last one.  What is not finite, or has no logarithm where

@@ -66,8 +66,7 @@ static int take_text(report_csv *csv, char *text, const char *path)
     csv->columns = count_cells(csv->text, &rows) + 1;
     *end = '\n';
     count_cells(csv->text, &csv->rows);
-    csv->cell = calloc((size_t)csv->rows * (size_t)csv->columns + 1, sizeof *csv->cell);
-    if (!csv->cell) return cli_fail(CLI_IO, "out of memory");
+    csv->cell = cli_calloc((size_t)csv->rows * (size_t)csv->columns + 1, sizeof *csv->cell);
     cut_rows(csv);
     return CLI_DONE;
 }

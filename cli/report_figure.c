@@ -87,7 +87,7 @@ static int read_series(figure *f)
     char name[PLOT_NAME];
     snprintf(name, sizeof name, "series/%.160s.csv", f->label);
     char *path = cli_join(f->r->directory, name);
-    int status = path ? report_csv_read(&f->series, path) : cli_fail(CLI_IO, "out of memory");
+    int status = report_csv_read(&f->series, path);
     free(path);
     return status;
 }
@@ -226,7 +226,7 @@ static int draw_path(const figure *f)
              "The path as %.80s has it with h = %g; the body is not to scale.",
              report_get(f->c, row, "integrator"), report_csv_number(&f->c->csv, row, "step"));
     char *path = cli_join(f->r->directory, report_get(f->c, row, "run"));
-    int status = path ? report_path(f->r, path, name, caption) : cli_fail(CLI_IO, "out of memory");
+    int status = report_path(f->r, path, name, caption);
     free(path);
     return status;
 }
@@ -264,8 +264,7 @@ static int draw_all(const figure *f)
 
 int report_figures(report *r, const report_cells *c, const char *label)
 {
-    figure *f = calloc(1, sizeof *f);
-    if (!f) return cli_fail(CLI_IO, "out of memory");
+    figure *f = cli_calloc(1, sizeof *f);
     *f = (figure){.r = r, .c = c, .label = label};
     survey(f);
     int status = CLI_DONE;

@@ -142,9 +142,9 @@ static int write_page(const orders *o)
 
 int report_order(report *r)
 {
-    orders *o = calloc(1, sizeof *o);
+    orders *o = cli_calloc(1, sizeof *o);
     char *path = cli_join(r->directory, "order.csv");
-    int status = o && path ? report_csv_read(&o->csv, path) : cli_fail(CLI_IO, "out of memory");
+    int status = report_csv_read(&o->csv, path);
     for (int row = 1; status == CLI_DONE && row < o->csv.rows; row++) {
         if (!report_csv_get(&o->csv, row, "error")[0]) continue;
         report_add_word(&o->methods, report_csv_get(&o->csv, row, "integrator"));
@@ -156,7 +156,7 @@ int report_order(report *r)
         o->r = r;
         status = write_page(o);
     }
-    if (o) report_csv_free(&o->csv);
+    report_csv_free(&o->csv);
     free(o);
     free(path);
     return status;

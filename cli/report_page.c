@@ -4,6 +4,7 @@
 
 #include "file.h"
 
+#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -57,8 +58,9 @@ void report_trend(FILE *page, const char *size, const char *trend, const char *n
 void report_file(report *r, const char *name, const char *summary)
 {
     char *path = cli_join(r->directory, name);
-    FILE *file = path ? fopen(path, "r") : NULL;
+    FILE *file = fopen(path, "r");
     free(path);
+    if (!file && errno == ENOMEM) cli_out_of_memory();
     if (!file) return;
     char line[512];
     fputs("<details><summary>", r->page);
@@ -90,8 +92,8 @@ int report_embed(report *r, const char *name, const char *alt, const char *capti
     size_t length = 0;
     snprintf(file, sizeof file, "%s.%s", name, r->format);
     char *path = cli_join(r->place, file);
-    char *text = path ? file_read(path, &length) : NULL;
-    int status = path ? CLI_IO : cli_fail(CLI_IO, "out of memory");
+    char *text = file_read(path, &length);
+    int status = CLI_IO;
     if (text) {
         fprintf(r->page, "<figure><img alt=\"");
         report_text(r->page, alt);
@@ -145,11 +147,9 @@ static const char head[] =
 int report_open(report *r)
 {
     r->place = cli_join(r->directory, "report");
-    if (!r->place) return cli_fail(CLI_IO, "out of memory");
     int status = cli_directory(r->place);
     if (status != CLI_DONE) return status;
     r->page_path = cli_join(r->place, "index.html");
-    if (!r->page_path) return cli_fail(CLI_IO, "out of memory");
     r->page = fopen(r->page_path, "w");
     if (!r->page) return cli_io("write", r->page_path);
     fputs(head, r->page);

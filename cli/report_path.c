@@ -196,9 +196,9 @@ static int load(path *p, const char *run)
 {
     dal_run_spec spec;
     dal_error error;
-    int status = store_open(&p->store, run);
-    if (status == CLI_DONE && access(p->store.manifest, F_OK) != 0) return CLI_DONE;
-    if (status == CLI_DONE) status = store_read(&p->store, &p->job);
+    store_open(&p->store, run);
+    if (access(p->store.manifest, F_OK) != 0) return CLI_DONE;
+    int status = store_read(&p->store, &p->job);
     if (status == CLI_DONE) status = job_spec(&p->job, &spec);
     if (status != CLI_DONE || !p->job.made->picture) return status;
     p->n = p->job.made->n;
@@ -210,8 +210,7 @@ static int load(path *p, const char *run)
 
 int report_path(report *r, const char *run, const char *name, const char *caption)
 {
-    path *p = calloc(1, sizeof *p);
-    if (!p) return cli_fail(CLI_IO, "out of memory");
+    path *p = cli_calloc(1, sizeof *p);
     *p = (path){.job = job_begin(),
                 .store = {.descriptor = -1},
                 .low = {INFINITY, INFINITY},

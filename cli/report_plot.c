@@ -29,14 +29,8 @@ static void append(report_plot *plot, double x, double y)
 {
     plot_curve *curve = &plot->curve[plot->count - 1];
     if (curve->count == curve->room) {
-        const int room = curve->room ? 2 * curve->room : 64;
-        double(*at)[2] = realloc(curve->at, (size_t)room * sizeof *at);
-        if (!at) {
-            plot->starved = 1;
-            return;
-        }
-        curve->at = at;
-        curve->room = room;
+        curve->room = curve->room ? 2 * curve->room : 64;
+        curve->at = cli_realloc(curve->at, (size_t)curve->room * sizeof *curve->at);
     }
     curve->at[curve->count][0] = x;
     curve->at[curve->count++][1] = y;
@@ -269,9 +263,7 @@ int report_draw(report *r, report_plot *plot)
 {
     double least, most;
     int status = CLI_DONE, points = range(plot, 1, &least, &most);
-    if (plot->starved)
-        status = cli_fail(CLI_IO, "out of memory");
-    else if (plot->nothing && (points == 0 || (least == 0.0 && most == 0.0)))
+    if (plot->nothing && (points == 0 || (least == 0.0 && most == 0.0)))
         fprintf(r->page, "<p>%s</p>\n", plot->nothing);
     else if (points > 0)
         status = make_figure(r, plot);

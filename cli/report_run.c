@@ -193,9 +193,8 @@ static int make_memory(run_page *run)
 {
     const size_t columns = (size_t)run->rows.columns;
     if (run->rows.count == 0) return cli_fail(CLI_USAGE, "'%s' has no rows", run->rows.path);
-    run->first = calloc(2 * columns, sizeof *run->first);
-    run->group = calloc(3 * columns, sizeof *run->group);
-    if (!run->first || !run->group) return cli_fail(CLI_IO, "out of memory");
+    run->first = cli_calloc(2 * columns, sizeof *run->first);
+    run->group = cli_calloc(3 * columns, sizeof *run->group);
     run->most = run->first + columns;
     run->place = run->group + columns;
     run->envelope = run->place + columns;
@@ -245,10 +244,8 @@ static int put_summary(report *r, double time)
 {
     report_csv csv = {0};
     char *path = cli_join(r->directory, "summary.csv");
-    FILE *there = path ? fopen(path, "r") : NULL;
     int status = CLI_DONE;
-    if (there) {
-        fclose(there);
+    if (access(path, F_OK) == 0) {
         status = report_csv_read(&csv, path);
         fputs("<h2>Size and trend</h2>\n<div class=\"wide\" "
               "tabindex=\"0\"><table><thead><tr><td></td>"
@@ -330,10 +327,9 @@ static void put_heading(report *r, const cli_job *job)
 /* What the directory says of its run; nothing where it says nothing, or in an older way. */
 static int read_job(const report *r, cli_store *store, cli_job *job)
 {
-    int status = store_open(store, r->directory);
-    if (status != CLI_DONE || access(store->manifest, F_OK) != 0 ||
-        access(store->old_settings, F_OK) == 0)
-        return status;
+    store_open(store, r->directory);
+    if (access(store->manifest, F_OK) != 0 || access(store->old_settings, F_OK) == 0)
+        return CLI_DONE;
     return store_read(store, job);
 }
 
@@ -359,8 +355,7 @@ int report_run(report *r)
 {
     cli_store store = {.descriptor = -1};
     cli_job job = job_begin();
-    run_page *run = calloc(1, sizeof *run);
-    if (!run) return cli_fail(CLI_IO, "out of memory");
+    run_page *run = cli_calloc(1, sizeof *run);
     run->r = r;
     int status = rows_open(&run->rows, r->directory), opened = status == CLI_DONE;
     if (opened) status = make_memory(run);

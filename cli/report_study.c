@@ -187,8 +187,8 @@ static int tell_expectations(report *r)
 {
     report_csv csv = {.text = NULL};
     char *path = cli_join(r->directory, "expectations.csv");
-    int status = path ? CLI_DONE : cli_fail(CLI_IO, "out of memory"), met = 0;
-    if (path && access(path, F_OK) == 0) {
+    int status = CLI_DONE, met = 0;
+    if (access(path, F_OK) == 0) {
         status = report_csv_read(&csv, path);
         for (int row = 1; row < csv.rows; row++)
             met += strcmp(report_csv_get(&csv, row, "met"), "yes") == 0;
@@ -243,8 +243,7 @@ static void put_contents(FILE *page, const report_cells *c)
 
 static void put_themes(FILE *page, const report_cells *c)
 {
-    columns *all = calloc(1, sizeof *all);
-    if (!all) return;
+    columns *all = cli_calloc(1, sizeof *all);
     for (int row = 1; row < c->csv.rows; row++)
         add_column(all, report_get(c, row, "label"), report_get(c, row, "step"));
     for (size_t k = 0; k < sizeof themes / sizeof themes[0]; k++)
@@ -287,7 +286,7 @@ static int begin_page(report *r)
     study_text text = {.place = "study.yaml"};
     size_t length = 0;
     char *path = cli_join(r->directory, "study.yaml");
-    char *bytes = path ? file_read(path, &length) : NULL;
+    char *bytes = file_read(path, &length);
     int status = bytes ? study_text_parse(&text, path, bytes, length) : CLI_IO;
     if (status == CLI_DONE) {
         put_title(r, &text);
@@ -322,9 +321,9 @@ static int write_page(report *r, const report_cells *c)
 
 int report_study(report *r)
 {
-    report_cells *c = calloc(1, sizeof *c);
+    report_cells *c = cli_calloc(1, sizeof *c);
     char *path = cli_join(r->directory, "cells.csv");
-    int status = c && path ? report_csv_read(&c->csv, path) : cli_fail(CLI_IO, "out of memory");
+    int status = report_csv_read(&c->csv, path);
     for (int row = 1; status == CLI_DONE && row < c->csv.rows; row++) {
         report_add_word(&c->labels, report_get(c, row, "label"));
         report_add_word(&c->methods, report_get(c, row, "integrator"));
@@ -332,7 +331,7 @@ int report_study(report *r)
     if (status == CLI_DONE && c->labels.count == 0)
         status = cli_fail(CLI_USAGE, "'%s' has no rows", path);
     if (status == CLI_DONE) status = write_page(r, c);
-    if (c) report_csv_free(&c->csv);
+    report_csv_free(&c->csv);
     free(c);
     free(path);
     return status;

@@ -23,8 +23,8 @@ static int open_npy(cli_rows *r)
     r->name = r->npy.names;
     r->count = r->npy.rows;
     r->begin = (long long)r->npy.offset;
-    r->bytes = calloc((size_t)r->columns, sizeof(double));
-    return r->bytes ? CLI_DONE : cli_fail(CLI_IO, "out of memory");
+    r->bytes = cli_calloc((size_t)r->columns, sizeof(double));
+    return CLI_DONE;
 }
 
 static int next_npy(cli_rows *r)
@@ -43,13 +43,12 @@ static int next_npy(cli_rows *r)
 /* Names have no commas in them. */
 static int open_csv(cli_rows *r)
 {
-    const ssize_t length = getline(&r->line, &r->room, r->file);
+    const ssize_t length = cli_getline(&r->line, &r->room, r->file);
     if (length < 2) return cli_fail(CLI_USAGE, "'%s' has no rows", r->path);
     r->line[length - 1] = '\0';
     for (const char *c = r->line; *c; c++) r->columns += *c == ',';
-    r->name = calloc((size_t)++r->columns, sizeof *r->name);
-    char *text = r->name ? strdup(r->line) : NULL;
-    if (!text) return cli_fail(CLI_IO, "out of memory");
+    r->name = cli_calloc((size_t)++r->columns, sizeof *r->name);
+    char *text = cli_strdup(r->line);
     for (int i = 0; i < r->columns; i++) {
         r->name[i] = text;
         text += strcspn(text, ",");
@@ -62,7 +61,7 @@ static int open_csv(cli_rows *r)
 
 static int next_csv(cli_rows *r)
 {
-    if (getline(&r->line, &r->room, r->file) < 0) return failed(r);
+    if (cli_getline(&r->line, &r->room, r->file) < 0) return failed(r);
     char *at = r->line;
     for (int i = 0; i < r->columns; i++) {
         r->row[i] = strtod(at, &at);
@@ -79,7 +78,6 @@ static int open_file(cli_rows *r, const char *directory)
     for (int i = 0; i < 2 && !r->file; i++) {
         free(r->path);
         r->path = cli_join(directory, names[i]);
-        if (!r->path) return cli_fail(CLI_IO, "out of memory");
         r->file = fopen(r->path, "rb");
         if (!r->file && errno != ENOENT && errno != ENOTDIR) return cli_io("read", r->path);
     }
@@ -93,11 +91,10 @@ int rows_open(cli_rows *rows, const char *directory)
     int status = open_file(rows, directory);
     if (status == CLI_DONE)
         status = cli_ends_in(rows->path, ".npy") ? open_npy(rows) : open_csv(rows);
-    if (status == CLI_DONE) {
-        rows->row = calloc((size_t)rows->columns, sizeof *rows->row);
-        if (!rows->row) status = cli_fail(CLI_IO, "out of memory");
-    }
-    if (status != CLI_DONE) rows_close(rows);
+    if (status == CLI_DONE)
+        rows->row = cli_calloc((size_t)rows->columns, sizeof *rows->row);
+    else
+        rows_close(rows);
     return status;
 }
 
@@ -114,7 +111,8 @@ int rows_seek(cli_rows *rows, long long k)
     if (fseeko(rows->file, (off_t)(rows->begin + bytes), SEEK_SET) != 0)
         return cli_io("read", rows->path);
     for (long long i = 0; i < k && !rows->bytes; i++)
-        if (getline(&rows->line, &rows->room, rows->file) < 0) return cli_io("read", rows->path);
+        if (cli_getline(&rows->line, &rows->room, rows->file) < 0)
+            return cli_io("read", rows->path);
     rows->next = k;
     return CLI_DONE;
 }

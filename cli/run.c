@@ -106,9 +106,8 @@ int run_integrate(const cli_job *job, cli_store *store, const run_wishes *wishes
 static int run_in_directory(const cli_job *job, const run_wishes *wishes)
 {
     cli_store store;
-    int status = store_open(&store, wishes->output);
-    if (status != CLI_DONE) return status;
-    status = cli_directory(wishes->output);
+    store_open(&store, wishes->output);
+    int status = cli_directory(wishes->output);
     const char *held = status == CLI_DONE && !wishes->force ? store_holds(&store) : NULL;
     if (held)
         status = cli_fail(CLI_USAGE,

@@ -22,8 +22,7 @@ static int schedule_log(cli_job *job)
     double before = 0.0;
     if (rows > SCHEDULE_MOST)
         return cli_fail(CLI_USAGE, "--samples: %lld are too many for --sampling log", rows);
-    job->row_time = malloc(((size_t)rows + 2) * sizeof *job->row_time);
-    if (!job->row_time) return cli_fail(CLI_IO, "out of memory");
+    job->row_time = cli_malloc(((size_t)rows + 2) * sizeof *job->row_time);
     job->samples = 0;
     job->row_time[0] = 0.0;
     for (long long k = 1; k <= rows; k++) {
@@ -48,8 +47,7 @@ static int schedule_steps(cli_job *job)
     if (job->samples > SCHEDULE_MOST)
         return cli_fail(CLI_USAGE, "--samples: %lld are too many for --sampling steps",
                         job->samples);
-    job->row_time = malloc(((size_t)job->samples + 1) * sizeof *job->row_time);
-    if (!job->row_time) return cli_fail(CLI_IO, "out of memory");
+    job->row_time = cli_malloc(((size_t)job->samples + 1) * sizeof *job->row_time);
     for (long long k = 0; k <= job->samples; k++) {
         const double part = (double)k / (double)job->samples;
         job->row_time[k] = (double)llround(part * (double)steps) * h;
@@ -69,9 +67,7 @@ static int add_time(cli_job *job, const char *text)
     if (count > 0 && !(t > job->row_time[count - 1]))
         return cli_fail(CLI_USAGE, "--times: %s does not come after the time before", text);
     if (count == SCHEDULE_MOST) return cli_fail(CLI_USAGE, "--times: too many");
-    double *more = realloc(job->row_time, ((size_t)count + 2) * sizeof *more);
-    if (!more) return cli_fail(CLI_IO, "out of memory");
-    job->row_time = more;
+    job->row_time = cli_realloc(job->row_time, ((size_t)count + 2) * sizeof *job->row_time);
     job->row_time[job->times++] = t;
     return CLI_DONE;
 }
@@ -96,33 +92,32 @@ static int read_times(cli_job *job, char *text)
 }
 
 /* What was read, as a list that needs no file. */
-static int write_list(cli_job *job)
+static void write_list(cli_job *job)
 {
     size_t length;
-    FILE *out = open_memstream(&job->list, &length);
-    if (!out) return cli_fail(CLI_IO, "out of memory");
+    FILE *out = cli_memstream_open(&job->list, &length);
     for (long long i = 0; i < job->times; i++) {
         if (i) fputc(',', out);
         cli_put(out, job->row_time[i]);
     }
-    if (cli_close(out, "memory") != CLI_DONE) return CLI_IO;
+    cli_memstream_close(out);
     job->text[JOB_times] = job->list;
-    return CLI_DONE;
 }
 
 int job_take_times(cli_job *job, const char *given)
 {
     size_t length;
-    char *text = is_file(given) ? file_read(given, &length) : strdup(given);
-    if (!text) return is_file(given) ? CLI_IO : cli_fail(CLI_IO, "out of memory");
+    char *text = is_file(given) ? file_read(given, &length) : cli_strdup(given);
+    if (!text) return CLI_IO;
     free(job->row_time);
     free(job->list);
     job->row_time = NULL;
     job->list = NULL;
     job->times = 0;
-    int status = read_times(job, text);
+    const int status = read_times(job, text);
     free(text);
-    return status == CLI_DONE ? write_list(job) : status;
+    if (status == CLI_DONE) write_list(job);
+    return status;
 }
 
 static int schedule_times(cli_job *job)

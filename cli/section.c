@@ -101,11 +101,8 @@ static int take(void *user, int k, const char *value)
 static char *formula_of(const char *on)
 {
     const char *equals = strchr(on, '=');
-    if (!equals) return strdup(on);
-    const size_t size = strlen(on) + 8;
-    char *text = malloc(size);
-    if (text) snprintf(text, size, "(%.*s)-(%s)", (int)(equals - on), on, equals + 1);
-    return text;
+    if (!equals) return cli_strdup(on);
+    return cli_format("(%.*s)-(%s)", (int)(equals - on), on, equals + 1);
 }
 
 static int load(section *s)
@@ -120,7 +117,6 @@ static int load(section *s)
     if (status == CLI_DONE) status = cli_read(job->system, &job->model);
     if (status != CLI_DONE) return status;
     char *formula = formula_of(s->w->on);
-    if (!formula) return cli_fail(CLI_IO, "out of memory");
     const dal_status added =
         dal_model_add(job->model, DAL_SECTION_INVARIANTS, "the_section", formula, 0, 0, &error);
     if (added != DAL_OK)
@@ -137,14 +133,9 @@ static int name_columns(section *s)
 {
     static const char *const before[COLUMNS_BEFORE] = {"crossing", "t", "direction"};
     s->columns = COLUMNS_BEFORE + dal_run_dimension(s->job.run);
-    s->names = calloc((size_t)s->columns, sizeof *s->names);
-    s->row = calloc(3 * (size_t)s->columns, sizeof *s->row);
-    char *text = calloc((size_t)s->columns, NAME);
-    if (s->names && text) s->names[0] = text;
-    if (!s->names || !text || !s->row) {
-        free(s->names ? NULL : text);
-        return cli_fail(CLI_IO, "out of memory");
-    }
+    s->names = cli_calloc((size_t)s->columns, sizeof *s->names);
+    s->row = cli_calloc(3 * (size_t)s->columns, sizeof *s->row);
+    char *text = cli_calloc((size_t)s->columns, NAME);
     s->least = s->row + s->columns;
     s->most = s->least + s->columns;
     for (int i = 0; i < s->columns; i++) {

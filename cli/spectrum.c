@@ -130,9 +130,8 @@ static int draw(const spectrum_study *s, const char *directory, const spectrum_t
 int spectrum_run(spectrum_study *s, const spectrum_table *t)
 {
     analysis_place place = {0};
-    double *values = calloc((size_t)t->columns + 1, sizeof *values);
-    int status = values ? CLI_DONE : cli_fail(CLI_IO, "out of memory");
-    if (status == CLI_DONE) status = job_check_step(&s->job, s->transient + s->job.time);
+    double *values = cli_calloc((size_t)t->columns + 1, sizeof *values);
+    int status = job_check_step(&s->job, s->transient + s->job.time);
     if (status == CLI_DONE && s->output) status = analysis_open(&place, s->output, t->name);
     if (status == CLI_DONE && place.table)
         status = table_create(&s->table, place.table, t->names, t->columns + 1);

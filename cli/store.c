@@ -7,17 +7,12 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-int store_open(cli_store *store, const char *directory)
+void store_open(cli_store *store, const char *directory)
 {
     *store = (cli_store){.directory = directory, .descriptor = -1, .settle = 1};
 #define X(name, file) store->name = cli_join(directory, file);
     STORE_FILE_LIST(X)
 #undef X
-#define X(name, file) &&store->name
-    if (1 STORE_FILE_LIST(X)) return CLI_DONE;
-#undef X
-    store_close(store);
-    return cli_fail(CLI_IO, "out of memory");
 }
 
 void store_close(cli_store *store)

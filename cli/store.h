@@ -47,9 +47,8 @@ typedef struct cli_mark {
     double seconds; /* spent in steps and rows */
 } cli_mark;
 
-/* The names of the files in a directory.  All functions return CLI_DONE or print and return an
- * exit status. */
-int store_open(cli_store *store, const char *directory);
+/* The names of the files in a directory. */
+void store_open(cli_store *store, const char *directory);
 void store_close(cli_store *store);
 /* A file in the directory that a new run would write over, or NULL. */
 const char *store_holds(const cli_store *store);

@@ -138,8 +138,7 @@ static int run_cells(study_plan *plan, const study_house *house, const study_mea
 static int begin(const wishes *w, study_house *house, study_plan *plan, const char *text,
                  size_t length)
 {
-    int status = house_open(house, w->output ? w->output : default_directory);
-    if (status != CLI_DONE) return status;
+    house_open(house, w->output ? w->output : default_directory);
     const int force = w->force || (!w->output && house_is_finished(house));
     return house_begin(house, plan, text, length, w->shard, force);
 }
@@ -193,8 +192,8 @@ int study_resume(const char *directory, const study_means *means)
 {
     study_plan plan = {0};
     study_house house = {0};
-    int status = house_open(&house, directory);
-    if (status == CLI_DONE) status = house_read(&house, &plan);
+    house_open(&house, directory);
+    int status = house_read(&house, &plan);
     if (status == CLI_DONE) status = run_cells(&plan, &house, means);
     study_plan_free(&plan);
     house_close(&house);

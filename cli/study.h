@@ -108,7 +108,7 @@ typedef struct study_plan {
 int study_plan_read(study_plan *plan, const char *place, const char *text, size_t length,
                     const char *copies);
 void study_plan_free(study_plan *plan);
-/* DIRECTORY/LABEL.yaml, where the copy of a system file lies; allocated, NULL: out of memory. */
+/* DIRECTORY/LABEL.yaml, where the copy of a system file lies; allocated. */
 char *study_system_copy(const char *directory, const study_entry *entry);
 
 /* ---- cells ---- */
@@ -206,7 +206,7 @@ int study_resume(const char *directory, const study_means *means);
 
 typedef struct study_output study_output;
 
-/* The cells by falling cost, so that none is left for the end; allocated, NULL: out of memory. */
+/* The cells by falling cost, so that none is left for the end; allocated. */
 int *study_order(const study_plan *plan);
 /* Runs all cells that are not elsewhere, on threads.  Returns CLI_DONE, CLI_SIGNAL when it was
  * interrupted, or the exit status of the first failure of the program's own, which was told. */

@@ -11,25 +11,20 @@ static int reads_back(const char *text, double x) { return strtod(text, NULL) ==
 /* LABEL_INTEGRATOR_START_STEP, the step with as few digits as tell it; no two cells share one. */
 char *study_cell_name(const study_cell *c)
 {
-    char method[STUDY_NAME], step[32], *name = NULL;
-    size_t length;
+    char method[STUDY_NAME], step[32];
     for (int digits = 1; digits <= 17; digits++) {
         snprintf(step, sizeof step, "%.*g", digits, c->step);
         if (reads_back(step, c->step)) break;
     }
-    FILE *out = open_memstream(&name, &length);
-    if (!out) return NULL;
-    fprintf(out, "%s_%s_%s_%s", c->entry->label, dal_method_name(c->method, method, sizeof method),
-            study_start_word(c->start), step);
-    if (fclose(out) == 0) return name;
-    free(name);
-    return NULL;
+    return cli_format("%s_%s_%s_%s", c->entry->label,
+                      dal_method_name(c->method, method, sizeof method), study_start_word(c->start),
+                      step);
 }
 
 char *study_cell_directory(const study_plan *plan, const study_cell *c)
 {
     char *name = study_cell_name(c);
-    char *directory = name ? cli_join(plan->runs, name) : NULL;
+    char *directory = cli_join(plan->runs, name);
     free(name);
     return directory;
 }

@@ -33,17 +33,13 @@ typedef struct walk {
 
 CLI_PRINTF(3, 4) static int give(walk *w, int option, const char *format, ...)
 {
-    char text[TEXT];
     va_list list;
     va_start(list, format);
-    vsnprintf(text, sizeof text, format, list);
+    char *text = cli_format_list(format, list);
     va_end(list);
-    char **more = realloc(w->text, (w->texts + 1) * sizeof *more);
-    if (more) w->text = more;
-    char *own = more ? strdup(text) : NULL;
-    if (!own) return cli_fail(CLI_IO, "out of memory");
-    w->text[w->texts++] = own;
-    return job_take(&w->job, option, own);
+    w->text = cli_realloc(w->text, (w->texts + 1) * sizeof *w->text);
+    w->text[w->texts] = text;
+    return job_take(&w->job, option, w->text[w->texts++]);
 }
 
 static int give_settings(walk *w, int option, const dal_setting *setting, int count, double unit)
@@ -124,12 +120,10 @@ static int make_memory(walk *w)
     study_cell *c = w->cell;
     const cli_record *r = &w->keep.record;
     const size_t count = (size_t)r->observables + 1;
-    c->trend = calloc(count, sizeof *c->trend);
-    c->names = calloc(count, sizeof *c->names);
-    c->windows = calloc(STUDY_WINDOWS, sizeof *c->windows);
-    w->values = calloc(2 * count, sizeof *w->values);
-    if (!c->trend || !c->names || !c->windows || !w->values)
-        return cli_fail(CLI_IO, "out of memory");
+    c->trend = cli_calloc(count, sizeof *c->trend);
+    c->names = cli_calloc(count, sizeof *c->names);
+    c->windows = cli_calloc(STUDY_WINDOWS, sizeof *c->windows);
+    w->values = cli_calloc(2 * count, sizeof *w->values);
     w->first = w->values + count;
     c->observables = r->observables;
     for (int i = 0; i < c->observables; i++) {
@@ -234,8 +228,7 @@ static int make_run(walk *w)
     if (status == CLI_DONE) status = job_settle(&w->job, &spec);
     if (status != CLI_DONE) return status;
     const dal_status made = dal_run_create(&w->job.run, &spec, &c->error);
-    if (made == DAL_MEMORY) return cli_fail(CLI_IO, "out of memory");
-    if (made == DAL_OK) return CLI_DONE;
+    if (cli_is_ok(made)) return CLI_DONE;
     w->job.run = NULL;
     fail(c, made == DAL_UNSUPPORTED ? STUDY_REFUSED : STUDY_FAILED, made);
     return CLI_DONE;
@@ -291,7 +284,7 @@ int study_cell_run(const study_plan *plan, study_cell *cell, const study_watch *
     int status = make_run(&w);
     if (status == CLI_DONE && w.job.run) {
         w.directory = study_cell_directory(plan, cell);
-        status = w.directory ? go(&w, watch) : cli_fail(CLI_IO, "out of memory");
+        status = go(&w, watch);
         keep_close(&w.keep);
     }
     if (status != CLI_DONE) study_cell_free(cell);

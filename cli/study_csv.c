@@ -212,7 +212,6 @@ static int open_series(study_output *output, const study_entry *entry)
     if (status != CLI_DONE) return status;
     snprintf(name, sizeof name, "%s.csv", entry->label);
     output->series_path = cli_join(output->series_directory, name);
-    if (!output->series_path) return cli_fail(CLI_IO, "out of memory");
     output->series = fopen(output->series_path, "w");
     if (!output->series) return cli_io("write", output->series_path);
     output->series_entry = entry;
@@ -228,7 +227,6 @@ static int open_series(study_output *output, const study_entry *entry)
 static int open_file(FILE **file, char **path, const char *directory, const char *name)
 {
     *path = cli_join(directory, name);
-    if (!*path) return cli_fail(CLI_IO, "out of memory");
     *file = fopen(*path, "w");
     return *file ? CLI_DONE : cli_io("write", *path);
 }
@@ -237,7 +235,6 @@ static int open_all(study_output *o, const char *directory)
 {
     int status = cli_directory(directory);
     o->series_directory = cli_join(directory, "series");
-    if (!o->series_directory) return cli_fail(CLI_IO, "out of memory");
     if (status == CLI_DONE) status = cli_directory(o->series_directory);
     if (status == CLI_DONE) status = open_file(&o->cells, &o->cells_path, directory, "cells.csv");
     if (status == CLI_DONE)
@@ -247,8 +244,7 @@ static int open_all(study_output *o, const char *directory)
 
 int study_output_open(study_output **output, const char *directory)
 {
-    study_output *o = *output = calloc(1, sizeof *o);
-    if (!o) return cli_fail(CLI_IO, "out of memory");
+    study_output *o = *output = cli_calloc(1, sizeof *o);
     int status = open_all(o, directory);
     if (status != CLI_DONE) return status;
     put_heads(o->cells);

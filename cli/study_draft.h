@@ -29,7 +29,7 @@ typedef struct study_variants study_variants;
 int study_variants_read(study_variants **variants, const study_text *text, const study_draft *draft,
                         int *count);
 /* Combination i: set, start and what is put behind the label. */
-int study_variants_take(const study_variants *variants, int i, study_entry *entry);
+void study_variants_take(const study_variants *variants, int i, study_entry *entry);
 /* Where velocities or coordinates were drawn: brings the velocities of the start onto D = 0, along
  * W^-1 A^T.  To be called when the entry has its system. */
 int study_variants_onto(const study_variants *variants, study_entry *entry);

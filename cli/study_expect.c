@@ -31,11 +31,9 @@ static int add(reader *r, const yaml_node_t *node)
 {
     study_plan *plan = r->plan;
     const size_t count = (size_t)plan->expectation_count + 1;
-    study_expectation *all = realloc(plan->expectations, count * sizeof *all);
-    if (!all) return cli_fail(CLI_IO, "out of memory");
-    plan->expectations = all;
+    plan->expectations = cli_realloc(plan->expectations, count * sizeof *plan->expectations);
     r->expectation.line = node->start_mark.line + 1;
-    all[plan->expectation_count++] = r->expectation;
+    plan->expectations[plan->expectation_count++] = r->expectation;
     return CLI_DONE;
 }
 
@@ -271,9 +269,8 @@ static int has_quantity(const study_entry *e, const char *name)
 static int check_label(const reader *r, const yaml_node_t *node)
 {
     const study_plan *plan = r->plan;
-    const char **names = calloc((size_t)plan->entry_count + 1, sizeof *names);
+    const char **names = cli_calloc((size_t)plan->entry_count + 1, sizeof *names);
     int found = 0;
-    if (!names) return cli_fail(CLI_IO, "out of memory");
     for (int i = 0; i < plan->entry_count; i++) {
         names[i] = plan->entries[i].label;
         found |= study_is_called(&plan->entries[i], r->label);

@@ -51,15 +51,12 @@ typedef struct telling {
 static int tell_shard(const study_house *house, study_shard shard, void *user)
 {
     const telling *t = user;
-    char *text = NULL, *path = house_manifest(house, shard);
-    size_t length = 0;
-    FILE *out = path ? open_memstream(&text, &length) : NULL;
-    int status = out ? CLI_DONE : cli_fail(CLI_IO, "out of memory");
-    if (out) {
-        put_manifest(out, t->plan, shard, t->state);
-        status = cli_close(out, path);
-    }
-    if (status == CLI_DONE) status = file_replace(path, text, length);
+    char *text, *path = house_manifest(house, shard);
+    size_t length;
+    FILE *out = cli_memstream_open(&text, &length);
+    put_manifest(out, t->plan, shard, t->state);
+    cli_memstream_close(out);
+    const int status = file_replace(path, text, length);
     free(text);
     free(path);
     return status;

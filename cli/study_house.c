@@ -12,16 +12,12 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-int house_open(study_house *house, const char *directory)
+void house_open(study_house *house, const char *directory)
 {
     *house = (study_house){.directory = directory};
 #define X(name, file) house->name = cli_join(directory, file);
     HOUSE_FILE_LIST(X)
 #undef X
-#define X(name, file) &&house->name
-    if (1 HOUSE_FILE_LIST(X)) return CLI_DONE;
-#undef X
-    return cli_fail(CLI_IO, "out of memory");
 }
 
 void house_close(study_house *house)
@@ -62,7 +58,7 @@ static int remove_all(const char *path, int depth)
     for (struct dirent *entry; done == CLI_DONE && (entry = readdir(directory));) {
         if (is_dot(entry->d_name)) continue;
         char *inner = cli_join(path, entry->d_name);
-        done = inner ? remove_all(inner, depth - 1) : cli_fail(CLI_IO, "out of memory");
+        done = remove_all(inner, depth - 1);
         free(inner);
     }
     closedir(directory);
@@ -75,7 +71,7 @@ static int remove_all(const char *path, int depth)
 char *house_manifest(const study_house *house, study_shard shard)
 {
     char name[64];
-    if (shard.count == 0) return strdup(house->manifest);
+    if (shard.count == 0) return cli_strdup(house->manifest);
     snprintf(name, sizeof name, "shard-%lld-of-%lld.json", shard.number, shard.count);
     return cli_join(house->directory, name);
 }
@@ -104,7 +100,7 @@ static int forget_shard(const study_house *house, study_shard shard, void *user)
 {
     (void)user;
     char *path = house_manifest(house, shard);
-    int status = path ? file_remove(path) : cli_fail(CLI_IO, "out of memory");
+    int status = file_remove(path);
     free(path);
     return status;
 }
@@ -151,8 +147,8 @@ static int copy_system(const study_house *house, study_entry *e)
     size_t length;
     if (!e->is_first || (!e->copy && !cli_is_path(e->name))) return CLI_DONE;
     char *path = study_system_copy(house->systems, e);
-    char *text = path ? file_read(e->copy ? e->copy : e->name, &length) : NULL;
-    int status = text ? CLI_DONE : path ? CLI_IO : cli_fail(CLI_IO, "out of memory");
+    char *text = file_read(e->copy ? e->copy : e->name, &length);
+    int status = text ? CLI_DONE : CLI_IO;
     if (text && !is_there(path))
         status = file_replace(path, text, length);
     else if (text && !equals(path, text, length))
@@ -218,7 +214,7 @@ static int lock(const study_house *house)
 {
     struct flock whole = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
     char *path = cli_join(house->directory, "lock");
-    const int descriptor = path ? open(path, O_RDWR | O_CREAT, 0666) : -1;
+    const int descriptor = open(path, O_RDWR | O_CREAT, 0666);
     if (descriptor >= 0) fcntl(descriptor, F_SETLKW, &whole);
     free(path);
     return descriptor;

@@ -42,9 +42,8 @@ typedef struct study_house {
     study_shard shard; /* what of the study is run */
 } study_house;
 
-/* The names of the files in a directory.  All functions return CLI_DONE or print and return an
- * exit status. */
-int house_open(study_house *house, const char *directory);
+/* The names of the files in a directory. */
+void house_open(study_house *house, const char *directory);
 void house_close(study_house *house);
 int house_holds_study(const study_house *house);
 /* Whether a whole study is there, and is over. */
@@ -67,7 +66,7 @@ int house_finish(const study_house *house, const study_plan *plan, int status);
 /* Calls visit for each shard that the directory tells of. */
 typedef int house_visitor(const study_house *house, study_shard shard, void *user);
 int house_each_shard(const study_house *house, house_visitor *visit, void *user);
-/* Where the manifest of a shard is, or of the whole; allocated, NULL: out of memory. */
+/* Where the manifest of a shard is, or of the whole; allocated. */
 char *house_manifest(const study_house *house, study_shard shard);
 int house_is_of(study_shard shard, int cell);
 

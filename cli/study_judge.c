@@ -240,14 +240,13 @@ int study_keep_expectations(const study_plan *plan, const char *path)
 {
     int count;
     size_t length;
-    char *text = NULL;
+    char *text;
     if (plan->expectation_count == 0) return file_remove(path);
-    FILE *out = open_memstream(&text, &length);
-    if (!out) return cli_fail(CLI_IO, "out of memory");
+    FILE *out = cli_memstream_open(&text, &length);
     fputs("label,integrator,start,step,quantity,expected,found,met\n", out);
     judge_all(out, plan, put_row, &count);
-    int status = cli_close(out, path);
-    if (status == CLI_DONE) status = file_replace(path, text, length);
+    cli_memstream_close(out);
+    const int status = file_replace(path, text, length);
     free(text);
     return status;
 }

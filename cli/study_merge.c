@@ -70,7 +70,6 @@ static int check_systems(const merge *m, int i)
         const study_entry *e = &m->plan.entries[k];
         if (!e->is_first || !e->copy) continue;
         char *path = study_system_copy(m->source[i].systems, e);
-        if (!path) return cli_fail(CLI_IO, "out of memory");
         if (!is_same_file(path, e->copy)) status = differs(m, i, path, e->copy);
         free(path);
     }
@@ -105,9 +104,9 @@ static int read_sources(merge *m)
 static int look_at(merge *m, int cell, int source, const char *name)
 {
     const study_house *s = &m->source[source];
-    char *run = cli_join(s->runs, name), *manifest = run ? cli_join(run, "manifest.json") : NULL;
-    int status = manifest ? CLI_DONE : cli_fail(CLI_IO, "out of memory");
-    if (status == CLI_DONE && access(manifest, F_OK) == 0) {
+    char *run = cli_join(s->runs, name), *manifest = cli_join(run, "manifest.json");
+    int status = CLI_DONE;
+    if (access(manifest, F_OK) == 0) {
         if (m->from[cell] >= 0)
             status = cli_fail(CLI_USAGE, "'%s' is in '%s' and in '%s'", name,
                               m->source[m->from[cell]].directory, s->directory);
@@ -124,7 +123,7 @@ static int look_at(merge *m, int cell, int source, const char *name)
 static int find_run(merge *m, int cell)
 {
     char *name = study_cell_name(&m->plan.cells[cell]);
-    int status = name ? CLI_DONE : cli_fail(CLI_IO, "out of memory");
+    int status = CLI_DONE;
     m->from[cell] = -1;
     for (int i = 0; i < m->sources && status == CLI_DONE; i++) status = look_at(m, cell, i, name);
     if (status == CLI_DONE && m->from[cell] < 0 && study_cell_can_run(&m->plan.cells[cell]))
@@ -137,8 +136,7 @@ static int find_run(merge *m, int cell)
 static int find_runs(merge *m)
 {
     int status = CLI_DONE;
-    m->from = calloc((size_t)m->plan.cell_count + 1, sizeof *m->from);
-    if (!m->from) return cli_fail(CLI_IO, "out of memory");
+    m->from = cli_calloc((size_t)m->plan.cell_count + 1, sizeof *m->from);
     for (int i = 0; i < m->plan.cell_count && status == CLI_DONE; i++) status = find_run(m, i);
     return status;
 }
@@ -182,9 +180,9 @@ static int copy_stores(const cli_store *from, const cli_store *to)
 static int copy_run(const char *source, const char *target)
 {
     cli_store from = {0}, to = {0};
-    int status = store_open(&from, source);
-    if (status == CLI_DONE) status = store_open(&to, target);
-    if (status == CLI_DONE) status = copy_stores(&from, &to);
+    store_open(&from, source);
+    store_open(&to, target);
+    const int status = copy_stores(&from, &to);
     store_close(&from);
     store_close(&to);
     return status;
@@ -197,9 +195,9 @@ static int copy_runs(const merge *m)
         const int from = m->from[i];
         if (from < 0 || is_same_place(m->source[from].directory, m->target.directory)) continue;
         char *name = study_cell_name(&m->plan.cells[i]);
-        char *source = name ? cli_join(m->source[from].runs, name) : NULL;
-        char *target = name ? cli_join(m->target.runs, name) : NULL;
-        status = source && target ? copy_run(source, target) : cli_fail(CLI_IO, "out of memory");
+        char *source = cli_join(m->source[from].runs, name);
+        char *target = cli_join(m->target.runs, name);
+        status = copy_run(source, target);
         free(source);
         free(target);
         free(name);
@@ -224,8 +222,8 @@ static int prepare_target(merge *m)
 
 static int merge_into(merge *m, const char *output, int threads)
 {
-    int status = house_open(&m->target, output);
-    if (status == CLI_DONE) status = read_sources(m);
+    house_open(&m->target, output);
+    int status = read_sources(m);
     if (status == CLI_DONE) status = find_runs(m);
     if (status == CLI_DONE) status = prepare_target(m);
     if (status == CLI_DONE) status = copy_runs(m);
@@ -248,7 +246,8 @@ static int take(merge *m, const char **output, long long *threads, int option, c
     default:
         if (m->sources == SOURCES_MOST)
             return cli_fail(CLI_USAGE, "merge: more than %d directories", SOURCES_MOST);
-        return house_open(&m->source[m->sources++], value);
+        house_open(&m->source[m->sources++], value);
+        return CLI_DONE;
     }
 }
 
@@ -261,8 +260,7 @@ static int go(merge *m, const char *output, long long threads)
 
 int command_merge(int argc, char **argv)
 {
-    merge *m = calloc(1, sizeof *m);
-    if (!m) return cli_fail(CLI_IO, "out of memory");
+    merge *m = cli_calloc(1, sizeof *m);
     cli_args args = cli_begin(argc, argv, options, OWN_OPTIONS, notes);
     const char *value, *output = NULL;
     long long threads = pool_threads();

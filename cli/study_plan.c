@@ -19,8 +19,7 @@ static int read_displace(study_entry *e, const study_text *text, yaml_node_t *no
         return study_text_fail(text, node, "displace: names and values are wanted");
     const yaml_node_pair_t *pair = node->data.mapping.pairs.start;
     size_t most = (size_t)(node->data.mapping.pairs.top - pair);
-    e->displace = calloc(most + 1, sizeof *e->displace);
-    if (!e->displace) return cli_fail(CLI_IO, "out of memory");
+    e->displace = cli_calloc(most + 1, sizeof *e->displace);
     for (; pair < node->data.mapping.pairs.top; pair++) {
         dal_setting *s = &e->displace[e->displace_count++];
         yaml_node_t *key = study_text_node(text, pair->key);
@@ -47,12 +46,10 @@ static int add_method(study_entry *e, const study_text *text, const yaml_node_t 
 {
     dal_error error = {0};
     size_t count = (size_t)e->method_count + 1;
-    dal_method *methods = realloc(e->methods, count * sizeof *methods);
-    if (!methods) return cli_fail(CLI_IO, "out of memory");
-    e->methods = methods;
-    if (dal_method_parse(&methods[e->method_count], name, &error) != DAL_OK)
+    e->methods = cli_realloc(e->methods, count * sizeof *e->methods);
+    if (dal_method_parse(&e->methods[e->method_count], name, &error) != DAL_OK)
         return study_text_fail(text, node, "%s", error.message);
-    if (!has_method(e, &methods[e->method_count])) e->method_count++;
+    if (!has_method(e, &e->methods[e->method_count])) e->method_count++;
     return CLI_DONE;
 }
 
@@ -136,20 +133,13 @@ static int check_names(const study_text *text, const yaml_node_t *node, const ch
     if (!node) return CLI_DONE;
     if (!e->system->call.adjoint) spec.options.space = DAL_PHYSICAL;
     dal_status made = dal_run_create(&run, &spec, &error);
-    if (made == DAL_OK) dal_run_free(run);
+    if (cli_is_ok(made)) dal_run_free(run);
     return made == DAL_NAME ? study_text_fail(text, node, "%s: %s", what, error.message) : CLI_DONE;
 }
 
 char *study_system_copy(const char *directory, const study_entry *e)
 {
-    size_t length;
-    char *name = NULL;
-    FILE *out = open_memstream(&name, &length);
-    if (!out) return NULL;
-    fprintf(out, "%s.yaml", e->label);
-    char *path = fclose(out) == 0 ? cli_join(directory, name) : NULL;
-    free(name);
-    return path;
+    return cli_format("%s/%s.yaml", directory, e->label);
 }
 
 /* A name that is neither a path nor a system is told with its place. */
@@ -168,7 +158,6 @@ static int find_copy(const study_plan *plan, study_entry *e)
 {
     if (!plan->copies) return CLI_DONE;
     e->copy = study_system_copy(plan->copies, e);
-    if (!e->copy) return cli_fail(CLI_IO, "out of memory");
     if (access(e->copy, F_OK) == 0 || cli_is_path(e->name)) return CLI_DONE;
     free(e->copy);
     e->copy = NULL;
@@ -227,8 +216,8 @@ static int add_variant(group *g, int i, const study_entry *first)
     study_entry *e = &plan->entries[plan->entry_count];
     *e = g->draft.entry;
     e->is_first = i == 0;
-    int status = study_variants_take(g->variants, i, e);
-    if (status == CLI_DONE) status = unique_label(plan, g->text, g->node, e);
+    study_variants_take(g->variants, i, e);
+    int status = unique_label(plan, g->text, g->node, e);
     plan->entry_count++;
     if (status == CLI_DONE) status = read_displace(e, g->text, g->draft.displace);
     if (status != CLI_DONE) return status;
@@ -245,12 +234,10 @@ static int add_variants(group *g, int count)
     study_plan *plan = g->plan;
     const int before = plan->entry_count;
     const size_t room = (size_t)before + (size_t)count;
-    study_entry *entries = realloc(plan->entries, room * sizeof *entries);
-    if (!entries) return cli_fail(CLI_IO, "out of memory");
-    plan->entries = entries;
+    plan->entries = cli_realloc(plan->entries, room * sizeof *plan->entries);
     int status = CLI_DONE;
     for (int i = 0; i < count && status == CLI_DONE; i++)
-        status = add_variant(g, i, &entries[before]);
+        status = add_variant(g, i, &plan->entries[before]);
     return status;
 }
 
@@ -305,8 +292,7 @@ static int make_cells(study_plan *plan)
         e->cells = e->method_count * e->steps * starts;
         plan->cell_count += e->cells;
     }
-    plan->cells = calloc((size_t)plan->cell_count + 1, sizeof *plan->cells);
-    if (!plan->cells) return cli_fail(CLI_IO, "out of memory");
+    plan->cells = cli_calloc((size_t)plan->cell_count + 1, sizeof *plan->cells);
     for (int i = 0; i < plan->entry_count; i++)
         lay_out(&plan->entries[i], plan->cells + plan->entries[i].first_cell);
     return CLI_DONE;
@@ -315,13 +301,12 @@ static int make_cells(study_plan *plan)
 int study_plan_read(study_plan *plan, const char *place, const char *bytes, size_t length,
                     const char *copies)
 {
-    study_text *text = calloc(1, sizeof *text);
+    study_text *text = cli_calloc(1, sizeof *text);
     study_draft base = {.entry = {.samples = 400,
                                   .statistics = 1,
                                   .displacement = 1e-8,
                                   .starts = (1 << STUDY_STARTS) - 1}};
     *plan = (study_plan){.place = place, .document = text, .copies = copies};
-    if (!text) return cli_fail(CLI_IO, "out of memory");
     int status = study_text_parse(text, place, bytes, length);
     if (status != CLI_DONE) return status;
     yaml_node_t *root = yaml_document_get_root_node(&text->document);

@@ -42,16 +42,11 @@ static int by_cost(const void *a, const void *b)
 int *study_order(const study_plan *plan)
 {
     const size_t count = (size_t)plan->cell_count;
-    ranked *list = calloc(count + 1, sizeof *list);
-    int *order = calloc(count + 1, sizeof *order);
-    for (size_t i = 0; list && order && i < count; i++)
-        list[i] = (ranked){cost(&plan->cells[i]), (int)i};
-    if (list) qsort(list, count, sizeof *list, by_cost);
-    for (size_t i = 0; list && order && i < count; i++) order[i] = list[i].cell;
-    if (!list) {
-        free(order);
-        order = NULL;
-    }
+    ranked *list = cli_calloc(count + 1, sizeof *list);
+    int *order = cli_calloc(count + 1, sizeof *order);
+    for (size_t i = 0; i < count; i++) list[i] = (ranked){cost(&plan->cells[i]), (int)i};
+    qsort(list, count, sizeof *list, by_cost);
+    for (size_t i = 0; i < count; i++) order[i] = list[i].cell;
     free(list);
     return order;
 }
@@ -102,7 +97,6 @@ static void run_cell(void *user, int i)
 int study_pool_run(study_plan *plan, int threads)
 {
     work w = {.plan = plan, .order = study_order(plan), .began = cli_seconds()};
-    if (!w.order) return cli_fail(CLI_IO, "out of memory");
     for (int i = 0; i < plan->cell_count; i++) w.count += !plan->cells[i].elsewhere;
     pool_run(plan->cell_count, threads, run_cell, &w);
     cli_progress_end();

@@ -63,11 +63,10 @@ static const study_key range_keys[] = {{"from", take_from},
                                        {"by", take_by},
                                        {"between", take_between}};
 
-static int make_room(study_values *v, int count)
+static void make_room(study_values *v, int count)
 {
-    v->value = calloc((size_t)count, sizeof *v->value);
-    v->count = v->value ? count : 0;
-    return v->value ? CLI_DONE : cli_fail(CLI_IO, "out of memory");
+    v->value = cli_calloc((size_t)count, sizeof *v->value);
+    v->count = count;
 }
 
 /* How many values there are; 0 when the parts do not make a range. */
@@ -92,7 +91,7 @@ static int make_range(const range *r, const study_text *text, const yaml_node_t 
     if (count == 0)
         return study_text_fail(text, node, "%s: this range does not have 1..%d values", what,
                                STUDY_VALUES_MOST);
-    if (make_room(v, count) != CLI_DONE) return CLI_IO;
+    make_room(v, count);
     for (int k = 0; k < count; k++)
         v->value[k] = r->has[RANGE_by] ? a + k * r->part[RANGE_by]
                       : k == count - 1 ? b
@@ -123,7 +122,8 @@ int study_values_read(study_values *v, const study_text *text, yaml_node_t *node
     if (count > STUDY_VALUES_MOST)
         return study_text_fail(text, node, "%s: %d values, not 1..%d", what, count,
                                STUDY_VALUES_MOST);
-    int status = make_room(v, count);
+    int status = CLI_DONE;
+    make_room(v, count);
     for (int i = 0; i < count && status == CLI_DONE; i++)
         status = study_text_number(text, study_text_item(text, node, i), what, &v->value[i]);
     return status;

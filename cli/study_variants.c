@@ -47,8 +47,7 @@ static int read_value(setting *s, const study_text *text, yaml_node_t *node, con
     if (!is_scalar || strcmp(s->name, "e") != 0 ||
         strcmp((const char *)node->data.scalar.value, "inf") != 0)
         return study_values_read(&s->values, text, node, what);
-    s->values = (study_values){.value = malloc(sizeof(double)), .count = 1};
-    if (!s->values.value) return cli_fail(CLI_IO, "out of memory");
+    s->values = (study_values){.value = cli_malloc(sizeof(double)), .count = 1};
     s->values.value[0] = INFINITY;
     return CLI_DONE;
 }
@@ -116,10 +115,8 @@ static size_t pairs(const yaml_node_t *node)
 int study_variants_read(study_variants **variants, const study_text *text, const study_draft *d,
                         int *count)
 {
-    study_variants *v = *variants = calloc(1, sizeof *v);
-    if (!v) return cli_fail(CLI_IO, "out of memory");
-    v->setting = calloc(pairs(d->set) + pairs(d->start) + 1, sizeof *v->setting);
-    if (!v->setting) return cli_fail(CLI_IO, "out of memory");
+    study_variants *v = *variants = cli_calloc(1, sizeof *v);
+    v->setting = cli_calloc(pairs(d->set) + pairs(d->start) + 1, sizeof *v->setting);
     v->text = text;
     v->start_node = d->start;
     int status = read_settings(v, text, d->set, "set");
@@ -180,31 +177,29 @@ static void take_values(const study_variants *v, int i, dal_setting *out, double
     }
 }
 
-static int make_label(const study_variants *v, const dal_setting *value, double seed,
-                      study_entry *e)
+static void make_label(const study_variants *v, const dal_setting *value, double seed,
+                       study_entry *e)
 {
     size_t length;
-    FILE *out = open_memstream(&e->label, &length);
-    if (!out) return cli_fail(CLI_IO, "out of memory");
+    FILE *out = cli_memstream_open(&e->label, &length);
     fputs(e->group, out);
     for (int k = 0; k < v->count; k++)
         if (v->setting[k].values.count > 1) put_label(out, &v->setting[k], value[k].value);
     if (v->drawn) put_label(out, &v->seed, seed);
-    return cli_close(out, "memory");
+    cli_memstream_close(out);
 }
 
-int study_variants_take(const study_variants *v, int i, study_entry *e)
+void study_variants_take(const study_variants *v, int i, study_entry *e)
 {
     double seed;
     const size_t of_set = (size_t)v->of_set, of_start = (size_t)v->count - of_set;
-    e->set = calloc((size_t)v->count + 1, sizeof *e->set);
-    e->start = calloc(of_start + 1, sizeof *e->start);
-    if (!e->set || !e->start) return cli_fail(CLI_IO, "out of memory");
+    e->set = cli_calloc((size_t)v->count + 1, sizeof *e->set);
+    e->start = cli_calloc(of_start + 1, sizeof *e->start);
     take_values(v, i, e->set, &seed);
     memcpy(e->start, e->set + of_set, of_start * sizeof *e->start);
     e->set_count = (int)of_set;
     e->start_count = (int)of_start;
-    return make_label(v, e->set, seed, e);
+    make_label(v, e->set, seed, e);
 }
 
 /* ---- onto D = 0 ---- */
@@ -218,22 +213,18 @@ static int is_momentum(const char *name)
 static const char *velocity_names(study_entry *e)
 {
     size_t length;
-    FILE *out = open_memstream(&e->names, &length);
-    if (!out) return NULL;
+    FILE *out = cli_memstream_open(&e->names, &length);
     for (int i = 0; i < e->system->n; i++) fprintf(out, "%s'%c", e->system->coordinate[i], '\0');
-    return fclose(out) == 0 ? e->names : NULL;
+    cli_memstream_close(out);
+    return e->names;
 }
 
 /* All velocities become settings of the start. */
-static int replace_velocities(study_entry *e, const double *v)
+static void replace_velocities(study_entry *e, const double *v)
 {
     const int n = e->system->n;
     const char *name = velocity_names(e);
-    dal_setting *all = calloc((size_t)e->start_count + (size_t)n + 1, sizeof *all);
-    if (!name || !all) {
-        free(all);
-        return cli_fail(CLI_IO, "out of memory");
-    }
+    dal_setting *all = cli_calloc((size_t)e->start_count + (size_t)n + 1, sizeof *all);
     memcpy(all, e->start, (size_t)e->start_count * sizeof *all);
     for (int k = 0; k < n; k++, name += strlen(name) + 1) {
         int i = 0;
@@ -243,15 +234,13 @@ static int replace_velocities(study_entry *e, const double *v)
     }
     free(e->start);
     e->start = all;
-    return CLI_DONE;
 }
 
 /* x[2n + ..] becomes the start with its velocities on D = 0. */
 static dal_status find_velocities(const study_entry *e, double *x, dal_error *error)
 {
     dal_probe *probe = NULL;
-    dal_setting *start = calloc((size_t)e->start_count + 1, sizeof *start);
-    if (!start) return DAL_MEMORY;
+    dal_setting *start = cli_calloc((size_t)e->start_count + 1, sizeof *start);
     int count = 0;
     for (int i = 0; i < e->start_count; i++)
         if (!is_momentum(e->start[i].name)) start[count++] = e->start[i];
@@ -267,16 +256,15 @@ int study_variants_onto(const study_variants *v, study_entry *e)
 {
     dal_error error = {0};
     if (v->start_drawn == 0 || e->system->m == 0) return CLI_DONE;
-    double *x = calloc(2 * (size_t)e->system->n + (size_t)e->system->m + 1, sizeof *x);
-    if (!x) return cli_fail(CLI_IO, "out of memory");
+    double *x = cli_calloc(2 * (size_t)e->system->n + (size_t)e->system->m + 1, sizeof *x);
     const dal_status found = find_velocities(e, x, &error);
     int status = CLI_DONE;
-    if (found != DAL_OK)
+    if (!cli_is_ok(found))
         status =
             study_text_fail(v->text, v->start_node, "%s: no start on D = 0 was found: %s", e->label,
                             error.message[0] ? error.message : dal_status_text(found));
     else
-        status = replace_velocities(e, x + e->system->n);
+        replace_velocities(e, x + e->system->n);
     free(x);
     return status;
 }

@@ -28,7 +28,8 @@ int study_unknown(const study_text *text, const yaml_node_t *node, const char *w
 
 static int parser_fail(const char *place, const yaml_parser_t *parser)
 {
-    if (parser->error == YAML_MEMORY_ERROR) return cli_fail(CLI_IO, "out of memory");
+    /* Without memory for a node libyaml fails and names no error. */
+    if (parser->error == YAML_MEMORY_ERROR || parser->error == YAML_NO_ERROR) cli_out_of_memory();
     return cli_fail(CLI_USAGE, "%s:%zu:%zu: %s", place, parser->problem_mark.line + 1,
                     parser->problem_mark.column + 1,
                     parser->problem ? parser->problem : "not YAML");
@@ -52,7 +53,7 @@ int study_text_parse(study_text *text, const char *place, const char *bytes, siz
 {
     yaml_parser_t parser;
     text->place = place;
-    if (!yaml_parser_initialize(&parser)) return cli_fail(CLI_IO, "out of memory");
+    if (!yaml_parser_initialize(&parser)) cli_out_of_memory();
     yaml_parser_set_input_string(&parser, (const unsigned char *)bytes, length);
     if (!yaml_parser_load(&parser, &text->document)) {
         int status = parser_fail(place, &parser);

@@ -40,10 +40,9 @@ void summary_print(FILE *out, const cli_record *r)
 
 int summary_write(const cli_record *r, const char *path)
 {
-    char *text = NULL;
-    size_t length = 0;
-    FILE *out = open_memstream(&text, &length);
-    if (!out) return cli_fail(CLI_IO, "out of memory");
+    char *text;
+    size_t length;
+    FILE *out = cli_memstream_open(&text, &length);
     fprintf(out, "observable,first,final,maximum,deviation,%s\n", cli_trend_heads);
     for (int i = 0; i < r->observables; i++) {
         const dal_trend *f = &r->trend[i];
@@ -56,8 +55,8 @@ int summary_write(const cli_record *r, const char *path)
         cli_put_trend(out, f);
         fputc('\n', out);
     }
-    int status = cli_close(out, path);
-    if (status == CLI_DONE) status = file_swap(path, text, length, r->store->settle);
+    cli_memstream_close(out);
+    const int status = file_swap(path, text, length, r->store->settle);
     free(text);
     return status;
 }

@@ -125,31 +125,26 @@ static int begin_anew(cli_table *table)
     return broken(table);
 }
 
-static int make_buffer(cli_table *table, char *const *names)
+static void make_buffer(cli_table *table, char *const *names)
 {
     const size_t rows = BUFFER_BYTES / row_bytes(table);
     table->room = rows ? (long long)rows : 1;
-    table->buffer = malloc((size_t)table->room * row_bytes(table));
-    if (!table->buffer) return cli_fail(CLI_IO, "out of memory");
-    return npy_describe(&table->header, names, table->columns);
+    table->buffer = cli_malloc((size_t)table->room * row_bytes(table));
+    npy_describe(&table->header, names, table->columns);
 }
 
-int table_adopt(cli_table *table, const char *path, int descriptor, char *const *names, int columns)
+void table_adopt(cli_table *table, const char *path, int descriptor, char *const *names,
+                 int columns)
 {
     *table = (cli_table){.path = path, .columns = columns, .descriptor = descriptor, .rows = -1};
-    const int status = make_buffer(table, names);
-    if (status == CLI_DONE) return CLI_DONE;
-    free(table->buffer);
-    table->buffer = NULL;
-    close(descriptor);
-    return status;
+    make_buffer(table, names);
 }
 
 static int other_columns(const cli_table *table)
 {
     const size_t length = table->header.length - NPY_LINE;
-    char *text = malloc(length);
-    const int other = !text || pread(table->descriptor, text, length, 0) != (ssize_t)length ||
+    char *text = cli_malloc(length);
+    const int other = pread(table->descriptor, text, length, 0) != (ssize_t)length ||
                       memcmp(text, table->header.text, length) != 0;
     free(text);
     return other;
@@ -198,8 +193,8 @@ static int create_npy(cli_table *table, const char *path, char *const *names, in
 {
     const int descriptor = open(path, O_RDWR | O_CREAT | O_TRUNC, 0666);
     if (descriptor < 0) return cli_io("write", path);
-    const int status = table_adopt(table, path, descriptor, names, columns);
-    return status == CLI_DONE ? begin_anew(table) : status;
+    table_adopt(table, path, descriptor, names, columns);
+    return begin_anew(table);
 }
 
 static int put_row(cli_table *table, const double *values)

@@ -29,8 +29,8 @@ typedef struct cli_table {
  * holds a structured array of them.  All functions return CLI_DONE or print and return CLI_IO. */
 int table_create(cli_table *table, const char *path, char *const *names, int columns);
 /* Takes over the descriptor of a .npy file that may hold rows already, or nothing. */
-int table_adopt(cli_table *table, const char *path, int descriptor, char *const *names,
-                int columns);
+void table_adopt(cli_table *table, const char *path, int descriptor, char *const *names,
+                 int columns);
 /* Whether such a file holds these columns and begins with so many rows of that sum: CLI_USAGE and
  * a message when not. */
 int table_holds(const cli_table *table, long long rows, const table_sum *sum);

@@ -102,7 +102,7 @@ static int describe(const wishes *w)
     char *text = file_read(w->study, &length);
     if (!text) return CLI_USAGE;
     int status = study_plan_read(&plan, w->study, text, length, NULL);
-    if (status == CLI_DONE) status = house_open(&house, w->output);
+    house_open(&house, w->output);
     if (status == CLI_DONE) status = house_begin(&house, &plan, text, length, whole, w->force);
     study_plan_free(&plan);
     house_close(&house);
@@ -203,10 +203,9 @@ static int run_study(const wishes *w, int rank, int size)
     study_plan plan = {0};
     study_house house = {0};
     team t = {.plan = &plan, .rank = rank, .size = size, .waiting = size - 1};
-    int status = house_open(&house, w->output);
-    if (status == CLI_DONE) status = house_read(&house, &plan);
+    house_open(&house, w->output);
+    int status = house_read(&house, &plan);
     t.order = study_order(&plan);
-    if (!t.order) status = cli_fail(CLI_IO, "out of memory");
     plan.interval = w->interval;
     for (int i = 0; i < plan.entry_count; i++) plan.entries[i].native = (cli_native)w->native;
     status = agree(status);

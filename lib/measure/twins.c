@@ -178,7 +178,14 @@ static void give_up(twins *w, dal_twin twin, const char *why)
     snprintf(w->of->why[twin], sizeof w->of->why[twin], "%s", why);
 }
 
-/* A twin along all steps.  Only an interruption is an error. */
+/* An interruption and a lack of memory end all of it; any other failure is that of one run. */
+static bool ends_all(const twins *w, dal_status status, const dal_error *error)
+{
+    if (status == DAL_MEMORY && w->error) *w->error = *error;
+    return status == DAL_INTERRUPTED || status == DAL_MEMORY;
+}
+
+/* A twin along all steps. */
 static dal_status run_twin(twins *w, dal_twin twin)
 {
     dal_run_spec spec = w->of->spec;
@@ -195,7 +202,7 @@ static dal_status run_twin(twins *w, dal_twin twin)
     if (status == DAL_OK) status = follow(w, run, 1 + (int)twin, per, &error);
     dal_run_free(run);
     w->of->ran[twin] = status == DAL_OK;
-    if (status == DAL_INTERRUPTED) return status;
+    if (ends_all(w, status, &error)) return status;
     if (status != DAL_OK) give_up(w, twin, error.message);
     return DAL_OK;
 }
@@ -260,7 +267,7 @@ static dal_status run_early(twins *w)
     for (int k = 0; k < ABREAST; k++) dal_run_free(run[k]);
     const int ran = status == DAL_OK;
     w->of->ran[DAL_TWIN_LONG] = w->of->ran[DAL_TWIN_LONG_HALVED] = ran;
-    if (status == DAL_INTERRUPTED) return status;
+    if (ends_all(w, status, &error)) return status;
     if (ran) return DAL_OK;
     give_up(w, DAL_TWIN_LONG, error.message);
     give_up(w, DAL_TWIN_LONG_HALVED, error.message);

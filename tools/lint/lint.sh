@@ -67,6 +67,13 @@ globals() {
 }
 calls() { objects | xargs nm -A -u | awk -v build="$BUILD/" -f $here/calls.awk $here/calls.txt -; }
 
+# The program has its memory from cli/memory.c, which ends it where there is none.
+memory() {
+    find "$BUILD/cli" -name '*.o' ! -name memory.o | sort | xargs nm -A -u |
+        awk '$NF ~ /^((m|c|re)alloc|reallocarray|aligned_alloc|strn?dup|open_memstream|v?asprintf|getline)$/ {
+            sub(/:.*/, "", $1); print $1 ": calls " $NF "; cli/memory.c does so alone" }'
+}
+
 exported() { nm -D --defined-only "$BUILD/libdalembert.so" | awk '{ print $3 }' | sort; }
 declared() {
     ctags -x --c-kinds=p --_xformat='%N' include/dalembert.h include/dalembert_[!k]*.h
@@ -89,6 +96,7 @@ check "scripts" scripts
 check "symbol prefix" prefix
 check "no changeable globals" globals
 check "calls of the library" calls
+check "memory of the program" memory
 check "the shared library exports what the headers declare" exports
 check "README" sh $here/readme.sh "$BUILD/dalembert"
 exit $failed

@@ -1,0 +1,97 @@
+# Memory that runs out: every command ends with a message and status 4, wherever that happens, and
+# with what it would have written wherever that does not matter.  fail_allocation.c lets the k-th
+# allocation fail, or all from the k-th on; ALLOCATIONS says how many k are tried for a command.
+
+ALLOCATIONS=${ALLOCATIONS:-16}
+shim=$work/fail_allocation.so
+# starved K COUNT ARGUMENT...: allocation K and COUNT - 1 after it fail; K = 0: none.
+starved() {
+    k=$1 count=$2
+    shift 2
+    timeout 60 env LD_PRELOAD="$shim" FAIL_AT=$k FAIL_COUNT=$count FAIL_LOG="$work/allocations" \
+        "$program" "$@" >out 2>err
+}
+# numbers TOTAL: which of so many allocations fail: the first and last few and some between.
+numbers() {
+    awk -v total="$1" -v most="$ALLOCATIONS" 'BEGIN {
+        step = total > most ? total / most : 1
+        for (x = 1; x <= total; x += step) print int(x)
+        for (k = total - 3; k <= total; k++) if (k > 0) print k
+    }' | sort -n -u
+}
+# fails_cleanly ARGUMENT...: begins with what `prepare` makes, in the directory `place`.
+fails_cleanly() {
+    rm -rf place
+    prepare
+    starved 0 1 "$@"
+    well=$? total=$(cat allocations) fault=
+    cp out well.out
+    for k in $(numbers "$total"); do
+        for count in 1 1000000; do
+            rm -rf place
+            prepare
+            starved "$k" "$count" "$@"
+            status=$?
+            if [ $status -eq "$well" ]; then
+                [ -n "$exact" ] && ! cmp -s out well.out && fault="$fault $k:other"
+            elif [ $status -ne 4 ] || ! grep -q '^dalembert: ' err; then
+                fault="$fault $k:$status"
+            fi
+            [ -z "$(find place -name '*.new' 2>/dev/null)" ] || fault="$fault $k:file"
+        done
+    done
+    holds "status $well, $total allocations, at$fault: $*" [ -z "$fault" -a "$total" -gt 0 ]
+}
+
+if there cc && cc -shared -fPIC -O1 "$here/fail_allocation.c" -o "$shim" 2>/dev/null &&
+    starved 0 1 --version && [ ! -s err ]; then
+    printf '%s\n' 'title: t' 'integrators: [rk4, gauss4]' 'step: 0.1' 'time: 1' 'systems:' \
+        '  - {system: line.yaml, set: {k: [1, 2]}}' >starved.yaml
+    motion="line.yaml --integrator rk4 --step 0.1 --time 1"
+    mkdir scarce
+    try 0 run $motion --output scarce/whole
+    mkdir scarce/halves
+    try 0 study starved.yaml --shard 1/2 --output scarce/halves/one
+    try 0 study starved.yaml --shard 2/2 --output scarce/halves/two
+    cp -R scarce/halves/two scarce/halves/begun
+    rm -rf scarce/halves/begun/runs/*
+
+    case_is "no memory: data on standard output"
+    exact=1
+    prepare() { :; }
+    fails_cleanly check nonholonomic-particle
+    fails_cleanly list systems
+    fails_cleanly run $motion
+    fails_cleanly section chaplygin-sleigh-full-turn --on phi=1 --integrator rk4 --step 0.05 --time 10
+    fails_cleanly lyapunov isokinetic --integrator rk4 --step 0.1 --time 5
+    fails_cleanly explain line.yaml --integrator rk4 --step 0.1 --time 2
+    fails_cleanly generate line.yaml --integrator gauss4
+    exact=
+    fails_cleanly order line.yaml --integrators rk4,gauss4 --time 1 --threads 2
+    fails_cleanly run --integrater rk4
+
+    case_is "no memory: directories"
+    fails_cleanly run $motion --output place
+    fails_cleanly study starved.yaml --output place --threads 2
+    prepare() { cp -R scarce/halves/begun place; }
+    fails_cleanly resume place --threads 2
+    prepare() { cp -R scarce/halves place; }
+    fails_cleanly merge place/one place/two --output place/all
+    if there gnuplot; then
+        prepare() { cp -R scarce/whole place; }
+        fails_cleanly report place
+    fi
+
+    case_is "no memory: a run that went without it is gone on with"
+    long="line.yaml --integrator rk4 --step 1e-3 --time 5000 --native off"
+    rm -rf place
+    starved 0 1 run $long --checkpoint 1000 --output scarce/long
+    first=$(($(cat allocations) + 20)) # some checkpoints later
+    starved $first 1000000 run $long --checkpoint 0 --output place
+    holds "status $?" [ $? -eq 4 ]
+    says '^dalembert: out of memory$'
+    holds "no checkpoint" test -s place/checkpoint
+    try 0 resume place
+    holds "other rows" cmp scarce/long/trajectory.npy place/trajectory.npy
+    rm -rf place scarce
+fi
