@@ -21,11 +21,13 @@ static const char notes[] =
     "--time is the time of the means, behind the transient.  The intervals are from block means;\n"
     "they know nothing of a slow approach: exponents of regular motion fall like log(t)/t, and "
     "what\n"
-    "is smaller than that is called 0.  Every constraint adds an exponent 0, since D is constant "
-    "on\n"
-    "each level; a method that forces D = 0 has no direction for it.  All exponents together are "
-    "the\n"
-    "mean divergence of the motion, which is told beside their sum.\n"
+    "is smaller than that is not distinguished from 0.  Every constraint adds an exponent 0, since "
+    "D\n"
+    "is constant on each level; a method that forces D = 0 has no direction for it.  All "
+    "exponents\n"
+    "together are the mean divergence of the motion, and on D = 0 the mean growth of log |grad D|\n"
+    "more.  The exit status is 3 when they differ by more than the error of the method: then the\n"
+    "derivative of the steps is not reliable.\n"
     "\n"
     "FILE and DIR/lyapunov.csv get rows t, lambda1, .., divergence: the means so far.\n";
 
@@ -54,10 +56,10 @@ static const char *word_of(const dal_average *a, double resolution)
 {
     if (a->low > resolution) return "positive";
     if (a->high < -resolution) return "negative";
-    return "0 within what can be told";
+    return "not distinguishable from 0";
 }
 
-static int print(const spectrum_study *s)
+static int print(spectrum_study *s)
 {
     const int count = dal_spectrum_count(s->spectrum);
     const double resolution = spectrum_resolution(s);
@@ -74,7 +76,9 @@ static int print(const spectrum_study *s)
     dal_spectrum_divergence(s->spectrum, &a);
     spectrum_print_mean("divergence of F", &a, "exact, at every step");
     printf("\nregular motion may show exponents up to about log(T)/T = %.2g\n", resolution);
-    return cli_close(stdout, "standard output");
+    const int balanced = spectrum_print_balance(s);
+    const int closed = cli_close(stdout, "standard output");
+    return closed != CLI_DONE ? closed : balanced;
 }
 
 /* ---- the command --------------------------------------------------------------------------- */

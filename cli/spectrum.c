@@ -169,6 +169,25 @@ void spectrum_print_mean(const char *name, const dal_average *a, const char *wor
     printf("%-24s %12.6g %12.5g %12.5g  %s\n", name, a->mean, a->low, a->high, word);
 }
 
+int spectrum_print_balance(spectrum_study *s)
+{
+    dal_balance b;
+    dal_error error;
+    if (dal_spectrum_balance(s->spectrum, &b, &error) != DAL_OK) {
+        printf("sum less divergence: not compared: %s\n", error.message);
+        return CLI_DONE;
+    }
+    printf("sum less divergence: %.2g; the error of the method is at most about %.2g\n",
+           b.difference, b.margin);
+    if (b.surface != 0.0)
+        printf("(the surface that the method forces accounts for %.2g more)\n", b.surface);
+    if (b.holds) return CLI_DONE;
+    return cli_fail(CLI_FAILED,
+                    "%s: the sum of the exponents differs from the mean divergence by %g, more "
+                    "than %g: the derivative of the steps is not reliable",
+                    s->job.system, b.difference, b.margin);
+}
+
 double spectrum_resolution(const spectrum_study *s)
 {
     const double T = dal_run_time(dal_spectrum_run(s->spectrum)) - s->from;

@@ -54,6 +54,9 @@ void spectrum_free(spectrum_study *study);
 void spectrum_print_head(const spectrum_study *study);
 /* One line: a name, a mean and its interval, and a word. */
 void spectrum_print_mean(const char *name, const dal_average *average, const char *word);
+/* The sum of the exponents against the divergence, in a line; CLI_FAILED with a message when they
+ * disagree. */
+int spectrum_print_balance(spectrum_study *study);
 /* What can be told from 0 after so long: regular motion has exponents about log(T)/T. */
 double spectrum_resolution(const spectrum_study *study);
 

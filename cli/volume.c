@@ -21,8 +21,11 @@ static const char notes[] =
     "\n"
     "A system with an invariant measure has the mean 0; a negative one means an attractor, on "
     "which\n"
-    "the motion settles.  The means on (q,v) and on D = 0 are the same in the long run, whatever\n"
-    "the density: D is constant on every level.  --time is the time of the means, behind the\n"
+    "the motion settles.  The means on (q,v) and on D = 0 differ by the mean growth of log |grad "
+    "D|.\n"
+    "The exit status is 3 when they differ otherwise, by more than the error of the method: then "
+    "the\n"
+    "derivative of the steps is not reliable.  --time is the time of the means, behind the\n"
     "transient.  FILE and DIR/volume.csv get rows t, divergence, step: the means so far.\n";
 
 static int take(void *user, int k, const char *value) { return spectrum_take(user, k, value); }
@@ -43,10 +46,10 @@ static const char *word_of(const dal_average *a, double resolution)
     if (fabs(a->low) <= rounding && fabs(a->high) <= rounding) return "kept at every step";
     if (a->low > resolution) return "grows";
     if (a->high < -resolution) return "shrinks";
-    return "0 within what can be told";
+    return "not distinguishable from 0";
 }
 
-static int print(const spectrum_study *s)
+static int print(spectrum_study *s)
 {
     const double resolution = spectrum_resolution(s);
     dal_average motion, step;
@@ -59,9 +62,9 @@ static int print(const spectrum_study *s)
     const int dimension = dal_run_dimension(dal_spectrum_run(s->spectrum));
     printf("\n%d of %d directions; step less motion: %.2g\n", count, dimension,
            step.mean - motion.mean);
-    if (count < dimension)
-        puts("the density of the surface has a part in that, which falls like 1/T");
-    return cli_close(stdout, "standard output");
+    const int balanced = spectrum_print_balance(s);
+    const int closed = cli_close(stdout, "standard output");
+    return closed != CLI_DONE ? closed : balanced;
 }
 
 static int go(spectrum_study *s)

@@ -243,7 +243,8 @@ dal_status dal_measure_order(const dal_run_spec *spec, double T, int levels,
 
 /* Greatest entry of |J^T Omega J - Omega|, J the derivative of one step from the run's start (or
  * from state[4n+2] at time t) by differences; pairs (q,p), (v,pi), (e,pi_e).  Lifted space only:
- * DAL_UNSUPPORTED; e must be finite.  increment, relative to max(1, |x|); 0: 2e-3. [alloc] */
+ * DAL_UNSUPPORTED; e must be finite.  increment, to begin with, relative to max(1, h |v|) of a
+ * coordinate and max(1, |x|) of all else; 0: 2e-3. [alloc] */
 dal_status dal_measure_symplecticity(const dal_run_spec *spec, double t, const double *state,
                                      double increment, double *defect, dal_error *error);
 
@@ -284,8 +285,8 @@ dal_status dal_measure_stationarity(dal_probe *probe, double t0, double h, long 
 /* A function on a phase space of 2N numbers z = (X, P). */
 typedef double dal_phase_function(void *user, const double *z);
 
-/* gradient[count] of f at z by differences; increments relative to max(1, |z|). z is used and
- * put back. */
+/* gradient[count] of f at z by differences, increments 2e-3 or, where f changes faster, less.  z is
+ * used and put back. */
 void dal_measure_gradient(dal_phase_function *f, void *user, int count, double *z,
                           double *gradient);
 /* {f,g} = sum f_X g_P - f_P g_X from two gradients [2*pairs]. */

@@ -28,9 +28,10 @@ typedef struct dal_spectrum dal_spectrum;
 /* count vectors, 0: as many as the step map has directions, that is 2n + multipliers, less m where
  * the method forces D = 0, less one where it forces E.  tangent is dal_model_tangent of the same
  * model, or NULL.  J is exact (to rounding) with it and a Runge-Kutta, polarised or composed
- * method; else by differences of the step, of order 8.  The space of the spec is not looked at.
- * [alloc]  Errors: those of a run; DAL_ARGUMENT (count); DAL_UNSUPPORTED: the step is no smooth map
- * of (q, v, g) alone: a multiplier carried along, a tolerance. */
+ * method; else by differences of the step, of order 8, with increments that do not depend on how
+ * far the coordinates have travelled.  The space of the spec is not looked at. [alloc]  Errors:
+ * those of a run; DAL_ARGUMENT (count); DAL_UNSUPPORTED: the step is no smooth map of (q, v, g)
+ * alone: a multiplier carried along, a tolerance. */
 dal_status dal_spectrum_create(dal_spectrum **spectrum, const dal_run_spec *spec,
                                const dal_system *tangent, int count, dal_error *error);
 void dal_spectrum_free(dal_spectrum *spectrum);
@@ -39,6 +40,23 @@ void dal_spectrum_free(dal_spectrum *spectrum);
 dal_status dal_spectrum_advance(dal_spectrum *spectrum, long long steps, dal_error *error);
 /* Begins all means anew, as behind a transient; the vectors stay. */
 void dal_spectrum_forget(dal_spectrum *spectrum);
+
+/* Whether the sum of all exponents is the divergence.  Of the flow it is so over any time:
+ *     sum = mean divergence + surface,    surface = (1/T) [log |grad D|] between both ends
+ * where the method forces D = 0 (E likewise, |grad| then being the volume that the gradients by (q,
+ * v, g) span), else 0: a direction that is forced has no exponent, and that of the flow was a 0. */
+typedef struct dal_balance {
+    double surface;
+    double difference; /* sum - mean divergence - surface */
+    double margin;     /* what the method's error may be, the mean of dimension r x^order / (1 - x)
+                          with x = h r and r = max(|F_q|^(1/2), |F_(v,g)|), and those of quadrature
+                          and of J; no interval is in it: both means are of one trajectory */
+    int holds;         /* |difference| <= margin; if not, J has been measured wrongly */
+} dal_balance;
+
+/* Errors: DAL_UNSUPPORTED: not all exponents, no jacobian, directions lost that neither D nor E
+ * explains, a method that turns D into -D in every step, or x >= 1 in some step. [alloc] */
+dal_status dal_spectrum_balance(dal_spectrum *spectrum, dal_balance *balance, dal_error *error);
 
 const dal_run *dal_spectrum_run(const dal_spectrum *spectrum);
 int dal_spectrum_count(const dal_spectrum *spectrum);

@@ -282,6 +282,27 @@ static void test_nearly_reversible(void)
     }
 }
 
+/* ---- far away and near by ---- */
+
+/* F = -sin(phi): its jacobian against differences at phi = 1e5, and of -1e-6 sin(1e6 x + 1). */
+static void test_derivatives_anywhere(void)
+{
+    const char *const texts[] = {"coordinates: [x]\naccelerations: {x: -sin(x)}\n",
+                                 "coordinates: [x]\naccelerations: {x: -1e-6*sin(1e6*x + 1)}\n"};
+    const double place[] = {1e5, 0.0}, v = 0.3;
+    for (int k = 0; k < 2; k++) {
+        dal_model *model = fixture_model(texts[k]);
+        dal_probe *probe = probe_of(fixture_system(model));
+        const dal_point at = {0.0, &place[k], &v};
+        dal_derivatives d;
+        CU_ASSERT_EQUAL(dal_measure_derivatives(probe, &at, &d), DAL_OK);
+        CU_ASSERT(d.jacobian >= 0.0 && d.jacobian < 1e-8);
+        CU_ASSERT(d.adjoint >= 0.0 && d.adjoint < 1e-8);
+        dal_probe_free(probe);
+        dal_model_free(model);
+    }
+}
+
 /* ---- memory ---- */
 
 static dal_status all_measures(const dal_system *system)
@@ -331,6 +352,7 @@ void suite_measure(void)
     CU_add_test(suite, "rate along the motion", test_rate);
     CU_add_test(suite, "wrong derivatives are found", test_derivatives_find_faults);
     CU_add_test(suite, "derivatives of systems", test_derivatives_of_systems);
+    CU_add_test(suite, "derivatives far away and of small lengths", test_derivatives_anywhere);
     CU_add_test(suite, "rank of G", test_rank);
     CU_add_test(suite, "onto D = 0", test_onto);
     CU_add_test(suite, "onto a D without zero", test_onto_nothing);

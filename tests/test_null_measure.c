@@ -338,6 +338,13 @@ static void null_dal_spectrum_sum(void)
     dal_spectrum_sum(spectrum, NULL);
 }
 
+static void null_dal_spectrum_balance(void)
+{
+    dal_balance balance;
+    REFUSED(dal_spectrum_balance(NULL, &balance, error));
+    REFUSED(dal_spectrum_balance(spectrum, NULL, error));
+}
+
 static void null_dal_spectrum_divergence(void)
 {
     dal_average average = {0.0, 0.0, 0.0};

@@ -220,6 +220,24 @@ static void test_symplecticity(void)
     dal_model_free(model);
 }
 
+/* The angle of a pendulum that has gone round 16000 times. */
+static void test_symplecticity_far(void)
+{
+    dal_model *model = fixture_model("coordinates: [phi]\n"
+                                     "accelerations: {phi: -sin(phi)}\n"
+                                     "start: {phi: 1e5, phi': 1}\n");
+    const dal_run_spec spec =
+        fixture_spec(fixture_system(model), "stormer-verlet", DAL_LIFTED, 0.1);
+    dal_run *run = fixture_run(&spec);
+    double defect;
+    fixture_displace(run, 0.5);
+    CU_ASSERT_EQUAL(dal_measure_symplecticity(&spec, 0.0, dal_run_state(run), 0.0, &defect, NULL),
+                    DAL_OK);
+    CU_ASSERT(defect < 1e-6);
+    dal_run_free(run);
+    dal_model_free(model);
+}
+
 static void test_symplecticity_place(void)
 {
     dal_model *model = fixture_model(fixture_full);
@@ -380,6 +398,7 @@ void suite_stepmap(void)
     CU_add_test(suite, "order: what is refused", test_order_refuses);
     CU_add_test(suite, "symplecticity of rk4, closed form", test_symplecticity_closed_form);
     CU_add_test(suite, "symplecticity", test_symplecticity);
+    CU_add_test(suite, "symplecticity far away", test_symplecticity_far);
     CU_add_test(suite, "symplecticity at a time, in a space", test_symplecticity_place);
     CU_add_test(suite, "reversibility of Euler, closed form", test_reversibility_closed_form);
     CU_add_test(suite, "reversibility off p = pi = 0", test_reversibility);

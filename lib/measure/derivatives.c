@@ -46,7 +46,7 @@ dal_status dal_measure_rate(dal_probe *probe, dal_callback *callback, int count,
     const dal_system *s = dal_probe_system(probe);
     int n = s->n, nw = s->n + s->multipliers;
     if (callback == NULL) return DAL_UNSUPPORTED;
-    double *block = dal__numbers(1, (size_t)(n + 2 * nw) + (size_t)count);
+    double *block = dal__numbers(1, (size_t)(n + 2 * nw) + 3 * (size_t)count);
     if (block == NULL) return DAL_MEMORY;
     flow f = {probe, callback, at, n, nw, block, block + nw, block + nw + n};
     dal_status status = rate_in(&f, count, block + n + 2 * nw, out);
@@ -80,7 +80,8 @@ static dal_status column(line *l, int j, int count, double *scratch, double *out
 {
     l->j = j;
     l->held = l->x[j];
-    return dal__differentiate(along_line, l, dal__increment(l->held), count, scratch, out);
+    const double d = dal__increment(j < l->n ? 0.0 : l->held);
+    return dal__differentiate(along_line, l, d, count, scratch, out);
 }
 
 typedef struct desk {
@@ -98,12 +99,30 @@ static dal_status tabulate(desk *d, dal_callback *callback, int rows)
 {
     line l = {.probe = d->probe, .callback = callback, .t = d->t, .x = d->x, .n = d->n};
     int columns = d->n + d->nw;
-    double *out = d->scratch + rows;
+    double *out = d->scratch + 3 * rows;
     for (int j = 0; j < columns; j++) {
         DAL_TRY(column(&l, j, rows, d->scratch, out));
         for (int i = 0; i < rows; i++) d->differences[i * columns + j] = out[i];
     }
     return DAL_OK;
+}
+
+dal_status dal__gradients(dal_probe *probe, dal_callback *callback, int rows, const dal_point *at,
+                          double *differences)
+{
+    const dal_system *s = dal_probe_system(probe);
+    const int nw = s->n + s->multipliers;
+    const size_t width = (size_t)(s->n + nw);
+    if (callback == NULL) return DAL_UNSUPPORTED;
+    double *x = dal__numbers(1, width + 4 * (size_t)rows);
+    if (x == NULL) return DAL_MEMORY;
+    memcpy(x, at->q, (size_t)s->n * sizeof(double));
+    memcpy(x + s->n, at->v, (size_t)nw * sizeof(double));
+    desk d = {.probe = probe, .n = s->n, .nw = nw, .t = at->t, .x = x, .scratch = x + width};
+    d.differences = differences;
+    const dal_status status = tabulate(&d, callback, rows);
+    free(x);
+    return status;
 }
 
 static dal_status call(desk *d, dal_callback *callback, double *out)
@@ -191,7 +210,7 @@ dal_status dal_measure_derivatives(dal_probe *probe, const dal_point *at, dal_de
     size_t n = (size_t)s->n, nw = n + (size_t)s->multipliers, m = (size_t)s->m;
     size_t rows = nw > m ? nw : m, columns = n + nw;
     size_t given = nw * columns + m * (1 + 2 * n) + 3 * n;
-    size_t scratch = 2 * rows + 3 * columns + m * m;
+    size_t scratch = 4 * rows + 3 * columns + m * m;
     double *block = dal__numbers(1, columns + rows * columns + given + scratch + n);
     if (block == NULL) return DAL_MEMORY;
     double *differences = block + columns, *values = differences + rows * columns;

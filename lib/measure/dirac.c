@@ -34,10 +34,10 @@ static dal_status vary(void *user, double s, double *out)
 void dal_measure_gradient(dal_phase_function *f, void *user, int count, double *z, double *gradient)
 {
     if (!f || !z || !gradient) return;
-    double scratch;
+    double scratch[3];
     for (int j = 0; j < count; j++) {
         varied w = {f, user, z, j, z[j]};
-        dal__differentiate(vary, &w, dal__increment(z[j]), 1, &scratch, &gradient[j]);
+        dal__differentiate(vary, &w, DAL__INCREMENT, 1, scratch, &gradient[j]);
     }
 }
 

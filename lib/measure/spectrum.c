@@ -7,8 +7,9 @@
  *
  * J V: a Runge-Kutta or polarised method applied to the tangent system (q, dq, v, dv) moves dq, dv
  * by its own derivative; any other map is differentiated numerically, along each vector by eight
- * steps.  R by modified Gram-Schmidt, every vector twice over, so that V' is orthonormal to
- * rounding (Giraud, Langou, Rozloznik 2005, DOI 10.1016/j.camwa.2005.08.009). */
+ * steps or, where it is less smooth than that, by more.  R by modified Gram-Schmidt, every vector
+ * twice over, so that V' is orthonormal to rounding (Giraud, Langou, Rozloznik 2005,
+ * DOI 10.1016/j.camwa.2005.08.009). */
 #include "measure/measure.h"
 #include <math.h>
 #include <stdlib.h>
@@ -18,18 +19,30 @@
  * differences. */
 static const double lost_direction = 1e-6;
 
+/* What is followed beside the exponents, see growth. */
+enum { FOLLOWED = 4 };
+
 struct dal_spectrum {
     dal_run *run;   /* the trajectory */
     dal_run *aside; /* steps tangent vectors, or what differences need, from where the run is */
     dal_probe *probe;
     int n, nw, dimension, count, rank, exact;
-    double h, divergence;       /* at the present state */
+    int order;                  /* of the method */
+    int forced;                 /* functions that the method forces: D, and E behind; 0, m or m+1 */
+    int turns_D;                /* the method turns D into -D: off D = 0 it is not near the flow */
+    double h, divergence, rate; /* at the present state; rate: see find_divergence */
     double *vectors;            /* [dimension*dimension] the first count of them are in use */
-    double *growth;             /* [dimension + 2] log R_ii / h of a step, their sum, div F */
-    double *scratch;            /* [3*dimension], or the jacobian's [nw*n + nw*nw] */
-    double t, *z;               /* [dimension] where the step began */
+    double *growth;  /* [dimension + 4] log R_ii / h of a step, their sum, div F, what the
+                        error of the step may be, and by how much div F has changed */
+    double *scratch; /* [5*dimension], or the jacobian's [nw*n + nw*nw] */
+    double *normals; /* [(m + 1)*dimension] of what is forced */
+    double t, *z;    /* [dimension] where the step began */
+    double *memory, *displaced; /* [memory_count] all of the run there, and beside it */
+    size_t memory_count;
+    int has_remainder;          /* memory is y, r, ..: not in quad precision */
+    double from, log_from;      /* where the means began: t, and log of the size of the normals */
     const double *direction;    /* the vector along which is differentiated */
-    dal_statistics *statistics; /* [count + 2] of growth */
+    dal_statistics *statistics; /* [count + 4] of growth */
     dal_error *error;
 };
 
@@ -51,22 +64,53 @@ static dal_status move_exactly(dal_spectrum *s, double *vector)
     return DAL_OK;
 }
 
+/* The run aside at z + size * direction: what y has no room for goes to its remainder r, so that a
+ * coordinate may be as far away as it likes.  In quad precision the state is rounded. */
+static dal_status displace(dal_spectrum *s, double size)
+{
+    const int d = s->dimension;
+    double *z = s->displaced;
+    memcpy(z, s->memory, s->memory_count * sizeof(double));
+    for (int i = 0; i < d; i++) {
+        const double change = size * s->direction[i];
+        const double y = s->z[i] + change, part = y - s->z[i];
+        z[i] = y;
+        if (s->has_remainder) z[d + i] += (s->z[i] - (y - part)) + (change - part);
+    }
+    if (s->has_remainder) return dal_run_load(s->aside, z, s->memory_count, s->error);
+    return dal_run_set_state(s->aside, s->t, z, s->error);
+}
+
+/* How far that is then from z. */
 static dal_status step_along(void *user, double size, double *out)
 {
     dal_spectrum *s = user;
-    double *z = s->scratch;
-    for (int i = 0; i < s->dimension; i++) z[i] = s->z[i] + size * s->direction[i];
-    DAL_TRY(dal_run_set_state(s->aside, s->t, z, s->error));
+    const int d = s->dimension;
+    size_t count;
+    DAL_TRY(displace(s, size));
     DAL_TRY(dal_run_step(s->aside, s->error));
-    memcpy(out, dal_run_state(s->aside), (size_t)s->dimension * sizeof(double));
+    const double *y = dal_run_state(s->aside), *r = dal_run_memory(s->aside, &count) + d;
+    for (int i = 0; i < d; i++) out[i] = y[i] - s->z[i];
+    for (int i = 0; i < d && s->has_remainder; i++) out[i] += r[i] - s->memory[d + i];
     return DAL_OK;
+}
+
+/* By how much the vector exceeds what its components are measured by. */
+static double size_of(const dal_spectrum *s, const double *vector)
+{
+    double most = 0.0;
+    for (int i = 0; i < s->dimension; i++) {
+        const double rate = i < s->n ? s->h * s->z[s->n + i] : s->z[i];
+        most = fmax(most, fabs(vector[i]) / fmax(1.0, fabs(rate)));
+    }
+    return most;
 }
 
 static dal_status move_by_differences(dal_spectrum *s, double *vector)
 {
     const size_t count = (size_t)s->dimension;
-    double *value = s->scratch + count, *out = value + count;
-    const double size = dal__increment(dal__greatest(s->z, count));
+    double *value = s->scratch + count, *out = value + 3 * count;
+    const double size = DAL__INCREMENT / size_of(s, vector);
     s->direction = vector;
     DAL_TRY(dal__differentiate(step_along, s, size, s->dimension, value, out));
     memcpy(vector, out, count * sizeof(double));
@@ -75,32 +119,13 @@ static dal_status move_by_differences(dal_spectrum *s, double *vector)
 
 /* ---- Gram-Schmidt ---- */
 
-static double dot(const double *a, const double *b, int count)
-{
-    double sum = 0.0;
-    for (int i = 0; i < count; i++) sum += a[i] * b[i];
-    return sum;
-}
-
-/* Vector j loses its parts along those before it and becomes a unit vector; its length then. */
-static double straighten(const dal_spectrum *s, int j)
-{
-    const int d = s->dimension;
-    double *x = s->vectors + j * d;
-    for (int k = 0; k < j; k++) {
-        const double *before = s->vectors + k * d, part = dot(before, x, d);
-        for (int i = 0; i < d; i++) x[i] -= part * before[i];
-    }
-    const double length = sqrt(dot(x, x, d));
-    for (int i = 0; i < d; i++) x[i] /= length;
-    return length;
-}
-
 static dal_status orthonormalise(dal_spectrum *s, int count)
 {
     for (int j = 0; j < count; j++) {
-        s->growth[j] = straighten(s, j);
-        if (s->growth[j] > 0.0 && isfinite(s->growth[j])) s->growth[j] *= straighten(s, j);
+        const int d = s->dimension;
+        s->growth[j] = dal__straighten(s->vectors, j, d);
+        if (s->growth[j] > 0.0 && isfinite(s->growth[j]))
+            s->growth[j] *= dal__straighten(s->vectors, j, d);
         if (!(s->growth[j] > 0.0) || !isfinite(s->growth[j]))
             return dal__error(s->error, DAL_SINGULAR, 0, 0,
                               "t = %g: the derivative of the step takes a vector to %g", s->t,
@@ -128,11 +153,23 @@ static dal_status draw_vectors(dal_spectrum *s)
 
 /* ---- a step ---- */
 
+static double row_norm(const double *matrix, int rows, int columns)
+{
+    double most = 0.0;
+    for (int i = 0; i < rows; i++) {
+        double sum = 0.0;
+        for (int j = 0; j < columns; j++) sum += fabs(matrix[i * columns + j]);
+        most = fmax(most, sum);
+    }
+    return most;
+}
+
+/* The trace of F_(v,g), and a rate at which motions near this one come and go. */
 static dal_status find_divergence(dal_spectrum *s)
 {
     const dal_system *system = dal_probe_system(s->probe);
     const double *z = dal_run_state(s->run), *by_v = s->scratch + s->nw * s->n;
-    s->divergence = NAN;
+    s->divergence = s->rate = NAN;
     if (system->call.jacobian == NULL) return DAL_OK;
     const dal_status status = dal_probe_call(s->probe, system->call.jacobian, dal_run_time(s->run),
                                              z, z + s->n, NULL, s->scratch);
@@ -141,20 +178,32 @@ static dal_status find_divergence(dal_spectrum *s)
                           dal_status_text(status));
     s->divergence = 0.0;
     for (int i = 0; i < s->nw; i++) s->divergence += by_v[i * s->nw + i];
+    s->rate = fmax(sqrt(row_norm(s->scratch, s->nw, s->n)), row_norm(by_v, s->nw, s->nw));
     return DAL_OK;
 }
 
-static void hold_state(dal_spectrum *s)
+/* Where a run is. */
+static void hold_state(dal_spectrum *s, const dal_run *run)
 {
-    s->t = dal_run_time(s->run);
-    memcpy(s->z, dal_run_state(s->run), (size_t)s->dimension * sizeof(double));
+    const double *memory = dal_run_memory(run, &s->memory_count);
+    s->t = dal_run_time(run);
+    memcpy(s->z, dal_run_state(run), (size_t)s->dimension * sizeof(double));
+    memcpy(s->memory, memory, s->memory_count * sizeof(double));
+}
+
+/* By how much the sum over a step may be wrong: a power series in h r without its terms up to the
+ * order; nothing is known where it does not converge. */
+static double step_error(const dal_spectrum *s)
+{
+    const double x = s->h * s->rate;
+    return x < 1.0 ? s->dimension * s->rate * pow(x, s->order) / (1.0 - x) : INFINITY;
 }
 
 static dal_status take_step(dal_spectrum *s)
 {
     const double before = s->divergence;
     double *sum = s->growth + s->count;
-    hold_state(s);
+    hold_state(s, s->run);
     DAL_TRY(move_vectors(s, s->count));
     DAL_TRY(orthonormalise(s, s->count));
     DAL_TRY(dal_run_step(s->run, s->error));
@@ -162,7 +211,9 @@ static dal_status take_step(dal_spectrum *s)
     *sum = 0.0;
     for (int j = 0; j < s->count; j++) *sum += s->growth[j] = log(s->growth[j]) / s->h;
     sum[1] = 0.5 * (before + s->divergence);
-    dal_statistics_add(s->statistics, s->count + 2, dal_run_time(s->run), s->growth);
+    sum[2] = step_error(s);
+    sum[3] = s->divergence - before;
+    dal_statistics_add(s->statistics, s->count + FOLLOWED, dal_run_time(s->run), s->growth);
     return DAL_OK;
 }
 
@@ -177,9 +228,85 @@ dal_status dal_spectrum_advance(dal_spectrum *s, long long steps, dal_error *err
     return status;
 }
 
+/* ---- what the method forces ---- */
+
+/* normals: the gradients of what is forced, orthonormal; returns the log of the size of the
+ * parallelepiped that they spanned, NaN where they cannot be had. */
+static double find_normals(dal_spectrum *s)
+{
+    const dal_system *system = dal_probe_system(s->probe);
+    const double *z = dal_run_state(s->run);
+    const dal_point at = {dal_run_time(s->run), z, z + s->n};
+    double size = 0.0;
+    dal_status status = DAL_OK;
+    if (s->forced > 0)
+        status = dal__gradients(s->probe, system->constraints, system->m, &at, s->normals);
+    if (status == DAL_OK && s->forced > system->m)
+        status =
+            dal__gradients(s->probe, system->energy, 1, &at, s->normals + system->m * s->dimension);
+    for (int j = 0; j < s->forced && status == DAL_OK; j++)
+        size += log(dal__straighten(s->normals, j, s->dimension));
+    return status == DAL_OK ? size : NAN;
+}
+
 void dal_spectrum_forget(dal_spectrum *s)
 {
-    if (s) dal_statistics_start(s->statistics, s->count + 2);
+    if (!s) return;
+    dal_statistics_start(s->statistics, s->count + FOLLOWED);
+    s->from = dal_run_time(s->run);
+    s->log_from = find_normals(s);
+}
+
+/* The vectors, made tangent to what is forced where the run is. */
+static dal_status make_tangent(dal_spectrum *s)
+{
+    const int d = s->dimension;
+    for (int j = 0; j < s->rank && isfinite(s->log_from); j++) {
+        double *x = s->vectors + j * d;
+        for (int k = 0; k < s->forced; k++) {
+            const double *normal = s->normals + k * d;
+            double part = 0.0;
+            for (int i = 0; i < d; i++) part += normal[i] * x[i];
+            for (int i = 0; i < d; i++) x[i] -= part * normal[i];
+        }
+    }
+    return orthonormalise(s, s->rank);
+}
+
+dal_status dal_spectrum_balance(dal_spectrum *s, dal_balance *balance, dal_error *error)
+{
+    DAL_REQUIRE(s, error);
+    DAL_REQUIRE(balance, error);
+    dal_average sum, divergence, step;
+    const double T = dal_run_time(s->run) - s->from;
+    dal_statistics_mean(&s->statistics[s->count], &sum);
+    dal_statistics_mean(&s->statistics[s->count + 1], &divergence);
+    dal_statistics_mean(&s->statistics[s->count + 2], &step);
+    if (s->count < s->rank)
+        return dal__error(error, DAL_UNSUPPORTED, 0, 0, "%d of %d exponents have no sum to compare",
+                          s->count, s->rank);
+    if (s->rank + s->forced < s->dimension)
+        return dal__error(error, DAL_UNSUPPORTED, 0, 0,
+                          "the step map loses %d directions: more than constraints explain",
+                          s->dimension - s->rank);
+    if (s->turns_D)
+        return dal__error(error, DAL_UNSUPPORTED, 0, 0,
+                          "the method turns D into -D, the motion does not");
+    if (isnan(divergence.mean))
+        return dal__error(error, DAL_UNSUPPORTED, 0, 0,
+                          "there is no divergence: no step, or no jacobian");
+    if (isnan(step.mean))
+        return dal__error(error, DAL_UNSUPPORTED, 0, 0,
+                          "the step is too long: h max(|F_q|^(1/2), |F_v|) reaches 1");
+    const double noise = s->exact ? 1e-13 : 1e-7;
+    const double jump = dal_statistics_max_abs(&s->statistics[s->count + 3]);
+    balance->surface = (find_normals(s) - s->log_from) / T;
+    if (isnan(balance->surface))
+        return dal__error(error, DAL_UNSUPPORTED, 0, 0, "the gradient of D or E is not finite");
+    balance->difference = sum.mean - divergence.mean - balance->surface;
+    balance->margin = step.mean + s->h * jump / T + noise * s->count / s->h;
+    balance->holds = fabs(balance->difference) <= balance->margin;
+    return DAL_OK;
 }
 
 /* ---- making one ---- */
@@ -223,31 +350,50 @@ static dal_status open_runs(dal_spectrum *s, const dal_run_spec *given, const da
     s->nw = system->n + system->multipliers;
     s->dimension = s->n + s->nw;
     s->h = spec.options.step;
+    s->order = dal_method_order(&spec.method);
+    s->has_remainder = spec.options.precision == DAL_DOUBLE;
     return dal_probe_create(&s->probe, system, spec.parameters, spec.parameter_count, error);
 }
 
 static dal_status allocate(dal_spectrum *s, dal_error *error)
 {
     const size_t d = (size_t)s->dimension, jacobian = (size_t)s->nw * d;
-    const size_t scratch = jacobian > 3 * d ? jacobian : 3 * d;
-    double *block = dal__numbers(1, d * d + d + d + 2 + scratch);
+    const size_t scratch = jacobian > 5 * d ? jacobian : 5 * d;
+    const size_t normals = ((size_t)dal_probe_system(s->probe)->m + 1) * d;
+    dal_run_memory(s->run, &s->memory_count);
+    const size_t memory = s->memory_count > d ? s->memory_count : d;
+    double *block = dal__numbers(1, d * d + d + d + FOLLOWED + scratch + normals + 2 * memory);
     s->vectors = block;
-    s->statistics = calloc(d + 2, sizeof *s->statistics);
+    s->statistics = calloc(d + FOLLOWED, sizeof *s->statistics);
     if (block == NULL || s->statistics == NULL)
         return dal__error(error, DAL_MEMORY, 0, 0, "spectrum: out of memory");
     s->z = block + d * d;
     s->growth = s->z + d;
-    s->scratch = s->growth + d + 2;
+    s->scratch = s->growth + d + FOLLOWED;
+    s->normals = s->scratch + scratch;
+    s->memory = s->normals + normals;
+    s->displaced = s->memory + memory;
     return DAL_OK;
 }
 
-/* How many directions a step from the start leaves: behind them R_ii is 0, or noise.  The vectors
- * stay as that step left them: where it forces D = 0 they are tangent to that surface by then. */
-static dal_status find_rank(dal_spectrum *s)
+/* A method that forces E knows from its first step on which. */
+static dal_status hold_usual_state(dal_spectrum *s, unsigned claims)
+{
+    hold_state(s, s->run);
+    if (!(claims & DAL_KEEPS_ENERGY)) return DAL_OK;
+    DAL_TRY(dal_run_load(s->aside, s->memory, s->memory_count, s->error));
+    DAL_TRY(dal_run_step(s->aside, s->error));
+    hold_state(s, s->aside);
+    return DAL_OK;
+}
+
+/* How many directions a step leaves: behind them R_ii is 0, or noise.  The vectors stay as that
+ * step left them. */
+static dal_status find_rank(dal_spectrum *s, unsigned claims)
 {
     dal_error ignored;
     dal_error *error = s->error;
-    hold_state(s);
+    DAL_TRY(hold_usual_state(s, claims));
     DAL_TRY(draw_vectors(s));
     DAL_TRY(move_vectors(s, s->dimension));
     s->error = &ignored;
@@ -257,22 +403,34 @@ static dal_status find_rank(dal_spectrum *s)
     return DAL_OK;
 }
 
+/* Which functions have lost their directions: D, and E behind it. */
+static void find_forced(dal_spectrum *s, unsigned claims)
+{
+    const int lost = s->dimension - s->rank, m = dal_probe_system(s->probe)->m;
+    const int most = m + ((claims & DAL_KEEPS_ENERGY) != 0);
+    s->forced = lost == m || lost == most ? lost : 0;
+    s->turns_D = m > 0 && lost == 0 && claims & DAL_KEEPS_D_MIDPOINT;
+}
+
 static dal_status make(dal_spectrum *s, const dal_run_spec *spec, const dal_system *tangent,
                        int count, dal_error *error)
 {
+    const unsigned claims = dal_method_claims(&spec->method);
     DAL_TRY(open_runs(s, spec, tangent, error));
     DAL_TRY(allocate(s, error));
     s->error = error;
-    DAL_TRY(find_rank(s));
+    DAL_TRY(find_rank(s, claims));
+    find_forced(s, claims);
     DAL_TRY(find_divergence(s));
     if (count < 0 || count > s->rank)
         return dal__error(error, DAL_ARGUMENT, 0, 0,
                           "%d exponents are asked for; the step map has %d directions", count,
                           s->rank);
     s->count = count > 0 ? count : s->rank;
-    s->error = NULL;
     dal_spectrum_forget(s);
-    return DAL_OK;
+    const dal_status status = make_tangent(s);
+    s->error = NULL;
+    return status;
 }
 
 dal_status dal_spectrum_create(dal_spectrum **spectrum, const dal_run_spec *spec,

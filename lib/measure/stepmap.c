@@ -64,12 +64,19 @@ static dal_status vary(void *user, double s, double *out)
     return status;
 }
 
+/* What component j is measured by: a coordinate by the way of a step. */
+static double scale_of(const stepmap *m, int j)
+{
+    const int n = dal_run_system(m->run)->n;
+    return j < n ? dal_run_step_size(m->run) * m->z[n + j] : m->z[j];
+}
+
 /* columns[j] = d(step)/dz_j. */
 static dal_status differentiate_step(stepmap *m, double increment, double *columns, double *scratch)
 {
     for (m->j = 0; m->j < m->dimension; m->j++) {
         m->held = m->z[m->j];
-        double d = increment * fmax(1.0, fabs(m->held));
+        double d = increment * fmax(1.0, fabs(scale_of(m, m->j)));
         double *out = columns + (size_t)m->j * (size_t)m->dimension;
         DAL_TRY(dal__differentiate(vary, m, d, m->dimension, scratch, out));
     }
@@ -103,7 +110,7 @@ dal_status dal_measure_symplecticity(const dal_run_spec *spec, double t, const d
                           "symplecticity is a property of the lifted space");
     if (!(increment > 0.0)) increment = DAL__INCREMENT;
     size_t dimension = 4 * (size_t)spec->system->n + 2;
-    DAL_TRY(open_map(&m, spec, t, state, dimension + 1, error));
+    DAL_TRY(open_map(&m, spec, t, state, dimension + 3, error));
     double *columns = m.z + dimension;
     dal_status status = differentiate_step(&m, increment, columns, columns + dimension * dimension);
     if (status == DAL_OK) *defect = omega_defect(columns, m.dimension);

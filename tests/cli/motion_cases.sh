@@ -120,6 +120,32 @@ try 0 volume chaplygin-sleigh-offset --integrator gauss4+project --step 0.1 --ti
 prints '^log.det J./h of a step .* shrinks$'
 prints '^5 of 6 directions'
 
+# Teeth of 1e-12: the field's own derivative is that within a tooth, -0.1, a difference sees -0.3.
+case_is "a derivative that is not that of the motion"
+cat >teeth.yaml <<'END'
+coordinates: [x]
+accelerations: {x: -0.3*x' + 0.2*atan(tan(1e12*x'))/1e12}
+start: {x': 1}
+END
+for look in lyapunov volume; do
+    try 3 $look teeth.yaml --integrator rk4+project --step 0.1 --time 10 --output teeth.csv
+    says 'differs from the mean divergence by -0\.2, '
+    prints '^divergence of F +-0\.1 '
+    holds "no rows" test "$(wc -l <teeth.csv)" -eq 101
+    try 0 $look teeth.yaml --integrator rk4 --step 0.1 --time 10
+done
+
+# The integral of the divergence, V = sqrt(2.11), tau = V t/2 + atanh(0.7/V), is -log(cosh(tau)/
+# cosh(tau0)), and |grad D| goes from sqrt(2.49) to sqrt(4.11).
+case_is "a sleigh that travels far, in closed form"
+try 0 lyapunov chaplygin-sleigh-offset --integrator rk4+project --step 0.05 --time 300 \
+    --start x=1e6 --output far.csv
+holds "another sum" awk -F, 'NR > 1 { T = $1; V = sqrt(2.11); x = 0.7/V
+    tau0 = log((1 + x)/(1 - x))/2; tau = tau0 + V*T/2
+    mean = -(tau - log(exp(tau0) + exp(-tau0)) + log(1 + exp(-2*tau)) - log(4.11/2.49)/2)/T
+    if (T > 20 && ($2 + $3 + $4 + $5 + $6 - mean)^2 > 1e-10) exit 1 }
+    END { exit NR != 101 }' far.csv
+
 # timeout signals the program and then its group: two signals, one request.
 case_is "an interrupted look keeps its means"
 timeout --preserve-status -k 20 -s INT 1 "$program" lyapunov osc.yaml --integrator rk4 --step 0.01 \
