@@ -88,6 +88,50 @@ holds "the table is not kept" grep -q '^Expectations: 2 of 5' there/tables.txt
 expecting '  line: {rk4: {c: exponential}}\n'
 try 3 study expect.yaml --output there --force
 
+case_is "bounds of every number of a trend"
+# ramp = 2 t; wave = 2 t + 3 sin(10 t); half = t^1.5/4
+cat >ramp.yaml <<'END'
+coordinates: [x]
+accelerations: {x: 0}
+start: {x': 1}
+invariants: {ramp: 2*x, wave: 2*x + 3*sin(10*x), half: 0.25*x^1.5}
+END
+bounds() { # EXPECTATION: of the motion of ramp.yaml
+    printf 'integrators: rk4\nstep: 0.01\ntime: 200\nstarts: physical
+systems: [{system: ramp.yaml, label: ramp}]\nexpect: {ramp: {rk4: {%s}}}\n' "$1" >bounds.yaml
+}
+bounds 'ramp: {rate: {at least: 1.99999, at most: 2.00001}, rate_low: {at most: 2.00001},
+rate_high: {at least: 1.99999}, exponent: {at least: 0.95, at most: 1.05}, amplitude: {at most: 1e-9},
+confidence: {at least: 0.9, at most: 1}}, wave: {amplitude: {at least: 2.9, at most: 3.1}},
+half: {exponent: {at least: 1.4, at most: 1.6}}'
+try 0 study bounds.yaml --output bounds --force
+prints '^Expectations: 8 of 8 are met\.$'
+# Of each number of the wave: a bound that it keeps, one too low and one too high for it.
+cell() { awk -F, -v name="$1" -v head="$2" 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == head) k = i }
+    $5 == name { print $k }' bounds/quantities.csv; }
+fields="amplitude rate rate_low rate_high exponent confidence"
+wanted=$(for field in $fields; do
+    cell half $field | awk -v field=$field '{ d = 1e-7*($1 < 0 ? -$1 : $1) + 1e-300
+        printf "%s%s: {at least: %.17g, at most: %.17g}", n++ ? ", " : "", field, $1 - d, $1 + d }'
+    echo ,
+done)
+bounds "half: {${wanted%,}}"
+try 0 study bounds.yaml --output bounds --force
+prints '^Expectations: 6 of 6 are met\.$'
+for field in $fields; do
+    x=$(cell half $field)
+    low=$(awk "BEGIN { printf \"%.17g\", $x - 0.01 }")
+    high=$(awk "BEGIN { printf \"%.17g\", $x + 0.01 }")
+    bounds "half: {$field: {at most: $low}}"
+    try 1 study bounds.yaml --output bounds --force
+    prints "half: expected $field <= .* \(line 6\)"
+    bounds "half: {$field: {at least: $high}}"
+    try 1 study bounds.yaml --output bounds --force
+    prints "half: expected $field >= .* \(line 6\)"
+    bounds "half: {$field: {at least: $low, at most: $high}}"
+    try 0 study bounds.yaml --output bounds --force
+done
+
 case_is "statements about some cells"
 printf 'integrators: rk4\nstep: [0.1, 0.2]\ntime: 1\nsystems: [plane.yaml]\nexpect:\n  plane.yaml:\n'"\
     rk4: {E: [{step: 0.1, at most: 1}, {start: surface, final: {at most: 0.5}}],

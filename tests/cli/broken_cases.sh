@@ -1,0 +1,76 @@
+# Directories of runs that are read while nothing can be written, and rows that are cut short.
+
+# limited BLOCKS STATUS ARGUMENT...: no file may grow beyond so many blocks of 512 bytes, as on a full
+# disk.
+limited() {
+    blocks=$1 expected=$2
+    shift 2
+    (trap '' XFSZ; ulimit -f "$blocks"; exec timeout 60 "$program" "$@") >out 2>err
+    status=$?
+    if [ $status -eq "$expected" ]; then pass; else fail "exit $status, not $expected: $*"; fi
+}
+try 0 run ./line.yaml --integrator rk4 --step 0.001 --time 100 --samples 20000 --output whole
+size=$(wc -c <whole/trajectory.npy)
+columns=$(columns_of whole/trajectory.npy)
+
+case_is "report while the disk is full"
+for blocks in 1 8 64; do
+    rm -rf full
+    cp -r whole full
+    limited $blocks 4 report full
+    says "^dalembert: cannot write 'full/report/[a-zA-Z.]*': File too large"
+    empty
+    holds "the rows changed" cmp full/trajectory.npy whole/trajectory.npy
+done
+try 0 report full
+holds "no page" grep -q '</html>' full/report/index.html
+
+case_is "resume while the disk is full"
+rm -rf stopped
+"$program" run ./line.yaml --integrator rk4 --step 0.001 --time 100 --samples 20000 --checkpoint 0 \
+    --native off --output stopped 2>err &
+appears stopped/checkpoint
+kill -INT $!
+wait $!
+rm -rf full
+cp -r stopped full
+limited 16 4 resume full
+says "^dalembert: cannot (write|resize) 'full/[a-z.]*': File too large"
+limited 16 4 resume full
+try 0 resume full
+holds "not the rows of a run never interrupted" cmp full/trajectory.npy whole/trajectory.npy
+holds "not the summary of a run never interrupted" cmp full/summary.csv whole/summary.csv
+
+case_is "rows that are cut short"
+# in a row, before the first one, in the header, and nothing left
+for length in $((size - 1)) $((size - 20000 * columns * 8)) 100 0; do
+    rm -rf short
+    cp -r whole short
+    truncate -s $length short/trajectory.npy
+    "$program" report short >out 2>err
+    status=$?
+    holds "exit $status, neither 4 nor 2: $length bytes" test $status -eq 4 -o $status -eq 2
+    says "^dalembert: '?short/trajectory.npy'?"
+    empty
+    cp short/trajectory.npy before.npy
+    "$program" resume short >out 2>err
+    status=$?
+    holds "exit $status, not 2: $length bytes" test $status -eq 2
+    says "^dalembert: '?short/trajectory.npy'?"
+    holds "resume changed it" cmp short/trajectory.npy before.npy
+done
+
+case_is "a study on a full disk"
+printf 'integrators: rk4\nstep: 0.001\ntime: 100\nsamples: 20000\nstarts: physical
+systems: [line.yaml]\n' >cut.yaml
+rm -rf cut plain
+try 0 study cut.yaml --output plain
+limited 64 4 study cut.yaml --output cut
+says "^dalembert: cannot write 'cut/runs/[^']*trajectory.npy': File too large"
+limited 64 4 resume cut
+try 0 resume cut
+for file in cells.csv quantities.csv; do
+    # all but what is of the clock
+    for each in plain cut; do cut -d, -f1-8 $each/$file >$each.csv; done
+    holds "another $file" cmp cut.csv plain.csv
+done
