@@ -46,6 +46,7 @@ appears cut/section.csv
 sleep 1
 kill -INT $pid
 holds "it goes on" ends $pid
+kill -9 $pid 2>/dev/null
 wait $pid
 status=$?
 holds "exit $status, not 130" test $status -eq 130

@@ -1,6 +1,6 @@
 #!/bin/sh
 # mutants.sh MODULE SEED COUNT - whether the tests notice faults planted in MODULE, a source file or a
-# directory of lib/ or integrators/; `make mutants` calls it.
+# directory of lib/ or integrators/, or several of them; `make mutants` calls it.
 #
 # A mutant is a copy of the sources with one line changed (candidates.awk): a comparison exchanged or
 # off by one, && for ||, + for -, * for /, a constant changed, a condition negated, a statement
@@ -25,7 +25,7 @@ variants="x1 x1_LONGER x4 x8 x64"
 CC=${CC:-cc}
 unset MAKEFLAGS MFLAGS MAKELEVEL
 cd "$root" || exit 2
-[ -e "$module" ] || { echo "mutants: no module '$module'; MODULE=lib/measure/section.c" >&2; exit 2; }
+[ -n "$module" ] && find $module >/dev/null || { echo "mutants: no module '$module'; take MODULE=lib/measure/section.c" >&2; exit 2; }
 
 # The sources as they are, below the tree.
 copy_sources() {
@@ -89,7 +89,7 @@ copy_sources
 build build/tests/suite || { cat "$place/make.log"; echo "mutants: the sources do not build"; exit 2; }
 cp "$tree/build/tests/suite" "$place/suite"
 "$place/suite" --list >"$place/suites"
-find "$module" -name '*.[ch]' | sort | xargs awk -f "$here/candidates.awk" |
+find $module -name '*.[ch]' | sort | xargs awk -f "$here/candidates.awk" |
     awk -v seed="$seed" 'BEGIN { FS = OFS = "\t"; x = (seed * 48271 + 11) % 2147483646 + 1 }
         { x = (16807 * x) % 2147483647; print x, $0 }' | sort -n | cut -f2- >"$place/candidates"
 began=$(date +%s)
