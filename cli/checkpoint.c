@@ -135,10 +135,15 @@ static int check_sum(image *m, size_t length)
     return damaged(m, "its check sum is wrong");
 }
 
-/* Whether the statistics are such as this version makes. */
-static int is_present(const head *h)
+/* Statistics that begin in the middle of a run would say of its half what the summary says of the
+ * whole. */
+static int check_layout(const image *m)
 {
-    return h->layout == DAL_STATISTICS_LAYOUT && h->words == WORDS;
+    if (m->head.layout == DAL_STATISTICS_LAYOUT && m->head.words == WORDS) return CLI_DONE;
+    return cli_fail(CLI_USAGE,
+                    "%s: its statistics have layout %llu; dalembert " DAL_VERSION
+                    " reads layout %d alone: resume with the version that manifest.json names",
+                    m->path, (unsigned long long)m->head.layout, DAL_STATISTICS_LAYOUT);
 }
 
 static int check_sizes(const image *m, int count)
@@ -164,6 +169,7 @@ static int read_image(const cli_store *store, const cli_table *table, int count,
                         "changed",
                         m->path);
     if (status == CLI_DONE) status = check_sizes(m, count);
+    if (status == CLI_DONE) status = check_layout(m);
     return status == CLI_DONE ? table_holds(table, m->head.row, &m->head.sum) : status;
 }
 
@@ -177,10 +183,7 @@ static int put_in_force(const image *m, cli_mark *mark, dal_run *run, dal_statis
     free(memory);
     if (loaded != DAL_OK) return cli_error(CLI_USAGE, m->path, &error);
     *mark = (cli_mark){m->head.row, m->head.sum, m->head.seconds};
-    if (is_present(&m->head))
-        take(place, statistics, m->head.statistics * WORDS);
-    else
-        cli_fail(CLI_DONE, "%s: of another version: the statistics begin here", m->path);
+    take(place, statistics, m->head.statistics * WORDS);
     return CLI_DONE;
 }
 

@@ -71,10 +71,26 @@ static int take_text(report_csv *csv, char *text, const char *path)
     return CLI_DONE;
 }
 
+/* Files of older versions had a column, or columns NAME_verdict. */
+static int check_heads(const report_csv *csv, const char *path)
+{
+    static const char old[] = "verdict";
+    for (int column = 0; column < csv->columns; column++) {
+        const char *head = csv->cell[column];
+        const size_t length = strlen(head), name = length - strlen(old);
+        if (length < strlen(old) || strcmp(head + name, old) != 0) continue;
+        return cli_fail(CLI_USAGE,
+                        "%s: of an older version: its column '%s' is now '%.*ssize' and '%.*strend'",
+                        path, head, (int)name, head, (int)name, head);
+    }
+    return CLI_DONE;
+}
+
 int report_csv_read(report_csv *csv, const char *path)
 {
     size_t length;
-    return take_text(csv, file_read(path, &length), path);
+    const int status = take_text(csv, file_read(path, &length), path);
+    return status == CLI_DONE ? check_heads(csv, path) : status;
 }
 
 void report_csv_free(report_csv *csv)
