@@ -103,7 +103,7 @@ typedef enum dal_trend_class {
 #define DAL_CONSERVATION_LIST(CONSERVATION)                                                        \
     CONSERVATION(CONSERVED, "conserved")                                                           \
     CONSERVATION(NOT_CONSERVED, "not conserved by the motion")                                     \
-    CONSERVATION(OFF_SURFACE, "conserved on D = 0 only")                                           \
+    CONSERVATION(OFF_SURFACE, "conserved on D = 0 only, and D is not 0")                           \
     CONSERVATION(MOVED_BY_PI, "not conserved where pi is not 0")
 
 typedef enum dal_conservation {
@@ -142,7 +142,8 @@ void dal_statistics_classify(const dal_statistics *statistics, double scale, int
 /* Classifies all observables of a run: statistics[count] and trend[count] in the order of
  * dal_run_observe.  The scale of H is its own size, which the start sets; that of all others is
  * max(1, max |x|).  E is DAL_CONSERVED where the motion conserves it on every level of D, or on
- * D = 0 while max |D| is rounding-sized; all else always is. */
+ * D = 0 while max |D| is rounding-sized, and not where pi/e acts; H where F does not depend on t or
+ * pi is 0; all else always is. */
 void dal_run_classify(const dal_run *run, const dal_statistics *statistics, int aborted,
                       dal_trend *trend);
 

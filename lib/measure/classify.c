@@ -1,8 +1,9 @@
 /* classify.c - size and trend of all observables of a run.
  *
  * E = L_v.v - L changes at the rate v.Q + sum_a h_a v.A_a, which may vanish on every level of D, on
- * D = 0 alone, or not at all; off p = pi = 0 the lift adds the force pi/e, which does work.  What
- * the motion need not conserve has no drift that a method could be blamed for. */
+ * D = 0 alone, or not at all; off p = pi = 0 the lift adds the force pi/e, which does work.  H
+ * changes at the rate pi.F_t.  What the motion need not conserve has no drift that a method could
+ * be blamed for. */
 #include "dalembert.h"
 #include <float.h>
 #include <math.h>
@@ -31,13 +32,18 @@ static int is_on_surface(const dal_trend *constraint)
     return constraint->size != DAL_SIZE_LARGER && fabs(constraint->first) <= start_roundings;
 }
 
+/* The largest |pi| of a run; 0 where there is none. */
+static double max_pi(const places *at, const dal_trend *trend)
+{
+    return at->pi >= 0 ? trend[at->pi].max_abs : 0.0;
+}
+
 static dal_conservation conservation_of_energy(const dal_run *run, const places *at,
                                                const dal_trend *trend)
 {
     const dal_system *s = dal_run_system(run);
     if (!(s->properties & (DAL_E_EXACT | DAL_E_WEAK))) return DAL_NOT_CONSERVED;
-    if (at->pi >= 0 && trend[at->pi].max_abs > 0.0 && isfinite(dal_run_state(run)[2 * s->n]))
-        return DAL_MOVED_BY_PI;
+    if (max_pi(at, trend) > 0.0 && isfinite(dal_run_state(run)[2 * s->n])) return DAL_MOVED_BY_PI;
     if (s->properties & DAL_E_EXACT) return DAL_CONSERVED;
     for (int a = 0; a < at->constraints; a++)
         if (!is_on_surface(&trend[a])) return DAL_OFF_SURFACE;
@@ -65,4 +71,6 @@ void dal_run_classify(const dal_run *run, const dal_statistics *statistics, int 
         dal_statistics_classify(&statistics[i], scale, aborted, &trend[i]);
     }
     if (at.energy >= 0) trend[at.energy].conservation = conservation_of_energy(run, &at, trend);
+    if (max_pi(&at, trend) > 0.0 && !(dal_run_system(run)->properties & DAL_AUTONOMOUS))
+        trend[at.hamiltonian].conservation = DAL_NOT_CONSERVED;
 }

@@ -1,0 +1,168 @@
+/* test_classify.c - which observables of a run have a size and a trend: E and H where the motion of
+ * the run conserves them (theory: dE/dt = v.Q + sum_a h_a v.A_a, dH/dt = pi.F_t). */
+#include <CUnit/CUnit.h>
+#include <dalembert.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { STEPS = 400, MOST = 32, STARTS = 2 };
+
+typedef struct followed {
+    int count;
+    char names[MOST][64];
+    dal_trend trend[MOST];
+} followed;
+
+static int follow(const dal_run_spec *spec, followed *f)
+{
+    dal_statistics statistics[MOST];
+    double values[MOST];
+    dal_run *run;
+    dal_error error;
+    if (dal_run_create(&run, spec, &error) != DAL_OK) {
+        printf("\n  %s", error.message);
+        return 0;
+    }
+    f->count = dal_run_observables(run);
+    dal_statistics_start(statistics, f->count);
+    for (int k = 0; k <= STEPS; k++) {
+        if (k > 0 && dal_run_step(run, &error) != DAL_OK) break;
+        dal_run_observe(run, values);
+        dal_statistics_add(statistics, f->count, dal_run_time(run), values);
+    }
+    dal_run_classify(run, statistics, 0, f->trend);
+    for (int i = 0; i < f->count; i++)
+        dal_run_observable_name(run, i, f->names[i], sizeof f->names[i]);
+    dal_run_free(run);
+    return 1;
+}
+
+/* What becomes of an observable along 400 steps; "" stands for a run without it. */
+static const char *fate(const dal_system *system, const char *method, const dal_options *options,
+                        const dal_setting *start, const char *name)
+{
+    dal_run_spec spec = {.system = system, .options = *options, .start = start};
+    while (spec.start_count < STARTS && start[spec.start_count].name) spec.start_count++;
+    followed f = {.count = 0};
+    if (dal_method_parse(&spec.method, method, NULL) != DAL_OK || !follow(&spec, &f)) return "";
+    for (int i = 0; i < f.count; i++)
+        if (strcmp(f.names[i], name) == 0) return dal_conservation_text(f.trend[i].conservation);
+    return "";
+}
+
+static const char *fate_of(const char *name, const char *of, const char *method, int space,
+                           int extend, const dal_setting *start)
+{
+    dal_model *model = NULL;
+    const dal_system *system;
+    dal_options options = dal_options_default();
+    options.step = 0.05;
+    options.space = space;
+    options.extend_energy = extend;
+    const char *text = "";
+    if (dal_model_builtin(&model, of, NULL) == DAL_OK &&
+        dal_model_system(model, &system, NULL) == DAL_OK)
+        text = fate(system, method, &options, start, name);
+    dal_model_free(model);
+    return text;
+}
+
+static void test_energy(void)
+{
+    static const struct {
+        const char *of, *method;
+        int space, extend;
+        dal_setting start[STARTS];
+        dal_conservation conservation;
+    } cases[] = {
+        /* friction; a turning table, whose D is affine; D homogeneous, but with a thermostat */
+        {"damped-oscillator", "gauss4", DAL_PHYSICAL, 0, {{NULL, 0}}, DAL_NOT_CONSERVED},
+        {"turntable-ball", "gauss4", DAL_PHYSICAL, 0, {{NULL, 0}}, DAL_NOT_CONSERVED},
+        {"isokinetic", "gauss4", DAL_PHYSICAL, 0, {{NULL, 0}}, DAL_NOT_CONSERVED},
+        /* D linear and homogeneous: E is conserved on D = 0 only, which rk4 leaves */
+        {"contact-oscillator", "rk4", DAL_PHYSICAL, 0, {{NULL, 0}}, DAL_OFF_SURFACE},
+        {"contact-oscillator", "rk4+project", DAL_PHYSICAL, 0, {{NULL, 0}}, DAL_CONSERVED},
+        {"contact-oscillator", "stormer-verlet", DAL_PHYSICAL, 0, {{NULL, 0}}, DAL_CONSERVED},
+        {"contact-oscillator", "rk4", DAL_LIFTED, 0, {{NULL, 0}}, DAL_OFF_SURFACE},
+        /* F continued off D = 0 so that E is exact */
+        {"contact-oscillator", "rk4", DAL_PHYSICAL, 1, {{NULL, 0}}, DAL_CONSERVED},
+        /* degree 0 in v: on every level */
+        {"pursuit", "rk4", DAL_PHYSICAL, 0, {{NULL, 0}}, DAL_CONSERVED},
+        /* pi/e does work unless 1/e = 0; without constraints, too */
+        {"contact-oscillator", "gauss4", DAL_LIFTED, 0, {{"pi_x", 1e-9}}, DAL_MOVED_BY_PI},
+        {"pursuit", "gauss4", DAL_LIFTED, 0, {{"pi_x", 1e-9}}, DAL_MOVED_BY_PI},
+        {"contact-oscillator",
+         "gauss4",
+         DAL_LIFTED,
+         0,
+         {{"pi_x", 1e-9}, {"e", INFINITY}},
+         DAL_CONSERVED},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        const char *text = fate_of("E", cases[i].of, cases[i].method, cases[i].space,
+                                   cases[i].extend, cases[i].start);
+        const char *wanted = dal_conservation_text(cases[i].conservation);
+        if (strcmp(text, wanted) != 0)
+            printf("\n  %s, %s: %s, not %s", cases[i].of, cases[i].method, text, wanted);
+        CU_ASSERT_STRING_EQUAL(text, wanted);
+    }
+}
+
+/* x'' = -x + cos t: H changes off pi = 0 alone. */
+static const char driven[] = "coordinates: [x]\naccelerations: {x: -x + cos(t)}\n";
+
+static void test_hamiltonian(void)
+{
+    dal_model *model = NULL;
+    const dal_system *system = NULL;
+    const dal_options options = dal_options_default();
+    const dal_setting pushed[STARTS] = {{"pi_x", 1.0}}, none[STARTS] = {{NULL, 0.0}};
+    CU_ASSERT_FATAL(dal_model_read(&model, "driven", driven, sizeof driven - 1, NULL) == DAL_OK);
+    CU_ASSERT_FATAL(dal_model_system(model, &system, NULL) == DAL_OK);
+    const char *off = fate(system, "gauss4", &options, pushed, "H");
+    const char *on = fate(system, "gauss4", &options, none, "H");
+    CU_ASSERT_STRING_EQUAL(off, dal_conservation_text(DAL_NOT_CONSERVED));
+    CU_ASSERT_STRING_EQUAL(on, dal_conservation_text(DAL_CONSERVED));
+    dal_model_free(model);
+    CU_ASSERT_STRING_EQUAL(fate_of("H", "contact-oscillator", "gauss4", DAL_LIFTED, 0, pushed),
+                           dal_conservation_text(DAL_CONSERVED));
+}
+
+/* On a level of D other than 0, where a state was set, E is not conserved although D does not
+ * drift: D = x' - y z' of the contact oscillator under a method that keeps it. */
+static void test_other_level(void)
+{
+    dal_model *model = NULL;
+    dal_run_spec spec = {.options = dal_options_default()};
+    dal_statistics statistics[MOST];
+    dal_trend trend[MOST];
+    dal_run *run = NULL;
+    double values[MOST], state[6] = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6};
+    spec.options.space = DAL_PHYSICAL;
+    CU_ASSERT_FATAL(dal_model_builtin(&model, "contact-oscillator", NULL) == DAL_OK);
+    CU_ASSERT_FATAL(dal_model_system(model, &spec.system, NULL) == DAL_OK);
+    CU_ASSERT_FATAL(dal_method_parse(&spec.method, "stormer-verlet", NULL) == DAL_OK);
+    CU_ASSERT_FATAL(dal_run_create(&run, &spec, NULL) == DAL_OK);
+    CU_ASSERT_FATAL(dal_run_set_state(run, 0.0, state, NULL) == DAL_OK);
+    const int count = dal_run_observables(run);
+    dal_statistics_start(statistics, count);
+    for (int k = 0; k <= STEPS; k++) {
+        if (k > 0) CU_ASSERT_FATAL(dal_run_step(run, NULL) == DAL_OK);
+        dal_run_observe(run, values);
+        dal_statistics_add(statistics, count, dal_run_time(run), values);
+    }
+    dal_run_classify(run, statistics, 0, trend);
+    CU_ASSERT(fabs(trend[0].first) > 0.1 && trend[0].size != DAL_SIZE_LARGER);
+    CU_ASSERT_EQUAL(trend[1].conservation, DAL_OFF_SURFACE);
+    dal_run_free(run);
+    dal_model_free(model);
+}
+
+void suite_classify(void)
+{
+    CU_pSuite suite = CU_add_suite("classification of a run", NULL, NULL);
+    CU_add_test(suite, "where E has a trend", test_energy);
+    CU_add_test(suite, "where H has a trend", test_hamiltonian);
+    CU_add_test(suite, "E on another level of D", test_other_level);
+}
