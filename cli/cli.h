@@ -202,7 +202,7 @@ void cli_put_trend(FILE *out, const dal_trend *trend);
 /* Size and trend as words; "" where the motion need not conserve the quantity. */
 const char *cli_size_word(const dal_trend *trend);
 const char *cli_trend_word(const dal_trend *trend);
-/* The trend for a reader: "linear", "linear, 0.87" (its confidence, where it is no certainty),
+/* The trend for a reader: "linear", "linear, confidence 0.87" (where it is no certainty),
  * "none, |drift| <= 1.2e-15" (the largest drift that the interval of the rate admits over the run),
  * or that the motion does not conserve the quantity.  Returns buffer. */
 char *cli_trend_text(const dal_trend *trend, char *buffer, size_t size);

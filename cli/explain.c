@@ -96,7 +96,7 @@ static void print_one(const dal_explanation *e, int i)
     char text[128];
     cli_trend_text(&a->all, text, sizeof text);
     if (a->all.conservation == DAL_CONSERVED)
-        printf("%s: %s; trend: %s\n", a->name, dal_size_text(a->all.size), text);
+        printf("%s: size %s, trend %s\n", a->name, dal_size_text(a->all.size), text);
     else
         printf("%s: %s\n", a->name, text);
     for (int k = 0; k < DAL_CAUSES; k++) print_cause(e, i, (dal_cause)k);

@@ -15,6 +15,7 @@ typedef struct report {
     FILE *page;
     char *page_path;
     int missing; /* there is no gnuplot: scripts are written, figures are not */
+    int figures; /* on the page so far */
 } report;
 
 /* Each returns CLI_DONE or prints and returns an exit status. */
@@ -31,6 +32,9 @@ void report_title(report *r, const char *title);
 /* Text in which &, <, > and quotes are taken care of. */
 void report_text(FILE *page, const char *text);
 void report_element(FILE *page, const char *element, const char *text);
+/* A cell of a table with a number; "–" for NAN. */
+void report_number(FILE *page, const char *format, double x);
+void report_paragraph(FILE *page, const char *text);
 /* A cell of a table for a size and a trend, in words and in colour, and a number beneath them.
  * Without both it holds the number alone. */
 void report_trend(FILE *page, const char *size, const char *trend, const char *number);
@@ -46,6 +50,8 @@ enum { PLOT_CURVES = 12, PLOT_TITLE = 96, PLOT_NAME = 192 };
 typedef struct plot_curve {
     char title[PLOT_TITLE]; /* "" keeps it out of the key */
     int ink, dots;          /* black instead of a colour; points without lines */
+    int values;             /* points so far, those left out included, */
+    double max_abs;         /* and max |y| of them; NaN once y was none */
     double (*at)[2];
     int count, room;
 } plot_curve;
@@ -53,7 +59,8 @@ typedef struct plot_curve {
 /* A figure of curves over common axes. */
 typedef struct report_plot {
     char name[PLOT_NAME], title[PLOT_NAME], xlabel[PLOT_TITLE], ylabel[PLOT_TITLE];
-    const char *caption, *nothing;  /* nothing: what the page says when no curve has a point */
+    const char *caption;
+    const char *nothing;            /* what the page says instead when all values are 0, or NULL */
     int log_x, log_y, marks, alike; /* marks: points, too; alike: one scale on both axes */
     plot_curve curve[PLOT_CURVES + 2];
     int count;
@@ -65,13 +72,16 @@ plot_curve *report_curve(report_plot *plot, const char *title);
 void report_point(report_plot *plot, double x, double y);
 /* Lifts the pen. */
 void report_lift(report_plot *plot);
-/* Draws it on the page and frees the points. */
+/* Draws it on the page and frees the points.  Without values it puts nothing there. */
 int report_draw(report *r, report_plot *plot);
+/* The caption of envelopes. */
+extern const char report_envelope[];
 /* log y over log x between the last point and the one at a tenth of its x: the slope of an
  * envelope; NAN where there is none. */
 double report_slope(const plot_curve *curve);
 
-/* The path of the run in a directory, with its body, where the system has a picture. */
+/* The path of the run in a directory, with its body, where the system has a picture; the caption
+ * goes on with a sentence about the body. */
 int report_path(report *r, const char *run, const char *name, const char *caption);
 
 /* ---- CSV files in memory: report_csv.c ---- */

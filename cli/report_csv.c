@@ -79,9 +79,9 @@ static int check_heads(const report_csv *csv, const char *path)
         const char *head = csv->cell[column];
         const size_t length = strlen(head), name = length - strlen(old);
         if (length < strlen(old) || strcmp(head + name, old) != 0) continue;
-        return cli_fail(CLI_USAGE,
-                        "%s: of an older version: its column '%s' is now '%.*ssize' and '%.*strend'",
-                        path, head, (int)name, head, (int)name, head);
+        return cli_fail(
+            CLI_USAGE, "%s: of an older version: its column '%s' is now '%.*ssize' and '%.*strend'",
+            path, head, (int)name, head, (int)name, head);
     }
     return CLI_DONE;
 }

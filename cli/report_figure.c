@@ -9,24 +9,20 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* column of series/LABEL.csv, the start whose runs are shown and another that has the same numbers,
- * title, file name, what is said when it never changes */
-#define TRACK_LIST(X)                                                                              \
-    X("D", "physical", "surface", "Constraints", "max |D|", "D", "D stays 0 with every method.")   \
-    X("E", "physical", "surface", "Energy", "max |E - E(0)|", "E", NULL)                           \
-    X("invariants", "physical", "surface", "Invariants", "max |I - I(0)|", "I", NULL)              \
-    X("H", "displaced", "displaced", "H, started off p = pi = 0", "max |H - H(0)|", "H", NULL)     \
-    X("error", "physical", "surface", "Error", "max |q - exact|", "error", NULL)
-
+/* column of series/LABEL.csv, the column of cells.csv that is empty where a system lacks it, the
+ * start whose runs are shown and another that has the same numbers, title, label, file name */
 typedef struct track {
-    const char *column, *start, *other, *title, *ylabel, *name, *nothing;
+    const char *column, *value, *start, *other, *title, *ylabel, *name;
 } track;
 
 static const track tracks[] = {
-#define X(column, start, other, title, ylabel, name, nothing)                                      \
-    {column, start, other, title, ylabel, name, nothing},
-    TRACK_LIST(X)
-#undef X
+    {"D", "D_max", "physical", "surface", "Constraints", "max |D|", "D"},
+    {"E", "E_deviation", "physical", "surface", "Energy", "max |E - E(0)|", "E"},
+    {"invariants", "invariant_deviation", "physical", "surface", "Invariants",
+     "max |I - I(0)| / max(1, |I(0)|)", "I"},
+    {"H", "H_deviation", "displaced", "displaced", "H, started off p = pi = 0", "max |H - H(0)|",
+     "H"},
+    {"error", "error_max", "physical", "surface", "Error", "max |q - exact|", "error"},
 };
 
 enum { TRACKS = sizeof tracks / sizeof tracks[0] };
@@ -120,7 +116,8 @@ static void add_envelope(const figure *f, report_plot *plot, const char *method,
 {
     char slope[32] = "";
     int row = report_find(f->c, f->label, method, step, t->start, t->other);
-    int first = row < 0 ? -1 : find_rows(f, method, step, report_get(f->c, row, "start"));
+    const int is_there = row >= 0 && report_get(f->c, row, t->value)[0];
+    int first = !is_there ? -1 : find_rows(f, method, step, report_get(f->c, row, "start"));
     if (first < 0) return;
     plot_curve *curve = report_curve(plot, method);
     double most = 0.0;
@@ -145,14 +142,21 @@ static void name_plot(report_plot *plot, const figure *f, const char *what, int 
     snprintf(plot->name, sizeof plot->name, "%.120s-%s%s", f->label, what, more);
 }
 
+/* "max |D| is 0 at all rows with A, B, C." */
+static void say_zero(const report_plot *plot, char *text, size_t size)
+{
+    size_t n = (size_t)snprintf(text, size, "%s is 0 at all rows with", plot->ylabel);
+    for (int i = 0; i < plot->count && n < size; i++) {
+        const char *title = plot->curve[i].title;
+        n += (size_t)snprintf(text + n, size - n, "%s %.*s", i ? "," : "", (int)strcspn(title, " "),
+                              title);
+    }
+    if (n < size) snprintf(text + n, size - n, ".");
+}
+
 static int draw_track(const figure *f, const track *t, int step, int part)
 {
-    report_plot plot = {.log_x = 1,
-                        .log_y = 1,
-                        .xlabel = "t",
-                        .nothing = part ? NULL : t->nothing,
-                        .caption = "Greatest up to t; in brackets the slope over the last tenfold "
-                                   "of t: 0 bounded, 1 linear."};
+    report_plot plot = {.log_x = 1, .log_y = 1, .xlabel = "t", .caption = report_envelope};
     name_plot(&plot, f, t->name, step, part);
     snprintf(plot.title, sizeof plot.title, "%s, h = %g", t->title,
              strtod(f->steps.word[step], NULL));
@@ -160,6 +164,9 @@ static int draw_track(const figure *f, const track *t, int step, int part)
     const int first = part * PLOT_CURVES;
     for (int m = first; m < f->methods.count && m < first + PLOT_CURVES; m++)
         add_envelope(f, &plot, f->methods.word[m], f->steps.word[step], t);
+    char text[PLOT_CURVES * PLOT_TITLE];
+    say_zero(&plot, text, sizeof text);
+    plot.nothing = text;
     return report_draw(f->r, &plot);
 }
 
@@ -222,8 +229,7 @@ static int draw_path(const figure *f)
     const int row = best_run(f);
     if (row < 0) return CLI_DONE;
     snprintf(name, sizeof name, "%.120s-path", f->label);
-    snprintf(caption, sizeof caption,
-             "The path as %.80s has it with h = %g; the body is not to scale.",
+    snprintf(caption, sizeof caption, "The path by %.80s with h = %g.",
              report_get(f->c, row, "integrator"), report_csv_number(&f->c->csv, row, "step"));
     char *path = cli_join(f->r->directory, report_get(f->c, row, "run"));
     int status = report_path(f->r, path, name, caption);

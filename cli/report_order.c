@@ -73,6 +73,9 @@ static void put_table(const orders *o)
 static void put_others(const orders *o)
 {
     FILE *page = o->r->page;
+    int count = 0;
+    for (int row = 1; row < o->csv.rows; row++) count += get(o, row, "message")[0] != '\0';
+    if (count == 0) return;
     fputs("<details><summary>methods without errors</summary>\n<ul>\n", page);
     for (int row = 1; row < o->csv.rows; row++) {
         if (!get(o, row, "message")[0]) continue;

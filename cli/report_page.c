@@ -5,6 +5,7 @@
 #include "file.h"
 
 #include <errno.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -33,6 +34,19 @@ void report_element(FILE *page, const char *element, const char *text)
     fprintf(page, "</%.*s>", (int)strcspn(element, " "), element);
 }
 
+void report_number(FILE *page, const char *format, double x)
+{
+    char text[64] = "–";
+    if (!isnan(x)) snprintf(text, sizeof text, format, x);
+    fprintf(page, "<td>%s</td>", text);
+}
+
+void report_paragraph(FILE *page, const char *text)
+{
+    report_element(page, "p", text);
+    fputc('\n', page);
+}
+
 /* The colour of a cell: a trend that grows is never that of no trend, whatever its size. */
 static const char *class_of(const char *size, const char *trend)
 {
@@ -51,6 +65,7 @@ void report_trend(FILE *page, const char *size, const char *trend, const char *n
     fprintf(page, "<td class=\"trend %s\">", class_of(size, trend));
     if (size[0] && !is_exact) fprintf(page, "%s<br>", size);
     fputs(is_exact ? "exact" : trend, page);
+    if (!trend[0] && !number[0]) fputs("–", page);
     if (number[0]) fprintf(page, "%s<small>%s</small>", trend[0] ? "<br>" : "", number);
     fputs("</td>", page);
 }
@@ -100,7 +115,10 @@ int report_embed(report *r, const char *name, const char *alt, const char *capti
         fprintf(r->page, "\" src=\"data:image/%s;base64,",
                 strcmp(r->format, "svg") == 0 ? "svg+xml" : r->format);
         put_base64(r->page, (const unsigned char *)text, length);
-        fprintf(r->page, "\"><figcaption>%s</figcaption></figure>\n", caption);
+        fputs("\">", r->page);
+        if (caption[0]) fprintf(r->page, "<figcaption>%s</figcaption>", caption);
+        fputs("</figure>\n", r->page);
+        r->figures++;
         status = CLI_DONE;
     }
     free(text);
@@ -167,9 +185,12 @@ void report_title(report *r, const char *title)
 int report_close(report *r)
 {
     if (!r->page) return CLI_DONE;
-    fputs("<p class=\"faint\">Made by dalembert " DAL_VERSION
-          ". Every figure stands beside this page, as NAME.svg and as the gnuplot script NAME.gp "
-          "with its data.</p>\n</body></html>\n",
-          r->page);
+    fputs("<p class=\"faint\">Made by dalembert " DAL_VERSION ".", r->page);
+    if (r->figures > 0)
+        fprintf(r->page,
+                " Every figure stands beside this page, as NAME.%s and as the gnuplot script "
+                "NAME.gp with its data.",
+                r->format);
+    fputs("</p>\n</body></html>\n", r->page);
     return cli_close(r->page, r->page_path);
 }

@@ -144,7 +144,7 @@ static int take_row(path *p, report_plot *plot, long long k)
 {
     const long long stride = 1 + p->rows.count / POINTS, last = p->rows.count - 1;
     const long long next = last * p->poses / (INSTANTS - 1);
-    const int posed = k == next && p->poses < INSTANTS;
+    const int posed = k >= next && p->poses < INSTANTS;
     const double *row = p->rows.row;
     double at[DAL_PICTURE_COUNT];
     if (!posed && k % stride && k != last) return CLI_DONE;
@@ -177,7 +177,7 @@ static int draw(path *p, report *r, const char *name, const char *caption)
         DAL_BODY_LIST(X)
 #undef X
     };
-    report_plot plot = {.xlabel = "x", .ylabel = "y", .alike = 1, .caption = caption};
+    report_plot plot = {.xlabel = "x", .ylabel = "y", .alike = 1};
     snprintf(plot.name, sizeof plot.name, "%s", name);
     snprintf(plot.title, sizeof plot.title, p->body == DAL_BODY_POINT ? "Path" : "Path of the %s",
              words[p->body]);
@@ -187,6 +187,13 @@ static int draw(path *p, report *r, const char *name, const char *caption)
         status = more < 0 ? CLI_IO : take_row(p, &plot, k);
     plot.curve[0].dots = is_rough(p, &plot.curve[0]);
     draw_bodies(p, &plot);
+    char text[2 * PLOT_NAME];
+    const char *separator = caption[0] && p->poses > 0 ? " " : "";
+    snprintf(text, sizeof text, "%s%s", caption, separator);
+    if (p->poses > 0 && p->body != DAL_BODY_POINT)
+        snprintf(text + strlen(text), sizeof text - strlen(text),
+                 "The %s, not to scale, at %d of the rows.", words[p->body], p->poses);
+    plot.caption = text;
     int drawn = report_draw(r, &plot);
     return status == CLI_DONE ? drawn : status;
 }

@@ -47,13 +47,19 @@ static void drop_level(plot_curve *curve)
 
 void report_point(report_plot *plot, double x, double y)
 {
+    plot_curve *curve = &plot->curve[plot->count - 1];
+    curve->values++;
+    if (!(fabs(y) <= curve->max_abs)) curve->max_abs = fabs(y);
     if (!isfinite(x) || !isfinite(y) || (plot->log_x && x <= 0.0) || (plot->log_y && y <= 0.0))
         return;
     append(plot, x, y);
-    if (!plot->marks) drop_level(&plot->curve[plot->count - 1]);
+    if (!plot->marks) drop_level(curve);
 }
 
 void report_lift(report_plot *plot) { append(plot, NAN, NAN); }
+
+const char report_envelope[] = "The maximum up to t; in brackets its slope over the last tenfold "
+                               "of t: 0 constant, 1 linear.";
 
 double report_slope(const plot_curve *curve)
 {
@@ -259,12 +265,23 @@ static int make_figure(report *r, const report_plot *plot)
     return status == CLI_DONE ? report_embed(r, plot->name, alt, plot->caption) : status;
 }
 
+/* Whether there are values, and all of them are 0. */
+static int is_zero(const report_plot *plot)
+{
+    int values = 0;
+    for (int i = 0; i < plot->count; i++) {
+        if (plot->curve[i].max_abs != 0.0) return 0;
+        values += plot->curve[i].values;
+    }
+    return values > 0;
+}
+
 int report_draw(report *r, report_plot *plot)
 {
     double least, most;
     int status = CLI_DONE, points = range(plot, 1, &least, &most);
-    if (plot->nothing && (points == 0 || (least == 0.0 && most == 0.0)))
-        fprintf(r->page, "<p>%s</p>\n", plot->nothing);
+    if (plot->nothing && is_zero(plot))
+        report_paragraph(r->page, plot->nothing);
     else if (points > 0)
         status = make_figure(r, plot);
     for (int i = 0; i < plot->count; i++) free(plot->curve[i].at);

@@ -15,33 +15,36 @@
 enum { POINTS = 2000 };
 static const double denser = 1.02;
 
-/* What is drawn over t: code, file name, title, label of the axis, what is said of nothing but 0 */
-#define GROUP_LIST(X)                                                                              \
-    X(COORDINATES, "coordinates", "Coordinates", "q", NULL)                                        \
-    X(D, "D", "Constraints", "D", "D is exactly 0 at all rows.")                                   \
-    X(E, "E", "Energy", "E - E(0)", "E never changes.")                                            \
-    X(H, "H", "H of the lift", "H - H(0)", "H never changes.")                                     \
-    X(INVARIANTS, "I", "Invariants", "I - I(0)", "The invariants never change.")                   \
-    X(ERROR, "error", "Error", "max |q - exact|", "The error is exactly 0.")
+/* What is drawn over t: code, file name, title, label of the axis, what the page says instead when
+ * all values at all rows are 0 */
+#define GROUP_LIST(GROUP)                                                                          \
+    GROUP(COORDINATES, "coordinates", "Coordinates", "q", NULL)                                    \
+    GROUP(D, "D", "Constraints", "D", "D is 0 at all rows.")                                       \
+    GROUP(E, "E", "Energy", "E - E(0)", "E is the same at all rows.")                              \
+    GROUP(H, "H", "H of the lift", "H - H(0)", "H is the same at all rows.")                       \
+    GROUP(INVARIANTS, "I", "Invariants", "I - I(0)", "The invariants are the same at all rows.")   \
+    GROUP(ERROR, "error", "Error", "max |q - exact|", "The error is 0 at all rows.")
 
 enum {
-#define X(code, name, title, ylabel, nothing) GROUP_##code,
-    GROUP_LIST(X)
-#undef X
+#define GROUP_CODE(code, name, title, ylabel, nothing) GROUP_##code,
+    GROUP_LIST(GROUP_CODE)
+#undef GROUP_CODE
         GROUPS
 };
 
 typedef struct run_page {
     report *r;
     cli_rows rows;
-    int n;           /* coordinates, in columns 1.. */
-    int observables; /* the first column behind the state */
-    double *first;   /* [columns] of the first row */
-    double *most;    /* [columns] so far */
-    double told;     /* t of the last point of the envelopes */
+    report_csv summary; /* no rows unless the run is over */
+    int n;              /* coordinates, in columns 1.. */
+    int observables;    /* the first column behind the state */
+    double *first;      /* [columns] of the first row */
+    double *most;       /* [columns] so far */
+    double told;        /* t of the last point of the envelopes */
     report_plot plot[GROUPS], drift;
-    int *group, *place; /* [columns] which plot, or -1; which curve of it */
-    int *envelope;      /* [columns] which curve of the drift, or -1 */
+    int *group;    /* [columns] which plot, or -1 */
+    int *place;    /* [columns] which curve of it, or -1: there are too many */
+    int *envelope; /* [columns] which curve of the drift, or -1 */
 } run_page;
 
 /* ---- columns ---- */
@@ -77,31 +80,51 @@ static void find_columns(run_page *run)
         if (is_observable(t->name[run->observables])) break;
 }
 
+static int add_curve(report_plot *plot, const char *title)
+{
+    if (plot->count >= PLOT_CURVES) return -1;
+    report_curve(plot, title);
+    return plot->count - 1;
+}
+
+/* Whether an observable should stay as it is.  Of E and H the summary says it, by a trend. */
+static int should_stay(const run_page *run, int column)
+{
+    const int g = run->group[column];
+    if (column < run->observables) return 0;
+    if (g != GROUP_E && g != GROUP_H) return 1;
+    for (int row = 1; row < run->summary.rows; row++)
+        if (strcmp(report_csv_get(&run->summary, row, "observable"), run->rows.name[column]) == 0)
+            return report_csv_get(&run->summary, row, "trend")[0] != '\0';
+    return 0;
+}
+
 /* A curve for each column, as long as there is room for them. */
 static void place_columns(run_page *run)
 {
     for (int i = 1; i < run->rows.columns; i++) {
+        const char *name = run->rows.name[i];
         run->group[i] = group_of(run, i);
-        run->envelope[i] = -1;
-        if (run->group[i] < 0) continue;
-        report_plot *plot = &run->plot[run->group[i]];
-        run->place[i] = plot->count;
-        if (plot->count < PLOT_CURVES)
-            report_curve(plot, run->rows.name[i]);
-        else
-            run->group[i] = -1;
-        if (i < run->observables || run->drift.count >= PLOT_CURVES) continue;
-        run->envelope[i] = run->drift.count;
-        report_curve(&run->drift, run->rows.name[i]);
+        run->place[i] = run->group[i] < 0 ? -1 : add_curve(&run->plot[run->group[i]], name);
+        run->envelope[i] = should_stay(run, i) ? add_curve(&run->drift, name) : -1;
+    }
+}
+
+/* A sentence about all values needs all columns and all rows, of which figures leave some out. */
+static void drop_sentences(run_page *run)
+{
+    for (int i = 1; i < run->rows.columns; i++) {
+        if (run->group[i] >= 0 && run->most[i] != 0.0) run->plot[run->group[i]].nothing = NULL;
+        if (should_stay(run, i) && run->most[i] != 0.0) run->drift.nothing = NULL;
     }
 }
 
 static void name_plots(run_page *run)
 {
     static const char *const texts[][4] = {
-#define X(code, name, title, ylabel, nothing) {name, title, ylabel, nothing},
-        GROUP_LIST(X)
-#undef X
+#define GROUP_TEXTS(code, name, title, ylabel, nothing) {name, title, ylabel, nothing},
+        GROUP_LIST(GROUP_TEXTS)
+#undef GROUP_TEXTS
     };
     for (int g = 0; g < GROUPS; g++) {
         report_plot *plot = &run->plot[g];
@@ -112,16 +135,14 @@ static void name_plots(run_page *run)
         plot->caption = "";
         plot->nothing = texts[g][3];
     }
-    run->drift = (report_plot){
-        .name = "drift",
-        .title = "Drift of what should not change",
-        .xlabel = "t",
-        .ylabel = "greatest |x - x(0)|",
-        .log_x = 1,
-        .log_y = 1,
-        .nothing = "Nothing that should not change has changed.",
-        .caption = "Greatest up to t; in brackets the slope over the last tenfold of t: 0 bounded, "
-                   "1 linear."};
+    run->drift = (report_plot){.name = "drift",
+                               .title = "Drift of what should not change",
+                               .xlabel = "t",
+                               .ylabel = "max |x - x(0)|",
+                               .log_x = 1,
+                               .log_y = 1,
+                               .nothing = "Nothing that should not change does so at any row.",
+                               .caption = report_envelope};
 }
 
 /* ---- rows ---- */
@@ -153,7 +174,8 @@ static void take_row(run_page *run, long long k)
     for (int i = 1; i < t->columns; i++) {
         if (run->group[i] < 0) continue;
         const double x = value(run, i);
-        if (k % stride == 0 || k == last) add(&run->plot[run->group[i]], run->place[i], now, x);
+        if (run->place[i] >= 0 && (k % stride == 0 || k == last))
+            add(&run->plot[run->group[i]], run->place[i], now, x);
         if (!(fabs(x) <= run->most[i])) run->most[i] = fabs(x);
         if (tell && run->envelope[i] >= 0) add(&run->drift, run->envelope[i], now, run->most[i]);
     }
@@ -167,7 +189,8 @@ static void tell_slopes(run_page *run)
         plot_curve *curve = &run->drift.curve[run->envelope[i]];
         const double slope = report_slope(curve);
         char more[32] = "";
-        if (curve->count == 0) snprintf(more, sizeof more, " (0)");
+        if (curve->count == 0)
+            snprintf(more, sizeof more, run->most[i] == 0.0 ? " (0)" : " (not finite)");
         if (isfinite(slope)) snprintf(more, sizeof more, " (%.1f)", fabs(slope));
         snprintf(curve->title, sizeof curve->title, "%.60s%s", run->rows.name[i], more);
     }
@@ -181,6 +204,7 @@ static int draw_figures(run_page *run)
     for (long long k = 0; (more = rows_next(&run->rows)) > 0; k++) take_row(run, k);
     if (more < 0) status = CLI_IO;
     tell_slopes(run);
+    drop_sentences(run);
     int drawn = report_draw(run->r, &run->drift);
     for (int g = 0; g < GROUPS; g++) {
         if (status == CLI_DONE) status = drawn;
@@ -202,15 +226,6 @@ static int make_memory(run_page *run)
 }
 
 /* ---- the summary ---- */
-
-static void put_number(FILE *page, const report_csv *csv, int row, const char *head)
-{
-    const double x = report_csv_number(csv, row, head);
-    if (isnan(x))
-        fputs("<td>–</td>", page);
-    else
-        fprintf(page, "<td>%.4g</td>", x);
-}
 
 /* The largest drift over a time that the interval of the rate admits, where there is no
  * trend. */
@@ -235,31 +250,36 @@ static void put_quantity(FILE *page, const report_csv *csv, int row, double time
     say_drift(drift, sizeof drift, csv, row, time);
     report_trend(page, report_csv_get(csv, row, "size"), report_csv_get(csv, row, "trend"), drift);
     for (size_t k = 0; k < sizeof columns / sizeof columns[0]; k++)
-        put_number(page, csv, row, columns[k]);
+        report_number(page, "%.4g", report_csv_number(csv, row, columns[k]));
     fputs("</tr>\n", page);
 }
 
 /* summary.csv is there when the run is over. */
-static int put_summary(report *r, double time)
+static int read_summary(run_page *run)
 {
-    report_csv csv = {0};
-    char *path = cli_join(r->directory, "summary.csv");
-    int status = CLI_DONE;
-    if (access(path, F_OK) == 0) {
-        status = report_csv_read(&csv, path);
-        fputs("<h2>Size and trend</h2>\n<div class=\"wide\" "
-              "tabindex=\"0\"><table><thead><tr><td></td>"
-              "<th>size, trend</th><th>confi&shy;dence</th><th>first</th><th>final</th><th>max "
-              "|x|</th>"
-              "<th>max |x − first|</th><th>rate</th><th>rate, from</th><th>to (95 %)</th>"
-              "<th>exponent</th></tr></thead>\n<tbody>",
-              r->page);
-        for (int row = 1; row < csv.rows; row++) put_quantity(r->page, &csv, row, time);
-        fputs("</tbody></table></div>\n", r->page);
-        report_csv_free(&csv);
-    }
+    char *path = cli_join(run->r->directory, "summary.csv");
+    int status = access(path, F_OK) == 0 ? report_csv_read(&run->summary, path) : CLI_DONE;
     free(path);
     return status;
+}
+
+static void put_summary(const run_page *run, double time)
+{
+    FILE *page = run->r->page;
+    if (run->summary.rows < 2) return;
+    fputs("<h2>Size and trend</h2>\n<div class=\"wide\" tabindex=\"0\"><table><thead><tr><td></td>"
+          "<th>size, trend</th><th>confi&shy;dence</th><th>first</th><th>final</th><th>max |x|</th>"
+          "<th>max |x − first|</th><th>rate</th><th>rate, from</th><th>to (95 %)</th>"
+          "<th>exponent</th></tr></thead>\n<tbody>",
+          page);
+    for (int row = 1; row < run->summary.rows; row++) put_quantity(page, &run->summary, row, time);
+    fputs("</tbody></table></div>\n", page);
+    for (int row = 1; row < run->summary.rows; row++)
+        if (!report_csv_get(&run->summary, row, "trend")[0])
+            fprintf(page,
+                    "<p>%s has neither size nor trend: the motion of this run need not "
+                    "conserve it.</p>\n",
+                    report_csv_get(&run->summary, row, "observable"));
 }
 
 /* ---- what was asked for ---- */
@@ -339,11 +359,10 @@ static int write_page(run_page *run, const cli_job *job)
 {
     report *r = run->r;
     put_heading(r, job);
-    int status = put_summary(r, job->time);
+    int status = CLI_DONE;
+    put_summary(run, job->time);
     fputs("<h2>Figures</h2>\n<div class=\"figures\">\n", r->page);
-    if (status == CLI_DONE && job->system)
-        status = report_path(r, r->directory, "path",
-                             "At nine instants, equally far apart; the body is not to scale.");
+    if (status == CLI_DONE && job->system) status = report_path(r, r->directory, "path", "");
     if (status == CLI_DONE) status = draw_figures(run);
     fputs("</div>\n", r->page);
     if (job->system) put_command(r->page, job);
@@ -360,11 +379,13 @@ int report_run(report *r)
     int status = rows_open(&run->rows, r->directory), opened = status == CLI_DONE;
     if (opened) status = make_memory(run);
     if (status == CLI_DONE) status = read_job(r, &store, &job);
+    if (status == CLI_DONE) status = read_summary(run);
     if (status == CLI_DONE) {
         find_columns(run);
         status = write_page(run, &job);
     }
     if (opened) rows_close(&run->rows);
+    report_csv_free(&run->summary);
     free(run->first);
     free(run->group);
     free(run);

@@ -161,7 +161,7 @@ static void put_expectation(FILE *page, const report_csv *csv, int row)
     report_element(page, "th scope=\"row\"", report_csv_get(csv, row, "label"));
     report_element(page, "td", report_csv_get(csv, row, "integrator"));
     report_element(page, "td", report_csv_get(csv, row, "start"));
-    fprintf(page, "<td>%g</td>", report_csv_number(csv, row, "step"));
+    report_number(page, "%g", report_csv_number(csv, row, "step"));
     report_element(page, "td", report_csv_get(csv, row, "quantity"));
     report_element(page, "td", report_csv_get(csv, row, "expected"));
     report_element(page, "td", report_csv_get(csv, row, "found"));
@@ -223,7 +223,9 @@ static const char introduction[] =
     "slow an oscillation, to decide; a number alone: E where the motion of the run need not "
     "conserve "
     "it</li>\n"
-    "</ul>\n"
+    "</ul>\n";
+
+static const char about_lift[] =
     "<p>On p = π = 0 a lifted method is the same method on (q,v), bit for bit. That a method is\n"
     "symplectic on the lift says nothing there about D or the energy: every one-step method,\n"
     "explicit Euler included, is the restriction of a symplectic one. D and E are kept, or not,\n"
@@ -297,6 +299,13 @@ static int begin_page(report *r)
     return status;
 }
 
+static int is_lifted(const report_cells *c)
+{
+    for (int row = 1; row < c->csv.rows; row++)
+        if (!report_is(c, row, "start", "physical")) return 1;
+    return 0;
+}
+
 static int write_page(report *r, const report_cells *c)
 {
     int status = begin_page(r);
@@ -305,6 +314,7 @@ static int write_page(report *r, const report_cells *c)
             c->methods.count);
     put_contents(r->page, c);
     fputs(introduction, r->page);
+    if (is_lifted(c)) fputs(about_lift, r->page);
     put_themes(r->page, c);
     status = tell_expectations(r);
     for (int i = 0; i < c->labels.count && status != CLI_IO; i++) {

@@ -230,6 +230,6 @@ int study_keep_expectations(const study_plan *plan, const char *path);
 
 /* The tables of one entry, and the note that belongs under all of them. */
 void study_print_entry(FILE *out, const study_plan *plan, const study_entry *entry);
-void study_print_note(FILE *out);
+void study_print_note(FILE *out, const study_plan *plan);
 
 #endif

@@ -83,7 +83,7 @@ static void print_tables(FILE *out, const study_plan *plan)
     fprintf(out, "%s\n", plan->title);
     for (int i = 0; i < plan->entry_count; i++)
         if (has_cells(plan, &plan->entries[i])) study_print_entry(out, plan, &plan->entries[i]);
-    study_print_note(out);
+    study_print_note(out, plan);
     study_print_expectations(out, plan);
 }
 

@@ -114,6 +114,8 @@ static void put_expected(FILE *out, const study_expectation *x)
     if (x->most < INFINITY) fprintf(out, "%s <= %g", x->least > -INFINITY ? "," : "", x->most);
 }
 
+static const char found_nothing[] = "no run that has it";
+
 /* The size where a size is expected, the trend where a trend is. */
 static void put_words(FILE *out, const study_expectation *x, const dal_trend *trend)
 {
@@ -204,7 +206,7 @@ static void tell_missed(FILE *out, const study_expectation *x, const study_cell 
     if (c)
         put_found(out, x, c);
     else
-        fputs("no run that has it", out);
+        fputs(found_nothing, out);
     fprintf(out, " (line %zu)\n", x->line);
 }
 
@@ -232,7 +234,10 @@ static void put_row(FILE *out, const study_expectation *x, const study_cell *c, 
     fputs(",\"", out);
     put_expected(out, x);
     fputs("\",\"", out);
-    if (c) put_found(out, x, c);
+    if (c)
+        put_found(out, x, c);
+    else
+        fputs(found_nothing, out);
     fprintf(out, "\",%s\n", met ? "yes" : "no");
 }
 

@@ -199,10 +199,16 @@ void study_print_entry(FILE *out, const study_plan *plan, const study_entry *e)
         }
 }
 
-void study_print_note(FILE *out)
+static int is_lifted(const study_plan *plan)
 {
-    cli_fold_notes(
-        out,
+    for (int i = 0; i < plan->entry_count; i++)
+        if (plan->entries[i].starts & ~(1 << STUDY_PHYSICAL)) return 1;
+    return 0;
+}
+
+void study_print_note(FILE *out, const study_plan *plan)
+{
+    static const char lift[] =
         "\n"
         "What this shows.  On p = pi = 0 a lifted method is the same method on (q,v), bit for\n"
         "bit ('same'), p and pi stay zero and so does H; a method that has no lifted form is "
@@ -214,15 +220,18 @@ void study_print_note(FILE *out)
         "off p = pi = 0, in H.  There pi/e pushes v off D; p and pi grow where the motion\n"
         "contracts or a coordinate is cyclic, and the error of H, linear in them, grows with\n"
         "them: read it beside |p| and |pi|.  A projection has no canonical lift: it puts\n"
-        "p = pi = 0, and H with them.\n"
+        "p = pi = 0, and H with them.\n";
+    static const char words[] =
         "\n"
         "Sizes.  exact: never changed.  rounding: what roundings of so many steps make.  larger:\n"
         "larger than that.  Trends.  none: about one value.  settles: changes once.  random walk,\n"
         "linear, power law, exponential, growing oscillation: grows so.  undecided: too few\n"
         "samples, or too slow an oscillation, to decide.  aborted: not finite.  quantities.csv "
         "has\n"
-        "the confidence of each.  -: E where the motion need not conserve it: never, or off D = 0\n"
-        "where it does so on D = 0 only.  Rates are slopes of least\n"
-        "squares.  All look at every step.  I are the invariants of the system, the worst of\n"
-        "them; ns are of the clock, looking on included.\n");
+        "the confidence of each.  -: there is no such quantity, or E where the motion need not\n"
+        "conserve it: never, or off D = 0 where it does so on D = 0 only.  Rates are slopes of\n"
+        "least squares.  All look at every step.  I are the invariants of the system, the worst\n"
+        "of them; ns are of the clock, looking on included.\n";
+    if (is_lifted(plan)) cli_fold_notes(out, lift);
+    cli_fold_notes(out, words);
 }

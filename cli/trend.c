@@ -45,7 +45,7 @@ char *cli_trend_text(const dal_trend *trend, char *buffer, size_t size)
     if (trend->trend == DAL_TREND_NONE && trend->size != DAL_SIZE_EXACT)
         snprintf(drift, sizeof drift, ", |drift| <= %.1e", trend->max_drift);
     if (trend->confidence < 0.995)
-        snprintf(confidence, sizeof confidence, ", %.2f", trend->confidence);
+        snprintf(confidence, sizeof confidence, ", confidence %.2f", trend->confidence);
     snprintf(buffer, size, "%s%s%s", dal_trend_text(trend->trend), drift, confidence);
     return buffer;
 }
