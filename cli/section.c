@@ -16,7 +16,8 @@
     X(on, "FORMULA[=VALUE]", NULL, "the surface: x - 1, y*x' = 0.5, sin(3*t)")                     \
     X(direction, "up|down|both", "both", "crossings from below it to above, from above, or all")   \
     X(transient, "T0", "0", "leave out what is crossed before")                                    \
-    X(axes, "X,Y", NULL, "columns of the picture (the last coordinate that varies, its velocity)") \
+    X(axes, "X,Y", NULL,                                                                           \
+      "columns of the picture (the last coordinate that varies with its velocity)")                \
     X(native, "auto|on|off", "auto", "compile the steps, which changes no bit: when it pays")      \
     X(output, "DIR|FILE|-", "-", "write there: .csv, .npy, a directory with a picture, or stdout")
 
@@ -97,34 +98,63 @@ static int take(void *user, int k, const char *value)
 
 /* ---- the model with the section among its invariants --------------------------------------- */
 
-/* "A = B" means (A) - (B); allocated. */
-static char *formula_of(const char *on)
+static int is_taken(const dal_system *system, const char *name)
 {
-    const char *equals = strchr(on, '=');
-    if (!equals) return cli_strdup(on);
-    return cli_format("(%.*s)-(%s)", (int)(equals - on), on, equals + 1);
+    for (int i = 0; i < system->invariants; i++)
+        if (strcmp(system->invariant[i], name) == 0) return 1;
+    for (int i = 0; i < system->n; i++)
+        if (strcmp(system->coordinate[i], name) == 0) return 1;
+    return 0;
+}
+
+/* A message about the invariant is one about --on, of which the user knows. */
+static void leave_out_name(const char *name, dal_error *error)
+{
+    char words[NAME + 16];
+    const int n = snprintf(words, sizeof words, "invariant %s: ", name);
+    if (strncmp(error->message, words, (size_t)n) == 0)
+        memmove(error->message, error->message + n, strlen(error->message + n) + 1);
+}
+
+/* Reads the model and makes it with one more invariant, whose text begins in a column of --on. */
+static int make_with(cli_job *job, const char *name, const char *formula, int column)
+{
+    dal_error error = {0};
+    dal_model_free(job->model);
+    int status = cli_read(job->system, &job->model);
+    if (status != CLI_DONE) return status;
+    dal_status made =
+        dal_model_add(job->model, DAL_SECTION_INVARIANTS, name, formula, 1, column, &error);
+    if (made == DAL_OK) made = dal_model_system(job->model, &job->made, &error);
+    if (made == DAL_OK) return CLI_DONE;
+    leave_out_name(name, &error);
+    return cli_error(cli_input_exit(made), "--on", &error);
+}
+
+/* "A = B" means (A) - (B).  Each side is made alone first, so that what is wrong in it is told of
+ * it and in its column. */
+static int make_difference(cli_job *job, const char *name, const char *on, const char *equals)
+{
+    char *left = cli_format("%.*s", (int)(equals - on), on);
+    char *text = cli_format("(%s)-(%s)", left, equals + 1);
+    int status = make_with(job, name, left, 1);
+    if (status == CLI_DONE) status = make_with(job, name, equals + 1, (int)(equals - on) + 2);
+    if (status == CLI_DONE) status = make_with(job, name, text, 1);
+    free(left);
+    free(text);
+    return status;
 }
 
 static int load(section *s)
 {
     cli_job *job = &s->job;
-    const dal_system *plain;
-    dal_model *model = NULL;
-    dal_error error = {0};
+    char name[NAME] = "section_1";
+    const char *on = s->w->on, *equals = strchr(on, '=');
     /* First without the section: then what is wrong later is wrong with it. */
-    int status = cli_load(job->system, &model, &plain);
-    dal_model_free(model);
-    if (status == CLI_DONE) status = cli_read(job->system, &job->model);
+    int status = cli_load(job->system, &job->model, &job->made);
     if (status != CLI_DONE) return status;
-    char *formula = formula_of(s->w->on);
-    const dal_status added =
-        dal_model_add(job->model, DAL_SECTION_INVARIANTS, "the_section", formula, 0, 0, &error);
-    if (added != DAL_OK)
-        status = cli_error(cli_input_exit(added), "--on", &error);
-    else
-        status = cli_make("--on", &job->model, &job->made);
-    free(formula);
-    return status;
+    for (int k = 2; is_taken(job->made, name); k++) snprintf(name, sizeof name, "section_%d", k);
+    return equals ? make_difference(job, name, on, equals) : make_with(job, name, on, 1);
 }
 
 /* ---- rows ---------------------------------------------------------------------------------- */
@@ -237,20 +267,37 @@ static int find_axes(const section *s, int axis[2])
     return axis[1] < 0 ? CLI_USAGE : CLI_DONE;
 }
 
+/* To the eye, and by more than an error of the method: against what it is itself, and against the
+ * largest of all coordinates, or of all velocities. */
 static int varies(const section *s, int column)
 {
-    return s->most[column] - s->least[column] > 1e-9 * fmax(1.0, fabs(s->most[column]));
+    const int n = s->job.made->n;
+    const int first = column < COLUMNS_BEFORE + n ? COLUMNS_BEFORE : COLUMNS_BEFORE + n;
+    const double range = s->most[column] - s->least[column];
+    const double size = fmax(fabs(s->least[column]), fabs(s->most[column]));
+    double scale = 0.0;
+    for (int i = first; i < first + n; i++)
+        scale = fmax(scale, fmax(fabs(s->least[i]), fabs(s->most[i])));
+    return range > 1e-3 * size && range > 1e-6 * scale;
 }
 
-/* Otherwise the last coordinate that is not the same in all rows, and its velocity; or t. */
+/* Otherwise the last coordinate that varies together with its velocity; else the last two of q and
+ * v that vary; else t and the one that does. */
 static void choose_axes(const section *s, int axis[2])
 {
-    const int n = s->job.made->n;
+    const int n = s->job.made->n, q = COLUMNS_BEFORE;
     if (axis[0] >= 0) return;
-    for (int i = n - 1; i >= 0 && axis[0] < 0; i--)
-        if (varies(s, COLUMNS_BEFORE + i)) axis[0] = COLUMNS_BEFORE + i;
-    axis[1] = axis[0] < 0 ? COLUMNS_BEFORE + 2 * n - 1 : axis[0] + n;
-    if (axis[0] < 0) axis[0] = COLUMN_T;
+    for (int i = q + n - 1; i >= q; i--) {
+        if (!varies(s, i) || !varies(s, i + n)) continue;
+        axis[0] = i;
+        axis[1] = i + n;
+        return;
+    }
+    axis[1] = q + 2 * n - 1;
+    while (axis[1] > q && !varies(s, axis[1])) axis[1]--;
+    axis[0] = axis[1] - 1;
+    while (axis[0] >= q && !varies(s, axis[0])) axis[0]--;
+    if (axis[0] < q) axis[0] = COLUMN_T;
 }
 
 static int draw(const section *s, const char *directory, const int axis[2])

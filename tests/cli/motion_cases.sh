@@ -38,6 +38,58 @@ if command -v gnuplot >/dev/null 2>&1; then
     holds "no picture" grep -q '<svg' crossed/section.svg
 fi
 
+# The columns of the picture vary on the section, and not by rounding.
+varied() { # DIR
+    sed -n 's/.*using (side(\([0-9]*\), column(\([0-9]*\)))):\([0-9]*\) .*/\1 \2 \3/p' \
+        "$1/section.gp" | head -1 >axes
+    read -r side x y <axes && [ "$side" != 0 ] || return 1
+    awk -F, -v x="$x" -v y="$y" '
+        NR > 1 { for (i = 1; i <= NF; i++) {
+            if (NR == 2 || $i < low[i]) low[i] = $i
+            if (NR == 2 || $i > high[i]) high[i] = $i } }
+        END { exit !(NR > 3 && x != y && high[x] - low[x] > 1e-3 && high[y] - low[y] > 1e-3) }' \
+        "$1/section.csv"
+}
+if command -v gnuplot >/dev/null 2>&1; then
+    case_is "the picture of a section"
+    # That of README.md; on it D makes y' = 0.
+    readme=$(sed -n 's/^    build\/dalembert section //p' "$here/../../README.md")
+    eval "try 0 section $readme --output of-readme"
+    holds "axes that do not vary" varied of-readme
+    try 0 section contact-oscillator --on y --integrator gauss4 --step 0.1 --time 300 --output on-y
+    holds "axes that do not vary, y = 0" varied on-y
+    try 0 section osc.yaml --on "x - 0.5*cos(0.3*t)" $fine --output modulated
+    holds "axes that do not vary, x = cos(0.3 t)/2" varied modulated
+    # The sleigh goes round its circle: there phi and y2' vary, not phi', y2.
+    try 0 section chaplygin-sleigh --on "cos(phi) = 0.5" --integrator gauss4 --step 0.1 --time 100 \
+        --output on-phi
+    holds "axes that do not vary, cos(phi) = 1/2" varied on-phi
+fi
+
+# A = B is wrong where A or B is, in the columns of --on, and the program's own names stay its own.
+case_is "what is wrong with a section"
+wrong() { # FORMULA PATTERN
+    try 2 section osc.yaml --on "$1" $fine
+    says "^dalembert: --on:$2$"
+    holds "it names an invariant" sh -c '! grep -q "invariant" err'
+}
+wrong "" '1:1: the formula is empty'
+wrong "x =" '1:4: the formula is empty'
+wrong "= x" '1:1: the formula is empty'
+wrong "x = 1 2" '1:7: an operator is missing before .2.'
+wrong "x = y" "1:5: unknown name 'y'.*"
+wrong "x = 1) + (2" "1:6: '\)' closes no '\('"
+wrong "x = 1 = 2" '1:7: .*'
+wrong "section_1" "1:1: unknown name 'section_1'.*"
+cat >named.yaml <<'END'
+coordinates: [x]
+lagrangian: (x'^2 - x^2)/2
+start: {x: 1}
+invariants: {section_1: x^2 + x'^2, the_section: x'^2 + x^2}
+END
+try 0 section named.yaml --on x $fine
+holds "other crossings" cmp out both.csv
+
 case_is "crossings: bad input"
 try 2 section osc.yaml $fine
 says '--on is missing'
