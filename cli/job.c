@@ -24,15 +24,27 @@ static int is_required(int option)
     return option == JOB_integrator || option == JOB_step || option == JOB_time;
 }
 
+/* What --help calls the value of an option. */
+static const char *value_of(int option)
+{
+    switch (option) {
+    case JOB_step:
+        return "H";
+    case JOB_solve_to:
+        return "CHANGE";
+    case JOB_tolerance:
+        return "TOLERANCE";
+    default:
+        return strcmp(table[option].value, "int") == 0 ? "N" : table[option].value;
+    }
+}
+
 void job_options(cli_option *options)
 {
     for (int i = 0; i < JOB_OPTIONS; i++) {
-        const char *value = table[i].value;
-        if (strcmp(value, "double") == 0) value = "H";
-        if (strcmp(value, "int") == 0) value = "N";
         /* Of several words the first is the default. */
         const char *words = table[i].words;
-        options[i] = (cli_option){table[i].name, words ? words : value, table[i].help,
+        options[i] = (cli_option){table[i].name, words ? words : value_of(i), table[i].help,
                                   is_required(i) ? NULL
                                   : words        ? words
                                                  : table[i].initial};

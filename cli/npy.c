@@ -1,7 +1,6 @@
 /* npy.c - arrays of named doubles in a file of numpy.
  *
- *     "\x93NUMPY" 1 0, the length of the text as 16 bits, or 2 0 and 32 bits where that is too
- * little
+ *     "\x93NUMPY" 1 0, the length of the text as 16 bits, or 2 0 and 32 bits where that is too few
  *     {'descr': [('t', '<f8'), ("x'", '<f8')], 'fortran_order': False,       , blanks
  *     'shape': (3,), }                                                       , blanks, end of line
  *     3 rows of two little-endian doubles

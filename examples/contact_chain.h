@@ -1,9 +1,9 @@
 /* contact_chain.h - a chain of oscillators in contact: a system with many coordinates, given as C
  * callbacks.
  *
- *     coordinates  z_0, z_1 .. z_k, y_1 .. y_k            n = 1 + 2k      (z_0 is the x of the
- * paper) L = |v|^2/2 - U,    U = (|q|^2 + eps sum_i z_(i-1)^2 z_i^2)/2       i = 1..k D = z_0' +
- * sum_i y_i z_i'
+ *     coordinates  z_0, z_1 .. z_k, y_1 .. y_k,   n = 1 + 2k      (z_0 is the x of the paper)
+ *     L = |v|^2/2 - U,   U = (|q|^2 + eps sum_i z_(i-1)^2 z_i^2)/2,   i = 1..k
+ *     D = z_0' + sum_i y_i z_i'
  *
  * k = 1 is the contact oscillator of McLachlan and Perlmutter 2006, 5.2.  With b = -U_q,
  * A = (1, y, 0) and G = 1 + |y|^2

@@ -8,8 +8,8 @@
  *
  * The pair energy is r^-12 brought to zero at the cut-off R with two continuous derivatives,
  *
- *     u(r) = r^-12 + 48 R^-14 r^2 - 21 R^-16 r^4 - 28 R^-12        -u'/r = 12 r^-14 - 96 R^-14 +
- *                                                                          84 R^-16 r^2
+ *     u(r)  = r^-12 + 48 R^-14 r^2 - 21 R^-16 r^4 - 28 R^-12
+ *     -u'/r = 12 r^-14 - 96 R^-14 + 84 R^-16 r^2
  *
  * Dettmann and Morriss, Phys. Rev. E 54 (1996) 2495; Evans and Morriss, Statistical Mechanics of
  * Nonequilibrium Liquids (2008), 5.2.

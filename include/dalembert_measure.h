@@ -252,8 +252,8 @@ dal_status dal_measure_symplecticity(const dal_run_spec *spec, double t, const d
 /* rho step rho step = id: greatest difference from the identity, relative to max(1, |x|), over
  * one step from the start (or from state at time t).  rho turns time round, t -> -t, with
  *     (q, v) -> (q, -v),      (q, v, e, p, pi, pi_e) -> (q, -v, e, -p, pi, -pi_e),
- * the antisymplectic lift that leaves H = pi.pi/(2e) + pi.F + p.v alone when F(q,-v,-t) =
- * F(q,v,t) and mu_e is odd in t; vakonomic g goes to -g where D is odd in v.  [alloc] */
+ * the antisymplectic lift that leaves H = pi.pi/(2e) + pi.F + p.v alone when mu_e is odd in t and
+ * F(q,-v,-t) = F(q,v,t); vakonomic g goes to -g where D is odd in v.  [alloc] */
 dal_status dal_measure_reversibility(const dal_run_spec *spec, double t, const double *state,
                                      double *defect, dal_error *error);
 

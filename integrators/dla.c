@@ -1,8 +1,8 @@
 /* dla.c - discrete Lagrange-d'Alembert equations of the midpoint rule.
  *
  *     D1 Ld(q_k,q_k+1) + D2 Ld(q_k-1,q_k) + h A(q_k)^T lambda_k = 0,
- *     D((q_k + q_k+1)/2, (q_k+1 - q_k)/h, t + h/2) = 0,    Ld = h L((q0 + q1)/2, (q1 - q0)/h, t +
- * h/2)
+ *     D((q_k + q_k+1)/2, (q_k+1 - q_k)/h, t + h/2) = 0,
+ *     Ld(q0,q1) = h L((q0 + q1)/2, (q1 - q0)/h, t + h/2)
  *
  * J. Cortes, S. Martinez, Nonlinearity 14 (2001) 1365, here as a map of (q, v) on D = 0.  The
  * impulse lambda_k at a node is divided between the step that ends there, whose part brings v onto

@@ -9,8 +9,9 @@
  *     s = h (alpha h/2 g(x)^2 + g(2x)),   r = alpha h g(2x) + 2 x^2 g(x)^2
  *
  * D. Minary, G. Martyna, M. Tuckerman, J. Chem. Phys. 118 (2003) 2510; Tuckerman, Statistical
- * Mechanics (2010), 4.12.  For an indefinite W sinh becomes sin where b < 0. 2K = v.A/k, f.v =
- * a.A(v)/k, f.a = a.A(a)/k all come from A = k W v.  Order 2, symmetric, explicit, keeps D. */
+ * Mechanics (2010), 4.12.  For an indefinite W sinh becomes sin where b < 0.  All comes
+ * from A = k W v: 2K = v.A/k, f.v = a.A(v)/k, f.a = a.A(a)/k.  Order 2, symmetric, explicit, keeps
+ * D. */
 #include <dalembert_kernel.h>
 
 typedef struct growth {

@@ -1,7 +1,7 @@
 /* lobatto.c - Lobatto IIIA-IIIB with s = 3..5 stages, order 2s - 2.
  *
- *     V_i = v + h sum_j p_ij F(t + c_j h, Q_j, V_j)      v1 = v + h sum_i b_i F(t + c_i h, Q_i,
- * V_i) Q_i = q + h sum_j a_ij V_j                         q1 = q + h sum_i b_i V_i
+ *     V_i = v + h sum_j p_ij F(t + c_j h, Q_j, V_j)    v1 = v + h sum_i b_i F(t + c_i h, Q_i, V_i)
+ *     Q_i = q + h sum_j a_ij V_j                       q1 = q + h sum_i b_i V_i
  *
  * c_i: 0, 1 and the roots of P_(s-1)'(2c - 1); a_ij, b_i (IIIA): the integrals from 0 to c_i and to
  * 1 of the Lagrange polynomials on them; p_ij = b_j (1 - a_ji/b_i) (IIIB).  Of each canonical pair

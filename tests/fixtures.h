@@ -6,7 +6,7 @@
 #include <stdbool.h>
 
 /* Time-dependent and velocity-dependent forces, a full mass matrix that depends on q, m = 2 with
- * one constraint nonlinear in v: style.md rule 12. */
+ * one constraint nonlinear in v: what a method claims must hold here. */
 extern const char fixture_full[];
 /* The same features, but weak: methods of high order reach their asymptotic range before rounding.
  */

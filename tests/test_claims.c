@@ -80,8 +80,8 @@ static void test_other_parameters(void)
     }
 }
 
-/* (nh29): the sleigh with friction ends at y1 = 2 v0 m/k; DOP853 gave 0.31777778 for m = 1.3, k =
- * 9, v0 = 1.1, omega = 1.7 (theory.md, 4). */
+/* (nh29): the sleigh with friction ends at y1 = 2 v0 m/k; DOP853 gave 0.31777778 for m = 1.3,
+ * k = 9, v0 = 1.1, omega = 1.7, where the printed formula gives 0.1869. */
 static void test_friction_end(void)
 {
     const dal_setting set[] = {{"m", 1.3}, {"k", 9.0}, {"v0", 1.1}, {"omega", 1.7}};
@@ -130,7 +130,7 @@ static void test_friction_limit(void)
     dal_model_free(model);
 }
 
-/* Reference end states R1 and R3 of two independent high-order integrations (systems.md). */
+/* Reference end states R1 and R3 of two independent high-order integrations. */
 static void reference_state(const char *text, double T, const double *state)
 {
     dal_model *model = fixture_model(text);

@@ -139,8 +139,8 @@ static void force(const double *q, double *f)
     f[2] = -q[2] - 0.3 * q[0] * q[0] * q[2];
 }
 
-/* Contact oscillator: (q0 - 2 q1 + q2)/h - h/2 (f(q0 + q1)/2 + f(q1 + q2)/2) is along A = (1, 0,
- * y).
+/* Contact oscillator: (q0 - 2 q1 + q2)/h - h/2 (f(q0 + q1)/2 + f(q1 + q2)/2) is along
+ * A = (1, 0, y).
  */
 static void test_two_step(void)
 {

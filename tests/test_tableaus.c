@@ -3,8 +3,8 @@
  *
  *     b_j = 1 / ((1 - xi_j^2) P_s'(xi_j)^2)
  *     l_j(x) = b_j sum_(k<s) (2k + 1) P_k(xi_j) P_k(2x - 1)
- *     a_ij = b_j sum_(k<s) (2k + 1) P_k(xi_j) I_k(xi_i),    I_k = integral of P_k(2x - 1) from 0 to
- * c
+ *     a_ij = b_j sum_(k<s) (2k + 1) P_k(xi_j) I_k(c_i)
+ *     I_k(c) = integral of P_k(2x - 1) from 0 to c
  *
  * with I_0 = c and (4k + 2) I_k = P_(k+1) - P_(k-1): sums without cancellation.  A coefficient in
  * double alone would be off by up to 5e-17; head and tail together must be right to 1e-18. */

@@ -2,9 +2,10 @@
  *
  * The unknowns are the stage slopes K_i of w = (v, g) and L_i of pi; the others follow:
  *
- *     V_i = w + h sum a_ij K_j              Q_i = q + h sum a_ij V_j          E_i = e + h sum a_ij
- * mu_j Pi_i = pi + h sum a_ij L_j            P_i = p - h sum a_ij F_q^T Pi |_j K_i = F(Q_i, V_i,
- * t_i) + Pi_i/E_i     L_i = -P_i - F_v^T Pi |_i         t_i = t + c_i h
+ *     V_i  = w + h sum a_ij K_j             Q_i = q + h sum a_ij V_j
+ *     Pi_i = pi + h sum a_ij L_j            P_i = p - h sum a_ij F_q^T Pi |_j
+ *     E_i  = e + h sum a_ij mu_j            t_i = t + c_i h
+ *     K_i  = F(Q_i, V_i, t_i) + Pi_i/E_i    L_i = -P_i - F_v^T Pi |_i
  *
  * and y1 = y + h sum b_i (slope)_i.  A partitioned method has other coefficients for w and p than
  * for q, e and pi, each the partner of the other: symplectic where b_i p_ij + b_j a_ji = b_i b_j.

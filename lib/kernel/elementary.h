@@ -12,8 +12,8 @@
  * double nearest to what is left, up to 2^-161.  For |x| <= 1e7, n < 2^23:  a = x - n P1 is exact,
  * a multiple of 2^-53 below 1.  n P2 = b + rest exactly, |b| < 2^-30, so that a is a multiple of
  * the last place of b and r = a - b with its rounding error (a - r) - b is exact too (Dekker 1971).
- * No double up to 1e7 but 0 comes nearer to a multiple of pi/2 than 2^-61 (the nearest is at 29
- * pi/2).
+ * No double up to 1e7 but 0 comes nearer to a multiple of pi/2 than 2^-61 (the nearest is at
+ * 29 pi/2).
  *
  * Coefficients: S and C are the polynomials of degree 5 that interpolate (1 - sin x / x)/x^2 and
  * (cos x - 1 + x^2/2)/x^4, in exact rationals from their Taylor series, at the six largest zeros

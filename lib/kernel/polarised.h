@@ -8,13 +8,14 @@
  *     p1 = p - h F_q^T pi*              pi1 = pi - h (p* + F_v^T pi*)
  *     e1 = e + h mu_e(t*)               pi_e1 = pi_e + h |pi*|^2 / (2 e*^2)
  *
- *     s_v = 0: v* = v known; pi* = pi1 solves  u = pi - h (p* + F_v^T u),  p* = p - [s_q=0] h F_q^T
- * u s_v = 1: pi* = pi known; v* = v1 solves  u = v + h (F(q*, u, t*) + pi / e*),  q* = q + [s_q=1]
- * h u
+ *     s_v = 0: v* = v known, pi* = pi1 solves
+ *              u = pi - h (p* + F_v^T u),            p* = p - [s_q=0] h F_q^T u
+ *     s_v = 1: pi* = pi known, v* = v1 solves
+ *              u = v + h (F(q*, u, t*) + pi / e*),   q* = q + [s_q=1] h u
  *
  * Symplectic for every choice, as sum dX1 dP1 - dX dP = h d(dH) = 0; order 1.  The adjoint of
- * (s_q, s_v) is (1-s_q, 1-s_v).  The physical space has the first line only; v stands for (v, g).
- */
+ * (s_q, s_v) is (1-s_q, 1-s_v).  The physical space has the first line only, and v stands
+ * for (v, g) there. */
 #ifndef DAL_KERNEL_POLARISED_H
 #define DAL_KERNEL_POLARISED_H
 

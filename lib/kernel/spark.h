@@ -1,15 +1,17 @@
 /* spark.h - partitioned Runge-Kutta steps with multipliers at the stages and D among the equations.
  *
- *     V_i = v + h sum ahat_ij K_j     Q_i = q + h sum a_ij V_j     K_i = a(Q_i,V_i) + B(Q_i,V_i)
- * L_i sum_p omega_ep D(q_p, v_p, t + c_p h) = 0,   v_p = v + h sum y_pj K_j,  q_p = q + h sum x_pj
- * V_j v1 = v + h sum b_j K_j          q1 = q + h sum b_j V_j
+ *     V_i = v + h sum_j ahat_ij K_j    Q_i = q + h sum_j a_ij V_j
+ *     K_i = a(Q_i, V_i) + B(Q_i, V_i) L_i
+ *     sum_p omega_ep D(q_p, v_p, t + c_p h) = 0
+ *     v_p = v + h sum_j y_pj K_j       q_p = q + h sum_j x_pj V_j
+ *     v1  = v + h sum_j b_j K_j        q1  = q + h sum_j b_j V_j
  *
  * with as many equations e as multipliers L_i are unknown: all, or all but L_1, which is then L_s
  * of the step before.  The K_i are iterated; in every sweep the L_i are those for which the
  * equations hold to first order, as in constrained.h:
  *
- *     sum_j (h sum_p omega_ep y_pj A_p B_j) L_j = - sum_p omega_ep (D_p + A_p h sum_j y_pj (a_j -
- * K_j))
+ *     sum_j (h sum_p omega_ep y_pj A_p B_j) L_j
+ *         = - sum_p omega_ep (D_p + A_p h sum_j y_pj (a_j - K_j))
  *
  * L. Jay, Math. Comp. 75 (2006) 641; R. Sato Martin de Almagro, D. Martin de Diego,
  * arXiv:1810.10926. */

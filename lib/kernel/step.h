@@ -280,9 +280,9 @@ DAL_INLINE dal_status dal__tangent_field(dal_step *s, double t, const num *y, nu
     return DAL_OK;
 }
 
-/* The whole first-order field in the space of the run (theory.md, 2), dy[dim]:
+/* The whole first-order field in the space of the run, dy[dim]:
  *     q' = v   v' = F + pi/e   e' = mu_e   p' = -F_q^T pi   pi' = -p - F_v^T pi   pi_e' = pi^2/2e^2
- */
+ * after (nh20). */
 DAL_INLINE dal_status dal_field(dal_step *s, double t, const num *y, num *DAL_RESTRICT dy)
 {
     const int n = DAL_N(s);

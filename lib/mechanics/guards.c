@@ -1,10 +1,10 @@
-/* guards.c - expressions of the constraints, det W and, with reactions of their own, det A W^-1
- * B^T: they must keep their signs along a run.
+/* guards.c - expressions of the constraints, det W and, with reactions of their own,
+ * det A W^-1 B^T: they must keep their signs along a run.
  *
  * Where a denominator passes through zero, or tan(x) through a pole, a step can leap over the
- * singularity without meeting it; so it can where D = f(q,t) (...) loses its normal with f. Guarded
- * are the factors of every denominator, cos(x) for every tan(x) and the factors of D itself that
- * have no velocities in them, as far as they depend on more than parameters. */
+ * singularity without meeting it; so it can where D = f(q,t) (...) loses its normal with f.
+ * Guarded are the factors of every denominator, cos(x) for every tan(x) and the factors of D itself
+ * that have no velocities in them, as far as they depend on more than parameters. */
 #include "mechanics/mechanics.h"
 
 enum { REACHED = 1, FACTOR = 2, WHOLE = 4, MOST_GUARDS = 4096 };

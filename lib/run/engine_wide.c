@@ -3,8 +3,8 @@
  * After the integrator has done its work the engine accepts or rejects lane by lane: solved,
  * finite, e still on its side of zero, the guards of the constraints still on theirs, and no normal
  * of a watched constraint turned by a right angle or more: det(A1 B0) det(A0 B0) > 0 for all
- * leading minors, with B = W^-1 A^T.  A turn through a right angle within one step means that G = A
- * B vanished on the way (or that the step is far too large to tell).
+ * leading minors, with B = W^-1 A^T.  A turn through a right angle within one step means that
+ * G = A B vanished on the way (or that the step is far too large to tell).
  *
  * A block of lanes is stepped as one system of DAL_GROUPS times as many components: its integrator,
  * which acts on each component alike (DAL_COMPONENTWISE), need not know.  The engine and the system

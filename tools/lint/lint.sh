@@ -38,6 +38,11 @@ nesting() {
     sources | xargs awk '/^                +(} )?(if|for|while|do|switch|else)[ ({]/ {
         print FILENAME ":" FNR ": more than 3 levels deep" }'
 }
+# Files and names that comments speak of.
+comments() {
+    find . -name build -prune -o -name .git -prune -o -type f -print >"$BUILD/files.txt"
+    sources | xargs awk -f $here/comments.awk "$BUILD/files.txt"
+}
 cplusplus() {
     echo '#include <dalembert.h>' |
         clang -x c++ -std=c++11 -Wall -Wextra -Wpedantic -fsyntax-only -Iinclude -
@@ -91,6 +96,7 @@ check "who may include what" includes
 check "lines and files" sizes
 check "functions" functions
 check "nesting" nesting
+check "names in comments" comments
 check "the public header in C++" cplusplus
 check "scripts" scripts
 check "symbol prefix" prefix
