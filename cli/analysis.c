@@ -22,6 +22,7 @@ static int list_options(const analysis_command *c, cli_option *options, int *num
     cli_option all[JOB_OPTIONS];
     int count = c->own_count;
     job_options(all);
+    if (c->set_defaults) c->set_defaults(all);
     memcpy(options, c->own, (size_t)c->own_count * sizeof *options);
     for (int i = 0; i < JOB_OPTIONS; i++) {
         if (holds(of_rows, sizeof of_rows / sizeof of_rows[0], i)) continue;

@@ -15,6 +15,7 @@ typedef struct analysis_command {
     const char *notes;
     /* Takes option k of its own. */
     int (*take)(void *user, int k, const char *value);
+    void (*set_defaults)(cli_option *options); /* of a job where they differ; NULL: nowhere */
 } analysis_command;
 
 /* Reads all arguments.  Returns CLI_GO_ON, or the exit status: a message or help was printed. */

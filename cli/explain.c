@@ -52,7 +52,7 @@ static void begin(void *user, dal_run *run, long long steps)
 static void print_rate(const dal_trend *f, double whole)
 {
     printf("%+10.2e (%+.1e %+.1e)  %9.2e", f->rate, f->rate_low, f->rate_high, f->deviation);
-    if (whole > 0.0) printf("  x %.3g", f->deviation / whole);
+    if (whole > 0.0 && isfinite(whole)) printf("  x %.3g", f->deviation / whole);
     putchar('\n');
 }
 
@@ -130,7 +130,7 @@ static int print_all(const cli_job *job, const dal_explanation *e)
         if (e->of[i].all.deviation > 0.0) print_one(e, i);
     print_exact(e);
     for (int k = 0; k < DAL_TWINS; k++)
-        if (!e->ran[k] && *e->why[k]) printf("no run with %s: %s\n", text_of(e, k), e->why[k]);
+        if (!e->ran[k] && *e->why[k]) printf("not run: %s: %s\n", text_of(e, k), e->why[k]);
     return cli_close(stdout, "standard output");
 }
 

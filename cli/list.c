@@ -255,7 +255,7 @@ static const char notes[] =
     "Systems: n coordinates, m constraints D; what kind of function of (q,v) D is; whether the\n"
     "energy E = L_v.v - L is kept by the motion; whether an exact solution is known.\n"
     "Integrators: 'symplectic lift' speaks of the 4n+2 canonical variables only and says nothing\n"
-    "of D or of the energy; '... D' names the constraints whose level is kept to rounding.\n"
+    "of D or of the energy; '... D' names the constraints that are kept to rounding on D = 0.\n"
     "A modifier +WORD is put behind an integrator, NAME+WORD: rk4+project.  'as NAME': it is and\n"
     "keeps what NAME is and keeps.  'adaptive' takes --tolerance.\n";
 

@@ -20,22 +20,26 @@ static const cli_option own[OWN_OPTIONS] = {OWN_LIST(CLI_OPTION)};
 
 static const int without[] = {JOB_integrator};
 
+static void set_defaults(cli_option *options)
+{
+    options[JOB_step].initial = "0.1";
+    options[JOB_time].initial = "10";
+    options[JOB_space].initial = "physical";
+}
+
 static const char notes[] =
     "SYSTEM is a built-in name or the path of a system file.  --step is the largest step (0.1),\n"
     "--time the time at which errors are taken (10), and the space is (q,v) unless --space lifted\n"
     "is given.\n"
     "\n"
-    "The error is the greatest difference in q and v at T, relative to max(1, |x|), from the "
-    "exact\n"
-    "solution where the system has one that begins at this start; else from gauss12 with half the\n"
-    "smallest step, whose own error is told.  The order found is the slope between the last two\n"
-    "of three steps whose errors are above rounding, above ten times that error and below half "
-    "the\n"
-    "solution, where their two slopes agree so far that the next term of the error moves it by "
-    "0.1\n"
-    "at most; elsewhere none is found ('-').  Methods that cannot serve the system are listed "
-    "with\n"
-    "the reason; the exit status is 3 when one failed on its way.\n"
+    "The error is the greatest difference in q and v at T, relative to max(1, |x|), from the\n"
+    "exact solution where the system has one that begins at this start; else from gauss12\n"
+    "(dop853 where that does not converge) with half the smallest step, whose own error is told.\n"
+    "The order found is the slope between the last two of three steps whose errors are above\n"
+    "rounding, above ten times that error and below half the solution, where their two slopes\n"
+    "agree so far that the next term of the error moves it by 0.1 at most; elsewhere none is\n"
+    "found ('-').  Methods that cannot serve the system are listed with the reason; the exit\n"
+    "status is 3 when one failed on its way.\n"
     "\n"
     "DIR gets order.csv, and by gnuplot order.svg (error against step) and work.svg (error "
     "against\n"
@@ -194,7 +198,7 @@ static int go(order_study *s, const wishes *w)
 
 int command_order(int argc, char **argv)
 {
-    const analysis_command command = {own, OWN_OPTIONS, without, 1, notes, take};
+    const analysis_command command = {own, OWN_OPTIONS, without, 1, notes, take, set_defaults};
     wishes w = {.integrators = "all", .levels = 4};
     order_study s = {.job = job_begin()};
     int status = analysis_read(argc, argv, &command, &s.job, &w);

@@ -227,10 +227,12 @@ static const char introduction[] =
 
 static const char about_lift[] =
     "<p>On p = π = 0 a lifted method is the same method on (q,v), bit for bit. That a method is\n"
-    "symplectic on the lift says nothing there about D or the energy: every one-step method,\n"
-    "explicit Euler included, is the restriction of a symplectic one. D and E are kept, or not,\n"
-    "for other reasons: the form of D, reversibility, projection. What symplecticity does keep\n"
-    "shows off p = π = 0, in H. A projection has no canonical lift.</p>\n";
+    "symplectic on the lift says nothing there about D or the energy: every one-step method\n"
+    "whose step is locally invertible, explicit Euler included, is the restriction of a\n"
+    "symplectic one. D and E are kept, or not, for other reasons: the form of D, whether D is\n"
+    "imposed or projected on, reversibility. What symplecticity does keep shows off p = π = 0,\n"
+    "in H. A step that lands in D = 0 has no lift of 4n+2 variables; restricted to D = 0 it lifts\n"
+    "to T*{D = 0}, of dimension 2(2n − m).</p>\n";
 
 static void put_contents(FILE *page, const report_cells *c)
 {

@@ -30,11 +30,9 @@ static const char notes[] =
     "velocities, parameters, what the system file has under let, and t.\n"
     "\n"
     "A crossing is found where the formula changes its sign within a step: a step of another size\n"
-    "of the same method, from where that one began, meets it to rounding.  So the trajectory is "
-    "that\n"
-    "of 'dalembert run'.  Pairs of crossings within one step are found too; a touch is no "
-    "crossing\n"
-    "and is counted apart; a start on the surface is none.\n"
+    "of the same method, from where that one began, meets it to rounding.  So the trajectory is\n"
+    "that of 'dalembert run'.  Pairs of crossings within one step are found too, of more some may\n"
+    "be missed; a touch is no crossing and is counted apart; a start on the surface is none.\n"
     "\n"
     "Rows are CSV with 17 digits: crossing (from 1), t, direction (1 or -1), then the state as\n"
     "'dalembert run' has it.  A directory gets section.csv and, by gnuplot, section.svg with its\n"
@@ -355,7 +353,7 @@ static int run(section *s)
 
 int command_section(int argc, char **argv)
 {
-    const analysis_command command = {own, OWN_OPTIONS, NULL, 0, notes, take};
+    const analysis_command command = {own, OWN_OPTIONS, NULL, 0, notes, take, NULL};
     wishes w = {.output = own[OWN_output].initial};
     section s = {.job = job_begin(), .w = &w};
     int status = analysis_read(argc, argv, &command, &s.job, &w);

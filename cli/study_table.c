@@ -211,16 +211,17 @@ void study_print_note(FILE *out, const study_plan *plan)
     static const char lift[] =
         "\n"
         "What this shows.  On p = pi = 0 a lifted method is the same method on (q,v), bit for\n"
-        "bit ('same'), p and pi stay zero and so does H; a method that has no lifted form is "
-        "shown\n"
-        "in (q,v) alone ('only').  That a method is symplectic on the lift says nothing there\n"
-        "about D or the energy: every one-step method, explicit Euler\n"
-        "included, is the restriction of a symplectic one.  D and E are kept, or not, for other\n"
-        "reasons: the form of D, reversibility, projection.  What symplecticity does keep shows\n"
+        "bit ('same'), p and pi stay zero and so does H; a method that has no lifted form is\n"
+        "shown in (q,v) alone ('only').  That a method is symplectic on the lift says nothing\n"
+        "there about D or the energy: every one-step method whose step is locally invertible,\n"
+        "explicit Euler included, is the restriction of a symplectic one.  D and E are kept, or\n"
+        "not, for other reasons: the form of D, whether D is imposed or projected on,\n"
+        "reversibility.  What symplecticity does keep shows\n"
         "off p = pi = 0, in H.  There pi/e pushes v off D; p and pi grow where the motion\n"
         "contracts or a coordinate is cyclic, and the error of H, linear in them, grows with\n"
-        "them: read it beside |p| and |pi|.  A projection has no canonical lift: it puts\n"
-        "p = pi = 0, and H with them.\n";
+        "them: read it beside |p| and |pi|.  A step that lands in D = 0, by projection or\n"
+        "by itself, has no lift of 4n+2 variables (restricted to D = 0 it lifts to T*{D = 0}, of\n"
+        "dimension 2(2n - m)); a projection puts p = pi = 0, and H with them.\n";
     static const char words[] =
         "\n"
         "Sizes.  exact: never changed.  rounding: what roundings of so many steps make.  larger:\n"

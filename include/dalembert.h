@@ -208,13 +208,13 @@ typedef enum dal_sums { DAL_SUMS_COMPENSATED, DAL_SUMS_PLAIN } dal_sums;
     X(int, space, "space", DAL_LIFTED, 0, 1, "lifted|physical",                                    \
       "4n+2 canonical variables, or (q,v), all that vakonomic systems have")                       \
     X(int, solver, "solver", DAL_SOLVER_AUTO, 0, 2, "auto|fixed-point|newton",                     \
-      "for implicit equations, always solved to rounding level")                                   \
+      "for implicit equations, solved to rounding level unless solve-to is given")                 \
     X(int, iterations, "iterations", 100, 1, 100000, NULL,                                         \
       "most iterations of an implicit equation")                                                   \
     X(int, extend_energy, "extend-energy", 0, 0, 1, "off|on",                                      \
       "continue F off D = 0 so that E is kept there too")                                          \
     X(double, tolerance, "tolerance", 0, 0.0, 1.0, NULL,                                           \
-      "error, absolute and relative, of the substeps that dop853 divides h into; 0: none")         \
+      "estimated error, absolute and relative, of the substeps of dop853; 0: no substeps")         \
     X(double, solve_to, "solve-to", 0, 0.0, 1.0, NULL,                                             \
       "relative change at which an implicit equation counts as solved; 0: rounding level")         \
     X(int, extra_sweeps, "extra-sweeps", 0, 0, 1000, NULL,                                         \

@@ -8,7 +8,8 @@
  * Iglesias, Martin de Diego, Discrete Contin. Dyn. Syst. Suppl. (2009) 220.  vh -> vh of the next
  * step is a reflection in D = 0: without forces, and with constant W, its kinetic energy is kept.
  * Order 2, symmetric in (q, v, lambda), keeps every D; explicit where forces depend on q alone and
- * D is linear. */
+ * D is linear.  An error of lambda changes its sign from step to step and grows where the motion
+ * contracts: on the straight motion of chaplygin-sleigh-offset the energy is lost. */
 #include <dalembert_kernel.h>
 
 typedef struct rattle {

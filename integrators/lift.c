@@ -2,9 +2,9 @@
  *
  *     x1 = Phi(x),   P1 = DPhi(x)^-T P                 x = (q, v), P = (p, pi), Phi = step of NAME
  *
- * is symplectic whatever Phi is, and on P = 0 has the bits of NAME.  The columns of DPhi come from
- * Phi itself: a Runge-Kutta step of  x' = f, dx' = Df dx  is (Phi, DPhi dx) exactly.  With columns
- * c_j = DPhi u_j - u_j of the unit vectors,
+ * is symplectic for every Phi with invertible DPhi, and on P = 0 has the bits of NAME.  The columns
+ * of DPhi come from Phi itself: a Runge-Kutta step of  x' = f, dx' = Df dx  is (Phi, DPhi dx)
+ * exactly.  With columns c_j = DPhi u_j - u_j of the unit vectors,
  *
  *     (1 + C)^T d = -C^T P,   P1 = P + d
  *

@@ -5,8 +5,10 @@
  *
  * the nearest v in the metric of the masses, by Newton's method with the frozen derivative
  * G = A B, to stagnation: c <- c + G^-1 D(q1, u - B c).  Hairer, Lubich, Wanner, Geometric
- * Numerical Integration (2006), IV.4.  Keeps the order on D = 0 and every D; loses symmetry, and
- * symplecticity on the lift, as a map onto D = 0 has a rank-deficient derivative. */
+ * Numerical Integration (2006), IV.4.  Keeps the order on D = 0 and every D; loses symmetry.  A
+ * step that lands in D = 0 has a rank-deficient derivative on (q,v), hence no cotangent lift of
+ * 4n+2 variables, and is not symplectic there; restricted to D = 0 it lifts to T*{D = 0}, of
+ * dimension 2(2n - m). */
 #include <dalembert_kernel.h>
 
 typedef struct projection {

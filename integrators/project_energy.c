@@ -13,7 +13,8 @@
  *         ( (A v)^T   v.E_v + h^2 E_q.N  )
  *
  * Hairer, Lubich, Wanner, Geometric Numerical Integration (2006), IV.4.  Keeps the order, every D,
- * and E where it is a constant of the motion; loses symmetry, and symplecticity on the lift. */
+ * and E where it is a constant of the motion; loses symmetry, and, as in project.c,
+ * symplecticity on the lift. */
 #include <dalembert_kernel.h>
 
 /* m + 1 unknowns and equations: those of D, then that of E. */

@@ -6,7 +6,7 @@
  *
  * solved for mu and v1 by Newton's method with the frozen derivative 2 A B, to stagnation.
  * E. Hairer, BIT 40 (2000) 726, here in the metric of the masses and for v alone.  Keeps symmetry,
- * order and every D; p = pi = pi_e = 0, and symplecticity on the lift is lost. */
+ * order and every D; p = pi = pi_e = 0, and symplecticity on the lift is lost (project.c). */
 #include <dalembert_kernel.h>
 
 typedef struct reflection {

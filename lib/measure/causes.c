@@ -119,6 +119,7 @@ void dal__attribute(const dal_explanation *e, dal_attribution *a)
 {
     for (int k = 0; k < DAL_CAUSES; k++) a->share[k] = a->margin[k] = NAN;
     a->order = NAN;
+    if (!isfinite(a->all.deviation)) return;
     a->all_by_rate = drifts(&a->all, (double)e->steps * e->spec.options.step);
     if (e->early > 0)
         share_early(e, a);

@@ -106,7 +106,9 @@ char *dal_cause_words(const dal_explanation *e, int observable, dal_cause cause,
     if (!e || !buffer || observable < 0 || observable >= e->observables) return NULL;
     const sheet s = {e, &e->of[observable], buffer, size};
     if (size > 0) buffer[0] = '\0';
-    if (!(s.a->all.deviation > 0.0))
+    if (!isfinite(s.a->all.deviation))
+        snprintf(buffer, size, "it is not finite");
+    else if (!(s.a->all.deviation > 0.0))
         snprintf(buffer, size, "it never changes");
     else if (e->early > 0 && !(s.a->early.deviation > 0.0) && cause != DAL_CAUSE_PROJECTION)
         snprintf(buffer, size, "it does not change in the first %lld steps", e->early);

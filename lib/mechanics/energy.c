@@ -3,8 +3,9 @@
  *     dE/dt = v.Q + sum_a h_a v.B_a - L_t                          (Lagrange-d'Alembert)
  *     dE/dt = v.Q - L_t + g.D_t  on D = 0                          (vakonomic)
  *
- * For D_a homogeneous of degree k in v and B = A Euler's identity v.A_a = k D_a makes E a weak
- * integral.  An identity that simplification does not show is tried at irregular points: a sum
+ * For B = A and D_a homogeneous of degree k in v Euler's identity v.A_a = k D_a makes E an integral
+ * on every level of D for k = 0, on D = 0 (a weak one) for other k; homogeneity is enough, but not
+ * necessary.  An identity that simplification does not show is tried at irregular points: a sum
  * counts as zero if it is within rounding of its terms at each.  Where the parts do not vanish one
  * by one, dE/dt as a whole may still do so on D = 0 (a force across all motions that D allows, a
  * reaction that is none on D = 0): that is tried at points brought there. */

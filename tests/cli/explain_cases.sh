@@ -7,7 +7,7 @@ prints "^chaplygin-sleigh, rk4, physical, h = 0.1: 300 steps, the first 200 in l
 prints "^D1: "
 prints "^    truncation    1 .*falls by 1[56].* = 2\^[34]\.[90].* when the step is halved$"
 prints "^exact: spin$"
-prints "^no run with equations solved less far: the method solves no equations$"
+prints "^not run: equations solved less far: the method solves no equations$"
 
 case_is "explain: CSV"
 try 0 explain chaplygin-sleigh --integrator gauss8 --space physical --step 0.1 --time 30 \
@@ -22,6 +22,20 @@ holds "rows" awk -F, '$1 == "D1" { n[$2]++ } END { exit !(n["run"] == 9 && n["ca
 try 0 explain chaplygin-sleigh --integrator gauss8 --space physical --step 0.1 --time 30 \
     --solve-to 1e-8 --long-steps 200 --output -
 holds "other rows on standard output" cmp -s out why.csv
+
+# Nothing is said of the causes of what is no number.
+case_is "explain: not finite"
+cat >nowhere.yaml <<'END'
+coordinates: [x]
+lagrangian: x'^2/2 - x^4
+start: {x': 1}
+invariants: {never: log(-1 - x^2), later: log(0.5 - x)}
+END
+try 0 explain nowhere.yaml --integrator rk4 --step 0.1 --time 10 --long-steps 50 --output nowhere.csv
+holds "shares" awk -F, '($1 == "never" || $1 == "later") && $2 == "cause" {
+    n++; if ($5 != "" || $NF != "it is not finite") exit 1 } END { exit n != 10 }' nowhere.csv
+try 0 explain nowhere.yaml --integrator rk4 --step 0.1 --time 10 --long-steps 50
+holds "a ratio that is none" sh -c '! grep -q nan out'
 
 case_is "explain: no long numbers"
 try 0 explain line.yaml --integrator rk4 --step 0.1 --time 10 --long-steps 0

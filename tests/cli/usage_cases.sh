@@ -47,6 +47,20 @@ for option in integrator step time samples space set start solver iterations ext
     prints "^  --$option "
 done
 
+# H is a step; other numbers have names of their own.
+case_is "values of options"
+while read -r command; do
+    try 0 "$command" --help
+    holds "$command: another value is called H" sh -c "! grep -E '^  --[a-z-]+ H( |\$)' out | grep -qv '^  --step H'"
+done <commands
+try 0 run --help
+prints '^  --step H '
+prints '^  --tolerance TOLERANCE( |$)'
+prints '^  --solve-to CHANGE( |$)'
+try 0 order --help
+holds "order: other defaults" sh -c 'tr -s " \n" " " <out | grep -q -- \
+    "--time T integrate from t = 0 to t = T (10) .* (physical) --solver"'
+
 case_is "unknown command"
 try 2 rnu
 says "^dalembert: unknown command 'rnu'; did you mean 'run'\?$"
