@@ -55,8 +55,12 @@ void check_start(check *c)
     if (c->m > 0 && start_defect(c, &defect))
         check_bound(c, "|D| at the start", defect, consistent);
     if (c->m > 0) start_rank(c);
-    check_item(c, c->near_count > 0 ? CHECK_OK : CHECK_FAIL, "points about the start",
-               "%d, of which %d could be moved onto D = 0", c->near_count, c->surface_count);
+    const int found = c->near_count > 0 ? CHECK_OK : CHECK_FAIL;
+    if (c->m > 0)
+        check_item(c, found, "points about the start", "%d, of which %d could be moved onto D = 0",
+                   c->near_count, c->surface_count);
+    else
+        check_item(c, found, "points about the start", "%d", c->near_count);
 }
 
 /* ---- what D is ---- */

@@ -88,3 +88,8 @@ says "more than one SYSTEM: 'vertical-disk'"
 try 2 check knife-egde
 says "did you mean 'knife-edge'\?"
 empty
+
+case_is "no constraint, no word of D = 0"
+try 0 check damped-oscillator
+prints '^  points about the start +ok +8$'
+holds "D = 0" test "$(grep -c 'moved onto' out)" -eq 0
