@@ -77,12 +77,12 @@ int store_save(const cli_store *store, const cli_mark *mark, const dal_run *run,
     place = append(place, statistics, (size_t)count * WORDS);
     const uint64_t sum = file_hash(FILE_HASH_START, text, words * WORD);
     append(place, &sum, 1);
-    cli_hold_files();
+    cli_hold_exit();
     int status = file_write(store->fresh, text, (words + 1) * WORD, store->settle);
     if (status == CLI_DONE) status = keep_the_one_before(store);
     if (status == CLI_DONE) status = file_rename(store->fresh, store->checkpoint, store->settle);
     if (status != CLI_DONE) unlink(store->fresh);
-    cli_release_files();
+    cli_release_exit();
     free(text);
     return status;
 }

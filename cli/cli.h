@@ -89,7 +89,8 @@ int cli_unknown(const char *what, const char *name, const char *const *names, in
 /* "dalembert: PLACE:line:column: message"; place may be NULL and line 0.  Returns exit_status, or
  * CLI_IO where memory ran out. */
 int cli_error(int exit_status, const char *place, const dal_error *error);
-/* "dalembert: cannot VERB 'PATH': strerror(errno)"; returns CLI_IO. */
+/* "dalembert: cannot VERB 'PATH': strerror(errno)"; returns CLI_IO.  Where a signal ended the wait
+ * it prints nothing and returns CLI_SIGNAL. */
 int cli_io(const char *verb, const char *path);
 
 /* A line of progress that replaces the last one; nothing unless stderr is a terminal, and not more
@@ -104,9 +105,11 @@ int cli_width(void);
 /* Without memory the program ends: a message, status 4; cli_io does so where that is the reason. */
 _Noreturn void cli_out_of_memory(void);
 /* Between these two calls a lack of memory in another thread does not end the program: files that
- * belong together are written as a whole. */
-void cli_hold_files(void);
-void cli_release_files(void);
+ * belong together are written as a whole, a compiler that was started ends.  cli_is_ending tells
+ * whether another thread waits to end it. */
+void cli_hold_exit(void);
+void cli_release_exit(void);
+int cli_is_ending(void);
 /* Whether a function of the library returned DAL_OK; the program ends where it was DAL_MEMORY. */
 int cli_is_ok(dal_status status);
 
@@ -226,8 +229,9 @@ char *cli_join(const char *directory, const char *name);
 
 /* ---- signals ------------------------------------------------------------------------------- */
 
-/* From the first call on SIGINT and SIGTERM only set a flag, a second one kills, and a file that
- * may not grow is a failing write. */
+/* From the first call on SIGINT and SIGTERM set a flag, and a second one kills.  A read or a write
+ * that waits for another process, as at a pipe, fails with EINTR from a second after the first one
+ * on. */
 void cli_catch_signals(void);
 int cli_interrupted(void);
 

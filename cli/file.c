@@ -86,11 +86,11 @@ int file_rename(const char *from, const char *to, int settle)
 int file_swap(const char *path, const void *bytes, size_t length, int settle)
 {
     char *fresh = cli_format("%s.new", path);
-    cli_hold_files();
+    cli_hold_exit();
     int status = file_write(fresh, bytes, length, settle);
     if (status == CLI_DONE) status = file_rename(fresh, path, settle);
     if (status != CLI_DONE) unlink(fresh);
-    cli_release_files();
+    cli_release_exit();
     free(fresh);
     return status;
 }

@@ -4,9 +4,13 @@
 #include "file.h"
 
 #include <errno.h>
+#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/wait.h>
+#ifdef __linux__
+#include <sys/prctl.h>
+#endif
 #include <unistd.h>
 
 enum { NOT_FOUND = 127 };
@@ -61,14 +65,25 @@ FILE *gnuplot_open(const char *directory, const char *name, const char *format, 
     return script;
 }
 
+/* A child ends with its parent, where the system can see to that. */
+static void end_with(pid_t parent)
+{
+#ifdef __linux__
+    prctl(PR_SET_PDEATHSIG, SIGTERM);
+#endif
+    if (getppid() != parent) _exit(1);
+}
+
 static int run(const char *directory, const char *path, int *missing)
 {
     const char *slash = strrchr(path, '/'), *script = slash ? slash + 1 : path;
     int state;
     fflush(NULL);
+    const pid_t parent = getpid();
     pid_t child = fork();
     if (child < 0) return cli_io("run", "gnuplot");
     if (child == 0) {
+        end_with(parent);
         if (chdir(directory) == 0) execlp("gnuplot", "gnuplot", script, (char *)NULL);
         _exit(errno == ENOENT ? NOT_FOUND : 1);
     }

@@ -133,26 +133,8 @@ void json_given_member(FILE *out, const char *before, const char *name, const ch
 
 /* ---- reading ------------------------------------------------------------------------------- */
 
-/* libyaml takes time that grows like the square of the depth, so that is limited beforehand. */
-static int is_too_deep(const char *bytes, size_t length)
-{
-    int depth = 0, in_text = 0;
-    for (size_t i = 0; i < length && depth <= JSON_DEPTH; i++) {
-        const char c = bytes[i];
-        if (in_text && c == '\\')
-            i++;
-        else if (c == '"')
-            in_text = !in_text;
-        else if (!in_text)
-            depth += (c == '[' || c == '{') - (c == ']' || c == '}');
-    }
-    return depth > JSON_DEPTH;
-}
-
 int json_parse(study_text *text, const char *place, const char *bytes, size_t length)
 {
-    if (is_too_deep(bytes, length))
-        return cli_fail(CLI_USAGE, "%s: deeper than %d levels", place, JSON_DEPTH);
     const int status = study_text_parse(text, place, bytes, length);
     if (status != CLI_DONE) return status;
     const yaml_node_t *root = yaml_document_get_root_node(&text->document);

@@ -21,9 +21,6 @@ void json_given_member(FILE *out, const char *before, const char *name, const ch
 
 /* ---- reading ------------------------------------------------------------------------------- */
 
-/* Objects and arrays within each other; more than any file of the program has. */
-enum { JSON_DEPTH = 32 };
-
 /* Parses one object, with libyaml: all that is written above is YAML too.  Returns CLI_DONE, or
  * prints and returns CLI_USAGE or CLI_IO; the document is to be deleted either way. */
 int json_parse(study_text *text, const char *place, const char *bytes, size_t length);

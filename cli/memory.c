@@ -10,30 +10,36 @@
 #include <errno.h>
 #include <pthread.h>
 #include <stdarg.h>
+#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 
 /* Threads that must not be cut off hold it to read; the one that ends the program, to write. */
-static pthread_rwlock_t files = PTHREAD_RWLOCK_INITIALIZER;
-static _Thread_local int holds_files;
+static pthread_rwlock_t exits = PTHREAD_RWLOCK_INITIALIZER;
+static _Thread_local int holds_exit;
 
-void cli_hold_files(void)
+void cli_hold_exit(void)
 {
-    pthread_rwlock_rdlock(&files);
-    holds_files = 1;
+    pthread_rwlock_rdlock(&exits);
+    holds_exit = 1;
 }
 
-void cli_release_files(void)
+void cli_release_exit(void)
 {
-    holds_files = 0;
-    pthread_rwlock_unlock(&files);
+    holds_exit = 0;
+    pthread_rwlock_unlock(&exits);
 }
+
+static atomic_int ending;
+
+int cli_is_ending(void) { return ending; }
 
 /* Another thread that runs out of memory waits here while the first one ends the program. */
 void cli_out_of_memory(void)
 {
-    if (holds_files) cli_release_files();
-    pthread_rwlock_wrlock(&files);
+    ending = 1;
+    if (holds_exit) cli_release_exit();
+    pthread_rwlock_wrlock(&exits);
     exit(cli_fail(CLI_IO, "out of memory"));
 }
 

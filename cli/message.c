@@ -122,6 +122,7 @@ int cli_error(int exit_status, const char *place, const dal_error *error)
 int cli_io(const char *verb, const char *path)
 {
     if (errno == ENOMEM) cli_out_of_memory();
+    if (errno == EINTR && cli_interrupted()) return CLI_SIGNAL;
     return cli_fail(CLI_IO, "cannot %s '%s': %s", verb, path, strerror(errno));
 }
 

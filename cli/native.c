@@ -56,19 +56,29 @@ static void tell(atomic_flag *told, const char *what, const char *why)
     if (!atomic_flag_test_and_set(told)) cli_fail(CLI_DONE, "%s are interpreted: %s", what, why);
 }
 
+/* The compiler ends with the program, whatever ends that. */
+static int stops(void *user)
+{
+    (void)user;
+    return cli_interrupted() || cli_is_ending();
+}
+
 typedef dal_status compilation(dal_run *run, const dal_native_options *options, dal_error *error);
 
 static void compile(dal_run *run, compilation *of, atomic_flag *told, const char *what)
 {
     dal_error error = {0};
     char *directory = cache_directory();
-    dal_status status = DAL_OK;
-    if (!directory)
+    if (!directory) {
         tell(told, what, "no directory to keep compiled ones in");
-    else
-        status = of(run, &(dal_native_options){.cache = directory}, &error);
-    if (!cli_is_ok(status)) tell(told, what, error.message);
+        return;
+    }
+    cli_hold_exit();
+    const dal_status status =
+        of(run, &(dal_native_options){.cache = directory, .stop = stops}, &error);
+    cli_release_exit();
     free(directory);
+    if (!cli_is_ok(status) && status != DAL_INTERRUPTED) tell(told, what, error.message);
 }
 
 void native_use(dal_run *run, const dal_method *method, double steps, cli_native native)

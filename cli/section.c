@@ -224,8 +224,8 @@ static int go(section *s, const char *path)
                                    .poll = poll};
     int status = table_create(&s->table, path, s->names, s->columns);
     if (status == CLI_DONE) {
-        native_use(s->job.run, &s->job.method, s->job.time / s->job.options.step, s->w->native);
         cli_catch_signals();
+        native_use(s->job.run, &s->job.method, s->job.time / s->job.options.step, s->w->native);
         const dal_status crossed =
             dal_run_crossings(s->job.run, s->job.time, &poincare, &found, &error);
         cli_progress_end();

@@ -4,12 +4,13 @@
 #include <signal.h>
 #include <stdatomic.h>
 #include <time.h>
+#include <unistd.h>
 
 /* Atomic because the threads of a study ask for it, too. */
 static atomic_int caught;
 static atomic_llong first; /* when, in ms */
 
-enum { ONE_REQUEST = 500 /* ms */ };
+enum { ONE_REQUEST = 500 /* ms */, GRACE = 1 /* s */ };
 
 /* timeout(1) and other launchers signal a program and then its group: that is one request.  A later
  * signal finds the default action: a program that hangs can still be killed. */
@@ -25,6 +26,14 @@ static void note(int number)
         raise(number);
     }
     caught = 1;
+    alarm(GRACE);
+}
+
+/* Not to restart what waits for another process; again and again, since there may be several. */
+static void end_wait(int number)
+{
+    (void)number;
+    alarm(GRACE);
 }
 
 void cli_catch_signals(void)
@@ -35,6 +44,9 @@ void cli_catch_signals(void)
         sigemptyset(&action.sa_mask);
         sigaction(numbers[i], &action, NULL);
     }
+    struct sigaction action = {.sa_handler = end_wait};
+    sigemptyset(&action.sa_mask);
+    sigaction(SIGALRM, &action, NULL);
 }
 
 int cli_interrupted(void) { return caught; }

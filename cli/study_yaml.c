@@ -35,6 +35,29 @@ static int parser_fail(const char *place, const yaml_parser_t *parser)
                     parser->problem ? parser->problem : "not YAML");
 }
 
+/* libyaml takes a time that grows like the square of the depth, so a scan comes first that ends
+ * where that is too great.  What is no YAML is left to the parser itself. */
+static int check_depth(const char *place, const char *bytes, size_t length)
+{
+    yaml_parser_t parser;
+    yaml_event_t event;
+    int depth = 0, more = 1, status = CLI_DONE;
+    if (!yaml_parser_initialize(&parser)) cli_out_of_memory();
+    yaml_parser_set_input_string(&parser, (const unsigned char *)bytes, length);
+    while (more && yaml_parser_parse(&parser, &event)) {
+        const yaml_event_type_t type = event.type;
+        depth += type == YAML_SEQUENCE_START_EVENT || type == YAML_MAPPING_START_EVENT;
+        depth -= type == YAML_SEQUENCE_END_EVENT || type == YAML_MAPPING_END_EVENT;
+        if (depth > STUDY_DEPTH)
+            status = cli_fail(CLI_USAGE, "%s:%zu:%zu: deeper than %d levels", place,
+                              event.start_mark.line + 1, event.start_mark.column + 1, STUDY_DEPTH);
+        more = status == CLI_DONE && type != YAML_STREAM_END_EVENT;
+        yaml_event_delete(&event);
+    }
+    yaml_parser_delete(&parser);
+    return status;
+}
+
 static int only_document(const char *place, yaml_parser_t *parser)
 {
     yaml_document_t next;
@@ -53,6 +76,7 @@ int study_text_parse(study_text *text, const char *place, const char *bytes, siz
 {
     yaml_parser_t parser;
     text->place = place;
+    if (check_depth(place, bytes, length) != CLI_DONE) return CLI_USAGE;
     if (!yaml_parser_initialize(&parser)) cli_out_of_memory();
     yaml_parser_set_input_string(&parser, (const unsigned char *)bytes, length);
     if (!yaml_parser_load(&parser, &text->document)) {

@@ -17,6 +17,9 @@ typedef struct study_key {
     int (*take)(void *user, const study_text *text, yaml_node_t *value);
 } study_key;
 
+/* Lists and mappings within each other; more than any file has that the program reads. */
+enum { STUDY_DEPTH = 32 };
+
 /* Parses a text of one document.  All functions return CLI_DONE or print and return CLI_USAGE. */
 int study_text_parse(study_text *text, const char *place, const char *bytes, size_t length);
 /* "PLACE:line:column: message" about a node; returns CLI_USAGE. */

@@ -25,6 +25,8 @@ typedef struct dal_native_options {
     const char *cache;    /* a directory; made if it is missing; must be of this user alone */
     const char *compiler; /* found along PATH, or a path; NULL: cc */
     int patience;         /* seconds after which a compiler is ended; 0: 60 */
+    int (*stop)(void *);  /* called often while a compiler runs: not 0 ends it; NULL: never */
+    void *user;           /* the argument of stop */
 } dal_native_options;
 
 /* Lets a run step by compiled code from now on: its steps are generated, compiled for this machine
@@ -32,7 +34,7 @@ typedef struct dal_native_options {
  * the run just goes on as before.  Starts a process and writes files, which nothing else here does;
  * frees its code with the run, which must then be freed even when it was placed by dal_run_init.
  * [alloc]  Errors: DAL_UNSUPPORTED (no compiler, it failed or hung; or as dal_generate), DAL_IO
- * (cache), DAL_ARGUMENT (no cache named), DAL_TOO_LARGE, DAL_MEMORY. */
+ * (cache), DAL_ARGUMENT (no cache named), DAL_TOO_LARGE, DAL_MEMORY, DAL_INTERRUPTED (by stop). */
 dal_status dal_run_native(dal_run *run, const dal_native_options *options, dal_error *error);
 int dal_run_is_native(const dal_run *run);
 

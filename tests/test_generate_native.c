@@ -341,6 +341,30 @@ static void test_compiler_hangs(void)
     unlink("fake");
 }
 
+static int stop_after(void *user)
+{
+    int *calls = user;
+    return (*calls)-- <= 0;
+}
+
+/* The caller ends it, with what it started. */
+static void test_compiler_stopped(void)
+{
+    int calls = 20;
+    const dal_native_options fake = {
+        .cache = "cache", .compiler = "./fake", .stop = stop_after, .user = &calls};
+    const struct timespec wait = {1, 0};
+    const time_t begin = time(NULL);
+    const int kept = folder_files("cache");
+    fake_compiler("(sleep 0.8; : >survived) &\nsleep 100 & wait");
+    refused(&fake, DAL_INTERRUPTED, "the compiler './fake' was stopped");
+    CU_ASSERT(difftime(time(NULL), begin) < 30.0);
+    nanosleep(&wait, NULL);
+    CU_ASSERT_NOT_EQUAL(access("survived", F_OK), 0);
+    CU_ASSERT_EQUAL(folder_files("cache"), kept);
+    unlink("fake");
+}
+
 /* An object without the function, as another version might have left it, is made anew once. */
 static void test_foreign_object(void)
 {
@@ -483,6 +507,7 @@ void suite_generate_native(void)
     CU_add_test(suite, "directories with odd names", test_cache_names);
     CU_add_test(suite, "compilers that fail", test_compilers_refused);
     CU_add_test(suite, "a compiler that hangs", test_compiler_hangs);
+    CU_add_test(suite, "a compiler that is stopped", test_compiler_stopped);
     CU_add_test(suite, "an object of somebody else's", test_foreign_object);
     if (system("cc --version >/dev/null 2>&1") != 0) return;
     CU_add_test(suite, "an object that was changed", test_changed_object);

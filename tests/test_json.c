@@ -270,8 +270,8 @@ static void test_depth(void)
     static const char in_a_text[] =
         "{\"a\": \"[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[\\\"[[[[[[[[[[[\"}";
     const int kept = hide_messages();
-    CU_ASSERT(parse_nested(JSON_DEPTH - 1, 1) == CLI_DONE);
-    CU_ASSERT(parse_nested(JSON_DEPTH, 1) == CLI_USAGE);
+    CU_ASSERT(parse_nested(STUDY_DEPTH - 1, 1) == CLI_DONE);
+    CU_ASSERT(parse_nested(STUDY_DEPTH, 1) == CLI_USAGE);
     const double begun = cli_seconds();
     CU_ASSERT(parse_nested(100000, 1) == CLI_USAGE);
     CU_ASSERT(parse_nested(100000, 0) == CLI_USAGE);

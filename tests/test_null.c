@@ -348,7 +348,7 @@ static void null_dal_generate(void)
     CU_ASSERT_PTR_NULL(text);
 }
 
-static const dal_native_options nowhere = {NULL, NULL, 0};
+static const dal_native_options nowhere = {.cache = NULL};
 
 static void null_dal_run_native(void)
 {

@@ -36,6 +36,8 @@ enum { PATH_SIZE = 1024, PATIENCE = 60 /* seconds */ };
 typedef struct command {
     char *word[32]; /* changed by nobody, though posix_spawn leaves that open */
     int words, patience;
+    int (*stop)(void *user);
+    void *user;
 } command;
 
 static void add_word(command *c, const char *word) { c->word[c->words++] = (char *)word; }
@@ -48,7 +50,9 @@ static void add_words(command *c, const char *const *words)
 /* All but the files. */
 static command begin_command(const dal_native_options *options)
 {
-    command c = {.patience = options->patience > 0 ? options->patience : PATIENCE};
+    command c = {.patience = options->patience > 0 ? options->patience : PATIENCE,
+                 .stop = options->stop,
+                 .user = options->user};
     add_word(&c, options->compiler ? options->compiler : "cc");
     add_words(&c, usual);
     add_words(&c, machine[dal__machine_best()]);
@@ -81,10 +85,11 @@ static dal_status make_private(const char *directory, dal_error *error)
 
 /* ---- whole files ---- */
 
+/* Not to wait for the writer of a FIFO, which is no regular file. */
 static char *read_all(const char *path, size_t *length)
 {
     struct stat s;
-    const int file = open(path, O_RDONLY | O_NOFOLLOW | O_CLOEXEC);
+    const int file = open(path, O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
     char *bytes = NULL;
     *length = 0;
     if (file < 0) return NULL;
@@ -123,7 +128,7 @@ static dal_status write_new(const char *path, const char *bytes, size_t length, 
 /* What became of a process. */
 typedef struct outcome {
     int status; /* as it ended with, or -1 */
-    bool hung;
+    bool hung, stopped;
 } outcome;
 
 /* Seconds since some time. */
@@ -134,18 +139,22 @@ static double now(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* Waits for a process; past its time it is ended, with all that it started. */
-static outcome wait_for(pid_t process, int patience)
+/* Waits for a process; past its time, or where the caller stops, it is ended with all that it
+ * started. */
+static outcome wait_for(const command *c, pid_t process)
 {
     const struct timespec pause = {0, 1000000};
-    const double last = now() + patience;
-    outcome out = {-1, false};
+    const double last = now() + c->patience;
+    outcome out = {.status = -1};
     for (;;) {
         int status;
-        const pid_t ended = waitpid(process, &status, out.hung ? 0 : WNOHANG);
+        const pid_t ended = waitpid(process, &status, out.hung || out.stopped ? 0 : WNOHANG);
         if (ended == process && WIFEXITED(status)) out.status = WEXITSTATUS(status);
         if (ended == process || (ended < 0 && errno != EINTR)) return out;
-        if (now() >= last) out.hung = kill(-process, SIGKILL) == 0;
+        if (c->stop && c->stop(c->user))
+            out.stopped = kill(-process, SIGKILL) == 0;
+        else if (now() >= last)
+            out.hung = kill(-process, SIGKILL) == 0;
         nanosleep(&pause, NULL);
     }
 }
@@ -177,7 +186,9 @@ static dal_status compile(command c, const char *source, const char *object, dal
     if (refused)
         return dal__error(error, DAL_UNSUPPORTED, 0, 0, "no compiler '%.200s': %s", name,
                           strerror(refused));
-    const outcome out = wait_for(process, c.patience);
+    const outcome out = wait_for(&c, process);
+    if (out.stopped)
+        return dal__error(error, DAL_INTERRUPTED, 0, 0, "the compiler '%.200s' was stopped", name);
     if (out.status == 0) return DAL_OK;
     if (out.hung)
         return dal__error(error, DAL_UNSUPPORTED, 0, 0,
@@ -225,6 +236,7 @@ static dal_status make_object(const command *c, const char *text, const char *pa
     const void *mine = source; /* differs from thread to thread, as the process's number does not */
     snprintf(source, sizeof source, "%s.%ld.%p.c", path, (long)getpid(), mine);
     snprintf(object, sizeof object, "%s.%ld.%p.so", path, (long)getpid(), mine);
+    unlink(object);
     dal_status status = write_new(source, text, strlen(text), error);
     if (status == DAL_OK) status = compile(*c, source, object, error);
     if (status == DAL_OK) status = seal(object, error);
@@ -248,6 +260,14 @@ static dal_status name_object(const command *c, const char *directory, const cha
     return dal__error(error, DAL_ARGUMENT, 0, 0, "the path '%.80s...' is too long", directory);
 }
 
+/* A rename replaces all but a directory. */
+static dal_status check_place(const char *path, dal_error *error)
+{
+    struct stat s;
+    if (lstat(path, &s) != 0 || !S_ISDIR(s.st_mode)) return DAL_OK;
+    return dal__error(error, DAL_IO, 0, 0, "'%.200s' is in the way: it is a directory", path);
+}
+
 dal_status dal__cache_object(const dal_native_options *options, const char *text, char *path,
                              size_t size, dal_error *error)
 {
@@ -257,6 +277,7 @@ dal_status dal__cache_object(const dal_native_options *options, const char *text
     DAL_TRY(
         name_object(&c, options->cache, text, path, size < PATH_SIZE ? size : PATH_SIZE, error));
     DAL_TRY(make_private(options->cache, error));
+    DAL_TRY(check_place(path, error));
     return is_whole(path) ? DAL_OK : make_object(&c, text, path, error);
 }
 

@@ -68,6 +68,25 @@ refuse 'bad\.yaml:[0-9]+:[0-9]+: ' bad.yaml $run
 : >bad.yaml
 refuse 'bad\.yaml' bad.yaml $run
 
+case_is "nesting without end"
+for open in '[' '{a: ' '- ' '[\n'; do
+    awk -v open="$open" 'BEGIN { for (i = 0; i < 100000; i++) printf open }' \
+        >bad.yaml
+    begun=$(date +%s)
+    refuse 'bad\.yaml:[0-9]+:[0-9]+: ' bad.yaml $run
+    try 2 study bad.yaml --output there
+    says '^dalembert: bad\.yaml:[0-9]+:[0-9]+: deeper than 32 levels$'
+    mkdir -p deep
+    cp bad.yaml deep/manifest.json
+    try 2 resume deep
+    says '^dalembert: deep/manifest\.json:[0-9]+:[0-9]+: deeper than 32 levels$'
+    cp bad.yaml deep/study.yaml
+    try 2 resume deep
+    took=$(($(date +%s) - begun))
+    holds "$took seconds" [ $took -le 8 ]
+    rm -r deep
+done
+
 case_is "unknown and duplicate keys"
 system 'coordinates: [x]' "lagrangan: x'^2/2"
 refuse "bad\.yaml:2:1: .*'lagrangan'.*'lagrangian'" bad.yaml $run

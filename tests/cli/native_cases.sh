@@ -37,6 +37,22 @@ if there cc; then
         done
     done
 
+    case_is "native: what is no object in the place of one"
+    for object in $objects; do
+        rm "$object"
+        mkfifo "$object"
+        try 0 run $motion --native on --output native.csv
+        silent
+        holds "other bytes" cmp -s tape.csv native.csv
+        holds "no object instead" test -f "$object"
+        rm "$object"
+        mkdir "$object"
+        try 0 run $motion --native on --output native.csv
+        says "are interpreted: '.*/cache/dalembert/.*' is in the way: it is a directory"
+        holds "other bytes" cmp -s tape.csv native.csv
+        rmdir "$object"
+    done
+
     case_is "native: two processes at once"
     rm -rf cache
     "$program" run $motion --native on --output one.csv 2>one.err &
