@@ -6,11 +6,11 @@
 #include <string.h>
 
 static const char notes[] =
-    "DIR is what 'dalembert run --output DIR' or 'dalembert study --output DIR' made.  The rows "
-    "will\n"
-    "be, byte for byte, those of a run that was never interrupted.  A finished run is left alone.\n"
-    "The unfinished runs of a study are gone on with, and the tables made; of shards, those that\n"
-    "were begun in DIR.  --threads is for studies, --summary and --progress are for runs.\n";
+    "DIR is what 'dalembert run --output DIR' or 'dalembert study --output DIR' made.  The rows\n"
+    "will be, byte for byte, those of a run of the same version that was never interrupted.  A\n"
+    "finished run is left alone.  The unfinished runs of a study are gone on with, and the tables\n"
+    "made; of shards, those that were begun in DIR.  --threads is for studies, --summary and\n"
+    "--progress are for runs.\n";
 
 /* Those of the options of a run that may be chosen anew, and one of a study behind. */
 enum {

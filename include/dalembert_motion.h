@@ -21,8 +21,8 @@ void dal_statistics_mean(const dal_statistics *statistics, dal_average *average)
  * Gram-Schmidt makes them orthonormal again,
  *     J V = V' R,    exponent i = mean of log(R_ii)/h,    mean of log|det J|/h = their sum,
  * and the divergence of the motion, the trace of F_(v,g), is followed beside them.  Its long-time
- * mean is that of every density of the phase space, on D = 0 too: two densities differ by the total
- * derivative of their log ratio, and D, a first integral on every level, adds none. */
+ * mean is that of every density of the phase space, and on D = 0, where the logarithms of densities
+ * and of |grad D| grow slower than t: only their total derivatives come in. */
 typedef struct dal_spectrum dal_spectrum;
 
 /* count vectors, 0: as many as the step map has directions, that is 2n + multipliers, less m where
