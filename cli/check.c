@@ -3,7 +3,6 @@
  * Nothing a system says of itself is taken on trust: flags, derivatives, invariants and exact
  * solutions are compared with numbers at the start and at random points about it. */
 #include "check.h"
-#include "job.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -26,6 +25,7 @@ void check_item(check *c, check_result result, const char *what, const char *for
     va_list list;
     c->items++;
     c->failed += result == CHECK_FAIL;
+    c->unmeasured += result == CHECK_UNMEASURED;
     printf("  %-*s  %-*s  ", NAME_COLUMNS, what, RESULT_COLUMNS, word[result]);
     va_start(list, format);
     vprintf(format, list);
@@ -37,6 +37,16 @@ void check_bound(check *c, const char *what, double value, double limit)
 {
     check_result result = value <= limit ? CHECK_OK : CHECK_FAIL;
     check_item(c, result, what, "%.2g  (at most %.0e)", value, limit);
+}
+
+void check_unmeasured(check *c, const char *what, const char *format, ...)
+{
+    char reason[256];
+    va_list list;
+    va_start(list, format);
+    vsnprintf(reason, sizeof reason, format, list);
+    va_end(list);
+    check_item(c, CHECK_UNMEASURED, what, "%s", reason);
 }
 
 void check_note(const char *format, ...)
@@ -98,17 +108,55 @@ static void move_points(check *c, double *memory)
     }
 }
 
-double check_rate(check *c, dal_callback *callback, int values, int i, const dal_point *points,
-                  int count)
+check_rate check_measure_rate(check *c, dal_callback *callback, int values, int i,
+                              const dal_point *points, int count)
 {
-    double most = -1.0;
+    check_rate rate = {.points = count};
     for (int k = 0; k < count; k++) {
-        if (!cli_is_ok(dal_measure_rate(c->probe, callback, values, &points[k], c->values)))
+        const dal_status status =
+            dal_measure_rate(c->probe, callback, values, &points[k], c->values);
+        if (!cli_is_ok(status)) {
+            rate.status = status;
             continue;
+        }
+        rate.measured++;
         for (int j = i < 0 ? 0 : i; j < (i < 0 ? values : i + 1); j++)
-            most = fmax(most, fabs(c->values[j]));
+            rate.most = fmax(rate.most, fabs(c->values[j]));
     }
-    return most;
+    return rate;
+}
+
+static int is_unmeasured(check *c, const char *what, const check_rate *rate)
+{
+    if (rate->measured > 0) return 0;
+    if (rate->points == 0)
+        check_unmeasured(c, what, "there is no point for it");
+    else
+        check_unmeasured(c, what, "at none of %d points: %s", rate->points,
+                         dal_status_text(rate->status));
+    return 1;
+}
+
+/* Said where it is not every point. */
+static const char *extent(const check_rate *rate, char *text, size_t size)
+{
+    snprintf(text, size, ", at %d of %d points", rate->measured, rate->points);
+    return rate->measured < rate->points ? text : "";
+}
+
+void check_rate_bound(check *c, const char *what, const check_rate *rate, double limit)
+{
+    char text[64];
+    if (is_unmeasured(c, what, rate)) return;
+    check_item(c, rate->most <= limit ? CHECK_OK : CHECK_FAIL, what, "%.2g  (at most %.0e)%s",
+               rate->most, limit, extent(rate, text, sizeof text));
+}
+
+void check_rate_info(check *c, const char *what, const check_rate *rate)
+{
+    char text[64];
+    if (is_unmeasured(c, what, rate)) return;
+    check_item(c, CHECK_INFO, what, "%.2g%s", rate->most, extent(rate, text, sizeof text));
 }
 
 /* ---- the command ---- */
@@ -139,9 +187,11 @@ static int report(check *c)
         sections[k].examine(c);
         if (c->items == items) check_item(c, CHECK_INFO, "-", "does not apply");
     }
-    printf("\n%d items, %d failed\n", c->items, c->failed);
+    printf("\n%d items, %d failed", c->items, c->failed);
+    if (c->unmeasured > 0) printf(", %d not measured", c->unmeasured);
+    putchar('\n');
     int written = cli_close(stdout, "standard output");
-    return written != CLI_DONE ? written : c->failed > 0 ? CLI_CHECK : CLI_DONE;
+    return written != CLI_DONE ? written : c->failed + c->unmeasured > 0 ? CLI_CHECK : CLI_DONE;
 }
 
 /* The greatest number of values a callback leaves, and a few more for pairs of them. */
@@ -172,9 +222,10 @@ static int prepare(check *c, const dal_setting *start, int start_count)
 
 static int examine(cli_job *job)
 {
-    check c = {.parameters = job->set.item, .parameter_count = job->set.count};
+    check c = {.job = job, .parameters = job->set.item, .parameter_count = job->set.count};
     int status = cli_load(job->system, &job->model, &c.system);
     if (status != CLI_DONE) return status;
+    job->made = c.system;
     c.n = c.system->n, c.m = c.system->m;
     c.nw = c.n + c.system->multipliers, c.size = c.n + c.nw;
     status = prepare(&c, job->start.item, job->start.count);
@@ -198,9 +249,12 @@ static const int job_option[] = {
 
 static const char notes[] =
     "SYSTEM is a built-in name or the path of a system file.  One line per item: 'ok' or 'FAIL'\n"
-    "where something can be right or wrong, 'info' where it is merely so.  Everything is found\n"
-    "from numbers at the start and at points about it, never from what the system says of itself;\n"
-    "differences are central, of order 8.  The exit status is 1 when an item failed.\n";
+    "where something can be right or wrong, 'not measured' where it could not be found out, "
+    "'info'\n"
+    "where it is merely so.  Everything is found from numbers at the start and at points about it, "
+    "never from what the system says of itself;\n"
+    "differences are central, of order 8.  The exit status is 1 when an item failed or was\n"
+    "not measured.\n";
 
 int command_check(int argc, char **argv)
 {

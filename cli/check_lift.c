@@ -17,8 +17,14 @@ void check_algebra(check *c)
     dal_dirac d;
     int n = c->n;
     const dal_point *at = c->surface_count > 0 ? &c->surface[0] : &c->origin;
-    if (!c->regular || c->start[c->size] == 0.0 || isinf(c->start[c->size])) return;
-    if (!cli_is_ok(dal_measure_dirac(c->probe, at, c->start[c->size], &d))) return;
+    const double e = c->start[c->size];
+    if (e == 0.0 || isinf(e)) return;
+    const dal_status status = dal_measure_dirac(c->probe, at, e, &d);
+    if (status == DAL_UNSUPPORTED) return;
+    if (!cli_is_ok(status)) {
+        check_unmeasured(c, "brackets", "%s", dal_status_text(status));
+        return;
+    }
     check_item(c, d.second_class == 2 * n ? CHECK_OK : CHECK_FAIL, "second-class constraints",
                "rank %d of %d brackets' matrix, 2n = %d", d.second_class, d.constraints, 2 * n);
     check_item(c, d.first_class == 2 * n + 1 ? CHECK_OK : CHECK_FAIL, "first-class constraints",
@@ -105,6 +111,9 @@ static void check_second_order(check *c)
         w.h *= 0.25;
     }
     free(w.row);
+    if (!done)
+        check_unmeasured(c, "action (nh10)",
+                         "gauss8 makes no trajectory, or F is not finite on it");
     if (!done) return;
     check_item(c, computed < 1e-9 * perturbed ? CHECK_OK : CHECK_FAIL, "action (nh10)",
                "%.2g on a trajectory, %.2g on a perturbed one", computed, perturbed);
@@ -137,11 +146,16 @@ static int stationarity(check *c, const char *method, double *defect)
 void check_action(check *c)
 {
     double midpoint, other;
-    double e = c->start[c->size];
-    if (!c->regular || c->system->multipliers > 0 || e == 0.0 || isinf(e)) return;
+    const double e = c->start[c->size];
+    if (c->system->multipliers > 0 || e == 0.0 || isinf(e)) return;
     check_second_order(c);
-    if (!stationarity(c, "implicit-midpoint", &midpoint)) return;
-    check_bound(c, "d action (nh23), implicit-midpoint", midpoint, 1e-8);
+    if (c->system->call.adjoint == NULL) return;
+    if (stationarity(c, "implicit-midpoint", &midpoint))
+        check_bound(c, "d action (nh23), implicit-midpoint", midpoint, 1e-8);
+    else
+        check_unmeasured(c, "d action (nh23), implicit-midpoint", "there is no trajectory");
     if (stationarity(c, "rk4", &other))
         check_item(c, CHECK_INFO, "d action (nh23), rk4", "%.2g", other);
+    else
+        check_unmeasured(c, "d action (nh23), rk4", "there is no trajectory");
 }

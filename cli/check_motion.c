@@ -16,21 +16,22 @@ typedef enum conservation { NOT, WEAK, EXACT } conservation;
 static const char *const conservation_text[] = {
     "not conserved", "conserved on D = 0 alone (weakly)", "conserved on every level of D"};
 
-static conservation measured_conservation(check *c, double *on, double *off)
-{
-    *on = check_rate(c, c->system->energy, 1, 0, c->surface, c->surface_count);
-    *off = check_rate(c, c->system->energy, 1, 0, c->near, c->near_count);
-    return *off <= zero ? EXACT : *on <= zero ? WEAK : NOT;
-}
-
 static void check_one_energy(check *c)
 {
-    double on, off;
-    unsigned properties = c->system->properties;
-    conservation found = measured_conservation(c, &on, &off);
-    conservation claimed = properties & DAL_E_EXACT ? EXACT : properties & DAL_E_WEAK ? WEAK : NOT;
-    check_item(c, CHECK_INFO, "|dE/dt| along F, on D = 0", "%.2g", on);
-    if (c->m > 0) check_item(c, CHECK_INFO, "|dE/dt| along F, off D = 0", "%.2g", off);
+    dal_callback *E = c->system->energy;
+    const unsigned properties = c->system->properties;
+    const check_rate on = check_measure_rate(c, E, 1, 0, c->surface, c->surface_count);
+    const check_rate off = check_measure_rate(c, E, 1, 0, c->near, c->near_count);
+    check_rate_info(c, "|dE/dt| along F, on D = 0", &on);
+    if (c->m > 0) check_rate_info(c, "|dE/dt| along F, off D = 0", &off);
+    if (on.measured == 0 || off.measured == 0) {
+        check_unmeasured(c, "energy E", "its rates are not known");
+        return;
+    }
+    const conservation found = off.most <= zero ? EXACT : on.most <= zero ? WEAK : NOT;
+    const conservation claimed = properties & DAL_E_EXACT  ? EXACT
+                                 : properties & DAL_E_WEAK ? WEAK
+                                                           : NOT;
     check_item(c, found >= claimed ? CHECK_OK : CHECK_FAIL, "energy E", "%s%s",
                conservation_text[found],
                found < claimed   ? ", though the system claims more"
@@ -41,7 +42,6 @@ static void check_one_energy(check *c)
 void check_energy(check *c)
 {
     const dal_system *s = c->system;
-    if (c->surface_count == 0 || c->near_count == 0) return;
     if (s->energy == NULL)
         check_item(c, CHECK_INFO, "energy E", "none is known: there is no Lagrangian");
     else
@@ -49,9 +49,9 @@ void check_energy(check *c)
     for (int i = 0; i < s->invariants; i++) {
         char what[32];
         snprintf(what, sizeof what, "invariant %.20s", s->invariant[i]);
-        double rate =
-            check_rate(c, s->invariant_values, s->invariants, i, c->surface, c->surface_count);
-        check_bound(c, what, rate, zero);
+        const check_rate rate = check_measure_rate(c, s->invariant_values, s->invariants, i,
+                                                   c->surface, c->surface_count);
+        check_rate_bound(c, what, &rate, zero);
     }
 }
 
@@ -60,26 +60,35 @@ void check_energy(check *c)
 void check_derivatives(check *c)
 {
     static const double limit = 1e-8;
-    dal_derivatives worst = {-1.0, -1.0, -1.0, -1.0}, d;
+    dal_derivatives worst = {NAN, NAN, NAN, NAN}, d;
+    dal_status status = DAL_OK;
     int points = 0;
     for (int k = 0; k < c->near_count; k++) {
-        if (!cli_is_ok(dal_measure_derivatives(c->probe, &c->near[k], &d))) continue;
+        const dal_status here = dal_measure_derivatives(c->probe, &c->near[k], &d);
+        if (!cli_is_ok(here)) {
+            status = here;
+            continue;
+        }
         points++;
         worst.jacobian = fmax(worst.jacobian, d.jacobian);
         worst.adjoint = fmax(worst.adjoint, d.adjoint);
         worst.normal = fmax(worst.normal, d.normal);
         worst.gram = fmax(worst.gram, d.gram);
     }
-    if (points == 0) return;
+    if (points == 0) {
+        check_unmeasured(c, "derivatives", "at none of %d points: %s", c->near_count,
+                         c->near_count > 0 ? dal_status_text(status) : "F is not finite");
+        return;
+    }
     const struct {
         const char *what;
-        double value;
+        double value; /* NaN: there is nothing to compare */
     } items[] = {{"F_q, F_v", worst.jacobian},
                  {"F_q^T pi, F_v^T pi of the lift", worst.adjoint},
                  {"A = dD/dv", worst.normal},
                  {"symmetry of G = A W^-1 A^T", worst.gram}};
     for (size_t k = 0; k < sizeof items / sizeof items[0]; k++)
-        if (items[k].value >= 0.0) check_bound(c, items[k].what, items[k].value, limit);
+        if (!isnan(items[k].value)) check_bound(c, items[k].what, items[k].value, limit);
 }
 
 /* ---- the exact solution ---- */
@@ -139,25 +148,44 @@ static double best_residual(solution *w)
     return least;
 }
 
+/* NaN where the solution has no value. */
 static double start_distance(check *c, const double *exact)
 {
     double most = 0.0;
-    for (int i = 0; i < 2 * c->n; i++)
-        most = fmax(most, fabs(exact[i] - c->start[i]) / fmax(1.0, fabs(c->start[i])));
+    for (int i = 0; i < 2 * c->n; i++) {
+        const double gap = fabs(exact[i] - c->start[i]) / fmax(1.0, fabs(c->start[i]));
+        if (!(gap <= most)) most = gap;
+        if (isnan(gap)) return NAN;
+    }
     return most;
+}
+
+static void check_residual(check *c, solution *w)
+{
+    static const char what[] = "residual of q' = v, v' = F, t < 1";
+    double worst = 0.0;
+    for (int k = 0; k < EXACT_TIMES; k++) {
+        w->t = exact_time[k];
+        const double residual = best_residual(w);
+        if (isinf(residual)) {
+            check_unmeasured(c, what, "the solution or F has no value near t = %g", w->t);
+            return;
+        }
+        worst = fmax(worst, residual);
+    }
+    check_bound(c, what, worst, 1e-8);
 }
 
 void check_exact(check *c)
 {
+    static const char what[] = "exact solution at t = 0";
     solution w = {.c = c, .x = c->values, .held = c->values + 2 * c->n};
-    double worst = 0.0;
-    if (c->system->exact == NULL || !exact_at(&w, 0.0, w.x)) return;
-    double distance = start_distance(c, w.x);
-    check_item(c, distance <= zero ? CHECK_OK : CHECK_INFO, "exact solution at t = 0",
-               distance <= zero ? "the start, to %.2g" : "another start, %.2g away", distance);
-    for (int k = 0; k < EXACT_TIMES; k++) {
-        w.t = exact_time[k];
-        worst = fmax(worst, best_residual(&w));
-    }
-    check_bound(c, "residual of q' = v, v' = F, t < 1", worst, 1e-8);
+    if (c->system->exact == NULL) return;
+    const double distance = exact_at(&w, 0.0, w.x) ? start_distance(c, w.x) : NAN;
+    if (isnan(distance))
+        check_unmeasured(c, what, "it has no value");
+    else
+        check_item(c, distance <= zero ? CHECK_OK : CHECK_INFO, what,
+                   distance <= zero ? "the start, to %.2g" : "another start, %.2g away", distance);
+    check_residual(c, &w);
 }

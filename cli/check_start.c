@@ -12,23 +12,31 @@ static const double zero = 1e-9;
 
 /* ---- the start ---- */
 
-/* max |D| relative to sum |A| |v|. */
-static int start_defect(check *c, double *defect)
+/* max |D| relative to sum |A| |v|; NaN where D, or what it is relative to, is not finite. */
+static double start_defect(check *c)
 {
     const dal_system *s = c->system;
-    double *block = c->values, size = 1.0;
-    if (s->call.constraint == NULL ||
-        dal_probe_call(c->probe, s->call.constraint, 0.0, c->start, c->start + c->n, NULL, block))
-        return 0;
-    *defect = 0.0;
+    double *block = c->values, size = 1.0, defect = 0.0;
+    if (dal_probe_call(c->probe, s->call.constraint, 0.0, c->start, c->start + c->n, NULL, block))
+        return NAN;
     for (int a = 0; a < c->m; a++) {
         double sum = 0.0;
         for (int i = 0; i < c->n; i++) sum += fabs(block[c->m + a * c->n + i] * c->start[c->n + i]);
+        if (!isfinite(sum) || !isfinite(block[a])) return NAN;
         size = fmax(size, sum);
-        *defect = isnan(block[a]) ? INFINITY : fmax(*defect, fabs(block[a]));
+        defect = fmax(defect, fabs(block[a]));
     }
-    *defect /= size;
-    return 1;
+    return defect / size;
+}
+
+static void start_constraints(check *c)
+{
+    if (c->system->call.constraint == NULL) return;
+    const double defect = start_defect(c);
+    if (isnan(defect))
+        check_unmeasured(c, "|D| at the start", "D or its derivative is not finite");
+    else
+        check_bound(c, "|D| at the start", defect, consistent);
 }
 
 static void start_rank(check *c)
@@ -47,13 +55,11 @@ static void start_rank(check *c)
 
 void check_start(check *c)
 {
-    double defect = 0.0;
+    const double e = c->start[c->size];
     check_item(c, c->regular ? CHECK_OK : CHECK_FAIL, "F at the start", "%s",
                c->regular ? "finite" : "not finite: the motion is not determined");
-    check_item(c, c->start[c->size] != 0.0 ? CHECK_OK : CHECK_FAIL, "gauge variable e", "%g",
-               c->start[c->size]);
-    if (c->m > 0 && start_defect(c, &defect))
-        check_bound(c, "|D| at the start", defect, consistent);
+    check_item(c, e != 0.0 && !isnan(e) ? CHECK_OK : CHECK_FAIL, "gauge variable e", "%g", e);
+    if (c->m > 0) start_constraints(c);
     if (c->m > 0) start_rank(c);
     const int found = c->near_count > 0 ? CHECK_OK : CHECK_FAIL;
     if (c->m > 0)
@@ -92,17 +98,49 @@ static void say_degree(check *c, const dal_degree *d, const double *degree)
     check_item(c, CHECK_INFO, "degree of D in v", "%s%s", text, d->linear ? "; affine" : "");
 }
 
+/* Whether `run` accepts a method: it is asked to make the run. */
+static int accepts(check *c, const char *method, dal_error *error)
+{
+    cli_job *job = c->job;
+    dal_run_spec spec;
+    dal_run *run = NULL;
+    job->options = dal_options_default();
+    job->options.step = 0.01;
+    if (dal_method_parse(&job->method, method, error) != DAL_OK) return 0;
+    if (job_spec(job, &spec) != CLI_DONE) return 0;
+    const int accepted = cli_is_ok(dal_run_create(&run, &spec, error));
+    dal_run_free(run);
+    return accepted;
+}
+
+/* A modifier is accepted when it is around some method. */
+static int accepts_integrator(check *c, const dal_integrator *integrator)
+{
+    dal_error error;
+    if (!(integrator->claims & DAL_MODIFIER)) return accepts(c, integrator->name, &error);
+    for (int i = 0; dal_integrator_at(i) != NULL; i++) {
+        char name[128];
+        if (dal_integrator_at(i)->claims & DAL_MODIFIER) continue;
+        snprintf(name, sizeof name, "%.60s+%.60s", dal_integrator_at(i)->name, integrator->name);
+        if (accepts(c, name, &error)) return 1;
+    }
+    return 0;
+}
+
 enum { LINE = 72 };
 
-/* The names of the methods that claim any of these, on lines of their own. */
-static void say_keepers(check *c, unsigned claims)
+/* The names of the methods that claim any of these and that `run` accepts, on lines of their own.
+ */
+static void list_keepers(check *c, unsigned claims)
 {
     char text[LINE + 1] = "";
     const char *head = "D is kept by";
+    dal_error error = {.message = ""};
     for (int i = 0; dal_integrator_at(i) != NULL; i++) {
         const dal_integrator *integrator = dal_integrator_at(i);
         size_t used = strlen(text);
         if ((integrator->claims & claims) == 0) continue;
+        if (!accepts_integrator(c, integrator)) continue;
         if (used + strlen(integrator->name) + 3 > LINE - 20) {
             if (head != NULL) check_item(c, CHECK_INFO, head, "%s", text);
             if (head == NULL) check_note("%s", text);
@@ -112,8 +150,23 @@ static void say_keepers(check *c, unsigned claims)
         snprintf(text + used, sizeof text - used, "%s%s%.40s", used > 0 ? " " : "",
                  integrator->claims & DAL_MODIFIER ? "+" : "", integrator->name);
     }
-    if (head != NULL) check_item(c, CHECK_INFO, head, "%s", text);
-    if (head == NULL) check_note("%s", text);
+    if (head != NULL && text[0] == '\0')
+        check_item(c, CHECK_INFO, head, "no method%s%s", accepts(c, "rk4", &error) ? "" : ": ",
+                   error.message);
+    else if (head != NULL)
+        check_item(c, CHECK_INFO, head, "%s", text);
+    else
+        check_note("%s", text);
+}
+
+/* D with constant coefficients: every method that acts on the system. */
+static void list_every_keeper(check *c)
+{
+    dal_error error = {0};
+    if (accepts(c, "rk4", &error))
+        check_item(c, CHECK_INFO, "D is kept by", "every method that acts on the system");
+    else
+        check_item(c, CHECK_INFO, "D is kept by", "no method: %s", error.message);
 }
 
 static void say_kind(check *c, const dal_degree *d)
@@ -129,23 +182,27 @@ static void say_kind(check *c, const dal_degree *d)
     if (d->bilinear) keep |= DAL_KEEPS_BILINEAR;
     if (d->quadratic) keep |= DAL_KEEPS_QUADRATIC;
     if (d->constant)
-        check_item(c, CHECK_INFO, "D is kept by", "every method");
+        list_every_keeper(c);
     else
-        say_keepers(c, keep);
+        list_keepers(c, keep);
 }
 
 void check_constraints(check *c)
 {
     dal_degree d;
+    dal_callback *D = c->system->constraints;
+    if (c->m == 0) return;
+    const check_rate on = check_measure_rate(c, D, c->m, -1, c->surface, c->surface_count);
+    const check_rate off = check_measure_rate(c, D, c->m, -1, c->near, c->near_count);
+    check_rate_bound(c, "dD/dt along F, on D = 0", &on, zero);
+    check_rate_bound(c, "dD/dt along F, off D = 0", &off, zero);
     double *degree = cli_calloc((size_t)c->m + 1, sizeof *degree);
-    if (c->m > 0 && cli_is_ok(dal_measure_degree(c->probe, &c->origin, &d, degree))) {
-        dal_callback *D = c->system->constraints;
-        double on = check_rate(c, D, c->m, -1, c->surface, c->surface_count);
-        double off = check_rate(c, D, c->m, -1, c->near, c->near_count);
-        if (c->surface_count > 0) check_bound(c, "dD/dt along F, on D = 0", on, zero);
-        if (c->near_count > 0) check_bound(c, "dD/dt along F, off D = 0", off, zero);
+    const dal_status status = dal_measure_degree(c->probe, &c->origin, &d, degree);
+    if (cli_is_ok(status)) {
         say_degree(c, &d, degree);
         say_kind(c, &d);
+    } else {
+        check_unmeasured(c, "what D is", "%s", dal_status_text(status));
     }
     free(degree);
 }
@@ -156,9 +213,15 @@ void check_reversal(check *c)
 {
     static const char *const parity[] = {"D(q,-v) = -D(q,v)", "neither even nor odd in v",
                                          "D(q,-v) = +D(q,v)"};
+    static const char what[] = "F(q,-v,-t) = F(q,v,t)";
     dal_degree d;
-    if (!cli_is_ok(dal_measure_degree(c->probe, &c->origin, &d, NULL))) return;
-    check_item(c, CHECK_INFO, "F(q,-v,-t) = F(q,v,t)", "%s, greatest difference %.2g",
+    const dal_status status = dal_measure_degree(c->probe, &c->origin, &d, NULL);
+    if (!cli_is_ok(status) || isnan(d.force_defect)) {
+        check_unmeasured(c, what, "%s",
+                         dal_status_text(cli_is_ok(status) ? DAL_NOT_FINITE : status));
+        return;
+    }
+    check_item(c, CHECK_INFO, what, "%s, greatest difference %.2g",
                d.reversible ? "yes: reversible" : "no: not reversible under v -> -v",
                d.force_defect);
     if (c->m > 0) check_item(c, CHECK_INFO, "D under v -> -v", "%s", parity[d.parity + 1]);

@@ -180,7 +180,8 @@ dal_status dal_measure_rate(dal_probe *probe, dal_callback *callback, int count,
                             const dal_point *at, double *out);
 
 /* What the callbacks give as derivatives against differences of the values: the greatest
- * |given - difference| / max(1, |given|); negative where there is nothing to compare. [alloc] */
+ * |given - difference| / max(1, |given|); NaN where there is nothing to compare.  [alloc]
+ * Errors: those of the callbacks, DAL_NOT_FINITE: the differences are not finite, DAL_MEMORY. */
 typedef struct dal_derivatives {
     double jacobian; /* F_q, F_(v,g) */
     double adjoint;  /* F_q^T pi, F_v^T pi, and its F against field */
@@ -208,9 +209,11 @@ typedef struct dal_degree {
                             constraint, 0 when one has none */
     int homogeneous;     /* v.D_v = k D with one k per constraint */
     int reversible;      /* F(q,-v,-t) = F(q,v,t) */
-    double force_defect; /* greatest |F(q,-v,-t) - F(q,v,t)| met, relative to max(1, |F|) */
+    double force_defect; /* greatest |F(q,-v,-t) - F(q,v,t)| met, relative to max(1, |F|); NaN where
+                            F has no values */
 } dal_degree;
-/* degree[m], when not NULL, receives the k of each constraint. */
+/* degree[m], when not NULL, receives the k of each constraint.  Errors: DAL_UNSUPPORTED,
+ * DAL_NOT_FINITE: D has no values about the point, DAL_MEMORY. */
 dal_status dal_measure_degree(dal_probe *probe, const dal_point *at, dal_degree *out,
                               double *degree);
 

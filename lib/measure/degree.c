@@ -7,6 +7,7 @@
  * decides against it, points where D is not finite decide nothing. */
 #include "measure/measure.h"
 #include <math.h>
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -27,6 +28,7 @@ typedef struct survey {
     double *value[4];             /* [max(m, nw)] */
     double *sign, *degree, *rate; /* [m] */
     double t;
+    bool undecided; /* D had no values at any point tried */
 } survey;
 
 static dal_status values_at(survey *w, double s, double *out)
@@ -53,15 +55,26 @@ static void draw_direction(survey *w, int in_q, int in_v)
     }
 }
 
+/* The values at s = -1, 0, .. of count points; false when one is not finite. */
+static bool values_on_line(survey *w, int count)
+{
+    for (int k = 0; k < count; k++)
+        if (values_at(w, k - 1.0, w->value[k]) != DAL_OK ||
+            !isfinite(dal__greatest(w->value[k], (size_t)w->m)))
+            return false;
+    return true;
+}
+
 /* Whether the difference with these weights of the values at s = first, first+1, ... vanishes for
  * every constraint on every line tried. */
 static int vanishes(survey *w, int in_q, int in_v, int count, const double *weight)
 {
+    int decided = 0;
     for (int trial = 0; trial < TRIALS; trial++) {
         draw_base(w);
         draw_direction(w, in_q, in_v);
-        for (int k = 0; k < count; k++)
-            if (values_at(w, k - 1.0, w->value[k]) != DAL_OK) w->value[k][0] = NAN;
+        if (!values_on_line(w, count)) continue;
+        decided = 1;
         for (int a = 0; a < w->m; a++) {
             double sum = 0.0, size = 1.0;
             for (int k = 0; k < count; k++) {
@@ -71,7 +84,8 @@ static int vanishes(survey *w, int in_q, int in_v, int count, const double *weig
             if (fabs(sum) > tolerance * size) return 0;
         }
     }
-    return 1;
+    w->undecided |= !decided;
+    return decided;
 }
 
 static int affine(survey *w, int in_q, int in_v)
@@ -88,14 +102,18 @@ static int of_degree_two(survey *w)
 
 static int without_time(survey *w)
 {
+    int decided = 0;
     for (int trial = 0; trial < TRIALS; trial++) {
         draw_base(w);
         if (values_at(w, 0.0, w->value[0]) != DAL_OK) continue;
         w->t += 0.5;
         if (values_at(w, 0.0, w->value[1]) != DAL_OK) continue;
-        if (dal__distance(w->value[0], w->value[1], (size_t)w->m) > tolerance) return 0;
+        if (!isfinite(dal__greatest(w->value[0], (size_t)w->m))) continue;
+        if (!(dal__distance(w->value[0], w->value[1], (size_t)w->m) <= tolerance)) return 0;
+        decided = 1;
     }
-    return 1;
+    w->undecided |= !decided;
+    return decided;
 }
 
 /* ---- v -> -v ---- */
@@ -136,6 +154,7 @@ static int find_parity(survey *w)
 static double force_defect(survey *w)
 {
     double most = 0.0;
+    int decided = 0;
     dal_callback *field = w->s->call.field;
     for (int trial = 0; trial < TRIALS; trial++) {
         draw_base(w);
@@ -149,8 +168,9 @@ static double force_defect(survey *w)
         for (int a = 0; a < w->s->multipliers; a++) w->value[1][w->n + a] *= -w->sign[a];
         if (!isfinite(dal__greatest(w->value[0], (size_t)w->nw))) continue;
         most = fmax(most, dal__distance(w->value[0], w->value[1], (size_t)w->nw));
+        decided = 1;
     }
-    return most;
+    return decided ? most : NAN;
 }
 
 /* ---- homogeneity ---- */
@@ -164,7 +184,7 @@ static dal_status along_scaling(void *user, double s, double *out)
 /* v.D_v = k D with the same k at every point; k into w->degree. */
 static int homogeneous(survey *w)
 {
-    int found = 0;
+    for (int a = 0; a < w->m; a++) w->degree[a] = NAN;
     for (int trial = 0; trial < TRIALS; trial++) {
         draw_base(w);
         memset(w->d, 0, (size_t)(w->n + w->nw) * sizeof(double));
@@ -175,12 +195,13 @@ static int homogeneous(survey *w)
         for (int a = 0; a < w->m; a++) {
             double k = w->rate[a] / w->value[0][a];
             if (!(fabs(w->value[0][a]) > 1e-3)) continue;
-            if (found && fabs(k - w->degree[a]) > 1e-8) return 0;
+            if (!(isnan(w->degree[a]) || fabs(k - w->degree[a]) <= 1e-8)) return 0;
             w->degree[a] = k;
         }
-        found = 1;
     }
-    return found;
+    for (int a = 0; a < w->m; a++)
+        if (isnan(w->degree[a])) return 0;
+    return 1;
 }
 
 static void examine(survey *w, dal_degree *out, double *degree)
@@ -220,5 +241,5 @@ dal_status dal_measure_degree(dal_probe *probe, const dal_point *at, dal_degree 
     w.sign = w.value[3] + rows, w.degree = w.sign + rows, w.rate = w.degree + rows;
     examine(&w, out, degree);
     free(block);
-    return DAL_OK;
+    return w.undecided ? DAL_NOT_FINITE : DAL_OK;
 }

@@ -104,7 +104,8 @@ static dal_status tabulate(desk *d, dal_callback *callback, int rows)
         DAL_TRY(column(&l, j, rows, d->scratch, out));
         for (int i = 0; i < rows; i++) d->differences[i * columns + j] = out[i];
     }
-    return DAL_OK;
+    const double size = dal__greatest(d->differences, (size_t)rows * (size_t)columns);
+    return isfinite(size) ? DAL_OK : DAL_NOT_FINITE;
 }
 
 dal_status dal__gradients(dal_probe *probe, dal_callback *callback, int rows, const dal_point *at,
@@ -143,7 +144,7 @@ static double compare(const desk *d, const double *given, int rows, int first, i
 
 static dal_status compare_jacobian(desk *d, double *defect)
 {
-    *defect = -1.0;
+    *defect = NAN;
     if (d->s->call.jacobian == NULL) return DAL_OK;
     DAL_TRY(call(d, d->s->call.jacobian, d->given));
     *defect = fmax(compare(d, d->given, d->nw, 0, d->n),
@@ -153,7 +154,7 @@ static dal_status compare_jacobian(desk *d, double *defect)
 
 static dal_status compare_adjoint(desk *d, double *defect)
 {
-    *defect = -1.0;
+    *defect = NAN;
     if (d->s->call.adjoint == NULL) return DAL_OK;
     int n = d->n, columns = n + d->nw;
     double *field = d->scratch, *products = d->scratch + d->nw;
@@ -179,7 +180,7 @@ static double asymmetry(const double *gram, int m)
 
 static dal_status compare_constraint(desk *d, dal_derivatives *out)
 {
-    out->normal = out->gram = -1.0;
+    out->normal = out->gram = NAN;
     if (d->m == 0 || d->s->call.constraint == NULL) return DAL_OK;
     DAL_TRY(tabulate(d, d->s->constraints, d->m));
     DAL_TRY(call(d, d->s->call.constraint, d->given));

@@ -34,7 +34,37 @@ try 0 check vertical-disk
 prints '^  rank of G at the start +ok +2 of 2'
 prints '^  second-class constraints +ok +rank 8 of 17'
 try 0 check plane.yaml
-prints '^  D is kept by +info +every method$'
+prints '^  D is kept by +info +every method that acts on the system$'
+
+# Names behind "D is kept by", a modifier around gauss4, symmetric and not of order 2.
+keepers() {
+    sed -n '/^  D is kept by/,/^$/p' out | sed 's/D is kept by *info//' | tr -s ' ' '\n' |
+        sed -n 's/^+/gauss4+/; /^[a-z0-9+-]*[a-z][a-z0-9+-]*$/p'
+}
+case_is "D is kept by: run accepts each"
+while read -r system; do
+    try 0 check "$system"
+    grep -q 'kept by .*every method' out && continue
+    keepers >keepers
+    grep -q '^  D is kept by' out && holds "$system: no method" test -s keepers
+    while read -r method; do
+        "$program" run "$system" --integrator "$method" --step 1e-3 --time 1e-3 >rows 2>refusal
+        holds "$system, $method: $(cat refusal)" test $? -ne 2
+    done <keepers
+done <systems
+try 0 check chaplygin-sleigh
+keepers >keepers
+holds "a thermostat's method on a sleigh" sh -c '! grep -q isokinetic keepers'
+holds "no spark4" grep -q '^spark4$' keepers
+try 2 run chaplygin-sleigh --integrator isokinetic-splitting --step 0.1 --time 1
+try 0 check isokinetic
+keepers >keepers
+holds "not its method on the thermostat" grep -q isokinetic-splitting keepers
+try 0 check chaplygin-sleigh-vakonomic
+keepers >keepers
+holds "a method of reactions on vakonomic motion" sh -c '! grep -q spark keepers'
+try 1 check chaplygin-sleigh --start "y2'=0.5"
+prints '^  D is kept by +info +no method: the start violates constraint 1'
 
 case_is "energy and reversal"
 try 0 check isokinetic
@@ -64,9 +94,37 @@ case_is "no motion from rest"
 try 1 check appell-hamel --start "x'=0" --start "y'=0" --start "z'=0"
 prints '^  F at the start +FAIL'
 
+# D is NaN everywhere, and F is not.
+case_is "not measured is not ok"
+cat >unmeasured.yaml <<'END'
+coordinates: [x, y]
+parameters: {k: 1}
+lagrangian: (x'^2 + y'^2)/2
+constraints: ["x'*cos(y) - y'*sin(y) + log(-k)"]
+END
+try 1 check unmeasured.yaml
+prints '^  F at the start +ok'
+prints '^  \|D\| at the start +not measured'
+prints '^  dD/dt along F, off D = 0 +not measured +at none of 8 points: '
+prints '^  dD/dt along F, on D = 0 +not measured'
+prints '^  what D is +not measured'
+prints '^  energy E +not measured'
+prints '^  derivatives +not measured'
+prints '^  action \(nh10\) +not measured'
+prints '^[0-9]+ items, 1 failed, 11 not measured$'
+holds "a number below 0" sh -c '! grep -q -e "  -1 " out'
+sed "s/exact: .*/exact: {x: log(-1 - t)}/" line.yaml >false.yaml
+try 1 check false.yaml
+prints '^  exact solution at t = 0 +not measured'
+prints '^  residual of .* not measured'
+prints ' 0 failed, 2 not measured$'
+
 case_is "no point on D = 0: nothing is said of it"
 try 1 check chaplygin-sleigh --set m=0
 prints '^  rank of G at the start +FAIL'
+prints '^  dD/dt along F, on D = 0 +not measured'
+prints '^  energy E +not measured'
+prints '^  invariant speed +not measured'
 holds 'a verdict without a point' [ "$(grep -c 'on D = 0 *ok' out)" = 0 ]
 
 case_is "e = 0"
