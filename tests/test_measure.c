@@ -258,8 +258,8 @@ static void test_degree(void)
     for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) examine_kind(&kinds[k]);
 }
 
-/* A friction k x' changes F by 2 k x' under v -> -v, x' being drawn from 1 +- 0.3 and F below 1: the
- * defect is between 2 k and 2.6 k, and 1e-10 of it parts reversible from not. */
+/* A friction k x' changes F by 2 k x' under v -> -v, x' being drawn from 1 +- 0.3 and F below 1:
+ * the defect is between 2 k and 2.6 k, and 1e-10 of it parts reversible from not. */
 static void test_nearly_reversible(void)
 {
     static const double frictions[] = {0.0, 1e-12, 3.7e-11, 5.1e-11, 1e-9, 1e-4};
