@@ -165,8 +165,8 @@ static void test_pairs_in_a_step(void)
         CU_ASSERT_DOUBLE_EQUAL(r.t[k], 2.0 * pi * ((k + 1) / 2) + (k % 2 ? -a : a), 2e-12);
 }
 
-/* g = +-((t - c)^2 - d^2), which rk4 follows exactly, with its minimum at c in a step of 0.25 beside
- * t = 1, the step where |g| is least: behind it or before it, so that both crossings c -+ d lie in
+/* g = +-((t - c)^2 - d^2), which rk4 follows exactly, with its minimum at c in a step of 0.25
+ * beside t = 1, the step where |g| is least: behind it or before it, so that both crossings c -+ d lie in
  * the step after t = 1, or in the one before. */
 static void test_pairs_on_either_side(void)
 {
