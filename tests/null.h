@@ -21,6 +21,7 @@ static dal_error *error;
         error = &record;                                                                           \
         CU_ASSERT_EQUAL((call), DAL_ARGUMENT);                                                     \
         CU_ASSERT(record.status == DAL_ARGUMENT && record.message[0] != '\0');                     \
+        CU_ASSERT(record.line == 0 && record.column == 0);                                         \
         error = NULL;                                                                              \
         CU_ASSERT_EQUAL((call), DAL_ARGUMENT);                                                     \
     } while (0)

@@ -134,9 +134,31 @@ static void test_run_arguments(void)
     CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "row 0 lies before"));
     /* What the system says comes back. */
     CU_ASSERT_EQUAL(dal_run_advance(run, 10, &error), DAL_INTERRUPTED);
-    CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "the system failed"));
+    /* The clock of five steps is 0.5, the second stage of the sixth 0.05 later. */
+    CU_ASSERT_STRING_EQUAL(error.message,
+                           "the system failed at t = 0.55000000000000004: interrupted");
+    CU_ASSERT(error.line == 0 && error.column == 0);
     CU_ASSERT_EQUAL(dal_run_steps(run), 5);
     dal_run_free(run);
+}
+
+/* A name is cut between its parts where the next one does not fit with its NUL. */
+static void test_names_of_methods(void)
+{
+    dal_method method;
+    char name[32];
+    CU_ASSERT_EQUAL(dal_method_parse(&method, "rk4+project+project-energy", NULL), DAL_OK);
+    for (size_t size = 0; size <= sizeof name; size++) {
+        memset(name, '?', sizeof name);
+        CU_ASSERT_PTR_EQUAL(dal_method_name(&method, name, size), name);
+        static const char *const parts[] = {
+            "", "rk4", "rk4+", "rk4+project", "rk4+project+", "rk4+project+project-energy"};
+        int most = 0;
+        for (int i = 0; i < 6; i++)
+            if (strlen(parts[i]) < size) most = i;
+        if (size > 0) CU_ASSERT_STRING_EQUAL(name, parts[most]);
+        for (size_t i = size; i < sizeof name; i++) CU_ASSERT_EQUAL(name[i], '?');
+    }
 }
 
 void suite_odd(void)
@@ -148,4 +170,5 @@ void suite_odd(void)
     CU_add_test(suite, "a text that is none", test_no_text);
     CU_add_test(suite, "long names", test_long_names);
     CU_add_test(suite, "arguments of runs", test_run_arguments);
+    CU_add_test(suite, "names of methods in little room", test_names_of_methods);
 }
