@@ -282,6 +282,28 @@ static void test_claims(void)
     dal_model_free(model);
 }
 
+/* At rest, x = x' = 0, nothing but the momenta moves: with 1/e = 0, p' = pi and pi' = -p, so that
+ * pi = cos t and p = sin t, which one step of h = 20 must divide for their sake alone. */
+static void test_momenta_alone(void)
+{
+    dal_model *model = fixture_model("coordinates: [x]\nlagrangian: (x'^2 - x^2)/2\n");
+    const dal_setting start[] = {{"e", INFINITY}, {"pi_x", 1.0}};
+    for (int k = 0; k < 3; k++) {
+        static const double tolerances[] = {1e-6, 1e-9, 1e-12};
+        dal_run_spec spec = spec_of(fixture_system(model), DAL_LIFTED, 20.0, tolerances[k]);
+        spec.start = start;
+        spec.start_count = 2;
+        dal_run *run = fixture_run(&spec);
+        CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_OK);
+        const double *z = dal_run_state(run);
+        CU_ASSERT_DOUBLE_EQUAL(z[3], sin(20.0), 20.0 * tolerances[k]);
+        CU_ASSERT_DOUBLE_EQUAL(z[4], cos(20.0), 20.0 * tolerances[k]);
+        CU_ASSERT(z[0] == 0.0 && z[1] == 0.0);
+        dal_run_free(run);
+    }
+    dal_model_free(model);
+}
+
 static void test_not_generated(void)
 {
     dal_model *model = fixture_model("contact-oscillator");
@@ -346,5 +368,6 @@ void suite_adaptive(void)
     CU_add_test(suite, "inside projections", test_projected);
     CU_add_test(suite, "who takes a tolerance", test_claims);
     CU_add_test(suite, "not generated", test_not_generated);
+    CU_add_test(suite, "momenta alone divide a step", test_momenta_alone);
     CU_add_test(suite, "steps that fail", test_failures);
 }

@@ -258,6 +258,66 @@ static void test_degree(void)
     for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++) examine_kind(&kinds[k]);
 }
 
+/* D = x' + 2 y' - z' with k times something of another kind: below 1e-11 that is rounding, and
+ * parts of 1e-9 are seen.  Homogeneous is a D of one degree to 1e-8. */
+static void test_nearly(void)
+{
+    static const struct {
+        const char *more;
+        int linear, constant, bilinear, quadratic, parity, homogeneous;
+    } cases[] = {{"x'^2", 0, 0, 0, 1, 0, 0},
+                 {"x*x'", 1, 0, 1, 1, -1, 1},
+                 {"t*x'", 1, 0, 0, 0, 0, 1},
+                 {"x'^3", 0, 0, 0, 0, -1, 0},
+                 {"(1 + x)", 1, 1, 1, 1, 0, 0}};
+    static const double factor[] = {1e-13, 1e-6};
+    for (int i = 0; i < 10; i++) {
+        char text[256];
+        double x[8];
+        dal_degree d;
+        snprintf(text, sizeof text, PLANE "[x' + 2*y' - z' + %g*%s]\nstart: {x': 1, z': 1}\n",
+                 factor[i % 2], cases[i / 2].more);
+        dal_model *model = fixture_model(text);
+        dal_probe *probe = probe_of(fixture_system(model));
+        CU_ASSERT_EQUAL(dal_probe_start(probe, NULL, 0, x, NULL), DAL_OK);
+        const dal_point at = {0.0, x, x + 3};
+        CU_ASSERT_EQUAL(dal_measure_degree(probe, &at, &d, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(d.linear, i % 2 ? cases[i / 2].linear : 1);
+        CU_ASSERT_EQUAL(d.constant, i % 2 ? cases[i / 2].constant : 1);
+        CU_ASSERT_EQUAL(d.bilinear, i % 2 ? cases[i / 2].bilinear : 1);
+        CU_ASSERT_EQUAL(d.quadratic, i % 2 ? cases[i / 2].quadratic : 1);
+        CU_ASSERT_EQUAL(d.parity, i % 2 ? cases[i / 2].parity : -1);
+        CU_ASSERT_EQUAL(d.homogeneous, i % 2 ? cases[i / 2].homogeneous : 1);
+        dal_probe_free(probe);
+        dal_model_free(model);
+    }
+}
+
+/* D1 = x' - y', D2 = x' - (1 + s) y': scaled to a unit diagonal G is [1 c; c 1] with
+ * 1 - c^2 = s^2/4 (1 - s ...), its columns 2^(1/2) long at first and s^2/4 2^(-1/2) at last: the
+ * pivot is s^2/8, 1e-10 at s = 2.83e-5. */
+static void test_nearly_dependent(void)
+{
+    static const double s[] = {3.0e-5, -3.0e-5, 2.65e-5, -2.65e-5, 0.1};
+    for (int i = 0; i < 5; i++) {
+        char text[256];
+        double x[8], pivot = -1.0;
+        int rank = 0;
+        snprintf(text, sizeof text, PLANE "[x' - y', x' - (1 + s)*y']\nparameters: {s: %g}\n",
+                 s[i]);
+        dal_model *model = fixture_model(text);
+        dal_probe *probe = probe_of(fixture_system(model));
+        CU_ASSERT_EQUAL(dal_probe_start(probe, NULL, 0, x, NULL), DAL_OK);
+        const dal_point at = {0.0, x, x + 3};
+        CU_ASSERT_EQUAL(dal_measure_rank(probe, &at, &rank, &pivot), DAL_OK);
+        const int full = i < 2 || i == 4;
+        CU_ASSERT_EQUAL(rank, full ? 2 : 1);
+        CU_ASSERT_DOUBLE_EQUAL(pivot, full ? s[i] * s[i] / 8.0 : 0.0, 0.15 * s[i] * s[i] / 8.0);
+        dal_probe_free(probe);
+        dal_model_free(model);
+    }
+}
+
 /* A friction k x' changes F by 2 k x' under v -> -v, x' being drawn from 1 +- 0.3 and F below 1:
  * the defect is between 2 k and 2.6 k, and 1e-10 of it parts reversible from not. */
 static void test_nearly_reversible(void)
@@ -397,6 +457,8 @@ void suite_measure(void)
     CU_add_test(suite, "onto D = 0", test_onto);
     CU_add_test(suite, "onto a D without zero", test_onto_nothing);
     CU_add_test(suite, "kinds of D", test_degree);
+    CU_add_test(suite, "nearly of another kind", test_nearly);
+    CU_add_test(suite, "nearly dependent constraints", test_nearly_dependent);
     CU_add_test(suite, "reversible within 1e-10", test_nearly_reversible);
     CU_add_test(suite, "out of memory", test_out_of_memory);
 }

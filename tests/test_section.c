@@ -203,6 +203,45 @@ static void test_touches(void)
     CU_ASSERT(r.count == 0 && found.touches == 0);
 }
 
+/* g = (t - 1.05)^2 + s, 1.1025 at the start: a minimum s of |g| below 1e-12 of that touches 0, on
+ * either side of it; one farther off is nothing above 0, and a pair of crossings below. */
+static void test_touches_within(void)
+{
+    static const struct {
+        double s;
+        int touches, crossings;
+    } cases[] = {{0.9e-12, 1, 0}, {1.3e-12, 0, 0}, {-0.9e-12, 1, 0}, {-1.3e-12, 0, 2}};
+    for (int i = 0; i < 8; i++) {
+        char text[256];
+        dal_crossings found;
+        snprintf(text, sizeof text,
+                 "coordinates: [x]\naccelerations: {x: 2}\nparameters: {s: %.17g}\n"
+                 "start: {x: 1.05^2 + s, x': -2.1}\ninvariants: {g: %sx}\n",
+                 cases[i % 4].s, i < 4 ? "" : "-");
+        const record r = crossings_of(text, "rk4", 0.25, 2.0, 0, &found);
+        CU_ASSERT_EQUAL(found.touches, cases[i % 4].touches);
+        CU_ASSERT_EQUAL(r.count, cases[i % 4].crossings);
+    }
+}
+
+/* T is a whole number of steps to 1e-9 of itself. */
+static void test_whole_steps(void)
+{
+    static const double off[] = {0.9e-9, -0.9e-9, 1.1e-9, -1.1e-9};
+    dal_model *model = fixture_model(OSCILLATOR("x"));
+    const dal_run_spec spec = fixture_spec(fixture_system(model), "rk4", DAL_PHYSICAL, 0.25);
+    for (int i = 0; i < 4; i++) {
+        dal_run *run = fixture_run(&spec);
+        dal_crossings found;
+        record r = {0};
+        CU_ASSERT_EQUAL(cross(run, 2.0 * (1.0 + off[i]), 0, &r, &found, NULL),
+                        i < 2 ? DAL_OK : DAL_ARGUMENT);
+        CU_ASSERT_EQUAL(dal_run_steps(run), i < 2 ? 8 : 0);
+        dal_run_free(run);
+    }
+    dal_model_free(model);
+}
+
 /* g = 0 exactly at a step: (t - 1)^2 touches there, t - 1 crosses there, once. */
 static void test_on_a_step(void)
 {
@@ -338,6 +377,8 @@ void suite_section(void)
     CU_add_test(suite, "pairs within a step", test_pairs_in_a_step);
     CU_add_test(suite, "pairs in the step before or after", test_pairs_on_either_side);
     CU_add_test(suite, "touches", test_touches);
+    CU_add_test(suite, "touches within 1e-12", test_touches_within);
+    CU_add_test(suite, "whole steps", test_whole_steps);
     CU_add_test(suite, "g = 0 at a step", test_on_a_step);
     CU_add_test(suite, "every method", test_methods);
     CU_add_test(suite, "what is refused", test_refuses);

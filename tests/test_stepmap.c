@@ -117,6 +117,20 @@ static void test_order_and_the_next_term(void)
     CU_ASSERT(found > 200 && found < 1400);
 }
 
+/* T is a whole number of steps to 1e-9 of itself. */
+static void test_order_whole_steps(void)
+{
+    static const double off[] = {0.9e-9, -0.9e-9, 1.1e-9, -1.1e-9};
+    dal_model *model = fixture_model("chaplygin-sleigh");
+    const dal_run_spec spec = fixture_spec(fixture_system(model), "rk4", DAL_PHYSICAL, 0.25);
+    for (int i = 0; i < 4; i++) {
+        dal_order order;
+        CU_ASSERT_EQUAL(dal_measure_order(&spec, 1.0 + off[i], 2, NULL, NULL, &order, NULL),
+                        i < 2 ? DAL_OK : DAL_ARGUMENT);
+    }
+    dal_model_free(model);
+}
+
 static void test_order_work(void)
 {
     dal_model *model = fixture_model("chaplygin-sleigh");
@@ -394,6 +408,7 @@ void suite_stepmap(void)
     CU_add_test(suite, "order: slopes", test_order_slopes);
     CU_add_test(suite, "order: none to be found", test_no_order);
     CU_add_test(suite, "order: the next term", test_order_and_the_next_term);
+    CU_add_test(suite, "whole steps", test_order_whole_steps);
     CU_add_test(suite, "order: work", test_order_work);
     CU_add_test(suite, "order: what is refused", test_order_refuses);
     CU_add_test(suite, "symplecticity of rk4, closed form", test_symplecticity_closed_form);
