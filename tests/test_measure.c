@@ -303,7 +303,9 @@ static void test_nearly_dependent(void)
         char text[256];
         double x[8], pivot = -1.0;
         int rank = 0;
-        snprintf(text, sizeof text, PLANE "[x' - y', x' - (1 + s)*y']\nparameters: {s: %g}\n",
+        snprintf(text, sizeof text,
+                 PLANE "[x' - y', x' - (1 + s)*y']\n"
+                       "parameters: {s: %g}\n",
                  s[i]);
         dal_model *model = fixture_model(text);
         dal_probe *probe = probe_of(fixture_system(model));
