@@ -166,8 +166,8 @@ static void test_pairs_in_a_step(void)
 }
 
 /* g = +-((t - c)^2 - d^2), which rk4 follows exactly, with its minimum at c in a step of 0.25
- * beside t = 1, the step where |g| is least: behind it or before it, so that both crossings c -+ d lie in
- * the step after t = 1, or in the one before. */
+ * beside t = 1, the step where |g| is least: behind it or before it, so that both crossings c -+ d
+ * lie in the step after t = 1, or in the one before. */
 static void test_pairs_on_either_side(void)
 {
     static const double place[] = {0.95, 0.9, 1.05, 1.1};

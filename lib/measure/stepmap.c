@@ -133,7 +133,9 @@ static dal_status multiplier_sign(const dal_run_spec *spec, const stepmap *m, do
     dal_status status = dal_measure_degree(probe, &at, &degree, NULL);
     if (status == DAL_OK && degree.parity == -1) *sign = -1.0;
     dal_probe_free(probe);
-    return status;
+    if (status == DAL_OK) return DAL_OK;
+    return dal__error(error, status, 0, 0, "t = %g: the parity of D cannot be found: %s", m->t,
+                      dal_status_text(status));
 }
 
 static void turn_round(int n, int dimension, double sign, double *z)
