@@ -265,6 +265,45 @@ static void null_dal_cause_words(void)
 
 static void null_dal_statistics_max_abs(void) { CU_ASSERT(isnan(dal_statistics_max_abs(NULL))); }
 
+static void null_dal_statistics_deviation(void)
+{
+    CU_ASSERT(isnan(dal_statistics_deviation(NULL)));
+}
+
+static void null_dal_statistics_add(void)
+{
+    dal_statistics s;
+    const double x = 1.0;
+    dal_statistics_start(&s, 1);
+    dal_statistics_add(NULL, 1, 0.0, &x);
+    dal_statistics_add(&s, 1, 0.0, NULL);
+    dal_statistics_add(&s, -1, 0.0, &x);
+    CU_ASSERT_EQUAL(s.count, 0);
+}
+
+static void null_dal_statistics_add_many(void)
+{
+    dal_statistics s;
+    const double t[2] = {0.0, 1.0}, x[2] = {1.0, 2.0};
+    dal_statistics_start(&s, 1);
+    dal_statistics_add_many(NULL, 1, 2, t, x, 2);
+    dal_statistics_add_many(&s, 1, 2, NULL, x, 2);
+    dal_statistics_add_many(&s, 1, 2, t, NULL, 2);
+    dal_statistics_add_many(&s, -1, 2, t, x, 2);
+    dal_statistics_add_many(&s, 1, -2, t, x, 2);
+    CU_ASSERT_EQUAL(s.count, 0);
+}
+
+static void null_dal_size_text(void)
+{
+    CU_ASSERT_STRING_EQUAL(dal_size_text((dal_size_class)-1), "?");
+}
+
+static void null_dal_trend_text(void)
+{
+    CU_ASSERT_STRING_EQUAL(dal_trend_text((dal_trend_class)-1), "?");
+}
+
 static void null_dal_conservation_text(void)
 {
     CU_ASSERT_STRING_EQUAL(dal_conservation_text((dal_conservation)-1), "?");

@@ -82,7 +82,7 @@ static void add_one(dal_statistics *s, double t, double x)
 
 void dal_statistics_add(dal_statistics *s, int count, double t, const double *values)
 {
-    for (int i = 0; i < count; i++) add_one(&s[i], t, values[i]);
+    for (int i = 0; s && values && i < count; i++) add_one(&s[i], t, values[i]);
 }
 
 /* ---- many values ---- */
@@ -140,6 +140,7 @@ void dal_statistics_add_many(dal_statistics *s, int count, int looks, const doub
                              const double *values, size_t stride)
 {
     tally_packs *const add = best_tally();
+    if (!s || !t || !values) return;
     for (int i = 0; i < count; i++) add_series(&s[i], add, looks, t, values + (size_t)i * stride);
 }
 
@@ -163,6 +164,7 @@ double dal_statistics_max_abs(const dal_statistics *s)
 
 double dal_statistics_deviation(const dal_statistics *s)
 {
+    if (!s) return NAN;
     return s->lost ? INFINITY : fmax(most(s) - s->first, s->first - least(s));
 }
 
