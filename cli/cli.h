@@ -89,7 +89,8 @@ int cli_unknown(const char *what, const char *name, const char *const *names, in
 /* "dalembert: PLACE:line:column: message"; place may be NULL and line 0.  Returns exit_status, or
  * CLI_IO where memory ran out. */
 int cli_error(int exit_status, const char *place, const dal_error *error);
-/* "dalembert: cannot VERB 'PATH': strerror(errno)"; returns CLI_IO.  Where a signal ended the wait
+/* "dalembert: cannot VERB 'PATH': strerror(errno)"; returns CLI_IO, or CLI_USAGE
+ * where the path is too long.  Where a signal ended the wait
  * it prints nothing and returns CLI_SIGNAL. */
 int cli_io(const char *verb, const char *path);
 

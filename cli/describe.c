@@ -67,6 +67,8 @@ static int sign(cli_store *store, const char *builtin)
 {
     const uint64_t hash = file_hash(FILE_HASH_START, store->input, strlen(store->input));
     size_t n = builtin ? strlen(builtin) : 0;
+    if (!builtin && access(store->system, F_OK) != 0)
+        return cli_fail(CLI_USAGE, "'%s' is missing: the run cannot be continued", store->system);
     char *text = builtin ? NULL : file_read(store->system, &n);
     if (!builtin && !text) return CLI_IO;
     store->fingerprint = file_hash(hash, builtin ? builtin : text, n);

@@ -19,7 +19,7 @@ int keep_open(cli_keep *keep, const cli_job *job, const char *directory)
     store_open(store, directory);
     store->settle = 0;
     int status = cli_directory(directory);
-    if (status == CLI_DONE) status = store_lock(store);
+    if (status == CLI_DONE) status = store_lock(store, !store_is_described(store));
     if (status == CLI_DONE)
         status = store_is_described(store) ? go_on(keep, job) : store_describe(store, job);
     if (status == CLI_DONE) status = record_open(&keep->record, job, store, directory);

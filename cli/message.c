@@ -123,7 +123,9 @@ int cli_io(const char *verb, const char *path)
 {
     if (errno == ENOMEM) cli_out_of_memory();
     if (errno == EINTR && cli_interrupted()) return CLI_SIGNAL;
-    return cli_fail(CLI_IO, "cannot %s '%s': %s", verb, path, strerror(errno));
+    /* A name that is too long for any disk is a wrong input. */
+    return cli_fail(errno == ENAMETOOLONG ? CLI_USAGE : CLI_IO, "cannot %s '%s': %s", verb, path,
+                    strerror(errno));
 }
 
 static double seconds_of(clockid_t clock)

@@ -36,7 +36,7 @@ static int resume_run(const char *directory, const run_wishes *wishes)
     store_open(&store, directory);
     int status = store_read(&store, &job);
     if (status == CLI_DONE) status = job_make(&job);
-    if (status == CLI_DONE) status = store_lock(&store);
+    if (status == CLI_DONE) status = store_lock(&store, 0);
     if (status == CLI_DONE) status = run_integrate(&job, &store, wishes);
     job_free(&job);
     store_close(&store);

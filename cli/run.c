@@ -114,7 +114,7 @@ static int run_in_directory(const cli_job *job, const run_wishes *wishes)
                           "'%s' is there already: 'dalembert resume' goes on with a run, --force "
                           "writes over it",
                           held);
-    if (status == CLI_DONE) status = store_lock(&store);
+    if (status == CLI_DONE) status = store_lock(&store, 1);
     if (status == CLI_DONE) status = store_describe(&store, job);
     if (status == CLI_DONE) status = run_integrate(job, &store, wishes);
     store_close(&store);

@@ -43,12 +43,16 @@ const char *store_holds(const cli_store *store)
     return NULL;
 }
 
-int store_is_described(const cli_store *store) { return access(store->manifest, F_OK) == 0; }
+static int is_there(const char *path) { return access(path, F_OK) == 0; }
 
-int store_lock(cli_store *store)
+int store_is_described(const cli_store *store) { return is_there(store->manifest); }
+
+int store_lock(cli_store *store, int is_new)
 {
     struct flock whole = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
-    store->descriptor = open(store->rows, O_RDWR | O_CREAT, 0666);
+    if (!is_new && !is_there(store->rows))
+        return cli_fail(CLI_USAGE, "'%s' is missing: the run cannot be continued", store->rows);
+    store->descriptor = open(store->rows, O_RDWR | (is_new ? O_CREAT : 0), 0666);
     if (store->descriptor < 0) return cli_io("write", store->rows);
     if (fcntl(store->descriptor, F_SETLK, &whole) == 0) return CLI_DONE;
     /* Some network file systems know no locks; there the user must take care. */

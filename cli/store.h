@@ -52,8 +52,9 @@ void store_open(cli_store *store, const char *directory);
 void store_close(cli_store *store);
 /* A file in the directory that a new run would write over, or NULL. */
 const char *store_holds(const cli_store *store);
-/* Opens trajectory.npy, made if need be, for this process alone: CLI_USAGE when another has it. */
-int store_lock(cli_store *store);
+/* Opens trajectory.npy for this process alone: CLI_USAGE when another has it.  It is made for a new
+ * run; any other has it already: CLI_USAGE where it is lost. */
+int store_lock(cli_store *store, int is_new);
 /* Describes a new run; what an older one left is removed. */
 int store_describe(cli_store *store, const cli_job *job);
 /* Reads the description into a new job, whose texts live as long as the store. */

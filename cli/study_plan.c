@@ -282,6 +282,24 @@ static void lay_out(const study_entry *e, study_cell *place)
                 (study_cell){.entry = e, .method = &e->methods[m], .step = e->step[h]}, place);
 }
 
+/* Every cell has a directory of its own, whose name must fit. */
+static int check_cell_names(const study_plan *plan)
+{
+    enum { MOST = 255 };
+    int status = CLI_DONE;
+    for (int i = 0; i < plan->cell_count && status == CLI_DONE; i++) {
+        char *name = study_cell_name(&plan->cells[i]);
+        const size_t length = strlen(name);
+        if (length > MOST)
+            status = cli_fail(CLI_USAGE,
+                              "%s: '%.60s...' is too long a name for a directory: %zu bytes, not "
+                              "at most %d; a short label helps",
+                              plan->place, name, length, (int)MOST);
+        free(name);
+    }
+    return status;
+}
+
 static int make_cells(study_plan *plan)
 {
     for (int i = 0; i < plan->entry_count; i++) {
@@ -295,7 +313,7 @@ static int make_cells(study_plan *plan)
     plan->cells = cli_calloc((size_t)plan->cell_count + 1, sizeof *plan->cells);
     for (int i = 0; i < plan->entry_count; i++)
         lay_out(&plan->entries[i], plan->cells + plan->entries[i].first_cell);
-    return CLI_DONE;
+    return check_cell_names(plan);
 }
 
 int study_plan_read(study_plan *plan, const char *place, const char *bytes, size_t length,

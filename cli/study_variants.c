@@ -78,7 +78,7 @@ static int read_settings(study_variants *v, const study_text *text, yaml_node_t 
 static int read_seeds(study_variants *v, const study_text *text, const study_draft *d)
 {
     const yaml_node_t *place = d->set ? d->set : d->start;
-    if (v->drawn == 0) return CLI_DONE;
+    if (v->drawn == 0 && !d->seeds) return CLI_DONE;
     if (!d->seeds)
         return study_text_fail(text, place, "what is drawn wants seeds: give a list of them");
     int status = study_values_read(&v->seed.values, text, d->seeds, "seeds");

@@ -87,7 +87,7 @@ int study_text_parse(study_text *text, const char *place, const char *bytes, siz
     }
     int status = CLI_DONE;
     if (!yaml_document_get_root_node(&text->document))
-        status = cli_fail(CLI_USAGE, "%s: the study is empty", place);
+        status = cli_fail(CLI_USAGE, "%s: there is nothing in it", place);
     if (status == CLI_DONE) status = only_document(place, &parser);
     yaml_parser_delete(&parser);
     return status;

@@ -19,5 +19,14 @@ done
 sudo=
 [ "$(id -u)" -eq 0 ] || sudo=sudo
 export DEBIAN_FRONTEND=noninteractive
-$sudo apt-get update
-$sudo apt-get install -y --no-install-recommends $missing
+# Another apt may be at work, as on a machine that has just started: it is waited for.  The timeout
+# of apt is for the lock of dpkg alone, not for that of the lists.
+tries=60
+until said=$(LC_ALL=C $sudo apt-get update 2>&1); do
+    tries=$((tries - 1))
+    case $said in *'Could not get lock'*) ;; *) tries=0 ;; esac
+    [ $tries -gt 0 ] || { echo "$said" >&2; exit 1; }
+    echo 'prepare.sh: another apt is running: waiting for it' >&2
+    sleep 10
+done
+$sudo apt-get -o DPkg::Lock::Timeout=600 install -y --no-install-recommends $missing

@@ -88,6 +88,10 @@ dal_status dal_method_parse(dal_method *method, const char *name, dal_error *err
                               name);
         method->chain[i] = find(part, i > 0);
         if (!method->chain[i]) return unknown(part, i > 0, error);
+        for (int k = 1; k < i; k++)
+            if (method->chain[k] == method->chain[i])
+                return dal__error(error, DAL_ARGUMENT, 0, 0, "integrator '%.60s': +%s comes twice",
+                                  name, method->chain[i]->name);
         if (*rest == '\0') return DAL_OK;
         rest++;
     }

@@ -275,3 +275,32 @@ for kept in "$here"/data/run-*; do
         holds "another summary" alike fresh.sizes taken.sizes
     fi
 done
+
+case_is "files of a run that are lost or damaged"
+rm -rf lost
+try 0 run line.yaml --integrator rk4 --step 0.1 --time 1 --output lost
+# without WHAT: of a copy.
+without() {
+    rm -rf less
+    cp -R lost less
+    rm -rf "less/$1"
+}
+without trajectory.npy
+try 2 resume less
+says "^dalembert: 'less/trajectory\.npy' is missing: the run cannot be continued$"
+holds "it was made" [ ! -e less/trajectory.npy ]
+without manifest.json
+try 2 resume less
+says 'there is no less/manifest\.json$'
+without system.yaml
+try 2 resume less
+says "^dalembert: 'less/system\.yaml' is missing: the run cannot be continued$"
+for text in '' '{' '[]' '{"input": 1}' '{"dalembert": "0.2.0", "study": "x"}' 'hello'; do
+    printf '%s' "$text" >less/manifest.json
+    try 2 resume less
+    says '^dalembert: less/manifest\.json:'
+    holds "a run is called a study" sh -c '! grep -q "the study" err'
+done
+try 0 run line.yaml --integrator rk4 --step 0.1 --time 1 --output less --force
+holds "other rows" cmp lost/trajectory.npy less/trajectory.npy
+rm -rf less lost

@@ -18,6 +18,43 @@ holds "labels: $(labels)" test "$(labels)" = \
 first_c=$(awk -F, '$5 == "c" { printf "%s ", $6 }' there/quantities.csv)
 holds "c: $first_c" test "$first_c" = "2 5 2 6.5 2 8 "
 
+case_is "seeds, lists and methods that cannot be, whether they matter or not"
+for seeds in hello '[]' '[[1]]' '[1, [2]]' '{between: [0, 1]}' '[-1]' 1.5; do
+    bad "${common}seeds: $seeds\nsystems: [line.yaml]\n" '^dalembert: bad\.yaml:[0-9]+:[0-9]+: .*'
+    bad "${common}systems: [{system: line.yaml, seeds: $seeds}]\n" '^dalembert: bad\.yaml:[0-9]+:[0-9]+: '
+done
+for line in 'integrators: []' 'integrators: [[rk4]]' 'step: [[0.1]]' 'step: []' 'starts: []' \
+    'starts: [[physical]]' 'systems: []' 'systems: [[line.yaml]]' 'options: []' 'set: [1]' \
+    'start: [1]' 'displace: [1]' 'samples: [1, 2]' 'time: [1]' 'expect: [1]' 'title: [a]'; do
+    key=${line%%:*}
+    printf "$common"'systems: [line.yaml]\n' | grep -v "^$key:" >bad.yaml
+    echo "$line" >>bad.yaml
+    try 2 study bad.yaml --output there --force
+    says "^dalembert: bad\.yaml:[0-9]+:[0-9]+: "
+done
+for modifier in project project-energy symmetric-project; do
+    try 2 run chaplygin-sleigh --integrator implicit-midpoint+$modifier+$modifier --step 0.1 --time 1
+    says "\+$modifier comes twice"
+done
+bad 'integrators: rk4+project+project\nstep: 0.5\ntime: 1\nsystems: [line.yaml]\n' 'comes twice'
+
+case_is "names that no directory can have"
+long=$(awk 'BEGIN { for (i = 0; i < 5000; i++) printf "x" }')
+rm -rf there
+bad "${common}systems: [{system: line.yaml, label: $long}]\n" 'too long a name for a directory'
+holds "a directory was made" [ ! -e there ]
+middle=$(awk 'BEGIN { for (i = 0; i < 235; i++) printf "x" }')
+bad "${common}systems: [{system: line.yaml, label: $middle, set: {k: [1, 2.5]}}]\n" \
+    'too long a name for a directory'
+try 2 run line.yaml --integrator rk4 --step 0.1 --time 1 --output "$long"
+try 2 run line.yaml --integrator rk4 --step 0.1 --time 1 --output "$long.csv"
+try 2 run "$long.yaml" --integrator rk4 --step 0.1 --time 1
+try 2 study "$long.yaml"
+try 2 study line.yaml --output "$long"
+try 2 resume "$long"
+try 2 report "$long"
+try 2 generate line.yaml --integrator rk4 -o "$long.c"
+
 case_is "ranges"
 printf 'integrators: rk4\nstep: {from: 0.5, to: 0.1, by: -0.2}\ntime: 1\nstarts: physical\n'"
 systems: [{system: line.yaml, set: {k: {from: 0, to: 0.3, by: 0.1}}}]\n" >ranges.yaml
