@@ -312,6 +312,7 @@ static void test_not_generated(void)
     char *text = NULL;
     CU_ASSERT_EQUAL(dal_generate(&spec, 1, NULL, &text, &error), DAL_UNSUPPORTED);
     CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "tolerance"));
+    CU_ASSERT(error.line == 0 && error.column == 0);
     CU_ASSERT_PTR_NULL(text);
     dal_run *run = fixture_run(&spec);
     CU_ASSERT_EQUAL(dal_run_native(run, NULL, &error), DAL_UNSUPPORTED);
@@ -336,6 +337,7 @@ static void fails(const char *text, double step, const char *reason, double reac
     CU_ASSERT_EQUAL(dal_run_step(run, &error), DAL_NOT_CONVERGED);
     if (!strstr(error.message, reason)) printf("\n  %s\n", error.message);
     CU_ASSERT_PTR_NOT_NULL(strstr(error.message, reason));
+    CU_ASSERT(error.line == 0 && error.column == 0);
     const char *where = strstr(error.message, "at t = ");
     CU_ASSERT_PTR_NOT_NULL_FATAL(where);
     if (reached > 0.0) CU_ASSERT(fabs(strtod(where + strlen("at t = "), NULL) - reached) <= 1e-6);

@@ -56,6 +56,7 @@ static void test_refusals(void)
     other.system = &by_hand;
     CU_ASSERT_EQUAL(generate(&other, 1, NULL, &error), DAL_UNSUPPORTED);
     CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "chaplygin-sleigh"));
+    CU_ASSERT(error.line == 0 && error.column == 0);
     other = spec;
     other.method.chain[0] = &own;
     CU_ASSERT_EQUAL(generate(&other, 1, NULL, &error), DAL_UNSUPPORTED);
@@ -123,6 +124,7 @@ static void test_too_large(void)
     CU_ASSERT_EQUAL(dal_method_parse(&of.method, "rk4", &error), DAL_OK);
     CU_ASSERT_EQUAL(generate(&of, 1, NULL, &error), DAL_TOO_LARGE);
     CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "'large' is too large for straight-line code"));
+    CU_ASSERT(error.line == 0 && error.column == 0);
     CU_ASSERT_EQUAL_FATAL(dal_run_create(&run, &of, &error), DAL_OK);
     CU_ASSERT_EQUAL(dal_run_native(run, &(dal_native_options){.cache = "/nowhere"}, &error),
                     DAL_TOO_LARGE);

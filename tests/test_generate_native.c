@@ -242,6 +242,7 @@ static void refused(const dal_native_options *with, dal_status expected, const c
     CU_ASSERT_EQUAL(dal_run_native(run, with, &error), expected);
     if (!strstr(error.message, why)) printf("\n  '%s' lacks '%s'\n", error.message, why);
     CU_ASSERT_PTR_NOT_NULL(strstr(error.message, why));
+    CU_ASSERT(error.line == 0 && error.column == 0);
     CU_ASSERT_FALSE(dal_run_is_native(run));
     CU_ASSERT_EQUAL(dal_run_step(run, &error), DAL_OK);
     dal_run_free(run);

@@ -292,6 +292,7 @@ static void test_refused(void)
     CU_ASSERT_EQUAL(dal_batch_create(&batch, &spec, 4, 0, &error), DAL_UNSUPPORTED);
     CU_ASSERT_EQUAL(dal_generate(&spec, 1, NULL, &text, &error), DAL_UNSUPPORTED);
     CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "long numbers"));
+    CU_ASSERT(error.line == 0 && error.column == 0);
     dal_integrator outside = *spec.method.chain[0];
     spec.method.chain[0] = &outside;
     fixture_refused(&spec, DAL_UNSUPPORTED, "'rk4' has no form in them");

@@ -216,6 +216,7 @@ static void test_rank(void)
         CU_ASSERT_EQUAL(dal_spectrum_create(&s, &spec, tangent, 6, &error), DAL_ARGUMENT);
         CU_ASSERT_PTR_NULL(s);
         CU_ASSERT(strstr(error.message, "the step map has 5") != NULL);
+        CU_ASSERT(error.line == 0 && error.column == 0);
     }
     dal_model_free(model);
 }
@@ -335,10 +336,12 @@ static void test_refuses(void)
     dal_run_spec spec = fixture_spec(fixture_system(model), "gni", DAL_PHYSICAL, 0.05);
     CU_ASSERT_EQUAL(dal_spectrum_create(&s, &spec, NULL, 0, &error), DAL_UNSUPPORTED);
     CU_ASSERT(strstr(error.message, "carries a multiplier") != NULL);
+    CU_ASSERT(error.line == 0 && error.column == 0);
     spec = fixture_spec(fixture_system(model), "dop853", DAL_PHYSICAL, 0.05);
     spec.options.tolerance = 1e-8;
     CU_ASSERT_EQUAL(dal_spectrum_create(&s, &spec, NULL, 0, &error), DAL_UNSUPPORTED);
     CU_ASSERT(strstr(error.message, "tolerance") != NULL);
+    CU_ASSERT(error.line == 0 && error.column == 0);
     spec.options.tolerance = 0.0;
     CU_ASSERT_EQUAL(dal_spectrum_create(&s, &spec, NULL, -1, &error), DAL_ARGUMENT);
     CU_ASSERT_PTR_NULL(s);
