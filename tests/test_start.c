@@ -87,10 +87,24 @@ static void test_exact(void)
         }
 }
 
+/* A start that the parameters make infinite is named, with its value. */
+static void test_not_finite(void)
+{
+    dal_model *model = fixture_model("coordinates: [x]\nlagrangian: x'^2/2\nparameters: {k: 0}\n"
+                                     "start: {x: 1e200*exp(k), x': 1}\n");
+    dal_run_spec spec = fixture_spec(fixture_system(model), "rk4", DAL_PHYSICAL, 0.1);
+    const dal_setting k = {"k", 500.0};
+    spec.parameters = &k;
+    spec.parameter_count = 1;
+    fixture_refused(&spec, DAL_NOT_FINITE, "start x is not finite: inf");
+    dal_model_free(model);
+}
+
 void suite_start(void)
 {
     CU_pSuite suite = CU_add_suite("start", NULL, NULL);
     CU_add_test(suite, "constraints are violated by 1e-10 at most", test_consistent);
+    CU_add_test(suite, "an infinite start", test_not_finite);
     CU_add_test(suite, "pivots are 1e-12 at least", test_rank);
     CU_add_test(suite, "an exact solution begins there within 1e-10", test_exact);
 }
