@@ -58,7 +58,7 @@ WIDE_SRC   = $(wildcard lib/*/*_wide.c)
 METHOD_SRC = $(wildcard integrators/*.c)
 LIB_SRC    = $(filter-out $(WIDE_SRC),$(wildcard lib/*.c lib/*/*.c))
 LIB_OBJ    = $(LIB_SRC:%.c=$(BUILD)/%.o) $(BUILD)/generated/systems.o \
-             $(BUILD)/generated/sources.o \
+             $(BUILD)/generated/sources.o $(BUILD)/generated/trend_tables.o \
              $(call WIDE,$(VARIANTS),$(WIDE_SRC)) $(call WIDE,$(GROUPS),$(METHOD_SRC))
 CLI_OBJ    = $(patsubst %.c,$(BUILD)/%.o,$(wildcard cli/*.c)) $(BUILD)/generated/study.o
 WIDE       = $(foreach variant,$1,$(2:%.c=$(BUILD)/%_$(variant).o))
@@ -130,6 +130,12 @@ SOURCES = $(wildcard lib/kernel/*.h) $(addprefix lib/generate/,ask.h stepper.h l
 $(BUILD)/generated/sources.c: tools/embed-sources.sh $(SOURCES)
 	@mkdir -p $(@D)
 	sh tools/embed-sources.sh $(SOURCES) >$@.tmp && mv $@.tmp $@
+# Shapes and noises that trends are made of, by a program that runs here.
+HOST_CC ?= cc
+$(BUILD)/generated/trend_tables.c: tools/trend-tables.c lib/measure/trend_tables.h
+	@mkdir -p $(@D)
+	$(call SAY,cc)$(HOST_CC) -std=c11 -O2 -Ilib $< -lm -o $(@D)/trend-tables
+	$(@D)/trend-tables >$@.tmp && mv $@.tmp $@
 # The built-in study travels inside the program.
 $(BUILD)/generated/study.c: tools/embed-text.sh bench/studies/canonical-drift.yaml
 	@mkdir -p $(@D)

@@ -231,7 +231,7 @@ void study_print_note(FILE *out, const study_plan *plan)
         "has\n"
         "the confidence of each.  -: there is no such quantity, or E where the motion need not\n"
         "conserve it: never, or off D = 0 where it does so on D = 0 only.  Rates are slopes of\n"
-        "least squares.  All look at every step.  I are the invariants of the system, the worst\n"
+        "fitted lines.  All look at every step.  I are the invariants of the system, the worst\n"
         "of them; ns are of the clock, looking on included.\n";
     if (is_lifted(plan)) cli_fold_notes(out, lift);
     cli_fold_notes(out, words);

@@ -16,7 +16,7 @@ enum { DAL_BLOCKS = 64, DAL_PARTS = 8 };
 
 /* Another number whenever the members of dal_statistics or their meaning change: who keeps them in
  * a file knows by it what they are.  Each member is of 64 bits and none points anywhere. */
-enum { DAL_STATISTICS_LAYOUT = 2 };
+enum { DAL_STATISTICS_LAYOUT = 3 };
 
 /* A block of successive values: its middle, and the mean, least and most of x. */
 typedef struct dal_mean {
@@ -37,7 +37,14 @@ typedef struct dal_statistics {
     /* Of the open block: t at its first value, least and most, and the sum of x less first, in
      * parts: value k of the block belongs to part k modulo DAL_PARTS. */
     double open_t, open_least, open_most, open_sum[DAL_PARTS];
-    dal_mean block[DAL_BLOCKS]; /* x less first; least and most as they are */
+    /* Sums and means are of `factor` times x less first: 1, or less once a value came near the
+     * largest double. */
+    double factor;
+    /* The squares of differences, in units of rough_unit, a power of two (0: no value was other
+     * than 0): of successive values as long as blocks are short, then of values DAL_PARTS apart in
+     * every fourth pair of packs, by part; and the pack before, from which the next ones count. */
+    double rough_unit, rough_steps, rough[DAL_PARTS], held[DAL_PARTS];
+    dal_mean block[DAL_BLOCKS]; /* factor times x less first; least and most as they are */
 } dal_statistics;
 
 /* Begins the statistics of count quantities; adds one value of each, at increasing and about

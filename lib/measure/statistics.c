@@ -5,17 +5,17 @@
  * all of them are in use after any number of values: the method of batch means (Flyvbjerg,
  * Petersen 1989, DOI 10.1063/1.457480; Law, Kelton, Simulation Modeling and Analysis, 9.5).
  *
- * The rate is the slope of least squares through the means of the blocks.  Were those independent,
- * its variance would be sigma^2 / S_tt; with the correlation rho of neighbours it is larger by
- * (1 + rho)/(1 - rho), and N blocks are worth as many fewer (Priestley, Spectral Analysis and Time
- * Series, 5.3.2).  The interval is Student's for that many. */
+ * How rough the series is tells a sum of roundings from a smooth change.  If its steps are
+ * independent, E (x_(k+l) - x_k)^2 = l sigma^2: the sum of squared steps n sigma^2 is that of
+ * (x_(k+1) - x_k)^2, or, at a fraction of the cost, 4/8 times that of (x_(k+8) - x_k)^2 over one
+ * k in four.  A smooth series has steps in one direction and a sum that is smaller by n. */
 #include "measure/statistics.h"
 #include <math.h>
 #include <string.h>
 
 void dal_statistics_start(dal_statistics *s, int count)
 {
-    for (int i = 0; i < count; i++) s[i] = (dal_statistics){.length = 1};
+    for (int i = 0; i < count; i++) s[i] = (dal_statistics){.length = 1, .factor = 1.0};
 }
 
 /* Joins neighbours: half as many blocks, twice as long. */
@@ -30,19 +30,60 @@ static void halve(dal_statistics *s)
     s->length *= 2;
 }
 
-double dal__open_sum(const dal_statistics *s)
+static double open_sum(const dal_statistics *s)
 {
     const double *a = s->open_sum;
     return ((a[0] + a[4]) + (a[2] + a[6])) + ((a[1] + a[5]) + (a[3] + a[7]));
 }
 
+double dal__open_sum(const dal_statistics *s) { return open_sum(s) / s->factor; }
+
+/* ---- units ---- */
+
+/* For numbers near the largest double: their sums and differences stay finite. */
+static const double small_factor = 0x1p-200;
+
+static void lower_factor(dal_statistics *s)
+{
+    s->factor = small_factor;
+    for (int i = 0; i < DAL_PARTS; i++) s->open_sum[i] *= small_factor;
+    for (int i = 0; i < DAL_BLOCKS; i++) s->block[i].x *= small_factor;
+}
+
+/* The least power of two above |x|, as long as its inverse is a number. */
+static double unit_of(double x)
+{
+    int exponent;
+    frexp(x, &exponent);
+    return ldexp(1.0, exponent < -1000 ? -1000 : exponent > 1000 ? 1000 : exponent);
+}
+
+/* Differences are counted in units of the greatest |x| of all full blocks. */
+static void raise_rough_unit(dal_statistics *s)
+{
+    const double most = fmax(fabs(s->least), fabs(s->most));
+    if (most <= s->rough_unit) return;
+    const double unit = unit_of(most), ratio = (s->rough_unit > 0.0 ? s->rough_unit : 1.0) / unit;
+    s->rough_steps = s->rough_steps * ratio * ratio;
+    for (int i = 0; i < DAL_PARTS; i++) s->rough[i] = s->rough[i] * ratio * ratio;
+    s->rough_unit = unit;
+}
+
+static double per_rough_unit(const dal_statistics *s)
+{
+    return s->rough_unit > 0.0 ? 1.0 / s->rough_unit : 1.0;
+}
+
+/* ---- one value ---- */
+
 static void close_block(dal_statistics *s, double t)
 {
-    s->block[s->blocks++] = (dal_mean){0.5 * (s->open_t + t), dal__open_sum(s) / (double)s->length,
+    s->block[s->blocks++] = (dal_mean){0.5 * (s->open_t + t), open_sum(s) / (double)s->length,
                                        s->open_least, s->open_most};
     s->least = fmin(s->least, s->open_least);
     s->most = fmax(s->most, s->open_most);
     s->open_count = 0;
+    raise_rough_unit(s);
     if (s->blocks == DAL_BLOCKS) halve(s);
 }
 
@@ -67,14 +108,38 @@ static void move_on(dal_statistics *s, int values, double t, double x)
     if (s->open_count == s->length) close_block(s, t);
 }
 
+static double rough_square(const dal_statistics *s, double x, double from)
+{
+    const double unit = per_rough_unit(s);
+    const double d = s->factor < 1.0 ? x * unit - from * unit : (x - from) * unit;
+    return fmin(d * d, DAL__ROUGH_LIMIT);
+}
+
+/* Blocks too short for a cycle: the first thousand values. */
+static bool is_short(const dal_statistics *s) { return s->length < DAL__CYCLE * DAL_PARTS; }
+
+static void add_roughness(dal_statistics *s, double x)
+{
+    const int part = (int)(s->open_count % DAL_PARTS);
+    const int phase = (int)(s->open_count / DAL_PARTS % DAL__CYCLE);
+    if (is_short(s))
+        s->rough_steps += s->count > 0 ? rough_square(s, x, s->last) : 0.0;
+    else if (phase == 0)
+        s->held[part] = x;
+    else if (phase == 1)
+        s->rough[part] += rough_square(s, x, s->held[part]);
+}
+
 static void add_one(dal_statistics *s, double t, double x)
 {
     if (!(fabs(x) < INFINITY)) {
         s->lost = 1;
         return;
     }
+    if (fabs(x) > DAL__PLAIN_LIMIT && s->factor == 1.0) lower_factor(s);
     if (s->open_count == 0) open_block(s, t, x);
-    s->open_sum[s->open_count % DAL_PARTS] += x - s->first;
+    add_roughness(s, x);
+    s->open_sum[s->open_count % DAL_PARTS] += x * s->factor - s->first * s->factor;
     s->open_least = x < s->open_least ? x : s->open_least;
     s->open_most = x > s->open_most ? x : s->open_most;
     move_on(s, 1, t, x);
@@ -87,7 +152,8 @@ void dal_statistics_add(dal_statistics *s, int count, double t, const double *va
 
 /* ---- many values ---- */
 
-typedef bool tally_packs(dal__tally *tally, double first, int packs, const double *values);
+typedef bool tally_packs(dal__tally *tally, double first, int phase, int packs,
+                         const double *values);
 
 /* For the best instructions of the machine: all variants give the same. */
 static tally_packs *best_tally(void)
@@ -103,7 +169,7 @@ static tally_packs *best_tally(void)
 /* Whole packs at the end of what the open block has, as many as it still takes. */
 static int packs_ahead(const dal_statistics *s, int values)
 {
-    if (s->open_count % DAL_PARTS != 0) return 0;
+    if (s->open_count % DAL_PARTS != 0 || is_short(s) || s->factor < 1.0) return 0;
     const long long left = s->length - s->open_count;
     return (int)(left < values ? left : values) / DAL_PARTS;
 }
@@ -112,10 +178,12 @@ static bool add_packs(dal_statistics *s, tally_packs *add, int packs, const doub
                       const double *x)
 {
     const int values = packs * DAL_PARTS;
-    if (!(fabs(x[0]) < INFINITY)) return false;
+    if (!(fabs(x[0]) <= DAL__PLAIN_LIMIT)) return false;
     if (s->open_count == 0) open_block(s, t[0], x[0]);
-    dal__tally tally = {s->open_sum, s->open_least, s->open_most};
-    if (!add(&tally, s->first, packs, x)) return false;
+    dal__tally tally = {s->open_sum, s->open_least, s->open_most,
+                        s->rough,    s->held,       per_rough_unit(s)};
+    const int phase = (int)(s->open_count / DAL_PARTS % DAL__CYCLE);
+    if (!add(&tally, s->first, phase, packs, x)) return false;
     s->open_least = tally.least;
     s->open_most = tally.most;
     move_on(s, values, t[values - 1], x[values - 1]);
@@ -176,121 +244,17 @@ int dal__blocks(const dal_statistics *s, dal_mean *block)
     memcpy(block, s->block, (size_t)n * sizeof *block);
     for (int i = 0; i < n; i++) {
         block[i].t -= s->from;
+        block[i].x /= s->factor;
         block[i].least -= s->first;
         block[i].most -= s->first;
     }
     return n;
 }
 
-/* ---- rate ---- */
-
-typedef struct line {
-    double t, x, slope; /* through the means (t, x) */
-    double tt;          /* sum of squares of t about its mean */
-} line;
-
-static line fit_line(const dal_mean *block, int n)
+double dal__roughness(const dal_statistics *s)
 {
-    line l = {0};
-    double tx = 0.0;
-    for (int i = 0; i < n; i++) {
-        l.t += block[i].t / n;
-        l.x += block[i].x / n;
-    }
-    for (int i = 0; i < n; i++) {
-        const double t = block[i].t - l.t;
-        l.tt += t * t;
-        tx += t * (block[i].x - l.x);
-    }
-    l.slope = l.tt > 0.0 ? tx / l.tt : 0.0;
-    return l;
-}
-
-static double above(const line *l, const dal_mean *b, double x)
-{
-    return x - l->x - l->slope * (b->t - l->t);
-}
-
-/* The 97.5 % quantile of Student's distribution, expanded about that of the normal one (Fisher,
- * Cornish 1960, DOI 10.1080/00401706.1960.10489895): better than 1 % from 3 degrees on. */
-double dal__student(double freedom)
-{
-    static const double c[] = {1.959964, 2.372212, 2.822501, 2.555850};
-    const double f = 1.0 / fmax(freedom, 1.0);
-    return c[0] + f * (c[1] + f * (c[2] + f * c[3]));
-}
-
-double dal__inflation(double square, double product, int n)
-{
-    /* Residues lean against each other by 2/n even where the values do not. */
-    const double rho = fmin(fmax(product / square + 2.0 / n, 0.0), 1.0 - 1.0 / n);
-    return (1.0 + rho) / (1.0 - rho);
-}
-
-/* Half the width of the interval about the slope. */
-static double uncertainty(const line *l, const dal_mean *block, int n)
-{
-    double square = 0.0, product = 0.0, before = 0.0;
-    if (n < 3) return INFINITY;
-    for (int i = 0; i < n; i++) {
-        const double r = above(l, &block[i], block[i].x);
-        square += r * r;
-        product += r * before;
-        before = r;
-    }
-    if (!(square > 0.0)) return 0.0;
-    const double inflation = dal__inflation(square, product, n);
-    return dal__student(n / inflation - 2.0) * sqrt(square / (n - 2) / l->tt * inflation);
-}
-
-/* Half the range about the line; what the line itself rises within a block does not count. */
-static double amplitude(const line *l, const dal_mean *block, int n)
-{
-    double low = INFINITY, high = -INFINITY;
-    for (int i = 0; i < n; i++) {
-        low = fmin(low, above(l, &block[i], block[i].least));
-        high = fmax(high, above(l, &block[i], block[i].most));
-    }
-    const double within = n > 0 && block[0].least < block[0].most ? 1.0 : 0.0;
-    const double rise = n > 1 ? within * fabs(l->slope) * (block[1].t - block[0].t) : 0.0;
-    return n > 0 ? fmax(0.5 * (high - low - rise), 0.0) : 0.0;
-}
-
-/* ---- growth ---- */
-
-/* The slope of log max |x - first| over log t, at t = T, T/2, T/4, ... as far as blocks go. */
-static double exponent(const dal_mean *block, int n)
-{
-    double reach[DAL_BLOCKS], most = 0.0, sum[5] = {0};
-    for (int i = 0; i < n; i++)
-        reach[i] = most = fmax(most, fmax(fabs(block[i].least), fabs(block[i].most)));
-    for (int k = n; k > 0 && reach[k - 1] > 0.0; k /= 2) {
-        const double a = log(k), b = log(reach[k - 1]);
-        const double terms[] = {1.0, a, b, a * a, a * b};
-        for (int i = 0; i < 5; i++) sum[i] += terms[i];
-    }
-    const double square = sum[0] * sum[3] - sum[1] * sum[1];
-    return square > 0.0 ? (sum[0] * sum[4] - sum[1] * sum[2]) / square : 0.0;
-}
-
-/* ---- the whole ---- */
-
-void dal_statistics_classify(const dal_statistics *s, double scale, int aborted, dal_trend *trend)
-{
-    dal_mean block[DAL_BLOCKS];
-    const int n = dal__blocks(s, block);
-    const line l = fit_line(block, n);
-    const double margin = uncertainty(&l, block, n);
-    *trend = (dal_trend){.count = s->count,
-                         .first = s->first,
-                         .last = s->last,
-                         .max_abs = dal_statistics_max_abs(s),
-                         .deviation = dal_statistics_deviation(s),
-                         .amplitude = amplitude(&l, block, n),
-                         .rate = l.slope,
-                         .rate_low = l.slope - margin,
-                         .rate_high = l.slope + margin,
-                         .max_drift = (fabs(l.slope) + margin) * (s->to - s->from),
-                         .exponent = exponent(block, n)};
-    dal__classify(s, scale, aborted, trend);
+    double sum = 0.0;
+    for (int i = 0; i < DAL_PARTS; i++) sum += s->rough[i];
+    const double unit = s->rough_unit > 0.0 ? s->rough_unit : 1.0;
+    return s->factor * unit * sqrt(s->rough_steps + sum * DAL__CYCLE / DAL_PARTS);
 }

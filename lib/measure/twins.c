@@ -5,6 +5,7 @@
  * twin solved further and the same in long numbers go side by side. */
 #include "measure/causes.h"
 #include "measure/measure.h"
+#include "measure/trend.h"
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -282,12 +283,29 @@ static const dal_trend *trend_of(const twins *w, int which, int i)
     return w->trends + (size_t)which * (size_t)w->of->observables + i;
 }
 
+/* Rates of parts add up to that of the whole, so they are those of least squares, which are linear
+ * in the values. */
+static void use_linear_rates(const twins *w, int which)
+{
+    for (int i = 0; i < w->of->observables; i++) {
+        dal_trend *const f = w->trends + (size_t)which * (size_t)w->of->observables + i;
+        dal_trend line = *f;
+        dal__trend_line(series(w, which) + i, &line);
+        f->rate = line.rate;
+        f->rate_low = fmin(f->rate_low, line.rate);
+        f->rate_high = fmax(f->rate_high, line.rate);
+    }
+}
+
 static void classify_all(twins *w, const dal_run *run)
 {
+    static const int parts[] = {DAL__EARLY_RUN,  DAL__EARLY_ROUNDING, DAL__EARLY_SOLVER,
+                                DAL__EARLY_BOTH, 1 + DAL_TWIN_LONG,   1 + DAL_TWIN_LONG_HALVED};
     for (int which = 0; which < DAL__SERIES; which++)
         if (w->of->observables > 0 && series(w, which)->count > 0)
             dal_run_classify(run, series(w, which), 0,
                              w->trends + (size_t)which * (size_t)w->of->observables);
+    for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++) use_linear_rates(w, parts[i]);
     for (int i = 0; i < w->of->observables; i++) {
         dal_attribution *a = &w->of->of[i];
         a->all = *trend_of(w, DAL__ALL, i);

@@ -1,0 +1,58 @@
+/* series.h - synthetic series of known kinds, for the tests of trends. */
+#ifndef SERIES_H
+#define SERIES_H
+
+#include <stdint.h>
+
+enum { SERIES_CAPACITY = 200001 };
+
+typedef struct series {
+    uint64_t random; /* state of the generator */
+    int count;       /* values, at s = k/(count - 1), k = 0 .. count - 1 */
+    double *x;
+    double drift;    /* of the straight line in it, over the whole series; 0 for noise */
+    double exponent; /* of its power law; NaN for others */
+    double from, to; /* the bounds of the parameter that the kind draws */
+} series;
+
+typedef void series_generator(series *s);
+
+/* SplitMix64; uniform on low..high; uniform in the logarithm; a sum of four uniform numbers, of
+ * mean 0 and variance 1. */
+uint64_t series_next(uint64_t *random);
+double series_between(uint64_t *random, double low, double high);
+double series_log_between(uint64_t *random, double low, double high);
+double series_normal(uint64_t *random);
+
+/* Which trends a kind accepts. */
+enum {
+    ACCEPT_NONE = 1,
+    ACCEPT_SETTLES = 2,
+    ACCEPT_WALK = 4,
+    ACCEPT_LINEAR = 8,
+    ACCEPT_POWER = 16,
+    ACCEPT_EXPONENTIAL = 32,
+    ACCEPT_GROWING = 64,
+    ACCEPT_LOGARITHM = 128, /* a power law below 0.2 */
+    DECIDES = 256,          /* at most 8 % undecided */
+    WALKS = 512,            /* a random walk in at least 30 % */
+    COVERS = 1024,          /* the interval of the rate holds drift in at least 93 % */
+    ROUNDINGS = 2048,       /* of rounding size beside 1, and not to be scaled */
+    TRUNCATION = 4096       /* larger than roundings beside 1, and not to be scaled */
+};
+
+typedef struct series_kind {
+    const char *name;
+    series_generator *generate;
+    double from, to;          /* of its parameter */
+    int min_count, max_count; /* values */
+    int accepts;
+} series_kind;
+
+extern const series_kind series_kinds[];
+extern const int series_kind_count;
+
+/* Draws series number `number` of a kind into x[SERIES_CAPACITY]. */
+void series_draw(const series_kind *kind, uint64_t number, double *x, series *s);
+
+#endif

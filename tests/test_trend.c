@@ -1,0 +1,368 @@
+/* test_trend.c - sizes and trends: the matrix of answers on 1000 synthetic series of each kind and
+ * the goals that it must meet, series with one peculiarity each, and runs of shipped systems. */
+#include "quick.h"
+#include "series.h"
+#include <CUnit/CUnit.h>
+#include <dalembert.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+#include <time.h>
+
+#if defined __SANITIZE_ADDRESS__ || defined __SANITIZE_THREAD__
+enum { SERIES = 100 };
+#else
+enum { SERIES = 1000 };
+#endif
+
+static double x[SERIES_CAPACITY], t[SERIES_CAPACITY];
+
+/* ---- what must never contradict ---- */
+
+static int agrees(const dal_trend *f)
+{
+    const int has_zero = f->rate_low <= 0.0 && f->rate_high >= 0.0;
+    if (!(f->confidence > 0.0 && f->confidence <= 1.0)) return 0;
+    if (!(f->rate_low <= f->rate && f->rate <= f->rate_high)) return 0;
+    if ((f->size == DAL_SIZE_EXACT) != (f->deviation == 0.0)) return 0;
+    if (f->amplitude > f->deviation + fabs(f->rate) * 1e300) return 0;
+    switch (f->trend) {
+    case DAL_TREND_NONE:
+        return has_zero && f->exponent == 0.0;
+    case DAL_TREND_SETTLES:
+        return f->exponent == 0.0;
+    case DAL_TREND_RANDOM_WALK:
+        return has_zero && f->exponent == 0.5;
+    case DAL_TREND_LINEAR:
+        return !has_zero && f->exponent == 1.0;
+    case DAL_TREND_POWER:
+        return f->exponent >= 0.0 && f->exponent != 1.0;
+    default:
+        return isnan(f->exponent);
+    }
+}
+
+/* ---- the matrix ---- */
+
+typedef struct tally {
+    int count, wrong, sure, covered, right_size, said[DAL_TREND_COUNT];
+    clock_t time;
+} tally;
+
+/* Whether a kind accepts a trend. */
+static int accepts(const series_kind *kind, const series *s, const dal_trend *f)
+{
+    static const int bit[] = {ACCEPT_NONE,  ACCEPT_SETTLES,     ACCEPT_WALK,   ACCEPT_LINEAR,
+                              ACCEPT_POWER, ACCEPT_EXPONENTIAL, ACCEPT_GROWING};
+    if (f->trend == DAL_TREND_UNDECIDED) return 1;
+    if (f->trend >= DAL_TREND_UNDECIDED) return 0;
+    if (f->trend == DAL_TREND_POWER && kind->accepts & ACCEPT_LOGARITHM) return f->exponent < 0.2;
+    if (f->trend == DAL_TREND_POWER && !(fabs(f->exponent - s->exponent) <= 0.15)) return 0;
+    return (kind->accepts & bit[f->trend]) != 0;
+}
+
+/* Of any size, about any value, but where roundings are the question. */
+static double rescale(const series_kind *kind, series *s)
+{
+    const double size = series_log_between(&s->random, 1e-6, 1e3);
+    const double offset = series_between(&s->random, -1.0, 1.0) * size;
+    if (kind->accepts & (ROUNDINGS | TRUNCATION)) return 1.0;
+    for (int k = 0; k < s->count; k++) s->x[k] = offset + size * s->x[k];
+    return size;
+}
+
+static void draw_one(const series_kind *kind, uint64_t number, tally *all)
+{
+    series s;
+    dal_statistics statistics;
+    dal_trend f;
+    series_draw(kind, number, x, &s);
+    const double size = rescale(kind, &s);
+    dal_statistics_start(&statistics, 1);
+    dal_statistics_add_many(&statistics, 1, s.count, t, x, (size_t)s.count);
+    const clock_t before = clock();
+    dal_statistics_classify(&statistics, size, 0, &f);
+    all->time += clock() - before;
+    CU_ASSERT(agrees(&f));
+    const int is_wrong = !accepts(kind, &s, &f);
+    const double rate = s.drift * size / (t[1] * (s.count - 1));
+    const dal_size_class right = kind->accepts & ROUNDINGS ? DAL_SIZE_ROUNDING : DAL_SIZE_LARGER;
+    all->count++;
+    all->wrong += is_wrong;
+    all->sure += is_wrong && f.confidence > 0.9;
+    all->covered += f.rate_low <= rate && rate <= f.rate_high;
+    all->right_size += f.size == right;
+    all->said[f.trend]++;
+}
+
+static double percent(int part, const tally *all) { return 100.0 * part / all->count; }
+
+static void print_row(const series_kind *kind, const tally *all)
+{
+    printf("%-28s %5.1f %5.1f %5.1f", kind->name, percent(all->wrong, all), percent(all->sure, all),
+           percent(all->said[DAL_TREND_UNDECIDED], all));
+    if (kind->accepts & COVERS)
+        printf(" %6.1f ", percent(all->covered, all));
+    else
+        printf("        ");
+    for (dal_trend_class i = 0; i < DAL_TREND_COUNT; i++)
+        if (all->said[i] > 0 && i != DAL_TREND_UNDECIDED)
+            printf(" %s %.1f", dal_trend_text(i), percent(all->said[i], all));
+    printf("\n");
+}
+
+/* The goals; a few series allow for what a thousand do not. */
+static void assert_goals(const series_kind *kind, const tally *all)
+{
+    const double few = 100.0 * (all->count < 1000 ? 3.0 * sqrt(all->count) : 0.0) / all->count;
+    CU_ASSERT(percent(all->wrong, all) <= 5.0 + few);
+    CU_ASSERT(percent(all->sure, all) <= 1.0 + few);
+    if (kind->accepts & DECIDES)
+        CU_ASSERT(percent(all->said[DAL_TREND_UNDECIDED], all) <= 8.0 + few);
+    if (kind->accepts & WALKS)
+        CU_ASSERT(percent(all->said[DAL_TREND_RANDOM_WALK], all) >= 30.0 - few);
+    if (kind->accepts & COVERS) CU_ASSERT(percent(all->covered, all) >= 93.0 - few);
+    CU_ASSERT(percent(all->right_size, all) >= 99.0 - few);
+}
+
+static void test_matrix(void)
+{
+    clock_t time = 0;
+    int count = 0;
+    printf("\n%-28s %5s %5s %5s %6s   answers, %%\n", "", "wrong", "sure", "undec", "cover");
+    for (int i = 0; i < series_kind_count; i++) {
+        tally all = {0};
+        for (int k = 0; k < (int)long_run(SERIES); k++)
+            draw_one(&series_kinds[i], (uint64_t)k, &all);
+        print_row(&series_kinds[i], &all);
+        assert_goals(&series_kinds[i], &all);
+        time += all.time;
+        count += all.count;
+    }
+    printf("%.1f us for a classification\n", 1e6 * (double)time / CLOCKS_PER_SEC / count);
+}
+
+/* ---- peculiarities ---- */
+
+typedef double signal(int k);
+
+enum { LONG = 5000 };
+
+static double constant(int k) { return (void)k, -7.0; }
+static double few_bits(int k) { return 1.0 + 0x1p-52 * (k % 3); }
+static double small_line(int k) { return 1.0 + 0x1p-52 * (k / 100); }
+static double steady_drift(int k) { return 1.0 + 1e-14 * k; }
+static double half_wave(int k) { return sin(3.0 * k / LONG); }
+static double one_wave(int k) { return sin(6.0 * k / LONG); }
+static double forty_waves(int k) { return sin(250.0 * k / LONG); }
+static double spike(int k) { return k == 0 ? 1.0 : 0.0; }
+static double growing(int k) { return exp(9.0 * k / LONG) * cos(2.0 * k); }
+static double broken(int k) { return k < 4000 ? 1.0 : NAN; }
+/* A slow trend under a large oscillation. */
+static double leaning(int k) { return 1e-2 * k / LONG + 1e-2 * cos(0.7 * k); }
+
+static dal_trend follow(signal *of, double scale, int count)
+{
+    dal_statistics statistics;
+    dal_trend f;
+    dal_statistics_start(&statistics, 1);
+    for (int k = 0; k <= count; k++) {
+        const double own = of(k);
+        dal_statistics_add(&statistics, 1, 0.1 * k, &own);
+    }
+    dal_statistics_classify(&statistics, scale, 0, &f);
+    return f;
+}
+
+static void test_peculiarities(void)
+{
+    static const struct {
+        signal *x;
+        double scale;
+        int count;
+        dal_size_class size;
+        dal_trend_class trend;
+    } cases[] = {
+        {constant, 1.0, LONG, DAL_SIZE_EXACT, DAL_TREND_NONE},
+        {constant, 1.0, 1, DAL_SIZE_EXACT, DAL_TREND_NONE},
+        {constant, 1.0, 0, DAL_SIZE_EXACT, DAL_TREND_UNDECIDED},
+        {few_bits, 1.0, LONG, DAL_SIZE_ROUNDING, DAL_TREND_NONE},
+        {few_bits, 1e-6, LONG, DAL_SIZE_LARGER, DAL_TREND_NONE},
+        {small_line, 1.0, LONG, DAL_SIZE_ROUNDING, DAL_TREND_LINEAR},
+        {steady_drift, 1.0, LONG, DAL_SIZE_LARGER, DAL_TREND_LINEAR},
+        {steady_drift, 1e6, LONG, DAL_SIZE_ROUNDING, DAL_TREND_LINEAR},
+        {steady_drift, 1.0, 30, DAL_SIZE_LARGER, DAL_TREND_UNDECIDED},
+        {half_wave, 1.0, LONG, DAL_SIZE_LARGER, DAL_TREND_UNDECIDED},
+        {one_wave, 1.0, LONG, DAL_SIZE_LARGER, DAL_TREND_UNDECIDED},
+        {forty_waves, 1.0, LONG, DAL_SIZE_LARGER, DAL_TREND_NONE},
+        {spike, 1.0, LONG, DAL_SIZE_LARGER, DAL_TREND_SETTLES},
+        {growing, 1.0, LONG, DAL_SIZE_LARGER, DAL_TREND_GROWING},
+        {broken, 1.0, LONG, DAL_SIZE_LARGER, DAL_TREND_ABORTED},
+        {leaning, 1.0, 500, DAL_SIZE_LARGER, DAL_TREND_LINEAR},
+        {leaning, 1.0, 2000, DAL_SIZE_LARGER, DAL_TREND_LINEAR},
+        {leaning, 1.0, LONG, DAL_SIZE_LARGER, DAL_TREND_LINEAR},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        const dal_trend f = follow(cases[i].x, cases[i].scale, cases[i].count);
+        if (f.trend != cases[i].trend || f.size != cases[i].size)
+            printf("\n  case %zu: %s, %s, %g, rate %g (%g %g)", i, dal_size_text(f.size),
+                   dal_trend_text(f.trend), f.confidence, f.rate, f.rate_low, f.rate_high);
+        CU_ASSERT_EQUAL(f.trend, cases[i].trend);
+        if (f.trend != DAL_TREND_ABORTED) CU_ASSERT_EQUAL(f.size, cases[i].size);
+    }
+}
+
+/* ---- sizes ---- */
+
+static const series_kind *kind_named(const char *name)
+{
+    for (int i = 0; i < series_kind_count; i++)
+        if (strcmp(series_kinds[i].name, name) == 0) return &series_kinds[i];
+    return NULL;
+}
+
+/* The trend of a series times factor. */
+static dal_trend scaled(const char *name, uint64_t number, double factor)
+{
+    series s;
+    dal_statistics statistics;
+    dal_trend f;
+    series_draw(kind_named(name), number, x, &s);
+    for (int k = 0; k < s.count; k++) x[k] *= factor;
+    dal_statistics_start(&statistics, 1);
+    dal_statistics_add_many(&statistics, 1, s.count, t, x, (size_t)s.count);
+    dal_statistics_classify(&statistics, factor, 0, &f);
+    return f;
+}
+
+/* Powers of two change nothing, from the smallest to the largest numbers. */
+static void test_sizes(void)
+{
+    static const char *const names[] = {"line, SNR 3, tones",  "oscillation, 10 periods on",
+                                        "step, middle, noise", "walk of roundings",
+                                        "white, long",         "grows like t"};
+    static const int exponents[] = {-990, -500, -40, 70, 500, 890, 905, 1000, 1015};
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++)
+        for (size_t k = 0; k < sizeof exponents / sizeof exponents[0]; k++) {
+            const dal_trend one = scaled(names[i], 3, 1.0);
+            const dal_trend f = scaled(names[i], 3, ldexp(1.0, exponents[k]));
+            const double back = ldexp(1.0, -exponents[k] / 2), again = exponents[k] % 2 ? 0.5 : 1.0;
+            const double near = 1e-6 * (one.rate_high - one.rate_low);
+            if (f.trend != one.trend || f.size != one.size)
+                printf("\n  %s 2^%d: %s, %s", names[i], exponents[k], dal_size_text(f.size),
+                       dal_trend_text(f.trend));
+            CU_ASSERT(agrees(&f));
+            CU_ASSERT_EQUAL(f.trend, one.trend);
+            CU_ASSERT_EQUAL(f.size, one.size);
+            CU_ASSERT_DOUBLE_EQUAL(f.confidence, one.confidence, 1e-6);
+            if (exponents[k] > 0)
+                CU_ASSERT_DOUBLE_EQUAL(f.rate_low * back * back * again, one.rate_low, near);
+        }
+}
+
+/* ---- runs of shipped systems ---- */
+
+enum { OBSERVABLES = 64 };
+
+static dal_status take(void *user, dal_run *run, int looks, const double *at, const double *values,
+                       size_t stride)
+{
+    dal_statistics_add_many(user, dal_run_observables(run), looks, at, values, stride);
+    return DAL_OK;
+}
+
+/* All trends of a run; the place of an observable, or -1. */
+static int run_trends(const char *system, const char *method, double h, double T,
+                      const char *observable, dal_trend *trend)
+{
+    dal_run_spec spec = {.options = dal_options_default()};
+    dal_statistics statistics[OBSERVABLES];
+    const dal_observer observer = {.user = statistics, .values = take, .every = 1};
+    dal_model *model = NULL;
+    dal_run *run = NULL;
+    char name[64];
+    int place = -1;
+    spec.options.step = h;
+    spec.options.space = DAL_PHYSICAL;
+    dal_statistics_start(statistics, OBSERVABLES);
+    if (dal_model_builtin(&model, system, NULL) == DAL_OK &&
+        dal_model_system(model, &spec.system, NULL) == DAL_OK &&
+        dal_method_parse(&spec.method, method, NULL) == DAL_OK &&
+        dal_run_create(&run, &spec, NULL) == DAL_OK &&
+        dal_run_sample(run, T, 1, 0, &observer, NULL) == DAL_OK) {
+        dal_run_classify(run, statistics, 0, trend);
+        for (int i = 0; i < dal_run_observables(run); i++) {
+            dal_run_observable_name(run, i, name, sizeof name);
+            CU_ASSERT(agrees(&trend[i]));
+            if (strcmp(name, observable) == 0) place = i;
+        }
+    }
+    dal_run_free(run);
+    dal_model_free(model);
+    return place;
+}
+
+enum {
+    NONE = 1 << DAL_TREND_NONE,
+    SETTLES = 1 << DAL_TREND_SETTLES,
+    LINEAR = 1 << DAL_TREND_LINEAR,
+    GROWING = 1 << DAL_TREND_GROWING,
+    UNDECIDED = 1 << DAL_TREND_UNDECIDED
+};
+
+static void test_runs(void)
+{
+    static const struct {
+        const char *system, *method;
+        double h, T;
+        const char *observable;
+        dal_size_class size;
+        int trends;
+    } cases[] = {
+        {"chaplygin-sleigh-full-turn", "mclachlan-perlmutter", 0.02, 30.0, "E", DAL_SIZE_LARGER,
+         NONE | SETTLES | UNDECIDED},
+        {"chaplygin-sleigh-offset", "stormer-verlet", 0.05, 40.0, "E", DAL_SIZE_LARGER,
+         NONE | SETTLES | UNDECIDED},
+        {"nonholonomic-particle-free", "stormer-verlet", 0.05, 30.0, "E", DAL_SIZE_LARGER,
+         NONE | SETTLES | UNDECIDED},
+        {"contact-oscillator", "gauss4", 0.01, 20.0, "E", DAL_SIZE_LARGER,
+         NONE | SETTLES | UNDECIDED},
+        {"contact-oscillator", "gauss4", 0.01, 40.0, "E", DAL_SIZE_LARGER,
+         NONE | SETTLES | UNDECIDED},
+        {"contact-oscillator", "gauss8", 0.1, 4e4, "Hxz", DAL_SIZE_LARGER,
+         LINEAR | GROWING | UNDECIDED},
+        {"isokinetic", "mclachlan4", 0.01, 5.0, "D1", DAL_SIZE_LARGER, NONE | SETTLES | UNDECIDED},
+        {"chaplygin-sleigh", "gauss6", 0.02, 100.0, "D1", DAL_SIZE_ROUNDING, LINEAR},
+        {"chaplygin-sleigh", "gauss6", 0.02, 1000.0, "D1", DAL_SIZE_ROUNDING, LINEAR},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        dal_trend trend[OBSERVABLES];
+        const int at = run_trends(cases[i].system, cases[i].method, cases[i].h, cases[i].T,
+                                  cases[i].observable, trend);
+        CU_ASSERT(at >= 0);
+        if (at < 0) continue;
+        const dal_trend *const f = &trend[at];
+        printf("\n  %s, %s, T = %g: %s: %s, %s, %.2f, R %.1e, rate %.3e (%.3e %.3e)",
+               cases[i].system, cases[i].method, cases[i].T, cases[i].observable,
+               dal_size_text(f->size), dal_trend_text(f->trend), f->confidence, f->deviation,
+               f->rate, f->rate_low, f->rate_high);
+        CU_ASSERT_EQUAL(f->size, cases[i].size);
+        CU_ASSERT(cases[i].trends >> f->trend & 1);
+    }
+    printf("\n");
+}
+
+static int fill_times(void)
+{
+    for (int k = 0; k < SERIES_CAPACITY; k++) t[k] = 0.01 * k;
+    return 0;
+}
+
+void suite_trend(void)
+{
+    CU_pSuite suite = CU_add_suite("trends", fill_times, NULL);
+    CU_add_test(suite, "1000 series of each kind", test_matrix);
+    CU_add_test(suite, "peculiarities", test_peculiarities);
+    CU_add_test(suite, "sizes", test_sizes);
+    CU_add_test(suite, "runs", test_runs);
+}
