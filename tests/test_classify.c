@@ -159,10 +159,36 @@ static void test_other_level(void)
     dal_model_free(model);
 }
 
+/* exp(k s), 0 <= s <= 1, modulated by half, to one side or to both. */
+static dal_trend_class trend_of_exponential(double k, int both_sides)
+{
+    enum { VALUES = 40000 };
+    dal_statistics statistics;
+    dal_trend trend;
+    dal_statistics_start(&statistics, 1);
+    for (int i = 0; i <= VALUES; i++) {
+        const double s = (double)i / VALUES, wave = sin(3000.0 * s);
+        const double x = exp(k * s) * (both_sides ? wave : 1.0 + 0.5 * wave);
+        dal_statistics_add(&statistics, 1, s, &x);
+    }
+    dal_statistics_classify(&statistics, dal_statistics_max_abs(&statistics), 0, &trend);
+    return trend.trend;
+}
+
+static void test_many_folds(void)
+{
+    static const double folds[] = {10.0, 20.0, 40.0, 92.0, 300.0, 600.0};
+    for (size_t i = 0; i < sizeof folds / sizeof folds[0]; i++) {
+        CU_ASSERT_EQUAL(trend_of_exponential(folds[i], 0), DAL_TREND_EXPONENTIAL);
+        CU_ASSERT_EQUAL(trend_of_exponential(folds[i], 1), DAL_TREND_GROWING);
+    }
+}
+
 void suite_classify(void)
 {
     CU_pSuite suite = CU_add_suite("classification of a run", NULL, NULL);
     CU_add_test(suite, "where E has a trend", test_energy);
     CU_add_test(suite, "where H has a trend", test_hamiltonian);
     CU_add_test(suite, "E on another level of D", test_other_level);
+    CU_add_test(suite, "exponentials over many e-folds", test_many_folds);
 }

@@ -186,6 +186,8 @@ static decision decide(const picture *p)
         if (weight[i] > weight[best]) best = i;
     const double w = weight[best];
     const decision undecided = {DAL_TREND_UNDECIDED, w, NAN};
+    if (p->growth == DAL__EXPLODES && best == DAL__MEANS_OTHER)
+        return (decision){DAL_TREND_EXPONENTIAL, not_sure, NAN};
     if (is_growing(p, best, w)) return (decision){DAL_TREND_GROWING, not_sure, NAN};
     if (best == DAL__MEANS_SETTLES && p->bins.range < settled_change * p->spread)
         best = DAL__MEANS_NONE;

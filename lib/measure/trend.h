@@ -51,8 +51,15 @@ typedef struct dal__interval {
     double low, middle, high;
 } dal__interval;
 
-/* What the amplitude of an oscillation does: LARGER by a factor of 2 and more, in no known way. */
-typedef enum dal__growth { DAL__STEADY, DAL__LARGER, DAL__GROWS, DAL__GROWS_FAST } dal__growth;
+/* What the amplitude of an oscillation does: LARGER by a factor of 2 and more, in no known way.
+ * EXPLODES: no oscillation, but values to one side that grow by equal factors in equal times. */
+typedef enum dal__growth {
+    DAL__STEADY,
+    DAL__LARGER,
+    DAL__EXPLODES,
+    DAL__GROWS,
+    DAL__GROWS_FAST
+} dal__growth;
 
 /* False where there are too few blocks, or all values are the same. */
 bool dal__trend_read(const dal_statistics *statistics, dal__trend_series *series);

@@ -7,7 +7,9 @@
  *
  * leaves residues whose mean square root is a small part of that rise.  Noise may hide how it
  * began: where the whole does not fit, that part is tried that stands clear of the beginning.
- * Beats of two tones rise by as much, but in other shapes. */
+ * Beats of two tones rise by as much, but in other shapes.  Values to one side whose z rises so by
+ * many e-folds explode: an exponential over more of them than the shapes of trend_tables.h, and
+ * modulated besides, shows in z alone. */
 #include "measure/trend.h"
 #include <math.h>
 
@@ -16,6 +18,9 @@ enum { NEAR = 2, LEAST_POINTS = 10 };
 static const double doubled = 0.7, grown = 1.0; /* rises of z */
 static const double misfit = 0.035;             /* of the rise */
 static const double clear_of_noise = 1.5;       /* rise of z above the beginning */
+
+static const double exploded = 8.0;   /* rise of z */
+static const double one_sided = 0.05; /* of the farther end: where the other one is */
 
 typedef struct curve {
     int count;
@@ -67,6 +72,12 @@ static dal__growth growth_from(const curve *c, int from)
     return by_rate < by_power ? DAL__GROWS_FAST : DAL__GROWS;
 }
 
+static bool is_one_sided(const dal__trend_series *x)
+{
+    const double below = -x->low, above = x->high;
+    return fmin(below, above) < one_sided * fmax(below, above);
+}
+
 dal__growth dal__trend_growth(const dal__trend_series *x)
 {
     curve c;
@@ -77,6 +88,7 @@ dal__growth dal__trend_growth(const dal__trend_series *x)
     if (rise < doubled) return DAL__STEADY;
     if (rise < grown) return DAL__LARGER;
     const dal__growth whole = growth_from(&c, 0);
+    if (whole == DAL__GROWS_FAST && rise > exploded && is_one_sided(x)) return DAL__EXPLODES;
     int from = 0;
     while (from < c.count && c.z[from] < c.z[0] + clear_of_noise) from++;
     return whole != DAL__LARGER ? whole : growth_from(&c, from);
