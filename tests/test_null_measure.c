@@ -270,6 +270,24 @@ static void null_dal_statistics_deviation(void)
     CU_ASSERT(isnan(dal_statistics_deviation(NULL)));
 }
 
+static void null_dal_statistics_start(void)
+{
+    dal_statistics s = {.count = -7};
+    dal_statistics_start(NULL, 1);
+    dal_statistics_start(&s, -1);
+    CU_ASSERT_EQUAL(s.count, -7);
+}
+
+static void null_dal_statistics_classify(void)
+{
+    dal_statistics s;
+    dal_trend trend = {.count = -7};
+    dal_statistics_start(&s, 1);
+    dal_statistics_classify(NULL, 1.0, 0, &trend);
+    dal_statistics_classify(&s, 1.0, 0, NULL);
+    CU_ASSERT_EQUAL(trend.count, -7);
+}
+
 static void null_dal_statistics_add(void)
 {
     dal_statistics s;

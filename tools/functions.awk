@@ -4,8 +4,6 @@ FNR == 1 {
     gsub("^.*/|[.]h$", "", name)
     printf "%s#define FUNCTIONS_%s(X)", (NR > 1 ? "\n" : ""), name
 }
-# Not yet: these are being rewritten.
-/dal_statistics_(start|classify)/ { next }
 /^[a-z]/ && !/^(typedef|static|extern)/ && match($0, "[ *]dal_[a-z0-9_]+[(]") {
     printf " X(%s)", substr($0, RSTART + 1, RLENGTH - 2)
 }

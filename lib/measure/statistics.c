@@ -15,7 +15,7 @@
 
 void dal_statistics_start(dal_statistics *s, int count)
 {
-    for (int i = 0; i < count; i++) s[i] = (dal_statistics){.length = 1, .factor = 1.0};
+    for (int i = 0; s && i < count; i++) s[i] = (dal_statistics){.length = 1, .factor = 1.0};
 }
 
 /* Joins neighbours: half as many blocks, twice as long. */
