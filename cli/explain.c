@@ -152,7 +152,7 @@ static void put_run(FILE *out, const char *observable, const char *name, long lo
     fprintf(out, ",run,%s,%lld,,", name, steps);
     put_numbers(out, numbers, 4);
     fprintf(out, ",%s,%s,", cli_size_word(f), cli_trend_word(f));
-    if (f->conservation == DAL_CONSERVED) fprintf(out, "%.3g", f->confidence);
+    if (f->conservation == DAL_CONSERVED) cli_put(out, f->confidence);
     fputs(",\n", out);
 }
 

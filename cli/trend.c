@@ -22,7 +22,7 @@ void cli_put_trend(FILE *out, const dal_trend *trend)
     put_cell(out, trend->rate_high);
     put_cell(out, is_stated(trend) ? trend->exponent : NAN);
     fprintf(out, ",%s,%s,", cli_size_word(trend), cli_trend_word(trend));
-    if (is_stated(trend)) fprintf(out, "%.3g", trend->confidence);
+    if (is_stated(trend)) cli_put(out, trend->confidence);
 }
 
 const char *cli_size_word(const dal_trend *trend)
