@@ -112,7 +112,7 @@ holds "the manifest" grep -q '"cells": {"not run": 1, "done": 1, "failed": 0' th
 
 case_is "study files that are none"
 bad 'systems: [line.yaml\n' 'bad.yaml:'
-bad '' 'the study is empty'
+bad '' 'bad.yaml: there is nothing in it'
 bad 'title: x\n---\ntitle: y\n' 'a second document'
 bad 'titel: x\n' "bad.yaml:1:1: unknown key 'titel'; did you mean 'title'"
 bad 'title: x\ntitle: y\n' "bad.yaml:2:1: the key 'title' comes twice"
