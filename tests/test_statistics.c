@@ -84,17 +84,18 @@ static void test_exponents(void)
  * the last three of 203 are. */
 static void test_extremes(void)
 {
-    for (int place = 0; place < 203; place++) {
-        dal_statistics s;
-        dal_statistics_start(&s, 1);
-        for (int k = 0; k < 203; k++) {
-            const double x = k == place ? -7.0 : 1.0;
-            dal_statistics_add(&s, 1, k, &x);
+    for (int place = 0; place < 203; place++)
+        for (int sign = -1; sign <= 1; sign += 2) {
+            dal_statistics s;
+            dal_statistics_start(&s, 1);
+            for (int k = 0; k < 203; k++) {
+                const double x = sign * (k == place ? 7.0 : -1.0);
+                dal_statistics_add(&s, 1, k, &x);
+            }
+            CU_ASSERT(s.open_count == 3);
+            CU_ASSERT_EQUAL(dal_statistics_max_abs(&s), 7.0);
+            CU_ASSERT_EQUAL(dal_statistics_deviation(&s), 8.0);
         }
-        CU_ASSERT(s.open_count == 3);
-        CU_ASSERT_EQUAL(dal_statistics_max_abs(&s), 7.0);
-        CU_ASSERT_EQUAL(dal_statistics_deviation(&s), 8.0);
-    }
 }
 
 /* The memory stays what it is, the blocks between half and all, each of the same length, and
