@@ -514,6 +514,7 @@ const series_kind series_kinds[] = {
     {"t^1.5, tones", power_tones, 1.5, 1.5, FEW, MOST, P | D},
     {"t^2, tones", power_tones, 2, 2, FEW, MOST, P | D},
     {"t^1.25 .. t^3", power, 1.25, 3, FEW, MOST, P},
+    {"t^3 .. t^6", power, 3, 6, FEW, MOST, P},
     {"log t", logarithm, 0, 0, FEW, MOST, LOG},
     {"exponential", exponential, 3, 25, FEW, MOST, E | D},
     {"exponential, noise too", exponential_in_proportion, 3, 25, FEW, MOST, E | D},

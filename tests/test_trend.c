@@ -61,6 +61,13 @@ static int accepts(const series_kind *kind, const series *s, const dal_trend *f)
     return (kind->accepts & bit[f->trend]) != 0;
 }
 
+static const series_kind *kind_named(const char *name)
+{
+    for (int i = 0; i < series_kind_count; i++)
+        if (strcmp(series_kinds[i].name, name) == 0) return &series_kinds[i];
+    return NULL;
+}
+
 /* Of any size, about any value, but where roundings are the question. */
 static double rescale(const series_kind *kind, series *s)
 {
@@ -111,10 +118,12 @@ static void print_row(const series_kind *kind, const tally *all)
     printf("\n");
 }
 
-/* The goals; a few series allow for what a thousand do not. */
+/* What fewer series than a thousand may miss a goal by, in percent. */
+static double margin_of(int count) { return count < 1000 ? 300.0 / sqrt(count) : 0.0; }
+
 static void assert_goals(const series_kind *kind, const tally *all)
 {
-    const double few = 100.0 * (all->count < 1000 ? 3.0 * sqrt(all->count) : 0.0) / all->count;
+    const double few = margin_of(all->count);
     CU_ASSERT(percent(all->wrong, all) <= 5.0 + few);
     CU_ASSERT(percent(all->sure, all) <= 1.0 + few);
     if (kind->accepts & DECIDES)
@@ -123,6 +132,25 @@ static void assert_goals(const series_kind *kind, const tally *all)
         CU_ASSERT(percent(all->said[DAL_TREND_RANDOM_WALK], all) >= 30.0 - few);
     if (kind->accepts & COVERS) CU_ASSERT(percent(all->covered, all) >= 93.0 - few);
     CU_ASSERT(percent(all->right_size, all) >= 99.0 - few);
+}
+
+/* The percentage of a kind that is called a walk. */
+static double walks_among(const series_kind *kind)
+{
+    tally all = {0};
+    for (int k = 0; k < (int)long_run(SERIES); k++) draw_one(kind, (uint64_t)k, &all);
+    return percent(all.said[DAL_TREND_RANDOM_WALK], &all);
+}
+
+/* A walk is called one nine times as often as noise whose memory of T/8 looks like one: with equal
+ * odds before, such an answer is right in nine of ten cases. */
+static void test_walks(void)
+{
+    const double few = margin_of((int)long_run(SERIES));
+    const double walk = walks_among(kind_named("walk")) + few;
+    const double memory = walks_among(kind_named("memory T/8")) - few;
+    printf("\n  walks %.1f %%, memory T/8 %.1f %%\n", walk, memory);
+    CU_ASSERT(walk >= 9.0 * memory);
 }
 
 static void test_matrix(void)
@@ -157,6 +185,8 @@ static double one_wave(int k) { return sin(6.0 * k / LONG); }
 static double forty_waves(int k) { return sin(250.0 * k / LONG); }
 static double spike(int k) { return k == 0 ? 1.0 : 0.0; }
 static double growing(int k) { return exp(9.0 * k / LONG) * cos(2.0 * k); }
+/* 450 roundings in 5000 steps, but all to one side and ever fewer: no sum of roundings. */
+static double relaxing(int k) { return 1.0 - 1e-13 * exp(-8.0 * k / LONG); }
 static double broken(int k) { return k < 4000 ? 1.0 : NAN; }
 /* A slow trend under a large oscillation. */
 static double leaning(int k) { return 1e-2 * k / LONG + 1e-2 * cos(0.7 * k); }
@@ -197,6 +227,7 @@ static void test_peculiarities(void)
         {forty_waves, 1.0, LONG, DAL_SIZE_LARGER, DAL_TREND_NONE},
         {spike, 1.0, LONG, DAL_SIZE_LARGER, DAL_TREND_SETTLES},
         {growing, 1.0, LONG, DAL_SIZE_LARGER, DAL_TREND_GROWING},
+        {relaxing, 1.0, LONG, DAL_SIZE_LARGER, DAL_TREND_SETTLES},
         {broken, 1.0, LONG, DAL_SIZE_LARGER, DAL_TREND_ABORTED},
         {leaning, 1.0, 500, DAL_SIZE_LARGER, DAL_TREND_LINEAR},
         {leaning, 1.0, 2000, DAL_SIZE_LARGER, DAL_TREND_LINEAR},
@@ -212,14 +243,63 @@ static void test_peculiarities(void)
     }
 }
 
-/* ---- sizes ---- */
+/* ---- exponents ---- */
 
-static const series_kind *kind_named(const char *name)
+/* The deviation of the exponent p of s^p = x - noise, for noise of deviation 1 in `count` values:
+ * by Fisher's information of p beside offset and height (Seber, Wild 1989, 2.1). */
+static double exponent_deviation(double p, int count)
 {
-    for (int i = 0; i < series_kind_count; i++)
-        if (strcmp(series_kinds[i].name, name) == 0) return &series_kinds[i];
-    return NULL;
+    double basis[3][3] = {{0}};
+    for (int k = 0; k < count; k++) {
+        const double u = (k + 0.5) / count, f = pow(u, p), row[] = {1.0, f, f * log(u)};
+        for (int i = 0; i < 3; i++)
+            for (int j = 0; j < 3; j++) basis[i][j] += row[i] * row[j];
+    }
+    for (int i = 0; i < 2; i++) /* the Schur complement of the last */
+        for (int j = i + 1; j < 3; j++)
+            for (int k = 2; k >= i; k--) basis[j][k] -= basis[i][k] * basis[j][i] / basis[i][i];
+    return 1.0 / sqrt(basis[2][2]);
 }
+
+/* How often in 200 series s^p with noise, from which p could be known to `deviation` at best, an
+ * exponent is stated; and how often it is wrong. */
+static void count_exponents(double p, double deviation, int *stated, int *wrong)
+{
+    enum { COUNT = 2000, DRAWS = 200 };
+    const double noise = deviation / exponent_deviation(p, COUNT);
+    uint64_t random = 12345;
+    *stated = *wrong = 0;
+    for (int i = 0; i < DRAWS; i++) {
+        dal_statistics statistics;
+        dal_trend f;
+        for (int k = 0; k < COUNT; k++)
+            x[k] = pow((k + 0.5) / COUNT, p) + noise * series_normal(&random);
+        dal_statistics_start(&statistics, 1);
+        dal_statistics_add_many(&statistics, 1, COUNT, t, x, COUNT);
+        dal_statistics_classify(&statistics, 1.0, 0, &f);
+        *stated += f.trend == DAL_TREND_POWER;
+        *wrong += f.trend == DAL_TREND_POWER && fabs(f.exponent - p) > 0.15;
+    }
+}
+
+/* An exponent is stated where the data know it, and only there. */
+static void test_exponents(void)
+{
+    static const double powers[] = {0.5, 1.5, 2.0, 2.7};
+    for (size_t i = 0; i < sizeof powers / sizeof powers[0]; i++) {
+        int stated, wrong, guessed, wrongly;
+        count_exponents(powers[i], 0.01, &stated, &wrong);
+        count_exponents(powers[i], 0.2, &guessed, &wrongly);
+        printf("\n  t^%g: stated %d (%d wrong), where unknown %d", powers[i], stated, wrong,
+               guessed);
+        CU_ASSERT(stated >= 180);
+        CU_ASSERT_EQUAL(wrong, 0);
+        CU_ASSERT(guessed <= 20);
+    }
+    printf("\n");
+}
+
+/* ---- sizes ---- */
 
 /* The trend of a series times factor. */
 static dal_trend scaled(const char *name, uint64_t number, double factor)
@@ -362,7 +442,9 @@ void suite_trend(void)
 {
     CU_pSuite suite = CU_add_suite("trends", fill_times, NULL);
     CU_add_test(suite, "1000 series of each kind", test_matrix);
+    CU_add_test(suite, "walks and memory", test_walks);
     CU_add_test(suite, "peculiarities", test_peculiarities);
+    CU_add_test(suite, "exponents", test_exponents);
     CU_add_test(suite, "sizes", test_sizes);
     CU_add_test(suite, "runs", test_runs);
 }

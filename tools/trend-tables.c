@@ -93,15 +93,16 @@ static void add_steps(void)
 static void add_shapes(void)
 {
     static const double low[] = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8};
-    static const double high[] = {1.25, 1.4, 1.5, 1.6, 1.8, 2.0, 2.25, 2.5, 3.0, 3.5, 4.0};
+    static const double high[] = {1.25, 1.4, 1.5, 1.6, 1.8, 2.0, 2.2, 2.4, 2.6, 2.8, 3.0,
+                                  3.2,  3.4, 3.6, 3.8, 4.0, 4.5, 5.0, 5.6, 6.3, 7.0};
     static const double m[] = {30, 300, 3000, 30000};
     static const double rate[] = {3, 4, 5, 6, 7.5, 9, 11, 13, 16, 20, 25};
     static const double tau[] = {0.01, 0.02, 0.04, 0.07, 0.1, 0.14, 0.19, 0.25};
     static const double slow_tau[] = {0.35, 0.5, 1.0};
-    for (int i = 0; i < 8; i++) add_shape(DAL__MEANS_POWER, 0.07 * 0.8 / 19, power, low[i], 0);
+    for (int i = 0; i < 8; i++) add_shape(DAL__MEANS_POWER, 0.07 * 0.8 / 29, power, low[i], 0);
     assert(shape_count == DAL__LINEAR_SHAPE);
     add_shape(DAL__MEANS_LINEAR, 0.4, linear, 0, 0);
-    for (int i = 0; i < 11; i++) add_shape(DAL__MEANS_POWER, 0.07 * 0.8 / 19, power, high[i], 0);
+    for (int i = 0; i < 21; i++) add_shape(DAL__MEANS_POWER, 0.07 * 0.8 / 29, power, high[i], 0);
     assert(shape_count == DAL__POWER_SHAPES);
     for (int i = 0; i < 4; i++) add_shape(DAL__MEANS_POWER, 0.07 * 0.05, logarithm, m[i], 0);
     for (int i = 0; i < 11; i++)

@@ -7,9 +7,9 @@
  *     none           0 lies in the interval of the rate, and the greatest drift that noise without
  *                    a trend admits is small beside the spread of x; the amplitude does not double
  *     settles        the change stands out of the spread; else it is none
- *     random walk    0 lies well inside the interval
+ *     random walk    a memory of T/9 explains it less well, and 0 lies well inside the interval
  *     linear         0 lies outside it
- *     power law      the exponent is known to 0.07, and is not 1
+ *     power law      the exponent is known to 0.11, and is not 1
  *     growing        the amplitude grows (trend_growth.c), and no drift is certain beside it
  *
  * Noise is known to be white where differences of the means of neighbouring blocks are as small as
@@ -25,14 +25,16 @@ static const double white_odds = 20.0, white_low = 0.55, white_high = 1.7;
 static const double memory_ratio = 3.0; /* of differences: more, and there is memory */
 
 /* The least posteriors. */
-static const double enough = 0.75, enough_for_none = 0.65, enough_for_walk = 0.62;
+static const double enough = 0.75, enough_for_none = 0.65, enough_for_walk = 0.58;
+/* Of a walk over noise with memory T/9, in nats: what tells them apart is in the slowest waves. */
+static const double walk_evidence = 1.8;
 static const double certain_line = 0.9, certain_walk = 0.9;
 /* Drifts that go for none, in units of the spread: beside white noise and tones, beside noise with
  * memory, and whatever the noise. */
 static const double small_drift = 0.3, small_beside_memory = 1.0, tiny_drift = 0.17;
 static const double settled_change = 0.3; /* of the spread */
 static const double well_inside = 0.9;    /* the middle of an interval, in half widths */
-static const double power_error = 0.07, power_span = 0.2;
+static const double power_error = 0.11, power_span = 0.2;
 static const double not_sure = 0.9; /* of a growing amplitude, and where weights do not say it */
 
 /* Everything that the decision looks at. */
@@ -117,7 +119,8 @@ static double best_power(const dal__evidence *e)
     int i = 0;
     for (int k = 1; k < DAL__POWER_SHAPES; k++)
         if (e->power_rest[k] < e->power_rest[i]) i = k;
-    if (i == 0 || i == DAL__POWER_SHAPES - 1) return dal__shape_list[i].parameter;
+    if (i == 0) return dal__shape_list[i].parameter;
+    if (i == DAL__POWER_SHAPES - 1) return NAN; /* it may be any greater one */
     const double a = log(dal__shape_list[i - 1].parameter), b = log(dal__shape_list[i].parameter);
     const double c = log(dal__shape_list[i + 1].parameter), *const s = e->power_rest + i;
     const double left = (s[0] - s[-1]) / (b - a), right = (s[1] - s[0]) / (c - b);
@@ -200,7 +203,8 @@ static decision decide(const picture *p)
     case DAL__MEANS_SETTLES:
         return w >= enough ? (decision){DAL_TREND_SETTLES, w, 0.0} : undecided;
     case DAL__MEANS_WALK:
-        return w >= enough_for_walk && middle < well_inside * width
+        return w >= enough_for_walk && p->evidence.walk_over_memory > walk_evidence &&
+                       middle < well_inside * width
                    ? (decision){DAL_TREND_RANDOM_WALK, w, 0.5}
                    : undecided;
     case DAL__MEANS_LINEAR:

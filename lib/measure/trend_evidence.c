@@ -159,6 +159,18 @@ static void weigh_shapes(const dal__bins *b, int k, const noise_state *s, dal__e
     weigh_line(b, k, s, xy[DAL__LINEAR_SHAPE], e);
 }
 
+/* log(sum weight * E) of the noises alone that a test of their own compares: walks, or a long
+ * memory. */
+static double log_evidence_of(const noise_state *s, int first, int last, double best)
+{
+    double sum = 0.0, weights = 0.0;
+    for (int k = first; k <= last; k++) {
+        sum += dal__noise_list[k].weight * exp(s[k].log_evidence - best);
+        weights += dal__noise_list[k].weight;
+    }
+    return log(sum / weights);
+}
+
 void dal__trend_weigh(const dal__bins *b, double white_odds, dal__evidence *e)
 {
     noise_state s[DAL__NOISES];
@@ -166,6 +178,8 @@ void dal__trend_weigh(const dal__bins *b, double white_odds, dal__evidence *e)
     memset(e, 0, sizeof *e);
     e->freedom = b->freedom;
     weigh_noises(b, white_odds, s, &best);
+    e->walk_over_memory = log_evidence_of(s, DAL__FIRST_WALK, DAL__LAST_WALK, best) -
+                          log_evidence_of(s, DAL__FIRST_LONG_MEMORY, DAL__LAST_LONG_MEMORY, best);
     for (int k = 0; k < DAL__NOISES; k++)
         e->meaning[dal__noise_list[k].meaning] += dal__noise_list[k].weight * s[k].weight;
     for (int k = 0; k < DAL__SHAPE_NOISES; k++) weigh_shapes(b, k, &s[k], e);

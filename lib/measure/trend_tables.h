@@ -14,13 +14,17 @@
 enum {
     DAL__BINS = 32,
     DAL__WAVES = DAL__BINS - 1,
-    DAL__POWER_SHAPES = 20,               /* the first: s^p by ascending p */
+    DAL__POWER_SHAPES = 30,               /* the first: s^p by ascending p */
     DAL__LINEAR_SHAPE = 8,                /* among them, p = 1 */
     DAL__SLOW_WAVES = 11,                 /* oscillations of 0.25 .. 2.75 periods */
-    DAL__PLAIN_SHAPES = 208,              /* of one column */
+    DAL__PLAIN_SHAPES = 218,              /* of one column */
     DAL__SHAPES = DAL__PLAIN_SHAPES + 24, /* columns; cosine and sine of each slow wave last */
     DAL__NOISES = 24,
-    DAL__SHAPE_NOISES = 12 /* the first of them, under which shapes are tried */
+    DAL__SHAPE_NOISES = 12,     /* the first of them, under which shapes are tried */
+    DAL__FIRST_LONG_MEMORY = 6, /* T/9 */
+    DAL__LAST_LONG_MEMORY = 7,
+    DAL__FIRST_WALK = 8,
+    DAL__LAST_WALK = 11
 };
 
 /* What a shape or a noise says about the trend. */
