@@ -2,6 +2,7 @@
 #ifndef SERIES_H
 #define SERIES_H
 
+#include <dalembert.h>
 #include <stdint.h>
 
 enum { SERIES_CAPACITY = 200001 };
@@ -54,5 +55,8 @@ extern const int series_kind_count;
 
 /* Draws series number `number` of a kind into x[SERIES_CAPACITY]. */
 void series_draw(const series_kind *kind, uint64_t number, double *x, series *s);
+
+/* Whether the numbers of a trend agree with each other. */
+int trend_is_consistent(const dal_trend *f);
 
 #endif

@@ -1,5 +1,5 @@
 /* test_trend.c - sizes and trends: the matrix of answers on 1000 synthetic series of each kind and
- * the goals that it must meet, series with one peculiarity each, and runs of shipped systems. */
+ * the goals that it must meet, and series with one peculiarity each. */
 #include "quick.h"
 #include "series.h"
 #include <CUnit/CUnit.h>
@@ -16,31 +16,6 @@ enum { SERIES = 1000 };
 #endif
 
 static double x[SERIES_CAPACITY], t[SERIES_CAPACITY];
-
-/* ---- what must never contradict ---- */
-
-static int agrees(const dal_trend *f)
-{
-    const int has_zero = f->rate_low <= 0.0 && f->rate_high >= 0.0;
-    if (!(f->confidence > 0.0 && f->confidence <= 1.0)) return 0;
-    if (!(f->rate_low <= f->rate && f->rate <= f->rate_high)) return 0;
-    if ((f->size == DAL_SIZE_EXACT) != (f->deviation == 0.0)) return 0;
-    if (f->amplitude > f->deviation + fabs(f->rate) * 1e300) return 0;
-    switch (f->trend) {
-    case DAL_TREND_NONE:
-        return has_zero && f->exponent == 0.0;
-    case DAL_TREND_SETTLES:
-        return f->exponent == 0.0;
-    case DAL_TREND_RANDOM_WALK:
-        return has_zero && f->exponent == 0.5;
-    case DAL_TREND_LINEAR:
-        return !has_zero && f->exponent == 1.0;
-    case DAL_TREND_POWER:
-        return f->exponent >= 0.0 && f->exponent != 1.0;
-    default:
-        return isnan(f->exponent);
-    }
-}
 
 /* ---- the matrix ---- */
 
@@ -90,7 +65,7 @@ static void draw_one(const series_kind *kind, uint64_t number, tally *all)
     const clock_t before = clock();
     dal_statistics_classify(&statistics, size, 0, &f);
     all->time += clock() - before;
-    CU_ASSERT(agrees(&f));
+    CU_ASSERT(trend_is_consistent(&f));
     const int is_wrong = !accepts(kind, &s, &f);
     const double rate = s.drift * size / (t[1] * (s.count - 1));
     const dal_size_class right = kind->accepts & ROUNDINGS ? DAL_SIZE_ROUNDING : DAL_SIZE_LARGER;
@@ -331,105 +306,13 @@ static void test_sizes(void)
             if (f.trend != one.trend || f.size != one.size)
                 printf("\n  %s 2^%d: %s, %s", names[i], exponents[k], dal_size_text(f.size),
                        dal_trend_text(f.trend));
-            CU_ASSERT(agrees(&f));
+            CU_ASSERT(trend_is_consistent(&f));
             CU_ASSERT_EQUAL(f.trend, one.trend);
             CU_ASSERT_EQUAL(f.size, one.size);
             CU_ASSERT_DOUBLE_EQUAL(f.confidence, one.confidence, 1e-6);
             if (exponents[k] > 0)
                 CU_ASSERT_DOUBLE_EQUAL(f.rate_low * back * back * again, one.rate_low, near);
         }
-}
-
-/* ---- runs of shipped systems ---- */
-
-enum { OBSERVABLES = 64 };
-
-static dal_status take(void *user, dal_run *run, int looks, const double *at, const double *values,
-                       size_t stride)
-{
-    dal_statistics_add_many(user, dal_run_observables(run), looks, at, values, stride);
-    return DAL_OK;
-}
-
-/* All trends of a run; the place of an observable, or -1. */
-static int run_trends(const char *system, const char *method, double h, double T,
-                      const char *observable, dal_trend *trend)
-{
-    dal_run_spec spec = {.options = dal_options_default()};
-    dal_statistics statistics[OBSERVABLES];
-    const dal_observer observer = {.user = statistics, .values = take, .every = 1};
-    dal_model *model = NULL;
-    dal_run *run = NULL;
-    char name[64];
-    int place = -1;
-    spec.options.step = h;
-    spec.options.space = DAL_PHYSICAL;
-    dal_statistics_start(statistics, OBSERVABLES);
-    if (dal_model_builtin(&model, system, NULL) == DAL_OK &&
-        dal_model_system(model, &spec.system, NULL) == DAL_OK &&
-        dal_method_parse(&spec.method, method, NULL) == DAL_OK &&
-        dal_run_create(&run, &spec, NULL) == DAL_OK &&
-        dal_run_sample(run, T, 1, 0, &observer, NULL) == DAL_OK) {
-        dal_run_classify(run, statistics, 0, trend);
-        for (int i = 0; i < dal_run_observables(run); i++) {
-            dal_run_observable_name(run, i, name, sizeof name);
-            CU_ASSERT(agrees(&trend[i]));
-            if (strcmp(name, observable) == 0) place = i;
-        }
-    }
-    dal_run_free(run);
-    dal_model_free(model);
-    return place;
-}
-
-enum {
-    NONE = 1 << DAL_TREND_NONE,
-    SETTLES = 1 << DAL_TREND_SETTLES,
-    LINEAR = 1 << DAL_TREND_LINEAR,
-    GROWING = 1 << DAL_TREND_GROWING,
-    UNDECIDED = 1 << DAL_TREND_UNDECIDED
-};
-
-static void test_runs(void)
-{
-    static const struct {
-        const char *system, *method;
-        double h, T;
-        const char *observable;
-        dal_size_class size;
-        int trends;
-    } cases[] = {
-        {"chaplygin-sleigh-full-turn", "mclachlan-perlmutter", 0.02, 30.0, "E", DAL_SIZE_LARGER,
-         NONE | SETTLES | UNDECIDED},
-        {"chaplygin-sleigh-offset", "stormer-verlet", 0.05, 40.0, "E", DAL_SIZE_LARGER,
-         NONE | SETTLES | UNDECIDED},
-        {"nonholonomic-particle-free", "stormer-verlet", 0.05, 30.0, "E", DAL_SIZE_LARGER,
-         NONE | SETTLES | UNDECIDED},
-        {"contact-oscillator", "gauss4", 0.01, 20.0, "E", DAL_SIZE_LARGER,
-         NONE | SETTLES | UNDECIDED},
-        {"contact-oscillator", "gauss4", 0.01, 40.0, "E", DAL_SIZE_LARGER,
-         NONE | SETTLES | UNDECIDED},
-        {"contact-oscillator", "gauss8", 0.1, 4e4, "Hxz", DAL_SIZE_LARGER,
-         LINEAR | GROWING | UNDECIDED},
-        {"isokinetic", "mclachlan4", 0.01, 5.0, "D1", DAL_SIZE_LARGER, NONE | SETTLES | UNDECIDED},
-        {"chaplygin-sleigh", "gauss6", 0.02, 100.0, "D1", DAL_SIZE_ROUNDING, LINEAR},
-        {"chaplygin-sleigh", "gauss6", 0.02, 1000.0, "D1", DAL_SIZE_ROUNDING, LINEAR},
-    };
-    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
-        dal_trend trend[OBSERVABLES];
-        const int at = run_trends(cases[i].system, cases[i].method, cases[i].h, cases[i].T,
-                                  cases[i].observable, trend);
-        CU_ASSERT(at >= 0);
-        if (at < 0) continue;
-        const dal_trend *const f = &trend[at];
-        printf("\n  %s, %s, T = %g: %s: %s, %s, %.2f, R %.1e, rate %.3e (%.3e %.3e)",
-               cases[i].system, cases[i].method, cases[i].T, cases[i].observable,
-               dal_size_text(f->size), dal_trend_text(f->trend), f->confidence, f->deviation,
-               f->rate, f->rate_low, f->rate_high);
-        CU_ASSERT_EQUAL(f->size, cases[i].size);
-        CU_ASSERT(cases[i].trends >> f->trend & 1);
-    }
-    printf("\n");
 }
 
 static int fill_times(void)
@@ -446,5 +329,4 @@ void suite_trend(void)
     CU_add_test(suite, "peculiarities", test_peculiarities);
     CU_add_test(suite, "exponents", test_exponents);
     CU_add_test(suite, "sizes", test_sizes);
-    CU_add_test(suite, "runs", test_runs);
 }
