@@ -11,10 +11,10 @@ parts=$*
 [ -d "$program" ] && program=$program/dalembert
 [ -x "$program" ] || { echo "cli: no program '$program'"; exit 1; }
 here=$(cd "$(dirname "$0")" && pwd)
-work=$(mktemp -d) || exit 1
+top=$(mktemp -d) || exit 1
 memory=
-trap 'rm -rf "$work" ${memory:+"$memory"}' EXIT
-cd "$work" || exit 1
+trap 'rm -rf "$top" ${memory:+"$memory"}' EXIT
+cd "$top" || exit 1
 LC_ALL=C
 export LC_ALL
 
@@ -96,9 +96,13 @@ constraints: [x' - y']
 start: {x': 1, y': 1}
 END
 
+# Each part has a directory of its own, so that none meets what another left.
 for part in "$here"/[a-z]*_cases.sh; do
     name=$(basename "$part" _cases.sh)
-    case " ${parts:-$name} " in *" $name "*) . "$part" ;; esac
+    case " ${parts:-$name} " in *" $name "*) ;; *) continue ;; esac
+    work=$top/$name
+    mkdir "$work" && cp "$top/line.yaml" "$top/plane.yaml" "$work" && cd "$work" || exit 1
+    . "$part"
 done
 
 echo "cli: $passed passed, $failed failed"
