@@ -162,3 +162,25 @@ double fixture_order(dal_run_spec spec, double T, int coarse, int fine, double d
     }
     return log(error[0] / error[1]) / log((double)fine / coarse);
 }
+
+double fixture_exponent(const dal_spectrum *s, int i)
+{
+    dal_average a;
+    dal_spectrum_exponent(s, i, &a);
+    CU_ASSERT(a.low <= a.mean && a.mean <= a.high);
+    return a.mean;
+}
+
+double fixture_sum(const dal_spectrum *s)
+{
+    dal_average a;
+    dal_spectrum_sum(s, &a);
+    return a.mean;
+}
+
+double fixture_divergence(const dal_spectrum *s)
+{
+    dal_average a;
+    dal_spectrum_divergence(s, &a);
+    return a.mean;
+}

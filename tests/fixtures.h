@@ -40,4 +40,9 @@ const char *fixture_method(int i, char *name, size_t size);
  * lifted run is displaced first. */
 double fixture_order(dal_run_spec spec, double T, int coarse, int fine, double displacement);
 
+/* Means of a spectrum; that of an exponent lies in its interval. */
+double fixture_exponent(const dal_spectrum *s, int i);
+double fixture_sum(const dal_spectrum *s);
+double fixture_divergence(const dal_spectrum *s);
+
 #endif

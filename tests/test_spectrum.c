@@ -24,28 +24,6 @@ static dal_spectrum *spectrum_of(dal_model *model, const char *method, double st
     return s;
 }
 
-static double exponent(const dal_spectrum *s, int i)
-{
-    dal_average a;
-    dal_spectrum_exponent(s, i, &a);
-    CU_ASSERT(a.low <= a.mean && a.mean <= a.high);
-    return a.mean;
-}
-
-static double sum_of(const dal_spectrum *s)
-{
-    dal_average a;
-    dal_spectrum_sum(s, &a);
-    return a.mean;
-}
-
-static double divergence_of(const dal_spectrum *s)
-{
-    dal_average a;
-    dal_spectrum_divergence(s, &a);
-    return a.mean;
-}
-
 /* log|R(a + ib)| of the stability functions R = 1 + z + z^2/2 + z^3/6 + z^4/24 by Horner's rule,
  * and R = (1 + z/2)/(1 - z/2). */
 static double log_rk4(double a, double b)
@@ -73,9 +51,9 @@ static void test_saddle(void)
     CU_ASSERT(dal_spectrum_is_exact(s));
     CU_ASSERT(dal_spectrum_is_whole(s));
     CU_ASSERT_EQUAL_FATAL(dal_spectrum_count(s), 2);
-    CU_ASSERT_DOUBLE_EQUAL(exponent(s, 0), log_rk4(h, 0.0) / h, 1e-13);
-    CU_ASSERT_DOUBLE_EQUAL(exponent(s, 1), log_rk4(-h, 0.0) / h, 1e-13);
-    CU_ASSERT_EQUAL(divergence_of(s), 0.0);
+    CU_ASSERT_DOUBLE_EQUAL(fixture_exponent(s, 0), log_rk4(h, 0.0) / h, 1e-13);
+    CU_ASSERT_DOUBLE_EQUAL(fixture_exponent(s, 1), log_rk4(-h, 0.0) / h, 1e-13);
+    CU_ASSERT_EQUAL(fixture_divergence(s), 0.0);
     dal_spectrum_free(s);
     dal_model_free(model);
 }
@@ -89,13 +67,13 @@ static void test_spiral(void)
     dal_model *model =
         fixture_model("coordinates: [x]\naccelerations: {x: -x - 0.3*x'}\nstart: {x: 1}\n");
     dal_spectrum *s = spectrum_of(model, "rk4", h, 0, 20000);
-    CU_ASSERT_DOUBLE_EQUAL(sum_of(s), 2.0 * by_rk4, 1e-13);
-    CU_ASSERT_DOUBLE_EQUAL(divergence_of(s), -k, 1e-15);
-    CU_ASSERT_DOUBLE_EQUAL(exponent(s, 0), by_rk4, 1e-3); /* turning vectors: 2/T at most */
-    CU_ASSERT_DOUBLE_EQUAL(exponent(s, 1), by_rk4, 1e-3);
+    CU_ASSERT_DOUBLE_EQUAL(fixture_sum(s), 2.0 * by_rk4, 1e-13);
+    CU_ASSERT_DOUBLE_EQUAL(fixture_divergence(s), -k, 1e-15);
+    CU_ASSERT_DOUBLE_EQUAL(fixture_exponent(s, 0), by_rk4, 1e-3); /* turning vectors: 2/T at most */
+    CU_ASSERT_DOUBLE_EQUAL(fixture_exponent(s, 1), by_rk4, 1e-3);
     dal_spectrum_free(s);
     s = spectrum_of(model, "implicit-midpoint", h, 0, 100);
-    CU_ASSERT_DOUBLE_EQUAL(sum_of(s), 2.0 * by_midpoint, 1e-13);
+    CU_ASSERT_DOUBLE_EQUAL(fixture_sum(s), 2.0 * by_midpoint, 1e-13);
     dal_spectrum_free(s);
     dal_model_free(model);
 }
@@ -115,13 +93,13 @@ static void test_lorenz(void)
     const long long steps = long_run(LONG);
     dal_spectrum *s = spectrum_of(model, "rk4", 0.01, 2000, steps);
     dal_average a;
-    CU_ASSERT_DOUBLE_EQUAL(divergence_of(s), -41.0 / 3.0, 1e-12);
-    CU_ASSERT_DOUBLE_EQUAL(sum_of(s), -41.0 / 3.0, 1e-3);
+    CU_ASSERT_DOUBLE_EQUAL(fixture_divergence(s), -41.0 / 3.0, 1e-12);
+    CU_ASSERT_DOUBLE_EQUAL(fixture_sum(s), -41.0 / 3.0, 1e-3);
     dal_spectrum_exponent(s, 0, &a);
     if (steps == LONG) {
         CU_ASSERT(a.low < 0.9056 && 0.9056 < a.high && a.high - a.low < 0.2);
-        for (int i = 1; i < 5; i++) CU_ASSERT_DOUBLE_EQUAL(exponent(s, i), 0.0, 0.05);
-        CU_ASSERT_DOUBLE_EQUAL(exponent(s, 5), -14.5723, 0.05);
+        for (int i = 1; i < 5; i++) CU_ASSERT_DOUBLE_EQUAL(fixture_exponent(s, i), 0.0, 0.05);
+        CU_ASSERT_DOUBLE_EQUAL(fixture_exponent(s, 5), -14.5723, 0.05);
     }
     dal_spectrum_free(s);
     dal_model_free(model);
@@ -137,14 +115,14 @@ static void test_pairs(void)
     const long long steps = long_run(LONG);
     dal_spectrum *s = spectrum_of(model, "stormer-verlet", 0.05, 1000, steps);
     dal_average a;
-    CU_ASSERT_DOUBLE_EQUAL(sum_of(s), 0.0, 1e-13);
-    CU_ASSERT_EQUAL(divergence_of(s), 0.0);
+    CU_ASSERT_DOUBLE_EQUAL(fixture_sum(s), 0.0, 1e-13);
+    CU_ASSERT_EQUAL(fixture_divergence(s), 0.0);
     dal_spectrum_exponent(s, 0, &a);
     if (steps == LONG) {
         CU_ASSERT(a.low > 0.02 && a.high < 0.15);
-        CU_ASSERT_DOUBLE_EQUAL(exponent(s, 0) + exponent(s, 3), 0.0, 1e-2);
-        CU_ASSERT_DOUBLE_EQUAL(exponent(s, 1), 0.0, 1e-2);
-        CU_ASSERT_DOUBLE_EQUAL(exponent(s, 2), 0.0, 1e-2);
+        CU_ASSERT_DOUBLE_EQUAL(fixture_exponent(s, 0) + fixture_exponent(s, 3), 0.0, 1e-2);
+        CU_ASSERT_DOUBLE_EQUAL(fixture_exponent(s, 1), 0.0, 1e-2);
+        CU_ASSERT_DOUBLE_EQUAL(fixture_exponent(s, 2), 0.0, 1e-2);
     }
     dal_spectrum_free(s);
     dal_model_free(model);
@@ -165,8 +143,8 @@ static void compare_ways(dal_model *model, const char *method, double tolerance)
         CU_ASSERT_EQUAL(dal_spectrum_is_exact(way[k]), k == 0);
     }
     for (int i = 0; i < dal_spectrum_count(way[0]); i++)
-        CU_ASSERT_DOUBLE_EQUAL(exponent(way[0], i), exponent(way[1], i), tolerance);
-    CU_ASSERT_DOUBLE_EQUAL(divergence_of(way[0]), divergence_of(way[1]), 0.0);
+        CU_ASSERT_DOUBLE_EQUAL(fixture_exponent(way[0], i), fixture_exponent(way[1], i), tolerance);
+    CU_ASSERT_DOUBLE_EQUAL(fixture_divergence(way[0]), fixture_divergence(way[1]), 0.0);
     for (int k = 0; k < 2; k++) dal_spectrum_free(way[k]);
 }
 
@@ -251,7 +229,7 @@ static void check_tags(dal_model *model, const char *name)
     const bool is_right = kept ? is_zero : a.mean < -0.1;
     if (!is_right) printf("\n  %s: %g (%g %g)\n", name, a.mean, a.low, a.high);
     CU_ASSERT(is_right);
-    CU_ASSERT_DOUBLE_EQUAL(sum_of(s), a.mean, 1e-2);
+    CU_ASSERT_DOUBLE_EQUAL(fixture_sum(s), a.mean, 1e-2);
     dal_spectrum_free(s);
 }
 
@@ -272,12 +250,12 @@ static void test_attractor(void)
     dal_model *model = fixture_model("chaplygin-sleigh-offset");
     for (int i = 0; i < 2; i++) {
         dal_spectrum *s = spectrum_of(model, methods[i], 0.02, 500, 500);
-        CU_ASSERT(divergence_of(s) < -0.1);
-        CU_ASSERT_DOUBLE_EQUAL(sum_of(s), divergence_of(s), 1e-3);
+        CU_ASSERT(fixture_divergence(s) < -0.1);
+        CU_ASSERT_DOUBLE_EQUAL(fixture_sum(s), fixture_divergence(s), 1e-3);
         dal_spectrum_free(s);
         /* Without a transient: nothing but the density, of order 1, may come in. */
         s = spectrum_of(model, methods[i], 0.02, 0, 100);
-        CU_ASSERT_DOUBLE_EQUAL(2.0 * sum_of(s), 2.0 * divergence_of(s), 0.5);
+        CU_ASSERT_DOUBLE_EQUAL(2.0 * fixture_sum(s), 2.0 * fixture_divergence(s), 0.5);
         dal_spectrum_free(s);
     }
     dal_model_free(model);
@@ -291,8 +269,8 @@ static void test_full_turn(void)
     const double V = sqrt(0.8 * 0.8 + 1.0), tau0 = asinh(-0.8), T = 10.0;
     const double exact = -log(cosh(tau0 + V / 4.0 * T) / cosh(tau0)) / T;
     dal_spectrum *s = spectrum_of(model, "gauss8", 0.02, 0, 500);
-    CU_ASSERT_DOUBLE_EQUAL(sum_of(s), exact, 1e-6);
-    CU_ASSERT_DOUBLE_EQUAL(divergence_of(s), exact, 1e-5);
+    CU_ASSERT_DOUBLE_EQUAL(fixture_sum(s), exact, 1e-6);
+    CU_ASSERT_DOUBLE_EQUAL(fixture_divergence(s), exact, 1e-5);
     dal_spectrum_free(s);
     dal_model_free(model);
 }
@@ -305,7 +283,7 @@ static void test_vakonomic(void)
     CU_ASSERT_EQUAL_FATAL(dal_spectrum_create(&s, &spec, NULL, 0, NULL), DAL_OK);
     CU_ASSERT_EQUAL(dal_spectrum_count(s), 7);
     CU_ASSERT_EQUAL(dal_spectrum_advance(s, 100, NULL), DAL_OK);
-    CU_ASSERT_DOUBLE_EQUAL(sum_of(s), divergence_of(s), 1e-5);
+    CU_ASSERT_DOUBLE_EQUAL(fixture_sum(s), fixture_divergence(s), 1e-5);
     dal_spectrum_free(s);
     dal_model_free(model);
 }

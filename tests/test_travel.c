@@ -5,27 +5,6 @@
 #include <math.h>
 #include <string.h>
 
-static double exponent(const dal_spectrum *s, int i)
-{
-    dal_average a;
-    dal_spectrum_exponent(s, i, &a);
-    return a.mean;
-}
-
-static double sum_of(const dal_spectrum *s)
-{
-    dal_average a;
-    dal_spectrum_sum(s, &a);
-    return a.mean;
-}
-
-static double divergence_of(const dal_spectrum *s)
-{
-    dal_average a;
-    dal_spectrum_divergence(s, &a);
-    return a.mean;
-}
-
 /* ---- coordinates that travel far ---- */
 
 static dal_balance balance_of(dal_spectrum *s)
@@ -73,11 +52,12 @@ static void test_translation(void)
         int count;
         dal_spectrum *s = differences("chaplygin-sleigh-offset", methods[k], NULL, 0, 200);
         count = dal_spectrum_count(s);
-        for (int i = 0; i < count; i++) near[i] = exponent(s, i);
+        for (int i = 0; i < count; i++) near[i] = fixture_exponent(s, i);
         free_both(s);
         s = differences("chaplygin-sleigh-offset", methods[k], far, 2, 200);
         CU_ASSERT_EQUAL_FATAL(dal_spectrum_count(s), count);
-        for (int i = 0; i < count; i++) CU_ASSERT_DOUBLE_EQUAL(exponent(s, i), near[i], 1e-9);
+        for (int i = 0; i < count; i++)
+            CU_ASSERT_DOUBLE_EQUAL(fixture_exponent(s, i), near[i], 1e-9);
         free_both(s);
     }
 }
@@ -107,9 +87,9 @@ static void test_far_attractor(void)
         CU_ASSERT_EQUAL(dal_spectrum_advance(s, 1000, NULL), DAL_OK);
         dal_spectrum_forget(s);
         CU_ASSERT_EQUAL(dal_spectrum_advance(s, steps, NULL), DAL_OK);
-        CU_ASSERT_DOUBLE_EQUAL(exponent(s, methods[k].count - 1), rate, 2e-3);
-        CU_ASSERT_DOUBLE_EQUAL(sum_of(s), rate, 2e-3);
-        CU_ASSERT_DOUBLE_EQUAL(divergence_of(s), rate, 1e-9);
+        CU_ASSERT_DOUBLE_EQUAL(fixture_exponent(s, methods[k].count - 1), rate, 2e-3);
+        CU_ASSERT_DOUBLE_EQUAL(fixture_sum(s), rate, 2e-3);
+        CU_ASSERT_DOUBLE_EQUAL(fixture_divergence(s), rate, 1e-9);
         balance_of(s);
         dal_spectrum_free(s);
         dal_model_free(model);
@@ -122,16 +102,16 @@ static void test_long_way(void)
     const long long steps = long_run(40000);
     dal_spectrum *s = differences("chaplygin-sleigh-offset", "rk4+project", NULL, 0, steps);
     const double T = 0.05 * (double)steps;
-    for (int i = 0; i < 4; i++) CU_ASSERT(fabs(exponent(s, i)) < 2.0 * log(T) / T);
+    for (int i = 0; i < 4; i++) CU_ASSERT(fabs(fixture_exponent(s, i)) < 2.0 * log(T) / T);
     if (steps == 40000) {
         /* tau = V t/J + tau0: the integral of the divergence, -log(cosh tau/cosh tau0), and
          * log |grad D| = log(2 + v^2)/2. */
         const double V = sqrt(2.11), tau0 = atanh(0.7 / V), tau = tau0 + V / 2.0 * T;
         const double log_cosh = tau - log(2.0), density = 0.5 * log((2.0 + V * V) / 2.49);
         const double mean = -(log_cosh - log(cosh(tau0))) / T;
-        CU_ASSERT_DOUBLE_EQUAL(sum_of(s), mean + density / T, 1e-5);
+        CU_ASSERT_DOUBLE_EQUAL(fixture_sum(s), mean + density / T, 1e-5);
         CU_ASSERT_DOUBLE_EQUAL(balance_of(s).surface, density / T, 1e-7);
-        CU_ASSERT_DOUBLE_EQUAL(exponent(s, 4), -V / 2.0, 1e-3);
+        CU_ASSERT_DOUBLE_EQUAL(fixture_exponent(s, 4), -V / 2.0, 1e-3);
     }
     free_both(s);
 }
@@ -146,7 +126,7 @@ static void test_long_isokinetic(void)
     const double T = 0.05 * (double)steps, theta = 2.0 * atan(tan(0.05) * exp(-T));
     CU_ASSERT_EQUAL_FATAL(dal_spectrum_count(s), 3);
     /* theta' = -sin theta: d theta grows by sin(theta)/sin(0.1) */
-    CU_ASSERT_DOUBLE_EQUAL(sum_of(s), (log(sin(theta)) - log(sin(0.1))) / T, 1e-4);
+    CU_ASSERT_DOUBLE_EQUAL(fixture_sum(s), (log(sin(theta)) - log(sin(0.1))) / T, 1e-4);
     free_both(s);
 }
 
@@ -162,9 +142,9 @@ static void test_linear_far(void)
     dal_spectrum *s = differences("coordinates: [x, y]\n"
                                   "accelerations: {x: -0.3*x', y: 0}\nstart: {x: 0}\n",
                                   "rk4", start, 4, 1000);
-    CU_ASSERT_DOUBLE_EQUAL(sum_of(s), log_rk4(-0.015) / 0.05, 1e-9);
-    CU_ASSERT_DOUBLE_EQUAL(divergence_of(s), -0.3, 1e-14);
-    CU_ASSERT_DOUBLE_EQUAL(exponent(s, 3), log_rk4(-0.015) / 0.05, 1e-1);
+    CU_ASSERT_DOUBLE_EQUAL(fixture_sum(s), log_rk4(-0.015) / 0.05, 1e-9);
+    CU_ASSERT_DOUBLE_EQUAL(fixture_divergence(s), -0.3, 1e-14);
+    CU_ASSERT_DOUBLE_EQUAL(fixture_exponent(s, 3), log_rk4(-0.015) / 0.05, 1e-1);
     free_both(s);
 }
 
@@ -180,7 +160,7 @@ static void test_quad(void)
         CU_ASSERT_EQUAL_FATAL(dal_spectrum_create(&s, &spec, NULL, 0, NULL), DAL_OK);
         CU_ASSERT_EQUAL_FATAL(dal_spectrum_count(s), 5);
         CU_ASSERT_EQUAL(dal_spectrum_advance(s, 20, NULL), DAL_OK);
-        for (int i = 0; i < 5; i++) value[k][i] = exponent(s, i);
+        for (int i = 0; i < 5; i++) value[k][i] = fixture_exponent(s, i);
         dal_spectrum_free(s);
     }
     for (int i = 0; i < 5; i++) CU_ASSERT_DOUBLE_EQUAL(value[0][i], value[1][i], 1e-9);
