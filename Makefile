@@ -56,7 +56,7 @@ GROUPS          = $(sort $(foreach variant,$(VARIANTS),$(call group,$(variant)))
 
 WIDE_SRC   = $(wildcard lib/*/*_wide.c)
 METHOD_SRC = $(wildcard integrators/*.c)
-LIB_SRC    = $(filter-out $(WIDE_SRC),$(wildcard lib/*.c lib/*/*.c))
+LIB_SRC    = $(filter-out $(WIDE_SRC),$(wildcard lib/*/*.c))
 LIB_OBJ    = $(LIB_SRC:%.c=$(BUILD)/%.o) $(BUILD)/generated/systems.o \
              $(BUILD)/generated/sources.o $(BUILD)/generated/trend_tables.o \
              $(call WIDE,$(VARIANTS),$(WIDE_SRC)) $(call WIDE,$(GROUPS),$(METHOD_SRC))
@@ -125,14 +125,14 @@ $(SYSTEMS): tools/embed.sh $(wildcard systems/*.yaml) systems
 	@mkdir -p $(@D)
 	$(call SAY,sh)sh tools/embed.sh $(addsuffix .yaml,$(sort $(basename $(wildcard systems/*.yaml)))) >$@.tmp && mv $@.tmp $@
 # So do the kernel and the integrators, for generated files.
-SOURCES = $(wildcard lib/kernel/*.h) $(addprefix lib/generate/,ask.h stepper.h lift.h caller.h looks.h) \
+SOURCES = $(wildcard lib/kernel/*.h) $(addprefix lib/codegen/,ask.h stepper.h lift.h caller.h looks.h) \
           $(wildcard integrators/*.c)
 $(BUILD)/generated/sources.c: tools/embed-sources.sh $(SOURCES)
 	@mkdir -p $(@D)
 	sh tools/embed-sources.sh $(SOURCES) >$@.tmp && mv $@.tmp $@
 # Shapes and noises that trends are made of, by a program that runs here.
 HOST_CC ?= cc
-$(BUILD)/generated/trend_tables.c: tools/trend-tables.c lib/measure/trend_tables.h
+$(BUILD)/generated/trend_tables.c: tools/trend-tables.c lib/analysis/trend_tables.h
 	@mkdir -p $(@D)
 	$(call SAY,cc)$(HOST_CC) -std=c11 -O2 -Ilib $< -lm -o $(@D)/trend-tables
 	$(@D)/trend-tables >$@.tmp && mv $@.tmp $@
@@ -143,7 +143,7 @@ $(BUILD)/generated/study.c: tools/embed-text.sh bench/studies/canonical-drift.ya
 	mv $@.tmp $@
 $(BUILD)/generated/%.o: $(BUILD)/generated/%.c ; $(COMPILE)
 
-# The lists of variants and of instruction sets for lib/machine.h.
+# The lists of variants and of instruction sets for lib/core/machine.h.
 $(BUILD)/generated/variants.h: Makefile
 	@mkdir -p $(@D)
 	@{ printf '#define DAL__INSTRUCTIONS_LIST(X)'; \
@@ -242,7 +242,7 @@ $(FUZZERS:%=$(BUILD)/tests/%): %: %.o $(STATIC)
 lint: all
 	@CC="$(CC)" BUILD=$(BUILD) sh tools/lint/lint.sh
 
-# Faults planted one by one: make mutants MODULE=lib/measure/section.c, or MODULE=integrators; see
+# Faults planted one by one: make mutants MODULE=lib/dynamics/section.c, or MODULE=integrators; see
 # tools/mutants/mutants.sh.
 SEED  ?= 1
 COUNT ?= 20

@@ -2,7 +2,7 @@
 #ifndef ELEMENTARY_TEST_H
 #define ELEMENTARY_TEST_H
 
-#include "machine.h"
+#include "core/machine.h"
 
 #define UNARY_LIST(X)                                                                              \
     X(sin) X(cos) X(tan) X(asin) X(acos) X(atan) X(sinh) X(cosh) X(tanh) X(asinh) X(exp) X(log)

@@ -2,7 +2,7 @@
 #ifndef FORMULA_H
 #define FORMULA_H
 
-#include "formula/formula.h"
+#include "expr/formula.h"
 #include <string.h>
 
 enum { PARAMETERS = 2, INPUTS = 6, SYMBOLS = PARAMETERS + INPUTS };

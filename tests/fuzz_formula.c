@@ -1,7 +1,7 @@
 /* fuzz_formula.c - any bytes as a formula: parsed, differentiated, put on a tape, evaluated.
  *
  * A tape and dal__evaluate must agree in every bit, a fault must have its place and its words. */
-#include "formula/formula.h"
+#include "expr/formula.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 /* test_brackets.c - measures of the lift: brackets, Dirac's algebra, actions. */
+#include "analysis/measure.h"
 #include "fixtures.h"
-#include "measure/measure.h"
 #include <CUnit/CUnit.h>
 #include <math.h>
 #include <string.h>

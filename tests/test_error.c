@@ -1,5 +1,5 @@
 /* test_error.c - statuses, error records, the nearest name. */
-#include "error.h"
+#include "core/error.h"
 
 #include <CUnit/Basic.h>
 #include <string.h>

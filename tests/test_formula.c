@@ -1,6 +1,6 @@
 /* test_formula.c - the language of formulas: what it means, and what it says to what is wrong. */
 #include "allocation.h"
-#include "error.h"
+#include "core/error.h"
 #include "formula.h"
 
 #include <CUnit/Basic.h>

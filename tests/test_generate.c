@@ -1,9 +1,9 @@
 /* test_generate.c - generated C files: what is refused, and that memory may run out anywhere.
  * That they compile and give the bits of a run is tested in tests/cli/generate_cases.sh. */
 #include "allocation.h"
+#include "core/text.h"
 #include "dalembert.h"
 #include "fixtures.h"
-#include "text.h"
 #include <CUnit/CUnit.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,6 +1,6 @@
 /* test_graph.c - nodes: one for equal expressions, simplified without a change of value. */
+#include "expr/graph.h"
 #include "formula.h"
-#include "formula/graph.h"
 
 #include <CUnit/Basic.h>
 #include <math.h>

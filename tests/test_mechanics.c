@@ -3,7 +3,7 @@
  * that depends on q (and one without positive diagonal), forces that depend on velocities, several
  * constraints, linear and not. */
 #include "body.h"
-#include "mechanics/mechanics.h"
+#include "model/mechanics.h"
 
 #include <CUnit/Basic.h>
 #include <math.h>

@@ -2,7 +2,7 @@
 # embed-sources.sh FILE... - writes the C table of the sources that travel inside the library for
 # generated files, without their #include lines: a generated file holds them all.
 set -e
-echo '#include "generate/generate.h"'
+echo '#include "codegen/generate.h"'
 number=0
 for file in "$@"; do
     printf 'static const char text%d[] = {\n' $number

@@ -5,10 +5,10 @@
 #ifndef DAL_ENGINE_H
 #define DAL_ENGINE_H
 
+#include "core/error.h"
+#include "core/machine.h"
 #include "dalembert.h"
-#include "error.h"
 #include "kernel/carried.h"
-#include "machine.h"
 #include <stdbool.h>
 #include <stdint.h>
 

@@ -4,7 +4,7 @@
 
 #include "run/engine.h"
 
-/* Compiled code, see lib/generate/native.c; of the functions an object has one.  carried, work and
+/* Compiled code, see lib/jit/native.c; of the functions an object has one.  carried, work and
  * states are as everywhere; lanes are a mask. */
 typedef struct dal__native {
     /* Up to count steps until a lane fails; the number of steps tried. */

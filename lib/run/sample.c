@@ -10,7 +10,7 @@
 #define ALIGNED    1e-9
 #define MOST_STEPS 0x1p53
 
-enum { POLL = 992 /* whole blocks of looks, lib/generate/native.c */ };
+enum { POLL = 992 /* whole blocks of looks, lib/jit/native.c */ };
 
 typedef struct sampling {
     dal_run *run;

@@ -25,7 +25,7 @@ variants="x1 x1_LONGER x4 x8 x64"
 CC=${CC:-cc}
 unset MAKEFLAGS MFLAGS MAKELEVEL
 cd "$root" || exit 2
-[ -n "$module" ] && find $module >/dev/null || { echo "mutants: no module '$module'; take MODULE=lib/measure/section.c" >&2; exit 2; }
+[ -n "$module" ] && find $module >/dev/null || { echo "mutants: no module '$module'; take MODULE=lib/dynamics/section.c" >&2; exit 2; }
 
 # The sources as they are, below the tree.
 copy_sources() {

@@ -1,0 +1,143 @@
+/* action.c - the two actions of the theory, on computed curves.
+ *
+ *     S   = int e/2 |q'' - F(q,q',t)|^2 dt                                             (nh10)
+ *     S_d = sum_k P_k.(X_(k+1) - X_k) - h H((X_k + X_(k+1))/2, P_k)                    (nh23)
+ *
+ * with X = (q,v,e), P = (p,pi,pi_e) at mid-interval and H = pi.pi/(2e) + pi.F + p.v + mu_e pi_e:
+ *     dS_d/dP_k = X_(k+1) - X_k - h H_P,
+ *     dS_d/dX_k = P_(k-1) - P_k - h/2 (H_X of interval k-1 + H_X of interval k). */
+#include "analysis/measure.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* First and second derivative from values at -4h..4h. */
+static const double first_weight[5] = {0.0, 4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0};
+static const double second_weight[5] = {-205.0 / 72.0, 8.0 / 5.0, -1.0 / 5.0, 8.0 / 315.0,
+                                        -1.0 / 560.0};
+
+/* q', q'' of component i at the row. */
+static void differentiate_row(const double *row, int n, int i, double h, double *v, double *a)
+{
+    double first = 0.0, second = second_weight[0] * row[i];
+    for (int k = 4; k >= 1; k--) {
+        double ahead = row[i + k * n], behind = row[i - k * n];
+        first += first_weight[k] * (ahead - behind);
+        second += second_weight[k] * (ahead + behind);
+    }
+    *v = first / h;
+    *a = second / (h * h);
+}
+
+static dal_status lagrangian(dal_probe *probe, double t, double h, const double *row,
+                             double *scratch, double *value)
+{
+    const dal_system *s = dal_probe_system(probe);
+    int n = s->n;
+    double *v = scratch, *a = scratch + n, *field = scratch + 2 * n;
+    for (int i = 0; i < n; i++) differentiate_row(row, n, i, h, &v[i], &a[i]);
+    DAL_TRY(dal_probe_call(probe, s->call.field, t, row, v, NULL, field));
+    *value = 0.0;
+    for (int i = 0; i < n; i++) *value += (a[i] - field[i]) * (a[i] - field[i]);
+    return DAL_OK;
+}
+
+dal_status dal_measure_action(dal_probe *probe, double t0, double h, long long count,
+                              const double *q, double e, double *action)
+{
+    DAL_REQUIRE(probe, NULL);
+    DAL_REQUIRE(q, NULL);
+    DAL_REQUIRE(action, NULL);
+    const dal_system *s = dal_probe_system(probe);
+    if (s->multipliers > 0) return DAL_UNSUPPORTED;
+    if (count < 10 || !(h > 0.0)) return DAL_ARGUMENT;
+    double *scratch = dal__numbers(3, (size_t)s->n), sum = 0.0, value = 0.0;
+    if (scratch == NULL) return DAL_MEMORY;
+    dal_status status = DAL_OK;
+    for (long long k = 4; k < count - 4 && status == DAL_OK; k++) {
+        status = lagrangian(probe, t0 + h * (double)k, h, q + k * s->n, scratch, &value);
+        sum += (k == 4 || k == count - 5 ? 0.5 : 1.0) * value;
+    }
+    *action = 0.5 * e * h * sum;
+    free(scratch);
+    if (status != DAL_OK) return status;
+    return isfinite(*action) ? DAL_OK : DAL_NOT_FINITE;
+}
+
+/* ---- the first-order action ---- */
+
+typedef struct path {
+    dal_probe *probe;
+    int n, half; /* half = 2n+1 */
+    double t, h;
+    dal_status status;
+    double *z, *gradient, *before, *field; /* [2*half] x 3, [n] */
+} path;
+
+static double hamiltonian(void *user, const double *z)
+{
+    path *w = user;
+    const dal_system *s = dal_probe_system(w->probe);
+    int n = w->n;
+    const double *v = z + n, *p = z + w->half, *pi = p + n;
+    double e = z[2 * n], mu = 0.0, sum = 0.0, square = 0.0;
+    dal_status status = dal_probe_call(w->probe, s->call.field, w->t, z, v, NULL, w->field);
+    if (status == DAL_OK && s->call.gauge != NULL)
+        status = dal_probe_call(w->probe, s->call.gauge, w->t, z, v, NULL, &mu);
+    if (status != DAL_OK) w->status = status;
+    for (int i = 0; i < n; i++) {
+        square += pi[i] * pi[i];
+        sum += pi[i] * w->field[i] + p[i] * v[i];
+    }
+    return square / (2.0 * e) + sum + mu * pi[n];
+}
+
+/* z = midpoint X, mean P of the interval that begins at row, and the gradient of H there. */
+static void enter_interval(path *w, double t, const double *row)
+{
+    int size = 2 * w->half;
+    for (int i = 0; i < size; i++) w->z[i] = 0.5 * (row[i] + row[i + size]);
+    w->t = t + 0.5 * w->h;
+    dal_measure_gradient(hamiltonian, w, size, w->z, w->gradient);
+}
+
+/* before holds P - h/2 H_X of the interval before, as dS/dX of the node between wants it. */
+static double variation(path *w, const double *row, int inner)
+{
+    double most = 0.0;
+    int half = w->half;
+    for (int i = 0; i < half; i++) {
+        double in_p = row[i + 2 * half] - row[i] - w->h * w->gradient[half + i];
+        double force = 0.5 * w->h * w->gradient[i];
+        double in_x = w->before[i] - w->z[half + i] - force;
+        most = fmax(most, fabs(in_p));
+        if (inner) most = fmax(most, fabs(in_x));
+        w->before[i] = w->z[half + i] - force;
+    }
+    return most / w->h;
+}
+
+dal_status dal_measure_stationarity(dal_probe *probe, double t0, double h, long long count,
+                                    const double *states, double *defect)
+{
+    DAL_REQUIRE(probe, NULL);
+    DAL_REQUIRE(states, NULL);
+    DAL_REQUIRE(defect, NULL);
+    const dal_system *s = dal_probe_system(probe);
+    if (s->multipliers > 0) return DAL_UNSUPPORTED;
+    if (count < 3 || !(h > 0.0)) return DAL_ARGUMENT;
+    size_t n = (size_t)s->n, size = 4 * n + 2;
+    double *block = dal__numbers(1, 3 * size + n);
+    if (block == NULL) return DAL_MEMORY;
+    path w = {.probe = probe, .n = s->n, .half = 2 * s->n + 1, .h = h, .z = block};
+    w.gradient = block + size, w.before = block + 2 * size, w.field = block + 3 * size;
+    *defect = 0.0;
+    for (long long k = 0; k + 1 < count; k++) {
+        const double *row = states + (size_t)k * size;
+        enter_interval(&w, t0 + h * (double)k, row);
+        double here = variation(&w, row, k > 0);
+        if (!(here <= *defect)) *defect = isnan(here) ? INFINITY : here;
+    }
+    free(block);
+    return w.status;
+}

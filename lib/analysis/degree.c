@@ -1,0 +1,245 @@
+/* degree.c - what kind of function D is, and whether the motion can be turned round.
+ *
+ * A polynomial of degree k along every line has vanishing (k+1)-th differences:
+ *     D(x+d) - 2 D(x) + D(x-d) = 0            affine along d
+ *     D(x+2d) - 3 D(x+d) + 3 D(x) - D(x-d) = 0  of degree <= 2 along d
+ * Each property is tried on lines through points about the given one; one line that fails
+ * decides against it, points where D is not finite decide nothing. */
+#include "analysis/measure.h"
+#include <math.h>
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { TRIALS = 24 };
+/* How far from the given point the lines pass and reach, relative to max(1, |x|). */
+static const double neighbourhood = 0.3;
+/* A difference of values near 1 over steps near 0.3 carries a few 1e-16; anything of this size is
+ * not rounding. */
+static const double tolerance = 1e-11;
+
+typedef struct survey {
+    dal_probe *probe;
+    const dal_system *s;
+    int n, nw, m;
+    dal_point at;
+    dal__random random;
+    double *x, *d, *y;            /* [n+nw] base, direction, point on the line */
+    double *value[4];             /* [max(m, nw)] */
+    double *sign, *degree, *rate; /* [m] */
+    double t;
+    bool undecided; /* D had no values at any point tried */
+} survey;
+
+static dal_status values_at(survey *w, double s, double *out)
+{
+    for (int i = 0; i < w->n + w->nw; i++) w->y[i] = w->x[i] + s * w->d[i];
+    return dal_probe_call(w->probe, w->s->constraints, w->t, w->y, w->y + w->n, NULL, out);
+}
+
+static void draw_base(survey *w)
+{
+    for (int i = 0; i < w->n + w->nw; i++) {
+        double x = i < w->n ? w->at.q[i] : w->at.v[i - w->n];
+        w->x[i] = x + neighbourhood * fmax(1.0, fabs(x)) * dal__uniform(&w->random);
+    }
+    w->t = w->at.t + dal__uniform(&w->random);
+}
+
+/* A direction in the first coordinates and the velocities, as asked. */
+static void draw_direction(survey *w, int in_q, int in_v)
+{
+    for (int i = 0; i < w->n + w->nw; i++) {
+        int wanted = i < w->n ? in_q : in_v && i < 2 * w->n;
+        w->d[i] = wanted ? neighbourhood * dal__uniform(&w->random) : 0.0;
+    }
+}
+
+/* The values at s = -1, 0, .. of count points; false when one is not finite. */
+static bool values_on_line(survey *w, int count)
+{
+    for (int k = 0; k < count; k++)
+        if (values_at(w, k - 1.0, w->value[k]) != DAL_OK ||
+            !isfinite(dal__greatest(w->value[k], (size_t)w->m)))
+            return false;
+    return true;
+}
+
+/* Whether the difference with these weights of the values at s = first, first+1, ... vanishes for
+ * every constraint on every line tried. */
+static int vanishes(survey *w, int in_q, int in_v, int count, const double *weight)
+{
+    int decided = 0;
+    for (int trial = 0; trial < TRIALS; trial++) {
+        draw_base(w);
+        draw_direction(w, in_q, in_v);
+        if (!values_on_line(w, count)) continue;
+        decided = 1;
+        for (int a = 0; a < w->m; a++) {
+            double sum = 0.0, size = 1.0;
+            for (int k = 0; k < count; k++) {
+                sum += weight[k] * w->value[k][a];
+                size = fmax(size, fabs(w->value[k][a]));
+            }
+            if (fabs(sum) > tolerance * size) return 0;
+        }
+    }
+    w->undecided |= !decided;
+    return decided;
+}
+
+static int affine(survey *w, int in_q, int in_v)
+{
+    static const double second[] = {1.0, -2.0, 1.0};
+    return vanishes(w, in_q, in_v, 3, second);
+}
+
+static int of_degree_two(survey *w)
+{
+    static const double third[] = {-1.0, 3.0, -3.0, 1.0};
+    return vanishes(w, 1, 1, 4, third);
+}
+
+static int without_time(survey *w)
+{
+    int decided = 0;
+    for (int trial = 0; trial < TRIALS; trial++) {
+        draw_base(w);
+        if (values_at(w, 0.0, w->value[0]) != DAL_OK) continue;
+        w->t += 0.5;
+        if (values_at(w, 0.0, w->value[1]) != DAL_OK) continue;
+        if (!isfinite(dal__greatest(w->value[0], (size_t)w->m))) continue;
+        if (!(dal__distance(w->value[0], w->value[1], (size_t)w->m) <= tolerance)) return 0;
+        decided = 1;
+    }
+    w->undecided |= !decided;
+    return decided;
+}
+
+/* ---- v -> -v ---- */
+
+static void reverse(survey *w)
+{
+    for (int i = w->n; i < 2 * w->n; i++) w->x[i] = -w->x[i];
+    for (int a = 0; a < w->s->multipliers; a++) w->x[2 * w->n + a] *= w->sign[a];
+    w->t = -w->t;
+}
+
+/* +1, -1 or 0 for each constraint into w->sign. */
+static int find_parity(survey *w)
+{
+    int common = 0;
+    for (int a = 0; a < w->m; a++) w->sign[a] = 2.0;
+    for (int trial = 0; trial < TRIALS; trial++) {
+        draw_base(w);
+        memset(w->d, 0, (size_t)(w->n + w->nw) * sizeof(double));
+        if (values_at(w, 0.0, w->value[0]) != DAL_OK) continue;
+        reverse(w);
+        if (values_at(w, 0.0, w->value[1]) != DAL_OK) continue;
+        for (int a = 0; a < w->m; a++) {
+            double x = w->value[0][a], y = w->value[1][a], size = tolerance * fmax(1.0, fabs(x));
+            double sign = fabs(x - y) <= size ? 1.0 : fabs(x + y) <= size ? -1.0 : 0.0;
+            if (isnan(x) || isnan(y) || fabs(x) <= size) continue;
+            w->sign[a] = w->sign[a] == 2.0 || w->sign[a] == sign ? sign : 0.0;
+        }
+    }
+    for (int a = 0; a < w->m; a++) {
+        if (w->sign[a] == 2.0) w->sign[a] = 0.0;
+        if (a == 0) common = (int)w->sign[a];
+        if (w->sign[a] == 0.0) return 0;
+    }
+    return common;
+}
+
+static double force_defect(survey *w)
+{
+    double most = 0.0;
+    int decided = 0;
+    dal_callback *field = w->s->call.field;
+    for (int trial = 0; trial < TRIALS; trial++) {
+        draw_base(w);
+        dal_status here =
+            dal_probe_call(w->probe, field, w->t, w->x, w->x + w->n, NULL, w->value[0]);
+        reverse(w);
+        dal_status there =
+            dal_probe_call(w->probe, field, w->t, w->x, w->x + w->n, NULL, w->value[1]);
+        if (here != DAL_OK || there != DAL_OK) continue;
+        /* dg/dt of a multiplier that changes its sign with v keeps its own, and the reverse. */
+        for (int a = 0; a < w->s->multipliers; a++) w->value[1][w->n + a] *= -w->sign[a];
+        if (!isfinite(dal__greatest(w->value[0], (size_t)w->nw))) continue;
+        most = fmax(most, dal__distance(w->value[0], w->value[1], (size_t)w->nw));
+        decided = 1;
+    }
+    return decided ? most : NAN;
+}
+
+/* ---- homogeneity ---- */
+
+static dal_status along_scaling(void *user, double s, double *out)
+{
+    survey *w = user;
+    return values_at(w, s, out);
+}
+
+/* v.D_v = k D with the same k at every point; k into w->degree. */
+static int homogeneous(survey *w)
+{
+    for (int a = 0; a < w->m; a++) w->degree[a] = NAN;
+    for (int trial = 0; trial < TRIALS; trial++) {
+        draw_base(w);
+        memset(w->d, 0, (size_t)(w->n + w->nw) * sizeof(double));
+        memcpy(w->d + w->n, w->x + w->n, (size_t)w->n * sizeof(double));
+        if (values_at(w, 0.0, w->value[0]) != DAL_OK) continue;
+        if (dal__differentiate(along_scaling, w, DAL__INCREMENT, w->m, w->value[1], w->rate))
+            continue;
+        for (int a = 0; a < w->m; a++) {
+            double k = w->rate[a] / w->value[0][a];
+            if (!(fabs(w->value[0][a]) > 1e-3)) continue;
+            if (!(isnan(w->degree[a]) || fabs(k - w->degree[a]) <= 1e-8)) return 0;
+            w->degree[a] = k;
+        }
+    }
+    for (int a = 0; a < w->m; a++)
+        if (isnan(w->degree[a])) return 0;
+    return 1;
+}
+
+static void examine(survey *w, dal_degree *out, double *degree)
+{
+    *out = (dal_degree){0};
+    if (w->m > 0) {
+        int steady = without_time(w);
+        out->linear = affine(w, 0, 1);
+        out->constant = steady && affine(w, 1, 1);
+        out->bilinear = steady && out->linear && affine(w, 1, 0);
+        out->quadratic = steady && of_degree_two(w);
+        out->homogeneous = homogeneous(w);
+        out->parity = find_parity(w);
+    }
+    for (int a = 0; a < w->m && degree != NULL; a++) degree[a] = w->degree[a];
+    out->force_defect = force_defect(w);
+    int turned = w->s->multipliers == 0 || out->parity != 0;
+    out->reversible = turned && out->force_defect <= 1e-10;
+}
+
+dal_status dal_measure_degree(dal_probe *probe, const dal_point *at, dal_degree *out,
+                              double *degree)
+{
+    DAL_REQUIRE(probe, NULL);
+    DAL_REQUIRE_POINT(at);
+    DAL_REQUIRE(out, NULL);
+    const dal_system *s = dal_probe_system(probe);
+    if (s->m > 0 && s->constraints == NULL) return DAL_UNSUPPORTED;
+    size_t nw = (size_t)s->n + (size_t)s->multipliers, x = (size_t)s->n + nw;
+    size_t rows = nw > (size_t)s->m ? nw : (size_t)s->m;
+    double *block = dal__numbers(1, 3 * x + 7 * rows);
+    if (block == NULL) return DAL_MEMORY;
+    survey w = {.probe = probe, .s = s, .n = s->n, .nw = (int)nw, .m = s->m, .at = *at};
+    w.random.state = 7;
+    w.x = block, w.d = block + x, w.y = block + 2 * x;
+    for (size_t k = 0; k < 4; k++) w.value[k] = block + 3 * x + k * rows;
+    w.sign = w.value[3] + rows, w.degree = w.sign + rows, w.rate = w.degree + rows;
+    examine(&w, out, degree);
+    free(block);
+    return w.undecided ? DAL_NOT_FINITE : DAL_OK;
+}

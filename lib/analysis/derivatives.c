@@ -1,0 +1,232 @@
+/* derivatives.c - what a system says of its derivatives, against differences of its own values.
+ *
+ *     d/dt f(q,v,t) along the motion = d/ds f(q + s v, v + s F, t + s) at s = 0 */
+#include "analysis/measure.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- the rate of a quantity along the motion ---- */
+
+typedef struct flow {
+    dal_probe *probe;
+    dal_callback *callback;
+    const dal_point *at;
+    int n, nw;
+    double *field, *q, *v; /* [nw], [n], [nw] */
+} flow;
+
+static dal_status along_flow(void *user, double s, double *out)
+{
+    flow *f = user;
+    for (int i = 0; i < f->n; i++) f->q[i] = f->at->q[i] + s * f->at->v[i];
+    for (int i = 0; i < f->nw; i++) f->v[i] = f->at->v[i] + s * f->field[i];
+    return dal_probe_call(f->probe, f->callback, f->at->t + s, f->q, f->v, NULL, out);
+}
+
+static dal_status rate_in(flow *f, int count, double *scratch, double *out)
+{
+    const dal_point *at = f->at;
+    DAL_TRY(dal_probe_call(f->probe, dal_probe_system(f->probe)->call.field, at->t, at->q, at->v,
+                           NULL, f->field));
+    double speed = dal__greatest(f->field, (size_t)f->nw);
+    speed = fmax(1.0, fmax(speed, dal__greatest(at->v, (size_t)f->n)));
+    if (!isfinite(speed)) return DAL_NOT_FINITE;
+    DAL_TRY(dal__differentiate(along_flow, f, DAL__INCREMENT / speed, count, scratch, out));
+    return isfinite(dal__greatest(out, (size_t)count)) ? DAL_OK : DAL_NOT_FINITE;
+}
+
+dal_status dal_measure_rate(dal_probe *probe, dal_callback *callback, int count,
+                            const dal_point *at, double *out)
+{
+    DAL_REQUIRE(probe, NULL);
+    DAL_REQUIRE_POINT(at);
+    DAL_REQUIRE(out, NULL);
+    DAL_REQUIRE_COUNT(count, NULL);
+    const dal_system *s = dal_probe_system(probe);
+    int n = s->n, nw = s->n + s->multipliers;
+    if (callback == NULL) return DAL_UNSUPPORTED;
+    double *block = dal__numbers(1, (size_t)(n + 2 * nw) + 3 * (size_t)count);
+    if (block == NULL) return DAL_MEMORY;
+    flow f = {probe, callback, at, n, nw, block, block + nw, block + nw + n};
+    dal_status status = rate_in(&f, count, block + n + 2 * nw, out);
+    free(block);
+    return status;
+}
+
+/* ---- derivatives ---- */
+
+/* A callback as a function of one component of (q, v, g), the others held. */
+typedef struct line {
+    dal_probe *probe;
+    dal_callback *callback;
+    double t;
+    double *x; /* [n + nw] */
+    int n, j;
+    double held;
+} line;
+
+static dal_status along_line(void *user, double s, double *out)
+{
+    line *l = user;
+    l->x[l->j] = l->held + s;
+    dal_status status = dal_probe_call(l->probe, l->callback, l->t, l->x, l->x + l->n, NULL, out);
+    l->x[l->j] = l->held;
+    return status;
+}
+
+/* Column j of the derivative of l->callback by x, count numbers. */
+static dal_status column(line *l, int j, int count, double *scratch, double *out)
+{
+    l->j = j;
+    l->held = l->x[j];
+    const double d = dal__increment(j < l->n ? 0.0 : l->held);
+    return dal__differentiate(along_line, l, d, count, scratch, out);
+}
+
+typedef struct desk {
+    dal_probe *probe;
+    const dal_system *s;
+    int n, nw, m;
+    double t;
+    double *x;           /* [n + nw] the point */
+    double *differences; /* [rows * (n + nw)] row-major */
+    double *given, *scratch, *pi;
+} desk;
+
+/* differences[rows*(n+nw)] of a callback's first rows values. */
+static dal_status tabulate(desk *d, dal_callback *callback, int rows)
+{
+    line l = {.probe = d->probe, .callback = callback, .t = d->t, .x = d->x, .n = d->n};
+    int columns = d->n + d->nw;
+    double *out = d->scratch + 3 * rows;
+    for (int j = 0; j < columns; j++) {
+        DAL_TRY(column(&l, j, rows, d->scratch, out));
+        for (int i = 0; i < rows; i++) d->differences[i * columns + j] = out[i];
+    }
+    const double size = dal__greatest(d->differences, (size_t)rows * (size_t)columns);
+    return isfinite(size) ? DAL_OK : DAL_NOT_FINITE;
+}
+
+dal_status dal__gradients(dal_probe *probe, dal_callback *callback, int rows, const dal_point *at,
+                          double *differences)
+{
+    const dal_system *s = dal_probe_system(probe);
+    const int nw = s->n + s->multipliers;
+    const size_t width = (size_t)(s->n + nw);
+    if (callback == NULL) return DAL_UNSUPPORTED;
+    double *x = dal__numbers(1, width + 4 * (size_t)rows);
+    if (x == NULL) return DAL_MEMORY;
+    memcpy(x, at->q, (size_t)s->n * sizeof(double));
+    memcpy(x + s->n, at->v, (size_t)nw * sizeof(double));
+    desk d = {.probe = probe, .n = s->n, .nw = nw, .t = at->t, .x = x, .scratch = x + width};
+    d.differences = differences;
+    const dal_status status = tabulate(&d, callback, rows);
+    free(x);
+    return status;
+}
+
+static dal_status call(desk *d, dal_callback *callback, double *out)
+{
+    return dal_probe_call(d->probe, callback, d->t, d->x, d->x + d->n, d->pi, out);
+}
+
+/* The block rows*columns at given against columns first.. of the differences. */
+static double compare(const desk *d, const double *given, int rows, int first, int columns)
+{
+    double most = 0.0;
+    for (int i = 0; i < rows; i++) {
+        const double *difference = d->differences + i * (d->n + d->nw) + first;
+        most = fmax(most, dal__distance(given + i * columns, difference, (size_t)columns));
+    }
+    return most;
+}
+
+static dal_status compare_jacobian(desk *d, double *defect)
+{
+    *defect = NAN;
+    if (d->s->call.jacobian == NULL) return DAL_OK;
+    DAL_TRY(call(d, d->s->call.jacobian, d->given));
+    *defect = fmax(compare(d, d->given, d->nw, 0, d->n),
+                   compare(d, d->given + d->nw * d->n, d->nw, d->n, d->nw));
+    return DAL_OK;
+}
+
+static dal_status compare_adjoint(desk *d, double *defect)
+{
+    *defect = NAN;
+    if (d->s->call.adjoint == NULL) return DAL_OK;
+    int n = d->n, columns = n + d->nw;
+    double *field = d->scratch, *products = d->scratch + d->nw;
+    DAL_TRY(call(d, d->s->call.adjoint, d->given));
+    DAL_TRY(call(d, d->s->call.field, field));
+    for (int j = 0; j < 2 * n; j++) {
+        products[j] = 0.0;
+        for (int i = 0; i < n; i++) products[j] += d->pi[i] * d->differences[i * columns + j];
+    }
+    *defect = fmax(dal__distance(d->given, field, (size_t)n),
+                   dal__distance(d->given + n, products, (size_t)(2 * n)));
+    return DAL_OK;
+}
+
+static double asymmetry(const double *gram, int m)
+{
+    double most = 0.0;
+    for (int i = 0; i < m; i++)
+        for (int j = 0; j < i; j++) most = fmax(most, fabs(gram[i * m + j] - gram[j * m + i]));
+    double size = dal__greatest(gram, (size_t)m * (size_t)m);
+    return size > 0.0 ? most / size : 0.0;
+}
+
+static dal_status compare_constraint(desk *d, dal_derivatives *out)
+{
+    out->normal = out->gram = NAN;
+    if (d->m == 0 || d->s->call.constraint == NULL) return DAL_OK;
+    DAL_TRY(tabulate(d, d->s->constraints, d->m));
+    DAL_TRY(call(d, d->s->call.constraint, d->given));
+    out->normal = compare(d, d->given + d->m, d->m, d->n, d->n);
+    dal__gram(d->s, d->given, d->scratch);
+    out->gram = asymmetry(d->scratch, d->m);
+    return DAL_OK;
+}
+
+static dal_status compare_all(desk *d, const dal_point *at, dal_derivatives *out)
+{
+    dal__random random = {1};
+    memcpy(d->x, at->q, (size_t)d->n * sizeof(double));
+    memcpy(d->x + d->n, at->v, (size_t)d->nw * sizeof(double));
+    for (int i = 0; i < d->n; i++) d->pi[i] = dal__uniform(&random);
+    DAL_TRY(tabulate(d, d->s->call.field, d->nw));
+    DAL_TRY(compare_jacobian(d, &out->jacobian));
+    DAL_TRY(compare_adjoint(d, &out->adjoint));
+    return compare_constraint(d, out);
+}
+
+dal_status dal_measure_derivatives(dal_probe *probe, const dal_point *at, dal_derivatives *out)
+{
+    DAL_REQUIRE(probe, NULL);
+    DAL_REQUIRE_POINT(at);
+    DAL_REQUIRE(out, NULL);
+    const dal_system *s = dal_probe_system(probe);
+    size_t n = (size_t)s->n, nw = n + (size_t)s->multipliers, m = (size_t)s->m;
+    size_t rows = nw > m ? nw : m, columns = n + nw;
+    size_t given = nw * columns + m * (1 + 2 * n) + 3 * n;
+    size_t scratch = 4 * rows + 3 * columns + m * m;
+    double *block = dal__numbers(1, columns + rows * columns + given + scratch + n);
+    if (block == NULL) return DAL_MEMORY;
+    double *differences = block + columns, *values = differences + rows * columns;
+    desk d = {.probe = probe,
+              .s = s,
+              .n = s->n,
+              .nw = s->n + s->multipliers,
+              .m = s->m,
+              .t = at->t,
+              .x = block,
+              .differences = differences,
+              .given = values,
+              .scratch = values + given,
+              .pi = values + given + scratch};
+    dal_status status = compare_all(&d, at, out);
+    free(block);
+    return status;
+}

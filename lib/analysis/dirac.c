@@ -1,0 +1,214 @@
+/* dirac.c - Poisson brackets by differences, and Dirac's algebra in 6n+2.
+ *
+ *     X = (q, v, lambda, e),   P = (p, pi, pi_lambda, pi_e),   {f,g} = f_X g_P - f_P g_X
+ *     H_c = pi.pi/(2e) + pi.F + lambda.v + mu_e pi_e + mu_lambda.pi_lambda + mu_q.(p - lambda)
+ *                                                                                (nh12)-(nh19)
+ * Conservation of phi_a on the surface, {phi_a, H_0} + sum_b mu_b {phi_a, phi_b} = 0 over the
+ * primary phi_b, is solved for mu by least squares; the residue must vanish.  The rank of
+ * {phi_a, phi_b} over all constraints counts the second-class ones. */
+#include "analysis/measure.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Brackets are 0 or of order 1, with noise near 1e-12. */
+static const double rank_tolerance = 1e-6;
+
+typedef struct varied {
+    dal_phase_function *f;
+    void *user;
+    double *z;
+    int j;
+    double held;
+} varied;
+
+static dal_status vary(void *user, double s, double *out)
+{
+    varied *w = user;
+    w->z[w->j] = w->held + s;
+    *out = w->f(w->user, w->z);
+    w->z[w->j] = w->held;
+    return DAL_OK;
+}
+
+void dal_measure_gradient(dal_phase_function *f, void *user, int count, double *z, double *gradient)
+{
+    if (!f || !z || !gradient) return;
+    double scratch[3];
+    for (int j = 0; j < count; j++) {
+        varied w = {f, user, z, j, z[j]};
+        dal__differentiate(vary, &w, DAL__INCREMENT, 1, scratch, &gradient[j]);
+    }
+}
+
+double dal_poisson(const double *f, const double *g, int pairs)
+{
+    if (!f || !g || pairs < 0) return NAN;
+    double sum = 0.0;
+    for (int i = 0; i < pairs; i++) sum += f[i] * g[pairs + i] - f[pairs + i] * g[i];
+    return sum;
+}
+
+/* ---- the constraints and the Hamiltonian ---- */
+
+double dal__dirac_constraint(void *user, const double *z, int a)
+{
+    const dal__dirac_space *w = user;
+    int n = w->n, half = 3 * n + 1, k = (a - 1) % n;
+    const double *lambda = z + 2 * n, *p = z + half, *pi = p + n, *pi_lambda = p + 2 * n;
+    if (a == 0) return z[2 * half - 1];
+    switch ((a - 1) / n) {
+    case 0:
+        return pi_lambda[k];
+    case 1:
+        return p[k] - lambda[k];
+    case 2:
+        return pi[k];
+    default:
+        return lambda[k];
+    }
+}
+
+/* H_c without its multipliers. */
+static double hamiltonian(void *user, const double *z)
+{
+    dal__dirac_space *w = user;
+    int n = w->n;
+    const double *v = z + n, *lambda = z + 2 * n, *pi = z + 4 * n + 1;
+    double sum = 0.0, square = 0.0;
+    dal_callback *field = dal_probe_system(w->probe)->call.field;
+    if (dal_probe_call(w->probe, field, w->t, z, v, NULL, w->field) != DAL_OK) return NAN;
+    for (int i = 0; i < n; i++) {
+        square += pi[i] * pi[i];
+        sum += pi[i] * w->field[i] + lambda[i] * v[i];
+    }
+    return square / (2.0 * z[3 * n]) + sum;
+}
+
+static double current_constraint(void *user, const double *z)
+{
+    dal__dirac_space *w = user;
+    return w->phi(user, z, w->a);
+}
+
+/* ---- the algebra at one point ---- */
+
+typedef struct algebra {
+    dal__dirac_space space;
+    int n, pairs, count, primary;          /* 3n+1, 4n+1, 2n+1 */
+    double *z;                             /* [2*pairs] */
+    double *gradient;                      /* [(count+1) * 2*pairs]; the last is that of H */
+    double *matrix, *right, *mu, *scratch; /* [count^2], [count], [count], [count(count+2)] */
+} algebra;
+
+static const double *gradient_of(const algebra *w, int a) { return w->gradient + a * 2 * w->pairs; }
+
+static void take_gradients(algebra *w)
+{
+    for (w->space.a = 0; w->space.a < w->count; w->space.a++)
+        dal_measure_gradient(current_constraint, &w->space, 2 * w->pairs, w->z,
+                             w->gradient + w->space.a * 2 * w->pairs);
+    dal_measure_gradient(hamiltonian, &w->space, 2 * w->pairs, w->z,
+                         w->gradient + w->count * 2 * w->pairs);
+}
+
+/* {phi_a, phi_b}, a < rows, b < columns. */
+static void take_brackets(algebra *w, int rows, int columns)
+{
+    for (int a = 0; a < rows; a++)
+        for (int b = 0; b < columns; b++)
+            w->matrix[a * columns + b] =
+                dal_poisson(gradient_of(w, a), gradient_of(w, b), w->pairs);
+}
+
+/* Least |{phi_a, H_c}| over mu, a < rows; mu stays in w->mu.  Returns the rank. */
+static int conserve(algebra *w, int rows, double *residue)
+{
+    take_brackets(w, rows, w->primary);
+    for (int a = 0; a < rows; a++)
+        w->right[a] = -dal_poisson(gradient_of(w, a), gradient_of(w, w->count), w->pairs);
+    int rank = dal__least_squares(rows, w->primary, w->matrix, w->right, w->mu, rank_tolerance,
+                                  NULL, w->scratch);
+    *residue = dal__greatest(w->right, (size_t)rows);
+    return rank;
+}
+
+/* |mu - (free, mu_lambda = 0, mu_q = v)|. */
+static double multiplier_error(const algebra *w)
+{
+    double most = 0.0;
+    for (int i = 0; i < w->n; i++) {
+        most = fmax(most, fabs(w->mu[1 + i]));
+        most = fmax(most, fabs(w->mu[1 + w->n + i] - w->z[w->n + i]));
+    }
+    return most;
+}
+
+/* H_c with the multipliers found. */
+static double total_hamiltonian(algebra *w)
+{
+    double sum = hamiltonian(&w->space, w->z);
+    for (int b = 0; b < w->primary; b++) sum += w->mu[b] * w->space.phi(&w->space, w->z, b);
+    return sum;
+}
+
+/* On the primary surface, off the secondary one: p = lambda and pi of order 1. */
+static void leave_surface(algebra *w)
+{
+    dal__random random = {3};
+    int n = w->n;
+    double *lambda = w->z + 2 * n, *p = w->z + w->pairs, *pi = p + n;
+    for (int i = 0; i < n; i++) {
+        lambda[i] = p[i] = dal__uniform(&random);
+        pi[i] = 0.5 + 0.25 * dal__uniform(&random);
+    }
+}
+
+static dal_status analyse(algebra *w, dal_dirac *out)
+{
+    take_gradients(w);
+    if (!isfinite(dal__greatest(w->gradient, (size_t)(w->count + 1) * 2 * (size_t)w->pairs)))
+        return DAL_NOT_FINITE;
+    out->constraints = w->count;
+    out->free_multipliers = w->primary - conserve(w, w->count, &out->conservation);
+    out->multipliers = multiplier_error(w);
+    out->hamiltonian = fabs(total_hamiltonian(w));
+    take_brackets(w, w->count, w->count);
+    out->second_class = dal__least_squares(w->count, w->count, w->matrix, NULL, NULL,
+                                           rank_tolerance, NULL, w->scratch);
+    out->first_class = w->count - out->second_class;
+    leave_surface(w);
+    take_gradients(w);
+    conserve(w, w->primary, &out->secondary);
+    return DAL_OK;
+}
+
+dal_status dal__dirac(dal_probe *probe, const dal_point *at, double e,
+                      double (*phi)(void *user, const double *z, int a), dal_dirac *out)
+{
+    const dal_system *s = dal_probe_system(probe);
+    if (s->multipliers > 0) return DAL_UNSUPPORTED;
+    size_t n = (size_t)s->n, size = 6 * n + 2, count = 4 * n + 1;
+    size_t numbers = size + (count + 1) * size + 2 * count * count + 4 * count + n;
+    double *block = dal__numbers(1, numbers);
+    if (block == NULL) return DAL_MEMORY;
+    algebra w = {.n = s->n, .pairs = 3 * s->n + 1, .count = (int)count, .primary = 2 * s->n + 1};
+    w.z = block, w.gradient = block + size, w.matrix = w.gradient + (count + 1) * size;
+    w.right = w.matrix + count * count, w.mu = w.right + count, w.scratch = w.mu + count;
+    w.space = (dal__dirac_space){.probe = probe, .n = s->n, .t = at->t, .phi = phi};
+    w.space.field = block + numbers - n;
+    memcpy(w.z, at->q, n * sizeof(double));
+    memcpy(w.z + n, at->v, n * sizeof(double));
+    w.z[3 * n] = e;
+    dal_status status = analyse(&w, out);
+    free(block);
+    return status;
+}
+
+dal_status dal_measure_dirac(dal_probe *probe, const dal_point *at, double e, dal_dirac *out)
+{
+    DAL_REQUIRE(probe, NULL);
+    DAL_REQUIRE_POINT(at);
+    DAL_REQUIRE(out, NULL);
+    return dal__dirac(probe, at, e, dal__dirac_constraint, out);
+}

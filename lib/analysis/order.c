@@ -1,0 +1,140 @@
+/* order.c - the observed order of a method: slopes of the error under halving of the step.
+ *
+ *     e_i = max_k |x_k(T; h_i) - x_k(T)| / max(1, |x_k(T)|),   h_i = h/2^i
+ *     slope_i = log(e_(i-1) / e_i) / log(h_(i-1) / h_i)
+ *
+ * With e = C h^p (1 + a h + ..) the next term of the error moves a slope from p by
+ *
+ *     slope_i - p = a g_i + ..,   g_i = (h_(i-1) - h_i) / log(h_(i-1) / h_i),
+ *
+ * so that two successive slopes tell how far the second is from p:
+ *
+ *     slope_i - p = (slope_(i-1) - slope_i) g_i / (g_(i-1) - g_i)
+ *
+ * (for halved steps their difference; a third of it, and overestimated, where the next term is
+ * a h^2).  An order is stated where that is small. */
+#include "analysis/measure.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Errors below this hold too much rounding for a slope good to 0.1: sums of 1e3 steps with
+ * rounding 1e-16 each disturb it by a few percent. */
+static const double clear_of_rounding = 2e-13;
+/* An error near the size of the solution is bounded by that, not by the step. */
+static const double below_the_solution = 0.5;
+/* How far the next term of the error may move an order that is stated. */
+static const double order_tolerance = 0.1;
+
+/* The state of a run of the spec at T into out[dimension]. */
+static dal_status state_at(const dal_run_spec *spec, double T, double *out, long long *evaluations,
+                           dal_error *error)
+{
+    dal_run *run;
+    double steps = nearbyint(T / spec->options.step);
+    if (!(steps >= 1.0 && steps < 0x1p53) ||
+        !(fabs(steps * spec->options.step - T) <= 1e-9 * fabs(T)))
+        return dal__error(error, DAL_ARGUMENT, 0, 0,
+                          "time %g does not hold a whole number of steps %g", T,
+                          spec->options.step);
+    DAL_TRY(dal_run_create(&run, spec, error));
+    dal_status status = dal_run_advance(run, (long long)steps, error);
+    size_t count = (size_t)dal_run_dimension(run);
+    if (status == DAL_OK) memcpy(out, dal_run_state(run), count * sizeof(double));
+    *evaluations = dal_run_evaluations(run);
+    dal_run_free(run);
+    return status;
+}
+
+static dal_status judge_state(const dal_run_spec *spec, double T, int levels,
+                              const dal_method *judge, double *out, dal_error *error)
+{
+    dal_run_spec finer = *spec;
+    long long evaluations;
+    if (judge != NULL)
+        finer.method = *judge;
+    else
+        DAL_TRY(dal_method_parse(&finer.method, "gauss12", error));
+    finer.options.step = ldexp(spec->options.step, -levels);
+    return state_at(&finer, T, out, &evaluations, error);
+}
+
+/* Errors of three steps from level i-2 on are those of the method. */
+static int are_clear(const dal_order *o, int i, double clear)
+{
+    for (int k = i - 2; k <= i; k++)
+        if (!(o->error[k] > clear && o->error[k] < below_the_solution)) return 0;
+    return 1;
+}
+
+static double mean_step(const dal_order *o, int i)
+{
+    return (o->step[i - 1] - o->step[i]) / log(o->step[i - 1] / o->step[i]);
+}
+
+/* Whether slope i is the order up to what the next term of the error may be. */
+static int is_asymptotic(const dal_order *o, int i)
+{
+    const double g = mean_step(o, i), before = mean_step(o, i - 1);
+    return fabs(o->slope[i - 1] - o->slope[i]) * g <= order_tolerance * (before - g);
+}
+
+void dal_order_slopes(dal_order *o, double noise)
+{
+    if (!o) return;
+    const int levels = o->levels < DAL_ORDER_LEVELS ? o->levels : DAL_ORDER_LEVELS;
+    const double clear = fmax(clear_of_rounding, 10.0 * noise);
+    o->order = o->slope[0] = NAN;
+    for (int i = 1; i < levels; i++)
+        o->slope[i] = log(o->error[i - 1] / o->error[i]) / log(o->step[i - 1] / o->step[i]);
+    int last = levels - 1;
+    while (last >= 2 && !are_clear(o, last, clear)) last--;
+    if (last >= 2 && is_asymptotic(o, last)) o->order = o->slope[last];
+}
+
+static dal_status compare_levels(const dal_run_spec *spec, double T, const double *reference,
+                                 size_t count, double *state, dal_order *o, dal_error *error)
+{
+    for (int i = 0; i < o->levels; i++) {
+        dal_run_spec level = *spec;
+        o->step[i] = level.options.step = ldexp(spec->options.step, -i);
+        DAL_TRY(state_at(&level, T, state, &o->evaluations[i], error));
+        o->error[i] = dal__distance(reference, state, count);
+    }
+    dal_order_slopes(o, 0.0);
+    return DAL_OK;
+}
+
+static dal_status dimension_of(const dal_run_spec *spec, size_t *count, dal_error *error)
+{
+    dal_run *run;
+    DAL_TRY(dal_run_create(&run, spec, error));
+    *count = (size_t)dal_run_dimension(run);
+    dal_run_free(run);
+    return DAL_OK;
+}
+
+dal_status dal_measure_order(const dal_run_spec *spec, double T, int levels,
+                             const dal_method *judge, const double *reference, dal_order *order,
+                             dal_error *error)
+{
+    DAL_REQUIRE(order, error);
+    DAL_TRY(dal__check_spec(spec, error));
+    size_t count;
+    if (levels < 2 || levels > DAL_ORDER_LEVELS)
+        return dal__error(error, DAL_ARGUMENT, 0, 0, "levels = %d is not in 2..%d", levels,
+                          DAL_ORDER_LEVELS);
+    DAL_TRY(dimension_of(spec, &count, error));
+    double *block = dal__numbers(2, count);
+    if (block == NULL) return dal__error(error, DAL_MEMORY, 0, 0, "order: out of memory");
+    dal_status status = DAL_OK;
+    *order = (dal_order){.levels = levels};
+    if (reference == NULL) {
+        status = judge_state(spec, T, levels, judge, block, error);
+        reference = block;
+    }
+    if (status == DAL_OK)
+        status = compare_levels(spec, T, reference, count, block + count, order, error);
+    free(block);
+    return status;
+}

@@ -1,0 +1,140 @@
+/* probe.c - a system with its parameters in force and memory to evaluate it in. */
+#include "analysis/measure.h"
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+struct dal_probe {
+    const dal_system *system;
+    double *work;
+};
+
+static dal_status set_parameter(dal_probe *probe, const dal_setting *setting, dal_error *error)
+{
+    const dal_system *s = probe->system;
+    for (int i = 0; i < s->parameters; i++) {
+        if (s->parameter == NULL || strcmp(s->parameter[i], setting->name) != 0) continue;
+        probe->work[i] = setting->value;
+        if (isfinite(setting->value)) return DAL_OK;
+        return dal__error(error, DAL_NOT_FINITE, 0, 0, "parameter %s = %g is not finite",
+                          setting->name, setting->value);
+    }
+    return dal__unknown(error, 0, 0, "parameter", setting->name, s->parameter,
+                        s->parameter != NULL ? s->parameters : 0);
+}
+
+static dal_status fill(dal_probe *probe, const dal_setting *parameters, int count, dal_error *error)
+{
+    const dal_system *s = probe->system;
+    for (int i = 0; i < s->parameters; i++) probe->work[i] = s->value ? s->value[i] : 0.0;
+    for (int i = 0; i < count; i++) DAL_TRY(set_parameter(probe, &parameters[i], error));
+    if (s->prepare == NULL) return DAL_OK;
+    dal_status status = s->prepare(s, &(dal_at){.work = probe->work}, NULL);
+    if (status == DAL_OK) return DAL_OK;
+    return dal__error(error, status, 0, 0, "%s: the parameters cannot be used: %s", s->name,
+                      dal_status_text(status));
+}
+
+dal_status dal_probe_create(dal_probe **probe, const dal_system *system,
+                            const dal_setting *parameters, int parameter_count, dal_error *error)
+{
+    DAL_REQUIRE(probe, error);
+    *probe = NULL;
+    DAL_REQUIRE(system, error);
+    DAL_TRY(dal__check_settings(parameters, parameter_count, "parameters", error));
+    size_t size = system->workspace;
+    if (size < (size_t)system->parameters) size = (size_t)system->parameters;
+    *probe = calloc(1, sizeof **probe);
+    double *work = dal__numbers(size, 1);
+    if (*probe == NULL || work == NULL) {
+        free(work);
+        free(*probe);
+        *probe = NULL;
+        return dal__error(error, DAL_MEMORY, 0, 0, "%s: out of memory", system->name);
+    }
+    **probe = (dal_probe){system, work};
+    dal_status status = fill(*probe, parameters, parameter_count, error);
+    if (status == DAL_OK) return DAL_OK;
+    dal_probe_free(*probe);
+    *probe = NULL;
+    return status;
+}
+
+void dal_probe_free(dal_probe *probe)
+{
+    if (probe == NULL) return;
+    free(probe->work);
+    free(probe);
+}
+
+const dal_system *dal_probe_system(const dal_probe *probe) { return probe ? probe->system : NULL; }
+
+dal_status dal_probe_call(dal_probe *probe, dal_callback *callback, double t, const double *q,
+                          const double *v, const double *pi, double *out)
+{
+    DAL_REQUIRE(probe, NULL);
+    DAL_REQUIRE(q, NULL);
+    DAL_REQUIRE(v, NULL);
+    DAL_REQUIRE(out, NULL);
+    if (callback == NULL) return DAL_UNSUPPORTED;
+    if (callback == probe->system->call.adjoint) DAL_REQUIRE(pi, NULL);
+    return callback(probe->system, &(dal_at){t, q, v, pi, probe->work}, out);
+}
+
+/* ---- the start ---- */
+
+enum { NAME_SIZE = 128, NAMES_SHOWN = 64 };
+
+/* Name of number i of the start: x, x', g1, e. */
+static void start_name(const dal_system *s, int i, char *name)
+{
+    int j = i % s->n;
+    char own[16];
+    snprintf(own, sizeof own, "q%d", j + 1);
+    const char *coordinate = s->coordinate != NULL ? s->coordinate[j] : own;
+    if (i < 2 * s->n)
+        snprintf(name, NAME_SIZE, "%s%s", coordinate, i < s->n ? "" : "'");
+    else if (i < 2 * s->n + s->multipliers)
+        snprintf(name, NAME_SIZE, "g%d", i - 2 * s->n + 1);
+    else
+        snprintf(name, NAME_SIZE, "e");
+}
+
+static dal_status set_start(const dal_system *s, const dal_setting *setting, double *out,
+                            dal_error *error)
+{
+    char names[NAMES_SHOWN][NAME_SIZE];
+    const char *shown[NAMES_SHOWN];
+    int count = 2 * s->n + s->multipliers + 1, kept = 0;
+    for (int i = 0; i < count; i++) {
+        char *name = names[kept];
+        start_name(s, i, name);
+        if (strcmp(name, setting->name) == 0) {
+            out[i] = setting->value;
+            return DAL_OK;
+        }
+        shown[kept] = name;
+        if (kept < NAMES_SHOWN - 1) kept++;
+    }
+    return dal__unknown(error, 0, 0, "start value", setting->name, shown, kept);
+}
+
+dal_status dal_probe_start(dal_probe *probe, const dal_setting *start, int start_count, double *out,
+                           dal_error *error)
+{
+    DAL_REQUIRE(probe, error);
+    DAL_REQUIRE(out, error);
+    DAL_TRY(dal__check_settings(start, start_count, "start values", error));
+    const dal_system *s = probe->system;
+    int count = 2 * s->n + s->multipliers + 1;
+    for (int i = 0; i < count; i++) out[i] = i == count - 1 ? 1.0 : 0.0;
+    if (s->start != NULL) {
+        dal_status status = s->start(s, &(dal_at){.work = probe->work}, out);
+        if (status != DAL_OK)
+            return dal__error(error, status, 0, 0, "%s: no start: %s", s->name,
+                              dal_status_text(status));
+    }
+    for (int i = 0; i < start_count; i++) DAL_TRY(set_start(s, &start[i], out, error));
+    return DAL_OK;
+}

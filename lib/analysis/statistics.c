@@ -1,0 +1,260 @@
+/* statistics.c - a quantity x(t) followed at every step in constant memory.
+ *
+ * The series is cut into blocks of equal length, of which mean, least and most are kept.  When all
+ * DAL_BLOCKS are full, neighbours are joined and the length doubles, so that between one half and
+ * all of them are in use after any number of values: the method of batch means (Flyvbjerg,
+ * Petersen 1989, DOI 10.1063/1.457480; Law, Kelton, Simulation Modeling and Analysis, 9.5).
+ *
+ * How rough the series is tells a sum of roundings from a smooth change.  If its steps are
+ * independent, E (x_(k+l) - x_k)^2 = l sigma^2: the sum of squared steps n sigma^2 is that of
+ * (x_(k+1) - x_k)^2, or, at a fraction of the cost, 4/8 times that of (x_(k+8) - x_k)^2 over one
+ * k in four.  A smooth series has steps in one direction and a sum that is smaller by n. */
+#include "analysis/statistics.h"
+#include <math.h>
+#include <string.h>
+
+void dal_statistics_start(dal_statistics *s, int count)
+{
+    for (int i = 0; s && i < count; i++) s[i] = (dal_statistics){.length = 1, .factor = 1.0};
+}
+
+/* Joins neighbours: half as many blocks, twice as long. */
+static void halve(dal_statistics *s)
+{
+    for (int i = 0; i < DAL_BLOCKS / 2; i++) {
+        const dal_mean *a = &s->block[2 * i], *b = a + 1;
+        s->block[i] = (dal_mean){0.5 * (a->t + b->t), 0.5 * (a->x + b->x), fmin(a->least, b->least),
+                                 fmax(a->most, b->most)};
+    }
+    s->blocks = DAL_BLOCKS / 2;
+    s->length *= 2;
+}
+
+static double open_sum(const dal_statistics *s)
+{
+    const double *a = s->open_sum;
+    return ((a[0] + a[4]) + (a[2] + a[6])) + ((a[1] + a[5]) + (a[3] + a[7]));
+}
+
+double dal__open_sum(const dal_statistics *s) { return open_sum(s) / s->factor; }
+
+/* ---- units ---- */
+
+/* For numbers near the largest double: their sums and differences stay finite. */
+static const double small_factor = 0x1p-200;
+
+static void lower_factor(dal_statistics *s)
+{
+    s->factor = small_factor;
+    for (int i = 0; i < DAL_PARTS; i++) s->open_sum[i] *= small_factor;
+    for (int i = 0; i < DAL_BLOCKS; i++) s->block[i].x *= small_factor;
+}
+
+/* The least power of two above |x|, as long as its inverse is a number. */
+static double unit_of(double x)
+{
+    int exponent;
+    frexp(x, &exponent);
+    return ldexp(1.0, exponent < -1000 ? -1000 : exponent > 1000 ? 1000 : exponent);
+}
+
+/* Differences are counted in units of the greatest |x| of all full blocks. */
+static void raise_rough_unit(dal_statistics *s)
+{
+    const double most = fmax(fabs(s->least), fabs(s->most));
+    if (most <= s->rough_unit) return;
+    const double unit = unit_of(most), ratio = (s->rough_unit > 0.0 ? s->rough_unit : 1.0) / unit;
+    s->rough_steps = s->rough_steps * ratio * ratio;
+    for (int i = 0; i < DAL_PARTS; i++) s->rough[i] = s->rough[i] * ratio * ratio;
+    s->rough_unit = unit;
+}
+
+static double per_rough_unit(const dal_statistics *s)
+{
+    return s->rough_unit > 0.0 ? 1.0 / s->rough_unit : 1.0;
+}
+
+/* ---- one value ---- */
+
+static void close_block(dal_statistics *s, double t)
+{
+    s->block[s->blocks++] = (dal_mean){0.5 * (s->open_t + t), open_sum(s) / (double)s->length,
+                                       s->open_least, s->open_most};
+    s->least = fmin(s->least, s->open_least);
+    s->most = fmax(s->most, s->open_most);
+    s->open_count = 0;
+    raise_rough_unit(s);
+    if (s->blocks == DAL_BLOCKS) halve(s);
+}
+
+static void open_block(dal_statistics *s, double t, double x)
+{
+    if (s->count == 0) {
+        s->first = s->least = s->most = x;
+        s->from = t;
+    }
+    s->open_t = t;
+    s->open_least = s->open_most = x;
+    memset(s->open_sum, 0, sizeof s->open_sum);
+}
+
+/* Counts values up to x at t. */
+static void move_on(dal_statistics *s, int values, double t, double x)
+{
+    s->last = x;
+    s->to = t;
+    s->count += values;
+    s->open_count += values;
+    if (s->open_count == s->length) close_block(s, t);
+}
+
+static double rough_square(const dal_statistics *s, double x, double from)
+{
+    const double unit = per_rough_unit(s);
+    const double d = s->factor < 1.0 ? x * unit - from * unit : (x - from) * unit;
+    return fmin(d * d, DAL__ROUGH_LIMIT);
+}
+
+/* Blocks too short for a cycle: the first thousand values. */
+static bool is_short(const dal_statistics *s) { return s->length < DAL__CYCLE * DAL_PARTS; }
+
+static void add_roughness(dal_statistics *s, double x)
+{
+    const int part = (int)(s->open_count % DAL_PARTS);
+    const int phase = (int)(s->open_count / DAL_PARTS % DAL__CYCLE);
+    if (is_short(s))
+        s->rough_steps += s->count > 0 ? rough_square(s, x, s->last) : 0.0;
+    else if (phase == 0)
+        s->held[part] = x;
+    else if (phase == 1)
+        s->rough[part] += rough_square(s, x, s->held[part]);
+}
+
+static void add_one(dal_statistics *s, double t, double x)
+{
+    if (!(fabs(x) < INFINITY)) {
+        s->lost = 1;
+        return;
+    }
+    if (fabs(x) > DAL__PLAIN_LIMIT && s->factor == 1.0) lower_factor(s);
+    if (s->open_count == 0) open_block(s, t, x);
+    add_roughness(s, x);
+    s->open_sum[s->open_count % DAL_PARTS] += x * s->factor - s->first * s->factor;
+    s->open_least = x < s->open_least ? x : s->open_least;
+    s->open_most = x > s->open_most ? x : s->open_most;
+    move_on(s, 1, t, x);
+}
+
+void dal_statistics_add(dal_statistics *s, int count, double t, const double *values)
+{
+    for (int i = 0; s && values && i < count; i++) add_one(&s[i], t, values[i]);
+}
+
+/* ---- many values ---- */
+
+typedef bool tally_packs(dal__tally *tally, double first, int phase, int packs,
+                         const double *values);
+
+/* For the best instructions of the machine: all variants give the same. */
+static tally_packs *best_tally(void)
+{
+    tally_packs *best = dal__tally_packs_x1;
+#define X(name, variant, lanes, set, group)                                                        \
+    if (dal__machine_has(DAL__##set)) best = name##_##variant;
+    DAL__VARIANT_LIST(X, dal__tally_packs)
+#undef X
+    return best;
+}
+
+/* Whole packs at the end of what the open block has, as many as it still takes. */
+static int packs_ahead(const dal_statistics *s, int values)
+{
+    if (s->open_count % DAL_PARTS != 0 || is_short(s) || s->factor < 1.0) return 0;
+    const long long left = s->length - s->open_count;
+    return (int)(left < values ? left : values) / DAL_PARTS;
+}
+
+static bool add_packs(dal_statistics *s, tally_packs *add, int packs, const double *t,
+                      const double *x)
+{
+    const int values = packs * DAL_PARTS;
+    if (!(fabs(x[0]) <= DAL__PLAIN_LIMIT)) return false;
+    if (s->open_count == 0) open_block(s, t[0], x[0]);
+    dal__tally tally = {s->open_sum, s->open_least, s->open_most,
+                        s->rough,    s->held,       per_rough_unit(s)};
+    const int phase = (int)(s->open_count / DAL_PARTS % DAL__CYCLE);
+    if (!add(&tally, s->first, phase, packs, x)) return false;
+    s->open_least = tally.least;
+    s->open_most = tally.most;
+    move_on(s, values, t[values - 1], x[values - 1]);
+    return true;
+}
+
+static void add_series(dal_statistics *s, tally_packs *add, int values, const double *t,
+                       const double *x)
+{
+    for (int k = 0; k < values;) {
+        const int packs = packs_ahead(s, values - k);
+        if (packs > 0 && add_packs(s, add, packs, t + k, x + k)) {
+            k += packs * DAL_PARTS;
+            continue;
+        }
+        const int end = packs > 0 ? k + DAL_PARTS : k + 1;
+        for (; k < end; k++) add_one(s, t[k], x[k]);
+    }
+}
+
+void dal_statistics_add_many(dal_statistics *s, int count, int looks, const double *t,
+                             const double *values, size_t stride)
+{
+    tally_packs *const add = best_tally();
+    if (!s || !t || !values) return;
+    for (int i = 0; i < count; i++) add_series(&s[i], add, looks, t, values + (size_t)i * stride);
+}
+
+/* ---- extremes ---- */
+
+static double least(const dal_statistics *s)
+{
+    return s->open_count ? fmin(s->least, s->open_least) : s->least;
+}
+
+static double most(const dal_statistics *s)
+{
+    return s->open_count ? fmax(s->most, s->open_most) : s->most;
+}
+
+double dal_statistics_max_abs(const dal_statistics *s)
+{
+    if (!s) return NAN;
+    return s->lost ? INFINITY : fmax(fabs(least(s)), fabs(most(s)));
+}
+
+double dal_statistics_deviation(const dal_statistics *s)
+{
+    if (!s) return NAN;
+    return s->lost ? INFINITY : fmax(most(s) - s->first, s->first - least(s));
+}
+
+/* ---- blocks ---- */
+
+int dal__blocks(const dal_statistics *s, dal_mean *block)
+{
+    const int n = (int)s->blocks;
+    memcpy(block, s->block, (size_t)n * sizeof *block);
+    for (int i = 0; i < n; i++) {
+        block[i].t -= s->from;
+        block[i].x /= s->factor;
+        block[i].least -= s->first;
+        block[i].most -= s->first;
+    }
+    return n;
+}
+
+double dal__roughness(const dal_statistics *s)
+{
+    double sum = 0.0;
+    for (int i = 0; i < DAL_PARTS; i++) sum += s->rough[i];
+    const double unit = s->rough_unit > 0.0 ? s->rough_unit : 1.0;
+    return s->factor * unit * sqrt(s->rough_steps + sum * DAL__CYCLE / DAL_PARTS);
+}

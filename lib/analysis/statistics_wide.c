@@ -1,0 +1,95 @@
+/* statistics_wide.c - packs of values summed and ranged, over num.
+ *
+ * Value k of a pack goes to part k of the sum, however many lanes a num has: the order of summation
+ * is one.  Least and most do not depend on the order.  What is not finite makes a part of the sum
+ * not finite, and nothing else does, so that one look at the end is enough.  Of each cycle
+ * of four packs the first is held and the second subtracted from it. */
+#include "kernel/groups.h"
+
+#include "analysis/statistics.h"
+#include "kernel/num.h"
+
+enum { NUMS = DAL_PARTS / DAL_LANES }; /* to a pack */
+
+/* What one num of the packs has seen. */
+typedef struct seen {
+    num sum, least, most, rough, held;
+} seen;
+
+/* What is the same for all of them. */
+typedef struct view {
+    double first, per_unit;
+    int phase, packs;
+} view;
+
+static num rough_square(const view *v, num a, num held)
+{
+    const num d = (a - held) * v->per_unit;
+    return dal_min(d * d, dal_num(DAL__ROUGH_LIMIT));
+}
+
+/* One more value, or a cycle of four: comparisons take a processor long, so that most of them do
+ * not wait for each other. */
+static void see(seen *s, const view *v, int phase, num a)
+{
+    s->sum += a - v->first;
+    s->least = dal_min(s->least, a);
+    s->most = dal_max(s->most, a);
+    if (phase == 0) s->held = a;
+    if (phase == 1) s->rough += rough_square(v, a, s->held);
+}
+
+static void see_four(seen *s, const view *v, num a, num b, num c, num d)
+{
+    s->sum = (((s->sum + (a - v->first)) + (b - v->first)) + (c - v->first)) + (d - v->first);
+    s->least = dal_min(s->least, dal_min(dal_min(a, b), dal_min(c, d)));
+    s->most = dal_max(s->most, dal_max(dal_max(a, b), dal_max(c, d)));
+    s->rough += rough_square(v, b, a);
+    s->held = a;
+}
+
+/* Every NUMS-th num from x on. */
+static seen see_all(seen s, const view *v, const dal_stored *x)
+{
+    int packs = v->packs, phase = v->phase;
+    for (; packs > 0 && phase % DAL__CYCLE != 0; packs--, phase++, x += NUMS)
+        see(&s, v, phase, x[0]);
+    for (; packs >= DAL__CYCLE; packs -= DAL__CYCLE, x += DAL__CYCLE * NUMS)
+        see_four(&s, v, x[0], x[NUMS], x[2 * NUMS], x[3 * NUMS]);
+    for (phase = 0; packs > 0; packs--, phase++, x += NUMS) see(&s, v, phase, x[0]);
+    return s;
+}
+
+static void gather(const seen *s, dal__tally *tally)
+{
+    for (int lane = 0; lane < DAL_LANES; lane++) {
+        const double low = dal_lane(s->least, lane), high = dal_lane(s->most, lane);
+        tally->least = low < tally->least ? low : tally->least;
+        tally->most = high > tally->most ? high : tally->most;
+    }
+}
+
+bool DAL_WIDE(dal__tally_packs)(dal__tally *tally, double first, int phase, int packs,
+                                const double *values)
+{
+    const dal_stored *const x = (const dal_stored *)values;
+    dal_stored *const part = (dal_stored *)tally->sum, *const rough = (dal_stored *)tally->rough,
+                      *const held = (dal_stored *)tally->held;
+    const view v = {first, tally->per_unit, phase, packs};
+    const num limit = dal_num(DAL__PLAIN_LIMIT);
+    seen s[NUMS];
+    dal_mask good = dal_all();
+    for (int i = 0; i < NUMS; i++) {
+        s[i] = see_all((seen){part[i], x[i], x[i], rough[i], held[i]}, &v, x + i);
+        good &= dal_finite(s[i].sum) & dal_less_equal(s[i].most, limit) &
+                dal_less_equal(-s[i].least, limit);
+    }
+    if (dal_any(~good)) return false;
+    for (int i = 0; i < NUMS; i++) {
+        part[i] = s[i].sum;
+        rough[i] = s[i].rough;
+        held[i] = s[i].held;
+        gather(&s[i], tally);
+    }
+    return true;
+}

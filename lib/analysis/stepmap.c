@@ -1,0 +1,168 @@
+/* stepmap.c - the step as a map on phase space: symplectic? reversible?
+ *
+ *     J = d(step)/dz by differences,   J^T Omega J = Omega,   Omega = [[0, 1], [-1, 0]]
+ *     rho step rho step = id,          rho: (t,q,v,e,p,pi,pi_e) -> (-t,q,-v,e,-p,pi,-pi_e)
+ *
+ * rho is antisymplectic, leaves H = pi.pi/(2e) + pi.F + p.v alone when F(q,-v,-t) = F(q,v,t), and
+ * so turns its flow round. */
+#include "analysis/measure.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A run and the point it steps from. */
+typedef struct stepmap {
+    dal_run *run;
+    double t;
+    double *z; /* [dimension] */
+    int dimension, j;
+    double held;
+    dal_error *error;
+} stepmap;
+
+static dal_status step_from(stepmap *m, double t, const double *z, double *out)
+{
+    DAL_TRY(dal_run_set_state(m->run, t, z, m->error));
+    DAL_TRY(dal_run_step(m->run, m->error));
+    memcpy(out, dal_run_state(m->run), (size_t)m->dimension * sizeof(double));
+    return DAL_OK;
+}
+
+/* A run of the spec; z is a copy of state, or of the run's start, with rows further vectors of the
+ * dimension behind it. */
+static dal_status open_map(stepmap *m, const dal_run_spec *spec, double t, const double *state,
+                           size_t rows, dal_error *error)
+{
+    *m = (stepmap){.error = error};
+    DAL_TRY(dal_run_create(&m->run, spec, error));
+    m->dimension = dal_run_dimension(m->run);
+    m->t = state != NULL ? t : dal_run_time(m->run);
+    m->z = dal__numbers(rows + 1, (size_t)m->dimension);
+    if (m->z == NULL) {
+        dal_run_free(m->run);
+        return dal__error(error, DAL_MEMORY, 0, 0, "step map: out of memory");
+    }
+    if (state == NULL) state = dal_run_state(m->run);
+    memcpy(m->z, state, (size_t)m->dimension * sizeof(double));
+    return DAL_OK;
+}
+
+static void close_map(stepmap *m)
+{
+    free(m->z);
+    dal_run_free(m->run);
+}
+
+/* ---- symplecticity ---- */
+
+static dal_status vary(void *user, double s, double *out)
+{
+    stepmap *m = user;
+    m->z[m->j] = m->held + s;
+    dal_status status = step_from(m, m->t, m->z, out);
+    m->z[m->j] = m->held;
+    return status;
+}
+
+/* What component j is measured by: a coordinate by the way of a step. */
+static double scale_of(const stepmap *m, int j)
+{
+    const int n = dal_run_system(m->run)->n;
+    return j < n ? dal_run_step_size(m->run) * m->z[n + j] : m->z[j];
+}
+
+/* columns[j] = d(step)/dz_j. */
+static dal_status differentiate_step(stepmap *m, double increment, double *columns, double *scratch)
+{
+    for (m->j = 0; m->j < m->dimension; m->j++) {
+        m->held = m->z[m->j];
+        double d = increment * fmax(1.0, fabs(scale_of(m, m->j)));
+        double *out = columns + (size_t)m->j * (size_t)m->dimension;
+        DAL_TRY(dal__differentiate(vary, m, d, m->dimension, scratch, out));
+    }
+    return DAL_OK;
+}
+
+static double omega_defect(const double *columns, int dimension)
+{
+    int pairs = dimension / 2;
+    double most = 0.0;
+    for (int i = 0; i < dimension; i++) {
+        for (int j = 0; j < i; j++) {
+            const double *a = columns + (size_t)i * (size_t)dimension;
+            const double *b = columns + (size_t)j * (size_t)dimension;
+            double expected = i == j + pairs ? -1.0 : 0.0;
+            double defect = fabs(dal_poisson(a, b, pairs) - expected);
+            if (!(defect <= most)) most = isnan(defect) ? INFINITY : defect;
+        }
+    }
+    return most;
+}
+
+dal_status dal_measure_symplecticity(const dal_run_spec *spec, double t, const double *state,
+                                     double increment, double *defect, dal_error *error)
+{
+    DAL_REQUIRE(defect, error);
+    DAL_TRY(dal__check_spec(spec, error));
+    stepmap m;
+    if (spec->options.space != DAL_LIFTED)
+        return dal__error(error, DAL_UNSUPPORTED, 0, 0,
+                          "symplecticity is a property of the lifted space");
+    if (!(increment > 0.0)) increment = DAL__INCREMENT;
+    size_t dimension = 4 * (size_t)spec->system->n + 2;
+    DAL_TRY(open_map(&m, spec, t, state, dimension + 3, error));
+    double *columns = m.z + dimension;
+    dal_status status = differentiate_step(&m, increment, columns, columns + dimension * dimension);
+    if (status == DAL_OK) *defect = omega_defect(columns, m.dimension);
+    close_map(&m);
+    return status;
+}
+
+/* ---- reversibility ---- */
+
+/* -1 where D is odd in v: then g of L - g.D changes its sign too. */
+static dal_status multiplier_sign(const dal_run_spec *spec, const stepmap *m, double *sign,
+                                  dal_error *error)
+{
+    dal_probe *probe;
+    dal_degree degree;
+    *sign = 1.0;
+    if (spec->system->multipliers == 0) return DAL_OK;
+    DAL_TRY(dal_probe_create(&probe, spec->system, spec->parameters, spec->parameter_count, error));
+    dal_point at = {m->t, m->z, m->z + spec->system->n};
+    dal_status status = dal_measure_degree(probe, &at, &degree, NULL);
+    if (status == DAL_OK && degree.parity == -1) *sign = -1.0;
+    dal_probe_free(probe);
+    if (status == DAL_OK) return DAL_OK;
+    return dal__error(error, status, 0, 0, "t = %g: the parity of D cannot be found: %s", m->t,
+                      dal_status_text(status));
+}
+
+static void turn_round(int n, int dimension, double sign, double *z)
+{
+    for (int i = n; i < 2 * n; i++) z[i] = -z[i];
+    if (dimension == 4 * n + 2) {
+        for (int i = 2 * n + 1; i < 3 * n + 1; i++) z[i] = -z[i];
+        z[4 * n + 1] = -z[4 * n + 1];
+    } else {
+        for (int i = 2 * n; i < dimension; i++) z[i] *= sign;
+    }
+}
+
+dal_status dal_measure_reversibility(const dal_run_spec *spec, double t, const double *state,
+                                     double *defect, dal_error *error)
+{
+    DAL_REQUIRE(defect, error);
+    stepmap m;
+    double sign;
+    DAL_TRY(open_map(&m, spec, t, state, 1, error));
+    double *z = m.z + m.dimension;
+    dal_status status = multiplier_sign(spec, &m, &sign, error);
+    if (status == DAL_OK) status = step_from(&m, m.t, m.z, z);
+    turn_round(spec->system->n, m.dimension, sign, z);
+    if (status == DAL_OK) status = step_from(&m, -dal_run_time(m.run), z, z);
+    turn_round(spec->system->n, m.dimension, sign, z);
+    if (status == DAL_OK) *defect = dal__distance(m.z, z, (size_t)m.dimension);
+    close_map(&m);
+    return status;
+}

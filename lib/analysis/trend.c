@@ -1,0 +1,277 @@
+/* trend.c - what a quantity does in the long run, and how big it is.
+ *
+ * The evidence of shapes and noises (trend_evidence.c) is a posterior of what they mean; tones are
+ * taken out when that pays 15 nats each.  The heaviest meaning is the answer where it is heavy
+ * enough and the other numbers agree with it, else the trend is undecided:
+ *
+ *     none           0 lies in the interval of the rate, and the greatest drift that noise without
+ *                    a trend admits is small beside the spread of x; the amplitude does not double
+ *     settles        the change stands out of the spread; else it is none
+ *     random walk    a memory of T/9 explains it less well, and 0 lies well inside the interval
+ *     linear         0 lies outside it
+ *     power law      the exponent is known to 0.11, and is not 1
+ *     growing        the amplitude grows (trend_growth.c), and no drift is certain beside it
+ *
+ * Noise is known to be white where differences of the means of neighbouring blocks are as small as
+ * white noise of the spread within the blocks makes them. */
+#include "analysis/trend.h"
+#include <math.h>
+
+enum { LEAST_VALUES = 48, LEAST_LENGTH = 8 };
+
+static const double tone_price = 0.8 * 15.0; /* nats */
+static const double interval_level = 0.966;  /* covers 95 %: trend_rate.c */
+static const double white_odds = 20.0, white_low = 0.55, white_high = 1.7;
+static const double memory_ratio = 3.0; /* of differences: more, and there is memory */
+
+/* The least posteriors. */
+static const double enough = 0.75, enough_for_none = 0.65, enough_for_walk = 0.58;
+/* Of a walk over noise with memory T/9, in nats: what tells them apart is in the slowest waves. */
+static const double walk_evidence = 1.8;
+static const double certain_line = 0.9, certain_walk = 0.9;
+/* Drifts that go for none, in units of the spread: beside white noise and tones, beside noise with
+ * memory, and whatever the noise. */
+static const double small_drift = 0.3, small_beside_memory = 1.0, tiny_drift = 0.17;
+static const double settled_change = 0.3; /* of the spread */
+static const double well_inside = 0.9;    /* the middle of an interval, in half widths */
+static const double power_error = 0.11, power_span = 0.2;
+static const double not_sure = 0.9; /* of a growing amplitude, and where weights do not say it */
+
+/* Everything that the decision looks at. */
+typedef struct picture {
+    dal__trend_series series; /* with its tones */
+    dal__bins bins;
+    dal__evidence evidence;
+    dal__interval drift; /* over the whole series */
+    dal__growth growth;
+    double spread;      /* of x: deviation within and between bins */
+    double small_drift; /* that goes for none */
+    double wandering;   /* greatest distance of a mean of bins from the mean of all, with tones */
+} picture;
+
+/* ---- the picture ---- */
+
+/* The deviation within blocks of n values from their mean range: that of so many normal numbers has
+ * sqrt(2 log n) in it, that of an oscillation, the same in all blocks, is 2 sqrt(2) deviations. */
+static double within_blocks(const dal__trend_series *s)
+{
+    const double normal = 0.1 + 1.6 * sqrt(2.0 * log((double)s->length)), wave = 2.0 * sqrt(2.0);
+    return s->block_range / (s->is_steady ? wave : fmax(wave, normal));
+}
+
+/* The mean square of differences of neighbouring means, in units of that of white noise. */
+static double difference_ratio(const dal__trend_series *s)
+{
+    const double within = within_blocks(s);
+    double square = 0.0;
+    for (int i = 1; i < s->count; i++) {
+        const double d = s->mean[i] - s->mean[i - 1];
+        square += d * d;
+    }
+    return square / (2.0 * (s->count - 1)) * (double)s->length / (within * within);
+}
+
+static void measure_spread(picture *p)
+{
+    const double within = within_blocks(&p->series);
+    double mean = 0.0, square = 0.0;
+    for (int m = 0; m < DAL__BINS; m++) mean += p->bins.mean[m] / DAL__BINS;
+    for (int m = 0; m < DAL__BINS; m++) {
+        const double d = p->bins.mean[m] - mean;
+        square += d * d / DAL__BINS;
+        p->wandering = fmax(p->wandering, fabs(d));
+    }
+    p->spread = sqrt(within * within + square);
+}
+
+/* Weighs the series as it is, and without tones where it has some. */
+static void look_at(picture *p)
+{
+    const double ratio = difference_ratio(&p->series);
+    const bool long_enough = p->series.length >= LEAST_LENGTH;
+    const double odds = long_enough && ratio > white_low && ratio < white_high ? white_odds : 1.0;
+    dal__trend_series bare = p->series;
+    dal__bins bins;
+    dal__evidence evidence;
+    dal__trend_bin(&p->series, &p->bins);
+    measure_spread(p);
+    dal__trend_weigh(&p->bins, odds, &p->evidence);
+    p->growth = dal__trend_growth(&p->series);
+    p->small_drift = ratio > memory_ratio ? small_beside_memory : small_drift;
+    dal__trend_remove_tones(&bare);
+    if (bare.tones > 0) {
+        dal__trend_bin(&bare, &bins);
+        dal__trend_weigh(&bins, odds, &evidence);
+        if (evidence.log_total - tone_price * bare.tones > p->evidence.log_total) {
+            p->bins = bins;
+            p->evidence = evidence;
+            p->small_drift = small_drift;
+        }
+    }
+    p->drift = dal__trend_drift(&p->evidence, interval_level, false);
+}
+
+/* ---- powers ---- */
+
+/* The power of least S, between those of the grid by a parabola in log p. */
+static double best_power(const dal__evidence *e)
+{
+    int i = 0;
+    for (int k = 1; k < DAL__POWER_SHAPES; k++)
+        if (e->power_rest[k] < e->power_rest[i]) i = k;
+    if (i == 0) return dal__shape_list[i].parameter;
+    if (i == DAL__POWER_SHAPES - 1) return NAN; /* it may be any greater one */
+    const double a = log(dal__shape_list[i - 1].parameter), b = log(dal__shape_list[i].parameter);
+    const double c = log(dal__shape_list[i + 1].parameter), *const s = e->power_rest + i;
+    const double left = (s[0] - s[-1]) / (b - a), right = (s[1] - s[0]) / (c - b);
+    return exp(0.5 * (a + b) - 0.5 * left * (c - a) / (right - left));
+}
+
+/* The exponent of a power law; NaN where it is not known well. */
+static double exponent_of(const dal__evidence *e)
+{
+    double sum = 0.0, mean = 0.0, square = 0.0, logarithms = 0.0;
+    for (int i = 0; i < DAL__PLAIN_SHAPES; i++) {
+        const dal__shape *const s = &dal__shape_list[i];
+        if (s->meaning != DAL__MEANS_POWER && s->meaning != DAL__MEANS_LINEAR) continue;
+        sum += e->shape[i];
+        mean += e->shape[i] * s->parameter;
+        square += e->shape[i] * s->parameter * s->parameter;
+        if (s->parameter == 0.0) logarithms += e->shape[i];
+    }
+    mean /= sum;
+    const double error = sqrt(fmax(square / sum - mean * mean, 0.0));
+    if (error > power_error) return NAN;
+    if (logarithms > 0.5 * sum) return 0.0;
+    const double p = best_power(e);
+    return fabs(p - mean) < power_span * fmax(1.0, p) ? p : NAN;
+}
+
+/* ---- the decision ---- */
+
+typedef struct decision {
+    dal_trend_class trend;
+    double confidence, exponent;
+} decision;
+
+static bool has_no_drift(const picture *p) { return p->drift.low <= 0.0 && p->drift.high >= 0.0; }
+
+static double greatest(const dal__interval *i) { return fmax(fabs(i->low), fabs(i->high)); }
+
+static bool admits_none(const picture *p)
+{
+    const dal__interval drift = dal__trend_drift(&p->evidence, 0.95, true);
+    return p->growth == DAL__STEADY && has_no_drift(p) &&
+           greatest(&drift) < p->small_drift * p->spread;
+}
+
+/* Whatever the noise is, it admits next to no drift. */
+static bool is_tiny(const picture *p, dal__meaning heaviest, double weight)
+{
+    return (heaviest == DAL__MEANS_OTHER || heaviest == DAL__MEANS_NONE ||
+            (heaviest == DAL__MEANS_WALK && weight < certain_walk)) &&
+           p->growth == DAL__STEADY && has_no_drift(p) &&
+           greatest(&p->drift) < tiny_drift * p->spread;
+}
+
+static bool is_growing(const picture *p, dal__meaning heaviest, double weight)
+{
+    const bool drifts = heaviest == DAL__MEANS_LINEAR && weight > certain_line && !has_no_drift(p);
+    return p->growth >= DAL__GROWS && !drifts && p->wandering < 0.5 * p->bins.half_range;
+}
+
+static decision decide(const picture *p)
+{
+    const double *const weight = p->evidence.meaning;
+    const double middle = fabs(p->drift.low + p->drift.high), width = p->drift.high - p->drift.low;
+    dal__meaning best = 0;
+    for (dal__meaning i = 1; i < DAL__MEANINGS; i++)
+        if (weight[i] > weight[best]) best = i;
+    const double w = weight[best];
+    const decision undecided = {DAL_TREND_UNDECIDED, w, NAN};
+    if (p->growth == DAL__EXPLODES && best == DAL__MEANS_OTHER)
+        return (decision){DAL_TREND_EXPONENTIAL, not_sure, NAN};
+    if (is_growing(p, best, w)) return (decision){DAL_TREND_GROWING, not_sure, NAN};
+    if (best == DAL__MEANS_SETTLES && p->bins.range < settled_change * p->spread)
+        best = DAL__MEANS_NONE;
+    if (is_tiny(p, best, w))
+        return (decision){DAL_TREND_NONE, fmin(fmax(w, enough), not_sure), 0.0};
+    switch (best) {
+    case DAL__MEANS_NONE:
+        return w >= enough_for_none && admits_none(p) ? (decision){DAL_TREND_NONE, w, 0.0}
+                                                      : undecided;
+    case DAL__MEANS_SETTLES:
+        return w >= enough ? (decision){DAL_TREND_SETTLES, w, 0.0} : undecided;
+    case DAL__MEANS_WALK:
+        return w >= enough_for_walk && p->evidence.walk_over_memory > walk_evidence &&
+                       middle < well_inside * width
+                   ? (decision){DAL_TREND_RANDOM_WALK, w, 0.5}
+                   : undecided;
+    case DAL__MEANS_LINEAR:
+        return w >= enough && !has_no_drift(p) ? (decision){DAL_TREND_LINEAR, w, 1.0} : undecided;
+    case DAL__MEANS_POWER: {
+        const double exponent = exponent_of(&p->evidence);
+        return w >= enough && !isnan(exponent) ? (decision){DAL_TREND_POWER, w, exponent}
+                                               : undecided;
+    }
+    case DAL__MEANS_EXPONENTIAL:
+        return w >= enough ? (decision){DAL_TREND_EXPONENTIAL, w, NAN} : undecided;
+    default:
+        return undecided;
+    }
+}
+
+/* ---- the whole ---- */
+
+/* A drift over the whole series as a rate. */
+static double rate_of(const picture *p, const dal_statistics *s, double drift)
+{
+    const double between = s->block[s->blocks - 1].t - s->block[0].t;
+    const double whole = between * (double)s->blocks / ((double)s->blocks - 1.0);
+    return drift * p->series.unit / whole / s->factor;
+}
+
+static decision classify(const dal_statistics *s, dal_trend *trend)
+{
+    picture p = {0};
+    const bool varies = trend->deviation > 0.0;
+    if (!dal__trend_read(s, &p.series)) {
+        dal__trend_line(s, trend);
+        const bool is_constant = s->count > 1 && !varies;
+        return (decision){is_constant ? DAL_TREND_NONE : DAL_TREND_UNDECIDED, 1.0,
+                          is_constant ? 0.0 : NAN};
+    }
+    look_at(&p);
+    trend->rate = rate_of(&p, s, p.drift.middle);
+    trend->rate_low = rate_of(&p, s, p.drift.low);
+    trend->rate_high = rate_of(&p, s, p.drift.high);
+    return s->count < LEAST_VALUES ? (decision){DAL_TREND_UNDECIDED, 1.0, NAN} : decide(&p);
+}
+
+void dal_statistics_classify(const dal_statistics *s, double scale, int aborted, dal_trend *trend)
+{
+    if (!s || !trend) return;
+    *trend = (dal_trend){.count = s->count,
+                         .first = s->first,
+                         .last = s->last,
+                         .max_abs = dal_statistics_max_abs(s),
+                         .deviation = dal_statistics_deviation(s)};
+    decision d = classify(s, trend);
+    if (aborted || s->lost || s->count == 0) d = (decision){DAL_TREND_ABORTED, 1.0, NAN};
+    trend->max_drift = fmax(fabs(trend->rate_low), fabs(trend->rate_high)) * (s->to - s->from);
+    trend->amplitude = dal__trend_amplitude(s, trend->rate);
+    trend->trend = d.trend;
+    trend->confidence = d.confidence;
+    trend->exponent = d.exponent;
+    trend->size = dal__trend_size(s, scale, trend);
+}
+
+const char *dal_trend_text(dal_trend_class trend)
+{
+    static const char *const text[] = {
+#define TREND_WORD(code, word) word,
+        DAL_TREND_LIST(TREND_WORD)
+#undef TREND_WORD
+    };
+    return (unsigned)trend < DAL_TREND_COUNT ? text[trend] : "?";
+}

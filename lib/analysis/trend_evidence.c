@@ -1,0 +1,190 @@
+/* trend_evidence.c - how well each shape and each noise explains the means of bins.
+ *
+ * The cosine coefficients Y_j (trend_tables.h) of
+ *
+ *     y = c + b shape + noise,     p(c) flat, p(sigma) ~ 1/sigma, variances sigma^2 v_j,
+ *
+ * give, with S = sum Y_j^2/v_j + floor, xx = sum X_j^2/v_j, b = (sum X_j Y_j/v_j)/xx, nu
+ * coefficients, and b from a Cauchy distribution of the width a of half the range of the values,
+ *
+ *     E(noise)         = exp(-1/2 sum log v_j) S^(-nu/2)
+ *     E(shape, noise)  = E(noise) q^(-nu/2) sqrt(2/pi) d/(a + d) / (1 + (b/(a + d))^2),
+ *     q = 1 - b^2 xx/S,   d^2 = q S/((nu - 1) xx).
+ *
+ * (Kass, Raftery 1995, DOI 10.1080/01621459.1995.10476572.)  All are raised to the power 0.8,
+ * which pays for noise that is not Gaussian and for shapes off the grid (a generalised posterior:
+ * Bissiri, Holmes, Walker 2016, DOI 10.1111/rssb.12158).  The floor admits that no shape is
+ * exact. */
+#include "analysis/trend.h"
+#include <math.h>
+#include <string.h>
+
+static const double temper = 0.8;
+/* How much likelier a line is for its own interval, which a walk would make too wide. */
+static const double line_odds = 3.0;
+static const double shape_error = 1e-3; /* of the range: how far a shape of the grid may miss */
+/* Deviations of a shape under a walk: less is the walk's own, more is a shape. */
+static const double hidden = 1.2, clear = 2.0;
+
+/* x^n for small n. */
+static double power_of(double x, int n)
+{
+    double y = 1.0;
+    for (; n > 0; n >>= 1, x *= x)
+        if (n & 1) y *= x;
+    return y;
+}
+
+/* S^(-nu/2) tempered, as a whole power. */
+static int tempered_power(const dal__bins *b) { return (int)(0.5 * temper * b->freedom + 0.5); }
+
+typedef struct noise_state {
+    double square, floor; /* S with and without what noise explains; floor of the shapes */
+    double log_evidence;
+    double weight; /* tempered, relative to the best */
+} noise_state;
+
+static void weigh_noises(const dal__bins *b, double white_odds, noise_state *s, double *best)
+{
+    const double error = fmax(fmax(shape_error * b->range, b->error), b->rounding);
+    *best = -INFINITY;
+    for (int k = 0; k < DAL__NOISES; k++) {
+        const dal__noise *const n = &dal__noise_list[k];
+        double sum = 0.0;
+        for (int j = 0; j < DAL__WAVES; j++) sum += n->precision[j] * b->wave[j] * b->wave[j];
+        s[k].floor = error * error * n->precision_sum * b->freedom / DAL__WAVES;
+        s[k].square = sum + s[k].floor;
+        s[k].log_evidence = -0.5 * n->log_determinant - 0.5 * b->freedom * log(s[k].square);
+        if (k == 0) s[k].log_evidence += log(white_odds);
+        *best = fmax(*best, s[k].log_evidence);
+    }
+    for (int k = 0; k < DAL__NOISES; k++) s[k].weight = exp(temper * (s[k].log_evidence - *best));
+}
+
+/* sum_j X_j Y_j/v_j of all shapes. */
+static void correlate(const dal__bins *b, const dal__noise *n, double *restrict sum)
+{
+    memset(sum, 0, DAL__SHAPES * sizeof *sum);
+    for (int j = 0; j < DAL__WAVES; j++) {
+        const double y = n->precision[j] * b->wave[j];
+        const double *restrict const x = dal__shape_wave[j];
+        for (int i = 0; i < DAL__SHAPES; i++) sum[i] += y * x[i];
+    }
+}
+
+/* What the prior of a shape's size costs. */
+static double occam(double size, double deviation, double width)
+{
+    const double w = width + deviation, ratio = size / w;
+    return 0.7978845608028654 * deviation / (w * (1.0 + ratio * ratio));
+}
+
+/* That of a line: as likely small, beside oscillations, as all there is. */
+static double line_price(const dal__bins *b, double size, double deviation)
+{
+    return 0.5 * occam(size, deviation, 0.3 * b->half_range) +
+           0.5 * occam(size, deviation, 2.0 * b->half_range);
+}
+
+static void add_weight(dal__evidence *e, dal__meaning meaning, int shape, double weight)
+{
+    e->meaning[meaning] += weight;
+    e->shape[shape] += weight;
+}
+
+/* sum (Y_j - size X_j)^2/v_j, which a difference of sums would lose among roundings. */
+static double line_residue(const dal__bins *b, const dal__noise *n, double size)
+{
+    double sum = 0.0;
+    for (int j = 0; j < DAL__WAVES; j++) {
+        const double r = b->wave[j] - size * dal__shape_wave[j][DAL__LINEAR_SHAPE];
+        sum += n->precision[j] * r * r;
+    }
+    return sum;
+}
+
+/* The straight line, for its interval: its shape is exact. */
+static void weigh_line(const dal__bins *b, int k, const noise_state *s, double xy, dal__evidence *e)
+{
+    const dal__noise *const n = &dal__noise_list[k];
+    const double xx = dal__shape_square[k][DAL__LINEAR_SHAPE], size = xy / xx;
+    const double end_to_end = DAL__BINS / (DAL__BINS - 1.0); /* a shape is 1 from bin to bin */
+    const double rest = s->square - size * xy, error = fmax(b->rounding, b->error);
+    const double own = line_residue(b, n, size) + error * error * n->precision_sum;
+    const double price = line_price(b, size, sqrt(rest / (b->freedom - 1.0) / xx));
+    e->drift[k] = end_to_end * size;
+    e->drift_deviation[k] = end_to_end * sqrt(own / (b->freedom - 1.0) / xx);
+    e->drift_weight[k] = n->rate_weight * s->weight *
+                         (1.0 + line_odds * price * power_of(s->square / rest, tempered_power(b)));
+}
+
+/* A shape that a walk may hide is none; one that it may just not hide is not known. */
+static dal__meaning meaning_of(const dal__shape *shape, const dal__noise *noise, double deviations)
+{
+    if (noise->meaning != DAL__MEANS_WALK || deviations >= clear) return shape->meaning;
+    return deviations < hidden ? DAL__MEANS_WALK : DAL__MEANS_OTHER;
+}
+
+static void weigh_shapes(const dal__bins *b, int k, const noise_state *s, dal__evidence *e)
+{
+    const dal__noise *const n = &dal__noise_list[k];
+    const double *const xx = dal__shape_square[k];
+    const int power = tempered_power(b);
+    const double outer = s->weight * n->shape_weight, per_freedom = 1.0 / (b->freedom - 1.0);
+    double xy[DAL__SHAPES];
+    correlate(b, n, xy);
+    for (int i = 0; i < DAL__PLAIN_SHAPES; i++) {
+        const dal__shape *const shape = &dal__shape_list[i];
+        const double size = xy[i] / xx[i], rest = s->square - size * xy[i];
+        const double deviation = sqrt(rest * per_freedom / xx[i]);
+        if (k == 0 && i < DAL__POWER_SHAPES) e->power_rest[i] = rest;
+        const double price = i == DAL__LINEAR_SHAPE ? line_price(b, size, deviation)
+                                                    : occam(size, deviation, b->half_range);
+        const double weight = outer * shape->weight * price * power_of(s->square / rest, power);
+        add_weight(e, meaning_of(shape, n, fabs(size) / deviation), i, weight);
+    }
+    for (int w = 0; w < DAL__SLOW_WAVES; w++) {
+        const int i = DAL__PLAIN_SHAPES + 2 * w;
+        const double cross = dal__slow_product[k][w], det = xx[i] * xx[i + 1] - cross * cross;
+        const double c = (xx[i + 1] * xy[i] - cross * xy[i + 1]) / det;
+        const double d = (xx[i] * xy[i + 1] - cross * xy[i]) / det;
+        const double rest = fmax(s->square - c * xy[i] - d * xy[i + 1], s->floor);
+        const double deviation = sqrt(rest / (b->freedom - 2.0) / sqrt(det));
+        const double size = sqrt(c * c + d * d),
+                     price = occam(0.5 * size, deviation, b->half_range);
+        add_weight(e, dal__shape_list[i].meaning, i,
+                   outer * 2.0 * dal__shape_list[i].weight * price * price *
+                       power_of(s->square / rest, power));
+    }
+    weigh_line(b, k, s, xy[DAL__LINEAR_SHAPE], e);
+}
+
+/* log(sum weight * E) of the noises alone that a test of their own compares: walks, or a long
+ * memory. */
+static double log_evidence_of(const noise_state *s, int first, int last, double best)
+{
+    double sum = 0.0, weights = 0.0;
+    for (int k = first; k <= last; k++) {
+        sum += dal__noise_list[k].weight * exp(s[k].log_evidence - best);
+        weights += dal__noise_list[k].weight;
+    }
+    return log(sum / weights);
+}
+
+void dal__trend_weigh(const dal__bins *b, double white_odds, dal__evidence *e)
+{
+    noise_state s[DAL__NOISES];
+    double best, sum = 0.0;
+    memset(e, 0, sizeof *e);
+    e->freedom = b->freedom;
+    weigh_noises(b, white_odds, s, &best);
+    e->walk_over_memory = log_evidence_of(s, DAL__FIRST_WALK, DAL__LAST_WALK, best) -
+                          log_evidence_of(s, DAL__FIRST_LONG_MEMORY, DAL__LAST_LONG_MEMORY, best);
+    for (int k = 0; k < DAL__NOISES; k++)
+        e->meaning[dal__noise_list[k].meaning] += dal__noise_list[k].weight * s[k].weight;
+    for (int k = 0; k < DAL__SHAPE_NOISES; k++) weigh_shapes(b, k, &s[k], e);
+    for (int i = 0; i < DAL__MEANINGS; i++) sum += e->meaning[i];
+    for (int i = 0; i < DAL__MEANINGS; i++) e->meaning[i] /= sum;
+    for (int i = 0; i < DAL__SHAPES; i++) e->shape[i] /= sum;
+    e->log_total = log(sum) + temper * best;
+}

@@ -1,0 +1,200 @@
+/* answers.c - a system's programs as C: what dal_ask says, the start, the observables. */
+#include "codegen/generate.h"
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A program longer than this is a function of its own, that is not inlined where it is asked. */
+enum { MOST_INLINED = 600 };
+
+/* ---- inputs ---- */
+
+static void name_inputs(dal__generation *g)
+{
+    const dal__programs *p = g->programs;
+    const dal__equations *e = p->equations;
+    const int first = dal__tapes_inputs(p->tapes), count = e->symbols - e->parameters;
+    g->input = calloc((size_t)count + 1, sizeof *g->input);
+    g->text.starved |= !g->input;
+    if (!g->input) return;
+    snprintf(g->input[p->t - first].text, sizeof g->input->text, "DAL_TIME(t)");
+    for (int i = 0; i < p->n; i++) {
+        snprintf(g->input[p->q - first + i].text, sizeof g->input->text, "q[%d]", i);
+        snprintf(g->input[p->v - first + i].text, sizeof g->input->text, "v[%d]", i);
+        snprintf(g->input[p->pi - first + i].text, sizeof g->input->text, "pi[%d]", i);
+    }
+    for (int i = 0; i < p->multipliers; i++)
+        snprintf(g->input[p->g - first + i].text, sizeof g->input->text, "v[%d]", p->n + i);
+}
+
+/* ---- programs ---- */
+
+static bool is_inlined(const dal__generation *g, dal__program_code code)
+{
+    const int length = dal__tapes_length(g->programs->tapes, g->programs->program[code].tape);
+    return code != DAL__PROGRAM_JACOBIAN && length <= MOST_INLINED;
+}
+
+static void put_program(dal__generation *g, dal__program_code code, const char *name)
+{
+    if (!dal__wants(g, code)) return;
+    dal__text_print(&g->text,
+                    "%s void dal__%s(const dal_stored *w, dal_time t, const num *q, const num *v,\n"
+                    "    const num *pi, num *out)\n{\n",
+                    is_inlined(g, code) ? "DAL_INLINE" : "DAL_COLD", name);
+    dal__tape_write(g->programs->tapes, g->programs->program[code].tape, g->input, &g->text);
+    dal__text_put(&g->text, "}\n\n");
+}
+
+/* The branch of dal_ask for one question.  What is not inlined gets copies, so that the state
+ * itself can stay in registers. */
+static void put_question(dal__generation *g, dal__program_code code, const char *question,
+                         const char *name)
+{
+    const dal__program *p = &g->programs->program[code];
+    const int outputs = p->outputs, all = outputs + 2 * p->watched;
+    if (!dal__wants(g, code)) return;
+    dal__text_print(&g->text, "    case DAL_ASK_%s: {\n        num all[%d];\n", question,
+                    all > 0 ? all : 1);
+    if (is_inlined(g, code)) {
+        dal__text_print(&g->text, "        dal__%s(work, t, q, v, pi, all);\n", name);
+    } else {
+        const bool momenta = code == DAL__PROGRAM_ADJOINT;
+        dal__text_put(&g->text, "        num q_[DAL__N], v_[DAL__NW], pi_[DAL__N];\n"
+                                "        DAL_EACH(i, DAL__N) q_[i] = q[i];\n"
+                                "        DAL_EACH(i, DAL__NW) v_[i] = v[i];\n");
+        dal__text_print(&g->text, "        DAL_EACH(i, DAL__N) pi_[i] = %s;\n",
+                        momenta ? "pi[i]" : "dal_num(0.0)");
+        dal__text_print(&g->text, "        dal__%s(work, t, q_, v_, pi_, all);\n", name);
+    }
+    dal__text_print(&g->text, "        dal__keep_sound(all, %d, %d, out);\n        break;\n    }\n",
+                    outputs, p->watched);
+}
+
+static void put_ask(dal__generation *g)
+{
+    dal__text_put(&g->text,
+                  "/* The outputs; NaN in the lanes where one of the pivots behind them, each\n"
+                  " * followed by its size, has vanished. */\n"
+                  "DAL_INLINE void dal__keep_sound(const num *all, int outputs, int pivots, "
+                  "num *out)\n{\n"
+                  "    dal_mask ok = dal_all();\n"
+                  "    DAL_EACH(k, pivots)\n    ok &= dal_less(");
+    dal__text_number(&g->text, DAL__PIVOT_LEAST);
+    dal__text_put(&g->text, " * all[outputs + 2 * k + 1], dal_abs(all[outputs + 2 * k]));\n"
+                            "    DAL_EACH(i, outputs) out[i] = dal_select(ok, all[i], "
+                            "dal_num(NAN));\n}\n\n"
+                            "/* The answer for one group of lanes. */\n"
+                            "DAL_INLINE void dal__ask_group(const dal_stored *work, dal_question "
+                            "question, dal_time t,\n    const num *q, const num *v, const num *pi, "
+                            "num *out)\n{\n"
+                            "    switch (question) {\n");
+#define X(code, name, reads) put_question(g, DAL__PROGRAM_##code, #code, #name);
+    DAL__WIDE_LIST(X)
+#undef X
+    if (!dal__wants(g, DAL__PROGRAM_GAUGE))
+        dal__text_put(&g->text, "    case DAL_ASK_GAUGE:\n        out[0] = dal_num(0.0);\n"
+                                "        break;\n");
+    dal__text_put(&g->text, "    default:\n        break;\n    }\n}\n\n");
+}
+
+/* ---- parameters and start ---- */
+
+static int find_component(const dal_run *run, const char *name)
+{
+    char other[128];
+    for (int i = 0; dal_run_name(run, i, other, sizeof other); i++)
+        if (strcmp(other, name) == 0) return i;
+    return 0; /* the run has accepted the name */
+}
+
+void dal__put_start(dal__generation *g)
+{
+    const dal__shape *k = &g->shape;
+    const int first = k->n + k->nw;
+    dal__text_put(&g->text, "/* What is made of the parameters alone. */\n"
+                            "static void dal__hoist(dal_stored *w)\n{\n    (void)w;\n");
+    dal__tapes_write_hoisted(g->programs->tapes, &g->text);
+    dal__text_print(&g->text,
+                    "}\n\n/* The state at t = 0. */\n"
+                    "static void dal__start(const dal_stored *work, num *y)\n{\n"
+                    "    num out[%d];\n"
+                    "    dal__start_values(work, 0.0, NULL, NULL, NULL, out);\n"
+                    "    for (int i = 0; i < DAL__DIM; i++) y[i] = i < %d ? out[i] : "
+                    "dal_num(0.0);\n",
+                    first + 1, first + (k->lifted ? 1 : 0));
+    for (int i = 0; i < g->spec->start_count; i++) {
+        dal__text_print(&g->text, "    y[%d] = dal_num(",
+                        find_component(g->run, g->spec->start[i].name));
+        dal__text_number(&g->text, g->spec->start[i].value);
+        dal__text_put(&g->text, ");\n");
+    }
+    dal__text_put(&g->text, "}\n\n");
+}
+
+static void put_single_programs(dal__generation *g)
+{
+    if (g->product == DAL__FILE) put_program(g, DAL__PROGRAM_START, "start_values");
+    put_program(g, DAL__PROGRAM_CONSTRAINTS, "constraints");
+    put_program(g, DAL__PROGRAM_ENERGY, "energy");
+    put_program(g, DAL__PROGRAM_INVARIANTS, "invariant_values");
+    put_program(g, DAL__PROGRAM_EXACT, "exact");
+}
+
+void dal__put_answers(dal__generation *g)
+{
+    name_inputs(g);
+    if (!g->input) return;
+    dal__text_put(&g->text, g->product == DAL__LOOKS
+                                ? "\n/* Each lane has its time. */\n"
+                                  "typedef num dal_time;\n#define DAL_TIME(t) (t)\n"
+                                : "\n/* All lanes have one time. */\n"
+                                  "typedef double dal_time;\n#define DAL_TIME(t) dal_num(t)\n");
+    dal__text_put(&g->text, "\n/* ---- the system ---- */\n\n");
+#define X(code, name, reads) put_program(g, DAL__PROGRAM_##code, #name);
+    DAL__WIDE_LIST(X)
+#undef X
+    if (g->product == DAL__FILE || g->product == DAL__LOOKS) put_single_programs(g);
+    free(g->input);
+    put_ask(g);
+}
+
+/* ---- observables, in the order of dal_run_observables ---- */
+
+static bool has(const dal_run *run, const char *name)
+{
+    char other[128];
+    for (int i = 0; dal_run_observable_name(run, i, other, sizeof other); i++)
+        if (strcmp(other, name) == 0) return true;
+    return false;
+}
+
+void dal__put_observe(dal__generation *g)
+{
+    const dal_system *system = g->shape.system;
+    dal__text *text = &g->text;
+    int next = 0;
+    dal__text_put(
+        text,
+        "\nstatic void dal__observe(const dal_stored *w, dal_time t, const num *y, num *out)\n{\n"
+        "    const num *q = y, *v = y + DAL__N;\n"
+        "    (void)q, (void)v, (void)w, (void)t, (void)out;\n");
+    if (system->constraints) dal__text_put(text, "    dal__constraints(w, t, q, v, NULL, out);\n");
+    next += system->constraints ? system->m : 0;
+    if (system->energy)
+        dal__text_print(text, "    dal__energy(w, t, q, v, NULL, out + %d);\n", next++);
+    if (g->shape.lifted) dal__text_print(text, "    dal__observe_lift(w, t, y, out + %d);\n", next);
+    next += g->shape.lifted ? 4 : 0;
+    if (system->invariant_values)
+        dal__text_print(text, "    dal__invariant_values(w, t, q, v, NULL, out + %d);\n", next);
+    next += system->invariant_values ? system->invariants : 0;
+    if (has(g->run, "error"))
+        dal__text_print(text,
+                        "    num exact[2 * DAL__N];\n"
+                        "    dal__exact(w, t, q, v, NULL, exact);\n"
+                        "    out[%d] = dal_num(0.0);\n"
+                        "    DAL_EACH(i, DAL__N)\n"
+                        "        out[%d] = dal_max(out[%d], dal_abs(exact[i] - q[i]));\n",
+                        next, next, next);
+    dal__text_put(text, "}\n");
+}

@@ -1,0 +1,68 @@
+/* constants.c - the sizes and choices that are constants in a generated file; how its lanes go. */
+#include "codegen/generate.h"
+
+/* Whether the groups of lanes can be stepped as one larger system: implicit stages of two groups
+ * find room in the registers where there are few of them. */
+static bool is_joined(const dal__generation *g)
+{
+    const unsigned claims = g->shape.method.chain[0]->claims;
+    const bool few = claims & DAL_REMEMBERS && g->shape.method.chain[0]->stages <= 2;
+    const bool can = claims & DAL_COMPONENTWISE || few;
+    return g->shape.depth == 1 && !g->shape.lifted && can;
+}
+
+/* Lanes go by registers, as large as the processor has them. */
+static void put_lanes(dal__generation *g)
+{
+    dal__text_print(&g->text, "#define DAL_LANES %d\n", g->lanes);
+    dal__text_put(&g->text, "#if DAL_LANES > 8 && defined __AVX512F__\n#define DAL_GROUP 8\n"
+                            "#elif DAL_LANES > 4 && defined __AVX__ && !defined __AVX512F__\n"
+                            "#define DAL_GROUP 4\n"
+                            "#elif DAL_LANES > 2 && !defined __AVX__\n"
+                            "#define DAL_GROUP 2\n#endif\n");
+    dal__text_put(&g->text, dal__source_text("groups.h"));
+    dal__text_put(&g->text, "#define DAL_WORK(place) w[(place) * DAL_GROUPS]\n");
+    dal__text_print(&g->text, "enum { DAL_JOINED = %s, DAL_TEAM = DAL_GROUPS / DAL_JOINED };\n",
+                    is_joined(g) ? "DAL_GROUPS" : "1");
+}
+
+void dal__put_constants(dal__generation *g)
+{
+    const dal__shape *k = &g->shape;
+    const int stages = g->spec->method.chain[0]->stages;
+    const bool collocation = dal__method_uses(g, "dal_collocation");
+    const bool solves = collocation || dal__method_uses(g, "dal_polarised_euler");
+    const bool is_explicit = dal_method_claims(&g->spec->method) & DAL_EXPLICIT;
+    const struct {
+        const char *name;
+        int value;
+    } list[] = {
+        {"N", k->n},
+        {"NW", k->nw},
+        {"M", k->m},
+        {"DIM", k->dim},
+        {"LIFTED", k->lifted},
+        {"STAGES", stages},
+        {"SLOPES", k->slopes},
+        {"SOLVER", k->options.solver},
+        {"ITERATIONS", k->options.iterations},
+        {"EXTRA_SWEEPS", k->options.extra_sweeps},
+        {"PLAIN", k->options.sums == DAL_SUMS_PLAIN},
+        {"PROPERTIES", (int)k->system->properties},
+        {"REACTION", k->reaction},
+        {"NEWTON", dal__uses_newton(g)},
+        {"TANGENT", dal__follows_tangents(g)},
+        {"EXPLICIT", is_explicit && k->depth == 1 && !(solves && k->lifted)},
+        {"GUARDS", k->system->guards},
+        {"WATCHED", k->m > 0 && dal__wants(g, DAL__PROGRAM_CONSTRAINT) &&
+                        (k->system->properties & DAL_D_WATCHED) != 0},
+        {"GAUGE", dal__wants(g, DAL__PROGRAM_GAUGE)},
+        {"TRACED", g->product == DAL__TRACE},
+    };
+    put_lanes(g);
+    for (size_t i = 0; i < sizeof list / sizeof *list; i++)
+        dal__text_print(&g->text, "#define DAL__%s %d\n", list[i].name, list[i].value);
+    dal__text_put(&g->text, "#define DAL__SOLVE_TO ");
+    dal__text_number(&g->text, k->options.solve_to);
+    dal__text_put(&g->text, "\n");
+}

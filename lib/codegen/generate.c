@@ -1,0 +1,340 @@
+/* generate.c - one self-contained C file for one system, method and space; see generate.h. */
+#include "codegen/generate.h"
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Straight-line code beyond these takes a compiler too long; Newton's matrices lie on the stack. */
+enum { MOST_INSTRUCTIONS = 20000, MOST_STACK = 1 << 22 };
+/* Loops over components are unrolled for steps up to this size. */
+enum { MOST_UNROLLED = 256, MOST_UNROLLED_DIM = 64 };
+
+/* ---- texts ---- */
+
+void dal__put_template(dal__generation *g, const char *text)
+{
+    static const char word[] = "PREFIX";
+    for (const char *next; (next = strstr(text, word)); text = next + strlen(word)) {
+        dal__text_add(&g->text, text, (size_t)(next - text));
+        dal__text_put(&g->text, g->prefix);
+    }
+    dal__text_put(&g->text, text);
+}
+
+const char *dal__source_text(const char *name)
+{
+    for (const dal__source *k = dal__sources; k->name; k++)
+        if (strcmp(k->name, name) == 0) return k->text;
+    return "";
+}
+
+/* The integrator whose text has the name in quotes; kernel headers have none. */
+static const dal__source *source_of(const dal_integrator *integrator)
+{
+    char quoted[72];
+    snprintf(quoted, sizeof quoted, "\"%s\"", integrator->name);
+    for (const dal__source *k = dal__sources; k->name; k++)
+        if (strstr(k->name, ".c") && strstr(k->text, quoted)) return k;
+    return NULL;
+}
+
+bool dal__method_uses(const dal__generation *g, const char *word)
+{
+    for (int i = 0; i < g->shape.depth; i++)
+        if (strstr(g->source[i]->text, word)) return true;
+    return false;
+}
+
+bool dal__uses_newton(const dal__generation *g)
+{
+    const bool implicit = dal__method_uses(g, "dal_polarised_euler") ||
+                          dal__method_uses(g, "dal_collocation") ||
+                          dal__method_uses(g, "dal_impose") || dal__method_uses(g, "dal_spark");
+    return implicit && g->spec->options.solver != DAL_FIXED_POINT &&
+           g->programs->program[DAL__PROGRAM_JACOBIAN].present;
+}
+
+/* A modifier steps tangent vectors in the place of the momenta. */
+bool dal__follows_tangents(const dal__generation *g)
+{
+    return g->shape.lifted && (dal_method_needs(&g->spec->method) & DAL_NEEDS_JACOBIAN);
+}
+
+/* What the observables are made of. */
+static bool observes(const dal__generation *g, dal__program_code code)
+{
+    if (code == DAL__PROGRAM_FIELD || code == DAL__PROGRAM_GAUGE) return g->shape.lifted;
+    return code == DAL__PROGRAM_CONSTRAINTS || code == DAL__PROGRAM_ENERGY ||
+           code == DAL__PROGRAM_INVARIANTS || code == DAL__PROGRAM_EXACT;
+}
+
+bool dal__wants(const dal__generation *g, dal__program_code code)
+{
+    if (!g->programs->program[code].present) return false;
+    if (g->product == DAL__LOOKS) return observes(g, code);
+    const bool watched = g->shape.system->properties & DAL_D_WATCHED;
+    const bool imposes = dal_method_needs(&g->spec->method) & DAL_NEEDS_PARTS;
+    switch (code) {
+    case DAL__PROGRAM_ADJOINT:
+    case DAL__PROGRAM_GAUGE:
+        return g->shape.lifted;
+    case DAL__PROGRAM_JACOBIAN:
+        return dal__uses_newton(g) || dal__follows_tangents(g);
+    case DAL__PROGRAM_CONSTRAINT:
+        return watched || imposes || dal__method_uses(g, "DAL_ASK_CONSTRAINT");
+    case DAL__PROGRAM_PARTS:
+        return imposes;
+    case DAL__PROGRAM_POTENTIAL:
+        return dal_method_needs(&g->spec->method) & DAL_NEEDS_POTENTIAL;
+    case DAL__PROGRAM_ENERGY_NORMAL:
+        return dal__method_uses(g, "DAL_ASK_ENERGY_NORMAL");
+    case DAL__PROGRAM_DIAGNOSE:
+        return false;
+    default:
+        return true;
+    }
+}
+
+/* ---- what can be generated ---- */
+
+static dal_status check_method(dal__generation *g, dal_error *error)
+{
+    for (int i = 0; i < g->shape.depth; i++) {
+        const dal_integrator *link = g->spec->method.chain[i];
+        g->source[i] = dal__integrator_wide(link, 4) ? source_of(link) : NULL;
+        if (!g->source[i])
+            return dal__error(error, DAL_UNSUPPORTED, 0, 0,
+                              "'%s' is not an integrator of the library: its text is not known",
+                              link->name ? link->name : "?");
+        for (int j = 0; j < i; j++)
+            if (g->source[j] == g->source[i])
+                return dal__error(error, DAL_UNSUPPORTED, 0, 0,
+                                  "'%s' twice in a method cannot be generated", link->name);
+    }
+    return DAL_OK;
+}
+
+static dal_status check_size(const dal__generation *g, dal_error *error)
+{
+    double length = 0.0;
+    const double width = (double)g->shape.stages * g->shape.nw;
+    const bool newton = g->product != DAL__LOOKS && dal__uses_newton(g);
+    const double stack = newton ? 4.0 * 8.0 * g->lanes * width * width : 0.0;
+    for (int code = 0; code < DAL__PROGRAM_COUNT; code++)
+        if (dal__wants(g, (dal__program_code)code))
+            length += dal__tapes_length(g->programs->tapes, g->programs->program[code].tape);
+    if (length > MOST_INSTRUCTIONS)
+        return dal__error(
+            error, DAL_TOO_LARGE, 0, 0,
+            "'%.80s' is too large for straight-line code: %.0f operations (%d at most)",
+            g->shape.system->name, length, MOST_INSTRUCTIONS);
+    if (stack > MOST_STACK)
+        return dal__error(error, DAL_TOO_LARGE, 0, 0,
+                          "Newton's matrices of '%.80s' take %.0f bytes of stack (%d at most); "
+                          "solver fixed-point needs none",
+                          g->shape.system->name, stack, MOST_STACK);
+    return DAL_OK;
+}
+
+static bool is_width(int lanes)
+{
+    return lanes == 1 || lanes == 2 || lanes == 4 || lanes == 8 || lanes == 16;
+}
+
+/* The programs of the system. */
+static dal_status find_programs(dal__generation *g, dal_error *error)
+{
+    g->programs = dal__programs_of(g->shape.system);
+    if (g->programs) return DAL_OK;
+    return dal__error(error, DAL_UNSUPPORTED, 0, 0,
+                      "'%.80s' is not made from a model: its formulas are not known",
+                      g->shape.system->name ? g->shape.system->name : "this system");
+}
+
+static dal_status check_steps(dal__generation *g, dal_error *error)
+{
+    if (g->spec->options.tolerance > 0.0)
+        return dal__error(error, DAL_UNSUPPORTED, 0, 0,
+                          "steps under a tolerance are not generated: each lane has its own");
+    if (g->spec->options.precision != DAL_DOUBLE)
+        return dal__error(error, DAL_UNSUPPORTED, 0, 0, "steps in long numbers are not generated");
+    return check_method(g, error);
+}
+
+dal_status dal__generation_check(dal__generation *g, const char *prefix, dal_error *error)
+{
+    if (!is_width(g->lanes))
+        return dal__error(error, DAL_ARGUMENT, 0, 0, "%d lanes: 1, 2, 4, 8 or 16 are possible",
+                          g->lanes);
+    if (g->product != DAL__LOOKS) DAL_TRY(dal__shape_init(&g->shape, g->spec, error));
+    DAL_TRY(find_programs(g, error));
+    if (g->product != DAL__LOOKS) DAL_TRY(check_steps(g, error));
+    DAL_TRY(check_size(g, error));
+    return dal__choose_prefix(g, prefix, error);
+}
+
+/* ---- the file ---- */
+
+static const char compiler[] =
+    "#ifdef __FAST_MATH__\n"
+    "#error \"the bits of a trajectory are promised: compile without -ffast-math\"\n"
+    "#endif\n"
+    "/* No contraction, whatever the command line says. */\n"
+    "#if defined(__clang__)\n"
+    "#pragma STDC FP_CONTRACT OFF\n"
+    "#else\n"
+    "#pragma GCC push_options\n"
+    "#pragma GCC optimize(\"fp-contract=off\", \"no-math-errno\", \"no-tree-slp-vectorize\", \\\n"
+    "    \"schedule-insns\", \"sched-pressure\")\n"
+    "#endif\n"
+    "#pragma GCC diagnostic push\n"
+    "#pragma GCC diagnostic ignored \"-Wunused-parameter\"\n"
+    "#pragma GCC diagnostic ignored \"-Wpsabi\"\n"
+    "#ifndef __clang__ /* stages that no sweep was made for are never used */\n"
+    "#pragma GCC diagnostic ignored \"-Wmaybe-uninitialized\"\n#endif\n\n";
+
+void dal__put_compiler(dal__generation *g) { dal__put_template(g, compiler); }
+
+static const char end[] = "\n#pragma GCC diagnostic pop\n"
+                          "#ifndef __clang__\n"
+                          "#pragma GCC pop_options\n"
+                          "#endif\n"
+                          "#endif /* PREFIX_HEADER */\n";
+
+static void put_unrolling(dal__generation *g)
+{
+    const int stages = g->spec->method.chain[0]->stages;
+    const bool coupled = dal__method_uses(g, "dal_collocation");
+    const int width = g->shape.lifted ? 3 * g->shape.n : g->shape.nw;
+    const bool small =
+        g->shape.dim <= MOST_UNROLLED_DIM && (!coupled || stages * stages * width <= MOST_UNROLLED);
+    dal__text_put(&g->text, "#define DAL_SPECIALISED 1\n");
+    if (small)
+        dal__text_put(&g->text, "#if !defined(__clang__) && !defined(__OPTIMIZE_SIZE__)\n"
+                                "#define DAL_UNROLL _Pragma(\"GCC unroll 64\")\n"
+                                "#else\n#define DAL_UNROLL\n#endif\n");
+    else
+        dal__text_put(&g->text, "#define DAL_UNROLL\n");
+}
+
+/* What the kernel takes from the public header. */
+static void put_enums(dal__generation *g)
+{
+    dal__text_put(&g->text, "\ntypedef enum dal_status {\n");
+#define X(code, words) dal__text_put(&g->text, "    DAL_" #code ",\n");
+    DAL_STATUS_LIST(X)
+#undef X
+    dal__text_put(&g->text, "    DAL_STATUS_COUNT\n} dal_status;\n"
+                            "enum { DAL_SOLVER_AUTO, DAL_FIXED_POINT, DAL_NEWTON };\n");
+    dal__text_print(&g->text, "enum { DAL_PARTS_POSITIONAL = %d };\n\n", DAL_PARTS_POSITIONAL);
+}
+
+/* The parts of the kernel that the method needs. */
+static void put_kernel(dal__generation *g)
+{
+    static const char *const always[] = {"num.h", "elementary.h", "carried.h", "step.h",
+                                         "algebra.h"};
+    const bool euler = dal__method_uses(g, "dal_polarised_euler");
+    const bool collocation = dal__method_uses(g, "dal_collocation");
+    for (size_t i = 0; i < sizeof always / sizeof *always; i++)
+        dal__text_put(&g->text, dal__source_text(always[i]));
+    const bool constrained = dal_method_needs(&g->spec->method) & DAL_NEEDS_PARTS;
+    if (euler || collocation || constrained || dal__method_uses(g, "dal_solve"))
+        dal__text_put(&g->text, dal__source_text("solve.h"));
+    if (euler) dal__text_put(&g->text, dal__source_text("polarised.h"));
+    if (collocation) dal__text_put(&g->text, dal__source_text("tableau.h"));
+    if (collocation) dal__text_put(&g->text, dal__source_text("collocation.h"));
+    if (dal__method_uses(g, "dal_substeps"))
+        dal__text_put(&g->text, dal__source_text("composition.h"));
+    if (constrained) dal__text_put(&g->text, dal__source_text("constrained.h"));
+    if (dal__method_uses(g, "dal_spark")) dal__text_put(&g->text, dal__source_text("spark.h"));
+}
+
+/* rk4, implicit_midpoint: what an integrator is called in DAL_INTEGRATOR. */
+static void put_identifier(dal__generation *g, const dal_integrator *link)
+{
+    for (const char *c = link->name; *c; c++) dal__text_add(&g->text, *c == '-' ? "_" : c, 1);
+}
+
+static void put_method(dal__generation *g)
+{
+    dal__text *text = &g->text;
+    dal__text_put(text, "\n#define DAL_INTEGRATOR(identifier, function, ...) \\\n"
+                        "    DAL_INLINE dal_status dal__of_##identifier(dal_step *s) "
+                        "{ return function(s); } \\\n"
+                        "    typedef dal_step dal__after_##identifier\n\n");
+    for (int i = 0; i < g->shape.depth; i++) {
+        if (i > 0) {
+            dal__text_print(text,
+                            "DAL_INLINE dal_status dal__inner_%d(dal_step *s, double h)\n"
+                            "{\n    const double outer = s->h;\n    s->h = h;\n"
+                            "    const dal_status status = dal__of_",
+                            i);
+            put_identifier(g, g->spec->method.chain[i - 1]);
+            dal__text_print(text,
+                            "(s);\n    s->h = outer;\n    return status;\n}\n"
+                            "#undef dal_inner\n#define dal_inner dal__inner_%d\n",
+                            i);
+        }
+        dal__text_print(text, "#define step dal__step_%d\n", i);
+        dal__text_put(text, g->source[i]->text);
+        dal__text_put(text, "#undef step\n\n");
+    }
+    dal__text_put(text, "#define dal__method dal__of_");
+    put_identifier(g, g->spec->method.chain[g->shape.depth - 1]);
+    dal__text_put(text, "\n\n");
+}
+
+/* Kernel, system, method and steps. */
+void dal__put_steps(dal__generation *g)
+{
+    dal__put_compiler(g);
+    put_unrolling(g);
+    dal__put_constants(g);
+    put_enums(g);
+    put_kernel(g);
+    dal__put_answers(g);
+    dal__text_put(&g->text, dal__source_text("ask.h"));
+    put_method(g);
+    dal__put_template(g, dal__source_text("stepper.h"));
+}
+
+static void put_file(dal__generation *g)
+{
+    dal__put_interface(g);
+    dal__put_template(g, "\n#ifndef PREFIX_HEADER\n\n#include <math.h>\n#include <stddef.h>\n"
+                         "#include <stdint.h>\n#include <string.h>\n\n");
+    dal__put_steps(g);
+    dal__put_start(g);
+    dal__text_put(&g->text, dal__source_text("lift.h"));
+    dal__put_template(g, dal__source_text("caller.h"));
+    dal__put_observe(g);
+    dal__put_names(g);
+    dal__put_template(g, end);
+}
+
+dal_status dal__generation_finish(dal__generation *g, char **text, dal_error *error)
+{
+    if (g->text.starved) {
+        dal__text_free(&g->text);
+        return dal__error(error, DAL_MEMORY, 0, 0, "no memory for a generated file");
+    }
+    *text = g->text.bytes;
+    return DAL_OK;
+}
+
+dal_status dal_generate(const dal_run_spec *spec, int lanes, const char *prefix, char **text,
+                        dal_error *error)
+{
+    DAL_REQUIRE(text, error);
+    dal__generation g = {.spec = spec, .lanes = lanes};
+    *text = NULL;
+    DAL_TRY(dal__check_spec(spec, error));
+    DAL_TRY(dal__generation_check(&g, prefix, error));
+    dal_run *run;
+    DAL_TRY(dal_run_create(&run, spec, error));
+    g.run = run;
+    put_file(&g);
+    dal_run_free(run);
+    return dal__generation_finish(&g, text, error);
+}

@@ -1,0 +1,85 @@
+/* generate.h - the making of one C file from a run's spec; internal to lib/codegen.
+ *
+ * A generated file is the kernel and the integrator as they stand in the library, compiled with
+ * constant dimensions (DAL_SPECIALISED), around the system's programs as straight-line code. */
+#ifndef DAL_GENERATE_H
+#define DAL_GENERATE_H
+
+#include "core/text.h"
+#include "model/mechanics.h"
+#include "run/engine.h"
+
+/* The sources that travel inside the library, made by the Makefile; the last name is NULL. */
+typedef struct dal__source {
+    const char *name; /* "rk4.c" */
+    const char *text; /* without its #include lines */
+} dal__source;
+extern const dal__source dal__sources[];
+
+enum { DAL__PREFIX_SIZE = 64 };
+
+/* What is made: a whole file; for native mode, the steps of some lanes, those of one lane which may
+ * leave a trace of its states, and the observables of many states. */
+typedef enum dal__product { DAL__FILE, DAL__LANES, DAL__TRACE, DAL__LOOKS } dal__product;
+
+typedef struct dal__generation {
+    const dal_run_spec *spec;
+    const dal_run *run; /* knows names and observables */
+    dal__shape shape;
+    const dal__programs *programs;
+    const dal__source *source[DAL_CHAIN]; /* of each link */
+    dal__input_name *input;               /* what the programs call their inputs */
+    int lanes;
+    dal__product product;
+    char prefix[DAL__PREFIX_SIZE];
+    dal__text text;
+} dal__generation;
+
+/* Adds a text in which the word PREFIX becomes the prefix. */
+void dal__put_template(dal__generation *g, const char *text);
+/* The text of a source by its name; "" when there is none. */
+const char *dal__source_text(const char *name);
+/* Whether the text of the method uses a word. */
+bool dal__method_uses(const dal__generation *g, const char *word);
+bool dal__uses_newton(const dal__generation *g);
+bool dal__follows_tangents(const dal__generation *g);
+/* Whether a program goes into the file. */
+bool dal__wants(const dal__generation *g, dal__program_code code);
+
+/* Sees whether it can be made, and sets shape, programs, sources and prefix. */
+dal_status dal__generation_check(dal__generation *g, const char *prefix, dal_error *error);
+dal_status dal__generation_finish(dal__generation *g, char **text, dal_error *error);
+/* What keeps a compiler exact; kernel, system, method and steps. */
+void dal__put_compiler(dal__generation *g);
+void dal__put_steps(dal__generation *g);
+
+/* ---- native_text.c: what native mode compiles ---- */
+
+#define DAL__NATIVE_PREFIX "dal_native"
+/* The steps alone, DAL__LANES or DAL__TRACE: the function DAL__NATIVE_PREFIX_lanes or _traced.
+ * Takes nothing from the parameters and the start of the spec. [alloc] */
+dal_status dal__generate_native(const dal_run_spec *spec, dal__product product, int lanes,
+                                char **text, dal_error *error);
+/* The observables of a run of this shape, wherever it stands: the function
+ * DAL__NATIVE_PREFIX_looks. [alloc] */
+dal_status dal__generate_looks(const dal__shape *shape, const dal_run *run, char **text,
+                               dal_error *error);
+
+/* ---- prefix.c ---- */
+
+/* A prefix of the caller's, or (NULL) SYSTEM_METHOD.  Errors: DAL_ARGUMENT. */
+dal_status dal__choose_prefix(dal__generation *g, const char *prefix, dal_error *error);
+
+/* ---- constants.c ---- */
+void dal__put_constants(dal__generation *g);
+
+/* ---- interface.c: what a caller sees ---- */
+void dal__put_interface(dal__generation *g);
+void dal__put_names(dal__generation *g);
+
+/* ---- answers.c: the system ---- */
+void dal__put_answers(dal__generation *g);
+void dal__put_start(dal__generation *g);
+void dal__put_observe(dal__generation *g);
+
+#endif

@@ -1,0 +1,246 @@
+/* interface.c - the beginning of a generated file: how to call it, and its declarations. */
+#include "codegen/generate.h"
+#include <stdio.h>
+#include <string.h>
+
+/* A text of the user's inside a comment: one line, and no end of the comment. */
+static void put_comment(dal__text *text, const char *words)
+{
+    for (char before = '\0'; words && *words; before = *words++) {
+        const bool ends = (before == '*' && *words == '/') || (before == '/' && *words == '*');
+        const bool plain = (unsigned char)*words >= ' ' && *words != '\\' && *words != '?' && !ends;
+        dal__text_add(text, plain ? words : " ", 1);
+    }
+}
+
+/* Words that cannot name a member: of C, of C++, and macros of the headers. */
+static const char *const reserved[] = {
+    "alignas",     "alignof",    "and",          "and_eq",
+    "asm",         "auto",       "bitand",       "bitor",
+    "bool",        "break",      "case",         "catch",
+    "char",        "class",      "compl",        "concept",
+    "const",       "continue",   "decltype",     "default",
+    "delete",      "do",         "double",       "else",
+    "enum",        "explicit",   "export",       "extern",
+    "false",       "float",      "for",          "friend",
+    "goto",        "if",         "inline",       "int",
+    "long",        "mutable",    "namespace",    "new",
+    "noexcept",    "not",        "not_eq",       "nullptr",
+    "operator",    "or",         "or_eq",        "private",
+    "protected",   "public",     "register",     "requires",
+    "restrict",    "return",     "short",        "signed",
+    "sizeof",      "static",     "struct",       "switch",
+    "template",    "this",       "throw",        "true",
+    "try",         "typedef",    "typeid",       "typename",
+    "typeof",      "union",      "unsigned",     "using",
+    "virtual",     "void",       "volatile",     "while",
+    "xor",         "xor_eq",     "constexpr",    "linux",
+    "unix",        "i386",       "errno",        "near",
+    "far",         "step",       "dal_inner",    "NULL",
+    "NAN",         "INFINITY",   "OVERFLOW",     "UNDERFLOW",
+    "DOMAIN",      "SING",       "PLOSS",        "TLOSS",
+    "HUGE",        "assert",     "thread_local", "static_assert",
+    "static_cast", "const_cast", "dynamic_cast", "reinterpret_cast",
+    "wchar_t",     "char16_t",   "char32_t",     "co_await",
+    "co_return",   "co_yield",
+};
+static const char *const reserved_beginnings[] = {"DAL_",   "M_",    "FP_",      "HUGE_", "INT",
+                                                  "UINT",   "SIZE_", "PTRDIFF_", "MATH_", "math_",
+                                                  "WCHAR_", "WINT_", "SIG_"};
+
+static bool is_reserved(const char *name)
+{
+    for (size_t i = 0; i < sizeof reserved / sizeof *reserved; i++)
+        if (strcmp(name, reserved[i]) == 0) return true;
+    for (size_t i = 0; i < sizeof reserved_beginnings / sizeof *reserved_beginnings; i++)
+        if (strncmp(name, reserved_beginnings[i], strlen(reserved_beginnings[i])) == 0) return true;
+    return false;
+}
+
+/* The member for parameter i; what is reserved gets "_parameter_" and its number behind. */
+static void put_member(dal__generation *g, int i)
+{
+    const char *name = g->shape.system->parameter[i];
+    dal__text_put(&g->text, name);
+    if (is_reserved(name)) dal__text_print(&g->text, "_parameter_%d", i + 1);
+}
+
+static const char usage[] =
+    " *\n"
+    " *     PREFIX_state state;                    a plain struct, no pointers in it\n"
+    " *     PREFIX_parameters p = PREFIX_defaults();\n"
+    " *     PREFIX_start(&state, &p);              at t = 0; NULL: the defaults\n"
+    " *     if (PREFIX_advance(&state, h, 1000))   1000 steps of size h\n"
+    " *         puts(PREFIX_text(state.status[0]));\n"
+    " *     double out[PREFIX_OBSERVABLES * PREFIX_LANES];\n"
+    " *     PREFIX_observe(&state, out);           named by PREFIX_observable[]\n"
+    " *\n"
+    " * state.y begins with the state, PREFIX_DIMENSION numbers named by PREFIX_component[]; "
+    "number\n"
+    " * i of a lane is y[i * PREFIX_LANES + lane], and so with all arrays.  A copy of the struct "
+    "is\n"
+    " * a checkpoint.  A step succeeds or leaves its lane as it was and returns a status; a lane\n"
+    " * with a status stands still until started again (with one lane: until the next call).\n"
+    " * Change y only before the first step; parameters are changed by PREFIX_set.\n"
+    " *\n"
+    " *     cc -O3 -march=native -c FILE.c         as C11 or C++17; needs libm alone\n"
+    " *\n"
+    " * On x86-64 -march=native, or -mfma, is worth much: without it every fused multiply-add is a "
+    "call\n"
+    " * of libm's fma.\n"
+    " *\n"
+    " * From another file: #define PREFIX_HEADER, then #include this one: declarations only.\n"
+    " * The bits are those of dalembert itself, whatever the compiler and its options; "
+    "-ffast-math\n"
+    " * is refused. */\n";
+
+static void put_head(dal__generation *g)
+{
+    const dal_system *system = g->shape.system;
+    char method[128];
+    dal__text *text = &g->text;
+    dal__put_template(g, "/* PREFIX - ");
+    put_comment(text, system->title ? system->title : system->name);
+    dal__text_print(text,
+                    "\n *\n * %s, %s space, %d lane%s; generated by dalembert " DAL_VERSION ".\n",
+                    dal_method_name(&g->spec->method, method, sizeof method),
+                    g->shape.lifted ? "lifted" : "physical", g->lanes, g->lanes > 1 ? "s" : "");
+    if (system->reference) {
+        dal__text_put(text, " * ");
+        put_comment(text, system->reference);
+        dal__text_put(text, "\n");
+    }
+    dal__put_template(g, usage);
+}
+
+static void put_sizes(dal__generation *g)
+{
+    const dal__shape *k = &g->shape;
+    dal__put_template(g, "#ifndef PREFIX_DECLARED\n#define PREFIX_DECLARED\n\nenum {\n");
+    const struct {
+        const char *name;
+        int value;
+    } list[] = {
+        {"LANES", g->lanes},
+        {"COORDINATES", k->n},
+        {"DIMENSION", k->dim},
+        {"PARAMETERS", k->system->parameters},
+        {"OBSERVABLES", dal_run_observables(g->run)},
+        {"CARRIED", (int)k->carried},
+        {"WORK", dal__tapes_inputs(g->programs->tapes)},
+    };
+    for (size_t i = 0; i < sizeof list / sizeof *list; i++)
+        dal__text_print(&g->text, "    %s_%s = %d,\n", g->prefix, list[i].name, list[i].value);
+    dal__put_template(g, "    PREFIX_SIZES\n};\n\n");
+}
+
+static void put_structs(dal__generation *g)
+{
+    dal__put_template(g, "typedef struct PREFIX_parameters {\n");
+    for (int i = 0; i < g->shape.system->parameters; i++) {
+        dal__text_put(&g->text, "    double ");
+        put_member(g, i);
+        dal__text_put(&g->text, ";\n");
+    }
+    if (g->shape.system->parameters == 0) dal__text_put(&g->text, "    double none;\n");
+    dal__put_template(
+        g,
+        "} PREFIX_parameters;\n\n"
+        "typedef struct PREFIX_state {\n"
+        "    double y[PREFIX_CARRIED * PREFIX_LANES]; /* the state, then what a step carries */\n"
+        "    double work[(PREFIX_WORK > 0 ? PREFIX_WORK : 1) * PREFIX_LANES]; /* parameters */\n"
+        "    int status[PREFIX_LANES]; /* 0: goes on */\n"
+        "} PREFIX_state;\n\n"
+        "#ifdef __cplusplus\nextern \"C\" {\n#endif\n"
+        "extern const char *const PREFIX_component[PREFIX_DIMENSION];\n"
+        "extern const char *const PREFIX_parameter[PREFIX_PARAMETERS + 1];\n"
+        "extern const char *const PREFIX_observable[PREFIX_OBSERVABLES + 1];\n"
+        "const char *PREFIX_text(int status);\n"
+        "PREFIX_parameters PREFIX_defaults(void);\n"
+        "int PREFIX_start(PREFIX_state *state, const PREFIX_parameters *parameters);\n"
+        "int PREFIX_start_lane(PREFIX_state *state, int lane, const PREFIX_parameters "
+        "*parameters);\n"
+        "void PREFIX_set(PREFIX_state *state, int lane, const PREFIX_parameters *parameters);\n"
+        "int PREFIX_step(PREFIX_state *state, double h);\n"
+        "int PREFIX_advance(PREFIX_state *state, double h, long long count);\n"
+        "double PREFIX_time(const PREFIX_state *state, int lane);\n"
+        "void PREFIX_observe(const PREFIX_state *state, double *out);\n"
+        "/* The inside of PREFIX_advance: up to count steps of the lanes in the mask, until one "
+        "fails;\n"
+        " * the number of steps tried.  The lanes in *failed did not make the last one; why[lane]. "
+        "*/\n"
+        "long long PREFIX_lanes(double *y, const double *work, double h, long long count,\n"
+        "                       unsigned lanes, unsigned *failed, int *why);\n"
+        "#ifdef __cplusplus\n}\n#endif\n#endif\n");
+}
+
+void dal__put_interface(dal__generation *g)
+{
+    put_head(g);
+    put_sizes(g);
+    put_structs(g);
+}
+
+/* ---- names and values, at the end ---- */
+
+typedef char *naming(const dal_run *run, int i, char *buffer, size_t size);
+
+static char *parameter_name(const dal_run *run, int i, char *buffer, size_t size)
+{
+    const dal_system *system = dal_run_system(run);
+    if (i >= system->parameters) return NULL;
+    snprintf(buffer, size, "%s", system->parameter[i]);
+    return buffer;
+}
+
+static void put_list(dal__generation *g, const char *declaration, naming *name)
+{
+    char buffer[160];
+    dal__put_template(g, declaration);
+    dal__text_put(&g->text, " = {\n");
+    for (int i = 0; name(g->run, i, buffer, sizeof buffer); i++) {
+        dal__text_put(&g->text, "    \"");
+        dal__text_put(&g->text, buffer);
+        dal__text_put(&g->text, "\",\n");
+    }
+    if (name != dal_run_name) dal__text_put(&g->text, "    0,\n");
+    dal__text_put(&g->text, "};\n");
+}
+
+static void put_text_function(dal__generation *g)
+{
+    dal__put_template(g, "\nconst char *PREFIX_text(int status)\n{\n    switch (status) {\n");
+#define X(code, words)                                                                             \
+    if (DAL_##code == DAL_OK || (DAL_##code >= DAL_SINGULAR && DAL_##code <= DAL_GAUGE))           \
+        dal__text_put(&g->text, "    case DAL_" #code ":\n        return \"" words "\";\n");
+    DAL_STATUS_LIST(X)
+#undef X
+    dal__text_put(&g->text, "    default:\n        return \"unknown status\";\n    }\n}\n");
+}
+
+static void put_defaults(dal__generation *g)
+{
+    const double *value = dal_run_parameters(g->run);
+    const int count = g->shape.system->parameters;
+    dal__put_template(g, "\nPREFIX_parameters PREFIX_defaults(void)\n{\n"
+                         "    PREFIX_parameters p;\n");
+    for (int i = 0; i < count; i++) {
+        dal__text_put(&g->text, "    p.");
+        put_member(g, i);
+        dal__text_put(&g->text, " = ");
+        dal__text_number(&g->text, value[i]);
+        dal__text_put(&g->text, ";\n");
+    }
+    if (count == 0) dal__text_put(&g->text, "    p.none = 0.0;\n");
+    dal__text_put(&g->text, "    return p;\n}\n");
+}
+
+void dal__put_names(dal__generation *g)
+{
+    put_list(g, "\nconst char *const PREFIX_component[PREFIX_DIMENSION]", dal_run_name);
+    put_list(g, "const char *const PREFIX_parameter[PREFIX_PARAMETERS + 1]", parameter_name);
+    put_list(g, "const char *const PREFIX_observable[PREFIX_OBSERVABLES + 1]",
+             dal_run_observable_name);
+    put_text_function(g);
+    put_defaults(g);
+}

@@ -1,0 +1,289 @@
+/* section.c - Poincare sections: where a run crosses g(q,v,t) = 0.
+ *
+ * Within a step from t, g is a function of the size s of a step of the same method from there,
+ *
+ *     g(s) = g(step(z, s), t + s),   0 <= s <= h,
+ *
+ * smooth, and meeting the values of g at both ends: its root is the crossing, without interpolation
+ * (Henon 1982, DOI 10.1016/0167-2789(82)90034-3, turns the equations round to the same end).  Roots
+ * by Chandrupatla's method (1997, DOI 10.1016/S0965-9978(96)00051-8): inverse quadratic
+ * interpolation where the three points at hand allow it, else bisection.
+ *
+ * A pair of crossings within a step has an extremum of g between them.  Where |g| at a step is not
+ * above its neighbours', the rate of g at the ends of the two steps there tells which holds the
+ * extremum, and its place is the root of that rate. */
+#include "analysis/measure.h"
+#include <float.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A minimum of |g| below this part of the greatest |g| touches 0; rounding of g and of the place
+ * stay far below it. */
+static const double touching = 1e-12;
+
+enum { POLL = 1000, ROUNDS = 200 };
+
+typedef struct mark {
+    double *memory; /* all the run carries */
+    double g;
+} mark;
+
+typedef struct search {
+    dal_run *run;
+    const dal_poincare *section;
+    dal_crossings *found;
+    dal_error *error;
+    dal_probe *probe;
+    double *values; /* [count] of the callback */
+    size_t carried;
+    mark before, last, now; /* the present state, and those two steps and one step ago */
+    double h, greatest;     /* |g| */
+    int side;               /* the sign of g where it was last not 0 */
+    int rate;               /* what is asked for: the rate of g, or g */
+    double value;           /* the answer */
+    dal_crossing crossing;
+} search;
+
+static int sign(double x) { return (x > 0.0) - (x < 0.0); }
+
+/* ---- values of g ---- */
+
+static dal_status evaluate(search *w, double *value)
+{
+    const double *z = dal_run_state(w->run);
+    const dal_poincare *p = w->section;
+    const int n = dal_run_system(w->run)->n;
+    const dal_point at = {dal_run_time(w->run), z, z + n};
+    const dal_status status =
+        w->rate ? dal_measure_rate(w->probe, p->callback, p->count, &at, w->values)
+                : dal_probe_call(w->probe, p->callback, at.t, at.q, at.v, NULL, w->values);
+    *value = w->values[p->index];
+    if (status == DAL_OK && isfinite(*value)) return DAL_OK;
+    return dal__error(w->error, status == DAL_OK ? DAL_NOT_FINITE : status, 0, 0,
+                      "the section has no value at t = %.17g: %g", at.t, *value);
+}
+
+static dal_status look(void *user, dal_run *run)
+{
+    search *w = user;
+    (void)run;
+    return evaluate(w, &w->value);
+}
+
+static dal_status go_to(search *w, const mark *place)
+{
+    return dal_run_load(w->run, place->memory, w->carried, w->error);
+}
+
+/* g, or its rate, a step of size s from where the step under examination began. */
+static dal_status value_at(search *w, double s, double *value)
+{
+    DAL_TRY(s > 0.0 ? dal_run_aside(w->run, s, look, w, w->error) : evaluate(w, &w->value));
+    *value = w->value;
+    return DAL_OK;
+}
+
+/* ---- roots ---- */
+
+typedef struct node {
+    double s, f;
+} node;
+
+/* Where between a and b to look next, as a part of the way from a; c is what was dropped last. */
+static double next_part(const node *a, const node *b, const node *c, double least)
+{
+    const double xi = (a->s - b->s) / (c->s - b->s), phi = (a->f - b->f) / (c->f - b->f);
+    double part = 0.5;
+    if (phi * phi < xi && (1.0 - phi) * (1.0 - phi) < 1.0 - xi)
+        part = a->f / (b->f - a->f) * c->f / (b->f - c->f) +
+               (c->s - a->s) / (b->s - a->s) * a->f / (c->f - a->f) * b->f / (c->f - b->f);
+    return fmin(fmax(part, least), 1.0 - least);
+}
+
+/* The root between a and b, at which the values have different signs. */
+static dal_status find_root(search *w, node a, node b, double *root)
+{
+    double part = 0.5;
+    for (int round = 0; round < ROUNDS; round++) {
+        const node best = fabs(a.f) < fabs(b.f) ? a : b;
+        const double width = fabs(b.s - a.s), resolution = DBL_EPSILON * fmax(a.s, b.s);
+        *root = best.s;
+        if (best.f == 0.0 || width <= 2.0 * resolution) return DAL_OK;
+        node x = {.s = a.s + part * (b.s - a.s)};
+        DAL_TRY(value_at(w, x.s, &x.f));
+        const int same = sign(x.f) == sign(a.f);
+        const node dropped = same ? a : b;
+        if (!same) b = a;
+        a = x;
+        part = next_part(&a, &b, &dropped, resolution / fmax(fabs(b.s - a.s), resolution));
+    }
+    return DAL_OK;
+}
+
+/* ---- crossings ---- */
+
+static dal_status show(void *user, dal_run *run)
+{
+    search *w = user;
+    w->crossing.t = dal_run_time(run);
+    return w->section->cross(w->section->user, run, &w->crossing);
+}
+
+/* The crossing between two sizes of the step under examination, away from the present side. */
+static dal_status cross(search *w, node a, node b)
+{
+    double s;
+    DAL_TRY(find_root(w, a, b, &s));
+    w->crossing.direction = w->side = -w->side;
+    const int wanted = w->section->direction;
+    *(w->side > 0 ? &w->found->up : &w->found->down) += 1;
+    if (wanted && wanted != w->side) return DAL_OK;
+    w->crossing.number++;
+    if (!w->section->cross) return DAL_OK;
+    return s > 0.0 ? dal_run_aside(w->run, s, show, w, w->error) : show(w, w->run);
+}
+
+/* g has changed its sign in the last step. */
+static dal_status cross_step(search *w)
+{
+    DAL_TRY(go_to(w, &w->last));
+    return cross(w, (node){0.0, w->last.g}, (node){w->h, w->now.g});
+}
+
+static dal_status rate_at(search *w, const mark *place, double *rate)
+{
+    DAL_TRY(go_to(w, place));
+    w->rate = 1;
+    const dal_status status = evaluate(w, rate);
+    w->rate = 0;
+    return status;
+}
+
+/* An extremum between two marks, the rates there being of different signs. */
+static dal_status examine(search *w, const mark *from, double rate, const mark *to, double rate_to)
+{
+    double s, g;
+    DAL_TRY(go_to(w, from));
+    w->rate = 1;
+    const dal_status status = find_root(w, (node){0.0, rate}, (node){w->h, rate_to}, &s);
+    w->rate = 0;
+    DAL_TRY(status);
+    DAL_TRY(value_at(w, s, &g));
+    if (sign(g) == -w->side && fabs(g) > touching * w->greatest) {
+        DAL_TRY(cross(w, (node){0.0, from->g}, (node){s, g}));
+        return cross(w, (node){s, g}, (node){w->h, to->g});
+    }
+    if (fabs(g) <= touching * w->greatest) w->found->touches++;
+    return DAL_OK;
+}
+
+/* |g| has a minimum about the last mark, which may hide a pair of crossings. */
+static dal_status examine_minimum(search *w)
+{
+    double first, middle, last;
+    DAL_TRY(rate_at(w, &w->before, &first));
+    DAL_TRY(rate_at(w, &w->last, &middle));
+    DAL_TRY(rate_at(w, &w->now, &last));
+    if (sign(first) != -w->side || sign(last) != w->side) return DAL_OK;
+    return sign(middle) == -w->side ? examine(w, &w->last, middle, &w->now, last)
+                                    : examine(w, &w->before, first, &w->last, middle);
+}
+
+static int is_minimum(const search *w, long long step)
+{
+    const double before = w->side * w->before.g, last = w->side * w->last.g;
+    return step > 1 && before >= last && last >= 0.0 && w->side * w->now.g >= last;
+}
+
+/* ---- the run ---- */
+
+static dal_status take_mark(search *w)
+{
+    size_t count;
+    memcpy(w->now.memory, dal_run_memory(w->run, &count), w->carried * sizeof(double));
+    DAL_TRY(evaluate(w, &w->now.g));
+    w->greatest = fmax(w->greatest, fabs(w->now.g));
+    return DAL_OK;
+}
+
+static dal_status take_step(search *w, long long step)
+{
+    const mark oldest = w->before;
+    w->before = w->last;
+    w->last = w->now;
+    w->now = oldest;
+    DAL_TRY(dal_run_step(w->run, w->error));
+    DAL_TRY(take_mark(w));
+    const int side = sign(w->now.g);
+    if (w->side == 0)
+        w->side = side;
+    else if (side == -w->side)
+        DAL_TRY(cross_step(w));
+    else if (is_minimum(w, step))
+        DAL_TRY(examine_minimum(w));
+    return go_to(w, &w->now);
+}
+
+static dal_status go(search *w, long long steps)
+{
+    const dal_poincare *p = w->section;
+    DAL_TRY(take_mark(w));
+    w->side = sign(w->now.g);
+    for (long long step = 1; step <= steps; step++) {
+        DAL_TRY(take_step(w, step));
+        if (p->poll && step % POLL == 0) DAL_TRY(p->poll(p->user, w->run));
+    }
+    return DAL_OK;
+}
+
+/* ---- making one ---- */
+
+static dal_status probe_of(search *w)
+{
+    const dal_system *s = dal_run_system(w->run);
+    const double *value = dal_run_parameters(w->run);
+    dal_setting *settings = calloc((size_t)s->parameters + 1, sizeof *settings);
+    if (settings == NULL) return dal__error(w->error, DAL_MEMORY, 0, 0, "section: out of memory");
+    for (int i = 0; i < s->parameters; i++) settings[i] = (dal_setting){s->parameter[i], value[i]};
+    const dal_status status = dal_probe_create(&w->probe, s, settings, s->parameters, w->error);
+    free(settings);
+    return status;
+}
+
+static dal_status check(const dal_run *run, double T, const dal_poincare *p, dal_error *error)
+{
+    const double h = dal_run_step_size(run);
+    const double left = T - dal_run_time(run), steps = nearbyint(left / h);
+    if (p->callback == NULL || p->index < 0 || p->index >= p->count)
+        return dal__error(error, DAL_ARGUMENT, 0, 0, "the section is value %d of %d", p->index + 1,
+                          p->callback == NULL ? 0 : p->count);
+    if (!(steps >= 1.0 && steps < 0x1p53) || !(fabs(steps * h - left) <= 1e-9 * fabs(T)))
+        return dal__error(error, DAL_ARGUMENT, 0, 0,
+                          "time %g does not hold a whole number of steps %g", T, h);
+    return DAL_OK;
+}
+
+dal_status dal_run_crossings(dal_run *run, double T, const dal_poincare *section,
+                             dal_crossings *found, dal_error *error)
+{
+    DAL_REQUIRE(run, error);
+    DAL_REQUIRE(section, error);
+    DAL_REQUIRE(found, error);
+    const double h = dal_run_step_size(run);
+    search w = {.run = run, .section = section, .found = found, .error = error, .h = h};
+    *found = (dal_crossings){0};
+    DAL_TRY(check(run, T, section, error));
+    dal_run_memory(run, &w.carried);
+    double *block = dal__numbers(1, 3 * w.carried + (size_t)section->count);
+    if (block == NULL) return dal__error(error, DAL_MEMORY, 0, 0, "section: out of memory");
+    w.before.memory = block;
+    w.last.memory = block + w.carried;
+    w.now.memory = block + 2 * w.carried;
+    w.values = block + 3 * w.carried;
+    dal_status status = probe_of(&w);
+    if (status == DAL_OK) status = go(&w, (long long)nearbyint((T - dal_run_time(run)) / h));
+    dal_probe_free(w.probe);
+    free(block);
+    return status;
+}

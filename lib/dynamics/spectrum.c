@@ -1,0 +1,490 @@
+/* spectrum.c - Lyapunov exponents of the step map, and the volume it keeps.
+ *
+ *     z' = step(z),   J = dz'/dz,   J V = V' R   (V, V' orthonormal, R upper triangular)
+ *     exponent i = lim (1/T) sum log R_ii        (Benettin, Galgani, Giorgilli, Strelcyn 1980,
+ *                                                 DOI 10.1007/BF02128236)
+ *     log|det J| = sum log R_ii                  when V has all directions
+ *
+ * J V: a Runge-Kutta or polarised method applied to the tangent system (q, dq, v, dv) moves dq, dv
+ * by its own derivative; any other map is differentiated numerically, along each vector by eight
+ * steps or, where it is less smooth than that, by more.  R by modified Gram-Schmidt, every vector
+ * twice over, so that V' is orthonormal to rounding (Giraud, Langou, Rozloznik 2005,
+ * DOI 10.1016/j.camwa.2005.08.009). */
+#include "analysis/measure.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* J = 1 + O(h), so that R_ii is near 1; a direction that the map loses leaves the noise of
+ * differences. */
+static const double lost_direction = 1e-6;
+
+/* What is followed beside the exponents, see growth. */
+enum { FOLLOWED = 4 };
+
+struct dal_spectrum {
+    dal_run *run;   /* the trajectory */
+    dal_run *aside; /* steps tangent vectors, or what differences need, from where the run is */
+    dal_probe *probe;
+    int n, nw, dimension, count, rank, exact;
+    int order;                  /* of the method */
+    int forced;                 /* functions that the method forces: D, and E behind; 0, m or m+1 */
+    int turns_D;                /* the method turns D into -D: off D = 0 it is not near the flow */
+    double h, divergence, rate; /* at the present state; rate: see find_divergence */
+    double *vectors;            /* [dimension*dimension] the first count of them are in use */
+    double *growth;  /* [dimension + 4] log R_ii / h of a step, their sum, div F, what the
+                        error of the step may be, and by how much div F has changed */
+    double *scratch; /* [5*dimension], or the jacobian's [nw*n + nw*nw] */
+    double *normals; /* [(m + 1)*dimension] of what is forced */
+    double t, *z;    /* [dimension] where the step began */
+    double *memory, *displaced; /* [memory_count] all of the run there, and beside it */
+    size_t memory_count;
+    int has_remainder;          /* memory is y, r, ..: not in quad precision */
+    double from, log_from;      /* where the means began: t, and log of the size of the normals */
+    const double *direction;    /* the vector along which is differentiated */
+    dal_statistics *statistics; /* [count + 4] of growth */
+    dal_error *error;
+};
+
+/* ---- J times a vector ---- */
+
+/* (dq, dv) by a step of the tangent system from (q, dq, v, dv). */
+static dal_status move_exactly(dal_spectrum *s, double *vector)
+{
+    const size_t n = (size_t)s->n, bytes = n * sizeof(double);
+    double *x = s->scratch;
+    memcpy(x, s->z, bytes);
+    memcpy(x + n, vector, bytes);
+    memcpy(x + 2 * n, s->z + n, bytes);
+    memcpy(x + 3 * n, vector + n, bytes);
+    DAL_TRY(dal_run_set_state(s->aside, s->t, x, s->error));
+    DAL_TRY(dal_run_step(s->aside, s->error));
+    memcpy(vector, dal_run_state(s->aside) + n, bytes);
+    memcpy(vector + n, dal_run_state(s->aside) + 3 * n, bytes);
+    return DAL_OK;
+}
+
+/* The run aside at z + size * direction: what y has no room for goes to its remainder r, so that a
+ * coordinate may be as far away as it likes.  In quad precision the state is rounded. */
+static dal_status displace(dal_spectrum *s, double size)
+{
+    const int d = s->dimension;
+    double *z = s->displaced;
+    memcpy(z, s->memory, s->memory_count * sizeof(double));
+    for (int i = 0; i < d; i++) {
+        const double change = size * s->direction[i];
+        const double y = s->z[i] + change, part = y - s->z[i];
+        z[i] = y;
+        if (s->has_remainder) z[d + i] += (s->z[i] - (y - part)) + (change - part);
+    }
+    if (s->has_remainder) return dal_run_load(s->aside, z, s->memory_count, s->error);
+    return dal_run_set_state(s->aside, s->t, z, s->error);
+}
+
+/* How far that is then from z. */
+static dal_status step_along(void *user, double size, double *out)
+{
+    dal_spectrum *s = user;
+    const int d = s->dimension;
+    size_t count;
+    DAL_TRY(displace(s, size));
+    DAL_TRY(dal_run_step(s->aside, s->error));
+    const double *y = dal_run_state(s->aside), *r = dal_run_memory(s->aside, &count) + d;
+    for (int i = 0; i < d; i++) out[i] = y[i] - s->z[i];
+    for (int i = 0; i < d && s->has_remainder; i++) out[i] += r[i] - s->memory[d + i];
+    return DAL_OK;
+}
+
+/* By how much the vector exceeds what its components are measured by. */
+static double size_of(const dal_spectrum *s, const double *vector)
+{
+    double most = 0.0;
+    for (int i = 0; i < s->dimension; i++) {
+        const double rate = i < s->n ? s->h * s->z[s->n + i] : s->z[i];
+        most = fmax(most, fabs(vector[i]) / fmax(1.0, fabs(rate)));
+    }
+    return most;
+}
+
+static dal_status move_by_differences(dal_spectrum *s, double *vector)
+{
+    const size_t count = (size_t)s->dimension;
+    double *value = s->scratch + count, *out = value + 3 * count;
+    const double size = DAL__INCREMENT / size_of(s, vector);
+    s->direction = vector;
+    DAL_TRY(dal__differentiate(step_along, s, size, s->dimension, value, out));
+    memcpy(vector, out, count * sizeof(double));
+    return DAL_OK;
+}
+
+/* ---- Gram-Schmidt ---- */
+
+static dal_status orthonormalise(dal_spectrum *s, int count)
+{
+    for (int j = 0; j < count; j++) {
+        const int d = s->dimension;
+        s->growth[j] = dal__straighten(s->vectors, j, d);
+        if (s->growth[j] > 0.0 && isfinite(s->growth[j]))
+            s->growth[j] *= dal__straighten(s->vectors, j, d);
+        if (!(s->growth[j] > 0.0) || !isfinite(s->growth[j]))
+            return dal__error(s->error, DAL_SINGULAR, 0, 0,
+                              "t = %g: the derivative of the step takes a vector to %g", s->t,
+                              s->growth[j]);
+    }
+    return DAL_OK;
+}
+
+static dal_status move_vectors(dal_spectrum *s, int count)
+{
+    for (int j = 0; j < count; j++) {
+        double *vector = s->vectors + j * s->dimension;
+        DAL_TRY(s->exact ? move_exactly(s, vector) : move_by_differences(s, vector));
+    }
+    return DAL_OK;
+}
+
+/* Orthonormal vectors in directions of no particular kind. */
+static dal_status draw_vectors(dal_spectrum *s)
+{
+    dal__random random = {1};
+    for (int i = 0; i < s->dimension * s->dimension; i++) s->vectors[i] = dal__uniform(&random);
+    return orthonormalise(s, s->dimension);
+}
+
+/* ---- a step ---- */
+
+static double row_norm(const double *matrix, int rows, int columns)
+{
+    double most = 0.0;
+    for (int i = 0; i < rows; i++) {
+        double sum = 0.0;
+        for (int j = 0; j < columns; j++) sum += fabs(matrix[i * columns + j]);
+        most = fmax(most, sum);
+    }
+    return most;
+}
+
+/* The trace of F_(v,g), and a rate at which motions near this one come and go. */
+static dal_status find_divergence(dal_spectrum *s)
+{
+    const dal_system *system = dal_probe_system(s->probe);
+    const double *z = dal_run_state(s->run), *by_v = s->scratch + s->nw * s->n;
+    s->divergence = s->rate = NAN;
+    if (system->call.jacobian == NULL) return DAL_OK;
+    const dal_status status = dal_probe_call(s->probe, system->call.jacobian, dal_run_time(s->run),
+                                             z, z + s->n, NULL, s->scratch);
+    if (status != DAL_OK)
+        return dal__error(s->error, status, 0, 0, "t = %g: no jacobian: %s", dal_run_time(s->run),
+                          dal_status_text(status));
+    s->divergence = 0.0;
+    for (int i = 0; i < s->nw; i++) s->divergence += by_v[i * s->nw + i];
+    s->rate = fmax(sqrt(row_norm(s->scratch, s->nw, s->n)), row_norm(by_v, s->nw, s->nw));
+    return DAL_OK;
+}
+
+/* Where a run is. */
+static void hold_state(dal_spectrum *s, const dal_run *run)
+{
+    const double *memory = dal_run_memory(run, &s->memory_count);
+    s->t = dal_run_time(run);
+    memcpy(s->z, dal_run_state(run), (size_t)s->dimension * sizeof(double));
+    memcpy(s->memory, memory, s->memory_count * sizeof(double));
+}
+
+/* By how much the sum over a step may be wrong: a power series in h r without its terms up to the
+ * order; nothing is known where it does not converge. */
+static double step_error(const dal_spectrum *s)
+{
+    const double x = s->h * s->rate;
+    return x < 1.0 ? s->dimension * s->rate * pow(x, s->order) / (1.0 - x) : INFINITY;
+}
+
+static dal_status take_step(dal_spectrum *s)
+{
+    const double before = s->divergence;
+    double *sum = s->growth + s->count;
+    hold_state(s, s->run);
+    DAL_TRY(move_vectors(s, s->count));
+    DAL_TRY(orthonormalise(s, s->count));
+    DAL_TRY(dal_run_step(s->run, s->error));
+    DAL_TRY(find_divergence(s));
+    *sum = 0.0;
+    for (int j = 0; j < s->count; j++) *sum += s->growth[j] = log(s->growth[j]) / s->h;
+    sum[1] = 0.5 * (before + s->divergence);
+    sum[2] = step_error(s);
+    sum[3] = s->divergence - before;
+    dal_statistics_add(s->statistics, s->count + FOLLOWED, dal_run_time(s->run), s->growth);
+    return DAL_OK;
+}
+
+dal_status dal_spectrum_advance(dal_spectrum *s, long long steps, dal_error *error)
+{
+    DAL_REQUIRE(s, error);
+    DAL_REQUIRE_COUNT(steps, error);
+    dal_status status = DAL_OK;
+    s->error = error;
+    for (; steps > 0 && status == DAL_OK; steps--) status = take_step(s);
+    s->error = NULL;
+    return status;
+}
+
+/* ---- what the method forces ---- */
+
+/* normals: the gradients of what is forced, orthonormal; returns the log of the size of the
+ * parallelepiped that they spanned, NaN where they cannot be had. */
+static double find_normals(dal_spectrum *s)
+{
+    const dal_system *system = dal_probe_system(s->probe);
+    const double *z = dal_run_state(s->run);
+    const dal_point at = {dal_run_time(s->run), z, z + s->n};
+    double size = 0.0;
+    dal_status status = DAL_OK;
+    if (s->forced > 0)
+        status = dal__gradients(s->probe, system->constraints, system->m, &at, s->normals);
+    if (status == DAL_OK && s->forced > system->m)
+        status =
+            dal__gradients(s->probe, system->energy, 1, &at, s->normals + system->m * s->dimension);
+    for (int j = 0; j < s->forced && status == DAL_OK; j++)
+        size += log(dal__straighten(s->normals, j, s->dimension));
+    return status == DAL_OK ? size : NAN;
+}
+
+void dal_spectrum_forget(dal_spectrum *s)
+{
+    if (!s) return;
+    dal_statistics_start(s->statistics, s->count + FOLLOWED);
+    s->from = dal_run_time(s->run);
+    s->log_from = find_normals(s);
+}
+
+/* The vectors, made tangent to what is forced where the run is. */
+static dal_status make_tangent(dal_spectrum *s)
+{
+    const int d = s->dimension;
+    for (int j = 0; j < s->rank && isfinite(s->log_from); j++) {
+        double *x = s->vectors + j * d;
+        for (int k = 0; k < s->forced; k++) {
+            const double *normal = s->normals + k * d;
+            double part = 0.0;
+            for (int i = 0; i < d; i++) part += normal[i] * x[i];
+            for (int i = 0; i < d; i++) x[i] -= part * normal[i];
+        }
+    }
+    return orthonormalise(s, s->rank);
+}
+
+dal_status dal_spectrum_balance(dal_spectrum *s, dal_balance *balance, dal_error *error)
+{
+    DAL_REQUIRE(s, error);
+    DAL_REQUIRE(balance, error);
+    dal_average sum, divergence, step;
+    const double T = dal_run_time(s->run) - s->from;
+    dal_statistics_mean(&s->statistics[s->count], &sum);
+    dal_statistics_mean(&s->statistics[s->count + 1], &divergence);
+    dal_statistics_mean(&s->statistics[s->count + 2], &step);
+    if (s->count < s->rank)
+        return dal__error(error, DAL_UNSUPPORTED, 0, 0, "%d of %d exponents have no sum to compare",
+                          s->count, s->rank);
+    if (s->rank + s->forced < s->dimension)
+        return dal__error(error, DAL_UNSUPPORTED, 0, 0,
+                          "the step map loses %d directions: more than constraints explain",
+                          s->dimension - s->rank);
+    if (s->turns_D)
+        return dal__error(error, DAL_UNSUPPORTED, 0, 0,
+                          "the method turns D into -D, the motion does not");
+    if (isnan(divergence.mean))
+        return dal__error(error, DAL_UNSUPPORTED, 0, 0,
+                          "there is no divergence: no step, or no jacobian");
+    if (isnan(step.mean))
+        return dal__error(error, DAL_UNSUPPORTED, 0, 0,
+                          "the step is too long: h max(|F_q|^(1/2), |F_v|) reaches 1");
+    const double noise = s->exact ? 1e-13 : 1e-7;
+    const double jump = dal_statistics_max_abs(&s->statistics[s->count + 3]);
+    balance->surface = (find_normals(s) - s->log_from) / T;
+    if (isnan(balance->surface))
+        return dal__error(error, DAL_UNSUPPORTED, 0, 0, "the gradient of D or E is not finite");
+    balance->difference = sum.mean - divergence.mean - balance->surface;
+    balance->margin = step.mean + s->h * jump / T + noise * s->count / s->h;
+    balance->holds = fabs(balance->difference) <= balance->margin;
+    return DAL_OK;
+}
+
+/* ---- making one ---- */
+
+/* A step that is made of values of F alone moves a tangent vector by its own derivative. */
+static int is_exact(const dal_run_spec *spec, const dal_system *tangent)
+{
+    const unsigned of_field = DAL_NEEDS_FIELD | DAL_NEEDS_SYMMETRIC | DAL_NEEDS_ORDER_2;
+    return tangent != NULL && !spec->options.extend_energy &&
+           !(dal_method_needs(&spec->method) & ~of_field);
+}
+
+static dal_status check(const dal_run_spec *spec, const dal_system *tangent, dal_error *error)
+{
+    char name[128];
+    dal_method_name(&spec->method, name, sizeof name);
+    if (tangent && tangent->n != 2 * spec->system->n)
+        return dal__error(error, DAL_ARGUMENT, 0, 0,
+                          "a tangent system of %d coordinates for a system of %d", tangent->n,
+                          spec->system->n);
+    if (dal_method_claims(&spec->method) & DAL_CARRIES_MULTIPLIER)
+        return dal__error(error, DAL_UNSUPPORTED, 0, 0,
+                          "%s carries a multiplier along: its step is no map of (q,v) alone", name);
+    if (spec->options.tolerance > 0.0)
+        return dal__error(error, DAL_UNSUPPORTED, 0, 0,
+                          "%s with a tolerance divides its step: it is no smooth map", name);
+    return DAL_OK;
+}
+
+static dal_status open_runs(dal_spectrum *s, const dal_run_spec *given, const dal_system *tangent,
+                            dal_error *error)
+{
+    dal_run_spec spec = *given;
+    spec.options.space = DAL_PHYSICAL;
+    DAL_TRY(dal_run_create(&s->run, &spec, error));
+    const dal_system *system = dal_run_system(s->run);
+    s->exact = is_exact(&spec, tangent);
+    if (s->exact) spec.system = tangent, spec.start_count = 0;
+    DAL_TRY(dal_run_create(&s->aside, &spec, error));
+    s->n = system->n;
+    s->nw = system->n + system->multipliers;
+    s->dimension = s->n + s->nw;
+    s->h = spec.options.step;
+    s->order = dal_method_order(&spec.method);
+    s->has_remainder = spec.options.precision == DAL_DOUBLE;
+    return dal_probe_create(&s->probe, system, spec.parameters, spec.parameter_count, error);
+}
+
+static dal_status allocate(dal_spectrum *s, dal_error *error)
+{
+    const size_t d = (size_t)s->dimension, jacobian = (size_t)s->nw * d;
+    const size_t scratch = jacobian > 5 * d ? jacobian : 5 * d;
+    const size_t normals = ((size_t)dal_probe_system(s->probe)->m + 1) * d;
+    dal_run_memory(s->run, &s->memory_count);
+    const size_t memory = s->memory_count > d ? s->memory_count : d;
+    double *block = dal__numbers(1, d * d + d + d + FOLLOWED + scratch + normals + 2 * memory);
+    s->vectors = block;
+    s->statistics = calloc(d + FOLLOWED, sizeof *s->statistics);
+    if (block == NULL || s->statistics == NULL)
+        return dal__error(error, DAL_MEMORY, 0, 0, "spectrum: out of memory");
+    s->z = block + d * d;
+    s->growth = s->z + d;
+    s->scratch = s->growth + d + FOLLOWED;
+    s->normals = s->scratch + scratch;
+    s->memory = s->normals + normals;
+    s->displaced = s->memory + memory;
+    return DAL_OK;
+}
+
+/* A method that forces E knows from its first step on which. */
+static dal_status hold_usual_state(dal_spectrum *s, unsigned claims)
+{
+    hold_state(s, s->run);
+    if (!(claims & DAL_KEEPS_ENERGY)) return DAL_OK;
+    DAL_TRY(dal_run_load(s->aside, s->memory, s->memory_count, s->error));
+    DAL_TRY(dal_run_step(s->aside, s->error));
+    hold_state(s, s->aside);
+    return DAL_OK;
+}
+
+/* How many directions a step leaves: behind them R_ii is 0, or noise.  The vectors stay as that
+ * step left them. */
+static dal_status find_rank(dal_spectrum *s, unsigned claims)
+{
+    dal_error ignored;
+    dal_error *error = s->error;
+    DAL_TRY(hold_usual_state(s, claims));
+    DAL_TRY(draw_vectors(s));
+    DAL_TRY(move_vectors(s, s->dimension));
+    s->error = &ignored;
+    orthonormalise(s, s->dimension);
+    s->error = error;
+    while (s->rank < s->dimension && s->growth[s->rank] > lost_direction) s->rank++;
+    return DAL_OK;
+}
+
+/* Which functions have lost their directions: D, and E behind it. */
+static void find_forced(dal_spectrum *s, unsigned claims)
+{
+    const int lost = s->dimension - s->rank, m = dal_probe_system(s->probe)->m;
+    const int most = m + ((claims & DAL_KEEPS_ENERGY) != 0);
+    s->forced = lost == m || lost == most ? lost : 0;
+    s->turns_D = m > 0 && lost == 0 && claims & DAL_KEEPS_D_MIDPOINT;
+}
+
+static dal_status make(dal_spectrum *s, const dal_run_spec *spec, const dal_system *tangent,
+                       int count, dal_error *error)
+{
+    const unsigned claims = dal_method_claims(&spec->method);
+    DAL_TRY(open_runs(s, spec, tangent, error));
+    DAL_TRY(allocate(s, error));
+    s->error = error;
+    DAL_TRY(find_rank(s, claims));
+    find_forced(s, claims);
+    DAL_TRY(find_divergence(s));
+    if (count < 0 || count > s->rank)
+        return dal__error(error, DAL_ARGUMENT, 0, 0,
+                          "%d exponents are asked for; the step map has %d directions", count,
+                          s->rank);
+    s->count = count > 0 ? count : s->rank;
+    dal_spectrum_forget(s);
+    const dal_status status = make_tangent(s);
+    s->error = NULL;
+    return status;
+}
+
+dal_status dal_spectrum_create(dal_spectrum **spectrum, const dal_run_spec *spec,
+                               const dal_system *tangent, int count, dal_error *error)
+{
+    DAL_REQUIRE(spectrum, error);
+    *spectrum = NULL;
+    DAL_TRY(dal__check_spec(spec, error));
+    DAL_TRY(check(spec, tangent, error));
+    dal_spectrum *s = calloc(1, sizeof *s);
+    if (s == NULL) return dal__error(error, DAL_MEMORY, 0, 0, "spectrum: out of memory");
+    const dal_status status = make(s, spec, tangent, count, error);
+    if (status == DAL_OK)
+        *spectrum = s;
+    else
+        dal_spectrum_free(s);
+    return status;
+}
+
+void dal_spectrum_free(dal_spectrum *s)
+{
+    if (s == NULL) return;
+    dal_run_free(s->run);
+    dal_run_free(s->aside);
+    dal_probe_free(s->probe);
+    free(s->vectors);
+    free(s->statistics);
+    free(s);
+}
+
+/* ---- what is asked of it ---- */
+
+const dal_run *dal_spectrum_run(const dal_spectrum *s) { return s ? s->run : NULL; }
+int dal_spectrum_count(const dal_spectrum *s) { return s ? s->count : 0; }
+int dal_spectrum_is_exact(const dal_spectrum *s) { return s && s->exact; }
+int dal_spectrum_is_whole(const dal_spectrum *s) { return s && s->count == s->rank; }
+
+/* The mean of number i of growth; NaN where there is no such number. */
+static void mean_of(const dal_spectrum *s, int i, dal_average *average)
+{
+    dal_statistics_mean(s && i >= 0 ? &s->statistics[i] : NULL, average);
+}
+
+void dal_spectrum_exponent(const dal_spectrum *s, int i, dal_average *average)
+{
+    mean_of(s, s && i < s->count ? i : -1, average);
+}
+
+void dal_spectrum_sum(const dal_spectrum *s, dal_average *average)
+{
+    mean_of(s, s ? s->count : -1, average);
+}
+
+void dal_spectrum_divergence(const dal_spectrum *s, dal_average *average)
+{
+    mean_of(s, s ? s->count + 1 : -1, average);
+}

@@ -1,0 +1,113 @@
+/* emit.c - programs as straight-line C over num: the arithmetic of the tape, written out.
+ *
+ * Every result is a constant of its own, x1, x2, ...; parameters and what is made of them alone
+ * are DAL_WORK(place), with their places in work. */
+#include "core/text.h"
+#include "expr/arithmetic.h"
+#include "expr/graph.h"
+#include "expr/tape.h"
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct writer {
+    const dal__tapes *tapes;
+    const dal__input_name *input;
+    uint32_t *result; /* [workspace] the number of the result that a place holds */
+    uint32_t results;
+    dal__text *text;
+} writer;
+
+static const char *const expressions[] = {
+#define X(code, expression) [DAL__##code] = #expression,
+    DAL__UNARY_LIST(X) DAL__BINARY_LIST(X) DAL__FUSED_LIST(X)
+#undef X
+};
+
+static bool is_number(const dal__tapes *tapes, uint32_t place)
+{
+    return place >= (uint32_t)tapes->parameters &&
+           place < (uint32_t)(tapes->parameters + tapes->numbers);
+}
+
+/* bare: a number may stay a double. */
+static void put_operand(const writer *w, uint32_t place, bool bare)
+{
+    const dal__tapes *tapes = w->tapes;
+    if (is_number(tapes, place)) {
+        if (!bare) dal__text_put(w->text, "dal_num(");
+        dal__text_number(w->text, tapes->number[place - (uint32_t)tapes->parameters]);
+        if (!bare) dal__text_put(w->text, ")");
+    } else if (place < tapes->first_input) {
+        dal__text_print(w->text, "DAL_WORK(%u)", place);
+    } else if (place < tapes->temporaries) {
+        dal__text_put(w->text, w->input[place - tapes->first_input].text);
+    } else {
+        dal__text_print(w->text, "x%u", w->result[place]);
+    }
+}
+
+/* Operators take a double beside a num; functions, and two doubles, need a num. */
+static bool may_be_bare(const writer *w, const dal__instruction *i)
+{
+    const bool numbers = is_number(w->tapes, i->a) && is_number(w->tapes, i->b);
+    return !numbers && !strstr(expressions[i->op], "dal_") && i->op != DAL__NEG;
+}
+
+static bool is_letter(char c) { return (c >= 'a' && c <= 'z') || c == '_'; }
+
+/* The expression of an operation with its operands in the places of the lone letters a, b, c. */
+static void put_expression(const writer *w, const dal__instruction *i)
+{
+    const bool bare = may_be_bare(w, i);
+    const char *at = expressions[i->op];
+    for (char before = ' '; *at; before = *at++) {
+        const bool alone = !is_letter(before) && !is_letter(at[1]);
+        if (alone && *at >= 'a' && *at <= 'c')
+            put_operand(w, *at == 'a' ? i->a : *at == 'b' ? i->b : i->c, bare);
+        else
+            dal__text_put(w->text, *at == '*' && at[1] != ' ' ? "* " : (char[]){*at, '\0'});
+    }
+}
+
+static void put_instruction(writer *w, const dal__instruction *i)
+{
+    if (i->op == DAL__SINCOS) {
+        const uint32_t sine = ++w->results, cosine = ++w->results;
+        dal__text_print(w->text, "    num x%u, x%u;\n    dal_sincos(", sine, cosine);
+        put_operand(w, i->a, false);
+        dal__text_print(w->text, ", &x%u, &x%u);\n", sine, cosine);
+        w->result[i->d] = sine;
+        w->result[i->b] = cosine;
+        return;
+    }
+    dal__text_print(w->text, "    const num x%u = ", w->results + 1);
+    put_expression(w, i);
+    dal__text_put(w->text, ";\n");
+    w->result[i->d] = ++w->results;
+}
+
+void dal__tape_write(const dal__tapes *tapes, int program, const dal__input_name *input,
+                     dal__text *text)
+{
+    const dal__tape *tape = &tapes->tape[program];
+    writer w = {tapes, input, calloc(tapes->workspace + 1, sizeof *w.result), 0, text};
+    text->starved |= !w.result;
+    if (!w.result) return;
+    for (int i = 0; i < tape->length; i++) put_instruction(&w, &tape->code[i]);
+    for (int k = 0; k < tape->outputs; k++) {
+        dal__text_print(text, "    out[%d] = ", k);
+        put_operand(&w, tape->place[k], false);
+        dal__text_put(text, ";\n");
+    }
+    free(w.result);
+}
+
+void dal__tapes_write_hoisted(const dal__tapes *tapes, dal__text *text)
+{
+    const writer w = {.tapes = tapes, .text = text};
+    for (int i = 0; i < tapes->hoisted.length; i++) {
+        dal__text_print(text, "    DAL_WORK(%u) = ", tapes->hoisted.code[i].d);
+        put_expression(&w, &tapes->hoisted.code[i]);
+        dal__text_put(text, ";\n");
+    }
+}

@@ -1,0 +1,28 @@
+/* lexer.h - the words of a formula, for lib/expr alone. */
+#ifndef DAL_FORMULA_LEXER_H
+#define DAL_FORMULA_LEXER_H
+
+#include "expr/formula.h"
+
+typedef struct dal__token {
+    char kind; /* a character of + - * / ^ ( ) , or one of DAL__TOKEN_* */
+    bool prime;
+    int line, column;
+    const char *text; /* in the formula */
+    size_t length;    /* without the prime */
+    double value;     /* of a number */
+} dal__token;
+
+enum { DAL__TOKEN_END = 0, DAL__TOKEN_NUMBER = '0', DAL__TOKEN_NAME = 'a' };
+
+typedef struct dal__lexer {
+    const char *at, *end;
+    int line;
+    const char *line_start;
+} dal__lexer;
+
+dal__lexer dal__lexer_start(const char *text, size_t length);
+/* The next token.  Errors: DAL_SYNTAX. */
+dal_status dal__lexer_next(dal__lexer *lexer, dal__token *token, dal_error *error);
+
+#endif

@@ -1,0 +1,372 @@
+/* parser.c - formulas to nodes, by binding powers (V. R. Pratt, Top down operator precedence,
+ * 1973).
+ *
+ *     + -  1      * /  2      unary -  3      ^  4, from the right
+ *
+ * so that -x^2 = -(x^2), 2^-3 = 1/8 and a/b/c = (a/b)/c.  What waits for its right operand lies on
+ * a stack of our own, so a formula may be nested as deep as memory allows. */
+#include "core/error.h"
+#include "expr/lexer.h"
+#include <limits.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Something that waits for the value right of it; kind: + - * / ^, '~' unary minus, '(' a bracket,
+ * 'f' the arguments of a function, 0 the formula itself. */
+typedef struct frame {
+    char kind;
+    dal__op function;
+    int arguments; /* so far */
+    dal__node left;
+    int line, column;
+} frame;
+
+typedef struct parser {
+    dal__graph *graph;
+    dal__lexer lexer;
+    dal__token token;
+    dal__resolve *resolve;
+    void *user;
+    dal_error *error;
+    frame *stack;
+    size_t depth, capacity;
+} parser;
+
+static const struct function {
+    const char *name;
+    int arity;
+} functions[] = {
+#define X(code, arity, name) {name, arity},
+    DAL__OP_LIST(X)
+#undef X
+};
+
+/* The operation a name calls, or 0. */
+static dal__op function_named(const char *name, size_t length)
+{
+    for (int op = 0; op < DAL__OP_COUNT; op++) {
+        const char *known = functions[op].name;
+        if (known && strlen(known) == length && memcmp(known, name, length) == 0) {
+            return (dal__op)op;
+        }
+    }
+    return (dal__op)0;
+}
+
+bool dal__is_function(const char *name, size_t length) { return function_named(name, length) != 0; }
+
+static int binding(char kind)
+{
+    switch (kind) {
+    case '+':
+    case '-':
+        return 1;
+    case '*':
+    case '/':
+        return 2;
+    case '~':
+        return 3;
+    case '^':
+        return 4;
+    default:
+        return 0;
+    }
+}
+
+/* ---- messages ---- */
+
+static int shown(const dal__token *token)
+{
+    size_t length = token->length + token->prime;
+    return length < 60 ? (int)length : 60;
+}
+
+static dal_status graph_fault(const parser *p)
+{
+    dal_status status = dal__graph_status(p->graph);
+    return dal__error(p->error, status, p->token.line, p->token.column,
+                      status == DAL_MEMORY ? "out of memory" : "the formula is too large");
+}
+
+static dal_status value_missing(const parser *p)
+{
+    const dal__token *t = &p->token;
+    if (t->kind == DAL__TOKEN_END) {
+        return dal__error(p->error, DAL_SYNTAX, t->line, t->column,
+                          "a value is missing at the end of the formula");
+    }
+    return dal__error(p->error, DAL_SYNTAX, t->line, t->column, "a value is missing before '%c'",
+                      t->kind);
+}
+
+/* previous: the token before the present one. */
+static dal_status operator_missing(const parser *p, const dal__token *previous)
+{
+    const dal__token *t = &p->token;
+    if (previous->kind == DAL__TOKEN_NUMBER && t->kind != DAL__TOKEN_NUMBER) {
+        return dal__error(p->error, DAL_SYNTAX, t->line, t->column,
+                          "an operator is missing: write %.*s*%.*s", shown(previous),
+                          previous->text, shown(t), t->text);
+    }
+    return dal__error(p->error, DAL_SYNTAX, t->line, t->column,
+                      "an operator is missing before '%.*s'", shown(t), t->text);
+}
+
+static dal_status wrong_arguments(const parser *p, const frame *f, int given)
+{
+    const struct function *called = &functions[f->function];
+    return dal__error(p->error, DAL_SYNTAX, f->line, f->column, "%s takes %d argument%s, not %d",
+                      called->name, called->arity, called->arity == 1 ? "" : "s", given);
+}
+
+/* A name that is no function stands before a bracket. */
+static dal_status unknown_function(const parser *p)
+{
+    const dal__token *t = &p->token;
+    const char *names[DAL__OP_COUNT];
+    char name[64];
+    dal_error ignored = {.status = DAL_OK};
+    if (p->resolve(p->user, t->text, t->length, t->prime, &ignored)) {
+        return dal__error(p->error, DAL_SYNTAX, t->line, t->column,
+                          "%.*s is not a function: write %.*s*(...) for a product", shown(t),
+                          t->text, shown(t), t->text);
+    }
+    for (int op = 0; op < DAL__OP_COUNT; op++) names[op] = functions[op].name;
+    snprintf(name, sizeof name, "%.*s", shown(t), t->text);
+    return dal__unknown(p->error, t->line, t->column, "function", name, names, DAL__OP_COUNT);
+}
+
+/* ---- the stack ---- */
+
+static dal_status push(parser *p, char kind, dal__node left)
+{
+    if (p->depth == p->capacity) {
+        size_t capacity = p->capacity ? 2 * p->capacity : 32;
+        frame *stack = realloc(p->stack, capacity * sizeof *stack);
+        if (!stack) return dal__error(p->error, DAL_MEMORY, 0, 0, "out of memory");
+        p->stack = stack;
+        p->capacity = capacity;
+    }
+    p->stack[p->depth++] =
+        (frame){.kind = kind, .left = left, .line = p->token.line, .column = p->token.column};
+    return DAL_OK;
+}
+
+static dal_status next(parser *p) { return dal__lexer_next(&p->lexer, &p->token, p->error); }
+
+/* Whether a op b divides by a literal zero. */
+static bool divides_by_zero(const dal__graph *graph, const frame *f, dal__node right)
+{
+    dal__view r = dal__look(graph, right);
+    if (f->kind == '/') return dal__is_number(graph, right, 0.0);
+    return f->kind == '^' && dal__is_number(graph, f->left, 0.0) && r.op == DAL__NUMBER &&
+           r.value < 0.0;
+}
+
+/* Applies the operator on top of the stack to what is left and right of it. */
+static dal_status apply(parser *p, dal__node *value)
+{
+    const frame *f = &p->stack[--p->depth];
+    if (divides_by_zero(p->graph, f, *value)) {
+        return dal__error(p->error, DAL_SYNTAX, f->line, f->column, "division by zero");
+    }
+    switch (f->kind) {
+    case '+':
+        *value = dal__add(p->graph, f->left, *value);
+        break;
+    case '-':
+        *value = dal__sub(p->graph, f->left, *value);
+        break;
+    case '*':
+        *value = dal__mul(p->graph, f->left, *value);
+        break;
+    case '/':
+        *value = dal__div(p->graph, f->left, *value);
+        break;
+    case '^':
+        *value = dal__apply(p->graph, DAL__POW, f->left, *value);
+        break;
+    default:
+        *value = dal__neg(p->graph, *value);
+        break;
+    }
+    return *value ? DAL_OK : graph_fault(p);
+}
+
+/* Applies all operators that bind their right operand stronger than power. */
+static dal_status reduce(parser *p, int power, dal__node *value)
+{
+    while (binding(p->stack[p->depth - 1].kind) >= power) DAL_TRY(apply(p, value));
+    return DAL_OK;
+}
+
+/* ---- the grammar ---- */
+
+static dal_status symbol(parser *p, dal__node *value)
+{
+    const dal__token *t = &p->token;
+    if (t->length == 2 && memcmp(t->text, "pi", 2) == 0 && !t->prime) {
+        *value = dal__number(p->graph, 3.14159265358979323846);
+        return *value ? DAL_OK : graph_fault(p);
+    }
+    if (!t->prime && dal__is_function(t->text, t->length)) {
+        return dal__error(p->error, DAL_SYNTAX, t->line, t->column,
+                          "%.*s is a function: write %.*s(...)", shown(t), t->text, shown(t),
+                          t->text);
+    }
+    dal_error fault = {.status = DAL_OK};
+    *value = p->resolve(p->user, t->text, t->length, t->prime, &fault);
+    if (*value) return DAL_OK;
+    if (fault.status == DAL_OK) return graph_fault(p);
+    return dal__error(p->error, fault.status, t->line, t->column, "%s", fault.message);
+}
+
+/* A name: a function with its bracket, which opens a frame, or a value. */
+static dal_status name(parser *p, dal__node *value)
+{
+    dal__lexer ahead = p->lexer;
+    dal__token bracket;
+    dal_error ignored;
+    bool call = dal__lexer_next(&ahead, &bracket, &ignored) == DAL_OK && bracket.kind == '(';
+    if (!call) return symbol(p, value);
+    dal__op function = function_named(p->token.text, p->token.length);
+    if (!function || p->token.prime) return unknown_function(p);
+    DAL_TRY(push(p, 'f', 0));
+    p->stack[p->depth - 1].function = function;
+    p->lexer = ahead;
+    return DAL_OK;
+}
+
+/* Everything up to the next value: signs, brackets, functions, and the value. */
+static dal_status operand(parser *p, dal__node *value)
+{
+    for (*value = 0; !*value;) {
+        const frame *top = &p->stack[p->depth - 1];
+        switch (p->token.kind) {
+        case '+':
+            break;
+        case '-':
+            DAL_TRY(push(p, '~', 0));
+            break;
+        case '(':
+            DAL_TRY(push(p, '(', 0));
+            break;
+        case DAL__TOKEN_NAME:
+            DAL_TRY(name(p, value));
+            break;
+        case DAL__TOKEN_NUMBER:
+            *value = dal__number(p->graph, p->token.value);
+            if (!*value) return graph_fault(p);
+            break;
+        default:
+            if (p->token.kind == ')' && top->kind == 'f' && top->arguments == 0) {
+                return wrong_arguments(p, top, 0);
+            }
+            return value_missing(p);
+        }
+        DAL_TRY(*value ? DAL_OK : next(p));
+    }
+    return DAL_OK;
+}
+
+/* The closing bracket: of a bracket or of a function's arguments. */
+static dal_status close(parser *p, dal__node *value)
+{
+    DAL_TRY(reduce(p, 1, value));
+    const frame *f = &p->stack[p->depth - 1];
+    if (f->kind == 0) {
+        return dal__error(p->error, DAL_SYNTAX, p->token.line, p->token.column,
+                          "')' closes no '('");
+    }
+    p->depth--;
+    if (f->kind == '(') return DAL_OK;
+    int given = f->arguments + 1, wanted = functions[f->function].arity;
+    if (given != wanted) return wrong_arguments(p, f, given);
+    *value = wanted == 2 ? dal__apply(p->graph, f->function, f->left, *value)
+                         : dal__apply(p->graph, f->function, *value, 0);
+    return *value ? DAL_OK : graph_fault(p);
+}
+
+static dal_status comma(parser *p, dal__node *value)
+{
+    DAL_TRY(reduce(p, 1, value));
+    frame *f = &p->stack[p->depth - 1];
+    if (f->kind != 'f') {
+        return dal__error(p->error, DAL_SYNTAX, p->token.line, p->token.column,
+                          "',' stands outside the arguments of a function");
+    }
+    f->arguments++;
+    f->left = *value;
+    return DAL_OK;
+}
+
+static dal_status end(parser *p, dal__node *value)
+{
+    DAL_TRY(reduce(p, 1, value));
+    const frame *f = &p->stack[p->depth - 1];
+    if (f->kind == 0) return DAL_OK;
+    return dal__error(p->error, DAL_SYNTAX, f->line, f->column, "a '(' is never closed");
+}
+
+/* What follows a value, up to where another one is wanted (*more) or the formula ends. */
+static dal_status operators(parser *p, dal__node *value, bool *more)
+{
+    for (*more = true;;) {
+        dal__token previous = p->token;
+        DAL_TRY(next(p));
+        char kind = p->token.kind;
+        switch (kind) {
+        case '+':
+        case '-':
+        case '*':
+        case '/':
+        case '^':
+            DAL_TRY(reduce(p, binding(kind) + (kind == '^'), value));
+            DAL_TRY(push(p, kind, *value));
+            return next(p);
+        case ',':
+            DAL_TRY(comma(p, value));
+            return next(p);
+        case ')':
+            DAL_TRY(close(p, value));
+            break;
+        case DAL__TOKEN_END:
+            *more = false;
+            return end(p, value);
+        default:
+            return operator_missing(p, &previous);
+        }
+    }
+}
+
+static dal_status parse(parser *p, dal__node *value)
+{
+    DAL_TRY(push(p, 0, 0));
+    DAL_TRY(next(p));
+    if (p->token.kind == DAL__TOKEN_END) {
+        return dal__error(p->error, DAL_SYNTAX, 1, 1, "the formula is empty");
+    }
+    for (bool more = true; more;) {
+        DAL_TRY(operand(p, value));
+        DAL_TRY(operators(p, value, &more));
+    }
+    return DAL_OK;
+}
+
+dal_status dal__parse(dal__graph *graph, const char *text, size_t length, dal__resolve *resolve,
+                      void *user, dal__node *node, dal_error *error)
+{
+    parser p = {.graph = graph,
+                .lexer = dal__lexer_start(text, length),
+                .resolve = resolve,
+                .user = user,
+                .error = error};
+    if (length >= INT_MAX) {
+        return dal__error(error, DAL_TOO_LARGE, 1, 1, "the formula is too long");
+    }
+    dal_status status = parse(&p, node);
+    free(p.stack);
+    if (status != DAL_OK) *node = 0;
+    return status;
+}

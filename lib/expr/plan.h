@@ -1,0 +1,32 @@
+/* plan.h - from nodes to the instructions of a program, for lib/expr alone. */
+#ifndef DAL_FORMULA_PLAN_H
+#define DAL_FORMULA_PLAN_H
+
+#include "core/error.h"
+#include "expr/graph.h"
+#include "expr/tape.h"
+
+/* Arrays are indexed by node, [last_node + 1]. */
+typedef struct dal__plan {
+    const dal__graph *graph;
+    dal__node last_node;
+    bool *constant;     /* depends on parameters alone */
+    uint8_t *reached;   /* wanted by any program; then, by the present one */
+    uint32_t *place;    /* in work; DAL__NOWHERE while a temporary is not alive */
+    dal__node *last;    /* the node whose instruction reads this one last */
+    uint32_t *free;     /* places of temporaries to be used again, as a stack */
+    size_t frees, used; /* temporaries: on that stack, and taken in all */
+} dal__plan;
+
+#define DAL__NOWHERE UINT32_MAX
+
+/* Reaches from all programs of tapes.  To be freed also when it failed. [alloc] */
+dal_status dal__plan_create(dal__plan *plan, const dal__tapes *tapes);
+void dal__plan_free(dal__plan *plan);
+/* The program of what is constant along a run, whose places are set. [alloc] */
+dal_status dal__plan_hoisted(dal__plan *plan, dal__tapes *tapes);
+/* One program: temporaries get places as they come and give them back after their last use; the
+ * workspace grows to hold them. [alloc] */
+dal_status dal__plan_tape(dal__plan *plan, dal__tapes *tapes, dal__tape *tape);
+
+#endif

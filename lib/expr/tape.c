@@ -1,0 +1,113 @@
+/* tape.c - the programs of one system: their life, and the layout of their block of numbers. */
+#include "expr/plan.h"
+#include <stdlib.h>
+#include <string.h>
+
+dal__tapes *dal__tapes_create(const dal__graph *graph, int parameters, int inputs)
+{
+    dal__tapes *tapes = calloc(1, sizeof *tapes);
+    if (!tapes) return NULL;
+    tapes->graph = graph;
+    tapes->parameters = parameters;
+    tapes->inputs = inputs;
+    return tapes;
+}
+
+static void tape_free(dal__tape *tape)
+{
+    free(tape->output);
+    free(tape->place);
+    free(tape->code);
+}
+
+void dal__tapes_free(dal__tapes *tapes)
+{
+    if (!tapes) return;
+    for (int i = 0; i < tapes->count; i++) tape_free(&tapes->tape[i]);
+    tape_free(&tapes->hoisted);
+    free(tapes->tape);
+    free(tapes->number);
+    free(tapes);
+}
+
+static bool make_room(dal__tapes *tapes)
+{
+    if (tapes->count < tapes->capacity) return true;
+    int capacity = tapes->capacity ? 2 * tapes->capacity : 16;
+    dal__tape *tape = realloc(tapes->tape, (size_t)capacity * sizeof *tape);
+    if (!tape) return false;
+    tapes->tape = tape;
+    tapes->capacity = capacity;
+    return true;
+}
+
+int dal__tapes_add(dal__tapes *tapes, const dal__node *outputs, int count)
+{
+    if (!make_room(tapes)) return -1;
+    dal__tape tape = {.outputs = count};
+    size_t size = count > 0 ? (size_t)count : 1;
+    tape.output = calloc(size, sizeof *tape.output);
+    tape.place = calloc(size, sizeof *tape.place);
+    if (!tape.output || !tape.place) return tape_free(&tape), -1;
+    if (count > 0) memcpy(tape.output, outputs, size * sizeof *outputs);
+    tapes->tape[tapes->count] = tape;
+    return tapes->count++;
+}
+
+/* Places for all that is constant along a run, and for the inputs. */
+static dal_status lay_out(dal__tapes *tapes, dal__plan *plan)
+{
+    uint32_t place = (uint32_t)tapes->parameters;
+    for (int pass = 0; pass < 2; pass++) { /* numbers, then what is hoisted */
+        for (dal__node i = 1; i <= plan->last_node; i++) {
+            dal__view view = dal__look(tapes->graph, i);
+            bool wanted = plan->constant[i] && plan->reached[i] && view.op != DAL__SYMBOL;
+            if (!wanted || (view.op == DAL__NUMBER) != (pass == 0)) continue;
+            if (pass == 0) tapes->number[tapes->numbers++] = view.value;
+            plan->place[i] = place++;
+        }
+    }
+    tapes->first_input = place;
+    tapes->temporaries = place + (size_t)tapes->inputs;
+    for (dal__node i = 1; i <= plan->last_node; i++) {
+        dal__view view = dal__look(tapes->graph, i);
+        if (view.op != DAL__SYMBOL || !plan->reached[i]) continue;
+        if (view.symbol >= tapes->parameters + tapes->inputs) return DAL_ARGUMENT;
+        plan->place[i] = view.symbol < tapes->parameters
+                             ? (uint32_t)view.symbol
+                             : place + (uint32_t)(view.symbol - tapes->parameters);
+    }
+    return DAL_OK;
+}
+
+static dal_status compile_all(dal__tapes *tapes, dal__plan *plan)
+{
+    size_t numbers = 0;
+    for (dal__node i = 1; i <= plan->last_node; i++) {
+        numbers += dal__look(tapes->graph, i).op == DAL__NUMBER && plan->reached[i];
+    }
+    tapes->number = malloc((numbers + 1) * sizeof *tapes->number);
+    if (!tapes->number) return DAL_MEMORY;
+    DAL_TRY(lay_out(tapes, plan));
+    tapes->workspace = tapes->temporaries;
+    DAL_TRY(dal__plan_hoisted(plan, tapes));
+    for (int i = 0; i < tapes->count; i++) {
+        DAL_TRY(dal__plan_tape(plan, tapes, &tapes->tape[i]));
+    }
+    return DAL_OK;
+}
+
+dal_status dal__tapes_finish(dal__tapes *tapes)
+{
+    DAL_TRY(dal__graph_status(tapes->graph));
+    dal__plan plan;
+    dal_status status = dal__plan_create(&plan, tapes);
+    if (status == DAL_OK) status = compile_all(tapes, &plan);
+    dal__plan_free(&plan);
+    return status;
+}
+
+size_t dal__tapes_workspace(const dal__tapes *tapes) { return tapes->workspace; }
+int dal__tapes_inputs(const dal__tapes *tapes) { return (int)tapes->first_input; }
+
+int dal__tapes_length(const dal__tapes *tapes, int program) { return tapes->tape[program].length; }

@@ -1,0 +1,60 @@
+/* tape_wide.c - runs a program, over num.
+ *
+ * An instruction acts on all groups of a block before the next one is looked at: what it costs to
+ * find out what to do is shared by all lanes. */
+#include "kernel/groups.h"
+
+#include "expr/arithmetic.h"
+#include "expr/graph.h"
+#include "expr/tape.h"
+
+#define AT(place)  w[(size_t)(place)*DAL_GROUPS + g]
+#define EACH_GROUP for (size_t g = 0; g < DAL_GROUPS; g++)
+
+__attribute__((flatten)) void DAL_WIDE(dal__execute)(const dal__tape *tape, double *work);
+void DAL_WIDE(dal__execute)(const dal__tape *tape, double *work)
+{
+    num *w = (num *)work;
+    for (int k = 0; k < tape->length; k++) {
+        const dal__instruction i = tape->code[k]; /* a copy: no write to w can change it */
+        switch (i.op) {
+#define X(code, expression)                                                                        \
+    case DAL__##code:                                                                              \
+        EACH_GROUP                                                                                 \
+        {                                                                                          \
+            const num a = AT(i.a), b = AT(i.b), c = AT(i.c);                                       \
+            AT(i.d) = expression;                                                                  \
+            (void)b, (void)c;                                                                      \
+        }                                                                                          \
+        break;
+            DAL__UNARY_LIST(X)
+            DAL__BINARY_LIST(X)
+            DAL__FUSED_LIST(X)
+#undef X
+        case DAL__SINCOS:
+            EACH_GROUP dal_sincos(AT(i.a), &AT(i.d), &AT(i.b));
+            break;
+        }
+    }
+}
+
+void DAL_WIDE(dal__tape_run)(const dal__tapes *tapes, int program, double *work, double *out)
+{
+    const dal__tape *tape = &tapes->tape[program];
+    DAL_WIDE(dal__execute)(tape, work);
+    const num *w = (const num *)work;
+    num *o = (num *)out;
+    for (int k = 0; k < tape->outputs; k++) {
+        const uint32_t place = tape->place[k];
+        EACH_GROUP o[(size_t)k * DAL_GROUPS + g] = AT(place);
+    }
+}
+
+#if defined DAL_LONG || !defined DAL_VARIANT /* x1 */
+void DAL_WIDE(dal__tapes_prepare)(const dal__tapes *tapes, double *work)
+{
+    num *numbers = (num *)work + tapes->parameters;
+    for (int i = 0; i < tapes->numbers; i++) numbers[i] = dal_num(tapes->number[i]);
+    DAL_WIDE(dal__execute)(&tapes->hoisted, work);
+}
+#endif

@@ -1,0 +1,119 @@
+/* walk.c - passes over a graph: what a node is made of, its value, substitution.
+ *
+ * Operands have smaller indices than what they make, so marking runs down the indices and computing
+ * runs up. */
+#include "expr/arithmetic.h"
+#include "expr/graph.h"
+#include <math.h>
+#include <stdlib.h>
+
+uint8_t *dal__reach(dal__graph *graph, dal__node node)
+{
+    uint8_t *mark = dal__per_node(graph, node, 1);
+    if (!mark) return NULL;
+    mark[node] = 1;
+    for (dal__node i = node; i > 0; i--) {
+        if (!mark[i]) continue;
+        mark[graph->node[i].a] = mark[graph->node[i].b] = 1;
+    }
+    mark[0] = 0;
+    return mark;
+}
+
+bool dal__depends(dal__graph *graph, dal__node node, int first, int end)
+{
+    if (graph->node[node].fixed && first >= graph->parameters) return false;
+    uint8_t *mark = dal__reach(graph, node);
+    if (!mark) return true;
+    bool found = false;
+    for (dal__node i = node; i > 0 && !found; i--) {
+        const dal__record *r = &graph->node[i];
+        found = mark[i] && r->op == DAL__SYMBOL && r->symbol >= first && r->symbol < end;
+    }
+    free(mark);
+    return found;
+}
+
+static bool is_product(const dal__graph *graph, dal__node node)
+{
+    return graph->node[node].op == DAL__MUL && !graph->node[node].fixed;
+}
+
+dal__lowered dal__lower(const dal__graph *graph, dal__node node)
+{
+    const dal__record *r = &graph->node[node];
+    const bool sum = r->op == DAL__ADD || r->op == DAL__SUB;
+    const bool first = sum && is_product(graph, r->a), second = sum && is_product(graph, r->b);
+    if (r->fixed || (!first && !second)) return (dal__lowered){r->op, r->a, r->b, 0};
+    const bool later = second && (!first || r->b > r->a);
+    const dal__record *product = &graph->node[later ? r->b : r->a];
+    const int op = r->op == DAL__ADD ? DAL__MUL_ADD : later ? DAL__SUB_MUL : DAL__MUL_SUB;
+    return (dal__lowered){op, product->a, product->b, later ? r->a : r->b};
+}
+
+double dal__operate(int op, double a, double b, double c)
+{
+    switch (op) {
+#define X(code, expression)                                                                        \
+    case DAL__##code:                                                                              \
+        return expression;
+        DAL__UNARY_LIST(X)
+        DAL__BINARY_LIST(X)
+        DAL__FUSED_LIST(X)
+#undef X
+    default:
+        return NAN;
+    }
+}
+
+double dal__evaluate(dal__graph *graph, dal__node node, const double *values)
+{
+    uint8_t *mark = dal__reach(graph, node);
+    double *x = dal__per_node(graph, node, sizeof *x), value = NAN;
+    if (mark && x) {
+        x[0] = NAN;
+        for (dal__node i = 1; i <= node; i++) {
+            const dal__record *r = &graph->node[i];
+            const dal__lowered l = dal__lower(graph, i);
+            if (!mark[i]) continue;
+            x[i] = r->op == DAL__NUMBER   ? r->value
+                   : r->op == DAL__SYMBOL ? values[r->symbol]
+                                          : dal__operate(l.op, x[l.a], x[l.b], x[l.c]);
+        }
+        value = x[node];
+    }
+    free(mark);
+    free(x);
+    return value;
+}
+
+static dal__node replaced(dal__graph *graph, dal__node i, const dal__node *image,
+                          const int *symbols, int count, const dal__node *by)
+{
+    dal__record r = graph->node[i];
+    if (r.op == DAL__NUMBER) return i;
+    if (r.op == DAL__SYMBOL) {
+        for (int k = 0; k < count; k++) {
+            if (symbols[k] == r.symbol) return by[k];
+        }
+        return i;
+    }
+    if (image[r.a] == r.a && image[r.b] == r.b) return i;
+    return dal__apply(graph, (dal__op)r.op, image[r.a], image[r.b]);
+}
+
+dal__node dal__substitute(dal__graph *graph, dal__node f, const int *symbols, int count,
+                          const dal__node *by)
+{
+    uint8_t *mark = dal__reach(graph, f);
+    dal__node *image = dal__per_node(graph, f, sizeof *image), result = 0;
+    if (mark && image) {
+        for (dal__node i = 1; i <= f; i++) {
+            if (mark[i]) image[i] = replaced(graph, i, image, symbols, count, by);
+        }
+        result = image[f];
+    }
+    free(mark);
+    free(image);
+    return result;
+}

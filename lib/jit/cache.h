@@ -1,0 +1,16 @@
+/* cache.h - compiled steps kept in a private directory; internal to lib/codegen. */
+#ifndef DAL_GENERATE_CACHE_H
+#define DAL_GENERATE_CACHE_H
+
+#include "core/error.h"
+#include "dalembert.h"
+
+/* The path of a shared object compiled from the text for this machine, in path[size]: one that the
+ * cache already holds, or made now.  Errors: DAL_ARGUMENT, DAL_IO (cache), DAL_UNSUPPORTED (no
+ * compiler, it failed or hung), DAL_MEMORY. */
+dal_status dal__cache_object(const dal_native_options *options, const char *text, char *path,
+                             size_t size, dal_error *error);
+/* Forgets an object that could not be loaded. */
+void dal__cache_forget(const char *path);
+
+#endif

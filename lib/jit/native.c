@@ -1,0 +1,140 @@
+/* native.c - runs and batches whose steps are compiled: generate, compile, load, and step by it.
+ *
+ * The loaded function works on the carried array of a run, or of a block of lanes, with the same
+ * bits as the tape, so it can be put in at any time; failures are explained by the tape. */
+#include "codegen/generate.h"
+#include "jit/cache.h"
+#include "run/batch.h"
+#include "run/run.h"
+#include <dlfcn.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { PATH_SIZE = 1024 };
+
+static void release(void *handle) { dlclose(handle); }
+
+/* Of the functions in dal__native an object has one, named after the product.  ISO C has no
+ * conversion from what dlsym finds. */
+static bool find(void *handle, dal__product product, dal__native *native)
+{
+    static const char *const symbols[] = {[DAL__LANES] = DAL__NATIVE_PREFIX "_lanes",
+                                          [DAL__TRACE] = DAL__NATIVE_PREFIX "_traced",
+                                          [DAL__LOOKS] = DAL__NATIVE_PREFIX "_looks"};
+    void *found = handle ? dlsym(handle, symbols[product]) : NULL;
+    if (product == DAL__LANES) memcpy(&native->steps, &found, sizeof found);
+    if (product == DAL__TRACE) memcpy(&native->traced, &found, sizeof found);
+    if (product == DAL__LOOKS) memcpy(&native->looks, &found, sizeof found);
+    return found != NULL;
+}
+
+static dal_status load(const char *path, dal__product product, dal__native *native,
+                       dal_error *error)
+{
+    void *handle = dlopen(path, RTLD_NOW | RTLD_LOCAL);
+    if (!find(handle, product, native)) {
+        if (handle) dlclose(handle);
+        dal__cache_forget(path);
+        return dal__error(error, DAL_IO, 0, 0, "'%.200s' cannot be loaded", path);
+    }
+    native->handle = handle;
+    native->release = release;
+    return DAL_OK;
+}
+
+/* An object that cannot be loaded, whoever has made it, is made anew. */
+static dal_status compiled(const char *text, dal__product product,
+                           const dal_native_options *options, dal__native *native, dal_error *error)
+{
+    char path[PATH_SIZE];
+    dal_status status = DAL_IO;
+    for (int attempt = 0; attempt < 2 && status != DAL_OK; attempt++) {
+        status = dal__cache_object(options, text, path, sizeof path, error);
+        if (status != DAL_OK) break;
+        status = load(path, product, native, error);
+    }
+    return status;
+}
+
+static dal_status compiled_steps(const dal__shape *shape, dal__product product, int lanes,
+                                 const dal_native_options *options, dal__native *native,
+                                 dal_error *error)
+{
+    const dal_run_spec spec = {
+        .system = shape->system, .method = shape->method, .options = shape->options};
+    char *text;
+    DAL_TRY(dal__generate_native(&spec, product, lanes, &text, error));
+    const dal_status status = compiled(text, product, options, native, error);
+    free(text);
+    return status;
+}
+
+/* ---- runs ---- */
+
+dal_status dal_run_native(dal_run *run, const dal_native_options *options, dal_error *error)
+{
+    DAL_REQUIRE(run, error);
+    if (dal_run_is_native(run)) return DAL_OK;
+    return compiled_steps(&run->shape, DAL__TRACE, 1, options, &run->native, error);
+}
+
+int dal_run_is_native(const dal_run *run) { return run && run->native.traced != NULL; }
+
+enum { REGISTER = 8 }; /* numbers in the widest; as many as a line of the cache has */
+
+/* Looks at a time: whole registers of any machine, that stay in its nearest cache. */
+static int room_for_looks(int numbers)
+{
+    enum { MOST = 248, NEAR = 32768 / sizeof(double) };
+    const int room = NEAR / numbers / REGISTER * REGISTER;
+    return room > MOST ? MOST : room < REGISTER ? REGISTER : room;
+}
+
+/* Zeros at first: a register is read as a whole, and none of them lies across two lines. */
+static dal_status make_room(dal__looks *looks, int dimension, int observables, dal_error *error)
+{
+    const int numbers = dimension + 1 + observables, room = room_for_looks(numbers);
+    const size_t bytes = sizeof(double) * (size_t)numbers * (size_t)room;
+    double *const memory = aligned_alloc(REGISTER * sizeof(double), bytes);
+    if (!memory)
+        return dal__error(error, DAL_MEMORY, 0, 0, "no memory for %d looks at a run", room);
+    memset(memory, 0, bytes);
+    looks->room = room;
+    looks->states = memory;
+    looks->times = memory + (size_t)dimension * (size_t)room;
+    looks->values = looks->times + room;
+    return DAL_OK;
+}
+
+dal_status dal_run_native_observables(dal_run *run, const dal_native_options *options,
+                                      dal_error *error)
+{
+    DAL_REQUIRE(run, error);
+    dal__native code = {0};
+    char *text;
+    if (run->looks.states || dal_run_observables(run) == 0) return DAL_OK;
+    DAL_TRY(dal__generate_looks(&run->shape, run, &text, error));
+    dal_status status = compiled(text, DAL__LOOKS, options, &code, error);
+    free(text);
+    if (status == DAL_OK)
+        status = make_room(&run->looks, run->shape.dim, dal_run_observables(run), error);
+    if (status == DAL_OK)
+        run->looks.code = code;
+    else
+        dal__native_free(&code);
+    return status;
+}
+
+/* ---- batches ---- */
+
+dal_status dal_batch_native(dal_batch *batch, const dal_native_options *options, dal_error *error)
+{
+    DAL_REQUIRE(batch, error);
+    const int lanes = dal__batch_native_lanes(batch);
+    dal__native native = {0};
+    if (dal_batch_is_native(batch)) return DAL_OK;
+    DAL_TRY(compiled_steps(dal__batch_shape(batch), DAL__LANES, lanes, options, &native, error));
+    const dal_status status = dal__batch_install(batch, lanes, &native, error);
+    if (status != DAL_OK) dal__native_free(&native);
+    return status;
+}

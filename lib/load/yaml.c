@@ -1,0 +1,328 @@
+/* yaml.c - reads a system file: a mapping of the sections of DAL_SECTION_LIST, read event by event
+ * with libyaml.  Nothing nests deeper than a section, so no recursion is needed.
+ *
+ * Formulas keep their places: the model gets the raw piece of the file, line breaks and all, so
+ * that line and column inside a formula are those of the file.  In single quotes '' becomes
+ * "' ", which means the same to a formula and is as long.  Only double quotes with escapes and
+ * texts that are no formulas are taken as libyaml unfolds them. */
+#include "model/mechanics.h"
+#ifndef DAL_WITHOUT_YAML
+#include <stdlib.h>
+#include <string.h>
+#include <yaml.h>
+
+typedef struct reader {
+    yaml_parser_t parser;
+    yaml_event_t event; /* the present one */
+    bool holding;       /* event is to be deleted */
+    const char *text;
+    size_t length;
+    dal_model *model;
+    size_t byte, character; /* the same place, counted both ways */
+    unsigned seen;          /* sections, a bit each */
+    dal_error *error;
+} reader;
+
+/* ---- events ---- */
+
+static int line_of(yaml_mark_t mark) { return (int)mark.line + 1; }
+static int column_of(yaml_mark_t mark) { return (int)mark.column + 1; }
+
+static dal_status parser_error(reader *r)
+{
+    const yaml_parser_t *p = &r->parser;
+    const char *problem = p->problem ? p->problem : "malformed";
+    if (p->error == YAML_MEMORY_ERROR) return dal__starved(r->error);
+    if (p->error != YAML_READER_ERROR)
+        return dal__error(r->error, DAL_SYNTAX, line_of(p->problem_mark),
+                          column_of(p->problem_mark), "malformed YAML: %s", problem);
+    int line = 1, column = 1;
+    for (size_t i = 0; i < p->problem_offset && i < r->length; i++) {
+        column = r->text[i] == '\n' ? 1 : column + 1;
+        line += r->text[i] == '\n';
+    }
+    return dal__error(r->error, DAL_SYNTAX, line, column, "malformed YAML: %s", problem);
+}
+
+static dal_status here(reader *r, dal_status status, const char *message)
+{
+    return dal__error(r->error, status, line_of(r->event.start_mark),
+                      column_of(r->event.start_mark), "%s", message);
+}
+
+static bool has_anchor(const yaml_event_t *event)
+{
+    switch (event->type) {
+    case YAML_ALIAS_EVENT:
+        return true;
+    case YAML_SCALAR_EVENT:
+        return event->data.scalar.anchor != NULL;
+    case YAML_SEQUENCE_START_EVENT:
+        return event->data.sequence_start.anchor != NULL;
+    case YAML_MAPPING_START_EVENT:
+        return event->data.mapping_start.anchor != NULL;
+    default:
+        return false;
+    }
+}
+
+static dal_status next(reader *r)
+{
+    if (r->holding) yaml_event_delete(&r->event);
+    r->holding = yaml_parser_parse(&r->parser, &r->event);
+    if (!r->holding) return parser_error(r);
+    if (has_anchor(&r->event)) return here(r, DAL_SYNTAX, "anchors and aliases are not supported");
+    return DAL_OK;
+}
+
+/* ---- scalars ---- */
+
+static bool begins_character(char c) { return ((unsigned char)c & 0xC0) != 0x80; }
+
+/* Byte offset of a mark: libyaml counts characters.  Marks come in order, so the count goes on from
+ * the last one. */
+static size_t offset_of(reader *r, yaml_mark_t mark)
+{
+    while (r->byte < r->length && r->character < mark.index) {
+        r->byte++;
+        r->character += r->byte == r->length || begins_character(r->text[r->byte]);
+    }
+    return r->byte;
+}
+
+static char *copy(dal_model *model, const char *from, size_t length)
+{
+    char *to = dal__model_take(model, length + 1, 1);
+    if (to) memcpy(to, from, length);
+    return to;
+}
+
+/* A block scalar begins below its indicator, at the first column. */
+static void skip_block_header(const reader *r, size_t *begin, size_t end, dal__entry *entry)
+{
+    while (*begin < end && r->text[*begin] != '\n') ++*begin;
+    if (*begin < end) ++*begin;
+    entry->line++;
+    entry->column = 1;
+}
+
+static char *raw_text(const reader *r, size_t begin, size_t end, bool quoted)
+{
+    char *text = copy(r->model, r->text + begin, end - begin);
+    for (char *c = text; c && quoted && (c = strstr(c, "''")) != NULL; c += 2) c[1] = ' ';
+    return text;
+}
+
+/* Text and place of the present scalar. */
+static dal_status take_text(reader *r, dal__entry *entry)
+{
+    const yaml_event_t *event = &r->event;
+    const char *value = (const char *)event->data.scalar.value;
+    size_t length = event->data.scalar.length;
+    yaml_scalar_style_t style = event->data.scalar.style;
+    size_t begin = offset_of(r, event->start_mark), end = offset_of(r, event->end_mark);
+    bool prose = entry->section == DAL_SECTION_TITLE || entry->section == DAL_SECTION_REFERENCE ||
+                 entry->section == DAL_SECTION_TAGS || entry->section == DAL_SECTION_MECHANICS ||
+                 entry->section == DAL_SECTION_COORDINATES;
+    bool single = style == YAML_SINGLE_QUOTED_SCALAR_STYLE;
+    bool quoted = single || style == YAML_DOUBLE_QUOTED_SCALAR_STYLE;
+    entry->line = line_of(event->start_mark);
+    entry->column = column_of(event->start_mark) + quoted;
+    if (memchr(value, 0, length)) return here(r, DAL_SYNTAX, "a text holds a NUL character");
+    bool escaped = quoted && !single && memchr(r->text + begin, '\\', end - begin);
+    if (prose || escaped || end < begin + 2 * (size_t)quoted) {
+        entry->text = copy(r->model, value, length);
+    } else {
+        if (style == YAML_LITERAL_SCALAR_STYLE || style == YAML_FOLDED_SCALAR_STYLE)
+            skip_block_header(r, &begin, end, entry);
+        entry->text = raw_text(r, begin + quoted, end - quoted, single);
+    }
+    return entry->text ? DAL_OK : dal__starved(r->error);
+}
+
+static dal_status take_key(reader *r, dal__entry *entry)
+{
+    const char *value = (const char *)r->event.data.scalar.value;
+    size_t length = r->event.data.scalar.length;
+    if (r->event.type != YAML_SCALAR_EVENT) return here(r, DAL_SYNTAX, "a name is expected here");
+    if (memchr(value, 0, length)) return here(r, DAL_SYNTAX, "a text holds a NUL character");
+    entry->name = copy(r->model, value, length);
+    entry->name_line = line_of(r->event.start_mark);
+    entry->name_column = column_of(r->event.start_mark);
+    return entry->name ? DAL_OK : dal__starved(r->error);
+}
+
+/* ---- sections ---- */
+
+static dal_status wrong_shape(reader *r, dal_section section)
+{
+    static const char *const shapes[] = {[DAL__SCALAR] = "one text",
+                                         [DAL__LIST] = "a list",
+                                         [DAL__MAPPING] = "a mapping of names",
+                                         [DAL__MAPPINGS] = "a list of mappings"};
+    return dal__error(r->error, DAL_SYNTAX, line_of(r->event.start_mark),
+                      column_of(r->event.start_mark), "%s must be %s", dal__section_name(section),
+                      shapes[dal__section_shape(section)]);
+}
+
+/* The present event must be a scalar; it becomes the text of the entry. */
+static dal_status read_entry(reader *r, dal__entry entry)
+{
+    if (r->event.type != YAML_SCALAR_EVENT)
+        return dal__error(r->error, DAL_SYNTAX, line_of(r->event.start_mark),
+                          column_of(r->event.start_mark), "a text is expected in %s",
+                          dal__section_name(entry.section));
+    DAL_TRY(take_text(r, &entry));
+    if (!entry.name) {
+        entry.name_line = entry.line;
+        entry.name_column = entry.column;
+    }
+    return dal__model_insert(r->model, entry, r->error);
+}
+
+static dal_status read_list(reader *r, dal_section section)
+{
+    if (r->event.type != YAML_SEQUENCE_START_EVENT) return wrong_shape(r, section);
+    for (;;) {
+        DAL_TRY(next(r));
+        if (r->event.type == YAML_SEQUENCE_END_EVENT) return DAL_OK;
+        DAL_TRY(read_entry(r, (dal__entry){.section = section}));
+    }
+}
+
+static dal_status read_mapping(reader *r, dal_section section, int item)
+{
+    if (r->event.type != YAML_MAPPING_START_EVENT) return wrong_shape(r, section);
+    for (int count = 0;; count++) {
+        dal__entry entry = {.section = section, .item = item};
+        DAL_TRY(next(r));
+        if (r->event.type == YAML_MAPPING_END_EVENT && item && count == 0)
+            return here(r, DAL_SYNTAX, "this mapping is empty");
+        if (r->event.type == YAML_MAPPING_END_EVENT) return DAL_OK;
+        DAL_TRY(take_key(r, &entry));
+        DAL_TRY(next(r));
+        DAL_TRY(read_entry(r, entry));
+    }
+}
+
+static dal_status read_mappings(reader *r, dal_section section)
+{
+    if (r->event.type != YAML_SEQUENCE_START_EVENT) return wrong_shape(r, section);
+    for (int item = 1;; item++) {
+        DAL_TRY(next(r));
+        if (r->event.type == YAML_SEQUENCE_END_EVENT && item == 1)
+            return here(r, DAL_SYNTAX, "this list is empty");
+        if (r->event.type == YAML_SEQUENCE_END_EVENT) return DAL_OK;
+        DAL_TRY(read_mapping(r, section, item));
+    }
+}
+
+static dal_status read_section(reader *r, dal_section section)
+{
+    switch (dal__section_shape(section)) {
+    case DAL__LIST:
+        return read_list(r, section);
+    case DAL__MAPPING:
+        return read_mapping(r, section, 0);
+    case DAL__MAPPINGS:
+        return read_mappings(r, section);
+    default:
+        if (r->event.type != YAML_SCALAR_EVENT) return wrong_shape(r, section);
+        return read_entry(r, (dal__entry){.section = section});
+    }
+}
+
+static dal_status find_section(reader *r, const dal__entry *key, dal_section *section)
+{
+    const char *names[DAL_SECTION_COUNT];
+    for (int i = 0; i < DAL_SECTION_COUNT; i++) names[i] = dal__section_name((dal_section)i);
+    int i = dal__index_of(key->name, strlen(key->name), names, DAL_SECTION_COUNT);
+    if (i < 0)
+        return dal__unknown(r->error, key->name_line, key->name_column, "key", key->name, names,
+                            DAL_SECTION_COUNT);
+    if (r->seen & 1u << i)
+        return dal__error(r->error, DAL_MODEL, key->name_line, key->name_column,
+                          "duplicate key '%s'", key->name);
+    r->seen |= 1u << i;
+    *section = (dal_section)i;
+    return DAL_OK;
+}
+
+static dal_status read_sections(reader *r)
+{
+    for (;;) {
+        dal__entry key = {.name = NULL};
+        dal_section section = DAL_SECTION_TITLE;
+        DAL_TRY(next(r));
+        if (r->event.type == YAML_MAPPING_END_EVENT) return DAL_OK;
+        DAL_TRY(take_key(r, &key));
+        DAL_TRY(find_section(r, &key, &section));
+        DAL_TRY(next(r));
+        DAL_TRY(read_section(r, section));
+    }
+}
+
+/* ---- the file ---- */
+
+static dal_status read_document(reader *r)
+{
+    DAL_TRY(next(r)); /* the stream */
+    DAL_TRY(next(r));
+    if (r->event.type == YAML_STREAM_END_EVENT) return here(r, DAL_SYNTAX, "the file is empty");
+    DAL_TRY(next(r));
+    if (r->event.type != YAML_MAPPING_START_EVENT)
+        return here(r, DAL_SYNTAX, "a system file is a mapping, as 'coordinates: [x, y]'");
+    DAL_TRY(read_sections(r));
+    DAL_TRY(next(r)); /* the end of the document */
+    DAL_TRY(next(r));
+    if (r->event.type == YAML_STREAM_END_EVENT) return DAL_OK;
+    return here(r, DAL_SYNTAX, "a second document begins here: a system file has one");
+}
+
+static dal_status check_text(const char *text, size_t length, dal_error *error)
+{
+    if (length > DAL__MOST_BYTES)
+        return dal__error(error, DAL_TOO_LARGE, 0, 0, "more than %d bytes in a system file",
+                          (int)DAL__MOST_BYTES);
+    int line = 1, column = 1;
+    for (size_t i = 0; i < length; i++) {
+        if (text[i] == 0)
+            return dal__error(error, DAL_SYNTAX, line, column, "the file holds a NUL byte");
+        column = text[i] == '\n' ? 1 : column + 1;
+        line += text[i] == '\n';
+    }
+    return DAL_OK;
+}
+
+static dal_status read_text(dal_model *model, const char *text, size_t length, dal_error *error)
+{
+    reader r = {.model = model, .text = text, .length = length, .error = error};
+    if (!yaml_parser_initialize(&r.parser)) return dal__starved(error);
+    yaml_parser_set_encoding(&r.parser, YAML_UTF8_ENCODING);
+    yaml_parser_set_input_string(&r.parser, (const unsigned char *)text, length);
+    dal_status status = read_document(&r);
+    if (r.holding) yaml_event_delete(&r.event);
+    yaml_parser_delete(&r.parser);
+    return status;
+}
+
+dal_status dal_model_read(dal_model **model, const char *name, const char *text, size_t length,
+                          dal_error *error)
+{
+    DAL_REQUIRE(model, error);
+    static const char mark[] = "\xEF\xBB\xBF"; /* a byte order mark is no text */
+    *model = NULL;
+    if (!text) return dal__error(error, DAL_ARGUMENT, 0, 0, "there is no text to read");
+    if (length >= 3 && memcmp(text, mark, 3) == 0) text += 3, length -= 3;
+    DAL_TRY(check_text(text, length, error));
+    dal_model *made = dal_model_create(name);
+    if (!made) return dal__starved(error);
+    dal_status status = read_text(made, text, length, error);
+    if (status == DAL_OK)
+        *model = made;
+    else
+        dal_model_free(made);
+    return status;
+}
+
+#endif

@@ -1,0 +1,373 @@
+/* formulas.c - from the texts of a model to nodes of one graph.
+ *
+ * Symbols are numbered
+ *     parameters | t | q, dq | v, dv | pi, dpi | g
+ * where dq, dv, dpi have a meaning in the tangent system only. */
+#include "model/mechanics.h"
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* ---- one formula ---- */
+
+/* What the formulas of a section are called in a message, before their name or number. */
+static const char *const labels[DAL_SECTION_COUNT] = {
+    [DAL_SECTION_PARAMETERS] = "parameter",  [DAL_SECTION_LET] = "let",
+    [DAL_SECTION_LAGRANGIAN] = "lagrangian", [DAL_SECTION_ACCELERATIONS] = "acceleration of",
+    [DAL_SECTION_FORCES] = "force on",       [DAL_SECTION_CONSTRAINTS] = "constraint",
+    [DAL_SECTION_GAUGE] = "gauge",           [DAL_SECTION_START] = "start of",
+    [DAL_SECTION_INVARIANTS] = "invariant",  [DAL_SECTION_EXACT] = "exact solution for",
+    [DAL_SECTION_REACTIONS] = "reaction",    [DAL_SECTION_PICTURE] = "picture",
+};
+
+/* The message gets the name of the entry, the place that of the formula. */
+static dal_status locate(const dal_model *model, const dal__entry *entry, dal_error *error,
+                         const dal_error *inner)
+{
+    char name[96] = "";
+    int number = 1;
+    for (const dal__entry *other = model->entries; other < entry; other++)
+        number += other->section == entry->section;
+    if (entry->item)
+        snprintf(name, sizeof name, " %d on %.80s", entry->item, entry->name);
+    else if (entry->name)
+        snprintf(name, sizeof name, " %.80s", entry->name);
+    else if (dal__section_shape(entry->section) == DAL__LIST)
+        snprintf(name, sizeof name, " %d", number);
+    int line = entry->line ? entry->line : 1, column = entry->line ? entry->column : 1;
+    return dal__error(error, inner->status, line + inner->line - 1,
+                      inner->line == 1 ? column + inner->column - 1 : inner->column, "%s%s: %s",
+                      labels[entry->section], name, inner->message);
+}
+
+dal_status dal__formula(dal_model *model, const dal__entry *entry, dal__scope scope,
+                        dal__node *node, dal_error *error)
+{
+    dal_error inner = {.line = 1, .column = 1};
+    scope.model = model;
+    dal_status status = dal__parse(model->equations.graph, entry->text, strlen(entry->text),
+                                   dal__resolve_name, &scope, node, &inner);
+    return status == DAL_OK ? DAL_OK : locate(model, entry, error, &inner);
+}
+
+static dal_status fault(const dal_model *model, const dal__entry *entry, dal_status status,
+                        dal_error *error, const char *message)
+{
+    dal_error inner = {.status = status, .line = 1, .column = 1};
+    dal_status graph = dal__graph_status(model->equations.graph);
+    if (graph != DAL_OK) return dal__exhausted(graph, error);
+    snprintf(inner.message, sizeof inner.message, "%s", message);
+    return locate(model, entry, error, &inner);
+}
+
+static dal__scope everything(const dal__equations *e)
+{
+    return (dal__scope){
+        .may = DAL__MAY_T | DAL__MAY_STATE, .parameters = e->parameters, .lets = e->lets};
+}
+
+static dal__scope only(const dal__equations *e, unsigned may)
+{
+    return (dal__scope){.may = may, .parameters = e->parameters, .lets = e->lets};
+}
+
+/* ---- sections of coordinates ---- */
+
+static dal_status find_coordinate(const dal_model *model, const dal__entry *entry, int *i,
+                                  dal_error *error)
+{
+    const dal__equations *e = &model->equations;
+    char what[64];
+    *i = dal__index_of(entry->name, strlen(entry->name), e->coordinate, e->n);
+    if (*i >= 0) return DAL_OK;
+    snprintf(what, sizeof what, "coordinate in %s", dal__section_name(entry->section));
+    return dal__unknown(error, entry->name_line, entry->name_column, what, entry->name,
+                        e->coordinate, e->n);
+}
+
+/* Adds the formulas of a section to out[i] of their coordinates; in a list of mappings each item
+ * has its row. */
+static dal_status by_coordinate(dal_model *model, dal_section section, dal__scope scope,
+                                dal__node *out, dal_error *error)
+{
+    for (int k = 0; k < model->count; k++) {
+        const dal__entry *entry = &model->entries[k];
+        dal__node node;
+        int i;
+        if (entry->section != section) continue;
+        DAL_TRY(find_coordinate(model, entry, &i, error));
+        DAL_TRY(dal__formula(model, entry, scope, &node, error));
+        if (entry->item) i += (entry->item - 1) * model->equations.n;
+        out[i] = dal__add(model->equations.graph, out[i], node);
+    }
+    return DAL_OK;
+}
+
+/* ---- sections in order ---- */
+
+/* A default may be a formula in the defaults before it: it is evaluated here, once, and does not
+ * follow when those are changed later.  What must follow belongs under let. */
+static dal_status parse_parameters(dal_model *model, dal_error *error)
+{
+    dal__equations *e = &model->equations;
+    for (int i = 0; i < e->parameters; i++) {
+        const dal__entry *entry = dal__model_entry(model, DAL_SECTION_PARAMETERS, i);
+        dal__node node;
+        DAL_TRY(dal__formula(model, entry, (dal__scope){.parameters = i}, &node, error));
+        e->value[i] = dal__evaluate(e->graph, node, e->value);
+        if (!isfinite(e->value[i]))
+            return fault(model, entry, DAL_MODEL, error, "the value is not finite");
+    }
+    return DAL_OK;
+}
+
+static dal_status parse_lets(dal_model *model, dal_error *error)
+{
+    dal__equations *e = &model->equations;
+    for (int i = 0; i < e->lets; i++) {
+        dal__scope scope = everything(e);
+        scope.lets = i;
+        DAL_TRY(dal__formula(model, dal__model_entry(model, DAL_SECTION_LET, i), scope, &e->let[i],
+                             error));
+    }
+    return DAL_OK;
+}
+
+static dal_status parse_each(dal_model *model, dal_section section, dal__scope scope, int count,
+                             dal__node *out, dal_error *error)
+{
+    for (int i = 0; i < count; i++)
+        DAL_TRY(dal__formula(model, dal__model_entry(model, section, i), scope, &out[i], error));
+    return DAL_OK;
+}
+
+static dal_status parse_dynamics(dal_model *model, dal_error *error)
+{
+    dal__equations *e = &model->equations;
+    dal__scope all = everything(e);
+    DAL_TRY(
+        parse_each(model, DAL_SECTION_LAGRANGIAN, all, !e->accelerations, &e->lagrangian, error));
+    DAL_TRY(by_coordinate(model, DAL_SECTION_ACCELERATIONS, all, e->force, error));
+    DAL_TRY(by_coordinate(model, DAL_SECTION_FORCES, all, e->force, error));
+    DAL_TRY(parse_each(model, DAL_SECTION_CONSTRAINTS, all, e->m, e->constraint, error));
+    DAL_TRY(by_coordinate(model, DAL_SECTION_REACTIONS, all, e->B, error));
+    all.may |= DAL__MAY_MULTIPLIERS;
+    return parse_each(model, DAL_SECTION_INVARIANTS, all, e->invariants, e->invariant, error);
+}
+
+/* ---- gauge, start, exact ---- */
+
+static dal_status parse_gauge(dal_model *model, dal_error *error)
+{
+    static const char *const names[] = {"e", "mu_e"};
+    dal__equations *e = &model->equations;
+    dal__node *out[] = {&e->start[2 * e->n + e->multipliers], &e->mu};
+    for (int i = 0; i < dal__model_count(model, DAL_SECTION_GAUGE); i++) {
+        const dal__entry *entry = dal__model_entry(model, DAL_SECTION_GAUGE, i);
+        int k = dal__index_of(entry->name, strlen(entry->name), names, 2);
+        if (k < 0)
+            return dal__unknown(error, entry->name_line, entry->name_column, "entry of gauge",
+                                entry->name, names, 2);
+        DAL_TRY(dal__formula(model, entry, only(e, k ? DAL__MAY_T : 0), out[k], error));
+    }
+    return DAL_OK;
+}
+
+/* Names of the start in its order: q, v, g. */
+static const char **start_names(dal_model *model)
+{
+    const dal__equations *e = &model->equations;
+    const char **names = dal__model_take(model, (size_t)(2 * e->n + e->multipliers), sizeof *names);
+    if (!names) return NULL;
+    for (int i = 0; i < e->n; i++) {
+        names[i] = e->coordinate[i];
+        names[e->n + i] = dal__model_print(model, "%s'", e->coordinate[i]);
+    }
+    for (int a = 0; a < e->multipliers; a++)
+        names[2 * e->n + a] = dal__model_print(model, "g%d", a + 1);
+    return model->starved ? NULL : names;
+}
+
+static dal_status parse_start(dal_model *model, dal_error *error)
+{
+    dal__equations *e = &model->equations;
+    int count = 2 * e->n + e->multipliers, entries = dal__model_count(model, DAL_SECTION_START);
+    const char **names = start_names(model);
+    if (!names) return dal__starved(error);
+    for (int k = 0; k < entries; k++) {
+        const dal__entry *entry = dal__model_entry(model, DAL_SECTION_START, k);
+        int i = dal__index_of(entry->name, strlen(entry->name), names, count);
+        if (strcmp(entry->name, "e") == 0)
+            return dal__error(error, DAL_NAME, entry->name_line, entry->name_column,
+                              "the start of e belongs under gauge, as 'gauge: {e: 1}'");
+        if (i < 0)
+            return dal__unknown(error, entry->name_line, entry->name_column, "name in start",
+                                entry->name, names, count);
+        DAL_TRY(dal__formula(model, entry, only(e, 0), &e->start[i], error));
+        if (!isfinite(dal__evaluate(e->graph, e->start[i], e->value)))
+            return fault(model, entry, DAL_MODEL, error, "the value is not finite");
+    }
+    return DAL_OK;
+}
+
+static dal_status incomplete(const dal_model *model, int given, dal_error *error)
+{
+    const dal__entry *entry = dal__model_entry(model, DAL_SECTION_EXACT, 0);
+    return dal__error(error, DAL_MODEL, entry->name_line, entry->name_column,
+                      "exact has %d of %d coordinates: it needs a formula for each", given,
+                      model->equations.n);
+}
+
+/* Velocities of the exact solution are derivatives by t. */
+static dal_status parse_exact(dal_model *model, dal_error *error)
+{
+    dal__equations *e = &model->equations;
+    int given = dal__model_count(model, DAL_SECTION_EXACT);
+    if (given == 0) return DAL_OK;
+    for (int i = 0; i < e->n; i++) e->exact[i] = dal__number(e->graph, 0.0);
+    DAL_TRY(by_coordinate(model, DAL_SECTION_EXACT, only(e, DAL__MAY_T), e->exact, error));
+    if (given < e->n) return incomplete(model, given, error);
+    dal__node one = dal__number(e->graph, 1.0);
+    for (int i = 0; i < e->n; i++)
+        e->exact[e->n + i] = dal__tangent(e->graph, e->exact[i], &e->t, 1, &one);
+    return DAL_OK;
+}
+
+/* ---- the whole ---- */
+
+static dal_status check_sizes(const dal_model *model, dal_error *error)
+{
+    const dal__equations *e = &model->equations;
+    if (e->n == 0) return dal__error(error, DAL_MODEL, 0, 0, "the system has no coordinates");
+    if (e->n > DAL__MOST_COORDINATES)
+        return dal__error(error, DAL_TOO_LARGE, 0, 0, "%d coordinates; at most %d are possible",
+                          e->n, (int)DAL__MOST_COORDINATES);
+    if (e->m <= e->n) return DAL_OK;
+    const dal__entry *excess = dal__model_entry(model, DAL_SECTION_CONSTRAINTS, e->n);
+    return dal__error(error, DAL_RANK, excess->line, excess->column,
+                      "%d constraints on %d coordinates", e->m, e->n);
+}
+
+static dal_status read_mechanics(dal_model *model, dal_error *error)
+{
+    static const char *const words[] = {"lagrange-d'alembert", "vakonomic"};
+    const dal__entry *entry = dal__model_entry(model, DAL_SECTION_MECHANICS, 0);
+    if (!entry) return DAL_OK;
+    int i = dal__index_of(entry->text, strlen(entry->text), words, 2);
+    if (i < 0)
+        return dal__unknown(error, entry->line, entry->column, "mechanics", entry->text, words, 2);
+    model->equations.vakonomic = i == 1;
+    return DAL_OK;
+}
+
+static dal_status check_dynamics(dal_model *model, dal_error *error)
+{
+    dal__equations *e = &model->equations;
+    const dal__entry *L = dal__model_entry(model, DAL_SECTION_LAGRANGIAN, 0);
+    const dal__entry *F = dal__model_entry(model, DAL_SECTION_ACCELERATIONS, 0);
+    if (!L && !F)
+        return dal__error(error, DAL_MODEL, 0, 0,
+                          "the system has neither a lagrangian nor accelerations");
+    if (L && F)
+        return dal__error(error, DAL_MODEL, F->name_line, F->name_column,
+                          "the system has both a lagrangian and accelerations");
+    if (F && e->vakonomic)
+        return dal__error(error, DAL_MODEL, F->name_line, F->name_column,
+                          "vakonomic mechanics needs a lagrangian, not accelerations");
+    e->accelerations = F != NULL;
+    return DAL_OK;
+}
+
+static void number_symbols(dal__equations *e)
+{
+    e->t = e->parameters;
+    e->q = e->t + 1;
+    e->v = e->q + 2 * e->n;
+    e->pi = e->v + 2 * e->n;
+    e->g = e->pi + 2 * e->n;
+    e->symbols = e->g + e->m;
+}
+
+static dal__node *nodes(dal_model *model, int count, dal__node initial)
+{
+    dal__node *list = dal__model_take(model, (size_t)count, sizeof *list);
+    for (int i = 0; list && i < count; i++) list[i] = initial;
+    return list;
+}
+
+static dal_status allocate(dal_model *model, dal_error *error)
+{
+    dal__equations *e = &model->equations;
+    int n = e->n, m = e->m;
+    dal__graph_free(e->graph);
+    e->graph = dal__graph_create();
+    if (!e->graph) return dal__starved(error);
+    dal__graph_parameters(e->graph, e->parameters);
+    dal__node zero = dal__number(e->graph, 0.0);
+    e->lagrangian = zero;
+    e->mu = e->energy = 0;
+    e->let = nodes(model, e->lets, zero);
+    e->force = nodes(model, n, zero);
+    e->constraint = nodes(model, m, zero);
+    e->start = nodes(model, 2 * n + m + 1, zero);
+    e->invariant = nodes(model, e->invariants, zero);
+    e->exact = nodes(model, 2 * n, 0);
+    e->picture = e->pictured ? nodes(model, DAL_PICTURE_COUNT, zero) : NULL;
+    e->W = nodes(model, n * n, zero);
+    e->b = nodes(model, n, zero);
+    e->momentum = nodes(model, n, zero);
+    e->A = nodes(model, m * n, zero);
+    e->B = e->servo ? nodes(model, m * n, zero) : e->A;
+    e->c = nodes(model, m, zero);
+    e->U = nodes(model, n * m, 0);
+    e->R = e->servo ? nodes(model, n * m, zero) : e->U;
+    e->a = nodes(model, n, 0);
+    e->F = nodes(model, n + m, zero);
+    e->h = nodes(model, m, zero);
+    e->pivot = dal__model_take(model, (size_t)(2 * (n + m)), sizeof *e->pivot);
+    e->value = dal__model_take(model, (size_t)e->symbols, sizeof *e->value);
+    e->symbol = dal__model_take(model, (size_t)e->symbols, sizeof *e->symbol);
+    e->flow = nodes(model, 1 + n, dal__number(e->graph, 1.0));
+    if (model->starved) return dal__starved(error);
+    for (int i = 0; i < e->symbols; i++) e->symbol[i] = i;
+    for (int i = 0; i < n; i++) e->flow[1 + i] = dal__symbol(e->graph, e->v + i);
+    return DAL_OK;
+}
+
+/* The default start among the values, for everything that is decided by numbers. */
+static void evaluate_start(dal__equations *e)
+{
+    for (int i = 0; i < e->n; i++) {
+        e->value[e->q + i] = dal__evaluate(e->graph, e->start[i], e->value);
+        e->value[e->v + i] = dal__evaluate(e->graph, e->start[e->n + i], e->value);
+    }
+    for (int a = 0; a < e->multipliers; a++)
+        e->value[e->g + a] = dal__evaluate(e->graph, e->start[2 * e->n + a], e->value);
+}
+
+dal_status dal__formulas(dal_model *model, dal_error *error)
+{
+    dal__equations *e = &model->equations;
+    *e = (dal__equations){.graph = e->graph};
+    DAL_TRY(read_mechanics(model, error));
+    DAL_TRY(dal__names(model, error));
+    e->m = dal__model_count(model, DAL_SECTION_CONSTRAINTS);
+    e->multipliers = e->vakonomic ? e->m : 0;
+    e->pictured = dal__model_count(model, DAL_SECTION_PICTURE) > 0;
+    DAL_TRY(check_sizes(model, error));
+    DAL_TRY(check_dynamics(model, error));
+    DAL_TRY(dal__reactions(model, error));
+    number_symbols(e);
+    DAL_TRY(allocate(model, error));
+    e->start[2 * e->n + e->multipliers] = dal__number(e->graph, 1.0);
+    DAL_TRY(parse_parameters(model, error));
+    DAL_TRY(parse_lets(model, error));
+    DAL_TRY(parse_dynamics(model, error));
+    DAL_TRY(parse_gauge(model, error));
+    DAL_TRY(parse_start(model, error));
+    DAL_TRY(parse_exact(model, error));
+    DAL_TRY(dal__picture(model, error));
+    evaluate_start(e);
+    dal_status status = dal__graph_status(e->graph);
+    return status == DAL_OK ? DAL_OK : dal__exhausted(status, error);
+}

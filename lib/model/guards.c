@@ -1,0 +1,134 @@
+/* guards.c - expressions of the constraints, det W and, with reactions of their own,
+ * det A W^-1 B^T: they must keep their signs along a run.
+ *
+ * Where a denominator passes through zero, or tan(x) through a pole, a step can leap over the
+ * singularity without meeting it; so it can where D = f(q,t) (...) loses its normal with f.
+ * Guarded are the factors of every denominator, cos(x) for every tan(x) and the factors of D itself
+ * that have no velocities in them, as far as they depend on more than parameters. */
+#include "model/mechanics.h"
+
+enum { REACHED = 1, FACTOR = 2, WHOLE = 4, MOST_GUARDS = 4096 };
+
+typedef struct search {
+    dal_model *model;
+    unsigned char *flag; /* [nodes] */
+    int constraint;
+    bool full;
+} search;
+
+static const char *symbol_text(dal_model *model, int symbol)
+{
+    const dal__equations *e = &model->equations;
+    if (symbol >= e->q && symbol < e->q + e->n) return e->coordinate[symbol - e->q];
+    if (symbol >= e->v && symbol < e->v + e->n)
+        return dal__model_print(model, "%s'", e->coordinate[symbol - e->v]);
+    return "t";
+}
+
+static void add_guard(search *s, dal__node node, const char *text)
+{
+    dal__equations *e = &s->model->equations;
+    dal__view view = dal__look(e->graph, node);
+    dal__view inner = view.op == DAL__COS ? dal__look(e->graph, view.a) : view;
+    if (!dal__depends(e->graph, node, e->parameters, e->symbols)) return;
+    s->full = s->full || e->guards == MOST_GUARDS;
+    if (s->full) return;
+    if (inner.op == DAL__SYMBOL) text = symbol_text(s->model, inner.symbol);
+    if (text && inner.op == DAL__SYMBOL && view.op == DAL__COS)
+        text = dal__model_print(s->model, "cos(%s)", text);
+    if (!text) return;
+    e->guard[e->guards] = node;
+    e->guard_name[e->guards++] =
+        dal__model_print(s->model, "constraint %d: %s", s->constraint, text);
+}
+
+/* A denominator, or a factor of one or of D: down to what is no product. */
+static void split_factor(search *s, dal__node node, dal__view view)
+{
+    switch (view.op) {
+    case DAL__MUL:
+        s->flag[view.b] |= FACTOR;
+        s->flag[view.a] |= FACTOR;
+        break;
+    case DAL__DIV:
+    case DAL__NEG:
+    case DAL__SQRT:
+        s->flag[view.a] |= FACTOR;
+        break;
+    case DAL__POW:
+        if (!dal__depends(s->model->equations.graph, view.b, 0, s->model->equations.symbols))
+            s->flag[view.a] |= FACTOR;
+        break;
+    case DAL__NUMBER:
+        break;
+    default:
+        add_guard(s, node, s->flag[node] & WHOLE ? "a factor" : "a denominator");
+    }
+}
+
+/* D itself, or a factor of it. */
+static void split_whole(search *s, dal__node node, dal__view view)
+{
+    const dal__equations *e = &s->model->equations;
+    if (!dal__depends(e->graph, node, e->v, e->v + e->n)) s->flag[node] |= FACTOR;
+    if (view.op == DAL__MUL) s->flag[view.b] |= WHOLE;
+    if (view.op == DAL__MUL || view.op == DAL__DIV || view.op == DAL__NEG) s->flag[view.a] |= WHOLE;
+}
+
+static void visit(search *s, dal__node node)
+{
+    dal__graph *graph = s->model->equations.graph;
+    dal__view view = dal__look(graph, node);
+    if (s->flag[node] & WHOLE) split_whole(s, node, view);
+    if (s->flag[node] & FACTOR) split_factor(s, node, view);
+    if (view.a) s->flag[view.a] |= REACHED;
+    if (view.b) s->flag[view.b] |= REACHED;
+    if (view.op == DAL__DIV) s->flag[view.b] |= FACTOR;
+    if (view.op == DAL__TAN) add_guard(s, dal__apply(graph, DAL__COS, view.a, 0), "a denominator");
+    if (view.op != DAL__POW) return;
+    dal__view exponent = dal__look(graph, view.b);
+    if (exponent.op == DAL__NUMBER && exponent.value < 0.0) s->flag[view.a] |= FACTOR;
+}
+
+/* The product of the pivots of W or of A W^-1 B^T, where it varies along a run: the matrix is
+ * singular where it passes through zero, and a step can leap over that, too. */
+static bool guard_determinant(search *s, bool mass, const char *name)
+{
+    dal__equations *e = &s->model->equations;
+    dal__node det = dal__number(e->graph, 1.0);
+    for (int k = 0; k < e->pivots; k++)
+        if (mass == (e->pivot[k].constraint == 0)) det = dal__mul(e->graph, det, e->pivot[k].pivot);
+    if (e->vakonomic || !dal__depends(e->graph, det, e->parameters, e->symbols)) return false;
+    s->full = s->full || e->guards == MOST_GUARDS;
+    if (s->full) return false;
+    e->guard[e->guards] = det;
+    e->guard_name[e->guards++] = name;
+    return true;
+}
+
+static void guard_determinants(search *s)
+{
+    dal__equations *e = &s->model->equations;
+    if (e->servo) guard_determinant(s, false, "the reactions: det A W^-1 B^T");
+    if (guard_determinant(s, true, "the mass matrix: det W")) e->mass_guard = e->guards;
+}
+
+dal_status dal__guards(dal_model *model)
+{
+    dal__equations *e = &model->equations;
+    int count = dal__graph_count(e->graph);
+    search s = {.model = model};
+    e->guard = dal__model_take(model, MOST_GUARDS, sizeof *e->guard);
+    e->guard_name = dal__model_take(model, MOST_GUARDS, sizeof *e->guard_name);
+    for (int a = 0; a < e->m && !model->starved; a++) {
+        s.constraint = a + 1;
+        s.flag = dal__model_take(model, (size_t)count + 1, 1);
+        if (!s.flag) break;
+        s.flag[e->constraint[a]] = REACHED | WHOLE;
+        for (dal__node node = e->constraint[a]; node > 0; node--)
+            if (s.flag[node]) visit(&s, node);
+    }
+    if (!model->starved) guard_determinants(&s);
+    if (model->starved) return DAL_MEMORY;
+    return s.full ? DAL_TOO_LARGE : dal__graph_status(e->graph);
+}

@@ -1,0 +1,243 @@
+/* model.c - a model: named texts, kept until a system is asked for. */
+#include "model/mechanics.h"
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct dal__block {
+    struct dal__block *next;
+    max_align_t memory[];
+} dal__block;
+
+static const char *const section_names[] = {
+#define X(code, text) text,
+    DAL_SECTION_LIST(X)
+#undef X
+};
+
+const char *dal__section_name(dal_section section) { return section_names[section]; }
+
+dal__form dal__section_shape(dal_section section)
+{
+    switch (section) {
+    case DAL_SECTION_TITLE:
+    case DAL_SECTION_REFERENCE:
+    case DAL_SECTION_LAGRANGIAN:
+    case DAL_SECTION_MECHANICS:
+        return DAL__SCALAR;
+    case DAL_SECTION_COORDINATES:
+    case DAL_SECTION_CONSTRAINTS:
+    case DAL_SECTION_TAGS:
+        return DAL__LIST;
+    case DAL_SECTION_REACTIONS:
+        return DAL__MAPPINGS;
+    default:
+        return DAL__MAPPING;
+    }
+}
+
+bool dal__section_named(dal_section section)
+{
+    dal__form shape = dal__section_shape(section);
+    return shape == DAL__MAPPING || shape == DAL__MAPPINGS;
+}
+
+/* ---- memory ---- */
+
+void *dal__model_take(dal_model *model, size_t count, size_t size)
+{
+    dal__block *block = NULL;
+    size_t most = SIZE_MAX - sizeof *block;
+    if (size == 0 || count <= most / size) block = calloc(1, sizeof *block + count * size);
+    if (!block) {
+        model->starved = true;
+        return NULL;
+    }
+    block->next = model->blocks;
+    model->blocks = block;
+    return block->memory;
+}
+
+char *dal__model_print(dal_model *model, const char *format, ...)
+{
+    va_list arguments;
+    va_start(arguments, format);
+    int length = vsnprintf(NULL, 0, format, arguments);
+    va_end(arguments);
+    char *text = length < 0 ? NULL : dal__model_take(model, (size_t)length + 1, 1);
+    if (!text) return NULL;
+    va_start(arguments, format);
+    vsnprintf(text, (size_t)length + 1, format, arguments);
+    va_end(arguments);
+    return text;
+}
+
+dal_status dal__starved(dal_error *error)
+{
+    return dal__error(error, DAL_MEMORY, 0, 0, "out of memory while the model was made");
+}
+
+dal_status dal__exhausted(dal_status status, dal_error *error)
+{
+    if (status != DAL_TOO_LARGE) return dal__starved(error);
+    return dal__error(error, status, 0, 0, "the equations of the system are too large");
+}
+
+dal_model *dal_model_create(const char *name)
+{
+    dal_model *model = calloc(1, sizeof *model);
+    if (!model) return NULL;
+    model->name = dal__model_print(model, "%s", name ? name : "");
+    if (model->name) return model;
+    dal_model_free(model);
+    return NULL;
+}
+
+void dal_model_free(dal_model *model)
+{
+    if (!model) return;
+    dal__tapes_free(model->programs.tapes);
+    dal__tapes_free(model->tangent_programs.tapes);
+    dal__tapes_free(model->extended_programs.tapes);
+    dal__graph_free(model->equations.graph);
+    for (dal__block *block = model->blocks, *next; block; block = next) {
+        next = block->next;
+        free(block);
+    }
+    free(model->entries);
+    free(model);
+}
+
+/* ---- entries ---- */
+
+const dal__entry *dal__model_entry(const dal_model *model, dal_section section, int i)
+{
+    for (int k = 0; k < model->count; k++)
+        if (model->entries[k].section == section && i-- == 0) return &model->entries[k];
+    return NULL;
+}
+
+int dal__model_count(const dal_model *model, dal_section section)
+{
+    int count = 0;
+    for (int k = 0; k < model->count; k++) count += model->entries[k].section == section;
+    return count;
+}
+
+static bool is_letter(char c)
+{
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+}
+
+bool dal__is_name(const char *text, size_t length)
+{
+    if (length == 0 || !is_letter(text[0])) return false;
+    for (size_t i = 1; i < length; i++)
+        if (!is_letter(text[i]) && !(text[i] >= '0' && text[i] <= '9')) return false;
+    return true;
+}
+
+/* The word that must be a name: that of the entry, or the text of a coordinate.  A start may be
+ * that of a velocity, x'. */
+static dal_status check_name(const dal__entry *entry, dal_error *error)
+{
+    const char *name = entry->section == DAL_SECTION_COORDINATES ? entry->text : entry->name;
+    if (!name) return DAL_OK;
+    size_t length = strlen(name);
+    if (entry->section == DAL_SECTION_START && length && name[length - 1] == '\'') length--;
+    if (length > DAL__MOST_LETTERS && entry->section != DAL_SECTION_START)
+        return dal__error(error, DAL_TOO_LARGE, entry->name_line, entry->name_column,
+                          "'%.40s...' in %s has more than %d characters", name,
+                          dal__section_name(entry->section), (int)DAL__MOST_LETTERS);
+    if (dal__is_name(name, length)) return DAL_OK;
+    return dal__error(error, DAL_NAME, entry->name_line, entry->name_column,
+                      "'%.80s' in %s is not a name: a letter, then letters, digits and _", name,
+                      dal__section_name(entry->section));
+}
+
+static dal_status check_duplicate(const dal_model *model, const dal__entry *entry, dal_error *error)
+{
+    dal__form shape = dal__section_shape(entry->section);
+    bool named = dal__section_named(entry->section);
+    const char *name = named ? entry->name : entry->text;
+    const char *section = dal__section_name(entry->section);
+    if (entry->section == DAL_SECTION_CONSTRAINTS) return DAL_OK;
+    for (int k = 0; k < model->count; k++) {
+        const dal__entry *other = &model->entries[k];
+        if (other->section != entry->section || other->item != entry->item) continue;
+        if (shape == DAL__SCALAR)
+            return dal__error(error, DAL_MODEL, entry->name_line, entry->name_column,
+                              "duplicate %s", section);
+        if (strcmp(named ? other->name : other->text, name) == 0)
+            return dal__error(error, DAL_MODEL, entry->name_line, entry->name_column,
+                              "duplicate '%.80s' in %s", name, section);
+    }
+    return DAL_OK;
+}
+
+static dal_status check_entry(const dal_model *model, const dal__entry *entry, dal_error *error)
+{
+    bool named = dal__section_named(entry->section);
+    if (!entry->text || named != (entry->name != NULL))
+        return dal__error(error, DAL_ARGUMENT, entry->name_line, entry->name_column,
+                          "an entry of %s has %s", dal__section_name(entry->section),
+                          named ? "a name and a text" : "a text and no name");
+    DAL_TRY(check_name(entry, error));
+    return check_duplicate(model, entry, error);
+}
+
+static bool grow(dal_model *model)
+{
+    if (model->count < model->capacity) return true;
+    int capacity = model->capacity ? 2 * model->capacity : 32;
+    dal__entry *entries = realloc(model->entries, (size_t)capacity * sizeof *entries);
+    if (!entries) return false;
+    model->entries = entries;
+    model->capacity = capacity;
+    return true;
+}
+
+dal_status dal__model_insert(dal_model *model, dal__entry entry, dal_error *error)
+{
+    int line = entry.name_line, column = entry.name_column;
+    if (entry.section >= DAL_SECTION_COUNT)
+        return dal__error(error, DAL_ARGUMENT, line, column, "no section has the number %d",
+                          (int)entry.section);
+    if (model->made)
+        return dal__error(error, DAL_ARGUMENT, line, column,
+                          "'%.80s' already has its system: nothing can be added", model->name);
+    if (model->count == DAL__MOST_ENTRIES)
+        return dal__error(error, DAL_TOO_LARGE, line, column, "more than %d entries",
+                          (int)DAL__MOST_ENTRIES);
+    DAL_TRY(check_entry(model, &entry, error));
+    bool named = entry.name != NULL;
+    entry.text = dal__model_print(model, "%s", entry.text);
+    if (named) entry.name = dal__model_print(model, "%s", entry.name);
+    if (!entry.text || (named && !entry.name) || !grow(model)) return dal__starved(error);
+    model->entries[model->count++] = entry;
+    return DAL_OK;
+}
+
+/* "2.x" is x of item 2. */
+static dal_status split_item(dal__entry *entry, dal_error *error)
+{
+    const char *c = entry->name;
+    while (*c >= '0' && *c <= '9' && entry->item <= DAL__MOST_COORDINATES)
+        entry->item = 10 * entry->item + (*c++ - '0');
+    if (*c != '.' || entry->item < 1)
+        return dal__error(error, DAL_NAME, entry->name_line, entry->name_column,
+                          "'%.80s' in %s is not a constraint and a coordinate, as 1.x", entry->name,
+                          dal__section_name(entry->section));
+    entry->name = c + 1;
+    return DAL_OK;
+}
+
+dal_status dal_model_add(dal_model *model, dal_section section, const char *name, const char *text,
+                         int line, int column, dal_error *error)
+{
+    DAL_REQUIRE(model, error);
+    dal__entry entry = {section, name, text, line, column, line, column, 0};
+    if (section == DAL_SECTION_REACTIONS && name) DAL_TRY(split_item(&entry, error));
+    return dal__model_insert(model, entry, error);
+}

@@ -1,0 +1,229 @@
+/* names.c - the names of a model: no two things of one name, none that a formula or a column of
+ * the output already uses; and what a name means inside a formula. */
+#include "model/mechanics.h"
+#include <stdio.h>
+#include <string.h>
+
+#define PI 3.14159265358979323846
+
+int dal__index_of(const char *name, size_t length, const char *const *names, int count)
+{
+    for (int i = 0; i < count; i++)
+        if (strncmp(names[i], name, length) == 0 && names[i][length] == 0) return i;
+    return -1;
+}
+
+/* ---- clashes ---- */
+
+static const char *const formula_words[] = {"t", "e", "pi",
+#define X(code, arity, name) name,
+                                            DAL__OP_LIST(X)
+#undef X
+};
+enum { WORD_E = 1, FORMULA_WORDS = sizeof formula_words / sizeof *formula_words };
+
+static bool is_formula_word(const char *name)
+{
+    for (int i = 0; i < FORMULA_WORDS; i++)
+        if (formula_words[i] && strcmp(formula_words[i], name) == 0) return true;
+    return false;
+}
+
+/* D1, g12: the letter and a number without leading zeros. */
+static bool is_numbered(const char *name, char letter)
+{
+    if (name[0] != letter || name[1] < '1' || name[1] > '9') return false;
+    return strspn(name + 1, "0123456789") == strlen(name + 1);
+}
+
+static bool is_momentum(const dal__equations *e, const char *name)
+{
+    const char *rest = strncmp(name, "p_", 2) == 0    ? name + 2
+                       : strncmp(name, "pi_", 3) == 0 ? name + 3
+                                                      : NULL;
+    if (!rest) return false;
+    return strcmp(name, "pi_e") == 0 || dal__index_of(rest, strlen(rest), e->coordinate, e->n) >= 0;
+}
+
+static bool is_column(const dal__equations *e, const char *name)
+{
+    return strcmp(name, "E") == 0 || strcmp(name, "H") == 0 || strcmp(name, "error") == 0 ||
+           is_numbered(name, 'D') || (e->vakonomic && is_numbered(name, 'g')) ||
+           is_momentum(e, name);
+}
+
+typedef struct kind {
+    dal_section section;
+    const char *what;
+    bool column; /* shown as a column of the output */
+} kind;
+
+static const kind kinds[] = {
+    {DAL_SECTION_COORDINATES, "coordinate", true},
+    {DAL_SECTION_PARAMETERS, "parameter", false},
+    {DAL_SECTION_LET, "let", false},
+    {DAL_SECTION_INVARIANTS, "invariant", true},
+};
+enum { KINDS = sizeof kinds / sizeof *kinds };
+
+static const char *entry_name(const dal__entry *entry)
+{
+    return entry->name ? entry->name : entry->text;
+}
+
+/* The kind before number k that already has this name, or NULL.  An invariant may have the name of
+ * a parameter or a let: only columns meet. */
+static const char *taken(const dal_model *model, int k, const char *name)
+{
+    for (int j = 0; j < k; j++) {
+        if (kinds[k].section == DAL_SECTION_INVARIANTS && !kinds[j].column) continue;
+        for (int i = 0; i < model->count; i++) {
+            const dal__entry *other = &model->entries[i];
+            if (other->section == kinds[j].section && strcmp(entry_name(other), name) == 0)
+                return kinds[j].what;
+        }
+    }
+    return NULL;
+}
+
+static dal_status check_clash(const dal_model *model, int k, const dal__entry *entry,
+                              dal_error *error)
+{
+    const char *name = entry_name(entry), *other = taken(model, k, name);
+    int line = entry->name_line, column = entry->name_column;
+    if (is_formula_word(name))
+        return dal__error(error, DAL_NAME, line, column,
+                          "%s '%.80s': this name is reserved in formulas", kinds[k].what, name);
+    if (kinds[k].column && is_column(&model->equations, name))
+        return dal__error(error, DAL_NAME, line, column,
+                          "%s '%.80s': this name is reserved for a column of the output",
+                          kinds[k].what, name);
+    if (other)
+        return dal__error(error, DAL_MODEL, line, column, "%s '%.80s': a %s already has this name",
+                          kinds[k].what, name, other);
+    return DAL_OK;
+}
+
+/* ---- collecting ---- */
+
+static const char **collect(dal_model *model, dal_section section, int *count)
+{
+    *count = dal__model_count(model, section);
+    const char **names = dal__model_take(model, (size_t)*count + 1, sizeof *names);
+    if (!names) return NULL;
+    for (int k = 0, i = 0; k < model->count; k++)
+        if (model->entries[k].section == section) names[i++] = entry_name(&model->entries[k]);
+    return names;
+}
+
+dal_status dal__names(dal_model *model, dal_error *error)
+{
+    dal__equations *e = &model->equations;
+    e->coordinate = collect(model, DAL_SECTION_COORDINATES, &e->n);
+    e->parameter = collect(model, DAL_SECTION_PARAMETERS, &e->parameters);
+    e->let_name = collect(model, DAL_SECTION_LET, &e->lets);
+    e->invariant_name = collect(model, DAL_SECTION_INVARIANTS, &e->invariants);
+    e->tag = collect(model, DAL_SECTION_TAGS, &e->tags);
+    if (model->starved) return dal__starved(error);
+    for (int k = 0; k < KINDS; k++)
+        for (int i = 0; i < model->count; i++)
+            if (model->entries[i].section == kinds[k].section)
+                DAL_TRY(check_clash(model, k, &model->entries[i], error));
+    return DAL_OK;
+}
+
+/* ---- meaning ---- */
+
+static dal__node misplaced(dal_error *error, const char *what, const char *name, unsigned may)
+{
+    dal__error(error, DAL_NAME, 0, 0, "%s '%.80s' may not stand here: only parameters%s", what,
+               name, may & DAL__MAY_T ? " and t" : "");
+    return 0;
+}
+
+static dal__node unknown(const dal__scope *scope, const char *name, dal_error *error)
+{
+    enum { MOST = DAL__MOST_ENTRIES + FORMULA_WORDS };
+    const dal__equations *e = &scope->model->equations;
+    const char *names[MOST];
+    int count = 0;
+    for (int i = 0; i < e->n && scope->may & DAL__MAY_STATE; i++) names[count++] = e->coordinate[i];
+    for (int i = 0; i < scope->parameters; i++) names[count++] = e->parameter[i];
+    for (int i = 0; i < scope->lets; i++) names[count++] = e->let_name[i];
+    names[count++] = scope->may & DAL__MAY_T ? "t" : NULL;
+    for (int i = WORD_E + 1; i < FORMULA_WORDS; i++) names[count++] = formula_words[i];
+    dal__unknown(error, 0, 0, "name", name, names, count);
+    return 0;
+}
+
+static dal__node velocity(const dal__scope *scope, const char *name, int i, dal_error *error)
+{
+    const dal__equations *e = &scope->model->equations;
+    if (i >= 0 && scope->may & DAL__MAY_STATE) return dal__symbol(e->graph, e->v + i);
+    if (i >= 0) return misplaced(error, "the velocity of", name, scope->may);
+    int parameter = dal__index_of(name, strlen(name), e->parameter, e->parameters);
+    if (parameter < 0) return unknown(scope, name, error);
+    dal__error(error, DAL_NAME, 0, 0, "parameter '%.80s' has no velocity", name);
+    return 0;
+}
+
+static bool let_allowed(const dal__scope *scope, dal__node let)
+{
+    const dal__equations *e = &scope->model->equations;
+    if (!(scope->may & DAL__MAY_STATE) && dal__depends(e->graph, let, e->q, e->symbols))
+        return false;
+    return scope->may & DAL__MAY_T || !dal__depends(e->graph, let, e->t, e->t + 1);
+}
+
+/* Multipliers g1, g2, ... of a vakonomic model; 0: not one of them. */
+static dal__node multiplier(const dal__scope *scope, const char *name)
+{
+    const dal__equations *e = &scope->model->equations;
+    char g[16];
+    for (int a = 0; a < e->multipliers && scope->may & DAL__MAY_MULTIPLIERS; a++) {
+        snprintf(g, sizeof g, "g%d", a + 1);
+        if (strcmp(g, name) == 0) return dal__symbol(e->graph, e->g + a);
+    }
+    return 0;
+}
+
+static dal__node plain(const dal__scope *scope, const char *name, size_t length, dal_error *error)
+{
+    const dal__equations *e = &scope->model->equations;
+    int i;
+    if (strcmp(name, "pi") == 0) return dal__number(e->graph, PI);
+    if (strcmp(name, "t") == 0)
+        return scope->may & DAL__MAY_T ? dal__symbol(e->graph, e->t)
+                                       : misplaced(error, "the time", name, scope->may);
+    if ((i = dal__index_of(name, length, e->coordinate, e->n)) >= 0)
+        return scope->may & DAL__MAY_STATE ? dal__symbol(e->graph, e->q + i)
+                                           : misplaced(error, "coordinate", name, scope->may);
+    if ((i = dal__index_of(name, length, e->parameter, scope->parameters)) >= 0)
+        return dal__symbol(e->graph, i);
+    if ((i = dal__index_of(name, length, e->let_name, scope->lets)) >= 0)
+        return let_allowed(scope, e->let[i]) ? e->let[i]
+                                             : misplaced(error, "let", name, scope->may);
+    if (strcmp(name, "e") == 0) {
+        dal__error(error, DAL_NAME, 0, 0, "e is the gauge variable; exp(1) is Euler's number");
+        return 0;
+    }
+    dal__node g = multiplier(scope, name);
+    return g ? g : unknown(scope, name, error);
+}
+
+dal__node dal__resolve_name(void *user, const char *text, size_t length, bool prime,
+                            dal_error *error)
+{
+    const dal__scope *scope = user;
+    const dal__equations *e = &scope->model->equations;
+    char name[128];
+    if (length >= sizeof name) {
+        dal__error(error, DAL_NAME, 0, 0, "unknown name '%.40s...'", text);
+        return 0;
+    }
+    memcpy(name, text, length);
+    name[length] = 0;
+    if (prime)
+        return velocity(scope, name, dal__index_of(name, length, e->coordinate, e->n), error);
+    return plain(scope, name, length, error);
+}

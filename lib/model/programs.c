@@ -1,0 +1,181 @@
+/* programs.c - the programs of a system: which nodes each computes, which pivots it watches.
+ *
+ * A program's outputs are followed by the pivots it divides by, each with its size; the callbacks
+ * check them lane by lane and leave NaN where one has vanished. */
+#include "kernel/long.h"
+#include "model/mechanics.h"
+
+dal_status dal__programs_begin(const dal__equations *e, dal__programs *programs, int n,
+                               int multipliers)
+{
+    dal__tapes_free(programs->tapes);
+    *programs = (dal__programs){.equations = e, .n = n, .multipliers = multipliers};
+    programs->tapes = dal__tapes_create(e->graph, e->parameters, e->symbols - e->parameters);
+    return programs->tapes ? DAL_OK : DAL_MEMORY;
+}
+
+static bool watches(const dal__equations *e, const dal__pivot *pivot, dal__program_code code)
+{
+    switch (code) {
+    case DAL__PROGRAM_FIELD:
+    case DAL__PROGRAM_ADJOINT:
+    case DAL__PROGRAM_JACOBIAN:
+        return pivot->watched;
+    case DAL__PROGRAM_CONSTRAINT:
+    case DAL__PROGRAM_ENERGY_NORMAL:
+    case DAL__PROGRAM_PARTS:
+        return pivot->watched && pivot->constraint == 0 && !e->vakonomic;
+    default:
+        return false;
+    }
+}
+
+dal_status dal__programs_add(dal_model *model, dal__programs *programs, dal__program_code code,
+                             const dal__node *outputs, int count)
+{
+    const dal__equations *e = &model->equations;
+    dal__program *program = &programs->program[code];
+    size_t most = (size_t)count + 2 * (size_t)e->pivots;
+    dal__node *all = dal__model_take(model, most, sizeof *all);
+    if (!all) return DAL_MEMORY;
+    for (int i = 0; i < count; i++) all[i] = outputs[i];
+    program->outputs = count;
+    for (int k = 0; k < e->pivots; k++) {
+        if (!watches(e, &e->pivot[k], code)) continue;
+        all[count + 2 * program->watched] = e->pivot[k].pivot;
+        all[count + 2 * program->watched++ + 1] = e->pivot[k].size;
+    }
+    program->tape = dal__tapes_add(programs->tapes, all, count + 2 * program->watched);
+    program->present = program->tape >= 0;
+    return program->present ? DAL_OK : DAL_MEMORY;
+}
+
+/* ---- derivatives of the motion ---- */
+
+static dal_status add_adjoint(dal_model *model, dal__programs *programs, const dal__node *F)
+{
+    const dal__equations *e = &model->equations;
+    int n = programs->n;
+    dal__node *out = dal__model_take(model, 3 * (size_t)n, sizeof *out);
+    if (!out) return DAL_MEMORY;
+    dal__node pairing = dal__number(e->graph, 0.0);
+    for (int i = 0; i < n; i++) {
+        dal__node pi = dal__symbol(e->graph, e->pi + i);
+        pairing = dal__add(e->graph, pairing, dal__mul(e->graph, pi, F[i]));
+        out[i] = F[i];
+    }
+    dal__gradient(e->graph, pairing, e->symbol + e->q, n, out + n);
+    dal__gradient(e->graph, pairing, e->symbol + e->v, n, out + 2 * n);
+    return dal__programs_add(model, programs, DAL__PROGRAM_ADJOINT, out, 3 * n);
+}
+
+static dal_status add_jacobian(dal_model *model, dal__programs *programs, const dal__node *F)
+{
+    const dal__equations *e = &model->equations;
+    int n = programs->n, g = programs->multipliers, nw = n + g;
+    size_t room = (size_t)nw * (size_t)(n + nw);
+    dal__node *out = dal__model_take(model, room, sizeof *out);
+    if (!out) return DAL_MEMORY;
+    for (int i = 0; i < nw; i++) {
+        dal__node *by_q = out + i * n, *by_v = out + nw * n + i * nw;
+        dal__gradient(e->graph, F[i], e->symbol + e->q, n, by_q);
+        dal__gradient(e->graph, F[i], e->symbol + e->v, n, by_v);
+        dal__gradient(e->graph, F[i], e->symbol + e->g, g, by_v + n);
+    }
+    return dal__programs_add(model, programs, DAL__PROGRAM_JACOBIAN, out, (int)room);
+}
+
+dal_status dal__programs_add_motion(dal_model *model, dal__programs *programs, const dal__node *F)
+{
+    int nw = programs->n + programs->multipliers;
+    DAL_TRY(dal__programs_add(model, programs, DAL__PROGRAM_FIELD, F, nw));
+    DAL_TRY(add_jacobian(model, programs, F));
+    return programs->multipliers ? DAL_OK : add_adjoint(model, programs, F);
+}
+
+/* ---- the end ---- */
+
+static void place_inputs(dal__programs *programs)
+{
+    const dal__equations *e = programs->equations;
+    int inputs = dal__tapes_inputs(programs->tapes) - e->parameters;
+    programs->t = inputs + e->t;
+    programs->q = inputs + e->q;
+    programs->v = inputs + e->v;
+    programs->pi = inputs + e->pi;
+    programs->g = inputs + e->g;
+    programs->scratch = dal__tapes_workspace(programs->tapes);
+}
+
+static size_t scratch_room(const dal__programs *programs)
+{
+    size_t most = 0;
+    for (int code = 0; code < DAL__PROGRAM_COUNT; code++) {
+        const dal__program *program = &programs->program[code];
+        size_t room = (size_t)program->outputs + 2 * (size_t)program->watched;
+        bool direct = program->watched == 0 && code != DAL__PROGRAM_DIAGNOSE;
+        if (!direct && room > most) most = room;
+    }
+    return most;
+}
+
+static dal_status prepare(const dal_system *system, const dal_at *at, double *out)
+{
+    const dal__programs *programs = system->data;
+    (void)out;
+    dal__tapes_prepare_x1(programs->tapes, at->work);
+    return DAL_OK;
+}
+
+static dal_status prepare_in_long(const dal_system *system, const dal_at *at, double *out)
+{
+    const dal__programs *programs = system->data;
+    (void)out;
+    dal__tapes_prepare_x1_LONGER(programs->tapes, at->work);
+    return DAL_OK;
+}
+
+/* The same programs over long numbers, as a system of its own. */
+static dal_status make_in_long(dal_model *model, const dal__programs *programs, dal_system *system)
+{
+    if (DAL_LONG_DIGITS <= DBL_MANT_DIG) return DAL_OK;
+    dal__in_long *k = dal__model_take(model, 1, sizeof *k);
+    if (!k) return DAL_MEMORY;
+    k->programs = *programs;
+    k->programs.run = dal__callbacks_x1_LONGER(&k->programs, &k->programs.wide1);
+    k->system = *system;
+    k->system.data = &k->programs;
+    k->system.prepare = prepare_in_long;
+    k->system.call = k->programs.wide1;
+    k->system.wide4 = k->system.wide8 = k->system.wide64 = NULL;
+    system->in_long = &k->system;
+    return DAL_OK;
+}
+
+const dal__programs *dal__programs_of(const dal_system *system)
+{
+    return system->prepare == prepare ? system->data : NULL;
+}
+
+dal_status dal__programs_finish(dal_model *model, dal__programs *programs, dal_system *system)
+{
+    DAL_TRY(dal__tapes_finish(programs->tapes));
+    place_inputs(programs);
+    system->data = programs;
+    system->workspace = programs->scratch + scratch_room(programs);
+    system->prepare = prepare;
+    programs->run = dal__callbacks_x1(programs, &programs->wide1);
+#define X(name, variant, lanes, set, group)                                                        \
+    if (dal__machine_has(DAL__##set)) {                                                            \
+        dal__run_program *run = name##_##variant(programs, &programs->wide##lanes);                \
+        if (lanes == 1) programs->run = run;                                                       \
+    }
+    DAL__VARIANT_LIST(X, dal__callbacks)
+#undef X
+    system->call = programs->wide1;
+    dal__callbacks_single(programs, system);
+    system->wide4 = &programs->wide4;
+    system->wide8 = &programs->wide8;
+    system->wide64 = &programs->wide64;
+    return make_in_long(model, programs, system);
+}

@@ -1,0 +1,236 @@
+/* system.c - the dal_system of a model, and that of its tangent map. */
+#include "model/mechanics.h"
+#include <stdio.h>
+
+static dal__node *take(dal_model *model, int count)
+{
+    return dal__model_take(model, (size_t)count, sizeof(dal__node));
+}
+
+/* ---- programs ---- */
+
+/* D, A, W^-1 A^T; nothing when W has no inverse. */
+static dal_status add_constraint(dal_model *model, dal__programs *programs)
+{
+    const dal__equations *e = &model->equations;
+    int n = e->n, m = e->m;
+    if (m == 0) return DAL_OK;
+    DAL_TRY(dal__programs_add(model, programs, DAL__PROGRAM_CONSTRAINTS, e->constraint, m));
+    if (!e->U[0]) return DAL_OK;
+    dal__node *out = take(model, m + 2 * m * n);
+    if (!out) return DAL_MEMORY;
+    for (int a = 0; a < m; a++) out[a] = e->constraint[a];
+    for (int i = 0; i < m * n; i++) {
+        out[m + i] = e->A[i];
+        out[m + m * n + i] = e->U[i];
+    }
+    return dal__programs_add(model, programs, DAL__PROGRAM_CONSTRAINT, out, m + 2 * m * n);
+}
+
+/* D, A, R = W^-1 B^T, W^-1 b, c; nothing for vakonomic systems. */
+static dal_status add_parts(dal_model *model, dal__programs *programs)
+{
+    const dal__equations *e = &model->equations;
+    int n = e->n, m = e->m, count = 0;
+    if (e->vakonomic) return DAL_OK;
+    dal__node *out = take(model, n + 2 * (m + m * n));
+    if (!out) return DAL_MEMORY;
+    for (int a = 0; a < m; a++) out[count++] = e->constraint[a];
+    for (int i = 0; i < m * n; i++) out[count++] = e->A[i];
+    for (int i = 0; i < n * m; i++) out[count++] = e->R[i];
+    for (int i = 0; i < n; i++) out[count++] = e->a[i];
+    for (int a = 0; a < m; a++) out[count++] = e->c[a];
+    return dal__programs_add(model, programs, DAL__PROGRAM_PARTS, out, count);
+}
+
+static dal_status add_diagnosis(dal_model *model, dal__programs *programs)
+{
+    const dal__equations *e = &model->equations;
+    dal__node *out = take(model, 2 * e->pivots + e->m);
+    if (!out) return DAL_MEMORY;
+    for (int k = 0; k < e->pivots; k++) {
+        out[2 * k] = e->pivot[k].pivot;
+        out[2 * k + 1] = e->pivot[k].size;
+    }
+    for (int a = 0; a < e->m; a++) {
+        dal__node sum = dal__add(e->graph, e->constraint[a], e->c[a]);
+        for (int i = 0; i < e->n; i++) sum = dal__add(e->graph, sum, e->A[a * e->n + i]);
+        out[2 * e->pivots + a] = sum;
+    }
+    return dal__programs_add(model, programs, DAL__PROGRAM_DIAGNOSE, out, 2 * e->pivots + e->m);
+}
+
+static dal_status add_if(dal_model *model, dal__programs *programs, bool present,
+                         dal__program_code code, const dal__node *outputs, int count)
+{
+    return present ? dal__programs_add(model, programs, code, outputs, count) : DAL_OK;
+}
+
+/* All programs of a system whose accelerations are F. */
+static dal_status add_programs(dal_model *model, dal__programs *p, const dal__node *F)
+{
+    const dal__equations *e = &model->equations;
+    int start = 2 * e->n + e->multipliers + 1;
+    DAL_TRY(dal__programs_begin(e, p, e->n, e->multipliers));
+    DAL_TRY(dal__programs_add_motion(model, p, F));
+    DAL_TRY(add_constraint(model, p));
+    DAL_TRY(add_parts(model, p));
+    DAL_TRY(add_if(model, p, e->potential, DAL__PROGRAM_POTENTIAL, e->potential, 3 * e->n));
+    DAL_TRY(add_diagnosis(model, p));
+    DAL_TRY(add_if(model, p, e->normal, DAL__PROGRAM_ENERGY_NORMAL, e->normal, 1 + 3 * e->n));
+    DAL_TRY(add_if(model, p, e->mu, DAL__PROGRAM_GAUGE, &e->mu, 1));
+    DAL_TRY(add_if(model, p, e->guards, DAL__PROGRAM_GUARDS, e->guard, e->guards));
+    DAL_TRY(dal__programs_add(model, p, DAL__PROGRAM_START, e->start, start));
+    DAL_TRY(add_if(model, p, e->energy, DAL__PROGRAM_ENERGY, &e->energy, 1));
+    DAL_TRY(add_if(model, p, e->invariants, DAL__PROGRAM_INVARIANTS, e->invariant, e->invariants));
+    DAL_TRY(add_if(model, p, e->picture, DAL__PROGRAM_PICTURE, e->picture, DAL_PICTURE_COUNT));
+    return add_if(model, p, e->exact[0], DAL__PROGRAM_EXACT, e->exact, 2 * e->n);
+}
+
+/* ---- the system ---- */
+
+static const char *text_of(const dal_model *model, dal_section section)
+{
+    const dal__entry *entry = dal__model_entry(model, section, 0);
+    return entry ? entry->text : NULL;
+}
+
+static void describe(dal_model *model)
+{
+    const dal__equations *e = &model->equations;
+    model->system = (dal_system){
+        .name = model->name,
+        .title = text_of(model, DAL_SECTION_TITLE),
+        .reference = text_of(model, DAL_SECTION_REFERENCE),
+        .n = e->n,
+        .m = e->m,
+        .multipliers = e->multipliers,
+        .parameters = e->parameters,
+        .invariants = e->invariants,
+        .guards = e->guards,
+        .mass_guard = e->mass_guard,
+        .tags = e->tags,
+        .properties = e->properties,
+        .coordinate = e->coordinate,
+        .parameter = e->parameter,
+        .value = e->value,
+        .invariant = e->invariant_name,
+        .guard = e->guard_name,
+        .tag = e->tag,
+        .body = e->body,
+    };
+}
+
+/* The same system with its energy exact: itself, another one, or none. */
+static dal_status make_extended(dal_model *model)
+{
+    const dal__equations *e = &model->equations;
+    if (e->properties & DAL_E_EXACT) model->system.extended = &model->system;
+    if (!e->extended) return DAL_OK;
+    model->extended = model->system;
+    model->extended.properties ^= DAL_E_WEAK | DAL_E_EXACT;
+    DAL_TRY(add_programs(model, &model->extended_programs, e->extended));
+    DAL_TRY(dal__programs_finish(model, &model->extended_programs, &model->extended));
+    model->system.extended = model->extended.extended = &model->extended;
+    return DAL_OK;
+}
+
+dal_status dal_model_system(dal_model *model, const dal_system **system, dal_error *error)
+{
+    DAL_REQUIRE(system, error);
+    *system = NULL;
+    DAL_REQUIRE(model, error);
+    if (model->made) return *system = &model->system, DAL_OK;
+    model->starved = false;
+    DAL_TRY(dal__formulas(model, error));
+    DAL_TRY(dal__equations_derive(model, error));
+    dal_status status = dal__guards(model);
+    if (status == DAL_OK) status = dal__properties(model);
+    if (status == DAL_OK) status = dal__conserved(model);
+    if (status == DAL_OK) status = dal__potential(model);
+    if (status == DAL_OK) describe(model);
+    if (status == DAL_OK) status = add_programs(model, &model->programs, model->equations.F);
+    if (status == DAL_OK) status = dal__graph_status(model->equations.graph);
+    if (status == DAL_OK) status = dal__programs_finish(model, &model->programs, &model->system);
+    if (status == DAL_OK) status = make_extended(model);
+    if (status != DAL_OK) return dal__exhausted(status, error);
+    model->made = true;
+    *system = &model->system;
+    return DAL_OK;
+}
+
+/* ---- the tangent system ---- */
+
+/* Names x and dq_x. */
+static const char **tangent_names(dal_model *model)
+{
+    const dal__equations *e = &model->equations;
+    const char **names = dal__model_take(model, 2 * (size_t)e->n, sizeof *names);
+    for (int i = 0; names && i < e->n; i++) {
+        names[i] = e->coordinate[i];
+        names[e->n + i] = dal__model_print(model, "dq_%s", e->coordinate[i]);
+    }
+    return model->starved ? NULL : names;
+}
+
+/* F and F_q dq + F_v dv, as one motion of 2n coordinates. */
+static dal_status add_tangent_programs(dal_model *model)
+{
+    const dal__equations *e = &model->equations;
+    int n = e->n;
+    dal__node *F = take(model, 2 * n), *seed = take(model, 2 * n);
+    int *along = dal__model_take(model, 2 * (size_t)n, sizeof *along);
+    if (model->starved) return DAL_MEMORY;
+    for (int i = 0; i < n; i++) {
+        along[i] = e->q + i;
+        along[n + i] = e->v + i;
+        seed[i] = dal__symbol(e->graph, e->q + n + i);
+        seed[n + i] = dal__symbol(e->graph, e->v + n + i);
+    }
+    for (int i = 0; i < n; i++) {
+        F[i] = e->F[i];
+        F[n + i] = dal__tangent(e->graph, e->F[i], along, 2 * n, seed);
+    }
+    DAL_TRY(dal__programs_begin(e, &model->tangent_programs, 2 * n, 0));
+    DAL_TRY(dal__programs_add_motion(model, &model->tangent_programs, F));
+    DAL_TRY(add_diagnosis(model, &model->tangent_programs));
+    return dal__graph_status(e->graph);
+}
+
+static dal_status make_tangent(dal_model *model)
+{
+    const dal__equations *e = &model->equations;
+    const char **names = tangent_names(model);
+    char *name = dal__model_print(model, "%s, tangent", model->name);
+    if (!names || !name) return DAL_MEMORY;
+    model->tangent = (dal_system){.name = name,
+                                  .title = model->system.title,
+                                  .reference = model->system.reference,
+                                  .n = 2 * e->n,
+                                  .parameters = e->parameters,
+                                  .properties = e->properties & DAL_AUTONOMOUS,
+                                  .coordinate = names,
+                                  .parameter = e->parameter,
+                                  .value = e->value};
+    DAL_TRY(add_tangent_programs(model));
+    return dal__programs_finish(model, &model->tangent_programs, &model->tangent);
+}
+
+dal_status dal_model_tangent(dal_model *model, const dal_system **system, dal_error *error)
+{
+    DAL_REQUIRE(system, error);
+    *system = NULL;
+    DAL_REQUIRE(model, error);
+    const dal_system *plain;
+    if (model->tangent_made) return *system = &model->tangent, DAL_OK;
+    DAL_TRY(dal_model_system(model, &plain, error));
+    if (model->equations.multipliers)
+        return dal__error(error, DAL_UNSUPPORTED, 0, 0,
+                          "'%.80s' has multipliers: there is no tangent system for it",
+                          model->name);
+    dal_status status = make_tangent(model);
+    if (status != DAL_OK) return dal__exhausted(status, error);
+    model->tangent_made = true;
+    *system = &model->tangent;
+    return DAL_OK;
+}
