@@ -21,10 +21,24 @@ static void test_every_status_has_its_words(void)
 static void test_record(void)
 {
     dal_error error;
-    CU_ASSERT(dal__error(&error, DAL_RANK, 3, 7, "a%s%d", "\nb\x7f", 5) == DAL_RANK);
+    CU_ASSERT(dal__fail_at(&error, DAL_RANK, 3, 7, "a%s%d", "\nb\x7f", 5) == DAL_RANK);
     CU_ASSERT(error.status == DAL_RANK && error.line == 3 && error.column == 7);
     CU_ASSERT_STRING_EQUAL(error.message, "a?b?5");
-    CU_ASSERT(dal__error(NULL, DAL_IO, 0, 0, "unheard") == DAL_IO);
+    CU_ASSERT(dal__fail_at(NULL, DAL_IO, 3, 7, "unheard") == DAL_IO);
+}
+
+static void test_record_without_a_place(void)
+{
+    dal_error error = {.line = 3, .column = 7};
+    CU_ASSERT(dal__fail(&error, DAL_MEMORY, "a%s%d", "\nb\x7f", 5) == DAL_MEMORY);
+    CU_ASSERT(error.status == DAL_MEMORY && error.line == 0 && error.column == 0);
+    CU_ASSERT_STRING_EQUAL(error.message, "a?b?5");
+    CU_ASSERT(dal__fail(NULL, DAL_IO, "unheard") == DAL_IO);
+    const char *const names[] = {"omega"};
+    error.line = error.column = 7;
+    CU_ASSERT(dal__unknown(&error, "parameter", "omga", names, 1) == DAL_NAME);
+    CU_ASSERT(error.line == 0 && error.column == 0);
+    CU_ASSERT_STRING_EQUAL(error.message, "unknown parameter 'omga'; did you mean 'omega'?");
 }
 
 static void test_record_is_cut_not_overrun(void)
@@ -33,7 +47,7 @@ static void test_record_is_cut_not_overrun(void)
     char text[2 * DAL_MESSAGE_SIZE];
     memset(text, 'x', sizeof text);
     text[sizeof text - 1] = 0;
-    dal__error(&error, DAL_SYNTAX, 1, 1, "%s", text);
+    dal__fail_at(&error, DAL_SYNTAX, 1, 1, "%s", text);
     CU_ASSERT(strlen(error.message) == DAL_MESSAGE_SIZE - 1);
 }
 
@@ -78,9 +92,9 @@ static void test_unknown(void)
 {
     const char *const names[] = {"omega", "v0"};
     dal_error error;
-    CU_ASSERT(dal__unknown(&error, 2, 5, "parameter", "omga", names, 2) == DAL_NAME);
+    CU_ASSERT(dal__unknown_at(&error, 2, 5, "parameter", "omga", names, 2) == DAL_NAME);
     CU_ASSERT_STRING_EQUAL(error.message, "unknown parameter 'omga'; did you mean 'omega'?");
-    CU_ASSERT(dal__unknown(&error, 2, 5, "parameter", "mass", names, 2) == DAL_NAME);
+    CU_ASSERT(dal__unknown_at(&error, 2, 5, "parameter", "mass", names, 2) == DAL_NAME);
     CU_ASSERT_STRING_EQUAL(error.message, "unknown parameter 'mass'");
 }
 
@@ -89,6 +103,7 @@ void suite_error(void)
     CU_pSuite suite = CU_add_suite("errors", NULL, NULL);
     CU_add_test(suite, "every status has its own words", test_every_status_has_its_words);
     CU_add_test(suite, "an error record", test_record);
+    CU_add_test(suite, "an error that is about no text", test_record_without_a_place);
     CU_add_test(suite, "a long message is cut", test_record_is_cut_not_overrun);
     CU_add_test(suite, "the nearest name", test_nearest);
     CU_add_test(suite, "the nearest of long names", test_nearest_of_long_names);

@@ -34,9 +34,8 @@ static dal_status state_at(const dal_run_spec *spec, double T, double *out, long
     double steps = nearbyint(T / spec->options.step);
     if (!(steps >= 1.0 && steps < 0x1p53) ||
         !(fabs(steps * spec->options.step - T) <= 1e-9 * fabs(T)))
-        return dal__error(error, DAL_ARGUMENT, 0, 0,
-                          "time %g does not hold a whole number of steps %g", T,
-                          spec->options.step);
+        return dal__fail(error, DAL_ARGUMENT, "time %g does not hold a whole number of steps %g", T,
+                         spec->options.step);
     DAL_TRY(dal_run_create(&run, spec, error));
     dal_status status = dal_run_advance(run, (long long)steps, error);
     size_t count = (size_t)dal_run_dimension(run);
@@ -122,11 +121,11 @@ dal_status dal_measure_order(const dal_run_spec *spec, double T, int levels,
     DAL_TRY(dal__check_spec(spec, error));
     size_t count;
     if (levels < 2 || levels > DAL_ORDER_LEVELS)
-        return dal__error(error, DAL_ARGUMENT, 0, 0, "levels = %d is not in 2..%d", levels,
-                          DAL_ORDER_LEVELS);
+        return dal__fail(error, DAL_ARGUMENT, "levels = %d is not in 2..%d", levels,
+                         DAL_ORDER_LEVELS);
     DAL_TRY(dimension_of(spec, &count, error));
     double *block = dal__numbers(2, count);
-    if (block == NULL) return dal__error(error, DAL_MEMORY, 0, 0, "order: out of memory");
+    if (block == NULL) return dal__fail(error, DAL_MEMORY, "order: out of memory");
     dal_status status = DAL_OK;
     *order = (dal_order){.levels = levels};
     if (reference == NULL) {

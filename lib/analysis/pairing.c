@@ -43,7 +43,7 @@ static dal_status start_tangent(pairing *w, const double *direction, dal_error *
     size_t n = (size_t)w->n, bytes = n * sizeof(double);
     const double *z = dal_run_state(w->lifted);
     double *x = dal__numbers(4, n);
-    if (x == NULL) return dal__error(error, DAL_MEMORY, 0, 0, "pairing: out of memory");
+    if (x == NULL) return dal__fail(error, DAL_MEMORY, "pairing: out of memory");
     memcpy(x, z, bytes);
     memcpy(x + n, direction, bytes);
     memcpy(x + 2 * n, z + n, bytes);
@@ -71,7 +71,7 @@ static dal_status open_pairing(pairing *w, const dal_run_spec *spec, const dal_s
                                dal_error *error)
 {
     dal_setting *start = calloc((size_t)spec->start_count + 1, sizeof *start);
-    if (start == NULL) return dal__error(error, DAL_MEMORY, 0, 0, "pairing: out of memory");
+    if (start == NULL) return dal__fail(error, DAL_MEMORY, "pairing: out of memory");
     dal_run_spec adjoint = adjoint_spec(spec, start), physical = *spec;
     physical.system = tangent;
     physical.options.space = DAL_PHYSICAL;
@@ -92,9 +92,9 @@ dal_status dal_measure_pairing(const dal_run_spec *spec, const dal_system *tange
     DAL_REQUIRE_COUNT(steps, error);
     DAL_TRY(dal__check_spec(spec, error));
     if (tangent->n != 2 * spec->system->n)
-        return dal__error(error, DAL_ARGUMENT, 0, 0,
-                          "a tangent system of %d coordinates for a system of %d", tangent->n,
-                          spec->system->n);
+        return dal__fail(error, DAL_ARGUMENT,
+                         "a tangent system of %d coordinates for a system of %d", tangent->n,
+                         spec->system->n);
     pairing w = {.n = spec->system->n};
     dal_status status = open_pairing(&w, spec, tangent, error);
     if (status == DAL_OK) status = start_tangent(&w, direction, error);

@@ -17,10 +17,10 @@ static dal_status set_parameter(dal_probe *probe, const dal_setting *setting, da
         if (s->parameter == NULL || strcmp(s->parameter[i], setting->name) != 0) continue;
         probe->work[i] = setting->value;
         if (isfinite(setting->value)) return DAL_OK;
-        return dal__error(error, DAL_NOT_FINITE, 0, 0, "parameter %s = %g is not finite",
-                          setting->name, setting->value);
+        return dal__fail(error, DAL_NOT_FINITE, "parameter %s = %g is not finite", setting->name,
+                         setting->value);
     }
-    return dal__unknown(error, 0, 0, "parameter", setting->name, s->parameter,
+    return dal__unknown(error, "parameter", setting->name, s->parameter,
                         s->parameter != NULL ? s->parameters : 0);
 }
 
@@ -32,8 +32,8 @@ static dal_status fill(dal_probe *probe, const dal_setting *parameters, int coun
     if (s->prepare == NULL) return DAL_OK;
     dal_status status = s->prepare(s, &(dal_at){.work = probe->work}, NULL);
     if (status == DAL_OK) return DAL_OK;
-    return dal__error(error, status, 0, 0, "%s: the parameters cannot be used: %s", s->name,
-                      dal_status_text(status));
+    return dal__fail(error, status, "%s: the parameters cannot be used: %s", s->name,
+                     dal_status_text(status));
 }
 
 dal_status dal_probe_create(dal_probe **probe, const dal_system *system,
@@ -51,7 +51,7 @@ dal_status dal_probe_create(dal_probe **probe, const dal_system *system,
         free(work);
         free(*probe);
         *probe = NULL;
-        return dal__error(error, DAL_MEMORY, 0, 0, "%s: out of memory", system->name);
+        return dal__fail(error, DAL_MEMORY, "%s: out of memory", system->name);
     }
     **probe = (dal_probe){system, work};
     dal_status status = fill(*probe, parameters, parameter_count, error);
@@ -117,7 +117,7 @@ static dal_status set_start(const dal_system *s, const dal_setting *setting, dou
         shown[kept] = name;
         if (kept < NAMES_SHOWN - 1) kept++;
     }
-    return dal__unknown(error, 0, 0, "start value", setting->name, shown, kept);
+    return dal__unknown(error, "start value", setting->name, shown, kept);
 }
 
 dal_status dal_probe_start(dal_probe *probe, const dal_setting *start, int start_count, double *out,
@@ -132,8 +132,7 @@ dal_status dal_probe_start(dal_probe *probe, const dal_setting *start, int start
     if (s->start != NULL) {
         dal_status status = s->start(s, &(dal_at){.work = probe->work}, out);
         if (status != DAL_OK)
-            return dal__error(error, status, 0, 0, "%s: no start: %s", s->name,
-                              dal_status_text(status));
+            return dal__fail(error, status, "%s: no start: %s", s->name, dal_status_text(status));
     }
     for (int i = 0; i < start_count; i++) DAL_TRY(set_start(s, &start[i], out, error));
     return DAL_OK;

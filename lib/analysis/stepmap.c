@@ -40,7 +40,7 @@ static dal_status open_map(stepmap *m, const dal_run_spec *spec, double t, const
     m->z = dal__numbers(rows + 1, (size_t)m->dimension);
     if (m->z == NULL) {
         dal_run_free(m->run);
-        return dal__error(error, DAL_MEMORY, 0, 0, "step map: out of memory");
+        return dal__fail(error, DAL_MEMORY, "step map: out of memory");
     }
     if (state == NULL) state = dal_run_state(m->run);
     memcpy(m->z, state, (size_t)m->dimension * sizeof(double));
@@ -106,8 +106,7 @@ dal_status dal_measure_symplecticity(const dal_run_spec *spec, double t, const d
     DAL_TRY(dal__check_spec(spec, error));
     stepmap m;
     if (spec->options.space != DAL_LIFTED)
-        return dal__error(error, DAL_UNSUPPORTED, 0, 0,
-                          "symplecticity is a property of the lifted space");
+        return dal__fail(error, DAL_UNSUPPORTED, "symplecticity is a property of the lifted space");
     if (!(increment > 0.0)) increment = DAL__INCREMENT;
     size_t dimension = 4 * (size_t)spec->system->n + 2;
     DAL_TRY(open_map(&m, spec, t, state, dimension + 3, error));
@@ -134,8 +133,8 @@ static dal_status multiplier_sign(const dal_run_spec *spec, const stepmap *m, do
     if (status == DAL_OK && degree.parity == -1) *sign = -1.0;
     dal_probe_free(probe);
     if (status == DAL_OK) return DAL_OK;
-    return dal__error(error, status, 0, 0, "t = %g: the parity of D cannot be found: %s", m->t,
-                      dal_status_text(status));
+    return dal__fail(error, status, "t = %g: the parity of D cannot be found: %s", m->t,
+                     dal_status_text(status));
 }
 
 static void turn_round(int n, int dimension, double sign, double *z)

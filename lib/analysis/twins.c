@@ -133,7 +133,7 @@ static dal_status tell(twins *w, double work)
     if (!o || !o->step) return DAL_OK;
     const dal_status status = o->step(o->user, fmin(w->done / w->work, 1.0));
     if (status == DAL_OK) return DAL_OK;
-    return dal__error(w->error, status, 0, 0, "%s", dal_status_text(status));
+    return dal__fail(w->error, status, "%s", dal_status_text(status));
 }
 
 static dal_statistics *series(const twins *w, int which)
@@ -331,7 +331,7 @@ static dal_status allocate(twins *w, const dal_run *run)
     w->trends = calloc(room * DAL__SERIES, sizeof *w->trends);
     w->values = dal__numbers(room, ABREAST);
     if (!w->of->of || !w->series || !w->trends || !w->values)
-        return dal__error(w->error, DAL_MEMORY, 0, 0, "out of memory");
+        return dal__fail(w->error, DAL_MEMORY, "out of memory");
     for (int i = 0; i < count; i++)
         dal_run_observable_name(run, i, w->of->of[i].name, sizeof w->of->of[i].name);
     dal_statistics_start(w->series, count * DAL__SERIES);
@@ -359,13 +359,13 @@ dal_status dal_explain(const dal_run_spec *spec, long long steps, long long earl
     *explanation = NULL;
     DAL_TRY(dal__check_spec(spec, error));
     if (steps < 1 || early < 0)
-        return dal__error(error, DAL_ARGUMENT, 0, 0, "%lld steps, %lld of them in long numbers",
-                          steps, early);
+        return dal__fail(error, DAL_ARGUMENT, "%lld steps, %lld of them in long numbers", steps,
+                         early);
     if (spec->options.precision != DAL_DOUBLE)
-        return dal__error(error, DAL_ARGUMENT, 0, 0,
-                          "a run in doubles is explained, by long numbers among others");
+        return dal__fail(error, DAL_ARGUMENT,
+                         "a run in doubles is explained, by long numbers among others");
     dal_explanation *made = calloc(1, sizeof *made);
-    if (!made) return dal__error(error, DAL_MEMORY, 0, 0, "out of memory");
+    if (!made) return dal__fail(error, DAL_MEMORY, "out of memory");
     made->spec = *spec;
     made->steps = steps / stride_of(steps) * stride_of(steps);
     early = early < made->steps ? early : made->steps;

@@ -103,13 +103,13 @@ static dal_status check_method(dal__generation *g, dal_error *error)
         const dal_integrator *link = g->spec->method.chain[i];
         g->source[i] = dal__integrator_wide(link, 4) ? source_of(link) : NULL;
         if (!g->source[i])
-            return dal__error(error, DAL_UNSUPPORTED, 0, 0,
-                              "'%s' is not an integrator of the library: its text is not known",
-                              link->name ? link->name : "?");
+            return dal__fail(error, DAL_UNSUPPORTED,
+                             "'%s' is not an integrator of the library: its text is not known",
+                             link->name ? link->name : "?");
         for (int j = 0; j < i; j++)
             if (g->source[j] == g->source[i])
-                return dal__error(error, DAL_UNSUPPORTED, 0, 0,
-                                  "'%s' twice in a method cannot be generated", link->name);
+                return dal__fail(error, DAL_UNSUPPORTED,
+                                 "'%s' twice in a method cannot be generated", link->name);
     }
     return DAL_OK;
 }
@@ -124,15 +124,15 @@ static dal_status check_size(const dal__generation *g, dal_error *error)
         if (dal__wants(g, (dal__program_code)code))
             length += dal__tapes_length(g->programs->tapes, g->programs->program[code].tape);
     if (length > MOST_INSTRUCTIONS)
-        return dal__error(
-            error, DAL_TOO_LARGE, 0, 0,
+        return dal__fail(
+            error, DAL_TOO_LARGE,
             "'%.80s' is too large for straight-line code: %.0f operations (%d at most)",
             g->shape.system->name, length, MOST_INSTRUCTIONS);
     if (stack > MOST_STACK)
-        return dal__error(error, DAL_TOO_LARGE, 0, 0,
-                          "Newton's matrices of '%.80s' take %.0f bytes of stack (%d at most); "
-                          "solver fixed-point needs none",
-                          g->shape.system->name, stack, MOST_STACK);
+        return dal__fail(error, DAL_TOO_LARGE,
+                         "Newton's matrices of '%.80s' take %.0f bytes of stack (%d at most); "
+                         "solver fixed-point needs none",
+                         g->shape.system->name, stack, MOST_STACK);
     return DAL_OK;
 }
 
@@ -146,26 +146,25 @@ static dal_status find_programs(dal__generation *g, dal_error *error)
 {
     g->programs = dal__programs_of(g->shape.system);
     if (g->programs) return DAL_OK;
-    return dal__error(error, DAL_UNSUPPORTED, 0, 0,
-                      "'%.80s' is not made from a model: its formulas are not known",
-                      g->shape.system->name ? g->shape.system->name : "this system");
+    return dal__fail(error, DAL_UNSUPPORTED,
+                     "'%.80s' is not made from a model: its formulas are not known",
+                     g->shape.system->name ? g->shape.system->name : "this system");
 }
 
 static dal_status check_steps(dal__generation *g, dal_error *error)
 {
     if (g->spec->options.tolerance > 0.0)
-        return dal__error(error, DAL_UNSUPPORTED, 0, 0,
-                          "steps under a tolerance are not generated: each lane has its own");
+        return dal__fail(error, DAL_UNSUPPORTED,
+                         "steps under a tolerance are not generated: each lane has its own");
     if (g->spec->options.precision != DAL_DOUBLE)
-        return dal__error(error, DAL_UNSUPPORTED, 0, 0, "steps in long numbers are not generated");
+        return dal__fail(error, DAL_UNSUPPORTED, "steps in long numbers are not generated");
     return check_method(g, error);
 }
 
 dal_status dal__generation_check(dal__generation *g, const char *prefix, dal_error *error)
 {
     if (!is_width(g->lanes))
-        return dal__error(error, DAL_ARGUMENT, 0, 0, "%d lanes: 1, 2, 4, 8 or 16 are possible",
-                          g->lanes);
+        return dal__fail(error, DAL_ARGUMENT, "%d lanes: 1, 2, 4, 8 or 16 are possible", g->lanes);
     if (g->product != DAL__LOOKS) DAL_TRY(dal__shape_init(&g->shape, g->spec, error));
     DAL_TRY(find_programs(g, error));
     if (g->product != DAL__LOOKS) DAL_TRY(check_steps(g, error));
@@ -317,7 +316,7 @@ dal_status dal__generation_finish(dal__generation *g, char **text, dal_error *er
 {
     if (g->text.starved) {
         dal__text_free(&g->text);
-        return dal__error(error, DAL_MEMORY, 0, 0, "no memory for a generated file");
+        return dal__fail(error, DAL_MEMORY, "no memory for a generated file");
     }
     *text = g->text.bytes;
     return DAL_OK;

@@ -39,12 +39,12 @@ dal_status dal__choose_prefix(dal__generation *g, const char *prefix, dal_error 
         return DAL_OK;
     }
     if (strlen(prefix) >= sizeof g->prefix)
-        return dal__error(error, DAL_ARGUMENT, 0, 0, "prefix '%.60s...' is too long", prefix);
+        return dal__fail(error, DAL_ARGUMENT, "prefix '%.60s...' is too long", prefix);
     for (const char *c = prefix; *c; c++)
         if (!is_word(*c)) fault = "is not a C name";
     if (!fault && !is_letter(prefix[0])) fault = "does not begin with a letter";
     if (is_kernels(prefix) && g->product == DAL__FILE) fault = "is the kernel's own";
-    if (fault) return dal__error(error, DAL_ARGUMENT, 0, 0, "prefix '%s' %s", prefix, fault);
+    if (fault) return dal__fail(error, DAL_ARGUMENT, "prefix '%s' %s", prefix, fault);
     snprintf(g->prefix, sizeof g->prefix, "%s", prefix);
     return DAL_OK;
 }

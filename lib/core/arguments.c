@@ -3,36 +3,33 @@
 
 dal_status dal__missing(dal_error *error, const char *function, const char *argument)
 {
-    return dal__error(error, DAL_ARGUMENT, 0, 0, "%s: %s is NULL", function, argument);
+    return dal__fail(error, DAL_ARGUMENT, "%s: %s is NULL", function, argument);
 }
 
 dal_status dal__negative(dal_error *error, const char *function, const char *argument,
                          long long value)
 {
-    return dal__error(error, DAL_ARGUMENT, 0, 0, "%s: %s is negative: %lld", function, argument,
-                      value);
+    return dal__fail(error, DAL_ARGUMENT, "%s: %s is negative: %lld", function, argument, value);
 }
 
 dal_status dal__check_settings(const dal_setting *settings, int count, const char *what,
                                dal_error *error)
 {
     if (count < 0)
-        return dal__error(error, DAL_ARGUMENT, 0, 0, "the number of %s is negative: %d", what,
-                          count);
+        return dal__fail(error, DAL_ARGUMENT, "the number of %s is negative: %d", what, count);
     if (count > 0 && !settings)
-        return dal__error(error, DAL_ARGUMENT, 0, 0, "the %s are NULL, their number is %d", what,
-                          count);
+        return dal__fail(error, DAL_ARGUMENT, "the %s are NULL, their number is %d", what, count);
     for (int i = 0; i < count; i++)
         if (!settings[i].name)
-            return dal__error(error, DAL_ARGUMENT, 0, 0, "the name of number %d of the %s is NULL",
-                              i + 1, what);
+            return dal__fail(error, DAL_ARGUMENT, "the name of number %d of the %s is NULL", i + 1,
+                             what);
     return DAL_OK;
 }
 
 dal_status dal__check_spec(const dal_run_spec *spec, dal_error *error)
 {
-    if (!spec) return dal__error(error, DAL_ARGUMENT, 0, 0, "the spec of a run is NULL");
-    if (!spec->system) return dal__error(error, DAL_ARGUMENT, 0, 0, "a run needs a system");
+    if (!spec) return dal__fail(error, DAL_ARGUMENT, "the spec of a run is NULL");
+    if (!spec->system) return dal__fail(error, DAL_ARGUMENT, "a run needs a system");
     DAL_TRY(dal__check_settings(spec->parameters, spec->parameter_count, "parameters", error));
     return dal__check_settings(spec->start, spec->start_count, "start values", error);
 }

@@ -38,16 +38,32 @@ static void mask_control(char *text)
         if ((unsigned char)*text < ' ' || *text == 127) *text = '?';
 }
 
-dal_status dal__error(dal_error *error, dal_status status, int line, int column, const char *format,
-                      ...)
+static void write_record(dal_error *error, dal_error head, const char *format, va_list arguments)
+{
+    *error = head;
+    vsnprintf(error->message, sizeof error->message, format, arguments);
+    mask_control(error->message);
+}
+
+dal_status dal__fail(dal_error *error, dal_status status, const char *format, ...)
 {
     if (!error) return status;
     va_list arguments;
     va_start(arguments, format);
-    *error = (dal_error){.status = status, .line = line, .column = column};
-    vsnprintf(error->message, sizeof error->message, format, arguments);
+    write_record(error, (dal_error){.status = status}, format, arguments);
     va_end(arguments);
-    mask_control(error->message);
+    return status;
+}
+
+dal_status dal__fail_at(dal_error *error, dal_status status, int line, int column,
+                        const char *format, ...)
+{
+    if (!error) return status;
+    va_list arguments;
+    va_start(arguments, format);
+    write_record(error, (dal_error){.status = status, .line = line, .column = column}, format,
+                 arguments);
+    va_end(arguments);
     return status;
 }
 
@@ -101,12 +117,19 @@ const char *dal_nearest(const char *name, const char *const *names, int count)
     return nearest;
 }
 
-dal_status dal__unknown(dal_error *error, int line, int column, const char *what, const char *name,
-                        const char *const *names, int count)
+dal_status dal__unknown_at(dal_error *error, int line, int column, const char *what,
+                           const char *name, const char *const *names, int count)
 {
     const char *nearest = dal_nearest(name, names, count);
     if (!nearest)
-        return dal__error(error, DAL_NAME, line, column, "unknown %s '%.*s'", what, LONGEST, name);
-    return dal__error(error, DAL_NAME, line, column, "unknown %s '%s'; did you mean '%s'?", what,
-                      name, nearest);
+        return dal__fail_at(error, DAL_NAME, line, column, "unknown %s '%.*s'", what, LONGEST,
+                            name);
+    return dal__fail_at(error, DAL_NAME, line, column, "unknown %s '%s'; did you mean '%s'?", what,
+                        name, nearest);
+}
+
+dal_status dal__unknown(dal_error *error, const char *what, const char *name,
+                        const char *const *names, int count)
+{
+    return dal__unknown_at(error, 0, 0, what, name, names, count);
 }

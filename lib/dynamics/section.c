@@ -60,8 +60,8 @@ static dal_status evaluate(search *w, double *value)
                 : dal_probe_call(w->probe, p->callback, at.t, at.q, at.v, NULL, w->values);
     *value = w->values[p->index];
     if (status == DAL_OK && isfinite(*value)) return DAL_OK;
-    return dal__error(w->error, status == DAL_OK ? DAL_NOT_FINITE : status, 0, 0,
-                      "the section has no value at t = %.17g: %g", at.t, *value);
+    return dal__fail(w->error, status == DAL_OK ? DAL_NOT_FINITE : status,
+                     "the section has no value at t = %.17g: %g", at.t, *value);
 }
 
 static dal_status look(void *user, dal_run *run)
@@ -244,7 +244,7 @@ static dal_status probe_of(search *w)
     const dal_system *s = dal_run_system(w->run);
     const double *value = dal_run_parameters(w->run);
     dal_setting *settings = calloc((size_t)s->parameters + 1, sizeof *settings);
-    if (settings == NULL) return dal__error(w->error, DAL_MEMORY, 0, 0, "section: out of memory");
+    if (settings == NULL) return dal__fail(w->error, DAL_MEMORY, "section: out of memory");
     for (int i = 0; i < s->parameters; i++) settings[i] = (dal_setting){s->parameter[i], value[i]};
     const dal_status status = dal_probe_create(&w->probe, s, settings, s->parameters, w->error);
     free(settings);
@@ -256,11 +256,11 @@ static dal_status check(const dal_run *run, double T, const dal_poincare *p, dal
     const double h = dal_run_step_size(run);
     const double left = T - dal_run_time(run), steps = nearbyint(left / h);
     if (p->callback == NULL || p->index < 0 || p->index >= p->count)
-        return dal__error(error, DAL_ARGUMENT, 0, 0, "the section is value %d of %d", p->index + 1,
-                          p->callback == NULL ? 0 : p->count);
+        return dal__fail(error, DAL_ARGUMENT, "the section is value %d of %d", p->index + 1,
+                         p->callback == NULL ? 0 : p->count);
     if (!(steps >= 1.0 && steps < 0x1p53) || !(fabs(steps * h - left) <= 1e-9 * fabs(T)))
-        return dal__error(error, DAL_ARGUMENT, 0, 0,
-                          "time %g does not hold a whole number of steps %g", T, h);
+        return dal__fail(error, DAL_ARGUMENT, "time %g does not hold a whole number of steps %g", T,
+                         h);
     return DAL_OK;
 }
 
@@ -276,7 +276,7 @@ dal_status dal_run_crossings(dal_run *run, double T, const dal_poincare *section
     DAL_TRY(check(run, T, section, error));
     dal_run_memory(run, &w.carried);
     double *block = dal__numbers(1, 3 * w.carried + (size_t)section->count);
-    if (block == NULL) return dal__error(error, DAL_MEMORY, 0, 0, "section: out of memory");
+    if (block == NULL) return dal__fail(error, DAL_MEMORY, "section: out of memory");
     w.before.memory = block;
     w.last.memory = block + w.carried;
     w.now.memory = block + 2 * w.carried;

@@ -127,9 +127,9 @@ static dal_status orthonormalise(dal_spectrum *s, int count)
         if (s->growth[j] > 0.0 && isfinite(s->growth[j]))
             s->growth[j] *= dal__straighten(s->vectors, j, d);
         if (!(s->growth[j] > 0.0) || !isfinite(s->growth[j]))
-            return dal__error(s->error, DAL_SINGULAR, 0, 0,
-                              "t = %g: the derivative of the step takes a vector to %g", s->t,
-                              s->growth[j]);
+            return dal__fail(s->error, DAL_SINGULAR,
+                             "t = %g: the derivative of the step takes a vector to %g", s->t,
+                             s->growth[j]);
     }
     return DAL_OK;
 }
@@ -174,8 +174,8 @@ static dal_status find_divergence(dal_spectrum *s)
     const dal_status status = dal_probe_call(s->probe, system->call.jacobian, dal_run_time(s->run),
                                              z, z + s->n, NULL, s->scratch);
     if (status != DAL_OK)
-        return dal__error(s->error, status, 0, 0, "t = %g: no jacobian: %s", dal_run_time(s->run),
-                          dal_status_text(status));
+        return dal__fail(s->error, status, "t = %g: no jacobian: %s", dal_run_time(s->run),
+                         dal_status_text(status));
     s->divergence = 0.0;
     for (int i = 0; i < s->nw; i++) s->divergence += by_v[i * s->nw + i];
     s->rate = fmax(sqrt(row_norm(s->scratch, s->nw, s->n)), row_norm(by_v, s->nw, s->nw));
@@ -283,26 +283,24 @@ dal_status dal_spectrum_balance(dal_spectrum *s, dal_balance *balance, dal_error
     dal_statistics_mean(&s->statistics[s->count + 1], &divergence);
     dal_statistics_mean(&s->statistics[s->count + 2], &step);
     if (s->count < s->rank)
-        return dal__error(error, DAL_UNSUPPORTED, 0, 0, "%d of %d exponents have no sum to compare",
-                          s->count, s->rank);
+        return dal__fail(error, DAL_UNSUPPORTED, "%d of %d exponents have no sum to compare",
+                         s->count, s->rank);
     if (s->rank + s->forced < s->dimension)
-        return dal__error(error, DAL_UNSUPPORTED, 0, 0,
-                          "the step map loses %d directions: more than constraints explain",
-                          s->dimension - s->rank);
+        return dal__fail(error, DAL_UNSUPPORTED,
+                         "the step map loses %d directions: more than constraints explain",
+                         s->dimension - s->rank);
     if (s->turns_D)
-        return dal__error(error, DAL_UNSUPPORTED, 0, 0,
-                          "the method turns D into -D, the motion does not");
+        return dal__fail(error, DAL_UNSUPPORTED, "the method turns D into -D, the motion does not");
     if (isnan(divergence.mean))
-        return dal__error(error, DAL_UNSUPPORTED, 0, 0,
-                          "there is no divergence: no step, or no jacobian");
+        return dal__fail(error, DAL_UNSUPPORTED, "there is no divergence: no step, or no jacobian");
     if (isnan(step.mean))
-        return dal__error(error, DAL_UNSUPPORTED, 0, 0,
-                          "the step is too long: h max(|F_q|^(1/2), |F_v|) reaches 1");
+        return dal__fail(error, DAL_UNSUPPORTED,
+                         "the step is too long: h max(|F_q|^(1/2), |F_v|) reaches 1");
     const double noise = s->exact ? 1e-13 : 1e-7;
     const double jump = dal_statistics_max_abs(&s->statistics[s->count + 3]);
     balance->surface = (find_normals(s) - s->log_from) / T;
     if (isnan(balance->surface))
-        return dal__error(error, DAL_UNSUPPORTED, 0, 0, "the gradient of D or E is not finite");
+        return dal__fail(error, DAL_UNSUPPORTED, "the gradient of D or E is not finite");
     balance->difference = sum.mean - divergence.mean - balance->surface;
     balance->margin = step.mean + s->h * jump / T + noise * s->count / s->h;
     balance->holds = fabs(balance->difference) <= balance->margin;
@@ -324,15 +322,15 @@ static dal_status check(const dal_run_spec *spec, const dal_system *tangent, dal
     char name[128];
     dal_method_name(&spec->method, name, sizeof name);
     if (tangent && tangent->n != 2 * spec->system->n)
-        return dal__error(error, DAL_ARGUMENT, 0, 0,
-                          "a tangent system of %d coordinates for a system of %d", tangent->n,
-                          spec->system->n);
+        return dal__fail(error, DAL_ARGUMENT,
+                         "a tangent system of %d coordinates for a system of %d", tangent->n,
+                         spec->system->n);
     if (dal_method_claims(&spec->method) & DAL_CARRIES_MULTIPLIER)
-        return dal__error(error, DAL_UNSUPPORTED, 0, 0,
-                          "%s carries a multiplier along: its step is no map of (q,v) alone", name);
+        return dal__fail(error, DAL_UNSUPPORTED,
+                         "%s carries a multiplier along: its step is no map of (q,v) alone", name);
     if (spec->options.tolerance > 0.0)
-        return dal__error(error, DAL_UNSUPPORTED, 0, 0,
-                          "%s with a tolerance divides its step: it is no smooth map", name);
+        return dal__fail(error, DAL_UNSUPPORTED,
+                         "%s with a tolerance divides its step: it is no smooth map", name);
     return DAL_OK;
 }
 
@@ -366,7 +364,7 @@ static dal_status allocate(dal_spectrum *s, dal_error *error)
     s->vectors = block;
     s->statistics = calloc(d + FOLLOWED, sizeof *s->statistics);
     if (block == NULL || s->statistics == NULL)
-        return dal__error(error, DAL_MEMORY, 0, 0, "spectrum: out of memory");
+        return dal__fail(error, DAL_MEMORY, "spectrum: out of memory");
     s->z = block + d * d;
     s->growth = s->z + d;
     s->scratch = s->growth + d + FOLLOWED;
@@ -423,9 +421,9 @@ static dal_status make(dal_spectrum *s, const dal_run_spec *spec, const dal_syst
     find_forced(s, claims);
     DAL_TRY(find_divergence(s));
     if (count < 0 || count > s->rank)
-        return dal__error(error, DAL_ARGUMENT, 0, 0,
-                          "%d exponents are asked for; the step map has %d directions", count,
-                          s->rank);
+        return dal__fail(error, DAL_ARGUMENT,
+                         "%d exponents are asked for; the step map has %d directions", count,
+                         s->rank);
     s->count = count > 0 ? count : s->rank;
     dal_spectrum_forget(s);
     const dal_status status = make_tangent(s);
@@ -441,7 +439,7 @@ dal_status dal_spectrum_create(dal_spectrum **spectrum, const dal_run_spec *spec
     DAL_TRY(dal__check_spec(spec, error));
     DAL_TRY(check(spec, tangent, error));
     dal_spectrum *s = calloc(1, sizeof *s);
-    if (s == NULL) return dal__error(error, DAL_MEMORY, 0, 0, "spectrum: out of memory");
+    if (s == NULL) return dal__fail(error, DAL_MEMORY, "spectrum: out of memory");
     const dal_status status = make(s, spec, tangent, count, error);
     if (status == DAL_OK)
         *spectrum = s;

@@ -38,11 +38,11 @@ static dal_status number(dal__lexer *lexer, dal__token *token, dal_error *error)
     lexer->at += token->length;
     int shown = token->length < 60 ? (int)token->length : 60;
     if (token->length == 0) {
-        return dal__error(error, DAL_SYNTAX, token->line, token->column, "unexpected '.'");
+        return dal__fail_at(error, DAL_SYNTAX, token->line, token->column, "unexpected '.'");
     }
     if (!isfinite(token->value)) {
-        return dal__error(error, DAL_SYNTAX, token->line, token->column,
-                          "the number %.*s is too large", shown, token->text);
+        return dal__fail_at(error, DAL_SYNTAX, token->line, token->column,
+                            "the number %.*s is too large", shown, token->text);
     }
     return DAL_OK;
 }
@@ -57,11 +57,11 @@ static dal_status name(dal__lexer *lexer, dal__token *token, dal_error *error)
     lexer->at = c + token->prime;
     if (!token->prime || lexer->at == lexer->end || *lexer->at != '\'') return DAL_OK;
     int column = (int)(lexer->at - lexer->line_start) + 1;
-    return dal__error(error, DAL_SYNTAX, lexer->line, column,
-                      "%.*s'' is a second derivative; a formula knows only %.*s and %.*s'",
-                      token->length < 60 ? (int)token->length : 60, token->text,
-                      token->length < 60 ? (int)token->length : 60, token->text,
-                      token->length < 60 ? (int)token->length : 60, token->text);
+    return dal__fail_at(error, DAL_SYNTAX, lexer->line, column,
+                        "%.*s'' is a second derivative; a formula knows only %.*s and %.*s'",
+                        token->length < 60 ? (int)token->length : 60, token->text,
+                        token->length < 60 ? (int)token->length : 60, token->text,
+                        token->length < 60 ? (int)token->length : 60, token->text);
 }
 
 static dal_status other(dal__lexer *lexer, dal__token *token, dal_error *error)
@@ -72,14 +72,14 @@ static dal_status other(dal__lexer *lexer, dal__token *token, dal_error *error)
     lexer->at++;
     if (c && strchr("+-*/^(),", c)) return DAL_OK;
     if (c == '\'') {
-        return dal__error(error, DAL_SYNTAX, token->line, token->column,
-                          "unexpected '; a prime stands right behind a name, as in x'");
+        return dal__fail_at(error, DAL_SYNTAX, token->line, token->column,
+                            "unexpected '; a prime stands right behind a name, as in x'");
     }
     if (c < 0x20 || c > 0x7e) {
-        return dal__error(error, DAL_SYNTAX, token->line, token->column,
-                          "unexpected byte 0x%02x; a formula is plain ASCII", c);
+        return dal__fail_at(error, DAL_SYNTAX, token->line, token->column,
+                            "unexpected byte 0x%02x; a formula is plain ASCII", c);
     }
-    return dal__error(error, DAL_SYNTAX, token->line, token->column, "unexpected '%c'", c);
+    return dal__fail_at(error, DAL_SYNTAX, token->line, token->column, "unexpected '%c'", c);
 }
 
 dal_status dal__lexer_next(dal__lexer *lexer, dal__token *token, dal_error *error)

@@ -85,19 +85,19 @@ static int shown(const dal__token *token)
 static dal_status graph_fault(const parser *p)
 {
     dal_status status = dal__graph_status(p->graph);
-    return dal__error(p->error, status, p->token.line, p->token.column,
-                      status == DAL_MEMORY ? "out of memory" : "the formula is too large");
+    return dal__fail_at(p->error, status, p->token.line, p->token.column,
+                        status == DAL_MEMORY ? "out of memory" : "the formula is too large");
 }
 
 static dal_status value_missing(const parser *p)
 {
     const dal__token *t = &p->token;
     if (t->kind == DAL__TOKEN_END) {
-        return dal__error(p->error, DAL_SYNTAX, t->line, t->column,
-                          "a value is missing at the end of the formula");
+        return dal__fail_at(p->error, DAL_SYNTAX, t->line, t->column,
+                            "a value is missing at the end of the formula");
     }
-    return dal__error(p->error, DAL_SYNTAX, t->line, t->column, "a value is missing before '%c'",
-                      t->kind);
+    return dal__fail_at(p->error, DAL_SYNTAX, t->line, t->column, "a value is missing before '%c'",
+                        t->kind);
 }
 
 /* previous: the token before the present one. */
@@ -105,19 +105,19 @@ static dal_status operator_missing(const parser *p, const dal__token *previous)
 {
     const dal__token *t = &p->token;
     if (previous->kind == DAL__TOKEN_NUMBER && t->kind != DAL__TOKEN_NUMBER) {
-        return dal__error(p->error, DAL_SYNTAX, t->line, t->column,
-                          "an operator is missing: write %.*s*%.*s", shown(previous),
-                          previous->text, shown(t), t->text);
+        return dal__fail_at(p->error, DAL_SYNTAX, t->line, t->column,
+                            "an operator is missing: write %.*s*%.*s", shown(previous),
+                            previous->text, shown(t), t->text);
     }
-    return dal__error(p->error, DAL_SYNTAX, t->line, t->column,
-                      "an operator is missing before '%.*s'", shown(t), t->text);
+    return dal__fail_at(p->error, DAL_SYNTAX, t->line, t->column,
+                        "an operator is missing before '%.*s'", shown(t), t->text);
 }
 
 static dal_status wrong_arguments(const parser *p, const frame *f, int given)
 {
     const struct function *called = &functions[f->function];
-    return dal__error(p->error, DAL_SYNTAX, f->line, f->column, "%s takes %d argument%s, not %d",
-                      called->name, called->arity, called->arity == 1 ? "" : "s", given);
+    return dal__fail_at(p->error, DAL_SYNTAX, f->line, f->column, "%s takes %d argument%s, not %d",
+                        called->name, called->arity, called->arity == 1 ? "" : "s", given);
 }
 
 /* A name that is no function stands before a bracket. */
@@ -128,13 +128,13 @@ static dal_status unknown_function(const parser *p)
     char name[64];
     dal_error ignored = {.status = DAL_OK};
     if (p->resolve(p->user, t->text, t->length, t->prime, &ignored)) {
-        return dal__error(p->error, DAL_SYNTAX, t->line, t->column,
-                          "%.*s is not a function: write %.*s*(...) for a product", shown(t),
-                          t->text, shown(t), t->text);
+        return dal__fail_at(p->error, DAL_SYNTAX, t->line, t->column,
+                            "%.*s is not a function: write %.*s*(...) for a product", shown(t),
+                            t->text, shown(t), t->text);
     }
     for (int op = 0; op < DAL__OP_COUNT; op++) names[op] = functions[op].name;
     snprintf(name, sizeof name, "%.*s", shown(t), t->text);
-    return dal__unknown(p->error, t->line, t->column, "function", name, names, DAL__OP_COUNT);
+    return dal__unknown_at(p->error, t->line, t->column, "function", name, names, DAL__OP_COUNT);
 }
 
 /* ---- the stack ---- */
@@ -144,7 +144,7 @@ static dal_status push(parser *p, char kind, dal__node left)
     if (p->depth == p->capacity) {
         size_t capacity = p->capacity ? 2 * p->capacity : 32;
         frame *stack = realloc(p->stack, capacity * sizeof *stack);
-        if (!stack) return dal__error(p->error, DAL_MEMORY, 0, 0, "out of memory");
+        if (!stack) return dal__fail(p->error, DAL_MEMORY, "out of memory");
         p->stack = stack;
         p->capacity = capacity;
     }
@@ -169,7 +169,7 @@ static dal_status apply(parser *p, dal__node *value)
 {
     const frame *f = &p->stack[--p->depth];
     if (divides_by_zero(p->graph, f, *value)) {
-        return dal__error(p->error, DAL_SYNTAX, f->line, f->column, "division by zero");
+        return dal__fail_at(p->error, DAL_SYNTAX, f->line, f->column, "division by zero");
     }
     switch (f->kind) {
     case '+':
@@ -211,15 +211,15 @@ static dal_status symbol(parser *p, dal__node *value)
         return *value ? DAL_OK : graph_fault(p);
     }
     if (!t->prime && dal__is_function(t->text, t->length)) {
-        return dal__error(p->error, DAL_SYNTAX, t->line, t->column,
-                          "%.*s is a function: write %.*s(...)", shown(t), t->text, shown(t),
-                          t->text);
+        return dal__fail_at(p->error, DAL_SYNTAX, t->line, t->column,
+                            "%.*s is a function: write %.*s(...)", shown(t), t->text, shown(t),
+                            t->text);
     }
     dal_error fault = {.status = DAL_OK};
     *value = p->resolve(p->user, t->text, t->length, t->prime, &fault);
     if (*value) return DAL_OK;
     if (fault.status == DAL_OK) return graph_fault(p);
-    return dal__error(p->error, fault.status, t->line, t->column, "%s", fault.message);
+    return dal__fail_at(p->error, fault.status, t->line, t->column, "%s", fault.message);
 }
 
 /* A name: a function with its bracket, which opens a frame, or a value. */
@@ -276,8 +276,8 @@ static dal_status close(parser *p, dal__node *value)
     DAL_TRY(reduce(p, 1, value));
     const frame *f = &p->stack[p->depth - 1];
     if (f->kind == 0) {
-        return dal__error(p->error, DAL_SYNTAX, p->token.line, p->token.column,
-                          "')' closes no '('");
+        return dal__fail_at(p->error, DAL_SYNTAX, p->token.line, p->token.column,
+                            "')' closes no '('");
     }
     p->depth--;
     if (f->kind == '(') return DAL_OK;
@@ -293,8 +293,8 @@ static dal_status comma(parser *p, dal__node *value)
     DAL_TRY(reduce(p, 1, value));
     frame *f = &p->stack[p->depth - 1];
     if (f->kind != 'f') {
-        return dal__error(p->error, DAL_SYNTAX, p->token.line, p->token.column,
-                          "',' stands outside the arguments of a function");
+        return dal__fail_at(p->error, DAL_SYNTAX, p->token.line, p->token.column,
+                            "',' stands outside the arguments of a function");
     }
     f->arguments++;
     f->left = *value;
@@ -306,7 +306,7 @@ static dal_status end(parser *p, dal__node *value)
     DAL_TRY(reduce(p, 1, value));
     const frame *f = &p->stack[p->depth - 1];
     if (f->kind == 0) return DAL_OK;
-    return dal__error(p->error, DAL_SYNTAX, f->line, f->column, "a '(' is never closed");
+    return dal__fail_at(p->error, DAL_SYNTAX, f->line, f->column, "a '(' is never closed");
 }
 
 /* What follows a value, up to where another one is wanted (*more) or the formula ends. */
@@ -345,7 +345,7 @@ static dal_status parse(parser *p, dal__node *value)
     DAL_TRY(push(p, 0, 0));
     DAL_TRY(next(p));
     if (p->token.kind == DAL__TOKEN_END) {
-        return dal__error(p->error, DAL_SYNTAX, 1, 1, "the formula is empty");
+        return dal__fail_at(p->error, DAL_SYNTAX, 1, 1, "the formula is empty");
     }
     for (bool more = true; more;) {
         DAL_TRY(operand(p, value));
@@ -363,7 +363,7 @@ dal_status dal__parse(dal__graph *graph, const char *text, size_t length, dal__r
                 .user = user,
                 .error = error};
     if (length >= INT_MAX) {
-        return dal__error(error, DAL_TOO_LARGE, 1, 1, "the formula is too long");
+        return dal__fail_at(error, DAL_TOO_LARGE, 1, 1, "the formula is too long");
     }
     dal_status status = parse(&p, node);
     free(p.stack);

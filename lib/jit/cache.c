@@ -68,7 +68,7 @@ static uint64_t hash(uint64_t h, const char *bytes, size_t length)
 
 static dal_status failed(dal_error *error, const char *what, const char *path)
 {
-    return dal__error(error, DAL_IO, 0, 0, "cannot %s '%.200s': %s", what, path, strerror(errno));
+    return dal__fail(error, DAL_IO, "cannot %s '%.200s': %s", what, path, strerror(errno));
 }
 
 static dal_status make_private(const char *directory, dal_error *error)
@@ -78,8 +78,8 @@ static dal_status make_private(const char *directory, dal_error *error)
         return failed(error, "make the directory", directory);
     if (lstat(directory, &s) != 0) return failed(error, "look at", directory);
     if (!S_ISDIR(s.st_mode) || s.st_uid != geteuid() || (s.st_mode & 077) != 0)
-        return dal__error(error, DAL_IO, 0, 0,
-                          "'%.200s' is not a directory of this user alone (mode 0700)", directory);
+        return dal__fail(error, DAL_IO,
+                         "'%.200s' is not a directory of this user alone (mode 0700)", directory);
     return DAL_OK;
 }
 
@@ -184,18 +184,18 @@ static dal_status compile(command c, const char *source, const char *object, dal
     add_words(&c, files);
     const int refused = start(&c, &process);
     if (refused)
-        return dal__error(error, DAL_UNSUPPORTED, 0, 0, "no compiler '%.200s': %s", name,
-                          strerror(refused));
+        return dal__fail(error, DAL_UNSUPPORTED, "no compiler '%.200s': %s", name,
+                         strerror(refused));
     const outcome out = wait_for(&c, process);
     if (out.stopped)
-        return dal__error(error, DAL_INTERRUPTED, 0, 0, "the compiler '%.200s' was stopped", name);
+        return dal__fail(error, DAL_INTERRUPTED, "the compiler '%.200s' was stopped", name);
     if (out.status == 0) return DAL_OK;
     if (out.hung)
-        return dal__error(error, DAL_UNSUPPORTED, 0, 0,
-                          "the compiler '%.200s' was ended after %d seconds", name, c.patience);
-    return dal__error(error, DAL_UNSUPPORTED, 0, 0,
-                      out.status == 127 ? "no compiler '%.200s'" : "the compiler '%.200s' failed",
-                      name);
+        return dal__fail(error, DAL_UNSUPPORTED, "the compiler '%.200s' was ended after %d seconds",
+                         name, c.patience);
+    return dal__fail(error, DAL_UNSUPPORTED,
+                     out.status == 127 ? "no compiler '%.200s'" : "the compiler '%.200s' failed",
+                     name);
 }
 
 /* ---- objects ---- */
@@ -257,7 +257,7 @@ static dal_status name_object(const command *c, const char *directory, const cha
         snprintf(path, size, "%s%s/%016llx%016llx.so", directory[0] == '/' ? "" : "./", directory,
                  (unsigned long long)one, (unsigned long long)two);
     if (written > 0 && (size_t)written < size) return DAL_OK;
-    return dal__error(error, DAL_ARGUMENT, 0, 0, "the path '%.80s...' is too long", directory);
+    return dal__fail(error, DAL_ARGUMENT, "the path '%.80s...' is too long", directory);
 }
 
 /* A rename replaces all but a directory. */
@@ -265,14 +265,14 @@ static dal_status check_place(const char *path, dal_error *error)
 {
     struct stat s;
     if (lstat(path, &s) != 0 || !S_ISDIR(s.st_mode)) return DAL_OK;
-    return dal__error(error, DAL_IO, 0, 0, "'%.200s' is in the way: it is a directory", path);
+    return dal__fail(error, DAL_IO, "'%.200s' is in the way: it is a directory", path);
 }
 
 dal_status dal__cache_object(const dal_native_options *options, const char *text, char *path,
                              size_t size, dal_error *error)
 {
     if (!options || !options->cache || !options->cache[0])
-        return dal__error(error, DAL_ARGUMENT, 0, 0, "no directory to keep compiled steps in");
+        return dal__fail(error, DAL_ARGUMENT, "no directory to keep compiled steps in");
     const command c = begin_command(options);
     DAL_TRY(
         name_object(&c, options->cache, text, path, size < PATH_SIZE ? size : PATH_SIZE, error));

@@ -35,7 +35,7 @@ static dal_status load(const char *path, dal__product product, dal__native *nati
     if (!find(handle, product, native)) {
         if (handle) dlclose(handle);
         dal__cache_forget(path);
-        return dal__error(error, DAL_IO, 0, 0, "'%.200s' cannot be loaded", path);
+        return dal__fail(error, DAL_IO, "'%.200s' cannot be loaded", path);
     }
     native->handle = handle;
     native->release = release;
@@ -96,8 +96,7 @@ static dal_status make_room(dal__looks *looks, int dimension, int observables, d
     const int numbers = dimension + 1 + observables, room = room_for_looks(numbers);
     const size_t bytes = sizeof(double) * (size_t)numbers * (size_t)room;
     double *const memory = aligned_alloc(REGISTER * sizeof(double), bytes);
-    if (!memory)
-        return dal__error(error, DAL_MEMORY, 0, 0, "no memory for %d looks at a run", room);
+    if (!memory) return dal__fail(error, DAL_MEMORY, "no memory for %d looks at a run", room);
     memset(memory, 0, bytes);
     looks->room = room;
     looks->states = memory;

@@ -10,7 +10,7 @@
 
 static dal_status io_error(dal_error *error)
 {
-    return dal__error(error, DAL_IO, 0, 0, "%s", errno ? strerror(errno) : "cannot be read");
+    return dal__fail(error, DAL_IO, "%s", errno ? strerror(errno) : "cannot be read");
 }
 
 /* One byte more than allowed is read, so that dal_model_read sees an overlong file. */
@@ -64,7 +64,7 @@ dal_status dal_model_builtin(dal_model **model, const char *name, dal_error *err
         names[count] = dal_builtin_name(count);
         count++;
     }
-    return dal__unknown(error, 0, 0, "system", name, names, count);
+    return dal__unknown(error, "system", name, names, count);
 }
 
 #endif

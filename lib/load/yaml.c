@@ -34,20 +34,20 @@ static dal_status parser_error(reader *r)
     const char *problem = p->problem ? p->problem : "malformed";
     if (p->error == YAML_MEMORY_ERROR) return dal__starved(r->error);
     if (p->error != YAML_READER_ERROR)
-        return dal__error(r->error, DAL_SYNTAX, line_of(p->problem_mark),
-                          column_of(p->problem_mark), "malformed YAML: %s", problem);
+        return dal__fail_at(r->error, DAL_SYNTAX, line_of(p->problem_mark),
+                            column_of(p->problem_mark), "malformed YAML: %s", problem);
     int line = 1, column = 1;
     for (size_t i = 0; i < p->problem_offset && i < r->length; i++) {
         column = r->text[i] == '\n' ? 1 : column + 1;
         line += r->text[i] == '\n';
     }
-    return dal__error(r->error, DAL_SYNTAX, line, column, "malformed YAML: %s", problem);
+    return dal__fail_at(r->error, DAL_SYNTAX, line, column, "malformed YAML: %s", problem);
 }
 
 static dal_status here(reader *r, dal_status status, const char *message)
 {
-    return dal__error(r->error, status, line_of(r->event.start_mark),
-                      column_of(r->event.start_mark), "%s", message);
+    return dal__fail_at(r->error, status, line_of(r->event.start_mark),
+                        column_of(r->event.start_mark), "%s", message);
 }
 
 static bool has_anchor(const yaml_event_t *event)
@@ -160,18 +160,18 @@ static dal_status wrong_shape(reader *r, dal_section section)
                                          [DAL__LIST] = "a list",
                                          [DAL__MAPPING] = "a mapping of names",
                                          [DAL__MAPPINGS] = "a list of mappings"};
-    return dal__error(r->error, DAL_SYNTAX, line_of(r->event.start_mark),
-                      column_of(r->event.start_mark), "%s must be %s", dal__section_name(section),
-                      shapes[dal__section_shape(section)]);
+    return dal__fail_at(r->error, DAL_SYNTAX, line_of(r->event.start_mark),
+                        column_of(r->event.start_mark), "%s must be %s", dal__section_name(section),
+                        shapes[dal__section_shape(section)]);
 }
 
 /* The present event must be a scalar; it becomes the text of the entry. */
 static dal_status read_entry(reader *r, dal__entry entry)
 {
     if (r->event.type != YAML_SCALAR_EVENT)
-        return dal__error(r->error, DAL_SYNTAX, line_of(r->event.start_mark),
-                          column_of(r->event.start_mark), "a text is expected in %s",
-                          dal__section_name(entry.section));
+        return dal__fail_at(r->error, DAL_SYNTAX, line_of(r->event.start_mark),
+                            column_of(r->event.start_mark), "a text is expected in %s",
+                            dal__section_name(entry.section));
     DAL_TRY(take_text(r, &entry));
     if (!entry.name) {
         entry.name_line = entry.line;
@@ -238,11 +238,11 @@ static dal_status find_section(reader *r, const dal__entry *key, dal_section *se
     for (int i = 0; i < DAL_SECTION_COUNT; i++) names[i] = dal__section_name((dal_section)i);
     int i = dal__index_of(key->name, strlen(key->name), names, DAL_SECTION_COUNT);
     if (i < 0)
-        return dal__unknown(r->error, key->name_line, key->name_column, "key", key->name, names,
-                            DAL_SECTION_COUNT);
+        return dal__unknown_at(r->error, key->name_line, key->name_column, "key", key->name, names,
+                               DAL_SECTION_COUNT);
     if (r->seen & 1u << i)
-        return dal__error(r->error, DAL_MODEL, key->name_line, key->name_column,
-                          "duplicate key '%s'", key->name);
+        return dal__fail_at(r->error, DAL_MODEL, key->name_line, key->name_column,
+                            "duplicate key '%s'", key->name);
     r->seen |= 1u << i;
     *section = (dal_section)i;
     return DAL_OK;
@@ -282,12 +282,12 @@ static dal_status read_document(reader *r)
 static dal_status check_text(const char *text, size_t length, dal_error *error)
 {
     if (length > DAL__MOST_BYTES)
-        return dal__error(error, DAL_TOO_LARGE, 0, 0, "more than %d bytes in a system file",
-                          (int)DAL__MOST_BYTES);
+        return dal__fail(error, DAL_TOO_LARGE, "more than %d bytes in a system file",
+                         (int)DAL__MOST_BYTES);
     int line = 1, column = 1;
     for (size_t i = 0; i < length; i++) {
         if (text[i] == 0)
-            return dal__error(error, DAL_SYNTAX, line, column, "the file holds a NUL byte");
+            return dal__fail_at(error, DAL_SYNTAX, line, column, "the file holds a NUL byte");
         column = text[i] == '\n' ? 1 : column + 1;
         line += text[i] == '\n';
     }
@@ -312,7 +312,7 @@ dal_status dal_model_read(dal_model **model, const char *name, const char *text,
     DAL_REQUIRE(model, error);
     static const char mark[] = "\xEF\xBB\xBF"; /* a byte order mark is no text */
     *model = NULL;
-    if (!text) return dal__error(error, DAL_ARGUMENT, 0, 0, "there is no text to read");
+    if (!text) return dal__fail(error, DAL_ARGUMENT, "there is no text to read");
     if (length >= 3 && memcmp(text, mark, 3) == 0) text += 3, length -= 3;
     DAL_TRY(check_text(text, length, error));
     dal_model *made = dal_model_create(name);

@@ -67,8 +67,8 @@ static dal_status derive_constraints(dal_model *model, dal_error *error)
         for (int i = 0; i < e->n; i++)
             depends |= !dal__is_number(e->graph, e->A[a * e->n + i], 0.0);
         if (!depends && dal__graph_status(e->graph) == DAL_OK)
-            return dal__error(error, DAL_RANK, entry->line, entry->column,
-                              "constraint %d does not depend on the velocities", a + 1);
+            return dal__fail_at(error, DAL_RANK, entry->line, entry->column,
+                                "constraint %d does not depend on the velocities", a + 1);
     }
     return DAL_OK;
 }
@@ -161,15 +161,16 @@ static dal_status singular_mass(const dal_model *model, int row, dal_error *erro
 {
     const dal__equations *e = &model->equations;
     const dal__entry *L = dal__model_entry(model, DAL_SECTION_LAGRANGIAN, 0);
-    return dal__error(error, DAL_SINGULAR_MASS, L ? L->line : 0, L ? L->column : 0,
-                      "the mass matrix is singular: it does not determine the acceleration of '%s'",
-                      e->coordinate[row]);
+    return dal__fail_at(
+        error, DAL_SINGULAR_MASS, L ? L->line : 0, L ? L->column : 0,
+        "the mass matrix is singular: it does not determine the acceleration of '%s'",
+        e->coordinate[row]);
 }
 
 static dal_status dependent_constraints(const dal_model *model, int row, dal_error *error)
 {
     const dal__entry *entry = dal__model_entry(model, DAL_SECTION_CONSTRAINTS, row);
-    return dal__error(
+    return dal__fail_at(
         error, DAL_RANK, entry->line, entry->column,
         model->equations.servo
             ? "constraint %d is not held by the reactions: A W^-1 B^T is singular"

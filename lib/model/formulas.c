@@ -35,9 +35,9 @@ static dal_status locate(const dal_model *model, const dal__entry *entry, dal_er
     else if (dal__section_shape(entry->section) == DAL__LIST)
         snprintf(name, sizeof name, " %d", number);
     int line = entry->line ? entry->line : 1, column = entry->line ? entry->column : 1;
-    return dal__error(error, inner->status, line + inner->line - 1,
-                      inner->line == 1 ? column + inner->column - 1 : inner->column, "%s%s: %s",
-                      labels[entry->section], name, inner->message);
+    return dal__fail_at(error, inner->status, line + inner->line - 1,
+                        inner->line == 1 ? column + inner->column - 1 : inner->column, "%s%s: %s",
+                        labels[entry->section], name, inner->message);
 }
 
 dal_status dal__formula(dal_model *model, const dal__entry *entry, dal__scope scope,
@@ -81,8 +81,8 @@ static dal_status find_coordinate(const dal_model *model, const dal__entry *entr
     *i = dal__index_of(entry->name, strlen(entry->name), e->coordinate, e->n);
     if (*i >= 0) return DAL_OK;
     snprintf(what, sizeof what, "coordinate in %s", dal__section_name(entry->section));
-    return dal__unknown(error, entry->name_line, entry->name_column, what, entry->name,
-                        e->coordinate, e->n);
+    return dal__unknown_at(error, entry->name_line, entry->name_column, what, entry->name,
+                           e->coordinate, e->n);
 }
 
 /* Adds the formulas of a section to out[i] of their coordinates; in a list of mappings each item
@@ -166,8 +166,8 @@ static dal_status parse_gauge(dal_model *model, dal_error *error)
         const dal__entry *entry = dal__model_entry(model, DAL_SECTION_GAUGE, i);
         int k = dal__index_of(entry->name, strlen(entry->name), names, 2);
         if (k < 0)
-            return dal__unknown(error, entry->name_line, entry->name_column, "entry of gauge",
-                                entry->name, names, 2);
+            return dal__unknown_at(error, entry->name_line, entry->name_column, "entry of gauge",
+                                   entry->name, names, 2);
         DAL_TRY(dal__formula(model, entry, only(e, k ? DAL__MAY_T : 0), out[k], error));
     }
     return DAL_OK;
@@ -198,11 +198,11 @@ static dal_status parse_start(dal_model *model, dal_error *error)
         const dal__entry *entry = dal__model_entry(model, DAL_SECTION_START, k);
         int i = dal__index_of(entry->name, strlen(entry->name), names, count);
         if (strcmp(entry->name, "e") == 0)
-            return dal__error(error, DAL_NAME, entry->name_line, entry->name_column,
-                              "the start of e belongs under gauge, as 'gauge: {e: 1}'");
+            return dal__fail_at(error, DAL_NAME, entry->name_line, entry->name_column,
+                                "the start of e belongs under gauge, as 'gauge: {e: 1}'");
         if (i < 0)
-            return dal__unknown(error, entry->name_line, entry->name_column, "name in start",
-                                entry->name, names, count);
+            return dal__unknown_at(error, entry->name_line, entry->name_column, "name in start",
+                                   entry->name, names, count);
         DAL_TRY(dal__formula(model, entry, only(e, 0), &e->start[i], error));
         if (!isfinite(dal__evaluate(e->graph, e->start[i], e->value)))
             return fault(model, entry, DAL_MODEL, error, "the value is not finite");
@@ -213,9 +213,9 @@ static dal_status parse_start(dal_model *model, dal_error *error)
 static dal_status incomplete(const dal_model *model, int given, dal_error *error)
 {
     const dal__entry *entry = dal__model_entry(model, DAL_SECTION_EXACT, 0);
-    return dal__error(error, DAL_MODEL, entry->name_line, entry->name_column,
-                      "exact has %d of %d coordinates: it needs a formula for each", given,
-                      model->equations.n);
+    return dal__fail_at(error, DAL_MODEL, entry->name_line, entry->name_column,
+                        "exact has %d of %d coordinates: it needs a formula for each", given,
+                        model->equations.n);
 }
 
 /* Velocities of the exact solution are derivatives by t. */
@@ -238,14 +238,14 @@ static dal_status parse_exact(dal_model *model, dal_error *error)
 static dal_status check_sizes(const dal_model *model, dal_error *error)
 {
     const dal__equations *e = &model->equations;
-    if (e->n == 0) return dal__error(error, DAL_MODEL, 0, 0, "the system has no coordinates");
+    if (e->n == 0) return dal__fail(error, DAL_MODEL, "the system has no coordinates");
     if (e->n > DAL__MOST_COORDINATES)
-        return dal__error(error, DAL_TOO_LARGE, 0, 0, "%d coordinates; at most %d are possible",
-                          e->n, (int)DAL__MOST_COORDINATES);
+        return dal__fail(error, DAL_TOO_LARGE, "%d coordinates; at most %d are possible", e->n,
+                         (int)DAL__MOST_COORDINATES);
     if (e->m <= e->n) return DAL_OK;
     const dal__entry *excess = dal__model_entry(model, DAL_SECTION_CONSTRAINTS, e->n);
-    return dal__error(error, DAL_RANK, excess->line, excess->column,
-                      "%d constraints on %d coordinates", e->m, e->n);
+    return dal__fail_at(error, DAL_RANK, excess->line, excess->column,
+                        "%d constraints on %d coordinates", e->m, e->n);
 }
 
 static dal_status read_mechanics(dal_model *model, dal_error *error)
@@ -255,7 +255,8 @@ static dal_status read_mechanics(dal_model *model, dal_error *error)
     if (!entry) return DAL_OK;
     int i = dal__index_of(entry->text, strlen(entry->text), words, 2);
     if (i < 0)
-        return dal__unknown(error, entry->line, entry->column, "mechanics", entry->text, words, 2);
+        return dal__unknown_at(error, entry->line, entry->column, "mechanics", entry->text, words,
+                               2);
     model->equations.vakonomic = i == 1;
     return DAL_OK;
 }
@@ -266,14 +267,13 @@ static dal_status check_dynamics(dal_model *model, dal_error *error)
     const dal__entry *L = dal__model_entry(model, DAL_SECTION_LAGRANGIAN, 0);
     const dal__entry *F = dal__model_entry(model, DAL_SECTION_ACCELERATIONS, 0);
     if (!L && !F)
-        return dal__error(error, DAL_MODEL, 0, 0,
-                          "the system has neither a lagrangian nor accelerations");
+        return dal__fail(error, DAL_MODEL, "the system has neither a lagrangian nor accelerations");
     if (L && F)
-        return dal__error(error, DAL_MODEL, F->name_line, F->name_column,
-                          "the system has both a lagrangian and accelerations");
+        return dal__fail_at(error, DAL_MODEL, F->name_line, F->name_column,
+                            "the system has both a lagrangian and accelerations");
     if (F && e->vakonomic)
-        return dal__error(error, DAL_MODEL, F->name_line, F->name_column,
-                          "vakonomic mechanics needs a lagrangian, not accelerations");
+        return dal__fail_at(error, DAL_MODEL, F->name_line, F->name_column,
+                            "vakonomic mechanics needs a lagrangian, not accelerations");
     e->accelerations = F != NULL;
     return DAL_OK;
 }

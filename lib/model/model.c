@@ -75,13 +75,13 @@ char *dal__model_print(dal_model *model, const char *format, ...)
 
 dal_status dal__starved(dal_error *error)
 {
-    return dal__error(error, DAL_MEMORY, 0, 0, "out of memory while the model was made");
+    return dal__fail(error, DAL_MEMORY, "out of memory while the model was made");
 }
 
 dal_status dal__exhausted(dal_status status, dal_error *error)
 {
     if (status != DAL_TOO_LARGE) return dal__starved(error);
-    return dal__error(error, status, 0, 0, "the equations of the system are too large");
+    return dal__fail(error, status, "the equations of the system are too large");
 }
 
 dal_model *dal_model_create(const char *name)
@@ -147,13 +147,13 @@ static dal_status check_name(const dal__entry *entry, dal_error *error)
     size_t length = strlen(name);
     if (entry->section == DAL_SECTION_START && length && name[length - 1] == '\'') length--;
     if (length > DAL__MOST_LETTERS && entry->section != DAL_SECTION_START)
-        return dal__error(error, DAL_TOO_LARGE, entry->name_line, entry->name_column,
-                          "'%.40s...' in %s has more than %d characters", name,
-                          dal__section_name(entry->section), (int)DAL__MOST_LETTERS);
+        return dal__fail_at(error, DAL_TOO_LARGE, entry->name_line, entry->name_column,
+                            "'%.40s...' in %s has more than %d characters", name,
+                            dal__section_name(entry->section), (int)DAL__MOST_LETTERS);
     if (dal__is_name(name, length)) return DAL_OK;
-    return dal__error(error, DAL_NAME, entry->name_line, entry->name_column,
-                      "'%.80s' in %s is not a name: a letter, then letters, digits and _", name,
-                      dal__section_name(entry->section));
+    return dal__fail_at(error, DAL_NAME, entry->name_line, entry->name_column,
+                        "'%.80s' in %s is not a name: a letter, then letters, digits and _", name,
+                        dal__section_name(entry->section));
 }
 
 static dal_status check_duplicate(const dal_model *model, const dal__entry *entry, dal_error *error)
@@ -167,11 +167,11 @@ static dal_status check_duplicate(const dal_model *model, const dal__entry *entr
         const dal__entry *other = &model->entries[k];
         if (other->section != entry->section || other->item != entry->item) continue;
         if (shape == DAL__SCALAR)
-            return dal__error(error, DAL_MODEL, entry->name_line, entry->name_column,
-                              "duplicate %s", section);
+            return dal__fail_at(error, DAL_MODEL, entry->name_line, entry->name_column,
+                                "duplicate %s", section);
         if (strcmp(named ? other->name : other->text, name) == 0)
-            return dal__error(error, DAL_MODEL, entry->name_line, entry->name_column,
-                              "duplicate '%.80s' in %s", name, section);
+            return dal__fail_at(error, DAL_MODEL, entry->name_line, entry->name_column,
+                                "duplicate '%.80s' in %s", name, section);
     }
     return DAL_OK;
 }
@@ -180,9 +180,9 @@ static dal_status check_entry(const dal_model *model, const dal__entry *entry, d
 {
     bool named = dal__section_named(entry->section);
     if (!entry->text || named != (entry->name != NULL))
-        return dal__error(error, DAL_ARGUMENT, entry->name_line, entry->name_column,
-                          "an entry of %s has %s", dal__section_name(entry->section),
-                          named ? "a name and a text" : "a text and no name");
+        return dal__fail_at(error, DAL_ARGUMENT, entry->name_line, entry->name_column,
+                            "an entry of %s has %s", dal__section_name(entry->section),
+                            named ? "a name and a text" : "a text and no name");
     DAL_TRY(check_name(entry, error));
     return check_duplicate(model, entry, error);
 }
@@ -202,14 +202,14 @@ dal_status dal__model_insert(dal_model *model, dal__entry entry, dal_error *erro
 {
     int line = entry.name_line, column = entry.name_column;
     if (entry.section >= DAL_SECTION_COUNT)
-        return dal__error(error, DAL_ARGUMENT, line, column, "no section has the number %d",
-                          (int)entry.section);
+        return dal__fail_at(error, DAL_ARGUMENT, line, column, "no section has the number %d",
+                            (int)entry.section);
     if (model->made)
-        return dal__error(error, DAL_ARGUMENT, line, column,
-                          "'%.80s' already has its system: nothing can be added", model->name);
+        return dal__fail_at(error, DAL_ARGUMENT, line, column,
+                            "'%.80s' already has its system: nothing can be added", model->name);
     if (model->count == DAL__MOST_ENTRIES)
-        return dal__error(error, DAL_TOO_LARGE, line, column, "more than %d entries",
-                          (int)DAL__MOST_ENTRIES);
+        return dal__fail_at(error, DAL_TOO_LARGE, line, column, "more than %d entries",
+                            (int)DAL__MOST_ENTRIES);
     DAL_TRY(check_entry(model, &entry, error));
     bool named = entry.name != NULL;
     entry.text = dal__model_print(model, "%s", entry.text);
@@ -226,9 +226,9 @@ static dal_status split_item(dal__entry *entry, dal_error *error)
     while (*c >= '0' && *c <= '9' && entry->item <= DAL__MOST_COORDINATES)
         entry->item = 10 * entry->item + (*c++ - '0');
     if (*c != '.' || entry->item < 1)
-        return dal__error(error, DAL_NAME, entry->name_line, entry->name_column,
-                          "'%.80s' in %s is not a constraint and a coordinate, as 1.x", entry->name,
-                          dal__section_name(entry->section));
+        return dal__fail_at(error, DAL_NAME, entry->name_line, entry->name_column,
+                            "'%.80s' in %s is not a constraint and a coordinate, as 1.x",
+                            entry->name, dal__section_name(entry->section));
     entry->name = c + 1;
     return DAL_OK;
 }

@@ -92,15 +92,15 @@ static dal_status check_clash(const dal_model *model, int k, const dal__entry *e
     const char *name = entry_name(entry), *other = taken(model, k, name);
     int line = entry->name_line, column = entry->name_column;
     if (is_formula_word(name))
-        return dal__error(error, DAL_NAME, line, column,
-                          "%s '%.80s': this name is reserved in formulas", kinds[k].what, name);
+        return dal__fail_at(error, DAL_NAME, line, column,
+                            "%s '%.80s': this name is reserved in formulas", kinds[k].what, name);
     if (kinds[k].column && is_column(&model->equations, name))
-        return dal__error(error, DAL_NAME, line, column,
-                          "%s '%.80s': this name is reserved for a column of the output",
-                          kinds[k].what, name);
+        return dal__fail_at(error, DAL_NAME, line, column,
+                            "%s '%.80s': this name is reserved for a column of the output",
+                            kinds[k].what, name);
     if (other)
-        return dal__error(error, DAL_MODEL, line, column, "%s '%.80s': a %s already has this name",
-                          kinds[k].what, name, other);
+        return dal__fail_at(error, DAL_MODEL, line, column,
+                            "%s '%.80s': a %s already has this name", kinds[k].what, name, other);
     return DAL_OK;
 }
 
@@ -136,8 +136,8 @@ dal_status dal__names(dal_model *model, dal_error *error)
 
 static dal__node misplaced(dal_error *error, const char *what, const char *name, unsigned may)
 {
-    dal__error(error, DAL_NAME, 0, 0, "%s '%.80s' may not stand here: only parameters%s", what,
-               name, may & DAL__MAY_T ? " and t" : "");
+    dal__fail(error, DAL_NAME, "%s '%.80s' may not stand here: only parameters%s", what, name,
+              may & DAL__MAY_T ? " and t" : "");
     return 0;
 }
 
@@ -152,7 +152,7 @@ static dal__node unknown(const dal__scope *scope, const char *name, dal_error *e
     for (int i = 0; i < scope->lets; i++) names[count++] = e->let_name[i];
     names[count++] = scope->may & DAL__MAY_T ? "t" : NULL;
     for (int i = WORD_E + 1; i < FORMULA_WORDS; i++) names[count++] = formula_words[i];
-    dal__unknown(error, 0, 0, "name", name, names, count);
+    dal__unknown(error, "name", name, names, count);
     return 0;
 }
 
@@ -163,7 +163,7 @@ static dal__node velocity(const dal__scope *scope, const char *name, int i, dal_
     if (i >= 0) return misplaced(error, "the velocity of", name, scope->may);
     int parameter = dal__index_of(name, strlen(name), e->parameter, e->parameters);
     if (parameter < 0) return unknown(scope, name, error);
-    dal__error(error, DAL_NAME, 0, 0, "parameter '%.80s' has no velocity", name);
+    dal__fail(error, DAL_NAME, "parameter '%.80s' has no velocity", name);
     return 0;
 }
 
@@ -204,7 +204,7 @@ static dal__node plain(const dal__scope *scope, const char *name, size_t length,
         return let_allowed(scope, e->let[i]) ? e->let[i]
                                              : misplaced(error, "let", name, scope->may);
     if (strcmp(name, "e") == 0) {
-        dal__error(error, DAL_NAME, 0, 0, "e is the gauge variable; exp(1) is Euler's number");
+        dal__fail(error, DAL_NAME, "e is the gauge variable; exp(1) is Euler's number");
         return 0;
     }
     dal__node g = multiplier(scope, name);
@@ -218,7 +218,7 @@ dal__node dal__resolve_name(void *user, const char *text, size_t length, bool pr
     const dal__equations *e = &scope->model->equations;
     char name[128];
     if (length >= sizeof name) {
-        dal__error(error, DAL_NAME, 0, 0, "unknown name '%.40s...'", text);
+        dal__fail(error, DAL_NAME, "unknown name '%.40s...'", text);
         return 0;
     }
     memcpy(name, text, length);

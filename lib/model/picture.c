@@ -19,8 +19,8 @@ static dal_status read_body(dal_model *model, const dal__entry *entry, dal_error
     };
     int i = dal__index_of(entry->text, strlen(entry->text), words, DAL_BODY_COUNT);
     if (i < 0)
-        return dal__unknown(error, entry->line, entry->column, "body", entry->text, words,
-                            DAL_BODY_COUNT);
+        return dal__unknown_at(error, entry->line, entry->column, "body", entry->text, words,
+                               DAL_BODY_COUNT);
     model->equations.body = (dal_body)i;
     return DAL_OK;
 }
@@ -33,8 +33,8 @@ static dal_status read_entry(dal_model *model, const dal__entry *entry, unsigned
         .may = DAL__MAY_T | DAL__MAY_STATE, .parameters = e->parameters, .lets = e->lets};
     int i = dal__index_of(entry->name, strlen(entry->name), number_names, NAMES);
     if (i < 0)
-        return dal__unknown(error, entry->name_line, entry->name_column, "entry of picture",
-                            entry->name, number_names, NAMES);
+        return dal__unknown_at(error, entry->name_line, entry->name_column, "entry of picture",
+                               entry->name, number_names, NAMES);
     *seen |= 1u << i;
     if (i == BODY) return read_body(model, entry, error);
     return dal__formula(model, entry, everything, &e->picture[i], error);
@@ -50,7 +50,7 @@ dal_status dal__picture(dal_model *model, dal_error *error)
             DAL_TRY(read_entry(model, &model->entries[k], &seen, error));
     for (int i = DAL_PICTURE_X; i <= DAL_PICTURE_Y; i++)
         if (!(seen & 1u << i))
-            return dal__error(error, DAL_MODEL, first->name_line, first->name_column,
-                              "picture has no %s: it needs x and y", number_names[i]);
+            return dal__fail_at(error, DAL_MODEL, first->name_line, first->name_column,
+                                "picture has no %s: it needs x and y", number_names[i]);
     return DAL_OK;
 }

@@ -26,15 +26,16 @@ dal_status dal__reactions(dal_model *model, dal_error *error)
     const dal__entry *first = reaction(model, 0), *entry;
     e->servo = first != NULL;
     if (e->servo && e->vakonomic)
-        return dal__error(error, DAL_MODEL, first->name_line, first->name_column,
-                          "vakonomic mechanics has no reactions: its multipliers take their place");
+        return dal__fail_at(
+            error, DAL_MODEL, first->name_line, first->name_column,
+            "vakonomic mechanics has no reactions: its multipliers take their place");
     for (int i = 0; (entry = reaction(model, i)) != NULL; i++)
         if (entry->item > e->m)
-            return dal__error(error, DAL_MODEL, entry->name_line, entry->name_column,
-                              "reaction %d has no constraint: there are %d", entry->item, e->m);
+            return dal__fail_at(error, DAL_MODEL, entry->name_line, entry->name_column,
+                                "reaction %d has no constraint: there are %d", entry->item, e->m);
     for (int a = 1; e->servo && a <= e->m; a++)
         if (!has_item(model, a))
-            return dal__error(error, DAL_MODEL, first->name_line, first->name_column,
-                              "constraint %d has no reaction: the list needs one for each", a);
+            return dal__fail_at(error, DAL_MODEL, first->name_line, first->name_column,
+                                "constraint %d has no reaction: the list needs one for each", a);
     return DAL_OK;
 }

@@ -225,9 +225,8 @@ dal_status dal_model_tangent(dal_model *model, const dal_system **system, dal_er
     if (model->tangent_made) return *system = &model->tangent, DAL_OK;
     DAL_TRY(dal_model_system(model, &plain, error));
     if (model->equations.multipliers)
-        return dal__error(error, DAL_UNSUPPORTED, 0, 0,
-                          "'%.80s' has multipliers: there is no tangent system for it",
-                          model->name);
+        return dal__fail(error, DAL_UNSUPPORTED,
+                         "'%.80s' has multipliers: there is no tangent system for it", model->name);
     dal_status status = make_tangent(model);
     if (status != DAL_OK) return dal__exhausted(status, error);
     model->tangent_made = true;

@@ -157,7 +157,7 @@ static dal_status allocate(dal_batch *batch, const choice *from, dal_error *erro
         batch->memory = malloc(bytes);
     }
     if (!batch->block || !batch->error || !batch->memory)
-        return dal__error(error, DAL_MEMORY, 0, 0, "no memory for a batch of %d", batch->count);
+        return dal__fail(error, DAL_MEMORY, "no memory for a batch of %d", batch->count);
     place_blocks(batch, from);
     return DAL_OK;
 }
@@ -167,10 +167,10 @@ dal_status dal__batch_create(dal_batch **batch, const dal_run_spec *spec, int co
 {
     dal_batch *made = calloc(1, sizeof *made);
     *batch = NULL;
-    if (!made) return dal__error(error, DAL_MEMORY, 0, 0, "no memory for a batch");
+    if (!made) return dal__fail(error, DAL_MEMORY, "no memory for a batch");
     dal_status status = dal_run_create(&made->scalar, spec, error);
     if (status == DAL_OK && only != DAL__VARIANTS && !dal__engine_can(&made->scalar->shape, only))
-        status = dal__error(error, DAL_UNSUPPORTED, 0, 0, "variant %d cannot run here", (int)only);
+        status = dal__fail(error, DAL_UNSUPPORTED, "variant %d cannot run here", (int)only);
     if (status == DAL_OK) {
         const choice one = {{&dal__engine_kinds[only % DAL__VARIANTS]}, 1};
         const choice from = only == DAL__VARIANTS ? choose(&made->scalar->shape, width) : one;
@@ -190,14 +190,12 @@ dal_status dal_batch_create(dal_batch **batch, const dal_run_spec *spec, int cou
     DAL_REQUIRE(batch, error);
     *batch = NULL;
     DAL_TRY(dal__check_spec(spec, error));
-    if (count < 1)
-        return dal__error(error, DAL_ARGUMENT, 0, 0, "a batch of %d runs is empty", count);
+    if (count < 1) return dal__fail(error, DAL_ARGUMENT, "a batch of %d runs is empty", count);
     bool known = width == 0;
     for (int i = 0; i < WIDTHS; i++) known |= width == widths[i];
-    if (!known)
-        return dal__error(error, DAL_ARGUMENT, 0, 0, "width %d is not 0, 1, 4, 8 or 64", width);
+    if (!known) return dal__fail(error, DAL_ARGUMENT, "width %d is not 0, 1, 4, 8 or 64", width);
     if (spec->options.precision != DAL_DOUBLE)
-        return dal__error(error, DAL_UNSUPPORTED, 0, 0, "a batch has no lanes of long numbers");
+        return dal__fail(error, DAL_UNSUPPORTED, "a batch has no lanes of long numbers");
     return dal__batch_create(batch, spec, count, width, DAL__VARIANTS, error);
 }
 
@@ -269,11 +267,10 @@ dal_status dal_batch_start(dal_batch *batch, int lane, const dal_setting *parame
 {
     DAL_REQUIRE(batch, error);
     if (lane < 0 || lane >= batch->count)
-        return dal__error(error, DAL_ARGUMENT, 0, 0, "lane %d of %d does not exist", lane,
-                          batch->count);
+        return dal__fail(error, DAL_ARGUMENT, "lane %d of %d does not exist", lane, batch->count);
     if (batch->stepped)
-        return dal__error(error, DAL_ARGUMENT, 0, 0,
-                          "lane %d cannot start anew: its batch has been stepped", lane);
+        return dal__fail(error, DAL_ARGUMENT,
+                         "lane %d cannot start anew: its batch has been stepped", lane);
     DAL_TRY(dal__check_settings(parameters, parameter_count, "parameters", error));
     DAL_TRY(dal__check_settings(start, start_count, "start values", error));
     DAL_TRY(dal__run_start(batch->scalar, parameters, parameter_count, start, start_count, error));
@@ -340,8 +337,7 @@ dal_status dal_batch_status(const dal_batch *batch, int lane, dal_error *error)
 {
     DAL_REQUIRE(batch, error);
     if (lane < 0 || lane >= batch->count)
-        return dal__error(error, DAL_ARGUMENT, 0, 0, "lane %d of %d does not exist", lane,
-                          batch->count);
+        return dal__fail(error, DAL_ARGUMENT, "lane %d of %d does not exist", lane, batch->count);
     if (error) *error = batch->error[lane];
     return batch->error[lane].status;
 }

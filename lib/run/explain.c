@@ -4,9 +4,9 @@
 
 static dal_status singular(const dal__cause *cause, double number, dal_error *error)
 {
-    return dal__error(error, DAL_SINGULAR, 0, 0,
-                      "constraint %d became singular near t = %.17g: G = A W^-1 A^T has no inverse",
-                      (int)number, cause->t);
+    return dal__fail(error, DAL_SINGULAR,
+                     "constraint %d became singular near t = %.17g: G = A W^-1 A^T has no inverse",
+                     (int)number, cause->t);
 }
 
 /* Whether the numbers had run away, in the iteration or in the whole run, before the answer ceased
@@ -28,8 +28,7 @@ static dal_status ask_system(dal_run *run, const dal__cause *cause, dal_error *e
     const dal_status status = system->diagnose(system, &at, &number);
     if (status == DAL_SINGULAR) return singular(cause, number, error);
     if (status == DAL_SINGULAR_MASS)
-        return dal__error(error, status, 0, 0, "the mass matrix became singular near t = %.17g",
-                          cause->t);
+        return dal__fail(error, status, "the mass matrix became singular near t = %.17g", cause->t);
     return DAL_OK;
 }
 
@@ -50,14 +49,14 @@ static dal_status turned(dal_run *run, const dal__cause *cause, double t, double
 {
     const dal_system *system = run->shape.system;
     if (cause->guard)
-        return dal__error(error,
-                          cause->guard == system->mass_guard ? DAL_SINGULAR_MASS : DAL_SINGULAR, 0,
-                          0, "%s goes to zero between t = %.17g and %.17g: singular there",
-                          system->guard ? system->guard[cause->guard - 1] : "a guard", t, t + h);
-    return dal__error(error, DAL_SINGULAR, 0, 0,
-                      "constraint %d becomes singular between t = %.17g and %.17g: its normal "
-                      "shrinks or turns round, so that G = A W^-1 A^T vanishes",
-                      cause->constraint, t, t + h);
+        return dal__fail(error,
+                         cause->guard == system->mass_guard ? DAL_SINGULAR_MASS : DAL_SINGULAR,
+                         "%s goes to zero between t = %.17g and %.17g: singular there",
+                         system->guard ? system->guard[cause->guard - 1] : "a guard", t, t + h);
+    return dal__fail(error, DAL_SINGULAR,
+                     "constraint %d becomes singular between t = %.17g and %.17g: its normal "
+                     "shrinks or turns round, so that G = A W^-1 A^T vanishes",
+                     cause->constraint, t, t + h);
 }
 
 /* Where the stages are not solved although the step is small, a constraint may be about to become
@@ -122,11 +121,11 @@ static bool vanishes(dal_run *run, double t, double h, dal__cause *cause)
 static dal_status unsolved(dal_run *run, double t, double h, dal_error *error)
 {
     char name[128];
-    return dal__error(error, DAL_NOT_CONVERGED, 0, 0,
-                      "the implicit equations of %s did not converge in the step of %g from "
-                      "t = %.17g (at most %d iterations); take a smaller step",
-                      dal_method_name(&run->shape.method, name, sizeof name), h, t,
-                      run->shape.options.iterations);
+    return dal__fail(error, DAL_NOT_CONVERGED,
+                     "the implicit equations of %s did not converge in the step of %g from "
+                     "t = %.17g (at most %d iterations); take a smaller step",
+                     dal_method_name(&run->shape.method, name, sizeof name), h, t,
+                     run->shape.options.iterations);
 }
 
 /* The control of the step size gave up. */
@@ -135,15 +134,14 @@ static dal_status undivided(dal_run *run, const dal__cause *cause, double t, dou
 {
     const double tolerance = run->shape.options.tolerance;
     if (cause->substep > 0.0)
-        return dal__error(
-            error, DAL_NOT_CONVERGED, 0, 0,
-            "too many substeps (more than %d) for tolerance %g in the step of %g from "
-            "t = %.17g: at t = %.17g their size is %g",
-            DAL__MOST_TRIALS, tolerance, h, t, cause->reached, cause->substep);
-    return dal__error(error, DAL_NOT_CONVERGED, 0, 0,
-                      "the step size went to zero at t = %.17g in the step of %g from t = %.17g: "
-                      "no substep there keeps the error within tolerance %g",
-                      cause->reached, h, t, tolerance);
+        return dal__fail(error, DAL_NOT_CONVERGED,
+                         "too many substeps (more than %d) for tolerance %g in the step of %g from "
+                         "t = %.17g: at t = %.17g their size is %g",
+                         DAL__MOST_TRIALS, tolerance, h, t, cause->reached, cause->substep);
+    return dal__fail(error, DAL_NOT_CONVERGED,
+                     "the step size went to zero at t = %.17g in the step of %g from t = %.17g: "
+                     "no substep there keeps the error within tolerance %g",
+                     cause->reached, h, t, tolerance);
 }
 
 /* Steps again, watching; a system that is not a pure function may now succeed, so the state is put
@@ -166,16 +164,16 @@ dal_status dal__explain(dal_run *run, double h, dal_status status, dal_error *er
     dal__cause cause = {.q = run->point, .v = run->point + k->n};
     repeat(run, h, &cause);
     if (status == DAL_GAUGE || (status != DAL_SINGULAR && gauge_crosses(run, t, h)))
-        return dal__error(error, DAL_GAUGE, 0, 0,
-                          "e reached zero between t = %.17g and %.17g: 1/e is not defined", t,
-                          t + h);
+        return dal__fail(error, DAL_GAUGE,
+                         "e reached zero between t = %.17g and %.17g: 1/e is not defined", t,
+                         t + h);
     if (cause.guard || cause.constraint) return turned(run, &cause, t, h, error);
     if (cause.not_finite) {
         const dal_status said = ask_system(run, &cause, error);
         if (said != DAL_OK) return said;
         if (cause.status != DAL_OK)
-            return dal__error(error, cause.status, 0, 0, "the system failed at t = %.17g: %s",
-                              cause.t, dal_status_text(cause.status));
+            return dal__fail(error, cause.status, "the system failed at t = %.17g: %s", cause.t,
+                             dal_status_text(cause.status));
     }
     if (status == DAL_NOT_CONVERGED && vanishes(run, t, h, &cause))
         return turned(run, &cause, t, h, error);
@@ -183,8 +181,8 @@ dal_status dal__explain(dal_run *run, double h, dal_status status, dal_error *er
         return undivided(run, &cause, t, h, error);
     if (status == DAL_NOT_CONVERGED) return unsolved(run, t, h, error);
     if (status == DAL_NOT_FINITE)
-        return dal__error(error, status, 0, 0,
-                          "a value is not finite in the step of %g from t = %.17g", h, t);
-    return dal__error(error, status, 0, 0, "%s in the step of %g from t = %.17g",
-                      dal_status_text(status), h, t);
+        return dal__fail(error, status, "a value is not finite in the step of %g from t = %.17g", h,
+                         t);
+    return dal__fail(error, status, "%s in the step of %g from t = %.17g", dal_status_text(status),
+                     h, t);
 }

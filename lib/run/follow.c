@@ -10,8 +10,7 @@
 dal_status dal__stopped(const dal_run *run, dal_status status, dal_error *error)
 {
     if (status == DAL_OK) return DAL_OK;
-    return dal__error(error, status, 0, 0, "%s at t = %.17g", dal_status_text(status),
-                      dal_run_time(run));
+    return dal__fail(error, status, "%s at t = %.17g", dal_status_text(status), dal_run_time(run));
 }
 
 /* Takes the present state as look number k. */

@@ -18,17 +18,17 @@ size_t dal__long_width(void) { return sizeof(num) / sizeof(double); }
 dal_status dal__long_check(const dal__shape *k, dal_error *error)
 {
     if (DAL_LONG_DIGITS <= DBL_MANT_DIG)
-        return dal__error(error, DAL_UNSUPPORTED, 0, 0,
-                          "long numbers: there are none longer than double here");
+        return dal__fail(error, DAL_UNSUPPORTED,
+                         "long numbers: there are none longer than double here");
     if (!k->system->in_long)
-        return dal__error(error, DAL_UNSUPPORTED, 0, 0,
-                          "long numbers: %.80s has no form in them, not being made from a model",
-                          k->system->name ? k->system->name : "this system");
+        return dal__fail(error, DAL_UNSUPPORTED,
+                         "long numbers: %.80s has no form in them, not being made from a model",
+                         k->system->name ? k->system->name : "this system");
     for (int i = 0; i < k->depth; i++)
         if (!dal__integrator_wide(k->method.chain[i], DAL__VARIANT_x1_LONGER))
-            return dal__error(error, DAL_UNSUPPORTED, 0, 0,
-                              "long numbers: '%.80s' has no form in them, not being the library's",
-                              k->method.chain[i]->name ? k->method.chain[i]->name : "?");
+            return dal__fail(error, DAL_UNSUPPORTED,
+                             "long numbers: '%.80s' has no form in them, not being the library's",
+                             k->method.chain[i]->name ? k->method.chain[i]->name : "?");
     return DAL_OK;
 }
 

@@ -27,7 +27,7 @@ static int choice(const char *words, const char *text)
 static dal_status number(const char *name, const char *text, double *value, dal_error *error)
 {
     if (dal_parse_number(text, strlen(text), value) == DAL_OK) return DAL_OK;
-    return dal__error(error, DAL_SYNTAX, 0, 0, "option %s: '%.60s' is not a number", name, text);
+    return dal__fail(error, DAL_SYNTAX, "option %s: '%.60s' is not a number", name, text);
 }
 
 typedef struct option {
@@ -41,17 +41,16 @@ static dal_status parse(const option *k, const char *text, double *value, dal_er
     if (k->words) {
         const int i = choice(k->words, text);
         if (i < 0)
-            return dal__error(error, DAL_ARGUMENT, 0, 0, "option %s: '%.60s' is not one of %s",
-                              k->name, text, k->words);
+            return dal__fail(error, DAL_ARGUMENT, "option %s: '%.60s' is not one of %s", k->name,
+                             text, k->words);
         *value = i;
         return DAL_OK;
     }
     DAL_TRY(number(k->name, text, value, error));
     const int good = *value >= k->least && *value <= k->greatest;
     if (good && (!k->whole || *value == floor(*value))) return DAL_OK;
-    return dal__error(error, DAL_ARGUMENT, 0, 0, "option %s: %.60s is not %s from %g to %g",
-                      k->name, text, k->whole ? "a whole number" : "a number", k->least,
-                      k->greatest);
+    return dal__fail(error, DAL_ARGUMENT, "option %s: %.60s is not %s from %g to %g", k->name, text,
+                     k->whole ? "a whole number" : "a number", k->least, k->greatest);
 }
 
 #define DAL__WHOLE_int    1
@@ -82,5 +81,5 @@ dal_status dal_options_set(dal_options *options, const char *name, const char *t
     }
     DAL_OPTION_LIST(X)
 #undef X
-    return dal__unknown(error, 0, 0, "option", name, names, COUNT);
+    return dal__unknown(error, "option", name, names, COUNT);
 }

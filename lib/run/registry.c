@@ -56,7 +56,7 @@ static dal_status unknown(const char *name, int modifier, dal_error *error)
         names[2 * i] = is_modifier(k) == modifier ? k->name : NULL;
         names[2 * i + 1] = is_modifier(k) == modifier ? k->alias : NULL;
     }
-    return dal__unknown(error, 0, 0, modifier ? "modifier" : "integrator", name, names, 2 * COUNT);
+    return dal__unknown(error, modifier ? "modifier" : "integrator", name, names, 2 * COUNT);
 }
 
 enum { NAME_SIZE = 64 };
@@ -81,17 +81,16 @@ dal_status dal_method_parse(dal_method *method, const char *name, dal_error *err
     *method = (dal_method){{NULL}};
     for (int i = 0;; i++) {
         if (i == DAL_CHAIN)
-            return dal__error(error, DAL_ARGUMENT, 0, 0, "integrator '%.60s': at most %d modifiers",
-                              name, DAL_CHAIN - 1);
+            return dal__fail(error, DAL_ARGUMENT, "integrator '%.60s': at most %d modifiers", name,
+                             DAL_CHAIN - 1);
         if (!next_part(&rest, part))
-            return dal__error(error, DAL_NAME, 0, 0, "integrator name '%.60s...' is too long",
-                              name);
+            return dal__fail(error, DAL_NAME, "integrator name '%.60s...' is too long", name);
         method->chain[i] = find(part, i > 0);
         if (!method->chain[i]) return unknown(part, i > 0, error);
         for (int k = 1; k < i; k++)
             if (method->chain[k] == method->chain[i])
-                return dal__error(error, DAL_ARGUMENT, 0, 0, "integrator '%.60s': +%s comes twice",
-                                  name, method->chain[i]->name);
+                return dal__fail(error, DAL_ARGUMENT, "integrator '%.60s': +%s comes twice", name,
+                                 method->chain[i]->name);
         if (*rest == '\0') return DAL_OK;
         rest++;
     }

@@ -79,9 +79,9 @@ dal_status dal_run_init(dal_run **run, void *memory, size_t bytes, const dal_run
     DAL_REQUIRE(memory, error);
     DAL_TRY(dal__shape_init(&shape, spec, error));
     if (bytes < total_bytes(&shape))
-        return dal__error(error, DAL_MEMORY, 0, 0, "a run of %s needs %zu bytes, not %zu",
-                          shape.system->name ? shape.system->name : "this system",
-                          total_bytes(&shape), bytes);
+        return dal__fail(error, DAL_MEMORY, "a run of %s needs %zu bytes, not %zu",
+                         shape.system->name ? shape.system->name : "this system",
+                         total_bytes(&shape), bytes);
     dal_run *made = place(&shape, memory);
     DAL_TRY(dal__run_start(made, spec->parameters, spec->parameter_count, spec->start,
                            spec->start_count, error));
@@ -98,7 +98,7 @@ dal_status dal_run_create(dal_run **run, const dal_run_spec *spec, dal_error *er
     DAL_TRY(dal__shape_init(&shape, spec, error));
     const size_t bytes = total_bytes(&shape);
     void *memory = malloc(bytes);
-    if (!memory) return dal__error(error, DAL_MEMORY, 0, 0, "no %zu bytes for a run", bytes);
+    if (!memory) return dal__fail(error, DAL_MEMORY, "no %zu bytes for a run", bytes);
     const dal_status status = dal_run_init(run, memory, bytes, spec, error);
     if (status == DAL_OK)
         (*run)->owned = memory;
@@ -146,8 +146,7 @@ dal_status dal_run_advance(dal_run *run, long long count, dal_error *error)
 {
     DAL_REQUIRE(run, error);
     const double h = run->shape.options.step;
-    if (count < 0)
-        return dal__error(error, DAL_ARGUMENT, 0, 0, "%lld steps: a run goes forward", count);
+    if (count < 0) return dal__fail(error, DAL_ARGUMENT, "%lld steps: a run goes forward", count);
     const dal_status status = dal__run_steps(run, h, count);
     return status == DAL_OK ? DAL_OK : dal__explain(run, h, status, error);
 }
@@ -183,9 +182,9 @@ dal_status dal_run_set_state(dal_run *run, double t, const double *state, dal_er
     const dal__shape *k = &run->shape;
     for (int i = 0; i < k->dim; i++)
         if (!isfinite(state[i]) && !(k->lifted && i == 2 * k->n && isinf(state[i])))
-            return dal__error(error, DAL_NOT_FINITE, 0, 0, "state component %d is not finite: %g",
-                              i + 1, state[i]);
-    if (!isfinite(t)) return dal__error(error, DAL_NOT_FINITE, 0, 0, "time %g is not finite", t);
+            return dal__fail(error, DAL_NOT_FINITE, "state component %d is not finite: %g", i + 1,
+                             state[i]);
+    if (!isfinite(t)) return dal__fail(error, DAL_NOT_FINITE, "time %g is not finite", t);
     memset(run->carried, 0, k->carried * sizeof *run->carried);
     for (int i = 0; i < k->dim; i++) run->carried[i] = state[i] + 0.0;
     run->carried[dal__at(k, DAL__TIME)] = t;
@@ -211,13 +210,12 @@ dal_status dal_run_load(dal_run *run, const double *memory, size_t count, dal_er
     DAL_REQUIRE(memory, error);
     const dal__shape *k = &run->shape;
     if (count != run->remembered)
-        return dal__error(error, DAL_ARGUMENT, 0, 0, "this run carries %zu numbers, not %zu",
-                          run->remembered, count);
+        return dal__fail(error, DAL_ARGUMENT, "this run carries %zu numbers, not %zu",
+                         run->remembered, count);
     for (size_t i = 0; i < k->carried; i++) {
         const double x = number_in(run, memory, i);
         if (!isfinite(x) && !(k->lifted && i == 2 * (size_t)k->n && isinf(x)))
-            return dal__error(error, DAL_NOT_FINITE, 0, 0, "carried number %zu is not finite",
-                              i + 1);
+            return dal__fail(error, DAL_NOT_FINITE, "carried number %zu is not finite", i + 1);
     }
     memcpy(run->memory, memory, count * sizeof *memory);
     if (run->long_run.engine) dal__long_pull(run);

@@ -68,7 +68,7 @@ dal_status dal_run_aside(dal_run *run, double h, dal_status (*look)(void *user, 
     DAL_REQUIRE(run, error);
     DAL_REQUIRE(look, error);
     if (!isfinite(h))
-        return dal__error(error, DAL_ARGUMENT, 0, 0, "a step aside must be finite; it is %g", h);
+        return dal__fail(error, DAL_ARGUMENT, "a step aside must be finite; it is %g", h);
     dal__run_keep(run);
     dal_status status = dal__run_steps(run, h, 1);
     if (status != DAL_OK) return dal__explain(run, h, status, error);
@@ -136,22 +136,20 @@ static dal_status check(const dal_run *run, const dal_observer *observer, double
 {
     const double h = run->shape.options.step;
     if (!(T > 0.0) || !isfinite(T))
-        return dal__error(error, DAL_ARGUMENT, 0, 0, "the time must be positive; it is %g", T);
+        return dal__fail(error, DAL_ARGUMENT, "the time must be positive; it is %g", T);
     if (h > T)
-        return dal__error(error, DAL_ARGUMENT, 0, 0, "the step %g is larger than the time %g", h,
-                          T);
+        return dal__fail(error, DAL_ARGUMENT, "the step %g is larger than the time %g", h, T);
     if (T / h > MOST_STEPS)
-        return dal__error(error, DAL_ARGUMENT, 0, 0,
-                          "%g steps of %g are more than can be counted (2^53)", T / h, h);
+        return dal__fail(error, DAL_ARGUMENT, "%g steps of %g are more than can be counted (2^53)",
+                         T / h, h);
     if (samples < 1 || (double)samples > MOST_STEPS)
-        return dal__error(error, DAL_ARGUMENT, 0, 0, "samples must be at least 1; it is %lld",
-                          samples);
+        return dal__fail(error, DAL_ARGUMENT, "samples must be at least 1; it is %lld", samples);
     if (first_row < 0 || first_row > samples)
-        return dal__error(error, DAL_ARGUMENT, 0, 0, "there is no row %lld among 0..%lld",
-                          first_row, samples);
+        return dal__fail(error, DAL_ARGUMENT, "there is no row %lld among 0..%lld", first_row,
+                         samples);
     if (row_time(observer, T, first_row, samples) < dal_run_time(run) - h)
-        return dal__error(error, DAL_ARGUMENT, 0, 0, "row %lld lies before the present t = %g",
-                          first_row, dal_run_time(run));
+        return dal__fail(error, DAL_ARGUMENT, "row %lld lies before the present t = %g", first_row,
+                         dal_run_time(run));
     return DAL_OK;
 }
 

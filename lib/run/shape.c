@@ -10,9 +10,9 @@ enum { MOST_NUMBERS = 1000000000 };
 static dal_status refuse(dal_error *error, const dal__shape *k, const char *lacks)
 {
     char name[128];
-    return dal__error(error, DAL_UNSUPPORTED, 0, 0, "%s cannot act on %s: the system has no %s",
-                      dal_method_name(&k->method, name, sizeof name),
-                      k->system->name ? k->system->name : "this system", lacks);
+    return dal__fail(error, DAL_UNSUPPORTED, "%s cannot act on %s: the system has no %s",
+                     dal_method_name(&k->method, name, sizeof name),
+                     k->system->name ? k->system->name : "this system", lacks);
 }
 
 /* Why there is nothing to keep of the energy; NULL where it is conserved. */
@@ -33,8 +33,8 @@ static dal_status choose_system(dal__shape *k, dal_error *error)
     if (!k->options.extend_energy) return DAL_OK;
     if (!fault && !k->system->extended) fault = "the system has no such extension";
     if (fault)
-        return dal__error(error, DAL_UNSUPPORTED, 0, 0, "extend-energy cannot act on %s: %s",
-                          name ? name : "this system", fault);
+        return dal__fail(error, DAL_UNSUPPORTED, "extend-energy cannot act on %s: %s",
+                         name ? name : "this system", fault);
     k->system = k->system->extended;
     return DAL_OK;
 }
@@ -45,9 +45,9 @@ static dal_status check_parts(const dal__shape *k, unsigned needs, dal_error *er
     const dal_system *s = k->system;
     char name[128];
     if (k->lifted)
-        return dal__error(error, DAL_UNSUPPORTED, 0, 0,
-                          "%s imposes D on (q,v) and has no lifted form; take the physical space",
-                          dal_method_name(&k->method, name, sizeof name));
+        return dal__fail(error, DAL_UNSUPPORTED,
+                         "%s imposes D on (q,v) and has no lifted form; take the physical space",
+                         dal_method_name(&k->method, name, sizeof name));
     if (!s->call.parts || s->multipliers) return refuse(error, k, "parts a, B of F = a + B h");
     if (k->m > 0 && !s->call.constraint) return refuse(error, k, "constraint callback");
     if (needs & DAL_NEEDS_POTENTIAL && !(s->properties & DAL_MASS_CONSTANT))
@@ -66,9 +66,9 @@ static dal_status check_energy(const dal__shape *k, dal_error *error)
     char method[128];
     if (!fault && !k->system->call.energy_normal) fault = "the system has no energy_normal";
     if (!fault) return DAL_OK;
-    return dal__error(error, DAL_UNSUPPORTED, 0, 0, "%s cannot act on %s: %s",
-                      dal_method_name(&k->method, method, sizeof method),
-                      name ? name : "this system", fault);
+    return dal__fail(error, DAL_UNSUPPORTED, "%s cannot act on %s: %s",
+                     dal_method_name(&k->method, method, sizeof method),
+                     name ? name : "this system", fault);
 }
 
 /* What the method, the space and the solver need, the system must have. */
@@ -93,41 +93,39 @@ static dal_status check_needs(const dal__shape *k, dal_error *error)
 static dal_status check_system(const dal_system *system, dal_error *error)
 {
     if (system->n < 1)
-        return dal__error(error, DAL_ARGUMENT, 0, 0, "a system needs coordinates; n is %d",
-                          system->n);
+        return dal__fail(error, DAL_ARGUMENT, "a system needs coordinates; n is %d", system->n);
     if (system->m < 0 || system->parameters < 0 || system->guards < 0 || system->invariants < 0)
-        return dal__error(error, DAL_ARGUMENT, 0, 0, "a dimension of the system is negative");
+        return dal__fail(error, DAL_ARGUMENT, "a dimension of the system is negative");
     if (system->multipliers != 0 && system->multipliers != system->m)
-        return dal__error(error, DAL_ARGUMENT, 0, 0, "%d multipliers for %d constraints",
-                          system->multipliers, system->m);
+        return dal__fail(error, DAL_ARGUMENT, "%d multipliers for %d constraints",
+                         system->multipliers, system->m);
     if (system->workspace && system->workspace < (size_t)system->parameters)
-        return dal__error(error, DAL_ARGUMENT, 0, 0, "%d parameters in a workspace of %zu numbers",
-                          system->parameters, system->workspace);
+        return dal__fail(error, DAL_ARGUMENT, "%d parameters in a workspace of %zu numbers",
+                         system->parameters, system->workspace);
     return DAL_OK;
 }
 
 static dal_status check_options(const dal_options *o, dal_error *error)
 {
     if (!(o->step > 0.0) || !isfinite(o->step))
-        return dal__error(error, DAL_ARGUMENT, 0, 0,
-                          "the step must be positive and finite; it is %g", o->step);
+        return dal__fail(error, DAL_ARGUMENT, "the step must be positive and finite; it is %g",
+                         o->step);
     if (o->iterations < 1)
-        return dal__error(error, DAL_ARGUMENT, 0, 0, "iterations must be at least 1; it is %d",
-                          o->iterations);
+        return dal__fail(error, DAL_ARGUMENT, "iterations must be at least 1; it is %d",
+                         o->iterations);
     if (o->space < DAL_LIFTED || o->space > DAL_PHYSICAL)
-        return dal__error(error, DAL_ARGUMENT, 0, 0, "there is no space number %d", o->space);
+        return dal__fail(error, DAL_ARGUMENT, "there is no space number %d", o->space);
     if (o->extend_energy < 0 || o->extend_energy > 1)
-        return dal__error(error, DAL_ARGUMENT, 0, 0, "extend-energy is %d, not 0 or 1",
-                          o->extend_energy);
+        return dal__fail(error, DAL_ARGUMENT, "extend-energy is %d, not 0 or 1", o->extend_energy);
     if (!(o->tolerance >= 0.0 && o->tolerance <= 1.0))
-        return dal__error(error, DAL_ARGUMENT, 0, 0, "the tolerance must be from 0 to 1; it is %g",
-                          o->tolerance);
+        return dal__fail(error, DAL_ARGUMENT, "the tolerance must be from 0 to 1; it is %g",
+                         o->tolerance);
     if (o->solver < DAL_SOLVER_AUTO || o->solver > DAL_NEWTON)
-        return dal__error(error, DAL_ARGUMENT, 0, 0, "there is no solver number %d", o->solver);
+        return dal__fail(error, DAL_ARGUMENT, "there is no solver number %d", o->solver);
 #define X(type, name, word, initial, least, greatest, words, help)                                 \
     if (!(o->name >= least && o->name <= greatest))                                                \
-        return dal__error(error, DAL_ARGUMENT, 0, 0, "option %s: %g is not from %g to %g", word,   \
-                          (double)o->name, (double)least, (double)greatest);
+        return dal__fail(error, DAL_ARGUMENT, "option %s: %g is not from %g to %g", word,          \
+                         (double)o->name, (double)least, (double)greatest);
     DAL_OPTION_LIST(X)
 #undef X
     return DAL_OK;
@@ -149,22 +147,21 @@ static dal_status check_inside(const dal_method *method, int depth, dal_error *e
     dal_method_name(&inside, name, sizeof name);
     const int order = dal_method_order(&inside);
     if ((outer->needs & DAL_NEEDS_SYMMETRIC) && !(dal_method_claims(&inside) & DAL_SYMMETRIC))
-        return dal__error(error, DAL_UNSUPPORTED, 0, 0,
-                          "+%s needs a symmetric method: %s is not symmetric", outer->name, name);
+        return dal__fail(error, DAL_UNSUPPORTED,
+                         "+%s needs a symmetric method: %s is not symmetric", outer->name, name);
     if ((outer->needs & DAL_NEEDS_SYMMETRIC) && (outer->needs & DAL_NEEDS_CONSTRAINT) &&
         (dal_method_claims(&inside) & (DAL_KEEPS_D | DAL_KEEPS_D_MIDPOINT)) == DAL_KEEPS_D_MIDPOINT)
-        return dal__error(error, DAL_UNSUPPORTED, 0, 0,
-                          "+%s has no solution around %s, which turns D into -D in every step",
-                          outer->name, name);
+        return dal__fail(error, DAL_UNSUPPORTED,
+                         "+%s has no solution around %s, which turns D into -D in every step",
+                         outer->name, name);
     if ((outer->needs & DAL_NEEDS_ORDER_2) && order != 2)
-        return dal__error(error, DAL_UNSUPPORTED, 0, 0,
-                          "+%s needs a method of order 2: %s is of order %d", outer->name, name,
-                          order);
+        return dal__fail(error, DAL_UNSUPPORTED, "+%s needs a method of order 2: %s is of order %d",
+                         outer->name, name, order);
     if ((outer->needs & DAL_NEEDS_RUNGE_KUTTA) && !is_runge_kutta(dal_method_claims(&inside)))
-        return dal__error(error, DAL_UNSUPPORTED, 0, 0,
-                          "+%s needs an explicit Runge-Kutta method that is not symplectic by "
-                          "itself: %s is not one",
-                          outer->name, name);
+        return dal__fail(error, DAL_UNSUPPORTED,
+                         "+%s needs an explicit Runge-Kutta method that is not symplectic by "
+                         "itself: %s is not one",
+                         outer->name, name);
     return DAL_OK;
 }
 
@@ -175,14 +172,13 @@ static dal_status check_chain(dal__shape *k, dal_error *error)
         const dal_integrator *link = method->chain[k->depth];
         const int modifier = (link->claims & DAL_MODIFIER) != 0;
         if (!link->step || link->stages < 0 || modifier != (k->depth > 0))
-            return dal__error(error, DAL_ARGUMENT, 0, 0,
-                              "'%s' is not usable as part %d of a method",
-                              link->name ? link->name : "?", k->depth + 1);
+            return dal__fail(error, DAL_ARGUMENT, "'%s' is not usable as part %d of a method",
+                             link->name ? link->name : "?", k->depth + 1);
         if (modifier) DAL_TRY(check_inside(method, k->depth, error));
         if (link->stages > k->stages) k->stages = link->stages;
         k->depth++;
     }
-    if (k->depth == 0) return dal__error(error, DAL_ARGUMENT, 0, 0, "a run needs an integrator");
+    if (k->depth == 0) return dal__fail(error, DAL_ARGUMENT, "a run needs an integrator");
     return DAL_OK;
 }
 
@@ -190,9 +186,9 @@ static dal_status check_control(const dal__shape *k, dal_error *error)
 {
     char name[128];
     if (k->options.tolerance == 0.0 || dal_method_claims(&k->method) & DAL_ADAPTIVE) return DAL_OK;
-    return dal__error(error, DAL_UNSUPPORTED, 0, 0,
-                      "%s has no control of its step size: a tolerance cannot be kept, take 0",
-                      dal_method_name(&k->method, name, sizeof name));
+    return dal__fail(error, DAL_UNSUPPORTED,
+                     "%s has no control of its step size: a tolerance cannot be kept, take 0",
+                     dal_method_name(&k->method, name, sizeof name));
 }
 
 /* Numbers in the answer to a question. */
@@ -235,12 +231,12 @@ static dal_status measure(dal__shape *k, dal_error *error)
     const double scratch = (16 * stages + 16) * dim + matrix + 2 * nw * (n + nw) + constraint +
                            parts + 2.0 * k->system->guards + 16 * n + 64;
     if (scratch > MOST_NUMBERS || k->stages > 1000)
-        return dal__error(error, DAL_TOO_LARGE, 0, 0, "a run with n = %d, m = %d needs %g numbers",
-                          k->n, k->m, scratch);
+        return dal__fail(error, DAL_TOO_LARGE, "a run with n = %d, m = %d needs %g numbers", k->n,
+                         k->m, scratch);
     k->scratch = (size_t)scratch;
     k->workspace = k->system->workspace ? k->system->workspace : (size_t)k->system->parameters;
     if (k->workspace > MOST_NUMBERS)
-        return dal__error(error, DAL_TOO_LARGE, 0, 0, "a workspace of %zu numbers", k->workspace);
+        return dal__fail(error, DAL_TOO_LARGE, "a workspace of %zu numbers", k->workspace);
     const bool remembers = k->method.chain[0]->claims & DAL_REMEMBERS;
     k->slopes = remembers ? (1 + DAL__DIFFERENCES) * k->stages * (k->nw + k->n) : 0;
     k->reaction = dal_method_claims(&k->method) & DAL_CARRIES_MULTIPLIER ? k->m : 0;
@@ -263,7 +259,7 @@ dal_status dal__shape_init(dal__shape *k, const dal_run_spec *spec, dal_error *e
     k->nw = k->n + spec->system->multipliers;
     k->lifted = spec->options.space == DAL_LIFTED;
     if (k->n > 100000 || k->m > k->n)
-        return dal__error(error, DAL_TOO_LARGE, 0, 0, "%d coordinates, %d constraints", k->n, k->m);
+        return dal__fail(error, DAL_TOO_LARGE, "%d coordinates, %d constraints", k->n, k->m);
     k->dim = k->lifted ? 4 * k->n + 2 : k->n + k->nw;
     DAL_TRY(check_chain(k, error));
     DAL_TRY(check_control(k, error));

@@ -13,7 +13,7 @@ enum { NAME_SIZE = 128 };
 static dal_status unknown_parameter(const dal_system *system, const char *name, dal_error *error)
 {
     const int known = system->parameter ? system->parameters : 0;
-    return dal__unknown(error, 0, 0, "parameter", name, system->parameter, known);
+    return dal__unknown(error, "parameter", name, system->parameter, known);
 }
 
 static dal_status set_parameters(dal_run *run, const dal_setting *settings, int count,
@@ -30,15 +30,15 @@ static dal_status set_parameters(dal_run *run, const dal_setting *settings, int 
         if (i == system->parameters || !system->parameter)
             return unknown_parameter(system, settings[k].name, error);
         if (!isfinite(settings[k].value))
-            return dal__error(error, DAL_ARGUMENT, 0, 0, "parameter %s: %g is not a finite number",
-                              settings[k].name, settings[k].value);
+            return dal__fail(error, DAL_ARGUMENT, "parameter %s: %g is not a finite number",
+                             settings[k].name, settings[k].value);
         run->work[i] = settings[k].value;
     }
     const dal_at at = dal__here(run);
     const dal_status status = system->prepare ? system->prepare(system, &at, NULL) : DAL_OK;
     if (status == DAL_OK) return DAL_OK;
-    return dal__error(error, status, 0, 0, "%s cannot be prepared with these parameters",
-                      system->name ? system->name : "the system");
+    return dal__fail(error, status, "%s cannot be prepared with these parameters",
+                     system->name ? system->name : "the system");
 }
 
 /* The name nearest to a start name that does not exist. */
@@ -50,8 +50,8 @@ static dal_status unknown_start(const dal_run *run, const char *name, dal_error 
         if (dal_nearest(name, pair, 2) == other) memcpy(best, other, sizeof best);
     }
     const char *names[] = {*best ? best : NULL};
-    return dal__unknown(error, 0, 0, run->shape.lifted ? "start name" : "start name (q, v space)",
-                        name, names, 1);
+    return dal__unknown(error, run->shape.lifted ? "start name" : "start name (q, v space)", name,
+                        names, 1);
 }
 
 static dal_status override(dal_run *run, const dal_setting *settings, int count, dal_error *error)
@@ -63,8 +63,8 @@ static dal_status override(dal_run *run, const dal_setting *settings, int count,
         while (dal_run_name(run, i, name, sizeof name) && strcmp(name, settings[k].name) != 0) i++;
         if (i == run->shape.dim) return unknown_start(run, settings[k].name, error);
         if (!isfinite(settings[k].value) && !(i == e && isinf(settings[k].value)))
-            return dal__error(error, DAL_ARGUMENT, 0, 0, "start %s: %g is not a finite number",
-                              settings[k].name, settings[k].value);
+            return dal__fail(error, DAL_ARGUMENT, "start %s: %g is not a finite number",
+                             settings[k].name, settings[k].value);
         run->carried[i] = settings[k].value;
     }
     return DAL_OK;
@@ -80,8 +80,8 @@ static dal_status default_start(dal_run *run, dal_error *error)
     for (int i = 0; i <= first; i++) out[i] = i == first;
     const dal_at at = {0.0, run->carried, run->carried + k->n, NULL, run->work};
     if (k->system->start && k->system->start(k->system, &at, out) != DAL_OK)
-        return dal__error(error, DAL_NOT_FINITE, 0, 0, "%s has no start with these parameters",
-                          k->system->name ? k->system->name : "the system");
+        return dal__fail(error, DAL_NOT_FINITE, "%s has no start with these parameters",
+                         k->system->name ? k->system->name : "the system");
     memcpy(run->carried, out, (size_t)first * sizeof *out);
     if (k->lifted) run->carried[2 * k->n] = out[first];
     return DAL_OK;
@@ -94,11 +94,10 @@ static dal_status check_finite(dal_run *run, dal_error *error)
     for (int i = 0; i < run->shape.dim; i++) {
         run->carried[i] += 0.0; /* no -0: see lib/kernel/step.h */
         if (i == e && isinf(1.0 / run->carried[i]))
-            return dal__error(error, DAL_GAUGE, 0, 0, "start e = %g: e must not vanish",
-                              run->carried[i]);
+            return dal__fail(error, DAL_GAUGE, "start e = %g: e must not vanish", run->carried[i]);
         if (isnan(run->carried[i]) || (isinf(run->carried[i]) && i != e))
-            return dal__error(error, DAL_NOT_FINITE, 0, 0, "start %s is not finite: %g",
-                              dal_run_name(run, i, name, sizeof name), run->carried[i]);
+            return dal__fail(error, DAL_NOT_FINITE, "start %s is not finite: %g",
+                             dal_run_name(run, i, name, sizeof name), run->carried[i]);
     }
     return DAL_OK;
 }
@@ -112,8 +111,8 @@ static dal_status check_consistent(const dal_run *run, const double *d, const do
         double scale = 0.0;
         for (int j = 0; j < k->n; j++) scale += fabs(a[i * k->n + j]);
         if (fabs(d[i]) <= CONSISTENT * scale * speed) continue;
-        return dal__error(error, isfinite(d[i]) ? DAL_INCONSISTENT : DAL_NOT_FINITE, 0, 0,
-                          "the start violates constraint %d: D%d = %.6g", i + 1, i + 1, d[i]);
+        return dal__fail(error, isfinite(d[i]) ? DAL_INCONSISTENT : DAL_NOT_FINITE,
+                         "the start violates constraint %d: D%d = %.6g", i + 1, i + 1, d[i]);
     }
     return DAL_OK;
 }
@@ -125,12 +124,11 @@ static dal_status refuse_pivot(dal_run *run, int k, double pivot, dal_error *err
     const dal_at at = dal__here(run);
     double number = 0.0;
     if (system->diagnose && system->diagnose(system, &at, &number) == DAL_SINGULAR_MASS)
-        return dal__error(error, DAL_SINGULAR_MASS, 0, 0,
-                          "the mass matrix is singular at the start");
-    return dal__error(error, DAL_RANK, 0, 0,
-                      "constraint %d restricts no velocity at the start, or none that those "
-                      "before it leave free (pivot %g of G)",
-                      k + 1, pivot);
+        return dal__fail(error, DAL_SINGULAR_MASS, "the mass matrix is singular at the start");
+    return dal__fail(error, DAL_RANK,
+                     "constraint %d restricts no velocity at the start, or none that those "
+                     "before it leave free (pivot %g of G)",
+                     k + 1, pivot);
 }
 
 /* Pivots of G = A B, each against its diagonal entry before elimination, constraint by constraint.
@@ -160,7 +158,7 @@ static dal_status check_constraints(dal_run *run, dal_error *error)
     double *d = run->answer, *a = d + m, *b = a + m * n;
     const dal_status status = call->constraint(k->system, &at, d);
     if (status != DAL_OK)
-        return dal__error(error, status, 0, 0, "the constraints cannot be evaluated at the start");
+        return dal__fail(error, status, "the constraints cannot be evaluated at the start");
     DAL_TRY(check_consistent(run, d, a, error));
     return check_rank(run, a, b, b + n * m, error);
 }
