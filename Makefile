@@ -27,8 +27,9 @@ WARN = -Wall -Wextra -Wpedantic -Wshadow -Wstrict-prototypes -Wmissing-prototype
        -Wpointer-arith -Wwrite-strings -Wno-psabi
 # No contraction and no reassociation: the bits of a trajectory are promised.
 EXACT = -ffp-contract=off -fno-math-errno
-ALL   = -std=c11 -D_POSIX_C_SOURCE=200809L $(WARN) $(EXACT) -fPIC -pthread -Iinclude -Ilib \
+ALL   = -std=c11 -D_POSIX_C_SOURCE=200809L $(WARN) $(EXACT) -fPIC -pthread -Iinclude $(PLACE) \
         -I$(BUILD)/generated $(CFLAGS)
+PLACE = -Ilib
 LIBS  = -lyaml -lm -pthread
 
 VERSION := $(shell sed -n 's/^.define DAL_VERSION "\(.*\)"/\1/p' include/dalembert.h)
@@ -60,7 +61,8 @@ LIB_SRC    = $(filter-out $(WIDE_SRC),$(wildcard lib/*/*.c))
 LIB_OBJ    = $(LIB_SRC:%.c=$(BUILD)/%.o) $(BUILD)/generated/systems.o \
              $(BUILD)/generated/sources.o $(BUILD)/generated/trend_tables.o \
              $(call WIDE,$(VARIANTS),$(WIDE_SRC)) $(call WIDE,$(GROUPS),$(METHOD_SRC))
-CLI_OBJ    = $(patsubst %.c,$(BUILD)/%.o,$(wildcard cli/*.c)) $(BUILD)/generated/study.o
+CLI_SRC    = $(filter-out cli/mpi/%,$(wildcard cli/*/*.c))
+CLI_OBJ    = $(CLI_SRC:%.c=$(BUILD)/%.o) $(BUILD)/generated/study.o
 WIDE       = $(foreach variant,$1,$(2:%.c=$(BUILD)/%_$(variant).o))
 
 SUITES    = $(patsubst tests/test_%.c,%,$(filter-out %_wide.c,$(wildcard tests/test_*.c)))
@@ -104,7 +106,7 @@ $(SHARED): $(SHARED).$(VERSION)
 	@ln -sf $(<F) $(BUILD)/$(SONAME)
 	@ln -sf $(SONAME) $@
 
-$(BUILD)/cli/manifest.o: ALL += -DCLI_FLAGS='"$(strip $(EXACT) $(CFLAGS))"'
+$(BUILD)/cli/run/manifest.o: ALL += -DCLI_FLAGS='"$(strip $(EXACT) $(CFLAGS))"'
 $(PROGRAM): $(CLI_OBJ) $(STATIC)
 	$(call SAY,ld)$(CC) $(CFLAGS) $(LDFLAGS) $^ $(LIBS) -o $@
 
@@ -114,9 +116,12 @@ MPICC      ?= mpicc
 MPI_CFLAGS  = $(patsubst -I%,-isystem%,$(shell $(MPICC) --showme:compile))
 mpi: $(MPI_PROGRAM)
 $(BUILD)/cli/mpi/dalembert_mpi.o: ALL += $(MPI_CFLAGS)
-$(MPI_PROGRAM): $(BUILD)/cli/mpi/dalembert_mpi.o $(filter-out %/cli/main.o,$(CLI_OBJ)) $(STATIC)
+$(MPI_PROGRAM): $(BUILD)/cli/mpi/dalembert_mpi.o $(filter-out %/commands/main.o,$(CLI_OBJ)) $(STATIC)
 	$(call SAY,ld)$(CC) $(CFLAGS) $(LDFLAGS) $^ $(LIBS) \
 	    $(shell $(MPICC) --showme:link) -o $@
+
+# The program knows the library by its public headers alone.
+$(CLI_OBJ) $(BUILD)/cli/mpi/dalembert_mpi.o: PLACE = -Icli
 
 # ---- generated texts -------------------------------------------------------------------------
 
@@ -168,7 +173,7 @@ $(BUILD)/generated/suites.h: FORCE
 	    echo; } >$@.tmp
 	@if cmp -s $@.tmp $@; then rm $@.tmp; else mv $@.tmp $@; fi
 $(TEST_OBJ): $(BUILD)/generated/suites.h
-$(TEST_OBJ): ALL += -include suites.h
+$(TEST_OBJ): ALL += -include suites.h -Icli
 
 # The public functions, as lists FUNCTIONS_dalembert(X): each has a test of its arguments.
 $(BUILD)/generated/functions.h: tools/functions.awk $(wildcard include/*.h)
@@ -181,7 +186,7 @@ $(BUILD)/tests/test_null.o $(BUILD)/tests/test_null_measure.o: $(BUILD)/generate
 # Allocation goes through tests/allocation.c, which can be told to fail.
 WRAPPED = malloc calloc realloc aligned_alloc
 # Of the program the tests use what they call.
-$(BUILD)/tests/program.a: $(filter-out %/main.o,$(CLI_OBJ))
+$(BUILD)/tests/program.a: $(filter-out %/commands/main.o,$(CLI_OBJ))
 	@mkdir -p $(@D)
 	$(call SAY,ar)rm -f $@; $(AR) rcs $@ $^
 $(BUILD)/tests/suite: $(TEST_OBJ) $(BUILD)/tests/program.a $(STATIC)

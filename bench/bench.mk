@@ -25,10 +25,9 @@ $(BENCH)/dal: bench/dal.c $(BENCH)/lib/libdalembert.a $(BENCH_HEADERS)
 	    $(BENCH)/lib/libdalembert.a $(LIBS) -o $@
 $(BENCH)/native: bench/native.c $(BENCH)/lib/libdalembert.a $(BENCH_HEADERS)
 	$(call SAY,cc)$(CC) -std=c11 $(WARN) -Iinclude $< $(BENCH)/lib/libdalembert.a $(LIBS) -o $@
-BENCH_TABLE = $(patsubst %,$(BUILD)/cli/%.o,table npy output message)
-$(BENCH)/rows: bench/rows.c $(BENCH_TABLE) $(BENCH_HEADERS)
+$(BENCH)/rows: bench/rows.c $(BUILD)/tests/program.a $(BENCH_HEADERS)
 	@mkdir -p $(@D)
-	$(call SAY,cc)$(CC) -std=c11 $(WARN) -O2 -Iinclude $< $(BENCH_TABLE) $(STATIC) $(LIBS) -o $@
+	$(call SAY,cc)$(CC) -std=c11 $(WARN) -O2 -Iinclude -Icli $< $(BUILD)/tests/program.a $(STATIC) $(LIBS) -o $@
 $(BENCH)/statistics: bench/statistics.c $(BENCH)/lib/libdalembert.a $(BENCH_HEADERS)
 	$(call SAY,cc)$(CC) -std=c11 $(WARN) -Iinclude $< $(BENCH)/lib/libdalembert.a $(LIBS) -o $@
 $(BENCH)/hand: bench/hand.c $(BENCH_HEADERS)

@@ -7,8 +7,8 @@
  * Both make a new file in /tmp each time, of 21 columns as the sleigh has them on the canonical
  * space.  Prints nanoseconds per row and, for the bytes are to be the same, numbers read back. */
 #define _DEFAULT_SOURCE
-#include "../cli/table.h"
 #include "bench.h"
+#include "io/table.h"
 #include <fcntl.h>
 #include <unistd.h>
 

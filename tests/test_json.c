@@ -1,5 +1,5 @@
 /* test_json.c - the JSON of the program, read back by jansson and by the program itself. */
-#include "../cli/json.h"
+#include "io/json.h"
 
 #include <CUnit/CUnit.h>
 #include <fcntl.h>

@@ -7,10 +7,10 @@
  * passes between processes is the number of a cell; all else goes through the directories of the
  * runs, so that the study can be interrupted and gone on with, by this program or by
  * `dalembert resume`, to the same bytes.  At the end rank 0 reads them and makes the tables. */
-#include "../file.h"
-#include "../pool.h"
-#include "../run.h"
-#include "../study_house.h"
+#include "io/file.h"
+#include "run/pool.h"
+#include "run/run.h"
+#include "study/study_house.h"
 
 #include <mpi.h>
 #include <stdlib.h>

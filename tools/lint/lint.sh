@@ -72,11 +72,11 @@ globals() {
 }
 calls() { objects | xargs nm -A -u | awk -v build="$BUILD/" -f $here/calls.awk $here/calls.txt -; }
 
-# The program has its memory from cli/memory.c, which ends it where there is none.
+# The program has its memory from cli/ui/memory.c, which ends it where there is none.
 memory() {
     find "$BUILD/cli" -name '*.o' ! -name memory.o | sort | xargs nm -A -u |
         awk '$NF ~ /^((m|c|re)alloc|reallocarray|aligned_alloc|strn?dup|open_memstream|v?asprintf|getline)$/ {
-            sub(/:.*/, "", $1); print $1 ": calls " $NF "; cli/memory.c does so alone" }'
+            sub(/:.*/, "", $1); print $1 ": calls " $NF "; cli/ui/memory.c does so alone" }'
 }
 
 exported() { nm -D --defined-only "$BUILD/libdalembert.so" | awk '{ print $3 }' | sort; }

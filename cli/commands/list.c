@@ -1,0 +1,289 @@
+/* list.c - `dalembert list`: what systems, integrators and modifiers travel inside the program. */
+#include "ui/cli.h"
+
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { COLUMNS_MOST = 8 };
+
+/* A table of texts; the first row holds the headings. */
+typedef struct sheet {
+    int columns, cells, room;
+    char **cell;
+} sheet;
+
+static void put(sheet *s, const char *format, ...) CLI_PRINTF(2, 3);
+
+static void grow(sheet *s)
+{
+    if (s->cells < s->room) return;
+    s->room = s->room ? 2 * s->room : 64;
+    s->cell = cli_realloc(s->cell, (size_t)s->room * sizeof *s->cell);
+}
+
+static void put(sheet *s, const char *format, ...)
+{
+    va_list list;
+    grow(s);
+    va_start(list, format);
+    s->cell[s->cells++] = cli_format_list(format, list);
+    va_end(list);
+}
+
+static void begin(sheet *s, int columns, const char *const *headings)
+{
+    *s = (sheet){.columns = columns};
+    for (int i = 0; i < columns; i++) put(s, "%s", headings[i]);
+}
+
+/* Characters, not bytes, of a UTF-8 text. */
+static int width(const char *text)
+{
+    int n = 0;
+    for (; *text; text++) n += ((unsigned char)*text & 0xC0) != 0x80;
+    return n;
+}
+
+static void put_markdown(const sheet *s, int first, const int *widths)
+{
+    for (int i = 0; i < s->columns; i++) {
+        const char *text = s->cell[first + i];
+        printf("| %s%*s ", text, widths[i] - width(text), "");
+    }
+    puts("|");
+}
+
+/* The columns from number fits on go to lines of their own, below. */
+static void put_row(const sheet *s, int first, const int *widths, int fits)
+{
+    char rest[1024] = "";
+    size_t n = 0;
+    for (int i = 0; i < fits; i++) {
+        const char *text = s->cell[first + i];
+        printf("%s%*s", text, i == fits - 1 ? 0 : widths[i] - width(text) + 2, "");
+    }
+    putchar('\n');
+    for (int i = fits; i < s->columns && n < sizeof rest; i++)
+        n += (size_t)snprintf(rest + n, sizeof rest - n, "%s%s", i > fits ? "; " : "    ",
+                              s->cell[first + i]);
+    if (n) cli_fold(stdout, rest, 0, 4);
+}
+
+static void put_rule(const int *widths, int fits, int markdown)
+{
+    for (int i = 0; i < fits; i++) {
+        int dashes = widths[i] + (markdown ? 2 : 0);
+        if (markdown) putchar('|');
+        while (dashes-- > 0) putchar('-');
+        if (!markdown && i < fits - 1) fputs("  ", stdout);
+    }
+    puts(markdown ? "|" : "");
+}
+
+/* How many columns stand side by side: all, unless a terminal is too narrow for that. */
+static int count_fits(const sheet *s, const int *widths)
+{
+    const int most = isatty(STDOUT_FILENO) ? cli_width() : 0;
+    int fits = 0, used = 0;
+    if (most == 0) return s->columns;
+    while (fits < s->columns && used + widths[fits] <= most) used += widths[fits++] + 2;
+    return fits > 0 ? fits : 1;
+}
+
+static void put_table(const sheet *s, const int *widths, int markdown)
+{
+    const int fits = markdown ? s->columns : count_fits(s, widths);
+    for (int k = 0; k < s->cells; k += s->columns) {
+        if (markdown)
+            put_markdown(s, k, widths);
+        else
+            put_row(s, k, widths, fits);
+        if (k == 0) put_rule(widths, fits, markdown);
+    }
+}
+
+static int end(sheet *s, int markdown)
+{
+    int widths[COLUMNS_MOST] = {0};
+    for (int k = 0; k < s->cells; k++) {
+        int w = width(s->cell[k]), i = k % s->columns;
+        if (w > widths[i]) widths[i] = w;
+    }
+    put_table(s, widths, markdown);
+    for (int k = 0; k < s->cells; k++) free(s->cell[k]);
+    free(s->cell);
+    return CLI_DONE;
+}
+
+/* ---- systems ------------------------------------------------------------------------------- */
+
+static const char *kind(const dal_system *system)
+{
+    static const struct {
+        unsigned property;
+        const char *text;
+    } kinds[] = {{DAL_VAKONOMIC, "vakonomic"},
+                 {DAL_D_CONSTANT, "linear, constant"},
+                 {DAL_D_BILINEAR, "bilinear"},
+                 {DAL_D_QUADRATIC, "quadratic"},
+                 {DAL_D_LINEAR, "linear in v"}};
+    if (system->m == 0) return "-";
+    for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++)
+        if (system->properties & kinds[i].property) return kinds[i].text;
+    return "nonlinear";
+}
+
+static const char *energy(const dal_system *system)
+{
+    if (!system->energy) return "-";
+    if (system->properties & DAL_E_EXACT) return "kept";
+    return system->properties & DAL_E_WEAK ? "kept on D = 0" : "not kept";
+}
+
+static int put_system(sheet *s, const char *name, int markdown)
+{
+    dal_model *model;
+    const dal_system *system;
+    int status = cli_load(name, &model, &system);
+    if (status != CLI_DONE) return status;
+    put(s, markdown ? "`%s`" : "%s", name);
+    put(s, "%d", system->n);
+    put(s, "%d", system->m);
+    put(s, "%s", kind(system));
+    put(s, "%s", energy(system));
+    put(s, "%s", system->exact ? "yes" : "-");
+    put(s, "%s", system->title ? system->title : "");
+    dal_model_free(model);
+    return CLI_DONE;
+}
+
+static int list_systems(int markdown)
+{
+    static const char *const headings[] = {"system", "n", "m", "D", "energy", "exact", "title"};
+    sheet s;
+    int status = CLI_DONE;
+    begin(&s, sizeof headings / sizeof headings[0], headings);
+    for (int i = 0; status == CLI_DONE && dal_builtin_name(i); i++)
+        status = put_system(&s, dal_builtin_name(i), markdown);
+    int printed = end(&s, markdown);
+    return status == CLI_DONE ? printed : status;
+}
+
+/* ---- integrators --------------------------------------------------------------------------- */
+
+static void put_claims(sheet *s, unsigned claims, unsigned inherits)
+{
+    static const struct {
+        unsigned claim;
+        const char *text;
+    } texts[] = {{DAL_EXPLICIT, "explicit"},
+                 {DAL_SYMMETRIC, "symmetric"},
+                 {DAL_SYMPLECTIC, "symplectic lift"},
+                 {DAL_KEEPS_BILINEAR, "bilinear D"},
+                 {DAL_KEEPS_QUADRATIC, "quadratic D"},
+                 {DAL_KEEPS_D, "every D"},
+                 {DAL_KEEPS_D_MIDPOINT, "D at midpoints"},
+                 {DAL_KEEPS_ENERGY, "energy"},
+                 {DAL_CARRIES_MULTIPLIER, "carries multipliers"},
+                 {DAL_ADAPTIVE, "adaptive"}};
+    char line[160] = "";
+    size_t n = 0;
+    for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++)
+        if (claims & texts[i].claim)
+            n += (size_t)snprintf(line + n, sizeof line - n, "%s%s", n ? ", " : "", texts[i].text);
+    put(s, "%s", n ? line : inherits & DAL_SYMMETRIC ? "as NAME" : "-");
+}
+
+static void put_integrator(sheet *s, const dal_integrator *integrator, int markdown)
+{
+    const char *tick = markdown ? "`" : "";
+    const char *plus = integrator->claims & DAL_MODIFIER ? "+" : "";
+    if (integrator->alias)
+        put(s, "%s%s%s%s, %s%s%s%s", tick, plus, integrator->name, tick, tick, plus,
+            integrator->alias, tick);
+    else
+        put(s, "%s%s%s%s", tick, plus, integrator->name, tick);
+    if (integrator->order)
+        put(s, "%d", integrator->order);
+    else
+        put(s, "-");
+    put_claims(s, integrator->claims, integrator->inherits);
+    put(s, "%s", integrator->summary);
+    put(s, "%s", integrator->reference);
+}
+
+static int list_integrators(int markdown)
+{
+    static const char *const headings[] = {"integrator", "order", "keeps or is", "what it is",
+                                           "reference"};
+    const dal_integrator *integrator;
+    sheet s;
+    begin(&s, sizeof headings / sizeof headings[0], headings);
+    for (int modifiers = 0; modifiers < 2; modifiers++)
+        for (int i = 0; (integrator = dal_integrator_at(i)); i++)
+            if (!(integrator->claims & DAL_MODIFIER) == !modifiers)
+                put_integrator(&s, integrator, markdown);
+    return end(&s, markdown);
+}
+
+/* ---- the command --------------------------------------------------------------------------- */
+
+#define TABLE_LIST(X) X(systems) X(integrators)
+
+static const struct {
+    const char *name;
+    int (*print)(int markdown);
+} tables[] = {
+#define X(name) {#name, list_##name},
+    TABLE_LIST(X)
+#undef X
+};
+
+static const char *const table_names[] = {
+#define X(name) #name,
+    TABLE_LIST(X)
+#undef X
+};
+
+enum { TABLES = sizeof tables / sizeof tables[0] };
+
+static const cli_option options[] = {{"markdown", NULL, "print Markdown tables", NULL}};
+
+static const char notes[] =
+    "Systems: n coordinates, m constraints D; what kind of function of (q,v) D is; whether the\n"
+    "energy E = L_v.v - L is kept by the motion; whether an exact solution is known.\n"
+    "Integrators: 'symplectic lift' speaks of the 4n+2 canonical variables only and says nothing\n"
+    "of D or of the energy; '... D' names the constraints that are kept to rounding on D = 0.\n"
+    "A modifier +WORD is put behind an integrator, NAME+WORD: rk4+project.  'as NAME': it is and\n"
+    "keeps what NAME is and keeps.  'adaptive' takes --tolerance.\n";
+
+static int find(const char *name)
+{
+    for (int i = 0; i < TABLES; i++)
+        if (strcmp(tables[i].name, name) == 0) return i;
+    return -1;
+}
+
+int command_list(int argc, char **argv)
+{
+    cli_args args = cli_begin(argc, argv, options, 1, notes);
+    const char *value;
+    int markdown = 0, wanted = -1;
+    for (int k; (k = cli_next(&args, &value)) != CLI_STOP;) {
+        if (k != CLI_PLAIN)
+            markdown = 1;
+        else if ((wanted = find(value)) < 0)
+            cli_stop(&args, cli_unknown("table", value, table_names, TABLES));
+    }
+    if (args.status != CLI_GO_ON) return args.status;
+    int status = CLI_DONE;
+    for (int i = 0; i < TABLES && status == CLI_DONE; i++) {
+        if (wanted >= 0 && wanted != i) continue;
+        if (wanted < 0 && i > 0) putchar('\n');
+        status = tables[i].print(markdown);
+    }
+    int closed = cli_close(stdout, "standard output");
+    return status == CLI_DONE ? closed : status;
+}

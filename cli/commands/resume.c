@@ -1,0 +1,79 @@
+/* resume.c - `dalembert resume`: goes on with a run or a study that lives in a directory. */
+#include "run/pool.h"
+#include "run/run.h"
+#include "study/study_house.h"
+
+#include <string.h>
+
+static const char notes[] =
+    "DIR is what 'dalembert run --output DIR' or 'dalembert study --output DIR' made.  The rows\n"
+    "will be, byte for byte, those of a run of the same version that was never interrupted.  A\n"
+    "finished run is left alone.  The unfinished runs of a study are gone on with, and the tables\n"
+    "made; of shards, those that were begun in DIR.  --threads is for studies, --summary and\n"
+    "--progress are for runs.\n";
+
+/* Those of the options of a run that may be chosen anew, and one of a study behind. */
+enum {
+    FIRST = RUN_checkpoint - JOB_OPTIONS,
+    OF_RUN = RUN_force - RUN_checkpoint,
+    OPTION_threads = OF_RUN,
+    OPTIONS
+};
+
+static int holds_study(const char *directory)
+{
+    study_house house;
+    house_open(&house, directory);
+    const int holds = house_holds_study(&house);
+    house_close(&house);
+    return holds;
+}
+
+static int resume_run(const char *directory, const run_wishes *wishes)
+{
+    cli_store store;
+    cli_job job = job_begin();
+    store_open(&store, directory);
+    int status = store_read(&store, &job);
+    if (status == CLI_DONE) status = job_make(&job);
+    if (status == CLI_DONE) status = store_lock(&store, 0);
+    if (status == CLI_DONE) status = run_integrate(&job, &store, wishes);
+    job_free(&job);
+    store_close(&store);
+    return status;
+}
+
+static int resume(const char *directory, const run_wishes *wishes, long long threads)
+{
+    if (!holds_study(directory)) return resume_run(directory, wishes);
+    return study_resume(directory, &(study_means){(int)threads, wishes->interval, wishes->native});
+}
+
+static int take(run_wishes *wishes, long long *threads, const char **directory, int option,
+                const char *value)
+{
+    if (option == OPTION_threads) return cli_integer("--threads", value, 1, POOL_MOST, threads);
+    if (option != CLI_PLAIN) return run_take(wishes, RUN_checkpoint + option, value);
+    if (*directory) return cli_fail(CLI_USAGE, "resume: one DIR only, not also '%s'", value);
+    *directory = value;
+    return CLI_DONE;
+}
+
+int command_resume(int argc, char **argv)
+{
+    cli_option options[OPTIONS];
+    memcpy(options, run_options + FIRST, OF_RUN * sizeof *options);
+    options[OPTION_threads] = (cli_option){"threads", "N", "cells of a study at a time",
+                                           "OMP_NUM_THREADS or one per processor"};
+    cli_args args = cli_begin(argc, argv, options, OPTIONS, notes);
+    const char *value, *directory = NULL;
+    long long threads = pool_threads();
+    run_wishes wishes = run_wish();
+    for (int k; (k = cli_next(&args, &value)) != CLI_STOP;) {
+        const int taken = take(&wishes, &threads, &directory, k, value);
+        if (taken != CLI_DONE) cli_stop(&args, taken);
+    }
+    if (args.status != CLI_GO_ON) return args.status;
+    if (!directory) return cli_fail(CLI_USAGE, "resume: the DIR is missing");
+    return resume(directory, &wishes, threads);
+}

@@ -1,0 +1,23 @@
+/* gnuplot.h - figures: a script that is kept, and what gnuplot draws by it. */
+#ifndef DAL_CLI_GNUPLOT_H
+#define DAL_CLI_GNUPLOT_H
+
+#include "ui/cli.h"
+
+/* Begins DIR/NAME.gp with the terminal, the output NAME.FORMAT (svg or png) and the house's look;
+ * *path is the script's, to be freed.  NULL when a message was given. */
+FILE *gnuplot_open(const char *directory, const char *name, const char *format, int width,
+                   int height, char **path);
+/* Closes the script and runs gnuplot on it in DIR; an SVG figure has no background and is readable
+ * in light and dark.  Returns CLI_DONE, or prints and returns an exit
+ * status; *missing is 1 then where there is no gnuplot at all. */
+int gnuplot_draw(const char *directory, FILE *script, const char *path, int *missing);
+/* A string of gnuplot, in quotes. */
+void gnuplot_quote(FILE *script, const char *text);
+/* The colours of the curves, one after the other; and as "lc rgb C dt D" for more curves than
+ * colours, told apart by dashes. */
+enum { GNUPLOT_COLOURS = 8 };
+const char *gnuplot_colour(int i);
+void gnuplot_style(FILE *script, int i);
+
+#endif

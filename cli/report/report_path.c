@@ -1,0 +1,235 @@
+/* report_path.c - the path of a run in the plane, and its body at some instants.
+ *
+ * A system file says under `picture` where the body is and which one it is; its outline here has a
+ * length of 2, heading along x, and is drawn at a size that suits the path. */
+#include "report.h"
+
+#include "io/rows.h"
+#include "run/store.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+/* Of more rows than these every k-th is drawn; instants at which the body is; its half length as a
+ * part of the extent of the path; points of a circle. */
+enum { POINTS = 2000, INSTANTS = 9, ROUND = 32 };
+static const double half_length = 0.055;
+static const double pi = 3.14159265358979323846;
+
+typedef struct path {
+    cli_store store;
+    cli_job job;
+    cli_rows rows;
+    dal_probe *probe;
+    dal_body body;
+    int n;
+    double pose[INSTANTS][DAL_PICTURE_COUNT];
+    int poses;
+    double low[2], high[2];
+} path;
+
+/* ---- outlines ---- */
+
+typedef struct pen {
+    report_plot *plot;
+    const double *pose;
+    double scale;
+} pen;
+
+/* A point of the outline: turned, moved, in the plane. */
+static void draw_to(const pen *p, double x, double y)
+{
+    const double c = cos(p->pose[DAL_PICTURE_ANGLE]), s = sin(p->pose[DAL_PICTURE_ANGLE]);
+    report_point(p->plot, p->pose[DAL_PICTURE_X] + p->scale * (c * x - s * y),
+                 p->pose[DAL_PICTURE_Y] + p->scale * (s * x + c * y));
+}
+
+static void draw_line(const pen *p, const double (*at)[2], int count)
+{
+    for (int i = 0; i < count; i++) draw_to(p, at[i][0], at[i][1]);
+    report_lift(p->plot);
+}
+
+static void draw_ellipse(const pen *p, double a, double b)
+{
+    for (int i = 0; i <= ROUND; i++)
+        draw_to(p, a * cos(2.0 * pi * i / ROUND), b * sin(2.0 * pi * i / ROUND));
+    report_lift(p->plot);
+}
+
+/* Two wheels at the ends of an axle about (x, y), which roll along the angle turn. */
+static void draw_axle(const pen *p, double x, double y, double turn)
+{
+    const double c = cos(turn), s = sin(turn), wide = 0.45, wheel = 0.3;
+    const double axle[][2] = {{x - wide * s, y + wide * c}, {x + wide * s, y - wide * c}};
+    draw_line(p, axle, 2);
+    for (int k = 0; k < 2; k++) {
+        const double ends[][2] = {{axle[k][0] - wheel * c, axle[k][1] - wheel * s},
+                                  {axle[k][0] + wheel * c, axle[k][1] + wheel * s}};
+        draw_line(p, ends, 2);
+    }
+}
+
+static void draw_point(const pen *p) { draw_ellipse(p, 0.3, 0.3); }
+
+static void draw_blade(const pen *p)
+{
+    static const double blade[][2] = {{-1, 0}, {1, 0}},
+                        tip[][2] = {{0.5, 0.3}, {1, 0}, {0.5, -0.3}};
+    draw_line(p, blade, 2);
+    draw_line(p, tip, 3);
+}
+
+static void draw_sleigh(const pen *p)
+{
+    static const double hull[][2] = {{1.2, 0},      {0.4, 0.55},  {-0.9, 0.55},
+                                     {-0.9, -0.55}, {0.4, -0.55}, {1.2, 0}};
+    static const double blade[][2] = {{-0.5, 0}, {0.5, 0}};
+    draw_line(p, hull, 6);
+    draw_line(p, blade, 2);
+}
+
+/* Upright and seen from above a disk is a line; its axle shows which. */
+static void draw_disk(const pen *p)
+{
+    static const double axle[][2] = {{0, -0.35}, {0, 0.35}};
+    draw_ellipse(p, 1.0, p->pose[DAL_PICTURE_WIDTH]);
+    draw_line(p, axle, 2);
+}
+
+static void draw_ball(const pen *p) { draw_ellipse(p, 0.7, 0.7); }
+
+static void draw_robot(const pen *p)
+{
+    static const double front[][2] = {{0, 0}, {0.9, 0}};
+    draw_ellipse(p, 0.9, 0.9);
+    draw_line(p, front, 2);
+}
+
+static void draw_board(const pen *p)
+{
+    static const double board[][2] = {{-1, 0}, {1, 0}};
+    draw_line(p, board, 2);
+    draw_axle(p, 1.0, 0.0, p->pose[DAL_PICTURE_STEER]);
+    draw_axle(p, -1.0, 0.0, -p->pose[DAL_PICTURE_STEER]);
+}
+
+static void draw_racer(const pen *p)
+{
+    const double turn = p->pose[DAL_PICTURE_STEER], arm = 0.7;
+    const double frame[][2] = {{0, 0}, {1.2, 0}, {1.2 + arm * cos(turn), arm * sin(turn)}};
+    draw_line(p, frame, 3);
+    draw_axle(p, 0.0, 0.0, 0.0);
+    draw_axle(p, frame[2][0], frame[2][1], turn);
+}
+
+static void draw_bodies(const path *p, report_plot *plot)
+{
+    static void (*const draw[])(const pen *p) = {
+        [DAL_BODY_POINT] = draw_point, [DAL_BODY_SLEIGH] = draw_sleigh,
+        [DAL_BODY_BLADE] = draw_blade, [DAL_BODY_DISK] = draw_disk,
+        [DAL_BODY_BALL] = draw_ball,   [DAL_BODY_ROBOT] = draw_robot,
+        [DAL_BODY_BOARD] = draw_board, [DAL_BODY_RACER] = draw_racer};
+    const double extent = fmax(p->high[0] - p->low[0], p->high[1] - p->low[1]);
+    report_curve(plot, "")->ink = 1;
+    for (int k = 0; k < p->poses; k++)
+        draw[p->body](&(pen){plot, p->pose[k], extent > 0.0 ? half_length * extent : 1.0});
+}
+
+/* ---- the path ---- */
+
+static int take_row(path *p, report_plot *plot, long long k)
+{
+    const long long stride = 1 + p->rows.count / POINTS, last = p->rows.count - 1;
+    const long long next = last * p->poses / (INSTANTS - 1);
+    const int posed = k >= next && p->poses < INSTANTS;
+    const double *row = p->rows.row;
+    double at[DAL_PICTURE_COUNT];
+    if (!posed && k % stride && k != last) return CLI_DONE;
+    if (dal_probe_call(p->probe, p->job.made->picture, row[0], row + 1, row + 1 + p->n, NULL, at))
+        return CLI_DONE;
+    report_point(plot, at[DAL_PICTURE_X], at[DAL_PICTURE_Y]);
+    for (int i = 0; i < 2; i++) {
+        p->low[i] = fmin(p->low[i], at[i]);
+        p->high[i] = fmax(p->high[i], at[i]);
+    }
+    if (posed) memcpy(p->pose[p->poses++], at, sizeof at);
+    return CLI_DONE;
+}
+
+/* Rows that are too far apart for lines between them to be the path. */
+static int is_rough(const path *p, const plot_curve *curve)
+{
+    const double far = 0.2 * fmax(p->high[0] - p->low[0], p->high[1] - p->low[1]);
+    int rough = 0;
+    for (int i = 1; i < curve->count; i++)
+        rough += hypot(curve->at[i][0] - curve->at[i - 1][0],
+                       curve->at[i][1] - curve->at[i - 1][1]) > far;
+    return 10 * rough > curve->count;
+}
+
+static int draw(path *p, report *r, const char *name, const char *caption)
+{
+    static const char *const words[] = {
+#define X(code, word) word,
+        DAL_BODY_LIST(X)
+#undef X
+    };
+    report_plot plot = {.xlabel = "x", .ylabel = "y", .alike = 1};
+    snprintf(plot.name, sizeof plot.name, "%s", name);
+    snprintf(plot.title, sizeof plot.title, p->body == DAL_BODY_POINT ? "Path" : "Path of the %s",
+             words[p->body]);
+    report_curve(&plot, "");
+    int more, status = CLI_DONE;
+    for (long long k = 0; status == CLI_DONE && (more = rows_next(&p->rows)) != 0; k++)
+        status = more < 0 ? CLI_IO : take_row(p, &plot, k);
+    plot.curve[0].dots = is_rough(p, &plot.curve[0]);
+    draw_bodies(p, &plot);
+    char text[2 * PLOT_NAME];
+    const char *separator = caption[0] && p->poses > 0 ? " " : "";
+    snprintf(text, sizeof text, "%s%s", caption, separator);
+    if (p->poses > 0 && p->body != DAL_BODY_POINT)
+        snprintf(text + strlen(text), sizeof text - strlen(text),
+                 "The %s, not to scale, at %d of the rows.", words[p->body], p->poses);
+    plot.caption = text;
+    int drawn = report_draw(r, &plot);
+    return status == CLI_DONE ? drawn : status;
+}
+
+/* What the run was, from its directory, which may be gone: a study needs it no more. */
+static int load(path *p, const char *run)
+{
+    dal_run_spec spec;
+    dal_error error;
+    store_open(&p->store, run);
+    if (access(p->store.manifest, F_OK) != 0) return CLI_DONE;
+    int status = store_read(&p->store, &p->job);
+    if (status == CLI_DONE) status = job_spec(&p->job, &spec);
+    if (status != CLI_DONE || !p->job.made->picture) return status;
+    p->n = p->job.made->n;
+    p->body = p->job.made->body;
+    if (dal_probe_create(&p->probe, p->job.made, p->job.set.item, p->job.set.count, &error))
+        return cli_error(CLI_USAGE, run, &error);
+    return rows_open(&p->rows, run);
+}
+
+int report_path(report *r, const char *run, const char *name, const char *caption)
+{
+    path *p = cli_calloc(1, sizeof *p);
+    *p = (path){.job = job_begin(),
+                .store = {.descriptor = -1},
+                .low = {INFINITY, INFINITY},
+                .high = {-INFINITY, -INFINITY}};
+    int status = load(p, run);
+    if (status == CLI_DONE && p->probe) {
+        if (p->rows.count > 0 && p->rows.columns > 2 * p->n) status = draw(p, r, name, caption);
+        rows_close(&p->rows);
+    }
+    dal_probe_free(p->probe);
+    job_free(&p->job);
+    store_close(&p->store);
+    free(p);
+    return status;
+}

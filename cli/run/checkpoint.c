@@ -1,0 +1,213 @@
+/* checkpoint.c - where a run stands, in a file that outlives any end of the process.
+ *
+ * Little-endian words of 64 bits, doubles by their bits:
+ *
+ *     head        the word DALCHK03, then as below
+ *     memory      [memory] all that the run carries from step to step
+ *     statistics  [statistics * words] those of each observable, in a layout that has a number
+ *     sum         FNV-1a of all before
+ *
+ * The file is written beside, brought to the disk and renamed, and the one before is kept: where
+ * the newer one is damaged, or the rows are not those it tells of, the run goes on from the older.
+ * Nothing in it is ever run or followed.  Formats 01 and 02, of versions that wrote rows.csv, are
+ * refused; a later format raises the number and reads this one, too. */
+#include "io/file.h"
+#include "io/word.h"
+#include "store.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+typedef struct head {
+    uint64_t magic;
+    uint64_t fingerprint; /* of the input of the run */
+    int64_t row;          /* rows in trajectory.npy, */
+    table_sum sum;        /* and their sum */
+    double seconds;       /* spent in steps and rows */
+    uint64_t memory, statistics, words, layout;
+} head;
+
+enum {
+    HEAD_WORDS = sizeof(head) / WORD,
+    WORDS = sizeof(dal_statistics) / WORD, /* each member is one of 64 bits */
+};
+
+static const uint64_t magic = UINT64_C(0x33304b48434c4144); /* "DALCHK03" */
+
+/* ---- saving -------------------------------------------------------------------------------- */
+
+static unsigned char *append(unsigned char *place, const void *words, size_t count)
+{
+    const unsigned char *from = words;
+    for (size_t i = 0; i < count; i++, from += WORD) {
+        uint64_t word;
+        memcpy(&word, from, sizeof word);
+        word_put(place, word);
+        place += WORD;
+    }
+    return place;
+}
+
+static int keep_the_one_before(const cli_store *store)
+{
+    if (rename(store->checkpoint, store->before) == 0 || errno == ENOENT) return CLI_DONE;
+    return cli_io("write", store->before);
+}
+
+int store_save(const cli_store *store, const cli_mark *mark, const dal_run *run,
+               const dal_statistics *statistics, int count)
+{
+    size_t memory_count;
+    const double *memory = dal_run_memory(run, &memory_count);
+    const head h = {.magic = magic,
+                    .fingerprint = store->fingerprint,
+                    .row = mark->row,
+                    .sum = mark->sum,
+                    .seconds = mark->seconds,
+                    .memory = memory_count,
+                    .statistics = (uint64_t)count,
+                    .words = WORDS,
+                    .layout = DAL_STATISTICS_LAYOUT};
+    const size_t words = HEAD_WORDS + memory_count + (size_t)count * WORDS;
+    unsigned char *text = cli_malloc((words + 1) * WORD);
+    unsigned char *place = append(text, &h, HEAD_WORDS);
+    place = append(place, memory, memory_count);
+    place = append(place, statistics, (size_t)count * WORDS);
+    const uint64_t sum = file_hash(FILE_HASH_START, text, words * WORD);
+    append(place, &sum, 1);
+    cli_hold_exit();
+    int status = file_write(store->fresh, text, (words + 1) * WORD, store->settle);
+    if (status == CLI_DONE) status = keep_the_one_before(store);
+    if (status == CLI_DONE) status = file_rename(store->fresh, store->checkpoint, store->settle);
+    if (status != CLI_DONE) unlink(store->fresh);
+    cli_release_exit();
+    free(text);
+    return status;
+}
+
+/* ---- loading ------------------------------------------------------------------------------- */
+
+/* A checkpoint as it was read. */
+typedef struct image {
+    const char *path;
+    unsigned char *text;
+    size_t words; /* but for the sum */
+    head head;
+} image;
+
+static const unsigned char *take(const unsigned char *place, void *words, size_t count)
+{
+    unsigned char *to = words;
+    for (size_t i = 0; i < count; i++, to += WORD) {
+        const uint64_t word = word_get(place);
+        memcpy(to, &word, sizeof word);
+        place += WORD;
+    }
+    return place;
+}
+
+static int damaged(const image *m, const char *how)
+{
+    return cli_fail(CLI_USAGE, "%s: the checkpoint is damaged: %s", m->path, how);
+}
+
+/* The first six letters are common to all formats, the last two number it. */
+static int check_format(const image *m, size_t length)
+{
+    const size_t letters = sizeof magic - 2;
+    if (length < sizeof magic || memcmp(m->text, "DALCHK", letters) != 0)
+        return damaged(m, length < sizeof magic ? "it is too short" : "it does not begin as one");
+    if (memcmp(m->text + letters, "03", 2) == 0) return CLI_DONE;
+    return cli_fail(CLI_USAGE,
+                    "%s: of format %.2s; dalembert " DAL_VERSION " goes on with format 03 alone",
+                    m->path, (const char *)m->text + letters);
+}
+
+static int check_sum(image *m, size_t length)
+{
+    uint64_t sum;
+    m->words = length / WORD - 1;
+    if (length % WORD || length < (HEAD_WORDS + 1) * WORD) return damaged(m, "it is too short");
+    take(take(m->text, &m->head, HEAD_WORDS) + (m->words - HEAD_WORDS) * WORD, &sum, 1);
+    if (sum == file_hash(FILE_HASH_START, m->text, m->words * WORD)) return CLI_DONE;
+    return damaged(m, "its check sum is wrong");
+}
+
+/* Statistics that begin in the middle of a run would say of its half what the summary says of the
+ * whole. */
+static int check_layout(const image *m)
+{
+    if (m->head.layout == DAL_STATISTICS_LAYOUT && m->head.words == WORDS) return CLI_DONE;
+    return cli_fail(CLI_USAGE,
+                    "%s: its statistics have layout %llu; dalembert " DAL_VERSION
+                    " reads layout %d alone: resume with the version that manifest.json names",
+                    m->path, (unsigned long long)m->head.layout, DAL_STATISTICS_LAYOUT);
+}
+
+static int check_sizes(const image *m, int count)
+{
+    const head *h = &m->head;
+    const uint64_t room = m->words - HEAD_WORDS, most = UINT64_C(1) << 32;
+    if (h->row >= 0 && h->memory <= room && h->words < most && h->statistics == (uint64_t)count &&
+        room - h->memory == h->statistics * h->words)
+        return CLI_DONE;
+    return damaged(m, "its size is wrong");
+}
+
+static int read_image(const cli_store *store, const cli_table *table, int count, image *m)
+{
+    size_t length;
+    m->text = (unsigned char *)file_read(m->path, &length);
+    if (!m->text) return CLI_IO;
+    int status = check_format(m, length);
+    if (status == CLI_DONE) status = check_sum(m, length);
+    if (status == CLI_DONE && m->head.fingerprint != store->fingerprint)
+        return cli_fail(CLI_USAGE,
+                        "%s: belongs to another run: its description or the system was "
+                        "changed",
+                        m->path);
+    if (status == CLI_DONE) status = check_sizes(m, count);
+    if (status == CLI_DONE) status = check_layout(m);
+    return status == CLI_DONE ? table_holds(table, m->head.row, &m->head.sum) : status;
+}
+
+static int put_in_force(const image *m, cli_mark *mark, dal_run *run, dal_statistics *statistics)
+{
+    dal_error error = {0};
+    const size_t count = m->head.memory;
+    double *memory = cli_malloc((count + 1) * sizeof *memory);
+    const unsigned char *place = take(m->text + HEAD_WORDS * WORD, memory, count);
+    const dal_status loaded = dal_run_load(run, memory, count, &error);
+    free(memory);
+    if (loaded != DAL_OK) return cli_error(CLI_USAGE, m->path, &error);
+    *mark = (cli_mark){m->head.row, m->head.sum, m->head.seconds};
+    take(place, statistics, m->head.statistics * WORDS);
+    return CLI_DONE;
+}
+
+static int load(const cli_store *store, const char *path, const cli_table *table, cli_mark *mark,
+                dal_run *run, dal_statistics *statistics, int count)
+{
+    image m = {.path = path};
+    int status = read_image(store, table, count, &m);
+    if (status == CLI_DONE) status = put_in_force(&m, mark, run, statistics);
+    free(m.text);
+    return status;
+}
+
+static int is_there(const char *path) { return access(path, F_OK) == 0 || errno != ENOENT; }
+
+int store_load(const cli_store *store, const cli_table *table, cli_mark *mark, dal_run *run,
+               dal_statistics *statistics, int count)
+{
+    *mark = (cli_mark){0};
+    const int newer = is_there(store->checkpoint), older = is_there(store->before);
+    if (!newer && !older) return CLI_DONE;
+    if (!newer) return load(store, store->before, table, mark, run, statistics, count);
+    const int status = load(store, store->checkpoint, table, mark, run, statistics, count);
+    if (status == CLI_DONE || !older) return status;
+    cli_fail(CLI_DONE, "the one before is tried: %s", store->before);
+    return load(store, store->before, table, mark, run, statistics, count);
+}

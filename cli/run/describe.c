@@ -1,0 +1,243 @@
+/* describe.c - the options of a run as they were given: "input" in its manifest.json, the only
+ * place where they are kept.
+ *
+ *     "input": {
+ *       "system": "chaplygin-sleigh",            or "system.yaml", the copy beside
+ *       "integrator": "gauss8",
+ *       "step": 0.01,                            as given: the digits are kept
+ *       "time": 1e4,
+ *       "set": {"m": 2},
+ *       "start": {"e": "inf"}                    the only number that JSON has none for
+ *     },
+ *
+ * Its text is kept as it stands there whatever else is written anew, and with the text of the
+ * system it is signed: a checkpoint goes with one description alone. */
+#include "io/file.h"
+#include "io/json.h"
+#include "store.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+static const char copy_name[] = "system.yaml";
+
+/* ---- writing ------------------------------------------------------------------------------- */
+
+/* e may be infinite, which JSON has no number for. */
+static void put_settings(FILE *out, const char *name, const job_settings *settings)
+{
+    fprintf(out, ",\n    \"%s\": {", name);
+    for (int i = 0; i < settings->count; i++) {
+        const dal_setting *s = &settings->item[i];
+        const char *before = i ? ", " : "";
+        if (isfinite(s->value))
+            json_number_member(out, before, s->name, s->value);
+        else
+            json_text_member(out, before, s->name, "inf");
+    }
+    fputc('}', out);
+}
+
+/* Allocated. */
+static char *describe(const cli_job *job)
+{
+    cli_option options[JOB_OPTIONS];
+    char *text;
+    size_t length;
+    FILE *out = cli_memstream_open(&text, &length);
+    job_options(options);
+    fputc('{', out);
+    json_text_member(out, "\n    ", "system", cli_is_path(job->system) ? copy_name : job->system);
+    for (int i = 0; i < JOB_OPTIONS; i++)
+        if (job->text[i] && job_is_number(i))
+            json_given_member(out, ",\n    ", options[i].name, job->text[i]);
+        else if (job->text[i] && i != JOB_set && i != JOB_start)
+            json_text_member(out, ",\n    ", options[i].name, job->text[i]);
+    put_settings(out, options[JOB_set].name, &job->set);
+    put_settings(out, options[JOB_start].name, &job->start);
+    fputs("\n  }", out);
+    cli_memstream_close(out);
+    return text;
+}
+
+/* The text of a system: of a built-in one from the library, of any other from its file. */
+static int sign(cli_store *store, const char *builtin)
+{
+    const uint64_t hash = file_hash(FILE_HASH_START, store->input, strlen(store->input));
+    size_t n = builtin ? strlen(builtin) : 0;
+    if (!builtin && access(store->system, F_OK) != 0)
+        return cli_fail(CLI_USAGE, "'%s' is missing: the run cannot be continued", store->system);
+    char *text = builtin ? NULL : file_read(store->system, &n);
+    if (!builtin && !text) return CLI_IO;
+    store->fingerprint = file_hash(hash, builtin ? builtin : text, n);
+    free(text);
+    return CLI_DONE;
+}
+
+static int copy(const cli_store *store, const char *from)
+{
+    size_t length;
+    char *text = file_read(from, &length);
+    if (!text) return CLI_IO;
+    int status = file_swap(store->system, text, length, store->settle);
+    free(text);
+    return status;
+}
+
+/* All that another run may have left, but for the rows, which the table begins anew, and the copy,
+ * which may be what this run is made from. */
+static int clear(const cli_store *store)
+{
+    int status = CLI_DONE;
+#define X(name, file)                                                                              \
+    if (status == CLI_DONE && store->name != store->rows && store->name != store->system)          \
+        status = file_remove(store->name);
+    STORE_FILE_LIST(X)
+#undef X
+    return status;
+}
+
+int store_describe(cli_store *store, const cli_job *job)
+{
+    const int is_path = cli_is_path(job->system);
+    int status = clear(store);
+    if (status == CLI_DONE)
+        status = is_path ? copy(store, job->system) : file_remove(store->system);
+    if (status != CLI_DONE) return status;
+    store->input = describe(job);
+    status = sign(store, is_path ? NULL : dal_builtin_text(job->system));
+    const cli_mark nothing = {.row = 0};
+    return status == CLI_DONE ? manifest_write(store, job, &nothing, "running", "") : status;
+}
+
+/* Both are described in the present way, whatever version wrote the directory. */
+int store_is_of(const cli_store *store, const cli_job *held, const cli_job *job)
+{
+    char *one = describe(held), *other = describe(job);
+    int status = CLI_DONE;
+    if (strcmp(one, other) != 0)
+        status = cli_fail(CLI_USAGE, "'%s' holds another run: its input differs", store->directory);
+    free(one);
+    free(other);
+    return status;
+}
+
+/* ---- reading ------------------------------------------------------------------------------- */
+
+static const char *name_of(const study_text *text, const yaml_node_pair_t *pair)
+{
+    return study_text_scalar(text, study_text_node(text, pair->key), "manifest");
+}
+
+/* "NAME=VALUE" out of "set" or "start"; job_take copies it. */
+static int take_setting(cli_job *job, int option, const char *name, const char *value)
+{
+    char *given;
+    size_t length;
+    FILE *out = cli_memstream_open(&given, &length);
+    fprintf(out, "%s=%s", name, value);
+    cli_memstream_close(out);
+    const int status = job_take(job, option, given);
+    job->text[option] = NULL;
+    free(given);
+    return status;
+}
+
+static int take_settings(cli_job *job, int option, const study_text *text, const yaml_node_t *node)
+{
+    if (node->type != YAML_MAPPING_NODE)
+        return study_text_fail(text, node, "names and values are wanted");
+    const yaml_node_pair_t *pair = node->data.mapping.pairs.start;
+    for (; pair < node->data.mapping.pairs.top; pair++) {
+        const char *name = name_of(text, pair);
+        const char *value =
+            name ? study_text_scalar(text, study_text_node(text, pair->value), name) : NULL;
+        const int status = value ? take_setting(job, option, name, value) : CLI_USAGE;
+        if (status != CLI_DONE) return status;
+    }
+    return CLI_DONE;
+}
+
+/* The copy in the directory is meant, wherever the program was started. */
+static int take(const cli_store *store, cli_job *job, const char *name, const yaml_node_t *node)
+{
+    const study_text *text = store->text;
+    const int option = job_find(name), is_system = strcmp(name, "system") == 0;
+    if (option == JOB_set || option == JOB_start) return take_settings(job, option, text, node);
+    if (option < 0 && !is_system)
+        return study_text_fail(text, node, "unknown option '%s' of a run", name);
+    const char *value = study_text_scalar(text, node, name);
+    if (!value) return CLI_USAGE;
+    if (!is_system) return job_take(job, option, value);
+    job->system = strcmp(value, copy_name) == 0 ? store->system : value;
+    return CLI_DONE;
+}
+
+static int take_all(const cli_store *store, cli_job *job, const yaml_node_t *input)
+{
+    const yaml_node_pair_t *pair = input->data.mapping.pairs.start;
+    for (; pair < input->data.mapping.pairs.top; pair++) {
+        const char *name = name_of(store->text, pair);
+        const yaml_node_t *value = study_text_node(store->text, pair->value);
+        const int status = name ? take(store, job, name, value) : CLI_USAGE;
+        if (status != CLI_DONE) return status;
+    }
+    if (job->system) return CLI_DONE;
+    return study_text_fail(store->text, input, "the system is missing");
+}
+
+/* What an older version made is gone on with, if its checkpoint can be read. */
+static int check_version(const study_text *text, const yaml_node_t *root)
+{
+    int made[3] = {0}, present[3] = {0};
+    const yaml_node_t *node = json_find(text, root, "dalembert");
+    const char *version = node ? study_text_scalar(text, node, "version") : "0";
+    if (!version) return CLI_USAGE;
+    sscanf(version, "%d.%d.%d", &made[0], &made[1], &made[2]);
+    sscanf(DAL_VERSION, "%d.%d.%d", &present[0], &present[1], &present[2]);
+    for (int i = 0; i < 3; i++) {
+        if (made[i] > present[i])
+            return study_text_fail(text, node, "made by dalembert %s; this is " DAL_VERSION,
+                                   version);
+        if (made[i] == present[i]) continue;
+        cli_fail(CLI_DONE, "%s: made by dalembert %s; the bits may differ from here on",
+                 text->place, version);
+        return CLI_DONE;
+    }
+    return CLI_DONE;
+}
+
+static int read_manifest(cli_store *store, cli_job *job, const char *bytes, size_t length)
+{
+    store->text = cli_calloc(1, sizeof *store->text);
+    int status = json_parse(store->text, store->manifest, bytes, length);
+    if (status != CLI_DONE) return status;
+    const yaml_node_t *root = yaml_document_get_root_node(&store->text->document);
+    const yaml_node_t *input = json_find(store->text, root, "input");
+    if (!input || input->type != YAML_MAPPING_NODE)
+        return study_text_fail(store->text, root, "there is no input of a run");
+    status = check_version(store->text, root);
+    if (status != CLI_DONE) return status;
+    store->input = json_source(bytes, input);
+    return take_all(store, job, input);
+}
+
+int store_read(cli_store *store, cli_job *job)
+{
+    size_t length;
+    if (access(store->old_settings, F_OK) == 0)
+        return cli_fail(CLI_USAGE,
+                        "'%s' is of an older version, which kept run.yaml and rows.csv: its rows "
+                        "can be reported, the run cannot be gone on with",
+                        store->directory);
+    if (access(store->manifest, F_OK) != 0)
+        return cli_fail(CLI_USAGE, "'%s' holds no run: there is no %s", store->directory,
+                        store->manifest);
+    char *bytes = file_read(store->manifest, &length);
+    if (!bytes) return CLI_IO;
+    int status = read_manifest(store, job, bytes, length);
+    free(bytes);
+    return status == CLI_DONE ? sign(store, dal_builtin_text(job->system)) : status;
+}

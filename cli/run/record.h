@@ -1,0 +1,63 @@
+/* record.h - a run on its way: rows, statistics, progress and checkpoints. */
+#ifndef DAL_CLI_RECORD_H
+#define DAL_CLI_RECORD_H
+
+#include "io/table.h"
+#include "job.h"
+#include "store.h"
+
+/* How progress is told.  code, word */
+#define PROGRESS_LIST(X) X(AUTO, auto) X(JSON, json) X(OFF, off)
+
+typedef enum cli_progress_kind {
+#define X(code, word) PROGRESS_##code,
+    PROGRESS_LIST(X)
+#undef X
+} cli_progress_kind;
+
+typedef struct cli_record {
+    const cli_job *job;
+    cli_store *store; /* NULL: the rows go to a file or to stdout and nothing is kept beside them */
+    cli_table table;
+    int dimension, observables, columns;
+    double *values;             /* [1 + dimension + observables] t, state, all observables */
+    double *row;                /* [columns] the same without |p|, |pi|, |pi_e| */
+    char **names;               /* [1 + dimension + observables] of values */
+    int *column;                /* [columns] which of values a column is */
+    dal_statistics *statistics; /* [observables] */
+    dal_trend *trend;           /* [observables] when the run is finished or has failed */
+    cli_mark mark;
+    dal_observer observer;
+    double interval;       /* seconds between checkpoints */
+    double since, saved;   /* when the present stretch of steps began; the last checkpoint */
+    double begun;          /* t at which this process took the run up, */
+    long long begun_steps; /* and its steps */
+    double stretch;        /* seconds spent in steps and rows since */
+    double told_progress;  /* when the last line of JSON was written */
+    cli_progress_kind progress;
+    int (*stop)(void *user); /* whether to end the run; cli_interrupted unless set */
+    void *stop_user;
+    int quiet; /* no line of progress: no terminal, or the rows themselves go to it */
+    int told;  /* exit status of a failure of the program's own, already printed */
+} cli_record;
+
+/* Opens the table: output is a file or "-"; with a store, its trajectory.npy, going on where its
+ * checkpoint says.  record_close it in any case. */
+int record_open(cli_record *record, const cli_job *job, cli_store *store, const char *output);
+void record_close(cli_record *record);
+/* Integrates to the end.  Returns CLI_DONE; CLI_FAILED and the like with the reason in *error;
+ * CLI_SIGNAL; or CLI_IO and such that has been told, with no message in *error. */
+int record_go(cli_record *record, dal_error *error);
+int record_is_finished(const cli_record *record);
+const char *record_observable(const cli_record *record, int i);
+
+/* Reads a word of the list above.  Returns CLI_DONE or prints and returns CLI_USAGE. */
+int progress_read(const char *text, cli_progress_kind *kind);
+/* Tells how far the run has come, not too often; at the end in any case, where that is asked. */
+void progress_show(cli_record *record, double t, int at_the_end);
+
+/* The summary: one table for the eye, or summary.csv. */
+void summary_print(FILE *out, const cli_record *record);
+int summary_write(const cli_record *record, const char *path);
+
+#endif

@@ -1,0 +1,50 @@
+/* run.h - what `dalembert run` and `dalembert resume` share. */
+#ifndef DAL_CLI_RUN_H
+#define DAL_CLI_RUN_H
+
+#include "job.h"
+#include "native.h"
+#include "record.h"
+#include "store.h"
+#include "ui/cli.h"
+
+/* The options of a run that do not concern the trajectory; they come behind those of the job.
+ * name, value, default, help */
+#define RUN_OPTION_LIST(X)                                                                         \
+    X(output, "FILE|DIR|-", "-", "write there: .csv, .npy, a directory, or stdout")                \
+    X(checkpoint, "SECONDS", "5", "a directory can be resumed from at most so long ago")           \
+    X(summary, NULL, NULL, "print the summary though stderr is no terminal")                       \
+    X(progress, "auto|json|off", "auto", "a line on a terminal, lines of JSON on stderr, or none") \
+    X(native, "auto|on|off", "auto", "compile the steps, which changes no bit: when it pays")      \
+    X(force, NULL, NULL, "write over what the directory holds of another run")
+
+enum {
+    RUN_FIRST = JOB_OPTIONS - 1,
+#define X(name, value, initial, help) RUN_##name,
+    RUN_OPTION_LIST(X)
+#undef X
+        RUN_OPTIONS,
+    RUN_OWN = RUN_OPTIONS - JOB_OPTIONS
+};
+
+extern const cli_option run_options[RUN_OWN];
+
+/* What concerns the output alone. */
+typedef struct run_wishes {
+    const char *output;
+    double interval;
+    int summary, force;
+    cli_native native;
+    cli_progress_kind progress;
+} run_wishes;
+
+/* What holds when nothing is said. */
+run_wishes run_wish(void);
+/* Takes one of these options, or the value of --checkpoint.  Returns CLI_DONE or prints and returns
+ * an exit status. */
+int run_take(run_wishes *wishes, int option, const char *text);
+int run_take_interval(const char *text, double *interval);
+/* The integration itself, the job being made and the directory, if there is one, described. */
+int run_integrate(const cli_job *job, cli_store *store, const run_wishes *wishes);
+
+#endif

@@ -1,0 +1,80 @@
+/* store.h - a run that lives in a directory and can be gone on with after any interruption.
+ *
+ *     DIR/manifest.json what was asked for, what ran it, and how far it came
+ *     DIR/system.yaml   copy of the system file; absent for a built-in system
+ *     DIR/trajectory.npy     the rows: see npy.c
+ *     DIR/checkpoint    where the run stands: see checkpoint.c
+ *     DIR/checkpoint.before  where it stood the time before
+ *     DIR/summary.csv   when it is over: quantity, measure, value
+ *
+ * Every file but trajectory.npy is replaced as a whole, so each is old or new and never half of
+ * either; what that one holds beyond the checkpoint is cut off before the run goes on. */
+#ifndef DAL_CLI_STORE_H
+#define DAL_CLI_STORE_H
+
+#include "io/study_yaml.h"
+#include "io/table.h"
+#include "job.h"
+#include "ui/cli.h"
+
+#define STORE_FILE_LIST(X)                                                                         \
+    X(manifest, "manifest.json")                                                                   \
+    X(system, "system.yaml")                                                                       \
+    X(rows, "trajectory.npy")                                                                      \
+    X(checkpoint, "checkpoint")                                                                    \
+    X(before, "checkpoint.before")                                                                 \
+    X(fresh, "checkpoint.new")                                                                     \
+    X(summary, "summary.csv")                                                                      \
+    X(old_settings, "run.yaml") /* of versions before this format, */                              \
+    X(old_rows, "rows.csv")     /* which are reported and written over alone */
+
+typedef struct cli_store {
+    const char *directory; /* the caller's */
+#define X(name, file) char *name;
+    STORE_FILE_LIST(X)
+#undef X
+    study_text *text;     /* manifest.json as it was read, where the texts of its job live */
+    char *input;          /* what was asked for, as it stands in manifest.json */
+    uint64_t fingerprint; /* of that and of the system */
+    int settle;           /* whether to wait until what is written is on the disk */
+    int descriptor;       /* of trajectory.npy, locked; -1 before, and when a table has taken it */
+} cli_store;
+
+/* How far a run has come. */
+typedef struct cli_mark {
+    long long row;  /* the first row not in trajectory.npy, */
+    table_sum sum;  /* and the sum of those in it */
+    double seconds; /* spent in steps and rows */
+} cli_mark;
+
+/* The names of the files in a directory. */
+void store_open(cli_store *store, const char *directory);
+void store_close(cli_store *store);
+/* A file in the directory that a new run would write over, or NULL. */
+const char *store_holds(const cli_store *store);
+/* Opens trajectory.npy for this process alone: CLI_USAGE when another has it.  It is made for a new
+ * run; any other has it already: CLI_USAGE where it is lost. */
+int store_lock(cli_store *store, int is_new);
+/* Describes a new run; what an older one left is removed. */
+int store_describe(cli_store *store, const cli_job *job);
+/* Reads the description into a new job, whose texts live as long as the store. */
+int store_read(cli_store *store, cli_job *job);
+/* Whether a run is described there. */
+int store_is_described(const cli_store *store);
+/* Whether the job that was read there and another are one: CLI_USAGE and a message when not. */
+int store_is_of(const cli_store *store, const cli_job *held, const cli_job *job);
+/* manifest.json; state: running, done, failed, interrupted; why: a message, or "". */
+int manifest_write(const cli_store *store, const cli_job *job, const cli_mark *mark,
+                   const char *state, const char *why);
+/* Whether a manifest says that its run is done or has failed. */
+int manifest_is_over(const char *path);
+/* ", "machine": {...}" for it. */
+void manifest_machine(FILE *out);
+/* Writes the checkpoint; and reads it into run and statistics[count], or the one before where it is
+ * damaged or the rows are not those it tells of.  Without one *mark is the beginning. */
+int store_save(const cli_store *store, const cli_mark *mark, const dal_run *run,
+               const dal_statistics *statistics, int count);
+int store_load(const cli_store *store, const cli_table *table, cli_mark *mark, dal_run *run,
+               dal_statistics *statistics, int count);
+
+#endif

@@ -1,0 +1,65 @@
+/* system.c - trend the system a command is about. */
+#include "ui/cli.h"
+
+#include <errno.h>
+#include <string.h>
+#include <sys/stat.h>
+
+enum { BUILTINS_MOST = 256 };
+
+int cli_is_path(const char *system)
+{
+    struct stat status;
+    if (strchr(system, '/') || cli_ends_in(system, ".yaml") || cli_ends_in(system, ".yml"))
+        return 1;
+    return !dal_builtin_text(system) && stat(system, &status) == 0;
+}
+
+static int read_path(const char *path, dal_model **model)
+{
+    struct stat status;
+    dal_error error = {0};
+    /* A wrong path is a wrong input, not a failing disk. */
+    if (stat(path, &status) != 0)
+        return cli_fail(CLI_USAGE, "cannot read '%s': %s", path, strerror(errno));
+    if (S_ISDIR(status.st_mode))
+        return cli_fail(CLI_USAGE, "cannot read '%s': it is a directory", path);
+    dal_status read = dal_model_read_file(model, path, &error);
+    if (read == DAL_OK) return CLI_DONE;
+    return cli_error(read == DAL_IO ? CLI_IO : cli_input_exit(read), path, &error);
+}
+
+static int read_builtin(const char *name, dal_model **model)
+{
+    const char *names[BUILTINS_MOST];
+    int count = 0;
+    while (count < BUILTINS_MOST && (names[count] = dal_builtin_name(count))) count++;
+    dal_error error = {0};
+    if (!dal_builtin_text(name)) return cli_unknown("system", name, names, count);
+    dal_status read = dal_model_builtin(model, name, &error);
+    return read == DAL_OK ? CLI_DONE : cli_error(cli_input_exit(read), name, &error);
+}
+
+int cli_read(const char *system, dal_model **model)
+{
+    *model = NULL;
+    int status = cli_is_path(system) ? read_path(system, model) : read_builtin(system, model);
+    if (status != CLI_DONE) *model = NULL;
+    return status;
+}
+
+int cli_make(const char *place, dal_model **model, const dal_system **made)
+{
+    dal_error error = {0};
+    dal_status make = dal_model_system(*model, made, &error);
+    if (make == DAL_OK) return CLI_DONE;
+    dal_model_free(*model);
+    *model = NULL;
+    return cli_error(cli_input_exit(make), place, &error);
+}
+
+int cli_load(const char *system, dal_model **model, const dal_system **made)
+{
+    int status = cli_read(system, model);
+    return status == CLI_DONE ? cli_make(system, model, made) : status;
+}

@@ -1,0 +1,278 @@
+/* study_merge.c - `dalembert merge`: the shards of a study, from wherever they were run, as one.
+ *
+ * Each cell that can have a run must have a finished one in one of the directories, and in one
+ * alone.  The runs are copied, unless they are where the whole is to be, and then the study is told
+ * as by whoever ran it whole. */
+#include "io/file.h"
+#include "run/pool.h"
+#include "run/run.h"
+#include "study_house.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+/* name, value, default, help */
+#define OWN_LIST(X)                                                                                \
+    X(output, "DIR", NULL, "the whole study goes there; may be one of those that are merged")      \
+    X(threads, "N", NULL, "runs read at a time")                                                   \
+    X(force, NULL, NULL, "write over what the directory holds, unless it is one of those")
+
+enum { OWN_LIST(CLI_OWN) OWN_OPTIONS };
+
+static const cli_option options[] = {OWN_LIST(CLI_OPTION)};
+
+static const char notes[] =
+    "Each DIR is what 'dalembert study --shard K/N --output DIR' made; the shards may have shared\n"
+    "one.  Tables and files are, but for times, the bytes of the study that was not divided.\n";
+
+enum { SOURCES_MOST = 1024 };
+
+typedef struct merge {
+    study_house source[SOURCES_MOST];
+    int sources;
+    study_house target;
+    study_plan plan;
+    int force;
+    int *from; /* [cells] which source has the run, -1: none */
+} merge;
+
+/* ---- the sources ---- */
+
+static int is_same_place(const char *a, const char *b)
+{
+    struct stat x, y;
+    return stat(a, &x) == 0 && stat(b, &y) == 0 && x.st_dev == y.st_dev && x.st_ino == y.st_ino;
+}
+
+static int is_same_file(const char *path, const char *other)
+{
+    size_t n, m;
+    char *a = file_read(path, &n), *b = a ? file_read(other, &m) : NULL;
+    const int same = a && b && n == m && memcmp(a, b, n) == 0;
+    free(a);
+    free(b);
+    return same;
+}
+
+static int differs(const merge *m, int i, const char *path, const char *first)
+{
+    return cli_fail(CLI_USAGE, "'%s' and '%s' are of two studies: '%s' and '%s' differ",
+                    m->source[i].directory, m->source[0].directory, path, first);
+}
+
+static int check_systems(const merge *m, int i)
+{
+    int status = CLI_DONE;
+    for (int k = 0; k < m->plan.entry_count && status == CLI_DONE; k++) {
+        const study_entry *e = &m->plan.entries[k];
+        if (!e->is_first || !e->copy) continue;
+        char *path = study_system_copy(m->source[i].systems, e);
+        if (!is_same_file(path, e->copy)) status = differs(m, i, path, e->copy);
+        free(path);
+    }
+    return status;
+}
+
+static int check_source(const merge *m, int i)
+{
+    const study_house *s = &m->source[i];
+    if (!house_holds_study(s))
+        return cli_fail(CLI_USAGE, "'%s' holds no study: there is no %s", s->directory, s->study);
+    for (int k = 0; k < i; k++)
+        if (is_same_place(s->directory, m->source[k].directory))
+            return cli_fail(CLI_USAGE, "'%s' is given twice", s->directory);
+    if (!is_same_file(s->study, m->source[0].study))
+        return differs(m, i, s->study, m->source[0].study);
+    return check_systems(m, i);
+}
+
+/* The first directory gives the plan, the others must agree with it. */
+static int read_sources(merge *m)
+{
+    study_house *first = &m->source[0];
+    int status = house_read(first, &m->plan);
+    for (int i = 1; i < m->sources && status == CLI_DONE; i++) status = check_source(m, i);
+    for (int i = 0; i < m->plan.cell_count; i++) m->plan.cells[i].elsewhere = 0;
+    return status;
+}
+
+/* ---- the runs ---- */
+
+static int look_at(merge *m, int cell, int source, const char *name)
+{
+    const study_house *s = &m->source[source];
+    char *run = cli_join(s->runs, name), *manifest = cli_join(run, "manifest.json");
+    int status = CLI_DONE;
+    if (access(manifest, F_OK) == 0) {
+        if (m->from[cell] >= 0)
+            status = cli_fail(CLI_USAGE, "'%s' is in '%s' and in '%s'", name,
+                              m->source[m->from[cell]].directory, s->directory);
+        else if (!manifest_is_over(manifest))
+            status =
+                cli_fail(CLI_USAGE, "'%s' is not finished: dalembert resume %s", run, s->directory);
+        m->from[cell] = source;
+    }
+    free(manifest);
+    free(run);
+    return status;
+}
+
+static int find_run(merge *m, int cell)
+{
+    char *name = study_cell_name(&m->plan.cells[cell]);
+    int status = CLI_DONE;
+    m->from[cell] = -1;
+    for (int i = 0; i < m->sources && status == CLI_DONE; i++) status = look_at(m, cell, i, name);
+    if (status == CLI_DONE && m->from[cell] < 0 && study_cell_can_run(&m->plan.cells[cell]))
+        status =
+            cli_fail(CLI_USAGE, "'%s' is in none of the directories: a shard is missing", name);
+    free(name);
+    return status;
+}
+
+static int find_runs(merge *m)
+{
+    int status = CLI_DONE;
+    m->from = cli_calloc((size_t)m->plan.cell_count + 1, sizeof *m->from);
+    for (int i = 0; i < m->plan.cell_count && status == CLI_DONE; i++) status = find_run(m, i);
+    return status;
+}
+
+/* ---- copying ---- */
+
+static int copy_stream(FILE *from, const char *source, FILE *to)
+{
+    char block[1 << 16];
+    for (size_t n; (n = fread(block, 1, sizeof block, from)) > 0;)
+        if (fwrite(block, 1, n, to) != n) break;
+    return ferror(from) ? cli_io("read", source) : CLI_DONE;
+}
+
+/* A file that is not there is not copied: of system files there are copies only where needed. */
+static int copy_file(const char *source, const char *target)
+{
+    FILE *from = fopen(source, "rb");
+    if (!from) return errno == ENOENT ? CLI_DONE : cli_io("read", source);
+    FILE *to = fopen(target, "wb");
+    int status = to ? copy_stream(from, source, to) : cli_io("write", target);
+    if (to) {
+        const int closed = cli_close(to, target);
+        if (status == CLI_DONE) status = closed;
+    }
+    fclose(from);
+    return status;
+}
+
+static int copy_stores(const cli_store *from, const cli_store *to)
+{
+    int status = cli_directory(to->directory);
+#define X(name, file)                                                                              \
+    if (status == CLI_DONE && from->name != from->manifest)                                        \
+        status = copy_file(from->name, to->name);
+    STORE_FILE_LIST(X)
+#undef X
+    return status == CLI_DONE ? copy_file(from->manifest, to->manifest) : status;
+}
+
+static int copy_run(const char *source, const char *target)
+{
+    cli_store from = {0}, to = {0};
+    store_open(&from, source);
+    store_open(&to, target);
+    const int status = copy_stores(&from, &to);
+    store_close(&from);
+    store_close(&to);
+    return status;
+}
+
+static int copy_runs(const merge *m)
+{
+    int status = CLI_DONE;
+    for (int i = 0; i < m->plan.cell_count && status == CLI_DONE; i++) {
+        const int from = m->from[i];
+        if (from < 0 || is_same_place(m->source[from].directory, m->target.directory)) continue;
+        char *name = study_cell_name(&m->plan.cells[i]);
+        char *source = cli_join(m->source[from].runs, name);
+        char *target = cli_join(m->target.runs, name);
+        status = copy_run(source, target);
+        free(source);
+        free(target);
+        free(name);
+    }
+    return status;
+}
+
+/* ---- the whole ---- */
+
+/* A directory that is one of the sources is as it must be, but for the runs of the others. */
+static int prepare_target(merge *m)
+{
+    const study_shard whole = {0};
+    for (int i = 0; i < m->sources; i++) {
+        if (!is_same_place(m->source[i].directory, m->target.directory)) continue;
+        m->plan.runs = m->target.runs;
+        return CLI_DONE;
+    }
+    return house_begin(&m->target, &m->plan, m->source[0].text, m->source[0].length, whole,
+                       m->force);
+}
+
+static int merge_into(merge *m, const char *output, int threads)
+{
+    house_open(&m->target, output);
+    int status = read_sources(m);
+    if (status == CLI_DONE) status = find_runs(m);
+    if (status == CLI_DONE) status = prepare_target(m);
+    if (status == CLI_DONE) status = copy_runs(m);
+    if (status != CLI_DONE) return status;
+    cli_catch_signals();
+    return house_finish(&m->target, &m->plan, study_pool_run(&m->plan, threads));
+}
+
+static int take(merge *m, const char **output, long long *threads, int option, const char *value)
+{
+    switch (option) {
+    case OWN_output:
+        *output = value;
+        return CLI_DONE;
+    case OWN_threads:
+        return cli_integer("--threads", value, 1, POOL_MOST, threads);
+    case OWN_force:
+        m->force = 1;
+        return CLI_DONE;
+    default:
+        if (m->sources == SOURCES_MOST)
+            return cli_fail(CLI_USAGE, "merge: more than %d directories", SOURCES_MOST);
+        house_open(&m->source[m->sources++], value);
+        return CLI_DONE;
+    }
+}
+
+static int go(merge *m, const char *output, long long threads)
+{
+    if (m->sources == 0) return cli_fail(CLI_USAGE, "merge: the DIRs are missing");
+    if (!output) return cli_fail(CLI_USAGE, "merge: --output is missing");
+    return merge_into(m, output, (int)threads);
+}
+
+int command_merge(int argc, char **argv)
+{
+    merge *m = cli_calloc(1, sizeof *m);
+    cli_args args = cli_begin(argc, argv, options, OWN_OPTIONS, notes);
+    const char *value, *output = NULL;
+    long long threads = pool_threads();
+    for (int k; (k = cli_next(&args, &value)) != CLI_STOP;) {
+        const int taken = take(m, &output, &threads, k, value);
+        if (taken != CLI_DONE) cli_stop(&args, taken);
+    }
+    const int status = args.status == CLI_GO_ON ? go(m, output, threads) : args.status;
+    for (int i = 0; i < m->sources; i++) house_close(&m->source[i]);
+    house_close(&m->target);
+    study_plan_free(&m->plan);
+    free(m->from);
+    free(m);
+    return status;
+}

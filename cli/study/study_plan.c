@@ -1,0 +1,362 @@
+/* study_plan.c - from the keys of a study to its entries and cells. */
+#include "io/study_yaml.h"
+#include "run/job.h"
+#include "study.h"
+#include "study_draft.h"
+#include "study_expect.h"
+
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+/* ---- settings and methods ---- */
+
+/* Momenta in units of the displacement: one value each. */
+static int read_displace(study_entry *e, const study_text *text, yaml_node_t *node)
+{
+    if (!node) return CLI_DONE;
+    if (node->type != YAML_MAPPING_NODE)
+        return study_text_fail(text, node, "displace: names and values are wanted");
+    const yaml_node_pair_t *pair = node->data.mapping.pairs.start;
+    size_t most = (size_t)(node->data.mapping.pairs.top - pair);
+    e->displace = cli_calloc(most + 1, sizeof *e->displace);
+    for (; pair < node->data.mapping.pairs.top; pair++) {
+        dal_setting *s = &e->displace[e->displace_count++];
+        yaml_node_t *key = study_text_node(text, pair->key);
+        s->name = study_text_scalar(text, key, "displace");
+        if (!s->name) return CLI_USAGE;
+        yaml_node_t *value = study_text_node(text, pair->value);
+        int status = study_text_number(text, value, "displace", &s->value);
+        if (status != CLI_DONE) return status;
+    }
+    return CLI_DONE;
+}
+
+static int has_method(const study_entry *e, const dal_method *method)
+{
+    char name[STUDY_NAME], other[STUDY_NAME];
+    dal_method_name(method, name, sizeof name);
+    for (int i = 0; i < e->method_count; i++)
+        if (strcmp(name, dal_method_name(&e->methods[i], other, sizeof other)) == 0) return 1;
+    return 0;
+}
+
+static int add_method(study_entry *e, const study_text *text, const yaml_node_t *node,
+                      const char *name)
+{
+    dal_error error = {0};
+    size_t count = (size_t)e->method_count + 1;
+    e->methods = cli_realloc(e->methods, count * sizeof *e->methods);
+    if (dal_method_parse(&e->methods[e->method_count], name, &error) != DAL_OK)
+        return study_text_fail(text, node, "%s", error.message);
+    if (!has_method(e, &e->methods[e->method_count])) e->method_count++;
+    return CLI_DONE;
+}
+
+/* "all" and "all+project" stand for every integrator that is no modifier. */
+static int add_methods(study_entry *e, const study_text *text, const yaml_node_t *node,
+                       const char *name)
+{
+    char full[STUDY_NAME];
+    int status = CLI_DONE;
+    if (strncmp(name, "all", 3) != 0 || (name[3] != '\0' && name[3] != '+'))
+        return add_method(e, text, node, name);
+    for (int i = 0; dal_integrator_at(i) && status == CLI_DONE; i++) {
+        const dal_integrator *integrator = dal_integrator_at(i);
+        if (integrator->claims & DAL_MODIFIER) continue;
+        snprintf(full, sizeof full, "%s%s", integrator->name, name + 3);
+        status = add_method(e, text, node, full);
+    }
+    return status;
+}
+
+static int read_methods(study_entry *e, const study_text *text, yaml_node_t *node)
+{
+    int count = study_text_count(node), status = CLI_DONE;
+    if (count == 0) return study_text_fail(text, node, "integrators: the list is empty");
+    for (int i = 0; i < count && status == CLI_DONE; i++) {
+        const yaml_node_t *item = study_text_item(text, node, i);
+        const char *name = study_text_scalar(text, item, "integrators");
+        status = name ? add_methods(e, text, item, name) : CLI_USAGE;
+    }
+    return status;
+}
+
+/* ---- entries ---- */
+
+static int check_entry(const study_text *text, const yaml_node_t *node, const study_draft *d)
+{
+    const study_entry *e = &d->entry;
+    if (!e->name) return study_text_fail(text, node, "the system is missing");
+    if (!d->integrators)
+        return study_text_fail(text, node, "%s: the integrators are missing", e->name);
+    if (e->steps == 0) return study_text_fail(text, node, "%s: the step is missing", e->name);
+    if (!(e->time > 0.0)) return study_text_fail(text, node, "%s: the time is missing", e->name);
+    for (int i = 0; i < e->steps; i++) {
+        char said[SCHEDULE_TEXT];
+        const char *fault = schedule_fault(e->step[i], e->time, said);
+        if (fault) return study_text_fail(text, node, "%s: step %s", e->name, fault);
+    }
+    return CLI_DONE;
+}
+
+static int unique_label(const study_plan *plan, const study_text *text, const yaml_node_t *node,
+                        const study_entry *e)
+{
+    for (int i = 0; i < plan->entry_count; i++)
+        if (strcmp(plan->entries[i].label, e->label) == 0)
+            return study_text_fail(text, node, "two systems called '%s': give one a label",
+                                   e->label);
+    return CLI_DONE;
+}
+
+/* A path labels its entry by the file's name without folders. */
+static const char *plain_label(const study_entry *e)
+{
+    const char *slash = strrchr(e->name, '/');
+    return slash ? slash + 1 : e->name;
+}
+
+/* Whether the system knows the names; what else may be wrong with their values is for the cells. */
+static int check_names(const study_text *text, const yaml_node_t *node, const char *what,
+                       const study_entry *e, const dal_setting *start, int count)
+{
+    dal_run *run;
+    dal_error error = {0};
+    dal_run_spec spec = {.system = e->system,
+                         .method = e->methods[0],
+                         .options = dal_options_default(),
+                         .parameters = e->set,
+                         .parameter_count = e->set_count,
+                         .start = start,
+                         .start_count = count};
+    if (!node) return CLI_DONE;
+    if (!e->system->call.adjoint) spec.options.space = DAL_PHYSICAL;
+    dal_status made = dal_run_create(&run, &spec, &error);
+    if (cli_is_ok(made)) dal_run_free(run);
+    return made == DAL_NAME ? study_text_fail(text, node, "%s: %s", what, error.message) : CLI_DONE;
+}
+
+char *study_system_copy(const char *directory, const study_entry *e)
+{
+    return cli_format("%s/%s.yaml", directory, e->label);
+}
+
+/* A name that is neither a path nor a system is told with its place. */
+static int check_system(const study_text *text, const yaml_node_t *node, const char *name)
+{
+    enum { MOST = 256 };
+    const char *names[MOST];
+    int count = 0;
+    if (cli_is_path(name) || dal_builtin_text(name)) return CLI_DONE;
+    while (count < MOST && (names[count] = dal_builtin_name(count))) count++;
+    return study_unknown(text, node, "system", name, names, count);
+}
+
+/* Where a directory keeps copies, what has one was a file, wherever the program is started now. */
+static int find_copy(const study_plan *plan, study_entry *e)
+{
+    if (!plan->copies) return CLI_DONE;
+    e->copy = study_system_copy(plan->copies, e);
+    if (access(e->copy, F_OK) == 0 || cli_is_path(e->name)) return CLI_DONE;
+    free(e->copy);
+    e->copy = NULL;
+    return CLI_DONE;
+}
+
+static int load_system(const study_plan *plan, const study_text *text, const yaml_node_t *node,
+                       study_entry *e)
+{
+    int status = find_copy(plan, e);
+    if (status == CLI_DONE && !e->copy) status = check_system(text, node, e->name);
+    if (status != CLI_DONE) return status;
+    return cli_load(e->copy ? e->copy : e->name, &e->model, &e->system);
+}
+
+/* ---- groups ---- */
+
+typedef struct group {
+    study_plan *plan;
+    const study_text *text;
+    yaml_node_t *node; /* of the system */
+    study_draft draft;
+    study_variants *variants;
+} group;
+
+/* What the first of a group reads, the others share. */
+static int load_first(group *g, study_entry *e)
+{
+    int status = read_methods(e, g->text, g->draft.integrators);
+    return status == CLI_DONE ? load_system(g->plan, g->text, g->node, e) : status;
+}
+
+static void share(study_entry *e, const study_entry *first)
+{
+    e->model = first->model;
+    e->system = first->system;
+    e->copy = first->copy;
+    e->methods = first->methods;
+    e->method_count = first->method_count;
+}
+
+static int check_all_names(const group *g, const study_entry *e)
+{
+    const study_draft *d = &g->draft;
+    int status = check_names(g->text, d->set, "set", e, NULL, 0);
+    if (status == CLI_DONE)
+        status = check_names(g->text, d->start, "start", e, e->start, e->start_count);
+    if (status == CLI_DONE)
+        status = check_names(g->text, d->displace, "displace", e, e->displace, e->displace_count);
+    return status;
+}
+
+static int add_variant(group *g, int i, const study_entry *first)
+{
+    study_plan *plan = g->plan;
+    study_entry *e = &plan->entries[plan->entry_count];
+    *e = g->draft.entry;
+    e->is_first = i == 0;
+    study_variants_take(g->variants, i, e);
+    int status = unique_label(plan, g->text, g->node, e);
+    plan->entry_count++;
+    if (status == CLI_DONE) status = read_displace(e, g->text, g->draft.displace);
+    if (status != CLI_DONE) return status;
+    if (i == 0)
+        status = load_first(g, e);
+    else
+        share(e, first);
+    if (status == CLI_DONE && i == 0) status = check_all_names(g, e);
+    return status == CLI_DONE ? study_variants_onto(g->variants, e) : status;
+}
+
+static int add_variants(group *g, int count)
+{
+    study_plan *plan = g->plan;
+    const int before = plan->entry_count;
+    const size_t room = (size_t)before + (size_t)count;
+    plan->entries = cli_realloc(plan->entries, room * sizeof *plan->entries);
+    int status = CLI_DONE;
+    for (int i = 0; i < count && status == CLI_DONE; i++)
+        status = add_variant(g, i, &plan->entries[before]);
+    return status;
+}
+
+static int add_group(study_plan *plan, const study_text *text, yaml_node_t *node,
+                     const study_draft *base)
+{
+    group g = {.plan = plan, .text = text, .node = node, .draft = *base};
+    int count = 0, status = study_draft_system(&g.draft, text, node);
+    if (status == CLI_DONE) status = check_entry(text, node, &g.draft);
+    if (status != CLI_DONE) return status;
+    if (!g.draft.entry.group) g.draft.entry.group = plain_label(&g.draft.entry);
+    status = study_variants_read(&g.variants, text, &g.draft, &count);
+    if (status == CLI_DONE) status = add_variants(&g, count);
+    study_variants_free(g.variants);
+    return status;
+}
+
+/* ---- the whole ---- */
+
+static int read_systems(study_plan *plan, const study_text *text, const yaml_node_t *root,
+                        const study_draft *base)
+{
+    int count = base->systems ? study_text_count(base->systems) : 0, status = CLI_DONE;
+    if (count == 0) return study_text_fail(text, root, "the systems are missing");
+    for (int i = 0; i < count && status == CLI_DONE; i++)
+        status = add_group(plan, text, study_text_item(text, base->systems, i), base);
+    return status;
+}
+
+static study_cell *lay_out_starts(study_cell cell, study_cell *place)
+{
+    for (cell.start = 0; cell.start < STUDY_STARTS; cell.start++)
+        if (cell.entry->starts & 1 << cell.start) *place++ = cell;
+    return place;
+}
+
+static void lay_out(const study_entry *e, study_cell *place)
+{
+    for (int m = 0; m < e->method_count; m++)
+        for (int h = 0; h < e->steps; h++)
+            place = lay_out_starts(
+                (study_cell){.entry = e, .method = &e->methods[m], .step = e->step[h]}, place);
+}
+
+/* Every cell has a directory of its own, whose name must fit. */
+static int check_cell_names(const study_plan *plan)
+{
+    enum { MOST = 255 };
+    int status = CLI_DONE;
+    for (int i = 0; i < plan->cell_count && status == CLI_DONE; i++) {
+        char *name = study_cell_name(&plan->cells[i]);
+        const size_t length = strlen(name);
+        if (length > MOST)
+            status = cli_fail(CLI_USAGE,
+                              "%s: '%.60s...' is too long a name for a directory: %zu bytes, not "
+                              "at most %d; a short label helps",
+                              plan->place, name, length, (int)MOST);
+        free(name);
+    }
+    return status;
+}
+
+static int make_cells(study_plan *plan)
+{
+    for (int i = 0; i < plan->entry_count; i++) {
+        study_entry *e = &plan->entries[i];
+        int starts = 0;
+        for (int start = 0; start < STUDY_STARTS; start++) starts += (e->starts >> start) & 1;
+        e->first_cell = plan->cell_count;
+        e->cells = e->method_count * e->steps * starts;
+        plan->cell_count += e->cells;
+    }
+    plan->cells = cli_calloc((size_t)plan->cell_count + 1, sizeof *plan->cells);
+    for (int i = 0; i < plan->entry_count; i++)
+        lay_out(&plan->entries[i], plan->cells + plan->entries[i].first_cell);
+    return check_cell_names(plan);
+}
+
+int study_plan_read(study_plan *plan, const char *place, const char *bytes, size_t length,
+                    const char *copies)
+{
+    study_text *text = cli_calloc(1, sizeof *text);
+    study_draft base = {.entry = {.samples = 400,
+                                  .statistics = 1,
+                                  .displacement = 1e-8,
+                                  .starts = (1 << STUDY_STARTS) - 1}};
+    *plan = (study_plan){.place = place, .document = text, .copies = copies};
+    int status = study_text_parse(text, place, bytes, length);
+    if (status != CLI_DONE) return status;
+    yaml_node_t *root = yaml_document_get_root_node(&text->document);
+    status = study_draft_study(&base, text, root);
+    plan->title = base.title ? base.title : "A study";
+    if (status == CLI_DONE) status = read_systems(plan, text, root, &base);
+    if (status == CLI_DONE) status = make_cells(plan);
+    return status == CLI_DONE ? study_expect_read(plan, text, base.expect) : status;
+}
+
+static void free_entry(study_entry *e)
+{
+    if (e->is_first) {
+        dal_model_free(e->model);
+        free(e->copy);
+        free(e->methods);
+    }
+    free(e->label);
+    free(e->names);
+    free(e->set);
+    free(e->start);
+    free(e->displace);
+}
+
+void study_plan_free(study_plan *plan)
+{
+    for (int i = 0; i < plan->cell_count && plan->cells; i++) study_cell_free(&plan->cells[i]);
+    for (int i = 0; i < plan->entry_count; i++) free_entry(&plan->entries[i]);
+    if (plan->document) yaml_document_delete(&((study_text *)plan->document)->document);
+    free(plan->document);
+    free(plan->entries);
+    free(plan->cells);
+    free(plan->expectations);
+    *plan = (study_plan){0};
+}
