@@ -1,73 +1,60 @@
-/* analysis.c - arguments and outputs of the commands that look at a motion as a whole. */
+/* analysis.c - arguments, outputs and distances of the commands that examine a system or a motion. */
 #include "analysis.h"
 
+#include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
-enum { OPTIONS_MOST = 64 };
-
-/* What concerns rows alone. */
-static const int of_rows[] = {JOB_samples, JOB_sampling, JOB_times, JOB_statistics};
-
-static int holds(const int *list, int count, int x)
-{
-    for (int i = 0; i < count; i++)
-        if (list[i] == x) return 1;
-    return 0;
-}
-
-/* Its own options, then those of a job, whose numbers are in number. */
-static int list_options(const analysis_command *c, cli_option *options, int *number)
-{
-    cli_option all[JOB_OPTIONS];
-    int count = c->own_count;
-    job_options(all);
-    if (c->set_defaults) c->set_defaults(all);
-    memcpy(options, c->own, (size_t)c->own_count * sizeof *options);
-    for (int i = 0; i < JOB_OPTIONS; i++) {
-        if (holds(of_rows, sizeof of_rows / sizeof of_rows[0], i)) continue;
-        if (holds(c->without, c->without_count, i)) continue;
-        number[count] = i;
-        options[count++] = all[i];
-    }
-    return count;
-}
-
-static int take_system(cli_job *job, const char *command, const char *value)
-{
-    if (job->system)
-        return cli_fail(CLI_USAGE, "%s: one SYSTEM only, not also '%s'", command, value);
-    job->system = value;
-    return CLI_DONE;
-}
+enum { MAX_OPTIONS = 64 };
 
 int analysis_read(int argc, char **argv, const analysis_command *command, cli_job *job, void *user)
 {
-    cli_option options[OPTIONS_MOST];
-    int number[OPTIONS_MOST];
-    const int count = list_options(command, options, number);
+    cli_option options[MAX_OPTIONS], all[JOB_OPTIONS];
+    int number[MAX_OPTIONS] = {0}, count = command->own_count;
+    job_options(all);
+    if (command->adapt) command->adapt(all);
+    for (int k = 0; k < count; k++) options[k] = command->own[k];
+    for (int i = 0; i < JOB_OPTIONS; i++) {
+        if (command->without >> i & 1) continue;
+        number[count] = i;
+        options[count++] = all[i];
+    }
     cli_args args = cli_begin(argc, argv, options, count, command->notes);
     const char *value;
     for (int k; (k = cli_next(&args, &value)) != CLI_STOP;) {
-        const int taken = k == CLI_PLAIN           ? take_system(job, argv[0], value)
-                          : k < command->own_count ? command->take(user, k, value)
-                                                   : job_take(job, number[k], value);
-        if (taken != CLI_DONE) cli_stop(&args, taken);
+        int status = CLI_DONE;
+        if (k == CLI_PLAIN && job->system)
+            status = cli_fail(CLI_USAGE, "%s: one SYSTEM only, not also '%s'", argv[0], value);
+        else if (k == CLI_PLAIN)
+            job->system = value;
+        else
+            status = k < command->own_count ? command->parse(user, k, value)
+                                            : job_take(job, number[k], value);
+        if (status != CLI_DONE) cli_stop(&args, status);
     }
     if (args.status != CLI_GO_ON) return args.status;
     return job->system ? CLI_GO_ON : cli_fail(CLI_USAGE, "the SYSTEM is missing");
 }
 
-int analysis_open(analysis_place *place, const char *output, const char *name)
+int analysis_open(analysis_output *output, const char *path, const char *name)
 {
-    char file[64];
-    snprintf(file, sizeof file, "%s.csv", name);
-    *place = (analysis_place){0};
-    if (cli_is_directory(output)) {
-        int status = cli_directory(output);
-        if (status != CLI_DONE) return status;
-        place->directory = output;
+    *output = (analysis_output){0};
+    if (!cli_is_directory(path)) {
+        output->table = cli_strdup(path);
+        return CLI_DONE;
     }
-    place->table = place->directory ? cli_join(output, file) : cli_strdup(output);
-    return CLI_DONE;
+    output->directory = path;
+    char *file = cli_format("%s.csv", name);
+    output->table = cli_join(path, file);
+    free(file);
+    return cli_directory(path);
+}
+
+double analysis_distance(const double *a, const double *b, int count)
+{
+    double max = 0.0;
+    for (int i = 0; i < count; i++) {
+        const double gap = fabs(a[i] - b[i]) / fmax(1.0, fabs(b[i]));
+        max = gap <= max ? max : isnan(gap) ? INFINITY : gap;
+    }
+    return max;
 }

@@ -1,33 +1,43 @@
-/* analysis.h - what the commands share that look at a motion as a whole: order, section, lyapunov,
- * volume. */
+/* analysis.h - what the commands share that examine a system or a motion as a whole: check, order,
+ * section, lyapunov, volume, explain. */
 #ifndef DAL_CLI_ANALYSIS_H
 #define DAL_CLI_ANALYSIS_H
 
-#include "io/table.h"
 #include "run/job.h"
 
-/* A command: options of its own, and those of a run that it has a use for. */
+#include <stdbool.h>
+#include <stdint.h>
+
+/* A set of options of a run. */
+#define ANALYSIS_OPTION(name) (UINT64_C(1) << JOB_##name)
+/* The options that concern rows only. */
+#define ANALYSIS_ROWS                                                                              \
+    (ANALYSIS_OPTION(samples) | ANALYSIS_OPTION(sampling) | ANALYSIS_OPTION(times) |               \
+     ANALYSIS_OPTION(statistics))
+
+/* A command: its own options, and those of a run except a set of them. */
 typedef struct analysis_command {
     const cli_option *own;
     int own_count;
-    const int *without; /* options of a run, JOB_x, it does not take, beside those of rows */
-    int without_count;
+    uint64_t without;
     const char *notes;
-    /* Takes option k of its own. */
-    int (*take)(void *user, int k, const char *value);
-    void (*set_defaults)(cli_option *options); /* of a job where they differ; NULL: nowhere */
+    int (*parse)(void *user, int option, const char *value); /* one of its own */
+    void (*adapt)(cli_option *options); /* changes defaults and help of those of a run, or NULL */
 } analysis_command;
 
-/* Reads all arguments.  Returns CLI_GO_ON, or the exit status: a message or help was printed. */
+/* Reads all arguments.  Returns CLI_GO_ON, or the exit status after a message or help. */
 int analysis_read(int argc, char **argv, const analysis_command *command, cli_job *job, void *user);
 
-/* Where an output goes: a directory with NAME.csv in it, or a file. */
-typedef struct analysis_place {
+/* An output: a directory with NAME.csv in it, or a file. */
+typedef struct analysis_output {
     const char *directory; /* NULL: a file, or stdout */
     char *table;           /* the path of the table */
-} analysis_place;
+} analysis_output;
 
 /* Makes the directory.  Returns CLI_DONE or prints and returns an exit status; free the table. */
-int analysis_open(analysis_place *place, const char *output, const char *name);
+int analysis_open(analysis_output *output, const char *path, const char *name);
+
+/* max |a_i - b_i| / max(1, |b_i|); infinite where an entry is not a number. */
+double analysis_distance(const double *a, const double *b, int count);
 
 #endif

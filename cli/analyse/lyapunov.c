@@ -114,8 +114,8 @@ static int go(spectrum_study *s)
 
 int command_lyapunov(int argc, char **argv)
 {
-    static const int without[] = {JOB_space};
-    const analysis_command command = {options, OPTIONS, without, 1, notes, take, NULL};
+    const analysis_command command = {options, OPTIONS, ANALYSIS_ROWS | ANALYSIS_OPTION(space),
+                                      notes,   take,    NULL};
     spectrum_study s = {.job = job_begin(), .rows = 100};
     int status = analysis_read(argc, argv, &command, &s.job, &s);
     if (status == CLI_GO_ON) status = go(&s);

@@ -18,9 +18,7 @@ enum { OWN_LIST(CLI_OWN) OWN_OPTIONS };
 
 static const cli_option own[OWN_OPTIONS] = {OWN_LIST(CLI_OPTION)};
 
-static const int without[] = {JOB_integrator};
-
-static void set_defaults(cli_option *options)
+static void adapt_options(cli_option *options)
 {
     options[JOB_step].initial = "0.1";
     options[JOB_time].initial = "10";
@@ -159,7 +157,7 @@ static int check_steps(const order_study *s)
 
 static int tell(const order_study *s, const char *output)
 {
-    analysis_place place = {0};
+    analysis_output place = {0};
     order_print(stdout, s);
     int status = cli_close(stdout, "standard output");
     if (status != CLI_DONE || !output) return status;
@@ -198,7 +196,8 @@ static int go(order_study *s, const wishes *w)
 
 int command_order(int argc, char **argv)
 {
-    const analysis_command command = {own, OWN_OPTIONS, without, 1, notes, take, set_defaults};
+    const analysis_command command = {
+        own, OWN_OPTIONS, ANALYSIS_ROWS | ANALYSIS_OPTION(integrator), notes, take, adapt_options};
     wishes w = {.integrators = "all", .levels = 4};
     order_study s = {.job = job_begin()};
     int status = analysis_read(argc, argv, &command, &s.job, &w);

@@ -71,16 +71,6 @@ static dal_status end_of(const order_study *s, const dal_run_spec *spec, double 
     return status;
 }
 
-static double distance(const order_study *s, const double *x)
-{
-    double most = 0.0;
-    for (int i = 0; i < s->numbers; i++) {
-        const double gap = fabs(x[i] - s->reference[i]) / fmax(1.0, fabs(s->reference[i]));
-        most = gap <= most ? most : isnan(gap) ? INFINITY : gap;
-    }
-    return most;
-}
-
 /* ---- the reference ------------------------------------------------------------------------- */
 
 /* The exact solution, when it begins at this start. */
@@ -97,13 +87,13 @@ static int exact_reference(order_study *s)
         cli_is_ok(made) &&
         dal_probe_start(probe, job->start.item, job->start.count, start, NULL) == DAL_OK &&
         dal_probe_call(probe, system->exact, 0.0, start, start, NULL, s->reference) == DAL_OK;
-    if (found) off = distance(s, start);
+    if (found) off = analysis_distance(start, s->reference, s->numbers);
     found =
         found && off <= 1e-10 &&
         dal_probe_call(probe, system->exact, job->time, start, start, NULL, s->reference) == DAL_OK;
     dal_probe_free(probe);
     s->judge = "the exact solution";
-    return found && isfinite(distance(s, s->reference));
+    return found && isfinite(analysis_distance(s->reference, s->reference, s->numbers));
 }
 
 /* Two runs of a fine method: the finer is the reference, their distance the error of the other. */
@@ -120,7 +110,7 @@ static dal_status judged_by(order_study *s, const char *name, dal_error *error)
     spec.options.step = 0.5 * h;
     if (status == DAL_OK) status = end_of(s, &spec, s->reference, &o, error);
     if (status != DAL_OK) return status;
-    s->noise = fmax(distance(s, coarse), rounding);
+    s->noise = fmax(analysis_distance(coarse, s->reference, s->numbers), rounding);
     snprintf(s->judge_text, sizeof s->judge_text, "%s with h = %g, itself within %.0e", name,
              0.5 * h, s->noise);
     s->judge = s->judge_text;
@@ -160,7 +150,8 @@ static void run_cell(void *user, int i)
     }
     m->order.step[level] = s->step[level];
     m->order.evaluations[level] = o.evaluations;
-    m->order.error[level] = cli_is_ok(why->status) ? distance(s, out) : NAN;
+    m->order.error[level] =
+        cli_is_ok(why->status) ? analysis_distance(out, s->reference, s->numbers) : NAN;
     free(out);
 }
 

@@ -4,6 +4,7 @@
  * invariants may, and is evaluated as they are. */
 #include "analysis.h"
 #include "io/gnuplot.h"
+#include "io/table.h"
 #include "run/native.h"
 
 #include <math.h>
@@ -332,7 +333,7 @@ static int draw(const section *s, const char *directory, const int axis[2])
 
 static int run(section *s)
 {
-    analysis_place place = {0};
+    analysis_output place = {0};
     int axis[2] = {-1, -1};
     if (!s->w->on) return cli_fail(CLI_USAGE, "--on is missing");
     int status = load(s);
@@ -353,7 +354,7 @@ static int run(section *s)
 
 int command_section(int argc, char **argv)
 {
-    const analysis_command command = {own, OWN_OPTIONS, NULL, 0, notes, take, NULL};
+    const analysis_command command = {own, OWN_OPTIONS, ANALYSIS_ROWS, notes, take, NULL};
     wishes w = {.output = own[OWN_output].initial};
     section s = {.job = job_begin(), .w = &w};
     int status = analysis_read(argc, argv, &command, &s.job, &w);

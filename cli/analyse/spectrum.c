@@ -129,7 +129,7 @@ static int draw(const spectrum_study *s, const char *directory, const spectrum_t
 
 int spectrum_run(spectrum_study *s, const spectrum_table *t)
 {
-    analysis_place place = {0};
+    analysis_output place = {0};
     double *values = cli_calloc((size_t)t->columns + 1, sizeof *values);
     int status = job_check_step(&s->job, s->transient + s->job.time);
     if (status == CLI_DONE && s->output) status = analysis_open(&place, s->output, t->name);

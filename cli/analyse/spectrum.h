@@ -4,6 +4,7 @@
 #define DAL_CLI_SPECTRUM_H
 
 #include "analysis.h"
+#include "io/table.h"
 
 /* The options of both, behind which those of one may come.  name, value, default, help */
 #define SPECTRUM_OPTION_LIST(X)                                                                    \
