@@ -1,0 +1,522 @@
+/* check_sections.c - what `dalembert check` examines, section by section.
+ *
+ * Energy: dE/dt = v.Q + sum_a h_a v.A_a.  For D_a homogeneous of degree k in v the last term is
+ * k h_a D_a, so E is conserved on D = 0 only; an affine D, as that of a turntable, need not
+ * conserve E at all.
+ *
+ * Actions: int e/2 |q'' - F|^2 dt is 0 on a solution and positive off it.  int P.X' - H is
+ * stationary on a trajectory; discretised at midpoints, it is so to rounding on a trajectory of
+ * implicit-midpoint, and on none of another method. */
+#include "check.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The library's own limit for a consistent start. */
+static const double consistent = 1e-10;
+/* What comes from differences counts as zero below this. */
+static const double zero = 1e-9;
+
+static const char claimed_only[] = ", but the system claims it";
+static const char found_only[] = ", but its form does not show it";
+
+/* ---- rates along the motion ---- */
+
+/* max |d/dt of a callback's values| along the motion over some points. */
+typedef struct motion_rate {
+    double max;
+    int points, measured; /* of these, how many gave a value */
+    dal_status status;    /* the reason why another gave none */
+} motion_rate;
+
+/* Of value i; of all values for i < 0. */
+static motion_rate measure_rate(check *c, dal_callback *callback, int values, int i,
+                                const dal_point *points, int count)
+{
+    motion_rate rate = {.points = count};
+    for (int k = 0; k < count; k++) {
+        const dal_status status =
+            dal_measure_rate(c->probe, callback, values, &points[k], c->values);
+        if (!cli_is_ok(status)) {
+            rate.status = status;
+            continue;
+        }
+        rate.measured++;
+        for (int j = i < 0 ? 0 : i; j < (i < 0 ? values : i + 1); j++)
+            rate.max = fmax(rate.max, fabs(c->values[j]));
+    }
+    return rate;
+}
+
+/* limit: infinite where the rate is for information. */
+static void check_motion_rate(check *c, const char *what, const motion_rate *rate, double limit)
+{
+    char extent[64] = "";
+    if (rate->measured < rate->points)
+        snprintf(extent, sizeof extent, ", at %d of %d points", rate->measured, rate->points);
+    if (rate->points == 0)
+        check_item(c, CHECK_UNMEASURED, what, "there is no point for it");
+    else if (rate->measured == 0)
+        check_item(c, CHECK_UNMEASURED, what, "at none of %d points: %s", rate->points,
+                   dal_status_text(rate->status));
+    else if (isinf(limit))
+        check_item(c, CHECK_INFO, what, "%.2g%s", rate->max, extent);
+    else
+        check_item(c, rate->max <= limit ? CHECK_OK : CHECK_FAIL, what, "%.2g  (at most %.0e)%s",
+                   rate->max, limit, extent);
+}
+
+/* ---- the start ---- */
+
+/* max |D| relative to sum |A| |v|; NaN where one of them is not finite. */
+static double start_defect(check *c)
+{
+    double *block = c->values, size = 1.0, defect = 0.0;
+    if (dal_probe_call(c->probe, c->system->call.constraint, 0.0, c->start, c->start + c->n, NULL,
+                       block))
+        return NAN;
+    for (int a = 0; a < c->m; a++) {
+        double sum = 0.0;
+        for (int i = 0; i < c->n; i++) sum += fabs(block[c->m + a * c->n + i] * c->start[c->n + i]);
+        if (!isfinite(sum) || !isfinite(block[a])) return NAN;
+        size = fmax(size, sum);
+        defect = fmax(defect, fabs(block[a]));
+    }
+    return defect / size;
+}
+
+static void check_start_constraints(check *c)
+{
+    int rank = 0;
+    double pivot = 0.0;
+    const double defect = c->system->call.constraint ? start_defect(c) : 0.0;
+    if (isnan(defect))
+        check_item(c, CHECK_UNMEASURED, "|D| at the start", "D or its derivative is not finite");
+    else if (c->system->call.constraint)
+        check_bound(c, "|D| at the start", defect, consistent);
+    const dal_status status = dal_measure_rank(c->probe, &c->origin, &rank, &pivot);
+    if (cli_is_ok(status))
+        check_item(c, rank == c->m ? CHECK_OK : CHECK_FAIL, "rank of G at the start",
+                   "%d of %d, smallest pivot %.2g", rank, c->m, pivot);
+    else if (status != DAL_UNSUPPORTED)
+        check_item(c, CHECK_FAIL, "rank of G at the start", "it has no value: %s",
+                   dal_status_text(status));
+}
+
+void check_start(check *c)
+{
+    static const char points[] = "points about the start";
+    const double e = c->start[c->size];
+    const check_result found = c->near_count > 0 ? CHECK_OK : CHECK_FAIL;
+    check_item(c, c->is_regular ? CHECK_OK : CHECK_FAIL, "F at the start", "%s",
+               c->is_regular ? "finite" : "not finite: the motion is not determined");
+    check_item(c, e != 0.0 && !isnan(e) ? CHECK_OK : CHECK_FAIL, "gauge variable e", "%g", e);
+    if (c->m > 0) check_start_constraints(c);
+    if (c->m > 0)
+        check_item(c, found, points, "%d, of which %d could be projected to D = 0", c->near_count,
+                   c->surface_count);
+    else
+        check_item(c, found, points, "%d", c->near_count);
+}
+
+/* ---- constraints ---- */
+
+/* Whether `run` accepts a method: the run is created. */
+static bool is_accepted(check *c, const char *method, dal_error *error)
+{
+    cli_job *job = c->job;
+    dal_run_spec spec;
+    dal_run *run = NULL;
+    job->options = dal_options_default();
+    job->options.step = 0.01;
+    if (dal_method_parse(&job->method, method, error) != DAL_OK) return false;
+    if (job_spec(job, &spec) != CLI_DONE) return false;
+    const bool accepted = cli_is_ok(dal_run_create(&run, &spec, error));
+    dal_run_free(run);
+    return accepted;
+}
+
+/* A modifier is accepted when it is so around some method. */
+static bool is_integrator_accepted(check *c, const dal_integrator *integrator)
+{
+    dal_error error;
+    const dal_integrator *base;
+    if (!(integrator->claims & DAL_MODIFIER)) return is_accepted(c, integrator->name, &error);
+    for (int i = 0; (base = dal_integrator_at(i)); i++) {
+        char name[128];
+        if (base->claims & DAL_MODIFIER) continue;
+        snprintf(name, sizeof name, "%.60s+%.60s", base->name, integrator->name);
+        if (is_accepted(c, name, &error)) return true;
+    }
+    return false;
+}
+
+/* The methods that have one of these properties and that `run` accepts; with constant coefficients
+ * D is preserved by all of them. */
+static void list_methods(check *c, bool is_constant, unsigned properties)
+{
+    enum { INDENT = 44, MAX_LINE = 52 };
+    static const char what[] = "D is preserved by";
+    char text[4096] = "";
+    size_t length = 0, line = 0;
+    dal_error error = {.message = ""};
+    const dal_integrator *k;
+    for (int i = 0; !is_constant && (k = dal_integrator_at(i)); i++) {
+        if (!(k->claims & properties) || !is_integrator_accepted(c, k)) continue;
+        const bool is_full = length - line + strlen(k->name) + 3 > MAX_LINE;
+        const size_t begin = length;
+        length += (size_t)snprintf(text + length, sizeof text - length, "%s%*s%s%.40s",
+                                   is_full      ? "\n"
+                                   : length > 0 ? " "
+                                                : "",
+                                   is_full ? INDENT : 0, "", k->claims & DAL_MODIFIER ? "+" : "",
+                                   k->name);
+        if (is_full) line = begin + 1 + INDENT;
+    }
+    const bool is_any = length > 0 || is_accepted(c, "rk4", &error);
+    if (is_constant && is_any)
+        check_item(c, CHECK_INFO, what, "every method that applies to the system");
+    else
+        check_item(c, CHECK_INFO, what, "%s%s%s", length > 0 ? text : "no method",
+                   is_any ? "" : ": ", is_any ? "" : error.message);
+}
+
+static void print_homogeneity(check *c, const dal_degree *d, const double *degree)
+{
+    char text[64] = "not homogeneous";
+    int written = 0;
+    for (int a = 0; d->homogeneous && a < c->m && written < 44; a++)
+        written += snprintf(text + written, sizeof text - (size_t)written, "%sD%d of degree %.4g",
+                            a > 0 ? ", " : "", a + 1, degree[a] + 0.0);
+    check_item(c, CHECK_INFO, "homogeneity of D in v", "%s%s", text, d->linear ? "; affine" : "");
+}
+
+/* A property that numbers contradict is a fault; one that the system does not state is none. */
+static void check_classes(check *c, const dal_degree *d)
+{
+    const struct {
+        unsigned property;
+        const char *what;
+        int found;
+    } classes[] = {
+        {DAL_D_LINEAR, "D affine in v", d->linear},
+        {DAL_D_CONSTANT, "D linear, constant coefficients", d->constant},
+        {DAL_D_BILINEAR, "D bilinear in (q,v)", d->bilinear},
+        {DAL_D_QUADRATIC, "D quadratic in (q,v)", d->quadratic},
+    };
+    for (size_t k = 0; k < sizeof classes / sizeof classes[0]; k++) {
+        const int claimed = (c->system->properties & classes[k].property) != 0;
+        const int found = classes[k].found;
+        const check_result result = !claimed ? CHECK_INFO : found ? CHECK_OK : CHECK_FAIL;
+        check_item(c, result, classes[k].what, "%s%s", found ? "yes" : "no",
+                   claimed == found ? ""
+                   : claimed        ? claimed_only
+                                    : found_only);
+    }
+}
+
+void check_constraints(check *c)
+{
+    dal_degree d;
+    dal_callback *D = c->system->constraints;
+    if (c->m == 0) return;
+    const motion_rate on = measure_rate(c, D, c->m, -1, c->surface, c->surface_count);
+    const motion_rate off = measure_rate(c, D, c->m, -1, c->near, c->near_count);
+    check_motion_rate(c, "dD/dt along F, on D = 0", &on, zero);
+    check_motion_rate(c, "dD/dt along F, off D = 0", &off, zero);
+    double *degree = cli_calloc((size_t)c->m + 1, sizeof *degree);
+    const dal_status status = dal_measure_degree(c->probe, &c->origin, &d, degree);
+    if (cli_is_ok(status)) {
+        print_homogeneity(c, &d, degree);
+        check_classes(c, &d);
+        list_methods(c, d.constant,
+                     DAL_KEEPS_D | (d.bilinear ? DAL_KEEPS_BILINEAR : 0u) |
+                         (d.quadratic ? DAL_KEEPS_QUADRATIC : 0u));
+    } else {
+        check_item(c, CHECK_UNMEASURED, "class of D", "%s", dal_status_text(status));
+    }
+    free(degree);
+}
+
+/* ---- energy, invariants, reversal ---- */
+
+static void check_system_energy(check *c)
+{
+    enum conservation { NOT, ON_D, EXACT };
+    static const char *const texts[] = {"not conserved", "conserved on D = 0 only",
+                                        "conserved on every level of D"};
+    dal_callback *E = c->system->energy;
+    const unsigned properties = c->system->properties;
+    const motion_rate on = measure_rate(c, E, 1, 0, c->surface, c->surface_count);
+    const motion_rate off = measure_rate(c, E, 1, 0, c->near, c->near_count);
+    check_motion_rate(c, "|dE/dt| along F, on D = 0", &on, INFINITY);
+    if (c->m > 0) check_motion_rate(c, "|dE/dt| along F, off D = 0", &off, INFINITY);
+    if (on.measured == 0 || off.measured == 0) {
+        check_item(c, CHECK_UNMEASURED, "energy E", "its rates are not known");
+        return;
+    }
+    const enum conservation found = off.max <= zero ? EXACT : on.max <= zero ? ON_D : NOT;
+    const enum conservation claimed = properties & DAL_E_EXACT  ? EXACT
+                                      : properties & DAL_E_WEAK ? ON_D
+                                                                : NOT;
+    check_item(c, found >= claimed ? CHECK_OK : CHECK_FAIL, "energy E", "%s%s", texts[found],
+               found < claimed   ? ", but the system claims more"
+               : found > claimed ? found_only
+                                 : "");
+}
+
+void check_energy(check *c)
+{
+    const dal_system *s = c->system;
+    if (s->energy)
+        check_system_energy(c);
+    else
+        check_item(c, CHECK_INFO, "energy E", "none is known: there is no Lagrangian");
+    for (int i = 0; i < s->invariants; i++) {
+        char what[32];
+        snprintf(what, sizeof what, "invariant %.20s", s->invariant[i]);
+        const motion_rate rate =
+            measure_rate(c, s->invariant_values, s->invariants, i, c->surface, c->surface_count);
+        check_motion_rate(c, what, &rate, zero);
+    }
+}
+
+void check_reversal(check *c)
+{
+    static const char *const parity[] = {"D(q,-v) = -D(q,v)", "neither even nor odd in v",
+                                         "D(q,-v) = +D(q,v)"};
+    static const char what[] = "F(q,-v,-t) = F(q,v,t)";
+    dal_degree d;
+    const dal_status status = dal_measure_degree(c->probe, &c->origin, &d, NULL);
+    if (!cli_is_ok(status) || isnan(d.force_defect)) {
+        check_item(c, CHECK_UNMEASURED, what, "%s",
+                   dal_status_text(cli_is_ok(status) ? DAL_NOT_FINITE : status));
+        return;
+    }
+    check_item(c, CHECK_INFO, what, "%s, largest difference %.2g",
+               d.reversible ? "yes: reversible" : "no: not reversible under v -> -v",
+               d.force_defect);
+    if (c->m > 0) check_item(c, CHECK_INFO, "D under v -> -v", "%s", parity[d.parity + 1]);
+}
+
+/* ---- derivatives ---- */
+
+void check_derivatives(check *c)
+{
+    static const double limit = 1e-8;
+    dal_derivatives max = {NAN, NAN, NAN, NAN}, d;
+    dal_status failure = DAL_OK;
+    int points = 0;
+    for (int k = 0; k < c->near_count; k++) {
+        const dal_status status = dal_measure_derivatives(c->probe, &c->near[k], &d);
+        if (!cli_is_ok(status)) {
+            failure = status;
+            continue;
+        }
+        points++;
+        max.jacobian = fmax(max.jacobian, d.jacobian);
+        max.adjoint = fmax(max.adjoint, d.adjoint);
+        max.normal = fmax(max.normal, d.normal);
+        max.gram = fmax(max.gram, d.gram);
+    }
+    if (points == 0) {
+        check_item(c, CHECK_UNMEASURED, "derivatives", "at none of %d points: %s", c->near_count,
+                   c->near_count > 0 ? dal_status_text(failure) : "F is not finite");
+        return;
+    }
+    const struct {
+        const char *what;
+        double value; /* NaN: there is nothing to compare */
+    } items[] = {{"F_q, F_v", max.jacobian},
+                 {"F_q^T pi, F_v^T pi of the lift", max.adjoint},
+                 {"A = dD/dv", max.normal},
+                 {"symmetry of G = A W^-1 A^T", max.gram}};
+    for (size_t k = 0; k < sizeof items / sizeof items[0]; k++)
+        if (!isnan(items[k].value)) check_bound(c, items[k].what, items[k].value, limit);
+}
+
+/* ---- the exact solution ---- */
+
+static bool exact_at(check *c, double t, double *out)
+{
+    return dal_probe_call(c->probe, c->system->exact, t, c->start, c->start, NULL, out) == DAL_OK;
+}
+
+/* The exact solution at t against the motion: max |(q',v') - (v,F)| / max(1, |(v,F)|), with (q',v')
+ * by differences of order 8 and increment d; infinite where something has no value. */
+static double exact_residual(check *c, double t, double d)
+{
+    static const double weight[] = {4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0};
+    const int n = c->n;
+    double *x = c->values, *q = x + 2 * n, *v = q + n, *field = v + n, *rate = field + n;
+    if (!exact_at(c, t, q) ||
+        dal_probe_call(c->probe, c->system->call.field, t, q, v, NULL, field) != DAL_OK)
+        return INFINITY;
+    memset(rate, 0, 2 * (size_t)n * sizeof *rate);
+    for (int k = 1; k <= 4; k++)
+        for (int side = -1; side <= 1; side += 2) {
+            if (!exact_at(c, t + side * k * d, x)) return INFINITY;
+            for (int i = 0; i < 2 * n; i++) rate[i] += side * weight[k - 1] * x[i] / d;
+        }
+    return analysis_distance(rate, v, 2 * n); /* the field stands behind v */
+}
+
+void check_exact(check *c)
+{
+    static const char start[] = "exact solution at t = 0";
+    static const char equation[] = "residual of q' = v, v' = F, t < 1";
+    static const double times[] = {0.125, 0.375, 0.625, 0.875};
+    double max = 0.0;
+    if (!c->system->exact) return;
+    const double distance =
+        exact_at(c, 0.0, c->values) ? analysis_distance(c->values, c->start, 2 * c->n) : INFINITY;
+    if (isinf(distance))
+        check_item(c, CHECK_UNMEASURED, start, "it has no value");
+    else
+        check_item(c, distance <= zero ? CHECK_OK : CHECK_INFO, start,
+                   distance <= zero ? "the start, to %.2g" : "another start, %.2g away", distance);
+    for (size_t k = 0; k < sizeof times / sizeof times[0]; k++) {
+        /* Which increment is best depends on how fast the solution is. */
+        double residual = INFINITY;
+        for (double d = 0.02; d > 1e-4; d *= 0.5)
+            residual = fmin(residual, exact_residual(c, times[k], d));
+        if (isinf(residual)) {
+            check_item(c, CHECK_UNMEASURED, equation, "the solution or F has no value near t = %g",
+                       times[k]);
+            return;
+        }
+        max = fmax(max, residual);
+    }
+    check_bound(c, equation, max, 1e-8);
+}
+
+/* ---- Dirac's algebra ---- */
+
+void check_algebra(check *c)
+{
+    dal_dirac d;
+    const int n = c->n;
+    const dal_point *at = c->surface_count > 0 ? &c->surface[0] : &c->origin;
+    const double e = c->start[c->size];
+    if (e == 0.0 || isinf(e)) return;
+    const dal_status status = dal_measure_dirac(c->probe, at, e, &d);
+    if (status == DAL_UNSUPPORTED) return;
+    if (!cli_is_ok(status)) {
+        check_item(c, CHECK_UNMEASURED, "brackets", "%s", dal_status_text(status));
+        return;
+    }
+    check_item(c, d.second_class == 2 * n ? CHECK_OK : CHECK_FAIL, "second-class constraints",
+               "rank %d of the %d x %d matrix of brackets, 2n = %d", d.second_class, d.constraints,
+               d.constraints, 2 * n);
+    check_item(c, d.first_class == 2 * n + 1 ? CHECK_OK : CHECK_FAIL, "first-class constraints",
+               "%d, 2n+1 = %d", d.first_class, 2 * n + 1);
+    check_bound(c, "{phi, H} on the surface", d.conservation, zero);
+    check_bound(c, "mu_q = v, mu_lambda = 0", d.multipliers, zero);
+    check_item(c, d.free_multipliers == 1 ? CHECK_OK : CHECK_FAIL, "free multipliers",
+               "%d (mu_e, the gauge)", d.free_multipliers);
+    check_item(c, d.secondary > 1e-3 ? CHECK_OK : CHECK_FAIL, "{primary phi, H} off pi = 0",
+               "%.2g: not 0, so that pi = 0, lambda = 0 are needed", d.secondary);
+    check_bound(c, "H on the surface", d.hamiltonian, zero);
+}
+
+/* ---- actions ---- */
+
+enum { NODES = 61, LIFTED_NODES = 21, MAX_REFINEMENTS = 6 };
+
+typedef struct sampled_path {
+    const char *method;
+    dal_space space;
+    double h, *rows;  /* [count * width] */
+    int count, width; /* states; numbers of each that are kept */
+} sampled_path;
+
+static bool sample_path(check *c, const sampled_path *path, const double *start)
+{
+    dal_run_spec spec = {.system = c->system,
+                         .options = dal_options_default(),
+                         .parameters = c->job->set.item,
+                         .parameter_count = c->job->set.count};
+    dal_run *run = NULL;
+    const size_t width = (size_t)path->width;
+    spec.options.step = path->h;
+    spec.options.space = path->space;
+    bool done = dal_method_parse(&spec.method, path->method, NULL) == DAL_OK &&
+                cli_is_ok(dal_run_create(&run, &spec, NULL)) &&
+                dal_run_set_state(run, 0.0, start, NULL) == DAL_OK;
+    for (int k = 0; done && k < path->count; k++) {
+        if (k > 0) done = dal_run_step(run, NULL) == DAL_OK;
+        memcpy(path->rows + (size_t)k * width, dal_run_state(run), width * sizeof *path->rows);
+    }
+    dal_run_free(run);
+    return done;
+}
+
+/* The action of a trajectory of gauss8, and of the same with a smooth bump on every coordinate. */
+static bool measure_actions(check *c, const sampled_path *path, double *solved, double *perturbed)
+{
+    const double e = c->start[c->size], pi = acos(-1.0);
+    if (!sample_path(c, path, c->start) ||
+        !cli_is_ok(dal_measure_action(c->probe, 0.0, path->h, NODES, path->rows, e, solved)))
+        return false;
+    for (int k = 0; k < NODES; k++) {
+        const double s = sin(pi * k / (NODES - 1));
+        for (int i = 0; i < c->n; i++) path->rows[k * c->n + i] += 1e-3 * s * s * s * s;
+    }
+    return cli_is_ok(dal_measure_action(c->probe, 0.0, path->h, NODES, path->rows, e, perturbed));
+}
+
+static void check_second_order_action(check *c)
+{
+    static const char what[] = "action int e/2 |q'' - F|^2 dt";
+    double solved = INFINITY, perturbed = 0.0;
+    bool done = false;
+    sampled_path path = {"gauss8", DAL_PHYSICAL, .h = 0.01, .count = NODES, .width = c->n};
+    path.rows = cli_calloc((size_t)NODES * (size_t)c->n, sizeof *path.rows);
+    /* With a smaller step where the motion is too fast for the differences. */
+    for (int k = 0; k < MAX_REFINEMENTS && !(solved < 1e-9 * perturbed); k++) {
+        done |= measure_actions(c, &path, &solved, &perturbed);
+        path.h *= 0.25;
+    }
+    free(path.rows);
+    if (done)
+        check_item(c, solved < 1e-9 * perturbed ? CHECK_OK : CHECK_FAIL, what,
+                   "%.2g on a trajectory, %.2g on a perturbed one", solved, perturbed);
+    else
+        check_item(c, CHECK_UNMEASURED, what,
+                   "gauss8 gives no trajectory, or F is not finite on it");
+}
+
+/* From p = 0.1, -0.1, .. and pi likewise, so that p, pi and pi_e change. */
+static void check_stationarity(check *c, const char *method, double limit)
+{
+    double defect;
+    char what[64];
+    sampled_path path = {method, DAL_LIFTED, .h = 0.01, .count = LIFTED_NODES,
+                         .width = 4 * c->n + 2};
+    const size_t width = (size_t)path.width;
+    path.rows = cli_calloc((LIFTED_NODES + 1) * width, sizeof *path.rows);
+    double *state = path.rows + LIFTED_NODES * width;
+    memcpy(state, c->start, (size_t)(c->size + 1) * sizeof *state);
+    for (int i = 2 * c->n + 1; i < 4 * c->n + 1; i++) state[i] = i % 2 ? 0.1 : -0.1;
+    snprintf(what, sizeof what, "d int P.X' - H, %s", method);
+    if (!sample_path(c, &path, state) ||
+        !cli_is_ok(
+            dal_measure_stationarity(c->probe, 0.0, path.h, LIFTED_NODES, path.rows, &defect)))
+        check_item(c, CHECK_UNMEASURED, what, "there is no trajectory");
+    else if (isinf(limit))
+        check_item(c, CHECK_INFO, what, "%.2g", defect);
+    else
+        check_bound(c, what, defect, limit);
+    free(path.rows);
+}
+
+void check_action(check *c)
+{
+    const double e = c->start[c->size];
+    if (c->system->multipliers > 0 || e == 0.0 || isinf(e)) return;
+    check_second_order_action(c);
+    if (!c->system->call.adjoint) return;
+    check_stationarity(c, "implicit-midpoint", 1e-8);
+    check_stationarity(c, "rk4", INFINITY);
+}
