@@ -1,4 +1,5 @@
-/* analysis.c - arguments, outputs and distances of the commands that examine a system or a motion. */
+/* analysis.c - arguments, outputs and distances of the commands that examine a system or a
+ * motion. */
 #include "analysis.h"
 
 #include <math.h>
