@@ -91,6 +91,50 @@ exports() {
         sed 's/^\t\(.*\)/\1 is declared but not exported/; t; s/$/ is exported but not declared/'
 }
 
+# The words that texts do without.
+words() {
+    git ls-files | grep -v '^tests/cli/data/\|\.npy$\|^LICENSE$\|^tools/lint/words\|\.svg$\|\.png$' |
+        xargs awk -f $here/words.awk $here/words.txt
+}
+# Each header compiles on its own, and declares what the file of its name defines.
+alone() {
+    for header in $(find include lib cli tests bench -name '*.h'); do
+        case $header in
+        cli/*) place=-Icli ;;
+        lib/kernel/*) place="-Ilib -DDAL_LANES=1 -DDAL_GROUP=1" ;;
+        *) place=-Ilib ;;
+        esac
+        ${CC:-cc} -std=c11 -D_POSIX_C_SOURCE=200809L -Iinclude $place -I"$BUILD/generated" \
+            -fsyntax-only -Wno-unused -x c "$header" >/dev/null 2>&1 ||
+            echo "$header: does not compile on its own"
+    done
+}
+headers() {
+    where=$BUILD/declared-where.txt
+    find include lib cli -name '*.h' | xargs ctags -x --c-kinds=p --_xformat='prototype %F %N %{line}' >"$where"
+    find lib cli -name '*.c' | xargs ctags -x --c-kinds=f --_xformat='function %F %N %{line}' >>"$where"
+    find lib cli -name '*.c' | xargs awk -f $here/headers.awk "$where"
+}
+crowded() {
+    find lib cli -name '*.c' | sed 's#/[^/]*$##' | sort | uniq -c |
+        awk '$1 > 20 { print $2 ": " $1 " sources (20 at most)" }'
+}
+# What the static functions are: see functions.awk.  ONCE=lib/run lists those that are called once and
+# have at most 8 lines there.
+static_functions() { # REPORT
+    find lib cli integrators -name '*.c' >"$BUILD/sources.txt"
+    xargs ctags -x --c-kinds=f --_xformat='%F %{line} %{end} %N' <"$BUILD/sources.txt" >"$BUILD/ctags.txt"
+    xargs awk -v report="$1" -v list="${ONCE-}" -v by="${BY-}" -f $here/functions.awk "$BUILD/ctags.txt" <"$BUILD/sources.txt"
+}
+names() { static_functions names; }
+once() { static_functions once; }
+table() { static_functions table; }
+
+# Single checks by name: sh tools/lint/lint.sh words headers
+if [ $# -gt 0 ]; then
+    for single; do check "$single" $single; done
+    exit $failed
+fi
 check "format" format
 check "who may include what" includes
 check "lines and files" sizes

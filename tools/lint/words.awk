@@ -1,0 +1,22 @@
+# words.awk - reads words.txt, then texts, and names the lines that use one of its words.
+FILENAME ~ /lint\/words\.txt$/ {
+    if (/^#/ || NF == 0) next
+    split($0, part, /  +/)
+    count = split(part[1], word, "|")
+    for (i = 1; i <= count; i++) {
+        pattern = tolower(word[i])
+        if (word[i] == toupper(word[i])) { capitals = capitals "|" word[i]; continue }
+        gsub(/ /, "[ _]", pattern)
+        all = all "|" pattern
+    }
+    next
+}
+FNR == 1 { pattern = "(^|[^a-z])(" substr(all, 2) ")([^a-z]|$)"; upper = "(^|[^A-Z])(" substr(capitals, 2) ")([^A-Z]|$)" }
+{
+    line = tolower($0)
+    if (match(line, pattern) || match($0, upper)) {
+        found = substr($0, RSTART, RLENGTH)
+        gsub(/^[^A-Za-z]|[^A-Za-z]$/, "", found)
+        print FILENAME ":" FNR ": \"" found "\"; see tools/lint/words.txt"
+    }
+}
