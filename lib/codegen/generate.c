@@ -231,8 +231,8 @@ static void put_enums(dal__generation *g)
 /* The parts of the kernel that the method needs. */
 static void put_kernel(dal__generation *g)
 {
-    static const char *const always[] = {"num.h", "elementary.h", "carried.h", "step.h",
-                                         "algebra.h"};
+    static const char *const always[] = {"num.h", "elementary.h", "carried.h",
+                                         "try.h", "step.h",       "algebra.h"};
     const bool euler = dal__method_uses(g, "dal_polarised_euler");
     const bool collocation = dal__method_uses(g, "dal_collocation");
     for (size_t i = 0; i < sizeof always / sizeof *always; i++)

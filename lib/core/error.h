@@ -3,6 +3,7 @@
 #define DAL_ERROR_H
 
 #include "dalembert.h"
+#include "kernel/try.h"
 
 #if defined(__GNUC__)
 #define DAL__PRINTF(f, a) __attribute__((format(printf, f, a)))
@@ -49,11 +50,5 @@ dal_status dal__check_settings(const dal_setting *settings, int count, const cha
                                dal_error *error);
 /* Whether a spec has a system and its settings; nothing else of it is looked at. */
 dal_status dal__check_spec(const dal_run_spec *spec, dal_error *error);
-
-#define DAL_TRY(expression)                                                                        \
-    do {                                                                                           \
-        dal_status dal__s = (expression);                                                          \
-        if (dal__s != DAL_OK) return dal__s;                                                       \
-    } while (0)
 
 #endif

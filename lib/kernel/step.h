@@ -9,17 +9,7 @@
 #define DAL_KERNEL_STEP_H
 
 #include "carried.h"
-
-/* Without this a compiler takes what comes after many of them for cold and leaves it slow. */
-#define DAL_RARELY(condition) __builtin_expect(!!(condition), 0)
-
-#ifndef DAL_TRY
-#define DAL_TRY(expression)                                                                        \
-    do {                                                                                           \
-        dal_status dal__s = (expression);                                                          \
-        if (DAL_RARELY(dal__s != DAL_OK)) return dal__s;                                           \
-    } while (0)
-#endif
+#include "try.h"
 
 typedef struct dal_step dal_step;
 
@@ -218,7 +208,6 @@ DAL_INLINE void dal_ask_group(dal_step *s, int group, dal_question question, dou
 #endif
 
 /* Where the parts of a state begin. */
-DAL_INLINE int dal_at_v(const dal_step *s) { return DAL_N(s); }
 DAL_INLINE int dal_at_e(const dal_step *s) { return 2 * DAL_N(s); }
 DAL_INLINE int dal_at_p(const dal_step *s) { return 2 * DAL_N(s) + 1; }
 DAL_INLINE int dal_at_pi(const dal_step *s) { return 3 * DAL_N(s) + 1; }

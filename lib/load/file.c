@@ -1,6 +1,5 @@
 /* file.c - system files on disk and those that travel inside the library. */
 #include "model/mechanics.h"
-#ifndef DAL_WITHOUT_YAML
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -66,5 +65,3 @@ dal_status dal_model_builtin(dal_model **model, const char *name, dal_error *err
     }
     return dal__unknown(error, "system", name, names, count);
 }
-
-#endif

@@ -6,7 +6,6 @@
  * "' ", which means the same to a formula and is as long.  Only double quotes with escapes and
  * texts that are no formulas are taken as libyaml unfolds them. */
 #include "model/mechanics.h"
-#ifndef DAL_WITHOUT_YAML
 #include <stdlib.h>
 #include <string.h>
 #include <yaml.h>
@@ -324,5 +323,3 @@ dal_status dal_model_read(dal_model **model, const char *name, const char *text,
         dal_model_free(made);
     return status;
 }
-
-#endif
