@@ -5,10 +5,10 @@
 # A mutant is a copy of the sources with one line changed (candidates.awk): a comparison exchanged or
 # off by one, && for ||, + for -, * for /, a constant changed, a condition negated, a statement
 # deleted.  SEED draws COUNT of all those that MODULE has.  Each is built below BUILD/mutants, at -O1
-# and without the variants for instruction sets, since a source of several widths must be changed in
-# all of them.  The suites of the module (suites.txt) run until one fails, then the parts of the
-# command line; a mutant that takes LIMIT times as long as the sources themselves is ended and counts
-# as noticed, as one that crashes does.
+# and with few variants, since a source of several widths must be changed in all of them; one is for
+# AVX2, so that code for it runs as well.  The suites of the module (suites.txt) run until one fails,
+# then the parts of the command line; a mutant that takes LIMIT times as long as the sources
+# themselves is ended and counts as noticed, as one that crashes does.
 #
 # A mutant that does not compile, or has the same machine code, is drawn again.  Those that no test
 # can notice are listed with their reason in equivalent.txt.  The others that are left are the
@@ -22,6 +22,7 @@ place=$root/$BUILD/mutants
 case $BUILD in /*) place=$BUILD/mutants ;; esac
 tree=$place/tree
 variants="x1 x1_LONGER x4 x8 x64"
+grep -q avx2 /proc/cpuinfo 2>/dev/null && variants="x1 x1_LONGER x4_AVX2 x8 x64"
 CC=${CC:-cc}
 unset MAKEFLAGS MFLAGS MAKELEVEL
 cd "$root" || exit 2
