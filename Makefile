@@ -33,7 +33,8 @@ PLACE = -Ilib
 LIBS  = -lyaml -lm -pthread
 
 VERSION := $(shell sed -n 's/^.define DAL_VERSION "\(.*\)"/\1/p' include/dalembert.h)
-SONAME  := libdalembert.so.$(firstword $(subst ., ,$(VERSION)))
+# Before 1.0 a minor version may change the interface.
+SONAME  := libdalembert.so.$(basename $(VERSION))
 
 # Sources over num - files named *_wide.c, and every integrator - are compiled once per variant: a
 # number of lanes and an instruction set, chosen when a batch is made.  Of two with the same lanes

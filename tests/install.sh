@@ -58,7 +58,10 @@ awk "$near"' { near($2, sin(1), 1e-4); near($3, 1 - cos(1), 1e-4); near($4, 1, 1
 "$prefix/bin/dalembert" check "$prefix/share/dalembert/systems/chaplygin-sleigh.yaml" \
     >/dev/null || fail "the installed system file does not pass its check"
 [ -s "$prefix/share/man/man1/dalembert.1" ] || fail "no man page"
-[ "$(readlink "$prefix/lib/libdalembert.so")" = libdalembert.so.0 ] || fail "no soname link"
+# Before 1.0 the soname has the minor version: libdalembert.so.0.2 of 0.2.0.
+soname=libdalembert.so.$("$prefix/bin/dalembert" --version | sed 's/.* //; s/\.[0-9]*$//')
+[ "$(readlink "$prefix/lib/libdalembert.so")" = "$soname" ] || fail "no link to $soname"
+objdump -p "$prefix/lib/$soname" | grep -q "SONAME *$soname\$" || fail "the soname is not $soname"
 
 # DESTDIR, with a space; uninstall leaves no file.
 quiet $make --no-print-directory BUILD="$build" PREFIX=/opt/dal DESTDIR="$root/a b" install

@@ -115,6 +115,12 @@ headers() {
     find lib cli -name '*.c' | xargs ctags -x --c-kinds=f --_xformat='function %F %N %{line}' >>"$where"
     find lib cli -name '*.c' | xargs awk -f $here/headers.awk "$where"
 }
+# Directories depend on each other in one direction, as docs/dependencies.dot draws it.
+dependencies() {
+    sh $here/dependencies.sh >"$BUILD/dependencies.dot" || return 1
+    cmp -s "$BUILD/dependencies.dot" docs/dependencies.dot ||
+        echo "docs/dependencies.dot: sh tools/lint/dependencies.sh >docs/dependencies.dot"
+}
 crowded() {
     find lib cli -name '*.c' | sed 's#/[^/]*$##' | sort | uniq -c |
         awk '$1 > 20 { print $2 ": " $1 " sources (20 at most)" }'
@@ -137,6 +143,7 @@ if [ $# -gt 0 ]; then
 fi
 check "format" format
 check "who may include what" includes
+check "dependencies of directories" dependencies
 check "lines and files" sizes
 check "functions" functions
 check "nesting" nesting
