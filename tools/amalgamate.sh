@@ -1,6 +1,6 @@
 #!/bin/sh
 # amalgamate.sh FILE.h - writes FILE.h with every #include "..." replaced by that file, once each;
-# names are looked up beside the file that includes them.
+# names are searched beside the file that includes them.
 exec awk '
 function inline(path, folder, line, name) {
     folder = path

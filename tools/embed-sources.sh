@@ -1,5 +1,5 @@
 #!/bin/sh
-# embed-sources.sh FILE... - writes the C table of the sources that travel inside the library for
+# embed-sources.sh FILE... - writes the C table of the sources that are embedded in the library for
 # generated files, without their #include lines: a generated file holds them all.
 set -e
 echo '#include "codegen/generate.h"'

@@ -1,4 +1,4 @@
-# includes.awk - reads includes.txt, then sources, and names every include the house forbids.
+# includes.awk - reads includes.txt, then sources, and names every include that is not allowed.
 BEGIN {
     libc = "<(errno|float|inttypes|limits|math|stdarg|stdbool|stddef|stdint|stdio|stdlib|string)\\.h>"
     posix = "<(fcntl|pthread|signal|stdatomic|strings|termios|time|unistd|sys/[a-z]+)\\.h>"
@@ -13,15 +13,15 @@ FILENAME ~ /includes\.txt$/ {
     allowed[$1] = "^(" rule ")$"
     next
 }
-FNR == 1 { place = house(FILENAME) }
+FNR == 1 { place = place_of(FILENAME) }
 /^[ \t]*#[ \t]*include/ {
     name = $0
     sub(/^[ \t]*#[ \t]*include[ \t]*/, "", name)
     sub(/[ \t]*(\/\*.*)?$/, "", name)
-    if (place == "") print FILENAME ": stands in no place of the house"
+    if (place == "") print FILENAME ": lies in no place of includes.txt"
     else if (!fits(name)) print FILENAME ":" FNR ": " place " may not include " name
 }
-function house(file) {
+function place_of(file) {
     do if (file in allowed) return file
     while (sub(/\/[^\/]*$/, "", file))
     return ""

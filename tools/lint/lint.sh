@@ -1,19 +1,19 @@
 #!/bin/sh
-# lint.sh - the rules of the house, checked on sources and on object files.  Every check prints
-# what it finds, one finding a line; any finding fails.  BUILD names a finished plain build.
+# lint.sh - the rules of the project, checked on sources and on object files.  Every check prints
+# violations, one a line; any violation fails.  BUILD names a finished plain build.
 cd "$(dirname "$0")/../.." || exit 2
 BUILD=${BUILD:-build}
 here=tools/lint
 failed=0
 
-check() { # TITLE COMMAND...: a finding is a line of output, or a command that fails
+check() { # TITLE COMMAND...: a violation is a line of output, or a command that fails
     title=$1
     shift
-    if findings=$("$@" 2>&1) && [ -z "$findings" ]; then
+    if violations=$("$@" 2>&1) && [ -z "$violations" ]; then
         echo "lint: $title: ok"
     else
         echo "lint: $title:"
-        echo "$findings" | sed 's/^/    /'
+        echo "$violations" | sed 's/^/    /'
         failed=1
     fi
 }

@@ -17,6 +17,6 @@ FNR == 1 { pattern = "(^|[^a-z])(" substr(all, 2) ")([^a-z]|$)"; upper = "(^|[^A
     if (match(line, pattern) || match($0, upper)) {
         found = substr($0, RSTART, RLENGTH)
         gsub(/^[^A-Za-z]|[^A-Za-z]$/, "", found)
-        print FILENAME ":" FNR ": \"" found "\"; see tools/lint/words.txt"
+        print FILENAME ":" FNR ": " found
     }
 }
