@@ -1,75 +1,63 @@
-/* order.c - `dalembert order`: error against step and against work, for many methods at once. */
-#include "order.h"
+/* order.c - `dalembert order`: the error of many methods against step and against work.
+ *
+ * First a reference; then every method at every step, on threads; then a table, a CSV file and two
+ * diagrams. */
+#include "analysis.h"
+#include "io/gnuplot.h"
 #include "run/pool.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* name, value, default, help */
-#define OWN_LIST(X)                                                                                \
-    X(integrators, "LIST|all", "all", "integrators, with modifiers or not: rk4,gauss4+project")    \
-    X(steps, "H1,H2,..", NULL, "step sizes, falling, at most 8; instead of --step and --levels")   \
-    X(levels, "K", "4", "so many step sizes, each half the one before it")                         \
-    X(threads, "N", NULL, "runs at a time (one per processor); no number depends on it")           \
-    X(output, "DIR|FILE.csv", NULL, "the same as CSV; a directory gets the diagrams as well")
+/* A run this short is repeated, and its shortest time counts; steps between two polls of the
+ * signals. */
+static const double short_time = 0.01;
+enum { MAX_REPEATS = 3, CHUNK = 1000, MAX_NAME = 128 };
+/* The smallest error that is claimed of a reference. */
+static const double rounding = 1e-16;
 
-enum { OWN_LIST(CLI_OWN) OWN_OPTIONS };
+/* The result of a method.  code, word */
+#define ORDER_STATE_LIST(STATE)                                                                    \
+    STATE(DONE, "done") STATE(FAILED, "failed") STATE(REFUSED, "refused")
 
-static const cli_option own[OWN_OPTIONS] = {OWN_LIST(CLI_OPTION)};
+typedef enum order_state {
+#define STATE_CODE(code, word) ORDER_##code,
+    ORDER_STATE_LIST(STATE_CODE)
+#undef STATE_CODE
+} order_state;
 
-static void adapt_options(cli_option *options)
-{
-    options[JOB_step].initial = "0.1";
-    options[JOB_time].initial = "10";
-    options[JOB_space].initial = "physical";
-}
+static const char *const state_words[] = {
+#define STATE_WORD(code, word) word,
+    ORDER_STATE_LIST(STATE_WORD)
+#undef STATE_WORD
+};
 
-static const char notes[] =
-    "SYSTEM is a built-in name or the path of a system file.  --step is the largest step (0.1),\n"
-    "--time the time at which errors are taken (10), and the space is (q,v) unless --space lifted\n"
-    "is given.\n"
-    "\n"
-    "The error is the greatest difference in q and v at T, relative to max(1, |x|), from the\n"
-    "exact solution where the system has one that begins at this start; else from gauss12\n"
-    "(dop853 where that does not converge) with half the smallest step, whose own error is told.\n"
-    "The order found is the slope between the last two of three steps whose errors are above\n"
-    "rounding, above ten times that error and below half the solution, where their two slopes\n"
-    "agree so far that the next term of the error moves it by 0.1 at most; elsewhere none is\n"
-    "found ('-').  Methods that cannot serve the system are listed with the reason; the exit\n"
-    "status is 3 when one failed on its way.\n"
-    "\n"
-    "DIR gets order.csv, and by gnuplot order.svg (error against step) and work.svg (error "
-    "against\n"
-    "evaluations of F, and against processor time), with their scripts.  Only times vary from one\n"
-    "run of the command to another.\n";
+typedef struct order_method {
+    dal_method method;
+    char name[MAX_NAME];
+    dal_order order;                     /* error is NaN where the run failed */
+    double seconds[DAL_ORDER_LEVELS];    /* of processor time */
+    dal_error failure[DAL_ORDER_LEVELS]; /* status DAL_OK where the run succeeded */
+    order_state state;                   /* failed: at one step at least */
+} order_method;
 
-typedef struct wishes {
+typedef struct order_study {
+    cli_job job;
     const char *integrators, *steps, *output;
-    long long levels, threads;
-} wishes;
+    long long level_count, threads;
+    dal_run_spec spec; /* but for method and step */
+    double step[DAL_ORDER_LEVELS];
+    int levels;
+    order_method *methods;
+    int method_count;
+    int numbers;       /* that are compared: q, v and vakonomic g */
+    double *reference; /* [numbers] at T, and room for as many */
+    char reference_text[MAX_NAME];
+    double noise; /* the error of the reference; 0 where it is not known */
+} order_study;
 
-static int take(void *user, int k, const char *value)
-{
-    wishes *w = user;
-    switch (k) {
-    case OWN_integrators:
-        w->integrators = value;
-        return CLI_DONE;
-    case OWN_steps:
-        w->steps = value;
-        return CLI_DONE;
-    case OWN_levels:
-        return cli_integer("--levels", value, 2, DAL_ORDER_LEVELS, &w->levels);
-    case OWN_threads:
-        return cli_integer("--threads", value, 1, POOL_MOST, &w->threads);
-    default:
-        w->output = value;
-        return CLI_DONE;
-    }
-}
-
-/* ---- the list of methods ------------------------------------------------------------------- */
+/* ---- lists of methods and steps ------------------------------------------------------------ */
 
 static int add_method(order_study *s, const char *name)
 {
@@ -79,46 +67,21 @@ static int add_method(order_study *s, const char *name)
         return cli_error(CLI_USAGE, NULL, &error);
     const size_t count = (size_t)s->method_count + 1;
     s->methods = cli_realloc(s->methods, count * sizeof *s->methods);
-    order_method *list = s->methods + s->method_count++;
-    *list = (order_method){.method = method};
-    dal_method_name(&method, list->name, sizeof list->name);
+    order_method *added = s->methods + s->method_count++;
+    *added = (order_method){.method = method};
+    dal_method_name(&method, added->name, sizeof added->name);
     return CLI_DONE;
 }
 
-static int add_all(order_study *s)
+static int add_methods(order_study *s, const char *name)
 {
     const dal_integrator *k;
     int status = CLI_DONE;
+    if (strcmp(name, "all") != 0) return add_method(s, name);
     for (int i = 0; status == CLI_DONE && (k = dal_integrator_at(i)); i++)
         if (!(k->claims & DAL_MODIFIER)) status = add_method(s, k->name);
     return status;
 }
-
-/* Calls add for each piece of a list between commas. */
-static int each_piece(order_study *s, const char *list, const char *what,
-                      int (*add)(order_study *s, const char *piece))
-{
-    int status = CLI_DONE;
-    while (status == CLI_DONE) {
-        char piece[ORDER_NAME];
-        const size_t length = strcspn(list, ",");
-        if (length == 0 || length >= sizeof piece)
-            return cli_fail(CLI_USAGE, "%s: '%.40s' is not a list between commas", what, list);
-        memcpy(piece, list, length);
-        piece[length] = '\0';
-        status = add(s, piece);
-        if (!list[length]) break;
-        list += length + 1;
-    }
-    return status;
-}
-
-static int add_piece(order_study *s, const char *name)
-{
-    return strcmp(name, "all") == 0 ? add_all(s) : add_method(s, name);
-}
-
-/* ---- the list of steps --------------------------------------------------------------------- */
 
 static int add_step(order_study *s, const char *text)
 {
@@ -132,17 +95,31 @@ static int add_step(order_study *s, const char *text)
     return CLI_DONE;
 }
 
-static int list_steps(order_study *s, const wishes *w)
+/* Adds each item of a list between commas. */
+static int add_items(order_study *s, const char *list, const char *option,
+                     int (*add)(order_study *s, const char *item))
 {
-    if (w->steps) return each_piece(s, w->steps, "--steps", add_step);
-    s->levels = (int)w->levels;
-    for (int i = 0; i < s->levels; i++) s->step[i] = ldexp(s->job.options.step, -i);
-    return s->step[0] > 0.0 ? CLI_DONE : cli_fail(CLI_USAGE, "--step: it must be positive");
+    for (;;) {
+        char item[MAX_NAME];
+        const size_t length = strcspn(list, ",");
+        if (length == 0 || length >= sizeof item)
+            return cli_fail(CLI_USAGE, "%s: '%.40s' is not a list between commas", option, list);
+        memcpy(item, list, length);
+        item[length] = '\0';
+        const int status = add(s, item);
+        if (status != CLI_DONE || !list[length]) return status;
+        list += length + 1;
+    }
 }
 
-static int check_steps(const order_study *s)
+static int list_steps(order_study *s)
 {
     const double T = s->job.time;
+    int status = s->steps ? add_items(s, s->steps, "--steps", add_step) : CLI_DONE;
+    if (status != CLI_DONE) return status;
+    for (int i = 0; !s->steps && i < s->level_count; i++)
+        s->step[s->levels++] = ldexp(s->job.options.step, -i);
+    if (!(s->step[0] > 0.0)) return cli_fail(CLI_USAGE, "--step: it must be positive");
     if (s->levels < 2) return cli_fail(CLI_USAGE, "--steps: a slope needs two steps at least");
     for (int i = 0; i < s->levels; i++) {
         const double count = round(T / s->step[i]);
@@ -153,55 +130,412 @@ static int check_steps(const order_study *s)
     return CLI_DONE;
 }
 
-/* ---- the command --------------------------------------------------------------------------- */
+/* ---- runs ---------------------------------------------------------------------------------- */
 
-static int tell(const order_study *s, const char *output)
+typedef struct run_cost {
+    long long evaluations;
+    double seconds;
+} run_cost;
+
+/* The numbers that are compared, at T. */
+static dal_status run_to_end(const order_study *s, const dal_run_spec *spec, double *end,
+                             run_cost *cost, dal_error *error)
 {
-    analysis_output place = {0};
-    order_print(stdout, s);
-    int status = cli_close(stdout, "standard output");
-    if (status != CLI_DONE || !output) return status;
-    status = analysis_open(&place, output, "order");
-    if (status == CLI_DONE) status = order_write(s, place.table);
-    if (status == CLI_DONE && place.directory) status = order_draw(s, place.directory);
-    free(place.table);
+    dal_run *run;
+    dal_status status = dal_run_create(&run, spec, error);
+    if (status != DAL_OK) return status;
+    const double begin = cli_thread_seconds();
+    for (long long left = llround(s->job.time / spec->options.step); left > 0 && status == DAL_OK;
+         left -= CHUNK)
+        status = cli_interrupted() ? DAL_INTERRUPTED
+                                   : dal_run_advance(run, left < CHUNK ? left : CHUNK, error);
+    *cost = (run_cost){dal_run_evaluations(run), cli_thread_seconds() - begin};
+    memcpy(end, dal_run_state(run), (size_t)s->numbers * sizeof *end);
+    dal_run_free(run);
     return status;
 }
 
-static int any_failed(const order_study *s)
+/* The exact solution, where the system has one that begins at this start. */
+static bool use_exact_solution(order_study *s)
 {
-    for (int i = 0; i < s->method_count; i++)
-        if (s->methods[i].state == ORDER_FAILED) return 1;
-    return 0;
+    const dal_system *system = s->spec.system;
+    const cli_job *job = &s->job;
+    double *start = s->reference + s->numbers;
+    dal_probe *probe;
+    if (!system->exact || system->multipliers ||
+        !cli_is_ok(dal_probe_create(&probe, system, job->set.item, job->set.count, NULL)))
+        return false;
+    const bool found =
+        dal_probe_start(probe, job->start.item, job->start.count, start, NULL) == DAL_OK &&
+        dal_probe_call(probe, system->exact, 0.0, start, start, NULL, s->reference) == DAL_OK &&
+        analysis_distance(start, s->reference, s->numbers) <= 1e-10 &&
+        dal_probe_call(probe, system->exact, job->time, start, start, NULL, s->reference) ==
+            DAL_OK &&
+        isfinite(analysis_distance(s->reference, s->reference, s->numbers));
+    dal_probe_free(probe);
+    snprintf(s->reference_text, sizeof s->reference_text, "the exact solution");
+    return found;
 }
 
-static int go(order_study *s, const wishes *w)
+/* Two runs of a fine method: the finer is the reference, and their distance its error. */
+static dal_status use_method(order_study *s, const char *name, dal_error *error)
 {
-    dal_run_spec spec;
+    const double h = s->step[s->levels - 1];
+    double *coarse = s->reference + s->numbers;
+    run_cost cost;
+    dal_run_spec spec = s->spec;
+    dal_status status = dal_method_parse(&spec.method, name, error);
+    spec.options.space = DAL_PHYSICAL;
+    spec.options.step = h;
+    if (status == DAL_OK) status = run_to_end(s, &spec, coarse, &cost, error);
+    spec.options.step = 0.5 * h;
+    if (status == DAL_OK) status = run_to_end(s, &spec, s->reference, &cost, error);
+    if (status != DAL_OK) return status;
+    s->noise = fmax(analysis_distance(coarse, s->reference, s->numbers), rounding);
+    snprintf(s->reference_text, sizeof s->reference_text, "%s with h = %g, itself within %.0e",
+             name, 0.5 * h, s->noise);
+    return DAL_OK;
+}
+
+static int make_reference(order_study *s)
+{
+    dal_error error = {0};
+    s->numbers = 2 * s->spec.system->n + s->spec.system->multipliers;
+    s->reference = cli_calloc(2 * (size_t)s->numbers + 1, sizeof *s->reference);
+    if (use_exact_solution(s)) return CLI_DONE;
+    dal_status status = use_method(s, "gauss12", &error);
+    if (status == DAL_NOT_CONVERGED) status = use_method(s, "dop853", &error);
+    if (status == DAL_OK) return CLI_DONE;
+    return status == DAL_INTERRUPTED ? CLI_SIGNAL
+                                     : cli_error(cli_exit(status), "reference", &error);
+}
+
+/* Method i / levels at one of the steps, the smallest, which takes longest, first. */
+static void run_level(void *user, int i)
+{
+    order_study *s = user;
+    order_method *m = &s->methods[i / s->levels];
+    const int level = s->levels - 1 - i % s->levels;
+    dal_run_spec spec = s->spec;
+    spec.method = m->method;
+    spec.options.step = s->step[level];
+    double *end = cli_calloc((size_t)s->numbers + 1, sizeof *end);
+    dal_error *failure = &m->failure[level];
+    run_cost cost = {0};
+    m->seconds[level] = INFINITY;
+    failure->status = DAL_OK;
+    for (int k = 0; k < MAX_REPEATS && failure->status == DAL_OK; k++) {
+        failure->status = run_to_end(s, &spec, end, &cost, failure);
+        m->seconds[level] = fmin(m->seconds[level], cost.seconds);
+        if (cost.seconds > short_time) break;
+    }
+    m->order.step[level] = s->step[level];
+    m->order.evaluations[level] = cost.evaluations;
+    m->order.error[level] =
+        cli_is_ok(failure->status) ? analysis_distance(end, s->reference, s->numbers) : NAN;
+    free(end);
+}
+
+static int run_methods(order_study *s, int threads)
+{
+    pool_run(s->method_count * s->levels, threads, run_level, s);
+    if (cli_interrupted()) return CLI_SIGNAL;
+    for (order_method *m = s->methods; m < s->methods + s->method_count; m++) {
+        m->order.levels = s->levels;
+        dal_order_slopes(&m->order, s->noise);
+        for (int i = 0; i < s->levels; i++) {
+            dal_error *failure = &m->failure[i];
+            if (failure->status == DAL_OK) continue;
+            if (!failure->message[0])
+                snprintf(failure->message, sizeof failure->message, "%s",
+                         dal_status_text(failure->status));
+            m->state = failure->status == DAL_UNSUPPORTED ? ORDER_REFUSED : ORDER_FAILED;
+        }
+    }
+    return CLI_DONE;
+}
+
+/* ---- the table ----------------------------------------------------------------------------- */
+
+/* " x", or " -" where there is no number. */
+static void print_cell(const char *format, int width, double x)
+{
+    char text[32];
+    snprintf(text, sizeof text, format, x);
+    printf(" %*s", width, isnan(x) ? "-" : text);
+}
+
+static void print_method(const order_study *s, const order_method *m)
+{
+    const int last = s->levels - 1;
+    const double steps = round(s->job.time / s->step[last]);
+    const bool succeeded = m->failure[last].status == DAL_OK;
+    printf("%-21s %6d", m->name, dal_method_order(&m->method));
+    print_cell("%.2f", 6, m->order.order);
+    for (int i = 0; i < s->levels; i++) print_cell("%.1e", 7, m->order.error[i]);
+    print_cell("%.1f", 7, succeeded ? (double)m->order.evaluations[last] / steps : NAN);
+    print_cell("%.2f", 7, succeeded ? 1e6 * m->seconds[last] / steps : NAN);
+    putchar('\n');
+}
+
+/* The reason of the first failure. */
+static const char *failure_message(const order_study *s, const order_method *m)
+{
+    for (int i = 0; i < s->levels; i++)
+        if (m->failure[i].status != DAL_OK) return m->failure[i].message;
+    return "";
+}
+
+static int print_orders(const order_study *s)
+{
+    bool any_without_order = false;
+    printf("%s, error of (q,v) at t = %g, %s\nagainst %s\n\n", s->job.system, s->job.time,
+           s->spec.options.space == DAL_LIFTED ? "lifted" : "physical", s->reference_text);
+    printf("%-21s %13s  %-*s %15s\n", "", "order", 8 * s->levels - 1,
+           "error at h =", "cost of a step");
+    printf("%-21s %6s %6s", "integrator", "stated", "found");
+    for (int i = 0; i < s->levels; i++) print_cell("%.3g", 7, s->step[i]);
+    printf(" %7s %7s\n", "F", "us");
+    for (const order_method *m = s->methods; m < s->methods + s->method_count; m++) {
+        if (m->state == ORDER_REFUSED) continue;
+        print_method(s, m);
+        any_without_order |= isnan(m->order.order);
+    }
+    if (any_without_order)
+        fputs("\nno order found (-): the last two slopes do not agree, since the steps are too "
+              "large,\nor fewer than three errors lie between rounding and half the solution\n",
+              stdout);
+    for (const order_method *m = s->methods; m < s->methods + s->method_count; m++)
+        if (m->state != ORDER_DONE)
+            printf("\n%s: %s: %s", m->name, state_words[m->state], failure_message(s, m));
+    putchar('\n');
+    return cli_close(stdout, "standard output");
+}
+
+/* ---- CSV ----------------------------------------------------------------------------------- */
+
+static void write_number(FILE *out, double x)
+{
+    if (!isnan(x)) cli_put(out, x);
+    fputc(',', out);
+}
+
+/* At a step; level < 0: a method that was refused. */
+static void write_level(FILE *out, const order_study *s, const order_method *m, int level)
+{
+    cli_put_text(out, s->job.system);
+    fputc(',', out);
+    cli_put_text(out, m->name);
+    fprintf(out, ",%d,", dal_method_order(&m->method));
+    write_number(out, m->order.order);
+    if (level < 0) {
+        fprintf(out, ",,,,,,%s,", state_words[m->state]);
+        cli_put_text(out, failure_message(s, m));
+    } else {
+        const bool succeeded = m->failure[level].status == DAL_OK;
+        write_number(out, s->step[level]);
+        fprintf(out, "%lld,", llround(s->job.time / s->step[level]));
+        write_number(out, m->order.error[level]);
+        write_number(out, m->order.slope[level]);
+        write_number(out, succeeded ? (double)m->order.evaluations[level] : NAN);
+        write_number(out, succeeded ? m->seconds[level] : NAN);
+        fprintf(out, "%s,", state_words[succeeded ? ORDER_DONE : ORDER_FAILED]);
+        cli_put_text(out, m->failure[level].message);
+    }
+    fputc('\n', out);
+}
+
+static int write_orders(const order_study *s, const char *path)
+{
+    FILE *out = fopen(path, "w");
+    if (!out) return cli_io("write", path);
+    fputs("label,integrator,stated_order,observed_order,step,steps,error,slope,evaluations,seconds,"
+          "state,message\n",
+          out);
+    for (const order_method *m = s->methods; m < s->methods + s->method_count; m++) {
+        if (m->state == ORDER_REFUSED) write_level(out, s, m, -1);
+        for (int k = 0; m->state != ORDER_REFUSED && k < s->levels; k++) write_level(out, s, m, k);
+    }
+    return cli_close(out, path);
+}
+
+/* ---- diagrams ------------------------------------------------------------------------------ */
+
+static bool has_point(const order_study *s, const order_method *m)
+{
+    for (int i = 0; i < s->levels; i++)
+        if (m->order.error[i] > 0.0 && isfinite(m->order.error[i])) return true;
+    return false;
+}
+
+/* A panel of a figure: what is along x, and where it begins and ends, as parts of the width. */
+typedef struct panel {
+    const char *label, *column, *format;
+    double left, right;
+} panel;
+
+/* One curve for each method; with more of them than colours, dashes. */
+static void put_panel(FILE *script, const order_study *s, const panel *p)
+{
+    int drawn = 0;
+    fprintf(script,
+            "set xlabel '%s'\nset format x '%s'\nset lmargin at screen %.3f\n"
+            "set rmargin at screen %.3f\nplot \\\n",
+            p->label, p->format, p->left, p->right);
+    for (const order_method *m = s->methods; m < s->methods + s->method_count; m++) {
+        if (!has_point(s, m)) continue;
+        const int dash = drawn / GNUPLOT_COLOURS;
+        fputs(drawn ? ", \\\n  'order.csv' using (is(" : "  'order.csv' using (is(", script);
+        gnuplot_quote(script, m->name);
+        fprintf(script,
+                ") ? column('%s') : NaN):'error' with linespoints lw 1.4 ps 0.6 dt %d pt %d "
+                "lc rgb '%s' title ",
+                p->column, 1 + dash, 7 - 2 * (dash % 3), gnuplot_colour(drawn));
+        gnuplot_quote(script, m->name);
+        drawn++;
+    }
+    fputs("\nunset key\nunset ylabel\n", script);
+}
+
+static int draw_panels(const order_study *s, const char *directory, const char *name,
+                       const panel *panels, int count)
+{
+    char *path, title[2 * MAX_NAME];
+    int missing;
+    FILE *script = gnuplot_open(directory, name, "svg", 1100, 600, &path);
+    if (!script) return CLI_IO;
+    snprintf(title, sizeof title, "%.80s: error of (q,v) at t = %g", s->job.system, s->job.time);
+    fputs("is(name) = strcol('integrator') eq name && strcol('state') eq 'done'\n"
+          "set logscale xy\nset format y '%.0e'\nset ylabel 'error'\n"
+          "set xrange [*:*] noextend\nset offsets graph 0.05, graph 0.05\n"
+          "set tmargin at screen 0.92\nset bmargin at screen 0.12\n"
+          "set key at screen 0.79, screen 0.94 left top Left reverse samplen 2 maxrows 34 "
+          "spacing 0.95 font ',9'\nset multiplot title ",
+          script);
+    gnuplot_quote(script, title);
+    fputc('\n', script);
+    for (int i = 0; i < count; i++) put_panel(script, s, &panels[i]);
+    fputs("unset multiplot\n", script);
+    const int status = gnuplot_draw(directory, script, path, &missing);
+    free(path);
+    return status;
+}
+
+static int draw_orders(const order_study *s, const char *directory)
+{
+    static const panel order = {"step h", "step", "%g", 0.09, 0.76};
+    static const panel work[] = {{"evaluations of F", "evaluations", "%g", 0.09, 0.41},
+                                 {"processor time in seconds", "seconds", "%.0e", 0.47, 0.76}};
+    bool any = false;
+    for (int i = 0; i < s->method_count; i++) any |= has_point(s, &s->methods[i]);
+    int status = any ? draw_panels(s, directory, "order", &order, 1) : CLI_DONE;
+    if (any && status == CLI_DONE) status = draw_panels(s, directory, "work", work, 2);
+    return status;
+}
+
+/* ---- the command --------------------------------------------------------------------------- */
+
+/* name, value, default, help */
+#define OWN_LIST(OPTION)                                                                           \
+    OPTION(integrators, "LIST|all", "all",                                                         \
+           "integrators, with modifiers or not: rk4,gauss4+project")                               \
+    OPTION(steps, "H1,H2,..", NULL,                                                                \
+           "step sizes, falling, at most 8; replaces --step and --levels")                         \
+    OPTION(levels, "K", "4", "number of step sizes, each half the one before it")                  \
+    OPTION(threads, "N", NULL, "runs at a time (one per processor); results do not depend on it")  \
+    OPTION(output, "DIR|FILE.csv", NULL, "writes the table as CSV; a directory gets diagrams, too")
+
+enum { OWN_LIST(CLI_OWN) OWN_OPTIONS };
+
+static const cli_option own[OWN_OPTIONS] = {OWN_LIST(CLI_OPTION)};
+
+static const char notes[] =
+    "SYSTEM is the name of a built-in system or the path of a system file.  --step is the largest "
+    "step (0.1), --time the time of the errors (10), and the space is (q,v) unless --space lifted "
+    "is given.\n"
+    "\n"
+    "The error is the largest difference in q and v at T, relative to max(1, |x|), from the exact "
+    "solution where the system has one that begins at this start.  Otherwise the reference is "
+    "gauss12, or dop853 where gauss12 does not converge, with half the smallest step; the table "
+    "states its own error.  The order found is the slope between the last two of three steps whose "
+    "errors exceed rounding and ten times the error of the reference, and lie below half the "
+    "solution.  It is found only where the two slopes agree so well that the next term of the "
+    "error changes it by 0.1 at most; '-' means that none is found.  Methods that do not apply to "
+    "the system are listed with the reason.  The exit status is 3 when a run failed.\n"
+    "\n"
+    "DIR gets order.csv, and by gnuplot order.svg (error against step) and work.svg (error against "
+    "evaluations of F, and against processor time), with their scripts.  Only the times differ "
+    "between two runs of the command.\n";
+
+static int parse_option(void *user, int option, const char *value)
+{
+    order_study *s = user;
+    switch (option) {
+    case OWN_integrators:
+        s->integrators = value;
+        return CLI_DONE;
+    case OWN_steps:
+        s->steps = value;
+        return CLI_DONE;
+    case OWN_levels:
+        return cli_integer("--levels", value, 2, DAL_ORDER_LEVELS, &s->level_count);
+    case OWN_threads:
+        return cli_integer("--threads", value, 1, POOL_MOST, &s->threads);
+    default:
+        s->output = value;
+        return CLI_DONE;
+    }
+}
+
+static void adapt_options(cli_option *options)
+{
+    options[JOB_step].initial = "0.1";
+    options[JOB_time].initial = "10";
+    options[JOB_space].initial = "physical";
+}
+
+static int deliver_orders(const order_study *s)
+{
+    analysis_output output = {0};
+    int status = print_orders(s);
+    if (status != CLI_DONE || !s->output) return status;
+    status = analysis_open(&output, s->output, "order");
+    if (status == CLI_DONE) status = write_orders(s, output.table);
+    if (status == CLI_DONE && output.directory) status = draw_orders(s, output.directory);
+    free(output.table);
+    return status;
+}
+
+static int measure_orders(order_study *s)
+{
     if (!s->job.text[JOB_step]) s->job.options.step = 0.1;
     if (!s->job.text[JOB_time]) s->job.time = 10.0;
-    int status = list_steps(s, w);
-    if (status == CLI_DONE) status = check_steps(s);
-    if (status == CLI_DONE) status = each_piece(s, w->integrators, "--integrators", add_piece);
-    if (status == CLI_DONE) status = job_spec(&s->job, &spec);
+    int status = list_steps(s);
+    if (status == CLI_DONE) status = add_items(s, s->integrators, "--integrators", add_methods);
+    if (status == CLI_DONE) status = job_spec(&s->job, &s->spec);
     if (status != CLI_DONE) return status;
-    if (!s->job.text[JOB_space]) s->job.options.space = DAL_PHYSICAL;
-    s->threads = w->threads > 0 ? (int)w->threads : pool_threads();
+    if (!s->job.text[JOB_space]) s->spec.options.space = DAL_PHYSICAL;
     cli_catch_signals();
-    status = order_reference(s);
-    if (status == CLI_DONE) status = order_run(s);
-    if (status == CLI_DONE) status = tell(s, w->output);
-    return status == CLI_DONE && any_failed(s) ? CLI_FAILED : status;
+    status = make_reference(s);
+    if (status == CLI_DONE)
+        status = run_methods(s, s->threads > 0 ? (int)s->threads : pool_threads());
+    if (status == CLI_DONE) status = deliver_orders(s);
+    for (int i = 0; status == CLI_DONE && i < s->method_count; i++)
+        if (s->methods[i].state == ORDER_FAILED) status = CLI_FAILED;
+    return status;
 }
 
 int command_order(int argc, char **argv)
 {
-    const analysis_command command = {
-        own, OWN_OPTIONS, ANALYSIS_ROWS | ANALYSIS_OPTION(integrator), notes, take, adapt_options};
-    wishes w = {.integrators = "all", .levels = 4};
-    order_study s = {.job = job_begin()};
-    int status = analysis_read(argc, argv, &command, &s.job, &w);
-    if (status == CLI_GO_ON) status = go(&s, &w);
+    const analysis_command command = {.own = own,
+                                      .own_count = OWN_OPTIONS,
+                                      .without = ANALYSIS_ROWS | ANALYSIS_OPTION(integrator),
+                                      .notes = notes,
+                                      .parse = parse_option,
+                                      .adapt = adapt_options};
+    order_study s = {.job = job_begin(), .integrators = "all", .level_count = 4};
+    int status = analysis_read(argc, argv, &command, &s.job, &s);
+    if (status == CLI_GO_ON) status = measure_orders(&s);
     free(s.methods);
     free(s.reference);
     job_free(&s.job);
