@@ -1,4 +1,4 @@
-/* test_zoo_servo.c - reactions along directions B of their own: W F = b + B^T h, A F = -c. */
+/* test_reactions.c - reactions along directions B of their own: W F = b + B^T h, A F = -c. */
 #include "body.h"
 
 #include <CUnit/Basic.h>
@@ -230,9 +230,9 @@ static void test_loss(void)
     body_free(&b);
 }
 
-void suite_zoo_servo(void)
+void suite_reactions(void)
 {
-    CU_pSuite suite = CU_add_suite("zoo: servo", NULL, NULL);
+    CU_pSuite suite = CU_add_suite("reactions along directions of their own", NULL, NULL);
     CU_add_test(suite, "field", test_field);
     CU_add_test(suite, "adjoint", test_adjoint);
     CU_add_test(suite, "metric of projections", test_metric);

@@ -1,6 +1,6 @@
-/* test_zoo_forms.c - closed forms of systems whose files have none, for they need quadratures, hold
+/* test_closed_forms.c - closed forms of systems whose files have none, for they need quadratures, hold
  * for some parameters only, or give a part of the motion. */
-#include "zoo.h"
+#include "motion.h"
 
 #include <CUnit/Basic.h>
 #include <math.h>
@@ -11,7 +11,7 @@
 /* gauss8 in some hundred steps to the unit of time, RK4 and Simpson's rule in some thousand. */
 #define SMALL 1e-12
 
-static const zoo_settings none = {0};
+static const motion_settings none = {0};
 
 static bool near(double a, double b) { return fabs(a - b) < SMALL * fmax(1.0, fabs(b)); }
 
@@ -23,15 +23,15 @@ static void period_map(double R[3][3])
 {
     for (int j = 0; j < 3; j++) {
         double u = (j == 2) / sqrt(2.0);
-        const zoo_settings
+        const motion_settings
             set = {1, {{"eps", 0.0}}},
             start = {
                 6, {{"x", j == 0}, {"z", j == 1}, {"y", 1.0}, {"x'", -u}, {"y'", 0.0}, {"z'", u}}};
-        zoo z = zoo_open("contact-oscillator", DAL_PHYSICAL, PI / 256, set, start);
-        zoo_go(&z, 2 * PI);
+        motion z = motion_open("contact-oscillator", DAL_PHYSICAL, PI / 256, set, start);
+        motion_advance(&z, 2 * PI);
         CU_ASSERT(near(z.x[1], 1.0) && near(z.x[4], 0.0));
         R[0][j] = z.x[0], R[1][j] = z.x[2], R[2][j] = z.x[5] * sqrt(2.0);
-        zoo_close(&z);
+        motion_close(&z);
     }
 }
 
@@ -56,15 +56,15 @@ static void test_contact(void)
 static void test_levels(void)
 {
     for (int k = 0; k < 4; k++) {
-        const zoo_settings z0 = {1, {{"z0", -0.75 + 0.2 * k}}},
-                           angle = {1, {{"angle", PI / 9 * k}}};
-        zoo contact = zoo_open("contact-oscillator", DAL_PHYSICAL, 0.1, z0, none);
-        zoo chaos = zoo_open("chaotic-oscillators", DAL_PHYSICAL, 0.1, angle, none);
-        CU_ASSERT(fabs(zoo_energy(&contact) - 1.5) < 1e-15);
-        CU_ASSERT(fabs(zoo_invariant(&contact, 0) - 0.5) < 1e-15);
-        CU_ASSERT(fabs(zoo_energy(&chaos) - 3.06) < 1e-14);
-        zoo_close(&contact);
-        zoo_close(&chaos);
+        const motion_settings z0 = {1, {{"z0", -0.75 + 0.2 * k}}},
+                              angle = {1, {{"angle", PI / 9 * k}}};
+        motion contact = motion_open("contact-oscillator", DAL_PHYSICAL, 0.1, z0, none);
+        motion chaos = motion_open("chaotic-oscillators", DAL_PHYSICAL, 0.1, angle, none);
+        CU_ASSERT(fabs(motion_energy(&contact) - 1.5) < 1e-15);
+        CU_ASSERT(fabs(motion_invariant(&contact, 0) - 0.5) < 1e-15);
+        CU_ASSERT(fabs(motion_energy(&chaos) - 3.06) < 1e-14);
+        motion_close(&contact);
+        motion_close(&chaos);
     }
 }
 
@@ -86,30 +86,30 @@ static double elliptic(double s, const double *B)
 static void test_oscillator(void)
 {
     const double X = 0.8, B = 1.3;
-    const zoo_settings set = {2, {{"vx", X}, {"vy", B}}};
+    const motion_settings set = {2, {{"vx", X}, {"vy", B}}};
     for (int space = 0; space < 2; space++) {
-        zoo z =
-            zoo_open("nonholonomic-particle", space ? DAL_LIFTED : DAL_PHYSICAL, 0.01, set, none);
+        motion z = motion_open("nonholonomic-particle", space ? DAL_LIFTED : DAL_PHYSICAL, 0.01,
+                               set, none);
         for (int t = 1; t <= 4; t++) {
-            zoo_go(&z, t);
+            motion_advance(&z, t);
             double sigma = simpson(elliptic, &B, t), y = B * sin(t);
             CU_ASSERT(near(z.x[1], y) && near(z.x[0], X * sin(sigma)));
             CU_ASSERT(near(z.x[3], X * cos(sigma) / sqrt(1 + y * y)));
         }
-        zoo_close(&z);
+        motion_close(&z);
     }
 }
 
 /* A central force leaves x and y to themselves, and z' = y x' - x y' is a constant. */
 static void test_heisenberg(void)
 {
-    const zoo_settings set = {3, {{"kx", 1.0}, {"ky", 1.0}, {"kz", 0.0}}};
-    zoo z = zoo_open("heisenberg", DAL_LIFTED, 0.01, set, none);
-    zoo_go(&z, 3.0);
+    const motion_settings set = {3, {{"kx", 1.0}, {"ky", 1.0}, {"kz", 0.0}}};
+    motion z = motion_open("heisenberg", DAL_LIFTED, 0.01, set, none);
+    motion_advance(&z, 3.0);
     CU_ASSERT(near(z.x[0], 0.8 * cos(3.0) + 0.4 * sin(3.0)));
     CU_ASSERT(near(z.x[1], -0.5 * cos(3.0) + 0.9 * sin(3.0)));
     CU_ASSERT(near(z.x[2], 3.0 * (-0.5 * 0.4 - 0.8 * 0.9)));
-    zoo_close(&z);
+    motion_close(&z);
 }
 
 /* ---- the transmission ---- */
@@ -121,9 +121,9 @@ static void test_cvt(void)
 {
     static const double spins[] = {1.0, 2.6};
     for (int k = 0; k < 2; k++) {
-        const zoo_settings set = {1, {{"spin", spins[k]}}};
+        const motion_settings set = {1, {{"spin", spins[k]}}};
         double xi = 0.0, w = spins[k], h = 2.5e-4;
-        zoo z = zoo_open("pendulum-cvt", DAL_PHYSICAL, 0.01, set, none);
+        motion z = motion_open("pendulum-cvt", DAL_PHYSICAL, 0.01, set, none);
         for (int i = 0; i < 8000; i++) {
             double k1 = torque(0.2, xi), k2 = torque(0.2, xi + h / 2 * w);
             double k3 = torque(0.2, xi + h / 2 * (w + h / 2 * k1));
@@ -131,10 +131,10 @@ static void test_cvt(void)
             xi += h * w + h * h / 6 * (k1 + k2 + k3);
             w += h / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
         }
-        zoo_go(&z, 2.0);
+        motion_advance(&z, 2.0);
         CU_ASSERT(near(z.x[0], xi) && near(z.x[3], w));
-        CU_ASSERT(near(zoo_invariant(&z, 0), 0.5));
-        zoo_close(&z);
+        CU_ASSERT(near(motion_invariant(&z, 0), 0.5));
+        motion_close(&z);
     }
 }
 
@@ -143,27 +143,28 @@ static void test_cvt(void)
 /* The energy goes up and down, the moving energy does not; on a tilted table not even that. */
 static void test_turntable(void)
 {
-    zoo z = zoo_default("turntable-ball", 0.02);
-    double least = zoo_energy(&z), most = least, moving = zoo_invariant(&z, 0);
+    motion z = motion_default("turntable-ball", 0.02);
+    double least = motion_energy(&z), most = least, moving = motion_invariant(&z, 0);
     for (int k = 1; k <= 20; k++) {
-        zoo_go(&z, k);
-        least = fmin(least, zoo_energy(&z)), most = fmax(most, zoo_energy(&z));
-        CU_ASSERT(near(zoo_invariant(&z, 0), moving));
+        motion_advance(&z, k);
+        least = fmin(least, motion_energy(&z)), most = fmax(most, motion_energy(&z));
+        CU_ASSERT(near(motion_invariant(&z, 0), moving));
     }
     CU_ASSERT(most - least > 0.5 * least);
-    zoo_close(&z);
+    motion_close(&z);
 }
 
 /* A ball started with the drift i G/kappa keeps it: along the level lines, not down. */
 static void test_tilted(void)
 {
     double kappa = 1.3 * 0.4 / 1.4, G = 0.2 / 1.4, beta = 0.4, T = 4.0;
-    const zoo_settings set = {2, {{"u0", -G * sin(beta) / kappa}, {"v0", G * cos(beta) / kappa}}};
-    zoo z = zoo_open("turntable-ball-tilted", DAL_LIFTED, 0.02, set, none);
-    zoo_go(&z, T);
+    const motion_settings set = {2,
+                                 {{"u0", -G * sin(beta) / kappa}, {"v0", G * cos(beta) / kappa}}};
+    motion z = motion_open("turntable-ball-tilted", DAL_LIFTED, 0.02, set, none);
+    motion_advance(&z, T);
     CU_ASSERT(near(z.x[0], 0.5 - T * G * sin(beta) / kappa));
     CU_ASSERT(near(z.x[1], 0.2 + T * G * cos(beta) / kappa));
-    zoo_close(&z);
+    motion_close(&z);
 }
 
 /* ---- Suslov ---- */
@@ -175,15 +176,15 @@ static void test_suslov(void)
     double al = I13 / sqrt(I11), be = I23 / sqrt(I22), d = atan2(be, al);
     double c0 = sqrt(I11) * 0.5, s0 = sqrt(I22) * 0.4, rho = hypot(c0, s0), f0 = atan2(s0, c0);
     double k = rho * hypot(al, be) / sqrt(I11 * I22);
-    zoo z = zoo_default("suslov", 0.02);
+    motion z = motion_default("suslov", 0.02);
     for (int t = 2; t <= 8; t += 2) {
-        zoo_go(&z, t);
+        motion_advance(&z, t);
         double b = z.x[1], g = z.x[2], w1 = z.x[3] * sin(b) * sin(g) + z.x[4] * cos(g);
         double w2 = z.x[3] * sin(b) * cos(g) - z.x[4] * sin(g);
         double f = d + atan(sinh(k * t + asinh(tan(f0 - d))));
         CU_ASSERT(near(sqrt(I11) * w1, rho * cos(f)) && near(sqrt(I22) * w2, rho * sin(f)));
     }
-    zoo_close(&z);
+    motion_close(&z);
 }
 
 /* ---- nonlinear constraints ---- */
@@ -191,12 +192,13 @@ static void test_suslov(void)
 static void test_benenti(void)
 {
     for (int space = 0; space < 2; space++) {
-        zoo z = zoo_open("benenti", space ? DAL_LIFTED : DAL_PHYSICAL, 0.01, none, none);
-        double c = cos(0.7), across = (0.9 * 0.9 + 2 * 0.4 * 0.4) * c * c, E = zoo_energy(&z);
-        zoo_go(&z, 0.6);
-        CU_ASSERT(near(zoo_invariant(&z, 0), 0.9 - 0.4) && near(zoo_invariant(&z, 1), across));
-        CU_ASSERT(near(zoo_energy(&z), E));
-        zoo_close(&z);
+        motion z = motion_open("benenti", space ? DAL_LIFTED : DAL_PHYSICAL, 0.01, none, none);
+        double c = cos(0.7), across = (0.9 * 0.9 + 2 * 0.4 * 0.4) * c * c, E = motion_energy(&z);
+        motion_advance(&z, 0.6);
+        CU_ASSERT(near(motion_invariant(&z, 0), 0.9 - 0.4) &&
+                  near(motion_invariant(&z, 1), across));
+        CU_ASSERT(near(motion_energy(&z), E));
+        motion_close(&z);
     }
 }
 
@@ -204,15 +206,15 @@ static void test_benenti(void)
 static void test_pursuit(void)
 {
     const double k = 0.6, x0 = 2.0, meeting = x0 / (1 - k * k);
-    zoo z = zoo_default("pursuit", 0.005);
+    motion z = motion_default("pursuit", 0.005);
     for (int i = 1; i <= 5; i++) {
-        zoo_go(&z, 0.5 * i);
+        motion_advance(&z, 0.5 * i);
         double u = z.x[0] / x0, closing = hypot(z.x[0], z.x[1] - k * 0.5 * i);
         double y = x0 / 2 * (pow(u, 1 + k) / (1 + k) - pow(u, 1 - k) / (1 - k));
         CU_ASSERT(near(z.x[1], y + k * x0 / (1 - k * k)));
         CU_ASSERT(near(closing + k * (k * 0.5 * i - z.x[1]), (1 - k * k) * (meeting - 0.5 * i)));
     }
-    zoo_close(&z);
+    motion_close(&z);
 }
 
 /* tan(theta/2) = tan(theta0/2) (1 + a t/s0)^(-P/a) with theta from the pull; the path is an
@@ -234,11 +236,11 @@ static void test_rocket(void)
     double px = 0.45, py = -0.4, to = atan2(py, px);
     double p[] = {hypot(px, py), to, tan((1.1 - to) / 2)};
     for (int space = 0; space < 2; space++) {
-        zoo z = zoo_open("rocket", space ? DAL_LIFTED : DAL_PHYSICAL, 0.01, none, none);
-        zoo_go(&z, 3.0);
+        motion z = motion_open("rocket", space ? DAL_LIFTED : DAL_PHYSICAL, 0.01, none, none);
+        motion_advance(&z, 3.0);
         CU_ASSERT(near(z.x[0], simpson(flight_x, p, 3.0)));
         CU_ASSERT(near(z.x[1], simpson(flight_y, p, 3.0)));
-        zoo_close(&z);
+        motion_close(&z);
     }
 }
 
@@ -293,14 +295,14 @@ static void canonical_step(double h, double *x)
 /* Dettmann and Morriss: v = exp(U/2K) P in the same time. */
 static void test_cluster(void)
 {
-    zoo z = zoo_default("isokinetic-cluster", 0.01);
+    motion z = motion_default("isokinetic-cluster", 0.01);
     double x[12], slope[6], f = exp(potential(z.x, slope) / 3);
     for (int i = 0; i < 6; i++) x[i] = z.x[i], x[6 + i] = z.x[6 + i] / f;
     for (int i = 0; i < 8000; i++) canonical_step(2.5e-4, x);
-    zoo_go(&z, 2.0);
+    motion_advance(&z, 2.0);
     f = exp(potential(x, slope) / 3);
     for (int i = 0; i < 6; i++) CU_ASSERT(near(z.x[i], x[i]) && near(z.x[6 + i], f * x[6 + i]));
-    zoo_close(&z);
+    motion_close(&z);
 }
 
 /* ---- relativity ---- */
@@ -308,33 +310,33 @@ static void test_cluster(void)
 /* v.v = -c^2 holds by itself in the electromagnetic field: the reaction is none. */
 static void test_charge(void)
 {
-    zoo z = zoo_default("relativistic-em", 0.01);
+    motion z = motion_default("relativistic-em", 0.01);
     double F[4];
-    zoo_go(&z, 1.5);
-    zoo_field(&z, F);
+    motion_advance(&z, 1.5);
+    motion_field(&z, F);
     const double *v = z.x + 4;
     const double expected[] = {0.7 * v[3], 1.3 * v[2], -1.3 * v[1], 0.7 * v[0]};
     CU_ASSERT(body_distance(4, F, expected) < 1e-14);
     CU_ASSERT(near(v[1] * v[1] + v[2] * v[2] + v[3] * v[3] - v[0] * v[0], -1.0));
-    zoo_close(&z);
+    motion_close(&z);
 }
 
 /* gd(eta) reaches pi/2 in a finite proper time, and no step leads past it. */
 static void test_blow_up(void)
 {
     double end = (PI / 2 - atan(sinh(0.3))) / 0.5, x[4];
-    zoo z = zoo_default("relativistic-scalar", 0.005);
-    zoo_go(&z, 2.4);
+    motion z = motion_default("relativistic-scalar", 0.005);
+    motion_advance(&z, 2.4);
     CU_ASSERT(body_call(&z.b, z.b.system->exact, 2.4, NULL, NULL, x) == DAL_OK);
     CU_ASSERT(body_distance(4, z.x, x) < SMALL);
     CU_ASSERT(dal_run_advance(z.run, (long long)((end - 2.4) / 0.005) + 2, NULL) != DAL_OK);
     CU_ASSERT(dal_run_time(z.run) < end);
-    zoo_close(&z);
+    motion_close(&z);
 }
 
-void suite_zoo_forms(void)
+void suite_closed_forms(void)
 {
-    CU_pSuite suite = CU_add_suite("zoo: closed forms", NULL, NULL);
+    CU_pSuite suite = CU_add_suite("closed forms", NULL, NULL);
     CU_add_test(suite, "contact oscillator: period map", test_contact);
     CU_add_test(suite, "published levels", test_levels);
     CU_add_test(suite, "nonholonomic oscillator", test_oscillator);

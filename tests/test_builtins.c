@@ -1,6 +1,6 @@
-/* test_zoo.c - every system that travels inside the library: its tags against what the formulas
- * say, its exact solution against a run, on (q,v) and on the lift. */
-#include "zoo.h"
+/* test_builtins.c - every built-in system: its tags against its formulas, its exact solution against
+ * a run, on (q,v) and on the lift. */
+#include "motion.h"
 
 #include <CUnit/Basic.h>
 #include <math.h>
@@ -111,15 +111,15 @@ static double irreversibility(const body *b, double t, const double *x)
 
 static void check_reversal(const body *b)
 {
-    zoo z = zoo_default(b->system->name, 0.02);
+    motion z = motion_default(b->system->name, 0.02);
     double worst = 0.0;
     for (int k = 1; k <= 5; k++) {
-        zoo_go(&z, 0.2 * k);
+        motion_advance(&z, 0.2 * k);
         worst = fmax(worst, irreversibility(b, 0.2 * k, z.x));
     }
     expect(b->system, worst < 1e-12 || worst > 1e-3, "reversal in doubt");
     expect_tag(b->system, "reversible", worst < 1e-12);
-    zoo_close(&z);
+    motion_close(&z);
 }
 
 static void test_reversal(void) { each(check_reversal); }
@@ -145,15 +145,15 @@ static void check_volume(const body *b)
     const double step = 0.02;
     double change = 0.0;
     if (!tagged(s, "measure-preserving") && !tagged(s, "attractor")) return;
-    zoo z = zoo_default(s->name, step);
+    motion z = motion_default(s->name, step);
     for (int k = 0; k <= 1000; k++) {
         double weight = k < 500 ? 0.0 : k == 500 || k == 1000 ? step / 2 : step;
         change += weight * divergence(b, k * step, z.x);
-        if (k < 1000) zoo_go(&z, (k + 1) * step);
+        if (k < 1000) motion_advance(&z, (k + 1) * step);
     }
     expect(s, fabs(change) < 1.0 || change < -2.0, "volume in doubt");
     expect_tag(s, "measure-preserving", fabs(change) < 1.0);
-    zoo_close(&z);
+    motion_close(&z);
 }
 
 /* The rate of E by differences on the line x + s dx/dt. */
@@ -178,19 +178,19 @@ static void check_kept(const body *b)
 {
     const dal_system *s = b->system;
     bool exact = s->properties & DAL_E_EXACT, weak = s->properties & DAL_E_WEAK;
-    zoo z = zoo_default(s->name, 0.01);
-    double E = s->energy ? zoo_energy(&z) : 0.0, before[BODY_MOST], x[3 * BODY_MOST];
-    for (int i = 0; i < s->invariants; i++) before[i] = zoo_invariant(&z, i);
-    zoo_go(&z, 1.0);
+    motion z = motion_default(s->name, 0.01);
+    double E = s->energy ? motion_energy(&z) : 0.0, before[BODY_MOST], x[3 * BODY_MOST];
+    for (int i = 0; i < s->invariants; i++) before[i] = motion_invariant(&z, i);
+    motion_advance(&z, 1.0);
     for (int i = 0; i < s->invariants; i++) {
-        double now = zoo_invariant(&z, i);
+        double now = motion_invariant(&z, i);
         expect(s, body_distance(1, &now, &before[i]) < 1e-12, s->invariant[i]);
     }
-    double now = s->energy ? zoo_energy(&z) : 0.0;
+    double now = s->energy ? motion_energy(&z) : 0.0;
     if (s->energy) expect(s, (body_distance(1, &now, &E) < 1e-12) == (exact || weak), "E on D = 0");
     for (int i = 0; i < 2 * s->n + s->multipliers; i++) x[i] = z.x[i] + 0.01 * (i + 1);
     if (s->energy) expect(s, (fabs(energy_rate(b, 1.0, x)) < 1e-9) == exact, "E off D = 0");
-    zoo_close(&z);
+    motion_close(&z);
 }
 
 static void test_volume(void) { each(check_volume); }
@@ -202,15 +202,16 @@ static void check_run(const body *b, dal_space space)
 {
     int n = b->system->n;
     double exact[2 * BODY_MOST], zero[2 * BODY_MOST] = {0.0};
-    zoo z = zoo_open(b->system->name, space, 1.0 / 128, (zoo_settings){0}, (zoo_settings){0});
+    motion z =
+        motion_open(b->system->name, space, 1.0 / 128, (motion_settings){0}, (motion_settings){0});
     for (int k = 1; k <= 4; k++) {
-        zoo_go(&z, 0.25 * k);
+        motion_advance(&z, 0.25 * k);
         body_call(b, b->system->exact, 0.25 * k, NULL, NULL, exact);
         expect(b->system, body_distance(2 * n, z.x, exact) < 1e-12, "exact solution");
         if (space == DAL_LIFTED)
             expect(b->system, body_distance(2 * n, z.x + 2 * n + 1, zero) == 0.0, "p = pi = 0");
     }
-    zoo_close(&z);
+    motion_close(&z);
 }
 
 static void check_exact(const body *b)
@@ -222,9 +223,9 @@ static void check_exact(const body *b)
 
 static void test_exact(void) { each(check_exact); }
 
-void suite_zoo(void)
+void suite_builtins(void)
 {
-    CU_pSuite suite = CU_add_suite("zoo", NULL, NULL);
+    CU_pSuite suite = CU_add_suite("built-in systems", NULL, NULL);
     CU_add_test(suite, "tags of the energy", test_energy);
     CU_add_test(suite, "tags of the constraints", test_constraint);
     CU_add_test(suite, "vocabulary of tags", test_words);

@@ -1,13 +1,13 @@
-/* zoo.c - see zoo.h. */
-#include "zoo.h"
+/* motion.c - see motion.h. */
+#include "motion.h"
 
 #include <CUnit/Basic.h>
 #include <math.h>
 
-zoo zoo_open(const char *name, dal_space space, double step, zoo_settings parameters,
-             zoo_settings start)
+motion motion_open(const char *name, dal_space space, double step, motion_settings parameters,
+                   motion_settings start)
 {
-    zoo z = {.b = body_builtin(name)};
+    motion z = {.b = body_builtin(name)};
     dal_run_spec spec = {.system = z.b.system,
                          .options = dal_options_default(),
                          .parameters = parameters.item,
@@ -26,12 +26,12 @@ zoo zoo_open(const char *name, dal_space space, double step, zoo_settings parame
     return z;
 }
 
-zoo zoo_default(const char *name, double step)
+motion motion_default(const char *name, double step)
 {
-    return zoo_open(name, DAL_PHYSICAL, step, (zoo_settings){0}, (zoo_settings){0});
+    return motion_open(name, DAL_PHYSICAL, step, (motion_settings){0}, (motion_settings){0});
 }
 
-void zoo_go(zoo *z, double time)
+void motion_advance(motion *z, double time)
 {
     double left = time - dal_run_time(z->run);
     CU_ASSERT_FATAL(dal_run_advance(z->run, llround(left / z->step), NULL) == DAL_OK);
@@ -39,24 +39,27 @@ void zoo_go(zoo *z, double time)
     z->x = dal_run_state(z->run);
 }
 
-void zoo_close(zoo *z)
+void motion_close(motion *z)
 {
     dal_run_free(z->run);
     body_free(&z->b);
 }
 
-static double ask(const zoo *z, dal_callback *call, int i)
+static double value_of(const motion *z, dal_callback *call, int i)
 {
     double out[BODY_OUT];
     CU_ASSERT(body_call(&z->b, call, dal_run_time(z->run), z->x, z->x + z->n, out) == DAL_OK);
     return out[i];
 }
 
-void zoo_field(const zoo *z, double *F)
+void motion_field(const motion *z, double *F)
 {
     body_call(&z->b, z->b.system->call.field, dal_run_time(z->run), z->x, z->x + z->n, F);
 }
 
-double zoo_invariant(const zoo *z, int i) { return ask(z, z->b.system->invariant_values, i); }
+double motion_invariant(const motion *z, int i)
+{
+    return value_of(z, z->b.system->invariant_values, i);
+}
 
-double zoo_energy(const zoo *z) { return ask(z, z->b.system->energy, 0); }
+double motion_energy(const motion *z) { return value_of(z, z->b.system->energy, 0); }
