@@ -9,7 +9,7 @@
 #include <stdint.h>
 
 /* A set of options of a run. */
-#define ANALYSIS_OPTION(name) (UINT64_C(1) << JOB_##name)
+#define ANALYSIS_OPTION(name) (UINT64_C(1) << REQUEST_##name)
 /* The options that concern rows only. */
 #define ANALYSIS_ROWS                                                                              \
     (ANALYSIS_OPTION(samples) | ANALYSIS_OPTION(sampling) | ANALYSIS_OPTION(times) |               \
@@ -26,7 +26,8 @@ typedef struct analysis_command {
 } analysis_command;
 
 /* Reads all arguments.  Returns CLI_GO_ON, or the exit status after a message or help. */
-int analysis_read(int argc, char **argv, const analysis_command *command, cli_job *job, void *user);
+int analysis_read(int argc, char **argv, const analysis_command *command, run_request *request,
+                  void *user);
 
 /* An output: a directory with NAME.csv in it, or a file. */
 typedef struct analysis_output {

@@ -83,18 +83,19 @@ static void choose_points(check *c, double *memory)
 static int prepare_check(check *c)
 {
     const dal_system *s = c->system;
-    const cli_job *job = c->job;
+    const run_request *request = c->request;
     dal_error error = {0};
     c->n = s->n, c->m = s->m, c->nw = s->n + s->multipliers, c->size = c->n + c->nw;
     const size_t n = (size_t)c->n, m = (size_t)c->m, nw = (size_t)c->nw, size = (size_t)c->size;
     const size_t points = 2 * CHECK_POINTS * size;
     /* The largest number of values of a callback, and some more for pairs of them. */
     const size_t values = nw * size + m * (1 + 2 * n) + 3 * n + (size_t)s->invariants + 8 * size;
-    dal_status status = dal_probe_create(&c->probe, s, job->set.item, job->set.count, &error);
+    dal_status status =
+        dal_probe_create(&c->probe, s, request->set.item, request->set.count, &error);
     if (status != DAL_OK) return cli_error(cli_input_exit(status), NULL, &error);
     c->start = cli_calloc(size + 1 + points + values, sizeof *c->start);
     c->values = c->start + size + 1 + points;
-    status = dal_probe_start(c->probe, job->start.item, job->start.count, c->start, &error);
+    status = dal_probe_start(c->probe, request->start.item, request->start.count, c->start, &error);
     if (status != DAL_OK) return cli_error(cli_input_exit(status), NULL, &error);
     c->origin = (dal_point){0.0, c->start, c->start + n};
     c->is_regular = is_field_finite(c, &c->origin);
@@ -142,7 +143,7 @@ static const char notes[] =
 
 static void adapt_options(cli_option *options)
 {
-    options[JOB_start].help = "start x, x', e or g1 at V; may be repeated";
+    options[REQUEST_start].help = "start x, x', e or g1 at V; may be repeated";
 }
 
 int command_check(int argc, char **argv)
@@ -150,15 +151,16 @@ int command_check(int argc, char **argv)
     const analysis_command command = {.without = ~(ANALYSIS_OPTION(set) | ANALYSIS_OPTION(start)),
                                       .notes = notes,
                                       .adapt = adapt_options};
-    cli_job job = job_begin();
-    check c = {.job = &job};
-    int status = analysis_read(argc, argv, &command, &job, NULL);
-    if (status == CLI_GO_ON) status = cli_load(job.system, &job.model, &job.made);
-    c.system = job.made;
+    run_request request = request_default();
+    check c = {.request = &request};
+    int status = analysis_read(argc, argv, &command, &request, NULL);
+    if (status == CLI_GO_ON)
+        status = cli_load(request.system_name, &request.model, &request.system);
+    c.system = request.system;
     if (c.system && status == CLI_DONE) status = prepare_check(&c);
     if (c.system && status == CLI_DONE) status = print_check(&c);
     free(c.start);
     dal_probe_free(c.probe);
-    job_free(&job);
+    request_free(&request);
     return status;
 }

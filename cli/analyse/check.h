@@ -22,7 +22,7 @@ enum { CHECK_POINTS = 8 };
 
 typedef struct check {
     const dal_system *system;
-    cli_job *job; /* the arguments, its system made */
+    run_request *request; /* the arguments, its system made */
     dal_probe *probe;
     double *start;                   /* [2n + multipliers + 1] q, v, g, e */
     int n, m, nw, size;              /* nw = n + multipliers, size = n + nw */

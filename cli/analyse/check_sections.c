@@ -125,13 +125,13 @@ void check_start(check *c)
 /* Whether `run` accepts a method: the run is created. */
 static bool is_accepted(check *c, const char *method, dal_error *error)
 {
-    cli_job *job = c->job;
+    run_request *request = c->request;
     dal_run_spec spec;
     dal_run *run = NULL;
-    job->options = dal_options_default();
-    job->options.step = 0.01;
-    if (dal_method_parse(&job->method, method, error) != DAL_OK) return false;
-    if (job_spec(job, &spec) != CLI_DONE) return false;
+    request->options = dal_options_default();
+    request->options.step = 0.01;
+    if (dal_method_parse(&request->method, method, error) != DAL_OK) return false;
+    if (request_make_spec(request, &spec) != CLI_DONE) return false;
     const bool accepted = cli_is_ok(dal_run_create(&run, &spec, error));
     dal_run_free(run);
     return accepted;
@@ -435,8 +435,8 @@ static bool sample_path(check *c, const sampled_path *path, const double *start)
 {
     dal_run_spec spec = {.system = c->system,
                          .options = dal_options_default(),
-                         .parameters = c->job->set.item,
-                         .parameter_count = c->job->set.count};
+                         .parameters = c->request->set.item,
+                         .parameter_count = c->request->set.count};
     dal_run *run = NULL;
     const size_t width = (size_t)path->width;
     spec.options.step = path->h;

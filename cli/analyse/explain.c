@@ -12,7 +12,7 @@
     X("output", "FILE.csv|-", NULL, "write a CSV file, or CSV to standard output")                 \
     X("native", "auto|on|off", "auto", "step runs in doubles by compiled code")
 
-enum { OWN_LONG_STEPS = JOB_OPTIONS, OWN_OUTPUT, OWN_NATIVE, OPTIONS, MOST_STEPS = 2000000000 };
+enum { OWN_LONG_STEPS = REQUEST_OPTIONS, OWN_OUTPUT, OWN_NATIVE, OPTIONS, MOST_STEPS = 2000000000 };
 
 static const char notes[] =
     "Runs the system once more in several ways that differ in one thing each: half the step,\n"
@@ -29,7 +29,7 @@ typedef struct wishes {
     long long early;
     const char *output;
     cli_native native;
-    const cli_job *job;
+    const run_request *request;
 } wishes;
 
 /* ---- while it goes ---- */
@@ -44,7 +44,7 @@ static dal_status step(void *user, double done)
 static void begin(void *user, dal_run *run, long long steps)
 {
     const wishes *w = user;
-    native_use(run, &w->job->method, (double)steps, w->native);
+    native_use(run, &w->request->method, (double)steps, w->native);
 }
 
 /* ---- in words ---- */
@@ -118,12 +118,13 @@ static void print_exact(const dal_explanation *e)
     if (*before == ',') putchar('\n');
 }
 
-static int print_all(const cli_job *job, const dal_explanation *e)
+static int print_all(const run_request *request, const dal_explanation *e)
 {
     char method[128];
-    printf("%s, %s, %s, h = %g: %lld steps", job->system,
-           dal_method_name(&job->method, method, sizeof method),
-           job->options.space == DAL_LIFTED ? "lifted" : "physical", job->options.step, e->steps);
+    printf("%s, %s, %s, h = %g: %lld steps", request->system_name,
+           dal_method_name(&request->method, method, sizeof method),
+           request->options.space == DAL_LIFTED ? "lifted" : "physical", request->options.step,
+           e->steps);
     if (e->early > 0) printf(", the first %lld in long numbers too", e->early);
     fputs("\n\n", stdout);
     for (int i = 0; i < e->observables; i++)
@@ -198,33 +199,33 @@ static int write_csv(const char *path, const dal_explanation *e)
 
 /* ---- the command ---- */
 
-static int explain(cli_job *job, wishes *w)
+static int explain(run_request *request, wishes *w)
 {
     dal_run_spec spec;
     dal_explanation *e = NULL;
     dal_error error = {0};
-    int status = job_spec(job, &spec);
+    int status = request_make_spec(request, &spec);
     if (status != CLI_DONE) return status;
-    const double steps = nearbyint(job->time / job->options.step);
+    const double steps = nearbyint(request->time / request->options.step);
     if (!(steps <= MOST_STEPS))
         return cli_fail(CLI_USAGE, "%.3g steps: at most %d are explained", steps, MOST_STEPS);
     const dal_explain_observer observer = {w, step, begin};
     cli_catch_signals();
     const dal_status done = dal_explain(&spec, (long long)steps, w->early, &observer, &e, &error);
     cli_progress_end();
-    if (done != DAL_OK) return cli_error(cli_exit(done), job->system, &error);
-    status = w->output ? write_csv(w->output, e) : print_all(job, e);
+    if (done != DAL_OK) return cli_error(cli_exit(done), request->system_name, &error);
+    status = w->output ? write_csv(w->output, e) : print_all(request, e);
     dal_explanation_free(e);
     return status;
 }
 
-static int take(cli_job *job, wishes *w, int option, const char *value)
+static int take(run_request *request, wishes *w, int option, const char *value)
 {
     switch (option) {
     case CLI_PLAIN:
-        if (job->system)
+        if (request->system_name)
             return cli_fail(CLI_USAGE, "explain: one SYSTEM only, not also '%s'", value);
-        job->system = value;
+        request->system_name = value;
         return CLI_DONE;
     case OWN_LONG_STEPS:
         return cli_integer("--long-steps", value, 0, MOST_STEPS, &w->early);
@@ -236,7 +237,7 @@ static int take(cli_job *job, wishes *w, int option, const char *value)
     case OWN_NATIVE:
         return native_read(value, &w->native);
     default:
-        return job_take(job, option, value);
+        return request_parse_option(request, option, value);
     }
 }
 
@@ -244,11 +245,11 @@ static int take(cli_job *job, wishes *w, int option, const char *value)
 static int is_of_rows(int option)
 {
     switch (option) {
-    case JOB_samples:
-    case JOB_sampling:
-    case JOB_times:
-    case JOB_statistics:
-    case JOB_precision:
+    case REQUEST_samples:
+    case REQUEST_sampling:
+    case REQUEST_times:
+    case REQUEST_statistics:
+    case REQUEST_precision:
         return 1;
     default:
         return 0;
@@ -264,24 +265,24 @@ int command_explain(int argc, char **argv)
     };
     cli_option all[OPTIONS], options[OPTIONS];
     int option[OPTIONS], count = 0;
-    job_options(all);
-    memcpy(all + JOB_OPTIONS, own, sizeof own);
+    request_list_options(all);
+    memcpy(all + REQUEST_OPTIONS, own, sizeof own);
     for (int k = 0; k < OPTIONS; k++) {
         if (is_of_rows(k)) continue;
         options[count] = all[k];
         option[count++] = k;
     }
     cli_args args = cli_begin(argc, argv, options, count, notes);
-    cli_job job = job_begin();
-    wishes w = {.early = 10000, .job = &job};
+    run_request request = request_default();
+    wishes w = {.early = 10000, .request = &request};
     const char *value;
     for (int k; (k = cli_next(&args, &value)) != CLI_STOP;) {
-        const int taken = take(&job, &w, k == CLI_PLAIN ? k : option[k], value);
+        const int taken = take(&request, &w, k == CLI_PLAIN ? k : option[k], value);
         if (taken != CLI_DONE) cli_stop(&args, taken);
     }
     int status = args.status;
-    if (status == CLI_GO_ON) status = job_make(&job);
-    if (args.status == CLI_GO_ON && status == CLI_DONE) status = explain(&job, &w);
-    job_free(&job);
+    if (status == CLI_GO_ON) status = request_create_run(&request);
+    if (args.status == CLI_GO_ON && status == CLI_DONE) status = explain(&request, &w);
+    request_free(&request);
     return status;
 }

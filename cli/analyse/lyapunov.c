@@ -116,8 +116,8 @@ int command_lyapunov(int argc, char **argv)
 {
     const analysis_command command = {options, OPTIONS, ANALYSIS_ROWS | ANALYSIS_OPTION(space),
                                       notes,   take,    NULL};
-    spectrum_study s = {.job = job_begin(), .rows = 100};
-    int status = analysis_read(argc, argv, &command, &s.job, &s);
+    spectrum_study s = {.request = request_default(), .rows = 100};
+    int status = analysis_read(argc, argv, &command, &s.request, &s);
     if (status == CLI_GO_ON) status = go(&s);
     spectrum_free(&s);
     return status;

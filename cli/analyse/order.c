@@ -43,7 +43,7 @@ typedef struct order_method {
 } order_method;
 
 typedef struct order_study {
-    cli_job job;
+    run_request request;
     const char *integrators, *steps, *output;
     long long level_count, threads;
     dal_run_spec spec; /* but for method and step */
@@ -114,11 +114,11 @@ static int add_items(order_study *s, const char *list, const char *option,
 
 static int list_steps(order_study *s)
 {
-    const double T = s->job.time;
+    const double T = s->request.time;
     int status = s->steps ? add_items(s, s->steps, "--steps", add_step) : CLI_DONE;
     if (status != CLI_DONE) return status;
     for (int i = 0; !s->steps && i < s->level_count; i++)
-        s->step[s->levels++] = ldexp(s->job.options.step, -i);
+        s->step[s->levels++] = ldexp(s->request.options.step, -i);
     if (!(s->step[0] > 0.0)) return cli_fail(CLI_USAGE, "--step: it must be positive");
     if (s->levels < 2) return cli_fail(CLI_USAGE, "--steps: a slope needs two steps at least");
     for (int i = 0; i < s->levels; i++) {
@@ -145,8 +145,8 @@ static dal_status run_to_end(const order_study *s, const dal_run_spec *spec, dou
     dal_status status = dal_run_create(&run, spec, error);
     if (status != DAL_OK) return status;
     const double begin = cli_thread_seconds();
-    for (long long left = llround(s->job.time / spec->options.step); left > 0 && status == DAL_OK;
-         left -= CHUNK)
+    for (long long left = llround(s->request.time / spec->options.step);
+         left > 0 && status == DAL_OK; left -= CHUNK)
         status = cli_interrupted() ? DAL_INTERRUPTED
                                    : dal_run_advance(run, left < CHUNK ? left : CHUNK, error);
     *cost = (run_cost){dal_run_evaluations(run), cli_thread_seconds() - begin};
@@ -159,17 +159,17 @@ static dal_status run_to_end(const order_study *s, const dal_run_spec *spec, dou
 static bool use_exact_solution(order_study *s)
 {
     const dal_system *system = s->spec.system;
-    const cli_job *job = &s->job;
+    const run_request *request = &s->request;
     double *start = s->reference + s->numbers;
     dal_probe *probe;
     if (!system->exact || system->multipliers ||
-        !cli_is_ok(dal_probe_create(&probe, system, job->set.item, job->set.count, NULL)))
+        !cli_is_ok(dal_probe_create(&probe, system, request->set.item, request->set.count, NULL)))
         return false;
     const bool found =
-        dal_probe_start(probe, job->start.item, job->start.count, start, NULL) == DAL_OK &&
+        dal_probe_start(probe, request->start.item, request->start.count, start, NULL) == DAL_OK &&
         dal_probe_call(probe, system->exact, 0.0, start, start, NULL, s->reference) == DAL_OK &&
         analysis_distance(start, s->reference, s->numbers) <= 1e-10 &&
-        dal_probe_call(probe, system->exact, job->time, start, start, NULL, s->reference) ==
+        dal_probe_call(probe, system->exact, request->time, start, start, NULL, s->reference) ==
             DAL_OK &&
         isfinite(analysis_distance(s->reference, s->reference, s->numbers));
     dal_probe_free(probe);
@@ -268,7 +268,7 @@ static void print_cell(const char *format, int width, double x)
 static void print_method(const order_study *s, const order_method *m)
 {
     const int last = s->levels - 1;
-    const double steps = round(s->job.time / s->step[last]);
+    const double steps = round(s->request.time / s->step[last]);
     const bool succeeded = m->failure[last].status == DAL_OK;
     printf("%-21s %6d", m->name, dal_method_order(&m->method));
     print_cell("%.2f", 6, m->order.order);
@@ -289,8 +289,9 @@ static const char *failure_message(const order_study *s, const order_method *m)
 static int print_orders(const order_study *s)
 {
     bool any_without_order = false;
-    printf("%s, error of (q,v) at t = %g, %s\nagainst %s\n\n", s->job.system, s->job.time,
-           s->spec.options.space == DAL_LIFTED ? "lifted" : "physical", s->reference_text);
+    printf("%s, error of (q,v) at t = %g, %s\nagainst %s\n\n", s->request.system_name,
+           s->request.time, s->spec.options.space == DAL_LIFTED ? "lifted" : "physical",
+           s->reference_text);
     printf("%-21s %13s  %-*s %15s\n", "", "order", 8 * s->levels - 1,
            "error at h =", "cost of a step");
     printf("%-21s %6s %6s", "integrator", "stated", "found");
@@ -323,7 +324,7 @@ static void write_number(FILE *out, double x)
 /* At a step; level < 0: a method that was refused. */
 static void write_level(FILE *out, const order_study *s, const order_method *m, int level)
 {
-    cli_put_text(out, s->job.system);
+    cli_put_text(out, s->request.system_name);
     fputc(',', out);
     cli_put_text(out, m->name);
     fprintf(out, ",%d,", dal_method_order(&m->method));
@@ -334,7 +335,7 @@ static void write_level(FILE *out, const order_study *s, const order_method *m, 
     } else {
         const bool succeeded = m->failure[level].status == DAL_OK;
         write_number(out, s->step[level]);
-        fprintf(out, "%lld,", llround(s->job.time / s->step[level]));
+        fprintf(out, "%lld,", llround(s->request.time / s->step[level]));
         write_number(out, m->order.error[level]);
         write_number(out, m->order.slope[level]);
         write_number(out, succeeded ? (double)m->order.evaluations[level] : NAN);
@@ -404,7 +405,8 @@ static int draw_panels(const order_study *s, const char *directory, const char *
     int missing;
     FILE *script = gnuplot_open(directory, name, "svg", 1100, 600, &path);
     if (!script) return CLI_IO;
-    snprintf(title, sizeof title, "%.80s: error of (q,v) at t = %g", s->job.system, s->job.time);
+    snprintf(title, sizeof title, "%.80s: error of (q,v) at t = %g", s->request.system_name,
+             s->request.time);
     fputs("is(name) = strcol('integrator') eq name && strcol('state') eq 'done'\n"
           "set logscale xy\nset format y '%.0e'\nset ylabel 'error'\n"
           "set xrange [*:*] noextend\nset offsets graph 0.05, graph 0.05\n"
@@ -489,9 +491,9 @@ static int parse_option(void *user, int option, const char *value)
 
 static void adapt_options(cli_option *options)
 {
-    options[JOB_step].initial = "0.1";
-    options[JOB_time].initial = "10";
-    options[JOB_space].initial = "physical";
+    options[REQUEST_step].initial = "0.1";
+    options[REQUEST_time].initial = "10";
+    options[REQUEST_space].initial = "physical";
 }
 
 static int deliver_orders(const order_study *s)
@@ -508,13 +510,13 @@ static int deliver_orders(const order_study *s)
 
 static int measure_orders(order_study *s)
 {
-    if (!s->job.text[JOB_step]) s->job.options.step = 0.1;
-    if (!s->job.text[JOB_time]) s->job.time = 10.0;
+    if (!s->request.text[REQUEST_step]) s->request.options.step = 0.1;
+    if (!s->request.text[REQUEST_time]) s->request.time = 10.0;
     int status = list_steps(s);
     if (status == CLI_DONE) status = add_items(s, s->integrators, "--integrators", add_methods);
-    if (status == CLI_DONE) status = job_spec(&s->job, &s->spec);
+    if (status == CLI_DONE) status = request_make_spec(&s->request, &s->spec);
     if (status != CLI_DONE) return status;
-    if (!s->job.text[JOB_space]) s->spec.options.space = DAL_PHYSICAL;
+    if (!s->request.text[REQUEST_space]) s->spec.options.space = DAL_PHYSICAL;
     cli_catch_signals();
     status = make_reference(s);
     if (status == CLI_DONE)
@@ -533,11 +535,11 @@ int command_order(int argc, char **argv)
                                       .notes = notes,
                                       .parse = parse_option,
                                       .adapt = adapt_options};
-    order_study s = {.job = job_begin(), .integrators = "all", .level_count = 4};
-    int status = analysis_read(argc, argv, &command, &s.job, &s);
+    order_study s = {.request = request_default(), .integrators = "all", .level_count = 4};
+    int status = analysis_read(argc, argv, &command, &s.request, &s);
     if (status == CLI_GO_ON) status = measure_orders(&s);
     free(s.methods);
     free(s.reference);
-    job_free(&s.job);
+    request_free(&s.request);
     return status;
 }

@@ -52,7 +52,7 @@ typedef struct wishes {
 } wishes;
 
 typedef struct section {
-    cli_job job;
+    run_request request;
     const wishes *w;
     cli_table table;
     int columns;
@@ -116,15 +116,15 @@ static void leave_out_name(const char *name, dal_error *error)
 }
 
 /* Reads the model and makes it with one more invariant, whose text begins in a column of --on. */
-static int make_with(cli_job *job, const char *name, const char *formula, int column)
+static int make_with(run_request *request, const char *name, const char *formula, int column)
 {
     dal_error error = {0};
-    dal_model_free(job->model);
-    int status = cli_read(job->system, &job->model);
+    dal_model_free(request->model);
+    int status = cli_read(request->system_name, &request->model);
     if (status != CLI_DONE) return status;
     dal_status made =
-        dal_model_add(job->model, DAL_SECTION_INVARIANTS, name, formula, 1, column, &error);
-    if (made == DAL_OK) made = dal_model_system(job->model, &job->made, &error);
+        dal_model_add(request->model, DAL_SECTION_INVARIANTS, name, formula, 1, column, &error);
+    if (made == DAL_OK) made = dal_model_system(request->model, &request->system, &error);
     if (made == DAL_OK) return CLI_DONE;
     leave_out_name(name, &error);
     return cli_error(cli_input_exit(made), "--on", &error);
@@ -132,13 +132,14 @@ static int make_with(cli_job *job, const char *name, const char *formula, int co
 
 /* "A = B" means (A) - (B).  Each side is made alone first, so that what is wrong in it is told of
  * it and in its column. */
-static int make_difference(cli_job *job, const char *name, const char *on, const char *equals)
+static int make_difference(run_request *request, const char *name, const char *on,
+                           const char *equals)
 {
     char *left = cli_format("%.*s", (int)(equals - on), on);
     char *text = cli_format("(%s)-(%s)", left, equals + 1);
-    int status = make_with(job, name, left, 1);
-    if (status == CLI_DONE) status = make_with(job, name, equals + 1, (int)(equals - on) + 2);
-    if (status == CLI_DONE) status = make_with(job, name, text, 1);
+    int status = make_with(request, name, left, 1);
+    if (status == CLI_DONE) status = make_with(request, name, equals + 1, (int)(equals - on) + 2);
+    if (status == CLI_DONE) status = make_with(request, name, text, 1);
     free(left);
     free(text);
     return status;
@@ -146,14 +147,15 @@ static int make_difference(cli_job *job, const char *name, const char *on, const
 
 static int load(section *s)
 {
-    cli_job *job = &s->job;
+    run_request *request = &s->request;
     char name[NAME] = "section_1";
     const char *on = s->w->on, *equals = strchr(on, '=');
     /* First without the section: then what is wrong later is wrong with it. */
-    int status = cli_load(job->system, &job->model, &job->made);
+    int status = cli_load(request->system_name, &request->model, &request->system);
     if (status != CLI_DONE) return status;
-    for (int k = 2; is_taken(job->made, name); k++) snprintf(name, sizeof name, "section_%d", k);
-    return equals ? make_difference(job, name, on, equals) : make_with(job, name, on, 1);
+    for (int k = 2; is_taken(request->system, name); k++)
+        snprintf(name, sizeof name, "section_%d", k);
+    return equals ? make_difference(request, name, on, equals) : make_with(request, name, on, 1);
 }
 
 /* ---- rows ---------------------------------------------------------------------------------- */
@@ -161,7 +163,7 @@ static int load(section *s)
 static int name_columns(section *s)
 {
     static const char *const before[COLUMNS_BEFORE] = {"crossing", "t", "direction"};
-    s->columns = COLUMNS_BEFORE + dal_run_dimension(s->job.run);
+    s->columns = COLUMNS_BEFORE + dal_run_dimension(s->request.run);
     s->names = cli_calloc((size_t)s->columns, sizeof *s->names);
     s->row = cli_calloc(3 * (size_t)s->columns, sizeof *s->row);
     char *text = cli_calloc((size_t)s->columns, NAME);
@@ -174,7 +176,7 @@ static int name_columns(section *s)
         if (i < COLUMNS_BEFORE)
             snprintf(s->names[i], NAME, "%s", before[i]);
         else
-            dal_run_name(s->job.run, i - COLUMNS_BEFORE, s->names[i], NAME);
+            dal_run_name(s->request.run, i - COLUMNS_BEFORE, s->names[i], NAME);
     }
     return CLI_DONE;
 }
@@ -199,7 +201,7 @@ static dal_status cross(void *user, dal_run *run, const dal_crossing *crossing)
 static dal_status poll(void *user, dal_run *run)
 {
     const section *s = user;
-    cli_progress("t = %.6g of %.6g, %lld crossings", dal_run_time(run), s->job.time, s->rows);
+    cli_progress("t = %.6g of %.6g, %lld crossings", dal_run_time(run), s->request.time, s->rows);
     return cli_interrupted() ? DAL_INTERRUPTED : DAL_OK;
 }
 
@@ -208,14 +210,15 @@ static int ended(const section *s, dal_status status, const dal_error *error)
     if (status == DAL_OK) return CLI_DONE;
     if (s->told != CLI_DONE) return s->told;
     if (status == DAL_INTERRUPTED) return CLI_SIGNAL;
-    return cli_error(status == DAL_ARGUMENT ? CLI_USAGE : cli_exit(status), s->job.system, error);
+    return cli_error(status == DAL_ARGUMENT ? CLI_USAGE : cli_exit(status), s->request.system_name,
+                     error);
 }
 
 static int go(section *s, const char *path)
 {
     dal_error error = {0};
     dal_crossings found = {0};
-    const dal_system *system = s->job.made;
+    const dal_system *system = s->request.system;
     const dal_poincare poincare = {.callback = system->invariant_values,
                                    .count = system->invariants,
                                    .index = system->invariants - 1,
@@ -226,9 +229,10 @@ static int go(section *s, const char *path)
     int status = table_create(&s->table, path, s->names, s->columns);
     if (status == CLI_DONE) {
         cli_catch_signals();
-        native_use(s->job.run, &s->job.method, s->job.time / s->job.options.step, s->w->native);
+        native_use(s->request.run, &s->request.method, s->request.time / s->request.options.step,
+                   s->w->native);
         const dal_status crossed =
-            dal_run_crossings(s->job.run, s->job.time, &poincare, &found, &error);
+            dal_run_crossings(s->request.run, s->request.time, &poincare, &found, &error);
         cli_progress_end();
         status = ended(s, crossed, &error);
     }
@@ -236,7 +240,7 @@ static int go(section *s, const char *path)
     FILE *out = strcmp(path, "-") == 0 ? stderr : stdout;
     if (out == stdout || isatty(STDERR_FILENO))
         fprintf(out, "t = %g: %lld upwards, %lld downwards, %lld touches; %lld rows\n",
-                dal_run_time(s->job.run), found.up, found.down, found.touches, s->rows);
+                dal_run_time(s->request.run), found.up, found.down, found.touches, s->rows);
     return status == CLI_DONE ? closed : status;
 }
 
@@ -270,7 +274,7 @@ static int find_axes(const section *s, int axis[2])
  * largest of all coordinates, or of all velocities. */
 static int varies(const section *s, int column)
 {
-    const int n = s->job.made->n;
+    const int n = s->request.system->n;
     const int first = column < COLUMNS_BEFORE + n ? COLUMNS_BEFORE : COLUMNS_BEFORE + n;
     const double range = s->most[column] - s->least[column];
     const double size = fmax(fabs(s->least[column]), fabs(s->most[column]));
@@ -284,7 +288,7 @@ static int varies(const section *s, int column)
  * v that vary; else t and the one that does. */
 static void choose_axes(const section *s, int axis[2])
 {
-    const int n = s->job.made->n, q = COLUMNS_BEFORE;
+    const int n = s->request.system->n, q = COLUMNS_BEFORE;
     if (axis[0] >= 0) return;
     for (int i = q + n - 1; i >= q; i--) {
         if (!varies(s, i) || !varies(s, i + n)) continue;
@@ -305,8 +309,8 @@ static int draw(const section *s, const char *directory, const int axis[2])
     int missing;
     FILE *script = gnuplot_open(directory, "section", "svg", 800, 600, &path);
     if (!script) return CLI_IO;
-    snprintf(title, sizeof title, "%.80s: %.80s, h = %g, t to %g", s->job.system, s->w->on,
-             s->job.options.step, dal_run_time(s->job.run));
+    snprintf(title, sizeof title, "%.80s: %.80s, h = %g, t to %g", s->request.system_name, s->w->on,
+             s->request.options.step, dal_run_time(s->request.run));
     fputs("set title ", script);
     gnuplot_quote(script, title);
     fputs("\nset xlabel ", script);
@@ -337,7 +341,7 @@ static int run(section *s)
     int axis[2] = {-1, -1};
     if (!s->w->on) return cli_fail(CLI_USAGE, "--on is missing");
     int status = load(s);
-    if (status == CLI_DONE) status = job_make(&s->job);
+    if (status == CLI_DONE) status = request_create_run(&s->request);
     if (status == CLI_DONE) status = name_columns(s);
     if (status == CLI_DONE) status = find_axes(s, axis);
     if (status == CLI_DONE) status = analysis_open(&place, s->w->output, "section");
@@ -356,12 +360,12 @@ int command_section(int argc, char **argv)
 {
     const analysis_command command = {own, OWN_OPTIONS, ANALYSIS_ROWS, notes, take, NULL};
     wishes w = {.output = own[OWN_output].initial};
-    section s = {.job = job_begin(), .w = &w};
-    int status = analysis_read(argc, argv, &command, &s.job, &w);
+    section s = {.request = request_default(), .w = &w};
+    int status = analysis_read(argc, argv, &command, &s.request, &w);
     if (status == CLI_GO_ON) status = run(&s);
     if (s.names) free(s.names[0]);
     free(s.names);
     free(s.row);
-    job_free(&s.job);
+    request_free(&s.request);
     return status;
 }

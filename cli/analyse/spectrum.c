@@ -26,26 +26,27 @@ int spectrum_take(spectrum_study *s, int option, const char *value)
 
 int spectrum_make(spectrum_study *s)
 {
-    cli_job *job = &s->job;
+    run_request *request = &s->request;
     const dal_system *tangent = NULL;
     dal_error error = {0};
     dal_run_spec spec;
-    job->options.space = DAL_PHYSICAL;
+    request->options.space = DAL_PHYSICAL;
     /* A run that is made and not used tells what is wrong with its options. */
-    int status = job_make(job);
-    if (status == CLI_DONE) status = job_spec(job, &spec);
+    int status = request_create_run(request);
+    if (status == CLI_DONE) status = request_make_spec(request, &spec);
     if (status != CLI_DONE) return status;
     /* Vakonomic systems have no tangent system; differences serve them. */
-    dal_status made = dal_model_tangent(job->model, &tangent, &error);
+    dal_status made = dal_model_tangent(request->model, &tangent, &error);
     if (made == DAL_OK || made == DAL_UNSUPPORTED)
         made = dal_spectrum_create(&s->spectrum, &spec, tangent, (int)s->exponents, &error);
-    return made == DAL_OK ? CLI_DONE : cli_error(cli_input_exit(made), job->system, &error);
+    return made == DAL_OK ? CLI_DONE
+                          : cli_error(cli_input_exit(made), request->system_name, &error);
 }
 
 void spectrum_free(spectrum_study *s)
 {
     dal_spectrum_free(s->spectrum);
-    job_free(&s->job);
+    request_free(&s->request);
 }
 
 /* ---- the way ------------------------------------------------------------------------------- */
@@ -53,7 +54,7 @@ void spectrum_free(spectrum_study *s)
 static int advance(spectrum_study *s, long long steps)
 {
     const dal_run *run = dal_spectrum_run(s->spectrum);
-    const double end = s->transient + s->job.time;
+    const double end = s->transient + s->request.time;
     dal_status status = DAL_OK;
     dal_error error = {0};
     while (steps > 0 && status == DAL_OK) {
@@ -63,12 +64,13 @@ static int advance(spectrum_study *s, long long steps)
         status = dal_spectrum_advance(s->spectrum, count, &error);
         steps -= count;
     }
-    return status == DAL_OK ? CLI_DONE : cli_error(cli_exit(status), s->job.system, &error);
+    return status == DAL_OK ? CLI_DONE
+                            : cli_error(cli_exit(status), s->request.system_name, &error);
 }
 
 static long long steps_in(const spectrum_study *s, double t)
 {
-    return llround(t / s->job.options.step);
+    return llround(t / s->request.options.step);
 }
 
 static int put_row(spectrum_study *s, const spectrum_table *t, double *values)
@@ -81,7 +83,7 @@ static int put_row(spectrum_study *s, const spectrum_table *t, double *values)
 
 static int take_rows(spectrum_study *s, const spectrum_table *t, double *values)
 {
-    const long long total = steps_in(s, s->job.time);
+    const long long total = steps_in(s, s->request.time);
     const long long rows = s->rows < total ? s->rows : total;
     int status = advance(s, steps_in(s, s->transient));
     dal_spectrum_forget(s->spectrum);
@@ -104,9 +106,9 @@ static int draw(const spectrum_study *s, const char *directory, const spectrum_t
     int missing;
     FILE *script = gnuplot_open(directory, t->name, "svg", 800, 500, &path);
     if (!script) return CLI_IO;
-    dal_method_name(&s->job.method, method, sizeof method);
-    snprintf(title, sizeof title, "%.80s, %.80s, h = %g", s->job.system, method,
-             s->job.options.step);
+    dal_method_name(&s->request.method, method, sizeof method);
+    snprintf(title, sizeof title, "%.80s, %.80s, h = %g", s->request.system_name, method,
+             s->request.options.step);
     fputs("set title ", script);
     gnuplot_quote(script, title);
     fprintf(script,
@@ -131,7 +133,7 @@ int spectrum_run(spectrum_study *s, const spectrum_table *t)
 {
     analysis_output place = {0};
     double *values = cli_calloc((size_t)t->columns + 1, sizeof *values);
-    int status = job_check_step(&s->job, s->transient + s->job.time);
+    int status = request_check_step(&s->request, s->transient + s->request.time);
     if (status == CLI_DONE && s->output) status = analysis_open(&place, s->output, t->name);
     if (status == CLI_DONE && place.table)
         status = table_create(&s->table, place.table, t->names, t->columns + 1);
@@ -155,9 +157,9 @@ void spectrum_print_head(const spectrum_study *s)
 {
     char method[128];
     const dal_run *run = dal_spectrum_run(s->spectrum);
-    dal_method_name(&s->job.method, method, sizeof method);
-    printf("%s, %s, h = %g: means over t = %g .. %g\n", s->job.system, method, s->job.options.step,
-           s->from, dal_run_time(run));
+    dal_method_name(&s->request.method, method, sizeof method);
+    printf("%s, %s, h = %g: means over t = %g .. %g\n", s->request.system_name, method,
+           s->request.options.step, s->from, dal_run_time(run));
     printf("the derivative of the step %s\n\n", dal_spectrum_is_exact(s->spectrum)
                                                     ? "exact, by the tangent system"
                                                     : "by differences of order 8");
@@ -185,7 +187,7 @@ int spectrum_print_balance(spectrum_study *s)
     return cli_fail(CLI_FAILED,
                     "%s: the sum of the exponents differs from the mean divergence by %g, more "
                     "than %g: the derivative of the steps is not reliable",
-                    s->job.system, b.difference, b.margin);
+                    s->request.system_name, b.difference, b.margin);
 }
 
 double spectrum_resolution(const spectrum_study *s)

@@ -22,7 +22,7 @@ enum {
 };
 
 typedef struct spectrum_study {
-    cli_job job;
+    run_request request;
     const char *output;
     double transient;
     long long rows;

@@ -12,7 +12,7 @@
     X(lanes, "W", "1", "step 1, 2, 4, 8 or 16 systems at a time")                                  \
     X(prefix, "NAME", NULL, "what public names begin with (SYSTEM_INTEGRATOR)")
 
-/* The options of a job that a generated file has a use for. */
+/* The options of a request that a generated file has a use for. */
 #define TAKEN_LIST(X)                                                                              \
     X(integrator) X(space) X(solver) X(iterations) X(extend_energy) X(set) X(start)
 
@@ -26,7 +26,7 @@ enum {
 };
 
 static const int taken[] = {
-#define X(name) JOB_##name,
+#define X(name) REQUEST_##name,
     TAKEN_LIST(X)
 #undef X
 };
@@ -45,8 +45,8 @@ typedef struct generate_wishes {
 static void list_options(cli_option *options)
 {
     static const cli_option own[] = {OWN_LIST(CLI_OPTION)};
-    cli_option all[JOB_OPTIONS];
-    job_options(all);
+    cli_option all[REQUEST_OPTIONS];
+    request_list_options(all);
     memcpy(options, own, sizeof own);
     for (int i = TAKEN_FIRST; i < OPTIONS; i++) options[i] = all[taken[i - TAKEN_FIRST]];
 }
@@ -58,29 +58,30 @@ static int write_text(const char *text, const char *output)
     return cli_close(stdout, "standard output");
 }
 
-static int generate(cli_job *job, const generate_wishes *wishes)
+static int generate(run_request *request, const generate_wishes *wishes)
 {
-    if (!job->system) return cli_fail(CLI_USAGE, "generate: the SYSTEM is missing");
-    if (!job->text[JOB_integrator]) return cli_fail(CLI_USAGE, "generate: --integrator is missing");
+    if (!request->system_name) return cli_fail(CLI_USAGE, "generate: the SYSTEM is missing");
+    if (!request->text[REQUEST_integrator])
+        return cli_fail(CLI_USAGE, "generate: --integrator is missing");
     dal_run_spec spec;
-    int status = job_spec(job, &spec);
+    int status = request_make_spec(request, &spec);
     if (status != CLI_DONE) return status;
     dal_error error = {0};
     char *text = NULL;
     dal_status made = dal_generate(&spec, (int)wishes->lanes, wishes->prefix, &text, &error);
-    if (made != DAL_OK) return cli_error(cli_input_exit(made), job->system, &error);
+    if (made != DAL_OK) return cli_error(cli_input_exit(made), request->system_name, &error);
     status = write_text(text, wishes->output);
     free(text);
     return status;
 }
 
-static int take(cli_job *job, generate_wishes *wishes, int option, const char *value)
+static int take(run_request *request, generate_wishes *wishes, int option, const char *value)
 {
     switch (option) {
     case CLI_PLAIN:
-        if (job->system)
+        if (request->system_name)
             return cli_fail(CLI_USAGE, "generate: one SYSTEM only, not also '%s'", value);
-        job->system = value;
+        request->system_name = value;
         return CLI_DONE;
     case OWN_output:
         wishes->output = value;
@@ -91,7 +92,7 @@ static int take(cli_job *job, generate_wishes *wishes, int option, const char *v
     case OWN_lanes:
         return cli_integer("--lanes", value, 1, 16, &wishes->lanes);
     default:
-        return job_take(job, taken[option - TAKEN_FIRST], value);
+        return request_parse_option(request, taken[option - TAKEN_FIRST], value);
     }
 }
 
@@ -103,15 +104,15 @@ int command_generate(int argc, char **argv)
     for (int i = 1; i < argc; i++)
         if (strcmp(argv[i], "-o") == 0) argv[i] = output;
     cli_args args = cli_begin(argc, argv, options, OPTIONS, notes);
-    cli_job job = job_begin();
+    run_request request = request_default();
     generate_wishes wishes = {.output = "-", .lanes = 1};
     const char *value;
     for (int k; (k = cli_next(&args, &value)) != CLI_STOP;) {
-        int status = take(&job, &wishes, k, value);
+        int status = take(&request, &wishes, k, value);
         if (status != CLI_DONE) cli_stop(&args, status);
     }
     int status = args.status;
-    if (status == CLI_GO_ON) status = generate(&job, &wishes);
-    job_free(&job);
+    if (status == CLI_GO_ON) status = generate(&request, &wishes);
+    request_free(&request);
     return status;
 }

@@ -14,7 +14,7 @@ static const char notes[] =
 
 /* Those of the options of a run that may be chosen anew, and one of a study behind. */
 enum {
-    FIRST = RUN_checkpoint - JOB_OPTIONS,
+    FIRST = RUN_checkpoint - REQUEST_OPTIONS,
     OF_RUN = RUN_force - RUN_checkpoint,
     OPTION_threads = OF_RUN,
     OPTIONS
@@ -32,13 +32,13 @@ static int holds_study(const char *directory)
 static int resume_run(const char *directory, const run_wishes *wishes)
 {
     cli_store store;
-    cli_job job = job_begin();
+    run_request request = request_default();
     store_open(&store, directory);
-    int status = store_read(&store, &job);
-    if (status == CLI_DONE) status = job_make(&job);
+    int status = store_read(&store, &request);
+    if (status == CLI_DONE) status = request_create_run(&request);
     if (status == CLI_DONE) status = store_lock(&store, 0);
-    if (status == CLI_DONE) status = run_integrate(&job, &store, wishes);
-    job_free(&job);
+    if (status == CLI_DONE) status = run_integrate(&request, &store, wishes);
+    request_free(&request);
     store_close(&store);
     return status;
 }

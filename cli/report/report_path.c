@@ -20,7 +20,7 @@ static const double pi = 3.14159265358979323846;
 
 typedef struct path {
     cli_store store;
-    cli_job job;
+    run_request request;
     cli_rows rows;
     dal_probe *probe;
     dal_body body;
@@ -148,7 +148,8 @@ static int take_row(path *p, report_plot *plot, long long k)
     const double *row = p->rows.row;
     double at[DAL_PICTURE_COUNT];
     if (!posed && k % stride && k != last) return CLI_DONE;
-    if (dal_probe_call(p->probe, p->job.made->picture, row[0], row + 1, row + 1 + p->n, NULL, at))
+    if (dal_probe_call(p->probe, p->request.system->picture, row[0], row + 1, row + 1 + p->n, NULL,
+                       at))
         return CLI_DONE;
     report_point(plot, at[DAL_PICTURE_X], at[DAL_PICTURE_Y]);
     for (int i = 0; i < 2; i++) {
@@ -205,12 +206,13 @@ static int load(path *p, const char *run)
     dal_error error;
     store_open(&p->store, run);
     if (access(p->store.manifest, F_OK) != 0) return CLI_DONE;
-    int status = store_read(&p->store, &p->job);
-    if (status == CLI_DONE) status = job_spec(&p->job, &spec);
-    if (status != CLI_DONE || !p->job.made->picture) return status;
-    p->n = p->job.made->n;
-    p->body = p->job.made->body;
-    if (dal_probe_create(&p->probe, p->job.made, p->job.set.item, p->job.set.count, &error))
+    int status = store_read(&p->store, &p->request);
+    if (status == CLI_DONE) status = request_make_spec(&p->request, &spec);
+    if (status != CLI_DONE || !p->request.system->picture) return status;
+    p->n = p->request.system->n;
+    p->body = p->request.system->body;
+    if (dal_probe_create(&p->probe, p->request.system, p->request.set.item, p->request.set.count,
+                         &error))
         return cli_error(CLI_USAGE, run, &error);
     return rows_open(&p->rows, run);
 }
@@ -218,7 +220,7 @@ static int load(path *p, const char *run)
 int report_path(report *r, const char *run, const char *name, const char *caption)
 {
     path *p = cli_calloc(1, sizeof *p);
-    *p = (path){.job = job_begin(),
+    *p = (path){.request = request_default(),
                 .store = {.descriptor = -1},
                 .low = {INFINITY, INFINITY},
                 .high = {-INFINITY, -INFINITY}};
@@ -228,7 +230,7 @@ int report_path(report *r, const char *run, const char *name, const char *captio
         rows_close(&p->rows);
     }
     dal_probe_free(p->probe);
-    job_free(&p->job);
+    request_free(&p->request);
     store_close(&p->store);
     free(p);
     return status;

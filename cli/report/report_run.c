@@ -305,7 +305,7 @@ static void put_word(FILE *page, const char *word)
 }
 
 /* The shortest digits that are read back as the same number. */
-static void put_settings(FILE *page, const char *option, const job_settings *settings)
+static void put_settings(FILE *page, const char *option, const request_settings *settings)
 {
     char text[256];
     for (int i = 0; i < settings->count; i++) {
@@ -319,53 +319,54 @@ static void put_settings(FILE *page, const char *option, const job_settings *set
     }
 }
 
-static void put_command(FILE *page, const cli_job *job)
+static void put_command(FILE *page, const run_request *request)
 {
-    cli_option options[JOB_OPTIONS];
-    job_options(options);
+    cli_option options[REQUEST_OPTIONS];
+    request_list_options(options);
     fputs("<h2>How to make it again</h2>\n<pre tabindex=\"0\">dalembert run ", page);
-    put_word(page, job->system);
-    for (int i = 0; i < JOB_OPTIONS; i++) {
-        if (!job->text[i] || i == JOB_set || i == JOB_start) continue;
+    put_word(page, request->system_name);
+    for (int i = 0; i < REQUEST_OPTIONS; i++) {
+        if (!request->text[i] || i == REQUEST_set || i == REQUEST_start) continue;
         fprintf(page, " --%s ", options[i].name);
-        put_word(page, job->text[i]);
+        put_word(page, request->text[i]);
     }
-    put_settings(page, "set", &job->set);
-    put_settings(page, "start", &job->start);
+    put_settings(page, "set", &request->set);
+    put_settings(page, "start", &request->start);
     fputs(" --output DIR</pre>\n", page);
 }
 
-static void put_heading(report *r, const cli_job *job)
+static void put_heading(report *r, const run_request *request)
 {
     char title[2 * PLOT_NAME];
-    const char *method = job->text[JOB_integrator];
-    snprintf(title, sizeof title, "%.80s by %.80s", job->system ? job->system : "A run",
-             method ? method : "?");
-    report_title(r, job->system ? title : "A run");
+    const char *method = request->text[REQUEST_integrator];
+    snprintf(title, sizeof title, "%.80s by %.80s",
+             request->system_name ? request->system_name : "A run", method ? method : "?");
+    report_title(r, request->system_name ? title : "A run");
 }
 
 /* What the directory says of its run; nothing where it says nothing, or in an older way. */
-static int read_job(const report *r, cli_store *store, cli_job *job)
+static int read_job(const report *r, cli_store *store, run_request *request)
 {
     store_open(store, r->directory);
     if (access(store->manifest, F_OK) != 0 || access(store->old_settings, F_OK) == 0)
         return CLI_DONE;
-    return store_read(store, job);
+    return store_read(store, request);
 }
 
 /* ---- the page ---- */
 
-static int write_page(run_page *run, const cli_job *job)
+static int write_page(run_page *run, const run_request *request)
 {
     report *r = run->r;
-    put_heading(r, job);
+    put_heading(r, request);
     int status = CLI_DONE;
-    put_summary(run, job->time);
+    put_summary(run, request->time);
     fputs("<h2>Figures</h2>\n<div class=\"figures\">\n", r->page);
-    if (status == CLI_DONE && job->system) status = report_path(r, r->directory, "path", "");
+    if (status == CLI_DONE && request->system_name)
+        status = report_path(r, r->directory, "path", "");
     if (status == CLI_DONE) status = draw_figures(run);
     fputs("</div>\n", r->page);
-    if (job->system) put_command(r->page, job);
+    if (request->system_name) put_command(r->page, request);
     report_file(r, "manifest.json", "what it was made with: manifest.json");
     return status;
 }
@@ -373,23 +374,23 @@ static int write_page(run_page *run, const cli_job *job)
 int report_run(report *r)
 {
     cli_store store = {.descriptor = -1};
-    cli_job job = job_begin();
+    run_request request = request_default();
     run_page *run = cli_calloc(1, sizeof *run);
     run->r = r;
     int status = rows_open(&run->rows, r->directory), opened = status == CLI_DONE;
     if (opened) status = make_memory(run);
-    if (status == CLI_DONE) status = read_job(r, &store, &job);
+    if (status == CLI_DONE) status = read_job(r, &store, &request);
     if (status == CLI_DONE) status = read_summary(run);
     if (status == CLI_DONE) {
         find_columns(run);
-        status = write_page(run, &job);
+        status = write_page(run, &request);
     }
     if (opened) rows_close(&run->rows);
     report_csv_free(&run->summary);
     free(run->first);
     free(run->group);
     free(run);
-    job_free(&job);
+    request_free(&request);
     store_close(&store);
     return status;
 }

@@ -26,7 +26,7 @@ static const char copy_name[] = "system.yaml";
 /* ---- writing ------------------------------------------------------------------------------- */
 
 /* e may be infinite, which JSON has no number for. */
-static void put_settings(FILE *out, const char *name, const job_settings *settings)
+static void put_settings(FILE *out, const char *name, const request_settings *settings)
 {
     fprintf(out, ",\n    \"%s\": {", name);
     for (int i = 0; i < settings->count; i++) {
@@ -41,22 +41,23 @@ static void put_settings(FILE *out, const char *name, const job_settings *settin
 }
 
 /* Allocated. */
-static char *describe(const cli_job *job)
+static char *describe(const run_request *request)
 {
-    cli_option options[JOB_OPTIONS];
+    cli_option options[REQUEST_OPTIONS];
     char *text;
     size_t length;
     FILE *out = cli_memstream_open(&text, &length);
-    job_options(options);
+    request_list_options(options);
     fputc('{', out);
-    json_text_member(out, "\n    ", "system", cli_is_path(job->system) ? copy_name : job->system);
-    for (int i = 0; i < JOB_OPTIONS; i++)
-        if (job->text[i] && job_is_number(i))
-            json_given_member(out, ",\n    ", options[i].name, job->text[i]);
-        else if (job->text[i] && i != JOB_set && i != JOB_start)
-            json_text_member(out, ",\n    ", options[i].name, job->text[i]);
-    put_settings(out, options[JOB_set].name, &job->set);
-    put_settings(out, options[JOB_start].name, &job->start);
+    json_text_member(out, "\n    ", "system",
+                     cli_is_path(request->system_name) ? copy_name : request->system_name);
+    for (int i = 0; i < REQUEST_OPTIONS; i++)
+        if (request->text[i] && request_option_is_number(i))
+            json_given_member(out, ",\n    ", options[i].name, request->text[i]);
+        else if (request->text[i] && i != REQUEST_set && i != REQUEST_start)
+            json_text_member(out, ",\n    ", options[i].name, request->text[i]);
+    put_settings(out, options[REQUEST_set].name, &request->set);
+    put_settings(out, options[REQUEST_start].name, &request->start);
     fputs("\n  }", out);
     cli_memstream_close(out);
     return text;
@@ -99,23 +100,23 @@ static int clear(const cli_store *store)
     return status;
 }
 
-int store_describe(cli_store *store, const cli_job *job)
+int store_describe(cli_store *store, const run_request *request)
 {
-    const int is_path = cli_is_path(job->system);
+    const int is_path = cli_is_path(request->system_name);
     int status = clear(store);
     if (status == CLI_DONE)
-        status = is_path ? copy(store, job->system) : file_remove(store->system);
+        status = is_path ? copy(store, request->system_name) : file_remove(store->system);
     if (status != CLI_DONE) return status;
-    store->input = describe(job);
-    status = sign(store, is_path ? NULL : dal_builtin_text(job->system));
+    store->input = describe(request);
+    status = sign(store, is_path ? NULL : dal_builtin_text(request->system_name));
     const cli_mark nothing = {.row = 0};
-    return status == CLI_DONE ? manifest_write(store, job, &nothing, "running", "") : status;
+    return status == CLI_DONE ? manifest_write(store, request, &nothing, "running", "") : status;
 }
 
 /* Both are described in the present way, whatever version wrote the directory. */
-int store_is_of(const cli_store *store, const cli_job *held, const cli_job *job)
+int store_is_of(const cli_store *store, const run_request *held, const run_request *request)
 {
-    char *one = describe(held), *other = describe(job);
+    char *one = describe(held), *other = describe(request);
     int status = CLI_DONE;
     if (strcmp(one, other) != 0)
         status = cli_fail(CLI_USAGE, "'%s' holds another run: its input differs", store->directory);
@@ -131,21 +132,22 @@ static const char *name_of(const study_text *text, const yaml_node_pair_t *pair)
     return study_text_scalar(text, study_text_node(text, pair->key), "manifest");
 }
 
-/* "NAME=VALUE" out of "set" or "start"; job_take copies it. */
-static int take_setting(cli_job *job, int option, const char *name, const char *value)
+/* "NAME=VALUE" out of "set" or "start"; request_parse_option copies it. */
+static int take_setting(run_request *request, int option, const char *name, const char *value)
 {
     char *given;
     size_t length;
     FILE *out = cli_memstream_open(&given, &length);
     fprintf(out, "%s=%s", name, value);
     cli_memstream_close(out);
-    const int status = job_take(job, option, given);
-    job->text[option] = NULL;
+    const int status = request_parse_option(request, option, given);
+    request->text[option] = NULL;
     free(given);
     return status;
 }
 
-static int take_settings(cli_job *job, int option, const study_text *text, const yaml_node_t *node)
+static int take_settings(run_request *request, int option, const study_text *text,
+                         const yaml_node_t *node)
 {
     if (node->type != YAML_MAPPING_NODE)
         return study_text_fail(text, node, "names and values are wanted");
@@ -154,37 +156,39 @@ static int take_settings(cli_job *job, int option, const study_text *text, const
         const char *name = name_of(text, pair);
         const char *value =
             name ? study_text_scalar(text, study_text_node(text, pair->value), name) : NULL;
-        const int status = value ? take_setting(job, option, name, value) : CLI_USAGE;
+        const int status = value ? take_setting(request, option, name, value) : CLI_USAGE;
         if (status != CLI_DONE) return status;
     }
     return CLI_DONE;
 }
 
 /* The copy in the directory is meant, wherever the program was started. */
-static int take(const cli_store *store, cli_job *job, const char *name, const yaml_node_t *node)
+static int take(const cli_store *store, run_request *request, const char *name,
+                const yaml_node_t *node)
 {
     const study_text *text = store->text;
-    const int option = job_find(name), is_system = strcmp(name, "system") == 0;
-    if (option == JOB_set || option == JOB_start) return take_settings(job, option, text, node);
+    const int option = request_find_option(name), is_system = strcmp(name, "system") == 0;
+    if (option == REQUEST_set || option == REQUEST_start)
+        return take_settings(request, option, text, node);
     if (option < 0 && !is_system)
         return study_text_fail(text, node, "unknown option '%s' of a run", name);
     const char *value = study_text_scalar(text, node, name);
     if (!value) return CLI_USAGE;
-    if (!is_system) return job_take(job, option, value);
-    job->system = strcmp(value, copy_name) == 0 ? store->system : value;
+    if (!is_system) return request_parse_option(request, option, value);
+    request->system_name = strcmp(value, copy_name) == 0 ? store->system : value;
     return CLI_DONE;
 }
 
-static int take_all(const cli_store *store, cli_job *job, const yaml_node_t *input)
+static int take_all(const cli_store *store, run_request *request, const yaml_node_t *input)
 {
     const yaml_node_pair_t *pair = input->data.mapping.pairs.start;
     for (; pair < input->data.mapping.pairs.top; pair++) {
         const char *name = name_of(store->text, pair);
         const yaml_node_t *value = study_text_node(store->text, pair->value);
-        const int status = name ? take(store, job, name, value) : CLI_USAGE;
+        const int status = name ? take(store, request, name, value) : CLI_USAGE;
         if (status != CLI_DONE) return status;
     }
-    if (job->system) return CLI_DONE;
+    if (request->system_name) return CLI_DONE;
     return study_text_fail(store->text, input, "the system is missing");
 }
 
@@ -209,7 +213,7 @@ static int check_version(const study_text *text, const yaml_node_t *root)
     return CLI_DONE;
 }
 
-static int read_manifest(cli_store *store, cli_job *job, const char *bytes, size_t length)
+static int read_manifest(cli_store *store, run_request *request, const char *bytes, size_t length)
 {
     store->text = cli_calloc(1, sizeof *store->text);
     int status = json_parse(store->text, store->manifest, bytes, length);
@@ -221,10 +225,10 @@ static int read_manifest(cli_store *store, cli_job *job, const char *bytes, size
     status = check_version(store->text, root);
     if (status != CLI_DONE) return status;
     store->input = json_source(bytes, input);
-    return take_all(store, job, input);
+    return take_all(store, request, input);
 }
 
-int store_read(cli_store *store, cli_job *job)
+int store_read(cli_store *store, run_request *request)
 {
     size_t length;
     if (access(store->old_settings, F_OK) == 0)
@@ -237,7 +241,7 @@ int store_read(cli_store *store, cli_job *job)
                         store->manifest);
     char *bytes = file_read(store->manifest, &length);
     if (!bytes) return CLI_IO;
-    int status = read_manifest(store, job, bytes, length);
+    int status = read_manifest(store, request, bytes, length);
     free(bytes);
-    return status == CLI_DONE ? sign(store, dal_builtin_text(job->system)) : status;
+    return status == CLI_DONE ? sign(store, dal_builtin_text(request->system_name)) : status;
 }

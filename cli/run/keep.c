@@ -3,16 +3,16 @@
 
 static const double interval = 5.0; /* seconds between checkpoints */
 
-static int go_on(cli_keep *keep, const cli_job *job)
+static int go_on(cli_keep *keep, const run_request *request)
 {
-    cli_job held = job_begin();
+    run_request held = request_default();
     int status = store_read(&keep->store, &held);
-    if (status == CLI_DONE) status = store_is_of(&keep->store, &held, job);
-    job_free(&held);
+    if (status == CLI_DONE) status = store_is_of(&keep->store, &held, request);
+    request_free(&held);
     return status;
 }
 
-int keep_open(cli_keep *keep, const cli_job *job, const char *directory)
+int keep_open(cli_keep *keep, const run_request *request, const char *directory)
 {
     cli_store *store = &keep->store;
     *keep = (cli_keep){0};
@@ -21,8 +21,8 @@ int keep_open(cli_keep *keep, const cli_job *job, const char *directory)
     int status = cli_directory(directory);
     if (status == CLI_DONE) status = store_lock(store, !store_is_described(store));
     if (status == CLI_DONE)
-        status = store_is_described(store) ? go_on(keep, job) : store_describe(store, job);
-    if (status == CLI_DONE) status = record_open(&keep->record, job, store, directory);
+        status = store_is_described(store) ? go_on(keep, request) : store_describe(store, request);
+    if (status == CLI_DONE) status = record_open(&keep->record, request, store, directory);
     keep->record.interval = interval;
     keep->record.progress = PROGRESS_OFF;
     return status;

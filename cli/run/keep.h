@@ -15,7 +15,7 @@ typedef struct cli_keep {
  * longer than a checkpoint's interval: what a power cut takes of a shorter one is done anew.
  * Returns CLI_DONE, CLI_USAGE (another run or another process is there, or what is there is
  * damaged) or CLI_IO; keep_close it in any case. */
-int keep_open(cli_keep *keep, const cli_job *job, const char *directory);
+int keep_open(cli_keep *keep, const run_request *request, const char *directory);
 /* As record_go; not when it is finished. */
 int keep_go(cli_keep *keep, dal_error *error);
 int keep_is_finished(const cli_keep *keep);

@@ -36,19 +36,21 @@ void manifest_machine(FILE *out)
     fputs("\n  }", out);
 }
 
-static void put_state(FILE *out, const cli_job *job, const cli_mark *mark, const char *state)
+static void put_state(FILE *out, const run_request *request, const cli_mark *mark,
+                      const char *state)
 {
     char method[256];
-    json_text_member(out, ",\n  ", "method", dal_method_name(&job->method, method, sizeof method));
+    json_text_member(out, ",\n  ", "method",
+                     dal_method_name(&request->method, method, sizeof method));
     json_text_member(out, ",\n  ", "status", state);
-    json_number_member(out, ",\n  ", "t", dal_run_time(job->run));
+    json_number_member(out, ",\n  ", "t", dal_run_time(request->run));
     fprintf(out, ",\n  \"rows\": %lld,\n  \"steps\": %lld,\n  \"evaluations\": %lld", mark->row,
-            dal_run_steps(job->run), dal_run_evaluations(job->run));
-    fprintf(out, ",\n  \"native\": %s", dal_run_is_native(job->run) ? "true" : "false");
+            dal_run_steps(request->run), dal_run_evaluations(request->run));
+    fprintf(out, ",\n  \"native\": %s", dal_run_is_native(request->run) ? "true" : "false");
     json_number_member(out, ",\n  ", "seconds", mark->seconds);
 }
 
-int manifest_write(const cli_store *store, const cli_job *job, const cli_mark *mark,
+int manifest_write(const cli_store *store, const run_request *request, const cli_mark *mark,
                    const char *state, const char *why)
 {
     char *text;
@@ -57,7 +59,7 @@ int manifest_write(const cli_store *store, const cli_job *job, const cli_mark *m
     json_text_member(out, "{\n  ", "dalembert", DAL_VERSION);
     fprintf(out, ",\n  \"input\": %s", store->input);
     manifest_machine(out);
-    put_state(out, job, mark, state);
+    put_state(out, request, mark, state);
     if (why[0]) json_text_member(out, ",\n  ", "message", why);
     fputs("\n}\n", out);
     cli_memstream_close(out);

@@ -36,7 +36,7 @@ int progress_read(const char *text, cli_progress_kind *kind)
 static double remaining(const cli_record *r, double t)
 {
     const double gone = t - r->begun;
-    return gone > 0.0 ? r->stretch * (r->job->time - t) / gone : INFINITY;
+    return gone > 0.0 ? r->stretch * (r->request->time - t) / gone : INFINITY;
 }
 
 /* Appends to a line as long as there is room; a piece that does not fit is left out as a whole. */
@@ -84,8 +84,8 @@ static void show_line(const cli_record *r, double t)
     char line[LINE] = "";
     int length = 0;
     const int width = cli_width() - 1, room = width < LINE ? width : LINE - 1;
-    const long long steps = dal_run_steps(r->job->run) - r->begun_steps;
-    append(line, &length, room, "t = %.6g (%.0f %%)", t, floor(100.0 * t / r->job->time));
+    const long long steps = dal_run_steps(r->request->run) - r->begun_steps;
+    append(line, &length, room, "t = %.6g (%.0f %%)", t, floor(100.0 * t / r->request->time));
     append_remaining(line, &length, room, remaining(r, t));
     if (r->stretch > 0.0) append(line, &length, room, ", %.2e steps/s", (double)steps / r->stretch);
     append_moved(line, &length, room, r);
@@ -95,10 +95,11 @@ static void show_line(const cli_record *r, double t)
 static void show_json(const cli_record *r, double t)
 {
     json_number_member(stderr, "{", "t", t);
-    json_number_member(stderr, ", ", "time", r->job->time);
-    fprintf(stderr, ", \"steps\": %lld, \"rows\": %lld", dal_run_steps(r->job->run), r->mark.row);
+    json_number_member(stderr, ", ", "time", r->request->time);
+    fprintf(stderr, ", \"steps\": %lld, \"rows\": %lld", dal_run_steps(r->request->run),
+            r->mark.row);
     json_number_member(stderr, ", ", "seconds", r->mark.seconds);
-    json_number_member(stderr, ", ", "remaining", t >= r->job->time ? 0.0 : remaining(r, t));
+    json_number_member(stderr, ", ", "remaining", t >= r->request->time ? 0.0 : remaining(r, t));
     fputs(", \"deviation\": {", stderr);
     for (int i = 0; i < r->observables; i++)
         json_number_member(stderr, i ? ", " : "", record_observable(r, i),

@@ -14,7 +14,7 @@ static int is_column(const char *name) { return name[0] != '|'; }
 
 static const char *value_name(const cli_record *r, int i, char *buffer)
 {
-    const dal_run *run = r->job->run;
+    const dal_run *run = r->request->run;
     if (i == 0) return "t";
     if (i <= r->dimension) return dal_run_name(run, i - 1, buffer, NAME_SIZE);
     return dal_run_observable_name(run, i - 1 - r->dimension, buffer, NAME_SIZE);
@@ -32,8 +32,8 @@ static void name_values(cli_record *r, int count)
 
 static void make_room(cli_record *r)
 {
-    r->dimension = dal_run_dimension(r->job->run);
-    r->observables = dal_run_observables(r->job->run);
+    r->dimension = dal_run_dimension(r->request->run);
+    r->observables = dal_run_observables(r->request->run);
     size_t count = 1 + (size_t)r->dimension + (size_t)r->observables;
     r->values = cli_calloc(count, sizeof *r->values);
     r->row = cli_calloc(count, sizeof *r->row);
@@ -59,7 +59,7 @@ static int open_table(cli_record *r, const char *output)
     free(names);
     if (!s) return status;
     s->descriptor = -1;
-    status = store_load(s, &r->table, &r->mark, r->job->run, r->statistics, r->observables);
+    status = store_load(s, &r->table, &r->mark, r->request->run, r->statistics, r->observables);
     return status == CLI_DONE ? table_go_on(&r->table, r->mark.row, &r->mark.sum) : status;
 }
 
@@ -74,19 +74,19 @@ static const char *state_word(int status)
     return status == CLI_DONE ? "done" : status == CLI_SIGNAL ? "interrupted" : "failed";
 }
 
-int record_open(cli_record *r, const cli_job *job, cli_store *store, const char *output)
+int record_open(cli_record *r, const run_request *request, cli_store *store, const char *output)
 {
-    *r = (cli_record){.job = job, .store = store, .stop = interrupted};
+    *r = (cli_record){.request = request, .store = store, .stop = interrupted};
     r->quiet =
         !isatty(STDERR_FILENO) || (!store && strcmp(output, "-") == 0 && isatty(STDOUT_FILENO));
     make_room(r);
     const int status = open_table(r, output);
     if (status != CLI_DONE || !record_is_finished(r)) return status;
-    dal_run_classify(job->run, r->statistics, 0, r->trend);
+    dal_run_classify(request->run, r->statistics, 0, r->trend);
     /* Killed between its last checkpoint and the manifest. */
     return manifest_is_over(store->manifest)
                ? CLI_DONE
-               : manifest_write(store, job, &r->mark, state_word(CLI_DONE), "");
+               : manifest_write(store, request, &r->mark, state_word(CLI_DONE), "");
 }
 
 void record_close(cli_record *r)
@@ -101,7 +101,7 @@ void record_close(cli_record *r)
     free(r->trend);
 }
 
-int record_is_finished(const cli_record *r) { return r->mark.row > r->job->samples; }
+int record_is_finished(const cli_record *r) { return r->mark.row > r->request->samples; }
 
 const char *record_observable(const cli_record *r, int i) { return r->names[1 + r->dimension + i]; }
 
@@ -174,7 +174,8 @@ static int save_to_last(cli_record *r, const dal_run *run)
     if (!r->store->settle) {
         status = table_settle(&r->table, 0);
         r->store->settle = 1;
-        if (status == CLI_DONE) status = manifest_write(r->store, r->job, &r->mark, "running", "");
+        if (status == CLI_DONE)
+            status = manifest_write(r->store, r->request, &r->mark, "running", "");
     }
     return status == CLI_DONE ? save(r, run) : status;
 }
@@ -225,10 +226,10 @@ static int keep(cli_record *r, int status, const char *why)
     if (r->store && (status == CLI_DONE || status == CLI_FAILED)) {
         kept = table_settle(&r->table, 0);
         if (kept == CLI_DONE) kept = summary_write(r, r->store->summary);
-        if (kept == CLI_DONE) kept = save(r, r->job->run);
+        if (kept == CLI_DONE) kept = save(r, r->request->run);
     }
     if (r->store && kept == CLI_DONE && status != CLI_IO)
-        kept = manifest_write(r->store, r->job, &r->mark, state_word(status), why);
+        kept = manifest_write(r->store, r->request, &r->mark, state_word(status), why);
     int closed = table_close(&r->table);
     if (status != CLI_DONE) return status;
     return kept != CLI_DONE ? kept : closed;
@@ -237,7 +238,7 @@ static int keep(cli_record *r, int status, const char *why)
 static double row_time(void *user, long long row)
 {
     const cli_record *r = user;
-    return r->job->row_time[row];
+    return r->request->row_time[row];
 }
 
 int record_go(cli_record *r, dal_error *error)
@@ -246,22 +247,22 @@ int record_go(cli_record *r, dal_error *error)
                                  .sample = sample,
                                  .poll = poll,
                                  .values = follow,
-                                 .every = r->job->statistics,
-                                 .row_time = r->job->row_time ? row_time : NULL,
+                                 .every = r->request->statistics,
+                                 .row_time = r->request->row_time ? row_time : NULL,
                                  .polling = 1};
     *error = (dal_error){0};
     if (r->store && r->mark.row > 0 &&
-        manifest_write(r->store, r->job, &r->mark, "running", "") != CLI_DONE)
+        manifest_write(r->store, r->request, &r->mark, "running", "") != CLI_DONE)
         return CLI_IO;
     r->saved = cli_seconds();
-    r->begun = dal_run_time(r->job->run);
-    r->begun_steps = dal_run_steps(r->job->run);
+    r->begun = dal_run_time(r->request->run);
+    r->begun_steps = dal_run_steps(r->request->run);
     start_clock(r);
-    dal_status status = dal_run_sample(r->job->run, r->job->time, r->job->samples, r->mark.row,
-                                       &r->observer, error);
+    dal_status status = dal_run_sample(r->request->run, r->request->time, r->request->samples,
+                                       r->mark.row, &r->observer, error);
     pause_clock(r);
     if (r->progress != PROGRESS_OFF) cli_progress_end();
-    progress_show(r, dal_run_time(r->job->run), 1);
-    dal_run_classify(r->job->run, r->statistics, status != DAL_OK, r->trend);
+    progress_show(r, dal_run_time(r->request->run), 1);
+    dal_run_classify(r->request->run, r->statistics, status != DAL_OK, r->trend);
     return keep(r, conclude(r, status, error), error->message);
 }

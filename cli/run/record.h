@@ -16,7 +16,7 @@ typedef enum cli_progress_kind {
 } cli_progress_kind;
 
 typedef struct cli_record {
-    const cli_job *job;
+    const run_request *request;
     cli_store *store; /* NULL: the rows go to a file or to stdout and nothing is kept beside them */
     cli_table table;
     int dimension, observables, columns;
@@ -43,7 +43,8 @@ typedef struct cli_record {
 
 /* Opens the table: output is a file or "-"; with a store, its trajectory.npy, going on where its
  * checkpoint says.  record_close it in any case. */
-int record_open(cli_record *record, const cli_job *job, cli_store *store, const char *output);
+int record_open(cli_record *record, const run_request *request, cli_store *store,
+                const char *output);
 void record_close(cli_record *record);
 /* Integrates to the end.  Returns CLI_DONE; CLI_FAILED and the like with the reason in *error;
  * CLI_SIGNAL; or CLI_IO and such that has been told, with no message in *error. */

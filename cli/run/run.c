@@ -38,8 +38,8 @@ int run_take_interval(const char *text, double *interval)
 
 run_wishes run_wish(void)
 {
-    run_wishes wishes = {.output = run_options[RUN_output - JOB_OPTIONS].initial};
-    run_take_interval(run_options[RUN_checkpoint - JOB_OPTIONS].initial, &wishes.interval);
+    run_wishes wishes = {.output = run_options[RUN_output - REQUEST_OPTIONS].initial};
+    run_take_interval(run_options[RUN_checkpoint - REQUEST_OPTIONS].initial, &wishes.interval);
     return wishes;
 }
 
@@ -73,14 +73,14 @@ static void tell_end(const cli_record *r, int status, const dal_error *error)
     else if (status == CLI_SIGNAL)
         cli_fail(status, "interrupted; %lld rows are kept", r->mark.row);
     else if (status != CLI_DONE && error->message[0])
-        cli_error(status, r->job->system, error);
+        cli_error(status, r->request->system_name, error);
 }
 
-int run_integrate(const cli_job *job, cli_store *store, const run_wishes *wishes)
+int run_integrate(const run_request *request, cli_store *store, const run_wishes *wishes)
 {
     cli_record record;
     dal_error error;
-    int status = record_open(&record, job, store, wishes->output);
+    int status = record_open(&record, request, store, wishes->output);
     record.interval = wishes->interval;
     record.progress = wishes->progress;
     if (status == CLI_DONE && record_is_finished(&record)) {
@@ -89,10 +89,10 @@ int run_integrate(const cli_job *job, cli_store *store, const run_wishes *wishes
         cli_catch_signals();
         if (record.mark.row > 0)
             cli_fail(CLI_DONE, "'%s' goes on from t = %g with row %lld", store->directory,
-                     dal_run_time(job->run), record.mark.row);
-        const double steps = (job->time - dal_run_time(job->run)) / job->options.step;
-        native_use(job->run, &job->method, steps, wishes->native);
-        native_look(job->run, steps / (double)job->statistics, wishes->native);
+                     dal_run_time(request->run), record.mark.row);
+        const double steps = (request->time - dal_run_time(request->run)) / request->options.step;
+        native_use(request->run, &request->method, steps, wishes->native);
+        native_look(request->run, steps / (double)request->statistics, wishes->native);
         status = record_go(&record, &error);
         tell_end(&record, status, &error);
         if (wishes->summary || isatty(STDERR_FILENO)) summary_print(stderr, &record);
@@ -103,7 +103,7 @@ int run_integrate(const cli_job *job, cli_store *store, const run_wishes *wishes
 
 /* ---- run ----------------------------------------------------------------------------------- */
 
-static int run_in_directory(const cli_job *job, const run_wishes *wishes)
+static int run_in_directory(const run_request *request, const run_wishes *wishes)
 {
     cli_store store;
     store_open(&store, wishes->output);
@@ -115,40 +115,42 @@ static int run_in_directory(const cli_job *job, const run_wishes *wishes)
                           "writes over it",
                           held);
     if (status == CLI_DONE) status = store_lock(&store, 1);
-    if (status == CLI_DONE) status = store_describe(&store, job);
-    if (status == CLI_DONE) status = run_integrate(job, &store, wishes);
+    if (status == CLI_DONE) status = store_describe(&store, request);
+    if (status == CLI_DONE) status = run_integrate(request, &store, wishes);
     store_close(&store);
     return status;
 }
 
-static int take(cli_job *job, run_wishes *wishes, int option, const char *value)
+static int take(run_request *request, run_wishes *wishes, int option, const char *value)
 {
     if (option == CLI_PLAIN) {
-        if (job->system) return cli_fail(CLI_USAGE, "run: one SYSTEM only, not also '%s'", value);
-        job->system = value;
+        if (request->system_name)
+            return cli_fail(CLI_USAGE, "run: one SYSTEM only, not also '%s'", value);
+        request->system_name = value;
         return CLI_DONE;
     }
-    return option < JOB_OPTIONS ? job_take(job, option, value) : run_take(wishes, option, value);
+    return option < REQUEST_OPTIONS ? request_parse_option(request, option, value)
+                                    : run_take(wishes, option, value);
 }
 
 int command_run(int argc, char **argv)
 {
     cli_option options[RUN_OPTIONS];
-    job_options(options);
-    memcpy(options + JOB_OPTIONS, run_options, sizeof run_options);
+    request_list_options(options);
+    memcpy(options + REQUEST_OPTIONS, run_options, sizeof run_options);
     cli_args args = cli_begin(argc, argv, options, RUN_OPTIONS, run_notes);
-    cli_job job = job_begin();
+    run_request request = request_default();
     run_wishes wishes = run_wish();
     const char *value;
     for (int k; (k = cli_next(&args, &value)) != CLI_STOP;) {
-        int taken = take(&job, &wishes, k, value);
+        int taken = take(&request, &wishes, k, value);
         if (taken != CLI_DONE) cli_stop(&args, taken);
     }
     int status = args.status;
-    if (status == CLI_GO_ON) status = job_make(&job);
+    if (status == CLI_GO_ON) status = request_create_run(&request);
     if (args.status == CLI_GO_ON && status == CLI_DONE)
-        status = cli_is_directory(wishes.output) ? run_in_directory(&job, &wishes)
-                                                 : run_integrate(&job, NULL, &wishes);
-    job_free(&job);
+        status = cli_is_directory(wishes.output) ? run_in_directory(&request, &wishes)
+                                                 : run_integrate(&request, NULL, &wishes);
+    request_free(&request);
     return status;
 }

@@ -8,7 +8,7 @@
 #include "store.h"
 #include "ui/cli.h"
 
-/* The options of a run that do not concern the trajectory; they come behind those of the job.
+/* The options of a run that do not concern the trajectory; they come behind those of the request.
  * name, value, default, help */
 #define RUN_OPTION_LIST(X)                                                                         \
     X(output, "FILE|DIR|-", "-", "write there: .csv, .npy, a directory, or stdout")                \
@@ -19,12 +19,12 @@
     X(force, NULL, NULL, "write over what the directory holds of another run")
 
 enum {
-    RUN_FIRST = JOB_OPTIONS - 1,
+    RUN_FIRST = REQUEST_OPTIONS - 1,
 #define X(name, value, initial, help) RUN_##name,
     RUN_OPTION_LIST(X)
 #undef X
         RUN_OPTIONS,
-    RUN_OWN = RUN_OPTIONS - JOB_OPTIONS
+    RUN_OWN = RUN_OPTIONS - REQUEST_OPTIONS
 };
 
 extern const cli_option run_options[RUN_OWN];
@@ -44,7 +44,7 @@ run_wishes run_wish(void);
  * an exit status. */
 int run_take(run_wishes *wishes, int option, const char *text);
 int run_take_interval(const char *text, double *interval);
-/* The integration itself, the job being made and the directory, if there is one, described. */
-int run_integrate(const cli_job *job, cli_store *store, const run_wishes *wishes);
+/* The integration itself, the request being made and the directory, if there is one, described. */
+int run_integrate(const run_request *request, cli_store *store, const run_wishes *wishes);
 
 #endif

@@ -15,60 +15,62 @@
 
 /* ---- logarithmic --------------------------------------------------------------------------- */
 
-static int schedule_log(cli_job *job)
+static int schedule_log(run_request *request)
 {
-    const double h = job->options.step, T = job->time, steps = floor(T / h * (1.0 + 1e-12));
-    const long long rows = job->samples;
+    const double h = request->options.step, T = request->time, steps = floor(T / h * (1.0 + 1e-12));
+    const long long rows = request->samples;
     double before = 0.0;
-    if (rows > SCHEDULE_MOST)
+    if (rows > ROW_TIMES_MAX)
         return cli_fail(CLI_USAGE, "--samples: %lld are too many for --sampling log", rows);
-    job->row_time = cli_malloc(((size_t)rows + 2) * sizeof *job->row_time);
-    job->samples = 0;
-    job->row_time[0] = 0.0;
+    request->row_time = cli_malloc(((size_t)rows + 2) * sizeof *request->row_time);
+    request->samples = 0;
+    request->row_time[0] = 0.0;
     for (long long k = 1; k <= rows; k++) {
         const double part = rows > 1 ? (double)(k - 1) / (double)(rows - 1) : 1.0;
         const double step = fmin(floor(exp(part * log(steps)) + 0.5), steps);
-        if (step > before && step * h < T) job->row_time[++job->samples] = step * h;
+        if (step > before && step * h < T) request->row_time[++request->samples] = step * h;
         before = fmax(before, step);
     }
-    double *last = &job->row_time[job->samples];
-    if (*last < T * (1.0 - 1e-9) || job->samples == 0) last = &job->row_time[++job->samples];
+    double *last = &request->row_time[request->samples];
+    if (*last < T * (1.0 - 1e-9) || request->samples == 0)
+        last = &request->row_time[++request->samples];
     *last = T;
     return CLI_DONE;
 }
 
 /* ---- on whole steps ------------------------------------------------------------------------ */
 
-static int schedule_steps(cli_job *job)
+static int schedule_steps(run_request *request)
 {
-    const double h = job->options.step;
-    const long long steps = llround(job->time / h);
-    if (job->samples > steps) job->samples = steps;
-    if (job->samples > SCHEDULE_MOST)
+    const double h = request->options.step;
+    const long long steps = llround(request->time / h);
+    if (request->samples > steps) request->samples = steps;
+    if (request->samples > ROW_TIMES_MAX)
         return cli_fail(CLI_USAGE, "--samples: %lld are too many for --sampling steps",
-                        job->samples);
-    job->row_time = cli_malloc(((size_t)job->samples + 1) * sizeof *job->row_time);
-    for (long long k = 0; k <= job->samples; k++) {
-        const double part = (double)k / (double)job->samples;
-        job->row_time[k] = (double)llround(part * (double)steps) * h;
+                        request->samples);
+    request->row_time = cli_malloc(((size_t)request->samples + 1) * sizeof *request->row_time);
+    for (long long k = 0; k <= request->samples; k++) {
+        const double part = (double)k / (double)request->samples;
+        request->row_time[k] = (double)llround(part * (double)steps) * h;
     }
-    job->time = job->row_time[job->samples];
+    request->time = request->row_time[request->samples];
     return CLI_DONE;
 }
 
 /* ---- given --------------------------------------------------------------------------------- */
 
-static int add_time(cli_job *job, const char *text)
+static int add_time(run_request *request, const char *text)
 {
     double t;
     if (cli_number("--times", text, &t) != CLI_DONE) return CLI_USAGE;
-    const long long count = job->times;
+    const long long count = request->times;
     if (t < 0.0) return cli_fail(CLI_USAGE, "--times: %s is negative", text);
-    if (count > 0 && !(t > job->row_time[count - 1]))
+    if (count > 0 && !(t > request->row_time[count - 1]))
         return cli_fail(CLI_USAGE, "--times: %s does not come after the time before", text);
-    if (count == SCHEDULE_MOST) return cli_fail(CLI_USAGE, "--times: too many");
-    job->row_time = cli_realloc(job->row_time, ((size_t)count + 2) * sizeof *job->row_time);
-    job->row_time[job->times++] = t;
+    if (count == ROW_TIMES_MAX) return cli_fail(CLI_USAGE, "--times: too many");
+    request->row_time =
+        cli_realloc(request->row_time, ((size_t)count + 2) * sizeof *request->row_time);
+    request->row_time[request->times++] = t;
     return CLI_DONE;
 }
 
@@ -79,86 +81,87 @@ static int is_file(const char *text)
 }
 
 /* Times between commas and white space; a line of a file may end in a remark behind #. */
-static int read_times(cli_job *job, char *text)
+static int read_times(run_request *request, char *text)
 {
     int status = CLI_DONE;
     for (char *remark = text; (remark = strchr(remark, '#'));)
         while (*remark && *remark != '\n') *remark++ = ' ';
     for (char *word = strtok(text, ", \t\r\n"); word && status == CLI_DONE;
          word = strtok(NULL, ", \t\r\n"))
-        status = add_time(job, word);
-    if (status == CLI_DONE && job->times == 0) return cli_fail(CLI_USAGE, "--times: there is none");
+        status = add_time(request, word);
+    if (status == CLI_DONE && request->times == 0)
+        return cli_fail(CLI_USAGE, "--times: there is none");
     return status;
 }
 
 /* What was read, as a list that needs no file. */
-static void write_list(cli_job *job)
+static void write_list(run_request *request)
 {
     size_t length;
-    FILE *out = cli_memstream_open(&job->list, &length);
-    for (long long i = 0; i < job->times; i++) {
+    FILE *out = cli_memstream_open(&request->list, &length);
+    for (long long i = 0; i < request->times; i++) {
         if (i) fputc(',', out);
-        cli_put(out, job->row_time[i]);
+        cli_put(out, request->row_time[i]);
     }
     cli_memstream_close(out);
-    job->text[JOB_times] = job->list;
+    request->text[REQUEST_times] = request->list;
 }
 
-int job_take_times(cli_job *job, const char *given)
+int request_parse_times(run_request *request, const char *given)
 {
     size_t length;
     char *text = is_file(given) ? file_read(given, &length) : cli_strdup(given);
     if (!text) return CLI_IO;
-    free(job->row_time);
-    free(job->list);
-    job->row_time = NULL;
-    job->list = NULL;
-    job->times = 0;
-    const int status = read_times(job, text);
+    free(request->row_time);
+    free(request->list);
+    request->row_time = NULL;
+    request->list = NULL;
+    request->times = 0;
+    const int status = read_times(request, text);
     free(text);
-    if (status == CLI_DONE) write_list(job);
+    if (status == CLI_DONE) write_list(request);
     return status;
 }
 
-static int schedule_times(cli_job *job)
+static int schedule_times(run_request *request)
 {
-    const double last = job->row_time[job->times - 1];
-    if (job->text[JOB_samples] || job->text[JOB_sampling])
+    const double last = request->row_time[request->times - 1];
+    if (request->text[REQUEST_samples] || request->text[REQUEST_sampling])
         return cli_fail(CLI_USAGE, "--times: neither --samples nor --sampling goes with it");
-    if (!job->text[JOB_time]) job->time = last;
-    if (!(job->time > 0.0) || job->time < last)
-        return cli_fail(CLI_USAGE, "--times: %.17g is no time up to T = %g", last, job->time);
-    job->samples = job->times - 1;
-    if (job->time > last) job->row_time[++job->samples] = job->time;
-    if (job->samples > 0) return CLI_DONE;
+    if (!request->text[REQUEST_time]) request->time = last;
+    if (!(request->time > 0.0) || request->time < last)
+        return cli_fail(CLI_USAGE, "--times: %.17g is no time up to T = %g", last, request->time);
+    request->samples = request->times - 1;
+    if (request->time > last) request->row_time[++request->samples] = request->time;
+    if (request->samples > 0) return CLI_DONE;
     /* A run has two rows at least: the start is the other. */
-    job->row_time[1] = job->row_time[0];
-    job->row_time[0] = 0.0;
-    job->samples = 1;
+    request->row_time[1] = request->row_time[0];
+    request->row_time[0] = 0.0;
+    request->samples = 1;
     return CLI_DONE;
 }
 
-int job_take_sampling(cli_job *job, const char *word)
+int request_parse_sampling(run_request *request, const char *word)
 {
     static const char *const words[] = {
 #define X(code, word) #word,
-        JOB_SAMPLING_LIST(X)
+        REQUEST_SAMPLING_LIST(X)
 #undef X
     };
     for (size_t i = 0; i < sizeof words / sizeof words[0]; i++) {
         if (strcmp(words[i], word) != 0) continue;
-        job->sampling = (job_sampling)i;
+        request->sampling = (request_sampling)i;
         return CLI_DONE;
     }
     return cli_fail(CLI_USAGE, "--sampling: '%s' is not linear, log or steps", word);
 }
 
-const char *schedule_fault(double step, double time, char text[SCHEDULE_TEXT])
+const char *request_step_error(double step, double time, char text[REQUEST_STEP_TEXT])
 {
     if (step > time)
-        snprintf(text, SCHEDULE_TEXT, "%.15g is larger than the time %g", step, time);
+        snprintf(text, REQUEST_STEP_TEXT, "%.15g is larger than the time %g", step, time);
     else if (time / step > 0x1p53)
-        snprintf(text, SCHEDULE_TEXT,
+        snprintf(text, REQUEST_STEP_TEXT,
                  "%.15g is too small: %g steps of %g are more than can be counted", step,
                  time / step, step);
     else
@@ -166,23 +169,23 @@ const char *schedule_fault(double step, double time, char text[SCHEDULE_TEXT])
     return text;
 }
 
-int job_check_step(const cli_job *job, double time)
+int request_check_step(const run_request *request, double time)
 {
-    char text[SCHEDULE_TEXT];
-    const char *fault = schedule_fault(job->options.step, time, text);
+    char text[REQUEST_STEP_TEXT];
+    const char *fault = request_step_error(request->options.step, time, text);
     return fault ? cli_fail(CLI_USAGE, "--step: %s", fault) : CLI_DONE;
 }
 
-int job_schedule(cli_job *job)
+int request_set_row_times(run_request *request)
 {
-    int status = job->times > 0 ? schedule_times(job) : CLI_DONE;
-    if (status == CLI_DONE) status = job_check_step(job, job->time);
-    if (status != CLI_DONE || job->times > 0) return status;
-    switch (job->sampling) {
-    case JOB_SAMPLING_LOG:
-        return schedule_log(job);
-    case JOB_SAMPLING_STEPS:
-        return schedule_steps(job);
+    int status = request->times > 0 ? schedule_times(request) : CLI_DONE;
+    if (status == CLI_DONE) status = request_check_step(request, request->time);
+    if (status != CLI_DONE || request->times > 0) return status;
+    switch (request->sampling) {
+    case REQUEST_SAMPLING_LOG:
+        return schedule_log(request);
+    case REQUEST_SAMPLING_STEPS:
+        return schedule_steps(request);
     default:
         return CLI_DONE;
     }

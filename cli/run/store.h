@@ -33,7 +33,7 @@ typedef struct cli_store {
 #define X(name, file) char *name;
     STORE_FILE_LIST(X)
 #undef X
-    study_text *text;     /* manifest.json as it was read, where the texts of its job live */
+    study_text *text;     /* manifest.json as it was read, where the texts of its request live */
     char *input;          /* what was asked for, as it stands in manifest.json */
     uint64_t fingerprint; /* of that and of the system */
     int settle;           /* whether to wait until what is written is on the disk */
@@ -56,15 +56,15 @@ const char *store_holds(const cli_store *store);
  * run; any other has it already: CLI_USAGE where it is lost. */
 int store_lock(cli_store *store, int is_new);
 /* Describes a new run; what an older one left is removed. */
-int store_describe(cli_store *store, const cli_job *job);
-/* Reads the description into a new job, whose texts live as long as the store. */
-int store_read(cli_store *store, cli_job *job);
+int store_describe(cli_store *store, const run_request *request);
+/* Reads the description into a new request, whose texts live as long as the store. */
+int store_read(cli_store *store, run_request *request);
 /* Whether a run is described there. */
 int store_is_described(const cli_store *store);
-/* Whether the job that was read there and another are one: CLI_USAGE and a message when not. */
-int store_is_of(const cli_store *store, const cli_job *held, const cli_job *job);
+/* Whether the request that was read there and another are one: CLI_USAGE and a message when not. */
+int store_is_of(const cli_store *store, const run_request *held, const run_request *request);
 /* manifest.json; state: running, done, failed, interrupted; why: a message, or "". */
-int manifest_write(const cli_store *store, const cli_job *job, const cli_mark *mark,
+int manifest_write(const cli_store *store, const run_request *request, const cli_mark *mark,
                    const char *state, const char *why);
 /* Whether a manifest says that its run is done or has failed. */
 int manifest_is_over(const char *path);

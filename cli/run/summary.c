@@ -8,7 +8,7 @@
 
 static double nanoseconds(const cli_record *r)
 {
-    long long steps = dal_run_steps(r->job->run);
+    long long steps = dal_run_steps(r->request->run);
     return steps > 0 ? 1e9 * r->mark.seconds / (double)steps : 0.0;
 }
 
@@ -24,14 +24,14 @@ static void print_observable(FILE *out, const char *name, const dal_trend *f)
 
 void summary_print(FILE *out, const cli_record *r)
 {
-    const cli_job *job = r->job;
+    const run_request *request = r->request;
     char method[128];
-    dal_method_name(&job->method, method, sizeof method);
-    fprintf(out, "%s, %s, %s, h = %g: t = %g, %lld rows\n", job->system, method,
-            job->options.space == DAL_LIFTED ? "lifted" : "physical", job->options.step,
-            dal_run_time(job->run), r->mark.row);
-    fprintf(out, "%lld steps, %lld evaluations, %.1f ns per step\n", dal_run_steps(job->run),
-            dal_run_evaluations(job->run), nanoseconds(r));
+    dal_method_name(&request->method, method, sizeof method);
+    fprintf(out, "%s, %s, %s, h = %g: t = %g, %lld rows\n", request->system_name, method,
+            request->options.space == DAL_LIFTED ? "lifted" : "physical", request->options.step,
+            dal_run_time(request->run), r->mark.row);
+    fprintf(out, "%lld steps, %lld evaluations, %.1f ns per step\n", dal_run_steps(request->run),
+            dal_run_evaluations(request->run), nanoseconds(r));
     fprintf(out, "%-12s %14s %10s %10s %10s %21s %8s %9s  %s\n", "", "final", "max | |",
             "amplitude", "rate", "", "exponent", "size", "trend");
     for (int i = 0; i < r->observables; i++)

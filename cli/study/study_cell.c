@@ -18,7 +18,7 @@ enum { TEXT = 512 };
 typedef struct walk {
     const study_plan *plan;
     study_cell *cell;
-    cli_job job;
+    run_request request;
     char **text; /* of its options */
     size_t texts;
     char *directory;
@@ -29,7 +29,7 @@ typedef struct walk {
     double *values, *first;                              /* [observables] */
 } walk;
 
-/* ---- the job ---- */
+/* ---- the request ---- */
 
 CLI_PRINTF(3, 4) static int give(walk *w, int option, const char *format, ...)
 {
@@ -39,7 +39,7 @@ CLI_PRINTF(3, 4) static int give(walk *w, int option, const char *format, ...)
     va_end(list);
     w->text = cli_realloc(w->text, (w->texts + 1) * sizeof *w->text);
     w->text[w->texts] = text;
-    return job_take(&w->job, option, w->text[w->texts++]);
+    return request_parse_option(&w->request, option, w->text[w->texts++]);
 }
 
 static int give_settings(walk *w, int option, const dal_setting *setting, int count, double unit)
@@ -57,9 +57,9 @@ static int displace(walk *w, double size)
     int status = CLI_DONE;
     for (int i = 0; i < s->n && status == CLI_DONE; i++) {
         const double signed_size = i % 2 ? -size : size;
-        status = give(w, JOB_start, "p_%s=%.17g", s->coordinate[i], signed_size / (i + 1));
+        status = give(w, REQUEST_start, "p_%s=%.17g", s->coordinate[i], signed_size / (i + 1));
         if (status == CLI_DONE)
-            status = give(w, JOB_start, "pi_%s=%.17g", s->coordinate[i], signed_size / (i + 2));
+            status = give(w, REQUEST_start, "pi_%s=%.17g", s->coordinate[i], signed_size / (i + 2));
     }
     return status;
 }
@@ -67,10 +67,10 @@ static int displace(walk *w, double size)
 static int give_start(walk *w)
 {
     const study_entry *e = w->cell->entry;
-    int status = give_settings(w, JOB_start, e->start, e->start_count, 1.0);
+    int status = give_settings(w, REQUEST_start, e->start, e->start_count, 1.0);
     if (status != CLI_DONE || w->cell->start != STUDY_DISPLACED) return status;
     if (e->displace_count == 0) return displace(w, e->displacement);
-    return give_settings(w, JOB_start, e->displace, e->displace_count, e->displacement);
+    return give_settings(w, REQUEST_start, e->displace, e->displace_count, e->displacement);
 }
 
 static int give_options(walk *w)
@@ -78,7 +78,8 @@ static int give_options(walk *w)
     const study_entry *e = w->cell->entry;
     int status = CLI_DONE;
     for (int i = 0; i < STUDY_OPTIONS && status == CLI_DONE; i++)
-        if (e->option[i]) status = give(w, job_find(study_option_word(i)), "%s", e->option[i]);
+        if (e->option[i])
+            status = give(w, request_find_option(study_option_word(i)), "%s", e->option[i]);
     return status;
 }
 
@@ -92,17 +93,18 @@ static int give_all(walk *w)
     const study_cell *c = w->cell;
     const study_entry *e = c->entry;
     char method[STUDY_NAME];
-    w->job.made = e->system;
-    w->job.system = e->copy ? e->copy : e->name;
-    int status = give(w, JOB_integrator, "%s", dal_method_name(c->method, method, sizeof method));
-    if (status == CLI_DONE) status = give(w, JOB_step, "%.17g", c->step);
-    if (status == CLI_DONE) status = give(w, JOB_time, "%.17g", e->time);
-    if (status == CLI_DONE) status = give(w, JOB_samples, "%lld", e->samples);
-    if (status == CLI_DONE) status = give(w, JOB_sampling, "steps");
-    if (status == CLI_DONE) status = give(w, JOB_statistics, "%lld", e->statistics);
-    if (status == CLI_DONE) status = give(w, JOB_space, "%s", space[c->start]);
+    w->request.system = e->system;
+    w->request.system_name = e->copy ? e->copy : e->name;
+    int status =
+        give(w, REQUEST_integrator, "%s", dal_method_name(c->method, method, sizeof method));
+    if (status == CLI_DONE) status = give(w, REQUEST_step, "%.17g", c->step);
+    if (status == CLI_DONE) status = give(w, REQUEST_time, "%.17g", e->time);
+    if (status == CLI_DONE) status = give(w, REQUEST_samples, "%lld", e->samples);
+    if (status == CLI_DONE) status = give(w, REQUEST_sampling, "steps");
+    if (status == CLI_DONE) status = give(w, REQUEST_statistics, "%lld", e->statistics);
+    if (status == CLI_DONE) status = give(w, REQUEST_space, "%s", space[c->start]);
     if (status == CLI_DONE) status = give_options(w);
-    if (status == CLI_DONE) status = give_settings(w, JOB_set, e->set, e->set_count, 1.0);
+    if (status == CLI_DONE) status = give_settings(w, REQUEST_set, e->set, e->set_count, 1.0);
     return status == CLI_DONE ? give_start(w) : status;
 }
 
@@ -188,7 +190,7 @@ static void track(const walk *w, double *most)
 static void take_row(walk *w, long long k)
 {
     study_cell *c = w->cell;
-    const double samples = (double)w->job.samples;
+    const double samples = (double)w->request.samples;
     take_values(w);
     if (k == 0) memcpy(w->first, w->values, (size_t)c->observables * sizeof *w->first);
     const int window = (int)((double)k / (samples + 1.0) * STUDY_WINDOWS);
@@ -203,7 +205,7 @@ static int read_rows(walk *w)
     if (status != CLI_DONE) return status;
     w->cell->bits = FILE_HASH_START;
     int more = 1;
-    for (long long k = 0; k <= w->job.samples && (more = rows_next(&w->rows)) > 0; k++)
+    for (long long k = 0; k <= w->request.samples && (more = rows_next(&w->rows)) > 0; k++)
         take_row(w, k);
     rows_close(&w->rows);
     return more < 0 ? CLI_IO : CLI_DONE;
@@ -225,11 +227,11 @@ static int make_run(walk *w)
     dal_run_spec spec;
     study_cell *c = w->cell;
     int status = give_all(w);
-    if (status == CLI_DONE) status = job_settle(&w->job, &spec);
+    if (status == CLI_DONE) status = request_complete(&w->request, &spec);
     if (status != CLI_DONE) return status;
-    const dal_status made = dal_run_create(&w->job.run, &spec, &c->error);
+    const dal_status made = dal_run_create(&w->request.run, &spec, &c->error);
     if (cli_is_ok(made)) return CLI_DONE;
-    w->job.run = NULL;
+    w->request.run = NULL;
     fail(c, made == DAL_UNSUPPORTED ? STUDY_REFUSED : STUDY_FAILED, made);
     return CLI_DONE;
 }
@@ -240,9 +242,9 @@ static int collect(walk *w, const dal_error *error, int ended)
     int status = make_memory(w);
     if (status == CLI_DONE) status = read_rows(w);
     if (status != CLI_DONE) return status;
-    c->time = dal_run_time(w->job.run);
-    c->steps = dal_run_steps(w->job.run);
-    c->evaluations = dal_run_evaluations(w->job.run);
+    c->time = dal_run_time(w->request.run);
+    c->steps = dal_run_steps(w->request.run);
+    c->evaluations = dal_run_evaluations(w->request.run);
     c->seconds = w->keep.record.mark.seconds;
     c->state = STUDY_FINISHED;
     c->error = *error;
@@ -254,15 +256,15 @@ static int go(walk *w, const study_watch *watch)
 {
     const study_entry *e = w->cell->entry;
     dal_error error = {0};
-    int ended = keep_open(&w->keep, &w->job, w->directory);
+    int ended = keep_open(&w->keep, &w->request, w->directory);
     if (ended == CLI_DONE && !keep_is_finished(&w->keep)) {
-        const double left = (double)(w->job.time - dal_run_time(w->job.run));
+        const double left = (double)(w->request.time - dal_run_time(w->request.run));
         if (watch) {
             w->keep.record.stop = watch->stop;
             w->keep.record.stop_user = watch->user;
         }
         w->keep.record.interval = w->plan->interval;
-        native_use(w->job.run, w->cell->method, left / w->cell->step, e->native);
+        native_use(w->request.run, w->cell->method, left / w->cell->step, e->native);
         ended = keep_go(&w->keep, &error);
     }
     if (ended != CLI_DONE && ended != CLI_FAILED) return ended;
@@ -275,14 +277,14 @@ static void leave(walk *w)
     free(w->text);
     free(w->directory);
     free(w->values);
-    job_free(&w->job);
+    request_free(&w->request);
 }
 
 int study_cell_run(const study_plan *plan, study_cell *cell, const study_watch *watch)
 {
-    walk w = {.plan = plan, .cell = cell, .job = job_begin()};
+    walk w = {.plan = plan, .cell = cell, .request = request_default()};
     int status = make_run(&w);
-    if (status == CLI_DONE && w.job.run) {
+    if (status == CLI_DONE && w.request.run) {
         w.directory = study_cell_directory(plan, cell);
         status = go(&w, watch);
         keep_close(&w.keep);
@@ -294,8 +296,8 @@ int study_cell_run(const study_plan *plan, study_cell *cell, const study_watch *
 
 int study_cell_can_run(study_cell *cell)
 {
-    walk w = {.cell = cell, .job = job_begin()};
-    const int can = make_run(&w) == CLI_DONE && w.job.run;
+    walk w = {.cell = cell, .request = request_default()};
+    const int can = make_run(&w) == CLI_DONE && w.request.run;
     leave(&w);
     study_cell_free(cell);
     return can;

@@ -93,8 +93,8 @@ static int check_entry(const study_text *text, const yaml_node_t *node, const st
     if (e->steps == 0) return study_text_fail(text, node, "%s: the step is missing", e->name);
     if (!(e->time > 0.0)) return study_text_fail(text, node, "%s: the time is missing", e->name);
     for (int i = 0; i < e->steps; i++) {
-        char said[SCHEDULE_TEXT];
-        const char *fault = schedule_fault(e->step[i], e->time, said);
+        char said[REQUEST_STEP_TEXT];
+        const char *fault = request_step_error(e->step[i], e->time, said);
         if (fault) return study_text_fail(text, node, "%s: step %s", e->name, fault);
     }
     return CLI_DONE;
