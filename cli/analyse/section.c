@@ -54,7 +54,7 @@ typedef struct wishes {
 typedef struct section {
     run_request request;
     const wishes *w;
-    cli_table table;
+    trajectory_writer table;
     int columns;
     char **names;               /* [columns], pieces of one text */
     double *row, *least, *most; /* [columns] of a row, and of all */
@@ -194,7 +194,7 @@ static dal_status cross(void *user, dal_run *run, const dal_crossing *crossing)
         s->least[i] = fmin(s->least[i], s->row[i]);
         s->most[i] = fmax(s->most[i], s->row[i]);
     }
-    s->told = table_row(&s->table, s->row);
+    s->told = writer_append(&s->table, s->row);
     return s->told == CLI_DONE ? DAL_OK : DAL_IO;
 }
 
@@ -226,7 +226,7 @@ static int go(section *s, const char *path)
                                    .user = s,
                                    .cross = cross,
                                    .poll = poll};
-    int status = table_create(&s->table, path, s->names, s->columns);
+    int status = writer_create(&s->table, path, s->names, s->columns);
     if (status == CLI_DONE) {
         cli_catch_signals();
         native_use(s->request.run, &s->request.method, s->request.time / s->request.options.step,
@@ -236,7 +236,7 @@ static int go(section *s, const char *path)
         cli_progress_end();
         status = ended(s, crossed, &error);
     }
-    const int closed = table_close(&s->table);
+    const int closed = writer_close(&s->table);
     FILE *out = strcmp(path, "-") == 0 ? stderr : stdout;
     if (out == stdout || isatty(STDERR_FILENO))
         fprintf(out, "t = %g: %lld upwards, %lld downwards, %lld touches; %lld rows\n",

@@ -78,7 +78,7 @@ static int put_row(spectrum_study *s, const spectrum_table *t, double *values)
     if (!s->table.path) return CLI_DONE;
     values[0] = dal_run_time(dal_spectrum_run(s->spectrum));
     t->fill(s->spectrum, values + 1);
-    return table_row(&s->table, values);
+    return writer_append(&s->table, values);
 }
 
 static int take_rows(spectrum_study *s, const spectrum_table *t, double *values)
@@ -136,13 +136,13 @@ int spectrum_run(spectrum_study *s, const spectrum_table *t)
     int status = request_check_step(&s->request, s->transient + s->request.time);
     if (status == CLI_DONE && s->output) status = analysis_open(&place, s->output, t->name);
     if (status == CLI_DONE && place.table)
-        status = table_create(&s->table, place.table, t->names, t->columns + 1);
+        status = writer_create(&s->table, place.table, t->names, t->columns + 1);
     if (status == CLI_DONE) {
         cli_catch_signals();
         status = take_rows(s, t, values);
     }
     if (s->table.path) {
-        const int closed = table_close(&s->table);
+        const int closed = writer_close(&s->table);
         if (status == CLI_DONE) status = closed;
     }
     if (status == CLI_DONE && place.directory) status = draw(s, place.directory, t);

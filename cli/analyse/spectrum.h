@@ -29,7 +29,7 @@ typedef struct spectrum_study {
     long long exponents; /* 0: all */
     dal_spectrum *spectrum;
     double from; /* where the means begin */
-    cli_table table;
+    trajectory_writer table;
 } spectrum_study;
 
 /* Takes one of the options above.  Returns CLI_DONE or prints and returns an exit status, as all

@@ -55,10 +55,10 @@ static void place(npy_header *header, const char *names, size_t length)
     header->text[MAGIC + 1] = 0;
     put_length(header->text + MAGIC + 2, header->length - prefix, (int)prefix - MAGIC - 2);
     memcpy(header->text + prefix, names, length);
-    npy_announce(header, 0);
+    npy_set_rows(header, 0);
 }
 
-void npy_describe(npy_header *header, char *const *names, int columns)
+void npy_make_header(npy_header *header, char *const *names, int columns)
 {
     char *text;
     size_t length;
@@ -70,7 +70,7 @@ void npy_describe(npy_header *header, char *const *names, int columns)
     free(text);
 }
 
-void npy_announce(npy_header *header, long long rows)
+void npy_set_rows(npy_header *header, long long rows)
 {
     char *line = header->text + header->length - NPY_LINE;
     const int n = snprintf(line, NPY_LINE, "'shape': (%lld,), }", rows);
@@ -78,22 +78,22 @@ void npy_announce(npy_header *header, long long rows)
     line[NPY_LINE - 1] = '\n';
 }
 
-void npy_put(unsigned char *bytes, const double *values, int count)
+void npy_encode(unsigned char *bytes, const double *values, int count)
 {
     for (int i = 0; i < count; i++) {
         const double x = isnan(values[i]) ? (double)NAN : values[i] + 0.0;
         uint64_t bits;
         memcpy(&bits, &x, sizeof bits);
-        word_put(bytes + WORD * i, bits);
+        write_le64(bytes + WORD * i, bits);
     }
 }
 
 /* ---- reading ------------------------------------------------------------------------------- */
 
-void npy_get(const unsigned char *bytes, double *values, int count)
+void npy_decode(const unsigned char *bytes, double *values, int count)
 {
     for (int i = 0; i < count; i++) {
-        const uint64_t bits = word_get(bytes + WORD * i);
+        const uint64_t bits = read_le64(bytes + WORD * i);
         memcpy(&values[i], &bits, sizeof bits);
     }
 }
@@ -104,7 +104,7 @@ static int not_ours(const char *path)
 }
 
 /* The text of the header, allocated; NULL when there is none. */
-static char *read_header(FILE *file, size_t *offset)
+static char *read_header_text(FILE *file, size_t *offset)
 {
     unsigned char prefix[PREFIX_2];
     size_t length = 0;
@@ -156,18 +156,18 @@ static int take_names(npy_columns *c, char *text)
     return at && sscanf(at, "'shape': (%lld,)", &c->rows) == 1 && c->rows >= 0;
 }
 
-int npy_read(npy_columns *columns, FILE *file, const char *path)
+int npy_read_header(npy_columns *columns, FILE *file, const char *path)
 {
     *columns = (npy_columns){0};
-    char *text = read_header(file, &columns->offset);
+    char *text = read_header_text(file, &columns->offset);
     if (!text) return ferror(file) ? cli_io("read", path) : not_ours(path);
     if (take_names(columns, text)) return CLI_DONE;
     if (columns->columns == 0) free(text);
-    npy_forget(columns);
+    npy_free_columns(columns);
     return not_ours(path);
 }
 
-void npy_forget(npy_columns *columns)
+void npy_free_columns(npy_columns *columns)
 {
     if (columns->columns) free(columns->names[0]);
     free(columns->names);

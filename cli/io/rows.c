@@ -7,7 +7,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-static int failed(const cli_rows *r)
+static int failed(const trajectory_reader *r)
 {
     cli_io("read", r->path);
     return -1;
@@ -15,9 +15,9 @@ static int failed(const cli_rows *r)
 
 /* ---- .npy ---------------------------------------------------------------------------------- */
 
-static int open_npy(cli_rows *r)
+static int open_npy(trajectory_reader *r)
 {
-    int status = npy_read(&r->npy, r->file, r->path);
+    int status = npy_read_header(&r->npy, r->file, r->path);
     if (status != CLI_DONE) return status;
     r->columns = r->npy.columns;
     r->name = r->npy.names;
@@ -27,23 +27,23 @@ static int open_npy(cli_rows *r)
     return CLI_DONE;
 }
 
-static int next_npy(cli_rows *r)
+static int next_npy(trajectory_reader *r)
 {
     const size_t length = (size_t)r->columns * sizeof(double);
     if (fread(r->bytes, 1, length, r->file) != length) {
         if (!ferror(r->file)) cli_fail(CLI_IO, "'%s': shorter than it tells", r->path);
         return ferror(r->file) ? failed(r) : -1;
     }
-    npy_get(r->bytes, r->row, r->columns);
+    npy_decode(r->bytes, r->row, r->columns);
     return 1;
 }
 
 /* ---- CSV ----------------------------------------------------------------------------------- */
 
 /* Names have no commas in them. */
-static int open_csv(cli_rows *r)
+static int open_csv(trajectory_reader *r)
 {
-    const ssize_t length = cli_getline(&r->line, &r->room, r->file);
+    const ssize_t length = cli_getline(&r->line, &r->capacity, r->file);
     if (length < 2) return cli_fail(CLI_USAGE, "'%s' has no rows", r->path);
     r->line[length - 1] = '\0';
     for (const char *c = r->line; *c; c++) r->columns += *c == ',';
@@ -56,12 +56,12 @@ static int open_csv(cli_rows *r)
     }
     r->begin = length;
     for (int c; (c = fgetc(r->file)) != EOF;) r->count += c == '\n';
-    return rows_seek(r, 0);
+    return reader_seek(r, 0);
 }
 
-static int next_csv(cli_rows *r)
+static int next_csv(trajectory_reader *r)
 {
-    if (cli_getline(&r->line, &r->room, r->file) < 0) return failed(r);
+    if (cli_getline(&r->line, &r->capacity, r->file) < 0) return failed(r);
     char *at = r->line;
     for (int i = 0; i < r->columns; i++) {
         r->row[i] = strtod(at, &at);
@@ -72,7 +72,7 @@ static int next_csv(cli_rows *r)
 
 /* ---- either -------------------------------------------------------------------------------- */
 
-static int open_file(cli_rows *r, const char *directory)
+static int open_file(trajectory_reader *r, const char *directory)
 {
     static const char *const names[] = {"trajectory.npy", "rows.csv"};
     for (int i = 0; i < 2 && !r->file; i++) {
@@ -85,47 +85,47 @@ static int open_file(cli_rows *r, const char *directory)
     return cli_fail(CLI_USAGE, "'%s' holds no run: there is no %s", directory, names[0]);
 }
 
-int rows_open(cli_rows *rows, const char *directory)
+int reader_open(trajectory_reader *reader, const char *directory)
 {
-    *rows = (cli_rows){0};
-    int status = open_file(rows, directory);
+    *reader = (trajectory_reader){0};
+    int status = open_file(reader, directory);
     if (status == CLI_DONE)
-        status = cli_ends_in(rows->path, ".npy") ? open_npy(rows) : open_csv(rows);
+        status = cli_ends_in(reader->path, ".npy") ? open_npy(reader) : open_csv(reader);
     if (status == CLI_DONE)
-        rows->row = cli_calloc((size_t)rows->columns, sizeof *rows->row);
+        reader->row = cli_calloc((size_t)reader->columns, sizeof *reader->row);
     else
-        rows_close(rows);
+        reader_close(reader);
     return status;
 }
 
-int rows_next(cli_rows *rows)
+int reader_next(trajectory_reader *reader)
 {
-    if (rows->next >= rows->count) return 0;
-    rows->next++;
-    return rows->bytes ? next_npy(rows) : next_csv(rows);
+    if (reader->next >= reader->count) return 0;
+    reader->next++;
+    return reader->bytes ? next_npy(reader) : next_csv(reader);
 }
 
-int rows_seek(cli_rows *rows, long long k)
+int reader_seek(trajectory_reader *reader, long long k)
 {
-    const long long bytes = rows->bytes ? k * rows->columns * (long long)sizeof(double) : 0;
-    if (fseeko(rows->file, (off_t)(rows->begin + bytes), SEEK_SET) != 0)
-        return cli_io("read", rows->path);
-    for (long long i = 0; i < k && !rows->bytes; i++)
-        if (cli_getline(&rows->line, &rows->room, rows->file) < 0)
-            return cli_io("read", rows->path);
-    rows->next = k;
+    const long long bytes = reader->bytes ? k * reader->columns * (long long)sizeof(double) : 0;
+    if (fseeko(reader->file, (off_t)(reader->begin + bytes), SEEK_SET) != 0)
+        return cli_io("read", reader->path);
+    for (long long i = 0; i < k && !reader->bytes; i++)
+        if (cli_getline(&reader->line, &reader->capacity, reader->file) < 0)
+            return cli_io("read", reader->path);
+    reader->next = k;
     return CLI_DONE;
 }
 
-void rows_close(cli_rows *rows)
+void reader_close(trajectory_reader *reader)
 {
-    if (rows->file) fclose(rows->file);
-    if (rows->npy.columns == 0 && rows->name) free(rows->name[0]);
-    if (rows->npy.columns == 0) free(rows->name);
-    npy_forget(&rows->npy);
-    free(rows->row);
-    free(rows->bytes);
-    free(rows->line);
-    free(rows->path);
-    *rows = (cli_rows){0};
+    if (reader->file) fclose(reader->file);
+    if (reader->npy.columns == 0 && reader->name) free(reader->name[0]);
+    if (reader->npy.columns == 0) free(reader->name);
+    npy_free_columns(&reader->npy);
+    free(reader->row);
+    free(reader->bytes);
+    free(reader->line);
+    free(reader->path);
+    *reader = (trajectory_reader){0};
 }

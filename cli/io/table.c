@@ -21,10 +21,10 @@
 
 enum { BUFFER_BYTES = 1 << 20 };
 
-static int broken(cli_table *table)
+static int failed(trajectory_writer *writer)
 {
-    table->broken = 1;
-    return cli_io("write", table->path);
+    writer->failed = 1;
+    return cli_io("write", writer->path);
 }
 
 /* ---- the sum ------------------------------------------------------------------------------- */
@@ -34,43 +34,43 @@ static uint64_t mix(uint64_t sum, uint64_t word)
     return ((sum << 23 | sum >> 41) ^ word) * UINT64_C(0x9e3779b97f4a7c15);
 }
 
-static void add_word(table_sum *sum, long long place, const unsigned char *bytes)
+static void add_word(row_sum *sum, long long place, const unsigned char *bytes)
 {
-    uint64_t *lane = &sum->lane[(uint64_t)place % TABLE_LANES];
-    *lane = mix(*lane, word_get(bytes));
+    uint64_t *lane = &sum->lane[(uint64_t)place % ROW_SUM_LANES];
+    *lane = mix(*lane, read_le64(bytes));
 }
 
 /* Words of all lanes, round by round. */
-static void add_rounds(table_sum *sum, const unsigned char *bytes, long long rounds)
+static void add_rounds(row_sum *sum, const unsigned char *bytes, long long rounds)
 {
     uint64_t s0 = sum->lane[0], s1 = sum->lane[1], s2 = sum->lane[2], s3 = sum->lane[3];
-    for (; rounds > 0; rounds--, bytes += TABLE_LANES * WORD) {
-        s0 = mix(s0, word_get(bytes));
-        s1 = mix(s1, word_get(bytes + WORD));
-        s2 = mix(s2, word_get(bytes + 2 * WORD));
-        s3 = mix(s3, word_get(bytes + 3 * WORD));
+    for (; rounds > 0; rounds--, bytes += ROW_SUM_LANES * WORD) {
+        s0 = mix(s0, read_le64(bytes));
+        s1 = mix(s1, read_le64(bytes + WORD));
+        s2 = mix(s2, read_le64(bytes + 2 * WORD));
+        s3 = mix(s3, read_le64(bytes + 3 * WORD));
     }
-    *sum = (table_sum){{s0, s1, s2, s3}};
+    *sum = (row_sum){{s0, s1, s2, s3}};
 }
 
 /* Adds count words, behind those before. */
-static void add_words(table_sum *sum, long long before, const unsigned char *bytes, long long count)
+static void add_words(row_sum *sum, long long before, const unsigned char *bytes, long long count)
 {
     long long i = 0;
-    for (; i < count && (before + i) % TABLE_LANES; i++)
+    for (; i < count && (before + i) % ROW_SUM_LANES; i++)
         add_word(sum, before + i, bytes + i * WORD);
-    const long long rounds = (count - i) / TABLE_LANES;
+    const long long rounds = (count - i) / ROW_SUM_LANES;
     add_rounds(sum, bytes + i * WORD, rounds);
-    for (i += rounds * TABLE_LANES; i < count; i++) add_word(sum, before + i, bytes + i * WORD);
+    for (i += rounds * ROW_SUM_LANES; i < count; i++) add_word(sum, before + i, bytes + i * WORD);
 }
 
 /* ---- .npy ---------------------------------------------------------------------------------- */
 
-static size_t row_bytes(const cli_table *table) { return (size_t)table->columns * WORD; }
+static size_t row_bytes(const trajectory_writer *writer) { return (size_t)writer->columns * WORD; }
 
-static off_t place_of(const cli_table *table, long long row)
+static off_t place_of(const trajectory_writer *writer, long long row)
 {
-    return (off_t)(table->header.length + (size_t)row * row_bytes(table));
+    return (off_t)(writer->header.length + (size_t)row * row_bytes(writer));
 }
 
 /* Writes at a place; *written bytes are surely there afterwards. */
@@ -86,175 +86,177 @@ static int write_at(int descriptor, const void *bytes, size_t length, off_t plac
 }
 
 /* The last line of the header, which alone changes. */
-static int announce(cli_table *table)
+static int announce(trajectory_writer *writer)
 {
-    const size_t place = table->header.length - NPY_LINE;
+    const size_t place = writer->header.length - NPY_LINE;
     size_t written;
-    npy_announce(&table->header, table->rows);
-    return write_at(table->descriptor, table->header.text + place, NPY_LINE, (off_t)place,
+    npy_set_rows(&writer->header, writer->rows);
+    return write_at(writer->descriptor, writer->header.text + place, NPY_LINE, (off_t)place,
                     &written);
 }
 
 /* Writes the rows that wait.  Of a write that fails the whole rows count. */
-static int flush(cli_table *table)
+static int flush(trajectory_writer *writer)
 {
     size_t written;
     const int done =
-        write_at(table->descriptor, table->buffer, (size_t)table->waiting * row_bytes(table),
-                 place_of(table, table->rows), &written);
+        write_at(writer->descriptor, writer->buffer, (size_t)writer->pending * row_bytes(writer),
+                 place_of(writer, writer->rows), &written);
     const int reason = errno;
-    const long long whole = (long long)(written / row_bytes(table));
-    add_words(&table->sum, table->rows * table->columns, table->buffer, whole * table->columns);
-    table->rows += whole;
-    table->waiting = 0;
+    const long long whole = (long long)(written / row_bytes(writer));
+    add_words(&writer->sum, writer->rows * writer->columns, writer->buffer,
+              whole * writer->columns);
+    writer->rows += whole;
+    writer->pending = 0;
     if (done) return CLI_DONE;
-    announce(table);
+    announce(writer);
     errno = reason;
-    return broken(table);
+    return failed(writer);
 }
 
-static int begin_anew(cli_table *table)
+static int begin_anew(trajectory_writer *writer)
 {
     size_t written;
-    table->rows = 0;
-    table->sum = (table_sum){{0}};
-    npy_announce(&table->header, 0);
-    if (ftruncate(table->descriptor, 0) == 0 &&
-        write_at(table->descriptor, table->header.text, table->header.length, 0, &written))
+    writer->rows = 0;
+    writer->sum = (row_sum){{0}};
+    npy_set_rows(&writer->header, 0);
+    if (ftruncate(writer->descriptor, 0) == 0 &&
+        write_at(writer->descriptor, writer->header.text, writer->header.length, 0, &written))
         return CLI_DONE;
-    return broken(table);
+    return failed(writer);
 }
 
-static void make_buffer(cli_table *table, char *const *names)
+static void make_buffer(trajectory_writer *writer, char *const *names)
 {
-    const size_t rows = BUFFER_BYTES / row_bytes(table);
-    table->room = rows ? (long long)rows : 1;
-    table->buffer = cli_malloc((size_t)table->room * row_bytes(table));
-    npy_describe(&table->header, names, table->columns);
+    const size_t rows = BUFFER_BYTES / row_bytes(writer);
+    writer->capacity = rows ? (long long)rows : 1;
+    writer->buffer = cli_malloc((size_t)writer->capacity * row_bytes(writer));
+    npy_make_header(&writer->header, names, writer->columns);
 }
 
-void table_adopt(cli_table *table, const char *path, int descriptor, char *const *names,
-                 int columns)
+void writer_attach(trajectory_writer *writer, const char *path, int descriptor, char *const *names,
+                   int columns)
 {
-    *table = (cli_table){.path = path, .columns = columns, .descriptor = descriptor, .rows = -1};
-    make_buffer(table, names);
+    *writer =
+        (trajectory_writer){.path = path, .columns = columns, .descriptor = descriptor, .rows = -1};
+    make_buffer(writer, names);
 }
 
-static int other_columns(const cli_table *table)
+static int other_columns(const trajectory_writer *writer)
 {
-    const size_t length = table->header.length - NPY_LINE;
+    const size_t length = writer->header.length - NPY_LINE;
     char *text = cli_malloc(length);
-    const int other = pread(table->descriptor, text, length, 0) != (ssize_t)length ||
-                      memcmp(text, table->header.text, length) != 0;
+    const int other = pread(writer->descriptor, text, length, 0) != (ssize_t)length ||
+                      memcmp(text, writer->header.text, length) != 0;
     free(text);
     return other;
 }
 
 /* Reads the first rows, bufferful by bufferful, and gives their sum. */
-static int sum_rows(const cli_table *table, long long rows, table_sum *sum)
+static int sum_rows(const trajectory_writer *writer, long long rows, row_sum *sum)
 {
-    *sum = (table_sum){{0}};
-    for (long long row = 0; row < rows; row += table->room) {
-        const long long count = rows - row < table->room ? rows - row : table->room;
-        const size_t length = (size_t)count * row_bytes(table);
-        const ssize_t n = pread(table->descriptor, table->buffer, length, place_of(table, row));
-        if (n < 0) return cli_io("read", table->path);
+    *sum = (row_sum){{0}};
+    for (long long row = 0; row < rows; row += writer->capacity) {
+        const long long count = rows - row < writer->capacity ? rows - row : writer->capacity;
+        const size_t length = (size_t)count * row_bytes(writer);
+        const ssize_t n = pread(writer->descriptor, writer->buffer, length, place_of(writer, row));
+        if (n < 0) return cli_io("read", writer->path);
         if ((size_t)n < length)
             return cli_fail(CLI_USAGE, "'%s': shorter than the %lld rows its checkpoint tells of",
-                            table->path, rows);
-        add_words(sum, row * table->columns, table->buffer, count * table->columns);
+                            writer->path, rows);
+        add_words(sum, row * writer->columns, writer->buffer, count * writer->columns);
     }
     return CLI_DONE;
 }
 
-int table_holds(const cli_table *table, long long rows, const table_sum *sum)
+int writer_verify(const trajectory_writer *writer, long long rows, const row_sum *sum)
 {
-    table_sum found;
+    row_sum found;
     if (rows == 0) return CLI_DONE;
-    if (other_columns(table))
-        return cli_fail(CLI_USAGE, "'%s': its columns are not those of the run", table->path);
-    const int status = sum_rows(table, rows, &found);
+    if (other_columns(writer))
+        return cli_fail(CLI_USAGE, "'%s': its columns are not those of the run", writer->path);
+    const int status = sum_rows(writer, rows, &found);
     if (status != CLI_DONE || memcmp(&found, sum, sizeof found) == 0) return status;
     return cli_fail(CLI_USAGE, "'%s': its first %lld rows were changed since the checkpoint",
-                    table->path, rows);
+                    writer->path, rows);
 }
 
-int table_go_on(cli_table *table, long long rows, const table_sum *sum)
+int writer_continue(trajectory_writer *writer, long long rows, const row_sum *sum)
 {
-    if (rows == 0) return begin_anew(table);
-    table->rows = rows;
-    table->sum = *sum;
-    if (ftruncate(table->descriptor, place_of(table, rows)) != 0 || !announce(table))
-        return broken(table);
+    if (rows == 0) return begin_anew(writer);
+    writer->rows = rows;
+    writer->sum = *sum;
+    if (ftruncate(writer->descriptor, place_of(writer, rows)) != 0 || !announce(writer))
+        return failed(writer);
     return CLI_DONE;
 }
 
-static int create_npy(cli_table *table, const char *path, char *const *names, int columns)
+static int create_npy(trajectory_writer *writer, const char *path, char *const *names, int columns)
 {
     const int descriptor = open(path, O_RDWR | O_CREAT | O_TRUNC, 0666);
     if (descriptor < 0) return cli_io("write", path);
-    table_adopt(table, path, descriptor, names, columns);
-    return begin_anew(table);
+    writer_attach(writer, path, descriptor, names, columns);
+    return begin_anew(writer);
 }
 
-static int put_row(cli_table *table, const double *values)
+static int put_row(trajectory_writer *writer, const double *values)
 {
-    unsigned char *place = table->buffer + (size_t)table->waiting * row_bytes(table);
-    npy_put(place, values, table->columns);
-    return ++table->waiting < table->room ? CLI_DONE : flush(table);
+    unsigned char *place = writer->buffer + (size_t)writer->pending * row_bytes(writer);
+    npy_encode(place, values, writer->columns);
+    return ++writer->pending < writer->capacity ? CLI_DONE : flush(writer);
 }
 
-static int settle_npy(cli_table *table, int settle)
+static int settle_npy(trajectory_writer *writer, int settle)
 {
-    if (flush(table) != CLI_DONE) return CLI_IO;
-    if ((settle && fsync(table->descriptor) != 0) || !announce(table)) return broken(table);
+    if (flush(writer) != CLI_DONE) return CLI_IO;
+    if ((settle && fsync(writer->descriptor) != 0) || !announce(writer)) return failed(writer);
     return CLI_DONE;
 }
 
-static int close_npy(cli_table *table)
+static int close_npy(trajectory_writer *writer)
 {
-    const int begun = table->rows >= 0 && !table->broken;
-    if (begun && flush(table) == CLI_DONE && !announce(table)) broken(table);
-    if (close(table->descriptor) != 0 && !table->broken) broken(table);
-    free(table->header.text);
-    free(table->buffer);
-    table->buffer = NULL;
-    return table->broken ? CLI_IO : CLI_DONE;
+    const int begun = writer->rows >= 0 && !writer->failed;
+    if (begun && flush(writer) == CLI_DONE && !announce(writer)) failed(writer);
+    if (close(writer->descriptor) != 0 && !writer->failed) failed(writer);
+    free(writer->header.text);
+    free(writer->buffer);
+    writer->buffer = NULL;
+    return writer->failed ? CLI_IO : CLI_DONE;
 }
 
 /* ---- CSV ----------------------------------------------------------------------------------- */
 
-static int create_csv(cli_table *table, const char *path, char *const *names)
+static int create_csv(trajectory_writer *writer, const char *path, char *const *names)
 {
     const int standard = strcmp(path, "-") == 0;
-    table->path = standard ? "standard output" : path;
-    table->file = standard ? stdout : fopen(path, "wb");
-    if (!table->file) return cli_io("write", path);
-    for (int i = 0; i < table->columns; i++) {
-        if (i) fputc(',', table->file);
-        cli_put_text(table->file, names[i]);
+    writer->path = standard ? "standard output" : path;
+    writer->file = standard ? stdout : fopen(path, "wb");
+    if (!writer->file) return cli_io("write", path);
+    for (int i = 0; i < writer->columns; i++) {
+        if (i) fputc(',', writer->file);
+        cli_put_text(writer->file, names[i]);
     }
-    fputc('\n', table->file);
-    return ferror(table->file) ? broken(table) : CLI_DONE;
+    fputc('\n', writer->file);
+    return ferror(writer->file) ? failed(writer) : CLI_DONE;
 }
 
-static int put_line(cli_table *table, const double *values)
+static int put_line(trajectory_writer *writer, const double *values)
 {
-    for (int i = 0; i < table->columns; i++) {
-        if (i) fputc(',', table->file);
-        cli_put(table->file, values[i]);
+    for (int i = 0; i < writer->columns; i++) {
+        if (i) fputc(',', writer->file);
+        cli_put(writer->file, values[i]);
     }
-    fputc('\n', table->file);
-    if (ferror(table->file)) return broken(table);
-    table->rows++;
+    fputc('\n', writer->file);
+    if (ferror(writer->file)) return failed(writer);
+    writer->rows++;
     return CLI_DONE;
 }
 
-static int close_csv(cli_table *table)
+static int close_csv(trajectory_writer *writer)
 {
-    FILE *file = table->file;
-    table->file = NULL;
-    if (!table->broken) return cli_close(file, table->path);
+    FILE *file = writer->file;
+    writer->file = NULL;
+    if (!writer->failed) return cli_close(file, writer->path);
     /* The failure has been told already; closing would tell it again. */
     if (file != stdout) fclose(file);
     return CLI_IO;
@@ -262,26 +264,26 @@ static int close_csv(cli_table *table)
 
 /* ---- either -------------------------------------------------------------------------------- */
 
-int table_create(cli_table *table, const char *path, char *const *names, int columns)
+int writer_create(trajectory_writer *writer, const char *path, char *const *names, int columns)
 {
-    *table = (cli_table){.columns = columns};
-    return cli_ends_in(path, ".npy") ? create_npy(table, path, names, columns)
-                                     : create_csv(table, path, names);
+    *writer = (trajectory_writer){.columns = columns};
+    return cli_ends_in(path, ".npy") ? create_npy(writer, path, names, columns)
+                                     : create_csv(writer, path, names);
 }
 
-int table_row(cli_table *table, const double *values)
+int writer_append(trajectory_writer *writer, const double *values)
 {
-    return table->file ? put_line(table, values) : put_row(table, values);
+    return writer->file ? put_line(writer, values) : put_row(writer, values);
 }
 
-int table_settle(cli_table *table, int settle)
+int writer_sync(trajectory_writer *writer, int settle)
 {
-    if (!table->file) return settle_npy(table, settle);
-    return fflush(table->file) == 0 ? CLI_DONE : broken(table);
+    if (!writer->file) return settle_npy(writer, settle);
+    return fflush(writer->file) == 0 ? CLI_DONE : failed(writer);
 }
 
-int table_close(cli_table *table)
+int writer_close(trajectory_writer *writer)
 {
-    if (table->file) return close_csv(table);
-    return table->buffer ? close_npy(table) : CLI_DONE;
+    if (writer->file) return close_csv(writer);
+    return writer->buffer ? close_npy(writer) : CLI_DONE;
 }

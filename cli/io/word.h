@@ -1,20 +1,20 @@
 /* word.h - words of 64 bits as files hold them on every machine: the lowest byte first.  Written
  * out, for compilers to see one load or store in it where that is the machine's own order. */
-#ifndef DAL_CLI_WORD_H
-#define DAL_CLI_WORD_H
+#ifndef DAL_CLI_ENDIAN_H
+#define DAL_CLI_ENDIAN_H
 
 #include <stdint.h>
 
 enum { WORD = 8 };
 
-static inline uint64_t word_get(const unsigned char *b)
+static inline uint64_t read_le64(const unsigned char *b)
 {
     return (uint64_t)b[0] | (uint64_t)b[1] << 8 | (uint64_t)b[2] << 16 | (uint64_t)b[3] << 24 |
            (uint64_t)b[4] << 32 | (uint64_t)b[5] << 40 | (uint64_t)b[6] << 48 |
            (uint64_t)b[7] << 56;
 }
 
-static inline void word_put(unsigned char *b, uint64_t word)
+static inline void write_le64(unsigned char *b, uint64_t word)
 {
     b[0] = (unsigned char)word;
     b[1] = (unsigned char)(word >> 8);

@@ -21,7 +21,7 @@ static const double pi = 3.14159265358979323846;
 typedef struct path {
     cli_store store;
     run_request request;
-    cli_rows rows;
+    trajectory_reader reader;
     dal_probe *probe;
     dal_body body;
     int n;
@@ -142,10 +142,10 @@ static void draw_bodies(const path *p, report_plot *plot)
 
 static int take_row(path *p, report_plot *plot, long long k)
 {
-    const long long stride = 1 + p->rows.count / POINTS, last = p->rows.count - 1;
+    const long long stride = 1 + p->reader.count / POINTS, last = p->reader.count - 1;
     const long long next = last * p->poses / (INSTANTS - 1);
     const int posed = k >= next && p->poses < INSTANTS;
-    const double *row = p->rows.row;
+    const double *row = p->reader.row;
     double at[DAL_PICTURE_COUNT];
     if (!posed && k % stride && k != last) return CLI_DONE;
     if (dal_probe_call(p->probe, p->request.system->picture, row[0], row + 1, row + 1 + p->n, NULL,
@@ -184,7 +184,7 @@ static int draw(path *p, report *r, const char *name, const char *caption)
              words[p->body]);
     report_curve(&plot, "");
     int more, status = CLI_DONE;
-    for (long long k = 0; status == CLI_DONE && (more = rows_next(&p->rows)) != 0; k++)
+    for (long long k = 0; status == CLI_DONE && (more = reader_next(&p->reader)) != 0; k++)
         status = more < 0 ? CLI_IO : take_row(p, &plot, k);
     plot.curve[0].dots = is_rough(p, &plot.curve[0]);
     draw_bodies(p, &plot);
@@ -214,7 +214,7 @@ static int load(path *p, const char *run)
     if (dal_probe_create(&p->probe, p->request.system, p->request.set.item, p->request.set.count,
                          &error))
         return cli_error(CLI_USAGE, run, &error);
-    return rows_open(&p->rows, run);
+    return reader_open(&p->reader, run);
 }
 
 int report_path(report *r, const char *run, const char *name, const char *caption)
@@ -226,8 +226,8 @@ int report_path(report *r, const char *run, const char *name, const char *captio
                 .high = {-INFINITY, -INFINITY}};
     int status = load(p, run);
     if (status == CLI_DONE && p->probe) {
-        if (p->rows.count > 0 && p->rows.columns > 2 * p->n) status = draw(p, r, name, caption);
-        rows_close(&p->rows);
+        if (p->reader.count > 0 && p->reader.columns > 2 * p->n) status = draw(p, r, name, caption);
+        reader_close(&p->reader);
     }
     dal_probe_free(p->probe);
     request_free(&p->request);

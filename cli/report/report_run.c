@@ -34,7 +34,7 @@ enum {
 
 typedef struct run_page {
     report *r;
-    cli_rows rows;
+    trajectory_reader reader;
     report_csv summary; /* no rows unless the run is over */
     int n;              /* coordinates, in columns 1.. */
     int observables;    /* the first column behind the state */
@@ -61,7 +61,7 @@ static int is_observable(const char *name)
 
 static int group_of(const run_page *run, int column)
 {
-    const char *name = run->rows.name[column];
+    const char *name = run->reader.name[column];
     if (column <= run->n) return GROUP_COORDINATES;
     if (column < run->observables) return -1;
     if (is_numbered(name)) return GROUP_D;
@@ -74,7 +74,7 @@ static int group_of(const run_page *run, int column)
  * or E; only behind the velocities is a column an observable. */
 static void find_columns(run_page *run)
 {
-    const cli_rows *t = &run->rows;
+    const trajectory_reader *t = &run->reader;
     while (1 + run->n < t->columns && !strchr(t->name[1 + run->n], '\'')) run->n++;
     for (run->observables = 1 + 2 * run->n; run->observables < t->columns; run->observables++)
         if (is_observable(t->name[run->observables])) break;
@@ -94,7 +94,7 @@ static int should_stay(const run_page *run, int column)
     if (column < run->observables) return 0;
     if (g != GROUP_E && g != GROUP_H) return 1;
     for (int row = 1; row < run->summary.rows; row++)
-        if (strcmp(report_csv_get(&run->summary, row, "observable"), run->rows.name[column]) == 0)
+        if (strcmp(report_csv_get(&run->summary, row, "observable"), run->reader.name[column]) == 0)
             return report_csv_get(&run->summary, row, "trend")[0] != '\0';
     return 0;
 }
@@ -102,8 +102,8 @@ static int should_stay(const run_page *run, int column)
 /* A curve for each column, as long as there is room for them. */
 static void place_columns(run_page *run)
 {
-    for (int i = 1; i < run->rows.columns; i++) {
-        const char *name = run->rows.name[i];
+    for (int i = 1; i < run->reader.columns; i++) {
+        const char *name = run->reader.name[i];
         run->group[i] = group_of(run, i);
         run->place[i] = run->group[i] < 0 ? -1 : add_curve(&run->plot[run->group[i]], name);
         run->envelope[i] = should_stay(run, i) ? add_curve(&run->drift, name) : -1;
@@ -113,7 +113,7 @@ static void place_columns(run_page *run)
 /* A sentence about all values needs all columns and all rows, of which figures leave some out. */
 static void drop_sentences(run_page *run)
 {
-    for (int i = 1; i < run->rows.columns; i++) {
+    for (int i = 1; i < run->reader.columns; i++) {
         if (run->group[i] >= 0 && run->most[i] != 0.0) run->plot[run->group[i]].nothing = NULL;
         if (should_stay(run, i) && run->most[i] != 0.0) run->drift.nothing = NULL;
     }
@@ -161,12 +161,12 @@ static double value(const run_page *run, int i)
 {
     const int g = run->group[i];
     const int plain = g == GROUP_COORDINATES || g == GROUP_D || g == GROUP_ERROR;
-    return plain ? run->rows.row[i] : run->rows.row[i] - run->first[i];
+    return plain ? run->reader.row[i] : run->reader.row[i] - run->first[i];
 }
 
 static void take_row(run_page *run, long long k)
 {
-    const cli_rows *t = &run->rows;
+    const trajectory_reader *t = &run->reader;
     const long long stride = 1 + t->count / POINTS, last = t->count - 1;
     const double now = t->row[0];
     const int tell = now >= denser * run->told || k == last;
@@ -184,7 +184,7 @@ static void take_row(run_page *run, long long k)
 
 static void tell_slopes(run_page *run)
 {
-    for (int i = run->observables; i < run->rows.columns; i++) {
+    for (int i = run->observables; i < run->reader.columns; i++) {
         if (run->envelope[i] < 0) continue;
         plot_curve *curve = &run->drift.curve[run->envelope[i]];
         const double slope = report_slope(curve);
@@ -192,7 +192,7 @@ static void tell_slopes(run_page *run)
         if (curve->count == 0)
             snprintf(more, sizeof more, run->most[i] == 0.0 ? " (0)" : " (not finite)");
         if (isfinite(slope)) snprintf(more, sizeof more, " (%.1f)", fabs(slope));
-        snprintf(curve->title, sizeof curve->title, "%.60s%s", run->rows.name[i], more);
+        snprintf(curve->title, sizeof curve->title, "%.60s%s", run->reader.name[i], more);
     }
 }
 
@@ -201,7 +201,7 @@ static int draw_figures(run_page *run)
     int more, status = CLI_DONE;
     name_plots(run);
     place_columns(run);
-    for (long long k = 0; (more = rows_next(&run->rows)) > 0; k++) take_row(run, k);
+    for (long long k = 0; (more = reader_next(&run->reader)) > 0; k++) take_row(run, k);
     if (more < 0) status = CLI_IO;
     tell_slopes(run);
     drop_sentences(run);
@@ -215,8 +215,8 @@ static int draw_figures(run_page *run)
 
 static int make_memory(run_page *run)
 {
-    const size_t columns = (size_t)run->rows.columns;
-    if (run->rows.count == 0) return cli_fail(CLI_USAGE, "'%s' has no rows", run->rows.path);
+    const size_t columns = (size_t)run->reader.columns;
+    if (run->reader.count == 0) return cli_fail(CLI_USAGE, "'%s' has no rows", run->reader.path);
     run->first = cli_calloc(2 * columns, sizeof *run->first);
     run->group = cli_calloc(3 * columns, sizeof *run->group);
     run->most = run->first + columns;
@@ -377,7 +377,7 @@ int report_run(report *r)
     run_request request = request_default();
     run_page *run = cli_calloc(1, sizeof *run);
     run->r = r;
-    int status = rows_open(&run->rows, r->directory), opened = status == CLI_DONE;
+    int status = reader_open(&run->reader, r->directory), opened = status == CLI_DONE;
     if (opened) status = make_memory(run);
     if (status == CLI_DONE) status = read_job(r, &store, &request);
     if (status == CLI_DONE) status = read_summary(run);
@@ -385,7 +385,7 @@ int report_run(report *r)
         find_columns(run);
         status = write_page(run, &request);
     }
-    if (opened) rows_close(&run->rows);
+    if (opened) reader_close(&run->reader);
     report_csv_free(&run->summary);
     free(run->first);
     free(run->group);

@@ -24,7 +24,7 @@ typedef struct head {
     uint64_t magic;
     uint64_t fingerprint; /* of the input of the run */
     int64_t row;          /* rows in trajectory.npy, */
-    table_sum sum;        /* and their sum */
+    row_sum sum;          /* and their sum */
     double seconds;       /* spent in steps and rows */
     uint64_t memory, statistics, words, layout;
 } head;
@@ -44,7 +44,7 @@ static unsigned char *append(unsigned char *place, const void *words, size_t cou
     for (size_t i = 0; i < count; i++, from += WORD) {
         uint64_t word;
         memcpy(&word, from, sizeof word);
-        word_put(place, word);
+        write_le64(place, word);
         place += WORD;
     }
     return place;
@@ -101,7 +101,7 @@ static const unsigned char *take(const unsigned char *place, void *words, size_t
 {
     unsigned char *to = words;
     for (size_t i = 0; i < count; i++, to += WORD) {
-        const uint64_t word = word_get(place);
+        const uint64_t word = read_le64(place);
         memcpy(to, &word, sizeof word);
         place += WORD;
     }
@@ -156,7 +156,7 @@ static int check_sizes(const image *m, int count)
     return damaged(m, "its size is wrong");
 }
 
-static int read_image(const cli_store *store, const cli_table *table, int count, image *m)
+static int read_image(const cli_store *store, const trajectory_writer *writer, int count, image *m)
 {
     size_t length;
     m->text = (unsigned char *)file_read(m->path, &length);
@@ -170,7 +170,7 @@ static int read_image(const cli_store *store, const cli_table *table, int count,
                         m->path);
     if (status == CLI_DONE) status = check_sizes(m, count);
     if (status == CLI_DONE) status = check_layout(m);
-    return status == CLI_DONE ? table_holds(table, m->head.row, &m->head.sum) : status;
+    return status == CLI_DONE ? writer_verify(writer, m->head.row, &m->head.sum) : status;
 }
 
 static int put_in_force(const image *m, cli_mark *mark, dal_run *run, dal_statistics *statistics)
@@ -187,11 +187,11 @@ static int put_in_force(const image *m, cli_mark *mark, dal_run *run, dal_statis
     return CLI_DONE;
 }
 
-static int load(const cli_store *store, const char *path, const cli_table *table, cli_mark *mark,
-                dal_run *run, dal_statistics *statistics, int count)
+static int load(const cli_store *store, const char *path, const trajectory_writer *writer,
+                cli_mark *mark, dal_run *run, dal_statistics *statistics, int count)
 {
     image m = {.path = path};
-    int status = read_image(store, table, count, &m);
+    int status = read_image(store, writer, count, &m);
     if (status == CLI_DONE) status = put_in_force(&m, mark, run, statistics);
     free(m.text);
     return status;
@@ -199,15 +199,15 @@ static int load(const cli_store *store, const char *path, const cli_table *table
 
 static int is_there(const char *path) { return access(path, F_OK) == 0 || errno != ENOENT; }
 
-int store_load(const cli_store *store, const cli_table *table, cli_mark *mark, dal_run *run,
-               dal_statistics *statistics, int count)
+int store_load(const cli_store *store, const trajectory_writer *writer, cli_mark *mark,
+               dal_run *run, dal_statistics *statistics, int count)
 {
     *mark = (cli_mark){0};
     const int newer = is_there(store->checkpoint), older = is_there(store->before);
     if (!newer && !older) return CLI_DONE;
-    if (!newer) return load(store, store->before, table, mark, run, statistics, count);
-    const int status = load(store, store->checkpoint, table, mark, run, statistics, count);
+    if (!newer) return load(store, store->before, writer, mark, run, statistics, count);
+    const int status = load(store, store->checkpoint, writer, mark, run, statistics, count);
     if (status == CLI_DONE || !older) return status;
     cli_fail(CLI_DONE, "the one before is tried: %s", store->before);
-    return load(store, store->before, table, mark, run, statistics, count);
+    return load(store, store->before, writer, mark, run, statistics, count);
 }

@@ -22,18 +22,18 @@ int keep_open(cli_keep *keep, const run_request *request, const char *directory)
     if (status == CLI_DONE) status = store_lock(store, !store_is_described(store));
     if (status == CLI_DONE)
         status = store_is_described(store) ? go_on(keep, request) : store_describe(store, request);
-    if (status == CLI_DONE) status = record_open(&keep->record, request, store, directory);
-    keep->record.interval = interval;
-    keep->record.progress = PROGRESS_OFF;
+    if (status == CLI_DONE) status = recorder_open(&keep->recorder, request, store, directory);
+    keep->recorder.interval = interval;
+    keep->recorder.progress = PROGRESS_OFF;
     return status;
 }
 
-int keep_go(cli_keep *keep, dal_error *error) { return record_go(&keep->record, error); }
+int keep_go(cli_keep *keep, dal_error *error) { return recorder_run(&keep->recorder, error); }
 
-int keep_is_finished(const cli_keep *keep) { return record_is_finished(&keep->record); }
+int keep_is_finished(const cli_keep *keep) { return recorder_is_finished(&keep->recorder); }
 
 void keep_close(cli_keep *keep)
 {
-    record_close(&keep->record);
+    recorder_close(&keep->recorder);
     store_close(&keep->store);
 }

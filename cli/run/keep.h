@@ -6,7 +6,7 @@
 
 typedef struct cli_keep {
     cli_store store;
-    cli_record record;
+    run_recorder recorder;
 } cli_keep;
 
 /* Makes the directory and describes the run in it, or, where this run is there already, stands
@@ -16,7 +16,7 @@ typedef struct cli_keep {
  * Returns CLI_DONE, CLI_USAGE (another run or another process is there, or what is there is
  * damaged) or CLI_IO; keep_close it in any case. */
 int keep_open(cli_keep *keep, const run_request *request, const char *directory);
-/* As record_go; not when it is finished. */
+/* As recorder_run; not when it is finished. */
 int keep_go(cli_keep *keep, dal_error *error);
 int keep_is_finished(const cli_keep *keep);
 void keep_close(cli_keep *keep);

@@ -33,7 +33,7 @@ int progress_read(const char *text, cli_progress_kind *kind)
 }
 
 /* The time from now to the end as the steps of this process have gone so far. */
-static double remaining(const cli_record *r, double t)
+static double remaining(const run_recorder *r, double t)
 {
     const double gone = t - r->begun;
     return gone > 0.0 ? r->stretch * (r->request->time - t) / gone : INFINITY;
@@ -66,11 +66,11 @@ static void append_remaining(char *line, int *length, int room, double seconds)
 }
 
 /* The norms of p and pi are for the summary. */
-static void append_moved(char *line, int *length, int room, const cli_record *r)
+static void append_moved(char *line, int *length, int room, const run_recorder *r)
 {
     const char *before = ", moved: ";
     for (int i = 0; i < r->observables; i++) {
-        const char *name = record_observable(r, i);
+        const char *name = recorder_observable_name(r, i);
         if (name[0] == '|') continue;
         if (!append(line, length, room, "%s%s %.2g", before, name,
                     dal_statistics_deviation(&r->statistics[i])))
@@ -79,7 +79,7 @@ static void append_moved(char *line, int *length, int room, const cli_record *r)
     }
 }
 
-static void show_line(const cli_record *r, double t)
+static void show_line(const run_recorder *r, double t)
 {
     char line[LINE] = "";
     int length = 0;
@@ -92,7 +92,7 @@ static void show_line(const cli_record *r, double t)
     cli_progress("%s", line);
 }
 
-static void show_json(const cli_record *r, double t)
+static void show_json(const run_recorder *r, double t)
 {
     json_number_member(stderr, "{", "t", t);
     json_number_member(stderr, ", ", "time", r->request->time);
@@ -102,12 +102,12 @@ static void show_json(const cli_record *r, double t)
     json_number_member(stderr, ", ", "remaining", t >= r->request->time ? 0.0 : remaining(r, t));
     fputs(", \"deviation\": {", stderr);
     for (int i = 0; i < r->observables; i++)
-        json_number_member(stderr, i ? ", " : "", record_observable(r, i),
+        json_number_member(stderr, i ? ", " : "", recorder_observable_name(r, i),
                            dal_statistics_deviation(&r->statistics[i]));
     fputs("}}\n", stderr);
 }
 
-void progress_show(cli_record *r, double t, int at_the_end)
+void progress_show(run_recorder *r, double t, int at_the_end)
 {
     const int json = r->progress == PROGRESS_JSON;
     const double now = cli_seconds();

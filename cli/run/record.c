@@ -12,7 +12,7 @@ enum { NAME_SIZE = 256 };
 /* The norms |p|, |pi|, |pi_e| repeat what other columns say: they are for the summary alone. */
 static int is_column(const char *name) { return name[0] != '|'; }
 
-static const char *value_name(const cli_record *r, int i, char *buffer)
+static const char *value_name(const run_recorder *r, int i, char *buffer)
 {
     const dal_run *run = r->request->run;
     if (i == 0) return "t";
@@ -20,7 +20,7 @@ static const char *value_name(const cli_record *r, int i, char *buffer)
     return dal_run_observable_name(run, i - 1 - r->dimension, buffer, NAME_SIZE);
 }
 
-static void name_values(cli_record *r, int count)
+static void name_values(run_recorder *r, int count)
 {
     char buffer[NAME_SIZE];
     for (int i = 0; i < count; i++) {
@@ -30,7 +30,7 @@ static void name_values(cli_record *r, int count)
     }
 }
 
-static void make_room(cli_record *r)
+static void make_room(run_recorder *r)
 {
     r->dimension = dal_run_dimension(r->request->run);
     r->observables = dal_run_observables(r->request->run);
@@ -46,21 +46,21 @@ static void make_room(cli_record *r)
 }
 
 /* With a store the table goes on where its checkpoint says. */
-static int open_table(cli_record *r, const char *output)
+static int open_table(run_recorder *r, const char *output)
 {
     char **names = cli_calloc((size_t)r->columns, sizeof *names);
     for (int i = 0; i < r->columns; i++) names[i] = r->names[r->column[i]];
     cli_store *s = r->store;
     int status = CLI_DONE;
     if (s)
-        table_adopt(&r->table, s->rows, s->descriptor, names, r->columns);
+        writer_attach(&r->writer, s->rows, s->descriptor, names, r->columns);
     else
-        status = table_create(&r->table, output, names, r->columns);
+        status = writer_create(&r->writer, output, names, r->columns);
     free(names);
     if (!s) return status;
     s->descriptor = -1;
-    status = store_load(s, &r->table, &r->mark, r->request->run, r->statistics, r->observables);
-    return status == CLI_DONE ? table_go_on(&r->table, r->mark.row, &r->mark.sum) : status;
+    status = store_load(s, &r->writer, &r->mark, r->request->run, r->statistics, r->observables);
+    return status == CLI_DONE ? writer_continue(&r->writer, r->mark.row, &r->mark.sum) : status;
 }
 
 static int interrupted(void *user)
@@ -74,14 +74,14 @@ static const char *state_word(int status)
     return status == CLI_DONE ? "done" : status == CLI_SIGNAL ? "interrupted" : "failed";
 }
 
-int record_open(cli_record *r, const run_request *request, cli_store *store, const char *output)
+int recorder_open(run_recorder *r, const run_request *request, cli_store *store, const char *output)
 {
-    *r = (cli_record){.request = request, .store = store, .stop = interrupted};
+    *r = (run_recorder){.request = request, .store = store, .stop = interrupted};
     r->quiet =
         !isatty(STDERR_FILENO) || (!store && strcmp(output, "-") == 0 && isatty(STDOUT_FILENO));
     make_room(r);
     const int status = open_table(r, output);
-    if (status != CLI_DONE || !record_is_finished(r)) return status;
+    if (status != CLI_DONE || !recorder_is_finished(r)) return status;
     dal_run_classify(request->run, r->statistics, 0, r->trend);
     /* Killed between its last checkpoint and the manifest. */
     return manifest_is_over(store->manifest)
@@ -89,9 +89,9 @@ int record_open(cli_record *r, const run_request *request, cli_store *store, con
                : manifest_write(store, request, &r->mark, state_word(CLI_DONE), "");
 }
 
-void record_close(cli_record *r)
+void recorder_close(run_recorder *r)
 {
-    table_close(&r->table);
+    writer_close(&r->writer);
     for (int i = 0; r->names && i < 1 + r->dimension + r->observables; i++) free(r->names[i]);
     free(r->values);
     free(r->row);
@@ -101,14 +101,17 @@ void record_close(cli_record *r)
     free(r->trend);
 }
 
-int record_is_finished(const cli_record *r) { return r->mark.row > r->request->samples; }
+int recorder_is_finished(const run_recorder *r) { return r->mark.row > r->request->samples; }
 
-const char *record_observable(const cli_record *r, int i) { return r->names[1 + r->dimension + i]; }
+const char *recorder_observable_name(const run_recorder *r, int i)
+{
+    return r->names[1 + r->dimension + i];
+}
 
 /* ---- looking on ---------------------------------------------------------------------------- */
 
 /* Stops the clock of steps and rows while the program does something else, and starts it again. */
-static double pause_clock(cli_record *r)
+static double pause_clock(run_recorder *r)
 {
     const double gone = cli_seconds() - r->since;
     r->mark.seconds += gone;
@@ -116,15 +119,15 @@ static double pause_clock(cli_record *r)
     return gone;
 }
 
-static void start_clock(cli_record *r) { r->since = cli_seconds(); }
+static void start_clock(run_recorder *r) { r->since = cli_seconds(); }
 
-static dal_status tell(cli_record *r, int exit_status)
+static dal_status tell(run_recorder *r, int exit_status)
 {
     r->told = exit_status;
     return exit_status == CLI_DONE ? DAL_OK : DAL_IO;
 }
 
-static dal_status take_row(cli_record *r, dal_run *run, double t)
+static dal_status take_row(run_recorder *r, dal_run *run, double t)
 {
     double *state = r->values + 1, *observed = state + r->dimension;
     r->values[0] = t;
@@ -133,14 +136,14 @@ static dal_status take_row(cli_record *r, dal_run *run, double t)
     if (status != DAL_OK) return status;
     for (int i = 0; i < r->columns; i++) r->row[i] = r->values[r->column[i]];
     r->mark.row++;
-    return tell(r, table_row(&r->table, r->row));
+    return tell(r, writer_append(&r->writer, r->row));
 }
 
 /* Every so many steps: what the summary is made of. */
 static dal_status follow(void *user, dal_run *run, int looks, const double *t, const double *values,
                          size_t stride)
 {
-    cli_record *r = user;
+    run_recorder *r = user;
     (void)run;
     dal_statistics_add_many(r->statistics, r->observables, looks, t, values, stride);
     return DAL_OK;
@@ -148,7 +151,7 @@ static dal_status follow(void *user, dal_run *run, int looks, const double *t, c
 
 static dal_status sample(void *user, dal_run *run, long long row, double t)
 {
-    cli_record *r = user;
+    run_recorder *r = user;
     (void)row;
     const dal_status status = take_row(r, run, t);
     /* With a store the next poll ends the run: only there does the run stand where a checkpoint
@@ -156,10 +159,10 @@ static dal_status sample(void *user, dal_run *run, long long row, double t)
     return status == DAL_OK && !r->store && r->stop(r->stop_user) ? DAL_INTERRUPTED : status;
 }
 
-static int save(cli_record *r, const dal_run *run)
+static int save(run_recorder *r, const dal_run *run)
 {
-    int status = table_settle(&r->table, r->store->settle);
-    r->mark.sum = r->table.sum;
+    int status = writer_sync(&r->writer, r->store->settle);
+    r->mark.sum = r->writer.sum;
     if (status == CLI_DONE)
         status = store_save(r->store, &r->mark, run, r->statistics, r->observables);
     r->saved = cli_seconds();
@@ -168,11 +171,11 @@ static int save(cli_record *r, const dal_run *run)
 
 /* What is worth a checkpoint by the clock is worth waiting for the disk from now on.  The rows come
  * before the manifest: without memory for it the program ends, and the rows are kept. */
-static int save_to_last(cli_record *r, const dal_run *run)
+static int save_to_last(run_recorder *r, const dal_run *run)
 {
     int status = CLI_DONE;
     if (!r->store->settle) {
-        status = table_settle(&r->table, 0);
+        status = writer_sync(&r->writer, 0);
         r->store->settle = 1;
         if (status == CLI_DONE)
             status = manifest_write(r->store, r->request, &r->mark, "running", "");
@@ -191,7 +194,7 @@ static void pace(dal_observer *observer, double gone)
 
 static dal_status poll(void *user, dal_run *run)
 {
-    cli_record *r = user;
+    run_recorder *r = user;
     const int stop = r->stop(r->stop_user);
     dal_status status = DAL_OK;
     pace(&r->observer, pause_clock(r));
@@ -207,7 +210,7 @@ static dal_status poll(void *user, dal_run *run)
 /* ---- the end ------------------------------------------------------------------------------- */
 
 /* The exit status of an end, and a message where none was given yet. */
-static int conclude(const cli_record *r, dal_status status, dal_error *error)
+static int conclude(const run_recorder *r, dal_status status, dal_error *error)
 {
     if (status == DAL_OK) return CLI_DONE;
     if (r->told != CLI_DONE || status == DAL_INTERRUPTED) error->message[0] = '\0';
@@ -220,28 +223,28 @@ static int conclude(const cli_record *r, dal_status status, dal_error *error)
 
 /* The summary comes before the checkpoint that says "finished", so that it is never missing.  A run
  * that failed keeps where it stood: going on with it fails again at once. */
-static int keep(cli_record *r, int status, const char *why)
+static int keep(run_recorder *r, int status, const char *why)
 {
     int kept = CLI_DONE;
     if (r->store && (status == CLI_DONE || status == CLI_FAILED)) {
-        kept = table_settle(&r->table, 0);
+        kept = writer_sync(&r->writer, 0);
         if (kept == CLI_DONE) kept = summary_write(r, r->store->summary);
         if (kept == CLI_DONE) kept = save(r, r->request->run);
     }
     if (r->store && kept == CLI_DONE && status != CLI_IO)
         kept = manifest_write(r->store, r->request, &r->mark, state_word(status), why);
-    int closed = table_close(&r->table);
+    int closed = writer_close(&r->writer);
     if (status != CLI_DONE) return status;
     return kept != CLI_DONE ? kept : closed;
 }
 
 static double row_time(void *user, long long row)
 {
-    const cli_record *r = user;
+    const run_recorder *r = user;
     return r->request->row_time[row];
 }
 
-int record_go(cli_record *r, dal_error *error)
+int recorder_run(run_recorder *r, dal_error *error)
 {
     r->observer = (dal_observer){.user = r,
                                  .sample = sample,

@@ -1,6 +1,6 @@
 /* record.h - a run on its way: rows, statistics, progress and checkpoints. */
-#ifndef DAL_CLI_RECORD_H
-#define DAL_CLI_RECORD_H
+#ifndef DAL_CLI_RECORDER_H
+#define DAL_CLI_RECORDER_H
 
 #include "io/table.h"
 #include "job.h"
@@ -15,10 +15,10 @@ typedef enum cli_progress_kind {
 #undef X
 } cli_progress_kind;
 
-typedef struct cli_record {
+typedef struct run_recorder {
     const run_request *request;
     cli_store *store; /* NULL: the rows go to a file or to stdout and nothing is kept beside them */
-    cli_table table;
+    trajectory_writer writer;
     int dimension, observables, columns;
     double *values;             /* [1 + dimension + observables] t, state, all observables */
     double *row;                /* [columns] the same without |p|, |pi|, |pi_e| */
@@ -39,26 +39,26 @@ typedef struct cli_record {
     void *stop_user;
     int quiet; /* no line of progress: no terminal, or the rows themselves go to it */
     int told;  /* exit status of a failure of the program's own, already printed */
-} cli_record;
+} run_recorder;
 
 /* Opens the table: output is a file or "-"; with a store, its trajectory.npy, going on where its
- * checkpoint says.  record_close it in any case. */
-int record_open(cli_record *record, const run_request *request, cli_store *store,
-                const char *output);
-void record_close(cli_record *record);
+ * checkpoint says.  recorder_close it in any case. */
+int recorder_open(run_recorder *recorder, const run_request *request, cli_store *store,
+                  const char *output);
+void recorder_close(run_recorder *recorder);
 /* Integrates to the end.  Returns CLI_DONE; CLI_FAILED and the like with the reason in *error;
  * CLI_SIGNAL; or CLI_IO and such that has been told, with no message in *error. */
-int record_go(cli_record *record, dal_error *error);
-int record_is_finished(const cli_record *record);
-const char *record_observable(const cli_record *record, int i);
+int recorder_run(run_recorder *recorder, dal_error *error);
+int recorder_is_finished(const run_recorder *recorder);
+const char *recorder_observable_name(const run_recorder *recorder, int i);
 
 /* Reads a word of the list above.  Returns CLI_DONE or prints and returns CLI_USAGE. */
 int progress_read(const char *text, cli_progress_kind *kind);
 /* Tells how far the run has come, not too often; at the end in any case, where that is asked. */
-void progress_show(cli_record *record, double t, int at_the_end);
+void progress_show(run_recorder *recorder, double t, int at_the_end);
 
 /* The summary: one table for the eye, or summary.csv. */
-void summary_print(FILE *out, const cli_record *record);
-int summary_write(const cli_record *record, const char *path);
+void summary_print(FILE *out, const run_recorder *recorder);
+int summary_write(const run_recorder *recorder, const char *path);
 
 #endif

@@ -66,7 +66,7 @@ int run_take(run_wishes *wishes, int option, const char *text)
 }
 
 /* What is to be said of an end that has not been told. */
-static void tell_end(const cli_record *r, int status, const dal_error *error)
+static void tell_end(const run_recorder *r, int status, const dal_error *error)
 {
     if (status == CLI_SIGNAL && r->store)
         cli_fail(status, "interrupted; go on with: dalembert resume %s", r->store->directory);
@@ -78,26 +78,26 @@ static void tell_end(const cli_record *r, int status, const dal_error *error)
 
 int run_integrate(const run_request *request, cli_store *store, const run_wishes *wishes)
 {
-    cli_record record;
+    run_recorder recorder;
     dal_error error;
-    int status = record_open(&record, request, store, wishes->output);
-    record.interval = wishes->interval;
-    record.progress = wishes->progress;
-    if (status == CLI_DONE && record_is_finished(&record)) {
-        cli_fail(CLI_DONE, "'%s' is finished: %lld rows", store->directory, record.mark.row);
+    int status = recorder_open(&recorder, request, store, wishes->output);
+    recorder.interval = wishes->interval;
+    recorder.progress = wishes->progress;
+    if (status == CLI_DONE && recorder_is_finished(&recorder)) {
+        cli_fail(CLI_DONE, "'%s' is finished: %lld rows", store->directory, recorder.mark.row);
     } else if (status == CLI_DONE) {
         cli_catch_signals();
-        if (record.mark.row > 0)
+        if (recorder.mark.row > 0)
             cli_fail(CLI_DONE, "'%s' goes on from t = %g with row %lld", store->directory,
-                     dal_run_time(request->run), record.mark.row);
+                     dal_run_time(request->run), recorder.mark.row);
         const double steps = (request->time - dal_run_time(request->run)) / request->options.step;
         native_use(request->run, &request->method, steps, wishes->native);
         native_look(request->run, steps / (double)request->statistics, wishes->native);
-        status = record_go(&record, &error);
-        tell_end(&record, status, &error);
-        if (wishes->summary || isatty(STDERR_FILENO)) summary_print(stderr, &record);
+        status = recorder_run(&recorder, &error);
+        tell_end(&recorder, status, &error);
+        if (wishes->summary || isatty(STDERR_FILENO)) summary_print(stderr, &recorder);
     }
-    record_close(&record);
+    recorder_close(&recorder);
     return status;
 }
 

@@ -43,7 +43,7 @@ typedef struct cli_store {
 /* How far a run has come. */
 typedef struct cli_mark {
     long long row;  /* the first row not in trajectory.npy, */
-    table_sum sum;  /* and the sum of those in it */
+    row_sum sum;    /* and the sum of those in it */
     double seconds; /* spent in steps and rows */
 } cli_mark;
 
@@ -74,7 +74,7 @@ void manifest_machine(FILE *out);
  * damaged or the rows are not those it tells of.  Without one *mark is the beginning. */
 int store_save(const cli_store *store, const cli_mark *mark, const dal_run *run,
                const dal_statistics *statistics, int count);
-int store_load(const cli_store *store, const cli_table *table, cli_mark *mark, dal_run *run,
-               dal_statistics *statistics, int count);
+int store_load(const cli_store *store, const trajectory_writer *writer, cli_mark *mark,
+               dal_run *run, dal_statistics *statistics, int count);
 
 #endif

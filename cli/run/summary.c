@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static double nanoseconds(const cli_record *r)
+static double nanoseconds(const run_recorder *r)
 {
     long long steps = dal_run_steps(r->request->run);
     return steps > 0 ? 1e9 * r->mark.seconds / (double)steps : 0.0;
@@ -22,7 +22,7 @@ static void print_observable(FILE *out, const char *name, const dal_trend *f)
             is_stated ? dal_size_text(f->size) : "-", cli_trend_text(f, text, sizeof text));
 }
 
-void summary_print(FILE *out, const cli_record *r)
+void summary_print(FILE *out, const run_recorder *r)
 {
     const run_request *request = r->request;
     char method[128];
@@ -35,10 +35,10 @@ void summary_print(FILE *out, const cli_record *r)
     fprintf(out, "%-12s %14s %10s %10s %10s %21s %8s %9s  %s\n", "", "final", "max | |",
             "amplitude", "rate", "", "exponent", "size", "trend");
     for (int i = 0; i < r->observables; i++)
-        print_observable(out, record_observable(r, i), &r->trend[i]);
+        print_observable(out, recorder_observable_name(r, i), &r->trend[i]);
 }
 
-int summary_write(const cli_record *r, const char *path)
+int summary_write(const run_recorder *r, const char *path)
 {
     char *text;
     size_t length;
@@ -47,7 +47,7 @@ int summary_write(const cli_record *r, const char *path)
     for (int i = 0; i < r->observables; i++) {
         const dal_trend *f = &r->trend[i];
         const double numbers[] = {f->first, f->last, f->max_abs, f->deviation};
-        cli_put_text(out, record_observable(r, i));
+        cli_put_text(out, recorder_observable_name(r, i));
         for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++) {
             fputc(',', out);
             cli_put(out, numbers[k]);

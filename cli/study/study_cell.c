@@ -23,7 +23,7 @@ typedef struct walk {
     size_t texts;
     char *directory;
     cli_keep keep;
-    cli_rows rows;
+    trajectory_reader reader;
     int n, m;
     int energy, hamiltonian, momenta, invariants, error; /* places among the observables, or -1 */
     double *values, *first;                              /* [observables] */
@@ -120,7 +120,7 @@ static int find(const study_cell *c, const char *name)
 static int make_memory(walk *w)
 {
     study_cell *c = w->cell;
-    const cli_record *r = &w->keep.record;
+    const run_recorder *r = &w->keep.recorder;
     const size_t count = (size_t)r->observables + 1;
     c->trend = cli_calloc(count, sizeof *c->trend);
     c->names = cli_calloc(count, sizeof *c->names);
@@ -130,7 +130,7 @@ static int make_memory(walk *w)
     c->observables = r->observables;
     for (int i = 0; i < c->observables; i++) {
         c->trend[i] = r->trend[i];
-        snprintf(c->names[i], sizeof c->names[i], "%s", record_observable(r, i));
+        snprintf(c->names[i], sizeof c->names[i], "%s", recorder_observable_name(r, i));
     }
     w->n = c->entry->system->n;
     w->m = c->entry->system->m;
@@ -155,8 +155,8 @@ static double max_norm(const double *x, int count)
 /* The observables of a row, in which |p|, |pi| and |pi_e| are left out: they follow from p, pi. */
 static void take_values(walk *w)
 {
-    const double *row = w->rows.row, *p = row + 2 + 2 * w->n;
-    const double *next = row + w->rows.columns - w->cell->observables;
+    const double *row = w->reader.row, *p = row + 2 + 2 * w->n;
+    const double *next = row + w->reader.columns - w->cell->observables;
     if (w->momenta >= 0) next += 3;
     for (int i = 0; i < w->cell->observables; i++) {
         if (w->momenta >= 0 && i >= w->momenta && i < w->momenta + 3)
@@ -196,18 +196,18 @@ static void take_row(walk *w, long long k)
     const int window = (int)((double)k / (samples + 1.0) * STUDY_WINDOWS);
     track(w, c->windows[window]);
     c->window_count = window + 1;
-    c->bits = file_hash(c->bits, w->rows.row + 1, 2 * (size_t)w->n * sizeof(double));
+    c->bits = file_hash(c->bits, w->reader.row + 1, 2 * (size_t)w->n * sizeof(double));
 }
 
 static int read_rows(walk *w)
 {
-    int status = rows_open(&w->rows, w->directory);
+    int status = reader_open(&w->reader, w->directory);
     if (status != CLI_DONE) return status;
     w->cell->bits = FILE_HASH_START;
     int more = 1;
-    for (long long k = 0; k <= w->request.samples && (more = rows_next(&w->rows)) > 0; k++)
+    for (long long k = 0; k <= w->request.samples && (more = reader_next(&w->reader)) > 0; k++)
         take_row(w, k);
-    rows_close(&w->rows);
+    reader_close(&w->reader);
     return more < 0 ? CLI_IO : CLI_DONE;
 }
 
@@ -245,7 +245,7 @@ static int collect(walk *w, const dal_error *error, int ended)
     c->time = dal_run_time(w->request.run);
     c->steps = dal_run_steps(w->request.run);
     c->evaluations = dal_run_evaluations(w->request.run);
-    c->seconds = w->keep.record.mark.seconds;
+    c->seconds = w->keep.recorder.mark.seconds;
     c->state = STUDY_FINISHED;
     c->error = *error;
     if (ended == CLI_FAILED) fail(c, STUDY_FAILED, error->status);
@@ -260,10 +260,10 @@ static int go(walk *w, const study_watch *watch)
     if (ended == CLI_DONE && !keep_is_finished(&w->keep)) {
         const double left = (double)(w->request.time - dal_run_time(w->request.run));
         if (watch) {
-            w->keep.record.stop = watch->stop;
-            w->keep.record.stop_user = watch->user;
+            w->keep.recorder.stop = watch->stop;
+            w->keep.recorder.stop_user = watch->user;
         }
-        w->keep.record.interval = w->plan->interval;
+        w->keep.recorder.interval = w->plan->interval;
         native_use(w->request.run, w->cell->method, left / w->cell->step, e->native);
         ended = keep_go(&w->keep, &error);
     }
