@@ -31,15 +31,15 @@ static int holds_study(const char *directory)
 
 static int resume_run(const char *directory, const run_wishes *wishes)
 {
-    cli_store store;
+    run_directory dir;
     run_request request = request_default();
-    store_open(&store, directory);
-    int status = store_read(&store, &request);
+    run_directory_open(&dir, directory);
+    int status = run_directory_read(&dir, &request);
     if (status == CLI_DONE) status = request_create_run(&request);
-    if (status == CLI_DONE) status = store_lock(&store, 0);
-    if (status == CLI_DONE) status = run_integrate(&request, &store, wishes);
+    if (status == CLI_DONE) status = run_directory_lock(&dir, 0);
+    if (status == CLI_DONE) status = run_integrate(&request, &dir, wishes);
     request_free(&request);
-    store_close(&store);
+    run_directory_close(&dir);
     return status;
 }
 

@@ -19,7 +19,7 @@ static const double half_length = 0.055;
 static const double pi = 3.14159265358979323846;
 
 typedef struct path {
-    cli_store store;
+    run_directory dir;
     run_request request;
     trajectory_reader reader;
     dal_probe *probe;
@@ -204,9 +204,9 @@ static int load(path *p, const char *run)
 {
     dal_run_spec spec;
     dal_error error;
-    store_open(&p->store, run);
-    if (access(p->store.manifest, F_OK) != 0) return CLI_DONE;
-    int status = store_read(&p->store, &p->request);
+    run_directory_open(&p->dir, run);
+    if (access(p->dir.manifest, F_OK) != 0) return CLI_DONE;
+    int status = run_directory_read(&p->dir, &p->request);
     if (status == CLI_DONE) status = request_make_spec(&p->request, &spec);
     if (status != CLI_DONE || !p->request.system->picture) return status;
     p->n = p->request.system->n;
@@ -221,7 +221,7 @@ int report_path(report *r, const char *run, const char *name, const char *captio
 {
     path *p = cli_calloc(1, sizeof *p);
     *p = (path){.request = request_default(),
-                .store = {.descriptor = -1},
+                .dir = {.descriptor = -1},
                 .low = {INFINITY, INFINITY},
                 .high = {-INFINITY, -INFINITY}};
     int status = load(p, run);
@@ -231,7 +231,7 @@ int report_path(report *r, const char *run, const char *name, const char *captio
     }
     dal_probe_free(p->probe);
     request_free(&p->request);
-    store_close(&p->store);
+    run_directory_close(&p->dir);
     free(p);
     return status;
 }

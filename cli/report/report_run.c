@@ -345,12 +345,11 @@ static void put_heading(report *r, const run_request *request)
 }
 
 /* What the directory says of its run; nothing where it says nothing, or in an older way. */
-static int read_job(const report *r, cli_store *store, run_request *request)
+static int read_job(const report *r, run_directory *dir, run_request *request)
 {
-    store_open(store, r->directory);
-    if (access(store->manifest, F_OK) != 0 || access(store->old_settings, F_OK) == 0)
-        return CLI_DONE;
-    return store_read(store, request);
+    run_directory_open(dir, r->directory);
+    if (access(dir->manifest, F_OK) != 0 || access(dir->old_settings, F_OK) == 0) return CLI_DONE;
+    return run_directory_read(dir, request);
 }
 
 /* ---- the page ---- */
@@ -373,13 +372,13 @@ static int write_page(run_page *run, const run_request *request)
 
 int report_run(report *r)
 {
-    cli_store store = {.descriptor = -1};
+    run_directory dir = {.descriptor = -1};
     run_request request = request_default();
     run_page *run = cli_calloc(1, sizeof *run);
     run->r = r;
     int status = reader_open(&run->reader, r->directory), opened = status == CLI_DONE;
     if (opened) status = make_memory(run);
-    if (status == CLI_DONE) status = read_job(r, &store, &request);
+    if (status == CLI_DONE) status = read_job(r, &dir, &request);
     if (status == CLI_DONE) status = read_summary(run);
     if (status == CLI_DONE) {
         find_columns(run);
@@ -391,6 +390,6 @@ int report_run(report *r)
     free(run->group);
     free(run);
     request_free(&request);
-    store_close(&store);
+    run_directory_close(&dir);
     return status;
 }

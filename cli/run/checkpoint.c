@@ -50,22 +50,22 @@ static unsigned char *append(unsigned char *place, const void *words, size_t cou
     return place;
 }
 
-static int keep_the_one_before(const cli_store *store)
+static int keep_the_one_before(const run_directory *dir)
 {
-    if (rename(store->checkpoint, store->before) == 0 || errno == ENOENT) return CLI_DONE;
-    return cli_io("write", store->before);
+    if (rename(dir->checkpoint, dir->before) == 0 || errno == ENOENT) return CLI_DONE;
+    return cli_io("write", dir->before);
 }
 
-int store_save(const cli_store *store, const cli_mark *mark, const dal_run *run,
-               const dal_statistics *statistics, int count)
+int checkpoint_save(const run_directory *dir, const run_position *position, const dal_run *run,
+                    const dal_statistics *statistics, int count)
 {
     size_t memory_count;
     const double *memory = dal_run_memory(run, &memory_count);
     const head h = {.magic = magic,
-                    .fingerprint = store->fingerprint,
-                    .row = mark->row,
-                    .sum = mark->sum,
-                    .seconds = mark->seconds,
+                    .fingerprint = dir->fingerprint,
+                    .row = position->row,
+                    .sum = position->sum,
+                    .seconds = position->seconds,
                     .memory = memory_count,
                     .statistics = (uint64_t)count,
                     .words = WORDS,
@@ -78,10 +78,10 @@ int store_save(const cli_store *store, const cli_mark *mark, const dal_run *run,
     const uint64_t sum = file_hash(FILE_HASH_START, text, words * WORD);
     append(place, &sum, 1);
     cli_hold_exit();
-    int status = file_write(store->fresh, text, (words + 1) * WORD, store->settle);
-    if (status == CLI_DONE) status = keep_the_one_before(store);
-    if (status == CLI_DONE) status = file_rename(store->fresh, store->checkpoint, store->settle);
-    if (status != CLI_DONE) unlink(store->fresh);
+    int status = file_write(dir->fresh, text, (words + 1) * WORD, dir->settle);
+    if (status == CLI_DONE) status = keep_the_one_before(dir);
+    if (status == CLI_DONE) status = file_rename(dir->fresh, dir->checkpoint, dir->settle);
+    if (status != CLI_DONE) unlink(dir->fresh);
     cli_release_exit();
     free(text);
     return status;
@@ -156,14 +156,15 @@ static int check_sizes(const image *m, int count)
     return damaged(m, "its size is wrong");
 }
 
-static int read_image(const cli_store *store, const trajectory_writer *writer, int count, image *m)
+static int read_image(const run_directory *dir, const trajectory_writer *writer, int count,
+                      image *m)
 {
     size_t length;
     m->text = (unsigned char *)file_read(m->path, &length);
     if (!m->text) return CLI_IO;
     int status = check_format(m, length);
     if (status == CLI_DONE) status = check_sum(m, length);
-    if (status == CLI_DONE && m->head.fingerprint != store->fingerprint)
+    if (status == CLI_DONE && m->head.fingerprint != dir->fingerprint)
         return cli_fail(CLI_USAGE,
                         "%s: belongs to another run: its description or the system was "
                         "changed",
@@ -173,7 +174,8 @@ static int read_image(const cli_store *store, const trajectory_writer *writer, i
     return status == CLI_DONE ? writer_verify(writer, m->head.row, &m->head.sum) : status;
 }
 
-static int put_in_force(const image *m, cli_mark *mark, dal_run *run, dal_statistics *statistics)
+static int put_in_force(const image *m, run_position *position, dal_run *run,
+                        dal_statistics *statistics)
 {
     dal_error error = {0};
     const size_t count = m->head.memory;
@@ -182,32 +184,32 @@ static int put_in_force(const image *m, cli_mark *mark, dal_run *run, dal_statis
     const dal_status loaded = dal_run_load(run, memory, count, &error);
     free(memory);
     if (loaded != DAL_OK) return cli_error(CLI_USAGE, m->path, &error);
-    *mark = (cli_mark){m->head.row, m->head.sum, m->head.seconds};
+    *position = (run_position){m->head.row, m->head.sum, m->head.seconds};
     take(place, statistics, m->head.statistics * WORDS);
     return CLI_DONE;
 }
 
-static int load(const cli_store *store, const char *path, const trajectory_writer *writer,
-                cli_mark *mark, dal_run *run, dal_statistics *statistics, int count)
+static int load(const run_directory *dir, const char *path, const trajectory_writer *writer,
+                run_position *position, dal_run *run, dal_statistics *statistics, int count)
 {
     image m = {.path = path};
-    int status = read_image(store, writer, count, &m);
-    if (status == CLI_DONE) status = put_in_force(&m, mark, run, statistics);
+    int status = read_image(dir, writer, count, &m);
+    if (status == CLI_DONE) status = put_in_force(&m, position, run, statistics);
     free(m.text);
     return status;
 }
 
 static int is_there(const char *path) { return access(path, F_OK) == 0 || errno != ENOENT; }
 
-int store_load(const cli_store *store, const trajectory_writer *writer, cli_mark *mark,
-               dal_run *run, dal_statistics *statistics, int count)
+int checkpoint_load(const run_directory *dir, const trajectory_writer *writer,
+                    run_position *position, dal_run *run, dal_statistics *statistics, int count)
 {
-    *mark = (cli_mark){0};
-    const int newer = is_there(store->checkpoint), older = is_there(store->before);
+    *position = (run_position){0};
+    const int newer = is_there(dir->checkpoint), older = is_there(dir->before);
     if (!newer && !older) return CLI_DONE;
-    if (!newer) return load(store, store->before, writer, mark, run, statistics, count);
-    const int status = load(store, store->checkpoint, writer, mark, run, statistics, count);
+    if (!newer) return load(dir, dir->before, writer, position, run, statistics, count);
+    const int status = load(dir, dir->checkpoint, writer, position, run, statistics, count);
     if (status == CLI_DONE || !older) return status;
-    cli_fail(CLI_DONE, "the one before is tried: %s", store->before);
-    return load(store, store->before, writer, mark, run, statistics, count);
+    cli_fail(CLI_DONE, "the one before is tried: %s", dir->before);
+    return load(dir, dir->before, writer, position, run, statistics, count);
 }

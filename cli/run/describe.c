@@ -64,62 +64,63 @@ static char *describe(const run_request *request)
 }
 
 /* The text of a system: of a built-in one from the library, of any other from its file. */
-static int sign(cli_store *store, const char *builtin)
+static int sign(run_directory *dir, const char *builtin)
 {
-    const uint64_t hash = file_hash(FILE_HASH_START, store->input, strlen(store->input));
+    const uint64_t hash = file_hash(FILE_HASH_START, dir->input, strlen(dir->input));
     size_t n = builtin ? strlen(builtin) : 0;
-    if (!builtin && access(store->system, F_OK) != 0)
-        return cli_fail(CLI_USAGE, "'%s' is missing: the run cannot be continued", store->system);
-    char *text = builtin ? NULL : file_read(store->system, &n);
+    if (!builtin && access(dir->system, F_OK) != 0)
+        return cli_fail(CLI_USAGE, "'%s' is missing: the run cannot be continued", dir->system);
+    char *text = builtin ? NULL : file_read(dir->system, &n);
     if (!builtin && !text) return CLI_IO;
-    store->fingerprint = file_hash(hash, builtin ? builtin : text, n);
+    dir->fingerprint = file_hash(hash, builtin ? builtin : text, n);
     free(text);
     return CLI_DONE;
 }
 
-static int copy(const cli_store *store, const char *from)
+static int copy(const run_directory *dir, const char *from)
 {
     size_t length;
     char *text = file_read(from, &length);
     if (!text) return CLI_IO;
-    int status = file_swap(store->system, text, length, store->settle);
+    int status = file_swap(dir->system, text, length, dir->settle);
     free(text);
     return status;
 }
 
 /* All that another run may have left, but for the rows, which the table begins anew, and the copy,
  * which may be what this run is made from. */
-static int clear(const cli_store *store)
+static int clear(const run_directory *dir)
 {
     int status = CLI_DONE;
 #define X(name, file)                                                                              \
-    if (status == CLI_DONE && store->name != store->rows && store->name != store->system)          \
-        status = file_remove(store->name);
-    STORE_FILE_LIST(X)
+    if (status == CLI_DONE && dir->name != dir->rows && dir->name != dir->system)                  \
+        status = file_remove(dir->name);
+    RUN_FILE_LIST(X)
 #undef X
     return status;
 }
 
-int store_describe(cli_store *store, const run_request *request)
+int run_directory_begin(run_directory *dir, const run_request *request)
 {
     const int is_path = cli_is_path(request->system_name);
-    int status = clear(store);
+    int status = clear(dir);
     if (status == CLI_DONE)
-        status = is_path ? copy(store, request->system_name) : file_remove(store->system);
+        status = is_path ? copy(dir, request->system_name) : file_remove(dir->system);
     if (status != CLI_DONE) return status;
-    store->input = describe(request);
-    status = sign(store, is_path ? NULL : dal_builtin_text(request->system_name));
-    const cli_mark nothing = {.row = 0};
-    return status == CLI_DONE ? manifest_write(store, request, &nothing, "running", "") : status;
+    dir->input = describe(request);
+    status = sign(dir, is_path ? NULL : dal_builtin_text(request->system_name));
+    const run_position nothing = {.row = 0};
+    return status == CLI_DONE ? manifest_write(dir, request, &nothing, "running", "") : status;
 }
 
 /* Both are described in the present way, whatever version wrote the directory. */
-int store_is_of(const cli_store *store, const run_request *held, const run_request *request)
+int run_directory_compare(const run_directory *dir, const run_request *held,
+                          const run_request *request)
 {
     char *one = describe(held), *other = describe(request);
     int status = CLI_DONE;
     if (strcmp(one, other) != 0)
-        status = cli_fail(CLI_USAGE, "'%s' holds another run: its input differs", store->directory);
+        status = cli_fail(CLI_USAGE, "'%s' holds another run: its input differs", dir->path);
     free(one);
     free(other);
     return status;
@@ -163,10 +164,10 @@ static int take_settings(run_request *request, int option, const study_text *tex
 }
 
 /* The copy in the directory is meant, wherever the program was started. */
-static int take(const cli_store *store, run_request *request, const char *name,
+static int take(const run_directory *dir, run_request *request, const char *name,
                 const yaml_node_t *node)
 {
-    const study_text *text = store->text;
+    const study_text *text = dir->text;
     const int option = request_find_option(name), is_system = strcmp(name, "system") == 0;
     if (option == REQUEST_set || option == REQUEST_start)
         return take_settings(request, option, text, node);
@@ -175,21 +176,21 @@ static int take(const cli_store *store, run_request *request, const char *name,
     const char *value = study_text_scalar(text, node, name);
     if (!value) return CLI_USAGE;
     if (!is_system) return request_parse_option(request, option, value);
-    request->system_name = strcmp(value, copy_name) == 0 ? store->system : value;
+    request->system_name = strcmp(value, copy_name) == 0 ? dir->system : value;
     return CLI_DONE;
 }
 
-static int take_all(const cli_store *store, run_request *request, const yaml_node_t *input)
+static int take_all(const run_directory *dir, run_request *request, const yaml_node_t *input)
 {
     const yaml_node_pair_t *pair = input->data.mapping.pairs.start;
     for (; pair < input->data.mapping.pairs.top; pair++) {
-        const char *name = name_of(store->text, pair);
-        const yaml_node_t *value = study_text_node(store->text, pair->value);
-        const int status = name ? take(store, request, name, value) : CLI_USAGE;
+        const char *name = name_of(dir->text, pair);
+        const yaml_node_t *value = study_text_node(dir->text, pair->value);
+        const int status = name ? take(dir, request, name, value) : CLI_USAGE;
         if (status != CLI_DONE) return status;
     }
     if (request->system_name) return CLI_DONE;
-    return study_text_fail(store->text, input, "the system is missing");
+    return study_text_fail(dir->text, input, "the system is missing");
 }
 
 /* What an older version made is gone on with, if its checkpoint can be read. */
@@ -213,35 +214,34 @@ static int check_version(const study_text *text, const yaml_node_t *root)
     return CLI_DONE;
 }
 
-static int read_manifest(cli_store *store, run_request *request, const char *bytes, size_t length)
+static int read_manifest(run_directory *dir, run_request *request, const char *bytes, size_t length)
 {
-    store->text = cli_calloc(1, sizeof *store->text);
-    int status = json_parse(store->text, store->manifest, bytes, length);
+    dir->text = cli_calloc(1, sizeof *dir->text);
+    int status = json_parse(dir->text, dir->manifest, bytes, length);
     if (status != CLI_DONE) return status;
-    const yaml_node_t *root = yaml_document_get_root_node(&store->text->document);
-    const yaml_node_t *input = json_find(store->text, root, "input");
+    const yaml_node_t *root = yaml_document_get_root_node(&dir->text->document);
+    const yaml_node_t *input = json_find(dir->text, root, "input");
     if (!input || input->type != YAML_MAPPING_NODE)
-        return study_text_fail(store->text, root, "there is no input of a run");
-    status = check_version(store->text, root);
+        return study_text_fail(dir->text, root, "there is no input of a run");
+    status = check_version(dir->text, root);
     if (status != CLI_DONE) return status;
-    store->input = json_source(bytes, input);
-    return take_all(store, request, input);
+    dir->input = json_source(bytes, input);
+    return take_all(dir, request, input);
 }
 
-int store_read(cli_store *store, run_request *request)
+int run_directory_read(run_directory *dir, run_request *request)
 {
     size_t length;
-    if (access(store->old_settings, F_OK) == 0)
+    if (access(dir->old_settings, F_OK) == 0)
         return cli_fail(CLI_USAGE,
                         "'%s' is of an older version, which kept run.yaml and rows.csv: its rows "
                         "can be reported, the run cannot be gone on with",
-                        store->directory);
-    if (access(store->manifest, F_OK) != 0)
-        return cli_fail(CLI_USAGE, "'%s' holds no run: there is no %s", store->directory,
-                        store->manifest);
-    char *bytes = file_read(store->manifest, &length);
+                        dir->path);
+    if (access(dir->manifest, F_OK) != 0)
+        return cli_fail(CLI_USAGE, "'%s' holds no run: there is no %s", dir->path, dir->manifest);
+    char *bytes = file_read(dir->manifest, &length);
     if (!bytes) return CLI_IO;
-    int status = read_manifest(store, request, bytes, length);
+    int status = read_manifest(dir, request, bytes, length);
     free(bytes);
-    return status == CLI_DONE ? sign(store, dal_builtin_text(request->system_name)) : status;
+    return status == CLI_DONE ? sign(dir, dal_builtin_text(request->system_name)) : status;
 }

@@ -6,23 +6,24 @@ static const double interval = 5.0; /* seconds between checkpoints */
 static int go_on(cli_keep *keep, const run_request *request)
 {
     run_request held = request_default();
-    int status = store_read(&keep->store, &held);
-    if (status == CLI_DONE) status = store_is_of(&keep->store, &held, request);
+    int status = run_directory_read(&keep->dir, &held);
+    if (status == CLI_DONE) status = run_directory_compare(&keep->dir, &held, request);
     request_free(&held);
     return status;
 }
 
 int keep_open(cli_keep *keep, const run_request *request, const char *directory)
 {
-    cli_store *store = &keep->store;
+    run_directory *dir = &keep->dir;
     *keep = (cli_keep){0};
-    store_open(store, directory);
-    store->settle = 0;
+    run_directory_open(dir, directory);
+    dir->settle = 0;
     int status = cli_directory(directory);
-    if (status == CLI_DONE) status = store_lock(store, !store_is_described(store));
+    if (status == CLI_DONE) status = run_directory_lock(dir, !run_directory_has_run(dir));
     if (status == CLI_DONE)
-        status = store_is_described(store) ? go_on(keep, request) : store_describe(store, request);
-    if (status == CLI_DONE) status = recorder_open(&keep->recorder, request, store, directory);
+        status =
+            run_directory_has_run(dir) ? go_on(keep, request) : run_directory_begin(dir, request);
+    if (status == CLI_DONE) status = recorder_open(&keep->recorder, request, dir, directory);
     keep->recorder.interval = interval;
     keep->recorder.progress = PROGRESS_OFF;
     return status;
@@ -35,5 +36,5 @@ int keep_is_finished(const cli_keep *keep) { return recorder_is_finished(&keep->
 void keep_close(cli_keep *keep)
 {
     recorder_close(&keep->recorder);
-    store_close(&keep->store);
+    run_directory_close(&keep->dir);
 }

@@ -5,7 +5,7 @@
 #include "record.h"
 
 typedef struct cli_keep {
-    cli_store store;
+    run_directory dir;
     run_recorder recorder;
 } cli_keep;
 

@@ -20,7 +20,7 @@
 #define CLI_FLAGS ""
 #endif
 
-void manifest_machine(FILE *out)
+void manifest_put_machine(FILE *out)
 {
     struct utsname machine;
     fputs(",\n  \"machine\": {", out);
@@ -36,7 +36,7 @@ void manifest_machine(FILE *out)
     fputs("\n  }", out);
 }
 
-static void put_state(FILE *out, const run_request *request, const cli_mark *mark,
+static void put_state(FILE *out, const run_request *request, const run_position *position,
                       const char *state)
 {
     char method[256];
@@ -44,31 +44,31 @@ static void put_state(FILE *out, const run_request *request, const cli_mark *mar
                      dal_method_name(&request->method, method, sizeof method));
     json_text_member(out, ",\n  ", "status", state);
     json_number_member(out, ",\n  ", "t", dal_run_time(request->run));
-    fprintf(out, ",\n  \"rows\": %lld,\n  \"steps\": %lld,\n  \"evaluations\": %lld", mark->row,
+    fprintf(out, ",\n  \"rows\": %lld,\n  \"steps\": %lld,\n  \"evaluations\": %lld", position->row,
             dal_run_steps(request->run), dal_run_evaluations(request->run));
     fprintf(out, ",\n  \"native\": %s", dal_run_is_native(request->run) ? "true" : "false");
-    json_number_member(out, ",\n  ", "seconds", mark->seconds);
+    json_number_member(out, ",\n  ", "seconds", position->seconds);
 }
 
-int manifest_write(const cli_store *store, const run_request *request, const cli_mark *mark,
-                   const char *state, const char *why)
+int manifest_write(const run_directory *dir, const run_request *request,
+                   const run_position *position, const char *state, const char *why)
 {
     char *text;
     size_t length;
     FILE *out = cli_memstream_open(&text, &length);
     json_text_member(out, "{\n  ", "dalembert", DAL_VERSION);
-    fprintf(out, ",\n  \"input\": %s", store->input);
-    manifest_machine(out);
-    put_state(out, request, mark, state);
+    fprintf(out, ",\n  \"input\": %s", dir->input);
+    manifest_put_machine(out);
+    put_state(out, request, position, state);
     if (why[0]) json_text_member(out, ",\n  ", "message", why);
     fputs("\n}\n", out);
     cli_memstream_close(out);
-    const int status = file_swap(store->manifest, text, length, store->settle);
+    const int status = file_swap(dir->manifest, text, length, dir->settle);
     free(text);
     return status;
 }
 
-int manifest_is_over(const char *path)
+int manifest_has_ended(const char *path)
 {
     char *state = json_file_text(path, "status");
     const int over = state && (strcmp(state, "done") == 0 || strcmp(state, "failed") == 0);

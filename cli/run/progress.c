@@ -97,8 +97,8 @@ static void show_json(const run_recorder *r, double t)
     json_number_member(stderr, "{", "t", t);
     json_number_member(stderr, ", ", "time", r->request->time);
     fprintf(stderr, ", \"steps\": %lld, \"rows\": %lld", dal_run_steps(r->request->run),
-            r->mark.row);
-    json_number_member(stderr, ", ", "seconds", r->mark.seconds);
+            r->position.row);
+    json_number_member(stderr, ", ", "seconds", r->position.seconds);
     json_number_member(stderr, ", ", "remaining", t >= r->request->time ? 0.0 : remaining(r, t));
     fputs(", \"deviation\": {", stderr);
     for (int i = 0; i < r->observables; i++)

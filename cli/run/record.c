@@ -45,12 +45,12 @@ static void make_room(run_recorder *r)
     dal_statistics_start(r->statistics, r->observables);
 }
 
-/* With a store the table goes on where its checkpoint says. */
+/* With a directory the table goes on where its checkpoint says. */
 static int open_table(run_recorder *r, const char *output)
 {
     char **names = cli_calloc((size_t)r->columns, sizeof *names);
     for (int i = 0; i < r->columns; i++) names[i] = r->names[r->column[i]];
-    cli_store *s = r->store;
+    run_directory *s = r->dir;
     int status = CLI_DONE;
     if (s)
         writer_attach(&r->writer, s->rows, s->descriptor, names, r->columns);
@@ -59,8 +59,10 @@ static int open_table(run_recorder *r, const char *output)
     free(names);
     if (!s) return status;
     s->descriptor = -1;
-    status = store_load(s, &r->writer, &r->mark, r->request->run, r->statistics, r->observables);
-    return status == CLI_DONE ? writer_continue(&r->writer, r->mark.row, &r->mark.sum) : status;
+    status = checkpoint_load(s, &r->writer, &r->position, r->request->run, r->statistics,
+                             r->observables);
+    return status == CLI_DONE ? writer_continue(&r->writer, r->position.row, &r->position.sum)
+                              : status;
 }
 
 static int interrupted(void *user)
@@ -74,19 +76,20 @@ static const char *state_word(int status)
     return status == CLI_DONE ? "done" : status == CLI_SIGNAL ? "interrupted" : "failed";
 }
 
-int recorder_open(run_recorder *r, const run_request *request, cli_store *store, const char *output)
+int recorder_open(run_recorder *r, const run_request *request, run_directory *dir,
+                  const char *output)
 {
-    *r = (run_recorder){.request = request, .store = store, .stop = interrupted};
+    *r = (run_recorder){.request = request, .dir = dir, .stop = interrupted};
     r->quiet =
-        !isatty(STDERR_FILENO) || (!store && strcmp(output, "-") == 0 && isatty(STDOUT_FILENO));
+        !isatty(STDERR_FILENO) || (!dir && strcmp(output, "-") == 0 && isatty(STDOUT_FILENO));
     make_room(r);
     const int status = open_table(r, output);
     if (status != CLI_DONE || !recorder_is_finished(r)) return status;
     dal_run_classify(request->run, r->statistics, 0, r->trend);
     /* Killed between its last checkpoint and the manifest. */
-    return manifest_is_over(store->manifest)
+    return manifest_has_ended(dir->manifest)
                ? CLI_DONE
-               : manifest_write(store, request, &r->mark, state_word(CLI_DONE), "");
+               : manifest_write(dir, request, &r->position, state_word(CLI_DONE), "");
 }
 
 void recorder_close(run_recorder *r)
@@ -101,7 +104,7 @@ void recorder_close(run_recorder *r)
     free(r->trend);
 }
 
-int recorder_is_finished(const run_recorder *r) { return r->mark.row > r->request->samples; }
+int recorder_is_finished(const run_recorder *r) { return r->position.row > r->request->samples; }
 
 const char *recorder_observable_name(const run_recorder *r, int i)
 {
@@ -114,7 +117,7 @@ const char *recorder_observable_name(const run_recorder *r, int i)
 static double pause_clock(run_recorder *r)
 {
     const double gone = cli_seconds() - r->since;
-    r->mark.seconds += gone;
+    r->position.seconds += gone;
     r->stretch += gone;
     return gone;
 }
@@ -135,7 +138,7 @@ static dal_status take_row(run_recorder *r, dal_run *run, double t)
     dal_status status = dal_run_observe(run, observed);
     if (status != DAL_OK) return status;
     for (int i = 0; i < r->columns; i++) r->row[i] = r->values[r->column[i]];
-    r->mark.row++;
+    r->position.row++;
     return tell(r, writer_append(&r->writer, r->row));
 }
 
@@ -154,17 +157,17 @@ static dal_status sample(void *user, dal_run *run, long long row, double t)
     run_recorder *r = user;
     (void)row;
     const dal_status status = take_row(r, run, t);
-    /* With a store the next poll ends the run: only there does the run stand where a checkpoint
+    /* With a directory the next poll ends the run: only there does the run stand where a checkpoint
      * may be taken, and not within a step that shows a row between two others. */
-    return status == DAL_OK && !r->store && r->stop(r->stop_user) ? DAL_INTERRUPTED : status;
+    return status == DAL_OK && !r->dir && r->stop(r->stop_user) ? DAL_INTERRUPTED : status;
 }
 
 static int save(run_recorder *r, const dal_run *run)
 {
-    int status = writer_sync(&r->writer, r->store->settle);
-    r->mark.sum = r->writer.sum;
+    int status = writer_sync(&r->writer, r->dir->settle);
+    r->position.sum = r->writer.sum;
     if (status == CLI_DONE)
-        status = store_save(r->store, &r->mark, run, r->statistics, r->observables);
+        status = checkpoint_save(r->dir, &r->position, run, r->statistics, r->observables);
     r->saved = cli_seconds();
     return status;
 }
@@ -174,11 +177,11 @@ static int save(run_recorder *r, const dal_run *run)
 static int save_to_last(run_recorder *r, const dal_run *run)
 {
     int status = CLI_DONE;
-    if (!r->store->settle) {
+    if (!r->dir->settle) {
         status = writer_sync(&r->writer, 0);
-        r->store->settle = 1;
+        r->dir->settle = 1;
         if (status == CLI_DONE)
-            status = manifest_write(r->store, r->request, &r->mark, "running", "");
+            status = manifest_write(r->dir, r->request, &r->position, "running", "");
     }
     return status == CLI_DONE ? save(r, run) : status;
 }
@@ -198,9 +201,9 @@ static dal_status poll(void *user, dal_run *run)
     const int stop = r->stop(r->stop_user);
     dal_status status = DAL_OK;
     pace(&r->observer, pause_clock(r));
-    if (r->store && cli_seconds() - r->saved >= r->interval)
+    if (r->dir && cli_seconds() - r->saved >= r->interval)
         status = tell(r, save_to_last(r, run));
-    else if (r->store && stop)
+    else if (r->dir && stop)
         status = tell(r, save(r, run));
     progress_show(r, dal_run_time(run), 0);
     start_clock(r);
@@ -226,13 +229,13 @@ static int conclude(const run_recorder *r, dal_status status, dal_error *error)
 static int keep(run_recorder *r, int status, const char *why)
 {
     int kept = CLI_DONE;
-    if (r->store && (status == CLI_DONE || status == CLI_FAILED)) {
+    if (r->dir && (status == CLI_DONE || status == CLI_FAILED)) {
         kept = writer_sync(&r->writer, 0);
-        if (kept == CLI_DONE) kept = summary_write(r, r->store->summary);
+        if (kept == CLI_DONE) kept = summary_write(r, r->dir->summary);
         if (kept == CLI_DONE) kept = save(r, r->request->run);
     }
-    if (r->store && kept == CLI_DONE && status != CLI_IO)
-        kept = manifest_write(r->store, r->request, &r->mark, state_word(status), why);
+    if (r->dir && kept == CLI_DONE && status != CLI_IO)
+        kept = manifest_write(r->dir, r->request, &r->position, state_word(status), why);
     int closed = writer_close(&r->writer);
     if (status != CLI_DONE) return status;
     return kept != CLI_DONE ? kept : closed;
@@ -254,15 +257,15 @@ int recorder_run(run_recorder *r, dal_error *error)
                                  .row_time = r->request->row_time ? row_time : NULL,
                                  .polling = 1};
     *error = (dal_error){0};
-    if (r->store && r->mark.row > 0 &&
-        manifest_write(r->store, r->request, &r->mark, "running", "") != CLI_DONE)
+    if (r->dir && r->position.row > 0 &&
+        manifest_write(r->dir, r->request, &r->position, "running", "") != CLI_DONE)
         return CLI_IO;
     r->saved = cli_seconds();
     r->begun = dal_run_time(r->request->run);
     r->begun_steps = dal_run_steps(r->request->run);
     start_clock(r);
     dal_status status = dal_run_sample(r->request->run, r->request->time, r->request->samples,
-                                       r->mark.row, &r->observer, error);
+                                       r->position.row, &r->observer, error);
     pause_clock(r);
     if (r->progress != PROGRESS_OFF) cli_progress_end();
     progress_show(r, dal_run_time(r->request->run), 1);

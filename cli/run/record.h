@@ -17,7 +17,8 @@ typedef enum cli_progress_kind {
 
 typedef struct run_recorder {
     const run_request *request;
-    cli_store *store; /* NULL: the rows go to a file or to stdout and nothing is kept beside them */
+    run_directory
+        *dir; /* NULL: the rows go to a file or to stdout and nothing is kept beside them */
     trajectory_writer writer;
     int dimension, observables, columns;
     double *values;             /* [1 + dimension + observables] t, state, all observables */
@@ -26,7 +27,7 @@ typedef struct run_recorder {
     int *column;                /* [columns] which of values a column is */
     dal_statistics *statistics; /* [observables] */
     dal_trend *trend;           /* [observables] when the run is finished or has failed */
-    cli_mark mark;
+    run_position position;
     dal_observer observer;
     double interval;       /* seconds between checkpoints */
     double since, saved;   /* when the present stretch of steps began; the last checkpoint */
@@ -41,9 +42,9 @@ typedef struct run_recorder {
     int told;  /* exit status of a failure of the program's own, already printed */
 } run_recorder;
 
-/* Opens the table: output is a file or "-"; with a store, its trajectory.npy, going on where its
+/* Opens the table: output is a file or "-"; with a dir, its trajectory.npy, going on where its
  * checkpoint says.  recorder_close it in any case. */
-int recorder_open(run_recorder *recorder, const run_request *request, cli_store *store,
+int recorder_open(run_recorder *recorder, const run_request *request, run_directory *dir,
                   const char *output);
 void recorder_close(run_recorder *recorder);
 /* Integrates to the end.  Returns CLI_DONE; CLI_FAILED and the like with the reason in *error;

@@ -68,28 +68,28 @@ int run_take(run_wishes *wishes, int option, const char *text)
 /* What is to be said of an end that has not been told. */
 static void tell_end(const run_recorder *r, int status, const dal_error *error)
 {
-    if (status == CLI_SIGNAL && r->store)
-        cli_fail(status, "interrupted; go on with: dalembert resume %s", r->store->directory);
+    if (status == CLI_SIGNAL && r->dir)
+        cli_fail(status, "interrupted; go on with: dalembert resume %s", r->dir->path);
     else if (status == CLI_SIGNAL)
-        cli_fail(status, "interrupted; %lld rows are kept", r->mark.row);
+        cli_fail(status, "interrupted; %lld rows are kept", r->position.row);
     else if (status != CLI_DONE && error->message[0])
         cli_error(status, r->request->system_name, error);
 }
 
-int run_integrate(const run_request *request, cli_store *store, const run_wishes *wishes)
+int run_integrate(const run_request *request, run_directory *dir, const run_wishes *wishes)
 {
     run_recorder recorder;
     dal_error error;
-    int status = recorder_open(&recorder, request, store, wishes->output);
+    int status = recorder_open(&recorder, request, dir, wishes->output);
     recorder.interval = wishes->interval;
     recorder.progress = wishes->progress;
     if (status == CLI_DONE && recorder_is_finished(&recorder)) {
-        cli_fail(CLI_DONE, "'%s' is finished: %lld rows", store->directory, recorder.mark.row);
+        cli_fail(CLI_DONE, "'%s' is finished: %lld rows", dir->path, recorder.position.row);
     } else if (status == CLI_DONE) {
         cli_catch_signals();
-        if (recorder.mark.row > 0)
-            cli_fail(CLI_DONE, "'%s' goes on from t = %g with row %lld", store->directory,
-                     dal_run_time(request->run), recorder.mark.row);
+        if (recorder.position.row > 0)
+            cli_fail(CLI_DONE, "'%s' goes on from t = %g with row %lld", dir->path,
+                     dal_run_time(request->run), recorder.position.row);
         const double steps = (request->time - dal_run_time(request->run)) / request->options.step;
         native_use(request->run, &request->method, steps, wishes->native);
         native_look(request->run, steps / (double)request->statistics, wishes->native);
@@ -105,19 +105,19 @@ int run_integrate(const run_request *request, cli_store *store, const run_wishes
 
 static int run_in_directory(const run_request *request, const run_wishes *wishes)
 {
-    cli_store store;
-    store_open(&store, wishes->output);
+    run_directory dir;
+    run_directory_open(&dir, wishes->output);
     int status = cli_directory(wishes->output);
-    const char *held = status == CLI_DONE && !wishes->force ? store_holds(&store) : NULL;
+    const char *held = status == CLI_DONE && !wishes->force ? run_directory_find_file(&dir) : NULL;
     if (held)
         status = cli_fail(CLI_USAGE,
                           "'%s' is there already: 'dalembert resume' goes on with a run, --force "
                           "writes over it",
                           held);
-    if (status == CLI_DONE) status = store_lock(&store, 1);
-    if (status == CLI_DONE) status = store_describe(&store, request);
-    if (status == CLI_DONE) status = run_integrate(request, &store, wishes);
-    store_close(&store);
+    if (status == CLI_DONE) status = run_directory_lock(&dir, 1);
+    if (status == CLI_DONE) status = run_directory_begin(&dir, request);
+    if (status == CLI_DONE) status = run_integrate(request, &dir, wishes);
+    run_directory_close(&dir);
     return status;
 }
 

@@ -45,6 +45,6 @@ run_wishes run_wish(void);
 int run_take(run_wishes *wishes, int option, const char *text);
 int run_take_interval(const char *text, double *interval);
 /* The integration itself, the request being made and the directory, if there is one, described. */
-int run_integrate(const run_request *request, cli_store *store, const run_wishes *wishes);
+int run_integrate(const run_request *request, run_directory *dir, const run_wishes *wishes);
 
 #endif

@@ -1,4 +1,4 @@
-/* store.c - a directory that holds a run: its files, and who may write to them. */
+/* dir.c - a directory that holds a run: its files, and who may write to them. */
 #include "store.h"
 
 #include <errno.h>
@@ -7,24 +7,24 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-void store_open(cli_store *store, const char *directory)
+void run_directory_open(run_directory *dir, const char *directory)
 {
-    *store = (cli_store){.directory = directory, .descriptor = -1, .settle = 1};
-#define X(name, file) store->name = cli_join(directory, file);
-    STORE_FILE_LIST(X)
+    *dir = (run_directory){.path = directory, .descriptor = -1, .settle = 1};
+#define X(name, file) dir->name = cli_join(directory, file);
+    RUN_FILE_LIST(X)
 #undef X
 }
 
-void store_close(cli_store *store)
+void run_directory_close(run_directory *dir)
 {
-#define X(name, file) free(store->name);
-    STORE_FILE_LIST(X)
+#define X(name, file) free(dir->name);
+    RUN_FILE_LIST(X)
 #undef X
-    if (store->text) yaml_document_delete(&store->text->document);
-    free(store->text);
-    free(store->input);
-    if (store->descriptor >= 0) close(store->descriptor);
-    *store = (cli_store){.descriptor = -1};
+    if (dir->text) yaml_document_delete(&dir->text->document);
+    free(dir->text);
+    free(dir->input);
+    if (dir->descriptor >= 0) close(dir->descriptor);
+    *dir = (run_directory){.descriptor = -1};
 }
 
 /* An empty trajectory.npy is all that a run leaves that was killed before it was described. */
@@ -34,28 +34,28 @@ static int holds(const char *path)
     return stat(path, &status) == 0 && status.st_size > 0;
 }
 
-const char *store_holds(const cli_store *store)
+const char *run_directory_find_file(const run_directory *dir)
 {
 #define X(name, file)                                                                              \
-    if (holds(store->name)) return store->name;
-    STORE_FILE_LIST(X)
+    if (holds(dir->name)) return dir->name;
+    RUN_FILE_LIST(X)
 #undef X
     return NULL;
 }
 
 static int is_there(const char *path) { return access(path, F_OK) == 0; }
 
-int store_is_described(const cli_store *store) { return is_there(store->manifest); }
+int run_directory_has_run(const run_directory *dir) { return is_there(dir->manifest); }
 
-int store_lock(cli_store *store, int is_new)
+int run_directory_lock(run_directory *dir, int is_new)
 {
     struct flock whole = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
-    if (!is_new && !is_there(store->rows))
-        return cli_fail(CLI_USAGE, "'%s' is missing: the run cannot be continued", store->rows);
-    store->descriptor = open(store->rows, O_RDWR | (is_new ? O_CREAT : 0), 0666);
-    if (store->descriptor < 0) return cli_io("write", store->rows);
-    if (fcntl(store->descriptor, F_SETLK, &whole) == 0) return CLI_DONE;
+    if (!is_new && !is_there(dir->rows))
+        return cli_fail(CLI_USAGE, "'%s' is missing: the run cannot be continued", dir->rows);
+    dir->descriptor = open(dir->rows, O_RDWR | (is_new ? O_CREAT : 0), 0666);
+    if (dir->descriptor < 0) return cli_io("write", dir->rows);
+    if (fcntl(dir->descriptor, F_SETLK, &whole) == 0) return CLI_DONE;
     /* Some network file systems know no locks; there the user must take care. */
     if (errno != EACCES && errno != EAGAIN) return CLI_DONE;
-    return cli_fail(CLI_USAGE, "'%s': another process is writing to it", store->rows);
+    return cli_fail(CLI_USAGE, "'%s': another process is writing to it", dir->rows);
 }

@@ -9,7 +9,7 @@
 static double nanoseconds(const run_recorder *r)
 {
     long long steps = dal_run_steps(r->request->run);
-    return steps > 0 ? 1e9 * r->mark.seconds / (double)steps : 0.0;
+    return steps > 0 ? 1e9 * r->position.seconds / (double)steps : 0.0;
 }
 
 static void print_observable(FILE *out, const char *name, const dal_trend *f)
@@ -29,7 +29,7 @@ void summary_print(FILE *out, const run_recorder *r)
     dal_method_name(&request->method, method, sizeof method);
     fprintf(out, "%s, %s, %s, h = %g: t = %g, %lld rows\n", request->system_name, method,
             request->options.space == DAL_LIFTED ? "lifted" : "physical", request->options.step,
-            dal_run_time(request->run), r->mark.row);
+            dal_run_time(request->run), r->position.row);
     fprintf(out, "%lld steps, %lld evaluations, %.1f ns per step\n", dal_run_steps(request->run),
             dal_run_evaluations(request->run), nanoseconds(r));
     fprintf(out, "%-12s %14s %10s %10s %10s %21s %8s %9s  %s\n", "", "final", "max | |",
@@ -56,7 +56,7 @@ int summary_write(const run_recorder *r, const char *path)
         fputc('\n', out);
     }
     cli_memstream_close(out);
-    const int status = file_swap(path, text, length, r->store->settle);
+    const int status = file_swap(path, text, length, r->dir->settle);
     free(text);
     return status;
 }

@@ -245,7 +245,7 @@ static int collect(walk *w, const dal_error *error, int ended)
     c->time = dal_run_time(w->request.run);
     c->steps = dal_run_steps(w->request.run);
     c->evaluations = dal_run_evaluations(w->request.run);
-    c->seconds = w->keep.recorder.mark.seconds;
+    c->seconds = w->keep.recorder.position.seconds;
     c->state = STUDY_FINISHED;
     c->error = *error;
     if (ended == CLI_FAILED) fail(c, STUDY_FAILED, error->status);

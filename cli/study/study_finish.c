@@ -29,7 +29,7 @@ static void put_manifest(FILE *out, const study_plan *plan, study_shard shard, c
 {
     json_text_member(out, "{\n  ", "dalembert", DAL_VERSION);
     json_text_member(out, ",\n  ", "study", plan->title);
-    manifest_machine(out);
+    manifest_put_machine(out);
     json_text_member(out, ",\n  ", "status", state);
     fputs(",\n  \"cells\": {", out);
     const char *before = "";

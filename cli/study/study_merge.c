@@ -110,7 +110,7 @@ static int look_at(merge *m, int cell, int source, const char *name)
         if (m->from[cell] >= 0)
             status = cli_fail(CLI_USAGE, "'%s' is in '%s' and in '%s'", name,
                               m->source[m->from[cell]].directory, s->directory);
-        else if (!manifest_is_over(manifest))
+        else if (!manifest_has_ended(manifest))
             status =
                 cli_fail(CLI_USAGE, "'%s' is not finished: dalembert resume %s", run, s->directory);
         m->from[cell] = source;
@@ -166,25 +166,25 @@ static int copy_file(const char *source, const char *target)
     return status;
 }
 
-static int copy_stores(const cli_store *from, const cli_store *to)
+static int copy_files(const run_directory *from, const run_directory *to)
 {
-    int status = cli_directory(to->directory);
+    int status = cli_directory(to->path);
 #define X(name, file)                                                                              \
     if (status == CLI_DONE && from->name != from->manifest)                                        \
         status = copy_file(from->name, to->name);
-    STORE_FILE_LIST(X)
+    RUN_FILE_LIST(X)
 #undef X
     return status == CLI_DONE ? copy_file(from->manifest, to->manifest) : status;
 }
 
 static int copy_run(const char *source, const char *target)
 {
-    cli_store from = {0}, to = {0};
-    store_open(&from, source);
-    store_open(&to, target);
-    const int status = copy_stores(&from, &to);
-    store_close(&from);
-    store_close(&to);
+    run_directory from = {0}, to = {0};
+    run_directory_open(&from, source);
+    run_directory_open(&to, target);
+    const int status = copy_files(&from, &to);
+    run_directory_close(&from);
+    run_directory_close(&to);
     return status;
 }
 
