@@ -22,10 +22,10 @@ enum {
 
 static int holds_study(const char *directory)
 {
-    study_house house;
-    house_open(&house, directory);
-    const int holds = house_holds_study(&house);
-    house_close(&house);
+    study_directory dir;
+    study_directory_open(&dir, directory);
+    const int holds = study_directory_has_study(&dir);
+    study_directory_close(&dir);
     return holds;
 }
 
@@ -46,7 +46,8 @@ static int resume_run(const char *directory, const run_wishes *wishes)
 static int resume(const char *directory, const run_wishes *wishes, long long threads)
 {
     if (!holds_study(directory)) return resume_run(directory, wishes);
-    return study_resume(directory, &(study_means){(int)threads, wishes->interval, wishes->native});
+    return study_resume(directory,
+                        &(study_run_options){(int)threads, wishes->interval, wishes->native});
 }
 
 static int take(run_wishes *wishes, long long *threads, const char **directory, int option,

@@ -97,15 +97,16 @@ static int describe(const wishes *w)
 {
     size_t length;
     study_plan plan = {0};
-    study_house house = {0};
+    study_directory dir = {0};
     const study_shard whole = {0};
     char *text = file_read(w->study, &length);
     if (!text) return CLI_USAGE;
     int status = study_plan_read(&plan, w->study, text, length, NULL);
-    house_open(&house, w->output);
-    if (status == CLI_DONE) status = house_begin(&house, &plan, text, length, whole, w->force);
+    study_directory_open(&dir, w->output);
+    if (status == CLI_DONE)
+        status = study_directory_begin(&dir, &plan, text, length, whole, w->force);
     study_plan_free(&plan);
-    house_close(&house);
+    study_directory_close(&dir);
     free(text);
     return status;
 }
@@ -167,7 +168,7 @@ static int stop(void *user)
 /* A failure of one rank's own leaves the cells to the others. */
 static int run_cells(team *t)
 {
-    const study_watch watch = {stop, t};
+    const study_stop_check watch = {stop, t};
     int status = CLI_DONE;
     for (int cell; status == CLI_DONE && (cell = t->rank == 0 ? next_cell(t) : ask()) >= 0;) {
         status = study_cell_run(t->plan, &t->plan->cells[cell], &watch);
@@ -190,34 +191,34 @@ static int agree(int status)
     return worst;
 }
 
-static int finish(study_plan *plan, const study_house *house, int status)
+static int finish(study_plan *plan, const study_directory *dir, int status)
 {
     if (status == CLI_SIGNAL)
-        return cli_fail(status, "interrupted; go on with: dalembert resume %s", house->directory);
+        return cli_fail(status, "interrupted; go on with: dalembert resume %s", dir->directory);
     if (status != CLI_DONE) return status;
-    return house_finish(house, plan, study_pool_run(plan, pool_threads()));
+    return study_directory_finish(dir, plan, study_pool_run(plan, pool_threads()));
 }
 
 static int run_study(const wishes *w, int rank, int size)
 {
     study_plan plan = {0};
-    study_house house = {0};
+    study_directory dir = {0};
     team t = {.plan = &plan, .rank = rank, .size = size, .waiting = size - 1};
-    house_open(&house, w->output);
-    int status = house_read(&house, &plan);
-    t.order = study_order(&plan);
+    study_directory_open(&dir, w->output);
+    int status = study_directory_read(&dir, &plan);
+    t.order = study_sort_cells(&plan);
     plan.interval = w->interval;
-    for (int i = 0; i < plan.entry_count; i++) plan.entries[i].native = (cli_native)w->native;
+    for (int i = 0; i < plan.case_count; i++) plan.cases[i].native = (cli_native)w->native;
     status = agree(status);
     if (status == CLI_DONE) {
         cli_catch_signals();
         status = agree(run_cells(&t));
         if (status == CLI_DONE && cli_interrupted()) status = CLI_SIGNAL;
-        if (rank == 0) status = finish(&plan, &house, status);
+        if (rank == 0) status = finish(&plan, &dir, status);
     }
     free(t.order);
     study_plan_free(&plan);
-    house_close(&house);
+    study_directory_close(&dir);
     return status;
 }
 

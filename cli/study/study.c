@@ -126,34 +126,34 @@ static int take(wishes *w, int option, const char *value)
 
 /* ---- running ---- */
 
-static int run_cells(study_plan *plan, const study_house *house, const study_means *means)
+static int run_cells(study_plan *plan, const study_directory *dir, const study_run_options *how)
 {
     cli_catch_signals();
-    plan->interval = means->interval;
-    for (int i = 0; i < plan->entry_count; i++) plan->entries[i].native = means->native;
-    return house_finish(house, plan, study_pool_run(plan, means->threads));
+    plan->interval = how->interval;
+    for (int i = 0; i < plan->case_count; i++) plan->cases[i].native = how->native;
+    return study_directory_finish(dir, plan, study_pool_run(plan, how->threads));
 }
 
 /* A study that is over is written over where nobody named the directory: each is so by default. */
-static int begin(const wishes *w, study_house *house, study_plan *plan, const char *text,
+static int begin(const wishes *w, study_directory *dir, study_plan *plan, const char *text,
                  size_t length)
 {
-    house_open(house, w->output ? w->output : default_directory);
-    const int force = w->force || (!w->output && house_is_finished(house));
-    return house_begin(house, plan, text, length, w->shard, force);
+    study_directory_open(dir, w->output ? w->output : default_directory);
+    const int force = w->force || (!w->output && study_directory_is_finished(dir));
+    return study_directory_begin(dir, plan, text, length, w->shard, force);
 }
 
 static int run_text(const wishes *w, const char *text, size_t length)
 {
     study_plan plan = {0};
-    study_house house = {0};
-    const study_means means = {(int)w->threads, w->interval, w->native};
+    study_directory dir = {0};
+    const study_run_options how = {(int)w->threads, w->interval, w->native};
     const char *name = w->study ? w->study : builtin_name;
     int status = study_plan_read(&plan, name, text, length, NULL);
-    if (status == CLI_DONE) status = begin(w, &house, &plan, text, length);
-    if (status == CLI_DONE) status = run_cells(&plan, &house, &means);
+    if (status == CLI_DONE) status = begin(w, &dir, &plan, text, length);
+    if (status == CLI_DONE) status = run_cells(&plan, &dir, &how);
     study_plan_free(&plan);
-    house_close(&house);
+    study_directory_close(&dir);
     return status;
 }
 
@@ -188,14 +188,14 @@ int command_study(int argc, char **argv)
 
 /* ---- going on ---- */
 
-int study_resume(const char *directory, const study_means *means)
+int study_resume(const char *directory, const study_run_options *how)
 {
     study_plan plan = {0};
-    study_house house = {0};
-    house_open(&house, directory);
-    int status = house_read(&house, &plan);
-    if (status == CLI_DONE) status = run_cells(&plan, &house, means);
+    study_directory dir = {0};
+    study_directory_open(&dir, directory);
+    int status = study_directory_read(&dir, &plan);
+    if (status == CLI_DONE) status = run_cells(&plan, &dir, how);
     study_plan_free(&plan);
-    house_close(&house);
+    study_directory_close(&dir);
     return status;
 }

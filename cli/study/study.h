@@ -25,7 +25,7 @@
     X(time, "both", "integrate from 0 to this, in whole steps")                                    \
     X(samples, "both", "rows kept of each run (400)")                                              \
     X(statistics, "both", "look at the quantities after every K-th step (1)")                      \
-    X(seeds, "both", "integers; an entry for each of them where something is drawn")               \
+    X(seeds, "both", "integers; a case for each of them where something is drawn")                 \
     X(options, "both", "of the runs, but step and space: solver: newton, extend-energy: on, ..")   \
     X(starts, "both", "list of physical, surface, displaced (all three)")                          \
     X(displacement, "both", "size d of p, pi where displaced (1e-8)")                              \
@@ -64,10 +64,10 @@ const char *study_option_word(int option);
 /* One system of a study, with one value for each of its settings, and all that is to be done with
  * it.  Entries that differ in these values alone come from one group, stand together and share
  * model, copy and methods, which belong to the first of them. */
-typedef struct study_entry {
+typedef struct study_case {
     const char *name;  /* a built-in name or a path */
     const char *group; /* its label in the file, or what stands for one */
-    char *label;       /* what it is called in tables and files; no two entries share one */
+    char *label;       /* what it is called in tables and files; no two cases share one */
     int is_first;      /* of its group */
     dal_model *model;
     const dal_system *system;
@@ -83,7 +83,7 @@ typedef struct study_entry {
     int method_count;
     int first_cell, cells; /* its cells stand together */
     cli_native native;
-} study_entry;
+} study_case;
 
 typedef struct study_cell study_cell;
 typedef struct study_expectation study_expectation;
@@ -95,8 +95,8 @@ typedef struct study_plan {
     double interval;    /* seconds between checkpoints of a run */
     const char *title;
     void *document; /* the parsed text, where the names live */
-    study_entry *entries;
-    int entry_count;
+    study_case *cases;
+    int case_count;
     study_cell *cells;
     int cell_count;
     study_expectation *expectations;
@@ -109,7 +109,7 @@ int study_plan_read(study_plan *plan, const char *place, const char *text, size_
                     const char *copies);
 void study_plan_free(study_plan *plan);
 /* DIRECTORY/LABEL.yaml, where the copy of a system file lies; allocated. */
-char *study_system_copy(const char *directory, const study_entry *entry);
+char *study_system_copy(const char *directory, const study_case *item);
 
 /* ---- cells ---- */
 
@@ -148,7 +148,7 @@ typedef enum study_state {
 const char *study_state_word(study_state state);
 
 struct study_cell {
-    const study_entry *entry;
+    const study_case *of_case;
     const dal_method *method;
     double step;
     int start;
@@ -167,19 +167,19 @@ struct study_cell {
 };
 
 /* Asked now and then while a run goes: whether it is to stop, with a checkpoint. */
-typedef struct study_watch {
+typedef struct study_stop_check {
     int (*stop)(void *user);
     void *user;
-} study_watch;
+} study_stop_check;
 
 /* Runs a cell in its directory, or goes on with it, or reads what is finished; watch may be NULL,
  * for interruptions alone.  What befalls the run is in the cell; its state stays STUDY_WAITING
  * when it was stopped.  Returns CLI_DONE; CLI_SIGNAL when it was stopped; or prints and returns an
  * exit status.  Different cells may be run by different threads. */
-int study_cell_run(const study_plan *plan, study_cell *cell, const study_watch *watch);
+int study_cell_run(const study_plan *plan, study_cell *cell, const study_stop_check *watch);
 void study_cell_free(study_cell *cell);
 /* Whether the run of a cell can be made at all: a refused one has none. */
-int study_cell_can_run(study_cell *cell);
+int study_cell_is_runnable(study_cell *cell);
 /* Its name, which is that of its directory below plan->runs; and that directory.  Allocated, NULL
  * when memory is out. */
 char *study_cell_name(const study_cell *cell);
@@ -190,24 +190,24 @@ const dal_trend *study_trend(const study_cell *cell, const char *name);
 const dal_trend *study_worst_constraint(const study_cell *cell);
 const dal_trend *study_worst_invariant(const study_cell *cell, const char **name);
 /* The cell with the same method and step in (q,v), or NULL. */
-const study_cell *study_physical_twin(const study_plan *plan, const study_cell *cell);
+const study_cell *study_physical_cell(const study_plan *plan, const study_cell *cell);
 
 /* ---- running, telling ---- */
 
 /* What concerns the running alone. */
-typedef struct study_means {
+typedef struct study_run_options {
     int threads;
     double interval; /* seconds between checkpoints of a run */
     cli_native native;
-} study_means;
+} study_run_options;
 
 /* Goes on with the study in a directory.  Returns the exit status. */
-int study_resume(const char *directory, const study_means *means);
+int study_resume(const char *directory, const study_run_options *options);
 
 typedef struct study_output study_output;
 
 /* The cells by falling cost, so that none is left for the end; allocated. */
-int *study_order(const study_plan *plan);
+int *study_sort_cells(const study_plan *plan);
 /* Runs all cells that are not elsewhere, on threads.  Returns CLI_DONE, CLI_SIGNAL when it was
  * interrupted, or the exit status of the first failure of the program's own, which was told. */
 int study_pool_run(study_plan *plan, int threads);
@@ -215,7 +215,7 @@ int study_pool_run(study_plan *plan, int threads);
 /* The files of a study below a directory:
  *     cells.csv        a row per cell
  *     quantities.csv   a row per cell and observable
- *     series/LABEL.csv the tracks of the cells of an entry, window by window
+ *     series/LABEL.csv the tracks of the cells of a case, window by window
  * All functions return CLI_DONE or print and return CLI_IO. */
 int study_output_open(study_output **output, const char *directory);
 int study_output_cell(study_output *output, const study_plan *plan, const study_cell *cell);
@@ -223,13 +223,13 @@ int study_output_close(study_output *output);
 
 /* How many expectations are not met; whether one of them says that this cell fails.  Their table,
  * if there are any; and a file with all of them: CLI_DONE, or prints and returns CLI_IO. */
-int study_judge(const study_plan *plan);
+int study_count_unmet(const study_plan *plan);
 int study_failure_is_expected(const study_plan *plan, const study_cell *cell);
 void study_print_expectations(FILE *out, const study_plan *plan);
-int study_keep_expectations(const study_plan *plan, const char *path);
+int study_write_expectations(const study_plan *plan, const char *path);
 
-/* The tables of one entry, and the note that belongs under all of them. */
-void study_print_entry(FILE *out, const study_plan *plan, const study_entry *entry);
+/* The tables of one case, and the note that belongs under all of them. */
+void study_print_case(FILE *out, const study_plan *plan, const study_case *item);
 void study_print_note(FILE *out, const study_plan *plan);
 
 #endif

@@ -16,7 +16,7 @@ char *study_cell_name(const study_cell *c)
         snprintf(step, sizeof step, "%.*g", digits, c->step);
         if (reads_back(step, c->step)) break;
     }
-    return cli_format("%s_%s_%s_%s", c->entry->label,
+    return cli_format("%s_%s_%s_%s", c->of_case->label,
                       dal_method_name(c->method, method, sizeof method), study_start_word(c->start),
                       step);
 }
@@ -63,7 +63,7 @@ const dal_trend *study_trend(const study_cell *cell, const char *name)
 const dal_trend *study_worst_constraint(const study_cell *cell)
 {
     const dal_trend *worst = NULL;
-    int m = cell->entry->system->m;
+    int m = cell->of_case->system->m;
     for (int a = 0; a < m && a < cell->observables; a++)
         if (!worst || cell->trend[a].max_abs > worst->max_abs) worst = &cell->trend[a];
     return worst;
@@ -72,7 +72,7 @@ const dal_trend *study_worst_constraint(const study_cell *cell)
 const dal_trend *study_worst_invariant(const study_cell *cell, const char **name)
 {
     const dal_trend *worst = NULL;
-    const dal_system *s = cell->entry->system;
+    const dal_system *s = cell->of_case->system;
     for (int i = 0; i < s->invariants; i++) {
         const dal_trend *trend = study_trend(cell, s->invariant[i]);
         if (!trend || (worst && trend->deviation <= worst->deviation)) continue;
@@ -82,9 +82,9 @@ const dal_trend *study_worst_invariant(const study_cell *cell, const char **name
     return worst;
 }
 
-const study_cell *study_physical_twin(const study_plan *plan, const study_cell *cell)
+const study_cell *study_physical_cell(const study_plan *plan, const study_cell *cell)
 {
-    const study_entry *e = cell->entry;
+    const study_case *e = cell->of_case;
     for (int i = e->first_cell; i < e->first_cell + e->cells; i++) {
         const study_cell *c = &plan->cells[i];
         if (c->method == cell->method && c->step == cell->step && c->start == STUDY_PHYSICAL)

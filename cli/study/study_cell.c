@@ -53,7 +53,7 @@ static int give_settings(walk *w, int option, const dal_setting *setting, int co
 /* p_i = d, -d/2, d/3, ... and pi_i = d/2, -d/3, ...: no two alike, and not along the motion. */
 static int displace(walk *w, double size)
 {
-    const dal_system *s = w->cell->entry->system;
+    const dal_system *s = w->cell->of_case->system;
     int status = CLI_DONE;
     for (int i = 0; i < s->n && status == CLI_DONE; i++) {
         const double signed_size = i % 2 ? -size : size;
@@ -66,7 +66,7 @@ static int displace(walk *w, double size)
 
 static int give_start(walk *w)
 {
-    const study_entry *e = w->cell->entry;
+    const study_case *e = w->cell->of_case;
     int status = give_settings(w, REQUEST_start, e->start, e->start_count, 1.0);
     if (status != CLI_DONE || w->cell->start != STUDY_DISPLACED) return status;
     if (e->displace_count == 0) return displace(w, e->displacement);
@@ -75,7 +75,7 @@ static int give_start(walk *w)
 
 static int give_options(walk *w)
 {
-    const study_entry *e = w->cell->entry;
+    const study_case *e = w->cell->of_case;
     int status = CLI_DONE;
     for (int i = 0; i < STUDY_OPTIONS && status == CLI_DONE; i++)
         if (e->option[i])
@@ -91,7 +91,7 @@ static int give_all(walk *w)
 #undef X
     };
     const study_cell *c = w->cell;
-    const study_entry *e = c->entry;
+    const study_case *e = c->of_case;
     char method[STUDY_NAME];
     w->request.system = e->system;
     w->request.system_name = e->copy ? e->copy : e->name;
@@ -132,13 +132,13 @@ static int make_memory(walk *w)
         c->trend[i] = r->trend[i];
         snprintf(c->names[i], sizeof c->names[i], "%s", recorder_observable_name(r, i));
     }
-    w->n = c->entry->system->n;
-    w->m = c->entry->system->m;
+    w->n = c->of_case->system->n;
+    w->m = c->of_case->system->m;
     w->energy = find(c, "E");
     w->hamiltonian = find(c, "H");
     w->momenta = find(c, "|p|");
     w->error = find(c, "error");
-    w->invariants = c->observables - c->entry->system->invariants - (w->error >= 0);
+    w->invariants = c->observables - c->of_case->system->invariants - (w->error >= 0);
     return CLI_DONE;
 }
 
@@ -182,7 +182,7 @@ static void track(const walk *w, double *most)
         raise_to(&most[STUDY_TRACK_P], x[w->momenta]);
         raise_to(&most[STUDY_TRACK_PI], x[w->momenta + 1]);
     }
-    for (int i = w->invariants; i < w->invariants + w->cell->entry->system->invariants; i++)
+    for (int i = w->invariants; i < w->invariants + w->cell->of_case->system->invariants; i++)
         raise_to(&most[STUDY_TRACK_INVARIANTS], fabs(x[i] - first[i]) / fmax(1.0, fabs(first[i])));
     if (w->error >= 0) raise_to(&most[STUDY_TRACK_ERROR], x[w->error]);
 }
@@ -252,9 +252,9 @@ static int collect(walk *w, const dal_error *error, int ended)
     return CLI_DONE;
 }
 
-static int go(walk *w, const study_watch *watch)
+static int go(walk *w, const study_stop_check *watch)
 {
-    const study_entry *e = w->cell->entry;
+    const study_case *e = w->cell->of_case;
     dal_error error = {0};
     int ended = keep_open(&w->keep, &w->request, w->directory);
     if (ended == CLI_DONE && !keep_is_finished(&w->keep)) {
@@ -280,7 +280,7 @@ static void leave(walk *w)
     request_free(&w->request);
 }
 
-int study_cell_run(const study_plan *plan, study_cell *cell, const study_watch *watch)
+int study_cell_run(const study_plan *plan, study_cell *cell, const study_stop_check *watch)
 {
     walk w = {.plan = plan, .cell = cell, .request = request_default()};
     int status = make_run(&w);
@@ -294,7 +294,7 @@ int study_cell_run(const study_plan *plan, study_cell *cell, const study_watch *
     return status;
 }
 
-int study_cell_can_run(study_cell *cell)
+int study_cell_is_runnable(study_cell *cell)
 {
     walk w = {.cell = cell, .request = request_default()};
     const int can = make_run(&w) == CLI_DONE && w.request.run;
@@ -308,7 +308,7 @@ void study_cell_free(study_cell *cell)
     free(cell->trend);
     free(cell->names);
     free(cell->windows);
-    *cell = (study_cell){.entry = cell->entry,
+    *cell = (study_cell){.of_case = cell->of_case,
                          .method = cell->method,
                          .step = cell->step,
                          .start = cell->start,

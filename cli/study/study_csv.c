@@ -9,7 +9,7 @@ struct study_output {
     char *cells_path, *quantities_path, *series_directory;
     FILE *cells, *quantities, *series;
     char *series_path;
-    const study_entry *series_entry;
+    const study_case *series_case;
 };
 
 /* ---- a row per cell ---- */
@@ -23,7 +23,7 @@ typedef struct quantity {
 typedef struct row {
     const study_plan *plan;
     const study_cell *cell;
-    const study_entry *entry;
+    const study_case *of_case;
     quantity D, E, H, p, pi, pi_e, invariant, error;
     char method[STUDY_NAME];
 } row;
@@ -40,7 +40,7 @@ static quantity named(const study_cell *cell, const char *name)
 
 static row make_row(const study_plan *plan, const study_cell *cell)
 {
-    row r = {.plan = plan, .cell = cell, .entry = cell->entry};
+    row r = {.plan = plan, .cell = cell, .of_case = cell->of_case};
     const char *invariant = "";
     const dal_trend *worst = study_worst_invariant(cell, &invariant);
     dal_method_name(cell->method, r.method, sizeof r.method);
@@ -72,9 +72,10 @@ static void put_trend(FILE *out, const quantity *q)
 
 static void put_same(FILE *out, const row *r)
 {
-    const study_cell *twin = study_physical_twin(r->plan, r->cell);
-    if (r->cell->start != STUDY_SURFACE || !twin || twin->state != STUDY_FINISHED) return;
-    if (r->cell->state == STUDY_FINISHED) fputs(r->cell->bits == twin->bits ? "yes" : "no", out);
+    const study_cell *physical = study_physical_cell(r->plan, r->cell);
+    if (r->cell->start != STUDY_SURFACE || !physical || physical->state != STUDY_FINISHED) return;
+    if (r->cell->state == STUDY_FINISHED)
+        fputs(r->cell->bits == physical->bits ? "yes" : "no", out);
 }
 
 /* Its directory below that of the study; a cell whose run could not be made has none. */
@@ -89,12 +90,12 @@ static void put_run(FILE *out, const row *r)
 
 /* column, how it is written */
 #define COLUMN_LIST(X)                                                                             \
-    X(label, cli_put_text(out, r->entry->label))                                                   \
-    X(system, cli_put_text(out, r->entry->name))                                                   \
+    X(label, cli_put_text(out, r->of_case->label))                                                 \
+    X(system, cli_put_text(out, r->of_case->name))                                                 \
     X(integrator, cli_put_text(out, r->method))                                                    \
     X(start, fputs(study_start_word(r->cell->start), out))                                         \
     X(step, cli_put(out, r->cell->step))                                                           \
-    X(time, cli_put(out, r->entry->time))                                                          \
+    X(time, cli_put(out, r->of_case->time))                                                        \
     X(state, fputs(study_state_word(r->cell->state), out))                                         \
     X(status, fputs(dal_status_name(r->cell->error.status), out))                                  \
     X(reached, cli_put(out, r->cell->time))                                                        \
@@ -156,7 +157,7 @@ static void put_cell(FILE *out, const row *r)
 
 static void put_key(FILE *out, const row *r)
 {
-    cli_put_text(out, r->entry->label);
+    cli_put_text(out, r->of_case->label);
     fputc(',', out);
     cli_put_text(out, r->method);
     fprintf(out, ",%s,", study_start_word(r->cell->start));
@@ -187,7 +188,7 @@ static void put_series(FILE *out, const row *r)
     for (int k = 0; k < r->cell->window_count; k++) {
         put_key(out, r);
         fputc(',', out);
-        cli_put(out, r->entry->time * (k + 1) / STUDY_WINDOWS);
+        cli_put(out, r->of_case->time * (k + 1) / STUDY_WINDOWS);
         for (int track = 0; track < STUDY_TRACKS; track++) {
             fputc(',', out);
             cli_put(out, r->cell->windows[k][track]);
@@ -205,16 +206,16 @@ static int close_series(study_output *output)
     return status;
 }
 
-static int open_series(study_output *output, const study_entry *entry)
+static int open_series(study_output *output, const study_case *of_case)
 {
     char name[512];
     int status = close_series(output);
     if (status != CLI_DONE) return status;
-    snprintf(name, sizeof name, "%s.csv", entry->label);
+    snprintf(name, sizeof name, "%s.csv", of_case->label);
     output->series_path = cli_join(output->series_directory, name);
     output->series = fopen(output->series_path, "w");
     if (!output->series) return cli_io("write", output->series_path);
-    output->series_entry = entry;
+    output->series_case = of_case;
     fputs("label,integrator,start,step,until", output->series);
     for (int track = 0; track < STUDY_TRACKS; track++)
         fprintf(output->series, ",%s", study_track_column(track));
@@ -258,8 +259,8 @@ int study_output_cell(study_output *output, const study_plan *plan, const study_
     row r = make_row(plan, cell);
     put_cell(output->cells, &r);
     put_quantities(output->quantities, &r);
-    if (output->series_entry != cell->entry) {
-        int status = open_series(output, cell->entry);
+    if (output->series_case != cell->of_case) {
+        int status = open_series(output, cell->of_case);
         if (status != CLI_DONE) return status;
     }
     put_series(output->series, &r);

@@ -20,22 +20,22 @@ const char *study_start_word(int start) { return start_words[start]; }
 
 static int take_title(void *user, const study_text *text, yaml_node_t *value)
 {
-    study_draft *d = user;
+    parsed_study *d = user;
     d->title = study_text_scalar(text, value, "title");
     return d->title ? CLI_DONE : CLI_USAGE;
 }
 
 static int take_system(void *user, const study_text *text, yaml_node_t *value)
 {
-    study_draft *d = user;
-    d->entry.name = study_text_scalar(text, value, "system");
-    return d->entry.name ? CLI_DONE : CLI_USAGE;
+    parsed_study *d = user;
+    d->of_case.name = study_text_scalar(text, value, "system");
+    return d->of_case.name ? CLI_DONE : CLI_USAGE;
 }
 
 static int take_label(void *user, const study_text *text, yaml_node_t *value)
 {
-    study_draft *d = user;
-    const char *label = d->entry.group = study_text_scalar(text, value, "label");
+    parsed_study *d = user;
+    const char *label = d->of_case.group = study_text_scalar(text, value, "label");
     if (!label) return CLI_USAGE;
     if (label[0] && !strchr(label, '/') && label[0] != '.') return CLI_DONE;
     return study_text_fail(text, value, "label: '%s' cannot name a file", label);
@@ -48,7 +48,7 @@ static int take_positive(const study_text *text, yaml_node_t *value, const char 
     return study_text_fail(text, value, "%s: %g is not positive", what, *x);
 }
 
-static int keep_steps(study_entry *e, const study_text *text, const yaml_node_t *node,
+static int keep_steps(study_case *e, const study_text *text, const yaml_node_t *node,
                       const study_values *values)
 {
     if (values->is_drawn) return study_text_fail(text, node, "step: it cannot be drawn");
@@ -72,19 +72,20 @@ static int take_step(void *user, const study_text *text, yaml_node_t *value)
     study_values values;
     int status = study_values_read(&values, text, value, "step");
     if (status == CLI_DONE)
-        status = keep_steps(&((study_draft *)user)->entry, text, value, &values);
+        status = keep_steps(&((parsed_study *)user)->of_case, text, value, &values);
     study_values_free(&values);
     return status;
 }
 
 static int take_time(void *user, const study_text *text, yaml_node_t *value)
 {
-    return take_positive(text, value, "time", &((study_draft *)user)->entry.time);
+    return take_positive(text, value, "time", &((parsed_study *)user)->of_case.time);
 }
 
 static int take_displacement(void *user, const study_text *text, yaml_node_t *value)
 {
-    return take_positive(text, value, "displacement", &((study_draft *)user)->entry.displacement);
+    return take_positive(text, value, "displacement",
+                         &((parsed_study *)user)->of_case.displacement);
 }
 
 static int take_integer(const study_text *text, const yaml_node_t *value, const char *what,
@@ -99,12 +100,12 @@ static int take_integer(const study_text *text, const yaml_node_t *value, const 
 
 static int take_samples(void *user, const study_text *text, yaml_node_t *value)
 {
-    return take_integer(text, value, "samples", &((study_draft *)user)->entry.samples);
+    return take_integer(text, value, "samples", &((parsed_study *)user)->of_case.samples);
 }
 
 static int take_statistics(void *user, const study_text *text, yaml_node_t *value)
 {
-    return take_integer(text, value, "statistics", &((study_draft *)user)->entry.statistics);
+    return take_integer(text, value, "statistics", &((parsed_study *)user)->of_case.statistics);
 }
 
 /* ---- options of the runs ---- */
@@ -117,7 +118,7 @@ static const char *const option_words[STUDY_OPTIONS] = {
 
 const char *study_option_word(int option) { return option_words[option]; }
 
-static int take_option(study_entry *e, const study_text *text, const yaml_node_pair_t *pair)
+static int take_option(study_case *e, const study_text *text, const yaml_node_pair_t *pair)
 {
     dal_error error = {0};
     dal_options options = dal_options_default();
@@ -142,7 +143,7 @@ static int take_options(void *user, const study_text *text, yaml_node_t *value)
         return study_text_fail(text, value, "options: names and values are wanted");
     const yaml_node_pair_t *pair = value->data.mapping.pairs.start;
     for (; pair < value->data.mapping.pairs.top && status == CLI_DONE; pair++)
-        status = take_option(&((study_draft *)user)->entry, text, pair);
+        status = take_option(&((parsed_study *)user)->of_case, text, pair);
     return status;
 }
 
@@ -150,7 +151,7 @@ static int take_options(void *user, const study_text *text, yaml_node_t *value)
 
 static int take_starts(void *user, const study_text *text, yaml_node_t *value)
 {
-    study_entry *e = &((study_draft *)user)->entry;
+    study_case *e = &((parsed_study *)user)->of_case;
     e->starts = 0;
     for (int i = 0; i < study_text_count(value); i++) {
         const yaml_node_t *item = study_text_item(text, value, i);
@@ -172,7 +173,7 @@ static int take_starts(void *user, const study_text *text, yaml_node_t *value)
     static int take_##name(void *user, const study_text *text, yaml_node_t *value)                 \
     {                                                                                              \
         (void)text;                                                                                \
-        ((study_draft *)user)->name = value;                                                       \
+        ((parsed_study *)user)->name = value;                                                      \
         return CLI_DONE;                                                                           \
     }
 KEEP_NODE(integrators)
@@ -200,14 +201,14 @@ enum {
     KEYS_OF_SYSTEM = KEYS - FIRST_OF_SYSTEM
 };
 
-int study_draft_study(study_draft *draft, const study_text *text, yaml_node_t *node)
+int parsed_study_read_study(parsed_study *parsed, const study_text *text, yaml_node_t *node)
 {
-    return study_text_mapping(text, node, "a study", keys, KEYS_OF_STUDY, draft);
+    return study_text_mapping(text, node, "a study", keys, KEYS_OF_STUDY, parsed);
 }
 
-int study_draft_system(study_draft *draft, const study_text *text, yaml_node_t *node)
+int parsed_study_read_system(parsed_study *parsed, const study_text *text, yaml_node_t *node)
 {
-    if (node->type != YAML_MAPPING_NODE) return take_system(draft, text, node);
+    if (node->type != YAML_MAPPING_NODE) return take_system(parsed, text, node);
     return study_text_mapping(text, node, "a system", keys + FIRST_OF_SYSTEM, KEYS_OF_SYSTEM,
-                              draft);
+                              parsed);
 }

@@ -73,9 +73,9 @@ static int refuse_word(reader *r, const yaml_node_t *node, const words *known, c
 /* Whether a system that is meant conserves E, at least on D = 0. */
 static int is_conserved(const reader *r)
 {
-    for (int i = 0; i < r->plan->entry_count; i++) {
-        const study_entry *e = &r->plan->entries[i];
-        if (study_is_called(e, r->label) && e->system->properties & (DAL_E_EXACT | DAL_E_WEAK))
+    for (int i = 0; i < r->plan->case_count; i++) {
+        const study_case *e = &r->plan->cases[i];
+        if (study_case_matches(e, r->label) && e->system->properties & (DAL_E_EXACT | DAL_E_WEAK))
             return 1;
     }
     return 0;
@@ -191,7 +191,7 @@ static int contains(const reader *r)
 {
     const study_expectation *x = &r->expectation;
     for (int i = 0; i < r->plan->cell_count; i++)
-        if (study_is_meant(x, &r->plan->cells[i])) return 1;
+        if (study_expectation_covers(x, &r->plan->cells[i])) return 1;
     return 0;
 }
 
@@ -251,7 +251,7 @@ static int add_mapping(reader *r, yaml_node_t *node)
 
 static const char *const lifted_names[] = {"H", "|p|", "|pi|", "|pi_e|"};
 
-static int has_quantity(const study_entry *e, const char *name)
+static int has_quantity(const study_case *e, const char *name)
 {
     const dal_system *s = e->system;
     const int lifted = s->call.adjoint && e->starts & ~(1 << STUDY_PHYSICAL);
@@ -269,25 +269,25 @@ static int has_quantity(const study_entry *e, const char *name)
 static int check_label(const reader *r, const yaml_node_t *node)
 {
     const study_plan *plan = r->plan;
-    const char **names = cli_calloc((size_t)plan->entry_count + 1, sizeof *names);
+    const char **names = cli_calloc((size_t)plan->case_count + 1, sizeof *names);
     int found = 0;
-    for (int i = 0; i < plan->entry_count; i++) {
-        names[i] = plan->entries[i].label;
-        found |= study_is_called(&plan->entries[i], r->label);
+    for (int i = 0; i < plan->case_count; i++) {
+        names[i] = plan->cases[i].label;
+        found |= study_case_matches(&plan->cases[i], r->label);
     }
     int status = found ? CLI_DONE
                        : study_unknown(r->text, node, "label of this study", r->label, names,
-                                       plan->entry_count);
+                                       plan->case_count);
     free(names);
     return status;
 }
 
 static int check_method(const reader *r, const yaml_node_t *node)
 {
-    for (int i = 0; i < r->plan->entry_count; i++) {
-        const study_entry *e = &r->plan->entries[i];
-        for (int k = 0; study_is_called(e, r->label) && k < e->method_count; k++)
-            if (study_method_is_called(&e->methods[k], r->method)) return CLI_DONE;
+    for (int i = 0; i < r->plan->case_count; i++) {
+        const study_case *e = &r->plan->cases[i];
+        for (int k = 0; study_case_matches(e, r->label) && k < e->method_count; k++)
+            if (study_method_matches(&e->methods[k], r->method)) return CLI_DONE;
     }
     return study_text_fail(r->text, node, "expect: '%s' is not run with '%s' in this study",
                            r->label, r->method);
@@ -295,9 +295,9 @@ static int check_method(const reader *r, const yaml_node_t *node)
 
 static int check_quantity(const reader *r, const yaml_node_t *node, const char *name)
 {
-    for (int i = 0; i < r->plan->entry_count; i++) {
-        const study_entry *e = &r->plan->entries[i];
-        if (study_is_called(e, r->label) && has_quantity(e, name)) return CLI_DONE;
+    for (int i = 0; i < r->plan->case_count; i++) {
+        const study_case *e = &r->plan->cases[i];
+        if (study_case_matches(e, r->label) && has_quantity(e, name)) return CLI_DONE;
     }
     return study_text_fail(r->text, node, "expect: '%s' has no quantity '%s' in this study",
                            r->label, name);

@@ -36,16 +36,16 @@ struct study_expectation {
     double least, most; /* infinite where there is no bound */
 };
 
-/* Reads `expect`, node being NULL where there is none; the entries are complete.  Returns CLI_DONE
+/* Reads `expect`, node being NULL where there is none; the cases are complete.  Returns CLI_DONE
  * or prints and returns an exit status. */
 int study_expect_read(study_plan *plan, const study_text *text, yaml_node_t *node);
 
-/* Whether an entry is meant by a label: its own, its group's, its system's, or all; and a method
+/* Whether a case is meant by a label: its own, its group's, its system's, or all; and a method
  * by its name, or all, or all with modifiers: those with just these. */
-int study_is_called(const study_entry *entry, const char *label);
-int study_method_is_called(const dal_method *method, const char *name);
+int study_case_matches(const study_case *item, const char *label);
+int study_method_matches(const dal_method *method, const char *name);
 /* Whether something is said of a cell. */
-int study_is_meant(const study_expectation *expectation, const study_cell *cell);
+int study_expectation_covers(const study_expectation *expectation, const study_cell *cell);
 /* D, D1, D2, ... */
 int study_is_constraint(const char *quantity);
 

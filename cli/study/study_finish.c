@@ -13,7 +13,7 @@ static int count_cells(const study_plan *plan, study_shard shard, study_state st
 {
     int count = 0;
     for (int i = 0; i < plan->cell_count; i++)
-        count += house_is_of(shard, i) && plan->cells[i].state == state;
+        count += study_shard_has(shard, i) && plan->cells[i].state == state;
     return count;
 }
 
@@ -21,7 +21,7 @@ static double count_seconds(const study_plan *plan, study_shard shard)
 {
     double seconds = 0.0;
     for (int i = 0; i < plan->cell_count; i++)
-        if (house_is_of(shard, i)) seconds += plan->cells[i].seconds;
+        if (study_shard_has(shard, i)) seconds += plan->cells[i].seconds;
     return seconds;
 }
 
@@ -48,10 +48,10 @@ typedef struct telling {
     const char *state;
 } telling;
 
-static int tell_shard(const study_house *house, study_shard shard, void *user)
+static int tell_shard(const study_directory *dir, study_shard shard, void *user)
 {
     const telling *t = user;
-    char *text, *path = house_manifest(house, shard);
+    char *text, *path = study_directory_manifest(dir, shard);
     size_t length;
     FILE *out = cli_memstream_open(&text, &length);
     put_manifest(out, t->plan, shard, t->state);
@@ -62,16 +62,17 @@ static int tell_shard(const study_house *house, study_shard shard, void *user)
     return status;
 }
 
-int house_tell(const study_house *house, const study_plan *plan, const char *state)
+int study_directory_write_manifest(const study_directory *dir, const study_plan *plan,
+                                   const char *state)
 {
     telling t = {plan, state};
-    if (house->shard.count != HOUSE_SHARDS) return tell_shard(house, house->shard, &t);
-    return house_each_shard(house, tell_shard, &t);
+    if (dir->shard.count != STUDY_ALL_SHARDS) return tell_shard(dir, dir->shard, &t);
+    return study_directory_each_shard(dir, tell_shard, &t);
 }
 
 /* ---- tables ---- */
 
-static int has_cells(const study_plan *plan, const study_entry *e)
+static int has_cells(const study_plan *plan, const study_case *e)
 {
     for (int i = e->first_cell; i < e->first_cell + e->cells; i++)
         if (!plan->cells[i].elsewhere) return 1;
@@ -81,8 +82,8 @@ static int has_cells(const study_plan *plan, const study_entry *e)
 static void print_tables(FILE *out, const study_plan *plan)
 {
     fprintf(out, "%s\n", plan->title);
-    for (int i = 0; i < plan->entry_count; i++)
-        if (has_cells(plan, &plan->entries[i])) study_print_entry(out, plan, &plan->entries[i]);
+    for (int i = 0; i < plan->case_count; i++)
+        if (has_cells(plan, &plan->cases[i])) study_print_case(out, plan, &plan->cases[i]);
     study_print_note(out, plan);
     study_print_expectations(out, plan);
 }
@@ -106,11 +107,11 @@ static int keep_cells(const char *directory, const study_plan *plan)
     return status != CLI_DONE ? status : closed;
 }
 
-static int keep_files(const study_house *house, const study_plan *plan)
+static int keep_files(const study_directory *dir, const study_plan *plan)
 {
-    int status = keep_cells(house->directory, plan);
-    if (status == CLI_DONE) status = study_keep_expectations(plan, house->expectations);
-    return status == CLI_DONE ? keep_tables(house->tables, plan) : status;
+    int status = keep_cells(dir->directory, plan);
+    if (status == CLI_DONE) status = study_write_expectations(plan, dir->expectations);
+    return status == CLI_DONE ? keep_tables(dir->tables, plan) : status;
 }
 
 /* ---- the end ---- */
@@ -128,7 +129,7 @@ static int conclude(const study_plan *plan, int status)
 {
     if (status != CLI_DONE) return status;
     if (any_failed(plan)) return CLI_FAILED;
-    return study_judge(plan) > 0 ? CLI_CHECK : CLI_DONE;
+    return study_count_unmet(plan) > 0 ? CLI_CHECK : CLI_DONE;
 }
 
 static const char *state_word(int status)
@@ -146,15 +147,15 @@ static const char *state_word(int status)
     }
 }
 
-int house_finish(const study_house *house, const study_plan *plan, int status)
+int study_directory_finish(const study_directory *dir, const study_plan *plan, int status)
 {
-    const int result = conclude(plan, status), is_whole = house->shard.count == 0;
-    int kept = is_whole ? keep_files(house, plan) : CLI_DONE;
-    if (kept == CLI_DONE) kept = house_tell(house, plan, state_word(result));
+    const int result = conclude(plan, status), is_whole = dir->shard.count == 0;
+    int kept = is_whole ? keep_files(dir, plan) : CLI_DONE;
+    if (kept == CLI_DONE) kept = study_directory_write_manifest(dir, plan, state_word(result));
     if (status != CLI_DONE && status != CLI_SIGNAL) return status;
     print_tables(stdout, plan);
     const int told = cli_close(stdout, "standard output");
     if (status == CLI_SIGNAL)
-        return cli_fail(status, "interrupted; go on with: dalembert resume %s", house->directory);
+        return cli_fail(status, "interrupted; go on with: dalembert resume %s", dir->directory);
     return kept != CLI_DONE ? kept : told != CLI_DONE ? told : result;
 }

@@ -8,12 +8,12 @@
  *     DIR/tables.txt, cells.csv, quantities.csv, expectations.csv, series/LABEL.csv
  *                            when it is over or interrupted
  *     DIR/lock               empty; shards that begin at the same time take turns by it */
-#ifndef DAL_CLI_STUDY_HOUSE_H
-#define DAL_CLI_STUDY_HOUSE_H
+#ifndef DAL_CLI_STUDY_DIRECTORY_H
+#define DAL_CLI_STUDY_DIRECTORY_H
 
 #include "study.h"
 
-#define HOUSE_FILE_LIST(X)                                                                         \
+#define STUDY_FILE_LIST(X)                                                                         \
     X(study, "study.yaml")                                                                         \
     X(systems, "systems")                                                                          \
     X(runs, "runs")                                                                                \
@@ -24,50 +24,51 @@
     X(quantities, "quantities.csv")                                                                \
     X(expectations, "expectations.csv")
 
-/* Cells k, k + n, k + 2n, ... of n shards; count 0: all cells, HOUSE_SHARDS: those of all shards
+/* Cells k, k + n, k + 2n, ... of n shards; count 0: all cells, STUDY_ALL_SHARDS: those of all shards
  * that the directory tells of. */
-enum { HOUSE_SHARDS = -1 };
+enum { STUDY_ALL_SHARDS = -1 };
 
 typedef struct study_shard {
     long long number, count;
 } study_shard;
 
-typedef struct study_house {
+typedef struct study_directory {
     const char *directory; /* the caller's */
 #define X(name, file) char *name;
-    HOUSE_FILE_LIST(X)
+    STUDY_FILE_LIST(X)
 #undef X
     char *text; /* of study.yaml, as it was read */
     size_t length;
     study_shard shard; /* what of the study is run */
-} study_house;
+} study_directory;
 
 /* The names of the files in a directory. */
-void house_open(study_house *house, const char *directory);
-void house_close(study_house *house);
-int house_holds_study(const study_house *house);
+void study_directory_open(study_directory *dir, const char *directory);
+void study_directory_close(study_directory *dir);
+int study_directory_has_study(const study_directory *dir);
 /* Whether a whole study is there, and is over. */
-int house_is_finished(const study_house *house);
+int study_directory_is_finished(const study_directory *dir);
 
 /* Makes the directory, the copies of system files and the description; a study that is there is
  * written over with force alone, and a shard joins it when it is the same.  The plan's cells then
  * have their place there, and those of other shards are elsewhere. */
-int house_begin(study_house *house, study_plan *plan, const char *text, size_t length,
-                study_shard shard, int force);
+int study_directory_begin(study_directory *dir, study_plan *plan, const char *text, size_t length,
+                          study_shard shard, int force);
 /* Reads the plan of the study that is there, or of those of its shards that are. */
-int house_read(study_house *house, study_plan *plan);
+int study_directory_read(study_directory *dir, study_plan *plan);
 
 /* manifest.json, or those of the shards; state: running, interrupted, failed, unmet, done. */
-int house_tell(const study_house *house, const study_plan *plan, const char *state);
+int study_directory_write_manifest(const study_directory *dir, const study_plan *plan,
+                                   const char *state);
 /* When cells have been run, with the status this ended with: the tables to stdout and, of a whole
  * study, all files.  Returns the exit status of the program. */
-int house_finish(const study_house *house, const study_plan *plan, int status);
+int study_directory_finish(const study_directory *dir, const study_plan *plan, int status);
 
 /* Calls visit for each shard that the directory tells of. */
-typedef int house_visitor(const study_house *house, study_shard shard, void *user);
-int house_each_shard(const study_house *house, house_visitor *visit, void *user);
+typedef int shard_visitor(const study_directory *dir, study_shard shard, void *user);
+int study_directory_each_shard(const study_directory *dir, shard_visitor *visit, void *user);
 /* Where the manifest of a shard is, or of the whole; allocated. */
-char *house_manifest(const study_house *house, study_shard shard);
-int house_is_of(study_shard shard, int cell);
+char *study_directory_manifest(const study_directory *dir, study_shard shard);
+int study_shard_has(study_shard shard, int cell);
 
 #endif

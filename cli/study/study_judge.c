@@ -8,13 +8,13 @@
 
 /* ---- what is meant ---- */
 
-int study_is_called(const study_entry *e, const char *label)
+int study_case_matches(const study_case *e, const char *label)
 {
     return strcmp(label, e->label) == 0 || strcmp(label, e->group) == 0 ||
            strcmp(label, e->name) == 0 || strcmp(label, "all") == 0;
 }
 
-int study_method_is_called(const dal_method *method, const char *name)
+int study_method_matches(const dal_method *method, const char *name)
 {
     char own[STUDY_NAME];
     dal_method_name(method, own, sizeof own);
@@ -29,11 +29,11 @@ int study_is_constraint(const char *quantity)
 
 static int is_state(const study_expectation *x) { return strcmp(x->quantity, "state") == 0; }
 
-int study_is_meant(const study_expectation *x, const study_cell *c)
+int study_expectation_covers(const study_expectation *x, const study_cell *c)
 {
     if (x->step > 0.0 && x->step != c->step) return 0;
     if (x->start >= 0 && x->start != c->start) return 0;
-    return study_is_called(c->entry, x->label) && study_method_is_called(c->method, x->method);
+    return study_case_matches(c->of_case, x->label) && study_method_matches(c->method, x->method);
 }
 
 static const dal_trend *find(const study_expectation *x, const study_cell *c)
@@ -54,7 +54,7 @@ static int is_stated(const study_expectation *x, const dal_trend *trend)
  * conserves is nothing to speak of. */
 static int is_judged(const study_expectation *x, const study_cell *c)
 {
-    if (!study_is_meant(x, c) || c->elsewhere || c->state == STUDY_WAITING) return 0;
+    if (!study_expectation_covers(x, c) || c->elsewhere || c->state == STUDY_WAITING) return 0;
     if (is_state(x)) return 1;
     const dal_trend *trend = c->state == STUDY_REFUSED ? NULL : find(x, c);
     return trend && (is_stated(x, trend) || trend->conservation != DAL_NOT_CONSERVED);
@@ -153,7 +153,7 @@ static int judge_all(FILE *out, const study_plan *plan, teller *tell, int *count
         int judged = 0, waiting = 0;
         for (int k = 0; k < plan->cell_count; k++) {
             const study_cell *c = &plan->cells[k];
-            waiting |= study_is_meant(x, c) && c->state == STUDY_WAITING;
+            waiting |= study_expectation_covers(x, c) && c->state == STUDY_WAITING;
             if (!is_judged(x, c)) continue;
             const int met = is_met(x, c);
             judged++;
@@ -174,7 +174,7 @@ static void tell_nothing(FILE *out, const study_expectation *x, const study_cell
     (void)out, (void)x, (void)c, (void)met;
 }
 
-int study_judge(const study_plan *plan)
+int study_count_unmet(const study_plan *plan)
 {
     int count;
     return judge_all(NULL, plan, tell_nothing, &count);
@@ -197,7 +197,7 @@ static void tell_missed(FILE *out, const study_expectation *x, const study_cell 
 {
     char name[STUDY_NAME];
     if (met) return;
-    fprintf(out, "  %-24s %-24s ", c ? c->entry->label : x->label,
+    fprintf(out, "  %-24s %-24s ", c ? c->of_case->label : x->label,
             c ? dal_method_name(c->method, name, sizeof name) : x->method);
     if (c) fprintf(out, "%-9s h = %-8g ", study_start_word(c->start), c->step);
     fprintf(out, "%s: expected ", x->quantity);
@@ -224,7 +224,7 @@ void study_print_expectations(FILE *out, const study_plan *plan)
 static void put_row(FILE *out, const study_expectation *x, const study_cell *c, int met)
 {
     char name[STUDY_NAME];
-    cli_put_text(out, c ? c->entry->label : x->label);
+    cli_put_text(out, c ? c->of_case->label : x->label);
     fputc(',', out);
     cli_put_text(out, c ? dal_method_name(c->method, name, sizeof name) : x->method);
     fprintf(out, ",%s,", c ? study_start_word(c->start) : "");
@@ -241,7 +241,7 @@ static void put_row(FILE *out, const study_expectation *x, const study_cell *c, 
     fprintf(out, "\",%s\n", met ? "yes" : "no");
 }
 
-int study_keep_expectations(const study_plan *plan, const char *path)
+int study_write_expectations(const study_plan *plan, const char *path)
 {
     int count;
     size_t length;

@@ -31,9 +31,9 @@ static const char notes[] =
 enum { SOURCES_MOST = 1024 };
 
 typedef struct merge {
-    study_house source[SOURCES_MOST];
+    study_directory source[SOURCES_MOST];
     int sources;
-    study_house target;
+    study_directory target;
     study_plan plan;
     int force;
     int *from; /* [cells] which source has the run, -1: none */
@@ -66,8 +66,8 @@ static int differs(const merge *m, int i, const char *path, const char *first)
 static int check_systems(const merge *m, int i)
 {
     int status = CLI_DONE;
-    for (int k = 0; k < m->plan.entry_count && status == CLI_DONE; k++) {
-        const study_entry *e = &m->plan.entries[k];
+    for (int k = 0; k < m->plan.case_count && status == CLI_DONE; k++) {
+        const study_case *e = &m->plan.cases[k];
         if (!e->is_first || !e->copy) continue;
         char *path = study_system_copy(m->source[i].systems, e);
         if (!is_same_file(path, e->copy)) status = differs(m, i, path, e->copy);
@@ -78,8 +78,8 @@ static int check_systems(const merge *m, int i)
 
 static int check_source(const merge *m, int i)
 {
-    const study_house *s = &m->source[i];
-    if (!house_holds_study(s))
+    const study_directory *s = &m->source[i];
+    if (!study_directory_has_study(s))
         return cli_fail(CLI_USAGE, "'%s' holds no study: there is no %s", s->directory, s->study);
     for (int k = 0; k < i; k++)
         if (is_same_place(s->directory, m->source[k].directory))
@@ -92,8 +92,8 @@ static int check_source(const merge *m, int i)
 /* The first directory gives the plan, the others must agree with it. */
 static int read_sources(merge *m)
 {
-    study_house *first = &m->source[0];
-    int status = house_read(first, &m->plan);
+    study_directory *first = &m->source[0];
+    int status = study_directory_read(first, &m->plan);
     for (int i = 1; i < m->sources && status == CLI_DONE; i++) status = check_source(m, i);
     for (int i = 0; i < m->plan.cell_count; i++) m->plan.cells[i].elsewhere = 0;
     return status;
@@ -103,7 +103,7 @@ static int read_sources(merge *m)
 
 static int look_at(merge *m, int cell, int source, const char *name)
 {
-    const study_house *s = &m->source[source];
+    const study_directory *s = &m->source[source];
     char *run = cli_join(s->runs, name), *manifest = cli_join(run, "manifest.json");
     int status = CLI_DONE;
     if (access(manifest, F_OK) == 0) {
@@ -126,7 +126,7 @@ static int find_run(merge *m, int cell)
     int status = CLI_DONE;
     m->from[cell] = -1;
     for (int i = 0; i < m->sources && status == CLI_DONE; i++) status = look_at(m, cell, i, name);
-    if (status == CLI_DONE && m->from[cell] < 0 && study_cell_can_run(&m->plan.cells[cell]))
+    if (status == CLI_DONE && m->from[cell] < 0 && study_cell_is_runnable(&m->plan.cells[cell]))
         status =
             cli_fail(CLI_USAGE, "'%s' is in none of the directories: a shard is missing", name);
     free(name);
@@ -216,20 +216,20 @@ static int prepare_target(merge *m)
         m->plan.runs = m->target.runs;
         return CLI_DONE;
     }
-    return house_begin(&m->target, &m->plan, m->source[0].text, m->source[0].length, whole,
-                       m->force);
+    return study_directory_begin(&m->target, &m->plan, m->source[0].text, m->source[0].length,
+                                 whole, m->force);
 }
 
 static int merge_into(merge *m, const char *output, int threads)
 {
-    house_open(&m->target, output);
+    study_directory_open(&m->target, output);
     int status = read_sources(m);
     if (status == CLI_DONE) status = find_runs(m);
     if (status == CLI_DONE) status = prepare_target(m);
     if (status == CLI_DONE) status = copy_runs(m);
     if (status != CLI_DONE) return status;
     cli_catch_signals();
-    return house_finish(&m->target, &m->plan, study_pool_run(&m->plan, threads));
+    return study_directory_finish(&m->target, &m->plan, study_pool_run(&m->plan, threads));
 }
 
 static int take(merge *m, const char **output, long long *threads, int option, const char *value)
@@ -246,7 +246,7 @@ static int take(merge *m, const char **output, long long *threads, int option, c
     default:
         if (m->sources == SOURCES_MOST)
             return cli_fail(CLI_USAGE, "merge: more than %d directories", SOURCES_MOST);
-        house_open(&m->source[m->sources++], value);
+        study_directory_open(&m->source[m->sources++], value);
         return CLI_DONE;
     }
 }
@@ -269,8 +269,8 @@ int command_merge(int argc, char **argv)
         if (taken != CLI_DONE) cli_stop(&args, taken);
     }
     const int status = args.status == CLI_GO_ON ? go(m, output, threads) : args.status;
-    for (int i = 0; i < m->sources; i++) house_close(&m->source[i]);
-    house_close(&m->target);
+    for (int i = 0; i < m->sources; i++) study_directory_close(&m->source[i]);
+    study_directory_close(&m->target);
     study_plan_free(&m->plan);
     free(m->from);
     free(m);

@@ -1,4 +1,4 @@
-/* study_plan.c - from the keys of a study to its entries and cells. */
+/* study_plan.c - from the keys of a study to its cases and cells. */
 #include "io/study_yaml.h"
 #include "run/job.h"
 #include "study.h"
@@ -12,7 +12,7 @@
 /* ---- settings and methods ---- */
 
 /* Momenta in units of the displacement: one value each. */
-static int read_displace(study_entry *e, const study_text *text, yaml_node_t *node)
+static int read_displace(study_case *e, const study_text *text, yaml_node_t *node)
 {
     if (!node) return CLI_DONE;
     if (node->type != YAML_MAPPING_NODE)
@@ -32,7 +32,7 @@ static int read_displace(study_entry *e, const study_text *text, yaml_node_t *no
     return CLI_DONE;
 }
 
-static int has_method(const study_entry *e, const dal_method *method)
+static int has_method(const study_case *e, const dal_method *method)
 {
     char name[STUDY_NAME], other[STUDY_NAME];
     dal_method_name(method, name, sizeof name);
@@ -41,7 +41,7 @@ static int has_method(const study_entry *e, const dal_method *method)
     return 0;
 }
 
-static int add_method(study_entry *e, const study_text *text, const yaml_node_t *node,
+static int add_method(study_case *e, const study_text *text, const yaml_node_t *node,
                       const char *name)
 {
     dal_error error = {0};
@@ -54,7 +54,7 @@ static int add_method(study_entry *e, const study_text *text, const yaml_node_t 
 }
 
 /* "all" and "all+project" stand for every integrator that is no modifier. */
-static int add_methods(study_entry *e, const study_text *text, const yaml_node_t *node,
+static int add_methods(study_case *e, const study_text *text, const yaml_node_t *node,
                        const char *name)
 {
     char full[STUDY_NAME];
@@ -70,7 +70,7 @@ static int add_methods(study_entry *e, const study_text *text, const yaml_node_t
     return status;
 }
 
-static int read_methods(study_entry *e, const study_text *text, yaml_node_t *node)
+static int read_methods(study_case *e, const study_text *text, yaml_node_t *node)
 {
     int count = study_text_count(node), status = CLI_DONE;
     if (count == 0) return study_text_fail(text, node, "integrators: the list is empty");
@@ -82,11 +82,11 @@ static int read_methods(study_entry *e, const study_text *text, yaml_node_t *nod
     return status;
 }
 
-/* ---- entries ---- */
+/* ---- cases ---- */
 
-static int check_entry(const study_text *text, const yaml_node_t *node, const study_draft *d)
+static int check_case(const study_text *text, const yaml_node_t *node, const parsed_study *d)
 {
-    const study_entry *e = &d->entry;
+    const study_case *e = &d->of_case;
     if (!e->name) return study_text_fail(text, node, "the system is missing");
     if (!d->integrators)
         return study_text_fail(text, node, "%s: the integrators are missing", e->name);
@@ -101,17 +101,17 @@ static int check_entry(const study_text *text, const yaml_node_t *node, const st
 }
 
 static int unique_label(const study_plan *plan, const study_text *text, const yaml_node_t *node,
-                        const study_entry *e)
+                        const study_case *e)
 {
-    for (int i = 0; i < plan->entry_count; i++)
-        if (strcmp(plan->entries[i].label, e->label) == 0)
+    for (int i = 0; i < plan->case_count; i++)
+        if (strcmp(plan->cases[i].label, e->label) == 0)
             return study_text_fail(text, node, "two systems called '%s': give one a label",
                                    e->label);
     return CLI_DONE;
 }
 
-/* A path labels its entry by the file's name without folders. */
-static const char *plain_label(const study_entry *e)
+/* A path labels its case by the file's name without folders. */
+static const char *plain_label(const study_case *e)
 {
     const char *slash = strrchr(e->name, '/');
     return slash ? slash + 1 : e->name;
@@ -119,7 +119,7 @@ static const char *plain_label(const study_entry *e)
 
 /* Whether the system knows the names; what else may be wrong with their values is for the cells. */
 static int check_names(const study_text *text, const yaml_node_t *node, const char *what,
-                       const study_entry *e, const dal_setting *start, int count)
+                       const study_case *e, const dal_setting *start, int count)
 {
     dal_run *run;
     dal_error error = {0};
@@ -137,7 +137,7 @@ static int check_names(const study_text *text, const yaml_node_t *node, const ch
     return made == DAL_NAME ? study_text_fail(text, node, "%s: %s", what, error.message) : CLI_DONE;
 }
 
-char *study_system_copy(const char *directory, const study_entry *e)
+char *study_system_copy(const char *directory, const study_case *e)
 {
     return cli_format("%s/%s.yaml", directory, e->label);
 }
@@ -154,7 +154,7 @@ static int check_system(const study_text *text, const yaml_node_t *node, const c
 }
 
 /* Where a directory keeps copies, what has one was a file, wherever the program is started now. */
-static int find_copy(const study_plan *plan, study_entry *e)
+static int find_copy(const study_plan *plan, study_case *e)
 {
     if (!plan->copies) return CLI_DONE;
     e->copy = study_system_copy(plan->copies, e);
@@ -165,7 +165,7 @@ static int find_copy(const study_plan *plan, study_entry *e)
 }
 
 static int load_system(const study_plan *plan, const study_text *text, const yaml_node_t *node,
-                       study_entry *e)
+                       study_case *e)
 {
     int status = find_copy(plan, e);
     if (status == CLI_DONE && !e->copy) status = check_system(text, node, e->name);
@@ -179,18 +179,18 @@ typedef struct group {
     study_plan *plan;
     const study_text *text;
     yaml_node_t *node; /* of the system */
-    study_draft draft;
+    parsed_study parsed;
     study_variants *variants;
 } group;
 
 /* What the first of a group reads, the others share. */
-static int load_first(group *g, study_entry *e)
+static int load_first(group *g, study_case *e)
 {
-    int status = read_methods(e, g->text, g->draft.integrators);
+    int status = read_methods(e, g->text, g->parsed.integrators);
     return status == CLI_DONE ? load_system(g->plan, g->text, g->node, e) : status;
 }
 
-static void share(study_entry *e, const study_entry *first)
+static void share(study_case *e, const study_case *first)
 {
     e->model = first->model;
     e->system = first->system;
@@ -199,9 +199,9 @@ static void share(study_entry *e, const study_entry *first)
     e->method_count = first->method_count;
 }
 
-static int check_all_names(const group *g, const study_entry *e)
+static int check_all_names(const group *g, const study_case *e)
 {
-    const study_draft *d = &g->draft;
+    const parsed_study *d = &g->parsed;
     int status = check_names(g->text, d->set, "set", e, NULL, 0);
     if (status == CLI_DONE)
         status = check_names(g->text, d->start, "start", e, e->start, e->start_count);
@@ -210,46 +210,46 @@ static int check_all_names(const group *g, const study_entry *e)
     return status;
 }
 
-static int add_variant(group *g, int i, const study_entry *first)
+static int add_variant(group *g, int i, const study_case *first)
 {
     study_plan *plan = g->plan;
-    study_entry *e = &plan->entries[plan->entry_count];
-    *e = g->draft.entry;
+    study_case *e = &plan->cases[plan->case_count];
+    *e = g->parsed.of_case;
     e->is_first = i == 0;
-    study_variants_take(g->variants, i, e);
+    study_variants_apply(g->variants, i, e);
     int status = unique_label(plan, g->text, g->node, e);
-    plan->entry_count++;
-    if (status == CLI_DONE) status = read_displace(e, g->text, g->draft.displace);
+    plan->case_count++;
+    if (status == CLI_DONE) status = read_displace(e, g->text, g->parsed.displace);
     if (status != CLI_DONE) return status;
     if (i == 0)
         status = load_first(g, e);
     else
         share(e, first);
     if (status == CLI_DONE && i == 0) status = check_all_names(g, e);
-    return status == CLI_DONE ? study_variants_onto(g->variants, e) : status;
+    return status == CLI_DONE ? study_variants_project_start(g->variants, e) : status;
 }
 
 static int add_variants(group *g, int count)
 {
     study_plan *plan = g->plan;
-    const int before = plan->entry_count;
+    const int before = plan->case_count;
     const size_t room = (size_t)before + (size_t)count;
-    plan->entries = cli_realloc(plan->entries, room * sizeof *plan->entries);
+    plan->cases = cli_realloc(plan->cases, room * sizeof *plan->cases);
     int status = CLI_DONE;
     for (int i = 0; i < count && status == CLI_DONE; i++)
-        status = add_variant(g, i, &plan->entries[before]);
+        status = add_variant(g, i, &plan->cases[before]);
     return status;
 }
 
 static int add_group(study_plan *plan, const study_text *text, yaml_node_t *node,
-                     const study_draft *base)
+                     const parsed_study *base)
 {
-    group g = {.plan = plan, .text = text, .node = node, .draft = *base};
-    int count = 0, status = study_draft_system(&g.draft, text, node);
-    if (status == CLI_DONE) status = check_entry(text, node, &g.draft);
+    group g = {.plan = plan, .text = text, .node = node, .parsed = *base};
+    int count = 0, status = parsed_study_read_system(&g.parsed, text, node);
+    if (status == CLI_DONE) status = check_case(text, node, &g.parsed);
     if (status != CLI_DONE) return status;
-    if (!g.draft.entry.group) g.draft.entry.group = plain_label(&g.draft.entry);
-    status = study_variants_read(&g.variants, text, &g.draft, &count);
+    if (!g.parsed.of_case.group) g.parsed.of_case.group = plain_label(&g.parsed.of_case);
+    status = study_variants_read(&g.variants, text, &g.parsed, &count);
     if (status == CLI_DONE) status = add_variants(&g, count);
     study_variants_free(g.variants);
     return status;
@@ -258,7 +258,7 @@ static int add_group(study_plan *plan, const study_text *text, yaml_node_t *node
 /* ---- the whole ---- */
 
 static int read_systems(study_plan *plan, const study_text *text, const yaml_node_t *root,
-                        const study_draft *base)
+                        const parsed_study *base)
 {
     int count = base->systems ? study_text_count(base->systems) : 0, status = CLI_DONE;
     if (count == 0) return study_text_fail(text, root, "the systems are missing");
@@ -270,16 +270,16 @@ static int read_systems(study_plan *plan, const study_text *text, const yaml_nod
 static study_cell *lay_out_starts(study_cell cell, study_cell *place)
 {
     for (cell.start = 0; cell.start < STUDY_STARTS; cell.start++)
-        if (cell.entry->starts & 1 << cell.start) *place++ = cell;
+        if (cell.of_case->starts & 1 << cell.start) *place++ = cell;
     return place;
 }
 
-static void lay_out(const study_entry *e, study_cell *place)
+static void lay_out(const study_case *e, study_cell *place)
 {
     for (int m = 0; m < e->method_count; m++)
         for (int h = 0; h < e->steps; h++)
             place = lay_out_starts(
-                (study_cell){.entry = e, .method = &e->methods[m], .step = e->step[h]}, place);
+                (study_cell){.of_case = e, .method = &e->methods[m], .step = e->step[h]}, place);
 }
 
 /* Every cell has a directory of its own, whose name must fit. */
@@ -302,8 +302,8 @@ static int check_cell_names(const study_plan *plan)
 
 static int make_cells(study_plan *plan)
 {
-    for (int i = 0; i < plan->entry_count; i++) {
-        study_entry *e = &plan->entries[i];
+    for (int i = 0; i < plan->case_count; i++) {
+        study_case *e = &plan->cases[i];
         int starts = 0;
         for (int start = 0; start < STUDY_STARTS; start++) starts += (e->starts >> start) & 1;
         e->first_cell = plan->cell_count;
@@ -311,8 +311,8 @@ static int make_cells(study_plan *plan)
         plan->cell_count += e->cells;
     }
     plan->cells = cli_calloc((size_t)plan->cell_count + 1, sizeof *plan->cells);
-    for (int i = 0; i < plan->entry_count; i++)
-        lay_out(&plan->entries[i], plan->cells + plan->entries[i].first_cell);
+    for (int i = 0; i < plan->case_count; i++)
+        lay_out(&plan->cases[i], plan->cells + plan->cases[i].first_cell);
     return check_cell_names(plan);
 }
 
@@ -320,22 +320,22 @@ int study_plan_read(study_plan *plan, const char *place, const char *bytes, size
                     const char *copies)
 {
     study_text *text = cli_calloc(1, sizeof *text);
-    study_draft base = {.entry = {.samples = 400,
-                                  .statistics = 1,
-                                  .displacement = 1e-8,
-                                  .starts = (1 << STUDY_STARTS) - 1}};
+    parsed_study base = {.of_case = {.samples = 400,
+                                     .statistics = 1,
+                                     .displacement = 1e-8,
+                                     .starts = (1 << STUDY_STARTS) - 1}};
     *plan = (study_plan){.place = place, .document = text, .copies = copies};
     int status = study_text_parse(text, place, bytes, length);
     if (status != CLI_DONE) return status;
     yaml_node_t *root = yaml_document_get_root_node(&text->document);
-    status = study_draft_study(&base, text, root);
+    status = parsed_study_read_study(&base, text, root);
     plan->title = base.title ? base.title : "A study";
     if (status == CLI_DONE) status = read_systems(plan, text, root, &base);
     if (status == CLI_DONE) status = make_cells(plan);
     return status == CLI_DONE ? study_expect_read(plan, text, base.expect) : status;
 }
 
-static void free_entry(study_entry *e)
+static void free_case(study_case *e)
 {
     if (e->is_first) {
         dal_model_free(e->model);
@@ -352,10 +352,10 @@ static void free_entry(study_entry *e)
 void study_plan_free(study_plan *plan)
 {
     for (int i = 0; i < plan->cell_count && plan->cells; i++) study_cell_free(&plan->cells[i]);
-    for (int i = 0; i < plan->entry_count; i++) free_entry(&plan->entries[i]);
+    for (int i = 0; i < plan->case_count; i++) free_case(&plan->cases[i]);
     if (plan->document) yaml_document_delete(&((study_text *)plan->document)->document);
     free(plan->document);
-    free(plan->entries);
+    free(plan->cases);
     free(plan->cells);
     free(plan->expectations);
     *plan = (study_plan){0};

@@ -24,7 +24,7 @@ static double cost(const study_cell *c)
     double stages = inner->stages > 0 ? inner->stages : 1;
     double implicit = inner->claims & DAL_EXPLICIT ? 1.0 : 8.0;
     double wide = c->start == STUDY_PHYSICAL ? 1.0 : 3.0;
-    return c->entry->time / c->step * stages * implicit * wide;
+    return c->of_case->time / c->step * stages * implicit * wide;
 }
 
 typedef struct ranked {
@@ -39,7 +39,7 @@ static int by_cost(const void *a, const void *b)
     return x->cell < y->cell ? -1 : x->cell > y->cell;
 }
 
-int *study_order(const study_plan *plan)
+int *study_sort_cells(const study_plan *plan)
 {
     const size_t count = (size_t)plan->cell_count;
     ranked *list = cli_calloc(count + 1, sizeof *list);
@@ -90,13 +90,13 @@ static void run_cell(void *user, int i)
     work *w = user;
     study_cell *cell = &w->plan->cells[w->order[i]];
     if (cell->elsewhere || cli_interrupted()) return;
-    ending e = {w, study_cell_run(w->plan, cell, &(study_watch){stop, w})};
+    ending e = {w, study_cell_run(w->plan, cell, &(study_stop_check){stop, w})};
     pool_alone(note, &e);
 }
 
 int study_pool_run(study_plan *plan, int threads)
 {
-    work w = {.plan = plan, .order = study_order(plan), .began = cli_seconds()};
+    work w = {.plan = plan, .order = study_sort_cells(plan), .began = cli_seconds()};
     for (int i = 0; i < plan->cell_count; i++) w.count += !plan->cells[i].elsewhere;
     pool_run(plan->cell_count, threads, run_cell, &w);
     cli_progress_end();

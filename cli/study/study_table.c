@@ -42,12 +42,12 @@ static void say_trend(char *text, const dal_trend *trend)
 static double max_abs(const dal_trend *trend) { return trend ? trend->max_abs : 0.0; }
 static double deviation(const dal_trend *trend) { return trend ? trend->deviation : 0.0; }
 
-static void say_twin(char *text, const line *l)
+static void put_physical(char *text, const line *l)
 {
     if (l->only) snprintf(text, CELL, "only");
-    const study_cell *twin = study_physical_twin(l->plan, l->cell);
-    if (l->cell->start != STUDY_SURFACE || !twin || twin->state != STUDY_FINISHED) return;
-    snprintf(text, CELL, "%s", twin->bits == l->cell->bits ? "same" : "DIFFERS");
+    const study_cell *physical = study_physical_cell(l->plan, l->cell);
+    if (l->cell->start != STUDY_SURFACE || !physical || physical->state != STUDY_FINISHED) return;
+    snprintf(text, CELL, "%s", physical->bits == l->cell->bits ? "same" : "DIFFERS");
 }
 
 static double per_step(const line *l, double x)
@@ -71,7 +71,7 @@ static double per_step(const line *l, double x)
     X("E", "", 20, say_trend(text, l->E))                                                          \
     X("max", "|I-I0|", 8, say_size(text, l->invariant, deviation(l->invariant)))                   \
     X("max", "error", 8, say_size(text, l->error, max_abs(l->error)))                              \
-    X("(q,v)", "alone", 8, say_twin(text, l))                                                      \
+    X("(q,v)", "alone", 8, put_physical(text, l))                                                  \
     SPEED_LIST(X)
 
 #define LIFT_LIST(X)                                                                               \
@@ -162,11 +162,12 @@ static const table tables[STUDY_STARTS] = {
  * be the same. */
 static const study_cell *cell_shown(const study_plan *plan, const study_cell *c)
 {
-    const study_cell *twin = c->start == STUDY_SURFACE ? study_physical_twin(plan, c) : NULL;
-    return c->state == STUDY_REFUSED && twin && twin->state == STUDY_FINISHED ? twin : c;
+    const study_cell *physical = c->start == STUDY_SURFACE ? study_physical_cell(plan, c) : NULL;
+    return c->state == STUDY_REFUSED && physical && physical->state == STUDY_FINISHED ? physical
+                                                                                      : c;
 }
 
-static void print_table(FILE *out, const study_plan *plan, const study_entry *e, double step,
+static void print_table(FILE *out, const study_plan *plan, const study_case *e, double step,
                         int start)
 {
     fprintf(out, "\n %s, h = %g, T = %g\n", tables[start].title, step, e->time);
@@ -187,7 +188,7 @@ static void print_table(FILE *out, const study_plan *plan, const study_entry *e,
     }
 }
 
-void study_print_entry(FILE *out, const study_plan *plan, const study_entry *e)
+void study_print_case(FILE *out, const study_plan *plan, const study_case *e)
 {
     fprintf(out, "\n%s%s%s\n", e->label, e->system->title ? ": " : "",
             e->system->title ? e->system->title : "");
@@ -201,8 +202,8 @@ void study_print_entry(FILE *out, const study_plan *plan, const study_entry *e)
 
 static int is_lifted(const study_plan *plan)
 {
-    for (int i = 0; i < plan->entry_count; i++)
-        if (plan->entries[i].starts & ~(1 << STUDY_PHYSICAL)) return 1;
+    for (int i = 0; i < plan->case_count; i++)
+        if (plan->cases[i].starts & ~(1 << STUDY_PHYSICAL)) return 1;
     return 0;
 }
 

@@ -1,6 +1,6 @@
-/* study_variants.c - from settings with several values to entries with one each.
+/* study_variants.c - from settings with several values to cases with one each.
  *
- * A system of a study with `set: {a: [1, 2], b: {from: 0, to: 1, count: 3}}` is six entries, called
+ * A system of a study with `set: {a: [1, 2], b: {from: 0, to: 1, count: 3}}` is six cases, called
  * LABEL_a=1_b=0 and so on; where something is drawn there is one for each of the seeds, called
  * .._seed=7.  What has one value alone is not in the label. */
 #include "study_draft.h"
@@ -75,7 +75,7 @@ static int read_settings(study_variants *v, const study_text *text, yaml_node_t 
     return CLI_DONE;
 }
 
-static int read_seeds(study_variants *v, const study_text *text, const study_draft *d)
+static int read_seeds(study_variants *v, const study_text *text, const parsed_study *d)
 {
     const yaml_node_t *place = d->set ? d->set : d->start;
     if (v->drawn == 0 && !d->seeds) return CLI_DONE;
@@ -112,7 +112,7 @@ static size_t pairs(const yaml_node_t *node)
     return (size_t)(node->data.mapping.pairs.top - node->data.mapping.pairs.start);
 }
 
-int study_variants_read(study_variants **variants, const study_text *text, const study_draft *d,
+int study_variants_read(study_variants **variants, const study_text *text, const parsed_study *d,
                         int *count)
 {
     study_variants *v = *variants = cli_calloc(1, sizeof *v);
@@ -178,7 +178,7 @@ static void take_values(const study_variants *v, int i, dal_setting *out, double
 }
 
 static void make_label(const study_variants *v, const dal_setting *value, double seed,
-                       study_entry *e)
+                       study_case *e)
 {
     size_t length;
     FILE *out = cli_memstream_open(&e->label, &length);
@@ -189,7 +189,7 @@ static void make_label(const study_variants *v, const dal_setting *value, double
     cli_memstream_close(out);
 }
 
-void study_variants_take(const study_variants *v, int i, study_entry *e)
+void study_variants_apply(const study_variants *v, int i, study_case *e)
 {
     double seed;
     const size_t of_set = (size_t)v->of_set, of_start = (size_t)v->count - of_set;
@@ -209,8 +209,8 @@ static int is_momentum(const char *name)
     return strncmp(name, "p_", 2) == 0 || strncmp(name, "pi_", 3) == 0;
 }
 
-/* The names x' of all velocities, one behind the other, in memory of the entry. */
-static const char *velocity_names(study_entry *e)
+/* The names x' of all velocities, one behind the other, in memory of the case. */
+static const char *velocity_names(study_case *e)
 {
     size_t length;
     FILE *out = cli_memstream_open(&e->names, &length);
@@ -220,7 +220,7 @@ static const char *velocity_names(study_entry *e)
 }
 
 /* All velocities become settings of the start. */
-static void replace_velocities(study_entry *e, const double *v)
+static void replace_velocities(study_case *e, const double *v)
 {
     const int n = e->system->n;
     const char *name = velocity_names(e);
@@ -237,7 +237,7 @@ static void replace_velocities(study_entry *e, const double *v)
 }
 
 /* x[2n + ..] becomes the start with its velocities on D = 0. */
-static dal_status find_velocities(const study_entry *e, double *x, dal_error *error)
+static dal_status find_velocities(const study_case *e, double *x, dal_error *error)
 {
     dal_probe *probe = NULL;
     dal_setting *start = cli_calloc((size_t)e->start_count + 1, sizeof *start);
@@ -252,7 +252,7 @@ static dal_status find_velocities(const study_entry *e, double *x, dal_error *er
     return status;
 }
 
-int study_variants_onto(const study_variants *v, study_entry *e)
+int study_variants_project_start(const study_variants *v, study_case *e)
 {
     dal_error error = {0};
     if (v->start_drawn == 0 || e->system->m == 0) return CLI_DONE;
