@@ -46,14 +46,14 @@ static char *read_by_jansson(const char *bytes, size_t length)
 
 static char *read_by_program(const char *bytes, size_t length)
 {
-    study_text text = {0};
+    document doc = {0};
     char *copy = NULL;
-    if (json_parse(&text, "test", bytes, length) == CLI_DONE) {
-        const yaml_node_t *root = yaml_document_get_root_node(&text.document);
-        const yaml_node_t *node = json_find(&text, root, "key");
+    if (json_parse(&doc, "test", bytes, length) == CLI_DONE) {
+        const yaml_node_t *root = yaml_document_get_root_node(&doc.yaml);
+        const yaml_node_t *node = json_find(&doc, root, "key");
         copy = node ? strdup((const char *)node->data.scalar.value) : NULL;
     }
-    yaml_document_delete(&text.document);
+    yaml_document_delete(&doc.yaml);
     return copy;
 }
 
@@ -245,9 +245,9 @@ static void test_given_numbers(void)
 
 static int parse(const char *bytes, size_t length)
 {
-    study_text text = {0};
-    const int status = json_parse(&text, "test", bytes, length);
-    yaml_document_delete(&text.document);
+    document doc = {0};
+    const int status = json_parse(&doc, "test", bytes, length);
+    yaml_document_delete(&doc.yaml);
     return status;
 }
 
@@ -270,8 +270,8 @@ static void test_depth(void)
     static const char in_a_text[] =
         "{\"a\": \"[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[[\\\"[[[[[[[[[[[\"}";
     const int kept = hide_messages();
-    CU_ASSERT(parse_nested(STUDY_DEPTH - 1, 1) == CLI_DONE);
-    CU_ASSERT(parse_nested(STUDY_DEPTH, 1) == CLI_USAGE);
+    CU_ASSERT(parse_nested(DOCUMENT_DEPTH - 1, 1) == CLI_DONE);
+    CU_ASSERT(parse_nested(DOCUMENT_DEPTH, 1) == CLI_USAGE);
     const double begun = cli_seconds();
     CU_ASSERT(parse_nested(100000, 1) == CLI_USAGE);
     CU_ASSERT(parse_nested(100000, 0) == CLI_USAGE);
@@ -289,16 +289,16 @@ static void test_source(void)
     static const char bytes[] =
         "{\"title\": \"\xc3\x84\xe2\x82\xac\xf0\x9d\x84\x9e\",\n"
         "  \"input\": {\"\xc3\xa9\": [1, 2.50]},\n  \"status\": \"done\"}\n";
-    study_text text = {0};
-    CU_ASSERT_FATAL(json_parse(&text, "test", bytes, strlen(bytes)) == CLI_DONE);
-    const yaml_node_t *root = yaml_document_get_root_node(&text.document);
-    const yaml_node_t *node = json_find(&text, root, "input");
+    document doc = {0};
+    CU_ASSERT_FATAL(json_parse(&doc, "test", bytes, strlen(bytes)) == CLI_DONE);
+    const yaml_node_t *root = yaml_document_get_root_node(&doc.yaml);
+    const yaml_node_t *node = json_find(&doc, root, "input");
     CU_ASSERT_FATAL(node != NULL);
     char *source = json_source(bytes, node);
     CU_ASSERT_STRING_EQUAL(source, "{\"\xc3\xa9\": [1, 2.50]}");
-    CU_ASSERT(json_find(&text, root, "done") == NULL);
+    CU_ASSERT(json_find(&doc, root, "done") == NULL);
     free(source);
-    yaml_document_delete(&text.document);
+    yaml_document_delete(&doc.yaml);
 }
 
 void suite_json(void)

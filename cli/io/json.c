@@ -133,22 +133,22 @@ void json_given_member(FILE *out, const char *before, const char *name, const ch
 
 /* ---- reading ------------------------------------------------------------------------------- */
 
-int json_parse(study_text *text, const char *place, const char *bytes, size_t length)
+int json_parse(document *doc, const char *place, const char *bytes, size_t length)
 {
-    const int status = study_text_parse(text, place, bytes, length);
+    const int status = document_parse(doc, place, bytes, length);
     if (status != CLI_DONE) return status;
-    const yaml_node_t *root = yaml_document_get_root_node(&text->document);
+    const yaml_node_t *root = yaml_document_get_root_node(&doc->yaml);
     if (root->type == YAML_MAPPING_NODE) return CLI_DONE;
-    return study_text_fail(text, root, "an object is wanted");
+    return document_fail(doc, root, "an object is wanted");
 }
 
-const yaml_node_t *json_find(const study_text *text, const yaml_node_t *object, const char *name)
+const yaml_node_t *json_find(const document *doc, const yaml_node_t *object, const char *name)
 {
     const yaml_node_pair_t *pair = object->data.mapping.pairs.start;
     for (; pair < object->data.mapping.pairs.top; pair++) {
-        const char *key = study_text_scalar(text, study_text_node(text, pair->key), text->place);
+        const char *key = document_scalar(doc, document_node(doc, pair->key), doc->place);
         if (!key) return NULL;
-        if (strcmp(key, name) == 0) return study_text_node(text, pair->value);
+        if (strcmp(key, name) == 0) return document_node(doc, pair->value);
     }
     return NULL;
 }
@@ -172,15 +172,15 @@ char *json_source(const char *bytes, const yaml_node_t *value)
 
 static char *find_text(const char *path, const char *bytes, size_t length, const char *name)
 {
-    study_text text = {0};
+    document doc = {0};
     char *copy = NULL;
-    if (json_parse(&text, path, bytes, length) == CLI_DONE) {
-        const yaml_node_t *root = yaml_document_get_root_node(&text.document);
-        const yaml_node_t *node = json_find(&text, root, name);
-        const char *value = node ? study_text_scalar(&text, node, name) : NULL;
+    if (json_parse(&doc, path, bytes, length) == CLI_DONE) {
+        const yaml_node_t *root = yaml_document_get_root_node(&doc.yaml);
+        const yaml_node_t *node = json_find(&doc, root, name);
+        const char *value = node ? document_scalar(&doc, node, name) : NULL;
         if (value) copy = cli_strdup(value);
     }
-    yaml_document_delete(&text.document);
+    yaml_document_delete(&doc.yaml);
     return copy;
 }
 

@@ -1,48 +1,47 @@
 /* study_yaml.h - nodes of a parsed YAML text, with messages that name their place. */
-#ifndef DAL_CLI_STUDY_YAML_H
-#define DAL_CLI_STUDY_YAML_H
+#ifndef DAL_CLI_DOCUMENT_H
+#define DAL_CLI_DOCUMENT_H
 
 #include "ui/cli.h"
 
 #include <yaml.h>
 
-typedef struct study_text {
+typedef struct document {
     const char *place;
-    yaml_document_t document;
-} study_text;
+    yaml_document_t yaml;
+} document;
 
 /* A key of a mapping and what takes its value. */
-typedef struct study_key {
+typedef struct document_key {
     const char *name;
-    int (*take)(void *user, const study_text *text, yaml_node_t *value);
-} study_key;
+    int (*take)(void *user, const document *doc, yaml_node_t *value);
+} document_key;
 
 /* Lists and mappings within each other; more than any file has that the program reads. */
-enum { STUDY_DEPTH = 32 };
+enum { DOCUMENT_DEPTH = 32 };
 
 /* Parses a text of one document.  All functions return CLI_DONE or print and return CLI_USAGE. */
-int study_text_parse(study_text *text, const char *place, const char *bytes, size_t length);
+int document_parse(document *doc, const char *place, const char *bytes, size_t length);
 /* "PLACE:line:column: message" about a node; returns CLI_USAGE. */
-int study_text_fail(const study_text *text, const yaml_node_t *node, const char *format, ...)
+int document_fail(const document *doc, const yaml_node_t *node, const char *format, ...)
     CLI_PRINTF(3, 4);
 /* The same for a name that is not among count; tells the nearest. */
-int study_unknown(const study_text *text, const yaml_node_t *node, const char *what,
-                  const char *name, const char *const *names, int count);
+int document_fail_unknown(const document *doc, const yaml_node_t *node, const char *what,
+                          const char *name, const char *const *names, int count);
 /* "PLACE:line:column: WHAT" for messages of others about a node. */
-void study_text_place(const study_text *text, const yaml_node_t *node, const char *what,
-                      char *place, size_t size);
+void document_place(const document *doc, const yaml_node_t *node, const char *what, char *place,
+                    size_t size);
 /* A node of the document by its number. */
-yaml_node_t *study_text_node(const study_text *text, int number);
+yaml_node_t *document_node(const document *doc, int number);
 /* The text of a scalar, which lives as long as the document; NULL after a message. */
-const char *study_text_scalar(const study_text *text, const yaml_node_t *node, const char *what);
-int study_text_number(const study_text *text, const yaml_node_t *node, const char *what,
-                      double *number);
+const char *document_scalar(const document *doc, const yaml_node_t *node, const char *what);
+int document_number(const document *doc, const yaml_node_t *node, const char *what, double *number);
 /* Gives each value of a mapping to the key of its name; a key that is unknown or comes twice is an
  * error.  Keys without take are passed over. */
-int study_text_mapping(const study_text *text, yaml_node_t *node, const char *what,
-                       const study_key *keys, int count, void *user);
+int document_read_mapping(const document *doc, yaml_node_t *node, const char *what,
+                          const document_key *keys, int count, void *user);
 /* The items of a sequence, or the node itself as the only one. */
-int study_text_count(const yaml_node_t *node);
-yaml_node_t *study_text_item(const study_text *text, yaml_node_t *node, int i);
+int document_count(const yaml_node_t *node);
+yaml_node_t *document_item(const document *doc, yaml_node_t *node, int i);
 
 #endif

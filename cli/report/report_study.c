@@ -265,9 +265,9 @@ static void put_origin(report *r)
     report_file(r, "tables.txt", "the tables as they were printed: tables.txt");
 }
 
-static void put_title(report *r, const study_text *text)
+static void put_title(report *r, const document *doc)
 {
-    const yaml_node_t *root = study_text_node(text, 1);
+    const yaml_node_t *root = document_node(doc, 1);
     const char *title = "A study of drift";
     const yaml_node_pair_t *pair = NULL, *end = NULL;
     if (root && root->type == YAML_MAPPING_NODE) {
@@ -275,8 +275,8 @@ static void put_title(report *r, const study_text *text)
         end = root->data.mapping.pairs.top;
     }
     for (; pair < end; pair++) {
-        const yaml_node_t *key = study_text_node(text, pair->key);
-        const yaml_node_t *value = study_text_node(text, pair->value);
+        const yaml_node_t *key = document_node(doc, pair->key);
+        const yaml_node_t *value = document_node(doc, pair->value);
         if (key->type == YAML_SCALAR_NODE && value->type == YAML_SCALAR_NODE &&
             strcmp((const char *)key->data.scalar.value, "title") == 0)
             title = (const char *)value->data.scalar.value;
@@ -287,14 +287,14 @@ static void put_title(report *r, const study_text *text)
 /* The title that study.yaml has. */
 static int begin_page(report *r)
 {
-    study_text text = {.place = "study.yaml"};
+    document doc = {.place = "study.yaml"};
     size_t length = 0;
     char *path = cli_join(r->directory, "study.yaml");
     char *bytes = file_read(path, &length);
-    int status = bytes ? study_text_parse(&text, path, bytes, length) : CLI_IO;
+    int status = bytes ? document_parse(&doc, path, bytes, length) : CLI_IO;
     if (status == CLI_DONE) {
-        put_title(r, &text);
-        yaml_document_delete(&text.document);
+        put_title(r, &doc);
+        yaml_document_delete(&doc.yaml);
     }
     free(bytes);
     free(path);

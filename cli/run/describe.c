@@ -128,9 +128,9 @@ int run_directory_compare(const run_directory *dir, const run_request *held,
 
 /* ---- reading ------------------------------------------------------------------------------- */
 
-static const char *name_of(const study_text *text, const yaml_node_pair_t *pair)
+static const char *name_of(const document *doc, const yaml_node_pair_t *pair)
 {
-    return study_text_scalar(text, study_text_node(text, pair->key), "manifest");
+    return document_scalar(doc, document_node(doc, pair->key), "manifest");
 }
 
 /* "NAME=VALUE" out of "set" or "start"; request_parse_option copies it. */
@@ -147,16 +147,16 @@ static int take_setting(run_request *request, int option, const char *name, cons
     return status;
 }
 
-static int take_settings(run_request *request, int option, const study_text *text,
+static int take_settings(run_request *request, int option, const document *doc,
                          const yaml_node_t *node)
 {
     if (node->type != YAML_MAPPING_NODE)
-        return study_text_fail(text, node, "names and values are wanted");
+        return document_fail(doc, node, "names and values are wanted");
     const yaml_node_pair_t *pair = node->data.mapping.pairs.start;
     for (; pair < node->data.mapping.pairs.top; pair++) {
-        const char *name = name_of(text, pair);
+        const char *name = name_of(doc, pair);
         const char *value =
-            name ? study_text_scalar(text, study_text_node(text, pair->value), name) : NULL;
+            name ? document_scalar(doc, document_node(doc, pair->value), name) : NULL;
         const int status = value ? take_setting(request, option, name, value) : CLI_USAGE;
         if (status != CLI_DONE) return status;
     }
@@ -167,13 +167,13 @@ static int take_settings(run_request *request, int option, const study_text *tex
 static int take(const run_directory *dir, run_request *request, const char *name,
                 const yaml_node_t *node)
 {
-    const study_text *text = dir->text;
+    const document *doc = dir->doc;
     const int option = request_find_option(name), is_system = strcmp(name, "system") == 0;
     if (option == REQUEST_set || option == REQUEST_start)
-        return take_settings(request, option, text, node);
+        return take_settings(request, option, doc, node);
     if (option < 0 && !is_system)
-        return study_text_fail(text, node, "unknown option '%s' of a run", name);
-    const char *value = study_text_scalar(text, node, name);
+        return document_fail(doc, node, "unknown option '%s' of a run", name);
+    const char *value = document_scalar(doc, node, name);
     if (!value) return CLI_USAGE;
     if (!is_system) return request_parse_option(request, option, value);
     request->system_name = strcmp(value, copy_name) == 0 ? dir->system : value;
@@ -184,31 +184,30 @@ static int take_all(const run_directory *dir, run_request *request, const yaml_n
 {
     const yaml_node_pair_t *pair = input->data.mapping.pairs.start;
     for (; pair < input->data.mapping.pairs.top; pair++) {
-        const char *name = name_of(dir->text, pair);
-        const yaml_node_t *value = study_text_node(dir->text, pair->value);
+        const char *name = name_of(dir->doc, pair);
+        const yaml_node_t *value = document_node(dir->doc, pair->value);
         const int status = name ? take(dir, request, name, value) : CLI_USAGE;
         if (status != CLI_DONE) return status;
     }
     if (request->system_name) return CLI_DONE;
-    return study_text_fail(dir->text, input, "the system is missing");
+    return document_fail(dir->doc, input, "the system is missing");
 }
 
 /* What an older version made is gone on with, if its checkpoint can be read. */
-static int check_version(const study_text *text, const yaml_node_t *root)
+static int check_version(const document *doc, const yaml_node_t *root)
 {
     int made[3] = {0}, present[3] = {0};
-    const yaml_node_t *node = json_find(text, root, "dalembert");
-    const char *version = node ? study_text_scalar(text, node, "version") : "0";
+    const yaml_node_t *node = json_find(doc, root, "dalembert");
+    const char *version = node ? document_scalar(doc, node, "version") : "0";
     if (!version) return CLI_USAGE;
     sscanf(version, "%d.%d.%d", &made[0], &made[1], &made[2]);
     sscanf(DAL_VERSION, "%d.%d.%d", &present[0], &present[1], &present[2]);
     for (int i = 0; i < 3; i++) {
         if (made[i] > present[i])
-            return study_text_fail(text, node, "made by dalembert %s; this is " DAL_VERSION,
-                                   version);
+            return document_fail(doc, node, "made by dalembert %s; this is " DAL_VERSION, version);
         if (made[i] == present[i]) continue;
-        cli_fail(CLI_DONE, "%s: made by dalembert %s; the bits may differ from here on",
-                 text->place, version);
+        cli_fail(CLI_DONE, "%s: made by dalembert %s; the bits may differ from here on", doc->place,
+                 version);
         return CLI_DONE;
     }
     return CLI_DONE;
@@ -216,14 +215,14 @@ static int check_version(const study_text *text, const yaml_node_t *root)
 
 static int read_manifest(run_directory *dir, run_request *request, const char *bytes, size_t length)
 {
-    dir->text = cli_calloc(1, sizeof *dir->text);
-    int status = json_parse(dir->text, dir->manifest, bytes, length);
+    dir->doc = cli_calloc(1, sizeof *dir->doc);
+    int status = json_parse(dir->doc, dir->manifest, bytes, length);
     if (status != CLI_DONE) return status;
-    const yaml_node_t *root = yaml_document_get_root_node(&dir->text->document);
-    const yaml_node_t *input = json_find(dir->text, root, "input");
+    const yaml_node_t *root = yaml_document_get_root_node(&dir->doc->yaml);
+    const yaml_node_t *input = json_find(dir->doc, root, "input");
     if (!input || input->type != YAML_MAPPING_NODE)
-        return study_text_fail(dir->text, root, "there is no input of a run");
-    status = check_version(dir->text, root);
+        return document_fail(dir->doc, root, "there is no input of a run");
+    status = check_version(dir->doc, root);
     if (status != CLI_DONE) return status;
     dir->input = json_source(bytes, input);
     return take_all(dir, request, input);

@@ -20,8 +20,8 @@ void run_directory_close(run_directory *dir)
 #define X(name, file) free(dir->name);
     RUN_FILE_LIST(X)
 #undef X
-    if (dir->text) yaml_document_delete(&dir->text->document);
-    free(dir->text);
+    if (dir->doc) yaml_document_delete(&dir->doc->yaml);
+    free(dir->doc);
     free(dir->input);
     if (dir->descriptor >= 0) close(dir->descriptor);
     *dir = (run_directory){.descriptor = -1};

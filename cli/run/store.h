@@ -33,7 +33,7 @@ typedef struct run_directory {
 #define X(name, file) char *name;
     RUN_FILE_LIST(X)
 #undef X
-    study_text *text;     /* manifest.json as it was read, where the texts of its request live */
+    document *doc;        /* manifest.json as it was read, where the texts of its request live */
     char *input;          /* what was asked for, as it stands in manifest.json */
     uint64_t fingerprint; /* of that and of the system */
     int settle;           /* whether to wait until what is written is on the disk */

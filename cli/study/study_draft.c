@@ -18,94 +18,92 @@ const char *study_start_word(int start) { return start_words[start]; }
 
 /* ---- texts and numbers ---- */
 
-static int take_title(void *user, const study_text *text, yaml_node_t *value)
+static int take_title(void *user, const document *doc, yaml_node_t *value)
 {
     parsed_study *d = user;
-    d->title = study_text_scalar(text, value, "title");
+    d->title = document_scalar(doc, value, "title");
     return d->title ? CLI_DONE : CLI_USAGE;
 }
 
-static int take_system(void *user, const study_text *text, yaml_node_t *value)
+static int take_system(void *user, const document *doc, yaml_node_t *value)
 {
     parsed_study *d = user;
-    d->of_case.name = study_text_scalar(text, value, "system");
+    d->of_case.name = document_scalar(doc, value, "system");
     return d->of_case.name ? CLI_DONE : CLI_USAGE;
 }
 
-static int take_label(void *user, const study_text *text, yaml_node_t *value)
+static int take_label(void *user, const document *doc, yaml_node_t *value)
 {
     parsed_study *d = user;
-    const char *label = d->of_case.group = study_text_scalar(text, value, "label");
+    const char *label = d->of_case.group = document_scalar(doc, value, "label");
     if (!label) return CLI_USAGE;
     if (label[0] && !strchr(label, '/') && label[0] != '.') return CLI_DONE;
-    return study_text_fail(text, value, "label: '%s' cannot name a file", label);
+    return document_fail(doc, value, "label: '%s' cannot name a file", label);
 }
 
-static int take_positive(const study_text *text, yaml_node_t *value, const char *what, double *x)
+static int take_positive(const document *doc, yaml_node_t *value, const char *what, double *x)
 {
-    int status = study_text_number(text, value, what, x);
+    int status = document_number(doc, value, what, x);
     if (status != CLI_DONE || *x > 0.0) return status;
-    return study_text_fail(text, value, "%s: %g is not positive", what, *x);
+    return document_fail(doc, value, "%s: %g is not positive", what, *x);
 }
 
-static int keep_steps(study_case *e, const study_text *text, const yaml_node_t *node,
+static int keep_steps(study_case *e, const document *doc, const yaml_node_t *node,
                       const study_values *values)
 {
-    if (values->is_drawn) return study_text_fail(text, node, "step: it cannot be drawn");
+    if (values->is_drawn) return document_fail(doc, node, "step: it cannot be drawn");
     if (values->count > STUDY_STEPS)
-        return study_text_fail(text, node, "step: %d values, not 1..%d", values->count,
-                               STUDY_STEPS);
+        return document_fail(doc, node, "step: %d values, not 1..%d", values->count, STUDY_STEPS);
     e->steps = values->count;
     for (int i = 0; i < e->steps; i++) {
         e->step[i] = values->value[i];
         if (!(e->step[i] > 0.0))
-            return study_text_fail(text, node, "step: %g is not positive", e->step[i]);
+            return document_fail(doc, node, "step: %g is not positive", e->step[i]);
         for (int k = 0; k < i; k++)
             if (e->step[k] == e->step[i])
-                return study_text_fail(text, node, "step: %g comes twice", e->step[i]);
+                return document_fail(doc, node, "step: %g comes twice", e->step[i]);
     }
     return CLI_DONE;
 }
 
-static int take_step(void *user, const study_text *text, yaml_node_t *value)
+static int take_step(void *user, const document *doc, yaml_node_t *value)
 {
     study_values values;
-    int status = study_values_read(&values, text, value, "step");
+    int status = study_values_read(&values, doc, value, "step");
     if (status == CLI_DONE)
-        status = keep_steps(&((parsed_study *)user)->of_case, text, value, &values);
+        status = keep_steps(&((parsed_study *)user)->of_case, doc, value, &values);
     study_values_free(&values);
     return status;
 }
 
-static int take_time(void *user, const study_text *text, yaml_node_t *value)
+static int take_time(void *user, const document *doc, yaml_node_t *value)
 {
-    return take_positive(text, value, "time", &((parsed_study *)user)->of_case.time);
+    return take_positive(doc, value, "time", &((parsed_study *)user)->of_case.time);
 }
 
-static int take_displacement(void *user, const study_text *text, yaml_node_t *value)
+static int take_displacement(void *user, const document *doc, yaml_node_t *value)
 {
-    return take_positive(text, value, "displacement",
-                         &((parsed_study *)user)->of_case.displacement);
+    return take_positive(doc, value, "displacement", &((parsed_study *)user)->of_case.displacement);
 }
 
-static int take_integer(const study_text *text, const yaml_node_t *value, const char *what,
+static int take_integer(const document *doc, const yaml_node_t *value, const char *what,
                         long long *number)
 {
     char place[256];
-    const char *given = study_text_scalar(text, value, what);
+    const char *given = document_scalar(doc, value, what);
     if (!given) return CLI_USAGE;
-    study_text_place(text, value, what, place, sizeof place);
+    document_place(doc, value, what, place, sizeof place);
     return cli_integer(place, given, 1, 1000000000, number);
 }
 
-static int take_samples(void *user, const study_text *text, yaml_node_t *value)
+static int take_samples(void *user, const document *doc, yaml_node_t *value)
 {
-    return take_integer(text, value, "samples", &((parsed_study *)user)->of_case.samples);
+    return take_integer(doc, value, "samples", &((parsed_study *)user)->of_case.samples);
 }
 
-static int take_statistics(void *user, const study_text *text, yaml_node_t *value)
+static int take_statistics(void *user, const document *doc, yaml_node_t *value)
 {
-    return take_integer(text, value, "statistics", &((parsed_study *)user)->of_case.statistics);
+    return take_integer(doc, value, "statistics", &((parsed_study *)user)->of_case.statistics);
 }
 
 /* ---- options of the runs ---- */
@@ -118,61 +116,61 @@ static const char *const option_words[STUDY_OPTIONS] = {
 
 const char *study_option_word(int option) { return option_words[option]; }
 
-static int take_option(study_case *e, const study_text *text, const yaml_node_pair_t *pair)
+static int take_option(study_case *e, const document *doc, const yaml_node_pair_t *pair)
 {
     dal_error error = {0};
     dal_options options = dal_options_default();
-    yaml_node_t *key = study_text_node(text, pair->key);
-    yaml_node_t *value = study_text_node(text, pair->value);
-    const char *name = study_text_scalar(text, key, "options");
-    const char *word = name ? study_text_scalar(text, value, name) : NULL;
+    yaml_node_t *key = document_node(doc, pair->key);
+    yaml_node_t *value = document_node(doc, pair->value);
+    const char *name = document_scalar(doc, key, "options");
+    const char *word = name ? document_scalar(doc, value, name) : NULL;
     if (!word) return CLI_USAGE;
     if (strcmp(name, "step") == 0 || strcmp(name, "space") == 0)
-        return study_text_fail(text, key, "options: %s has a key of its own", name);
+        return document_fail(doc, key, "options: %s has a key of its own", name);
     if (dal_options_set(&options, name, word, &error) != DAL_OK)
-        return study_text_fail(text, key, "%s", error.message);
+        return document_fail(doc, key, "%s", error.message);
     for (int i = 0; i < STUDY_OPTIONS; i++)
         if (strcmp(option_words[i], name) == 0) e->option[i] = word;
     return CLI_DONE;
 }
 
-static int take_options(void *user, const study_text *text, yaml_node_t *value)
+static int take_options(void *user, const document *doc, yaml_node_t *value)
 {
     int status = CLI_DONE;
     if (value->type != YAML_MAPPING_NODE)
-        return study_text_fail(text, value, "options: names and values are wanted");
+        return document_fail(doc, value, "options: names and values are wanted");
     const yaml_node_pair_t *pair = value->data.mapping.pairs.start;
     for (; pair < value->data.mapping.pairs.top && status == CLI_DONE; pair++)
-        status = take_option(&((parsed_study *)user)->of_case, text, pair);
+        status = take_option(&((parsed_study *)user)->of_case, doc, pair);
     return status;
 }
 
 /* ---- starts ---- */
 
-static int take_starts(void *user, const study_text *text, yaml_node_t *value)
+static int take_starts(void *user, const document *doc, yaml_node_t *value)
 {
     study_case *e = &((parsed_study *)user)->of_case;
     e->starts = 0;
-    for (int i = 0; i < study_text_count(value); i++) {
-        const yaml_node_t *item = study_text_item(text, value, i);
-        const char *word = study_text_scalar(text, item, "starts");
+    for (int i = 0; i < document_count(value); i++) {
+        const yaml_node_t *item = document_item(doc, value, i);
+        const char *word = document_scalar(doc, item, "starts");
         if (!word) return CLI_USAGE;
         int start = 0;
         while (start < STUDY_STARTS && strcmp(start_words[start], word) != 0) start++;
         if (start == STUDY_STARTS)
-            return study_text_fail(text, item, "starts: '%s' is not physical, surface or displaced",
-                                   word);
+            return document_fail(doc, item, "starts: '%s' is not physical, surface or displaced",
+                                 word);
         e->starts |= 1 << start;
     }
-    return e->starts ? CLI_DONE : study_text_fail(text, value, "starts: the list is empty");
+    return e->starts ? CLI_DONE : document_fail(doc, value, "starts: the list is empty");
 }
 
 /* ---- what waits for the system ---- */
 
 #define KEEP_NODE(name)                                                                            \
-    static int take_##name(void *user, const study_text *text, yaml_node_t *value)                 \
+    static int take_##name(void *user, const document *doc, yaml_node_t *value)                    \
     {                                                                                              \
-        (void)text;                                                                                \
+        (void)doc;                                                                                 \
         ((parsed_study *)user)->name = value;                                                      \
         return CLI_DONE;                                                                           \
     }
@@ -184,7 +182,7 @@ KEEP_NODE(seeds)
 KEEP_NODE(systems)
 KEEP_NODE(expect)
 
-static const study_key keys[] = {
+static const document_key keys[] = {
 #define X(name, scope, help) {#name, take_##name},
     STUDY_KEY_LIST(X)
 #undef X
@@ -201,14 +199,14 @@ enum {
     KEYS_OF_SYSTEM = KEYS - FIRST_OF_SYSTEM
 };
 
-int parsed_study_read_study(parsed_study *parsed, const study_text *text, yaml_node_t *node)
+int parsed_study_read_study(parsed_study *parsed, const document *doc, yaml_node_t *node)
 {
-    return study_text_mapping(text, node, "a study", keys, KEYS_OF_STUDY, parsed);
+    return document_read_mapping(doc, node, "a study", keys, KEYS_OF_STUDY, parsed);
 }
 
-int parsed_study_read_system(parsed_study *parsed, const study_text *text, yaml_node_t *node)
+int parsed_study_read_system(parsed_study *parsed, const document *doc, yaml_node_t *node)
 {
-    if (node->type != YAML_MAPPING_NODE) return take_system(parsed, text, node);
-    return study_text_mapping(text, node, "a system", keys + FIRST_OF_SYSTEM, KEYS_OF_SYSTEM,
-                              parsed);
+    if (node->type != YAML_MAPPING_NODE) return take_system(parsed, doc, node);
+    return document_read_mapping(doc, node, "a system", keys + FIRST_OF_SYSTEM, KEYS_OF_SYSTEM,
+                                 parsed);
 }

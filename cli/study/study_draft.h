@@ -16,8 +16,8 @@ typedef struct parsed_study {
 
 /* Takes the keys of a study, or those of one of its systems, into a parsed that holds what they
  * leave unsaid.  Return CLI_DONE or print and return an exit status. */
-int parsed_study_read_study(parsed_study *parsed, const study_text *text, yaml_node_t *node);
-int parsed_study_read_system(parsed_study *parsed, const study_text *text, yaml_node_t *node);
+int parsed_study_read_study(parsed_study *parsed, const document *doc, yaml_node_t *node);
+int parsed_study_read_system(parsed_study *parsed, const document *doc, yaml_node_t *node);
 
 /* ---- study_variants.c ---- */
 
@@ -26,8 +26,8 @@ typedef struct study_variants study_variants;
 
 /* Reads set, start and seeds of a parsed; *count is the number of combinations, the last setting
  * changing fastest and the seeds faster still.  study_variants_free it in any case. */
-int study_variants_read(study_variants **variants, const study_text *text,
-                        const parsed_study *parsed, int *count);
+int study_variants_read(study_variants **variants, const document *doc, const parsed_study *parsed,
+                        int *count);
 /* Combination i: set, start and what is put behind the label. */
 void study_variants_apply(const study_variants *variants, int i, study_case *item);
 /* Where velocities or coordinates were drawn: brings the velocities of the start onto D = 0, along

@@ -22,7 +22,7 @@
 
 typedef struct reader {
     study_plan *plan;
-    const study_text *text;
+    const document *doc;
     const char *label, *method;
     study_expectation expectation; /* the present one */
 } reader;
@@ -65,9 +65,9 @@ static int refuse_word(reader *r, const yaml_node_t *node, const words *known, c
         {"bounded", "none"}, {"linear drift", "linear"}, {"not enough data", "undecided"}};
     for (size_t i = 0; i < sizeof renamed / sizeof renamed[0]; i++)
         if (strcmp(word, renamed[i][0]) == 0)
-            return study_text_fail(r->text, node, "expect: '%s' is now the trend '%s'", word,
-                                   renamed[i][1]);
-    return study_unknown(r->text, node, known->what, word, known->word, known->count);
+            return document_fail(r->doc, node, "expect: '%s' is now the trend '%s'", word,
+                                 renamed[i][1]);
+    return document_fail_unknown(r->doc, node, known->what, word, known->word, known->count);
 }
 
 /* Whether a system that is meant conserves E, at least on D = 0. */
@@ -87,104 +87,105 @@ static int add_words(reader *r, yaml_node_t *node, const words *known)
     x->words = 0;
     x->field = -1;
     if (strcmp(x->quantity, "E") == 0 && !is_conserved(r))
-        return study_text_fail(r->text, node,
-                               "expect: E has neither size nor trend, since the motion of '%s' "
-                               "does not conserve it",
-                               r->label);
-    for (int i = 0; i < study_text_count(node); i++) {
-        const yaml_node_t *item = study_text_item(r->text, node, i);
-        const char *word = study_text_scalar(r->text, item, known->what);
+        return document_fail(r->doc, node,
+                             "expect: E has neither size nor trend, since the motion of '%s' "
+                             "does not conserve it",
+                             r->label);
+    for (int i = 0; i < document_count(node); i++) {
+        const yaml_node_t *item = document_item(r->doc, node, i);
+        const char *word = document_scalar(r->doc, item, known->what);
         if (!word) return CLI_USAGE;
         int k = 0;
         while (k < known->count && strcmp(known->word[k], word) != 0) k++;
         if (k == known->count) return refuse_word(r, item, known, word);
         x->words |= 1u << (known->first + k);
     }
-    if (x->words == 0) return study_text_fail(r->text, node, "expect: the list is empty");
+    if (x->words == 0) return document_fail(r->doc, node, "expect: the list is empty");
     return add(r, node);
 }
 
 /* ---- bounds ---- */
 
-static int take_most(void *user, const study_text *text, yaml_node_t *value)
+static int take_most(void *user, const document *doc, yaml_node_t *value)
 {
-    return study_text_number(text, value, "at most", &((reader *)user)->expectation.most);
+    return document_number(doc, value, "at most", &((reader *)user)->expectation.most);
 }
 
-static int take_least(void *user, const study_text *text, yaml_node_t *value)
+static int take_least(void *user, const document *doc, yaml_node_t *value)
 {
-    return study_text_number(text, value, "at least", &((reader *)user)->expectation.least);
+    return document_number(doc, value, "at least", &((reader *)user)->expectation.least);
 }
 
-static int add_bounds(reader *r, int field, yaml_node_t *node, const study_key *keys, int count)
+static int add_bounds(reader *r, int field, yaml_node_t *node, const document_key *keys, int count)
 {
     r->expectation.field = field;
     r->expectation.words = 0;
     r->expectation.least = -INFINITY;
     r->expectation.most = INFINITY;
-    int status = study_text_mapping(r->text, node, "bounds", keys, count, r);
+    int status = document_read_mapping(r->doc, node, "bounds", keys, count, r);
     if (status != CLI_DONE) return status;
     if (isinf(r->expectation.least) && isinf(r->expectation.most))
-        return study_text_fail(r->text, node, "bounds: 'at most' or 'at least' is wanted");
+        return document_fail(r->doc, node, "bounds: 'at most' or 'at least' is wanted");
     return add(r, node);
 }
 
 static int add_bound(reader *r, int field, yaml_node_t *node)
 {
-    static const study_key keys[] = {{"at most", take_most}, {"at least", take_least}};
+    static const document_key keys[] = {{"at most", take_most}, {"at least", take_least}};
     return add_bounds(r, field, node, keys, 2);
 }
 
 #define TAKE_FIELD(name, member)                                                                   \
-    static int take_##name(void *user, const study_text *text, yaml_node_t *value)                 \
+    static int take_##name(void *user, const document *doc, yaml_node_t *value)                    \
     {                                                                                              \
-        (void)text;                                                                                \
+        (void)doc;                                                                                 \
         return add_bound(user, STUDY_FIELD_##name, value);                                         \
     }
 STUDY_FIELD_LIST(TAKE_FIELD)
 #undef TAKE_FIELD
 
-static int take_size(void *user, const study_text *text, yaml_node_t *value)
+static int take_size(void *user, const document *doc, yaml_node_t *value)
 {
-    (void)text;
+    (void)doc;
     return add_words(user, value, &of_size);
 }
 
-static int take_trend(void *user, const study_text *text, yaml_node_t *value)
+static int take_trend(void *user, const document *doc, yaml_node_t *value)
 {
-    (void)text;
+    (void)doc;
     return add_words(user, value, &of_trend);
 }
 
 /* ---- which cells ---- */
 
-static yaml_node_t *value_of(const study_text *text, const yaml_node_t *node, const char *name)
+static yaml_node_t *value_of(const document *doc, const yaml_node_t *node, const char *name)
 {
     const yaml_node_pair_t *pair = node->data.mapping.pairs.start;
     for (; pair < node->data.mapping.pairs.top; pair++) {
-        const yaml_node_t *key = study_text_node(text, pair->key);
+        const yaml_node_t *key = document_node(doc, pair->key);
         if (key->type == YAML_SCALAR_NODE &&
             strcmp((const char *)key->data.scalar.value, name) == 0)
-            return study_text_node(text, pair->value);
+            return document_node(doc, pair->value);
     }
     return NULL;
 }
 
-static int take_step(void *user, const study_text *text, yaml_node_t *value)
+static int take_step(void *user, const document *doc, yaml_node_t *value)
 {
-    return study_text_number(text, value, "step", &((reader *)user)->expectation.step);
+    return document_number(doc, value, "step", &((reader *)user)->expectation.step);
 }
 
-static int take_start(void *user, const study_text *text, yaml_node_t *value)
+static int take_start(void *user, const document *doc, yaml_node_t *value)
 {
-    const char *known[STUDY_STARTS], *word = study_text_scalar(text, value, "start");
+    const char *known[STUDY_STARTS], *word = document_scalar(doc, value, "start");
     int start = 0;
     if (!word) return CLI_USAGE;
     for (int i = 0; i < STUDY_STARTS; i++) known[i] = study_start_word(i);
     while (start < STUDY_STARTS && strcmp(known[start], word) != 0) start++;
     ((reader *)user)->expectation.start = start;
-    return start < STUDY_STARTS ? CLI_DONE
-                                : study_unknown(text, value, "start", word, known, STUDY_STARTS);
+    return start < STUDY_STARTS
+               ? CLI_DONE
+               : document_fail_unknown(doc, value, "start", word, known, STUDY_STARTS);
 }
 
 static int contains(const reader *r)
@@ -200,15 +201,15 @@ static int take_cells(reader *r, yaml_node_t *node)
 {
     const struct {
         const char *name;
-        int (*take)(void *user, const study_text *text, yaml_node_t *value);
+        int (*take)(void *user, const document *doc, yaml_node_t *value);
     } which[] = {{"step", take_step}, {"start", take_start}};
     for (size_t i = 0; i < sizeof which / sizeof which[0]; i++) {
-        yaml_node_t *value = value_of(r->text, node, which[i].name);
-        const int status = value ? which[i].take(r, r->text, value) : CLI_DONE;
+        yaml_node_t *value = value_of(r->doc, node, which[i].name);
+        const int status = value ? which[i].take(r, r->doc, value) : CLI_DONE;
         if (status != CLI_DONE) return status;
     }
     if (contains(r)) return CLI_DONE;
-    return study_text_fail(r->text, node, "expect: the study has no such step and start");
+    return document_fail(r->doc, node, "expect: the study has no such step and start");
 }
 
 /* The size that the tables show. */
@@ -221,7 +222,7 @@ static int size_field(const char *quantity)
 /* Bounds of the size stand beside the cells they hold for; all else has keys of its own. */
 static int add_size(reader *r, yaml_node_t *node)
 {
-    static const study_key keys[] = {
+    static const document_key keys[] = {
         {"at most", take_most}, {"at least", take_least}, {"step", NULL}, {"start", NULL}};
     return add_bounds(r, size_field(r->expectation.quantity), node, keys,
                       sizeof keys / sizeof keys[0]);
@@ -229,22 +230,22 @@ static int add_size(reader *r, yaml_node_t *node)
 
 static int add_mapping(reader *r, yaml_node_t *node)
 {
-    static const study_key keys[] = {{"size", take_size},
-                                     {"trend", take_trend},
-                                     {"step", NULL},
-                                     {"start", NULL},
+    static const document_key keys[] = {{"size", take_size},
+                                        {"trend", take_trend},
+                                        {"step", NULL},
+                                        {"start", NULL},
 #define X(name, member) {#name, take_##name},
-                                     STUDY_FIELD_LIST(X)
+                                        STUDY_FIELD_LIST(X)
 #undef X
     };
-    yaml_node_t *old = value_of(r->text, node, "verdict");
-    if (is_state(&r->expectation)) return study_text_fail(r->text, node, "state: words are wanted");
-    if (old) return study_text_fail(r->text, old, "expect: 'verdict' is now 'size' and 'trend'");
+    yaml_node_t *old = value_of(r->doc, node, "verdict");
+    if (is_state(&r->expectation)) return document_fail(r->doc, node, "state: words are wanted");
+    if (old) return document_fail(r->doc, old, "expect: 'verdict' is now 'size' and 'trend'");
     const int status = take_cells(r, node);
     if (status != CLI_DONE) return status;
-    if (value_of(r->text, node, "at most") || value_of(r->text, node, "at least"))
+    if (value_of(r->doc, node, "at most") || value_of(r->doc, node, "at least"))
         return add_size(r, node);
-    return study_text_mapping(r->text, node, "expect", keys, sizeof keys / sizeof keys[0], r);
+    return document_read_mapping(r->doc, node, "expect", keys, sizeof keys / sizeof keys[0], r);
 }
 
 /* ---- what the study contains ---- */
@@ -276,8 +277,8 @@ static int check_label(const reader *r, const yaml_node_t *node)
         found |= study_case_matches(&plan->cases[i], r->label);
     }
     int status = found ? CLI_DONE
-                       : study_unknown(r->text, node, "label of this study", r->label, names,
-                                       plan->case_count);
+                       : document_fail_unknown(r->doc, node, "label of this study", r->label, names,
+                                               plan->case_count);
     free(names);
     return status;
 }
@@ -289,8 +290,8 @@ static int check_method(const reader *r, const yaml_node_t *node)
         for (int k = 0; study_case_matches(e, r->label) && k < e->method_count; k++)
             if (study_method_matches(&e->methods[k], r->method)) return CLI_DONE;
     }
-    return study_text_fail(r->text, node, "expect: '%s' is not run with '%s' in this study",
-                           r->label, r->method);
+    return document_fail(r->doc, node, "expect: '%s' is not run with '%s' in this study", r->label,
+                         r->method);
 }
 
 static int check_quantity(const reader *r, const yaml_node_t *node, const char *name)
@@ -299,8 +300,8 @@ static int check_quantity(const reader *r, const yaml_node_t *node, const char *
         const study_case *e = &r->plan->cases[i];
         if (study_case_matches(e, r->label) && has_quantity(e, name)) return CLI_DONE;
     }
-    return study_text_fail(r->text, node, "expect: '%s' has no quantity '%s' in this study",
-                           r->label, name);
+    return document_fail(r->doc, node, "expect: '%s' has no quantity '%s' in this study", r->label,
+                         name);
 }
 
 /* ---- the levels of the mapping ---- */
@@ -311,13 +312,13 @@ static int each_pair(reader *r, yaml_node_t *node, const char *what, taker *take
 {
     int status = CLI_DONE;
     if (node->type != YAML_MAPPING_NODE)
-        return study_text_fail(r->text, node, "expect: %s are wanted", what);
+        return document_fail(r->doc, node, "expect: %s are wanted", what);
     yaml_node_pair_t *pair = node->data.mapping.pairs.start;
     for (; pair < node->data.mapping.pairs.top && status == CLI_DONE; pair++) {
-        const yaml_node_t *key = study_text_node(r->text, pair->key);
-        const char *name = study_text_scalar(r->text, key, "expect");
+        const yaml_node_t *key = document_node(r->doc, pair->key);
+        const char *name = document_scalar(r->doc, key, "expect");
         if (!name) return CLI_USAGE;
-        status = take(r, key, name, study_text_node(r->text, pair->value));
+        status = take(r, key, name, document_node(r->doc, pair->value));
     }
     return status;
 }
@@ -334,12 +335,12 @@ static int take_one(reader *r, const char *name, yaml_node_t *value)
 static int take_quantity(reader *r, const yaml_node_t *key, const char *name, yaml_node_t *value)
 {
     int status = check_quantity(r, key, name);
-    const int count = study_text_count(value);
+    const int count = document_count(value);
     const int is_list = value->type == YAML_SEQUENCE_NODE && count > 0 &&
-                        study_text_item(r->text, value, 0)->type == YAML_MAPPING_NODE;
+                        document_item(r->doc, value, 0)->type == YAML_MAPPING_NODE;
     if (status == CLI_DONE && !is_list) return take_one(r, name, value);
     for (int i = 0; i < count && status == CLI_DONE; i++)
-        status = take_one(r, name, study_text_item(r->text, value, i));
+        status = take_one(r, name, document_item(r->doc, value, i));
     return status;
 }
 
@@ -357,8 +358,8 @@ static int take_label(reader *r, const yaml_node_t *key, const char *name, yaml_
     return status == CLI_DONE ? each_pair(r, value, "integrators", take_method) : status;
 }
 
-int study_expect_read(study_plan *plan, const study_text *text, yaml_node_t *node)
+int study_expect_read(study_plan *plan, const document *doc, yaml_node_t *node)
 {
-    reader r = {.plan = plan, .text = text};
+    reader r = {.plan = plan, .doc = doc};
     return node ? each_pair(&r, node, "labels", take_label) : CLI_DONE;
 }

@@ -38,7 +38,7 @@ struct study_expectation {
 
 /* Reads `expect`, node being NULL where there is none; the cases are complete.  Returns CLI_DONE
  * or prints and returns an exit status. */
-int study_expect_read(study_plan *plan, const study_text *text, yaml_node_t *node);
+int study_expect_read(study_plan *plan, const document *doc, yaml_node_t *node);
 
 /* Whether a case is meant by a label: its own, its group's, its system's, or all; and a method
  * by its name, or all, or all with modifiers: those with just these. */

@@ -12,21 +12,21 @@
 /* ---- settings and methods ---- */
 
 /* Momenta in units of the displacement: one value each. */
-static int read_displace(study_case *e, const study_text *text, yaml_node_t *node)
+static int read_displace(study_case *e, const document *doc, yaml_node_t *node)
 {
     if (!node) return CLI_DONE;
     if (node->type != YAML_MAPPING_NODE)
-        return study_text_fail(text, node, "displace: names and values are wanted");
+        return document_fail(doc, node, "displace: names and values are wanted");
     const yaml_node_pair_t *pair = node->data.mapping.pairs.start;
     size_t most = (size_t)(node->data.mapping.pairs.top - pair);
     e->displace = cli_calloc(most + 1, sizeof *e->displace);
     for (; pair < node->data.mapping.pairs.top; pair++) {
         dal_setting *s = &e->displace[e->displace_count++];
-        yaml_node_t *key = study_text_node(text, pair->key);
-        s->name = study_text_scalar(text, key, "displace");
+        yaml_node_t *key = document_node(doc, pair->key);
+        s->name = document_scalar(doc, key, "displace");
         if (!s->name) return CLI_USAGE;
-        yaml_node_t *value = study_text_node(text, pair->value);
-        int status = study_text_number(text, value, "displace", &s->value);
+        yaml_node_t *value = document_node(doc, pair->value);
+        int status = document_number(doc, value, "displace", &s->value);
         if (status != CLI_DONE) return status;
     }
     return CLI_DONE;
@@ -41,72 +41,70 @@ static int has_method(const study_case *e, const dal_method *method)
     return 0;
 }
 
-static int add_method(study_case *e, const study_text *text, const yaml_node_t *node,
-                      const char *name)
+static int add_method(study_case *e, const document *doc, const yaml_node_t *node, const char *name)
 {
     dal_error error = {0};
     size_t count = (size_t)e->method_count + 1;
     e->methods = cli_realloc(e->methods, count * sizeof *e->methods);
     if (dal_method_parse(&e->methods[e->method_count], name, &error) != DAL_OK)
-        return study_text_fail(text, node, "%s", error.message);
+        return document_fail(doc, node, "%s", error.message);
     if (!has_method(e, &e->methods[e->method_count])) e->method_count++;
     return CLI_DONE;
 }
 
 /* "all" and "all+project" stand for every integrator that is no modifier. */
-static int add_methods(study_case *e, const study_text *text, const yaml_node_t *node,
+static int add_methods(study_case *e, const document *doc, const yaml_node_t *node,
                        const char *name)
 {
     char full[STUDY_NAME];
     int status = CLI_DONE;
     if (strncmp(name, "all", 3) != 0 || (name[3] != '\0' && name[3] != '+'))
-        return add_method(e, text, node, name);
+        return add_method(e, doc, node, name);
     for (int i = 0; dal_integrator_at(i) && status == CLI_DONE; i++) {
         const dal_integrator *integrator = dal_integrator_at(i);
         if (integrator->claims & DAL_MODIFIER) continue;
         snprintf(full, sizeof full, "%s%s", integrator->name, name + 3);
-        status = add_method(e, text, node, full);
+        status = add_method(e, doc, node, full);
     }
     return status;
 }
 
-static int read_methods(study_case *e, const study_text *text, yaml_node_t *node)
+static int read_methods(study_case *e, const document *doc, yaml_node_t *node)
 {
-    int count = study_text_count(node), status = CLI_DONE;
-    if (count == 0) return study_text_fail(text, node, "integrators: the list is empty");
+    int count = document_count(node), status = CLI_DONE;
+    if (count == 0) return document_fail(doc, node, "integrators: the list is empty");
     for (int i = 0; i < count && status == CLI_DONE; i++) {
-        const yaml_node_t *item = study_text_item(text, node, i);
-        const char *name = study_text_scalar(text, item, "integrators");
-        status = name ? add_methods(e, text, item, name) : CLI_USAGE;
+        const yaml_node_t *item = document_item(doc, node, i);
+        const char *name = document_scalar(doc, item, "integrators");
+        status = name ? add_methods(e, doc, item, name) : CLI_USAGE;
     }
     return status;
 }
 
 /* ---- cases ---- */
 
-static int check_case(const study_text *text, const yaml_node_t *node, const parsed_study *d)
+static int check_case(const document *doc, const yaml_node_t *node, const parsed_study *d)
 {
     const study_case *e = &d->of_case;
-    if (!e->name) return study_text_fail(text, node, "the system is missing");
+    if (!e->name) return document_fail(doc, node, "the system is missing");
     if (!d->integrators)
-        return study_text_fail(text, node, "%s: the integrators are missing", e->name);
-    if (e->steps == 0) return study_text_fail(text, node, "%s: the step is missing", e->name);
-    if (!(e->time > 0.0)) return study_text_fail(text, node, "%s: the time is missing", e->name);
+        return document_fail(doc, node, "%s: the integrators are missing", e->name);
+    if (e->steps == 0) return document_fail(doc, node, "%s: the step is missing", e->name);
+    if (!(e->time > 0.0)) return document_fail(doc, node, "%s: the time is missing", e->name);
     for (int i = 0; i < e->steps; i++) {
         char said[REQUEST_STEP_TEXT];
         const char *fault = request_step_error(e->step[i], e->time, said);
-        if (fault) return study_text_fail(text, node, "%s: step %s", e->name, fault);
+        if (fault) return document_fail(doc, node, "%s: step %s", e->name, fault);
     }
     return CLI_DONE;
 }
 
-static int unique_label(const study_plan *plan, const study_text *text, const yaml_node_t *node,
+static int unique_label(const study_plan *plan, const document *doc, const yaml_node_t *node,
                         const study_case *e)
 {
     for (int i = 0; i < plan->case_count; i++)
         if (strcmp(plan->cases[i].label, e->label) == 0)
-            return study_text_fail(text, node, "two systems called '%s': give one a label",
-                                   e->label);
+            return document_fail(doc, node, "two systems called '%s': give one a label", e->label);
     return CLI_DONE;
 }
 
@@ -118,7 +116,7 @@ static const char *plain_label(const study_case *e)
 }
 
 /* Whether the system knows the names; what else may be wrong with their values is for the cells. */
-static int check_names(const study_text *text, const yaml_node_t *node, const char *what,
+static int check_names(const document *doc, const yaml_node_t *node, const char *what,
                        const study_case *e, const dal_setting *start, int count)
 {
     dal_run *run;
@@ -134,7 +132,7 @@ static int check_names(const study_text *text, const yaml_node_t *node, const ch
     if (!e->system->call.adjoint) spec.options.space = DAL_PHYSICAL;
     dal_status made = dal_run_create(&run, &spec, &error);
     if (cli_is_ok(made)) dal_run_free(run);
-    return made == DAL_NAME ? study_text_fail(text, node, "%s: %s", what, error.message) : CLI_DONE;
+    return made == DAL_NAME ? document_fail(doc, node, "%s: %s", what, error.message) : CLI_DONE;
 }
 
 char *study_system_copy(const char *directory, const study_case *e)
@@ -143,14 +141,14 @@ char *study_system_copy(const char *directory, const study_case *e)
 }
 
 /* A name that is neither a path nor a system is told with its place. */
-static int check_system(const study_text *text, const yaml_node_t *node, const char *name)
+static int check_system(const document *doc, const yaml_node_t *node, const char *name)
 {
     enum { MOST = 256 };
     const char *names[MOST];
     int count = 0;
     if (cli_is_path(name) || dal_builtin_text(name)) return CLI_DONE;
     while (count < MOST && (names[count] = dal_builtin_name(count))) count++;
-    return study_unknown(text, node, "system", name, names, count);
+    return document_fail_unknown(doc, node, "system", name, names, count);
 }
 
 /* Where a directory keeps copies, what has one was a file, wherever the program is started now. */
@@ -164,11 +162,11 @@ static int find_copy(const study_plan *plan, study_case *e)
     return CLI_DONE;
 }
 
-static int load_system(const study_plan *plan, const study_text *text, const yaml_node_t *node,
+static int load_system(const study_plan *plan, const document *doc, const yaml_node_t *node,
                        study_case *e)
 {
     int status = find_copy(plan, e);
-    if (status == CLI_DONE && !e->copy) status = check_system(text, node, e->name);
+    if (status == CLI_DONE && !e->copy) status = check_system(doc, node, e->name);
     if (status != CLI_DONE) return status;
     return cli_load(e->copy ? e->copy : e->name, &e->model, &e->system);
 }
@@ -177,7 +175,7 @@ static int load_system(const study_plan *plan, const study_text *text, const yam
 
 typedef struct group {
     study_plan *plan;
-    const study_text *text;
+    const document *doc;
     yaml_node_t *node; /* of the system */
     parsed_study parsed;
     study_variants *variants;
@@ -186,8 +184,8 @@ typedef struct group {
 /* What the first of a group reads, the others share. */
 static int load_first(group *g, study_case *e)
 {
-    int status = read_methods(e, g->text, g->parsed.integrators);
-    return status == CLI_DONE ? load_system(g->plan, g->text, g->node, e) : status;
+    int status = read_methods(e, g->doc, g->parsed.integrators);
+    return status == CLI_DONE ? load_system(g->plan, g->doc, g->node, e) : status;
 }
 
 static void share(study_case *e, const study_case *first)
@@ -202,11 +200,11 @@ static void share(study_case *e, const study_case *first)
 static int check_all_names(const group *g, const study_case *e)
 {
     const parsed_study *d = &g->parsed;
-    int status = check_names(g->text, d->set, "set", e, NULL, 0);
+    int status = check_names(g->doc, d->set, "set", e, NULL, 0);
     if (status == CLI_DONE)
-        status = check_names(g->text, d->start, "start", e, e->start, e->start_count);
+        status = check_names(g->doc, d->start, "start", e, e->start, e->start_count);
     if (status == CLI_DONE)
-        status = check_names(g->text, d->displace, "displace", e, e->displace, e->displace_count);
+        status = check_names(g->doc, d->displace, "displace", e, e->displace, e->displace_count);
     return status;
 }
 
@@ -217,9 +215,9 @@ static int add_variant(group *g, int i, const study_case *first)
     *e = g->parsed.of_case;
     e->is_first = i == 0;
     study_variants_apply(g->variants, i, e);
-    int status = unique_label(plan, g->text, g->node, e);
+    int status = unique_label(plan, g->doc, g->node, e);
     plan->case_count++;
-    if (status == CLI_DONE) status = read_displace(e, g->text, g->parsed.displace);
+    if (status == CLI_DONE) status = read_displace(e, g->doc, g->parsed.displace);
     if (status != CLI_DONE) return status;
     if (i == 0)
         status = load_first(g, e);
@@ -241,15 +239,15 @@ static int add_variants(group *g, int count)
     return status;
 }
 
-static int add_group(study_plan *plan, const study_text *text, yaml_node_t *node,
+static int add_group(study_plan *plan, const document *doc, yaml_node_t *node,
                      const parsed_study *base)
 {
-    group g = {.plan = plan, .text = text, .node = node, .parsed = *base};
-    int count = 0, status = parsed_study_read_system(&g.parsed, text, node);
-    if (status == CLI_DONE) status = check_case(text, node, &g.parsed);
+    group g = {.plan = plan, .doc = doc, .node = node, .parsed = *base};
+    int count = 0, status = parsed_study_read_system(&g.parsed, doc, node);
+    if (status == CLI_DONE) status = check_case(doc, node, &g.parsed);
     if (status != CLI_DONE) return status;
     if (!g.parsed.of_case.group) g.parsed.of_case.group = plain_label(&g.parsed.of_case);
-    status = study_variants_read(&g.variants, text, &g.parsed, &count);
+    status = study_variants_read(&g.variants, doc, &g.parsed, &count);
     if (status == CLI_DONE) status = add_variants(&g, count);
     study_variants_free(g.variants);
     return status;
@@ -257,13 +255,13 @@ static int add_group(study_plan *plan, const study_text *text, yaml_node_t *node
 
 /* ---- the whole ---- */
 
-static int read_systems(study_plan *plan, const study_text *text, const yaml_node_t *root,
+static int read_systems(study_plan *plan, const document *doc, const yaml_node_t *root,
                         const parsed_study *base)
 {
-    int count = base->systems ? study_text_count(base->systems) : 0, status = CLI_DONE;
-    if (count == 0) return study_text_fail(text, root, "the systems are missing");
+    int count = base->systems ? document_count(base->systems) : 0, status = CLI_DONE;
+    if (count == 0) return document_fail(doc, root, "the systems are missing");
     for (int i = 0; i < count && status == CLI_DONE; i++)
-        status = add_group(plan, text, study_text_item(text, base->systems, i), base);
+        status = add_group(plan, doc, document_item(doc, base->systems, i), base);
     return status;
 }
 
@@ -319,20 +317,20 @@ static int make_cells(study_plan *plan)
 int study_plan_read(study_plan *plan, const char *place, const char *bytes, size_t length,
                     const char *copies)
 {
-    study_text *text = cli_calloc(1, sizeof *text);
+    document *doc = cli_calloc(1, sizeof *doc);
     parsed_study base = {.of_case = {.samples = 400,
                                      .statistics = 1,
                                      .displacement = 1e-8,
                                      .starts = (1 << STUDY_STARTS) - 1}};
-    *plan = (study_plan){.place = place, .document = text, .copies = copies};
-    int status = study_text_parse(text, place, bytes, length);
+    *plan = (study_plan){.place = place, .document = doc, .copies = copies};
+    int status = document_parse(doc, place, bytes, length);
     if (status != CLI_DONE) return status;
-    yaml_node_t *root = yaml_document_get_root_node(&text->document);
-    status = parsed_study_read_study(&base, text, root);
+    yaml_node_t *root = yaml_document_get_root_node(&doc->yaml);
+    status = parsed_study_read_study(&base, doc, root);
     plan->title = base.title ? base.title : "A study";
-    if (status == CLI_DONE) status = read_systems(plan, text, root, &base);
+    if (status == CLI_DONE) status = read_systems(plan, doc, root, &base);
     if (status == CLI_DONE) status = make_cells(plan);
-    return status == CLI_DONE ? study_expect_read(plan, text, base.expect) : status;
+    return status == CLI_DONE ? study_expect_read(plan, doc, base.expect) : status;
 }
 
 static void free_case(study_case *e)
@@ -353,7 +351,7 @@ void study_plan_free(study_plan *plan)
 {
     for (int i = 0; i < plan->cell_count && plan->cells; i++) study_cell_free(&plan->cells[i]);
     for (int i = 0; i < plan->case_count; i++) free_case(&plan->cases[i]);
-    if (plan->document) yaml_document_delete(&((study_text *)plan->document)->document);
+    if (plan->document) yaml_document_delete(&((document *)plan->document)->yaml);
     free(plan->document);
     free(plan->cases);
     free(plan->cells);

@@ -26,42 +26,41 @@ typedef struct range {
     study_values *values;
 } range;
 
-static int take_part(range *r, int part, const char *name, const study_text *text,
-                     yaml_node_t *value)
+static int take_part(range *r, int part, const char *name, const document *doc, yaml_node_t *value)
 {
     r->has[part] = 1;
-    return study_text_number(text, value, name, &r->part[part]);
+    return document_number(doc, value, name, &r->part[part]);
 }
 
 #define TAKE(name)                                                                                 \
-    static int take_##name(void *user, const study_text *text, yaml_node_t *value)                 \
+    static int take_##name(void *user, const document *doc, yaml_node_t *value)                    \
     {                                                                                              \
-        return take_part(user, RANGE_##name, #name, text, value);                                  \
+        return take_part(user, RANGE_##name, #name, doc, value);                                   \
     }
 TAKE(from)
 TAKE(to)
 TAKE(count)
 TAKE(by)
 
-static int take_between(void *user, const study_text *text, yaml_node_t *value)
+static int take_between(void *user, const document *doc, yaml_node_t *value)
 {
     study_values *v = ((range *)user)->values;
-    if (value->type != YAML_SEQUENCE_NODE || study_text_count(value) != 2)
-        return study_text_fail(text, value, "between: two numbers are wanted, [LOW, HIGH]");
-    int status = study_text_number(text, study_text_item(text, value, 0), "between", &v->low);
+    if (value->type != YAML_SEQUENCE_NODE || document_count(value) != 2)
+        return document_fail(doc, value, "between: two numbers are wanted, [LOW, HIGH]");
+    int status = document_number(doc, document_item(doc, value, 0), "between", &v->low);
     if (status == CLI_DONE)
-        status = study_text_number(text, study_text_item(text, value, 1), "between", &v->high);
+        status = document_number(doc, document_item(doc, value, 1), "between", &v->high);
     if (status == CLI_DONE && !(v->low < v->high))
-        return study_text_fail(text, value, "between: %g is not below %g", v->low, v->high);
+        return document_fail(doc, value, "between: %g is not below %g", v->low, v->high);
     v->is_drawn = 1;
     return status;
 }
 
-static const study_key range_keys[] = {{"from", take_from},
-                                       {"to", take_to},
-                                       {"count", take_count},
-                                       {"by", take_by},
-                                       {"between", take_between}};
+static const document_key range_keys[] = {{"from", take_from},
+                                          {"to", take_to},
+                                          {"count", take_count},
+                                          {"by", take_by},
+                                          {"between", take_between}};
 
 static void make_room(study_values *v, int count)
 {
@@ -79,18 +78,18 @@ static int range_count(const range *r)
     return count == 1.0 && !r->has[RANGE_by] && distance != 0.0 ? 0 : (int)count;
 }
 
-static int make_range(const range *r, const study_text *text, const yaml_node_t *node,
+static int make_range(const range *r, const document *doc, const yaml_node_t *node,
                       const char *what)
 {
     study_values *v = r->values;
     const double a = r->part[RANGE_from], b = r->part[RANGE_to];
     if (!r->has[RANGE_from] || !r->has[RANGE_to] || r->has[RANGE_count] == r->has[RANGE_by])
-        return study_text_fail(text, node,
-                               "%s: a range is {from:, to:, count:} or {from:, to:, by:}", what);
+        return document_fail(doc, node, "%s: a range is {from:, to:, count:} or {from:, to:, by:}",
+                             what);
     const int count = range_count(r);
     if (count == 0)
-        return study_text_fail(text, node, "%s: this range does not have 1..%d values", what,
-                               STUDY_VALUES_MOST);
+        return document_fail(doc, node, "%s: this range does not have 1..%d values", what,
+                             STUDY_VALUES_MOST);
     make_room(v, count);
     for (int k = 0; k < count; k++)
         v->value[k] = r->has[RANGE_by] ? a + k * r->part[RANGE_by]
@@ -99,33 +98,32 @@ static int make_range(const range *r, const study_text *text, const yaml_node_t 
     return CLI_DONE;
 }
 
-static int read_range(study_values *v, const study_text *text, yaml_node_t *node, const char *what)
+static int read_range(study_values *v, const document *doc, yaml_node_t *node, const char *what)
 {
     range r = {.values = v};
     const int count = sizeof range_keys / sizeof range_keys[0];
-    int status = study_text_mapping(text, node, what, range_keys, count, &r);
+    int status = document_read_mapping(doc, node, what, range_keys, count, &r);
     if (status != CLI_DONE) return status;
     const int parts = r.has[RANGE_from] + r.has[RANGE_to] + r.has[RANGE_count] + r.has[RANGE_by];
-    if (!v->is_drawn) return make_range(&r, text, node, what);
+    if (!v->is_drawn) return make_range(&r, doc, node, what);
     if (parts == 0) return CLI_DONE;
-    return study_text_fail(text, node, "%s: between goes with nothing else", what);
+    return document_fail(doc, node, "%s: between goes with nothing else", what);
 }
 
 /* ---- the whole ---- */
 
-int study_values_read(study_values *v, const study_text *text, yaml_node_t *node, const char *what)
+int study_values_read(study_values *v, const document *doc, yaml_node_t *node, const char *what)
 {
     *v = (study_values){0};
-    if (node->type == YAML_MAPPING_NODE) return read_range(v, text, node, what);
-    const int count = study_text_count(node);
-    if (count == 0) return study_text_fail(text, node, "%s: the list is empty", what);
+    if (node->type == YAML_MAPPING_NODE) return read_range(v, doc, node, what);
+    const int count = document_count(node);
+    if (count == 0) return document_fail(doc, node, "%s: the list is empty", what);
     if (count > STUDY_VALUES_MOST)
-        return study_text_fail(text, node, "%s: %d values, not 1..%d", what, count,
-                               STUDY_VALUES_MOST);
+        return document_fail(doc, node, "%s: %d values, not 1..%d", what, count, STUDY_VALUES_MOST);
     int status = CLI_DONE;
     make_room(v, count);
     for (int i = 0; i < count && status == CLI_DONE; i++)
-        status = study_text_number(text, study_text_item(text, node, i), what, &v->value[i]);
+        status = document_number(doc, document_item(doc, node, i), what, &v->value[i]);
     return status;
 }
 

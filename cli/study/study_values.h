@@ -21,7 +21,7 @@ typedef struct study_values {
 enum { STUDY_VALUES_MOST = 10000 };
 
 /* Returns CLI_DONE or prints and returns an exit status; study_values_free it in any case. */
-int study_values_read(study_values *values, const study_text *text, yaml_node_t *node,
+int study_values_read(study_values *values, const document *doc, yaml_node_t *node,
                       const char *what);
 void study_values_free(study_values *values);
 

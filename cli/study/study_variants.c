@@ -17,7 +17,7 @@ typedef struct setting {
 } setting;
 
 struct study_variants {
-    const study_text *text;
+    const document *doc;
     const yaml_node_t *start_node;
     setting *setting;
     int count, of_set; /* those of set come first */
@@ -41,33 +41,33 @@ static const char *choose_format(const study_values *values)
 }
 
 /* e alone may be infinite. */
-static int read_value(setting *s, const study_text *text, yaml_node_t *node, const char *what)
+static int read_value(setting *s, const document *doc, yaml_node_t *node, const char *what)
 {
     const int is_scalar = node->type == YAML_SCALAR_NODE;
     if (!is_scalar || strcmp(s->name, "e") != 0 ||
         strcmp((const char *)node->data.scalar.value, "inf") != 0)
-        return study_values_read(&s->values, text, node, what);
+        return study_values_read(&s->values, doc, node, what);
     s->values = (study_values){.value = cli_malloc(sizeof(double)), .count = 1};
     s->values.value[0] = INFINITY;
     return CLI_DONE;
 }
 
-static int read_settings(study_variants *v, const study_text *text, yaml_node_t *node,
+static int read_settings(study_variants *v, const document *doc, yaml_node_t *node,
                          const char *what)
 {
     if (!node) return CLI_DONE;
     if (node->type != YAML_MAPPING_NODE)
-        return study_text_fail(text, node, "%s: names and values are wanted", what);
+        return document_fail(doc, node, "%s: names and values are wanted", what);
     const yaml_node_pair_t *pair = node->data.mapping.pairs.start;
     for (; pair < node->data.mapping.pairs.top; pair++) {
         setting *s = &v->setting[v->count++];
-        const yaml_node_t *key = study_text_node(text, pair->key);
-        s->name = study_text_scalar(text, key, what);
+        const yaml_node_t *key = document_node(doc, pair->key);
+        s->name = document_scalar(doc, key, what);
         if (!s->name) return CLI_USAGE;
         for (const setting *other = s - 1; other >= v->setting + v->of_set; other--)
             if (strcmp(other->name, s->name) == 0)
-                return study_text_fail(text, key, "%s: '%s' comes twice", what, s->name);
-        int status = read_value(s, text, study_text_node(text, pair->value), what);
+                return document_fail(doc, key, "%s: '%s' comes twice", what, s->name);
+        int status = read_value(s, doc, document_node(doc, pair->value), what);
         if (status != CLI_DONE) return status;
         s->format = choose_format(&s->values);
         v->drawn += s->values.is_drawn;
@@ -75,33 +75,33 @@ static int read_settings(study_variants *v, const study_text *text, yaml_node_t 
     return CLI_DONE;
 }
 
-static int read_seeds(study_variants *v, const study_text *text, const parsed_study *d)
+static int read_seeds(study_variants *v, const document *doc, const parsed_study *d)
 {
     const yaml_node_t *place = d->set ? d->set : d->start;
     if (v->drawn == 0 && !d->seeds) return CLI_DONE;
     if (!d->seeds)
-        return study_text_fail(text, place, "what is drawn wants seeds: give a list of them");
-    int status = study_values_read(&v->seed.values, text, d->seeds, "seeds");
+        return document_fail(doc, place, "what is drawn wants seeds: give a list of them");
+    int status = study_values_read(&v->seed.values, doc, d->seeds, "seeds");
     if (status != CLI_DONE) return status;
     v->seed.name = "seed";
     v->seed.format = "%.17g";
-    if (v->seed.values.is_drawn) return study_text_fail(text, d->seeds, "seeds: not to be drawn");
+    if (v->seed.values.is_drawn) return document_fail(doc, d->seeds, "seeds: not to be drawn");
     for (int i = 0; i < v->seed.values.count; i++) {
         const double seed = v->seed.values.value[i];
         if (!(seed >= 0.0 && seed <= 0x1p53) || seed != floor(seed))
-            return study_text_fail(text, d->seeds, "seeds: %g is not an integer in 0..2^53", seed);
+            return document_fail(doc, d->seeds, "seeds: %g is not an integer in 0..2^53", seed);
     }
     return CLI_DONE;
 }
 
-static int combine(study_variants *v, const study_text *text, const yaml_node_t *node)
+static int combine(study_variants *v, const document *doc, const yaml_node_t *node)
 {
     double count = v->drawn ? v->seed.values.count : 1;
     for (int i = 0; i < v->count; i++)
         if (!v->setting[i].values.is_drawn) count *= v->setting[i].values.count;
     if (count > STUDY_VALUES_MOST)
-        return study_text_fail(text, node, "%g combinations of values, not 1..%d", count,
-                               STUDY_VALUES_MOST);
+        return document_fail(doc, node, "%g combinations of values, not 1..%d", count,
+                             STUDY_VALUES_MOST);
     v->combinations = (int)count;
     return CLI_DONE;
 }
@@ -112,20 +112,20 @@ static size_t pairs(const yaml_node_t *node)
     return (size_t)(node->data.mapping.pairs.top - node->data.mapping.pairs.start);
 }
 
-int study_variants_read(study_variants **variants, const study_text *text, const parsed_study *d,
+int study_variants_read(study_variants **variants, const document *doc, const parsed_study *d,
                         int *count)
 {
     study_variants *v = *variants = cli_calloc(1, sizeof *v);
     v->setting = cli_calloc(pairs(d->set) + pairs(d->start) + 1, sizeof *v->setting);
-    v->text = text;
+    v->doc = doc;
     v->start_node = d->start;
-    int status = read_settings(v, text, d->set, "set");
+    int status = read_settings(v, doc, d->set, "set");
     const int of_set = v->of_set = v->count, set_drawn = v->drawn;
-    if (status == CLI_DONE) status = read_settings(v, text, d->start, "start");
+    if (status == CLI_DONE) status = read_settings(v, doc, d->start, "start");
     v->of_set = of_set;
     v->start_drawn = v->drawn - set_drawn;
-    if (status == CLI_DONE) status = read_seeds(v, text, d);
-    if (status == CLI_DONE) status = combine(v, text, d->set ? d->set : d->start);
+    if (status == CLI_DONE) status = read_seeds(v, doc, d);
+    if (status == CLI_DONE) status = combine(v, doc, d->set ? d->set : d->start);
     *count = v->combinations;
     return status;
 }
@@ -260,9 +260,8 @@ int study_variants_project_start(const study_variants *v, study_case *e)
     const dal_status found = find_velocities(e, x, &error);
     int status = CLI_DONE;
     if (!cli_is_ok(found))
-        status =
-            study_text_fail(v->text, v->start_node, "%s: no start on D = 0 was found: %s", e->label,
-                            error.message[0] ? error.message : dal_status_text(found));
+        status = document_fail(v->doc, v->start_node, "%s: no start on D = 0 was found: %s",
+                               e->label, error.message[0] ? error.message : dal_status_text(found));
     else
         replace_velocities(e, x + e->system->n);
     free(x);
