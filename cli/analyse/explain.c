@@ -28,7 +28,7 @@ static const char notes[] =
 typedef struct wishes {
     long long early;
     const char *output;
-    cli_native native;
+    native_mode native;
     const run_request *request;
 } wishes;
 
@@ -44,7 +44,7 @@ static dal_status step(void *user, double done)
 static void begin(void *user, dal_run *run, long long steps)
 {
     const wishes *w = user;
-    native_use(run, &w->request->method, (double)steps, w->native);
+    native_compile_steps(run, &w->request->method, (double)steps, w->native);
 }
 
 /* ---- in words ---- */
@@ -235,7 +235,7 @@ static int take(run_request *request, wishes *w, int option, const char *value)
         w->output = value;
         return CLI_DONE;
     case OWN_NATIVE:
-        return native_read(value, &w->native);
+        return native_parse(value, &w->native);
     default:
         return request_parse_option(request, option, value);
     }

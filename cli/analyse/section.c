@@ -48,7 +48,7 @@ typedef struct wishes {
     const char *on, *axes, *output;
     int direction;
     double transient;
-    cli_native native;
+    native_mode native;
 } wishes;
 
 typedef struct section {
@@ -88,7 +88,7 @@ static int take(void *user, int k, const char *value)
         w->axes = value;
         return CLI_DONE;
     case OWN_native:
-        return native_read(value, &w->native);
+        return native_parse(value, &w->native);
     default:
         w->output = value;
         return CLI_DONE;
@@ -229,8 +229,8 @@ static int go(section *s, const char *path)
     int status = writer_create(&s->table, path, s->names, s->columns);
     if (status == CLI_DONE) {
         cli_catch_signals();
-        native_use(s->request.run, &s->request.method, s->request.time / s->request.options.step,
-                   s->w->native);
+        native_compile_steps(s->request.run, &s->request.method,
+                             s->request.time / s->request.options.step, s->w->native);
         const dal_status crossed =
             dal_run_crossings(s->request.run, s->request.time, &poincare, &found, &error);
         cli_progress_end();

@@ -53,7 +53,7 @@ static void list_options(cli_option *options)
 
 static int write_text(const char *text, const char *output)
 {
-    if (strcmp(output, "-") != 0) return file_replace(output, text, strlen(text));
+    if (strcmp(output, "-") != 0) return file_replace(output, text, strlen(text), 1);
     fputs(text, stdout);
     return cli_close(stdout, "standard output");
 }

@@ -29,7 +29,7 @@ static int holds_study(const char *directory)
     return holds;
 }
 
-static int resume_run(const char *directory, const run_wishes *wishes)
+static int resume_run(const char *directory, const run_settings *settings)
 {
     run_directory dir;
     run_request request = request_default();
@@ -37,24 +37,24 @@ static int resume_run(const char *directory, const run_wishes *wishes)
     int status = run_directory_read(&dir, &request);
     if (status == CLI_DONE) status = request_create_run(&request);
     if (status == CLI_DONE) status = run_directory_lock(&dir, 0);
-    if (status == CLI_DONE) status = run_integrate(&request, &dir, wishes);
+    if (status == CLI_DONE) status = run_integrate(&request, &dir, settings);
     request_free(&request);
     run_directory_close(&dir);
     return status;
 }
 
-static int resume(const char *directory, const run_wishes *wishes, long long threads)
+static int resume(const char *directory, const run_settings *settings, long long threads)
 {
-    if (!holds_study(directory)) return resume_run(directory, wishes);
+    if (!holds_study(directory)) return resume_run(directory, settings);
     return study_resume(directory,
-                        &(study_run_options){(int)threads, wishes->interval, wishes->native});
+                        &(study_run_options){(int)threads, settings->interval, settings->native});
 }
 
-static int take(run_wishes *wishes, long long *threads, const char **directory, int option,
+static int take(run_settings *settings, long long *threads, const char **directory, int option,
                 const char *value)
 {
     if (option == OPTION_threads) return cli_integer("--threads", value, 1, POOL_MOST, threads);
-    if (option != CLI_PLAIN) return run_take(wishes, RUN_checkpoint + option, value);
+    if (option != CLI_PLAIN) return run_parse_setting(settings, RUN_checkpoint + option, value);
     if (*directory) return cli_fail(CLI_USAGE, "resume: one DIR only, not also '%s'", value);
     *directory = value;
     return CLI_DONE;
@@ -69,12 +69,12 @@ int command_resume(int argc, char **argv)
     cli_args args = cli_begin(argc, argv, options, OPTIONS, notes);
     const char *value, *directory = NULL;
     long long threads = pool_threads();
-    run_wishes wishes = run_wish();
+    run_settings settings = run_settings_default();
     for (int k; (k = cli_next(&args, &value)) != CLI_STOP;) {
-        const int taken = take(&wishes, &threads, &directory, k, value);
+        const int taken = take(&settings, &threads, &directory, k, value);
         if (taken != CLI_DONE) cli_stop(&args, taken);
     }
     if (args.status != CLI_GO_ON) return args.status;
     if (!directory) return cli_fail(CLI_USAGE, "resume: the DIR is missing");
-    return resume(directory, &wishes, threads);
+    return resume(directory, &settings, threads);
 }

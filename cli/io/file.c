@@ -35,7 +35,7 @@ char *file_read(const char *path, size_t *length)
     return text;
 }
 
-static int write_all(int descriptor, const void *bytes, size_t length, int settle)
+static int write_all(int descriptor, const void *bytes, size_t length, int sync)
 {
     const char *from = bytes;
     while (length) {
@@ -45,12 +45,12 @@ static int write_all(int descriptor, const void *bytes, size_t length, int settl
         from += n;
         length -= (size_t)n;
     }
-    return !settle || fsync(descriptor) == 0;
+    return !sync || fsync(descriptor) == 0;
 }
 
 /* A rename is on the disk when the directory is; where a directory cannot be synchronised
  * (some network file systems) the rename is as safe as that system makes it. */
-static void settle_directory(const char *path)
+static void sync_directory(const char *path)
 {
     const char *slash = strrchr(path, '/');
     char *directory = slash ? cli_strndup(path, (size_t)(slash - path) + 1) : cli_strdup(".");
@@ -62,11 +62,11 @@ static void settle_directory(const char *path)
     free(directory);
 }
 
-int file_write(const char *path, const void *bytes, size_t length, int settle)
+int file_write(const char *path, const void *bytes, size_t length, int sync)
 {
     int descriptor = open(path, O_WRONLY | O_CREAT | O_TRUNC, 0666);
     if (descriptor < 0) return cli_io("write", path);
-    int written = write_all(descriptor, bytes, length, settle);
+    int written = write_all(descriptor, bytes, length, sync);
     int reason = errno;
     if (close(descriptor) != 0 && written) {
         written = 0;
@@ -76,28 +76,23 @@ int file_write(const char *path, const void *bytes, size_t length, int settle)
     return written ? CLI_DONE : cli_io("write", path);
 }
 
-int file_rename(const char *from, const char *to, int settle)
+int file_rename(const char *from, const char *to, int sync)
 {
     if (rename(from, to) != 0) return cli_io("write", to);
-    if (settle) settle_directory(to);
+    if (sync) sync_directory(to);
     return CLI_DONE;
 }
 
-int file_swap(const char *path, const void *bytes, size_t length, int settle)
+int file_replace(const char *path, const void *bytes, size_t length, int sync)
 {
     char *fresh = cli_format("%s.new", path);
     cli_hold_exit();
-    int status = file_write(fresh, bytes, length, settle);
-    if (status == CLI_DONE) status = file_rename(fresh, path, settle);
+    int status = file_write(fresh, bytes, length, sync);
+    if (status == CLI_DONE) status = file_rename(fresh, path, sync);
     if (status != CLI_DONE) unlink(fresh);
     cli_release_exit();
     free(fresh);
     return status;
-}
-
-int file_replace(const char *path, const void *bytes, size_t length)
-{
-    return file_swap(path, bytes, length, 1);
 }
 
 int file_remove(const char *path)

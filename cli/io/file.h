@@ -8,14 +8,13 @@
 
 /* The bytes of a file and a NUL, allocated; NULL after a message. */
 char *file_read(const char *path, size_t *length);
-/* Writes a file; renames one.  With settle they wait until that is on the disk, so that it outlives
+/* Writes a file; renames one.  With sync they wait until that is on the disk, so that it outlives
  * a power cut and not only the process. */
-int file_write(const char *path, const void *bytes, size_t length, int settle);
-int file_rename(const char *from, const char *to, int settle);
-/* Writes PATH.new and renames it, so that PATH is never half written; the first waits for the disk.
- * Return CLI_DONE or print and return CLI_IO. */
-int file_replace(const char *path, const void *bytes, size_t length);
-int file_swap(const char *path, const void *bytes, size_t length, int settle);
+int file_write(const char *path, const void *bytes, size_t length, int sync);
+int file_rename(const char *from, const char *to, int sync);
+/* Writes PATH.new and renames it, so that PATH is never half written.  Return CLI_DONE or print and
+ * return CLI_IO. */
+int file_replace(const char *path, const void *bytes, size_t length, int sync);
 /* Removes a file that may be absent. */
 int file_remove(const char *path);
 

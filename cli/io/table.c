@@ -206,10 +206,10 @@ static int put_row(trajectory_writer *writer, const double *values)
     return ++writer->pending < writer->capacity ? CLI_DONE : flush(writer);
 }
 
-static int settle_npy(trajectory_writer *writer, int settle)
+static int sync_npy(trajectory_writer *writer, int sync)
 {
     if (flush(writer) != CLI_DONE) return CLI_IO;
-    if ((settle && fsync(writer->descriptor) != 0) || !announce(writer)) return failed(writer);
+    if ((sync && fsync(writer->descriptor) != 0) || !announce(writer)) return failed(writer);
     return CLI_DONE;
 }
 
@@ -276,9 +276,9 @@ int writer_append(trajectory_writer *writer, const double *values)
     return writer->file ? put_line(writer, values) : put_row(writer, values);
 }
 
-int writer_sync(trajectory_writer *writer, int settle)
+int writer_sync(trajectory_writer *writer, int sync)
 {
-    if (!writer->file) return settle_npy(writer, settle);
+    if (!writer->file) return sync_npy(writer, sync);
     return fflush(writer->file) == 0 ? CLI_DONE : failed(writer);
 }
 

@@ -37,8 +37,8 @@ int writer_verify(const trajectory_writer *writer, long long rows, const row_sum
 /* Goes on behind the first rows of it, of that sum; the rest is cut off. */
 int writer_continue(trajectory_writer *writer, long long rows, const row_sum *sum);
 int writer_append(trajectory_writer *writer, const double *values);
-/* Writes all rows so far and then their number; with settle the rows are on the disk before. */
-int writer_sync(trajectory_writer *writer, int settle);
+/* Writes all rows so far and then their number; with sync the rows are on the disk before. */
+int writer_sync(trajectory_writer *writer, int sync);
 /* The file tells of all rows that are in it whole, also after a failure. */
 int writer_close(trajectory_writer *writer);
 

@@ -35,16 +35,16 @@ static const char notes[] =
 
 /* What all ranks must know; the texts of the study are read from its directory. */
 enum { PATH = 4096 };
-typedef struct wishes {
+typedef struct settings {
     char output[PATH];
     double interval;
     int native, force, resume, status; /* status: what rank 0 found of the arguments */
     const char *study;                 /* of rank 0 alone */
-} wishes;
+} settings;
 
-static int take(wishes *w, int option, const char *value)
+static int take(settings *w, int option, const char *value)
 {
-    cli_native native;
+    native_mode native;
     switch (option) {
     case OWN_output:
         if (strlen(value) >= sizeof w->output)
@@ -52,9 +52,9 @@ static int take(wishes *w, int option, const char *value)
         memcpy(w->output, value, strlen(value) + 1);
         return CLI_DONE;
     case OWN_checkpoint:
-        return run_take_interval(value, &w->interval);
+        return run_parse_interval(value, &w->interval);
     case OWN_native:
-        if (native_read(value, &native) != CLI_DONE) return CLI_USAGE;
+        if (native_parse(value, &native) != CLI_DONE) return CLI_USAGE;
         w->native = native;
         return CLI_DONE;
     case OWN_force:
@@ -70,7 +70,7 @@ static int take(wishes *w, int option, const char *value)
     }
 }
 
-static int check(const wishes *w)
+static int check(const settings *w)
 {
     if (!w->output[0]) return cli_fail(CLI_USAGE, "--output is missing");
     if (w->resume && w->study)
@@ -79,7 +79,7 @@ static int check(const wishes *w)
     return CLI_GO_ON;
 }
 
-static int read_arguments(wishes *w, int argc, char **argv)
+static int read_arguments(settings *w, int argc, char **argv)
 {
     cli_args args = cli_begin(argc, argv, options, OWN_OPTIONS, notes);
     const char *value;
@@ -93,7 +93,7 @@ static int read_arguments(wishes *w, int argc, char **argv)
 /* ---- the study ---- */
 
 /* Describes a new study in its directory, where all ranks then read it. */
-static int describe(const wishes *w)
+static int describe(const settings *w)
 {
     size_t length;
     study_plan plan = {0};
@@ -199,7 +199,7 @@ static int finish(study_plan *plan, const study_directory *dir, int status)
     return study_directory_finish(dir, plan, study_pool_run(plan, pool_threads()));
 }
 
-static int run_study(const wishes *w, int rank, int size)
+static int run_study(const settings *w, int rank, int size)
 {
     study_plan plan = {0};
     study_directory dir = {0};
@@ -208,7 +208,7 @@ static int run_study(const wishes *w, int rank, int size)
     int status = study_directory_read(&dir, &plan);
     t.order = study_sort_cells(&plan);
     plan.interval = w->interval;
-    for (int i = 0; i < plan.case_count; i++) plan.cases[i].native = (cli_native)w->native;
+    for (int i = 0; i < plan.case_count; i++) plan.cases[i].native = (native_mode)w->native;
     status = agree(status);
     if (status == CLI_DONE) {
         cli_catch_signals();
@@ -224,7 +224,7 @@ static int run_study(const wishes *w, int rank, int size)
 
 static int start(int argc, char **argv, int rank, int size)
 {
-    wishes w = {.interval = run_wish().interval};
+    settings w = {.interval = run_settings_default().interval};
     if (rank == 0) {
         w.status = read_arguments(&w, argc, argv);
         const int described = w.status == CLI_GO_ON && !w.resume ? describe(&w) : CLI_DONE;

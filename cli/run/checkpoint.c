@@ -78,9 +78,9 @@ int checkpoint_save(const run_directory *dir, const run_position *position, cons
     const uint64_t sum = file_hash(FILE_HASH_START, text, words * WORD);
     append(place, &sum, 1);
     cli_hold_exit();
-    int status = file_write(dir->fresh, text, (words + 1) * WORD, dir->settle);
+    int status = file_write(dir->fresh, text, (words + 1) * WORD, dir->sync);
     if (status == CLI_DONE) status = keep_the_one_before(dir);
-    if (status == CLI_DONE) status = file_rename(dir->fresh, dir->checkpoint, dir->settle);
+    if (status == CLI_DONE) status = file_rename(dir->fresh, dir->checkpoint, dir->sync);
     if (status != CLI_DONE) unlink(dir->fresh);
     cli_release_exit();
     free(text);

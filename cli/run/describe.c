@@ -82,7 +82,7 @@ static int copy(const run_directory *dir, const char *from)
     size_t length;
     char *text = file_read(from, &length);
     if (!text) return CLI_IO;
-    int status = file_swap(dir->system, text, length, dir->settle);
+    int status = file_replace(dir->system, text, length, dir->sync);
     free(text);
     return status;
 }

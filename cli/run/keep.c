@@ -17,7 +17,7 @@ int keep_open(cli_keep *keep, const run_request *request, const char *directory)
     run_directory *dir = &keep->dir;
     *keep = (cli_keep){0};
     run_directory_open(dir, directory);
-    dir->settle = 0;
+    dir->sync = 0;
     int status = cli_directory(directory);
     if (status == CLI_DONE) status = run_directory_lock(dir, !run_directory_has_run(dir));
     if (status == CLI_DONE)

@@ -63,7 +63,7 @@ int manifest_write(const run_directory *dir, const run_request *request,
     if (why[0]) json_text_member(out, ",\n  ", "message", why);
     fputs("\n}\n", out);
     cli_memstream_close(out);
-    const int status = file_swap(dir->manifest, text, length, dir->settle);
+    const int status = file_replace(dir->manifest, text, length, dir->sync);
     free(text);
     return status;
 }

@@ -14,7 +14,7 @@
 #define NS_LOOK     50.0
 #define WORTH_WHILE 5e8
 
-int native_read(const char *text, cli_native *native)
+int native_parse(const char *text, native_mode *native)
 {
     static const char *const words[] = {
 #define X(code, word) #word,
@@ -24,7 +24,7 @@ int native_read(const char *text, cli_native *native)
     enum { WORDS = sizeof words / sizeof words[0] };
     for (int i = 0; i < WORDS; i++) {
         if (strcmp(words[i], text) != 0) continue;
-        *native = (cli_native)i;
+        *native = (native_mode)i;
         return CLI_DONE;
     }
     return cli_fail(CLI_USAGE, "--native: '%s' is not auto, on or off", text);
@@ -81,7 +81,7 @@ static void compile(dal_run *run, compilation *of, atomic_flag *told, const char
     if (!cli_is_ok(status) && status != DAL_INTERRUPTED) tell(told, what, error.message);
 }
 
-void native_use(dal_run *run, const dal_method *method, double steps, cli_native native)
+void native_compile_steps(dal_run *run, const dal_method *method, double steps, native_mode native)
 {
     static atomic_flag told = ATOMIC_FLAG_INIT;
     const int is_explicit = (dal_method_claims(method) & DAL_EXPLICIT) != 0;
@@ -91,7 +91,7 @@ void native_use(dal_run *run, const dal_method *method, double steps, cli_native
     if (wanted) compile(run, dal_run_native, &told, "steps");
 }
 
-void native_look(dal_run *run, double looks, cli_native native)
+void native_compile_observables(dal_run *run, double looks, native_mode native)
 {
     static atomic_flag told = ATOMIC_FLAG_INIT;
     const int wanted = native == NATIVE_ON || (native == NATIVE_AUTO && pays(run, NS_LOOK, looks));

@@ -16,7 +16,7 @@ static const double json_interval = 1.0, line_interval = 0.1;
 
 enum { LINE = 256 };
 
-int progress_read(const char *text, cli_progress_kind *kind)
+int progress_parse(const char *text, cli_progress_kind *kind)
 {
     static const char *const words[] = {
 #define X(code, word) #word,

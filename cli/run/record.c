@@ -164,7 +164,7 @@ static dal_status sample(void *user, dal_run *run, long long row, double t)
 
 static int save(run_recorder *r, const dal_run *run)
 {
-    int status = writer_sync(&r->writer, r->dir->settle);
+    int status = writer_sync(&r->writer, r->dir->sync);
     r->position.sum = r->writer.sum;
     if (status == CLI_DONE)
         status = checkpoint_save(r->dir, &r->position, run, r->statistics, r->observables);
@@ -177,9 +177,9 @@ static int save(run_recorder *r, const dal_run *run)
 static int save_to_last(run_recorder *r, const dal_run *run)
 {
     int status = CLI_DONE;
-    if (!r->dir->settle) {
+    if (!r->dir->sync) {
         status = writer_sync(&r->writer, 0);
-        r->dir->settle = 1;
+        r->dir->sync = 1;
         if (status == CLI_DONE)
             status = manifest_write(r->dir, r->request, &r->position, "running", "");
     }

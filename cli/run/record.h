@@ -54,7 +54,7 @@ int recorder_is_finished(const run_recorder *recorder);
 const char *recorder_observable_name(const run_recorder *recorder, int i);
 
 /* Reads a word of the list above.  Returns CLI_DONE or prints and returns CLI_USAGE. */
-int progress_read(const char *text, cli_progress_kind *kind);
+int progress_parse(const char *text, cli_progress_kind *kind);
 /* Tells how far the run has come, not too often; at the end in any case, where that is asked. */
 void progress_show(run_recorder *recorder, double t, int at_the_end);
 

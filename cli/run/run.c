@@ -28,7 +28,7 @@ static const char run_notes[] =
     "the\n"
     "motion does not conserve it.\n";
 
-int run_take_interval(const char *text, double *interval)
+int run_parse_interval(const char *text, double *interval)
 {
     int status = cli_number("--checkpoint", text, interval);
     if (status == CLI_DONE && *interval < 0.0)
@@ -36,30 +36,30 @@ int run_take_interval(const char *text, double *interval)
     return status;
 }
 
-run_wishes run_wish(void)
+run_settings run_settings_default(void)
 {
-    run_wishes wishes = {.output = run_options[RUN_output - REQUEST_OPTIONS].initial};
-    run_take_interval(run_options[RUN_checkpoint - REQUEST_OPTIONS].initial, &wishes.interval);
-    return wishes;
+    run_settings settings = {.output = run_options[RUN_output - REQUEST_OPTIONS].initial};
+    run_parse_interval(run_options[RUN_checkpoint - REQUEST_OPTIONS].initial, &settings.interval);
+    return settings;
 }
 
-int run_take(run_wishes *wishes, int option, const char *text)
+int run_parse_setting(run_settings *settings, int option, const char *text)
 {
     switch (option) {
     case RUN_output:
-        wishes->output = text;
+        settings->output = text;
         break;
     case RUN_checkpoint:
-        return run_take_interval(text, &wishes->interval);
+        return run_parse_interval(text, &settings->interval);
     case RUN_summary:
-        wishes->summary = 1;
+        settings->summary = 1;
         break;
     case RUN_progress:
-        return progress_read(text, &wishes->progress);
+        return progress_parse(text, &settings->progress);
     case RUN_native:
-        return native_read(text, &wishes->native);
+        return native_parse(text, &settings->native);
     case RUN_force:
-        wishes->force = 1;
+        settings->force = 1;
         break;
     }
     return CLI_DONE;
@@ -76,13 +76,13 @@ static void tell_end(const run_recorder *r, int status, const dal_error *error)
         cli_error(status, r->request->system_name, error);
 }
 
-int run_integrate(const run_request *request, run_directory *dir, const run_wishes *wishes)
+int run_integrate(const run_request *request, run_directory *dir, const run_settings *settings)
 {
     run_recorder recorder;
     dal_error error;
-    int status = recorder_open(&recorder, request, dir, wishes->output);
-    recorder.interval = wishes->interval;
-    recorder.progress = wishes->progress;
+    int status = recorder_open(&recorder, request, dir, settings->output);
+    recorder.interval = settings->interval;
+    recorder.progress = settings->progress;
     if (status == CLI_DONE && recorder_is_finished(&recorder)) {
         cli_fail(CLI_DONE, "'%s' is finished: %lld rows", dir->path, recorder.position.row);
     } else if (status == CLI_DONE) {
@@ -91,11 +91,12 @@ int run_integrate(const run_request *request, run_directory *dir, const run_wish
             cli_fail(CLI_DONE, "'%s' goes on from t = %g with row %lld", dir->path,
                      dal_run_time(request->run), recorder.position.row);
         const double steps = (request->time - dal_run_time(request->run)) / request->options.step;
-        native_use(request->run, &request->method, steps, wishes->native);
-        native_look(request->run, steps / (double)request->statistics, wishes->native);
+        native_compile_steps(request->run, &request->method, steps, settings->native);
+        native_compile_observables(request->run, steps / (double)request->statistics,
+                                   settings->native);
         status = recorder_run(&recorder, &error);
         tell_end(&recorder, status, &error);
-        if (wishes->summary || isatty(STDERR_FILENO)) summary_print(stderr, &recorder);
+        if (settings->summary || isatty(STDERR_FILENO)) summary_print(stderr, &recorder);
     }
     recorder_close(&recorder);
     return status;
@@ -103,12 +104,13 @@ int run_integrate(const run_request *request, run_directory *dir, const run_wish
 
 /* ---- run ----------------------------------------------------------------------------------- */
 
-static int run_in_directory(const run_request *request, const run_wishes *wishes)
+static int run_in_directory(const run_request *request, const run_settings *settings)
 {
     run_directory dir;
-    run_directory_open(&dir, wishes->output);
-    int status = cli_directory(wishes->output);
-    const char *held = status == CLI_DONE && !wishes->force ? run_directory_find_file(&dir) : NULL;
+    run_directory_open(&dir, settings->output);
+    int status = cli_directory(settings->output);
+    const char *held =
+        status == CLI_DONE && !settings->force ? run_directory_find_file(&dir) : NULL;
     if (held)
         status = cli_fail(CLI_USAGE,
                           "'%s' is there already: 'dalembert resume' goes on with a run, --force "
@@ -116,12 +118,12 @@ static int run_in_directory(const run_request *request, const run_wishes *wishes
                           held);
     if (status == CLI_DONE) status = run_directory_lock(&dir, 1);
     if (status == CLI_DONE) status = run_directory_begin(&dir, request);
-    if (status == CLI_DONE) status = run_integrate(request, &dir, wishes);
+    if (status == CLI_DONE) status = run_integrate(request, &dir, settings);
     run_directory_close(&dir);
     return status;
 }
 
-static int take(run_request *request, run_wishes *wishes, int option, const char *value)
+static int take(run_request *request, run_settings *settings, int option, const char *value)
 {
     if (option == CLI_PLAIN) {
         if (request->system_name)
@@ -130,7 +132,7 @@ static int take(run_request *request, run_wishes *wishes, int option, const char
         return CLI_DONE;
     }
     return option < REQUEST_OPTIONS ? request_parse_option(request, option, value)
-                                    : run_take(wishes, option, value);
+                                    : run_parse_setting(settings, option, value);
 }
 
 int command_run(int argc, char **argv)
@@ -140,17 +142,17 @@ int command_run(int argc, char **argv)
     memcpy(options + REQUEST_OPTIONS, run_options, sizeof run_options);
     cli_args args = cli_begin(argc, argv, options, RUN_OPTIONS, run_notes);
     run_request request = request_default();
-    run_wishes wishes = run_wish();
+    run_settings settings = run_settings_default();
     const char *value;
     for (int k; (k = cli_next(&args, &value)) != CLI_STOP;) {
-        int taken = take(&request, &wishes, k, value);
+        int taken = take(&request, &settings, k, value);
         if (taken != CLI_DONE) cli_stop(&args, taken);
     }
     int status = args.status;
     if (status == CLI_GO_ON) status = request_create_run(&request);
     if (args.status == CLI_GO_ON && status == CLI_DONE)
-        status = cli_is_directory(wishes.output) ? run_in_directory(&request, &wishes)
-                                                 : run_integrate(&request, NULL, &wishes);
+        status = cli_is_directory(settings.output) ? run_in_directory(&request, &settings)
+                                                   : run_integrate(&request, NULL, &settings);
     request_free(&request);
     return status;
 }

@@ -30,21 +30,21 @@ enum {
 extern const cli_option run_options[RUN_OWN];
 
 /* What concerns the output alone. */
-typedef struct run_wishes {
+typedef struct run_settings {
     const char *output;
     double interval;
     int summary, force;
-    cli_native native;
+    native_mode native;
     cli_progress_kind progress;
-} run_wishes;
+} run_settings;
 
 /* What holds when nothing is said. */
-run_wishes run_wish(void);
+run_settings run_settings_default(void);
 /* Takes one of these options, or the value of --checkpoint.  Returns CLI_DONE or prints and returns
  * an exit status. */
-int run_take(run_wishes *wishes, int option, const char *text);
-int run_take_interval(const char *text, double *interval);
+int run_parse_setting(run_settings *settings, int option, const char *text);
+int run_parse_interval(const char *text, double *interval);
 /* The integration itself, the request being made and the directory, if there is one, described. */
-int run_integrate(const run_request *request, run_directory *dir, const run_wishes *wishes);
+int run_integrate(const run_request *request, run_directory *dir, const run_settings *settings);
 
 #endif

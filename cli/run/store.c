@@ -9,7 +9,7 @@
 
 void run_directory_open(run_directory *dir, const char *directory)
 {
-    *dir = (run_directory){.path = directory, .descriptor = -1, .settle = 1};
+    *dir = (run_directory){.path = directory, .descriptor = -1, .sync = 1};
 #define X(name, file) dir->name = cli_join(directory, file);
     RUN_FILE_LIST(X)
 #undef X

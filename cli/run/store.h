@@ -36,7 +36,7 @@ typedef struct run_directory {
     document *doc;        /* manifest.json as it was read, where the texts of its request live */
     char *input;          /* what was asked for, as it stands in manifest.json */
     uint64_t fingerprint; /* of that and of the system */
-    int settle;           /* whether to wait until what is written is on the disk */
+    int sync;             /* whether to wait until what is written is on the disk */
     int descriptor;       /* of trajectory.npy, locked; -1 before, and when a table has taken it */
 } run_directory;
 

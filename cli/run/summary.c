@@ -56,7 +56,7 @@ int summary_write(const run_recorder *r, const char *path)
         fputc('\n', out);
     }
     cli_memstream_close(out);
-    const int status = file_swap(path, text, length, r->dir->settle);
+    const int status = file_replace(path, text, length, r->dir->sync);
     free(text);
     return status;
 }

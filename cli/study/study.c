@@ -16,14 +16,14 @@ static const char default_directory[] = "dalembert-study";
 
 /* ---- options ---- */
 
-typedef struct wishes {
+typedef struct settings {
     const char *study, *output;
     long long threads;
     double interval;
     study_shard shard;
     int show, force;
-    cli_native native;
-} wishes;
+    native_mode native;
+} settings;
 
 /* name, value, default, help */
 #define OWN_LIST(X)                                                                                \
@@ -85,7 +85,7 @@ static const char notes[] =
         "unless the study expects it.  A cell is refused, which is no failure, where the\n"
         "integrator needs what the system lacks.\n";
 
-static int take_shard(wishes *w, const char *text)
+static int take_shard(settings *w, const char *text)
 {
     const char *slash = strchr(text, '/');
     char number[32];
@@ -97,7 +97,7 @@ static int take_shard(wishes *w, const char *text)
     return cli_integer("--shard", number, 1, w->shard.count, &w->shard.number);
 }
 
-static int take(wishes *w, int option, const char *value)
+static int take(settings *w, int option, const char *value)
 {
     switch (option) {
     case OWN_output:
@@ -106,11 +106,11 @@ static int take(wishes *w, int option, const char *value)
     case OWN_threads:
         return cli_integer("--threads", value, 1, POOL_MOST, &w->threads);
     case OWN_checkpoint:
-        return run_take_interval(value, &w->interval);
+        return run_parse_interval(value, &w->interval);
     case OWN_shard:
         return take_shard(w, value);
     case OWN_native:
-        return native_read(value, &w->native);
+        return native_parse(value, &w->native);
     case OWN_force:
         w->force = 1;
         return CLI_DONE;
@@ -135,7 +135,7 @@ static int run_cells(study_plan *plan, const study_directory *dir, const study_r
 }
 
 /* A study that is over is written over where nobody named the directory: each is so by default. */
-static int begin(const wishes *w, study_directory *dir, study_plan *plan, const char *text,
+static int begin(const settings *w, study_directory *dir, study_plan *plan, const char *text,
                  size_t length)
 {
     study_directory_open(dir, w->output ? w->output : default_directory);
@@ -143,7 +143,7 @@ static int begin(const wishes *w, study_directory *dir, study_plan *plan, const 
     return study_directory_begin(dir, plan, text, length, w->shard, force);
 }
 
-static int run_text(const wishes *w, const char *text, size_t length)
+static int run_text(const settings *w, const char *text, size_t length)
 {
     study_plan plan = {0};
     study_directory dir = {0};
@@ -157,7 +157,7 @@ static int run_text(const wishes *w, const char *text, size_t length)
     return status;
 }
 
-static int run_study(const wishes *w)
+static int run_study(const settings *w)
 {
     size_t length = strlen(study_builtin_text);
     char *own = w->study ? file_read(w->study, &length) : NULL;
@@ -176,7 +176,7 @@ static int run_study(const wishes *w)
 
 int command_study(int argc, char **argv)
 {
-    wishes w = {.threads = pool_threads(), .interval = run_wish().interval};
+    settings w = {.threads = pool_threads(), .interval = run_settings_default().interval};
     cli_args args = cli_begin(argc, argv, options, OWN_OPTIONS, notes);
     const char *value;
     for (int k; (k = cli_next(&args, &value)) != CLI_STOP;) {

@@ -82,7 +82,7 @@ typedef struct study_case {
     dal_method *methods;
     int method_count;
     int first_cell, cells; /* its cells stand together */
-    cli_native native;
+    native_mode native;
 } study_case;
 
 typedef struct study_cell study_cell;
@@ -198,7 +198,7 @@ const study_cell *study_physical_cell(const study_plan *plan, const study_cell *
 typedef struct study_run_options {
     int threads;
     double interval; /* seconds between checkpoints of a run */
-    cli_native native;
+    native_mode native;
 } study_run_options;
 
 /* Goes on with the study in a directory.  Returns the exit status. */

@@ -264,7 +264,7 @@ static int go(walk *w, const study_stop_check *watch)
             w->keep.recorder.stop_user = watch->user;
         }
         w->keep.recorder.interval = w->plan->interval;
-        native_use(w->request.run, w->cell->method, left / w->cell->step, e->native);
+        native_compile_steps(w->request.run, w->cell->method, left / w->cell->step, e->native);
         ended = keep_go(&w->keep, &error);
     }
     if (ended != CLI_DONE && ended != CLI_FAILED) return ended;

@@ -56,7 +56,7 @@ static int tell_shard(const study_directory *dir, study_shard shard, void *user)
     FILE *out = cli_memstream_open(&text, &length);
     put_manifest(out, t->plan, shard, t->state);
     cli_memstream_close(out);
-    const int status = file_replace(path, text, length);
+    const int status = file_replace(path, text, length, 1);
     free(text);
     free(path);
     return status;

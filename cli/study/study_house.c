@@ -150,7 +150,7 @@ static int copy_system(const study_directory *dir, study_case *e)
     char *text = file_read(e->copy ? e->copy : e->name, &length);
     int status = text ? CLI_DONE : CLI_IO;
     if (text && !is_there(path))
-        status = file_replace(path, text, length);
+        status = file_replace(path, text, length, 1);
     else if (text && !equals(path, text, length))
         status =
             cli_fail(CLI_USAGE, "'%s' is of another study: '%s' differs", dir->directory, path);
@@ -205,7 +205,7 @@ static int make(study_directory *dir, study_plan *plan, const char *text, size_t
     if (status == CLI_DONE) status = cli_directory(dir->runs);
     if (status == CLI_DONE) status = copy_systems(dir, plan);
     if (status == CLI_DONE) status = study_directory_write_manifest(dir, plan, "running");
-    return status == CLI_DONE ? file_replace(dir->study, text, length) : status;
+    return status == CLI_DONE ? file_replace(dir->study, text, length, 1) : status;
 }
 
 /* Shards that begin in one directory at the same time come one after the other: the descriptor of

@@ -251,7 +251,7 @@ int study_write_expectations(const study_plan *plan, const char *path)
     fputs("label,integrator,start,step,quantity,expected,found,met\n", out);
     judge_all(out, plan, put_row, &count);
     cli_memstream_close(out);
-    const int status = file_replace(path, text, length);
+    const int status = file_replace(path, text, length, 1);
     free(text);
     return status;
 }
