@@ -27,8 +27,8 @@ typedef struct npy_columns {
     size_t offset; /* where the rows begin */
 } npy_columns;
 
-/* Reads what npy_make_header and npy_set_rows wrote.  Returns CLI_DONE or prints and returns CLI_USAGE
- * or CLI_IO. */
+/* Reads what npy_make_header and npy_set_rows wrote.  Returns CLI_DONE or prints and returns
+ * CLI_USAGE or CLI_IO. */
 int npy_read_header(npy_columns *columns, FILE *file, const char *path);
 void npy_free_columns(npy_columns *columns);
 

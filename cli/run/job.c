@@ -1,4 +1,4 @@
-/* request.c - from the options of a run to the run. */
+/* job.c - from the options of a run to the run. */
 #include "job.h"
 
 #include <stdlib.h>

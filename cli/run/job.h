@@ -67,23 +67,23 @@ void request_list_options(cli_option *options);
 int request_option_is_number(int option);
 /* The number of an option by its name, -1 for none. */
 int request_find_option(const char *name);
-/* Takes one option.  Returns CLI_DONE or prints and returns an exit status, as request_create_run. */
+/* Parses one option.  Returns CLI_DONE or prints and returns an exit status, as all below. */
 int request_parse_option(run_request *request, int option, const char *text);
-/* Takes a list of times or the file that holds one, or a word above; settles when rows are taken,
- * and that the time holds a step.  Return as request_parse_option.  Other than equally distant rows must fit
- * into memory. */
+/* Parses a list of times, or the file that holds one; and a word of the list above.  Decides when
+ * rows are taken, and checks that the time holds a step.  Times that are not equally distant are
+ * kept in memory. */
 enum { ROW_TIMES_MAX = 100000000 };
 int request_parse_times(run_request *request, const char *given);
 int request_parse_sampling(run_request *request, const char *word);
 int request_set_row_times(run_request *request);
-/* What is wrong with a step where there is not one in a time, or more than a double counts; NULL:
- * nothing.  The same said of --step. */
+/* Why a time cannot be divided into such steps: there is none in it, or more than a double counts;
+ * NULL where it can.  The second prints that of --step. */
 enum { REQUEST_STEP_TEXT = 128 };
 const char *request_step_error(double step, double time, char text[REQUEST_STEP_TEXT]);
 int request_check_step(const run_request *request, double time);
-/* Loads the system and makes the spec of its run; the space is settled here. */
+/* Loads the system, chooses the space and makes the spec of the run. */
 int request_make_spec(run_request *request, dal_run_spec *spec);
-/* When all has been taken: sees that nothing is missing and makes the spec; and the run as well. */
+/* After the last option: checks that none is missing and makes the spec; the second also the run. */
 int request_complete(run_request *request, dal_run_spec *spec);
 int request_create_run(run_request *request);
 

@@ -1,4 +1,4 @@
-/* dir.c - a directory that holds a run: its files, and who may write to them. */
+/* store.c - a directory that holds a run: its files, and who may write to them. */
 #include "store.h"
 
 #include <errno.h>

@@ -24,8 +24,8 @@
     X(quantities, "quantities.csv")                                                                \
     X(expectations, "expectations.csv")
 
-/* Cells k, k + n, k + 2n, ... of n shards; count 0: all cells, STUDY_ALL_SHARDS: those of all shards
- * that the directory tells of. */
+/* Cells k, k + n, k + 2n, ... of n shards; count 0: all cells, STUDY_ALL_SHARDS: the cells of all
+ * shards whose manifests are in the directory. */
 enum { STUDY_ALL_SHARDS = -1 };
 
 typedef struct study_shard {
