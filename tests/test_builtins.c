@@ -1,5 +1,5 @@
-/* test_builtins.c - every built-in system: its tags against its formulas, its exact solution against
- * a run, on (q,v) and on the lift. */
+/* test_builtins.c - every built-in system: its tags against its formulas, its exact solution
+ * against a run, on (q,v) and on the lift. */
 #include "motion.h"
 
 #include <CUnit/Basic.h>

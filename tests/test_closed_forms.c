@@ -1,5 +1,5 @@
-/* test_closed_forms.c - closed forms of systems whose files have none, for they need quadratures, hold
- * for some parameters only, or give a part of the motion. */
+/* test_closed_forms.c - closed forms of systems whose files have none, for they need quadratures,
+ * hold for some parameters only, or give a part of the motion. */
 #include "motion.h"
 
 #include <CUnit/Basic.h>

@@ -1,6 +1,6 @@
 /* test_systems.c - the built-in systems: their exact solutions against their own equations, their
- * invariants along the motion, the closed forms and reference end states of the literature, and what
- * is known of each. */
+ * invariants along the motion, the closed forms and reference end states of the literature, and
+ * what is known of each. */
 #include "body.h"
 
 #include <CUnit/Basic.h>
