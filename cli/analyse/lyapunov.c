@@ -1,124 +1,371 @@
-/* lyapunov.c - `dalembert lyapunov`: Lyapunov exponents of a motion, by the derivative of its
- * steps. */
-#include "spectrum.h"
+/* lyapunov.c - `dalembert lyapunov` and `dalembert volume`: a run with tangent vectors, whose means
+ * are the Lyapunov exponents and the rate of the volume of the phase space.
+ *
+ *     d/dt log(volume) = div (v, F) = trace F_v,     step: log|det J| / h
+ *
+ * On D = 0 the long-time mean is the same where log |grad D| stays bounded: D is constant on every
+ * level, and the densities of the levels differ by a total derivative. */
+#include "analysis.h"
+#include "io/gnuplot.h"
+#include "io/table.h"
 
+#include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
-/* name, value, default, help; behind those of spectrum.h */
-#define OWN_LIST(X) X(exponents, "K", NULL, "so many of them, the largest; otherwise all")
+/* Steps between two polls of the signals. */
+enum { CHUNK = 200, MAX_ROWS = 100000000, MAX_COLUMN_NAME = 24 };
 
-enum { OWN_FIRST = SPECTRUM_OPTIONS - 1, OWN_LIST(CLI_OWN) OPTIONS };
+typedef struct tangent_study {
+    bool is_volume;
+    run_request request;
+    const char *output;
+    double transient;
+    long long rows, exponents; /* exponents: 0 for all */
+    dal_spectrum *spectrum;
+    double begin; /* t at the beginning of the means */
+    /* A table of the means so far: its name, which is the file's and the figure's, and what it has
+     * beside t. */
+    const char *name, *ylabel;
+    int columns;
+    char **heads;   /* [1 + columns] */
+    double *values; /* [1 + columns] */
+    trajectory_writer table;
+} tangent_study;
 
-static const cli_option options[OPTIONS] = {SPECTRUM_OPTION_LIST(CLI_OPTION) OWN_LIST(CLI_OPTION)};
+/* ---- the run ------------------------------------------------------------------------------- */
 
-static const char notes[] =
-    "SYSTEM is a built-in name or the path of a system file.  On (q,v) tangent vectors are moved "
-    "by\n"
-    "the derivative of each step, and made orthonormal again: the means of the logarithms of what\n"
-    "they lose are the exponents, per unit of t, of the method's motion.  The derivative is exact\n"
-    "for Runge-Kutta, polarised and composed methods, and by differences for the others.\n"
-    "\n"
-    "--time is the time of the means, behind the transient.  The intervals are from block means;\n"
-    "they know nothing of a slow approach: exponents of regular motion fall like log(t)/t, and "
-    "what\n"
-    "is smaller than that is not distinguished from 0.  Every constraint adds an exponent 0, since "
-    "D\n"
-    "is constant on each level; a method that forces D = 0 has no direction for it.  All "
-    "exponents\n"
-    "together are the mean divergence of the motion, and on D = 0 the mean growth of log |grad D|\n"
-    "more.  The exit status is 3 when they differ by more than the error of the method: then the\n"
-    "derivative of the steps is not reliable.\n"
-    "\n"
-    "FILE and DIR/lyapunov.csv get rows t, lambda1, .., divergence: the means so far.\n";
-
-static int take(void *user, int k, const char *value)
+static int create_spectrum(tangent_study *s)
 {
-    spectrum_study *s = user;
-    if (k < SPECTRUM_OPTIONS) return spectrum_take(s, k, value);
-    return cli_integer("--exponents", value, 1, 1000000, &s->exponents);
+    run_request *request = &s->request;
+    const dal_system *tangent = NULL;
+    dal_error error = {0};
+    dal_run_spec spec;
+    request->options.space = DAL_PHYSICAL;
+    /* Creating a run of its own finds what is wrong with the options. */
+    int status = request_create_run(request);
+    if (status == CLI_DONE) status = request_make_spec(request, &spec);
+    if (status == CLI_DONE) status = request_check_step(request, s->transient + request->time);
+    if (status != CLI_DONE) return status;
+    /* A vakonomic system has no tangent system; its derivatives are differences. */
+    dal_status made = dal_model_tangent(request->model, &tangent, &error);
+    if (made == DAL_OK || made == DAL_UNSUPPORTED)
+        made = dal_spectrum_create(&s->spectrum, &spec, tangent, (int)s->exponents, &error);
+    return made == DAL_OK ? CLI_DONE
+                          : cli_error(cli_input_exit(made), request->system_name, &error);
 }
 
-static void fill(const dal_spectrum *spectrum, double *values)
+/* t, lambda1, .., divergence or t, divergence, step. */
+static void name_columns(tangent_study *s)
 {
-    const int count = dal_spectrum_count(spectrum);
-    dal_average a;
-    for (int i = 0; i < count; i++) {
-        dal_spectrum_exponent(spectrum, i, &a);
-        values[i] = a.mean;
+    const int count = dal_spectrum_count(s->spectrum);
+    s->name = s->is_volume ? "volume" : "lyapunov";
+    s->ylabel = s->is_volume ? "rate, mean so far" : "mean so far";
+    s->columns = s->is_volume ? 2 : count + 1;
+    const size_t heads = (size_t)s->columns + 1;
+    s->values = cli_calloc(heads, sizeof *s->values);
+    s->heads = cli_calloc(heads, sizeof *s->heads + MAX_COLUMN_NAME);
+    for (int i = 0; i <= s->columns; i++) {
+        s->heads[i] = (char *)(s->heads + heads) + i * MAX_COLUMN_NAME;
+        if (i == 0)
+            snprintf(s->heads[i], MAX_COLUMN_NAME, "t");
+        else if (i == (s->is_volume ? 1 : count + 1))
+            snprintf(s->heads[i], MAX_COLUMN_NAME, "divergence");
+        else if (s->is_volume)
+            snprintf(s->heads[i], MAX_COLUMN_NAME, "step");
+        else
+            snprintf(s->heads[i], MAX_COLUMN_NAME, "lambda%d", i);
     }
-    dal_spectrum_divergence(spectrum, &a);
-    values[count] = a.mean;
 }
 
-/* ---- telling ------------------------------------------------------------------------------- */
-
-static const char *word_of(const dal_average *a, double resolution)
+static int write_means(tangent_study *s)
 {
-    if (a->low > resolution) return "positive";
-    if (a->high < -resolution) return "negative";
+    dal_average divergence, other;
+    s->values[0] = dal_run_time(dal_spectrum_run(s->spectrum));
+    dal_spectrum_divergence(s->spectrum, &divergence);
+    s->values[s->is_volume ? 1 : s->columns] = divergence.mean;
+    if (s->is_volume) {
+        dal_spectrum_sum(s->spectrum, &other);
+        s->values[2] = other.mean;
+    }
+    for (int i = 0; !s->is_volume && i < s->columns - 1; i++) {
+        dal_spectrum_exponent(s->spectrum, i, &other);
+        s->values[1 + i] = other.mean;
+    }
+    return s->table.path ? writer_append(&s->table, s->values) : CLI_DONE;
+}
+
+static int advance_spectrum(tangent_study *s, long long steps)
+{
+    const dal_run *run = dal_spectrum_run(s->spectrum);
+    dal_status status = DAL_OK;
+    dal_error error = {0};
+    for (; steps > 0 && status == DAL_OK; steps -= CHUNK) {
+        if (cli_interrupted()) return CLI_SIGNAL;
+        cli_progress("t = %.6g of %.6g", dal_run_time(run), s->transient + s->request.time);
+        status = dal_spectrum_advance(s->spectrum, steps < CHUNK ? steps : CHUNK, &error);
+    }
+    return status == DAL_OK ? CLI_DONE
+                            : cli_error(cli_exit(status), s->request.system_name, &error);
+}
+
+/* The transient, then the rows at equal distances; after a failure or a signal the means so far are
+ * good. */
+static int run_to_end(tangent_study *s)
+{
+    const double h = s->request.options.step;
+    const long long total = llround(s->request.time / h), rows = s->rows < total ? s->rows : total;
+    int status = advance_spectrum(s, llround(s->transient / h));
+    dal_spectrum_forget(s->spectrum);
+    s->begin = dal_run_time(dal_spectrum_run(s->spectrum));
+    for (long long k = 1, done = 0; k <= rows && status == CLI_DONE; k++) {
+        const long long next = llround((double)k / (double)rows * (double)total);
+        status = advance_spectrum(s, next - done);
+        done = next;
+        if (status == CLI_DONE) status = write_means(s);
+    }
+    cli_progress_end();
+    return status;
+}
+
+static int draw_means(const tangent_study *s, const char *directory)
+{
+    char *path, title[256], method[128];
+    int missing;
+    FILE *script = gnuplot_open(directory, s->name, "svg", 800, 500, &path);
+    if (!script) return CLI_IO;
+    dal_method_name(&s->request.method, method, sizeof method);
+    snprintf(title, sizeof title, "%.80s, %.80s, h = %g", s->request.system_name, method,
+             s->request.options.step);
+    fputs("set title ", script);
+    gnuplot_quote(script, title);
+    fprintf(script,
+            "\nset xlabel 't'\nset ylabel '%s'\nset xrange [*:*] noextend\n"
+            "set key outside right top Left reverse samplen 2\nplot \\\n",
+            s->ylabel);
+    for (int i = 1; i <= s->columns; i++) {
+        fprintf(script, "  '%s.csv' using 1:%d with lines lw 1.4 dt %d lc rgb '%s' title ", s->name,
+                i + 1, 1 + i / GNUPLOT_COLOURS,
+                gnuplot_colour(GNUPLOT_COLOURS - 1 - i % GNUPLOT_COLOURS));
+        gnuplot_quote(script, s->heads[i]);
+        fputs(i < s->columns ? ", \\\n" : "\n", script);
+    }
+    const int status = gnuplot_draw(directory, script, path, &missing);
+    free(path);
+    return status;
+}
+
+static int run_with_table(tangent_study *s)
+{
+    analysis_output output = {0};
+    int status = s->output ? analysis_open(&output, s->output, s->name) : CLI_DONE;
+    if (status == CLI_DONE && output.table)
+        status = writer_create(&s->table, output.table, s->heads, s->columns + 1);
+    if (status == CLI_DONE) {
+        cli_catch_signals();
+        status = run_to_end(s);
+    }
+    const int closed = s->table.path ? writer_close(&s->table) : CLI_DONE;
+    if (status == CLI_DONE) status = closed;
+    if (status == CLI_DONE && output.directory) status = draw_means(s, output.directory);
+    free(output.table);
+    return status;
+}
+
+/* ---- the results --------------------------------------------------------------------------- */
+
+/* What cannot be distinguished from 0 after this time: exponents of regular motion are about
+ * log(T)/T. */
+static double resolution(const tangent_study *s)
+{
+    const double T = dal_run_time(dal_spectrum_run(s->spectrum)) - s->begin;
+    return log(fmax(T, 1.0) + 1.0) / fmax(T, 1.0);
+}
+
+static void print_mean(const char *name, const dal_average *a, const char *word)
+{
+    printf("%-24s %12.6g %12.5g %12.5g  %s\n", name, a->mean, a->low, a->high, word);
+}
+
+static const char *sign_word(const dal_average *a, double resolution, const char *positive,
+                             const char *negative)
+{
+    if (a->low > resolution) return positive;
+    if (a->high < -resolution) return negative;
     return "not distinguishable from 0";
 }
 
-static int print(spectrum_study *s)
+static void print_exponents(const tangent_study *s)
 {
-    const int count = dal_spectrum_count(s->spectrum);
-    const double resolution = spectrum_resolution(s);
     dal_average a;
-    spectrum_print_head(s);
-    for (int i = 0; i < count; i++) {
+    for (int i = 0; i < dal_spectrum_count(s->spectrum); i++) {
         char name[32];
         snprintf(name, sizeof name, "exponent %d", i + 1);
         dal_spectrum_exponent(s->spectrum, i, &a);
-        spectrum_print_mean(name, &a, word_of(&a, resolution));
+        print_mean(name, &a, sign_word(&a, resolution(s), "positive", "negative"));
     }
     dal_spectrum_sum(s->spectrum, &a);
-    spectrum_print_mean("their sum", &a, dal_spectrum_is_whole(s->spectrum) ? "all" : "not all");
+    print_mean("their sum", &a, dal_spectrum_is_whole(s->spectrum) ? "all" : "not all");
     dal_spectrum_divergence(s->spectrum, &a);
-    spectrum_print_mean("divergence of F", &a, "exact, at every step");
-    printf("\nregular motion may show exponents up to about log(T)/T = %.2g\n", resolution);
-    const int balanced = spectrum_print_balance(s);
+    print_mean("divergence of F", &a, "exact, at every step");
+    printf("\nexponents of regular motion may reach about log(T)/T = %.2g\n", resolution(s));
+}
+
+static void print_rate_of_volume(const tangent_study *s, const char *name, const dal_average *a)
+{
+    static const double rounding = 1e-11;
+    const bool is_zero = fabs(a->low) <= rounding && fabs(a->high) <= rounding;
+    print_mean(name, a,
+               is_zero ? "preserved at every step"
+                       : sign_word(a, resolution(s), "grows", "shrinks"));
+}
+
+static void print_volume(const tangent_study *s)
+{
+    dal_average motion, step;
+    dal_spectrum_divergence(s->spectrum, &motion);
+    dal_spectrum_sum(s->spectrum, &step);
+    print_rate_of_volume(s, "divergence of F", &motion);
+    print_rate_of_volume(s, "log|det J|/h of a step", &step);
+    printf("\n%d of %d directions; step less motion: %.2g\n", dal_spectrum_count(s->spectrum),
+           dal_run_dimension(dal_spectrum_run(s->spectrum)), step.mean - motion.mean);
+}
+
+/* The sum of the exponents against the divergence. */
+static int print_balance(const tangent_study *s)
+{
+    dal_balance b;
+    dal_error error;
+    if (dal_spectrum_balance(s->spectrum, &b, &error) != DAL_OK) {
+        printf("sum less divergence: not compared: %s\n", error.message);
+        return CLI_DONE;
+    }
+    printf("sum less divergence: %.2g; the error of the method is at most about %.2g\n",
+           b.difference, b.margin);
+    if (b.surface != 0.0)
+        printf("(the surface that the method enforces accounts for %.2g more)\n", b.surface);
+    if (b.holds) return CLI_DONE;
+    return cli_fail(CLI_FAILED,
+                    "%s: the sum of the exponents differs from the mean divergence by %g, more "
+                    "than %g: the derivative of the steps is not reliable",
+                    s->request.system_name, b.difference, b.margin);
+}
+
+static int print_means(const tangent_study *s)
+{
+    char method[128];
+    const dal_run *run = dal_spectrum_run(s->spectrum);
+    dal_method_name(&s->request.method, method, sizeof method);
+    printf("%s, %s, h = %g: means over t = %g .. %g\n", s->request.system_name, method,
+           s->request.options.step, s->begin, dal_run_time(run));
+    printf("the derivative of the step %s\n\n", dal_spectrum_is_exact(s->spectrum)
+                                                    ? "exact, by the tangent system"
+                                                    : "by differences of order 8");
+    printf("%-24s %12s %25s\n", "", "mean", "95 % interval");
+    if (s->is_volume)
+        print_volume(s);
+    else
+        print_exponents(s);
+    const int balanced = print_balance(s);
     const int closed = cli_close(stdout, "standard output");
     return closed != CLI_DONE ? closed : balanced;
 }
 
-/* ---- the command --------------------------------------------------------------------------- */
+/* ---- the commands -------------------------------------------------------------------------- */
 
-/* t, lambda1, .., divergence in one text; NULL when memory is out. */
-static char **name_columns(int count)
+/* The last one is of lyapunov alone.  name, value, default, help */
+#define OWN_LIST(OPTION)                                                                           \
+    OPTION(transient, "T0", "0", "the means begin at this time")                                   \
+    OPTION(rows, "N", "100", "rows of the table, at equal distances in t")                         \
+    OPTION(output, "DIR|FILE", NULL,                                                               \
+           "writes the means so far: .csv, .npy, or a directory with a figure")                    \
+    OPTION(exponents, "K", NULL, "computes the K largest only")
+
+enum { OWN_LIST(CLI_OWN) OWN_OPTIONS };
+
+static const cli_option own[OWN_OPTIONS] = {OWN_LIST(CLI_OPTION)};
+
+static int parse_option(void *user, int option, const char *value)
 {
-    enum { NAME = 24 };
-    char **names = cli_calloc((size_t)count + 2, sizeof *names + NAME);
-    char *text = (char *)(names + count + 2);
-    for (int i = 0; i < count + 2; i++) {
-        names[i] = text + i * NAME;
-        snprintf(names[i], NAME, "lambda%d", i);
+    tangent_study *s = user;
+    switch (option) {
+    case OWN_transient:
+        if (cli_number("--transient", value, &s->transient) != CLI_DONE) return CLI_USAGE;
+        if (s->transient >= 0.0) return CLI_DONE;
+        return cli_fail(CLI_USAGE, "--transient: %s is negative", value);
+    case OWN_rows:
+        return cli_integer("--rows", value, 1, MAX_ROWS, &s->rows);
+    case OWN_exponents:
+        return cli_integer("--exponents", value, 1, 1000000, &s->exponents);
+    default:
+        s->output = value;
+        return CLI_DONE;
     }
-    snprintf(names[0], NAME, "t");
-    snprintf(names[count + 1], NAME, "divergence");
-    return names;
 }
 
-static int go(spectrum_study *s)
+static int run_command(int argc, char **argv, bool is_volume, const char *notes)
 {
-    int status = spectrum_make(s);
-    if (status != CLI_DONE) return status;
-    const int count = dal_spectrum_count(s->spectrum);
-    char **names = name_columns(count);
-    const spectrum_table table = {"lyapunov", "mean so far", count + 1, names, fill};
-    status = spectrum_run(s, &table);
-    free(names);
-    if (status == CLI_IO || status == CLI_USAGE) return status;
-    const int printed = print(s);
-    return status == CLI_DONE ? printed : status;
+    const analysis_command command = {.own = own,
+                                      .own_count = is_volume ? OWN_exponents : OWN_OPTIONS,
+                                      .without = ANALYSIS_ROWS | ANALYSIS_OPTION(space),
+                                      .notes = notes,
+                                      .parse = parse_option};
+    tangent_study s = {.is_volume = is_volume, .request = request_default(), .rows = 100};
+    int status = analysis_read(argc, argv, &command, &s.request, &s);
+    if (status == CLI_GO_ON) {
+        status = create_spectrum(&s);
+        if (status == CLI_DONE) {
+            name_columns(&s);
+            status = run_with_table(&s);
+            const int printed = status == CLI_IO || status == CLI_USAGE ? status : print_means(&s);
+            if (status == CLI_DONE) status = printed;
+        }
+    }
+    free(s.heads);
+    free(s.values);
+    dal_spectrum_free(s.spectrum);
+    request_free(&s.request);
+    return status;
 }
 
 int command_lyapunov(int argc, char **argv)
 {
-    const analysis_command command = {options, OPTIONS, ANALYSIS_ROWS | ANALYSIS_OPTION(space),
-                                      notes,   take,    NULL};
-    spectrum_study s = {.request = request_default(), .rows = 100};
-    int status = analysis_read(argc, argv, &command, &s.request, &s);
-    if (status == CLI_GO_ON) status = go(&s);
-    spectrum_free(&s);
-    return status;
+    return run_command(
+        argc, argv, false,
+        "SYSTEM is the name of a built-in system or the path of a system file.  The derivative of "
+        "each step moves tangent vectors on (q,v), which then are made orthonormal again.  The "
+        "exponents, per unit of t, are the means of the logarithms of the lengths that this takes "
+        "away; they belong to the motion of the method.  The derivative is exact for Runge-Kutta, "
+        "partitioned symplectic and composed methods, and by differences for the others.\n"
+        "\n"
+        "The means cover --time, after the transient.  Their intervals come from means of blocks "
+        "and do not cover a slow approach to a limit: exponents of regular motion fall like "
+        "log(t)/t, and what is smaller than that is not distinguished from 0.  Every constraint "
+        "adds an exponent 0, since D is constant on each level; a method that enforces D = 0 has "
+        "no "
+        "direction for it.  The sum of all exponents is the mean divergence of the motion, plus, "
+        "where the method enforces D = 0, the mean growth of log |grad D|.  The exit status is 3 "
+        "when the two differ by more than the error of the method: then the derivative of the "
+        "steps "
+        "is not reliable.\n"
+        "\n"
+        "FILE and DIR/lyapunov.csv get rows t, lambda1, .., divergence: the means so far.\n");
+}
+
+int command_volume(int argc, char **argv)
+{
+    return run_command(
+        argc, argv, true,
+        "SYSTEM is the name of a built-in system or the path of a system file.  The command "
+        "computes two rates along the run: the exact divergence of the motion in (q,v), which is "
+        "the trace of the derivative of F by v, and log|det J|/h of every step, J being its "
+        "derivative: what the method does to the volume.  Where the method enforces D = 0, the "
+        "second is that on the surface.\n"
+        "\n"
+        "A system with an invariant measure of bounded density has the mean 0; a negative mean "
+        "shows an attractor.  The means on (q,v) and on D = 0 differ by the mean growth of "
+        "log |grad D|.  The exit status is 3 when they differ by more than that and the error of "
+        "the method: then the derivative of the steps is not reliable.  The means cover --time, "
+        "after the transient.  FILE and DIR/volume.csv get rows t, divergence, step: the means so "
+        "far.\n");
 }

@@ -166,8 +166,8 @@ holds "another rate" awk -F, '
         if (($2 + 1)^2 > 1e-26 || ($3 - l)^2 > 1e-24) exit 1 }
     END { exit NR != 101 }' shrinks.csv
 try 0 volume osc.yaml --integrator stormer-verlet --step 0.1 --time 10
-prints '^divergence of F +0 .* kept at every step$'
-prints '^log.det J./h of a step .* kept at every step$'
+prints '^divergence of F +0 .* preserved at every step$'
+prints '^log.det J./h of a step .* preserved at every step$'
 try 0 volume chaplygin-sleigh-offset --integrator gauss4+project --step 0.1 --time 50
 prints '^log.det J./h of a step .* shrinks$'
 prints '^5 of 6 directions'
