@@ -1,5 +1,5 @@
 /* tape.c - the programs of one system: their life, and the layout of their block of numbers. */
-#include "expr/plan.h"
+#include "expr/schedule.h"
 #include <stdlib.h>
 #include <string.h>
 
@@ -55,44 +55,44 @@ int dal__tapes_add(dal__tapes *tapes, const dal__node *outputs, int count)
 }
 
 /* Places for all that is constant along a run, and for the inputs. */
-static dal_status lay_out(dal__tapes *tapes, dal__plan *plan)
+static dal_status lay_out(dal__tapes *tapes, dal__schedule *s)
 {
     uint32_t place = (uint32_t)tapes->parameters;
     for (int pass = 0; pass < 2; pass++) { /* numbers, then what is hoisted */
-        for (dal__node i = 1; i <= plan->last_node; i++) {
+        for (dal__node i = 1; i <= s->last_node; i++) {
             dal__view view = dal__look(tapes->graph, i);
-            bool wanted = plan->constant[i] && plan->reached[i] && view.op != DAL__SYMBOL;
+            bool wanted = s->constant[i] && s->reached[i] && view.op != DAL__SYMBOL;
             if (!wanted || (view.op == DAL__NUMBER) != (pass == 0)) continue;
             if (pass == 0) tapes->number[tapes->numbers++] = view.value;
-            plan->place[i] = place++;
+            s->place[i] = place++;
         }
     }
     tapes->first_input = place;
     tapes->temporaries = place + (size_t)tapes->inputs;
-    for (dal__node i = 1; i <= plan->last_node; i++) {
+    for (dal__node i = 1; i <= s->last_node; i++) {
         dal__view view = dal__look(tapes->graph, i);
-        if (view.op != DAL__SYMBOL || !plan->reached[i]) continue;
+        if (view.op != DAL__SYMBOL || !s->reached[i]) continue;
         if (view.symbol >= tapes->parameters + tapes->inputs) return DAL_ARGUMENT;
-        plan->place[i] = view.symbol < tapes->parameters
-                             ? (uint32_t)view.symbol
-                             : place + (uint32_t)(view.symbol - tapes->parameters);
+        s->place[i] = view.symbol < tapes->parameters
+                          ? (uint32_t)view.symbol
+                          : place + (uint32_t)(view.symbol - tapes->parameters);
     }
     return DAL_OK;
 }
 
-static dal_status compile_all(dal__tapes *tapes, dal__plan *plan)
+static dal_status compile_all(dal__tapes *tapes, dal__schedule *s)
 {
     size_t numbers = 0;
-    for (dal__node i = 1; i <= plan->last_node; i++) {
-        numbers += dal__look(tapes->graph, i).op == DAL__NUMBER && plan->reached[i];
+    for (dal__node i = 1; i <= s->last_node; i++) {
+        numbers += dal__look(tapes->graph, i).op == DAL__NUMBER && s->reached[i];
     }
     tapes->number = malloc((numbers + 1) * sizeof *tapes->number);
     if (!tapes->number) return DAL_MEMORY;
-    DAL_TRY(lay_out(tapes, plan));
+    DAL_TRY(lay_out(tapes, s));
     tapes->workspace = tapes->temporaries;
-    DAL_TRY(dal__plan_hoisted(plan, tapes));
+    DAL_TRY(dal__schedule_hoisted(s, tapes));
     for (int i = 0; i < tapes->count; i++) {
-        DAL_TRY(dal__plan_tape(plan, tapes, &tapes->tape[i]));
+        DAL_TRY(dal__schedule_tape(s, tapes, &tapes->tape[i]));
     }
     return DAL_OK;
 }
@@ -100,10 +100,10 @@ static dal_status compile_all(dal__tapes *tapes, dal__plan *plan)
 dal_status dal__tapes_finish(dal__tapes *tapes)
 {
     DAL_TRY(dal__graph_status(tapes->graph));
-    dal__plan plan;
-    dal_status status = dal__plan_create(&plan, tapes);
-    if (status == DAL_OK) status = compile_all(tapes, &plan);
-    dal__plan_free(&plan);
+    dal__schedule s;
+    dal_status status = dal__schedule_create(&s, tapes);
+    if (status == DAL_OK) status = compile_all(tapes, &s);
+    dal__schedule_free(&s);
     return status;
 }
 

@@ -1,4 +1,4 @@
-/* walk.c - passes over a graph: what a node is made of, its value, substitution.
+/* traversal.c - passes over a graph: what a node is made of, its value, substitution.
  *
  * Operands have smaller indices than what they make, so marking runs down the indices and computing
  * runs up. */

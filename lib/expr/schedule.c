@@ -1,0 +1,183 @@
+/* schedule.c - from nodes to the instructions of a program.
+ *
+ * Nodes are computed in the order of their indices.  One sweep down the indices finds what is used
+ * and where for the last time; one sweep up writes the instructions and gives places in work to
+ * their results. */
+#include "expr/schedule.h"
+#include <stdlib.h>
+#include <string.h>
+
+static bool allocate(dal__schedule *s)
+{
+    size_t count = (size_t)s->last_node + 1;
+    s->constant = calloc(count, sizeof *s->constant);
+    s->reached = calloc(count, sizeof *s->reached);
+    s->place = malloc(count * sizeof *s->place);
+    s->last = calloc(count, sizeof *s->last);
+    s->free = malloc(count * sizeof *s->free);
+    return s->constant && s->reached && s->place && s->last && s->free;
+}
+
+static bool is_constant(const dal__schedule *s, const dal__tapes *tapes, dal__view v)
+{
+    if (v.op == DAL__NUMBER) return true;
+    if (v.op == DAL__SYMBOL) return v.symbol < tapes->parameters;
+    return s->constant[v.a] && (!v.b || s->constant[v.b]);
+}
+
+dal_status dal__schedule_create(dal__schedule *s, const dal__tapes *tapes)
+{
+    *s = (dal__schedule){.graph = tapes->graph, .last_node = dal__graph_count(tapes->graph)};
+    if (!allocate(s)) return DAL_MEMORY;
+    for (dal__node i = 1; i <= s->last_node; i++) {
+        s->constant[i] = is_constant(s, tapes, dal__look(s->graph, i));
+        s->place[i] = DAL__NOWHERE;
+    }
+    for (int p = 0; p < tapes->count; p++) {
+        const dal__tape *tape = &tapes->tape[p];
+        for (int k = 0; k < tape->outputs; k++) s->reached[tape->output[k]] = 1;
+    }
+    if (s->reached[0]) return DAL_ARGUMENT;
+    for (dal__node i = s->last_node; i > 0; i--) {
+        dal__view v = dal__look(s->graph, i);
+        if (s->reached[i]) s->reached[v.a] = s->reached[v.b] = 1;
+    }
+    return DAL_OK;
+}
+
+void dal__schedule_free(dal__schedule *s)
+{
+    free(s->constant);
+    free(s->reached);
+    free(s->place);
+    free(s->last);
+    free(s->free);
+}
+
+/* ---- instructions ---- */
+
+static uint32_t place_of(const dal__schedule *s, dal__node x) { return x ? s->place[x] : 0; }
+
+static dal__instruction instruction(const dal__schedule *s, dal__node i, dal__lowered l)
+{
+    return (dal__instruction){(uint32_t)l.op, s->place[i], place_of(s, l.a), place_of(s, l.b),
+                              place_of(s, l.c)};
+}
+
+dal_status dal__schedule_hoisted(dal__schedule *s, dal__tapes *tapes)
+{
+    dal__tape *tape = &tapes->hoisted;
+    size_t most = tapes->first_input + 1;
+    tape->code = malloc(most * sizeof *tape->code);
+    if (!tape->code) return DAL_MEMORY;
+    for (dal__node i = 1; i <= s->last_node; i++) {
+        dal__lowered l = dal__lower(s->graph, i);
+        if (!s->reached[i] || !s->constant[i] || !l.a) continue;
+        tape->code[tape->length++] = instruction(s, i, l);
+    }
+    return DAL_OK;
+}
+
+/* Whether a node is computed by the program: neither constant nor an input. */
+static bool is_computed(const dal__schedule *s, dal__node i)
+{
+    return s->reached[i] && !s->constant[i] && dal__look(s->graph, i).op != DAL__SYMBOL;
+}
+
+static dal__node largest_output(const dal__tape *tape)
+{
+    dal__node largest = 0;
+    for (int k = 0; k < tape->outputs; k++) {
+        if (tape->output[k] > largest) largest = tape->output[k];
+    }
+    return largest;
+}
+
+/* Fills reached and last for one program; the number of instructions it needs at most. */
+static int find_lives(dal__schedule *s, const dal__tape *tape, dal__node top)
+{
+    int computed = 0;
+    memset(s->reached, 0, (size_t)top + 1);
+    memset(s->last, 0, ((size_t)top + 1) * sizeof *s->last);
+    for (int k = 0; k < tape->outputs; k++) {
+        s->reached[tape->output[k]] = 1;
+        s->last[tape->output[k]] = top + 1;
+    }
+    for (dal__node i = top; i > 0; i--) {
+        if (!is_computed(s, i)) continue;
+        computed++;
+        const dal__lowered l = dal__lower(s->graph, i);
+        const dal__node operand[] = {l.a, l.b, l.c};
+        for (int k = 0; k < 3; k++) {
+            s->reached[operand[k]] = 1;
+            if (!s->last[operand[k]]) s->last[operand[k]] = i;
+        }
+    }
+    return computed;
+}
+
+/* Gives back the place of a temporary that node i reads last. */
+static void release(dal__schedule *s, const dal__tapes *tapes, dal__node x, dal__node i)
+{
+    uint32_t place = s->place[x];
+    if (!x || s->last[x] != i || place == DAL__NOWHERE || place < tapes->temporaries) return;
+    s->free[s->frees++] = place;
+    s->last[x] = 0;
+}
+
+static uint32_t take(dal__schedule *s, dal__tapes *tapes)
+{
+    if (s->frees > 0) return s->free[--s->frees];
+    size_t place = tapes->temporaries + s->used++;
+    if (place >= tapes->workspace) tapes->workspace = place + 1;
+    return (uint32_t)place;
+}
+
+/* sin or cos of the same argument as l, when the program wants both; else 0. */
+static dal__node partner(const dal__schedule *s, dal__lowered l, dal__node top)
+{
+    dal__op other = l.op == DAL__SIN ? DAL__COS : DAL__SIN;
+    if (l.op != DAL__SIN && l.op != DAL__COS) return 0;
+    dal__node x = dal__find(s->graph, other, l.a, 0);
+    return x && x <= top && s->reached[x] ? x : 0;
+}
+
+static void emit(dal__schedule *s, dal__tapes *tapes, dal__tape *tape, dal__node i, dal__node top)
+{
+    dal__lowered l = dal__lower(s->graph, i);
+    dal__node pair = partner(s, l, top);
+    dal__instruction code = instruction(s, i, l);
+    release(s, tapes, l.a, i);
+    release(s, tapes, l.b, i);
+    release(s, tapes, l.c, i);
+    code.d = s->place[i] = take(s, tapes);
+    if (pair) {
+        s->place[pair] = take(s, tapes);
+        code.op = DAL__SINCOS;
+        code.d = s->place[l.op == DAL__SIN ? i : pair];
+        code.b = s->place[l.op == DAL__SIN ? pair : i];
+    }
+    tape->code[tape->length++] = code;
+}
+
+dal_status dal__schedule_tape(dal__schedule *s, dal__tapes *tapes, dal__tape *tape)
+{
+    dal__node top = largest_output(tape);
+    size_t most = (size_t)find_lives(s, tape, top) + 1;
+    tape->code = malloc(most * sizeof *tape->code);
+    if (!tape->code) return DAL_MEMORY;
+    s->frees = s->used = 0;
+    for (dal__node i = 1; i <= top; i++) {
+        if (!is_computed(s, i)) continue;
+        if (s->place[i] == DAL__NOWHERE) {
+            emit(s, tapes, tape, i, top);
+        } else { /* came with its partner, but others may have read the argument since */
+            release(s, tapes, dal__lower(s->graph, i).a, i);
+        }
+    }
+    for (int k = 0; k < tape->outputs; k++) tape->place[k] = s->place[tape->output[k]];
+    for (dal__node i = 1; i <= top; i++) {
+        if (s->place[i] >= tapes->temporaries) s->place[i] = DAL__NOWHERE;
+    }
+    return DAL_OK;
+}
