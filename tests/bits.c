@@ -108,7 +108,7 @@ static bool begin_motion(motion *m, int system, int method, dal_space space)
         end_motion(m);
         return false;
     }
-    m->inputs = dal__tapes_inputs(dal__programs_of(m->spec.system)->tapes);
+    m->inputs = (int)dal__programs_of(m->spec.system)->tapes->first_input;
     for (int lane = 0; lane < WIDE; lane++)
         m->status[lane] = dal__run_steps(m->run[lane], m->spec.options.step, STEPS);
     return true;

@@ -21,8 +21,7 @@ dal__node formula_resolve(void *user, const char *name, size_t length, bool prim
 
 dal__graph *formula_graph(void)
 {
-    dal__graph *graph = dal__graph_create();
-    if (graph) dal__graph_parameters(graph, PARAMETERS);
+    dal__graph *graph = dal__graph_create(PARAMETERS);
     return graph;
 }
 

@@ -2,7 +2,11 @@
 #ifndef FORMULA_H
 #define FORMULA_H
 
-#include "expr/formula.h"
+#include "expr/derivative.h"
+#include "expr/parser.h"
+#include "expr/simplify.h"
+#include "expr/tape.h"
+#include "expr/traversal.h"
 #include <string.h>
 
 enum { PARAMETERS = 2, INPUTS = 6, SYMBOLS = PARAMETERS + INPUTS };

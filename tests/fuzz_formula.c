@@ -1,7 +1,10 @@
 /* fuzz_formula.c - any bytes as a formula: parsed, differentiated, put on a tape, evaluated.
  *
  * A tape and dal__evaluate must agree in every bit, a fault must have its place and its words. */
-#include "expr/formula.h"
+#include "expr/derivative.h"
+#include "expr/parser.h"
+#include "expr/tape.h"
+#include "expr/traversal.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -36,10 +39,10 @@ static void check_tape(dal__graph *graph, const dal__node *nodes, int count)
     dal__tapes *tapes = dal__tapes_create(graph, PARAMETERS, INPUTS);
     require(dal__tapes_add(tapes, nodes, count) == 0);
     require(dal__tapes_finish(tapes) == DAL_OK);
-    double *work = malloc(dal__tapes_workspace(tapes) * sizeof *work), out[3];
+    double *work = malloc(tapes->workspace * sizeof *work), out[3];
     memcpy(work, values, PARAMETERS * sizeof *work);
     dal__tapes_prepare_x1(tapes, work);
-    memcpy(work + dal__tapes_inputs(tapes), values + PARAMETERS, INPUTS * sizeof *work);
+    memcpy(work + tapes->first_input, values + PARAMETERS, INPUTS * sizeof *work);
     dal__tape_run_x1(tapes, 0, work, out);
     for (int i = 0; i < count; i++) {
         double expected = dal__evaluate(graph, nodes[i], values);
@@ -53,17 +56,16 @@ static void check_tape(dal__graph *graph, const dal__node *nodes, int count)
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
 {
     static const int symbol = PARAMETERS;
-    dal__graph *graph = dal__graph_create();
+    dal__graph *graph = dal__graph_create(PARAMETERS);
     dal__node nodes[3] = {0};
     dal_error error = {.status = DAL_OK};
-    dal__graph_parameters(graph, PARAMETERS);
     if (size > MOST_BYTES) size = MOST_BYTES;
     const char *text = (const char *)data;
     dal_status status = dal__parse(graph, text, size, resolve, graph, &nodes[0], &error);
     if (status == DAL_OK) {
         dal__gradient(graph, nodes[0], &symbol, 1, &nodes[1]);
         nodes[2] = dal__tangent(graph, nodes[1], &symbol, 1, &nodes[0]);
-        require(dal__graph_status(graph) == DAL_OK);
+        require(graph->status == DAL_OK);
         check_tape(graph, nodes, 3);
     } else {
         require(error.status == status && error.line > 0 && error.column > 0);

@@ -220,8 +220,8 @@ static void test_zero_byte(void)
     CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "unexpected byte 0x00"));
     /* What lies behind the end is not read. */
     CU_ASSERT_EQUAL(dal__parse(graph, "x + y'", 5, formula_resolve, graph, &node, &error), DAL_OK);
-    CU_ASSERT_EQUAL(dal__look(graph, node).op, DAL__ADD);
-    CU_ASSERT_EQUAL(dal__symbol(graph, Y), dal__look(graph, node).b);
+    CU_ASSERT_EQUAL(dal__inspect(graph, node).op, DAL__ADD);
+    CU_ASSERT_EQUAL(dal__symbol(graph, Y), dal__inspect(graph, node).b);
     dal__graph_free(graph);
 }
 

@@ -88,12 +88,12 @@ static const double parameters[PARAMETERS] = {1.3, -0.7};
 /* Work at one width: parameters, prepared constants, inputs of a round. */
 static double *filled_work(const dal__tapes *tapes, int lanes, int round)
 {
-    size_t size = dal__tapes_workspace(tapes);
+    size_t size = tapes->workspace;
     double *single = formula_work(size), *work = formula_work(size * (size_t)lanes);
     for (size_t i = 0; i < size * (size_t)lanes; i++) work[i] = NAN;
     memcpy(single, parameters, sizeof parameters);
     dal__tapes_prepare_x1(tapes, single);
-    int first = dal__tapes_inputs(tapes);
+    int first = (int)tapes->first_input;
     for (int lane = 0; lane < lanes; lane++) {
         for (int i = 0; i < first; i++) work[i * lanes + lane] = single[i];
         for (int i = 0; i < INPUTS; i++) {
@@ -216,7 +216,7 @@ static int length_of(const char *const *texts, int count)
 {
     dal__graph *graph = formula_graph();
     dal__tapes *tapes = tapes_of(graph, texts, count);
-    int length = dal__tapes_length(tapes, 0);
+    int length = tapes->tape[0].length;
     dal__tapes_free(tapes);
     dal__graph_free(graph);
     return length;
@@ -263,8 +263,8 @@ static void test_places_are_reused(void)
     dal__tapes *tapes = dal__tapes_create(graph, PARAMETERS, INPUTS);
     dal__tapes_add(tapes, &f, 1);
     CU_ASSERT_EQUAL(dal__tapes_finish(tapes), DAL_OK);
-    CU_ASSERT_EQUAL(dal__tapes_length(tapes, 0), 4 * LINKS);
-    CU_ASSERT(dal__tapes_workspace(tapes) <= LEAST + FEW);
+    CU_ASSERT_EQUAL(tapes->tape[0].length, 4 * LINKS);
+    CU_ASSERT(tapes->workspace <= LEAST + FEW);
     dal__tapes_free(tapes);
     dal__graph_free(graph);
 }
@@ -275,7 +275,7 @@ static void test_constants_stay(void)
     dal__graph *graph = formula_graph();
     dal__tapes *tapes = tapes_of(graph, formulas, FORMULAS);
     double *work = filled_work(tapes, 1, 0), out[FORMULAS];
-    size_t kept = ((size_t)dal__tapes_inputs(tapes) + INPUTS) * sizeof *work;
+    size_t kept = (tapes->first_input + INPUTS) * sizeof *work;
     double *before = formula_work(kept / sizeof *work);
     memcpy(before, work, kept);
     dal__tape_run_x1(tapes, 0, work, out);
@@ -292,12 +292,12 @@ static void test_parameters_change(void)
     static const char *const texts[] = {"x*exp(a)/(a + b)", "sqrt(a) - b"};
     dal__graph *graph = formula_graph();
     dal__tapes *tapes = tapes_of(graph, texts, 2);
-    double *work = formula_work(dal__tapes_workspace(tapes)), out[2];
+    double *work = formula_work(tapes->workspace), out[2];
     for (double a = 1.0; a < 4.0; a++) {
         work[A] = a;
         work[B] = 0.5;
         dal__tapes_prepare_x1(tapes, work);
-        for (int i = 0; i < INPUTS; i++) work[dal__tapes_inputs(tapes) + i] = 2.0;
+        for (int i = 0; i < INPUTS; i++) work[tapes->first_input + (size_t)i] = 2.0;
         dal__tape_run_x1(tapes, 0, work, out);
         CU_ASSERT_DOUBLE_EQUAL(out[0], 2.0 * exp(a) / (a + 0.5), 1e-14);
         CU_ASSERT_DOUBLE_EQUAL(out[1], sqrt(a) - 0.5, 1e-15);

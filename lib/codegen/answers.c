@@ -13,7 +13,7 @@ static void name_inputs(dal__generation *g)
 {
     const dal__programs *p = g->programs;
     const dal__equations *e = p->equations;
-    const int first = dal__tapes_inputs(p->tapes), count = e->symbols - e->parameters;
+    const int first = (int)p->tapes->first_input, count = e->symbols - e->parameters;
     g->input = calloc((size_t)count + 1, sizeof *g->input);
     g->text.starved |= !g->input;
     if (!g->input) return;
@@ -31,7 +31,7 @@ static void name_inputs(dal__generation *g)
 
 static bool is_inlined(const dal__generation *g, dal__program_code code)
 {
-    const int length = dal__tapes_length(g->programs->tapes, g->programs->program[code].tape);
+    const int length = g->programs->tapes->tape[g->programs->program[code].tape].length;
     return code != DAL__PROGRAM_JACOBIAN && length <= MOST_INLINED;
 }
 

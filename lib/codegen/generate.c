@@ -122,7 +122,7 @@ static dal_status check_size(const dal__generation *g, dal_error *error)
     const double stack = newton ? 4.0 * 8.0 * g->lanes * width * width : 0.0;
     for (int code = 0; code < DAL__PROGRAM_COUNT; code++)
         if (dal__wants(g, (dal__program_code)code))
-            length += dal__tapes_length(g->programs->tapes, g->programs->program[code].tape);
+            length += g->programs->tapes->tape[g->programs->program[code].tape].length;
     if (length > MOST_INSTRUCTIONS)
         return dal__fail(
             error, DAL_TOO_LARGE,

@@ -6,6 +6,7 @@
 #define DAL_GENERATE_H
 
 #include "core/text.h"
+#include "expr/emit.h"
 #include "model/mechanics.h"
 #include "run/engine.h"
 

@@ -127,7 +127,7 @@ static void put_sizes(dal__generation *g)
         {"PARAMETERS", k->system->parameters},
         {"OBSERVABLES", dal_run_observables(g->run)},
         {"CARRIED", (int)k->carried},
-        {"WORK", dal__tapes_inputs(g->programs->tapes)},
+        {"WORK", (int)g->programs->tapes->first_input},
     };
     for (size_t i = 0; i < sizeof list / sizeof *list; i++)
         dal__text_print(&g->text, "    %s_%s = %d,\n", g->prefix, list[i].name, list[i].value);

@@ -3,8 +3,8 @@
  * The one list behind constant folding, dal__evaluate and the tapes, so that they agree in every
  * bit.  The library is compiled without contraction: what is fused stands in DAL__FUSED_LIST, and
  * which sums are is decided by dal__lower. */
-#ifndef DAL_FORMULA_ARITHMETIC_H
-#define DAL_FORMULA_ARITHMETIC_H
+#ifndef DAL_EXPR_ARITHMETIC_H
+#define DAL_EXPR_ARITHMETIC_H
 
 #include "kernel/elementary.h"
 

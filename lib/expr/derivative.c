@@ -4,7 +4,9 @@
  *     forward:  ydot = sum dy/da adot,         from the symbols up to f
  *
  * Both sweeps visit only what lies between the symbols and f. */
-#include "expr/graph.h"
+#include "expr/derivative.h"
+#include "expr/simplify.h"
+#include "expr/traversal.h"
 #include <stdlib.h>
 
 static dal__node number(dal__graph *graph, double value) { return dal__number(graph, value); }

@@ -2,10 +2,9 @@
  *
  * Every result is a constant of its own, x1, x2, ...; parameters and what is made of them alone
  * are DAL_WORK(place), with their places in work. */
-#include "core/text.h"
+#include "expr/emit.h"
 #include "expr/arithmetic.h"
-#include "expr/graph.h"
-#include "expr/tape.h"
+#include "expr/traversal.h"
 #include <stdlib.h>
 #include <string.h>
 

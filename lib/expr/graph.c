@@ -4,13 +4,14 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { FIRST_BITS = 8, MOST_NODES = 4000000 };
+enum { FIRST_BITS = 8, MAX_NODES = 4000000 };
 
-dal__graph *dal__graph_create(void)
+dal__graph *dal__graph_create(int parameters)
 {
     dal__graph *graph = calloc(1, sizeof *graph);
     if (!graph) return NULL;
-    graph->limit = MOST_NODES;
+    graph->limit = MAX_NODES;
+    graph->parameters = parameters;
     graph->table_bits = FIRST_BITS;
     graph->capacity = 1 << (FIRST_BITS - 1);
     graph->node = calloc((size_t)graph->capacity, sizeof *graph->node);
@@ -27,10 +28,6 @@ void dal__graph_free(dal__graph *graph)
     free(graph->table);
     free(graph);
 }
-
-void dal__graph_parameters(dal__graph *graph, int parameters) { graph->parameters = parameters; }
-dal_status dal__graph_status(const dal__graph *graph) { return graph->status; }
-int dal__graph_count(const dal__graph *graph) { return graph->count; }
 
 static uint64_t mix(uint64_t h, uint64_t word)
 {
@@ -138,12 +135,7 @@ void *dal__per_node(dal__graph *graph, dal__node node, size_t size)
     return zeros;
 }
 
-dal__view dal__look(const dal__graph *graph, dal__node node)
-{
-    const dal__record *r = &graph->node[node];
-    return (dal__view){
-        .op = (dal__op)r->op, .a = r->a, .b = r->b, .value = r->value, .symbol = r->symbol};
-}
+dal__record dal__inspect(const dal__graph *graph, dal__node node) { return graph->node[node]; }
 
 bool dal__is_number(const dal__graph *graph, dal__node node, double value)
 {

@@ -1,19 +1,61 @@
-/* graph.h - the inside of an expression graph, for lib/expr alone.
+/* graph.h - expressions as a graph of nodes.
  *
- * A node is an operation with operands of smaller index; hashing keeps equal nodes single.  Node 0
- * is no node.  A node is fixed when it depends on parameters alone, so it is constant along a run.
+ *     text --parser--> graph --derivative--> graph --schedule--> tapes --tape, emit--> numbers, C
  *
- * Canonical form.  Every node is a term  +-c*r  whose coefficient c is fixed and whose rest r is
- * not; the sign sits at the coefficient, (-c)*r, or is a NEG where c = 1.  The numeric factor of a
- * fixed product stands first, operands of ADD and MUL are ordered by index, a quotient of quotients
- * is one quotient, and x/c is (1/c)*x wherever 1/c costs nothing in accuracy or in time. */
-#ifndef DAL_FORMULA_GRAPH_H
-#define DAL_FORMULA_GRAPH_H
+ * A node is an operation with operands of smaller index, so every pass over a graph is a loop and
+ * never a recursion; hashing keeps equal nodes single.  Node 0 is no node.  A graph only grows.  A
+ * node is fixed when it depends on parameters alone, so it is constant along a run.
+ *
+ * Canonical form (simplify.c).  Every node is a term +-c*r whose coefficient c is fixed and whose
+ * rest r is not; the sign sits at the coefficient, (-c)*r, or is a NEG where c = 1.  The numeric
+ * factor of a fixed product stands first, operands of ADD and MUL are ordered by index, a quotient
+ * of quotients is one quotient, and x/c is (1/c)*x wherever 1/c costs nothing in accuracy or in
+ * time.
+ *
+ * When memory is out or the graph grows past its limit, the graph remembers it: nodes made from
+ * then on are 0, and every function accepts node 0. */
+#ifndef DAL_EXPR_GRAPH_H
+#define DAL_EXPR_GRAPH_H
 
-#include "expr/formula.h"
+#include "dalembert.h"
+#include <stdbool.h>
+#include <stdint.h>
 
-/* Rules may call each other this deep; below, a node is made as it is. */
-enum { DAL__DEEPEST = 8 };
+typedef int32_t dal__node; /* 0: no node */
+
+/* Operations: code, arity, name in a formula (NULL: not callable by name). */
+#define DAL__OP_LIST(X)                                                                            \
+    X(NUMBER, 0, NULL)                                                                             \
+    X(SYMBOL, 0, NULL)                                                                             \
+    X(ADD, 2, NULL)                                                                                \
+    X(SUB, 2, NULL)                                                                                \
+    X(MUL, 2, NULL)                                                                                \
+    X(DIV, 2, NULL)                                                                                \
+    X(NEG, 1, NULL)                                                                                \
+    X(POW, 2, NULL) /* real exponent */                                                            \
+    X(SQRT, 1, "sqrt")                                                                             \
+    X(EXP, 1, "exp")                                                                               \
+    X(LOG, 1, "log")                                                                               \
+    X(SIN, 1, "sin")                                                                               \
+    X(COS, 1, "cos")                                                                               \
+    X(TAN, 1, "tan")                                                                               \
+    X(ASIN, 1, "asin")                                                                             \
+    X(ACOS, 1, "acos")                                                                             \
+    X(ATAN, 1, "atan")                                                                             \
+    X(ATAN2, 2, "atan2")                                                                           \
+    X(SINH, 1, "sinh")                                                                             \
+    X(COSH, 1, "cosh")                                                                             \
+    X(TANH, 1, "tanh")                                                                             \
+    X(ASINH, 1, "asinh")                                                                           \
+    X(ABS, 1, "abs")                                                                               \
+    X(SIGN, 1, NULL) /* derivative of abs */
+
+typedef enum dal__op {
+#define X(code, arity, name) DAL__##code,
+    DAL__OP_LIST(X)
+#undef X
+        DAL__OP_COUNT
+} dal__op;
 
 typedef struct dal__record {
     double value; /* NUMBER */
@@ -23,59 +65,35 @@ typedef struct dal__record {
     bool fixed;
 } dal__record;
 
-struct dal__graph {
-    dal__record *node; /* [capacity]; node[0] is NaN */
-    dal__node *table;  /* [1 << table_bits] open addressing; 0: free */
-    int count, capacity, table_bits;
-    int limit; /* of count */
+typedef struct dal__graph {
+    dal__record *node;               /* [capacity]; node[0] is NaN */
+    dal__node *table;                /* [1 << table_bits] open addressing; 0: free */
+    int count, capacity, table_bits; /* count: of nodes, the last index */
+    int limit;                       /* of count */
     int parameters;
-    int depth; /* of simplifications under way */
-    dal_status status;
-};
+    int depth;         /* of simplifications under way */
+    dal_status status; /* DAL_OK, DAL_MEMORY or DAL_TOO_LARGE */
+} dal__graph;
 
-typedef struct dal__term {
-    dal__node coefficient, rest;
-    bool negative;
-} dal__term;
+/* Symbols below parameters are constant along a run: what is made of them and of numbers alone is
+ * collected into coefficients, and dividing by it becomes multiplying by a reciprocal.  NULL: out
+ * of memory. [alloc] */
+dal__graph *dal__graph_create(int parameters);
+void dal__graph_free(dal__graph *graph);
 
+dal__node dal__number(dal__graph *graph, double value);
+dal__node dal__symbol(dal__graph *graph, int symbol); /* symbol >= 0, numbered by the caller */
 /* The node with exactly these parts, made where it is missing; no simplification. */
 dal__node dal__intern(dal__graph *graph, dal__op op, dal__node a, dal__node b);
-/* The same, or 0 where it is missing. */
+/* The same, or 0 where it is missing; the node of a symbol, likewise. */
 dal__node dal__find(const dal__graph *graph, dal__op op, dal__node a, dal__node b);
-
-/* The node of a symbol, or 0 where it is missing. */
 dal__node dal__find_symbol(const dal__graph *graph, int symbol);
 
-/* A node as +-c*r with c >= 0 where c is a number, and back. */
-dal__term dal__split(dal__graph *graph, dal__node node);
-dal__node dal__attach(dal__graph *graph, dal__term term);
-/* The node of an ADD or MUL with ordered operands. */
-dal__node dal__commute(dal__graph *graph, dal__op op, dal__node a, dal__node b);
-
-/* Operations that are computed as one: both functions of one argument; and a sum or difference one
- * of whose operands is a product. */
-enum {
-    DAL__SINCOS = DAL__OP_COUNT, /* sin a and cos a */
-    DAL__MUL_ADD,                /* a*b + c, rounded once; so the next two */
-    DAL__MUL_SUB,                /* a*b - c */
-    DAL__SUB_MUL                 /* c - a*b */
-};
-
-/* A node as it is computed, wherever it is: an operation of the graph, or a fused one.  What is
- * fused depends on the node alone: in a sum that is not fixed, a product that is not; of two
- * products the one made later, so that the other is there when it is needed. */
-typedef struct dal__lowered {
-    int op;
-    dal__node a, b, c; /* 0 where there is none */
-} dal__lowered;
-dal__lowered dal__lower(const dal__graph *graph, dal__node node);
+dal__record dal__inspect(const dal__graph *graph, dal__node node);
+bool dal__is_number(const dal__graph *graph, dal__node node, double value);
 
 /* Zeros for each node up to this one, [node + 1] of size bytes; NULL when memory is out, which the
  * graph then remembers. [alloc] */
 void *dal__per_node(dal__graph *graph, dal__node node, size_t size);
-/* Marks node and all it is made of, [node + 1]; NULL likewise. [alloc] */
-uint8_t *dal__reach(dal__graph *graph, dal__node node);
-/* One operation on doubles, with the bits of a tape. */
-double dal__operate(int op, double a, double b, double c);
 
 #endif

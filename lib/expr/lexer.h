@@ -1,8 +1,9 @@
 /* lexer.h - the words of a formula, for lib/expr alone. */
-#ifndef DAL_FORMULA_LEXER_H
-#define DAL_FORMULA_LEXER_H
+#ifndef DAL_EXPR_LEXER_H
+#define DAL_EXPR_LEXER_H
 
-#include "expr/formula.h"
+#include "dalembert.h"
+#include <stdbool.h>
 
 typedef struct dal__token {
     char kind; /* a character of + - * / ^ ( ) , or one of DAL__TOKEN_* */

@@ -5,8 +5,10 @@
  *
  * so that -x^2 = -(x^2), 2^-3 = 1/8 and a/b/c = (a/b)/c.  What waits for its right operand lies on
  * a stack of our own, so a formula may be nested as deep as memory allows. */
+#include "expr/parser.h"
 #include "core/error.h"
 #include "expr/lexer.h"
+#include "expr/simplify.h"
 #include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -84,7 +86,7 @@ static int shown(const dal__token *token)
 
 static dal_status graph_fault(const parser *p)
 {
-    dal_status status = dal__graph_status(p->graph);
+    dal_status status = p->graph->status;
     return dal__fail_at(p->error, status, p->token.line, p->token.column,
                         status == DAL_MEMORY ? "out of memory" : "the formula is too large");
 }
@@ -158,7 +160,7 @@ static dal_status next(parser *p) { return dal__lexer_next(&p->lexer, &p->token,
 /* Whether a op b divides by a literal zero. */
 static bool divides_by_zero(const dal__graph *graph, const frame *f, dal__node right)
 {
-    dal__view r = dal__look(graph, right);
+    dal__record r = dal__inspect(graph, right);
     if (f->kind == '/') return dal__is_number(graph, right, 0.0);
     return f->kind == '^' && dal__is_number(graph, f->left, 0.0) && r.op == DAL__NUMBER &&
            r.value < 0.0;

@@ -4,6 +4,7 @@
  * and where for the last time; one sweep up writes the instructions and gives places in work to
  * their results. */
 #include "expr/schedule.h"
+#include "expr/traversal.h"
 #include <stdlib.h>
 #include <string.h>
 
@@ -18,7 +19,7 @@ static bool allocate(dal__schedule *s)
     return s->constant && s->reached && s->place && s->last && s->free;
 }
 
-static bool is_constant(const dal__schedule *s, const dal__tapes *tapes, dal__view v)
+static bool is_constant(const dal__schedule *s, const dal__tapes *tapes, dal__record v)
 {
     if (v.op == DAL__NUMBER) return true;
     if (v.op == DAL__SYMBOL) return v.symbol < tapes->parameters;
@@ -27,10 +28,10 @@ static bool is_constant(const dal__schedule *s, const dal__tapes *tapes, dal__vi
 
 dal_status dal__schedule_create(dal__schedule *s, const dal__tapes *tapes)
 {
-    *s = (dal__schedule){.graph = tapes->graph, .last_node = dal__graph_count(tapes->graph)};
+    *s = (dal__schedule){.graph = tapes->graph, .last_node = tapes->graph->count};
     if (!allocate(s)) return DAL_MEMORY;
     for (dal__node i = 1; i <= s->last_node; i++) {
-        s->constant[i] = is_constant(s, tapes, dal__look(s->graph, i));
+        s->constant[i] = is_constant(s, tapes, dal__inspect(s->graph, i));
         s->place[i] = DAL__NOWHERE;
     }
     for (int p = 0; p < tapes->count; p++) {
@@ -39,7 +40,7 @@ dal_status dal__schedule_create(dal__schedule *s, const dal__tapes *tapes)
     }
     if (s->reached[0]) return DAL_ARGUMENT;
     for (dal__node i = s->last_node; i > 0; i--) {
-        dal__view v = dal__look(s->graph, i);
+        dal__record v = dal__inspect(s->graph, i);
         if (s->reached[i]) s->reached[v.a] = s->reached[v.b] = 1;
     }
     return DAL_OK;
@@ -81,7 +82,7 @@ dal_status dal__schedule_hoisted(dal__schedule *s, dal__tapes *tapes)
 /* Whether a node is computed by the program: neither constant nor an input. */
 static bool is_computed(const dal__schedule *s, dal__node i)
 {
-    return s->reached[i] && !s->constant[i] && dal__look(s->graph, i).op != DAL__SYMBOL;
+    return s->reached[i] && !s->constant[i] && dal__inspect(s->graph, i).op != DAL__SYMBOL;
 }
 
 static dal__node largest_output(const dal__tape *tape)

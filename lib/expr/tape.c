@@ -60,7 +60,7 @@ static dal_status lay_out(dal__tapes *tapes, dal__schedule *s)
     uint32_t place = (uint32_t)tapes->parameters;
     for (int pass = 0; pass < 2; pass++) { /* numbers, then what is hoisted */
         for (dal__node i = 1; i <= s->last_node; i++) {
-            dal__view view = dal__look(tapes->graph, i);
+            dal__record view = dal__inspect(tapes->graph, i);
             bool wanted = s->constant[i] && s->reached[i] && view.op != DAL__SYMBOL;
             if (!wanted || (view.op == DAL__NUMBER) != (pass == 0)) continue;
             if (pass == 0) tapes->number[tapes->numbers++] = view.value;
@@ -70,7 +70,7 @@ static dal_status lay_out(dal__tapes *tapes, dal__schedule *s)
     tapes->first_input = place;
     tapes->temporaries = place + (size_t)tapes->inputs;
     for (dal__node i = 1; i <= s->last_node; i++) {
-        dal__view view = dal__look(tapes->graph, i);
+        dal__record view = dal__inspect(tapes->graph, i);
         if (view.op != DAL__SYMBOL || !s->reached[i]) continue;
         if (view.symbol >= tapes->parameters + tapes->inputs) return DAL_ARGUMENT;
         s->place[i] = view.symbol < tapes->parameters
@@ -84,7 +84,7 @@ static dal_status compile_all(dal__tapes *tapes, dal__schedule *s)
 {
     size_t numbers = 0;
     for (dal__node i = 1; i <= s->last_node; i++) {
-        numbers += dal__look(tapes->graph, i).op == DAL__NUMBER && s->reached[i];
+        numbers += dal__inspect(tapes->graph, i).op == DAL__NUMBER && s->reached[i];
     }
     tapes->number = malloc((numbers + 1) * sizeof *tapes->number);
     if (!tapes->number) return DAL_MEMORY;
@@ -99,15 +99,10 @@ static dal_status compile_all(dal__tapes *tapes, dal__schedule *s)
 
 dal_status dal__tapes_finish(dal__tapes *tapes)
 {
-    DAL_TRY(dal__graph_status(tapes->graph));
+    DAL_TRY(tapes->graph->status);
     dal__schedule s;
     dal_status status = dal__schedule_create(&s, tapes);
     if (status == DAL_OK) status = compile_all(tapes, &s);
     dal__schedule_free(&s);
     return status;
 }
-
-size_t dal__tapes_workspace(const dal__tapes *tapes) { return tapes->workspace; }
-int dal__tapes_inputs(const dal__tapes *tapes) { return (int)tapes->first_input; }
-
-int dal__tapes_length(const dal__tapes *tapes, int program) { return tapes->tape[program].length; }

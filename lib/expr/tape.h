@@ -1,13 +1,17 @@
-/* tape.h - the inside of tapes, for lib/expr alone.
+/* tape.h - the programs of one system, over one block of numbers:
  *
  *     work = [ parameters | numbers | hoisted | inputs | temporaries ]
  *
- * An instruction is an operation, where it writes and where it reads, as places in work.  Beside
- * the operations of the graph a tape has a few that do two of them at once (graph.h). */
-#ifndef DAL_FORMULA_TAPE_H
-#define DAL_FORMULA_TAPE_H
+ * Symbols 0..parameters-1 are parameters, the next inputs symbols are inputs.  Nodes that depend on
+ * parameters alone are hoisted: computed by dal__tapes_prepare_x1, not by each run of a program.
+ * An instruction is an operation, where it writes and where it reads, as places in work; beside the
+ * operations of the graph there are a few that do two of them at once (traversal.h).  A program's
+ * arithmetic for a node is the same in every program and at every width: same bits. */
+#ifndef DAL_EXPR_TAPE_H
+#define DAL_EXPR_TAPE_H
 
-#include "expr/formula.h"
+#include "core/machine.h"
+#include "expr/graph.h"
 
 typedef struct dal__instruction {
     uint32_t op, d, a, b, c;
@@ -22,7 +26,7 @@ typedef struct dal__tape {
     int length;
 } dal__tape;
 
-struct dal__tapes {
+typedef struct dal__tapes {
     const dal__graph *graph;
     int parameters, inputs;
     dal__tape *tape; /* [count] */
@@ -30,7 +34,26 @@ struct dal__tapes {
     dal__tape hoisted; /* computes what is constant along a run */
     double *number;    /* [numbers] */
     int numbers;
-    size_t first_input, temporaries, workspace; /* places */
-};
+    size_t first_input, temporaries, workspace; /* places; workspace: the size of work */
+} dal__tapes;
+
+dal__tapes *dal__tapes_create(const dal__graph *graph, int parameters, int inputs);
+void dal__tapes_free(dal__tapes *tapes);
+/* Adds a program with these outputs and returns its number, from 0 (-1: out of memory). */
+int dal__tapes_add(dal__tapes *tapes, const dal__node *outputs, int count);
+/* Completes the set; afterwards it is constant and needs the graph no more.  Errors: DAL_MEMORY,
+ * DAL_TOO_LARGE, DAL_ARGUMENT (an output is no node, or has a symbol that is neither). */
+dal_status dal__tapes_finish(dal__tapes *tapes);
+
+/* After the parameters in work have been set: one lane (a batch copies the result to all), and one
+ * of long numbers. */
+void dal__tapes_prepare_x1(const dal__tapes *tapes, double *work);
+void dal__tapes_prepare_x1_LONGER(const dal__tapes *tapes, double *work);
+/* Runs a program on the inputs in work and writes its outputs; work and out are interleaved by
+ * lanes and aligned to them. */
+#define DAL__TAPE_RUN(name, variant, lanes, set, group)                                            \
+    void name##_##variant(const dal__tapes *tapes, int program, double *work, double *out);
+DAL__TAPE_RUN(dal__tape_run, x1, 1, BASE, x1)
+DAL__VARIANT_LIST(DAL__TAPE_RUN, dal__tape_run)
 
 #endif

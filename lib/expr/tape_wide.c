@@ -5,14 +5,13 @@
 #include "kernel/groups.h"
 
 #include "expr/arithmetic.h"
-#include "expr/graph.h"
 #include "expr/tape.h"
+#include "expr/traversal.h"
 
 #define AT(place)  w[(size_t)(place)*DAL_GROUPS + g]
 #define EACH_GROUP for (size_t g = 0; g < DAL_GROUPS; g++)
 
-__attribute__((flatten)) void DAL_WIDE(dal__execute)(const dal__tape *tape, double *work);
-void DAL_WIDE(dal__execute)(const dal__tape *tape, double *work)
+static __attribute__((flatten, noinline)) void execute(const dal__tape *tape, double *work)
 {
     num *w = (num *)work;
     for (int k = 0; k < tape->length; k++) {
@@ -41,7 +40,7 @@ void DAL_WIDE(dal__execute)(const dal__tape *tape, double *work)
 void DAL_WIDE(dal__tape_run)(const dal__tapes *tapes, int program, double *work, double *out)
 {
     const dal__tape *tape = &tapes->tape[program];
-    DAL_WIDE(dal__execute)(tape, work);
+    execute(tape, work);
     const num *w = (const num *)work;
     num *o = (num *)out;
     for (int k = 0; k < tape->outputs; k++) {
@@ -55,6 +54,6 @@ void DAL_WIDE(dal__tapes_prepare)(const dal__tapes *tapes, double *work)
 {
     num *numbers = (num *)work + tapes->parameters;
     for (int i = 0; i < tapes->numbers; i++) numbers[i] = dal_num(tapes->number[i]);
-    DAL_WIDE(dal__execute)(&tapes->hoisted, work);
+    execute(&tapes->hoisted, work);
 }
 #endif

@@ -2,8 +2,9 @@
  *
  * Operands have smaller indices than what they make, so marking runs down the indices and computing
  * runs up. */
+#include "expr/traversal.h"
 #include "expr/arithmetic.h"
-#include "expr/graph.h"
+#include "expr/simplify.h"
 #include <math.h>
 #include <stdlib.h>
 

@@ -92,7 +92,7 @@ static dal_status extend(dal_model *model)
         extended[i] = dal__add(graph, e->F[i], dal__mul(graph, alpha, along_free));
     }
     e->extended = extended;
-    return dal__graph_status(graph);
+    return graph->status;
 }
 
 dal_status dal__conserved(dal_model *model)

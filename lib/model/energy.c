@@ -217,5 +217,5 @@ dal_status dal__energy_properties(dal_model *model)
         found = vanishes(&id) ? DAL_E_EXACT : vanishes_on_surface(&id, room) ? DAL_E_WEAK : 0;
     }
     e->properties |= found;
-    return dal__graph_status(e->graph);
+    return e->graph->status;
 }

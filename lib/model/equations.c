@@ -27,7 +27,7 @@ static const dal__node *velocities(const dal__equations *e) { return e->flow + 1
 
 static dal_status exhausted(const dal_model *model, dal_error *error)
 {
-    return dal__exhausted(dal__graph_status(model->equations.graph), error);
+    return dal__exhausted(model->equations.graph->status, error);
 }
 
 /* ---- the parts ---- */
@@ -66,7 +66,7 @@ static dal_status derive_constraints(dal_model *model, dal_error *error)
         e->c[a] = dal__along(e, e->constraint[a]);
         for (int i = 0; i < e->n; i++)
             depends |= !dal__is_number(e->graph, e->A[a * e->n + i], 0.0);
-        if (!depends && dal__graph_status(e->graph) == DAL_OK)
+        if (!depends && e->graph->status == DAL_OK)
             return dal__fail_at(error, DAL_RANK, entry->line, entry->column,
                                 "constraint %d does not depend on the velocities", a + 1);
     }
@@ -263,5 +263,5 @@ dal_status dal__equations_derive(dal_model *model, dal_error *error)
             derive_lagrangian(e, e->lagrangian);
         DAL_TRY(solve_motion(model, error));
     }
-    return dal__graph_status(e->graph) == DAL_OK ? DAL_OK : exhausted(model, error);
+    return e->graph->status == DAL_OK ? DAL_OK : exhausted(model, error);
 }

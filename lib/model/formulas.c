@@ -54,7 +54,7 @@ static dal_status fault(const dal_model *model, const dal__entry *entry, dal_sta
                         dal_error *error, const char *message)
 {
     dal_error inner = {.status = status, .line = 1, .column = 1};
-    dal_status graph = dal__graph_status(model->equations.graph);
+    dal_status graph = model->equations.graph->status;
     if (graph != DAL_OK) return dal__exhausted(graph, error);
     snprintf(inner.message, sizeof inner.message, "%s", message);
     return locate(model, entry, error, &inner);
@@ -300,9 +300,8 @@ static dal_status allocate(dal_model *model, dal_error *error)
     dal__equations *e = &model->equations;
     int n = e->n, m = e->m;
     dal__graph_free(e->graph);
-    e->graph = dal__graph_create();
+    e->graph = dal__graph_create(e->parameters);
     if (!e->graph) return dal__starved(error);
-    dal__graph_parameters(e->graph, e->parameters);
     dal__node zero = dal__number(e->graph, 0.0);
     e->lagrangian = zero;
     e->mu = e->energy = 0;
@@ -368,6 +367,6 @@ dal_status dal__formulas(dal_model *model, dal_error *error)
     DAL_TRY(parse_exact(model, error));
     DAL_TRY(dal__picture(model, error));
     evaluate_start(e);
-    dal_status status = dal__graph_status(e->graph);
+    dal_status status = e->graph->status;
     return status == DAL_OK ? DAL_OK : dal__exhausted(status, error);
 }

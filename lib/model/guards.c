@@ -28,8 +28,8 @@ static const char *symbol_text(dal_model *model, int symbol)
 static void add_guard(search *s, dal__node node, const char *text)
 {
     dal__equations *e = &s->model->equations;
-    dal__view view = dal__look(e->graph, node);
-    dal__view inner = view.op == DAL__COS ? dal__look(e->graph, view.a) : view;
+    dal__record view = dal__inspect(e->graph, node);
+    dal__record inner = view.op == DAL__COS ? dal__inspect(e->graph, view.a) : view;
     if (!dal__depends(e->graph, node, e->parameters, e->symbols)) return;
     s->full = s->full || e->guards == MOST_GUARDS;
     if (s->full) return;
@@ -43,7 +43,7 @@ static void add_guard(search *s, dal__node node, const char *text)
 }
 
 /* A denominator, or a factor of one or of D: down to what is no product. */
-static void split_factor(search *s, dal__node node, dal__view view)
+static void split_factor(search *s, dal__node node, dal__record view)
 {
     switch (view.op) {
     case DAL__MUL:
@@ -67,7 +67,7 @@ static void split_factor(search *s, dal__node node, dal__view view)
 }
 
 /* D itself, or a factor of it. */
-static void split_whole(search *s, dal__node node, dal__view view)
+static void split_whole(search *s, dal__node node, dal__record view)
 {
     const dal__equations *e = &s->model->equations;
     if (!dal__depends(e->graph, node, e->v, e->v + e->n)) s->flag[node] |= FACTOR;
@@ -78,7 +78,7 @@ static void split_whole(search *s, dal__node node, dal__view view)
 static void visit(search *s, dal__node node)
 {
     dal__graph *graph = s->model->equations.graph;
-    dal__view view = dal__look(graph, node);
+    dal__record view = dal__inspect(graph, node);
     if (s->flag[node] & WHOLE) split_whole(s, node, view);
     if (s->flag[node] & FACTOR) split_factor(s, node, view);
     if (view.a) s->flag[view.a] |= REACHED;
@@ -86,7 +86,7 @@ static void visit(search *s, dal__node node)
     if (view.op == DAL__DIV) s->flag[view.b] |= FACTOR;
     if (view.op == DAL__TAN) add_guard(s, dal__apply(graph, DAL__COS, view.a, 0), "a denominator");
     if (view.op != DAL__POW) return;
-    dal__view exponent = dal__look(graph, view.b);
+    dal__record exponent = dal__inspect(graph, view.b);
     if (exponent.op == DAL__NUMBER && exponent.value < 0.0) s->flag[view.a] |= FACTOR;
 }
 
@@ -116,7 +116,7 @@ static void guard_determinants(search *s)
 dal_status dal__guards(dal_model *model)
 {
     dal__equations *e = &model->equations;
-    int count = dal__graph_count(e->graph);
+    int count = e->graph->count;
     search s = {.model = model};
     e->guard = dal__model_take(model, MOST_GUARDS, sizeof *e->guard);
     e->guard_name = dal__model_take(model, MOST_GUARDS, sizeof *e->guard_name);
@@ -130,5 +130,5 @@ dal_status dal__guards(dal_model *model)
     }
     if (!model->starved) guard_determinants(&s);
     if (model->starved) return DAL_MEMORY;
-    return s.full ? DAL_TOO_LARGE : dal__graph_status(e->graph);
+    return s.full ? DAL_TOO_LARGE : e->graph->status;
 }

@@ -158,7 +158,7 @@ static dal_status make_plan(dal_model *model, dal__linear *s, plan *p)
     move_off(e, point);
     evaluate(p, e, s->matrix, point);
     s->singular = order(p);
-    DAL_TRY(dal__graph_status(e->graph));
+    DAL_TRY(e->graph->status);
     return s->singular < 0 ? DAL_OK : DAL_SINGULAR;
 }
 
@@ -214,7 +214,7 @@ static void note_pivot(dal__equations *e, const work *w, int k)
     int row = w->p->row[k], place = row * w->s->n + w->p->column[k];
     int last = w->p->column[k] > row ? w->p->column[k] : row;
     bool varying = dal__depends(e->graph, w->s->matrix[place], e->parameters, e->symbols);
-    if (dal__look(e->graph, w->s->matrix[place]).op == DAL__NUMBER) return;
+    if (dal__inspect(e->graph, w->s->matrix[place]).op == DAL__NUMBER) return;
     e->pivot[e->pivots++] =
         (dal__pivot){.pivot = w->s->matrix[place],
                      .size = w->size[place],
@@ -262,5 +262,5 @@ dal_status dal__linear_solve(dal_model *model, dal__linear *s)
         for (int i = k + 1; i < s->n; i++) eliminate_row(&w, k, p.row[i]);
     }
     back_substitute(&w);
-    return dal__graph_status(e->graph);
+    return e->graph->status;
 }

@@ -6,7 +6,11 @@
 #define DAL_MECHANICS_H
 
 #include "core/error.h"
-#include "expr/formula.h"
+#include "expr/derivative.h"
+#include "expr/parser.h"
+#include "expr/simplify.h"
+#include "expr/tape.h"
+#include "expr/traversal.h"
 
 enum {
     DAL__MOST_ENTRIES = 4096,    /* of a model, all sections together */

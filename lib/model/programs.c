@@ -98,13 +98,13 @@ dal_status dal__programs_add_motion(dal_model *model, dal__programs *programs, c
 static void place_inputs(dal__programs *programs)
 {
     const dal__equations *e = programs->equations;
-    int inputs = dal__tapes_inputs(programs->tapes) - e->parameters;
+    int inputs = (int)programs->tapes->first_input - e->parameters;
     programs->t = inputs + e->t;
     programs->q = inputs + e->q;
     programs->v = inputs + e->v;
     programs->pi = inputs + e->pi;
     programs->g = inputs + e->g;
-    programs->scratch = dal__tapes_workspace(programs->tapes);
+    programs->scratch = programs->tapes->workspace;
 }
 
 static size_t scratch_room(const dal__programs *programs)

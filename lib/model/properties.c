@@ -109,5 +109,5 @@ dal_status dal__properties(dal_model *model)
     e->properties = motion_properties(e) | constraint_properties(e, first, second);
     DAL_TRY(dal__energy_properties(model));
     e->properties |= parts_properties(e, first);
-    return dal__graph_status(e->graph);
+    return e->graph->status;
 }

@@ -150,7 +150,7 @@ dal_status dal_model_system(dal_model *model, const dal_system **system, dal_err
     if (status == DAL_OK) status = dal__potential(model);
     if (status == DAL_OK) describe(model);
     if (status == DAL_OK) status = add_programs(model, &model->programs, model->equations.F);
-    if (status == DAL_OK) status = dal__graph_status(model->equations.graph);
+    if (status == DAL_OK) status = model->equations.graph->status;
     if (status == DAL_OK) status = dal__programs_finish(model, &model->programs, &model->system);
     if (status == DAL_OK) status = make_extended(model);
     if (status != DAL_OK) return dal__exhausted(status, error);
@@ -194,7 +194,7 @@ static dal_status add_tangent_programs(dal_model *model)
     DAL_TRY(dal__programs_begin(e, &model->tangent_programs, 2 * n, 0));
     DAL_TRY(dal__programs_add_motion(model, &model->tangent_programs, F));
     DAL_TRY(add_diagnosis(model, &model->tangent_programs));
-    return dal__graph_status(e->graph);
+    return e->graph->status;
 }
 
 static dal_status make_tangent(dal_model *model)

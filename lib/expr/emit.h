@@ -1,0 +1,20 @@
+/* emit.h - programs as straight-line C. */
+#ifndef DAL_EXPR_EMIT_H
+#define DAL_EXPR_EMIT_H
+
+#include "core/text.h"
+#include "expr/tape.h"
+
+typedef struct dal__input_name {
+    char text[16];
+} dal__input_name;
+
+/* Writes a program as C statements over num that set out[0], out[1], ...: its instructions one by
+ * one, so that it computes the same bits.  Input number i is called input[i].text; parameters and
+ * hoisted nodes are DAL_WORK(place), with their places in work.  The second writes what
+ * dal__tapes_prepare_x1 computes. */
+void dal__tape_write(const dal__tapes *tapes, int program, const dal__input_name *input,
+                     dal__text *text);
+void dal__tapes_write_hoisted(const dal__tapes *tapes, dal__text *text);
+
+#endif

@@ -1,0 +1,20 @@
+/* parser.h - formulas to nodes. */
+#ifndef DAL_EXPR_PARSER_H
+#define DAL_EXPR_PARSER_H
+
+#include "expr/graph.h"
+
+/* Turns a name (or name' when prime) into a node; on 0 it has filled *error with the status and
+ * message, the parser adds the place. */
+typedef dal__node dal__resolve(void *user, const char *name, size_t length, bool prime,
+                               dal_error *error);
+
+/* Parses one formula.  error->line and column are relative to text, from 1.  Errors: DAL_SYNTAX,
+ * DAL_NAME (also what resolve returns), DAL_TOO_LARGE, DAL_MEMORY. */
+dal_status dal__parse(dal__graph *graph, const char *text, size_t length, dal__resolve *resolve,
+                      void *user, dal__node *node, dal_error *error);
+
+/* Whether a name is that of a function, so that nothing else may have it. */
+bool dal__is_function(const char *name, size_t length);
+
+#endif

@@ -1,0 +1,17 @@
+/* simplify.h - operations on nodes, in canonical form (graph.h).
+ *
+ * As for real numbers: on the domain of a formula this changes no value but by rounding; 0*x and
+ * x/x lose their own gaps.  Operands may be 0, no node: so is the result then. */
+#ifndef DAL_EXPR_SIMPLIFY_H
+#define DAL_EXPR_SIMPLIFY_H
+
+#include "expr/graph.h"
+
+dal__node dal__apply(dal__graph *graph, dal__op op, dal__node a, dal__node b); /* b: 0 if unary */
+dal__node dal__add(dal__graph *graph, dal__node a, dal__node b);
+dal__node dal__sub(dal__graph *graph, dal__node a, dal__node b);
+dal__node dal__mul(dal__graph *graph, dal__node a, dal__node b);
+dal__node dal__div(dal__graph *graph, dal__node a, dal__node b);
+dal__node dal__neg(dal__graph *graph, dal__node a);
+
+#endif
