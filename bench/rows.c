@@ -8,7 +8,7 @@
  * space.  Prints nanoseconds per row and, for the bytes are to be the same, numbers read back. */
 #define _DEFAULT_SOURCE
 #include "bench.h"
-#include "io/table.h"
+#include "io/trajectory_writer.h"
 #include <fcntl.h>
 #include <unistd.h>
 
@@ -28,15 +28,15 @@ static void fill(void)
 
 static int by_table(void *self, double *end)
 {
-    cli_table table;
+    trajectory_writer table;
     (void)self;
     (void)end;
-    int status = table_create(&table, place, names, COLUMNS);
+    int status = writer_create(&table, place, names, COLUMNS);
     for (long k = 0; k < ROWS && status == CLI_DONE; k++) {
         rows[k % SOURCE][0] = 0.01 * (double)k;
-        status = table_row(&table, rows[k % SOURCE]);
+        status = writer_append(&table, rows[k % SOURCE]);
     }
-    const int closed = table_close(&table);
+    const int closed = writer_close(&table);
     return status != CLI_DONE || closed != CLI_DONE;
 }
 

@@ -3,7 +3,7 @@
 #ifndef DAL_CLI_ANALYSIS_H
 #define DAL_CLI_ANALYSIS_H
 
-#include "run/job.h"
+#include "run/request.h"
 
 #include <stdbool.h>
 #include <stdint.h>

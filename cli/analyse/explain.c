@@ -1,6 +1,6 @@
 /* explain.c - `dalembert explain`: what the drift of a run comes from. */
-#include "run/job.h"
 #include "run/native.h"
+#include "run/request.h"
 
 #include <math.h>
 #include <stdlib.h>

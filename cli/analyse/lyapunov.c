@@ -7,7 +7,7 @@
  * level, and the densities of the levels differ by a total derivative. */
 #include "analysis.h"
 #include "io/gnuplot.h"
-#include "io/table.h"
+#include "io/trajectory_writer.h"
 
 #include <math.h>
 #include <stdlib.h>

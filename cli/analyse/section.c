@@ -4,7 +4,7 @@
  * invariants may, and is evaluated as they are. */
 #include "analysis.h"
 #include "io/gnuplot.h"
-#include "io/table.h"
+#include "io/trajectory_writer.h"
 #include "run/native.h"
 
 #include <math.h>

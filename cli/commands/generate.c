@@ -1,6 +1,6 @@
 /* generate.c - `dalembert generate`: one C file that steps one system, needing nothing else. */
 #include "io/file.h"
-#include "run/job.h"
+#include "run/request.h"
 #include "ui/cli.h"
 
 #include <stdlib.h>

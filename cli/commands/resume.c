@@ -1,7 +1,7 @@
 /* resume.c - `dalembert resume`: goes on with a run or a study that lives in a directory. */
 #include "run/pool.h"
 #include "run/run.h"
-#include "study/study_house.h"
+#include "study/study_directory.h"
 
 #include <string.h>
 

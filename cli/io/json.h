@@ -6,7 +6,7 @@
 #ifndef DAL_CLI_JSON_H
 #define DAL_CLI_JSON_H
 
-#include "study_yaml.h"
+#include "document.h"
 #include "ui/cli.h"
 
 /* ---- writing ------------------------------------------------------------------------------- */

@@ -9,7 +9,7 @@
  * multiple of 64, so that the number of rows is replaced by one write within one sector and is the
  * old one or the new one at any moment.  Rows behind that number are not read. */
 #include "npy.h"
-#include "word.h"
+#include "endian.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -10,7 +10,7 @@
 #include "io/file.h"
 #include "run/pool.h"
 #include "run/run.h"
-#include "study/study_house.h"
+#include "study/study_directory.h"
 
 #include <mpi.h>
 #include <stdlib.h>

@@ -4,8 +4,8 @@
  * length of 2, heading along x, and is drawn at a size that suits the path. */
 #include "report.h"
 
-#include "io/rows.h"
-#include "run/store.h"
+#include "io/trajectory_reader.h"
+#include "run/run_directory.h"
 
 #include <math.h>
 #include <stdlib.h>

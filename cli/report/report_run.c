@@ -2,8 +2,8 @@
  * not change, over t and as envelopes over log t. */
 #include "report.h"
 
-#include "io/rows.h"
-#include "run/store.h"
+#include "io/trajectory_reader.h"
+#include "run/run_directory.h"
 
 #include <math.h>
 #include <stdlib.h>

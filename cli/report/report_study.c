@@ -5,8 +5,8 @@
  * then the expectations, and the tables of the study as they were printed. */
 #include "report.h"
 
+#include "io/document.h"
 #include "io/file.h"
-#include "io/study_yaml.h"
 
 #include <math.h>
 #include <stdlib.h>

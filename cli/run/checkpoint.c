@@ -11,9 +11,9 @@
  * the newer one is damaged, or the rows are not those it tells of, the run goes on from the older.
  * Nothing in it is ever run or followed.  Formats 01 and 02, of versions that wrote rows.csv, are
  * refused; a later format raises the number and reads this one, too. */
+#include "io/endian.h"
 #include "io/file.h"
-#include "io/word.h"
-#include "store.h"
+#include "run_directory.h"
 
 #include <errno.h>
 #include <stdlib.h>

@@ -14,7 +14,7 @@
  * system it is signed: a checkpoint goes with one description alone. */
 #include "io/file.h"
 #include "io/json.h"
-#include "store.h"
+#include "run_directory.h"
 
 #include <math.h>
 #include <stdlib.h>

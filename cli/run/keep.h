@@ -2,7 +2,7 @@
 #ifndef DAL_CLI_KEEP_H
 #define DAL_CLI_KEEP_H
 
-#include "record.h"
+#include "recorder.h"
 
 typedef struct cli_keep {
     run_directory dir;

@@ -1,7 +1,7 @@
 /* manifest.c - manifest.json: the complete input of a run, what ran it, and how far it came. */
 #include "io/file.h"
 #include "io/json.h"
-#include "store.h"
+#include "run_directory.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -5,7 +5,7 @@
  *
  * moved is max |x - first|, of as many observables as the terminal has room for. */
 #include "io/json.h"
-#include "record.h"
+#include "recorder.h"
 
 #include <math.h>
 #include <stdarg.h>

@@ -1,7 +1,7 @@
 /* run.c - `dalembert run`: integrates one system and writes rows. */
 #include "run.h"
 
-#include "record.h"
+#include "recorder.h"
 
 #include <string.h>
 #include <unistd.h>

@@ -2,10 +2,10 @@
 #ifndef DAL_CLI_RUN_H
 #define DAL_CLI_RUN_H
 
-#include "job.h"
 #include "native.h"
-#include "record.h"
-#include "store.h"
+#include "recorder.h"
+#include "request.h"
+#include "run_directory.h"
 #include "ui/cli.h"
 
 /* The options of a run that do not concern the trajectory; they come behind those of the request.

@@ -1,6 +1,6 @@
 /* summary.c - what became of each quantity along a run. */
 #include "io/file.h"
-#include "record.h"
+#include "recorder.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -3,7 +3,7 @@
 #include "io/file.h"
 #include "run/pool.h"
 #include "run/run.h"
-#include "study_house.h"
+#include "study_directory.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 /* study.h - a study: systems x integrators x steps x starts, cell by cell.
  *
- *     study_plan    what is asked for, from a YAML text            study_plan.c, study_yaml.c
- *     study_cell    one run and what became of it                  study_cell.c
+ *     study_plan    what is asked for, from a YAML text            study_plan.c, document.c
+ *     study_cell    one run and what became of it                  study_cell_run.c
  *     study_pool    all cells on several threads                   study_pool.c
  *     tables, CSV   what is told about the cells                   study_table.c, study_csv.c */
 #ifndef DAL_CLI_STUDY_H

@@ -2,7 +2,7 @@
 #ifndef DAL_CLI_STUDY_EXPECT_H
 #define DAL_CLI_STUDY_EXPECT_H
 
-#include "io/study_yaml.h"
+#include "io/document.h"
 #include "study.h"
 
 /* What bounds may be set to: name, member of dal_trend. */

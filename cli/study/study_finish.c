@@ -1,8 +1,8 @@
 /* study_finish.c - what is left of a study in its directory, and told, when cells have been run. */
 #include "io/file.h"
 #include "io/json.h"
-#include "run/store.h"
-#include "study_house.h"
+#include "run/run_directory.h"
+#include "study_directory.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -6,7 +6,7 @@
 #include "io/file.h"
 #include "run/pool.h"
 #include "run/run.h"
-#include "study_house.h"
+#include "study_directory.h"
 
 #include <errno.h>
 #include <stdlib.h>

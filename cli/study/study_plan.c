@@ -1,8 +1,8 @@
 /* study_plan.c - from the keys of a study to its cases and cells. */
-#include "io/study_yaml.h"
-#include "run/job.h"
+#include "io/document.h"
+#include "parsed_study.h"
+#include "run/request.h"
 #include "study.h"
-#include "study_draft.h"
 #include "study_expect.h"
 
 #include <stdlib.h>

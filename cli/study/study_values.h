@@ -2,7 +2,7 @@
 #ifndef DAL_CLI_STUDY_VALUES_H
 #define DAL_CLI_STUDY_VALUES_H
 
-#include "io/study_yaml.h"
+#include "io/document.h"
 
 #include <stdint.h>
 

@@ -1,4 +1,4 @@
-/* job.h - all that makes a run, as the command line or a manifest.json tells it. */
+/* request.h - all that makes a run, as the command line or a manifest.json tells it. */
 #ifndef DAL_CLI_REQUEST_H
 #define DAL_CLI_REQUEST_H
 
@@ -83,7 +83,7 @@ const char *request_step_error(double step, double time, char text[REQUEST_STEP_
 int request_check_step(const run_request *request, double time);
 /* Loads the system, chooses the space and makes the spec of the run. */
 int request_make_spec(run_request *request, dal_run_spec *spec);
-/* After the last option: checks that none is missing and makes the spec; the second also the run. */
+/* After the last option: checks that none is missing and makes the spec; the other also the run. */
 int request_complete(run_request *request, dal_run_spec *spec);
 int request_create_run(run_request *request);
 

@@ -1,4 +1,4 @@
-/* word.h - words of 64 bits as files hold them on every machine: the lowest byte first.  Written
+/* endian.h - words of 64 bits as files hold them on every machine: the lowest byte first.  Written
  * out, for compilers to see one load or store in it where that is the machine's own order. */
 #ifndef DAL_CLI_ENDIAN_H
 #define DAL_CLI_ENDIAN_H

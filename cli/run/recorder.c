@@ -1,5 +1,5 @@
-/* record.c - looks on while a run goes and keeps what is seen. */
-#include "record.h"
+/* recorder.c - looks on while a run goes and keeps what is seen. */
+#include "recorder.h"
 
 #include <stdlib.h>
 #include <string.h>

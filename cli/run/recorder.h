@@ -1,10 +1,10 @@
-/* record.h - a run on its way: rows, statistics, progress and checkpoints. */
+/* recorder.h - a run on its way: rows, statistics, progress and checkpoints. */
 #ifndef DAL_CLI_RECORDER_H
 #define DAL_CLI_RECORDER_H
 
-#include "io/table.h"
-#include "job.h"
-#include "store.h"
+#include "io/trajectory_writer.h"
+#include "request.h"
+#include "run_directory.h"
 
 /* How progress is told.  code, word */
 #define PROGRESS_LIST(X) X(AUTO, auto) X(JSON, json) X(OFF, off)

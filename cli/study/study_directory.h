@@ -1,4 +1,4 @@
-/* study_house.h - a study that lives in a directory and can be gone on with after any interruption.
+/* study_directory.h - a study in a directory, which can be resumed after any interruption.
  *
  *     DIR/study.yaml         the study itself; written last, so that with it all else is there
  *     DIR/systems/LABEL.yaml copies of system files

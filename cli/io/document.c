@@ -1,5 +1,5 @@
-/* study_yaml.c - nodes of a parsed YAML text, with messages that name their place. */
-#include "study_yaml.h"
+/* document.c - nodes of a parsed YAML text, with messages that name their place. */
+#include "document.h"
 
 #include <stdarg.h>
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-/* store.h - a run that lives in a directory and can be gone on with after any interruption.
+/* run_directory.h - a run that lives in a directory and can be gone on with after any interruption.
  *
  *     DIR/manifest.json what was asked for, what ran it, and how far it came
  *     DIR/system.yaml   copy of the system file; absent for a built-in system
@@ -12,9 +12,9 @@
 #ifndef DAL_CLI_RUN_DIRECTORY_H
 #define DAL_CLI_RUN_DIRECTORY_H
 
-#include "io/study_yaml.h"
-#include "io/table.h"
-#include "job.h"
+#include "io/document.h"
+#include "io/trajectory_writer.h"
+#include "request.h"
 #include "ui/cli.h"
 
 #define RUN_FILE_LIST(X)                                                                           \

@@ -1,4 +1,4 @@
-/* table.c - tables of doubles as CSV or .npy.
+/* trajectory_writer.c - tables of doubles as CSV or .npy.
  *
  * A .npy file grows: rows are gathered and written many at a time, and only then the header tells
  * of them, so that whatever kills the process leaves a file that can be read.
@@ -9,8 +9,8 @@
  *
  * with K odd, so that any one word that changes changes it, and four words are under way at once.
  */
-#include "table.h"
-#include "word.h"
+#include "trajectory_writer.h"
+#include "endian.h"
 
 #include <errno.h>
 #include <fcntl.h>

@@ -1,5 +1,5 @@
-/* rows.c - the rows of a run that lives in a directory, read one by one. */
-#include "rows.h"
+/* trajectory_reader.c - the rows of a run that lives in a directory, read one by one. */
+#include "trajectory_reader.h"
 
 #include <errno.h>
 #include <stdlib.h>

@@ -1,4 +1,4 @@
-/* study_judge.c - what a study stated beforehand against what was found. */
+/* study_compare.c - what a study stated beforehand against what was found. */
 #include "io/file.h"
 #include "study_expect.h"
 

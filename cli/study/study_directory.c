@@ -1,5 +1,5 @@
-/* study_house.c - the directory of a study: begun, joined, read. */
-#include "study_house.h"
+/* study_directory.c - the directory of a study: begun, joined, read. */
+#include "study_directory.h"
 
 #include "io/file.h"
 #include "io/json.h"

@@ -1,9 +1,9 @@
-/* study_draft.h - the keys of a study as they stand in its file, before anything is made of them.
+/* parsed_study.h - the keys of a study as they stand in its file, before anything is made of them.
  */
 #ifndef DAL_CLI_PARSED_STUDY_H
 #define DAL_CLI_PARSED_STUDY_H
 
-#include "io/study_yaml.h"
+#include "io/document.h"
 #include "study.h"
 
 /* A case, the nodes that wait for its system, and what only the whole study has. */

@@ -1,4 +1,4 @@
-/* table.h - a table of doubles on its way to a file: CSV with 17 digits, or .npy. */
+/* trajectory_writer.h - a table of doubles on its way to a file: CSV with 17 digits, or .npy. */
 #ifndef DAL_CLI_TRAJECTORY_WRITER_H
 #define DAL_CLI_TRAJECTORY_WRITER_H
 
@@ -7,7 +7,7 @@
 
 #include <stdint.h>
 
-/* A check sum of rows in their order: see table.c. */
+/* A check sum of rows in their order: see trajectory_writer.c. */
 enum { ROW_SUM_LANES = 4 };
 typedef struct row_sum {
     uint64_t lane[ROW_SUM_LANES];

@@ -1,8 +1,8 @@
-/* study_draft.c - the keys of a study file, one by one.
+/* parsed_study.c - the keys of a study file, one by one.
  *
  * Keys beside `systems` are defaults for every system; a system may be a name or a mapping that
  * overrides them.  'dalembert study --help' lists the keys. */
-#include "study_draft.h"
+#include "parsed_study.h"
 
 #include "study_values.h"
 

@@ -1,5 +1,5 @@
-/* store.c - a directory that holds a run: its files, and who may write to them. */
-#include "store.h"
+/* run_directory.c - a directory that holds a run: its files, and who may write to them. */
+#include "run_directory.h"
 
 #include <errno.h>
 #include <fcntl.h>

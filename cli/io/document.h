@@ -1,4 +1,4 @@
-/* study_yaml.h - nodes of a parsed YAML text, with messages that name their place. */
+/* document.h - nodes of a parsed YAML text, with messages that name their place. */
 #ifndef DAL_CLI_DOCUMENT_H
 #define DAL_CLI_DOCUMENT_H
 

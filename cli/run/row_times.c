@@ -1,11 +1,11 @@
-/* schedule.c - when the rows of a run are taken.
+/* row_times.c - when the rows of a run are taken.
  *
  *     linear   t_k = k T/N                                     k = 0..N (nothing is made for it)
  *     log      t_0 = 0, t_k = h round((T/h)^((k-1)/(N-1)))     steps that fall together are one row
  *     steps    t_k = h round(k N/S)                            k = 0..S, N = round(T/h), T = h N
  *     times    as they were given, and T behind them when it is later */
 #include "io/file.h"
-#include "job.h"
+#include "request.h"
 
 #include <math.h>
 #include <stdio.h>

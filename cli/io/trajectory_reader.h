@@ -1,4 +1,4 @@
-/* rows.h - the rows of a run that lives in a directory, read one by one. */
+/* trajectory_reader.h - the rows of a run that lives in a directory, read one by one. */
 #ifndef DAL_CLI_TRAJECTORY_READER_H
 #define DAL_CLI_TRAJECTORY_READER_H
 

@@ -1,5 +1,5 @@
-/* job.c - from the options of a run to the run. */
-#include "job.h"
+/* request.c - from the options of a run to the run. */
+#include "request.h"
 
 #include <stdlib.h>
 #include <string.h>
