@@ -1,9 +1,9 @@
-# explain: what a drift comes from.
+# explain: the error sources of a drift.
 
 case_is "explain: truncation of rk4 on the sleigh"
 try 0 explain chaplygin-sleigh --integrator rk4 --space physical --step 0.1 --time 30 --long-steps 200
 silent
-prints "^chaplygin-sleigh, rk4, physical, h = 0.1: 300 steps, the first 200 in long numbers too$"
+prints "^chaplygin-sleigh, rk4, physical, h = 0.1: 300 steps, the first 200 in quad precision too$"
 prints "^D1: "
 prints "^    truncation    1 .*falls by 1[56].* = 2\^[34]\.[90].* when the step is halved$"
 prints "^exact: spin$"
@@ -18,12 +18,12 @@ holds "heads" grep -q '^observable,kind,name,steps,share,margin,rate,rate_low,ra
 sed 's/"[^"]*"/words/' why.csv >plain.csv
 holds "columns" awk -F, 'NF != 14 { exit 1 }' plain.csv
 holds "the solver's share" awk -F, '$1 == "D1" && $3 == "solver" && $5 > 0.99 { found = 1 } END { exit !found }' why.csv
-holds "rows" awk -F, '$1 == "D1" { n[$2]++ } END { exit !(n["run"] == 9 && n["cause"] == 5) }' why.csv
+holds "rows" awk -F, '$1 == "D1" { n[$2]++ } END { exit !(n["run"] == 9 && n["source"] == 5) }' why.csv
 try 0 explain chaplygin-sleigh --integrator gauss8 --space physical --step 0.1 --time 30 \
     --solve-to 1e-8 --long-steps 200 --output -
 holds "other rows on standard output" cmp -s out why.csv
 
-# Nothing is said of the causes of what is no number.
+# What is no number has no error sources.
 case_is "explain: not finite"
 cat >nowhere.yaml <<'END'
 coordinates: [x]
@@ -32,7 +32,7 @@ start: {x': 1}
 invariants: {never: log(-1 - x^2), later: log(0.5 - x)}
 END
 try 0 explain nowhere.yaml --integrator rk4 --step 0.1 --time 10 --long-steps 50 --output nowhere.csv
-holds "shares" awk -F, '($1 == "never" || $1 == "later") && $2 == "cause" {
+holds "shares" awk -F, '($1 == "never" || $1 == "later") && $2 == "source" {
     n++; if ($5 != "" || $NF != "it is not finite") exit 1 } END { exit n != 10 }' nowhere.csv
 try 0 explain nowhere.yaml --integrator rk4 --step 0.1 --time 10 --long-steps 50
 holds "a ratio that is none" sh -c '! grep -q nan out'
