@@ -1,6 +1,7 @@
 /* analysis.c - arguments, outputs and distances of the commands that examine a system or a
  * motion. */
 #include "analysis.h"
+#include "io/output.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,5 +1,7 @@
 /* explain.c - `dalembert explain`: the error sources of the drift of a run. */
 #include "analysis.h"
+#include "io/output.h"
+#include "io/trend.h"
 #include "run/native.h"
 
 #include <math.h>

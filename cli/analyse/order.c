@@ -4,6 +4,7 @@
  * diagrams. */
 #include "analysis.h"
 #include "io/gnuplot.h"
+#include "io/output.h"
 #include "run/pool.h"
 
 #include <math.h>

@@ -1,5 +1,6 @@
 /* gnuplot.c - writing scripts for gnuplot and running them. */
 #include "gnuplot.h"
+#include "output.h"
 
 #include "file.h"
 

@@ -1,5 +1,6 @@
 /* json.c - the JSON that the program writes, and reads of its own files. */
 #include "json.h"
+#include "output.h"
 
 #include "file.h"
 

@@ -1,5 +1,5 @@
-/* output.c - writing numbers and files so that no failure goes unseen. */
-#include "ui/cli.h"
+/* output.c - writing numbers and files. */
+#include "output.h"
 
 #include <errno.h>
 #include <math.h>
@@ -30,21 +30,6 @@ void cli_put_text(FILE *out, const char *text)
         fputc(*text, out);
     }
     fputc('"', out);
-}
-
-int cli_close(FILE *out, const char *path)
-{
-    /* A full disk may show only when the buffer is flushed, and a network one only at close. */
-    int failed = ferror(out);
-    errno = failed ? EIO : 0;
-    if (fflush(out) != 0) failed = 1;
-    int reason = errno;
-    if (out != stdout && fclose(out) != 0 && !failed) {
-        failed = 1;
-        reason = errno;
-    }
-    errno = reason;
-    return failed ? cli_io("write", path) : CLI_DONE;
 }
 
 int cli_ends_in(const char *text, const char *ending)

@@ -1,5 +1,6 @@
 /* trajectory_reader.c - the rows of a run that lives in a directory, read one by one. */
 #include "trajectory_reader.h"
+#include "output.h"
 
 #include <errno.h>
 #include <stdlib.h>

@@ -11,6 +11,7 @@
  */
 #include "trajectory_writer.h"
 #include "endian.h"
+#include "output.h"
 
 #include <errno.h>
 #include <fcntl.h>

@@ -1,5 +1,7 @@
 /* trend.c - the columns of a trend, the same for runs and studies. */
-#include "ui/cli.h"
+#include "trend.h"
+
+#include "output.h"
 
 #include <math.h>
 

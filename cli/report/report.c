@@ -1,5 +1,6 @@
 /* report.c - `dalembert report DIR`: a page with figures by gnuplot. */
 #include "report.h"
+#include "io/output.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -3,6 +3,7 @@
  * At each step the envelopes of what should not change, max |x - x(0)| up to t, over t, log-log: a
  * drift ~ t^k is a line of slope k.  Over all steps the error against the work and, where there are
  * several, against h.  And the path of the most accurate run. */
+#include "io/output.h"
 #include "report.h"
 
 #include <math.h>

@@ -1,5 +1,6 @@
 /* report_order.c - the page of what `dalembert order --output DIR` found: for every method the
  * order and its errors, and the error over the step and over the work. */
+#include "io/output.h"
 #include "report.h"
 
 #include <math.h>

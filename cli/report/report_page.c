@@ -1,5 +1,6 @@
 /* report_page.c - the page of a report: HTML that needs no other file, no network and no script,
  * light or dark as its reader likes, on wide screens and on narrow ones. */
+#include "io/output.h"
 #include "report.h"
 
 #include "io/file.h"

@@ -1,5 +1,6 @@
 /* report_run.c - the page of a run: what was asked for, its path, its coordinates, and what should
  * not change, over t and as envelopes over log t. */
+#include "io/output.h"
 #include "report.h"
 
 #include "io/trajectory_reader.h"

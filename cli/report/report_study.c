@@ -3,6 +3,7 @@
  *
  * First the tables of sizes and trends, methods against systems; then the figures of each system;
  * then the expectations, and the tables of the study as they were printed. */
+#include "io/output.h"
 #include "report.h"
 
 #include "io/document.h"

@@ -1,5 +1,6 @@
 /* keep.c - a run in a directory of its own, begun or gone on with. */
 #include "keep.h"
+#include "io/output.h"
 
 static const double interval = 5.0; /* seconds between checkpoints */
 

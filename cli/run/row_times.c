@@ -5,6 +5,7 @@
  *     steps    t_k = h round(k N/S)                            k = 0..S, N = round(T/h), T = h N
  *     times    as they were given, and T behind them when it is later */
 #include "io/file.h"
+#include "io/output.h"
 #include "request.h"
 
 #include <math.h>

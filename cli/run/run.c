@@ -1,5 +1,6 @@
 /* run.c - `dalembert run`: integrates one system and writes rows. */
 #include "run.h"
+#include "io/output.h"
 
 #include "recorder.h"
 

@@ -1,5 +1,6 @@
 /* run_directory.c - a directory that holds a run: its files, and who may write to them. */
 #include "run_directory.h"
+#include "io/output.h"
 
 #include <errno.h>
 #include <fcntl.h>

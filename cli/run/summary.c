@@ -1,5 +1,7 @@
 /* summary.c - what became of each quantity along a run. */
 #include "io/file.h"
+#include "io/output.h"
+#include "io/trend.h"
 #include "recorder.h"
 
 #include <math.h>

@@ -1,4 +1,5 @@
 /* system.c - trend the system a command is about. */
+#include "io/output.h"
 #include "ui/cli.h"
 
 #include <errno.h>

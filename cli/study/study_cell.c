@@ -1,4 +1,5 @@
 /* study_cell.c - what is asked of a cell: its names, and its trends by name. */
+#include "io/output.h"
 #include "study.h"
 
 #include <stdlib.h>

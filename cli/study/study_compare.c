@@ -1,5 +1,6 @@
 /* study_compare.c - what a study stated beforehand against what was found. */
 #include "io/file.h"
+#include "io/output.h"
 #include "study_expect.h"
 
 #include <math.h>

@@ -1,4 +1,6 @@
 /* study_csv.c - the files of a study: every cell, every observable, every track. */
+#include "io/output.h"
+#include "io/trend.h"
 #include "study.h"
 
 #include <math.h>

@@ -1,5 +1,6 @@
 /* study_directory.c - the directory of a study: begun, joined, read. */
 #include "study_directory.h"
+#include "io/output.h"
 
 #include "io/file.h"
 #include "io/json.h"

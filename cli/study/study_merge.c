@@ -4,6 +4,7 @@
  * alone.  The runs are copied, unless they are where the whole is to be, and then the study is told
  * as by whoever ran it whole. */
 #include "io/file.h"
+#include "io/output.h"
 #include "run/pool.h"
 #include "run/run.h"
 #include "study_directory.h"

@@ -197,36 +197,11 @@ int cli_load(const char *system, dal_model **model, const dal_system **made);
 int cli_read(const char *system, dal_model **model);
 int cli_make(const char *place, dal_model **model, const dal_system **made);
 
-/* ---- trends ------------------------------------------------------------------------------ */
-
-/* The columns amplitude, rate, rate_low, rate_high, exponent, size, trend, confidence of a CSV
- * file: their heads, and the cells with a comma before each; what cannot be stated is empty. */
-extern const char cli_trend_heads[];
-void cli_put_trend(FILE *out, const dal_trend *trend);
-/* Size and trend as words; "" where the motion need not conserve the quantity. */
-const char *cli_size_word(const dal_trend *trend);
-const char *cli_trend_word(const dal_trend *trend);
-/* The trend for a reader: "linear", "linear, confidence 0.87" (where it is no certainty),
- * "none, |drift| <= 1.2e-15" (the largest drift that the interval of the rate admits over the run),
- * or that the motion does not conserve the quantity.  Returns buffer. */
-char *cli_trend_text(const dal_trend *trend, char *buffer, size_t size);
-
 /* ---- output -------------------------------------------------------------------------------- */
 
-/* Writes x with 17 digits, as a double reads it back; minus zero as 0. */
-void cli_put(FILE *out, double x);
-/* Writes a cell of a CSV file; one with a comma or a quote in it is quoted, as RFC 4180 has it. */
-void cli_put_text(FILE *out, const char *text);
 /* Closes (or, for stdout, flushes) a file that was written to.  Returns CLI_DONE or, when any write
  * of its life failed, prints and returns CLI_IO. */
 int cli_close(FILE *out, const char *path);
-int cli_ends_in(const char *text, const char *ending);
-/* Makes a directory unless it is there.  Returns CLI_DONE or prints and returns CLI_IO. */
-int cli_directory(const char *path);
-/* Whether an output is a directory: not "-", no .csv or .npy, no device and no pipe. */
-int cli_is_directory(const char *output);
-/* "DIR/NAME", allocated. */
-char *cli_join(const char *directory, const char *name);
 
 /* ---- signals ------------------------------------------------------------------------------- */
 

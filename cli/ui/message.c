@@ -128,6 +128,21 @@ int cli_io(const char *verb, const char *path)
                     strerror(errno));
 }
 
+int cli_close(FILE *out, const char *path)
+{
+    /* A full disk may show only when the buffer is flushed, and a network one only at close. */
+    int failed = ferror(out);
+    errno = failed ? EIO : 0;
+    if (fflush(out) != 0) failed = 1;
+    int reason = errno;
+    if (out != stdout && fclose(out) != 0 && !failed) {
+        failed = 1;
+        reason = errno;
+    }
+    errno = reason;
+    return failed ? cli_io("write", path) : CLI_DONE;
+}
+
 static double seconds_of(clockid_t clock)
 {
     struct timespec now;

@@ -1,0 +1,19 @@
+/* trend.h - size and trend of a quantity, as CSV and as words. */
+#ifndef DAL_CLI_TREND_H
+#define DAL_CLI_TREND_H
+
+#include "ui/cli.h"
+
+/* The columns amplitude, rate, rate_low, rate_high, exponent, size, trend, confidence of a CSV
+ * file: their heads, and the cells with a comma before each; what cannot be stated is empty. */
+extern const char cli_trend_heads[];
+void cli_put_trend(FILE *out, const dal_trend *trend);
+/* Size and trend as words; "" where the motion need not conserve the quantity. */
+const char *cli_size_word(const dal_trend *trend);
+const char *cli_trend_word(const dal_trend *trend);
+/* The trend for a reader: "linear", "linear, confidence 0.87" (where it is no certainty),
+ * "none, |drift| <= 1.2e-15" (the largest drift that the interval of the rate admits over the run),
+ * or that the motion does not conserve the quantity.  Returns buffer. */
+char *cli_trend_text(const dal_trend *trend, char *buffer, size_t size);
+
+#endif
