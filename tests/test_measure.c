@@ -207,6 +207,25 @@ static void test_onto_nothing(void)
     dal_model_free(model);
 }
 
+/* D = sqrt(x'^2 + d^2) has no zero, and Newton's method goes from x' = d to -d, where |D| is the
+ * same.  Below 1e-13 of the terms of D, or of 1 if they are smaller, |D| counts as 0. */
+static void test_onto_rounding(void)
+{
+    for (int k = 0; k < 2; k++) {
+        const dal_setting d = {"d", (k ? 1.5e-13 : 0.9e-13) / sqrt(2.0)};
+        dal_model *model = fixture_model("coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\n"
+                                         "parameters: {d: 1}\n"
+                                         "constraints: [sqrt(x'^2 + d^2)]\n");
+        dal_probe *probe = NULL;
+        CU_ASSERT_EQUAL_FATAL(dal_probe_create(&probe, fixture_system(model), &d, 1, NULL), DAL_OK);
+        const double q[] = {0.0, 0.0};
+        double v[] = {d.value, 0.0};
+        CU_ASSERT_EQUAL(dal_measure_onto(probe, 0.0, q, v), k ? DAL_NOT_CONVERGED : DAL_OK);
+        dal_probe_free(probe);
+        dal_model_free(model);
+    }
+}
+
 #define PLANE "coordinates: [x, y, z]\nlagrangian: (x'^2 + y'^2 + z'^2)/2\nconstraints: "
 
 typedef struct kind {
@@ -458,6 +477,7 @@ void suite_measure(void)
     CU_add_test(suite, "rank of G", test_rank);
     CU_add_test(suite, "onto D = 0", test_onto);
     CU_add_test(suite, "onto a D without zero", test_onto_nothing);
+    CU_add_test(suite, "onto a D of the size of rounding", test_onto_rounding);
     CU_add_test(suite, "kinds of D", test_degree);
     CU_add_test(suite, "nearly of another kind", test_nearly);
     CU_add_test(suite, "nearly dependent constraints", test_nearly_dependent);
