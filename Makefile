@@ -184,8 +184,8 @@ $(BUILD)/tests/test_null.o $(BUILD)/tests/test_null_measure.o: $(BUILD)/generate
 
 # ---- tests -----------------------------------------------------------------------------------
 
-# Allocation goes through tests/allocation.c, which can be told to fail.
-WRAPPED = malloc calloc realloc aligned_alloc
+# Allocation goes through tests/allocation.c, which fails on demand and counts blocks.
+WRAPPED = malloc calloc realloc aligned_alloc free
 # Of the program the tests use what they call.
 $(BUILD)/tests/program.a: $(filter-out %/commands/main.o,$(CLI_OBJ))
 	@mkdir -p $(@D)

@@ -1,52 +1,72 @@
-/* allocation.c - malloc, calloc, realloc and aligned_alloc of the tests (linked with --wrap). */
+/* allocation.c - malloc, calloc, realloc, aligned_alloc, free of the tests (linked with --wrap). */
 #include "allocation.h"
 
+#include <stdatomic.h>
 #include <stddef.h>
 
-static _Thread_local long asked, left = -1;
+static _Thread_local long calls, left = -1;
 static _Thread_local int failed;
+static atomic_long blocks;
 
 void allocation_fail_after(long count)
 {
-    asked = 0;
+    calls = 0;
     left = count;
     failed = 0;
 }
 
 int allocation_failed(void) { return failed; }
 
-long allocation_count(void) { return asked; }
+long allocation_count(void) { return calls; }
+
+long allocation_blocks(void) { return blocks; }
 
 static int refuse(void)
 {
-    asked++;
+    calls++;
     if (left < 0) return 0;
     if (left > 0) return left--, 0;
     return failed = 1;
+}
+
+/* Counts the block that a successful call made. */
+static void *counted(void *memory)
+{
+    if (memory) blocks++;
+    return memory;
 }
 
 void *__real_malloc(size_t size);
 void *__real_calloc(size_t count, size_t size);
 void *__real_realloc(void *memory, size_t size);
 void *__real_aligned_alloc(size_t alignment, size_t size);
+void __real_free(void *memory);
 void *__wrap_malloc(size_t size);
 void *__wrap_calloc(size_t count, size_t size);
 void *__wrap_realloc(void *memory, size_t size);
 void *__wrap_aligned_alloc(size_t alignment, size_t size);
+void __wrap_free(void *memory);
 
-void *__wrap_malloc(size_t size) { return refuse() ? NULL : __real_malloc(size); }
+void *__wrap_malloc(size_t size) { return refuse() ? NULL : counted(__real_malloc(size)); }
 
 void *__wrap_calloc(size_t count, size_t size)
 {
-    return refuse() ? NULL : __real_calloc(count, size);
+    return refuse() ? NULL : counted(__real_calloc(count, size));
 }
 
 void *__wrap_realloc(void *memory, size_t size)
 {
-    return refuse() ? NULL : __real_realloc(memory, size);
+    if (refuse()) return NULL;
+    return memory ? __real_realloc(memory, size) : counted(__real_realloc(NULL, size));
 }
 
 void *__wrap_aligned_alloc(size_t alignment, size_t size)
 {
-    return refuse() ? NULL : __real_aligned_alloc(alignment, size);
+    return refuse() ? NULL : counted(__real_aligned_alloc(alignment, size));
+}
+
+void __wrap_free(void *memory)
+{
+    if (memory) blocks--;
+    __real_free(memory);
 }

@@ -1,5 +1,6 @@
 /* test_batch.c - batches: lane by lane the bits of a single run, in every variant this machine can
  * run, whatever the neighbours do. */
+#include "allocation.h"
 #include "fixtures.h"
 #include "quick.h"
 #include "run/batch.h"
@@ -338,6 +339,30 @@ static void test_uneven_sweeps(void)
     dal_model_free(model);
 }
 
+static void test_out_of_memory(void)
+{
+    dal_model *model = fixture_model(disk);
+    const dal_run_spec spec = fixture_spec(fixture_system(model), "gauss4", DAL_PHYSICAL, 0.1);
+    long n = 0;
+    for (;; n++) {
+        const long blocks = allocation_blocks();
+        dal_batch *batch = NULL;
+        dal_error error = {0};
+        allocation_fail_after(n);
+        const dal_status status = dal_batch_create(&batch, &spec, 5, 0, &error);
+        const int failed = allocation_failed();
+        allocation_fail_after(-1);
+        CU_ASSERT_EQUAL(status, failed ? DAL_MEMORY : DAL_OK);
+        CU_ASSERT(error.status == status && error.line == 0 && error.column == 0);
+        CU_ASSERT_EQUAL(batch == NULL, failed);
+        dal_batch_free(batch);
+        CU_ASSERT_EQUAL(allocation_blocks(), blocks);
+        if (!failed) break;
+    }
+    CU_ASSERT(n >= 4);
+    dal_model_free(model);
+}
+
 void suite_batch(void)
 {
     CU_pSuite suite = CU_add_suite("batch", NULL, NULL);
@@ -347,5 +372,6 @@ void suite_batch(void)
     CU_add_test(suite, "a failed lane stays where it is", test_failed_lane_stays);
     CU_add_test(suite, "a lane whose constraint turns singular", test_singular_lane);
     CU_add_test(suite, "arguments", test_arguments);
+    CU_add_test(suite, "out of memory", test_out_of_memory);
     CU_add_test(suite, "lanes that need different numbers of sweeps", test_uneven_sweeps);
 }

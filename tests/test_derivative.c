@@ -216,6 +216,7 @@ static void test_out_of_memory(void)
 {
     const int symbols[] = {X, Y, Z};
     for (long n = 0;; n++) {
+        const long blocks = allocation_blocks();
         dal__graph *graph = formula_graph();
         dal__node f = formula_node(graph, mixtures[3]), out[3], one = dal__number(graph, 1.0);
         dal__node seeds[3] = {one, one, one};
@@ -229,6 +230,7 @@ static void test_out_of_memory(void)
         CU_ASSERT_EQUAL(graph->status, failed ? DAL_MEMORY : DAL_OK);
         CU_ASSERT_EQUAL(s == 0, failed);
         dal__graph_free(graph);
+        CU_ASSERT_EQUAL(allocation_blocks(), blocks);
         if (!failed) break;
     }
 }

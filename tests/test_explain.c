@@ -1,4 +1,5 @@
 /* test_explain.c - what drifts come from, where it is known beforehand. */
+#include "allocation.h"
 #include "fixtures.h"
 #include "quick.h"
 #include <CUnit/CUnit.h>
@@ -264,6 +265,28 @@ static void test_observer(void)
     dal_model_free(model);
 }
 
+static void test_out_of_memory(void)
+{
+    dal_model *model = fixture_model("knife-edge");
+    const dal_run_spec spec = fixture_spec(fixture_system(model), "gauss4", DAL_PHYSICAL, 0.1);
+    long n = 0;
+    for (;; n++) {
+        const long blocks = allocation_blocks();
+        dal_explanation *e = NULL;
+        allocation_fail_after(n);
+        const dal_status status = dal_explain(&spec, 4, 2, NULL, &e, NULL);
+        const int failed = allocation_failed();
+        allocation_fail_after(-1);
+        CU_ASSERT_EQUAL(status, failed ? DAL_MEMORY : DAL_OK);
+        CU_ASSERT_EQUAL(e == NULL, failed);
+        dal_explanation_free(e);
+        CU_ASSERT_EQUAL(allocation_blocks(), blocks);
+        if (!failed) break;
+    }
+    CU_ASSERT(n >= 10);
+    dal_model_free(model);
+}
+
 void suite_explain(void)
 {
     CU_pSuite suite = CU_add_suite("explain", NULL, NULL);
@@ -275,4 +298,5 @@ void suite_explain(void)
     CU_add_test(suite, "sums", test_sums);
     CU_add_test(suite, "without long numbers", test_by_hand);
     CU_add_test(suite, "looking on", test_observer);
+    CU_add_test(suite, "out of memory", test_out_of_memory);
 }

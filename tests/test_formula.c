@@ -296,6 +296,7 @@ static void test_out_of_memory(void)
 {
     char *text = repeated("", "(sin(x)+", "y", ")", 500);
     for (long n = 0;; n++) {
+        const long blocks = allocation_blocks();
         allocation_fail_after(n);
         dal__node node = 0;
         dal_error error;
@@ -305,6 +306,7 @@ static void test_out_of_memory(void)
         allocation_fail_after(-1);
         dal__graph_free(graph);
         CU_ASSERT_EQUAL(status, failed ? DAL_MEMORY : DAL_OK);
+        CU_ASSERT_EQUAL(allocation_blocks(), blocks);
         if (!failed) break;
     }
     free(text);

@@ -138,8 +138,10 @@ static void test_memory(void)
 {
     dal_error error;
     for (long n = 0;; n++) {
+        const long blocks = allocation_blocks();
         allocation_fail_after(n);
         const dal_status status = generate(&spec, 1, NULL, &error);
+        CU_ASSERT_EQUAL(allocation_blocks(), blocks);
         if (!allocation_failed()) break;
         CU_ASSERT_EQUAL(status, DAL_MEMORY);
     }

@@ -453,11 +453,13 @@ static void test_out_of_memory(void)
     const dal_system *system = fixture_system(model);
     long n = 0;
     for (;; n++) {
+        const long blocks = allocation_blocks();
         allocation_fail_after(n);
         const dal_status status = all_measures(system);
         const int failed = allocation_failed();
         allocation_fail_after(-1);
         CU_ASSERT_EQUAL_FATAL(status, failed ? DAL_MEMORY : DAL_OK);
+        CU_ASSERT_EQUAL(allocation_blocks(), blocks);
         if (!failed) break;
     }
     CU_ASSERT(n >= 7);

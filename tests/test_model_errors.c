@@ -343,11 +343,13 @@ static dal_status whole_life(const char *name, dal_error *error)
 static void check_memory(const char *name)
 {
     for (long n = 0;; n++) {
+        const long blocks = allocation_blocks();
         dal_error error = {.line = -1};
         allocation_fail_after(n);
         dal_status status = whole_life(name, &error);
         int failed = allocation_failed();
         allocation_fail_after(-1);
+        CU_ASSERT_EQUAL(allocation_blocks(), blocks);
         if (!failed) break;
         CU_ASSERT(status == DAL_MEMORY && error.status == DAL_MEMORY);
     }

@@ -352,6 +352,7 @@ static void test_out_of_memory(void)
     const dal_run_spec spec = fixture_spec(fixture_system(model), "rk4", DAL_PHYSICAL, 0.1);
     long n = 0;
     for (;; n++) {
+        const long blocks = allocation_blocks();
         dal_run *run = fixture_run(&spec);
         dal_crossings found;
         record r = {0};
@@ -361,6 +362,7 @@ static void test_out_of_memory(void)
         allocation_fail_after(-1);
         dal_run_free(run);
         CU_ASSERT_EQUAL_FATAL(status, failed ? DAL_MEMORY : DAL_OK);
+        CU_ASSERT_EQUAL(allocation_blocks(), blocks);
         if (!failed) break;
     }
     CU_ASSERT(n >= 4);

@@ -332,6 +332,7 @@ static void test_out_of_memory(void)
     const dal_run_spec spec = fixture_spec(fixture_system(model), "rk4", DAL_PHYSICAL, 0.25);
     long n = 0;
     for (;; n++) {
+        const long blocks = allocation_blocks();
         dal_spectrum *s = NULL;
         allocation_fail_after(n);
         const dal_status status = dal_spectrum_create(&s, &spec, NULL, 0, NULL);
@@ -339,6 +340,7 @@ static void test_out_of_memory(void)
         allocation_fail_after(-1);
         dal_spectrum_free(s);
         CU_ASSERT_EQUAL_FATAL(status, failed ? DAL_MEMORY : DAL_OK);
+        CU_ASSERT_EQUAL(allocation_blocks(), blocks);
         if (!failed) break;
     }
     CU_ASSERT(n >= 7);

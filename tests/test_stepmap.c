@@ -389,11 +389,13 @@ static void test_out_of_memory(void)
     CU_ASSERT_EQUAL_FATAL(dal_model_tangent(model, &tangent, NULL), DAL_OK);
     long n = 0;
     for (;; n++) {
+        const long blocks = allocation_blocks();
         allocation_fail_after(n);
         const dal_status status = all_measures(&spec, tangent);
         const int failed = allocation_failed();
         allocation_fail_after(-1);
         CU_ASSERT_EQUAL_FATAL(status, failed ? DAL_MEMORY : DAL_OK);
+        CU_ASSERT_EQUAL(allocation_blocks(), blocks);
         if (!failed) break;
     }
     CU_ASSERT(n >= 8);

@@ -330,6 +330,7 @@ static void test_out_of_memory(void)
     dal__node nodes[FORMULAS];
     for (int i = 0; i < FORMULAS; i++) nodes[i] = formula_node(graph, formulas[i]);
     for (long n = 0;; n++) {
+        const long blocks = allocation_blocks();
         allocation_fail_after(n);
         dal__tapes *tapes = dal__tapes_create(graph, PARAMETERS, INPUTS);
         bool added = tapes && dal__tapes_add(tapes, nodes, FORMULAS) == 0;
@@ -339,6 +340,7 @@ static void test_out_of_memory(void)
         allocation_fail_after(-1);
         dal__tapes_free(tapes);
         CU_ASSERT_EQUAL(status, failed ? DAL_MEMORY : DAL_OK);
+        CU_ASSERT_EQUAL(allocation_blocks(), blocks);
         if (!failed) break;
     }
     dal__graph_free(graph);
