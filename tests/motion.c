@@ -7,7 +7,7 @@
 motion motion_open(const char *name, dal_space space, double step, motion_settings parameters,
                    motion_settings start)
 {
-    motion z = {.b = body_builtin(name)};
+    motion z = {.b = reference_builtin(name)};
     dal_run_spec spec = {.system = z.b.system,
                          .options = dal_options_default(),
                          .parameters = parameters.item,
@@ -17,7 +17,7 @@ motion motion_open(const char *name, dal_space space, double step, motion_settin
     spec.options.step = step;
     spec.options.space = space;
     for (int i = 0; i < parameters.count; i++)
-        body_set(&z.b, parameters.item[i].name, parameters.item[i].value);
+        reference_set(&z.b, parameters.item[i].name, parameters.item[i].value);
     CU_ASSERT_FATAL(dal_method_parse(&spec.method, "gauss8", NULL) == DAL_OK);
     CU_ASSERT_FATAL(dal_run_create(&z.run, &spec, NULL) == DAL_OK);
     z.step = step;
@@ -42,19 +42,19 @@ void motion_advance(motion *z, double time)
 void motion_close(motion *z)
 {
     dal_run_free(z->run);
-    body_free(&z->b);
+    reference_free(&z->b);
 }
 
 static double value_of(const motion *z, dal_callback *call, int i)
 {
-    double out[BODY_OUT];
-    CU_ASSERT(body_call(&z->b, call, dal_run_time(z->run), z->x, z->x + z->n, out) == DAL_OK);
+    double out[REFERENCE_OUT];
+    CU_ASSERT(reference_call(&z->b, call, dal_run_time(z->run), z->x, z->x + z->n, out) == DAL_OK);
     return out[i];
 }
 
 void motion_field(const motion *z, double *F)
 {
-    body_call(&z->b, z->b.system->call.field, dal_run_time(z->run), z->x, z->x + z->n, F);
+    reference_call(&z->b, z->b.system->call.field, dal_run_time(z->run), z->x, z->x + z->n, F);
 }
 
 double motion_invariant(const motion *z, int i)

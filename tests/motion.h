@@ -2,10 +2,10 @@
 #ifndef MOTION_H
 #define MOTION_H
 
-#include "body.h"
+#include "reference.h"
 
 typedef struct motion {
-    body b;
+    reference b;
     dal_run *run;
     double step;
     int n;

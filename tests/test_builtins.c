@@ -27,18 +27,18 @@ static void expect_tag(const dal_system *s, const char *tag, bool truth)
     expect(s, tagged(s, tag) == truth, tag);
 }
 
-static void each(void (*check)(const body *b))
+static void each(void (*check)(const reference *b))
 {
     for (int i = 0; dal_builtin_name(i); i++) {
-        body b = body_builtin(dal_builtin_name(i));
+        reference b = reference_builtin(dal_builtin_name(i));
         check(&b);
-        body_free(&b);
+        reference_free(&b);
     }
 }
 
 /* ---- tags that the formulas decide ---- */
 
-static void check_energy(const body *b)
+static void check_energy(const reference *b)
 {
     const dal_system *s = b->system;
     bool exact = s->properties & DAL_E_EXACT, weak = s->properties & DAL_E_WEAK;
@@ -47,16 +47,16 @@ static void check_energy(const body *b)
     expect_tag(s, "energy-not-conserved", s->energy && !exact && !weak);
 }
 
-static bool moves_with_time(const body *b)
+static bool moves_with_time(const reference *b)
 {
-    double q[BODY_MOST] = {0.3, -0.4, 0.7, 0.2, -0.6, 0.5, 0.8, -0.1}, D[2][BODY_MOST];
-    double v[2 * BODY_MOST] = {0.5, 0.9, -0.3, 0.6, 0.4, -0.7, 0.2, 1.1};
+    double q[REFERENCE_MAX] = {0.3, -0.4, 0.7, 0.2, -0.6, 0.5, 0.8, -0.1}, D[2][REFERENCE_MAX];
+    double v[2 * REFERENCE_MAX] = {0.5, 0.9, -0.3, 0.6, 0.4, -0.7, 0.2, 1.1};
     if (!b->system->m) return false;
-    for (int k = 0; k < 2; k++) body_call(b, b->system->constraints, 0.4 * k, q, v, D[k]);
-    return body_distance(b->system->m, D[0], D[1]) > 0.0;
+    for (int k = 0; k < 2; k++) reference_call(b, b->system->constraints, 0.4 * k, q, v, D[k]);
+    return reference_distance(b->system->m, D[0], D[1]) > 0.0;
 }
 
-static void check_constraint(const body *b)
+static void check_constraint(const reference *b)
 {
     const dal_system *s = b->system;
     unsigned p = s->properties;
@@ -72,7 +72,7 @@ static void check_constraint(const body *b)
 }
 
 /* Exactly one of the two first words, at most one of each later pair, and no word unknown. */
-static void check_words(const body *b)
+static void check_words(const reference *b)
 {
     static const char *const words[] = {
         "reversible", "non-reversible", "integrable",    "chaotic",   "measure-preserving",
@@ -97,19 +97,20 @@ static void test_words(void) { each(check_words); }
 /* ---- reversal and volume along the motion ---- */
 
 /* Whether (q, -v, -g, -t) moves as (q, v, g, t) does and stays on D = 0; x is at time t. */
-static double irreversibility(const body *b, double t, const double *x)
+static double irreversibility(const reference *b, double t, const double *x)
 {
     int n = b->system->n, nw = n + b->system->multipliers;
-    double back[2 * BODY_MOST], F[2][2 * BODY_MOST], D[BODY_MOST], zero[BODY_MOST] = {0.0};
+    double back[2 * REFERENCE_MAX], F[2][2 * REFERENCE_MAX], D[REFERENCE_MAX],
+        zero[REFERENCE_MAX] = {0.0};
     for (int i = 0; i < nw; i++) back[i] = -x[n + i];
-    body_call(b, b->system->call.field, t, x, x + n, F[0]);
-    body_call(b, b->system->call.field, -t, x, back, F[1]);
-    if (b->system->m) body_call(b, b->system->constraints, -t, x, back, D);
-    return fmax(body_distance(nw, F[1], F[0]),
-                b->system->m ? body_distance(b->system->m, D, zero) : 0.0);
+    reference_call(b, b->system->call.field, t, x, x + n, F[0]);
+    reference_call(b, b->system->call.field, -t, x, back, F[1]);
+    if (b->system->m) reference_call(b, b->system->constraints, -t, x, back, D);
+    return fmax(reference_distance(nw, F[1], F[0]),
+                b->system->m ? reference_distance(b->system->m, D, zero) : 0.0);
 }
 
-static void check_reversal(const body *b)
+static void check_reversal(const reference *b)
 {
     motion z = motion_default(b->system->name, 0.02);
     double worst = 0.0;
@@ -127,11 +128,11 @@ static void test_reversal(void) { each(check_reversal); }
 /* ---- what the motion keeps ---- */
 
 /* The trace of the derivative of (v, F, g') by (q, v, g). */
-static double divergence(const body *b, double t, const double *x)
+static double divergence(const reference *b, double t, const double *x)
 {
     int n = b->system->n, nw = n + b->system->multipliers;
-    double out[BODY_OUT], sum = 0.0;
-    body_call(b, b->system->call.jacobian, t, x, x + n, out);
+    double out[REFERENCE_OUT], sum = 0.0;
+    reference_call(b, b->system->call.jacobian, t, x, x + n, out);
     for (int i = 0; i < nw; i++) sum += out[nw * n + i * nw + i];
     return sum;
 }
@@ -139,7 +140,7 @@ static double divergence(const body *b, double t, const double *x)
 /* The logarithm of the volume follows that of an invariant density, which may grow like log(t); on
  * the way to an attractor it falls like t.  Its change from t = 10 to 20, by the trapezoidal rule.
  */
-static void check_volume(const body *b)
+static void check_volume(const reference *b)
 {
     const dal_system *s = b->system;
     const double step = 0.02;
@@ -157,37 +158,38 @@ static void check_volume(const body *b)
 }
 
 /* The rate of E by differences on the line x + s dx/dt. */
-static double energy_rate(const body *b, double t, const double *x)
+static double energy_rate(const reference *b, double t, const double *x)
 {
     static const double weight[] = {4.0 / 5, -1.0 / 5, 4.0 / 105, -1.0 / 280}, step = 0.005;
     int n = b->system->n, nw = n + b->system->multipliers;
-    double y[3 * BODY_MOST], slope[3 * BODY_MOST], sum = 0.0, E;
+    double y[3 * REFERENCE_MAX], slope[3 * REFERENCE_MAX], sum = 0.0, E;
     memcpy(slope, x + n, (size_t)n * sizeof *slope);
-    body_call(b, b->system->call.field, t, x, x + n, slope + n);
+    reference_call(b, b->system->call.field, t, x, x + n, slope + n);
     for (int k = -4; k <= 4; k++) {
         if (k == 0) continue;
         for (int i = 0; i < n + nw; i++) y[i] = x[i] + k * step * slope[i];
-        body_call(b, b->system->energy, t + k * step, y, y + n, &E);
+        reference_call(b, b->system->energy, t + k * step, y, y + n, &E);
         sum += (k > 0 ? weight[k - 1] : -weight[-k - 1]) * E / step;
     }
     return sum;
 }
 
 /* E, as the properties say, on D = 0 and off it; and all invariants. */
-static void check_kept(const body *b)
+static void check_kept(const reference *b)
 {
     const dal_system *s = b->system;
     bool exact = s->properties & DAL_E_EXACT, weak = s->properties & DAL_E_WEAK;
     motion z = motion_default(s->name, 0.01);
-    double E = s->energy ? motion_energy(&z) : 0.0, before[BODY_MOST], x[3 * BODY_MOST];
+    double E = s->energy ? motion_energy(&z) : 0.0, before[REFERENCE_MAX], x[3 * REFERENCE_MAX];
     for (int i = 0; i < s->invariants; i++) before[i] = motion_invariant(&z, i);
     motion_advance(&z, 1.0);
     for (int i = 0; i < s->invariants; i++) {
         double now = motion_invariant(&z, i);
-        expect(s, body_distance(1, &now, &before[i]) < 1e-12, s->invariant[i]);
+        expect(s, reference_distance(1, &now, &before[i]) < 1e-12, s->invariant[i]);
     }
     double now = s->energy ? motion_energy(&z) : 0.0;
-    if (s->energy) expect(s, (body_distance(1, &now, &E) < 1e-12) == (exact || weak), "E on D = 0");
+    if (s->energy)
+        expect(s, (reference_distance(1, &now, &E) < 1e-12) == (exact || weak), "E on D = 0");
     for (int i = 0; i < 2 * s->n + s->multipliers; i++) x[i] = z.x[i] + 0.01 * (i + 1);
     if (s->energy) expect(s, (fabs(energy_rate(b, 1.0, x)) < 1e-9) == exact, "E off D = 0");
     motion_close(&z);
@@ -198,23 +200,24 @@ static void test_kept(void) { each(check_kept); }
 
 /* ---- exact solutions ---- */
 
-static void check_run(const body *b, dal_space space)
+static void check_run(const reference *b, dal_space space)
 {
     int n = b->system->n;
-    double exact[2 * BODY_MOST], zero[2 * BODY_MOST] = {0.0};
+    double exact[2 * REFERENCE_MAX], zero[2 * REFERENCE_MAX] = {0.0};
     motion z =
         motion_open(b->system->name, space, 1.0 / 128, (motion_settings){0}, (motion_settings){0});
     for (int k = 1; k <= 4; k++) {
         motion_advance(&z, 0.25 * k);
-        body_call(b, b->system->exact, 0.25 * k, NULL, NULL, exact);
-        expect(b->system, body_distance(2 * n, z.x, exact) < 1e-12, "exact solution");
+        reference_call(b, b->system->exact, 0.25 * k, NULL, NULL, exact);
+        expect(b->system, reference_distance(2 * n, z.x, exact) < 1e-12, "exact solution");
         if (space == DAL_LIFTED)
-            expect(b->system, body_distance(2 * n, z.x + 2 * n + 1, zero) == 0.0, "p = pi = 0");
+            expect(b->system, reference_distance(2 * n, z.x + 2 * n + 1, zero) == 0.0,
+                   "p = pi = 0");
     }
     motion_close(&z);
 }
 
-static void check_exact(const body *b)
+static void check_exact(const reference *b)
 {
     if (!b->system->exact) return;
     check_run(b, DAL_PHYSICAL);

@@ -1,18 +1,18 @@
 /* test_mechanics.c - the equations of motion made from formulas, against finite differences of the
- * same mechanics written in C, on bodies with all that makes them hard: time, a full mass matrix
+ * same mechanics written in C, on systems with all that makes them hard: time, a full mass matrix
  * that depends on q (and one without positive diagonal), forces that depend on velocities, several
  * constraints, linear and not. */
-#include "body.h"
 #include "model/mechanics.h"
+#include "reference.h"
 
 #include <CUnit/Basic.h>
 #include <math.h>
 #include <string.h>
 
-/* Differences are good to 1e-12 (body.h); the elimination behind them amplifies it. */
+/* Differences are good to 1e-12 (reference.h); the elimination behind them amplifies it. */
 #define BY_DIFFERENCES 1e-10
 
-/* ---- two hard bodies ---- */
+/* ---- two hard systems ---- */
 
 static const char hard_text[] =
     "coordinates: [a, b, c, d]\n"
@@ -49,7 +49,7 @@ static double hard_constraint(int a, const double *q, const double *v, double t)
                   : v[1] * v[2] - 0.4 * v[3] * v[3] + q[0] * v[3] / 10 - t / 7;
 }
 
-static const body_formulas hard = {4, 2, hard_lagrangian, hard_force, hard_constraint, NULL};
+static const reference_formulas hard = {4, 2, hard_lagrangian, hard_force, hard_constraint, NULL};
 
 /* Indefinite, with zeros on the diagonal of the mass matrix. */
 static const char null_text[] = "mechanics: lagrange-d'alembert\n"
@@ -79,121 +79,122 @@ static double null_constraint(int a, const double *q, const double *v, double t)
     return v[0] * v[1] + v[2] * v[2] / 2 - v[3] * v[3] / 2 + 0.5 + t * q[0] / 9;
 }
 
-static const body_formulas null_mass = {4, 1, null_lagrangian, null_force, null_constraint, NULL};
+static const reference_formulas null_mass = {4,   1, null_lagrangian, null_force, null_constraint,
+                                             NULL};
 
 static const struct {
     const char *text;
-    const body_formulas *formulas;
-} bodies[] = {{hard_text, &hard}, {null_text, &null_mass}};
-enum { BODIES = sizeof bodies / sizeof *bodies };
+    const reference_formulas *formulas;
+} systems[] = {{hard_text, &hard}, {null_text, &null_mass}};
+enum { SYSTEMS = sizeof systems / sizeof *systems };
 
-static const double q0[BODY_MOST] = {0.3, -0.4, 0.7, 0.2, -0.6, 0.5, 0.8, -0.1};
-static const double v0[BODY_MOST] = {0.5, 0.9, -0.3, 0.6, 0.4, -0.7, 0.2, 1.1};
+static const double q0[REFERENCE_MAX] = {0.3, -0.4, 0.7, 0.2, -0.6, 0.5, 0.8, -0.1};
+static const double v0[REFERENCE_MAX] = {0.5, 0.9, -0.3, 0.6, 0.4, -0.7, 0.2, 1.1};
 static const double t0 = 0.35;
 
 /* ---- field, constraint, energy ---- */
 
 static void test_field(void)
 {
-    for (int k = 0; k < BODIES; k++) {
-        body b = body_of_text(bodies[k].text);
-        double F[BODY_MOST], expected[BODY_MOST];
-        CU_ASSERT(body_call(&b, b.system->call.field, t0, q0, v0, F) == DAL_OK);
-        body_motion(bodies[k].formulas, q0, v0, t0, expected);
-        CU_ASSERT(body_distance(b.system->n, F, expected) < BY_DIFFERENCES);
-        body_free(&b);
+    for (int k = 0; k < SYSTEMS; k++) {
+        reference b = reference_of_text(systems[k].text);
+        double F[REFERENCE_MAX], expected[REFERENCE_MAX];
+        CU_ASSERT(reference_call(&b, b.system->call.field, t0, q0, v0, F) == DAL_OK);
+        reference_motion(systems[k].formulas, q0, v0, t0, expected);
+        CU_ASSERT(reference_distance(b.system->n, F, expected) < BY_DIFFERENCES);
+        reference_free(&b);
     }
 }
 
 static void test_accelerations(void)
 {
-    body b = body_of_text("coordinates: [x, y]\n"
-                          "accelerations: {x: -y' + sin(t)}\n"
-                          "forces: {y: x*x'}\n"
-                          "constraints: [x'^2 + 2*y'^2 - 1]\n");
+    reference b = reference_of_text("coordinates: [x, y]\n"
+                                    "accelerations: {x: -y' + sin(t)}\n"
+                                    "forces: {y: x*x'}\n"
+                                    "constraints: [x'^2 + 2*y'^2 - 1]\n");
     double F[2], x = q0[0], vx = v0[0], vy = v0[1];
     double bx = -vy + sin(t0), by = x * vx;
     double h = -(2 * vx * bx + 4 * vy * by) / (4 * vx * vx + 16 * vy * vy);
     double expected[] = {bx + 2 * vx * h, by + 4 * vy * h};
-    CU_ASSERT(body_call(&b, b.system->call.field, t0, q0, v0, F) == DAL_OK);
-    CU_ASSERT(body_distance(2, F, expected) < 1e-14);
+    CU_ASSERT(reference_call(&b, b.system->call.field, t0, q0, v0, F) == DAL_OK);
+    CU_ASSERT(reference_distance(2, F, expected) < 1e-14);
     CU_ASSERT(b.system->energy == NULL);
-    body_free(&b);
+    reference_free(&b);
 }
 
 /* W^-1 A^T of column a, by elimination of differences. */
-static void expected_normal(const body_formulas *f, int a, double *out)
+static void expected_normal(const reference_formulas *f, int a, double *out)
 {
-    double m[BODY_MOST * (BODY_MOST + 1)];
+    double m[REFERENCE_MAX * (REFERENCE_MAX + 1)];
     for (int i = 0; i < f->n; i++) {
-        for (int j = 0; j < f->n; j++) m[i * (f->n + 1) + j] = body_mass(f, i, j, q0, v0, t0);
-        m[i * (f->n + 1) + f->n] = body_by_v(f->constraint, a, i, q0, v0, t0);
+        for (int j = 0; j < f->n; j++) m[i * (f->n + 1) + j] = reference_mass(f, i, j, q0, v0, t0);
+        m[i * (f->n + 1) + f->n] = reference_by_v(f->constraint, a, i, q0, v0, t0);
     }
-    body_solve(f->n, m);
+    reference_solve(f->n, m);
     for (int i = 0; i < f->n; i++) out[i * f->m + a] = m[i * (f->n + 1) + f->n];
 }
 
 static void test_constraint(void)
 {
-    for (int k = 0; k < BODIES; k++) {
-        const body_formulas *f = bodies[k].formulas;
+    for (int k = 0; k < SYSTEMS; k++) {
+        const reference_formulas *f = systems[k].formulas;
         int n = f->n, m = f->m;
-        body b = body_of_text(bodies[k].text);
-        double out[BODY_OUT], D[BODY_MOST], expected[BODY_OUT];
+        reference b = reference_of_text(systems[k].text);
+        double out[REFERENCE_OUT], D[REFERENCE_MAX], expected[REFERENCE_OUT];
         for (int a = 0; a < m; a++) {
             expected[a] = f->constraint(a, q0, v0, t0);
             for (int i = 0; i < n; i++)
-                expected[m + a * n + i] = body_by_v(f->constraint, a, i, q0, v0, t0);
+                expected[m + a * n + i] = reference_by_v(f->constraint, a, i, q0, v0, t0);
             expected_normal(f, a, expected + m + m * n);
         }
-        CU_ASSERT(body_call(&b, b.system->call.constraint, t0, q0, v0, out) == DAL_OK);
-        CU_ASSERT(body_distance(m + 2 * m * n, out, expected) < BY_DIFFERENCES);
-        CU_ASSERT(body_call(&b, b.system->constraints, t0, q0, v0, D) == DAL_OK);
+        CU_ASSERT(reference_call(&b, b.system->call.constraint, t0, q0, v0, out) == DAL_OK);
+        CU_ASSERT(reference_distance(m + 2 * m * n, out, expected) < BY_DIFFERENCES);
+        CU_ASSERT(reference_call(&b, b.system->constraints, t0, q0, v0, D) == DAL_OK);
         CU_ASSERT(memcmp(D, out, (size_t)m * sizeof *D) == 0);
-        body_free(&b);
+        reference_free(&b);
     }
 }
 
 static void test_energy(void)
 {
-    for (int k = 0; k < BODIES; k++) {
-        const body_formulas *f = bodies[k].formulas;
-        body b = body_of_text(bodies[k].text);
+    for (int k = 0; k < SYSTEMS; k++) {
+        const reference_formulas *f = systems[k].formulas;
+        reference b = reference_of_text(systems[k].text);
         double E, expected = -f->lagrangian(0, q0, v0, t0);
         for (int i = 0; i < f->n; i++)
-            expected += v0[i] * body_by_v(f->lagrangian, 0, i, q0, v0, t0);
-        CU_ASSERT(body_call(&b, b.system->energy, t0, q0, v0, &E) == DAL_OK);
-        CU_ASSERT(body_distance(1, &E, &expected) < BY_DIFFERENCES);
-        body_free(&b);
+            expected += v0[i] * reference_by_v(f->lagrangian, 0, i, q0, v0, t0);
+        CU_ASSERT(reference_call(&b, b.system->energy, t0, q0, v0, &E) == DAL_OK);
+        CU_ASSERT(reference_distance(1, &E, &expected) < BY_DIFFERENCES);
+        reference_free(&b);
     }
 }
 
 /* ---- derivatives of the field ---- */
 
 /* Column i of F_q (kind 0) or F_w, w = (v,g) (kind 1), by central differences of order 8. */
-static void column(const body *b, int kind, int i, double *out)
+static void column(const reference *b, int kind, int i, double *out)
 {
     static const double weight[] = {4.0 / 5, -1.0 / 5, 4.0 / 105, -1.0 / 280};
     int nw = b->system->n + b->system->multipliers;
-    double x[2][BODY_MOST], above[BODY_MOST], below[BODY_MOST], h = 0.005;
+    double x[2][REFERENCE_MAX], above[REFERENCE_MAX], below[REFERENCE_MAX], h = 0.005;
     memcpy(x[0], q0, sizeof q0);
     memcpy(x[1], v0, sizeof v0);
     for (int j = 0; j < nw; j++) out[j] = 0.0;
     for (int k = 0; k < 4; k++) {
         double centre = x[kind][i];
         x[kind][i] = centre + (k + 1) * h;
-        body_call(b, b->system->call.field, t0, x[0], x[1], above);
+        reference_call(b, b->system->call.field, t0, x[0], x[1], above);
         x[kind][i] = centre - (k + 1) * h;
-        body_call(b, b->system->call.field, t0, x[0], x[1], below);
+        reference_call(b, b->system->call.field, t0, x[0], x[1], below);
         x[kind][i] = centre;
         for (int j = 0; j < nw; j++) out[j] += weight[k] * (above[j] - below[j]) / h;
     }
 }
 
-static void expected_jacobian(const body *b, double *out)
+static void expected_jacobian(const reference *b, double *out)
 {
     int n = b->system->n, nw = n + b->system->multipliers;
-    double F[BODY_MOST];
+    double F[REFERENCE_MAX];
     for (int i = 0; i < n; i++) {
         column(b, 0, i, F);
         for (int j = 0; j < nw; j++) out[j * n + i] = F[j];
@@ -204,50 +205,51 @@ static void expected_jacobian(const body *b, double *out)
     }
 }
 
-static void check_jacobian(const body *b)
+static void check_jacobian(const reference *b)
 {
     int n = b->system->n, nw = n + b->system->multipliers, count = nw * (n + nw);
-    double out[BODY_OUT], expected[BODY_OUT];
+    double out[REFERENCE_OUT], expected[REFERENCE_OUT];
     expected_jacobian(b, expected);
-    CU_ASSERT(body_call(b, b->system->call.jacobian, t0, q0, v0, out) == DAL_OK);
-    CU_ASSERT(body_distance(count, out, expected) < BY_DIFFERENCES);
+    CU_ASSERT(reference_call(b, b->system->call.jacobian, t0, q0, v0, out) == DAL_OK);
+    CU_ASSERT(reference_distance(count, out, expected) < BY_DIFFERENCES);
 }
 
 /* F bit for bit, and the transposed products. */
-static void check_adjoint(const body *b)
+static void check_adjoint(const reference *b)
 {
     int n = b->system->n;
-    double out[3 * BODY_MOST], F[BODY_MOST], J[BODY_OUT], expected[2 * BODY_MOST] = {0.0};
-    const double pi[BODY_MOST] = {0.7, -1.2, 0.4, 0.9, -0.3, 0.8, 1.1, -0.6};
+    double out[3 * REFERENCE_MAX], F[REFERENCE_MAX], J[REFERENCE_OUT],
+        expected[2 * REFERENCE_MAX] = {0.0};
+    const double pi[REFERENCE_MAX] = {0.7, -1.2, 0.4, 0.9, -0.3, 0.8, 1.1, -0.6};
     expected_jacobian(b, J);
     for (int j = 0; j < n; j++)
         for (int i = 0; i < n; i++) {
             expected[i] += pi[j] * J[j * n + i];
             expected[n + i] += pi[j] * J[n * n + j * n + i];
         }
-    CU_ASSERT(body_pull(b, t0, q0, v0, pi, out) == DAL_OK);
-    CU_ASSERT(body_call(b, b->system->call.field, t0, q0, v0, F) == DAL_OK);
+    CU_ASSERT(reference_pull(b, t0, q0, v0, pi, out) == DAL_OK);
+    CU_ASSERT(reference_call(b, b->system->call.field, t0, q0, v0, F) == DAL_OK);
     CU_ASSERT(memcmp(out, F, (size_t)n * sizeof *F) == 0);
-    CU_ASSERT(body_distance(2 * n, out + n, expected) < BY_DIFFERENCES);
+    CU_ASSERT(reference_distance(2 * n, out + n, expected) < BY_DIFFERENCES);
 }
 
 static void test_derivatives(void)
 {
-    for (int k = 0; k < BODIES; k++) {
-        body b = body_of_text(bodies[k].text);
+    for (int k = 0; k < SYSTEMS; k++) {
+        reference b = reference_of_text(systems[k].text);
         check_jacobian(&b);
         check_adjoint(&b);
-        body_free(&b);
+        reference_free(&b);
     }
 }
 
 static void test_tangent(void)
 {
-    body b = body_of_text(hard_text), d = body_tangent(&b);
-    double J[BODY_OUT], F[2 * BODY_MOST], expected[2 * BODY_MOST];
+    reference b = reference_of_text(hard_text), d = reference_tangent(&b);
+    double J[REFERENCE_OUT], F[2 * REFERENCE_MAX], expected[2 * REFERENCE_MAX];
     int n = b.system->n;
     expected_jacobian(&b, J);
-    body_call(&b, b.system->call.field, t0, q0, v0, expected);
+    reference_call(&b, b.system->call.field, t0, q0, v0, expected);
     for (int i = 0; i < n; i++) {
         expected[n + i] = 0.0;
         for (int j = 0; j < n; j++)
@@ -256,13 +258,13 @@ static void test_tangent(void)
     CU_ASSERT(d.system->n == 2 * n && d.system->m == 0);
     CU_ASSERT_STRING_EQUAL(d.system->coordinate[0], "a");
     CU_ASSERT_STRING_EQUAL(d.system->coordinate[n], "dq_a");
-    CU_ASSERT(body_call(&d, d.system->call.field, t0, q0, v0, F) == DAL_OK);
+    CU_ASSERT(reference_call(&d, d.system->call.field, t0, q0, v0, F) == DAL_OK);
     CU_ASSERT(memcmp(F, expected, (size_t)n * sizeof *F) == 0);
-    CU_ASSERT(body_distance(2 * n, F, expected) < BY_DIFFERENCES);
+    CU_ASSERT(reference_distance(2 * n, F, expected) < BY_DIFFERENCES);
     check_jacobian(&d);
     check_adjoint(&d);
-    body_free(&d);
-    body_free(&b);
+    reference_free(&d);
+    reference_free(&b);
 }
 
 /* ---- vakonomic ---- */
@@ -277,74 +279,75 @@ static double vakonomic_lagrangian(int i, const double *q, const double *v, doub
            multiplier[1] * hard_constraint(1, q, v, t);
 }
 
-static body vakonomic_body(void)
+static reference vakonomic_reference(void)
 {
     char text[1024] = "mechanics: vakonomic\n";
     strcat(text, hard_text);
-    return body_of_text(text);
+    return reference_of_text(text);
 }
 
 static void test_vakonomic(void)
 {
-    const body_formulas f = {4, 2, vakonomic_lagrangian, hard_force, hard_constraint, NULL};
-    body b = vakonomic_body();
+    const reference_formulas f = {4, 2, vakonomic_lagrangian, hard_force, hard_constraint, NULL};
+    reference b = vakonomic_reference();
     double out[6], residual[6] = {0.0}, zero[6] = {0.0};
     multiplier[0] = v0[4], multiplier[1] = v0[5];
     CU_ASSERT(b.system->multipliers == 2 && b.system->properties & DAL_VAKONOMIC);
     CU_ASSERT(b.system->call.adjoint == NULL);
-    CU_ASSERT(body_call(&b, b.system->call.field, t0, q0, v0, out) == DAL_OK);
+    CU_ASSERT(reference_call(&b, b.system->call.field, t0, q0, v0, out) == DAL_OK);
     for (int i = 0; i < 4; i++) {
-        residual[i] = -body_load(&f, i, q0, v0, t0);
-        for (int j = 0; j < 4; j++) residual[i] += body_mass(&f, i, j, q0, v0, t0) * out[j];
+        residual[i] = -reference_load(&f, i, q0, v0, t0);
+        for (int j = 0; j < 4; j++) residual[i] += reference_mass(&f, i, j, q0, v0, t0) * out[j];
         for (int a = 0; a < 2; a++) {
-            double A = body_by_v(hard_constraint, a, i, q0, v0, t0);
+            double A = reference_by_v(hard_constraint, a, i, q0, v0, t0);
             residual[i] -= A * out[4 + a];
             residual[4 + a] += A * out[i];
         }
     }
-    for (int a = 0; a < 2; a++) residual[4 + a] += body_drift(&f, a, q0, v0, t0);
-    CU_ASSERT(body_distance(6, residual, zero) < BY_DIFFERENCES);
+    for (int a = 0; a < 2; a++) residual[4 + a] += reference_drift(&f, a, q0, v0, t0);
+    CU_ASSERT(reference_distance(6, residual, zero) < BY_DIFFERENCES);
     check_jacobian(&b);
-    body_free(&b);
+    reference_free(&b);
 }
 
 /* ---- lanes ---- */
 
 typedef struct lanes_case {
-    const body *b;
+    const reference *b;
     dal_callback *single, *wide;
     int lanes, outputs;
 } lanes_case;
 
 static void check_lanes(const lanes_case *c)
 {
-    _Alignas(64) double q[BODY_MOST * DAL__BLOCK], v[BODY_MOST * DAL__BLOCK],
-        pi[BODY_MOST * DAL__BLOCK], out[BODY_OUT * DAL__BLOCK];
+    _Alignas(64) double q[REFERENCE_MAX * DAL__BLOCK], v[REFERENCE_MAX * DAL__BLOCK],
+        pi[REFERENCE_MAX * DAL__BLOCK], out[REFERENCE_OUT * DAL__BLOCK];
     static double prepared[1 << 12];
     int workspace = (int)c->b->system->workspace;
     CU_ASSERT_FATAL(c->single && c->wide);
     memcpy(prepared, c->b->work, (size_t)workspace * sizeof *prepared);
-    body_spread(c->lanes, BODY_MOST, q0, q);
-    body_spread(c->lanes, BODY_MOST, v0, v);
-    body_spread(c->lanes, BODY_MOST, v0, pi);
+    reference_scatter(c->lanes, REFERENCE_MAX, q0, q);
+    reference_scatter(c->lanes, REFERENCE_MAX, v0, v);
+    reference_scatter(c->lanes, REFERENCE_MAX, v0, pi);
     for (int i = 0; i < workspace; i++)
         for (int l = 0; l < c->lanes; l++) c->b->work[i * c->lanes + l] = prepared[i];
     dal_at at = {t0, q, v, pi, c->b->work};
     CU_ASSERT(c->wide(c->b->system, &at, out) == DAL_OK);
     memcpy(c->b->work, prepared, (size_t)workspace * sizeof *prepared);
     for (int l = 0; l < c->lanes; l++) {
-        double q1[BODY_MOST], v1[BODY_MOST], pi1[BODY_MOST], one[BODY_OUT], lane[BODY_OUT];
-        body_pick(c->lanes, l, BODY_MOST, q, q1);
-        body_pick(c->lanes, l, BODY_MOST, v, v1);
-        body_pick(c->lanes, l, BODY_MOST, pi, pi1);
-        body_pick(c->lanes, l, c->outputs, out, lane);
+        double q1[REFERENCE_MAX], v1[REFERENCE_MAX], pi1[REFERENCE_MAX], one[REFERENCE_OUT],
+            lane[REFERENCE_OUT];
+        reference_gather(c->lanes, l, REFERENCE_MAX, q, q1);
+        reference_gather(c->lanes, l, REFERENCE_MAX, v, v1);
+        reference_gather(c->lanes, l, REFERENCE_MAX, pi, pi1);
+        reference_gather(c->lanes, l, c->outputs, out, lane);
         dal_at point = {t0, q1, v1, pi1, c->b->work};
         CU_ASSERT(c->single(c->b->system, &point, one) == DAL_OK);
         CU_ASSERT(memcmp(one, lane, (size_t)c->outputs * sizeof *one) == 0);
     }
 }
 
-static void check_variant(const body *b, int width, const dal_callbacks *wide)
+static void check_variant(const reference *b, int width, const dal_callbacks *wide)
 {
     const dal_callbacks *call = &b->system->call;
     check_lanes(&(lanes_case){b, call->field, wide->field, width, 4});
@@ -357,7 +360,7 @@ static void check_variant(const body *b, int width, const dal_callbacks *wide)
 
 static void test_lanes(void)
 {
-    body b = body_of_text(hard_text);
+    reference b = reference_of_text(hard_text);
     dal_callbacks wide;
 #define X(name, variant, lanes, set, group)                                                        \
     if (dal__machine_has(DAL__##set)) {                                                            \
@@ -366,17 +369,17 @@ static void test_lanes(void)
     }
     DAL__VARIANT_LIST(X, dal__callbacks)
 #undef X
-    body_free(&b);
+    reference_free(&b);
 }
 
 static void test_lanes_of_multipliers(void)
 {
-    body b = vakonomic_body();
+    reference b = vakonomic_reference();
     const dal_system *s = b.system;
     check_lanes(&(lanes_case){&b, s->call.field, s->wide4->field, 4, 6});
     check_lanes(&(lanes_case){&b, s->call.field, s->wide64->field, 64, 6});
     check_lanes(&(lanes_case){&b, s->call.jacobian, s->wide8->jacobian, 8, 60});
-    body_free(&b);
+    reference_free(&b);
 }
 
 void suite_mechanics(void)

@@ -1,5 +1,5 @@
 /* test_picture.c - how systems say they are drawn. */
-#include "body.h"
+#include "reference.h"
 
 #include <CUnit/Basic.h>
 #include <math.h>
@@ -17,32 +17,33 @@ static void test_numbers(void)
 {
     const double q[] = {0.5, 0.3}, v[] = {0.0, 0.7};
     double out[DAL_PICTURE_COUNT];
-    body b = body_of_text(drawn);
-    body_set(&b, "l", 3.0);
+    reference b = reference_of_text(drawn);
+    reference_set(&b, "l", 3.0);
     CU_ASSERT(b.system->body == DAL_BODY_DISK);
     CU_ASSERT_FATAL(b.system->picture != NULL);
-    CU_ASSERT(body_call(&b, b.system->picture, 2.0, q, v, out) == DAL_OK);
+    CU_ASSERT(reference_call(&b, b.system->picture, 2.0, q, v, out) == DAL_OK);
     CU_ASSERT(fabs(out[DAL_PICTURE_X] - (0.5 + 3.0 * sin(0.3))) < 1e-15);
     CU_ASSERT(fabs(out[DAL_PICTURE_Y] + 3.0 * cos(0.3)) < 1e-15);
     CU_ASSERT(out[DAL_PICTURE_ANGLE] == 0.3 / 4);
     CU_ASSERT(out[DAL_PICTURE_STEER] == 0.0);
     CU_ASSERT(fabs(out[DAL_PICTURE_WIDTH] - 1.4) < 1e-15);
-    body_free(&b);
+    reference_free(&b);
 }
 
 static void test_absent(void)
 {
-    body b = body_of_text("coordinates: [x]\nlagrangian: x'^2\n");
+    reference b = reference_of_text("coordinates: [x]\nlagrangian: x'^2\n");
     CU_ASSERT(b.system->picture == NULL);
-    body_free(&b);
+    reference_free(&b);
 }
 
 /* A body in plain view is a point unless it says what it is. */
 static void test_point(void)
 {
-    body b = body_of_text("coordinates: [x, y]\nlagrangian: x'^2 + y'^2\npicture: {x: x, y: y}\n");
+    reference b =
+        reference_of_text("coordinates: [x, y]\nlagrangian: x'^2 + y'^2\npicture: {x: x, y: y}\n");
     CU_ASSERT(b.system->picture != NULL && b.system->body == DAL_BODY_POINT);
-    body_free(&b);
+    reference_free(&b);
 }
 
 /* ---- what is drawn rolls or glides along its heading ---- */
@@ -55,13 +56,14 @@ static int rolls(const dal_system *s)
 }
 
 /* The velocity of the place across the heading, by the central difference along q + s v. */
-static double slip(const body *b, const double *x)
+static double slip(const reference *b, const double *x)
 {
     static const double s = 1e-5;
-    double q[BODY_MOST], out[3][DAL_PICTURE_COUNT];
+    double q[REFERENCE_MAX], out[3][DAL_PICTURE_COUNT];
     for (int k = -1; k <= 1; k++) {
         for (int i = 0; i < b->system->n; i++) q[i] = x[i] + k * s * x[b->system->n + i];
-        CU_ASSERT(body_call(b, b->system->picture, 0.0, q, x + b->system->n, out[k + 1]) == DAL_OK);
+        CU_ASSERT(reference_call(b, b->system->picture, 0.0, q, x + b->system->n, out[k + 1]) ==
+                  DAL_OK);
     }
     double dx = (out[2][DAL_PICTURE_X] - out[0][DAL_PICTURE_X]) / (2 * s);
     double dy = (out[2][DAL_PICTURE_Y] - out[0][DAL_PICTURE_Y]) / (2 * s);
@@ -70,7 +72,7 @@ static double slip(const body *b, const double *x)
 }
 
 /* At the start and, turned, at t = 0.6, where RK4 with h = 0.001 keeps D to 1e-10. */
-static void check_rolling(const body *b)
+static void check_rolling(const reference *b)
 {
     dal_run *run;
     dal_run_spec spec = {.system = b->system, .options = dal_options_default()};
@@ -88,12 +90,12 @@ static void test_rolling(void)
 {
     int found = 0;
     for (int i = 0; dal_builtin_name(i); i++) {
-        body b = body_builtin(dal_builtin_name(i));
+        reference b = reference_builtin(dal_builtin_name(i));
         if (rolls(b.system)) {
             check_rolling(&b);
             found++;
         }
-        body_free(&b);
+        reference_free(&b);
     }
     CU_ASSERT(found >= 9);
 }

@@ -1,6 +1,6 @@
 /* test_pivots.c - what a model finds out about its formulas: pivots that vanish on the way, guards,
  * degrees of constraints, fate of the energy. */
-#include "body.h"
+#include "reference.h"
 
 #include <CUnit/Basic.h>
 #include <math.h>
@@ -27,76 +27,76 @@ static int count_nan(int count, const double *x)
     return nan;
 }
 
-static dal_status diagnosis(const body *b, double z, double *which)
+static dal_status diagnosis(const reference *b, double z, double *which)
 {
     double q[] = {0.1, 0.2, z}, v[] = {0.3, -0.4, 0.5};
-    return body_call(b, b->system->diagnose, 0.0, q, v, which);
+    return reference_call(b, b->system->diagnose, 0.0, q, v, which);
 }
 
 /* 1 - cos^2 z is z^2: at 1e-8 nothing of it is left, at 1e-4 eight digits are. */
 static void test_singular_mass(void)
 {
-    body b = body_of_text(mass_text);
+    reference b = reference_of_text(mass_text);
     double v[] = {0.3, -0.4, 0.5}, out[18], which;
     double bad[] = {0.1, 0.2, 1e-8}, good[] = {0.1, 0.2, 1e-4};
-    body_call(&b, b.system->call.field, 0.0, bad, v, out);
+    reference_call(&b, b.system->call.field, 0.0, bad, v, out);
     CU_ASSERT(count_nan(3, out) == 3);
-    body_call(&b, b.system->call.jacobian, 0.0, bad, v, out);
+    reference_call(&b, b.system->call.jacobian, 0.0, bad, v, out);
     CU_ASSERT(count_nan(18, out) == 18);
-    body_pull(&b, 0.0, bad, v, v, out);
+    reference_pull(&b, 0.0, bad, v, v, out);
     CU_ASSERT(count_nan(9, out) == 9);
-    body_call(&b, b.system->call.field, 0.0, good, v, out);
+    reference_call(&b, b.system->call.field, 0.0, good, v, out);
     CU_ASSERT(count_nan(3, out) == 0);
     CU_ASSERT(diagnosis(&b, 1e-8, &which) == DAL_SINGULAR_MASS);
     CU_ASSERT(diagnosis(&b, 1e-4, &which) == DAL_OK);
-    body_free(&b);
+    reference_free(&b);
 }
 
 /* A parameter may take the mass away. */
 static void test_massless(void)
 {
-    body b = body_builtin("chaplygin-sleigh");
+    reference b = reference_builtin("chaplygin-sleigh");
     double which;
     CU_ASSERT(diagnosis(&b, 0.2, &which) == DAL_OK);
-    body_set(&b, "I", 0.0);
+    reference_set(&b, "I", 0.0);
     CU_ASSERT(diagnosis(&b, 0.2, &which) == DAL_SINGULAR_MASS);
-    body_free(&b);
+    reference_free(&b);
 }
 
 static void test_dependent_constraints(void)
 {
-    body b = body_of_text(parallel_text);
+    reference b = reference_of_text(parallel_text);
     double which = 0.0;
     CU_ASSERT(diagnosis(&b, 0.2, &which) == DAL_OK);
     CU_ASSERT(diagnosis(&b, atan(1.0), &which) == DAL_SINGULAR && which == 2.0);
-    body_free(&b);
+    reference_free(&b);
 }
 
 static void test_singular_lane(void)
 {
-    body b = body_of_text(mass_text);
+    reference b = reference_of_text(mass_text);
     _Alignas(64) double out[3 * 4];
     _Alignas(64) double q[] = {0, 0, 0, 0, 0, 0, 0, 0, 1, 1e-8, 0.5, 2};
     _Alignas(64) double v[] = {1, 1, 1, 1, 2, 2, 2, 2, 3, 3, 3, 3};
     for (int i = (int)b.system->workspace; i-- > 0;)
         for (int lane = 4; lane-- > 0;) b.work[4 * i + lane] = b.work[i];
-    body_call(&b, b.system->wide4->field, 0.0, q, v, out);
+    reference_call(&b, b.system->wide4->field, 0.0, q, v, out);
     for (int i = 0; i < 3; i++) {
         CU_ASSERT(isnan(out[4 * i + 1]));
         CU_ASSERT(isfinite(out[4 * i]) && isfinite(out[4 * i + 2]) && isfinite(out[4 * i + 3]));
     }
-    body_free(&b);
+    reference_free(&b);
 }
 
 static void check_diagnosis(const char *system, const double *q, const double *v)
 {
-    body b = body_builtin(system);
+    reference b = reference_builtin(system);
     double which = 0.0, F[3];
-    body_call(&b, b.system->call.field, 0.0, q, v, F);
+    reference_call(&b, b.system->call.field, 0.0, q, v, F);
     CU_ASSERT(!isfinite(F[0]) || !isfinite(F[1]) || !isfinite(F[2]));
-    CU_ASSERT(body_call(&b, b.system->diagnose, 0.0, q, v, &which) == DAL_SINGULAR);
+    CU_ASSERT(reference_call(&b, b.system->diagnose, 0.0, q, v, &which) == DAL_SINGULAR);
     CU_ASSERT(which == 1.0);
-    body_free(&b);
+    reference_free(&b);
 }
 
 static void test_singular_systems(void)
@@ -108,42 +108,42 @@ static void test_singular_systems(void)
 /* A is regular here, but D_q v is not: no pivot tells. */
 static void test_singular_rate(void)
 {
-    body b = body_of_text("coordinates: [x, y, z]\n"
-                          "lagrangian: (x'^2 + y'^2 + z'^2)/2\n"
-                          "constraints: [x' + z', y' - sqrt(x)]\n"
-                          "start: {x: 1}\n");
+    reference b = reference_of_text("coordinates: [x, y, z]\n"
+                                    "lagrangian: (x'^2 + y'^2 + z'^2)/2\n"
+                                    "constraints: [x' + z', y' - sqrt(x)]\n"
+                                    "start: {x: 1}\n");
     double q[] = {0, 0, 0}, v[] = {1, 0, -1}, which = 0.0;
-    CU_ASSERT(body_call(&b, b.system->diagnose, 0.0, q, v, &which) == DAL_SINGULAR);
+    CU_ASSERT(reference_call(&b, b.system->diagnose, 0.0, q, v, &which) == DAL_SINGULAR);
     CU_ASSERT(which == 2.0);
-    body_free(&b);
+    reference_free(&b);
 }
 
 /* Parameters alone, or a first pivot, are not watched: no pivots behind the outputs. */
 static void test_start_may_be_singular(void)
 {
-    body b = body_of_text("coordinates: [x, y, z]\n"
-                          "lagrangian: (x'^2 + y'^2 + z'^2)/2 - z\n"
-                          "constraints: [(x'^2 + y'^2 - z'^2)/2]\n");
+    reference b = reference_of_text("coordinates: [x, y, z]\n"
+                                    "lagrangian: (x'^2 + y'^2 + z'^2)/2 - z\n"
+                                    "constraints: [(x'^2 + y'^2 - z'^2)/2]\n");
     double q[] = {0, 0, 0}, v[] = {0.6, 0.8, -1}, F[3];
-    body_call(&b, b.system->call.field, 0.0, q, v, F);
+    reference_call(&b, b.system->call.field, 0.0, q, v, F);
     CU_ASSERT(fabs(F[2] + 0.5) < 1e-15); /* falls with g/(1 + nu^2) */
-    body_free(&b);
+    reference_free(&b);
 }
 
 /* A pivot on the diagonal that vanishes at the start is not taken: W = (z 1; 1 0) at z = 0. */
 static void test_pivot_order(void)
 {
-    body b = body_of_text("coordinates: [x, y, z]\n"
-                          "lagrangian: z*x'^2/2 + x'*y' + z'^2/2 - x - 2*y\n");
+    reference b = reference_of_text("coordinates: [x, y, z]\n"
+                                    "lagrangian: z*x'^2/2 + x'*y' + z'^2/2 - x - 2*y\n");
     double q[] = {0, 0, 0}, v[] = {0, 0, 0}, F[3];
-    body_call(&b, b.system->call.field, 0.0, q, v, F);
+    reference_call(&b, b.system->call.field, 0.0, q, v, F);
     CU_ASSERT(F[0] == -2.0 && F[1] == -1.0 && F[2] == 0.0);
-    body_free(&b);
+    reference_free(&b);
 }
 
 /* ---- guards ---- */
 
-static bool has_guard(const body *b, const char *name)
+static bool has_guard(const reference *b, const char *name)
 {
     for (int i = 0; i < b->system->guards; i++)
         if (strcmp(b->system->guard[i], name) == 0) return true;
@@ -152,20 +152,20 @@ static bool has_guard(const body *b, const char *name)
 
 static void test_guards(void)
 {
-    body b = body_of_text("coordinates: [x, y]\n"
-                          "parameters: {a: 2}\n"
-                          "lagrangian: (x'^2 + y'^2)/2 + 1/x\n"
-                          "constraints: [x'/(y'*sqrt(t)) + tan(x)/a - (1 + y)^(-65)]\n"
-                          "start: {x': 1, y': 1}\n");
+    reference b = reference_of_text("coordinates: [x, y]\n"
+                                    "parameters: {a: 2}\n"
+                                    "lagrangian: (x'^2 + y'^2)/2 + 1/x\n"
+                                    "constraints: [x'/(y'*sqrt(t)) + tan(x)/a - (1 + y)^(-65)]\n"
+                                    "start: {x': 1, y': 1}\n");
     double q[] = {0.3, -0.2}, v[] = {0.5, 0.7}, out[4], sum = 0.0;
     CU_ASSERT(b.system->guards == 4);
     CU_ASSERT(has_guard(&b, "constraint 1: y'") && has_guard(&b, "constraint 1: t"));
     CU_ASSERT(has_guard(&b, "constraint 1: cos(x)"));
     CU_ASSERT(has_guard(&b, "constraint 1: a denominator"));
-    CU_ASSERT(body_call(&b, b.system->call.guards, 0.9, q, v, out) == DAL_OK);
+    CU_ASSERT(reference_call(&b, b.system->call.guards, 0.9, q, v, out) == DAL_OK);
     for (int i = 0; i < 4; i++) sum += out[i];
     CU_ASSERT(fabs(sum - (0.7 + 0.9 + cos(0.3) + 0.8)) < 1e-15);
-    body_free(&b);
+    reference_free(&b);
 }
 
 /* ---- properties ---- */
@@ -203,10 +203,10 @@ static void test_constraint_properties(void)
                      "start: {x': 1, y': 2}\nconstraints: [\"");
         strcat(text, constraints[k].constraint);
         strcat(text, "\"]\n");
-        body b = body_of_text(text);
+        reference b = reference_of_text(text);
         CU_ASSERT((b.system->properties & OF_D) == constraints[k].degree);
         CU_ASSERT((b.system->properties & OF_E) == constraints[k].energy);
-        body_free(&b);
+        reference_free(&b);
     }
 }
 
@@ -232,9 +232,9 @@ static void test_motion_properties(void)
     for (size_t k = 0; k < sizeof motions / sizeof *motions; k++) {
         strcpy(text, "coordinates: [x, y]\n");
         strcat(text, motions[k].rest);
-        body b = body_of_text(text);
+        reference b = reference_of_text(text);
         CU_ASSERT(b.system->properties == motions[k].properties);
-        body_free(&b);
+        reference_free(&b);
     }
 }
 
@@ -242,40 +242,41 @@ static void test_motion_properties(void)
 
 static void test_gauge_and_start(void)
 {
-    body b = body_of_text("coordinates: [x, y]\n"
-                          "parameters: {m: 2, k: m/4}\n"
-                          "let: {fast: m*sqrt(k)}\n"
-                          "accelerations: {x: -k*x}\n"
-                          "gauge: {e: 3*k, mu_e: k*cos(t)}\n"
-                          "start: {y: m, x': fast}\n");
+    reference b = reference_of_text("coordinates: [x, y]\n"
+                                    "parameters: {m: 2, k: m/4}\n"
+                                    "let: {fast: m*sqrt(k)}\n"
+                                    "accelerations: {x: -k*x}\n"
+                                    "gauge: {e: 3*k, mu_e: k*cos(t)}\n"
+                                    "start: {y: m, x': fast}\n");
     double out[5], expected[] = {0, 2, sqrt(0.5) * 2, 0, 1.5};
     CU_ASSERT(b.system->value[1] == 0.5);
-    body_call(&b, b.system->start, 0.0, NULL, NULL, out);
-    CU_ASSERT(body_distance(5, out, expected) < 1e-15);
-    body_call(&b, b.system->call.gauge, 0.7, NULL, NULL, out);
+    reference_call(&b, b.system->start, 0.0, NULL, NULL, out);
+    CU_ASSERT(reference_distance(5, out, expected) < 1e-15);
+    reference_call(&b, b.system->call.gauge, 0.7, NULL, NULL, out);
     CU_ASSERT(fabs(out[0] - 0.5 * cos(0.7)) < 1e-15);
-    body_free(&b);
+    reference_free(&b);
 }
 
 static void test_start_of_multipliers(void)
 {
-    body b = body_of_text("coordinates: [x, y]\n"
-                          "lagrangian: (x'^2 + y'^2)/2\n"
-                          "constraints: [x' - y']\n"
-                          "mechanics: vakonomic\n"
-                          "gauge: {e: 7}\n"
-                          "start: {y: 2, x': 3, y': 3, g1: 5}\n");
+    reference b = reference_of_text("coordinates: [x, y]\n"
+                                    "lagrangian: (x'^2 + y'^2)/2\n"
+                                    "constraints: [x' - y']\n"
+                                    "mechanics: vakonomic\n"
+                                    "gauge: {e: 7}\n"
+                                    "start: {y: 2, x': 3, y': 3, g1: 5}\n");
     double out[6], expected[] = {0, 2, 3, 3, 5, 7};
-    body_call(&b, b.system->start, 0.0, NULL, NULL, out);
-    CU_ASSERT(body_distance(6, out, expected) == 0.0);
-    body_free(&b);
+    reference_call(&b, b.system->start, 0.0, NULL, NULL, out);
+    CU_ASSERT(reference_distance(6, out, expected) == 0.0);
+    reference_free(&b);
 }
 
 /* ---- models without YAML, and from a file ---- */
 
 static void test_by_hand(void)
 {
-    body sleigh = body_builtin("chaplygin-sleigh"), b = {.model = dal_model_create("by hand")};
+    reference sleigh = reference_builtin("chaplygin-sleigh"),
+              b = {.model = dal_model_create("by hand")};
     static const struct {
         dal_section section;
         const char *name, *text;
@@ -298,22 +299,22 @@ static void test_by_hand(void)
     CU_ASSERT_STRING_EQUAL(b.system->name, "by hand");
     b.system->prepare(b.system, &at, NULL);
     b.system->call.field(b.system, &at, F[0]);
-    body_call(&sleigh, sleigh.system->call.field, 0.0, q, v, F[1]);
+    reference_call(&sleigh, sleigh.system->call.field, 0.0, q, v, F[1]);
     CU_ASSERT(memcmp(F[0], F[1], sizeof F[0]) == 0);
-    body_free(&b);
-    body_free(&sleigh);
+    reference_free(&b);
+    reference_free(&sleigh);
 }
 
 static void test_from_file(void)
 {
-    body b = {.work = NULL};
+    reference b = {.work = NULL};
     CU_ASSERT_FATAL(dal_model_read_file(&b.model, "systems/knife-edge.yaml", NULL) == DAL_OK);
     CU_ASSERT(dal_model_system(b.model, &b.system, NULL) == DAL_OK);
     CU_ASSERT_STRING_EQUAL(b.system->name, "knife-edge");
     CU_ASSERT_STRING_EQUAL(b.system->title, "Knife edge on an inclined plane");
     CU_ASSERT_STRING_EQUAL(b.system->parameter[3], "alpha");
     CU_ASSERT(b.system->value[3] == 0.5);
-    body_free(&b);
+    reference_free(&b);
 }
 
 void suite_pivots(void)

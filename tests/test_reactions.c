@@ -1,5 +1,5 @@
 /* test_reactions.c - reactions along directions B of their own: W F = b + B^T h, A F = -c. */
-#include "body.h"
+#include "reference.h"
 
 #include <CUnit/Basic.h>
 #include <math.h>
@@ -7,7 +7,7 @@
 
 #define BY_DIFFERENCES 1e-10
 
-static const double q0[BODY_MOST] = {0.3, -0.4, 0.7}, v0[BODY_MOST] = {0.5, 0.9, -0.3};
+static const double q0[REFERENCE_MAX] = {0.3, -0.4, 0.7}, v0[REFERENCE_MAX] = {0.5, 0.9, -0.3};
 static const double t0 = 0.35;
 
 /* ---- two reactions, a full mass matrix, forces and time ---- */
@@ -43,31 +43,31 @@ static double full_reaction(int i, const double *q, const double *v, double t)
     return B[i];
 }
 
-static const body_formulas full = {
+static const reference_formulas full = {
     3, 2, full_lagrangian, full_force, full_constraint, full_reaction};
 
 static void test_field(void)
 {
-    body b = body_of_text(full_text);
-    double F[BODY_MOST], expected[BODY_MOST];
-    CU_ASSERT(body_call(&b, b.system->call.field, t0, q0, v0, F) == DAL_OK);
-    body_motion(&full, q0, v0, t0, expected);
-    CU_ASSERT(body_distance(3, F, expected) < BY_DIFFERENCES);
+    reference b = reference_of_text(full_text);
+    double F[REFERENCE_MAX], expected[REFERENCE_MAX];
+    CU_ASSERT(reference_call(&b, b.system->call.field, t0, q0, v0, F) == DAL_OK);
+    reference_motion(&full, q0, v0, t0, expected);
+    CU_ASSERT(reference_distance(3, F, expected) < BY_DIFFERENCES);
     CU_ASSERT(b.system->properties & DAL_SERVO);
-    body_free(&b);
+    reference_free(&b);
 }
 
 /* The lift and the metric of projections: F_q^T pi, F_v^T pi by differences of pi.F; and
  * W^-1 A^T, not W^-1 B^T, beside D and A. */
-static double pull(const body *b, const double *pi, const double *q, const double *v)
+static double pull(const reference *b, const double *pi, const double *q, const double *v)
 {
-    double F[BODY_MOST], sum = 0.0;
-    body_call(b, b->system->call.field, t0, q, v, F);
+    double F[REFERENCE_MAX], sum = 0.0;
+    reference_call(b, b->system->call.field, t0, q, v, F);
     for (int i = 0; i < 3; i++) sum += pi[i] * F[i];
     return sum;
 }
 
-static double slope(const body *b, const double *pi, int i)
+static double slope(const reference *b, const double *pi, int i)
 {
     static const double weight[] = {4.0 / 5, -1.0 / 5, 4.0 / 105, -1.0 / 280}, h = 0.004;
     double sum = 0.0, x[6];
@@ -85,28 +85,28 @@ static double slope(const body *b, const double *pi, int i)
 
 static void test_adjoint(void)
 {
-    body b = body_of_text(full_text);
+    reference b = reference_of_text(full_text);
     double out[9], expected[6], pi[] = {0.4, -0.8, 0.6};
-    CU_ASSERT(body_pull(&b, t0, q0, v0, pi, out) == DAL_OK);
+    CU_ASSERT(reference_pull(&b, t0, q0, v0, pi, out) == DAL_OK);
     for (int i = 0; i < 6; i++) expected[i] = slope(&b, pi, i);
-    CU_ASSERT(body_distance(6, out + 3, expected) < BY_DIFFERENCES);
-    body_free(&b);
+    CU_ASSERT(reference_distance(6, out + 3, expected) < BY_DIFFERENCES);
+    reference_free(&b);
 }
 
 static void test_metric(void)
 {
-    body b = body_of_text(full_text);
+    reference b = reference_of_text(full_text);
     double out[2 + 6 + 6], product, A;
-    CU_ASSERT(body_call(&b, b.system->call.constraint, t0, q0, v0, out) == DAL_OK);
+    CU_ASSERT(reference_call(&b, b.system->call.constraint, t0, q0, v0, out) == DAL_OK);
     for (int a = 0; a < 2; a++)
         for (int i = 0; i < 3; i++) {
             product = 0.0;
             for (int j = 0; j < 3; j++)
-                product += body_mass(&full, i, j, q0, v0, t0) * out[8 + j * 2 + a];
-            A = body_by_v(full_constraint, a, i, q0, v0, t0);
+                product += reference_mass(&full, i, j, q0, v0, t0) * out[8 + j * 2 + a];
+            A = reference_by_v(full_constraint, a, i, q0, v0, t0);
             CU_ASSERT(fabs(product - A) < BY_DIFFERENCES);
         }
-    body_free(&b);
+    reference_free(&b);
 }
 
 /* ---- Chetaev's rule as a special case ---- */
@@ -115,17 +115,17 @@ static void test_metric(void)
 static void check_same(const char *rest, const char *reactions)
 {
     char text[512];
-    double F[2][BODY_MOST];
+    double F[2][REFERENCE_MAX];
     for (int k = 0; k < 2; k++) {
         strcpy(text, "coordinates: [x, y, z]\nlagrangian: x'^2/2 + y'^2 + z'^2/2 - x*y - z\n");
         strcat(text, rest);
         if (k) strcat(text, reactions);
-        body b = body_of_text(text);
-        CU_ASSERT(body_call(&b, b.system->call.field, t0, q0, v0, F[k]) == DAL_OK);
+        reference b = reference_of_text(text);
+        CU_ASSERT(reference_call(&b, b.system->call.field, t0, q0, v0, F[k]) == DAL_OK);
         CU_ASSERT(!(b.system->properties & DAL_SERVO) == !k);
-        body_free(&b);
+        reference_free(&b);
     }
-    CU_ASSERT(body_distance(3, F[1], F[0]) < 1e-14);
+    CU_ASSERT(reference_distance(3, F[1], F[0]) < 1e-14);
 }
 
 static void test_parallel(void)
@@ -162,9 +162,9 @@ static void test_energy(void)
                          "lagrangian: x'^2/2 + y'^2 + (1 + x^2)*z'^2/2 - x*y - z\n"
                          "start: {x: 0.2, y: 0.5, x': 0.3, y': 0.4, z': 0.7}\n";
         strcat(text, fates[k].text);
-        body b = body_of_text(text);
+        reference b = reference_of_text(text);
         CU_ASSERT((b.system->properties & (DAL_E_EXACT | DAL_E_WEAK)) == fates[k].energy);
-        body_free(&b);
+        reference_free(&b);
     }
 }
 
@@ -191,7 +191,7 @@ static void test_pendulum(void)
 {
     const pendulum p = {1.3, 0.9, 0.5};
     const dal_setting set[] = {{"l", p.l}, {"g", p.g}, {"k", p.k}};
-    body b = body_builtin("servo-pendulum");
+    reference b = reference_builtin("servo-pendulum");
     dal_run *run;
     dal_run_spec spec = {.system = b.system,
                          .options = dal_options_default(),
@@ -207,14 +207,14 @@ static void test_pendulum(void)
     CU_ASSERT(fabs(state[1] - x[0]) < 1e-12 && fabs(state[3] - x[1]) < 1e-12);
     CU_ASSERT(fabs(state[0] - p.k * (x[0] - 1.2)) < 1e-12);
     dal_run_free(run);
-    body_free(&b);
+    reference_free(&b);
 }
 
 /* Where l + k cos(theta) = 0 the motor has no hold on its speed. */
 static void test_loss(void)
 {
     const dal_setting set[] = {{"k", 2.0}, {"theta0", 1.9}, {"omega0", 6.0}};
-    body b = body_builtin("servo-pendulum");
+    reference b = reference_builtin("servo-pendulum");
     dal_run *run;
     dal_error error;
     dal_run_spec spec = {.system = b.system,
@@ -227,7 +227,7 @@ static void test_loss(void)
     CU_ASSERT(dal_run_advance(run, 100, &error) == DAL_SINGULAR);
     CU_ASSERT(strstr(error.message, "the reactions: det A W^-1 B^T") != NULL);
     dal_run_free(run);
-    body_free(&b);
+    reference_free(&b);
 }
 
 void suite_reactions(void)

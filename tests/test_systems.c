@@ -1,7 +1,7 @@
 /* test_systems.c - the built-in systems: their exact solutions against their own equations, their
  * invariants along the motion, the closed forms and reference end states of the literature, and
  * what is known of each. */
-#include "body.h"
+#include "reference.h"
 
 #include <CUnit/Basic.h>
 #include <math.h>
@@ -18,11 +18,11 @@ static const double step = 0.005;
 
 /* ---- a small integrator: q, v, g by RK4 ---- */
 
-static void slope(const body *b, double t, const double *x, double *out)
+static void slope(const reference *b, double t, const double *x, double *out)
 {
     int n = b->system->n;
     memcpy(out, x + n, (size_t)n * sizeof *out);
-    body_call(b, b->system->call.field, t, x, x + n, out + n);
+    reference_call(b, b->system->call.field, t, x, x + n, out + n);
 }
 
 static void shifted(int count, const double *x, double s, const double *k, double *out)
@@ -30,10 +30,10 @@ static void shifted(int count, const double *x, double s, const double *k, doubl
     for (int i = 0; i < count; i++) out[i] = x[i] + s * k[i];
 }
 
-static void rk4(const body *b, double t, double h, double *x)
+static void rk4(const reference *b, double t, double h, double *x)
 {
     int count = 2 * b->system->n + b->system->multipliers;
-    double k[4][3 * BODY_MOST], y[3 * BODY_MOST];
+    double k[4][3 * REFERENCE_MAX], y[3 * REFERENCE_MAX];
     slope(b, t, x, k[0]);
     shifted(count, x, h / 2, k[0], y);
     slope(b, t + h / 2, y, k[1]);
@@ -44,27 +44,27 @@ static void rk4(const body *b, double t, double h, double *x)
     for (int i = 0; i < count; i++) x[i] += h / 6 * (k[0][i] + 2 * k[1][i] + 2 * k[2][i] + k[3][i]);
 }
 
-static void go(const body *b, double from, double to, double *x)
+static void go(const reference *b, double from, double to, double *x)
 {
     int steps = (int)lround((to - from) * 1000);
     for (int i = 0; i < steps; i++) rk4(b, from + (to - from) * i / steps, (to - from) / steps, x);
 }
 
-static void start(const body *b, double *x)
+static void start(const reference *b, double *x)
 {
-    CU_ASSERT(body_call(b, b->system->start, 0.0, NULL, NULL, x) == DAL_OK);
+    CU_ASSERT(reference_call(b, b->system->start, 0.0, NULL, NULL, x) == DAL_OK);
 }
 
 /* ---- exact solutions ---- */
 
-static void exact(const body *b, double t, double *x)
+static void exact(const reference *b, double t, double *x)
 {
-    CU_ASSERT(body_call(b, b->system->exact, t, NULL, NULL, x) == DAL_OK);
+    CU_ASSERT(reference_call(b, b->system->exact, t, NULL, NULL, x) == DAL_OK);
 }
 
-static void exact_rate(const body *b, double t, double *rate)
+static void exact_rate(const reference *b, double t, double *rate)
 {
-    double above[2 * BODY_MOST], below[2 * BODY_MOST];
+    double above[2 * REFERENCE_MAX], below[2 * REFERENCE_MAX];
     for (int i = 0; i < 2 * b->system->n; i++) rate[i] = 0.0;
     for (int k = 0; k < 4; k++) {
         exact(b, t + (k + 1) * step, above);
@@ -74,69 +74,70 @@ static void exact_rate(const body *b, double t, double *rate)
     }
 }
 
-static void check_exact(const body *b)
+static void check_exact(const reference *b)
 {
     int n = b->system->n;
-    double x[3 * BODY_MOST], rate[2 * BODY_MOST], D[BODY_MOST] = {0.0}, zero[BODY_MOST] = {0.0};
+    double x[3 * REFERENCE_MAX], rate[2 * REFERENCE_MAX], D[REFERENCE_MAX] = {0.0},
+                                                          zero[REFERENCE_MAX] = {0.0};
     start(b, x);
     exact(b, 0.0, rate);
-    CU_ASSERT(body_distance(2 * n, rate, x) < 1e-15);
+    CU_ASSERT(reference_distance(2 * n, rate, x) < 1e-15);
     for (double t = 0.1; t < 1.2; t += 0.21) {
-        double expected[2 * BODY_MOST];
+        double expected[2 * REFERENCE_MAX];
         exact(b, t, x);
         slope(b, t, x, expected);
         exact_rate(b, t, rate);
-        CU_ASSERT(body_distance(2 * n, rate, expected) < BY_DIFFERENCES);
-        if (b->system->m) body_call(b, b->system->constraints, t, x, x + n, D);
-        CU_ASSERT(body_distance(b->system->m, D, zero) < 1e-14);
+        CU_ASSERT(reference_distance(2 * n, rate, expected) < BY_DIFFERENCES);
+        if (b->system->m) reference_call(b, b->system->constraints, t, x, x + n, D);
+        CU_ASSERT(reference_distance(b->system->m, D, zero) < 1e-14);
     }
 }
 
 /* Away from the default parameters, so that none of them is forgotten in a formula. */
-static void unlike(body *b)
+static void unlike(reference *b)
 {
     for (int i = 0; i < b->system->parameters; i++)
-        body_set(b, b->system->parameter[i], b->system->value[i] * (1.1 + 0.07 * i) + 0.03);
+        reference_set(b, b->system->parameter[i], b->system->value[i] * (1.1 + 0.07 * i) + 0.03);
 }
 
 static void test_exact(void)
 {
     for (int i = 0; dal_builtin_name(i); i++) {
-        body b = body_builtin(dal_builtin_name(i));
+        reference b = reference_builtin(dal_builtin_name(i));
         if (b.system->exact) check_exact(&b);
         unlike(&b);
         if (b.system->exact) check_exact(&b);
-        body_free(&b);
+        reference_free(&b);
     }
 }
 
 /* ---- invariants ---- */
 
 /* Invariants and their rates along the field, by differences on the line x + s dx/dt. */
-static void invariant_rates(const body *b, double t, const double *x, double *rate)
+static void invariant_rates(const reference *b, double t, const double *x, double *rate)
 {
     int n = b->system->n, count = 2 * n + b->system->multipliers;
-    double k[3 * BODY_MOST], y[3 * BODY_MOST], above[BODY_MOST], below[BODY_MOST];
+    double k[3 * REFERENCE_MAX], y[3 * REFERENCE_MAX], above[REFERENCE_MAX], below[REFERENCE_MAX];
     slope(b, t, x, k);
     for (int i = 0; i < b->system->invariants; i++) rate[i] = 0.0;
     for (int j = 0; j < 4; j++) {
         double s = (j + 1) * step;
         shifted(count, x, s, k, y);
-        body_call(b, b->system->invariant_values, t + s, y, y + n, above);
+        reference_call(b, b->system->invariant_values, t + s, y, y + n, above);
         shifted(count, x, -s, k, y);
-        body_call(b, b->system->invariant_values, t - s, y, y + n, below);
+        reference_call(b, b->system->invariant_values, t - s, y, y + n, below);
         for (int i = 0; i < b->system->invariants; i++)
             rate[i] += weight[j] * (above[i] - below[i]) / step;
     }
 }
 
-static void check_invariants(const body *b)
+static void check_invariants(const reference *b)
 {
-    double x[3 * BODY_MOST], rate[BODY_MOST], zero[BODY_MOST] = {0.0};
+    double x[3 * REFERENCE_MAX], rate[REFERENCE_MAX], zero[REFERENCE_MAX] = {0.0};
     start(b, x);
     for (int k = 0; k < 4; k++) {
         invariant_rates(b, 0.2 * k, x, rate);
-        CU_ASSERT(body_distance(b->system->invariants, rate, zero) < BY_RK4);
+        CU_ASSERT(reference_distance(b->system->invariants, rate, zero) < BY_RK4);
         go(b, 0.2 * k, 0.2 * (k + 1), x);
     }
 }
@@ -144,11 +145,11 @@ static void check_invariants(const body *b)
 static void test_invariants(void)
 {
     for (int i = 0; dal_builtin_name(i); i++) {
-        body b = body_builtin(dal_builtin_name(i));
+        reference b = reference_builtin(dal_builtin_name(i));
         if (b.system->invariants) check_invariants(&b);
         unlike(&b);
         if (b.system->invariants) check_invariants(&b);
-        body_free(&b);
+        reference_free(&b);
     }
 }
 
@@ -183,7 +184,7 @@ enum { KNOWN = sizeof known / sizeof *known };
 static void test_known(void)
 {
     for (int k = 0; k < KNOWN; k++) {
-        body b = body_builtin(known[k].name);
+        reference b = reference_builtin(known[k].name);
         const dal_system *s = b.system;
         CU_ASSERT_STRING_EQUAL(s->name, known[k].name);
         CU_ASSERT(s->title && s->reference && s->tags > 0);
@@ -191,7 +192,7 @@ static void test_known(void)
         CU_ASSERT(s->properties == known[k].properties);
         CU_ASSERT(s->call.field && s->call.jacobian && s->start && s->prepare && s->energy);
         CU_ASSERT(!s->call.adjoint == !!(s->properties & DAL_VAKONOMIC));
-        body_free(&b);
+        reference_free(&b);
     }
     CU_ASSERT(dal_builtin_name(-1) == NULL);
 }
@@ -202,8 +203,8 @@ static void test_known(void)
 static void test_friction(void)
 {
     double m = 1.3, k = 9.0, v0 = 1.1, w = 1.7, x[6], expected[2];
-    body b = body_builtin("chaplygin-sleigh-friction");
-    body_set(&b, "m", m), body_set(&b, "v0", v0), body_set(&b, "omega", w);
+    reference b = reference_builtin("chaplygin-sleigh-friction");
+    reference_set(&b, "m", m), reference_set(&b, "v0", v0), reference_set(&b, "omega", w);
     double root = sqrt(k * k - 4 * w * w * m * m), d1 = (k - root) / (2 * m);
     double d2 = (k + root) / (2 * m), phase1 = asin(-2 * w * d1 / (w * w + d1 * d1));
     double phase2 = PI - asin(-2 * w * d2 / (w * w + d2 * d2)), factor = v0 / (w * (d2 - d1));
@@ -213,56 +214,57 @@ static void test_friction(void)
             2 * v0 * m / k + factor * (e1 * sin(w * t + phase1) - e2 * sin(w * t + phase2));
         expected[1] = v0 / w - factor * (e1 * cos(w * t + phase1) - e2 * cos(w * t + phase2));
         exact(&b, t, x);
-        CU_ASSERT(body_distance(2, x, expected) < 1e-13);
+        CU_ASSERT(reference_distance(2, x, expected) < 1e-13);
     }
     exact(&b, 60.0, x);
     CU_ASSERT(fabs(x[0] - 0.31777778) < 1e-8);
-    body_free(&b);
+    reference_free(&b);
 }
 
 /* The distance to the circle (nh30) falls like 1/k. */
 static void test_strong_friction(void)
 {
-    body b = body_builtin("chaplygin-sleigh-friction");
+    reference b = reference_builtin("chaplygin-sleigh-friction");
     double x[6], distance[4];
     for (int i = 0; i < 4; i++) {
-        body_set(&b, "k", pow(10.0, i + 1));
+        reference_set(&b, "k", pow(10.0, i + 1));
         exact(&b, 1.0, x);
         distance[i] = hypot(x[0] - sin(1.0), x[1] - (1 - cos(1.0)));
     }
     for (int i = 1; i < 3; i++) CU_ASSERT(fabs(distance[i] / distance[i + 1] - 10.0) < 0.2);
-    body_free(&b);
+    reference_free(&b);
 }
 
 /* (nh36) as corrected; (nh35) has the constants p1 = m v0 and p2 = -g(0). */
 static void test_vakonomic_angle(void)
 {
     double m = 1.3, I = 0.7, v0 = 1.1, p2 = -0.4, x[8], F[4], E[2];
-    body b = body_builtin("chaplygin-sleigh-vakonomic");
-    body_set(&b, "m", m), body_set(&b, "I", I), body_set(&b, "v0", v0), body_set(&b, "g0", -p2);
+    reference b = reference_builtin("chaplygin-sleigh-vakonomic");
+    reference_set(&b, "m", m), reference_set(&b, "I", I), reference_set(&b, "v0", v0),
+        reference_set(&b, "g0", -p2);
     start(&b, x);
-    body_call(&b, b.system->energy, 0.0, x, x + 3, &E[0]);
+    reference_call(&b, b.system->energy, 0.0, x, x + 3, &E[0]);
     for (int k = 0; k < 5; k++) {
         double two = 2 * x[2], p1 = m * v0;
         double right = (p1 * p1 - p2 * p2) * sin(two) - 2 * p2 * p1 * cos(two);
-        body_call(&b, b.system->call.field, 0.0, x, x + 3, F);
+        reference_call(&b, b.system->call.field, 0.0, x, x + 3, F);
         CU_ASSERT(fabs(2 * I * m * F[2] - right) < BY_RK4);
-        body_call(&b, b.system->energy, 0.0, x, x + 3, &E[1]);
+        reference_call(&b, b.system->energy, 0.0, x, x + 3, &E[1]);
         CU_ASSERT(fabs(E[1] - E[0]) < BY_RK4);
         go(&b, 0.0, 0.4, x);
     }
-    body_free(&b);
+    reference_free(&b);
 }
 
 /* End states known to 13 digits from two independent integrations of order above 8. */
 static void check_end(const char *text, double T, const double *expected)
 {
-    body b = body_of_text(text);
-    double x[2 * BODY_MOST];
+    reference b = reference_of_text(text);
+    double x[2 * REFERENCE_MAX];
     start(&b, x);
     go(&b, 0.0, T, x);
-    CU_ASSERT(body_distance(2 * b.system->n, x, expected) < BY_RK4);
-    body_free(&b);
+    CU_ASSERT(reference_distance(2 * b.system->n, x, expected) < BY_RK4);
+    reference_free(&b);
 }
 
 static void test_end_states(void)
