@@ -35,21 +35,6 @@ typedef struct check {
     int items, failed, unmeasured;
 } check;
 
-/* The sections of the report, in its order.  function, title */
-#define CHECK_SECTION_LIST(SECTION)                                                                \
-    SECTION(start, "start")                                                                        \
-    SECTION(constraints, "constraints")                                                            \
-    SECTION(energy, "energy and invariants")                                                       \
-    SECTION(reversal, "reversal of the motion")                                                    \
-    SECTION(derivatives, "derivatives against differences")                                        \
-    SECTION(exact, "exact solution")                                                               \
-    SECTION(algebra, "Dirac's algebra in 6n+2")                                                    \
-    SECTION(action, "actions")
-
-#define SECTION_FUNCTION(name, title) void check_##name(check *c);
-CHECK_SECTION_LIST(SECTION_FUNCTION)
-#undef SECTION_FUNCTION
-
 /* One line of the report: what is examined, the result, and a value.  CHECK_UNMEASURED is as bad as
  * a failure. */
 void check_item(check *c, check_result result, const char *what, const char *format, ...)

@@ -7,7 +7,7 @@
  * Actions: int e/2 |q'' - F|^2 dt is 0 on a solution and positive off it.  int P.X' - H is
  * stationary on a trajectory; discretised at midpoints, it is so to rounding on a trajectory of
  * implicit-midpoint, and on none of another method. */
-#include "check.h"
+#include "check_sections.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -86,15 +86,25 @@ static double start_defect(check *c)
     return defect / size;
 }
 
-static void check_start_constraints(check *c)
+void check_start(check *c)
 {
-    int rank = 0;
-    double pivot = 0.0;
+    static const char points[] = "points about the start";
+    const double e = c->start[c->size];
+    check_item(c, c->is_regular ? CHECK_OK : CHECK_FAIL, "F at the start", "%s",
+               c->is_regular ? "finite" : "not finite: the motion is not determined");
+    check_item(c, e != 0.0 && !isnan(e) ? CHECK_OK : CHECK_FAIL, "gauge variable e", "%g", e);
+    const check_result found = c->near_count > 0 ? CHECK_OK : CHECK_FAIL;
+    if (c->m == 0) {
+        check_item(c, found, points, "%d", c->near_count);
+        return;
+    }
     const double defect = c->system->call.constraint ? start_defect(c) : 0.0;
     if (isnan(defect))
         check_item(c, CHECK_UNMEASURED, "|D| at the start", "D or its derivative is not finite");
     else if (c->system->call.constraint)
         check_bound(c, "|D| at the start", defect, consistent);
+    int rank = 0;
+    double pivot = 0.0;
     const dal_status status = dal_measure_rank(c->probe, &c->origin, &rank, &pivot);
     if (cli_is_ok(status))
         check_item(c, rank == c->m ? CHECK_OK : CHECK_FAIL, "rank of G at the start",
@@ -102,22 +112,8 @@ static void check_start_constraints(check *c)
     else if (status != DAL_UNSUPPORTED)
         check_item(c, CHECK_FAIL, "rank of G at the start", "it has no value: %s",
                    dal_status_text(status));
-}
-
-void check_start(check *c)
-{
-    static const char points[] = "points about the start";
-    const double e = c->start[c->size];
-    const check_result found = c->near_count > 0 ? CHECK_OK : CHECK_FAIL;
-    check_item(c, c->is_regular ? CHECK_OK : CHECK_FAIL, "F at the start", "%s",
-               c->is_regular ? "finite" : "not finite: the motion is not determined");
-    check_item(c, e != 0.0 && !isnan(e) ? CHECK_OK : CHECK_FAIL, "gauge variable e", "%g", e);
-    if (c->m > 0) check_start_constraints(c);
-    if (c->m > 0)
-        check_item(c, found, points, "%d, of which %d could be projected to D = 0", c->near_count,
-                   c->surface_count);
-    else
-        check_item(c, found, points, "%d", c->near_count);
+    check_item(c, found, points, "%d, of which %d could be projected to D = 0", c->near_count,
+               c->surface_count);
 }
 
 /* ---- constraints ---- */
@@ -182,16 +178,6 @@ static void list_methods(check *c, bool is_constant, unsigned properties)
                    is_any ? "" : ": ", is_any ? "" : error.message);
 }
 
-static void print_homogeneity(check *c, const dal_degree *d, const double *degree)
-{
-    char text[64] = "not homogeneous";
-    int written = 0;
-    for (int a = 0; d->homogeneous && a < c->m && written < 44; a++)
-        written += snprintf(text + written, sizeof text - (size_t)written, "%sD%d of degree %.4g",
-                            a > 0 ? ", " : "", a + 1, degree[a] + 0.0);
-    check_item(c, CHECK_INFO, "homogeneity of D in v", "%s%s", text, d->linear ? "; affine" : "");
-}
-
 /* A property that numbers contradict is a fault; one that the system does not state is none. */
 static void check_classes(check *c, const dal_degree *d)
 {
@@ -228,7 +214,13 @@ void check_constraints(check *c)
     double *degree = cli_calloc((size_t)c->m + 1, sizeof *degree);
     const dal_status status = dal_measure_degree(c->probe, &c->origin, &d, degree);
     if (cli_is_ok(status)) {
-        print_homogeneity(c, &d, degree);
+        char text[64] = "not homogeneous";
+        int written = 0;
+        for (int a = 0; d.homogeneous && a < c->m && written < 44; a++)
+            written += snprintf(text + written, sizeof text - (size_t)written,
+                                "%sD%d of degree %.4g", a > 0 ? ", " : "", a + 1, degree[a] + 0.0);
+        check_item(c, CHECK_INFO, "homogeneity of D in v", "%s%s", text,
+                   d.linear ? "; affine" : "");
         check_classes(c, &d);
         list_methods(c, d.constant,
                      DAL_KEEPS_D | (d.bilinear ? DAL_KEEPS_BILINEAR : 0u) |

@@ -48,20 +48,6 @@ static const char *comparison_text(const dal_explanation *e, int twin)
     return e->spec.options.sums == DAL_SUMS_PLAIN ? "compensated sums" : "plain sums";
 }
 
-static void print_source(const dal_explanation *e, int i, dal_cause cause)
-{
-    const double share = e->of[i].share[cause], margin = e->of[i].margin[cause];
-    char words[512], number[64];
-    if (isnan(share))
-        snprintf(number, sizeof number, "?");
-    else if (isnan(margin))
-        snprintf(number, sizeof number, "%.3g", share);
-    else
-        snprintf(number, sizeof number, "%.3g +- %.1g", share, margin);
-    printf("    %-13s %-17s  %s\n", dal_cause_name(cause), number,
-           dal_cause_words(e, i, cause, words, sizeof words));
-}
-
 static void print_observable(const dal_explanation *e, int i)
 {
     const dal_attribution *a = &e->of[i];
@@ -71,7 +57,15 @@ static void print_observable(const dal_explanation *e, int i)
         printf("%s: size %s, trend %s\n", a->name, dal_size_text(a->all.size), text);
     else
         printf("%s: %s\n", a->name, text);
-    for (int k = 0; k < DAL_CAUSES; k++) print_source(e, i, (dal_cause)k);
+    for (int k = 0; k < DAL_CAUSES; k++) {
+        char words[512], number[64] = "?";
+        int length = 0;
+        if (!isnan(a->share[k])) length = snprintf(number, sizeof number, "%.3g", a->share[k]);
+        if (length > 0 && !isnan(a->margin[k]))
+            snprintf(number + length, sizeof number - (size_t)length, " +- %.1g", a->margin[k]);
+        printf("    %-13s %-17s  %s\n", dal_cause_name((dal_cause)k), number,
+               dal_cause_words(e, i, (dal_cause)k, words, sizeof words));
+    }
     printf("    %-48s %-31s %10s\n", "", "rate", "deviation");
     printf("    all %-44lld ", e->steps);
     print_rate(&a->all, 0.0);
@@ -188,7 +182,7 @@ static const char notes[] =
 
 enum { OWN_LIST(CLI_OWN) OWN_OPTIONS };
 
-static int parse_option(void *user, int option, const char *value)
+static int parse_explain_option(void *user, int option, const char *value)
 {
     explain_study *s = user;
     switch (option) {
@@ -235,7 +229,7 @@ int command_explain(int argc, char **argv)
                                       .own_count = OWN_OPTIONS,
                                       .without = ANALYSIS_ROWS | ANALYSIS_OPTION(precision),
                                       .notes = notes,
-                                      .parse = parse_option};
+                                      .parse = parse_explain_option};
     explain_study s = {.request = request_default(), .quad_steps = 10000};
     int status = analysis_read(argc, argv, &command, &s.request, &s);
     if (status == CLI_GO_ON) status = explain_run(&s);

@@ -285,7 +285,7 @@ enum { OWN_LIST(CLI_OWN) OWN_OPTIONS };
 
 static const cli_option own[OWN_OPTIONS] = {OWN_LIST(CLI_OPTION)};
 
-static int parse_option(void *user, int option, const char *value)
+static int parse_tangent_option(void *user, int option, const char *value)
 {
     tangent_study *s = user;
     switch (option) {
@@ -309,7 +309,7 @@ static int run_command(int argc, char **argv, bool is_volume, const char *notes)
                                       .own_count = is_volume ? OWN_exponents : OWN_OPTIONS,
                                       .without = ANALYSIS_ROWS | ANALYSIS_OPTION(space),
                                       .notes = notes,
-                                      .parse = parse_option};
+                                      .parse = parse_tangent_option};
     tangent_study s = {.is_volume = is_volume, .request = request_default(), .rows = 100};
     int status = analysis_read(argc, argv, &command, &s.request, &s);
     if (status == CLI_GO_ON) {

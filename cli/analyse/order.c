@@ -178,7 +178,8 @@ static bool use_exact_solution(order_study *s)
     return found;
 }
 
-/* Two runs of a fine method: the finer is the reference, and their distance its error. */
+/* Two runs of an accurate method: that of the smaller step is the reference, their distance its
+ * error. */
 static dal_status use_method(order_study *s, const char *name, dal_error *error)
 {
     const double h = s->step[s->levels - 1];
@@ -266,19 +267,6 @@ static void print_cell(const char *format, int width, double x)
     printf(" %*s", width, isnan(x) ? "-" : text);
 }
 
-static void print_method(const order_study *s, const order_method *m)
-{
-    const int last = s->levels - 1;
-    const double steps = round(s->request.time / s->step[last]);
-    const bool succeeded = m->failure[last].status == DAL_OK;
-    printf("%-21s %6d", m->name, dal_method_order(&m->method));
-    print_cell("%.2f", 6, m->order.order);
-    for (int i = 0; i < s->levels; i++) print_cell("%.1e", 7, m->order.error[i]);
-    print_cell("%.1f", 7, succeeded ? (double)m->order.evaluations[last] / steps : NAN);
-    print_cell("%.2f", 7, succeeded ? 1e6 * m->seconds[last] / steps : NAN);
-    putchar('\n');
-}
-
 /* The reason of the first failure. */
 static const char *failure_message(const order_study *s, const order_method *m)
 {
@@ -289,6 +277,8 @@ static const char *failure_message(const order_study *s, const order_method *m)
 
 static int print_orders(const order_study *s)
 {
+    const int last = s->levels - 1;
+    const double steps = round(s->request.time / s->step[last]);
     bool any_without_order = false;
     printf("%s, error of (q,v) at t = %g, %s\nagainst %s\n\n", s->request.system_name,
            s->request.time, s->spec.options.space == DAL_LIFTED ? "lifted" : "physical",
@@ -300,8 +290,14 @@ static int print_orders(const order_study *s)
     printf(" %7s %7s\n", "F", "us");
     for (const order_method *m = s->methods; m < s->methods + s->method_count; m++) {
         if (m->state == ORDER_REFUSED) continue;
-        print_method(s, m);
         any_without_order |= isnan(m->order.order);
+        printf("%-21s %6d", m->name, dal_method_order(&m->method));
+        print_cell("%.2f", 6, m->order.order);
+        for (int i = 0; i < s->levels; i++) print_cell("%.1e", 7, m->order.error[i]);
+        const bool succeeded = m->failure[last].status == DAL_OK;
+        print_cell("%.1f", 7, succeeded ? (double)m->order.evaluations[last] / steps : NAN);
+        print_cell("%.2f", 7, succeeded ? 1e6 * m->seconds[last] / steps : NAN);
+        putchar('\n');
     }
     if (any_without_order)
         fputs("\nno order found (-): the last two slopes do not agree, since the steps are too "
@@ -470,7 +466,7 @@ static const char notes[] =
     "evaluations of F, and against processor time), with their scripts.  Only the times differ "
     "between two runs of the command.\n";
 
-static int parse_option(void *user, int option, const char *value)
+static int parse_order_option(void *user, int option, const char *value)
 {
     order_study *s = user;
     switch (option) {
@@ -490,23 +486,11 @@ static int parse_option(void *user, int option, const char *value)
     }
 }
 
-static void adapt_options(cli_option *options)
+static void adapt_order_options(cli_option *options)
 {
     options[REQUEST_step].initial = "0.1";
     options[REQUEST_time].initial = "10";
     options[REQUEST_space].initial = "physical";
-}
-
-static int deliver_orders(const order_study *s)
-{
-    analysis_output output = {0};
-    int status = print_orders(s);
-    if (status != CLI_DONE || !s->output) return status;
-    status = analysis_open(&output, s->output, "order");
-    if (status == CLI_DONE) status = write_orders(s, output.table);
-    if (status == CLI_DONE && output.directory) status = draw_orders(s, output.directory);
-    free(output.table);
-    return status;
 }
 
 static int measure_orders(order_study *s)
@@ -522,7 +506,14 @@ static int measure_orders(order_study *s)
     status = make_reference(s);
     if (status == CLI_DONE)
         status = run_methods(s, s->threads > 0 ? (int)s->threads : pool_threads());
-    if (status == CLI_DONE) status = deliver_orders(s);
+    if (status == CLI_DONE) status = print_orders(s);
+    if (status == CLI_DONE && s->output) {
+        analysis_output output;
+        status = analysis_open(&output, s->output, "order");
+        if (status == CLI_DONE) status = write_orders(s, output.table);
+        if (status == CLI_DONE && output.directory) status = draw_orders(s, output.directory);
+        free(output.table);
+    }
     for (int i = 0; status == CLI_DONE && i < s->method_count; i++)
         if (s->methods[i].state == ORDER_FAILED) status = CLI_FAILED;
     return status;
@@ -534,8 +525,8 @@ int command_order(int argc, char **argv)
                                       .own_count = OWN_OPTIONS,
                                       .without = ANALYSIS_ROWS | ANALYSIS_OPTION(integrator),
                                       .notes = notes,
-                                      .parse = parse_option,
-                                      .adapt = adapt_options};
+                                      .parse = parse_order_option,
+                                      .adapt = adapt_order_options};
     order_study s = {.request = request_default(), .integrators = "all", .level_count = 4};
     int status = analysis_read(argc, argv, &command, &s.request, &s);
     if (status == CLI_GO_ON) status = measure_orders(&s);
