@@ -58,7 +58,7 @@ awk "$near"' { near($2, sin(1), 1e-4); near($3, 1 - cos(1), 1e-4); near($4, 1, 1
 "$prefix/bin/dalembert" check "$prefix/share/dalembert/systems/chaplygin-sleigh.yaml" \
     >/dev/null || fail "the installed system file does not pass its check"
 [ -s "$prefix/share/man/man1/dalembert.1" ] || fail "no man page"
-# Before 1.0 the soname has the minor version: libdalembert.so.0.2 of 0.2.0.
+# Before 1.0 the soname has the minor version: libdalembert.so.0.3 of 0.3.0.
 soname=libdalembert.so.$("$prefix/bin/dalembert" --version | sed 's/.* //; s/\.[0-9]*$//')
 [ "$(readlink "$prefix/lib/libdalembert.so")" = "$soname" ] || fail "no link to $soname"
 objdump -p "$prefix/lib/$soname" | grep -q "SONAME *$soname\$" || fail "the soname is not $soname"

@@ -19,10 +19,8 @@ static int holds(const char *directory, const char *name)
 static const struct {
     const char *file;
     int (*write)(report *r);
-} kinds[] = {{"cells.csv", report_study},
-             {"trajectory.npy", report_run},
-             {"rows.csv", report_run},
-             {"order.csv", report_order}};
+} kinds[] = {
+    {"cells.csv", report_study}, {"trajectory.npy", report_run}, {"order.csv", report_order}};
 
 enum { KINDS = sizeof kinds / sizeof kinds[0] };
 

@@ -345,11 +345,11 @@ static void put_heading(report *r, const run_request *request)
     report_title(r, request->system_name ? title : "A run");
 }
 
-/* What the directory says of its run; nothing where it says nothing, or in an older way. */
+/* The request of the run; a directory without a manifest has none. */
 static int read_job(const report *r, run_directory *dir, run_request *request)
 {
     run_directory_open(dir, r->directory);
-    if (access(dir->manifest, F_OK) != 0 || access(dir->old_settings, F_OK) == 0) return CLI_DONE;
+    if (access(dir->manifest, F_OK) != 0) return CLI_DONE;
     return run_directory_read(dir, request);
 }
 

@@ -9,8 +9,7 @@
  *
  * The file is written beside, brought to the disk and renamed, and the one before is kept: where
  * the newer one is damaged, or the rows are not those it tells of, the run goes on from the older.
- * Nothing in it is ever run or followed.  Formats 01 and 02, of versions that wrote rows.csv, are
- * refused; a later format raises the number and reads this one, too. */
+ * Nothing in it is ever run or followed.  A later format raises the number and reads this one, too. */
 #include "io/endian.h"
 #include "io/file.h"
 #include "run_directory.h"
@@ -113,24 +112,13 @@ static int damaged(const image *m, const char *how)
     return cli_fail(CLI_USAGE, "%s: the checkpoint is damaged: %s", m->path, how);
 }
 
-/* The first six letters are common to all formats, the last two number it. */
-static int check_format(const image *m, size_t length)
-{
-    const size_t letters = sizeof magic - 2;
-    if (length < sizeof magic || memcmp(m->text, "DALCHK", letters) != 0)
-        return damaged(m, length < sizeof magic ? "it is too short" : "it does not begin as one");
-    if (memcmp(m->text + letters, "03", 2) == 0) return CLI_DONE;
-    return cli_fail(CLI_USAGE,
-                    "%s: of format %.2s; dalembert " DAL_VERSION " goes on with format 03 alone",
-                    m->path, (const char *)m->text + letters);
-}
-
-static int check_sum(image *m, size_t length)
+static int check_bytes(image *m, size_t length)
 {
     uint64_t sum;
     m->words = length / WORD - 1;
     if (length % WORD || length < (HEAD_WORDS + 1) * WORD) return damaged(m, "it is too short");
     take(take(m->text, &m->head, HEAD_WORDS) + (m->words - HEAD_WORDS) * WORD, &sum, 1);
+    if (m->head.magic != magic) return damaged(m, "it does not begin as one");
     if (sum == file_hash(FILE_HASH_START, m->text, m->words * WORD)) return CLI_DONE;
     return damaged(m, "its check sum is wrong");
 }
@@ -162,8 +150,7 @@ static int read_image(const run_directory *dir, const trajectory_writer *writer,
     size_t length;
     m->text = (unsigned char *)file_read(m->path, &length);
     if (!m->text) return CLI_IO;
-    int status = check_format(m, length);
-    if (status == CLI_DONE) status = check_sum(m, length);
+    int status = check_bytes(m, length);
     if (status == CLI_DONE && m->head.fingerprint != dir->fingerprint)
         return cli_fail(CLI_USAGE,
                         "%s: belongs to another run: its description or the system was "

@@ -22,6 +22,7 @@
 #include <unistd.h>
 
 static const char copy_name[] = "system.yaml";
+enum { OLDEST_VERSION = 3000 }; /* 0.3.0 */
 
 /* ---- writing ------------------------------------------------------------------------------- */
 
@@ -193,23 +194,31 @@ static int take_all(const run_directory *dir, run_request *request, const yaml_n
     return document_fail(dir->doc, input, "the system is missing");
 }
 
-/* What an older version made is gone on with, if its checkpoint can be read. */
+/* 1002003 for 1.2.3. */
+static int version_number(const char *version)
+{
+    int part[3] = {0};
+    sscanf(version, "%d.%d.%d", &part[0], &part[1], &part[2]);
+    return (part[0] * 1000 + part[1]) * 1000 + part[2];
+}
+
+/* A directory of version 0.3 or later can be resumed, if its checkpoint can be read. */
 static int check_version(const document *doc, const yaml_node_t *root)
 {
-    int made[3] = {0}, present[3] = {0};
     const yaml_node_t *node = json_find(doc, root, "dalembert");
     const char *version = node ? document_scalar(doc, node, "version") : "0";
     if (!version) return CLI_USAGE;
-    sscanf(version, "%d.%d.%d", &made[0], &made[1], &made[2]);
-    sscanf(DAL_VERSION, "%d.%d.%d", &present[0], &present[1], &present[2]);
-    for (int i = 0; i < 3; i++) {
-        if (made[i] > present[i])
-            return document_fail(doc, node, "made by dalembert %s; this is " DAL_VERSION, version);
-        if (made[i] == present[i]) continue;
+    const int made = version_number(version), present = version_number(DAL_VERSION);
+    if (made > present)
+        return document_fail(doc, node, "made by dalembert %s; this is " DAL_VERSION, version);
+    if (made < OLDEST_VERSION)
+        return document_fail(doc, node ? node : root,
+                             "written by dalembert %s, which can resume it; dalembert " DAL_VERSION
+                             " resumes what 0.3 or later wrote",
+                             version);
+    if (made < present)
         cli_fail(CLI_DONE, "%s: made by dalembert %s; the bits may differ from here on", doc->place,
                  version);
-        return CLI_DONE;
-    }
     return CLI_DONE;
 }
 
@@ -231,11 +240,6 @@ static int read_manifest(run_directory *dir, run_request *request, const char *b
 int run_directory_read(run_directory *dir, run_request *request)
 {
     size_t length;
-    if (access(dir->old_settings, F_OK) == 0)
-        return cli_fail(CLI_USAGE,
-                        "'%s' is of an older version, which kept run.yaml and rows.csv: its rows "
-                        "can be reported, the run cannot be gone on with",
-                        dir->path);
     if (access(dir->manifest, F_OK) != 0)
         return cli_fail(CLI_USAGE, "'%s' holds no run: there is no %s", dir->path, dir->manifest);
     char *bytes = file_read(dir->manifest, &length);

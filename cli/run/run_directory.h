@@ -24,9 +24,7 @@
     X(checkpoint, "checkpoint")                                                                    \
     X(before, "checkpoint.before")                                                                 \
     X(fresh, "checkpoint.new")                                                                     \
-    X(summary, "summary.csv")                                                                      \
-    X(old_settings, "run.yaml") /* of versions before this format, */                              \
-    X(old_rows, "rows.csv")     /* which are reported and written over alone */
+    X(summary, "summary.csv")
 
 typedef struct run_directory {
     const char *path; /* the caller's */

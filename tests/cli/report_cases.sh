@@ -106,15 +106,6 @@ if command -v gnuplot >/dev/null 2>&1; then
     try 0 report drawn
     silent
 
-    case_is "a run of an older version"
-    mkdir -p former_version
-    echo 'dalembert: 0.1.0' >former_version/run.yaml
-    echo '{}' >former_version/manifest.json
-    printf 't,x,x\\047,E\n0,1,0,1\n1,2,0,1\n' >former_version/rows.csv
-    try 0 report former_version
-    silent
-    holds "no rows of it" grep -q '^1,2$' former_version/report/coordinates.gp
-
     case_is "a column that is not finite everywhere"
     cat >burst.yaml <<'END_OF_SYSTEM'
 coordinates: [x]
