@@ -2,7 +2,9 @@
  * same mechanics written in C, on systems with all that makes them hard: time, a full mass matrix
  * that depends on q (and one without positive diagonal), forces that depend on velocities, several
  * constraints, linear and not. */
-#include "model/mechanics.h"
+#include "expr/simplify.h"
+#include "model/callbacks.h"
+#include "model/model.h"
 #include "reference.h"
 
 #include <CUnit/Basic.h>

@@ -1,7 +1,7 @@
 #!/bin/sh
 # embed.sh FILE.yaml... - writes the C table of the systems that are embedded in the library.
 set -e
-echo '#include "model/mechanics.h"'
+echo '#include "load/builtin.h"'
 echo 'const dal__builtin dal__builtins[] = {'
 for file in "$@"; do
     printf '{"%s",\n' "$(basename "$file" .yaml)"

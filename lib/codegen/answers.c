@@ -52,7 +52,7 @@ static void put_question(dal__generation *g, dal__program_code code, const char 
                          const char *name)
 {
     const dal__program *p = &g->programs->program[code];
-    const int outputs = p->outputs, all = outputs + 2 * p->watched;
+    const int outputs = p->outputs, all = outputs + 2 * p->checked;
     if (!dal__wants(g, code)) return;
     dal__text_print(&g->text, "    case DAL_ASK_%s: {\n        num all[%d];\n", question,
                     all > 0 ? all : 1);
@@ -68,7 +68,7 @@ static void put_question(dal__generation *g, dal__program_code code, const char 
         dal__text_print(&g->text, "        dal__%s(work, t, q_, v_, pi_, all);\n", name);
     }
     dal__text_print(&g->text, "        dal__keep_sound(all, %d, %d, out);\n        break;\n    }\n",
-                    outputs, p->watched);
+                    outputs, p->checked);
 }
 
 static void put_ask(dal__generation *g)

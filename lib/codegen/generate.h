@@ -7,7 +7,7 @@
 
 #include "core/text.h"
 #include "expr/emit.h"
-#include "model/mechanics.h"
+#include "model/programs.h"
 #include "run/engine.h"
 
 /* The sources that travel inside the library, made by the Makefile; the last name is NULL. */

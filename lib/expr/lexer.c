@@ -16,6 +16,13 @@ static bool is_letter(char c)
 }
 static bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
+size_t dal__name_length(const char *text, size_t length)
+{
+    size_t i = 0;
+    while (i < length && (is_letter(text[i]) || (i > 0 && is_digit(text[i])))) i++;
+    return i;
+}
+
 dal__lexer dal__lexer_start(const char *text, size_t length)
 {
     return (dal__lexer){.at = text, .end = text + length, .line = 1, .line_start = text};
@@ -49,10 +56,9 @@ static dal_status number(dal__lexer *lexer, dal__token *token, dal_error *error)
 
 static dal_status name(dal__lexer *lexer, dal__token *token, dal_error *error)
 {
-    const char *c = token->text;
-    while (c < lexer->end && (is_letter(*c) || is_digit(*c))) c++;
     token->kind = DAL__TOKEN_NAME;
-    token->length = (size_t)(c - token->text);
+    token->length = dal__name_length(token->text, (size_t)(lexer->end - token->text));
+    const char *c = token->text + token->length;
     token->prime = c < lexer->end && *c == '\'';
     lexer->at = c + token->prime;
     if (!token->prime || lexer->at == lexer->end || *lexer->at != '\'') return DAL_OK;

@@ -1,4 +1,4 @@
-/* lexer.h - the words of a formula, for lib/expr alone. */
+/* lexer.h - the tokens of a formula, and what a name is. */
 #ifndef DAL_EXPR_LEXER_H
 #define DAL_EXPR_LEXER_H
 
@@ -21,6 +21,9 @@ typedef struct dal__lexer {
     int line;
     const char *line_start;
 } dal__lexer;
+
+/* The length of the name that text begins with: a letter, then letters, digits, _; 0: none. */
+size_t dal__name_length(const char *text, size_t length);
 
 dal__lexer dal__lexer_start(const char *text, size_t length);
 /* The next token.  Errors: DAL_SYNTAX. */

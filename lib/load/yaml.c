@@ -5,7 +5,8 @@
  * that line and column inside a formula are those of the file.  In single quotes '' becomes
  * "' ", which means the same to a formula and is as long.  Only double quotes with escapes and
  * texts that are no formulas are taken as libyaml unfolds them. */
-#include "model/mechanics.h"
+#include "model/model.h"
+#include "model/symbols.h"
 #include <stdlib.h>
 #include <string.h>
 #include <yaml.h>
@@ -31,7 +32,7 @@ static dal_status parser_error(reader *r)
 {
     const yaml_parser_t *p = &r->parser;
     const char *problem = p->problem ? p->problem : "malformed";
-    if (p->error == YAML_MEMORY_ERROR) return dal__starved(r->error);
+    if (p->error == YAML_MEMORY_ERROR) return dal__memory_error(r->error);
     if (p->error != YAML_READER_ERROR)
         return dal__fail_at(r->error, DAL_SYNTAX, line_of(p->problem_mark),
                             column_of(p->problem_mark), "malformed YAML: %s", problem);
@@ -91,7 +92,7 @@ static size_t offset_of(reader *r, yaml_mark_t mark)
 
 static char *copy(dal_model *model, const char *from, size_t length)
 {
-    char *to = dal__model_take(model, length + 1, 1);
+    char *to = dal__model_allocate(model, length + 1, 1);
     if (to) memcpy(to, from, length);
     return to;
 }
@@ -136,7 +137,7 @@ static dal_status take_text(reader *r, dal__entry *entry)
             skip_block_header(r, &begin, end, entry);
         entry->text = raw_text(r, begin + quoted, end - quoted, single);
     }
-    return entry->text ? DAL_OK : dal__starved(r->error);
+    return entry->text ? DAL_OK : dal__memory_error(r->error);
 }
 
 static dal_status take_key(reader *r, dal__entry *entry)
@@ -148,7 +149,7 @@ static dal_status take_key(reader *r, dal__entry *entry)
     entry->name = copy(r->model, value, length);
     entry->name_line = line_of(r->event.start_mark);
     entry->name_column = column_of(r->event.start_mark);
-    return entry->name ? DAL_OK : dal__starved(r->error);
+    return entry->name ? DAL_OK : dal__memory_error(r->error);
 }
 
 /* ---- sections ---- */
@@ -161,7 +162,7 @@ static dal_status wrong_shape(reader *r, dal_section section)
                                          [DAL__MAPPINGS] = "a list of mappings"};
     return dal__fail_at(r->error, DAL_SYNTAX, line_of(r->event.start_mark),
                         column_of(r->event.start_mark), "%s must be %s", dal__section_name(section),
-                        shapes[dal__section_shape(section)]);
+                        shapes[dal__section_form(section)]);
 }
 
 /* The present event must be a scalar; it becomes the text of the entry. */
@@ -218,7 +219,7 @@ static dal_status read_mappings(reader *r, dal_section section)
 
 static dal_status read_section(reader *r, dal_section section)
 {
-    switch (dal__section_shape(section)) {
+    switch (dal__section_form(section)) {
     case DAL__LIST:
         return read_list(r, section);
     case DAL__MAPPING:
@@ -280,9 +281,9 @@ static dal_status read_document(reader *r)
 
 static dal_status check_text(const char *text, size_t length, dal_error *error)
 {
-    if (length > DAL__MOST_BYTES)
+    if (length > DAL__MAX_BYTES)
         return dal__fail(error, DAL_TOO_LARGE, "more than %d bytes in a system file",
-                         (int)DAL__MOST_BYTES);
+                         (int)DAL__MAX_BYTES);
     int line = 1, column = 1;
     for (size_t i = 0; i < length; i++) {
         if (text[i] == 0)
@@ -296,7 +297,7 @@ static dal_status check_text(const char *text, size_t length, dal_error *error)
 static dal_status read_text(dal_model *model, const char *text, size_t length, dal_error *error)
 {
     reader r = {.model = model, .text = text, .length = length, .error = error};
-    if (!yaml_parser_initialize(&r.parser)) return dal__starved(error);
+    if (!yaml_parser_initialize(&r.parser)) return dal__memory_error(error);
     yaml_parser_set_encoding(&r.parser, YAML_UTF8_ENCODING);
     yaml_parser_set_input_string(&r.parser, (const unsigned char *)text, length);
     dal_status status = read_document(&r);
@@ -315,7 +316,7 @@ dal_status dal_model_read(dal_model **model, const char *name, const char *text,
     if (length >= 3 && memcmp(text, mark, 3) == 0) text += 3, length -= 3;
     DAL_TRY(check_text(text, length, error));
     dal_model *made = dal_model_create(name);
-    if (!made) return dal__starved(error);
+    if (!made) return dal__memory_error(error);
     dal_status status = read_text(made, text, length, error);
     if (status == DAL_OK)
         *model = made;

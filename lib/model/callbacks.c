@@ -1,15 +1,16 @@
 /* callbacks.c - the callbacks that need one lane only, and the search for what is singular. */
-#include "model/mechanics.h"
+#include "model/callbacks.h"
+#include "core/error.h"
 #include <math.h>
 
-#define X(code, name, reads)                                                                       \
+#define CALLBACK(code, name, reads)                                                                \
     static dal_status name(const dal_system *system, const dal_at *at, double *out)                \
     {                                                                                              \
         const dal__programs *p = system->data;                                                     \
         return p->run(system, at, out, DAL__PROGRAM_##code, reads);                                \
     }
-DAL__SINGLE_LIST(X)
-#undef X
+DAL__SINGLE_LIST(CALLBACK)
+#undef CALLBACK
 
 static bool vanished(const double *pivot)
 {
@@ -42,9 +43,9 @@ static dal_status diagnose(const dal_system *system, const dal_at *at, double *o
 
 void dal__callbacks_single(const dal__programs *programs, dal_system *system)
 {
-#define X(code, name, reads)                                                                       \
+#define SET(code, name, reads)                                                                     \
     system->name = programs->program[DAL__PROGRAM_##code].present ? name : NULL;
-    DAL__SINGLE_LIST(X)
-#undef X
+    DAL__SINGLE_LIST(SET)
+#undef SET
     system->diagnose = programs->program[DAL__PROGRAM_DIAGNOSE].present ? diagnose : NULL;
 }

@@ -1,9 +1,9 @@
 /* callbacks_wide.c - the callbacks of a model's system, over num: inputs into the work of the tape,
- * the tape, and NaN in the lanes where a watched pivot has vanished. */
+ * the tape, and NaN in the lanes where a checked pivot has vanished. */
 #include "kernel/groups.h"
 
 #include "kernel/num.h"
-#include "model/mechanics.h"
+#include "model/callbacks.h"
 
 /* Doubles that a number takes: one for each lane, or more for a longer one. */
 enum { WIDTH = DAL_GROUPS * (int)(sizeof(num) / sizeof(double)) };
@@ -15,15 +15,10 @@ static void load(double *work, int place, const double *from, int count)
     for (int i = 0; i < count * DAL_GROUPS; i++) to[i] = lanes[i];
 }
 
-static void load_time(double *work, int place, double t)
-{
-    num *to = (num *)(work + (size_t)place * WIDTH);
-    for (int g = 0; g < DAL_GROUPS; g++) to[g] = dal_num(t);
-}
-
 static void load_inputs(const dal__programs *p, const dal_at *at, unsigned reads)
 {
-    if (reads & DAL__T) load_time(at->work, p->t, at->t);
+    num *t = (num *)(at->work + (size_t)p->t * WIDTH);
+    for (int g = 0; g < DAL_GROUPS && reads & DAL__T; g++) t[g] = dal_num(at->t);
     if (reads & DAL__QV) {
         load(at->work, p->q, at->q, p->n);
         load(at->work, p->v, at->v, p->n);
@@ -33,55 +28,52 @@ static void load_inputs(const dal__programs *p, const dal_at *at, unsigned reads
 }
 
 /* Lanes where every pivot exceeds its part of the size; a NaN exceeds nothing. */
-static dal_mask sound(const num *watched, int pivots)
+static dal_mask pivots_hold(const num *checked, int pivots)
 {
     dal_mask ok = dal_all();
     for (int k = 0; k < pivots; k++) {
-        const num pivot = watched[2 * k * DAL_GROUPS], size = watched[(2 * k + 1) * DAL_GROUPS];
+        const num pivot = checked[2 * k * DAL_GROUPS], size = checked[(2 * k + 1) * DAL_GROUPS];
         ok &= dal_less(DAL__PIVOT_LEAST * size, dal_abs(pivot));
     }
     return ok;
 }
 
-/* The outputs of one group of lanes, NaN where a pivot has vanished. */
-static void hand_over(const dal__program *program, const num *all, num *out)
-{
-    const num poison = dal_num(NAN);
-    const dal_mask ok = sound(all + program->outputs * DAL_GROUPS, program->watched);
-    for (int i = 0; i < program->outputs * DAL_GROUPS; i += DAL_GROUPS)
-        out[i] = dal_select(ok, all[i], poison);
-}
-
+/* Leaves NaN in the lanes where a pivot has vanished. */
 static dal_status run_program(const dal_system *system, const dal_at *at, double *out,
                               dal__program_code code, unsigned reads)
 {
     const dal__programs *p = system->data;
     const dal__program *program = &p->program[code];
     load_inputs(p, at, reads);
-    if (program->watched == 0) {
+    if (program->checked == 0) {
         DAL_WIDE(dal__tape_run)(p->tapes, program->tape, at->work, out);
         return DAL_OK;
     }
     double *scratch = at->work + p->scratch * WIDTH;
     DAL_WIDE(dal__tape_run)(p->tapes, program->tape, at->work, scratch);
-    for (int g = 0; g < DAL_GROUPS; g++)
-        hand_over(program, (const num *)scratch + g, (num *)out + g);
+    for (int g = 0; g < DAL_GROUPS; g++) {
+        const num *all = (const num *)scratch + g;
+        num *to = (num *)out + g;
+        const dal_mask ok = pivots_hold(all + program->outputs * DAL_GROUPS, program->checked);
+        for (int i = 0; i < program->outputs * DAL_GROUPS; i += DAL_GROUPS)
+            to[i] = dal_select(ok, all[i], dal_num(NAN));
+    }
     return DAL_OK;
 }
 
-#define X(code, name, reads)                                                                       \
+#define CALLBACK(code, name, reads)                                                                \
     static dal_status name(const dal_system *system, const dal_at *at, double *out)                \
     {                                                                                              \
         return run_program(system, at, out, DAL__PROGRAM_##code, reads);                           \
     }
-DAL__WIDE_LIST(X)
-#undef X
+DAL__WIDE_LIST(CALLBACK)
+#undef CALLBACK
 
 dal__run_program *DAL_WIDE(dal__callbacks)(const dal__programs *programs, dal_callbacks *call)
 {
-#define X(code, name, reads)                                                                       \
+#define SET(code, name, reads)                                                                     \
     call->name = programs->program[DAL__PROGRAM_##code].present ? name : NULL;
-    DAL__WIDE_LIST(X)
-#undef X
+    DAL__WIDE_LIST(SET)
+#undef SET
     return run_program;
 }

@@ -1,14 +1,17 @@
-/* linear.c - symbolic elimination with pivots chosen by number.
+/* elimination.c - symbolic elimination with pivots chosen by number.
  *
  * Which entry becomes a pivot is decided before any node is made, by eliminating numbers at the
  * default start (or near it, when the matrix is singular just there).  Among the entries of at
- * least a tenth of the greatest, each measured against the size of its row and column, those are
- * taken first that depend on parameters alone (they cannot vanish on the way), then untouched ones
- * (no cancellation), then those of the diagonal (they keep the symmetry).  W may thus be
+ * least a tenth of the largest, each relative to the size of its row and column, the first choice
+ * are those that depend on parameters alone (they cannot vanish on the way), then untouched ones
+ * (no cancellation), then those of the diagonal (they preserve the symmetry).  W may thus be
  * indefinite and have zeros on its diagonal.
  *
- * Every other pivot is watched: beside it goes the sum of the absolute values it came from. */
-#include "model/mechanics.h"
+ * Every other pivot is checked along a run against the sum of the absolute values it came from. */
+#include "model/elimination.h"
+#include "expr/simplify.h"
+#include "expr/traversal.h"
+#include "model/model.h"
 #include <math.h>
 
 enum { VARYING = 1, TOUCHED = 2, PRESENT = 4 };
@@ -37,14 +40,6 @@ static int preference(const plan *p, int i, int j)
     return (flag & VARYING ? 0 : 4) + (flag & TOUCHED ? 0 : 2) + (i == j);
 }
 
-static double greatest_score(const plan *p, int k)
-{
-    double greatest = 0.0;
-    for (int i = k; i < p->n; i++)
-        for (int j = k; j < p->n; j++) greatest = fmax(greatest, score(p, p->row[i], p->column[j]));
-    return greatest;
-}
-
 static void swap(int *a, int *b)
 {
     int c = *a;
@@ -55,13 +50,16 @@ static void swap(int *a, int *b)
 /* Brings the best pivot to place k; false when none is left. */
 static bool choose(plan *p, int k)
 {
-    double fair = greatest_score(p, k), best_score = 0.0;
+    double max_score = 0.0, best_score = 0.0;
     int best = -1, best_i = k, best_j = k;
-    if (fair <= DAL__PIVOT_LEAST) return false;
+    for (int i = k; i < p->n; i++)
+        for (int j = k; j < p->n; j++)
+            max_score = fmax(max_score, score(p, p->row[i], p->column[j]));
+    if (max_score <= DAL__PIVOT_LEAST) return false;
     for (int i = k; i < p->n; i++)
         for (int j = k; j < p->n; j++) {
             double s = score(p, p->row[i], p->column[j]);
-            int preferred = s < 0.1 * fair ? -1 : preference(p, p->row[i], p->column[j]);
+            int preferred = s < 0.1 * max_score ? -1 : preference(p, p->row[i], p->column[j]);
             if (preferred < best || (preferred == best && s <= best_score)) continue;
             best = preferred, best_score = s, best_i = i, best_j = j;
         }
@@ -87,7 +85,7 @@ static void eliminate_numbers(plan *p, int k)
     }
 }
 
-static void measure(plan *p)
+static void find_sizes(plan *p)
 {
     for (int i = 0; i < p->n; i++) {
         p->row_size[i] = p->column_size[i] = 0.0;
@@ -110,7 +108,7 @@ static void evaluate(plan *p, const dal__equations *e, const dal__node *matrix, 
         p->value[i] = present ? dal__evaluate(e->graph, matrix[i], at) : 0.0;
         p->flag[i] = (unsigned char)((present ? PRESENT : 0) | (varying ? VARYING : 0));
     }
-    measure(p);
+    find_sizes(p);
 }
 
 /* -1, or the row that is left without a pivot. */
@@ -123,39 +121,35 @@ static int order(plan *p)
     return -1;
 }
 
-static bool take_plan(dal_model *model, plan *p, int n)
+static bool allocate_plan(dal_model *model, plan *p, int n)
 {
     size_t count = (size_t)n;
     p->n = n;
-    p->value = dal__model_take(model, count * count, sizeof *p->value);
-    p->flag = dal__model_take(model, count * count, sizeof *p->flag);
-    p->row_size = dal__model_take(model, count, sizeof *p->row_size);
-    p->column_size = dal__model_take(model, count, sizeof *p->column_size);
-    p->row = dal__model_take(model, count, sizeof *p->row);
-    p->column = dal__model_take(model, count, sizeof *p->column);
-    return !model->starved;
+    p->value = dal__model_allocate(model, count * count, sizeof *p->value);
+    p->flag = dal__model_allocate(model, count * count, sizeof *p->flag);
+    p->row_size = dal__model_allocate(model, count, sizeof *p->row_size);
+    p->column_size = dal__model_allocate(model, count, sizeof *p->column_size);
+    p->row = dal__model_allocate(model, count, sizeof *p->row);
+    p->column = dal__model_allocate(model, count, sizeof *p->column);
+    return !model->out_of_memory;
 }
 
-/* Moves a point off the start by irregular amounts between 1/8 and 5/8: multiples of the golden
- * ratio, modulo 1/2.  What is singular there too is singular everywhere. */
-static void move_off(const dal__equations *e, double *point)
+/* The pivots at the start, or where the matrix is singular there at a point moved off it by
+ * irregular amounts between 1/8 and 5/8, multiples of the golden ratio modulo 1/2: what is singular
+ * there too is singular everywhere. */
+static dal_status make_plan(dal_model *model, dal__linear *s, plan *p)
 {
+    const dal__equations *e = &model->equations;
+    double *point = dal__model_allocate(model, (size_t)e->symbols, sizeof *point);
+    if (!allocate_plan(model, p, s->n) || !point) return DAL_MEMORY;
+    evaluate(p, e, s->matrix, e->value);
+    s->singular = order(p);
+    if (s->singular < 0) return DAL_OK;
     const double golden = 0.6180339887498949;
     for (int i = 0; i < e->symbols; i++) {
         point[i] = e->value[i];
         if (i >= e->parameters) point[i] += 0.125 + 0.5 * fmod((i + 1) * golden, 1.0);
     }
-}
-
-static dal_status make_plan(dal_model *model, dal__linear *s, plan *p)
-{
-    const dal__equations *e = &model->equations;
-    double *point = dal__model_take(model, (size_t)e->symbols, sizeof *point);
-    if (!take_plan(model, p, s->n) || !point) return DAL_MEMORY;
-    evaluate(p, e, s->matrix, e->value);
-    s->singular = order(p);
-    if (s->singular < 0) return DAL_OK;
-    move_off(e, point);
     evaluate(p, e, s->matrix, point);
     s->singular = order(p);
     DAL_TRY(e->graph->status);
@@ -165,17 +159,17 @@ static dal_status make_plan(dal_model *model, dal__linear *s, plan *p)
 /* ---- the elimination ---- */
 
 /* The same in nodes; size[] holds the sums of absolute values. */
-typedef struct work {
+typedef struct elimination {
     dal__graph *graph;
     dal__linear *s;
     const plan *p;
     dal__node *size;
     dal__node *reciprocal; /* [n] of the pivots */
-} work;
+} elimination;
 
 /* x over pivot k.  One right-hand side is divided, with one rounding: that of a multiplied
  * reciprocal would be the same at every step where the pivot is constant, and push D one way. */
-static dal__node over_pivot(work *w, dal__node x, int k)
+static dal__node over_pivot(elimination *w, dal__node x, int k)
 {
     const plan *p = w->p;
     dal__node pivot = w->s->matrix[p->row[k] * w->s->n + p->column[k]];
@@ -183,20 +177,23 @@ static dal__node over_pivot(work *w, dal__node x, int k)
     return dal__mul(w->graph, x, w->reciprocal[k]);
 }
 
-static bool is_zero(const work *w, dal__node node) { return dal__is_number(w->graph, node, 0.0); }
+static bool is_zero(const elimination *w, dal__node node)
+{
+    return dal__is_number(w->graph, node, 0.0);
+}
 
-static void subtract(work *w, dal__node *from, dal__node a, dal__node b)
+static void subtract(elimination *w, dal__node *from, dal__node a, dal__node b)
 {
     if (!is_zero(w, b)) *from = dal__sub(w->graph, *from, dal__mul(w->graph, a, b));
 }
 
-static void eliminate_row(work *w, int k, int other)
+static void eliminate_row(elimination *w, int k, int other)
 {
     int n = w->s->n, columns = w->s->columns, row = w->p->row[k];
     dal__node *below = w->s->matrix + other * n, *pivots = w->s->matrix + row * n;
-    dal__node head = below[w->p->column[k]];
-    if (is_zero(w, head)) return;
-    dal__node factor = over_pivot(w, head, k);
+    dal__node first = below[w->p->column[k]];
+    if (is_zero(w, first)) return;
+    dal__node factor = over_pivot(w, first, k);
     for (int j = k + 1; j < n; j++) {
         int c = w->p->column[j];
         if (is_zero(w, pivots[c])) continue;
@@ -209,7 +206,7 @@ static void eliminate_row(work *w, int k, int other)
         subtract(w, &w->s->rhs[other * columns + j], factor, w->s->rhs[row * columns + j]);
 }
 
-static void note_pivot(dal__equations *e, const work *w, int k)
+static void record_pivot(dal__equations *e, const elimination *w, int k)
 {
     int row = w->p->row[k], place = row * w->s->n + w->p->column[k];
     int last = w->p->column[k] > row ? w->p->column[k] : row;
@@ -219,11 +216,11 @@ static void note_pivot(dal__equations *e, const work *w, int k)
         (dal__pivot){.pivot = w->s->matrix[place],
                      .size = w->size[place],
                      .constraint = last >= w->s->border ? last - w->s->border + 1 : 0,
-                     .watched = varying && w->p->flag[place] & TOUCHED};
+                     .checked = varying && w->p->flag[place] & TOUCHED};
 }
 
 /* Column j of the solution in the variable of pivot k, when those of the later pivots are known. */
-static dal__node substitute(work *w, int k, int j)
+static dal__node substitute(elimination *w, int k, int j)
 {
     int n = w->s->n, columns = w->s->columns, row = w->p->row[k];
     dal__node x = w->s->rhs[row * columns + j];
@@ -235,32 +232,25 @@ static dal__node substitute(work *w, int k, int j)
     return over_pivot(w, x, k);
 }
 
-static void back_substitute(work *w)
-{
-    int columns = w->s->columns;
-    for (int k = w->s->n; k-- > 0;)
-        for (int j = 0; j < columns; j++)
-            w->s->x[w->p->column[k] * columns + j] = substitute(w, k, j);
-}
-
 dal_status dal__linear_solve(dal_model *model, dal__linear *s)
 {
     dal__equations *e = &model->equations;
-    size_t n = (size_t)s->n;
     plan p;
-    work w = {.graph = e->graph, .s = s, .p = &p};
+    elimination w = {.graph = e->graph, .s = s, .p = &p};
     DAL_TRY(make_plan(model, s, &p));
-    w.size = dal__model_take(model, n * n, sizeof *w.size);
-    w.reciprocal = dal__model_take(model, n, sizeof *w.reciprocal);
-    if (model->starved) return DAL_MEMORY;
+    w.size = dal__model_nodes(model, s->n * s->n, 0);
+    w.reciprocal = dal__model_nodes(model, s->n, 0);
+    if (model->out_of_memory) return DAL_MEMORY;
     dal__node one = dal__number(e->graph, 1.0);
     for (int i = 0; i < s->n * s->n; i++)
         w.size[i] = dal__apply(e->graph, DAL__ABS, s->matrix[i], 0);
     for (int k = 0; k < s->n; k++) {
-        note_pivot(e, &w, k);
+        record_pivot(e, &w, k);
         w.reciprocal[k] = dal__div(e->graph, one, s->matrix[p.row[k] * s->n + p.column[k]]);
         for (int i = k + 1; i < s->n; i++) eliminate_row(&w, k, p.row[i]);
     }
-    back_substitute(&w);
+    for (int k = s->n; k-- > 0;)
+        for (int j = 0; j < s->columns; j++)
+            s->x[p.column[k] * s->columns + j] = substitute(&w, k, j);
     return e->graph->status;
 }

@@ -8,8 +8,22 @@
  * necessary.  An identity that simplification does not show is tried at irregular points: a sum
  * counts as zero if it is within rounding of its terms at each.  Where the parts do not vanish one
  * by one, dE/dt as a whole may still do so on D = 0 (a force across all motions that D allows, a
- * reaction that is none on D = 0): that is tried at points brought there. */
-#include "model/mechanics.h"
+ * constraint force that is none on D = 0): that is tried at points brought there.
+ *
+ * The normal of a conserved E, for projections: E_q, E_v and W^-1 E_q.  (W^-1 E_v is v.)
+ *
+ * Where E is conserved on D = 0 alone, dE/dt vanishes there and nowhere else.  The motion can be
+ * continued off D = 0 in another way, so that E is a true integral and D remains one:
+ *
+ *     F~ = F + alpha (v - W^-1 A^T beta),   (A W^-1 A^T) beta = A v
+ *     alpha = -(dE/dt) / (v.W v - (A v).beta)
+ *
+ * The divisor is the square of that part of v that D leaves free, so F~ = F on D = 0. */
+#include "model/energy.h"
+#include "expr/derivative.h"
+#include "expr/simplify.h"
+#include "expr/traversal.h"
+#include "model/model.h"
 #include <float.h>
 #include <math.h>
 
@@ -18,6 +32,9 @@
 enum { POINTS = 8 };
 /* Each term is the outcome of some ten to hundred operations of relative error 1e-16. */
 #define ROUNDING 1e-12
+/* Added to the divisor of alpha, which vanishes at rest, where alpha is to be 0: far below v.W v of
+ * any motion, and its square is still a number. */
+#define REST 1e-150
 
 typedef struct identity {
     const dal__equations *e;
@@ -26,6 +43,7 @@ typedef struct identity {
     int terms;
 } identity;
 
+/* Moves the point to irregular place number, off the start by multiples of the golden ratio. */
 static void move(const identity *id, int number)
 {
     const double golden = 0.6180339887498949;
@@ -72,7 +90,7 @@ static void add_term(identity *id, dal__node term)
     if (!dal__is_number(id->e->graph, term, 0.0)) id->term[id->terms++] = term;
 }
 
-static dal__node by_time(const dal__equations *e, dal__node f)
+static dal__node partial_t(const dal__equations *e, dal__node f)
 {
     dal__node out;
     dal__gradient(e->graph, f, &e->t, 1, &out);
@@ -84,10 +102,10 @@ static bool power_vanishes(identity *id)
     const dal__equations *e = id->e;
     id->terms = 0;
     for (int i = 0; i < e->n; i++) add_term(id, dal__mul(e->graph, e->flow[1 + i], e->force[i]));
-    add_term(id, dal__neg(e->graph, by_time(e, e->lagrangian)));
+    add_term(id, dal__neg(e->graph, partial_t(e, e->lagrangian)));
     for (int a = 0; a < e->multipliers; a++)
-        add_term(id,
-                 dal__mul(e->graph, dal__symbol(e->graph, e->g + a), by_time(e, e->constraint[a])));
+        add_term(id, dal__mul(e->graph, dal__symbol(e->graph, e->g + a),
+                              partial_t(e, e->constraint[a])));
     return vanishes(id);
 }
 
@@ -99,7 +117,7 @@ static void virtual_power(identity *id, int a)
         add_term(id, dal__mul(e->graph, e->flow[1 + i], e->B[a * e->n + i]));
 }
 
-/* v.B_a = k D_a for some k, which is read off at one point. */
+/* v.B_a = k D_a for some k, which is found at one point. */
 static bool is_homogeneous(identity *id, int a)
 {
     const dal__equations *e = id->e;
@@ -137,21 +155,21 @@ static double dot(int n, const double *a, const double *b)
     return sum;
 }
 
-/* Makes room[a*n ...] the unit vector along what A_a has across the rows before it, and adds to
+/* Makes scratch[a*n ...] the unit vector along what A_a has across the rows before it, and adds to
  * the shift what D_a lacks along it.  The size of the addition. */
-static double shift_along(const identity *id, int a, double *room, double *shift)
+static double shift_along(const identity *id, int a, double *scratch, double *shift)
 {
     const dal__equations *e = id->e;
     int n = e->n;
-    double *unit = room + a * n, missing = 0.0;
+    double *unit = scratch + a * n, missing = 0.0;
     for (int i = 0; i < n; i++) {
         unit[i] = dal__evaluate(e->graph, e->A[a * n + i], id->point);
         missing -= unit[i] * shift[i];
     }
     missing -= dal__evaluate(e->graph, e->constraint[a], id->point);
     for (int b = 0; b < a; b++) {
-        double along = dot(n, unit, room + b * n);
-        for (int i = 0; i < n; i++) unit[i] -= along * room[b * n + i];
+        double along = dot(n, unit, scratch + b * n);
+        for (int i = 0; i < n; i++) unit[i] -= along * scratch[b * n + i];
     }
     double size = sqrt(dot(n, unit, unit));
     for (int i = 0; i < n; i++) unit[i] /= size;
@@ -160,15 +178,15 @@ static double shift_along(const identity *id, int a, double *room, double *shift
 }
 
 /* Newton's method in v.  False where it finds no point of D = 0. */
-static bool reach_surface(identity *id, double *room)
+static bool reach_surface(identity *id, double *scratch)
 {
-    enum { MOST = 30 };
+    enum { MAX_ITERATIONS = 30 };
     const dal__equations *e = id->e;
-    double *v = id->point + e->v, *shift = room + e->m * e->n;
-    for (int k = 0; k < MOST; k++) {
+    double *v = id->point + e->v, *shift = scratch + e->m * e->n;
+    for (int k = 0; k < MAX_ITERATIONS; k++) {
         double change = 0.0, size = sqrt(dot(e->n, v, v));
         for (int i = 0; i < e->n; i++) shift[i] = 0.0;
-        for (int a = 0; a < e->m; a++) change += shift_along(id, a, room, shift);
+        for (int a = 0; a < e->m; a++) change += shift_along(id, a, scratch, shift);
         if (!isfinite(change)) return false;
         for (int i = 0; i < e->n; i++) v[i] += shift[i];
         if (change <= 8 * DBL_EPSILON * size) return true;
@@ -176,23 +194,13 @@ static bool reach_surface(identity *id, double *room)
     return false;
 }
 
-/* dE/dt = E_q v + E_t + E_v F. */
-static void whole_rate(identity *id, dal__node *slope)
-{
-    const dal__equations *e = id->e;
-    id->terms = 0;
-    add_term(id, dal__along(e, e->energy));
-    dal__gradient(e->graph, e->energy, e->symbol + e->v, e->n, slope);
-    for (int i = 0; i < e->n; i++) add_term(id, dal__mul(e->graph, slope[i], e->F[i]));
-}
-
-static bool vanishes_on_surface(identity *id, double *room)
+static bool vanishes_on_surface(identity *id, double *scratch)
 {
     int defined = 0;
     for (int number = 0; number < POINTS; number++) {
         double sum, size;
         move(id, number);
-        if (!reach_surface(id, room)) continue;
+        if (!reach_surface(id, scratch)) continue;
         sum_terms(id, &sum, &size);
         if (!isfinite(sum)) continue;
         if (fabs(sum) > ROUNDING * size) return false;
@@ -206,16 +214,90 @@ dal_status dal__energy_properties(dal_model *model)
     dal__equations *e = &model->equations;
     identity id = {.e = e};
     if (e->accelerations) return DAL_OK;
-    id.point = dal__model_take(model, (size_t)e->symbols, sizeof *id.point);
-    id.term = dal__model_take(model, (size_t)(e->n + e->m + 2), sizeof *id.term);
-    dal__node *slope = dal__model_take(model, (size_t)e->n, sizeof *slope);
-    double *room = dal__model_take(model, (size_t)((e->m + 1) * e->n), sizeof *room);
-    if (model->starved) return DAL_MEMORY;
+    id.point = dal__model_allocate(model, (size_t)e->symbols, sizeof *id.point);
+    id.term = dal__model_nodes(model, e->n + e->m + 2, 0);
+    dal__node *E_v = dal__model_nodes(model, e->n, 0);
+    double *scratch = dal__model_allocate(model, (size_t)((e->m + 1) * e->n), sizeof *scratch);
+    if (model->out_of_memory) return DAL_MEMORY;
     unsigned found = by_parts(&id);
     if (!found && e->m > 0 && !e->vakonomic) {
-        whole_rate(&id, slope);
-        found = vanishes(&id) ? DAL_E_EXACT : vanishes_on_surface(&id, room) ? DAL_E_WEAK : 0;
+        id.terms = 0; /* dE/dt = E_q v + E_t + E_v F */
+        add_term(&id, dal__time_derivative(e, e->energy));
+        dal__gradient(e->graph, e->energy, e->symbol + e->v, e->n, E_v);
+        for (int i = 0; i < e->n; i++) add_term(&id, dal__mul(e->graph, E_v[i], e->F[i]));
+        found = vanishes(&id) ? DAL_E_EXACT : vanishes_on_surface(&id, scratch) ? DAL_E_WEAK : 0;
     }
     e->properties |= found;
     return e->graph->status;
+}
+
+/* ---- a conserved energy ---- */
+
+static dal_status find_normal(dal_model *model)
+{
+    dal__equations *e = &model->equations;
+    const int n = e->n;
+    dal__node *normal = dal__model_nodes(model, 1 + 3 * n, 0);
+    if (!normal) return DAL_MEMORY;
+    normal[0] = e->energy;
+    dal__gradient(e->graph, e->energy, e->symbol + e->q, n, normal + 1);
+    dal__gradient(e->graph, e->energy, e->symbol + e->v, n, normal + 1 + n);
+    e->normal = normal;
+    return dal__solve_vector(model, n, e->W, normal + 1, normal + 1 + 2 * n);
+}
+
+/* A v and beta. */
+static dal_status find_beta(dal_model *model, dal__node *along, dal__node *beta)
+{
+    const dal__equations *e = &model->equations;
+    const int n = e->n, m = e->m;
+    dal__node *G = dal__model_nodes(model, m * m, 0);
+    if (!G) return DAL_MEMORY;
+    for (int a = 0; a < m; a++) {
+        along[a] = dal__dot(e->graph, n, e->A + a * n, e->flow + 1);
+        for (int b = a; b < m; b++) {
+            dal__node sum = dal__number(e->graph, 0.0);
+            for (int i = 0; i < n; i++)
+                sum = dal__add(e->graph, sum, dal__mul(e->graph, e->A[a * n + i], e->U[i * m + b]));
+            G[a * m + b] = G[b * m + a] = sum;
+        }
+    }
+    return dal__solve_vector(model, m, G, along, beta);
+}
+
+static dal_status extend(dal_model *model)
+{
+    dal__equations *e = &model->equations;
+    dal__graph *graph = e->graph;
+    const int n = e->n, m = e->m;
+    dal__node *along = dal__model_nodes(model, m, 0), *beta = dal__model_nodes(model, m, 0);
+    dal__node *extended = dal__model_nodes(model, n, 0);
+    if (model->out_of_memory) return DAL_MEMORY;
+    dal_status status = find_beta(model, along, beta);
+    if (status != DAL_OK) return status == DAL_SINGULAR ? DAL_OK : status; /* B is not A */
+    const dal__node *v = e->flow + 1;
+    dal__node whole = dal__dot(graph, n, v, e->normal + 1 + n);
+    dal__node free = dal__sub(graph, whole, dal__dot(graph, m, along, beta));
+    dal__node divisor = dal__add(graph, free, dal__number(graph, REST));
+    dal__node rate = dal__sub(graph, dal__dot(graph, n, v, e->force), partial_t(e, e->lagrangian));
+    for (int a = 0; a < m; a++) {
+        dal__node pushed = dal__dot(graph, n, e->B + a * n, v);
+        rate = dal__add(graph, rate, dal__mul(graph, e->h[a], pushed));
+    }
+    dal__node alpha = dal__neg(graph, dal__div(graph, rate, divisor));
+    for (int i = 0; i < n; i++) {
+        dal__node along_free = dal__sub(graph, v[i], dal__dot(graph, m, e->U + i * m, beta));
+        extended[i] = dal__add(graph, e->F[i], dal__mul(graph, alpha, along_free));
+    }
+    e->extended = extended;
+    return graph->status;
+}
+
+dal_status dal__conserved_energy(dal_model *model)
+{
+    dal__equations *e = &model->equations;
+    e->normal = e->extended = NULL;
+    if (!(e->properties & (DAL_E_EXACT | DAL_E_WEAK)) || e->vakonomic) return DAL_OK;
+    DAL_TRY(find_normal(model));
+    return e->properties & DAL_E_WEAK ? extend(model) : DAL_OK;
 }

@@ -3,13 +3,17 @@
  *     W = L_vv,  b = L_q - L_vq v - L_vt + Q,  A = D_v,  c = D_q v + D_t
  *     G = A W^-1 B^T,  G h = -(c + A W^-1 b),  F = W^-1 (b + B^T h)              (nh3)-(nh5)
  *
- * with B = A by Chetaev's rule, or as the reactions say.  Given accelerations are the case W = 1.
- * Vakonomic motion is that of L' = L - g.D with the multipliers g as further variables: (nh6),
+ * with B = A by Chetaev's rule, or as given under reactions.  Given accelerations are the case W =
+ * 1. Vakonomic motion is that of L' = L - g.D with the multipliers g as further variables: (nh6),
  * (nh35)
  *
  *     ( L'_vv  -A^T ) (dv/dt)   ( L'_q - L'_vq v - L'_vt + Q )
  *     (   A      0  ) (dg/dt) = (       - D_q v - D_t        )  */
-#include "model/mechanics.h"
+#include "model/equations.h"
+#include "expr/derivative.h"
+#include "expr/simplify.h"
+#include "model/elimination.h"
+#include "model/model.h"
 
 dal__node dal__dot(dal__graph *graph, int count, const dal__node *a, const dal__node *b)
 {
@@ -18,19 +22,17 @@ dal__node dal__dot(dal__graph *graph, int count, const dal__node *a, const dal__
     return sum;
 }
 
-dal__node dal__along(const dal__equations *e, dal__node f)
+dal__node dal__time_derivative(const dal__equations *e, dal__node f)
 {
     return dal__tangent(e->graph, f, e->symbol + e->t, 1 + e->n, e->flow);
 }
 
-static const dal__node *velocities(const dal__equations *e) { return e->flow + 1; }
-
 static dal_status exhausted(const dal_model *model, dal_error *error)
 {
-    return dal__exhausted(model->equations.graph->status, error);
+    return dal__size_error(model->equations.graph->status, error);
 }
 
-/* ---- the parts ---- */
+/* ---- W, b, A, c ---- */
 
 /* W, L_v and b of a Lagrangian; L_q stands in b while the rest is made. */
 static void derive_lagrangian(dal__equations *e, dal__node L)
@@ -40,20 +42,11 @@ static void derive_lagrangian(dal__equations *e, dal__node L)
     dal__gradient(graph, L, e->symbol + e->q, e->n, e->b);
     for (int i = 0; i < e->n; i++) {
         dal__gradient(graph, e->momentum[i], e->symbol + e->v, e->n, e->W + i * e->n);
-        e->b[i] = dal__sub(graph, e->b[i], dal__along(e, e->momentum[i]));
+        e->b[i] = dal__sub(graph, e->b[i], dal__time_derivative(e, e->momentum[i]));
         e->b[i] = dal__add(graph, e->b[i], e->force[i]);
     }
-    dal__node twice = dal__dot(graph, e->n, velocities(e), e->momentum);
+    dal__node twice = dal__dot(graph, e->n, e->flow + 1, e->momentum);
     e->energy = dal__sub(graph, twice, L);
-}
-
-static void take_accelerations(dal__equations *e)
-{
-    dal__node one = dal__number(e->graph, 1.0);
-    for (int i = 0; i < e->n; i++) {
-        e->W[i * e->n + i] = one;
-        e->b[i] = e->force[i];
-    }
 }
 
 static dal_status derive_constraints(dal_model *model, dal_error *error)
@@ -63,7 +56,7 @@ static dal_status derive_constraints(dal_model *model, dal_error *error)
         const dal__entry *entry = dal__model_entry(model, DAL_SECTION_CONSTRAINTS, a);
         bool depends = false;
         dal__gradient(e->graph, e->constraint[a], e->symbol + e->v, e->n, e->A + a * e->n);
-        e->c[a] = dal__along(e, e->constraint[a]);
+        e->c[a] = dal__time_derivative(e, e->constraint[a]);
         for (int i = 0; i < e->n; i++)
             depends |= !dal__is_number(e->graph, e->A[a * e->n + i], 0.0);
         if (!depends && e->graph->status == DAL_OK)
@@ -75,27 +68,22 @@ static dal_status derive_constraints(dal_model *model, dal_error *error)
 
 /* ---- Lagrange-d'Alembert ---- */
 
-static dal__node *take(dal_model *model, int rows, int columns)
-{
-    return dal__model_take(model, (size_t)rows * (size_t)columns, sizeof(dal__node));
-}
-
-static bool take_linear(dal_model *model, dal__linear *s, int n, int columns, int border)
+static bool allocate_linear(dal_model *model, dal__linear *s, int n, int columns, int border)
 {
     *s = (dal__linear){.n = n, .columns = columns, .border = border};
-    s->matrix = take(model, n, n);
-    s->rhs = take(model, n, columns);
-    s->x = take(model, n, columns);
-    return !model->starved;
+    s->matrix = dal__model_nodes(model, n * n, 0);
+    s->rhs = dal__model_nodes(model, n * columns, 0);
+    s->x = dal__model_nodes(model, n * columns, 0);
+    return !model->out_of_memory;
 }
 
-dal_status dal__solve_again(dal_model *model, int n, const dal__node *matrix, const dal__node *rhs,
-                            dal__node *x)
+dal_status dal__solve_vector(dal_model *model, int n, const dal__node *matrix, const dal__node *rhs,
+                             dal__node *x)
 {
     dal__equations *e = &model->equations;
     const int pivots = e->pivots;
     dal__linear s;
-    if (!take_linear(model, &s, n, 1, n)) return DAL_MEMORY;
+    if (!allocate_linear(model, &s, n, 1, n)) return DAL_MEMORY;
     for (int i = 0; i < n * n; i++) s.matrix[i] = matrix[i];
     for (int i = 0; i < n; i++) s.rhs[i] = rhs[i];
     dal_status status = dal__linear_solve(model, &s);
@@ -112,7 +100,7 @@ static dal_status solve_mass(dal_model *model, dal__linear *s)
 {
     const dal__equations *e = &model->equations;
     int columns = reaction_column(e, e->m);
-    if (!take_linear(model, s, e->n, columns, e->n)) return DAL_MEMORY;
+    if (!allocate_linear(model, s, e->n, columns, e->n)) return DAL_MEMORY;
     for (int i = 0; i < e->n * e->n; i++) s->matrix[i] = e->W[i];
     for (int i = 0; i < e->n; i++) {
         s->rhs[i * columns] = e->b[i];
@@ -145,7 +133,7 @@ static dal__node project(const dal__equations *e, int a, const dal__linear *mass
 static dal_status solve_reaction(dal_model *model, const dal__linear *mass, dal__linear *s)
 {
     const dal__equations *e = &model->equations;
-    if (!take_linear(model, s, e->m, 1, 0)) return DAL_MEMORY;
+    if (!allocate_linear(model, s, e->m, 1, 0)) return DAL_MEMORY;
     for (int a = 0; a < e->m; a++) {
         dal__node pull = dal__add(e->graph, e->c[a], project(e, a, mass, 0));
         s->rhs[a] = dal__neg(e->graph, pull);
@@ -198,16 +186,6 @@ static dal_status solve_motion(dal_model *model, dal_error *error)
 
 /* ---- vakonomic ---- */
 
-static dal__node vakonomic_lagrangian(const dal__equations *e)
-{
-    dal__node L = e->lagrangian;
-    for (int a = 0; a < e->m; a++) {
-        dal__node g = dal__symbol(e->graph, e->g + a);
-        L = dal__sub(e->graph, L, dal__mul(e->graph, g, e->constraint[a]));
-    }
-    return L;
-}
-
 static void fill_vakonomic(const dal__equations *e, dal__linear *s)
 {
     int n = e->n, size = s->n;
@@ -223,26 +201,24 @@ static void fill_vakonomic(const dal__equations *e, dal__linear *s)
     for (int a = 0; a < e->m; a++) s->rhs[n + a] = dal__neg(e->graph, e->c[a]);
 }
 
-/* W^-1 A^T of L alone, for projections.  A singular W means that there are none: U stays 0. */
-static dal_status solve_projection(dal_model *model)
-{
-    dal__equations *e = &model->equations;
-    dal__linear mass;
-    derive_lagrangian(e, e->lagrangian);
-    dal_status status = solve_mass(model, &mass);
-    e->pivots = 0;
-    return status == DAL_SINGULAR ? DAL_OK : status;
-}
-
 static dal_status solve_vakonomic(dal_model *model, dal_error *error)
 {
     dal__equations *e = &model->equations;
-    dal__linear s;
-    if (solve_projection(model) != DAL_OK) return exhausted(model, error);
-    derive_lagrangian(e, vakonomic_lagrangian(e));
-    if (!take_linear(model, &s, e->n + e->m, 1, e->n)) return exhausted(model, error);
+    dal__linear mass, s;
+    derive_lagrangian(e, e->lagrangian);
+    /* W^-1 A^T of L alone, for projections.  A singular W means that there are none: U stays 0. */
+    dal_status status = solve_mass(model, &mass);
+    if (status != DAL_OK && status != DAL_SINGULAR) return exhausted(model, error);
+    e->pivots = 0;
+    dal__node L = e->lagrangian;
+    for (int a = 0; a < e->m; a++) {
+        dal__node g = dal__symbol(e->graph, e->g + a);
+        L = dal__sub(e->graph, L, dal__mul(e->graph, g, e->constraint[a]));
+    }
+    derive_lagrangian(e, L);
+    if (!allocate_linear(model, &s, e->n + e->m, 1, e->n)) return exhausted(model, error);
     fill_vakonomic(e, &s);
-    dal_status status = dal__linear_solve(model, &s);
+    status = dal__linear_solve(model, &s);
     if (status == DAL_SINGULAR && s.singular < e->n) return singular_mass(model, s.singular, error);
     if (status == DAL_SINGULAR) return dependent_constraints(model, s.singular - e->n, error);
     if (status != DAL_OK) return exhausted(model, error);
@@ -257,10 +233,11 @@ dal_status dal__equations_derive(dal_model *model, dal_error *error)
     if (e->vakonomic) {
         DAL_TRY(solve_vakonomic(model, error));
     } else {
-        if (e->accelerations)
-            take_accelerations(e);
-        else
-            derive_lagrangian(e, e->lagrangian);
+        if (!e->accelerations) derive_lagrangian(e, e->lagrangian);
+        for (int i = 0; i < e->n && e->accelerations; i++) {
+            e->W[i * e->n + i] = dal__number(e->graph, 1.0);
+            e->b[i] = e->force[i];
+        }
         DAL_TRY(solve_motion(model, error));
     }
     return e->graph->status == DAL_OK ? DAL_OK : exhausted(model, error);

@@ -3,7 +3,13 @@
  * Symbols are numbered
  *     parameters | t | q, dq | v, dv | pi, dpi | g
  * where dq, dv, dpi have a meaning in the tangent system only. */
-#include "model/mechanics.h"
+#include "model/formulas.h"
+#include "expr/derivative.h"
+#include "expr/parser.h"
+#include "expr/simplify.h"
+#include "expr/traversal.h"
+#include "model/model.h"
+#include "model/symbols.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -32,7 +38,7 @@ static dal_status locate(const dal_model *model, const dal__entry *entry, dal_er
         snprintf(name, sizeof name, " %d on %.80s", entry->item, entry->name);
     else if (entry->name)
         snprintf(name, sizeof name, " %.80s", entry->name);
-    else if (dal__section_shape(entry->section) == DAL__LIST)
+    else if (dal__section_form(entry->section) == DAL__LIST)
         snprintf(name, sizeof name, " %d", number);
     int line = entry->line ? entry->line : 1, column = entry->line ? entry->column : 1;
     return dal__fail_at(error, inner->status, line + inner->line - 1,
@@ -40,8 +46,9 @@ static dal_status locate(const dal_model *model, const dal__entry *entry, dal_er
                         labels[entry->section], name, inner->message);
 }
 
-dal_status dal__formula(dal_model *model, const dal__entry *entry, dal__scope scope,
-                        dal__node *node, dal_error *error)
+/* Parses the text of an entry; the message of an error gets the entry's name and place. */
+static dal_status parse_entry(dal_model *model, const dal__entry *entry, dal__scope scope,
+                              dal__node *node, dal_error *error)
 {
     dal_error inner = {.line = 1, .column = 1};
     scope.model = model;
@@ -50,39 +57,28 @@ dal_status dal__formula(dal_model *model, const dal__entry *entry, dal__scope sc
     return status == DAL_OK ? DAL_OK : locate(model, entry, error, &inner);
 }
 
-static dal_status fault(const dal_model *model, const dal__entry *entry, dal_status status,
-                        dal_error *error, const char *message)
+static dal_status not_finite(const dal_model *model, const dal__entry *entry, dal_error *error)
 {
-    dal_error inner = {.status = status, .line = 1, .column = 1};
-    dal_status graph = model->equations.graph->status;
-    if (graph != DAL_OK) return dal__exhausted(graph, error);
-    snprintf(inner.message, sizeof inner.message, "%s", message);
-    return locate(model, entry, error, &inner);
+    const dal_error inner = {DAL_MODEL, 1, 1, "the value is not finite"};
+    const dal_status status = model->equations.graph->status;
+    return status != DAL_OK ? dal__size_error(status, error) : locate(model, entry, error, &inner);
 }
 
-static dal__scope everything(const dal__equations *e)
-{
-    return (dal__scope){
-        .may = DAL__MAY_T | DAL__MAY_STATE, .parameters = e->parameters, .lets = e->lets};
-}
+enum { MAY_ALL = DAL__MAY_T | DAL__MAY_STATE };
 
-static dal__scope only(const dal__equations *e, unsigned may)
+static dal__scope scope_of(const dal__equations *e, unsigned may)
 {
     return (dal__scope){.may = may, .parameters = e->parameters, .lets = e->lets};
 }
 
 /* ---- sections of coordinates ---- */
 
-static dal_status find_coordinate(const dal_model *model, const dal__entry *entry, int *i,
-                                  dal_error *error)
+/* The number of a word among those there are; what: how a message calls it. */
+static dal_status find_word(const char *word, int line, int column, const char *what,
+                            const char *const *words, int count, int *i, dal_error *error)
 {
-    const dal__equations *e = &model->equations;
-    char what[64];
-    *i = dal__index_of(entry->name, strlen(entry->name), e->coordinate, e->n);
-    if (*i >= 0) return DAL_OK;
-    snprintf(what, sizeof what, "coordinate in %s", dal__section_name(entry->section));
-    return dal__unknown_at(error, entry->name_line, entry->name_column, what, entry->name,
-                           e->coordinate, e->n);
+    *i = dal__index_of(word, strlen(word), words, count);
+    return *i >= 0 ? DAL_OK : dal__unknown_at(error, line, column, what, word, words, count);
 }
 
 /* Adds the formulas of a section to out[i] of their coordinates; in a list of mappings each item
@@ -92,13 +88,16 @@ static dal_status by_coordinate(dal_model *model, dal_section section, dal__scop
 {
     for (int k = 0; k < model->count; k++) {
         const dal__entry *entry = &model->entries[k];
+        const dal__equations *e = &model->equations;
+        char what[64];
         dal__node node;
         int i;
         if (entry->section != section) continue;
-        DAL_TRY(find_coordinate(model, entry, &i, error));
-        DAL_TRY(dal__formula(model, entry, scope, &node, error));
-        if (entry->item) i += (entry->item - 1) * model->equations.n;
-        out[i] = dal__add(model->equations.graph, out[i], node);
+        snprintf(what, sizeof what, "coordinate in %s", dal__section_name(section));
+        DAL_TRY(find_word(entry->name, DAL__AT_NAME(entry), what, e->coordinate, e->n, &i, error));
+        DAL_TRY(parse_entry(model, entry, scope, &node, error));
+        if (entry->item) i += (entry->item - 1) * e->n;
+        out[i] = dal__add(e->graph, out[i], node);
     }
     return DAL_OK;
 }
@@ -113,10 +112,9 @@ static dal_status parse_parameters(dal_model *model, dal_error *error)
     for (int i = 0; i < e->parameters; i++) {
         const dal__entry *entry = dal__model_entry(model, DAL_SECTION_PARAMETERS, i);
         dal__node node;
-        DAL_TRY(dal__formula(model, entry, (dal__scope){.parameters = i}, &node, error));
+        DAL_TRY(parse_entry(model, entry, (dal__scope){.parameters = i}, &node, error));
         e->value[i] = dal__evaluate(e->graph, node, e->value);
-        if (!isfinite(e->value[i]))
-            return fault(model, entry, DAL_MODEL, error, "the value is not finite");
+        if (!isfinite(e->value[i])) return not_finite(model, entry, error);
     }
     return DAL_OK;
 }
@@ -125,10 +123,10 @@ static dal_status parse_lets(dal_model *model, dal_error *error)
 {
     dal__equations *e = &model->equations;
     for (int i = 0; i < e->lets; i++) {
-        dal__scope scope = everything(e);
+        dal__scope scope = scope_of(e, MAY_ALL);
         scope.lets = i;
-        DAL_TRY(dal__formula(model, dal__model_entry(model, DAL_SECTION_LET, i), scope, &e->let[i],
-                             error));
+        DAL_TRY(parse_entry(model, dal__model_entry(model, DAL_SECTION_LET, i), scope, &e->let[i],
+                            error));
     }
     return DAL_OK;
 }
@@ -137,14 +135,14 @@ static dal_status parse_each(dal_model *model, dal_section section, dal__scope s
                              dal__node *out, dal_error *error)
 {
     for (int i = 0; i < count; i++)
-        DAL_TRY(dal__formula(model, dal__model_entry(model, section, i), scope, &out[i], error));
+        DAL_TRY(parse_entry(model, dal__model_entry(model, section, i), scope, &out[i], error));
     return DAL_OK;
 }
 
 static dal_status parse_dynamics(dal_model *model, dal_error *error)
 {
     dal__equations *e = &model->equations;
-    dal__scope all = everything(e);
+    dal__scope all = scope_of(e, MAY_ALL);
     DAL_TRY(
         parse_each(model, DAL_SECTION_LAGRANGIAN, all, !e->accelerations, &e->lagrangian, error));
     DAL_TRY(by_coordinate(model, DAL_SECTION_ACCELERATIONS, all, e->force, error));
@@ -164,11 +162,9 @@ static dal_status parse_gauge(dal_model *model, dal_error *error)
     dal__node *out[] = {&e->start[2 * e->n + e->multipliers], &e->mu};
     for (int i = 0; i < dal__model_count(model, DAL_SECTION_GAUGE); i++) {
         const dal__entry *entry = dal__model_entry(model, DAL_SECTION_GAUGE, i);
-        int k = dal__index_of(entry->name, strlen(entry->name), names, 2);
-        if (k < 0)
-            return dal__unknown_at(error, entry->name_line, entry->name_column, "entry of gauge",
-                                   entry->name, names, 2);
-        DAL_TRY(dal__formula(model, entry, only(e, k ? DAL__MAY_T : 0), out[k], error));
+        int k;
+        DAL_TRY(find_word(entry->name, DAL__AT_NAME(entry), "entry of gauge", names, 2, &k, error));
+        DAL_TRY(parse_entry(model, entry, scope_of(e, k ? DAL__MAY_T : 0), out[k], error));
     }
     return DAL_OK;
 }
@@ -177,7 +173,8 @@ static dal_status parse_gauge(dal_model *model, dal_error *error)
 static const char **start_names(dal_model *model)
 {
     const dal__equations *e = &model->equations;
-    const char **names = dal__model_take(model, (size_t)(2 * e->n + e->multipliers), sizeof *names);
+    const char **names =
+        dal__model_allocate(model, (size_t)(2 * e->n + e->multipliers), sizeof *names);
     if (!names) return NULL;
     for (int i = 0; i < e->n; i++) {
         names[i] = e->coordinate[i];
@@ -185,7 +182,7 @@ static const char **start_names(dal_model *model)
     }
     for (int a = 0; a < e->multipliers; a++)
         names[2 * e->n + a] = dal__model_print(model, "g%d", a + 1);
-    return model->starved ? NULL : names;
+    return model->out_of_memory ? NULL : names;
 }
 
 static dal_status parse_start(dal_model *model, dal_error *error)
@@ -193,29 +190,20 @@ static dal_status parse_start(dal_model *model, dal_error *error)
     dal__equations *e = &model->equations;
     int count = 2 * e->n + e->multipliers, entries = dal__model_count(model, DAL_SECTION_START);
     const char **names = start_names(model);
-    if (!names) return dal__starved(error);
+    if (!names) return dal__memory_error(error);
     for (int k = 0; k < entries; k++) {
         const dal__entry *entry = dal__model_entry(model, DAL_SECTION_START, k);
-        int i = dal__index_of(entry->name, strlen(entry->name), names, count);
+        int i;
         if (strcmp(entry->name, "e") == 0)
-            return dal__fail_at(error, DAL_NAME, entry->name_line, entry->name_column,
+            return dal__fail_at(error, DAL_NAME, DAL__AT_NAME(entry),
                                 "the start of e belongs under gauge, as 'gauge: {e: 1}'");
-        if (i < 0)
-            return dal__unknown_at(error, entry->name_line, entry->name_column, "name in start",
-                                   entry->name, names, count);
-        DAL_TRY(dal__formula(model, entry, only(e, 0), &e->start[i], error));
+        DAL_TRY(
+            find_word(entry->name, DAL__AT_NAME(entry), "name in start", names, count, &i, error));
+        DAL_TRY(parse_entry(model, entry, scope_of(e, 0), &e->start[i], error));
         if (!isfinite(dal__evaluate(e->graph, e->start[i], e->value)))
-            return fault(model, entry, DAL_MODEL, error, "the value is not finite");
+            return not_finite(model, entry, error);
     }
     return DAL_OK;
-}
-
-static dal_status incomplete(const dal_model *model, int given, dal_error *error)
-{
-    const dal__entry *entry = dal__model_entry(model, DAL_SECTION_EXACT, 0);
-    return dal__fail_at(error, DAL_MODEL, entry->name_line, entry->name_column,
-                        "exact has %d of %d coordinates: it needs a formula for each", given,
-                        model->equations.n);
 }
 
 /* Velocities of the exact solution are derivatives by t. */
@@ -225,23 +213,89 @@ static dal_status parse_exact(dal_model *model, dal_error *error)
     int given = dal__model_count(model, DAL_SECTION_EXACT);
     if (given == 0) return DAL_OK;
     for (int i = 0; i < e->n; i++) e->exact[i] = dal__number(e->graph, 0.0);
-    DAL_TRY(by_coordinate(model, DAL_SECTION_EXACT, only(e, DAL__MAY_T), e->exact, error));
-    if (given < e->n) return incomplete(model, given, error);
+    DAL_TRY(by_coordinate(model, DAL_SECTION_EXACT, scope_of(e, DAL__MAY_T), e->exact, error));
+    if (given < e->n) {
+        const dal__entry *entry = dal__model_entry(model, DAL_SECTION_EXACT, 0);
+        return dal__fail_at(error, DAL_MODEL, DAL__AT_NAME(entry),
+                            "exact has %d of %d coordinates: it needs a formula for each", given,
+                            e->n);
+    }
     dal__node one = dal__number(e->graph, 1.0);
     for (int i = 0; i < e->n; i++)
         e->exact[e->n + i] = dal__tangent(e->graph, e->exact[i], &e->t, 1, &one);
     return DAL_OK;
 }
 
+/* ---- the picture ---- */
+
+static dal_status parse_picture(dal_model *model, dal_error *error)
+{
+    enum { BODY = DAL_PICTURE_COUNT, NAMES };
+#define NAME(code, name) name,
+    static const char *const names[] = {DAL_PICTURE_LIST(NAME) "body"};
+    static const char *const bodies[] = {DAL_BODY_LIST(NAME)};
+#undef NAME
+    dal__equations *e = &model->equations;
+    const dal__entry *first = dal__model_entry(model, DAL_SECTION_PICTURE, 0), *entry;
+    unsigned seen = 0;
+    for (int k = 0, i; (entry = dal__model_entry(model, DAL_SECTION_PICTURE, k)) != NULL; k++) {
+        DAL_TRY(find_word(entry->name, DAL__AT_NAME(entry), "entry of picture", names, NAMES, &i,
+                          error));
+        seen |= 1u << i;
+        if (i != BODY) {
+            DAL_TRY(parse_entry(model, entry, scope_of(e, MAY_ALL), &e->picture[i], error));
+            continue;
+        }
+        DAL_TRY(find_word(entry->text, entry->line, entry->column, "body", bodies, DAL_BODY_COUNT,
+                          &i, error));
+        e->body = (dal_body)i;
+    }
+    for (int i = DAL_PICTURE_X; first && i <= DAL_PICTURE_Y; i++)
+        if (!(seen & 1u << i))
+            return dal__fail_at(error, DAL_MODEL, DAL__AT_NAME(first),
+                                "picture has no %s: it needs x and y", names[i]);
+    return DAL_OK;
+}
+
 /* ---- the whole ---- */
+
+/* Whether reactions have directions of their own, and then one for each constraint.
+ *
+ *     W dv/dt = b + B^T h,   D = 0:   (A W^-1 B^T) h = -(c + A W^-1 b)
+ *
+ * Chetaev's rule is B = A = D_v.  A constraint that an actuator enforces (servo constraint) has a
+ * direction B of its own, and A W^-1 B^T has no symmetry.  Marle, Rep. Math. Phys. 42 (1998) 211.
+ * */
+static dal_status check_reactions(dal_model *model, dal_error *error)
+{
+    dal__equations *e = &model->equations;
+    const dal__entry *first = dal__model_entry(model, DAL_SECTION_REACTIONS, 0), *entry;
+    e->servo = first != NULL;
+    if (e->servo && e->vakonomic)
+        return dal__fail_at(
+            error, DAL_MODEL, DAL__AT_NAME(first),
+            "vakonomic mechanics has no reactions: its multipliers take their place");
+    for (int i = 0; (entry = dal__model_entry(model, DAL_SECTION_REACTIONS, i)) != NULL; i++)
+        if (entry->item > e->m)
+            return dal__fail_at(error, DAL_MODEL, DAL__AT_NAME(entry),
+                                "reaction %d has no constraint: there are %d", entry->item, e->m);
+    for (int a = 1; e->servo && a <= e->m; a++) {
+        for (int i = 0; (entry = dal__model_entry(model, DAL_SECTION_REACTIONS, i)) != NULL; i++)
+            if (entry->item == a) break;
+        if (!entry)
+            return dal__fail_at(error, DAL_MODEL, DAL__AT_NAME(first),
+                                "constraint %d has no reaction: the list needs one for each", a);
+    }
+    return DAL_OK;
+}
 
 static dal_status check_sizes(const dal_model *model, dal_error *error)
 {
     const dal__equations *e = &model->equations;
     if (e->n == 0) return dal__fail(error, DAL_MODEL, "the system has no coordinates");
-    if (e->n > DAL__MOST_COORDINATES)
+    if (e->n > DAL__MAX_COORDINATES)
         return dal__fail(error, DAL_TOO_LARGE, "%d coordinates; at most %d are possible", e->n,
-                         (int)DAL__MOST_COORDINATES);
+                         (int)DAL__MAX_COORDINATES);
     if (e->m <= e->n) return DAL_OK;
     const dal__entry *excess = dal__model_entry(model, DAL_SECTION_CONSTRAINTS, e->n);
     return dal__fail_at(error, DAL_RANK, excess->line, excess->column,
@@ -252,11 +306,10 @@ static dal_status read_mechanics(dal_model *model, dal_error *error)
 {
     static const char *const words[] = {"lagrange-d'alembert", "vakonomic"};
     const dal__entry *entry = dal__model_entry(model, DAL_SECTION_MECHANICS, 0);
-    if (!entry) return DAL_OK;
-    int i = dal__index_of(entry->text, strlen(entry->text), words, 2);
-    if (i < 0)
-        return dal__unknown_at(error, entry->line, entry->column, "mechanics", entry->text, words,
-                               2);
+    int i = 0;
+    if (entry)
+        DAL_TRY(
+            find_word(entry->text, entry->line, entry->column, "mechanics", words, 2, &i, error));
     model->equations.vakonomic = i == 1;
     return DAL_OK;
 }
@@ -269,10 +322,10 @@ static dal_status check_dynamics(dal_model *model, dal_error *error)
     if (!L && !F)
         return dal__fail(error, DAL_MODEL, "the system has neither a lagrangian nor accelerations");
     if (L && F)
-        return dal__fail_at(error, DAL_MODEL, F->name_line, F->name_column,
+        return dal__fail_at(error, DAL_MODEL, DAL__AT_NAME(F),
                             "the system has both a lagrangian and accelerations");
     if (F && e->vakonomic)
-        return dal__fail_at(error, DAL_MODEL, F->name_line, F->name_column,
+        return dal__fail_at(error, DAL_MODEL, DAL__AT_NAME(F),
                             "vakonomic mechanics needs a lagrangian, not accelerations");
     e->accelerations = F != NULL;
     return DAL_OK;
@@ -288,46 +341,39 @@ static void number_symbols(dal__equations *e)
     e->symbols = e->g + e->m;
 }
 
-static dal__node *nodes(dal_model *model, int count, dal__node initial)
-{
-    dal__node *list = dal__model_take(model, (size_t)count, sizeof *list);
-    for (int i = 0; list && i < count; i++) list[i] = initial;
-    return list;
-}
-
 static dal_status allocate(dal_model *model, dal_error *error)
 {
     dal__equations *e = &model->equations;
     int n = e->n, m = e->m;
     dal__graph_free(e->graph);
     e->graph = dal__graph_create(e->parameters);
-    if (!e->graph) return dal__starved(error);
+    if (!e->graph) return dal__memory_error(error);
     dal__node zero = dal__number(e->graph, 0.0);
     e->lagrangian = zero;
     e->mu = e->energy = 0;
-    e->let = nodes(model, e->lets, zero);
-    e->force = nodes(model, n, zero);
-    e->constraint = nodes(model, m, zero);
-    e->start = nodes(model, 2 * n + m + 1, zero);
-    e->invariant = nodes(model, e->invariants, zero);
-    e->exact = nodes(model, 2 * n, 0);
-    e->picture = e->pictured ? nodes(model, DAL_PICTURE_COUNT, zero) : NULL;
-    e->W = nodes(model, n * n, zero);
-    e->b = nodes(model, n, zero);
-    e->momentum = nodes(model, n, zero);
-    e->A = nodes(model, m * n, zero);
-    e->B = e->servo ? nodes(model, m * n, zero) : e->A;
-    e->c = nodes(model, m, zero);
-    e->U = nodes(model, n * m, 0);
-    e->R = e->servo ? nodes(model, n * m, zero) : e->U;
-    e->a = nodes(model, n, 0);
-    e->F = nodes(model, n + m, zero);
-    e->h = nodes(model, m, zero);
-    e->pivot = dal__model_take(model, (size_t)(2 * (n + m)), sizeof *e->pivot);
-    e->value = dal__model_take(model, (size_t)e->symbols, sizeof *e->value);
-    e->symbol = dal__model_take(model, (size_t)e->symbols, sizeof *e->symbol);
-    e->flow = nodes(model, 1 + n, dal__number(e->graph, 1.0));
-    if (model->starved) return dal__starved(error);
+    e->let = dal__model_nodes(model, e->lets, zero);
+    e->force = dal__model_nodes(model, n, zero);
+    e->constraint = dal__model_nodes(model, m, zero);
+    e->start = dal__model_nodes(model, 2 * n + m + 1, zero);
+    e->invariant = dal__model_nodes(model, e->invariants, zero);
+    e->exact = dal__model_nodes(model, 2 * n, 0);
+    e->picture = e->pictured ? dal__model_nodes(model, DAL_PICTURE_COUNT, zero) : NULL;
+    e->W = dal__model_nodes(model, n * n, zero);
+    e->b = dal__model_nodes(model, n, zero);
+    e->momentum = dal__model_nodes(model, n, zero);
+    e->A = dal__model_nodes(model, m * n, zero);
+    e->B = e->servo ? dal__model_nodes(model, m * n, zero) : e->A;
+    e->c = dal__model_nodes(model, m, zero);
+    e->U = dal__model_nodes(model, n * m, 0);
+    e->R = e->servo ? dal__model_nodes(model, n * m, zero) : e->U;
+    e->a = dal__model_nodes(model, n, 0);
+    e->F = dal__model_nodes(model, n + m, zero);
+    e->h = dal__model_nodes(model, m, zero);
+    e->pivot = dal__model_allocate(model, (size_t)(2 * (n + m)), sizeof *e->pivot);
+    e->value = dal__model_allocate(model, (size_t)e->symbols, sizeof *e->value);
+    e->symbol = dal__model_allocate(model, (size_t)e->symbols, sizeof *e->symbol);
+    e->flow = dal__model_nodes(model, 1 + n, dal__number(e->graph, 1.0));
+    if (model->out_of_memory) return dal__memory_error(error);
     for (int i = 0; i < e->symbols; i++) e->symbol[i] = i;
     for (int i = 0; i < n; i++) e->flow[1 + i] = dal__symbol(e->graph, e->v + i);
     return DAL_OK;
@@ -344,18 +390,18 @@ static void evaluate_start(dal__equations *e)
         e->value[e->g + a] = dal__evaluate(e->graph, e->start[2 * e->n + a], e->value);
 }
 
-dal_status dal__formulas(dal_model *model, dal_error *error)
+dal_status dal__parse_model(dal_model *model, dal_error *error)
 {
     dal__equations *e = &model->equations;
     *e = (dal__equations){.graph = e->graph};
     DAL_TRY(read_mechanics(model, error));
-    DAL_TRY(dal__names(model, error));
+    DAL_TRY(dal__collect_names(model, error));
     e->m = dal__model_count(model, DAL_SECTION_CONSTRAINTS);
     e->multipliers = e->vakonomic ? e->m : 0;
     e->pictured = dal__model_count(model, DAL_SECTION_PICTURE) > 0;
     DAL_TRY(check_sizes(model, error));
     DAL_TRY(check_dynamics(model, error));
-    DAL_TRY(dal__reactions(model, error));
+    DAL_TRY(check_reactions(model, error));
     number_symbols(e);
     DAL_TRY(allocate(model, error));
     e->start[2 * e->n + e->multipliers] = dal__number(e->graph, 1.0);
@@ -365,8 +411,8 @@ dal_status dal__formulas(dal_model *model, dal_error *error)
     DAL_TRY(parse_gauge(model, error));
     DAL_TRY(parse_start(model, error));
     DAL_TRY(parse_exact(model, error));
-    DAL_TRY(dal__picture(model, error));
+    DAL_TRY(parse_picture(model, error));
     evaluate_start(e);
     dal_status status = e->graph->status;
-    return status == DAL_OK ? DAL_OK : dal__exhausted(status, error);
+    return status == DAL_OK ? DAL_OK : dal__size_error(status, error);
 }

@@ -1,13 +1,16 @@
-/* guards.c - expressions of the constraints, det W and, with reactions of their own,
- * det A W^-1 B^T: they must keep their signs along a run.
+/* guards.c - expressions of the constraints, det W and, with given reactions, det A W^-1 B^T: they
+ * must keep their signs along a run.
  *
  * Where a denominator passes through zero, or tan(x) through a pole, a step can leap over the
  * singularity without meeting it; so it can where D = f(q,t) (...) loses its normal with f.
  * Guarded are the factors of every denominator, cos(x) for every tan(x) and the factors of D itself
  * that have no velocities in them, as far as they depend on more than parameters. */
-#include "model/mechanics.h"
+#include "model/guards.h"
+#include "expr/simplify.h"
+#include "expr/traversal.h"
+#include "model/model.h"
 
-enum { REACHED = 1, FACTOR = 2, WHOLE = 4, MOST_GUARDS = 4096 };
+enum { REACHED = 1, FACTOR = 2, WHOLE = 4, MAX_GUARDS = 4096 };
 
 typedef struct search {
     dal_model *model;
@@ -31,7 +34,7 @@ static void add_guard(search *s, dal__node node, const char *text)
     dal__record view = dal__inspect(e->graph, node);
     dal__record inner = view.op == DAL__COS ? dal__inspect(e->graph, view.a) : view;
     if (!dal__depends(e->graph, node, e->parameters, e->symbols)) return;
-    s->full = s->full || e->guards == MOST_GUARDS;
+    s->full = s->full || e->guards == MAX_GUARDS;
     if (s->full) return;
     if (inner.op == DAL__SYMBOL) text = symbol_text(s->model, inner.symbol);
     if (text && inner.op == DAL__SYMBOL && view.op == DAL__COS)
@@ -66,20 +69,17 @@ static void split_factor(search *s, dal__node node, dal__record view)
     }
 }
 
-/* D itself, or a factor of it. */
-static void split_whole(search *s, dal__node node, dal__record view)
-{
-    const dal__equations *e = &s->model->equations;
-    if (!dal__depends(e->graph, node, e->v, e->v + e->n)) s->flag[node] |= FACTOR;
-    if (view.op == DAL__MUL) s->flag[view.b] |= WHOLE;
-    if (view.op == DAL__MUL || view.op == DAL__DIV || view.op == DAL__NEG) s->flag[view.a] |= WHOLE;
-}
-
 static void visit(search *s, dal__node node)
 {
-    dal__graph *graph = s->model->equations.graph;
+    const dal__equations *e = &s->model->equations;
+    dal__graph *graph = e->graph;
     dal__record view = dal__inspect(graph, node);
-    if (s->flag[node] & WHOLE) split_whole(s, node, view);
+    if (s->flag[node] & WHOLE) { /* D itself, or a factor of it */
+        const bool factors = view.op == DAL__MUL || view.op == DAL__DIV || view.op == DAL__NEG;
+        if (!dal__depends(graph, node, e->v, e->v + e->n)) s->flag[node] |= FACTOR;
+        if (view.op == DAL__MUL) s->flag[view.b] |= WHOLE;
+        if (factors) s->flag[view.a] |= WHOLE;
+    }
     if (s->flag[node] & FACTOR) split_factor(s, node, view);
     if (view.a) s->flag[view.a] |= REACHED;
     if (view.b) s->flag[view.b] |= REACHED;
@@ -99,18 +99,11 @@ static bool guard_determinant(search *s, bool mass, const char *name)
     for (int k = 0; k < e->pivots; k++)
         if (mass == (e->pivot[k].constraint == 0)) det = dal__mul(e->graph, det, e->pivot[k].pivot);
     if (e->vakonomic || !dal__depends(e->graph, det, e->parameters, e->symbols)) return false;
-    s->full = s->full || e->guards == MOST_GUARDS;
+    s->full = s->full || e->guards == MAX_GUARDS;
     if (s->full) return false;
     e->guard[e->guards] = det;
     e->guard_name[e->guards++] = name;
     return true;
-}
-
-static void guard_determinants(search *s)
-{
-    dal__equations *e = &s->model->equations;
-    if (e->servo) guard_determinant(s, false, "the reactions: det A W^-1 B^T");
-    if (guard_determinant(s, true, "the mass matrix: det W")) e->mass_guard = e->guards;
 }
 
 dal_status dal__guards(dal_model *model)
@@ -118,17 +111,18 @@ dal_status dal__guards(dal_model *model)
     dal__equations *e = &model->equations;
     int count = e->graph->count;
     search s = {.model = model};
-    e->guard = dal__model_take(model, MOST_GUARDS, sizeof *e->guard);
-    e->guard_name = dal__model_take(model, MOST_GUARDS, sizeof *e->guard_name);
-    for (int a = 0; a < e->m && !model->starved; a++) {
+    e->guard = dal__model_nodes(model, MAX_GUARDS, 0);
+    e->guard_name = dal__model_allocate(model, MAX_GUARDS, sizeof *e->guard_name);
+    for (int a = 0; a < e->m && !model->out_of_memory; a++) {
         s.constraint = a + 1;
-        s.flag = dal__model_take(model, (size_t)count + 1, 1);
+        s.flag = dal__model_allocate(model, (size_t)count + 1, 1);
         if (!s.flag) break;
         s.flag[e->constraint[a]] = REACHED | WHOLE;
         for (dal__node node = e->constraint[a]; node > 0; node--)
             if (s.flag[node]) visit(&s, node);
     }
-    if (!model->starved) guard_determinants(&s);
-    if (model->starved) return DAL_MEMORY;
+    if (model->out_of_memory) return DAL_MEMORY;
+    if (e->servo) guard_determinant(&s, false, "the reactions: det A W^-1 B^T");
+    if (guard_determinant(&s, true, "the mass matrix: det W")) e->mass_guard = e->guards;
     return s.full ? DAL_TOO_LARGE : e->graph->status;
 }

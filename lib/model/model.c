@@ -1,5 +1,6 @@
-/* model.c - a model: named texts, kept until a system is asked for. */
-#include "model/mechanics.h"
+/* model.c - a model: named texts, kept until its system is made. */
+#include "model/model.h"
+#include "expr/lexer.h"
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -10,15 +11,15 @@ typedef struct dal__block {
     max_align_t memory[];
 } dal__block;
 
-static const char *const section_names[] = {
-#define X(code, text) text,
-    DAL_SECTION_LIST(X)
-#undef X
-};
+const char *dal__section_name(dal_section section)
+{
+#define NAME(code, text) text,
+    static const char *const names[] = {DAL_SECTION_LIST(NAME)};
+#undef NAME
+    return names[section];
+}
 
-const char *dal__section_name(dal_section section) { return section_names[section]; }
-
-dal__form dal__section_shape(dal_section section)
+dal__form dal__section_form(dal_section section)
 {
     switch (section) {
     case DAL_SECTION_TITLE:
@@ -39,24 +40,31 @@ dal__form dal__section_shape(dal_section section)
 
 bool dal__section_named(dal_section section)
 {
-    dal__form shape = dal__section_shape(section);
-    return shape == DAL__MAPPING || shape == DAL__MAPPINGS;
+    const dal__form form = dal__section_form(section);
+    return form == DAL__MAPPING || form == DAL__MAPPINGS;
 }
 
 /* ---- memory ---- */
 
-void *dal__model_take(dal_model *model, size_t count, size_t size)
+void *dal__model_allocate(dal_model *model, size_t count, size_t size)
 {
     dal__block *block = NULL;
     size_t most = SIZE_MAX - sizeof *block;
     if (size == 0 || count <= most / size) block = calloc(1, sizeof *block + count * size);
     if (!block) {
-        model->starved = true;
+        model->out_of_memory = true;
         return NULL;
     }
     block->next = model->blocks;
     model->blocks = block;
     return block->memory;
+}
+
+dal__node *dal__model_nodes(dal_model *model, int count, dal__node initial)
+{
+    dal__node *list = dal__model_allocate(model, (size_t)count, sizeof *list);
+    for (int i = 0; list && i < count; i++) list[i] = initial;
+    return list;
 }
 
 char *dal__model_print(dal_model *model, const char *format, ...)
@@ -65,7 +73,7 @@ char *dal__model_print(dal_model *model, const char *format, ...)
     va_start(arguments, format);
     int length = vsnprintf(NULL, 0, format, arguments);
     va_end(arguments);
-    char *text = length < 0 ? NULL : dal__model_take(model, (size_t)length + 1, 1);
+    char *text = length < 0 ? NULL : dal__model_allocate(model, (size_t)length + 1, 1);
     if (!text) return NULL;
     va_start(arguments, format);
     vsnprintf(text, (size_t)length + 1, format, arguments);
@@ -73,14 +81,14 @@ char *dal__model_print(dal_model *model, const char *format, ...)
     return text;
 }
 
-dal_status dal__starved(dal_error *error)
+dal_status dal__memory_error(dal_error *error)
 {
     return dal__fail(error, DAL_MEMORY, "out of memory while the model was made");
 }
 
-dal_status dal__exhausted(dal_status status, dal_error *error)
+dal_status dal__size_error(dal_status status, dal_error *error)
 {
-    if (status != DAL_TOO_LARGE) return dal__starved(error);
+    if (status != DAL_TOO_LARGE) return dal__memory_error(error);
     return dal__fail(error, status, "the equations of the system are too large");
 }
 
@@ -125,19 +133,6 @@ int dal__model_count(const dal_model *model, dal_section section)
     return count;
 }
 
-static bool is_letter(char c)
-{
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
-}
-
-bool dal__is_name(const char *text, size_t length)
-{
-    if (length == 0 || !is_letter(text[0])) return false;
-    for (size_t i = 1; i < length; i++)
-        if (!is_letter(text[i]) && !(text[i] >= '0' && text[i] <= '9')) return false;
-    return true;
-}
-
 /* The word that must be a name: that of the entry, or the text of a coordinate.  A start may be
  * that of a velocity, x'. */
 static dal_status check_name(const dal__entry *entry, dal_error *error)
@@ -146,19 +141,18 @@ static dal_status check_name(const dal__entry *entry, dal_error *error)
     if (!name) return DAL_OK;
     size_t length = strlen(name);
     if (entry->section == DAL_SECTION_START && length && name[length - 1] == '\'') length--;
-    if (length > DAL__MOST_LETTERS && entry->section != DAL_SECTION_START)
-        return dal__fail_at(error, DAL_TOO_LARGE, entry->name_line, entry->name_column,
+    if (length > DAL__MAX_LETTERS && entry->section != DAL_SECTION_START)
+        return dal__fail_at(error, DAL_TOO_LARGE, DAL__AT_NAME(entry),
                             "'%.40s...' in %s has more than %d characters", name,
-                            dal__section_name(entry->section), (int)DAL__MOST_LETTERS);
-    if (dal__is_name(name, length)) return DAL_OK;
-    return dal__fail_at(error, DAL_NAME, entry->name_line, entry->name_column,
+                            dal__section_name(entry->section), (int)DAL__MAX_LETTERS);
+    if (length > 0 && dal__name_length(name, length) == length) return DAL_OK;
+    return dal__fail_at(error, DAL_NAME, DAL__AT_NAME(entry),
                         "'%.80s' in %s is not a name: a letter, then letters, digits and _", name,
                         dal__section_name(entry->section));
 }
 
 static dal_status check_duplicate(const dal_model *model, const dal__entry *entry, dal_error *error)
 {
-    dal__form shape = dal__section_shape(entry->section);
     bool named = dal__section_named(entry->section);
     const char *name = named ? entry->name : entry->text;
     const char *section = dal__section_name(entry->section);
@@ -166,25 +160,13 @@ static dal_status check_duplicate(const dal_model *model, const dal__entry *entr
     for (int k = 0; k < model->count; k++) {
         const dal__entry *other = &model->entries[k];
         if (other->section != entry->section || other->item != entry->item) continue;
-        if (shape == DAL__SCALAR)
-            return dal__fail_at(error, DAL_MODEL, entry->name_line, entry->name_column,
-                                "duplicate %s", section);
+        if (dal__section_form(entry->section) == DAL__SCALAR)
+            return dal__fail_at(error, DAL_MODEL, DAL__AT_NAME(entry), "duplicate %s", section);
         if (strcmp(named ? other->name : other->text, name) == 0)
-            return dal__fail_at(error, DAL_MODEL, entry->name_line, entry->name_column,
-                                "duplicate '%.80s' in %s", name, section);
+            return dal__fail_at(error, DAL_MODEL, DAL__AT_NAME(entry), "duplicate '%.80s' in %s",
+                                name, section);
     }
     return DAL_OK;
-}
-
-static dal_status check_entry(const dal_model *model, const dal__entry *entry, dal_error *error)
-{
-    bool named = dal__section_named(entry->section);
-    if (!entry->text || named != (entry->name != NULL))
-        return dal__fail_at(error, DAL_ARGUMENT, entry->name_line, entry->name_column,
-                            "an entry of %s has %s", dal__section_name(entry->section),
-                            named ? "a name and a text" : "a text and no name");
-    DAL_TRY(check_name(entry, error));
-    return check_duplicate(model, entry, error);
 }
 
 static bool grow(dal_model *model)
@@ -207,14 +189,19 @@ dal_status dal__model_insert(dal_model *model, dal__entry entry, dal_error *erro
     if (model->made)
         return dal__fail_at(error, DAL_ARGUMENT, line, column,
                             "'%.80s' already has its system: nothing can be added", model->name);
-    if (model->count == DAL__MOST_ENTRIES)
+    if (model->count == DAL__MAX_ENTRIES)
         return dal__fail_at(error, DAL_TOO_LARGE, line, column, "more than %d entries",
-                            (int)DAL__MOST_ENTRIES);
-    DAL_TRY(check_entry(model, &entry, error));
-    bool named = entry.name != NULL;
+                            (int)DAL__MAX_ENTRIES);
+    const bool named = dal__section_named(entry.section);
+    if (!entry.text || named != (entry.name != NULL))
+        return dal__fail_at(error, DAL_ARGUMENT, line, column, "an entry of %s has %s",
+                            dal__section_name(entry.section),
+                            named ? "a name and a text" : "a text and no name");
+    DAL_TRY(check_name(&entry, error));
+    DAL_TRY(check_duplicate(model, &entry, error));
     entry.text = dal__model_print(model, "%s", entry.text);
     if (named) entry.name = dal__model_print(model, "%s", entry.name);
-    if (!entry.text || (named && !entry.name) || !grow(model)) return dal__starved(error);
+    if (!entry.text || (named && !entry.name) || !grow(model)) return dal__memory_error(error);
     model->entries[model->count++] = entry;
     return DAL_OK;
 }
@@ -223,10 +210,10 @@ dal_status dal__model_insert(dal_model *model, dal__entry entry, dal_error *erro
 static dal_status split_item(dal__entry *entry, dal_error *error)
 {
     const char *c = entry->name;
-    while (*c >= '0' && *c <= '9' && entry->item <= DAL__MOST_COORDINATES)
+    while (*c >= '0' && *c <= '9' && entry->item <= DAL__MAX_COORDINATES)
         entry->item = 10 * entry->item + (*c++ - '0');
     if (*c != '.' || entry->item < 1)
-        return dal__fail_at(error, DAL_NAME, entry->name_line, entry->name_column,
+        return dal__fail_at(error, DAL_NAME, DAL__AT_NAME(entry),
                             "'%.80s' in %s is not a constraint and a coordinate, as 1.x",
                             entry->name, dal__section_name(entry->section));
     entry->name = c + 1;

@@ -3,10 +3,14 @@
  *     L = v.Wv/2 + g(q).v - U(q),   W constant
  *
  * Coordinates that U_qq or W couple form a block; U is the sum of functions U_B of one block each.
- * Every coordinate gets those of its block: U_B up to a constant, U_B,q.v and v.W_B v.  Blocks
- * apart keep what they have apart.  Where U_B is quadratic its gradient at the midpoint is a
+ * Every coordinate gets those of its block: U_B up to a constant, U_B,q.v and v.W_B v.  What is
+ * preserved block by block stays so.  Where U_B is quadratic its gradient at the midpoint is a
  * discrete gradient already: such a block has U_B = 0 here. */
-#include "model/mechanics.h"
+#include "model/potential.h"
+#include "expr/derivative.h"
+#include "expr/simplify.h"
+#include "expr/traversal.h"
+#include "model/model.h"
 
 typedef struct blocks {
     dal_model *model;
@@ -16,13 +20,6 @@ typedef struct blocks {
     dal__node *other;  /* [n] by what q is replaced */
 } blocks;
 
-static void join(const blocks *b, int i, int j)
-{
-    const int n = b->model->equations.n, from = b->block[j], to = b->block[i];
-    for (int k = 0; k < n; k++)
-        if (b->block[k] == from) b->block[k] = to;
-}
-
 static void find_blocks(const blocks *b)
 {
     const dal__equations *e = &b->model->equations;
@@ -30,8 +27,10 @@ static void find_blocks(const blocks *b)
     for (int i = 0; i < e->n; i++)
         for (int j = 0; j < e->n; j++) {
             const int q = e->q + j;
-            const bool couples = dal__depends(e->graph, b->U_q[i], q, q + 1);
-            if (couples || !dal__is_number(e->graph, e->W[i * e->n + j], 0.0)) join(b, i, j);
+            const bool couples = dal__depends(e->graph, b->U_q[i], q, q + 1) ||
+                                 !dal__is_number(e->graph, e->W[i * e->n + j], 0.0);
+            const int from = b->block[j], to = couples ? b->block[i] : from;
+            for (int k = 0; k < e->n; k++) b->block[k] = b->block[k] == from ? to : b->block[k];
         }
 }
 
@@ -45,15 +44,6 @@ static bool is_quadratic(const blocks *b, int block)
             if (dal__depends(e->graph, b->row[j], e->q, e->q + e->n)) return false;
     }
     return true;
-}
-
-/* U with the coordinates of all other blocks at their start. */
-static dal__node restrict_to(const blocks *b, int block)
-{
-    const dal__equations *e = &b->model->equations;
-    for (int i = 0; i < e->n; i++)
-        b->other[i] = b->block[i] == block ? dal__symbol(e->graph, e->q + i) : e->start[i];
-    return dal__substitute(e->graph, b->U, e->symbol + e->q, e->n, b->other);
 }
 
 /* v.W_B v */
@@ -78,7 +68,12 @@ static void fill_block(const blocks *b, int block, dal__node *out)
     for (int i = 0; i < n && !quadratic; i++)
         if (b->block[i] == block)
             power = dal__add(e->graph, power, dal__mul(e->graph, b->U_q[i], e->flow[1 + i]));
-    dal__node U = quadratic ? zero : restrict_to(b, block), size = square(b, block);
+    dal__node U = zero;
+    for (int i = 0; i < n && !quadratic;
+         i++) /* the coordinates of all other blocks at their start */
+        b->other[i] = b->block[i] == block ? dal__symbol(e->graph, e->q + i) : e->start[i];
+    if (!quadratic) U = dal__substitute(e->graph, b->U, e->symbol + e->q, n, b->other);
+    const dal__node size = square(b, block);
     for (int i = 0; i < n; i++) {
         if (b->block[i] != block) continue;
         out[i] = U;
@@ -87,33 +82,21 @@ static void fill_block(const blocks *b, int block, dal__node *out)
     }
 }
 
-/* L is a polynomial of degree 2 in v: U is what remains of -L without v. */
-static dal__node potential_of(const blocks *b)
-{
-    const dal__equations *e = &b->model->equations;
-    for (int i = 0; i < e->n; i++) b->row[i] = dal__number(e->graph, 0.0);
-    return dal__neg(e->graph,
-                    dal__substitute(e->graph, e->lagrangian, e->symbol + e->v, e->n, b->row));
-}
-
-static dal__node *take(dal_model *model, int count)
-{
-    return dal__model_take(model, (size_t)count, sizeof(dal__node));
-}
-
 dal_status dal__potential(dal_model *model)
 {
     dal__equations *e = &model->equations;
     e->potential = NULL;
     if (e->vakonomic || !e->energy || !(e->properties & DAL_MASS_CONSTANT)) return DAL_OK;
     blocks b = {.model = model};
-    dal__node *out = take(model, 3 * e->n);
-    b.block = dal__model_take(model, (size_t)e->n, sizeof *b.block);
-    b.U_q = take(model, e->n);
-    b.row = take(model, e->n);
-    b.other = take(model, e->n);
-    if (model->starved) return DAL_MEMORY;
-    b.U = potential_of(&b);
+    dal__node *out = dal__model_nodes(model, 3 * e->n, 0);
+    b.block = dal__model_allocate(model, (size_t)e->n, sizeof *b.block);
+    b.U_q = dal__model_nodes(model, e->n, 0);
+    b.row = dal__model_nodes(model, e->n, dal__number(e->graph, 0.0));
+    b.other = dal__model_nodes(model, e->n, 0);
+    if (model->out_of_memory) return DAL_MEMORY;
+    /* L is a polynomial of degree 2 in v: U is what remains of -L without v. */
+    b.U =
+        dal__neg(e->graph, dal__substitute(e->graph, e->lagrangian, e->symbol + e->v, e->n, b.row));
     dal__gradient(e->graph, b.U, e->symbol + e->q, e->n, b.U_q);
     find_blocks(&b);
     for (int i = 0; i < e->n; i++)

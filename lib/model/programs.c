@@ -1,9 +1,13 @@
-/* programs.c - the programs of a system: which nodes each computes, which pivots it watches.
+/* programs.c - the programs of a system: which nodes each computes, which pivots it checks.
  *
  * A program's outputs are followed by the pivots it divides by, each with its size; the callbacks
  * check them lane by lane and leave NaN where one has vanished. */
+#include "model/programs.h"
+#include "expr/derivative.h"
+#include "expr/simplify.h"
 #include "kernel/long.h"
-#include "model/mechanics.h"
+#include "model/callbacks.h"
+#include "model/model.h"
 
 dal_status dal__programs_begin(const dal__equations *e, dal__programs *programs, int n,
                                int multipliers)
@@ -14,17 +18,17 @@ dal_status dal__programs_begin(const dal__equations *e, dal__programs *programs,
     return programs->tapes ? DAL_OK : DAL_MEMORY;
 }
 
-static bool watches(const dal__equations *e, const dal__pivot *pivot, dal__program_code code)
+static bool checks(const dal__equations *e, const dal__pivot *pivot, dal__program_code code)
 {
     switch (code) {
     case DAL__PROGRAM_FIELD:
     case DAL__PROGRAM_ADJOINT:
     case DAL__PROGRAM_JACOBIAN:
-        return pivot->watched;
+        return pivot->checked;
     case DAL__PROGRAM_CONSTRAINT:
     case DAL__PROGRAM_ENERGY_NORMAL:
     case DAL__PROGRAM_PARTS:
-        return pivot->watched && pivot->constraint == 0 && !e->vakonomic;
+        return pivot->checked && pivot->constraint == 0 && !e->vakonomic;
     default:
         return false;
     }
@@ -35,17 +39,16 @@ dal_status dal__programs_add(dal_model *model, dal__programs *programs, dal__pro
 {
     const dal__equations *e = &model->equations;
     dal__program *program = &programs->program[code];
-    size_t most = (size_t)count + 2 * (size_t)e->pivots;
-    dal__node *all = dal__model_take(model, most, sizeof *all);
+    dal__node *all = dal__model_nodes(model, count + 2 * e->pivots, 0);
     if (!all) return DAL_MEMORY;
     for (int i = 0; i < count; i++) all[i] = outputs[i];
     program->outputs = count;
     for (int k = 0; k < e->pivots; k++) {
-        if (!watches(e, &e->pivot[k], code)) continue;
-        all[count + 2 * program->watched] = e->pivot[k].pivot;
-        all[count + 2 * program->watched++ + 1] = e->pivot[k].size;
+        if (!checks(e, &e->pivot[k], code)) continue;
+        all[count + 2 * program->checked] = e->pivot[k].pivot;
+        all[count + 2 * program->checked++ + 1] = e->pivot[k].size;
     }
-    program->tape = dal__tapes_add(programs->tapes, all, count + 2 * program->watched);
+    program->tape = dal__tapes_add(programs->tapes, all, count + 2 * program->checked);
     program->present = program->tape >= 0;
     return program->present ? DAL_OK : DAL_MEMORY;
 }
@@ -56,16 +59,16 @@ static dal_status add_adjoint(dal_model *model, dal__programs *programs, const d
 {
     const dal__equations *e = &model->equations;
     int n = programs->n;
-    dal__node *out = dal__model_take(model, 3 * (size_t)n, sizeof *out);
+    dal__node *out = dal__model_nodes(model, 3 * n, 0);
     if (!out) return DAL_MEMORY;
-    dal__node pairing = dal__number(e->graph, 0.0);
+    dal__node product = dal__number(e->graph, 0.0);
     for (int i = 0; i < n; i++) {
         dal__node pi = dal__symbol(e->graph, e->pi + i);
-        pairing = dal__add(e->graph, pairing, dal__mul(e->graph, pi, F[i]));
+        product = dal__add(e->graph, product, dal__mul(e->graph, pi, F[i]));
         out[i] = F[i];
     }
-    dal__gradient(e->graph, pairing, e->symbol + e->q, n, out + n);
-    dal__gradient(e->graph, pairing, e->symbol + e->v, n, out + 2 * n);
+    dal__gradient(e->graph, product, e->symbol + e->q, n, out + n);
+    dal__gradient(e->graph, product, e->symbol + e->v, n, out + 2 * n);
     return dal__programs_add(model, programs, DAL__PROGRAM_ADJOINT, out, 3 * n);
 }
 
@@ -73,8 +76,7 @@ static dal_status add_jacobian(dal_model *model, dal__programs *programs, const 
 {
     const dal__equations *e = &model->equations;
     int n = programs->n, g = programs->multipliers, nw = n + g;
-    size_t room = (size_t)nw * (size_t)(n + nw);
-    dal__node *out = dal__model_take(model, room, sizeof *out);
+    dal__node *out = dal__model_nodes(model, nw * (n + nw), 0);
     if (!out) return DAL_MEMORY;
     for (int i = 0; i < nw; i++) {
         dal__node *by_q = out + i * n, *by_v = out + nw * n + i * nw;
@@ -82,7 +84,7 @@ static dal_status add_jacobian(dal_model *model, dal__programs *programs, const 
         dal__gradient(e->graph, F[i], e->symbol + e->v, n, by_v);
         dal__gradient(e->graph, F[i], e->symbol + e->g, g, by_v + n);
     }
-    return dal__programs_add(model, programs, DAL__PROGRAM_JACOBIAN, out, (int)room);
+    return dal__programs_add(model, programs, DAL__PROGRAM_JACOBIAN, out, nw * (n + nw));
 }
 
 dal_status dal__programs_add_motion(dal_model *model, dal__programs *programs, const dal__node *F)
@@ -107,16 +109,17 @@ static void place_inputs(dal__programs *programs)
     programs->scratch = programs->tapes->workspace;
 }
 
-static size_t scratch_room(const dal__programs *programs)
+/* Numbers behind scratch: the most that a program with pivots, or the diagnosis, writes. */
+static size_t scratch_size(const dal__programs *programs)
 {
-    size_t most = 0;
+    size_t max = 0;
     for (int code = 0; code < DAL__PROGRAM_COUNT; code++) {
         const dal__program *program = &programs->program[code];
-        size_t room = (size_t)program->outputs + 2 * (size_t)program->watched;
-        bool direct = program->watched == 0 && code != DAL__PROGRAM_DIAGNOSE;
-        if (!direct && room > most) most = room;
+        const size_t size = (size_t)program->outputs + 2 * (size_t)program->checked;
+        const bool direct = program->checked == 0 && code != DAL__PROGRAM_DIAGNOSE;
+        if (!direct && size > max) max = size;
     }
-    return most;
+    return max;
 }
 
 static dal_status prepare(const dal_system *system, const dal_at *at, double *out)
@@ -139,7 +142,7 @@ static dal_status prepare_in_long(const dal_system *system, const dal_at *at, do
 static dal_status make_in_long(dal_model *model, const dal__programs *programs, dal_system *system)
 {
     if (DAL_LONG_DIGITS <= DBL_MANT_DIG) return DAL_OK;
-    dal__in_long *k = dal__model_take(model, 1, sizeof *k);
+    dal__in_long *k = dal__model_allocate(model, 1, sizeof *k);
     if (!k) return DAL_MEMORY;
     k->programs = *programs;
     k->programs.run = dal__callbacks_x1_LONGER(&k->programs, &k->programs.wide1);
@@ -162,16 +165,16 @@ dal_status dal__programs_finish(dal_model *model, dal__programs *programs, dal_s
     DAL_TRY(dal__tapes_finish(programs->tapes));
     place_inputs(programs);
     system->data = programs;
-    system->workspace = programs->scratch + scratch_room(programs);
+    system->workspace = programs->scratch + scratch_size(programs);
     system->prepare = prepare;
     programs->run = dal__callbacks_x1(programs, &programs->wide1);
-#define X(name, variant, lanes, set, group)                                                        \
+#define CALLBACKS(name, variant, lanes, set, group)                                                \
     if (dal__machine_has(DAL__##set)) {                                                            \
         dal__run_program *run = name##_##variant(programs, &programs->wide##lanes);                \
         if (lanes == 1) programs->run = run;                                                       \
     }
-    DAL__VARIANT_LIST(X, dal__callbacks)
-#undef X
+    DAL__VARIANT_LIST(CALLBACKS, dal__callbacks)
+#undef CALLBACKS
     system->call = programs->wide1;
     dal__callbacks_single(programs, system);
     system->wide4 = &programs->wide4;

@@ -1,6 +1,11 @@
 /* properties.c - what the formulas say about constraints and motion, decided on the graph.  A
  * system without constraints has none of the properties of D. */
-#include "model/mechanics.h"
+#include "model/properties.h"
+#include "expr/derivative.h"
+#include "expr/simplify.h"
+#include "expr/traversal.h"
+#include "model/energy.h"
+#include "model/model.h"
 
 /* ---- constraints ---- */
 
@@ -16,8 +21,9 @@ static bool varies(const dal__equations *e, dal__node f)
     return dal__depends(e->graph, f, e->parameters, e->symbols);
 }
 
-/* What the second derivatives of a constraint allow; first and second are room for [2n] each. */
-static unsigned degree(const dal__equations *e, dal__node D, dal__node *first, dal__node *second)
+/* What the second derivatives of a constraint allow; first and second: [2n] each, scratch. */
+static unsigned constraint_class(const dal__equations *e, dal__node D, dal__node *first,
+                                 dal__node *second)
 {
     int n = e->n;
     unsigned all = DAL_D_LINEAR | DAL_D_CONSTANT | DAL_D_BILINEAR | DAL_D_QUADRATIC;
@@ -36,18 +42,19 @@ static unsigned degree(const dal__equations *e, dal__node D, dal__node *first, d
     return all;
 }
 
-/* Watched are normals that can vanish where no formula shows it: those of nonlinear constraints,
- * and several that vary, which may become parallel (a snakeboard with its axles across). */
+/* The rank of A is to be checked where it can fall and no formula shows it: that of nonlinear
+ * constraints, and of several that vary and may become parallel (a snakeboard with its axles
+ * across). */
 static unsigned constraint_properties(const dal__equations *e, dal__node *first, dal__node *second)
 {
     const unsigned steady = e->m > 1 ? DAL_D_CONSTANT : DAL_D_LINEAR;
     unsigned all = e->m ? ~0u : 0;
-    for (int a = 0; a < e->m; a++) all &= degree(e, e->constraint[a], first, second);
+    for (int a = 0; a < e->m; a++) all &= constraint_class(e, e->constraint[a], first, second);
     if (e->m && !(all & steady)) all |= DAL_D_WATCHED;
     return all;
 }
 
-/* ---- what methods that impose D ask ---- */
+/* ---- what methods need that enforce D ---- */
 
 static bool depends_on_v(const dal__equations *e, const dal__node *f, int count)
 {
@@ -68,8 +75,8 @@ static bool is_isokinetic(const dal__equations *e, dal__node *row)
     for (int i = 0; i < e->n; i++) {
         dal__gradient(graph, e->A[i], e->symbol + e->v, e->n, row);
         for (int j = 0; j < e->n; j++) {
-            dal__node wanted = dal__mul(graph, first, e->W[i * e->n + j]);
-            dal__node defect = dal__sub(graph, dal__mul(graph, row[j], e->W[0]), wanted);
+            dal__node expected = dal__mul(graph, first, e->W[i * e->n + j]);
+            dal__node defect = dal__sub(graph, dal__mul(graph, row[j], e->W[0]), expected);
             if (!dal__is_number(graph, defect, 0.0)) return false;
         }
         dal__node rest = dal__sub(graph, e->A[i], dal__dot(graph, e->n, row, v));
@@ -102,10 +109,9 @@ static unsigned motion_properties(const dal__equations *e)
 dal_status dal__properties(dal_model *model)
 {
     dal__equations *e = &model->equations;
-    size_t room = (size_t)(2 * e->n);
-    dal__node *first = dal__model_take(model, room, sizeof *first);
-    dal__node *second = dal__model_take(model, room, sizeof *second);
-    if (model->starved) return DAL_MEMORY;
+    dal__node *first = dal__model_nodes(model, 2 * e->n, 0);
+    dal__node *second = dal__model_nodes(model, 2 * e->n, 0);
+    if (model->out_of_memory) return DAL_MEMORY;
     e->properties = motion_properties(e) | constraint_properties(e, first, second);
     DAL_TRY(dal__energy_properties(model));
     e->properties |= parts_properties(e, first);

@@ -1,6 +1,8 @@
 /* names.c - the names of a model: no two things of one name, none that a formula or a column of
  * the output already uses; and what a name means inside a formula. */
-#include "model/mechanics.h"
+#include "model/symbols.h"
+#include "expr/traversal.h"
+#include "model/model.h"
 #include <stdio.h>
 #include <string.h>
 
@@ -15,19 +17,10 @@ int dal__index_of(const char *name, size_t length, const char *const *names, int
 
 /* ---- clashes ---- */
 
-static const char *const formula_words[] = {"t", "e", "pi",
-#define X(code, arity, name) name,
-                                            DAL__OP_LIST(X)
-#undef X
-};
+#define NAME(code, arity, name) name,
+static const char *const formula_words[] = {"t", "e", "pi", DAL__OP_LIST(NAME)};
+#undef NAME
 enum { WORD_E = 1, FORMULA_WORDS = sizeof formula_words / sizeof *formula_words };
-
-static bool is_formula_word(const char *name)
-{
-    for (int i = 0; i < FORMULA_WORDS; i++)
-        if (formula_words[i] && strcmp(formula_words[i], name) == 0) return true;
-    return false;
-}
 
 /* D1, g12: the letter and a number without leading zeros. */
 static bool is_numbered(const char *name, char letter)
@@ -36,20 +29,15 @@ static bool is_numbered(const char *name, char letter)
     return strspn(name + 1, "0123456789") == strlen(name + 1);
 }
 
-static bool is_momentum(const dal__equations *e, const char *name)
-{
-    const char *rest = strncmp(name, "p_", 2) == 0    ? name + 2
-                       : strncmp(name, "pi_", 3) == 0 ? name + 3
-                                                      : NULL;
-    if (!rest) return false;
-    return strcmp(name, "pi_e") == 0 || dal__index_of(rest, strlen(rest), e->coordinate, e->n) >= 0;
-}
-
+/* A column that is no coordinate, velocity or invariant. */
 static bool is_column(const dal__equations *e, const char *name)
 {
-    return strcmp(name, "E") == 0 || strcmp(name, "H") == 0 || strcmp(name, "error") == 0 ||
-           is_numbered(name, 'D') || (e->vakonomic && is_numbered(name, 'g')) ||
-           is_momentum(e, name);
+    static const char *const fixed[] = {"E", "H", "error", "pi_e"};
+    if (dal__index_of(name, strlen(name), fixed, 4) >= 0 || is_numbered(name, 'D')) return true;
+    if (e->vakonomic && is_numbered(name, 'g')) return true;
+    const size_t prefix = strncmp(name, "p_", 2) == 0 ? 2 : strncmp(name, "pi_", 3) == 0 ? 3 : 0;
+    return prefix > 0 &&
+           dal__index_of(name + prefix, strlen(name + prefix), e->coordinate, e->n) >= 0;
 }
 
 typedef struct kind {
@@ -90,16 +78,17 @@ static dal_status check_clash(const dal_model *model, int k, const dal__entry *e
                               dal_error *error)
 {
     const char *name = entry_name(entry), *other = taken(model, k, name);
-    int line = entry->name_line, column = entry->name_column;
-    if (is_formula_word(name))
-        return dal__fail_at(error, DAL_NAME, line, column,
-                            "%s '%.80s': this name is reserved in formulas", kinds[k].what, name);
+    for (int i = 0; i < FORMULA_WORDS; i++)
+        if (formula_words[i] && strcmp(formula_words[i], name) == 0)
+            return dal__fail_at(error, DAL_NAME, DAL__AT_NAME(entry),
+                                "%s '%.80s': this name is reserved in formulas", kinds[k].what,
+                                name);
     if (kinds[k].column && is_column(&model->equations, name))
-        return dal__fail_at(error, DAL_NAME, line, column,
+        return dal__fail_at(error, DAL_NAME, DAL__AT_NAME(entry),
                             "%s '%.80s': this name is reserved for a column of the output",
                             kinds[k].what, name);
     if (other)
-        return dal__fail_at(error, DAL_MODEL, line, column,
+        return dal__fail_at(error, DAL_MODEL, DAL__AT_NAME(entry),
                             "%s '%.80s': a %s already has this name", kinds[k].what, name, other);
     return DAL_OK;
 }
@@ -109,14 +98,14 @@ static dal_status check_clash(const dal_model *model, int k, const dal__entry *e
 static const char **collect(dal_model *model, dal_section section, int *count)
 {
     *count = dal__model_count(model, section);
-    const char **names = dal__model_take(model, (size_t)*count + 1, sizeof *names);
+    const char **names = dal__model_allocate(model, (size_t)*count + 1, sizeof *names);
     if (!names) return NULL;
     for (int k = 0, i = 0; k < model->count; k++)
         if (model->entries[k].section == section) names[i++] = entry_name(&model->entries[k]);
     return names;
 }
 
-dal_status dal__names(dal_model *model, dal_error *error)
+dal_status dal__collect_names(dal_model *model, dal_error *error)
 {
     dal__equations *e = &model->equations;
     e->coordinate = collect(model, DAL_SECTION_COORDINATES, &e->n);
@@ -124,7 +113,7 @@ dal_status dal__names(dal_model *model, dal_error *error)
     e->let_name = collect(model, DAL_SECTION_LET, &e->lets);
     e->invariant_name = collect(model, DAL_SECTION_INVARIANTS, &e->invariants);
     e->tag = collect(model, DAL_SECTION_TAGS, &e->tags);
-    if (model->starved) return dal__starved(error);
+    if (model->out_of_memory) return dal__memory_error(error);
     for (int k = 0; k < KINDS; k++)
         for (int i = 0; i < model->count; i++)
             if (model->entries[i].section == kinds[k].section)
@@ -143,9 +132,9 @@ static dal__node misplaced(dal_error *error, const char *what, const char *name,
 
 static dal__node unknown(const dal__scope *scope, const char *name, dal_error *error)
 {
-    enum { MOST = DAL__MOST_ENTRIES + FORMULA_WORDS };
+    enum { MAX_NAMES = DAL__MAX_ENTRIES + FORMULA_WORDS };
     const dal__equations *e = &scope->model->equations;
-    const char *names[MOST];
+    const char *names[MAX_NAMES];
     int count = 0;
     for (int i = 0; i < e->n && scope->may & DAL__MAY_STATE; i++) names[count++] = e->coordinate[i];
     for (int i = 0; i < scope->parameters; i++) names[count++] = e->parameter[i];

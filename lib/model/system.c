@@ -1,11 +1,12 @@
 /* system.c - the dal_system of a model, and that of its tangent map. */
-#include "model/mechanics.h"
-#include <stdio.h>
-
-static dal__node *take(dal_model *model, int count)
-{
-    return dal__model_take(model, (size_t)count, sizeof(dal__node));
-}
+#include "expr/derivative.h"
+#include "expr/simplify.h"
+#include "model/energy.h"
+#include "model/formulas.h"
+#include "model/guards.h"
+#include "model/model.h"
+#include "model/potential.h"
+#include "model/properties.h"
 
 /* ---- programs ---- */
 
@@ -17,7 +18,7 @@ static dal_status add_constraint(dal_model *model, dal__programs *programs)
     if (m == 0) return DAL_OK;
     DAL_TRY(dal__programs_add(model, programs, DAL__PROGRAM_CONSTRAINTS, e->constraint, m));
     if (!e->U[0]) return DAL_OK;
-    dal__node *out = take(model, m + 2 * m * n);
+    dal__node *out = dal__model_nodes(model, m + 2 * m * n, 0);
     if (!out) return DAL_MEMORY;
     for (int a = 0; a < m; a++) out[a] = e->constraint[a];
     for (int i = 0; i < m * n; i++) {
@@ -33,7 +34,7 @@ static dal_status add_parts(dal_model *model, dal__programs *programs)
     const dal__equations *e = &model->equations;
     int n = e->n, m = e->m, count = 0;
     if (e->vakonomic) return DAL_OK;
-    dal__node *out = take(model, n + 2 * (m + m * n));
+    dal__node *out = dal__model_nodes(model, n + 2 * (m + m * n), 0);
     if (!out) return DAL_MEMORY;
     for (int a = 0; a < m; a++) out[count++] = e->constraint[a];
     for (int i = 0; i < m * n; i++) out[count++] = e->A[i];
@@ -46,7 +47,7 @@ static dal_status add_parts(dal_model *model, dal__programs *programs)
 static dal_status add_diagnosis(dal_model *model, dal__programs *programs)
 {
     const dal__equations *e = &model->equations;
-    dal__node *out = take(model, 2 * e->pivots + e->m);
+    dal__node *out = dal__model_nodes(model, 2 * e->pivots + e->m, 0);
     if (!out) return DAL_MEMORY;
     for (int k = 0; k < e->pivots; k++) {
         out[2 * k] = e->pivot[k].pivot;
@@ -141,19 +142,19 @@ dal_status dal_model_system(dal_model *model, const dal_system **system, dal_err
     *system = NULL;
     DAL_REQUIRE(model, error);
     if (model->made) return *system = &model->system, DAL_OK;
-    model->starved = false;
-    DAL_TRY(dal__formulas(model, error));
+    model->out_of_memory = false;
+    DAL_TRY(dal__parse_model(model, error));
     DAL_TRY(dal__equations_derive(model, error));
     dal_status status = dal__guards(model);
     if (status == DAL_OK) status = dal__properties(model);
-    if (status == DAL_OK) status = dal__conserved(model);
+    if (status == DAL_OK) status = dal__conserved_energy(model);
     if (status == DAL_OK) status = dal__potential(model);
     if (status == DAL_OK) describe(model);
     if (status == DAL_OK) status = add_programs(model, &model->programs, model->equations.F);
     if (status == DAL_OK) status = model->equations.graph->status;
     if (status == DAL_OK) status = dal__programs_finish(model, &model->programs, &model->system);
     if (status == DAL_OK) status = make_extended(model);
-    if (status != DAL_OK) return dal__exhausted(status, error);
+    if (status != DAL_OK) return dal__size_error(status, error);
     model->made = true;
     *system = &model->system;
     return DAL_OK;
@@ -165,12 +166,12 @@ dal_status dal_model_system(dal_model *model, const dal_system **system, dal_err
 static const char **tangent_names(dal_model *model)
 {
     const dal__equations *e = &model->equations;
-    const char **names = dal__model_take(model, 2 * (size_t)e->n, sizeof *names);
+    const char **names = dal__model_allocate(model, 2 * (size_t)e->n, sizeof *names);
     for (int i = 0; names && i < e->n; i++) {
         names[i] = e->coordinate[i];
         names[e->n + i] = dal__model_print(model, "dq_%s", e->coordinate[i]);
     }
-    return model->starved ? NULL : names;
+    return model->out_of_memory ? NULL : names;
 }
 
 /* F and F_q dq + F_v dv, as one motion of 2n coordinates. */
@@ -178,9 +179,9 @@ static dal_status add_tangent_programs(dal_model *model)
 {
     const dal__equations *e = &model->equations;
     int n = e->n;
-    dal__node *F = take(model, 2 * n), *seed = take(model, 2 * n);
-    int *along = dal__model_take(model, 2 * (size_t)n, sizeof *along);
-    if (model->starved) return DAL_MEMORY;
+    dal__node *F = dal__model_nodes(model, 2 * n, 0), *seed = dal__model_nodes(model, 2 * n, 0);
+    int *along = dal__model_allocate(model, 2 * (size_t)n, sizeof *along);
+    if (model->out_of_memory) return DAL_MEMORY;
     for (int i = 0; i < n; i++) {
         along[i] = e->q + i;
         along[n + i] = e->v + i;
@@ -228,7 +229,7 @@ dal_status dal_model_tangent(dal_model *model, const dal_system **system, dal_er
         return dal__fail(error, DAL_UNSUPPORTED,
                          "'%.80s' has multipliers: there is no tangent system for it", model->name);
     dal_status status = make_tangent(model);
-    if (status != DAL_OK) return dal__exhausted(status, error);
+    if (status != DAL_OK) return dal__size_error(status, error);
     model->tangent_made = true;
     *system = &model->tangent;
     return DAL_OK;

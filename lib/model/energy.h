@@ -1,0 +1,13 @@
+/* energy.h - whether the energy is conserved, and what that gives. */
+#ifndef DAL_MODEL_ENERGY_H
+#define DAL_MODEL_ENERGY_H
+
+#include "dalembert.h"
+
+/* Adds what is known of E to the properties.  Errors: DAL_MEMORY, DAL_TOO_LARGE. */
+dal_status dal__energy_properties(dal_model *model);
+/* After the properties: the normal of a conserved energy, and F continued off D = 0.  Errors:
+ * DAL_MEMORY, DAL_TOO_LARGE. */
+dal_status dal__conserved_energy(dal_model *model);
+
+#endif

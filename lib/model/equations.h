@@ -1,0 +1,72 @@
+/* equations.h - the equations of one model, as nodes of its graph. */
+#ifndef DAL_MODEL_EQUATIONS_H
+#define DAL_MODEL_EQUATIONS_H
+
+#include "expr/graph.h"
+
+/* A pivot of the elimination.  It must not be small against what it was subtracted from. */
+typedef struct dal__pivot {
+    dal__node pivot, size;
+    int constraint; /* whose, from 1; 0: of the mass matrix */
+    bool checked;   /* by every program; the others only by the diagnosis */
+} dal__pivot;
+
+/* The equations of one model.  Every array lies in the model's memory; a missing node is 0 only in
+ * exact (no solution given), otherwise the number 0. */
+typedef struct dal__equations {
+    dal__graph *graph;
+    int parameters, n, m, multipliers, invariants, lets, guards, pivots;
+    bool vakonomic, accelerations, servo, pictured;
+    unsigned properties;
+    /* First symbols of the inputs.  Twice the numbers of q, v and pi: the tangent system has 2n. */
+    int t, q, v, pi, g, symbols;
+    /* Formulas as given. */
+    dal__node *let; /* [lets] */
+    dal__node lagrangian;
+    dal__node *force;      /* [n]: Q, or the accelerations */
+    dal__node *constraint; /* [m]: D */
+    dal__node *start;      /* [2n + multipliers + 1] */
+    dal__node *invariant;  /* [invariants] */
+    dal__node *exact;      /* [2n] or all 0 */
+    dal__node mu;          /* mu_e, or 0 */
+    dal__node *picture;    /* [DAL_PICTURE_COUNT], or NULL */
+    dal_body body;
+    /* Derived. */
+    dal__node *W;        /* [n*n] */
+    dal__node *b;        /* [n] */
+    dal__node *momentum; /* [n]: L_v */
+    dal__node *A;        /* [m*n] */
+    dal__node *B;      /* [m*n]: directions of the constraint forces; A itself by Chetaev's rule */
+    dal__node *c;      /* [m] */
+    dal__node *U;      /* [n*m]: W^-1 A^T, or 0s */
+    dal__node *R;      /* [n*m]: W^-1 B^T; U itself by Chetaev's rule */
+    dal__node *h;      /* [m]: multipliers of the constraints, not of vakonomic motion */
+    dal__node *a;      /* [n]: W^-1 b, or 0s */
+    dal__node *F;      /* [n + multipliers] */
+    dal__node energy;  /* or 0 */
+    dal__node *normal; /* [1 + 3n]: E, E_q, E_v, W^-1 E_q; or NULL */
+    dal__node *potential; /* [3n], see potential.c; or NULL */
+    dal__node *extended;  /* [n]: F continued off D = 0 with E exact; or NULL */
+    dal__node *guard;     /* [guards] */
+    int mass_guard;       /* which of them is det W, from 1; 0: none */
+    dal__pivot *pivot;    /* [pivots], of at most 2 (n + m) */
+    double *value;        /* [symbols]: default parameters, default start */
+    int *symbol;          /* [symbols]: 0, 1, 2, ...; symbol + q are the symbols of q */
+    dal__node *flow;      /* [1 + n]: d/dt of (t, q), that is 1 and v */
+    /* Names. */
+    const char **parameter, **coordinate, **let_name, **invariant_name, **guard_name, **tag;
+    int tags;
+} dal__equations;
+
+/* Derives all but the formulas as given.  Errors: DAL_RANK, DAL_SINGULAR_MASS, DAL_MEMORY,
+ * DAL_TOO_LARGE. */
+dal_status dal__equations_derive(dal_model *model, dal_error *error);
+/* matrix x = rhs for one right-hand side; adds no pivots, for a matrix solved before. */
+dal_status dal__solve_vector(dal_model *model, int n, const dal__node *matrix, const dal__node *rhs,
+                             dal__node *x);
+/* sum_i a[i] b[i] of count nodes. */
+dal__node dal__dot(dal__graph *graph, int count, const dal__node *a, const dal__node *b);
+/* d/dt along v without accelerations: f_q v + f_t. */
+dal__node dal__time_derivative(const dal__equations *e, dal__node f);
+
+#endif

@@ -1,0 +1,63 @@
+/* model.h - a model: its entries, its equations, its systems.
+ *
+ * The way of a model: entries (texts with places) -> formulas.c -> equations.c, guards.c,
+ * properties.c, energy.c, potential.c -> programs.c -> system.c.  All memory of a model hangs in
+ * one list and goes with it. */
+#ifndef DAL_MODEL_MODEL_H
+#define DAL_MODEL_MODEL_H
+
+#include "core/error.h"
+#include "model/equations.h"
+#include "model/programs.h"
+
+enum {
+    DAL__MAX_ENTRIES = 4096,    /* of a model, all sections together */
+    DAL__MAX_COORDINATES = 256, /* W alone has the square of them */
+    DAL__MAX_BYTES = 1 << 22,   /* of a system file */
+    DAL__MAX_LETTERS = 100      /* of a name; pi_NAME fits into every buffer of 128 */
+};
+
+/* How the entries of a section stand in a file. */
+typedef enum dal__form { DAL__SCALAR, DAL__LIST, DAL__MAPPING, DAL__MAPPINGS } dal__form;
+dal__form dal__section_form(dal_section section);
+/* Whether each entry has a name and a text. */
+bool dal__section_named(dal_section section);
+const char *dal__section_name(dal_section section);
+
+/* One text of a model, and where it and its name stood. */
+typedef struct dal__entry {
+    dal_section section;
+    const char *name; /* NULL in lists and scalars */
+    const char *text;
+    int line, column, name_line, name_column;
+    int item; /* in a list of mappings: which, from 1; otherwise 0 */
+} dal__entry;
+#define DAL__AT_NAME(entry) (entry)->name_line, (entry)->name_column
+
+struct dal_model {
+    char *name;
+    struct dal__block *blocks; /* all memory */
+    bool out_of_memory;        /* an allocation failed */
+    dal__entry *entries;
+    int count, capacity;
+    dal__equations equations;
+    bool made, tangent_made;
+    dal__programs programs, tangent_programs, extended_programs;
+    dal_system system, tangent, extended;
+};
+
+/* count*size bytes of zeros that go with the model; NULL (and out_of_memory) when there are none.
+ * The second are nodes, each the initial one. */
+void *dal__model_allocate(dal_model *model, size_t count, size_t size);
+dal__node *dal__model_nodes(dal_model *model, int count, dal__node initial);
+char *dal__model_print(dal_model *model, const char *format, ...) DAL__PRINTF(2, 3);
+/* The messages for DAL_MEMORY, and for DAL_MEMORY or DAL_TOO_LARGE. */
+dal_status dal__memory_error(dal_error *error);
+dal_status dal__size_error(dal_status status, dal_error *error);
+/* Adds a copy of the entry. */
+dal_status dal__model_insert(dal_model *model, dal__entry entry, dal_error *error);
+/* Entry number i of a section, or NULL past the last; and how many there are. */
+const dal__entry *dal__model_entry(const dal_model *model, dal_section section, int i);
+int dal__model_count(const dal_model *model, dal_section section);
+
+#endif

@@ -1,0 +1,82 @@
+/* programs.h - the programs of a system: which nodes each computes, which pivots it checks. */
+#ifndef DAL_MODEL_PROGRAMS_H
+#define DAL_MODEL_PROGRAMS_H
+
+#include "expr/tape.h"
+#include "model/equations.h"
+
+/* The programs of a system.  Of each: the name and what of the inputs it reads. */
+enum { DAL__T = 1, DAL__QV = 2, DAL__PI = 4 };
+#define DAL__WIDE_LIST(PROGRAM)                                                                    \
+    PROGRAM(FIELD, field, DAL__T | DAL__QV)                                                        \
+    PROGRAM(ADJOINT, adjoint, DAL__T | DAL__QV | DAL__PI)                                          \
+    PROGRAM(JACOBIAN, jacobian, DAL__T | DAL__QV)                                                  \
+    PROGRAM(CONSTRAINT, constraint, DAL__T | DAL__QV)                                              \
+    PROGRAM(ENERGY_NORMAL, energy_normal, DAL__T | DAL__QV)                                        \
+    PROGRAM(GAUGE, gauge, DAL__T)                                                                  \
+    PROGRAM(GUARDS, guards, DAL__T | DAL__QV)                                                      \
+    PROGRAM(PARTS, parts, DAL__T | DAL__QV)                                                        \
+    PROGRAM(POTENTIAL, potential, DAL__T | DAL__QV)
+#define DAL__SINGLE_LIST(PROGRAM)                                                                  \
+    PROGRAM(START, start, 0)                                                                       \
+    PROGRAM(CONSTRAINTS, constraints, DAL__T | DAL__QV)                                            \
+    PROGRAM(ENERGY, energy, DAL__T | DAL__QV)                                                      \
+    PROGRAM(INVARIANTS, invariant_values, DAL__T | DAL__QV)                                        \
+    PROGRAM(PICTURE, picture, DAL__T | DAL__QV)                                                    \
+    PROGRAM(EXACT, exact, DAL__T)
+
+typedef enum dal__program_code {
+#define CODE(code, name, reads) DAL__PROGRAM_##code,
+    DAL__WIDE_LIST(CODE) DAL__SINGLE_LIST(CODE)
+#undef CODE
+        DAL__PROGRAM_DIAGNOSE,
+    DAL__PROGRAM_COUNT
+} dal__program_code;
+
+typedef struct dal__program {
+    bool present;
+    int tape;    /* number in the tapes */
+    int outputs; /* for the caller */
+    int checked; /* pivots, each with its size, that follow the outputs */
+} dal__program;
+
+/* Evaluates a program on what it reads of *at. */
+typedef dal_status dal__run_program(const dal_system *system, const dal_at *at, double *out,
+                                    dal__program_code code, unsigned reads);
+
+/* What a dal_system of a model holds as its data. */
+typedef struct dal__programs {
+    dal__tapes *tapes;
+    const dal__equations *equations;
+    int n, multipliers; /* of this system: 2n, 0 for the tangent one */
+    int t, q, v, pi, g; /* places of the inputs in work */
+    size_t scratch;     /* place in work for outputs and checked pivots together */
+    dal__program program[DAL__PROGRAM_COUNT];
+    dal_callbacks wide1, wide4, wide8, wide64;
+    dal__run_program *run; /* a program of one lane */
+} dal__programs;
+
+/* A system again, its numbers being long. */
+typedef struct dal__in_long {
+    dal__programs programs; /* the same; not their owner */
+    dal_system system;
+} dal__in_long;
+
+/* A pivot must exceed this fraction of what it was subtracted from: some hundred times the rounding
+ * of the subtraction, so that three digits of it are true. */
+#define DAL__PIVOT_LEAST 1e-13
+
+/* Begins the programs of a system whose coordinates and velocities have n symbols each. */
+dal_status dal__programs_begin(const dal__equations *e, dal__programs *programs, int n,
+                               int multipliers);
+/* Adds a program: count outputs, followed by the pivots it checks. */
+dal_status dal__programs_add(dal_model *model, dal__programs *programs, dal__program_code code,
+                             const dal__node *outputs, int count);
+/* Adds field, adjoint and jacobian of dx/dt = F: nw nodes, the first n of them accelerations. */
+dal_status dal__programs_add_motion(dal_model *model, dal__programs *programs, const dal__node *F);
+/* The programs of a model's system; NULL for another. */
+const dal__programs *dal__programs_of(const dal_system *system);
+/* Finishes the tapes and points the system to its callbacks, and to itself in long numbers. */
+dal_status dal__programs_finish(dal_model *model, dal__programs *programs, dal_system *system);
+
+#endif

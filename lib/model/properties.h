@@ -1,0 +1,10 @@
+/* properties.h - what the formulas say about constraints and motion. */
+#ifndef DAL_MODEL_PROPERTIES_H
+#define DAL_MODEL_PROPERTIES_H
+
+#include "dalembert.h"
+
+/* Sets the properties of the equations.  Errors: DAL_MEMORY, DAL_TOO_LARGE. */
+dal_status dal__properties(dal_model *model);
+
+#endif

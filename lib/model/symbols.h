@@ -1,0 +1,22 @@
+/* symbols.h - the names of a model, and what they mean in a formula. */
+#ifndef DAL_MODEL_SYMBOLS_H
+#define DAL_MODEL_SYMBOLS_H
+
+#include "expr/graph.h"
+
+/* Collects the names of all sections into the equations and refuses clashes. */
+dal_status dal__collect_names(dal_model *model, dal_error *error);
+/* The index of name in names, or -1. */
+int dal__index_of(const char *name, size_t length, const char *const *names, int count);
+
+/* What a formula may contain. */
+enum { DAL__MAY_T = 1, DAL__MAY_STATE = 2, DAL__MAY_MULTIPLIERS = 4 };
+typedef struct dal__scope {
+    const dal_model *model;
+    unsigned may;
+    int parameters, lets; /* those already known */
+} dal__scope;
+dal__node dal__resolve_name(void *scope, const char *name, size_t length, bool prime,
+                            dal_error *error);
+
+#endif
