@@ -41,8 +41,8 @@ SONAME  := libdalembert.so.$(basename $(VERSION))
 # the better one comes later.  x1 is what others may call by name.  Blocks, x64, are made of groups of
 # lanes, a register each; their integrators are those of the group.  x1_LONGER has longer numbers
 # (lib/kernel/long.h), which no machine has for an instruction set: it is never chosen for speed.
-VARIANTS        = x1 x1_LONGER x4 x8 x64 $(VARIANTS_$(MACHINE))
-VARIANTS_x86_64 = x1_AVX2 x4_AVX2 x64_AVX2 x1_AVX512 x8_AVX512 x64_AVX512
+VARIANTS        = x1 x1_LONGER $(or $(VARIANTS_$(MACHINE)),x4)
+VARIANTS_x86_64 = x4_AVX2 x8_AVX512
 FLAGS_AVX2      = -mavx2 -mfma
 FLAGS_AVX512    = -mavx512f -mavx512dq -mavx512vl -mfma -mprefer-vector-width=512
 FLAGS_LONGER      = -DDAL_LONG

@@ -179,8 +179,8 @@ static void test_together_or_apart(void)
     static double x[POINTS], apart[POINTS], together[POINTS];
     for (int range = 0; range < RANGES; range++) {
         fill(range, x);
-        apply_x8(F_sin, x, x, apart, POINTS);
-        apply_x8(F_sin_of_sincos, x, x, together, POINTS);
+        apply_x1(F_sin, x, x, apart, POINTS);
+        apply_x1(F_sin_of_sincos, x, x, together, POINTS);
         CU_ASSERT(same_bits(apart, together, POINTS));
         apply_x1(F_cos, x, x, apart, POINTS);
         apply_x1(F_cos_of_sincos, x, x, together, POINTS);
@@ -193,7 +193,7 @@ static void test_together_or_apart(void)
 static double value(enum function f, double a, double b)
 {
     double x[8] = {a}, y[8] = {b}, out[8];
-    apply_x8(f, x, y, out, 8);
+    apply_x1(f, x, y, out, 8);
     return out[0];
 }
 

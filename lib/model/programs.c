@@ -160,6 +160,12 @@ const dal__programs *dal__programs_of(const dal_system *system)
     return system->prepare == prepare ? system->data : NULL;
 }
 
+/* The callbacks, if this machine has a variant of that width. */
+static const dal_callbacks *if_filled(const dal_callbacks *wide)
+{
+    return wide->field ? wide : NULL;
+}
+
 dal_status dal__programs_finish(dal_model *model, dal__programs *programs, dal_system *system)
 {
     DAL_TRY(dal__tapes_finish(programs->tapes));
@@ -177,8 +183,8 @@ dal_status dal__programs_finish(dal_model *model, dal__programs *programs, dal_s
 #undef CALLBACKS
     system->call = programs->wide1;
     dal__callbacks_single(programs, system);
-    system->wide4 = &programs->wide4;
-    system->wide8 = &programs->wide8;
-    system->wide64 = &programs->wide64;
+    system->wide4 = if_filled(&programs->wide4);
+    system->wide8 = if_filled(&programs->wide8);
+    system->wide64 = if_filled(&programs->wide64);
     return make_in_long(model, programs, system);
 }

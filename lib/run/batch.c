@@ -224,7 +224,7 @@ const dal__shape *dal__batch_shape(const dal_batch *batch) { return &batch->scal
 int dal__batch_native_lanes(const dal_batch *batch)
 {
     const int most = dal__machine_has(DAL__AVX512) ? 8 : 4;
-    if (batch->count == 1) return 1;
+    if (batch->count == 1 || !dal__engine_best(&batch->scalar->shape, 4)) return 1;
     return batch->count <= 4 ? 4 : most;
 }
 
