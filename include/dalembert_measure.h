@@ -157,22 +157,23 @@ void dal_run_classify(const dal_run *run, const dal_statistics *statistics, int 
 /* ---- a system under the hand --------------------------------------------------------------- */
 
 /* A system with parameter values in force and memory to evaluate it in, for one thread. */
-typedef struct dal_probe dal_probe;
+typedef struct dal_evaluator dal_evaluator;
 
 /* parameters by name, the rest as the system has them.  The system must outlive it. [alloc]
  * Errors: DAL_NAME (nearest name), DAL_NOT_FINITE, DAL_MEMORY, those of prepare. */
-dal_status dal_probe_create(dal_probe **probe, const dal_system *system,
-                            const dal_setting *parameters, int parameter_count, dal_error *error);
-void dal_probe_free(dal_probe *probe);
-const dal_system *dal_probe_system(const dal_probe *probe);
+dal_status dal_evaluator_create(dal_evaluator **evaluator, const dal_system *system,
+                                const dal_setting *parameters, int parameter_count,
+                                dal_error *error);
+void dal_evaluator_free(dal_evaluator *evaluator);
+const dal_system *dal_evaluator_system(const dal_evaluator *evaluator);
 /* Calls any callback of the system; pi may be NULL but for the adjoint.  DAL_UNSUPPORTED when
  * the callback is NULL. */
-dal_status dal_probe_call(dal_probe *probe, dal_callback *callback, double t, const double *q,
-                          const double *v, const double *pi, double *out);
+dal_status dal_evaluator_call(dal_evaluator *evaluator, dal_callback *callback, double t,
+                              const double *q, const double *v, const double *pi, double *out);
 /* The start: out[2n + multipliers + 1] = q, v, g, e, with x, x', g1 and e replaced as named.
  * Nothing is asked of the constraints.  Errors: DAL_NAME, those of the system. */
-dal_status dal_probe_start(dal_probe *probe, const dal_setting *start, int start_count, double *out,
-                           dal_error *error);
+dal_status dal_evaluator_start(dal_evaluator *evaluator, const dal_setting *start, int start_count,
+                               double *out, dal_error *error);
 
 /* A point of a system: v carries the multipliers g behind the velocities. */
 typedef struct dal_point {
@@ -183,7 +184,7 @@ typedef struct dal_point {
 /* d/dt of the count values of a callback along the motion, that is the derivative along
  * (v, F, dg/dt, 1): out[count].  For D it must vanish on every level of D. [alloc]
  * Errors: DAL_UNSUPPORTED, DAL_NOT_FINITE, DAL_MEMORY. */
-dal_status dal_measure_rate(dal_probe *probe, dal_callback *callback, int count,
+dal_status dal_measure_rate(dal_evaluator *evaluator, dal_callback *callback, int count,
                             const dal_point *at, double *out);
 
 /* What the callbacks give as derivatives against differences of the values: the greatest
@@ -195,15 +196,17 @@ typedef struct dal_derivatives {
     double normal;   /* A = dD/dv */
     double gram;     /* asymmetry of G = A W^-1 A^T, relative to its size */
 } dal_derivatives;
-dal_status dal_measure_derivatives(dal_probe *probe, const dal_point *at, dal_derivatives *out);
+dal_status dal_measure_derivatives(dal_evaluator *evaluator, const dal_point *at,
+                                   dal_derivatives *out);
 
 /* The numerical rank of G = A W^-1 A^T, and its smallest pivot relative to the largest entry of
  * G scaled to a unit diagonal (0 where G is singular). [alloc] */
-dal_status dal_measure_rank(dal_probe *probe, const dal_point *at, int *rank, double *pivot);
+dal_status dal_measure_rank(dal_evaluator *evaluator, const dal_point *at, int *rank,
+                            double *pivot);
 
 /* Moves v[n] along W^-1 A^T until D = 0 (Newton, to stagnation).  DAL_NOT_CONVERGED when it does
  * not; v is then as before. [alloc] */
-dal_status dal_measure_onto(dal_probe *probe, double t, const double *q, double *v);
+dal_status dal_measure_onto(dal_evaluator *evaluator, double t, const double *q, double *v);
 
 /* What D is as a function, by differences at points around *at: each is a necessary condition,
  * met to rounding at every point tried. [alloc] */
@@ -221,7 +224,7 @@ typedef struct dal_degree {
 } dal_degree;
 /* degree[m], when not NULL, receives the k of each constraint.  Errors: DAL_UNSUPPORTED,
  * DAL_NOT_FINITE: D has no values about the point, DAL_MEMORY. */
-dal_status dal_measure_degree(dal_probe *probe, const dal_point *at, dal_degree *out,
+dal_status dal_measure_degree(dal_evaluator *evaluator, const dal_point *at, dal_degree *out,
                               double *degree);
 
 /* ---- measures of a method ------------------------------------------------------------------ */
@@ -281,7 +284,7 @@ dal_status dal_measure_pairing(const dal_run_spec *spec, const dal_system *tange
  * t0 + h, ...: derivatives by differences of order 8, so the four points at either end only lend
  * support; count >= 10. [alloc]  0 on solutions up to discretisation and rounding (about
  * (2e-15/h^2)^2 and h^16), positive off them. */
-dal_status dal_measure_action(dal_probe *probe, double t0, double h, long long count,
+dal_status dal_measure_action(dal_evaluator *evaluator, double t0, double h, long long count,
                               const double *q, double e, double *action);
 
 /* How far the discrete first-order action (nh23)
@@ -290,7 +293,7 @@ dal_status dal_measure_action(dal_probe *probe, double t0, double h, long long c
  * the mean over each of the count-1 intervals, states[count*(4n+2)] the rows of a lifted run.
  * The greatest |dS/dX_k| over inner nodes and |dS/dP_k|, divided by h: zero to rounding for
  * implicit-midpoint, of the order of the error for others. [alloc] */
-dal_status dal_measure_stationarity(dal_probe *probe, double t0, double h, long long count,
+dal_status dal_measure_stationarity(dal_evaluator *evaluator, double t0, double h, long long count,
                                     const double *states, double *defect);
 
 /* A function on a phase space of 2N numbers z = (X, P). */
@@ -319,6 +322,7 @@ typedef struct dal_dirac {
     double hamiltonian;   /* |H_c| on the surface; 0 */
 } dal_dirac;
 /* Errors: DAL_UNSUPPORTED (vakonomic), DAL_NOT_FINITE, DAL_MEMORY. [alloc] */
-dal_status dal_measure_dirac(dal_probe *probe, const dal_point *at, double e, dal_dirac *out);
+dal_status dal_measure_dirac(dal_evaluator *evaluator, const dal_point *at, double e,
+                             dal_dirac *out);
 
 #endif

@@ -5,11 +5,11 @@
 #include <math.h>
 #include <string.h>
 
-static dal_probe *probe_of(const dal_system *system)
+static dal_evaluator *evaluator_of(const dal_system *system)
 {
-    dal_probe *probe = NULL;
-    CU_ASSERT_EQUAL_FATAL(dal_probe_create(&probe, system, NULL, 0, NULL), DAL_OK);
-    return probe;
+    dal_evaluator *evaluator = NULL;
+    CU_ASSERT_EQUAL_FATAL(dal_evaluator_create(&evaluator, system, NULL, 0, NULL), DAL_OK);
+    return evaluator;
 }
 
 /* ---- brackets ---- */
@@ -40,14 +40,14 @@ static dal_status dirac_of(const char *text, double (*phi)(void *, const double 
 {
     dal_model *model = fixture_model(text);
     const dal_system *system = fixture_system(model);
-    dal_probe *probe = probe_of(system);
+    dal_evaluator *evaluator = evaluator_of(system);
     double x[16];
-    CU_ASSERT_EQUAL(dal_probe_start(probe, NULL, 0, x, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_evaluator_start(evaluator, NULL, 0, x, NULL), DAL_OK);
     const dal_point at = {0.2, x, x + system->n};
-    const dal_status status =
-        phi ? dal__dirac(probe, &at, 1.5, phi, out) : dal_measure_dirac(probe, &at, 1.5, out);
+    const dal_status status = phi ? dal__dirac(evaluator, &at, 1.5, phi, out)
+                                  : dal_measure_dirac(evaluator, &at, 1.5, out);
     *n = system->n;
-    dal_probe_free(probe);
+    dal_evaluator_free(evaluator);
     dal_model_free(model);
     return status;
 }
@@ -112,15 +112,15 @@ static void test_action_closed_form(void)
 {
     enum { NODES = 40 };
     dal_model *model = fixture_model("coordinates: [x]\naccelerations: {x: 0}\n");
-    dal_probe *probe = probe_of(fixture_system(model));
+    dal_evaluator *evaluator = evaluator_of(fixture_system(model));
     const double h = 0.05, a = 0.7, e = 1.5;
     double x[NODES], action;
     for (int k = 0; k < NODES; k++) x[k] = 0.5 * a * h * k * h * k;
-    CU_ASSERT_EQUAL(dal_measure_action(probe, 0.0, h, NODES, x, e, &action), DAL_OK);
+    CU_ASSERT_EQUAL(dal_measure_action(evaluator, 0.0, h, NODES, x, e, &action), DAL_OK);
     CU_ASSERT_DOUBLE_EQUAL(action, 0.5 * e * a * a * h * (NODES - 9), 1e-11);
-    CU_ASSERT_EQUAL(dal_measure_action(probe, 0.0, h, 9, x, e, &action), DAL_ARGUMENT);
-    CU_ASSERT_EQUAL(dal_measure_action(probe, 0.0, 0.0, NODES, x, e, &action), DAL_ARGUMENT);
-    dal_probe_free(probe);
+    CU_ASSERT_EQUAL(dal_measure_action(evaluator, 0.0, h, 9, x, e, &action), DAL_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_measure_action(evaluator, 0.0, 0.0, NODES, x, e, &action), DAL_ARGUMENT);
+    dal_evaluator_free(evaluator);
     dal_model_free(model);
 }
 
@@ -130,7 +130,7 @@ static void test_action_of_the_sleigh(void)
 {
     enum { NODES = 80 };
     dal_model *model = fixture_model("chaplygin-sleigh");
-    dal_probe *probe = probe_of(fixture_system(model));
+    dal_evaluator *evaluator = evaluator_of(fixture_system(model));
     double q[3 * NODES], action[2];
     for (int moved = 0; moved < 2; moved++) {
         for (int k = 0; k < NODES; k++) {
@@ -139,12 +139,12 @@ static void test_action_of_the_sleigh(void)
             q[3 * k + 1] = 1.0 - cos(t);
             q[3 * k + 2] = t;
         }
-        CU_ASSERT_EQUAL(dal_measure_action(probe, 0.0, 0.02, NODES, q, 1.0, &action[moved]),
+        CU_ASSERT_EQUAL(dal_measure_action(evaluator, 0.0, 0.02, NODES, q, 1.0, &action[moved]),
                         DAL_OK);
     }
     CU_ASSERT(action[0] < 1e-21);
     CU_ASSERT(action[1] > 1e-6);
-    dal_probe_free(probe);
+    dal_evaluator_free(evaluator);
     dal_model_free(model);
 }
 
@@ -168,19 +168,20 @@ static void test_stationarity(void)
 {
     dal_model *model = fixture_model(fixture_full);
     const dal_system *system = fixture_system(model);
-    dal_probe *probe = probe_of(system);
+    dal_evaluator *evaluator = evaluator_of(system);
     double states[STATES * WIDE], midpoint, other;
     trajectory(system, "gauss4", states);
-    CU_ASSERT_EQUAL(dal_measure_stationarity(probe, 0.0, 0.05, STATES, states, &other), DAL_OK);
+    CU_ASSERT_EQUAL(dal_measure_stationarity(evaluator, 0.0, 0.05, STATES, states, &other), DAL_OK);
     trajectory(system, "implicit-midpoint", states);
-    CU_ASSERT_EQUAL(dal_measure_stationarity(probe, 0.0, 0.05, STATES, states, &midpoint), DAL_OK);
+    CU_ASSERT_EQUAL(dal_measure_stationarity(evaluator, 0.0, 0.05, STATES, states, &midpoint),
+                    DAL_OK);
     CU_ASSERT(midpoint < 1e-10);
     CU_ASSERT(other > 1e-6);
     /* One node moved: no longer stationary. */
     states[5 * WIDE + 1] += 1e-4;
-    CU_ASSERT_EQUAL(dal_measure_stationarity(probe, 0.0, 0.05, STATES, states, &other), DAL_OK);
+    CU_ASSERT_EQUAL(dal_measure_stationarity(evaluator, 0.0, 0.05, STATES, states, &other), DAL_OK);
     CU_ASSERT(other > 1e-4);
-    dal_probe_free(probe);
+    dal_evaluator_free(evaluator);
     dal_model_free(model);
 }
 

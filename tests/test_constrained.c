@@ -255,15 +255,15 @@ static void test_bounded(void)
 enum { STARTS = 41 };
 
 /* The spread of E over the lanes: their root mean square distance from the mean. */
-static double spread(const dal_batch *batch, dal_probe *probe)
+static double spread(const dal_batch *batch, dal_evaluator *evaluator)
 {
-    const dal_system *system = dal_probe_system(probe);
+    const dal_system *system = dal_evaluator_system(evaluator);
     double state[16], E[STARTS], mean = 0.0, sum = 0.0;
     for (int i = 0; i < STARTS; i++) {
         dal_batch_state(batch, i, state);
-        CU_ASSERT_EQUAL(
-            dal_probe_call(probe, system->energy, 0.0, state, state + system->n, NULL, &E[i]),
-            DAL_OK);
+        CU_ASSERT_EQUAL(dal_evaluator_call(evaluator, system->energy, 0.0, state, state + system->n,
+                                           NULL, &E[i]),
+                        DAL_OK);
         mean += E[i] / STARTS;
     }
     for (int i = 0; i < STARTS; i++) sum += (E[i] - mean) * (E[i] - mean);
@@ -279,20 +279,20 @@ static void test_walk(void)
     const dal_run_spec spec =
         fixture_spec(fixture_system(model), "mclachlan-perlmutter", DAL_PHYSICAL, 0.2);
     dal_batch *batch = NULL;
-    dal_probe *probe = NULL;
+    dal_evaluator *evaluator = NULL;
     CU_ASSERT_EQUAL_FATAL(dal_batch_create(&batch, &spec, STARTS, 0, NULL), DAL_OK);
-    CU_ASSERT_EQUAL_FATAL(dal_probe_create(&probe, spec.system, NULL, 0, NULL), DAL_OK);
+    CU_ASSERT_EQUAL_FATAL(dal_evaluator_create(&evaluator, spec.system, NULL, 0, NULL), DAL_OK);
     for (int i = 0; i < STARTS; i++) {
         const dal_setting angle = {"angle", acos(-1.0) * i / 80.0};
         CU_ASSERT_EQUAL(dal_batch_start(batch, i, &angle, 1, NULL, 0, NULL), DAL_OK);
     }
-    CU_ASSERT(spread(batch, probe) < 1e-14);
+    CU_ASSERT(spread(batch, evaluator) < 1e-14);
     CU_ASSERT_EQUAL(dal_batch_advance(batch, steps), DAL_OK);
-    const double early = spread(batch, probe);
+    const double early = spread(batch, evaluator);
     CU_ASSERT_EQUAL(dal_batch_advance(batch, 15 * steps), DAL_OK);
-    const double ratio = spread(batch, probe) / early;
+    const double ratio = spread(batch, evaluator) / early;
     CU_ASSERT(steps < 5000 || (ratio > 2.3 && ratio < 7.0));
-    dal_probe_free(probe);
+    dal_evaluator_free(evaluator);
     dal_batch_free(batch);
     dal_model_free(model);
 }

@@ -30,24 +30,25 @@ static const char *const names[] = {
     "contact-oscillator", "chaplygin-sleigh", "appell-hamel", "vertical-disk", two, pushed};
 enum { NAMES = sizeof names / sizeof *names, MOST = 8 };
 
-static dal_probe *probe_of(const dal_system *system)
+static dal_evaluator *evaluator_of(const dal_system *system)
 {
-    dal_probe *probe = NULL;
+    dal_evaluator *evaluator = NULL;
     CU_ASSERT_PTR_NOT_NULL_FATAL(system);
-    CU_ASSERT_EQUAL_FATAL(dal_probe_create(&probe, system, NULL, 0, NULL), DAL_OK);
-    return probe;
+    CU_ASSERT_EQUAL_FATAL(dal_evaluator_create(&evaluator, system, NULL, 0, NULL), DAL_OK);
+    return evaluator;
 }
 
-static void field(dal_probe *probe, const double *at_v, double *F)
+static void field(dal_evaluator *evaluator, const double *at_v, double *F)
 {
-    const dal_system *system = dal_probe_system(probe);
-    CU_ASSERT_EQUAL(dal_probe_call(probe, system->call.field, 0.0, q, at_v, NULL, F), DAL_OK);
+    const dal_system *system = dal_evaluator_system(evaluator);
+    CU_ASSERT_EQUAL(dal_evaluator_call(evaluator, system->call.field, 0.0, q, at_v, NULL, F),
+                    DAL_OK);
 }
 
 /* Along F~ neither E nor D changes, by differences. */
-static void check_rates(dal_probe *extended)
+static void check_rates(dal_evaluator *extended)
 {
-    const dal_system *system = dal_probe_system(extended);
+    const dal_system *system = dal_evaluator_system(extended);
     const dal_point at = {0.0, q, v};
     double rate[MOST];
     CU_ASSERT_EQUAL(dal_measure_rate(extended, system->energy, 1, &at, rate), DAL_OK);
@@ -58,9 +59,9 @@ static void check_rates(dal_probe *extended)
 }
 
 /* Off D = 0 the two fields differ, on it they do not. */
-static void check_surface(dal_probe *plain, dal_probe *extended)
+static void check_surface(dal_evaluator *plain, dal_evaluator *extended)
 {
-    const int n = dal_probe_system(plain)->n;
+    const int n = dal_evaluator_system(plain)->n;
     double on[MOST], F[2][MOST], off_by = 0.0, on_by = 0.0;
     memcpy(on, v, sizeof v);
     CU_ASSERT_EQUAL(dal_measure_onto(plain, 0.0, q, on), DAL_OK);
@@ -79,13 +80,13 @@ static void test_field(void)
     for (int i = 0; i < NAMES; i++) {
         dal_model *model = fixture_model(names[i]);
         const dal_system *system = fixture_system(model);
-        dal_probe *plain = probe_of(system), *extended = probe_of(system->extended);
+        dal_evaluator *plain = evaluator_of(system), *extended = evaluator_of(system->extended);
         CU_ASSERT(!(system->properties & DAL_E_EXACT));
         CU_ASSERT(system->extended->properties & DAL_E_EXACT);
         check_rates(extended);
         check_surface(plain, extended);
-        dal_probe_free(plain);
-        dal_probe_free(extended);
+        dal_evaluator_free(plain);
+        dal_evaluator_free(extended);
         dal_model_free(model);
     }
 }
@@ -103,10 +104,10 @@ static void test_exact(void)
 /* ---- the normal of E = const ---- */
 
 /* dE by component k of (q, v), by the central difference of order 8. */
-static double slope(dal_probe *probe, int k)
+static double slope(dal_evaluator *evaluator, int k)
 {
     static const double weight[] = {4.0 / 5, -1.0 / 5, 4.0 / 105, -1.0 / 280};
-    const dal_system *system = dal_probe_system(probe);
+    const dal_system *system = dal_evaluator_system(evaluator);
     const double step = 0.02;
     double sum = 0.0, E[2], x[2 * MOST];
     for (int j = 0; j < 4; j++) {
@@ -114,8 +115,9 @@ static double slope(dal_probe *probe, int k)
             memcpy(x, q, sizeof q);
             memcpy(x + MOST, v, sizeof v);
             x[k] += (side ? -1 : 1) * (j + 1) * step;
-            CU_ASSERT_EQUAL(dal_probe_call(probe, system->energy, 0.0, x, x + MOST, NULL, &E[side]),
-                            DAL_OK);
+            CU_ASSERT_EQUAL(
+                dal_evaluator_call(evaluator, system->energy, 0.0, x, x + MOST, NULL, &E[side]),
+                DAL_OK);
         }
         sum += weight[j] * (E[0] - E[1]) / step;
     }
@@ -127,22 +129,22 @@ static void test_normal(void)
     for (int i = 0; i < NAMES; i++) {
         dal_model *model = fixture_model(names[i]);
         const dal_system *system = fixture_system(model);
-        dal_probe *probe = probe_of(system);
+        dal_evaluator *evaluator = evaluator_of(system);
         const int n = system->n;
         double E, out[1 + 3 * MOST], again[1 + 3 * MOST];
         dal_callback *normal = system->call.energy_normal;
-        CU_ASSERT_EQUAL(dal_probe_call(probe, normal, 0.0, q, v, NULL, out), DAL_OK);
-        CU_ASSERT_EQUAL(dal_probe_call(probe, system->energy, 0.0, q, v, NULL, &E), DAL_OK);
+        CU_ASSERT_EQUAL(dal_evaluator_call(evaluator, normal, 0.0, q, v, NULL, out), DAL_OK);
+        CU_ASSERT_EQUAL(dal_evaluator_call(evaluator, system->energy, 0.0, q, v, NULL, &E), DAL_OK);
         CU_ASSERT_EQUAL(out[0], E);
         for (int j = 0; j < n; j++) {
-            CU_ASSERT_DOUBLE_EQUAL(out[1 + j], slope(probe, j), 1e-11);
-            CU_ASSERT_DOUBLE_EQUAL(out[1 + n + j], slope(probe, MOST + j), 1e-11);
+            CU_ASSERT_DOUBLE_EQUAL(out[1 + j], slope(evaluator, j), 1e-11);
+            CU_ASSERT_DOUBLE_EQUAL(out[1 + n + j], slope(evaluator, MOST + j), 1e-11);
         }
         /* E_v is W v, and so E_q where v is W^-1 E_q. */
         const double *x = out + 1 + 2 * n;
-        CU_ASSERT_EQUAL(dal_probe_call(probe, normal, 0.0, q, x, NULL, again), DAL_OK);
+        CU_ASSERT_EQUAL(dal_evaluator_call(evaluator, normal, 0.0, q, x, NULL, again), DAL_OK);
         for (int j = 0; j < n; j++) CU_ASSERT_DOUBLE_EQUAL(again[1 + n + j], out[1 + j], 1e-13);
-        dal_probe_free(probe);
+        dal_evaluator_free(evaluator);
         dal_model_free(model);
     }
 }

@@ -68,8 +68,8 @@ static double midpoint_defect(const char *text, const char *method)
     const int n = system->n;
     double q[8], v[8], D[8], defect = 0.0;
     dal_run *run = fixture_run(&spec);
-    dal_probe *probe = NULL;
-    CU_ASSERT_EQUAL_FATAL(dal_probe_create(&probe, system, NULL, 0, NULL), DAL_OK);
+    dal_evaluator *evaluator = NULL;
+    CU_ASSERT_EQUAL_FATAL(dal_evaluator_create(&evaluator, system, NULL, 0, NULL), DAL_OK);
     for (int k = 0; k < 20; k++) {
         const double t = dal_run_time(run) + 0.5 * h, *state = dal_run_state(run);
         for (int i = 0; i < n; i++) q[i] = state[i];
@@ -78,10 +78,11 @@ static double midpoint_defect(const char *text, const char *method)
             v[i] = (state[i] - q[i]) / h;
             q[i] = 0.5 * (q[i] + state[i]);
         }
-        CU_ASSERT_EQUAL(dal_probe_call(probe, system->constraints, t, q, v, NULL, D), DAL_OK);
+        CU_ASSERT_EQUAL(dal_evaluator_call(evaluator, system->constraints, t, q, v, NULL, D),
+                        DAL_OK);
         for (int a = 0; a < system->m; a++) defect = fmax(defect, fabs(D[a]));
     }
-    dal_probe_free(probe);
+    dal_evaluator_free(evaluator);
     dal_run_free(run);
     dal_model_free(model);
     return defect;

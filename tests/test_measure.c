@@ -1,4 +1,4 @@
-/* test_measure.c - measures of a system: probe, rates, derivatives, constraints. */
+/* test_measure.c - measures of a system: evaluator, rates, derivatives, constraints. */
 #include "allocation.h"
 #include "fixtures.h"
 #include <CUnit/CUnit.h>
@@ -46,51 +46,53 @@ static const dal_system cubic = {
     .call = {.field = cubic_field, .jacobian = cubic_jacobian, .adjoint = cubic_adjoint},
     .energy = cubic_energy};
 
-static dal_probe *probe_of(const dal_system *system)
+static dal_evaluator *evaluator_of(const dal_system *system)
 {
-    dal_probe *probe = NULL;
-    CU_ASSERT_EQUAL_FATAL(dal_probe_create(&probe, system, NULL, 0, NULL), DAL_OK);
-    return probe;
+    dal_evaluator *evaluator = NULL;
+    CU_ASSERT_EQUAL_FATAL(dal_evaluator_create(&evaluator, system, NULL, 0, NULL), DAL_OK);
+    return evaluator;
 }
 
-/* ---- probe ---- */
+/* ---- evaluator ---- */
 
-static void test_probe(void)
+static void test_evaluator(void)
 {
     dal_model *model = fixture_model("chaplygin-sleigh");
     const dal_system *system = fixture_system(model);
     const dal_setting set[] = {{"v0", 3.0}}, start[] = {{"phi'", 2.0}, {"e", 5.0}};
-    dal_probe *probe;
+    dal_evaluator *evaluator;
     double x[7];
-    CU_ASSERT_EQUAL_FATAL(dal_probe_create(&probe, system, set, 1, NULL), DAL_OK);
-    CU_ASSERT_EQUAL(dal_probe_start(probe, start, 2, x, NULL), DAL_OK);
+    CU_ASSERT_EQUAL_FATAL(dal_evaluator_create(&evaluator, system, set, 1, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_evaluator_start(evaluator, start, 2, x, NULL), DAL_OK);
     const double expected[] = {0, 0, 0, 3, 0, 2, 5};
     for (int i = 0; i < 7; i++) CU_ASSERT_EQUAL(x[i], expected[i]);
     /* E = (v0^2 + phi'^2)/2 */
     double energy;
-    CU_ASSERT_EQUAL(dal_probe_call(probe, system->energy, 0.0, x, x + 3, NULL, &energy), DAL_OK);
+    CU_ASSERT_EQUAL(dal_evaluator_call(evaluator, system->energy, 0.0, x, x + 3, NULL, &energy),
+                    DAL_OK);
     CU_ASSERT_DOUBLE_EQUAL(energy, 6.5, 1e-15);
-    CU_ASSERT_EQUAL(dal_probe_call(probe, NULL, 0.0, x, x + 3, NULL, &energy), DAL_UNSUPPORTED);
-    dal_probe_free(probe);
+    CU_ASSERT_EQUAL(dal_evaluator_call(evaluator, NULL, 0.0, x, x + 3, NULL, &energy),
+                    DAL_UNSUPPORTED);
+    dal_evaluator_free(evaluator);
     dal_model_free(model);
 }
 
-static void test_probe_names(void)
+static void test_evaluator_names(void)
 {
     dal_model *model = fixture_model("chaplygin-sleigh");
     const dal_setting set[] = {{"omge", 3.0}}, start[] = {{"phy", 2.0}}, inf = {"m", INFINITY};
     dal_error error;
-    dal_probe *probe;
+    dal_evaluator *evaluator;
     double x[7];
     const dal_system *system = fixture_system(model);
-    CU_ASSERT_EQUAL(dal_probe_create(&probe, system, set, 1, &error), DAL_NAME);
-    CU_ASSERT_PTR_NULL(probe);
+    CU_ASSERT_EQUAL(dal_evaluator_create(&evaluator, system, set, 1, &error), DAL_NAME);
+    CU_ASSERT_PTR_NULL(evaluator);
     CU_ASSERT(strstr(error.message, "'omge'; did you mean 'omega'?") != NULL);
-    CU_ASSERT_EQUAL(dal_probe_create(&probe, system, &inf, 1, &error), DAL_NOT_FINITE);
-    probe = probe_of(system);
-    CU_ASSERT_EQUAL(dal_probe_start(probe, start, 1, x, &error), DAL_NAME);
+    CU_ASSERT_EQUAL(dal_evaluator_create(&evaluator, system, &inf, 1, &error), DAL_NOT_FINITE);
+    evaluator = evaluator_of(system);
+    CU_ASSERT_EQUAL(dal_evaluator_start(evaluator, start, 1, x, &error), DAL_NAME);
     CU_ASSERT(strstr(error.message, "'phy'; did you mean 'phi'?") != NULL);
-    dal_probe_free(probe);
+    dal_evaluator_free(evaluator);
     dal_model_free(model);
 }
 
@@ -100,32 +102,32 @@ static void test_rate(void)
 {
     const double q = 0.8, v = -1.3;
     const dal_point at = {0.0, &q, &v};
-    dal_probe *probe = probe_of(&cubic);
+    dal_evaluator *evaluator = evaluator_of(&cubic);
     double rate;
     /* dE/dt = v (v' + x^3) = -v^2/2 */
-    CU_ASSERT_EQUAL(dal_measure_rate(probe, cubic.energy, 1, &at, &rate), DAL_OK);
+    CU_ASSERT_EQUAL(dal_measure_rate(evaluator, cubic.energy, 1, &at, &rate), DAL_OK);
     CU_ASSERT_DOUBLE_EQUAL(rate, -0.5 * v * v, 1e-12);
-    CU_ASSERT_EQUAL(dal_measure_rate(probe, NULL, 1, &at, &rate), DAL_UNSUPPORTED);
-    dal_probe_free(probe);
+    CU_ASSERT_EQUAL(dal_measure_rate(evaluator, NULL, 1, &at, &rate), DAL_UNSUPPORTED);
+    dal_evaluator_free(evaluator);
 }
 
 static void test_derivatives_find_faults(void)
 {
     const double q = 0.8, v = -1.3;
     const dal_point at = {0.0, &q, &v};
-    dal_probe *probe = probe_of(&cubic);
+    dal_evaluator *evaluator = evaluator_of(&cubic);
     dal_derivatives d;
     wrong = 0.0;
-    CU_ASSERT_EQUAL(dal_measure_derivatives(probe, &at, &d), DAL_OK);
+    CU_ASSERT_EQUAL(dal_measure_derivatives(evaluator, &at, &d), DAL_OK);
     CU_ASSERT(d.jacobian >= 0.0 && d.jacobian < 1e-12);
     CU_ASSERT(d.adjoint >= 0.0 && d.adjoint < 1e-12);
     CU_ASSERT(isnan(d.normal) && isnan(d.gram)); /* nothing to compare */
     wrong = 1e-6;
-    CU_ASSERT_EQUAL(dal_measure_derivatives(probe, &at, &d), DAL_OK);
+    CU_ASSERT_EQUAL(dal_measure_derivatives(evaluator, &at, &d), DAL_OK);
     CU_ASSERT_DOUBLE_EQUAL(d.jacobian, 1e-6 / (3.0 * q * q - 1e-6), 1e-11);
     CU_ASSERT(d.adjoint > 1e-8);
     wrong = 0.0;
-    dal_probe_free(probe);
+    dal_evaluator_free(evaluator);
 }
 
 static void test_derivatives_of_systems(void)
@@ -134,17 +136,17 @@ static void test_derivatives_of_systems(void)
                                  "chaplygin-sleigh-nonlinear"};
     for (size_t k = 0; k < sizeof texts / sizeof *texts; k++) {
         dal_model *model = fixture_model(texts[k]);
-        dal_probe *probe = probe_of(fixture_system(model));
+        dal_evaluator *evaluator = evaluator_of(fixture_system(model));
         double x[16];
         dal_derivatives d;
-        CU_ASSERT_EQUAL(dal_probe_start(probe, NULL, 0, x, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_evaluator_start(evaluator, NULL, 0, x, NULL), DAL_OK);
         const dal_point at = {0.3, x, x + fixture_system(model)->n};
-        CU_ASSERT_EQUAL(dal_measure_derivatives(probe, &at, &d), DAL_OK);
+        CU_ASSERT_EQUAL(dal_measure_derivatives(evaluator, &at, &d), DAL_OK);
         CU_ASSERT(d.jacobian >= 0.0 && d.jacobian < 1e-10);
         CU_ASSERT(d.adjoint >= 0.0 && d.adjoint < 1e-10);
         CU_ASSERT(d.normal >= 0.0 && d.normal < 1e-10);
         CU_ASSERT(d.gram >= 0.0 && d.gram < 1e-14);
-        dal_probe_free(probe);
+        dal_evaluator_free(evaluator);
         dal_model_free(model);
     }
 }
@@ -165,16 +167,16 @@ static void test_rank(void)
     } cases[] = {{"vertical-disk", 2}, {twice, 1}, {fixture_full, 2}, {"knife-edge", 1}};
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         dal_model *model = fixture_model(cases[k].text);
-        dal_probe *probe = probe_of(fixture_system(model));
+        dal_evaluator *evaluator = evaluator_of(fixture_system(model));
         double x[16], pivot;
         int rank;
-        CU_ASSERT_EQUAL(dal_probe_start(probe, NULL, 0, x, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_evaluator_start(evaluator, NULL, 0, x, NULL), DAL_OK);
         if (cases[k].text == twice) x[2] = 1e-12;
         const dal_point at = {0.0, x, x + fixture_system(model)->n};
-        CU_ASSERT_EQUAL(dal_measure_rank(probe, &at, &rank, &pivot), DAL_OK);
+        CU_ASSERT_EQUAL(dal_measure_rank(evaluator, &at, &rank, &pivot), DAL_OK);
         CU_ASSERT_EQUAL(rank, cases[k].rank);
         CU_ASSERT(rank == fixture_system(model)->m ? pivot > 0.01 : pivot == 0.0);
-        dal_probe_free(probe);
+        dal_evaluator_free(evaluator);
         dal_model_free(model);
     }
 }
@@ -183,13 +185,13 @@ static void test_onto(void)
 {
     dal_model *model = fixture_model(fixture_full);
     const dal_system *system = fixture_system(model);
-    dal_probe *probe = probe_of(system);
+    dal_evaluator *evaluator = evaluator_of(system);
     const double q[] = {0.1, 0.4, 0.3, 0.2};
     double v[] = {0.9, 0.7, 0.1, 1.3}, D[2];
-    CU_ASSERT_EQUAL(dal_measure_onto(probe, 0.4, q, v), DAL_OK);
-    CU_ASSERT_EQUAL(dal_probe_call(probe, system->constraints, 0.4, q, v, NULL, D), DAL_OK);
+    CU_ASSERT_EQUAL(dal_measure_onto(evaluator, 0.4, q, v), DAL_OK);
+    CU_ASSERT_EQUAL(dal_evaluator_call(evaluator, system->constraints, 0.4, q, v, NULL, D), DAL_OK);
     CU_ASSERT(fabs(D[0]) < 1e-15 && fabs(D[1]) < 1e-15);
-    dal_probe_free(probe);
+    dal_evaluator_free(evaluator);
     dal_model_free(model);
 }
 
@@ -198,12 +200,12 @@ static void test_onto_nothing(void)
 {
     dal_model *model = fixture_model("coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\n"
                                      "constraints: [x'^2 + y'^2 + 1]\nstart: {x': 1}\n");
-    dal_probe *probe = probe_of(fixture_system(model));
+    dal_evaluator *evaluator = evaluator_of(fixture_system(model));
     const double q[] = {0.0, 0.0};
     double v[] = {0.6, 0.3};
-    CU_ASSERT_NOT_EQUAL(dal_measure_onto(probe, 0.0, q, v), DAL_OK);
+    CU_ASSERT_NOT_EQUAL(dal_measure_onto(evaluator, 0.0, q, v), DAL_OK);
     CU_ASSERT(v[0] == 0.6 && v[1] == 0.3);
-    dal_probe_free(probe);
+    dal_evaluator_free(evaluator);
     dal_model_free(model);
 }
 
@@ -216,12 +218,13 @@ static void test_onto_rounding(void)
         dal_model *model = fixture_model("coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\n"
                                          "parameters: {d: 1}\n"
                                          "constraints: [sqrt(x'^2 + d^2)]\n");
-        dal_probe *probe = NULL;
-        CU_ASSERT_EQUAL_FATAL(dal_probe_create(&probe, fixture_system(model), &d, 1, NULL), DAL_OK);
+        dal_evaluator *evaluator = NULL;
+        CU_ASSERT_EQUAL_FATAL(dal_evaluator_create(&evaluator, fixture_system(model), &d, 1, NULL),
+                              DAL_OK);
         const double q[] = {0.0, 0.0};
         double v[] = {d.value, 0.0};
-        CU_ASSERT_EQUAL(dal_measure_onto(probe, 0.0, q, v), k ? DAL_NOT_CONVERGED : DAL_OK);
-        dal_probe_free(probe);
+        CU_ASSERT_EQUAL(dal_measure_onto(evaluator, 0.0, q, v), k ? DAL_NOT_CONVERGED : DAL_OK);
+        dal_evaluator_free(evaluator);
         dal_model_free(model);
     }
 }
@@ -254,12 +257,12 @@ static const kind kinds[] = {
 static void examine_kind(const kind *expected)
 {
     dal_model *model = fixture_model(expected->text);
-    dal_probe *probe = probe_of(fixture_system(model));
+    dal_evaluator *evaluator = evaluator_of(fixture_system(model));
     double x[8], degree = -1.0;
     dal_degree d;
-    CU_ASSERT_EQUAL(dal_probe_start(probe, NULL, 0, x, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_evaluator_start(evaluator, NULL, 0, x, NULL), DAL_OK);
     const dal_point at = {0.0, x, x + 3};
-    CU_ASSERT_EQUAL(dal_measure_degree(probe, &at, &d, &degree), DAL_OK);
+    CU_ASSERT_EQUAL(dal_measure_degree(evaluator, &at, &d, &degree), DAL_OK);
     CU_ASSERT_EQUAL(d.linear, expected->linear);
     CU_ASSERT_EQUAL(d.constant, expected->constant);
     CU_ASSERT_EQUAL(d.bilinear, expected->bilinear);
@@ -268,7 +271,7 @@ static void examine_kind(const kind *expected)
     CU_ASSERT_EQUAL(d.homogeneous, expected->homogeneous);
     if (d.homogeneous) CU_ASSERT_DOUBLE_EQUAL(degree, expected->degree, 1e-9);
     CU_ASSERT_EQUAL(d.reversible, expected->reversible);
-    dal_probe_free(probe);
+    dal_evaluator_free(evaluator);
     dal_model_free(model);
 }
 
@@ -297,17 +300,17 @@ static void test_nearly(void)
         snprintf(text, sizeof text, PLANE "[x' + 2*y' - z' + %g*%s]\nstart: {x': 1, z': 1}\n",
                  factor[i % 2], cases[i / 2].more);
         dal_model *model = fixture_model(text);
-        dal_probe *probe = probe_of(fixture_system(model));
-        CU_ASSERT_EQUAL(dal_probe_start(probe, NULL, 0, x, NULL), DAL_OK);
+        dal_evaluator *evaluator = evaluator_of(fixture_system(model));
+        CU_ASSERT_EQUAL(dal_evaluator_start(evaluator, NULL, 0, x, NULL), DAL_OK);
         const dal_point at = {0.0, x, x + 3};
-        CU_ASSERT_EQUAL(dal_measure_degree(probe, &at, &d, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_measure_degree(evaluator, &at, &d, NULL), DAL_OK);
         CU_ASSERT_EQUAL(d.linear, i % 2 ? cases[i / 2].linear : 1);
         CU_ASSERT_EQUAL(d.constant, i % 2 ? cases[i / 2].constant : 1);
         CU_ASSERT_EQUAL(d.bilinear, i % 2 ? cases[i / 2].bilinear : 1);
         CU_ASSERT_EQUAL(d.quadratic, i % 2 ? cases[i / 2].quadratic : 1);
         CU_ASSERT_EQUAL(d.parity, i % 2 ? cases[i / 2].parity : -1);
         CU_ASSERT_EQUAL(d.homogeneous, i % 2 ? cases[i / 2].homogeneous : 1);
-        dal_probe_free(probe);
+        dal_evaluator_free(evaluator);
         dal_model_free(model);
     }
 }
@@ -327,14 +330,14 @@ static void test_nearly_dependent(void)
                        "parameters: {s: %g}\n",
                  s[i]);
         dal_model *model = fixture_model(text);
-        dal_probe *probe = probe_of(fixture_system(model));
-        CU_ASSERT_EQUAL(dal_probe_start(probe, NULL, 0, x, NULL), DAL_OK);
+        dal_evaluator *evaluator = evaluator_of(fixture_system(model));
+        CU_ASSERT_EQUAL(dal_evaluator_start(evaluator, NULL, 0, x, NULL), DAL_OK);
         const dal_point at = {0.0, x, x + 3};
-        CU_ASSERT_EQUAL(dal_measure_rank(probe, &at, &rank, &pivot), DAL_OK);
+        CU_ASSERT_EQUAL(dal_measure_rank(evaluator, &at, &rank, &pivot), DAL_OK);
         const int full = i < 2 || i == 4;
         CU_ASSERT_EQUAL(rank, full ? 2 : 1);
         CU_ASSERT_DOUBLE_EQUAL(pivot, full ? s[i] * s[i] / 8.0 : 0.0, 0.15 * s[i] * s[i] / 8.0);
-        dal_probe_free(probe);
+        dal_evaluator_free(evaluator);
         dal_model_free(model);
     }
 }
@@ -348,17 +351,18 @@ static void test_nearly_reversible(void)
         dal_model *model = fixture_model("coordinates: [x]\nparameters: {k: 0}\n"
                                          "accelerations: {x: -0.5*x - k*x'}\nstart: {x': 1}\n");
         const dal_setting k = {"k", frictions[i]};
-        dal_probe *probe;
+        dal_evaluator *evaluator;
         double x[3];
         dal_degree d;
-        CU_ASSERT_EQUAL_FATAL(dal_probe_create(&probe, fixture_system(model), &k, 1, NULL), DAL_OK);
-        CU_ASSERT_EQUAL(dal_probe_start(probe, NULL, 0, x, NULL), DAL_OK);
+        CU_ASSERT_EQUAL_FATAL(dal_evaluator_create(&evaluator, fixture_system(model), &k, 1, NULL),
+                              DAL_OK);
+        CU_ASSERT_EQUAL(dal_evaluator_start(evaluator, NULL, 0, x, NULL), DAL_OK);
         const dal_point at = {0.0, x, x + 1};
-        CU_ASSERT_EQUAL(dal_measure_degree(probe, &at, &d, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_measure_degree(evaluator, &at, &d, NULL), DAL_OK);
         CU_ASSERT(d.force_defect >= 2.0 * frictions[i] - 1e-15);
         CU_ASSERT(d.force_defect <= 2.6 * frictions[i] + 1e-15);
         CU_ASSERT_EQUAL(d.reversible, i < 3);
-        dal_probe_free(probe);
+        dal_evaluator_free(evaluator);
         dal_model_free(model);
     }
 }
@@ -384,22 +388,23 @@ static void test_unmeasured(void)
     const dal_point at = {0.0, q, v};
     dal_model *model = fixture_model(no_values);
     const dal_system *system = fixture_system(model);
-    dal_probe *probe = probe_of(system);
+    dal_evaluator *evaluator = evaluator_of(system);
     dal_derivatives derivatives;
     dal_degree degree;
     double rate;
-    CU_ASSERT_EQUAL(dal_measure_rate(probe, system->constraints, 1, &at, &rate), DAL_NOT_FINITE);
-    CU_ASSERT_EQUAL(dal_measure_derivatives(probe, &at, &derivatives), DAL_NOT_FINITE);
-    CU_ASSERT_EQUAL(dal_measure_degree(probe, &at, &degree, NULL), DAL_NOT_FINITE);
+    CU_ASSERT_EQUAL(dal_measure_rate(evaluator, system->constraints, 1, &at, &rate),
+                    DAL_NOT_FINITE);
+    CU_ASSERT_EQUAL(dal_measure_derivatives(evaluator, &at, &derivatives), DAL_NOT_FINITE);
+    CU_ASSERT_EQUAL(dal_measure_degree(evaluator, &at, &degree, NULL), DAL_NOT_FINITE);
     CU_ASSERT(!degree.linear && !degree.constant && !degree.bilinear && !degree.quadratic);
     CU_ASSERT(!degree.homogeneous);
-    dal_probe_free(probe);
+    dal_evaluator_free(evaluator);
     dal_model_free(model);
     const dal_system empty = {.name = "empty", .n = 1, .call = {.field = no_field}};
-    probe = probe_of(&empty);
-    CU_ASSERT_EQUAL(dal_measure_degree(probe, &at, &degree, NULL), DAL_OK);
+    evaluator = evaluator_of(&empty);
+    CU_ASSERT_EQUAL(dal_measure_degree(evaluator, &at, &degree, NULL), DAL_OK);
     CU_ASSERT(isnan(degree.force_defect) && !degree.reversible);
-    dal_probe_free(probe);
+    dal_evaluator_free(evaluator);
 }
 
 /* ---- far away and near by ---- */
@@ -412,13 +417,13 @@ static void test_derivatives_anywhere(void)
     const double place[] = {1e5, 0.0}, v = 0.3;
     for (int k = 0; k < 2; k++) {
         dal_model *model = fixture_model(texts[k]);
-        dal_probe *probe = probe_of(fixture_system(model));
+        dal_evaluator *evaluator = evaluator_of(fixture_system(model));
         const dal_point at = {0.0, &place[k], &v};
         dal_derivatives d;
-        CU_ASSERT_EQUAL(dal_measure_derivatives(probe, &at, &d), DAL_OK);
+        CU_ASSERT_EQUAL(dal_measure_derivatives(evaluator, &at, &d), DAL_OK);
         CU_ASSERT(d.jacobian >= 0.0 && d.jacobian < 1e-8);
         CU_ASSERT(d.adjoint >= 0.0 && d.adjoint < 1e-8);
-        dal_probe_free(probe);
+        dal_evaluator_free(evaluator);
         dal_model_free(model);
     }
 }
@@ -427,23 +432,23 @@ static void test_derivatives_anywhere(void)
 
 static dal_status all_measures(const dal_system *system)
 {
-    dal_probe *probe;
+    dal_evaluator *evaluator;
     double x[16], numbers[16];
     int rank;
     dal_derivatives derivatives;
     dal_degree degree;
     dal_dirac dirac;
-    dal_status status = dal_probe_create(&probe, system, NULL, 0, NULL);
+    dal_status status = dal_evaluator_create(&evaluator, system, NULL, 0, NULL);
     if (status != DAL_OK) return status;
-    status = dal_probe_start(probe, NULL, 0, x, NULL);
+    status = dal_evaluator_start(evaluator, NULL, 0, x, NULL);
     const dal_point at = {0.0, x, x + system->n};
-    if (!status) status = dal_measure_rate(probe, system->energy, 1, &at, numbers);
-    if (!status) status = dal_measure_derivatives(probe, &at, &derivatives);
-    if (!status) status = dal_measure_rank(probe, &at, &rank, numbers);
-    if (!status) status = dal_measure_onto(probe, 0.0, x, x + system->n);
-    if (!status) status = dal_measure_degree(probe, &at, &degree, NULL);
-    if (!status) status = dal_measure_dirac(probe, &at, 1.0, &dirac);
-    dal_probe_free(probe);
+    if (!status) status = dal_measure_rate(evaluator, system->energy, 1, &at, numbers);
+    if (!status) status = dal_measure_derivatives(evaluator, &at, &derivatives);
+    if (!status) status = dal_measure_rank(evaluator, &at, &rank, numbers);
+    if (!status) status = dal_measure_onto(evaluator, 0.0, x, x + system->n);
+    if (!status) status = dal_measure_degree(evaluator, &at, &degree, NULL);
+    if (!status) status = dal_measure_dirac(evaluator, &at, 1.0, &dirac);
+    dal_evaluator_free(evaluator);
     return status;
 }
 
@@ -469,8 +474,8 @@ static void test_out_of_memory(void)
 void suite_measure(void)
 {
     CU_pSuite suite = CU_add_suite("measures of a system", NULL, NULL);
-    CU_add_test(suite, "a probe", test_probe);
-    CU_add_test(suite, "unknown names", test_probe_names);
+    CU_add_test(suite, "an evaluator", test_evaluator);
+    CU_add_test(suite, "unknown names", test_evaluator_names);
     CU_add_test(suite, "rate along the motion", test_rate);
     CU_add_test(suite, "wrong derivatives are found", test_derivatives_find_faults);
     CU_add_test(suite, "derivatives of systems", test_derivatives_of_systems);

@@ -10,7 +10,7 @@ FUNCTIONS_dalembert_measure(DECLARE_NULL_TEST) FUNCTIONS_dalembert_causes(DECLAR
 static const dal_system *system, *tangent;
 static dal_run_spec spec, no_system, bad_count;
 static dal_run *run;
-static dal_probe *probe;
+static dal_evaluator *evaluator;
 static dal_spectrum *spectrum;
 static dal_explanation *explanation;
 static dal_point at;
@@ -25,7 +25,7 @@ static int open_objects(void)
     bad_count.parameter_count = -1;
     at = (dal_point){0.0, numbers, numbers + system->n};
     return dal_run_create(&run, &spec, NULL) != DAL_OK ||
-           dal_probe_create(&probe, system, NULL, 0, NULL) != DAL_OK ||
+           dal_evaluator_create(&evaluator, system, NULL, 0, NULL) != DAL_OK ||
            dal_model_tangent(model, &tangent, NULL) != DAL_OK ||
            dal_spectrum_create(&spectrum, &spec, NULL, 1, NULL) != DAL_OK ||
            dal_explain(&spec, 10, 0, NULL, &explanation, NULL) != DAL_OK;
@@ -35,7 +35,7 @@ static int close_objects(void)
 {
     dal_explanation_free(explanation);
     dal_spectrum_free(spectrum);
-    dal_probe_free(probe);
+    dal_evaluator_free(evaluator);
     dal_run_free(run);
     dal_model_free(model);
     return 0;
@@ -62,40 +62,41 @@ static int close_objects(void)
         }                                                                                          \
     } while (0)
 
-/* ---- probes ---- */
+/* ---- evaluators ---- */
 
-static void null_dal_probe_create(void)
+static void null_dal_evaluator_create(void)
 {
-    dal_probe *made = probe;
-    REFUSED(dal_probe_create(NULL, system, NULL, 0, error));
-    REFUSED(dal_probe_create(&made, NULL, NULL, 0, error));
-    REFUSED(dal_probe_create(&made, system, COUNT_NEGATIVE, error));
-    REFUSED(dal_probe_create(&made, system, SETTINGS_MISSING, error));
-    REFUSED(dal_probe_create(&made, system, NAME_MISSING, error));
+    dal_evaluator *made = evaluator;
+    REFUSED(dal_evaluator_create(NULL, system, NULL, 0, error));
+    REFUSED(dal_evaluator_create(&made, NULL, NULL, 0, error));
+    REFUSED(dal_evaluator_create(&made, system, COUNT_NEGATIVE, error));
+    REFUSED(dal_evaluator_create(&made, system, SETTINGS_MISSING, error));
+    REFUSED(dal_evaluator_create(&made, system, NAME_MISSING, error));
     CU_ASSERT_PTR_NULL(made);
 }
 
-static void null_dal_probe_free(void) { dal_probe_free(NULL); }
-static void null_dal_probe_system(void) { CU_ASSERT_PTR_NULL(dal_probe_system(NULL)); }
+static void null_dal_evaluator_free(void) { dal_evaluator_free(NULL); }
+static void null_dal_evaluator_system(void) { CU_ASSERT_PTR_NULL(dal_evaluator_system(NULL)); }
 
-static void null_dal_probe_call(void)
+static void null_dal_evaluator_call(void)
 {
     dal_callback *field = system->call.field, *adjoint = system->call.adjoint;
-    REFUSED_STATUS(dal_probe_call(NULL, field, 0.0, at.q, at.v, NULL, numbers));
-    REFUSED_STATUS(dal_probe_call(probe, field, 0.0, NULL, at.v, NULL, numbers));
-    REFUSED_STATUS(dal_probe_call(probe, field, 0.0, at.q, NULL, NULL, numbers));
-    REFUSED_STATUS(dal_probe_call(probe, field, 0.0, at.q, at.v, NULL, NULL));
-    REFUSED_STATUS(dal_probe_call(probe, adjoint, 0.0, at.q, at.v, NULL, numbers));
-    CU_ASSERT_EQUAL(dal_probe_call(probe, NULL, 0.0, at.q, at.v, NULL, numbers), DAL_UNSUPPORTED);
+    REFUSED_STATUS(dal_evaluator_call(NULL, field, 0.0, at.q, at.v, NULL, numbers));
+    REFUSED_STATUS(dal_evaluator_call(evaluator, field, 0.0, NULL, at.v, NULL, numbers));
+    REFUSED_STATUS(dal_evaluator_call(evaluator, field, 0.0, at.q, NULL, NULL, numbers));
+    REFUSED_STATUS(dal_evaluator_call(evaluator, field, 0.0, at.q, at.v, NULL, NULL));
+    REFUSED_STATUS(dal_evaluator_call(evaluator, adjoint, 0.0, at.q, at.v, NULL, numbers));
+    CU_ASSERT_EQUAL(dal_evaluator_call(evaluator, NULL, 0.0, at.q, at.v, NULL, numbers),
+                    DAL_UNSUPPORTED);
 }
 
-static void null_dal_probe_start(void)
+static void null_dal_evaluator_start(void)
 {
-    REFUSED(dal_probe_start(NULL, NULL, 0, numbers, error));
-    REFUSED(dal_probe_start(probe, NULL, 0, NULL, error));
-    REFUSED(dal_probe_start(probe, COUNT_NEGATIVE, numbers, error));
-    REFUSED(dal_probe_start(probe, SETTINGS_MISSING, numbers, error));
-    REFUSED(dal_probe_start(probe, NAME_MISSING, numbers, error));
+    REFUSED(dal_evaluator_start(NULL, NULL, 0, numbers, error));
+    REFUSED(dal_evaluator_start(evaluator, NULL, 0, NULL, error));
+    REFUSED(dal_evaluator_start(evaluator, COUNT_NEGATIVE, numbers, error));
+    REFUSED(dal_evaluator_start(evaluator, SETTINGS_MISSING, numbers, error));
+    REFUSED(dal_evaluator_start(evaluator, NAME_MISSING, numbers, error));
 }
 
 /* ---- measures of a system ---- */
@@ -104,17 +105,17 @@ static void null_dal_measure_rate(void)
 {
     dal_callback *field = system->call.field;
     REFUSED_STATUS(dal_measure_rate(NULL, field, 1, &at, numbers));
-    REFUSED_STATUS(dal_measure_rate(probe, field, -1, &at, numbers));
-    REFUSED_POINTS(bad, dal_measure_rate(probe, field, 1, bad, numbers));
-    REFUSED_STATUS(dal_measure_rate(probe, field, 1, &at, NULL));
+    REFUSED_STATUS(dal_measure_rate(evaluator, field, -1, &at, numbers));
+    REFUSED_POINTS(bad, dal_measure_rate(evaluator, field, 1, bad, numbers));
+    REFUSED_STATUS(dal_measure_rate(evaluator, field, 1, &at, NULL));
 }
 
 static void null_dal_measure_derivatives(void)
 {
     dal_derivatives out;
     REFUSED_STATUS(dal_measure_derivatives(NULL, &at, &out));
-    REFUSED_POINTS(bad, dal_measure_derivatives(probe, bad, &out));
-    REFUSED_STATUS(dal_measure_derivatives(probe, &at, NULL));
+    REFUSED_POINTS(bad, dal_measure_derivatives(evaluator, bad, &out));
+    REFUSED_STATUS(dal_measure_derivatives(evaluator, &at, NULL));
 }
 
 static void null_dal_measure_rank(void)
@@ -122,25 +123,25 @@ static void null_dal_measure_rank(void)
     int rank;
     double pivot;
     REFUSED_STATUS(dal_measure_rank(NULL, &at, &rank, &pivot));
-    REFUSED_POINTS(bad, dal_measure_rank(probe, bad, &rank, &pivot));
-    REFUSED_STATUS(dal_measure_rank(probe, &at, NULL, &pivot));
-    REFUSED_STATUS(dal_measure_rank(probe, &at, &rank, NULL));
+    REFUSED_POINTS(bad, dal_measure_rank(evaluator, bad, &rank, &pivot));
+    REFUSED_STATUS(dal_measure_rank(evaluator, &at, NULL, &pivot));
+    REFUSED_STATUS(dal_measure_rank(evaluator, &at, &rank, NULL));
 }
 
 static void null_dal_measure_onto(void)
 {
     REFUSED_STATUS(dal_measure_onto(NULL, 0.0, numbers, numbers + 8));
-    REFUSED_STATUS(dal_measure_onto(probe, 0.0, NULL, numbers + 8));
-    REFUSED_STATUS(dal_measure_onto(probe, 0.0, numbers, NULL));
+    REFUSED_STATUS(dal_measure_onto(evaluator, 0.0, NULL, numbers + 8));
+    REFUSED_STATUS(dal_measure_onto(evaluator, 0.0, numbers, NULL));
 }
 
 static void null_dal_measure_degree(void)
 {
     dal_degree out;
     REFUSED_STATUS(dal_measure_degree(NULL, &at, &out, NULL));
-    REFUSED_POINTS(bad, dal_measure_degree(probe, bad, &out, NULL));
-    REFUSED_STATUS(dal_measure_degree(probe, &at, NULL, NULL));
-    CU_ASSERT_EQUAL(dal_measure_degree(probe, &at, &out, NULL), DAL_OK);
+    REFUSED_POINTS(bad, dal_measure_degree(evaluator, bad, &out, NULL));
+    REFUSED_STATUS(dal_measure_degree(evaluator, &at, NULL, NULL));
+    CU_ASSERT_EQUAL(dal_measure_degree(evaluator, &at, &out, NULL), DAL_OK);
 }
 
 /* ---- measures of a method ---- */
@@ -187,18 +188,18 @@ static void null_dal_measure_action(void)
 {
     double action;
     REFUSED_STATUS(dal_measure_action(NULL, 0.0, 0.1, 10, numbers, 1.0, &action));
-    REFUSED_STATUS(dal_measure_action(probe, 0.0, 0.1, -1, numbers, 1.0, &action));
-    REFUSED_STATUS(dal_measure_action(probe, 0.0, 0.1, 10, NULL, 1.0, &action));
-    REFUSED_STATUS(dal_measure_action(probe, 0.0, 0.1, 10, numbers, 1.0, NULL));
+    REFUSED_STATUS(dal_measure_action(evaluator, 0.0, 0.1, -1, numbers, 1.0, &action));
+    REFUSED_STATUS(dal_measure_action(evaluator, 0.0, 0.1, 10, NULL, 1.0, &action));
+    REFUSED_STATUS(dal_measure_action(evaluator, 0.0, 0.1, 10, numbers, 1.0, NULL));
 }
 
 static void null_dal_measure_stationarity(void)
 {
     double defect;
     REFUSED_STATUS(dal_measure_stationarity(NULL, 0.0, 0.1, 10, numbers, &defect));
-    REFUSED_STATUS(dal_measure_stationarity(probe, 0.0, 0.1, -1, numbers, &defect));
-    REFUSED_STATUS(dal_measure_stationarity(probe, 0.0, 0.1, 10, NULL, &defect));
-    REFUSED_STATUS(dal_measure_stationarity(probe, 0.0, 0.1, 10, numbers, NULL));
+    REFUSED_STATUS(dal_measure_stationarity(evaluator, 0.0, 0.1, -1, numbers, &defect));
+    REFUSED_STATUS(dal_measure_stationarity(evaluator, 0.0, 0.1, 10, NULL, &defect));
+    REFUSED_STATUS(dal_measure_stationarity(evaluator, 0.0, 0.1, 10, numbers, NULL));
 }
 
 static double first(void *user, const double *z) { return user ? NAN : z[0]; }
@@ -224,8 +225,8 @@ static void null_dal_measure_dirac(void)
 {
     dal_dirac out;
     REFUSED_STATUS(dal_measure_dirac(NULL, &at, 1.0, &out));
-    REFUSED_POINTS(bad, dal_measure_dirac(probe, bad, 1.0, &out));
-    REFUSED_STATUS(dal_measure_dirac(probe, &at, 1.0, NULL));
+    REFUSED_POINTS(bad, dal_measure_dirac(evaluator, bad, 1.0, &out));
+    REFUSED_STATUS(dal_measure_dirac(evaluator, &at, 1.0, NULL));
 }
 
 /* ---- what a drift comes from ---- */

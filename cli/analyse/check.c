@@ -43,7 +43,8 @@ void check_bound(check *c, const char *what, double value, double limit)
 
 static bool is_field_finite(check *c, const dal_point *at)
 {
-    if (dal_probe_call(c->probe, c->system->call.field, at->t, at->q, at->v, NULL, c->values))
+    if (dal_evaluator_call(c->evaluator, c->system->call.field, at->t, at->q, at->v, NULL,
+                           c->values))
         return false;
     for (int i = 0; i < c->nw; i++)
         if (!isfinite(c->values[i])) return false;
@@ -74,7 +75,7 @@ static void choose_points(check *c, double *memory)
     for (int k = 0; k < c->near_count; k++) {
         double *x = memory + c->surface_count * c->size, t = c->near[k].t;
         memcpy(x, c->near[k].q, (size_t)c->size * sizeof *x);
-        if (!cli_is_ok(dal_measure_onto(c->probe, t, x, x + c->n))) continue;
+        if (!cli_is_ok(dal_measure_onto(c->evaluator, t, x, x + c->n))) continue;
         c->surface[c->surface_count] = (dal_point){t, x, x + c->n};
         c->surface_count += is_field_finite(c, &c->surface[c->surface_count]);
     }
@@ -93,11 +94,12 @@ static int prepare_check(check *c)
     /* The largest number of values of a callback, and some more for pairs of them. */
     const size_t values = nw * size + m * (1 + 2 * n) + 3 * n + (size_t)s->invariants + 8 * size;
     dal_status status =
-        dal_probe_create(&c->probe, s, request->set.item, request->set.count, &error);
+        dal_evaluator_create(&c->evaluator, s, request->set.item, request->set.count, &error);
     if (status != DAL_OK) return cli_error(cli_input_exit(status), NULL, &error);
     c->start = cli_calloc(size + 1 + points + values, sizeof *c->start);
     c->values = c->start + size + 1 + points;
-    status = dal_probe_start(c->probe, request->start.item, request->start.count, c->start, &error);
+    status = dal_evaluator_start(c->evaluator, request->start.item, request->start.count, c->start,
+                                 &error);
     if (status != DAL_OK) return cli_error(cli_input_exit(status), NULL, &error);
     c->origin = (dal_point){0.0, c->start, c->start + n};
     c->is_regular = is_field_finite(c, &c->origin);
@@ -167,7 +169,7 @@ int command_check(int argc, char **argv)
     if (c.system && status == CLI_DONE) status = prepare_check(&c);
     if (c.system && status == CLI_DONE) status = print_check(&c);
     free(c.start);
-    dal_probe_free(c.probe);
+    dal_evaluator_free(c.evaluator);
     request_free(&request);
     return status;
 }

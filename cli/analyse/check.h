@@ -23,7 +23,7 @@ enum { CHECK_POINTS = 8 };
 typedef struct check {
     const dal_system *system;
     run_request *request; /* the arguments, its system made */
-    dal_probe *probe;
+    dal_evaluator *evaluator;
     double *start;                   /* [2n + multipliers + 1] q, v, g, e */
     int n, m, nw, size;              /* nw = n + multipliers, size = n + nw */
     bool is_regular;                 /* F is finite at the start */

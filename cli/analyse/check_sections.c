@@ -37,7 +37,7 @@ static motion_rate measure_rate(check *c, dal_callback *callback, int values, in
     motion_rate rate = {.points = count};
     for (int k = 0; k < count; k++) {
         const dal_status status =
-            dal_measure_rate(c->probe, callback, values, &points[k], c->values);
+            dal_measure_rate(c->evaluator, callback, values, &points[k], c->values);
         if (!cli_is_ok(status)) {
             rate.status = status;
             continue;
@@ -73,8 +73,8 @@ static void check_motion_rate(check *c, const char *what, const motion_rate *rat
 static double start_defect(check *c)
 {
     double *block = c->values, size = 1.0, defect = 0.0;
-    if (dal_probe_call(c->probe, c->system->call.constraint, 0.0, c->start, c->start + c->n, NULL,
-                       block))
+    if (dal_evaluator_call(c->evaluator, c->system->call.constraint, 0.0, c->start, c->start + c->n,
+                           NULL, block))
         return NAN;
     for (int a = 0; a < c->m; a++) {
         double sum = 0.0;
@@ -105,7 +105,7 @@ void check_start(check *c)
         check_bound(c, "|D| at the start", defect, consistent);
     int rank = 0;
     double pivot = 0.0;
-    const dal_status status = dal_measure_rank(c->probe, &c->origin, &rank, &pivot);
+    const dal_status status = dal_measure_rank(c->evaluator, &c->origin, &rank, &pivot);
     if (cli_is_ok(status))
         check_item(c, rank == c->m ? CHECK_OK : CHECK_FAIL, "rank of G at the start",
                    "%d of %d, smallest pivot %.2g", rank, c->m, pivot);
@@ -212,7 +212,7 @@ void check_constraints(check *c)
     check_motion_rate(c, "dD/dt along F, on D = 0", &on, zero);
     check_motion_rate(c, "dD/dt along F, off D = 0", &off, zero);
     double *degree = cli_calloc((size_t)c->m + 1, sizeof *degree);
-    const dal_status status = dal_measure_degree(c->probe, &c->origin, &d, degree);
+    const dal_status status = dal_measure_degree(c->evaluator, &c->origin, &d, degree);
     if (cli_is_ok(status)) {
         char text[64] = "not homogeneous";
         int written = 0;
@@ -280,7 +280,7 @@ void check_reversal(check *c)
                                          "D(q,-v) = +D(q,v)"};
     static const char what[] = "F(q,-v,-t) = F(q,v,t)";
     dal_degree d;
-    const dal_status status = dal_measure_degree(c->probe, &c->origin, &d, NULL);
+    const dal_status status = dal_measure_degree(c->evaluator, &c->origin, &d, NULL);
     if (!cli_is_ok(status) || isnan(d.force_defect)) {
         check_item(c, CHECK_UNMEASURED, what, "%s",
                    dal_status_text(cli_is_ok(status) ? DAL_NOT_FINITE : status));
@@ -301,7 +301,7 @@ void check_derivatives(check *c)
     dal_status failure = DAL_OK;
     int points = 0;
     for (int k = 0; k < c->near_count; k++) {
-        const dal_status status = dal_measure_derivatives(c->probe, &c->near[k], &d);
+        const dal_status status = dal_measure_derivatives(c->evaluator, &c->near[k], &d);
         if (!cli_is_ok(status)) {
             failure = status;
             continue;
@@ -332,7 +332,8 @@ void check_derivatives(check *c)
 
 static bool exact_at(check *c, double t, double *out)
 {
-    return dal_probe_call(c->probe, c->system->exact, t, c->start, c->start, NULL, out) == DAL_OK;
+    return dal_evaluator_call(c->evaluator, c->system->exact, t, c->start, c->start, NULL, out) ==
+           DAL_OK;
 }
 
 /* The exact solution at t against the motion: max |(q',v') - (v,F)| / max(1, |(v,F)|), with (q',v')
@@ -343,7 +344,7 @@ static double exact_residual(check *c, double t, double d)
     const int n = c->n;
     double *x = c->values, *q = x + 2 * n, *v = q + n, *field = v + n, *rate = field + n;
     if (!exact_at(c, t, q) ||
-        dal_probe_call(c->probe, c->system->call.field, t, q, v, NULL, field) != DAL_OK)
+        dal_evaluator_call(c->evaluator, c->system->call.field, t, q, v, NULL, field) != DAL_OK)
         return INFINITY;
     memset(rate, 0, 2 * (size_t)n * sizeof *rate);
     for (int k = 1; k <= 4; k++)
@@ -392,7 +393,7 @@ void check_algebra(check *c)
     const dal_point *at = c->surface_count > 0 ? &c->surface[0] : &c->origin;
     const double e = c->start[c->size];
     if (e == 0.0 || isinf(e)) return;
-    const dal_status status = dal_measure_dirac(c->probe, at, e, &d);
+    const dal_status status = dal_measure_dirac(c->evaluator, at, e, &d);
     if (status == DAL_UNSUPPORTED) return;
     if (!cli_is_ok(status)) {
         check_item(c, CHECK_UNMEASURED, "brackets", "%s", dal_status_text(status));
@@ -449,13 +450,14 @@ static bool measure_actions(check *c, const sampled_path *path, double *solved, 
 {
     const double e = c->start[c->size], pi = acos(-1.0);
     if (!sample_path(c, path, c->start) ||
-        !cli_is_ok(dal_measure_action(c->probe, 0.0, path->h, NODES, path->rows, e, solved)))
+        !cli_is_ok(dal_measure_action(c->evaluator, 0.0, path->h, NODES, path->rows, e, solved)))
         return false;
     for (int k = 0; k < NODES; k++) {
         const double s = sin(pi * k / (NODES - 1));
         for (int i = 0; i < c->n; i++) path->rows[k * c->n + i] += 1e-3 * s * s * s * s;
     }
-    return cli_is_ok(dal_measure_action(c->probe, 0.0, path->h, NODES, path->rows, e, perturbed));
+    return cli_is_ok(
+        dal_measure_action(c->evaluator, 0.0, path->h, NODES, path->rows, e, perturbed));
 }
 
 static void check_second_order_action(check *c)
@@ -494,7 +496,7 @@ static void check_stationarity(check *c, const char *method, double limit)
     snprintf(what, sizeof what, "d int P.X' - H, %s", method);
     if (!sample_path(c, &path, state) ||
         !cli_is_ok(
-            dal_measure_stationarity(c->probe, 0.0, path.h, LIFTED_NODES, path.rows, &defect)))
+            dal_measure_stationarity(c->evaluator, 0.0, path.h, LIFTED_NODES, path.rows, &defect)))
         check_item(c, CHECK_UNMEASURED, what, "there is no trajectory");
     else if (isinf(limit))
         check_item(c, CHECK_INFO, what, "%.2g", defect);

@@ -162,18 +162,20 @@ static bool use_exact_solution(order_study *s)
     const dal_system *system = s->spec.system;
     const run_request *request = &s->request;
     double *start = s->reference + s->numbers;
-    dal_probe *probe;
+    dal_evaluator *evaluator;
     if (!system->exact || system->multipliers ||
-        !cli_is_ok(dal_probe_create(&probe, system, request->set.item, request->set.count, NULL)))
+        !cli_is_ok(
+            dal_evaluator_create(&evaluator, system, request->set.item, request->set.count, NULL)))
         return false;
-    const bool found =
-        dal_probe_start(probe, request->start.item, request->start.count, start, NULL) == DAL_OK &&
-        dal_probe_call(probe, system->exact, 0.0, start, start, NULL, s->reference) == DAL_OK &&
-        analysis_distance(start, s->reference, s->numbers) <= 1e-10 &&
-        dal_probe_call(probe, system->exact, request->time, start, start, NULL, s->reference) ==
-            DAL_OK &&
-        isfinite(analysis_distance(s->reference, s->reference, s->numbers));
-    dal_probe_free(probe);
+    const bool found = dal_evaluator_start(evaluator, request->start.item, request->start.count,
+                                           start, NULL) == DAL_OK &&
+                       dal_evaluator_call(evaluator, system->exact, 0.0, start, start, NULL,
+                                          s->reference) == DAL_OK &&
+                       analysis_distance(start, s->reference, s->numbers) <= 1e-10 &&
+                       dal_evaluator_call(evaluator, system->exact, request->time, start, start,
+                                          NULL, s->reference) == DAL_OK &&
+                       isfinite(analysis_distance(s->reference, s->reference, s->numbers));
+    dal_evaluator_free(evaluator);
     snprintf(s->reference_text, sizeof s->reference_text, "the exact solution");
     return found;
 }

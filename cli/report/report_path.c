@@ -22,7 +22,7 @@ typedef struct path {
     run_directory dir;
     run_request request;
     trajectory_reader reader;
-    dal_probe *probe;
+    dal_evaluator *evaluator;
     dal_body body;
     int n;
     double pose[INSTANTS][DAL_PICTURE_COUNT];
@@ -148,8 +148,8 @@ static int take_row(path *p, report_plot *plot, long long k)
     const double *row = p->reader.row;
     double at[DAL_PICTURE_COUNT];
     if (!posed && k % stride && k != last) return CLI_DONE;
-    if (dal_probe_call(p->probe, p->request.system->picture, row[0], row + 1, row + 1 + p->n, NULL,
-                       at))
+    if (dal_evaluator_call(p->evaluator, p->request.system->picture, row[0], row + 1,
+                           row + 1 + p->n, NULL, at))
         return CLI_DONE;
     report_point(plot, at[DAL_PICTURE_X], at[DAL_PICTURE_Y]);
     for (int i = 0; i < 2; i++) {
@@ -211,8 +211,8 @@ static int load(path *p, const char *run)
     if (status != CLI_DONE || !p->request.system->picture) return status;
     p->n = p->request.system->n;
     p->body = p->request.system->body;
-    if (dal_probe_create(&p->probe, p->request.system, p->request.set.item, p->request.set.count,
-                         &error))
+    if (dal_evaluator_create(&p->evaluator, p->request.system, p->request.set.item,
+                             p->request.set.count, &error))
         return cli_error(CLI_USAGE, run, &error);
     return reader_open(&p->reader, run);
 }
@@ -225,11 +225,11 @@ int report_path(report *r, const char *run, const char *name, const char *captio
                 .low = {INFINITY, INFINITY},
                 .high = {-INFINITY, -INFINITY}};
     int status = load(p, run);
-    if (status == CLI_DONE && p->probe) {
+    if (status == CLI_DONE && p->evaluator) {
         if (p->reader.count > 0 && p->reader.columns > 2 * p->n) status = draw(p, r, name, caption);
         reader_close(&p->reader);
     }
-    dal_probe_free(p->probe);
+    dal_evaluator_free(p->evaluator);
     request_free(&p->request);
     run_directory_close(&p->dir);
     free(p);

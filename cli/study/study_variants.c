@@ -239,15 +239,15 @@ static void replace_velocities(study_case *e, const double *v)
 /* x[2n + ..] becomes the start with its velocities on D = 0. */
 static dal_status find_velocities(const study_case *e, double *x, dal_error *error)
 {
-    dal_probe *probe = NULL;
+    dal_evaluator *evaluator = NULL;
     dal_setting *start = cli_calloc((size_t)e->start_count + 1, sizeof *start);
     int count = 0;
     for (int i = 0; i < e->start_count; i++)
         if (!is_momentum(e->start[i].name)) start[count++] = e->start[i];
-    dal_status status = dal_probe_create(&probe, e->system, e->set, e->set_count, error);
-    if (status == DAL_OK) status = dal_probe_start(probe, start, count, x, error);
-    if (status == DAL_OK) status = dal_measure_onto(probe, 0.0, x, x + e->system->n);
-    dal_probe_free(probe);
+    dal_status status = dal_evaluator_create(&evaluator, e->system, e->set, e->set_count, error);
+    if (status == DAL_OK) status = dal_evaluator_start(evaluator, start, count, x, error);
+    if (status == DAL_OK) status = dal_measure_onto(evaluator, 0.0, x, x + e->system->n);
+    dal_evaluator_free(evaluator);
     free(start);
     return status;
 }

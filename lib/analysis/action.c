@@ -29,33 +29,33 @@ static void differentiate_row(const double *row, int n, int i, double h, double 
     *a = second / (h * h);
 }
 
-static dal_status lagrangian(dal_probe *probe, double t, double h, const double *row,
+static dal_status lagrangian(dal_evaluator *evaluator, double t, double h, const double *row,
                              double *scratch, double *value)
 {
-    const dal_system *s = dal_probe_system(probe);
+    const dal_system *s = dal_evaluator_system(evaluator);
     int n = s->n;
     double *v = scratch, *a = scratch + n, *field = scratch + 2 * n;
     for (int i = 0; i < n; i++) differentiate_row(row, n, i, h, &v[i], &a[i]);
-    DAL_TRY(dal_probe_call(probe, s->call.field, t, row, v, NULL, field));
+    DAL_TRY(dal_evaluator_call(evaluator, s->call.field, t, row, v, NULL, field));
     *value = 0.0;
     for (int i = 0; i < n; i++) *value += (a[i] - field[i]) * (a[i] - field[i]);
     return DAL_OK;
 }
 
-dal_status dal_measure_action(dal_probe *probe, double t0, double h, long long count,
+dal_status dal_measure_action(dal_evaluator *evaluator, double t0, double h, long long count,
                               const double *q, double e, double *action)
 {
-    DAL_REQUIRE(probe, NULL);
+    DAL_REQUIRE(evaluator, NULL);
     DAL_REQUIRE(q, NULL);
     DAL_REQUIRE(action, NULL);
-    const dal_system *s = dal_probe_system(probe);
+    const dal_system *s = dal_evaluator_system(evaluator);
     if (s->multipliers > 0) return DAL_UNSUPPORTED;
     if (count < 10 || !(h > 0.0)) return DAL_ARGUMENT;
     double *scratch = dal__numbers(3, (size_t)s->n), sum = 0.0, value = 0.0;
     if (scratch == NULL) return DAL_MEMORY;
     dal_status status = DAL_OK;
     for (long long k = 4; k < count - 4 && status == DAL_OK; k++) {
-        status = lagrangian(probe, t0 + h * (double)k, h, q + k * s->n, scratch, &value);
+        status = lagrangian(evaluator, t0 + h * (double)k, h, q + k * s->n, scratch, &value);
         sum += (k == 4 || k == count - 5 ? 0.5 : 1.0) * value;
     }
     *action = 0.5 * e * h * sum;
@@ -67,7 +67,7 @@ dal_status dal_measure_action(dal_probe *probe, double t0, double h, long long c
 /* ---- the first-order action ---- */
 
 typedef struct path {
-    dal_probe *probe;
+    dal_evaluator *evaluator;
     int n, half; /* half = 2n+1 */
     double t, h;
     dal_status status;
@@ -77,13 +77,13 @@ typedef struct path {
 static double hamiltonian(void *user, const double *z)
 {
     path *w = user;
-    const dal_system *s = dal_probe_system(w->probe);
+    const dal_system *s = dal_evaluator_system(w->evaluator);
     int n = w->n;
     const double *v = z + n, *p = z + w->half, *pi = p + n;
     double e = z[2 * n], mu = 0.0, sum = 0.0, square = 0.0;
-    dal_status status = dal_probe_call(w->probe, s->call.field, w->t, z, v, NULL, w->field);
+    dal_status status = dal_evaluator_call(w->evaluator, s->call.field, w->t, z, v, NULL, w->field);
     if (status == DAL_OK && s->call.gauge != NULL)
-        status = dal_probe_call(w->probe, s->call.gauge, w->t, z, v, NULL, &mu);
+        status = dal_evaluator_call(w->evaluator, s->call.gauge, w->t, z, v, NULL, &mu);
     if (status != DAL_OK) w->status = status;
     for (int i = 0; i < n; i++) {
         square += pi[i] * pi[i];
@@ -117,19 +117,19 @@ static double variation(path *w, const double *row, int inner)
     return most / w->h;
 }
 
-dal_status dal_measure_stationarity(dal_probe *probe, double t0, double h, long long count,
+dal_status dal_measure_stationarity(dal_evaluator *evaluator, double t0, double h, long long count,
                                     const double *states, double *defect)
 {
-    DAL_REQUIRE(probe, NULL);
+    DAL_REQUIRE(evaluator, NULL);
     DAL_REQUIRE(states, NULL);
     DAL_REQUIRE(defect, NULL);
-    const dal_system *s = dal_probe_system(probe);
+    const dal_system *s = dal_evaluator_system(evaluator);
     if (s->multipliers > 0) return DAL_UNSUPPORTED;
     if (count < 3 || !(h > 0.0)) return DAL_ARGUMENT;
     size_t n = (size_t)s->n, size = 4 * n + 2;
     double *block = dal__numbers(1, 3 * size + n);
     if (block == NULL) return DAL_MEMORY;
-    path w = {.probe = probe, .n = s->n, .half = 2 * s->n + 1, .h = h, .z = block};
+    path w = {.evaluator = evaluator, .n = s->n, .half = 2 * s->n + 1, .h = h, .z = block};
     w.gradient = block + size, w.before = block + 2 * size, w.field = block + 3 * size;
     *defect = 0.0;
     for (long long k = 0; k + 1 < count; k++) {

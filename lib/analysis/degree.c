@@ -19,7 +19,7 @@ static const double neighbourhood = 0.3;
 static const double tolerance = 1e-11;
 
 typedef struct survey {
-    dal_probe *probe;
+    dal_evaluator *evaluator;
     const dal_system *s;
     int n, nw, m;
     dal_point at;
@@ -34,7 +34,7 @@ typedef struct survey {
 static dal_status values_at(survey *w, double s, double *out)
 {
     for (int i = 0; i < w->n + w->nw; i++) w->y[i] = w->x[i] + s * w->d[i];
-    return dal_probe_call(w->probe, w->s->constraints, w->t, w->y, w->y + w->n, NULL, out);
+    return dal_evaluator_call(w->evaluator, w->s->constraints, w->t, w->y, w->y + w->n, NULL, out);
 }
 
 static void draw_base(survey *w)
@@ -159,10 +159,10 @@ static double force_defect(survey *w)
     for (int trial = 0; trial < TRIALS; trial++) {
         draw_base(w);
         dal_status here =
-            dal_probe_call(w->probe, field, w->t, w->x, w->x + w->n, NULL, w->value[0]);
+            dal_evaluator_call(w->evaluator, field, w->t, w->x, w->x + w->n, NULL, w->value[0]);
         reverse(w);
         dal_status there =
-            dal_probe_call(w->probe, field, w->t, w->x, w->x + w->n, NULL, w->value[1]);
+            dal_evaluator_call(w->evaluator, field, w->t, w->x, w->x + w->n, NULL, w->value[1]);
         if (here != DAL_OK || there != DAL_OK) continue;
         /* dg/dt of a multiplier that changes its sign with v keeps its own, and the reverse. */
         for (int a = 0; a < w->s->multipliers; a++) w->value[1][w->n + a] *= -w->sign[a];
@@ -222,19 +222,19 @@ static void examine(survey *w, dal_degree *out, double *degree)
     out->reversible = turned && out->force_defect <= 1e-10;
 }
 
-dal_status dal_measure_degree(dal_probe *probe, const dal_point *at, dal_degree *out,
+dal_status dal_measure_degree(dal_evaluator *evaluator, const dal_point *at, dal_degree *out,
                               double *degree)
 {
-    DAL_REQUIRE(probe, NULL);
+    DAL_REQUIRE(evaluator, NULL);
     DAL_REQUIRE_POINT(at);
     DAL_REQUIRE(out, NULL);
-    const dal_system *s = dal_probe_system(probe);
+    const dal_system *s = dal_evaluator_system(evaluator);
     if (s->m > 0 && s->constraints == NULL) return DAL_UNSUPPORTED;
     size_t nw = (size_t)s->n + (size_t)s->multipliers, x = (size_t)s->n + nw;
     size_t rows = nw > (size_t)s->m ? nw : (size_t)s->m;
     double *block = dal__numbers(1, 3 * x + 7 * rows);
     if (block == NULL) return DAL_MEMORY;
-    survey w = {.probe = probe, .s = s, .n = s->n, .nw = (int)nw, .m = s->m, .at = *at};
+    survey w = {.evaluator = evaluator, .s = s, .n = s->n, .nw = (int)nw, .m = s->m, .at = *at};
     w.random.state = 7;
     w.x = block, w.d = block + x, w.y = block + 2 * x;
     for (size_t k = 0; k < 4; k++) w.value[k] = block + 3 * x + k * rows;

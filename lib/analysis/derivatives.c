@@ -9,7 +9,7 @@
 /* ---- the rate of a quantity along the motion ---- */
 
 typedef struct flow {
-    dal_probe *probe;
+    dal_evaluator *evaluator;
     dal_callback *callback;
     const dal_point *at;
     int n, nw;
@@ -21,14 +21,14 @@ static dal_status along_flow(void *user, double s, double *out)
     flow *f = user;
     for (int i = 0; i < f->n; i++) f->q[i] = f->at->q[i] + s * f->at->v[i];
     for (int i = 0; i < f->nw; i++) f->v[i] = f->at->v[i] + s * f->field[i];
-    return dal_probe_call(f->probe, f->callback, f->at->t + s, f->q, f->v, NULL, out);
+    return dal_evaluator_call(f->evaluator, f->callback, f->at->t + s, f->q, f->v, NULL, out);
 }
 
 static dal_status rate_in(flow *f, int count, double *scratch, double *out)
 {
     const dal_point *at = f->at;
-    DAL_TRY(dal_probe_call(f->probe, dal_probe_system(f->probe)->call.field, at->t, at->q, at->v,
-                           NULL, f->field));
+    DAL_TRY(dal_evaluator_call(f->evaluator, dal_evaluator_system(f->evaluator)->call.field, at->t,
+                               at->q, at->v, NULL, f->field));
     double speed = dal__greatest(f->field, (size_t)f->nw);
     speed = fmax(1.0, fmax(speed, dal__greatest(at->v, (size_t)f->n)));
     if (!isfinite(speed)) return DAL_NOT_FINITE;
@@ -36,19 +36,19 @@ static dal_status rate_in(flow *f, int count, double *scratch, double *out)
     return isfinite(dal__greatest(out, (size_t)count)) ? DAL_OK : DAL_NOT_FINITE;
 }
 
-dal_status dal_measure_rate(dal_probe *probe, dal_callback *callback, int count,
+dal_status dal_measure_rate(dal_evaluator *evaluator, dal_callback *callback, int count,
                             const dal_point *at, double *out)
 {
-    DAL_REQUIRE(probe, NULL);
+    DAL_REQUIRE(evaluator, NULL);
     DAL_REQUIRE_POINT(at);
     DAL_REQUIRE(out, NULL);
     DAL_REQUIRE_COUNT(count, NULL);
-    const dal_system *s = dal_probe_system(probe);
+    const dal_system *s = dal_evaluator_system(evaluator);
     int n = s->n, nw = s->n + s->multipliers;
     if (callback == NULL) return DAL_UNSUPPORTED;
     double *block = dal__numbers(1, (size_t)(n + 2 * nw) + 3 * (size_t)count);
     if (block == NULL) return DAL_MEMORY;
-    flow f = {probe, callback, at, n, nw, block, block + nw, block + nw + n};
+    flow f = {evaluator, callback, at, n, nw, block, block + nw, block + nw + n};
     dal_status status = rate_in(&f, count, block + n + 2 * nw, out);
     free(block);
     return status;
@@ -58,7 +58,7 @@ dal_status dal_measure_rate(dal_probe *probe, dal_callback *callback, int count,
 
 /* A callback as a function of one component of (q, v, g), the others held. */
 typedef struct line {
-    dal_probe *probe;
+    dal_evaluator *evaluator;
     dal_callback *callback;
     double t;
     double *x; /* [n + nw] */
@@ -70,7 +70,8 @@ static dal_status along_line(void *user, double s, double *out)
 {
     line *l = user;
     l->x[l->j] = l->held + s;
-    dal_status status = dal_probe_call(l->probe, l->callback, l->t, l->x, l->x + l->n, NULL, out);
+    dal_status status =
+        dal_evaluator_call(l->evaluator, l->callback, l->t, l->x, l->x + l->n, NULL, out);
     l->x[l->j] = l->held;
     return status;
 }
@@ -85,7 +86,7 @@ static dal_status column(line *l, int j, int count, double *scratch, double *out
 }
 
 typedef struct desk {
-    dal_probe *probe;
+    dal_evaluator *evaluator;
     const dal_system *s;
     int n, nw, m;
     double t;
@@ -97,7 +98,7 @@ typedef struct desk {
 /* differences[rows*(n+nw)] of a callback's first rows values. */
 static dal_status tabulate(desk *d, dal_callback *callback, int rows)
 {
-    line l = {.probe = d->probe, .callback = callback, .t = d->t, .x = d->x, .n = d->n};
+    line l = {.evaluator = d->evaluator, .callback = callback, .t = d->t, .x = d->x, .n = d->n};
     int columns = d->n + d->nw;
     double *out = d->scratch + 3 * rows;
     for (int j = 0; j < columns; j++) {
@@ -108,10 +109,10 @@ static dal_status tabulate(desk *d, dal_callback *callback, int rows)
     return isfinite(size) ? DAL_OK : DAL_NOT_FINITE;
 }
 
-dal_status dal__gradients(dal_probe *probe, dal_callback *callback, int rows, const dal_point *at,
-                          double *differences)
+dal_status dal__gradients(dal_evaluator *evaluator, dal_callback *callback, int rows,
+                          const dal_point *at, double *differences)
 {
-    const dal_system *s = dal_probe_system(probe);
+    const dal_system *s = dal_evaluator_system(evaluator);
     const int nw = s->n + s->multipliers;
     const size_t width = (size_t)(s->n + nw);
     if (callback == NULL) return DAL_UNSUPPORTED;
@@ -119,7 +120,8 @@ dal_status dal__gradients(dal_probe *probe, dal_callback *callback, int rows, co
     if (x == NULL) return DAL_MEMORY;
     memcpy(x, at->q, (size_t)s->n * sizeof(double));
     memcpy(x + s->n, at->v, (size_t)nw * sizeof(double));
-    desk d = {.probe = probe, .n = s->n, .nw = nw, .t = at->t, .x = x, .scratch = x + width};
+    desk d = {
+        .evaluator = evaluator, .n = s->n, .nw = nw, .t = at->t, .x = x, .scratch = x + width};
     d.differences = differences;
     const dal_status status = tabulate(&d, callback, rows);
     free(x);
@@ -128,7 +130,7 @@ dal_status dal__gradients(dal_probe *probe, dal_callback *callback, int rows, co
 
 static dal_status call(desk *d, dal_callback *callback, double *out)
 {
-    return dal_probe_call(d->probe, callback, d->t, d->x, d->x + d->n, d->pi, out);
+    return dal_evaluator_call(d->evaluator, callback, d->t, d->x, d->x + d->n, d->pi, out);
 }
 
 /* The block rows*columns at given against columns first.. of the differences. */
@@ -202,12 +204,13 @@ static dal_status compare_all(desk *d, const dal_point *at, dal_derivatives *out
     return compare_constraint(d, out);
 }
 
-dal_status dal_measure_derivatives(dal_probe *probe, const dal_point *at, dal_derivatives *out)
+dal_status dal_measure_derivatives(dal_evaluator *evaluator, const dal_point *at,
+                                   dal_derivatives *out)
 {
-    DAL_REQUIRE(probe, NULL);
+    DAL_REQUIRE(evaluator, NULL);
     DAL_REQUIRE_POINT(at);
     DAL_REQUIRE(out, NULL);
-    const dal_system *s = dal_probe_system(probe);
+    const dal_system *s = dal_evaluator_system(evaluator);
     size_t n = (size_t)s->n, nw = n + (size_t)s->multipliers, m = (size_t)s->m;
     size_t rows = nw > m ? nw : m, columns = n + nw;
     size_t given = nw * columns + m * (1 + 2 * n) + 3 * n;
@@ -215,7 +218,7 @@ dal_status dal_measure_derivatives(dal_probe *probe, const dal_point *at, dal_de
     double *block = dal__numbers(1, columns + rows * columns + given + scratch + n);
     if (block == NULL) return DAL_MEMORY;
     double *differences = block + columns, *values = differences + rows * columns;
-    desk d = {.probe = probe,
+    desk d = {.evaluator = evaluator,
               .s = s,
               .n = s->n,
               .nw = s->n + s->multipliers,

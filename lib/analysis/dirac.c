@@ -76,8 +76,8 @@ static double hamiltonian(void *user, const double *z)
     int n = w->n;
     const double *v = z + n, *lambda = z + 2 * n, *pi = z + 4 * n + 1;
     double sum = 0.0, square = 0.0;
-    dal_callback *field = dal_probe_system(w->probe)->call.field;
-    if (dal_probe_call(w->probe, field, w->t, z, v, NULL, w->field) != DAL_OK) return NAN;
+    dal_callback *field = dal_evaluator_system(w->evaluator)->call.field;
+    if (dal_evaluator_call(w->evaluator, field, w->t, z, v, NULL, w->field) != DAL_OK) return NAN;
     for (int i = 0; i < n; i++) {
         square += pi[i] * pi[i];
         sum += pi[i] * w->field[i] + lambda[i] * v[i];
@@ -183,10 +183,10 @@ static dal_status analyse(algebra *w, dal_dirac *out)
     return DAL_OK;
 }
 
-dal_status dal__dirac(dal_probe *probe, const dal_point *at, double e,
+dal_status dal__dirac(dal_evaluator *evaluator, const dal_point *at, double e,
                       double (*phi)(void *user, const double *z, int a), dal_dirac *out)
 {
-    const dal_system *s = dal_probe_system(probe);
+    const dal_system *s = dal_evaluator_system(evaluator);
     if (s->multipliers > 0) return DAL_UNSUPPORTED;
     size_t n = (size_t)s->n, size = 6 * n + 2, count = 4 * n + 1;
     size_t numbers = size + (count + 1) * size + 2 * count * count + 4 * count + n;
@@ -195,7 +195,7 @@ dal_status dal__dirac(dal_probe *probe, const dal_point *at, double e,
     algebra w = {.n = s->n, .pairs = 3 * s->n + 1, .count = (int)count, .primary = 2 * s->n + 1};
     w.z = block, w.gradient = block + size, w.matrix = w.gradient + (count + 1) * size;
     w.right = w.matrix + count * count, w.mu = w.right + count, w.scratch = w.mu + count;
-    w.space = (dal__dirac_space){.probe = probe, .n = s->n, .t = at->t, .phi = phi};
+    w.space = (dal__dirac_space){.evaluator = evaluator, .n = s->n, .t = at->t, .phi = phi};
     w.space.field = block + numbers - n;
     memcpy(w.z, at->q, n * sizeof(double));
     memcpy(w.z + n, at->v, n * sizeof(double));
@@ -205,10 +205,11 @@ dal_status dal__dirac(dal_probe *probe, const dal_point *at, double e,
     return status;
 }
 
-dal_status dal_measure_dirac(dal_probe *probe, const dal_point *at, double e, dal_dirac *out)
+dal_status dal_measure_dirac(dal_evaluator *evaluator, const dal_point *at, double e,
+                             dal_dirac *out)
 {
-    DAL_REQUIRE(probe, NULL);
+    DAL_REQUIRE(evaluator, NULL);
     DAL_REQUIRE_POINT(at);
     DAL_REQUIRE(out, NULL);
-    return dal__dirac(probe, at, e, dal__dirac_constraint, out);
+    return dal__dirac(evaluator, at, e, dal__dirac_constraint, out);
 }

@@ -12,12 +12,12 @@ static const double rank_tolerance = 1e-10;
 static const double onto_tolerance = 1e-13;
 enum { NEWTON_MOST = 50 };
 
-dal_status dal__constraint_at(dal_probe *probe, double t, const double *q, const double *v,
+dal_status dal__constraint_at(dal_evaluator *evaluator, double t, const double *q, const double *v,
                               double *out)
 {
-    const dal_system *s = dal_probe_system(probe);
+    const dal_system *s = dal_evaluator_system(evaluator);
     size_t count = (size_t)s->m * (1 + 2 * (size_t)s->n);
-    DAL_TRY(dal_probe_call(probe, s->call.constraint, t, q, v, NULL, out));
+    DAL_TRY(dal_evaluator_call(evaluator, s->call.constraint, t, q, v, NULL, out));
     return isfinite(dal__greatest(out, count)) ? DAL_OK : DAL_NOT_FINITE;
 }
 
@@ -43,18 +43,18 @@ static void scale_gram(double *gram, double *size, int m)
             if (size[a] > 0.0 && size[b] > 0.0) gram[a * m + b] /= size[a] * size[b];
 }
 
-dal_status dal_measure_rank(dal_probe *probe, const dal_point *at, int *rank, double *pivot)
+dal_status dal_measure_rank(dal_evaluator *evaluator, const dal_point *at, int *rank, double *pivot)
 {
-    DAL_REQUIRE(probe, NULL);
+    DAL_REQUIRE(evaluator, NULL);
     DAL_REQUIRE_POINT(at);
     DAL_REQUIRE(rank, NULL);
     DAL_REQUIRE(pivot, NULL);
-    const dal_system *s = dal_probe_system(probe);
+    const dal_system *s = dal_evaluator_system(evaluator);
     size_t n = (size_t)s->n, m = (size_t)s->m;
     double *block = dal__numbers(1, m * (1 + 2 * n) + m * m + m + m * (m + 2));
     if (block == NULL) return DAL_MEMORY;
     double *gram = block + m * (1 + 2 * n), *size = gram + m * m;
-    dal_status status = dal__constraint_at(probe, at->t, at->q, at->v, block);
+    dal_status status = dal__constraint_at(evaluator, at->t, at->q, at->v, block);
     if (status == DAL_OK) {
         dal__gram(s, block, gram);
         scale_gram(gram, size, s->m);
@@ -67,7 +67,7 @@ dal_status dal_measure_rank(dal_probe *probe, const dal_point *at, int *rank, do
 /* ---- onto D = 0 ---- */
 
 typedef struct projection {
-    dal_probe *probe;
+    dal_evaluator *evaluator;
     const dal_system *s;
     double t;
     const double *q;
@@ -104,7 +104,7 @@ static dal_status stagnate(projection *p)
 {
     double least = INFINITY;
     for (int k = 0; k < NEWTON_MOST; k++) {
-        DAL_TRY(dal__constraint_at(p->probe, p->t, p->q, p->v, p->block));
+        DAL_TRY(dal__constraint_at(p->evaluator, p->t, p->q, p->v, p->block));
         double size = dal__greatest(p->block, (size_t)p->s->m);
         if (size >= least) break;
         least = size;
@@ -115,12 +115,12 @@ static dal_status stagnate(projection *p)
     return least <= onto_tolerance * natural_size(p) ? DAL_OK : DAL_NOT_CONVERGED;
 }
 
-dal_status dal_measure_onto(dal_probe *probe, double t, const double *q, double *v)
+dal_status dal_measure_onto(dal_evaluator *evaluator, double t, const double *q, double *v)
 {
-    DAL_REQUIRE(probe, NULL);
+    DAL_REQUIRE(evaluator, NULL);
     DAL_REQUIRE(q, NULL);
     DAL_REQUIRE(v, NULL);
-    const dal_system *s = dal_probe_system(probe);
+    const dal_system *s = dal_evaluator_system(evaluator);
     size_t n = (size_t)s->n, m = (size_t)s->m;
     size_t bytes = (n + (size_t)s->multipliers) * sizeof(double);
     if (m == 0) return DAL_OK;
@@ -128,7 +128,7 @@ dal_status dal_measure_onto(dal_probe *probe, double t, const double *q, double 
     if (block == NULL) return DAL_MEMORY;
     double *gram = block + m * (1 + 2 * n), *step = gram + m * m, *best = step + 2 * m;
     double *moved = best + n;
-    projection p = {.probe = probe, .s = s, .t = t, .q = q, .v = moved, .best = best};
+    projection p = {.evaluator = evaluator, .s = s, .t = t, .q = q, .v = moved, .best = best};
     p.block = block, p.gram = gram, p.step = step, p.right = step + m;
     p.work = moved + n + (size_t)s->multipliers;
     memcpy(moved, v, bytes);

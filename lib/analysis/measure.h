@@ -35,8 +35,8 @@ double dal__straighten(double *rows, int j, int width);
 
 /* The derivatives by (q, v, g), differences[rows * (n + nw)], of the first rows values of a
  * callback at a point. [alloc] */
-dal_status dal__gradients(dal_probe *probe, dal_callback *callback, int rows, const dal_point *at,
-                          double *differences);
+dal_status dal__gradients(dal_evaluator *evaluator, dal_callback *callback, int rows,
+                          const dal_point *at, double *differences);
 
 /* Modified Gram-Schmidt with column pivoting on a[rows*columns] (destroyed).  Columns shorter
  * than tolerance times the longest count as dependent; the rank is returned, and in *pivot (when
@@ -61,7 +61,7 @@ typedef struct dal__random {
 double dal__uniform(dal__random *random);
 
 /* D, A, W^-1 A^T in one block out[m + m*n + n*m], and G = A W^-1 A^T [m*m] from it. */
-dal_status dal__constraint_at(dal_probe *probe, double t, const double *q, const double *v,
+dal_status dal__constraint_at(dal_evaluator *evaluator, double t, const double *q, const double *v,
                               double *out);
 void dal__gram(const dal_system *system, const double *block, double *gram);
 
@@ -69,7 +69,7 @@ void dal__gram(const dal_system *system, const double *block, double *gram);
  * 2n+1 the primary ones; user is the dal__dirac_space.  dal_measure_dirac takes those of the
  * theory, a test a wrong one. */
 typedef struct dal__dirac_space {
-    dal_probe *probe;
+    dal_evaluator *evaluator;
     int n;
     double t;
     double (*phi)(void *user, const double *z, int a);
@@ -77,7 +77,7 @@ typedef struct dal__dirac_space {
     double *field; /* [n] */
 } dal__dirac_space;
 double dal__dirac_constraint(void *user, const double *z, int a);
-dal_status dal__dirac(dal_probe *probe, const dal_point *at, double e,
+dal_status dal__dirac(dal_evaluator *evaluator, const dal_point *at, double e,
                       double (*phi)(void *user, const double *z, int a), dal_dirac *out);
 
 #endif

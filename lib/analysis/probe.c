@@ -1,21 +1,22 @@
-/* probe.c - a system with its parameters in force and memory to evaluate it in. */
+/* evaluator.c - a system with its parameters in force and memory to evaluate it in. */
 #include "analysis/measure.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-struct dal_probe {
+struct dal_evaluator {
     const dal_system *system;
     double *work;
 };
 
-static dal_status set_parameter(dal_probe *probe, const dal_setting *setting, dal_error *error)
+static dal_status set_parameter(dal_evaluator *evaluator, const dal_setting *setting,
+                                dal_error *error)
 {
-    const dal_system *s = probe->system;
+    const dal_system *s = evaluator->system;
     for (int i = 0; i < s->parameters; i++) {
         if (s->parameter == NULL || strcmp(s->parameter[i], setting->name) != 0) continue;
-        probe->work[i] = setting->value;
+        evaluator->work[i] = setting->value;
         if (isfinite(setting->value)) return DAL_OK;
         return dal__fail(error, DAL_NOT_FINITE, "parameter %s = %g is not finite", setting->name,
                          setting->value);
@@ -24,62 +25,67 @@ static dal_status set_parameter(dal_probe *probe, const dal_setting *setting, da
                         s->parameter != NULL ? s->parameters : 0);
 }
 
-static dal_status fill(dal_probe *probe, const dal_setting *parameters, int count, dal_error *error)
+static dal_status fill(dal_evaluator *evaluator, const dal_setting *parameters, int count,
+                       dal_error *error)
 {
-    const dal_system *s = probe->system;
-    for (int i = 0; i < s->parameters; i++) probe->work[i] = s->value ? s->value[i] : 0.0;
-    for (int i = 0; i < count; i++) DAL_TRY(set_parameter(probe, &parameters[i], error));
+    const dal_system *s = evaluator->system;
+    for (int i = 0; i < s->parameters; i++) evaluator->work[i] = s->value ? s->value[i] : 0.0;
+    for (int i = 0; i < count; i++) DAL_TRY(set_parameter(evaluator, &parameters[i], error));
     if (s->prepare == NULL) return DAL_OK;
-    dal_status status = s->prepare(s, &(dal_at){.work = probe->work}, NULL);
+    dal_status status = s->prepare(s, &(dal_at){.work = evaluator->work}, NULL);
     if (status == DAL_OK) return DAL_OK;
     return dal__fail(error, status, "%s: the parameters cannot be used: %s", s->name,
                      dal_status_text(status));
 }
 
-dal_status dal_probe_create(dal_probe **probe, const dal_system *system,
-                            const dal_setting *parameters, int parameter_count, dal_error *error)
+dal_status dal_evaluator_create(dal_evaluator **evaluator, const dal_system *system,
+                                const dal_setting *parameters, int parameter_count,
+                                dal_error *error)
 {
-    DAL_REQUIRE(probe, error);
-    *probe = NULL;
+    DAL_REQUIRE(evaluator, error);
+    *evaluator = NULL;
     DAL_REQUIRE(system, error);
     DAL_TRY(dal__check_settings(parameters, parameter_count, "parameters", error));
     size_t size = system->workspace;
     if (size < (size_t)system->parameters) size = (size_t)system->parameters;
-    *probe = calloc(1, sizeof **probe);
+    *evaluator = calloc(1, sizeof **evaluator);
     double *work = dal__numbers(size, 1);
-    if (*probe == NULL || work == NULL) {
+    if (*evaluator == NULL || work == NULL) {
         free(work);
-        free(*probe);
-        *probe = NULL;
+        free(*evaluator);
+        *evaluator = NULL;
         return dal__fail(error, DAL_MEMORY, "%s: out of memory", system->name);
     }
-    **probe = (dal_probe){system, work};
-    dal_status status = fill(*probe, parameters, parameter_count, error);
+    **evaluator = (dal_evaluator){system, work};
+    dal_status status = fill(*evaluator, parameters, parameter_count, error);
     if (status == DAL_OK) return DAL_OK;
-    dal_probe_free(*probe);
-    *probe = NULL;
+    dal_evaluator_free(*evaluator);
+    *evaluator = NULL;
     return status;
 }
 
-void dal_probe_free(dal_probe *probe)
+void dal_evaluator_free(dal_evaluator *evaluator)
 {
-    if (probe == NULL) return;
-    free(probe->work);
-    free(probe);
+    if (evaluator == NULL) return;
+    free(evaluator->work);
+    free(evaluator);
 }
 
-const dal_system *dal_probe_system(const dal_probe *probe) { return probe ? probe->system : NULL; }
-
-dal_status dal_probe_call(dal_probe *probe, dal_callback *callback, double t, const double *q,
-                          const double *v, const double *pi, double *out)
+const dal_system *dal_evaluator_system(const dal_evaluator *evaluator)
 {
-    DAL_REQUIRE(probe, NULL);
+    return evaluator ? evaluator->system : NULL;
+}
+
+dal_status dal_evaluator_call(dal_evaluator *evaluator, dal_callback *callback, double t,
+                              const double *q, const double *v, const double *pi, double *out)
+{
+    DAL_REQUIRE(evaluator, NULL);
     DAL_REQUIRE(q, NULL);
     DAL_REQUIRE(v, NULL);
     DAL_REQUIRE(out, NULL);
     if (callback == NULL) return DAL_UNSUPPORTED;
-    if (callback == probe->system->call.adjoint) DAL_REQUIRE(pi, NULL);
-    return callback(probe->system, &(dal_at){t, q, v, pi, probe->work}, out);
+    if (callback == evaluator->system->call.adjoint) DAL_REQUIRE(pi, NULL);
+    return callback(evaluator->system, &(dal_at){t, q, v, pi, evaluator->work}, out);
 }
 
 /* ---- the start ---- */
@@ -120,17 +126,17 @@ static dal_status set_start(const dal_system *s, const dal_setting *setting, dou
     return dal__unknown(error, "start value", setting->name, shown, kept);
 }
 
-dal_status dal_probe_start(dal_probe *probe, const dal_setting *start, int start_count, double *out,
-                           dal_error *error)
+dal_status dal_evaluator_start(dal_evaluator *evaluator, const dal_setting *start, int start_count,
+                               double *out, dal_error *error)
 {
-    DAL_REQUIRE(probe, error);
+    DAL_REQUIRE(evaluator, error);
     DAL_REQUIRE(out, error);
     DAL_TRY(dal__check_settings(start, start_count, "start values", error));
-    const dal_system *s = probe->system;
+    const dal_system *s = evaluator->system;
     int count = 2 * s->n + s->multipliers + 1;
     for (int i = 0; i < count; i++) out[i] = i == count - 1 ? 1.0 : 0.0;
     if (s->start != NULL) {
-        dal_status status = s->start(s, &(dal_at){.work = probe->work}, out);
+        dal_status status = s->start(s, &(dal_at){.work = evaluator->work}, out);
         if (status != DAL_OK)
             return dal__fail(error, status, "%s: no start: %s", s->name, dal_status_text(status));
     }

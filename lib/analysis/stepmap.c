@@ -123,15 +123,16 @@ dal_status dal_measure_symplecticity(const dal_run_spec *spec, double t, const d
 static dal_status multiplier_sign(const dal_run_spec *spec, const stepmap *m, double *sign,
                                   dal_error *error)
 {
-    dal_probe *probe;
+    dal_evaluator *evaluator;
     dal_degree degree;
     *sign = 1.0;
     if (spec->system->multipliers == 0) return DAL_OK;
-    DAL_TRY(dal_probe_create(&probe, spec->system, spec->parameters, spec->parameter_count, error));
+    DAL_TRY(dal_evaluator_create(&evaluator, spec->system, spec->parameters, spec->parameter_count,
+                                 error));
     dal_point at = {m->t, m->z, m->z + spec->system->n};
-    dal_status status = dal_measure_degree(probe, &at, &degree, NULL);
+    dal_status status = dal_measure_degree(evaluator, &at, &degree, NULL);
     if (status == DAL_OK && degree.parity == -1) *sign = -1.0;
-    dal_probe_free(probe);
+    dal_evaluator_free(evaluator);
     if (status == DAL_OK) return DAL_OK;
     return dal__fail(error, status, "t = %g: the parity of D cannot be found: %s", m->t,
                      dal_status_text(status));

@@ -34,7 +34,7 @@ typedef struct search {
     const dal_poincare *section;
     dal_crossings *found;
     dal_error *error;
-    dal_probe *probe;
+    dal_evaluator *evaluator;
     double *values; /* [count] of the callback */
     size_t carried;
     mark before, last, now; /* the present state, and those two steps and one step ago */
@@ -56,8 +56,8 @@ static dal_status evaluate(search *w, double *value)
     const int n = dal_run_system(w->run)->n;
     const dal_point at = {dal_run_time(w->run), z, z + n};
     const dal_status status =
-        w->rate ? dal_measure_rate(w->probe, p->callback, p->count, &at, w->values)
-                : dal_probe_call(w->probe, p->callback, at.t, at.q, at.v, NULL, w->values);
+        w->rate ? dal_measure_rate(w->evaluator, p->callback, p->count, &at, w->values)
+                : dal_evaluator_call(w->evaluator, p->callback, at.t, at.q, at.v, NULL, w->values);
     *value = w->values[p->index];
     if (status == DAL_OK && isfinite(*value)) return DAL_OK;
     return dal__fail(w->error, status == DAL_OK ? DAL_NOT_FINITE : status,
@@ -239,14 +239,15 @@ static dal_status go(search *w, long long steps)
 
 /* ---- making one ---- */
 
-static dal_status probe_of(search *w)
+static dal_status evaluator_of(search *w)
 {
     const dal_system *s = dal_run_system(w->run);
     const double *value = dal_run_parameters(w->run);
     dal_setting *settings = calloc((size_t)s->parameters + 1, sizeof *settings);
     if (settings == NULL) return dal__fail(w->error, DAL_MEMORY, "section: out of memory");
     for (int i = 0; i < s->parameters; i++) settings[i] = (dal_setting){s->parameter[i], value[i]};
-    const dal_status status = dal_probe_create(&w->probe, s, settings, s->parameters, w->error);
+    const dal_status status =
+        dal_evaluator_create(&w->evaluator, s, settings, s->parameters, w->error);
     free(settings);
     return status;
 }
@@ -281,9 +282,9 @@ dal_status dal_run_crossings(dal_run *run, double T, const dal_poincare *section
     w.last.memory = block + w.carried;
     w.now.memory = block + 2 * w.carried;
     w.values = block + 3 * w.carried;
-    dal_status status = probe_of(&w);
+    dal_status status = evaluator_of(&w);
     if (status == DAL_OK) status = go(&w, (long long)nearbyint((T - dal_run_time(run)) / h));
-    dal_probe_free(w.probe);
+    dal_evaluator_free(w.evaluator);
     free(block);
     return status;
 }

@@ -25,7 +25,7 @@ enum { FOLLOWED = 4 };
 struct dal_spectrum {
     dal_run *run;   /* the trajectory */
     dal_run *aside; /* steps tangent vectors, or what differences need, from where the run is */
-    dal_probe *probe;
+    dal_evaluator *evaluator;
     int n, nw, dimension, count, rank, exact;
     int order;                  /* of the method */
     int forced;                 /* functions that the method forces: D, and E behind; 0, m or m+1 */
@@ -167,12 +167,12 @@ static double row_norm(const double *matrix, int rows, int columns)
 /* The trace of F_(v,g), and a rate at which motions near this one come and go. */
 static dal_status find_divergence(dal_spectrum *s)
 {
-    const dal_system *system = dal_probe_system(s->probe);
+    const dal_system *system = dal_evaluator_system(s->evaluator);
     const double *z = dal_run_state(s->run), *by_v = s->scratch + s->nw * s->n;
     s->divergence = s->rate = NAN;
     if (system->call.jacobian == NULL) return DAL_OK;
-    const dal_status status = dal_probe_call(s->probe, system->call.jacobian, dal_run_time(s->run),
-                                             z, z + s->n, NULL, s->scratch);
+    const dal_status status = dal_evaluator_call(
+        s->evaluator, system->call.jacobian, dal_run_time(s->run), z, z + s->n, NULL, s->scratch);
     if (status != DAL_OK)
         return dal__fail(s->error, status, "t = %g: no jacobian: %s", dal_run_time(s->run),
                          dal_status_text(status));
@@ -234,16 +234,16 @@ dal_status dal_spectrum_advance(dal_spectrum *s, long long steps, dal_error *err
  * parallelepiped that they spanned, NaN where they cannot be had. */
 static double find_normals(dal_spectrum *s)
 {
-    const dal_system *system = dal_probe_system(s->probe);
+    const dal_system *system = dal_evaluator_system(s->evaluator);
     const double *z = dal_run_state(s->run);
     const dal_point at = {dal_run_time(s->run), z, z + s->n};
     double size = 0.0;
     dal_status status = DAL_OK;
     if (s->forced > 0)
-        status = dal__gradients(s->probe, system->constraints, system->m, &at, s->normals);
+        status = dal__gradients(s->evaluator, system->constraints, system->m, &at, s->normals);
     if (status == DAL_OK && s->forced > system->m)
-        status =
-            dal__gradients(s->probe, system->energy, 1, &at, s->normals + system->m * s->dimension);
+        status = dal__gradients(s->evaluator, system->energy, 1, &at,
+                                s->normals + system->m * s->dimension);
     for (int j = 0; j < s->forced && status == DAL_OK; j++)
         size += log(dal__straighten(s->normals, j, s->dimension));
     return status == DAL_OK ? size : NAN;
@@ -350,14 +350,15 @@ static dal_status open_runs(dal_spectrum *s, const dal_run_spec *given, const da
     s->h = spec.options.step;
     s->order = dal_method_order(&spec.method);
     s->has_remainder = spec.options.precision == DAL_DOUBLE;
-    return dal_probe_create(&s->probe, system, spec.parameters, spec.parameter_count, error);
+    return dal_evaluator_create(&s->evaluator, system, spec.parameters, spec.parameter_count,
+                                error);
 }
 
 static dal_status allocate(dal_spectrum *s, dal_error *error)
 {
     const size_t d = (size_t)s->dimension, jacobian = (size_t)s->nw * d;
     const size_t scratch = jacobian > 5 * d ? jacobian : 5 * d;
-    const size_t normals = ((size_t)dal_probe_system(s->probe)->m + 1) * d;
+    const size_t normals = ((size_t)dal_evaluator_system(s->evaluator)->m + 1) * d;
     dal_run_memory(s->run, &s->memory_count);
     const size_t memory = s->memory_count > d ? s->memory_count : d;
     double *block = dal__numbers(1, d * d + d + d + FOLLOWED + scratch + normals + 2 * memory);
@@ -404,7 +405,7 @@ static dal_status find_rank(dal_spectrum *s, unsigned claims)
 /* Which functions have lost their directions: D, and E behind it. */
 static void find_forced(dal_spectrum *s, unsigned claims)
 {
-    const int lost = s->dimension - s->rank, m = dal_probe_system(s->probe)->m;
+    const int lost = s->dimension - s->rank, m = dal_evaluator_system(s->evaluator)->m;
     const int most = m + ((claims & DAL_KEEPS_ENERGY) != 0);
     s->forced = lost == m || lost == most ? lost : 0;
     s->turns_D = m > 0 && lost == 0 && claims & DAL_KEEPS_D_MIDPOINT;
@@ -453,7 +454,7 @@ void dal_spectrum_free(dal_spectrum *s)
     if (s == NULL) return;
     dal_run_free(s->run);
     dal_run_free(s->aside);
-    dal_probe_free(s->probe);
+    dal_evaluator_free(s->evaluator);
     free(s->vectors);
     free(s->statistics);
     free(s);
