@@ -1,4 +1,4 @@
-/* spectrum.c - Lyapunov exponents of the step map, and the volume it keeps.
+/* lyapunov.c - Lyapunov exponents of the step map, and the volume it keeps.
  *
  *     z' = step(z),   J = dz'/dz,   J V = V' R   (V, V' orthonormal, R upper triangular)
  *     exponent i = lim (1/T) sum log R_ii        (Benettin, Galgani, Giorgilli, Strelcyn 1980,
