@@ -206,7 +206,7 @@ dal_status dal_measure_rank(dal_evaluator *evaluator, const dal_point *at, int *
 
 /* Moves v[n] along W^-1 A^T until D = 0 (Newton, to stagnation).  DAL_NOT_CONVERGED when it does
  * not; v is then as before. [alloc] */
-dal_status dal_measure_onto(dal_evaluator *evaluator, double t, const double *q, double *v);
+dal_status dal_project_velocity(dal_evaluator *evaluator, double t, const double *q, double *v);
 
 /* What D is as a function, by differences at points around *at: each is a necessary condition,
  * met to rounding at every point tried. [alloc] */

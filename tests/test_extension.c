@@ -64,7 +64,7 @@ static void check_surface(dal_evaluator *plain, dal_evaluator *extended)
     const int n = dal_evaluator_system(plain)->n;
     double on[MOST], F[2][MOST], off_by = 0.0, on_by = 0.0;
     memcpy(on, v, sizeof v);
-    CU_ASSERT_EQUAL(dal_measure_onto(plain, 0.0, q, on), DAL_OK);
+    CU_ASSERT_EQUAL(dal_project_velocity(plain, 0.0, q, on), DAL_OK);
     field(plain, v, F[0]);
     field(extended, v, F[1]);
     for (int i = 0; i < n; i++) off_by = fmax(off_by, fabs(F[1][i] - F[0][i]));

@@ -181,14 +181,14 @@ static void test_rank(void)
     }
 }
 
-static void test_onto(void)
+static void test_project_velocity(void)
 {
     dal_model *model = fixture_model(fixture_full);
     const dal_system *system = fixture_system(model);
     dal_evaluator *evaluator = evaluator_of(system);
     const double q[] = {0.1, 0.4, 0.3, 0.2};
     double v[] = {0.9, 0.7, 0.1, 1.3}, D[2];
-    CU_ASSERT_EQUAL(dal_measure_onto(evaluator, 0.4, q, v), DAL_OK);
+    CU_ASSERT_EQUAL(dal_project_velocity(evaluator, 0.4, q, v), DAL_OK);
     CU_ASSERT_EQUAL(dal_evaluator_call(evaluator, system->constraints, 0.4, q, v, NULL, D), DAL_OK);
     CU_ASSERT(fabs(D[0]) < 1e-15 && fabs(D[1]) < 1e-15);
     dal_evaluator_free(evaluator);
@@ -196,14 +196,14 @@ static void test_onto(void)
 }
 
 /* x'^2 + y'^2 + 1 has no zero: v must come back as it was. */
-static void test_onto_nothing(void)
+static void test_project_velocity_nothing(void)
 {
     dal_model *model = fixture_model("coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\n"
                                      "constraints: [x'^2 + y'^2 + 1]\nstart: {x': 1}\n");
     dal_evaluator *evaluator = evaluator_of(fixture_system(model));
     const double q[] = {0.0, 0.0};
     double v[] = {0.6, 0.3};
-    CU_ASSERT_NOT_EQUAL(dal_measure_onto(evaluator, 0.0, q, v), DAL_OK);
+    CU_ASSERT_NOT_EQUAL(dal_project_velocity(evaluator, 0.0, q, v), DAL_OK);
     CU_ASSERT(v[0] == 0.6 && v[1] == 0.3);
     dal_evaluator_free(evaluator);
     dal_model_free(model);
@@ -211,7 +211,7 @@ static void test_onto_nothing(void)
 
 /* D = sqrt(x'^2 + d^2) has no zero, and Newton's method goes from x' = d to -d, where |D| is the
  * same.  Below 1e-13 of the terms of D, or of 1 if they are smaller, |D| counts as 0. */
-static void test_onto_rounding(void)
+static void test_project_velocity_rounding(void)
 {
     for (int k = 0; k < 2; k++) {
         const dal_setting d = {"d", (k ? 1.5e-13 : 0.9e-13) / sqrt(2.0)};
@@ -223,7 +223,7 @@ static void test_onto_rounding(void)
                               DAL_OK);
         const double q[] = {0.0, 0.0};
         double v[] = {d.value, 0.0};
-        CU_ASSERT_EQUAL(dal_measure_onto(evaluator, 0.0, q, v), k ? DAL_NOT_CONVERGED : DAL_OK);
+        CU_ASSERT_EQUAL(dal_project_velocity(evaluator, 0.0, q, v), k ? DAL_NOT_CONVERGED : DAL_OK);
         dal_evaluator_free(evaluator);
         dal_model_free(model);
     }
@@ -445,7 +445,7 @@ static dal_status all_measures(const dal_system *system)
     if (!status) status = dal_measure_rate(evaluator, system->energy, 1, &at, numbers);
     if (!status) status = dal_measure_derivatives(evaluator, &at, &derivatives);
     if (!status) status = dal_measure_rank(evaluator, &at, &rank, numbers);
-    if (!status) status = dal_measure_onto(evaluator, 0.0, x, x + system->n);
+    if (!status) status = dal_project_velocity(evaluator, 0.0, x, x + system->n);
     if (!status) status = dal_measure_degree(evaluator, &at, &degree, NULL);
     if (!status) status = dal_measure_dirac(evaluator, &at, 1.0, &dirac);
     dal_evaluator_free(evaluator);
@@ -482,9 +482,9 @@ void suite_measure(void)
     CU_add_test(suite, "what cannot be measured", test_unmeasured);
     CU_add_test(suite, "derivatives far away and of small lengths", test_derivatives_anywhere);
     CU_add_test(suite, "rank of G", test_rank);
-    CU_add_test(suite, "onto D = 0", test_onto);
-    CU_add_test(suite, "onto a D without zero", test_onto_nothing);
-    CU_add_test(suite, "onto a D of the size of rounding", test_onto_rounding);
+    CU_add_test(suite, "velocities projected to D = 0", test_project_velocity);
+    CU_add_test(suite, "no projection to a D without zero", test_project_velocity_nothing);
+    CU_add_test(suite, "onto a D of the size of rounding", test_project_velocity_rounding);
     CU_add_test(suite, "kinds of D", test_degree);
     CU_add_test(suite, "nearly of another kind", test_nearly);
     CU_add_test(suite, "nearly dependent constraints", test_nearly_dependent);

@@ -128,11 +128,11 @@ static void null_dal_measure_rank(void)
     REFUSED_STATUS(dal_measure_rank(evaluator, &at, &rank, NULL));
 }
 
-static void null_dal_measure_onto(void)
+static void null_dal_project_velocity(void)
 {
-    REFUSED_STATUS(dal_measure_onto(NULL, 0.0, numbers, numbers + 8));
-    REFUSED_STATUS(dal_measure_onto(evaluator, 0.0, NULL, numbers + 8));
-    REFUSED_STATUS(dal_measure_onto(evaluator, 0.0, numbers, NULL));
+    REFUSED_STATUS(dal_project_velocity(NULL, 0.0, numbers, numbers + 8));
+    REFUSED_STATUS(dal_project_velocity(evaluator, 0.0, NULL, numbers + 8));
+    REFUSED_STATUS(dal_project_velocity(evaluator, 0.0, numbers, NULL));
 }
 
 static void null_dal_measure_degree(void)

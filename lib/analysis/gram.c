@@ -9,7 +9,7 @@
 /* Pivots of the scaled G below this leave F less than six digits. */
 static const double rank_tolerance = 1e-10;
 /* |D| a Newton iteration at stagnation must have reached, relative to sum |A| |v|. */
-static const double onto_tolerance = 1e-13;
+static const double projection_tolerance = 1e-13;
 enum { NEWTON_MOST = 50 };
 
 dal_status dal__constraint_at(dal_evaluator *evaluator, double t, const double *q, const double *v,
@@ -112,10 +112,10 @@ static dal_status stagnate(projection *p)
         if (size == 0.0) break;
         DAL_TRY(newton_step(p));
     }
-    return least <= onto_tolerance * natural_size(p) ? DAL_OK : DAL_NOT_CONVERGED;
+    return least <= projection_tolerance * natural_size(p) ? DAL_OK : DAL_NOT_CONVERGED;
 }
 
-dal_status dal_measure_onto(dal_evaluator *evaluator, double t, const double *q, double *v)
+dal_status dal_project_velocity(dal_evaluator *evaluator, double t, const double *q, double *v)
 {
     DAL_REQUIRE(evaluator, NULL);
     DAL_REQUIRE(q, NULL);
