@@ -210,7 +210,7 @@ dal_status dal_project_velocity(dal_evaluator *evaluator, double t, const double
 
 /* What D is as a function, by differences at points around *at: each is a necessary condition,
  * met to rounding at every point tried. [alloc] */
-typedef struct dal_degree {
+typedef struct dal_constraint_class {
     int linear;          /* affine in v */
     int constant;        /* affine in (q,v) jointly */
     int bilinear;        /* affine in v, and affine in q */
@@ -221,11 +221,11 @@ typedef struct dal_degree {
     int reversible;      /* F(q,-v,-t) = F(q,v,t) */
     double force_defect; /* greatest |F(q,-v,-t) - F(q,v,t)| met, relative to max(1, |F|); NaN where
                             F has no values */
-} dal_degree;
+} dal_constraint_class;
 /* degree[m], when not NULL, receives the k of each constraint.  Errors: DAL_UNSUPPORTED,
  * DAL_NOT_FINITE: D has no values about the point, DAL_MEMORY. */
-dal_status dal_measure_degree(dal_evaluator *evaluator, const dal_point *at, dal_degree *out,
-                              double *degree);
+dal_status dal_classify_constraints(dal_evaluator *evaluator, const dal_point *at,
+                                    dal_constraint_class *out, double *degree);
 
 /* ---- measures of a method ------------------------------------------------------------------ */
 

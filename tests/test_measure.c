@@ -259,10 +259,10 @@ static void examine_kind(const kind *expected)
     dal_model *model = fixture_model(expected->text);
     dal_evaluator *evaluator = evaluator_of(fixture_system(model));
     double x[8], degree = -1.0;
-    dal_degree d;
+    dal_constraint_class d;
     CU_ASSERT_EQUAL(dal_evaluator_start(evaluator, NULL, 0, x, NULL), DAL_OK);
     const dal_point at = {0.0, x, x + 3};
-    CU_ASSERT_EQUAL(dal_measure_degree(evaluator, &at, &d, &degree), DAL_OK);
+    CU_ASSERT_EQUAL(dal_classify_constraints(evaluator, &at, &d, &degree), DAL_OK);
     CU_ASSERT_EQUAL(d.linear, expected->linear);
     CU_ASSERT_EQUAL(d.constant, expected->constant);
     CU_ASSERT_EQUAL(d.bilinear, expected->bilinear);
@@ -296,14 +296,14 @@ static void test_nearly(void)
     for (int i = 0; i < 10; i++) {
         char text[256];
         double x[8];
-        dal_degree d;
+        dal_constraint_class d;
         snprintf(text, sizeof text, PLANE "[x' + 2*y' - z' + %g*%s]\nstart: {x': 1, z': 1}\n",
                  factor[i % 2], cases[i / 2].more);
         dal_model *model = fixture_model(text);
         dal_evaluator *evaluator = evaluator_of(fixture_system(model));
         CU_ASSERT_EQUAL(dal_evaluator_start(evaluator, NULL, 0, x, NULL), DAL_OK);
         const dal_point at = {0.0, x, x + 3};
-        CU_ASSERT_EQUAL(dal_measure_degree(evaluator, &at, &d, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_classify_constraints(evaluator, &at, &d, NULL), DAL_OK);
         CU_ASSERT_EQUAL(d.linear, i % 2 ? cases[i / 2].linear : 1);
         CU_ASSERT_EQUAL(d.constant, i % 2 ? cases[i / 2].constant : 1);
         CU_ASSERT_EQUAL(d.bilinear, i % 2 ? cases[i / 2].bilinear : 1);
@@ -353,12 +353,12 @@ static void test_nearly_reversible(void)
         const dal_setting k = {"k", frictions[i]};
         dal_evaluator *evaluator;
         double x[3];
-        dal_degree d;
+        dal_constraint_class d;
         CU_ASSERT_EQUAL_FATAL(dal_evaluator_create(&evaluator, fixture_system(model), &k, 1, NULL),
                               DAL_OK);
         CU_ASSERT_EQUAL(dal_evaluator_start(evaluator, NULL, 0, x, NULL), DAL_OK);
         const dal_point at = {0.0, x, x + 1};
-        CU_ASSERT_EQUAL(dal_measure_degree(evaluator, &at, &d, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_classify_constraints(evaluator, &at, &d, NULL), DAL_OK);
         CU_ASSERT(d.force_defect >= 2.0 * frictions[i] - 1e-15);
         CU_ASSERT(d.force_defect <= 2.6 * frictions[i] + 1e-15);
         CU_ASSERT_EQUAL(d.reversible, i < 3);
@@ -390,20 +390,20 @@ static void test_unmeasured(void)
     const dal_system *system = fixture_system(model);
     dal_evaluator *evaluator = evaluator_of(system);
     dal_derivatives derivatives;
-    dal_degree degree;
+    dal_constraint_class class;
     double rate;
     CU_ASSERT_EQUAL(dal_measure_rate(evaluator, system->constraints, 1, &at, &rate),
                     DAL_NOT_FINITE);
     CU_ASSERT_EQUAL(dal_measure_derivatives(evaluator, &at, &derivatives), DAL_NOT_FINITE);
-    CU_ASSERT_EQUAL(dal_measure_degree(evaluator, &at, &degree, NULL), DAL_NOT_FINITE);
-    CU_ASSERT(!degree.linear && !degree.constant && !degree.bilinear && !degree.quadratic);
-    CU_ASSERT(!degree.homogeneous);
+    CU_ASSERT_EQUAL(dal_classify_constraints(evaluator, &at, &class, NULL), DAL_NOT_FINITE);
+    CU_ASSERT(!class.linear && !class.constant && !class.bilinear && !class.quadratic);
+    CU_ASSERT(!class.homogeneous);
     dal_evaluator_free(evaluator);
     dal_model_free(model);
     const dal_system empty = {.name = "empty", .n = 1, .call = {.field = no_field}};
     evaluator = evaluator_of(&empty);
-    CU_ASSERT_EQUAL(dal_measure_degree(evaluator, &at, &degree, NULL), DAL_OK);
-    CU_ASSERT(isnan(degree.force_defect) && !degree.reversible);
+    CU_ASSERT_EQUAL(dal_classify_constraints(evaluator, &at, &class, NULL), DAL_OK);
+    CU_ASSERT(isnan(class.force_defect) && !class.reversible);
     dal_evaluator_free(evaluator);
 }
 
@@ -436,7 +436,7 @@ static dal_status all_measures(const dal_system *system)
     double x[16], numbers[16];
     int rank;
     dal_derivatives derivatives;
-    dal_degree degree;
+    dal_constraint_class class;
     dal_dirac dirac;
     dal_status status = dal_evaluator_create(&evaluator, system, NULL, 0, NULL);
     if (status != DAL_OK) return status;
@@ -446,7 +446,7 @@ static dal_status all_measures(const dal_system *system)
     if (!status) status = dal_measure_derivatives(evaluator, &at, &derivatives);
     if (!status) status = dal_measure_rank(evaluator, &at, &rank, numbers);
     if (!status) status = dal_project_velocity(evaluator, 0.0, x, x + system->n);
-    if (!status) status = dal_measure_degree(evaluator, &at, &degree, NULL);
+    if (!status) status = dal_classify_constraints(evaluator, &at, &class, NULL);
     if (!status) status = dal_measure_dirac(evaluator, &at, 1.0, &dirac);
     dal_evaluator_free(evaluator);
     return status;

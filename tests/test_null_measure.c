@@ -135,13 +135,13 @@ static void null_dal_project_velocity(void)
     REFUSED_STATUS(dal_project_velocity(evaluator, 0.0, numbers, NULL));
 }
 
-static void null_dal_measure_degree(void)
+static void null_dal_classify_constraints(void)
 {
-    dal_degree out;
-    REFUSED_STATUS(dal_measure_degree(NULL, &at, &out, NULL));
-    REFUSED_POINTS(bad, dal_measure_degree(evaluator, bad, &out, NULL));
-    REFUSED_STATUS(dal_measure_degree(evaluator, &at, NULL, NULL));
-    CU_ASSERT_EQUAL(dal_measure_degree(evaluator, &at, &out, NULL), DAL_OK);
+    dal_constraint_class out;
+    REFUSED_STATUS(dal_classify_constraints(NULL, &at, &out, NULL));
+    REFUSED_POINTS(bad, dal_classify_constraints(evaluator, bad, &out, NULL));
+    REFUSED_STATUS(dal_classify_constraints(evaluator, &at, NULL, NULL));
+    CU_ASSERT_EQUAL(dal_classify_constraints(evaluator, &at, &out, NULL), DAL_OK);
 }
 
 /* ---- measures of a method ---- */

@@ -179,7 +179,7 @@ static void list_methods(check *c, bool is_constant, unsigned properties)
 }
 
 /* A property that numbers contradict is a fault; one that the system does not state is none. */
-static void check_classes(check *c, const dal_degree *d)
+static void check_classes(check *c, const dal_constraint_class *d)
 {
     const struct {
         unsigned property;
@@ -204,7 +204,7 @@ static void check_classes(check *c, const dal_degree *d)
 
 void check_constraints(check *c)
 {
-    dal_degree d;
+    dal_constraint_class d;
     dal_callback *D = c->system->constraints;
     if (c->m == 0) return;
     const motion_rate on = measure_rate(c, D, c->m, -1, c->surface, c->surface_count);
@@ -212,7 +212,7 @@ void check_constraints(check *c)
     check_motion_rate(c, "dD/dt along F, on D = 0", &on, zero);
     check_motion_rate(c, "dD/dt along F, off D = 0", &off, zero);
     double *degree = cli_calloc((size_t)c->m + 1, sizeof *degree);
-    const dal_status status = dal_measure_degree(c->evaluator, &c->origin, &d, degree);
+    const dal_status status = dal_classify_constraints(c->evaluator, &c->origin, &d, degree);
     if (cli_is_ok(status)) {
         char text[64] = "not homogeneous";
         int written = 0;
@@ -279,8 +279,8 @@ void check_reversal(check *c)
     static const char *const parity[] = {"D(q,-v) = -D(q,v)", "neither even nor odd in v",
                                          "D(q,-v) = +D(q,v)"};
     static const char what[] = "F(q,-v,-t) = F(q,v,t)";
-    dal_degree d;
-    const dal_status status = dal_measure_degree(c->evaluator, &c->origin, &d, NULL);
+    dal_constraint_class d;
+    const dal_status status = dal_classify_constraints(c->evaluator, &c->origin, &d, NULL);
     if (!cli_is_ok(status) || isnan(d.force_defect)) {
         check_item(c, CHECK_UNMEASURED, what, "%s",
                    dal_status_text(cli_is_ok(status) ? DAL_NOT_FINITE : status));

@@ -204,9 +204,9 @@ static int homogeneous(survey *w)
     return 1;
 }
 
-static void examine(survey *w, dal_degree *out, double *degree)
+static void examine(survey *w, dal_constraint_class *out, double *degree)
 {
-    *out = (dal_degree){0};
+    *out = (dal_constraint_class){0};
     if (w->m > 0) {
         int steady = without_time(w);
         out->linear = affine(w, 0, 1);
@@ -222,8 +222,8 @@ static void examine(survey *w, dal_degree *out, double *degree)
     out->reversible = turned && out->force_defect <= 1e-10;
 }
 
-dal_status dal_measure_degree(dal_evaluator *evaluator, const dal_point *at, dal_degree *out,
-                              double *degree)
+dal_status dal_classify_constraints(dal_evaluator *evaluator, const dal_point *at,
+                                    dal_constraint_class *out, double *degree)
 {
     DAL_REQUIRE(evaluator, NULL);
     DAL_REQUIRE_POINT(at);

@@ -124,14 +124,14 @@ static dal_status multiplier_sign(const dal_run_spec *spec, const stepmap *m, do
                                   dal_error *error)
 {
     dal_evaluator *evaluator;
-    dal_degree degree;
+    dal_constraint_class class;
     *sign = 1.0;
     if (spec->system->multipliers == 0) return DAL_OK;
     DAL_TRY(dal_evaluator_create(&evaluator, spec->system, spec->parameters, spec->parameter_count,
                                  error));
     dal_point at = {m->t, m->z, m->z + spec->system->n};
-    dal_status status = dal_measure_degree(evaluator, &at, &degree, NULL);
-    if (status == DAL_OK && degree.parity == -1) *sign = -1.0;
+    dal_status status = dal_classify_constraints(evaluator, &at, &class, NULL);
+    if (status == DAL_OK && class.parity == -1) *sign = -1.0;
     dal_evaluator_free(evaluator);
     if (status == DAL_OK) return DAL_OK;
     return dal__fail(error, status, "t = %g: the parity of D cannot be found: %s", m->t,
