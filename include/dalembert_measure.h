@@ -196,8 +196,8 @@ typedef struct dal_derivatives {
     double normal;   /* A = dD/dv */
     double gram;     /* asymmetry of G = A W^-1 A^T, relative to its size */
 } dal_derivatives;
-dal_status dal_measure_derivatives(dal_evaluator *evaluator, const dal_point *at,
-                                   dal_derivatives *out);
+dal_status dal_check_derivatives(dal_evaluator *evaluator, const dal_point *at,
+                                 dal_derivatives *out);
 
 /* The numerical rank of G = A W^-1 A^T, and its smallest pivot relative to the largest entry of
  * G scaled to a unit diagonal (0 where G is singular). [alloc] */
@@ -249,32 +249,32 @@ typedef struct dal_order {
 void dal_order_slopes(dal_order *order, double noise);
 
 /* The observed order: max norm of the whole state at T against reference[dimension], or, when it
- * is NULL, against gauss12 (or what method *judge says) with half the smallest step. [alloc]
+ * is NULL, against gauss12 (or *reference_method) with half the smallest step. [alloc]
  * T must hold a whole number of the steps.  Errors: those of the runs, DAL_ARGUMENT. */
 dal_status dal_measure_order(const dal_run_spec *spec, double T, int levels,
-                             const dal_method *judge, const double *reference, dal_order *order,
-                             dal_error *error);
+                             const dal_method *reference_method, const double *reference,
+                             dal_order *order, dal_error *error);
 
 /* Greatest entry of |J^T Omega J - Omega|, J the derivative of one step from the run's start (or
  * from state[4n+2] at time t) by differences; pairs (q,p), (v,pi), (e,pi_e).  Lifted space only:
  * DAL_UNSUPPORTED; e must be finite.  increment, to begin with, relative to max(1, h |v|) of a
  * coordinate and max(1, |x|) of all else; 0: 2e-3. [alloc] */
-dal_status dal_measure_symplecticity(const dal_run_spec *spec, double t, const double *state,
-                                     double increment, double *defect, dal_error *error);
+dal_status dal_check_symplecticity(const dal_run_spec *spec, double t, const double *state,
+                                   double increment, double *defect, dal_error *error);
 
 /* rho step rho step = id: greatest difference from the identity, relative to max(1, |x|), over
  * one step from the start (or from state at time t).  rho turns time round, t -> -t, with
  *     (q, v) -> (q, -v),      (q, v, e, p, pi, pi_e) -> (q, -v, e, -p, pi, -pi_e),
  * the antisymplectic lift that leaves H = pi.pi/(2e) + pi.F + p.v alone when mu_e is odd in t and
  * F(q,-v,-t) = F(q,v,t); vakonomic g goes to -g where D is odd in v.  [alloc] */
-dal_status dal_measure_reversibility(const dal_run_spec *spec, double t, const double *state,
-                                     double *defect, dal_error *error);
+dal_status dal_check_reversibility(const dal_run_spec *spec, double t, const double *state,
+                                   double *defect, dal_error *error);
 
 /* p.dq + pi.dv along steps of spec->method with 1/e = 0: (q,p,v,pi) from a lifted run with the
  * start of spec (its p_x, pi_x name the covector), (dq,dv) from the tangent system of the same
  * model (dal_model_tangent) in the physical space, beginning with direction[2n].  Constant for
  * symplectic methods.  The statistics cover every step. [alloc] */
-dal_status dal_measure_pairing(const dal_run_spec *spec, const dal_system *tangent,
+dal_status dal_adjoint_pairing(const dal_run_spec *spec, const dal_system *tangent,
                                const double *direction, long long steps, dal_statistics *statistics,
                                dal_error *error);
 
@@ -293,15 +293,15 @@ dal_status dal_measure_action(dal_evaluator *evaluator, double t0, double h, lon
  * the mean over each of the count-1 intervals, states[count*(4n+2)] the rows of a lifted run.
  * The greatest |dS/dX_k| over inner nodes and |dS/dP_k|, divided by h: zero to rounding for
  * implicit-midpoint, of the order of the error for others. [alloc] */
-dal_status dal_measure_stationarity(dal_evaluator *evaluator, double t0, double h, long long count,
-                                    const double *states, double *defect);
+dal_status dal_check_stationarity(dal_evaluator *evaluator, double t0, double h, long long count,
+                                  const double *states, double *defect);
 
 /* A function on a phase space of 2N numbers z = (X, P). */
-typedef double dal_phase_function(void *user, const double *z);
+typedef double dal_observable_function(void *user, const double *z);
 
 /* gradient[count] of f at z by differences, increments 2e-3 or, where f changes faster, less.  z is
  * used and put back. */
-void dal_measure_gradient(dal_phase_function *f, void *user, int count, double *z,
+void dal_measure_gradient(dal_observable_function *f, void *user, int count, double *z,
                           double *gradient);
 /* {f,g} = sum f_X g_P - f_P g_X from two gradients [2*pairs]. */
 double dal_poisson(const double *f, const double *g, int pairs);
@@ -322,7 +322,6 @@ typedef struct dal_dirac {
     double hamiltonian;   /* |H_c| on the surface; 0 */
 } dal_dirac;
 /* Errors: DAL_UNSUPPORTED (vakonomic), DAL_NOT_FINITE, DAL_MEMORY. [alloc] */
-dal_status dal_measure_dirac(dal_evaluator *evaluator, const dal_point *at, double e,
-                             dal_dirac *out);
+dal_status dal_check_dirac(dal_evaluator *evaluator, const dal_point *at, double e, dal_dirac *out);
 
 #endif

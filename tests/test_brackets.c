@@ -44,8 +44,8 @@ static dal_status dirac_of(const char *text, double (*phi)(void *, const double 
     double x[16];
     CU_ASSERT_EQUAL(dal_evaluator_start(evaluator, NULL, 0, x, NULL), DAL_OK);
     const dal_point at = {0.2, x, x + system->n};
-    const dal_status status = phi ? dal__dirac(evaluator, &at, 1.5, phi, out)
-                                  : dal_measure_dirac(evaluator, &at, 1.5, out);
+    const dal_status status =
+        phi ? dal__dirac(evaluator, &at, 1.5, phi, out) : dal_check_dirac(evaluator, &at, 1.5, out);
     *n = system->n;
     dal_evaluator_free(evaluator);
     dal_model_free(model);
@@ -171,15 +171,15 @@ static void test_stationarity(void)
     dal_evaluator *evaluator = evaluator_of(system);
     double states[STATES * WIDE], midpoint, other;
     trajectory(system, "gauss4", states);
-    CU_ASSERT_EQUAL(dal_measure_stationarity(evaluator, 0.0, 0.05, STATES, states, &other), DAL_OK);
+    CU_ASSERT_EQUAL(dal_check_stationarity(evaluator, 0.0, 0.05, STATES, states, &other), DAL_OK);
     trajectory(system, "implicit-midpoint", states);
-    CU_ASSERT_EQUAL(dal_measure_stationarity(evaluator, 0.0, 0.05, STATES, states, &midpoint),
+    CU_ASSERT_EQUAL(dal_check_stationarity(evaluator, 0.0, 0.05, STATES, states, &midpoint),
                     DAL_OK);
     CU_ASSERT(midpoint < 1e-10);
     CU_ASSERT(other > 1e-6);
     /* One node moved: no longer stationary. */
     states[5 * WIDE + 1] += 1e-4;
-    CU_ASSERT_EQUAL(dal_measure_stationarity(evaluator, 0.0, 0.05, STATES, states, &other), DAL_OK);
+    CU_ASSERT_EQUAL(dal_check_stationarity(evaluator, 0.0, 0.05, STATES, states, &other), DAL_OK);
     CU_ASSERT(other > 1e-4);
     dal_evaluator_free(evaluator);
     dal_model_free(model);

@@ -100,7 +100,7 @@ static void check_symmetric(const char *name, const dal_method *method, void *us
     if (dal_method_claims(method) & DAL_CARRIES_MULTIPLIER) return;
     if (!fixture_serves(method, user, DAL_PHYSICAL)) return;
     const dal_run_spec spec = fixture_spec(user, name, DAL_PHYSICAL, 0.2);
-    CU_ASSERT_EQUAL(dal_measure_reversibility(&spec, 0.0, NULL, &defect, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_check_reversibility(&spec, 0.0, NULL, &defect, NULL), DAL_OK);
     if (!(dal_method_claims(method) & DAL_SYMMETRIC)) return;
     if (!(defect <= 1e-14)) printf("\n  %s: defect %.3e\n", name, defect);
     CU_ASSERT(defect <= 1e-14);

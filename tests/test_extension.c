@@ -200,7 +200,7 @@ static void test_lifted(void)
     spec.start_count = 6;
     dal_run *run = fixture_run(&spec);
     fixture_displace(run, 0.3);
-    CU_ASSERT_EQUAL(dal_measure_symplecticity(&spec, 0.0, dal_run_state(run), 0.0, &defect, NULL),
+    CU_ASSERT_EQUAL(dal_check_symplecticity(&spec, 0.0, dal_run_state(run), 0.0, &defect, NULL),
                     DAL_OK);
     CU_ASSERT(defect <= 1e-9);
     dal_run_free(run);

@@ -89,7 +89,7 @@ static void check_symplectic(const char *name, const dal_method *method, void *u
     dal_run *run = fixture_run(&spec);
     double defect = NAN;
     fixture_displace(run, 0.3);
-    CU_ASSERT_EQUAL(dal_measure_symplecticity(&spec, 0.0, dal_run_state(run), 0.0, &defect, NULL),
+    CU_ASSERT_EQUAL(dal_check_symplecticity(&spec, 0.0, dal_run_state(run), 0.0, &defect, NULL),
                     DAL_OK);
     dal_run_free(run);
     const bool claimed = (dal_method_claims(method) & DAL_SYMPLECTIC) != 0;
@@ -115,7 +115,7 @@ static void check_symmetric(const char *name, const dal_method *method, void *us
     if (!fixture_serves(method, user, DAL_PHYSICAL)) return;
     const double h = telling_step(method, DAL_SYMMETRIC, 0.2);
     const dal_run_spec spec = fixture_spec(user, name, DAL_PHYSICAL, h);
-    CU_ASSERT_EQUAL(dal_measure_reversibility(&spec, 0.0, NULL, &defect, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_check_reversibility(&spec, 0.0, NULL, &defect, NULL), DAL_OK);
     const bool claimed = (dal_method_claims(method) & DAL_SYMMETRIC) != 0;
     const bool good = claimed ? defect <= 1e-14 : defect >= 1e-7;
     if (!good) printf("\n  %s: defect %.3e\n", name, defect);
@@ -143,7 +143,7 @@ static void check_pairing(const char *name, const dal_method *method, void *user
     dal_run_spec spec = fixture_spec(fixture_system(model), name, DAL_LIFTED, 0.005);
     spec.start = start;
     spec.start_count = 4;
-    CU_ASSERT_EQUAL(dal_measure_pairing(&spec, tangent, direction, 1000, &pairing, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_adjoint_pairing(&spec, tangent, direction, 1000, &pairing, NULL), DAL_OK);
     if (!(dal_statistics_deviation(&pairing) <=
           1e-13 * fmax(1.0, dal_statistics_max_abs(&pairing))))
         printf("\n  %s: pairing moved by %.2e\n", name, dal_statistics_deviation(&pairing));

@@ -118,12 +118,12 @@ static void test_derivatives_find_faults(void)
     dal_evaluator *evaluator = evaluator_of(&cubic);
     dal_derivatives d;
     wrong = 0.0;
-    CU_ASSERT_EQUAL(dal_measure_derivatives(evaluator, &at, &d), DAL_OK);
+    CU_ASSERT_EQUAL(dal_check_derivatives(evaluator, &at, &d), DAL_OK);
     CU_ASSERT(d.jacobian >= 0.0 && d.jacobian < 1e-12);
     CU_ASSERT(d.adjoint >= 0.0 && d.adjoint < 1e-12);
     CU_ASSERT(isnan(d.normal) && isnan(d.gram)); /* nothing to compare */
     wrong = 1e-6;
-    CU_ASSERT_EQUAL(dal_measure_derivatives(evaluator, &at, &d), DAL_OK);
+    CU_ASSERT_EQUAL(dal_check_derivatives(evaluator, &at, &d), DAL_OK);
     CU_ASSERT_DOUBLE_EQUAL(d.jacobian, 1e-6 / (3.0 * q * q - 1e-6), 1e-11);
     CU_ASSERT(d.adjoint > 1e-8);
     wrong = 0.0;
@@ -141,7 +141,7 @@ static void test_derivatives_of_systems(void)
         dal_derivatives d;
         CU_ASSERT_EQUAL(dal_evaluator_start(evaluator, NULL, 0, x, NULL), DAL_OK);
         const dal_point at = {0.3, x, x + fixture_system(model)->n};
-        CU_ASSERT_EQUAL(dal_measure_derivatives(evaluator, &at, &d), DAL_OK);
+        CU_ASSERT_EQUAL(dal_check_derivatives(evaluator, &at, &d), DAL_OK);
         CU_ASSERT(d.jacobian >= 0.0 && d.jacobian < 1e-10);
         CU_ASSERT(d.adjoint >= 0.0 && d.adjoint < 1e-10);
         CU_ASSERT(d.normal >= 0.0 && d.normal < 1e-10);
@@ -394,7 +394,7 @@ static void test_unmeasured(void)
     double rate;
     CU_ASSERT_EQUAL(dal_measure_rate(evaluator, system->constraints, 1, &at, &rate),
                     DAL_NOT_FINITE);
-    CU_ASSERT_EQUAL(dal_measure_derivatives(evaluator, &at, &derivatives), DAL_NOT_FINITE);
+    CU_ASSERT_EQUAL(dal_check_derivatives(evaluator, &at, &derivatives), DAL_NOT_FINITE);
     CU_ASSERT_EQUAL(dal_classify_constraints(evaluator, &at, &class, NULL), DAL_NOT_FINITE);
     CU_ASSERT(!class.linear && !class.constant && !class.bilinear && !class.quadratic);
     CU_ASSERT(!class.homogeneous);
@@ -420,7 +420,7 @@ static void test_derivatives_anywhere(void)
         dal_evaluator *evaluator = evaluator_of(fixture_system(model));
         const dal_point at = {0.0, &place[k], &v};
         dal_derivatives d;
-        CU_ASSERT_EQUAL(dal_measure_derivatives(evaluator, &at, &d), DAL_OK);
+        CU_ASSERT_EQUAL(dal_check_derivatives(evaluator, &at, &d), DAL_OK);
         CU_ASSERT(d.jacobian >= 0.0 && d.jacobian < 1e-8);
         CU_ASSERT(d.adjoint >= 0.0 && d.adjoint < 1e-8);
         dal_evaluator_free(evaluator);
@@ -443,11 +443,11 @@ static dal_status all_measures(const dal_system *system)
     status = dal_evaluator_start(evaluator, NULL, 0, x, NULL);
     const dal_point at = {0.0, x, x + system->n};
     if (!status) status = dal_measure_rate(evaluator, system->energy, 1, &at, numbers);
-    if (!status) status = dal_measure_derivatives(evaluator, &at, &derivatives);
+    if (!status) status = dal_check_derivatives(evaluator, &at, &derivatives);
     if (!status) status = dal_measure_rank(evaluator, &at, &rank, numbers);
     if (!status) status = dal_project_velocity(evaluator, 0.0, x, x + system->n);
     if (!status) status = dal_classify_constraints(evaluator, &at, &class, NULL);
-    if (!status) status = dal_measure_dirac(evaluator, &at, 1.0, &dirac);
+    if (!status) status = dal_check_dirac(evaluator, &at, 1.0, &dirac);
     dal_evaluator_free(evaluator);
     return status;
 }

@@ -110,12 +110,12 @@ static void null_dal_measure_rate(void)
     REFUSED_STATUS(dal_measure_rate(evaluator, field, 1, &at, NULL));
 }
 
-static void null_dal_measure_derivatives(void)
+static void null_dal_check_derivatives(void)
 {
     dal_derivatives out;
-    REFUSED_STATUS(dal_measure_derivatives(NULL, &at, &out));
-    REFUSED_POINTS(bad, dal_measure_derivatives(evaluator, bad, &out));
-    REFUSED_STATUS(dal_measure_derivatives(evaluator, &at, NULL));
+    REFUSED_STATUS(dal_check_derivatives(NULL, &at, &out));
+    REFUSED_POINTS(bad, dal_check_derivatives(evaluator, bad, &out));
+    REFUSED_STATUS(dal_check_derivatives(evaluator, &at, NULL));
 }
 
 static void null_dal_measure_rank(void)
@@ -157,29 +157,29 @@ static void null_dal_measure_order(void)
     CU_ASSERT_EQUAL(dal_measure_order(&spec, 1.0, 2, NULL, NULL, &order, NULL), DAL_OK);
 }
 
-static void null_dal_measure_symplecticity(void)
+static void null_dal_check_symplecticity(void)
 {
     double defect;
-    REFUSED_SPECS(bad, dal_measure_symplecticity(bad, 0.0, NULL, 0.0, &defect, error));
-    REFUSED(dal_measure_symplecticity(&spec, 0.0, NULL, 0.0, NULL, error));
+    REFUSED_SPECS(bad, dal_check_symplecticity(bad, 0.0, NULL, 0.0, &defect, error));
+    REFUSED(dal_check_symplecticity(&spec, 0.0, NULL, 0.0, NULL, error));
 }
 
-static void null_dal_measure_reversibility(void)
+static void null_dal_check_reversibility(void)
 {
     double defect;
-    REFUSED_SPECS(bad, dal_measure_reversibility(bad, 0.0, NULL, &defect, error));
-    REFUSED(dal_measure_reversibility(&spec, 0.0, NULL, NULL, error));
+    REFUSED_SPECS(bad, dal_check_reversibility(bad, 0.0, NULL, &defect, error));
+    REFUSED(dal_check_reversibility(&spec, 0.0, NULL, NULL, error));
 }
 
-static void null_dal_measure_pairing(void)
+static void null_dal_adjoint_pairing(void)
 {
     dal_statistics s;
-    REFUSED_SPECS(bad, dal_measure_pairing(bad, tangent, numbers, 1, &s, error));
-    REFUSED(dal_measure_pairing(&spec, NULL, numbers, 1, &s, error));
-    REFUSED(dal_measure_pairing(&spec, system, numbers, 1, &s, error)); /* not of 2n coordinates */
-    REFUSED(dal_measure_pairing(&spec, tangent, NULL, 1, &s, error));
-    REFUSED(dal_measure_pairing(&spec, tangent, numbers, -1, &s, error));
-    REFUSED(dal_measure_pairing(&spec, tangent, numbers, 1, NULL, error));
+    REFUSED_SPECS(bad, dal_adjoint_pairing(bad, tangent, numbers, 1, &s, error));
+    REFUSED(dal_adjoint_pairing(&spec, NULL, numbers, 1, &s, error));
+    REFUSED(dal_adjoint_pairing(&spec, system, numbers, 1, &s, error)); /* not of 2n coordinates */
+    REFUSED(dal_adjoint_pairing(&spec, tangent, NULL, 1, &s, error));
+    REFUSED(dal_adjoint_pairing(&spec, tangent, numbers, -1, &s, error));
+    REFUSED(dal_adjoint_pairing(&spec, tangent, numbers, 1, NULL, error));
 }
 
 /* ---- the action and Dirac's algebra ---- */
@@ -193,13 +193,13 @@ static void null_dal_measure_action(void)
     REFUSED_STATUS(dal_measure_action(evaluator, 0.0, 0.1, 10, numbers, 1.0, NULL));
 }
 
-static void null_dal_measure_stationarity(void)
+static void null_dal_check_stationarity(void)
 {
     double defect;
-    REFUSED_STATUS(dal_measure_stationarity(NULL, 0.0, 0.1, 10, numbers, &defect));
-    REFUSED_STATUS(dal_measure_stationarity(evaluator, 0.0, 0.1, -1, numbers, &defect));
-    REFUSED_STATUS(dal_measure_stationarity(evaluator, 0.0, 0.1, 10, NULL, &defect));
-    REFUSED_STATUS(dal_measure_stationarity(evaluator, 0.0, 0.1, 10, numbers, NULL));
+    REFUSED_STATUS(dal_check_stationarity(NULL, 0.0, 0.1, 10, numbers, &defect));
+    REFUSED_STATUS(dal_check_stationarity(evaluator, 0.0, 0.1, -1, numbers, &defect));
+    REFUSED_STATUS(dal_check_stationarity(evaluator, 0.0, 0.1, 10, NULL, &defect));
+    REFUSED_STATUS(dal_check_stationarity(evaluator, 0.0, 0.1, 10, numbers, NULL));
 }
 
 static double first(void *user, const double *z) { return user ? NAN : z[0]; }
@@ -221,12 +221,12 @@ static void null_dal_poisson(void)
     CU_ASSERT(isnan(dal_poisson(numbers, numbers, -1)));
 }
 
-static void null_dal_measure_dirac(void)
+static void null_dal_check_dirac(void)
 {
     dal_dirac out;
-    REFUSED_STATUS(dal_measure_dirac(NULL, &at, 1.0, &out));
-    REFUSED_POINTS(bad, dal_measure_dirac(evaluator, bad, 1.0, &out));
-    REFUSED_STATUS(dal_measure_dirac(evaluator, &at, 1.0, NULL));
+    REFUSED_STATUS(dal_check_dirac(NULL, &at, 1.0, &out));
+    REFUSED_POINTS(bad, dal_check_dirac(evaluator, bad, 1.0, &out));
+    REFUSED_STATUS(dal_check_dirac(evaluator, &at, 1.0, NULL));
 }
 
 /* ---- what a drift comes from ---- */

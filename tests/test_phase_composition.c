@@ -90,7 +90,7 @@ static void test_symmetric(void)
             const dal_run_spec spec = fixture_spec(
                 fixture_system(model), join(bases[b], composed[i].name, ""), DAL_PHYSICAL, 0.2);
             CU_ASSERT(dal_method_claims(&spec.method) & DAL_SYMMETRIC);
-            CU_ASSERT_EQUAL(dal_measure_reversibility(&spec, 0.0, NULL, &defect, NULL), DAL_OK);
+            CU_ASSERT_EQUAL(dal_check_reversibility(&spec, 0.0, NULL, &defect, NULL), DAL_OK);
             if (!(defect <= 1e-14)) printf("\n  %s: defect %.2e\n", composed[i].name, defect);
             CU_ASSERT(defect <= 1e-14);
         }
@@ -103,7 +103,7 @@ static double symplectic_defect(const dal_run_spec *spec)
     double defect = NAN;
     dal_run *run = fixture_run(spec);
     fixture_displace(run, 0.3);
-    CU_ASSERT_EQUAL(dal_measure_symplecticity(spec, 0.0, dal_run_state(run), 0.0, &defect, NULL),
+    CU_ASSERT_EQUAL(dal_check_symplecticity(spec, 0.0, dal_run_state(run), 0.0, &defect, NULL),
                     DAL_OK);
     dal_run_free(run);
     return defect;

@@ -124,7 +124,7 @@ static double symplectic_defect(const dal_system *system, const char *name)
     dal_run *run = fixture_run(&spec);
     double defect = NAN;
     fixture_displace(run, 0.3);
-    CU_ASSERT_EQUAL(dal_measure_symplecticity(&spec, 0.0, dal_run_state(run), 0.0, &defect, NULL),
+    CU_ASSERT_EQUAL(dal_check_symplecticity(&spec, 0.0, dal_run_state(run), 0.0, &defect, NULL),
                     DAL_OK);
     dal_run_free(run);
     return defect;
@@ -157,7 +157,7 @@ static void test_pairing(void)
                                          DAL_LIFTED, lifted ? 0.01 : 0.1);
         spec.start = start;
         spec.start_count = 4;
-        CU_ASSERT_EQUAL(dal_measure_pairing(&spec, tangent, direction, 300, &pairing, NULL),
+        CU_ASSERT_EQUAL(dal_adjoint_pairing(&spec, tangent, direction, 300, &pairing, NULL),
                         DAL_OK);
         const double moved = dal_statistics_deviation(&pairing);
         const double size = fmax(1.0, dal_statistics_max_abs(&pairing));

@@ -201,7 +201,7 @@ static void test_symplecticity_closed_form(void)
     const double h = 0.4;
     dal_run_spec spec = fixture_spec(fixture_system(model), "rk4", DAL_LIFTED, h);
     double defect;
-    CU_ASSERT_EQUAL(dal_measure_symplecticity(&spec, 0.0, NULL, 0.0, &defect, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_check_symplecticity(&spec, 0.0, NULL, 0.0, &defect, NULL), DAL_OK);
     CU_ASSERT_DOUBLE_EQUAL(defect, expected_rk4_defect(h), 1e-11);
     CU_ASSERT(defect > 1e-5);
     dal_model_free(model);
@@ -226,8 +226,8 @@ static void test_symplecticity(void)
         dal_run *run = fixture_run(&spec);
         double defect;
         fixture_displace(run, 0.5);
-        CU_ASSERT_EQUAL(
-            dal_measure_symplecticity(&spec, 0.3, dal_run_state(run), 0.0, &defect, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_check_symplecticity(&spec, 0.3, dal_run_state(run), 0.0, &defect, NULL),
+                        DAL_OK);
         CU_ASSERT(cases[k].symplectic ? defect < 1e-10 : defect > 1e-8);
         dal_run_free(run);
     }
@@ -245,7 +245,7 @@ static void test_symplecticity_far(void)
     dal_run *run = fixture_run(&spec);
     double defect;
     fixture_displace(run, 0.5);
-    CU_ASSERT_EQUAL(dal_measure_symplecticity(&spec, 0.0, dal_run_state(run), 0.0, &defect, NULL),
+    CU_ASSERT_EQUAL(dal_check_symplecticity(&spec, 0.0, dal_run_state(run), 0.0, &defect, NULL),
                     DAL_OK);
     CU_ASSERT(defect < 1e-6);
     dal_run_free(run);
@@ -260,12 +260,11 @@ static void test_symplecticity_place(void)
     double early, late;
     fixture_displace(run, 0.5);
     const double *state = dal_run_state(run);
-    CU_ASSERT_EQUAL(dal_measure_symplecticity(&spec, 0.0, state, 0.0, &early, NULL), DAL_OK);
-    CU_ASSERT_EQUAL(dal_measure_symplecticity(&spec, 0.9, state, 0.0, &late, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_check_symplecticity(&spec, 0.0, state, 0.0, &early, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_check_symplecticity(&spec, 0.9, state, 0.0, &late, NULL), DAL_OK);
     CU_ASSERT(fabs(early - late) > 1e-3 * early);
     spec.options.space = DAL_PHYSICAL;
-    CU_ASSERT_EQUAL(dal_measure_symplecticity(&spec, 0.0, NULL, 0.0, &early, NULL),
-                    DAL_UNSUPPORTED);
+    CU_ASSERT_EQUAL(dal_check_symplecticity(&spec, 0.0, NULL, 0.0, &early, NULL), DAL_UNSUPPORTED);
     dal_run_free(run);
     dal_model_free(model);
 }
@@ -279,7 +278,7 @@ static void test_reversibility_closed_form(void)
     const dal_run_spec spec =
         fixture_spec(fixture_system(model), "symplectic-euler-00", DAL_PHYSICAL, 0.1);
     double defect;
-    CU_ASSERT_EQUAL(dal_measure_reversibility(&spec, 0.0, NULL, &defect, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_check_reversibility(&spec, 0.0, NULL, &defect, NULL), DAL_OK);
     CU_ASSERT_DOUBLE_EQUAL(defect, 0.1 * 0.1 * 0.7, 1e-15);
     dal_model_free(model);
 }
@@ -297,8 +296,8 @@ static void test_reversibility(void)
             dal_run *run = fixture_run(&spec);
             double defect;
             fixture_displace(run, 0.5);
-            CU_ASSERT_EQUAL(
-                dal_measure_reversibility(&spec, 0.0, dal_run_state(run), &defect, NULL), DAL_OK);
+            CU_ASSERT_EQUAL(dal_check_reversibility(&spec, 0.0, dal_run_state(run), &defect, NULL),
+                            DAL_OK);
             CU_ASSERT(i < 3 ? defect < 1e-14 : defect > 1e-10);
             dal_run_free(run);
         }
@@ -313,7 +312,7 @@ static void test_reversibility_in_time(void)
     const dal_run_spec spec = fixture_spec(fixture_system(model), "gauss4", DAL_PHYSICAL, 0.1);
     const double state[] = {0.7, 0.4};
     double defect;
-    CU_ASSERT_EQUAL(dal_measure_reversibility(&spec, 0.8, state, &defect, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_check_reversibility(&spec, 0.8, state, &defect, NULL), DAL_OK);
     CU_ASSERT(defect < 1e-15);
     dal_model_free(model);
 }
@@ -326,12 +325,12 @@ static void test_irreversible_and_vakonomic(void)
     dal_run_spec spec = fixture_spec(fixture_system(model), "gauss8", DAL_PHYSICAL, 0.1);
     const double state[] = {0.1, 0.2, 0.3, 1.0, 0.5, 1.0};
     double defect;
-    CU_ASSERT_EQUAL(dal_measure_reversibility(&spec, 0.0, state, &defect, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_check_reversibility(&spec, 0.0, state, &defect, NULL), DAL_OK);
     CU_ASSERT(defect > 0.01);
     dal_model_free(model);
     model = fixture_model("chaplygin-sleigh-vakonomic");
     spec = fixture_spec(fixture_system(model), "gauss8", DAL_PHYSICAL, 0.1);
-    CU_ASSERT_EQUAL(dal_measure_reversibility(&spec, 0.0, NULL, &defect, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_check_reversibility(&spec, 0.0, NULL, &defect, NULL), DAL_OK);
     CU_ASSERT(defect < 1e-14);
     dal_model_free(model);
 }
@@ -349,7 +348,7 @@ static double pairing_of(const char *text, const char *method, long long steps)
     dal_run_spec spec = fixture_spec(fixture_system(model), method, DAL_LIFTED, 0.05);
     spec.start = start;
     spec.start_count = 4;
-    CU_ASSERT_EQUAL(dal_measure_pairing(&spec, tangent, direction, steps, &pairing, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_adjoint_pairing(&spec, tangent, direction, steps, &pairing, NULL), DAL_OK);
     CU_ASSERT_EQUAL(pairing.count, steps + 1);
     /* p.dq + pi.dv at the start */
     CU_ASSERT_DOUBLE_EQUAL(pairing.first, 0.7 * 0.3 - 0.4 * 0.5 + 0.5 * 0.4, 1e-15);
@@ -375,9 +374,9 @@ static dal_status all_measures(const dal_run_spec *spec, const dal_system *tange
     dal_order order;
     dal_statistics pairing;
     dal_status status = dal_measure_order(spec, 0.5, 2, NULL, NULL, &order, NULL);
-    if (!status) status = dal_measure_symplecticity(spec, 0.0, NULL, 0.0, &number, NULL);
-    if (!status) status = dal_measure_reversibility(spec, 0.0, NULL, &number, NULL);
-    if (!status) status = dal_measure_pairing(spec, tangent, direction, 2, &pairing, NULL);
+    if (!status) status = dal_check_symplecticity(spec, 0.0, NULL, 0.0, &number, NULL);
+    if (!status) status = dal_check_reversibility(spec, 0.0, NULL, &number, NULL);
+    if (!status) status = dal_adjoint_pairing(spec, tangent, direction, 2, &pairing, NULL);
     return status;
 }
 

@@ -301,7 +301,7 @@ void check_derivatives(check *c)
     dal_status failure = DAL_OK;
     int points = 0;
     for (int k = 0; k < c->near_count; k++) {
-        const dal_status status = dal_measure_derivatives(c->evaluator, &c->near[k], &d);
+        const dal_status status = dal_check_derivatives(c->evaluator, &c->near[k], &d);
         if (!cli_is_ok(status)) {
             failure = status;
             continue;
@@ -393,7 +393,7 @@ void check_algebra(check *c)
     const dal_point *at = c->surface_count > 0 ? &c->surface[0] : &c->origin;
     const double e = c->start[c->size];
     if (e == 0.0 || isinf(e)) return;
-    const dal_status status = dal_measure_dirac(c->evaluator, at, e, &d);
+    const dal_status status = dal_check_dirac(c->evaluator, at, e, &d);
     if (status == DAL_UNSUPPORTED) return;
     if (!cli_is_ok(status)) {
         check_item(c, CHECK_UNMEASURED, "brackets", "%s", dal_status_text(status));
@@ -496,7 +496,7 @@ static void check_stationarity(check *c, const char *method, double limit)
     snprintf(what, sizeof what, "d int P.X' - H, %s", method);
     if (!sample_path(c, &path, state) ||
         !cli_is_ok(
-            dal_measure_stationarity(c->evaluator, 0.0, path.h, LIFTED_NODES, path.rows, &defect)))
+            dal_check_stationarity(c->evaluator, 0.0, path.h, LIFTED_NODES, path.rows, &defect)))
         check_item(c, CHECK_UNMEASURED, what, "there is no trajectory");
     else if (isinf(limit))
         check_item(c, CHECK_INFO, what, "%.2g", defect);

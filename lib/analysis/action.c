@@ -117,8 +117,8 @@ static double variation(path *w, const double *row, int inner)
     return most / w->h;
 }
 
-dal_status dal_measure_stationarity(dal_evaluator *evaluator, double t0, double h, long long count,
-                                    const double *states, double *defect)
+dal_status dal_check_stationarity(dal_evaluator *evaluator, double t0, double h, long long count,
+                                  const double *states, double *defect)
 {
     DAL_REQUIRE(evaluator, NULL);
     DAL_REQUIRE(states, NULL);

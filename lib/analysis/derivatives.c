@@ -204,8 +204,8 @@ static dal_status compare_all(desk *d, const dal_point *at, dal_derivatives *out
     return compare_constraint(d, out);
 }
 
-dal_status dal_measure_derivatives(dal_evaluator *evaluator, const dal_point *at,
-                                   dal_derivatives *out)
+dal_status dal_check_derivatives(dal_evaluator *evaluator, const dal_point *at,
+                                 dal_derivatives *out)
 {
     DAL_REQUIRE(evaluator, NULL);
     DAL_REQUIRE_POINT(at);

@@ -15,7 +15,7 @@
 static const double rank_tolerance = 1e-6;
 
 typedef struct varied {
-    dal_phase_function *f;
+    dal_observable_function *f;
     void *user;
     double *z;
     int j;
@@ -31,7 +31,8 @@ static dal_status vary(void *user, double s, double *out)
     return DAL_OK;
 }
 
-void dal_measure_gradient(dal_phase_function *f, void *user, int count, double *z, double *gradient)
+void dal_measure_gradient(dal_observable_function *f, void *user, int count, double *z,
+                          double *gradient)
 {
     if (!f || !z || !gradient) return;
     double scratch[3];
@@ -205,8 +206,7 @@ dal_status dal__dirac(dal_evaluator *evaluator, const dal_point *at, double e,
     return status;
 }
 
-dal_status dal_measure_dirac(dal_evaluator *evaluator, const dal_point *at, double e,
-                             dal_dirac *out)
+dal_status dal_check_dirac(dal_evaluator *evaluator, const dal_point *at, double e, dal_dirac *out)
 {
     DAL_REQUIRE(evaluator, NULL);
     DAL_REQUIRE_POINT(at);

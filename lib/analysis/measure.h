@@ -66,7 +66,7 @@ dal_status dal__constraint_at(dal_evaluator *evaluator, double t, const double *
 void dal__gram(const dal_system *system, const double *block, double *gram);
 
 /* Dirac's algebra with any 4n+1 functions phi(user, z, a) on 6n+2 for its constraints, the first
- * 2n+1 the primary ones; user is the dal__dirac_space.  dal_measure_dirac takes those of the
+ * 2n+1 the primary ones; user is the dal__dirac_space.  dal_check_dirac takes those of the
  * theory, a test a wrong one. */
 typedef struct dal__dirac_space {
     dal_evaluator *evaluator;

@@ -45,13 +45,13 @@ static dal_status state_at(const dal_run_spec *spec, double T, double *out, long
     return status;
 }
 
-static dal_status judge_state(const dal_run_spec *spec, double T, int levels,
-                              const dal_method *judge, double *out, dal_error *error)
+static dal_status reference_state(const dal_run_spec *spec, double T, int levels,
+                                  const dal_method *reference_method, double *out, dal_error *error)
 {
     dal_run_spec finer = *spec;
     long long evaluations;
-    if (judge != NULL)
-        finer.method = *judge;
+    if (reference_method != NULL)
+        finer.method = *reference_method;
     else
         DAL_TRY(dal_method_parse(&finer.method, "gauss12", error));
     finer.options.step = ldexp(spec->options.step, -levels);
@@ -114,8 +114,8 @@ static dal_status dimension_of(const dal_run_spec *spec, size_t *count, dal_erro
 }
 
 dal_status dal_measure_order(const dal_run_spec *spec, double T, int levels,
-                             const dal_method *judge, const double *reference, dal_order *order,
-                             dal_error *error)
+                             const dal_method *reference_method, const double *reference,
+                             dal_order *order, dal_error *error)
 {
     DAL_REQUIRE(order, error);
     DAL_TRY(dal__check_spec(spec, error));
@@ -129,7 +129,7 @@ dal_status dal_measure_order(const dal_run_spec *spec, double T, int levels,
     dal_status status = DAL_OK;
     *order = (dal_order){.levels = levels};
     if (reference == NULL) {
-        status = judge_state(spec, T, levels, judge, block, error);
+        status = reference_state(spec, T, levels, reference_method, block, error);
         reference = block;
     }
     if (status == DAL_OK)

@@ -82,7 +82,7 @@ static dal_status open_pairing(pairing *w, const dal_run_spec *spec, const dal_s
     return status;
 }
 
-dal_status dal_measure_pairing(const dal_run_spec *spec, const dal_system *tangent,
+dal_status dal_adjoint_pairing(const dal_run_spec *spec, const dal_system *tangent,
                                const double *direction, long long steps, dal_statistics *statistics,
                                dal_error *error)
 {

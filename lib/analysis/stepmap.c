@@ -99,8 +99,8 @@ static double omega_defect(const double *columns, int dimension)
     return most;
 }
 
-dal_status dal_measure_symplecticity(const dal_run_spec *spec, double t, const double *state,
-                                     double increment, double *defect, dal_error *error)
+dal_status dal_check_symplecticity(const dal_run_spec *spec, double t, const double *state,
+                                   double increment, double *defect, dal_error *error)
 {
     DAL_REQUIRE(defect, error);
     DAL_TRY(dal__check_spec(spec, error));
@@ -149,8 +149,8 @@ static void turn_round(int n, int dimension, double sign, double *z)
     }
 }
 
-dal_status dal_measure_reversibility(const dal_run_spec *spec, double t, const double *state,
-                                     double *defect, dal_error *error)
+dal_status dal_check_reversibility(const dal_run_spec *spec, double t, const double *state,
+                                   double *defect, dal_error *error)
 {
     DAL_REQUIRE(defect, error);
     stepmap m;
