@@ -12,16 +12,16 @@
 
 /* ---- what becomes of a quantity along a run ------------------------------------------------ */
 
-enum { DAL_BLOCKS = 64, DAL_PARTS = 8 };
+enum { DAL_STATISTICS_BLOCKS = 64, DAL_PARTIAL_SUMS = 8 };
 
 /* Another number whenever the members of dal_statistics or their meaning change: who keeps them in
  * a file knows by it what they are.  Each member is of 64 bits and none points anywhere. */
 enum { DAL_STATISTICS_LAYOUT = 3 };
 
-/* A block of successive values: its middle, and the mean, least and most of x. */
-typedef struct dal_mean {
-    double t, x, least, most;
-} dal_mean;
+/* A block of successive values: its middle, and the mean, min and max of x. */
+typedef struct dal_statistics_block {
+    double t, x, min, max;
+} dal_statistics_block;
 
 /* One quantity x followed value by value in constant memory, over 1e10 steps or more: plain
  * numbers, to be copied or kept as one likes.  blocks[] hold the means of length values each. */
@@ -32,19 +32,21 @@ typedef struct dal_statistics {
     long long open_count; /* values in the open one */
     long long lost;       /* 1 once a value was not finite */
     double first, last;   /* x at the first and at the last value */
-    double least, most;   /* of all full blocks */
+    double min, max;      /* of all full blocks */
     double from, to;      /* t at the first and at the last value */
-    /* Of the open block: t at its first value, least and most, and the sum of x less first, in
-     * parts: value k of the block belongs to part k modulo DAL_PARTS. */
-    double open_t, open_least, open_most, open_sum[DAL_PARTS];
+    /* Of the open block: t at its first value, min, max, and the sum of x less first, in
+     * parts: value k of the block belongs to part k modulo DAL_PARTIAL_SUMS. */
+    double open_t, open_min, open_max, open_sum[DAL_PARTIAL_SUMS];
     /* Sums and means are of `factor` times x less first: 1, or less once a value came near the
      * largest double. */
     double factor;
     /* The squares of differences, in units of rough_unit, a power of two (0: no value was other
-     * than 0): of successive values as long as blocks are short, then of values DAL_PARTS apart in
-     * every fourth pair of packs, by part; and the pack before, from which the next ones count. */
-    double rough_unit, rough_steps, rough[DAL_PARTS], held[DAL_PARTS];
-    dal_mean block[DAL_BLOCKS]; /* factor times x less first; least and most as they are */
+     * than 0): of successive values as long as blocks are short, then of values DAL_PARTIAL_SUMS
+     * apart in every fourth pair of packs, by part; and the pack before, from which the next ones
+     * count. */
+    double rough_unit, rough_steps, rough[DAL_PARTIAL_SUMS], held[DAL_PARTIAL_SUMS];
+    /* x: factor times the mean less first; min and max are plain. */
+    dal_statistics_block block[DAL_STATISTICS_BLOCKS];
 } dal_statistics;
 
 /* Begins the statistics of count quantities; adds one value of each, at increasing and about

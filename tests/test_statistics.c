@@ -108,15 +108,15 @@ static void test_blocks_double(void)
         const double x = (double)k;
         dal_statistics_add(&s, 1, 0.5 * (double)k, &x);
         CU_ASSERT_FATAL(s.blocks * s.length + s.open_count == k + 1);
-        CU_ASSERT_FATAL(s.length == 1 || s.blocks >= DAL_BLOCKS / 2);
+        CU_ASSERT_FATAL(s.length == 1 || s.blocks >= DAL_STATISTICS_BLOCKS / 2);
     }
     for (long long i = 0; i < s.blocks; i++) {
         const double first = (double)(i * s.length),
                      middle = first + 0.5 * ((double)s.length - 1.0);
         CU_ASSERT_EQUAL(s.block[i].x, middle);
         CU_ASSERT_EQUAL(s.block[i].t, 0.5 * middle);
-        CU_ASSERT_EQUAL(s.block[i].least, first);
-        CU_ASSERT_EQUAL(s.block[i].most, first + (double)s.length - 1.0);
+        CU_ASSERT_EQUAL(s.block[i].min, first);
+        CU_ASSERT_EQUAL(s.block[i].max, first + (double)s.length - 1.0);
     }
 }
 
@@ -184,16 +184,17 @@ static void test_packs(void)
                     DAL__VARIANT_LIST(X, dal__tally_packs)
 #undef X
     };
-    double x[7 * DAL_PARTS];
-    for (int k = 0; k < 7 * DAL_PARTS; k++) x[k] = k * k;
+    double x[7 * DAL_PARTIAL_SUMS];
+    for (int k = 0; k < 7 * DAL_PARTIAL_SUMS; k++) x[k] = k * k;
     for (size_t i = 0; i < sizeof variants / sizeof variants[0]; i++) {
         if (!dal__machine_has(variants[i].set)) continue;
-        double sum[DAL_PARTS] = {1.0}, rough[DAL_PARTS] = {0}, held[DAL_PARTS] = {0};
-        double before[3][DAL_PARTS];
+        double sum[DAL_PARTIAL_SUMS] = {1.0}, rough[DAL_PARTIAL_SUMS] = {0},
+               held[DAL_PARTIAL_SUMS] = {0};
+        double before[3][DAL_PARTIAL_SUMS];
         dal__tally tally = {sum, 5.0, 5.0, rough, held, 0.5};
         CU_ASSERT(variants[i].add(&tally, 2.0, 3, 3, x));
-        CU_ASSERT(tally.least == 0.0 && tally.most == 529.0);
-        for (int k = 0; k < DAL_PARTS; k++) {
+        CU_ASSERT(tally.min == 0.0 && tally.max == 529.0);
+        for (int k = 0; k < DAL_PARTIAL_SUMS; k++) {
             /* k^2 + (k + 8)^2 + (k + 16)^2 - 3 * 2; ((k + 16)^2 - (k + 8)^2)^2/4 */
             CU_ASSERT_EQUAL(sum[k], 3 * k * k + 48 * k + 320 - 6 + (k == 0));
             CU_ASSERT_EQUAL(rough[k], (8 * k + 96) * (8 * k + 96));
@@ -246,17 +247,17 @@ static void test_roughness(void)
 static void test_large_numbers(void)
 {
     dal_statistics s;
-    dal_mean block[DAL_BLOCKS];
+    dal_statistics_block block[DAL_STATISTICS_BLOCKS];
     dal_statistics_start(&s, 1);
     for (int k = 0; k < 4096; k++) {
         const double x = k < 1000 ? 1.0 : k % 2 ? 1e308 : -1e308;
         dal_statistics_add(&s, 1, k, &x);
     }
-    CU_ASSERT_EQUAL(dal__blocks(&s, block), 32);
+    CU_ASSERT_EQUAL(dal__statistics_blocks(&s, block), 32);
     CU_ASSERT(s.factor < 1.0);
     CU_ASSERT_EQUAL(block[0].x, 0.0);
     CU_ASSERT(fabs(block[31].x) < 1e292);
-    CU_ASSERT(block[31].least == -1e308 - 1.0 && block[31].most == 1e308 - 1.0);
+    CU_ASSERT(block[31].min == -1e308 - 1.0 && block[31].max == 1e308 - 1.0);
     CU_ASSERT_EQUAL(dal_statistics_max_abs(&s), 1e308);
 }
 

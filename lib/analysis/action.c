@@ -104,17 +104,17 @@ static void enter_interval(path *w, double t, const double *row)
 /* before holds P - h/2 H_X of the interval before, as dS/dX of the node between wants it. */
 static double variation(path *w, const double *row, int inner)
 {
-    double most = 0.0;
+    double max = 0.0;
     int half = w->half;
     for (int i = 0; i < half; i++) {
         double in_p = row[i + 2 * half] - row[i] - w->h * w->gradient[half + i];
         double force = 0.5 * w->h * w->gradient[i];
         double in_x = w->before[i] - w->z[half + i] - force;
-        most = fmax(most, fabs(in_p));
-        if (inner) most = fmax(most, fabs(in_x));
+        max = fmax(max, fabs(in_p));
+        if (inner) max = fmax(max, fabs(in_x));
         w->before[i] = w->z[half + i] - force;
     }
-    return most / w->h;
+    return max / w->h;
 }
 
 dal_status dal_check_stationarity(dal_evaluator *evaluator, double t0, double h, long long count,

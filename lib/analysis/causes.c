@@ -57,9 +57,9 @@ static void put_share(dal_attribution *a, dal_cause cause, const dal_trend *part
 static int is_of_coefficients(const dal_explanation *e, const dal_attribution *a)
 {
     const double scale = fmax(1.0, a->early.max_abs);
-    const double most = coefficient_roundings * DBL_EPSILON * scale * (double)e->early;
+    const double max = coefficient_roundings * DBL_EPSILON * scale * (double)e->early;
     const int order = dal_method_order(&e->spec.method);
-    return a->twin[DAL_TWIN_LONG].deviation <= most && !isnan(a->order) &&
+    return a->twin[DAL_TWIN_LONG].deviation <= max && !isnan(a->order) &&
            a->order < order - half_an_order;
 }
 

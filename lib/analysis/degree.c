@@ -153,7 +153,7 @@ static int find_parity(survey *w)
 
 static double force_defect(survey *w)
 {
-    double most = 0.0;
+    double max = 0.0;
     int decided = 0;
     dal_callback *field = w->s->call.field;
     for (int trial = 0; trial < TRIALS; trial++) {
@@ -167,10 +167,10 @@ static double force_defect(survey *w)
         /* dg/dt of a multiplier that changes its sign with v keeps its own, and the reverse. */
         for (int a = 0; a < w->s->multipliers; a++) w->value[1][w->n + a] *= -w->sign[a];
         if (!isfinite(dal__greatest(w->value[0], (size_t)w->nw))) continue;
-        most = fmax(most, dal__distance(w->value[0], w->value[1], (size_t)w->nw));
+        max = fmax(max, dal__distance(w->value[0], w->value[1], (size_t)w->nw));
         decided = 1;
     }
-    return decided ? most : NAN;
+    return decided ? max : NAN;
 }
 
 /* ---- homogeneity ---- */

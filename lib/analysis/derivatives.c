@@ -136,12 +136,12 @@ static dal_status call(desk *d, dal_callback *callback, double *out)
 /* The block rows*columns at given against columns first.. of the differences. */
 static double compare(const desk *d, const double *given, int rows, int first, int columns)
 {
-    double most = 0.0;
+    double max = 0.0;
     for (int i = 0; i < rows; i++) {
         const double *difference = d->differences + i * (d->n + d->nw) + first;
-        most = fmax(most, dal__distance(given + i * columns, difference, (size_t)columns));
+        max = fmax(max, dal__distance(given + i * columns, difference, (size_t)columns));
     }
-    return most;
+    return max;
 }
 
 static dal_status compare_jacobian(desk *d, double *defect)
@@ -173,11 +173,11 @@ static dal_status compare_adjoint(desk *d, double *defect)
 
 static double asymmetry(const double *gram, int m)
 {
-    double most = 0.0;
+    double max = 0.0;
     for (int i = 0; i < m; i++)
-        for (int j = 0; j < i; j++) most = fmax(most, fabs(gram[i * m + j] - gram[j * m + i]));
+        for (int j = 0; j < i; j++) max = fmax(max, fabs(gram[i * m + j] - gram[j * m + i]));
     double size = dal__greatest(gram, (size_t)m * (size_t)m);
-    return size > 0.0 ? most / size : 0.0;
+    return size > 0.0 ? max / size : 0.0;
 }
 
 static dal_status compare_constraint(desk *d, dal_derivatives *out)

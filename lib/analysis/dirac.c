@@ -137,12 +137,12 @@ static int conserve(algebra *w, int rows, double *residue)
 /* |mu - (free, mu_lambda = 0, mu_q = v)|. */
 static double multiplier_error(const algebra *w)
 {
-    double most = 0.0;
+    double max = 0.0;
     for (int i = 0; i < w->n; i++) {
-        most = fmax(most, fabs(w->mu[1 + i]));
-        most = fmax(most, fabs(w->mu[1 + w->n + i] - w->z[w->n + i]));
+        max = fmax(max, fabs(w->mu[1 + i]));
+        max = fmax(max, fabs(w->mu[1 + w->n + i] - w->z[w->n + i]));
     }
-    return most;
+    return max;
 }
 
 /* H_c with the multipliers found. */

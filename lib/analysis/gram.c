@@ -77,14 +77,14 @@ typedef struct projection {
 
 static double natural_size(const projection *p)
 {
-    double most = 1.0;
+    double max = 1.0;
     for (int a = 0; a < p->s->m; a++) {
         double sum = 0.0;
         for (int i = 0; i < p->s->n; i++)
             sum += fabs(p->block[p->s->m + a * p->s->n + i] * p->best[i]);
-        most = fmax(most, sum);
+        max = fmax(max, sum);
     }
-    return most;
+    return max;
 }
 
 static dal_status newton_step(projection *p)
@@ -102,17 +102,17 @@ static dal_status newton_step(projection *p)
 /* Newton until |D| no longer falls; the best v is in p->best. */
 static dal_status stagnate(projection *p)
 {
-    double least = INFINITY;
+    double min = INFINITY;
     for (int k = 0; k < NEWTON_MOST; k++) {
         DAL_TRY(dal__constraint_at(p->evaluator, p->t, p->q, p->v, p->block));
         double size = dal__greatest(p->block, (size_t)p->s->m);
-        if (size >= least) break;
-        least = size;
+        if (size >= min) break;
+        min = size;
         memcpy(p->best, p->v, (size_t)p->s->n * sizeof(double));
         if (size == 0.0) break;
         DAL_TRY(newton_step(p));
     }
-    return least <= projection_tolerance * natural_size(p) ? DAL_OK : DAL_NOT_CONVERGED;
+    return min <= projection_tolerance * natural_size(p) ? DAL_OK : DAL_NOT_CONVERGED;
 }
 
 dal_status dal_project_velocity(dal_evaluator *evaluator, double t, const double *q, double *v)

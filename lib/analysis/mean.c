@@ -6,7 +6,7 @@
 #include <math.h>
 
 /* Half the width of the interval about the mean of the blocks. */
-static double uncertainty(const dal_mean *block, int n)
+static double uncertainty(const dal_statistics_block *block, int n)
 {
     double mean = 0.0, square = 0.0, product = 0.0, before = 0.0;
     if (n < 3) return INFINITY;
@@ -24,13 +24,13 @@ static double uncertainty(const dal_mean *block, int n)
 
 void dal_statistics_mean(const dal_statistics *s, dal_average *average)
 {
-    dal_mean block[DAL_BLOCKS];
+    dal_statistics_block block[DAL_STATISTICS_BLOCKS];
     if (!average) return;
     if (!s) {
         *average = (dal_average){NAN, NAN, NAN};
         return;
     }
-    const int n = dal__blocks(s, block);
+    const int n = dal__statistics_blocks(s, block);
     double sum = s->open_count > 0 ? dal__open_sum(s) : 0.0;
     for (int i = 0; i < n; i++) sum += block[i].x * (double)s->length;
     const double mean = s->lost || s->count == 0 ? NAN : s->first + sum / (double)s->count;

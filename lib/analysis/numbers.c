@@ -24,20 +24,20 @@ double dal__increment(double rate) { return DAL__INCREMENT * fmax(1.0, fabs(rate
 
 double dal__greatest(const double *x, size_t count)
 {
-    double most = 0.0;
+    double max = 0.0;
     for (size_t i = 0; i < count; i++)
-        if (!(fabs(x[i]) <= most)) most = isnan(x[i]) ? INFINITY : fabs(x[i]);
-    return most;
+        if (!(fabs(x[i]) <= max)) max = isnan(x[i]) ? INFINITY : fabs(x[i]);
+    return max;
 }
 
 double dal__distance(const double *a, const double *b, size_t count)
 {
-    double most = 0.0;
+    double max = 0.0;
     for (size_t i = 0; i < count; i++) {
         double d = fabs(a[i] - b[i]) / fmax(1.0, fabs(a[i]));
-        if (!(d <= most)) most = isnan(d) ? INFINITY : d;
+        if (!(d <= max)) max = isnan(d) ? INFINITY : d;
     }
-    return most;
+    return max;
 }
 
 /* ---- differences ---- */
@@ -69,7 +69,7 @@ static dal_status difference(dal__curve *curve, void *user, double d, int count,
 dal_status dal__differentiate(dal__curve *curve, void *user, double d, int count, double *scratch,
                               double *out)
 {
-    double *best = scratch + 2 * count, least = INFINITY, gap, noise;
+    double *best = scratch + 2 * count, min = INFINITY, gap, noise;
     dal_status failure = DAL_OK;
     bool good = false;
     for (int i = 0; i < count; i++) best[i] = NAN;
@@ -78,13 +78,13 @@ dal_status dal__differentiate(dal__curve *curve, void *user, double d, int count
         if (status != DAL_OK && failure == DAL_OK) failure = status;
         if (status != DAL_OK) continue;
         good = gap <= fmax(close_agreement, noise) ||
-               fmax(fmax(gap, least), dal__distance(best, out, (size_t)count)) <= agreement;
-        if (!(gap < least)) continue;
-        least = gap;
+               fmax(fmax(gap, min), dal__distance(best, out, (size_t)count)) <= agreement;
+        if (!(gap < min)) continue;
+        min = gap;
         memcpy(best, out, (size_t)count * sizeof(double));
     }
     memcpy(out, best, (size_t)count * sizeof(double));
-    return isinf(least) ? failure : DAL_OK;
+    return isinf(min) ? failure : DAL_OK;
 }
 
 double dal__uniform(dal__random *random)

@@ -1,8 +1,8 @@
 /* statistics.c - a quantity x(t) followed at every step in constant memory.
  *
- * The series is cut into blocks of equal length, of which mean, least and most are kept.  When all
- * DAL_BLOCKS are full, neighbours are joined and the length doubles, so that between one half and
- * all of them are in use after any number of values: the method of batch means (Flyvbjerg,
+ * The series is cut into blocks of equal length, of which mean, min and max are kept.  When all
+ * DAL_STATISTICS_BLOCKS are full, neighbours are merged and the length doubles, so that between one
+ * half and all of them are in use after any number of values: the method of batch means (Flyvbjerg,
  * Petersen 1989, DOI 10.1063/1.457480; Law, Kelton, Simulation Modeling and Analysis, 9.5).
  *
  * How rough the series is tells a sum of roundings from a smooth change.  If its steps are
@@ -21,12 +21,12 @@ void dal_statistics_start(dal_statistics *s, int count)
 /* Joins neighbours: half as many blocks, twice as long. */
 static void halve(dal_statistics *s)
 {
-    for (int i = 0; i < DAL_BLOCKS / 2; i++) {
-        const dal_mean *a = &s->block[2 * i], *b = a + 1;
-        s->block[i] = (dal_mean){0.5 * (a->t + b->t), 0.5 * (a->x + b->x), fmin(a->least, b->least),
-                                 fmax(a->most, b->most)};
+    for (int i = 0; i < DAL_STATISTICS_BLOCKS / 2; i++) {
+        const dal_statistics_block *a = &s->block[2 * i], *b = a + 1;
+        s->block[i] = (dal_statistics_block){0.5 * (a->t + b->t), 0.5 * (a->x + b->x),
+                                             fmin(a->min, b->min), fmax(a->max, b->max)};
     }
-    s->blocks = DAL_BLOCKS / 2;
+    s->blocks = DAL_STATISTICS_BLOCKS / 2;
     s->length *= 2;
 }
 
@@ -46,8 +46,8 @@ static const double small_factor = 0x1p-200;
 static void lower_factor(dal_statistics *s)
 {
     s->factor = small_factor;
-    for (int i = 0; i < DAL_PARTS; i++) s->open_sum[i] *= small_factor;
-    for (int i = 0; i < DAL_BLOCKS; i++) s->block[i].x *= small_factor;
+    for (int i = 0; i < DAL_PARTIAL_SUMS; i++) s->open_sum[i] *= small_factor;
+    for (int i = 0; i < DAL_STATISTICS_BLOCKS; i++) s->block[i].x *= small_factor;
 }
 
 /* The least power of two above |x|, as long as its inverse is a number. */
@@ -61,11 +61,11 @@ static double unit_of(double x)
 /* Differences are counted in units of the greatest |x| of all full blocks. */
 static void raise_rough_unit(dal_statistics *s)
 {
-    const double most = fmax(fabs(s->least), fabs(s->most));
-    if (most <= s->rough_unit) return;
-    const double unit = unit_of(most), ratio = (s->rough_unit > 0.0 ? s->rough_unit : 1.0) / unit;
+    const double max = fmax(fabs(s->min), fabs(s->max));
+    if (max <= s->rough_unit) return;
+    const double unit = unit_of(max), ratio = (s->rough_unit > 0.0 ? s->rough_unit : 1.0) / unit;
     s->rough_steps = s->rough_steps * ratio * ratio;
-    for (int i = 0; i < DAL_PARTS; i++) s->rough[i] = s->rough[i] * ratio * ratio;
+    for (int i = 0; i < DAL_PARTIAL_SUMS; i++) s->rough[i] = s->rough[i] * ratio * ratio;
     s->rough_unit = unit;
 }
 
@@ -78,23 +78,23 @@ static double per_rough_unit(const dal_statistics *s)
 
 static void close_block(dal_statistics *s, double t)
 {
-    s->block[s->blocks++] = (dal_mean){0.5 * (s->open_t + t), open_sum(s) / (double)s->length,
-                                       s->open_least, s->open_most};
-    s->least = fmin(s->least, s->open_least);
-    s->most = fmax(s->most, s->open_most);
+    s->block[s->blocks++] = (dal_statistics_block){
+        0.5 * (s->open_t + t), open_sum(s) / (double)s->length, s->open_min, s->open_max};
+    s->min = fmin(s->min, s->open_min);
+    s->max = fmax(s->max, s->open_max);
     s->open_count = 0;
     raise_rough_unit(s);
-    if (s->blocks == DAL_BLOCKS) halve(s);
+    if (s->blocks == DAL_STATISTICS_BLOCKS) halve(s);
 }
 
 static void open_block(dal_statistics *s, double t, double x)
 {
     if (s->count == 0) {
-        s->first = s->least = s->most = x;
+        s->first = s->min = s->max = x;
         s->from = t;
     }
     s->open_t = t;
-    s->open_least = s->open_most = x;
+    s->open_min = s->open_max = x;
     memset(s->open_sum, 0, sizeof s->open_sum);
 }
 
@@ -116,12 +116,12 @@ static double rough_square(const dal_statistics *s, double x, double from)
 }
 
 /* Blocks too short for a cycle: the first thousand values. */
-static bool is_short(const dal_statistics *s) { return s->length < DAL__CYCLE * DAL_PARTS; }
+static bool is_short(const dal_statistics *s) { return s->length < DAL__CYCLE * DAL_PARTIAL_SUMS; }
 
 static void add_roughness(dal_statistics *s, double x)
 {
-    const int part = (int)(s->open_count % DAL_PARTS);
-    const int phase = (int)(s->open_count / DAL_PARTS % DAL__CYCLE);
+    const int part = (int)(s->open_count % DAL_PARTIAL_SUMS);
+    const int phase = (int)(s->open_count / DAL_PARTIAL_SUMS % DAL__CYCLE);
     if (is_short(s))
         s->rough_steps += s->count > 0 ? rough_square(s, x, s->last) : 0.0;
     else if (phase == 0)
@@ -139,9 +139,9 @@ static void add_one(dal_statistics *s, double t, double x)
     if (fabs(x) > DAL__PLAIN_LIMIT && s->factor == 1.0) lower_factor(s);
     if (s->open_count == 0) open_block(s, t, x);
     add_roughness(s, x);
-    s->open_sum[s->open_count % DAL_PARTS] += x * s->factor - s->first * s->factor;
-    s->open_least = x < s->open_least ? x : s->open_least;
-    s->open_most = x > s->open_most ? x : s->open_most;
+    s->open_sum[s->open_count % DAL_PARTIAL_SUMS] += x * s->factor - s->first * s->factor;
+    s->open_min = x < s->open_min ? x : s->open_min;
+    s->open_max = x > s->open_max ? x : s->open_max;
     move_on(s, 1, t, x);
 }
 
@@ -169,23 +169,23 @@ static tally_packs *best_tally(void)
 /* Whole packs at the end of what the open block has, as many as it still takes. */
 static int packs_ahead(const dal_statistics *s, int values)
 {
-    if (s->open_count % DAL_PARTS != 0 || is_short(s) || s->factor < 1.0) return 0;
+    if (s->open_count % DAL_PARTIAL_SUMS != 0 || is_short(s) || s->factor < 1.0) return 0;
     const long long left = s->length - s->open_count;
-    return (int)(left < values ? left : values) / DAL_PARTS;
+    return (int)(left < values ? left : values) / DAL_PARTIAL_SUMS;
 }
 
 static bool add_packs(dal_statistics *s, tally_packs *add, int packs, const double *t,
                       const double *x)
 {
-    const int values = packs * DAL_PARTS;
+    const int values = packs * DAL_PARTIAL_SUMS;
     if (!(fabs(x[0]) <= DAL__PLAIN_LIMIT)) return false;
     if (s->open_count == 0) open_block(s, t[0], x[0]);
-    dal__tally tally = {s->open_sum, s->open_least, s->open_most,
-                        s->rough,    s->held,       per_rough_unit(s)};
-    const int phase = (int)(s->open_count / DAL_PARTS % DAL__CYCLE);
+    dal__tally tally = {s->open_sum, s->open_min, s->open_max,
+                        s->rough,    s->held,     per_rough_unit(s)};
+    const int phase = (int)(s->open_count / DAL_PARTIAL_SUMS % DAL__CYCLE);
     if (!add(&tally, s->first, phase, packs, x)) return false;
-    s->open_least = tally.least;
-    s->open_most = tally.most;
+    s->open_min = tally.min;
+    s->open_max = tally.max;
     move_on(s, values, t[values - 1], x[values - 1]);
     return true;
 }
@@ -196,10 +196,10 @@ static void add_series(dal_statistics *s, tally_packs *add, int values, const do
     for (int k = 0; k < values;) {
         const int packs = packs_ahead(s, values - k);
         if (packs > 0 && add_packs(s, add, packs, t + k, x + k)) {
-            k += packs * DAL_PARTS;
+            k += packs * DAL_PARTIAL_SUMS;
             continue;
         }
-        const int end = packs > 0 ? k + DAL_PARTS : k + 1;
+        const int end = packs > 0 ? k + DAL_PARTIAL_SUMS : k + 1;
         for (; k < end; k++) add_one(s, t[k], x[k]);
     }
 }
@@ -214,39 +214,39 @@ void dal_statistics_add_many(dal_statistics *s, int count, int looks, const doub
 
 /* ---- extremes ---- */
 
-static double least(const dal_statistics *s)
+static double min(const dal_statistics *s)
 {
-    return s->open_count ? fmin(s->least, s->open_least) : s->least;
+    return s->open_count ? fmin(s->min, s->open_min) : s->min;
 }
 
-static double most(const dal_statistics *s)
+static double max(const dal_statistics *s)
 {
-    return s->open_count ? fmax(s->most, s->open_most) : s->most;
+    return s->open_count ? fmax(s->max, s->open_max) : s->max;
 }
 
 double dal_statistics_max_abs(const dal_statistics *s)
 {
     if (!s) return NAN;
-    return s->lost ? INFINITY : fmax(fabs(least(s)), fabs(most(s)));
+    return s->lost ? INFINITY : fmax(fabs(min(s)), fabs(max(s)));
 }
 
 double dal_statistics_deviation(const dal_statistics *s)
 {
     if (!s) return NAN;
-    return s->lost ? INFINITY : fmax(most(s) - s->first, s->first - least(s));
+    return s->lost ? INFINITY : fmax(max(s) - s->first, s->first - min(s));
 }
 
 /* ---- blocks ---- */
 
-int dal__blocks(const dal_statistics *s, dal_mean *block)
+int dal__statistics_blocks(const dal_statistics *s, dal_statistics_block *block)
 {
     const int n = (int)s->blocks;
     memcpy(block, s->block, (size_t)n * sizeof *block);
     for (int i = 0; i < n; i++) {
         block[i].t -= s->from;
         block[i].x /= s->factor;
-        block[i].least -= s->first;
-        block[i].most -= s->first;
+        block[i].min -= s->first;
+        block[i].max -= s->first;
     }
     return n;
 }
@@ -254,7 +254,7 @@ int dal__blocks(const dal_statistics *s, dal_mean *block)
 double dal__roughness(const dal_statistics *s)
 {
     double sum = 0.0;
-    for (int i = 0; i < DAL_PARTS; i++) sum += s->rough[i];
+    for (int i = 0; i < DAL_PARTIAL_SUMS; i++) sum += s->rough[i];
     const double unit = s->rough_unit > 0.0 ? s->rough_unit : 1.0;
-    return s->factor * unit * sqrt(s->rough_steps + sum * DAL__CYCLE / DAL_PARTS);
+    return s->factor * unit * sqrt(s->rough_steps + sum * DAL__CYCLE / DAL_PARTIAL_SUMS);
 }

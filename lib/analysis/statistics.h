@@ -10,8 +10,8 @@ enum { DAL__CYCLE = 4 }; /* packs: in each, one difference of packs is squared *
 /* Of the open block: the parts of the sum of x - first, the range of x, the parts of the squares of
  * (x - held) times per_unit, and the pack that is held: the first of a cycle. */
 typedef struct dal__tally {
-    double *sum /* [DAL_PARTS] */, least, most;
-    double *rough, *held /* [DAL_PARTS] */, per_unit;
+    double *sum /* [DAL_PARTIAL_SUMS] */, min, max;
+    double *rough, *held /* [DAL_PARTIAL_SUMS] */, per_unit;
 } dal__tally;
 
 /* A difference beyond this many units counts as this many, so that no square overflows. */
@@ -19,9 +19,9 @@ typedef struct dal__tally {
 /* Values beyond this one are summed with a factor below 1. */
 #define DAL__PLAIN_LIMIT 0x1p900
 
-/* Adds packs of DAL_PARTS values each, the first of them at part 0 and at place `phase` of its
- * cycle; once per variant.  False, and the tally as it was, when a value is not finite or beyond
- * DAL__PLAIN_LIMIT. */
+/* Adds packs of DAL_PARTIAL_SUMS values each, the first of them at part 0 and at place `phase` of
+ * its cycle; once per variant.  False, and the tally as it was, when a value is not finite or
+ * beyond DAL__PLAIN_LIMIT. */
 #define DAL__TALLY(name, variant, lanes, set, group)                                               \
     bool name##_##variant(dal__tally *tally, double first, int phase, int packs,                   \
                           const double *values);
@@ -29,7 +29,8 @@ DAL__TALLY(dal__tally_packs, x1, 1, BASE, x1)
 DAL__VARIANT_LIST(DAL__TALLY, dal__tally_packs)
 
 /* The full blocks, counted from first and from the first time; how many there are. */
-int dal__blocks(const dal_statistics *statistics, dal_mean *block /* [DAL_BLOCKS] */);
+int dal__statistics_blocks(const dal_statistics *statistics,
+                           dal_statistics_block *block /* [DAL_STATISTICS_BLOCKS] */);
 
 /* The 97.5 % quantile of Student's distribution; and by how much n residues of correlated blocks,
  * with the sums of their squares and of the products of neighbours, are worth fewer than n. */

@@ -2,18 +2,18 @@
  *
  * Value k of a pack goes to part k of the sum, however many lanes a num has: the order of summation
  * is one.  Least and most do not depend on the order.  What is not finite makes a part of the sum
- * not finite, and nothing else does, so that one look at the end is enough.  Of each cycle
+ * not finite, and nothing else does, so that one test at the end is enough.  Of each cycle
  * of four packs the first is held and the second subtracted from it. */
 #include "kernel/groups.h"
 
 #include "analysis/statistics.h"
 #include "kernel/num.h"
 
-enum { NUMS = DAL_PARTS / DAL_LANES }; /* to a pack */
+enum { NUMS = DAL_PARTIAL_SUMS / DAL_LANES }; /* to a pack */
 
 /* What one num of the packs has seen. */
 typedef struct seen {
-    num sum, least, most, rough, held;
+    num sum, min, max, rough, held;
 } seen;
 
 /* What is the same for all of them. */
@@ -33,8 +33,8 @@ static num rough_square(const view *v, num a, num held)
 static void see(seen *s, const view *v, int phase, num a)
 {
     s->sum += a - v->first;
-    s->least = dal_min(s->least, a);
-    s->most = dal_max(s->most, a);
+    s->min = dal_min(s->min, a);
+    s->max = dal_max(s->max, a);
     if (phase == 0) s->held = a;
     if (phase == 1) s->rough += rough_square(v, a, s->held);
 }
@@ -42,8 +42,8 @@ static void see(seen *s, const view *v, int phase, num a)
 static void see_four(seen *s, const view *v, num a, num b, num c, num d)
 {
     s->sum = (((s->sum + (a - v->first)) + (b - v->first)) + (c - v->first)) + (d - v->first);
-    s->least = dal_min(s->least, dal_min(dal_min(a, b), dal_min(c, d)));
-    s->most = dal_max(s->most, dal_max(dal_max(a, b), dal_max(c, d)));
+    s->min = dal_min(s->min, dal_min(dal_min(a, b), dal_min(c, d)));
+    s->max = dal_max(s->max, dal_max(dal_max(a, b), dal_max(c, d)));
     s->rough += rough_square(v, b, a);
     s->held = a;
 }
@@ -63,9 +63,9 @@ static seen see_all(seen s, const view *v, const dal_stored *x)
 static void gather(const seen *s, dal__tally *tally)
 {
     for (int lane = 0; lane < DAL_LANES; lane++) {
-        const double low = dal_lane(s->least, lane), high = dal_lane(s->most, lane);
-        tally->least = low < tally->least ? low : tally->least;
-        tally->most = high > tally->most ? high : tally->most;
+        const double low = dal_lane(s->min, lane), high = dal_lane(s->max, lane);
+        tally->min = low < tally->min ? low : tally->min;
+        tally->max = high > tally->max ? high : tally->max;
     }
 }
 
@@ -81,8 +81,8 @@ bool DAL_WIDE(dal__tally_packs)(dal__tally *tally, double first, int phase, int 
     dal_mask good = dal_all();
     for (int i = 0; i < NUMS; i++) {
         s[i] = see_all((seen){part[i], x[i], x[i], rough[i], held[i]}, &v, x + i);
-        good &= dal_finite(s[i].sum) & dal_less_equal(s[i].most, limit) &
-                dal_less_equal(-s[i].least, limit);
+        good &= dal_finite(s[i].sum) & dal_less_equal(s[i].max, limit) &
+                dal_less_equal(-s[i].min, limit);
     }
     if (dal_any(~good)) return false;
     for (int i = 0; i < NUMS; i++) {

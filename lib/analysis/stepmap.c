@@ -86,17 +86,17 @@ static dal_status differentiate_step(stepmap *m, double increment, double *colum
 static double omega_defect(const double *columns, int dimension)
 {
     int pairs = dimension / 2;
-    double most = 0.0;
+    double max = 0.0;
     for (int i = 0; i < dimension; i++) {
         for (int j = 0; j < i; j++) {
             const double *a = columns + (size_t)i * (size_t)dimension;
             const double *b = columns + (size_t)j * (size_t)dimension;
             double expected = i == j + pairs ? -1.0 : 0.0;
             double defect = fabs(dal_poisson(a, b, pairs) - expected);
-            if (!(defect <= most)) most = isnan(defect) ? INFINITY : defect;
+            if (!(defect <= max)) max = isnan(defect) ? INFINITY : defect;
         }
     }
-    return most;
+    return max;
 }
 
 dal_status dal_check_symplecticity(const dal_run_spec *spec, double t, const double *state,

@@ -20,7 +20,7 @@ typedef struct dal__trend_series {
     long long length; /* values in a block */
     double unit;      /* of factor * x */
     double low, high; /* of all values */
-    double mean[DAL_BLOCKS], min[DAL_BLOCKS], max[DAL_BLOCKS];
+    double mean[DAL_STATISTICS_BLOCKS], min[DAL_STATISTICS_BLOCKS], max[DAL_STATISTICS_BLOCKS];
     double block_range; /* max - min, in the mean */
     double swing;       /* the same, less what the trend rises within a block */
     bool is_steady;     /* it is the same in all blocks */

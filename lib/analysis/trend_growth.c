@@ -24,7 +24,7 @@ static const double one_sided = 0.05; /* of the farther end: where the other one
 
 typedef struct curve {
     int count;
-    double s[DAL_BLOCKS], log_s[DAL_BLOCKS], z[DAL_BLOCKS];
+    double s[DAL_STATISTICS_BLOCKS], log_s[DAL_STATISTICS_BLOCKS], z[DAL_STATISTICS_BLOCKS];
 } curve;
 
 static bool read_curve(const dal__trend_series *x, curve *c)

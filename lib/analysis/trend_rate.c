@@ -99,7 +99,7 @@ typedef struct line {
     double tt;          /* sum of squares of t about its mean */
 } line;
 
-static line fit_line(const dal_mean *block, int n)
+static line fit_line(const dal_statistics_block *block, int n)
 {
     line l = {0};
     double tx = 0.0;
@@ -133,7 +133,7 @@ double dal__inflation(double square, double product, int n)
 }
 
 /* Half the width of the interval about the slope. */
-static double uncertainty(const line *l, const dal_mean *block, int n)
+static double uncertainty(const line *l, const dal_statistics_block *block, int n)
 {
     double square = 0.0, product = 0.0, before = 0.0;
     if (n < 3) return INFINITY;
@@ -150,8 +150,8 @@ static double uncertainty(const line *l, const dal_mean *block, int n)
 
 void dal__trend_line(const dal_statistics *s, dal_trend *trend)
 {
-    dal_mean block[DAL_BLOCKS];
-    const int n = dal__blocks(s, block);
+    dal_statistics_block block[DAL_STATISTICS_BLOCKS];
+    const int n = dal__statistics_blocks(s, block);
     const line l = fit_line(block, n);
     const double margin = uncertainty(&l, block, n);
     trend->rate = l.slope;
@@ -164,14 +164,14 @@ void dal__trend_line(const dal_statistics *s, dal_trend *trend)
 /* What the line itself rises within a block does not count. */
 double dal__trend_amplitude(const dal_statistics *s, double rate)
 {
-    dal_mean block[DAL_BLOCKS];
-    const int n = dal__blocks(s, block);
+    dal_statistics_block block[DAL_STATISTICS_BLOCKS];
+    const int n = dal__statistics_blocks(s, block);
     double low = INFINITY, high = -INFINITY;
     for (int i = 0; i < n; i++) {
-        low = fmin(low, block[i].least - rate * block[i].t);
-        high = fmax(high, block[i].most - rate * block[i].t);
+        low = fmin(low, block[i].min - rate * block[i].t);
+        high = fmax(high, block[i].max - rate * block[i].t);
     }
-    const double within = n > 0 && block[0].least < block[0].most ? 1.0 : 0.0;
+    const double within = n > 0 && block[0].min < block[0].max ? 1.0 : 0.0;
     const double rise = n > 1 ? within * fabs(rate) * (block[1].t - block[0].t) : 0.0;
     return n > 0 ? fmax(0.5 * (high - low - rise), 0.0) : 0.0;
 }

@@ -59,7 +59,7 @@ bool dal__trend_read(const dal_statistics *x, series *s)
     *s = (series){.count = (int)x->blocks, .length = x->length};
     double deviation = 0.0, largest = 0.0;
     for (int i = 0; i < s->count; i++) {
-        const double low = x->block[i].least, high = x->block[i].most;
+        const double low = x->block[i].min, high = x->block[i].max;
         deviation = fmax(deviation, fmax(in_units(x, 1.0, high), -in_units(x, 1.0, low)));
         largest = fmax(largest, fmax(fabs(low), fabs(high)));
     }
@@ -67,8 +67,8 @@ bool dal__trend_read(const dal_statistics *x, series *s)
     const double unit = s->unit = exp2(fmin(ceil(log2(deviation)), 1023.0));
     for (int i = 0; i < s->count; i++) {
         s->mean[i] = x->block[i].x / unit;
-        s->min[i] = in_units(x, unit, x->block[i].least);
-        s->max[i] = in_units(x, unit, x->block[i].most);
+        s->min[i] = in_units(x, unit, x->block[i].min);
+        s->max[i] = in_units(x, unit, x->block[i].max);
         s->low = fmin(s->low, s->min[i]);
         s->high = fmax(s->high, s->max[i]);
     }
@@ -82,8 +82,8 @@ bool dal__trend_read(const dal_statistics *x, series *s)
 typedef struct tone_fit {
     int n, tones;
     double angle[DAL__TONES], a[DAL__TONES], b[DAL__TONES];
-    double column[COLUMNS][DAL_BLOCKS]; /* the first are orthonormal polynomials */
-    double residue[DAL_BLOCKS], square;
+    double column[COLUMNS][DAL_STATISTICS_BLOCKS]; /* the first are orthonormal polynomials */
+    double residue[DAL_STATISTICS_BLOCKS], square;
 } tone_fit;
 
 static double dot(const double *a, const double *b, int n)
@@ -186,8 +186,8 @@ static void newton_step(tone_fit *f, const double *x)
     const int n = f->n, columns = POLYNOMIALS + 3 * f->tones;
     double m[COLUMNS][COLUMNS], c[COLUMNS];
     for (int l = 0; l < f->tones; l++) {
-        double *const co = f->column[POLYNOMIALS + 3 * l], *const si = co + DAL_BLOCKS,
-                      *const turn = si + DAL_BLOCKS;
+        double *const co = f->column[POLYNOMIALS + 3 * l], *const si = co + DAL_STATISTICS_BLOCKS,
+                      *const turn = si + DAL_STATISTICS_BLOCKS;
         const double size = 1.0 / n;
         fill_tone(n, f->angle[l], co, si);
         for (int i = 0; i < n; i++)
@@ -226,8 +226,8 @@ static bool add_tone(tone_fit *f, const double *x)
     f->a[f->tones] = f->b[f->tones] = 0.0;
     f->tones++;
     for (int i = 0; i < NEWTON_STEPS; i++) newton_step(f, x);
-    const double least = 1e-8 * dot(x, x, f->n);
-    if (0.5 * f->n * log((square + least) / (f->square + least)) >= tone_worth) return true;
+    const double min = 1e-8 * dot(x, x, f->n);
+    if (0.5 * f->n * log((square + min) / (f->square + min)) >= tone_worth) return true;
     *f = before;
     return false;
 }
@@ -235,7 +235,7 @@ static bool add_tone(tone_fit *f, const double *x)
 static void subtract_tones(series *s, const tone_fit *f)
 {
     for (int l = 0; l < f->tones; l++) {
-        double c[DAL_BLOCKS], d[DAL_BLOCKS];
+        double c[DAL_STATISTICS_BLOCKS], d[DAL_STATISTICS_BLOCKS];
         fill_tone(f->n, f->angle[l], c, d);
         for (int i = 0; i < f->n; i++) s->mean[i] -= f->a[l] * c[i] + f->b[l] * d[i];
     }

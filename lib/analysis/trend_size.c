@@ -27,11 +27,11 @@ dal_size_class dal__trend_size(const dal_statistics *s, double scale, const dal_
     if (trend->deviation <= few_roundings * eps) return DAL_SIZE_ROUNDING;
     const double roughness = dal__roughness(s) / s->factor;
     const double by_steps = per_root_step * eps * sqrt(steps);
-    const double most = fmin(by_steps, smoothness * roughness);
+    const double max = fmin(by_steps, smoothness * roughness);
     const double per_step = fabs(trend->rate) * (s->to - s->from) / steps;
-    const double about_line = trend->trend == DAL_TREND_LINEAR ? by_steps : most;
+    const double about_line = trend->trend == DAL_TREND_LINEAR ? by_steps : max;
     const bool is_near =
-        trend->deviation <= most || (trend->amplitude <= about_line && per_step <= eps);
+        trend->deviation <= max || (trend->amplitude <= about_line && per_step <= eps);
     const bool has_small_steps = roughness <= largest_step * eps * sqrt(steps);
     return is_near && has_small_steps ? DAL_SIZE_ROUNDING : DAL_SIZE_LARGER;
 }

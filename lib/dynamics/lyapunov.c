@@ -98,12 +98,12 @@ static dal_status step_along(void *user, double size, double *out)
 /* By how much the vector exceeds what its components are measured by. */
 static double size_of(const dal_spectrum *s, const double *vector)
 {
-    double most = 0.0;
+    double max = 0.0;
     for (int i = 0; i < s->dimension; i++) {
         const double rate = i < s->n ? s->h * s->z[s->n + i] : s->z[i];
-        most = fmax(most, fabs(vector[i]) / fmax(1.0, fabs(rate)));
+        max = fmax(max, fabs(vector[i]) / fmax(1.0, fabs(rate)));
     }
-    return most;
+    return max;
 }
 
 static dal_status move_by_differences(dal_spectrum *s, double *vector)
@@ -155,13 +155,13 @@ static dal_status draw_vectors(dal_spectrum *s)
 
 static double row_norm(const double *matrix, int rows, int columns)
 {
-    double most = 0.0;
+    double max = 0.0;
     for (int i = 0; i < rows; i++) {
         double sum = 0.0;
         for (int j = 0; j < columns; j++) sum += fabs(matrix[i * columns + j]);
-        most = fmax(most, sum);
+        max = fmax(max, sum);
     }
-    return most;
+    return max;
 }
 
 /* The trace of F_(v,g), and a rate at which motions near this one come and go. */
@@ -406,8 +406,8 @@ static dal_status find_rank(dal_spectrum *s, unsigned claims)
 static void find_forced(dal_spectrum *s, unsigned claims)
 {
     const int lost = s->dimension - s->rank, m = dal_evaluator_system(s->evaluator)->m;
-    const int most = m + ((claims & DAL_KEEPS_ENERGY) != 0);
-    s->forced = lost == m || lost == most ? lost : 0;
+    const int max = m + ((claims & DAL_KEEPS_ENERGY) != 0);
+    s->forced = lost == m || lost == max ? lost : 0;
     s->turns_D = m > 0 && lost == 0 && claims & DAL_KEEPS_D_MIDPOINT;
 }
 

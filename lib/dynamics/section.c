@@ -91,14 +91,14 @@ typedef struct node {
 } node;
 
 /* Where between a and b to look next, as a part of the way from a; c is what was dropped last. */
-static double next_part(const node *a, const node *b, const node *c, double least)
+static double next_part(const node *a, const node *b, const node *c, double min)
 {
     const double xi = (a->s - b->s) / (c->s - b->s), phi = (a->f - b->f) / (c->f - b->f);
     double part = 0.5;
     if (phi * phi < xi && (1.0 - phi) * (1.0 - phi) < 1.0 - xi)
         part = a->f / (b->f - a->f) * c->f / (b->f - c->f) +
                (c->s - a->s) / (b->s - a->s) * a->f / (c->f - a->f) * b->f / (c->f - b->f);
-    return fmin(fmax(part, least), 1.0 - least);
+    return fmin(fmax(part, min), 1.0 - min);
 }
 
 /* The root between a and b, at which the values have different signs. */
