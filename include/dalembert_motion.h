@@ -23,7 +23,7 @@ void dal_statistics_mean(const dal_statistics *statistics, dal_average *average)
  * and the divergence of the motion, the trace of F_(v,g), is followed beside them.  Its long-time
  * mean is that of every density of the phase space, and on D = 0, where the logarithms of densities
  * and of |grad D| grow slower than t: only their total derivatives come in. */
-typedef struct dal_spectrum dal_spectrum;
+typedef struct dal_lyapunov dal_lyapunov;
 
 /* count vectors, 0: as many as the step map has directions, that is 2n + multipliers, less m where
  * the method forces D = 0, less one where it forces E.  tangent is dal_model_tangent of the same
@@ -32,14 +32,14 @@ typedef struct dal_spectrum dal_spectrum;
  * far the coordinates have travelled.  The space of the spec is not looked at. [alloc]  Errors:
  * those of a run; DAL_ARGUMENT (count); DAL_UNSUPPORTED: the step is no smooth map of (q, v, g)
  * alone: a multiplier carried along, a tolerance. */
-dal_status dal_spectrum_create(dal_spectrum **spectrum, const dal_run_spec *spec,
+dal_status dal_lyapunov_create(dal_lyapunov **lyapunov, const dal_run_spec *spec,
                                const dal_system *tangent, int count, dal_error *error);
-void dal_spectrum_free(dal_spectrum *spectrum);
+void dal_lyapunov_free(dal_lyapunov *lyapunov);
 /* The same bits as dal_run_advance of a run of the spec.  Errors: those of a step; DAL_SINGULAR
  * when J takes a vector to 0. */
-dal_status dal_spectrum_advance(dal_spectrum *spectrum, long long steps, dal_error *error);
+dal_status dal_lyapunov_advance(dal_lyapunov *lyapunov, long long steps, dal_error *error);
 /* Begins all means anew, as behind a transient; the vectors stay. */
-void dal_spectrum_forget(dal_spectrum *spectrum);
+void dal_lyapunov_discard_transient(dal_lyapunov *lyapunov);
 
 /* Whether the sum of all exponents is the divergence.  Of the flow it is so over any time:
  *     sum = mean divergence + surface,    surface = (1/T) [log |grad D|] between both ends
@@ -56,22 +56,22 @@ typedef struct dal_balance {
 
 /* Errors: DAL_UNSUPPORTED: not all exponents, no jacobian, directions lost that neither D nor E
  * explains, a method that turns D into -D in every step, or x >= 1 in some step. [alloc] */
-dal_status dal_spectrum_balance(dal_spectrum *spectrum, dal_balance *balance, dal_error *error);
+dal_status dal_lyapunov_balance(dal_lyapunov *lyapunov, dal_balance *balance, dal_error *error);
 
-const dal_run *dal_spectrum_run(const dal_spectrum *spectrum);
-int dal_spectrum_count(const dal_spectrum *spectrum);
-int dal_spectrum_is_exact(const dal_spectrum *spectrum); /* J by the tangent system */
+const dal_run *dal_lyapunov_run(const dal_lyapunov *lyapunov);
+int dal_lyapunov_count(const dal_lyapunov *lyapunov);
+int dal_lyapunov_is_exact(const dal_lyapunov *lyapunov); /* J by the tangent system */
 /* Whether the vectors span the space, so that their sum is log|det J|/h. */
-int dal_spectrum_is_whole(const dal_spectrum *spectrum);
+int dal_lyapunov_is_whole(const dal_lyapunov *lyapunov);
 
 /* Exponent i, from 0 (NaN past the last); they come in falling order when the vectors have had time
  * to turn. */
-void dal_spectrum_exponent(const dal_spectrum *spectrum, int i, dal_average *average);
+void dal_lyapunov_exponent(const dal_lyapunov *lyapunov, int i, dal_average *average);
 /* Of the sum of the exponents. */
-void dal_spectrum_sum(const dal_spectrum *spectrum, dal_average *average);
+void dal_lyapunov_sum(const dal_lyapunov *lyapunov, dal_average *average);
 /* Of the divergence, each step's being the mean of its ends; NaN when the system has no jacobian.
  */
-void dal_spectrum_divergence(const dal_spectrum *spectrum, dal_average *average);
+void dal_lyapunov_divergence(const dal_lyapunov *lyapunov, dal_average *average);
 
 /* ---- Poincare sections --------------------------------------------------------------------- */
 

@@ -163,24 +163,24 @@ double fixture_order(dal_run_spec spec, double T, int coarse, int fine, double d
     return log(error[0] / error[1]) / log((double)fine / coarse);
 }
 
-double fixture_exponent(const dal_spectrum *s, int i)
+double fixture_exponent(const dal_lyapunov *s, int i)
 {
     dal_average a;
-    dal_spectrum_exponent(s, i, &a);
+    dal_lyapunov_exponent(s, i, &a);
     CU_ASSERT(a.low <= a.mean && a.mean <= a.high);
     return a.mean;
 }
 
-double fixture_sum(const dal_spectrum *s)
+double fixture_sum(const dal_lyapunov *s)
 {
     dal_average a;
-    dal_spectrum_sum(s, &a);
+    dal_lyapunov_sum(s, &a);
     return a.mean;
 }
 
-double fixture_divergence(const dal_spectrum *s)
+double fixture_divergence(const dal_lyapunov *s)
 {
     dal_average a;
-    dal_spectrum_divergence(s, &a);
+    dal_lyapunov_divergence(s, &a);
     return a.mean;
 }

@@ -41,8 +41,8 @@ const char *fixture_method(int i, char *name, size_t size);
 double fixture_order(dal_run_spec spec, double T, int coarse, int fine, double displacement);
 
 /* Means of a spectrum; that of an exponent lies in its interval. */
-double fixture_exponent(const dal_spectrum *s, int i);
-double fixture_sum(const dal_spectrum *s);
-double fixture_divergence(const dal_spectrum *s);
+double fixture_exponent(const dal_lyapunov *s, int i);
+double fixture_sum(const dal_lyapunov *s);
+double fixture_divergence(const dal_lyapunov *s);
 
 #endif

@@ -11,7 +11,7 @@ static const dal_system *system, *tangent;
 static dal_run_spec spec, no_system, bad_count;
 static dal_run *run;
 static dal_evaluator *evaluator;
-static dal_spectrum *spectrum;
+static dal_lyapunov *lyapunov;
 static dal_explanation *explanation;
 static dal_point at;
 static double numbers[256];
@@ -27,14 +27,14 @@ static int open_objects(void)
     return dal_run_create(&run, &spec, NULL) != DAL_OK ||
            dal_evaluator_create(&evaluator, system, NULL, 0, NULL) != DAL_OK ||
            dal_model_tangent(model, &tangent, NULL) != DAL_OK ||
-           dal_spectrum_create(&spectrum, &spec, NULL, 1, NULL) != DAL_OK ||
+           dal_lyapunov_create(&lyapunov, &spec, NULL, 1, NULL) != DAL_OK ||
            dal_explain(&spec, 10, 0, NULL, &explanation, NULL) != DAL_OK;
 }
 
 static int close_objects(void)
 {
     dal_explanation_free(explanation);
-    dal_spectrum_free(spectrum);
+    dal_lyapunov_free(lyapunov);
     dal_evaluator_free(evaluator);
     dal_run_free(run);
     dal_model_free(model);
@@ -354,61 +354,61 @@ static void null_dal_statistics_mean(void)
     dal_statistics_mean(&(dal_statistics){0}, NULL);
 }
 
-static void null_dal_spectrum_create(void)
+static void null_dal_lyapunov_create(void)
 {
-    dal_spectrum *made = spectrum;
-    REFUSED_SPECS(bad, dal_spectrum_create(&made, bad, NULL, 0, error));
+    dal_lyapunov *made = lyapunov;
+    REFUSED_SPECS(bad, dal_lyapunov_create(&made, bad, NULL, 0, error));
     CU_ASSERT_PTR_NULL(made);
-    REFUSED(dal_spectrum_create(NULL, &spec, NULL, 0, error));
-    REFUSED(dal_spectrum_create(&made, &spec, NULL, -1, error));
-    REFUSED(dal_spectrum_create(&made, &spec, system, 0, error)); /* not of 2n coordinates */
+    REFUSED(dal_lyapunov_create(NULL, &spec, NULL, 0, error));
+    REFUSED(dal_lyapunov_create(&made, &spec, NULL, -1, error));
+    REFUSED(dal_lyapunov_create(&made, &spec, system, 0, error)); /* not of 2n coordinates */
 }
 
-static void null_dal_spectrum_free(void) { dal_spectrum_free(NULL); }
+static void null_dal_lyapunov_free(void) { dal_lyapunov_free(NULL); }
 
-static void null_dal_spectrum_advance(void)
+static void null_dal_lyapunov_advance(void)
 {
-    REFUSED(dal_spectrum_advance(NULL, 1, error));
-    REFUSED(dal_spectrum_advance(spectrum, -1, error));
+    REFUSED(dal_lyapunov_advance(NULL, 1, error));
+    REFUSED(dal_lyapunov_advance(lyapunov, -1, error));
 }
 
-static void null_dal_spectrum_forget(void) { dal_spectrum_forget(NULL); }
-static void null_dal_spectrum_run(void) { CU_ASSERT_PTR_NULL(dal_spectrum_run(NULL)); }
-static void null_dal_spectrum_count(void) { CU_ASSERT_EQUAL(dal_spectrum_count(NULL), 0); }
-static void null_dal_spectrum_is_exact(void) { CU_ASSERT_EQUAL(dal_spectrum_is_exact(NULL), 0); }
-static void null_dal_spectrum_is_whole(void) { CU_ASSERT_EQUAL(dal_spectrum_is_whole(NULL), 0); }
+static void null_dal_lyapunov_discard_transient(void) { dal_lyapunov_discard_transient(NULL); }
+static void null_dal_lyapunov_run(void) { CU_ASSERT_PTR_NULL(dal_lyapunov_run(NULL)); }
+static void null_dal_lyapunov_count(void) { CU_ASSERT_EQUAL(dal_lyapunov_count(NULL), 0); }
+static void null_dal_lyapunov_is_exact(void) { CU_ASSERT_EQUAL(dal_lyapunov_is_exact(NULL), 0); }
+static void null_dal_lyapunov_is_whole(void) { CU_ASSERT_EQUAL(dal_lyapunov_is_whole(NULL), 0); }
 
-static void null_dal_spectrum_exponent(void)
+static void null_dal_lyapunov_exponent(void)
 {
     for (int k = 0; k < 3; k++) {
         dal_average average = {0.0, 0.0, 0.0};
-        dal_spectrum_exponent(k ? spectrum : NULL, k == 1 ? -1 : k == 2 ? 1 : 0, &average);
+        dal_lyapunov_exponent(k ? lyapunov : NULL, k == 1 ? -1 : k == 2 ? 1 : 0, &average);
         CU_ASSERT(is_nan(&average));
     }
-    dal_spectrum_exponent(spectrum, 0, NULL);
+    dal_lyapunov_exponent(lyapunov, 0, NULL);
 }
 
-static void null_dal_spectrum_sum(void)
+static void null_dal_lyapunov_sum(void)
 {
     dal_average average = {0.0, 0.0, 0.0};
-    dal_spectrum_sum(NULL, &average);
+    dal_lyapunov_sum(NULL, &average);
     CU_ASSERT(is_nan(&average));
-    dal_spectrum_sum(spectrum, NULL);
+    dal_lyapunov_sum(lyapunov, NULL);
 }
 
-static void null_dal_spectrum_balance(void)
+static void null_dal_lyapunov_balance(void)
 {
     dal_balance balance;
-    REFUSED(dal_spectrum_balance(NULL, &balance, error));
-    REFUSED(dal_spectrum_balance(spectrum, NULL, error));
+    REFUSED(dal_lyapunov_balance(NULL, &balance, error));
+    REFUSED(dal_lyapunov_balance(lyapunov, NULL, error));
 }
 
-static void null_dal_spectrum_divergence(void)
+static void null_dal_lyapunov_divergence(void)
 {
     dal_average average = {0.0, 0.0, 0.0};
-    dal_spectrum_divergence(NULL, &average);
+    dal_lyapunov_divergence(NULL, &average);
     CU_ASSERT(is_nan(&average));
-    dal_spectrum_divergence(spectrum, NULL);
+    dal_lyapunov_divergence(lyapunov, NULL);
 }
 
 static void null_dal_run_crossings(void)

@@ -8,19 +8,19 @@
 
 /* ---- exponents ---- */
 
-/* The spectrum of a fixture after a transient and then steps more. */
-static dal_spectrum *spectrum_of(dal_model *model, const char *method, double step,
+/* The exponents of a fixture after a transient and then steps more. */
+static dal_lyapunov *lyapunov_of(dal_model *model, const char *method, double step,
                                  long long transient, long long steps)
 {
     const dal_system *tangent = NULL;
-    dal_spectrum *s = NULL;
+    dal_lyapunov *s = NULL;
     dal_error error = {0};
     const dal_run_spec spec = fixture_spec(fixture_system(model), method, DAL_PHYSICAL, step);
     CU_ASSERT_EQUAL_FATAL(dal_model_tangent(model, &tangent, NULL), DAL_OK);
-    CU_ASSERT_EQUAL_FATAL(dal_spectrum_create(&s, &spec, tangent, 0, &error), DAL_OK);
-    CU_ASSERT_EQUAL(dal_spectrum_advance(s, transient, &error), DAL_OK);
-    dal_spectrum_forget(s);
-    CU_ASSERT_EQUAL(dal_spectrum_advance(s, steps, &error), DAL_OK);
+    CU_ASSERT_EQUAL_FATAL(dal_lyapunov_create(&s, &spec, tangent, 0, &error), DAL_OK);
+    CU_ASSERT_EQUAL(dal_lyapunov_advance(s, transient, &error), DAL_OK);
+    dal_lyapunov_discard_transient(s);
+    CU_ASSERT_EQUAL(dal_lyapunov_advance(s, steps, &error), DAL_OK);
     return s;
 }
 
@@ -47,14 +47,14 @@ static void test_saddle(void)
 {
     const double h = 0.1;
     dal_model *model = fixture_model("coordinates: [x]\naccelerations: {x: x}\nstart: {x: 0}\n");
-    dal_spectrum *s = spectrum_of(model, "rk4", h, 300, 200);
-    CU_ASSERT(dal_spectrum_is_exact(s));
-    CU_ASSERT(dal_spectrum_is_whole(s));
-    CU_ASSERT_EQUAL_FATAL(dal_spectrum_count(s), 2);
+    dal_lyapunov *s = lyapunov_of(model, "rk4", h, 300, 200);
+    CU_ASSERT(dal_lyapunov_is_exact(s));
+    CU_ASSERT(dal_lyapunov_is_whole(s));
+    CU_ASSERT_EQUAL_FATAL(dal_lyapunov_count(s), 2);
     CU_ASSERT_DOUBLE_EQUAL(fixture_exponent(s, 0), log_rk4(h, 0.0) / h, 1e-13);
     CU_ASSERT_DOUBLE_EQUAL(fixture_exponent(s, 1), log_rk4(-h, 0.0) / h, 1e-13);
     CU_ASSERT_EQUAL(fixture_divergence(s), 0.0);
-    dal_spectrum_free(s);
+    dal_lyapunov_free(s);
     dal_model_free(model);
 }
 
@@ -66,15 +66,15 @@ static void test_spiral(void)
     const double by_rk4 = log_rk4(a, b) / h, by_midpoint = log_midpoint(a, b) / h;
     dal_model *model =
         fixture_model("coordinates: [x]\naccelerations: {x: -x - 0.3*x'}\nstart: {x: 1}\n");
-    dal_spectrum *s = spectrum_of(model, "rk4", h, 0, 20000);
+    dal_lyapunov *s = lyapunov_of(model, "rk4", h, 0, 20000);
     CU_ASSERT_DOUBLE_EQUAL(fixture_sum(s), 2.0 * by_rk4, 1e-13);
     CU_ASSERT_DOUBLE_EQUAL(fixture_divergence(s), -k, 1e-15);
     CU_ASSERT_DOUBLE_EQUAL(fixture_exponent(s, 0), by_rk4, 1e-3); /* turning vectors: 2/T at most */
     CU_ASSERT_DOUBLE_EQUAL(fixture_exponent(s, 1), by_rk4, 1e-3);
-    dal_spectrum_free(s);
-    s = spectrum_of(model, "implicit-midpoint", h, 0, 100);
+    dal_lyapunov_free(s);
+    s = lyapunov_of(model, "implicit-midpoint", h, 0, 100);
     CU_ASSERT_DOUBLE_EQUAL(fixture_sum(s), 2.0 * by_midpoint, 1e-13);
-    dal_spectrum_free(s);
+    dal_lyapunov_free(s);
     dal_model_free(model);
 }
 
@@ -91,17 +91,17 @@ static void test_lorenz(void)
 {
     dal_model *model = fixture_model(lorenz);
     const long long steps = long_run(LONG);
-    dal_spectrum *s = spectrum_of(model, "rk4", 0.01, 2000, steps);
+    dal_lyapunov *s = lyapunov_of(model, "rk4", 0.01, 2000, steps);
     dal_average a;
     CU_ASSERT_DOUBLE_EQUAL(fixture_divergence(s), -41.0 / 3.0, 1e-12);
     CU_ASSERT_DOUBLE_EQUAL(fixture_sum(s), -41.0 / 3.0, 1e-3);
-    dal_spectrum_exponent(s, 0, &a);
+    dal_lyapunov_exponent(s, 0, &a);
     if (steps == LONG) {
         CU_ASSERT(a.low < 0.9056 && 0.9056 < a.high && a.high - a.low < 0.2);
         for (int i = 1; i < 5; i++) CU_ASSERT_DOUBLE_EQUAL(fixture_exponent(s, i), 0.0, 0.05);
         CU_ASSERT_DOUBLE_EQUAL(fixture_exponent(s, 5), -14.5723, 0.05);
     }
-    dal_spectrum_free(s);
+    dal_lyapunov_free(s);
     dal_model_free(model);
 }
 
@@ -113,18 +113,18 @@ static void test_pairs(void)
                                      "  (x'^2 + y'^2 - x^2 - y^2)/2 - x^2*y + y^3/3\n"
                                      "start: {y: -0.25, x': 0.4208127057650699}\n");
     const long long steps = long_run(LONG);
-    dal_spectrum *s = spectrum_of(model, "stormer-verlet", 0.05, 1000, steps);
+    dal_lyapunov *s = lyapunov_of(model, "stormer-verlet", 0.05, 1000, steps);
     dal_average a;
     CU_ASSERT_DOUBLE_EQUAL(fixture_sum(s), 0.0, 1e-13);
     CU_ASSERT_EQUAL(fixture_divergence(s), 0.0);
-    dal_spectrum_exponent(s, 0, &a);
+    dal_lyapunov_exponent(s, 0, &a);
     if (steps == LONG) {
         CU_ASSERT(a.low > 0.02 && a.high < 0.15);
         CU_ASSERT_DOUBLE_EQUAL(fixture_exponent(s, 0) + fixture_exponent(s, 3), 0.0, 1e-2);
         CU_ASSERT_DOUBLE_EQUAL(fixture_exponent(s, 1), 0.0, 1e-2);
         CU_ASSERT_DOUBLE_EQUAL(fixture_exponent(s, 2), 0.0, 1e-2);
     }
-    dal_spectrum_free(s);
+    dal_lyapunov_free(s);
     dal_model_free(model);
 }
 
@@ -133,19 +133,19 @@ static void test_pairs(void)
 static void compare_ways(dal_model *model, const char *method, double tolerance)
 {
     const dal_system *tangent = NULL;
-    dal_spectrum *way[2] = {NULL, NULL};
+    dal_lyapunov *way[2] = {NULL, NULL};
     const dal_run_spec spec = fixture_spec(fixture_system(model), method, DAL_PHYSICAL, 0.05);
     CU_ASSERT_EQUAL_FATAL(dal_model_tangent(model, &tangent, NULL), DAL_OK);
     for (int k = 0; k < 2; k++) {
         const dal_system *given = k == 0 ? tangent : NULL;
-        CU_ASSERT_EQUAL_FATAL(dal_spectrum_create(&way[k], &spec, given, 0, NULL), DAL_OK);
-        CU_ASSERT_EQUAL(dal_spectrum_advance(way[k], 10, NULL), DAL_OK);
-        CU_ASSERT_EQUAL(dal_spectrum_is_exact(way[k]), k == 0);
+        CU_ASSERT_EQUAL_FATAL(dal_lyapunov_create(&way[k], &spec, given, 0, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_lyapunov_advance(way[k], 10, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_lyapunov_is_exact(way[k]), k == 0);
     }
-    for (int i = 0; i < dal_spectrum_count(way[0]); i++)
+    for (int i = 0; i < dal_lyapunov_count(way[0]); i++)
         CU_ASSERT_DOUBLE_EQUAL(fixture_exponent(way[0], i), fixture_exponent(way[1], i), tolerance);
     CU_ASSERT_DOUBLE_EQUAL(fixture_divergence(way[0]), fixture_divergence(way[1]), 0.0);
-    for (int k = 0; k < 2; k++) dal_spectrum_free(way[k]);
+    for (int k = 0; k < 2; k++) dal_lyapunov_free(way[k]);
 }
 
 static void test_ways(void)
@@ -177,21 +177,21 @@ static void test_rank(void)
     static const char *const forcing[] = {"gauss4+project", "mclachlan-perlmutter", "dla"};
     dal_model *model = fixture_model("chaplygin-sleigh-offset");
     const dal_system *tangent = NULL;
-    dal_spectrum *s = NULL;
+    dal_lyapunov *s = NULL;
     dal_error error;
     CU_ASSERT_EQUAL_FATAL(dal_model_tangent(model, &tangent, NULL), DAL_OK);
     for (size_t i = 0; i < sizeof forcing / sizeof *forcing; i++) {
         const dal_run_spec spec =
             fixture_spec(fixture_system(model), forcing[i], DAL_PHYSICAL, 0.05);
-        CU_ASSERT_EQUAL_FATAL(dal_spectrum_create(&s, &spec, tangent, 0, &error), DAL_OK);
-        CU_ASSERT_EQUAL(dal_spectrum_count(s), 5);
-        CU_ASSERT(dal_spectrum_is_whole(s) && !dal_spectrum_is_exact(s));
-        CU_ASSERT_EQUAL(dal_spectrum_advance(s, 20, &error), DAL_OK);
-        dal_spectrum_free(s);
-        CU_ASSERT_EQUAL(dal_spectrum_create(&s, &spec, NULL, 2, &error), DAL_OK);
-        CU_ASSERT(!dal_spectrum_is_whole(s));
-        dal_spectrum_free(s);
-        CU_ASSERT_EQUAL(dal_spectrum_create(&s, &spec, tangent, 6, &error), DAL_ARGUMENT);
+        CU_ASSERT_EQUAL_FATAL(dal_lyapunov_create(&s, &spec, tangent, 0, &error), DAL_OK);
+        CU_ASSERT_EQUAL(dal_lyapunov_count(s), 5);
+        CU_ASSERT(dal_lyapunov_is_whole(s) && !dal_lyapunov_is_exact(s));
+        CU_ASSERT_EQUAL(dal_lyapunov_advance(s, 20, &error), DAL_OK);
+        dal_lyapunov_free(s);
+        CU_ASSERT_EQUAL(dal_lyapunov_create(&s, &spec, NULL, 2, &error), DAL_OK);
+        CU_ASSERT(!dal_lyapunov_is_whole(s));
+        dal_lyapunov_free(s);
+        CU_ASSERT_EQUAL(dal_lyapunov_create(&s, &spec, tangent, 6, &error), DAL_ARGUMENT);
         CU_ASSERT_PTR_NULL(s);
         CU_ASSERT(strstr(error.message, "the step map has 5") != NULL);
         CU_ASSERT(error.line == 0 && error.column == 0);
@@ -223,14 +223,14 @@ static void check_tags(dal_model *model, const char *name)
     dal_average a;
     CU_ASSERT(!kept || !lost);
     if (system->multipliers || !returns(name) || !(kept || lost)) return;
-    dal_spectrum *s = spectrum_of(model, "rk4", 0.05, 0, 500);
-    dal_spectrum_divergence(s, &a);
+    dal_lyapunov *s = lyapunov_of(model, "rk4", 0.05, 0, 500);
+    dal_lyapunov_divergence(s, &a);
     const bool is_zero = fabs(a.mean) < 1e-14 || (a.low < 0.0 && 0.0 < a.high);
     const bool is_right = kept ? is_zero : a.mean < -0.1;
     if (!is_right) printf("\n  %s: %g (%g %g)\n", name, a.mean, a.low, a.high);
     CU_ASSERT(is_right);
     CU_ASSERT_DOUBLE_EQUAL(fixture_sum(s), a.mean, 1e-2);
-    dal_spectrum_free(s);
+    dal_lyapunov_free(s);
 }
 
 static void test_tags(void)
@@ -249,14 +249,14 @@ static void test_attractor(void)
     static const char *const methods[] = {"gauss4", "gauss4+project"};
     dal_model *model = fixture_model("chaplygin-sleigh-offset");
     for (int i = 0; i < 2; i++) {
-        dal_spectrum *s = spectrum_of(model, methods[i], 0.02, 500, 500);
+        dal_lyapunov *s = lyapunov_of(model, methods[i], 0.02, 500, 500);
         CU_ASSERT(fixture_divergence(s) < -0.1);
         CU_ASSERT_DOUBLE_EQUAL(fixture_sum(s), fixture_divergence(s), 1e-3);
-        dal_spectrum_free(s);
+        dal_lyapunov_free(s);
         /* Without a transient: nothing but the density, of order 1, may come in. */
-        s = spectrum_of(model, methods[i], 0.02, 0, 100);
+        s = lyapunov_of(model, methods[i], 0.02, 0, 100);
         CU_ASSERT_DOUBLE_EQUAL(2.0 * fixture_sum(s), 2.0 * fixture_divergence(s), 0.5);
-        dal_spectrum_free(s);
+        dal_lyapunov_free(s);
     }
     dal_model_free(model);
 }
@@ -268,23 +268,23 @@ static void test_full_turn(void)
     dal_model *model = fixture_model("chaplygin-sleigh-full-turn");
     const double V = sqrt(0.8 * 0.8 + 1.0), tau0 = asinh(-0.8), T = 10.0;
     const double exact = -log(cosh(tau0 + V / 4.0 * T) / cosh(tau0)) / T;
-    dal_spectrum *s = spectrum_of(model, "gauss8", 0.02, 0, 500);
+    dal_lyapunov *s = lyapunov_of(model, "gauss8", 0.02, 0, 500);
     CU_ASSERT_DOUBLE_EQUAL(fixture_sum(s), exact, 1e-6);
     CU_ASSERT_DOUBLE_EQUAL(fixture_divergence(s), exact, 1e-5);
-    dal_spectrum_free(s);
+    dal_lyapunov_free(s);
     dal_model_free(model);
 }
 
 static void test_vakonomic(void)
 {
     dal_model *model = fixture_model("chaplygin-sleigh-vakonomic");
-    dal_spectrum *s = NULL;
+    dal_lyapunov *s = NULL;
     const dal_run_spec spec = fixture_spec(fixture_system(model), "gauss6", DAL_PHYSICAL, 0.05);
-    CU_ASSERT_EQUAL_FATAL(dal_spectrum_create(&s, &spec, NULL, 0, NULL), DAL_OK);
-    CU_ASSERT_EQUAL(dal_spectrum_count(s), 7);
-    CU_ASSERT_EQUAL(dal_spectrum_advance(s, 100, NULL), DAL_OK);
+    CU_ASSERT_EQUAL_FATAL(dal_lyapunov_create(&s, &spec, NULL, 0, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_lyapunov_count(s), 7);
+    CU_ASSERT_EQUAL(dal_lyapunov_advance(s, 100, NULL), DAL_OK);
     CU_ASSERT_DOUBLE_EQUAL(fixture_sum(s), fixture_divergence(s), 1e-5);
-    dal_spectrum_free(s);
+    dal_lyapunov_free(s);
     dal_model_free(model);
 }
 
@@ -293,13 +293,13 @@ static void test_same_bits(void)
     dal_model *model = fixture_model(fixture_full);
     const dal_run_spec spec = fixture_spec(fixture_system(model), "gauss4", DAL_PHYSICAL, 0.05);
     dal_run *run = fixture_run(&spec);
-    dal_spectrum *s = spectrum_of(model, "gauss4", 0.05, 7, 23);
+    dal_lyapunov *s = lyapunov_of(model, "gauss4", 0.05, 7, 23);
     size_t count, other;
     CU_ASSERT_EQUAL(dal_run_advance(run, 30, NULL), DAL_OK);
     const double *memory = dal_run_memory(run, &count);
     CU_ASSERT_EQUAL(
-        memcmp(memory, dal_run_memory(dal_spectrum_run(s), &other), count * sizeof *memory), 0);
-    dal_spectrum_free(s);
+        memcmp(memory, dal_run_memory(dal_lyapunov_run(s), &other), count * sizeof *memory), 0);
+    dal_lyapunov_free(s);
     dal_run_free(run);
     dal_model_free(model);
 }
@@ -309,19 +309,19 @@ static void test_same_bits(void)
 static void test_refuses(void)
 {
     dal_model *model = fixture_model("chaplygin-sleigh");
-    dal_spectrum *s = NULL;
+    dal_lyapunov *s = NULL;
     dal_error error;
     dal_run_spec spec = fixture_spec(fixture_system(model), "gni", DAL_PHYSICAL, 0.05);
-    CU_ASSERT_EQUAL(dal_spectrum_create(&s, &spec, NULL, 0, &error), DAL_UNSUPPORTED);
+    CU_ASSERT_EQUAL(dal_lyapunov_create(&s, &spec, NULL, 0, &error), DAL_UNSUPPORTED);
     CU_ASSERT(strstr(error.message, "carries a multiplier") != NULL);
     CU_ASSERT(error.line == 0 && error.column == 0);
     spec = fixture_spec(fixture_system(model), "dop853", DAL_PHYSICAL, 0.05);
     spec.options.tolerance = 1e-8;
-    CU_ASSERT_EQUAL(dal_spectrum_create(&s, &spec, NULL, 0, &error), DAL_UNSUPPORTED);
+    CU_ASSERT_EQUAL(dal_lyapunov_create(&s, &spec, NULL, 0, &error), DAL_UNSUPPORTED);
     CU_ASSERT(strstr(error.message, "tolerance") != NULL);
     CU_ASSERT(error.line == 0 && error.column == 0);
     spec.options.tolerance = 0.0;
-    CU_ASSERT_EQUAL(dal_spectrum_create(&s, &spec, NULL, -1, &error), DAL_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_lyapunov_create(&s, &spec, NULL, -1, &error), DAL_ARGUMENT);
     CU_ASSERT_PTR_NULL(s);
     dal_model_free(model);
 }
@@ -333,12 +333,12 @@ static void test_out_of_memory(void)
     long n = 0;
     for (;; n++) {
         const long blocks = allocation_blocks();
-        dal_spectrum *s = NULL;
+        dal_lyapunov *s = NULL;
         allocation_fail_after(n);
-        const dal_status status = dal_spectrum_create(&s, &spec, NULL, 0, NULL);
+        const dal_status status = dal_lyapunov_create(&s, &spec, NULL, 0, NULL);
         const int failed = allocation_failed();
         allocation_fail_after(-1);
-        dal_spectrum_free(s);
+        dal_lyapunov_free(s);
         CU_ASSERT_EQUAL_FATAL(status, failed ? DAL_MEMORY : DAL_OK);
         CU_ASSERT_EQUAL(allocation_blocks(), blocks);
         if (!failed) break;

@@ -7,37 +7,37 @@
 
 /* ---- coordinates that travel far ---- */
 
-static dal_balance balance_of(dal_spectrum *s)
+static dal_balance balance_of(dal_lyapunov *s)
 {
     dal_balance b = {0};
     dal_error error = {0};
-    CU_ASSERT_EQUAL(dal_spectrum_balance(s, &b, &error), DAL_OK);
+    CU_ASSERT_EQUAL(dal_lyapunov_balance(s, &b, &error), DAL_OK);
     CU_ASSERT(b.holds && fabs(b.difference) <= b.margin);
     return b;
 }
 
-static dal_model *kept_model; /* of the spectrum that differences() made last */
+static dal_model *kept_model; /* of the exponents that differences() made last */
 
 /* A run by differences from the given start, steps long. */
-static dal_spectrum *differences(const char *text, const char *method, const dal_setting *start,
+static dal_lyapunov *differences(const char *text, const char *method, const dal_setting *start,
                                  int count, long long steps)
 {
     dal_model *model = fixture_model(text);
     dal_run_spec spec = fixture_spec(fixture_system(model), method, DAL_PHYSICAL, 0.05);
-    dal_spectrum *s = NULL;
+    dal_lyapunov *s = NULL;
     dal_error error = {0};
     spec.start = start;
     spec.start_count = count;
-    CU_ASSERT_EQUAL_FATAL(dal_spectrum_create(&s, &spec, NULL, 0, &error), DAL_OK);
-    CU_ASSERT_EQUAL_FATAL(dal_spectrum_advance(s, steps, &error), DAL_OK);
+    CU_ASSERT_EQUAL_FATAL(dal_lyapunov_create(&s, &spec, NULL, 0, &error), DAL_OK);
+    CU_ASSERT_EQUAL_FATAL(dal_lyapunov_advance(s, steps, &error), DAL_OK);
     balance_of(s);
     kept_model = model;
     return s;
 }
 
-static void free_both(dal_spectrum *s)
+static void free_both(dal_lyapunov *s)
 {
-    dal_spectrum_free(s);
+    dal_lyapunov_free(s);
     dal_model_free(kept_model);
 }
 
@@ -50,12 +50,12 @@ static void test_translation(void)
     for (size_t k = 0; k < sizeof methods / sizeof *methods; k++) {
         double near[6];
         int count;
-        dal_spectrum *s = differences("chaplygin-sleigh-offset", methods[k], NULL, 0, 200);
-        count = dal_spectrum_count(s);
+        dal_lyapunov *s = differences("chaplygin-sleigh-offset", methods[k], NULL, 0, 200);
+        count = dal_lyapunov_count(s);
         for (int i = 0; i < count; i++) near[i] = fixture_exponent(s, i);
         free_both(s);
         s = differences("chaplygin-sleigh-offset", methods[k], far, 2, 200);
-        CU_ASSERT_EQUAL_FATAL(dal_spectrum_count(s), count);
+        CU_ASSERT_EQUAL_FATAL(dal_lyapunov_count(s), count);
         for (int i = 0; i < count; i++)
             CU_ASSERT_DOUBLE_EQUAL(fixture_exponent(s, i), near[i], 1e-9);
         free_both(s);
@@ -79,19 +79,19 @@ static void test_far_attractor(void)
         dal_model *model = fixture_model("chaplygin-sleigh-offset");
         dal_run_spec spec =
             fixture_spec(fixture_system(model), methods[k].method, DAL_PHYSICAL, 0.001);
-        dal_spectrum *s = NULL;
+        dal_lyapunov *s = NULL;
         spec.start = start;
         spec.start_count = 4;
-        CU_ASSERT_EQUAL_FATAL(dal_spectrum_create(&s, &spec, NULL, 0, NULL), DAL_OK);
-        CU_ASSERT_EQUAL_FATAL(dal_spectrum_count(s), methods[k].count);
-        CU_ASSERT_EQUAL(dal_spectrum_advance(s, 1000, NULL), DAL_OK);
-        dal_spectrum_forget(s);
-        CU_ASSERT_EQUAL(dal_spectrum_advance(s, steps, NULL), DAL_OK);
+        CU_ASSERT_EQUAL_FATAL(dal_lyapunov_create(&s, &spec, NULL, 0, NULL), DAL_OK);
+        CU_ASSERT_EQUAL_FATAL(dal_lyapunov_count(s), methods[k].count);
+        CU_ASSERT_EQUAL(dal_lyapunov_advance(s, 1000, NULL), DAL_OK);
+        dal_lyapunov_discard_transient(s);
+        CU_ASSERT_EQUAL(dal_lyapunov_advance(s, steps, NULL), DAL_OK);
         CU_ASSERT_DOUBLE_EQUAL(fixture_exponent(s, methods[k].count - 1), rate, 2e-3);
         CU_ASSERT_DOUBLE_EQUAL(fixture_sum(s), rate, 2e-3);
         CU_ASSERT_DOUBLE_EQUAL(fixture_divergence(s), rate, 1e-9);
         balance_of(s);
-        dal_spectrum_free(s);
+        dal_lyapunov_free(s);
         dal_model_free(model);
     }
 }
@@ -100,7 +100,7 @@ static void test_far_attractor(void)
 static void test_long_way(void)
 {
     const long long steps = long_run(40000);
-    dal_spectrum *s = differences("chaplygin-sleigh-offset", "rk4+project", NULL, 0, steps);
+    dal_lyapunov *s = differences("chaplygin-sleigh-offset", "rk4+project", NULL, 0, steps);
     const double T = 0.05 * (double)steps;
     for (int i = 0; i < 4; i++) CU_ASSERT(fabs(fixture_exponent(s, i)) < 2.0 * log(T) / T);
     if (steps == 40000) {
@@ -122,9 +122,9 @@ static void test_long_isokinetic(void)
 {
     const dal_setting start[] = {{"x'", cos(0.1)}, {"y'", sin(0.1)}};
     const long long steps = long_run(10000);
-    dal_spectrum *s = differences("isokinetic", "rk4+project", start, 2, steps);
+    dal_lyapunov *s = differences("isokinetic", "rk4+project", start, 2, steps);
     const double T = 0.05 * (double)steps, theta = 2.0 * atan(tan(0.05) * exp(-T));
-    CU_ASSERT_EQUAL_FATAL(dal_spectrum_count(s), 3);
+    CU_ASSERT_EQUAL_FATAL(dal_lyapunov_count(s), 3);
     /* theta' = -sin theta: d theta grows by sin(theta)/sin(0.1) */
     CU_ASSERT_DOUBLE_EQUAL(fixture_sum(s), (log(sin(theta)) - log(sin(0.1))) / T, 1e-4);
     free_both(s);
@@ -139,7 +139,7 @@ static double log_rk4(double z)
 static void test_linear_far(void)
 {
     const dal_setting start[] = {{"y", 1e6}, {"y'", 100.0}, {"x", -1e5}, {"x'", 1.0}};
-    dal_spectrum *s = differences("coordinates: [x, y]\n"
+    dal_lyapunov *s = differences("coordinates: [x, y]\n"
                                   "accelerations: {x: -0.3*x', y: 0}\nstart: {x: 0}\n",
                                   "rk4", start, 4, 1000);
     CU_ASSERT_DOUBLE_EQUAL(fixture_sum(s), log_rk4(-0.015) / 0.05, 1e-9);
@@ -155,13 +155,13 @@ static void test_quad(void)
     dal_run_spec spec = fixture_spec(fixture_system(model), "gauss4+project", DAL_PHYSICAL, 0.05);
     double value[2][5];
     for (int k = 0; k < 2; k++) {
-        dal_spectrum *s = NULL;
+        dal_lyapunov *s = NULL;
         spec.options.precision = k == 0 ? DAL_DOUBLE : DAL_LONG_NUMBERS;
-        CU_ASSERT_EQUAL_FATAL(dal_spectrum_create(&s, &spec, NULL, 0, NULL), DAL_OK);
-        CU_ASSERT_EQUAL_FATAL(dal_spectrum_count(s), 5);
-        CU_ASSERT_EQUAL(dal_spectrum_advance(s, 20, NULL), DAL_OK);
+        CU_ASSERT_EQUAL_FATAL(dal_lyapunov_create(&s, &spec, NULL, 0, NULL), DAL_OK);
+        CU_ASSERT_EQUAL_FATAL(dal_lyapunov_count(s), 5);
+        CU_ASSERT_EQUAL(dal_lyapunov_advance(s, 20, NULL), DAL_OK);
         for (int i = 0; i < 5; i++) value[k][i] = fixture_exponent(s, i);
-        dal_spectrum_free(s);
+        dal_lyapunov_free(s);
     }
     for (int i = 0; i < 5; i++) CU_ASSERT_DOUBLE_EQUAL(value[0][i], value[1][i], 1e-9);
     dal_model_free(model);
@@ -179,15 +179,15 @@ static void test_wrong_derivative(void)
     CU_ASSERT_EQUAL(dal_model_tangent(model, &tangent[0], NULL), DAL_OK);
     CU_ASSERT_EQUAL(dal_model_tangent(other, &tangent[1], NULL), DAL_OK);
     for (int k = 0; k < 2; k++) {
-        dal_spectrum *s = NULL;
+        dal_lyapunov *s = NULL;
         dal_balance b;
-        CU_ASSERT_EQUAL_FATAL(dal_spectrum_create(&s, &spec, tangent[k], 0, NULL), DAL_OK);
-        CU_ASSERT_EQUAL(dal_spectrum_advance(s, 100, NULL), DAL_OK);
-        CU_ASSERT_EQUAL(dal_spectrum_balance(s, &b, NULL), DAL_OK);
+        CU_ASSERT_EQUAL_FATAL(dal_lyapunov_create(&s, &spec, tangent[k], 0, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_lyapunov_advance(s, 100, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_lyapunov_balance(s, &b, NULL), DAL_OK);
         CU_ASSERT_EQUAL(b.holds, k == 0);
         CU_ASSERT_DOUBLE_EQUAL(b.difference, k == 0 ? 0.0 : -0.2, 1e-6);
         CU_ASSERT_EQUAL(b.surface, 0.0);
-        dal_spectrum_free(s);
+        dal_lyapunov_free(s);
     }
     dal_model_free(model);
     dal_model_free(other);
@@ -201,7 +201,7 @@ static void test_balance(void)
         "gauss8", "gauss6+project", "rk4+project",          "gauss4+symmetric-project",
         "spark4", "gauss-spark4",   "gauss6+project-energy"};
     for (size_t k = 0; k < sizeof methods / sizeof *methods; k++) {
-        dal_spectrum *s = differences("chaplygin-sleigh-offset", methods[k], NULL, 0, 100);
+        dal_lyapunov *s = differences("chaplygin-sleigh-offset", methods[k], NULL, 0, 100);
         const dal_balance b = balance_of(s);
         CU_ASSERT(fabs(b.difference) < 1e-4);
         CU_ASSERT(k == 0 ? b.surface == 0.0 : fabs(b.surface) > 1e-3);
@@ -214,7 +214,7 @@ static void test_no_balance(void)
     dal_model *model = fixture_model("chaplygin-sleigh-offset");
     dal_balance b;
     dal_error error;
-    dal_spectrum *s = NULL;
+    dal_lyapunov *s = NULL;
     const struct {
         const char *method;
         int count;
@@ -226,11 +226,11 @@ static void test_no_balance(void)
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         const dal_run_spec spec =
             fixture_spec(fixture_system(model), cases[k].method, DAL_PHYSICAL, cases[k].step);
-        CU_ASSERT_EQUAL_FATAL(dal_spectrum_create(&s, &spec, NULL, cases[k].count, NULL), DAL_OK);
-        CU_ASSERT_EQUAL(dal_spectrum_advance(s, 3, NULL), DAL_OK);
-        CU_ASSERT_EQUAL(dal_spectrum_balance(s, &b, &error), DAL_UNSUPPORTED);
+        CU_ASSERT_EQUAL_FATAL(dal_lyapunov_create(&s, &spec, NULL, cases[k].count, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_lyapunov_advance(s, 3, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_lyapunov_balance(s, &b, &error), DAL_UNSUPPORTED);
         CU_ASSERT(strstr(error.message, cases[k].reason) != NULL);
-        dal_spectrum_free(s);
+        dal_lyapunov_free(s);
     }
     dal_model_free(model);
 }

@@ -22,7 +22,7 @@ typedef struct tangent_study {
     const char *output;
     double transient;
     long long rows, exponents; /* exponents: 0 for all */
-    dal_spectrum *spectrum;
+    dal_lyapunov *spectrum;
     double begin; /* t at the beginning of the means */
     /* A table of the means so far: its name, which is the file's and the figure's, and what it has
      * beside t. */
@@ -50,7 +50,7 @@ static int create_spectrum(tangent_study *s)
     /* A vakonomic system has no tangent system; its derivatives are differences. */
     dal_status made = dal_model_tangent(request->model, &tangent, &error);
     if (made == DAL_OK || made == DAL_UNSUPPORTED)
-        made = dal_spectrum_create(&s->spectrum, &spec, tangent, (int)s->exponents, &error);
+        made = dal_lyapunov_create(&s->spectrum, &spec, tangent, (int)s->exponents, &error);
     return made == DAL_OK ? CLI_DONE
                           : cli_error(cli_input_exit(made), request->system_name, &error);
 }
@@ -58,7 +58,7 @@ static int create_spectrum(tangent_study *s)
 /* t, lambda1, .., divergence or t, divergence, step. */
 static void name_columns(tangent_study *s)
 {
-    const int count = dal_spectrum_count(s->spectrum);
+    const int count = dal_lyapunov_count(s->spectrum);
     s->name = s->is_volume ? "volume" : "lyapunov";
     s->ylabel = s->is_volume ? "rate, mean so far" : "mean so far";
     s->columns = s->is_volume ? 2 : count + 1;
@@ -81,15 +81,15 @@ static void name_columns(tangent_study *s)
 static int write_means(tangent_study *s)
 {
     dal_average divergence, other;
-    s->values[0] = dal_run_time(dal_spectrum_run(s->spectrum));
-    dal_spectrum_divergence(s->spectrum, &divergence);
+    s->values[0] = dal_run_time(dal_lyapunov_run(s->spectrum));
+    dal_lyapunov_divergence(s->spectrum, &divergence);
     s->values[s->is_volume ? 1 : s->columns] = divergence.mean;
     if (s->is_volume) {
-        dal_spectrum_sum(s->spectrum, &other);
+        dal_lyapunov_sum(s->spectrum, &other);
         s->values[2] = other.mean;
     }
     for (int i = 0; !s->is_volume && i < s->columns - 1; i++) {
-        dal_spectrum_exponent(s->spectrum, i, &other);
+        dal_lyapunov_exponent(s->spectrum, i, &other);
         s->values[1 + i] = other.mean;
     }
     return s->table.path ? writer_append(&s->table, s->values) : CLI_DONE;
@@ -97,13 +97,13 @@ static int write_means(tangent_study *s)
 
 static int advance_spectrum(tangent_study *s, long long steps)
 {
-    const dal_run *run = dal_spectrum_run(s->spectrum);
+    const dal_run *run = dal_lyapunov_run(s->spectrum);
     dal_status status = DAL_OK;
     dal_error error = {0};
     for (; steps > 0 && status == DAL_OK; steps -= CHUNK) {
         if (cli_interrupted()) return CLI_SIGNAL;
         cli_progress("t = %.6g of %.6g", dal_run_time(run), s->transient + s->request.time);
-        status = dal_spectrum_advance(s->spectrum, steps < CHUNK ? steps : CHUNK, &error);
+        status = dal_lyapunov_advance(s->spectrum, steps < CHUNK ? steps : CHUNK, &error);
     }
     return status == DAL_OK ? CLI_DONE
                             : cli_error(cli_exit(status), s->request.system_name, &error);
@@ -116,8 +116,8 @@ static int run_to_end(tangent_study *s)
     const double h = s->request.options.step;
     const long long total = llround(s->request.time / h), rows = s->rows < total ? s->rows : total;
     int status = advance_spectrum(s, llround(s->transient / h));
-    dal_spectrum_forget(s->spectrum);
-    s->begin = dal_run_time(dal_spectrum_run(s->spectrum));
+    dal_lyapunov_discard_transient(s->spectrum);
+    s->begin = dal_run_time(dal_lyapunov_run(s->spectrum));
     for (long long k = 1, done = 0; k <= rows && status == CLI_DONE; k++) {
         const long long next = llround((double)k / (double)rows * (double)total);
         status = advance_spectrum(s, next - done);
@@ -178,7 +178,7 @@ static int run_with_table(tangent_study *s)
  * log(T)/T. */
 static double resolution(const tangent_study *s)
 {
-    const double T = dal_run_time(dal_spectrum_run(s->spectrum)) - s->begin;
+    const double T = dal_run_time(dal_lyapunov_run(s->spectrum)) - s->begin;
     return log(fmax(T, 1.0) + 1.0) / fmax(T, 1.0);
 }
 
@@ -198,15 +198,15 @@ static const char *sign_word(const dal_average *a, double resolution, const char
 static void print_exponents(const tangent_study *s)
 {
     dal_average a;
-    for (int i = 0; i < dal_spectrum_count(s->spectrum); i++) {
+    for (int i = 0; i < dal_lyapunov_count(s->spectrum); i++) {
         char name[32];
         snprintf(name, sizeof name, "exponent %d", i + 1);
-        dal_spectrum_exponent(s->spectrum, i, &a);
+        dal_lyapunov_exponent(s->spectrum, i, &a);
         print_mean(name, &a, sign_word(&a, resolution(s), "positive", "negative"));
     }
-    dal_spectrum_sum(s->spectrum, &a);
-    print_mean("their sum", &a, dal_spectrum_is_whole(s->spectrum) ? "all" : "not all");
-    dal_spectrum_divergence(s->spectrum, &a);
+    dal_lyapunov_sum(s->spectrum, &a);
+    print_mean("their sum", &a, dal_lyapunov_is_whole(s->spectrum) ? "all" : "not all");
+    dal_lyapunov_divergence(s->spectrum, &a);
     print_mean("divergence of F", &a, "exact, at every step");
     printf("\nexponents of regular motion may reach about log(T)/T = %.2g\n", resolution(s));
 }
@@ -223,12 +223,12 @@ static void print_rate_of_volume(const tangent_study *s, const char *name, const
 static void print_volume(const tangent_study *s)
 {
     dal_average motion, step;
-    dal_spectrum_divergence(s->spectrum, &motion);
-    dal_spectrum_sum(s->spectrum, &step);
+    dal_lyapunov_divergence(s->spectrum, &motion);
+    dal_lyapunov_sum(s->spectrum, &step);
     print_rate_of_volume(s, "divergence of F", &motion);
     print_rate_of_volume(s, "log|det J|/h of a step", &step);
-    printf("\n%d of %d directions; step less motion: %.2g\n", dal_spectrum_count(s->spectrum),
-           dal_run_dimension(dal_spectrum_run(s->spectrum)), step.mean - motion.mean);
+    printf("\n%d of %d directions; step less motion: %.2g\n", dal_lyapunov_count(s->spectrum),
+           dal_run_dimension(dal_lyapunov_run(s->spectrum)), step.mean - motion.mean);
 }
 
 /* The sum of the exponents against the divergence. */
@@ -236,7 +236,7 @@ static int print_balance(const tangent_study *s)
 {
     dal_balance b;
     dal_error error;
-    if (dal_spectrum_balance(s->spectrum, &b, &error) != DAL_OK) {
+    if (dal_lyapunov_balance(s->spectrum, &b, &error) != DAL_OK) {
         printf("sum less divergence: not compared: %s\n", error.message);
         return CLI_DONE;
     }
@@ -254,11 +254,11 @@ static int print_balance(const tangent_study *s)
 static int print_means(const tangent_study *s)
 {
     char method[128];
-    const dal_run *run = dal_spectrum_run(s->spectrum);
+    const dal_run *run = dal_lyapunov_run(s->spectrum);
     dal_method_name(&s->request.method, method, sizeof method);
     printf("%s, %s, h = %g: means over t = %g .. %g\n", s->request.system_name, method,
            s->request.options.step, s->begin, dal_run_time(run));
-    printf("the derivative of the step %s\n\n", dal_spectrum_is_exact(s->spectrum)
+    printf("the derivative of the step %s\n\n", dal_lyapunov_is_exact(s->spectrum)
                                                     ? "exact, by the tangent system"
                                                     : "by differences of order 8");
     printf("%-24s %12s %25s\n", "", "mean", "95 % interval");
@@ -323,7 +323,7 @@ static int run_command(int argc, char **argv, bool is_volume, const char *notes)
     }
     free(s.heads);
     free(s.values);
-    dal_spectrum_free(s.spectrum);
+    dal_lyapunov_free(s.spectrum);
     request_free(&s.request);
     return status;
 }

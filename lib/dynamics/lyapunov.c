@@ -22,7 +22,7 @@ static const double lost_direction = 1e-6;
 /* What is followed beside the exponents, see growth. */
 enum { FOLLOWED = 4 };
 
-struct dal_spectrum {
+struct dal_lyapunov {
     dal_run *run;   /* the trajectory */
     dal_run *aside; /* steps tangent vectors, or what differences need, from where the run is */
     dal_evaluator *evaluator;
@@ -49,7 +49,7 @@ struct dal_spectrum {
 /* ---- J times a vector ---- */
 
 /* (dq, dv) by a step of the tangent system from (q, dq, v, dv). */
-static dal_status move_exactly(dal_spectrum *s, double *vector)
+static dal_status move_exactly(dal_lyapunov *s, double *vector)
 {
     const size_t n = (size_t)s->n, bytes = n * sizeof(double);
     double *x = s->scratch;
@@ -66,7 +66,7 @@ static dal_status move_exactly(dal_spectrum *s, double *vector)
 
 /* The run aside at z + size * direction: what y has no room for goes to its remainder r, so that a
  * coordinate may be as far away as it likes.  In quad precision the state is rounded. */
-static dal_status displace(dal_spectrum *s, double size)
+static dal_status displace(dal_lyapunov *s, double size)
 {
     const int d = s->dimension;
     double *z = s->displaced;
@@ -84,7 +84,7 @@ static dal_status displace(dal_spectrum *s, double size)
 /* How far that is then from z. */
 static dal_status step_along(void *user, double size, double *out)
 {
-    dal_spectrum *s = user;
+    dal_lyapunov *s = user;
     const int d = s->dimension;
     size_t count;
     DAL_TRY(displace(s, size));
@@ -96,7 +96,7 @@ static dal_status step_along(void *user, double size, double *out)
 }
 
 /* By how much the vector exceeds what its components are measured by. */
-static double size_of(const dal_spectrum *s, const double *vector)
+static double size_of(const dal_lyapunov *s, const double *vector)
 {
     double max = 0.0;
     for (int i = 0; i < s->dimension; i++) {
@@ -106,7 +106,7 @@ static double size_of(const dal_spectrum *s, const double *vector)
     return max;
 }
 
-static dal_status move_by_differences(dal_spectrum *s, double *vector)
+static dal_status move_by_differences(dal_lyapunov *s, double *vector)
 {
     const size_t count = (size_t)s->dimension;
     double *value = s->scratch + count, *out = value + 3 * count;
@@ -119,7 +119,7 @@ static dal_status move_by_differences(dal_spectrum *s, double *vector)
 
 /* ---- Gram-Schmidt ---- */
 
-static dal_status orthonormalise(dal_spectrum *s, int count)
+static dal_status orthonormalise(dal_lyapunov *s, int count)
 {
     for (int j = 0; j < count; j++) {
         const int d = s->dimension;
@@ -134,7 +134,7 @@ static dal_status orthonormalise(dal_spectrum *s, int count)
     return DAL_OK;
 }
 
-static dal_status move_vectors(dal_spectrum *s, int count)
+static dal_status move_vectors(dal_lyapunov *s, int count)
 {
     for (int j = 0; j < count; j++) {
         double *vector = s->vectors + j * s->dimension;
@@ -144,7 +144,7 @@ static dal_status move_vectors(dal_spectrum *s, int count)
 }
 
 /* Orthonormal vectors in directions of no particular kind. */
-static dal_status draw_vectors(dal_spectrum *s)
+static dal_status draw_vectors(dal_lyapunov *s)
 {
     dal__random random = {1};
     for (int i = 0; i < s->dimension * s->dimension; i++) s->vectors[i] = dal__uniform(&random);
@@ -165,7 +165,7 @@ static double row_norm(const double *matrix, int rows, int columns)
 }
 
 /* The trace of F_(v,g), and a rate at which motions near this one come and go. */
-static dal_status find_divergence(dal_spectrum *s)
+static dal_status find_divergence(dal_lyapunov *s)
 {
     const dal_system *system = dal_evaluator_system(s->evaluator);
     const double *z = dal_run_state(s->run), *by_v = s->scratch + s->nw * s->n;
@@ -183,7 +183,7 @@ static dal_status find_divergence(dal_spectrum *s)
 }
 
 /* Where a run is. */
-static void hold_state(dal_spectrum *s, const dal_run *run)
+static void hold_state(dal_lyapunov *s, const dal_run *run)
 {
     const double *memory = dal_run_memory(run, &s->memory_count);
     s->t = dal_run_time(run);
@@ -193,13 +193,13 @@ static void hold_state(dal_spectrum *s, const dal_run *run)
 
 /* By how much the sum over a step may be wrong: a power series in h r without its terms up to the
  * order; nothing is known where it does not converge. */
-static double step_error(const dal_spectrum *s)
+static double step_error(const dal_lyapunov *s)
 {
     const double x = s->h * s->rate;
     return x < 1.0 ? s->dimension * s->rate * pow(x, s->order) / (1.0 - x) : INFINITY;
 }
 
-static dal_status take_step(dal_spectrum *s)
+static dal_status take_step(dal_lyapunov *s)
 {
     const double before = s->divergence;
     double *sum = s->growth + s->count;
@@ -217,7 +217,7 @@ static dal_status take_step(dal_spectrum *s)
     return DAL_OK;
 }
 
-dal_status dal_spectrum_advance(dal_spectrum *s, long long steps, dal_error *error)
+dal_status dal_lyapunov_advance(dal_lyapunov *s, long long steps, dal_error *error)
 {
     DAL_REQUIRE(s, error);
     DAL_REQUIRE_COUNT(steps, error);
@@ -232,7 +232,7 @@ dal_status dal_spectrum_advance(dal_spectrum *s, long long steps, dal_error *err
 
 /* normals: the gradients of what is forced, orthonormal; returns the log of the size of the
  * parallelepiped that they spanned, NaN where they cannot be had. */
-static double find_normals(dal_spectrum *s)
+static double find_normals(dal_lyapunov *s)
 {
     const dal_system *system = dal_evaluator_system(s->evaluator);
     const double *z = dal_run_state(s->run);
@@ -249,7 +249,7 @@ static double find_normals(dal_spectrum *s)
     return status == DAL_OK ? size : NAN;
 }
 
-void dal_spectrum_forget(dal_spectrum *s)
+void dal_lyapunov_discard_transient(dal_lyapunov *s)
 {
     if (!s) return;
     dal_statistics_start(s->statistics, s->count + FOLLOWED);
@@ -258,7 +258,7 @@ void dal_spectrum_forget(dal_spectrum *s)
 }
 
 /* The vectors, made tangent to what is forced where the run is. */
-static dal_status make_tangent(dal_spectrum *s)
+static dal_status make_tangent(dal_lyapunov *s)
 {
     const int d = s->dimension;
     for (int j = 0; j < s->rank && isfinite(s->log_from); j++) {
@@ -273,7 +273,7 @@ static dal_status make_tangent(dal_spectrum *s)
     return orthonormalise(s, s->rank);
 }
 
-dal_status dal_spectrum_balance(dal_spectrum *s, dal_balance *balance, dal_error *error)
+dal_status dal_lyapunov_balance(dal_lyapunov *s, dal_balance *balance, dal_error *error)
 {
     DAL_REQUIRE(s, error);
     DAL_REQUIRE(balance, error);
@@ -334,7 +334,7 @@ static dal_status check(const dal_run_spec *spec, const dal_system *tangent, dal
     return DAL_OK;
 }
 
-static dal_status open_runs(dal_spectrum *s, const dal_run_spec *given, const dal_system *tangent,
+static dal_status open_runs(dal_lyapunov *s, const dal_run_spec *given, const dal_system *tangent,
                             dal_error *error)
 {
     dal_run_spec spec = *given;
@@ -354,7 +354,7 @@ static dal_status open_runs(dal_spectrum *s, const dal_run_spec *given, const da
                                 error);
 }
 
-static dal_status allocate(dal_spectrum *s, dal_error *error)
+static dal_status allocate(dal_lyapunov *s, dal_error *error)
 {
     const size_t d = (size_t)s->dimension, jacobian = (size_t)s->nw * d;
     const size_t scratch = jacobian > 5 * d ? jacobian : 5 * d;
@@ -365,7 +365,7 @@ static dal_status allocate(dal_spectrum *s, dal_error *error)
     s->vectors = block;
     s->statistics = calloc(d + FOLLOWED, sizeof *s->statistics);
     if (block == NULL || s->statistics == NULL)
-        return dal__fail(error, DAL_MEMORY, "spectrum: out of memory");
+        return dal__fail(error, DAL_MEMORY, "Lyapunov exponents: out of memory");
     s->z = block + d * d;
     s->growth = s->z + d;
     s->scratch = s->growth + d + FOLLOWED;
@@ -376,7 +376,7 @@ static dal_status allocate(dal_spectrum *s, dal_error *error)
 }
 
 /* A method that forces E knows from its first step on which. */
-static dal_status hold_usual_state(dal_spectrum *s, unsigned claims)
+static dal_status hold_usual_state(dal_lyapunov *s, unsigned claims)
 {
     hold_state(s, s->run);
     if (!(claims & DAL_KEEPS_ENERGY)) return DAL_OK;
@@ -388,7 +388,7 @@ static dal_status hold_usual_state(dal_spectrum *s, unsigned claims)
 
 /* How many directions a step leaves: behind them R_ii is 0, or noise.  The vectors stay as that
  * step left them. */
-static dal_status find_rank(dal_spectrum *s, unsigned claims)
+static dal_status find_rank(dal_lyapunov *s, unsigned claims)
 {
     dal_error ignored;
     dal_error *error = s->error;
@@ -403,7 +403,7 @@ static dal_status find_rank(dal_spectrum *s, unsigned claims)
 }
 
 /* Which functions have lost their directions: D, and E behind it. */
-static void find_forced(dal_spectrum *s, unsigned claims)
+static void find_forced(dal_lyapunov *s, unsigned claims)
 {
     const int lost = s->dimension - s->rank, m = dal_evaluator_system(s->evaluator)->m;
     const int max = m + ((claims & DAL_KEEPS_ENERGY) != 0);
@@ -411,7 +411,7 @@ static void find_forced(dal_spectrum *s, unsigned claims)
     s->turns_D = m > 0 && lost == 0 && claims & DAL_KEEPS_D_MIDPOINT;
 }
 
-static dal_status make(dal_spectrum *s, const dal_run_spec *spec, const dal_system *tangent,
+static dal_status make(dal_lyapunov *s, const dal_run_spec *spec, const dal_system *tangent,
                        int count, dal_error *error)
 {
     const unsigned claims = dal_method_claims(&spec->method);
@@ -426,30 +426,30 @@ static dal_status make(dal_spectrum *s, const dal_run_spec *spec, const dal_syst
                          "%d exponents are asked for; the step map has %d directions", count,
                          s->rank);
     s->count = count > 0 ? count : s->rank;
-    dal_spectrum_forget(s);
+    dal_lyapunov_discard_transient(s);
     const dal_status status = make_tangent(s);
     s->error = NULL;
     return status;
 }
 
-dal_status dal_spectrum_create(dal_spectrum **spectrum, const dal_run_spec *spec,
+dal_status dal_lyapunov_create(dal_lyapunov **lyapunov, const dal_run_spec *spec,
                                const dal_system *tangent, int count, dal_error *error)
 {
-    DAL_REQUIRE(spectrum, error);
-    *spectrum = NULL;
+    DAL_REQUIRE(lyapunov, error);
+    *lyapunov = NULL;
     DAL_TRY(dal__check_spec(spec, error));
     DAL_TRY(check(spec, tangent, error));
-    dal_spectrum *s = calloc(1, sizeof *s);
-    if (s == NULL) return dal__fail(error, DAL_MEMORY, "spectrum: out of memory");
+    dal_lyapunov *s = calloc(1, sizeof *s);
+    if (s == NULL) return dal__fail(error, DAL_MEMORY, "Lyapunov exponents: out of memory");
     const dal_status status = make(s, spec, tangent, count, error);
     if (status == DAL_OK)
-        *spectrum = s;
+        *lyapunov = s;
     else
-        dal_spectrum_free(s);
+        dal_lyapunov_free(s);
     return status;
 }
 
-void dal_spectrum_free(dal_spectrum *s)
+void dal_lyapunov_free(dal_lyapunov *s)
 {
     if (s == NULL) return;
     dal_run_free(s->run);
@@ -462,28 +462,28 @@ void dal_spectrum_free(dal_spectrum *s)
 
 /* ---- what is asked of it ---- */
 
-const dal_run *dal_spectrum_run(const dal_spectrum *s) { return s ? s->run : NULL; }
-int dal_spectrum_count(const dal_spectrum *s) { return s ? s->count : 0; }
-int dal_spectrum_is_exact(const dal_spectrum *s) { return s && s->exact; }
-int dal_spectrum_is_whole(const dal_spectrum *s) { return s && s->count == s->rank; }
+const dal_run *dal_lyapunov_run(const dal_lyapunov *s) { return s ? s->run : NULL; }
+int dal_lyapunov_count(const dal_lyapunov *s) { return s ? s->count : 0; }
+int dal_lyapunov_is_exact(const dal_lyapunov *s) { return s && s->exact; }
+int dal_lyapunov_is_whole(const dal_lyapunov *s) { return s && s->count == s->rank; }
 
 /* The mean of number i of growth; NaN where there is no such number. */
-static void mean_of(const dal_spectrum *s, int i, dal_average *average)
+static void mean_of(const dal_lyapunov *s, int i, dal_average *average)
 {
     dal_statistics_mean(s && i >= 0 ? &s->statistics[i] : NULL, average);
 }
 
-void dal_spectrum_exponent(const dal_spectrum *s, int i, dal_average *average)
+void dal_lyapunov_exponent(const dal_lyapunov *s, int i, dal_average *average)
 {
     mean_of(s, s && i < s->count ? i : -1, average);
 }
 
-void dal_spectrum_sum(const dal_spectrum *s, dal_average *average)
+void dal_lyapunov_sum(const dal_lyapunov *s, dal_average *average)
 {
     mean_of(s, s ? s->count : -1, average);
 }
 
-void dal_spectrum_divergence(const dal_spectrum *s, dal_average *average)
+void dal_lyapunov_divergence(const dal_lyapunov *s, dal_average *average)
 {
     mean_of(s, s ? s->count + 1 : -1, average);
 }
