@@ -9,8 +9,8 @@
 
 /* A run of 1000 steps of 0.01 by gauss4 that deviates by 1 in T = 10, drifting at the rate 0.1. */
 typedef struct made_up {
-    dal_explanation e;
-    dal_attribution a;
+    dal_error_budget e;
+    dal_shares a;
 } made_up;
 
 static dal_trend drift(double rate, double deviation, double margin)
@@ -25,43 +25,44 @@ static dal_trend drift(double rate, double deviation, double margin)
 
 static made_up make(const dal_system *system, const char *method)
 {
-    made_up m = {.e = {.steps = 1000, .early = 1000, .observables = 1}};
+    made_up m = {.e = {.steps = 1000, .quad_steps = 1000, .observables = 1}};
     m.e.spec = fixture_spec(system, method, DAL_PHYSICAL, 0.01);
-    for (int k = 0; k < DAL_TWINS; k++) {
+    for (int k = 0; k < DAL_COMPARISONS; k++) {
         m.e.ran[k] = 1;
-        m.a.twin[k] = drift(0.1, 1.0, 0.001);
+        m.a.comparison[k] = drift(0.1, 1.0, 0.001);
     }
-    m.a.all = m.a.early = drift(0.1, 1.0, 0.001);
-    m.a.twin[DAL_TWIN_LONG] = drift(0.08, 0.8, 0.002);
-    m.a.twin[DAL_TWIN_LONG_HALVED] = drift(0.08 / 16.0, 0.05, 0.001);
-    m.a.twin[DAL_TWIN_PROJECTION] = drift(0.025, 0.3, 0.001);
+    m.a.whole = m.a.beginning = drift(0.1, 1.0, 0.001);
+    m.a.comparison[DAL_COMPARISON_QUAD] = drift(0.08, 0.8, 0.002);
+    m.a.comparison[DAL_COMPARISON_QUAD_HALVED] = drift(0.08 / 16.0, 0.05, 0.001);
+    m.a.comparison[DAL_COMPARISON_PROJECTION] = drift(0.025, 0.3, 0.001);
     m.a.rounding = drift(0.02, 0.2, 0.004);
-    m.a.both = drift(0.02, 0.2, 0.004);
+    m.a.solver_and_rounding = drift(0.02, 0.2, 0.004);
     m.a.solver = drift(0.0, 0.0, 0.0);
     return m;
 }
 
-static const dal_attribution *shares_of(made_up *m)
+static const dal_shares *shares_of(made_up *m)
 {
-    dal__attribute(&m->e, &m->a);
+    dal__find_shares(&m->e, &m->a);
     return &m->a;
 }
 
 #define IS(x, expected) CU_ASSERT_DOUBLE_EQUAL(x, expected, 1e-14)
 
-/* 0.08 of 0.1 in long numbers, falling by 2^4; 0.02 of rounding; a quarter without projection. */
+/* 0.08 of 0.1 in quad precision, falling by 2^4; 0.02 of rounding; a quarter without projection. */
 static void test_rates(void)
 {
     dal_model *model = fixture_model("chaplygin-sleigh");
     made_up m = make(fixture_system(model), "gauss4");
-    const dal_attribution *a = shares_of(&m);
-    CU_ASSERT(a->by_rate && a->all_by_rate && !a->is_nothing && !a->is_motion && !a->solver_tells);
-    IS(a->share[DAL_CAUSE_TRUNCATION], 0.8);
-    IS(a->share[DAL_CAUSE_ROUNDING], 0.2);
-    IS(a->share[DAL_CAUSE_PROJECTION], 0.75);
-    CU_ASSERT(a->share[DAL_CAUSE_COEFFICIENTS] == 0.0 && a->share[DAL_CAUSE_SOLVER] == 0.0);
-    IS(a->margin[DAL_CAUSE_TRUNCATION], 0.02);
-    IS(a->margin[DAL_CAUSE_ROUNDING], 0.04);
+    const dal_shares *a = shares_of(&m);
+    CU_ASSERT(a->by_rate && a->whole_by_rate && !a->vanishes_in_quad && !a->is_motion &&
+              !a->solver_is_significant);
+    IS(a->share[DAL_SOURCE_TRUNCATION], 0.8);
+    IS(a->share[DAL_SOURCE_ROUNDING], 0.2);
+    IS(a->share[DAL_SOURCE_PROJECTION], 0.75);
+    CU_ASSERT(a->share[DAL_SOURCE_COEFFICIENTS] == 0.0 && a->share[DAL_SOURCE_SOLVER] == 0.0);
+    IS(a->margin[DAL_SOURCE_TRUNCATION], 0.02);
+    IS(a->margin[DAL_SOURCE_ROUNDING], 0.04);
     IS(a->order, 4.0);
     dal_model_free(model);
 }
@@ -78,19 +79,19 @@ static void test_by_rate(void)
     dal_model *model = fixture_model("chaplygin-sleigh");
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         made_up m = make(fixture_system(model), "gauss4");
-        m.a.all = drift(cases[i].rate, cases[i].deviation, cases[i].margin);
-        CU_ASSERT_EQUAL(shares_of(&m)->all_by_rate, cases[i].by_rate);
+        m.a.whole = drift(cases[i].rate, cases[i].deviation, cases[i].margin);
+        CU_ASSERT_EQUAL(shares_of(&m)->whole_by_rate, cases[i].by_rate);
         CU_ASSERT(m.a.by_rate);
         m = make(fixture_system(model), "gauss4");
-        m.a.early = drift(cases[i].rate, cases[i].deviation, cases[i].margin);
+        m.a.beginning = drift(cases[i].rate, cases[i].deviation, cases[i].margin);
         CU_ASSERT_EQUAL(shares_of(&m)->by_rate, cases[i].by_rate);
     }
     /* The early part is shorter than the run: its own time counts. */
     made_up m = make(fixture_system(model), "gauss4");
-    m.e.early = 100;
-    CU_ASSERT(shares_of(&m)->by_rate == 0 && m.a.all_by_rate == 1);
-    IS(m.a.share[DAL_CAUSE_TRUNCATION], 0.8); /* of deviations */
-    CU_ASSERT(isnan(m.a.margin[DAL_CAUSE_TRUNCATION]));
+    m.e.quad_steps = 100;
+    CU_ASSERT(shares_of(&m)->by_rate == 0 && m.a.whole_by_rate == 1);
+    IS(m.a.share[DAL_SOURCE_TRUNCATION], 0.8); /* of deviations */
+    CU_ASSERT(isnan(m.a.margin[DAL_SOURCE_TRUNCATION]));
     dal_model_free(model);
 }
 
@@ -110,25 +111,25 @@ static void test_solver(void)
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         made_up m = make(fixture_system(model), "gauss4");
         m.a.solver = drift(cases[i].rate, cases[i].deviation, cases[i].margin);
-        m.a.both = drift(0.03, 0.3, 0.006);
-        CU_ASSERT_EQUAL(shares_of(&m)->solver_tells, cases[i].tells);
-        IS(m.a.share[DAL_CAUSE_ROUNDING], cases[i].tells ? 0.2 : 0.3);
+        m.a.solver_and_rounding = drift(0.03, 0.3, 0.006);
+        CU_ASSERT_EQUAL(shares_of(&m)->solver_is_significant, cases[i].tells);
+        IS(m.a.share[DAL_SOURCE_ROUNDING], cases[i].tells ? 0.2 : 0.3);
         if (isnan(cases[i].share))
-            CU_ASSERT(isnan(m.a.share[DAL_CAUSE_SOLVER]))
+            CU_ASSERT(isnan(m.a.share[DAL_SOURCE_SOLVER]))
         else
-            IS(m.a.share[DAL_CAUSE_SOLVER], cases[i].share);
-        if (cases[i].tells) IS(m.a.margin[DAL_CAUSE_SOLVER], cases[i].margin / 0.1);
+            IS(m.a.share[DAL_SOURCE_SOLVER], cases[i].share);
+        if (cases[i].tells) IS(m.a.margin[DAL_SOURCE_SOLVER], cases[i].margin / 0.1);
     }
     /* With nothing to solve there is no share of it. */
     made_up m = make(fixture_system(model), "gauss4");
     m.a.solver = drift(0.0, 0.5, 1.0);
-    m.e.ran[DAL_TWIN_TIGHTER] = 0;
-    CU_ASSERT(shares_of(&m)->share[DAL_CAUSE_SOLVER] == 0.0);
+    m.e.ran[DAL_COMPARISON_TIGHTER] = 0;
+    CU_ASSERT(shares_of(&m)->share[DAL_SOURCE_SOLVER] == 0.0);
     dal_model_free(model);
 }
 
-/* What long numbers leave: nothing, the motion, or coefficients as doubles. */
-static void test_long_numbers(void)
+/* What quad precision leaves: nothing, the motion, or coefficients as doubles. */
+static void test_quad_precision(void)
 {
     const double steps = 1000.0, rounding = 16.0 * DBL_EPSILON * steps;
     dal_model *model = fixture_model("chaplygin-sleigh");
@@ -136,36 +137,38 @@ static void test_long_numbers(void)
     /* 1e-12 of the drift is nothing. */
     for (int k = 0; k < 2; k++) {
         made_up m = make(system, "gauss4");
-        m.a.twin[DAL_TWIN_LONG] = drift(k ? 1.1e-13 : 0.9e-13, 1e-9, 0.0);
-        CU_ASSERT_EQUAL(shares_of(&m)->is_nothing, !k);
+        m.a.comparison[DAL_COMPARISON_QUAD] = drift(k ? 1.1e-13 : 0.9e-13, 1e-9, 0.0);
+        CU_ASSERT_EQUAL(shares_of(&m)->vanishes_in_quad, !k);
         CU_ASSERT_EQUAL(isnan(m.a.order), !k);
     }
     /* So are two roundings of its size. */
     for (int k = 0; k < 2; k++) {
         made_up m = make(system, "gauss4");
-        m.a.early.max_abs = 1e6;
-        m.a.twin[DAL_TWIN_LONG].deviation = (k ? 2.1 : 1.9) * DBL_EPSILON * 1e6;
-        CU_ASSERT_EQUAL(shares_of(&m)->is_nothing, !k);
+        m.a.beginning.max_abs = 1e6;
+        m.a.comparison[DAL_COMPARISON_QUAD].deviation = (k ? 2.1 : 1.9) * DBL_EPSILON * 1e6;
+        CU_ASSERT_EQUAL(shares_of(&m)->vanishes_in_quad, !k);
     }
     /* What falls by less than 2^(1/2) is the motion's own. */
     for (int k = 0; k < 2; k++) {
         made_up m = make(system, "gauss4");
-        m.a.twin[DAL_TWIN_LONG_HALVED].rate = 0.08 / exp2(k ? 0.51 : 0.49);
+        m.a.comparison[DAL_COMPARISON_QUAD_HALVED].rate = 0.08 / exp2(k ? 0.51 : 0.49);
         CU_ASSERT_EQUAL(shares_of(&m)->is_motion, !k);
-        CU_ASSERT_EQUAL(isnan(m.a.share[DAL_CAUSE_TRUNCATION]), !k);
-        CU_ASSERT_EQUAL(isnan(m.a.margin[DAL_CAUSE_TRUNCATION]), !k);
+        CU_ASSERT_EQUAL(isnan(m.a.share[DAL_SOURCE_TRUNCATION]), !k);
+        CU_ASSERT_EQUAL(isnan(m.a.margin[DAL_SOURCE_TRUNCATION]), !k);
         IS(m.a.order, k ? 0.51 : 0.49);
     }
     /* Small, and falling by less than 2^(4 - 1/2): coefficients. */
     for (int k = 0; k < 4; k++) {
         made_up m = make(system, "gauss4");
-        m.a.early = drift(1e-12, 1e-11, 1e-14);
-        m.a.twin[DAL_TWIN_LONG] = drift(5e-13, (k & 1 ? 1.01 : 0.99) * rounding, 1e-14);
-        m.a.twin[DAL_TWIN_LONG_HALVED].rate = 5e-13 / exp2(k & 2 ? 3.51 : 3.49);
+        m.a.beginning = drift(1e-12, 1e-11, 1e-14);
+        m.a.comparison[DAL_COMPARISON_QUAD] = drift(5e-13, (k & 1 ? 1.01 : 0.99) * rounding, 1e-14);
+        m.a.comparison[DAL_COMPARISON_QUAD_HALVED].rate = 5e-13 / exp2(k & 2 ? 3.51 : 3.49);
         const int coefficients = k == 0;
-        const dal_cause cause = coefficients ? DAL_CAUSE_COEFFICIENTS : DAL_CAUSE_TRUNCATION;
-        const dal_cause other = coefficients ? DAL_CAUSE_TRUNCATION : DAL_CAUSE_COEFFICIENTS;
-        CU_ASSERT_DOUBLE_EQUAL(shares_of(&m)->share[cause], 0.5, 1e-12);
+        const dal_error_source source =
+            coefficients ? DAL_SOURCE_COEFFICIENTS : DAL_SOURCE_TRUNCATION;
+        const dal_error_source other =
+            coefficients ? DAL_SOURCE_TRUNCATION : DAL_SOURCE_COEFFICIENTS;
+        CU_ASSERT_DOUBLE_EQUAL(shares_of(&m)->share[source], 0.5, 1e-12);
         CU_ASSERT(m.a.share[other] == 0.0 && !m.a.is_motion);
     }
     dal_model_free(model);
@@ -180,22 +183,22 @@ static void test_halving(void)
         static const double order[] = {3.51, 3.49, 4.49, 4.51};
         made_up m = make(fixture_system(model), "gauss4");
         const double rest = exp2(-order[k]);
-        m.e.early = 0;
-        m.a.twin[DAL_TWIN_HALVED] = drift(0.1 * rest, 1.0, 0.0);
-        const double share = shares_of(&m)->share[DAL_CAUSE_TRUNCATION];
+        m.e.quad_steps = 0;
+        m.a.comparison[DAL_COMPARISON_HALVED] = drift(0.1 * rest, 1.0, 0.0);
+        const double share = shares_of(&m)->share[DAL_SOURCE_TRUNCATION];
         CU_ASSERT_DOUBLE_EQUAL(m.a.order, order[k], 1e-12);
         if (k % 3 == 0 ? k == 3 : k == 1)
             CU_ASSERT(isnan(share))
         else
             CU_ASSERT_DOUBLE_EQUAL(share, (1.0 - rest) * 16.0 / 15.0, 1e-12);
-        CU_ASSERT(isnan(m.a.share[DAL_CAUSE_ROUNDING]) && isnan(m.a.share[DAL_CAUSE_SOLVER]));
-        IS(m.a.share[DAL_CAUSE_PROJECTION], 0.75);
+        CU_ASSERT(isnan(m.a.share[DAL_SOURCE_ROUNDING]) && isnan(m.a.share[DAL_SOURCE_SOLVER]));
+        IS(m.a.share[DAL_SOURCE_PROJECTION], 0.75);
     }
     made_up m = make(fixture_system(model), "gauss4");
-    m.e.early = 0;
-    m.e.ran[DAL_TWIN_HALVED] = m.e.ran[DAL_TWIN_PROJECTION] = 0;
-    CU_ASSERT(isnan(shares_of(&m)->share[DAL_CAUSE_TRUNCATION]) && isnan(m.a.order));
-    CU_ASSERT(isnan(m.a.share[DAL_CAUSE_PROJECTION]));
+    m.e.quad_steps = 0;
+    m.e.ran[DAL_COMPARISON_HALVED] = m.e.ran[DAL_COMPARISON_PROJECTION] = 0;
+    CU_ASSERT(isnan(shares_of(&m)->share[DAL_SOURCE_TRUNCATION]) && isnan(m.a.order));
+    CU_ASSERT(isnan(m.a.share[DAL_SOURCE_PROJECTION]));
     dal_model_free(model);
 }
 
@@ -204,14 +207,15 @@ static void test_projection(void)
 {
     dal_model *model = fixture_model("chaplygin-sleigh");
     made_up m = make(fixture_system(model), "gauss4");
-    m.a.twin[DAL_TWIN_PROJECTION] = drift(0.3, 1.0, 0.0);
-    CU_ASSERT(shares_of(&m)->share[DAL_CAUSE_PROJECTION] == 0.0);
-    m.a.all = drift(0.0, 0.5, 0.0); /* by deviations */
-    m.a.twin[DAL_TWIN_PROJECTION] = drift(7.0, 0.125, 0.0);
-    IS(shares_of(&m)->share[DAL_CAUSE_PROJECTION], 0.75);
-    m.a.all = m.a.early = drift(0.0, 0.0, 0.0);
+    m.a.comparison[DAL_COMPARISON_PROJECTION] = drift(0.3, 1.0, 0.0);
+    CU_ASSERT(shares_of(&m)->share[DAL_SOURCE_PROJECTION] == 0.0);
+    m.a.whole = drift(0.0, 0.5, 0.0); /* by deviations */
+    m.a.comparison[DAL_COMPARISON_PROJECTION] = drift(7.0, 0.125, 0.0);
+    IS(shares_of(&m)->share[DAL_SOURCE_PROJECTION], 0.75);
+    m.a.whole = m.a.beginning = drift(0.0, 0.0, 0.0);
     shares_of(&m);
-    for (int k = 0; k < DAL_CAUSES; k++) CU_ASSERT(isnan(m.a.share[k]) && isnan(m.a.margin[k]));
+    for (int k = 0; k < DAL_ERROR_SOURCES; k++)
+        CU_ASSERT(isnan(m.a.share[k]) && isnan(m.a.margin[k]));
     CU_ASSERT(isnan(m.a.order));
     dal_model_free(model);
 }
@@ -222,7 +226,7 @@ void suite_causes(void)
     CU_add_test(suite, "shares of a rate", test_rates);
     CU_add_test(suite, "rates or deviations", test_by_rate);
     CU_add_test(suite, "the solver", test_solver);
-    CU_add_test(suite, "what long numbers leave", test_long_numbers);
+    CU_add_test(suite, "what quad precision leaves", test_quad_precision);
     CU_add_test(suite, "halving alone", test_halving);
     CU_add_test(suite, "projection", test_projection);
 }

@@ -7,41 +7,42 @@
 #include <stdio.h>
 #include <string.h>
 
-static dal_explanation *explained(const dal_run_spec *spec, long long steps, long long early)
+static dal_error_budget *explained(const dal_run_spec *spec, long long steps, long long quad_steps)
 {
-    dal_explanation *e = NULL;
+    dal_error_budget *e = NULL;
     dal_error error = {0};
-    const dal_status status = dal_explain(spec, steps, early, NULL, &e, &error);
+    const dal_status status = dal_error_budget_create(spec, steps, quad_steps, NULL, &e, &error);
     if (status != DAL_OK) printf("\n  %s\n", error.message);
     CU_ASSERT_EQUAL_FATAL(status, DAL_OK);
     return e;
 }
 
-static int number_of(const dal_explanation *e, const char *name)
+static int number_of(const dal_error_budget *e, const char *name)
 {
     for (int i = 0; i < e->observables; i++)
-        if (strcmp(e->of[i].name, name) == 0) return i;
+        if (strcmp(e->shares[i].name, name) == 0) return i;
     CU_FAIL("no such observable");
     return 0;
 }
 
-static const dal_attribution *of(const dal_explanation *e, const char *name)
+static const dal_shares *of(const dal_error_budget *e, const char *name)
 {
-    return &e->of[number_of(e, name)];
+    return &e->shares[number_of(e, name)];
 }
 
-static double sum_of_shares(const dal_attribution *a)
+static double sum_of_shares(const dal_shares *a)
 {
     double sum = 0.0;
-    for (int k = DAL_CAUSE_TRUNCATION; k <= DAL_CAUSE_ROUNDING; k++)
+    for (int k = DAL_SOURCE_TRUNCATION; k <= DAL_SOURCE_ROUNDING; k++)
         sum += isnan(a->share[k]) ? 0.0 : a->share[k];
     return sum;
 }
 
-static int says(const dal_explanation *e, const char *name, dal_cause cause, const char *fragment)
+static int says(const dal_error_budget *e, const char *name, dal_error_source source,
+                const char *fragment)
 {
     char words[512];
-    dal_cause_words(e, number_of(e, name), cause, words, sizeof words);
+    dal_error_budget_describe(e, number_of(e, name), source, words, sizeof words);
     const int found = strstr(words, fragment) != NULL;
     if (!found) printf("\n  '%s' lacks '%s'\n", words, fragment);
     return found;
@@ -53,30 +54,30 @@ static void test_truncation(void)
 {
     dal_model *model = fixture_model("chaplygin-sleigh");
     dal_run_spec spec = fixture_spec(fixture_system(model), "rk4", DAL_PHYSICAL, 0.1);
-    dal_explanation *e = explained(&spec, 600, 400);
-    const dal_attribution *d = of(e, "D1"), *energy = of(e, "E");
-    CU_ASSERT(fabs(d->share[DAL_CAUSE_TRUNCATION] - 1.0) < 1e-6);
+    dal_error_budget *e = explained(&spec, 600, 400);
+    const dal_shares *d = of(e, "D1"), *energy = of(e, "E");
+    CU_ASSERT(fabs(d->share[DAL_SOURCE_TRUNCATION] - 1.0) < 1e-6);
     CU_ASSERT(fabs(d->order - 4.0) < 0.05);
-    CU_ASSERT(d->share[DAL_CAUSE_ROUNDING] < 1e-6);
-    CU_ASSERT_EQUAL(d->share[DAL_CAUSE_SOLVER], 0.0);
-    CU_ASSERT(d->share[DAL_CAUSE_PROJECTION] > 1.0 - 1e-9);
-    CU_ASSERT(energy->share[DAL_CAUSE_PROJECTION] > 0.99);
-    CU_ASSERT(fabs(energy->share[DAL_CAUSE_TRUNCATION] - 1.0) < 1e-6);
-    CU_ASSERT(says(e, "D1", DAL_CAUSE_TRUNCATION, "falls by 16 = 2^4.00") ||
-              says(e, "D1", DAL_CAUSE_TRUNCATION, "falls by 15.9 = 2^3.99"));
-    CU_ASSERT(says(e, "D1", DAL_CAUSE_SOLVER, "solves no equations"));
-    dal_explanation_free(e);
+    CU_ASSERT(d->share[DAL_SOURCE_ROUNDING] < 1e-6);
+    CU_ASSERT_EQUAL(d->share[DAL_SOURCE_SOLVER], 0.0);
+    CU_ASSERT(d->share[DAL_SOURCE_PROJECTION] > 1.0 - 1e-9);
+    CU_ASSERT(energy->share[DAL_SOURCE_PROJECTION] > 0.99);
+    CU_ASSERT(fabs(energy->share[DAL_SOURCE_TRUNCATION] - 1.0) < 1e-6);
+    CU_ASSERT(says(e, "D1", DAL_SOURCE_TRUNCATION, "falls by 16 = 2^4.00") ||
+              says(e, "D1", DAL_SOURCE_TRUNCATION, "falls by 15.9 = 2^3.99"));
+    CU_ASSERT(says(e, "D1", DAL_SOURCE_SOLVER, "solves no equations"));
+    dal_error_budget_free(e);
     spec = fixture_spec(spec.system, "rk4+project", DAL_PHYSICAL, 0.1);
     e = explained(&spec, 600, 400);
-    CU_ASSERT(e->projects);
+    CU_ASSERT(e->has_projection);
     CU_ASSERT(fabs(of(e, "E")->order - 5.0) < 0.05);
     CU_ASSERT(of(e, "E")->by_rate);
-    CU_ASSERT(fabs(of(e, "E")->share[DAL_CAUSE_TRUNCATION] - 1.0) < 1e-4);
-    CU_ASSERT_EQUAL(of(e, "D1")->share[DAL_CAUSE_PROJECTION], 0.0);
-    CU_ASSERT(of(e, "D1")->twin[DAL_TWIN_PROJECTION].deviation > 1e-5);
-    CU_ASSERT(fabs(of(e, "D1")->share[DAL_CAUSE_ROUNDING] - 1.0) < 1e-9);
-    CU_ASSERT(says(e, "D1", DAL_CAUSE_TRUNCATION, "nothing of it is left"));
-    dal_explanation_free(e);
+    CU_ASSERT(fabs(of(e, "E")->share[DAL_SOURCE_TRUNCATION] - 1.0) < 1e-4);
+    CU_ASSERT_EQUAL(of(e, "D1")->share[DAL_SOURCE_PROJECTION], 0.0);
+    CU_ASSERT(of(e, "D1")->comparison[DAL_COMPARISON_PROJECTION].deviation > 1e-5);
+    CU_ASSERT(fabs(of(e, "D1")->share[DAL_SOURCE_ROUNDING] - 1.0) < 1e-9);
+    CU_ASSERT(says(e, "D1", DAL_SOURCE_TRUNCATION, "nothing of it is left"));
+    dal_error_budget_free(e);
     dal_model_free(model);
 }
 
@@ -85,14 +86,14 @@ static void test_nonlinear(void)
 {
     dal_model *model = fixture_model("isokinetic");
     const dal_run_spec spec = fixture_spec(fixture_system(model), "rk4", DAL_PHYSICAL, 0.05);
-    dal_explanation *e = explained(&spec, 400, 200);
-    const dal_attribution *d = of(e, "D1"), *energy = of(e, "E");
-    CU_ASSERT(fabs(d->share[DAL_CAUSE_TRUNCATION] - 1.0) < 1e-5);
+    dal_error_budget *e = explained(&spec, 400, 200);
+    const dal_shares *d = of(e, "D1"), *energy = of(e, "E");
+    CU_ASSERT(fabs(d->share[DAL_SOURCE_TRUNCATION] - 1.0) < 1e-5);
     CU_ASSERT(fabs(d->order - 4.0) < 0.1);
     CU_ASSERT(energy->is_motion);
-    CU_ASSERT(isnan(energy->share[DAL_CAUSE_TRUNCATION]));
-    CU_ASSERT(says(e, "E", DAL_CAUSE_TRUNCATION, "the motion itself"));
-    dal_explanation_free(e);
+    CU_ASSERT(isnan(energy->share[DAL_SOURCE_TRUNCATION]));
+    CU_ASSERT(says(e, "E", DAL_SOURCE_TRUNCATION, "the motion itself"));
+    dal_error_budget_free(e);
     dal_model_free(model);
 }
 
@@ -102,18 +103,18 @@ static void test_rounding(void)
     dal_model *model = fixture_model("contact-oscillator");
     const dal_run_spec spec =
         fixture_spec(fixture_system(model), "implicit-midpoint", DAL_PHYSICAL, 0.1);
-    dal_explanation *e = explained(&spec, 2000, 500);
-    const dal_attribution *d = of(e, "D1");
-    CU_ASSERT(fabs(d->share[DAL_CAUSE_ROUNDING] - 1.0) < 1e-9);
-    CU_ASSERT(d->is_nothing);
-    CU_ASSERT(fabs(d->share[DAL_CAUSE_TRUNCATION]) < 1e-12);
-    CU_ASSERT_EQUAL(d->share[DAL_CAUSE_COEFFICIENTS], 0.0);
-    CU_ASSERT(!(d->share[DAL_CAUSE_SOLVER] > 0.0));
-    CU_ASSERT(says(e, "D1", DAL_CAUSE_TRUNCATION, "in long numbers nothing of it is left"));
+    dal_error_budget *e = explained(&spec, 2000, 500);
+    const dal_shares *d = of(e, "D1");
+    CU_ASSERT(fabs(d->share[DAL_SOURCE_ROUNDING] - 1.0) < 1e-9);
+    CU_ASSERT(d->vanishes_in_quad);
+    CU_ASSERT(fabs(d->share[DAL_SOURCE_TRUNCATION]) < 1e-12);
+    CU_ASSERT_EQUAL(d->share[DAL_SOURCE_COEFFICIENTS], 0.0);
+    CU_ASSERT(!(d->share[DAL_SOURCE_SOLVER] > 0.0));
+    CU_ASSERT(says(e, "D1", DAL_SOURCE_TRUNCATION, "in quad precision nothing of it is left"));
     /* E, which this method does not keep, drifts by truncation. */
-    CU_ASSERT(fabs(of(e, "E")->share[DAL_CAUSE_TRUNCATION] - 1.0) < 1e-6);
+    CU_ASSERT(fabs(of(e, "E")->share[DAL_SOURCE_TRUNCATION] - 1.0) < 1e-6);
     CU_ASSERT(fabs(of(e, "E")->order - 2.0) < 0.1);
-    dal_explanation_free(e);
+    dal_error_budget_free(e);
     dal_model_free(model);
 }
 
@@ -123,23 +124,23 @@ static void test_solver(void)
 {
     dal_model *model = fixture_model("chaplygin-sleigh");
     dal_run_spec spec = fixture_spec(fixture_system(model), "gauss8", DAL_PHYSICAL, 0.1);
-    dal_explanation *solved = explained(&spec, 400, 400);
+    dal_error_budget *solved = explained(&spec, 400, 400);
     spec.options.solve_to = 1e-8;
-    dal_explanation *e = explained(&spec, 400, 400);
-    const dal_attribution *d = of(e, "D1");
-    CU_ASSERT(d->solver_tells);
-    CU_ASSERT(d->share[DAL_CAUSE_SOLVER] > 0.99);
-    CU_ASSERT(d->share[DAL_CAUSE_TRUNCATION] < 0.01);
-    CU_ASSERT(d->share[DAL_CAUSE_ROUNDING] < 0.01);
+    dal_error_budget *e = explained(&spec, 400, 400);
+    const dal_shares *d = of(e, "D1");
+    CU_ASSERT(d->solver_is_significant);
+    CU_ASSERT(d->share[DAL_SOURCE_SOLVER] > 0.99);
+    CU_ASSERT(d->share[DAL_SOURCE_TRUNCATION] < 0.01);
+    CU_ASSERT(d->share[DAL_SOURCE_ROUNDING] < 0.01);
     CU_ASSERT(d->by_rate);
     CU_ASSERT(fabs(sum_of_shares(d) - 1.0) < 1e-9);
-    CU_ASSERT(d->twin[DAL_TWIN_LOOSER].deviation > 3 * d->all.deviation);
-    CU_ASSERT(d->twin[DAL_TWIN_TIGHTER].deviation < 0.01 * d->all.deviation);
-    CU_ASSERT_EQUAL(d->twin[DAL_TWIN_LONG].deviation,
-                    of(solved, "D1")->twin[DAL_TWIN_LONG].deviation);
-    CU_ASSERT(says(e, "D1", DAL_CAUSE_SOLVER, "solved to rounding"));
-    dal_explanation_free(solved);
-    dal_explanation_free(e);
+    CU_ASSERT(d->comparison[DAL_COMPARISON_LOOSER].deviation > 3 * d->whole.deviation);
+    CU_ASSERT(d->comparison[DAL_COMPARISON_TIGHTER].deviation < 0.01 * d->whole.deviation);
+    CU_ASSERT_EQUAL(d->comparison[DAL_COMPARISON_QUAD].deviation,
+                    of(solved, "D1")->comparison[DAL_COMPARISON_QUAD].deviation);
+    CU_ASSERT(says(e, "D1", DAL_SOURCE_SOLVER, "solved to rounding"));
+    dal_error_budget_free(solved);
+    dal_error_budget_free(e);
     dal_model_free(model);
 }
 
@@ -149,15 +150,15 @@ static void test_coefficients(void)
 {
     dal_model *model = fixture_model("contact-oscillator");
     const dal_run_spec spec = fixture_spec(fixture_system(model), "gauss8", DAL_PHYSICAL, 0.1);
-    dal_explanation *e = explained(&spec, 600, 600);
-    const dal_attribution *d = of(e, "D1");
+    dal_error_budget *e = explained(&spec, 600, 600);
+    const dal_shares *d = of(e, "D1");
     CU_ASSERT(fabs(d->order - 1.0) < 0.1);
-    CU_ASSERT_EQUAL(d->share[DAL_CAUSE_TRUNCATION], 0.0);
-    CU_ASSERT(fabs(d->share[DAL_CAUSE_COEFFICIENTS]) > 1e-8);
-    CU_ASSERT(fabs(d->share[DAL_CAUSE_COEFFICIENTS]) < 1e-3);
-    CU_ASSERT(fabs(d->share[DAL_CAUSE_ROUNDING] - 1.0) < 1e-3);
-    CU_ASSERT(says(e, "D1", DAL_CAUSE_COEFFICIENTS, "coefficients are doubles"));
-    dal_explanation_free(e);
+    CU_ASSERT_EQUAL(d->share[DAL_SOURCE_TRUNCATION], 0.0);
+    CU_ASSERT(fabs(d->share[DAL_SOURCE_COEFFICIENTS]) > 1e-8);
+    CU_ASSERT(fabs(d->share[DAL_SOURCE_COEFFICIENTS]) < 1e-3);
+    CU_ASSERT(fabs(d->share[DAL_SOURCE_ROUNDING] - 1.0) < 1e-3);
+    CU_ASSERT(says(e, "D1", DAL_SOURCE_COEFFICIENTS, "coefficients are doubles"));
+    dal_error_budget_free(e);
     dal_model_free(model);
 }
 
@@ -169,12 +170,12 @@ static void test_sums(void)
     dal_run_spec spec =
         fixture_spec(fixture_system(model), "symplectic-euler-10", DAL_PHYSICAL, 0.01);
     spec.options.sums = DAL_SUMS_PLAIN;
-    dal_explanation *e = explained(&spec, 20000, 20000);
-    const dal_attribution *error = of(e, "error");
-    CU_ASSERT(fabs(error->share[DAL_CAUSE_ROUNDING] - 1.0) < 0.05);
-    CU_ASSERT(error->twin[DAL_TWIN_SUMS].deviation < 0.05 * error->all.deviation);
-    CU_ASSERT(says(e, "error", DAL_CAUSE_ROUNDING, "with compensated sums"));
-    dal_explanation_free(e);
+    dal_error_budget *e = explained(&spec, 20000, 20000);
+    const dal_shares *error = of(e, "error");
+    CU_ASSERT(fabs(error->share[DAL_SOURCE_ROUNDING] - 1.0) < 0.05);
+    CU_ASSERT(error->comparison[DAL_COMPARISON_SUMS].deviation < 0.05 * error->whole.deviation);
+    CU_ASSERT(says(e, "error", DAL_SOURCE_ROUNDING, "with compensated sums"));
+    dal_error_budget_free(e);
     dal_model_free(model);
 }
 
@@ -200,22 +201,22 @@ static dal_status start(const dal_system *system, const dal_at *at, double *out)
     return DAL_OK;
 }
 
-/* Without long numbers halving alone tells: rk4 on an oscillator loses energy like h^5. */
+/* Without quad precision halving alone tells: rk4 on an oscillator loses energy like h^5. */
 static void test_by_hand(void)
 {
     const dal_system spring = {
         .name = "spring", .n = 1, .call = {.field = field}, .energy = energy, .start = start};
     const dal_run_spec spec = fixture_spec(&spring, "rk4", DAL_PHYSICAL, 0.1);
-    dal_explanation *e = explained(&spec, 1000, 100);
-    const dal_attribution *loss = of(e, "E");
-    CU_ASSERT_EQUAL(e->early, 0);
-    CU_ASSERT_PTR_NOT_NULL(strstr(e->why[DAL_TWIN_LONG], "spring has no form in them"));
-    CU_ASSERT_PTR_NOT_NULL(strstr(e->why[DAL_TWIN_PROJECTION], "no constraint"));
+    dal_error_budget *e = explained(&spec, 1000, 100);
+    const dal_shares *loss = of(e, "E");
+    CU_ASSERT_EQUAL(e->quad_steps, 0);
+    CU_ASSERT_PTR_NOT_NULL(strstr(e->reason[DAL_COMPARISON_QUAD], "spring has no form in them"));
+    CU_ASSERT_PTR_NOT_NULL(strstr(e->reason[DAL_COMPARISON_PROJECTION], "no constraint"));
     CU_ASSERT(fabs(loss->order - 5.0) < 0.05);
-    CU_ASSERT(isnan(loss->share[DAL_CAUSE_ROUNDING]));
-    CU_ASSERT(isnan(loss->share[DAL_CAUSE_COEFFICIENTS]));
-    CU_ASSERT(says(e, "E", DAL_CAUSE_ROUNDING, "no long numbers"));
-    dal_explanation_free(e);
+    CU_ASSERT(isnan(loss->share[DAL_SOURCE_ROUNDING]));
+    CU_ASSERT(isnan(loss->share[DAL_SOURCE_COEFFICIENTS]));
+    CU_ASSERT(says(e, "E", DAL_SOURCE_ROUNDING, "no quad precision"));
+    dal_error_budget_free(e);
 }
 
 typedef struct watch {
@@ -241,26 +242,27 @@ static void test_observer(void)
 {
     dal_model *model = fixture_model("knife-edge");
     dal_run_spec spec = fixture_spec(fixture_system(model), "gauss4", DAL_PHYSICAL, 0.1);
-    dal_explanation *e = NULL;
+    dal_error_budget *e = NULL;
     dal_error error = {0};
     watch w = {.most = 1 << 30};
-    const dal_explain_observer observer = {&w, step, begin};
-    CU_ASSERT_EQUAL(dal_explain(&spec, 100, 50, &observer, &e, &error), DAL_OK);
-    CU_ASSERT_EQUAL(w.runs, 8); /* the run, five twins, and the early ones in doubles */
+    const dal_error_budget_observer observer = {&w, step, begin};
+    CU_ASSERT_EQUAL(dal_error_budget_create(&spec, 100, 50, &observer, &e, &error), DAL_OK);
+    CU_ASSERT_EQUAL(w.runs, 8); /* the run, five comparisons, and the beginning in doubles */
     CU_ASSERT(w.done > 0.99);
-    dal_explanation_free(e);
+    dal_error_budget_free(e);
     const int all = w.calls;
     for (int most = 1; most < all; most += all / 7) {
         w = (watch){.most = most};
-        CU_ASSERT_EQUAL(dal_explain(&spec, 100, 50, &observer, &e, &error), DAL_INTERRUPTED);
+        CU_ASSERT_EQUAL(dal_error_budget_create(&spec, 100, 50, &observer, &e, &error),
+                        DAL_INTERRUPTED);
         CU_ASSERT_PTR_NULL(e);
     }
-    CU_ASSERT_EQUAL(dal_explain(&spec, 0, 50, NULL, &e, &error), DAL_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_error_budget_create(&spec, 0, 50, NULL, &e, &error), DAL_ARGUMENT);
     spec.options.precision = DAL_LONG_NUMBERS;
-    CU_ASSERT_EQUAL(dal_explain(&spec, 100, 50, NULL, &e, &error), DAL_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_error_budget_create(&spec, 100, 50, NULL, &e, &error), DAL_ARGUMENT);
     spec.options.precision = DAL_DOUBLE;
     spec.options.iterations = 1;
-    CU_ASSERT_EQUAL(dal_explain(&spec, 100, 50, NULL, &e, &error), DAL_NOT_CONVERGED);
+    CU_ASSERT_EQUAL(dal_error_budget_create(&spec, 100, 50, NULL, &e, &error), DAL_NOT_CONVERGED);
     CU_ASSERT_PTR_NULL(e);
     dal_model_free(model);
 }
@@ -272,14 +274,14 @@ static void test_out_of_memory(void)
     long n = 0;
     for (;; n++) {
         const long blocks = allocation_blocks();
-        dal_explanation *e = NULL;
+        dal_error_budget *e = NULL;
         allocation_fail_after(n);
-        const dal_status status = dal_explain(&spec, 4, 2, NULL, &e, NULL);
+        const dal_status status = dal_error_budget_create(&spec, 4, 2, NULL, &e, NULL);
         const int failed = allocation_failed();
         allocation_fail_after(-1);
         CU_ASSERT_EQUAL(status, failed ? DAL_MEMORY : DAL_OK);
         CU_ASSERT_EQUAL(e == NULL, failed);
-        dal_explanation_free(e);
+        dal_error_budget_free(e);
         CU_ASSERT_EQUAL(allocation_blocks(), blocks);
         if (!failed) break;
     }
@@ -296,7 +298,7 @@ void suite_explain(void)
     CU_add_test(suite, "the solver", test_solver);
     CU_add_test(suite, "coefficients", test_coefficients);
     CU_add_test(suite, "sums", test_sums);
-    CU_add_test(suite, "without long numbers", test_by_hand);
+    CU_add_test(suite, "without quad precision", test_by_hand);
     CU_add_test(suite, "looking on", test_observer);
     CU_add_test(suite, "out of memory", test_out_of_memory);
 }

@@ -12,7 +12,7 @@ static dal_run_spec spec, no_system, bad_count;
 static dal_run *run;
 static dal_evaluator *evaluator;
 static dal_lyapunov *lyapunov;
-static dal_explanation *explanation;
+static dal_error_budget *budget;
 static dal_point at;
 static double numbers[256];
 
@@ -28,12 +28,12 @@ static int open_objects(void)
            dal_evaluator_create(&evaluator, system, NULL, 0, NULL) != DAL_OK ||
            dal_model_tangent(model, &tangent, NULL) != DAL_OK ||
            dal_lyapunov_create(&lyapunov, &spec, NULL, 1, NULL) != DAL_OK ||
-           dal_explain(&spec, 10, 0, NULL, &explanation, NULL) != DAL_OK;
+           dal_error_budget_create(&spec, 10, 0, NULL, &budget, NULL) != DAL_OK;
 }
 
 static int close_objects(void)
 {
-    dal_explanation_free(explanation);
+    dal_error_budget_free(budget);
     dal_lyapunov_free(lyapunov);
     dal_evaluator_free(evaluator);
     dal_run_free(run);
@@ -231,35 +231,44 @@ static void null_dal_check_dirac(void)
 
 /* ---- what a drift comes from ---- */
 
-static void null_dal_twin_name(void) { CU_ASSERT_STRING_EQUAL(dal_twin_name((dal_twin)-1), "?"); }
-static void null_dal_twin_text(void) { CU_ASSERT_STRING_EQUAL(dal_twin_text((dal_twin)-1), "?"); }
-
-static void null_dal_cause_name(void)
+static void null_dal_comparison_name(void)
 {
-    CU_ASSERT_STRING_EQUAL(dal_cause_name((dal_cause)-1), "?");
+    CU_ASSERT_STRING_EQUAL(dal_comparison_name((dal_comparison_run)-1), "?");
+}
+static void null_dal_comparison_text(void)
+{
+    CU_ASSERT_STRING_EQUAL(dal_comparison_text((dal_comparison_run)-1), "?");
 }
 
-static void null_dal_explain(void)
+static void null_dal_error_source_name(void)
 {
-    dal_explanation *made = explanation;
-    REFUSED_SPECS(bad, dal_explain(bad, 10, 0, NULL, &made, error));
+    CU_ASSERT_STRING_EQUAL(dal_error_source_name((dal_error_source)-1), "?");
+}
+
+static void null_dal_error_budget_create(void)
+{
+    dal_error_budget *made = budget;
+    REFUSED_SPECS(bad, dal_error_budget_create(bad, 10, 0, NULL, &made, error));
     CU_ASSERT_PTR_NULL(made);
-    REFUSED(dal_explain(&spec, -1, 0, NULL, &made, error));
-    REFUSED(dal_explain(&spec, 10, -1, NULL, &made, error));
-    REFUSED(dal_explain(&spec, 10, 0, NULL, NULL, error));
+    REFUSED(dal_error_budget_create(&spec, -1, 0, NULL, &made, error));
+    REFUSED(dal_error_budget_create(&spec, 10, -1, NULL, &made, error));
+    REFUSED(dal_error_budget_create(&spec, 10, 0, NULL, NULL, error));
 }
 
-static void null_dal_explanation_free(void) { dal_explanation_free(NULL); }
+static void null_dal_error_budget_free(void) { dal_error_budget_free(NULL); }
 
-static void null_dal_cause_words(void)
+static void null_dal_error_budget_describe(void)
 {
     char buffer[DAL_MESSAGE_SIZE];
-    const int count = explanation->observables;
-    CU_ASSERT_PTR_NULL(dal_cause_words(NULL, 0, DAL_CAUSE_SOLVER, buffer, sizeof buffer));
-    CU_ASSERT_PTR_NULL(dal_cause_words(explanation, 0, DAL_CAUSE_SOLVER, NULL, sizeof buffer));
-    CU_ASSERT_PTR_NULL(dal_cause_words(explanation, -1, DAL_CAUSE_SOLVER, buffer, sizeof buffer));
+    const int count = budget->observables;
     CU_ASSERT_PTR_NULL(
-        dal_cause_words(explanation, count, DAL_CAUSE_SOLVER, buffer, sizeof buffer));
+        dal_error_budget_describe(NULL, 0, DAL_SOURCE_SOLVER, buffer, sizeof buffer));
+    CU_ASSERT_PTR_NULL(
+        dal_error_budget_describe(budget, 0, DAL_SOURCE_SOLVER, NULL, sizeof buffer));
+    CU_ASSERT_PTR_NULL(
+        dal_error_budget_describe(budget, -1, DAL_SOURCE_SOLVER, buffer, sizeof buffer));
+    CU_ASSERT_PTR_NULL(
+        dal_error_budget_describe(budget, count, DAL_SOURCE_SOLVER, buffer, sizeof buffer));
 }
 
 /* ---- trends ---- */

@@ -41,47 +41,50 @@ static void print_rate(const dal_trend *f, double whole)
     putchar('\n');
 }
 
-static const char *comparison_text(const dal_explanation *e, int twin)
+static const char *comparison_text(const dal_error_budget *e, int comparison)
 {
-    if (twin == DAL_TWIN_PROJECTION) return e->projects ? "without projection" : "with +project";
-    if (twin != DAL_TWIN_SUMS) return dal_twin_text((dal_twin)twin);
+    if (comparison == DAL_COMPARISON_PROJECTION)
+        return e->has_projection ? "without projection" : "with +project";
+    if (comparison != DAL_COMPARISON_SUMS)
+        return dal_comparison_text((dal_comparison_run)comparison);
     return e->spec.options.sums == DAL_SUMS_PLAIN ? "compensated sums" : "plain sums";
 }
 
-static void print_observable(const dal_explanation *e, int i)
+static void print_observable(const dal_error_budget *e, int i)
 {
-    const dal_attribution *a = &e->of[i];
+    const dal_shares *a = &e->shares[i];
     char text[128];
-    cli_trend_text(&a->all, text, sizeof text);
-    if (a->all.conservation == DAL_CONSERVED)
-        printf("%s: size %s, trend %s\n", a->name, dal_size_text(a->all.size), text);
+    cli_trend_text(&a->whole, text, sizeof text);
+    if (a->whole.conservation == DAL_CONSERVED)
+        printf("%s: size %s, trend %s\n", a->name, dal_size_text(a->whole.size), text);
     else
         printf("%s: %s\n", a->name, text);
-    for (int k = 0; k < DAL_CAUSES; k++) {
+    for (int k = 0; k < DAL_ERROR_SOURCES; k++) {
         char words[512], number[64] = "?";
         int length = 0;
         if (!isnan(a->share[k])) length = snprintf(number, sizeof number, "%.3g", a->share[k]);
         if (length > 0 && !isnan(a->margin[k]))
             snprintf(number + length, sizeof number - (size_t)length, " +- %.1g", a->margin[k]);
-        printf("    %-13s %-17s  %s\n", dal_cause_name((dal_cause)k), number,
-               dal_cause_words(e, i, (dal_cause)k, words, sizeof words));
+        printf("    %-13s %-17s  %s\n", dal_error_source_name((dal_error_source)k), number,
+               dal_error_budget_describe(e, i, (dal_error_source)k, words, sizeof words));
     }
     printf("    %-48s %-31s %10s\n", "", "rate", "deviation");
     printf("    all %-44lld ", e->steps);
-    print_rate(&a->all, 0.0);
-    for (int k = 0; k < DAL_TWINS; k++) {
-        if (k == DAL_TWIN_LONG && e->early > 0) {
-            printf("    the first %-38lld ", e->early);
-            print_rate(&a->early, 0.0);
+    print_rate(&a->whole, 0.0);
+    for (int k = 0; k < DAL_COMPARISONS; k++) {
+        if (k == DAL_COMPARISON_QUAD && e->quad_steps > 0) {
+            printf("    the first %-38lld ", e->quad_steps);
+            print_rate(&a->beginning, 0.0);
         }
         if (!e->ran[k]) continue;
         printf("      %-46s ", comparison_text(e, k));
-        print_rate(&a->twin[k], k < DAL_TWIN_LONG ? a->all.deviation : a->early.deviation);
+        print_rate(&a->comparison[k],
+                   k < DAL_COMPARISON_QUAD ? a->whole.deviation : a->beginning.deviation);
     }
     putchar('\n');
 }
 
-static int print_budget(const run_request *request, const dal_explanation *e)
+static int print_budget(const run_request *request, const dal_error_budget *e)
 {
     char method[128];
     const char *separator = "exact: ";
@@ -89,18 +92,19 @@ static int print_budget(const run_request *request, const dal_explanation *e)
            dal_method_name(&request->method, method, sizeof method),
            request->options.space == DAL_LIFTED ? "lifted" : "physical", request->options.step,
            e->steps);
-    if (e->early > 0) printf(", the first %lld in quad precision too", e->early);
+    if (e->quad_steps > 0) printf(", the first %lld in quad precision too", e->quad_steps);
     fputs("\n\n", stdout);
     for (int i = 0; i < e->observables; i++)
-        if (e->of[i].all.deviation > 0.0) print_observable(e, i);
+        if (e->shares[i].whole.deviation > 0.0) print_observable(e, i);
     for (int i = 0; i < e->observables; i++) {
-        if (e->of[i].all.deviation > 0.0) continue;
-        printf("%s%s", separator, e->of[i].name);
+        if (e->shares[i].whole.deviation > 0.0) continue;
+        printf("%s%s", separator, e->shares[i].name);
         separator = ", ";
     }
     if (*separator == ',') putchar('\n');
-    for (int k = 0; k < DAL_TWINS; k++)
-        if (!e->ran[k] && *e->why[k]) printf("not run: %s: %s\n", comparison_text(e, k), e->why[k]);
+    for (int k = 0; k < DAL_COMPARISONS; k++)
+        if (!e->ran[k] && *e->reason[k])
+            printf("not run: %s: %s\n", comparison_text(e, k), e->reason[k]);
     return cli_close(stdout, "standard output");
 }
 
@@ -126,29 +130,30 @@ static void write_run(FILE *out, const char *observable, const char *name, long 
     fputs(",\n", out);
 }
 
-static void write_observable(FILE *out, const dal_explanation *e, int i)
+static void write_observable(FILE *out, const dal_error_budget *e, int i)
 {
-    const dal_attribution *a = &e->of[i];
+    const dal_shares *a = &e->shares[i];
     char words[512];
-    write_run(out, a->name, "all", e->steps, &a->all);
-    if (e->early > 0) write_run(out, a->name, "early", e->early, &a->early);
-    for (int k = 0; k < DAL_TWINS; k++)
+    write_run(out, a->name, "all", e->steps, &a->whole);
+    if (e->quad_steps > 0) write_run(out, a->name, "first-steps", e->quad_steps, &a->beginning);
+    for (int k = 0; k < DAL_COMPARISONS; k++)
         if (e->ran[k])
-            write_run(out, a->name, dal_twin_name((dal_twin)k),
-                      k < DAL_TWIN_LONG ? e->steps : e->early, &a->twin[k]);
-    for (int k = 0; k < DAL_CAUSES; k++) {
+            write_run(out, a->name, dal_comparison_name((dal_comparison_run)k),
+                      k < DAL_COMPARISON_QUAD ? e->steps : e->quad_steps, &a->comparison[k]);
+    for (int k = 0; k < DAL_ERROR_SOURCES; k++) {
         const double numbers[] = {a->share[k], a->margin[k]};
         cli_put_text(out, a->name);
-        fprintf(out, ",source,%s,%lld", dal_cause_name((dal_cause)k),
-                k == DAL_CAUSE_PROJECTION || e->early == 0 ? e->steps : e->early);
+        fprintf(out, ",source,%s,%lld", dal_error_source_name((dal_error_source)k),
+                k == DAL_SOURCE_PROJECTION || e->quad_steps == 0 ? e->steps : e->quad_steps);
         write_numbers(out, numbers, 2);
         fputs(",,,,,,,,", out);
-        cli_put_text(out, dal_cause_words(e, i, (dal_cause)k, words, sizeof words));
+        cli_put_text(out,
+                     dal_error_budget_describe(e, i, (dal_error_source)k, words, sizeof words));
         fputc('\n', out);
     }
 }
 
-static int write_budget(const char *path, const dal_explanation *e)
+static int write_budget(const char *path, const dal_error_budget *e)
 {
     const bool is_stdout = strcmp(path, "-") == 0;
     FILE *out = is_stdout ? stdout : fopen(path, "w");
@@ -201,7 +206,7 @@ static int parse_explain_option(void *user, int option, const char *value)
 static int explain_run(explain_study *s)
 {
     dal_run_spec spec;
-    dal_explanation *e = NULL;
+    dal_error_budget *e = NULL;
     dal_error error = {0};
     int status = request_create_run(&s->request);
     if (status == CLI_DONE) status = request_make_spec(&s->request, &spec);
@@ -209,14 +214,14 @@ static int explain_run(explain_study *s)
     const double steps = nearbyint(s->request.time / s->request.options.step);
     if (!(steps <= MAX_STEPS))
         return cli_fail(CLI_USAGE, "%.3g steps: explain takes at most %d", steps, MAX_STEPS);
-    const dal_explain_observer observer = {s, show_progress, compile_run};
+    const dal_error_budget_observer observer = {s, show_progress, compile_run};
     cli_catch_signals();
     const dal_status done =
-        dal_explain(&spec, (long long)steps, s->quad_steps, &observer, &e, &error);
+        dal_error_budget_create(&spec, (long long)steps, s->quad_steps, &observer, &e, &error);
     cli_progress_end();
     if (done != DAL_OK) return cli_error(cli_exit(done), s->request.system_name, &error);
     status = s->output ? write_budget(s->output, e) : print_budget(&s->request, e);
-    dal_explanation_free(e);
+    dal_error_budget_free(e);
     return status;
 }
 

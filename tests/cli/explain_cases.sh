@@ -37,9 +37,9 @@ holds "shares" awk -F, '($1 == "never" || $1 == "later") && $2 == "source" {
 try 0 explain nowhere.yaml --integrator rk4 --step 0.1 --time 10 --long-steps 50
 holds "a ratio that is none" sh -c '! grep -q nan out'
 
-case_is "explain: no long numbers"
+case_is "explain: no quad precision"
 try 0 explain line.yaml --integrator rk4 --step 0.1 --time 10 --long-steps 0
-prints "no long numbers: not asked for"
+prints "no quad precision: not asked for"
 
 case_is "explain: bad input"
 try 2 explain chaplygin-sleigh --integrator rk4 --step 0.1
