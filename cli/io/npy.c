@@ -14,6 +14,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 enum { PREFIX_1 = 10, PREFIX_2 = 12, MOST_1 = 65535 };
 
@@ -98,13 +99,9 @@ void npy_decode(const unsigned char *bytes, double *values, int count)
     }
 }
 
-static int not_ours(const char *path)
-{
-    return cli_fail(CLI_USAGE, "'%s' is no .npy file of named doubles", path);
-}
-
-/* The text of the header, allocated; NULL when there is none. */
-static char *read_header_text(FILE *file, size_t *offset)
+/* The text of the header, allocated, and where it ends; NULL unless the file is long enough for
+ * it. */
+static char *read_header_text(FILE *file, size_t size, size_t *offset)
 {
     unsigned char prefix[PREFIX_2];
     size_t length = 0;
@@ -113,17 +110,15 @@ static char *read_header_text(FILE *file, size_t *offset)
     *offset = prefix[MAGIC] == 1 ? PREFIX_1 : PREFIX_2;
     if (fread(prefix + PREFIX_1, 1, *offset - PREFIX_1, file) != *offset - PREFIX_1) return NULL;
     for (size_t i = *offset; i > MAGIC + 2; i--) length = length << 8 | prefix[i - 1];
+    if (length > size - *offset) return NULL;
     char *text = cli_malloc(length + 1);
-    const size_t n = fread(text, 1, length, file);
-    text[n] = '\0';
+    text[fread(text, 1, length, file)] = '\0';
     *offset += length;
-    if (n == length) return text;
-    free(text);
-    return NULL;
+    return text;
 }
 
-/* Takes ('NAME', '<f8') at *at, which then stands behind it, and ends the name with a NUL. */
-static char *take_name(char **at)
+/* Parses ('NAME', '<f8') at *at, moves *at behind it and ends the name with a NUL. */
+static char *parse_name(char **at)
 {
     static const char type[] = ", '<f8')";
     char *open = strchr(*at, '(');
@@ -136,16 +131,16 @@ static char *take_name(char **at)
 }
 
 /* The names are moved to the beginning of the text, for names[0] to own it. */
-static int take_names(npy_columns *c, char *text)
+static int parse_header(npy_columns *c, char *text)
 {
     static const char begin[] = "{'descr': [", end[] = "], 'fortran_order': False,";
-    size_t most = 1;
+    size_t max = 1;
     if (strncmp(text, begin, sizeof begin - 1) != 0) return 0;
-    for (const char *p = text; *p; p++) most += *p == '(';
-    c->names = cli_calloc(most, sizeof *c->names);
+    for (const char *p = text; *p; p++) max += *p == '(';
+    c->names = cli_calloc(max, sizeof *c->names);
     char *at = text + sizeof begin - 1, *to = text;
     while (*at != ']') {
-        char *name = take_name(&at);
+        char *name = parse_name(&at);
         if (!name) return 0;
         c->names[c->columns++] = memmove(to, name, strlen(name) + 1);
         to += strlen(to) + 1;
@@ -158,13 +153,24 @@ static int take_names(npy_columns *c, char *text)
 
 int npy_read_header(npy_columns *columns, FILE *file, const char *path)
 {
+    struct stat status;
     *columns = (npy_columns){0};
-    char *text = read_header_text(file, &columns->offset);
-    if (!text) return ferror(file) ? cli_io("read", path) : not_ours(path);
-    if (take_names(columns, text)) return CLI_DONE;
-    if (columns->columns == 0) free(text);
+    if (fstat(fileno(file), &status) != 0) return cli_io("read", path);
+    const size_t size = (size_t)status.st_size;
+    char *text = read_header_text(file, size, &columns->offset);
+    if (ferror(file)) {
+        free(text);
+        return cli_io("read", path);
+    }
+    if (!text || !parse_header(columns, text)) {
+        if (columns->columns == 0) free(text);
+        npy_free_columns(columns);
+        return cli_fail(CLI_USAGE, "'%s' is no .npy file of named doubles", path);
+    }
+    if ((size - columns->offset) / WORD / (size_t)columns->columns >= (size_t)columns->rows)
+        return CLI_DONE;
     npy_free_columns(columns);
-    return not_ours(path);
+    return cli_fail(CLI_IO, "'%s' has fewer rows than its header states", path);
 }
 
 void npy_free_columns(npy_columns *columns)

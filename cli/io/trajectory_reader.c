@@ -35,11 +35,9 @@ int reader_next(trajectory_reader *reader)
     const size_t length = (size_t)reader->columns * sizeof(double);
     if (reader->next >= reader->count) return 0;
     reader->next++;
+    errno = EIO; /* of a file that was cut since its header was read */
     if (fread(reader->bytes, 1, length, reader->file) != length) {
-        if (ferror(reader->file))
-            cli_io("read", reader->path);
-        else
-            cli_fail(CLI_IO, "'%s' has fewer rows than its header states", reader->path);
+        cli_io("read", reader->path);
         return -1;
     }
     npy_decode(reader->bytes, reader->row, reader->columns);
