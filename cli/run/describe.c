@@ -19,6 +19,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 static const char copy_name[] = "system.yaml";
@@ -240,8 +241,10 @@ static int read_manifest(run_directory *dir, run_request *request, const char *b
 int run_directory_read(run_directory *dir, run_request *request)
 {
     size_t length;
-    if (access(dir->manifest, F_OK) != 0)
+    struct stat info;
+    if (stat(dir->manifest, &info) != 0)
         return cli_fail(CLI_USAGE, "'%s' holds no run: there is no %s", dir->path, dir->manifest);
+    if (S_ISDIR(info.st_mode)) return cli_fail(CLI_USAGE, "'%s' is a directory", dir->manifest);
     char *bytes = file_read(dir->manifest, &length);
     if (!bytes) return CLI_IO;
     int status = read_manifest(dir, request, bytes, length);

@@ -213,6 +213,15 @@ cp -r other ragged
 sed 's/(6,)/(7,)/' other/trajectory.npy >ragged/trajectory.npy
 try 4 report ragged
 says "'ragged/trajectory.npy' has fewer rows than its header states"
+case_is "a header that states more bytes than there are"
+# A machine that counts 4 GB as used before they are written has no memory for them.
+if (ulimit -v 2000000 && "$program" --version) >out 2>err; then
+    printf '\223NUMPY\2\0\377\377\377\377' >ragged/trajectory.npy
+    (ulimit -v 2000000 && exec "$program" report ragged) >out 2>err
+    status=$?
+    holds "exit $status, not 2" [ $status -eq 2 ]
+    says "'ragged/trajectory.npy' is no .npy file of named doubles"
+fi
 
 # A directory of each earlier version is refused and left as it is, and so are statistics of a layout
 # that this version does not read.
@@ -248,6 +257,9 @@ holds "it was made" [ ! -e less/trajectory.npy ]
 without manifest.json
 try 2 resume less
 says 'there is no less/manifest\.json$'
+mkdir less/manifest.json
+try 2 resume less
+says "^dalembert: 'less/manifest\.json' is a directory$"
 without system.yaml
 try 2 resume less
 says "^dalembert: 'less/system\.yaml' is missing: the run cannot be continued$"
