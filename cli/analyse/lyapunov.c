@@ -164,6 +164,7 @@ static int run_with_table(tangent_study *s)
     if (status == CLI_DONE) {
         cli_catch_signals();
         status = run_to_end(s);
+        if (status == CLI_SIGNAL) cli_fail(status, "interrupted; the means so far are kept");
     }
     const int closed = s->table.path ? writer_close(&s->table) : CLI_DONE;
     if (status == CLI_DONE) status = closed;

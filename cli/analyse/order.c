@@ -210,7 +210,7 @@ static int make_reference(order_study *s)
     dal_status status = use_method(s, "gauss12", &error);
     if (status == DAL_NOT_CONVERGED) status = use_method(s, "dop853", &error);
     if (status == DAL_OK) return CLI_DONE;
-    return status == DAL_INTERRUPTED ? CLI_SIGNAL
+    return status == DAL_INTERRUPTED ? cli_fail(CLI_SIGNAL, "interrupted")
                                      : cli_error(cli_exit(status), "reference", &error);
 }
 
@@ -243,7 +243,7 @@ static void run_level(void *user, int i)
 static int run_methods(order_study *s, int threads)
 {
     pool_run(s->method_count * s->levels, threads, run_level, s);
-    if (cli_interrupted()) return CLI_SIGNAL;
+    if (cli_interrupted()) return cli_fail(CLI_SIGNAL, "interrupted");
     for (order_method *m = s->methods; m < s->methods + s->method_count; m++) {
         m->order.levels = s->levels;
         dal_order_slopes(&m->order, s->noise);

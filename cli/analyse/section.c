@@ -153,7 +153,7 @@ static int run_section(section *s, const char *path)
         if (s->write_status != CLI_DONE)
             status = s->write_status;
         else if (done == DAL_INTERRUPTED)
-            status = CLI_SIGNAL;
+            status = cli_fail(CLI_SIGNAL, "interrupted; %lld rows are kept", s->rows);
         else if (done != DAL_OK)
             status = cli_error(done == DAL_ARGUMENT ? CLI_USAGE : cli_exit(done), r->system_name,
                                &error);

@@ -199,10 +199,11 @@ holds "another sum" awk -F, 'NR > 1 { T = $1; V = sqrt(2.11); x = 0.7/V
     END { exit NR != 101 }' far.csv
 
 # timeout signals the program and then its group: two signals, one request.
-case_is "an interrupted look keeps its means"
+case_is "an interrupted lyapunov keeps its means"
 timeout --preserve-status -k 20 -s INT 1 "$program" lyapunov osc.yaml --integrator rk4 --step 0.01 \
     --time 1e7 --rows 100000 --output early.csv >out 2>err
 holds "not 130" test $? -eq 130
+says '^dalembert: interrupted; the means so far are kept$'
 prints '^exponent 2 '
 holds "no rows" test "$(wc -l <early.csv)" -gt 2
 if command -v gnuplot >/dev/null 2>&1; then

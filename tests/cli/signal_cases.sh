@@ -40,7 +40,7 @@ case_is "a section is interrupted: its rows are kept"
 cut="section ./swing.yaml --on x --integrator rk4 --step 0.001 --native off"
 try 0 $cut --time 300
 mv out whole.csv
-"$program" $cut --time 1e7 --output cut 2>err >told &
+"$program" $cut --time 1e7 --output cut 2>err >counted &
 pid=$!
 appears cut/section.csv
 sleep 1
@@ -50,10 +50,11 @@ kill -9 $pid 2>/dev/null
 wait $pid
 status=$?
 holds "exit $status, not 130" test $status -eq 130
+says '^dalembert: interrupted; [0-9]+ rows are kept$'
 holds "whole lines" awk -F, 'NR == 1 { n = NF } NF != n { exit 1 }' cut/section.csv
 rows=$(($(wc -l <cut/section.csv) - 1))
 holds "$rows rows" test $rows -gt 2
-holds "not so many as are told" grep -q "; $rows rows\$" told
+holds "not as many as are counted" grep -q "; $rows rows\$" counted
 # x = cos t crosses 0 at pi/2 + k pi; rk4 is late by h^4/120 of t
 holds "other crossings" awk -F, 'NR > 1 { d = $2 - (NR - 1.5)*3.14159265358979
     if (d^2 > 1e-12*$2^2 || $3 != (NR % 2 ? 1 : -1)) exit 1 }' cut/section.csv
@@ -61,3 +62,16 @@ least=$((rows < 95 ? rows : 95))
 head -n $((least + 1)) cut/section.csv >short.csv
 head -n $((least + 1)) whole.csv >wanted.csv
 holds "not the rows of a section never interrupted" cmp short.csv wanted.csv
+
+case_is "order is interrupted"
+"$program" order ./swing.yaml --integrators rk4 --time 1e7 --step 0.01 >out 2>err &
+pid=$!
+sleep 0.5
+kill -INT $pid
+holds "it goes on" ends $pid
+kill -9 $pid 2>/dev/null
+wait $pid
+status=$?
+holds "exit $status, not 130" test $status -eq 130
+says '^dalembert: interrupted$'
+empty
