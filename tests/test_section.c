@@ -165,6 +165,41 @@ static void test_pairs_in_a_step(void)
         CU_ASSERT_DOUBLE_EQUAL(r.t[k], 2.0 * pi * ((k + 1) / 2) + (k % 2 ? -a : a), 2e-12);
 }
 
+/* (t - a)^2 = 0.02^2 at a - 0.02 and a + 0.02: within the first step or the last one, with |g| falling
+ * towards either end of the run, alone or as the only step. */
+static void test_pairs_at_the_ends(void)
+{
+    static const struct {
+        const char *text;
+        double T, first;
+    } cases[] = {{OSCILLATOR("(t - 0.03)^2 - 0.0004"), 1.0, 0.01},
+                 {OSCILLATOR("(t - 0.07)^2 - 0.0004"), 1.0, 0.05},
+                 {OSCILLATOR("(t - 0.93)^2 - 0.0004"), 1.0, 0.91},
+                 {OSCILLATOR("(t - 0.97)^2 - 0.0004"), 1.0, 0.95},
+                 {OSCILLATOR("(t - 0.03)^2 - 0.0004"), 0.1, 0.01},
+                 {OSCILLATOR("0.0004 - (t - 0.05)^2"), 0.1, 0.03},
+                 {OSCILLATOR("(t - 0.07)^2 - 0.0004"), 0.1, 0.05},
+                 {OSCILLATOR("(t - 0.07)^2 - 0.0004"), 0.2, 0.05},
+                 {OSCILLATOR("(t - 0.13)^2 - 0.0004"), 0.2, 0.11}};
+    for (size_t k = 0; k < sizeof cases / sizeof cases[0]; k++) {
+        dal_crossings found;
+        const record r = crossings_of(cases[k].text, "gauss12", 0.1, cases[k].T, 0, &found);
+        CU_ASSERT_EQUAL(found.touches, 0);
+        CU_ASSERT_EQUAL_FATAL(r.count, 2);
+        CU_ASSERT_DOUBLE_EQUAL(r.t[0], cases[k].first, 1e-14);
+        CU_ASSERT_DOUBLE_EQUAL(r.t[1], cases[k].first + 0.04, 1e-14);
+        CU_ASSERT_EQUAL(r.direction[0], -r.direction[1]);
+    }
+}
+
+/* 1 + sqrt(t) > 0 has no rate at t = 0, the start. */
+static void test_no_rate_at_an_end(void)
+{
+    dal_crossings found;
+    const record r = crossings_of(OSCILLATOR("1 + sqrt(t)"), "gauss12", 0.1, 1.0, 0, &found);
+    CU_ASSERT_EQUAL(r.count, 0);
+}
+
 /* g = +-((t - c)^2 - d^2), which rk4 follows exactly, with its minimum at c in a step of 0.25
  * beside t = 1, the step where |g| is least: behind it or before it, so that both crossings c -+ d
  * lie in the step after t = 1, or in the one before. */
@@ -377,6 +412,8 @@ void suite_section(void)
     CU_add_test(suite, "directions", test_directions);
     CU_add_test(suite, "a section in time", test_in_time);
     CU_add_test(suite, "pairs within a step", test_pairs_in_a_step);
+    CU_add_test(suite, "pairs in the first and the last step", test_pairs_at_the_ends);
+    CU_add_test(suite, "no rate at an end", test_no_rate_at_an_end);
     CU_add_test(suite, "pairs in the step before or after", test_pairs_on_either_side);
     CU_add_test(suite, "touches", test_touches);
     CU_add_test(suite, "touches within 1e-12", test_touches_within);

@@ -10,11 +10,13 @@
  * interpolation where the three points at hand allow it, else bisection.
  *
  * A pair of crossings within a step has an extremum of g between them.  Where |g| at a step is not
- * above its neighbours', the rate of g at the ends of the two steps there tells which holds the
- * extremum, and its place is the root of that rate. */
+ * above its neighbours', the rate of g at the ends of the two steps there shows which holds the
+ * extremum, and its place is the root of that rate.  The first and the last step lack a neighbour;
+ * there the rates at both ends decide alone. */
 #include "analysis/measure.h"
 #include <float.h>
 #include <math.h>
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -39,6 +41,7 @@ typedef struct search {
     size_t carried;
     mark before, last, now; /* the present state, and those two steps and one step ago */
     double h, greatest;     /* |g| */
+    long long examined;     /* the last step that was searched for an extremum */
     int side;               /* the sign of g where it was last not 0 */
     int rate;               /* what is asked for: the rate of g, or g */
     double value;           /* the answer */
@@ -179,15 +182,36 @@ static dal_status examine(search *w, const mark *from, double rate, const mark *
 }
 
 /* |g| has a minimum about the last mark, which may hide a pair of crossings. */
-static dal_status examine_minimum(search *w)
+static dal_status examine_minimum(search *w, long long step)
 {
     double first, middle, last;
     DAL_TRY(rate_at(w, &w->before, &first));
     DAL_TRY(rate_at(w, &w->last, &middle));
     DAL_TRY(rate_at(w, &w->now, &last));
     if (sign(first) != -w->side || sign(last) != w->side) return DAL_OK;
-    return sign(middle) == -w->side ? examine(w, &w->last, middle, &w->now, last)
-                                    : examine(w, &w->before, first, &w->last, middle);
+    const bool is_later = sign(middle) == -w->side;
+    const long long examined = w->examined;
+    w->examined = is_later ? step : step - 1;
+    if (w->examined == examined) return DAL_OK;
+    return is_later ? examine(w, &w->last, middle, &w->now, last)
+                    : examine(w, &w->before, first, &w->last, middle);
+}
+
+/* The first or the last step.  Where g has no rate there, no extremum is known. */
+static dal_status examine_end(search *w, long long step)
+{
+    double first, last;
+    if (w->examined == step) return DAL_OK;
+    dal_status status = rate_at(w, &w->last, &first);
+    if (status == DAL_OK) status = rate_at(w, &w->now, &last);
+    if (status == DAL_NOT_FINITE) {
+        if (w->error) *w->error = (dal_error){0};
+        return DAL_OK;
+    }
+    DAL_TRY(status);
+    if (sign(first) != -w->side || sign(last) != w->side) return DAL_OK;
+    w->examined = step;
+    return examine(w, &w->last, first, &w->now, last);
 }
 
 static int is_minimum(const search *w, long long step)
@@ -207,7 +231,7 @@ static dal_status take_mark(search *w)
     return DAL_OK;
 }
 
-static dal_status take_step(search *w, long long step)
+static dal_status take_step(search *w, long long step, bool is_end)
 {
     const mark oldest = w->before;
     w->before = w->last;
@@ -220,8 +244,10 @@ static dal_status take_step(search *w, long long step)
         w->side = side;
     else if (side == -w->side)
         DAL_TRY(cross_step(w));
-    else if (is_minimum(w, step))
-        DAL_TRY(examine_minimum(w));
+    else {
+        if (is_minimum(w, step)) DAL_TRY(examine_minimum(w, step));
+        if (is_end) DAL_TRY(examine_end(w, step));
+    }
     return go_to(w, &w->now);
 }
 
@@ -231,7 +257,7 @@ static dal_status go(search *w, long long steps)
     DAL_TRY(take_mark(w));
     w->side = sign(w->now.g);
     for (long long step = 1; step <= steps; step++) {
-        DAL_TRY(take_step(w, step));
+        DAL_TRY(take_step(w, step, step == 1 || step == steps));
         if (p->poll && step % POLL == 0) DAL_TRY(p->poll(p->user, w->run));
     }
     return DAL_OK;
