@@ -2,7 +2,7 @@
 #ifndef DAL_MEASURE_INTERNAL_H
 #define DAL_MEASURE_INTERNAL_H
 
-#include "core/error.h"
+#include "core/arguments.h"
 #include "dalembert.h"
 #include <stdint.h>
 

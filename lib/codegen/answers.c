@@ -15,7 +15,7 @@ static void name_inputs(dal__generation *g)
     const dal__equations *e = p->equations;
     const int first = (int)p->tapes->first_input, count = e->symbols - e->parameters;
     g->input = calloc((size_t)count + 1, sizeof *g->input);
-    g->text.starved |= !g->input;
+    g->text.out_of_memory |= !g->input;
     if (!g->input) return;
     snprintf(g->input[p->t - first].text, sizeof g->input->text, "DAL_TIME(t)");
     for (int i = 0; i < p->n; i++) {

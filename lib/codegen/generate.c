@@ -314,7 +314,7 @@ static void put_file(dal__generation *g)
 
 dal_status dal__generation_finish(dal__generation *g, char **text, dal_error *error)
 {
-    if (g->text.starved) {
+    if (g->text.out_of_memory) {
         dal__text_free(&g->text);
         return dal__fail(error, DAL_MEMORY, "no memory for a generated file");
     }

@@ -1,5 +1,5 @@
 /* arguments.c - what public functions require of their arguments: see dalembert.h, conventions. */
-#include "error.h"
+#include "core/arguments.h"
 
 dal_status dal__missing(dal_error *error, const char *function, const char *argument)
 {

@@ -1,11 +1,11 @@
 /* error.c - statuses and their words, the caller's error record, the nearest name.
  *
  * The distance of two names is that of Damerau and Levenshtein in its "optimal string alignment"
- * form: the least number of insertions, deletions, substitutions and swaps of neighbours.  It is
+ * form: the smallest number of insertions, deletions, substitutions and swaps of neighbours.  It is
  * counted in quarters of an edit, so that a letter in the wrong case costs less than a wrong
  * letter. */
-#include "error.h"
-
+#include "core/error.h"
+#include "core/words.h"
 #include <limits.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -13,36 +13,22 @@
 
 const char *dal_status_name(dal_status status)
 {
-    static const char *const name[] = {
-#define X(code, text) "DAL_" #code,
-        DAL_STATUS_LIST(X)
-#undef X
-    };
-    return (unsigned)status < DAL_STATUS_COUNT ? name[status] : "DAL_?";
+#define NAME(code, text) "DAL_" #code,
+    DAL__RETURN_WORD(DAL_STATUS_LIST, NAME, status, "DAL_?");
 }
 
 const char *dal_status_text(dal_status status)
 {
-    static const char *const words[] = {
-#define X(code, text) text,
-        DAL_STATUS_LIST(X)
-#undef X
-    };
-    return (unsigned)status < DAL_STATUS_COUNT ? words[status] : "unknown status";
+    DAL__RETURN_WORD(DAL_STATUS_LIST, DAL__SECOND, status, "unknown status");
 }
 
 /* Names come from the user's text: whatever would break the line or the terminal is masked. */
-static void mask_control(char *text)
+static void write_record(dal_error *error, dal_error place, const char *format, va_list arguments)
 {
-    for (; *text; text++)
-        if ((unsigned char)*text < ' ' || *text == 127) *text = '?';
-}
-
-static void write_record(dal_error *error, dal_error head, const char *format, va_list arguments)
-{
-    *error = head;
+    *error = place;
     vsnprintf(error->message, sizeof error->message, format, arguments);
-    mask_control(error->message);
+    for (char *c = error->message; *c; c++)
+        if ((unsigned char)*c < ' ' || *c == 127) *c = '?';
 }
 
 dal_status dal__fail(dal_error *error, dal_status status, const char *format, ...)
@@ -67,7 +53,7 @@ dal_status dal__fail_at(dal_error *error, dal_status status, int line, int colum
     return status;
 }
 
-enum { LONGEST = 63, CASE = 1, EDIT = 4, LEAST_LIMIT = 2 * EDIT };
+enum { MAX_LETTERS = 63, CASE = 1, EDIT = 4, MIN_LIMIT = 2 * EDIT };
 
 static int substitution(char a, char b)
 {
@@ -76,23 +62,23 @@ static int substitution(char a, char b)
     return (a ^ b) == 0x20 && low >= 'a' && low <= 'z' ? CASE : EDIT;
 }
 
-static int least(int a, int b) { return a < b ? a : b; }
+static int min_of(int a, int b) { return a < b ? a : b; }
 
-/* Quarter edits from a to b, neither longer than LONGEST.  row[k] holds the distances of the first
- * i - k letters of a to every beginning of b. */
+/* Quarter edits from a to b, neither longer than MAX_LETTERS.  row[k] holds the distances of the
+ * first i - k letters of a to every beginning of b. */
 static int distance(const char *a, const char *b)
 {
-    int row[3][LONGEST + 1] = {{0}}, la = (int)strlen(a), lb = (int)strlen(b);
+    int row[3][MAX_LETTERS + 1] = {{0}}, la = (int)strlen(a), lb = (int)strlen(b);
     for (int j = 0; j <= lb; j++) row[0][j] = j * EDIT;
     for (int i = 1; i <= la; i++) {
         memcpy(row[2], row[1], sizeof row[1]);
         memcpy(row[1], row[0], sizeof row[0]);
         row[0][0] = i * EDIT;
         for (int j = 1; j <= lb; j++) {
-            int d = least(row[1][j], row[0][j - 1]) + EDIT;
-            d = least(d, row[1][j - 1] + substitution(a[i - 1], b[j - 1]));
+            int d = min_of(row[1][j], row[0][j - 1]) + EDIT;
+            d = min_of(d, row[1][j - 1] + substitution(a[i - 1], b[j - 1]));
             if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
-                d = least(d, row[2][j - 2] + EDIT);
+                d = min_of(d, row[2][j - 2] + EDIT);
             row[0][j] = d;
         }
     }
@@ -101,14 +87,14 @@ static int distance(const char *a, const char *b)
 
 const char *dal_nearest(const char *name, const char *const *names, int count)
 {
-    size_t length = name && names ? strlen(name) : LONGEST + 1;
-    if (length > LONGEST) return NULL;
+    size_t length = name && names ? strlen(name) : MAX_LETTERS + 1;
+    if (length > MAX_LETTERS) return NULL;
     int limit = (int)length * EDIT / 3, best = INT_MAX;
-    if (limit < LEAST_LIMIT) limit = LEAST_LIMIT;
+    if (limit < MIN_LIMIT) limit = MIN_LIMIT;
     const char *nearest = NULL;
     for (int i = 0; i < count; i++) {
-        size_t other = names[i] ? strlen(names[i]) : LONGEST + 1;
-        if (other > LONGEST) continue;
+        size_t other = names[i] ? strlen(names[i]) : MAX_LETTERS + 1;
+        if (other > MAX_LETTERS) continue;
         int d = distance(name, names[i]);
         int everything = EDIT * (int)(other > length ? other : length);
         if (d > limit || d >= everything || d >= best) continue;
@@ -122,7 +108,7 @@ dal_status dal__unknown_at(dal_error *error, int line, int column, const char *w
 {
     const char *nearest = dal_nearest(name, names, count);
     if (!nearest)
-        return dal__fail_at(error, DAL_NAME, line, column, "unknown %s '%.*s'", what, LONGEST,
+        return dal__fail_at(error, DAL_NAME, line, column, "unknown %s '%.*s'", what, MAX_LETTERS,
                             name);
     return dal__fail_at(error, DAL_NAME, line, column, "unknown %s '%s'; did you mean '%s'?", what,
                         name, nearest);

@@ -1,5 +1,5 @@
 /* machine.c - what this machine can do. */
-#include "machine.h"
+#include "core/machine.h"
 
 bool dal__machine_has(dal__instructions set)
 {

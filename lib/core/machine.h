@@ -20,9 +20,9 @@
 
 /* The better the later. */
 typedef enum dal__instructions {
-#define X(set, ...) DAL__##set,
-    DAL__INSTRUCTIONS_LIST(X)
-#undef X
+#define SET(set, ...) DAL__##set,
+    DAL__INSTRUCTIONS_LIST(SET)
+#undef SET
         DAL__INSTRUCTION_SETS
 } dal__instructions;
 

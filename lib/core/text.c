@@ -1,5 +1,5 @@
 /* text.c - a text that grows. */
-#include "text.h"
+#include "core/text.h"
 #include <math.h>
 #include <stdarg.h>
 #include <stdint.h>
@@ -15,13 +15,13 @@ void dal__text_free(dal__text *text)
 
 static bool reserve(dal__text *text, size_t more)
 {
-    if (text->starved || more < text->room - text->length) return !text->starved;
-    size_t room = 2 * text->room + more + 256;
-    char *bytes = more < SIZE_MAX / 4 ? realloc(text->bytes, room) : NULL;
-    text->starved = !bytes;
+    if (text->out_of_memory || more < text->capacity - text->length) return !text->out_of_memory;
+    const size_t capacity = 2 * text->capacity + more + 256;
+    char *bytes = more < SIZE_MAX / 4 ? realloc(text->bytes, capacity) : NULL;
+    text->out_of_memory = !bytes;
     if (!bytes) return false;
     text->bytes = bytes;
-    text->room = room;
+    text->capacity = capacity;
     return true;
 }
 
@@ -46,24 +46,16 @@ void dal__text_print(dal__text *text, const char *format, ...)
     const int length = vsnprintf(line, sizeof line, format, arguments);
     va_end(arguments);
     if (length < 0 || (size_t)length >= sizeof line)
-        text->starved = true; /* no caller writes so much at once */
+        text->out_of_memory = true; /* no caller writes so much at once */
     else
         dal__text_add(text, line, (size_t)length);
-}
-
-/* 0x1.8p+3: the mantissa as an odd integer times a power of two. */
-static void print_exactly(dal__text *text, double x)
-{
-    int exponent;
-    int64_t mantissa = (int64_t)ldexp(frexp(x, &exponent), 53);
-    for (exponent -= 53; mantissa % 2 == 0; mantissa /= 2) exponent++;
-    dal__text_print(text, "0x%llxp%d", (unsigned long long)mantissa, exponent);
 }
 
 void dal__text_number(dal__text *text, double x)
 {
     const bool negative = signbit(x) && !isnan(x);
     const double size = fabs(x);
+    int exponent;
     if (negative) dal__text_put(text, "(-");
     if (isnan(x))
         dal__text_put(text, "NAN");
@@ -71,7 +63,10 @@ void dal__text_number(dal__text *text, double x)
         dal__text_put(text, "INFINITY");
     else if (size < 1e15 && size == floor(size))
         dal__text_print(text, "%lld.0", (long long)size);
-    else
-        print_exactly(text, size);
+    else { /* an odd integer times a power of two */
+        int64_t mantissa = (int64_t)ldexp(frexp(size, &exponent), 53);
+        for (exponent -= 53; mantissa % 2 == 0; mantissa /= 2) exponent++;
+        dal__text_print(text, "0x%llxp%d", (unsigned long long)mantissa, exponent);
+    }
     if (negative) dal__text_put(text, ")");
 }

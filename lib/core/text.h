@@ -2,16 +2,16 @@
 #ifndef DAL_TEXT_H
 #define DAL_TEXT_H
 
-#include "error.h"
+#include "core/error.h"
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Begins as {0}; bytes always ends in a NUL once something was added.  When memory is out it is
- * remembered, and whatever is added later is lost. */
+/* Begins as {0}; bytes always ends in a NUL once something was added.  When memory is out it
+ * remembers that, and whatever is added later is lost. */
 typedef struct dal__text {
     char *bytes;
-    size_t length, room;
-    bool starved;
+    size_t length, capacity;
+    bool out_of_memory;
 } dal__text;
 
 void dal__text_free(dal__text *text);

@@ -8,36 +8,36 @@
 
 #include "kernel/elementary.h"
 
-#define DAL__UNARY_LIST(X)                                                                         \
-    X(NEG, -a)                                                                                     \
-    X(SQRT, dal_sqrt(a))                                                                           \
-    X(EXP, dal_exp(a))                                                                             \
-    X(LOG, dal_log(a))                                                                             \
-    X(SIN, dal_sin(a))                                                                             \
-    X(COS, dal_cos(a))                                                                             \
-    X(TAN, dal_tan(a))                                                                             \
-    X(ASIN, dal_asin(a))                                                                           \
-    X(ACOS, dal_acos(a))                                                                           \
-    X(ATAN, dal_atan(a))                                                                           \
-    X(SINH, dal_sinh(a))                                                                           \
-    X(COSH, dal_cosh(a))                                                                           \
-    X(TANH, dal_tanh(a))                                                                           \
-    X(ASINH, dal_asinh(a))                                                                         \
-    X(ABS, dal_abs(a))                                                                             \
-    X(SIGN, dal_sign(a))
+#define DAL__UNARY_LIST(OP)                                                                        \
+    OP(NEG, -a)                                                                                    \
+    OP(SQRT, dal_sqrt(a))                                                                          \
+    OP(EXP, dal_exp(a))                                                                            \
+    OP(LOG, dal_log(a))                                                                            \
+    OP(SIN, dal_sin(a))                                                                            \
+    OP(COS, dal_cos(a))                                                                            \
+    OP(TAN, dal_tan(a))                                                                            \
+    OP(ASIN, dal_asin(a))                                                                          \
+    OP(ACOS, dal_acos(a))                                                                          \
+    OP(ATAN, dal_atan(a))                                                                          \
+    OP(SINH, dal_sinh(a))                                                                          \
+    OP(COSH, dal_cosh(a))                                                                          \
+    OP(TANH, dal_tanh(a))                                                                          \
+    OP(ASINH, dal_asinh(a))                                                                        \
+    OP(ABS, dal_abs(a))                                                                            \
+    OP(SIGN, dal_sign(a))
 
-#define DAL__BINARY_LIST(X)                                                                        \
-    X(ADD, a + b)                                                                                  \
-    X(SUB, a - b)                                                                                  \
-    X(MUL, a *b)                                                                                   \
-    X(DIV, a / b)                                                                                  \
-    X(POW, dal_pow(a, b))                                                                          \
-    X(ATAN2, dal_atan2(a, b))
+#define DAL__BINARY_LIST(OP)                                                                       \
+    OP(ADD, a + b)                                                                                 \
+    OP(SUB, a - b)                                                                                 \
+    OP(MUL, a *b)                                                                                  \
+    OP(DIV, a / b)                                                                                 \
+    OP(POW, dal_pow(a, b))                                                                         \
+    OP(ATAN2, dal_atan2(a, b))
 
 /* A sum that takes a product into itself: one rounding. */
-#define DAL__FUSED_LIST(X)                                                                         \
-    X(MUL_ADD, dal_fma(a, b, c))                                                                   \
-    X(MUL_SUB, dal_fma(a, b, -c))                                                                  \
-    X(SUB_MUL, dal_fma(-a, b, c))
+#define DAL__FUSED_LIST(OP)                                                                        \
+    OP(MUL_ADD, dal_fma(a, b, c))                                                                  \
+    OP(MUL_SUB, dal_fma(a, b, -c))                                                                 \
+    OP(SUB_MUL, dal_fma(-a, b, c))
 
 #endif

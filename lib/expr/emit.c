@@ -17,9 +17,9 @@ typedef struct writer {
 } writer;
 
 static const char *const expressions[] = {
-#define X(code, expression) [DAL__##code] = #expression,
-    DAL__UNARY_LIST(X) DAL__BINARY_LIST(X) DAL__FUSED_LIST(X)
-#undef X
+#define EXPRESSION(code, expression) [DAL__##code] = #expression,
+    DAL__UNARY_LIST(EXPRESSION) DAL__BINARY_LIST(EXPRESSION) DAL__FUSED_LIST(EXPRESSION)
+#undef EXPRESSION
 };
 
 static bool is_number(const dal__tapes *tapes, uint32_t place)
@@ -90,7 +90,7 @@ void dal__tape_write(const dal__tapes *tapes, int program, const dal__input_name
 {
     const dal__tape *tape = &tapes->tape[program];
     writer w = {tapes, input, calloc(tapes->workspace + 1, sizeof *w.result), 0, text};
-    text->starved |= !w.result;
+    text->out_of_memory |= !w.result;
     if (!w.result) return;
     for (int i = 0; i < tape->length; i++) put_instruction(&w, &tape->code[i]);
     for (int k = 0; k < tape->outputs; k++) {

@@ -24,36 +24,36 @@
 typedef int32_t dal__node; /* 0: no node */
 
 /* Operations: code, arity, name in a formula (NULL: not callable by name). */
-#define DAL__OP_LIST(X)                                                                            \
-    X(NUMBER, 0, NULL)                                                                             \
-    X(SYMBOL, 0, NULL)                                                                             \
-    X(ADD, 2, NULL)                                                                                \
-    X(SUB, 2, NULL)                                                                                \
-    X(MUL, 2, NULL)                                                                                \
-    X(DIV, 2, NULL)                                                                                \
-    X(NEG, 1, NULL)                                                                                \
-    X(POW, 2, NULL) /* real exponent */                                                            \
-    X(SQRT, 1, "sqrt")                                                                             \
-    X(EXP, 1, "exp")                                                                               \
-    X(LOG, 1, "log")                                                                               \
-    X(SIN, 1, "sin")                                                                               \
-    X(COS, 1, "cos")                                                                               \
-    X(TAN, 1, "tan")                                                                               \
-    X(ASIN, 1, "asin")                                                                             \
-    X(ACOS, 1, "acos")                                                                             \
-    X(ATAN, 1, "atan")                                                                             \
-    X(ATAN2, 2, "atan2")                                                                           \
-    X(SINH, 1, "sinh")                                                                             \
-    X(COSH, 1, "cosh")                                                                             \
-    X(TANH, 1, "tanh")                                                                             \
-    X(ASINH, 1, "asinh")                                                                           \
-    X(ABS, 1, "abs")                                                                               \
-    X(SIGN, 1, NULL) /* derivative of abs */
+#define DAL__OP_LIST(OP)                                                                           \
+    OP(NUMBER, 0, NULL)                                                                            \
+    OP(SYMBOL, 0, NULL)                                                                            \
+    OP(ADD, 2, NULL)                                                                               \
+    OP(SUB, 2, NULL)                                                                               \
+    OP(MUL, 2, NULL)                                                                               \
+    OP(DIV, 2, NULL)                                                                               \
+    OP(NEG, 1, NULL)                                                                               \
+    OP(POW, 2, NULL) /* real exponent */                                                           \
+    OP(SQRT, 1, "sqrt")                                                                            \
+    OP(EXP, 1, "exp")                                                                              \
+    OP(LOG, 1, "log")                                                                              \
+    OP(SIN, 1, "sin")                                                                              \
+    OP(COS, 1, "cos")                                                                              \
+    OP(TAN, 1, "tan")                                                                              \
+    OP(ASIN, 1, "asin")                                                                            \
+    OP(ACOS, 1, "acos")                                                                            \
+    OP(ATAN, 1, "atan")                                                                            \
+    OP(ATAN2, 2, "atan2")                                                                          \
+    OP(SINH, 1, "sinh")                                                                            \
+    OP(COSH, 1, "cosh")                                                                            \
+    OP(TANH, 1, "tanh")                                                                            \
+    OP(ASINH, 1, "asinh")                                                                          \
+    OP(ABS, 1, "abs")                                                                              \
+    OP(SIGN, 1, NULL) /* derivative of abs */
 
 typedef enum dal__op {
-#define X(code, arity, name) DAL__##code,
-    DAL__OP_LIST(X)
-#undef X
+#define CODE(code, arity, name) DAL__##code,
+    DAL__OP_LIST(CODE)
+#undef CODE
         DAL__OP_COUNT
 } dal__op;
 

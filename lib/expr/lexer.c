@@ -6,6 +6,7 @@
  *
  * Blanks, tabs and line ends separate.  Columns count bytes from 1. */
 #include "expr/lexer.h"
+#include "core/decimal.h"
 #include "core/error.h"
 #include <math.h>
 #include <string.h>

@@ -39,9 +39,9 @@ static const struct function {
     const char *name;
     int arity;
 } functions[] = {
-#define X(code, arity, name) {name, arity},
-    DAL__OP_LIST(X)
-#undef X
+#define FUNCTION(code, arity, name) {name, arity},
+    DAL__OP_LIST(FUNCTION)
+#undef FUNCTION
 };
 
 /* The operation a name calls, or 0. */

@@ -17,7 +17,7 @@ static __attribute__((flatten, noinline)) void execute(const dal__tape *tape, do
     for (int k = 0; k < tape->length; k++) {
         const dal__instruction i = tape->code[k]; /* a copy: no write to w can change it */
         switch (i.op) {
-#define X(code, expression)                                                                        \
+#define CASE(code, expression)                                                                     \
     case DAL__##code:                                                                              \
         EACH_GROUP                                                                                 \
         {                                                                                          \
@@ -26,10 +26,10 @@ static __attribute__((flatten, noinline)) void execute(const dal__tape *tape, do
             (void)b, (void)c;                                                                      \
         }                                                                                          \
         break;
-            DAL__UNARY_LIST(X)
-            DAL__BINARY_LIST(X)
-            DAL__FUSED_LIST(X)
-#undef X
+            DAL__UNARY_LIST(CASE)
+            DAL__BINARY_LIST(CASE)
+            DAL__FUSED_LIST(CASE)
+#undef CASE
         case DAL__SINCOS:
             EACH_GROUP dal_sincos(AT(i.a), &AT(i.d), &AT(i.b));
             break;

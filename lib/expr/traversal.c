@@ -55,13 +55,13 @@ dal__lowered dal__lower(const dal__graph *graph, dal__node node)
 double dal__operate(int op, double a, double b, double c)
 {
     switch (op) {
-#define X(code, expression)                                                                        \
+#define CASE(code, expression)                                                                     \
     case DAL__##code:                                                                              \
         return expression;
-        DAL__UNARY_LIST(X)
-        DAL__BINARY_LIST(X)
-        DAL__FUSED_LIST(X)
-#undef X
+        DAL__UNARY_LIST(CASE)
+        DAL__BINARY_LIST(CASE)
+        DAL__FUSED_LIST(CASE)
+#undef CASE
     default:
         return NAN;
     }

@@ -5,7 +5,7 @@
 #ifndef DAL_ENGINE_H
 #define DAL_ENGINE_H
 
-#include "core/error.h"
+#include "core/arguments.h"
 #include "core/machine.h"
 #include "dalembert.h"
 #include "kernel/carried.h"

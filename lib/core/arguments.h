@@ -1,0 +1,28 @@
+/* arguments.h - what public functions require of their arguments. */
+#ifndef DAL_ARGUMENTS_H
+#define DAL_ARGUMENTS_H
+
+#include "core/error.h"
+
+/* The errors that an argument is NULL, or negative; they return DAL_ARGUMENT. */
+dal_status dal__missing(dal_error *error, const char *function, const char *argument);
+dal_status dal__negative(dal_error *error, const char *function, const char *argument,
+                         long long value);
+
+#define DAL_REQUIRE(pointer, error)                                                                \
+    do {                                                                                           \
+        if (!(pointer)) return dal__missing(error, __func__, #pointer);                            \
+    } while (0)
+#define DAL_REQUIRE_COUNT(count, error)                                                            \
+    do {                                                                                           \
+        if ((count) < 0) return dal__negative(error, __func__, #count, count);                     \
+    } while (0)
+
+/* Checks that count settings are there and have names; what: how a message calls them, in the
+ * plural. */
+dal_status dal__check_settings(const dal_setting *settings, int count, const char *what,
+                               dal_error *error);
+/* Checks that a spec has a system and its settings; ignores the rest of it. */
+dal_status dal__check_spec(const dal_run_spec *spec, dal_error *error);
+
+#endif
