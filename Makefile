@@ -63,7 +63,7 @@ LIB_OBJ    = $(LIB_SRC:%.c=$(BUILD)/%.o) $(BUILD)/generated/systems.o \
              $(BUILD)/generated/sources.o $(BUILD)/generated/trend_tables.o \
              $(call WIDE,$(VARIANTS),$(WIDE_SRC)) $(call WIDE,$(GROUPS),$(METHOD_SRC))
 CLI_SRC    = $(filter-out cli/mpi/%,$(wildcard cli/*/*.c))
-CLI_OBJ    = $(CLI_SRC:%.c=$(BUILD)/%.o) $(BUILD)/generated/study.o
+CLI_OBJ    = $(CLI_SRC:%.c=$(BUILD)/%.o) $(BUILD)/generated/study.o $(BUILD)/generated/report_style.o
 WIDE       = $(foreach variant,$1,$(2:%.c=$(BUILD)/%_$(variant).o))
 
 SUITES    = $(patsubst tests/test_%.c,%,$(filter-out %_wide.c,$(wildcard tests/test_*.c)))
@@ -142,10 +142,14 @@ $(BUILD)/generated/trend_tables.c: tools/trend-tables.c lib/analysis/trend_table
 	@mkdir -p $(@D)
 	$(call SAY,cc)$(HOST_CC) -std=c11 -O2 -Ilib $< -lm -o $(@D)/trend-tables
 	$(@D)/trend-tables >$@.tmp && mv $@.tmp $@
-# The built-in study travels inside the program.
+# The built-in study and the style sheet of reports are parts of the program.
 $(BUILD)/generated/study.c: tools/embed-text.sh bench/studies/canonical-drift.yaml
 	@mkdir -p $(@D)
 	sh tools/embed-text.sh study_builtin_text bench/studies/canonical-drift.yaml >$@.tmp
+	mv $@.tmp $@
+$(BUILD)/generated/report_style.c: tools/embed-text.sh cli/report/report.css
+	@mkdir -p $(@D)
+	sh tools/embed-text.sh report_style cli/report/report.css >$@.tmp
 	mv $@.tmp $@
 $(BUILD)/generated/%.o: $(BUILD)/generated/%.c ; $(COMPILE)
 

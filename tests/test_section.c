@@ -165,8 +165,8 @@ static void test_pairs_in_a_step(void)
         CU_ASSERT_DOUBLE_EQUAL(r.t[k], 2.0 * pi * ((k + 1) / 2) + (k % 2 ? -a : a), 2e-12);
 }
 
-/* (t - a)^2 = 0.02^2 at a - 0.02 and a + 0.02: within the first step or the last one, with |g| falling
- * towards either end of the run, alone or as the only step. */
+/* (t - a)^2 = 0.02^2 at a - 0.02 and a + 0.02: within the first step or the last one, with |g|
+ * falling towards either end of the run, alone or as the only step. */
 static void test_pairs_at_the_ends(void)
 {
     static const struct {

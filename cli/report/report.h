@@ -25,6 +25,8 @@ int report_order(report *r);
 
 /* ---- the page: report_page.c ---- */
 
+extern const char report_style[]; /* report.css, embedded when the program is built */
+
 int report_open(report *r);
 int report_close(report *r);
 /* Ends the head and begins the body with the title as its heading. */

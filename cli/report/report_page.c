@@ -131,37 +131,7 @@ int report_embed(report *r, const char *name, const char *alt, const char *capti
 
 static const char head[] =
     "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
-    "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-    "<style>\n"
-    ":root { color-scheme: light dark; --ink: #1d1d20; --paper: #ffffff; --faint: #5a5a63;\n"
-    "  --line: #d4d4da; --kept: #d3eed9; --bounded: #faefc2; --drift: #f9d2c6; --off: #e3e3e8; }\n"
-    "@media (prefers-color-scheme: dark) { :root { --ink: #e6e6e8; --paper: #161618;\n"
-    "  --faint: #a9a9b2; --line: #3c3c42; --kept: #17452a; --bounded: #4a410e;\n"
-    "  --drift: #5e2517; --off: #3a3a40; } }\n"
-    "body { font: 16px/1.5 system-ui, sans-serif; max-width: 78rem; margin: 0 auto;\n"
-    "  padding: 1rem; color: var(--ink); background: var(--paper); }\n"
-    "h1, h2, h3 { line-height: 1.25; overflow-wrap: anywhere; } h2 { margin-top: 2.5rem; }\n"
-    "p, figcaption { max-width: 48rem; } figcaption, .faint { color: var(--faint); }\n"
-    "figcaption { font-size: 0.85rem; } small { font-size: 0.85em; }\n"
-    ".figures { display: grid; gap: 1rem 1.5rem;\n"
-    "  grid-template-columns: repeat(auto-fill, minmax(min(22rem, 100%), 1fr)); }\n"
-    "figure { margin: 0; } img { width: 100%; height: auto; }\n"
-    ".wide { overflow-x: auto; }\n"
-    "table { border-collapse: collapse; font-size: 0.8rem; line-height: 1.25; }\n"
-    "th, td { padding: 0.2rem 0.5rem; text-align: center; border: 1px solid var(--line); }\n"
-    "td { white-space: nowrap; } thead th { vertical-align: bottom; min-width: 4.5rem; }\n"
-    "th { font-weight: 600; overflow-wrap: anywhere; }\n"
-    "tbody th { text-align: left; overflow-wrap: normal; position: sticky; left: 0;\n"
-    "  background: var(--paper); }\n"
-    ".kept, .small { background: var(--kept); } .small { font-weight: 600; }\n"
-    ".bounded { background: var(--bounded); } .off { background: var(--off); }\n"
-    ".drift { background: var(--drift); font-weight: 600; }\n"
-    "ul.key { list-style: none; padding: 0; max-width: 48rem; }\n"
-    ".key li { padding: 0.1rem 0.5rem; border: 1px solid var(--line); }\n"
-    "a { color: inherit; }\n"
-    "pre { font-size: 0.75rem; line-height: 1.35; overflow-x: auto; }\n"
-    "details { margin: 1rem 0; } summary { cursor: pointer; }\n"
-    "</style>\n";
+    "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n";
 
 int report_open(report *r)
 {
@@ -171,7 +141,7 @@ int report_open(report *r)
     r->page_path = cli_join(r->place, "index.html");
     r->page = fopen(r->page_path, "w");
     if (!r->page) return cli_io("write", r->page_path);
-    fputs(head, r->page);
+    fprintf(r->page, "%s<style>\n%s</style>\n", head, report_style);
     return CLI_DONE;
 }
 
