@@ -199,33 +199,37 @@ struct dal_system {
 
 typedef enum dal_space { DAL_LIFTED, DAL_PHYSICAL } dal_space;
 typedef enum dal_solver { DAL_SOLVER_AUTO, DAL_FIXED_POINT, DAL_NEWTON } dal_solver;
-typedef enum dal_precision { DAL_DOUBLE, DAL_LONG_NUMBERS } dal_precision;
+typedef enum dal_precision { DAL_DOUBLE, DAL_QUAD } dal_precision;
 typedef enum dal_sums { DAL_SUMS_COMPENSATED, DAL_SUMS_PLAIN } dal_sums;
 
-/* type, name, its word outside C, default, least, greatest, words (for choices), help */
+/* One of several words, by its number. */
+typedef int dal_choice;
+
+/* type, name, its word outside C, default (of a choice the first word), least, greatest, value (the
+ * words of a choice, or what texts call the number), help */
 #define DAL_OPTION_LIST(X)                                                                         \
-    X(double, step, "step", 0.01, 0.0, 1e300, NULL, "step size h in units of t")                   \
-    X(int, space, "space", DAL_LIFTED, 0, 1, "lifted|physical",                                    \
-      "4n+2 canonical variables, or (q,v), all that vakonomic systems have")                       \
-    X(int, solver, "solver", DAL_SOLVER_AUTO, 0, 2, "auto|fixed-point|newton",                     \
-      "for implicit equations, solved to rounding level unless solve-to is given")                 \
-    X(int, iterations, "iterations", 100, 1, 100000, NULL,                                         \
-      "most iterations of an implicit equation")                                                   \
-    X(int, extend_energy, "extend-energy", 0, 0, 1, "off|on",                                      \
-      "continue F off D = 0 so that E is kept there too")                                          \
-    X(double, tolerance, "tolerance", 0, 0.0, 1.0, NULL,                                           \
+    X(double, step, "step", 0.01, 0.0, 1e300, "H", "step size h in units of t")                    \
+    X(dal_choice, space, "space", DAL_LIFTED, 0, 1, "lifted|physical",                             \
+      "4n+2 canonical variables, or (q,v); vakonomic systems have (q,v) alone")                    \
+    X(dal_choice, solver, "solver", DAL_SOLVER_AUTO, 0, 2, "auto|fixed-point|newton",              \
+      "for implicit equations; solves to rounding level without solver-tolerance")                 \
+    X(int, iterations, "iterations", 100, 1, 100000, "N",                                          \
+      "maximum number of iterations of an implicit equation")                                      \
+    X(dal_choice, extend_energy, "extend-energy", 0, 0, 1, "off|on",                               \
+      "continue F off D = 0 so that E is conserved there too")                                     \
+    X(double, tolerance, "tolerance", 0, 0.0, 1.0, "TOLERANCE",                                    \
       "estimated error, absolute and relative, of the substeps of dop853; 0: no substeps")         \
-    X(double, solve_to, "solve-to", 0, 0.0, 1.0, NULL,                                             \
+    X(double, solver_tolerance, "solver-tolerance", 0, 0.0, 1.0, "CHANGE",                         \
       "relative change at which an implicit equation counts as solved; 0: rounding level")         \
-    X(int, extra_sweeps, "extra-sweeps", 0, 0, 1000, NULL,                                         \
-      "iterations of an implicit equation after it is solved")                                     \
-    X(int, sums, "sums", DAL_SUMS_COMPENSATED, 0, 1, "compensated|plain",                          \
+    X(int, extra_iterations, "extra-iterations", 0, 0, 1000, "N",                                  \
+      "iterations after an implicit equation is solved")                                           \
+    X(dal_choice, sums, "sums", DAL_SUMS_COMPENSATED, 0, 1, "compensated|plain",                   \
       "how steps are added to the state")                                                          \
-    X(int, precision, "precision", DAL_DOUBLE, 0, 1, "double|long",                                \
-      "numbers of a run; long: the longest there are, some hundred times slower")
+    X(dal_choice, precision, "precision", DAL_DOUBLE, 0, 1, "double|quad",                         \
+      "arithmetic of the run; quad has 113 binary digits and takes some hundred times longer")
 
 typedef struct dal_options {
-#define X(type, name, word, initial, least, greatest, words, help) type name;
+#define X(type, name, word, initial, least, greatest, value, help) type name;
     DAL_OPTION_LIST(X)
 #undef X
 } dal_options;

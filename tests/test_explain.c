@@ -125,7 +125,7 @@ static void test_solver(void)
     dal_model *model = fixture_model("chaplygin-sleigh");
     dal_run_spec spec = fixture_spec(fixture_system(model), "gauss8", DAL_PHYSICAL, 0.1);
     dal_error_budget *solved = explained(&spec, 400, 400);
-    spec.options.solve_to = 1e-8;
+    spec.options.solver_tolerance = 1e-8;
     dal_error_budget *e = explained(&spec, 400, 400);
     const dal_shares *d = of(e, "D1");
     CU_ASSERT(d->solver_is_significant);
@@ -258,7 +258,7 @@ static void test_observer(void)
         CU_ASSERT_PTR_NULL(e);
     }
     CU_ASSERT_EQUAL(dal_error_budget_create(&spec, 0, 50, NULL, &e, &error), DAL_ARGUMENT);
-    spec.options.precision = DAL_LONG_NUMBERS;
+    spec.options.precision = DAL_QUAD;
     CU_ASSERT_EQUAL(dal_error_budget_create(&spec, 100, 50, NULL, &e, &error), DAL_ARGUMENT);
     spec.options.precision = DAL_DOUBLE;
     spec.options.iterations = 1;

@@ -81,8 +81,8 @@ static void test_runs(void)
     same_run(&spec);
     /* Looser, longer and plain, where nothing of it is a default. */
     spec = fixture_spec(spec.system, "gauss4+project", DAL_LIFTED, 0.01);
-    spec.options.solve_to = 1e-7;
-    spec.options.extra_sweeps = 2;
+    spec.options.solver_tolerance = 1e-7;
+    spec.options.extra_iterations = 2;
     spec.options.sums = DAL_SUMS_PLAIN;
     same_run(&spec);
     dal_model_free(model);

@@ -133,7 +133,7 @@ static void test_order(void)
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
         dal_run_spec spec =
             fixture_spec(fixture_system(model), cases[i].method, DAL_PHYSICAL, cases[i].step);
-        spec.options.precision = DAL_LONG_NUMBERS;
+        spec.options.precision = DAL_QUAD;
         const int steps = (int)(cases[i].time / cases[i].step);
         const double coarse = error_at_end(&spec, steps);
         spec.options.step /= 2;
@@ -155,7 +155,7 @@ static void test_constraint(void)
     dal_run_spec spec =
         fixture_spec(fixture_system(model), "implicit-midpoint", DAL_PHYSICAL, 0.05);
     dal_run *in_double = stepped(&spec, 200);
-    spec.options.precision = DAL_LONG_NUMBERS;
+    spec.options.precision = DAL_QUAD;
     dal_run *start = fixture_run(&spec);
     CU_ASSERT_EQUAL(dal_run_observe(start, out), DAL_OK);
     const double before = out[0];
@@ -177,7 +177,7 @@ static void compare(const dal_run_spec *of)
     char name[128];
     dal_run_spec spec = *of;
     dal_run *in_double = fixture_run(&spec);
-    spec.options.precision = DAL_LONG_NUMBERS;
+    spec.options.precision = DAL_QUAD;
     dal_run *in_long = fixture_run(&spec);
     if (spec.options.space == DAL_LIFTED) {
         fixture_displace(in_double, 0.1);
@@ -240,7 +240,7 @@ static void test_memory(void)
 {
     dal_model *model = fixture_model("knife-edge");
     dal_run_spec spec = fixture_spec(fixture_system(model), "gauss4", DAL_LIFTED, 0.125);
-    spec.options.precision = DAL_LONG_NUMBERS;
+    spec.options.precision = DAL_QUAD;
     dal_run *straight = stepped(&spec, 16), *sampled = fixture_run(&spec);
     int rows = 0;
     const dal_observer observer = {.user = &rows, .sample = nothing};
@@ -284,11 +284,11 @@ static void test_refused(void)
     dal_error error = {0};
     dal_batch *batch;
     char *text;
-    spec.options.precision = DAL_LONG_NUMBERS;
+    spec.options.precision = DAL_QUAD;
     fixture_refused(&spec, DAL_UNSUPPORTED, "long numbers: spring has no form in them");
     dal_model *model = fixture_model("knife-edge");
     spec = fixture_spec(fixture_system(model), "rk4", DAL_PHYSICAL, 0.1);
-    spec.options.precision = DAL_LONG_NUMBERS;
+    spec.options.precision = DAL_QUAD;
     CU_ASSERT_EQUAL(dal_batch_create(&batch, &spec, 4, 0, &error), DAL_UNSUPPORTED);
     CU_ASSERT_EQUAL(dal_generate(&spec, 1, NULL, &text, &error), DAL_UNSUPPORTED);
     CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "long numbers"));

@@ -156,7 +156,7 @@ static void test_quad(void)
     double value[2][5];
     for (int k = 0; k < 2; k++) {
         dal_lyapunov *s = NULL;
-        spec.options.precision = k == 0 ? DAL_DOUBLE : DAL_LONG_NUMBERS;
+        spec.options.precision = k == 0 ? DAL_DOUBLE : DAL_QUAD;
         CU_ASSERT_EQUAL_FATAL(dal_lyapunov_create(&s, &spec, NULL, 0, NULL), DAL_OK);
         CU_ASSERT_EQUAL_FATAL(dal_lyapunov_count(s), 5);
         CU_ASSERT_EQUAL(dal_lyapunov_advance(s, 20, NULL), DAL_OK);

@@ -83,7 +83,7 @@ static void test_looser(void)
     dal_run *solved = stepped(&spec, 1);
     long long evaluations = 0;
     for (size_t i = 0; i < sizeof tolerance / sizeof *tolerance; i++) {
-        spec.options.solve_to = tolerance[i];
+        spec.options.solver_tolerance = tolerance[i];
         dal_run *loose = stepped(&spec, 1);
         const double left = fabs(dal_run_state(loose)[1] - dal_run_state(solved)[1]);
         CU_ASSERT(left > 2.5 / 272 * tolerance[i]);
@@ -104,15 +104,15 @@ static void test_tighter(void)
     dal_run_spec spec = fixture_spec(fixture_system(model), "implicit-midpoint", DAL_PHYSICAL, 0.5);
     spec.options.solver = DAL_FIXED_POINT;
     dal_run *solved = stepped(&spec, 1);
-    spec.options.extra_sweeps = 3;
+    spec.options.extra_iterations = 3;
     dal_run *more = stepped(&spec, 1);
     CU_ASSERT_EQUAL(dal_run_evaluations(more), dal_run_evaluations(solved) + 3);
     for (int i = 0; i < 2; i++)
         CU_ASSERT(fabs(dal_run_state(more)[i] - dal_run_state(solved)[i]) < 1e-15);
     /* Early stopping and then sweeps again: each contracts by 1/16. */
-    spec.options.solve_to = 1e-4;
+    spec.options.solver_tolerance = 1e-4;
     dal_run *again = stepped(&spec, 1);
-    spec.options.extra_sweeps = 0;
+    spec.options.extra_iterations = 0;
     dal_run *loose = stepped(&spec, 1);
     const double before = dal_run_state(loose)[1] - dal_run_state(solved)[1];
     const double after = dal_run_state(again)[1] - dal_run_state(solved)[1];
@@ -131,8 +131,8 @@ static void test_lanes(void)
     dal_model *model = fixture_model(oscillator);
     dal_run_spec spec = fixture_spec(fixture_system(model), "gauss6", DAL_LIFTED, 0.4);
     dal_batch *batch = NULL;
-    spec.options.solve_to = 1e-6;
-    spec.options.extra_sweeps = 1;
+    spec.options.solver_tolerance = 1e-6;
+    spec.options.extra_iterations = 1;
     spec.options.sums = DAL_SUMS_PLAIN;
     CU_ASSERT_EQUAL_FATAL(dal_batch_create(&batch, &spec, COUNT, 0, NULL), DAL_OK);
     for (int lane = 0; lane < COUNT; lane++) {
@@ -158,11 +158,11 @@ static void test_refused(void)
 {
     dal_model *model = fixture_model(oscillator);
     dal_run_spec spec = fixture_spec(fixture_system(model), "implicit-midpoint", DAL_PHYSICAL, 0.5);
-    spec.options.solve_to = -1e-3;
-    fixture_refused(&spec, DAL_ARGUMENT, "option solve-to: -0.001 is not from 0 to 1");
-    spec.options.solve_to = NAN;
-    fixture_refused(&spec, DAL_ARGUMENT, "option solve-to: nan");
-    spec.options.solve_to = 0.0;
+    spec.options.solver_tolerance = -1e-3;
+    fixture_refused(&spec, DAL_ARGUMENT, "option solver-tolerance: -0.001 is not from 0 to 1");
+    spec.options.solver_tolerance = NAN;
+    fixture_refused(&spec, DAL_ARGUMENT, "option solver-tolerance: nan");
+    spec.options.solver_tolerance = 0.0;
     spec.options.sums = 2;
     fixture_refused(&spec, DAL_ARGUMENT, "option sums: 2 is not from 0 to 1");
     dal_model_free(model);

@@ -169,7 +169,7 @@ static int write_budget(const char *path, const dal_error_budget *e)
 
 /* name, value, default, help; OPTION is called with the name as a word of C */
 #define OWN_LIST(OPTION)                                                                           \
-    OPTION(long_steps, "N", "10000", "runs the first N steps in quad precision too; 0: none")      \
+    OPTION(quad_steps, "N", "10000", "runs the first N steps in quad precision too; 0: none")      \
     OPTION(output, "FILE.csv|-", NULL, "writes a CSV file, or CSV to standard output")             \
     OPTION(native, "auto|on|off", "auto", "runs in double precision use compiled code")
 
@@ -183,7 +183,7 @@ static const char notes[] =
     "distinguish.\n"
     "\n"
     "The shares of the first four add up to 1 where rates are compared.  They hold for the first "
-    "--long-steps steps, since quad precision is a hundred times slower.\n";
+    "--quad-steps steps, since quad precision is a hundred times slower.\n";
 
 enum { OWN_LIST(CLI_OWN) OWN_OPTIONS };
 
@@ -191,8 +191,8 @@ static int parse_explain_option(void *user, int option, const char *value)
 {
     explain_study *s = user;
     switch (option) {
-    case OWN_long_steps:
-        return cli_integer("--long-steps", value, 0, MAX_STEPS, &s->quad_steps);
+    case OWN_quad_steps:
+        return cli_integer("--quad-steps", value, 0, MAX_STEPS, &s->quad_steps);
     case OWN_native:
         return native_parse(value, &s->native);
     default:
@@ -228,7 +228,7 @@ static int explain_run(explain_study *s)
 int command_explain(int argc, char **argv)
 {
     cli_option own[OWN_OPTIONS] = {OWN_LIST(CLI_OPTION)};
-    own[OWN_long_steps].name = "long-steps";
+    own[OWN_quad_steps].name = "quad-steps";
     /* The comparison runs differ in precision themselves. */
     const analysis_command command = {.own = own,
                                       .own_count = OWN_OPTIONS,

@@ -6,15 +6,20 @@
 
 enum { SAMPLES_MOST = 1000000000, STATISTICS_MOST = 1000000000 };
 
-/* One table of both kinds of option; words is NULL unless an option is one of several words. */
+/* What --help says of the default of each type; of a choice, its words. */
+#define DEFAULT_double(initial, value)     #initial
+#define DEFAULT_int(initial, value)        #initial
+#define DEFAULT_dal_choice(initial, value) value
+
+/* One table of both kinds of option. */
 static const struct {
-    const char *name, *value, *words, *initial, *help;
+    const char *name, *value, *initial, *help;
 } table[REQUEST_OPTIONS] = {
-#define X(name, value, initial, help) {#name, value, NULL, initial, help},
+#define X(name, value, initial, help) {#name, value, initial, help},
     REQUEST_OPTION_LIST(X)
 #undef X
-#define X(type, name, word, initial, least, greatest, words, help)                                 \
-    {word, #type, words, #initial, help},
+#define X(type, name, word, initial, least, greatest, value, help)                                 \
+    {word, value, DEFAULT_##type(initial, value), help},
         DAL_OPTION_LIST(X)
 #undef X
 };
@@ -24,31 +29,11 @@ static int is_required(int option)
     return option == REQUEST_integrator || option == REQUEST_step || option == REQUEST_time;
 }
 
-/* What --help calls the value of an option. */
-static const char *value_of(int option)
-{
-    switch (option) {
-    case REQUEST_step:
-        return "H";
-    case REQUEST_solve_to:
-        return "CHANGE";
-    case REQUEST_tolerance:
-        return "TOLERANCE";
-    default:
-        return strcmp(table[option].value, "int") == 0 ? "N" : table[option].value;
-    }
-}
-
 void request_list_options(cli_option *options)
 {
-    for (int i = 0; i < REQUEST_OPTIONS; i++) {
-        /* Of several words the first is the default. */
-        const char *words = table[i].words;
-        options[i] = (cli_option){table[i].name, words ? words : value_of(i), table[i].help,
-                                  is_required(i) ? NULL
-                                  : words        ? words
-                                                 : table[i].initial};
-    }
+    for (int i = 0; i < REQUEST_OPTIONS; i++)
+        options[i] = (cli_option){table[i].name, table[i].value, table[i].help,
+                                  is_required(i) ? NULL : table[i].initial};
 }
 
 int request_option_is_number(int option)
@@ -61,7 +46,7 @@ int request_option_is_number(int option)
     case REQUEST_start:
         return 0;
     default:
-        return !table[option].words;
+        return !strchr(table[option].value, '|');
     }
 }
 

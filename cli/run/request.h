@@ -21,7 +21,7 @@ enum {
 #define X(name, value, initial, help) REQUEST_##name,
     REQUEST_OPTION_LIST(X)
 #undef X
-#define X(type, name, word, initial, least, greatest, words, help) REQUEST_##name,
+#define X(type, name, word, initial, least, greatest, value, help) REQUEST_##name,
         DAL_OPTION_LIST(X)
 #undef X
             REQUEST_OPTIONS

@@ -109,7 +109,7 @@ static int take_statistics(void *user, const document *doc, yaml_node_t *value)
 /* ---- options of the runs ---- */
 
 static const char *const option_words[STUDY_OPTIONS] = {
-#define X(type, name, word, initial, least, greatest, words, help) word,
+#define X(type, name, word, initial, least, greatest, value, help) word,
     DAL_OPTION_LIST(X)
 #undef X
 };

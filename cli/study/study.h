@@ -54,7 +54,7 @@ enum { STUDY_NAME = 80, STUDY_STEPS = 16 };
 
 /* The options of the library, by number and by word. */
 enum {
-#define X(type, name, word, initial, least, greatest, words, help) STUDY_OPTION_##name,
+#define X(type, name, word, initial, least, greatest, value, help) STUDY_OPTION_##name,
     DAL_OPTION_LIST(X)
 #undef X
         STUDY_OPTIONS

@@ -98,8 +98,8 @@ static const char *become(dal_run_spec *spec, dal_comparison_run comparison)
     dal_options *o = &spec->options;
     switch (comparison) {
     case DAL_COMPARISON_LOOSER:
-        o->extra_sweeps = 0;
-        o->solve_to = fmin(fmax(looser_by * o->solve_to, looser), 1.0);
+        o->extra_iterations = 0;
+        o->solver_tolerance = fmin(fmax(looser_by * o->solver_tolerance, looser), 1.0);
         return solves(spec) ? NULL : nothing;
     case DAL_COMPARISON_SUMS:
         o->sums = o->sums == DAL_SUMS_PLAIN ? DAL_SUMS_COMPENSATED : DAL_SUMS_PLAIN;
@@ -107,10 +107,10 @@ static const char *become(dal_run_spec *spec, dal_comparison_run comparison)
     case DAL_COMPARISON_PROJECTION:
         return project(spec);
     case DAL_COMPARISON_QUAD:
-        o->precision = DAL_LONG_NUMBERS;
+        o->precision = DAL_QUAD;
         break;
     case DAL_COMPARISON_QUAD_HALVED:
-        o->precision = DAL_LONG_NUMBERS; /* and */
+        o->precision = DAL_QUAD; /* and */
         o->step *= 0.5;
         break;
     case DAL_COMPARISON_HALVED:
@@ -119,8 +119,8 @@ static const char *become(dal_run_spec *spec, dal_comparison_run comparison)
     default:
         break;
     }
-    o->solve_to = 0.0;
-    o->extra_sweeps += FURTHER;
+    o->solver_tolerance = 0.0;
+    o->extra_iterations += FURTHER;
     return comparison == DAL_COMPARISON_TIGHTER && !solves(spec) ? nothing : NULL;
 }
 

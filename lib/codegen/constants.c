@@ -46,7 +46,7 @@ void dal__put_constants(dal__generation *g)
         {"SLOPES", k->slopes},
         {"SOLVER", k->options.solver},
         {"ITERATIONS", k->options.iterations},
-        {"EXTRA_SWEEPS", k->options.extra_sweeps},
+        {"EXTRA_ITERATIONS", k->options.extra_iterations},
         {"PLAIN", k->options.sums == DAL_SUMS_PLAIN},
         {"PROPERTIES", (int)k->system->properties},
         {"REACTION", k->reaction},
@@ -62,7 +62,7 @@ void dal__put_constants(dal__generation *g)
     put_lanes(g);
     for (size_t i = 0; i < sizeof list / sizeof *list; i++)
         dal__text_print(&g->text, "#define DAL__%s %d\n", list[i].name, list[i].value);
-    dal__text_put(&g->text, "#define DAL__SOLVE_TO ");
-    dal__text_number(&g->text, k->options.solve_to);
+    dal__text_put(&g->text, "#define DAL__SOLVER_TOLERANCE ");
+    dal__text_number(&g->text, k->options.solver_tolerance);
     dal__text_put(&g->text, "\n");
 }

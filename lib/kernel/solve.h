@@ -9,9 +9,9 @@
  * a few sweeps there are two more ends: a d far below rounding level, for where some components are
  * smaller than the roundings of others, they alone may answer to d, which then decreases without
  * end, however slowly; and a small d than which some sweeps brought no less, cycles of roundings.
- * Each lane ends by itself and is then left alone, so its bits do not depend on its neighbours.  To
- * see what the solver does to a run one can ask it to end earlier (DAL_SOLVE_TO) or to iterate on
- * (DAL_EXTRA_SWEEPS).
+ * Each lane ends by itself and is then left alone, so its bits do not depend on its neighbours.  A
+ * run may end iterations earlier (DAL_SOLVER_TOLERANCE) or later (DAL_EXTRA_ITERATIONS), to show
+ * what the solver does to it.
  *
  * Groups of lanes that are stepped as one system (DAL_JOINED) have norms and masks of their own.
  *
@@ -195,8 +195,8 @@ DAL_INLINE dal_mask dal__quiet(const dal_step *s, dal_block *b, int j, int k)
     const dal_mask stagnates = dal__is_enough(b, j, k, now, size) |
                                (once & dal_less_equal(now, DAL__ROUNDING * size)) |
                                (twice & dal_less_equal(now, DAL__SMALL * size));
-    if (DAL_RARELY(DAL_SOLVE_TO(s) > 0.0))
-        return stagnates | dal_less_equal(now, DAL_SOLVE_TO(s) * size);
+    if (DAL_RARELY(DAL_SOLVER_TOLERANCE(s) > 0.0))
+        return stagnates | dal_less_equal(now, DAL_SOLVER_TOLERANCE(s) * size);
     return stagnates;
 }
 
@@ -257,7 +257,7 @@ DAL_INLINE void dal__iterate(dal_step *s, dal_equation *eq, dal_map *map, dal_ma
     }
     DAL_EACH(j, DAL_JOINED) lanes[j] &= ~eq->active[j];
     DAL_EACH(j, DAL_JOINED) eq->active[j] = lanes[j];
-    for (int k = 0; k < DAL_EXTRA_SWEEPS(s); k++) dal__sweep(s, eq, map, newton);
+    for (int k = 0; k < DAL_EXTRA_ITERATIONS(s); k++) dal__sweep(s, eq, map, newton);
 }
 
 DAL_INLINE void dal__remember(dal_block *b)

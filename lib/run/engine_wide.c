@@ -121,8 +121,8 @@ static void prepare_step(engine *e)
     s->r = e->carried + s->dim;
     s->solver = k->options.solver;
     s->iterations = k->options.iterations;
-    s->solve_to = k->options.solve_to;
-    s->extra_sweeps = k->options.extra_sweeps;
+    s->solver_tolerance = k->options.solver_tolerance;
+    s->extra_iterations = k->options.extra_iterations;
     s->plain = k->options.sums == DAL_SUMS_PLAIN;
     s->has_jacobian = k->system->call.jacobian != NULL;
     s->properties = k->system->properties;

@@ -1,12 +1,15 @@
 /* options.c - the options of a run, all from the one table DAL_OPTION_LIST. */
 #include "core/arguments.h"
+
 #include <math.h>
+#include <stdbool.h>
+#include <stddef.h>
 #include <string.h>
 
 dal_options dal_options_default(void)
 {
     return (dal_options){
-#define X(type, name, word, initial, least, greatest, words, help) .name = initial,
+#define X(type, name, word, initial, least, greatest, value, help) .name = initial,
         DAL_OPTION_LIST(X)
 #undef X
     };
@@ -31,55 +34,58 @@ static dal_status number(const char *name, const char *text, double *value, dal_
 }
 
 typedef struct option {
-    const char *name, *words;
+    const char *name, *value;
     double least, greatest;
-    int whole;
+    bool is_whole, is_choice;
+    size_t offset;
 } option;
 
 static dal_status parse(const option *k, const char *text, double *value, dal_error *error)
 {
-    if (k->words) {
-        const int i = choice(k->words, text);
-        if (i < 0)
-            return dal__fail(error, DAL_ARGUMENT, "option %s: '%.60s' is not one of %s", k->name,
-                             text, k->words);
-        *value = i;
-        return DAL_OK;
+    if (k->is_choice) {
+        *value = choice(k->value, text);
+        if (*value >= 0) return DAL_OK;
+        return dal__fail(error, DAL_ARGUMENT, "option %s: '%.60s' is not one of %s", k->name, text,
+                         k->value);
     }
     DAL_TRY(number(k->name, text, value, error));
-    const int good = *value >= k->least && *value <= k->greatest;
-    if (good && (!k->whole || *value == floor(*value))) return DAL_OK;
+    const bool is_in_range = *value >= k->least && *value <= k->greatest;
+    if (is_in_range && (!k->is_whole || *value == floor(*value))) return DAL_OK;
     return dal__fail(error, DAL_ARGUMENT, "option %s: %.60s is not %s from %g to %g", k->name, text,
-                     k->whole ? "a whole number" : "a number", k->least, k->greatest);
+                     k->is_whole ? "a whole number" : "a number", k->least, k->greatest);
 }
 
-#define DAL__WHOLE_int    1
-#define DAL__WHOLE_double 0
+/* of each type of options: is_whole, is_choice */
+#define DAL__TYPE_double     false, false
+#define DAL__TYPE_int        true, false
+#define DAL__TYPE_dal_choice true, true
 
 dal_status dal_options_set(dal_options *options, const char *name, const char *text,
                            dal_error *error)
 {
     static const option table[] = {
-#define X(type, name, word, initial, least, greatest, words, help)                                 \
-    {word, words, least, greatest, DAL__WHOLE_##type},
+#define X(type, field, word, initial, least, greatest, value, help)                                \
+    {word, value, least, greatest, DAL__TYPE_##type, offsetof(dal_options, field)},
         DAL_OPTION_LIST(X)
 #undef X
     };
     enum { COUNT = sizeof table / sizeof *table };
+    const char *names[COUNT];
     DAL_REQUIRE(options, error);
     DAL_REQUIRE(name, error);
     DAL_REQUIRE(text, error);
-    const char *names[COUNT];
-    double value = 0.0;
-    for (int i = 0; i < COUNT; i++) names[i] = table[i].name;
-#define X(type, field, word, initial, least, greatest, words, help)                                \
-    if (strcmp(name, word) == 0) {                                                                 \
-        const option k = {word, words, least, greatest, DAL__WHOLE_##type};                        \
-        DAL_TRY(parse(&k, text, &value, error));                                                   \
-        options->field = (type)value;                                                              \
-        return DAL_OK;                                                                             \
+    for (int i = 0; i < COUNT; i++) {
+        const option *k = &table[i];
+        void *field = (char *)options + k->offset;
+        double value = 0.0;
+        names[i] = k->name;
+        if (strcmp(name, k->name) != 0) continue;
+        DAL_TRY(parse(k, text, &value, error));
+        if (k->is_whole)
+            *(int *)field = (int)value;
+        else
+            *(double *)field = value;
+        return DAL_OK;
     }
-    DAL_OPTION_LIST(X)
-#undef X
     return dal__unknown(error, "option", name, names, COUNT);
 }

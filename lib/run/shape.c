@@ -122,7 +122,7 @@ static dal_status check_options(const dal_options *o, dal_error *error)
                          o->tolerance);
     if (o->solver < DAL_SOLVER_AUTO || o->solver > DAL_NEWTON)
         return dal__fail(error, DAL_ARGUMENT, "there is no solver number %d", o->solver);
-#define X(type, name, word, initial, least, greatest, words, help)                                 \
+#define X(type, name, word, initial, least, greatest, value, help)                                 \
     if (!(o->name >= least && o->name <= greatest))                                                \
         return dal__fail(error, DAL_ARGUMENT, "option %s: %g is not from %g to %g", word,          \
                          (double)o->name, (double)least, (double)greatest);
@@ -264,6 +264,6 @@ dal_status dal__shape_init(dal__shape *k, const dal_run_spec *spec, dal_error *e
     DAL_TRY(check_chain(k, error));
     DAL_TRY(check_control(k, error));
     DAL_TRY(check_needs(k, error));
-    if (k->options.precision == DAL_LONG_NUMBERS) DAL_TRY(dal__long_check(k, error));
+    if (k->options.precision == DAL_QUAD) DAL_TRY(dal__long_check(k, error));
     return measure(k, error);
 }

@@ -1,7 +1,7 @@
 # explain: the error sources of a drift.
 
 case_is "explain: truncation of rk4 on the sleigh"
-try 0 explain chaplygin-sleigh --integrator rk4 --space physical --step 0.1 --time 30 --long-steps 200
+try 0 explain chaplygin-sleigh --integrator rk4 --space physical --step 0.1 --time 30 --quad-steps 200
 silent
 prints "^chaplygin-sleigh, rk4, physical, h = 0.1: 300 steps, the first 200 in quad precision too$"
 prints "^D1: "
@@ -11,7 +11,7 @@ prints "^not run: equations solved less far: the method solves no equations$"
 
 case_is "explain: CSV"
 try 0 explain chaplygin-sleigh --integrator gauss8 --space physical --step 0.1 --time 30 \
-    --solve-to 1e-8 --long-steps 200 --output why.csv
+    --solver-tolerance 1e-8 --quad-steps 200 --output why.csv
 silent
 empty
 holds "heads" grep -q '^observable,kind,name,steps,share,margin,rate,rate_low,rate_high,deviation,size,trend,confidence,words$' why.csv
@@ -20,7 +20,7 @@ holds "columns" awk -F, 'NF != 14 { exit 1 }' plain.csv
 holds "the solver's share" awk -F, '$1 == "D1" && $3 == "solver" && $5 > 0.99 { found = 1 } END { exit !found }' why.csv
 holds "rows" awk -F, '$1 == "D1" { n[$2]++ } END { exit !(n["run"] == 9 && n["source"] == 5) }' why.csv
 try 0 explain chaplygin-sleigh --integrator gauss8 --space physical --step 0.1 --time 30 \
-    --solve-to 1e-8 --long-steps 200 --output -
+    --solver-tolerance 1e-8 --quad-steps 200 --output -
 holds "other rows on standard output" cmp -s out why.csv
 
 # What is no number has no error sources.
@@ -31,14 +31,14 @@ lagrangian: x'^2/2 - x^4
 start: {x': 1}
 invariants: {never: log(-1 - x^2), later: log(0.5 - x)}
 END
-try 0 explain nowhere.yaml --integrator rk4 --step 0.1 --time 10 --long-steps 50 --output nowhere.csv
+try 0 explain nowhere.yaml --integrator rk4 --step 0.1 --time 10 --quad-steps 50 --output nowhere.csv
 holds "shares" awk -F, '($1 == "never" || $1 == "later") && $2 == "source" {
     n++; if ($5 != "" || $NF != "it is not finite") exit 1 } END { exit n != 10 }' nowhere.csv
-try 0 explain nowhere.yaml --integrator rk4 --step 0.1 --time 10 --long-steps 50
+try 0 explain nowhere.yaml --integrator rk4 --step 0.1 --time 10 --quad-steps 50
 holds "a ratio that is none" sh -c '! grep -q nan out'
 
 case_is "explain: no quad precision"
-try 0 explain line.yaml --integrator rk4 --step 0.1 --time 10 --long-steps 0
+try 0 explain line.yaml --integrator rk4 --step 0.1 --time 10 --quad-steps 0
 prints "no quad precision: not asked for"
 
 case_is "explain: bad input"
@@ -50,7 +50,7 @@ try 2 explain chaplygin-sleigh --integrator rk4 --step 0.1 --time 1 --samples 5
 says "unknown option '--samples'"
 try 2 explain chaplygin-sleigh --integrator rk4 --step 0.1 --time 1 --output why.txt
 says "does not end in .csv"
-try 2 explain chaplygin-sleigh --integrator rk4 --step 0.1 --time 1 --long-steps -1
+try 2 explain chaplygin-sleigh --integrator rk4 --step 0.1 --time 1 --quad-steps -1
 says "not in 0"
 try 4 explain chaplygin-sleigh --integrator rk4 --step 0.1 --time 1 --output /nowhere/why.csv
 says "cannot create"

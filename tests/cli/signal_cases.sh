@@ -6,7 +6,7 @@ coordinates: [x]
 lagrangian: (x'^2 - x^2)/2
 start: {x: 1}
 END
-slow="./swing.yaml --integrator dop853 --tolerance 1e-28 --precision long --step 1e5 --time 1e5"
+slow="./swing.yaml --integrator dop853 --tolerance 1e-28 --precision quad --step 1e5 --time 1e5"
 # alive PID: it is neither gone nor a zombie.
 alive() { kill -0 "$1" 2>/dev/null && ! grep -q '^State:.Z' "/proc/$1/status"; }
 # ends PID: within three seconds.

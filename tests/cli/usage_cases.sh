@@ -43,7 +43,7 @@ fi
 
 case_is "every option of a run is told of"
 try 0 run --help
-for option in integrator step time samples space set start solver iterations extend-energy tolerance solve-to extra-sweeps sums precision output; do
+for option in integrator step time samples space set start solver iterations extend-energy tolerance solver-tolerance extra-iterations sums precision output; do
     prints "^  --$option "
 done
 
@@ -56,7 +56,7 @@ done <commands
 try 0 run --help
 prints '^  --step H '
 prints '^  --tolerance TOLERANCE( |$)'
-prints '^  --solve-to CHANGE( |$)'
+prints '^  --solver-tolerance CHANGE( |$)'
 try 0 order --help
 holds "order: other defaults" sh -c 'tr -s " \n" " " <out | grep -q -- \
     "--time T integrate from t = 0 to t = T (10) .* (physical) --solver"'
