@@ -8,10 +8,10 @@ root=$(mktemp -d) || exit 1
 trap 'rm -rf "$root"' EXIT
 fail() { echo "install: $*" >&2; exit 1; }
 
-quiet() { "$@" >"$root/log" 2>&1 || { cat "$root/log" >&2; fail "$* failed"; }; }
+logged() { "$@" >"$root/log" 2>&1 || { cat "$root/log" >&2; fail "$* failed"; }; }
 
 prefix=$root/usr
-quiet $make --no-print-directory BUILD="$build" PREFIX="$prefix" DESTDIR= install
+logged $make --no-print-directory BUILD="$build" PREFIX="$prefix" DESTDIR= install
 PKG_CONFIG_PATH=$prefix/lib/pkgconfig
 export PKG_CONFIG_PATH
 [ "$(pkg-config --modversion dalembert)" = "$("$prefix/bin/dalembert" --version | sed 's/.* //')" ] ||
@@ -20,8 +20,8 @@ export PKG_CONFIG_PATH
 # Each example against the shared and against the static library.
 for name in embed by_hand own_integrator contact_chain isokinetic_fluid; do
     flags="-std=c11 -Wall -Wextra -Werror -Wno-psabi -ffp-contract=off $CFLAGS examples/$name.c"
-    quiet $cc $flags $(pkg-config --cflags --libs dalembert) -lm -o "$root/$name"
-    quiet $cc $flags $(pkg-config --cflags dalembert) "$prefix/lib/libdalembert.a" \
+    logged $cc $flags $(pkg-config --cflags --libs dalembert) -lm -o "$root/$name"
+    logged $cc $flags $(pkg-config --cflags dalembert) "$prefix/lib/libdalembert.a" \
         $(pkg-config --libs yaml-0.1) -lm -o "$root/$name-static"
     LD_LIBRARY_PATH=$prefix/lib "$root/$name" >"$root/$name.txt" || fail "$name failed"
     "$root/$name-static" >"$root/$name-static.txt" || fail "$name-static failed"
@@ -29,9 +29,9 @@ for name in embed by_hand own_integrator contact_chain isokinetic_fluid; do
 done
 
 # A generated file needs no library at all.
-quiet "$prefix/bin/dalembert" generate chaplygin-sleigh --integrator gauss4+project \
+logged "$prefix/bin/dalembert" generate chaplygin-sleigh --integrator gauss4+project \
     --prefix sleigh -o "$root/sleigh.c"
-quiet $cc -std=c11 -Wall -Wextra -Wpedantic -Werror -Wno-psabi $CFLAGS -I"$root" \
+logged $cc -std=c11 -Wall -Wextra -Wpedantic -Werror -Wno-psabi $CFLAGS -I"$root" \
     examples/generated.c -lm -o "$root/generated"
 "$root/generated" >"$root/generated.txt" || fail "generated failed"
 
@@ -64,10 +64,10 @@ soname=libdalembert.so.$("$prefix/bin/dalembert" --version | sed 's/.* //; s/\.[
 objdump -p "$prefix/lib/$soname" | grep -q "SONAME *$soname\$" || fail "the soname is not $soname"
 
 # DESTDIR, with a space; uninstall leaves no file.
-quiet $make --no-print-directory BUILD="$build" PREFIX=/opt/dal DESTDIR="$root/a b" install
+logged $make --no-print-directory BUILD="$build" PREFIX=/opt/dal DESTDIR="$root/a b" install
 [ -x "$root/a b/opt/dal/bin/dalembert" ] || fail "DESTDIR does not work"
 grep -q "^prefix=/opt/dal$" "$root/a b/opt/dal/lib/pkgconfig/dalembert.pc" ||
     fail "dalembert.pc knows DESTDIR"
-quiet $make --no-print-directory BUILD="$build" PREFIX=/opt/dal DESTDIR="$root/a b" uninstall
+logged $make --no-print-directory BUILD="$build" PREFIX=/opt/dal DESTDIR="$root/a b" uninstall
 [ -z "$(find "$root/a b" -type f -o -type l)" ] || fail "uninstall leaves files"
 echo "install: ok"

@@ -1,4 +1,4 @@
-// page.js - runs inside a page of the report and tells its parent what is wrong with it.
+// page.js - runs inside a page of the report and reports to its parent what is wrong with it.
 addEventListener('load', () => {
     const [page, width] = location.hash.slice(1).split(',');
     const scheme = matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light';
@@ -78,6 +78,6 @@ addEventListener('load', () => {
         if (!image.complete || !image.naturalWidth) fault(`${name}: is not drawn`);
         else look(image, name);
     }
-    say(`looked: ${scheme}, ${page}, ${width} pixels: ` +
+    say(`examined: ${scheme}, ${page}, ${width} pixels: ` +
         `${count.texts} texts, ${count.figures} figures with ${count.letters} labels`);
 });

@@ -1,6 +1,6 @@
 #!/bin/sh
 # run.sh PROGRAM - the pages of `dalembert report` in headless Chromium: in light and dark, 1280 and
-# 400 pixels wide, nothing is cut off, covered or too faint; page.js looks, inside each page.
+# 400 pixels wide, nothing is cut off, covered or too faint; page.js examines each page from inside.
 case $1 in /*) program=$1 ;; *) program=$PWD/$1 ;; esac
 here=$(cd "$(dirname "$0")" && pwd)
 for browser in chromium chromium-browser google-chrome; do
@@ -14,8 +14,8 @@ work=$(mktemp -d) || exit 1
 trap 'rm -rf "$work"' EXIT
 cd "$work" || exit 1
 
-cat >looks.yaml <<'END_OF_STUDY'
-title: The looks of a report
+cat >page.yaml <<'END_OF_STUDY'
+title: Appearance of a report
 integrators: [all, rk4+project]
 step: [0.1, 0.05]
 time: 4
@@ -26,7 +26,7 @@ systems:
   - {system: damped-oscillator, integrators: [rk4, symplectic-euler-11], step: 0.5, time: 40}
 END_OF_STUDY
 {
-    "$program" study looks.yaml --output study || [ $? -eq 1 ]
+    "$program" study page.yaml --output study || [ $? -eq 1 ]
     "$program" report study
     "$program" run snakeboard --integrator gauss4 --step 0.05 --time 5 --output run
     "$program" report run
@@ -59,12 +59,12 @@ for scheme in light dark; do
         --user-data-dir="$work/profile" --blink-settings=preferredColorScheme=$dark \
         --window-size=1400,1000 --virtual-time-budget=60000 --dump-dom "file://$work/frames.html" \
         >dom 2>messages
-    pages=$(grep -c "^looked: $scheme," dom)
+    pages=$(grep -c "^examined: $scheme," dom)
     faults=$(grep -c '^fault:' dom)
     grep '^fault:' dom | head -20
-    [ "$pages" -eq 6 ] || { echo "browser: $pages of 6 pages were looked at"; head -5 messages; }
+    [ "$pages" -eq 6 ] || { echo "browser: $pages of 6 pages were examined"; head -5 messages; }
     [ "$pages" -eq 6 ] && [ "$faults" -eq 0 ] || failed=1
-    sed -n "s/^looked: /browser: /p" dom
+    sed -n "s/^examined: /browser: /p" dom
 done
 [ $failed -eq 0 ] && echo "browser: ok"
 exit $failed

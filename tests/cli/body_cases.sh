@@ -63,7 +63,7 @@ if there gnuplot; then
     is_ellipse 0.7 0.7
     holds "more than that" test "$(wc -l <outline)" -eq 1
 
-    case_is "a robot: a circle and where it looks"
+    case_is "a robot: a circle and its direction"
     draws robot
     is_ellipse 0.9 0.9
     holds "no front" test "$(tail -n +2 outline)" = '0.000,0.000 0.900,0.000'

@@ -1,6 +1,6 @@
 # Directories of runs that are read while nothing can be written, and rows that are cut short.
 
-# limited BLOCKS STATUS ARGUMENT...: no file may grow beyond so many blocks of 512 bytes, as on a full
+# limited BLOCKS STATUS ARGUMENT...: no file may grow beyond BLOCKS blocks of 512 bytes, as on a full
 # disk.
 limited() {
     blocks=$1 expected=$2

@@ -1,4 +1,4 @@
-# Runs that end before their time: the rows so far are kept, the message tells why and when.
+# Runs that end before their time: the rows so far are kept, the message names cause and time.
 
 # breaks MESSAGE LEAST MOST ARGUMENT...: exit 3, LEAST..MOST lines of rows.
 breaks() {
@@ -51,7 +51,7 @@ holds "17 lines" [ "$(wc -l <rows.csv)" -eq 17 ]
 holds "whole lines" awk -F, 'NR == 1 { n = NF } NF != n { exit 1 }' rows.csv
 try 3 run chaplygin-sleigh-nonlinear --integrator gauss8 --step 0.01 --time 3 --samples 30 \
     --output rows.npy
-holds "the header tells of 16 rows" tells rows.npy 16
+holds "16 rows" has_rows rows.npy 16
 try 3 run chaplygin-sleigh-nonlinear --integrator gauss8 --step 0.01 --time 3 --samples 30 \
     --output broken
 holds "other rows" cmp rows.npy broken/trajectory.npy

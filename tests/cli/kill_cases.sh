@@ -1,4 +1,4 @@
-# Runs that are killed (SIGKILL) at random moments, again and again, and gone on with: the bytes are
+# Runs that are killed (SIGKILL) at random moments, again and again, and resumed: the bytes are
 # those of a run that was left alone.  KILLS, 52 when not given, is how many there are in all; SEED
 # draws the moments.  Between two kills the file of rows must be one that can be read.
 
@@ -14,14 +14,14 @@ killed=0
 
 milliseconds() { echo $(($(date +%s%N) / 1000000)); }
 
-# whole_rows FILE: the file ends behind the rows that its header tells of, or later.
+# whole_rows FILE: the file ends behind the rows that its header counts, or later.
 whole_rows() {
     [ -s "$1" ] || return 0 # killed before there was a header
     set -- "$1" "$(head -c 8192 "$1" | tr -cd ' -~\n' | sed -n "1s/.*'shape': (\([0-9]*\),).*/\1/p")"
     [ -n "$2" ] && [ "$(wc -c <"$1")" -ge $((header_bytes + $2 * row_bytes)) ]
 }
 
-# one_life MOMENT COMMAND...: runs it for so many seconds at most; true when it was killed.
+# one_life MOMENT COMMAND...: runs it for MOMENT seconds at most; true when it was killed.
 one_life() {
     life=$1
     shift
@@ -75,7 +75,7 @@ for native in $natives; do
     done
 done
 
-# With CALLS set, which takes half a minute: killed, or told that the disk is full, at each call of
+# With CALLS set, which takes half a minute: killed, or with a full disk, at each call of
 # the system that changes a file.
 if [ -n "${CALLS:-}" ] && there strace; then
     motion="$motion --samples 3000 --time 6 --native off"

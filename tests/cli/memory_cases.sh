@@ -4,14 +4,14 @@
 
 ALLOCATIONS=${ALLOCATIONS:-16}
 shim=$work/fail_allocation.so
-# starved K COUNT ARGUMENT...: allocation K and COUNT - 1 after it fail; K = 0: none.
-starved() {
+# without_memory K COUNT ARGUMENT...: allocation K and COUNT - 1 after it fail; K = 0: none.
+without_memory() {
     k=$1 count=$2
     shift 2
     timeout 60 env LD_PRELOAD="$shim" FAIL_AT=$k FAIL_COUNT=$count FAIL_LOG="$work/allocations" \
         "$program" "$@" >out 2>err
 }
-# numbers TOTAL: which of so many allocations fail: the first and last few and some between.
+# numbers TOTAL: which of TOTAL allocations fail: the first and last few and some between.
 numbers() {
     awk -v total="$1" -v most="$ALLOCATIONS" 'BEGIN {
         step = total > most ? total / most : 1
@@ -23,14 +23,14 @@ numbers() {
 fails_cleanly() {
     rm -rf place
     prepare
-    starved 0 1 "$@"
+    without_memory 0 1 "$@"
     well=$? total=$(cat allocations) fault=
     cp out well.out
     for k in $(numbers "$total"); do
         for count in 1 1000000; do
             rm -rf place
             prepare
-            starved "$k" "$count" "$@"
+            without_memory "$k" "$count" "$@"
             status=$?
             if [ $status -eq "$well" ]; then
                 [ -n "$exact" ] && ! cmp -s out well.out && fault="$fault $k:other"
@@ -44,15 +44,15 @@ fails_cleanly() {
 }
 
 if there cc && cc -shared -fPIC -O1 "$here/fail_allocation.c" -o "$shim" 2>/dev/null &&
-    starved 0 1 --version && [ ! -s err ]; then
+    without_memory 0 1 --version && [ ! -s err ]; then
     printf '%s\n' 'title: t' 'integrators: [rk4, gauss4]' 'step: 0.1' 'time: 1' 'systems:' \
-        '  - {system: line.yaml, set: {k: [1, 2]}}' >starved.yaml
+        '  - {system: line.yaml, set: {k: [1, 2]}}' >scarce.yaml
     motion="line.yaml --integrator rk4 --step 0.1 --time 1"
     mkdir scarce
     try 0 run $motion --output scarce/whole
     mkdir scarce/halves
-    try 0 study starved.yaml --shard 1/2 --output scarce/halves/one
-    try 0 study starved.yaml --shard 2/2 --output scarce/halves/two
+    try 0 study scarce.yaml --shard 1/2 --output scarce/halves/one
+    try 0 study scarce.yaml --shard 2/2 --output scarce/halves/two
     cp -R scarce/halves/two scarce/halves/begun
     rm -rf scarce/halves/begun/runs/*
 
@@ -72,7 +72,7 @@ if there cc && cc -shared -fPIC -O1 "$here/fail_allocation.c" -o "$shim" 2>/dev/
 
     case_is "no memory: directories"
     fails_cleanly run $motion --output place
-    fails_cleanly study starved.yaml --output place --threads 2
+    fails_cleanly study scarce.yaml --output place --threads 2
     prepare() { cp -R scarce/halves/begun place; }
     fails_cleanly resume place --threads 2
     prepare() { cp -R scarce/halves place; }
@@ -82,12 +82,12 @@ if there cc && cc -shared -fPIC -O1 "$here/fail_allocation.c" -o "$shim" 2>/dev/
         fails_cleanly report place
     fi
 
-    case_is "no memory: a run that went without it is gone on with"
+    case_is "no memory: a run that failed for it is resumed"
     long="line.yaml --integrator rk4 --step 1e-3 --time 5000 --native off"
     rm -rf place
-    starved 0 1 run $long --checkpoint 1000 --output scarce/long
+    without_memory 0 1 run $long --checkpoint 1000 --output scarce/long
     first=$(($(cat allocations) + 20)) # some checkpoints later
-    starved $first 1000000 run $long --checkpoint 0 --output place
+    without_memory $first 1000000 run $long --checkpoint 0 --output place
     holds "status $?" [ $? -eq 4 ]
     says '^dalembert: out of memory$'
     holds "no checkpoint" test -s place/checkpoint

@@ -20,13 +20,13 @@ if there cc; then
 
     case_is "native: taken from the cache, by checkpoints too"
     try 0 run $motion --native on --output native.csv
-    holds "compiled anew" test "$(stat -c %i $objects)" = "$made"
+    holds "compiled again" test "$(stat -c %i $objects)" = "$made"
     try 0 run $motion --native off --output interpreted
     try 0 run $motion --native on --output there
     holds "other bytes" cmp -s interpreted/trajectory.npy there/trajectory.npy
     holds "another summary" cmp -s interpreted/summary.csv there/summary.csv
 
-    case_is "native: a corrupt object is compiled anew"
+    case_is "native: a corrupt object is compiled again"
     for object in $objects; do
         for damage in 'head -c 5000 "$object" > first_half && cp first_half "$object"' ': >"$object"' \
             'printf x | dd of="$object" bs=1 seek=4444 conv=notrunc 2>dd.log'; do
@@ -37,7 +37,7 @@ if there cc; then
         done
     done
 
-    case_is "native: what is no object in the place of one"
+    case_is "native: a FIFO or a directory instead of an object"
     for object in $objects; do
         rm "$object"
         mkfifo "$object"

@@ -124,6 +124,6 @@ PATH=/nonexistent "$program" report ran >out 2>err
 status=$?
 holds "exit $status, not 0" test $status -eq 0
 says 'gnuplot is not installed'
-holds "it is told more than once" test "$(grep -c gnuplot err)" -eq 1
+holds "it is said more than once" test "$(grep -c gnuplot err)" -eq 1
 holds "no page" grep -q '<th scope="row">D1</th>' ran/report/index.html
 holds "no scripts" test -s ran/report/path.gp -a -s ran/report/drift.gp

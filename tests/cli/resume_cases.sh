@@ -1,4 +1,4 @@
-# A run in a directory: described, interrupted, killed, gone on with.
+# A run in a directory: described, interrupted, killed, resumed.
 
 long="chaplygin-sleigh --integrator gauss8+project --step 0.001 --time 400 --samples 100003
       --set omega=1.5 --start pi_phi=1e-8"
@@ -6,7 +6,7 @@ long="chaplygin-sleigh --integrator gauss8+project --step 0.001 --time 400 --sam
 case_is "a directory"
 try 0 run $long --output whole
 empty
-holds "rows" tells whole/trajectory.npy 100004
+holds "rows" has_rows whole/trajectory.npy 100004
 holds "it names the system" grep -qx '    "system": "chaplygin-sleigh",' whole/manifest.json
 holds "it has the settings" grep -qx '    "set": {"omega": 1.5},' whole/manifest.json
 holds "the heads of the summary" grep -qx "observable,first,final,maximum,deviation,amplitude,rate,\
@@ -25,7 +25,7 @@ says "'mine/system.yaml' is there already"
 holds "the file was touched" grep -qx 'not a copy' mine/system.yaml
 try 0 run ./line.yaml --integrator rk4 --step 0.1 --time 1 --output other
 try 0 run ./line.yaml --integrator rk4 --step 0.1 --time 1 --samples 5 --output other --force
-holds "6 rows" tells other/trajectory.npy 6
+holds "6 rows" has_rows other/trajectory.npy 6
 holds "the system file was copied" cmp line.yaml other/system.yaml
 
 case_is "a finished run"
@@ -52,7 +52,7 @@ says "'killed' goes on from t = [0-9.]*[1-9][0-9.]* with row [1-9]"
 holds "not the rows of a run never interrupted" cmp killed/trajectory.npy whole/trajectory.npy
 holds "not the summary of a run never interrupted" cmp killed/summary.csv whole/summary.csv
 
-case_is "killed between putting the old checkpoint aside and the new one in place"
+case_is "killed between renaming the old checkpoint and the new one"
 cp -r killed between
 rm between/checkpoint.before between/summary.csv
 mv between/checkpoint between/checkpoint.before
@@ -153,7 +153,7 @@ says "busy/trajectory.npy': another process is writing to it"
 kill -9 $other
 wait $other 2>/dev/null
 
-case_is "what cannot be gone on with"
+case_is "what cannot be resumed"
 try 2 resume missing
 says "'missing' holds no run"
 cp -r whole damaged

@@ -2,7 +2,7 @@
 # run.sh PROGRAM [PART]... - the program as its users see it: exit statuses, what it writes where, what it says
 # of bad input, and that nothing it wrote is lost when it is stopped, killed or out of room.
 #
-# A case runs the program by `try STATUS ARGUMENT...` and looks at out and err with `says`,
+# A case runs the program by `try STATUS ARGUMENT...` and examines out and err with `says`,
 # `prints` and `holds`; `case_is` names it.  Expected numbers are closed forms or counts.  PARTs are
 # files, PART_cases.sh; all of them when none is named.
 case $1 in /*) program=$1 ;; *) program=$PWD/$1 ;; esac
@@ -51,8 +51,8 @@ empty() { if [ -s out ]; then fail "stdout is not empty"; else pass; fi; }
 there() { command -v "${1%% *}" >/dev/null 2>&1; }
 # whether commands can be given a terminal: there are machines without
 terminal() { there script && there stty && script -qec true /dev/null >/dev/null 2>&1 </dev/null; }
-# tells FILE ROWS: the header of a .npy file counts so many.
-tells() { head -c 8192 "$1" | grep -aq "'shape': ($2,), }"; }
+# has_rows FILE ROWS: the header of a .npy file says that there are ROWS.
+has_rows() { head -c 8192 "$1" | grep -aq "'shape': ($2,), }"; }
 columns_of() { head -c 8192 "$1" | grep -ao "'<f8'" | wc -l; }
 
 # appears FILE: waits for it, at most ten seconds.

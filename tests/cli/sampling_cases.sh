@@ -1,4 +1,4 @@
-# When rows are taken, how progress is told, what the manifest says.
+# When rows are taken, how progress is shown, what the manifest says.
 
 case_is "logarithmic rows"
 try 0 run ./line.yaml --integrator rk4 --step 0.01 --time 1000 --samples 6 --sampling log
@@ -58,10 +58,10 @@ try 2 run ./line.yaml --integrator rk4 --step 0.1 --time 5 --progress loud
 says "'loud' is not auto, json or off"
 
 case_is "the manifest"
-try 0 run ./line.yaml --integrator rk4 --step 0.1 --time 5 --set k=2 --output told
-holds "not done" grep -qx '  "status": "done",' told/manifest.json
-holds "not 50 steps" grep -qx '  "steps": 50,' told/manifest.json
-holds "no parameter" grep -qx '    "set": {"k": 2},' told/manifest.json
+try 0 run ./line.yaml --integrator rk4 --step 0.1 --time 5 --set k=2 --output counted
+holds "not done" grep -qx '  "status": "done",' counted/manifest.json
+holds "not 50 steps" grep -qx '  "steps": 50,' counted/manifest.json
+holds "no parameter" grep -qx '    "set": {"k": 2},' counted/manifest.json
 
 case_is "statistics at every K-th step"
 try 0 run ./line.yaml --integrator rk4 --step 0.1 --time 5 --statistics 50 --output seldom

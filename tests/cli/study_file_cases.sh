@@ -1,4 +1,4 @@
-# Study files: lists, ranges and draws, expectations, and what is said of bad ones.
+# Study files: lists, ranges and draws, expectations, and the messages about bad ones.
 
 labels() { column label there/cells.csv | uniq | tr '\n' ' '; }
 common='integrators: rk4\nstep: 0.5\ntime: 1\nstarts: physical\n'
@@ -64,7 +64,7 @@ holds "steps $steps" test "$steps" = "0.1 0.3 0.5 "
 holds "labels $(labels)" test "$(labels)" = \
     "line.yaml_k=0 line.yaml_k=0.1 line.yaml_k=0.2 line.yaml_k=0.3 "
 
-case_is "quantities are looked at in every step, or every K-th"
+case_is "quantities are observed in every step, or every K-th"
 cat >swing.yaml <<'END2'
 coordinates: [x]
 lagrangian: x'^2/2 - x^2/2
@@ -72,13 +72,13 @@ start: {x': 1}
 invariants: {seen: x}
 END2
 # |x| = |sin t| is 1 within half a step of pi/2 and 0 at both rows; at steps 0, 314, 628 it is below
-# 2e-3.  (x is no invariant: it is called one to be looked at.)
+# 2e-3.  (x is no invariant: it is called one to be observed.)
 printf 'integrators: gauss4\nstep: 0.01\ntime: 6.28\nsamples: 1\nstarts: physical
 systems: [{system: swing.yaml, label: each}, {system: swing.yaml, label: few, statistics: 314}]
 expect:
   each: {gauss4: {seen: {max: {at least: 0.99998, at most: 1}, final: {at most: 0}}}}
-  few: {gauss4: {seen: {max: {at most: 4e-3}}}}\n' >looks.yaml
-try 0 study looks.yaml --output there --force
+  few: {gauss4: {seen: {max: {at most: 4e-3}}}}\n' >observed.yaml
+try 0 study observed.yaml --output there --force
 holds "not 2 rows" test "$(od -An -c -N 512 there/runs/each_gauss4_physical_0.01/trajectory.npy |
     tr -d ' \n' | grep -c "(2,)")" -eq 1
 
@@ -92,8 +92,8 @@ E_first=$(column E_first there/cells.csv | tr '\n' ' ')
 holds "E(0) = $E_first" test "$E_first" = "0.82568526102259454 1.061239195889158 "
 # Drawn off x' = y', brought back along the mass metric: both become the mean.
 printf "${common}seeds: 7\nsystems: [{system: plane.yaml, start: {x': {between: [0, 1]}}}]\n" \
-    >onto.yaml
-try 0 study onto.yaml --output there --force
+    >projected.yaml
+try 0 study projected.yaml --output there --force
 E_first=$(column E_first there/cells.csv)
 holds "E(0) = $E_first" awk "BEGIN { exit !($E_first - 0.53061959794457902 < 4e-16 && 0.53061959794457902 - $E_first < 4e-16) }"
 

@@ -16,7 +16,7 @@ expect:
   plane: {all: {D: [exact, rounding]}}
   appell-hamel: {all: {state: failed}}
 END2
-# All bytes but those that tell of times: the last column of cells.csv, the ns of the tables.
+# All bytes but those of times: the last column of cells.csv, the ns of the tables.
 untimed() { sed 's/,[^,]*$//' "$1/cells.csv" && sed 's/ *[0-9]*$//' "$1/tables.txt"; }
 same_study() {
     untimed "$1" >one.untimed
@@ -75,7 +75,7 @@ mkdir begun-study
 cp -r whole-study/runs whole-study/systems whole-study/manifest.json begun-study
 sed 's/short/other/; s/time: 40$/time: 20/' pieces.yaml >another.yaml
 try 0 study another.yaml --output begun-study
-holds "not begun anew" grep -q '^contact-oscillator,.*,20,done' begun-study/cells.csv
+holds "not begun again" grep -q '^contact-oscillator,.*,20,done' begun-study/cells.csv
 
 case_is "a study in pieces: interrupted"
 "$program" study pieces.yaml --output stopped-study --threads 1 --checkpoint 0 >out 2>err &
@@ -143,37 +143,37 @@ status=$?
 holds "exit $status, not 130" test $status -eq 130
 try 0 study pieces.yaml --output shard-a --shard 1/2
 try 2 merge shard-a shard-b --output halves
-holds "not told" grep -Eq "in none of the directories|is not finished: dalembert resume" err
+holds "no message" grep -Eq "in none of the directories|is not finished: dalembert resume" err
 try 0 resume shard-b
 try 0 merge shard-a shard-b --output halves
 holds "other bytes" same_study whole-study halves
 
 case_is "what cannot be merged"
-try 2 merge shard-1 shard-3 --output joined
+try 2 merge shard-1 shard-3 --output incomplete
 says "_.*' is in none of the directories: a shard is missing"
-try 2 merge shard-1 shard-2 shard-3 shard-a --output joined
+try 2 merge shard-1 shard-2 shard-3 shard-a --output incomplete
 says "' is in 'shard-.' and in 'shard-a'"
-try 2 merge shard-1 shard-1 --output joined
+try 2 merge shard-1 shard-1 --output incomplete
 says "'shard-1' is given twice"
 sed 's/short/shorter/' shard-2/study.yaml >retitled
 mv retitled shard-2/study.yaml
-try 2 merge shard-1 shard-2 shard-3 --output joined
+try 2 merge shard-1 shard-2 shard-3 --output incomplete
 says "'shard-2' and 'shard-1' are of two studies: 'shard-2/study.yaml' and"
 cp shard-1/study.yaml shard-2/study.yaml
 echo '# changed' >>shard-2/systems/plane.yaml
-try 2 merge shard-1 shard-2 shard-3 --output joined
+try 2 merge shard-1 shard-2 shard-3 --output incomplete
 says "'shard-2/systems/plane.yaml' and 'shard-1/systems/plane.yaml' differ"
-try 2 merge shard-1 nowhere --output joined
+try 2 merge shard-1 nowhere --output incomplete
 says "'nowhere' holds no study"
-try 2 merge --output joined
+try 2 merge --output incomplete
 says 'the DIRs are missing'
 try 2 merge shard-1
 says '--output is missing'
 for shard in 0/2 3/2 2 1/x x/2 1/; do
-    try 2 study pieces.yaml --output joined --shard $shard
+    try 2 study pieces.yaml --output incomplete --shard $shard
     says '--shard: '
 done
-holds "something was made" test ! -e joined
+holds "something was made" test ! -e incomplete
 
 # By Open MPI, where `make mpi` has made the program and there is mpirun.
 mpi_program=$(dirname "$program")/dalembert-mpi
@@ -195,7 +195,7 @@ if [ -x "$mpi_program" ] && command -v mpirun >/dev/null; then
     says "'by-mpi/study.yaml' is there already"
     rm -r by-mpi/runs/plane* by-mpi/cells.csv
     by_mpi 0 -n 3 "$mpi_program" --resume --output by-mpi
-    holds "other bytes, gone on with" same_study whole-study by-mpi
+    holds "other bytes, resumed" same_study whole-study by-mpi
     by_mpi 2 -n 2 "$mpi_program" nowhere.yaml --output by-mpi
     says "cannot read 'nowhere.yaml'"
     by_mpi 2 -n 2 "$mpi_program" pieces.yaml

@@ -15,7 +15,7 @@ prints '^dalembert [0-9]+\.[0-9]+\.[0-9]+$'
 case_is "help of every command"
 "$program" --help | sed -n '/^commands:/,/^$/s/^  \([a-z]*\) .*/\1/p' >commands
 for command in list check run resume study report; do
-    holds "--help does not tell of $command" grep -qx $command commands
+    holds "--help does not list $command" grep -qx $command commands
 done
 while read -r command; do
     try 0 "$command" --help
@@ -41,7 +41,7 @@ if terminal; then
     prints '^chaplygin-sleigh  .*yes    Chaplygin.s symmetric sleigh, linear constraint$'
 fi
 
-case_is "every option of a run is told of"
+case_is "every option of a run is listed"
 try 0 run --help
 for option in integrator step time samples space set start solver iterations extend-energy tolerance solver-tolerance extra-iterations sums precision output; do
     prints "^  --$option "
