@@ -8,6 +8,7 @@
 #define _POSIX_C_SOURCE 200809L
 #include "bench.h"
 #include <dalembert.h>
+#include <dalembert_codegen.h>
 #include <dirent.h>
 #include <sys/stat.h>
 #include <unistd.h>

@@ -9,6 +9,8 @@
 #define _POSIX_C_SOURCE 200809L
 #include "bench.h"
 #include <dalembert.h>
+#include <dalembert_analysis.h>
+#include <dalembert_codegen.h>
 
 enum { PAIRS = 41, MOST = 64, LEAST_STEPS = 2048 };
 

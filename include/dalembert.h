@@ -362,12 +362,6 @@ double dal_batch_time(const dal_batch *batch, int lane);
  * exist. */
 void dal_batch_state(const dal_batch *batch, int lane, double *state);
 
-#include "dalembert_generate.h"
-#include "dalembert_measure.h"
-
-#include "dalembert_causes.h"
-#include "dalembert_motion.h"
-
 #ifdef __cplusplus
 }
 #endif

@@ -4,6 +4,7 @@
  * stepped by the tape; as batches of every width; and by generated files of one and of WIDE lanes,
  * compiled as shared objects.  State, clock, counters and status must agree. */
 #include "bits.h"
+#include "dalembert_codegen.h"
 #include "model/programs.h"
 #include "run/run.h"
 #include <dlfcn.h>

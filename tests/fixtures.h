@@ -3,6 +3,7 @@
 #define FIXTURES_H
 
 #include <dalembert.h>
+#include <dalembert_analysis.h>
 #include <stdbool.h>
 
 /* Time-dependent and velocity-dependent forces, a full mass matrix that depends on q, m = 2 with

@@ -3,6 +3,7 @@
 #define SERIES_H
 
 #include <dalembert.h>
+#include <dalembert_analysis.h>
 #include <stdint.h>
 
 enum { SERIES_CAPACITY = 200001 };

@@ -1,5 +1,6 @@
 /* test_adaptive.c - steps divided under a tolerance: the error follows the tolerance, the work the
  * motion; bits where they are promised; what is refused, and what a step says that fails. */
+#include "dalembert_codegen.h"
 #include "fixtures.h"
 #include <CUnit/CUnit.h>
 #include <math.h>

@@ -2,6 +2,7 @@
  * the run conserves them (theory: dE/dt = v.Q + sum_a h_a v.A_a, dH/dt = pi.F_t). */
 #include <CUnit/CUnit.h>
 #include <dalembert.h>
+#include <dalembert_analysis.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>

@@ -1,5 +1,6 @@
 /* test_follow.c - observables of many steps at a time: the bits of dal_run_observe after each step,
  * whether steps and observables are compiled or not, and wherever a run is cut in pieces. */
+#include "dalembert_codegen.h"
 #include "fixtures.h"
 #include "folder.h"
 #include <CUnit/CUnit.h>

@@ -2,7 +2,7 @@
  * That they compile and give the bits of a run is tested in tests/cli/generate_cases.sh. */
 #include "allocation.h"
 #include "core/text.h"
-#include "dalembert.h"
+#include "dalembert_codegen.h"
 #include "fixtures.h"
 #include <CUnit/CUnit.h>
 #include <stdio.h>

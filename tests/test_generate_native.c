@@ -1,6 +1,7 @@
 /* test_generate_native.c - native mode: runs and batches stepped by compiled code have the bits of
  * their tapes, and whatever goes wrong with compiler or cache leaves them stepping by the tape. */
 #include "allocation.h"
+#include "dalembert_codegen.h"
 #include "fixtures.h"
 #include "folder.h"
 #include <CUnit/CUnit.h>

@@ -1,5 +1,6 @@
 /* test_long.c - long numbers: their functions against MPFR, and runs in them. */
 #define DAL_LONG
+#include "dalembert_codegen.h"
 #include "fixtures.h"
 #include "kernel/elementary.h"
 #include <CUnit/CUnit.h>

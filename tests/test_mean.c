@@ -1,6 +1,7 @@
 /* test_mean.c - means with intervals. */
 #include <CUnit/CUnit.h>
 #include <dalembert.h>
+#include <dalembert_analysis.h>
 #include <math.h>
 
 static double noise(unsigned *state)

@@ -1,11 +1,12 @@
 /* test_null.c - NULL, nameless settings and negative counts, given to systems, methods, runs,
  * batches and generated code. */
+#include "dalembert_codegen.h"
 #include "null.h"
 #include <stdlib.h>
 #include <string.h>
 
 FUNCTIONS_dalembert(DECLARE_NULL_TEST) FUNCTIONS_dalembert_method(DECLARE_NULL_TEST)
-    FUNCTIONS_dalembert_model(DECLARE_NULL_TEST) FUNCTIONS_dalembert_generate(DECLARE_NULL_TEST)
+    FUNCTIONS_dalembert_model(DECLARE_NULL_TEST) FUNCTIONS_dalembert_codegen(DECLARE_NULL_TEST)
 
     /* ---- what the functions are given where they are given anything ---- */
 
@@ -379,5 +380,5 @@ void suite_null(void)
 {
     CU_pSuite suite = CU_add_suite("NULL and negative counts", open_objects, close_objects);
     FUNCTIONS_dalembert(ADD_NULL_TEST) FUNCTIONS_dalembert_method(ADD_NULL_TEST)
-        FUNCTIONS_dalembert_model(ADD_NULL_TEST) FUNCTIONS_dalembert_generate(ADD_NULL_TEST)
+        FUNCTIONS_dalembert_model(ADD_NULL_TEST) FUNCTIONS_dalembert_codegen(ADD_NULL_TEST)
 }

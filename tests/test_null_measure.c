@@ -1,8 +1,8 @@
 /* test_null_measure.c - NULL, nameless settings and negative counts, given to measures. */
+#include "dalembert_analysis.h"
 #include "null.h"
 
-FUNCTIONS_dalembert_measure(DECLARE_NULL_TEST) FUNCTIONS_dalembert_causes(DECLARE_NULL_TEST)
-    FUNCTIONS_dalembert_motion(DECLARE_NULL_TEST)
+FUNCTIONS_dalembert_analysis(DECLARE_NULL_TEST)
 
     /* ---- what the functions are given where they are given anything ---- */
 
@@ -439,6 +439,5 @@ void suite_null_measure(void)
 {
     CU_pSuite suite =
         CU_add_suite("NULL and negative counts: measures", open_objects, close_objects);
-    FUNCTIONS_dalembert_measure(ADD_NULL_TEST) FUNCTIONS_dalembert_causes(ADD_NULL_TEST)
-        FUNCTIONS_dalembert_motion(ADD_NULL_TEST)
+    FUNCTIONS_dalembert_analysis(ADD_NULL_TEST)
 }

@@ -4,6 +4,7 @@
 #define DAL_CLI_CHECK_H
 
 #include "analysis.h"
+#include "dalembert_analysis.h"
 
 /* The result of an item.  code, text */
 #define CHECK_RESULT_LIST(RESULT)                                                                  \

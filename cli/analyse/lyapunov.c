@@ -6,6 +6,7 @@
  * On D = 0 the long-time mean is the same where log |grad D| stays bounded: D is constant on every
  * level, and the densities of the levels differ by a total derivative. */
 #include "analysis.h"
+#include "dalembert_analysis.h"
 #include "io/gnuplot.h"
 #include "io/trajectory_writer.h"
 

@@ -3,6 +3,7 @@
  * First a reference; then every method at every step, on threads; then a table, a CSV file and two
  * diagrams. */
 #include "analysis.h"
+#include "dalembert_analysis.h"
 #include "io/gnuplot.h"
 #include "io/output.h"
 #include "run/pool.h"

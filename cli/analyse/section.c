@@ -3,6 +3,7 @@
  * The formula of g becomes one more invariant of the system's model: it may name whatever an
  * invariant may, and is evaluated as invariants are. */
 #include "analysis.h"
+#include "dalembert_analysis.h"
 #include "io/gnuplot.h"
 #include "io/trajectory_writer.h"
 #include "run/native.h"

@@ -1,4 +1,5 @@
 /* generate.c - `dalembert generate`: one C file that steps one system, needing nothing else. */
+#include "dalembert_codegen.h"
 #include "io/file.h"
 #include "run/request.h"
 #include "ui/cli.h"

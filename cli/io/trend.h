@@ -2,6 +2,7 @@
 #ifndef DAL_CLI_TREND_H
 #define DAL_CLI_TREND_H
 
+#include "dalembert_analysis.h"
 #include "ui/cli.h"
 
 /* The columns amplitude, rate, rate_low, rate_high, exponent, size, trend, confidence of a CSV

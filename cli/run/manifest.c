@@ -1,4 +1,5 @@
 /* manifest.c - manifest.json: the complete input of a run, what ran it, and how far it came. */
+#include "dalembert_codegen.h"
 #include "io/file.h"
 #include "io/json.h"
 #include "run_directory.h"

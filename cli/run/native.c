@@ -1,5 +1,6 @@
 /* native.c - compiled steps for a run: when, and where they are kept. */
 #include "native.h"
+#include "dalembert_codegen.h"
 #include "io/output.h"
 
 #include <stdatomic.h>

@@ -12,6 +12,7 @@
 #ifndef DAL_CLI_RUN_DIRECTORY_H
 #define DAL_CLI_RUN_DIRECTORY_H
 
+#include "dalembert_analysis.h"
 #include "io/document.h"
 #include "io/trajectory_writer.h"
 #include "request.h"

@@ -7,6 +7,7 @@
 #ifndef DAL_CLI_STUDY_H
 #define DAL_CLI_STUDY_H
 
+#include "dalembert_analysis.h"
 #include "run/native.h"
 #include "ui/cli.h"
 

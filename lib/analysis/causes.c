@@ -1,4 +1,4 @@
-/* causes.c - shares of a drift, from a run and its twins; see dalembert_causes.h.
+/* causes.c - shares of a drift, from a run and its twins; see dalembert_analysis.h.
  *
  * A drift is measured by its rate where the run's line of least squares rises by half of all it
  * deviates, and clearly so; rates of parts add up to that of the sum.  Else it is measured by the

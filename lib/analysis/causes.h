@@ -2,7 +2,7 @@
 #ifndef DAL_CAUSES_H
 #define DAL_CAUSES_H
 
-#include "dalembert.h"
+#include "dalembert_analysis.h"
 
 /* Series that are followed of every observable: of the whole run and its twins, and early. */
 typedef enum dal__series_of_run {

@@ -4,7 +4,7 @@
  * D = 0 alone, or not at all; off p = pi = 0 the lift adds the force pi/e, which does work.  H
  * changes at the rate pi.F_t.  What the motion need not conserve has no drift that a method could
  * be blamed for. */
-#include "dalembert.h"
+#include "dalembert_analysis.h"
 #include <float.h>
 #include <math.h>
 

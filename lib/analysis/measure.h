@@ -3,7 +3,7 @@
 #define DAL_MEASURE_INTERNAL_H
 
 #include "core/arguments.h"
-#include "dalembert.h"
+#include "dalembert_analysis.h"
 #include <stdint.h>
 
 /* rows*columns zeroed doubles, or NULL (also when the product overflows); freed with free. */

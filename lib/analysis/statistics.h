@@ -3,7 +3,7 @@
 #define DAL_STATISTICS_INTERNAL_H
 
 #include "core/machine.h"
-#include "dalembert.h"
+#include "dalembert_analysis.h"
 
 enum { DAL__CYCLE = 4 }; /* packs: in each, one difference of packs is squared */
 

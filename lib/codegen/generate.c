@@ -1,5 +1,6 @@
 /* generate.c - one self-contained C file for one system, method and space; see generate.h. */
 #include "codegen/generate.h"
+#include "dalembert_codegen.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

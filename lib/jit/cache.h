@@ -3,7 +3,7 @@
 #define DAL_GENERATE_CACHE_H
 
 #include "core/error.h"
-#include "dalembert.h"
+#include "dalembert_codegen.h"
 
 /* The path of a shared object compiled from the text for this machine, in path[size]: one that the
  * cache already holds, or made now.  Errors: DAL_ARGUMENT, DAL_IO (cache), DAL_UNSUPPORTED (no

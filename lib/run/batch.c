@@ -4,6 +4,7 @@
  * widest kind as the count fills, then narrower ones.  Where a system or an integrator has no wide
  * variants the blocks are one lane wide: the bits are the same. */
 #include "run/batch.h"
+#include "dalembert_codegen.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -44,7 +44,7 @@ comments() {
     sources | xargs awk -f $here/comments.awk "$BUILD/files.txt"
 }
 cplusplus() {
-    echo '#include <dalembert.h>' |
+    printf "#include <%s>\n" dalembert.h dalembert_analysis.h dalembert_codegen.h |
         clang -x c++ -std=c++11 -Wall -Wextra -Wpedantic -fsyntax-only -Iinclude -
 }
 scripts() {

@@ -1,8 +1,8 @@
-/* dalembert_generate.h - steps compiled for one system and method: as a C file, or within a run.
+/* dalembert_codegen.h - steps compiled for one system and method: as a C file, or within a run.
  *
- * Part of dalembert.h, which includes it; the same conventions hold. */
-#ifndef DALEMBERT_GENERATE_H
-#define DALEMBERT_GENERATE_H
+ * The conventions are those of dalembert.h. */
+#ifndef DALEMBERT_CODEGEN_H
+#define DALEMBERT_CODEGEN_H
 
 #include "dalembert.h"
 

@@ -1,14 +1,20 @@
-/* dalembert_measure.h - measures; a part of dalembert.h, never included by itself.
+/* dalembert_analysis.h - analysis of systems, methods and motions.
  *
- * A measure looks at a system or at a run from outside, through the same calls a user has, and
- * never trusts what they say about themselves: derivatives are compared with differences, claims
- * with numbers.  Differences are central, of order 8, so that their noise is near 1e-12.
+ * Everything here works from outside, through the same calls a user has: derivatives are compared
+ * with differences, declared properties with numbers.  Differences are central, of order 8, so that
+ * their noise is near 1e-12.  The conventions are those of dalembert.h.
  *
  * Symplecticity on the lifted space says nothing about D or the energy of the motion itself: on
  * p = pi = 0 every one-step method whose step on (q,v) is locally invertible, explicit Euler
  * included, is the restriction of a symplectic map. */
-#ifndef DALEMBERT_MEASURE_H
-#define DALEMBERT_MEASURE_H
+#ifndef DALEMBERT_ANALYSIS_H
+#define DALEMBERT_ANALYSIS_H
+
+#include "dalembert.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
 
 /* ---- what becomes of a quantity along a run ------------------------------------------------ */
 
@@ -62,6 +68,16 @@ void dal_statistics_add_many(dal_statistics *statistics, int count, int looks, c
 /* max |x| and max |x - first|; infinite when a value was lost. */
 double dal_statistics_max_abs(const dal_statistics *statistics);
 double dal_statistics_deviation(const dal_statistics *statistics);
+
+/* A mean and its 95 % confidence interval, from the means of blocks and the correlation of
+ * neighbours.  The interval knows what varies from block to block, nothing else: neither a slow
+ * approach to a limit nor the error of the method. */
+typedef struct dal_average {
+    double mean, low, high;
+} dal_average;
+
+/* NaN without values; an infinite interval with fewer than 3 blocks. */
+void dal_statistics_mean(const dal_statistics *statistics, dal_average *average);
 
 /* Whether the deviation of a quantity is what roundings make.  code, word
  *   EXACT     the quantity never changed
@@ -326,4 +342,208 @@ typedef struct dal_dirac {
 /* Errors: DAL_UNSUPPORTED (vakonomic), DAL_NOT_FINITE, DAL_MEMORY. [alloc] */
 dal_status dal_check_dirac(dal_evaluator *evaluator, const dal_point *at, double e, dal_dirac *out);
 
+/* ---- error budgets ------------------------------------------------------------------------- */
+
+/* How much of a drift is truncation, rounding of coefficients, the solver, rounding, projection.
+ *
+ * A run is compared with runs that differ from it in one thing each.  Quad precision leaves nothing
+ * of the rounding of doubles, and further iterations leave nothing of the solver's error, so that
+ * over the first steps, for which both are affordable,
+ *
+ *     x(run) = x(quad, solved further)                     truncation, or coefficients
+ *            + x(solved further) - x(quad, solved further) rounding
+ *            + x(run) - x(solved further)                  solver
+ *
+ * at every moment, and so for the rates of lines of least squares: these shares add up to 1.
+ * Coefficients of a method stay doubles in quad precision; their part does not fall with the step
+ * as truncation does.  The effect of projection is that of leaving it out, or of adding it; it is
+ * no part of the sum. */
+
+/* code, word, text.  Runs in quad precision cover the first quad_steps steps, the others all. */
+#define DAL_COMPARISON_LIST(RUN)                                                                   \
+    RUN(HALVED, "half-step", "half the step")                                                      \
+    RUN(LOOSER, "looser", "equations solved less far")                                             \
+    RUN(TIGHTER, "tighter", "equations solved further, by two iterations")                         \
+    RUN(SUMS, "sums", "plain sums, or compensated ones")                                           \
+    RUN(PROJECTION, "projection", "with +project, or without")                                     \
+    RUN(QUAD, "quad", "quad precision, solved further")                                            \
+    RUN(QUAD_HALVED, "quad-half-step", "quad precision, solved further, half the step")
+
+typedef enum dal_comparison_run {
+#define RUN_CODE(code, word, text) DAL_COMPARISON_##code,
+    DAL_COMPARISON_LIST(RUN_CODE)
+#undef RUN_CODE
+        DAL_COMPARISONS
+} dal_comparison_run;
+
+/* code, word */
+#define DAL_ERROR_SOURCE_LIST(SOURCE)                                                              \
+    SOURCE(TRUNCATION, "truncation")                                                               \
+    SOURCE(COEFFICIENTS, "coefficients")                                                           \
+    SOURCE(SOLVER, "solver")                                                                       \
+    SOURCE(ROUNDING, "rounding")                                                                   \
+    SOURCE(PROJECTION, "projection")
+
+typedef enum dal_error_source {
+#define SOURCE_CODE(code, word) DAL_SOURCE_##code,
+    DAL_ERROR_SOURCE_LIST(SOURCE_CODE)
+#undef SOURCE_CODE
+        DAL_ERROR_SOURCES
+} dal_error_source;
+
+const char *dal_comparison_name(dal_comparison_run comparison); /* "half-step" */
+const char *dal_comparison_text(dal_comparison_run comparison); /* "half the step" */
+const char *dal_error_source_name(dal_error_source source);
+
+/* The behaviour of one observable, and the shares of its drift.  "Beginning": the first
+ * quad_steps steps of the run. */
+typedef struct dal_shares {
+    char name[64];
+    dal_trend whole;                       /* along the whole run */
+    dal_trend beginning;                   /* of the run, along the beginning */
+    dal_trend comparison[DAL_COMPARISONS]; /* of those that ran */
+    dal_trend rounding, solver;            /* the differences above, along the beginning */
+    dal_trend solver_and_rounding;         /* their sum */
+    int by_rate;       /* whether the beginning is measured by rates, where the run clearly drifts,
+                          or else by max deviations */
+    int whole_by_rate; /* the same for the whole run */
+    int vanishes_in_quad;      /* quad precision leaves nothing of the drift */
+    int is_motion;             /* what it leaves does not fall with the step: the motion itself */
+    int solver_is_significant; /* whether the solver's part stands out from rounding */
+    double order; /* log2 of what halving the step divides the drift by: in quad precision, or
+                     without it along the whole run; NaN: nothing to divide */
+    /* share: of the drift; that of PROJECTION goes without it, or with it; NaN: not known.
+     * margin: half the 95 % interval of a share of rates; NaN: none. */
+    double share[DAL_ERROR_SOURCES], margin[DAL_ERROR_SOURCES];
+} dal_shares;
+
+typedef struct dal_error_budget {
+    dal_run_spec spec;
+    long long steps, quad_steps; /* of the run; of those also in quad precision, 0: none */
+    int has_projection;          /* the method projects: DAL_COMPARISON_PROJECTION does not */
+    int ran[DAL_COMPARISONS];    /* whether each ran to its end, and if not, the reason */
+    char reason[DAL_COMPARISONS][DAL_MESSAGE_SIZE];
+    int observables;
+    dal_shares *shares; /* [observables] */
+} dal_error_budget;
+
+/* Any member may be NULL.  step is called now and then with the share of the work that is done; any
+ * status but DAL_OK ends it.  begin is called with every new run in doubles, and may replace its
+ * steps by compiled code. */
+typedef struct dal_error_budget_observer {
+    void *user;
+    dal_status (*step)(void *user, double done);
+    void (*begin)(void *user, dal_run *run, long long steps);
+} dal_error_budget_observer;
+
+/* Runs a spec for so many steps, and the runs it is compared with, and finds the shares of every
+ * observable's drift.  observer may be NULL.  A comparison that is not possible is left out with a
+ * reason.  [alloc]  Errors: those of the run itself, DAL_ARGUMENT, DAL_MEMORY. */
+dal_status dal_error_budget_create(const dal_run_spec *spec, long long steps, long long quad_steps,
+                                   const dal_error_budget_observer *observer,
+                                   dal_error_budget **budget, dal_error *error);
+void dal_error_budget_free(dal_error_budget *budget);
+
+/* Describes in words how a share was found; returns buffer, NULL where there is no such observable.
+ */
+char *dal_error_budget_describe(const dal_error_budget *budget, int observable,
+                                dal_error_source source, char *buffer, size_t size);
+
+/* ---- Lyapunov exponents and phase volume --------------------------------------------------- */
+
+/* A run on (q, v, g) with tangent vectors: J, the derivative of each of its steps, moves them, and
+ * Gram-Schmidt makes them orthonormal again,
+ *     J V = V' R,    exponent i = mean of log(R_ii)/h,    mean of log|det J|/h = their sum,
+ * and the divergence of the motion, the trace of F_(v,g), is followed beside them.  Its long-time
+ * mean is that of every density of the phase space, and on D = 0, where the logarithms of densities
+ * and of |grad D| grow slower than t: only their total derivatives come in. */
+typedef struct dal_lyapunov dal_lyapunov;
+
+/* count vectors, 0: as many as the step map has directions, that is 2n + multipliers, less m where
+ * the method forces D = 0, less one where it forces E.  tangent is dal_model_tangent of the same
+ * model, or NULL.  J is exact (to rounding) with it and a Runge-Kutta, polarised or composed
+ * method; else by differences of the step, of order 8, with increments that do not depend on how
+ * far the coordinates have travelled.  The space of the spec is not looked at. [alloc]  Errors:
+ * those of a run; DAL_ARGUMENT (count); DAL_UNSUPPORTED: the step is no smooth map of (q, v, g)
+ * alone: a multiplier carried along, a tolerance. */
+dal_status dal_lyapunov_create(dal_lyapunov **lyapunov, const dal_run_spec *spec,
+                               const dal_system *tangent, int count, dal_error *error);
+void dal_lyapunov_free(dal_lyapunov *lyapunov);
+/* The same bits as dal_run_advance of a run of the spec.  Errors: those of a step; DAL_SINGULAR
+ * when J takes a vector to 0. */
+dal_status dal_lyapunov_advance(dal_lyapunov *lyapunov, long long steps, dal_error *error);
+/* Begins all means anew, as behind a transient; the vectors stay. */
+void dal_lyapunov_discard_transient(dal_lyapunov *lyapunov);
+
+/* Whether the sum of all exponents is the divergence.  Of the flow it is so over any time:
+ *     sum = mean divergence + surface,    surface = (1/T) [log |grad D|] between both ends
+ * where the method forces D = 0 (E likewise, |grad| then being the volume that the gradients by (q,
+ * v, g) span), else 0: a direction that is forced has no exponent, and that of the flow was a 0. */
+typedef struct dal_balance {
+    double surface;
+    double difference; /* sum - mean divergence - surface */
+    double margin;     /* what the method's error may be, the mean of dimension r x^order / (1 - x)
+                          with x = h r and r = max(|F_q|^(1/2), |F_(v,g)|), and those of quadrature
+                          and of J; no interval is in it: both means are of one trajectory */
+    int holds;         /* |difference| <= margin; if not, J has been measured wrongly */
+} dal_balance;
+
+/* Errors: DAL_UNSUPPORTED: not all exponents, no jacobian, directions lost that neither D nor E
+ * explains, a method that turns D into -D in every step, or x >= 1 in some step. [alloc] */
+dal_status dal_lyapunov_balance(dal_lyapunov *lyapunov, dal_balance *balance, dal_error *error);
+
+const dal_run *dal_lyapunov_run(const dal_lyapunov *lyapunov);
+int dal_lyapunov_count(const dal_lyapunov *lyapunov);
+int dal_lyapunov_is_exact(const dal_lyapunov *lyapunov); /* J by the tangent system */
+/* Whether the vectors span the space, so that their sum is log|det J|/h. */
+int dal_lyapunov_is_whole(const dal_lyapunov *lyapunov);
+
+/* Exponent i, from 0 (NaN past the last); they come in falling order when the vectors have had time
+ * to turn. */
+void dal_lyapunov_exponent(const dal_lyapunov *lyapunov, int i, dal_average *average);
+/* Of the sum of the exponents. */
+void dal_lyapunov_sum(const dal_lyapunov *lyapunov, dal_average *average);
+/* Of the divergence, each step's being the mean of its ends; NaN when the system has no jacobian.
+ */
+void dal_lyapunov_divergence(const dal_lyapunov *lyapunov, dal_average *average);
+
+/* ---- Poincare sections --------------------------------------------------------------------- */
+
+typedef struct dal_crossing {
+    long long number; /* from 1, of those shown */
+    double t;
+    int direction; /* 1: upwards, -1: downwards */
+} dal_crossing;
+
+/* The crossings of g = 0, g being value number index of a callback of the run's system that leaves
+ * count values (an invariant: system->invariant_values). */
+typedef struct dal_poincare {
+    dal_callback *callback;
+    int count, index;
+    int direction; /* 1: from g < 0 to g > 0, -1: the other way, 0: both */
+    void *user;
+    /* Called with the run at the crossing; it must not move the run.  May be NULL, as poll, which
+     * is called after every 1000 steps or so.  Any status but DAL_OK ends it all with that status.
+     */
+    dal_status (*cross)(void *user, dal_run *run, const dal_crossing *crossing);
+    dal_status (*poll)(void *user, dal_run *run);
+} dal_poincare;
+
+/* What came of it: crossings met, of either direction, and touches. */
+typedef struct dal_crossings {
+    long long up, down;
+    long long touches; /* minima of |g| below 1e-12 of the greatest |g| met that are no crossings */
+} dal_crossings;
+
+/* Carries the run to time T, a whole number of its steps, and shows every crossing on the way.
+ * Where g changes sign within a step, a step of another size of the same method from where that
+ * step began meets it, its size found to rounding; so the trajectory is undisturbed.  A pair of
+ * crossings within one step is found where g has an extremum between them.  A start with g = 0 is
+ * no crossing. [alloc]  Errors: those of the steps and of the callback; DAL_ARGUMENT. */
+dal_status dal_run_crossings(dal_run *run, double T, const dal_poincare *section,
+                             dal_crossings *found, dal_error *error);
+
+#ifdef __cplusplus
+}
+#endif
 #endif
