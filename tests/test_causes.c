@@ -1,6 +1,6 @@
 /* test_causes.c - the shares of a drift, from runs that are made up: every part has the rate or the
  * deviation that the case wants, so that the shares are known. */
-#include "analysis/causes.h"
+#include "analysis/error_shares.h"
 #include "fixtures.h"
 #include <CUnit/CUnit.h>
 #include <float.h>

@@ -20,7 +20,7 @@
 enum { LEAST_VALUES = 48, LEAST_LENGTH = 8 };
 
 static const double tone_price = 0.8 * 15.0; /* nats */
-static const double interval_level = 0.966;  /* covers 95 %: trend_rate.c */
+static const double interval_level = 0.966;  /* covers 95 %: trend_drift.c */
 static const double white_odds = 20.0, white_low = 0.55, white_high = 1.7;
 static const double memory_ratio = 3.0; /* of differences: more, and there is memory */
 

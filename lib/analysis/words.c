@@ -1,5 +1,5 @@
 /* words.c - how the shares of a drift were found, in words. */
-#include "analysis/causes.h"
+#include "analysis/error_shares.h"
 #include "analysis/measure.h"
 #include <math.h>
 #include <stdio.h>

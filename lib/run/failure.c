@@ -1,4 +1,4 @@
-/* explain.c - why a step failed: it is stepped once more, the system's answers being watched. */
+/* failure.c - why a step failed: it is stepped once more, the system's answers being watched. */
 #include "run/run.h"
 #include <dalembert_kernel.h>
 

@@ -1,4 +1,4 @@
-/* degree.c - what kind of function D is, and whether the motion can be turned round.
+/* constraints.c - what kind of function D is, and whether the motion can be turned round.
  *
  * A polynomial of degree k along every line has vanishing (k+1)-th differences:
  *     D(x+d) - 2 D(x) + D(x-d) = 0            affine along d

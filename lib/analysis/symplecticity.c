@@ -1,4 +1,4 @@
-/* stepmap.c - the step as a map on phase space: symplectic? reversible?
+/* symplecticity.c - the step as a map on phase space: symplectic? reversible?
  *
  *     J = d(step)/dz by differences,   J^T Omega J = Omega,   Omega = [[0, 1], [-1, 0]]
  *     rho step rho step = id,          rho: (t,q,v,e,p,pi,pi_e) -> (-t,q,-v,e,-p,pi,-pi_e)

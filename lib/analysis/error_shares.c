@@ -1,9 +1,9 @@
-/* causes.c - shares of a drift, from a run and its twins; see dalembert_analysis.h.
+/* error_shares.c - shares of a drift, from a run and its twins; see dalembert_analysis.h.
  *
  * A drift is measured by its rate where the run's line of least squares rises by half of all it
  * deviates, and clearly so; rates of parts add up to that of the sum.  Else it is measured by the
  * greatest deviation, and parts are as large as they are. */
-#include "analysis/causes.h"
+#include "analysis/error_shares.h"
 #include <float.h>
 #include <math.h>
 

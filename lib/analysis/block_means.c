@@ -1,4 +1,4 @@
-/* mean.c - the mean of a quantity and its interval, from the means of N blocks.
+/* block_means.c - the mean of a quantity and its interval, from the means of N blocks.
  *
  * The variance of the mean of independent blocks is sigma^2 / N; the correlation of neighbours
  * inflates it as it does that of a rate (statistics.c). */

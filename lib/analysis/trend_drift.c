@@ -1,4 +1,4 @@
-/* trend_rate.c - the rate of a series, and what lies about its line.
+/* trend_drift.c - the rate of a series, and what lies about its line.
  *
  * Under each noise (trend_evidence.c) the drift b of a straight line has Student's distribution
  * about its estimate; the interval is that of their mixture, each with the weight of its noise:

@@ -1,9 +1,9 @@
-/* twins.c - a run and its twins, and what each observable does in them.
+/* error_budget.c - a run and its twins, and what each observable does in them.
  *
  * All are looked at at the same times, at most LOOKS of them, so that their series can be taken
  * from each other.  Long numbers, being slow, are for the first steps alone; there the run, its
  * twin solved further and the same in quad precision go side by side. */
-#include "analysis/causes.h"
+#include "analysis/error_shares.h"
 #include "analysis/measure.h"
 #include "analysis/trend.h"
 #include <math.h>

@@ -1,4 +1,4 @@
-/* numbers.c - memory, differences of order 8 and small least squares for the measures. */
+/* vectors.c - memory, differences of order 8 and small least squares for the measures. */
 #include "analysis/measure.h"
 #include <float.h>
 #include <math.h>
