@@ -116,28 +116,6 @@ typedef struct dal_callbacks {
                                                          (NULL: no discrete-gradient) */
 } dal_callbacks;
 
-/* How a system is drawn in the plane, of no consequence for its motion: numbers, 0 where not given
- * (x, y: where; angle: the heading, from x to y; steer: of a board the turn of its front axle, its
- * other one turning against it, of a racer that of its arm; width: of a disk, breadth over length
- * as seen), and the words there are for a body. */
-#define DAL_PICTURE_LIST(X)                                                                        \
-    X(X, "x") X(Y, "y") X(ANGLE, "angle") X(STEER, "steer") X(WIDTH, "width")
-#define DAL_BODY_LIST(X)                                                                           \
-    X(POINT, "point")                                                                              \
-    X(SLEIGH, "sleigh")                                                                            \
-    X(BLADE, "blade")                                                                              \
-    X(DISK, "disk") X(BALL, "ball") X(ROBOT, "robot") X(BOARD, "board") X(RACER, "racer")
-enum {
-#define X(code, name) DAL_PICTURE_##code,
-    DAL_PICTURE_LIST(X) DAL_PICTURE_COUNT
-#undef X
-};
-typedef enum dal_body {
-#define X(code, name) DAL_BODY_##code,
-    DAL_BODY_LIST(X) DAL_BODY_COUNT
-#undef X
-} dal_body;
-
 /* What is known of the constraints and of the energy; set by a model, or by hand. */
 enum {
     DAL_D_LINEAR = 1 << 0,      /* every D linear or affine in v */
@@ -181,16 +159,46 @@ struct dal_system {
     dal_callback *energy;           /* out[1]: E = L_v.v - L; NULL: unknown */
     dal_callback *invariant_values; /* out[invariants] */
     dal_callback *exact;    /* out[2n]: q, v of the exact solution at at->t; NULL: unknown */
-    dal_callback *picture;  /* out[DAL_PICTURE_COUNT]; NULL: not to be drawn */
-    dal_body body;          /* what is drawn there */
     dal_callback *diagnose; /* out[1]: why field is not finite here: returns DAL_SINGULAR with the
                                number of the constraint (from 1), DAL_SINGULAR_MASS, or DAL_OK */
     const dal_system *extended; /* the same with F continued off D = 0 so that E is exact, for the
                                    option extend-energy; NULL: there is none */
     const dal_system *in_long;  /* the same with long numbers in the place of doubles, its
                                    workspace too, for the option precision; NULL: there is none */
-    void *data;                 /* the owner's */
+    const struct dal_picture *picture; /* how it is drawn; NULL: not at all */
+    void *data;                        /* the owner's */
 };
+
+/* ---- pictures ------------------------------------------------------------------------------ */
+
+/* The numbers of a picture, 0 where not given.  x, y: the place; angle: the heading, from x to y;
+ * steer: the turn of the front axle of a board, whose other one turns against it, or of the arm of
+ * a racer; width: of a disk, breadth over length as seen.  Then the words for a body. */
+#define DAL_PICTURE_LIST(NUMBER)                                                                   \
+    NUMBER(X, "x")                                                                                 \
+    NUMBER(Y, "y") NUMBER(ANGLE, "angle") NUMBER(STEER, "steer") NUMBER(WIDTH, "width")
+#define DAL_BODY_LIST(BODY)                                                                        \
+    BODY(POINT, "point")                                                                           \
+    BODY(SLEIGH, "sleigh")                                                                         \
+    BODY(BLADE, "blade")                                                                           \
+    BODY(DISK, "disk")                                                                             \
+    BODY(BALL, "ball") BODY(ROBOT, "robot") BODY(BOARD, "board") BODY(RACER, "racer")
+enum {
+#define CODE(code, name) DAL_PICTURE_##code,
+    DAL_PICTURE_LIST(CODE) DAL_PICTURE_COUNT
+#undef CODE
+};
+typedef enum dal_body {
+#define CODE(code, name) DAL_BODY_##code,
+    DAL_BODY_LIST(CODE) DAL_BODY_COUNT
+#undef CODE
+} dal_body;
+
+/* How a system is drawn in the plane, of no consequence for its motion. */
+typedef struct dal_picture {
+    dal_callback *evaluate; /* out[DAL_PICTURE_COUNT] */
+    dal_body body;
+} dal_picture;
 
 #include "dalembert_method.h"
 #include "dalembert_model.h"

@@ -19,9 +19,9 @@ static void test_numbers(void)
     double out[DAL_PICTURE_COUNT];
     reference b = reference_of_text(drawn);
     reference_set(&b, "l", 3.0);
-    CU_ASSERT(b.system->body == DAL_BODY_DISK);
     CU_ASSERT_FATAL(b.system->picture != NULL);
-    CU_ASSERT(reference_call(&b, b.system->picture, 2.0, q, v, out) == DAL_OK);
+    CU_ASSERT(b.system->picture->body == DAL_BODY_DISK);
+    CU_ASSERT(reference_call(&b, b.system->picture->evaluate, 2.0, q, v, out) == DAL_OK);
     CU_ASSERT(fabs(out[DAL_PICTURE_X] - (0.5 + 3.0 * sin(0.3))) < 1e-15);
     CU_ASSERT(fabs(out[DAL_PICTURE_Y] + 3.0 * cos(0.3)) < 1e-15);
     CU_ASSERT(out[DAL_PICTURE_ANGLE] == 0.3 / 4);
@@ -42,7 +42,7 @@ static void test_point(void)
 {
     reference b =
         reference_of_text("coordinates: [x, y]\nlagrangian: x'^2 + y'^2\npicture: {x: x, y: y}\n");
-    CU_ASSERT(b.system->picture != NULL && b.system->body == DAL_BODY_POINT);
+    CU_ASSERT(b.system->picture != NULL && b.system->picture->body == DAL_BODY_POINT);
     reference_free(&b);
 }
 
@@ -51,8 +51,8 @@ static void test_point(void)
 static int rolls(const dal_system *s)
 {
     return s->m > 0 && s->picture &&
-           (s->body == DAL_BODY_SLEIGH || s->body == DAL_BODY_BLADE || s->body == DAL_BODY_RACER ||
-            s->body == DAL_BODY_ROBOT);
+           (s->picture->body == DAL_BODY_SLEIGH || s->picture->body == DAL_BODY_BLADE ||
+            s->picture->body == DAL_BODY_RACER || s->picture->body == DAL_BODY_ROBOT);
 }
 
 /* The velocity of the place across the heading, by the central difference along q + s v. */
@@ -62,8 +62,8 @@ static double slip(const reference *b, const double *x)
     double q[REFERENCE_MAX], out[3][DAL_PICTURE_COUNT];
     for (int k = -1; k <= 1; k++) {
         for (int i = 0; i < b->system->n; i++) q[i] = x[i] + k * s * x[b->system->n + i];
-        CU_ASSERT(reference_call(b, b->system->picture, 0.0, q, x + b->system->n, out[k + 1]) ==
-                  DAL_OK);
+        CU_ASSERT(reference_call(b, b->system->picture->evaluate, 0.0, q, x + b->system->n,
+                                 out[k + 1]) == DAL_OK);
     }
     double dx = (out[2][DAL_PICTURE_X] - out[0][DAL_PICTURE_X]) / (2 * s);
     double dy = (out[2][DAL_PICTURE_Y] - out[0][DAL_PICTURE_Y]) / (2 * s);

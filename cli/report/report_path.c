@@ -148,7 +148,7 @@ static int take_row(path *p, report_plot *plot, long long k)
     const double *row = p->reader.row;
     double at[DAL_PICTURE_COUNT];
     if (!posed && k % stride && k != last) return CLI_DONE;
-    if (dal_evaluator_call(p->evaluator, p->request.system->picture, row[0], row + 1,
+    if (dal_evaluator_call(p->evaluator, p->request.system->picture->evaluate, row[0], row + 1,
                            row + 1 + p->n, NULL, at))
         return CLI_DONE;
     report_point(plot, at[DAL_PICTURE_X], at[DAL_PICTURE_Y]);
@@ -210,7 +210,7 @@ static int load(path *p, const char *run)
     if (status == CLI_DONE) status = request_make_spec(&p->request, &spec);
     if (status != CLI_DONE || !p->request.system->picture) return status;
     p->n = p->request.system->n;
-    p->body = p->request.system->body;
+    p->body = p->request.system->picture->body;
     if (dal_evaluator_create(&p->evaluator, p->request.system, p->request.set.item,
                              p->request.set.count, &error))
         return cli_error(CLI_USAGE, run, &error);

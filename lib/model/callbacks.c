@@ -10,6 +10,7 @@
         return p->run(system, at, out, DAL__PROGRAM_##code, reads);                                \
     }
 DAL__SINGLE_LIST(CALLBACK)
+CALLBACK(PICTURE, picture, DAL__T | DAL__QV)
 #undef CALLBACK
 
 static bool vanished(const double *pivot)
@@ -41,11 +42,13 @@ static dal_status diagnose(const dal_system *system, const dal_at *at, double *o
     return DAL_OK;
 }
 
-void dal__callbacks_single(const dal__programs *programs, dal_system *system)
+void dal__callbacks_single(dal__programs *programs, dal_system *system)
 {
 #define SET(code, name, reads)                                                                     \
     system->name = programs->program[DAL__PROGRAM_##code].present ? name : NULL;
     DAL__SINGLE_LIST(SET)
 #undef SET
+    programs->picture = (dal_picture){picture, programs->equations->body};
+    system->picture = programs->program[DAL__PROGRAM_PICTURE].present ? &programs->picture : NULL;
     system->diagnose = programs->program[DAL__PROGRAM_DIAGNOSE].present ? diagnose : NULL;
 }

@@ -5,7 +5,7 @@
 #include "model/programs.h"
 
 /* Sets the callbacks that need one lane only. */
-void dal__callbacks_single(const dal__programs *programs, dal_system *system);
+void dal__callbacks_single(dal__programs *programs, dal_system *system);
 
 /* Sets *call to the callbacks of a variant; what runs its programs. */
 #define DAL__CALLBACKS(name, variant, lanes, set, group)                                           \

@@ -22,14 +22,14 @@ enum { DAL__T = 1, DAL__QV = 2, DAL__PI = 4 };
     PROGRAM(CONSTRAINTS, constraints, DAL__T | DAL__QV)                                            \
     PROGRAM(ENERGY, energy, DAL__T | DAL__QV)                                                      \
     PROGRAM(INVARIANTS, invariant_values, DAL__T | DAL__QV)                                        \
-    PROGRAM(PICTURE, picture, DAL__T | DAL__QV)                                                    \
     PROGRAM(EXACT, exact, DAL__T)
 
 typedef enum dal__program_code {
 #define CODE(code, name, reads) DAL__PROGRAM_##code,
     DAL__WIDE_LIST(CODE) DAL__SINGLE_LIST(CODE)
 #undef CODE
-        DAL__PROGRAM_DIAGNOSE,
+        DAL__PROGRAM_PICTURE,
+    DAL__PROGRAM_DIAGNOSE,
     DAL__PROGRAM_COUNT
 } dal__program_code;
 
@@ -53,6 +53,7 @@ typedef struct dal__programs {
     size_t scratch;     /* place in work for outputs and checked pivots together */
     dal__program program[DAL__PROGRAM_COUNT];
     dal_callbacks wide1, wide4, wide8, wide64;
+    dal_picture picture;
     dal__run_program *run; /* a program of one lane */
 } dal__programs;
 

@@ -118,7 +118,6 @@ static void describe(dal_model *model)
         .invariant = e->invariant_name,
         .guard = e->guard_name,
         .tag = e->tag,
-        .body = e->body,
     };
 }
 
