@@ -1,5 +1,5 @@
-/* test_odd.c - a library called wrongly or unusually answers with a status: what the caller's
- * structs may hold that no model would put there. */
+/* test_bad_arguments.c - calls with bad arguments: what the structs of the caller may hold that no
+ * model would put there.  Each returns a status. */
 #include "fixtures.h"
 #include <CUnit/CUnit.h>
 #include <stdint.h>
@@ -161,9 +161,9 @@ static void test_names_of_methods(void)
     }
 }
 
-void suite_odd(void)
+void suite_bad_arguments(void)
 {
-    CU_pSuite suite = CU_add_suite("odd", NULL, NULL);
+    CU_pSuite suite = CU_add_suite("bad arguments", NULL, NULL);
     CU_add_test(suite, "systems by hand that say odd things", test_odd_systems);
     CU_add_test(suite, "starts where something is infinite", test_odd_starts);
     CU_add_test(suite, "options that no text gives", test_odd_options);

@@ -1,4 +1,4 @@
-/* test_long.c - long numbers: their functions against MPFR, and runs in them. */
+/* test_quad.c - quad precision: its functions against MPFR, and runs in it. */
 #define DAL_LONG
 #include "dalembert_codegen.h"
 #include "fixtures.h"
@@ -300,9 +300,9 @@ static void test_refused(void)
     dal_model_free(model);
 }
 
-void suite_long(void)
+void suite_quad(void)
 {
-    CU_pSuite suite = CU_add_suite("long", NULL, NULL);
+    CU_pSuite suite = CU_add_suite("quad precision", NULL, NULL);
     CU_add_test(suite, "elementary functions", test_functions);
     CU_add_test(suite, "order below the rounding of doubles", test_order);
     CU_add_test(suite, "a constraint kept below it", test_constraint);

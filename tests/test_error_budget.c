@@ -1,4 +1,4 @@
-/* test_explain.c - what drifts come from, where it is known beforehand. */
+/* test_error_budget.c - what drifts come from, where it is known beforehand. */
 #include "allocation.h"
 #include "fixtures.h"
 #include "quick.h"
@@ -289,9 +289,9 @@ static void test_out_of_memory(void)
     dal_model_free(model);
 }
 
-void suite_explain(void)
+void suite_error_budget(void)
 {
-    CU_pSuite suite = CU_add_suite("explain", NULL, NULL);
+    CU_pSuite suite = CU_add_suite("error budget", NULL, NULL);
     CU_add_test(suite, "truncation", test_truncation);
     CU_add_test(suite, "a nonlinear constraint", test_nonlinear);
     CU_add_test(suite, "rounding", test_rounding);

@@ -1,5 +1,4 @@
-/* test_claims.c - the closed forms of the paper and of the field, by gauss8 with h = 0.01 to T = 1.
- */
+/* test_literature.c - closed forms of the paper and of the field, by gauss8 with h = 0.01. */
 #include "fixtures.h"
 #include <CUnit/CUnit.h>
 #include <math.h>
@@ -185,9 +184,9 @@ static void test_sleigh_reference(void)
     reference_state(sleigh, 5.0, r2_5);
 }
 
-void suite_claims(void)
+void suite_literature(void)
 {
-    CU_pSuite suite = CU_add_suite("claims", NULL, NULL);
+    CU_pSuite suite = CU_add_suite("closed forms of the literature", NULL, NULL);
     CU_add_test(suite, "closed forms to rounding", test_closed_forms);
     CU_add_test(suite, "closed forms, other parameters", test_other_parameters);
     CU_add_test(suite, "friction: where the sleigh ends", test_friction_end);

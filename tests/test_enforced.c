@@ -1,4 +1,4 @@
-/* test_imposed.c - methods that impose D, each by the equations it stands for. */
+/* test_enforced.c - methods that enforce D = 0, each by the equations it stands for. */
 #include "fixtures.h"
 #include "quick.h"
 #include <CUnit/CUnit.h>
@@ -277,9 +277,9 @@ static void test_failure(void)
     dal_model_free(model);
 }
 
-void suite_imposed(void)
+void suite_enforced(void)
 {
-    CU_pSuite suite = CU_add_suite("imposed", NULL, NULL);
+    CU_pSuite suite = CU_add_suite("methods that enforce D = 0", NULL, NULL);
     CU_add_test(suite, "order", test_order);
     CU_add_test(suite, "D at the midpoints", test_midpoints);
     CU_add_test(suite, "discrete gradient: energy", test_energy);

@@ -1,4 +1,4 @@
-/* test_spectrum.c - Lyapunov exponents and phase volume. */
+/* test_lyapunov.c - Lyapunov exponents and phase volume. */
 #include "allocation.h"
 #include "fixtures.h"
 #include "quick.h"
@@ -347,7 +347,7 @@ static void test_out_of_memory(void)
     dal_model_free(model);
 }
 
-void suite_spectrum(void)
+void suite_lyapunov(void)
 {
     CU_pSuite suite = CU_add_suite("exponents and volume", NULL, NULL);
     CU_add_test(suite, "a saddle, closed form", test_saddle);

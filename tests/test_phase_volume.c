@@ -1,4 +1,4 @@
-/* test_travel.c - exponents where coordinates travel far, and the balance of phase volume. */
+/* test_phase_volume.c - exponents where coordinates travel far, and the balance of phase volume. */
 #include "fixtures.h"
 #include "quick.h"
 #include <CUnit/CUnit.h>
@@ -235,7 +235,7 @@ static void test_no_balance(void)
     dal_model_free(model);
 }
 
-void suite_travel(void)
+void suite_phase_volume(void)
 {
     CU_pSuite suite = CU_add_suite("exponents far away, balance of volume", NULL, NULL);
     CU_add_test(suite, "cyclic coordinates, translated", test_translation);

@@ -1,4 +1,4 @@
-/* test_memory.c - what a run carries: checkpoints, and the caller's own memory. */
+/* test_checkpoints.c - the state that a run saves and restores, and memory of the caller. */
 #include "fixtures.h"
 #include <CUnit/CUnit.h>
 #include <stdlib.h>
@@ -48,9 +48,9 @@ static void test_own_memory(void)
     dal_model_free(model);
 }
 
-void suite_memory(void)
+void suite_checkpoints(void)
 {
-    CU_pSuite suite = CU_add_suite("memory", NULL, NULL);
+    CU_pSuite suite = CU_add_suite("checkpoints", NULL, NULL);
     CU_add_test(suite, "checkpoint", test_checkpoint);
     CU_add_test(suite, "the caller's memory", test_own_memory);
 }

@@ -1,4 +1,4 @@
-/* test_late.c - runs near step 1e10: the count of steps, the clock and the times of rows.
+/* test_long_clock.c - runs near step 1e10: the count of steps, the clock and the times of rows.
  *
  * The clock is a sum with its residue.  As long as k < 2^50 or so, every sum is a multiple of the
  * last place of h that fits into both together, so that nothing is ever lost and
@@ -198,9 +198,9 @@ static void test_rows_between_steps(void)
     dal_model_free(model);
 }
 
-void suite_late(void)
+void suite_long_clock(void)
 {
-    CU_pSuite suite = CU_add_suite("late", NULL, NULL);
+    CU_pSuite suite = CU_add_suite("long clock", NULL, NULL);
     CU_add_test(suite, "the clock near step 1e10", test_clock);
     CU_add_test(suite, "the clock from the start", test_from_the_start);
     CU_add_test(suite, "rows on steps", test_rows_on_steps);

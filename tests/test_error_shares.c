@@ -1,5 +1,5 @@
-/* test_causes.c - the shares of a drift, from runs that are made up: every part has the rate or the
- * deviation that the case wants, so that the shares are known. */
+/* test_error_shares.c - the shares of a drift, from made-up runs: every part has the rate or the
+ * deviation of its case, so that the shares are known. */
 #include "analysis/error_shares.h"
 #include "fixtures.h"
 #include <CUnit/CUnit.h>
@@ -220,9 +220,9 @@ static void test_projection(void)
     dal_model_free(model);
 }
 
-void suite_causes(void)
+void suite_error_shares(void)
 {
-    CU_pSuite suite = CU_add_suite("causes", NULL, NULL);
+    CU_pSuite suite = CU_add_suite("shares of a drift", NULL, NULL);
     CU_add_test(suite, "shares of a rate", test_rates);
     CU_add_test(suite, "rates or deviations", test_by_rate);
     CU_add_test(suite, "the solver", test_solver);

@@ -1,5 +1,5 @@
-/* test_follow.c - observables of many steps at a time: the bits of dal_run_observe after each step,
- * whether steps and observables are compiled or not, and wherever a run is cut in pieces. */
+/* test_observables.c - observables of many steps at a time: the bits of dal_run_observe after each
+ * step, whether steps and observables are compiled or not, and however a run is divided. */
 #include "dalembert_codegen.h"
 #include "fixtures.h"
 #include "folder.h"
@@ -227,7 +227,7 @@ static void test_refusal(void)
     dal_model_free(model);
 }
 
-void suite_follow(void)
+void suite_observables(void)
 {
     CU_pSuite suite = CU_add_suite("observables of many steps", set_up, tear_down);
     CU_add_test(suite, "the same bits", test_bits);

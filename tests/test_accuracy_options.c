@@ -1,5 +1,5 @@
-/* test_twins.c - the options that twins of a run differ by: sums, and how far equations are solved.
- */
+/* test_accuracy_options.c - the options that comparison runs differ by: sums, and how accurately
+ * equations are solved. */
 #include "fixtures.h"
 #include "quick.h"
 #include <CUnit/CUnit.h>
@@ -168,9 +168,9 @@ static void test_refused(void)
     dal_model_free(model);
 }
 
-void suite_twins(void)
+void suite_accuracy_options(void)
 {
-    CU_pSuite suite = CU_add_suite("twins", NULL, NULL);
+    CU_pSuite suite = CU_add_suite("options of accuracy", NULL, NULL);
     CU_add_test(suite, "plain and compensated sums", test_sums);
     CU_add_test(suite, "products with the step", test_one_side);
     CU_add_test(suite, "a looser solver", test_looser);

@@ -1,4 +1,4 @@
-/* test_looks.c - an observer that looks on at every so many steps, and rows at times of its own. */
+/* test_observer.c - an observer that is called every K steps, and rows at times of its own. */
 #include "fixtures.h"
 #include <CUnit/CUnit.h>
 #include <math.h>
@@ -56,8 +56,8 @@ static void test_looks(void)
     dal_model_free(model);
 }
 
-void suite_looks(void)
+void suite_observer(void)
 {
-    CU_pSuite suite = CU_add_suite("looking on", NULL, NULL);
+    CU_pSuite suite = CU_add_suite("observer", NULL, NULL);
     CU_add_test(suite, "at steps, and rows at given times", test_looks);
 }
