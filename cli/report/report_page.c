@@ -1,28 +1,30 @@
 /* report_page.c - the page of a report: HTML that needs no other file, no network and no script,
- * light or dark as its reader likes, on wide screens and on narrow ones. */
-#include "io/output.h"
-#include "report.h"
+ * light or dark as its reader prefers, on wide screens and on narrow ones. */
+#include "report_page.h"
 
 #include "io/file.h"
+#include "io/output.h"
+#include "ui/cli.h"
 
 #include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- texts ---- */
+enum { MAX_FILE_NAME = 256 };
+
+/* ---- texts --------------------------------------------------------------------------------- */
 
 void report_text(FILE *page, const char *text)
 {
     for (; *text; text++) {
-        if (*text == '&')
-            fputs("&amp;", page);
-        else if (*text == '<')
-            fputs("&lt;", page);
-        else if (*text == '>')
-            fputs("&gt;", page);
-        else if (*text == '"')
-            fputs("&quot;", page);
+        const char *entity = *text == '&'   ? "&amp;"
+                             : *text == '<' ? "&lt;"
+                             : *text == '>' ? "&gt;"
+                             : *text == '"' ? "&quot;"
+                                            : NULL;
+        if (entity)
+            fputs(entity, page);
         else
             fputc(*text, page);
     }
@@ -39,31 +41,25 @@ void report_number(FILE *page, const char *format, double x)
 {
     char text[64] = "–";
     if (!isnan(x)) snprintf(text, sizeof text, format, x);
-    fprintf(page, "<td>%s</td>", text);
-}
-
-void report_paragraph(FILE *page, const char *text)
-{
-    report_element(page, "p", text);
-    fputc('\n', page);
+    report_element(page, "td", text);
 }
 
 /* The colour of a cell: a trend that grows is never that of no trend, whatever its size. */
-static const char *class_of(const char *size, const char *trend)
+static const char *trend_class(const char *size, const char *trend)
 {
-    static const char *const off[] = {"", "failed", "aborted", "undecided"};
-    static const char *const stays[] = {"none", "settles"};
-    for (size_t i = 0; i < sizeof off / sizeof off[0]; i++)
-        if (strcmp(trend, off[i]) == 0) return "off";
-    for (size_t i = 0; i < sizeof stays / sizeof stays[0]; i++)
-        if (strcmp(trend, stays[i]) == 0) return strcmp(size, "larger") == 0 ? "bounded" : "kept";
-    return strcmp(size, "larger") == 0 ? "drift" : "small";
+    const bool is_larger = strcmp(size, "larger") == 0;
+    if (!*trend || strcmp(trend, "failed") == 0 || strcmp(trend, "aborted") == 0 ||
+        strcmp(trend, "undecided") == 0)
+        return "off";
+    if (strcmp(trend, "none") == 0 || strcmp(trend, "settles") == 0)
+        return is_larger ? "bounded" : "kept";
+    return is_larger ? "drift" : "small";
 }
 
 void report_trend(FILE *page, const char *size, const char *trend, const char *number)
 {
-    const int is_exact = strcmp(size, "exact") == 0;
-    fprintf(page, "<td class=\"trend %s\">", class_of(size, trend));
+    const bool is_exact = strcmp(size, "exact") == 0;
+    fprintf(page, "<td class=\"trend %s\">", trend_class(size, trend));
     if (size[0] && !is_exact) fprintf(page, "%s<br>", size);
     fputs(is_exact ? "exact" : trend, page);
     if (!trend[0] && !number[0]) fputs("–", page);
@@ -73,12 +69,11 @@ void report_trend(FILE *page, const char *size, const char *trend, const char *n
 
 void report_file(report *r, const char *name, const char *summary)
 {
-    char *path = cli_join(r->directory, name);
+    char *path = cli_join(r->directory, name), line[512];
     FILE *file = fopen(path, "r");
     free(path);
     if (!file && errno == ENOMEM) cli_out_of_memory();
     if (!file) return;
-    char line[512];
     fputs("<details><summary>", r->page);
     report_text(r->page, summary);
     fputs("</summary>\n<pre tabindex=\"0\">", r->page);
@@ -87,16 +82,17 @@ void report_file(report *r, const char *name, const char *summary)
     fclose(file);
 }
 
-/* ---- figures ---- */
+/* ---- figures ------------------------------------------------------------------------------- */
 
 /* Three bytes are four letters (RFC 4648). */
-static void put_base64(FILE *page, const unsigned char *bytes, size_t length)
+static void write_base64(FILE *page, const char *bytes, size_t length)
 {
     static const char letters[] =
         "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     for (size_t i = 0; i < length; i += 3) {
         unsigned word = 0;
-        for (size_t k = 0; k < 3; k++) word = word << 8 | (i + k < length ? bytes[i + k] : 0u);
+        for (size_t k = 0; k < 3; k++)
+            word = word << 8 | (i + k < length ? (unsigned char)bytes[i + k] : 0u);
         for (size_t k = 0; k < 4; k++)
             fputc(i + k <= length ? letters[word >> (18 - 6 * k) & 63u] : '=', page);
     }
@@ -104,44 +100,40 @@ static void put_base64(FILE *page, const unsigned char *bytes, size_t length)
 
 int report_embed(report *r, const char *name, const char *alt, const char *caption)
 {
-    char file[PLOT_NAME + 8];
+    char file[MAX_FILE_NAME];
     size_t length = 0;
     snprintf(file, sizeof file, "%s.%s", name, r->format);
-    char *path = cli_join(r->place, file);
-    char *text = file_read(path, &length);
-    int status = CLI_IO;
-    if (text) {
-        fprintf(r->page, "<figure><img alt=\"");
-        report_text(r->page, alt);
-        fprintf(r->page, "\" src=\"data:image/%s;base64,",
-                strcmp(r->format, "svg") == 0 ? "svg+xml" : r->format);
-        put_base64(r->page, (const unsigned char *)text, length);
-        fputs("\">", r->page);
-        if (caption[0]) fprintf(r->page, "<figcaption>%s</figcaption>", caption);
-        fputs("</figure>\n", r->page);
-        r->figures++;
-        status = CLI_DONE;
-    }
-    free(text);
+    char *path = cli_join(r->place, file), *bytes = file_read(path, &length);
     free(path);
-    return status;
+    if (!bytes) return CLI_IO;
+    fputs("<figure><img alt=\"", r->page);
+    report_text(r->page, alt);
+    fprintf(r->page, "\" src=\"data:image/%s;base64,",
+            strcmp(r->format, "svg") == 0 ? "svg+xml" : r->format);
+    write_base64(r->page, bytes, length);
+    fputs("\">", r->page);
+    if (caption[0]) fprintf(r->page, "<figcaption>%s</figcaption>", caption);
+    fputs("</figure>\n", r->page);
+    r->figures++;
+    free(bytes);
+    return CLI_DONE;
 }
 
-/* ---- the page ---- */
-
-static const char head[] =
-    "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
-    "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n";
+/* ---- the page ------------------------------------------------------------------------------ */
 
 int report_open(report *r)
 {
     r->place = cli_join(r->directory, "report");
-    int status = cli_directory(r->place);
+    const int status = cli_directory(r->place);
     if (status != CLI_DONE) return status;
     r->page_path = cli_join(r->place, "index.html");
     r->page = fopen(r->page_path, "w");
     if (!r->page) return cli_io("write", r->page_path);
-    fprintf(r->page, "%s<style>\n%s</style>\n", head, report_style);
+    fprintf(r->page,
+            "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
+            "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
+            "<style>\n%s</style>\n",
+            report_style);
     return CLI_DONE;
 }
 

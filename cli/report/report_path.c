@@ -1,10 +1,11 @@
 /* report_path.c - the path of a run in the plane, and its body at some instants.
  *
- * A system file says under `picture` where the body is and which one it is; its outline here has a
- * length of 2, heading along x, and is drawn at a size that suits the path. */
-#include "report.h"
+ * A system file defines under `picture` where the body is and which one it is.  Its outline here
+ * has a length of 2, heading along x, and is drawn at a size that suits the path. */
+#include "report_path.h"
 
 #include "io/trajectory_reader.h"
+#include "report_plot.h"
 #include "run/run_directory.h"
 
 #include <math.h>
@@ -12,28 +13,27 @@
 #include <string.h>
 #include <unistd.h>
 
-/* Of more rows than these every k-th is drawn; instants at which the body is; its half length as a
- * part of the extent of the path; points of a circle. */
-enum { POINTS = 2000, INSTANTS = 9, ROUND = 32 };
+/* Of more rows than MAX_POINTS every k-th is drawn; instants of the body; its half length as a part
+ * of the extent of the path; points of a circle. */
+enum { MAX_POINTS = 2000, INSTANTS = 9, ROUND = 32 };
 static const double half_length = 0.055;
 static const double pi = 3.14159265358979323846;
 
-typedef struct path {
+typedef struct body_path {
     run_directory dir;
     run_request request;
     trajectory_reader reader;
     dal_evaluator *evaluator;
-    dal_body body;
-    int n;
     double pose[INSTANTS][DAL_PICTURE_COUNT];
     int poses;
     double low[2], high[2];
-} path;
+} body_path;
 
-/* ---- outlines ---- */
+/* ---- outlines ------------------------------------------------------------------------------ */
 
 typedef struct pen {
-    report_plot *plot;
+    const report_plot *plot;
+    plot_curve *curve;
     const double *pose;
     double scale;
 } pen;
@@ -42,21 +42,21 @@ typedef struct pen {
 static void draw_to(const pen *p, double x, double y)
 {
     const double c = cos(p->pose[DAL_PICTURE_ANGLE]), s = sin(p->pose[DAL_PICTURE_ANGLE]);
-    report_point(p->plot, p->pose[DAL_PICTURE_X] + p->scale * (c * x - s * y),
+    report_point(p->plot, p->curve, p->pose[DAL_PICTURE_X] + p->scale * (c * x - s * y),
                  p->pose[DAL_PICTURE_Y] + p->scale * (s * x + c * y));
 }
 
 static void draw_line(const pen *p, const double (*at)[2], int count)
 {
     for (int i = 0; i < count; i++) draw_to(p, at[i][0], at[i][1]);
-    report_lift(p->plot);
+    report_lift(p->curve);
 }
 
 static void draw_ellipse(const pen *p, double a, double b)
 {
     for (int i = 0; i <= ROUND; i++)
         draw_to(p, a * cos(2.0 * pi * i / ROUND), b * sin(2.0 * pi * i / ROUND));
-    report_lift(p->plot);
+    report_lift(p->curve);
 }
 
 /* Two wheels at the ends of an axle about (x, y), which roll along the angle turn. */
@@ -125,7 +125,7 @@ static void draw_racer(const pen *p)
     draw_axle(p, frame[2][0], frame[2][1], turn);
 }
 
-static void draw_bodies(const path *p, report_plot *plot)
+static void draw_bodies(const body_path *p, report_plot *plot)
 {
     static void (*const draw[])(const pen *p) = {
         [DAL_BODY_POINT] = draw_point, [DAL_BODY_SLEIGH] = draw_sleigh,
@@ -133,74 +133,77 @@ static void draw_bodies(const path *p, report_plot *plot)
         [DAL_BODY_BALL] = draw_ball,   [DAL_BODY_ROBOT] = draw_robot,
         [DAL_BODY_BOARD] = draw_board, [DAL_BODY_RACER] = draw_racer};
     const double extent = fmax(p->high[0] - p->low[0], p->high[1] - p->low[1]);
-    report_curve(plot, "")->ink = 1;
+    plot_curve *curve = report_curve(plot, "");
+    curve->is_black = true;
     for (int k = 0; k < p->poses; k++)
-        draw[p->body](&(pen){plot, p->pose[k], extent > 0.0 ? half_length * extent : 1.0});
+        draw[p->request.system->picture->body](
+            &(pen){plot, curve, p->pose[k], extent > 0.0 ? half_length * extent : 1.0});
 }
 
-/* ---- the path ---- */
+/* ---- the path ------------------------------------------------------------------------------ */
 
-static int take_row(path *p, report_plot *plot, long long k)
+/* The present row, number k. */
+static void add_row(body_path *p, const report_plot *plot, plot_curve *curve, long long k)
 {
-    const long long stride = 1 + p->reader.count / POINTS, last = p->reader.count - 1;
-    const long long next = last * p->poses / (INSTANTS - 1);
-    const int posed = k >= next && p->poses < INSTANTS;
+    const long long stride = 1 + p->reader.count / MAX_POINTS, last = p->reader.count - 1;
+    const bool is_instant = p->poses < INSTANTS && k >= last * p->poses / (INSTANTS - 1);
+    const dal_system *system = p->request.system;
     const double *row = p->reader.row;
     double at[DAL_PICTURE_COUNT];
-    if (!posed && k % stride && k != last) return CLI_DONE;
-    if (dal_evaluator_call(p->evaluator, p->request.system->picture->evaluate, row[0], row + 1,
-                           row + 1 + p->n, NULL, at))
-        return CLI_DONE;
-    report_point(plot, at[DAL_PICTURE_X], at[DAL_PICTURE_Y]);
+    if (!is_instant && k % stride && k != last) return;
+    if (dal_evaluator_call(p->evaluator, system->picture->evaluate, row[0], row + 1,
+                           row + 1 + system->n, NULL, at))
+        return;
+    report_point(plot, curve, at[DAL_PICTURE_X], at[DAL_PICTURE_Y]);
     for (int i = 0; i < 2; i++) {
         p->low[i] = fmin(p->low[i], at[i]);
         p->high[i] = fmax(p->high[i], at[i]);
     }
-    if (posed) memcpy(p->pose[p->poses++], at, sizeof at);
-    return CLI_DONE;
+    if (is_instant) memcpy(p->pose[p->poses++], at, sizeof at);
 }
 
-/* Rows that are too far apart for lines between them to be the path. */
-static int is_rough(const path *p, const plot_curve *curve)
+/* Whether rows are so far apart that lines between them are not the path. */
+static bool is_sparse(const body_path *p, const plot_curve *curve)
 {
     const double far = 0.2 * fmax(p->high[0] - p->low[0], p->high[1] - p->low[1]);
-    int rough = 0;
+    int count = 0;
     for (int i = 1; i < curve->count; i++)
-        rough += hypot(curve->at[i][0] - curve->at[i - 1][0],
+        count += hypot(curve->at[i][0] - curve->at[i - 1][0],
                        curve->at[i][1] - curve->at[i - 1][1]) > far;
-    return 10 * rough > curve->count;
+    return 10 * count > curve->count;
 }
 
-static int draw(path *p, report *r, const char *name, const char *caption)
+static int draw_path(body_path *p, report *r, const char *name, const char *caption)
 {
     static const char *const words[] = {
-#define X(code, word) word,
-        DAL_BODY_LIST(X)
-#undef X
+#define BODY_WORD(code, word) word,
+        DAL_BODY_LIST(BODY_WORD)
+#undef BODY_WORD
     };
-    report_plot plot = {.xlabel = "x", .ylabel = "y", .alike = 1};
-    snprintf(plot.name, sizeof plot.name, "%s", name);
-    snprintf(plot.title, sizeof plot.title, p->body == DAL_BODY_POINT ? "Path" : "Path of the %s",
-             words[p->body]);
-    report_curve(&plot, "");
+    const dal_body body = p->request.system->picture->body;
+    char text[2 * PLOT_NAME] = "";
     int more, status = CLI_DONE;
-    for (long long k = 0; status == CLI_DONE && (more = reader_next(&p->reader)) != 0; k++)
-        status = more < 0 ? CLI_IO : take_row(p, &plot, k);
-    plot.curve[0].dots = is_rough(p, &plot.curve[0]);
+    report_plot plot = {.xlabel = "x", .ylabel = "y", .is_to_scale = true};
+    snprintf(plot.name, sizeof plot.name, "%s", name);
+    snprintf(plot.title, sizeof plot.title, body == DAL_BODY_POINT ? "Path" : "Path of the %s",
+             words[body]);
+    plot_curve *curve = report_curve(&plot, "");
+    for (long long k = 0; (more = reader_next(&p->reader)) > 0; k++) add_row(p, &plot, curve, k);
+    if (more < 0) status = CLI_IO;
+    curve->has_dots = is_sparse(p, curve);
     draw_bodies(p, &plot);
-    char text[2 * PLOT_NAME];
-    const char *separator = caption[0] && p->poses > 0 ? " " : "";
-    snprintf(text, sizeof text, "%s%s", caption, separator);
-    if (p->poses > 0 && p->body != DAL_BODY_POINT)
-        snprintf(text + strlen(text), sizeof text - strlen(text),
-                 "The %s, not to scale, at %d of the rows.", words[p->body], p->poses);
-    plot.caption = text;
-    int drawn = report_draw(r, &plot);
+    if (p->poses > 0 && body != DAL_BODY_POINT)
+        snprintf(text, sizeof text, "The %s, not to scale, at %d of the rows.", words[body],
+                 p->poses);
+    char *whole = cli_format("%s%s%s", caption, caption[0] && p->poses > 0 ? " " : "", text);
+    plot.caption = whole;
+    const int drawn = report_draw(r, &plot);
+    free(whole);
     return status == CLI_DONE ? drawn : status;
 }
 
-/* What the run was, from its directory, which may be gone: a study needs it no more. */
-static int load(path *p, const char *run)
+/* The run as its directory describes it, which may be gone: a study does not need it. */
+static int open_path(body_path *p, const char *run)
 {
     dal_run_spec spec;
     dal_error error;
@@ -209,8 +212,6 @@ static int load(path *p, const char *run)
     int status = run_directory_read(&p->dir, &p->request);
     if (status == CLI_DONE) status = request_make_spec(&p->request, &spec);
     if (status != CLI_DONE || !p->request.system->picture) return status;
-    p->n = p->request.system->n;
-    p->body = p->request.system->picture->body;
     if (dal_evaluator_create(&p->evaluator, p->request.system, p->request.set.item,
                              p->request.set.count, &error))
         return cli_error(CLI_USAGE, run, &error);
@@ -219,19 +220,18 @@ static int load(path *p, const char *run)
 
 int report_path(report *r, const char *run, const char *name, const char *caption)
 {
-    path *p = cli_calloc(1, sizeof *p);
-    *p = (path){.request = request_default(),
-                .dir = {.descriptor = -1},
-                .low = {INFINITY, INFINITY},
-                .high = {-INFINITY, -INFINITY}};
-    int status = load(p, run);
-    if (status == CLI_DONE && p->evaluator) {
-        if (p->reader.count > 0 && p->reader.columns > 2 * p->n) status = draw(p, r, name, caption);
-        reader_close(&p->reader);
+    body_path p = {.request = request_default(),
+                   .dir = {.descriptor = -1},
+                   .low = {INFINITY, INFINITY},
+                   .high = {-INFINITY, -INFINITY}};
+    int status = open_path(&p, run);
+    if (status == CLI_DONE && p.evaluator) {
+        if (p.reader.count > 0 && p.reader.columns > 2 * p.request.system->n)
+            status = draw_path(&p, r, name, caption);
+        reader_close(&p.reader);
     }
-    dal_evaluator_free(p->evaluator);
-    request_free(&p->request);
-    run_directory_close(&p->dir);
-    free(p);
+    dal_evaluator_free(p.evaluator);
+    request_free(&p.request);
+    run_directory_close(&p.dir);
     return status;
 }

@@ -1,52 +1,55 @@
-/* report_study.c - the page of a study: what becomes of D, E, the invariants and H with each
- * method.
+/* report_study.c - the page of a study: D, E, the invariants and H under each method.
  *
- * First the tables of sizes and trends, methods against systems; then the figures of each system;
- * then the expectations, and the tables of the study as they were printed. */
-#include "io/output.h"
-#include "report.h"
+ * First tables of sizes and trends, methods against systems; then the expectations; then the
+ * figures of each label: at each step the envelopes of what should not change, max |x - x(0)| up
+ * to t, over t, log-log, where a drift ~ t^k is a line of slope k; over all steps the error against
+ * the work and, where there are several, against h; and the path of the most accurate run. */
+#include "report_study.h"
 
 #include "io/document.h"
 #include "io/file.h"
+#include "io/output.h"
+#include "report_csv.h"
+#include "report_path.h"
+#include "report_plot.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
-void report_add_word(report_words *words, const char *text)
+typedef struct study_page {
+    report *r;
+    report_csv cells;
+    report_words labels, methods;
+} study_page;
+
+static const char *get_cell(const study_page *s, int row, const char *head)
 {
-    for (int i = 0; i < words->count; i++)
-        if (strcmp(words->word[i], text) == 0) return;
-    if (words->count < REPORT_WORDS) words->word[words->count++] = text;
+    return report_csv_get(&s->cells, row, head);
 }
 
-const char *report_get(const report_cells *cells, int row, const char *head)
+static bool is_cell(const study_page *s, int row, const char *head, const char *text)
 {
-    return report_csv_get(&cells->csv, row, head);
+    return report_csv_is(&s->cells, row, head, text);
 }
 
-int report_is(const report_cells *cells, int row, const char *head, const char *text)
+/* The row of a cell with this start, or else the other one; 0: none has numbers. */
+static int find_cell(const study_page *s, const char *label, const char *method, const char *step,
+                     const char *start, const char *other)
 {
-    return strcmp(report_get(cells, row, head), text) == 0;
-}
-
-int report_find(const report_cells *cells, const char *label, const char *method, const char *step,
-                const char *start, const char *other)
-{
-    int found = -1;
-    for (int row = 1; row < cells->csv.rows; row++) {
-        if (!report_is(cells, row, "label", label) || !report_is(cells, row, "step", step) ||
-            !report_is(cells, row, "integrator", method) ||
-            report_is(cells, row, "state", "refused"))
+    int found = 0;
+    for (int row = 1; row < s->cells.rows; row++) {
+        if (!is_cell(s, row, "label", label) || !is_cell(s, row, "step", step) ||
+            !is_cell(s, row, "integrator", method) || is_cell(s, row, "state", "refused"))
             continue;
-        if (report_is(cells, row, "start", start)) return row;
-        if (report_is(cells, row, "start", other)) found = row;
+        if (is_cell(s, row, "start", start)) return row;
+        if (is_cell(s, row, "start", other)) found = row;
     }
     return found;
 }
 
-/* ---- tables of sizes and trends ---- */
+/* ---- tables of sizes and trends ------------------------------------------------------------ */
 
 typedef struct theme {
     const char *title, *start, *other, *value, *size, *trend;
@@ -56,149 +59,134 @@ typedef struct theme {
 static const theme themes[] = {
     {"Constraints: max |D|", "physical", "surface", "D_max", "D_size", "D_trend"},
     {"Energy: max |E − E(0)|", "physical", "surface", "E_deviation", "E_size", "E_trend"},
-    {"Invariants of the systems: max |I − I(0)|, the worst of each", "physical", "surface",
+    {"Invariants of the systems: max |I − I(0)|, the largest of each", "physical", "surface",
      "invariant_deviation", "invariant_size", "invariant_trend"},
     {"Hamiltonian of the lift: max |H − H(0)|, started off p = π = 0", "displaced", "displaced",
      "H_deviation", "H_size", "H_trend"},
 };
 
 /* A column of the tables: a label at a step. */
-typedef struct column {
+typedef struct table_column {
     const char *label, *step;
-    int alone; /* the only step of its label */
-} column;
+    bool is_alone; /* the only step of its label */
+} table_column;
 
-typedef struct columns {
-    column at[REPORT_WORDS];
+typedef struct table_columns {
+    table_column at[REPORT_WORDS];
     int count;
-} columns;
+} table_columns;
 
-static int same_text(const char *a, const char *b) { return strcmp(a, b) == 0; }
-
-static void add_column(columns *all, const char *label, const char *step)
+static void add_column(table_columns *all, const char *label, const char *step)
 {
-    int alone = 1;
+    bool is_alone = true;
     for (int i = 0; i < all->count; i++) {
-        if (!same_text(all->at[i].label, label)) continue;
-        if (same_text(all->at[i].step, step)) return;
-        alone = all->at[i].alone = 0;
+        if (strcmp(all->at[i].label, label) != 0) continue;
+        if (strcmp(all->at[i].step, step) == 0) return;
+        is_alone = all->at[i].is_alone = false;
     }
-    if (all->count < REPORT_WORDS) all->at[all->count++] = (column){label, step, alone};
+    if (all->count < REPORT_WORDS) all->at[all->count++] = (table_column){label, step, is_alone};
 }
 
-/* Whether a theme has anything to say about a column. */
-static int has_value(const report_cells *c, const column *at, const theme *t)
+static bool has_value(const study_page *s, const table_column *column, const theme *t)
 {
-    for (int row = 1; row < c->csv.rows; row++)
-        if (report_is(c, row, "label", at->label) && report_is(c, row, "step", at->step) &&
-            (report_is(c, row, "start", t->start) || report_is(c, row, "start", t->other)) &&
-            report_get(c, row, t->value)[0])
-            return 1;
-    return 0;
+    for (int row = 1; row < s->cells.rows; row++)
+        if (is_cell(s, row, "label", column->label) && is_cell(s, row, "step", column->step) &&
+            (is_cell(s, row, "start", t->start) || is_cell(s, row, "start", t->other)) &&
+            !is_cell(s, row, t->value, ""))
+            return true;
+    return false;
 }
 
-static void put_cell(FILE *page, const report_cells *c, int row, const theme *t)
+static void write_trend_cell(const study_page *s, int row, const theme *t)
 {
+    FILE *page = s->r->page;
     char number[32] = "";
-    const char *value = row < 0 ? "" : report_get(c, row, t->value);
+    const char *value = row > 0 ? get_cell(s, row, t->value) : "";
     const double size = strtod(value, NULL);
     if (value[0]) snprintf(number, sizeof number, size == 0.0 ? "0" : "%.1e", size);
-    if (row >= 0 && report_is(c, row, "state", "failed"))
+    if (row > 0 && is_cell(s, row, "state", "failed"))
         report_trend(page, "", "failed", number);
     else if (!value[0])
         fputs("<td>–</td>", page);
     else
-        report_trend(page, report_get(c, row, t->size), report_get(c, row, t->trend), number);
+        report_trend(page, get_cell(s, row, t->size), get_cell(s, row, t->trend), number);
 }
 
-static void put_heads(FILE *page, const columns *all)
+/* Labels without a value and methods that apply to none of the others are left out. */
+static void write_theme(const study_page *s, const table_columns *all, const theme *t)
 {
-    fputs("<table><thead><tr><td></td>", page);
-    for (int i = 0; i < all->count; i++) {
+    FILE *page = s->r->page;
+    table_columns shown = {.count = 0};
+    for (int i = 0; i < all->count; i++)
+        if (has_value(s, &all->at[i], t)) shown.at[shown.count++] = all->at[i];
+    if (shown.count == 0) return;
+    fprintf(page, "<h3>%s</h3>\n<div class=\"wide\" tabindex=\"0\"><table><thead><tr><td></td>",
+            t->title);
+    for (int i = 0; i < shown.count; i++) {
         fputs("<th scope=\"col\">", page);
-        report_text(page, all->at[i].label);
-        if (!all->at[i].alone)
-            fprintf(page, "<br><small>h = %g</small>", strtod(all->at[i].step, NULL));
+        report_text(page, shown.at[i].label);
+        if (!shown.at[i].is_alone)
+            fprintf(page, "<br><small>h = %g</small>", strtod(shown.at[i].step, NULL));
         fputs("</th>", page);
     }
     fputs("</tr></thead>\n<tbody>", page);
-}
-
-/* A method that no system of the table could use is left out. */
-static void put_method(FILE *page, const report_cells *c, const columns *all, const char *method,
-                       const theme *t)
-{
-    int rows[REPORT_WORDS], found = 0;
-    for (int i = 0; i < all->count; i++) {
-        const column *at = &all->at[i];
-        rows[i] = report_find(c, at->label, method, at->step, t->start, t->other);
-        found |= rows[i] >= 0;
+    for (int m = 0; m < s->methods.count; m++) {
+        int rows[REPORT_WORDS];
+        bool is_found = false;
+        for (int i = 0; i < shown.count; i++) {
+            rows[i] = find_cell(s, shown.at[i].label, s->methods.word[m], shown.at[i].step,
+                                t->start, t->other);
+            is_found |= rows[i] > 0;
+        }
+        if (!is_found) continue;
+        fputs("<tr>", page);
+        report_element(page, "th scope=\"row\"", s->methods.word[m]);
+        for (int i = 0; i < shown.count; i++) write_trend_cell(s, rows[i], t);
+        fputs("</tr>\n", page);
     }
-    if (!found) return;
-    fputs("<tr>", page);
-    report_element(page, "th scope=\"row\"", method);
-    for (int i = 0; i < all->count; i++) put_cell(page, c, rows[i], t);
-    fputs("</tr>\n", page);
-}
-
-static void put_theme(FILE *page, const report_cells *c, const columns *all, const theme *t)
-{
-    columns shown = {.count = 0};
-    for (int i = 0; i < all->count; i++)
-        if (has_value(c, &all->at[i], t)) shown.at[shown.count++] = all->at[i];
-    if (shown.count == 0) return;
-    fprintf(page, "<h3>%s</h3>\n<div class=\"wide\" tabindex=\"0\">", t->title);
-    put_heads(page, &shown);
-    for (int m = 0; m < c->methods.count; m++) put_method(page, c, &shown, c->methods.word[m], t);
     fputs("</tbody></table></div>\n", page);
 }
 
-/* ---- expectations ---- */
+/* ---- expectations -------------------------------------------------------------------------- */
 
-static void put_expectation(FILE *page, const report_csv *csv, int row)
+static void write_expectations(FILE *page, const report_csv *csv, bool only_unmet)
 {
-    const int met = strcmp(report_csv_get(csv, row, "met"), "yes") == 0;
-    fputs("<tr>", page);
-    report_element(page, "th scope=\"row\"", report_csv_get(csv, row, "label"));
-    report_element(page, "td", report_csv_get(csv, row, "integrator"));
-    report_element(page, "td", report_csv_get(csv, row, "start"));
-    report_number(page, "%g", report_csv_number(csv, row, "step"));
-    report_element(page, "td", report_csv_get(csv, row, "quantity"));
-    report_element(page, "td", report_csv_get(csv, row, "expected"));
-    report_element(page, "td", report_csv_get(csv, row, "found"));
-    fprintf(page, "<td class=\"%s\">%s</td></tr>\n", met ? "kept" : "drift",
-            met ? "met" : "not met");
-}
-
-/* Those that are not met stand open on the page, all of them below. */
-static void put_expectations(FILE *page, const report_csv *csv, int all)
-{
+    static const char *const heads[] = {"integrator", "start",    "step",
+                                        "quantity",   "expected", "found"};
     fputs("<div class=\"wide\" tabindex=\"0\"><table><thead><tr><th>system</th><th>integrator</th>"
           "<th>start</th><th>h</th><th>quantity</th><th>expected</th><th>found</th><th></th></tr>"
           "</thead>\n<tbody>",
           page);
-    for (int row = 1; row < csv->rows; row++)
-        if (all || strcmp(report_csv_get(csv, row, "met"), "yes") != 0)
-            put_expectation(page, csv, row);
+    for (int row = 1; row < csv->rows; row++) {
+        const bool is_met = report_csv_is(csv, row, "met", "yes");
+        if (only_unmet && is_met) continue;
+        fputs("<tr>", page);
+        report_element(page, "th scope=\"row\"", report_csv_get(csv, row, "label"));
+        for (size_t k = 0; k < sizeof heads / sizeof heads[0]; k++)
+            if (strcmp(heads[k], "step") == 0)
+                report_number(page, "%g", report_csv_number(csv, row, "step"));
+            else
+                report_element(page, "td", report_csv_get(csv, row, heads[k]));
+        fprintf(page, "<td class=\"%s\">%s</td></tr>\n", is_met ? "kept" : "drift",
+                is_met ? "met" : "not met");
+    }
     fputs("</tbody></table></div>\n", page);
 }
 
-/* What the study says must become of its runs; a study need not say anything. */
-static int tell_expectations(report *r)
+/* A study need not have expectations.  Those that are not met are open on the page, above the fold
+ * of all. */
+static int report_expectations(report *r)
 {
     report_csv csv = {.text = NULL};
     char *path = cli_join(r->directory, "expectations.csv");
-    int status = CLI_DONE, met = 0;
-    if (access(path, F_OK) == 0) {
-        status = report_csv_read(&csv, path);
-        for (int row = 1; row < csv.rows; row++)
-            met += strcmp(report_csv_get(&csv, row, "met"), "yes") == 0;
-    }
+    const int status = access(path, F_OK) == 0 ? report_csv_read(&csv, path) : CLI_DONE;
+    int met = 0;
+    for (int row = 1; row < csv.rows; row++) met += report_csv_is(&csv, row, "met", "yes");
     if (csv.rows > 1) {
         fprintf(r->page, "<h2>Expectations</h2>\n<p>%d of %d are met.</p>\n", met, csv.rows - 1);
-        if (met < csv.rows - 1) put_expectations(r->page, &csv, 0);
+        if (met < csv.rows - 1) write_expectations(r->page, &csv, true);
         fputs("<details><summary>all of them</summary>\n", r->page);
-        put_expectations(r->page, &csv, 1);
+        write_expectations(r->page, &csv, false);
         fputs("</details>\n", r->page);
     }
     report_csv_free(&csv);
@@ -206,95 +194,276 @@ static int tell_expectations(report *r)
     return status;
 }
 
-/* ---- the page ---- */
+/* ---- the figures of a label ---------------------------------------------------------------- */
+
+typedef struct label_figures {
+    const study_page *s;
+    const char *label;
+    report_csv series;
+    report_words methods; /* those drawn: without modifiers, if there are such */
+    report_words steps;
+    const char *accuracy; /* the column of errors, or NULL */
+} label_figures;
+
+static bool is_of_label(const label_figures *f, int row)
+{
+    return is_cell(f->s, row, "label", f->label);
+}
+
+/* The column of the error, or else of what the system conserves. */
+static const char *find_accuracy(const label_figures *f)
+{
+    static const char *const columns[] = {"error_max", "invariant_deviation", "E_deviation"};
+    for (int k = 0; k < 3; k++)
+        for (int row = 1; row < f->s->cells.rows; row++) {
+            const bool is_conserved = k < 2 || !is_cell(f->s, row, "E_trend", "");
+            if (is_of_label(f, row) && is_conserved && !is_cell(f->s, row, columns[k], ""))
+                return columns[k];
+        }
+    return NULL;
+}
+
+static void list_methods(label_figures *f)
+{
+    for (int row = 1; row < f->s->cells.rows; row++)
+        if (is_of_label(f, row)) report_add_word(&f->steps, get_cell(f->s, row, "step"));
+    for (int with_modifiers = 0; with_modifiers < 2 && f->methods.count == 0; with_modifiers++)
+        for (int row = 1; row < f->s->cells.rows; row++) {
+            const char *method = get_cell(f->s, row, "integrator");
+            if (is_of_label(f, row) && !is_cell(f->s, row, "steps", "0") &&
+                (with_modifiers || !strchr(method, '+')))
+                report_add_word(&f->methods, method);
+        }
+}
+
+/* A file name of a label, of what is drawn and of numbers that distinguish figures. */
+static void name_plot(report_plot *plot, const label_figures *f, const char *what, int step,
+                      int part)
+{
+    char suffix[48] = "";
+    if (step > 0) snprintf(suffix, sizeof suffix, "-h%d", step + 1);
+    if (part > 0)
+        snprintf(suffix + strlen(suffix), sizeof suffix - strlen(suffix), "-%d", part + 1);
+    snprintf(plot->name, sizeof plot->name, "%.120s-%s%s", f->label, what, suffix);
+}
+
+/* What the envelopes of a figure are of: the column of series/LABEL.csv, that of cells.csv which is
+ * empty where a system lacks it, the start whose runs are shown and another with the same numbers,
+ * title, label of the axis, file name. */
+typedef struct track {
+    const char *column, *value, *start, *other, *title, *ylabel, *name;
+} track;
+
+static const track tracks[] = {
+    {"D", "D_max", "physical", "surface", "Constraints", "max |D|", "D"},
+    {"E", "E_deviation", "physical", "surface", "Energy", "max |E - E(0)|", "E"},
+    {"invariants", "invariant_deviation", "physical", "surface", "Invariants",
+     "max |I - I(0)| / max(1, |I(0)|)", "I"},
+    {"H", "H_deviation", "displaced", "displaced", "H, started off p = pi = 0", "max |H - H(0)|",
+     "H"},
+    {"error", "error_max", "physical", "surface", "Error", "max |q - exact|", "error"},
+};
+
+enum { TRACKS = sizeof tracks / sizeof tracks[0] };
+
+static void add_envelope(const label_figures *f, report_plot *plot, const char *method,
+                         const char *step, const track *t)
+{
+    const int cell = find_cell(f->s, f->label, method, step, t->start, t->other);
+    if (cell == 0 || is_cell(f->s, cell, t->value, "")) return;
+    const char *start = get_cell(f->s, cell, "start");
+    plot_curve *curve = NULL;
+    double max = 0.0;
+    /* The rows of a cell stand together. */
+    for (int row = 1; row < f->series.rows; row++) {
+        if (!report_csv_is(&f->series, row, "integrator", method) ||
+            !report_csv_is(&f->series, row, "step", step) ||
+            !report_csv_is(&f->series, row, "start", start)) {
+            if (curve) break;
+            continue;
+        }
+        if (!curve) curve = report_curve(plot, method);
+        const double x = report_csv_number(&f->series, row, t->column);
+        if (!(x <= max)) max = x;
+        report_point(plot, curve, report_csv_number(&f->series, row, "until"), max);
+    }
+    if (curve) report_title_envelope(curve, method);
+}
+
+static int draw_track(const label_figures *f, const track *t, int step, int part)
+{
+    const char *h = f->steps.word[step];
+    report_plot plot = {
+        .log_x = true, .log_y = true, .xlabel = "t", .caption = report_envelope_caption};
+    name_plot(&plot, f, t->name, step, part);
+    snprintf(plot.title, sizeof plot.title, "%s, h = %g", t->title, strtod(h, NULL));
+    snprintf(plot.ylabel, sizeof plot.ylabel, "%s", t->ylabel);
+    const int first = part * PLOT_CURVES;
+    for (int m = first; m < f->methods.count && m < first + PLOT_CURVES; m++)
+        add_envelope(f, &plot, f->methods.word[m], h, t);
+    /* "max |D| is 0 at all rows with A, B, C." */
+    char text[PLOT_CURVES * PLOT_TITLE];
+    size_t n = (size_t)snprintf(text, sizeof text, "%s is 0 at all rows with", plot.ylabel);
+    for (int i = 0; i < plot.count && n < sizeof text; i++) {
+        const char *title = plot.curve[i].title;
+        n += (size_t)snprintf(text + n, sizeof text - n, "%s %.*s", i ? "," : "",
+                              (int)strcspn(title, " "), title);
+    }
+    if (n < sizeof text) snprintf(text + n, sizeof text - n, ".");
+    plot.zero_text = text;
+    return report_draw(f->s->r, &plot);
+}
+
+/* The errors of some methods over the work, or over the step. */
+static int draw_errors(const label_figures *f, bool over_work, int part)
+{
+    const report_csv *cells = &f->s->cells;
+    report_plot plot = {.log_x = true, .log_y = true, .has_marks = true};
+    plot.caption = over_work ? "Lower left is better: less error for less work."
+                             : "A method of order p is a line of slope p.";
+    name_plot(&plot, f, over_work ? "work" : "order", 0, part);
+    snprintf(plot.title, sizeof plot.title, over_work ? "Work and precision" : "Order");
+    snprintf(plot.xlabel, sizeof plot.xlabel,
+             over_work ? "evaluations of F per unit of t" : "step h");
+    snprintf(plot.ylabel, sizeof plot.ylabel,
+             strcmp(f->accuracy, "error_max") == 0     ? "max error"
+             : strcmp(f->accuracy, "E_deviation") == 0 ? "max |E - E(0)|"
+                                                       : "max |I - I(0)|");
+    const int first = part * PLOT_CURVES;
+    for (int m = first; m < f->methods.count && m < first + PLOT_CURVES; m++) {
+        const char *method = f->methods.word[m];
+        plot_curve *curve = report_curve(&plot, method);
+        for (int h = 0; h < f->steps.count; h++) {
+            const char *step = f->steps.word[h];
+            const int row = find_cell(f->s, f->label, method, step, "physical", "surface");
+            if (row == 0 || !is_cell(f->s, row, "state", "done")) continue;
+            const double work = report_csv_number(cells, row, "evaluations") /
+                                report_csv_number(cells, row, "time");
+            report_point(&plot, curve, over_work ? work : strtod(step, NULL),
+                         report_csv_number(cells, row, f->accuracy));
+        }
+    }
+    return report_draw(f->s->r, &plot);
+}
+
+/* The path of the most accurate run among those whose rows were kept. */
+static int draw_best_path(const label_figures *f)
+{
+    const study_page *s = f->s;
+    int best = 0;
+    double min = INFINITY;
+    for (int row = 1; row < s->cells.rows; row++) {
+        if (!is_of_label(f, row) || is_cell(s, row, "run", "") ||
+            !is_cell(s, row, "state", "done") || is_cell(s, row, "start", "displaced"))
+            continue;
+        const double error = f->accuracy ? report_csv_number(&s->cells, row, f->accuracy) : 0.0;
+        if (best > 0 && !(error < min)) continue;
+        best = row;
+        min = error;
+    }
+    if (best == 0) return CLI_DONE;
+    char name[PLOT_NAME], caption[2 * PLOT_NAME];
+    snprintf(name, sizeof name, "%.120s-path", f->label);
+    snprintf(caption, sizeof caption, "The path by %.80s with h = %g.",
+             get_cell(s, best, "integrator"), report_csv_number(&s->cells, best, "step"));
+    char *run = cli_join(s->r->directory, get_cell(s, best, "run"));
+    const int status = report_path(s->r, run, name, caption);
+    free(run);
+    return status;
+}
+
+/* Twelve methods at a time, all but the first of them folded. */
+static int draw_label(const label_figures *f)
+{
+    FILE *page = f->s->r->page;
+    int status = CLI_DONE;
+    for (int part = 0; part * PLOT_CURVES < f->methods.count && status == CLI_DONE; part++) {
+        if (part > 0) {
+            fputs("<details><summary>further methods: ", page);
+            report_text(page, f->methods.word[part * PLOT_CURVES]);
+            fputs(" ...</summary>\n", page);
+        }
+        fputs("<div class=\"figures\">\n", page);
+        if (part == 0) status = draw_best_path(f);
+        for (int i = 0; i < f->steps.count * TRACKS && status == CLI_DONE; i++)
+            status = draw_track(f, &tracks[i % TRACKS], i / TRACKS, part);
+        if (status == CLI_DONE && f->accuracy) status = draw_errors(f, true, part);
+        if (status == CLI_DONE && f->accuracy && f->steps.count > 1)
+            status = draw_errors(f, false, part);
+        fputs(part > 0 ? "</div></details>\n" : "</div>\n", page);
+    }
+    return status;
+}
+
+static int report_label(const study_page *s, const char *label)
+{
+    label_figures *f = cli_calloc(1, sizeof *f);
+    *f = (label_figures){.s = s, .label = label};
+    list_methods(f);
+    f->accuracy = find_accuracy(f);
+    int status = CLI_DONE;
+    if (f->methods.count == 0) {
+        fputs("<p>No run has numbers to show.</p>\n", s->r->page);
+    } else {
+        char *name = cli_format("series/%s.csv", label), *path = cli_join(s->r->directory, name);
+        status = report_csv_read(&f->series, path);
+        if (status == CLI_DONE) status = draw_label(f);
+        free(name);
+        free(path);
+    }
+    report_csv_free(&f->series);
+    free(f);
+    return status;
+}
+
+/* ---- the page ------------------------------------------------------------------------------ */
 
 static const char introduction[] =
-    "<p>Each cell has a size, a trend and the number that the heading names; – : the method "
-    "needs what the system lacks.</p>\n"
+    "<p>Each cell has a size, a trend and the number that the heading names; – means that the "
+    "method needs what the system lacks.</p>\n"
     "<ul class=\"key\">\n"
-    "<li class=\"kept\">exact: never changed; rounding: no larger than roundings of so many steps "
-    "make, and no trend: it stays about one value, or changes once (settles)</li>\n"
+    "<li class=\"kept\">exact: never changed; rounding: no larger than the roundings of as many "
+    "steps, and no trend: it stays about one value, or changes once (settles)</li>\n"
     "<li class=\"small\">rounding, and a trend: a random walk, or a drift of roundings to one "
     "side</li>\n"
     "<li class=\"bounded\">larger, none: larger than roundings, about one value; settles: changes "
     "once</li>\n"
-    "<li class=\"drift\">larger, and random walk, linear, power law, exponential, growing "
-    "oscillation: grows so</li>\n"
-    "<li class=\"off\">failed, aborted: the run broke off; undecided: too few samples, or too "
+    "<li class=\"drift\">larger, and random walk, linear, power law, exponential or growing "
+    "oscillation: grows in that way</li>\n"
+    "<li class=\"off\">failed, aborted: the run ended early; undecided: too few samples, or too "
     "slow an oscillation, to decide; a number alone: E where the motion of the run need not "
-    "conserve "
-    "it</li>\n"
+    "conserve it</li>\n"
     "</ul>\n";
 
 static const char about_lift[] =
     "<p>On p = π = 0 a lifted method is the same method on (q,v), bit for bit. That a method is\n"
-    "symplectic on the lift says nothing there about D or the energy: every one-step method\n"
+    "symplectic on the lift has no consequence there for D or the energy: every one-step method\n"
     "whose step is locally invertible, explicit Euler included, is the restriction of a\n"
-    "symplectic one. D and E are kept, or not, for other reasons: the form of D, whether D is\n"
-    "imposed or projected on, reversibility. What symplecticity does keep shows off p = π = 0,\n"
-    "in H. A step that lands in D = 0 has no lift of 4n+2 variables; restricted to D = 0 it lifts\n"
-    "to T*{D = 0}, of dimension 2(2n − m).</p>\n";
+    "symplectic one. D and E are preserved, or not, for other reasons: the form of D, whether D\n"
+    "is enforced or projected, reversibility. What symplecticity does preserve shows off\n"
+    "p = π = 0, in H. A step that lands in D = 0 has no lift of 4n+2 variables; restricted to\n"
+    "D = 0 it lifts to T*{D = 0}, of dimension 2(2n − m).</p>\n";
 
-static void put_contents(FILE *page, const report_cells *c)
-{
-    fputs("<p>Figures:", page);
-    for (int i = 0; i < c->labels.count; i++) {
-        fprintf(page, "%s <a href=\"#s%d\">", i ? "," : "", i + 1);
-        report_text(page, c->labels.word[i]);
-        fputs("</a>", page);
-    }
-    fputs(".</p>\n", page);
-}
-
-static void put_themes(FILE *page, const report_cells *c)
-{
-    columns *all = cli_calloc(1, sizeof *all);
-    for (int row = 1; row < c->csv.rows; row++)
-        add_column(all, report_get(c, row, "label"), report_get(c, row, "step"));
-    for (size_t k = 0; k < sizeof themes / sizeof themes[0]; k++)
-        put_theme(page, c, all, &themes[k]);
-    free(all);
-}
-
-static void put_origin(report *r)
-{
-    fputs("<h2>How to make it again</h2>\n"
-          "<pre>dalembert study study.yaml --output DIR\ndalembert report DIR</pre>\n",
-          r->page);
-    report_file(r, "study.yaml", "study.yaml");
-    report_file(r, "manifest.json", "what it was made with: manifest.json");
-    report_file(r, "tables.txt", "the tables as they were printed: tables.txt");
-}
-
-static void put_title(report *r, const document *doc)
-{
-    const yaml_node_t *root = document_node(doc, 1);
-    const char *title = "A study of drift";
-    const yaml_node_pair_t *pair = NULL, *end = NULL;
-    if (root && root->type == YAML_MAPPING_NODE) {
-        pair = root->data.mapping.pairs.start;
-        end = root->data.mapping.pairs.top;
-    }
-    for (; pair < end; pair++) {
-        const yaml_node_t *key = document_node(doc, pair->key);
-        const yaml_node_t *value = document_node(doc, pair->value);
-        if (key->type == YAML_SCALAR_NODE && value->type == YAML_SCALAR_NODE &&
-            strcmp((const char *)key->data.scalar.value, "title") == 0)
-            title = (const char *)value->data.scalar.value;
-    }
-    report_title(r, title);
-}
-
-/* The title that study.yaml has. */
-static int begin_page(report *r)
+/* With the title of study.yaml. */
+static int begin_study(report *r)
 {
     document doc = {.place = "study.yaml"};
     size_t length = 0;
-    char *path = cli_join(r->directory, "study.yaml");
-    char *bytes = file_read(path, &length);
-    int status = bytes ? document_parse(&doc, path, bytes, length) : CLI_IO;
+    char *path = cli_join(r->directory, "study.yaml"), *bytes = file_read(path, &length);
+    const int status = bytes ? document_parse(&doc, path, bytes, length) : CLI_IO;
     if (status == CLI_DONE) {
-        put_title(r, &doc);
+        const char *title = "A study of drift";
+        const yaml_node_t *root = document_node(&doc, 1);
+        const bool is_mapping = root && root->type == YAML_MAPPING_NODE;
+        const yaml_node_pair_t *pair = is_mapping ? root->data.mapping.pairs.start : NULL;
+        for (; is_mapping && pair < root->data.mapping.pairs.top; pair++) {
+            const yaml_node_t *key = document_node(&doc, pair->key);
+            const yaml_node_t *value = document_node(&doc, pair->value);
+            if (key->type == YAML_SCALAR_NODE && value->type == YAML_SCALAR_NODE &&
+                strcmp((const char *)key->data.scalar.value, "title") == 0)
+                title = (const char *)value->data.scalar.value;
+        }
+        report_title(r, title);
         yaml_document_delete(&doc.yaml);
     }
     free(bytes);
@@ -302,50 +471,70 @@ static int begin_page(report *r)
     return status;
 }
 
-static int is_lifted(const report_cells *c)
+/* The counts, the labels, what the words of the tables mean. */
+static void write_head(const study_page *s)
 {
-    for (int row = 1; row < c->csv.rows; row++)
-        if (!report_is(c, row, "start", "physical")) return 1;
-    return 0;
+    FILE *page = s->r->page;
+    bool is_lifted = false;
+    fprintf(page, "<p>%d runs: %d systems, %d methods.</p>\n<p>Figures:", s->cells.rows - 1,
+            s->labels.count, s->methods.count);
+    for (int i = 0; i < s->labels.count; i++) {
+        fprintf(page, "%s <a href=\"#s%d\">", i ? "," : "", i + 1);
+        report_text(page, s->labels.word[i]);
+        fputs("</a>", page);
+    }
+    fprintf(page, ".</p>\n%s", introduction);
+    for (int row = 1; row < s->cells.rows; row++)
+        is_lifted |= !is_cell(s, row, "start", "physical");
+    if (is_lifted) fputs(about_lift, page);
 }
 
-static int write_page(report *r, const report_cells *c)
+static int write_study(const study_page *s)
 {
-    int status = begin_page(r);
+    report *r = s->r;
+    int status = begin_study(r);
     if (status != CLI_DONE) return status;
-    fprintf(r->page, "<p>%d runs: %d systems, %d methods.</p>\n", c->csv.rows - 1, c->labels.count,
-            c->methods.count);
-    put_contents(r->page, c);
-    fputs(introduction, r->page);
-    if (is_lifted(c)) fputs(about_lift, r->page);
-    put_themes(r->page, c);
-    status = tell_expectations(r);
-    for (int i = 0; i < c->labels.count && status != CLI_IO; i++) {
-        cli_progress("report: %s", c->labels.word[i]);
+    write_head(s);
+    table_columns *all = cli_calloc(1, sizeof *all);
+    for (int row = 1; row < s->cells.rows; row++)
+        add_column(all, get_cell(s, row, "label"), get_cell(s, row, "step"));
+    for (size_t k = 0; k < sizeof themes / sizeof themes[0]; k++) write_theme(s, all, &themes[k]);
+    free(all);
+    status = report_expectations(r);
+    for (int i = 0; i < s->labels.count && status != CLI_IO; i++) {
+        cli_progress("report: %s", s->labels.word[i]);
         fprintf(r->page, "<h2 id=\"s%d\">", i + 1);
-        report_text(r->page, c->labels.word[i]);
+        report_text(r->page, s->labels.word[i]);
         fputs("</h2>\n", r->page);
-        int drawn = report_figures(r, c, c->labels.word[i]);
+        const int drawn = report_label(s, s->labels.word[i]);
         if (status == CLI_DONE) status = drawn;
     }
-    put_origin(r);
+    fputs("<h2>How to make it again</h2>\n"
+          "<pre>dalembert study study.yaml --output DIR\ndalembert report DIR</pre>\n",
+          r->page);
+    report_file(r, "study.yaml", "study.yaml");
+    report_file(r, "manifest.json", "what it was made with: manifest.json");
+    report_file(r, "tables.txt", "the tables as they were printed: tables.txt");
     return status;
 }
 
 int report_study(report *r)
 {
-    report_cells *c = cli_calloc(1, sizeof *c);
+    study_page *s = cli_calloc(1, sizeof *s);
     char *path = cli_join(r->directory, "cells.csv");
-    int status = report_csv_read(&c->csv, path);
-    for (int row = 1; status == CLI_DONE && row < c->csv.rows; row++) {
-        report_add_word(&c->labels, report_get(c, row, "label"));
-        report_add_word(&c->methods, report_get(c, row, "integrator"));
+    s->r = r;
+    int status = report_csv_read(&s->cells, path);
+    for (int row = 1; status == CLI_DONE && row < s->cells.rows; row++) {
+        report_add_word(&s->labels, get_cell(s, row, "label"));
+        report_add_word(&s->methods, get_cell(s, row, "integrator"));
     }
-    if (status == CLI_DONE && c->labels.count == 0)
+    if (status == CLI_DONE && s->labels.count == 0)
         status = cli_fail(CLI_USAGE, "'%s' has no rows", path);
-    if (status == CLI_DONE) status = write_page(r, c);
-    report_csv_free(&c->csv);
-    free(c);
+    for (size_t k = 0; status == CLI_DONE && k < sizeof themes / sizeof themes[0]; k++)
+        status = report_csv_require(&s->cells, path, themes[k].trend);
+    if (status == CLI_DONE) status = write_study(s);
+    report_csv_free(&s->cells);
+    free(s);
     free(path);
     return status;
 }

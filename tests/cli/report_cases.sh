@@ -10,7 +10,7 @@ try 2 report nowhere
 says "'nowhere' holds neither"
 mkdir -p begun && touch begun/study.yaml
 try 2 report begun
-says "'begun' holds a study that is not finished: 'dalembert resume' goes on"
+says "'begun' holds a study that is not finished: 'dalembert resume' continues it"
 try 2 report hollow --format gif
 says "'gif' is neither svg nor png"
 

@@ -1,0 +1,42 @@
+/* report_page.h - the page of a report.
+ *
+ *     DIR/report/index.html   the page, which needs no other file
+ *     DIR/report/NAME.gp      a gnuplot script with its data, to be edited and run again by hand
+ *     DIR/report/NAME.svg     what it draws (or .png) */
+#ifndef DAL_CLI_REPORT_PAGE_H
+#define DAL_CLI_REPORT_PAGE_H
+
+#include <stdbool.h>
+#include <stdio.h>
+
+extern const char report_style[]; /* report.css, embedded when the program is built */
+
+typedef struct report {
+    const char *directory; /* of the study or run */
+    char *place;           /* DIR/report */
+    const char *format;    /* "svg" or "png" */
+    FILE *page;
+    char *page_path;
+    bool lacks_gnuplot; /* scripts are written, figures are not */
+    int figures;        /* on the page so far */
+} report;
+
+/* All that return an int return CLI_DONE, or print and return an exit status. */
+int report_open(report *r);
+int report_close(report *r);
+/* Ends the head and begins the body with the title as its heading. */
+void report_title(report *r, const char *title);
+/* A text with &, <, > and quotes escaped; the same in an element. */
+void report_text(FILE *page, const char *text);
+void report_element(FILE *page, const char *element, const char *text);
+/* A cell of a table with a number; "–" for NaN. */
+void report_number(FILE *page, const char *format, double x);
+/* A cell of a table with a size and a trend, in words and in colour, and a number below them.
+ * Without both it holds the number alone. */
+void report_trend(FILE *page, const char *size, const char *trend, const char *number);
+/* A file of the directory, word for word, folded; nothing where there is none. */
+void report_file(report *r, const char *name, const char *summary);
+/* The figure DIR/report/NAME.svg, inside the page; alt describes it in words. */
+int report_embed(report *r, const char *name, const char *alt, const char *caption);
+
+#endif

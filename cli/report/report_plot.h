@@ -1,0 +1,43 @@
+/* report_plot.h - figures of curves over common axes. */
+#ifndef DAL_CLI_REPORT_PLOT_H
+#define DAL_CLI_REPORT_PLOT_H
+
+#include "report_page.h"
+
+enum { PLOT_CURVES = 12, PLOT_TITLE = 96, PLOT_NAME = 192 };
+
+typedef struct plot_curve {
+    char title[PLOT_TITLE]; /* "" keeps it out of the key */
+    bool is_black;
+    bool has_dots;  /* points without lines */
+    int values;     /* points so far, those left out included, */
+    double max_abs; /* and max |y| of them; NaN once y was none */
+    double (*at)[2];
+    int count, capacity;
+} plot_curve;
+
+typedef struct report_plot {
+    char name[PLOT_NAME], title[PLOT_NAME], xlabel[PLOT_TITLE], ylabel[PLOT_TITLE];
+    const char *caption;
+    const char *zero_text; /* what the page says instead when all values are 0, or NULL */
+    bool log_x, log_y;
+    bool has_marks;   /* at the points of the curves */
+    bool is_to_scale; /* one scale on both axes */
+    plot_curve curve[PLOT_CURVES + 2];
+    int count;
+} report_plot;
+
+/* Begins the next curve. */
+plot_curve *report_curve(report_plot *plot, const char *title);
+/* Adds a point.  What is not finite, or has no logarithm where one is needed, is left out. */
+void report_point(const report_plot *plot, plot_curve *curve, double x, double y);
+/* Ends a line; the next point begins another. */
+void report_lift(plot_curve *curve);
+/* The title of an envelope: a name, and in brackets the slope of log y over log x between the last
+ * point and the one at a tenth of its x, or why there is none. */
+void report_title_envelope(plot_curve *curve, const char *name);
+extern const char report_envelope_caption[];
+/* Draws it on the page and frees the points.  Without values it puts nothing there. */
+int report_draw(report *r, report_plot *plot);
+
+#endif
