@@ -28,6 +28,16 @@ typedef struct reader {
 static int line_of(yaml_mark_t mark) { return (int)mark.line + 1; }
 static int column_of(yaml_mark_t mark) { return (int)mark.column + 1; }
 
+/* Line and column of a byte, from 1. */
+static void find_place(const char *text, size_t offset, int *line, int *column)
+{
+    *line = *column = 1;
+    for (size_t i = 0; i < offset; i++) {
+        *column = text[i] == '\n' ? 1 : *column + 1;
+        *line += text[i] == '\n';
+    }
+}
+
 static dal_status parser_error(reader *r)
 {
     const yaml_parser_t *p = &r->parser;
@@ -36,11 +46,9 @@ static dal_status parser_error(reader *r)
     if (p->error != YAML_READER_ERROR)
         return dal__fail_at(r->error, DAL_SYNTAX, line_of(p->problem_mark),
                             column_of(p->problem_mark), "malformed YAML: %s", problem);
-    int line = 1, column = 1;
-    for (size_t i = 0; i < p->problem_offset && i < r->length; i++) {
-        column = r->text[i] == '\n' ? 1 : column + 1;
-        line += r->text[i] == '\n';
-    }
+    int line, column;
+    find_place(r->text, p->problem_offset < r->length ? p->problem_offset : r->length, &line,
+               &column);
     return dal__fail_at(r->error, DAL_SYNTAX, line, column, "malformed YAML: %s", problem);
 }
 
@@ -77,15 +85,14 @@ static dal_status next(reader *r)
 
 /* ---- scalars ---- */
 
-static bool begins_character(char c) { return ((unsigned char)c & 0xC0) != 0x80; }
-
-/* Byte offset of a mark: libyaml counts characters.  Marks come in order, so the count goes on from
- * the last one. */
+/* Byte offset of a mark: libyaml counts characters.  Marks come in order, so it counts on from the
+ * last one. */
 static size_t offset_of(reader *r, yaml_mark_t mark)
 {
     while (r->byte < r->length && r->character < mark.index) {
         r->byte++;
-        r->character += r->byte == r->length || begins_character(r->text[r->byte]);
+        const bool end = r->byte == r->length;
+        r->character += end || ((unsigned char)r->text[r->byte] & 0xC0) != 0x80; /* UTF-8 */
     }
     return r->byte;
 }
@@ -97,24 +104,8 @@ static char *copy(dal_model *model, const char *from, size_t length)
     return to;
 }
 
-/* A block scalar begins below its indicator, at the first column. */
-static void skip_block_header(const reader *r, size_t *begin, size_t end, dal__entry *entry)
-{
-    while (*begin < end && r->text[*begin] != '\n') ++*begin;
-    if (*begin < end) ++*begin;
-    entry->line++;
-    entry->column = 1;
-}
-
-static char *raw_text(const reader *r, size_t begin, size_t end, bool quoted)
-{
-    char *text = copy(r->model, r->text + begin, end - begin);
-    for (char *c = text; c && quoted && (c = strstr(c, "''")) != NULL; c += 2) c[1] = ' ';
-    return text;
-}
-
 /* Text and place of the present scalar. */
-static dal_status take_text(reader *r, dal__entry *entry)
+static dal_status read_scalar(reader *r, dal__entry *entry)
 {
     const yaml_event_t *event = &r->event;
     const char *value = (const char *)event->data.scalar.value;
@@ -133,14 +124,21 @@ static dal_status take_text(reader *r, dal__entry *entry)
     if (prose || escaped || end < begin + 2 * (size_t)quoted) {
         entry->text = copy(r->model, value, length);
     } else {
-        if (style == YAML_LITERAL_SCALAR_STYLE || style == YAML_FOLDED_SCALAR_STYLE)
-            skip_block_header(r, &begin, end, entry);
-        entry->text = raw_text(r, begin + quoted, end - quoted, single);
+        if (style == YAML_LITERAL_SCALAR_STYLE || style == YAML_FOLDED_SCALAR_STYLE) {
+            /* A block scalar begins below its indicator, at the first column. */
+            while (begin < end && r->text[begin] != '\n') ++begin;
+            if (begin < end) ++begin;
+            entry->line++;
+            entry->column = 1;
+        }
+        char *text = copy(r->model, r->text + begin + quoted, end - begin - 2 * (size_t)quoted);
+        for (char *c = text; c && single && (c = strstr(c, "''")) != NULL; c += 2) c[1] = ' ';
+        entry->text = text;
     }
     return entry->text ? DAL_OK : dal__memory_error(r->error);
 }
 
-static dal_status take_key(reader *r, dal__entry *entry)
+static dal_status read_key(reader *r, dal__entry *entry)
 {
     const char *value = (const char *)r->event.data.scalar.value;
     size_t length = r->event.data.scalar.length;
@@ -154,15 +152,15 @@ static dal_status take_key(reader *r, dal__entry *entry)
 
 /* ---- sections ---- */
 
-static dal_status wrong_shape(reader *r, dal_section section)
+static dal_status wrong_form(reader *r, dal_section section)
 {
-    static const char *const shapes[] = {[DAL__SCALAR] = "one text",
-                                         [DAL__LIST] = "a list",
-                                         [DAL__MAPPING] = "a mapping of names",
-                                         [DAL__MAPPINGS] = "a list of mappings"};
+    static const char *const forms[] = {[DAL__SCALAR] = "one text",
+                                        [DAL__LIST] = "a list",
+                                        [DAL__MAPPING] = "a mapping of names",
+                                        [DAL__MAPPINGS] = "a list of mappings"};
     return dal__fail_at(r->error, DAL_SYNTAX, line_of(r->event.start_mark),
                         column_of(r->event.start_mark), "%s must be %s", dal__section_name(section),
-                        shapes[dal__section_form(section)]);
+                        forms[dal__section_form(section)]);
 }
 
 /* The present event must be a scalar; it becomes the text of the entry. */
@@ -172,7 +170,7 @@ static dal_status read_entry(reader *r, dal__entry entry)
         return dal__fail_at(r->error, DAL_SYNTAX, line_of(r->event.start_mark),
                             column_of(r->event.start_mark), "a text is expected in %s",
                             dal__section_name(entry.section));
-    DAL_TRY(take_text(r, &entry));
+    DAL_TRY(read_scalar(r, &entry));
     if (!entry.name) {
         entry.name_line = entry.line;
         entry.name_column = entry.column;
@@ -182,7 +180,7 @@ static dal_status read_entry(reader *r, dal__entry entry)
 
 static dal_status read_list(reader *r, dal_section section)
 {
-    if (r->event.type != YAML_SEQUENCE_START_EVENT) return wrong_shape(r, section);
+    if (r->event.type != YAML_SEQUENCE_START_EVENT) return wrong_form(r, section);
     for (;;) {
         DAL_TRY(next(r));
         if (r->event.type == YAML_SEQUENCE_END_EVENT) return DAL_OK;
@@ -192,14 +190,14 @@ static dal_status read_list(reader *r, dal_section section)
 
 static dal_status read_mapping(reader *r, dal_section section, int item)
 {
-    if (r->event.type != YAML_MAPPING_START_EVENT) return wrong_shape(r, section);
+    if (r->event.type != YAML_MAPPING_START_EVENT) return wrong_form(r, section);
     for (int count = 0;; count++) {
         dal__entry entry = {.section = section, .item = item};
         DAL_TRY(next(r));
         if (r->event.type == YAML_MAPPING_END_EVENT && item && count == 0)
             return here(r, DAL_SYNTAX, "this mapping is empty");
         if (r->event.type == YAML_MAPPING_END_EVENT) return DAL_OK;
-        DAL_TRY(take_key(r, &entry));
+        DAL_TRY(read_key(r, &entry));
         DAL_TRY(next(r));
         DAL_TRY(read_entry(r, entry));
     }
@@ -207,7 +205,7 @@ static dal_status read_mapping(reader *r, dal_section section, int item)
 
 static dal_status read_mappings(reader *r, dal_section section)
 {
-    if (r->event.type != YAML_SEQUENCE_START_EVENT) return wrong_shape(r, section);
+    if (r->event.type != YAML_SEQUENCE_START_EVENT) return wrong_form(r, section);
     for (int item = 1;; item++) {
         DAL_TRY(next(r));
         if (r->event.type == YAML_SEQUENCE_END_EVENT && item == 1)
@@ -227,7 +225,7 @@ static dal_status read_section(reader *r, dal_section section)
     case DAL__MAPPINGS:
         return read_mappings(r, section);
     default:
-        if (r->event.type != YAML_SCALAR_EVENT) return wrong_shape(r, section);
+        if (r->event.type != YAML_SCALAR_EVENT) return wrong_form(r, section);
         return read_entry(r, (dal__entry){.section = section});
     }
 }
@@ -255,7 +253,7 @@ static dal_status read_sections(reader *r)
         dal_section section = DAL_SECTION_TITLE;
         DAL_TRY(next(r));
         if (r->event.type == YAML_MAPPING_END_EVENT) return DAL_OK;
-        DAL_TRY(take_key(r, &key));
+        DAL_TRY(read_key(r, &key));
         DAL_TRY(find_section(r, &key, &section));
         DAL_TRY(next(r));
         DAL_TRY(read_section(r, section));
@@ -284,14 +282,11 @@ static dal_status check_text(const char *text, size_t length, dal_error *error)
     if (length > DAL__MAX_BYTES)
         return dal__fail(error, DAL_TOO_LARGE, "more than %d bytes in a system file",
                          (int)DAL__MAX_BYTES);
-    int line = 1, column = 1;
-    for (size_t i = 0; i < length; i++) {
-        if (text[i] == 0)
-            return dal__fail_at(error, DAL_SYNTAX, line, column, "the file holds a NUL byte");
-        column = text[i] == '\n' ? 1 : column + 1;
-        line += text[i] == '\n';
-    }
-    return DAL_OK;
+    const char *nul = memchr(text, 0, length);
+    if (!nul) return DAL_OK;
+    int line, column;
+    find_place(text, (size_t)(nul - text), &line, &column);
+    return dal__fail_at(error, DAL_SYNTAX, line, column, "the file holds a NUL byte");
 }
 
 static dal_status read_text(dal_model *model, const char *text, size_t length, dal_error *error)

@@ -8,23 +8,11 @@
 /* Doubles that a number takes: one for each lane, or more for a longer one. */
 enum { WIDTH = DAL_GROUPS * (int)(sizeof(num) / sizeof(double)) };
 
-static void load(double *work, int place, const double *from, int count)
+static void load_lanes(double *work, int place, const double *from, int count)
 {
     num *to = (num *)(work + (size_t)place * WIDTH);
     const num *lanes = (const num *)from;
     for (int i = 0; i < count * DAL_GROUPS; i++) to[i] = lanes[i];
-}
-
-static void load_inputs(const dal__programs *p, const dal_at *at, unsigned reads)
-{
-    num *t = (num *)(at->work + (size_t)p->t * WIDTH);
-    for (int g = 0; g < DAL_GROUPS && reads & DAL__T; g++) t[g] = dal_num(at->t);
-    if (reads & DAL__QV) {
-        load(at->work, p->q, at->q, p->n);
-        load(at->work, p->v, at->v, p->n);
-        load(at->work, p->g, at->v + p->n * WIDTH, p->multipliers);
-    }
-    if (reads & DAL__PI) load(at->work, p->pi, at->pi, p->n);
 }
 
 /* Lanes where every pivot exceeds its part of the size; a NaN exceeds nothing. */
@@ -44,7 +32,14 @@ static dal_status run_program(const dal_system *system, const dal_at *at, double
 {
     const dal__programs *p = system->data;
     const dal__program *program = &p->program[code];
-    load_inputs(p, at, reads);
+    num *t = (num *)(at->work + (size_t)p->t * WIDTH);
+    for (int g = 0; g < DAL_GROUPS && reads & DAL__T; g++) t[g] = dal_num(at->t);
+    if (reads & DAL__QV) {
+        load_lanes(at->work, p->q, at->q, p->n);
+        load_lanes(at->work, p->v, at->v, p->n);
+        load_lanes(at->work, p->g, at->v + p->n * WIDTH, p->multipliers);
+    }
+    if (reads & DAL__PI) load_lanes(at->work, p->pi, at->pi, p->n);
     if (program->checked == 0) {
         DAL_WIDE(dal__tape_run)(p->tapes, program->tape, at->work, out);
         return DAL_OK;

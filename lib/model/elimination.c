@@ -85,30 +85,22 @@ static void eliminate_numbers(plan *p, int k)
     }
 }
 
-static void find_sizes(plan *p)
+/* Fills in the values of the matrix at a point, and the largest of each row and column. */
+static void evaluate(plan *p, const dal__equations *e, const dal__node *matrix, const double *at)
 {
     for (int i = 0; i < p->n; i++) {
         p->row_size[i] = p->column_size[i] = 0.0;
         p->row[i] = p->column[i] = i;
     }
-    for (int i = 0; i < p->n; i++)
-        for (int j = 0; j < p->n; j++) {
-            double size = fabs(p->value[i * p->n + j]);
-            p->row_size[i] = fmax(p->row_size[i], size);
-            p->column_size[j] = fmax(p->column_size[j], size);
-        }
-}
-
-/* Fills in the values of the matrix at a point. */
-static void evaluate(plan *p, const dal__equations *e, const dal__node *matrix, const double *at)
-{
     for (int i = 0; i < p->n * p->n; i++) {
+        double *row_size = &p->row_size[i / p->n], *column_size = &p->column_size[i % p->n];
         bool present = !dal__is_number(e->graph, matrix[i], 0.0);
         bool varying = dal__depends(e->graph, matrix[i], e->parameters, e->symbols);
         p->value[i] = present ? dal__evaluate(e->graph, matrix[i], at) : 0.0;
         p->flag[i] = (unsigned char)((present ? PRESENT : 0) | (varying ? VARYING : 0));
+        *row_size = fmax(*row_size, fabs(p->value[i]));
+        *column_size = fmax(*column_size, fabs(p->value[i]));
     }
-    find_sizes(p);
 }
 
 /* -1, or the row that is left without a pivot. */
@@ -121,27 +113,22 @@ static int order(plan *p)
     return -1;
 }
 
-static bool allocate_plan(dal_model *model, plan *p, int n)
-{
-    size_t count = (size_t)n;
-    p->n = n;
-    p->value = dal__model_allocate(model, count * count, sizeof *p->value);
-    p->flag = dal__model_allocate(model, count * count, sizeof *p->flag);
-    p->row_size = dal__model_allocate(model, count, sizeof *p->row_size);
-    p->column_size = dal__model_allocate(model, count, sizeof *p->column_size);
-    p->row = dal__model_allocate(model, count, sizeof *p->row);
-    p->column = dal__model_allocate(model, count, sizeof *p->column);
-    return !model->out_of_memory;
-}
-
 /* The pivots at the start, or where the matrix is singular there at a point moved off it by
  * irregular amounts between 1/8 and 5/8, multiples of the golden ratio modulo 1/2: what is singular
  * there too is singular everywhere. */
 static dal_status make_plan(dal_model *model, dal__linear *s, plan *p)
 {
     const dal__equations *e = &model->equations;
+    const size_t n = (size_t)s->n;
     double *point = dal__model_allocate(model, (size_t)e->symbols, sizeof *point);
-    if (!allocate_plan(model, p, s->n) || !point) return DAL_MEMORY;
+    *p = (plan){.n = s->n,
+                .value = dal__model_allocate(model, n * n, sizeof *p->value),
+                .flag = dal__model_allocate(model, n * n, sizeof *p->flag),
+                .row_size = dal__model_allocate(model, n, sizeof *p->row_size),
+                .column_size = dal__model_allocate(model, n, sizeof *p->column_size),
+                .row = dal__model_allocate(model, n, sizeof *p->row),
+                .column = dal__model_allocate(model, n, sizeof *p->column)};
+    if (model->out_of_memory) return DAL_MEMORY;
     evaluate(p, e, s->matrix, e->value);
     s->singular = order(p);
     if (s->singular < 0) return DAL_OK;
@@ -184,7 +171,8 @@ static bool is_zero(const elimination *w, dal__node node)
 
 static void subtract(elimination *w, dal__node *from, dal__node a, dal__node b)
 {
-    if (!is_zero(w, b)) *from = dal__sub(w->graph, *from, dal__mul(w->graph, a, b));
+    if (!is_zero(w, a) && !is_zero(w, b))
+        *from = dal__sub(w->graph, *from, dal__mul(w->graph, a, b));
 }
 
 static void eliminate_row(elimination *w, int k, int other)
@@ -219,19 +207,6 @@ static void record_pivot(dal__equations *e, const elimination *w, int k)
                      .checked = varying && w->p->flag[place] & TOUCHED};
 }
 
-/* Column j of the solution in the variable of pivot k, when those of the later pivots are known. */
-static dal__node substitute(elimination *w, int k, int j)
-{
-    int n = w->s->n, columns = w->s->columns, row = w->p->row[k];
-    dal__node x = w->s->rhs[row * columns + j];
-    for (int l = k + 1; l < n; l++) {
-        int c = w->p->column[l];
-        dal__node factor = w->s->matrix[row * n + c];
-        if (!is_zero(w, factor)) subtract(w, &x, factor, w->s->x[c * columns + j]);
-    }
-    return over_pivot(w, x, k);
-}
-
 dal_status dal__linear_solve(dal_model *model, dal__linear *s)
 {
     dal__equations *e = &model->equations;
@@ -250,7 +225,12 @@ dal_status dal__linear_solve(dal_model *model, dal__linear *s)
         for (int i = k + 1; i < s->n; i++) eliminate_row(&w, k, p.row[i]);
     }
     for (int k = s->n; k-- > 0;)
-        for (int j = 0; j < s->columns; j++)
-            s->x[p.column[k] * s->columns + j] = substitute(&w, k, j);
+        for (int j = 0; j < s->columns; j++) { /* those of the later pivots are known */
+            dal__node x = s->rhs[p.row[k] * s->columns + j];
+            for (int l = k + 1; l < s->n; l++)
+                subtract(&w, &x, s->matrix[p.row[k] * s->n + p.column[l]],
+                         s->x[p.column[l] * s->columns + j]);
+            s->x[p.column[k] * s->columns + j] = over_pivot(&w, x, k);
+        }
     return e->graph->status;
 }

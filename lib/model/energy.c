@@ -97,18 +97,6 @@ static dal__node partial_t(const dal__equations *e, dal__node f)
     return out;
 }
 
-static bool power_vanishes(identity *id)
-{
-    const dal__equations *e = id->e;
-    id->terms = 0;
-    for (int i = 0; i < e->n; i++) add_term(id, dal__mul(e->graph, e->flow[1 + i], e->force[i]));
-    add_term(id, dal__neg(e->graph, partial_t(e, e->lagrangian)));
-    for (int a = 0; a < e->multipliers; a++)
-        add_term(id, dal__mul(e->graph, dal__symbol(e->graph, e->g + a),
-                              partial_t(e, e->constraint[a])));
-    return vanishes(id);
-}
-
 static void virtual_power(identity *id, int a)
 {
     const dal__equations *e = id->e;
@@ -136,7 +124,13 @@ static unsigned by_parts(identity *id)
 {
     const dal__equations *e = id->e;
     bool exact = !e->multipliers, weak = true;
-    if (!power_vanishes(id)) return 0;
+    id->terms = 0;
+    for (int i = 0; i < e->n; i++) add_term(id, dal__mul(e->graph, e->flow[1 + i], e->force[i]));
+    add_term(id, dal__neg(e->graph, partial_t(e, e->lagrangian)));
+    for (int a = 0; a < e->multipliers; a++)
+        add_term(id, dal__mul(e->graph, dal__symbol(e->graph, e->g + a),
+                              partial_t(e, e->constraint[a])));
+    if (!vanishes(id)) return 0;
     for (int a = 0; a < e->m && !e->vakonomic; a++) {
         virtual_power(id, a);
         if (vanishes(id)) continue;
@@ -233,19 +227,6 @@ dal_status dal__energy_properties(dal_model *model)
 
 /* ---- a conserved energy ---- */
 
-static dal_status find_normal(dal_model *model)
-{
-    dal__equations *e = &model->equations;
-    const int n = e->n;
-    dal__node *normal = dal__model_nodes(model, 1 + 3 * n, 0);
-    if (!normal) return DAL_MEMORY;
-    normal[0] = e->energy;
-    dal__gradient(e->graph, e->energy, e->symbol + e->q, n, normal + 1);
-    dal__gradient(e->graph, e->energy, e->symbol + e->v, n, normal + 1 + n);
-    e->normal = normal;
-    return dal__solve_vector(model, n, e->W, normal + 1, normal + 1 + 2 * n);
-}
-
 /* A v and beta. */
 static dal_status find_beta(dal_model *model, dal__node *along, dal__node *beta)
 {
@@ -298,6 +279,13 @@ dal_status dal__conserved_energy(dal_model *model)
     dal__equations *e = &model->equations;
     e->normal = e->extended = NULL;
     if (!(e->properties & (DAL_E_EXACT | DAL_E_WEAK)) || e->vakonomic) return DAL_OK;
-    DAL_TRY(find_normal(model));
+    const int n = e->n;
+    dal__node *normal = dal__model_nodes(model, 1 + 3 * n, 0);
+    if (!normal) return DAL_MEMORY;
+    normal[0] = e->energy;
+    dal__gradient(e->graph, e->energy, e->symbol + e->q, n, normal + 1);
+    dal__gradient(e->graph, e->energy, e->symbol + e->v, n, normal + 1 + n);
+    e->normal = normal;
+    DAL_TRY(dal__solve_vector(model, n, e->W, normal + 1, normal + 1 + 2 * n));
     return e->properties & DAL_E_WEAK ? extend(model) : DAL_OK;
 }

@@ -186,21 +186,6 @@ static dal_status solve_motion(dal_model *model, dal_error *error)
 
 /* ---- vakonomic ---- */
 
-static void fill_vakonomic(const dal__equations *e, dal__linear *s)
-{
-    int n = e->n, size = s->n;
-    for (int i = 0; i < size * size; i++) s->matrix[i] = dal__number(e->graph, 0.0);
-    for (int i = 0; i < n; i++) {
-        s->rhs[i] = e->b[i];
-        for (int j = 0; j < n; j++) s->matrix[i * size + j] = e->W[i * n + j];
-        for (int a = 0; a < e->m; a++) {
-            s->matrix[(n + a) * size + i] = e->A[a * n + i];
-            s->matrix[i * size + n + a] = dal__neg(e->graph, e->A[a * n + i]);
-        }
-    }
-    for (int a = 0; a < e->m; a++) s->rhs[n + a] = dal__neg(e->graph, e->c[a]);
-}
-
 static dal_status solve_vakonomic(dal_model *model, dal_error *error)
 {
     dal__equations *e = &model->equations;
@@ -217,7 +202,17 @@ static dal_status solve_vakonomic(dal_model *model, dal_error *error)
     }
     derive_lagrangian(e, L);
     if (!allocate_linear(model, &s, e->n + e->m, 1, e->n)) return exhausted(model, error);
-    fill_vakonomic(e, &s);
+    const int n = e->n, size = s.n;
+    for (int i = 0; i < size * size; i++) s.matrix[i] = dal__number(e->graph, 0.0);
+    for (int i = 0; i < n; i++) {
+        s.rhs[i] = e->b[i];
+        for (int j = 0; j < n; j++) s.matrix[i * size + j] = e->W[i * n + j];
+        for (int a = 0; a < e->m; a++) {
+            s.matrix[(n + a) * size + i] = e->A[a * n + i];
+            s.matrix[i * size + n + a] = dal__neg(e->graph, e->A[a * n + i]);
+        }
+    }
+    for (int a = 0; a < e->m; a++) s.rhs[n + a] = dal__neg(e->graph, e->c[a]);
     status = dal__linear_solve(model, &s);
     if (status == DAL_SINGULAR && s.singular < e->n) return singular_mass(model, s.singular, error);
     if (status == DAL_SINGULAR) return dependent_constraints(model, s.singular - e->n, error);

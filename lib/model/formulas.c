@@ -119,18 +119,6 @@ static dal_status parse_parameters(dal_model *model, dal_error *error)
     return DAL_OK;
 }
 
-static dal_status parse_lets(dal_model *model, dal_error *error)
-{
-    dal__equations *e = &model->equations;
-    for (int i = 0; i < e->lets; i++) {
-        dal__scope scope = scope_of(e, MAY_ALL);
-        scope.lets = i;
-        DAL_TRY(parse_entry(model, dal__model_entry(model, DAL_SECTION_LET, i), scope, &e->let[i],
-                            error));
-    }
-    return DAL_OK;
-}
-
 static dal_status parse_each(dal_model *model, dal_section section, dal__scope scope, int count,
                              dal__node *out, dal_error *error)
 {
@@ -143,6 +131,10 @@ static dal_status parse_dynamics(dal_model *model, dal_error *error)
 {
     dal__equations *e = &model->equations;
     dal__scope all = scope_of(e, MAY_ALL);
+    for (all.lets = 0; all.lets < e->lets; all.lets++) { /* a let may contain those before it */
+        const dal__entry *entry = dal__model_entry(model, DAL_SECTION_LET, all.lets);
+        DAL_TRY(parse_entry(model, entry, all, &e->let[all.lets], error));
+    }
     DAL_TRY(
         parse_each(model, DAL_SECTION_LAGRANGIAN, all, !e->accelerations, &e->lagrangian, error));
     DAL_TRY(by_coordinate(model, DAL_SECTION_ACCELERATIONS, all, e->force, error));
@@ -169,31 +161,21 @@ static dal_status parse_gauge(dal_model *model, dal_error *error)
     return DAL_OK;
 }
 
-/* Names of the start in its order: q, v, g. */
-static const char **start_names(dal_model *model)
+static dal_status parse_start(dal_model *model, dal_error *error)
 {
-    const dal__equations *e = &model->equations;
-    const char **names =
-        dal__model_allocate(model, (size_t)(2 * e->n + e->multipliers), sizeof *names);
-    if (!names) return NULL;
+    dal__equations *e = &model->equations;
+    const int count = 2 * e->n + e->multipliers;
+    const char **names = dal__model_allocate(model, (size_t)count, sizeof *names);
+    const dal__entry *entry;
+    if (!names) return dal__memory_error(error);
     for (int i = 0; i < e->n; i++) {
         names[i] = e->coordinate[i];
         names[e->n + i] = dal__model_print(model, "%s'", e->coordinate[i]);
     }
-    for (int a = 0; a < e->multipliers; a++)
-        names[2 * e->n + a] = dal__model_print(model, "g%d", a + 1);
-    return model->out_of_memory ? NULL : names;
-}
-
-static dal_status parse_start(dal_model *model, dal_error *error)
-{
-    dal__equations *e = &model->equations;
-    int count = 2 * e->n + e->multipliers, entries = dal__model_count(model, DAL_SECTION_START);
-    const char **names = start_names(model);
-    if (!names) return dal__memory_error(error);
-    for (int k = 0; k < entries; k++) {
-        const dal__entry *entry = dal__model_entry(model, DAL_SECTION_START, k);
-        int i;
+    for (int i = 2 * e->n; i < count; i++)
+        names[i] = dal__model_print(model, "g%d", i - 2 * e->n + 1);
+    if (model->out_of_memory) return dal__memory_error(error);
+    for (int k = 0, i; (entry = dal__model_entry(model, DAL_SECTION_START, k)) != NULL; k++) {
         if (strcmp(entry->name, "e") == 0)
             return dal__fail_at(error, DAL_NAME, DAL__AT_NAME(entry),
                                 "the start of e belongs under gauge, as 'gauge: {e: 1}'");
@@ -246,8 +228,8 @@ static dal_status parse_picture(dal_model *model, dal_error *error)
             DAL_TRY(parse_entry(model, entry, scope_of(e, MAY_ALL), &e->picture[i], error));
             continue;
         }
-        DAL_TRY(find_word(entry->text, entry->line, entry->column, "body", bodies, DAL_BODY_COUNT,
-                          &i, error));
+        DAL_TRY(
+            find_word(entry->text, DAL__AT_TEXT(entry), "body", bodies, DAL_BODY_COUNT, &i, error));
         e->body = (dal_body)i;
     }
     for (int i = DAL_PICTURE_X; first && i <= DAL_PICTURE_Y; i++)
@@ -289,36 +271,19 @@ static dal_status check_reactions(dal_model *model, dal_error *error)
     return DAL_OK;
 }
 
-static dal_status check_sizes(const dal_model *model, dal_error *error)
-{
-    const dal__equations *e = &model->equations;
-    if (e->n == 0) return dal__fail(error, DAL_MODEL, "the system has no coordinates");
-    if (e->n > DAL__MAX_COORDINATES)
-        return dal__fail(error, DAL_TOO_LARGE, "%d coordinates; at most %d are possible", e->n,
-                         (int)DAL__MAX_COORDINATES);
-    if (e->m <= e->n) return DAL_OK;
-    const dal__entry *excess = dal__model_entry(model, DAL_SECTION_CONSTRAINTS, e->n);
-    return dal__fail_at(error, DAL_RANK, excess->line, excess->column,
-                        "%d constraints on %d coordinates", e->m, e->n);
-}
-
-static dal_status read_mechanics(dal_model *model, dal_error *error)
-{
-    static const char *const words[] = {"lagrange-d'alembert", "vakonomic"};
-    const dal__entry *entry = dal__model_entry(model, DAL_SECTION_MECHANICS, 0);
-    int i = 0;
-    if (entry)
-        DAL_TRY(
-            find_word(entry->text, entry->line, entry->column, "mechanics", words, 2, &i, error));
-    model->equations.vakonomic = i == 1;
-    return DAL_OK;
-}
-
-static dal_status check_dynamics(dal_model *model, dal_error *error)
+static dal_status check_equations(dal_model *model, dal_error *error)
 {
     dal__equations *e = &model->equations;
     const dal__entry *L = dal__model_entry(model, DAL_SECTION_LAGRANGIAN, 0);
     const dal__entry *F = dal__model_entry(model, DAL_SECTION_ACCELERATIONS, 0);
+    const dal__entry *excess = dal__model_entry(model, DAL_SECTION_CONSTRAINTS, e->n);
+    if (e->n == 0) return dal__fail(error, DAL_MODEL, "the system has no coordinates");
+    if (e->n > DAL__MAX_COORDINATES)
+        return dal__fail(error, DAL_TOO_LARGE, "%d coordinates; at most %d are possible", e->n,
+                         (int)DAL__MAX_COORDINATES);
+    if (excess)
+        return dal__fail_at(error, DAL_RANK, DAL__AT_TEXT(excess),
+                            "%d constraints on %d coordinates", e->m, e->n);
     if (!L && !F)
         return dal__fail(error, DAL_MODEL, "the system has neither a lagrangian nor accelerations");
     if (L && F)
@@ -331,20 +296,28 @@ static dal_status check_dynamics(dal_model *model, dal_error *error)
     return DAL_OK;
 }
 
-static void number_symbols(dal__equations *e)
+static dal_status read_mechanics(dal_model *model, dal_error *error)
 {
-    e->t = e->parameters;
-    e->q = e->t + 1;
-    e->v = e->q + 2 * e->n;
-    e->pi = e->v + 2 * e->n;
-    e->g = e->pi + 2 * e->n;
-    e->symbols = e->g + e->m;
+    static const char *const words[] = {"lagrange-d'alembert", "vakonomic"};
+    const dal__entry *entry = dal__model_entry(model, DAL_SECTION_MECHANICS, 0);
+    int i = 0;
+    if (entry)
+        DAL_TRY(find_word(entry->text, DAL__AT_TEXT(entry), "mechanics", words, 2, &i, error));
+    model->equations.vakonomic = i == 1;
+    return DAL_OK;
 }
 
-static dal_status allocate(dal_model *model, dal_error *error)
+/* Numbers the symbols and allocates all nodes. */
+static dal_status begin_equations(dal_model *model, dal_error *error)
 {
     dal__equations *e = &model->equations;
     int n = e->n, m = e->m;
+    e->t = e->parameters;
+    e->q = e->t + 1;
+    e->v = e->q + 2 * n;
+    e->pi = e->v + 2 * n;
+    e->g = e->pi + 2 * n;
+    e->symbols = e->g + m;
     dal__graph_free(e->graph);
     e->graph = dal__graph_create(e->parameters);
     if (!e->graph) return dal__memory_error(error);
@@ -379,17 +352,6 @@ static dal_status allocate(dal_model *model, dal_error *error)
     return DAL_OK;
 }
 
-/* The default start among the values, for everything that is decided by numbers. */
-static void evaluate_start(dal__equations *e)
-{
-    for (int i = 0; i < e->n; i++) {
-        e->value[e->q + i] = dal__evaluate(e->graph, e->start[i], e->value);
-        e->value[e->v + i] = dal__evaluate(e->graph, e->start[e->n + i], e->value);
-    }
-    for (int a = 0; a < e->multipliers; a++)
-        e->value[e->g + a] = dal__evaluate(e->graph, e->start[2 * e->n + a], e->value);
-}
-
 dal_status dal__parse_model(dal_model *model, dal_error *error)
 {
     dal__equations *e = &model->equations;
@@ -399,20 +361,22 @@ dal_status dal__parse_model(dal_model *model, dal_error *error)
     e->m = dal__model_count(model, DAL_SECTION_CONSTRAINTS);
     e->multipliers = e->vakonomic ? e->m : 0;
     e->pictured = dal__model_count(model, DAL_SECTION_PICTURE) > 0;
-    DAL_TRY(check_sizes(model, error));
-    DAL_TRY(check_dynamics(model, error));
+    DAL_TRY(check_equations(model, error));
     DAL_TRY(check_reactions(model, error));
-    number_symbols(e);
-    DAL_TRY(allocate(model, error));
+    DAL_TRY(begin_equations(model, error));
     e->start[2 * e->n + e->multipliers] = dal__number(e->graph, 1.0);
     DAL_TRY(parse_parameters(model, error));
-    DAL_TRY(parse_lets(model, error));
     DAL_TRY(parse_dynamics(model, error));
     DAL_TRY(parse_gauge(model, error));
     DAL_TRY(parse_start(model, error));
     DAL_TRY(parse_exact(model, error));
     DAL_TRY(parse_picture(model, error));
-    evaluate_start(e);
+    /* The default start among the values, for everything that is decided by numbers. */
+    for (int i = 0; i < 2 * e->n; i++)
+        e->value[i < e->n ? e->q + i : e->v + i - e->n] =
+            dal__evaluate(e->graph, e->start[i], e->value);
+    for (int a = 0; a < e->multipliers; a++)
+        e->value[e->g + a] = dal__evaluate(e->graph, e->start[2 * e->n + a], e->value);
     dal_status status = e->graph->status;
     return status == DAL_OK ? DAL_OK : dal__size_error(status, error);
 }

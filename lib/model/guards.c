@@ -19,15 +19,6 @@ typedef struct search {
     bool full;
 } search;
 
-static const char *symbol_text(dal_model *model, int symbol)
-{
-    const dal__equations *e = &model->equations;
-    if (symbol >= e->q && symbol < e->q + e->n) return e->coordinate[symbol - e->q];
-    if (symbol >= e->v && symbol < e->v + e->n)
-        return dal__model_print(model, "%s'", e->coordinate[symbol - e->v]);
-    return "t";
-}
-
 static void add_guard(search *s, dal__node node, const char *text)
 {
     dal__equations *e = &s->model->equations;
@@ -36,7 +27,12 @@ static void add_guard(search *s, dal__node node, const char *text)
     if (!dal__depends(e->graph, node, e->parameters, e->symbols)) return;
     s->full = s->full || e->guards == MAX_GUARDS;
     if (s->full) return;
-    if (inner.op == DAL__SYMBOL) text = symbol_text(s->model, inner.symbol);
+    if (inner.op == DAL__SYMBOL) {
+        const int i = inner.symbol - e->q, j = inner.symbol - e->v;
+        text = "t";
+        if (i >= 0 && i < e->n) text = e->coordinate[i];
+        if (j >= 0 && j < e->n) text = dal__model_print(s->model, "%s'", e->coordinate[j]);
+    }
     if (text && inner.op == DAL__SYMBOL && view.op == DAL__COS)
         text = dal__model_print(s->model, "cos(%s)", text);
     if (!text) return;

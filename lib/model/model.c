@@ -169,17 +169,6 @@ static dal_status check_duplicate(const dal_model *model, const dal__entry *entr
     return DAL_OK;
 }
 
-static bool grow(dal_model *model)
-{
-    if (model->count < model->capacity) return true;
-    int capacity = model->capacity ? 2 * model->capacity : 32;
-    dal__entry *entries = realloc(model->entries, (size_t)capacity * sizeof *entries);
-    if (!entries) return false;
-    model->entries = entries;
-    model->capacity = capacity;
-    return true;
-}
-
 dal_status dal__model_insert(dal_model *model, dal__entry entry, dal_error *error)
 {
     int line = entry.name_line, column = entry.name_column;
@@ -201,22 +190,15 @@ dal_status dal__model_insert(dal_model *model, dal__entry entry, dal_error *erro
     DAL_TRY(check_duplicate(model, &entry, error));
     entry.text = dal__model_print(model, "%s", entry.text);
     if (named) entry.name = dal__model_print(model, "%s", entry.name);
-    if (!entry.text || (named && !entry.name) || !grow(model)) return dal__memory_error(error);
+    if (model->count == model->capacity) {
+        const int capacity = model->capacity ? 2 * model->capacity : 32;
+        dal__entry *entries = realloc(model->entries, (size_t)capacity * sizeof *entries);
+        if (!entries) return dal__memory_error(error);
+        model->entries = entries;
+        model->capacity = capacity;
+    }
+    if (!entry.text || (named && !entry.name)) return dal__memory_error(error);
     model->entries[model->count++] = entry;
-    return DAL_OK;
-}
-
-/* "2.x" is x of item 2. */
-static dal_status split_item(dal__entry *entry, dal_error *error)
-{
-    const char *c = entry->name;
-    while (*c >= '0' && *c <= '9' && entry->item <= DAL__MAX_COORDINATES)
-        entry->item = 10 * entry->item + (*c++ - '0');
-    if (*c != '.' || entry->item < 1)
-        return dal__fail_at(error, DAL_NAME, DAL__AT_NAME(entry),
-                            "'%.80s' in %s is not a constraint and a coordinate, as 1.x",
-                            entry->name, dal__section_name(entry->section));
-    entry->name = c + 1;
     return DAL_OK;
 }
 
@@ -225,6 +207,15 @@ dal_status dal_model_add(dal_model *model, dal_section section, const char *name
 {
     DAL_REQUIRE(model, error);
     dal__entry entry = {section, name, text, line, column, line, column, 0};
-    if (section == DAL_SECTION_REACTIONS && name) DAL_TRY(split_item(&entry, error));
+    if (section == DAL_SECTION_REACTIONS && name) { /* "2.x" is x of item 2 */
+        const char *c = name;
+        while (*c >= '0' && *c <= '9' && entry.item <= DAL__MAX_COORDINATES)
+            entry.item = 10 * entry.item + (*c++ - '0');
+        if (*c != '.' || entry.item < 1)
+            return dal__fail_at(error, DAL_NAME, line, column,
+                                "'%.80s' in %s is not a constraint and a coordinate, as 1.x", name,
+                                dal__section_name(section));
+        entry.name = c + 1;
+    }
     return dal__model_insert(model, entry, error);
 }

@@ -33,6 +33,7 @@ typedef struct dal__entry {
     int item; /* in a list of mappings: which, from 1; otherwise 0 */
 } dal__entry;
 #define DAL__AT_NAME(entry) (entry)->name_line, (entry)->name_column
+#define DAL__AT_TEXT(entry) (entry)->line, (entry)->column
 
 struct dal_model {
     char *name;

@@ -20,20 +20,6 @@ typedef struct blocks {
     dal__node *other;  /* [n] by what q is replaced */
 } blocks;
 
-static void find_blocks(const blocks *b)
-{
-    const dal__equations *e = &b->model->equations;
-    for (int i = 0; i < e->n; i++) b->block[i] = i;
-    for (int i = 0; i < e->n; i++)
-        for (int j = 0; j < e->n; j++) {
-            const int q = e->q + j;
-            const bool couples = dal__depends(e->graph, b->U_q[i], q, q + 1) ||
-                                 !dal__is_number(e->graph, e->W[i * e->n + j], 0.0);
-            const int from = b->block[j], to = couples ? b->block[i] : from;
-            for (int k = 0; k < e->n; k++) b->block[k] = b->block[k] == from ? to : b->block[k];
-        }
-}
-
 static bool is_quadratic(const blocks *b, int block)
 {
     const dal__equations *e = &b->model->equations;
@@ -44,19 +30,6 @@ static bool is_quadratic(const blocks *b, int block)
             if (dal__depends(e->graph, b->row[j], e->q, e->q + e->n)) return false;
     }
     return true;
-}
-
-/* v.W_B v */
-static dal__node square(const blocks *b, int block)
-{
-    const dal__equations *e = &b->model->equations;
-    dal__node sum = dal__number(e->graph, 0.0);
-    for (int i = 0; i < e->n; i++) {
-        if (b->block[i] != block) continue;
-        dal__node momentum = dal__dot(e->graph, e->n, e->W + i * e->n, e->flow + 1);
-        sum = dal__add(e->graph, sum, dal__mul(e->graph, e->flow[1 + i], momentum));
-    }
-    return sum;
 }
 
 static void fill_block(const blocks *b, int block, dal__node *out)
@@ -73,7 +46,12 @@ static void fill_block(const blocks *b, int block, dal__node *out)
          i++) /* the coordinates of all other blocks at their start */
         b->other[i] = b->block[i] == block ? dal__symbol(e->graph, e->q + i) : e->start[i];
     if (!quadratic) U = dal__substitute(e->graph, b->U, e->symbol + e->q, n, b->other);
-    const dal__node size = square(b, block);
+    dal__node size = dal__number(e->graph, 0.0); /* v.W_B v */
+    for (int i = 0; i < n; i++) {
+        if (b->block[i] != block) continue;
+        dal__node momentum = dal__dot(e->graph, n, e->W + i * n, e->flow + 1);
+        size = dal__add(e->graph, size, dal__mul(e->graph, e->flow[1 + i], momentum));
+    }
     for (int i = 0; i < n; i++) {
         if (b->block[i] != block) continue;
         out[i] = U;
@@ -98,7 +76,14 @@ dal_status dal__potential(dal_model *model)
     b.U =
         dal__neg(e->graph, dal__substitute(e->graph, e->lagrangian, e->symbol + e->v, e->n, b.row));
     dal__gradient(e->graph, b.U, e->symbol + e->q, e->n, b.U_q);
-    find_blocks(&b);
+    for (int i = 0; i < e->n; i++) b.block[i] = i;
+    for (int i = 0; i < e->n * e->n; i++) {
+        const int q = e->q + i % e->n;
+        const bool couples = dal__depends(e->graph, b.U_q[i / e->n], q, q + 1) ||
+                             !dal__is_number(e->graph, e->W[i], 0.0);
+        const int from = b.block[i % e->n], to = couples ? b.block[i / e->n] : from;
+        for (int k = 0; k < e->n; k++) b.block[k] = b.block[k] == from ? to : b.block[k];
+    }
     for (int i = 0; i < e->n; i++)
         if (b.block[i] == i) fill_block(&b, i, out);
     e->potential = out;

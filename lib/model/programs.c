@@ -97,18 +97,6 @@ dal_status dal__programs_add_motion(dal_model *model, dal__programs *programs, c
 
 /* ---- the end ---- */
 
-static void place_inputs(dal__programs *programs)
-{
-    const dal__equations *e = programs->equations;
-    int inputs = (int)programs->tapes->first_input - e->parameters;
-    programs->t = inputs + e->t;
-    programs->q = inputs + e->q;
-    programs->v = inputs + e->v;
-    programs->pi = inputs + e->pi;
-    programs->g = inputs + e->g;
-    programs->scratch = programs->tapes->workspace;
-}
-
 /* Numbers behind scratch: the most that a program with pivots, or the diagnosis, writes. */
 static size_t scratch_size(const dal__programs *programs)
 {
@@ -169,7 +157,14 @@ static const dal_callbacks *if_filled(const dal_callbacks *wide)
 dal_status dal__programs_finish(dal_model *model, dal__programs *programs, dal_system *system)
 {
     DAL_TRY(dal__tapes_finish(programs->tapes));
-    place_inputs(programs);
+    const dal__equations *e = programs->equations;
+    const int inputs = (int)programs->tapes->first_input - e->parameters;
+    programs->t = inputs + e->t;
+    programs->q = inputs + e->q;
+    programs->v = inputs + e->v;
+    programs->pi = inputs + e->pi;
+    programs->g = inputs + e->g;
+    programs->scratch = programs->tapes->workspace;
     system->data = programs;
     system->workspace = programs->scratch + scratch_size(programs);
     system->prepare = prepare;

@@ -42,18 +42,6 @@ static unsigned constraint_class(const dal__equations *e, dal__node D, dal__node
     return all;
 }
 
-/* The rank of A is to be checked where it can fall and no formula shows it: that of nonlinear
- * constraints, and of several that vary and may become parallel (a snakeboard with its axles
- * across). */
-static unsigned constraint_properties(const dal__equations *e, dal__node *first, dal__node *second)
-{
-    const unsigned steady = e->m > 1 ? DAL_D_CONSTANT : DAL_D_LINEAR;
-    unsigned all = e->m ? ~0u : 0;
-    for (int a = 0; a < e->m; a++) all &= constraint_class(e, e->constraint[a], first, second);
-    if (e->m && !(all & steady)) all |= DAL_D_WATCHED;
-    return all;
-}
-
 /* ---- what methods need that enforce D ---- */
 
 static bool depends_on_v(const dal__equations *e, const dal__node *f, int count)
@@ -96,23 +84,26 @@ static unsigned parts_properties(const dal__equations *e, dal__node *row)
 
 /* ---- the whole ---- */
 
-static unsigned motion_properties(const dal__equations *e)
-{
-    bool autonomous = true, constant = true;
-    for (int i = 0; i < e->n + e->multipliers; i++)
-        autonomous = autonomous && !dal__depends(e->graph, e->F[i], e->t, e->t + 1);
-    for (int i = 0; i < e->n * e->n; i++) constant = constant && !varies(e, e->W[i]);
-    return (autonomous ? DAL_AUTONOMOUS : 0u) | (constant ? DAL_MASS_CONSTANT : 0u) |
-           (e->vakonomic ? DAL_VAKONOMIC : 0u) | (e->servo ? DAL_SERVO : 0u);
-}
-
 dal_status dal__properties(dal_model *model)
 {
     dal__equations *e = &model->equations;
     dal__node *first = dal__model_nodes(model, 2 * e->n, 0);
     dal__node *second = dal__model_nodes(model, 2 * e->n, 0);
     if (model->out_of_memory) return DAL_MEMORY;
-    e->properties = motion_properties(e) | constraint_properties(e, first, second);
+    bool autonomous = true, constant = true;
+    for (int i = 0; i < e->n + e->multipliers; i++)
+        autonomous = autonomous && !dal__depends(e->graph, e->F[i], e->t, e->t + 1);
+    for (int i = 0; i < e->n * e->n; i++) constant = constant && !varies(e, e->W[i]);
+    e->properties = e->m ? ~0u : 0;
+    for (int a = 0; a < e->m; a++)
+        e->properties &= constraint_class(e, e->constraint[a], first, second);
+    /* The rank of A is to be checked where it can fall and no formula shows it: that of nonlinear
+     * constraints, and of several that vary and may become parallel (a snakeboard with its axles
+     * across). */
+    if (e->m && !(e->properties & (e->m > 1 ? DAL_D_CONSTANT : DAL_D_LINEAR)))
+        e->properties |= DAL_D_WATCHED;
+    e->properties |= (autonomous ? DAL_AUTONOMOUS : 0u) | (constant ? DAL_MASS_CONSTANT : 0u) |
+                     (e->vakonomic ? DAL_VAKONOMIC : 0u) | (e->servo ? DAL_SERVO : 0u);
     DAL_TRY(dal__energy_properties(model));
     e->properties |= parts_properties(e, first);
     return e->graph->status;

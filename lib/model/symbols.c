@@ -59,25 +59,10 @@ static const char *entry_name(const dal__entry *entry)
     return entry->name ? entry->name : entry->text;
 }
 
-/* The kind before number k that already has this name, or NULL.  An invariant may have the name of
- * a parameter or a let: only columns meet. */
-static const char *taken(const dal_model *model, int k, const char *name)
-{
-    for (int j = 0; j < k; j++) {
-        if (kinds[k].section == DAL_SECTION_INVARIANTS && !kinds[j].column) continue;
-        for (int i = 0; i < model->count; i++) {
-            const dal__entry *other = &model->entries[i];
-            if (other->section == kinds[j].section && strcmp(entry_name(other), name) == 0)
-                return kinds[j].what;
-        }
-    }
-    return NULL;
-}
-
 static dal_status check_clash(const dal_model *model, int k, const dal__entry *entry,
                               dal_error *error)
 {
-    const char *name = entry_name(entry), *other = taken(model, k, name);
+    const char *name = entry_name(entry);
     for (int i = 0; i < FORMULA_WORDS; i++)
         if (formula_words[i] && strcmp(formula_words[i], name) == 0)
             return dal__fail_at(error, DAL_NAME, DAL__AT_NAME(entry),
@@ -87,9 +72,17 @@ static dal_status check_clash(const dal_model *model, int k, const dal__entry *e
         return dal__fail_at(error, DAL_NAME, DAL__AT_NAME(entry),
                             "%s '%.80s': this name is reserved for a column of the output",
                             kinds[k].what, name);
-    if (other)
-        return dal__fail_at(error, DAL_MODEL, DAL__AT_NAME(entry),
-                            "%s '%.80s': a %s already has this name", kinds[k].what, name, other);
+    for (int j = 0; j < k; j++) {
+        /* An invariant may have the name of a parameter or a let: only columns meet. */
+        if (kinds[k].section == DAL_SECTION_INVARIANTS && !kinds[j].column) continue;
+        for (int i = 0; i < model->count; i++) {
+            const dal__entry *other = &model->entries[i];
+            if (other->section == kinds[j].section && strcmp(entry_name(other), name) == 0)
+                return dal__fail_at(error, DAL_MODEL, DAL__AT_NAME(entry),
+                                    "%s '%.80s': a %s already has this name", kinds[k].what, name,
+                                    kinds[j].what);
+        }
+    }
     return DAL_OK;
 }
 

@@ -161,18 +161,6 @@ dal_status dal_model_system(dal_model *model, const dal_system **system, dal_err
 
 /* ---- the tangent system ---- */
 
-/* Names x and dq_x. */
-static const char **tangent_names(dal_model *model)
-{
-    const dal__equations *e = &model->equations;
-    const char **names = dal__model_allocate(model, 2 * (size_t)e->n, sizeof *names);
-    for (int i = 0; names && i < e->n; i++) {
-        names[i] = e->coordinate[i];
-        names[e->n + i] = dal__model_print(model, "dq_%s", e->coordinate[i]);
-    }
-    return model->out_of_memory ? NULL : names;
-}
-
 /* F and F_q dq + F_v dv, as one motion of 2n coordinates. */
 static dal_status add_tangent_programs(dal_model *model)
 {
@@ -200,9 +188,13 @@ static dal_status add_tangent_programs(dal_model *model)
 static dal_status make_tangent(dal_model *model)
 {
     const dal__equations *e = &model->equations;
-    const char **names = tangent_names(model);
+    const char **names = dal__model_allocate(model, 2 * (size_t)e->n, sizeof *names);
     char *name = dal__model_print(model, "%s, tangent", model->name);
-    if (!names || !name) return DAL_MEMORY;
+    for (int i = 0; names && i < e->n; i++) {
+        names[i] = e->coordinate[i];
+        names[e->n + i] = dal__model_print(model, "dq_%s", e->coordinate[i]);
+    }
+    if (model->out_of_memory) return DAL_MEMORY;
     model->tangent = (dal_system){.name = name,
                                   .title = model->system.title,
                                   .reference = model->system.reference,
