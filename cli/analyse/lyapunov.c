@@ -9,6 +9,7 @@
 #include "dalembert_analysis.h"
 #include "io/gnuplot.h"
 #include "io/trajectory_writer.h"
+#include "run/row_times.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -46,7 +47,7 @@ static int create_spectrum(tangent_study *s)
     /* Creating a run of its own finds what is wrong with the options. */
     int status = request_create_run(request);
     if (status == CLI_DONE) status = request_make_spec(request, &spec);
-    if (status == CLI_DONE) status = request_check_step(request, s->transient + request->time);
+    if (status == CLI_DONE) status = row_times_check_step(request, s->transient + request->time);
     if (status != CLI_DONE) return status;
     /* A vakonomic system has no tangent system; its derivatives are differences. */
     dal_status made = dal_model_tangent(request->model, &tangent, &error);

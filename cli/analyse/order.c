@@ -482,7 +482,7 @@ static int parse_order_option(void *user, int option, const char *value)
     case OWN_levels:
         return cli_integer("--levels", value, 2, DAL_ORDER_LEVELS, &s->level_count);
     case OWN_threads:
-        return cli_integer("--threads", value, 1, POOL_MOST, &s->threads);
+        return cli_integer("--threads", value, 1, POOL_MAX_THREADS, &s->threads);
     default:
         s->output = value;
         return CLI_DONE;

@@ -10,21 +10,26 @@ const char cli_trend_heads[] = "amplitude,rate,rate_low,rate_high,exponent,size,
 /* What the motion need not conserve has neither size nor trend. */
 static int is_stated(const dal_trend *trend) { return trend->conservation == DAL_CONSERVED; }
 
-static void put_cell(FILE *out, double x)
-{
-    fputc(',', out);
-    if (!isnan(x)) cli_put(out, x);
-}
-
 void cli_put_trend(FILE *out, const dal_trend *trend)
 {
-    put_cell(out, trend->amplitude);
-    put_cell(out, trend->rate);
-    put_cell(out, trend->rate_low);
-    put_cell(out, trend->rate_high);
-    put_cell(out, is_stated(trend) ? trend->exponent : NAN);
+    const double cells[] = {trend->amplitude, trend->rate, trend->rate_low, trend->rate_high,
+                            is_stated(trend) ? trend->exponent : NAN};
+    for (size_t i = 0; i < sizeof cells / sizeof cells[0]; i++) {
+        fputc(',', out);
+        if (!isnan(cells[i])) cli_put(out, cells[i]);
+    }
     fprintf(out, ",%s,%s,", cli_size_word(trend), cli_trend_word(trend));
     if (is_stated(trend)) cli_put(out, trend->confidence);
+}
+
+void cli_put_values(FILE *out, const dal_trend *trend)
+{
+    const double values[] = {trend->first, trend->last, trend->max_abs, trend->deviation};
+    for (size_t i = 0; i < sizeof values / sizeof values[0]; i++) {
+        fputc(',', out);
+        cli_put(out, values[i]);
+    }
+    cli_put_trend(out, trend);
 }
 
 const char *cli_size_word(const dal_trend *trend)

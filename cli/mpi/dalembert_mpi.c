@@ -194,7 +194,7 @@ static int agree(int status)
 static int finish(study_plan *plan, const study_directory *dir, int status)
 {
     if (status == CLI_SIGNAL)
-        return cli_fail(status, "interrupted; go on with: dalembert resume %s", dir->directory);
+        return cli_fail(status, "interrupted; resume with: dalembert resume %s", dir->directory);
     if (status != CLI_DONE) return status;
     return study_directory_finish(dir, plan, study_pool_run(plan, pool_threads()));
 }

@@ -6,7 +6,7 @@
 
 #include "io/trajectory_reader.h"
 #include "report_plot.h"
-#include "run/run_directory.h"
+#include "run/manifest.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -209,7 +209,7 @@ static int open_path(body_path *p, const char *run)
     dal_error error;
     run_directory_open(&p->dir, run);
     if (access(p->dir.manifest, F_OK) != 0) return CLI_DONE;
-    int status = run_directory_read(&p->dir, &p->request);
+    int status = manifest_read(&p->dir, &p->request);
     if (status == CLI_DONE) status = request_make_spec(&p->request, &spec);
     if (status != CLI_DONE || !p->request.system->picture) return status;
     if (dal_evaluator_create(&p->evaluator, p->request.system, p->request.set.item,

@@ -7,7 +7,7 @@
 #include "report_csv.h"
 #include "report_path.h"
 #include "report_plot.h"
-#include "run/run_directory.h"
+#include "run/manifest.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -296,7 +296,7 @@ int report_run(report *r)
         status = cli_fail(CLI_USAGE, "'%s' has no rows", run->reader.path);
     run_directory_open(&dir, r->directory);
     if (status == CLI_DONE && access(dir.manifest, F_OK) == 0)
-        status = run_directory_read(&dir, &request);
+        status = manifest_read(&dir, &request);
     if (status == CLI_DONE && access(summary, F_OK) == 0)
         status = report_csv_read(&run->summary, summary);
     if (status == CLI_DONE && run->summary.rows > 0)

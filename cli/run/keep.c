@@ -1,14 +1,16 @@
 /* keep.c - a run in a directory of its own, begun or gone on with. */
 #include "keep.h"
+
 #include "io/output.h"
+#include "manifest.h"
 
 static const double interval = 5.0; /* seconds between checkpoints */
 
 static int go_on(cli_keep *keep, const run_request *request)
 {
     run_request held = request_default();
-    int status = run_directory_read(&keep->dir, &held);
-    if (status == CLI_DONE) status = run_directory_compare(&keep->dir, &held, request);
+    int status = manifest_read(&keep->dir, &held);
+    if (status == CLI_DONE) status = manifest_compare(&keep->dir, &held, request);
     request_free(&held);
     return status;
 }
@@ -22,8 +24,7 @@ int keep_open(cli_keep *keep, const run_request *request, const char *directory)
     int status = cli_directory(directory);
     if (status == CLI_DONE) status = run_directory_lock(dir, !run_directory_has_run(dir));
     if (status == CLI_DONE)
-        status =
-            run_directory_has_run(dir) ? go_on(keep, request) : run_directory_begin(dir, request);
+        status = run_directory_has_run(dir) ? go_on(keep, request) : manifest_begin(dir, request);
     if (status == CLI_DONE) status = recorder_open(&keep->recorder, request, dir, directory);
     keep->recorder.interval = interval;
     keep->recorder.progress = PROGRESS_OFF;

@@ -1,12 +1,28 @@
-/* manifest.c - manifest.json: the complete input of a run, what ran it, and how far it came. */
+/* manifest.c - manifest.json: the request of a run, what ran it, and how far it is.
+ *
+ *     "input": {
+ *       "system": "chaplygin-sleigh",            or "system.yaml", the copy beside it
+ *       "integrator": "gauss8",
+ *       "step": 0.01,                            digit for digit as it was given
+ *       "time": 1e4,
+ *       "set": {"m": 2},
+ *       "start": {"e": "inf"}                    JSON has no infinite number
+ *     },
+ *
+ * The text of the input never changes, whatever else is written.  Its hash, continued over the
+ * text of the system, is in each checkpoint, so that a checkpoint belongs to one request alone. */
+#include "manifest.h"
+
 #include "dalembert_codegen.h"
 #include "io/file.h"
 #include "io/json.h"
-#include "run_directory.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <sys/utsname.h>
+#include <unistd.h>
 
 #if defined(__clang__)
 #define COMPILER __VERSION__
@@ -16,10 +32,16 @@
 #define COMPILER "unknown"
 #endif
 
-/* The Makefile tells how this program was compiled. */
+/* The Makefile defines how this program was compiled. */
 #ifndef CLI_FLAGS
 #define CLI_FLAGS ""
 #endif
+
+enum { OLDEST_VERSION = 3000 }; /* 0.3.0 */
+
+static const char copy_name[] = "system.yaml";
+
+/* ---- writing ------------------------------------------------------------------------------- */
 
 void manifest_put_machine(FILE *out)
 {
@@ -37,31 +59,25 @@ void manifest_put_machine(FILE *out)
     fputs("\n  }", out);
 }
 
-static void put_state(FILE *out, const run_request *request, const run_position *position,
-                      const char *state)
-{
-    char method[256];
-    json_text_member(out, ",\n  ", "method",
-                     dal_method_name(&request->method, method, sizeof method));
-    json_text_member(out, ",\n  ", "status", state);
-    json_number_member(out, ",\n  ", "t", dal_run_time(request->run));
-    fprintf(out, ",\n  \"rows\": %lld,\n  \"steps\": %lld,\n  \"evaluations\": %lld", position->row,
-            dal_run_steps(request->run), dal_run_evaluations(request->run));
-    fprintf(out, ",\n  \"native\": %s", dal_run_is_native(request->run) ? "true" : "false");
-    json_number_member(out, ",\n  ", "seconds", position->seconds);
-}
-
 int manifest_write(const run_directory *dir, const run_request *request,
-                   const run_position *position, const char *state, const char *why)
+                   const run_position *position, const char *state, const char *message)
 {
-    char *text;
+    char *text, method[256];
     size_t length;
+    const dal_run *run = request->run;
     FILE *out = cli_memstream_open(&text, &length);
+    dal_method_name(&request->method, method, sizeof method);
     json_text_member(out, "{\n  ", "dalembert", DAL_VERSION);
     fprintf(out, ",\n  \"input\": %s", dir->input);
     manifest_put_machine(out);
-    put_state(out, request, position, state);
-    if (why[0]) json_text_member(out, ",\n  ", "message", why);
+    json_text_member(out, ",\n  ", "method", method);
+    json_text_member(out, ",\n  ", "status", state);
+    json_number_member(out, ",\n  ", "t", dal_run_time(run));
+    fprintf(out, ",\n  \"rows\": %lld,\n  \"steps\": %lld,\n  \"evaluations\": %lld", position->row,
+            dal_run_steps(run), dal_run_evaluations(run));
+    fprintf(out, ",\n  \"native\": %s", dal_run_is_native(run) ? "true" : "false");
+    json_number_member(out, ",\n  ", "seconds", position->seconds);
+    if (message[0]) json_text_member(out, ",\n  ", "message", message);
     fputs("\n}\n", out);
     cli_memstream_close(out);
     const int status = file_replace(dir->manifest, text, length, dir->sync);
@@ -72,7 +88,212 @@ int manifest_write(const run_directory *dir, const run_request *request,
 int manifest_has_ended(const char *path)
 {
     char *state = json_file_text(path, "status");
-    const int over = state && (strcmp(state, "done") == 0 || strcmp(state, "failed") == 0);
+    const int ended = state && (strcmp(state, "done") == 0 || strcmp(state, "failed") == 0);
     free(state);
-    return over;
+    return ended;
+}
+
+/* ---- the request --------------------------------------------------------------------------- */
+
+static void put_settings(FILE *out, const char *name, const request_settings *settings)
+{
+    fprintf(out, ",\n    \"%s\": {", name);
+    for (int i = 0; i < settings->count; i++) {
+        const dal_setting *s = &settings->item[i];
+        const char *before = i ? ", " : "";
+        if (isfinite(s->value))
+            json_number_member(out, before, s->name, s->value);
+        else
+            json_text_member(out, before, s->name, "inf");
+    }
+    fputc('}', out);
+}
+
+/* "input" of a request, allocated. */
+static char *request_text(const run_request *request)
+{
+    cli_option options[REQUEST_OPTIONS];
+    char *text;
+    size_t length;
+    FILE *out = cli_memstream_open(&text, &length);
+    const char *system = request->system_name;
+    request_list_options(options);
+    json_text_member(out, "{\n    ", "system", cli_is_path(system) ? copy_name : system);
+    for (int i = 0; i < REQUEST_OPTIONS; i++)
+        if (request->text[i] && request_option_is_number(i))
+            json_given_member(out, ",\n    ", options[i].name, request->text[i]);
+        else if (request->text[i] && i != REQUEST_set && i != REQUEST_start)
+            json_text_member(out, ",\n    ", options[i].name, request->text[i]);
+    put_settings(out, options[REQUEST_set].name, &request->set);
+    put_settings(out, options[REQUEST_start].name, &request->start);
+    fputs("\n  }", out);
+    cli_memstream_close(out);
+    return text;
+}
+
+/* The text of a built-in system is that of the library, of any other that of the copy. */
+static int find_fingerprint(run_directory *dir, const char *builtin)
+{
+    size_t length = builtin ? strlen(builtin) : 0;
+    if (!builtin && access(dir->system, F_OK) != 0)
+        return cli_fail(CLI_USAGE, "'%s' is missing: the run cannot be continued", dir->system);
+    char *copy = builtin ? NULL : file_read(dir->system, &length);
+    if (!builtin && !copy) return CLI_IO;
+    const uint64_t hash = file_hash(FILE_HASH_START, dir->input, strlen(dir->input));
+    dir->fingerprint = file_hash(hash, builtin ? builtin : copy, length);
+    free(copy);
+    return CLI_DONE;
+}
+
+static int copy_system(const run_directory *dir, const char *from)
+{
+    size_t length;
+    char *text = file_read(from, &length);
+    const int status = text ? file_replace(dir->system, text, length, dir->sync) : CLI_IO;
+    free(text);
+    return status;
+}
+
+int manifest_begin(run_directory *dir, const run_request *request)
+{
+    const int is_path = cli_is_path(request->system_name);
+    int status = CLI_DONE;
+    /* The writer begins the rows again, and the run may be made from the copy of the system. */
+#define REMOVE(name, file)                                                                         \
+    if (status == CLI_DONE && dir->name != dir->rows && dir->name != dir->system)                  \
+        status = file_remove(dir->name);
+    RUN_FILE_LIST(REMOVE)
+#undef REMOVE
+    if (status == CLI_DONE)
+        status = is_path ? copy_system(dir, request->system_name) : file_remove(dir->system);
+    if (status != CLI_DONE) return status;
+    dir->input = request_text(request);
+    status = find_fingerprint(dir, is_path ? NULL : dal_builtin_text(request->system_name));
+    const run_position start = {.row = 0};
+    return status == CLI_DONE ? manifest_write(dir, request, &start, "running", "") : status;
+}
+
+int manifest_compare(const run_directory *dir, const run_request *held, const run_request *request)
+{
+    char *one = request_text(held), *other = request_text(request);
+    const int is_same = strcmp(one, other) == 0;
+    free(one);
+    free(other);
+    if (is_same) return CLI_DONE;
+    return cli_fail(CLI_USAGE, "'%s' holds another run: its input differs", dir->path);
+}
+
+/* ---- reading ------------------------------------------------------------------------------- */
+
+static const char *name_of(const document *doc, const yaml_node_pair_t *pair)
+{
+    return document_scalar(doc, document_node(doc, pair->key), "manifest");
+}
+
+/* A member of "set" or "start" is parsed as NAME=VALUE. */
+static int read_settings(const document *doc, run_request *request, int option,
+                         const yaml_node_t *node)
+{
+    if (node->type != YAML_MAPPING_NODE)
+        return document_fail(doc, node, "names and values are required");
+    const yaml_node_pair_t *pair = node->data.mapping.pairs.start;
+    for (; pair < node->data.mapping.pairs.top; pair++) {
+        const char *name = name_of(doc, pair);
+        const char *value =
+            name ? document_scalar(doc, document_node(doc, pair->value), name) : NULL;
+        if (!value) return CLI_USAGE;
+        char *given = cli_format("%s=%s", name, value);
+        const int status = request_parse_option(request, option, given);
+        request->text[option] = NULL;
+        free(given);
+        if (status != CLI_DONE) return status;
+    }
+    return CLI_DONE;
+}
+
+/* The system of a file is the copy in the directory, wherever the program is started. */
+static int read_member(const run_directory *dir, run_request *request, const char *name,
+                       const yaml_node_t *node)
+{
+    const int option = request_find_option(name), is_system = strcmp(name, "system") == 0;
+    if (option == REQUEST_set || option == REQUEST_start)
+        return read_settings(dir->doc, request, option, node);
+    if (option < 0 && !is_system)
+        return document_fail(dir->doc, node, "unknown option '%s' of a run", name);
+    const char *value = document_scalar(dir->doc, node, name);
+    if (!value) return CLI_USAGE;
+    if (!is_system) return request_parse_option(request, option, value);
+    request->system_name = strcmp(value, copy_name) == 0 ? dir->system : value;
+    return CLI_DONE;
+}
+
+static int read_input(const run_directory *dir, run_request *request, const yaml_node_t *input)
+{
+    const yaml_node_pair_t *pair = input->data.mapping.pairs.start;
+    for (; pair < input->data.mapping.pairs.top; pair++) {
+        const char *name = name_of(dir->doc, pair);
+        const yaml_node_t *value = document_node(dir->doc, pair->value);
+        const int status = name ? read_member(dir, request, name, value) : CLI_USAGE;
+        if (status != CLI_DONE) return status;
+    }
+    if (request->system_name) return CLI_DONE;
+    return document_fail(dir->doc, input, "the system is missing");
+}
+
+/* 1002003 for 1.2.3. */
+static int version_number(const char *version)
+{
+    int part[3] = {0};
+    sscanf(version, "%d.%d.%d", &part[0], &part[1], &part[2]);
+    return (part[0] * 1000 + part[1]) * 1000 + part[2];
+}
+
+static int check_version(const document *doc, const yaml_node_t *root)
+{
+    const yaml_node_t *node = json_find(doc, root, "dalembert");
+    const char *version = node ? document_scalar(doc, node, "version") : "0";
+    if (!version) return CLI_USAGE;
+    const int made = version_number(version), present = version_number(DAL_VERSION);
+    if (made > present)
+        return document_fail(doc, node, "made by dalembert %s; this is " DAL_VERSION, version);
+    if (made < OLDEST_VERSION)
+        return document_fail(doc, node ? node : root,
+                             "written by dalembert %s, which can resume it; dalembert " DAL_VERSION
+                             " resumes what 0.3 or later wrote",
+                             version);
+    if (made < present)
+        cli_fail(CLI_DONE, "%s: made by dalembert %s; the bits may differ from here on", doc->place,
+                 version);
+    return CLI_DONE;
+}
+
+static int parse_manifest(run_directory *dir, run_request *request, const char *bytes,
+                          size_t length)
+{
+    document *doc = dir->doc = cli_calloc(1, sizeof *doc);
+    int status = json_parse(doc, dir->manifest, bytes, length);
+    if (status != CLI_DONE) return status;
+    const yaml_node_t *root = yaml_document_get_root_node(&doc->yaml);
+    const yaml_node_t *input = json_find(doc, root, "input");
+    if (!input || input->type != YAML_MAPPING_NODE)
+        return document_fail(doc, root, "there is no input of a run");
+    status = check_version(doc, root);
+    if (status != CLI_DONE) return status;
+    dir->input = json_source(bytes, input);
+    return read_input(dir, request, input);
+}
+
+int manifest_read(run_directory *dir, run_request *request)
+{
+    size_t length;
+    struct stat info;
+    if (stat(dir->manifest, &info) != 0)
+        return cli_fail(CLI_USAGE, "'%s' holds no run: there is no %s", dir->path, dir->manifest);
+    if (S_ISDIR(info.st_mode)) return cli_fail(CLI_USAGE, "'%s' is a directory", dir->manifest);
+    char *bytes = file_read(dir->manifest, &length);
+    if (!bytes) return CLI_IO;
+    const int status = parse_manifest(dir, request, bytes, length);
+    free(bytes);
+    return status == CLI_DONE ? find_fingerprint(dir, dal_builtin_text(request->system_name))
+                              : status;
 }

@@ -1,43 +1,38 @@
-/* native.c - compiled steps for a run: when, and where they are kept. */
+/* native.c - compiled steps for a run: when they pay, and where they are cached. */
 #include "native.h"
+
 #include "dalembert_codegen.h"
 #include "io/output.h"
 
 #include <stdatomic.h>
 #include <stdlib.h>
-#include <string.h>
 #include <sys/stat.h>
 
-/* A compiler takes some 1e8 ns for a small system.  The tape needs about so many for a step or a
- * look, by coordinate, and compiled code a third of them or less; three times what must be saved is
- * asked for. */
+/* A compiler takes some 1e8 ns for a small system.  Interpreted, a step or a sample takes about
+ * this time per coordinate, compiled a third of it; compiling must save three times its cost. */
 #define NS_EXPLICIT 100.0
 #define NS_IMPLICIT 1000.0
-#define NS_LOOK     50.0
-#define WORTH_WHILE 5e8
+#define NS_SAMPLE   50.0
+#define NS_WORTH    5e8
 
-int native_parse(const char *text, native_mode *native)
+int native_parse(const char *text, native_mode *mode)
 {
-    static const char *const words[] = {
-#define X(code, word) #word,
-        NATIVE_LIST(X)
-#undef X
-    };
-    enum { WORDS = sizeof words / sizeof words[0] };
-    for (int i = 0; i < WORDS; i++) {
-        if (strcmp(words[i], text) != 0) continue;
-        *native = (native_mode)i;
-        return CLI_DONE;
-    }
-    return cli_fail(CLI_USAGE, "--native: '%s' is not auto, on or off", text);
+#define WORD(code, word) #word,
+    static const char *const words[] = {NATIVE_LIST(WORD)};
+#undef WORD
+    const int k = cli_word("--native", text, words, sizeof words / sizeof words[0]);
+    if (k < 0) return CLI_USAGE;
+    *mode = (native_mode)k;
+    return CLI_DONE;
 }
 
-static int pays(const dal_run *run, double cost, double times)
+static int is_wanted(const dal_run *run, native_mode mode, double cost, double count)
 {
-    return times * cost * dal_run_system(run)->n > WORTH_WHILE;
+    return mode == NATIVE_ON ||
+           (mode == NATIVE_AUTO && count * cost * dal_run_system(run)->n > NS_WORTH);
 }
 
-/* $XDG_CACHE_HOME/dalembert or ~/.cache/dalembert, allocated; the library makes the last part. */
+/* $XDG_CACHE_HOME/dalembert or ~/.cache/dalembert, allocated; the library creates the last part. */
 static char *cache_directory(void)
 {
     const char *cache = getenv("XDG_CACHE_HOME"), *home = getenv("HOME");
@@ -46,20 +41,14 @@ static char *cache_directory(void)
         if (!home || home[0] != '/') return NULL;
         cache = own = cli_join(home, ".cache");
     }
-    mkdir(cache, 0700); /* may be there; if it cannot be made, the library will say so */
+    mkdir(cache, 0700); /* may exist; the library reports where it cannot be created */
     char *directory = cli_join(cache, "dalembert");
     free(own);
     return directory;
 }
 
-/* Each once, though the runs may be many and on several threads. */
-static void tell(atomic_flag *told, const char *what, const char *why)
-{
-    if (!atomic_flag_test_and_set(told)) cli_fail(CLI_DONE, "%s are interpreted: %s", what, why);
-}
-
 /* The compiler ends with the program, whatever ends that. */
-static int stops(void *user)
+static int must_stop(void *user)
 {
     (void)user;
     return cli_interrupted() || cli_is_ending();
@@ -67,35 +56,34 @@ static int stops(void *user)
 
 typedef dal_status compilation(dal_run *run, const dal_native_options *options, dal_error *error);
 
-static void compile(dal_run *run, compilation *of, atomic_flag *told, const char *what)
+/* The message is printed once, however many runs and threads there are. */
+static void compile(dal_run *run, compilation *compile_run, atomic_flag *printed, const char *what)
 {
-    dal_error error = {0};
+    dal_error error = {.message = "no directory to keep compiled ones in"};
     char *directory = cache_directory();
-    if (!directory) {
-        tell(told, what, "no directory to keep compiled ones in");
-        return;
+    dal_status status = DAL_IO;
+    if (directory) {
+        cli_hold_exit();
+        status =
+            compile_run(run, &(dal_native_options){.cache = directory, .stop = must_stop}, &error);
+        cli_release_exit();
     }
-    cli_hold_exit();
-    const dal_status status =
-        of(run, &(dal_native_options){.cache = directory, .stop = stops}, &error);
-    cli_release_exit();
     free(directory);
-    if (!cli_is_ok(status) && status != DAL_INTERRUPTED) tell(told, what, error.message);
+    if (!cli_is_ok(status) && status != DAL_INTERRUPTED && !atomic_flag_test_and_set(printed))
+        cli_fail(CLI_DONE, "%s are interpreted: %s", what, error.message);
 }
 
-void native_compile_steps(dal_run *run, const dal_method *method, double steps, native_mode native)
+void native_compile_steps(dal_run *run, const dal_method *method, double steps, native_mode mode)
 {
-    static atomic_flag told = ATOMIC_FLAG_INIT;
+    static atomic_flag printed = ATOMIC_FLAG_INIT;
     const int is_explicit = (dal_method_claims(method) & DAL_EXPLICIT) != 0;
-    const int wanted =
-        native == NATIVE_ON ||
-        (native == NATIVE_AUTO && pays(run, is_explicit ? NS_EXPLICIT : NS_IMPLICIT, steps));
-    if (wanted) compile(run, dal_run_native, &told, "steps");
+    if (is_wanted(run, mode, is_explicit ? NS_EXPLICIT : NS_IMPLICIT, steps))
+        compile(run, dal_run_native, &printed, "steps");
 }
 
-void native_compile_observables(dal_run *run, double looks, native_mode native)
+void native_compile_observables(dal_run *run, double samples, native_mode mode)
 {
-    static atomic_flag told = ATOMIC_FLAG_INIT;
-    const int wanted = native == NATIVE_ON || (native == NATIVE_AUTO && pays(run, NS_LOOK, looks));
-    if (wanted) compile(run, dal_run_native_observables, &told, "observables");
+    static atomic_flag printed = ATOMIC_FLAG_INIT;
+    if (is_wanted(run, mode, NS_SAMPLE, samples))
+        compile(run, dal_run_native_observables, &printed, "observables");
 }

@@ -1,13 +1,13 @@
-/* pool.c - pieces of work on several threads.
+/* pool.c - tasks on several threads.
  *
- * Nothing that is computed may depend on who takes a piece, or when.  A thread that cannot be made
- * is done without. */
+ * No result may depend on which thread takes a task, or when.  The pool does with the threads that
+ * can be created. */
 #ifndef _GNU_SOURCE
 #define _GNU_SOURCE /* sched_getaffinity */
 #endif
-#include "ui/cli.h"
-
 #include "pool.h"
+
+#include "ui/cli.h"
 
 #include <pthread.h>
 #include <sched.h>
@@ -27,43 +27,43 @@ static long processors(void)
 
 int pool_threads(void)
 {
-    const char *wanted = getenv("OMP_NUM_THREADS");
-    long threads = wanted ? strtol(wanted, NULL, 10) : 0;
+    const char *given = getenv("OMP_NUM_THREADS");
+    long threads = given ? strtol(given, NULL, 10) : 0;
     if (threads < 1) threads = processors();
-    return threads < 1 ? 1 : threads > POOL_MOST ? POOL_MOST : (int)threads;
+    return threads < 1 ? 1 : threads > POOL_MAX_THREADS ? POOL_MAX_THREADS : (int)threads;
 }
 
-typedef struct pieces {
+typedef struct task_list {
     void (*work)(void *user, int i);
     void *user;
     int count;
     atomic_int next;
-} pieces;
+} task_list;
 
-static void *take_pieces(void *of)
+static void *run_tasks(void *list)
 {
-    pieces *p = of;
-    for (int i; (i = atomic_fetch_add(&p->next, 1)) < p->count;) p->work(p->user, i);
+    task_list *l = list;
+    for (int i; (i = atomic_fetch_add(&l->next, 1)) < l->count;) l->work(l->user, i);
     return NULL;
 }
 
 void pool_run(int count, int threads, void (*work)(void *user, int i), void *user)
 {
-    pieces p = {.work = work, .user = user, .count = count};
-    pthread_t thread[POOL_MOST];
+    task_list list = {.work = work, .user = user, .count = count};
+    pthread_t thread[POOL_MAX_THREADS];
     int others = 0;
     if (threads > count) threads = count;
-    while (others < threads - 1 && others < POOL_MOST &&
-           pthread_create(&thread[others], NULL, take_pieces, &p) == 0)
+    while (others < threads - 1 && others < POOL_MAX_THREADS &&
+           pthread_create(&thread[others], NULL, run_tasks, &list) == 0)
         others++;
-    take_pieces(&p);
+    run_tasks(&list);
     for (int i = 0; i < others; i++) pthread_join(thread[i], NULL);
 }
 
-void pool_alone(void (*work)(void *user), void *user)
+void pool_exclude(void (*work)(void *user), void *user)
 {
-    static pthread_mutex_t alone = PTHREAD_MUTEX_INITIALIZER;
-    pthread_mutex_lock(&alone);
+    static pthread_mutex_t mutex = PTHREAD_MUTEX_INITIALIZER;
+    pthread_mutex_lock(&mutex);
     work(user);
-    pthread_mutex_unlock(&alone);
+    pthread_mutex_unlock(&mutex);
 }

@@ -1,9 +1,11 @@
-/* progress.c - how far a run has come: a line that replaces itself on a terminal, or lines of JSON
- * on stderr for scripts.
+/* progress.c - shows the progress of a run: a line that replaces itself on a terminal, or lines of
+ * JSON on stderr for scripts.
  *
  *     t = 4310 (43 %), 35 s to go, 1.63e+07 steps/s, moved: D1 2.2e-16, E 3.1e-12
  *
- * moved is max |x - first|, of as many observables as the terminal has room for. */
+ * moved is max |x - first|, of as many observables as fit the terminal. */
+#include "progress.h"
+
 #include "io/json.h"
 #include "recorder.h"
 
@@ -16,80 +18,73 @@ static const double json_interval = 1.0, line_interval = 0.1;
 
 enum { LINE = 256 };
 
-int progress_parse(const char *text, cli_progress_kind *kind)
+int progress_parse(const char *text, progress_mode *mode)
 {
-    static const char *const words[] = {
-#define X(code, word) #word,
-        PROGRESS_LIST(X)
-#undef X
-    };
-    enum { WORDS = sizeof words / sizeof words[0] };
-    for (int i = 0; i < WORDS; i++) {
-        if (strcmp(words[i], text) != 0) continue;
-        *kind = (cli_progress_kind)i;
-        return CLI_DONE;
-    }
-    return cli_fail(CLI_USAGE, "--progress: '%s' is not auto, json or off", text);
+#define WORD(code, word) #word,
+    static const char *const words[] = {PROGRESS_LIST(WORD)};
+#undef WORD
+    const int k = cli_word("--progress", text, words, sizeof words / sizeof words[0]);
+    if (k < 0) return CLI_USAGE;
+    *mode = (progress_mode)k;
+    return CLI_DONE;
 }
 
-/* The time from now to the end as the steps of this process have gone so far. */
-static double remaining(const run_recorder *r, double t)
-{
-    const double gone = t - r->begun;
-    return gone > 0.0 ? r->stretch * (r->request->time - t) / gone : INFINITY;
-}
+/* A line as it is made; a piece that does not fit is left out as a whole. */
+typedef struct progress_line {
+    char text[LINE];
+    int length, capacity;
+} progress_line;
 
-/* Appends to a line as long as there is room; a piece that does not fit is left out as a whole. */
-static int append(char *line, int *length, int room, const char *format, ...)
+static CLI_PRINTF(2, 3) int append_piece(progress_line *line, const char *format, ...)
 {
     char piece[LINE];
     va_list list;
     va_start(list, format);
     const int n = vsnprintf(piece, sizeof piece, format, list);
     va_end(list);
-    if (n < 0 || *length + n > room) return 0;
-    memcpy(line + *length, piece, (size_t)n + 1);
-    *length += n;
+    if (n < 0 || line->length + n > line->capacity) return 0;
+    memcpy(line->text + line->length, piece, (size_t)n + 1);
+    line->length += n;
     return 1;
 }
 
-static void append_remaining(char *line, int *length, int room, double seconds)
+/* Seconds to the end, if the steps take the time that those of this process took so far. */
+static double remaining(const run_recorder *r, double t)
+{
+    const double done = t - r->start_time;
+    return done > 0.0 ? r->seconds * (r->request->time - t) / done : INFINITY;
+}
+
+static void append_remaining(progress_line *line, double seconds)
 {
     static const struct {
-        double most, seconds;
+        double max, seconds;
         const char *unit;
     } unit[] = {{120, 1, "s"}, {7200, 60, "min"}, {172800, 3600, "h"}, {INFINITY, 86400, "days"}};
     int i = 0;
     if (!isfinite(seconds)) return;
-    while (seconds >= unit[i].most) i++;
-    append(line, length, room, ", %.0f %s to go", seconds / unit[i].seconds, unit[i].unit);
-}
-
-/* The norms of p and pi are for the summary. */
-static void append_moved(char *line, int *length, int room, const run_recorder *r)
-{
-    const char *before = ", moved: ";
-    for (int i = 0; i < r->observables; i++) {
-        const char *name = recorder_observable_name(r, i);
-        if (name[0] == '|') continue;
-        if (!append(line, length, room, "%s%s %.2g", before, name,
-                    dal_statistics_deviation(&r->statistics[i])))
-            return;
-        before = ", ";
-    }
+    while (seconds >= unit[i].max) i++;
+    append_piece(line, ", %.0f %s to go", seconds / unit[i].seconds, unit[i].unit);
 }
 
 static void show_line(const run_recorder *r, double t)
 {
-    char line[LINE] = "";
-    int length = 0;
-    const int width = cli_width() - 1, room = width < LINE ? width : LINE - 1;
-    const long long steps = dal_run_steps(r->request->run) - r->begun_steps;
-    append(line, &length, room, "t = %.6g (%.0f %%)", t, floor(100.0 * t / r->request->time));
-    append_remaining(line, &length, room, remaining(r, t));
-    if (r->stretch > 0.0) append(line, &length, room, ", %.2e steps/s", (double)steps / r->stretch);
-    append_moved(line, &length, room, r);
-    cli_progress("%s", line);
+    const int width = cli_width() - 1;
+    progress_line line = {.capacity = width < LINE ? width : LINE - 1};
+    const long long steps = dal_run_steps(r->request->run) - r->start_step;
+    append_piece(&line, "t = %.6g (%.0f %%)", t, floor(100.0 * t / r->request->time));
+    append_remaining(&line, remaining(r, t));
+    if (r->seconds > 0.0) append_piece(&line, ", %.2e steps/s", (double)steps / r->seconds);
+    const char *before = ", moved: ";
+    for (int i = 0; i < r->observables; i++) {
+        const char *name = recorder_observable_name(r, i);
+        if (name[0] == '|') continue; /* the norms of p and pi are for the summary */
+        if (!append_piece(&line, "%s%s %.2g", before, name,
+                          dal_statistics_deviation(&r->statistics[i])))
+            break;
+        before = ", ";
+    }
+    cli_progress("%s", line.text);
 }
 
 static void show_json(const run_recorder *r, double t)
@@ -111,9 +106,9 @@ void progress_show(run_recorder *r, double t, int at_the_end)
 {
     const int json = r->progress == PROGRESS_JSON;
     const double now = cli_seconds();
-    if (r->progress == PROGRESS_OFF || (!json && (r->quiet || at_the_end))) return;
-    if (!at_the_end && now - r->told_progress < (json ? json_interval : line_interval)) return;
-    r->told_progress = now;
+    if (r->progress == PROGRESS_OFF || (!json && (r->no_line || at_the_end))) return;
+    if (!at_the_end && now - r->shown < (json ? json_interval : line_interval)) return;
+    r->shown = now;
     if (json)
         show_json(r, t);
     else

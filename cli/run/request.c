@@ -1,10 +1,12 @@
-/* request.c - from the options of a run to the run. */
+/* request.c - what a run is made from: its options, parsed and checked. */
 #include "request.h"
+
+#include "row_times.h"
 
 #include <stdlib.h>
 #include <string.h>
 
-enum { SAMPLES_MOST = 1000000000, STATISTICS_MOST = 1000000000 };
+enum { MAX_COUNT = 1000000000 };
 
 /* What --help says of the default of each type; of a choice, its words. */
 #define DEFAULT_double(initial, value)     #initial
@@ -76,28 +78,25 @@ void request_free(run_request *request)
     *request = request_default();
 }
 
-/* The last value given to a name holds. */
-static dal_setting *find_setting(request_settings *settings, const char *name)
+void request_add_setting(request_settings *settings, const char *name, double value)
 {
     for (int i = 0; i < settings->count; i++)
-        if (strcmp(settings->item[i].name, name) == 0) return &settings->item[i];
-    return NULL;
-}
-
-static int add_setting(request_settings *settings, const char *what, const char *text)
-{
-    dal_setting given;
-    int status = cli_setting(what, text, &given);
-    if (status != CLI_DONE) return status;
-    dal_setting *before = find_setting(settings, given.name);
-    if (before) {
-        before->value = given.value;
-        free((char *)given.name);
-        return CLI_DONE;
-    }
+        if (strcmp(settings->item[i].name, name) == 0) {
+            settings->item[i].value = value;
+            return;
+        }
     size_t count = (size_t)settings->count + 1;
     settings->item = cli_realloc(settings->item, count * sizeof *settings->item);
-    settings->item[settings->count++] = given;
+    settings->item[settings->count++] = (dal_setting){cli_strdup(name), value};
+}
+
+static int parse_setting(request_settings *settings, const char *what, const char *text)
+{
+    dal_setting given;
+    const int status = cli_setting(what, text, &given);
+    if (status != CLI_DONE) return status;
+    request_add_setting(settings, given.name, given.value);
+    free((char *)given.name);
     return CLI_DONE;
 }
 
@@ -114,17 +113,17 @@ int request_parse_option(run_request *request, int option, const char *text)
         if (request->time > 0.0) return CLI_DONE;
         return cli_fail(CLI_USAGE, "--time: %s is not positive", text);
     case REQUEST_samples:
-        return cli_integer("--samples", text, 1, SAMPLES_MOST, &request->samples);
+        return cli_integer("--samples", text, 1, MAX_COUNT, &request->samples);
     case REQUEST_sampling:
-        return request_parse_sampling(request, text);
+        return row_times_parse_sampling(request, text);
     case REQUEST_times:
-        return request_parse_times(request, text);
+        return row_times_parse(request, text);
     case REQUEST_statistics:
-        return cli_integer("--statistics", text, 1, STATISTICS_MOST, &request->statistics);
+        return cli_integer("--statistics", text, 1, MAX_COUNT, &request->statistics);
     case REQUEST_set:
-        return add_setting(&request->set, "--set", text);
+        return parse_setting(&request->set, "--set", text);
     case REQUEST_start:
-        return add_setting(&request->start, "--start", text);
+        return parse_setting(&request->start, "--start", text);
     default:
         if (dal_options_set(&request->options, table[option].name, text, &error) == DAL_OK)
             return CLI_DONE;
@@ -132,24 +131,11 @@ int request_parse_option(run_request *request, int option, const char *text)
     }
 }
 
-static void take_initial(run_request *request, int option)
+static void set_default(run_request *request, int option)
 {
     if (request->text[option]) return;
     request_parse_option(request, option, table[option].initial);
     request->text[option] = NULL;
-}
-
-static int check(run_request *request)
-{
-    if (!request->system_name) return cli_fail(CLI_USAGE, "the SYSTEM is missing");
-    for (int i = 0; i < REQUEST_OPTIONS; i++)
-        if (is_required(i) && !request->text[i] && !(i == REQUEST_time && request->times > 0))
-            return cli_fail(CLI_USAGE, "--%s is missing", table[i].name);
-    if (!(request->options.step > 0.0))
-        return cli_fail(CLI_USAGE, "--step: %s is not positive", request->text[REQUEST_step]);
-    take_initial(request, REQUEST_samples);
-    take_initial(request, REQUEST_statistics);
-    return request_set_row_times(request);
 }
 
 int request_make_spec(run_request *request, dal_run_spec *spec)
@@ -160,9 +146,9 @@ int request_make_spec(run_request *request, dal_run_spec *spec)
     if (status != CLI_DONE) return status;
     /* Where the system or the method has no lift there is one space alone; only an explicit
      * --space=lifted is an error. */
-    const int liftless =
-        !request->system->call.adjoint || dal_method_needs(&request->method) & DAL_NEEDS_PARTS;
-    if (!request->text[REQUEST_space] && liftless) request->options.space = DAL_PHYSICAL;
+    const int has_lift =
+        request->system->call.adjoint && !(dal_method_needs(&request->method) & DAL_NEEDS_PARTS);
+    if (!request->text[REQUEST_space] && !has_lift) request->options.space = DAL_PHYSICAL;
     *spec = (dal_run_spec){.system = request->system,
                            .method = request->method,
                            .options = request->options,
@@ -175,17 +161,25 @@ int request_make_spec(run_request *request, dal_run_spec *spec)
 
 int request_complete(run_request *request, dal_run_spec *spec)
 {
-    const int status = check(request);
+    if (!request->system_name) return cli_fail(CLI_USAGE, "the SYSTEM is missing");
+    for (int i = 0; i < REQUEST_OPTIONS; i++)
+        if (is_required(i) && !request->text[i] && !(i == REQUEST_time && request->times > 0))
+            return cli_fail(CLI_USAGE, "--%s is missing", table[i].name);
+    if (!(request->options.step > 0.0))
+        return cli_fail(CLI_USAGE, "--step: %s is not positive", request->text[REQUEST_step]);
+    set_default(request, REQUEST_samples);
+    set_default(request, REQUEST_statistics);
+    const int status = row_times_fill(request);
     return status == CLI_DONE ? request_make_spec(request, spec) : status;
 }
 
 int request_create_run(run_request *request)
 {
     dal_run_spec spec;
+    dal_error error = {0};
     const int status = request_complete(request, &spec);
     if (status != CLI_DONE) return status;
-    dal_error error = {0};
-    dal_status made = dal_run_create(&request->run, &spec, &error);
+    const dal_status made = dal_run_create(&request->run, &spec, &error);
     if (made == DAL_OK) return CLI_DONE;
     request->run = NULL;
     return cli_error(cli_input_exit(made), request->system_name, &error);

@@ -1,10 +1,10 @@
-/* request.h - all that makes a run, as the command line or a manifest.json tells it. */
+/* request.h - what a run is made from, as the command line or a manifest.json gives it. */
 #ifndef DAL_CLI_REQUEST_H
 #define DAL_CLI_REQUEST_H
 
 #include "ui/cli.h"
 
-/* What the run itself does not know; the library's options come behind.
+/* The options that the library has not; those of the library come behind.
  * name, value, default, help */
 #define REQUEST_OPTION_LIST(X)                                                                     \
     X(integrator, "NAME", NULL, "rk4, gauss8+project, ...: see 'dalembert list integrators'")      \
@@ -13,7 +13,7 @@
     X(sampling, "linear|log|steps", "linear",                                                      \
       "rows at equal distances in t; in log t, on whole steps; in t, on whole steps")              \
     X(times, "LIST|FILE", NULL, "rows at these times alone; T is the last of them when not given") \
-    X(statistics, "K", "1", "look at the observables after every K-th step, for the summary")      \
+    X(statistics, "K", "1", "observe after every K-th step, for the summary")                      \
     X(set, "PARAMETER=V", NULL, "give a parameter another value; may be repeated")                 \
     X(start, "NAME=V", NULL, "start x, x', e, p_x, pi_x, ... at V; may be repeated; e=inf")
 
@@ -48,7 +48,7 @@ typedef struct run_request {
     long long samples, statistics;
     request_sampling sampling;
     double *row_time; /* [samples + 1]; NULL: at equal distances */
-    long long times;  /* given ones in it */
+    long long times;  /* number of times that were given */
     char *list;       /* those as a text */
     dal_options options;
     request_settings set, start;
@@ -58,32 +58,25 @@ typedef struct run_request {
     dal_run *run;
 } run_request;
 
-/* A request of which nothing is known; request_free it. */
+/* An empty request; release it with request_free. */
 run_request request_default(void);
 void request_free(run_request *request);
-/* Fills options[REQUEST_OPTIONS] with what --help says of them. */
+/* Fills options[REQUEST_OPTIONS] with what --help prints of them. */
 void request_list_options(cli_option *options);
-/* Whether an option takes one number. */
+/* Whether an option has a number as its value. */
 int request_option_is_number(int option);
 /* The number of an option by its name, -1 for none. */
 int request_find_option(const char *name);
-/* Parses one option.  Returns CLI_DONE or prints and returns an exit status, as all below. */
+/* Adds a setting to those of a parameter or a start, or replaces that of the same name. */
+void request_add_setting(request_settings *settings, const char *name, double value);
+
+/* All below return CLI_DONE, or print and return an exit status. */
+
+/* Parses the value of one option; request points to the text. */
 int request_parse_option(run_request *request, int option, const char *text);
-/* Parses a list of times, or the file that holds one; and a word of the list above.  Decides when
- * rows are taken, and checks that the time holds a step.  Times that are not equally distant are
- * kept in memory. */
-enum { ROW_TIMES_MAX = 100000000 };
-int request_parse_times(run_request *request, const char *given);
-int request_parse_sampling(run_request *request, const char *word);
-int request_set_row_times(run_request *request);
-/* Why a time cannot be divided into such steps: there is none in it, or more than a double counts;
- * NULL where it can.  The second prints that of --step. */
-enum { REQUEST_STEP_TEXT = 128 };
-const char *request_step_error(double step, double time, char text[REQUEST_STEP_TEXT]);
-int request_check_step(const run_request *request, double time);
 /* Loads the system, chooses the space and makes the spec of the run. */
 int request_make_spec(run_request *request, dal_run_spec *spec);
-/* After the last option: checks that none is missing and makes the spec; the other also the run. */
+/* After the last option: checks that none is missing and makes the spec; and the run as well. */
 int request_complete(run_request *request, dal_run_spec *spec);
 int request_create_run(run_request *request);
 

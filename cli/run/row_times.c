@@ -1,29 +1,34 @@
 /* row_times.c - when the rows of a run are taken.
  *
- *     linear   t_k = k T/N                                     k = 0..N (nothing is made for it)
- *     log      t_0 = 0, t_k = h round((T/h)^((k-1)/(N-1)))     steps that fall together are one row
+ *     linear   t_k = k T/N                                     k = 0..N (needs no list)
+ *     log      t_0 = 0, t_k = h round((T/h)^((k-1)/(N-1)))     equal times are one row
  *     steps    t_k = h round(k N/S)                            k = 0..S, N = round(T/h), T = h N
  *     times    as they were given, and T behind them when it is later */
+#include "row_times.h"
+
 #include "io/file.h"
 #include "io/output.h"
-#include "request.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 
-/* ---- logarithmic --------------------------------------------------------------------------- */
+static int allocate_times(run_request *request, const char *sampling)
+{
+    if (request->samples > ROW_TIMES_MAX)
+        return cli_fail(CLI_USAGE, "--samples: %lld are too many for --sampling %s",
+                        request->samples, sampling);
+    request->row_time = cli_malloc(((size_t)request->samples + 2) * sizeof *request->row_time);
+    return CLI_DONE;
+}
 
-static int schedule_log(run_request *request)
+static int fill_log(run_request *request)
 {
     const double h = request->options.step, T = request->time, steps = floor(T / h * (1.0 + 1e-12));
     const long long rows = request->samples;
     double before = 0.0;
-    if (rows > ROW_TIMES_MAX)
-        return cli_fail(CLI_USAGE, "--samples: %lld are too many for --sampling log", rows);
-    request->row_time = cli_malloc(((size_t)rows + 2) * sizeof *request->row_time);
+    if (allocate_times(request, "log") != CLI_DONE) return CLI_USAGE;
     request->samples = 0;
     request->row_time[0] = 0.0;
     for (long long k = 1; k <= rows; k++) {
@@ -39,17 +44,12 @@ static int schedule_log(run_request *request)
     return CLI_DONE;
 }
 
-/* ---- on whole steps ------------------------------------------------------------------------ */
-
-static int schedule_steps(run_request *request)
+static int fill_steps(run_request *request)
 {
     const double h = request->options.step;
     const long long steps = llround(request->time / h);
     if (request->samples > steps) request->samples = steps;
-    if (request->samples > ROW_TIMES_MAX)
-        return cli_fail(CLI_USAGE, "--samples: %lld are too many for --sampling steps",
-                        request->samples);
-    request->row_time = cli_malloc(((size_t)request->samples + 1) * sizeof *request->row_time);
+    if (allocate_times(request, "steps") != CLI_DONE) return CLI_USAGE;
     for (long long k = 0; k <= request->samples; k++) {
         const double part = (double)k / (double)request->samples;
         request->row_time[k] = (double)llround(part * (double)steps) * h;
@@ -58,7 +58,7 @@ static int schedule_steps(run_request *request)
     return CLI_DONE;
 }
 
-/* ---- given --------------------------------------------------------------------------------- */
+/* ---- a list -------------------------------------------------------------------------------- */
 
 static int add_time(run_request *request, const char *text)
 {
@@ -75,14 +75,8 @@ static int add_time(run_request *request, const char *text)
     return CLI_DONE;
 }
 
-static int is_file(const char *text)
-{
-    struct stat status;
-    return stat(text, &status) == 0 && S_ISREG(status.st_mode);
-}
-
-/* Times between commas and white space; a line of a file may end in a remark behind #. */
-static int read_times(run_request *request, char *text)
+/* Times between commas and white space; in a file a line may end in a remark behind #. */
+static int parse_list(run_request *request, char *text)
 {
     int status = CLI_DONE;
     for (char *remark = text; (remark = strchr(remark, '#'));)
@@ -95,10 +89,22 @@ static int read_times(run_request *request, char *text)
     return status;
 }
 
-/* What was read, as a list that needs no file. */
-static void write_list(run_request *request)
+int row_times_parse(run_request *request, const char *given)
 {
     size_t length;
+    struct stat info;
+    const int is_file = stat(given, &info) == 0 && S_ISREG(info.st_mode);
+    char *text = is_file ? file_read(given, &length) : cli_strdup(given);
+    if (!text) return CLI_IO;
+    free(request->row_time);
+    free(request->list);
+    request->row_time = NULL;
+    request->list = NULL;
+    request->times = 0;
+    const int status = parse_list(request, text);
+    free(text);
+    if (status != CLI_DONE) return status;
+    /* The manifest has the times themselves, and needs no file. */
     FILE *out = cli_memstream_open(&request->list, &length);
     for (long long i = 0; i < request->times; i++) {
         if (i) fputc(',', out);
@@ -106,25 +112,10 @@ static void write_list(run_request *request)
     }
     cli_memstream_close(out);
     request->text[REQUEST_times] = request->list;
+    return CLI_DONE;
 }
 
-int request_parse_times(run_request *request, const char *given)
-{
-    size_t length;
-    char *text = is_file(given) ? file_read(given, &length) : cli_strdup(given);
-    if (!text) return CLI_IO;
-    free(request->row_time);
-    free(request->list);
-    request->row_time = NULL;
-    request->list = NULL;
-    request->times = 0;
-    const int status = read_times(request, text);
-    free(text);
-    if (status == CLI_DONE) write_list(request);
-    return status;
-}
-
-static int schedule_times(run_request *request)
+static int finish_list(run_request *request)
 {
     const double last = request->row_time[request->times - 1];
     if (request->text[REQUEST_samples] || request->text[REQUEST_sampling])
@@ -142,27 +133,25 @@ static int schedule_times(run_request *request)
     return CLI_DONE;
 }
 
-int request_parse_sampling(run_request *request, const char *word)
+/* ---- all ----------------------------------------------------------------------------------- */
+
+int row_times_parse_sampling(run_request *request, const char *word)
 {
-    static const char *const words[] = {
-#define X(code, word) #word,
-        REQUEST_SAMPLING_LIST(X)
-#undef X
-    };
-    for (size_t i = 0; i < sizeof words / sizeof words[0]; i++) {
-        if (strcmp(words[i], word) != 0) continue;
-        request->sampling = (request_sampling)i;
-        return CLI_DONE;
-    }
-    return cli_fail(CLI_USAGE, "--sampling: '%s' is not linear, log or steps", word);
+#define WORD(code, word) #word,
+    static const char *const words[] = {REQUEST_SAMPLING_LIST(WORD)};
+#undef WORD
+    const int k = cli_word("--sampling", word, words, sizeof words / sizeof words[0]);
+    if (k < 0) return CLI_USAGE;
+    request->sampling = (request_sampling)k;
+    return CLI_DONE;
 }
 
-const char *request_step_error(double step, double time, char text[REQUEST_STEP_TEXT])
+const char *step_error(double step, double time, char text[STEP_ERROR_SIZE])
 {
     if (step > time)
-        snprintf(text, REQUEST_STEP_TEXT, "%.15g is larger than the time %g", step, time);
+        snprintf(text, STEP_ERROR_SIZE, "%.15g is larger than the time %g", step, time);
     else if (time / step > 0x1p53)
-        snprintf(text, REQUEST_STEP_TEXT,
+        snprintf(text, STEP_ERROR_SIZE,
                  "%.15g is too small: %g steps of %g are more than can be counted", step,
                  time / step, step);
     else
@@ -170,24 +159,18 @@ const char *request_step_error(double step, double time, char text[REQUEST_STEP_
     return text;
 }
 
-int request_check_step(const run_request *request, double time)
+int row_times_check_step(const run_request *request, double time)
 {
-    char text[REQUEST_STEP_TEXT];
-    const char *fault = request_step_error(request->options.step, time, text);
-    return fault ? cli_fail(CLI_USAGE, "--step: %s", fault) : CLI_DONE;
+    char text[STEP_ERROR_SIZE];
+    const char *error = step_error(request->options.step, time, text);
+    return error ? cli_fail(CLI_USAGE, "--step: %s", error) : CLI_DONE;
 }
 
-int request_set_row_times(run_request *request)
+int row_times_fill(run_request *request)
 {
-    int status = request->times > 0 ? schedule_times(request) : CLI_DONE;
-    if (status == CLI_DONE) status = request_check_step(request, request->time);
+    int status = request->times > 0 ? finish_list(request) : CLI_DONE;
+    if (status == CLI_DONE) status = row_times_check_step(request, request->time);
     if (status != CLI_DONE || request->times > 0) return status;
-    switch (request->sampling) {
-    case REQUEST_SAMPLING_LOG:
-        return schedule_log(request);
-    case REQUEST_SAMPLING_STEPS:
-        return schedule_steps(request);
-    default:
-        return CLI_DONE;
-    }
+    if (request->sampling == REQUEST_SAMPLING_LOG) return fill_log(request);
+    return request->sampling == REQUEST_SAMPLING_STEPS ? fill_steps(request) : CLI_DONE;
 }

@@ -1,5 +1,6 @@
-/* run_directory.c - a directory that holds a run: its files, and who may write to them. */
+/* run_directory.c - the directory of a run: its files, and which process may write to them. */
 #include "run_directory.h"
+
 #include "io/output.h"
 
 #include <errno.h>
@@ -8,19 +9,19 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-void run_directory_open(run_directory *dir, const char *directory)
+void run_directory_open(run_directory *dir, const char *path)
 {
-    *dir = (run_directory){.path = directory, .descriptor = -1, .sync = 1};
-#define X(name, file) dir->name = cli_join(directory, file);
-    RUN_FILE_LIST(X)
-#undef X
+    *dir = (run_directory){.path = path, .descriptor = -1, .sync = 1};
+#define FILE_PATH(name, file) dir->name = cli_join(path, file);
+    RUN_FILE_LIST(FILE_PATH)
+#undef FILE_PATH
 }
 
 void run_directory_close(run_directory *dir)
 {
-#define X(name, file) free(dir->name);
-    RUN_FILE_LIST(X)
-#undef X
+#define FREE_PATH(name, file) free(dir->name);
+    RUN_FILE_LIST(FREE_PATH)
+#undef FREE_PATH
     if (dir->doc) yaml_document_delete(&dir->doc->yaml);
     free(dir->doc);
     free(dir->input);
@@ -28,35 +29,28 @@ void run_directory_close(run_directory *dir)
     *dir = (run_directory){.descriptor = -1};
 }
 
-/* An empty trajectory.npy is all that a run leaves that was killed before it was described. */
-static int holds(const char *path)
-{
-    struct stat status;
-    return stat(path, &status) == 0 && status.st_size > 0;
-}
-
+/* A run that was killed before its manifest was written leaves an empty trajectory.npy alone. */
 const char *run_directory_find_file(const run_directory *dir)
 {
-#define X(name, file)                                                                              \
-    if (holds(dir->name)) return dir->name;
-    RUN_FILE_LIST(X)
-#undef X
+    struct stat status;
+#define RETURN_IF_FILLED(name, file)                                                               \
+    if (stat(dir->name, &status) == 0 && status.st_size > 0) return dir->name;
+    RUN_FILE_LIST(RETURN_IF_FILLED)
+#undef RETURN_IF_FILLED
     return NULL;
 }
 
-static int is_there(const char *path) { return access(path, F_OK) == 0; }
-
-int run_directory_has_run(const run_directory *dir) { return is_there(dir->manifest); }
+int run_directory_has_run(const run_directory *dir) { return access(dir->manifest, F_OK) == 0; }
 
 int run_directory_lock(run_directory *dir, int is_new)
 {
     struct flock whole = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
-    if (!is_new && !is_there(dir->rows))
+    if (!is_new && access(dir->rows, F_OK) != 0)
         return cli_fail(CLI_USAGE, "'%s' is missing: the run cannot be continued", dir->rows);
     dir->descriptor = open(dir->rows, O_RDWR | (is_new ? O_CREAT : 0), 0666);
     if (dir->descriptor < 0) return cli_io("write", dir->rows);
     if (fcntl(dir->descriptor, F_SETLK, &whole) == 0) return CLI_DONE;
-    /* Some network file systems know no locks; there the user must take care. */
+    /* Some network file systems have no locks; there the user must take care. */
     if (errno != EACCES && errno != EAGAIN) return CLI_DONE;
     return cli_fail(CLI_USAGE, "'%s': another process is writing to it", dir->rows);
 }

@@ -104,7 +104,7 @@ static int take(settings *w, int option, const char *value)
         w->output = value;
         return CLI_DONE;
     case OWN_threads:
-        return cli_integer("--threads", value, 1, POOL_MOST, &w->threads);
+        return cli_integer("--threads", value, 1, POOL_MAX_THREADS, &w->threads);
     case OWN_checkpoint:
         return run_parse_interval(value, &w->interval);
     case OWN_shard:

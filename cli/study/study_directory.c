@@ -182,7 +182,7 @@ static int check_place(const study_directory *dir, const char *text, size_t leng
         return cli_fail(CLI_USAGE, "'%s' is another study; --force writes over it", held);
     }
     return cli_fail(CLI_USAGE,
-                    "'%s' is there already: 'dalembert resume %s' goes on with it, --force writes "
+                    "'%s' is there already: 'dalembert resume %s' resumes it, --force writes "
                     "over it",
                     held, dir->directory);
 }

@@ -1,7 +1,7 @@
 /* study_finish.c - what is left of a study in its directory, and told, when cells have been run. */
 #include "io/file.h"
 #include "io/json.h"
-#include "run/run_directory.h"
+#include "run/manifest.h"
 #include "study_directory.h"
 
 #include <stdlib.h>
@@ -156,6 +156,6 @@ int study_directory_finish(const study_directory *dir, const study_plan *plan, i
     print_tables(stdout, plan);
     const int told = cli_close(stdout, "standard output");
     if (status == CLI_SIGNAL)
-        return cli_fail(status, "interrupted; go on with: dalembert resume %s", dir->directory);
+        return cli_fail(status, "interrupted; resume with: dalembert resume %s", dir->directory);
     return kept != CLI_DONE ? kept : told != CLI_DONE ? told : result;
 }

@@ -5,6 +5,7 @@
  * as by whoever ran it whole. */
 #include "io/file.h"
 #include "io/output.h"
+#include "run/manifest.h"
 #include "run/pool.h"
 #include "run/run.h"
 #include "study_directory.h"
@@ -240,7 +241,7 @@ static int take(merge *m, const char **output, long long *threads, int option, c
         *output = value;
         return CLI_DONE;
     case OWN_threads:
-        return cli_integer("--threads", value, 1, POOL_MOST, threads);
+        return cli_integer("--threads", value, 1, POOL_MAX_THREADS, threads);
     case OWN_force:
         m->force = 1;
         return CLI_DONE;

@@ -2,6 +2,7 @@
 #include "io/document.h"
 #include "parsed_study.h"
 #include "run/request.h"
+#include "run/row_times.h"
 #include "study.h"
 #include "study_expect.h"
 
@@ -92,8 +93,8 @@ static int check_case(const document *doc, const yaml_node_t *node, const parsed
     if (e->steps == 0) return document_fail(doc, node, "%s: the step is missing", e->name);
     if (!(e->time > 0.0)) return document_fail(doc, node, "%s: the time is missing", e->name);
     for (int i = 0; i < e->steps; i++) {
-        char said[REQUEST_STEP_TEXT];
-        const char *fault = request_step_error(e->step[i], e->time, said);
+        char said[STEP_ERROR_SIZE];
+        const char *fault = step_error(e->step[i], e->time, said);
         if (fault) return document_fail(doc, node, "%s: step %s", e->name, fault);
     }
     return CLI_DONE;

@@ -81,7 +81,7 @@ static void look(void *user)
 /* Asked by each run now and then. */
 static int stop(void *user)
 {
-    pool_alone(look, user);
+    pool_exclude(look, user);
     return cli_interrupted();
 }
 
@@ -91,7 +91,7 @@ static void run_cell(void *user, int i)
     study_cell *cell = &w->plan->cells[w->order[i]];
     if (cell->elsewhere || cli_interrupted()) return;
     ending e = {w, study_cell_run(w->plan, cell, &(study_stop_check){stop, w})};
-    pool_alone(note, &e);
+    pool_exclude(note, &e);
 }
 
 int study_pool_run(study_plan *plan, int threads)

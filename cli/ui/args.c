@@ -120,6 +120,20 @@ int cli_integer(const char *what, const char *text, long long least, long long g
     return CLI_DONE;
 }
 
+int cli_word(const char *what, const char *text, const char *const *words, int count)
+{
+    char list[256];
+    int length = 0;
+    for (int i = 0; i < count; i++) {
+        if (strcmp(words[i], text) == 0) return i;
+        const char *separator = i == 0 ? "" : i == count - 1 ? " or " : ", ";
+        length +=
+            snprintf(list + length, sizeof list - (size_t)length, "%s%s", separator, words[i]);
+    }
+    cli_fail(CLI_USAGE, "%s: '%s' is not %s", what, text, list);
+    return -1;
+}
+
 static int is_infinity(const char *text)
 {
     return strcmp(text, "inf") == 0 || strcmp(text, "+inf") == 0 || strcmp(text, "infinity") == 0;

@@ -180,6 +180,8 @@ void cli_fold_notes(FILE *out, const char *notes);
 int cli_number(const char *what, const char *text, double *number);
 int cli_integer(const char *what, const char *text, long long least, long long greatest,
                 long long *number);
+/* The index of a text among words; -1 after the message that it is none of them. */
+int cli_word(const char *what, const char *text, const char *const *words, int count);
 /* Splits "NAME=VALUE" at its first '=': a setting whose name is allocated (free it).  An infinite
  * value is taken for the name e alone.  Returns CLI_DONE, CLI_USAGE or CLI_IO. */
 int cli_setting(const char *what, const char *text, dal_setting *setting);

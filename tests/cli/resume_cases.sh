@@ -48,7 +48,7 @@ done
 # A row half written when the power went is cut off.
 printf '1.5,0.9' >>killed/trajectory.npy
 try 0 resume killed
-says "'killed' goes on from t = [0-9.]*[1-9][0-9.]* with row [1-9]"
+says "'killed' resumes at t = [0-9.]*[1-9][0-9.]* with row [1-9]"
 holds "not the rows of a run never interrupted" cmp killed/trajectory.npy whole/trajectory.npy
 holds "not the summary of a run never interrupted" cmp killed/summary.csv whole/summary.csv
 
@@ -79,7 +79,7 @@ for signal in INT TERM; do
     wait $!
     status=$?
     holds "exit $status, not 130, at SIG$signal" [ $status -eq 130 ]
-    says 'interrupted; go on with: dalembert resume stopped'
+    says 'interrupted; resume with: dalembert resume stopped'
 done
 cp -r stopped cut
 cp -r stopped flipped
@@ -111,7 +111,7 @@ truncate -s $last cut/trajectory.npy
 flip flipped/trajectory.npy $last
 for folder in cut flipped; do
     try 0 resume $folder
-    says "the one before is tried: $folder/checkpoint.before"
+    says "$folder/checkpoint.before is read instead"
     holds "not the rows of a run never interrupted" cmp $folder/trajectory.npy whole/trajectory.npy
     holds "not the summary of a run never interrupted" cmp $folder/summary.csv whole/summary.csv
 done
@@ -162,7 +162,7 @@ cp -r killed older
 printf x | dd of=older/checkpoint bs=1 seek=100 conv=notrunc 2>/dev/null
 try 0 resume older
 says 'older/checkpoint: the checkpoint is damaged: its check sum is wrong'
-says 'the one before is tried: older/checkpoint.before'
+says 'older/checkpoint.before is read instead'
 holds "not the rows of a run never interrupted" cmp older/trajectory.npy whole/trajectory.npy
 holds "not the summary of a run never interrupted" cmp older/summary.csv whole/summary.csv
 rm -f damaged/checkpoint.before

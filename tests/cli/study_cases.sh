@@ -157,7 +157,7 @@ cp small.yaml other.yaml
 echo '# other' >>other.yaml
 try 0 study small.yaml --output held
 try 2 study other.yaml --output held
-says "'held/study.yaml' is there already: 'dalembert resume held' goes on with it, --force writes"
+says "'held/study.yaml' is there already: 'dalembert resume held' resumes it, --force writes"
 try 2 study small.yaml --output held
 try 2 study small.yaml --output held --shard 1/2
 try 0 study closed.yaml --output held --force

@@ -85,7 +85,7 @@ kill -INT $pid
 wait $pid
 status=$?
 holds "exit $status, not 130" test $status -eq 130
-says 'interrupted; go on with: dalembert resume stopped-study'
+says 'interrupted; resume with: dalembert resume stopped-study'
 holds "interrupted" grep -q '"status": "interrupted"' stopped-study/manifest.json
 mkdir elsewhere
 cd elsewhere

@@ -1,0 +1,25 @@
+/* manifest.h - manifest.json: the request of a run, what ran it, and how far it is. */
+#ifndef DAL_CLI_MANIFEST_H
+#define DAL_CLI_MANIFEST_H
+
+#include "request.h"
+#include "run_directory.h"
+
+/* All functions but the last two return CLI_DONE, or print and return CLI_USAGE or CLI_IO. */
+
+/* Writes the manifest of a new run and the copy of its system, and removes the files of an older
+ * run. */
+int manifest_begin(run_directory *dir, const run_request *request);
+/* Reads the request into a new one, which points to texts of dir. */
+int manifest_read(run_directory *dir, run_request *request);
+/* Compares the request that was read with another one: CLI_USAGE where they differ. */
+int manifest_compare(const run_directory *dir, const run_request *held, const run_request *request);
+/* Writes how far the run is.  state: running, done, failed, interrupted; message: why, or "". */
+int manifest_write(const run_directory *dir, const run_request *request,
+                   const run_position *position, const char *state, const char *message);
+/* Whether a manifest states that its run is done or has failed. */
+int manifest_has_ended(const char *path);
+/* Writes the member "machine" behind a comma. */
+void manifest_put_machine(FILE *out);
+
+#endif

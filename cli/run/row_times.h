@@ -1,0 +1,23 @@
+/* row_times.h - when the rows of a run are taken. */
+#ifndef DAL_CLI_ROW_TIMES_H
+#define DAL_CLI_ROW_TIMES_H
+
+#include "request.h"
+
+/* Times that are not equally distant are kept in memory. */
+enum { ROW_TIMES_MAX = 100000000, STEP_ERROR_SIZE = 128 };
+
+/* All functions but the first return CLI_DONE, or print and return CLI_USAGE or CLI_IO. */
+
+/* Why a time cannot be divided into such steps: there is none in it, or more than a double counts;
+ * NULL where it can. */
+const char *step_error(double step, double time, char text[STEP_ERROR_SIZE]);
+/* Checks --step of a request by it. */
+int row_times_check_step(const run_request *request, double time);
+/* Parse the value of --times, a list or a file with one, and of --sampling. */
+int row_times_parse(run_request *request, const char *given);
+int row_times_parse_sampling(run_request *request, const char *word);
+/* Fills row_time of a request that has all its options, and checks the step. */
+int row_times_fill(run_request *request);
+
+#endif

@@ -1,0 +1,11 @@
+/* summary.h - size and trend of each observable over a run. */
+#ifndef DAL_CLI_SUMMARY_H
+#define DAL_CLI_SUMMARY_H
+
+#include "recorder.h"
+
+void summary_print(FILE *out, const run_recorder *recorder);
+/* Writes summary.csv.  Returns CLI_DONE or prints and returns CLI_IO. */
+int summary_write(const run_recorder *recorder, const char *path);
+
+#endif
