@@ -224,9 +224,9 @@ const dal__shape *dal__batch_shape(const dal_batch *batch) { return &batch->scal
  * nothing, and code for other numbers of them would have to be compiled too. */
 int dal__batch_native_lanes(const dal_batch *batch)
 {
-    const int most = dal__machine_has(DAL__AVX512) ? 8 : 4;
-    if (batch->count == 1 || !dal__engine_best(&batch->scalar->shape, 4)) return 1;
-    return batch->count <= 4 ? 4 : most;
+    const dal__shape *k = &batch->scalar->shape;
+    if (batch->count == 1 || !dal__engine_best(k, 4)) return 1;
+    return batch->count > 4 && dal__engine_best(k, 8) ? 8 : 4;
 }
 
 /* The lanes of a batch as they are, in the blocks of another. */
