@@ -26,31 +26,6 @@ static bool has_file(const char *directory, const char *name)
     return found;
 }
 
-static int make_report(report *r)
-{
-    int kind = 0;
-    while (kind < KINDS && !has_file(r->directory, kinds[kind].file)) kind++;
-    if (kind == KINDS && has_file(r->directory, "study.yaml"))
-        return cli_fail(CLI_USAGE,
-                        "'%s' holds a study that is not finished: 'dalembert resume' continues it, "
-                        "'dalembert merge' merges shards",
-                        r->directory);
-    if (kind == KINDS)
-        return cli_fail(CLI_USAGE,
-                        "'%s' holds neither a study (cells.csv) nor a run (trajectory.npy) nor "
-                        "orders (order.csv)",
-                        r->directory);
-    int status = report_open(r);
-    if (status == CLI_DONE) status = kinds[kind].write(r);
-    const int closed = report_close(r);
-    cli_progress_end();
-    if (status == CLI_DONE) status = closed;
-    if (status == CLI_DONE) printf("%s\n", r->page_path);
-    free(r->place);
-    free(r->page_path);
-    return status == CLI_DONE ? cli_close(stdout, "standard output") : status;
-}
-
 /* name, value, default, help */
 #define OWN_LIST(OPTION) OPTION(format, "svg|png", "svg", "format of the figures")
 
@@ -80,5 +55,26 @@ int command_report(int argc, char **argv)
             r.directory = value;
     }
     if (args.status != CLI_GO_ON) return args.status;
-    return r.directory ? make_report(&r) : cli_fail(CLI_USAGE, "the DIR is missing");
+    if (!r.directory) return cli_fail(CLI_USAGE, "the DIR is missing");
+    int kind = 0;
+    while (kind < KINDS && !has_file(r.directory, kinds[kind].file)) kind++;
+    if (kind == KINDS && has_file(r.directory, "study.yaml"))
+        return cli_fail(CLI_USAGE,
+                        "'%s' holds a study that is not finished: 'dalembert resume' continues it, "
+                        "'dalembert merge' merges shards",
+                        r.directory);
+    if (kind == KINDS)
+        return cli_fail(CLI_USAGE,
+                        "'%s' holds neither a study (cells.csv) nor a run (trajectory.npy) nor "
+                        "orders (order.csv)",
+                        r.directory);
+    int status = report_open(&r);
+    if (status == CLI_DONE) status = kinds[kind].write(&r);
+    const int closed = report_close(&r);
+    cli_progress_end();
+    if (status == CLI_DONE) status = closed;
+    if (status == CLI_DONE) printf("%s\n", r.page_path);
+    free(r.place);
+    free(r.page_path);
+    return status == CLI_DONE ? cli_close(stdout, "standard output") : status;
 }

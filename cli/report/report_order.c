@@ -26,9 +26,11 @@ static int find_row(const order_page *o, const char *method, const char *step)
     return 0;
 }
 
+/* The orders and errors, then the methods that do not apply to the system, or failed, and why. */
 static void write_orders_table(const order_page *o)
 {
     FILE *page = o->r->page;
+    int failures = 0;
     fputs("<div class=\"wide\" tabindex=\"0\"><table><thead><tr><td></td><th>order, stated</th>"
           "<th>order, found</th>",
           page);
@@ -50,23 +52,16 @@ static void write_orders_table(const order_page *o)
     fputs("</tbody></table></div>\n<p>An order is found where two successive slopes of the error "
           "agree.</p>\n",
           page);
-}
-
-/* Methods that do not apply to the system, or failed, and why. */
-static void write_failures(const order_page *o)
-{
-    FILE *page = o->r->page;
-    int count = 0;
     for (int row = 1; row < o->csv.rows; row++) {
         if (report_csv_is(&o->csv, row, "message", "")) continue;
-        fputs(count++ ? "" : "<details><summary>methods without errors</summary>\n<ul>\n", page);
+        fputs(failures++ ? "" : "<details><summary>methods without errors</summary>\n<ul>\n", page);
         fputs("<li>", page);
         report_text(page, report_csv_get(&o->csv, row, "integrator"));
         fputs(": ", page);
         report_text(page, report_csv_get(&o->csv, row, "message"));
         fputs("</li>\n", page);
     }
-    if (count > 0) fputs("</ul></details>\n", page);
+    if (failures > 0) fputs("</ul></details>\n", page);
 }
 
 /* The error of some methods over a column. */
@@ -115,7 +110,6 @@ int report_order(report *r)
                  report_csv_get(&o->csv, 1, "label"));
         report_title(r, title);
         write_orders_table(o);
-        write_failures(o);
         fputs("<h2>Figures</h2>\n<div class=\"figures\">\n", r->page);
         for (int part = 0; part * PLOT_CURVES < o->methods.count; part++)
             for (int figure = 0; figure < 3 && status == CLI_DONE; figure++)

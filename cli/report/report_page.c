@@ -44,22 +44,17 @@ void report_number(FILE *page, const char *format, double x)
     report_element(page, "td", text);
 }
 
-/* The colour of a cell: a trend that grows is never that of no trend, whatever its size. */
-static const char *trend_class(const char *size, const char *trend)
-{
-    const bool is_larger = strcmp(size, "larger") == 0;
-    if (!*trend || strcmp(trend, "failed") == 0 || strcmp(trend, "aborted") == 0 ||
-        strcmp(trend, "undecided") == 0)
-        return "off";
-    if (strcmp(trend, "none") == 0 || strcmp(trend, "settles") == 0)
-        return is_larger ? "bounded" : "kept";
-    return is_larger ? "drift" : "small";
-}
-
 void report_trend(FILE *page, const char *size, const char *trend, const char *number)
 {
-    const bool is_exact = strcmp(size, "exact") == 0;
-    fprintf(page, "<td class=\"trend %s\">", trend_class(size, trend));
+    const bool is_exact = strcmp(size, "exact") == 0, is_larger = strcmp(size, "larger") == 0;
+    /* A trend that grows never has the colour of no trend, whatever its size. */
+    const char *colour = is_larger ? "drift" : "small";
+    if (!*trend || strcmp(trend, "failed") == 0 || strcmp(trend, "aborted") == 0 ||
+        strcmp(trend, "undecided") == 0)
+        colour = "off";
+    else if (strcmp(trend, "none") == 0 || strcmp(trend, "settles") == 0)
+        colour = is_larger ? "bounded" : "kept";
+    fprintf(page, "<td class=\"trend %s\">", colour);
     if (size[0] && !is_exact) fprintf(page, "%s<br>", size);
     fputs(is_exact ? "exact" : trend, page);
     if (!trend[0] && !number[0]) fputs("–", page);

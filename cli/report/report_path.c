@@ -162,17 +162,6 @@ static void add_row(body_path *p, const report_plot *plot, plot_curve *curve, lo
     if (is_instant) memcpy(p->pose[p->poses++], at, sizeof at);
 }
 
-/* Whether rows are so far apart that lines between them are not the path. */
-static bool is_sparse(const body_path *p, const plot_curve *curve)
-{
-    const double far = 0.2 * fmax(p->high[0] - p->low[0], p->high[1] - p->low[1]);
-    int count = 0;
-    for (int i = 1; i < curve->count; i++)
-        count += hypot(curve->at[i][0] - curve->at[i - 1][0],
-                       curve->at[i][1] - curve->at[i - 1][1]) > far;
-    return 10 * count > curve->count;
-}
-
 static int draw_path(body_path *p, report *r, const char *name, const char *caption)
 {
     static const char *const words[] = {
@@ -190,7 +179,13 @@ static int draw_path(body_path *p, report *r, const char *name, const char *capt
     plot_curve *curve = report_curve(&plot, "");
     for (long long k = 0; (more = reader_next(&p->reader)) > 0; k++) add_row(p, &plot, curve, k);
     if (more < 0) status = CLI_IO;
-    curve->has_dots = is_sparse(p, curve);
+    /* Where rows are far apart the lines between them are not the path. */
+    const double far = 0.2 * fmax(p->high[0] - p->low[0], p->high[1] - p->low[1]);
+    int gaps = 0;
+    for (int i = 1; i < curve->count; i++)
+        gaps += hypot(curve->at[i][0] - curve->at[i - 1][0],
+                      curve->at[i][1] - curve->at[i - 1][1]) > far;
+    curve->has_dots = 10 * gaps > curve->count;
     draw_bodies(p, &plot);
     if (p->poses > 0 && body != DAL_BODY_POINT)
         snprintf(text, sizeof text, "The %s, not to scale, at %d of the rows.", words[body],

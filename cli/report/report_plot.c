@@ -139,24 +139,6 @@ static int figure_height(const report_plot *plot)
     return FRAME + (int)height + KEY_ROW * key_rows(plot);
 }
 
-/* One scale on both axes, and tics equally far apart: 1, 2 or 5 times a power of ten. */
-static void write_common_scale(FILE *s, const report_plot *plot)
-{
-    double low, high, extent = 0.0;
-    for (int k = 0; k < 2; k++) {
-        find_range(plot, k, &low, &high);
-        extent = fmax(extent, high - low);
-    }
-    fputs("set size ratio -1\nset offsets graph 0.06, graph 0.06, graph 0.06, graph 0.06\n", s);
-    if (!(extent > 0.0)) return;
-    const double least = extent / 6.0, power = pow(10.0, floor(log10(least)));
-    const double times = least <= power         ? 1.0
-                         : least <= 2.0 * power ? 2.0
-                         : least <= 5.0 * power ? 5.0
-                                                : 10.0;
-    fprintf(s, "set xtics %.9g\nset ytics %.9g\n", times * power, times * power);
-}
-
 static void write_axes(FILE *s, const report_plot *plot)
 {
     const double height = figure_height(plot), key = KEY_ROW * key_rows(plot);
@@ -165,7 +147,22 @@ static void write_axes(FILE *s, const report_plot *plot)
     write_label(s, "ylabel", plot->ylabel);
     write_axis(s, "x", plot, 0, plot->log_x);
     write_axis(s, "y", plot, 1, plot->log_y);
-    if (plot->is_to_scale) write_common_scale(s, plot);
+    if (plot->is_to_scale) {
+        /* Tics equally far apart on both axes: 1, 2 or 5 times a power of ten. */
+        double low, high, extent = 0.0;
+        for (int k = 0; k < 2; k++) {
+            find_range(plot, k, &low, &high);
+            extent = fmax(extent, high - low);
+        }
+        const double least = extent / 6.0, power = pow(10.0, floor(log10(least)));
+        const double times = least <= power         ? 1.0
+                             : least <= 2.0 * power ? 2.0
+                             : least <= 5.0 * power ? 5.0
+                                                    : 10.0;
+        fputs("set size ratio -1\nset offsets graph 0.06, graph 0.06, graph 0.06, graph 0.06\n", s);
+        if (extent > 0.0)
+            fprintf(s, "set xtics %.9g\nset ytics %.9g\n", times * power, times * power);
+    }
     /* The key stands below, as wide as the figure. */
     fprintf(s,
             "set lmargin at screen %.4f\nset rmargin at screen %.4f\n"

@@ -158,6 +158,8 @@ static void add_row(run_page *run, long long k)
 static int draw_figures(run_page *run)
 {
     int more, status = CLI_DONE;
+    name_plots(run);
+    place_columns(run);
     for (long long k = 0; (more = reader_next(&run->reader)) > 0; k++) add_row(run, k);
     if (more < 0) status = CLI_IO;
     for (int i = 1; i < run->reader.columns; i++) {
@@ -263,26 +265,6 @@ static void write_command(FILE *page, const run_request *request)
 
 /* ---- the page ------------------------------------------------------------------------------ */
 
-static int write_run(run_page *run, const run_request *request)
-{
-    report *r = run->r;
-    int status = CLI_DONE;
-    char title[2 * PLOT_NAME] = "A run";
-    const char *method = request->text[REQUEST_integrator];
-    if (request->system_name)
-        snprintf(title, sizeof title, "%.80s by %.80s", request->system_name,
-                 method ? method : "?");
-    report_title(r, title);
-    write_summary(run, request->time);
-    fputs("<h2>Figures</h2>\n<div class=\"figures\">\n", r->page);
-    if (request->system_name) status = report_path(r, r->directory, "path", "");
-    if (status == CLI_DONE) status = draw_figures(run);
-    fputs("</div>\n", r->page);
-    if (request->system_name) write_command(r->page, request);
-    report_file(r, "manifest.json", "what it was made with: manifest.json");
-    return status;
-}
-
 int report_run(report *r)
 {
     run_directory dir = {.descriptor = -1};
@@ -302,9 +284,19 @@ int report_run(report *r)
     if (status == CLI_DONE && run->summary.rows > 0)
         status = report_csv_require(&run->summary, summary, "trend");
     if (status == CLI_DONE) {
-        name_plots(run);
-        place_columns(run);
-        status = write_run(run, &request);
+        const char *method = request.text[REQUEST_integrator];
+        char title[2 * PLOT_NAME] = "A run";
+        if (request.system_name)
+            snprintf(title, sizeof title, "%.80s by %.80s", request.system_name,
+                     method ? method : "?");
+        report_title(r, title);
+        write_summary(run, request.time);
+        fputs("<h2>Figures</h2>\n<div class=\"figures\">\n", r->page);
+        if (request.system_name) status = report_path(r, r->directory, "path", "");
+        if (status == CLI_DONE) status = draw_figures(run);
+        fputs("</div>\n", r->page);
+        if (request.system_name) write_command(r->page, &request);
+        report_file(r, "manifest.json", "what it was made with: manifest.json");
     }
     if (is_open) reader_close(&run->reader);
     report_csv_free(&run->summary);

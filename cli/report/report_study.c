@@ -223,19 +223,6 @@ static const char *find_accuracy(const label_figures *f)
     return NULL;
 }
 
-static void list_methods(label_figures *f)
-{
-    for (int row = 1; row < f->s->cells.rows; row++)
-        if (is_of_label(f, row)) report_add_word(&f->steps, get_cell(f->s, row, "step"));
-    for (int with_modifiers = 0; with_modifiers < 2 && f->methods.count == 0; with_modifiers++)
-        for (int row = 1; row < f->s->cells.rows; row++) {
-            const char *method = get_cell(f->s, row, "integrator");
-            if (is_of_label(f, row) && !is_cell(f->s, row, "steps", "0") &&
-                (with_modifiers || !strchr(method, '+')))
-                report_add_word(&f->methods, method);
-        }
-}
-
 /* A file name of a label, of what is drawn and of numbers that distinguish figures. */
 static void name_plot(report_plot *plot, const label_figures *f, const char *what, int step,
                       int part)
@@ -399,8 +386,16 @@ static int report_label(const study_page *s, const char *label)
 {
     label_figures *f = cli_calloc(1, sizeof *f);
     *f = (label_figures){.s = s, .label = label};
-    list_methods(f);
     f->accuracy = find_accuracy(f);
+    for (int row = 1; row < s->cells.rows; row++)
+        if (is_of_label(f, row)) report_add_word(&f->steps, get_cell(s, row, "step"));
+    for (int with_modifiers = 0; with_modifiers < 2 && f->methods.count == 0; with_modifiers++)
+        for (int row = 1; row < s->cells.rows; row++) {
+            const char *method = get_cell(s, row, "integrator");
+            if (is_of_label(f, row) && !is_cell(s, row, "steps", "0") &&
+                (with_modifiers || !strchr(method, '+')))
+                report_add_word(&f->methods, method);
+        }
     int status = CLI_DONE;
     if (f->methods.count == 0) {
         fputs("<p>No run has numbers to show.</p>\n", s->r->page);
@@ -471,30 +466,23 @@ static int begin_study(report *r)
     return status;
 }
 
-/* The counts, the labels, what the words of the tables mean. */
-static void write_head(const study_page *s)
-{
-    FILE *page = s->r->page;
-    bool is_lifted = false;
-    fprintf(page, "<p>%d runs: %d systems, %d methods.</p>\n<p>Figures:", s->cells.rows - 1,
-            s->labels.count, s->methods.count);
-    for (int i = 0; i < s->labels.count; i++) {
-        fprintf(page, "%s <a href=\"#s%d\">", i ? "," : "", i + 1);
-        report_text(page, s->labels.word[i]);
-        fputs("</a>", page);
-    }
-    fprintf(page, ".</p>\n%s", introduction);
-    for (int row = 1; row < s->cells.rows; row++)
-        is_lifted |= !is_cell(s, row, "start", "physical");
-    if (is_lifted) fputs(about_lift, page);
-}
-
 static int write_study(const study_page *s)
 {
     report *r = s->r;
     int status = begin_study(r);
     if (status != CLI_DONE) return status;
-    write_head(s);
+    bool is_lifted = false;
+    fprintf(r->page, "<p>%d runs: %d systems, %d methods.</p>\n<p>Figures:", s->cells.rows - 1,
+            s->labels.count, s->methods.count);
+    for (int i = 0; i < s->labels.count; i++) {
+        fprintf(r->page, "%s <a href=\"#s%d\">", i ? "," : "", i + 1);
+        report_text(r->page, s->labels.word[i]);
+        fputs("</a>", r->page);
+    }
+    fprintf(r->page, ".</p>\n%s", introduction);
+    for (int row = 1; row < s->cells.rows; row++)
+        is_lifted |= !is_cell(s, row, "start", "physical");
+    if (is_lifted) fputs(about_lift, r->page);
     table_columns *all = cli_calloc(1, sizeof *all);
     for (int row = 1; row < s->cells.rows; row++)
         add_column(all, get_cell(s, row, "label"), get_cell(s, row, "step"));
