@@ -29,7 +29,7 @@ static bool is_number(const dal__tapes *tapes, uint32_t place)
 }
 
 /* bare: a number may stay a double. */
-static void put_operand(const writer *w, uint32_t place, bool bare)
+static void write_operand(const writer *w, uint32_t place, bool bare)
 {
     const dal__tapes *tapes = w->tapes;
     if (is_number(tapes, place)) {
@@ -45,42 +45,37 @@ static void put_operand(const writer *w, uint32_t place, bool bare)
     }
 }
 
-/* Operators take a double beside a num; functions, and two doubles, need a num. */
-static bool may_be_bare(const writer *w, const dal__instruction *i)
-{
-    const bool numbers = is_number(w->tapes, i->a) && is_number(w->tapes, i->b);
-    return !numbers && !strstr(expressions[i->op], "dal_") && i->op != DAL__NEG;
-}
-
 static bool is_letter(char c) { return (c >= 'a' && c <= 'z') || c == '_'; }
 
 /* The expression of an operation with its operands in the places of the lone letters a, b, c. */
-static void put_expression(const writer *w, const dal__instruction *i)
+static void write_expression(const writer *w, const dal__instruction *i)
 {
-    const bool bare = may_be_bare(w, i);
+    /* Operators take a double beside a num; functions, and two doubles, need a num. */
+    const bool numbers = is_number(w->tapes, i->a) && is_number(w->tapes, i->b);
+    const bool bare = !numbers && !strstr(expressions[i->op], "dal_") && i->op != DAL__NEG;
     const char *at = expressions[i->op];
     for (char before = ' '; *at; before = *at++) {
         const bool alone = !is_letter(before) && !is_letter(at[1]);
         if (alone && *at >= 'a' && *at <= 'c')
-            put_operand(w, *at == 'a' ? i->a : *at == 'b' ? i->b : i->c, bare);
+            write_operand(w, *at == 'a' ? i->a : *at == 'b' ? i->b : i->c, bare);
         else
             dal__text_put(w->text, *at == '*' && at[1] != ' ' ? "* " : (char[]){*at, '\0'});
     }
 }
 
-static void put_instruction(writer *w, const dal__instruction *i)
+static void write_instruction(writer *w, const dal__instruction *i)
 {
     if (i->op == DAL__SINCOS) {
         const uint32_t sine = ++w->results, cosine = ++w->results;
         dal__text_print(w->text, "    num x%u, x%u;\n    dal_sincos(", sine, cosine);
-        put_operand(w, i->a, false);
+        write_operand(w, i->a, false);
         dal__text_print(w->text, ", &x%u, &x%u);\n", sine, cosine);
         w->result[i->d] = sine;
         w->result[i->b] = cosine;
         return;
     }
     dal__text_print(w->text, "    const num x%u = ", w->results + 1);
-    put_expression(w, i);
+    write_expression(w, i);
     dal__text_put(w->text, ";\n");
     w->result[i->d] = ++w->results;
 }
@@ -92,10 +87,10 @@ void dal__tape_write(const dal__tapes *tapes, int program, const dal__input_name
     writer w = {tapes, input, calloc(tapes->workspace + 1, sizeof *w.result), 0, text};
     text->out_of_memory |= !w.result;
     if (!w.result) return;
-    for (int i = 0; i < tape->length; i++) put_instruction(&w, &tape->code[i]);
+    for (int i = 0; i < tape->length; i++) write_instruction(&w, &tape->code[i]);
     for (int k = 0; k < tape->outputs; k++) {
         dal__text_print(text, "    out[%d] = ", k);
-        put_operand(&w, tape->place[k], false);
+        write_operand(&w, tape->place[k], false);
         dal__text_put(text, ";\n");
     }
     free(w.result);
@@ -106,7 +101,7 @@ void dal__tapes_write_hoisted(const dal__tapes *tapes, dal__text *text)
     const writer w = {.tapes = tapes, .text = text};
     for (int i = 0; i < tapes->hoisted.length; i++) {
         dal__text_print(text, "    DAL_WORK(%u) = ", tapes->hoisted.code[i].d);
-        put_expression(&w, &tapes->hoisted.code[i]);
+        write_expression(&w, &tapes->hoisted.code[i]);
         dal__text_put(text, ";\n");
     }
 }

@@ -8,30 +8,22 @@
 #include <stdlib.h>
 #include <string.h>
 
-static bool allocate(dal__schedule *s)
+dal_status dal__schedule_create(dal__schedule *s, const dal__tapes *tapes)
 {
-    size_t count = (size_t)s->last_node + 1;
+    *s = (dal__schedule){.graph = tapes->graph, .last_node = tapes->graph->count};
+    const size_t count = (size_t)s->last_node + 1;
     s->constant = calloc(count, sizeof *s->constant);
     s->reached = calloc(count, sizeof *s->reached);
     s->place = malloc(count * sizeof *s->place);
     s->last = calloc(count, sizeof *s->last);
     s->free = malloc(count * sizeof *s->free);
-    return s->constant && s->reached && s->place && s->last && s->free;
-}
-
-static bool is_constant(const dal__schedule *s, const dal__tapes *tapes, dal__record v)
-{
-    if (v.op == DAL__NUMBER) return true;
-    if (v.op == DAL__SYMBOL) return v.symbol < tapes->parameters;
-    return s->constant[v.a] && (!v.b || s->constant[v.b]);
-}
-
-dal_status dal__schedule_create(dal__schedule *s, const dal__tapes *tapes)
-{
-    *s = (dal__schedule){.graph = tapes->graph, .last_node = tapes->graph->count};
-    if (!allocate(s)) return DAL_MEMORY;
+    if (!s->constant || !s->reached || !s->place || !s->last || !s->free) return DAL_MEMORY;
     for (dal__node i = 1; i <= s->last_node; i++) {
-        s->constant[i] = is_constant(s, tapes, dal__inspect(s->graph, i));
+        const dal__record r = dal__inspect(s->graph, i);
+        const bool operands = s->constant[r.a] && (!r.b || s->constant[r.b]);
+        s->constant[i] = r.op == DAL__NUMBER   ? true
+                         : r.op == DAL__SYMBOL ? r.symbol < tapes->parameters
+                                               : operands;
         s->place[i] = DAL__NOWHERE;
     }
     for (int p = 0; p < tapes->count; p++) {
@@ -40,8 +32,8 @@ dal_status dal__schedule_create(dal__schedule *s, const dal__tapes *tapes)
     }
     if (s->reached[0]) return DAL_ARGUMENT;
     for (dal__node i = s->last_node; i > 0; i--) {
-        dal__record v = dal__inspect(s->graph, i);
-        if (s->reached[i]) s->reached[v.a] = s->reached[v.b] = 1;
+        const dal__record r = dal__inspect(s->graph, i);
+        if (s->reached[i]) s->reached[r.a] = s->reached[r.b] = 1;
     }
     return DAL_OK;
 }
@@ -68,8 +60,7 @@ static dal__instruction instruction(const dal__schedule *s, dal__node i, dal__lo
 dal_status dal__schedule_hoisted(dal__schedule *s, dal__tapes *tapes)
 {
     dal__tape *tape = &tapes->hoisted;
-    size_t most = tapes->first_input + 1;
-    tape->code = malloc(most * sizeof *tape->code);
+    tape->code = malloc((tapes->first_input + 1) * sizeof *tape->code);
     if (!tape->code) return DAL_MEMORY;
     for (dal__node i = 1; i <= s->last_node; i++) {
         dal__lowered l = dal__lower(s->graph, i);
@@ -85,16 +76,7 @@ static bool is_computed(const dal__schedule *s, dal__node i)
     return s->reached[i] && !s->constant[i] && dal__inspect(s->graph, i).op != DAL__SYMBOL;
 }
 
-static dal__node largest_output(const dal__tape *tape)
-{
-    dal__node largest = 0;
-    for (int k = 0; k < tape->outputs; k++) {
-        if (tape->output[k] > largest) largest = tape->output[k];
-    }
-    return largest;
-}
-
-/* Fills reached and last for one program; the number of instructions it needs at most. */
+/* Fills reached and last for one program; returns how many instructions it needs at most. */
 static int find_lives(dal__schedule *s, const dal__tape *tape, dal__node top)
 {
     int computed = 0;
@@ -117,7 +99,7 @@ static int find_lives(dal__schedule *s, const dal__tape *tape, dal__node top)
     return computed;
 }
 
-/* Gives back the place of a temporary that node i reads last. */
+/* Frees the place of a temporary that node i reads last. */
 static void release(dal__schedule *s, const dal__tapes *tapes, dal__node x, dal__node i)
 {
     uint32_t place = s->place[x];
@@ -126,7 +108,7 @@ static void release(dal__schedule *s, const dal__tapes *tapes, dal__node x, dal_
     s->last[x] = 0;
 }
 
-static uint32_t take(dal__schedule *s, dal__tapes *tapes)
+static uint32_t allocate_place(dal__schedule *s, dal__tapes *tapes)
 {
     if (s->frees > 0) return s->free[--s->frees];
     size_t place = tapes->temporaries + s->used++;
@@ -151,9 +133,9 @@ static void emit(dal__schedule *s, dal__tapes *tapes, dal__tape *tape, dal__node
     release(s, tapes, l.a, i);
     release(s, tapes, l.b, i);
     release(s, tapes, l.c, i);
-    code.d = s->place[i] = take(s, tapes);
+    code.d = s->place[i] = allocate_place(s, tapes);
     if (pair) {
-        s->place[pair] = take(s, tapes);
+        s->place[pair] = allocate_place(s, tapes);
         code.op = DAL__SINCOS;
         code.d = s->place[l.op == DAL__SIN ? i : pair];
         code.b = s->place[l.op == DAL__SIN ? pair : i];
@@ -163,9 +145,10 @@ static void emit(dal__schedule *s, dal__tapes *tapes, dal__tape *tape, dal__node
 
 dal_status dal__schedule_tape(dal__schedule *s, dal__tapes *tapes, dal__tape *tape)
 {
-    dal__node top = largest_output(tape);
-    size_t most = (size_t)find_lives(s, tape, top) + 1;
-    tape->code = malloc(most * sizeof *tape->code);
+    dal__node top = 0;
+    for (int k = 0; k < tape->outputs; k++)
+        if (tape->output[k] > top) top = tape->output[k];
+    tape->code = malloc(((size_t)find_lives(s, tape, top) + 1) * sizeof *tape->code);
     if (!tape->code) return DAL_MEMORY;
     s->frees = s->used = 0;
     for (dal__node i = 1; i <= top; i++) {

@@ -1,4 +1,4 @@
-/* tape.c - the programs of one system: their life, and the layout of their block of numbers. */
+/* tape.c - the programs of one system, and the layout of their block of numbers. */
 #include "expr/schedule.h"
 #include <stdlib.h>
 #include <string.h>
@@ -30,20 +30,15 @@ void dal__tapes_free(dal__tapes *tapes)
     free(tapes);
 }
 
-static bool make_room(dal__tapes *tapes)
-{
-    if (tapes->count < tapes->capacity) return true;
-    int capacity = tapes->capacity ? 2 * tapes->capacity : 16;
-    dal__tape *tape = realloc(tapes->tape, (size_t)capacity * sizeof *tape);
-    if (!tape) return false;
-    tapes->tape = tape;
-    tapes->capacity = capacity;
-    return true;
-}
-
 int dal__tapes_add(dal__tapes *tapes, const dal__node *outputs, int count)
 {
-    if (!make_room(tapes)) return -1;
+    if (tapes->count == tapes->capacity) {
+        const int capacity = tapes->capacity ? 2 * tapes->capacity : 16;
+        dal__tape *more = realloc(tapes->tape, (size_t)capacity * sizeof *more);
+        if (!more) return -1;
+        tapes->tape = more;
+        tapes->capacity = capacity;
+    }
     dal__tape tape = {.outputs = count};
     size_t size = count > 0 ? (size_t)count : 1;
     tape.output = calloc(size, sizeof *tape.output);
@@ -60,22 +55,22 @@ static dal_status lay_out(dal__tapes *tapes, dal__schedule *s)
     uint32_t place = (uint32_t)tapes->parameters;
     for (int pass = 0; pass < 2; pass++) { /* numbers, then what is hoisted */
         for (dal__node i = 1; i <= s->last_node; i++) {
-            dal__record view = dal__inspect(tapes->graph, i);
-            bool wanted = s->constant[i] && s->reached[i] && view.op != DAL__SYMBOL;
-            if (!wanted || (view.op == DAL__NUMBER) != (pass == 0)) continue;
-            if (pass == 0) tapes->number[tapes->numbers++] = view.value;
+            dal__record r = dal__inspect(tapes->graph, i);
+            bool wanted = s->constant[i] && s->reached[i] && r.op != DAL__SYMBOL;
+            if (!wanted || (r.op == DAL__NUMBER) != (pass == 0)) continue;
+            if (pass == 0) tapes->number[tapes->numbers++] = r.value;
             s->place[i] = place++;
         }
     }
     tapes->first_input = place;
     tapes->temporaries = place + (size_t)tapes->inputs;
     for (dal__node i = 1; i <= s->last_node; i++) {
-        dal__record view = dal__inspect(tapes->graph, i);
-        if (view.op != DAL__SYMBOL || !s->reached[i]) continue;
-        if (view.symbol >= tapes->parameters + tapes->inputs) return DAL_ARGUMENT;
-        s->place[i] = view.symbol < tapes->parameters
-                          ? (uint32_t)view.symbol
-                          : place + (uint32_t)(view.symbol - tapes->parameters);
+        dal__record r = dal__inspect(tapes->graph, i);
+        if (r.op != DAL__SYMBOL || !s->reached[i]) continue;
+        if (r.symbol >= tapes->parameters + tapes->inputs) return DAL_ARGUMENT;
+        s->place[i] = r.symbol < tapes->parameters
+                          ? (uint32_t)r.symbol
+                          : place + (uint32_t)(r.symbol - tapes->parameters);
     }
     return DAL_OK;
 }

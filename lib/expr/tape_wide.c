@@ -1,7 +1,7 @@
 /* tape_wide.c - runs a program, over num.
  *
- * An instruction acts on all groups of a block before the next one is looked at: what it costs to
- * find out what to do is shared by all lanes. */
+ * An instruction acts on all groups of a block before the next one is read, so all lanes share the
+ * cost of decoding it. */
 #include "kernel/groups.h"
 
 #include "expr/arithmetic.h"
