@@ -3,8 +3,8 @@
  *
  *     cc contact_chain.c $(pkg-config --cflags --libs dalembert) -lm -o contact_chain
  *
- * Prints how far D, the energy E and, on the canonical space with p and pi off zero, H have moved
- * at t = 10; fails if D is not at rounding, or E and H are not good to the order of the method. */
+ * Prints how far D, the energy E and, on the canonical space with nonzero p and pi, H have drifted
+ * at t = 10; fails if D is not at rounding level, or E and H exceed the order of the method. */
 #include "contact_chain.h"
 #include <stdio.h>
 

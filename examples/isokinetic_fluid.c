@@ -3,9 +3,9 @@
  *
  *     cc isokinetic_fluid.c $(pkg-config --cflags --libs dalembert) -lm -o isokinetic_fluid
  *
- * The implicit midpoint rule keeps D, which is quadratic, and the total momentum, which is linear.
- * Prints how far D/K, the momentum and a run continued from a checkpoint went astray; fails if the
- * first two are not at rounding, or if the third is not 0. */
+ * The implicit midpoint rule preserves D, which is quadratic, and the total momentum, which is
+ * linear.  Prints the errors of D/K and of the momentum, and how far a run continued from a
+ * checkpoint differs; fails if the first two are not at rounding level, or if the third is not 0. */
 #include "isokinetic_fluid.h"
 #include <stdio.h>
 
@@ -13,17 +13,17 @@ enum { STEPS = 50 };
 
 static double momentum(const double *v)
 {
-    double most = 0.0;
+    double max = 0.0;
     for (int a = 0; a < 3; a++) {
         double sum = 0.0;
         for (int i = 0; i < FLUID_SPHERES; i++) sum += v[a * FLUID_SPHERES + i];
-        most = fmax(most, fabs(sum));
+        max = fmax(max, fabs(sum));
     }
-    return most;
+    return max;
 }
 
-/* Brings `other` to where `run` was STEPS ago and follows; the largest difference of the states. */
-static dal_status follow(dal_run *run, dal_run *other, double *difference, dal_error *error)
+/* Puts `other` into the state of `run` and advances both; the largest difference of their states. */
+static dal_status compare(dal_run *run, dal_run *other, double *difference, dal_error *error)
 {
     size_t count;
     const double *memory = dal_run_memory(run, &count), *a = dal_run_state(run),
@@ -46,7 +46,7 @@ int main(void)
     double seen[2], difference; /* D, E */
     if (dal_method_parse(&spec.method, "implicit-midpoint", &error) ||
         dal_run_create(&run, &spec, &error) || dal_run_create(&other, &spec, &error) ||
-        dal_run_advance(run, STEPS, &error) || follow(run, other, &difference, &error) ||
+        dal_run_advance(run, STEPS, &error) || compare(run, other, &difference, &error) ||
         dal_run_observe(run, seen)) {
         fprintf(stderr, "isokinetic_fluid: %s\n", error.message);
         return 1;

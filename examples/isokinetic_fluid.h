@@ -14,11 +14,10 @@
  * Dettmann and Morriss, Phys. Rev. E 54 (1996) 2495; Evans and Morriss, Statistical Mechanics of
  * Nonequilibrium Liquids (2008), 5.2.
  *
- * A list of the pairs within R + SKIN is kept in the work array of the run and made anew when a
- * sphere has moved SKIN/2 from where it was.  Pairs stand in the order of their numbers and those
- * beyond R add nothing, so the sum has the same bits whenever the list was made: a callback must be
- * a function of where it is asked, and this one is.  No wide callbacks are given: a batch asks lane
- * by lane. */
+ * A list of the pairs within R + SKIN is part of the work array of the run.  It is built again when
+ * a sphere has moved by SKIN/2.  Pairs are ordered by their numbers and those beyond R add nothing,
+ * so the sum has the same bits whenever the list was built: a callback must be a function of its
+ * point, and this one is.  There are no wide callbacks: a batch evaluates lane by lane. */
 #ifndef ISOKINETIC_FLUID_H
 #define ISOKINETIC_FLUID_H
 
@@ -27,17 +26,17 @@
 #include <string.h>
 
 enum { FLUID_SPHERES = 256, FLUID_N = 3 * FLUID_SPHERES, FLUID_CELLS = 4, FLUID_PARTS = 8 };
-enum { FLUID_MOST_PAIRS = 50 * FLUID_SPHERES };
+enum { FLUID_MAX_PAIRS = 50 * FLUID_SPHERES };
 
 #define FLUID_CUT  2.0
 #define FLUID_SKIN 0.3
 
-/* What work holds behind the parameters: no number below is seen by the library. */
+/* What work holds behind the parameters, for this system alone. */
 typedef struct fluid_list {
-    double valid; /* 1: made */
+    double valid; /* 1: built */
     double origin[FLUID_N];
-    int begin[FLUID_SPHERES + 1];           /* sphere i's partners are other[begin[i]] ... */
-    unsigned short other[FLUID_MOST_PAIRS]; /* ... below begin[i + 1], ascending, all above i */
+    int begin[FLUID_SPHERES + 1];          /* sphere i's partners are other[begin[i]] ... */
+    unsigned short other[FLUID_MAX_PAIRS]; /* ... below begin[i + 1], ascending, all above i */
 } fluid_list;
 
 enum { FLUID_KINETIC, FLUID_SIDE, FLUID_PARAMETERS }; /* the parameters K and L, first in work */
@@ -59,16 +58,16 @@ static inline double fluid_square(const double *q, double side, int i, int j, do
     return d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
 }
 
-/* Whether every sphere is still near enough to where it was when the list was made. */
+/* Whether no sphere has moved by SKIN/2 since the list was built. */
 static inline int fluid_list_holds(const fluid_list *list, const double *q)
 {
-    const double most = 0.25 * FLUID_SKIN * FLUID_SKIN;
+    const double max_square = 0.25 * FLUID_SKIN * FLUID_SKIN;
     int far = list->valid != 1.0;
     for (int i = 0; i < FLUID_SPHERES; i++) {
         double square = 0.0;
         for (int c = i; c < FLUID_N; c += FLUID_SPHERES)
             square += (q[c] - list->origin[c]) * (q[c] - list->origin[c]);
-        far |= !(square < most);
+        far |= !(square < max_square);
     }
     return !far;
 }
@@ -80,7 +79,7 @@ static inline dal_status fluid_list_make(fluid_list *list, const double *q, doub
     double d[3];
     for (int i = 0; i < FLUID_SPHERES; i++) {
         list->begin[i] = count;
-        if (count + FLUID_SPHERES > FLUID_MOST_PAIRS) return DAL_TOO_LARGE;
+        if (count + FLUID_SPHERES > FLUID_MAX_PAIRS) return DAL_TOO_LARGE;
         for (int j = i + 1; j < FLUID_SPHERES; j++) {
             list->other[count] = (unsigned short)j;
             count += fluid_square(q, side, i, j, d) < reach;
@@ -171,7 +170,7 @@ static inline dal_status fluid_constraint(const dal_system *system, const dal_at
     return fluid_constraints(system, at, out);
 }
 
-/* v^2/2 + U; not conserved: the thermostat takes and gives. */
+/* v^2/2 + U; not conserved: the thermostat does work. */
 static inline dal_status fluid_energy(const dal_system *system, const dal_at *at, double *out)
 {
     double sum = 0.5 * fluid_dot(at->v, at->v), d[3];

@@ -1,6 +1,6 @@
 #!/bin/sh
-# embed-text.sh NAME FILE - writes a text as the C array NAME, byte by byte: a string literal has
-# a greatest length.
+# embed-text.sh NAME FILE - writes a text as the C array NAME, byte by byte: the length of a string
+# literal is limited.
 set -e
 printf 'extern const char %s[];\nconst char %s[] = {\n' "$1" "$1"
 od -An -v -tx1 "$2" | sed 's/ \(..\)/0x\1,/g'

@@ -1,7 +1,7 @@
 #!/bin/sh
 # prepare.sh [lint|bench] - installs, on Debian, the packages that building and testing need, with
 # `lint` also those of the whole continuous check, with `bench` also the libraries that `make bench`
-# compares with; nothing happens when all are there.
+# compares with; does nothing when all are there.
 set -e
 packages='gcc libc6-dev make pkg-config libyaml-dev libcunit1-dev libmpfr-dev libjansson-dev locales gnuplot-nox'
 if [ "$1" = lint ]; then
@@ -19,8 +19,8 @@ done
 sudo=
 [ "$(id -u)" -eq 0 ] || sudo=sudo
 export DEBIAN_FRONTEND=noninteractive
-# Another apt may be at work, as on a machine that has just started: it is waited for.  The timeout
-# of apt is for the lock of dpkg alone, not for that of the lists.
+# Another apt may run, as on a machine that has just started: wait for it.  The timeout of apt is for
+# the lock of dpkg alone, not for that of the lists.
 tries=60
 until said=$(LC_ALL=C $sudo apt-get update 2>&1); do
     tries=$((tries - 1))
