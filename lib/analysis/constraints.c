@@ -1,11 +1,16 @@
-/* constraints.c - what kind of function D is, and whether the motion can be turned round.
+/* constraints.c - the class of the constraints, the rank of G, and projection to D = 0.
  *
  * A polynomial of degree k along every line has vanishing (k+1)-th differences:
  *     D(x+d) - 2 D(x) + D(x-d) = 0            affine along d
  *     D(x+2d) - 3 D(x+d) + 3 D(x) - D(x-d) = 0  of degree <= 2 along d
  * Each property is tried on lines through points about the given one; one line that fails
- * decides against it, points where D is not finite decide nothing. */
-#include "analysis/measure.h"
+ * decides against it, points where D is not finite decide nothing.
+ *
+ *     G = A W^-1 A^T;     v <- v - W^-1 A^T G^-1 D until D = 0 (Newton) */
+#include "analysis/constraints.h"
+#include "analysis/differences.h"
+#include "analysis/evaluator.h"
+#include "analysis/vectors.h"
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
@@ -46,71 +51,52 @@ static void draw_base(survey *w)
     w->t = w->at.t + dal__uniform(&w->random);
 }
 
-/* A direction in the first coordinates and the velocities, as asked. */
-static void draw_direction(survey *w, int in_q, int in_v)
+/* Whether the difference with these weights of the values at s = -1, 0, ... vanishes for every
+ * constraint on every line tried, in directions of the coordinates, of the velocities, or both. */
+static bool vanishes(survey *w, bool in_q, bool in_v, int count, const double *weight)
 {
-    for (int i = 0; i < w->n + w->nw; i++) {
-        int wanted = i < w->n ? in_q : in_v && i < 2 * w->n;
-        w->d[i] = wanted ? neighbourhood * dal__uniform(&w->random) : 0.0;
-    }
-}
-
-/* The values at s = -1, 0, .. of count points; false when one is not finite. */
-static bool values_on_line(survey *w, int count)
-{
-    for (int k = 0; k < count; k++)
-        if (values_at(w, k - 1.0, w->value[k]) != DAL_OK ||
-            !isfinite(dal__greatest(w->value[k], (size_t)w->m)))
-            return false;
-    return true;
-}
-
-/* Whether the difference with these weights of the values at s = first, first+1, ... vanishes for
- * every constraint on every line tried. */
-static int vanishes(survey *w, int in_q, int in_v, int count, const double *weight)
-{
-    int decided = 0;
+    bool decided = false;
     for (int trial = 0; trial < TRIALS; trial++) {
+        bool good = true;
         draw_base(w);
-        draw_direction(w, in_q, in_v);
-        if (!values_on_line(w, count)) continue;
-        decided = 1;
-        for (int a = 0; a < w->m; a++) {
+        for (int i = 0; i < w->n + w->nw; i++) {
+            const bool varies = i < w->n ? in_q : in_v && i < 2 * w->n;
+            w->d[i] = varies ? neighbourhood * dal__uniform(&w->random) : 0.0;
+        }
+        for (int k = 0; k < count && good; k++)
+            good = values_at(w, k - 1.0, w->value[k]) == DAL_OK &&
+                   isfinite(dal__max_abs(w->value[k], (size_t)w->m));
+        decided |= good;
+        for (int a = 0; a < w->m && good; a++) {
             double sum = 0.0, size = 1.0;
             for (int k = 0; k < count; k++) {
                 sum += weight[k] * w->value[k][a];
                 size = fmax(size, fabs(w->value[k][a]));
             }
-            if (fabs(sum) > tolerance * size) return 0;
+            if (fabs(sum) > tolerance * size) return false;
         }
     }
     w->undecided |= !decided;
     return decided;
 }
 
-static int affine(survey *w, int in_q, int in_v)
+static bool is_affine(survey *w, bool in_q, bool in_v)
 {
     static const double second[] = {1.0, -2.0, 1.0};
     return vanishes(w, in_q, in_v, 3, second);
 }
 
-static int of_degree_two(survey *w)
+static bool is_without_time(survey *w)
 {
-    static const double third[] = {-1.0, 3.0, -3.0, 1.0};
-    return vanishes(w, 1, 1, 4, third);
-}
-
-static int without_time(survey *w)
-{
-    int decided = 0;
+    bool decided = false;
     for (int trial = 0; trial < TRIALS; trial++) {
         draw_base(w);
         if (values_at(w, 0.0, w->value[0]) != DAL_OK) continue;
         w->t += 0.5;
         if (values_at(w, 0.0, w->value[1]) != DAL_OK) continue;
-        if (!isfinite(dal__greatest(w->value[0], (size_t)w->m))) continue;
-        if (!(dal__distance(w->value[0], w->value[1], (size_t)w->m) <= tolerance)) return 0;
-        decided = 1;
+        if (!isfinite(dal__max_abs(w->value[0], (size_t)w->m))) continue;
+        if (!(dal__distance(w->value[0], w->value[1], (size_t)w->m) <= tolerance)) return false;
+        decided = true;
     }
     w->undecided |= !decided;
     return decided;
@@ -125,10 +111,9 @@ static void reverse(survey *w)
     w->t = -w->t;
 }
 
-/* +1, -1 or 0 for each constraint into w->sign. */
+/* +1, -1 or 0 for each constraint into w->sign; that of the first, 0 when one has none. */
 static int find_parity(survey *w)
 {
-    int common = 0;
     for (int a = 0; a < w->m; a++) w->sign[a] = 2.0;
     for (int trial = 0; trial < TRIALS; trial++) {
         draw_base(w);
@@ -143,6 +128,7 @@ static int find_parity(survey *w)
             w->sign[a] = w->sign[a] == 2.0 || w->sign[a] == sign ? sign : 0.0;
         }
     }
+    int common = 0;
     for (int a = 0; a < w->m; a++) {
         if (w->sign[a] == 2.0) w->sign[a] = 0.0;
         if (a == 0) common = (int)w->sign[a];
@@ -154,7 +140,7 @@ static int find_parity(survey *w)
 static double force_defect(survey *w)
 {
     double max = 0.0;
-    int decided = 0;
+    bool decided = false;
     dal_callback *field = w->s->call.field;
     for (int trial = 0; trial < TRIALS; trial++) {
         draw_base(w);
@@ -166,9 +152,9 @@ static double force_defect(survey *w)
         if (here != DAL_OK || there != DAL_OK) continue;
         /* dg/dt of a multiplier that changes its sign with v keeps its own, and the reverse. */
         for (int a = 0; a < w->s->multipliers; a++) w->value[1][w->n + a] *= -w->sign[a];
-        if (!isfinite(dal__greatest(w->value[0], (size_t)w->nw))) continue;
+        if (!isfinite(dal__max_abs(w->value[0], (size_t)w->nw))) continue;
         max = fmax(max, dal__distance(w->value[0], w->value[1], (size_t)w->nw));
-        decided = 1;
+        decided = true;
     }
     return decided ? max : NAN;
 }
@@ -182,7 +168,7 @@ static dal_status along_scaling(void *user, double s, double *out)
 }
 
 /* v.D_v = k D with the same k at every point; k into w->degree. */
-static int homogeneous(survey *w)
+static bool is_homogeneous(survey *w)
 {
     for (int a = 0; a < w->m; a++) w->degree[a] = NAN;
     for (int trial = 0; trial < TRIALS; trial++) {
@@ -195,31 +181,34 @@ static int homogeneous(survey *w)
         for (int a = 0; a < w->m; a++) {
             double k = w->rate[a] / w->value[0][a];
             if (!(fabs(w->value[0][a]) > 1e-3)) continue;
-            if (!(isnan(w->degree[a]) || fabs(k - w->degree[a]) <= 1e-8)) return 0;
+            if (!(isnan(w->degree[a]) || fabs(k - w->degree[a]) <= 1e-8)) return false;
             w->degree[a] = k;
         }
     }
     for (int a = 0; a < w->m; a++)
-        if (isnan(w->degree[a])) return 0;
-    return 1;
+        if (isnan(w->degree[a])) return false;
+    return true;
 }
 
-static void examine(survey *w, dal_constraint_class *out, double *degree)
+/* ---- the class ---- */
+
+static void classify_constraints(survey *w, dal_constraint_class *out, double *degree)
 {
+    static const double third[] = {-1.0, 3.0, -3.0, 1.0};
     *out = (dal_constraint_class){0};
     if (w->m > 0) {
-        int steady = without_time(w);
-        out->linear = affine(w, 0, 1);
-        out->constant = steady && affine(w, 1, 1);
-        out->bilinear = steady && out->linear && affine(w, 1, 0);
-        out->quadratic = steady && of_degree_two(w);
-        out->homogeneous = homogeneous(w);
+        const bool steady = is_without_time(w);
+        out->linear = is_affine(w, false, true);
+        out->constant = steady && is_affine(w, true, true);
+        out->bilinear = steady && out->linear && is_affine(w, true, false);
+        out->quadratic = steady && vanishes(w, true, true, 4, third);
+        out->homogeneous = is_homogeneous(w);
         out->parity = find_parity(w);
     }
     for (int a = 0; a < w->m && degree != NULL; a++) degree[a] = w->degree[a];
     out->force_defect = force_defect(w);
-    int turned = w->s->multipliers == 0 || out->parity != 0;
-    out->reversible = turned && out->force_defect <= 1e-10;
+    const bool has_parity = w->s->multipliers == 0 || out->parity != 0;
+    out->reversible = has_parity && out->force_defect <= 1e-10;
 }
 
 dal_status dal_classify_constraints(dal_evaluator *evaluator, const dal_point *at,
@@ -239,7 +228,139 @@ dal_status dal_classify_constraints(dal_evaluator *evaluator, const dal_point *a
     w.x = block, w.d = block + x, w.y = block + 2 * x;
     for (size_t k = 0; k < 4; k++) w.value[k] = block + 3 * x + k * rows;
     w.sign = w.value[3] + rows, w.degree = w.sign + rows, w.rate = w.degree + rows;
-    examine(&w, out, degree);
+    classify_constraints(&w, out, degree);
     free(block);
     return w.undecided ? DAL_NOT_FINITE : DAL_OK;
+}
+
+/* ---- the rank of G ---- */
+
+/* Pivots of the scaled G below this leave F less than six digits. */
+static const double rank_tolerance = 1e-10;
+
+/* D, A, W^-1 A^T in one block out[m + m*n + n*m]. */
+static dal_status constraint_blocks(dal_evaluator *evaluator, double t, const double *q,
+                                    const double *v, double *out)
+{
+    const dal_system *s = dal_evaluator_system(evaluator);
+    size_t count = (size_t)s->m * (1 + 2 * (size_t)s->n);
+    DAL_TRY(dal_evaluator_call(evaluator, s->call.constraint, t, q, v, NULL, out));
+    return isfinite(dal__max_abs(out, count)) ? DAL_OK : DAL_NOT_FINITE;
+}
+
+void dal__gram(const dal_system *s, const double *block, double *gram)
+{
+    int n = s->n, m = s->m;
+    const double *A = block + m, *R = block + m + m * n;
+    for (int a = 0; a < m; a++) {
+        for (int b = 0; b < m; b++) {
+            double sum = 0.0;
+            for (int i = 0; i < n; i++) sum += A[a * n + i] * R[i * m + b];
+            gram[a * m + b] = sum;
+        }
+    }
+}
+
+dal_status dal_measure_rank(dal_evaluator *evaluator, const dal_point *at, int *rank, double *pivot)
+{
+    DAL_REQUIRE(evaluator, NULL);
+    DAL_REQUIRE_POINT(at);
+    DAL_REQUIRE(rank, NULL);
+    DAL_REQUIRE(pivot, NULL);
+    const dal_system *s = dal_evaluator_system(evaluator);
+    size_t n = (size_t)s->n, m = (size_t)s->m;
+    double *block = dal__numbers(1, m * (1 + 2 * n) + m * m + m + m * (m + 2));
+    if (block == NULL) return DAL_MEMORY;
+    double *gram = block + m * (1 + 2 * n), *size = gram + m * m;
+    dal_status status = constraint_blocks(evaluator, at->t, at->q, at->v, block);
+    if (status == DAL_OK) {
+        dal__gram(s, block, gram);
+        /* Scaled by the root of the largest entry of each row: constraints in any units. */
+        for (size_t a = 0; a < m; a++) size[a] = sqrt(dal__max_abs(gram + a * m, m));
+        for (size_t k = 0; k < m * m; k++) {
+            const double scale = size[k / m] * size[k % m];
+            if (size[k / m] > 0.0 && size[k % m] > 0.0) gram[k] /= scale;
+        }
+        *rank = dal__least_squares(s->m, s->m, gram, NULL, NULL, rank_tolerance, pivot, size + m);
+    }
+    free(block);
+    return status;
+}
+
+/* ---- projection to D = 0 ---- */
+
+/* |D| a Newton iteration at stagnation must have reached, relative to sum |A| |v|. */
+static const double projection_tolerance = 1e-13;
+enum { MAX_NEWTON_STEPS = 50 };
+
+typedef struct projection {
+    dal_evaluator *evaluator;
+    const dal_system *s;
+    double t;
+    const double *q;
+    double *v, *best;                           /* [n] */
+    double *block, *gram, *step, *right, *work; /* [m(1+2n)], [m*m], [m], [m], [m(m+2)] */
+} projection;
+
+static double natural_size(const projection *p)
+{
+    double max = 1.0;
+    for (int a = 0; a < p->s->m; a++) {
+        double sum = 0.0;
+        for (int i = 0; i < p->s->n; i++)
+            sum += fabs(p->block[p->s->m + a * p->s->n + i] * p->best[i]);
+        max = fmax(max, sum);
+    }
+    return max;
+}
+
+static dal_status newton_step(projection *p)
+{
+    int n = p->s->n, m = p->s->m;
+    memcpy(p->right, p->block, (size_t)m * sizeof(double));
+    dal__gram(p->s, p->block, p->gram);
+    if (dal__least_squares(m, m, p->gram, p->right, p->step, rank_tolerance, NULL, p->work) < m)
+        return DAL_SINGULAR;
+    for (int i = 0; i < n; i++)
+        for (int a = 0; a < m; a++) p->v[i] -= p->block[m + m * n + i * m + a] * p->step[a];
+    return DAL_OK;
+}
+
+/* Iterates until |D| no longer falls; the best v is in p->best. */
+static dal_status stagnate(projection *p)
+{
+    double min = INFINITY;
+    for (int k = 0; k < MAX_NEWTON_STEPS; k++) {
+        DAL_TRY(constraint_blocks(p->evaluator, p->t, p->q, p->v, p->block));
+        double size = dal__max_abs(p->block, (size_t)p->s->m);
+        if (size >= min) break;
+        min = size;
+        memcpy(p->best, p->v, (size_t)p->s->n * sizeof(double));
+        if (size == 0.0) break;
+        DAL_TRY(newton_step(p));
+    }
+    return min <= projection_tolerance * natural_size(p) ? DAL_OK : DAL_NOT_CONVERGED;
+}
+
+dal_status dal_project_velocity(dal_evaluator *evaluator, double t, const double *q, double *v)
+{
+    DAL_REQUIRE(evaluator, NULL);
+    DAL_REQUIRE(q, NULL);
+    DAL_REQUIRE(v, NULL);
+    const dal_system *s = dal_evaluator_system(evaluator);
+    size_t n = (size_t)s->n, m = (size_t)s->m;
+    size_t bytes = (n + (size_t)s->multipliers) * sizeof(double);
+    if (m == 0) return DAL_OK;
+    double *block = dal__numbers(1, m * (1 + 2 * n) + 2 * m * m + 4 * m + 2 * n + m);
+    if (block == NULL) return DAL_MEMORY;
+    double *gram = block + m * (1 + 2 * n), *step = gram + m * m, *best = step + 2 * m;
+    double *moved = best + n;
+    projection p = {.evaluator = evaluator, .s = s, .t = t, .q = q, .v = moved, .best = best};
+    p.block = block, p.gram = gram, p.step = step, p.right = step + m;
+    p.work = moved + n + (size_t)s->multipliers;
+    memcpy(moved, v, bytes);
+    dal_status status = stagnate(&p);
+    if (status == DAL_OK) memcpy(v, best, n * sizeof(double));
+    free(block);
+    return status;
 }

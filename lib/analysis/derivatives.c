@@ -1,7 +1,11 @@
 /* derivatives.c - what a system says of its derivatives, against differences of its own values.
  *
  *     d/dt f(q,v,t) along the motion = d/ds f(q + s v, v + s F, t + s) at s = 0 */
-#include "analysis/measure.h"
+#include "analysis/derivatives.h"
+#include "analysis/constraints.h"
+#include "analysis/differences.h"
+#include "analysis/evaluator.h"
+#include "analysis/vectors.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -29,11 +33,11 @@ static dal_status rate_in(flow *f, int count, double *scratch, double *out)
     const dal_point *at = f->at;
     DAL_TRY(dal_evaluator_call(f->evaluator, dal_evaluator_system(f->evaluator)->call.field, at->t,
                                at->q, at->v, NULL, f->field));
-    double speed = dal__greatest(f->field, (size_t)f->nw);
-    speed = fmax(1.0, fmax(speed, dal__greatest(at->v, (size_t)f->n)));
+    double speed = dal__max_abs(f->field, (size_t)f->nw);
+    speed = fmax(1.0, fmax(speed, dal__max_abs(at->v, (size_t)f->n)));
     if (!isfinite(speed)) return DAL_NOT_FINITE;
     DAL_TRY(dal__differentiate(along_flow, f, DAL__INCREMENT / speed, count, scratch, out));
-    return isfinite(dal__greatest(out, (size_t)count)) ? DAL_OK : DAL_NOT_FINITE;
+    return isfinite(dal__max_abs(out, (size_t)count)) ? DAL_OK : DAL_NOT_FINITE;
 }
 
 dal_status dal_measure_rate(dal_evaluator *evaluator, dal_callback *callback, int count,
@@ -81,7 +85,7 @@ static dal_status column(line *l, int j, int count, double *scratch, double *out
 {
     l->j = j;
     l->held = l->x[j];
-    const double d = dal__increment(j < l->n ? 0.0 : l->held);
+    const double d = DAL__INCREMENT * fmax(1.0, j < l->n ? 0.0 : fabs(l->held));
     return dal__differentiate(along_line, l, d, count, scratch, out);
 }
 
@@ -105,7 +109,7 @@ static dal_status tabulate(desk *d, dal_callback *callback, int rows)
         DAL_TRY(column(&l, j, rows, d->scratch, out));
         for (int i = 0; i < rows; i++) d->differences[i * columns + j] = out[i];
     }
-    const double size = dal__greatest(d->differences, (size_t)rows * (size_t)columns);
+    const double size = dal__max_abs(d->differences, (size_t)rows * (size_t)columns);
     return isfinite(size) ? DAL_OK : DAL_NOT_FINITE;
 }
 
@@ -176,7 +180,7 @@ static double asymmetry(const double *gram, int m)
     double max = 0.0;
     for (int i = 0; i < m; i++)
         for (int j = 0; j < i; j++) max = fmax(max, fabs(gram[i * m + j] - gram[j * m + i]));
-    double size = dal__greatest(gram, (size_t)m * (size_t)m);
+    double size = dal__max_abs(gram, (size_t)m * (size_t)m);
     return size > 0.0 ? max / size : 0.0;
 }
 

@@ -6,7 +6,10 @@
  * Conservation of phi_a on the surface, {phi_a, H_0} + sum_b mu_b {phi_a, phi_b} = 0 over the
  * primary phi_b, is solved for mu by least squares; the residue must vanish.  The rank of
  * {phi_a, phi_b} over all constraints counts the second-class ones. */
-#include "analysis/measure.h"
+#include "analysis/dirac.h"
+#include "analysis/differences.h"
+#include "analysis/evaluator.h"
+#include "analysis/vectors.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -130,7 +133,7 @@ static int conserve(algebra *w, int rows, double *residue)
         w->right[a] = -dal_poisson(gradient_of(w, a), gradient_of(w, w->count), w->pairs);
     int rank = dal__least_squares(rows, w->primary, w->matrix, w->right, w->mu, rank_tolerance,
                                   NULL, w->scratch);
-    *residue = dal__greatest(w->right, (size_t)rows);
+    *residue = dal__max_abs(w->right, (size_t)rows);
     return rank;
 }
 
@@ -168,7 +171,7 @@ static void leave_surface(algebra *w)
 static dal_status analyse(algebra *w, dal_dirac *out)
 {
     take_gradients(w);
-    if (!isfinite(dal__greatest(w->gradient, (size_t)(w->count + 1) * 2 * (size_t)w->pairs)))
+    if (!isfinite(dal__max_abs(w->gradient, (size_t)(w->count + 1) * 2 * (size_t)w->pairs)))
         return DAL_NOT_FINITE;
     out->constraints = w->count;
     out->free_multipliers = w->primary - conserve(w, w->count, &out->conservation);

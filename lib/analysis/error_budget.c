@@ -3,9 +3,10 @@
  * All are looked at at the same times, at most LOOKS of them, so that their series can be taken
  * from each other.  Long numbers, being slow, are for the first steps alone; there the run, its
  * twin solved further and the same in quad precision go side by side. */
+#include "analysis/block_means.h"
 #include "analysis/error_shares.h"
-#include "analysis/measure.h"
-#include "analysis/trend.h"
+#include "analysis/vectors.h"
+#include "core/arguments.h"
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>

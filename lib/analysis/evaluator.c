@@ -1,5 +1,7 @@
 /* evaluator.c - a system with its parameters in force and memory to evaluate it in. */
-#include "analysis/measure.h"
+#include "analysis/evaluator.h"
+#include "analysis/vectors.h"
+#include "dalembert_analysis.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

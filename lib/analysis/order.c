@@ -13,7 +13,9 @@
  *
  * (for halved steps their difference; a third of it, and overestimated, where the next term is
  * a h^2).  An order is stated where that is small. */
-#include "analysis/measure.h"
+#include "analysis/vectors.h"
+#include "core/arguments.h"
+#include "dalembert_analysis.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -19,6 +19,16 @@ typedef struct dal__tally {
 /* Values beyond this one are summed with a factor below 1. */
 #define DAL__PLAIN_LIMIT 0x1p900
 
+/* The full blocks, counted from first and from the first time; how many there are. */
+int dal__statistics_blocks(const dal_statistics *statistics,
+                           dal_statistics_block *block /* [DAL_STATISTICS_BLOCKS] */);
+
+/* The sum of x - first in the open block. */
+double dal__open_sum(const dal_statistics *statistics);
+/* How far the values would have gone if their steps were independent: sqrt(sum of squared steps),
+ * times factor. */
+double dal__roughness(const dal_statistics *statistics);
+
 /* Adds packs of DAL_PARTIAL_SUMS values each, the first of them at part 0 and at place `phase` of
  * its cycle; once per variant.  False, and the tally as it was, when a value is not finite or
  * beyond DAL__PLAIN_LIMIT. */
@@ -27,20 +37,5 @@ typedef struct dal__tally {
                           const double *values);
 DAL__TALLY(dal__tally_packs, x1, 1, BASE, x1)
 DAL__VARIANT_LIST(DAL__TALLY, dal__tally_packs)
-
-/* The full blocks, counted from first and from the first time; how many there are. */
-int dal__statistics_blocks(const dal_statistics *statistics,
-                           dal_statistics_block *block /* [DAL_STATISTICS_BLOCKS] */);
-
-/* The 97.5 % quantile of Student's distribution; and by how much n residues of correlated blocks,
- * with the sums of their squares and of the products of neighbours, are worth fewer than n. */
-double dal__student(double freedom);
-double dal__inflation(double square, double product, int n);
-
-/* The sum of x - first in the open block. */
-double dal__open_sum(const dal_statistics *statistics);
-/* How far the values would have gone if their steps were independent: sqrt(sum of squared steps),
- * times factor. */
-double dal__roughness(const dal_statistics *statistics);
 
 #endif

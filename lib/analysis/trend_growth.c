@@ -10,7 +10,7 @@
  * Beats of two tones rise by as much, but in other shapes.  Values to one side whose z rises so by
  * many e-folds explode: an exponential over more of them than the shapes of trend_tables.h, and
  * modulated besides, shows in z alone. */
-#include "analysis/trend.h"
+#include "analysis/trend_growth.h"
 #include <math.h>
 
 enum { NEAR = 2, LEAST_POINTS = 10 };

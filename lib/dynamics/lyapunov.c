@@ -10,7 +10,10 @@
  * steps or, where it is less smooth than that, by more.  R by modified Gram-Schmidt, every vector
  * twice over, so that V' is orthonormal to rounding (Giraud, Langou, Rozloznik 2005,
  * DOI 10.1016/j.camwa.2005.08.009). */
-#include "analysis/measure.h"
+#include "analysis/derivatives.h"
+#include "analysis/differences.h"
+#include "analysis/vectors.h"
+#include "core/arguments.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -123,9 +126,9 @@ static dal_status orthonormalise(dal_lyapunov *s, int count)
 {
     for (int j = 0; j < count; j++) {
         const int d = s->dimension;
-        s->growth[j] = dal__straighten(s->vectors, j, d);
+        s->growth[j] = dal__orthonormalise_row(s->vectors, j, d);
         if (s->growth[j] > 0.0 && isfinite(s->growth[j]))
-            s->growth[j] *= dal__straighten(s->vectors, j, d);
+            s->growth[j] *= dal__orthonormalise_row(s->vectors, j, d);
         if (!(s->growth[j] > 0.0) || !isfinite(s->growth[j]))
             return dal__fail(s->error, DAL_SINGULAR,
                              "t = %g: the derivative of the step takes a vector to %g", s->t,
@@ -245,7 +248,7 @@ static double find_normals(dal_lyapunov *s)
         status = dal__gradients(s->evaluator, system->energy, 1, &at,
                                 s->normals + system->m * s->dimension);
     for (int j = 0; j < s->forced && status == DAL_OK; j++)
-        size += log(dal__straighten(s->normals, j, s->dimension));
+        size += log(dal__orthonormalise_row(s->normals, j, s->dimension));
     return status == DAL_OK ? size : NAN;
 }
 

@@ -1,0 +1,22 @@
+/* dirac.h - Dirac's algebra with constraints of any choice. */
+#ifndef DAL_DIRAC_H
+#define DAL_DIRAC_H
+
+#include "dalembert_analysis.h"
+
+/* Dirac's algebra with any 4n+1 functions phi(user, z, a) on 6n+2 as constraints, the first 2n+1
+ * the primary ones; user is the dal__dirac_space.  dal_check_dirac takes those of the theory, and a
+ * test takes a wrong one. */
+typedef struct dal__dirac_space {
+    dal_evaluator *evaluator;
+    int n;
+    double t;
+    double (*phi)(void *user, const double *z, int a);
+    int a;         /* the constraint to be differentiated */
+    double *field; /* [n] */
+} dal__dirac_space;
+double dal__dirac_constraint(void *user, const double *z, int a);
+dal_status dal__dirac(dal_evaluator *evaluator, const dal_point *at, double e,
+                      double (*phi)(void *user, const double *z, int a), dal_dirac *out);
+
+#endif

@@ -1,0 +1,22 @@
+/* trend_evidence.h - how well each shape and each noise explains the means of bins. */
+#ifndef DAL_TREND_EVIDENCE_H
+#define DAL_TREND_EVIDENCE_H
+
+#include "analysis/trend_series.h"
+
+typedef struct dal__evidence {
+    double log_total;
+    double meaning[DAL__MEANINGS];        /* posterior, adding up to 1 */
+    double shape[DAL__SHAPES];            /* posterior */
+    double power_rest[DAL__POWER_SHAPES]; /* S of the powers under white noise */
+    /* The straight line under each noise: drift over the whole series, its deviation, weight. */
+    double drift[DAL__SHAPE_NOISES], drift_deviation[DAL__SHAPE_NOISES];
+    double drift_weight[DAL__SHAPE_NOISES];
+    int freedom;
+    double walk_over_memory; /* log of the evidence of walks over that of noise with memory T/9 */
+} dal__evidence;
+
+/* white_odds: how many times likelier than usual the noise is white. */
+void dal__trend_weigh(const dal__bins *bins, double white_odds, dal__evidence *evidence);
+
+#endif

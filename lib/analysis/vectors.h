@@ -1,0 +1,35 @@
+/* vectors.h - memory, norms, orthonormal rows, least squares and random numbers. */
+#ifndef DAL_VECTORS_H
+#define DAL_VECTORS_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+/* rows*columns zeroed doubles, or NULL (also when the product overflows); freed with free. */
+double *dal__numbers(size_t rows, size_t columns);
+
+double dal__max_abs(const double *x, size_t count); /* max |x|; infinite if one is NaN */
+/* max_i |a - b| / max(1, |a|); infinite if one is NaN. */
+double dal__distance(const double *a, const double *b, size_t count);
+
+/* x loses its part along the unit vector. */
+void dal__remove_part(double *x, const double *unit, int count);
+/* Row j of rows[.. * width] loses its parts along the orthonormal rows before it and becomes a unit
+ * vector; its length before that. */
+double dal__orthonormalise_row(double *rows, int j, int width);
+
+/* Modified Gram-Schmidt with column pivoting on a[rows*columns] (destroyed).  Columns shorter
+ * than tolerance times the longest count as dependent; the rank is returned, and in *pivot (when
+ * not NULL) the shortest over the longest of all pivots, 0 when rank < columns.
+ * When right is not NULL it loses its part in the span (the rest is the least residue), and
+ * x[columns] is the solution of a x = right with the dependent columns' x at 0. */
+int dal__least_squares(int rows, int columns, double *a, double *right, double *x, double tolerance,
+                       double *pivot, double *work /* [columns*(columns+2)] */);
+
+/* A small deterministic generator, uniform on [-1, 1). */
+typedef struct dal__random {
+    uint64_t state;
+} dal__random;
+double dal__uniform(dal__random *random);
+
+#endif
