@@ -266,6 +266,10 @@ typedef struct dal_order {
  * asymptotic range, or fewer than three errors tell of the method. */
 void dal_order_slopes(dal_order *order, double noise);
 
+/* The number of steps between two times: n with |n step - (to - from)| <= 1e-9 |to|, 1 <= n < 2^53;
+ * 0 where there is none. */
+long long dal_whole_steps(double from, double to, double step);
+
 /* The observed order: max norm of the whole state at T against reference[dimension], or, when it
  * is NULL, against gauss12 (or *reference_method) with half the smallest step. [alloc]
  * T must hold a whole number of the steps.  Errors: those of the runs, DAL_ARGUMENT. */

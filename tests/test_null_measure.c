@@ -147,6 +147,12 @@ static void null_dal_classify_constraints(void)
 /* ---- measures of a method ---- */
 
 static void null_dal_order_slopes(void) { dal_order_slopes(NULL, 0.0); }
+static void null_dal_whole_steps(void)
+{
+    CU_ASSERT_EQUAL(dal_whole_steps(NAN, 1.0, 0.1), 0);
+    CU_ASSERT_EQUAL(dal_whole_steps(0.0, NAN, 0.1), 0);
+    CU_ASSERT_EQUAL(dal_whole_steps(0.0, 1.0, NAN), 0);
+}
 
 static void null_dal_measure_order(void)
 {

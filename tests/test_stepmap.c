@@ -117,6 +117,21 @@ static void test_order_and_the_next_term(void)
     CU_ASSERT(found > 200 && found < 1400);
 }
 
+static void test_whole_steps(void)
+{
+    CU_ASSERT_EQUAL(dal_whole_steps(0.0, 1.0, 0.1), 10);
+    CU_ASSERT_EQUAL(dal_whole_steps(0.0, 1.0, 0.3), 0);
+    CU_ASSERT_EQUAL(dal_whole_steps(0.0, -1.0, -0.25), 4);
+    CU_ASSERT_EQUAL(dal_whole_steps(0.0, 1.0, -0.25), 0);
+    CU_ASSERT_EQUAL(dal_whole_steps(0.0, 0.1, 1.0), 0);
+    CU_ASSERT_EQUAL(dal_whole_steps(0.0, 1.0, 0.0), 0);
+    CU_ASSERT_EQUAL(dal_whole_steps(0.0, 0x1p53, 1.0), 0);
+    CU_ASSERT_EQUAL(dal_whole_steps(0.0, 0x1p53 - 1.0, 1.0), (1LL << 53) - 1);
+    /* Between times, relative to the later one. */
+    CU_ASSERT_EQUAL(dal_whole_steps(1e6, 1e6 + 1.0 + 0.9e-3, 0.25), 4);
+    CU_ASSERT_EQUAL(dal_whole_steps(1e6, 1e6 + 1.0 + 1.1e-3, 0.25), 0);
+}
+
 /* T is a whole number of steps to 1e-9 of itself. */
 static void test_order_whole_steps(void)
 {
@@ -409,7 +424,8 @@ void suite_stepmap(void)
     CU_add_test(suite, "order: slopes", test_order_slopes);
     CU_add_test(suite, "order: none to be found", test_no_order);
     CU_add_test(suite, "order: the next term", test_order_and_the_next_term);
-    CU_add_test(suite, "whole steps", test_order_whole_steps);
+    CU_add_test(suite, "the order at whole steps", test_order_whole_steps);
+    CU_add_test(suite, "whole steps", test_whole_steps);
     CU_add_test(suite, "order: work", test_order_work);
     CU_add_test(suite, "order: what is refused", test_order_refuses);
     CU_add_test(suite, "symplecticity of rk4, closed form", test_symplecticity_closed_form);

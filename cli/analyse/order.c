@@ -123,12 +123,10 @@ static int list_steps(order_study *s)
         s->step[s->levels++] = ldexp(s->request.options.step, -i);
     if (!(s->step[0] > 0.0)) return cli_fail(CLI_USAGE, "--step: it must be positive");
     if (s->levels < 2) return cli_fail(CLI_USAGE, "--steps: a slope needs two steps at least");
-    for (int i = 0; i < s->levels; i++) {
-        const double count = round(T / s->step[i]);
-        if (!(count >= 1.0 && count < 0x1p53) || fabs(count * s->step[i] - T) > 1e-9 * T)
+    for (int i = 0; i < s->levels; i++)
+        if (dal_whole_steps(0.0, T, s->step[i]) == 0)
             return cli_fail(CLI_USAGE, "the time %g does not hold a whole number of steps %.9g", T,
                             s->step[i]);
-    }
     return CLI_DONE;
 }
 

@@ -27,19 +27,29 @@ static const double clear_of_rounding = 2e-13;
 static const double below_the_solution = 0.5;
 /* How far the next term of the error may move an order that is stated. */
 static const double order_tolerance = 0.1;
+/* How far a number of steps may miss a time, relative to it. */
+static const double whole_tolerance = 1e-9;
+
+long long dal_whole_steps(double from, double to, double step)
+{
+    const double steps = nearbyint((to - from) / step);
+    return steps >= 1.0 && steps < 0x1p53 &&
+                   fabs(steps * step - (to - from)) <= whole_tolerance * fabs(to)
+               ? (long long)steps
+               : 0;
+}
 
 /* The state of a run of the spec at T into out[dimension]. */
 static dal_status state_at(const dal_run_spec *spec, double T, double *out, long long *evaluations,
                            dal_error *error)
 {
     dal_run *run;
-    double steps = nearbyint(T / spec->options.step);
-    if (!(steps >= 1.0 && steps < 0x1p53) ||
-        !(fabs(steps * spec->options.step - T) <= 1e-9 * fabs(T)))
+    const long long steps = dal_whole_steps(0.0, T, spec->options.step);
+    if (steps == 0)
         return dal__fail(error, DAL_ARGUMENT, "time %g does not hold a whole number of steps %g", T,
                          spec->options.step);
     DAL_TRY(dal_run_create(&run, spec, error));
-    dal_status status = dal_run_advance(run, (long long)steps, error);
+    dal_status status = dal_run_advance(run, steps, error);
     size_t count = (size_t)dal_run_dimension(run);
     if (status == DAL_OK) memcpy(out, dal_run_state(run), count * sizeof(double));
     *evaluations = dal_run_evaluations(run);

@@ -280,19 +280,6 @@ static dal_status evaluator_of(search *w)
     return status;
 }
 
-static dal_status check(const dal_run *run, double T, const dal_poincare *p, dal_error *error)
-{
-    const double h = dal_run_step_size(run);
-    const double left = T - dal_run_time(run), steps = nearbyint(left / h);
-    if (p->callback == NULL || p->index < 0 || p->index >= p->count)
-        return dal__fail(error, DAL_ARGUMENT, "the section is value %d of %d", p->index + 1,
-                         p->callback == NULL ? 0 : p->count);
-    if (!(steps >= 1.0 && steps < 0x1p53) || !(fabs(steps * h - left) <= 1e-9 * fabs(T)))
-        return dal__fail(error, DAL_ARGUMENT, "time %g does not hold a whole number of steps %g", T,
-                         h);
-    return DAL_OK;
-}
-
 dal_status dal_run_crossings(dal_run *run, double T, const dal_poincare *section,
                              dal_crossings *found, dal_error *error)
 {
@@ -302,7 +289,13 @@ dal_status dal_run_crossings(dal_run *run, double T, const dal_poincare *section
     const double h = dal_run_step_size(run);
     search w = {.run = run, .section = section, .found = found, .error = error, .h = h};
     *found = (dal_crossings){0};
-    DAL_TRY(check(run, T, section, error));
+    if (section->callback == NULL || section->index < 0 || section->index >= section->count)
+        return dal__fail(error, DAL_ARGUMENT, "the section is value %d of %d", section->index + 1,
+                         section->callback == NULL ? 0 : section->count);
+    const long long steps = dal_whole_steps(dal_run_time(run), T, h);
+    if (steps == 0)
+        return dal__fail(error, DAL_ARGUMENT, "time %g does not hold a whole number of steps %g", T,
+                         h);
     dal_run_memory(run, &w.carried);
     double *block = dal__numbers(1, 3 * w.carried + (size_t)section->count);
     if (block == NULL) return dal__fail(error, DAL_MEMORY, "section: out of memory");
@@ -311,7 +304,7 @@ dal_status dal_run_crossings(dal_run *run, double T, const dal_poincare *section
     w.now.memory = block + 2 * w.carried;
     w.values = block + 3 * w.carried;
     dal_status status = evaluator_of(&w);
-    if (status == DAL_OK) status = go(&w, (long long)nearbyint((T - dal_run_time(run)) / h));
+    if (status == DAL_OK) status = go(&w, steps);
     dal_evaluator_free(w.evaluator);
     free(block);
     return status;
