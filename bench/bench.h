@@ -19,16 +19,16 @@
 
 #define BENCH_H_STEP 0.01 /* h of every contender, except on the fluid */
 
-enum { BENCH_ROUNDS = 5, BENCH_UNKNOWN = 77, BENCH_MOST = 2000 };
+enum { BENCH_ROUNDS = 5, BENCH_UNKNOWN = 77, BENCH_MAX_SIZE = 2000 };
 
 /* One contender: work(self, end) makes `steps` steps of all trajectories and writes a state; it
  * returns 0, or else failed. */
-typedef struct bench_job {
+typedef struct bench_contender {
     double steps; /* of one trajectory, times trajectories */
     int size;     /* of the state */
     int (*work)(void *self, double *end);
     void *self;
-} bench_job;
+} bench_contender;
 
 /* In nanoseconds. */
 static inline double bench_now(void)
@@ -39,24 +39,24 @@ static inline double bench_now(void)
 }
 
 /* The state is that of the first round. */
-static inline int bench_measure(const bench_job *job)
+static inline int bench_measure(const bench_contender *contender)
 {
-    static double end[BENCH_MOST], later[BENCH_MOST];
+    static double end[BENCH_MAX_SIZE], later[BENCH_MAX_SIZE];
     const char *ms = getenv("BENCH_MS");
     const double wanted = 1e6 * (ms ? atof(ms) : 20.0);
     double best = INFINITY;
-    if (job->work(job->self, end)) return 1;
+    if (contender->work(contender->self, end)) return 1;
     double begin = bench_now();
-    if (job->work(job->self, later)) return 1;
+    if (contender->work(contender->self, later)) return 1;
     const long repeats = 1 + (long)(wanted / (bench_now() - begin));
     for (int round = 0; round < BENCH_ROUNDS; round++) {
         begin = bench_now();
         for (long i = 0; i < repeats; i++)
-            if (job->work(job->self, later)) return 1;
-        best = fmin(best, (bench_now() - begin) / ((double)repeats * job->steps));
+            if (contender->work(contender->self, later)) return 1;
+        best = fmin(best, (bench_now() - begin) / ((double)repeats * contender->steps));
     }
     printf("%.5g", best);
-    for (int i = 0; i < job->size; i++) printf(" %.17g", end[i]);
+    for (int i = 0; i < contender->size; i++) printf(" %.17g", end[i]);
     putchar('\n');
     return 0;
 }

@@ -22,13 +22,13 @@ static inline void real_sincos(real x, real *s, real *c)
 
 #define FLUID_STEP 0.002
 
-typedef struct job {
+typedef struct contender {
     dal_run_spec spec;
     dal_run *run;
     dal_batch *batch;
-    double start[BENCH_MOST * 2 + 2];
+    double start[BENCH_MAX_SIZE * 2 + 2];
     int steps, shown; /* a round; components of q and v */
-} job;
+} contender;
 
 /* The accelerations of sleigh_field, from q and v where they are. */
 static dal_status sleigh_callback(const dal_system *system, const dal_at *at, double *out)
@@ -94,7 +94,7 @@ static const dal_system *find_system(const char *engine, const char *name, dal_e
 /* From the start again, unless this is the first time. */
 static int work_run(void *self, double *end)
 {
-    job *j = self;
+    contender *j = self;
     if (dal_run_set_state(j->run, 0.0, j->start, NULL)) return 1;
     if (dal_run_advance(j->run, j->steps, NULL)) return 1;
     memcpy(end, dal_run_state(j->run), (size_t)j->shown * sizeof *end);
@@ -104,7 +104,7 @@ static int work_run(void *self, double *end)
 /* A batch goes on where it was; the harness keeps what the first call shows, from lane 0. */
 static int work_batch(void *self, double *end)
 {
-    job *j = self;
+    contender *j = self;
     double state[64];
     if (dal_batch_advance(j->batch, j->steps)) return 1;
     dal_batch_state(j->batch, 0, state);
@@ -113,7 +113,7 @@ static int work_batch(void *self, double *end)
 }
 
 /* Lanes differ a little in the first coordinate, which no constraint at the start sees. */
-static int make_batch(job *j, int lanes, dal_error *error)
+static int make_batch(contender *j, int lanes, dal_error *error)
 {
     const char *name = j->spec.system->coordinate[0];
     if (dal_batch_create(&j->batch, &j->spec, lanes, 0, error)) return 1;
@@ -130,7 +130,7 @@ static int fail(const dal_error *error)
     return 1;
 }
 
-static int make(job *j, char **argv, dal_error *error)
+static int make(contender *j, char **argv, dal_error *error)
 {
     dal_options *o = &j->spec.options;
     j->spec.system = find_system(argv[1], argv[4], error);
@@ -148,12 +148,12 @@ static int make(job *j, char **argv, dal_error *error)
 
 int main(int argc, char **argv)
 {
-    static job j;
+    static contender j;
     dal_error error = {0};
     if (argc != 5) return bench_unknown(argc, argv);
     if (make(&j, argv, &error)) return fail(&error);
     const int lanes = j.batch ? dal_batch_count(j.batch) : 1;
-    const bench_job measured = {(double)j.steps * lanes, j.shown, j.batch ? work_batch : work_run,
-                                &j};
+    const bench_contender measured = {(double)j.steps * lanes, j.shown,
+                                      j.batch ? work_batch : work_run, &j};
     return bench_measure(&measured);
 }

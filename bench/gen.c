@@ -1,4 +1,4 @@
-/* gen.c - around a generated file whose prefix is gen, and which the compiler is told to include.
+/* gen.c - around a generated file with the prefix gen, which the compiler includes (-include).
  *
  *     gen.METHOD.SPACE.SYSTEM.LANES       a program each; LANES trajectories at once
  *
@@ -21,6 +21,6 @@ static int work(void *self, double *end)
 int main(void)
 {
     static gen_state state;
-    const bench_job job = {(double)STEPS * gen_LANES, SHOWN, work, &state};
-    return bench_measure(&job);
+    const bench_contender contender = {(double)STEPS * gen_LANES, SHOWN, work, &state};
+    return bench_measure(&contender);
 }

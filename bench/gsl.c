@@ -7,7 +7,7 @@
  * the half steps: a call is two steps of the others, and the time printed is that of one accepted
  * half step, its part of the full step included.  rk2imp is the implicit midpoint rule, rk4imp
  * Gauss' method of order 4, both by Newton's method with the exact Jacobian; they take their
- * tolerance from a control object, which therefore demands 1e-14 here and is not asked to choose
+ * tolerance from a control object, which therefore demands 1e-14 here and does not choose
  * steps. */
 #define _POSIX_C_SOURCE 200809L
 #include "bench.h"
@@ -24,11 +24,11 @@ static inline void real_sincos(real x, real *s, real *c)
 
 enum { STEPS = 1000 };
 
-typedef struct job {
+typedef struct solver {
     const double *start;
     gsl_odeiv2_system system;
     gsl_odeiv2_driver *driver;
-} job;
+} solver;
 
 static int sleigh(double t, const double *y, double *dy, void *unused)
 {
@@ -67,7 +67,7 @@ static int sleigh_jacobian(double t, const double *y, double *J, double *Ft, voi
 
 static int work(void *self, double *y)
 {
-    job *j = self;
+    solver *j = self;
     double error[SMALL_DIM];
     const double h = 2.0 * BENCH_H_STEP;
     memcpy(y, j->start, SMALL_DIM * sizeof *y);
@@ -82,7 +82,7 @@ static int work(void *self, double *y)
  * never holds a step up. */
 static int work_driver(void *self, double *y)
 {
-    job *j = self;
+    solver *j = self;
     double t = 0.0;
     memcpy(y, j->start, SMALL_DIM * sizeof *y);
     gsl_odeiv2_driver_reset(j->driver);
@@ -92,7 +92,7 @@ static int work_driver(void *self, double *y)
 
 int main(int argc, char **argv)
 {
-    static job j;
+    static solver j;
     const struct {
         const char *name;
         const gsl_odeiv2_step_type *type;
@@ -112,7 +112,7 @@ int main(int argc, char **argv)
         j.system = (gsl_odeiv2_system){contender[i].field, sleigh_jacobian, SMALL_DIM, NULL};
         j.driver = gsl_odeiv2_driver_alloc_y_new(&j.system, contender[i].type, BENCH_H_STEP,
                                                  contender[i].tolerance, 0.0);
-        const bench_job measured = {STEPS, SMALL_DIM, contender[i].work, &j};
+        const bench_contender measured = {STEPS, SMALL_DIM, contender[i].work, &j};
         return bench_measure(&measured);
     }
     return bench_unknown(argc, argv);

@@ -85,7 +85,7 @@ int main(int argc, char **argv)
     static double chain[LARGE_DIM + 1], sleigh[SMALL_DIM], chain3[SMALL_DIM];
     const struct {
         const char *name;
-        bench_job job;
+        bench_contender timed;
     } contender[] = {{"rk4 A", {SMALL_STEPS, SMALL_DIM, rk4_sleigh, sleigh}},
                      {"rk4 B3", {SMALL_STEPS, SMALL_DIM, rk4_chain3, chain3}},
                      {"rk4 B101", {LARGE_STEPS, LARGE_DIM, rk4_chain101, chain}},
@@ -94,6 +94,6 @@ int main(int argc, char **argv)
     memcpy(chain3, chain3_y, sizeof chain3);
     chain_start(&chain_system, NULL, chain);
     for (size_t i = 0; i < sizeof contender / sizeof *contender; i++)
-        if (bench_is(argc, argv, contender[i].name)) return bench_measure(&contender[i].job);
+        if (bench_is(argc, argv, contender[i].name)) return bench_measure(&contender[i].timed);
     return bench_unknown(argc, argv);
 }

@@ -54,7 +54,7 @@ int main(int argc, char **argv)
     void *A = const_cast<double *>(scalar::sleigh_y), *B3 = const_cast<double *>(scalar::chain3_y);
     const struct {
         const char *name;
-        bench_job job;
+        bench_contender timed;
     } contender[] = {
         {"rk4 A", {STEPS, DIM, work<double, scalar::sleigh_field>, A}},
         {"rk4 B3", {STEPS, DIM, work<double, scalar::chain3_field>, B3}},
@@ -62,6 +62,6 @@ int main(int argc, char **argv)
         {"rk4x8 B3", {8.0 * STEPS, DIM, work<num, wide::chain3_field>, B3}},
     };
     for (const auto &c : contender)
-        if (bench_is(argc, argv, c.name)) return bench_measure(&c.job);
+        if (bench_is(argc, argv, c.name)) return bench_measure(&c.timed);
     return bench_unknown(argc, argv);
 }

@@ -24,6 +24,6 @@ static int work(void *self, double *end)
 int main(void)
 {
     static double a[LANES] = {0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5};
-    const bench_job job = {2.0 * REPEATS * SIDE_BY_SIDE * LANES, 0, work, a};
-    return bench_measure(&job);
+    const bench_contender contender = {2.0 * REPEATS * SIDE_BY_SIDE * LANES, 0, work, a};
+    return bench_measure(&contender);
 }

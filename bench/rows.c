@@ -12,7 +12,7 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-enum { ROWS = 1 << 16, COLUMNS = 21, SOURCE = 64, CHUNK = 1 << 20, LOOKS = 64 };
+enum { ROWS = 1 << 16, COLUMNS = 21, SOURCE = 64, CHUNK = 1 << 20, CHECKED = 64 };
 
 static char place[] = "/tmp/dalembert-rows-XXXXXX.npy";
 static char *names[COLUMNS];
@@ -77,8 +77,8 @@ static int work(void *self, double *end)
 {
     contender *c = self;
     const int failed = c->work(&c->bytes, end), file = open(place, O_RDONLY);
-    const size_t stride = c->bytes.length / 8 / LOOKS;
-    for (size_t i = 0; i < LOOKS && file >= 0; i++)
+    const size_t stride = c->bytes.length / 8 / CHECKED;
+    for (size_t i = 0; i < CHECKED && file >= 0; i++)
         if (pread(file, &end[i], 8, (off_t)(8 * (stride * i + stride - 1))) != 8) end[i] = NAN;
     if (file >= 0) close(file);
     return failed;
@@ -97,7 +97,7 @@ int main(int argc, char **argv)
     fill();
     const int file = mkstemps(place, 4);
     if (file < 0 || close(file) != 0 || by_table(NULL, NULL) || read_file(&c.bytes)) return 1;
-    const int status = bench_measure(&(bench_job){ROWS, LOOKS, work, &c});
+    const int status = bench_measure(&(bench_contender){ROWS, CHECKED, work, &c});
     free(c.bytes.text);
     unlink(place);
     return status;

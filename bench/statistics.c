@@ -2,9 +2,9 @@
  *
  *     statistics METHOD SPACE SYSTEM         SYSTEM: a built-in name
  *
- * A run is made again and again, followed and bare by turns.  Prints the median of followed by bare
- * time over neighbours, so that a processor that changes its pace counts on both sides, and the
- * state reached; with BENCH_NS in the environment the least nanoseconds of a step, bare and
+ * A run is made again and again, followed and bare alternately.  Prints the median of followed by
+ * bare time over neighbours, so that a processor that changes its pace counts on both sides, and
+ * the state reached; with BENCH_NS in the environment the least nanoseconds of a step, bare and
  * followed, too. */
 #define _POSIX_C_SOURCE 200809L
 #include "bench.h"
@@ -12,28 +12,28 @@
 #include <dalembert_analysis.h>
 #include <dalembert_codegen.h>
 
-enum { PAIRS = 41, MOST = 64, LEAST_STEPS = 2048 };
+enum { PAIRS = 41, MAX_OBSERVABLES = 64, MIN_STEPS = 2048 };
 
-typedef struct job {
+typedef struct contender {
     dal_run_spec spec;
     dal_run *run;
-    dal_statistics statistics[MOST];
+    dal_statistics statistics[MAX_OBSERVABLES];
     int observables;
     double *start; /* what the run carries there */
     size_t numbers;
-} job;
+} contender;
 
-static dal_status follow(void *user, dal_run *run, int looks, const double *t, const double *values,
+static dal_status follow(void *user, dal_run *run, int count, const double *t, const double *values,
                          size_t stride)
 {
-    job *j = user;
+    contender *j = user;
     (void)run;
-    dal_statistics_add_many(j->statistics, j->observables, looks, t, values, stride);
+    dal_statistics_add_many(j->statistics, j->observables, count, t, values, stride);
     return DAL_OK;
 }
 
 /* The time of a step of a run, in ns; negative where it failed. */
-static double take(job *j, long long steps, int followed)
+static double time_step(contender *j, long long steps, int followed)
 {
     const dal_observer observer = {.user = j, .values = followed ? follow : NULL, .every = 1};
     if (dal_run_load(j->run, j->start, j->numbers, NULL) != DAL_OK) return -1.0;
@@ -50,31 +50,31 @@ static int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-static int measure(job *j)
+static int measure(contender *j)
 {
     const char *ms = getenv("BENCH_MS");
-    double least[2] = {INFINITY, INFINITY}, ratio[PAIRS];
-    const double one = take(j, LEAST_STEPS, 1);
+    double min[2] = {INFINITY, INFINITY}, ratio[PAIRS];
+    const double one = time_step(j, MIN_STEPS, 1);
     if (!(one > 0.0)) return 1;
-    const long long steps = LEAST_STEPS + (long long)(1e6 * (ms ? atof(ms) : 20.0) / one);
+    const long long steps = MIN_STEPS + (long long)(1e6 * (ms ? atof(ms) : 20.0) / one);
     for (int i = 0; i < PAIRS; i++) {
         double time[2];
         for (int k = 0; k < 2; k++) {
-            time[k] = take(j, steps, k);
+            time[k] = time_step(j, steps, k);
             if (time[k] < 0.0) return 1;
-            least[k] = fmin(least[k], time[k]);
+            min[k] = fmin(min[k], time[k]);
         }
         ratio[i] = time[1] / time[0];
     }
     qsort(ratio, PAIRS, sizeof *ratio, ascending);
     printf("%.5g", ratio[PAIRS / 2]);
-    if (getenv("BENCH_NS")) printf(" (%.5g, %.5g)", least[0], least[1]);
+    if (getenv("BENCH_NS")) printf(" (%.5g, %.5g)", min[0], min[1]);
     for (int i = 0; i < 2 * j->spec.system->n; i++) printf(" %.17g", dal_run_state(j->run)[i]);
     putchar('\n');
     return 0;
 }
 
-static int make(job *j, char **argv, const char *cache, dal_error *error)
+static int make(contender *j, char **argv, const char *cache, dal_error *error)
 {
     static dal_model *model;
     const dal_native_options native = {.cache = cache};
@@ -91,12 +91,12 @@ static int make(job *j, char **argv, const char *cache, dal_error *error)
     const double *const carried = dal_run_memory(j->run, &j->numbers);
     if (!(j->start = malloc(j->numbers * sizeof *carried))) return 1;
     memcpy(j->start, carried, j->numbers * sizeof *carried);
-    return j->observables > MOST;
+    return j->observables > MAX_OBSERVABLES;
 }
 
 int main(int argc, char **argv)
 {
-    static job j;
+    static contender j;
     dal_error error = {0};
     char cache[4096];
     if (argc != 4) return bench_unknown(argc, argv);

@@ -27,12 +27,12 @@ static inline void real_sincos(real x, real *s, real *c)
  * rounding, from where the next increment would not change y. */
 static const double TOLERANCE = 1e-11, COEFFICIENT = 1e-4;
 
-typedef struct job {
+typedef struct contender {
     void *memory;
     N_Vector y, start;
     int steps, dimension;
     int implicit;
-} job;
+} contender;
 
 static int sleigh(realtype t, N_Vector y, N_Vector dy, void *unused)
 {
@@ -60,7 +60,7 @@ static int chain101(realtype t, N_Vector y, N_Vector dy, void *unused)
 
 static int work(void *self, double *end)
 {
-    job *j = self;
+    contender *j = self;
     const double T = j->steps * BENCH_H_STEP;
     double t;
     N_VScale(1.0, j->start, j->y);
@@ -75,7 +75,7 @@ static int work(void *self, double *end)
     return status < 0;
 }
 
-static int make_erk(job *j, ARKRhsFn f, SUNContext context)
+static int make_erk(contender *j, ARKRhsFn f, SUNContext context)
 {
     j->memory = ERKStepCreate(f, 0.0, j->y, context);
     return !j->memory || ERKStepSetTableNum(j->memory, ARKODE_ZONNEVELD_5_3_4) ||
@@ -84,7 +84,7 @@ static int make_erk(job *j, ARKRhsFn f, SUNContext context)
            ERKStepSetInterpolantDegree(j->memory, 0) || ERKStepSetMaxNumSteps(j->memory, 1000000);
 }
 
-static int make_midpoint(job *j, ARKRhsFn f, SUNContext context)
+static int make_midpoint(contender *j, ARKRhsFn f, SUNContext context)
 {
     double c = 0.5, A = 0.5, b = 1.0;
     j->implicit = 1;
@@ -105,10 +105,10 @@ static int make_midpoint(job *j, ARKRhsFn f, SUNContext context)
 int main(int argc, char **argv)
 {
     static double chain[2 * CHAIN_N + 1], small[2][SMALL_DIM];
-    static job j;
+    static contender j;
     const struct {
         const char *name;
-        int (*make)(job *job, ARKRhsFn f, SUNContext context);
+        int (*make)(contender *contender, ARKRhsFn f, SUNContext context);
         ARKRhsFn f;
         double *start;
         int dimension, steps;
@@ -129,7 +129,7 @@ int main(int argc, char **argv)
         j.y = N_VClone(j.start);
         N_VScale(1.0, j.start, j.y);
         if (contender[i].make(&j, contender[i].f, context)) return 1;
-        const bench_job measured = {j.steps, j.dimension, work, &j};
+        const bench_contender measured = {j.steps, j.dimension, work, &j};
         return bench_measure(&measured);
     }
     return bench_unknown(argc, argv);

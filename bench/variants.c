@@ -11,15 +11,15 @@
 
 enum { STEPS = 200 };
 
-typedef struct job {
+typedef struct contender {
     dal_run_spec spec;
     dal_batch *batch;
-} job;
+} contender;
 
 static int work(void *self, double *end)
 {
-    job *j = self;
-    double state[BENCH_MOST];
+    contender *j = self;
+    double state[BENCH_MAX_SIZE];
     if (dal_batch_advance(j->batch, STEPS)) return 1;
     dal_batch_state(j->batch, 0, state);
     memcpy(end, state, 2 * (size_t)j->spec.system->n * sizeof *end);
@@ -36,7 +36,7 @@ static int variant_of(const char *name)
     return i;
 }
 
-static int make(job *j, char **argv, int count, dal_error *error)
+static int make(contender *j, char **argv, int count, dal_error *error)
 {
     static dal_model *model;
     const int variant = variant_of(argv[1]);
@@ -51,7 +51,7 @@ static int make(job *j, char **argv, int count, dal_error *error)
 
 int main(int argc, char **argv)
 {
-    static job j;
+    static contender j;
     dal_error error = {0};
     const int count = argc > 5 ? atoi(argv[5]) : 64;
     if (argc < 5 || count < 1) return bench_unknown(argc, argv);
@@ -59,6 +59,6 @@ int main(int argc, char **argv)
         fprintf(stderr, "variants: %s\n", error.message);
         return 1;
     }
-    const bench_job measured = {(double)STEPS * count, 2 * j.spec.system->n, work, &j};
+    const bench_contender measured = {(double)STEPS * count, 2 * j.spec.system->n, work, &j};
     return bench_measure(&measured);
 }
