@@ -1,27 +1,39 @@
 # dalembert
 #
 #     make                  build/dalembert, build/libdalembert.a, build/libdalembert.so
+#     make help             this list
+#     make install          to PREFIX (/usr/local), below DESTDIR; uninstall removes it
+#     make mpi              build/dalembert-mpi, where there is Open MPI
+#     make clean            remove build/
+#
 #     make check            all tests; the CUnit summary comes last
 #     make check-sanitize   the tests under the address and undefined-behaviour sanitizers
-#     make check-kill       runs killed at KILLS random moments and gone on with
-#     make check-browser    the pages of the report in headless Chromium; a part of check
-#     make check-bits       generated code in every way, hours: BITS_JOBS at a time
 #     make check-valgrind   the CUnit suites under valgrind
+#     make check-browser    the report's pages in headless Chromium; a part of check
+#     make check-kill       runs killed at KILLS random moments and resumed
+#     make check-bits       generated code against the interpreter, all cases, hours; BITS_JOBS at a time
+#     make lint             the rules of the source, and the tools that check C and shell
 #     make fuzz             each fuzz target for FUZZ_SECONDS
-#     make mpi              build/dalembert-mpi, where there is Open MPI
-#     make lint             the rules of the house
 #     make mutants          whether the tests notice COUNT faults, drawn by SEED, planted in MODULE
+#     make bench            the timed comparisons of bench/cases.txt; bench-smoke, bench-long
 #     make gallery          the pictures that the README shows
-#     make install          to PREFIX, below DESTDIR
 #
 # BUILD=dir puts everything elsewhere; CFLAGS=-O3\ -march=native changes the speed, never a bit;
-# V=1 shows the commands.
+# V=1 shows the commands.  All processors work on a build unless there is a -j.
 BUILD        ?= build
 PREFIX       ?= /usr/local
 CC           ?= cc
 CFLAGS       ?= -O2 -g
 FUZZ_SECONDS ?= 10
 FUZZ_CC      ?= clang
+
+# A -j of the command line has precedence over this one, though GNU Make 4.3 does not show it here.
+# Without clean: other targets have to wait for that.
+ifeq ($(MAKELEVEL),0)
+ifeq ($(filter -j% --jobs%,$(MAKEFLAGS) $(shell echo "$$MAKEFLAGS"))$(filter clean,$(MAKECMDGOALS)),)
+MAKEFLAGS += -j$(shell nproc 2>/dev/null || echo 1)
+endif
+endif
 
 WARN = -Wall -Wextra -Wpedantic -Wshadow -Wstrict-prototypes -Wmissing-prototypes -Wvla \
        -Wpointer-arith -Wwrite-strings -Wno-psabi
@@ -82,6 +94,16 @@ SAY = $(if $(V),,@echo '  $1 $@';)
 
 all: $(PROGRAM) $(STATIC) $(SHARED) $(KERNEL)
 
+help:
+	@sed -n '3,/^BUILD/{/^BUILD/q; s/^# \{0,1\}//p;}' $(firstword $(MAKEFILE_LIST))
+
+# Before the first object of a build.
+START = $(BUILD)/generated/started
+$(START):
+	@mkdir -p $(@D)
+	@echo "Building dalembert in $(BUILD): up to a minute of processor time."
+	@touch $@
+
 # ---- objects ---------------------------------------------------------------------------------
 
 define COMPILE
@@ -96,6 +118,7 @@ endef
 $(foreach variant,$(sort $(VARIANTS) $(GROUPS)),$(eval $(call COMPILE_VARIANT,$(variant))))
 $(BUILD)/%.o: %.c ; $(COMPILE)
 $(LIB_OBJ) $(TEST_OBJ): | $(BUILD)/generated/variants.h
+$(LIB_OBJ) $(CLI_OBJ) $(TEST_OBJ): | $(START)
 
 $(STATIC): $(LIB_OBJ)
 	$(call SAY,ar)rm -f $@; $(AR) rcs $@ $^
@@ -126,7 +149,7 @@ $(CLI_OBJ) $(BUILD)/cli/mpi/dalembert_mpi.o: PLACE = -Icli
 
 # ---- generated texts -------------------------------------------------------------------------
 
-# The systems travel inside the library.
+# The library contains the systems.
 $(SYSTEMS): tools/embed.sh $(wildcard systems/*.yaml) systems
 	@mkdir -p $(@D)
 	$(call SAY,sh)sh tools/embed.sh $(addsuffix .yaml,$(sort $(basename $(wildcard systems/*.yaml)))) >$@.tmp && mv $@.tmp $@
@@ -169,7 +192,7 @@ $(KERNEL): tools/amalgamate.sh include/dalembert_kernel.h $(wildcard include/*.h
 	@mkdir -p $(@D)
 	$(call SAY,sh)sh tools/amalgamate.sh include/dalembert_kernel.h >$@.tmp && mv $@.tmp $@
 
-# The test suites there are.  The list changes with the files, so it is looked at in every run;
+# The test suites there are.  The list changes with the files, so it is made in every run;
 # suites.h, which declares them, goes before every test source.
 $(BUILD)/generated/suites.h: FORCE
 	@mkdir -p $(@D)
@@ -298,7 +321,7 @@ clean:
 include bench/bench.mk
 
 FORCE:
-.PHONY: all check check-bits check-browser check-sanitize check-valgrind fuzz run-fuzzers gallery lint mutants install uninstall clean FORCE mpi
+.PHONY: all help check check-bits check-browser check-sanitize check-valgrind fuzz run-fuzzers gallery lint mutants install uninstall clean FORCE mpi
 .SECONDARY:
 
 -include $(LIB_OBJ:.o=.d) $(CLI_OBJ:.o=.d) $(TEST_OBJ:.o=.d) $(FUZZERS:%=$(BUILD)/tests/%.d)
