@@ -82,10 +82,12 @@ int dal_run_is_native(const dal_run *run) { return run && run->native.traced != 
 
 enum { REGISTER = 8 }; /* numbers in the widest; as many as a line of the cache has */
 
-/* Looks at a time: whole registers of any machine, that stay in its nearest cache. */
+/* Looks at a time: whole registers of any machine.  Many of them, since a processor takes about a
+ * microsecond to wake the upper halves of its widest registers, and no more than a second-level
+ * cache holds. */
 static int room_for_looks(int numbers)
 {
-    enum { MOST = 248, NEAR = 32768 / sizeof(double) };
+    enum { MOST = 992, NEAR = (1 << 18) / sizeof(double) };
     const int room = NEAR / numbers / REGISTER * REGISTER;
     return room > MOST ? MOST : room < REGISTER ? REGISTER : room;
 }
