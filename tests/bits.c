@@ -170,12 +170,12 @@ typedef struct object {
     int (*advance)(void *state, double h, long long count);
 } object;
 
-/* Lanes that go together share the count of what their system was asked. */
+/* Lanes that go together share the count of evaluations of their system. */
 static bool same_lane(const motion *m, const parts *p, int lane, const double *memory)
 {
-    const size_t asked = dal__at(&m->run[0]->shape, DAL__EVALUATIONS);
+    const size_t evaluations = dal__at(&m->run[0]->shape, DAL__EVALUATIONS);
     for (size_t i = 0; i < m->carried; i++)
-        if ((i != asked || p->lanes == 1) &&
+        if ((i != evaluations || p->lanes == 1) &&
             memcmp(&p->y[i * (size_t)p->lanes + (size_t)lane], &memory[i], sizeof *memory) != 0)
             return false;
     return true;

@@ -152,9 +152,9 @@ static void end_state(dal_run_spec spec, double T, int count, double displacemen
 double fixture_order(dal_run_spec spec, double T, int coarse, int fine, double displacement)
 {
     double reference[64], state[64], error[2] = {0.0, 0.0};
-    dal_run_spec judge = spec;
-    CU_ASSERT_EQUAL(dal_method_parse(&judge.method, "gauss10", NULL), DAL_OK);
-    end_state(judge, T, 1500, displacement, reference);
+    dal_run_spec accurate = spec;
+    CU_ASSERT_EQUAL(dal_method_parse(&accurate.method, "gauss10", NULL), DAL_OK);
+    end_state(accurate, T, 1500, displacement, reference);
     for (int k = 0; k < 2; k++) {
         end_state(spec, T, k ? fine : coarse, displacement, state);
         for (int i = 0; i < 2 * spec.system->n; i++)

@@ -91,7 +91,7 @@ static void add_tone(series *s, double size, double periods, double phase)
     }
 }
 
-/* One to three tones of at least so many periods, the greatest of amplitude `size`. */
+/* One to three tones of at least `periods` periods, the greatest of amplitude `size`. */
 static void add_tones(series *s, double size, double periods)
 {
     const int tones = 1 + (int)(series_next(&s->random) % 3);
@@ -172,11 +172,11 @@ static void switches(series *s)
 /* Bursts: noise that is large in a tenth of the time. */
 static void intermittent(series *s)
 {
-    const double rate = 1.0 / (parameter(s) * s->count), quiet_size = uniform(s, 0.01, 0.3);
+    const double rate = 1.0 / (parameter(s) * s->count), calm_size = uniform(s, 0.01, 0.3);
     int bursts = 0;
     for (int k = 0; k < s->count; k++) {
         if (uniform(s, 0.0, 1.0) < (bursts ? 5.0 : 1.0) * rate) bursts = !bursts;
-        s->x[k] = (bursts ? 1.0 : quiet_size) * series_normal(&s->random);
+        s->x[k] = (bursts ? 1.0 : calm_size) * series_normal(&s->random);
     }
 }
 
@@ -235,7 +235,7 @@ static void lorenz(series *s)
     }
 }
 
-/* Slower than can be told: from..to periods. */
+/* Slower than can be recognised: from..to periods. */
 static void slow_wave(series *s)
 {
     add_tone(s, 1.0, parameter(s), uniform(s, 0.0, two_pi));

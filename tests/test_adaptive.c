@@ -51,20 +51,20 @@ static double displaced_error(dal_run *run)
     static const double size = 0.3;
     const double T = dal_run_time(run);
     dal_run_spec spec = fixture_spec(dal_run_system(run), "gauss10", DAL_LIFTED, T / 1000);
-    dal_run *judge = fixture_run(&spec);
+    dal_run *reference = fixture_run(&spec);
     double error = 0.0;
-    fixture_displace(judge, size);
-    CU_ASSERT_EQUAL(dal_run_advance(judge, 1000, NULL), DAL_OK);
+    fixture_displace(reference, size);
+    CU_ASSERT_EQUAL(dal_run_advance(reference, 1000, NULL), DAL_OK);
     for (int i = 0; i < dal_run_dimension(run); i++)
-        error = fmax(error, fabs(dal_run_state(run)[i] - dal_run_state(judge)[i]));
-    dal_run_free(judge);
+        error = fmax(error, fabs(dal_run_state(run)[i] - dal_run_state(reference)[i]));
+    dal_run_free(reference);
     return error;
 }
 
-typedef double judge_function(dal_run *run);
+typedef double error_function(dal_run *run);
 
 /* Slope of log error over log tolerance, by least squares over six decades. */
-static double slope(dal_run_spec spec, int steps, double displacement, judge_function *judge)
+static double slope(dal_run_spec spec, int steps, double displacement, error_function *error)
 {
     enum { COUNT = 13 };
     double sx = 0.0, sy = 0.0, sxx = 0.0, sxy = 0.0;
@@ -73,7 +73,7 @@ static double slope(dal_run_spec spec, int steps, double displacement, judge_fun
         dal_run *run = fixture_run(&spec);
         if (displacement != 0.0) fixture_displace(run, displacement);
         CU_ASSERT_EQUAL(dal_run_advance(run, steps, NULL), DAL_OK);
-        const double x = log(spec.options.tolerance), y = log(judge(run));
+        const double x = log(spec.options.tolerance), y = log(error(run));
         sx += x;
         sy += y;
         sxx += x * x;
@@ -89,7 +89,7 @@ static void test_error(void)
         const char *text;
         dal_space space;
         double T, displacement;
-        judge_function *judge;
+        error_function *error;
     } cases[] = {{kepler, DAL_PHYSICAL, PERIOD, 0.0, kepler_error},
                  {"knife-edge", DAL_PHYSICAL, 10.0, 0.0, exact_error},
                  {"damped-oscillator", DAL_PHYSICAL, 10.0, 0.0, exact_error},
@@ -98,7 +98,7 @@ static void test_error(void)
         dal_model *model = fixture_model(cases[i].text);
         const dal_run_spec spec =
             spec_of(fixture_system(model), cases[i].space, cases[i].T / 2, 0.0);
-        const double seen = slope(spec, 2, cases[i].displacement, cases[i].judge);
+        const double seen = slope(spec, 2, cases[i].displacement, cases[i].error);
         if (!(fabs(seen - 1.0) <= 0.15)) printf("\n  case %d: slope %.3f\n", (int)i, seen);
         CU_ASSERT(fabs(seen - 1.0) <= 0.15);
         dal_model_free(model);

@@ -110,7 +110,7 @@ static void test_long_names(void)
     }
 }
 
-/* ---- runs asked for what they cannot do ---- */
+/* ---- runs that cannot do what is requested ---- */
 
 static dal_status interrupts(const dal_system *system, const dal_at *at, double *out)
 {

@@ -220,7 +220,7 @@ static void test_failed_lane_stays(void)
     dal_batch_free(batch);
 }
 
-/* Normals are judged lane by lane: of many bodies that slide down along x, one was thrown upwards
+/* The rank is checked lane by lane: of many bodies that slide down along x, one was thrown upwards
  * along y and comes to rest at t = 2/9.81, where its constraint is singular (see test_run.c). */
 static void test_singular_lane(void)
 {

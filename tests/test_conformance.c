@@ -243,7 +243,7 @@ static void test_untouched(void)
 /* ---- motions that come to rest in part ---- */
 
 /* The sleigh ends straight on, phi' falls like exp(-t) below the roundings of x' and y': then phi'
- * alone answers to what is left of D, and increments decrease without end. */
+ * alone reacts to what is left of D, and increments decrease without end. */
 static void test_rest(void)
 {
     static const char *const names[] = {"rk4+project",

@@ -142,7 +142,7 @@ static void test_beginning(void)
     dal_model_free(model);
 }
 
-/* A run set to a state begins anew, with the multipliers that belong to it: those of a fresh run.
+/* A run set to a state begins again, with the multipliers that belong to it: those of a fresh run.
  */
 static void test_set_state(void)
 {

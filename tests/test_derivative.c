@@ -204,7 +204,7 @@ static void test_gradient_is_cheap(void)
         f = dal__mul(graph, f, dal__apply(graph, DAL__SIN, x, 0));
     }
     int before = graph->count;
-    /* By one symbol, only what depends on it is looked at: no more than the N products. */
+    /* By one symbol, only what depends on it is visited: no more than the N products. */
     dal__gradient(graph, f, &symbols[1], 1, gradient);
     CU_ASSERT(graph->count <= before + N + 10);
     dal__gradient(graph, f, symbols, N, gradient);

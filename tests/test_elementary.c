@@ -11,7 +11,7 @@
 
 enum { POINTS = 4000, PRECISION = 160 };
 
-static const double own_range = 1e7; /* beyond it libm answers */
+static const double own_range = 1e7; /* beyond it libm is called */
 
 /* Marsaglia's xorshift: the same points in every run. */
 static uint64_t random_state;

@@ -201,7 +201,7 @@ static dal_status start(const dal_system *system, const dal_at *at, double *out)
     return DAL_OK;
 }
 
-/* Without quad precision halving alone tells: rk4 on an oscillator loses energy like h^5. */
+/* Without quad precision halving alone decides: rk4 on an oscillator loses energy like h^5. */
 static void test_by_hand(void)
 {
     const dal_system spring = {

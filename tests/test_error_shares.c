@@ -95,14 +95,14 @@ static void test_by_rate(void)
     dal_model_free(model);
 }
 
-/* The solver tells where it deviates by four times what rounding does, or its rate is beyond twice
- * half its interval; and does nothing below a tenth of the drift. */
+/* The solver is significant where it deviates by four times what rounding does, or its rate is
+ * beyond twice half its interval; and does nothing below a tenth of the drift. */
 static void test_solver(void)
 {
     static const struct {
         double rate, deviation, margin;
-        int tells;
-        double share; /* NAN: cannot be told */
+        int is_significant;
+        double share; /* NAN: unknown */
     } cases[] = {{0.0, 0.81, 1.0, 1, 0.0},     {0.0, 0.79, 1.0, 0, NAN},
                  {0.0, 0.09, 1.0, 0, 0.0},     {0.0, 0.11, 1.0, 0, NAN},
                  {0.021, 0.2, 0.01, 1, 0.21},  {0.019, 0.2, 0.01, 0, NAN},
@@ -112,13 +112,13 @@ static void test_solver(void)
         made_up m = make(fixture_system(model), "gauss4");
         m.a.solver = drift(cases[i].rate, cases[i].deviation, cases[i].margin);
         m.a.solver_and_rounding = drift(0.03, 0.3, 0.006);
-        CU_ASSERT_EQUAL(shares_of(&m)->solver_is_significant, cases[i].tells);
-        IS(m.a.share[DAL_SOURCE_ROUNDING], cases[i].tells ? 0.2 : 0.3);
+        CU_ASSERT_EQUAL(shares_of(&m)->solver_is_significant, cases[i].is_significant);
+        IS(m.a.share[DAL_SOURCE_ROUNDING], cases[i].is_significant ? 0.2 : 0.3);
         if (isnan(cases[i].share))
             CU_ASSERT(isnan(m.a.share[DAL_SOURCE_SOLVER]))
         else
             IS(m.a.share[DAL_SOURCE_SOLVER], cases[i].share);
-        if (cases[i].tells) IS(m.a.margin[DAL_SOURCE_SOLVER], cases[i].margin / 0.1);
+        if (cases[i].is_significant) IS(m.a.margin[DAL_SOURCE_SOLVER], cases[i].margin / 0.1);
     }
     /* With nothing to solve there is no share of it. */
     made_up m = make(fixture_system(model), "gauss4");
@@ -174,7 +174,7 @@ static void test_quad_precision(void)
     dal_model_free(model);
 }
 
-/* Halving alone: of T + R + T/2^p, which the whole run has and its twin, T 2^p/(2^p - 1) is the
+/* Halving alone: of T + R + T/2^p, which the whole run has and the half one, T 2^p/(2^p - 1) is the
  * difference, where the drift falls as it should within half an order. */
 static void test_halving(void)
 {

@@ -151,7 +151,7 @@ static void test_normal(void)
 
 /* ---- runs ---- */
 
-/* The greatest |dE/E| on count steps of gauss8 with h = 0.1, looked at a thousand times. */
+/* The greatest |dE/E| on count steps of gauss8 with h = 0.1, observed a thousand times. */
 static double energy_error(const dal_system *system, int extend, long long count)
 {
     dal_run_spec spec = fixture_spec(system, "gauss8", DAL_PHYSICAL, 0.1);

@@ -203,7 +203,7 @@ static void test_memory(void)
 }
 
 /* The same of compiled observables. */
-static void test_memory_for_looks(void)
+static void test_memory_for_samples(void)
 {
     dal_model *model = fixture_model(falling);
     const dal_run_spec spec = fixture_spec(fixture_system(model), "rk4", DAL_PHYSICAL, 0.001);
@@ -367,7 +367,7 @@ static void test_compiler_stopped(void)
     unlink("fake");
 }
 
-/* An object without the function, as another version might have left it, is made anew once. */
+/* An object without the function, as another version might have left it, is made once again. */
 static void test_foreign_object(void)
 {
     const dal_native_options fake = {.cache = "cache", .compiler = "./fake"};
@@ -504,7 +504,7 @@ void suite_generate_native(void)
     CU_add_test(suite, "batches: same bits, same failures", test_batches);
     CU_add_test(suite, "batches: starts after the change", test_batch_start);
     CU_add_test(suite, "memory runs out", test_memory);
-    CU_add_test(suite, "memory for looks runs out", test_memory_for_looks);
+    CU_add_test(suite, "memory for samples runs out", test_memory_for_samples);
     CU_add_test(suite, "directories that cannot be used", test_cache_refused);
     CU_add_test(suite, "directories with odd names", test_cache_names);
     CU_add_test(suite, "compilers that fail", test_compilers_refused);

@@ -118,7 +118,7 @@ static void test_other_node(void)
     dal__graph_free(graph);
 }
 
-/* What has no value stays a node, and its value is asked for when it is evaluated. */
+/* What has no value stays a node, and its value is found when it is evaluated. */
 static void test_never_folded(void)
 {
     static const char *const texts[] = {"log(0)",   "sqrt(-1)",      "asin(2)",  "exp(1e4)",
@@ -181,7 +181,7 @@ static void test_substitute(void)
 
 /* ---- no change of value ---- */
 
-/* A random formula as text, its value in long double, and a bound of what rounding may do to it. */
+/* A random formula as text, its value as a long double, and a bound of its rounding. */
 typedef struct sample {
     char text[4096];
     long double value, bound;

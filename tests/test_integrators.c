@@ -74,7 +74,7 @@ static void test_order_projected(void) { for_each(true, check_order, (void *)win
 
 /* A step in which a method that lacks a property shows it: an explicit one of high order comes too
  * close in the usual one. */
-static double telling_step(const dal_method *method, unsigned claim, double usual)
+static double revealing_step(const dal_method *method, unsigned claim, double usual)
 {
     const unsigned claims = dal_method_claims(method);
     const bool close = (claims & DAL_EXPLICIT) && dal_method_order(method) > 4;
@@ -84,7 +84,7 @@ static double telling_step(const dal_method *method, unsigned claim, double usua
 static void check_symplectic(const char *name, const dal_method *method, void *user)
 {
     if (!fixture_serves(method, user, DAL_LIFTED)) return;
-    const double h = telling_step(method, DAL_SYMPLECTIC, 0.1);
+    const double h = revealing_step(method, DAL_SYMPLECTIC, 0.1);
     const dal_run_spec spec = fixture_spec(user, name, DAL_LIFTED, h);
     dal_run *run = fixture_run(&spec);
     double defect = NAN;
@@ -113,7 +113,7 @@ static void check_symmetric(const char *name, const dal_method *method, void *us
     /* Carried multipliers would have to be turned round, too: see test_constrained.c. */
     if (dal_method_claims(method) & DAL_CARRIES_MULTIPLIER) return;
     if (!fixture_serves(method, user, DAL_PHYSICAL)) return;
-    const double h = telling_step(method, DAL_SYMMETRIC, 0.2);
+    const double h = revealing_step(method, DAL_SYMMETRIC, 0.2);
     const dal_run_spec spec = fixture_spec(user, name, DAL_PHYSICAL, h);
     CU_ASSERT_EQUAL(dal_check_reversibility(&spec, 0.0, NULL, &defect, NULL), DAL_OK);
     const bool claimed = (dal_method_claims(method) & DAL_SYMMETRIC) != 0;

@@ -251,7 +251,7 @@ static int parse(const char *bytes, size_t length)
     return status;
 }
 
-/* {"a": [[...]]} with so many brackets, closed or not. */
+/* {"a": [[...]]} with that many brackets, closed or not. */
 static int parse_nested(int depth, int closed)
 {
     char *bytes = malloc(2 * (size_t)depth + 16);

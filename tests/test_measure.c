@@ -153,7 +153,7 @@ static void test_derivatives_of_systems(void)
 
 /* ---- constraints ---- */
 
-/* The second constraint repeats the first at z = 0, near which the test looks. */
+/* The second constraint repeats the first at z = 0, near which the test evaluates it. */
 static const char twice[] = "coordinates: [x, y, z]\n"
                             "lagrangian: (x'^2 + y'^2 + z'^2)/2\n"
                             "constraints: [x' - y', 3*x' - (3 + z)*y']\n"
@@ -484,7 +484,7 @@ void suite_measure(void)
     CU_add_test(suite, "rank of G", test_rank);
     CU_add_test(suite, "velocities projected to D = 0", test_project_velocity);
     CU_add_test(suite, "no projection to a D without zero", test_project_velocity_nothing);
-    CU_add_test(suite, "onto a D of the size of rounding", test_project_velocity_rounding);
+    CU_add_test(suite, "projection to a D of the size of rounding", test_project_velocity_rounding);
     CU_add_test(suite, "kinds of D", test_degree);
     CU_add_test(suite, "nearly of another kind", test_nearly);
     CU_add_test(suite, "nearly dependent constraints", test_nearly_dependent);

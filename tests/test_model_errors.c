@@ -207,7 +207,7 @@ static dal_status make(const char *text, size_t length, dal_error *error)
     return status;
 }
 
-/* Columns count characters, so bytes that go on with one do not count; nor does the mark of the
+/* Columns count characters, so continuation bytes do not count; nor does the mark of the
  * byte order. */
 static void place_of(const char *text, const char *at, int *line, int *column)
 {

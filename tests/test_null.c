@@ -217,7 +217,7 @@ static void null_dal_batch_start(void)
     REFUSED(dal_batch_start(batch, 0, NULL, 0, NAME_MISSING, error));
 }
 
-/* A batch refused to go backwards has not been stepped: its lanes may still start anew. */
+/* A batch refused to go backwards has not been stepped: its lanes may still be started. */
 static void null_dal_batch_advance(void)
 {
     REFUSED_STATUS(dal_batch_advance(NULL, 1));

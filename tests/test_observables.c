@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_LOOKS = 1200, MOST_OBSERVABLES = 16, STEPS = 701 };
+enum { MAX_SAMPLES = 1200, MOST_OBSERVABLES = 16, STEPS = 701 };
 
 static char place[] = "/tmp/dal-follow-XXXXXX";
 static int compiles;
@@ -59,18 +59,18 @@ static dal_run *run_of(const subject *s, const dal_system *system)
     return fixture_run(&spec);
 }
 
-/* ---- looks ---- */
+/* ---- samples ---- */
 
 typedef struct series {
-    int looks, observables, most_at_once, refuse;
-    double t[MOST_LOOKS], x[MOST_OBSERVABLES][MOST_LOOKS];
+    int samples, observables, most_at_once, refuse;
+    double t[MAX_SAMPLES], x[MOST_OBSERVABLES][MAX_SAMPLES];
     dal_statistics statistics[MOST_OBSERVABLES];
 } series;
 
 static void begin(series *s, const dal_run *run)
 {
     memset(s, 0, sizeof *s);
-    s->refuse = MOST_LOOKS;
+    s->refuse = MAX_SAMPLES;
     s->observables = dal_run_observables(run);
     dal_statistics_start(s->statistics, s->observables);
 }
@@ -80,26 +80,26 @@ static dal_status take_one(void *user, dal_run *run)
     series *s = user;
     double x[MOST_OBSERVABLES];
     const dal_status status = dal_run_observe(run, x);
-    s->t[s->looks] = dal_run_time(run);
-    for (int i = 0; i < s->observables; i++) s->x[i][s->looks] = x[i];
+    s->t[s->samples] = dal_run_time(run);
+    for (int i = 0; i < s->observables; i++) s->x[i][s->samples] = x[i];
     dal_statistics_add(s->statistics, s->observables, dal_run_time(run), x);
-    s->looks++;
+    s->samples++;
     return status;
 }
 
-static dal_status take_many(void *user, dal_run *run, int looks, const double *t, const double *x,
+static dal_status take_many(void *user, dal_run *run, int samples, const double *t, const double *x,
                             size_t stride)
 {
     series *s = user;
-    CU_ASSERT_FATAL(s->looks + looks <= MOST_LOOKS && looks > 0);
-    CU_ASSERT(t[looks - 1] <= dal_run_time(run));
-    memcpy(s->t + s->looks, t, (size_t)looks * sizeof *t);
+    CU_ASSERT_FATAL(s->samples + samples <= MAX_SAMPLES && samples > 0);
+    CU_ASSERT(t[samples - 1] <= dal_run_time(run));
+    memcpy(s->t + s->samples, t, (size_t)samples * sizeof *t);
     for (int i = 0; i < s->observables; i++)
-        memcpy(s->x[i] + s->looks, x + (size_t)i * stride, (size_t)looks * sizeof *x);
-    dal_statistics_add_many(s->statistics, s->observables, looks, t, x, stride);
-    s->looks += looks;
-    if (looks > s->most_at_once) s->most_at_once = looks;
-    return s->looks > s->refuse ? DAL_INTERRUPTED : DAL_OK;
+        memcpy(s->x[i] + s->samples, x + (size_t)i * stride, (size_t)samples * sizeof *x);
+    dal_statistics_add_many(s->statistics, s->observables, samples, t, x, stride);
+    s->samples += samples;
+    if (samples > s->most_at_once) s->most_at_once = samples;
+    return s->samples > s->refuse ? DAL_INTERRUPTED : DAL_OK;
 }
 
 /* A row on every step or between two of them, or only at the end. */
@@ -134,7 +134,7 @@ static void same_series(const subject *of, const dal_system *system, int way)
     compile(run, way & 1, way & 2);
     CU_ASSERT_EQUAL(sample(plain, &one, false, every, rows, 0, rows), DAL_OK);
     CU_ASSERT_EQUAL(sample(run, &many, true, every, rows, 0, rows), DAL_OK);
-    CU_ASSERT_EQUAL(one.looks, 1 + STEPS / every);
+    CU_ASSERT_EQUAL(one.samples, 1 + STEPS / every);
     CU_ASSERT(one.observables > 0 && one.x[0][0] == one.x[0][0]);
     CU_ASSERT_EQUAL(memcmp(one.t, many.t, sizeof one.t), 0);
     CU_ASSERT_EQUAL(memcmp(one.x, many.x, sizeof one.x), 0);
@@ -153,7 +153,7 @@ static void test_bits(void)
     }
 }
 
-/* Broken off after every row, and gone on with by another run, compiled or not. */
+/* Interrupted after every row, and continued by another run, compiled or not. */
 static void test_pieces(void)
 {
     static series whole, pieces;
@@ -184,7 +184,7 @@ static void test_pieces(void)
 
 /* ---- ends before their time ---- */
 
-/* All looks before the step that fails are handed over. */
+/* All samples before the step that fails are delivered. */
 static void test_failure(void)
 {
     static series one, many;
@@ -198,12 +198,12 @@ static void test_failure(void)
         compile(run, way & 1, way & 2);
         if (way == 0) CU_ASSERT_EQUAL(sample(plain, &one, false, 1, 1, 0, 1), DAL_NOT_FINITE);
         CU_ASSERT_EQUAL(sample(run, &many, true, 1, 1, 0, 1), DAL_NOT_FINITE);
-        CU_ASSERT_EQUAL(many.looks, 1 + dal_run_steps(run));
+        CU_ASSERT_EQUAL(many.samples, 1 + dal_run_steps(run));
         CU_ASSERT_EQUAL(dal_run_steps(run), dal_run_steps(plain));
-        CU_ASSERT_EQUAL(many.t[many.looks - 1], dal_run_time(plain));
+        CU_ASSERT_EQUAL(many.t[many.samples - 1], dal_run_time(plain));
         double x[MOST_OBSERVABLES];
         CU_ASSERT_EQUAL(dal_run_observe(plain, x), DAL_OK);
-        CU_ASSERT_EQUAL(many.x[0][many.looks - 1], x[0]);
+        CU_ASSERT_EQUAL(many.x[0][many.samples - 1], x[0]);
         dal_run_free(run);
     }
     dal_run_free(plain);
@@ -221,7 +221,7 @@ static void test_refusal(void)
         s.refuse = 300;
         compile(run, way & 1, way & 2);
         CU_ASSERT_EQUAL(sample(run, &s, true, 1, 1, 0, 1), DAL_INTERRUPTED);
-        CU_ASSERT(s.looks > 300 && dal_run_steps(run) == s.looks - 1);
+        CU_ASSERT(s.samples > 300 && dal_run_steps(run) == s.samples - 1);
         dal_run_free(run);
     }
     dal_model_free(model);

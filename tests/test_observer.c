@@ -3,16 +3,16 @@
 #include <CUnit/CUnit.h>
 #include <math.h>
 
-typedef struct looks {
+typedef struct samples {
     long long count, every;
     double last, shown[4];
-} looks;
+} samples;
 
 static const double times[4] = {0.0, 0.25, 7.0, 10.0};
 
 static dal_status look(void *user, dal_run *run)
 {
-    looks *l = user;
+    samples *l = user;
     CU_ASSERT_EQUAL(dal_run_steps(run), l->count * l->every);
     l->count++;
     l->last = dal_run_time(run);
@@ -21,7 +21,7 @@ static dal_status look(void *user, dal_run *run)
 
 static dal_status show(void *user, dal_run *run, long long row, double t)
 {
-    looks *l = user;
+    samples *l = user;
     CU_ASSERT_DOUBLE_EQUAL(dal_run_time(run), t, 1e-12);
     l->shown[row] = t;
     return DAL_OK;
@@ -33,8 +33,8 @@ static double given(void *user, long long row)
     return times[row];
 }
 
-/* 100 steps of 0.1; rows on, between and at the end of steps do not disturb the looks. */
-static void test_looks(void)
+/* 100 steps of 0.1; rows on, between and at the end of steps do not disturb the observer. */
+static void test_calls(void)
 {
     dal_model *model;
     const dal_system *system;
@@ -42,7 +42,7 @@ static void test_looks(void)
     CU_ASSERT_EQUAL_FATAL(dal_model_system(model, &system, NULL), DAL_OK);
     const dal_run_spec spec = fixture_spec(system, "rk4", DAL_PHYSICAL, 0.1);
     for (int every = 1; every <= 7; every += 3) {
-        looks l = {.every = every};
+        samples l = {.every = every};
         const dal_observer observer = {
             .user = &l, .sample = show, .step = look, .every = every, .row_time = given};
         dal_run *run = fixture_run(&spec);
@@ -59,5 +59,5 @@ static void test_looks(void)
 void suite_observer(void)
 {
     CU_pSuite suite = CU_add_suite("observer", NULL, NULL);
-    CU_add_test(suite, "at steps, and rows at given times", test_looks);
+    CU_add_test(suite, "at steps, and rows at given times", test_calls);
 }

@@ -1,6 +1,6 @@
 /* test_phase_composition.c - compositions of symmetric methods, on the fixtures of the conformance
  * suite: order over a wide range of h, what they inherit, what they refuse, and that their steps
- * make up h.  Compositions of symplectic Euler, which that suite knows, only what it does not ask.
+ * make up h.  Of compositions of symplectic Euler, which that suite knows, the rest.
  */
 #include "fixtures.h"
 #include "quick.h"

@@ -1,5 +1,5 @@
 /* test_phase_lobatto.c - the Lobatto tableaus from their printed digits, by the conditions that
- * determine them, in long double:
+ * determine them, with long doubles:
  *
  *     c_i         0, 1, and P_(s-1)'(2c - 1) = 0, in rising order
  *     b_j         sum_j b_j c_j^(k-1) = 1/k, k = 1..s

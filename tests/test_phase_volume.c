@@ -169,7 +169,7 @@ static void test_quad(void)
 
 /* ---- the balance of volume ---- */
 
-/* J from the tangent system of another motion: x'' = -0.5 x' in the place of -0.3 x'. */
+/* J from the tangent system of another motion: x'' = -0.5 x' instead of -0.3 x'. */
 static void test_wrong_derivative(void)
 {
     dal_model *model = fixture_model("coordinates: [x]\naccelerations: {x: -0.3*x'}\n");

@@ -105,7 +105,7 @@ static void test_singular_systems(void)
     check_diagnosis("chaplygin-sleigh-nonlinear", (double[]){1, 1, 0}, (double[]){0, 1, 1});
 }
 
-/* A is regular here, but D_q v is not: no pivot tells. */
+/* A is regular here, but D_q v is not: no pivot shows it. */
 static void test_singular_rate(void)
 {
     reference b = reference_of_text("coordinates: [x, y, z]\n"

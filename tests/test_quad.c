@@ -160,18 +160,18 @@ static void test_constraint(void)
     dal_run *start = fixture_run(&spec);
     CU_ASSERT_EQUAL(dal_run_observe(start, out), DAL_OK);
     const double before = out[0];
-    dal_run *in_long = stepped(&spec, 200);
-    CU_ASSERT_EQUAL(dal_run_observe(in_long, out), DAL_OK);
+    dal_run *in_quad = stepped(&spec, 200);
+    CU_ASSERT_EQUAL(dal_run_observe(in_quad, out), DAL_OK);
     CU_ASSERT(fabs(out[0] - before) < 1e-30);
     CU_ASSERT_EQUAL(dal_run_observe(in_double, out), DAL_OK);
     CU_ASSERT(fabs(out[0] - before) > 1e-18);
     dal_run_free(in_double);
     dal_run_free(start);
-    dal_run_free(in_long);
+    dal_run_free(in_quad);
     dal_model_free(model);
 }
 
-/* Every integrator, and every observable off p = pi = 0: only rounding tells the two apart. */
+/* Every integrator, and every observable off p = pi = 0: only rounding separates the two. */
 static void compare(const dal_run_spec *of)
 {
     double a[64], b[64];
@@ -179,29 +179,29 @@ static void compare(const dal_run_spec *of)
     dal_run_spec spec = *of;
     dal_run *in_double = fixture_run(&spec);
     spec.options.precision = DAL_QUAD;
-    dal_run *in_long = fixture_run(&spec);
+    dal_run *in_quad = fixture_run(&spec);
     if (spec.options.space == DAL_LIFTED) {
         fixture_displace(in_double, 0.1);
-        fixture_displace(in_long, 0.1);
+        fixture_displace(in_quad, 0.1);
     }
     CU_ASSERT_EQUAL(dal_run_advance(in_double, 5, NULL), DAL_OK);
-    CU_ASSERT_EQUAL(dal_run_advance(in_long, 5, NULL), DAL_OK);
-    CU_ASSERT_EQUAL(dal_run_time(in_long), dal_run_time(in_double));
-    CU_ASSERT_EQUAL(dal_run_steps(in_long), 5);
+    CU_ASSERT_EQUAL(dal_run_advance(in_quad, 5, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_time(in_quad), dal_run_time(in_double));
+    CU_ASSERT_EQUAL(dal_run_steps(in_quad), 5);
     double worst = 0.0, least = 0.0;
     for (int i = 0; i < dal_run_dimension(in_double); i++) {
-        const double d = fabs(dal_run_state(in_long)[i] - dal_run_state(in_double)[i]);
+        const double d = fabs(dal_run_state(in_quad)[i] - dal_run_state(in_double)[i]);
         worst = fmax(worst, d);
         least = fmax(least, d);
     }
     CU_ASSERT_EQUAL(dal_run_observe(in_double, a), DAL_OK);
-    CU_ASSERT_EQUAL(dal_run_observe(in_long, b), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_observe(in_quad, b), DAL_OK);
     for (int i = 0; i < dal_run_observables(in_double); i++) worst = fmax(worst, fabs(a[i] - b[i]));
     dal_method_name(&spec.method, name, sizeof name);
     if (!(worst < 1e-12)) printf("\n  %s: %g\n", name, worst);
     CU_ASSERT(worst < 1e-12);
     dal_run_free(in_double);
-    dal_run_free(in_long);
+    dal_run_free(in_quad);
 }
 
 static void test_methods(void)

@@ -346,7 +346,7 @@ typedef struct polled {
     long long before, gap; /* the step of the last poll, the most steps between two */
 } polled;
 
-/* Asks for fewer polls from step 512 on. */
+/* Requests fewer polls from step 512 on. */
 static dal_status note_poll(void *user, dal_run *run)
 {
     polled *p = user;
@@ -357,7 +357,7 @@ static dal_status note_poll(void *user, dal_run *run)
     return DAL_OK;
 }
 
-/* 9 is rounded down to 7, 100 to 62; without a wish there are 992 steps from one to the next. */
+/* 9 is rounded down to 7, 100 to 62; by default there are 992 steps from one to the next. */
 static void test_polls(void)
 {
     const dal_system system = hand_made(oscillate, NULL);

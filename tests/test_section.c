@@ -1,4 +1,4 @@
-/* test_section.c - steps aside, and the crossings of a Poincare section. */
+/* test_section.c - intermediate steps, and the crossings of a Poincare section. */
 #include "allocation.h"
 #include "fixtures.h"
 #include <CUnit/CUnit.h>
@@ -75,7 +75,7 @@ static record crossings_of(const char *text, const char *method, double step, do
     return r;
 }
 
-/* ---- a step aside ---- */
+/* ---- an intermediate step ---- */
 
 static dal_status copy_x(void *user, dal_run *run)
 {
@@ -85,7 +85,7 @@ static dal_status copy_x(void *user, dal_run *run)
     return out[1] < 0.0 ? DAL_INTERRUPTED : DAL_OK;
 }
 
-static void test_aside(void)
+static void test_intermediate(void)
 {
     dal_model *model = fixture_model(OSCILLATOR("x"));
     const dal_run_spec spec = fixture_spec(fixture_system(model), "gauss12", DAL_LIFTED, 0.25);
@@ -407,7 +407,7 @@ static void test_out_of_memory(void)
 void suite_section(void)
 {
     CU_pSuite suite = CU_add_suite("Poincare sections", NULL, NULL);
-    CU_add_test(suite, "a step aside", test_aside);
+    CU_add_test(suite, "an intermediate step", test_intermediate);
     CU_add_test(suite, "times of crossings", test_times);
     CU_add_test(suite, "directions", test_directions);
     CU_add_test(suite, "a section in time", test_in_time);
@@ -421,6 +421,6 @@ void suite_section(void)
     CU_add_test(suite, "g = 0 at a step", test_on_a_step);
     CU_add_test(suite, "every method", test_methods);
     CU_add_test(suite, "what is refused", test_refuses);
-    CU_add_test(suite, "ends when told", test_stops);
+    CU_add_test(suite, "ends when interrupted", test_stops);
     CU_add_test(suite, "out of memory", test_out_of_memory);
 }

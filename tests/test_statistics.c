@@ -21,7 +21,7 @@ static dal_statistics statistics_of(signal *x, double T, int values)
     return s;
 }
 
-static dal_trend finding_of(signal *x, double T)
+static dal_trend trend_of_signal(signal *x, double T)
 {
     const dal_statistics s = statistics_of(x, T, VALUES);
     dal_trend f;
@@ -42,7 +42,7 @@ static void test_line(void)
     CU_ASSERT_EQUAL(s.count, VALUES);
     CU_ASSERT_EQUAL(s.blocks, 32);
     CU_ASSERT_EQUAL(s.length, 32);
-    const dal_trend f = finding_of(line, 10.0);
+    const dal_trend f = trend_of_signal(line, 10.0);
     CU_ASSERT_EQUAL(f.first, 3.0);
     CU_ASSERT_DOUBLE_EQUAL(f.last, -17.0, 1e-14);
     CU_ASSERT_DOUBLE_EQUAL(f.max_abs, 17.0, 1e-14);
@@ -56,29 +56,29 @@ static void test_line(void)
 /* Plain normal equations would lose all digits of this slope: 1e18 against 1e-3. */
 static void test_slope_beside_a_large_value(void)
 {
-    CU_ASSERT_DOUBLE_EQUAL(finding_of(high_line, 10.0).rate, 1e-3, 1e-8);
+    CU_ASSERT_DOUBLE_EQUAL(trend_of_signal(high_line, 10.0).rate, 1e-3, 1e-8);
 }
 
 /* One period in all the time may be a drift or none: the interval holds 0. */
 static void test_slope_of_a_wave(void)
 {
-    const dal_trend f = finding_of(one_wave, 10.0);
+    const dal_trend f = trend_of_signal(one_wave, 10.0);
     CU_ASSERT(f.rate_low < 0.0 && f.rate_high > 0.0);
     CU_ASSERT_EQUAL(f.max_drift, 10.0 * fmax(-f.rate_low, f.rate_high));
 }
 
 static void test_amplitude(void)
 {
-    const dal_trend f = finding_of(leaning_wave, 10.0);
+    const dal_trend f = trend_of_signal(leaning_wave, 10.0);
     CU_ASSERT_DOUBLE_EQUAL(f.amplitude, 1.0, 0.02);
     CU_ASSERT_DOUBLE_EQUAL(f.rate, 2.0, 0.01);
 }
 
 static void test_exponents(void)
 {
-    CU_ASSERT_DOUBLE_EQUAL(finding_of(square_root, 10.0).exponent, 0.5, 0.01);
-    CU_ASSERT_DOUBLE_EQUAL(finding_of(cube, 10.0).exponent, 3.0, 0.03);
-    CU_ASSERT_DOUBLE_EQUAL(finding_of(cube, 10.0).deviation, 1000.0, 1e-9);
+    CU_ASSERT_DOUBLE_EQUAL(trend_of_signal(square_root, 10.0).exponent, 0.5, 0.01);
+    CU_ASSERT_DOUBLE_EQUAL(trend_of_signal(cube, 10.0).exponent, 3.0, 0.03);
+    CU_ASSERT_DOUBLE_EQUAL(trend_of_signal(cube, 10.0).deviation, 1000.0, 1e-9);
 }
 
 /* Extremes count wherever they fall: in the first value, in a full block, in the open one, where
@@ -132,13 +132,13 @@ static double chance(uint64_t *state)
     return (double)((z ^ z >> 31) >> 11) * 0x1p-52 - 1.0;
 }
 
-enum { QUANTITIES = 3, LOOKS = 5000, STRIDE = LOOKS + 3 };
+enum { QUANTITIES = 3, SAMPLES = 5000, STRIDE = SAMPLES + 3 };
 
 /* Noise beside a value, a line, and noise in which now and then a value is none. */
-static void fill_looks(double *t, double *x)
+static void fill_samples(double *t, double *x)
 {
     uint64_t state = 7;
-    for (int k = 0; k < LOOKS; k++) {
+    for (int k = 0; k < SAMPLES; k++) {
         t[k] = 0.01 * k;
         x[k] = 1e3 + chance(&state);
         x[STRIDE + k] = 3.0 * t[k];
@@ -150,22 +150,22 @@ static void fill_looks(double *t, double *x)
 /* In portions of any size: the same bits as one by one. */
 static void test_many(void)
 {
-    static double t[LOOKS], x[QUANTITIES * STRIDE];
-    static const int most[] = {1, 5, 8, 64, 300, LOOKS};
+    static double t[SAMPLES], x[QUANTITIES * STRIDE];
+    static const int most[] = {1, 5, 8, 64, 300, SAMPLES};
     dal_statistics one[QUANTITIES], many[QUANTITIES];
-    fill_looks(t, x);
+    fill_samples(t, x);
     dal_statistics_start(one, QUANTITIES);
-    for (int k = 0; k < LOOKS; k++) {
+    for (int k = 0; k < SAMPLES; k++) {
         const double values[] = {x[k], x[STRIDE + k], x[2 * STRIDE + k]};
         dal_statistics_add(one, QUANTITIES, t[k], values);
     }
-    CU_ASSERT(one[2].lost && one[2].count < LOOKS && one[1].count == LOOKS);
+    CU_ASSERT(one[2].lost && one[2].count < SAMPLES && one[1].count == SAMPLES);
     for (size_t i = 0; i < sizeof most / sizeof most[0]; i++) {
         uint64_t state = i;
         dal_statistics_start(many, QUANTITIES);
-        for (int k = 0, portion; k < LOOKS; k += portion) {
+        for (int k = 0, portion; k < SAMPLES; k += portion) {
             portion = (int)(most[i] * 0.5 * (1.0 + fabs(chance(&state)))) + 1;
-            portion = portion < LOOKS - k ? portion : LOOKS - k;
+            portion = portion < SAMPLES - k ? portion : SAMPLES - k;
             dal_statistics_add_many(many, QUANTITIES, portion, t + k, x + k, STRIDE);
         }
         CU_ASSERT(memcmp(one, many, sizeof one) == 0);
@@ -219,7 +219,7 @@ static void test_packs(void)
 /* ---- roughness ---- */
 
 /* Of a random walk of n steps it is sqrt(n) sigma, of a line of n steps, sampled 8 apart, sqrt(8/n)
- * of its rise: whatever was joined. */
+ * of its rise: whatever was merged. */
 static void test_roughness(void)
 {
     static const int counts[] = {500, 1000, 3000, 100000};
@@ -285,7 +285,7 @@ static cover cover_of(double memory, double half_width)
             const double x = 0.001 * k + noise;
             dal_statistics_add(&s, 1, 0.001 * k, &x);
         }
-        dal_statistics_classify(&s, 1e9, 0, &f); /* roundings are not the question here */
+        dal_statistics_classify(&s, 1e9, 0, &f); /* roundings do not matter here */
         c.hold += f.rate_low <= 1.0 && f.rate_high >= 1.0;
         c.narrow += f.rate_high - f.rate_low < 2.0 * half_width;
     }

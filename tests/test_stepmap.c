@@ -45,7 +45,7 @@ static void test_order_of_reference(void)
     dal_model_free(model);
 }
 
-/* Slopes of errors h^3 and their noise; rk4 asks F four times a step. */
+/* Slopes of errors h^3 and their noise; rk4 evaluates F four times a step. */
 static void test_order_slopes(void)
 {
     dal_order order = {.levels = 4,
@@ -73,7 +73,7 @@ static double order_of(int levels, double step, const double *error)
     return order.order;
 }
 
-/* No order where the errors tell of none: one slope alone, slopes that do not agree, errors of the
+/* No order where the errors show none: one slope alone, slopes that do not agree, errors of the
  * size of the solution, of rounding, and none. */
 static void test_no_order(void)
 {

@@ -1,5 +1,5 @@
 /* test_tableaus.c - the Gauss tableaus from their printed digits, against other formulas for them,
- * worked out anew in long double: xi_i = 2 c_i - 1 the roots of P_s by Newton,
+ * computed again with long doubles: xi_i = 2 c_i - 1 the roots of P_s by Newton,
  *
  *     b_j = 1 / ((1 - xi_j^2) P_s'(xi_j)^2)
  *     l_j(x) = b_j sum_(k<s) (2k + 1) P_k(xi_j) P_k(2x - 1)

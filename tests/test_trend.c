@@ -1,4 +1,4 @@
-/* test_trend.c - sizes and trends: the matrix of answers on 1000 synthetic series of each kind and
+/* test_trend.c - sizes and trends: the matrix of results on 1000 synthetic series of each kind and
  * the goals that it must meet, and series with one peculiarity each. */
 #include "quick.h"
 #include "series.h"
@@ -43,7 +43,7 @@ static const series_kind *kind_named(const char *name)
     return NULL;
 }
 
-/* Of any size, about any value, but where roundings are the question. */
+/* Of any size, about any value, but where roundings matter. */
 static double rescale(const series_kind *kind, series *s)
 {
     const double size = series_log_between(&s->random, 1e-6, 1e3);
@@ -117,8 +117,8 @@ static double walks_among(const series_kind *kind)
     return percent(all.said[DAL_TREND_RANDOM_WALK], &all);
 }
 
-/* A walk is called one nine times as often as noise whose memory of T/8 looks like one: with equal
- * odds before, such an answer is right in nine of ten cases. */
+/* A walk is called one nine times as often as noise whose memory of T/8 resembles one: with equal
+ * odds before, such a result is right in nine of ten cases. */
 static void test_walks(void)
 {
     const double few = margin_of((int)long_run(SERIES));
@@ -132,7 +132,7 @@ static void test_matrix(void)
 {
     clock_t time = 0;
     int count = 0;
-    printf("\n%-28s %5s %5s %5s %6s   answers, %%\n", "", "wrong", "sure", "undec", "cover");
+    printf("\n%-28s %5s %5s %5s %6s   results, %%\n", "", "wrong", "sure", "undec", "cover");
     for (int i = 0; i < series_kind_count; i++) {
         tally all = {0};
         for (int k = 0; k < (int)long_run(SERIES); k++)

@@ -1,5 +1,5 @@
 /* test_trend_runs.c - trends of runs of shipped systems: those that were named wrongly once, and
- * whether a run fifty times as long refutes what is said of a short one. */
+ * whether a run fifty times as long contradicts the statement about a short one. */
 #include "quick.h"
 #include "series.h"
 #include <CUnit/CUnit.h>
@@ -11,10 +11,10 @@
 
 enum { OBSERVABLES = 64 };
 
-static dal_status take(void *user, dal_run *run, int looks, const double *at, const double *values,
-                       size_t stride)
+static dal_status take(void *user, dal_run *run, int samples, const double *at,
+                       const double *values, size_t stride)
 {
-    dal_statistics_add_many(user, dal_run_observables(run), looks, at, values, stride);
+    dal_statistics_add_many(user, dal_run_observables(run), samples, at, values, stride);
     return DAL_OK;
 }
 
@@ -131,7 +131,7 @@ static void compare_lengths(const char *system, const char *method, int *quantit
     }
 }
 
-/* An oscillation of many times T is a line up to T: no series can tell.  Hence one in a hundred. */
+/* An oscillation of many times T is a line up to T, in any series.  Hence one in a hundred. */
 static void test_lengths(void)
 {
     static const char *const methods[] = {"rk4", "gauss4", "stormer-verlet", "mclachlan-perlmutter",

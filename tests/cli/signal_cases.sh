@@ -1,6 +1,6 @@
 # Signals: the first ends a command where its work can be ended, the second ends the program.
 
-# One step that takes long: dop853 divides it into 1e5 substeps, in long numbers.
+# One step that takes long: dop853 divides it into 1e5 substeps, in quad precision.
 cat >swing.yaml <<'END'
 coordinates: [x]
 lagrangian: (x'^2 - x^2)/2
