@@ -5,8 +5,7 @@
  *
  * The implicit midpoint rule preserves D, which is quadratic, and the total momentum, which is
  * linear.  Prints the errors of D/K and of the momentum, and how far a run continued from a
- * checkpoint differs; fails if the first two are not at rounding level, or if the third is not 0.
- * */
+ * checkpoint differs; fails if the first two are not at rounding level or the third is not 0. */
 #include "isokinetic_fluid.h"
 #include <stdio.h>
 
@@ -23,8 +22,7 @@ static double momentum(const double *v)
     return max;
 }
 
-/* Puts `other` into the state of `run` and advances both; the largest difference of their states.
- * */
+/* Puts `other` into the state of `run` and advances both: the max norm of their difference. */
 static dal_status compare(dal_run *run, dal_run *other, double *difference, dal_error *error)
 {
     size_t count;

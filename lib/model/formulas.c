@@ -246,8 +246,8 @@ static dal_status parse_picture(dal_model *model, dal_error *error)
  *     W dv/dt = b + B^T h,   D = 0:   (A W^-1 B^T) h = -(c + A W^-1 b)
  *
  * Chetaev's rule is B = A = D_v.  A constraint that an actuator enforces (servo constraint) has a
- * direction B of its own, and A W^-1 B^T has no symmetry.  Marle, Rep. Math. Phys. 42 (1998) 211.
- * */
+ * direction B of its own, and A W^-1 B^T has no symmetry.
+ * Marle, Rep. Math. Phys. 42 (1998) 211. */
 static dal_status check_reactions(dal_model *model, dal_error *error)
 {
     dal__equations *e = &model->equations;
