@@ -29,29 +29,29 @@ extern "C" {
 
 /* ---- statuses ------------------------------------------------------------------------------ */
 
-#define DAL_STATUS_LIST(X)                                                                         \
-    X(OK, "done")                                                                                  \
-    X(MEMORY, "out of memory")                                                                     \
-    X(ARGUMENT, "argument out of range")                                                           \
-    X(SYNTAX, "syntax error")                                                                      \
-    X(NAME, "unknown name")                                                                        \
-    X(MODEL, "the model cannot be used")                                                           \
-    X(TOO_LARGE, "too large")                                                                      \
-    X(INCONSISTENT, "the start violates a constraint")                                             \
-    X(RANK, "the constraints are rank-deficient at the start")                                     \
-    X(UNSUPPORTED, "the integrator needs what the system lacks")                                   \
-    X(SINGULAR, "a constraint became singular")                                                    \
-    X(SINGULAR_MASS, "the mass matrix became singular")                                            \
-    X(NOT_FINITE, "a value is not finite")                                                         \
-    X(NOT_CONVERGED, "the implicit equations did not converge")                                    \
-    X(GAUGE, "the gauge variable e reached zero")                                                  \
-    X(IO, "input or output failed")                                                                \
-    X(INTERRUPTED, "interrupted")
+#define DAL_STATUS_LIST(STATUS)                                                                    \
+    STATUS(OK, "done")                                                                             \
+    STATUS(MEMORY, "out of memory")                                                                \
+    STATUS(ARGUMENT, "argument out of range")                                                      \
+    STATUS(SYNTAX, "syntax error")                                                                 \
+    STATUS(NAME, "unknown name")                                                                   \
+    STATUS(MODEL, "the model cannot be used")                                                      \
+    STATUS(TOO_LARGE, "too large")                                                                 \
+    STATUS(INCONSISTENT, "the start violates a constraint")                                        \
+    STATUS(RANK, "the constraints are rank-deficient at the start")                                \
+    STATUS(UNSUPPORTED, "the integrator needs what the system lacks")                              \
+    STATUS(SINGULAR, "a constraint became singular")                                               \
+    STATUS(SINGULAR_MASS, "the mass matrix became singular")                                       \
+    STATUS(NOT_FINITE, "a value is not finite")                                                    \
+    STATUS(NOT_CONVERGED, "the implicit equations did not converge")                               \
+    STATUS(GAUGE, "the gauge variable e reached zero")                                             \
+    STATUS(IO, "input or output failed")                                                           \
+    STATUS(INTERRUPTED, "interrupted")
 
 typedef enum dal_status {
-#define X(code, text) DAL_##code,
-    DAL_STATUS_LIST(X)
-#undef X
+#define CODE(code, text) DAL_##code,
+    DAL_STATUS_LIST(CODE)
+#undef CODE
         DAL_STATUS_COUNT
 } dal_status;
 

@@ -6,29 +6,29 @@
 typedef struct dal_model dal_model;
 
 /* The sections of a system file; lists and single values have no names. */
-#define DAL_SECTION_LIST(X)                                                                        \
-    X(TITLE, "title")                                                                              \
-    X(REFERENCE, "reference")                                                                      \
-    X(COORDINATES, "coordinates")     /* text: a name */                                           \
-    X(PARAMETERS, "parameters")       /* name, text: a number */                                   \
-    X(LET, "let")                     /* name, formula */                                          \
-    X(LAGRANGIAN, "lagrangian")       /* formula */                                                \
-    X(ACCELERATIONS, "accelerations") /* coordinate, formula; instead of a Lagrangian */           \
-    X(FORCES, "forces")               /* coordinate, formula */                                    \
-    X(CONSTRAINTS, "constraints")     /* formula */                                                \
-    X(REACTIONS, "reactions")         /* constraint.coordinate, as 2.x: formula; see below */      \
-    X(MECHANICS, "mechanics")         /* lagrange-d'alembert (default) or vakonomic */             \
-    X(GAUGE, "gauge")                 /* e or mu_e, formula in t and parameters */                 \
-    X(START, "start")                 /* name, formula in parameters */                            \
-    X(INVARIANTS, "invariants")       /* name, formula */                                          \
-    X(EXACT, "exact")                 /* coordinate, formula in t and parameters */                \
-    X(TAGS, "tags")                   /* a word */                                                 \
-    X(PICTURE, "picture")             /* x, y, angle, ..: formula; body: a word */
+#define DAL_SECTION_LIST(SECTION)                                                                  \
+    SECTION(TITLE, "title")                                                                        \
+    SECTION(REFERENCE, "reference")                                                                \
+    SECTION(COORDINATES, "coordinates")     /* text: a name */                                     \
+    SECTION(PARAMETERS, "parameters")       /* name, text: a number */                             \
+    SECTION(LET, "let")                     /* name, formula */                                    \
+    SECTION(LAGRANGIAN, "lagrangian")       /* formula */                                          \
+    SECTION(ACCELERATIONS, "accelerations") /* coordinate, formula; instead of a Lagrangian */     \
+    SECTION(FORCES, "forces")               /* coordinate, formula */                              \
+    SECTION(CONSTRAINTS, "constraints")     /* formula */                                          \
+    SECTION(REACTIONS, "reactions")   /* constraint.coordinate, as 2.x: formula; see below */      \
+    SECTION(MECHANICS, "mechanics")   /* lagrange-d'alembert (default) or vakonomic */             \
+    SECTION(GAUGE, "gauge")           /* e or mu_e, formula in t and parameters */                 \
+    SECTION(START, "start")           /* name, formula in parameters */                            \
+    SECTION(INVARIANTS, "invariants") /* name, formula */                                          \
+    SECTION(EXACT, "exact")           /* coordinate, formula in t and parameters */                \
+    SECTION(TAGS, "tags")             /* a word */                                                 \
+    SECTION(PICTURE, "picture")       /* x, y, angle, ..: formula; body: a word */
 
 typedef enum dal_section {
-#define X(code, text) DAL_SECTION_##code,
-    DAL_SECTION_LIST(X)
-#undef X
+#define CODE(code, text) DAL_SECTION_##code,
+    DAL_SECTION_LIST(CODE)
+#undef CODE
         DAL_SECTION_COUNT
 } dal_section;
 
@@ -50,7 +50,7 @@ dal_status dal_model_add(dal_model *model, dal_section section, const char *name
                          int line, int column, dal_error *error);
 
 /* Reads a system file (YAML). [alloc]  The first takes the text itself, the second a path, the
- * third the name of a system that travels inside the library ("chaplygin-sleigh").  The name of a
+ * third the name of a system that is embedded in the library ("chaplygin-sleigh").  The name of a
  * text may be NULL. */
 dal_status dal_model_read(dal_model **model, const char *name, const char *text, size_t length,
                           dal_error *error);

@@ -4,6 +4,7 @@
  * D = 0 alone, or not at all; off p = pi = 0 the lift adds the force pi/e, which does work.  H
  * changes at the rate pi.F_t.  What the motion need not conserve has no drift that a method could
  * be blamed for. */
+#include "core/words.h"
 #include "dalembert_analysis.h"
 #include <float.h>
 #include <math.h>
@@ -52,12 +53,7 @@ static dal_conservation conservation_of_energy(const dal_run *run, const places 
 
 const char *dal_conservation_text(dal_conservation conservation)
 {
-    static const char *const text[] = {
-#define CONSERVATION_TEXT(code, text) text,
-        DAL_CONSERVATION_LIST(CONSERVATION_TEXT)
-#undef CONSERVATION_TEXT
-    };
-    return (unsigned)conservation < sizeof text / sizeof text[0] ? text[conservation] : "?";
+    DAL__RETURN_WORD(DAL_CONSERVATION_LIST, DAL__SECOND, conservation, "?");
 }
 
 void dal_run_classify(const dal_run *run, const dal_statistics *statistics, int aborted,

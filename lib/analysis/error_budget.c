@@ -7,6 +7,7 @@
 #include "analysis/error_shares.h"
 #include "analysis/vectors.h"
 #include "core/arguments.h"
+#include "core/words.h"
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -30,22 +31,12 @@ typedef struct comparisons {
 
 const char *dal_comparison_name(dal_comparison_run comparison)
 {
-    static const char *const names[] = {
-#define RUN_NAME(code, word, text) word,
-        DAL_COMPARISON_LIST(RUN_NAME)
-#undef RUN_NAME
-    };
-    return (unsigned)comparison < DAL_COMPARISONS ? names[comparison] : "?";
+    DAL__RETURN_WORD(DAL_COMPARISON_LIST, DAL__SECOND, comparison, "?");
 }
 
 const char *dal_comparison_text(dal_comparison_run comparison)
 {
-    static const char *const texts[] = {
-#define RUN_TEXT(code, word, text) text,
-        DAL_COMPARISON_LIST(RUN_TEXT)
-#undef RUN_TEXT
-    };
-    return (unsigned)comparison < DAL_COMPARISONS ? texts[comparison] : "?";
+    DAL__RETURN_WORD(DAL_COMPARISON_LIST, DAL__THIRD, comparison, "?");
 }
 
 /* ---- the specs ---- */

@@ -4,6 +4,7 @@
  * deviates, and clearly so; rates of parts add up to that of the sum.  Else it is measured by the
  * greatest deviation, and parts are as large as they are. */
 #include "analysis/error_shares.h"
+#include "core/words.h"
 #include <float.h>
 #include <math.h>
 #include <stdio.h>
@@ -19,12 +20,7 @@ static const double half_an_order = 0.5;
 
 const char *dal_error_source_name(dal_error_source source)
 {
-    static const char *const names[] = {
-#define SOURCE_NAME(code, word) word,
-        DAL_ERROR_SOURCE_LIST(SOURCE_NAME)
-#undef SOURCE_NAME
-    };
-    return (unsigned)source < DAL_ERROR_SOURCES ? names[source] : "?";
+    DAL__RETURN_WORD(DAL_ERROR_SOURCE_LIST, DAL__SECOND, source, "?");
 }
 
 static double half_width(const dal_trend *f) { return 0.5 * (f->rate_high - f->rate_low); }

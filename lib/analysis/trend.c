@@ -18,6 +18,7 @@
 #include "analysis/statistics.h"
 #include "analysis/trend_drift.h"
 #include "analysis/trend_growth.h"
+#include "core/words.h"
 #include <float.h>
 #include <math.h>
 
@@ -308,20 +309,10 @@ void dal_statistics_classify(const dal_statistics *s, double scale, int aborted,
 
 const char *dal_trend_text(dal_trend_class trend)
 {
-    static const char *const text[] = {
-#define TREND_WORD(code, word) word,
-        DAL_TREND_LIST(TREND_WORD)
-#undef TREND_WORD
-    };
-    return (unsigned)trend < DAL_TREND_COUNT ? text[trend] : "?";
+    DAL__RETURN_WORD(DAL_TREND_LIST, DAL__SECOND, trend, "?");
 }
 
 const char *dal_size_text(dal_size_class size)
 {
-    static const char *const text[] = {
-#define SIZE_WORD(code, word) word,
-        DAL_SIZE_LIST(SIZE_WORD)
-#undef SIZE_WORD
-    };
-    return (unsigned)size < DAL_SIZE_COUNT ? text[size] : "?";
+    DAL__RETURN_WORD(DAL_SIZE_LIST, DAL__SECOND, size, "?");
 }

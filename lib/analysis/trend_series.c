@@ -9,6 +9,7 @@
  *
  * A tone is taken when it lowers N/2 log of the sum of squares by tone_worth. */
 #include "analysis/trend_series.h"
+#include "core/vector.h"
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -86,16 +87,6 @@ typedef struct tone_fit {
     double residue[DAL_STATISTICS_BLOCKS], square;
 } tone_fit;
 
-static double dot(const double *a, const double *b, int n)
-{
-    double sum[4] = {0};
-    int i = 0;
-    for (; i + 4 <= n; i += 4)
-        for (int k = 0; k < 4; k++) sum[k] += a[i + k] * b[i + k];
-    for (; i < n; i++) sum[0] += a[i] * b[i];
-    return (sum[0] + sum[1]) + (sum[2] + sum[3]);
-}
-
 /* Orthonormal polynomials on the blocks, by x p_k = p_(k+1) + c_k p_(k-1). */
 static void fill_polynomials(tone_fit *f)
 {
@@ -104,10 +95,10 @@ static void fill_polynomials(tone_fit *f)
         double *const p = f->column[k], *const before = f->column[k ? k - 1 : 0];
         for (int i = 0; i < n; i++) p[i] = k ? (2.0 * i + 1.0 - n) / n * before[i] : 1.0;
         for (int l = k - 2; l >= 0; l -= 2) {
-            const double part = dot(p, f->column[l], n);
+            const double part = dal__dot_product(n, p, f->column[l]);
             for (int i = 0; i < n; i++) p[i] -= part * f->column[l][i];
         }
-        const double size = 1.0 / sqrt(dot(p, p, n));
+        const double size = 1.0 / sqrt(dal__dot_product(n, p, p));
         for (int i = 0; i < n; i++) p[i] *= size;
     }
 }
@@ -194,9 +185,9 @@ static void newton_step(tone_fit *f, const double *x)
             turn[i] = size * (i - 0.5 * n) * (f->b[l] * co[i] - f->a[l] * si[i]);
     }
     for (int i = 0; i < columns; i++) {
-        c[i] = dot(f->column[i], x, n);
+        c[i] = dal__dot_product(n, f->column[i], x);
         for (int k = i < POLYNOMIALS ? i : 0; k <= i; k++)
-            m[i][k] = i < POLYNOMIALS ? 1.0 : dot(f->column[i], f->column[k], n);
+            m[i][k] = i < POLYNOMIALS ? 1.0 : dal__dot_product(n, f->column[i], f->column[k]);
         if (i < POLYNOMIALS)
             for (int k = 0; k < i; k++) m[i][k] = 0.0;
     }
@@ -204,7 +195,7 @@ static void newton_step(tone_fit *f, const double *x)
     memcpy(f->residue, x, (size_t)n * sizeof *x);
     for (int i = 0; i < columns; i++)
         for (int k = 0; k < n; k++) f->residue[k] -= c[i] * f->column[i][k];
-    f->square = dot(f->residue, f->residue, n);
+    f->square = dal__dot_product(n, f->residue, f->residue);
     for (int l = 0; l < f->tones; l++) {
         const double *const part = c + POLYNOMIALS + 3 * l;
         const double limit = 0.5 * 2.0 * pi / n; /* half a period at a time */
@@ -226,7 +217,7 @@ static bool add_tone(tone_fit *f, const double *x)
     f->a[f->tones] = f->b[f->tones] = 0.0;
     f->tones++;
     for (int i = 0; i < NEWTON_STEPS; i++) newton_step(f, x);
-    const double min = 1e-8 * dot(x, x, f->n);
+    const double min = 1e-8 * dal__dot_product(f->n, x, x);
     if (0.5 * f->n * log((square + min) / (f->square + min)) >= tone_worth) return true;
     *f = before;
     return false;
@@ -283,7 +274,8 @@ void dal__trend_bin(const series *s, dal__bins *b)
         low = fmin(low, b->mean[m]);
         high = fmax(high, b->mean[m]);
     }
-    for (int j = 0; j < DAL__WAVES; j++) b->wave[j] = dot(dal__cosine[j], b->mean, DAL__BINS);
+    for (int j = 0; j < DAL__WAVES; j++)
+        b->wave[j] = dal__dot_product(DAL__BINS, dal__cosine[j], b->mean);
     b->range = high - low;
     b->half_range = 0.5 * (s->high - s->low);
     b->rounding = s->rounding;

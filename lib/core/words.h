@@ -10,6 +10,8 @@
 #define DAL__FIRST_OF(first, ...) first
 /* The second column of a list of rows (code, word) or (code, word, ...), with a comma behind. */
 #define DAL__SECOND(code, ...) DAL__FIRST_OF(__VA_ARGS__, 0),
+/* The third column of a list of rows (code, word, text). */
+#define DAL__THIRD(code, word, text) text,
 
 /* Returns from a function with the word of a value, or another where the list has none. */
 #define DAL__RETURN_WORD(LIST, COLUMN, value, other)                                               \

@@ -20,6 +20,7 @@
  *
  * The divisor is the square of that part of v that D leaves free, so F~ = F on D = 0. */
 #include "model/energy.h"
+#include "core/vector.h"
 #include "expr/derivative.h"
 #include "expr/simplify.h"
 #include "expr/traversal.h"
@@ -142,13 +143,6 @@ static unsigned by_parts(identity *id)
 
 /* ---- on D = 0 ---- */
 
-static double dot(int n, const double *a, const double *b)
-{
-    double sum = 0.0;
-    for (int i = 0; i < n; i++) sum += a[i] * b[i];
-    return sum;
-}
-
 /* Makes scratch[a*n ...] the unit vector along what A_a has across the rows before it, and adds to
  * the shift what D_a lacks along it.  The size of the addition. */
 static double shift_along(const identity *id, int a, double *scratch, double *shift)
@@ -162,10 +156,10 @@ static double shift_along(const identity *id, int a, double *scratch, double *sh
     }
     missing -= dal__evaluate(e->graph, e->constraint[a], id->point);
     for (int b = 0; b < a; b++) {
-        double along = dot(n, unit, scratch + b * n);
+        double along = dal__dot_product(n, unit, scratch + b * n);
         for (int i = 0; i < n; i++) unit[i] -= along * scratch[b * n + i];
     }
-    double size = sqrt(dot(n, unit, unit));
+    double size = sqrt(dal__dot_product(n, unit, unit));
     for (int i = 0; i < n; i++) unit[i] /= size;
     for (int i = 0; i < n; i++) shift[i] += missing / size * unit[i];
     return fabs(missing / size);
@@ -178,7 +172,7 @@ static bool reach_surface(identity *id, double *scratch)
     const dal__equations *e = id->e;
     double *v = id->point + e->v, *shift = scratch + e->m * e->n;
     for (int k = 0; k < MAX_ITERATIONS; k++) {
-        double change = 0.0, size = sqrt(dot(e->n, v, v));
+        double change = 0.0, size = sqrt(dal__dot_product(e->n, v, v));
         for (int i = 0; i < e->n; i++) shift[i] = 0.0;
         for (int a = 0; a < e->m; a++) change += shift_along(id, a, scratch, shift);
         if (!isfinite(change)) return false;

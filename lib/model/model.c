@@ -1,5 +1,6 @@
 /* model.c - a model: named texts, kept until its system is made. */
 #include "model/model.h"
+#include "core/words.h"
 #include "expr/lexer.h"
 #include <stdarg.h>
 #include <stdio.h>
@@ -13,10 +14,7 @@ typedef struct dal__block {
 
 const char *dal__section_name(dal_section section)
 {
-#define NAME(code, text) text,
-    static const char *const names[] = {DAL_SECTION_LIST(NAME)};
-#undef NAME
-    return names[section];
+    DAL__RETURN_WORD(DAL_SECTION_LIST, DAL__SECOND, section, "?");
 }
 
 dal__form dal__section_form(dal_section section)
