@@ -287,26 +287,20 @@ static const char notes[] =
     "'dalembert run'.  A directory gets section.csv and, by gnuplot, section.svg with its "
     "script.\n";
 
-static int parse_direction(const char *value, int *direction)
-{
-    static const char *const words[] = {"down", "both", "up"};
-    for (int i = 0; i < 3; i++) {
-        if (strcmp(value, words[i]) != 0) continue;
-        *direction = i - 1;
-        return CLI_DONE;
-    }
-    return cli_fail(CLI_USAGE, "--direction: '%s' is not up, down or both", value);
-}
-
 static int parse_section_option(void *user, int option, const char *value)
 {
+    static const char *const words[] = {"up", "down", "both"};
+    static const int directions[] = {1, -1, 0};
     section *s = user;
+    int k;
     switch (option) {
     case OWN_on:
         s->on = value;
         return CLI_DONE;
     case OWN_direction:
-        return parse_direction(value, &s->direction);
+        k = cli_word("--direction", value, words, 3);
+        if (k >= 0) s->direction = directions[k];
+        return k >= 0 ? CLI_DONE : CLI_USAGE;
     case OWN_transient:
         return cli_number("--transient", value, &s->transient);
     case OWN_axes:

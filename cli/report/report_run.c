@@ -66,15 +66,6 @@ static int observable_group(const char *name)
                                         : GROUP_INVARIANTS;
 }
 
-/* The summary gives a trend to what should not change. */
-static bool has_trend(const run_page *run, const char *name)
-{
-    for (int row = 1; row < run->summary.rows; row++)
-        if (report_csv_is(&run->summary, row, "observable", name))
-            return !report_csv_is(&run->summary, row, "trend", "");
-    return false;
-}
-
 static plot_curve *add_curve(report_plot *plot, const char *title)
 {
     return plot->count < PLOT_CURVES ? report_curve(plot, title) : NULL;
@@ -98,8 +89,12 @@ static void place_columns(run_page *run)
         c->group = i <= n             ? GROUP_COORDINATES
                    : i >= observables ? observable_group(name)
                                       : NO_GROUP;
-        c->is_conserved = i >= observables &&
-                          ((c->group != GROUP_E && c->group != GROUP_H) || has_trend(run, name));
+        /* Of E and H the summary knows: it gives a trend to what should not change. */
+        bool has_trend = c->group != GROUP_E && c->group != GROUP_H;
+        for (int row = 1; row < run->summary.rows; row++)
+            has_trend |= report_csv_is(&run->summary, row, "observable", name) &&
+                         !report_csv_is(&run->summary, row, "trend", "");
+        c->is_conserved = i >= observables && has_trend;
         if (c->group != NO_GROUP) c->curve = add_curve(&run->plot[c->group], name);
         if (c->is_conserved) c->envelope = add_curve(&run->drift, name);
     }

@@ -12,7 +12,7 @@ mkdir -p begun && touch begun/study.yaml
 try 2 report begun
 says "'begun' holds a study that is not finished: 'dalembert resume' continues it"
 try 2 report hollow --format gif
-says "'gif' is neither svg nor png"
+says "'gif' is not svg or png"
 
 cat >drawn.yaml <<'END_OF_STUDY'
 title: Three & more

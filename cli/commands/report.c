@@ -1,12 +1,11 @@
 /* report.c - `dalembert report DIR`: a page with figures by gnuplot. */
 #include "io/output.h"
-#include "report_order.h"
-#include "report_run.h"
-#include "report_study.h"
+#include "report/report_order.h"
+#include "report/report_run.h"
+#include "report/report_study.h"
 #include "ui/cli.h"
 
 #include <stdlib.h>
-#include <string.h>
 #include <unistd.h>
 
 /* The file by which a directory is recognised, and what writes its page. */
@@ -41,12 +40,13 @@ static const char notes[] =
 
 int command_report(int argc, char **argv)
 {
-    report r = {.format = "svg"};
+    static const char *const formats[] = {"svg", "png"};
+    report r = {.format = formats[0]};
     cli_args args = cli_begin(argc, argv, options, OWN_OPTIONS, notes);
     const char *value;
     for (int k; (k = cli_next(&args, &value)) != CLI_STOP;) {
-        if (k == OWN_format && strcmp(value, "svg") != 0 && strcmp(value, "png") != 0)
-            cli_stop(&args, cli_fail(CLI_USAGE, "--format: '%s' is neither svg nor png", value));
+        if (k == OWN_format && cli_word("--format", value, formats, 2) < 0)
+            cli_stop(&args, CLI_USAGE);
         else if (k == OWN_format)
             r.format = value;
         else if (r.directory)
