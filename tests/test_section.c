@@ -192,6 +192,20 @@ static void test_pairs_at_the_ends(void)
     }
 }
 
+/* A start on the surface is no crossing, but t = 0.05 in the first step is one; sqrt(t) leaves the
+ * surface without a rate. */
+static void test_from_the_surface(void)
+{
+    dal_crossings found;
+    record r = crossings_of(OSCILLATOR("t*(t - 0.05)"), "gauss12", 0.1, 1.0, 0, &found);
+    CU_ASSERT(r.count == 1 && found.up == 1 && found.down == 0 && found.touches == 0);
+    CU_ASSERT_DOUBLE_EQUAL(r.t[0], 0.05, 1e-15);
+    r = crossings_of(OSCILLATOR("t*(0.05 - t)"), "gauss12", 0.1, 0.1, 0, &found);
+    CU_ASSERT(r.count == 1 && found.up == 0 && found.down == 1 && found.touches == 0);
+    r = crossings_of(OSCILLATOR("sqrt(t)"), "gauss12", 0.1, 1.0, 0, &found);
+    CU_ASSERT(r.count == 0 && found.touches == 0);
+}
+
 /* 1 + sqrt(t) > 0 has no rate at t = 0, the start. */
 static void test_no_rate_at_an_end(void)
 {
@@ -413,6 +427,7 @@ void suite_section(void)
     CU_add_test(suite, "a section in time", test_in_time);
     CU_add_test(suite, "pairs within a step", test_pairs_in_a_step);
     CU_add_test(suite, "pairs in the first and the last step", test_pairs_at_the_ends);
+    CU_add_test(suite, "from the surface", test_from_the_surface);
     CU_add_test(suite, "no rate at an end", test_no_rate_at_an_end);
     CU_add_test(suite, "pairs in the step before or after", test_pairs_on_either_side);
     CU_add_test(suite, "touches", test_touches);

@@ -44,6 +44,7 @@ typedef struct search {
     mark before, last, now; /* the present state, and those two steps and one step ago */
     double h, greatest;     /* |g| */
     long long examined;     /* the last step that was searched for an extremum */
+    bool is_leaving;        /* g was 0 at the last mark, and at all before */
     int side;               /* the sign of g where it was last not 0 */
     int rate;               /* what is asked for: the rate of g, or g */
     double value;           /* the answer */
@@ -176,10 +177,14 @@ static dal_status examine(search *w, const mark *from, double rate, const mark *
     DAL_TRY(status);
     DAL_TRY(value_at(w, s, &g));
     if (sign(g) == -w->side && fabs(g) > touching * w->greatest) {
-        DAL_TRY(cross(w, (node){0.0, from->g}, (node){s, g}));
+        /* Where a run starts on the surface it leaves it, which is no crossing. */
+        if (w->is_leaving)
+            w->side = -w->side;
+        else
+            DAL_TRY(cross(w, (node){0.0, from->g}, (node){s, g}));
         return cross(w, (node){s, g}, (node){w->h, to->g});
     }
-    if (fabs(g) <= touching * w->greatest) w->found->touches++;
+    if (!w->is_leaving && fabs(g) <= touching * w->greatest) w->found->touches++;
     return DAL_OK;
 }
 
@@ -242,9 +247,12 @@ static dal_status take_step(search *w, long long step, bool is_end)
     DAL_TRY(dal_run_step(w->run, w->error));
     DAL_TRY(take_mark(w));
     const int side = sign(w->now.g);
-    if (w->side == 0)
+    if (w->side == 0) {
         w->side = side;
-    else if (side == -w->side)
+        w->is_leaving = true;
+        if (side != 0) DAL_TRY(examine_end(w, step));
+        w->is_leaving = false;
+    } else if (side == -w->side)
         DAL_TRY(cross_step(w));
     else {
         if (is_minimum(w, step)) DAL_TRY(examine_minimum(w, step));
