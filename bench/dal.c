@@ -31,7 +31,7 @@ typedef struct contender {
 } contender;
 
 /* The accelerations of sleigh_field, from q and v where they are. */
-static dal_status sleigh_callback(const dal_system *system, const dal_at *at, double *out)
+static dal_status sleigh_callback(const dal_system *system, const dal_point *at, double *out)
 {
     const double *v = at->v;
     double s, c;
@@ -44,7 +44,7 @@ static dal_status sleigh_callback(const dal_system *system, const dal_at *at, do
     return DAL_OK;
 }
 
-static dal_status sleigh_start(const dal_system *system, const dal_at *at, double *out)
+static dal_status sleigh_start(const dal_system *system, const dal_point *at, double *out)
 {
     (void)system, (void)at;
     memcpy(out, sleigh_y, sizeof sleigh_y);
@@ -52,14 +52,14 @@ static dal_status sleigh_start(const dal_system *system, const dal_at *at, doubl
     return DAL_OK;
 }
 
-static dal_status sleigh_constraints(const dal_system *system, const dal_at *at, double *out)
+static dal_status sleigh_constraints(const dal_system *system, const dal_point *at, double *out)
 {
     (void)system;
     out[0] = at->v[0] * sin(at->q[2]) - at->v[1] * cos(at->q[2]);
     return DAL_OK;
 }
 
-static dal_status no_forces(const dal_system *system, const dal_at *at, double *out)
+static dal_status no_forces(const dal_system *system, const dal_point *at, double *out)
 {
     (void)system;
     memset(out, 0, FLUID_N * sizeof *out);

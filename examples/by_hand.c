@@ -9,7 +9,7 @@
 enum { X, Y, N };
 
 /* F = b - W^-1 A^T G^-1 (A b + c) with W = 1, A = (-k, 1), b = (-x, -y), c = 0. */
-static dal_status field(const dal_system *system, const dal_at *at, double *out)
+static dal_status field(const dal_system *system, const dal_point *at, double *out)
 {
     (void)system;
     const double k = at->work[0];
@@ -19,7 +19,7 @@ static dal_status field(const dal_system *system, const dal_at *at, double *out)
     return DAL_OK;
 }
 
-static dal_status constraints(const dal_system *system, const dal_at *at, double *out)
+static dal_status constraints(const dal_system *system, const dal_point *at, double *out)
 {
     (void)system;
     out[0] = at->v[Y] - at->work[0] * at->v[X];

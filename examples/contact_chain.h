@@ -61,7 +61,7 @@ static inline double chain_force(double eps, const double *q, const double *v, d
     return h;
 }
 
-static inline dal_status chain_field(const dal_system *system, const dal_at *at, double *out)
+static inline dal_status chain_field(const dal_system *system, const dal_point *at, double *out)
 {
     (void)system;
     chain_force(at->work[0], at->q, at->v, out);
@@ -76,7 +76,7 @@ static inline double chain_hessian(double eps, const double *z, const double *al
     return -chain_spring(eps, z, i) * alpha[i] - 2.0 * eps * z[i] * (left + right);
 }
 
-static inline dal_status chain_adjoint(const dal_system *system, const dal_at *at, double *out)
+static inline dal_status chain_adjoint(const dal_system *system, const dal_point *at, double *out)
 {
     const double *y = at->q + CHAIN_Y, *vz = at->v + 1, *vy = at->v + CHAIN_Y, *pi = at->pi;
     double *F = out, *Fq = out + CHAIN_N, *Fv = out + 2 * CHAIN_N, alpha[CHAIN_N];
@@ -97,7 +97,8 @@ static inline dal_status chain_adjoint(const dal_system *system, const dal_at *a
     return DAL_OK;
 }
 
-static inline dal_status chain_constraints(const dal_system *system, const dal_at *at, double *out)
+static inline dal_status chain_constraints(const dal_system *system, const dal_point *at,
+                                           double *out)
 {
     (void)system;
     out[0] = at->v[0] + chain_dot(at->q + CHAIN_Y, at->v + 1);
@@ -105,7 +106,8 @@ static inline dal_status chain_constraints(const dal_system *system, const dal_a
 }
 
 /* D, A and W^-1 A^T, which with unit masses is A again. */
-static inline dal_status chain_constraint(const dal_system *system, const dal_at *at, double *out)
+static inline dal_status chain_constraint(const dal_system *system, const dal_point *at,
+                                          double *out)
 {
     double *A = out + 1, *B = out + 1 + CHAIN_N;
     for (int i = 0; i < CHAIN_N; i++) A[i] = i == 0 ? 1.0 : 0.0;
@@ -114,7 +116,7 @@ static inline dal_status chain_constraint(const dal_system *system, const dal_at
     return chain_constraints(system, at, out);
 }
 
-static inline dal_status chain_energy(const dal_system *system, const dal_at *at, double *out)
+static inline dal_status chain_energy(const dal_system *system, const dal_point *at, double *out)
 {
     const double *q = at->q, *v = at->v, eps = at->work[0];
     double twice = 0.0;
@@ -126,7 +128,7 @@ static inline dal_status chain_energy(const dal_system *system, const dal_at *at
 }
 
 /* q, v, e at t = 0, with z_0' from D = 0; k = 1 is a start with a known solution. */
-static inline dal_status chain_start(const dal_system *system, const dal_at *at, double *out)
+static inline dal_status chain_start(const dal_system *system, const dal_point *at, double *out)
 {
     double *q = out, *v = out + CHAIN_N;
     (void)system, (void)at;

@@ -41,7 +41,7 @@ typedef struct fluid_list {
 
 enum { FLUID_KINETIC, FLUID_SIDE, FLUID_PARAMETERS }; /* the parameters K and L, first in work */
 
-static inline fluid_list *fluid_list_of(const dal_at *at)
+static inline fluid_list *fluid_list_of(const dal_point *at)
 {
     return (fluid_list *)(at->work + FLUID_PARAMETERS);
 }
@@ -106,7 +106,7 @@ static inline double fluid_pair_energy(double square)
 }
 
 /* f = -U_q. */
-static inline dal_status fluid_forces(const dal_at *at, double *f)
+static inline dal_status fluid_forces(const dal_point *at, double *f)
 {
     fluid_list *list = fluid_list_of(at);
     const double *q = at->q, side = at->work[FLUID_SIDE];
@@ -147,7 +147,7 @@ static inline void fluid_thermostat(const double *v, double *f)
     for (int c = 0; c < FLUID_N; c++) f[c] += h * v[c];
 }
 
-static inline dal_status fluid_field(const dal_system *system, const dal_at *at, double *out)
+static inline dal_status fluid_field(const dal_system *system, const dal_point *at, double *out)
 {
     const dal_status status = fluid_forces(at, out);
     (void)system;
@@ -155,7 +155,8 @@ static inline dal_status fluid_field(const dal_system *system, const dal_at *at,
     return status;
 }
 
-static inline dal_status fluid_constraints(const dal_system *system, const dal_at *at, double *out)
+static inline dal_status fluid_constraints(const dal_system *system, const dal_point *at,
+                                           double *out)
 {
     (void)system;
     out[0] = 0.5 * fluid_dot(at->v, at->v) - at->work[FLUID_KINETIC];
@@ -163,7 +164,8 @@ static inline dal_status fluid_constraints(const dal_system *system, const dal_a
 }
 
 /* D, A = v and W^-1 A^T = v. */
-static inline dal_status fluid_constraint(const dal_system *system, const dal_at *at, double *out)
+static inline dal_status fluid_constraint(const dal_system *system, const dal_point *at,
+                                          double *out)
 {
     memcpy(out + 1, at->v, FLUID_N * sizeof *out);
     memcpy(out + 1 + FLUID_N, at->v, FLUID_N * sizeof *out);
@@ -171,7 +173,7 @@ static inline dal_status fluid_constraint(const dal_system *system, const dal_at
 }
 
 /* v^2/2 + U; not conserved: the thermostat does work. */
-static inline dal_status fluid_energy(const dal_system *system, const dal_at *at, double *out)
+static inline dal_status fluid_energy(const dal_system *system, const dal_point *at, double *out)
 {
     double sum = 0.5 * fluid_dot(at->v, at->v), d[3];
     (void)system;
@@ -184,7 +186,7 @@ static inline dal_status fluid_energy(const dal_system *system, const dal_at *at
     return DAL_OK;
 }
 
-static inline dal_status fluid_prepare(const dal_system *system, const dal_at *at, double *out)
+static inline dal_status fluid_prepare(const dal_system *system, const dal_point *at, double *out)
 {
     (void)system, (void)out;
     fluid_list_of(at)->valid = 0.0;
@@ -206,7 +208,7 @@ static inline void fluid_start_velocities(double K, double *v)
 }
 
 /* A face-centred cubic lattice, 4 spheres a cell; e = 1. */
-static inline dal_status fluid_start(const dal_system *system, const dal_at *at, double *out)
+static inline dal_status fluid_start(const dal_system *system, const dal_point *at, double *out)
 {
     static const double base[4][3] = {{0, 0, 0}, {0, 0.5, 0.5}, {0.5, 0, 0.5}, {0.5, 0.5, 0}};
     const double cell = at->work[FLUID_SIDE] / FLUID_CELLS;

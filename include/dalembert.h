@@ -81,19 +81,20 @@ dal_status dal_parse_number(const char *text, size_t length, double *value);
 typedef struct dal_system dal_system;
 
 /* Where a system is evaluated.  work holds the parameter values first, [system->parameters]; the
- * rest of its system->workspace doubles are the system's own (filled by prepare) and scratch. */
-typedef struct dal_at {
+ * rest of its system->workspace doubles are the system's own (filled by prepare) and scratch.
+ * Functions that evaluate a system by themselves read t, q and v alone. */
+typedef struct dal_point {
     double t;
     const double *q;  /* [n] coordinates */
     const double *v;  /* [n] velocities, then [multipliers] vakonomic multipliers g */
     const double *pi; /* [n] momenta of the velocities; adjoint only */
     double *work;     /* [workspace] */
-} dal_at;
+} dal_point;
 
 /* Every callback is a pure function of *at (work beyond the parameters is scratch).  In the wide
  * sets each array is interleaved, x[component*lanes + lane], aligned to its lanes; t is common.
  * A callback that cannot answer returns a status, or leaves NaN in the lanes concerned. */
-typedef dal_status dal_callback(const dal_system *system, const dal_at *at, double *out);
+typedef dal_status dal_callback(const dal_system *system, const dal_point *at, double *out);
 
 /* nw = n + multipliers below.  Matrices are row-major.  Only field is needed; what a NULL loses is
  * said behind it. */
@@ -150,7 +151,7 @@ struct dal_system {
     const char *const *guard;                    /* [guards] "constraint 1: y1'" for messages */
     int mass_guard;                              /* which guard, from 1, is det W; 0: none */
     const char *const *tag;                      /* [tags] */
-    size_t workspace;                            /* doubles in dal_at.work; 0 means parameters */
+    size_t workspace;                            /* doubles in dal_point.work; 0 means parameters */
     dal_callbacks call;                          /* one lane */
     const dal_callbacks *wide4, *wide8, *wide64; /* 4 ... lanes interleaved; NULL: fewer at once */
     dal_callback *prepare; /* completes work after a change of parameters; out unused */

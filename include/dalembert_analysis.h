@@ -193,12 +193,6 @@ dal_status dal_evaluator_call(dal_evaluator *evaluator, dal_callback *callback, 
 dal_status dal_evaluator_start(dal_evaluator *evaluator, const dal_setting *start, int start_count,
                                double *out, dal_error *error);
 
-/* A point of a system: v carries the multipliers g behind the velocities. */
-typedef struct dal_point {
-    double t;
-    const double *q, *v; /* [n], [n + multipliers] */
-} dal_point;
-
 /* d/dt of the count values of a callback along the motion, that is the derivative along
  * (v, F, dg/dt, 1): out[count].  For D it must vanish on every level of D. [alloc]
  * Errors: DAL_UNSUPPORTED, DAL_NOT_FINITE, DAL_MEMORY. */

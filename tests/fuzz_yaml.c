@@ -13,7 +13,7 @@ static void evaluate(const dal_system *system)
     double *x = calloc(n + w + 1, sizeof *x), *F = calloc(w + 1, sizeof *F);
     if (work && x && F) {
         for (int i = 0; i < system->parameters; i++) work[i] = system->value[i];
-        dal_at at = {.q = x, .v = x + n, .work = work};
+        dal_point at = {.q = x, .v = x + n, .work = work};
         system->prepare(system, &at, NULL);
         system->start(system, &at, x);
         system->call.field(system, &at, F);

@@ -14,7 +14,7 @@ static void stop(const char *what, const dal_error *error)
 
 static void prepare(const reference *b)
 {
-    dal_at at = {.work = b->work};
+    dal_point at = {.work = b->work};
     b->system->prepare(b->system, &at, NULL);
 }
 
@@ -77,14 +77,14 @@ void reference_set(reference *b, const char *parameter, double value)
 dal_status reference_call(const reference *b, dal_callback *call, double t, const double *q,
                           const double *v, double *out)
 {
-    dal_at at = {.t = t, .q = q, .v = v, .work = b->work};
+    dal_point at = {.t = t, .q = q, .v = v, .work = b->work};
     return call(b->system, &at, out);
 }
 
 dal_status reference_pull(const reference *b, double t, const double *q, const double *v,
                           const double *pi, double *out)
 {
-    dal_at at = {.t = t, .q = q, .v = v, .pi = pi, .work = b->work};
+    dal_point at = {.t = t, .q = q, .v = v, .pi = pi, .work = b->work};
     return b->system->call.adjoint(b->system, &at, out);
 }
 

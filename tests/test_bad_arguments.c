@@ -6,14 +6,14 @@
 #include <stdio.h>
 #include <string.h>
 
-static dal_status oscillate(const dal_system *system, const dal_at *at, double *out)
+static dal_status oscillate(const dal_system *system, const dal_point *at, double *out)
 {
     (void)system;
     out[0] = -at->q[0];
     return DAL_OK;
 }
 
-static dal_status unprepared(const dal_system *system, const dal_at *at, double *out)
+static dal_status unprepared(const dal_system *system, const dal_point *at, double *out)
 {
     (void)system;
     (void)at;
@@ -112,7 +112,7 @@ static void test_long_names(void)
 
 /* ---- runs that cannot do what is requested ---- */
 
-static dal_status interrupts(const dal_system *system, const dal_at *at, double *out)
+static dal_status interrupts(const dal_system *system, const dal_point *at, double *out)
 {
     (void)system;
     out[0] = -at->q[0];

@@ -184,7 +184,7 @@ static void test_failing_lane(void)
 
 /* A field that fails in the lane with start x = 2 while broken, and is sound again later. */
 static bool broken;
-static dal_status breaks(const dal_system *system, const dal_at *at, double *out)
+static dal_status breaks(const dal_system *system, const dal_point *at, double *out)
 {
     (void)system;
     out[0] = broken && at->q[0] == 2.0 ? NAN : 0.0;

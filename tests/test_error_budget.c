@@ -181,19 +181,19 @@ static void test_sums(void)
 
 /* ---- what cannot be had ---- */
 
-static dal_status field(const dal_system *system, const dal_at *at, double *out)
+static dal_status field(const dal_system *system, const dal_point *at, double *out)
 {
     (void)system;
     out[0] = -at->q[0];
     return DAL_OK;
 }
-static dal_status energy(const dal_system *system, const dal_at *at, double *out)
+static dal_status energy(const dal_system *system, const dal_point *at, double *out)
 {
     (void)system;
     out[0] = 0.5 * (at->v[0] * at->v[0] + at->q[0] * at->q[0]);
     return DAL_OK;
 }
-static dal_status start(const dal_system *system, const dal_at *at, double *out)
+static dal_status start(const dal_system *system, const dal_point *at, double *out)
 {
     (void)system, (void)at;
     out[0] = 1.0;

@@ -49,7 +49,7 @@ static void field(dal_evaluator *evaluator, const double *at_v, double *F)
 static void check_rates(dal_evaluator *extended)
 {
     const dal_system *system = dal_evaluator_system(extended);
-    const dal_point at = {0.0, q, v};
+    const dal_point at = {.t = 0.0, .q = q, .v = v};
     double rate[MOST];
     CU_ASSERT_EQUAL(dal_measure_rate(extended, system->energy, 1, &at, rate), DAL_OK);
     if (!(fabs(rate[0]) <= 1e-11)) printf("\n  %s: dE/dt %.2e\n", system->name, rate[0]);

@@ -9,14 +9,14 @@
 
 static double wrong; /* added to F_x where the system speaks of its derivatives */
 
-static dal_status cubic_field(const dal_system *s, const dal_at *at, double *out)
+static dal_status cubic_field(const dal_system *s, const dal_point *at, double *out)
 {
     (void)s;
     out[0] = -at->q[0] * at->q[0] * at->q[0] - 0.5 * at->v[0];
     return DAL_OK;
 }
 
-static dal_status cubic_jacobian(const dal_system *s, const dal_at *at, double *out)
+static dal_status cubic_jacobian(const dal_system *s, const dal_point *at, double *out)
 {
     (void)s;
     out[0] = -3.0 * at->q[0] * at->q[0] + wrong;
@@ -24,7 +24,7 @@ static dal_status cubic_jacobian(const dal_system *s, const dal_at *at, double *
     return DAL_OK;
 }
 
-static dal_status cubic_adjoint(const dal_system *s, const dal_at *at, double *out)
+static dal_status cubic_adjoint(const dal_system *s, const dal_point *at, double *out)
 {
     cubic_field(s, at, out);
     out[1] = (-3.0 * at->q[0] * at->q[0] + wrong) * at->pi[0];
@@ -32,7 +32,7 @@ static dal_status cubic_adjoint(const dal_system *s, const dal_at *at, double *o
     return DAL_OK;
 }
 
-static dal_status cubic_energy(const dal_system *s, const dal_at *at, double *out)
+static dal_status cubic_energy(const dal_system *s, const dal_point *at, double *out)
 {
     const double x2 = at->q[0] * at->q[0];
     (void)s;
@@ -101,7 +101,7 @@ static void test_evaluator_names(void)
 static void test_rate(void)
 {
     const double q = 0.8, v = -1.3;
-    const dal_point at = {0.0, &q, &v};
+    const dal_point at = {.t = 0.0, .q = &q, .v = &v};
     dal_evaluator *evaluator = evaluator_of(&cubic);
     double rate;
     /* dE/dt = v (v' + x^3) = -v^2/2 */
@@ -114,7 +114,7 @@ static void test_rate(void)
 static void test_derivatives_find_faults(void)
 {
     const double q = 0.8, v = -1.3;
-    const dal_point at = {0.0, &q, &v};
+    const dal_point at = {.t = 0.0, .q = &q, .v = &v};
     dal_evaluator *evaluator = evaluator_of(&cubic);
     dal_derivatives d;
     wrong = 0.0;
@@ -140,7 +140,7 @@ static void test_derivatives_of_systems(void)
         double x[16];
         dal_derivatives d;
         CU_ASSERT_EQUAL(dal_evaluator_start(evaluator, NULL, 0, x, NULL), DAL_OK);
-        const dal_point at = {0.3, x, x + fixture_system(model)->n};
+        const dal_point at = {.t = 0.3, .q = x, .v = x + fixture_system(model)->n};
         CU_ASSERT_EQUAL(dal_check_derivatives(evaluator, &at, &d), DAL_OK);
         CU_ASSERT(d.jacobian >= 0.0 && d.jacobian < 1e-10);
         CU_ASSERT(d.adjoint >= 0.0 && d.adjoint < 1e-10);
@@ -172,7 +172,7 @@ static void test_rank(void)
         int rank;
         CU_ASSERT_EQUAL(dal_evaluator_start(evaluator, NULL, 0, x, NULL), DAL_OK);
         if (cases[k].text == twice) x[2] = 1e-12;
-        const dal_point at = {0.0, x, x + fixture_system(model)->n};
+        const dal_point at = {.t = 0.0, .q = x, .v = x + fixture_system(model)->n};
         CU_ASSERT_EQUAL(dal_measure_rank(evaluator, &at, &rank, &pivot), DAL_OK);
         CU_ASSERT_EQUAL(rank, cases[k].rank);
         CU_ASSERT(rank == fixture_system(model)->m ? pivot > 0.01 : pivot == 0.0);
@@ -261,7 +261,7 @@ static void examine_kind(const kind *expected)
     double x[8], degree = -1.0;
     dal_constraint_class d;
     CU_ASSERT_EQUAL(dal_evaluator_start(evaluator, NULL, 0, x, NULL), DAL_OK);
-    const dal_point at = {0.0, x, x + 3};
+    const dal_point at = {.t = 0.0, .q = x, .v = x + 3};
     CU_ASSERT_EQUAL(dal_classify_constraints(evaluator, &at, &d, &degree), DAL_OK);
     CU_ASSERT_EQUAL(d.linear, expected->linear);
     CU_ASSERT_EQUAL(d.constant, expected->constant);
@@ -302,7 +302,7 @@ static void test_nearly(void)
         dal_model *model = fixture_model(text);
         dal_evaluator *evaluator = evaluator_of(fixture_system(model));
         CU_ASSERT_EQUAL(dal_evaluator_start(evaluator, NULL, 0, x, NULL), DAL_OK);
-        const dal_point at = {0.0, x, x + 3};
+        const dal_point at = {.t = 0.0, .q = x, .v = x + 3};
         CU_ASSERT_EQUAL(dal_classify_constraints(evaluator, &at, &d, NULL), DAL_OK);
         CU_ASSERT_EQUAL(d.linear, i % 2 ? cases[i / 2].linear : 1);
         CU_ASSERT_EQUAL(d.constant, i % 2 ? cases[i / 2].constant : 1);
@@ -332,7 +332,7 @@ static void test_nearly_dependent(void)
         dal_model *model = fixture_model(text);
         dal_evaluator *evaluator = evaluator_of(fixture_system(model));
         CU_ASSERT_EQUAL(dal_evaluator_start(evaluator, NULL, 0, x, NULL), DAL_OK);
-        const dal_point at = {0.0, x, x + 3};
+        const dal_point at = {.t = 0.0, .q = x, .v = x + 3};
         CU_ASSERT_EQUAL(dal_measure_rank(evaluator, &at, &rank, &pivot), DAL_OK);
         const int full = i < 2 || i == 4;
         CU_ASSERT_EQUAL(rank, full ? 2 : 1);
@@ -357,7 +357,7 @@ static void test_nearly_reversible(void)
         CU_ASSERT_EQUAL_FATAL(dal_evaluator_create(&evaluator, fixture_system(model), &k, 1, NULL),
                               DAL_OK);
         CU_ASSERT_EQUAL(dal_evaluator_start(evaluator, NULL, 0, x, NULL), DAL_OK);
-        const dal_point at = {0.0, x, x + 1};
+        const dal_point at = {.t = 0.0, .q = x, .v = x + 1};
         CU_ASSERT_EQUAL(dal_classify_constraints(evaluator, &at, &d, NULL), DAL_OK);
         CU_ASSERT(d.force_defect >= 2.0 * frictions[i] - 1e-15);
         CU_ASSERT(d.force_defect <= 2.6 * frictions[i] + 1e-15);
@@ -374,7 +374,7 @@ static const char no_values[] = "coordinates: [x, y]\nparameters: {k: 1}\n"
                                 "lagrangian: (x'^2 + y'^2)/2\n"
                                 "constraints: [\"x'*cos(y) - y'*sin(y) + log(-k)\"]\n";
 
-static dal_status no_field(const dal_system *s, const dal_at *at, double *out)
+static dal_status no_field(const dal_system *s, const dal_point *at, double *out)
 {
     (void)s;
     (void)at;
@@ -385,7 +385,7 @@ static dal_status no_field(const dal_system *s, const dal_at *at, double *out)
 static void test_unmeasured(void)
 {
     const double q[] = {0.1, 0.2}, v[] = {1.0, 0.5};
-    const dal_point at = {0.0, q, v};
+    const dal_point at = {.t = 0.0, .q = q, .v = v};
     dal_model *model = fixture_model(no_values);
     const dal_system *system = fixture_system(model);
     dal_evaluator *evaluator = evaluator_of(system);
@@ -418,7 +418,7 @@ static void test_derivatives_anywhere(void)
     for (int k = 0; k < 2; k++) {
         dal_model *model = fixture_model(texts[k]);
         dal_evaluator *evaluator = evaluator_of(fixture_system(model));
-        const dal_point at = {0.0, &place[k], &v};
+        const dal_point at = {.t = 0.0, .q = &place[k], .v = &v};
         dal_derivatives d;
         CU_ASSERT_EQUAL(dal_check_derivatives(evaluator, &at, &d), DAL_OK);
         CU_ASSERT(d.jacobian >= 0.0 && d.jacobian < 1e-8);
@@ -441,7 +441,7 @@ static dal_status all_measures(const dal_system *system)
     dal_status status = dal_evaluator_create(&evaluator, system, NULL, 0, NULL);
     if (status != DAL_OK) return status;
     status = dal_evaluator_start(evaluator, NULL, 0, x, NULL);
-    const dal_point at = {0.0, x, x + system->n};
+    const dal_point at = {.t = 0.0, .q = x, .v = x + system->n};
     if (!status) status = dal_measure_rate(evaluator, system->energy, 1, &at, numbers);
     if (!status) status = dal_check_derivatives(evaluator, &at, &derivatives);
     if (!status) status = dal_measure_rank(evaluator, &at, &rank, numbers);

@@ -23,7 +23,7 @@ static int open_objects(void)
     no_system = bad_count = spec;
     no_system.system = NULL;
     bad_count.parameter_count = -1;
-    at = (dal_point){0.0, numbers, numbers + system->n};
+    at = (dal_point){.t = 0.0, .q = numbers, .v = numbers + system->n};
     return dal_run_create(&run, &spec, NULL) != DAL_OK ||
            dal_evaluator_create(&evaluator, system, NULL, 0, NULL) != DAL_OK ||
            dal_model_tangent(model, &tangent, NULL) != DAL_OK ||
@@ -54,7 +54,8 @@ static int close_objects(void)
 /* A call with a point in every bad form. */
 #define REFUSED_POINTS(bad, call)                                                                  \
     do {                                                                                           \
-        const dal_point no_q = {0.0, NULL, at.v}, no_v = {0.0, at.q, NULL};                        \
+        const dal_point no_q = {.t = 0.0, .q = NULL, .v = at.v},                                   \
+                        no_v = {.t = 0.0, .q = at.q, .v = NULL};                                   \
         const dal_point *const bad_points[] = {NULL, &no_q, &no_v};                                \
         for (int bad_number = 0; bad_number < 3; bad_number++) {                                   \
             const dal_point *bad = bad_points[bad_number];                                         \

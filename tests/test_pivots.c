@@ -290,7 +290,7 @@ static void test_by_hand(void)
         {DAL_SECTION_COORDINATES, NULL, "phi"},
     };
     double q[] = {0.1, 0.2, 0.3}, v[] = {0.4, 0.5, 0.6}, work[256] = {1, 1}, F[2][3];
-    dal_at at = {.q = q, .v = v, .work = work};
+    dal_point at = {.q = q, .v = v, .work = work};
     for (size_t i = 0; i < sizeof entries / sizeof *entries; i++)
         CU_ASSERT(dal_model_add(b.model, entries[i].section, entries[i].name, entries[i].text, 0, 0,
                                 NULL) == DAL_OK);

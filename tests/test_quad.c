@@ -271,7 +271,7 @@ static void test_memory(void)
 
 /* ---- refusals ---- */
 
-static dal_status field(const dal_system *system, const dal_at *at, double *out)
+static dal_status field(const dal_system *system, const dal_point *at, double *out)
 {
     (void)system;
     out[0] = -at->q[0];

@@ -9,7 +9,7 @@
 
 /* ---- a system by hand: x'' = -x, and x'' = -x that fails now and then ---- */
 
-static dal_status oscillate(const dal_system *system, const dal_at *at, double *out)
+static dal_status oscillate(const dal_system *system, const dal_point *at, double *out)
 {
     (void)system;
     out[0] = -at->q[0];
@@ -17,14 +17,14 @@ static dal_status oscillate(const dal_system *system, const dal_at *at, double *
 }
 
 /* data: an int that counts down to a failure. */
-static dal_status fail_sometimes(const dal_system *system, const dal_at *at, double *out)
+static dal_status fail_sometimes(const dal_system *system, const dal_point *at, double *out)
 {
     int *left = system->data;
     if (--*left == 0) return DAL_NOT_FINITE;
     return oscillate(system, at, out);
 }
 
-static dal_status unit_start(const dal_system *system, const dal_at *at, double *out)
+static dal_status unit_start(const dal_system *system, const dal_point *at, double *out)
 {
     (void)system;
     (void)at;
@@ -113,7 +113,7 @@ static void test_settings(void)
     dal_model_free(model);
 }
 
-static dal_status stand_still(const dal_system *system, const dal_at *at, double *out)
+static dal_status stand_still(const dal_system *system, const dal_point *at, double *out)
 {
     (void)system;
     (void)at;
@@ -122,7 +122,7 @@ static dal_status stand_still(const dal_system *system, const dal_at *at, double
 }
 
 /* D = (x' + y', 2 x' + 2 y'), unit masses. */
-static dal_status twice(const dal_system *system, const dal_at *at, double *out)
+static dal_status twice(const dal_system *system, const dal_point *at, double *out)
 {
     static const double a[] = {1, 1, 2, 2}, b[] = {1, 2, 1, 2};
     (void)system;

@@ -68,7 +68,8 @@ static void choose_points(check *c, double *memory)
             const double radius = neighbourhood * fmax(1.0, fabs(c->start[i]));
             x[i] = c->start[i] + radius * random_number(&random);
         }
-        c->near[c->near_count] = (dal_point){fabs(random_number(&random)), x, x + c->n};
+        c->near[c->near_count] =
+            (dal_point){.t = fabs(random_number(&random)), .q = x, .v = x + c->n};
         c->near_count += is_field_finite(c, &c->near[c->near_count]);
     }
     memory += CHECK_POINTS * c->size;
@@ -76,7 +77,7 @@ static void choose_points(check *c, double *memory)
         double *x = memory + c->surface_count * c->size, t = c->near[k].t;
         memcpy(x, c->near[k].q, (size_t)c->size * sizeof *x);
         if (!cli_is_ok(dal_project_velocity(c->evaluator, t, x, x + c->n))) continue;
-        c->surface[c->surface_count] = (dal_point){t, x, x + c->n};
+        c->surface[c->surface_count] = (dal_point){.t = t, .q = x, .v = x + c->n};
         c->surface_count += is_field_finite(c, &c->surface[c->surface_count]);
     }
 }
@@ -101,7 +102,7 @@ static int prepare_check(check *c)
     status = dal_evaluator_start(c->evaluator, request->start.item, request->start.count, c->start,
                                  &error);
     if (status != DAL_OK) return cli_error(cli_input_exit(status), NULL, &error);
-    c->origin = (dal_point){0.0, c->start, c->start + n};
+    c->origin = (dal_point){.t = 0.0, .q = c->start, .v = c->start + n};
     c->is_regular = is_field_finite(c, &c->origin);
     choose_points(c, c->start + size + 1);
     return CLI_DONE;

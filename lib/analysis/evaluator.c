@@ -34,7 +34,7 @@ static dal_status fill(dal_evaluator *evaluator, const dal_setting *parameters, 
     for (int i = 0; i < s->parameters; i++) evaluator->work[i] = s->value ? s->value[i] : 0.0;
     for (int i = 0; i < count; i++) DAL_TRY(set_parameter(evaluator, &parameters[i], error));
     if (s->prepare == NULL) return DAL_OK;
-    dal_status status = s->prepare(s, &(dal_at){.work = evaluator->work}, NULL);
+    dal_status status = s->prepare(s, &(dal_point){.work = evaluator->work}, NULL);
     if (status == DAL_OK) return DAL_OK;
     return dal__fail(error, status, "%s: the parameters cannot be used: %s", s->name,
                      dal_status_text(status));
@@ -87,7 +87,7 @@ dal_status dal_evaluator_call(dal_evaluator *evaluator, dal_callback *callback, 
     DAL_REQUIRE(out, NULL);
     if (callback == NULL) return DAL_UNSUPPORTED;
     if (callback == evaluator->system->call.adjoint) DAL_REQUIRE(pi, NULL);
-    return callback(evaluator->system, &(dal_at){t, q, v, pi, evaluator->work}, out);
+    return callback(evaluator->system, &(dal_point){t, q, v, pi, evaluator->work}, out);
 }
 
 /* ---- the start ---- */
@@ -138,7 +138,7 @@ dal_status dal_evaluator_start(dal_evaluator *evaluator, const dal_setting *star
     int count = 2 * s->n + s->multipliers + 1;
     for (int i = 0; i < count; i++) out[i] = i == count - 1 ? 1.0 : 0.0;
     if (s->start != NULL) {
-        dal_status status = s->start(s, &(dal_at){.work = evaluator->work}, out);
+        dal_status status = s->start(s, &(dal_point){.work = evaluator->work}, out);
         if (status != DAL_OK)
             return dal__fail(error, status, "%s: no start: %s", s->name, dal_status_text(status));
     }

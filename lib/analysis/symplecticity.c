@@ -137,7 +137,7 @@ static dal_status multiplier_sign(const dal_run_spec *spec, const stepmap *m, do
     if (spec->system->multipliers == 0) return DAL_OK;
     DAL_TRY(dal_evaluator_create(&evaluator, spec->system, spec->parameters, spec->parameter_count,
                                  error));
-    dal_point at = {m->t, m->z, m->z + spec->system->n};
+    dal_point at = {.t = m->t, .q = m->z, .v = m->z + spec->system->n};
     dal_status status = dal_classify_constraints(evaluator, &at, &class, NULL);
     if (status == DAL_OK && class.parity == -1) *sign = -1.0;
     dal_evaluator_free(evaluator);

@@ -239,7 +239,7 @@ static double find_normals(dal_lyapunov *s)
 {
     const dal_system *system = dal_evaluator_system(s->evaluator);
     const double *z = dal_run_state(s->run);
-    const dal_point at = {dal_run_time(s->run), z, z + s->n};
+    const dal_point at = {.t = dal_run_time(s->run), .q = z, .v = z + s->n};
     double size = 0.0;
     dal_status status = DAL_OK;
     if (s->forced > 0)

@@ -60,7 +60,7 @@ static dal_status evaluate(search *w, double *value)
     const double *z = dal_run_state(w->run);
     const dal_poincare *p = w->section;
     const int n = dal_run_system(w->run)->n;
-    const dal_point at = {dal_run_time(w->run), z, z + n};
+    const dal_point at = {.t = dal_run_time(w->run), .q = z, .v = z + n};
     const dal_status status =
         w->rate ? dal_measure_rate(w->evaluator, p->callback, p->count, &at, w->values)
                 : dal_evaluator_call(w->evaluator, p->callback, at.t, at.q, at.v, NULL, w->values);

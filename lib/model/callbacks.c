@@ -4,7 +4,7 @@
 #include <math.h>
 
 #define CALLBACK(code, name, reads)                                                                \
-    static dal_status name(const dal_system *system, const dal_at *at, double *out)                \
+    static dal_status name(const dal_system *system, const dal_point *at, double *out)             \
     {                                                                                              \
         const dal__programs *p = system->data;                                                     \
         return p->run(system, at, out, DAL__PROGRAM_##code, reads);                                \
@@ -21,7 +21,7 @@ static bool vanished(const double *pivot)
 /* The program's outputs are all pivots with their sizes, then one number for each constraint that
  * is finite if its derivatives are.  Faults are sought in the order in which they arise: mass,
  * constraints, elimination of the constraints. */
-static dal_status diagnose(const dal_system *system, const dal_at *at, double *out)
+static dal_status diagnose(const dal_system *system, const dal_point *at, double *out)
 {
     const dal__programs *p = system->data;
     const dal__equations *e = p->equations;

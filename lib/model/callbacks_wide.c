@@ -27,7 +27,7 @@ static dal_mask pivots_hold(const num *checked, int pivots)
 }
 
 /* Leaves NaN in the lanes where a pivot has vanished. */
-static dal_status run_program(const dal_system *system, const dal_at *at, double *out,
+static dal_status run_program(const dal_system *system, const dal_point *at, double *out,
                               dal__program_code code, unsigned reads)
 {
     const dal__programs *p = system->data;
@@ -57,7 +57,7 @@ static dal_status run_program(const dal_system *system, const dal_at *at, double
 }
 
 #define CALLBACK(code, name, reads)                                                                \
-    static dal_status name(const dal_system *system, const dal_at *at, double *out)                \
+    static dal_status name(const dal_system *system, const dal_point *at, double *out)             \
     {                                                                                              \
         return run_program(system, at, out, DAL__PROGRAM_##code, reads);                           \
     }

@@ -110,7 +110,7 @@ static size_t scratch_size(const dal__programs *programs)
     return max;
 }
 
-static dal_status prepare(const dal_system *system, const dal_at *at, double *out)
+static dal_status prepare(const dal_system *system, const dal_point *at, double *out)
 {
     const dal__programs *programs = system->data;
     (void)out;
@@ -118,7 +118,7 @@ static dal_status prepare(const dal_system *system, const dal_at *at, double *ou
     return DAL_OK;
 }
 
-static dal_status prepare_in_long(const dal_system *system, const dal_at *at, double *out)
+static dal_status prepare_in_long(const dal_system *system, const dal_point *at, double *out)
 {
     const dal__programs *programs = system->data;
     (void)out;

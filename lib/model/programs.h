@@ -41,7 +41,7 @@ typedef struct dal__program {
 } dal__program;
 
 /* Evaluates a program on what it reads of *at. */
-typedef dal_status dal__run_program(const dal_system *system, const dal_at *at, double *out,
+typedef dal_status dal__run_program(const dal_system *system, const dal_point *at, double *out,
                                     dal__program_code code, unsigned reads);
 
 /* What a dal_system of a model holds as its data. */

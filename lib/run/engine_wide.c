@@ -41,7 +41,7 @@ static size_t changing(const engine *e)
 }
 
 /* Remembers the first answer that is not finite. */
-static void trace(engine *e, dal_question question, const dal_at *at, dal_status status,
+static void trace(engine *e, dal_question question, const dal_point *at, dal_status status,
                   const double *out)
 {
     dal__cause *cause = e->cause;
@@ -71,8 +71,8 @@ static void ask(dal_step *s, dal_question question, double t, const num *q, cons
         fill(e, question, 0.0, out);
         return;
     }
-    const dal_at at = {t, (const double *)q, (const double *)v, (const double *)pi,
-                       (double *)e->work};
+    const dal_point at = {t, (const double *)q, (const double *)v, (const double *)pi,
+                          (double *)e->work};
     const dal_status status = call(e->shape.system, &at, (double *)out);
     if (status != DAL_OK) fill(e, question, NAN, out);
     if (LANES == 1 && e->cause) trace(e, question, &at, status, (const double *)out);
@@ -171,7 +171,8 @@ dal_status DAL_WIDE(dal__engine_ask)(void *engine_, int question, double t, cons
     engine *e = engine_;
     const int n = e->shape.n;
     if (!e->call[question]) return DAL_UNSUPPORTED;
-    const dal_at at = {t, state, state + n * WIDTH, state + (3 * n + 1) * WIDTH, (double *)e->work};
+    const dal_point at = {t, state, state + n * WIDTH, state + (3 * n + 1) * WIDTH,
+                          (double *)e->work};
     return e->call[question](e->shape.system, &at, out);
 }
 

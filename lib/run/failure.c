@@ -22,7 +22,7 @@ static bool ran_away(const dal_run *run, const dal__cause *cause)
 static dal_status ask_system(dal_run *run, const dal__cause *cause, dal_error *error)
 {
     const dal_system *system = run->shape.system;
-    const dal_at at = {cause->t, cause->q, cause->v, NULL, run->work};
+    const dal_point at = {cause->t, cause->q, cause->v, NULL, run->work};
     double number = 0.0;
     if (!system->diagnose || ran_away(run, cause)) return DAL_OK;
     const dal_status status = system->diagnose(system, &at, &number);

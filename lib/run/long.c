@@ -89,11 +89,11 @@ void dal__long_pull(dal_run *run)
     shorten(run->carried, run->long_run.carried, run->shape.carried);
 }
 
-static dal_at here(const dal_run *run)
+static dal_point here(const dal_run *run)
 {
     const dal__long_run *k = &run->long_run;
     const size_t at_v = (size_t)run->shape.n * dal__long_width();
-    return (dal_at){dal_run_time(run), k->carried, k->carried + at_v, NULL, k->work};
+    return (dal_point){dal_run_time(run), k->carried, k->carried + at_v, NULL, k->work};
 }
 
 dal_status dal__long_begin(dal_run *run)
@@ -102,7 +102,7 @@ dal_status dal__long_begin(dal_run *run)
     const dal_system *system = k->shape.system;
     lengthen(k->work, run->work, (size_t)system->parameters);
     dal__long_push(run);
-    const dal_at at = here(run);
+    const dal_point at = here(run);
     return system->prepare ? system->prepare(system, &at, NULL) : DAL_OK;
 }
 
@@ -118,7 +118,7 @@ dal_status dal__long_step(dal_run *run, double h)
 static dal_status put(const dal_run *run, dal_callback *callback, int count, double **out)
 {
     const dal__long_run *k = &run->long_run;
-    const dal_at at = here(run);
+    const dal_point at = here(run);
     if (!callback) return DAL_OK;
     DAL_TRY(callback(k->shape.system, &at, k->answer));
     shorten(*out, k->answer, (size_t)count);
@@ -134,7 +134,7 @@ static dal_status put_lifted(const dal_run *run, double **out)
     const num *y = (const num *)(const void *)k->carried, *v = y + n, *p = y + 2 * n + 1;
     const num *pi = y + 3 * n + 1, *f = (const num *)(const void *)k->answer;
     const dal_callbacks *call = &k->shape.system->call;
-    const dal_at at = here(run);
+    const dal_point at = here(run);
     num sum = 0.0;
     if (call->gauge) {
         DAL_TRY(call->gauge(k->shape.system, &at, k->answer));
@@ -153,7 +153,7 @@ static dal_status put_lifted(const dal_run *run, double **out)
 static dal_status put_error(const dal_run *run, double **out)
 {
     const dal__long_run *k = &run->long_run;
-    const dal_at at = here(run);
+    const dal_point at = here(run);
     const num *y = (const num *)(const void *)k->carried;
     num *exact = (num *)(void *)k->answer;
     DAL_TRY(k->shape.system->exact(k->shape.system, &at, k->answer));

@@ -76,7 +76,7 @@ static void norms(const dal_run *run, double *out)
     out[2] = fabs(run->carried[4 * n + 1]);
 }
 
-static dal_status error_norm(dal_run *run, const dal_at *at, double *out)
+static dal_status error_norm(dal_run *run, const dal_point *at, double *out)
 {
     const dal_system *system = run->shape.system;
     double *exact = run->answer;
@@ -91,7 +91,7 @@ dal_status dal_run_observe(dal_run *run, double *out)
     DAL_REQUIRE(run, NULL);
     DAL_REQUIRE(out, NULL);
     const dal_system *system = run->shape.system;
-    const dal_at at = dal__here(run);
+    const dal_point at = dal__here(run);
     double *next = out;
     if (run->long_run.engine) return dal__long_observe(run, out);
     for (int group = 0; group < GROUPS; next += group_size(run, group++)) {

@@ -103,11 +103,11 @@ dal_status dal__long_step(dal_run *run, double h);
 dal_status dal__long_observe(dal_run *run, double *out);
 double dal__long_rounded(const double *memory, size_t i);
 
-static inline dal_at dal__here(const dal_run *run)
+static inline dal_point dal__here(const dal_run *run)
 {
     const dal__shape *k = &run->shape;
-    return (dal_at){run->carried[dal__at(k, DAL__TIME)], run->carried, run->carried + k->n, NULL,
-                    run->work};
+    return (dal_point){run->carried[dal__at(k, DAL__TIME)], run->carried, run->carried + k->n, NULL,
+                       run->work};
 }
 
 #endif

@@ -34,7 +34,7 @@ static dal_status set_parameters(dal_run *run, const dal_setting *settings, int 
                              settings[k].name, settings[k].value);
         run->work[i] = settings[k].value;
     }
-    const dal_at at = dal__here(run);
+    const dal_point at = dal__here(run);
     const dal_status status = system->prepare ? system->prepare(system, &at, NULL) : DAL_OK;
     if (status == DAL_OK) return DAL_OK;
     return dal__fail(error, status, "%s cannot be prepared with these parameters",
@@ -78,7 +78,7 @@ static dal_status default_start(dal_run *run, dal_error *error)
     memset(run->carried, 0, k->carried * sizeof *run->carried);
     double *out = run->answer;
     for (int i = 0; i <= first; i++) out[i] = i == first;
-    const dal_at at = {0.0, run->carried, run->carried + k->n, NULL, run->work};
+    const dal_point at = {0.0, run->carried, run->carried + k->n, NULL, run->work};
     if (k->system->start && k->system->start(k->system, &at, out) != DAL_OK)
         return dal__fail(error, DAL_NOT_FINITE, "%s has no start with these parameters",
                          k->system->name ? k->system->name : "the system");
@@ -121,7 +121,7 @@ static dal_status check_consistent(const dal_run *run, const double *d, const do
 static dal_status refuse_pivot(dal_run *run, int k, double pivot, dal_error *error)
 {
     const dal_system *system = run->shape.system;
-    const dal_at at = dal__here(run);
+    const dal_point at = dal__here(run);
     double number = 0.0;
     if (system->diagnose && system->diagnose(system, &at, &number) == DAL_SINGULAR_MASS)
         return dal__fail(error, DAL_SINGULAR_MASS, "the mass matrix is singular at the start");
@@ -154,7 +154,7 @@ static dal_status check_constraints(dal_run *run, dal_error *error)
     const dal_callbacks *call = &k->system->call;
     if (k->m == 0 || !call->constraint) return DAL_OK;
     const int m = k->m, n = k->n;
-    const dal_at at = dal__here(run);
+    const dal_point at = dal__here(run);
     double *d = run->answer, *a = d + m, *b = a + m * n;
     const dal_status status = call->constraint(k->system, &at, d);
     if (status != DAL_OK)
@@ -167,7 +167,7 @@ static dal_status check_constraints(dal_run *run, dal_error *error)
 static bool exact_agrees(dal_run *run)
 {
     const dal__shape *k = &run->shape;
-    const dal_at at = dal__here(run);
+    const dal_point at = dal__here(run);
     if (!k->system->exact || k->system->exact(k->system, &at, run->answer) != DAL_OK) return false;
     const double size = 1.0 + dal_max_norm(run->carried, 2 * k->n);
     for (int i = 0; i < 2 * k->n; i++)
