@@ -46,9 +46,9 @@ DAL_INLINE void gradient_map(dal_step *s, dal_equation *eq)
     DAL_EACH(i, n) k->vb[i] = dal_moved_v(s, i, eq->block[0].u[i]);
     DAL_EACH(i, n) k->q[i] = dal_moved_q(s, i, half * k->vb[i]);
     dal_parts(s, t, k->q, k->vb, k->parts);
-    dal_ask(s, DAL_ASK_POTENTIAL, t, k->q, k->vb, NULL, k->mid);
+    dal_eval(s, DAL_EVAL_POTENTIAL, t, k->q, k->vb, NULL, k->mid);
     DAL_EACH(i, n) k->q[i] = dal_moved_q(s, i, s->h * k->vb[i]);
-    dal_ask(s, DAL_ASK_POTENTIAL, t, k->q, k->vb, NULL, k->end);
+    dal_eval(s, DAL_EVAL_POTENTIAL, t, k->q, k->vb, NULL, k->end);
     DAL_EACH(i, n)
         k->reaction.free[i] =
             half * k->parts[dal_at_a(s) + i] - 0.5 * gradient_slope(s, k, i) * k->vb[i];
@@ -70,7 +70,7 @@ DAL_INLINE dal_status step(dal_step *s)
     DAL_REACTION(s, reaction, 0.5 * s->h, 1.0);
     gradient k = {reaction, q, vb, parts, U0, mid, end};
     dal_equation eq = dal_velocity_equation(s, block, &k);
-    dal_ask(s, DAL_ASK_POTENTIAL, s->t + 0.5 * s->h, s->y, s->y + n, NULL, U0);
+    dal_eval(s, DAL_EVAL_POTENTIAL, s->t + 0.5 * s->h, s->y, s->y + n, NULL, U0);
     DAL_TRY(dal_impose(s, &eq, gradient_map, 0));
     DAL_EACH(i, n) d[i] = s->h * dal_moved_v(s, i, eq.block[0].u[i]);
     DAL_EACH(i, n) d[n + i] = 2.0 * eq.block[0].u[i];

@@ -21,7 +21,7 @@ typedef struct projection {
 
 DAL_INLINE void ask_constraint(dal_step *s, projection *p)
 {
-    dal_ask(s, DAL_ASK_CONSTRAINT, s->t, s->y, p->v, NULL, p->out);
+    dal_eval(s, DAL_EVAL_CONSTRAINT, s->t, s->y, p->v, NULL, p->out);
 }
 
 /* The unknown is the change of v, whose scale is that of v. */

@@ -35,8 +35,8 @@ typedef struct level {
 DAL_INLINE void find_missing(dal_step *s, level *k)
 {
     const int m = DAL_M(s);
-    if (m > 0) dal_ask(s, DAL_ASK_CONSTRAINT, s->t, k->q, k->v, NULL, k->constraint);
-    dal_ask(s, DAL_ASK_ENERGY_NORMAL, s->t, k->q, k->v, NULL, k->energy);
+    if (m > 0) dal_eval(s, DAL_EVAL_CONSTRAINT, s->t, k->q, k->v, NULL, k->constraint);
+    dal_eval(s, DAL_EVAL_ENERGY_NORMAL, s->t, k->q, k->v, NULL, k->energy);
     DAL_EACH(a, m) k->missing[a] = k->constraint[a];
     k->missing[m] = k->energy[0] - s->level[0];
 }
@@ -141,7 +141,7 @@ DAL_INLINE dal_status note_energy(dal_step *s)
     const dal_mask fresh = s->alive[0] & dal_less(s->level[1], dal_num(0.5));
     DAL_VECTOR(s, energy, 1 + 3 * DAL_N(s));
     if (!dal_any(fresh)) return DAL_OK;
-    dal_ask(s, DAL_ASK_ENERGY_NORMAL, s->t, s->y, s->y + DAL_N(s), NULL, energy);
+    dal_eval(s, DAL_EVAL_ENERGY_NORMAL, s->t, s->y, s->y + DAL_N(s), NULL, energy);
     s->level[0] = dal_select(fresh, energy[0], s->level[0]);
     s->level[1] = dal_select(fresh, dal_num(1.0), s->level[1]);
     return DAL_OK;

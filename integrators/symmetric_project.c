@@ -55,9 +55,9 @@ DAL_INLINE void reflection_map(dal_step *s, dal_equation *eq)
     const dal_mask alive = s->alive[0];
     step_inside(s, k, mu, eq->active[0]);
     s->alive[0] = eq->active[0];
-    dal_ask(s, DAL_ASK_CONSTRAINT, s->t, s->y, v1, NULL, k->out);
+    dal_eval(s, DAL_EVAL_CONSTRAINT, s->t, s->y, v1, NULL, k->out);
     push_velocity(s, k, k->out + m + m * n, mu);
-    dal_ask(s, DAL_ASK_CONSTRAINT, s->t, s->y, v, NULL, k->out);
+    dal_eval(s, DAL_EVAL_CONSTRAINT, s->t, s->y, v, NULL, k->out);
     dal_multiply(k->inverse, m, m, k->out, k->shift);
     DAL_EACH(a, m) eq->block[0].image[a] = dal_select(k->failed, dal_num(NAN), mu[a] - k->shift[a]);
     DAL_EACH(i, n) eq->block[1].image[i] = v[i];
@@ -73,7 +73,7 @@ DAL_INLINE dal_status begin_reflection(dal_step *s, reflection *k, dal_equation 
     DAL_EACH(i, DAL_DIM(s)) k->y0[i] = s->y[i];
     DAL_EACH(i, DAL_DIM(s)) k->r0[i] = s->r[i];
     dal_remember(s, k->memory0);
-    dal_ask(s, DAL_ASK_CONSTRAINT, s->t, s->y, s->y + n, NULL, k->out);
+    dal_eval(s, DAL_EVAL_CONSTRAINT, s->t, s->y, s->y + n, NULL, k->out);
     DAL_EACH(i, n * m) k->B0[i] = B[i];
     dal_gram(A, B, m, n, g);
     DAL_EACH(i, m * m) g[i] = 2.0 * g[i];

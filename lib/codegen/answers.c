@@ -1,4 +1,4 @@
-/* answers.c - a system's programs as C: what dal_ask says, the start, the observables. */
+/* answers.c - a system's programs as C: what dal_eval says, the start, the observables. */
 #include "codegen/generate.h"
 #include <stdio.h>
 #include <stdlib.h>
@@ -46,7 +46,7 @@ static void put_program(dal__generation *g, dal__program_code code, const char *
     dal__text_put(&g->text, "}\n\n");
 }
 
-/* The branch of dal_ask for one question.  What is not inlined gets copies, so that the state
+/* The branch of dal_eval for one question.  What is not inlined gets copies, so that the state
  * itself can stay in registers. */
 static void put_question(dal__generation *g, dal__program_code code, const char *question,
                          const char *name)
@@ -54,7 +54,7 @@ static void put_question(dal__generation *g, dal__program_code code, const char 
     const dal__program *p = &g->programs->program[code];
     const int outputs = p->outputs, all = outputs + 2 * p->checked;
     if (!dal__wants(g, code)) return;
-    dal__text_print(&g->text, "    case DAL_ASK_%s: {\n        num all[%d];\n", question,
+    dal__text_print(&g->text, "    case DAL_EVAL_%s: {\n        num all[%d];\n", question,
                     all > 0 ? all : 1);
     if (is_inlined(g, code)) {
         dal__text_print(&g->text, "        dal__%s(work, t, q, v, pi, all);\n", name);
@@ -81,19 +81,20 @@ static void put_ask(dal__generation *g)
                   "    dal_mask ok = dal_all();\n"
                   "    DAL_EACH(k, pivots)\n    ok &= dal_less(");
     dal__text_number(&g->text, DAL__PIVOT_LEAST);
-    dal__text_put(&g->text, " * all[outputs + 2 * k + 1], dal_abs(all[outputs + 2 * k]));\n"
-                            "    DAL_EACH(i, outputs) out[i] = dal_select(ok, all[i], "
-                            "dal_num(NAN));\n}\n\n"
-                            "/* The answer for one group of lanes. */\n"
-                            "DAL_INLINE void dal__ask_group(const dal_stored *work, dal_question "
-                            "question, dal_time t,\n    const num *q, const num *v, const num *pi, "
-                            "num *out)\n{\n"
-                            "    switch (question) {\n");
+    dal__text_put(&g->text,
+                  " * all[outputs + 2 * k + 1], dal_abs(all[outputs + 2 * k]));\n"
+                  "    DAL_EACH(i, outputs) out[i] = dal_select(ok, all[i], "
+                  "dal_num(NAN));\n}\n\n"
+                  "/* The answer for one group of lanes. */\n"
+                  "DAL_INLINE void dal__eval_group(const dal_stored *work, dal_callback_code "
+                  "question, dal_time t,\n    const num *q, const num *v, const num *pi, "
+                  "num *out)\n{\n"
+                  "    switch (question) {\n");
 #define X(code, name, reads) put_question(g, DAL__PROGRAM_##code, #code, #name);
     DAL__WIDE_LIST(X)
 #undef X
     if (!dal__wants(g, DAL__PROGRAM_GAUGE))
-        dal__text_put(&g->text, "    case DAL_ASK_GAUGE:\n        out[0] = dal_num(0.0);\n"
+        dal__text_put(&g->text, "    case DAL_EVAL_GAUGE:\n        out[0] = dal_num(0.0);\n"
                                 "        break;\n");
     dal__text_put(&g->text, "    default:\n        break;\n    }\n}\n\n");
 }

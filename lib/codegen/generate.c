@@ -82,13 +82,13 @@ bool dal__wants(const dal__generation *g, dal__program_code code)
     case DAL__PROGRAM_JACOBIAN:
         return dal__uses_newton(g) || dal__follows_tangents(g);
     case DAL__PROGRAM_CONSTRAINT:
-        return watched || imposes || dal__method_uses(g, "DAL_ASK_CONSTRAINT");
+        return watched || imposes || dal__method_uses(g, "DAL_EVAL_CONSTRAINT");
     case DAL__PROGRAM_PARTS:
         return imposes;
     case DAL__PROGRAM_POTENTIAL:
         return dal_method_needs(&g->spec->method) & DAL_NEEDS_POTENTIAL;
     case DAL__PROGRAM_ENERGY_NORMAL:
-        return dal__method_uses(g, "DAL_ASK_ENERGY_NORMAL");
+        return dal__method_uses(g, "DAL_EVAL_ENERGY_NORMAL");
     case DAL__PROGRAM_DIAGNOSE:
         return false;
     default:

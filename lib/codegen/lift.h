@@ -16,8 +16,8 @@ DAL_INLINE void dal__observe_lift(const dal_stored *work, dal_time t, const num 
 {
     const int n = DAL__N, e = DAL__LIFTED ? 2 * n : 0;
     num f[DAL__NW], mu;
-    dal__ask_group(work, DAL_ASK_FIELD, t, y, y + n, NULL, f);
-    dal__ask_group(work, DAL_ASK_GAUGE, t, y, y + n, NULL, &mu);
+    dal__eval_group(work, DAL_EVAL_FIELD, t, y, y + n, NULL, f);
+    dal__eval_group(work, DAL_EVAL_GAUGE, t, y, y + n, NULL, &mu);
     out[0] = dal__hamiltonian(y, f, mu);
     out[1] = out[2] = dal_num(0.0);
     DAL_EACH(i, n) {

@@ -103,14 +103,14 @@ DAL_INLINE dal_mask dal__finite_state(const dal_step *s, int group)
 }
 
 /* What the system says of a group, before and after the step from y0. */
-DAL_INLINE void dal__ask_twice(const dal_step *s, int group, dal_question question, const num *y0,
-                               num *before, num *after)
+DAL_INLINE void dal__eval_both_ends(const dal_step *s, int group, dal_callback_code code,
+                                    const num *y0, num *before, num *after)
 {
     num a[DAL__N + DAL__NW], b[DAL__N + DAL__NW];
     dal__pick(y0, group, DAL__N + DAL__NW, a);
     dal__pick(s->y, group, DAL__N + DAL__NW, b);
-    dal__ask_group(s->work + group, question, s->t - s->h, a, a + DAL__N, NULL, before);
-    dal__ask_group(s->work + group, question, s->t, b, b + DAL__N, NULL, after);
+    dal__eval_group(s->work + group, question, s->t - s->h, a, a + DAL__N, NULL, before);
+    dal__eval_group(s->work + group, question, s->t, b, b + DAL__N, NULL, after);
 }
 
 /* The guards of the constraints keep their signs. */
@@ -118,7 +118,7 @@ DAL_INLINE dal_mask dal__guards_hold(const dal_step *s, int group, const num *y0
 {
     num before[DAL__ROOM(DAL__GUARDS)], after[DAL__ROOM(DAL__GUARDS)];
     dal_mask good = dal_all();
-    dal__ask_twice(s, group, DAL_ASK_GUARDS, y0, before, after);
+    dal__eval_both_ends(s, group, DAL_EVAL_GUARDS, y0, before, after);
     DAL_EACH(i, DAL__GUARDS) good &= dal_less(dal_num(0.0), before[i] * after[i]);
     return good;
 }
@@ -130,7 +130,7 @@ DAL_INLINE dal_mask dal__normals_hold(const dal_step *s, int group, const num *y
     num c0[DAL__ROOM(DAL__M + 2 * DAL__M * DAL__N)], c1[DAL__ROOM(DAL__M + 2 * DAL__M * DAL__N)];
     num g0[DAL__ROOM(DAL__M * DAL__M)], g1[DAL__ROOM(DAL__M * DAL__M)];
     dal_mask good = dal_all();
-    dal__ask_twice(s, group, DAL_ASK_CONSTRAINT, y0, c0, c1);
+    dal__eval_both_ends(s, group, DAL_EVAL_CONSTRAINT, y0, c0, c1);
     dal_gram(c0 + m, c0 + m + m * n, m, n, g0);
     dal_gram(c1 + m, c0 + m + m * n, m, n, g1);
     DAL_EACH(k, m)

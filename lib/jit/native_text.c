@@ -49,8 +49,8 @@ static const char lanes[] = "#define DAL_SPECIALISED 1\n"
                             "#elif defined __AVX__\n#define DAL_LANES 4\n"
                             "#else\n#define DAL_LANES 2\n#endif\n"
                             "#define DAL_WORK(place) dal_num(((const double *)w)[place])\n"
-                            "typedef enum dal_question { DAL_ASK_FIELD, DAL_ASK_GAUGE } "
-                            "dal_question;\n";
+                            "typedef enum dal_callback_code { DAL_EVAL_FIELD, DAL_EVAL_GAUGE } "
+                            "dal_callback_code;\n";
 
 static void put_sizes(dal__generation *g)
 {

@@ -89,7 +89,7 @@ DAL_INLINE void dal__keep_forces(const dal_step *s, const dal_stages *k, dal_mas
 }
 
 /* Asks the system at every stage; on the physical space F is the image of K. */
-DAL_INLINE void dal__ask_stages(dal_step *s, const dal_stages *k, num *image)
+DAL_INLINE void dal__eval_stages(dal_step *s, const dal_stages *k, num *image)
 {
     DAL_EACH(i, DAL_STAGES(k->method)) {
         const double t = s->t + k->method->c[i] * k->h;
@@ -107,7 +107,7 @@ DAL_INLINE void dal__collocation_map(dal_step *s, dal_equation *eq)
     dal__stage_values(s, k, 1, n, nw, eq->block[0].u, nw, k->v);
     dal__stage_values(s, k, 0, 0, n, k->v, nw, k->q);
     if (DAL_LIFTED(s)) dal__stage_values(s, k, 0, dal_at_pi(s), n, eq->block[1].u, n, k->pi);
-    dal__ask_stages(s, k, image);
+    dal__eval_stages(s, k, image);
     if (!DAL_LIFTED(s)) return;
     dal__keep_forces(s, k, eq->active[0]);
     DAL_EACH(i, DAL_STAGES(k->method))

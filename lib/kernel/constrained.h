@@ -19,8 +19,8 @@
 #ifndef DAL_KERNEL_CONSTRAINED_H
 #define DAL_KERNEL_CONSTRAINED_H
 
-/* Numbers in an answer to DAL_ASK_PARTS, and where its parts lie: D, A, B as in one to
- * DAL_ASK_CONSTRAINT, then a and c. */
+/* Numbers in an answer to DAL_EVAL_PARTS, and where its parts lie: D, A, B as in one to
+ * DAL_EVAL_CONSTRAINT, then a and c. */
 #define DAL_PARTS(s)    (2 * DAL_M(s) + DAL_N(s) + 2 * DAL_M(s) * DAL_N(s))
 #define DAL_NORMALS(s)  (DAL_M(s) + 2 * DAL_M(s) * DAL_N(s))
 #define DAL_SQUARE_M(s) (DAL_M(s) * DAL_M(s))
@@ -32,13 +32,13 @@ DAL_INLINE int dal_at_c(const dal_step *s) { return DAL_NORMALS(s) + DAL_N(s); }
 DAL_INLINE void dal_parts(dal_step *s, double t, const num *q, const num *v, num *out)
 {
     s->evaluations++;
-    dal_ask(s, DAL_ASK_PARTS, t, q, v, NULL, out);
+    dal_eval(s, DAL_EVAL_PARTS, t, q, v, NULL, out);
 }
 
 /* Without constraints there is no such question. */
 DAL_INLINE void dal_constraint(dal_step *s, double t, const num *q, const num *v, num *out)
 {
-    if (DAL_M(s) > 0) dal_ask(s, DAL_ASK_CONSTRAINT, t, q, v, NULL, out);
+    if (DAL_M(s) > 0) dal_eval(s, DAL_EVAL_CONSTRAINT, t, q, v, NULL, out);
 }
 
 /* The present state moved by d: y + (r + d), for component i of q or of v. */

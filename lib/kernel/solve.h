@@ -356,7 +356,7 @@ DAL_INLINE void dal_stage_inverse(dal_step *s, const dal_stage_matrix *k, const 
 /* F_q, F_(v,g) of a group at a point of all, [nw*n + nw*nw]. */
 DAL_INLINE void dal_jacobian(dal_step *s, int group, double t, const num *q, const num *v, num *out)
 {
-    dal_ask_group(s, group, DAL_ASK_JACOBIAN, t, q, v, out);
+    dal_eval_group(s, group, DAL_EVAL_JACOBIAN, t, q, v, out);
 }
 
 #endif

@@ -16,18 +16,18 @@ typedef struct dal_step dal_step;
 enum { DAL_MOST_STAGES = 16 };
 
 /* What a system can be asked for; outputs as in dal_callbacks. */
-typedef enum dal_question {
-    DAL_ASK_FIELD,
-    DAL_ASK_ADJOINT,
-    DAL_ASK_JACOBIAN,
-    DAL_ASK_CONSTRAINT,
-    DAL_ASK_ENERGY_NORMAL,
-    DAL_ASK_GAUGE,
-    DAL_ASK_GUARDS,
-    DAL_ASK_PARTS,
-    DAL_ASK_POTENTIAL,
-    DAL_QUESTIONS
-} dal_question;
+typedef enum dal_callback_code {
+    DAL_EVAL_FIELD,
+    DAL_EVAL_ADJOINT,
+    DAL_EVAL_JACOBIAN,
+    DAL_EVAL_CONSTRAINT,
+    DAL_EVAL_ENERGY_NORMAL,
+    DAL_EVAL_GAUGE,
+    DAL_EVAL_GUARDS,
+    DAL_EVAL_PARTS,
+    DAL_EVAL_POTENTIAL,
+    DAL_EVAL_COUNT
+} dal_callback_code;
 
 #ifdef DAL_SPECIALISED
 
@@ -98,11 +98,11 @@ DAL_INLINE void dal_recall(dal_step *s, dal_mask lanes, const num *from)
 }
 
 /* The system as straight-line code, further down. */
-DAL_INLINE void dal_ask(dal_step *s, dal_question question, double t, const num *q, const num *v,
-                        const num *pi, num *out);
+DAL_INLINE void dal_eval(dal_step *s, dal_callback_code code, double t, const num *q, const num *v,
+                         const num *pi, num *out);
 /* The answer for one group of lanes alone. */
-DAL_INLINE void dal_ask_group(dal_step *s, int group, dal_question question, double t, const num *q,
-                              const num *v, num *out);
+DAL_INLINE void dal_eval_group(dal_step *s, int group, dal_callback_code code, double t,
+                               const num *q, const num *v, num *out);
 
 #else
 
@@ -158,7 +158,7 @@ struct dal_step {
     const dal_integrator *const *chain; /* innermost first */
     int depth;                          /* which of the chain is at work */
 
-    void (*ask)(dal_step *step, dal_question question, double t, const num *q, const num *v,
+    void (*ask)(dal_step *step, dal_callback_code code, double t, const num *q, const num *v,
                 const num *pi, num *out);
     void *owner;           /* of ask */
     long long evaluations; /* of the field or the lifted field */
@@ -194,16 +194,16 @@ DAL_INLINE void dal_recall(dal_step *s, dal_mask lanes, const num *from)
     DAL_EACH(i, s->remembered) s->memory[i] = dal_select(lanes, from[i], s->memory[i]);
 }
 
-DAL_INLINE void dal_ask(dal_step *s, dal_question question, double t, const num *q, const num *v,
-                        const num *pi, num *out)
+DAL_INLINE void dal_eval(dal_step *s, dal_callback_code code, double t, const num *q, const num *v,
+                         const num *pi, num *out)
 {
     s->ask(s, question, t, q, v, pi, out);
 }
-DAL_INLINE void dal_ask_group(dal_step *s, int group, dal_question question, double t, const num *q,
-                              const num *v, num *out)
+DAL_INLINE void dal_eval_group(dal_step *s, int group, dal_callback_code code, double t,
+                               const num *q, const num *v, num *out)
 {
     (void)group;
-    dal_ask(s, question, t, q, v, NULL, out);
+    dal_eval(s, question, t, q, v, NULL, out);
 }
 
 #endif
@@ -228,18 +228,18 @@ DAL_INLINE void dal_clear_momenta(dal_step *s)
 DAL_INLINE void dal_force(dal_step *s, double t, const num *q, const num *v, num *out)
 {
     s->evaluations++;
-    dal_ask(s, DAL_ASK_FIELD, t, q, v, NULL, out);
+    dal_eval(s, DAL_EVAL_FIELD, t, q, v, NULL, out);
 }
 DAL_INLINE void dal_adjoint(dal_step *s, double t, const num *q, const num *v, const num *pi,
                             num *out)
 {
     s->evaluations++;
-    dal_ask(s, DAL_ASK_ADJOINT, t, q, v, pi, out);
+    dal_eval(s, DAL_EVAL_ADJOINT, t, q, v, pi, out);
 }
 DAL_INLINE num dal_mu_e(dal_step *s, double t)
 {
     num mu;
-    dal_ask(s, DAL_ASK_GAUGE, t, s->y, s->y + DAL_N(s), NULL, &mu);
+    dal_eval(s, DAL_EVAL_GAUGE, t, s->y, s->y + DAL_N(s), NULL, &mu);
     return mu;
 }
 
@@ -256,7 +256,7 @@ DAL_INLINE dal_status dal__tangent_field(dal_step *s, double t, const num *y, nu
     DAL_MARK(s);
     DAL_VECTOR(s, jacobian, 2 * DAL_N(s) * DAL_N(s));
     dal_force(s, t, y, y + n, dy + n);
-    dal_ask(s, DAL_ASK_JACOBIAN, t, y, y + n, NULL, jacobian);
+    dal_eval(s, DAL_EVAL_JACOBIAN, t, y, y + n, NULL, jacobian);
     DAL_EACH(i, n) {
         num sum = dal_num(0.0);
         DAL_EACH(j, n) sum = dal_fma(jacobian[i * n + j], y[dq + j], sum);

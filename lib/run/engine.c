@@ -8,7 +8,7 @@ const dal__engine_kind dal__engine_kinds[DAL__VARIANTS] = {
      name##_bytes_##variant,                                                                       \
      name##_place_##variant,                                                                       \
      name##_step_##variant,                                                                        \
-     name##_ask_##variant,                                                                         \
+     name##_eval_##variant,                                                                        \
      name##_trace_##variant},
     X(dal__engine, x1, 1, BASE, x1) DAL__VARIANT_LIST(X, dal__engine)
 #undef X

@@ -50,7 +50,7 @@ dal_status dal__shape_init(dal__shape *shape, const dal_run_spec *spec, dal_erro
 /* Whether a run can be in long numbers (long.c).  Errors: DAL_UNSUPPORTED. */
 dal_status dal__long_check(const dal__shape *shape, dal_error *error);
 
-/* Numbers in the answer to a dal_question. */
+/* Numbers in the answer to a dal_callback_code. */
 int dal__answer_size(const dal__shape *shape, int question);
 
 /* The variants by number. */
@@ -73,8 +73,8 @@ typedef uint64_t dal__lanes;
     void *name##_place_##variant(const dal__shape *shape, void *memory, double **carried,          \
                                  double **work);                                                   \
     dal__lanes name##_step_##variant(void *engine, double h, dal__lanes alive, dal_status *why);   \
-    dal_status name##_ask_##variant(void *engine, int question, double t, const double *state,     \
-                                    double *out);                                                  \
+    dal_status name##_eval_##variant(void *engine, int question, double t, const double *state,    \
+                                     double *out);                                                 \
     void name##_trace_##variant(void *engine, dal__cause *cause);
 
 /* For each variant:
@@ -82,7 +82,7 @@ typedef uint64_t dal__lanes;
  * place   makes one; *carried and *work receive its interleaved arrays (zeroed);
  * step    advances the lanes alive by h; returns those that failed, which are as they were, with
  *         why[lane] set;
- * ask     evaluates the field etc. (dal_question) at a state (adjoint: with its own pi);
+ * ask     evaluates the field etc. (dal_callback_code) at a state (adjoint: with its own pi);
  * trace   from now on records causes of failure (NULL: stops). */
 DAL__ENGINE(dal__engine, x1, 1, BASE, x1)
 DAL__VARIANT_LIST(DAL__ENGINE, dal__engine)

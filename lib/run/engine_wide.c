@@ -15,7 +15,7 @@ typedef struct engine {
     dal_step step; /* first, so that step->owner is also the engine */
     dal__shape shape;
     const dal_integrator *chain[DAL_CHAIN];
-    dal_callback *call[DAL_QUESTIONS];
+    dal_callback *call[DAL_EVAL_COUNT];
     num *carried, *backup, *work;
     dal__cause *cause;
 } engine;
@@ -41,7 +41,7 @@ static size_t changing(const engine *e)
 }
 
 /* Remembers the first answer that is not finite. */
-static void trace(engine *e, dal_question question, const dal_point *at, dal_status status,
+static void trace(engine *e, dal_callback_code code, const dal_point *at, dal_status status,
                   const double *out)
 {
     dal__cause *cause = e->cause;
@@ -56,13 +56,13 @@ static void trace(engine *e, dal_question question, const dal_point *at, dal_sta
 }
 
 /* The answer where there is none. */
-static void fill(const engine *e, dal_question question, double value, num *out)
+static void fill(const engine *e, dal_callback_code code, double value, num *out)
 {
     const int size = dal__answer_size(&e->shape, question) * DAL_GROUPS;
     for (int i = 0; i < size; i++) out[i] = dal_num(value);
 }
 
-static void ask(dal_step *s, dal_question question, double t, const num *q, const num *v,
+static void ask(dal_step *s, dal_callback_code code, double t, const num *q, const num *v,
                 const num *pi, num *out)
 {
     engine *e = s->owner;
@@ -165,8 +165,8 @@ void DAL_WIDE(dal__engine_trace)(void *engine_, dal__cause *cause)
     ((engine *)engine_)->cause = cause;
 }
 
-dal_status DAL_WIDE(dal__engine_ask)(void *engine_, int question, double t, const double *state,
-                                     double *out)
+dal_status DAL_WIDE(dal__engine_eval)(void *engine_, int question, double t, const double *state,
+                                      double *out)
 {
     engine *e = engine_;
     const int n = e->shape.n;
@@ -213,7 +213,7 @@ static void note(int *which, dal_mask good, int number)
 }
 
 /* What the system says to a question before and after the step. */
-static void ask_twice(engine *e, dal_question question, num *before, num *after)
+static void ask_twice(engine *e, dal_callback_code code, num *before, num *after)
 {
     dal_step *s = &e->step;
     ask(s, question, s->t - s->h, e->backup, e->backup + s->n, NULL, before);
@@ -226,7 +226,7 @@ static lane_mask guards_hold(engine *e)
     dal_step *s = &e->step;
     lane_mask good = all_lanes();
     num *before = dal_scratch(s, count), *after = dal_scratch(s, count);
-    ask_twice(e, DAL_ASK_GUARDS, before, after);
+    ask_twice(e, DAL_EVAL_GUARDS, before, after);
     for (int i = 0; i < count; i++) {
         good.group[i % DAL_GROUPS] &= dal_less(dal_num(0.0), before[i] * after[i]);
         if (e->cause) note(&e->cause->guard, good.group[0], i + 1);
@@ -263,7 +263,7 @@ static lane_mask normals_hold(engine *e)
     lane_mask good;
     num *before = dal_scratch(s, size * DAL_GROUPS), *after = dal_scratch(s, size * DAL_GROUPS);
     num *c0 = dal_scratch(s, size), *c1 = dal_scratch(s, size);
-    ask_twice(e, DAL_ASK_CONSTRAINT, before, after);
+    ask_twice(e, DAL_EVAL_CONSTRAINT, before, after);
     for (int g = 0; g < DAL_GROUPS; g++) {
         const size_t mark = s->used;
         pick(before, g, size, c0);
@@ -320,7 +320,7 @@ static dal__lanes judge(engine *e, lane_mask *left, dal__lanes alive, dal_status
     if (failed == alive) return failed;
     e->step.used = 0;
     if (system->guards > 0) failed |= reject(left, guards_hold(e), DAL_SINGULAR, why);
-    if ((system->properties & DAL_D_WATCHED) && e->call[DAL_ASK_CONSTRAINT])
+    if ((system->properties & DAL_D_WATCHED) && e->call[DAL_EVAL_CONSTRAINT])
         failed |= reject(left, normals_hold(e), DAL_SINGULAR, why);
     return failed;
 }

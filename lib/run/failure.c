@@ -39,7 +39,7 @@ static bool gauge_crosses(dal_run *run, double t, double h)
     const double e = run->carried[2 * run->shape.n];
     double mu[2] = {0.0, 0.0};
     for (int i = 0; i < 2; i++)
-        if (run->kind->ask(run->engine, DAL_ASK_GAUGE, t + i * h, run->carried, &mu[i]) != DAL_OK)
+        if (run->kind->ask(run->engine, DAL_EVAL_GAUGE, t + i * h, run->carried, &mu[i]) != DAL_OK)
             return false;
     return e * (e + h * mu[0]) <= 0.0 || e * (e + h * mu[1]) <= 0.0;
 }
@@ -72,7 +72,7 @@ static bool predict(dal_run *run, double t, double dt)
 {
     const dal__shape *k = &run->shape;
     double *f = run->answer;
-    if (run->kind->ask(run->engine, DAL_ASK_FIELD, t, run->carried, f) != DAL_OK) return false;
+    if (run->kind->ask(run->engine, DAL_EVAL_FIELD, t, run->carried, f) != DAL_OK) return false;
     for (int i = 0; i < k->n; i++) run->shadow[i] = run->carried[i] + dt * run->carried[k->n + i];
     for (int i = 0; i < k->nw; i++) run->shadow[k->n + i] = run->carried[k->n + i] + dt * f[i];
     return true;
@@ -90,7 +90,7 @@ static double *ask_both(dal_run *run, int question, int size, double t, double d
 static int vanishing_guard(dal_run *run, double t, double dt)
 {
     const int guards = run->shape.system->guards;
-    const double *g0 = run->answer, *g1 = ask_both(run, DAL_ASK_GUARDS, guards, t, dt);
+    const double *g0 = run->answer, *g1 = ask_both(run, DAL_EVAL_GUARDS, guards, t, dt);
     for (int i = 0; g1 && i < guards; i++)
         if (would_vanish(g0[i], g1[i])) return i + 1;
     return 0;
@@ -100,7 +100,7 @@ static int vanishing_normal(dal_run *run, double t, double dt)
 {
     const int m = run->shape.m, n = run->shape.n, size = m + 2 * m * n;
     if (!(run->shape.system->properties & DAL_D_WATCHED)) return 0;
-    const double *c0 = run->answer, *c1 = ask_both(run, DAL_ASK_CONSTRAINT, size, t, dt);
+    const double *c0 = run->answer, *c1 = ask_both(run, DAL_EVAL_CONSTRAINT, size, t, dt);
     double *g0 = run->answer + 2 * size, *g1 = g0 + m * m;
     if (!c1) return 0;
     dal_gram(c0 + m, c0 + m + m * n, m, n, g0);

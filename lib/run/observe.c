@@ -61,8 +61,8 @@ static double hamiltonian(dal_run *run)
     const double *y = run->carried, *v = y + n, *p = y + 2 * n + 1, *pi = y + 3 * n + 1;
     double *f = run->answer, mu = 0.0, sum = 0.0;
     const double t = dal_run_time(run);
-    run->kind->ask(run->engine, DAL_ASK_FIELD, t, y, f);
-    run->kind->ask(run->engine, DAL_ASK_GAUGE, t, y, &mu);
+    run->kind->ask(run->engine, DAL_EVAL_FIELD, t, y, f);
+    run->kind->ask(run->engine, DAL_EVAL_GAUGE, t, y, &mu);
     for (int i = 0; i < n; i++)
         sum += pi[i] * pi[i] * (0.5 / y[2 * n]) + pi[i] * f[i] + p[i] * v[i];
     return sum + mu * y[4 * n + 1];

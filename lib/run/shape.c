@@ -195,23 +195,23 @@ static dal_status check_control(const dal__shape *k, dal_error *error)
 int dal__answer_size(const dal__shape *k, int question)
 {
     switch (question) {
-    case DAL_ASK_FIELD:
+    case DAL_EVAL_FIELD:
         return k->nw;
-    case DAL_ASK_ADJOINT:
+    case DAL_EVAL_ADJOINT:
         return 3 * k->n;
-    case DAL_ASK_JACOBIAN:
+    case DAL_EVAL_JACOBIAN:
         return k->nw * (k->n + k->nw);
-    case DAL_ASK_CONSTRAINT:
+    case DAL_EVAL_CONSTRAINT:
         return k->m + 2 * k->m * k->n;
-    case DAL_ASK_ENERGY_NORMAL:
+    case DAL_EVAL_ENERGY_NORMAL:
         return 1 + 3 * k->n;
-    case DAL_ASK_GAUGE:
+    case DAL_EVAL_GAUGE:
         return 1;
-    case DAL_ASK_GUARDS:
+    case DAL_EVAL_GUARDS:
         return k->system->guards;
-    case DAL_ASK_PARTS:
+    case DAL_EVAL_PARTS:
         return k->n + 2 * (k->m + k->m * k->n);
-    case DAL_ASK_POTENTIAL:
+    case DAL_EVAL_POTENTIAL:
         return 3 * k->n;
     default:
         return 0;
