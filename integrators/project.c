@@ -19,7 +19,7 @@ typedef struct projection {
     num *shift;   /* [m] */
 } projection;
 
-DAL_INLINE void ask_constraint(dal_step *s, projection *p)
+DAL_INLINE void eval_constraint(dal_step *s, projection *p)
 {
     dal_eval(s, DAL_EVAL_CONSTRAINT, s->t, s->y, p->v, NULL, p->out);
 }
@@ -30,7 +30,7 @@ DAL_INLINE void projection_map(dal_step *s, dal_equation *eq)
     projection *p = (projection *)eq->context;
     const int n = DAL_N(s), m = DAL_M(s);
     DAL_EACH(i, n) p->v[i] = p->u[i] + eq->block[0].u[i];
-    ask_constraint(s, p);
+    eval_constraint(s, p);
     dal_multiply(p->inverse, m, m, p->out, p->shift);
     dal_multiply(p->normals, n, m, p->shift, eq->block[0].image);
     DAL_EACH(i, n) eq->block[0].image[i] = eq->block[0].u[i] - eq->block[0].image[i];
@@ -41,7 +41,7 @@ DAL_INLINE dal_status freeze_projection(dal_step *s, projection *p)
 {
     const int n = DAL_N(s), m = DAL_M(s);
     DAL_VECTOR(s, g, DAL_M(s) * DAL_M(s));
-    ask_constraint(s, p);
+    eval_constraint(s, p);
     const num *a = p->out + m, *b = p->out + m + m * n;
     DAL_EACH(i, n * m) p->normals[i] = b[i];
     dal_gram(a, b, m, n, g);

@@ -46,15 +46,15 @@ static void put_program(dal__generation *g, dal__program_code code, const char *
     dal__text_put(&g->text, "}\n\n");
 }
 
-/* The branch of dal_eval for one question.  What is not inlined gets copies, so that the state
+/* The branch of dal_eval for one code.  What is not inlined gets copies, so that the state
  * itself can stay in registers. */
-static void put_question(dal__generation *g, dal__program_code code, const char *question,
-                         const char *name)
+static void put_evaluation(dal__generation *g, dal__program_code code, const char *callback,
+                           const char *name)
 {
     const dal__program *p = &g->programs->program[code];
     const int outputs = p->outputs, all = outputs + 2 * p->checked;
     if (!dal__wants(g, code)) return;
-    dal__text_print(&g->text, "    case DAL_EVAL_%s: {\n        num all[%d];\n", question,
+    dal__text_print(&g->text, "    case DAL_EVAL_%s: {\n        num all[%d];\n", callback,
                     all > 0 ? all : 1);
     if (is_inlined(g, code)) {
         dal__text_print(&g->text, "        dal__%s(work, t, q, v, pi, all);\n", name);
@@ -71,7 +71,7 @@ static void put_question(dal__generation *g, dal__program_code code, const char 
                     outputs, p->checked);
 }
 
-static void put_ask(dal__generation *g)
+static void put_dispatch(dal__generation *g)
 {
     dal__text_put(&g->text,
                   "/* The outputs; NaN in the lanes where one of the pivots behind them, each\n"
@@ -87,10 +87,10 @@ static void put_ask(dal__generation *g)
                   "dal_num(NAN));\n}\n\n"
                   "/* The answer for one group of lanes. */\n"
                   "DAL_INLINE void dal__eval_group(const dal_stored *work, dal_callback_code "
-                  "question, dal_time t,\n    const num *q, const num *v, const num *pi, "
+                  "code, dal_time t,\n    const num *q, const num *v, const num *pi, "
                   "num *out)\n{\n"
-                  "    switch (question) {\n");
-#define X(code, name, reads) put_question(g, DAL__PROGRAM_##code, #code, #name);
+                  "    switch (code) {\n");
+#define X(code, name, reads) put_evaluation(g, DAL__PROGRAM_##code, #code, #name);
     DAL__WIDE_LIST(X)
 #undef X
     if (!dal__wants(g, DAL__PROGRAM_GAUGE))
@@ -142,7 +142,7 @@ static void put_single_programs(dal__generation *g)
     put_program(g, DAL__PROGRAM_EXACT, "exact");
 }
 
-void dal__put_answers(dal__generation *g)
+void dal__emit_callbacks(dal__generation *g)
 {
     name_inputs(g);
     if (!g->input) return;
@@ -157,7 +157,7 @@ void dal__put_answers(dal__generation *g)
 #undef X
     if (g->product == DAL__FILE || g->product == DAL__LOOKS) put_single_programs(g);
     free(g->input);
-    put_ask(g);
+    put_dispatch(g);
 }
 
 /* ---- observables, in the order of dal_run_observables ---- */

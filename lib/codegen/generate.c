@@ -293,7 +293,7 @@ void dal__put_steps(dal__generation *g)
     dal__put_constants(g);
     put_enums(g);
     put_kernel(g);
-    dal__put_answers(g);
+    dal__emit_callbacks(g);
     dal__text_put(&g->text, dal__source_text("ask.h"));
     put_method(g);
     dal__put_template(g, dal__source_text("stepper.h"));

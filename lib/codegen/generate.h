@@ -79,7 +79,7 @@ void dal__put_interface(dal__generation *g);
 void dal__put_names(dal__generation *g);
 
 /* ---- answers.c: the system ---- */
-void dal__put_answers(dal__generation *g);
+void dal__emit_callbacks(dal__generation *g);
 void dal__put_start(dal__generation *g);
 void dal__put_observe(dal__generation *g);
 

@@ -109,8 +109,8 @@ DAL_INLINE void dal__eval_both_ends(const dal_step *s, int group, dal_callback_c
     num a[DAL__N + DAL__NW], b[DAL__N + DAL__NW];
     dal__pick(y0, group, DAL__N + DAL__NW, a);
     dal__pick(s->y, group, DAL__N + DAL__NW, b);
-    dal__eval_group(s->work + group, question, s->t - s->h, a, a + DAL__N, NULL, before);
-    dal__eval_group(s->work + group, question, s->t, b, b + DAL__N, NULL, after);
+    dal__eval_group(s->work + group, code, s->t - s->h, a, a + DAL__N, NULL, before);
+    dal__eval_group(s->work + group, code, s->t, b, b + DAL__N, NULL, after);
 }
 
 /* The guards of the constraints keep their signs. */

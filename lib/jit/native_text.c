@@ -80,7 +80,7 @@ dal_status dal__generate_looks(const dal__shape *shape, const dal_run *run, char
     put_sizes(&g);
     dal__text_put(&g.text, dal__source_text("num.h"));
     dal__text_put(&g.text, dal__source_text("elementary.h"));
-    dal__put_answers(&g);
+    dal__emit_callbacks(&g);
     if (g.shape.lifted) dal__text_put(&g.text, dal__source_text("lift.h"));
     dal__put_observe(&g);
     dal__put_template(&g, dal__source_text("looks.h"));

@@ -35,7 +35,7 @@ DAL_INLINE void dal_parts(dal_step *s, double t, const num *q, const num *v, num
     dal_eval(s, DAL_EVAL_PARTS, t, q, v, NULL, out);
 }
 
-/* Without constraints there is no such question. */
+/* Without constraints there is no such code. */
 DAL_INLINE void dal_constraint(dal_step *s, double t, const num *q, const num *v, num *out)
 {
     if (DAL_M(s) > 0) dal_eval(s, DAL_EVAL_CONSTRAINT, t, q, v, NULL, out);

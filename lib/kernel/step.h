@@ -158,8 +158,8 @@ struct dal_step {
     const dal_integrator *const *chain; /* innermost first */
     int depth;                          /* which of the chain is at work */
 
-    void (*ask)(dal_step *step, dal_callback_code code, double t, const num *q, const num *v,
-                const num *pi, num *out);
+    void (*eval)(dal_step *step, dal_callback_code code, double t, const num *q, const num *v,
+                 const num *pi, num *out);
     void *owner;           /* of ask */
     long long evaluations; /* of the field or the lifted field */
 };
@@ -197,13 +197,13 @@ DAL_INLINE void dal_recall(dal_step *s, dal_mask lanes, const num *from)
 DAL_INLINE void dal_eval(dal_step *s, dal_callback_code code, double t, const num *q, const num *v,
                          const num *pi, num *out)
 {
-    s->ask(s, question, t, q, v, pi, out);
+    s->eval(s, code, t, q, v, pi, out);
 }
 DAL_INLINE void dal_eval_group(dal_step *s, int group, dal_callback_code code, double t,
                                const num *q, const num *v, num *out)
 {
     (void)group;
-    dal_eval(s, question, t, q, v, NULL, out);
+    dal_eval(s, code, t, q, v, NULL, out);
 }
 
 #endif

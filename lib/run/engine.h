@@ -51,7 +51,7 @@ dal_status dal__shape_init(dal__shape *shape, const dal_run_spec *spec, dal_erro
 dal_status dal__long_check(const dal__shape *shape, dal_error *error);
 
 /* Numbers in the answer to a dal_callback_code. */
-int dal__answer_size(const dal__shape *shape, int question);
+int dal__eval_size(const dal__shape *shape, int code);
 
 /* The variants by number. */
 typedef enum dal__variant {
@@ -73,7 +73,7 @@ typedef uint64_t dal__lanes;
     void *name##_place_##variant(const dal__shape *shape, void *memory, double **carried,          \
                                  double **work);                                                   \
     dal__lanes name##_step_##variant(void *engine, double h, dal__lanes alive, dal_status *why);   \
-    dal_status name##_eval_##variant(void *engine, int question, double t, const double *state,    \
+    dal_status name##_eval_##variant(void *engine, int code, double t, const double *state,        \
                                      double *out);                                                 \
     void name##_trace_##variant(void *engine, dal__cause *cause);
 
@@ -94,7 +94,7 @@ typedef struct dal__engine_kind {
     size_t (*bytes)(const dal__shape *shape);
     void *(*place)(const dal__shape *shape, void *memory, double **carried, double **work);
     dal__lanes (*step)(void *engine, double h, dal__lanes alive, dal_status *why);
-    dal_status (*ask)(void *engine, int question, double t, const double *state, double *out);
+    dal_status (*eval)(void *engine, int code, double t, const double *state, double *out);
     void (*trace)(void *engine, dal__cause *cause);
 } dal__engine_kind;
 extern const dal__engine_kind dal__engine_kinds[DAL__VARIANTS];

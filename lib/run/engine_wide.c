@@ -46,7 +46,7 @@ static void trace(engine *e, dal_callback_code code, const dal_point *at, dal_st
 {
     dal__cause *cause = e->cause;
     double sum = 0.0;
-    for (int i = 0; i < dal__answer_size(&e->shape, question); i++) sum += out[i] - out[i];
+    for (int i = 0; i < dal__eval_size(&e->shape, code); i++) sum += out[i] - out[i];
     if (cause->not_finite || (sum == 0.0 && status == DAL_OK)) return;
     cause->not_finite = true;
     cause->status = status;
@@ -58,24 +58,24 @@ static void trace(engine *e, dal_callback_code code, const dal_point *at, dal_st
 /* The answer where there is none. */
 static void fill(const engine *e, dal_callback_code code, double value, num *out)
 {
-    const int size = dal__answer_size(&e->shape, question) * DAL_GROUPS;
+    const int size = dal__eval_size(&e->shape, code) * DAL_GROUPS;
     for (int i = 0; i < size; i++) out[i] = dal_num(value);
 }
 
-static void ask(dal_step *s, dal_callback_code code, double t, const num *q, const num *v,
-                const num *pi, num *out)
+static void eval_callback(dal_step *s, dal_callback_code code, double t, const num *q, const num *v,
+                          const num *pi, num *out)
 {
     engine *e = s->owner;
-    dal_callback *const call = e->call[question];
+    dal_callback *const call = e->call[code];
     if (!call) { /* only the gauge may be missing here */
-        fill(e, question, 0.0, out);
+        fill(e, code, 0.0, out);
         return;
     }
     const dal_point at = {t, (const double *)q, (const double *)v, (const double *)pi,
                           (double *)e->work};
     const dal_status status = call(e->shape.system, &at, (double *)out);
-    if (status != DAL_OK) fill(e, question, NAN, out);
-    if (LANES == 1 && e->cause) trace(e, question, &at, status, (const double *)out);
+    if (status != DAL_OK) fill(e, code, NAN, out);
+    if (LANES == 1 && e->cause) trace(e, code, &at, status, (const double *)out);
 }
 
 size_t DAL_WIDE(dal__engine_bytes)(const dal__shape *k)
@@ -130,7 +130,7 @@ static void prepare_step(engine *e)
     s->room = k->scratch * DAL_GROUPS;
     place_memory(e);
     s->chain = e->chain;
-    s->ask = ask;
+    s->eval = eval_callback;
     s->owner = e;
 }
 
@@ -165,15 +165,15 @@ void DAL_WIDE(dal__engine_trace)(void *engine_, dal__cause *cause)
     ((engine *)engine_)->cause = cause;
 }
 
-dal_status DAL_WIDE(dal__engine_eval)(void *engine_, int question, double t, const double *state,
+dal_status DAL_WIDE(dal__engine_eval)(void *engine_, int code, double t, const double *state,
                                       double *out)
 {
     engine *e = engine_;
     const int n = e->shape.n;
-    if (!e->call[question]) return DAL_UNSUPPORTED;
+    if (!e->call[code]) return DAL_UNSUPPORTED;
     const dal_point at = {t, state, state + n * WIDTH, state + (3 * n + 1) * WIDTH,
                           (double *)e->work};
-    return e->call[question](e->shape.system, &at, out);
+    return e->call[code](e->shape.system, &at, out);
 }
 
 /* ---- judging a step, group by group ---- */
@@ -212,12 +212,12 @@ static void note(int *which, dal_mask good, int number)
     if (!*which && !dal_mask_lane(good, 0)) *which = number;
 }
 
-/* What the system says to a question before and after the step. */
-static void ask_twice(engine *e, dal_callback_code code, num *before, num *after)
+/* What the system says to a code before and after the step. */
+static void eval_both_ends(engine *e, dal_callback_code code, num *before, num *after)
 {
     dal_step *s = &e->step;
-    ask(s, question, s->t - s->h, e->backup, e->backup + s->n, NULL, before);
-    ask(s, question, s->t, e->carried, e->carried + s->n, NULL, after);
+    eval_callback(s, code, s->t - s->h, e->backup, e->backup + s->n, NULL, before);
+    eval_callback(s, code, s->t, e->carried, e->carried + s->n, NULL, after);
 }
 
 static lane_mask guards_hold(engine *e)
@@ -226,7 +226,7 @@ static lane_mask guards_hold(engine *e)
     dal_step *s = &e->step;
     lane_mask good = all_lanes();
     num *before = dal_scratch(s, count), *after = dal_scratch(s, count);
-    ask_twice(e, DAL_EVAL_GUARDS, before, after);
+    eval_both_ends(e, DAL_EVAL_GUARDS, before, after);
     for (int i = 0; i < count; i++) {
         good.group[i % DAL_GROUPS] &= dal_less(dal_num(0.0), before[i] * after[i]);
         if (e->cause) note(&e->cause->guard, good.group[0], i + 1);
@@ -263,7 +263,7 @@ static lane_mask normals_hold(engine *e)
     lane_mask good;
     num *before = dal_scratch(s, size * DAL_GROUPS), *after = dal_scratch(s, size * DAL_GROUPS);
     num *c0 = dal_scratch(s, size), *c1 = dal_scratch(s, size);
-    ask_twice(e, DAL_EVAL_CONSTRAINT, before, after);
+    eval_both_ends(e, DAL_EVAL_CONSTRAINT, before, after);
     for (int g = 0; g < DAL_GROUPS; g++) {
         const size_t mark = s->used;
         pick(before, g, size, c0);

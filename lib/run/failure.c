@@ -19,7 +19,7 @@ static bool ran_away(const dal_run *run, const dal__cause *cause)
 }
 
 /* What the system itself says of the point where its answer was not finite; DAL_OK: nothing. */
-static dal_status ask_system(dal_run *run, const dal__cause *cause, dal_error *error)
+static dal_status diagnose(dal_run *run, const dal__cause *cause, dal_error *error)
 {
     const dal_system *system = run->shape.system;
     const dal_point at = {cause->t, cause->q, cause->v, NULL, run->work};
@@ -39,7 +39,7 @@ static bool gauge_crosses(dal_run *run, double t, double h)
     const double e = run->carried[2 * run->shape.n];
     double mu[2] = {0.0, 0.0};
     for (int i = 0; i < 2; i++)
-        if (run->kind->ask(run->engine, DAL_EVAL_GAUGE, t + i * h, run->carried, &mu[i]) != DAL_OK)
+        if (run->kind->eval(run->engine, DAL_EVAL_GAUGE, t + i * h, run->carried, &mu[i]) != DAL_OK)
             return false;
     return e * (e + h * mu[0]) <= 0.0 || e * (e + h * mu[1]) <= 0.0;
 }
@@ -71,26 +71,26 @@ static bool would_vanish(double now, double then) { return !(1.0 - then / now < 
 static bool predict(dal_run *run, double t, double dt)
 {
     const dal__shape *k = &run->shape;
-    double *f = run->answer;
-    if (run->kind->ask(run->engine, DAL_EVAL_FIELD, t, run->carried, f) != DAL_OK) return false;
+    double *f = run->scratch;
+    if (run->kind->eval(run->engine, DAL_EVAL_FIELD, t, run->carried, f) != DAL_OK) return false;
     for (int i = 0; i < k->n; i++) run->shadow[i] = run->carried[i] + dt * run->carried[k->n + i];
     for (int i = 0; i < k->nw; i++) run->shadow[k->n + i] = run->carried[k->n + i] + dt * f[i];
     return true;
 }
 
 /* Asks at the present state and at the predicted one; where the second answer begins. */
-static double *ask_both(dal_run *run, int question, int size, double t, double dt)
+static double *eval_both_ends(dal_run *run, int code, int size, double t, double dt)
 {
-    double *first = run->answer, *second = first + size;
-    const bool good = run->kind->ask(run->engine, question, t, run->carried, first) == DAL_OK &&
-                      run->kind->ask(run->engine, question, t + dt, run->shadow, second) == DAL_OK;
+    double *first = run->scratch, *second = first + size;
+    const bool good = run->kind->eval(run->engine, code, t, run->carried, first) == DAL_OK &&
+                      run->kind->eval(run->engine, code, t + dt, run->shadow, second) == DAL_OK;
     return good ? second : NULL;
 }
 
 static int vanishing_guard(dal_run *run, double t, double dt)
 {
     const int guards = run->shape.system->guards;
-    const double *g0 = run->answer, *g1 = ask_both(run, DAL_EVAL_GUARDS, guards, t, dt);
+    const double *g0 = run->scratch, *g1 = eval_both_ends(run, DAL_EVAL_GUARDS, guards, t, dt);
     for (int i = 0; g1 && i < guards; i++)
         if (would_vanish(g0[i], g1[i])) return i + 1;
     return 0;
@@ -100,8 +100,8 @@ static int vanishing_normal(dal_run *run, double t, double dt)
 {
     const int m = run->shape.m, n = run->shape.n, size = m + 2 * m * n;
     if (!(run->shape.system->properties & DAL_D_WATCHED)) return 0;
-    const double *c0 = run->answer, *c1 = ask_both(run, DAL_EVAL_CONSTRAINT, size, t, dt);
-    double *g0 = run->answer + 2 * size, *g1 = g0 + m * m;
+    const double *c0 = run->scratch, *c1 = eval_both_ends(run, DAL_EVAL_CONSTRAINT, size, t, dt);
+    double *g0 = run->scratch + 2 * size, *g1 = g0 + m * m;
     if (!c1) return 0;
     dal_gram(c0 + m, c0 + m + m * n, m, n, g0);
     dal_gram(c1 + m, c1 + m + m * n, m, n, g1);
@@ -169,7 +169,7 @@ dal_status dal__explain(dal_run *run, double h, dal_status status, dal_error *er
                          t + h);
     if (cause.guard || cause.constraint) return turned(run, &cause, t, h, error);
     if (cause.not_finite) {
-        const dal_status said = ask_system(run, &cause, error);
+        const dal_status said = diagnose(run, &cause, error);
         if (said != DAL_OK) return said;
         if (cause.status != DAL_OK)
             return dal__fail(error, cause.status, "the system failed at t = %.17g: %s", cause.t,

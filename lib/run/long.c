@@ -52,7 +52,7 @@ void dal__long_place(dal_run *run, char *memory, size_t answers)
 {
     dal__long_run *k = &run->long_run;
     k->shape = shape_of(&run->shape);
-    k->answer = (double *)(void *)memory;
+    k->scratch = (double *)(void *)memory;
     memory += round_up(answers * sizeof(num));
     k->engine = kind()->place(&k->shape, memory, &k->carried, &k->work);
     run->memory = k->carried;
@@ -120,8 +120,8 @@ static dal_status put(const dal_run *run, dal_callback *callback, int count, dou
     const dal__long_run *k = &run->long_run;
     const dal_point at = here(run);
     if (!callback) return DAL_OK;
-    DAL_TRY(callback(k->shape.system, &at, k->answer));
-    shorten(*out, k->answer, (size_t)count);
+    DAL_TRY(callback(k->shape.system, &at, k->scratch));
+    shorten(*out, k->scratch, (size_t)count);
     *out += count;
     return DAL_OK;
 }
@@ -132,15 +132,15 @@ static dal_status put_lifted(const dal_run *run, double **out)
     const int n = run->shape.n;
     const dal__long_run *k = &run->long_run;
     const num *y = (const num *)(const void *)k->carried, *v = y + n, *p = y + 2 * n + 1;
-    const num *pi = y + 3 * n + 1, *f = (const num *)(const void *)k->answer;
+    const num *pi = y + 3 * n + 1, *f = (const num *)(const void *)k->scratch;
     const dal_callbacks *call = &k->shape.system->call;
     const dal_point at = here(run);
     num sum = 0.0;
     if (call->gauge) {
-        DAL_TRY(call->gauge(k->shape.system, &at, k->answer));
+        DAL_TRY(call->gauge(k->shape.system, &at, k->scratch));
         sum = f[0] * y[4 * n + 1];
     }
-    DAL_TRY(call->field(k->shape.system, &at, k->answer));
+    DAL_TRY(call->field(k->shape.system, &at, k->scratch));
     for (int i = 0; i < n; i++)
         sum += pi[i] * pi[i] * (0.5 / y[2 * n]) + pi[i] * f[i] + p[i] * v[i];
     *(*out)++ = (double)sum;
@@ -155,8 +155,8 @@ static dal_status put_error(const dal_run *run, double **out)
     const dal__long_run *k = &run->long_run;
     const dal_point at = here(run);
     const num *y = (const num *)(const void *)k->carried;
-    num *exact = (num *)(void *)k->answer;
-    DAL_TRY(k->shape.system->exact(k->shape.system, &at, k->answer));
+    num *exact = (num *)(void *)k->scratch;
+    DAL_TRY(k->shape.system->exact(k->shape.system, &at, k->scratch));
     for (int i = 0; i < run->shape.n; i++) exact[i] -= y[i];
     *(*out)++ = (double)dal_max_norm(exact, run->shape.n);
     return DAL_OK;

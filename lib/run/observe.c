@@ -59,10 +59,10 @@ static double hamiltonian(dal_run *run)
 {
     const int n = run->shape.n;
     const double *y = run->carried, *v = y + n, *p = y + 2 * n + 1, *pi = y + 3 * n + 1;
-    double *f = run->answer, mu = 0.0, sum = 0.0;
+    double *f = run->scratch, mu = 0.0, sum = 0.0;
     const double t = dal_run_time(run);
-    run->kind->ask(run->engine, DAL_EVAL_FIELD, t, y, f);
-    run->kind->ask(run->engine, DAL_EVAL_GAUGE, t, y, &mu);
+    run->kind->eval(run->engine, DAL_EVAL_FIELD, t, y, f);
+    run->kind->eval(run->engine, DAL_EVAL_GAUGE, t, y, &mu);
     for (int i = 0; i < n; i++)
         sum += pi[i] * pi[i] * (0.5 / y[2 * n]) + pi[i] * f[i] + p[i] * v[i];
     return sum + mu * y[4 * n + 1];
@@ -79,7 +79,7 @@ static void norms(const dal_run *run, double *out)
 static dal_status error_norm(dal_run *run, const dal_point *at, double *out)
 {
     const dal_system *system = run->shape.system;
-    double *exact = run->answer;
+    double *exact = run->scratch;
     DAL_TRY(system->exact(system, at, exact));
     for (int i = 0; i < system->n; i++) exact[i] -= run->carried[i];
     *out = dal_max_norm(exact, system->n);

@@ -5,8 +5,8 @@
 
 static size_t round_up(size_t bytes) { return (bytes + 63) / 64 * 64; }
 
-/* Most numbers any question's answer has, with room for two of a constraint's and their G. */
-static size_t answer_count(const dal__shape *k)
+/* Most numbers any code's answer has, with room for two of a constraint's and their G. */
+static size_t scratch_count(const dal__shape *k)
 {
     const size_t n = (size_t)k->n, nw = (size_t)k->nw, m = (size_t)k->m;
     const size_t listed = (size_t)k->system->invariants + 2 * (size_t)k->system->guards;
@@ -28,12 +28,12 @@ static size_t remembered(const dal__shape *k)
 /* Doubles beside those of the engines. */
 static size_t own_numbers(const dal__shape *k)
 {
-    return remembered(k) + answer_count(k) + (size_t)(k->n + k->nw) + look_count(k);
+    return remembered(k) + scratch_count(k) + (size_t)(k->n + k->nw) + look_count(k);
 }
 
 static size_t long_bytes(const dal__shape *k)
 {
-    return k->options.precision == DAL_DOUBLE ? 0 : dal__long_bytes(k, answer_count(k));
+    return k->options.precision == DAL_DOUBLE ? 0 : dal__long_bytes(k, scratch_count(k));
 }
 
 static size_t total_bytes(const dal__shape *k)
@@ -55,8 +55,8 @@ static dal_run *place(const dal__shape *shape, void *memory)
     *run = (dal_run){.shape = *shape};
     at += round_up(sizeof *run);
     run->shadow = (double *)(void *)at;
-    run->answer = run->shadow + remembered(shape);
-    run->point = run->answer + answer_count(shape);
+    run->scratch = run->shadow + remembered(shape);
+    run->point = run->scratch + scratch_count(shape);
     run->looks.times = run->point + shape->n + shape->nw;
     run->looks.values = run->looks.times + 1;
     run->looks.room = 1;
@@ -66,7 +66,7 @@ static dal_run *place(const dal__shape *shape, void *memory)
     run->memory = run->carried;
     run->remembered = remembered(shape);
     at += round_up(run->kind->bytes(shape));
-    if (long_bytes(shape) > 0) dal__long_place(run, at, answer_count(shape));
+    if (long_bytes(shape) > 0) dal__long_place(run, at, scratch_count(shape));
     return run;
 }
 

@@ -27,7 +27,7 @@ typedef struct dal__long_run {
     void *engine;     /* NULL: the run is in doubles */
     double *carried;  /* [shape.carried] its own long numbers, each in the place of some doubles */
     double *work;     /* [shape.workspace] likewise */
-    double *answer;   /* scratch for what the system says, likewise */
+    double *scratch;  /* scratch for what the system says, likewise */
 } dal__long_run;
 
 /* Where the observables of successive looks at a run are collected, up to room of them: observable
@@ -48,12 +48,12 @@ struct dal_run {
     double *memory; /* [remembered] all that is carried from step to step: carried, or long_run's */
     size_t remembered;
     dal__long_run long_run;
-    double *work;   /* [shape.workspace] parameters, and the system's */
-    double *shadow; /* [remembered] state of the trajectory during a side step */
-    double *answer; /* scratch for what the system says */
-    double *point;  /* [n + nw] where a step went wrong */
-    bool exact;     /* the exact solution belongs to this start */
-    void *owned;    /* memory to free, or NULL */
+    double *work;    /* [shape.workspace] parameters, and the system's */
+    double *shadow;  /* [remembered] state of the trajectory during a side step */
+    double *scratch; /* scratch for what the system says */
+    double *point;   /* [n + nw] where a step went wrong */
+    bool exact;      /* the exact solution belongs to this start */
+    void *owned;     /* memory to free, or NULL */
     dal__native native;
     dal__looks looks;
 };

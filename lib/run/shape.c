@@ -191,10 +191,10 @@ static dal_status check_control(const dal__shape *k, dal_error *error)
                      dal_method_name(&k->method, name, sizeof name));
 }
 
-/* Numbers in the answer to a question. */
-int dal__answer_size(const dal__shape *k, int question)
+/* Numbers in the answer to a code. */
+int dal__eval_size(const dal__shape *k, int code)
 {
-    switch (question) {
+    switch (code) {
     case DAL_EVAL_FIELD:
         return k->nw;
     case DAL_EVAL_ADJOINT:

@@ -76,7 +76,7 @@ static dal_status default_start(dal_run *run, dal_error *error)
     const dal__shape *k = &run->shape;
     const int first = k->n + k->nw;
     memset(run->carried, 0, k->carried * sizeof *run->carried);
-    double *out = run->answer;
+    double *out = run->scratch;
     for (int i = 0; i <= first; i++) out[i] = i == first;
     const dal_point at = {0.0, run->carried, run->carried + k->n, NULL, run->work};
     if (k->system->start && k->system->start(k->system, &at, out) != DAL_OK)
@@ -155,7 +155,7 @@ static dal_status check_constraints(dal_run *run, dal_error *error)
     if (k->m == 0 || !call->constraint) return DAL_OK;
     const int m = k->m, n = k->n;
     const dal_point at = dal__here(run);
-    double *d = run->answer, *a = d + m, *b = a + m * n;
+    double *d = run->scratch, *a = d + m, *b = a + m * n;
     const dal_status status = call->constraint(k->system, &at, d);
     if (status != DAL_OK)
         return dal__fail(error, status, "the constraints cannot be evaluated at the start");
@@ -168,10 +168,10 @@ static bool exact_agrees(dal_run *run)
 {
     const dal__shape *k = &run->shape;
     const dal_point at = dal__here(run);
-    if (!k->system->exact || k->system->exact(k->system, &at, run->answer) != DAL_OK) return false;
+    if (!k->system->exact || k->system->exact(k->system, &at, run->scratch) != DAL_OK) return false;
     const double size = 1.0 + dal_max_norm(run->carried, 2 * k->n);
     for (int i = 0; i < 2 * k->n; i++)
-        if (!(fabs(run->answer[i] - run->carried[i]) <= CONSISTENT * size)) return false;
+        if (!(fabs(run->scratch[i] - run->carried[i]) <= CONSISTENT * size)) return false;
     return true;
 }
 
