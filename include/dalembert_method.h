@@ -6,16 +6,16 @@
 /* What a descriptor claims; the conformance suite verifies it. */
 enum {
     DAL_SYMMETRIC = 1 << 0,
-    DAL_SYMPLECTIC = 1 << 1,       /* on the canonical lift; says nothing about D or the energy */
-    DAL_KEEPS_BILINEAR = 1 << 2,   /* D bilinear in (q,v) */
-    DAL_KEEPS_QUADRATIC = 1 << 3,  /* D quadratic in (q,v) */
-    DAL_KEEPS_D = 1 << 4,          /* every D */
-    DAL_EXPLICIT = 1 << 5,         /* on the physical space */
-    DAL_MODIFIER = 1 << 6,         /* works on another integrator: NAME+this */
-    DAL_COMPONENTWISE = 1 << 7,    /* on (q,v) only adds multiples of v and F */
-    DAL_KEEPS_D_MIDPOINT = 1 << 8, /* D((q0 + q1)/2, (q1 - q0)/h, t + h/2) = 0 in every step */
-    DAL_KEEPS_ENERGY = 1 << 9,     /* E, where the motion keeps it */
-    DAL_CARRIES_MULTIPLIER = 1 << 10, /* a map of (q, v, multipliers), which a run carries along;
+    DAL_SYMPLECTIC = 1 << 1,         /* on the canonical lift; says nothing about D or the energy */
+    DAL_PRESERVES_BILINEAR = 1 << 2, /* D bilinear in (q,v) */
+    DAL_PRESERVES_QUADRATIC = 1 << 3,  /* D quadratic in (q,v) */
+    DAL_PRESERVES_D = 1 << 4,          /* every D */
+    DAL_EXPLICIT = 1 << 5,             /* on the physical space */
+    DAL_MODIFIER = 1 << 6,             /* works on another integrator: NAME+this */
+    DAL_COMPONENTWISE = 1 << 7,        /* on (q,v) only adds multiples of v and F */
+    DAL_PRESERVES_D_MIDPOINT = 1 << 8, /* D((q0 + q1)/2, (q1 - q0)/h, t + h/2) = 0 in every step */
+    DAL_PRESERVES_ENERGY = 1 << 9,     /* E, where the motion keeps it */
+    DAL_CARRIES_MULTIPLIER = 1 << 10,  /* a map of (q, v, multipliers), which a run carries along;
                                          symmetric and reversible in them */
     DAL_ADAPTIVE = 1 << 11, /* divides a step h by itself where the option tolerance is not 0 */
     DAL_REMEMBERS = 1 << 12 /* keeps the slopes of a step, for the first guess in the next */

@@ -60,9 +60,9 @@ DAL_INLINE dal_status compose(dal_step *s, int substeps, const double *c)
                    .summary = "composition of " #substeps_ " steps of a symmetric method",         \
                    .reference = reference_, .order = order_, .claims = DAL_MODIFIER,               \
                    .needs = DAL_NEEDS_SYMMETRIC | DAL_NEEDS_ORDER_2,                               \
-                   .inherits = DAL_SYMMETRIC | DAL_SYMPLECTIC | DAL_KEEPS_BILINEAR |               \
-                               DAL_KEEPS_QUADRATIC | DAL_KEEPS_D | DAL_EXPLICIT |                  \
-                               DAL_KEEPS_ENERGY)
+                   .inherits = DAL_SYMMETRIC | DAL_SYMPLECTIC | DAL_PRESERVES_BILINEAR |           \
+                               DAL_PRESERVES_QUADRATIC | DAL_PRESERVES_D | DAL_EXPLICIT |          \
+                               DAL_PRESERVES_ENERGY)
 
 COMPOSITION(yoshida4, 3, 4, "yoshida4", "Yoshida 1990");
 COMPOSITION(suzuki4, 5, 4, "suzuki4", "Suzuki 1990");

@@ -31,7 +31,7 @@ DAL_INLINE dal_status step_10(dal_step *s)
 DAL_INTEGRATOR(symplectic_euler_10, step_10, .name = "symplectic-euler-10",
                .alias = "symplectic-euler", .summary = "symplectic Euler, new q and old v",
                .reference = reference, .order = 1, .stages = 1,
-               .claims = DAL_SYMPLECTIC | DAL_KEEPS_BILINEAR | DAL_EXPLICIT | DAL_COMPONENTWISE,
+               .claims = DAL_SYMPLECTIC | DAL_PRESERVES_BILINEAR | DAL_EXPLICIT | DAL_COMPONENTWISE,
                .needs = DAL_NEEDS_FIELD);
 
 DAL_INLINE dal_status step_01(dal_step *s)
@@ -41,7 +41,7 @@ DAL_INLINE dal_status step_01(dal_step *s)
 
 DAL_INTEGRATOR(symplectic_euler_01, step_01, .name = "symplectic-euler-01",
                .summary = "symplectic Euler, old q and new v", .reference = reference, .order = 1,
-               .stages = 1, .claims = DAL_SYMPLECTIC | DAL_KEEPS_BILINEAR,
+               .stages = 1, .claims = DAL_SYMPLECTIC | DAL_PRESERVES_BILINEAR,
                .needs = DAL_NEEDS_FIELD);
 
 DAL_INLINE dal_status step_11(dal_step *s)

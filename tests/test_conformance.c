@@ -23,10 +23,10 @@ static const char conservative[] =
 
 /* Every claim there is, with its verification. */
 static const unsigned verified =
-    DAL_SYMMETRIC | DAL_SYMPLECTIC | DAL_KEEPS_BILINEAR | DAL_KEEPS_QUADRATIC | DAL_KEEPS_D |
-    DAL_KEEPS_ENERGY |                              /* here and in test_integrators.c */
-    DAL_KEEPS_D_MIDPOINT | DAL_CARRIES_MULTIPLIER | /* test_constrained.c */
-    DAL_ADAPTIVE |                                  /* test_adaptive.c */
+    DAL_SYMMETRIC | DAL_SYMPLECTIC | DAL_PRESERVES_BILINEAR | DAL_PRESERVES_QUADRATIC |
+    DAL_PRESERVES_D | DAL_PRESERVES_ENERGY |            /* here and in test_integrators.c */
+    DAL_PRESERVES_D_MIDPOINT | DAL_CARRIES_MULTIPLIER | /* test_constrained.c */
+    DAL_ADAPTIVE |                                      /* test_adaptive.c */
     DAL_REMEMBERS | /* that a checkpoint has the slopes: test_run.c */
     DAL_EXPLICIT | DAL_MODIFIER | DAL_COMPONENTWISE; /* the batches' and the generated steps */
 
@@ -47,7 +47,8 @@ static bool takes(const dal_integrator *modifier, const dal_integrator *inside)
     if (modifier->needs & DAL_NEEDS_SYMMETRIC && !(inside->claims & DAL_SYMMETRIC)) return false;
     if (modifier->needs & DAL_NEEDS_RUNGE_KUTTA)
         return (inside->claims & DAL_COMPONENTWISE) && !(inside->claims & DAL_SYMPLECTIC);
-    const bool turns_D = inside->claims & DAL_KEEPS_D_MIDPOINT && !(inside->claims & DAL_KEEPS_D);
+    const bool turns_D =
+        inside->claims & DAL_PRESERVES_D_MIDPOINT && !(inside->claims & DAL_PRESERVES_D);
     const unsigned projects = DAL_NEEDS_SYMMETRIC | DAL_NEEDS_CONSTRAINT;
     if (turns_D && (modifier->needs & projects) == projects) return false;
     return !(modifier->needs & DAL_NEEDS_ORDER_2) || inside->order == 2;
@@ -144,8 +145,8 @@ static void check_kept(const char *name, const dal_method *method, void *user)
     const unsigned claims = dal_method_claims(method);
     if (!fixture_serves(method, user, DAL_PHYSICAL)) return;
     const strays most = strays_of(user, name);
-    const bool D = !(claims & DAL_KEEPS_D) || most.D <= 1e-14;
-    const bool E = !(claims & DAL_KEEPS_ENERGY) || most.E <= 1e-14;
+    const bool D = !(claims & DAL_PRESERVES_D) || most.D <= 1e-14;
+    const bool E = !(claims & DAL_PRESERVES_ENERGY) || most.E <= 1e-14;
     if (!D || !E) printf("\n  %s: D %.2e, E %.2e\n", name, most.D, most.E);
     CU_ASSERT(D);
     CU_ASSERT(E);

@@ -238,7 +238,7 @@ static void check_level(const char *name, const dal_method *method, const dal_sy
                         unsigned claim)
 {
     const unsigned claims = dal_method_claims(method);
-    const bool kept = claim == 0 || (claims & (claim | DAL_KEEPS_D));
+    const bool kept = claim == 0 || (claims & (claim | DAL_PRESERVES_D));
     const double d = kept ? greatest_d(system, name, 0.002, long_run(100000))
                           : greatest_d(system, name, 0.05, 1000);
     /* That the others lose it shows that the test sees a loss; high orders lose little. */
@@ -254,7 +254,7 @@ static void check_keeps(const char *name, const dal_method *method, void *user)
     const dal_system *system = fixture_system(model);
     /* D at midpoints is another matter: see test_constrained.c. */
     const unsigned claims = dal_method_claims(method);
-    const bool nodes = !(claims & DAL_KEEPS_D_MIDPOINT) || claims & DAL_KEEPS_D;
+    const bool nodes = !(claims & DAL_PRESERVES_D_MIDPOINT) || claims & DAL_PRESERVES_D;
     if (nodes && fixture_serves(method, system, DAL_PHYSICAL))
         check_level(name, method, system, k->claim);
     dal_model_free(model);
@@ -267,17 +267,17 @@ static void test_keeps_constant(void)
 }
 static void test_keeps_bilinear(void)
 {
-    keeps k = {fixture_bilinear, DAL_KEEPS_BILINEAR | DAL_KEEPS_QUADRATIC};
+    keeps k = {fixture_bilinear, DAL_PRESERVES_BILINEAR | DAL_PRESERVES_QUADRATIC};
     for_each(false, check_keeps, &k);
 }
 static void test_keeps_quadratic(void)
 {
-    keeps k = {fixture_quadratic, DAL_KEEPS_QUADRATIC};
+    keeps k = {fixture_quadratic, DAL_PRESERVES_QUADRATIC};
     for_each(false, check_keeps, &k);
 }
 static void test_project_keeps(void)
 {
-    keeps k = {fixture_quadratic, DAL_KEEPS_D};
+    keeps k = {fixture_quadratic, DAL_PRESERVES_D};
     for_each(true, check_keeps, &k);
     k.fixture = "chaplygin-sleigh";
     for_each(true, check_keeps, &k);

@@ -223,8 +223,8 @@ void check_constraints(check *c)
                    d.linear ? "; affine" : "");
         check_classes(c, &d);
         list_methods(c, d.constant,
-                     DAL_KEEPS_D | (d.bilinear ? DAL_KEEPS_BILINEAR : 0u) |
-                         (d.quadratic ? DAL_KEEPS_QUADRATIC : 0u));
+                     DAL_PRESERVES_D | (d.bilinear ? DAL_PRESERVES_BILINEAR : 0u) |
+                         (d.quadratic ? DAL_PRESERVES_QUADRATIC : 0u));
     } else {
         check_item(c, CHECK_UNMEASURED, "class of D", "%s", dal_status_text(status));
     }

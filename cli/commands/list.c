@@ -181,11 +181,11 @@ static void put_claims(sheet *s, unsigned claims, unsigned inherits)
     } texts[] = {{DAL_EXPLICIT, "explicit"},
                  {DAL_SYMMETRIC, "symmetric"},
                  {DAL_SYMPLECTIC, "symplectic lift"},
-                 {DAL_KEEPS_BILINEAR, "bilinear D"},
-                 {DAL_KEEPS_QUADRATIC, "quadratic D"},
-                 {DAL_KEEPS_D, "every D"},
-                 {DAL_KEEPS_D_MIDPOINT, "D at midpoints"},
-                 {DAL_KEEPS_ENERGY, "energy"},
+                 {DAL_PRESERVES_BILINEAR, "bilinear D"},
+                 {DAL_PRESERVES_QUADRATIC, "quadratic D"},
+                 {DAL_PRESERVES_D, "every D"},
+                 {DAL_PRESERVES_D_MIDPOINT, "D at midpoints"},
+                 {DAL_PRESERVES_ENERGY, "energy"},
                  {DAL_CARRIES_MULTIPLIER, "carries multipliers"},
                  {DAL_ADAPTIVE, "adaptive"}};
     char line[160] = "";

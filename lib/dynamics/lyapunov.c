@@ -382,7 +382,7 @@ static dal_status allocate(dal_lyapunov *s, dal_error *error)
 static dal_status hold_usual_state(dal_lyapunov *s, unsigned claims)
 {
     hold_state(s, s->run);
-    if (!(claims & DAL_KEEPS_ENERGY)) return DAL_OK;
+    if (!(claims & DAL_PRESERVES_ENERGY)) return DAL_OK;
     DAL_TRY(dal_run_load(s->aside, s->memory, s->memory_count, s->error));
     DAL_TRY(dal_run_step(s->aside, s->error));
     hold_state(s, s->aside);
@@ -409,9 +409,9 @@ static dal_status find_rank(dal_lyapunov *s, unsigned claims)
 static void find_forced(dal_lyapunov *s, unsigned claims)
 {
     const int lost = s->dimension - s->rank, m = dal_evaluator_system(s->evaluator)->m;
-    const int max = m + ((claims & DAL_KEEPS_ENERGY) != 0);
+    const int max = m + ((claims & DAL_PRESERVES_ENERGY) != 0);
     s->forced = lost == m || lost == max ? lost : 0;
-    s->turns_D = m > 0 && lost == 0 && claims & DAL_KEEPS_D_MIDPOINT;
+    s->turns_D = m > 0 && lost == 0 && claims & DAL_PRESERVES_D_MIDPOINT;
 }
 
 static dal_status make(dal_lyapunov *s, const dal_run_spec *spec, const dal_system *tangent,

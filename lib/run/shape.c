@@ -150,7 +150,8 @@ static dal_status check_inside(const dal_method *method, int depth, dal_error *e
         return dal__fail(error, DAL_UNSUPPORTED,
                          "+%s needs a symmetric method: %s is not symmetric", outer->name, name);
     if ((outer->needs & DAL_NEEDS_SYMMETRIC) && (outer->needs & DAL_NEEDS_CONSTRAINT) &&
-        (dal_method_claims(&inside) & (DAL_KEEPS_D | DAL_KEEPS_D_MIDPOINT)) == DAL_KEEPS_D_MIDPOINT)
+        (dal_method_claims(&inside) & (DAL_PRESERVES_D | DAL_PRESERVES_D_MIDPOINT)) ==
+            DAL_PRESERVES_D_MIDPOINT)
         return dal__fail(error, DAL_UNSUPPORTED,
                          "+%s has no solution around %s, which turns D into -D in every step",
                          outer->name, name);
