@@ -20,7 +20,7 @@ DAL_INLINE dal_status step(dal_step *s)
 }
 
 DAL_INTEGRATOR(heun, step, .name = "heun", .summary = "Heun's method", .reference = "Heun 1900",
-               .order = 2, .stages = 2, .claims = DAL_EXPLICIT, .needs = DAL_NEEDS_FIELD);
+               .order = 2, .stages = 2, .properties = DAL_EXPLICIT, .needs = DAL_NEEDS_FIELD);
 
 int main(void)
 {

@@ -45,7 +45,7 @@ typedef struct dal_integrator {
     int order;  /* 0 for a modifier: that of the inner method */
     int stages; /* stages solved together or kept at once; sizes scratch and, with DAL_REMEMBERS,
                    carried memory */
-    unsigned claims, needs;
+    unsigned properties, needs;
     unsigned inherits; /* a modifier: claims of the method inside that still hold around it */
     dal_step_function *step;
 } dal_integrator;
@@ -66,7 +66,7 @@ dal_status dal_method_parse(dal_method *method, const char *name, dal_error *err
 /* Writes the full name, at most size bytes with its NUL; returns buffer. */
 char *dal_method_name(const dal_method *method, char *buffer, size_t size);
 int dal_method_order(const dal_method *method);
-unsigned dal_method_claims(const dal_method *method); /* of the whole chain */
-unsigned dal_method_needs(const dal_method *method);  /* of any of its links */
+unsigned dal_method_properties(const dal_method *method); /* of the whole chain */
+unsigned dal_method_needs(const dal_method *method);      /* of any of its links */
 
 #endif

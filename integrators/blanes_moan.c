@@ -48,7 +48,7 @@ DAL_INLINE dal_status alternate(dal_step *s, int substeps, const double *c)
     DAL_INTEGRATOR(identifier, step_##identifier, .name = name_,                                   \
                    .summary = "composition of " #substeps_ " symplectic Euler steps",              \
                    .reference = reference_, .order = order_, .stages = 1,                          \
-                   .claims = DAL_SYMMETRIC | DAL_SYMPLECTIC | DAL_PRESERVES_BILINEAR,              \
+                   .properties = DAL_SYMMETRIC | DAL_SYMPLECTIC | DAL_PRESERVES_BILINEAR,          \
                    .needs = DAL_NEEDS_FIELD)
 
 ALTERNATING(mclachlan4, 10, 4, "mclachlan4", "McLachlan 1995");

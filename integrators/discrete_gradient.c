@@ -80,5 +80,5 @@ DAL_INLINE dal_status step(dal_step *s)
 DAL_INTEGRATOR(discrete_gradient, step, .name = "discrete-gradient",
                .summary = "midpoint with a discrete gradient of U", .reference = "Gonzalez 1996",
                .order = 2, .stages = 1,
-               .claims = DAL_SYMMETRIC | DAL_PRESERVES_ENERGY | DAL_PRESERVES_D_MIDPOINT,
+               .properties = DAL_SYMMETRIC | DAL_PRESERVES_ENERGY | DAL_PRESERVES_D_MIDPOINT,
                .needs = DAL_NEEDS_FIELD | DAL_NEEDS_PARTS | DAL_NEEDS_POTENTIAL);

@@ -83,5 +83,5 @@ DAL_INLINE dal_status step(dal_step *s)
 
 DAL_INTEGRATOR(dla, step, .name = "dla", .summary = "discrete Lagrange-d'Alembert, midpoint",
                .reference = "Cortes, Martinez 2001", .order = 2, .stages = 1,
-               .claims = DAL_SYMMETRIC | DAL_PRESERVES_D | DAL_PRESERVES_D_MIDPOINT,
+               .properties = DAL_SYMMETRIC | DAL_PRESERVES_D | DAL_PRESERVES_D_MIDPOINT,
                .needs = DAL_NEEDS_FIELD | DAL_NEEDS_PARTS);

@@ -143,4 +143,5 @@ DAL_INLINE dal_status step(dal_step *s)
 
 DAL_INTEGRATOR(dop853, step, .name = "dop853", .summary = "Dormand-Prince, 12 stages",
                .reference = "Hairer, Norsett, Wanner 1993, II.5", .order = 8, .stages = 2,
-               .claims = DAL_EXPLICIT | DAL_COMPONENTWISE | DAL_ADAPTIVE, .needs = DAL_NEEDS_FIELD);
+               .properties = DAL_EXPLICIT | DAL_COMPONENTWISE | DAL_ADAPTIVE,
+               .needs = DAL_NEEDS_FIELD);

@@ -15,5 +15,6 @@ DAL_INLINE dal_status step(dal_step *s) { return dal_collocation(s, &tableau); }
 DAL_INTEGRATOR(implicit_midpoint, step, .name = "implicit-midpoint",
                .summary = "implicit midpoint rule",
                .reference = "Hairer, Lubich, Wanner 2006, II.1", .order = 2, .stages = 1,
-               .claims = DAL_SYMMETRIC | DAL_SYMPLECTIC | DAL_PRESERVES_QUADRATIC | DAL_REMEMBERS,
+               .properties = DAL_SYMMETRIC | DAL_SYMPLECTIC | DAL_PRESERVES_QUADRATIC |
+                             DAL_REMEMBERS,
                .needs = DAL_NEEDS_FIELD);

@@ -76,5 +76,5 @@ DAL_INLINE dal_status step(dal_step *s)
 DAL_INTEGRATOR(isokinetic_splitting, step, .name = "isokinetic-splitting",
                .summary = "exact turns and drifts at constant kinetic energy",
                .reference = "Minary, Martyna, Tuckerman 2003", .order = 2, .stages = 1,
-               .claims = DAL_SYMMETRIC | DAL_PRESERVES_D | DAL_EXPLICIT,
+               .properties = DAL_SYMMETRIC | DAL_PRESERVES_D | DAL_EXPLICIT,
                .needs = DAL_NEEDS_FIELD | DAL_NEEDS_PARTS | DAL_NEEDS_ISOKINETIC);

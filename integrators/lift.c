@@ -100,5 +100,5 @@ DAL_INLINE dal_status step(dal_step *s)
 DAL_INTEGRATOR(
     lift, step, .name = "lift",
     .summary = "cotangent lift of an explicit Runge-Kutta method; order 2 off p = pi = 0",
-    .reference = "Sanz-Serna 2016", .stages = 4, .claims = DAL_MODIFIER | DAL_SYMPLECTIC,
+    .reference = "Sanz-Serna 2016", .stages = 4, .properties = DAL_MODIFIER | DAL_SYMPLECTIC,
     .needs = DAL_NEEDS_RUNGE_KUTTA | DAL_NEEDS_JACOBIAN, .inherits = DAL_EXPLICIT);

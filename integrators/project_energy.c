@@ -159,7 +159,7 @@ DAL_INLINE dal_status step(dal_step *s)
 DAL_INTEGRATOR(project_energy, step, .name = "project-energy",
                .summary = "after each step back to D = 0, E = E(0), p = pi = pi_e = 0",
                .reference = "Hairer, Lubich, Wanner 2006, IV.4", .stages = 1,
-               .claims = DAL_MODIFIER | DAL_PRESERVES_D | DAL_PRESERVES_ENERGY,
+               .properties = DAL_MODIFIER | DAL_PRESERVES_D | DAL_PRESERVES_ENERGY,
                .needs = DAL_NEEDS_CONSTRAINT | DAL_NEEDS_ENERGY,
                .inherits = DAL_PRESERVES_BILINEAR | DAL_PRESERVES_QUADRATIC | DAL_EXPLICIT |
                            DAL_ADAPTIVE);

@@ -34,4 +34,4 @@ DAL_INLINE dal_status step(dal_step *s)
 
 DAL_INTEGRATOR(rk4, step, .name = "rk4", .summary = "classical Runge-Kutta",
                .reference = "Kutta 1901", .order = 4, .stages = 4,
-               .claims = DAL_EXPLICIT | DAL_COMPONENTWISE, .needs = DAL_NEEDS_FIELD);
+               .properties = DAL_EXPLICIT | DAL_COMPONENTWISE, .needs = DAL_NEEDS_FIELD);

@@ -120,13 +120,13 @@ static const double unit4[] = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
     DAL_INTEGRATOR(spark##order_, step_all##s, .name = spark_,                                     \
                    .summary = "Lobatto IIIA-IIIB, " #s " stages, D imposed on them",               \
                    .reference = "Jay 2006", .order = order_, .stages = s,                          \
-                   .claims = DAL_SYMMETRIC | DAL_PRESERVES_D,                                      \
+                   .properties = DAL_SYMMETRIC | DAL_PRESERVES_D,                                  \
                    .needs = DAL_NEEDS_FIELD | DAL_NEEDS_PARTS);                                    \
     DAL_INTEGRATOR(lobatto_nonholonomic##order_, step_next##s, .name = nonholonomic_,              \
                    .summary = "Lobatto IIIA-IIIB, " #s " stages, D imposed at its nodes",          \
                    .reference = "Sato Martin de Almagro, Martin de Diego 2018", .order = order_,   \
                    .stages = s,                                                                    \
-                   .claims = DAL_SYMMETRIC | DAL_PRESERVES_D | DAL_CARRIES_MULTIPLIER,             \
+                   .properties = DAL_SYMMETRIC | DAL_PRESERVES_D | DAL_CARRIES_MULTIPLIER,         \
                    .needs = DAL_NEEDS_FIELD | DAL_NEEDS_PARTS)
 
 LOBATTO(2, 2, "spark2", "lobatto-nonholonomic2");

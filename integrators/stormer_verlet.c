@@ -19,5 +19,5 @@ DAL_INLINE dal_status step(dal_step *s)
 DAL_INTEGRATOR(stormer_verlet, step, .name = "stormer-verlet",
                .summary = "generalised Stormer-Verlet",
                .reference = "Hairer, Lubich, Wanner 2006, VI.3", .order = 2, .stages = 1,
-               .claims = DAL_SYMMETRIC | DAL_SYMPLECTIC | DAL_PRESERVES_BILINEAR,
+               .properties = DAL_SYMMETRIC | DAL_SYMPLECTIC | DAL_PRESERVES_BILINEAR,
                .needs = DAL_NEEDS_FIELD);

@@ -113,6 +113,6 @@ DAL_INLINE dal_status step(dal_step *s)
 DAL_INTEGRATOR(symmetric_project, step, .name = "symmetric-project",
                .summary = "a reaction before and after each step, so that D = 0; p = pi = pi_e = 0",
                .reference = "Hairer 2000", .stages = 1,
-               .claims = DAL_MODIFIER | DAL_SYMMETRIC | DAL_PRESERVES_D,
+               .properties = DAL_MODIFIER | DAL_SYMMETRIC | DAL_PRESERVES_D,
                .needs = DAL_NEEDS_CONSTRAINT | DAL_NEEDS_SYMMETRIC,
                .inherits = DAL_PRESERVES_BILINEAR | DAL_PRESERVES_QUADRATIC);

@@ -45,7 +45,7 @@ static bool method_name(int number, char *name)
 {
     const dal_integrator *k = dal_integrator_at(number / INNER);
     const char *around = inner[number % INNER];
-    const bool modifier = k->claims & DAL_MODIFIER;
+    const bool modifier = k->properties & DAL_MODIFIER;
     snprintf(name, NAME, "%s%s%s", modifier ? around : "", modifier ? "+" : "", k->name);
     return modifier || number % INNER == 0;
 }

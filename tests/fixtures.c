@@ -134,7 +134,7 @@ const char *fixture_method(int i, char *name, size_t size)
     const char *inside = k->needs & DAL_NEEDS_ORDER_2       ? "stormer-verlet+"
                          : k->needs & DAL_NEEDS_RUNGE_KUTTA ? "rk4+"
                                                             : "gauss4+";
-    snprintf(name, size, "%s%s", k->claims & DAL_MODIFIER ? inside : "", k->name);
+    snprintf(name, size, "%s%s", k->properties & DAL_MODIFIER ? inside : "", k->name);
     return name;
 }
 

@@ -268,7 +268,7 @@ static void test_claims(void)
         dal_run_spec spec = fixture_spec(fixture_system(model), name, DAL_PHYSICAL, 0.1);
         if (!fixture_serves(&method, spec.system, DAL_PHYSICAL)) continue;
         spec.options.tolerance = 1e-6;
-        if (dal_method_claims(&method) & DAL_ADAPTIVE)
+        if (dal_method_properties(&method) & DAL_ADAPTIVE)
             dal_run_free(fixture_run(&spec));
         else
             fixture_refused(&spec, DAL_UNSUPPORTED, name);

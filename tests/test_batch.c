@@ -66,7 +66,7 @@ static void check_batch(dal_batch *batch, int dimension, double (*single)[ROOM])
 static bool in_blocks(const dal_run_spec *spec)
 {
     return spec->options.space == DAL_PHYSICAL && !spec->method.chain[1] &&
-           (spec->method.chain[0]->claims & DAL_COMPONENTWISE);
+           (spec->method.chain[0]->properties & DAL_COMPONENTWISE);
 }
 
 static void check_variants(const dal_run_spec *spec, int count, int dimension,
@@ -102,7 +102,7 @@ static void test_same_bits(void)
     dal_model *model = fixture_model(fixture_full);
     const dal_system *system = fixture_system(model);
     for (int i = 0; dal_integrator_at(i); i++) {
-        const int kinds = dal_integrator_at(i)->claims & DAL_MODIFIER ? 2 : 4;
+        const int kinds = dal_integrator_at(i)->properties & DAL_MODIFIER ? 2 : 4;
         for (int kind = 0; kind < kinds; kind++) {
             char name[80];
             fixture_method(i, name, 64);

@@ -34,8 +34,8 @@ static void test_claims_known(void)
 {
     for (int i = 0; dal_integrator_at(i); i++) {
         const dal_integrator *k = dal_integrator_at(i);
-        if (k->claims & ~verified) printf("\n  %s: an unknown claim\n", k->name);
-        CU_ASSERT_EQUAL(k->claims & ~verified, 0);
+        if (k->properties & ~verified) printf("\n  %s: an unknown claim\n", k->name);
+        CU_ASSERT_EQUAL(k->properties & ~verified, 0);
         CU_ASSERT_EQUAL(k->inherits & ~verified, 0);
     }
 }
@@ -44,11 +44,12 @@ typedef void visitor(const char *name, const dal_method *method, void *user);
 
 static bool takes(const dal_integrator *modifier, const dal_integrator *inside)
 {
-    if (modifier->needs & DAL_NEEDS_SYMMETRIC && !(inside->claims & DAL_SYMMETRIC)) return false;
+    if (modifier->needs & DAL_NEEDS_SYMMETRIC && !(inside->properties & DAL_SYMMETRIC))
+        return false;
     if (modifier->needs & DAL_NEEDS_RUNGE_KUTTA)
-        return (inside->claims & DAL_COMPONENTWISE) && !(inside->claims & DAL_SYMPLECTIC);
+        return (inside->properties & DAL_COMPONENTWISE) && !(inside->properties & DAL_SYMPLECTIC);
     const bool turns_D =
-        inside->claims & DAL_PRESERVES_D_MIDPOINT && !(inside->claims & DAL_PRESERVES_D);
+        inside->properties & DAL_PRESERVES_D_MIDPOINT && !(inside->properties & DAL_PRESERVES_D);
     const unsigned projects = DAL_NEEDS_SYMMETRIC | DAL_NEEDS_CONSTRAINT;
     if (turns_D && (modifier->needs & projects) == projects) return false;
     return !(modifier->needs & DAL_NEEDS_ORDER_2) || inside->order == 2;
@@ -62,7 +63,8 @@ static void for_each_modified(visitor *visit, void *user)
             const dal_integrator *inside = dal_integrator_at(i), *modifier = dal_integrator_at(j);
             char name[96];
             dal_method method;
-            if (inside->claims & DAL_MODIFIER || !(modifier->claims & DAL_MODIFIER)) continue;
+            if (inside->properties & DAL_MODIFIER || !(modifier->properties & DAL_MODIFIER))
+                continue;
             if (inside->order > 6 || !takes(modifier, inside)) continue;
             snprintf(name, sizeof name, "%s+%s", inside->name, modifier->name);
             CU_ASSERT_EQUAL_FATAL(dal_method_parse(&method, name, NULL), DAL_OK);
@@ -98,11 +100,11 @@ static void test_order(void)
 static void check_symmetric(const char *name, const dal_method *method, void *user)
 {
     double defect = NAN;
-    if (dal_method_claims(method) & DAL_CARRIES_MULTIPLIER) return;
+    if (dal_method_properties(method) & DAL_CARRIES_MULTIPLIER) return;
     if (!fixture_serves(method, user, DAL_PHYSICAL)) return;
     const dal_run_spec spec = fixture_spec(user, name, DAL_PHYSICAL, 0.2);
     CU_ASSERT_EQUAL(dal_check_reversibility(&spec, 0.0, NULL, &defect, NULL), DAL_OK);
-    if (!(dal_method_claims(method) & DAL_SYMMETRIC)) return;
+    if (!(dal_method_properties(method) & DAL_SYMMETRIC)) return;
     if (!(defect <= 1e-14)) printf("\n  %s: defect %.3e\n", name, defect);
     CU_ASSERT(defect <= 1e-14);
 }
@@ -142,7 +144,7 @@ static strays strays_of(const dal_system *system, const char *name)
 
 static void check_kept(const char *name, const dal_method *method, void *user)
 {
-    const unsigned claims = dal_method_claims(method);
+    const unsigned claims = dal_method_properties(method);
     if (!fixture_serves(method, user, DAL_PHYSICAL)) return;
     const strays most = strays_of(user, name);
     const bool D = !(claims & DAL_PRESERVES_D) || most.D <= 1e-14;
@@ -235,7 +237,7 @@ static void test_untouched(void)
     for_each_modified(check_untouched, (void *)system);
     for (int i = 0; dal_integrator_at(i); i++) {
         const dal_method plain = {{dal_integrator_at(i)}};
-        if (dal_integrator_at(i)->claims & DAL_MODIFIER) continue;
+        if (dal_integrator_at(i)->properties & DAL_MODIFIER) continue;
         check_untouched(dal_integrator_at(i)->name, &plain, (void *)system);
     }
     dal_model_free(model);

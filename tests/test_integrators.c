@@ -15,7 +15,7 @@ static void for_each(bool project, visitor *visit, void *user)
 {
     for (int i = 0; dal_integrator_at(i); i++) {
         char name[64];
-        if (dal_integrator_at(i)->claims & DAL_MODIFIER) continue;
+        if (dal_integrator_at(i)->properties & DAL_MODIFIER) continue;
         snprintf(name, sizeof name, "%s%s", dal_integrator_at(i)->name, project ? "+project" : "");
         dal_method method;
         CU_ASSERT_EQUAL_FATAL(dal_method_parse(&method, name, NULL), DAL_OK);
@@ -76,7 +76,7 @@ static void test_order_projected(void) { for_each(true, check_order, (void *)win
  * close in the usual one. */
 static double revealing_step(const dal_method *method, unsigned claim, double usual)
 {
-    const unsigned claims = dal_method_claims(method);
+    const unsigned claims = dal_method_properties(method);
     const bool close = (claims & DAL_EXPLICIT) && dal_method_order(method) > 4;
     return close && !(claims & claim) ? 5.0 * usual : usual;
 }
@@ -92,7 +92,7 @@ static void check_symplectic(const char *name, const dal_method *method, void *u
     CU_ASSERT_EQUAL(dal_check_symplecticity(&spec, 0.0, dal_run_state(run), 0.0, &defect, NULL),
                     DAL_OK);
     dal_run_free(run);
-    const bool claimed = (dal_method_claims(method) & DAL_SYMPLECTIC) != 0;
+    const bool claimed = (dal_method_properties(method) & DAL_SYMPLECTIC) != 0;
     const bool good = claimed ? defect <= 1e-9 : defect >= 1e-7;
     if (!good) printf("\n  %s: defect %.3e\n", name, defect);
     CU_ASSERT(good);
@@ -111,12 +111,12 @@ static void check_symmetric(const char *name, const dal_method *method, void *us
 {
     double defect = NAN;
     /* Carried multipliers would have to be turned round, too: see test_constrained.c. */
-    if (dal_method_claims(method) & DAL_CARRIES_MULTIPLIER) return;
+    if (dal_method_properties(method) & DAL_CARRIES_MULTIPLIER) return;
     if (!fixture_serves(method, user, DAL_PHYSICAL)) return;
     const double h = revealing_step(method, DAL_SYMMETRIC, 0.2);
     const dal_run_spec spec = fixture_spec(user, name, DAL_PHYSICAL, h);
     CU_ASSERT_EQUAL(dal_check_reversibility(&spec, 0.0, NULL, &defect, NULL), DAL_OK);
-    const bool claimed = (dal_method_claims(method) & DAL_SYMMETRIC) != 0;
+    const bool claimed = (dal_method_properties(method) & DAL_SYMMETRIC) != 0;
     const bool good = claimed ? defect <= 1e-14 : defect >= 1e-7;
     if (!good) printf("\n  %s: defect %.3e\n", name, defect);
     CU_ASSERT(good);
@@ -138,7 +138,7 @@ static void check_pairing(const char *name, const dal_method *method, void *user
     const dal_setting start[] = {{"e", INFINITY}, {"p_x", 0.7}, {"p_z", -0.4}, {"pi_y", 1.1}};
     const double direction[] = {0.3, -0.2, 0.5, 0.1, 0.4, -0.6};
     dal_statistics pairing;
-    if (!(dal_method_claims(method) & DAL_SYMPLECTIC)) return;
+    if (!(dal_method_properties(method) & DAL_SYMPLECTIC)) return;
     CU_ASSERT_EQUAL_FATAL(dal_model_tangent(model, &tangent, NULL), DAL_OK);
     dal_run_spec spec = fixture_spec(fixture_system(model), name, DAL_LIFTED, 0.005);
     spec.start = start;
@@ -237,7 +237,7 @@ static double greatest_d(const dal_system *system, const char *name, double h, l
 static void check_level(const char *name, const dal_method *method, const dal_system *system,
                         unsigned claim)
 {
-    const unsigned claims = dal_method_claims(method);
+    const unsigned claims = dal_method_properties(method);
     const bool kept = claim == 0 || (claims & (claim | DAL_PRESERVES_D));
     const double d = kept ? greatest_d(system, name, 0.002, long_run(100000))
                           : greatest_d(system, name, 0.05, 1000);
@@ -253,7 +253,7 @@ static void check_keeps(const char *name, const dal_method *method, void *user)
     dal_model *model = fixture_model(k->fixture);
     const dal_system *system = fixture_system(model);
     /* D at midpoints is another matter: see test_constrained.c. */
-    const unsigned claims = dal_method_claims(method);
+    const unsigned claims = dal_method_properties(method);
     const bool nodes = !(claims & DAL_PRESERVES_D_MIDPOINT) || claims & DAL_PRESERVES_D;
     if (nodes && fixture_serves(method, system, DAL_PHYSICAL))
         check_level(name, method, system, k->claim);

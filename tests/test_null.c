@@ -267,7 +267,7 @@ static void null_dal_method_name(void)
 }
 
 static void null_dal_method_order(void) { CU_ASSERT_EQUAL(dal_method_order(NULL), 0); }
-static void null_dal_method_claims(void) { CU_ASSERT_EQUAL(dal_method_claims(NULL), 0); }
+static void null_dal_method_claims(void) { CU_ASSERT_EQUAL(dal_method_properties(NULL), 0); }
 static void null_dal_method_needs(void) { CU_ASSERT_EQUAL(dal_method_needs(NULL), 0); }
 
 /* ---- models ---- */

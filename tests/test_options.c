@@ -12,8 +12,8 @@ static void test_methods(void)
     CU_ASSERT_STRING_EQUAL(dal_method_name(&method, name, sizeof name),
                            "symplectic-euler-10+project");
     CU_ASSERT_EQUAL(dal_method_order(&method), 1);
-    CU_ASSERT_EQUAL(dal_method_claims(&method) & (DAL_SYMPLECTIC | DAL_SYMMETRIC), 0);
-    CU_ASSERT(dal_method_claims(&method) & DAL_PRESERVES_D);
+    CU_ASSERT_EQUAL(dal_method_properties(&method) & (DAL_SYMPLECTIC | DAL_SYMMETRIC), 0);
+    CU_ASSERT(dal_method_properties(&method) & DAL_PRESERVES_D);
     CU_ASSERT_EQUAL(dal_method_parse(&method, "gaus8", &error), DAL_NAME);
     CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "'gauss8'"));
     CU_ASSERT_EQUAL(dal_method_parse(&method, "gauss8+projct", &error), DAL_NAME);

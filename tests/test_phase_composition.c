@@ -89,7 +89,7 @@ static void test_symmetric(void)
             double defect = NAN;
             const dal_run_spec spec = fixture_spec(
                 fixture_system(model), join(bases[b], composed[i].name, ""), DAL_PHYSICAL, 0.2);
-            CU_ASSERT(dal_method_claims(&spec.method) & DAL_SYMMETRIC);
+            CU_ASSERT(dal_method_properties(&spec.method) & DAL_SYMMETRIC);
             CU_ASSERT_EQUAL(dal_check_reversibility(&spec, 0.0, NULL, &defect, NULL), DAL_OK);
             if (!(defect <= 1e-14)) printf("\n  %s: defect %.2e\n", composed[i].name, defect);
             CU_ASSERT(defect <= 1e-14);
@@ -117,14 +117,14 @@ static void test_symplectic(void)
             const dal_run_spec spec = fixture_spec(
                 fixture_system(model), join(bases[b], composed[i].name, ""), DAL_LIFTED, 0.1);
             const double defect = symplectic_defect(&spec);
-            CU_ASSERT(dal_method_claims(&spec.method) & DAL_SYMPLECTIC);
+            CU_ASSERT(dal_method_properties(&spec.method) & DAL_SYMPLECTIC);
             if (!(defect <= 1e-9)) printf("\n  %s: defect %.2e\n", composed[i].name, defect);
             CU_ASSERT(defect <= 1e-9);
         }
     }
     const dal_run_spec projected =
         fixture_spec(fixture_system(model), "stormer-verlet+yoshida4+project", DAL_LIFTED, 0.1);
-    CU_ASSERT_FALSE(dal_method_claims(&projected.method) & (DAL_SYMPLECTIC | DAL_SYMMETRIC));
+    CU_ASSERT_FALSE(dal_method_properties(&projected.method) & (DAL_SYMPLECTIC | DAL_SYMMETRIC));
     CU_ASSERT(symplectic_defect(&projected) >= 1e-7);
     dal_model_free(model);
 }

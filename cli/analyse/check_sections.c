@@ -138,10 +138,10 @@ static bool is_integrator_accepted(check *c, const dal_integrator *integrator)
 {
     dal_error error;
     const dal_integrator *base;
-    if (!(integrator->claims & DAL_MODIFIER)) return is_accepted(c, integrator->name, &error);
+    if (!(integrator->properties & DAL_MODIFIER)) return is_accepted(c, integrator->name, &error);
     for (int i = 0; (base = dal_integrator_at(i)); i++) {
         char name[128];
-        if (base->claims & DAL_MODIFIER) continue;
+        if (base->properties & DAL_MODIFIER) continue;
         snprintf(name, sizeof name, "%.60s+%.60s", base->name, integrator->name);
         if (is_accepted(c, name, &error)) return true;
     }
@@ -159,15 +159,15 @@ static void list_methods(check *c, bool is_constant, unsigned properties)
     dal_error error = {.message = ""};
     const dal_integrator *k;
     for (int i = 0; !is_constant && (k = dal_integrator_at(i)); i++) {
-        if (!(k->claims & properties) || !is_integrator_accepted(c, k)) continue;
+        if (!(k->properties & properties) || !is_integrator_accepted(c, k)) continue;
         const bool is_full = length - line + strlen(k->name) + 3 > MAX_LINE;
         const size_t begin = length;
         length += (size_t)snprintf(text + length, sizeof text - length, "%s%*s%s%.40s",
                                    is_full      ? "\n"
                                    : length > 0 ? " "
                                                 : "",
-                                   is_full ? INDENT : 0, "", k->claims & DAL_MODIFIER ? "+" : "",
-                                   k->name);
+                                   is_full ? INDENT : 0, "",
+                                   k->properties & DAL_MODIFIER ? "+" : "", k->name);
         if (is_full) line = begin + 1 + INDENT;
     }
     const bool is_any = length > 0 || is_accepted(c, "rk4", &error);

@@ -81,7 +81,7 @@ static int add_methods(order_study *s, const char *name)
     int status = CLI_DONE;
     if (strcmp(name, "all") != 0) return add_method(s, name);
     for (int i = 0; status == CLI_DONE && (k = dal_integrator_at(i)); i++)
-        if (!(k->claims & DAL_MODIFIER)) status = add_method(s, k->name);
+        if (!(k->properties & DAL_MODIFIER)) status = add_method(s, k->name);
     return status;
 }
 

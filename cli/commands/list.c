@@ -199,7 +199,7 @@ static void put_claims(sheet *s, unsigned claims, unsigned inherits)
 static void put_integrator(sheet *s, const dal_integrator *integrator, int markdown)
 {
     const char *tick = markdown ? "`" : "";
-    const char *plus = integrator->claims & DAL_MODIFIER ? "+" : "";
+    const char *plus = integrator->properties & DAL_MODIFIER ? "+" : "";
     if (integrator->alias)
         put(s, "%s%s%s%s, %s%s%s%s", tick, plus, integrator->name, tick, tick, plus,
             integrator->alias, tick);
@@ -209,7 +209,7 @@ static void put_integrator(sheet *s, const dal_integrator *integrator, int markd
         put(s, "%d", integrator->order);
     else
         put(s, "-");
-    put_claims(s, integrator->claims, integrator->inherits);
+    put_claims(s, integrator->properties, integrator->inherits);
     put(s, "%s", integrator->summary);
     put(s, "%s", integrator->reference);
 }
@@ -223,7 +223,7 @@ static int list_integrators(int markdown)
     begin(&s, sizeof headings / sizeof headings[0], headings);
     for (int modifiers = 0; modifiers < 2; modifiers++)
         for (int i = 0; (integrator = dal_integrator_at(i)); i++)
-            if (!(integrator->claims & DAL_MODIFIER) == !modifiers)
+            if (!(integrator->properties & DAL_MODIFIER) == !modifiers)
                 put_integrator(&s, integrator, markdown);
     return end(&s, markdown);
 }

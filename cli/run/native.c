@@ -76,7 +76,7 @@ static void compile(dal_run *run, compilation *compile_run, atomic_flag *printed
 void native_compile_steps(dal_run *run, const dal_method *method, double steps, native_mode mode)
 {
     static atomic_flag printed = ATOMIC_FLAG_INIT;
-    const int is_explicit = (dal_method_claims(method) & DAL_EXPLICIT) != 0;
+    const int is_explicit = (dal_method_properties(method) & DAL_EXPLICIT) != 0;
     if (is_wanted(run, mode, is_explicit ? NS_EXPLICIT : NS_IMPLICIT, steps))
         compile(run, dal_run_native, &printed, "steps");
 }

@@ -63,7 +63,7 @@ static int add_methods(study_case *e, const document *doc, const yaml_node_t *no
         return add_method(e, doc, node, name);
     for (int i = 0; dal_integrator_at(i) && status == CLI_DONE; i++) {
         const dal_integrator *integrator = dal_integrator_at(i);
-        if (integrator->claims & DAL_MODIFIER) continue;
+        if (integrator->properties & DAL_MODIFIER) continue;
         snprintf(full, sizeof full, "%s%s", integrator->name, name + 3);
         status = add_method(e, doc, node, full);
     }

@@ -22,7 +22,7 @@ static double cost(const study_cell *c)
 {
     const dal_integrator *inner = c->method->chain[0];
     double stages = inner->stages > 0 ? inner->stages : 1;
-    double implicit = inner->claims & DAL_EXPLICIT ? 1.0 : 8.0;
+    double implicit = inner->properties & DAL_EXPLICIT ? 1.0 : 8.0;
     double wide = c->start == STUDY_PHYSICAL ? 1.0 : 3.0;
     return c->of_case->time / c->step * stages * implicit * wide;
 }

@@ -43,7 +43,7 @@ const char *dal_comparison_text(dal_comparison_run comparison)
 
 static bool solves(const dal_run_spec *spec)
 {
-    return !(dal_method_claims(&spec->method) & DAL_EXPLICIT) || spec->method.chain[1];
+    return !(dal_method_properties(&spec->method) & DAL_EXPLICIT) || spec->method.chain[1];
 }
 
 static int depth(const dal_method *method)
@@ -55,7 +55,7 @@ static int depth(const dal_method *method)
 
 static bool is_projection(const dal_integrator *link)
 {
-    return (link->claims & DAL_MODIFIER) && (link->needs & DAL_NEEDS_CONSTRAINT);
+    return (link->properties & DAL_MODIFIER) && (link->needs & DAL_NEEDS_CONSTRAINT);
 }
 
 /* The place of the outermost projection in a method; 0: it has none. */

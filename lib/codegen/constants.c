@@ -5,7 +5,7 @@
  * find room in the registers where there are few of them. */
 static bool is_joined(const dal__generation *g)
 {
-    const unsigned claims = g->shape.method.chain[0]->claims;
+    const unsigned claims = g->shape.method.chain[0]->properties;
     const bool few = claims & DAL_REMEMBERS && g->shape.method.chain[0]->stages <= 2;
     const bool can = claims & DAL_COMPONENTWISE || few;
     return g->shape.depth == 1 && !g->shape.lifted && can;
@@ -32,7 +32,7 @@ void dal__put_constants(dal__generation *g)
     const int stages = g->spec->method.chain[0]->stages;
     const bool collocation = dal__method_uses(g, "dal_collocation");
     const bool solves = collocation || dal__method_uses(g, "dal_polarised_euler");
-    const bool is_explicit = dal_method_claims(&g->spec->method) & DAL_EXPLICIT;
+    const bool is_explicit = dal_method_properties(&g->spec->method) & DAL_EXPLICIT;
     const struct {
         const char *name;
         int value;

@@ -328,7 +328,7 @@ static dal_status check(const dal_run_spec *spec, const dal_system *tangent, dal
         return dal__fail(error, DAL_ARGUMENT,
                          "a tangent system of %d coordinates for a system of %d", tangent->n,
                          spec->system->n);
-    if (dal_method_claims(&spec->method) & DAL_CARRIES_MULTIPLIER)
+    if (dal_method_properties(&spec->method) & DAL_CARRIES_MULTIPLIER)
         return dal__fail(error, DAL_UNSUPPORTED,
                          "%s carries a multiplier along: its step is no map of (q,v) alone", name);
     if (spec->options.tolerance > 0.0)
@@ -417,7 +417,7 @@ static void find_forced(dal_lyapunov *s, unsigned claims)
 static dal_status make(dal_lyapunov *s, const dal_run_spec *spec, const dal_system *tangent,
                        int count, dal_error *error)
 {
-    const unsigned claims = dal_method_claims(&spec->method);
+    const unsigned claims = dal_method_properties(&spec->method);
     DAL_TRY(open_runs(s, spec, tangent, error));
     DAL_TRY(allocate(s, error));
     s->error = error;

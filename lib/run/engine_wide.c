@@ -36,7 +36,7 @@ static const dal_callbacks *callbacks(const dal_system *system)
 static size_t changing(const engine *e)
 {
     const bool alone = !e->shape.lifted && e->shape.depth == 1 && e->shape.options.tolerance == 0.0;
-    const bool plain = alone && (e->chain[0]->claims & DAL_COMPONENTWISE);
+    const bool plain = alone && (e->chain[0]->properties & DAL_COMPONENTWISE);
     return (plain ? dal__at(&e->shape, 0) : e->shape.carried) * DAL_GROUPS;
 }
 

@@ -34,7 +34,7 @@ const dal_integrator *dal__integrator_wide(const dal_integrator *integrator, dal
 
 static int is_modifier(const dal_integrator *integrator)
 {
-    return (integrator->claims & DAL_MODIFIER) != 0;
+    return (integrator->properties & DAL_MODIFIER) != 0;
 }
 
 /* Finds an integrator (modifier = 0) or a modifier by name or alias. */
@@ -129,13 +129,13 @@ unsigned dal_method_needs(const dal_method *method)
     return needs;
 }
 
-unsigned dal_method_claims(const dal_method *method)
+unsigned dal_method_properties(const dal_method *method)
 {
     unsigned claims = 0;
     for (int i = 0; method && i < DAL_CHAIN && method->chain[i]; i++) {
         const dal_integrator *k = method->chain[i];
         claims = (claims & (k->inherits | DAL_CARRIES_MULTIPLIER)) |
-                 (k->claims & ~(unsigned)DAL_MODIFIER);
+                 (k->properties & ~(unsigned)DAL_MODIFIER);
     }
     return claims;
 }

@@ -146,11 +146,11 @@ static dal_status check_inside(const dal_method *method, int depth, dal_error *e
     for (int i = depth; i < DAL_CHAIN; i++) inside.chain[i] = NULL;
     dal_method_name(&inside, name, sizeof name);
     const int order = dal_method_order(&inside);
-    if ((outer->needs & DAL_NEEDS_SYMMETRIC) && !(dal_method_claims(&inside) & DAL_SYMMETRIC))
+    if ((outer->needs & DAL_NEEDS_SYMMETRIC) && !(dal_method_properties(&inside) & DAL_SYMMETRIC))
         return dal__fail(error, DAL_UNSUPPORTED,
                          "+%s needs a symmetric method: %s is not symmetric", outer->name, name);
     if ((outer->needs & DAL_NEEDS_SYMMETRIC) && (outer->needs & DAL_NEEDS_CONSTRAINT) &&
-        (dal_method_claims(&inside) & (DAL_PRESERVES_D | DAL_PRESERVES_D_MIDPOINT)) ==
+        (dal_method_properties(&inside) & (DAL_PRESERVES_D | DAL_PRESERVES_D_MIDPOINT)) ==
             DAL_PRESERVES_D_MIDPOINT)
         return dal__fail(error, DAL_UNSUPPORTED,
                          "+%s has no solution around %s, which turns D into -D in every step",
@@ -158,7 +158,7 @@ static dal_status check_inside(const dal_method *method, int depth, dal_error *e
     if ((outer->needs & DAL_NEEDS_ORDER_2) && order != 2)
         return dal__fail(error, DAL_UNSUPPORTED, "+%s needs a method of order 2: %s is of order %d",
                          outer->name, name, order);
-    if ((outer->needs & DAL_NEEDS_RUNGE_KUTTA) && !is_runge_kutta(dal_method_claims(&inside)))
+    if ((outer->needs & DAL_NEEDS_RUNGE_KUTTA) && !is_runge_kutta(dal_method_properties(&inside)))
         return dal__fail(error, DAL_UNSUPPORTED,
                          "+%s needs an explicit Runge-Kutta method that is not symplectic by "
                          "itself: %s is not one",
@@ -171,7 +171,7 @@ static dal_status check_chain(dal__shape *k, dal_error *error)
     const dal_method *method = &k->method;
     while (k->depth < DAL_CHAIN && method->chain[k->depth]) {
         const dal_integrator *link = method->chain[k->depth];
-        const int modifier = (link->claims & DAL_MODIFIER) != 0;
+        const int modifier = (link->properties & DAL_MODIFIER) != 0;
         if (!link->step || link->stages < 0 || modifier != (k->depth > 0))
             return dal__fail(error, DAL_ARGUMENT, "'%s' is not usable as part %d of a method",
                              link->name ? link->name : "?", k->depth + 1);
@@ -186,7 +186,8 @@ static dal_status check_chain(dal__shape *k, dal_error *error)
 static dal_status check_control(const dal__shape *k, dal_error *error)
 {
     char name[128];
-    if (k->options.tolerance == 0.0 || dal_method_claims(&k->method) & DAL_ADAPTIVE) return DAL_OK;
+    if (k->options.tolerance == 0.0 || dal_method_properties(&k->method) & DAL_ADAPTIVE)
+        return DAL_OK;
     return dal__fail(error, DAL_UNSUPPORTED,
                      "%s has no control of its step size: a tolerance cannot be kept, take 0",
                      dal_method_name(&k->method, name, sizeof name));
@@ -238,9 +239,9 @@ static dal_status measure(dal__shape *k, dal_error *error)
     k->workspace = k->system->workspace ? k->system->workspace : (size_t)k->system->parameters;
     if (k->workspace > MOST_NUMBERS)
         return dal__fail(error, DAL_TOO_LARGE, "a workspace of %zu numbers", k->workspace);
-    const bool remembers = k->method.chain[0]->claims & DAL_REMEMBERS;
+    const bool remembers = k->method.chain[0]->properties & DAL_REMEMBERS;
     k->slopes = remembers ? (1 + DAL__DIFFERENCES) * k->stages * (k->nw + k->n) : 0;
-    k->reaction = dal_method_claims(&k->method) & DAL_CARRIES_MULTIPLIER ? k->m : 0;
+    k->reaction = dal_method_properties(&k->method) & DAL_CARRIES_MULTIPLIER ? k->m : 0;
     k->carried = dal__at(k, DAL__MEMORY);
 #define X(member, count) k->carried += (size_t)DAL__COUNT_##count(k);
     DAL__MEMORY_LIST(X)
