@@ -3,7 +3,7 @@
 #ifndef DALEMBERT_METHOD_H
 #define DALEMBERT_METHOD_H
 
-/* What a descriptor claims; the conformance suite verifies it. */
+/* What a descriptor properties; the conformance suite verifies it. */
 enum {
     DAL_SYMMETRIC = 1 << 0,
     DAL_SYMPLECTIC = 1 << 1,         /* on the canonical lift; says nothing about D or the energy */
@@ -46,7 +46,7 @@ typedef struct dal_integrator {
     int stages; /* stages solved together or kept at once; sizes scratch and, with DAL_REMEMBERS,
                    carried memory */
     unsigned properties, needs;
-    unsigned inherits; /* a modifier: claims of the method inside that still hold around it */
+    unsigned inherits; /* a modifier: properties of the method inside that still hold around it */
     dal_step_function *step;
 } dal_integrator;
 

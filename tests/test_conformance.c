@@ -144,11 +144,11 @@ static strays strays_of(const dal_system *system, const char *name)
 
 static void check_kept(const char *name, const dal_method *method, void *user)
 {
-    const unsigned claims = dal_method_properties(method);
+    const unsigned properties = dal_method_properties(method);
     if (!fixture_serves(method, user, DAL_PHYSICAL)) return;
     const strays most = strays_of(user, name);
-    const bool D = !(claims & DAL_PRESERVES_D) || most.D <= 1e-14;
-    const bool E = !(claims & DAL_PRESERVES_ENERGY) || most.E <= 1e-14;
+    const bool D = !(properties & DAL_PRESERVES_D) || most.D <= 1e-14;
+    const bool E = !(properties & DAL_PRESERVES_ENERGY) || most.E <= 1e-14;
     if (!D || !E) printf("\n  %s: D %.2e, E %.2e\n", name, most.D, most.E);
     CU_ASSERT(D);
     CU_ASSERT(E);

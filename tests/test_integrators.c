@@ -1,4 +1,4 @@
-/* test_integrators.c - conformance: what every descriptor claims, on fixtures with time-dependent
+/* test_integrators.c - conformance: what every descriptor properties, on fixtures with time-dependent
  * and velocity-dependent forces, a full q-dependent mass matrix and m = 2. */
 #include "fixtures.h"
 #include "quick.h"
@@ -76,9 +76,9 @@ static void test_order_projected(void) { for_each(true, check_order, (void *)win
  * close in the usual one. */
 static double revealing_step(const dal_method *method, unsigned claim, double usual)
 {
-    const unsigned claims = dal_method_properties(method);
-    const bool close = (claims & DAL_EXPLICIT) && dal_method_order(method) > 4;
-    return close && !(claims & claim) ? 5.0 * usual : usual;
+    const unsigned properties = dal_method_properties(method);
+    const bool close = (properties & DAL_EXPLICIT) && dal_method_order(method) > 4;
+    return close && !(properties & claim) ? 5.0 * usual : usual;
 }
 
 static void check_symplectic(const char *name, const dal_method *method, void *user)
@@ -237,8 +237,8 @@ static double greatest_d(const dal_system *system, const char *name, double h, l
 static void check_level(const char *name, const dal_method *method, const dal_system *system,
                         unsigned claim)
 {
-    const unsigned claims = dal_method_properties(method);
-    const bool kept = claim == 0 || (claims & (claim | DAL_PRESERVES_D));
+    const unsigned properties = dal_method_properties(method);
+    const bool kept = claim == 0 || (properties & (claim | DAL_PRESERVES_D));
     const double d = kept ? greatest_d(system, name, 0.002, long_run(100000))
                           : greatest_d(system, name, 0.05, 1000);
     /* That the others lose it shows that the test sees a loss; high orders lose little. */
@@ -253,8 +253,8 @@ static void check_keeps(const char *name, const dal_method *method, void *user)
     dal_model *model = fixture_model(k->fixture);
     const dal_system *system = fixture_system(model);
     /* D at midpoints is another matter: see test_constrained.c. */
-    const unsigned claims = dal_method_properties(method);
-    const bool nodes = !(claims & DAL_PRESERVES_D_MIDPOINT) || claims & DAL_PRESERVES_D;
+    const unsigned properties = dal_method_properties(method);
+    const bool nodes = !(properties & DAL_PRESERVES_D_MIDPOINT) || properties & DAL_PRESERVES_D;
     if (nodes && fixture_serves(method, system, DAL_PHYSICAL))
         check_level(name, method, system, k->claim);
     dal_model_free(model);

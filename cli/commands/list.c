@@ -173,7 +173,7 @@ static int list_systems(int markdown)
 
 /* ---- integrators --------------------------------------------------------------------------- */
 
-static void put_claims(sheet *s, unsigned claims, unsigned inherits)
+static void put_claims(sheet *s, unsigned properties, unsigned inherits)
 {
     static const struct {
         unsigned claim;
@@ -191,7 +191,7 @@ static void put_claims(sheet *s, unsigned claims, unsigned inherits)
     char line[160] = "";
     size_t n = 0;
     for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++)
-        if (claims & texts[i].claim)
+        if (properties & texts[i].claim)
             n += (size_t)snprintf(line + n, sizeof line - n, "%s%s", n ? ", " : "", texts[i].text);
     put(s, "%s", n ? line : inherits & DAL_SYMMETRIC ? "as NAME" : "-");
 }

@@ -5,9 +5,9 @@
  * find room in the registers where there are few of them. */
 static bool is_joined(const dal__generation *g)
 {
-    const unsigned claims = g->shape.method.chain[0]->properties;
-    const bool few = claims & DAL_REMEMBERS && g->shape.method.chain[0]->stages <= 2;
-    const bool can = claims & DAL_COMPONENTWISE || few;
+    const unsigned properties = g->shape.method.chain[0]->properties;
+    const bool few = properties & DAL_REMEMBERS && g->shape.method.chain[0]->stages <= 2;
+    const bool can = properties & DAL_COMPONENTWISE || few;
     return g->shape.depth == 1 && !g->shape.lifted && can;
 }
 

@@ -131,11 +131,11 @@ unsigned dal_method_needs(const dal_method *method)
 
 unsigned dal_method_properties(const dal_method *method)
 {
-    unsigned claims = 0;
+    unsigned properties = 0;
     for (int i = 0; method && i < DAL_CHAIN && method->chain[i]; i++) {
         const dal_integrator *k = method->chain[i];
-        claims = (claims & (k->inherits | DAL_CARRIES_MULTIPLIER)) |
-                 (k->properties & ~(unsigned)DAL_MODIFIER);
+        properties = (properties & (k->inherits | DAL_CARRIES_MULTIPLIER)) |
+                     (k->properties & ~(unsigned)DAL_MODIFIER);
     }
-    return claims;
+    return properties;
 }

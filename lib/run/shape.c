@@ -132,9 +132,10 @@ static dal_status check_options(const dal_options *o, dal_error *error)
 }
 
 /* Those that are symplectic treat p and pi in other ways than q and v. */
-static bool is_runge_kutta(unsigned claims)
+static bool is_runge_kutta(unsigned properties)
 {
-    return (claims & DAL_EXPLICIT) && (claims & DAL_COMPONENTWISE) && !(claims & DAL_SYMPLECTIC);
+    return (properties & DAL_EXPLICIT) && (properties & DAL_COMPONENTWISE) &&
+           !(properties & DAL_SYMPLECTIC);
 }
 
 /* A modifier must suit the method inside it, parts 0..depth-1 of the chain. */
