@@ -15,10 +15,11 @@ enum {
     DAL_COMPONENTWISE = 1 << 7,        /* on (q,v) only adds multiples of v and F */
     DAL_PRESERVES_D_MIDPOINT = 1 << 8, /* D((q0 + q1)/2, (q1 - q0)/h, t + h/2) = 0 in every step */
     DAL_PRESERVES_ENERGY = 1 << 9,     /* E, where the motion keeps it */
-    DAL_CARRIES_MULTIPLIER = 1 << 10,  /* a map of (q, v, multipliers), which a run carries along;
+    DAL_PERSISTENT_MULTIPLIER = 1 << 10, /* a map of (q, v, multipliers), which a run carries along;
                                          symmetric and reversible in them */
     DAL_ADAPTIVE = 1 << 11, /* divides a step h by itself where the option tolerance is not 0 */
-    DAL_REMEMBERS = 1 << 12 /* keeps the slopes of a step, for the first guess in the next */
+    DAL_EXTRAPOLATES_STAGES =
+        1 << 12 /* keeps the slopes of a step, for the first guess in the next */
 };
 
 /* What it needs of the system or, a modifier, of the method inside. */
@@ -42,8 +43,8 @@ typedef dal_status dal_step_function(struct dal_step *step);
 typedef struct dal_integrator {
     const char *name, *alias; /* alias: another name, or NULL */
     const char *summary, *reference;
-    int order;  /* 0 for a modifier: that of the inner method */
-    int stages; /* stages solved together or kept at once; sizes scratch and, with DAL_REMEMBERS,
+    int order; /* 0 for a modifier: that of the inner method */
+    int stages; /* stages solved together or kept at once; sizes scratch and, with DAL_EXTRAPOLATES_STAGES,
                    carried memory */
     unsigned properties, needs;
     unsigned inherits; /* a modifier: properties of the method inside that still hold around it */

@@ -142,7 +142,8 @@ static const double e6[] = {-1.56791634615187423369e-1, 5.46632254422443822806e-
     DAL_INTEGRATOR(                                                                                \
         gauss##order_, step##s, .name = name_, .summary = "Gauss-Legendre, " #s " stages",         \
         .reference = "Hairer, Lubich, Wanner 2006, II.1.3", .order = order_, .stages = s,          \
-        .properties = DAL_SYMMETRIC | DAL_SYMPLECTIC | DAL_PRESERVES_QUADRATIC | DAL_REMEMBERS,    \
+        .properties =                                                                              \
+            DAL_SYMMETRIC | DAL_SYMPLECTIC | DAL_PRESERVES_QUADRATIC | DAL_EXTRAPOLATES_STAGES,    \
         .needs = DAL_NEEDS_FIELD)
 
 GAUSS(2, 4, "gauss4");

@@ -70,5 +70,5 @@ DAL_INLINE dal_status step(dal_step *s)
 DAL_INTEGRATOR(gni, step, .name = "gni", .alias = "nonholonomic-rattle",
                .summary = "RATTLE with D on the velocities",
                .reference = "Ferraro, Iglesias, Martin de Diego 2008", .order = 2, .stages = 1,
-               .properties = DAL_SYMMETRIC | DAL_PRESERVES_D | DAL_CARRIES_MULTIPLIER,
+               .properties = DAL_SYMMETRIC | DAL_PRESERVES_D | DAL_PERSISTENT_MULTIPLIER,
                .needs = DAL_NEEDS_FIELD | DAL_NEEDS_PARTS);

@@ -111,7 +111,8 @@ static const double e5[] = {0.0, 0.0, 0.0, 0.0, 1.00000000000000000000e+0,
     DAL_INTEGRATOR(                                                                                \
         lobatto##order_, step##s, .name = name_, .summary = "Lobatto IIIA-IIIB, " #s " stages",    \
         .reference = "Hairer, Lubich, Wanner 2006, II.2.2", .order = order_, .stages = s,          \
-        .properties = DAL_SYMMETRIC | DAL_SYMPLECTIC | DAL_PRESERVES_BILINEAR | DAL_REMEMBERS,     \
+        .properties =                                                                              \
+            DAL_SYMMETRIC | DAL_SYMPLECTIC | DAL_PRESERVES_BILINEAR | DAL_EXTRAPOLATES_STAGES,     \
         .needs = DAL_NEEDS_FIELD)
 
 LOBATTO(3, 4, "lobatto4");

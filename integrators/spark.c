@@ -126,7 +126,7 @@ static const double unit4[] = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
                    .summary = "Lobatto IIIA-IIIB, " #s " stages, D imposed at its nodes",          \
                    .reference = "Sato Martin de Almagro, Martin de Diego 2018", .order = order_,   \
                    .stages = s,                                                                    \
-                   .properties = DAL_SYMMETRIC | DAL_PRESERVES_D | DAL_CARRIES_MULTIPLIER,         \
+                   .properties = DAL_SYMMETRIC | DAL_PRESERVES_D | DAL_PERSISTENT_MULTIPLIER,      \
                    .needs = DAL_NEEDS_FIELD | DAL_NEEDS_PARTS)
 
 LOBATTO(2, 2, "spark2", "lobatto-nonholonomic2");

@@ -24,10 +24,10 @@ static const char conservative[] =
 /* Every claim there is, with its verification. */
 static const unsigned verified =
     DAL_SYMMETRIC | DAL_SYMPLECTIC | DAL_PRESERVES_BILINEAR | DAL_PRESERVES_QUADRATIC |
-    DAL_PRESERVES_D | DAL_PRESERVES_ENERGY |            /* here and in test_integrators.c */
-    DAL_PRESERVES_D_MIDPOINT | DAL_CARRIES_MULTIPLIER | /* test_constrained.c */
-    DAL_ADAPTIVE |                                      /* test_adaptive.c */
-    DAL_REMEMBERS | /* that a checkpoint has the slopes: test_run.c */
+    DAL_PRESERVES_D | DAL_PRESERVES_ENERGY |               /* here and in test_integrators.c */
+    DAL_PRESERVES_D_MIDPOINT | DAL_PERSISTENT_MULTIPLIER | /* test_constrained.c */
+    DAL_ADAPTIVE |                                         /* test_adaptive.c */
+    DAL_EXTRAPOLATES_STAGES | /* that a checkpoint has the slopes: test_run.c */
     DAL_EXPLICIT | DAL_MODIFIER | DAL_COMPONENTWISE; /* the batches' and the generated steps */
 
 static void test_claims_known(void)
@@ -100,7 +100,7 @@ static void test_order(void)
 static void check_symmetric(const char *name, const dal_method *method, void *user)
 {
     double defect = NAN;
-    if (dal_method_properties(method) & DAL_CARRIES_MULTIPLIER) return;
+    if (dal_method_properties(method) & DAL_PERSISTENT_MULTIPLIER) return;
     if (!fixture_serves(method, user, DAL_PHYSICAL)) return;
     const dal_run_spec spec = fixture_spec(user, name, DAL_PHYSICAL, 0.2);
     CU_ASSERT_EQUAL(dal_check_reversibility(&spec, 0.0, NULL, &defect, NULL), DAL_OK);

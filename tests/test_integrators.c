@@ -111,7 +111,7 @@ static void check_symmetric(const char *name, const dal_method *method, void *us
 {
     double defect = NAN;
     /* Carried multipliers would have to be turned round, too: see test_constrained.c. */
-    if (dal_method_properties(method) & DAL_CARRIES_MULTIPLIER) return;
+    if (dal_method_properties(method) & DAL_PERSISTENT_MULTIPLIER) return;
     if (!fixture_serves(method, user, DAL_PHYSICAL)) return;
     const double h = revealing_step(method, DAL_SYMMETRIC, 0.2);
     const dal_run_spec spec = fixture_spec(user, name, DAL_PHYSICAL, h);

@@ -186,7 +186,7 @@ static void put_claims(sheet *s, unsigned properties, unsigned inherits)
                  {DAL_PRESERVES_D, "every D"},
                  {DAL_PRESERVES_D_MIDPOINT, "D at midpoints"},
                  {DAL_PRESERVES_ENERGY, "energy"},
-                 {DAL_CARRIES_MULTIPLIER, "carries multipliers"},
+                 {DAL_PERSISTENT_MULTIPLIER, "carries multipliers"},
                  {DAL_ADAPTIVE, "adaptive"}};
     char line[160] = "";
     size_t n = 0;

@@ -6,7 +6,7 @@
 static bool is_joined(const dal__generation *g)
 {
     const unsigned properties = g->shape.method.chain[0]->properties;
-    const bool few = properties & DAL_REMEMBERS && g->shape.method.chain[0]->stages <= 2;
+    const bool few = properties & DAL_EXTRAPOLATES_STAGES && g->shape.method.chain[0]->stages <= 2;
     const bool can = properties & DAL_COMPONENTWISE || few;
     return g->shape.depth == 1 && !g->shape.lifted && can;
 }

@@ -328,7 +328,7 @@ static dal_status check(const dal_run_spec *spec, const dal_system *tangent, dal
         return dal__fail(error, DAL_ARGUMENT,
                          "a tangent system of %d coordinates for a system of %d", tangent->n,
                          spec->system->n);
-    if (dal_method_properties(&spec->method) & DAL_CARRIES_MULTIPLIER)
+    if (dal_method_properties(&spec->method) & DAL_PERSISTENT_MULTIPLIER)
         return dal__fail(error, DAL_UNSUPPORTED,
                          "%s carries a multiplier along: its step is no map of (q,v) alone", name);
     if (spec->options.tolerance > 0.0)

@@ -3,7 +3,7 @@
  *     carried:  y[dim] | r[dim] | the clock | what the method remembers
  *
  * All that survives a step is this array; all else is scratch.  The slopes are those of a method
- * that asks for them (DAL_REMEMBERS), [1 + DAL__DIFFERENCES][stages*(nw + n)]: see
+ * that asks for them (DAL_EXTRAPOLATES_STAGES), [1 + DAL__DIFFERENCES][stages*(nw + n)]: see
  * collocation.h. */
 #ifndef DAL_KERNEL_CARRIED_H
 #define DAL_KERNEL_CARRIED_H

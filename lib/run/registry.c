@@ -134,7 +134,7 @@ unsigned dal_method_properties(const dal_method *method)
     unsigned properties = 0;
     for (int i = 0; method && i < DAL_CHAIN && method->chain[i]; i++) {
         const dal_integrator *k = method->chain[i];
-        properties = (properties & (k->inherits | DAL_CARRIES_MULTIPLIER)) |
+        properties = (properties & (k->inherits | DAL_PERSISTENT_MULTIPLIER)) |
                      (k->properties & ~(unsigned)DAL_MODIFIER);
     }
     return properties;
