@@ -152,7 +152,7 @@ static const dal_system chain_system = {
     .n = CHAIN_N,
     .m = 1,
     .parameters = 1,
-    .properties = DAL_D_LINEAR | DAL_D_BILINEAR | DAL_E_WEAK | DAL_AUTONOMOUS | DAL_MASS_CONSTANT,
+    .properties = DAL_D_LINEAR | DAL_D_BILINEAR | DAL_E_ON_D | DAL_AUTONOMOUS | DAL_MASS_CONSTANT,
     .parameter = chain_parameter,
     .value = chain_value,
     .call = {.field = chain_field, .adjoint = chain_adjoint, .constraint = chain_constraint},

@@ -119,15 +119,15 @@ typedef struct dal_callbacks {
 
 /* What is known of the constraints and of the energy; set by a model, or by hand. */
 enum {
-    DAL_D_LINEAR = 1 << 0,      /* every D linear or affine in v */
-    DAL_D_CONSTANT = 1 << 1,    /* every D linear in (q,v) with constant coefficients */
-    DAL_D_BILINEAR = 1 << 2,    /* every D bilinear: c.v + q^T B v + d.q */
-    DAL_D_QUADRATIC = 1 << 3,   /* every D a polynomial of degree <= 2 in (q,v) */
-    DAL_D_WATCHED = 1 << 4,     /* G can vanish along a run: compare the normals A step by step */
-    DAL_E_EXACT = 1 << 5,       /* dE/dt = 0 for every level of D */
-    DAL_E_WEAK = 1 << 6,        /* dE/dt = 0 on D = 0 only */
-    DAL_AUTONOMOUS = 1 << 7,    /* F does not depend on t */
-    DAL_MASS_CONSTANT = 1 << 8, /* W depends on parameters alone */
+    DAL_D_LINEAR = 1 << 0,       /* every D linear or affine in v */
+    DAL_D_CONSTANT = 1 << 1,     /* every D linear in (q,v) with constant coefficients */
+    DAL_D_BILINEAR = 1 << 2,     /* every D bilinear: c.v + q^T B v + d.q */
+    DAL_D_QUADRATIC = 1 << 3,    /* every D a polynomial of degree <= 2 in (q,v) */
+    DAL_D_RANK_CHECKED = 1 << 4, /* G can vanish along a run: compare the normals A step by step */
+    DAL_E_EXACT = 1 << 5,        /* dE/dt = 0 for every level of D */
+    DAL_E_ON_D = 1 << 6,         /* dE/dt = 0 on D = 0 only */
+    DAL_AUTONOMOUS = 1 << 7,     /* F does not depend on t */
+    DAL_MASS_CONSTANT = 1 << 8,  /* W depends on parameters alone */
     DAL_VAKONOMIC = 1 << 9,
     DAL_SERVO = 1 << 10,            /* reactions along directions B of their own, not along A^T */
     DAL_PARTS_POSITIONAL = 1 << 11, /* every D linear, W^-1 b and A without v */

@@ -92,7 +92,7 @@ bool fixture_serves(const dal_method *method, const dal_system *system, dal_spac
     const unsigned needs = dal_method_needs(method);
     if (needs & DAL_NEEDS_PARTS && space == DAL_LIFTED) return false;
     if (needs & DAL_NEEDS_POTENTIAL && !(system->properties & DAL_MASS_CONSTANT)) return false;
-    if (needs & DAL_NEEDS_ENERGY && !(system->properties & (DAL_E_EXACT | DAL_E_WEAK)))
+    if (needs & DAL_NEEDS_ENERGY && !(system->properties & (DAL_E_EXACT | DAL_E_ON_D)))
         return false;
     return !(needs & DAL_NEEDS_ISOKINETIC) || system->properties & DAL_D_ISOKINETIC;
 }

@@ -41,7 +41,7 @@ static void each(void (*check)(const reference *b))
 static void check_energy(const reference *b)
 {
     const dal_system *s = b->system;
-    bool exact = s->properties & DAL_E_EXACT, weak = s->properties & DAL_E_WEAK;
+    bool exact = s->properties & DAL_E_EXACT, weak = s->properties & DAL_E_ON_D;
     expect_tag(s, "energy-exact", exact);
     expect_tag(s, "energy-weak", weak);
     expect_tag(s, "energy-not-conserved", s->energy && !exact && !weak);
@@ -178,7 +178,7 @@ static double energy_rate(const reference *b, double t, const double *x)
 static void check_kept(const reference *b)
 {
     const dal_system *s = b->system;
-    bool exact = s->properties & DAL_E_EXACT, weak = s->properties & DAL_E_WEAK;
+    bool exact = s->properties & DAL_E_EXACT, weak = s->properties & DAL_E_ON_D;
     motion z = motion_default(s->name, 0.01);
     double E = s->energy ? motion_energy(&z) : 0.0, before[REFERENCE_MAX], x[3 * REFERENCE_MAX];
     for (int i = 0; i < s->invariants; i++) before[i] = motion_invariant(&z, i);

@@ -171,8 +171,8 @@ static void test_guards(void)
 /* ---- properties ---- */
 
 enum {
-    OF_D = DAL_D_LINEAR | DAL_D_CONSTANT | DAL_D_BILINEAR | DAL_D_QUADRATIC | DAL_D_WATCHED,
-    OF_E = DAL_E_EXACT | DAL_E_WEAK,
+    OF_D = DAL_D_LINEAR | DAL_D_CONSTANT | DAL_D_BILINEAR | DAL_D_QUADRATIC | DAL_D_RANK_CHECKED,
+    OF_E = DAL_E_EXACT | DAL_E_ON_D,
     STRAIGHT = DAL_D_LINEAR | DAL_D_CONSTANT | DAL_D_BILINEAR | DAL_D_QUADRATIC
 };
 
@@ -180,19 +180,19 @@ static const struct {
     const char *constraint;
     unsigned degree, energy;
 } constraints[] = {
-    {"2*x' - y'", STRAIGHT, DAL_E_WEAK},
+    {"2*x' - y'", STRAIGHT, DAL_E_ON_D},
     {"2*x' - y' + x - 3", STRAIGHT, 0},
-    {"x' - y*y'", DAL_D_LINEAR | DAL_D_BILINEAR | DAL_D_QUADRATIC, DAL_E_WEAK},
+    {"x' - y*y'", DAL_D_LINEAR | DAL_D_BILINEAR | DAL_D_QUADRATIC, DAL_E_ON_D},
     {"x' - y*y' + y^2", DAL_D_LINEAR | DAL_D_QUADRATIC, 0},
-    {"x' - t*y'", DAL_D_LINEAR, DAL_E_WEAK},
-    {"x' - sin(y)*y'", DAL_D_LINEAR, DAL_E_WEAK},
-    {"x'^2 - y'^2", DAL_D_QUADRATIC | DAL_D_WATCHED, DAL_E_WEAK},
-    {"x'^2 + y'^2 - 1", DAL_D_QUADRATIC | DAL_D_WATCHED, DAL_E_EXACT}, /* free: h = 0 */
-    {"x'^2 + y'^2 - 2 + x'", DAL_D_QUADRATIC | DAL_D_WATCHED, DAL_E_EXACT},
-    {"x'^2 + y'^2 - x", DAL_D_QUADRATIC | DAL_D_WATCHED, 0},
-    {"x'^3 - x*y'^3", DAL_D_WATCHED, DAL_E_WEAK},
-    {"sqrt(x'^2 + y'^2) - exp(x)*y'", DAL_D_WATCHED, DAL_E_WEAK},
-    {"atan2(x', y') - x", DAL_D_WATCHED, DAL_E_EXACT},
+    {"x' - t*y'", DAL_D_LINEAR, DAL_E_ON_D},
+    {"x' - sin(y)*y'", DAL_D_LINEAR, DAL_E_ON_D},
+    {"x'^2 - y'^2", DAL_D_QUADRATIC | DAL_D_RANK_CHECKED, DAL_E_ON_D},
+    {"x'^2 + y'^2 - 1", DAL_D_QUADRATIC | DAL_D_RANK_CHECKED, DAL_E_EXACT}, /* free: h = 0 */
+    {"x'^2 + y'^2 - 2 + x'", DAL_D_QUADRATIC | DAL_D_RANK_CHECKED, DAL_E_EXACT},
+    {"x'^2 + y'^2 - x", DAL_D_QUADRATIC | DAL_D_RANK_CHECKED, 0},
+    {"x'^3 - x*y'^3", DAL_D_RANK_CHECKED, DAL_E_ON_D},
+    {"sqrt(x'^2 + y'^2) - exp(x)*y'", DAL_D_RANK_CHECKED, DAL_E_ON_D},
+    {"atan2(x', y') - x", DAL_D_RANK_CHECKED, DAL_E_EXACT},
 };
 
 static void test_constraint_properties(void)

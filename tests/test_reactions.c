@@ -144,14 +144,14 @@ static const struct {
     unsigned energy;
 } fates[] = {
     /* The power of the reaction is h v.B. */
-    {"constraints: [x' - y*z']\nreactions: [{x: 1, z: -y}]\n", DAL_E_WEAK},
-    {"constraints: [x' - y*z']\nreactions: [{x: z', z: -y*z'}]\n", DAL_E_WEAK},
+    {"constraints: [x' - y*z']\nreactions: [{x: 1, z: -y}]\n", DAL_E_ON_D},
+    {"constraints: [x' - y*z']\nreactions: [{x: z', z: -y*z'}]\n", DAL_E_ON_D},
     {"constraints: [x' - y*z']\nreactions: [{x: 1}]\n", 0},
     {"constraints: [x' - y*z']\nreactions: [{x: z', z: -x'}]\n", DAL_E_EXACT},
     {"constraints: [x' - y]\nreactions: [{x: y', y: -x'}]\n", DAL_E_EXACT},
     /* Pushing across all that both constraints allow. */
     {"constraints: [x' - y*z', y' - z'*x]\nreactions: [{x: 1, z: -y}, {x: x, y: 1, z: -x - x*y}]\n",
-     DAL_E_WEAK},
+     DAL_E_ON_D},
     {"constraints: [x' - y*z', y' - z'*x]\nreactions: [{x: 1, z: -y}, {y: 1}]\n", 0},
 };
 
@@ -163,7 +163,7 @@ static void test_energy(void)
                          "start: {x: 0.2, y: 0.5, x': 0.3, y': 0.4, z': 0.7}\n";
         strcat(text, fates[k].text);
         reference b = reference_of_text(text);
-        CU_ASSERT((b.system->properties & (DAL_E_EXACT | DAL_E_WEAK)) == fates[k].energy);
+        CU_ASSERT((b.system->properties & (DAL_E_EXACT | DAL_E_ON_D)) == fates[k].energy);
         reference_free(&b);
     }
 }

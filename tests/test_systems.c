@@ -166,18 +166,18 @@ static const struct {
     int n, m, guards;
     unsigned properties;
 } known[] = {
-    {"chaplygin-sleigh", 3, 1, 0, AFFINE | DAL_E_WEAK | FIXED},
-    {"chaplygin-sleigh-nonlinear", 3, 1, 2, DAL_D_WATCHED | DAL_E_EXACT | FIXED},
+    {"chaplygin-sleigh", 3, 1, 0, AFFINE | DAL_E_ON_D | FIXED},
+    {"chaplygin-sleigh-nonlinear", 3, 1, 2, DAL_D_RANK_CHECKED | DAL_E_EXACT | FIXED},
     {"chaplygin-sleigh-friction", 3, 0, 0, FIXED},
-    {"chaplygin-sleigh-vakonomic", 3, 1, 0, DAL_D_LINEAR | DAL_E_WEAK | DAL_VAKONOMIC | FIXED},
+    {"chaplygin-sleigh-vakonomic", 3, 1, 0, DAL_D_LINEAR | DAL_E_ON_D | DAL_VAKONOMIC | FIXED},
     {"damped-oscillator", 1, 0, 0, FIXED},
     {"nonholonomic-particle", 3, 1, 0,
-     AFFINE | DAL_D_BILINEAR | DAL_D_QUADRATIC | DAL_E_WEAK | FIXED},
-    {"contact-oscillator", 3, 1, 0, AFFINE | DAL_D_BILINEAR | DAL_D_QUADRATIC | DAL_E_WEAK | FIXED},
-    {"knife-edge", 3, 1, 0, AFFINE | DAL_E_WEAK | FIXED},
-    {"vertical-disk", 4, 2, 0, AFFINE | DAL_D_WATCHED | DAL_E_WEAK | FIXED},
-    {"appell-hamel", 3, 1, 0, DAL_D_QUADRATIC | DAL_D_WATCHED | DAL_E_WEAK | FIXED},
-    {"isokinetic", 2, 1, 0, DAL_D_QUADRATIC | DAL_D_WATCHED | DAL_D_ISOKINETIC | FIXED},
+     AFFINE | DAL_D_BILINEAR | DAL_D_QUADRATIC | DAL_E_ON_D | FIXED},
+    {"contact-oscillator", 3, 1, 0, AFFINE | DAL_D_BILINEAR | DAL_D_QUADRATIC | DAL_E_ON_D | FIXED},
+    {"knife-edge", 3, 1, 0, AFFINE | DAL_E_ON_D | FIXED},
+    {"vertical-disk", 4, 2, 0, AFFINE | DAL_D_RANK_CHECKED | DAL_E_ON_D | FIXED},
+    {"appell-hamel", 3, 1, 0, DAL_D_QUADRATIC | DAL_D_RANK_CHECKED | DAL_E_ON_D | FIXED},
+    {"isokinetic", 2, 1, 0, DAL_D_QUADRATIC | DAL_D_RANK_CHECKED | DAL_D_ISOKINETIC | FIXED},
 };
 enum { KNOWN = sizeof known / sizeof *known };
 

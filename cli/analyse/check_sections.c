@@ -250,7 +250,7 @@ static void check_system_energy(check *c)
     }
     const enum conservation found = off.max <= zero ? EXACT : on.max <= zero ? ON_D : NOT;
     const enum conservation claimed = properties & DAL_E_EXACT  ? EXACT
-                                      : properties & DAL_E_WEAK ? ON_D
+                                      : properties & DAL_E_ON_D ? ON_D
                                                                 : NOT;
     check_item(c, found >= claimed ? CHECK_OK : CHECK_FAIL, "energy E", "%s%s", texts[found],
                found < claimed   ? ", but the system claims more"

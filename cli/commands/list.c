@@ -139,7 +139,7 @@ static const char *energy(const dal_system *system)
 {
     if (!system->energy) return "-";
     if (system->properties & DAL_E_EXACT) return "kept";
-    return system->properties & DAL_E_WEAK ? "kept on D = 0" : "not kept";
+    return system->properties & DAL_E_ON_D ? "kept on D = 0" : "not kept";
 }
 
 static int put_system(sheet *s, const char *name, int markdown)

@@ -75,7 +75,7 @@ static int is_conserved(const reader *r)
 {
     for (int i = 0; i < r->plan->case_count; i++) {
         const study_case *e = &r->plan->cases[i];
-        if (study_case_matches(e, r->label) && e->system->properties & (DAL_E_EXACT | DAL_E_WEAK))
+        if (study_case_matches(e, r->label) && e->system->properties & (DAL_E_EXACT | DAL_E_ON_D))
             return 1;
     }
     return 0;

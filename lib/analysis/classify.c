@@ -43,7 +43,7 @@ static dal_conservation conservation_of_energy(const dal_run *run, const places 
                                                const dal_trend *trend)
 {
     const dal_system *s = dal_run_system(run);
-    if (!(s->properties & (DAL_E_EXACT | DAL_E_WEAK))) return DAL_NOT_CONSERVED;
+    if (!(s->properties & (DAL_E_EXACT | DAL_E_ON_D))) return DAL_NOT_CONSERVED;
     if (max_pi(at, trend) > 0.0 && isfinite(dal_run_state(run)[2 * s->n])) return DAL_MOVED_BY_PI;
     if (s->properties & DAL_E_EXACT) return DAL_CONSERVED;
     for (int a = 0; a < at->constraints; a++)

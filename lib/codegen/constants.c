@@ -55,7 +55,7 @@ void dal__put_constants(dal__generation *g)
         {"EXPLICIT", is_explicit && k->depth == 1 && !(solves && k->lifted)},
         {"GUARDS", k->system->guards},
         {"WATCHED", k->m > 0 && dal__wants(g, DAL__PROGRAM_CONSTRAINT) &&
-                        (k->system->properties & DAL_D_WATCHED) != 0},
+                        (k->system->properties & DAL_D_RANK_CHECKED) != 0},
         {"GAUGE", dal__wants(g, DAL__PROGRAM_GAUGE)},
         {"TRACED", g->product == DAL__TRACE},
     };

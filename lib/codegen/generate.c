@@ -73,7 +73,7 @@ bool dal__wants(const dal__generation *g, dal__program_code code)
 {
     if (!g->programs->program[code].present) return false;
     if (g->product == DAL__LOOKS) return observes(g, code);
-    const bool watched = g->shape.system->properties & DAL_D_WATCHED;
+    const bool watched = g->shape.system->properties & DAL_D_RANK_CHECKED;
     const bool imposes = dal_method_needs(&g->spec->method) & DAL_NEEDS_PARTS;
     switch (code) {
     case DAL__PROGRAM_ADJOINT:

@@ -138,7 +138,7 @@ static unsigned by_parts(identity *id)
         exact = false;
         weak = weak && is_homogeneous(id, a);
     }
-    return exact ? DAL_E_EXACT : weak ? DAL_E_WEAK : 0;
+    return exact ? DAL_E_EXACT : weak ? DAL_E_ON_D : 0;
 }
 
 /* ---- on D = 0 ---- */
@@ -213,7 +213,7 @@ dal_status dal__energy_properties(dal_model *model)
         add_term(&id, dal__time_derivative(e, e->energy));
         dal__gradient(e->graph, e->energy, e->symbol + e->v, e->n, E_v);
         for (int i = 0; i < e->n; i++) add_term(&id, dal__mul(e->graph, E_v[i], e->F[i]));
-        found = vanishes(&id) ? DAL_E_EXACT : vanishes_on_surface(&id, scratch) ? DAL_E_WEAK : 0;
+        found = vanishes(&id) ? DAL_E_EXACT : vanishes_on_surface(&id, scratch) ? DAL_E_ON_D : 0;
     }
     e->properties |= found;
     return e->graph->status;
@@ -272,7 +272,7 @@ dal_status dal__conserved_energy(dal_model *model)
 {
     dal__equations *e = &model->equations;
     e->normal = e->extended = NULL;
-    if (!(e->properties & (DAL_E_EXACT | DAL_E_WEAK)) || e->vakonomic) return DAL_OK;
+    if (!(e->properties & (DAL_E_EXACT | DAL_E_ON_D)) || e->vakonomic) return DAL_OK;
     const int n = e->n;
     dal__node *normal = dal__model_nodes(model, 1 + 3 * n, 0);
     if (!normal) return DAL_MEMORY;
@@ -281,5 +281,5 @@ dal_status dal__conserved_energy(dal_model *model)
     dal__gradient(e->graph, e->energy, e->symbol + e->v, n, normal + 1 + n);
     e->normal = normal;
     DAL_TRY(dal__solve_vector(model, n, e->W, normal + 1, normal + 1 + 2 * n));
-    return e->properties & DAL_E_WEAK ? extend(model) : DAL_OK;
+    return e->properties & DAL_E_ON_D ? extend(model) : DAL_OK;
 }

@@ -101,7 +101,7 @@ dal_status dal__properties(dal_model *model)
      * constraints, and of several that vary and may become parallel (a snakeboard with its axles
      * across). */
     if (e->m && !(e->properties & (e->m > 1 ? DAL_D_CONSTANT : DAL_D_LINEAR)))
-        e->properties |= DAL_D_WATCHED;
+        e->properties |= DAL_D_RANK_CHECKED;
     e->properties |= (autonomous ? DAL_AUTONOMOUS : 0u) | (constant ? DAL_MASS_CONSTANT : 0u) |
                      (e->vakonomic ? DAL_VAKONOMIC : 0u) | (e->servo ? DAL_SERVO : 0u);
     DAL_TRY(dal__energy_properties(model));

@@ -128,7 +128,7 @@ static dal_status make_extended(dal_model *model)
     if (e->properties & DAL_E_EXACT) model->system.extended = &model->system;
     if (!e->extended) return DAL_OK;
     model->extended = model->system;
-    model->extended.properties ^= DAL_E_WEAK | DAL_E_EXACT;
+    model->extended.properties ^= DAL_E_ON_D | DAL_E_EXACT;
     DAL_TRY(add_programs(model, &model->extended_programs, e->extended));
     DAL_TRY(dal__programs_finish(model, &model->extended_programs, &model->extended));
     model->system.extended = model->extended.extended = &model->extended;

@@ -320,7 +320,7 @@ static dal__lanes judge(engine *e, lane_mask *left, dal__lanes alive, dal_status
     if (failed == alive) return failed;
     e->step.used = 0;
     if (system->guards > 0) failed |= reject(left, guards_hold(e), DAL_SINGULAR, why);
-    if ((system->properties & DAL_D_WATCHED) && e->call[DAL_EVAL_CONSTRAINT])
+    if ((system->properties & DAL_D_RANK_CHECKED) && e->call[DAL_EVAL_CONSTRAINT])
         failed |= reject(left, normals_hold(e), DAL_SINGULAR, why);
     return failed;
 }

@@ -99,7 +99,7 @@ static int vanishing_guard(dal_run *run, double t, double dt)
 static int vanishing_normal(dal_run *run, double t, double dt)
 {
     const int m = run->shape.m, n = run->shape.n, size = m + 2 * m * n;
-    if (!(run->shape.system->properties & DAL_D_WATCHED)) return 0;
+    if (!(run->shape.system->properties & DAL_D_RANK_CHECKED)) return 0;
     const double *c0 = run->scratch, *c1 = eval_both_ends(run, DAL_EVAL_CONSTRAINT, size, t, dt);
     double *g0 = run->scratch + 2 * size, *g1 = g0 + m * m;
     if (!c1) return 0;

@@ -21,7 +21,7 @@ static const char *energy_fault(const dal_system *system)
     if (system->properties & DAL_VAKONOMIC)
         return "the energy of vakonomic motion is not that of L";
     if (!system->energy) return "the system has no energy";
-    if (!(system->properties & (DAL_E_EXACT | DAL_E_WEAK)))
+    if (!(system->properties & (DAL_E_EXACT | DAL_E_ON_D)))
         return "the motion does not conserve its energy";
     return NULL;
 }
