@@ -108,7 +108,7 @@ typedef struct dal_callbacks {
     dal_callback *gauge;     /* out[1]: mu_e(t)                         (NULL: mu_e = 0) */
     dal_callback *guards;    /* out[guards]: must keep their signs along a run: denominators and
                                 the like of the constraints             (NULL: none) */
-    dal_callback *parts;     /* out[m + m*n + n*m + n + m]: D, A, R, a, c of F = a + R h: R is
+    dal_callback *blocks;    /* out[m + m*n + n*m + n + m]: D, A, R, a, c of F = a + R h: R is
                                 W^-1 B^T, B = A by Chetaev's rule, a = W^-1 b, c = D_q v + D_t
                                                         (NULL: no methods that impose D) */
     dal_callback *potential; /* out[3n]: of L = v.Wv/2 + g.v - U, W constant, for each coordinate
@@ -129,9 +129,9 @@ enum {
     DAL_AUTONOMOUS = 1 << 7,     /* F does not depend on t */
     DAL_MASS_CONSTANT = 1 << 8,  /* W depends on parameters alone */
     DAL_VAKONOMIC = 1 << 9,
-    DAL_SERVO = 1 << 10,            /* reactions along directions B of their own, not along A^T */
-    DAL_PARTS_POSITIONAL = 1 << 11, /* every D linear, W^-1 b and A without v */
-    DAL_D_ISOKINETIC = 1 << 12      /* one D = k (v.Wv/2 - K), W constant, W^-1 b without v */
+    DAL_SERVO = 1 << 10,             /* reactions along directions B of their own, not along A^T */
+    DAL_BLOCKS_POSITIONAL = 1 << 11, /* every D linear, W^-1 b and A without v */
+    DAL_D_ISOKINETIC = 1 << 12       /* one D = k (v.Wv/2 - K), W constant, W^-1 b without v */
 };
 
 /* A second-order system with constraints, as a plain struct: filled by a model or by hand with

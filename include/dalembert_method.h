@@ -28,7 +28,7 @@ enum {
     DAL_NEEDS_CONSTRAINT = 1 << 1,
     DAL_NEEDS_SYMMETRIC = 1 << 2,  /* a symmetric method */
     DAL_NEEDS_ORDER_2 = 1 << 3,    /* a method of order 2 */
-    DAL_NEEDS_PARTS = 1 << 4,      /* the parts of F; there is no such method off p = pi = 0 */
+    DAL_NEEDS_BLOCKS = 1 << 4,     /* the parts of F; there is no such method off p = pi = 0 */
     DAL_NEEDS_POTENTIAL = 1 << 5,  /* U, and a constant W */
     DAL_NEEDS_ISOKINETIC = 1 << 6, /* DAL_D_ISOKINETIC */
     DAL_NEEDS_ENERGY = 1 << 7,     /* an energy that is conserved, and its normal */

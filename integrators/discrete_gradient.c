@@ -45,14 +45,14 @@ DAL_INLINE void gradient_map(dal_step *s, dal_equation *eq)
     const double half = 0.5 * s->h, t = s->t + half;
     DAL_EACH(i, n) k->vb[i] = dal_moved_v(s, i, eq->block[0].u[i]);
     DAL_EACH(i, n) k->q[i] = dal_moved_q(s, i, half * k->vb[i]);
-    dal_parts(s, t, k->q, k->vb, k->parts);
+    dal_eval_blocks(s, t, k->q, k->vb, k->parts);
     dal_eval(s, DAL_EVAL_POTENTIAL, t, k->q, k->vb, NULL, k->mid);
     DAL_EACH(i, n) k->q[i] = dal_moved_q(s, i, s->h * k->vb[i]);
     dal_eval(s, DAL_EVAL_POTENTIAL, t, k->q, k->vb, NULL, k->end);
     DAL_EACH(i, n)
         k->reaction.free[i] =
-            half * k->parts[dal_at_a(s) + i] - 0.5 * gradient_slope(s, k, i) * k->vb[i];
-    DAL_EACH(i, n * m) k->reaction.normals[i] = half * k->parts[dal_at_B(s) + i];
+            half * k->parts[dal_blocks_a(s) + i] - 0.5 * gradient_slope(s, k, i) * k->vb[i];
+    DAL_EACH(i, n * m) k->reaction.normals[i] = half * k->parts[dal_blocks_B(s) + i];
     dal_react(s, eq, k->parts);
 }
 
@@ -61,7 +61,7 @@ DAL_INLINE dal_status step(dal_step *s)
     const int n = DAL_N(s);
     DAL_VECTOR(s, q, DAL_N(s));
     DAL_VECTOR(s, vb, DAL_N(s));
-    DAL_VECTOR(s, parts, DAL_PARTS(s));
+    DAL_VECTOR(s, parts, DAL_BLOCKS_SIZE(s));
     DAL_VECTOR(s, U0, 3 * DAL_N(s));
     DAL_VECTOR(s, mid, 3 * DAL_N(s));
     DAL_VECTOR(s, end, 3 * DAL_N(s));
@@ -81,4 +81,4 @@ DAL_INTEGRATOR(discrete_gradient, step, .name = "discrete-gradient",
                .summary = "midpoint with a discrete gradient of U", .reference = "Gonzalez 1996",
                .order = 2, .stages = 1,
                .properties = DAL_SYMMETRIC | DAL_PRESERVES_ENERGY | DAL_PRESERVES_D_MIDPOINT,
-               .needs = DAL_NEEDS_FIELD | DAL_NEEDS_PARTS | DAL_NEEDS_POTENTIAL);
+               .needs = DAL_NEEDS_FIELD | DAL_NEEDS_BLOCKS | DAL_NEEDS_POTENTIAL);

@@ -29,8 +29,8 @@ DAL_INLINE void map_midpoint(dal_step *s, dal_equation *eq)
     const double half = 0.5 * s->h;
     DAL_EACH(i, DAL_N(s)) k->vb[i] = dal_moved_v(s, i, eq->block[0].u[i]);
     DAL_EACH(i, DAL_N(s)) k->qb[i] = dal_moved_q(s, i, half * k->vb[i]);
-    dal_parts(s, s->t + half, k->qb, k->vb, k->parts);
-    DAL_EACH(i, DAL_N(s)) k->reaction.free[i] = half * k->parts[dal_at_a(s) + i];
+    dal_eval_blocks(s, s->t + half, k->qb, k->vb, k->parts);
+    DAL_EACH(i, DAL_N(s)) k->reaction.free[i] = half * k->parts[dal_blocks_a(s) + i];
     dal_react(s, eq, k->parts);
 }
 
@@ -40,8 +40,8 @@ DAL_INLINE void map_end(dal_step *s, dal_equation *eq)
     midpoint *k = (midpoint *)eq->context;
     const int n = DAL_N(s), m = DAL_M(s);
     DAL_EACH(i, n) k->vb[i] = dal_moved_v(s, i, eq->block[0].u[i]);
-    dal_parts(s, s->t + s->h, k->qb, k->vb, k->parts);
-    DAL_EACH(i, n * m) k->reaction.normals[i] = 0.5 * s->h * k->parts[dal_at_B(s) + i];
+    dal_eval_blocks(s, s->t + s->h, k->qb, k->vb, k->parts);
+    DAL_EACH(i, n * m) k->reaction.normals[i] = 0.5 * s->h * k->parts[dal_blocks_B(s) + i];
     dal_react(s, eq, k->parts);
 }
 
@@ -51,13 +51,14 @@ DAL_INLINE dal_status go_to_midpoint(dal_step *s, midpoint *k)
     const int n = DAL_N(s), m = DAL_M(s);
     DAL_BLOCK(s, block, DAL_N(s), DAL_MAY_NEWTON(s));
     dal_equation eq = dal_velocity_equation(s, block, k);
-    dal_parts(s, s->t, s->y, s->y + n, k->parts);
-    DAL_EACH(i, n * m) k->reaction.normals[i] = 0.5 * s->h * k->parts[dal_at_B(s) + i];
+    dal_eval_blocks(s, s->t, s->y, s->y + n, k->parts);
+    DAL_EACH(i, n * m) k->reaction.normals[i] = 0.5 * s->h * k->parts[dal_blocks_B(s) + i];
     DAL_TRY(dal_impose(s, &eq, map_midpoint, 0));
     DAL_EACH(i, n) k->vb[i] = dal_moved_v(s, i, eq.block[0].u[i]);
     DAL_EACH(i, n) k->qb[i] = dal_moved_q(s, i, 0.5 * s->h * k->vb[i]);
-    dal_parts(s, s->t + 0.5 * s->h, k->qb, k->vb, k->parts);
-    DAL_EACH(i, n) k->reaction.free[i] = eq.block[0].u[i] + 0.5 * s->h * k->parts[dal_at_a(s) + i];
+    dal_eval_blocks(s, s->t + 0.5 * s->h, k->qb, k->vb, k->parts);
+    DAL_EACH(i, n)
+        k->reaction.free[i] = eq.block[0].u[i] + 0.5 * s->h * k->parts[dal_blocks_a(s) + i];
     return DAL_OK;
 }
 
@@ -66,7 +67,7 @@ DAL_INLINE dal_status step(dal_step *s)
     const int n = DAL_N(s);
     DAL_VECTOR(s, qb, DAL_N(s));
     DAL_VECTOR(s, vb, DAL_N(s));
-    DAL_VECTOR(s, parts, DAL_PARTS(s));
+    DAL_VECTOR(s, parts, DAL_BLOCKS_SIZE(s));
     DAL_VECTOR(s, d, DAL_DIM(s));
     DAL_BLOCK(s, block, DAL_N(s), 0);
     DAL_REACTION(s, reaction, 0.5 * s->h, 1.0);
@@ -84,4 +85,4 @@ DAL_INLINE dal_status step(dal_step *s)
 DAL_INTEGRATOR(dla, step, .name = "dla", .summary = "discrete Lagrange-d'Alembert, midpoint",
                .reference = "Cortes, Martinez 2001", .order = 2, .stages = 1,
                .properties = DAL_SYMMETRIC | DAL_PRESERVES_D | DAL_PRESERVES_D_MIDPOINT,
-               .needs = DAL_NEEDS_FIELD | DAL_NEEDS_PARTS);
+               .needs = DAL_NEEDS_FIELD | DAL_NEEDS_BLOCKS);

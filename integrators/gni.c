@@ -25,9 +25,9 @@ DAL_INLINE void rattle_map(dal_step *s, dal_equation *eq)
     const int n = DAL_N(s), m = DAL_M(s);
     const double half = 0.5 * s->h;
     DAL_EACH(i, n) k->v1[i] = dal_moved_v(s, i, eq->block[0].u[i]);
-    dal_parts(s, s->t + s->h, k->q1, k->v1, k->after);
-    DAL_EACH(i, n) k->reaction.free[i] = k->kick[i] + half * k->after[dal_at_a(s) + i];
-    DAL_EACH(i, n * m) k->reaction.normals[i] = half * k->after[dal_at_B(s) + i];
+    dal_eval_blocks(s, s->t + s->h, k->q1, k->v1, k->after);
+    DAL_EACH(i, n) k->reaction.free[i] = k->kick[i] + half * k->after[dal_blocks_a(s) + i];
+    DAL_EACH(i, n * m) k->reaction.normals[i] = half * k->after[dal_blocks_B(s) + i];
     dal_react(s, eq, k->after);
 }
 
@@ -35,13 +35,13 @@ DAL_INLINE void rattle_map(dal_step *s, dal_equation *eq)
 DAL_INLINE dal_status rattle_begin(dal_step *s, num *kick)
 {
     const int n = DAL_N(s), m = DAL_M(s);
-    DAL_VECTOR(s, before, DAL_PARTS(s));
+    DAL_VECTOR(s, before, DAL_BLOCKS_SIZE(s));
     DAL_VECTOR(s, lambda, DAL_M(s));
     DAL_VECTOR(s, pull, DAL_N(s));
-    dal_parts(s, s->t, s->y, s->y + n, before);
+    dal_eval_blocks(s, s->t, s->y, s->y + n, before);
     DAL_TRY(dal_recall_multipliers(s, before, lambda));
-    dal_multiply(before + dal_at_B(s), n, m, lambda, pull);
-    DAL_EACH(i, n) kick[i] = 0.5 * s->h * (before[dal_at_a(s) + i] + pull[i]);
+    dal_multiply(before + dal_blocks_B(s), n, m, lambda, pull);
+    DAL_EACH(i, n) kick[i] = 0.5 * s->h * (before[dal_blocks_a(s) + i] + pull[i]);
     return DAL_OK;
 }
 
@@ -52,7 +52,7 @@ DAL_INLINE dal_status step(dal_step *s)
     DAL_VECTOR(s, kick, DAL_N(s));
     DAL_VECTOR(s, q1, DAL_N(s));
     DAL_VECTOR(s, v1, DAL_N(s));
-    DAL_VECTOR(s, after, DAL_PARTS(s));
+    DAL_VECTOR(s, after, DAL_BLOCKS_SIZE(s));
     DAL_VECTOR(s, d, DAL_DIM(s));
     DAL_BLOCK(s, block, DAL_N(s), DAL_MAY_NEWTON(s));
     DAL_REACTION(s, reaction, 0.5 * s->h, 0.0);
@@ -71,4 +71,4 @@ DAL_INTEGRATOR(gni, step, .name = "gni", .alias = "nonholonomic-rattle",
                .summary = "RATTLE with D on the velocities",
                .reference = "Ferraro, Iglesias, Martin de Diego 2008", .order = 2, .stages = 1,
                .properties = DAL_SYMMETRIC | DAL_PRESERVES_D | DAL_PERSISTENT_MULTIPLIER,
-               .needs = DAL_NEEDS_FIELD | DAL_NEEDS_PARTS);
+               .needs = DAL_NEEDS_FIELD | DAL_NEEDS_BLOCKS);

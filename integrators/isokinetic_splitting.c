@@ -44,13 +44,13 @@ DAL_INLINE num dot(const num *a, const num *b, int n)
 /* dv = v1 - v0 of the second piece, at q. */
 DAL_INLINE dal_status turn(dal_step *s, const num *q, num *dv)
 {
-    const int n = DAL_N(s), at_A = dal_at_A(s);
+    const int n = DAL_N(s), at_A = dal_blocks_A(s);
     const double h = s->h, t = s->t + 0.5 * h;
     const num *v = s->y + n;
-    DAL_VECTOR(s, parts, DAL_PARTS(s));
-    DAL_VECTOR(s, along, DAL_NORMALS(s));
-    dal_parts(s, t, q, v, parts);
-    const num *a = parts + dal_at_a(s), *A = parts + at_A;
+    DAL_VECTOR(s, parts, DAL_BLOCKS_SIZE(s));
+    DAL_VECTOR(s, along, DAL_CONSTRAINT_SIZE(s));
+    dal_eval_blocks(s, t, q, v, parts);
+    const num *a = parts + dal_blocks_a(s), *A = parts + at_A;
     dal_constraint(s, t, q, a, along);
     const num twice = dot(v, A, n), alpha = dot(a, A, n) / twice;
     const num xx = 0.25 * (h * h) * (dot(a, along + at_A, n) / twice);
@@ -77,4 +77,4 @@ DAL_INTEGRATOR(isokinetic_splitting, step, .name = "isokinetic-splitting",
                .summary = "exact turns and drifts at constant kinetic energy",
                .reference = "Minary, Martyna, Tuckerman 2003", .order = 2, .stages = 1,
                .properties = DAL_SYMMETRIC | DAL_PRESERVES_D | DAL_EXPLICIT,
-               .needs = DAL_NEEDS_FIELD | DAL_NEEDS_PARTS | DAL_NEEDS_ISOKINETIC);
+               .needs = DAL_NEEDS_FIELD | DAL_NEEDS_BLOCKS | DAL_NEEDS_ISOKINETIC);

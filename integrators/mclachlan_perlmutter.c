@@ -19,7 +19,7 @@ typedef struct leap {
 
 DAL_INLINE void take_mean(const dal_step *s, const leap *k)
 {
-    const int n = DAL_N(s), m = DAL_M(s), a = dal_at_a(s), B = dal_at_B(s);
+    const int n = DAL_N(s), m = DAL_M(s), a = dal_blocks_a(s), B = dal_blocks_B(s);
     const num *after = dal_positional(s) ? k->before : k->after;
     const double half = 0.5 * s->h;
     DAL_EACH(i, n) k->reaction.free[i] = half * (k->before[a + i] + after[a + i]);
@@ -34,7 +34,7 @@ DAL_INLINE void leap_map(dal_step *s, dal_equation *eq)
     DAL_EACH(i, n) k->v1[i] = dal_moved_v(s, i, eq->block[0].u[i]);
     DAL_EACH(i, n) k->q1[i] = dal_moved_q(s, i, 0.5 * h * (s->y[n + i] + k->v1[i]));
     if (!dal_positional(s)) {
-        dal_parts(s, s->t + 0.5 * h, k->qh, k->v1, k->after);
+        dal_eval_blocks(s, s->t + 0.5 * h, k->qh, k->v1, k->after);
         take_mean(s, k);
     }
     dal_constraint(s, s->t + h, k->q1, k->v1, k->normals);
@@ -48,16 +48,16 @@ DAL_INLINE dal_status step(dal_step *s)
     DAL_VECTOR(s, qh, DAL_N(s));
     DAL_VECTOR(s, q1, DAL_N(s));
     DAL_VECTOR(s, v1, DAL_N(s));
-    DAL_VECTOR(s, before, DAL_PARTS(s));
-    DAL_VECTOR(s, after, DAL_PARTS(s));
-    DAL_VECTOR(s, normals, DAL_NORMALS(s));
+    DAL_VECTOR(s, before, DAL_BLOCKS_SIZE(s));
+    DAL_VECTOR(s, after, DAL_BLOCKS_SIZE(s));
+    DAL_VECTOR(s, normals, DAL_CONSTRAINT_SIZE(s));
     DAL_VECTOR(s, d, DAL_DIM(s));
     DAL_BLOCK(s, block, DAL_N(s), DAL_MAY_NEWTON(s));
     DAL_REACTION(s, reaction, 0.5 * s->h, 0.0);
     leap k = {reaction, qh, q1, v1, before, after, normals};
     dal_equation eq = dal_velocity_equation(s, block, &k);
     DAL_EACH(i, n) qh[i] = dal_moved_q(s, i, 0.5 * h * s->y[n + i]);
-    dal_parts(s, s->t + 0.5 * h, qh, s->y + n, before);
+    dal_eval_blocks(s, s->t + 0.5 * h, qh, s->y + n, before);
     take_mean(s, &k);
     DAL_TRY(dal_impose(s, &eq, leap_map, DAL_M(s) == 0 && dal_positional(s)));
     DAL_EACH(i, n) d[n + i] = eq.block[0].u[i];
@@ -68,4 +68,4 @@ DAL_INLINE dal_status step(dal_step *s)
 DAL_INTEGRATOR(mclachlan_perlmutter, step, .name = "mclachlan-perlmutter",
                .summary = "leapfrog with D at its end", .reference = "McLachlan, Perlmutter 2006",
                .order = 2, .stages = 1, .properties = DAL_SYMMETRIC | DAL_PRESERVES_D,
-               .needs = DAL_NEEDS_FIELD | DAL_NEEDS_PARTS);
+               .needs = DAL_NEEDS_FIELD | DAL_NEEDS_BLOCKS);

@@ -90,7 +90,7 @@ dal_run_spec fixture_spec(const dal_system *system, const char *method, dal_spac
 bool fixture_serves(const dal_method *method, const dal_system *system, dal_space space)
 {
     const unsigned needs = dal_method_needs(method);
-    if (needs & DAL_NEEDS_PARTS && space == DAL_LIFTED) return false;
+    if (needs & DAL_NEEDS_BLOCKS && space == DAL_LIFTED) return false;
     if (needs & DAL_NEEDS_POTENTIAL && !(system->properties & DAL_MASS_CONSTANT)) return false;
     if (needs & DAL_NEEDS_ENERGY && !(system->properties & (DAL_E_EXACT | DAL_E_ON_D)))
         return false;

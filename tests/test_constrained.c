@@ -30,7 +30,7 @@ static void test_refusals(void)
     dal_system system = *fixture_system(full);
     CU_ASSERT_EQUAL(refusal(&system, "gni", DAL_LIFTED, "lifted"), DAL_UNSUPPORTED);
     CU_ASSERT_EQUAL(refusal(&system, "gni", DAL_PHYSICAL, ""), DAL_OK);
-    system.call.parts = NULL;
+    system.call.blocks = NULL;
     CU_ASSERT_EQUAL(refusal(&system, "gni", DAL_PHYSICAL, "parts"), DAL_UNSUPPORTED);
     other = fixture_model("chaplygin-sleigh-vakonomic");
     CU_ASSERT_EQUAL(refusal(fixture_system(other), "mclachlan-perlmutter", DAL_PHYSICAL, "parts"),

@@ -78,7 +78,7 @@ static void test_every_method(void)
         dal_run_spec other = spec;
         fixture_method(i, name, sizeof name);
         CU_ASSERT_EQUAL(dal_method_parse(&other.method, name, NULL), DAL_OK);
-        if (dal_method_needs(&other.method) & DAL_NEEDS_PARTS) other.options.space = DAL_PHYSICAL;
+        if (dal_method_needs(&other.method) & DAL_NEEDS_BLOCKS) other.options.space = DAL_PHYSICAL;
         const bool serves = fixture_serves(&other.method, spec.system, other.options.space);
         CU_ASSERT_EQUAL(generate(&other, 8, NULL, &error), serves ? DAL_OK : DAL_UNSUPPORTED);
     }

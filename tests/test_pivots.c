@@ -215,15 +215,15 @@ static const struct {
     unsigned properties;
 } motions[] = {
     {"lagrangian: (x'^2 + y'^2)/2 - x*y",
-     DAL_PARTS_POSITIONAL | DAL_E_EXACT | DAL_AUTONOMOUS | DAL_MASS_CONSTANT},
-    {"lagrangian: (x'^2 + y'^2)/2 - x*cos(t)", DAL_PARTS_POSITIONAL | DAL_MASS_CONSTANT},
+     DAL_BLOCKS_POSITIONAL | DAL_E_EXACT | DAL_AUTONOMOUS | DAL_MASS_CONSTANT},
+    {"lagrangian: (x'^2 + y'^2)/2 - x*cos(t)", DAL_BLOCKS_POSITIONAL | DAL_MASS_CONSTANT},
     {"lagrangian: (x'^2 + (1 + x^2)*y'^2)/2", DAL_E_EXACT | DAL_AUTONOMOUS},
     {"lagrangian: (x'^2 + y'^2)/2\nforces: {x: -x'}", DAL_AUTONOMOUS | DAL_MASS_CONSTANT},
     /* A magnetic force does no work; this is seen by numbers only. */
     {"lagrangian: (x'^2 + y'^2)/2\nforces: {x: exp(x)*y'/x', y: -exp(x)}",
      DAL_E_EXACT | DAL_AUTONOMOUS | DAL_MASS_CONSTANT},
-    {"accelerations: {x: -x, y: -y}", DAL_PARTS_POSITIONAL | DAL_AUTONOMOUS | DAL_MASS_CONSTANT},
-    {"accelerations: {x: -x*t}", DAL_PARTS_POSITIONAL | DAL_MASS_CONSTANT},
+    {"accelerations: {x: -x, y: -y}", DAL_BLOCKS_POSITIONAL | DAL_AUTONOMOUS | DAL_MASS_CONSTANT},
+    {"accelerations: {x: -x*t}", DAL_BLOCKS_POSITIONAL | DAL_MASS_CONSTANT},
 };
 
 static void test_motion_properties(void)

@@ -156,7 +156,7 @@ static void test_invariants(void)
 /* ---- what is known ---- */
 
 enum {
-    POSITIONAL = DAL_PARTS_POSITIONAL,
+    POSITIONAL = DAL_BLOCKS_POSITIONAL,
     AFFINE = DAL_D_LINEAR | POSITIONAL,
     FIXED = DAL_AUTONOMOUS | DAL_MASS_CONSTANT
 };

@@ -147,7 +147,7 @@ int request_make_spec(run_request *request, dal_run_spec *spec)
     /* Where the system or the method has no lift there is one space alone; only an explicit
      * --space=lifted is an error. */
     const int has_lift =
-        request->system->call.adjoint && !(dal_method_needs(&request->method) & DAL_NEEDS_PARTS);
+        request->system->call.adjoint && !(dal_method_needs(&request->method) & DAL_NEEDS_BLOCKS);
     if (!request->text[REQUEST_space] && !has_lift) request->options.space = DAL_PHYSICAL;
     *spec = (dal_run_spec){.system = request->system,
                            .method = request->method,

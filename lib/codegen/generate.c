@@ -74,7 +74,7 @@ bool dal__wants(const dal__generation *g, dal__program_code code)
     if (!g->programs->program[code].present) return false;
     if (g->product == DAL__LOOKS) return observes(g, code);
     const bool watched = g->shape.system->properties & DAL_D_RANK_CHECKED;
-    const bool imposes = dal_method_needs(&g->spec->method) & DAL_NEEDS_PARTS;
+    const bool imposes = dal_method_needs(&g->spec->method) & DAL_NEEDS_BLOCKS;
     switch (code) {
     case DAL__PROGRAM_ADJOINT:
     case DAL__PROGRAM_GAUGE:
@@ -83,7 +83,7 @@ bool dal__wants(const dal__generation *g, dal__program_code code)
         return dal__uses_newton(g) || dal__follows_tangents(g);
     case DAL__PROGRAM_CONSTRAINT:
         return watched || imposes || dal__method_uses(g, "DAL_EVAL_CONSTRAINT");
-    case DAL__PROGRAM_PARTS:
+    case DAL__PROGRAM_BLOCKS:
         return imposes;
     case DAL__PROGRAM_POTENTIAL:
         return dal_method_needs(&g->spec->method) & DAL_NEEDS_POTENTIAL;
@@ -226,7 +226,7 @@ static void put_enums(dal__generation *g)
 #undef X
     dal__text_put(&g->text, "    DAL_STATUS_COUNT\n} dal_status;\n"
                             "enum { DAL_SOLVER_AUTO, DAL_FIXED_POINT, DAL_NEWTON };\n");
-    dal__text_print(&g->text, "enum { DAL_PARTS_POSITIONAL = %d };\n\n", DAL_PARTS_POSITIONAL);
+    dal__text_print(&g->text, "enum { DAL_BLOCKS_POSITIONAL = %d };\n\n", DAL_BLOCKS_POSITIONAL);
 }
 
 /* The parts of the kernel that the method needs. */
@@ -238,7 +238,7 @@ static void put_kernel(dal__generation *g)
     const bool collocation = dal__method_uses(g, "dal_collocation");
     for (size_t i = 0; i < sizeof always / sizeof *always; i++)
         dal__text_put(&g->text, dal__source_text(always[i]));
-    const bool constrained = dal_method_needs(&g->spec->method) & DAL_NEEDS_PARTS;
+    const bool constrained = dal_method_needs(&g->spec->method) & DAL_NEEDS_BLOCKS;
     if (euler || collocation || constrained || dal__method_uses(g, "dal_solve"))
         dal__text_put(&g->text, dal__source_text("solve.h"));
     if (euler) dal__text_put(&g->text, dal__source_text("polarised.h"));

@@ -19,20 +19,20 @@
 #ifndef DAL_KERNEL_CONSTRAINED_H
 #define DAL_KERNEL_CONSTRAINED_H
 
-/* Numbers in an answer to DAL_EVAL_PARTS, and where its parts lie: D, A, B as in one to
+/* Numbers in an answer to DAL_EVAL_BLOCKS, and where its parts lie: D, A, B as in one to
  * DAL_EVAL_CONSTRAINT, then a and c. */
-#define DAL_PARTS(s)    (2 * DAL_M(s) + DAL_N(s) + 2 * DAL_M(s) * DAL_N(s))
-#define DAL_NORMALS(s)  (DAL_M(s) + 2 * DAL_M(s) * DAL_N(s))
-#define DAL_SQUARE_M(s) (DAL_M(s) * DAL_M(s))
-DAL_INLINE int dal_at_A(const dal_step *s) { return DAL_M(s); }
-DAL_INLINE int dal_at_B(const dal_step *s) { return DAL_M(s) + DAL_M(s) * DAL_N(s); }
-DAL_INLINE int dal_at_a(const dal_step *s) { return DAL_NORMALS(s); }
-DAL_INLINE int dal_at_c(const dal_step *s) { return DAL_NORMALS(s) + DAL_N(s); }
+#define DAL_BLOCKS_SIZE(s)     (2 * DAL_M(s) + DAL_N(s) + 2 * DAL_M(s) * DAL_N(s))
+#define DAL_CONSTRAINT_SIZE(s) (DAL_M(s) + 2 * DAL_M(s) * DAL_N(s))
+#define DAL_SQUARE_M(s)        (DAL_M(s) * DAL_M(s))
+DAL_INLINE int dal_blocks_A(const dal_step *s) { return DAL_M(s); }
+DAL_INLINE int dal_blocks_B(const dal_step *s) { return DAL_M(s) + DAL_M(s) * DAL_N(s); }
+DAL_INLINE int dal_blocks_a(const dal_step *s) { return DAL_CONSTRAINT_SIZE(s); }
+DAL_INLINE int dal_blocks_c(const dal_step *s) { return DAL_CONSTRAINT_SIZE(s) + DAL_N(s); }
 
-DAL_INLINE void dal_parts(dal_step *s, double t, const num *q, const num *v, num *out)
+DAL_INLINE void dal_eval_blocks(dal_step *s, double t, const num *q, const num *v, num *out)
 {
     s->evaluations++;
-    dal_eval(s, DAL_EVAL_PARTS, t, q, v, NULL, out);
+    dal_eval(s, DAL_EVAL_BLOCKS, t, q, v, NULL, out);
 }
 
 /* Without constraints there is no such code. */
@@ -62,13 +62,13 @@ DAL_INLINE void dal_solve_small(num *g, num *inverse, int size, const num *rhs, 
 DAL_INLINE dal_status dal_continuous_multipliers(dal_step *s, const num *parts, num *h)
 {
     const int n = DAL_N(s), m = DAL_M(s);
-    const num *A = parts + dal_at_A(s), *c = parts + dal_at_c(s);
+    const num *A = parts + dal_blocks_A(s), *c = parts + dal_blocks_c(s);
     DAL_VECTOR(s, g, DAL_SQUARE_M(s));
     DAL_VECTOR(s, inverse, DAL_SQUARE_M(s));
     DAL_VECTOR(s, rhs, DAL_M(s));
-    dal_multiply(A, m, n, parts + dal_at_a(s), rhs);
+    dal_multiply(A, m, n, parts + dal_blocks_a(s), rhs);
     DAL_EACH(i, m) rhs[i] = -(c[i] + rhs[i]);
-    dal_gram(A, parts + dal_at_B(s), m, n, g);
+    dal_gram(A, parts + dal_blocks_B(s), m, n, g);
     if (m > 0) dal_solve_small(g, inverse, m, rhs, h);
     return DAL_OK;
 }
@@ -122,7 +122,7 @@ DAL_INLINE void dal_react(const dal_step *s, dal_equation *eq, const num *normal
 {
     const dal_reaction *k = (const dal_reaction *)eq->context;
     const int n = DAL_N(s), m = DAL_M(s);
-    const num *A = normals + dal_at_A(s), *w = eq->block[0].u;
+    const num *A = normals + dal_blocks_A(s), *w = eq->block[0].u;
     num *const image = eq->block[0].image;
     DAL_EACH(i, n) image[i] = k->free[i];
     if (m == 0) return;
@@ -142,7 +142,7 @@ DAL_INLINE void dal_react(const dal_step *s, dal_equation *eq, const num *normal
 DAL_INLINE dal_status dal__project_matrix(dal_step *s, const num *parts, int columns, num *J)
 {
     const int n = DAL_N(s), m = DAL_M(s);
-    const num *A = parts + dal_at_A(s), *B = parts + dal_at_B(s);
+    const num *A = parts + dal_blocks_A(s), *B = parts + dal_blocks_B(s);
     DAL_VECTOR(s, g, DAL_SQUARE_M(s));
     DAL_VECTOR(s, inverse, DAL_SQUARE_M(s));
     DAL_VECTOR(s, across, DAL_M(s));
@@ -166,10 +166,10 @@ DAL_INLINE dal_status dal_constrained_matrix(dal_step *s, dal_equation *eq)
 {
     const dal_stage_matrix *k = (const dal_stage_matrix *)eq->context;
     const int n = DAL_N(s);
-    DAL_VECTOR(s, parts, DAL_PARTS(s));
+    DAL_VECTOR(s, parts, DAL_BLOCKS_SIZE(s));
     DAL_VECTOR(s, jacobian, 2 * DAL_N(s) * DAL_N(s));
     DAL_VECTOR(s, matrix, DAL_STAGES(k) * DAL_N(s) * DAL_STAGES(k) * DAL_N(s));
-    dal_parts(s, s->t, s->y, s->y + n, parts);
+    dal_eval_blocks(s, s->t, s->y, s->y + n, parts);
     dal_jacobian(s, 0, s->t, s->y, s->y + n, jacobian);
     DAL_TRY(dal__project_matrix(s, parts, n, jacobian));
     DAL_TRY(dal__project_matrix(s, parts, n, jacobian + n * n));
@@ -191,7 +191,7 @@ DAL_INLINE dal_status dal_impose(dal_step *s, dal_equation *eq, dal_map *map, in
 /* Whether a and B do not depend on v, and D linearly. */
 DAL_INLINE int dal_positional(const dal_step *s)
 {
-    return (DAL_PROPERTIES(s) & DAL_PARTS_POSITIONAL) != 0;
+    return (DAL_PROPERTIES(s) & DAL_BLOCKS_POSITIONAL) != 0;
 }
 
 /* An equation for the increment w of v, that begins at w = 0. */

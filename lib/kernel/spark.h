@@ -69,13 +69,13 @@ DAL_INLINE void dal__spark_stages(dal_step *s, const dal_spark_step *k, num *fre
 {
     const int n = DAL_N(s), m = DAL_M(s), stages = DAL_STAGES(k->method);
     for (int i = 0; i < stages; i++) {
-        num *parts = k->parts + i * DAL_PARTS(s);
+        num *parts = k->parts + i * DAL_BLOCKS_SIZE(s);
         dal__spark_position(s, k, k->method->a + i * stages);
-        dal_parts(s, s->t + k->method->c[i] * s->h, k->q, k->V + i * n, parts);
-        for (int c = 0; c < n; c++) free[i * n + c] = parts[dal_at_a(s) + c];
+        dal_eval_blocks(s, s->t + k->method->c[i] * s->h, k->q, k->V + i * n, parts);
+        for (int c = 0; c < n; c++) free[i * n + c] = parts[dal_blocks_a(s) + c];
     }
     if (!k->method->carried) return;
-    const num *B = k->parts + dal_at_B(s);
+    const num *B = k->parts + dal_blocks_B(s);
     for (int c = 0; c < n; c++)
         for (int a = 0; a < m; a++) free[c] += B[c * m + a] * k->given[a];
 }
@@ -101,7 +101,7 @@ DAL_INLINE void dal__spark_entries(const dal_step *s, const dal_spark_step *k, c
                                    double weight, num *row)
 {
     const int n = DAL_N(s), m = DAL_M(s);
-    const num *B = k->parts + j * DAL_PARTS(s) + dal_at_B(s);
+    const num *B = k->parts + j * DAL_BLOCKS_SIZE(s) + dal_blocks_B(s);
     for (int b = 0; b < m; b++) {
         num entry = A[0] * B[b];
         for (int c = 1; c < n; c++) entry += A[c] * B[c * m + b];
@@ -116,7 +116,7 @@ DAL_INLINE void dal__spark_add(const dal_step *s, const dal_spark_step *k, int p
     const int first = k->method->carried, size = (stages - first) * m;
     const double *y = k->method->to_v + p * stages;
     for (int a = 0; a < m; a++) {
-        const num *A = k->normals + dal_at_A(s) + a * n;
+        const num *A = k->normals + dal_blocks_A(s) + a * n;
         num *row = k->matrix + (e * m + a) * size, sum = k->normals[a];
         for (int c = 0; c < n; c++) sum += A[c] * k->shift[c];
         k->rhs[e * m + a] -= w * sum;
@@ -152,7 +152,7 @@ DAL_INLINE void dal__spark_map(dal_step *s, dal_equation *eq)
     dal__spark_equations(s, k, K, image);
     dal_solve_small(k->matrix, k->inverse, count * m, k->rhs, k->L);
     for (int i = 0; i < count; i++) {
-        const num *B = k->parts + (i + first) * DAL_PARTS(s) + dal_at_B(s);
+        const num *B = k->parts + (i + first) * DAL_BLOCKS_SIZE(s) + dal_blocks_B(s);
         for (int c = 0; c < n; c++)
             for (int a = 0; a < m; a++)
                 image[(i + first) * n + c] += B[c * m + a] * k->L[i * m + a];
@@ -170,7 +170,7 @@ DAL_INLINE dal_status dal__spark_begin(dal_step *s, const dal_spark_step *k, dal
     for (int i = 0; i < eq->block[0].size; i++) eq->block[0].u[i] = now[i % n];
     for (int a = 0; a < m; a++) k->last[a] = k->given[a] = dal_num(0.0);
     if (!k->method->carried) return DAL_OK;
-    dal_parts(s, s->t, s->y, s->y + n, k->parts);
+    dal_eval_blocks(s, s->t, s->y, s->y + n, k->parts);
     return dal_recall_multipliers(s, k->parts, k->given);
 }
 
@@ -202,10 +202,10 @@ DAL_INLINE dal_status dal_spark_advance(dal_step *s, const dal_spark *method)
 {
     double product[DAL_MOST_STAGES * DAL_MOST_STAGES];
     DAL_VECTOR(s, V, DAL_STAGES(method) * DAL_N(s));
-    DAL_VECTOR(s, parts, DAL_STAGES(method) * DAL_PARTS(s));
+    DAL_VECTOR(s, parts, DAL_STAGES(method) * DAL_BLOCKS_SIZE(s));
     DAL_VECTOR(s, q, DAL_N(s));
     DAL_VECTOR(s, v, DAL_N(s));
-    DAL_VECTOR(s, normals, DAL_NORMALS(s));
+    DAL_VECTOR(s, normals, DAL_CONSTRAINT_SIZE(s));
     DAL_VECTOR(s, given, DAL_M(s));
     DAL_VECTOR(s, last, DAL_M(s));
     DAL_VECTOR(s, shift, DAL_N(s));

@@ -24,7 +24,7 @@ typedef enum dal_callback_code {
     DAL_EVAL_ENERGY_NORMAL,
     DAL_EVAL_GAUGE,
     DAL_EVAL_GUARDS,
-    DAL_EVAL_PARTS,
+    DAL_EVAL_BLOCKS,
     DAL_EVAL_POTENTIAL,
     DAL_EVAL_COUNT
 } dal_callback_code;

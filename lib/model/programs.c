@@ -27,7 +27,7 @@ static bool checks(const dal__equations *e, const dal__pivot *pivot, dal__progra
         return pivot->checked;
     case DAL__PROGRAM_CONSTRAINT:
     case DAL__PROGRAM_ENERGY_NORMAL:
-    case DAL__PROGRAM_PARTS:
+    case DAL__PROGRAM_BLOCKS:
         return pivot->checked && pivot->constraint == 0 && !e->vakonomic;
     default:
         return false;

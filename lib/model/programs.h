@@ -15,7 +15,7 @@ enum { DAL__T = 1, DAL__QV = 2, DAL__PI = 4 };
     PROGRAM(ENERGY_NORMAL, energy_normal, DAL__T | DAL__QV)                                        \
     PROGRAM(GAUGE, gauge, DAL__T)                                                                  \
     PROGRAM(GUARDS, guards, DAL__T | DAL__QV)                                                      \
-    PROGRAM(PARTS, parts, DAL__T | DAL__QV)                                                        \
+    PROGRAM(BLOCKS, blocks, DAL__T | DAL__QV)                                                      \
     PROGRAM(POTENTIAL, potential, DAL__T | DAL__QV)
 #define DAL__SINGLE_LIST(PROGRAM)                                                                  \
     PROGRAM(START, start, 0)                                                                       \

@@ -41,7 +41,7 @@ static dal_status add_parts(dal_model *model, dal__programs *programs)
     for (int i = 0; i < n * m; i++) out[count++] = e->R[i];
     for (int i = 0; i < n; i++) out[count++] = e->a[i];
     for (int a = 0; a < m; a++) out[count++] = e->c[a];
-    return dal__programs_add(model, programs, DAL__PROGRAM_PARTS, out, count);
+    return dal__programs_add(model, programs, DAL__PROGRAM_BLOCKS, out, count);
 }
 
 static dal_status add_diagnosis(dal_model *model, dal__programs *programs)

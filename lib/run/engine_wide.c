@@ -145,10 +145,10 @@ void *DAL_WIDE(dal__engine_place)(const dal__shape *k, void *memory, double **ca
     for (int i = 0; i < k->depth; i++)
         e->chain[i] = dal__integrator_wide(k->method.chain[i], DAL_WIDE(DAL__VARIANT));
     const dal_callbacks *c = callbacks(k->system);
-    /* In the order of the questions. */
+    /* In the order of dal_callback_code. */
     dal_callback *const calls[] = {c->field,      c->adjoint,       c->jacobian,
                                    c->constraint, c->energy_normal, c->gauge,
-                                   c->guards,     c->parts,         c->potential};
+                                   c->guards,     c->blocks,        c->potential};
     memcpy(e->call, calls, sizeof e->call);
     e->carried = take(&at, k->carried);
     e->backup = take(&at, k->carried);

@@ -40,7 +40,7 @@ static dal_status choose_system(dal__shape *k, dal_error *error)
 }
 
 /* What methods that impose D themselves need. */
-static dal_status check_parts(const dal__shape *k, unsigned needs, dal_error *error)
+static dal_status check_blocks(const dal__shape *k, unsigned needs, dal_error *error)
 {
     const dal_system *s = k->system;
     char name[128];
@@ -48,7 +48,7 @@ static dal_status check_parts(const dal__shape *k, unsigned needs, dal_error *er
         return dal__fail(error, DAL_UNSUPPORTED,
                          "%s imposes D on (q,v) and has no lifted form; take the physical space",
                          dal_method_name(&k->method, name, sizeof name));
-    if (!s->call.parts || s->multipliers) return refuse(error, k, "parts a, B of F = a + B h");
+    if (!s->call.blocks || s->multipliers) return refuse(error, k, "parts a, B of F = a + B h");
     if (k->m > 0 && !s->call.constraint) return refuse(error, k, "constraint callback");
     if (needs & DAL_NEEDS_POTENTIAL && !(s->properties & DAL_MASS_CONSTANT))
         return refuse(error, k, "constant mass matrix");
@@ -87,7 +87,7 @@ static dal_status check_needs(const dal__shape *k, dal_error *error)
         return refuse(error, k, "jacobian");
     if (k->options.solver == DAL_NEWTON && !call->jacobian)
         return refuse(error, k, "jacobian, which the solver newton needs");
-    return needs & DAL_NEEDS_PARTS ? check_parts(k, needs, error) : DAL_OK;
+    return needs & DAL_NEEDS_BLOCKS ? check_blocks(k, needs, error) : DAL_OK;
 }
 
 static dal_status check_system(const dal_system *system, dal_error *error)
@@ -212,7 +212,7 @@ int dal__eval_size(const dal__shape *k, int code)
         return 1;
     case DAL_EVAL_GUARDS:
         return k->system->guards;
-    case DAL_EVAL_PARTS:
+    case DAL_EVAL_BLOCKS:
         return k->n + 2 * (k->m + k->m * k->n);
     case DAL_EVAL_POTENTIAL:
         return 3 * k->n;
@@ -227,7 +227,7 @@ static dal_status measure(dal__shape *k, dal_error *error)
     const double dim = k->dim, n = k->n, nw = k->nw, m = k->m, stages = k->stages;
     const double matrix = (stages * nw) * (stages * nw) * (k->system->call.jacobian ? 6 : 0);
     const double constraint = 4 * (m + 2 * m * n) + 8 * m * m;
-    const bool imposes = dal_method_needs(&k->method) & DAL_NEEDS_PARTS;
+    const bool imposes = dal_method_needs(&k->method) & DAL_NEEDS_BLOCKS;
     const double equations = (stages + 1) * m;
     const double parts =
         imposes ? 2 * (stages + 2) * (n + 2 * m + 2 * m * n) + 4 * equations * equations : 0;
