@@ -343,8 +343,9 @@ dal_status dal_run_sample(dal_run *run, double T, long long samples, long long f
 /* A step of size h by the run's method from its present state: look sees the run there, then all is
  * taken back, bit for bit.  look must not move the run.  Errors: those of a step, the run being as
  * it was; DAL_ARGUMENT; what look returns. */
-dal_status dal_run_aside(dal_run *run, double h, dal_status (*look)(void *user, dal_run *run),
-                         void *user, dal_error *error);
+dal_status dal_run_intermediate(dal_run *run, double h,
+                                dal_status (*look)(void *user, dal_run *run), void *user,
+                                dal_error *error);
 
 /* ---- batches ------------------------------------------------------------------------------- */
 

@@ -186,9 +186,9 @@ static dal_status see(void *user, dal_run *seen) { return user || !seen ? DAL_IO
 
 static void null_dal_run_aside(void)
 {
-    REFUSED(dal_run_aside(NULL, 0.1, see, NULL, error));
-    REFUSED(dal_run_aside(run, 0.1, NULL, NULL, error));
-    CU_ASSERT_EQUAL(dal_run_aside(run, 0.1, see, NULL, NULL), DAL_OK);
+    REFUSED(dal_run_intermediate(NULL, 0.1, see, NULL, error));
+    REFUSED(dal_run_intermediate(run, 0.1, NULL, NULL, error));
+    CU_ASSERT_EQUAL(dal_run_intermediate(run, 0.1, see, NULL, NULL), DAL_OK);
 }
 
 /* ---- batches ---- */

@@ -97,14 +97,14 @@ static void test_intermediate(void)
     const double *memory = dal_run_memory(run, &count);
     CU_ASSERT_FATAL(count < 256);
     memcpy(before, memory, count * sizeof *memory);
-    CU_ASSERT_EQUAL(dal_run_aside(run, 0.125, copy_x, seen, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_intermediate(run, 0.125, copy_x, seen, NULL), DAL_OK);
     CU_ASSERT_EQUAL(seen[0], 0.875);
     CU_ASSERT_DOUBLE_EQUAL(seen[1], cos(0.875), 1e-15);
     /* Backwards, and beyond the step; what look returns is returned. */
-    CU_ASSERT_EQUAL(dal_run_aside(run, -0.5, copy_x, seen, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_intermediate(run, -0.5, copy_x, seen, NULL), DAL_OK);
     CU_ASSERT_DOUBLE_EQUAL(seen[1], cos(0.25), 1e-13);
-    CU_ASSERT_EQUAL(dal_run_aside(run, 1.0, copy_x, seen, NULL), DAL_INTERRUPTED);
-    CU_ASSERT_EQUAL(dal_run_aside(run, NAN, copy_x, seen, NULL), DAL_ARGUMENT);
+    CU_ASSERT_EQUAL(dal_run_intermediate(run, 1.0, copy_x, seen, NULL), DAL_INTERRUPTED);
+    CU_ASSERT_EQUAL(dal_run_intermediate(run, NAN, copy_x, seen, NULL), DAL_ARGUMENT);
     CU_ASSERT_EQUAL(memcmp(before, memory, count * sizeof *memory), 0);
     dal_run_free(run);
     dal_model_free(model);

@@ -85,7 +85,7 @@ static dal_status go_to(search *w, const mark *place)
 /* g, or its rate, a step of size s from where the step under examination began. */
 static dal_status value_at(search *w, double s, double *value)
 {
-    DAL_TRY(s > 0.0 ? dal_run_aside(w->run, s, look, w, w->error) : evaluate(w, &w->value));
+    DAL_TRY(s > 0.0 ? dal_run_intermediate(w->run, s, look, w, w->error) : evaluate(w, &w->value));
     *value = w->value;
     return DAL_OK;
 }
@@ -147,7 +147,7 @@ static dal_status cross(search *w, node a, node b)
     if (wanted && wanted != w->side) return DAL_OK;
     w->crossing.number++;
     if (!w->section->cross) return DAL_OK;
-    return s > 0.0 ? dal_run_aside(w->run, s, show, w, w->error) : show(w, w->run);
+    return s > 0.0 ? dal_run_intermediate(w->run, s, show, w, w->error) : show(w, w->run);
 }
 
 /* g has changed its sign in the last step. */

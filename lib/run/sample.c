@@ -62,8 +62,9 @@ static dal_status advance(sampling *k, long long count)
     return DAL_OK;
 }
 
-dal_status dal_run_aside(dal_run *run, double h, dal_status (*look)(void *user, dal_run *run),
-                         void *user, dal_error *error)
+dal_status dal_run_intermediate(dal_run *run, double h,
+                                dal_status (*look)(void *user, dal_run *run), void *user,
+                                dal_error *error)
 {
     DAL_REQUIRE(run, error);
     DAL_REQUIRE(look, error);
@@ -94,7 +95,7 @@ static dal_status show_aside(void *user, dal_run *run)
 static dal_status side_step(sampling *k, double h, long long row, double t)
 {
     side_row r = {k, row, t};
-    const dal_status shown = dal_run_aside(k->run, h, show_aside, &r, k->error);
+    const dal_status shown = dal_run_intermediate(k->run, h, show_aside, &r, k->error);
     return shown == DAL_OK ? poll(k) : shown;
 }
 
