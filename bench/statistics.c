@@ -36,7 +36,7 @@ static dal_status follow(void *user, dal_run *run, int count, const double *t, c
 static double time_step(contender *j, long long steps, int followed)
 {
     const dal_observer observer = {.user = j, .values = followed ? follow : NULL, .every = 1};
-    if (dal_run_load(j->run, j->start, j->numbers, NULL) != DAL_OK) return -1.0;
+    if (dal_run_restore(j->run, j->start, j->numbers, NULL) != DAL_OK) return -1.0;
     dal_statistics_start(j->statistics, j->observables);
     const double begin = bench_now();
     const dal_status status =
@@ -88,7 +88,7 @@ static int make(contender *j, char **argv, const char *cache, dal_error *error)
         dal_run_native_observables(j->run, &native, error))
         return 1;
     j->observables = dal_run_observables(j->run);
-    const double *const carried = dal_run_memory(j->run, &j->numbers);
+    const double *const carried = dal_run_save(j->run, &j->numbers);
     if (!(j->start = malloc(j->numbers * sizeof *carried))) return 1;
     memcpy(j->start, carried, j->numbers * sizeof *carried);
     return j->observables > MAX_OBSERVABLES;

@@ -26,9 +26,9 @@ static double momentum(const double *v)
 static dal_status compare(dal_run *run, dal_run *other, double *difference, dal_error *error)
 {
     size_t count;
-    const double *memory = dal_run_memory(run, &count), *a = dal_run_state(run),
+    const double *memory = dal_run_save(run, &count), *a = dal_run_state(run),
                  *b = dal_run_state(other);
-    dal_status status = dal_run_load(other, memory, count, error);
+    dal_status status = dal_run_restore(other, memory, count, error);
     if (status == DAL_OK) status = dal_run_advance(run, STEPS, error);
     if (status == DAL_OK) status = dal_run_advance(other, STEPS, error);
     *difference = 0.0;

@@ -301,8 +301,8 @@ char *dal_run_name(const dal_run *run, int i, char *buffer, size_t size);
 
 /* All a run carries from step to step: *count doubles.  A copy of them is a checkpoint; load puts
  * them into a run of the same spec.  Errors: DAL_ARGUMENT (wrong count), DAL_NOT_FINITE. */
-const double *dal_run_memory(const dal_run *run, size_t *count);
-dal_status dal_run_load(dal_run *run, const double *memory, size_t count, dal_error *error);
+const double *dal_run_save(const dal_run *run, size_t *count);
+dal_status dal_run_restore(dal_run *run, const double *memory, size_t count, dal_error *error);
 
 /* Observables at the present state, in this order: D1..Dm, E (with an energy), H (lifted),
  * |p|, |pi|, |pi_e| (lifted, max norms), invariants, error (with an exact solution that the start

@@ -79,7 +79,7 @@ static bool begin_lane(motion *m, int lane)
         dal_run_create(&m->run[lane], &spec, &error);
     }
     if (!m->run[lane]) return false;
-    const double *memory = dal_run_memory(m->run[lane], &count);
+    const double *memory = dal_run_save(m->run[lane], &count);
     m->begin[lane] = malloc(count * sizeof *memory);
     memcpy(m->begin[lane], memory, count * sizeof *memory);
     m->carried = count;
@@ -203,7 +203,7 @@ static void compare_steps(motion *m, const object *o, parts *p, const char *way)
     o->advance(p->y, h, STEPS / 3);
     o->advance(p->y, h, STEPS - STEPS / 3 - 1);
     for (int lane = 0; lane < p->lanes; lane++) {
-        if (same_lane(m, p, lane, dal_run_memory(m->run[lane], &count)) &&
+        if (same_lane(m, p, lane, dal_run_save(m->run[lane], &count)) &&
             p->status[lane] == (int)m->status[lane])
             continue;
         differs(m, way, "other bits");

@@ -28,7 +28,7 @@ static void test_sums(void)
     /* Right to all digits of x and of what x has no room for, which stands behind x and x': the
      * product h v is part + rest, STEPS times that is right + lost. */
     size_t count;
-    const double *carried = dal_run_memory(exact, &count);
+    const double *carried = dal_run_save(exact, &count);
     const double part = h * v, rest = fma(h, v, -part);
     const double right = STEPS * part, lost = fma(STEPS, part, -right) + STEPS * rest;
     CU_ASSERT_FATAL(count >= 4);

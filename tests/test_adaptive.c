@@ -192,11 +192,11 @@ static void test_load(void)
     size_t count, again;
     CU_ASSERT_EQUAL(dal_run_advance(whole, 20, NULL), DAL_OK);
     CU_ASSERT_EQUAL(dal_run_advance(first, 7, NULL), DAL_OK);
-    const double *memory = dal_run_memory(first, &count);
-    CU_ASSERT_EQUAL(dal_run_load(second, memory, count, NULL), DAL_OK);
+    const double *memory = dal_run_save(first, &count);
+    CU_ASSERT_EQUAL(dal_run_restore(second, memory, count, NULL), DAL_OK);
     CU_ASSERT_EQUAL(dal_run_advance(second, 13, NULL), DAL_OK);
-    memory = dal_run_memory(whole, &count);
-    CU_ASSERT_EQUAL(memcmp(memory, dal_run_memory(second, &again), count * sizeof *memory), 0);
+    memory = dal_run_save(whole, &count);
+    CU_ASSERT_EQUAL(memcmp(memory, dal_run_save(second, &again), count * sizeof *memory), 0);
     CU_ASSERT_EQUAL(count, again);
     dal_run_free(whole);
     dal_run_free(first);
@@ -332,7 +332,7 @@ static void fails(const char *text, double step, const char *reason, double reac
     dal_error error = {0};
     double before[64];
     size_t count;
-    const double *memory = dal_run_memory(run, &count);
+    const double *memory = dal_run_save(run, &count);
     CU_ASSERT_FATAL(count <= 64);
     memcpy(before, memory, count * sizeof *memory);
     CU_ASSERT_EQUAL(dal_run_step(run, &error), DAL_NOT_CONVERGED);

@@ -12,13 +12,13 @@ static void test_checkpoint(void)
     size_t count;
     CU_ASSERT_EQUAL(dal_run_advance(whole, 80, NULL), DAL_OK);
     CU_ASSERT_EQUAL(dal_run_advance(first, 37, NULL), DAL_OK);
-    const double *memory = dal_run_memory(first, &count);
-    CU_ASSERT_EQUAL(dal_run_load(second, memory, count, NULL), DAL_OK);
+    const double *memory = dal_run_save(first, &count);
+    CU_ASSERT_EQUAL(dal_run_restore(second, memory, count, NULL), DAL_OK);
     CU_ASSERT_EQUAL(dal_run_advance(second, 43, NULL), DAL_OK);
-    CU_ASSERT_EQUAL(memcmp(dal_run_memory(whole, &count), dal_run_memory(second, &count),
-                           count * sizeof(double)),
-                    0);
-    CU_ASSERT_EQUAL(dal_run_load(second, memory, count - 1, NULL), DAL_ARGUMENT);
+    CU_ASSERT_EQUAL(
+        memcmp(dal_run_save(whole, &count), dal_run_save(second, &count), count * sizeof(double)),
+        0);
+    CU_ASSERT_EQUAL(dal_run_restore(second, memory, count - 1, NULL), DAL_ARGUMENT);
     dal_run_free(whole);
     dal_run_free(first);
     dal_run_free(second);

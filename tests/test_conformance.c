@@ -220,13 +220,13 @@ static void check_untouched(const char *name, const dal_method *method, void *us
     const dal_run_spec spec = fixture_spec(user, name, DAL_PHYSICAL, 0.05);
     dal_run *run = fixture_run(&spec);
     for (int i = 0; i < 100 && status == DAL_OK; i++) {
-        const double *memory = dal_run_memory(run, &count);
+        const double *memory = dal_run_save(run, &count);
         memcpy(before, memory, count * sizeof *memory);
         status = dal_run_step(run, NULL);
     }
     if (status == DAL_OK) printf("\n  %s: no step failed\n", name);
     CU_ASSERT_NOT_EQUAL(status, DAL_OK);
-    CU_ASSERT_EQUAL(memcmp(before, dal_run_memory(run, &count), count * sizeof *before), 0);
+    CU_ASSERT_EQUAL(memcmp(before, dal_run_save(run, &count), count * sizeof *before), 0);
     dal_run_free(run);
 }
 

@@ -52,7 +52,7 @@ static double *multipliers(dal_run *run, double *memory)
 /* A copy of the carried numbers; the caller frees it. */
 static double *memory_of(const dal_run *run, size_t *count)
 {
-    const double *memory = dal_run_memory(run, count);
+    const double *memory = dal_run_save(run, count);
     double *copy = malloc(*count * sizeof *copy);
     CU_ASSERT_PTR_NOT_NULL_FATAL(copy);
     return memcpy(copy, memory, *count * sizeof *copy);
@@ -76,7 +76,7 @@ static double turning_defect(const char *method, const char *fixture, double sig
     for (int i = 0; i < n; i++) memory[n + i] = -memory[n + i];
     for (int i = 0; i < n; i++) memory[run->shape.dim + n + i] = -memory[run->shape.dim + n + i];
     for (int i = 0; i < system->m; i++) multipliers(run, memory)[i] *= sign;
-    CU_ASSERT_EQUAL(dal_run_load(run, memory, count, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_restore(run, memory, count, NULL), DAL_OK);
     CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_OK);
     for (int i = 0; i < n; i++) {
         defect = fmax(defect, fabs(dal_run_state(run)[i] - begin[i]));
@@ -110,7 +110,7 @@ static void end_state(const dal_system *system, const char *method, int count, b
     size_t size;
     double *memory = memory_of(run, &size);
     if (wrong) memory[dal__at(&run->shape, DAL__MEMORY) + 2] = 1.0;
-    CU_ASSERT_EQUAL(dal_run_load(run, memory, size, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_restore(run, memory, size, NULL), DAL_OK);
     CU_ASSERT_EQUAL(dal_run_advance(run, count, NULL), DAL_OK);
     memcpy(state, dal_run_state(run), 2 * (size_t)system->n * sizeof *state);
     free(memory);
@@ -159,7 +159,7 @@ static void test_set_state(void)
     CU_ASSERT_EQUAL(memcmp(dal_run_state(run), dal_run_state(fresh), 8 * sizeof *start), 0);
     /* A checkpoint has them: without them the next step is another one. */
     double *memory = memory_of(run, &count);
-    CU_ASSERT_EQUAL(dal_run_load(fresh, memory, count, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_restore(fresh, memory, count, NULL), DAL_OK);
     CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_OK);
     CU_ASSERT_EQUAL(dal_run_step(fresh, NULL), DAL_OK);
     CU_ASSERT_EQUAL(memcmp(dal_run_state(run), dal_run_state(fresh), 8 * sizeof *start), 0);

@@ -268,7 +268,7 @@ static void test_failure(void)
         dal_run *run = fixture_run(&spec);
         size_t count;
         double before[256];
-        const double *memory = dal_run_memory(run, &count);
+        const double *memory = dal_run_save(run, &count);
         memcpy(before, memory, count * sizeof *before);
         CU_ASSERT_NOT_EQUAL(dal_run_step(run, NULL), DAL_OK);
         CU_ASSERT_EQUAL(memcmp(before, memory, count * sizeof *before), 0);

@@ -42,7 +42,7 @@ static int tear_down(void)
 static void same_memory(const dal_run *a, const dal_run *b)
 {
     size_t m, n;
-    const double *x = dal_run_memory(a, &m), *y = dal_run_memory(b, &n);
+    const double *x = dal_run_save(a, &m), *y = dal_run_save(b, &n);
     CU_ASSERT_EQUAL_FATAL(m, n);
     CU_ASSERT_EQUAL(memcmp(x, y, n * sizeof *x), 0);
 }
@@ -59,8 +59,8 @@ static void same_run(const dal_run_spec *of)
     CU_ASSERT_EQUAL(dal_run_native(native, &options, &error), compiles ? DAL_OK : DAL_UNSUPPORTED);
     CU_ASSERT_EQUAL(dal_run_is_native(native), compiles);
     CU_ASSERT_EQUAL(dal_run_advance(native, 135, &error), DAL_OK);
-    const double *memory = dal_run_memory(native, &count);
-    CU_ASSERT_EQUAL(dal_run_load(loaded, memory, count, &error), DAL_OK);
+    const double *memory = dal_run_save(native, &count);
+    CU_ASSERT_EQUAL(dal_run_restore(loaded, memory, count, &error), DAL_OK);
     CU_ASSERT_EQUAL(dal_run_advance(native, 65, &error), DAL_OK);
     CU_ASSERT_EQUAL(dal_run_advance(loaded, 65, &error), DAL_OK);
     same_memory(native, tape);

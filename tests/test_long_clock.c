@@ -21,14 +21,14 @@ static void put_late(dal_run *run, long long k)
 {
     size_t count;
     double memory[256];
-    const double *now = dal_run_memory(run, &count);
+    const double *now = dal_run_save(run, &count);
     CU_ASSERT_FATAL(count <= sizeof memory / sizeof *memory);
     memcpy(memory, now, count * sizeof *memory);
     const double t = (double)k * h;
     memory[dal__at(&run->shape, DAL__TIME)] = t;
     memory[dal__at(&run->shape, DAL__TIME_ERROR)] = fma((double)k, h, -t);
     memory[dal__at(&run->shape, DAL__STEPS)] = (double)k;
-    CU_ASSERT_EQUAL(dal_run_load(run, memory, count, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_run_restore(run, memory, count, NULL), DAL_OK);
 }
 
 static void check_clock(const dal_system *system, const char *method, dal_space space)

@@ -296,9 +296,9 @@ static void test_same_bits(void)
     dal_lyapunov *s = lyapunov_of(model, "gauss4", 0.05, 7, 23);
     size_t count, other;
     CU_ASSERT_EQUAL(dal_run_advance(run, 30, NULL), DAL_OK);
-    const double *memory = dal_run_memory(run, &count);
+    const double *memory = dal_run_save(run, &count);
     CU_ASSERT_EQUAL(
-        memcmp(memory, dal_run_memory(dal_lyapunov_run(s), &other), count * sizeof *memory), 0);
+        memcmp(memory, dal_run_save(dal_lyapunov_run(s), &other), count * sizeof *memory), 0);
     dal_lyapunov_free(s);
     dal_run_free(run);
     dal_model_free(model);

@@ -145,17 +145,17 @@ static void null_dal_run_name(void)
 static void null_dal_run_memory(void)
 {
     size_t count = 7;
-    CU_ASSERT_PTR_NULL(dal_run_memory(NULL, &count));
+    CU_ASSERT_PTR_NULL(dal_run_save(NULL, &count));
     CU_ASSERT_EQUAL(count, 0);
-    CU_ASSERT_PTR_NULL(dal_run_memory(run, NULL));
+    CU_ASSERT_PTR_NULL(dal_run_save(run, NULL));
 }
 
 static void null_dal_run_load(void)
 {
     size_t count;
-    const double *memory = dal_run_memory(run, &count);
-    REFUSED(dal_run_load(NULL, memory, count, error));
-    REFUSED(dal_run_load(run, NULL, count, error));
+    const double *memory = dal_run_save(run, &count);
+    REFUSED(dal_run_restore(NULL, memory, count, error));
+    REFUSED(dal_run_restore(run, NULL, count, error));
 }
 
 static void null_dal_run_observables(void) { CU_ASSERT_EQUAL(dal_run_observables(NULL), 0); }

@@ -168,10 +168,10 @@ static void test_pieces(void)
     CU_ASSERT_EQUAL(sample(run, &whole, true, 1, ROWS, 0, ROWS), DAL_OK);
     for (int row = 0; row < ROWS; row++) {
         CU_ASSERT_EQUAL(sample(other, &pieces, true, 1, ROWS, row + (row > 0), row + 1), DAL_OK);
-        const double *memory = dal_run_memory(other, &count);
+        const double *memory = dal_run_save(other, &count);
         dal_run *const next = run_of(&subjects[0], system);
         compile(next, row % 3, row % 2);
-        CU_ASSERT_EQUAL(dal_run_load(next, memory, count, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_run_restore(next, memory, count, NULL), DAL_OK);
         dal_run_free(other);
         other = next;
     }

@@ -156,7 +156,7 @@ static void test_transaction(void)
         const dal_run_spec spec = fixture_spec(&system, methods[k], DAL_PHYSICAL, 0.1);
         dal_run *run = fixture_run(&spec);
         size_t count;
-        const double *memory = dal_run_memory(run, &count);
+        const double *memory = dal_run_save(run, &count);
         double *copy = malloc(count * sizeof *copy);
         for (int step = 0; step < 50; step++) {
             memcpy(copy, memory, count * sizeof *copy);

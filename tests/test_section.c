@@ -94,7 +94,7 @@ static void test_intermediate(void)
     size_t count;
     CU_ASSERT_EQUAL(dal_run_step_size(run), 0.25);
     CU_ASSERT_EQUAL(dal_run_advance(run, 3, NULL), DAL_OK);
-    const double *memory = dal_run_memory(run, &count);
+    const double *memory = dal_run_save(run, &count);
     CU_ASSERT_FATAL(count < 256);
     memcpy(before, memory, count * sizeof *memory);
     CU_ASSERT_EQUAL(dal_run_intermediate(run, 0.125, copy_x, seen, NULL), DAL_OK);
@@ -331,7 +331,7 @@ static void cross_with(dal_model *model, const char *method, dal_space space)
         CU_ASSERT_DOUBLE_EQUAL(r.t[k], (k + 1) * pi - atan(6.0 / 7.0), 0.05);
     }
     CU_ASSERT_EQUAL(dal_run_advance(plain, 180, NULL), DAL_OK);
-    const double *a = dal_run_memory(run, &count), *b = dal_run_memory(plain, &count);
+    const double *a = dal_run_save(run, &count), *b = dal_run_save(plain, &count);
     CU_ASSERT_EQUAL(memcmp(a, b, count * sizeof *a), 0);
     dal_run_free(run);
     dal_run_free(plain);

@@ -54,7 +54,7 @@ int checkpoint_save(const run_directory *dir, const run_position *position, cons
                     const dal_statistics *statistics, int count)
 {
     size_t state_words;
-    const double *state = dal_run_memory(run, &state_words);
+    const double *state = dal_run_save(run, &state_words);
     const checkpoint_header header = {.magic = magic,
                                       .fingerprint = dir->fingerprint,
                                       .row = position->row,
@@ -133,7 +133,7 @@ static int restore(const char *path, const checkpoint_header *header, const unsi
     dal_error error = {0};
     double *state = cli_malloc((header->state + 1) * sizeof *state);
     body = read_words(body, state, header->state);
-    const dal_status loaded = dal_run_load(run, state, header->state, &error);
+    const dal_status loaded = dal_run_restore(run, state, header->state, &error);
     free(state);
     if (loaded != DAL_OK) return cli_error(CLI_USAGE, path, &error);
     *position = (run_position){header->row, header->sum, header->seconds};

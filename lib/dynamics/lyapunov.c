@@ -80,7 +80,7 @@ static dal_status displace(dal_lyapunov *s, double size)
         z[i] = y;
         if (s->has_remainder) z[d + i] += (s->z[i] - (y - part)) + (change - part);
     }
-    if (s->has_remainder) return dal_run_load(s->aside, z, s->memory_count, s->error);
+    if (s->has_remainder) return dal_run_restore(s->aside, z, s->memory_count, s->error);
     return dal_run_set_state(s->aside, s->t, z, s->error);
 }
 
@@ -92,7 +92,7 @@ static dal_status step_along(void *user, double size, double *out)
     size_t count;
     DAL_TRY(displace(s, size));
     DAL_TRY(dal_run_step(s->aside, s->error));
-    const double *y = dal_run_state(s->aside), *r = dal_run_memory(s->aside, &count) + d;
+    const double *y = dal_run_state(s->aside), *r = dal_run_save(s->aside, &count) + d;
     for (int i = 0; i < d; i++) out[i] = y[i] - s->z[i];
     for (int i = 0; i < d && s->has_remainder; i++) out[i] += r[i] - s->memory[d + i];
     return DAL_OK;
@@ -188,7 +188,7 @@ static dal_status find_divergence(dal_lyapunov *s)
 /* Where a run is. */
 static void hold_state(dal_lyapunov *s, const dal_run *run)
 {
-    const double *memory = dal_run_memory(run, &s->memory_count);
+    const double *memory = dal_run_save(run, &s->memory_count);
     s->t = dal_run_time(run);
     memcpy(s->z, dal_run_state(run), (size_t)s->dimension * sizeof(double));
     memcpy(s->memory, memory, s->memory_count * sizeof(double));
@@ -362,7 +362,7 @@ static dal_status allocate(dal_lyapunov *s, dal_error *error)
     const size_t d = (size_t)s->dimension, jacobian = (size_t)s->nw * d;
     const size_t scratch = jacobian > 5 * d ? jacobian : 5 * d;
     const size_t normals = ((size_t)dal_evaluator_system(s->evaluator)->m + 1) * d;
-    dal_run_memory(s->run, &s->memory_count);
+    dal_run_save(s->run, &s->memory_count);
     const size_t memory = s->memory_count > d ? s->memory_count : d;
     double *block = dal__numbers(1, d * d + d + d + FOLLOWED + scratch + normals + 2 * memory);
     s->vectors = block;
@@ -383,7 +383,7 @@ static dal_status hold_usual_state(dal_lyapunov *s, unsigned claims)
 {
     hold_state(s, s->run);
     if (!(claims & DAL_PRESERVES_ENERGY)) return DAL_OK;
-    DAL_TRY(dal_run_load(s->aside, s->memory, s->memory_count, s->error));
+    DAL_TRY(dal_run_restore(s->aside, s->memory, s->memory_count, s->error));
     DAL_TRY(dal_run_step(s->aside, s->error));
     hold_state(s, s->aside);
     return DAL_OK;

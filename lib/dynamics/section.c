@@ -79,7 +79,7 @@ static dal_status look(void *user, dal_run *run)
 
 static dal_status go_to(search *w, const mark *place)
 {
-    return dal_run_load(w->run, place->memory, w->carried, w->error);
+    return dal_run_restore(w->run, place->memory, w->carried, w->error);
 }
 
 /* g, or its rate, a step of size s from where the step under examination began. */
@@ -232,7 +232,7 @@ static int is_minimum(const search *w, long long step)
 static dal_status take_mark(search *w)
 {
     size_t count;
-    memcpy(w->now.memory, dal_run_memory(w->run, &count), w->carried * sizeof(double));
+    memcpy(w->now.memory, dal_run_save(w->run, &count), w->carried * sizeof(double));
     DAL_TRY(evaluate(w, &w->now.g));
     w->greatest = fmax(w->greatest, fabs(w->now.g));
     return DAL_OK;
@@ -304,7 +304,7 @@ dal_status dal_run_crossings(dal_run *run, double T, const dal_poincare *section
     if (steps == 0)
         return dal__fail(error, DAL_ARGUMENT, "time %g does not hold a whole number of steps %g", T,
                          h);
-    dal_run_memory(run, &w.carried);
+    dal_run_save(run, &w.carried);
     double *block = dal__numbers(1, 3 * w.carried + (size_t)section->count);
     if (block == NULL) return dal__fail(error, DAL_MEMORY, "section: out of memory");
     w.before.memory = block;

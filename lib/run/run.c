@@ -192,7 +192,7 @@ dal_status dal_run_set_state(dal_run *run, double t, const double *state, dal_er
     return DAL_OK;
 }
 
-const double *dal_run_memory(const dal_run *run, size_t *count)
+const double *dal_run_save(const dal_run *run, size_t *count)
 {
     if (count) *count = run ? run->remembered : 0;
     return run && count ? run->memory : NULL;
@@ -204,7 +204,7 @@ static double number_in(const dal_run *run, const double *memory, size_t i)
     return run->long_run.engine ? dal__long_rounded(memory, i) : memory[i];
 }
 
-dal_status dal_run_load(dal_run *run, const double *memory, size_t count, dal_error *error)
+dal_status dal_run_restore(dal_run *run, const double *memory, size_t count, dal_error *error)
 {
     DAL_REQUIRE(run, error);
     DAL_REQUIRE(memory, error);
