@@ -51,12 +51,12 @@ typedef struct dal_integrator {
     dal_step_function *step;
 } dal_integrator;
 
-enum { DAL_CHAIN = 4 };
+enum { DAL_LAYERS = 4 };
 
 /* An integrator and the modifiers around it, innermost first; unused places are NULL.
  * An integrator outside the tree is used by its address: {{&my_integrator}}. */
 typedef struct dal_method {
-    const dal_integrator *chain[DAL_CHAIN];
+    const dal_integrator *layer[DAL_LAYERS];
 } dal_method;
 
 /* Built-in integrator or modifier number i, NULL past the last. */

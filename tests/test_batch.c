@@ -65,8 +65,8 @@ static void check_batch(dal_batch *batch, int dimension, double (*single)[ROOM])
 /* Blocks there are for methods that act on each component alone. */
 static bool in_blocks(const dal_run_spec *spec)
 {
-    return spec->options.space == DAL_PHYSICAL && !spec->method.chain[1] &&
-           (spec->method.chain[0]->properties & DAL_COMPONENTWISE);
+    return spec->options.space == DAL_PHYSICAL && !spec->method.layer[1] &&
+           (spec->method.layer[0]->properties & DAL_COMPONENTWISE);
 }
 
 static void check_variants(const dal_run_spec *spec, int count, int dimension,

@@ -81,7 +81,7 @@ static void check_order(const char *name, const dal_method *method, void *user)
     const int order = dal_method_order(method);
     /* A decade of h; at order 6 what rounding leaves of it. */
     const int coarse = order == 1 ? 200 : order < 6 ? 40 : 24, fine = (order < 6 ? 10 : 2) * coarse;
-    if (method->chain[1]->order || !fixture_serves(method, user, DAL_PHYSICAL)) return;
+    if (method->layer[1]->order || !fixture_serves(method, user, DAL_PHYSICAL)) return;
     const dal_run_spec spec = fixture_spec(user, name, DAL_PHYSICAL, 0.1);
     const double seen = fixture_order(spec, 1.0, coarse, fine, 0.0);
     if (!(fabs(seen - order) <= 0.1)) printf("\n  %s: observed order %.3f\n", name, seen);

@@ -41,7 +41,7 @@ static void test_refusals(void)
     dal_error error;
     dal_system by_hand = *spec.system;
     by_hand.prepare = NULL;
-    dal_integrator own = *spec.method.chain[0];
+    dal_integrator own = *spec.method.layer[0];
     dal_run_spec other = spec;
     CU_ASSERT_EQUAL(generate(&spec, 3, NULL, &error), DAL_ARGUMENT);
     CU_ASSERT_EQUAL(generate(&spec, 32, NULL, &error), DAL_ARGUMENT);
@@ -58,10 +58,10 @@ static void test_refusals(void)
     CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "chaplygin-sleigh"));
     CU_ASSERT(error.line == 0 && error.column == 0);
     other = spec;
-    other.method.chain[0] = &own;
+    other.method.layer[0] = &own;
     CU_ASSERT_EQUAL(generate(&other, 1, NULL, &error), DAL_UNSUPPORTED);
     other = spec;
-    other.method.chain[2] = other.method.chain[1];
+    other.method.layer[2] = other.method.layer[1];
     CU_ASSERT_EQUAL(generate(&other, 1, NULL, &error), DAL_UNSUPPORTED);
     other = spec;
     other.parameters = &(dal_setting){"nothing", 1.0};

@@ -294,8 +294,8 @@ static void test_refused(void)
     CU_ASSERT_EQUAL(dal_generate(&spec, 1, NULL, &text, &error), DAL_UNSUPPORTED);
     CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "long numbers"));
     CU_ASSERT(error.line == 0 && error.column == 0);
-    dal_integrator outside = *spec.method.chain[0];
-    spec.method.chain[0] = &outside;
+    dal_integrator outside = *spec.method.layer[0];
+    spec.method.layer[0] = &outside;
     fixture_refused(&spec, DAL_UNSUPPORTED, "'rk4' has no form in them");
     dal_model_free(model);
 }

@@ -75,7 +75,7 @@ static void test_refusals(void)
     spec = fixture_spec(&empty, "rk4", DAL_PHYSICAL, 0.1);
     fixture_refused(&spec, DAL_ARGUMENT, "n is 0");
     spec = fixture_spec(system, "rk4", DAL_PHYSICAL, 0.1);
-    spec.method.chain[0] = NULL;
+    spec.method.layer[0] = NULL;
     fixture_refused(&spec, DAL_ARGUMENT, "integrator");
     dal_model_free(model);
 }

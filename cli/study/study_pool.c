@@ -20,7 +20,7 @@ typedef struct work {
 /* Stages times steps, and more where implicit equations are solved on the wider space. */
 static double cost(const study_cell *c)
 {
-    const dal_integrator *inner = c->method->chain[0];
+    const dal_integrator *inner = c->method->layer[0];
     double stages = inner->stages > 0 ? inner->stages : 1;
     double implicit = inner->properties & DAL_EXPLICIT ? 1.0 : 8.0;
     double wide = c->start == STUDY_PHYSICAL ? 1.0 : 3.0;

@@ -43,13 +43,13 @@ const char *dal_comparison_text(dal_comparison_run comparison)
 
 static bool solves(const dal_run_spec *spec)
 {
-    return !(dal_method_properties(&spec->method) & DAL_EXPLICIT) || spec->method.chain[1];
+    return !(dal_method_properties(&spec->method) & DAL_EXPLICIT) || spec->method.layer[1];
 }
 
 static int depth(const dal_method *method)
 {
     int k = 0;
-    while (k < DAL_CHAIN && method->chain[k]) k++;
+    while (k < DAL_LAYERS && method->layer[k]) k++;
     return k;
 }
 
@@ -62,7 +62,7 @@ static bool is_projection(const dal_integrator *link)
 static int projection_in(const dal_method *method)
 {
     for (int k = depth(method) - 1; k > 0; k--)
-        if (is_projection(method->chain[k])) return k;
+        if (is_projection(method->layer[k])) return k;
     return 0;
 }
 
@@ -72,14 +72,14 @@ static const char *project(dal_run_spec *spec)
     dal_method *method = &spec->method, projected;
     const int place = projection_in(method), end = depth(method);
     if (place > 0) {
-        for (int k = place; k < DAL_CHAIN; k++)
-            method->chain[k] = k + 1 < end ? method->chain[k + 1] : NULL;
+        for (int k = place; k < DAL_LAYERS; k++)
+            method->layer[k] = k + 1 < end ? method->layer[k + 1] : NULL;
         return NULL;
     }
     if (spec->system->m == 0) return "there is no constraint";
-    if (end == DAL_CHAIN) return "the method has no room for one more modifier";
+    if (end == DAL_LAYERS) return "the method has no room for one more modifier";
     if (dal_method_parse(&projected, "rk4+project", NULL) != DAL_OK) return "there is no +project";
-    method->chain[end] = projected.chain[1];
+    method->layer[end] = projected.layer[1];
     return NULL;
 }
 

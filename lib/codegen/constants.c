@@ -5,8 +5,8 @@
  * find room in the registers where there are few of them. */
 static bool is_joined(const dal__generation *g)
 {
-    const unsigned properties = g->shape.method.chain[0]->properties;
-    const bool few = properties & DAL_EXTRAPOLATES_STAGES && g->shape.method.chain[0]->stages <= 2;
+    const unsigned properties = g->shape.method.layer[0]->properties;
+    const bool few = properties & DAL_EXTRAPOLATES_STAGES && g->shape.method.layer[0]->stages <= 2;
     const bool can = properties & DAL_COMPONENTWISE || few;
     return g->shape.depth == 1 && !g->shape.lifted && can;
 }
@@ -29,7 +29,7 @@ static void put_lanes(dal__generation *g)
 void dal__put_constants(dal__generation *g)
 {
     const dal__shape *k = &g->shape;
-    const int stages = g->spec->method.chain[0]->stages;
+    const int stages = g->spec->method.layer[0]->stages;
     const bool collocation = dal__method_uses(g, "dal_collocation");
     const bool solves = collocation || dal__method_uses(g, "dal_polarised_euler");
     const bool is_explicit = dal_method_properties(&g->spec->method) & DAL_EXPLICIT;

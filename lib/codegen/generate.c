@@ -101,7 +101,7 @@ bool dal__wants(const dal__generation *g, dal__program_code code)
 static dal_status check_method(dal__generation *g, dal_error *error)
 {
     for (int i = 0; i < g->shape.depth; i++) {
-        const dal_integrator *link = g->spec->method.chain[i];
+        const dal_integrator *link = g->spec->method.layer[i];
         g->source[i] = dal__integrator_wide(link, 4) ? source_of(link) : NULL;
         if (!g->source[i])
             return dal__fail(error, DAL_UNSUPPORTED,
@@ -203,7 +203,7 @@ static const char end[] = "\n#pragma GCC diagnostic pop\n"
 
 static void put_unrolling(dal__generation *g)
 {
-    const int stages = g->spec->method.chain[0]->stages;
+    const int stages = g->spec->method.layer[0]->stages;
     const bool coupled = dal__method_uses(g, "dal_collocation");
     const int width = g->shape.lifted ? 3 * g->shape.n : g->shape.nw;
     const bool small =
@@ -270,7 +270,7 @@ static void put_method(dal__generation *g)
                             "{\n    const double outer = s->h;\n    s->h = h;\n"
                             "    const dal_status status = dal__of_",
                             i);
-            put_identifier(g, g->spec->method.chain[i - 1]);
+            put_identifier(g, g->spec->method.layer[i - 1]);
             dal__text_print(text,
                             "(s);\n    s->h = outer;\n    return status;\n}\n"
                             "#undef dal_inner\n#define dal_inner dal__inner_%d\n",
@@ -281,7 +281,7 @@ static void put_method(dal__generation *g)
         dal__text_put(text, "#undef step\n\n");
     }
     dal__text_put(text, "#define dal__method dal__of_");
-    put_identifier(g, g->spec->method.chain[g->shape.depth - 1]);
+    put_identifier(g, g->spec->method.layer[g->shape.depth - 1]);
     dal__text_put(text, "\n\n");
 }
 

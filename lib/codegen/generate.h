@@ -28,8 +28,8 @@ typedef struct dal__generation {
     const dal_run *run; /* knows names and observables */
     dal__shape shape;
     const dal__programs *programs;
-    const dal__source *source[DAL_CHAIN]; /* of each link */
-    dal__input_name *input;               /* what the programs call their inputs */
+    const dal__source *source[DAL_LAYERS]; /* of each link */
+    dal__input_name *input;                /* what the programs call their inputs */
     int lanes;
     dal__product product;
     char prefix[DAL__PREFIX_SIZE];

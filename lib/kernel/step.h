@@ -155,7 +155,7 @@ struct dal_step {
     num *scratch; /* bump allocator, see dal_scratch */
     size_t used, room;
 
-    const dal_integrator *const *chain; /* innermost first */
+    const dal_integrator *const *layer; /* innermost first */
     int depth;                          /* which of the chain is at work */
 
     void (*eval)(dal_step *step, dal_callback_code code, double t, const num *q, const num *v,
@@ -346,7 +346,7 @@ DAL_INLINE dal_status dal_inner(dal_step *s, double h)
     const double outer = s->h;
     s->h = h;
     s->depth--;
-    const dal_status status = s->chain[s->depth]->step(s);
+    const dal_status status = s->layer[s->depth]->step(s);
     s->depth++;
     s->h = outer;
     DAL_RELEASE(s);

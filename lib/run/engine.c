@@ -26,9 +26,9 @@ bool dal__engine_can(const dal__shape *k, dal__variant variant)
     if (width > 1 && k->options.tolerance > 0.0) return false; /* each lane has its own substeps */
     if (!has_callbacks(k->system, width)) return false;
     if (width == DAL__BLOCK && (k->lifted || k->depth > 1)) return false;
-    if (width == DAL__BLOCK && !(k->method.chain[0]->properties & DAL_COMPONENTWISE)) return false;
+    if (width == DAL__BLOCK && !(k->method.layer[0]->properties & DAL_COMPONENTWISE)) return false;
     for (int i = 0; i < k->depth; i++)
-        if (!dal__integrator_wide(k->method.chain[i], variant)) return false;
+        if (!dal__integrator_wide(k->method.layer[i], variant)) return false;
     return dal__machine_has(dal__engine_kinds[variant].set);
 }
 

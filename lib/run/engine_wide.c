@@ -14,7 +14,7 @@
 typedef struct engine {
     dal_step step; /* first, so that step->owner is also the engine */
     dal__shape shape;
-    const dal_integrator *chain[DAL_CHAIN];
+    const dal_integrator *layer[DAL_LAYERS];
     dal_callback *call[DAL_EVAL_COUNT];
     num *carried, *backup, *work;
     dal__cause *cause;
@@ -36,7 +36,7 @@ static const dal_callbacks *callbacks(const dal_system *system)
 static size_t changing(const engine *e)
 {
     const bool alone = !e->shape.lifted && e->shape.depth == 1 && e->shape.options.tolerance == 0.0;
-    const bool plain = alone && (e->chain[0]->properties & DAL_COMPONENTWISE);
+    const bool plain = alone && (e->layer[0]->properties & DAL_COMPONENTWISE);
     return (plain ? dal__at(&e->shape, 0) : e->shape.carried) * DAL_GROUPS;
 }
 
@@ -129,7 +129,7 @@ static void prepare_step(engine *e)
     s->tolerance = k->options.tolerance;
     s->room = k->scratch * DAL_GROUPS;
     place_memory(e);
-    s->chain = e->chain;
+    s->layer = e->layer;
     s->eval = eval_callback;
     s->owner = e;
 }
@@ -143,7 +143,7 @@ void *DAL_WIDE(dal__engine_place)(const dal__shape *k, void *memory, double **ca
     memset(memory, 0, DAL_WIDE(dal__engine_bytes)(k) - room(k->scratch));
     e->shape = *k;
     for (int i = 0; i < k->depth; i++)
-        e->chain[i] = dal__integrator_wide(k->method.chain[i], DAL_WIDE(DAL__VARIANT));
+        e->layer[i] = dal__integrator_wide(k->method.layer[i], DAL_WIDE(DAL__VARIANT));
     const dal_callbacks *c = callbacks(k->system);
     /* In the order of dal_callback_code. */
     dal_callback *const calls[] = {c->field,      c->adjoint,       c->jacobian,
@@ -385,7 +385,7 @@ dal__lanes DAL_WIDE(dal__engine_step)(void *engine_, double h, dal__lanes alive,
     engine *e = engine_;
     lane_mask moved = mask_of(alive);
     begin_step(e, h, alive, &moved);
-    const dal_status status = e->chain[e->step.depth]->step(&e->step);
+    const dal_status status = e->layer[e->step.depth]->step(&e->step);
     note_progress(e);
     const dal__lanes failed = judge(e, &moved, alive, status, why);
     advance_clock(e, h, &moved);

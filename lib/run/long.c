@@ -25,10 +25,10 @@ dal_status dal__long_check(const dal__shape *k, dal_error *error)
                          "long numbers: %.80s has no form in them, not being made from a model",
                          k->system->name ? k->system->name : "this system");
     for (int i = 0; i < k->depth; i++)
-        if (!dal__integrator_wide(k->method.chain[i], DAL__VARIANT_x1_LONGER))
+        if (!dal__integrator_wide(k->method.layer[i], DAL__VARIANT_x1_LONGER))
             return dal__fail(error, DAL_UNSUPPORTED,
                              "long numbers: '%.80s' has no form in them, not being the library's",
-                             k->method.chain[i]->name ? k->method.chain[i]->name : "?");
+                             k->method.layer[i]->name ? k->method.layer[i]->name : "?");
     return DAL_OK;
 }
 

@@ -80,17 +80,17 @@ dal_status dal_method_parse(dal_method *method, const char *name, dal_error *err
     const char *rest = name;
     *method = (dal_method){{NULL}};
     for (int i = 0;; i++) {
-        if (i == DAL_CHAIN)
+        if (i == DAL_LAYERS)
             return dal__fail(error, DAL_ARGUMENT, "integrator '%.60s': at most %d modifiers", name,
-                             DAL_CHAIN - 1);
+                             DAL_LAYERS - 1);
         if (!next_part(&rest, part))
             return dal__fail(error, DAL_NAME, "integrator name '%.60s...' is too long", name);
-        method->chain[i] = find(part, i > 0);
-        if (!method->chain[i]) return unknown(part, i > 0, error);
+        method->layer[i] = find(part, i > 0);
+        if (!method->layer[i]) return unknown(part, i > 0, error);
         for (int k = 1; k < i; k++)
-            if (method->chain[k] == method->chain[i])
+            if (method->layer[k] == method->layer[i])
                 return dal__fail(error, DAL_ARGUMENT, "integrator '%.60s': +%s comes twice", name,
-                                 method->chain[i]->name);
+                                 method->layer[i]->name);
         if (*rest == '\0') return DAL_OK;
         rest++;
     }
@@ -101,8 +101,8 @@ char *dal_method_name(const dal_method *method, char *buffer, size_t size)
     size_t used = 0;
     if (!method || !buffer) return NULL;
     if (size > 0) buffer[0] = '\0';
-    for (int i = 0; i < DAL_CHAIN && method->chain[i]; i++) {
-        const char *parts[] = {i ? "+" : "", method->chain[i]->name ? method->chain[i]->name : "?"};
+    for (int i = 0; i < DAL_LAYERS && method->layer[i]; i++) {
+        const char *parts[] = {i ? "+" : "", method->layer[i]->name ? method->layer[i]->name : "?"};
         for (int j = 0; j < 2; j++) {
             const size_t length = strlen(parts[j]);
             if (used + length + 1 > size) return buffer;
@@ -116,24 +116,24 @@ char *dal_method_name(const dal_method *method, char *buffer, size_t size)
 int dal_method_order(const dal_method *method)
 {
     int order = 0;
-    for (int i = 0; method && i < DAL_CHAIN && method->chain[i]; i++)
-        if (method->chain[i]->order > 0) order = method->chain[i]->order;
+    for (int i = 0; method && i < DAL_LAYERS && method->layer[i]; i++)
+        if (method->layer[i]->order > 0) order = method->layer[i]->order;
     return order;
 }
 
 unsigned dal_method_needs(const dal_method *method)
 {
     unsigned needs = 0;
-    for (int i = 0; method && i < DAL_CHAIN && method->chain[i]; i++)
-        needs |= method->chain[i]->needs;
+    for (int i = 0; method && i < DAL_LAYERS && method->layer[i]; i++)
+        needs |= method->layer[i]->needs;
     return needs;
 }
 
 unsigned dal_method_properties(const dal_method *method)
 {
     unsigned properties = 0;
-    for (int i = 0; method && i < DAL_CHAIN && method->chain[i]; i++) {
-        const dal_integrator *k = method->chain[i];
+    for (int i = 0; method && i < DAL_LAYERS && method->layer[i]; i++) {
+        const dal_integrator *k = method->layer[i];
         properties = (properties & (k->inherits | DAL_PERSISTENT_MULTIPLIER)) |
                      (k->properties & ~(unsigned)DAL_MODIFIER);
     }

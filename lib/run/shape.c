@@ -141,10 +141,10 @@ static bool is_runge_kutta(unsigned properties)
 /* A modifier must suit the method inside it, parts 0..depth-1 of the chain. */
 static dal_status check_inside(const dal_method *method, int depth, dal_error *error)
 {
-    const dal_integrator *outer = method->chain[depth];
+    const dal_integrator *outer = method->layer[depth];
     dal_method inside = *method;
     char name[128];
-    for (int i = depth; i < DAL_CHAIN; i++) inside.chain[i] = NULL;
+    for (int i = depth; i < DAL_LAYERS; i++) inside.layer[i] = NULL;
     dal_method_name(&inside, name, sizeof name);
     const int order = dal_method_order(&inside);
     if ((outer->needs & DAL_NEEDS_SYMMETRIC) && !(dal_method_properties(&inside) & DAL_SYMMETRIC))
@@ -167,11 +167,11 @@ static dal_status check_inside(const dal_method *method, int depth, dal_error *e
     return DAL_OK;
 }
 
-static dal_status check_chain(dal__shape *k, dal_error *error)
+static dal_status check_layers(dal__shape *k, dal_error *error)
 {
     const dal_method *method = &k->method;
-    while (k->depth < DAL_CHAIN && method->chain[k->depth]) {
-        const dal_integrator *link = method->chain[k->depth];
+    while (k->depth < DAL_LAYERS && method->layer[k->depth]) {
+        const dal_integrator *link = method->layer[k->depth];
         const int modifier = (link->properties & DAL_MODIFIER) != 0;
         if (!link->step || link->stages < 0 || modifier != (k->depth > 0))
             return dal__fail(error, DAL_ARGUMENT, "'%s' is not usable as part %d of a method",
@@ -240,7 +240,7 @@ static dal_status measure(dal__shape *k, dal_error *error)
     k->workspace = k->system->workspace ? k->system->workspace : (size_t)k->system->parameters;
     if (k->workspace > MOST_NUMBERS)
         return dal__fail(error, DAL_TOO_LARGE, "a workspace of %zu numbers", k->workspace);
-    const bool remembers = k->method.chain[0]->properties & DAL_EXTRAPOLATES_STAGES;
+    const bool remembers = k->method.layer[0]->properties & DAL_EXTRAPOLATES_STAGES;
     k->slopes = remembers ? (1 + DAL__DIFFERENCES) * k->stages * (k->nw + k->n) : 0;
     k->reaction = dal_method_properties(&k->method) & DAL_PERSISTENT_MULTIPLIER ? k->m : 0;
     k->carried = dal__at(k, DAL__MEMORY);
@@ -264,7 +264,7 @@ dal_status dal__shape_init(dal__shape *k, const dal_run_spec *spec, dal_error *e
     if (k->n > 100000 || k->m > k->n)
         return dal__fail(error, DAL_TOO_LARGE, "%d coordinates, %d constraints", k->n, k->m);
     k->dim = k->lifted ? 4 * k->n + 2 : k->n + k->nw;
-    DAL_TRY(check_chain(k, error));
+    DAL_TRY(check_layers(k, error));
     DAL_TRY(check_control(k, error));
     DAL_TRY(check_needs(k, error));
     if (k->options.precision == DAL_QUAD) DAL_TRY(dal__long_check(k, error));
