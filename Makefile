@@ -52,7 +52,7 @@ SONAME  := libdalembert.so.$(basename $(VERSION))
 # number of lanes and an instruction set, chosen when a batch is made.  Of two with the same lanes
 # the better one comes later.  x1 is what others may call by name.  Blocks, x64, are made of groups of
 # lanes, a register each; their integrators are those of the group.  x1_LONGER has longer numbers
-# (lib/kernel/long.h), which no machine has for an instruction set: it is never chosen for speed.
+# (lib/kernel/quad.h), which no machine has for an instruction set: it is never chosen for speed.
 VARIANTS        = x1 x1_LONGER $(or $(VARIANTS_$(MACHINE)),x4)
 VARIANTS_x86_64 = x4_AVX2 x8_AVX512
 FLAGS_AVX2      = -mavx2 -mfma

@@ -5,7 +5,7 @@
  * bits of a single run.  Comparisons give a dal_mask (all bits set or none, per lane) that
  * dal_select consumes; nothing branches on the value of one lane.  num and double mix freely in
  * + - * / : a double is every lane's value.  With DAL_LONG there is one lane of a longer number
- * (long.h). */
+ * (quad.h). */
 #ifndef DAL_KERNEL_NUM_H
 #define DAL_KERNEL_NUM_H
 
@@ -14,7 +14,7 @@
 #include <string.h>
 
 #ifdef DAL_LONG
-#include "long.h"
+#include "quad.h"
 #endif
 
 #ifndef DAL_LANES

@@ -5,7 +5,7 @@
 #include "model/programs.h"
 #include "expr/derivative.h"
 #include "expr/simplify.h"
-#include "kernel/long.h"
+#include "kernel/quad.h"
 #include "model/callbacks.h"
 #include "model/model.h"
 

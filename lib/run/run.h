@@ -21,7 +21,7 @@ typedef struct dal__native {
     void (*release)(void *handle);
 } dal__native;
 
-/* The engine of a run in long numbers, and what belongs to it; see long.c. */
+/* The engine of a run in long numbers, and what belongs to it; see quad.c. */
 typedef struct dal__long_run {
     dal__shape shape; /* of the system in long numbers */
     void *engine;     /* NULL: the run is in doubles */
@@ -88,7 +88,7 @@ dal_status dal__run_steps(dal_run *run, double h, long long count);
 void dal__run_keep(dal_run *run);
 void dal__run_put_back(dal_run *run);
 
-/* ---- long.c: a run in long numbers ---- */
+/* ---- quad.c: a run in long numbers ---- */
 
 /* Bytes for its engine, aligned to 64; doubles that one of its numbers takes. */
 size_t dal__long_bytes(const dal__shape *shape, size_t answers);

@@ -1,4 +1,4 @@
-/* long.c - a run in long numbers: an engine of the variant x1_LONGER behind a run in doubles.
+/* quad.c - a run in long numbers: an engine of the variant x1_LONGER behind a run in doubles.
  *
  * The run in doubles makes the start, explains failures and shows the state; after every step it
  * gets time, state and all it carries from the long engine, rounded.  Observables are computed in

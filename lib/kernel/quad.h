@@ -1,4 +1,4 @@
-/* long.h - numbers longer than double, for runs that show what the rounding of doubles does.
+/* quad.h - numbers longer than double, for runs that show what the rounding of doubles does.
  *
  * A source over num compiled with DAL_LONG computes in the longest numbers that the compiler has
  * and whose elementary functions are right to their last places: long double where it is longer
@@ -9,8 +9,8 @@
  * What is a double in a source stays one: coefficients, sizes and times of steps, constants of
  * formulas, parameters.  A run in long numbers is so the same method on the same system, less the
  * rounding of its arithmetic. */
-#ifndef DAL_KERNEL_LONG_H
-#define DAL_KERNEL_LONG_H
+#ifndef DAL_KERNEL_QUAD_H
+#define DAL_KERNEL_QUAD_H
 
 #include <float.h>
 #include <math.h>
