@@ -51,14 +51,14 @@ SONAME  := libdalembert.so.$(basename $(VERSION))
 # Sources over num - files named *_wide.c, and every integrator - are compiled once per variant: a
 # number of lanes and an instruction set, chosen when a batch is made.  Of two with the same lanes
 # the better one comes later.  x1 is what others may call by name.  Blocks, x64, are made of groups of
-# lanes, a register each; their integrators are those of the group.  x1_LONGER has longer numbers
+# lanes, a register each; their integrators are those of the group.  x1_QUAD has longer numbers
 # (lib/kernel/quad.h), which no machine has for an instruction set: it is never chosen for speed.
-VARIANTS        = x1 x1_LONGER $(or $(VARIANTS_$(MACHINE)),x4)
+VARIANTS        = x1 x1_QUAD $(or $(VARIANTS_$(MACHINE)),x4)
 VARIANTS_x86_64 = x4_AVX2 x8_AVX512
 FLAGS_AVX2      = -mavx2 -mfma
 FLAGS_AVX512    = -mavx512f -mavx512dq -mavx512vl -mfma -mprefer-vector-width=512
-FLAGS_LONGER      = -DDAL_LONG
-INSTRUCTIONS    = LONGER AVX2 AVX512
+FLAGS_QUAD        = -DDAL_NUM_QUAD
+INSTRUCTIONS    = QUAD AVX2 AVX512
 GROUP_BASE      = x2
 GROUP_AVX2      = x4
 GROUP_AVX512    = x8

@@ -19,7 +19,7 @@ typedef struct growth {
 } growth;
 
 /* Below this |x| the series of g to x^2 is exact to rounding: what is left out is x^4/120. */
-#define SHORT (DAL_FINER < 1.0 ? 1e-8 : 1e-4)
+#define SHORT (DAL_ULP_RATIO < 1.0 ? 1e-8 : 1e-4)
 
 /* For xx = x^2. */
 DAL_INLINE growth grow(num xx)

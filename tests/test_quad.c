@@ -1,5 +1,5 @@
 /* test_quad.c - quad precision: its functions against MPFR, and runs in it. */
-#define DAL_LONG
+#define DAL_NUM_QUAD
 #include "dalembert_codegen.h"
 #include "fixtures.h"
 #include "kernel/elementary.h"
@@ -31,7 +31,7 @@ static double error_of(num y, mpfr_t right)
     set_long(seen, y);
     mpfr_sub(seen, seen, right, MPFR_RNDN);
     if (!mpfr_zero_p(right))
-        mpfr_mul_2si(seen, seen, DAL_LONG_DIGITS - mpfr_get_exp(right), MPFR_RNDN);
+        mpfr_mul_2si(seen, seen, DAL_QUAD_DIGITS - mpfr_get_exp(right), MPFR_RNDN);
     const double error = fabs(mpfr_get_d(seen, MPFR_RNDN));
     mpfr_clear(seen);
     return error;

@@ -48,7 +48,7 @@ dal_status dal__tapes_finish(dal__tapes *tapes);
 /* After the parameters in work have been set: one lane (a batch copies the result to all), and one
  * of long numbers. */
 void dal__tapes_prepare_x1(const dal__tapes *tapes, double *work);
-void dal__tapes_prepare_x1_LONGER(const dal__tapes *tapes, double *work);
+void dal__tapes_prepare_x1_QUAD(const dal__tapes *tapes, double *work);
 /* Runs a program on the inputs in work and writes its outputs; work and out are interleaved by
  * lanes and aligned to them. */
 #define DAL__TAPE_RUN(name, variant, lanes, set, group)                                            \

@@ -49,7 +49,7 @@ void DAL_WIDE(dal__tape_run)(const dal__tapes *tapes, int program, double *work,
     }
 }
 
-#if defined DAL_LONG || !defined DAL_VARIANT /* x1 */
+#if defined DAL_NUM_QUAD || !defined DAL_VARIANT /* x1 */
 void DAL_WIDE(dal__tapes_prepare)(const dal__tapes *tapes, double *work)
 {
     num *numbers = (num *)work + tapes->parameters;

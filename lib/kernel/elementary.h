@@ -27,7 +27,7 @@
 
 #include "num.h"
 
-#ifndef DAL_LONG
+#ifndef DAL_NUM_QUAD
 
 #if DAL_LANES == 1
 typedef uint64_t dal__unsigned;
@@ -139,8 +139,8 @@ DAL_INLINE void dal_sincos(num x, num *s, num *c)
 
 DAL_INLINE void dal_sincos(num x, num *s, num *c)
 {
-    *s = DAL_IN_LONG(sin)(x);
-    *c = DAL_IN_LONG(cos)(x);
+    *s = DAL_QUAD_FUNCTION(sin)(x);
+    *c = DAL_QUAD_FUNCTION(cos)(x);
 }
 
 #endif
@@ -171,15 +171,15 @@ DAL_INLINE num dal_sign(num x)
     X(tan) X(asin) X(acos) X(atan) X(sinh) X(cosh) X(tanh) X(asinh) X(exp) X(log)
 #define DAL__LIBM_BINARY(X) X(atan2) X(pow)
 
-#ifdef DAL_LONG
+#ifdef DAL_NUM_QUAD
 #define X(f)                                                                                       \
-    DAL_DECLARE_LONG(f)                                                                            \
-    DAL_INLINE num dal_##f(num x) { return DAL_IN_LONG(f)(x); }
+    DAL_DECLARE_QUAD(f)                                                                            \
+    DAL_INLINE num dal_##f(num x) { return DAL_QUAD_FUNCTION(f)(x); }
 DAL__LIBM_UNARY(X)
 #undef X
 #define X(f)                                                                                       \
-    DAL_DECLARE_LONG2(f)                                                                           \
-    DAL_INLINE num dal_##f(num a, num b) { return DAL_IN_LONG(f)(a, b); }
+    DAL_DECLARE_QUAD2(f)                                                                           \
+    DAL_INLINE num dal_##f(num a, num b) { return DAL_QUAD_FUNCTION(f)(a, b); }
 DAL__LIBM_BINARY(X)
 #undef X
 #else

@@ -4,7 +4,7 @@
  * instruction set; every operation acts lane by lane and is IEEE double in each, so a lane has the
  * bits of a single run.  Comparisons give a dal_mask (all bits set or none, per lane) that
  * dal_select consumes; nothing branches on the value of one lane.  num and double mix freely in
- * + - * / : a double is every lane's value.  With DAL_LONG there is one lane of a longer number
+ * + - * / : a double is every lane's value.  With DAL_NUM_QUAD there is one lane of a longer number
  * (quad.h). */
 #ifndef DAL_KERNEL_NUM_H
 #define DAL_KERNEL_NUM_H
@@ -13,7 +13,7 @@
 #include <stdint.h>
 #include <string.h>
 
-#ifdef DAL_LONG
+#ifdef DAL_NUM_QUAD
 #include "quad.h"
 #endif
 
@@ -49,12 +49,12 @@
 
 #if DAL_LANES == 1
 
-#ifdef DAL_LONG
-typedef dal_long num;
-#define DAL_FINER DAL_LONG_FINER /* a unit in the last place, to that of a double */
+#ifdef DAL_NUM_QUAD
+typedef dal_quad num;
+#define DAL_ULP_RATIO DAL_QUAD_ULP_RATIO /* a unit in the last place, to that of a double */
 #else
 typedef double num;
-#define DAL_FINER 1.0
+#define DAL_ULP_RATIO 1.0
 #endif
 typedef double dal_stored;
 typedef int64_t dal_mask;
@@ -71,7 +71,7 @@ DAL_INLINE int dal_mask_lane(dal_mask m, int lane) { return (void)lane, m != 0; 
 
 #else
 
-#define DAL_FINER 1.0
+#define DAL_ULP_RATIO 1.0
 typedef double num __attribute__((vector_size(8 * DAL_LANES), may_alias));
 /* A num in memory of doubles that need not be aligned to its lanes. */
 typedef double dal_stored __attribute__((vector_size(8 * DAL_LANES), may_alias, aligned(8)));
@@ -147,9 +147,9 @@ DAL_INLINE dal_mask dal_finite(num x) { return dal_equal(x - x, dal_num(0.0)); }
 
 /* a b + c, rounded once.  Where the processor has no instruction for it the C library computes it:
  * the same bits, slowly. */
-#ifdef DAL_LONG
-DAL_INLINE num dal_abs(num x) { return DAL_IN_LONG(fabs)(x); }
-DAL_INLINE num dal_sqrt(num x) { return DAL_IN_LONG(sqrt)(x); }
+#ifdef DAL_NUM_QUAD
+DAL_INLINE num dal_abs(num x) { return DAL_QUAD_FUNCTION(fabs)(x); }
+DAL_INLINE num dal_sqrt(num x) { return DAL_QUAD_FUNCTION(sqrt)(x); }
 DAL_INLINE num dal_fma(num a, num b, num c) { return a * b + c; } /* the rounding is no matter */
 #elif DAL_LANES == 1
 DAL_INLINE num dal_abs(num x) { return fabs(x); }
@@ -202,11 +202,11 @@ DAL_INLINE num dal_sqrt(num x)
 #define DAL_RESTRICT __restrict
 
 /* Reductions over many numbers go by packs, which a compiler may not make by itself: the largest,
- * and whether all are finite, since the order does not matter there; sums from DAL__LONG numbers
+ * and whether all are finite, since the order does not matter there; sums from DAL__MIN_PACKED numbers
  * on, in one order that all builds keep.  The functions over packs return how many numbers they saw
  * to. */
-enum { DAL__PACK = 8, DAL__LONG = 16 };
-#if DAL_LANES == 1 && !defined DAL_SPECIALISED && !defined DAL_LONG
+enum { DAL__PACK = 8, DAL__MIN_PACKED = 16 };
+#if DAL_LANES == 1 && !defined DAL_SPECIALISED && !defined DAL_NUM_QUAD
 typedef double dal__pack __attribute__((vector_size(64), aligned(8), may_alias));
 typedef int64_t dal__pack_mask __attribute__((vector_size(64)));
 
@@ -281,7 +281,7 @@ DAL_INLINE num dal_square(const num *u, int count)
 {
     num part[DAL__PACK], sum = dal_num(0.0);
     DAL_EACH(j, DAL__PACK) part[j] = dal_num(0.0);
-    const int seen = count < DAL__LONG ? 0 : dal__square_packs(u, count, part);
+    const int seen = count < DAL__MIN_PACKED ? 0 : dal__square_packs(u, count, part);
     DAL_EACH(i, count - seen) sum += u[seen + i] * u[seen + i];
     if (seen == 0) return sum;
     return (((part[0] + part[4]) + (part[2] + part[6])) +

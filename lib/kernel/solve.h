@@ -23,16 +23,16 @@
 /* Newton pays from this rate on: a fixed point needs 36/log2(1/rate) sweeps. */
 #define DAL__SLOW 0.3
 /* Increments against the size of the state: rounding, stagnation, and where no rate is measured. */
-#define DAL__ROUNDING (1.4e-14 * DAL_FINER)
-#define DAL__SMALL    (1e-12 * DAL_FINER)
-#define DAL__NOISE    (1e-12 * DAL_FINER)
+#define DAL__ROUNDING (1.4e-14 * DAL_ULP_RATIO)
+#define DAL__SMALL    (1e-12 * DAL_ULP_RATIO)
+#define DAL__NOISE    (1e-12 * DAL_ULP_RATIO)
 /* After so many sweeps: far below rounding, after twice as many below it; and roundings, where so
  * many more bring none less. */
 #define DAL__PATIENT 8
-#define DAL__NOTHING (1e-17 * DAL_FINER)
-#define DAL__LITTLE  (1e-16 * DAL_FINER)
+#define DAL__NOTHING (1e-17 * DAL_ULP_RATIO)
+#define DAL__LITTLE  (1e-16 * DAL_ULP_RATIO)
 #define DAL__CYCLE   6
-#define DAL__CYCLING (1e-10 * DAL_FINER)
+#define DAL__CYCLING (1e-10 * DAL_ULP_RATIO)
 
 /* One block of unknowns, [size]. */
 typedef struct dal_block {
@@ -112,7 +112,7 @@ DAL_INLINE num dal_momentum_scale(const dal_step *s, double h, int group)
            fabs(h) * dal__group_norm(s->y + dal_at_p(s), DAL_N(s), group);
 }
 
-#if DAL_LANES == 1 && !defined DAL_SPECIALISED && !defined DAL_LONG
+#if DAL_LANES == 1 && !defined DAL_SPECIALISED && !defined DAL_NUM_QUAD
 /* image -= u, u += image; norm and poison of what is then in image. */
 DAL_INLINE int dal__advance_packs(num *u, num *image, int count, num *norm, num *poison)
 {

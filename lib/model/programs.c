@@ -118,28 +118,28 @@ static dal_status prepare(const dal_system *system, const dal_point *at, double 
     return DAL_OK;
 }
 
-static dal_status prepare_in_long(const dal_system *system, const dal_point *at, double *out)
+static dal_status prepare_quad(const dal_system *system, const dal_point *at, double *out)
 {
     const dal__programs *programs = system->data;
     (void)out;
-    dal__tapes_prepare_x1_LONGER(programs->tapes, at->work);
+    dal__tapes_prepare_x1_QUAD(programs->tapes, at->work);
     return DAL_OK;
 }
 
 /* The same programs over long numbers, as a system of its own. */
-static dal_status make_in_long(dal_model *model, const dal__programs *programs, dal_system *system)
+static dal_status make_quad(dal_model *model, const dal__programs *programs, dal_system *system)
 {
-    if (DAL_LONG_DIGITS <= DBL_MANT_DIG) return DAL_OK;
-    dal__in_long *k = dal__model_allocate(model, 1, sizeof *k);
+    if (DAL_QUAD_DIGITS <= DBL_MANT_DIG) return DAL_OK;
+    dal__quad_system *k = dal__model_allocate(model, 1, sizeof *k);
     if (!k) return DAL_MEMORY;
     k->programs = *programs;
-    k->programs.run = dal__callbacks_x1_LONGER(&k->programs, &k->programs.wide1);
+    k->programs.run = dal__callbacks_x1_QUAD(&k->programs, &k->programs.wide1);
     k->system = *system;
     k->system.data = &k->programs;
-    k->system.prepare = prepare_in_long;
+    k->system.prepare = prepare_quad;
     k->system.call = k->programs.wide1;
     k->system.wide4 = k->system.wide8 = k->system.wide64 = NULL;
-    system->in_long = &k->system;
+    system->quad = &k->system;
     return DAL_OK;
 }
 
@@ -181,5 +181,5 @@ dal_status dal__programs_finish(dal_model *model, dal__programs *programs, dal_s
     system->wide4 = if_filled(&programs->wide4);
     system->wide8 = if_filled(&programs->wide8);
     system->wide64 = if_filled(&programs->wide64);
-    return make_in_long(model, programs, system);
+    return make_quad(model, programs, system);
 }

@@ -58,10 +58,10 @@ typedef struct dal__programs {
 } dal__programs;
 
 /* A system again, its numbers being long. */
-typedef struct dal__in_long {
+typedef struct dal__quad_system {
     dal__programs programs; /* the same; not their owner */
     dal_system system;
-} dal__in_long;
+} dal__quad_system;
 
 /* A pivot must exceed this fraction of what it was subtracted from: some hundred times the rounding
  * of the subtraction, so that three digits of it are true. */

@@ -93,7 +93,7 @@ dal_status dal_run_observe(dal_run *run, double *out)
     const dal_system *system = run->shape.system;
     const dal_point at = dal__here(run);
     double *next = out;
-    if (run->long_run.engine) return dal__long_observe(run, out);
+    if (run->quad.engine) return dal__quad_observe(run, out);
     for (int group = 0; group < GROUPS; next += group_size(run, group++)) {
         if (group_size(run, group) == 0) continue;
         if (group == GROUP_D) DAL_TRY(system->constraints(system, &at, next));

@@ -1,31 +1,31 @@
-/* quad.c - a run in long numbers: an engine of the variant x1_LONGER behind a run in doubles.
+/* quad.c - a run in long numbers: an engine of the variant x1_QUAD behind a run in doubles.
  *
  * The run in doubles makes the start, explains failures and shows the state; after every step it
  * gets time, state and all it carries from the long engine, rounded.  Observables are computed in
  * long numbers and then rounded, so that a D of 1e-30 is seen as that.  dal__shape_init sees to it
  * that there is a system, and a method, in long numbers. */
-#define DAL_LONG
+#define DAL_NUM_QUAD
 #include "run/run.h"
 #include <dalembert_kernel.h>
 
 enum { MORE_ITERATIONS = 3 }; /* a fixed point needs more sweeps for more digits */
 
-static const dal__engine_kind *kind(void) { return &dal__engine_kinds[DAL__VARIANT_x1_LONGER]; }
+static const dal__engine_kind *kind(void) { return &dal__engine_kinds[DAL__VARIANT_x1_QUAD]; }
 static size_t round_up(size_t bytes) { return (bytes + 63) / 64 * 64; }
 
-size_t dal__long_width(void) { return sizeof(num) / sizeof(double); }
+size_t dal__quad_width(void) { return sizeof(num) / sizeof(double); }
 
-dal_status dal__long_check(const dal__shape *k, dal_error *error)
+dal_status dal__quad_check(const dal__shape *k, dal_error *error)
 {
-    if (DAL_LONG_DIGITS <= DBL_MANT_DIG)
+    if (DAL_QUAD_DIGITS <= DBL_MANT_DIG)
         return dal__fail(error, DAL_UNSUPPORTED,
                          "long numbers: there are none longer than double here");
-    if (!k->system->in_long)
+    if (!k->system->quad)
         return dal__fail(error, DAL_UNSUPPORTED,
                          "long numbers: %.80s has no form in them, not being made from a model",
                          k->system->name ? k->system->name : "this system");
     for (int i = 0; i < k->depth; i++)
-        if (!dal__integrator_wide(k->method.layer[i], DAL__VARIANT_x1_LONGER))
+        if (!dal__integrator_wide(k->method.layer[i], DAL__VARIANT_x1_QUAD))
             return dal__fail(error, DAL_UNSUPPORTED,
                              "long numbers: '%.80s' has no form in them, not being the library's",
                              k->method.layer[i]->name ? k->method.layer[i]->name : "?");
@@ -36,21 +36,21 @@ dal_status dal__long_check(const dal__shape *k, dal_error *error)
 
 static dal__shape shape_of(const dal__shape *k)
 {
-    dal__shape in_long = *k;
-    in_long.system = k->system->in_long;
-    in_long.options.iterations *= MORE_ITERATIONS;
-    return in_long;
+    dal__shape quad = *k;
+    quad.system = k->system->quad;
+    quad.options.iterations *= MORE_ITERATIONS;
+    return quad;
 }
 
-size_t dal__long_bytes(const dal__shape *k, size_t answers)
+size_t dal__quad_bytes(const dal__shape *k, size_t answers)
 {
-    const dal__shape in_long = shape_of(k);
-    return round_up(kind()->bytes(&in_long)) + round_up(answers * sizeof(num));
+    const dal__shape quad = shape_of(k);
+    return round_up(kind()->bytes(&quad)) + round_up(answers * sizeof(num));
 }
 
-void dal__long_place(dal_run *run, char *memory, size_t answers)
+void dal__quad_place(dal_run *run, char *memory, size_t answers)
 {
-    dal__long_run *k = &run->long_run;
+    dal__quad_run *k = &run->quad;
     k->shape = shape_of(&run->shape);
     k->scratch = (double *)(void *)memory;
     memory += round_up(answers * sizeof(num));
@@ -72,44 +72,38 @@ static void shorten(double *to, const double *from, size_t count)
     for (size_t i = 0; i < count; i++) to[i] = (double)x[i];
 }
 
-double dal__long_rounded(const double *memory, size_t i)
+double dal__quad_rounded(const double *memory, size_t i)
 {
     num x;
-    memcpy(&x, memory + i * dal__long_width(), sizeof x);
+    memcpy(&x, memory + i * dal__quad_width(), sizeof x);
     return (double)x;
 }
 
-void dal__long_push(dal_run *run)
-{
-    lengthen(run->long_run.carried, run->carried, run->shape.carried);
-}
+void dal__quad_push(dal_run *run) { lengthen(run->quad.carried, run->carried, run->shape.carried); }
 
-void dal__long_pull(dal_run *run)
-{
-    shorten(run->carried, run->long_run.carried, run->shape.carried);
-}
+void dal__quad_pull(dal_run *run) { shorten(run->carried, run->quad.carried, run->shape.carried); }
 
 static dal_point here(const dal_run *run)
 {
-    const dal__long_run *k = &run->long_run;
-    const size_t at_v = (size_t)run->shape.n * dal__long_width();
+    const dal__quad_run *k = &run->quad;
+    const size_t at_v = (size_t)run->shape.n * dal__quad_width();
     return (dal_point){dal_run_time(run), k->carried, k->carried + at_v, NULL, k->work};
 }
 
-dal_status dal__long_begin(dal_run *run)
+dal_status dal__quad_begin(dal_run *run)
 {
-    const dal__long_run *k = &run->long_run;
+    const dal__quad_run *k = &run->quad;
     const dal_system *system = k->shape.system;
     lengthen(k->work, run->work, (size_t)system->parameters);
-    dal__long_push(run);
+    dal__quad_push(run);
     const dal_point at = here(run);
     return system->prepare ? system->prepare(system, &at, NULL) : DAL_OK;
 }
 
-dal_status dal__long_step(dal_run *run, double h)
+dal_status dal__quad_step(dal_run *run, double h)
 {
     dal_status why = DAL_OK;
-    return kind()->step(run->long_run.engine, h, 1u, &why) ? why : DAL_OK;
+    return kind()->step(run->quad.engine, h, 1u, &why) ? why : DAL_OK;
 }
 
 /* ---- observables, in the order of observe.c ---- */
@@ -117,7 +111,7 @@ dal_status dal__long_step(dal_run *run, double h)
 /* Puts count values of a callback behind *out; nothing where there is none. */
 static dal_status put(const dal_run *run, dal_callback *callback, int count, double **out)
 {
-    const dal__long_run *k = &run->long_run;
+    const dal__quad_run *k = &run->quad;
     const dal_point at = here(run);
     if (!callback) return DAL_OK;
     DAL_TRY(callback(k->shape.system, &at, k->scratch));
@@ -130,7 +124,7 @@ static dal_status put(const dal_run *run, dal_callback *callback, int count, dou
 static dal_status put_lifted(const dal_run *run, double **out)
 {
     const int n = run->shape.n;
-    const dal__long_run *k = &run->long_run;
+    const dal__quad_run *k = &run->quad;
     const num *y = (const num *)(const void *)k->carried, *v = y + n, *p = y + 2 * n + 1;
     const num *pi = y + 3 * n + 1, *f = (const num *)(const void *)k->scratch;
     const dal_callbacks *call = &k->shape.system->call;
@@ -152,7 +146,7 @@ static dal_status put_lifted(const dal_run *run, double **out)
 
 static dal_status put_error(const dal_run *run, double **out)
 {
-    const dal__long_run *k = &run->long_run;
+    const dal__quad_run *k = &run->quad;
     const dal_point at = here(run);
     const num *y = (const num *)(const void *)k->carried;
     num *exact = (num *)(void *)k->scratch;
@@ -162,9 +156,9 @@ static dal_status put_error(const dal_run *run, double **out)
     return DAL_OK;
 }
 
-dal_status dal__long_observe(dal_run *run, double *out)
+dal_status dal__quad_observe(dal_run *run, double *out)
 {
-    const dal_system *system = run->long_run.shape.system;
+    const dal_system *system = run->quad.shape.system;
     double *next = out;
     DAL_TRY(put(run, system->constraints, system->m, &next));
     DAL_TRY(put(run, system->energy, 1, &next));

@@ -22,7 +22,7 @@ static size_t look_count(const dal__shape *k)
 /* Doubles in what a run carries. */
 static size_t remembered(const dal__shape *k)
 {
-    return k->options.precision == DAL_DOUBLE ? k->carried : k->carried * dal__long_width();
+    return k->options.precision == DAL_DOUBLE ? k->carried : k->carried * dal__quad_width();
 }
 
 /* Doubles beside those of the engines. */
@@ -31,15 +31,15 @@ static size_t own_numbers(const dal__shape *k)
     return remembered(k) + scratch_count(k) + (size_t)(k->n + k->nw) + look_count(k);
 }
 
-static size_t long_bytes(const dal__shape *k)
+static size_t quad_bytes(const dal__shape *k)
 {
-    return k->options.precision == DAL_DOUBLE ? 0 : dal__long_bytes(k, scratch_count(k));
+    return k->options.precision == DAL_DOUBLE ? 0 : dal__quad_bytes(k, scratch_count(k));
 }
 
 static size_t total_bytes(const dal__shape *k)
 {
     return 64 + round_up(sizeof(dal_run)) + round_up(own_numbers(k) * sizeof(double)) +
-           round_up(dal__engine_best(k, 1)->bytes(k)) + long_bytes(k);
+           round_up(dal__engine_best(k, 1)->bytes(k)) + quad_bytes(k);
 }
 
 size_t dal_run_size(const dal_run_spec *spec)
@@ -66,7 +66,7 @@ static dal_run *place(const dal__shape *shape, void *memory)
     run->memory = run->carried;
     run->remembered = remembered(shape);
     at += round_up(run->kind->bytes(shape));
-    if (long_bytes(shape) > 0) dal__long_place(run, at, scratch_count(shape));
+    if (quad_bytes(shape) > 0) dal__quad_place(run, at, scratch_count(shape));
     return run;
 }
 
@@ -85,7 +85,7 @@ dal_status dal_run_init(dal_run **run, void *memory, size_t bytes, const dal_run
     dal_run *made = place(&shape, memory);
     DAL_TRY(dal__run_start(made, spec->parameters, spec->parameter_count, spec->start,
                            spec->start_count, error));
-    if (made->long_run.engine) DAL_TRY(dal__long_begin(made));
+    if (made->quad.engine) DAL_TRY(dal__quad_begin(made));
     *run = made;
     return DAL_OK;
 }
@@ -124,18 +124,18 @@ static dal_status native_steps(dal_run *run, double h, long long count)
     return failed ? (dal_status)why : DAL_OK;
 }
 
-static dal_status long_steps(dal_run *run, double h, long long count)
+static dal_status quad_steps(dal_run *run, double h, long long count)
 {
     dal_status status = DAL_OK;
-    for (long long i = 0; i < count && status == DAL_OK; i++) status = dal__long_step(run, h);
-    dal__long_pull(run);
+    for (long long i = 0; i < count && status == DAL_OK; i++) status = dal__quad_step(run, h);
+    dal__quad_pull(run);
     return status;
 }
 
 dal_status dal__run_steps(dal_run *run, double h, long long count)
 {
     dal_status why = DAL_OK;
-    if (run->long_run.engine) return long_steps(run, h, count);
+    if (run->quad.engine) return quad_steps(run, h, count);
     if (run->native.traced) return native_steps(run, h, count);
     for (long long i = 0; i < count; i++)
         if (run->kind->step(run->engine, h, 1u, &why)) return why;
@@ -188,7 +188,7 @@ dal_status dal_run_set_state(dal_run *run, double t, const double *state, dal_er
     memset(run->carried, 0, k->carried * sizeof *run->carried);
     for (int i = 0; i < k->dim; i++) run->carried[i] = state[i] + 0.0;
     run->carried[dal__at(k, DAL__TIME)] = t;
-    if (run->long_run.engine) dal__long_push(run);
+    if (run->quad.engine) dal__quad_push(run);
     return DAL_OK;
 }
 
@@ -201,7 +201,7 @@ const double *dal_run_save(const dal_run *run, size_t *count)
 /* Carried number i of a memory, in doubles. */
 static double number_in(const dal_run *run, const double *memory, size_t i)
 {
-    return run->long_run.engine ? dal__long_rounded(memory, i) : memory[i];
+    return run->quad.engine ? dal__quad_rounded(memory, i) : memory[i];
 }
 
 dal_status dal_run_restore(dal_run *run, const double *memory, size_t count, dal_error *error)
@@ -218,7 +218,7 @@ dal_status dal_run_restore(dal_run *run, const double *memory, size_t count, dal
             return dal__fail(error, DAL_NOT_FINITE, "carried number %zu is not finite", i + 1);
     }
     memcpy(run->memory, memory, count * sizeof *memory);
-    if (run->long_run.engine) dal__long_pull(run);
+    if (run->quad.engine) dal__quad_pull(run);
     return DAL_OK;
 }
 
@@ -230,5 +230,5 @@ void dal__run_keep(dal_run *run)
 void dal__run_put_back(dal_run *run)
 {
     memcpy(run->memory, run->shadow, run->remembered * sizeof *run->memory);
-    if (run->long_run.engine) dal__long_pull(run);
+    if (run->quad.engine) dal__quad_pull(run);
 }

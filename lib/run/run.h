@@ -22,13 +22,13 @@ typedef struct dal__native {
 } dal__native;
 
 /* The engine of a run in long numbers, and what belongs to it; see quad.c. */
-typedef struct dal__long_run {
+typedef struct dal__quad_run {
     dal__shape shape; /* of the system in long numbers */
     void *engine;     /* NULL: the run is in doubles */
     double *carried;  /* [shape.carried] its own long numbers, each in the place of some doubles */
     double *work;     /* [shape.workspace] likewise */
     double *scratch;  /* scratch for what the system says, likewise */
-} dal__long_run;
+} dal__quad_run;
 
 /* Where the observables of successive looks at a run are collected, up to room of them: observable
  * i of look k is values[i * room + k]. */
@@ -45,9 +45,9 @@ struct dal_run {
     const dal__engine_kind *kind; /* of one lane */
     void *engine;
     double *carried; /* [shape.carried] the engine's own; in long numbers: rounded from those */
-    double *memory; /* [remembered] all that is carried from step to step: carried, or long_run's */
+    double *memory;  /* [remembered] all that is carried from step to step: carried, or quad's */
     size_t remembered;
-    dal__long_run long_run;
+    dal__quad_run quad;
     double *work;    /* [shape.workspace] parameters, and the system's */
     double *shadow;  /* [remembered] state of the trajectory during a side step */
     double *scratch; /* scratch for what the system says */
@@ -91,17 +91,17 @@ void dal__run_put_back(dal_run *run);
 /* ---- quad.c: a run in long numbers ---- */
 
 /* Bytes for its engine, aligned to 64; doubles that one of its numbers takes. */
-size_t dal__long_bytes(const dal__shape *shape, size_t answers);
-size_t dal__long_width(void);
-void dal__long_place(dal_run *run, char *memory, size_t answers);
+size_t dal__quad_bytes(const dal__shape *shape, size_t answers);
+size_t dal__quad_width(void);
+void dal__quad_place(dal_run *run, char *memory, size_t answers);
 /* Takes over parameters, state and clock of the run in doubles; and gives it them, rounded. */
-dal_status dal__long_begin(dal_run *run);
-void dal__long_push(dal_run *run);
-void dal__long_pull(dal_run *run);
-dal_status dal__long_step(dal_run *run, double h);
+dal_status dal__quad_begin(dal_run *run);
+void dal__quad_push(dal_run *run);
+void dal__quad_pull(dal_run *run);
+dal_status dal__quad_step(dal_run *run, double h);
 /* As dal_run_observe, and the numbers of a memory of this run rounded to doubles. */
-dal_status dal__long_observe(dal_run *run, double *out);
-double dal__long_rounded(const double *memory, size_t i);
+dal_status dal__quad_observe(dal_run *run, double *out);
+double dal__quad_rounded(const double *memory, size_t i);
 
 static inline dal_point dal__here(const dal_run *run)
 {

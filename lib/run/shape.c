@@ -267,6 +267,6 @@ dal_status dal__shape_init(dal__shape *k, const dal_run_spec *spec, dal_error *e
     DAL_TRY(check_layers(k, error));
     DAL_TRY(check_control(k, error));
     DAL_TRY(check_needs(k, error));
-    if (k->options.precision == DAL_QUAD) DAL_TRY(dal__long_check(k, error));
+    if (k->options.precision == DAL_QUAD) DAL_TRY(dal__quad_check(k, error));
     return measure(k, error);
 }

@@ -21,8 +21,8 @@ BUILD=${BUILD:-build}
 place=$root/$BUILD/mutants
 case $BUILD in /*) place=$BUILD/mutants ;; esac
 tree=$place/tree
-variants="x1 x1_LONGER x4"
-grep -q avx2 /proc/cpuinfo 2>/dev/null && variants="x1 x1_LONGER x4_AVX2"
+variants="x1 x1_QUAD x4"
+grep -q avx2 /proc/cpuinfo 2>/dev/null && variants="x1 x1_QUAD x4_AVX2"
 CC=${CC:-cc}
 unset MAKEFLAGS MFLAGS MAKELEVEL
 cd "$root" || exit 2
