@@ -51,7 +51,7 @@ SONAME  := libdalembert.so.$(basename $(VERSION))
 # Sources over num - files named *_wide.c, and every integrator - are compiled once per variant: a
 # number of lanes and an instruction set, chosen when a batch is made.  Of two with the same lanes
 # the better one comes later.  x1 is what others may call by name.  Blocks, x64, are made of groups of
-# lanes, a register each; their integrators are those of the group.  x1_QUAD has longer numbers
+# lanes, a register each; their integrators are those of the group.  x1_QUAD has quad precision
 # (lib/kernel/quad.h), which no machine has for an instruction set: it is never chosen for speed.
 VARIANTS        = x1 x1_QUAD $(or $(VARIANTS_$(MACHINE)),x4)
 VARIANTS_x86_64 = x4_AVX2 x8_AVX512

@@ -286,13 +286,13 @@ static void test_refused(void)
     dal_batch *batch;
     char *text;
     spec.options.precision = DAL_QUAD;
-    fixture_refused(&spec, DAL_UNSUPPORTED, "long numbers: spring has no form in them");
+    fixture_refused(&spec, DAL_UNSUPPORTED, "quad precision: spring has no form in them");
     dal_model *model = fixture_model("knife-edge");
     spec = fixture_spec(fixture_system(model), "rk4", DAL_PHYSICAL, 0.1);
     spec.options.precision = DAL_QUAD;
     CU_ASSERT_EQUAL(dal_batch_create(&batch, &spec, 4, 0, &error), DAL_UNSUPPORTED);
     CU_ASSERT_EQUAL(dal_generate(&spec, 1, NULL, &text, &error), DAL_UNSUPPORTED);
-    CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "long numbers"));
+    CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "quad precision"));
     CU_ASSERT(error.line == 0 && error.column == 0);
     dal_integrator outside = *spec.method.layer[0];
     spec.method.layer[0] = &outside;

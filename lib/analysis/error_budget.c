@@ -1,7 +1,7 @@
 /* error_budget.c - a run and its twins, and what each observable does in them.
  *
  * All are looked at at the same times, at most LOOKS of them, so that their series can be taken
- * from each other.  Long numbers, being slow, are for the first steps alone; there the run, its
+ * from each other.  Quad precision, being slow, are for the first steps alone; there the run, its
  * twin solved further and the same in quad precision go side by side. */
 #include "analysis/block_means.h"
 #include "analysis/error_shares.h"

@@ -77,7 +77,7 @@ static void weigh_quad(const dal_error_budget *e, dal_shares *a)
     if (a->is_motion) a->share[DAL_SOURCE_TRUNCATION] = a->margin[DAL_SOURCE_TRUNCATION] = NAN;
 }
 
-/* Long numbers tell truncation and coefficients from rounding, further sweeps the solver. */
+/* Quad precision tell truncation and coefficients from rounding, further sweeps the solver. */
 static void share_beginning(const dal_error_budget *e, dal_shares *a)
 {
     a->by_rate = drifts(&a->beginning, (double)e->quad_steps * e->spec.options.step);

@@ -158,7 +158,7 @@ static dal_status check_steps(dal__generation *g, dal_error *error)
         return dal__fail(error, DAL_UNSUPPORTED,
                          "steps under a tolerance are not generated: each lane has its own");
     if (g->spec->options.precision != DAL_DOUBLE)
-        return dal__fail(error, DAL_UNSUPPORTED, "steps in long numbers are not generated");
+        return dal__fail(error, DAL_UNSUPPORTED, "steps in quad precision are not generated");
     return check_method(g, error);
 }
 

@@ -10,7 +10,7 @@
  * set, and the group of lanes it is made of, whose integrators it uses (kernel/groups.h); of two
  * variants with the same lanes the better one comes later.  x1, which every machine has and an
  * integrator from outside may have alone, is not in it.  An instruction set comes with what tells a
- * compiler of it.  QUAD is none, and no machine has it: x1_QUAD computes in longer numbers
+ * compiler of it.  QUAD is none, and no machine has it: x1_QUAD computes in quad precision
  * (kernel/quad.h) and is asked for by name. */
 #ifndef DAL_MACHINE_H
 #define DAL_MACHINE_H

@@ -46,7 +46,7 @@ int dal__tapes_add(dal__tapes *tapes, const dal__node *outputs, int count);
 dal_status dal__tapes_finish(dal__tapes *tapes);
 
 /* After the parameters in work have been set: one lane (a batch copies the result to all), and one
- * of long numbers. */
+ * of quad precision. */
 void dal__tapes_prepare_x1(const dal__tapes *tapes, double *work);
 void dal__tapes_prepare_x1_QUAD(const dal__tapes *tapes, double *work);
 /* Runs a program on the inputs in work and writes its outputs; work and out are interleaved by

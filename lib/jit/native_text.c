@@ -70,7 +70,7 @@ dal_status dal__generate_looks(const dal__shape *shape, const dal_run *run, char
     dal__generation g = {.run = run, .shape = *shape, .lanes = 8, .product = DAL__LOOKS};
     *text = NULL;
     if (shape->options.precision != DAL_DOUBLE)
-        return dal__fail(error, DAL_UNSUPPORTED, "observables in long numbers are not generated");
+        return dal__fail(error, DAL_UNSUPPORTED, "observables in quad precision are not generated");
     DAL_TRY(dal__generation_check(&g, DAL__NATIVE_PREFIX, error));
     put_declarations(&g);
     dal__put_template(&g, "void PREFIX_looks(const double *, long long, long long, const double *, "

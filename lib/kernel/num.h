@@ -4,7 +4,7 @@
  * instruction set; every operation acts lane by lane and is IEEE double in each, so a lane has the
  * bits of a single run.  Comparisons give a dal_mask (all bits set or none, per lane) that
  * dal_select consumes; nothing branches on the value of one lane.  num and double mix freely in
- * + - * / : a double is every lane's value.  With DAL_NUM_QUAD there is one lane of a longer number
+ * + - * / : a double is every lane's value.  With DAL_NUM_QUAD there is one lane of quad precision
  * (quad.h). */
 #ifndef DAL_KERNEL_NUM_H
 #define DAL_KERNEL_NUM_H

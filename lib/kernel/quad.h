@@ -7,7 +7,7 @@
  * computed by software and some hundred times slower than doubles.
  *
  * What is a double in a source stays one: coefficients, sizes and times of steps, constants of
- * formulas, parameters.  A run in long numbers is so the same method on the same system, less the
+ * formulas, parameters.  A run in quad precision is so the same method on the same system, less the
  * rounding of its arithmetic. */
 #ifndef DAL_KERNEL_QUAD_H
 #define DAL_KERNEL_QUAD_H

@@ -77,7 +77,7 @@ dal_status dal__programs_add(dal_model *model, dal__programs *programs, dal__pro
 dal_status dal__programs_add_motion(dal_model *model, dal__programs *programs, const dal__node *F);
 /* The programs of a model's system; NULL for another. */
 const dal__programs *dal__programs_of(const dal_system *system);
-/* Finishes the tapes and points the system to its callbacks, and to itself in long numbers. */
+/* Finishes the tapes and points the system to its callbacks, and to itself in quad precision. */
 dal_status dal__programs_finish(dal_model *model, dal__programs *programs, dal_system *system);
 
 #endif

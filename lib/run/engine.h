@@ -47,7 +47,7 @@ typedef struct dal__cause {
 /* Measures a spec; errors as dal_run_init. */
 dal_status dal__shape_init(dal__shape *shape, const dal_run_spec *spec, dal_error *error);
 
-/* Whether a run can be in long numbers (quad.c).  Errors: DAL_UNSUPPORTED. */
+/* Whether a run can be in quad precision (quad.c).  Errors: DAL_UNSUPPORTED. */
 dal_status dal__quad_check(const dal__shape *shape, dal_error *error);
 
 /* Numbers in the answer to a dal_callback_code. */

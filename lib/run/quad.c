@@ -1,9 +1,9 @@
-/* quad.c - a run in long numbers: an engine of the variant x1_QUAD behind a run in doubles.
+/* quad.c - a run in quad precision: an engine of the variant x1_QUAD behind a run in doubles.
  *
  * The run in doubles makes the start, explains failures and shows the state; after every step it
  * gets time, state and all it carries from the long engine, rounded.  Observables are computed in
- * long numbers and then rounded, so that a D of 1e-30 is seen as that.  dal__shape_init sees to it
- * that there is a system, and a method, in long numbers. */
+ * quad precision and then rounded, so that a D of 1e-30 is seen as that.  dal__shape_init sees to it
+ * that there is a system, and a method, in quad precision. */
 #define DAL_NUM_QUAD
 #include "run/run.h"
 #include <dalembert_kernel.h>
@@ -19,15 +19,15 @@ dal_status dal__quad_check(const dal__shape *k, dal_error *error)
 {
     if (DAL_QUAD_DIGITS <= DBL_MANT_DIG)
         return dal__fail(error, DAL_UNSUPPORTED,
-                         "long numbers: there are none longer than double here");
+                         "quad precision: there are none longer than double here");
     if (!k->system->quad)
         return dal__fail(error, DAL_UNSUPPORTED,
-                         "long numbers: %.80s has no form in them, not being made from a model",
+                         "quad precision: %.80s has no form in them, not being made from a model",
                          k->system->name ? k->system->name : "this system");
     for (int i = 0; i < k->depth; i++)
         if (!dal__integrator_wide(k->method.layer[i], DAL__VARIANT_x1_QUAD))
             return dal__fail(error, DAL_UNSUPPORTED,
-                             "long numbers: '%.80s' has no form in them, not being the library's",
+                             "quad precision: '%.80s' has no form in them, not being the library's",
                              k->method.layer[i]->name ? k->method.layer[i]->name : "?");
     return DAL_OK;
 }

@@ -21,13 +21,13 @@ typedef struct dal__native {
     void (*release)(void *handle);
 } dal__native;
 
-/* The engine of a run in long numbers, and what belongs to it; see quad.c. */
+/* The engine of a run in quad precision, and what belongs to it; see quad.c. */
 typedef struct dal__quad_run {
-    dal__shape shape; /* of the system in long numbers */
+    dal__shape shape; /* of the system in quad precision */
     void *engine;     /* NULL: the run is in doubles */
-    double *carried;  /* [shape.carried] its own long numbers, each in the place of some doubles */
-    double *work;     /* [shape.workspace] likewise */
-    double *scratch;  /* scratch for what the system says, likewise */
+    double *carried; /* [shape.carried] its own quad precision, each in the place of some doubles */
+    double *work;    /* [shape.workspace] likewise */
+    double *scratch; /* scratch for what the system says, likewise */
 } dal__quad_run;
 
 /* Where the observables of successive looks at a run are collected, up to room of them: observable
@@ -44,7 +44,7 @@ struct dal_run {
     dal__shape shape;
     const dal__engine_kind *kind; /* of one lane */
     void *engine;
-    double *carried; /* [shape.carried] the engine's own; in long numbers: rounded from those */
+    double *carried; /* [shape.carried] the engine's own; in quad precision: rounded from those */
     double *memory;  /* [remembered] all that is carried from step to step: carried, or quad's */
     size_t remembered;
     dal__quad_run quad;
@@ -88,7 +88,7 @@ dal_status dal__run_steps(dal_run *run, double h, long long count);
 void dal__run_keep(dal_run *run);
 void dal__run_put_back(dal_run *run);
 
-/* ---- quad.c: a run in long numbers ---- */
+/* ---- quad.c: a run in quad precision ---- */
 
 /* Bytes for its engine, aligned to 64; doubles that one of its numbers takes. */
 size_t dal__quad_bytes(const dal__shape *shape, size_t answers);
