@@ -164,7 +164,7 @@ struct dal_system {
                                number of the constraint (from 1), DAL_SINGULAR_MASS, or DAL_OK */
     const dal_system *extended; /* the same with F continued off D = 0 so that E is exact, for the
                                    option extend-energy; NULL: there is none */
-    const dal_system *quad;     /* the same with quad precision in the place of doubles, its
+    const dal_system *quad;     /* the same in quad precision, its
                                    workspace too, for the option precision; NULL: there is none */
     const struct dal_picture *picture; /* how it is drawn; NULL: not at all */
     void *data;                        /* the owner's */

@@ -286,7 +286,7 @@ static void test_refused(void)
     dal_batch *batch;
     char *text;
     spec.options.precision = DAL_QUAD;
-    fixture_refused(&spec, DAL_UNSUPPORTED, "quad precision: spring has no form in them");
+    fixture_refused(&spec, DAL_UNSUPPORTED, "quad precision: spring has no form in it");
     dal_model *model = fixture_model("knife-edge");
     spec = fixture_spec(fixture_system(model), "rk4", DAL_PHYSICAL, 0.1);
     spec.options.precision = DAL_QUAD;

@@ -126,7 +126,7 @@ static dal_status prepare_quad(const dal_system *system, const dal_point *at, do
     return DAL_OK;
 }
 
-/* The same programs over quad precision, as a system of its own. */
+/* The same programs in quad precision, as a system of its own. */
 static dal_status make_quad(dal_model *model, const dal__programs *programs, dal_system *system)
 {
     if (DAL_QUAD_DIGITS <= DBL_MANT_DIG) return DAL_OK;

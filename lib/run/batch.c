@@ -196,7 +196,7 @@ dal_status dal_batch_create(dal_batch **batch, const dal_run_spec *spec, int cou
     for (int i = 0; i < WIDTHS; i++) known |= width == widths[i];
     if (!known) return dal__fail(error, DAL_ARGUMENT, "width %d is not 0, 1, 4, 8 or 64", width);
     if (spec->options.precision != DAL_DOUBLE)
-        return dal__fail(error, DAL_UNSUPPORTED, "a batch has no lanes of quad precision");
+        return dal__fail(error, DAL_UNSUPPORTED, "a batch has no lanes in quad precision");
     return dal__batch_create(batch, spec, count, width, DAL__VARIANTS, error);
 }
 

@@ -19,15 +19,15 @@ dal_status dal__quad_check(const dal__shape *k, dal_error *error)
 {
     if (DAL_QUAD_DIGITS <= DBL_MANT_DIG)
         return dal__fail(error, DAL_UNSUPPORTED,
-                         "quad precision: there are none longer than double here");
+                         "quad precision: this machine has no type of 113 binary digits");
     if (!k->system->quad)
         return dal__fail(error, DAL_UNSUPPORTED,
-                         "quad precision: %.80s has no form in them, not being made from a model",
+                         "quad precision: %.80s has no form in it, not being made from a model",
                          k->system->name ? k->system->name : "this system");
     for (int i = 0; i < k->depth; i++)
         if (!dal__integrator_wide(k->method.layer[i], DAL__VARIANT_x1_QUAD))
             return dal__fail(error, DAL_UNSUPPORTED,
-                             "quad precision: '%.80s' has no form in them, not being the library's",
+                             "quad precision: '%.80s' has no form in it, not being the library's",
                              k->method.layer[i]->name ? k->method.layer[i]->name : "?");
     return DAL_OK;
 }

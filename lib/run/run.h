@@ -25,9 +25,9 @@ typedef struct dal__native {
 typedef struct dal__quad_run {
     dal__shape shape; /* of the system in quad precision */
     void *engine;     /* NULL: the run is in doubles */
-    double *carried; /* [shape.carried] its own quad precision, each in the place of some doubles */
-    double *work;    /* [shape.workspace] likewise */
-    double *scratch; /* scratch for what the system says, likewise */
+    double *carried;  /* [shape.carried] its own numbers, each in the place of some doubles */
+    double *work;     /* [shape.workspace] likewise */
+    double *scratch;  /* scratch for what the system says, likewise */
 } dal__quad_run;
 
 /* Where the observables of successive looks at a run are collected, up to room of them: observable
