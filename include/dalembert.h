@@ -93,11 +93,11 @@ typedef struct dal_point {
 
 /* Every callback is a pure function of *at (work beyond the parameters is scratch).  In the wide
  * sets each array is interleaved, x[component*lanes + lane], aligned to its lanes; t is common.
- * A callback that cannot answer returns a status, or leaves NaN in the lanes concerned. */
+ * A callback that fails returns a status, or leaves NaN in the lanes concerned. */
 typedef dal_status dal_callback(const dal_system *system, const dal_point *at, double *out);
 
-/* nw = n + multipliers below.  Matrices are row-major.  Only field is needed; what a NULL loses is
- * said behind it. */
+/* nw = n + multipliers below.  Matrices are row-major.  Only field is needed; each comment states
+ * what a NULL excludes. */
 typedef struct dal_callbacks {
     dal_callback *field;      /* out[nw]: F, then dg/dt */
     dal_callback *adjoint;    /* out[3n]: F, F_q^T pi, F_v^T pi          (NULL: no lifted space) */
@@ -110,7 +110,7 @@ typedef struct dal_callbacks {
                                 the like of the constraints             (NULL: none) */
     dal_callback *blocks;    /* out[m + m*n + n*m + n + m]: D, A, R, a, c of F = a + R h: R is
                                 W^-1 B^T, B = A by Chetaev's rule, a = W^-1 b, c = D_q v + D_t
-                                                        (NULL: no methods that impose D) */
+                                                        (NULL: no methods that enforce D) */
     dal_callback *potential; /* out[3n]: of L = v.Wv/2 + g.v - U, W constant, for each coordinate
                                 U, U_q.v and v.Wv of those it is coupled with by U and W: 0 for
                                 the first two where that U is quadratic
@@ -164,8 +164,8 @@ struct dal_system {
                                number of the constraint (from 1), DAL_SINGULAR_MASS, or DAL_OK */
     const dal_system *extended; /* the same with F continued off D = 0 so that E is exact, for the
                                    option extend-energy; NULL: there is none */
-    const dal_system *quad;     /* the same in quad precision, its
-                                   workspace too, for the option precision; NULL: there is none */
+    const dal_system *quad;     /* the same with work in quad precision, for the option precision;
+                                   NULL: none */
     const struct dal_picture *picture; /* how it is drawn; NULL: not at all */
     void *data;                        /* the owner's */
 };
@@ -201,7 +201,74 @@ typedef struct dal_picture {
     dal_body body;
 } dal_picture;
 
-#include "dalembert_method.h"
+/* ---- integrators and methods --------------------------------------------------------------- */
+
+/* Declared properties of an integrator; the conformance suite verifies them. */
+enum {
+    DAL_SYMMETRIC = 1 << 0,
+    DAL_SYMPLECTIC = 1 << 1,             /* on the lifted space; says nothing about D or E */
+    DAL_PRESERVES_BILINEAR = 1 << 2,     /* D bilinear in (q,v) */
+    DAL_PRESERVES_QUADRATIC = 1 << 3,    /* D quadratic in (q,v) */
+    DAL_PRESERVES_D = 1 << 4,            /* every D */
+    DAL_EXPLICIT = 1 << 5,               /* on the physical space */
+    DAL_MODIFIER = 1 << 6,               /* acts on another integrator: NAME+this */
+    DAL_COMPONENTWISE = 1 << 7,          /* on (q,v) only adds multiples of v and F */
+    DAL_PRESERVES_D_MIDPOINT = 1 << 8,   /* D((q0 + q1)/2, (q1 - q0)/h, t + h/2) = 0 in each step */
+    DAL_PRESERVES_ENERGY = 1 << 9,       /* E, where the motion conserves it */
+    DAL_PERSISTENT_MULTIPLIER = 1 << 10, /* a map of (q, v, multipliers of the last step), symmetric
+                                            and reversible in them */
+    DAL_ADAPTIVE = 1 << 11,              /* divides a step h where the option tolerance is not 0 */
+    DAL_EXTRAPOLATES_STAGES = 1 << 12    /* from one step to the first guess of the next */
+};
+
+/* What an integrator needs of the system or, a modifier, of the method inside. */
+enum {
+    DAL_NEEDS_FIELD = 1 << 0,
+    DAL_NEEDS_CONSTRAINT = 1 << 1,
+    DAL_NEEDS_SYMMETRIC = 1 << 2,  /* a symmetric method */
+    DAL_NEEDS_ORDER_2 = 1 << 3,    /* a method of order 2 */
+    DAL_NEEDS_BLOCKS = 1 << 4,     /* D, A, R, a, c; acts on p = pi = 0 only */
+    DAL_NEEDS_POTENTIAL = 1 << 5,  /* U, and a constant W */
+    DAL_NEEDS_ISOKINETIC = 1 << 6, /* DAL_D_ISOKINETIC */
+    DAL_NEEDS_ENERGY = 1 << 7,     /* an energy that is conserved, and its gradient */
+    DAL_NEEDS_JACOBIAN = 1 << 8,   /* F_q and F_v, on the lifted space */
+    DAL_NEEDS_RUNGE_KUTTA = 1 << 9 /* an explicit method that calls dal_field alone */
+};
+
+struct dal_step; /* dalembert_kernel.h */
+typedef dal_status dal_step_function(struct dal_step *step);
+
+/* A constant descriptor; its file in integrators/ holds the mathematics. */
+typedef struct dal_integrator {
+    const char *name, *alias; /* alias: another name, or NULL */
+    const char *summary, *reference;
+    int order;  /* 0 for a modifier: that of the inner method */
+    int stages; /* solved together or stored at once; determines scratch and, with
+                   DAL_EXTRAPOLATES_STAGES, persistent state */
+    unsigned properties, needs;
+    unsigned inherits; /* a modifier: properties of the method inside that it preserves */
+    dal_step_function *step;
+} dal_integrator;
+
+enum { DAL_LAYERS = 4 };
+
+/* An integrator, then the modifiers around it, innermost first; unused layers are NULL.
+ * An integrator outside the library is used by its address: {{&my_integrator}}. */
+typedef struct dal_method {
+    const dal_integrator *layer[DAL_LAYERS];
+} dal_method;
+
+/* Integrator or modifier number i of the library, NULL past the last. */
+const dal_integrator *dal_integrator_at(int i);
+
+/* "rk4", "gauss8+project".  Errors: DAL_NAME with the nearest name. */
+dal_status dal_method_parse(dal_method *method, const char *name, dal_error *error);
+/* Writes the full name, at most size bytes with its NUL; returns buffer. */
+char *dal_method_name(const dal_method *method, char *buffer, size_t size);
+int dal_method_order(const dal_method *method);
+unsigned dal_method_properties(const dal_method *method); /* of all its layers together */
+unsigned dal_method_needs(const dal_method *method);      /* of any of its layers */
+
 #include "dalembert_model.h"
 
 /* ---- options ------------------------------------------------------------------------------- */
@@ -257,8 +324,8 @@ typedef struct dal_setting {
     double value;
 } dal_setting;
 
-/* All that makes a run.  parameters: by name.  start: x, x', e, p_x, pi_x, pi_e, g1, ...; what is
- * not named comes from the system.  e = INFINITY gives 1/e = 0, the adjoint system. */
+/* What a run is made from.  parameters: by name.  start: x, x', e, p_x, pi_x, pi_e, g1, ...; the
+ * system gives what is not named.  e = INFINITY gives 1/e = 0, the adjoint system. */
 typedef struct dal_run_spec {
     const dal_system *system;
     dal_method method;
@@ -267,7 +334,7 @@ typedef struct dal_run_spec {
     int parameter_count, start_count;
 } dal_run_spec;
 
-/* Bytes a run needs; 0 when the spec is not usable. */
+/* Bytes that a run needs; 0 when the spec is not usable. */
 size_t dal_run_size(const dal_run_spec *spec);
 /* Places a run in the caller's memory (any alignment, dal_run_size bytes); nothing to free.
  * The system and the descriptors must outlive it.  Errors: DAL_ARGUMENT, DAL_NAME (nearest name),
@@ -279,7 +346,7 @@ dal_status dal_run_init(dal_run **run, void *memory, size_t bytes, const dal_run
 dal_status dal_run_create(dal_run **run, const dal_run_spec *spec, dal_error *error);
 void dal_run_free(dal_run *run);
 
-/* One step, or count of them.  A step succeeds or leaves the run bitwise unchanged.  Errors:
+/* One step, or count steps.  A step succeeds or leaves the run unchanged to the bit.  Errors:
  * DAL_SINGULAR, DAL_SINGULAR_MASS, DAL_NOT_FINITE, DAL_NOT_CONVERGED, DAL_GAUGE; the error names
  * the constraint and the time. */
 dal_status dal_run_step(dal_run *run, dal_error *error);
@@ -288,63 +355,64 @@ dal_status dal_run_advance(dal_run *run, long long count, dal_error *error);
 const dal_system *dal_run_system(const dal_run *run);
 double dal_run_time(const dal_run *run);
 double dal_run_step_size(const dal_run *run);      /* h */
-long long dal_run_steps(const dal_run *run);       /* taken since creation, also before a load */
+long long dal_run_steps(const dal_run *run);       /* since t = 0, those before a restore too */
 long long dal_run_evaluations(const dal_run *run); /* of the field, or of the lifted field */
 int dal_run_dimension(const dal_run *run);         /* 4n+2 lifted; 2n + multipliers physical */
 /* [dimension] q, v, e, p, pi, pi_e (lifted) or q, v, g (physical); valid until the run is freed. */
 const double *dal_run_state(const dal_run *run);
 const double *dal_run_parameters(const dal_run *run); /* [parameters] values in force */
-/* Replaces time and state (nothing is checked but finiteness); clears all carried memory. */
+/* Replaces time and state, which need only be finite; clears all other persistent state. */
 dal_status dal_run_set_state(dal_run *run, double t, const double *state, dal_error *error);
 /* Name of state component i: x, x', e, p_x, pi_x, pi_e, g1; returns buffer, NULL past the end. */
 char *dal_run_name(const dal_run *run, int i, char *buffer, size_t size);
 
-/* All a run carries from step to step: *count doubles.  A copy of them is a checkpoint; load puts
- * them into a run of the same spec.  Errors: DAL_ARGUMENT (wrong count), DAL_NOT_FINITE. */
+/* The persistent state of a run, *count doubles, valid until the run is freed: all that passes from
+ * one step to the next.  A copy is a checkpoint.  restore puts it into a run of the same spec, which
+ * then continues with the same bits.  Errors: DAL_ARGUMENT (wrong count), DAL_NOT_FINITE. */
 const double *dal_run_save(const dal_run *run, size_t *count);
-dal_status dal_run_restore(dal_run *run, const double *memory, size_t count, dal_error *error);
+dal_status dal_run_restore(dal_run *run, const double *saved, size_t count, dal_error *error);
 
 /* Observables at the present state, in this order: D1..Dm, E (with an energy), H (lifted),
- * |p|, |pi|, |pi_e| (lifted, max norms), invariants, error (with an exact solution that the start
- * agrees with; max norm over q). */
+ * |p|, |pi|, |pi_e| (lifted, max norms), invariants, error (with an exact solution that agrees with
+ * the start; max norm over q). */
 int dal_run_observables(const dal_run *run);
 char *dal_run_observable_name(const dal_run *run, int i, char *buffer, size_t size);
 dal_status dal_run_observe(dal_run *run, double *out);
 
-/* Looks on while a run goes.  sample is called for each row, poll now and then between them (every
- * 992 steps and rows, or every polling), step at the start and after every so many steps of the
- * run. values, which is called in the place of step, receives the observables of those steps,
- * `looks` of them at a time, and each in turn: observable i at t[k] is values[i * stride + k]; the
- * run then stands at or behind the last, before the next.  It is made for every step of long runs.
- * Any may be NULL.  Any status but DAL_OK ends the run with that status. */
+/* Callbacks of dal_run_sample; any may be NULL.  Any status but DAL_OK ends the run with it. */
 typedef struct dal_observer {
     void *user;
+    /* Called for each row. */
     dal_status (*sample)(void *user, dal_run *run, long long row, double t);
+    /* Called now and then between rows. */
     dal_status (*poll)(void *user, dal_run *run);
+    /* Called at the start and after every `every` steps. */
     dal_status (*step)(void *user, dal_run *run);
-    dal_status (*values)(void *user, dal_run *run, int looks, const double *t, const double *values,
+    /* Replaces step in long runs: receives the observables of several such steps at once.
+     * Observable i at t[k], k < count, is values[i * stride + k].  The run stands at the last of
+     * them, or behind it and before the next. */
+    dal_status (*values)(void *user, dal_run *run, int count, const double *t, const double *values,
                          size_t stride);
-    long long every; /* steps between two looks by step or values; 0: there are none */
+    long long every; /* steps between two calls of step or values; 0: no calls */
     /* t of each row, increasing, T for the last; NULL: row*T/samples */
     double (*row_time)(void *user, long long row);
-    /* Steps and rows from one poll to the next: 992, 496, 248, 124, ... 1, whichever is not more;
-     * 0: 992.  poll may change it: where steps are slow it will want to be called more often. */
+    /* Max steps and rows between two polls, rounded down to 992, 496, 248, 124, ... 1; 0: 992.
+     * poll may change it where steps are slow. */
     long long polling;
 } dal_observer;
 
-/* Carries the run to time T and shows rows first_row..samples at t = row*T/samples, the last
- * exactly T.  The trajectory is made of steps h alone: where a row falls between two steps, a
- * shorter step of the same method from the earlier one gives it, and the trajectory goes on
- * undisturbed.  A run interrupted between rows goes on with first_row = the first row not shown.
- * observer may be NULL. */
+/* Advances the run to time T and samples rows first_row..samples at t = row*T/samples, the last at T
+ * exactly.  The trajectory consists of steps h.  An intermediate step of the same method gives a row
+ * between two steps and does not change the trajectory.  After an interruption between rows pass the
+ * first row not sampled.  observer may be NULL. */
 dal_status dal_run_sample(dal_run *run, double T, long long samples, long long first_row,
                           const dal_observer *observer, dal_error *error);
 
-/* A step of size h by the run's method from its present state: look sees the run there, then all is
- * taken back, bit for bit.  look must not move the run.  Errors: those of a step, the run being as
- * it was; DAL_ARGUMENT; what look returns. */
+/* Takes a step of size h from the present state, calls observe there, and restores the run to the
+ * bit.  observe must not move the run.  Errors: those of a step, the run being unchanged;
+ * DAL_ARGUMENT; what observe returns. */
 dal_status dal_run_intermediate(dal_run *run, double h,
-                                dal_status (*look)(void *user, dal_run *run), void *user,
+                                dal_status (*observe)(void *user, dal_run *run), void *user,
                                 dal_error *error);
 
 /* ---- batches ------------------------------------------------------------------------------- */
@@ -352,24 +420,23 @@ dal_status dal_run_intermediate(dal_run *run, double h,
 typedef struct dal_batch dal_batch;
 
 /* count runs of one spec, stepped several lanes at a time, each with the bits of a single run.
- * width, the most lanes at a time: 1, 4, 8, 64 (only DAL_COMPONENTWISE methods on (q,v), else 8),
+ * width: max lanes at a time, 1, 4, 8 or 64 (only DAL_COMPONENTWISE methods on (q,v), else 8);
  * 0: the fastest.  Different batches may be stepped in different threads.  [alloc] */
 dal_status dal_batch_create(dal_batch **batch, const dal_run_spec *spec, int count, int width,
                             dal_error *error);
 void dal_batch_free(dal_batch *batch);
-/* Gives one lane its own parameters and start and puts it back to t = 0; settings as in the spec
- * replace those of the spec.  Only before the first step. */
+/* Sets parameters and start of one lane, which replace those of the spec, at t = 0.  Allowed before
+ * the first step only. */
 dal_status dal_batch_start(dal_batch *batch, int lane, const dal_setting *parameters,
                            int parameter_count, const dal_setting *start, int start_count,
                            dal_error *error);
-/* Steps every lane that has not failed.  DAL_OK while any lane goes on; a failed lane keeps the
- * state it had before the failing step, and its neighbours go on at their speed. */
+/* Steps every lane that has not failed; DAL_OK while any such lane is left.  A failed lane keeps its
+ * state before the failing step and does not slow down the others. */
 dal_status dal_batch_advance(dal_batch *batch, long long count);
 int dal_batch_count(const dal_batch *batch);
 dal_status dal_batch_status(const dal_batch *batch, int lane, dal_error *error);
 double dal_batch_time(const dal_batch *batch, int lane);
-/* Copies a lane's state, [dimension] doubles as dal_run_state; nothing for a lane that does not
- * exist. */
+/* Copies the state of a lane, [dimension] doubles as dal_run_state; does nothing without the lane. */
 void dal_batch_state(const dal_batch *batch, int lane, double *state);
 
 #ifdef __cplusplus

@@ -63,17 +63,17 @@ static dal_status advance(sampling *k, long long count)
 }
 
 dal_status dal_run_intermediate(dal_run *run, double h,
-                                dal_status (*look)(void *user, dal_run *run), void *user,
+                                dal_status (*observe)(void *user, dal_run *run), void *user,
                                 dal_error *error)
 {
     DAL_REQUIRE(run, error);
-    DAL_REQUIRE(look, error);
+    DAL_REQUIRE(observe, error);
     if (!isfinite(h))
-        return dal__fail(error, DAL_ARGUMENT, "a step aside must be finite; it is %g", h);
+        return dal__fail(error, DAL_ARGUMENT, "an intermediate step must be finite; it is %g", h);
     dal__run_keep(run);
     dal_status status = dal__run_steps(run, h, 1);
     if (status != DAL_OK) return dal__explain(run, h, status, error);
-    status = look(user, run);
+    status = observe(user, run);
     dal__run_put_back(run);
     return status;
 }
