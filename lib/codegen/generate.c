@@ -232,7 +232,7 @@ static void put_enums(dal__generation *g)
 /* The parts of the kernel that the method needs. */
 static void put_kernel(dal__generation *g)
 {
-    static const char *const always[] = {"num.h", "elementary.h", "carried.h",
+    static const char *const always[] = {"num.h", "elementary.h", "persistent.h",
                                          "try.h", "step.h",       "algebra.h"};
     const bool euler = dal__method_uses(g, "dal_polarised_euler");
     const bool collocation = dal__method_uses(g, "dal_collocation");
@@ -241,7 +241,7 @@ static void put_kernel(dal__generation *g)
     const bool constrained = dal_method_needs(&g->spec->method) & DAL_NEEDS_BLOCKS;
     if (euler || collocation || constrained || dal__method_uses(g, "dal_solve"))
         dal__text_put(&g->text, dal__source_text("solve.h"));
-    if (euler) dal__text_put(&g->text, dal__source_text("polarised.h"));
+    if (euler) dal__text_put(&g->text, dal__source_text("symplectic_euler.h"));
     if (collocation) dal__text_put(&g->text, dal__source_text("tableau.h"));
     if (collocation) dal__text_put(&g->text, dal__source_text("collocation.h"));
     if (dal__method_uses(g, "dal_substeps"))
@@ -294,9 +294,9 @@ void dal__put_steps(dal__generation *g)
     put_enums(g);
     put_kernel(g);
     dal__emit_callbacks(g);
-    dal__text_put(&g->text, dal__source_text("ask.h"));
+    dal__text_put(&g->text, dal__source_text("dispatch.inc"));
     put_method(g);
-    dal__put_template(g, dal__source_text("stepper.h"));
+    dal__put_template(g, dal__source_text("stepper.inc"));
 }
 
 static void put_file(dal__generation *g)
@@ -306,8 +306,8 @@ static void put_file(dal__generation *g)
                          "#include <stdint.h>\n#include <string.h>\n\n");
     dal__put_steps(g);
     dal__put_start(g);
-    dal__text_put(&g->text, dal__source_text("lift.h"));
-    dal__put_template(g, dal__source_text("caller.h"));
+    dal__text_put(&g->text, dal__source_text("observe_lift.inc"));
+    dal__put_template(g, dal__source_text("interface.inc"));
     dal__put_observe(g);
     dal__put_names(g);
     dal__put_template(g, end);

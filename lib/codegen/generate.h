@@ -78,7 +78,7 @@ void dal__put_constants(dal__generation *g);
 void dal__put_interface(dal__generation *g);
 void dal__put_names(dal__generation *g);
 
-/* ---- answers.c: the system ---- */
+/* ---- emit_callbacks.c: the system ---- */
 void dal__emit_callbacks(dal__generation *g);
 void dal__put_start(dal__generation *g);
 void dal__put_observe(dal__generation *g);

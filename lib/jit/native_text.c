@@ -81,8 +81,8 @@ dal_status dal__generate_looks(const dal__shape *shape, const dal_run *run, char
     dal__text_put(&g.text, dal__source_text("num.h"));
     dal__text_put(&g.text, dal__source_text("elementary.h"));
     dal__emit_callbacks(&g);
-    if (g.shape.lifted) dal__text_put(&g.text, dal__source_text("lift.h"));
+    if (g.shape.lifted) dal__text_put(&g.text, dal__source_text("observe_lift.inc"));
     dal__put_observe(&g);
-    dal__put_template(&g, dal__source_text("looks.h"));
+    dal__put_template(&g, dal__source_text("observables.inc"));
     return dal__generation_finish(&g, text, error);
 }

@@ -8,7 +8,7 @@
 #ifndef DAL_KERNEL_STEP_H
 #define DAL_KERNEL_STEP_H
 
-#include "carried.h"
+#include "persistent.h"
 #include "try.h"
 
 typedef struct dal_step dal_step;
@@ -132,7 +132,7 @@ struct dal_step {
     int tangent; /* 1 while p, pi hold a tangent vector (dq, dv) */
     num *y, *r;  /* [dim] */
 
-    /* Carried from step to step beside the state, see carried.h. */
+    /* Carried from step to step beside the state, see persistent.h. */
 #define X(member, count)        num *member;
     DAL__MEMORY_LIST(X)
 #undef X

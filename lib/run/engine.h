@@ -1,6 +1,6 @@
 /* engine.h - one step of one or several lanes as a transaction; internal to lib/run.
  *
- * All that survives a step is the array `carried` (kernel/carried.h).  The engine exists once per
+ * All that survives a step is the array `carried` (kernel/persistent.h).  The engine exists once per
  * variant (engine_wide.c); arrays are interleaved by lanes. */
 #ifndef DAL_ENGINE_H
 #define DAL_ENGINE_H
@@ -8,7 +8,7 @@
 #include "core/arguments.h"
 #include "core/machine.h"
 #include "dalembert.h"
-#include "kernel/carried.h"
+#include "kernel/persistent.h"
 #include <stdbool.h>
 #include <stdint.h>
 

@@ -1,4 +1,4 @@
-/* shape.c - the dimensions and the memory of a run, and whether its parts fit together. */
+/* layout.c - the dimensions and the memory of a run, and whether its parts fit together. */
 #include "run/engine.h"
 #include <dalembert_kernel.h>
 #include <math.h>

@@ -1,4 +1,4 @@
-/* answers.c - a system's programs as C: what dal_eval says, the start, the observables. */
+/* emit_callbacks.c - a system's programs as C: what dal_eval says, the start, the observables. */
 #include "codegen/generate.h"
 #include <stdio.h>
 #include <stdlib.h>

@@ -1,12 +1,12 @@
-/* carried.h - what is carried from step to step: one list, for the engine and for generated files.
+/* persistent.h - what is carried from step to step: one list, for the engine and for generated files.
  *
  *     carried:  y[dim] | r[dim] | the clock | what the method remembers
  *
  * All that survives a step is this array; all else is scratch.  The slopes are those of a method
  * that asks for them (DAL_EXTRAPOLATES_STAGES), [1 + DAL__DIFFERENCES][stages*(nw + n)]: see
  * collocation.h. */
-#ifndef DAL_KERNEL_CARRIED_H
-#define DAL_KERNEL_CARRIED_H
+#ifndef DAL_KERNEL_PERSISTENT_H
+#define DAL_KERNEL_PERSISTENT_H
 
 /* One number each: the time, compensated, and what is counted. */
 #define DAL__CLOCK_LIST(X) X(TIME) X(TIME_ERROR) X(STEPS) X(EVALUATIONS)

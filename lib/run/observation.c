@@ -1,4 +1,4 @@
-/* follow.c - the observables along a run, handed over several looks at a time.
+/* observation.c - the observables along a run, handed over several looks at a time.
  *
  * A look is taken after every so many steps.  With compiled observables the states are collected
  * and evaluated together, as many at a time as a register has lanes; else each look is evaluated at

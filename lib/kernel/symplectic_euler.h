@@ -1,4 +1,4 @@
-/* polarised.h - symplectic Euler steps of every polarisation.
+/* symplectic_euler.h - symplectic Euler steps of every polarisation.
  *
  * For each canonical pair (X, P) the Hamiltonian is evaluated at (X0, P1) where the polarisation is
  * 0 and at (X1, P0) where it is 1:  X1 = X0 + h dH/dP,  P1 = P0 - h dH/dX.  With (s_q, s_v), and
@@ -16,8 +16,8 @@
  * Symplectic for every choice, as sum dX1 dP1 - dX dP = h d(dH) = 0; order 1.  The adjoint of
  * (s_q, s_v) is (1-s_q, 1-s_v).  The physical space has the first line only, and v stands
  * for (v, g) there. */
-#ifndef DAL_KERNEL_POLARISED_H
-#define DAL_KERNEL_POLARISED_H
+#ifndef DAL_KERNEL_SYMPLECTIC_EULER_H
+#define DAL_KERNEL_SYMPLECTIC_EULER_H
 
 typedef struct dal_polarisation {
     int q, v;
