@@ -10,7 +10,7 @@
  *     dal_step, dal_field, dal_update, ...   lib/kernel/step.h          one step: state, system
  *     dal_invert, dal_multiply               lib/kernel/algebra.h       small dense algebra
  *     dal_solve                              lib/kernel/solve.h         fixed point, Newton
- *     dal_polarised_euler                    lib/kernel/symplectic_euler.h     symplectic Euler steps
+ *     dal_symplectic_euler                    lib/kernel/symplectic_euler.h     symplectic Euler steps
  *     dal_tableau                            lib/kernel/tableau.h       coefficients, weighted sums
  *     dal_collocation                        lib/kernel/collocation.h   implicit Runge-Kutta steps
  *     dal_substeps                           lib/kernel/composition.h   steps made of steps

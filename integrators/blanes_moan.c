@@ -32,8 +32,8 @@ DAL_INLINE dal_status alternate(dal_step *s, int substeps, const double *c)
     double size[DAL_MOST_SUBSTEPS];
     dal_substeps(&k, s->h, size);
     for (int i = 0; i < substeps; i += 2) {
-        DAL_TRY(dal_polarised_euler(s, DAL_POLARISATION(1, 0), size[i]));
-        DAL_TRY(dal_polarised_euler(s, DAL_POLARISATION(0, 1), size[i + 1]));
+        DAL_TRY(dal_symplectic_euler(s, DAL_POLARISATION(1, 0), size[i]));
+        DAL_TRY(dal_symplectic_euler(s, DAL_POLARISATION(0, 1), size[i + 1]));
     }
     s->t = end;
     return DAL_OK;

@@ -12,8 +12,8 @@
 DAL_INLINE dal_status step(dal_step *s)
 {
     const double half = 0.5 * s->h;
-    DAL_TRY(dal_polarised_euler(s, DAL_POLARISATION(1, 0), half));
-    return dal_polarised_euler(s, DAL_POLARISATION(0, 1), half);
+    DAL_TRY(dal_symplectic_euler(s, DAL_POLARISATION(1, 0), half));
+    return dal_symplectic_euler(s, DAL_POLARISATION(0, 1), half);
 }
 
 DAL_INTEGRATOR(stormer_verlet, step, .name = "stormer-verlet",

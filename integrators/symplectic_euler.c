@@ -6,7 +6,7 @@
  *     (0,1)  v1 = v + h F(q, v1)    q1 = q + h v1    v1 solved to rounding
  *     (1,1)  v1 = v + h F(q1, v1)   q1 = q + h v1    implicit Euler on p = pi = 0
  *
- * with the momenta as in dal_polarised_euler.  Hairer, Lubich, Wanner, Geometric Numerical
+ * with the momenta as in dal_symplectic_euler.  Hairer, Lubich, Wanner, Geometric Numerical
  * Integration (2006), VI.3.  Order 1, symplectic on the lift whatever the polarisation; (1,0) and
  * (0,1) keep D bilinear in (q,v). */
 #include <dalembert_kernel.h>
@@ -15,7 +15,7 @@ static DAL_UNUSED const char reference[] = "Hairer, Lubich, Wanner 2006, VI.3";
 
 DAL_INLINE dal_status step_00(dal_step *s)
 {
-    return dal_polarised_euler(s, DAL_POLARISATION(0, 0), s->h);
+    return dal_symplectic_euler(s, DAL_POLARISATION(0, 0), s->h);
 }
 
 DAL_INTEGRATOR(symplectic_euler_00, step_00, .name = "symplectic-euler-00",
@@ -26,7 +26,7 @@ DAL_INTEGRATOR(symplectic_euler_00, step_00, .name = "symplectic-euler-00",
 
 DAL_INLINE dal_status step_10(dal_step *s)
 {
-    return dal_polarised_euler(s, DAL_POLARISATION(1, 0), s->h);
+    return dal_symplectic_euler(s, DAL_POLARISATION(1, 0), s->h);
 }
 
 DAL_INTEGRATOR(symplectic_euler_10, step_10, .name = "symplectic-euler-10",
@@ -38,7 +38,7 @@ DAL_INTEGRATOR(symplectic_euler_10, step_10, .name = "symplectic-euler-10",
 
 DAL_INLINE dal_status step_01(dal_step *s)
 {
-    return dal_polarised_euler(s, DAL_POLARISATION(0, 1), s->h);
+    return dal_symplectic_euler(s, DAL_POLARISATION(0, 1), s->h);
 }
 
 DAL_INTEGRATOR(symplectic_euler_01, step_01, .name = "symplectic-euler-01",
@@ -48,7 +48,7 @@ DAL_INTEGRATOR(symplectic_euler_01, step_01, .name = "symplectic-euler-01",
 
 DAL_INLINE dal_status step_11(dal_step *s)
 {
-    return dal_polarised_euler(s, DAL_POLARISATION(1, 1), s->h);
+    return dal_symplectic_euler(s, DAL_POLARISATION(1, 1), s->h);
 }
 
 DAL_INTEGRATOR(symplectic_euler_11, step_11, .name = "symplectic-euler-11",

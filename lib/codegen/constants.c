@@ -31,7 +31,7 @@ void dal__put_constants(dal__generation *g)
     const dal__shape *k = &g->shape;
     const int stages = g->spec->method.layer[0]->stages;
     const bool collocation = dal__method_uses(g, "dal_collocation");
-    const bool solves = collocation || dal__method_uses(g, "dal_polarised_euler");
+    const bool solves = collocation || dal__method_uses(g, "dal_symplectic_euler");
     const bool is_explicit = dal_method_properties(&g->spec->method) & DAL_EXPLICIT;
     const struct {
         const char *name;

@@ -48,7 +48,7 @@ bool dal__method_uses(const dal__generation *g, const char *word)
 
 bool dal__uses_newton(const dal__generation *g)
 {
-    const bool implicit = dal__method_uses(g, "dal_polarised_euler") ||
+    const bool implicit = dal__method_uses(g, "dal_symplectic_euler") ||
                           dal__method_uses(g, "dal_collocation") ||
                           dal__method_uses(g, "dal_impose") || dal__method_uses(g, "dal_spark");
     return implicit && g->spec->options.solver != DAL_FIXED_POINT &&
@@ -234,7 +234,7 @@ static void put_kernel(dal__generation *g)
 {
     static const char *const always[] = {"num.h", "elementary.h", "persistent.h",
                                          "try.h", "step.h",       "algebra.h"};
-    const bool euler = dal__method_uses(g, "dal_polarised_euler");
+    const bool euler = dal__method_uses(g, "dal_symplectic_euler");
     const bool collocation = dal__method_uses(g, "dal_collocation");
     for (size_t i = 0; i < sizeof always / sizeof *always; i++)
         dal__text_put(&g->text, dal__source_text(always[i]));

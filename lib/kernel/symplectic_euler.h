@@ -151,7 +151,7 @@ DAL_INLINE void dal__euler_rates(dal_step *s, dal_euler *k, num mu, num *d)
 }
 
 /* One step of size h from the present state and time. */
-DAL_INLINE dal_status dal_polarised_euler(dal_step *s, dal_polarisation at, double h)
+DAL_INLINE dal_status dal_symplectic_euler(dal_step *s, dal_polarisation at, double h)
 {
     DAL_MARK(s);
     const int n = DAL_N(s);
