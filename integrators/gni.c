@@ -39,7 +39,7 @@ DAL_INLINE dal_status rattle_begin(dal_step *s, num *kick)
     DAL_VECTOR(s, lambda, DAL_M(s));
     DAL_VECTOR(s, pull, DAL_N(s));
     dal_eval_blocks(s, s->t, s->y, s->y + n, before);
-    DAL_TRY(dal_recall_multipliers(s, before, lambda));
+    DAL_TRY(dal_restore_multipliers(s, before, lambda));
     dal_multiply(before + dal_blocks_B(s), n, m, lambda, pull);
     DAL_EACH(i, n) kick[i] = 0.5 * s->h * (before[dal_blocks_a(s) + i] + pull[i]);
     return DAL_OK;
@@ -63,7 +63,7 @@ DAL_INLINE dal_status step(dal_step *s)
     DAL_EACH(i, n) q1[i] = dal_moved_q(s, i, d[i]);
     DAL_TRY(dal_impose(s, &eq, rattle_map, dal_positional(s)));
     DAL_EACH(i, n) d[n + i] = eq.block[0].u[i];
-    dal_carry_multipliers(s, k.reaction.mu);
+    dal_save_multipliers(s, k.reaction.mu);
     return dal_update(s, h, d);
 }
 

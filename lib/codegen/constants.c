@@ -49,7 +49,7 @@ void dal__put_constants(dal__generation *g)
         {"EXTRA_ITERATIONS", k->options.extra_iterations},
         {"PLAIN", k->options.sums == DAL_SUMS_PLAIN},
         {"PROPERTIES", (int)k->system->properties},
-        {"REACTION", k->reaction},
+        {"MULTIPLIER", k->multiplier},
         {"NEWTON", dal__uses_newton(g)},
         {"TANGENT", dal__follows_tangents(g)},
         {"EXPLICIT", is_explicit && k->depth == 1 && !(solves && k->lifted)},

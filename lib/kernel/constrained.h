@@ -74,17 +74,18 @@ DAL_INLINE dal_status dal_continuous_multipliers(dal_step *s, const num *parts, 
 }
 
 /* The multipliers carried from the last step, or the continuous ones where there are none. */
-DAL_INLINE dal_status dal_recall_multipliers(dal_step *s, const num *parts, num *h)
+DAL_INLINE dal_status dal_restore_multipliers(dal_step *s, const num *parts, num *h)
 {
-    const dal_mask known = dal_less(dal_num(0.5), *s->reacts);
+    const dal_mask known = dal_less(dal_num(0.5), *s->has_multiplier);
     DAL_TRY(dal_continuous_multipliers(s, parts, h));
-    DAL_EACH(i, DAL_CARRIED(s)) h[i] = dal_select(known, s->reaction[i], h[i]);
+    DAL_EACH(i, DAL_PERSISTENT_MULTIPLIERS(s)) h[i] = dal_select(known, s->multiplier[i], h[i]);
     return DAL_OK;
 }
-DAL_INLINE void dal_carry_multipliers(dal_step *s, const num *h)
+DAL_INLINE void dal_save_multipliers(dal_step *s, const num *h)
 {
-    DAL_EACH(i, DAL_CARRIED(s)) s->reaction[i] = dal_select(s->alive[0], h[i], s->reaction[i]);
-    *s->reacts = dal_select(s->alive[0], dal_num(1.0), *s->reacts);
+    DAL_EACH(i, DAL_PERSISTENT_MULTIPLIERS(s))
+        s->multiplier[i] = dal_select(s->alive[0], h[i], s->multiplier[i]);
+    *s->has_multiplier = dal_select(s->alive[0], dal_num(1.0), *s->has_multiplier);
 }
 
 /* ---- one velocity ---- */

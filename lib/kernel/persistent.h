@@ -14,13 +14,14 @@
 /* Members of dal_step, and how many numbers each is: whoever uses the list says, by a macro
  * DAL__COUNT_ONE etc.  The slopes come last, since most methods keep none. */
 #define DAL__MEMORY_LIST(X)                                                                        \
-    X(stiff, ONE)         /* 1 where the fixed point was too slow and Newton took over */          \
-    X(slopes_h, ONE)      /* the step size behind the slopes, 0: none */                           \
-    X(reacts, ONE)        /* 1 where reaction has been set */                                      \
-    X(reaction, REACTION) /* [m] the multipliers of the last step, of methods that carry them */   \
-    X(substep, ONE)       /* the size planned for the next substep, 0: there is no plan */         \
-    X(level, TWO)         /* the energy of the start, and 1 when it is known */                    \
-    X(slopes, SLOPES)     /* stage slopes of the last collocation step, and differences */
+    X(stiff, ONE)          /* 1 where the fixed point was too slow and Newton took over */         \
+    X(slopes_h, ONE)       /* the step size behind the slopes, 0: none */                          \
+    X(has_multiplier, ONE) /* 1 where multiplier has been set */                                   \
+    X(multiplier,                                                                                  \
+      MULTIPLIER)     /* [m] the multipliers of the last step, of methods that carry them */       \
+    X(substep, ONE)   /* the size planned for the next substep, 0: there is no plan */             \
+    X(level, TWO)     /* the energy of the start, and 1 when it is known */                        \
+    X(slopes, SLOPES) /* stage slopes of the last collocation step, and differences */
 
 /* Differences kept beside the slopes. */
 enum { DAL__DIFFERENCES = 4 };

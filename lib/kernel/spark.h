@@ -20,7 +20,7 @@
 
 typedef struct dal_spark {
     int stages;
-    int carried;                         /* 1: L_1 is known */
+    int L1_known;                        /* 1: L_1 is known */
     const double *c, *b, *a, *ahat;      /* [s], [s], [s*s], [s*s] */
     int points;                          /* at most s + 1 */
     const double *point_c, *to_q, *to_v; /* [points] c_p, [points*s] x, [points*s] y */
@@ -74,7 +74,7 @@ DAL_INLINE void dal__spark_stages(dal_step *s, const dal_spark_step *k, num *fre
         dal_eval_blocks(s, s->t + k->method->c[i] * s->h, k->q, k->V + i * n, parts);
         for (int c = 0; c < n; c++) free[i * n + c] = parts[dal_blocks_a(s) + c];
     }
-    if (!k->method->carried) return;
+    if (!k->method->L1_known) return;
     const num *B = k->parts + dal_blocks_B(s);
     for (int c = 0; c < n; c++)
         for (int a = 0; a < m; a++) free[c] += B[c * m + a] * k->given[a];
@@ -113,7 +113,7 @@ DAL_INLINE void dal__spark_entries(const dal_step *s, const dal_spark_step *k, c
 DAL_INLINE void dal__spark_add(const dal_step *s, const dal_spark_step *k, int p, int e, double w)
 {
     const int n = DAL_N(s), m = DAL_M(s), stages = DAL_STAGES(k->method);
-    const int first = k->method->carried, size = (stages - first) * m;
+    const int first = k->method->L1_known, size = (stages - first) * m;
     const double *y = k->method->to_v + p * stages;
     for (int a = 0; a < m; a++) {
         const num *A = k->normals + dal_blocks_A(s) + a * n;
@@ -129,7 +129,7 @@ DAL_INLINE void dal__spark_equations(dal_step *s, const dal_spark_step *k, const
                                      const num *free)
 {
     const int m = DAL_M(s), points = k->method->points;
-    const int count = DAL_STAGES(k->method) - k->method->carried, size = count * m;
+    const int count = DAL_STAGES(k->method) - k->method->L1_known, size = count * m;
     for (int i = 0; i < size; i++) k->rhs[i] = dal_num(0.0);
     for (int i = 0; i < size * size; i++) k->matrix[i] = dal_num(0.0);
     for (int p = 0; p < points; p++) {
@@ -142,7 +142,7 @@ DAL_INLINE void dal__spark_equations(dal_step *s, const dal_spark_step *k, const
 DAL_INLINE void dal__spark_map(dal_step *s, dal_equation *eq)
 {
     const dal_spark_step *k = (const dal_spark_step *)eq->context;
-    const int n = DAL_N(s), m = DAL_M(s), first = k->method->carried;
+    const int n = DAL_N(s), m = DAL_M(s), first = k->method->L1_known;
     const int count = DAL_STAGES(k->method) - first;
     num *const image = eq->block[0].image;
     const num *K = eq->block[0].u;
@@ -169,9 +169,9 @@ DAL_INLINE dal_status dal__spark_begin(dal_step *s, const dal_spark_step *k, dal
     dal_force(s, s->t, s->y, s->y + n, now);
     for (int i = 0; i < eq->block[0].size; i++) eq->block[0].u[i] = now[i % n];
     for (int a = 0; a < m; a++) k->last[a] = k->given[a] = dal_num(0.0);
-    if (!k->method->carried) return DAL_OK;
+    if (!k->method->L1_known) return DAL_OK;
     dal_eval_blocks(s, s->t, s->y, s->y + n, k->parts);
-    return dal_recall_multipliers(s, k->parts, k->given);
+    return dal_restore_multipliers(s, k->parts, k->given);
 }
 
 DAL_INLINE dal_status dal__spark_end(dal_step *s, const dal_spark_step *k, const num *K)
@@ -183,7 +183,7 @@ DAL_INLINE dal_status dal__spark_end(dal_step *s, const dal_spark_step *k, const
         d[c] = dal__stage_sum(k->method->b, stages, s->h, k->V, n, c);
         d[n + c] = dal__stage_sum(k->method->b, stages, s->h, K, n, c);
     }
-    if (k->method->carried) dal_carry_multipliers(s, k->last);
+    if (k->method->L1_known) dal_save_multipliers(s, k->last);
     return dal_update(s, s->h, d);
 }
 

@@ -34,27 +34,27 @@ typedef enum dal_callback_code {
 /* The dimensions are the generated file's constants, and all memory is local.  DAL_JOINED groups of
  * lanes are stepped as one system of so many times as many components: number i of group j is
  * number i * DAL_JOINED + j. */
-#define DAL_N(s)                (DAL__N * DAL_JOINED)
-#define DAL_NW(s)               (DAL__NW * DAL_JOINED)
-#define DAL_M(s)                DAL__M
-#define DAL_DIM(s)              (DAL__DIM * DAL_JOINED)
-#define DAL_LIFTED(s)           DAL__LIFTED
-#define DAL_SOLVER(s)           DAL__SOLVER
-#define DAL_ITERATIONS(s)       DAL__ITERATIONS
-#define DAL_SOLVER_TOLERANCE(s) DAL__SOLVER_TOLERANCE
-#define DAL_EXTRA_ITERATIONS(s) DAL__EXTRA_ITERATIONS
-#define DAL_PLAIN(s)            DAL__PLAIN
-#define DAL_MAY_NEWTON(s)       DAL__NEWTON
-#define DAL_TANGENT(s)          DAL__TANGENT
-#define DAL_PROPERTIES(s)       DAL__PROPERTIES
-#define DAL_CARRIED(s)          DAL__REACTION /* multipliers carried: m, or 0 */
-#define DAL_SLOPES(s)           DAL__SLOPES   /* numbers kept of slopes, or 0 */
-#define DAL_STAGES(t)           DAL__STAGES
-#define DAL__ROOM(count)        ((count) > 0 ? (count) : 1)
-#define DAL__COUNT_ONE          1
-#define DAL__COUNT_TWO          2
-#define DAL__COUNT_SLOPES       DAL__SLOPES
-#define DAL__COUNT_REACTION     DAL__REACTION
+#define DAL_N(s)                      (DAL__N * DAL_JOINED)
+#define DAL_NW(s)                     (DAL__NW * DAL_JOINED)
+#define DAL_M(s)                      DAL__M
+#define DAL_DIM(s)                    (DAL__DIM * DAL_JOINED)
+#define DAL_LIFTED(s)                 DAL__LIFTED
+#define DAL_SOLVER(s)                 DAL__SOLVER
+#define DAL_ITERATIONS(s)             DAL__ITERATIONS
+#define DAL_SOLVER_TOLERANCE(s)       DAL__SOLVER_TOLERANCE
+#define DAL_EXTRA_ITERATIONS(s)       DAL__EXTRA_ITERATIONS
+#define DAL_PLAIN(s)                  DAL__PLAIN
+#define DAL_MAY_NEWTON(s)             DAL__NEWTON
+#define DAL_TANGENT(s)                DAL__TANGENT
+#define DAL_PROPERTIES(s)             DAL__PROPERTIES
+#define DAL_PERSISTENT_MULTIPLIERS(s) DAL__MULTIPLIER /* multipliers carried: m, or 0 */
+#define DAL_SLOPES(s)                 DAL__SLOPES     /* numbers kept of slopes, or 0 */
+#define DAL_STAGES(t)                 DAL__STAGES
+#define DAL__ROOM(count)              ((count) > 0 ? (count) : 1)
+#define DAL__COUNT_ONE                1
+#define DAL__COUNT_TWO                2
+#define DAL__COUNT_SLOPES             DAL__SLOPES
+#define DAL__COUNT_MULTIPLIER         DAL__MULTIPLIER
 
 #define DAL_VECTOR(step, name, count) num name[DAL__ROOM(count)]
 #define DAL_SET_TANGENT(step, on)     (void)0
@@ -108,22 +108,22 @@ DAL_INLINE void dal_eval_group(dal_step *s, int group, dal_callback_code code, d
 
 enum { DAL_JOINED = 1 };
 
-#define DAL_N(s)                ((s)->n)
-#define DAL_NW(s)               ((s)->nw)
-#define DAL_M(s)                ((s)->m)
-#define DAL_DIM(s)              ((s)->dim)
-#define DAL_LIFTED(s)           ((s)->lifted)
-#define DAL_SOLVER(s)           ((s)->solver)
-#define DAL_ITERATIONS(s)       ((s)->iterations)
-#define DAL_SOLVER_TOLERANCE(s) ((s)->solver_tolerance)
-#define DAL_EXTRA_ITERATIONS(s) ((s)->extra_iterations)
-#define DAL_PLAIN(s)            ((s)->plain)
-#define DAL_TANGENT(s)          ((s)->tangent)
-#define DAL_MAY_NEWTON(s)       ((s)->has_jacobian && (s)->solver != DAL_FIXED_POINT)
-#define DAL_PROPERTIES(s)       ((s)->properties)
-#define DAL_CARRIED(s)          ((s)->m)
-#define DAL_SLOPES(s)           ((s)->slopes_kept)
-#define DAL_STAGES(t)           ((t)->stages) /* of a tableau */
+#define DAL_N(s)                      ((s)->n)
+#define DAL_NW(s)                     ((s)->nw)
+#define DAL_M(s)                      ((s)->m)
+#define DAL_DIM(s)                    ((s)->dim)
+#define DAL_LIFTED(s)                 ((s)->lifted)
+#define DAL_SOLVER(s)                 ((s)->solver)
+#define DAL_ITERATIONS(s)             ((s)->iterations)
+#define DAL_SOLVER_TOLERANCE(s)       ((s)->solver_tolerance)
+#define DAL_EXTRA_ITERATIONS(s)       ((s)->extra_iterations)
+#define DAL_PLAIN(s)                  ((s)->plain)
+#define DAL_TANGENT(s)                ((s)->tangent)
+#define DAL_MAY_NEWTON(s)             ((s)->has_jacobian && (s)->solver != DAL_FIXED_POINT)
+#define DAL_PROPERTIES(s)             ((s)->properties)
+#define DAL_PERSISTENT_MULTIPLIERS(s) ((s)->m)
+#define DAL_SLOPES(s)                 ((s)->slopes_kept)
+#define DAL_STAGES(t)                 ((t)->stages) /* of a tableau */
 
 struct dal_step {
     double t, h; /* where the step begins, and its size; dal_update moves t */
@@ -133,7 +133,7 @@ struct dal_step {
     num *y, *r;  /* [dim] */
 
     /* Carried from step to step beside the state, see persistent.h. */
-#define X(member, count)        num *member;
+#define X(member, count)              num *member;
     DAL__MEMORY_LIST(X)
 #undef X
     num *memory; /* [remembered] all these, one behind the other */
