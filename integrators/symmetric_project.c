@@ -11,13 +11,13 @@
 
 typedef struct reflection {
     double t0;
-    num *y0, *r0, *memory0; /* all of the run where the step began */
-    num *B0;                /* [n*m] */
-    num *inverse;           /* [m*m] of 2 A0 B0 */
-    num *out;               /* [m + m*n + n*m] D, A, B */
-    num *push;              /* [n] B mu */
-    num *shift;             /* [m] */
-    dal_mask failed;        /* lanes that NAME could not step */
+    num *y0, *r0, *method_state0; /* all of the run where the step began */
+    num *B0;                      /* [n*m] */
+    num *inverse;                 /* [m*m] of 2 A0 B0 */
+    num *out;                     /* [m + m*n + n*m] D, A, B */
+    num *push;                    /* [n] B mu */
+    num *shift;                   /* [m] */
+    dal_mask failed;              /* lanes that NAME could not step */
     dal_status status;
 } reflection;
 
@@ -35,7 +35,7 @@ DAL_INLINE void step_inside(dal_step *s, reflection *k, const num *mu, dal_mask 
     const dal_mask unconverged = s->unconverged[0];
     DAL_EACH(i, DAL_DIM(s)) s->y[i] = dal_select(active, k->y0[i], s->y[i]);
     DAL_EACH(i, DAL_DIM(s)) s->r[i] = dal_select(active, k->r0[i], s->r[i]);
-    dal_recall(s, active, k->memory0);
+    dal_restore_method_state(s, active, k->method_state0);
     s->t = k->t0;
     s->alive[0] = active;
     push_velocity(s, k, k->B0, mu);
@@ -72,7 +72,7 @@ DAL_INLINE dal_status begin_reflection(dal_step *s, reflection *k, dal_equation 
     DAL_VECTOR(s, g, DAL_M(s) * DAL_M(s));
     DAL_EACH(i, DAL_DIM(s)) k->y0[i] = s->y[i];
     DAL_EACH(i, DAL_DIM(s)) k->r0[i] = s->r[i];
-    dal_remember(s, k->memory0);
+    dal_save_method_state(s, k->method_state0);
     dal_eval(s, DAL_EVAL_CONSTRAINT, s->t, s->y, s->y + n, NULL, k->out);
     DAL_EACH(i, n * m) k->B0[i] = B[i];
     dal_gram(A, B, m, n, g);
@@ -89,7 +89,7 @@ DAL_INLINE dal_status reflect(dal_step *s)
 {
     DAL_VECTOR(s, y0, DAL_DIM(s));
     DAL_VECTOR(s, r0, DAL_DIM(s));
-    DAL_VECTOR(s, memory0, DAL_REMEMBERED(s));
+    DAL_VECTOR(s, method_state0, DAL_METHOD_STATE(s));
     DAL_VECTOR(s, B0, DAL_N(s) * DAL_M(s));
     DAL_VECTOR(s, inverse, DAL_M(s) * DAL_M(s));
     DAL_VECTOR(s, out, DAL_M(s) + 2 * DAL_M(s) * DAL_N(s));
@@ -97,7 +97,7 @@ DAL_INLINE dal_status reflect(dal_step *s)
     DAL_VECTOR(s, shift, DAL_M(s));
     DAL_BLOCK(s, mu, DAL_M(s), 0);
     DAL_BLOCK(s, v1, DAL_N(s), 0);
-    reflection k = {s->t, y0, r0, memory0, B0, inverse, out, push, shift, ~dal_all(), DAL_OK};
+    reflection k = {s->t, y0, r0, method_state0, B0, inverse, out, push, shift, ~dal_all(), DAL_OK};
     dal_equation eq = {{mu, v1}, 2, &k, {dal_all()}};
     DAL_TRY(begin_reflection(s, &k, &eq));
     const dal_status status = dal_solve(s, &eq, reflection_map, NULL);

@@ -58,9 +58,9 @@ typedef struct motion {
     dal_run_spec spec;
     dal_setting start[WIDE];
     dal_run *run[WIDE];
-    double *begin[WIDE];     /* [carried] */
+    double *begin[WIDE];     /* [persistent] */
     dal_status status[WIDE]; /* as a step says, which dal__explain may know better */
-    size_t carried;
+    size_t persistent;
     int inputs, wrong;
 } motion;
 
@@ -82,7 +82,7 @@ static bool begin_lane(motion *m, int lane)
     const double *memory = dal_run_save(m->run[lane], &count);
     m->begin[lane] = malloc(count * sizeof *memory);
     memcpy(m->begin[lane], memory, count * sizeof *memory);
-    m->carried = count;
+    m->persistent = count;
     return true;
 }
 
@@ -174,7 +174,7 @@ typedef struct object {
 static bool same_lane(const motion *m, const parts *p, int lane, const double *memory)
 {
     const size_t evaluations = dal__at(&m->run[0]->shape, DAL__EVALUATIONS);
-    for (size_t i = 0; i < m->carried; i++)
+    for (size_t i = 0; i < m->persistent; i++)
         if ((i != evaluations || p->lanes == 1) &&
             memcmp(&p->y[i * (size_t)p->lanes + (size_t)lane], &memory[i], sizeof *memory) != 0)
             return false;
@@ -197,7 +197,7 @@ static void compare_steps(motion *m, const object *o, parts *p, const char *way)
     size_t count;
     if (o->start(p->y, NULL) != 0 || !same_start(m, p)) differs(m, way, "another start");
     for (int lane = 0; lane < p->lanes; lane++)
-        for (size_t i = 0; i < m->carried; i++)
+        for (size_t i = 0; i < m->persistent; i++)
             p->y[i * (size_t)p->lanes + (size_t)lane] = m->begin[lane][i];
     o->advance(p->y, h, 1);
     o->advance(p->y, h, STEPS / 3);
@@ -214,8 +214,8 @@ static void compare_steps(motion *m, const object *o, parts *p, const char *way)
 static void compare_loaded(motion *m, int lanes, void *handle, const char *way)
 {
     const size_t wide = (size_t)lanes, inputs = m->inputs ? (size_t)m->inputs : 1;
-    double *memory = calloc((m->carried + inputs + 1) * wide, sizeof *memory);
-    parts p = {lanes, memory, memory + m->carried * wide, NULL};
+    double *memory = calloc((m->persistent + inputs + 1) * wide, sizeof *memory);
+    parts p = {lanes, memory, memory + m->persistent * wide, NULL};
     object o;
     void *start = dlsym(handle, "bits_start"), *advance = dlsym(handle, "bits_advance");
     p.status = (int *)(void *)(p.work + inputs * wide);

@@ -1,5 +1,5 @@
 /* test_constrained.c - methods that impose D themselves: what they are refused for, what they keep,
- * their carried multipliers, and the long runs by which they differ. */
+ * their persistent multipliers, and the long runs by which they differ. */
 #include "fixtures.h"
 #include "quick.h"
 #include "run/run.h"
@@ -39,17 +39,18 @@ static void test_refusals(void)
     dal_model_free(full);
 }
 
-/* ---- carried multipliers ---- */
+/* ---- persistent multipliers ---- */
 
-/* Where the multipliers lie among the carried numbers. */
+/* Where the multipliers lie among the persistent numbers. */
 static double *multipliers(dal_run *run, double *memory)
 {
-    const size_t first = dal__at(&run->shape, DAL__MEMORY) + 2; /* behind stiff and slopes_h */
-    CU_ASSERT_EQUAL(memory[first], 1.0);                        /* they have been set */
+    const size_t first =
+        dal__at(&run->shape, DAL__METHOD_STATE) + 2; /* behind stiff and slopes_h */
+    CU_ASSERT_EQUAL(memory[first], 1.0);             /* they have been set */
     return memory + first + 1;
 }
 
-/* A copy of the carried numbers; the caller frees it. */
+/* A copy of the persistent numbers; the caller frees it. */
 static double *memory_of(const dal_run *run, size_t *count)
 {
     const double *memory = dal_run_save(run, count);
@@ -101,7 +102,7 @@ static void test_turning(void)
     }
 }
 
-/* The state at t = 1 after count steps; the multipliers carried into the first are 0 if wrong. */
+/* The state at t = 1 after count steps; the multipliers persistent into the first are 0 if wrong. */
 static void end_state(const dal_system *system, const char *method, int count, bool wrong,
                       double *state)
 {
@@ -109,7 +110,7 @@ static void end_state(const dal_system *system, const char *method, int count, b
     dal_run *run = fixture_run(&spec);
     size_t size;
     double *memory = memory_of(run, &size);
-    if (wrong) memory[dal__at(&run->shape, DAL__MEMORY) + 2] = 1.0;
+    if (wrong) memory[dal__at(&run->shape, DAL__METHOD_STATE) + 2] = 1.0;
     CU_ASSERT_EQUAL(dal_run_restore(run, memory, size, NULL), DAL_OK);
     CU_ASSERT_EQUAL(dal_run_advance(run, count, NULL), DAL_OK);
     memcpy(state, dal_run_state(run), 2 * (size_t)system->n * sizeof *state);

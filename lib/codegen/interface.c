@@ -126,7 +126,7 @@ static void put_sizes(dal__generation *g)
         {"DIMENSION", k->dim},
         {"PARAMETERS", k->system->parameters},
         {"OBSERVABLES", dal_run_observables(g->run)},
-        {"CARRIED", (int)k->carried},
+        {"PERSISTENT", (int)k->persistent},
         {"WORK", (int)g->programs->tapes->first_input},
     };
     for (size_t i = 0; i < sizeof list / sizeof *list; i++)
@@ -147,7 +147,8 @@ static void put_structs(dal__generation *g)
         g,
         "} PREFIX_parameters;\n\n"
         "typedef struct PREFIX_state {\n"
-        "    double y[PREFIX_CARRIED * PREFIX_LANES]; /* the state, then what a step carries */\n"
+        "    double y[PREFIX_PERSISTENT * PREFIX_LANES]; /* the state, then what a step carries "
+        "*/\n"
         "    double work[(PREFIX_WORK > 0 ? PREFIX_WORK : 1) * PREFIX_LANES]; /* parameters */\n"
         "    int status[PREFIX_LANES]; /* 0: goes on */\n"
         "} PREFIX_state;\n\n"

@@ -1,6 +1,6 @@
 /* native.c - runs and batches whose steps are compiled: generate, compile, load, and step by it.
  *
- * The loaded function works on the carried array of a run, or of a block of lanes, with the same
+ * The loaded function works on the persistent array of a run, or of a block of lanes, with the same
  * bits as the tape, so it can be put in at any time; failures are explained by the tape. */
 #include "codegen/generate.h"
 #include "jit/cache.h"

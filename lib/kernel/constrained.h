@@ -73,7 +73,7 @@ DAL_INLINE dal_status dal_continuous_multipliers(dal_step *s, const num *parts, 
     return DAL_OK;
 }
 
-/* The multipliers carried from the last step, or the continuous ones where there are none. */
+/* The multipliers persistent from the last step, or the continuous ones where there are none. */
 DAL_INLINE dal_status dal_restore_multipliers(dal_step *s, const num *parts, num *h)
 {
     const dal_mask known = dal_less(dal_num(0.5), *s->has_multiplier);

@@ -1,6 +1,6 @@
-/* persistent.h - what is carried from step to step: one list, for the engine and for generated files.
+/* persistent.h - what is persistent from step to step: one list, for the engine and for generated files.
  *
- *     carried:  y[dim] | r[dim] | the clock | what the method remembers
+ *     persistent:  y[dim] | r[dim] | the clock | what the method remembers
  *
  * All that survives a step is this array; all else is scratch.  The slopes are those of a method
  * that asks for them (DAL_EXTRAPOLATES_STAGES), [1 + DAL__DIFFERENCES][stages*(nw + n)]: see
@@ -13,7 +13,7 @@
 
 /* Members of dal_step, and how many numbers each is: whoever uses the list says, by a macro
  * DAL__COUNT_ONE etc.  The slopes come last, since most methods keep none. */
-#define DAL__MEMORY_LIST(X)                                                                        \
+#define DAL__METHOD_STATE_LIST(X)                                                                  \
     X(stiff, ONE)          /* 1 where the fixed point was too slow and Newton took over */         \
     X(slopes_h, ONE)       /* the step size behind the slopes, 0: none */                          \
     X(has_multiplier, ONE) /* 1 where multiplier has been set */                                   \
@@ -31,7 +31,7 @@ enum {
 #define X(name) DAL__##name,
     DAL__CLOCK_LIST(X)
 #undef X
-        DAL__MEMORY
+        DAL__METHOD_STATE
 };
 
 #endif

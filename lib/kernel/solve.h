@@ -16,7 +16,7 @@
  * Groups of lanes that are stepped as one system (DAL_JOINED) have norms and masks of their own.
  *
  * With the solver "auto" a lane whose fixed point contracts more slowly than DAL__SLOW, or not at
- * all, goes over to Newton and stays there (step->stiff, which is carried along). */
+ * all, goes over to Newton and stays there (step->stiff, which is persistent along). */
 #ifndef DAL_KERNEL_SOLVE_H
 #define DAL_KERNEL_SOLVE_H
 

@@ -24,7 +24,7 @@ typedef struct dal_spark {
     const double *c, *b, *a, *ahat;      /* [s], [s], [s*s], [s*s] */
     int points;                          /* at most s + 1 */
     const double *point_c, *to_q, *to_v; /* [points] c_p, [points*s] x, [points*s] y */
-    const double *omega;                 /* [(s - carried)*points] */
+    const double *omega;                 /* [(s - persistent)*points] */
 } dal_spark;
 
 typedef struct dal_spark_step {
@@ -32,7 +32,7 @@ typedef struct dal_spark_step {
     const dal_spark *method;
     num *V, *parts;        /* [s*n], [s] answers */
     num *q, *v, *normals;  /* a point, and D and A there */
-    num *given, *last;     /* [m] L_1 where it is carried; L_s of a lane's last sweep */
+    num *given, *last;     /* [m] L_1 where it is persistent; L_s of a lane's last sweep */
     num *shift;            /* [n] h sum y (a_j - K_j) */
     num *matrix, *inverse; /* [(s*m)^2] */
     num *rhs, *L;          /* [s*m] */
@@ -161,7 +161,7 @@ DAL_INLINE void dal__spark_map(dal_step *s, dal_equation *eq)
         k->last[a] = DAL_KEEP(eq->active[0], k->L[(count - 1) * m + a], k->last[a]);
 }
 
-/* L_1, where it is carried, and the first guess: F at the present state for every K. */
+/* L_1, where it is persistent, and the first guess: F at the present state for every K. */
 DAL_INLINE dal_status dal__spark_begin(dal_step *s, const dal_spark_step *k, dal_equation *eq)
 {
     const int n = DAL_N(s), m = DAL_M(s);

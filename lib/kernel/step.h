@@ -47,7 +47,7 @@ typedef enum dal_callback_code {
 #define DAL_MAY_NEWTON(s)             DAL__NEWTON
 #define DAL_TANGENT(s)                DAL__TANGENT
 #define DAL_PROPERTIES(s)             DAL__PROPERTIES
-#define DAL_PERSISTENT_MULTIPLIERS(s) DAL__MULTIPLIER /* multipliers carried: m, or 0 */
+#define DAL_PERSISTENT_MULTIPLIERS(s) DAL__MULTIPLIER /* multipliers persistent: m, or 0 */
 #define DAL_SLOPES(s)                 DAL__SLOPES     /* numbers kept of slopes, or 0 */
 #define DAL_STAGES(t)                 DAL__STAGES
 #define DAL__ROOM(count)              ((count) > 0 ? (count) : 1)
@@ -65,7 +65,7 @@ struct dal_step {
     double t, h;
     num y[DAL__DIM * DAL_JOINED], r[DAL__DIM * DAL_JOINED];
 #define X(member, count) num member[DAL__ROOM(DAL__COUNT_##count) * DAL_JOINED];
-    DAL__MEMORY_LIST(X)
+    DAL__METHOD_STATE_LIST(X)
 #undef X
     dal_mask alive[DAL_JOINED], unconverged[DAL_JOINED];
     const dal_stored *work; /* parameters, and what is made of them alone */
@@ -74,26 +74,26 @@ struct dal_step {
 
 /* A copy of what the method remembers, and back from the copy in some lanes. */
 enum {
-    DAL__REMEMBERED = 0
+    DAL__METHOD_STATE_SIZE = 0
 #define X(member, count) +DAL__COUNT_##count
-    DAL__MEMORY_LIST(X)
+    DAL__METHOD_STATE_LIST(X)
 #undef X
 };
-#define DAL_REMEMBERED(s) DAL__REMEMBERED
-DAL_INLINE void dal_remember(const dal_step *s, num *to)
+#define DAL_METHOD_STATE(s) DAL__METHOD_STATE_SIZE
+DAL_INLINE void dal_save_method_state(const dal_step *s, num *to)
 {
 #define X(member, count)                                                                           \
     DAL_EACH(i, DAL__COUNT_##count) to[i] = s->member[i];                                          \
     to += DAL__COUNT_##count;
-    DAL__MEMORY_LIST(X)
+    DAL__METHOD_STATE_LIST(X)
 #undef X
 }
-DAL_INLINE void dal_recall(dal_step *s, dal_mask lanes, const num *from)
+DAL_INLINE void dal_restore_method_state(dal_step *s, dal_mask lanes, const num *from)
 {
 #define X(member, count)                                                                           \
     DAL_EACH(i, DAL__COUNT_##count) s->member[i] = dal_select(lanes, from[i], s->member[i]);       \
     from += DAL__COUNT_##count;
-    DAL__MEMORY_LIST(X)
+    DAL__METHOD_STATE_LIST(X)
 #undef X
 }
 
@@ -134,10 +134,10 @@ struct dal_step {
 
     /* Carried from step to step beside the state, see persistent.h. */
 #define X(member, count)              num *member;
-    DAL__MEMORY_LIST(X)
+    DAL__METHOD_STATE_LIST(X)
 #undef X
-    num *memory; /* [remembered] all these, one behind the other */
-    int remembered;
+    num *method_state; /* [method_state_count] all these, one after the other */
+    int method_state_count;
     int slopes_kept;
 
     dal_mask alive[DAL_JOINED];       /* lanes that go on */
@@ -184,14 +184,15 @@ DAL_INLINE num *dal_scratch(dal_step *s, int count)
 #define DAL_RELEASE(step)         (step)->used = dal__mark
 
 /* A copy of what the method remembers, and back from the copy in some lanes. */
-#define DAL_REMEMBERED(s)         ((s)->remembered)
-DAL_INLINE void dal_remember(const dal_step *s, num *to)
+#define DAL_METHOD_STATE(s)       ((s)->method_state_count)
+DAL_INLINE void dal_save_method_state(const dal_step *s, num *to)
 {
-    DAL_EACH(i, s->remembered) to[i] = s->memory[i];
+    DAL_EACH(i, s->method_state_count) to[i] = s->method_state[i];
 }
-DAL_INLINE void dal_recall(dal_step *s, dal_mask lanes, const num *from)
+DAL_INLINE void dal_restore_method_state(dal_step *s, dal_mask lanes, const num *from)
 {
-    DAL_EACH(i, s->remembered) s->memory[i] = dal_select(lanes, from[i], s->memory[i]);
+    DAL_EACH(i, s->method_state_count)
+        s->method_state[i] = dal_select(lanes, from[i], s->method_state[i]);
 }
 
 DAL_INLINE void dal_eval(dal_step *s, dal_callback_code code, double t, const num *q, const num *v,

@@ -21,7 +21,7 @@ typedef struct block {
     const dal__engine_kind *kind;
     int first; /* the batch's lane that is its lane 0 */
     void *engine;
-    double *carried, *work;
+    double *persistent, *work;
     dal__lanes alive;
 } block;
 
@@ -41,7 +41,7 @@ struct dal_batch {
 enum { NEAR = 1 << 19 };
 static bool is_near(const dal__shape *k, int width)
 {
-    const size_t numbers = 2 * k->carried + k->workspace;
+    const size_t numbers = 2 * k->persistent + k->workspace;
     return numbers * (size_t)width * sizeof(double) <= (size_t)NEAR;
 }
 
@@ -97,14 +97,14 @@ static void gather(double *single, const double *wide, size_t numbers, int width
 static void put_lane(dal_batch *batch, const block *b, int lane)
 {
     const dal__shape *k = &batch->scalar->shape;
-    spread(b->carried, batch->scalar->carried, k->carried, b->kind->width, lane);
+    spread(b->persistent, batch->scalar->persistent, k->persistent, b->kind->width, lane);
     spread(b->work, batch->scalar->work, k->workspace, b->kind->width, lane);
 }
 
 static void get_lane(dal_batch *batch, const block *b, int lane)
 {
     const dal__shape *k = &batch->scalar->shape;
-    gather(batch->scalar->carried, b->carried, k->carried, b->kind->width, lane);
+    gather(batch->scalar->persistent, b->persistent, k->persistent, b->kind->width, lane);
     gather(batch->scalar->work, b->work, k->workspace, b->kind->width, lane);
 }
 
@@ -131,7 +131,7 @@ static void place_block(dal_batch *batch, block *b, const dal__engine_kind *kind
                         void *memory)
 {
     *b = (block){.kind = kind, .first = first};
-    b->engine = kind->place(&batch->scalar->shape, memory, &b->carried, &b->work);
+    b->engine = kind->place(&batch->scalar->shape, memory, &b->persistent, &b->work);
     for (int lane = 0; lane < kind->width; lane++) {
         put_lane(batch, b, lane);
         if (first + lane < batch->count) b->alive |= (dal__lanes)1 << lane;
@@ -300,7 +300,7 @@ static long long step_block(dal_batch *batch, block *b, double h, long long coun
     int said[DAL__BLOCK];
     if (batch->native.steps) {
         count =
-            batch->native.steps(b->carried, b->work, h, count, (unsigned)b->alive, &lanes, said);
+            batch->native.steps(b->persistent, b->work, h, count, (unsigned)b->alive, &lanes, said);
         for (int i = 0; i < b->kind->width; i++)
             if (lanes >> i & 1) why[i] = (dal_status)said[i];
         *failed = lanes;
@@ -348,12 +348,12 @@ double dal_batch_time(const dal_batch *batch, int lane)
     if (!batch || lane < 0 || lane >= batch->count) return NAN;
     const size_t place = dal__at(&batch->scalar->shape, DAL__TIME);
     const block *b = block_of(batch, lane);
-    return b->carried[place * (size_t)b->kind->width + (size_t)(lane - b->first)];
+    return b->persistent[place * (size_t)b->kind->width + (size_t)(lane - b->first)];
 }
 
 void dal_batch_state(const dal_batch *batch, int lane, double *state)
 {
     if (!batch || !state || lane < 0 || lane >= batch->count) return;
     const block *b = block_of(batch, lane);
-    gather(state, b->carried, (size_t)batch->scalar->shape.dim, b->kind->width, lane - b->first);
+    gather(state, b->persistent, (size_t)batch->scalar->shape.dim, b->kind->width, lane - b->first);
 }

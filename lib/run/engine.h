@@ -1,6 +1,6 @@
 /* engine.h - one step of one or several lanes as a transaction; internal to lib/run.
  *
- * All that survives a step is the array `carried` (kernel/persistent.h).  The engine exists once per
+ * All that survives a step is the array `persistent` (kernel/persistent.h).  The engine exists once per
  * variant (engine_wide.c); arrays are interleaved by lanes. */
 #ifndef DAL_ENGINE_H
 #define DAL_ENGINE_H
@@ -18,16 +18,16 @@ typedef struct dal__shape {
     dal_method method;
     dal_options options;
     int n, nw, m, dim, lifted, depth, stages, slopes, multiplier;
-    size_t workspace, carried, scratch; /* numbers */
+    size_t workspace, persistent, scratch; /* numbers */
 } dal__shape;
 
-/* Numbers of what a method remembers, for DAL__MEMORY_LIST. */
+/* Numbers of what a method remembers, for DAL__METHOD_STATE_LIST. */
 #define DAL__COUNT_ONE(shape)        1
 #define DAL__COUNT_TWO(shape)        2
 #define DAL__COUNT_SLOPES(shape)     ((shape)->slopes)
 #define DAL__COUNT_MULTIPLIER(shape) ((shape)->multiplier)
 
-/* Where something of the clock, or the memory, is in the carried array. */
+/* Where something of the clock, or the memory, is in the persistent array. */
 static inline size_t dal__at(const dal__shape *shape, int place)
 {
     return 2 * (size_t)shape->dim + (size_t)place;
@@ -70,7 +70,7 @@ typedef uint64_t dal__lanes;
 
 #define DAL__ENGINE(name, variant, lanes, set, group)                                              \
     size_t name##_bytes_##variant(const dal__shape *shape);                                        \
-    void *name##_place_##variant(const dal__shape *shape, void *memory, double **carried,          \
+    void *name##_place_##variant(const dal__shape *shape, void *memory, double **persistent,       \
                                  double **work);                                                   \
     dal__lanes name##_step_##variant(void *engine, double h, dal__lanes alive, dal_status *why);   \
     dal_status name##_eval_##variant(void *engine, int code, double t, const double *state,        \
@@ -79,7 +79,7 @@ typedef uint64_t dal__lanes;
 
 /* For each variant:
  * bytes   memory an engine needs, to be aligned to 64 bytes and to 8 bytes a lane;
- * place   makes one; *carried and *work receive its interleaved arrays (zeroed);
+ * place   makes one; *persistent and *work receive its interleaved arrays (zeroed);
  * step    advances the lanes alive by h; returns those that failed, which are as they were, with
  *         why[lane] set;
  * ask     evaluates the field etc. (dal_callback_code) at a state (adjoint: with its own pi);
@@ -92,7 +92,7 @@ typedef struct dal__engine_kind {
     int width;
     dal__instructions set;
     size_t (*bytes)(const dal__shape *shape);
-    void *(*place)(const dal__shape *shape, void *memory, double **carried, double **work);
+    void *(*place)(const dal__shape *shape, void *memory, double **persistent, double **work);
     dal__lanes (*step)(void *engine, double h, dal__lanes alive, dal_status *why);
     dal_status (*eval)(void *engine, int code, double t, const double *state, double *out);
     void (*trace)(void *engine, dal__cause *cause);

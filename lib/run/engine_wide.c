@@ -16,7 +16,7 @@ typedef struct engine {
     dal__shape shape;
     const dal_integrator *layer[DAL_LAYERS];
     dal_callback *call[DAL_EVAL_COUNT];
-    num *carried, *backup, *work;
+    num *persistent, *backup, *work;
     dal__cause *cause;
 } engine;
 
@@ -31,13 +31,13 @@ static const dal_callbacks *callbacks(const dal_system *system)
     return &system->call;
 }
 
-/* Nums of the carried array that an integrator may change: where it neither solves nor divides
+/* Nums of the persistent array that an integrator may change: where it neither solves nor divides
  * anything it leaves all but y and r alone. */
 static size_t changing(const engine *e)
 {
     const bool alone = !e->shape.lifted && e->shape.depth == 1 && e->shape.options.tolerance == 0.0;
     const bool plain = alone && (e->layer[0]->properties & DAL_COMPONENTWISE);
-    return (plain ? dal__at(&e->shape, 0) : e->shape.carried) * DAL_GROUPS;
+    return (plain ? dal__at(&e->shape, 0) : e->shape.persistent) * DAL_GROUPS;
 }
 
 /* Remembers the first answer that is not finite. */
@@ -80,7 +80,8 @@ static void eval_callback(dal_step *s, dal_callback_code code, double t, const n
 
 size_t DAL_WIDE(dal__engine_bytes)(const dal__shape *k)
 {
-    return round_up(sizeof(engine)) + 2 * room(k->carried) + room(k->workspace) + room(k->scratch);
+    return round_up(sizeof(engine)) + 2 * room(k->persistent) + room(k->workspace) +
+           room(k->scratch);
 }
 
 static num *take(char **at, size_t count)
@@ -90,22 +91,22 @@ static num *take(char **at, size_t count)
     return p;
 }
 
-/* Number `place` of those carried. */
-static num *carried_at(const engine *e, int place)
+/* Number `place` of those persistent. */
+static num *persistent_at(const engine *e, int place)
 {
-    return e->carried + dal__at(&e->shape, place) * DAL_GROUPS;
+    return e->persistent + dal__at(&e->shape, place) * DAL_GROUPS;
 }
 
 /* What the method remembers, one member behind the other. */
-static void place_memory(engine *e)
+static void place_method_state(engine *e)
 {
-    num *at = e->step.memory = carried_at(e, DAL__MEMORY);
+    num *at = e->step.method_state = persistent_at(e, DAL__METHOD_STATE);
 #define X(member, count)                                                                           \
     e->step.member = at;                                                                           \
     at += DAL__COUNT_##count(&e->shape) * DAL_GROUPS;
-    DAL__MEMORY_LIST(X)
+    DAL__METHOD_STATE_LIST(X)
 #undef X
-    e->step.remembered = (int)(at - e->step.memory);
+    e->step.method_state_count = (int)(at - e->step.method_state);
     e->step.slopes_kept = e->shape.slopes;
 }
 
@@ -117,8 +118,8 @@ static void prepare_step(engine *e)
     *s = (dal_step){.m = k->m, .lifted = k->lifted, .n = k->n * DAL_GROUPS};
     s->nw = k->nw * DAL_GROUPS;
     s->dim = k->dim * DAL_GROUPS;
-    s->y = e->carried;
-    s->r = e->carried + s->dim;
+    s->y = e->persistent;
+    s->r = e->persistent + s->dim;
     s->solver = k->options.solver;
     s->iterations = k->options.iterations;
     s->solver_tolerance = k->options.solver_tolerance;
@@ -128,13 +129,13 @@ static void prepare_step(engine *e)
     s->properties = k->system->properties;
     s->tolerance = k->options.tolerance;
     s->room = k->scratch * DAL_GROUPS;
-    place_memory(e);
+    place_method_state(e);
     s->layer = e->layer;
     s->eval = eval_callback;
     s->owner = e;
 }
 
-void *DAL_WIDE(dal__engine_place)(const dal__shape *k, void *memory, double **carried,
+void *DAL_WIDE(dal__engine_place)(const dal__shape *k, void *memory, double **persistent,
                                   double **work)
 {
     char *at = memory;
@@ -150,12 +151,12 @@ void *DAL_WIDE(dal__engine_place)(const dal__shape *k, void *memory, double **ca
                                    c->constraint, c->energy_normal, c->gauge,
                                    c->guards,     c->blocks,        c->potential};
     memcpy(e->call, calls, sizeof e->call);
-    e->carried = take(&at, k->carried);
-    e->backup = take(&at, k->carried);
+    e->persistent = take(&at, k->persistent);
+    e->backup = take(&at, k->persistent);
     e->work = take(&at, k->workspace);
     prepare_step(e);
     e->step.scratch = take(&at, k->scratch);
-    *carried = (double *)e->carried;
+    *persistent = (double *)e->persistent;
     *work = (double *)e->work;
     return e;
 }
@@ -181,7 +182,7 @@ dal_status DAL_WIDE(dal__engine_eval)(void *engine_, int code, double t, const d
 /* The sum of x - x over some components of a group: 0, or NaN where one is not finite. */
 static num poison(const engine *e, int group, int first, int count)
 {
-    const num *y = e->carried + first * DAL_GROUPS + group;
+    const num *y = e->persistent + first * DAL_GROUPS + group;
     num sum = dal_num(0.0);
     if (DAL_GROUPS == 1) return dal_poison(y, count);
     for (int i = 0; i < count * DAL_GROUPS; i += DAL_GROUPS) sum += y[i] - y[i];
@@ -193,7 +194,7 @@ static dal_mask finite(const engine *e, int group)
 {
     const int dim = e->shape.dim, at_e = 2 * e->shape.n;
     if (!e->shape.lifted) return dal_equal(poison(e, group, 0, dim), dal_num(0.0));
-    const num w = 1.0 / e->carried[at_e * DAL_GROUPS + group];
+    const num w = 1.0 / e->persistent[at_e * DAL_GROUPS + group];
     return dal_equal(poison(e, group, 0, at_e) + (w - w) +
                          poison(e, group, at_e + 1, dim - at_e - 1),
                      dal_num(0.0));
@@ -203,7 +204,8 @@ static dal_mask gauge_holds(const engine *e, int group)
 {
     if (!e->shape.lifted) return dal_all();
     const int i = 2 * e->shape.n * DAL_GROUPS + group;
-    return dal_less(dal_num(0.0), 1.0 / e->backup[i] * e->carried[i]) | ~dal_finite(e->carried[i]);
+    return dal_less(dal_num(0.0), 1.0 / e->backup[i] * e->persistent[i]) |
+           ~dal_finite(e->persistent[i]);
 }
 
 /* Notes in the cause, if somebody wants to know, the first number that failed in lane 0. */
@@ -217,7 +219,7 @@ static void eval_both_ends(engine *e, dal_callback_code code, num *before, num *
 {
     dal_step *s = &e->step;
     eval_callback(s, code, s->t - s->h, e->backup, e->backup + s->n, NULL, before);
-    eval_callback(s, code, s->t, e->carried, e->carried + s->n, NULL, after);
+    eval_callback(s, code, s->t, e->persistent, e->persistent + s->n, NULL, after);
 }
 
 static lane_mask guards_hold(engine *e)
@@ -328,8 +330,8 @@ static dal__lanes judge(engine *e, lane_mask *left, dal__lanes alive, dal_status
 /* The clock of the lanes that made it, compensated, and the counters. */
 static void advance_clock(engine *e, double h, const lane_mask *moved)
 {
-    num *time = carried_at(e, DAL__TIME), *error = carried_at(e, DAL__TIME_ERROR);
-    num *steps = carried_at(e, DAL__STEPS), *evaluations = carried_at(e, DAL__EVALUATIONS);
+    num *time = persistent_at(e, DAL__TIME), *error = persistent_at(e, DAL__TIME_ERROR);
+    num *steps = persistent_at(e, DAL__STEPS), *evaluations = persistent_at(e, DAL__EVALUATIONS);
     for (int g = 0; g < DAL_GROUPS; g++) {
         const dal_mask m = moved->group[g];
         const num a = time[g], b = h + error[g], sum = a + b, c = sum - a;
@@ -347,7 +349,7 @@ static void restore(engine *e, const lane_mask *moved)
     for (size_t g = 0; g < DAL_GROUPS; g++) {
         if (!dal_any(~moved->group[g])) continue;
         for (size_t i = g; i < changing(e); i += DAL_GROUPS)
-            e->carried[i] = dal_select(moved->group[g], e->carried[i], e->backup[i]);
+            e->persistent[i] = dal_select(moved->group[g], e->persistent[i], e->backup[i]);
     }
 }
 
@@ -356,13 +358,13 @@ static double time_of(const engine *e, dal__lanes alive)
 {
     int first = 0;
     while (first < LANES - 1 && !(alive >> first & 1)) first++;
-    return dal_lane(carried_at(e, DAL__TIME)[first / DAL_LANES], first % DAL_LANES);
+    return dal_lane(persistent_at(e, DAL__TIME)[first / DAL_LANES], first % DAL_LANES);
 }
 
 static void begin_step(engine *e, double h, dal__lanes alive, const lane_mask *lanes)
 {
     dal_step *s = &e->step;
-    memcpy(e->backup, e->carried, changing(e) * sizeof(num));
+    memcpy(e->backup, e->persistent, changing(e) * sizeof(num));
     s->t = time_of(e, alive);
     s->h = h;
     s->alive[0] = DAL_GROUPS > 1 ? dal_all() : lanes->group[0];

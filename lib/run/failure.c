@@ -14,7 +14,7 @@ static dal_status singular(const dal__cause *cause, double number, dal_error *er
 static bool ran_away(const dal_run *run, const dal__cause *cause)
 {
     const dal__shape *k = &run->shape;
-    const double far = fmin(1e8 * (1.0 + dal_max_norm(run->carried, k->n + k->nw)), 1e60);
+    const double far = fmin(1e8 * (1.0 + dal_max_norm(run->persistent, k->n + k->nw)), 1e60);
     return dal_max_norm(cause->q, k->n) > far || dal_max_norm(cause->v, k->nw) > far;
 }
 
@@ -36,10 +36,11 @@ static dal_status diagnose(dal_run *run, const dal__cause *cause, dal_error *err
 static bool gauge_crosses(dal_run *run, double t, double h)
 {
     if (!run->shape.lifted) return false;
-    const double e = run->carried[2 * run->shape.n];
+    const double e = run->persistent[2 * run->shape.n];
     double mu[2] = {0.0, 0.0};
     for (int i = 0; i < 2; i++)
-        if (run->kind->eval(run->engine, DAL_EVAL_GAUGE, t + i * h, run->carried, &mu[i]) != DAL_OK)
+        if (run->kind->eval(run->engine, DAL_EVAL_GAUGE, t + i * h, run->persistent, &mu[i]) !=
+            DAL_OK)
             return false;
     return e * (e + h * mu[0]) <= 0.0 || e * (e + h * mu[1]) <= 0.0;
 }
@@ -72,9 +73,10 @@ static bool predict(dal_run *run, double t, double dt)
 {
     const dal__shape *k = &run->shape;
     double *f = run->scratch;
-    if (run->kind->eval(run->engine, DAL_EVAL_FIELD, t, run->carried, f) != DAL_OK) return false;
-    for (int i = 0; i < k->n; i++) run->shadow[i] = run->carried[i] + dt * run->carried[k->n + i];
-    for (int i = 0; i < k->nw; i++) run->shadow[k->n + i] = run->carried[k->n + i] + dt * f[i];
+    if (run->kind->eval(run->engine, DAL_EVAL_FIELD, t, run->persistent, f) != DAL_OK) return false;
+    for (int i = 0; i < k->n; i++)
+        run->shadow[i] = run->persistent[i] + dt * run->persistent[k->n + i];
+    for (int i = 0; i < k->nw; i++) run->shadow[k->n + i] = run->persistent[k->n + i] + dt * f[i];
     return true;
 }
 
@@ -82,7 +84,7 @@ static bool predict(dal_run *run, double t, double dt)
 static double *eval_both_ends(dal_run *run, int code, int size, double t, double dt)
 {
     double *first = run->scratch, *second = first + size;
-    const bool good = run->kind->eval(run->engine, code, t, run->carried, first) == DAL_OK &&
+    const bool good = run->kind->eval(run->engine, code, t, run->persistent, first) == DAL_OK &&
                       run->kind->eval(run->engine, code, t + dt, run->shadow, second) == DAL_OK;
     return good ? second : NULL;
 }
@@ -148,13 +150,13 @@ static dal_status undivided(dal_run *run, const dal__cause *cause, double t, dou
  * back. */
 static void repeat(dal_run *run, double h, dal__cause *cause)
 {
-    const size_t bytes = run->shape.carried * sizeof *run->carried;
+    const size_t bytes = run->shape.persistent * sizeof *run->persistent;
     dal_status why = DAL_OK;
-    memcpy(run->shadow, run->carried, bytes);
+    memcpy(run->shadow, run->persistent, bytes);
     run->kind->trace(run->engine, cause);
     run->kind->step(run->engine, h, 1u, &why);
     run->kind->trace(run->engine, NULL);
-    memcpy(run->carried, run->shadow, bytes);
+    memcpy(run->persistent, run->shadow, bytes);
 }
 
 dal_status dal__explain(dal_run *run, double h, dal_status status, dal_error *error)

@@ -243,9 +243,9 @@ static dal_status measure(dal__shape *k, dal_error *error)
     const bool remembers = k->method.layer[0]->properties & DAL_EXTRAPOLATES_STAGES;
     k->slopes = remembers ? (1 + DAL__DIFFERENCES) * k->stages * (k->nw + k->n) : 0;
     k->multiplier = dal_method_properties(&k->method) & DAL_PERSISTENT_MULTIPLIER ? k->m : 0;
-    k->carried = dal__at(k, DAL__MEMORY);
-#define X(member, count) k->carried += (size_t)DAL__COUNT_##count(k);
-    DAL__MEMORY_LIST(X)
+    k->persistent = dal__at(k, DAL__METHOD_STATE);
+#define X(member, count) k->persistent += (size_t)DAL__COUNT_##count(k);
+    DAL__METHOD_STATE_LIST(X)
 #undef X
     return DAL_OK;
 }

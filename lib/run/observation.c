@@ -20,7 +20,7 @@ static dal_status look(dal_run *run, int k)
     looks->times[k] = dal_run_time(run);
     if (!looks->states) return dal_run_observe(run, looks->values);
     for (int i = 0; i < run->shape.dim; i++)
-        looks->states[(size_t)i * (size_t)looks->room + (size_t)k] = run->carried[i];
+        looks->states[(size_t)i * (size_t)looks->room + (size_t)k] = run->persistent[i];
     return DAL_OK;
 }
 
@@ -56,8 +56,8 @@ static dal_status collect_trace(dal_run *run, long long count, int *taken)
     unsigned failed = 0;
     int why = DAL_OK;
     const long long tried =
-        run->native.traced(run->carried, run->work, run->shape.options.step, count, &failed, &why,
-                           run->looks.states, run->looks.room);
+        run->native.traced(run->persistent, run->work, run->shape.options.step, count, &failed,
+                           &why, run->looks.states, run->looks.room);
     *taken = (int)(failed ? tried - 1 : tried);
     return failed ? (dal_status)why : DAL_OK;
 }

@@ -58,7 +58,7 @@ char *dal_run_observable_name(const dal_run *run, int i, char *buffer, size_t si
 static double hamiltonian(dal_run *run)
 {
     const int n = run->shape.n;
-    const double *y = run->carried, *v = y + n, *p = y + 2 * n + 1, *pi = y + 3 * n + 1;
+    const double *y = run->persistent, *v = y + n, *p = y + 2 * n + 1, *pi = y + 3 * n + 1;
     double *f = run->scratch, mu = 0.0, sum = 0.0;
     const double t = dal_run_time(run);
     run->kind->eval(run->engine, DAL_EVAL_FIELD, t, y, f);
@@ -71,9 +71,9 @@ static double hamiltonian(dal_run *run)
 static void norms(const dal_run *run, double *out)
 {
     const int n = run->shape.n;
-    out[0] = dal_max_norm(run->carried + 2 * n + 1, n);
-    out[1] = dal_max_norm(run->carried + 3 * n + 1, n);
-    out[2] = fabs(run->carried[4 * n + 1]);
+    out[0] = dal_max_norm(run->persistent + 2 * n + 1, n);
+    out[1] = dal_max_norm(run->persistent + 3 * n + 1, n);
+    out[2] = fabs(run->persistent[4 * n + 1]);
 }
 
 static dal_status error_norm(dal_run *run, const dal_point *at, double *out)
@@ -81,7 +81,7 @@ static dal_status error_norm(dal_run *run, const dal_point *at, double *out)
     const dal_system *system = run->shape.system;
     double *exact = run->scratch;
     DAL_TRY(system->exact(system, at, exact));
-    for (int i = 0; i < system->n; i++) exact[i] -= run->carried[i];
+    for (int i = 0; i < system->n; i++) exact[i] -= run->persistent[i];
     *out = dal_max_norm(exact, system->n);
     return DAL_OK;
 }

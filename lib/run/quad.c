@@ -54,8 +54,8 @@ void dal__quad_place(dal_run *run, char *memory, size_t answers)
     k->shape = shape_of(&run->shape);
     k->scratch = (double *)(void *)memory;
     memory += round_up(answers * sizeof(num));
-    k->engine = kind()->place(&k->shape, memory, &k->carried, &k->work);
-    run->memory = k->carried;
+    k->engine = kind()->place(&k->shape, memory, &k->persistent, &k->work);
+    run->storage = k->persistent;
 }
 
 /* ---- to and from doubles ---- */
@@ -79,15 +79,21 @@ double dal__quad_rounded(const double *memory, size_t i)
     return (double)x;
 }
 
-void dal__quad_push(dal_run *run) { lengthen(run->quad.carried, run->carried, run->shape.carried); }
+void dal__quad_push(dal_run *run)
+{
+    lengthen(run->quad.persistent, run->persistent, run->shape.persistent);
+}
 
-void dal__quad_pull(dal_run *run) { shorten(run->carried, run->quad.carried, run->shape.carried); }
+void dal__quad_pull(dal_run *run)
+{
+    shorten(run->persistent, run->quad.persistent, run->shape.persistent);
+}
 
 static dal_point here(const dal_run *run)
 {
     const dal__quad_run *k = &run->quad;
     const size_t at_v = (size_t)run->shape.n * dal__quad_width();
-    return (dal_point){dal_run_time(run), k->carried, k->carried + at_v, NULL, k->work};
+    return (dal_point){dal_run_time(run), k->persistent, k->persistent + at_v, NULL, k->work};
 }
 
 dal_status dal__quad_begin(dal_run *run)
@@ -125,7 +131,7 @@ static dal_status put_lifted(const dal_run *run, double **out)
 {
     const int n = run->shape.n;
     const dal__quad_run *k = &run->quad;
-    const num *y = (const num *)(const void *)k->carried, *v = y + n, *p = y + 2 * n + 1;
+    const num *y = (const num *)(const void *)k->persistent, *v = y + n, *p = y + 2 * n + 1;
     const num *pi = y + 3 * n + 1, *f = (const num *)(const void *)k->scratch;
     const dal_callbacks *call = &k->shape.system->call;
     const dal_point at = here(run);
@@ -148,7 +154,7 @@ static dal_status put_error(const dal_run *run, double **out)
 {
     const dal__quad_run *k = &run->quad;
     const dal_point at = here(run);
-    const num *y = (const num *)(const void *)k->carried;
+    const num *y = (const num *)(const void *)k->persistent;
     num *exact = (num *)(void *)k->scratch;
     DAL_TRY(k->shape.system->exact(k->shape.system, &at, k->scratch));
     for (int i = 0; i < run->shape.n; i++) exact[i] -= y[i];

@@ -20,15 +20,15 @@ static size_t look_count(const dal__shape *k)
 }
 
 /* Doubles in what a run carries. */
-static size_t remembered(const dal__shape *k)
+static size_t stored_count(const dal__shape *k)
 {
-    return k->options.precision == DAL_DOUBLE ? k->carried : k->carried * dal__quad_width();
+    return k->options.precision == DAL_DOUBLE ? k->persistent : k->persistent * dal__quad_width();
 }
 
 /* Doubles beside those of the engines. */
 static size_t own_numbers(const dal__shape *k)
 {
-    return remembered(k) + scratch_count(k) + (size_t)(k->n + k->nw) + look_count(k);
+    return stored_count(k) + scratch_count(k) + (size_t)(k->n + k->nw) + look_count(k);
 }
 
 static size_t quad_bytes(const dal__shape *k)
@@ -55,16 +55,16 @@ static dal_run *place(const dal__shape *shape, void *memory)
     *run = (dal_run){.shape = *shape};
     at += round_up(sizeof *run);
     run->shadow = (double *)(void *)at;
-    run->scratch = run->shadow + remembered(shape);
+    run->scratch = run->shadow + stored_count(shape);
     run->point = run->scratch + scratch_count(shape);
     run->looks.times = run->point + shape->n + shape->nw;
     run->looks.values = run->looks.times + 1;
     run->looks.room = 1;
     at += round_up(own_numbers(shape) * sizeof(double));
     run->kind = dal__engine_best(shape, 1);
-    run->engine = run->kind->place(shape, at, &run->carried, &run->work);
-    run->memory = run->carried;
-    run->remembered = remembered(shape);
+    run->engine = run->kind->place(shape, at, &run->persistent, &run->work);
+    run->storage = run->persistent;
+    run->stored = stored_count(shape);
     at += round_up(run->kind->bytes(shape));
     if (quad_bytes(shape) > 0) dal__quad_place(run, at, scratch_count(shape));
     return run;
@@ -120,7 +120,7 @@ static dal_status native_steps(dal_run *run, double h, long long count)
 {
     unsigned failed = 0;
     int why = DAL_OK;
-    run->native.traced(run->carried, run->work, h, count, &failed, &why, NULL, 0);
+    run->native.traced(run->persistent, run->work, h, count, &failed, &why, NULL, 0);
     return failed ? (dal_status)why : DAL_OK;
 }
 
@@ -155,24 +155,24 @@ dal_status dal_run_step(dal_run *run, dal_error *error) { return dal_run_advance
 
 const dal_system *dal_run_system(const dal_run *run) { return run ? run->shape.system : NULL; }
 int dal_run_dimension(const dal_run *run) { return run ? run->shape.dim : 0; }
-const double *dal_run_state(const dal_run *run) { return run ? run->carried : NULL; }
+const double *dal_run_state(const dal_run *run) { return run ? run->persistent : NULL; }
 const double *dal_run_parameters(const dal_run *run) { return run ? run->work : NULL; }
 
 double dal_run_time(const dal_run *run)
 {
-    return run ? run->carried[dal__at(&run->shape, DAL__TIME)] : NAN;
+    return run ? run->persistent[dal__at(&run->shape, DAL__TIME)] : NAN;
 }
 
 double dal_run_step_size(const dal_run *run) { return run ? run->shape.options.step : NAN; }
 
 long long dal_run_steps(const dal_run *run)
 {
-    return run ? (long long)run->carried[dal__at(&run->shape, DAL__STEPS)] : 0;
+    return run ? (long long)run->persistent[dal__at(&run->shape, DAL__STEPS)] : 0;
 }
 
 long long dal_run_evaluations(const dal_run *run)
 {
-    return run ? (long long)run->carried[dal__at(&run->shape, DAL__EVALUATIONS)] : 0;
+    return run ? (long long)run->persistent[dal__at(&run->shape, DAL__EVALUATIONS)] : 0;
 }
 
 dal_status dal_run_set_state(dal_run *run, double t, const double *state, dal_error *error)
@@ -185,21 +185,21 @@ dal_status dal_run_set_state(dal_run *run, double t, const double *state, dal_er
             return dal__fail(error, DAL_NOT_FINITE, "state component %d is not finite: %g", i + 1,
                              state[i]);
     if (!isfinite(t)) return dal__fail(error, DAL_NOT_FINITE, "time %g is not finite", t);
-    memset(run->carried, 0, k->carried * sizeof *run->carried);
-    for (int i = 0; i < k->dim; i++) run->carried[i] = state[i] + 0.0;
-    run->carried[dal__at(k, DAL__TIME)] = t;
+    memset(run->persistent, 0, k->persistent * sizeof *run->persistent);
+    for (int i = 0; i < k->dim; i++) run->persistent[i] = state[i] + 0.0;
+    run->persistent[dal__at(k, DAL__TIME)] = t;
     if (run->quad.engine) dal__quad_push(run);
     return DAL_OK;
 }
 
 const double *dal_run_save(const dal_run *run, size_t *count)
 {
-    if (count) *count = run ? run->remembered : 0;
-    return run && count ? run->memory : NULL;
+    if (count) *count = run ? run->stored : 0;
+    return run && count ? run->storage : NULL;
 }
 
 /* Carried number i of a memory, in doubles. */
-static double number_in(const dal_run *run, const double *memory, size_t i)
+static double stored_number(const dal_run *run, const double *memory, size_t i)
 {
     return run->quad.engine ? dal__quad_rounded(memory, i) : memory[i];
 }
@@ -209,26 +209,26 @@ dal_status dal_run_restore(dal_run *run, const double *memory, size_t count, dal
     DAL_REQUIRE(run, error);
     DAL_REQUIRE(memory, error);
     const dal__shape *k = &run->shape;
-    if (count != run->remembered)
-        return dal__fail(error, DAL_ARGUMENT, "this run carries %zu numbers, not %zu",
-                         run->remembered, count);
-    for (size_t i = 0; i < k->carried; i++) {
-        const double x = number_in(run, memory, i);
+    if (count != run->stored)
+        return dal__fail(error, DAL_ARGUMENT, "this run carries %zu numbers, not %zu", run->stored,
+                         count);
+    for (size_t i = 0; i < k->persistent; i++) {
+        const double x = stored_number(run, memory, i);
         if (!isfinite(x) && !(k->lifted && i == 2 * (size_t)k->n && isinf(x)))
-            return dal__fail(error, DAL_NOT_FINITE, "carried number %zu is not finite", i + 1);
+            return dal__fail(error, DAL_NOT_FINITE, "persistent number %zu is not finite", i + 1);
     }
-    memcpy(run->memory, memory, count * sizeof *memory);
+    memcpy(run->storage, memory, count * sizeof *memory);
     if (run->quad.engine) dal__quad_pull(run);
     return DAL_OK;
 }
 
-void dal__run_keep(dal_run *run)
+void dal__run_back_up(dal_run *run)
 {
-    memcpy(run->shadow, run->memory, run->remembered * sizeof *run->memory);
+    memcpy(run->shadow, run->storage, run->stored * sizeof *run->storage);
 }
 
-void dal__run_put_back(dal_run *run)
+void dal__run_revert(dal_run *run)
 {
-    memcpy(run->memory, run->shadow, run->remembered * sizeof *run->memory);
+    memcpy(run->storage, run->shadow, run->stored * sizeof *run->storage);
     if (run->quad.engine) dal__quad_pull(run);
 }

@@ -4,15 +4,15 @@
 
 #include "run/engine.h"
 
-/* Compiled code, see lib/jit/native.c; of the functions an object has one.  carried, work and
+/* Compiled code, see lib/jit/native.c; of the functions an object has one.  persistent, work and
  * states are as everywhere; lanes are a mask. */
 typedef struct dal__native {
     /* Up to count steps until a lane fails; the number of steps tried. */
-    long long (*steps)(double *carried, const double *work, double h, long long count,
+    long long (*steps)(double *persistent, const double *work, double h, long long count,
                        unsigned lanes, unsigned *failed, int *why);
     /* The same of one lane; number i of the state after step k goes to states[i * stride + k], the
      * time behind the last number.  states may be NULL. */
-    long long (*traced)(double *carried, const double *work, double h, long long count,
+    long long (*traced)(double *persistent, const double *work, double h, long long count,
                         unsigned *failed, int *why, double *states, long long stride);
     /* The observables of such states: number i of state k at values[i * stride + k]. */
     void (*looks)(const double *states, long long stride, long long count, const double *work,
@@ -23,11 +23,11 @@ typedef struct dal__native {
 
 /* The engine of a run in quad precision, and what belongs to it; see quad.c. */
 typedef struct dal__quad_run {
-    dal__shape shape; /* of the system in quad precision */
-    void *engine;     /* NULL: the run is in doubles */
-    double *carried;  /* [shape.carried] its own numbers, each in the place of some doubles */
-    double *work;     /* [shape.workspace] likewise */
-    double *scratch;  /* scratch for what the system says, likewise */
+    dal__shape shape;   /* of the system in quad precision */
+    void *engine;       /* NULL: the run is in doubles */
+    double *persistent; /* [shape.persistent] its own numbers, each in the place of some doubles */
+    double *work;       /* [shape.workspace] likewise */
+    double *scratch;    /* scratch for what the system says, likewise */
 } dal__quad_run;
 
 /* Where the observables of successive looks at a run are collected, up to room of them: observable
@@ -44,12 +44,13 @@ struct dal_run {
     dal__shape shape;
     const dal__engine_kind *kind; /* of one lane */
     void *engine;
-    double *carried; /* [shape.carried] the engine's own; in quad precision: rounded from those */
-    double *memory;  /* [remembered] all that is carried from step to step: carried, or quad's */
-    size_t remembered;
+    double *
+        persistent; /* [shape.persistent] the engine's own; in quad precision: rounded from those */
+    double *storage; /* [stored] all that is persistent from step to step: persistent, or quad's */
+    size_t stored;
     dal__quad_run quad;
     double *work;    /* [shape.workspace] parameters, and the system's */
-    double *shadow;  /* [remembered] state of the trajectory during a side step */
+    double *shadow;  /* [stored] state of the trajectory during a side step */
     double *scratch; /* scratch for what the system says */
     double *point;   /* [n + nw] where a step went wrong */
     bool exact;      /* the exact solution belongs to this start */
@@ -84,9 +85,9 @@ dal_status dal__stopped(const dal_run *run, dal_status status, dal_error *error)
 /* count steps of size h, until one fails, with no explanation of a failure. */
 dal_status dal__run_steps(dal_run *run, double h, long long count);
 
-/* Remembers all that is carried, and goes back to that. */
-void dal__run_keep(dal_run *run);
-void dal__run_put_back(dal_run *run);
+/* Remembers all that is persistent, and goes back to that. */
+void dal__run_back_up(dal_run *run);
+void dal__run_revert(dal_run *run);
 
 /* ---- quad.c: a run in quad precision ---- */
 
@@ -106,8 +107,8 @@ double dal__quad_rounded(const double *memory, size_t i);
 static inline dal_point dal__here(const dal_run *run)
 {
     const dal__shape *k = &run->shape;
-    return (dal_point){run->carried[dal__at(k, DAL__TIME)], run->carried, run->carried + k->n, NULL,
-                       run->work};
+    return (dal_point){run->persistent[dal__at(k, DAL__TIME)], run->persistent,
+                       run->persistent + k->n, NULL, run->work};
 }
 
 #endif

@@ -70,11 +70,11 @@ dal_status dal_run_intermediate(dal_run *run, double h,
     DAL_REQUIRE(observe, error);
     if (!isfinite(h))
         return dal__fail(error, DAL_ARGUMENT, "an intermediate step must be finite; it is %g", h);
-    dal__run_keep(run);
+    dal__run_back_up(run);
     dal_status status = dal__run_steps(run, h, 1);
     if (status != DAL_OK) return dal__explain(run, h, status, error);
     status = observe(user, run);
-    dal__run_put_back(run);
+    dal__run_revert(run);
     return status;
 }
 

@@ -65,7 +65,7 @@ static dal_status override(dal_run *run, const dal_setting *settings, int count,
         if (!isfinite(settings[k].value) && !(i == e && isinf(settings[k].value)))
             return dal__fail(error, DAL_ARGUMENT, "start %s: %g is not a finite number",
                              settings[k].name, settings[k].value);
-        run->carried[i] = settings[k].value;
+        run->persistent[i] = settings[k].value;
     }
     return DAL_OK;
 }
@@ -75,15 +75,15 @@ static dal_status default_start(dal_run *run, dal_error *error)
 {
     const dal__shape *k = &run->shape;
     const int first = k->n + k->nw;
-    memset(run->carried, 0, k->carried * sizeof *run->carried);
+    memset(run->persistent, 0, k->persistent * sizeof *run->persistent);
     double *out = run->scratch;
     for (int i = 0; i <= first; i++) out[i] = i == first;
-    const dal_point at = {0.0, run->carried, run->carried + k->n, NULL, run->work};
+    const dal_point at = {0.0, run->persistent, run->persistent + k->n, NULL, run->work};
     if (k->system->start && k->system->start(k->system, &at, out) != DAL_OK)
         return dal__fail(error, DAL_NOT_FINITE, "%s has no start with these parameters",
                          k->system->name ? k->system->name : "the system");
-    memcpy(run->carried, out, (size_t)first * sizeof *out);
-    if (k->lifted) run->carried[2 * k->n] = out[first];
+    memcpy(run->persistent, out, (size_t)first * sizeof *out);
+    if (k->lifted) run->persistent[2 * k->n] = out[first];
     return DAL_OK;
 }
 
@@ -92,12 +92,13 @@ static dal_status check_finite(dal_run *run, dal_error *error)
     const int e = run->shape.lifted ? 2 * run->shape.n : -1;
     char name[NAME_SIZE];
     for (int i = 0; i < run->shape.dim; i++) {
-        run->carried[i] += 0.0; /* no -0: see lib/kernel/step.h */
-        if (i == e && isinf(1.0 / run->carried[i]))
-            return dal__fail(error, DAL_GAUGE, "start e = %g: e must not vanish", run->carried[i]);
-        if (isnan(run->carried[i]) || (isinf(run->carried[i]) && i != e))
+        run->persistent[i] += 0.0; /* no -0: see lib/kernel/step.h */
+        if (i == e && isinf(1.0 / run->persistent[i]))
+            return dal__fail(error, DAL_GAUGE, "start e = %g: e must not vanish",
+                             run->persistent[i]);
+        if (isnan(run->persistent[i]) || (isinf(run->persistent[i]) && i != e))
             return dal__fail(error, DAL_NOT_FINITE, "start %s is not finite: %g",
-                             dal_run_name(run, i, name, sizeof name), run->carried[i]);
+                             dal_run_name(run, i, name, sizeof name), run->persistent[i]);
     }
     return DAL_OK;
 }
@@ -106,7 +107,7 @@ static dal_status check_consistent(const dal_run *run, const double *d, const do
                                    dal_error *error)
 {
     const dal__shape *k = &run->shape;
-    const double speed = dal_max_norm(run->carried + k->n, k->n);
+    const double speed = dal_max_norm(run->persistent + k->n, k->n);
     for (int i = 0; i < k->m; i++) {
         double scale = 0.0;
         for (int j = 0; j < k->n; j++) scale += fabs(a[i * k->n + j]);
@@ -169,9 +170,9 @@ static bool exact_agrees(dal_run *run)
     const dal__shape *k = &run->shape;
     const dal_point at = dal__here(run);
     if (!k->system->exact || k->system->exact(k->system, &at, run->scratch) != DAL_OK) return false;
-    const double size = 1.0 + dal_max_norm(run->carried, 2 * k->n);
+    const double size = 1.0 + dal_max_norm(run->persistent, 2 * k->n);
     for (int i = 0; i < 2 * k->n; i++)
-        if (!(fabs(run->scratch[i] - run->carried[i]) <= CONSISTENT * size)) return false;
+        if (!(fabs(run->scratch[i] - run->persistent[i]) <= CONSISTENT * size)) return false;
     return true;
 }
 
