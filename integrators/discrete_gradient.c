@@ -28,7 +28,7 @@ typedef struct gradient {
 } gradient;
 
 /* h^2 kappa for coordinate i. */
-DAL_INLINE num gradient_slope(const dal_step *s, const gradient *k, int i)
+DAL_INLINE num gradient_factor(const dal_step *s, const gradient *k, int i)
 {
     const int n = DAL_N(s);
     const num U0 = k->U0[i], U1 = k->end[i], square = k->mid[2 * n + i];
@@ -51,7 +51,7 @@ DAL_INLINE void gradient_map(dal_step *s, dal_equation *eq)
     dal_eval(s, DAL_EVAL_POTENTIAL, t, k->q, k->vb, NULL, k->end);
     DAL_EACH(i, n)
         k->reaction.free[i] =
-            half * k->parts[dal_blocks_a(s) + i] - 0.5 * gradient_slope(s, k, i) * k->vb[i];
+            half * k->parts[dal_blocks_a(s) + i] - 0.5 * gradient_factor(s, k, i) * k->vb[i];
     DAL_EACH(i, n * m) k->reaction.normals[i] = half * k->parts[dal_blocks_B(s) + i];
     dal_react(s, eq, k->parts);
 }

@@ -60,7 +60,7 @@ DAL_INLINE void add_slopes(int dim, int count, const double *weight, const num *
 }
 
 /* k_i of a step of size h, from the first on that is not known yet, and the sum of b_i k_i. */
-DAL_INLINE dal_status slopes(dal_step *s, double size, int first, num *k, num *sum)
+DAL_INLINE dal_status derivatives(dal_step *s, double size, int first, num *k, num *sum)
 {
     const int dim = DAL_DIM(s);
     const num h = dal_num(size);
@@ -96,7 +96,7 @@ static double error853(const dal_step *s, const dal_trial *k, const num *e3, con
 {
     double square3 = 0.0, square5 = 0.0;
     for (int i = first; i < first + count; i++) {
-        const double size = dal_max(dal_abs(s->y[i]), dal_abs(s->y[i] + k->h * k->slope[i]));
+        const double size = dal_max(dal_abs(s->y[i]), dal_abs(s->y[i] + k->h * k->derivative[i]));
         const double unit = s->tolerance + s->tolerance * size;
         square3 += e3[i] / unit * (e3[i] / unit);
         square5 += e5[i] / unit * (e5[i] / unit);
@@ -113,11 +113,11 @@ static dal_status attempt853(dal_step *s, dal_trial *k)
     DAL_MARK(s);
     DAL_VECTOR(s, e3, DAL_DIM(s));
     DAL_VECTOR(s, e5, DAL_DIM(s));
-    DAL_TRY(slopes(s, k->h, k->again ? 1 : 0, k->slopes, k->slope));
-    DAL_EACH(i, dim) e3[i] = -k->slope[i];
+    DAL_TRY(derivatives(s, k->h, k->again ? 1 : 0, k->derivatives, k->derivative));
+    DAL_EACH(i, dim) e3[i] = -k->derivative[i];
     DAL_EACH(i, dim) e5[i] = 0.0;
-    add_slopes(dim, STAGES_853, third853, k->slopes, e3);
-    add_slopes(dim, STAGES_853, fifth853, k->slopes, e5);
+    add_slopes(dim, STAGES_853, third853, k->derivatives, e3);
+    add_slopes(dim, STAGES_853, fifth853, k->derivatives, e5);
     double error = error853(s, k, e3, e5, 0, n + DAL_NW(s));
     if (DAL_LIFTED(s)) {
         const double momenta = error853(s, k, e3, e5, dal_at_p(s), 2 * n);
@@ -135,9 +135,9 @@ DAL_INLINE dal_status step(dal_step *s)
     DAL_VECTOR(s, sum, DAL_DIM(s));
 #ifdef DAL_CONTROLLED
     if (DAL_CONTROLLED(s))
-        return dal_control(s, attempt853, &(dal_trial){.slopes = k, .slope = sum});
+        return dal_control(s, attempt853, &(dal_trial){.derivatives = k, .derivative = sum});
 #endif
-    DAL_TRY(slopes(s, s->h, 0, k, sum));
+    DAL_TRY(derivatives(s, s->h, 0, k, sum));
     return dal_update_multiple(s, s->h, s->h, sum);
 }
 

@@ -45,7 +45,7 @@ static void test_refusals(void)
 static double *multipliers(dal_run *run, double *memory)
 {
     const size_t first =
-        dal__at(&run->shape, DAL__METHOD_STATE) + 2; /* behind stiff and slopes_h */
+        dal__at(&run->shape, DAL__METHOD_STATE) + 2; /* behind stiff and derivatives_h */
     CU_ASSERT_EQUAL(memory[first], 1.0);             /* they have been set */
     return memory + first + 1;
 }

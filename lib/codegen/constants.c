@@ -43,7 +43,7 @@ void dal__put_constants(dal__generation *g)
         {"DIM", k->dim},
         {"LIFTED", k->lifted},
         {"STAGES", stages},
-        {"SLOPES", k->slopes},
+        {"STAGE_DERIVATIVES", k->derivatives},
         {"SOLVER", k->options.solver},
         {"ITERATIONS", k->options.iterations},
         {"EXTRA_ITERATIONS", k->options.extra_iterations},

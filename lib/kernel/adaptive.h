@@ -24,11 +24,11 @@
 enum { DAL__MOST_TRIALS = 100000 };
 
 typedef struct dal_trial {
-    double h;     /* its size */
-    int again;    /* 1: it begins where the last one did */
-    num *slopes;  /* [stages*dim] of the method, from trial to trial */
-    num *slope;   /* [dim] of the whole substep */
-    double ratio; /* r: by how much h is too large */
+    double h;         /* its size */
+    int again;        /* 1: it begins where the last one did */
+    num *derivatives; /* [stages*dim] of the method, from trial to trial */
+    num *derivative;  /* [dim] of the whole substep */
+    double ratio;     /* r: by how much h is too large */
 } dal_trial;
 
 /* Tries a substep of size trial->h from s->t, s->y, which stay as they are. */
@@ -77,7 +77,7 @@ DAL_INLINE dal_status dal_control(dal_step *s, dal_attempt *attempt, dal_trial *
         *s->substep = dal_num(planned);
         trial->again = !(trial->ratio <= 1.0);
         if (trial->again) continue;
-        DAL_TRY(dal_update_multiple(s, trial->h, trial->h, trial->slope));
+        DAL_TRY(dal_update_multiple(s, trial->h, trial->h, trial->derivative));
         left -= size;
         s->t = t + direction * (whole - left);
         if (left == 0.0) return DAL_OK;

@@ -1,25 +1,25 @@
 /* collocation.h - one step of an implicit Runge-Kutta method (a, b, c) with s stages.
  *
- * The unknowns are the stage slopes K_i of w = (v, g) and L_i of pi; the others follow:
+ * The unknowns are the stage derivatives K_i of w = (v, g) and L_i of pi; the others follow:
  *
  *     V_i  = w + h sum a_ij K_j             Q_i = q + h sum a_ij V_j
  *     Pi_i = pi + h sum a_ij L_j            P_i = p - h sum a_ij F_q^T Pi |_j
  *     E_i  = e + h sum a_ij mu_j            t_i = t + c_i h
  *     K_i  = F(Q_i, V_i, t_i) + Pi_i/E_i    L_i = -P_i - F_v^T Pi |_i
  *
- * and y1 = y + h sum b_i (slope)_i.  A partitioned method has other coefficients for w and p than
+ * and y1 = y + h sum b_i (derivative)_i.  A partitioned method has other coefficients for w and p than
  * for q, e and pi, each the partner of the other: symplectic where b_i p_ij + b_j a_ji = b_i b_j.
  * For long runs (Hairer, McLachlan, Razakarivony, BIT 48 (2008) 231): each coefficient is head +
  * tail, the head a multiple of 1/1024, summed apart; stages start from y + r; iteration to
- * stagnation; the step ends with the stages of the slopes it ended at.
+ * stagnation; the step ends with the stages of the derivatives it ended at.
  *
- * The first guess goes on with the polynomial through the slopes K of the last step, corrected by
+ * The first guess goes on with the polynomial through the derivatives K of the last step, corrected by
  * how far the same was off before: with miss_k = K_k - E K_(k-1), E the extrapolation,
  *
  *     guess_(k+1) = E K_k + miss_k + D miss_k + D^2 miss_k + D^3 miss_k,   D x_k = x_k - x_(k-1),
  *
  * of which each term gains an order in h.  In a first step, or where it leads nowhere (it is far
- * off when h is large), it is the slopes at the present state. */
+ * off when h is large), it is the derivatives at the present state. */
 #ifndef DAL_KERNEL_COLLOCATION_H
 #define DAL_KERNEL_COLLOCATION_H
 
@@ -62,18 +62,19 @@ DAL_INLINE void dal__stage_values(const dal_step *s, const dal_stages *k, int pa
         dal__stage_value(s, k, partner, i, first, count, x, stride, out + i * count);
 }
 
-/* The slopes of pi: L_i = -(p + r - h sum a F_q^T Pi) - F_v^T Pi. */
-DAL_INLINE void dal__momentum_slopes(dal_step *s, const dal_stages *k, num *image)
+/* The derivatives of pi: L_i = -(p + r - h sum a F_q^T Pi) - F_v^T Pi. */
+DAL_INLINE void dal__momentum_derivatives(dal_step *s, const dal_stages *k, num *image)
 {
     const int n = DAL_N(s), stages = DAL_STAGES(k->method);
     const num *p = s->y + dal_at_p(s), *r = s->r + dal_at_p(s);
     DAL_EACH(i, stages) {
-        num *DAL_RESTRICT slope = image + i * n;
+        num *DAL_RESTRICT derivative = image + i * n;
         const num *Fv = k->f + i * k->stride + 2 * n;
         dal__weighted_all(k->method->partner + i * stages,
                           dal__tail(k->method->partner_tail, i * stages), stages, k->f + n,
-                          k->stride, n, slope);
-        DAL_EACH(j, n) slope[j] = -(p[j] + dal_fma(dal_num(-k->h), slope[j], r[j])) - Fv[j];
+                          k->stride, n, derivative);
+        DAL_EACH(j, n)
+            derivative[j] = -(p[j] + dal_fma(dal_num(-k->h), derivative[j], r[j])) - Fv[j];
     }
 }
 
@@ -113,7 +114,7 @@ DAL_INLINE void dal__collocation_map(dal_step *s, dal_equation *eq)
     DAL_EACH(i, DAL_STAGES(k->method))
         DAL_EACH(j, n)
             image[i * n + j] = dal_fma(k->pi[i * n + j], k->w[i], k->f[i * k->stride + j]);
-    dal__momentum_slopes(s, k, eq->block[1].image);
+    dal__momentum_derivatives(s, k, eq->block[1].image);
 }
 
 DAL_INLINE dal_status dal__collocation_matrix(dal_step *s, dal_equation *eq)
@@ -139,10 +140,12 @@ DAL_INLINE dal_status dal__collocation_matrix(dal_step *s, dal_equation *eq)
     return DAL_OK;
 }
 
-/* Guess from the slopes at the present state, every stage alike, in the given lanes. */
-DAL_INLINE void dal__guess_block(dal_block *b, int width, const num *slope, const dal_mask *lanes)
+/* Guess from the derivatives at the present state, every stage alike, in the given lanes. */
+DAL_INLINE void dal__guess_block(dal_block *b, int width, const num *derivative,
+                                 const dal_mask *lanes)
 {
-    DAL_EACH(i, DAL_SIZE(b)) b->u[i] = dal_select(lanes[i % DAL_JOINED], slope[i % width], b->u[i]);
+    DAL_EACH(i, DAL_SIZE(b))
+        b->u[i] = dal_select(lanes[i % DAL_JOINED], derivative[i % width], b->u[i]);
 }
 DAL_INLINE dal_status dal__guess_present(dal_step *s, dal_equation *eq, const dal_mask *lanes)
 {
@@ -159,7 +162,7 @@ DAL_INLINE void dal__add_multiple(num *DAL_RESTRICT u, double factor, const num 
     DAL_EACH(i, count) u[i] = dal_fma(dal_num(factor), x[i], u[i]);
 }
 
-/* What is kept of a block: slopes, misses, their differences, each behind the other. */
+/* What is kept of a block: derivatives, misses, their differences, each behind the other. */
 DAL_INLINE int dal__kept(const dal_step *s, int stages) { return stages * (DAL_NW(s) + DAL_N(s)); }
 
 /* Guess from the last step's polynomial and from how far it was off before. */
@@ -207,13 +210,13 @@ DAL_INLINE dal_status dal__try_guess(dal_step *s, dal_equation *eq, dal_mask *tr
 
 DAL_INLINE num *dal__kept_momenta(dal_step *s, const dal_stages *k)
 {
-    return s->slopes + DAL_STAGES(k->method) * DAL_NW(s);
+    return s->derivatives + DAL_STAGES(k->method) * DAL_NW(s);
 }
 
 DAL_INLINE void dal__guess_last(dal_step *s, const dal_stages *k, dal_equation *eq)
 {
     const int stride = dal__kept(s, DAL_STAGES(k->method));
-    dal__extrapolate(k->method, &eq->block[0], DAL_NW(s), s->slopes, stride);
+    dal__extrapolate(k->method, &eq->block[0], DAL_NW(s), s->derivatives, stride);
     if (DAL_LIFTED(s))
         dal__extrapolate(k->method, &eq->block[1], DAL_N(s), dal__kept_momenta(s, k), stride);
 }
@@ -221,7 +224,7 @@ DAL_INLINE void dal__look_back(dal_step *s, const dal_stages *k, dal_equation *e
                                const dal_mask *lanes, const dal_mask *served)
 {
     const int stride = dal__kept(s, DAL_STAGES(k->method));
-    dal__keep_misses(&eq->block[0], lanes, served, s->slopes, stride);
+    dal__keep_misses(&eq->block[0], lanes, served, s->derivatives, stride);
     if (DAL_LIFTED(s))
         dal__keep_misses(&eq->block[1], lanes, served, dal__kept_momenta(s, k), stride);
 }
@@ -231,21 +234,21 @@ DAL_INLINE void dal__go_on(dal_step *s, const dal_stages *k, dal_equation *eq, d
 {
     dal_mask lanes[DAL_JOINED];
     DAL_EACH(j, DAL_JOINED) lanes[j] = s->alive[j];
-    DAL_EACH(j, DAL_JOINED) served[j] = lanes[j] & dal_equal(s->slopes_h[j], dal_num(k->h));
+    DAL_EACH(j, DAL_JOINED) served[j] = lanes[j] & dal_equal(s->derivatives_h[j], dal_num(k->h));
     dal__guess_last(s, k, eq);
     dal__remember_guess(eq); /* read below where nothing is tried, too */
     dal__try_guess(s, eq, served);
     dal__look_back(s, k, eq, lanes, served);
 }
 
-/* Solves the stages: where the polynomial leads nowhere, from the present slopes. */
+/* Solves the stages: where the polynomial leads nowhere, from the present derivatives. */
 DAL_INLINE dal_status dal__solve_stages(dal_step *s, const dal_stages *k, dal_equation *eq)
 {
     dal_mask served[DAL_JOINED], rest[DAL_JOINED];
     dal_status status = DAL_OK;
     DAL_EACH(j, DAL_JOINED) rest[j] = s->alive[j];
     DAL_EACH(j, DAL_JOINED) served[j] = ~dal_all();
-    if (DAL_SLOPES(s)) dal__go_on(s, k, eq, served);
+    if (DAL_STAGE_DERIVATIVES(s)) dal__go_on(s, k, eq, served);
     DAL_EACH(j, DAL_JOINED) rest[j] &= ~served[j];
     if (dal__any(rest)) {
         DAL_TRY(dal__guess_present(s, eq, rest));
@@ -260,10 +263,10 @@ DAL_INLINE dal_status dal__solve_stages(dal_step *s, const dal_stages *k, dal_eq
 DAL_INLINE dal_status dal__solve_at_once(dal_step *s, const dal_stages *k, dal_equation *eq)
 {
     dal_mask solved[DAL_JOINED], left[DAL_JOINED];
-    if (!DAL_SLOPES(s) || (DAL_MAY_NEWTON(s) && DAL_SOLVER(s) == DAL_NEWTON))
+    if (!DAL_STAGE_DERIVATIVES(s) || (DAL_MAY_NEWTON(s) && DAL_SOLVER(s) == DAL_NEWTON))
         return DAL_NOT_CONVERGED;
     DAL_EACH(j, DAL_JOINED) {
-        left[j] = s->alive[j] & ~dal_equal(s->slopes_h[j], dal_num(k->h));
+        left[j] = s->alive[j] & ~dal_equal(s->derivatives_h[j], dal_num(k->h));
         if (DAL_MAY_NEWTON(s)) left[j] |= s->alive[j] & dal_less(dal_num(0.5), s->stiff[j]);
         solved[j] = s->alive[j];
     }
@@ -277,18 +280,19 @@ DAL_INLINE dal_status dal__solve_at_once(dal_step *s, const dal_stages *k, dal_e
     return DAL_OK;
 }
 
-/* Keeps the slopes for the next step's guess. */
+/* Keeps the derivatives for the next step's guess. */
 DAL_INLINE void dal__keep_block(const dal_step *s, const dal_block *b, num *DAL_RESTRICT last)
 {
     const num *u = b->u;
     DAL_EACH(i, DAL_SIZE(b)) last[i] = dal_select(s->alive[i % DAL_JOINED], u[i], last[i]);
 }
-DAL_INLINE void dal__keep_slopes(dal_step *s, const dal_stages *k, const dal_equation *eq)
+DAL_INLINE void dal__save_derivatives(dal_step *s, const dal_stages *k, const dal_equation *eq)
 {
-    if (!DAL_SLOPES(s)) return;
-    dal__keep_block(s, &eq->block[0], s->slopes);
+    if (!DAL_STAGE_DERIVATIVES(s)) return;
+    dal__keep_block(s, &eq->block[0], s->derivatives);
     if (DAL_LIFTED(s)) dal__keep_block(s, &eq->block[1], dal__kept_momenta(s, k));
-    DAL_EACH(j, DAL_JOINED) s->slopes_h[j] = dal_select(s->alive[j], dal_num(k->h), s->slopes_h[j]);
+    DAL_EACH(j, DAL_JOINED)
+        s->derivatives_h[j] = dal_select(s->alive[j], dal_num(k->h), s->derivatives_h[j]);
 }
 
 /* Stage values of the gauge variable, which is a function of time alone. */
@@ -342,11 +346,11 @@ DAL_INLINE dal_status dal__collocate(dal_step *s, const dal_tableau *method, int
     DAL_VECTOR(s, force, DAL_STAGES(method) * DAL_N(s));
     DAL_VECTOR(s, w, DAL_STAGES(method));
     DAL_VECTOR(s, mu, DAL_STAGES(method));
-    DAL_BLOCK(s, slopes, DAL_STAGES(method) * DAL_NW(s), DAL_MAY_NEWTON(s));
+    DAL_BLOCK(s, derivatives, DAL_STAGES(method) * DAL_NW(s), DAL_MAY_NEWTON(s));
     DAL_BLOCK(s, momenta, DAL_LIFTED(s) * DAL_STAGES(method) * DAL_N(s), DAL_MAY_NEWTON(s));
     dal_stages k = {method, s->h,  v, q,  pi,
                     f,      force, w, mu, DAL_LIFTED(s) ? 3 * DAL_N(s) : DAL_NW(s)};
-    dal_equation eq = {{slopes, momenta}, 1 + DAL_LIFTED(s), &k, {dal_all()}};
+    dal_equation eq = {{derivatives, momenta}, 1 + DAL_LIFTED(s), &k, {dal_all()}};
     eq.block[0].weight = eq.block[1].weight = fabs(s->h);
     DAL_EACH(j, DAL_JOINED) eq.block[0].scale[j] = dal_velocity_scale(s, s->h, j);
     if (DAL_LIFTED(s)) {
@@ -355,7 +359,7 @@ DAL_INLINE dal_status dal__collocate(dal_step *s, const dal_tableau *method, int
         eq.block[1].scale[0] = dal_momentum_scale(s, s->h, 0);
     }
     DAL_TRY(at_once ? dal__solve_at_once(s, &k, &eq) : dal__solve_stages(s, &k, &eq));
-    dal__keep_slopes(s, &k, &eq);
+    dal__save_derivatives(s, &k, &eq);
     return dal__collocation_end(s, &k, &eq);
 }
 

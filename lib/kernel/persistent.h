@@ -2,7 +2,7 @@
  *
  *     persistent:  y[dim] | r[dim] | the clock | what the method remembers
  *
- * All that survives a step is this array; all else is scratch.  The slopes are those of a method
+ * All that survives a step is this array; all else is scratch.  The derivatives are those of a method
  * that asks for them (DAL_EXTRAPOLATES_STAGES), [1 + DAL__DIFFERENCES][stages*(nw + n)]: see
  * collocation.h. */
 #ifndef DAL_KERNEL_PERSISTENT_H
@@ -12,18 +12,19 @@
 #define DAL__CLOCK_LIST(X) X(TIME) X(TIME_ERROR) X(STEPS) X(EVALUATIONS)
 
 /* Members of dal_step, and how many numbers each is: whoever uses the list says, by a macro
- * DAL__COUNT_ONE etc.  The slopes come last, since most methods keep none. */
+ * DAL__COUNT_ONE etc.  The derivatives come last, since most methods keep none. */
 #define DAL__METHOD_STATE_LIST(X)                                                                  \
     X(stiff, ONE)          /* 1 where the fixed point was too slow and Newton took over */         \
-    X(slopes_h, ONE)       /* the step size behind the slopes, 0: none */                          \
+    X(derivatives_h, ONE)  /* the step size behind the derivatives, 0: none */                     \
     X(has_multiplier, ONE) /* 1 where multiplier has been set */                                   \
     X(multiplier,                                                                                  \
-      MULTIPLIER)     /* [m] the multipliers of the last step, of methods that carry them */       \
-    X(substep, ONE)   /* the size planned for the next substep, 0: there is no plan */             \
-    X(level, TWO)     /* the energy of the start, and 1 when it is known */                        \
-    X(slopes, SLOPES) /* stage slopes of the last collocation step, and differences */
+      MULTIPLIER)   /* [m] the multipliers of the last step, of methods that carry them */         \
+    X(substep, ONE) /* the size planned for the next substep, 0: there is no plan */               \
+    X(level, TWO)   /* the energy of the start, and 1 when it is known */                          \
+    X(derivatives,                                                                                 \
+      DERIVATIVES) /* stage derivatives of the last collocation step, and differences */
 
-/* Differences kept beside the slopes. */
+/* Differences kept beside the derivatives. */
 enum { DAL__DIFFERENCES = 4 };
 
 /* Places behind y and r. */

@@ -47,13 +47,13 @@ typedef enum dal_callback_code {
 #define DAL_MAY_NEWTON(s)             DAL__NEWTON
 #define DAL_TANGENT(s)                DAL__TANGENT
 #define DAL_PROPERTIES(s)             DAL__PROPERTIES
-#define DAL_PERSISTENT_MULTIPLIERS(s) DAL__MULTIPLIER /* multipliers persistent: m, or 0 */
-#define DAL_SLOPES(s)                 DAL__SLOPES     /* numbers kept of slopes, or 0 */
+#define DAL_PERSISTENT_MULTIPLIERS(s) DAL__MULTIPLIER        /* multipliers persistent: m, or 0 */
+#define DAL_STAGE_DERIVATIVES(s)      DAL__STAGE_DERIVATIVES /* numbers kept of derivatives, or 0 */
 #define DAL_STAGES(t)                 DAL__STAGES
 #define DAL__ROOM(count)              ((count) > 0 ? (count) : 1)
 #define DAL__COUNT_ONE                1
 #define DAL__COUNT_TWO                2
-#define DAL__COUNT_SLOPES             DAL__SLOPES
+#define DAL__COUNT_DERIVATIVES        DAL__STAGE_DERIVATIVES
 #define DAL__COUNT_MULTIPLIER         DAL__MULTIPLIER
 
 #define DAL_VECTOR(step, name, count) num name[DAL__ROOM(count)]
@@ -122,7 +122,7 @@ enum { DAL_JOINED = 1 };
 #define DAL_MAY_NEWTON(s)             ((s)->has_jacobian && (s)->solver != DAL_FIXED_POINT)
 #define DAL_PROPERTIES(s)             ((s)->properties)
 #define DAL_PERSISTENT_MULTIPLIERS(s) ((s)->m)
-#define DAL_SLOPES(s)                 ((s)->slopes_kept)
+#define DAL_STAGE_DERIVATIVES(s)      ((s)->derivatives_kept)
 #define DAL_STAGES(t)                 ((t)->stages) /* of a tableau */
 
 struct dal_step {
@@ -138,7 +138,7 @@ struct dal_step {
 #undef X
     num *method_state; /* [method_state_count] all these, one after the other */
     int method_state_count;
-    int slopes_kept;
+    int derivatives_kept;
 
     dal_mask alive[DAL_JOINED];       /* lanes that go on */
     dal_mask unconverged[DAL_JOINED]; /* lanes whose implicit equations were not solved */

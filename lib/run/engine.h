@@ -17,15 +17,15 @@ typedef struct dal__shape {
     const dal_system *system;
     dal_method method;
     dal_options options;
-    int n, nw, m, dim, lifted, depth, stages, slopes, multiplier;
+    int n, nw, m, dim, lifted, depth, stages, derivatives, multiplier;
     size_t workspace, persistent, scratch; /* numbers */
 } dal__shape;
 
 /* Numbers of what a method remembers, for DAL__METHOD_STATE_LIST. */
-#define DAL__COUNT_ONE(shape)        1
-#define DAL__COUNT_TWO(shape)        2
-#define DAL__COUNT_SLOPES(shape)     ((shape)->slopes)
-#define DAL__COUNT_MULTIPLIER(shape) ((shape)->multiplier)
+#define DAL__COUNT_ONE(shape)         1
+#define DAL__COUNT_TWO(shape)         2
+#define DAL__COUNT_DERIVATIVES(shape) ((shape)->derivatives)
+#define DAL__COUNT_MULTIPLIER(shape)  ((shape)->multiplier)
 
 /* Where something of the clock, or the memory, is in the persistent array. */
 static inline size_t dal__at(const dal__shape *shape, int place)

@@ -107,7 +107,7 @@ static void place_method_state(engine *e)
     DAL__METHOD_STATE_LIST(X)
 #undef X
     e->step.method_state_count = (int)(at - e->step.method_state);
-    e->step.slopes_kept = e->shape.slopes;
+    e->step.derivatives_kept = e->shape.derivatives;
 }
 
 /* The step's fixed part. */

@@ -241,7 +241,7 @@ static dal_status measure(dal__shape *k, dal_error *error)
     if (k->workspace > MOST_NUMBERS)
         return dal__fail(error, DAL_TOO_LARGE, "a workspace of %zu numbers", k->workspace);
     const bool remembers = k->method.layer[0]->properties & DAL_EXTRAPOLATES_STAGES;
-    k->slopes = remembers ? (1 + DAL__DIFFERENCES) * k->stages * (k->nw + k->n) : 0;
+    k->derivatives = remembers ? (1 + DAL__DIFFERENCES) * k->stages * (k->nw + k->n) : 0;
     k->multiplier = dal_method_properties(&k->method) & DAL_PERSISTENT_MULTIPLIER ? k->m : 0;
     k->persistent = dal__at(k, DAL__METHOD_STATE);
 #define X(member, count) k->persistent += (size_t)DAL__COUNT_##count(k);
