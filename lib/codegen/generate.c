@@ -190,7 +190,7 @@ static const char compiler[] =
     "#pragma GCC diagnostic push\n"
     "#pragma GCC diagnostic ignored \"-Wunused-parameter\"\n"
     "#pragma GCC diagnostic ignored \"-Wpsabi\"\n"
-    "#ifndef __clang__ /* stages that no sweep was made for are never used */\n"
+    "#ifndef __clang__ /* stages that no iteration was made for are never used */\n"
     "#pragma GCC diagnostic ignored \"-Wmaybe-uninitialized\"\n#endif\n\n";
 
 void dal__put_compiler(dal__generation *g) { dal__put_template(g, compiler); }

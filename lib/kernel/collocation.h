@@ -78,7 +78,7 @@ DAL_INLINE void dal__momentum_derivatives(dal_step *s, const dal_stages *k, num 
     }
 }
 
-/* The stages' F_q^T Pi for the end of the step: those of a lane's own last sweep. */
+/* The stages' F_q^T Pi for the end of the step: those of a lane's own last iteration. */
 DAL_INLINE void dal__keep_forces(const dal_step *s, const dal_stages *k, dal_mask active)
 {
     (void)active; /* one lane that does not iterate asks for nothing */
@@ -86,7 +86,7 @@ DAL_INLINE void dal__keep_forces(const dal_step *s, const dal_stages *k, dal_mas
     DAL_EACH(i, DAL_STAGES(k->method))
         DAL_EACH(j, n)
             k->force[i * n + j] =
-                DAL_KEEP(active, k->f[i * k->stride + n + j], k->force[i * n + j]);
+                DAL_IF_ACTIVE(active, k->f[i * k->stride + n + j], k->force[i * n + j]);
 }
 
 /* Asks the system at every stage; on the physical space F is the image of K. */
@@ -236,7 +236,7 @@ DAL_INLINE void dal__go_on(dal_step *s, const dal_stages *k, dal_equation *eq, d
     DAL_EACH(j, DAL_JOINED) lanes[j] = s->alive[j];
     DAL_EACH(j, DAL_JOINED) served[j] = lanes[j] & dal_equal(s->derivatives_h[j], dal_num(k->h));
     dal__guess_last(s, k, eq);
-    dal__remember_guess(eq); /* read below where nothing is tried, too */
+    dal__save_guess(eq); /* read below where nothing is tried, too */
     dal__try_guess(s, eq, served);
     dal__look_back(s, k, eq, lanes, served);
 }
@@ -267,12 +267,12 @@ DAL_INLINE dal_status dal__solve_at_once(dal_step *s, const dal_stages *k, dal_e
         return DAL_NOT_CONVERGED;
     DAL_EACH(j, DAL_JOINED) {
         left[j] = s->alive[j] & ~dal_equal(s->derivatives_h[j], dal_num(k->h));
-        if (DAL_MAY_NEWTON(s)) left[j] |= s->alive[j] & dal_less(dal_num(0.5), s->stiff[j]);
+        if (DAL_MAY_NEWTON(s)) left[j] |= s->alive[j] & dal_less(dal_num(0.5), s->uses_newton[j]);
         solved[j] = s->alive[j];
     }
     if (DAL_RARELY(dal__any(left))) return DAL_NOT_CONVERGED;
     dal__guess_last(s, k, eq);
-    dal__remember_guess(eq);
+    dal__save_guess(eq);
     dal__iterate(s, eq, dal__collocation_map, solved, 0, DAL_MAY_NEWTON(s));
     DAL_EACH(j, DAL_JOINED) left[j] = s->alive[j] & ~solved[j];
     if (DAL_RARELY(dal__any(left))) return DAL_NOT_CONVERGED;

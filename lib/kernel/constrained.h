@@ -6,14 +6,14 @@
  *
  *     w = free(w) + N(w) mu,     D(q(w), v + w, t) = 0.
  *
- * The multipliers are eliminated: in every sweep they are those for which the constraints hold to
+ * The multipliers are eliminated: in every iteration they are those for which the constraints hold to
  * first order, so that w alone is iterated (solve.h), and what it stagnates at solves both:
  *
  *     (A N) mu = A (w - free) - D,     image = free + N mu
  *
- * D may be nonlinear, W may depend on q, v, t.  The sweeps contract like h; where they are too slow
+ * D may be nonlinear, W may depend on q, v, t.  The iterations contract like h; where they are too slow
  * for that, Newton's matrix is 1 - z P F_v - z^2 P F_q with P = 1 - B G^-1 A at the beginning of
- * the step: of the derivative of a sweep the part that can be large, since P B = 0 and the motion
+ * the step: of the derivative of a iteration the part that can be large, since P B = 0 and the motion
  * along the constraints is that of F.  (With reactions along directions of their own, B is W^-1 of
  * those.) */
 #ifndef DAL_KERNEL_CONSTRAINED_H
@@ -94,7 +94,7 @@ DAL_INLINE void dal_save_multipliers(dal_step *s, const num *h)
 typedef struct dal_reaction {
     dal_stage_matrix newton;        /* how Newton's matrix is made of P F_q and P F_v */
     num *free, *normals;            /* [n], [n*m]: what w is made of; the map sets them */
-    num *mu;                        /* [m] multipliers of a lane's last sweep */
+    num *mu;                        /* [m] multipliers of a lane's last iteration */
     num *g, *inverse, *rhs, *fresh; /* [m*m], [m*m], [m], [m] */
 } dal_reaction;
 
@@ -134,7 +134,7 @@ DAL_INLINE void dal_react(const dal_step *s, dal_equation *eq, const num *normal
     }
     dal_gram(A, k->normals, m, n, k->g);
     dal_solve_small(k->g, k->inverse, m, k->rhs, k->fresh);
-    DAL_EACH(i, m) k->mu[i] = DAL_KEEP(eq->active[0], k->fresh[i], k->mu[i]);
+    DAL_EACH(i, m) k->mu[i] = DAL_IF_ACTIVE(eq->active[0], k->fresh[i], k->mu[i]);
     DAL_EACH(i, n)
         DAL_EACH(j, m) image[i] += k->normals[i * m + j] * k->fresh[j];
 }
@@ -179,8 +179,8 @@ DAL_INLINE dal_status dal_constrained_matrix(dal_step *s, dal_equation *eq)
 }
 
 /* Solves; `direct` says that the map does not depend on w but through D, and on that linearly: then
- * one sweep is the solution. */
-DAL_INLINE dal_status dal_impose(dal_step *s, dal_equation *eq, dal_map *map, int direct)
+ * one iteration is the solution. */
+DAL_INLINE dal_status dal_impose(dal_step *s, dal_equation *eq, dal_iteration_map *map, int direct)
 {
     if (!direct) return dal_solve(s, eq, map, dal_constrained_matrix);
     eq->active[0] = s->alive[0];

@@ -230,13 +230,13 @@ DAL_INLINE int dal__norm_packs(const num *x, int count, num *norm)
     for (int j = 0; j < DAL__PACK; j++) *norm = dal_max(*norm, part[0][j]);
     return i;
 }
-DAL_INLINE int dal__poison_packs(const num *x, int count, num *poison)
+DAL_INLINE int dal__nonfinite_packs(const num *x, int count, num *nonfinite)
 {
     dal__pack part = {0};
     int i = 0;
     for (; i + DAL__PACK <= count; i += DAL__PACK)
         part += *(const dal__pack *)(x + i) - *(const dal__pack *)(x + i);
-    for (int j = 0; j < DAL__PACK; j++) *poison += part[j];
+    for (int j = 0; j < DAL__PACK; j++) *nonfinite += part[j];
     return i;
 }
 /* part_j += sum of u_i^2, i = j modulo the size of a pack */
@@ -250,8 +250,8 @@ DAL_INLINE int dal__square_packs(const num *u, int count, num *part)
     return i;
 }
 #else
-#define dal__norm_packs(x, count, norm)     0
-#define dal__poison_packs(x, count, poison) 0
+#define dal__norm_packs(x, count, norm)           0
+#define dal__nonfinite_packs(x, count, nonfinite) 0
 DAL_INLINE int dal__square_packs(const num *u, int count, num *part)
 {
     DAL_EACH(i, count / DAL__PACK * DAL__PACK) part[i % DAL__PACK] += u[i] * u[i];
@@ -268,12 +268,12 @@ DAL_INLINE num dal_max_norm(const num *x, int count)
 }
 
 /* 0, or NaN where one of them is not finite. */
-DAL_INLINE num dal_poison(const num *x, int count)
+DAL_INLINE num dal_nonfinite(const num *x, int count)
 {
-    num poison = dal_num(0.0);
-    const int seen = dal__poison_packs(x, count, &poison);
-    DAL_EACH(i, count - seen) poison += x[seen + i] - x[seen + i];
-    return poison;
+    num nonfinite = dal_num(0.0);
+    const int seen = dal__nonfinite_packs(x, count, &nonfinite);
+    DAL_EACH(i, count - seen) nonfinite += x[seen + i] - x[seen + i];
+    return nonfinite;
 }
 
 /* |u|^2 */

@@ -14,7 +14,7 @@
 /* Members of dal_step, and how many numbers each is: whoever uses the list says, by a macro
  * DAL__COUNT_ONE etc.  The derivatives come last, since most methods keep none. */
 #define DAL__METHOD_STATE_LIST(X)                                                                  \
-    X(stiff, ONE)          /* 1 where the fixed point was too slow and Newton took over */         \
+    X(uses_newton, ONE)    /* 1 where the fixed point was too slow and Newton took over */         \
     X(derivatives_h, ONE)  /* the step size behind the derivatives, 0: none */                     \
     X(has_multiplier, ONE) /* 1 where multiplier has been set */                                   \
     X(multiplier,                                                                                  \

@@ -6,9 +6,9 @@
  * An iteration ends when every block has d = 0, or a d at rounding level that no longer decreases
  * (Hairer, McLachlan, Razakarivony, BIT 48 (2008) 231), or one that twice in a row does not
  * decrease and is small: not at a tolerance.  "Small" only tells stagnation from divergence.  After
- * a few sweeps there are two more ends: a d far below rounding level, for where some components are
+ * a few iterations there are two more ends: a d far below rounding level, for where some components are
  * smaller than the roundings of others, they alone may answer to d, which then decreases without
- * end, however slowly; and a small d than which some sweeps brought no less, cycles of roundings.
+ * end, however slowly; and a small d than which some iterations brought no less, cycles of roundings.
  * Each lane ends by itself and is then left alone, so its bits do not depend on its neighbours.  A
  * run may end iterations earlier (DAL_SOLVER_TOLERANCE) or later (DAL_EXTRA_ITERATIONS), to show
  * what the solver does to it.
@@ -16,17 +16,17 @@
  * Groups of lanes that are stepped as one system (DAL_JOINED) have norms and masks of their own.
  *
  * With the solver "auto" a lane whose fixed point contracts more slowly than DAL__SLOW, or not at
- * all, goes over to Newton and stays there (step->stiff, which is persistent along). */
+ * all, goes over to Newton and stays there (step->uses_newton, which is persistent along). */
 #ifndef DAL_KERNEL_SOLVE_H
 #define DAL_KERNEL_SOLVE_H
 
-/* Newton pays from this rate on: a fixed point needs 36/log2(1/rate) sweeps. */
+/* Newton pays from this rate on: a fixed point needs 36/log2(1/rate) iterations. */
 #define DAL__SLOW 0.3
 /* Increments against the size of the state: rounding, stagnation, and where no rate is measured. */
 #define DAL__ROUNDING (1.4e-14 * DAL_ULP_RATIO)
 #define DAL__SMALL    (1e-12 * DAL_ULP_RATIO)
 #define DAL__NOISE    (1e-12 * DAL_ULP_RATIO)
-/* After so many sweeps: far below rounding, after twice as many below it; and roundings, where so
+/* After so many iterations: far below rounding, after twice as many below it; and roundings, where so
  * many more bring none less. */
 #define DAL__PATIENT 8
 #define DAL__NOTHING (1e-17 * DAL_ULP_RATIO)
@@ -38,8 +38,8 @@
 typedef struct dal_block {
     num scale[DAL_JOINED];                   /* size of the state it moves */
     num now[DAL_JOINED], before[DAL_JOINED]; /* norms of the last two increments */
-    num stalls[DAL_JOINED];                  /* how often in a row the norm did not decrease */
-    num best[2][DAL_JOINED];                 /* the least norm, and the sweeps since then */
+    num stagnations[DAL_JOINED];             /* how often in a row the norm did not decrease */
+    num best[2][DAL_JOINED];                 /* the least norm, and the iterations since then */
     double weight;                           /* a change of u by d moves the state by weight*d */
     int size;
     num *u, *image; /* the unknowns; what map made of them */
@@ -54,16 +54,16 @@ typedef struct dal_equation {
     dal_mask active[DAL_JOINED]; /* the lanes that still iterate */
 } dal_equation;
 
-/* What a map keeps beside the image for the end of the step is that of a lane's own last sweep: the
- * sweeps its neighbours still need do not touch it. */
+/* What a map keeps beside the image for the end of the step is that of a lane's own last iteration: the
+ * iterations its neighbours still need do not touch it. */
 #if DAL_LANES == 1
-#define DAL_KEEP(active, fresh, kept) (fresh)
+#define DAL_IF_ACTIVE(active, fresh, kept) (fresh)
 #else
-#define DAL_KEEP(active, fresh, kept) dal_select(active, fresh, kept)
+#define DAL_IF_ACTIVE(active, fresh, kept) dal_select(active, fresh, kept)
 #endif
 
-typedef void dal_map(dal_step *step, dal_equation *equation);          /* u -> image, all blocks */
-typedef dal_status dal_matrix(dal_step *step, dal_equation *equation); /* fills inverse */
+typedef void dal_iteration_map(dal_step *step, dal_equation *equation); /* u -> image, all blocks */
+typedef dal_status dal_matrix(dal_step *step, dal_equation *equation);  /* fills inverse */
 
 /* Its size.  Compilers lose sight of the constant where groups are joined; a file then has but one.
  */
@@ -113,8 +113,8 @@ DAL_INLINE num dal_momentum_scale(const dal_step *s, double h, int group)
 }
 
 #if DAL_LANES == 1 && !defined DAL_SPECIALISED && !defined DAL_NUM_QUAD
-/* image -= u, u += image; norm and poison of what is then in image. */
-DAL_INLINE int dal__advance_packs(num *u, num *image, int count, num *norm, num *poison)
+/* image -= u, u += image; norm and nonfinite of what is then in image. */
+DAL_INLINE int dal__advance_packs(num *u, num *image, int count, num *norm, num *nonfinite)
 {
     dal__pack sum = {0};
     int i = 0;
@@ -124,12 +124,12 @@ DAL_INLINE int dal__advance_packs(num *u, num *image, int count, num *norm, num 
         sum += *d - *d;
         *v += *d;
     }
-    for (int j = 0; j < DAL__PACK; j++) *poison += sum[j];
+    for (int j = 0; j < DAL__PACK; j++) *nonfinite += sum[j];
     dal__norm_packs(image, i, norm);
     return i;
 }
 #else
-#define dal__advance_packs(u, image, count, norm, poison) 0
+#define dal__advance_packs(u, image, count, norm, nonfinite) 0
 #endif
 
 /* Row i of M^-1 image. */
@@ -146,21 +146,21 @@ DAL_INLINE num dal__newton(const dal_block *b, int i)
  * pack belongs to one lane, which is active or nobody would call. */
 DAL_INLINE void dal__advance(dal_block *b, const dal_mask *active, int newton)
 {
-    num norm[DAL_JOINED], poison[DAL_JOINED];
-    DAL_EACH(j, DAL_JOINED) norm[j] = poison[j] = dal_num(0.0);
-    const int seen = newton ? 0 : dal__advance_packs(b->u, b->image, DAL_SIZE(b), norm, poison);
+    num norm[DAL_JOINED], nonfinite[DAL_JOINED];
+    DAL_EACH(j, DAL_JOINED) norm[j] = nonfinite[j] = dal_num(0.0);
+    const int seen = newton ? 0 : dal__advance_packs(b->u, b->image, DAL_SIZE(b), norm, nonfinite);
     num *u = b->u + seen, *image = b->image + seen;
     DAL_EACH(i, DAL_SIZE(b) - seen) image[i] -= u[i];
     DAL_EACH(i, DAL_SIZE(b) - seen) {
         const int j = i % DAL_JOINED;
         const num d = newton ? dal__newton(b, i) : image[i];
         norm[j] = dal_max(norm[j], dal_abs(d));
-        poison[j] += d - d;
+        nonfinite[j] += d - d;
         u[i] = dal_select(active[j], u[i] + d, u[i]);
     }
     DAL_EACH(j, DAL_JOINED) {
         b->before[j] = b->now[j];
-        b->now[j] = b->weight * norm[j] + poison[j];
+        b->now[j] = b->weight * norm[j] + nonfinite[j];
     }
 }
 
@@ -169,7 +169,7 @@ DAL_INLINE num dal__size(const dal_block *b, int j)
     return b->scale[j] + b->weight * dal__group_norm(b->u, DAL_SIZE(b), j);
 }
 
-/* Whether it is zero, or small enough after many sweeps. */
+/* Whether it is zero, or small enough after many iterations. */
 DAL_INLINE dal_mask dal__is_enough(dal_block *b, int j, int k, num now, num size)
 {
     const double nothing = k < DAL__PATIENT       ? 0.0
@@ -184,14 +184,15 @@ DAL_INLINE dal_mask dal__is_enough(dal_block *b, int j, int k, num now, num size
            (dal_less_equal(now, cycling * size) & dal_less(dal_num(DAL__CYCLE - 0.5), *since));
 }
 
-/* Lanes of a group where in sweep k a block's increment is zero or stagnates, or is as small as was
+/* Lanes of a group where in iteration k a block's increment is zero or stagnates, or is as small as was
  * asked for. */
-DAL_INLINE dal_mask dal__quiet(const dal_step *s, dal_block *b, int j, int k)
+DAL_INLINE dal_mask dal__converged(const dal_step *s, dal_block *b, int j, int k)
 {
     const num now = b->now[j], size = dal__size(b, j);
-    b->stalls[j] = dal_select(dal_less_equal(b->before[j], now), b->stalls[j] + 1.0, dal_num(0.0));
-    const dal_mask once = dal_less(dal_num(0.5), b->stalls[j]),
-                   twice = dal_less(dal_num(1.5), b->stalls[j]);
+    b->stagnations[j] =
+        dal_select(dal_less_equal(b->before[j], now), b->stagnations[j] + 1.0, dal_num(0.0));
+    const dal_mask once = dal_less(dal_num(0.5), b->stagnations[j]),
+                   twice = dal_less(dal_num(1.5), b->stagnations[j]);
     const dal_mask stagnates = dal__is_enough(b, j, k, now, size) |
                                (once & dal_less_equal(now, DAL__ROUNDING * size)) |
                                (twice & dal_less_equal(now, DAL__SMALL * size));
@@ -209,28 +210,29 @@ DAL_INLINE dal_mask dal__slow(const dal_block *b, int j)
 DAL_INLINE void dal__begin_block(dal_block *b)
 {
     DAL_EACH(j, DAL_JOINED) b->now[j] = dal_num(INFINITY);
-    DAL_EACH(j, DAL_JOINED) b->stalls[j] = dal_num(0.0);
+    DAL_EACH(j, DAL_JOINED) b->stagnations[j] = dal_num(0.0);
     DAL_EACH(j, DAL_JOINED) b->best[0][j] = dal_num(INFINITY);
     DAL_EACH(j, DAL_JOINED) b->best[1][j] = dal_num(0.0);
 }
 
-/* One sweep of all blocks in the active lanes. */
-DAL_INLINE void dal__sweep(dal_step *s, dal_equation *eq, dal_map *map, int newton)
+/* One iteration of all blocks in the active lanes. */
+DAL_INLINE void dal__iterate_once(dal_step *s, dal_equation *eq, dal_iteration_map *map, int newton)
 {
     map(s, eq);
     dal__advance(&eq->block[0], eq->active, newton);
     if (eq->blocks > 1) dal__advance(&eq->block[1], eq->active, newton);
 }
 
-/* Behind sweep k: the lanes of a group that have failed leave `lanes`; those, and the ones that are
- * quiet, leave the active ones. */
-DAL_INLINE void dal__judge_sweep(dal_step *s, dal_equation *eq, int j, int may_give_up, int k,
-                                 dal_mask *lanes, dal_mask *slow)
+/* Behind iteration k: the lanes of a group that have failed leave `lanes`; those, and the ones that are
+ * converged, leave the active ones. */
+DAL_INLINE void dal__update_active(dal_step *s, dal_equation *eq, int j, int may_give_up, int k,
+                                   dal_mask *lanes, dal_mask *slow)
 {
     const dal_mask active = eq->active[j];
-    dal_mask quiet = dal__quiet(s, &eq->block[0], j, k), finite = dal_finite(eq->block[0].now[j]);
+    dal_mask converged = dal__converged(s, &eq->block[0], j, k),
+             finite = dal_finite(eq->block[0].now[j]);
     if (eq->blocks > 1) {
-        quiet &= dal__quiet(s, &eq->block[1], j, k);
+        converged &= dal__converged(s, &eq->block[1], j, k);
         finite &= dal_finite(eq->block[1].now[j]);
     }
     if (may_give_up && (k == 1 || k == 2)) {
@@ -238,12 +240,12 @@ DAL_INLINE void dal__judge_sweep(dal_step *s, dal_equation *eq, int j, int may_g
         finite &= ~*slow;
     }
     *lanes &= finite | ~active;
-    eq->active[j] = active & finite & ~quiet;
+    eq->active[j] = active & finite & ~converged;
 }
 
 /* Iterates in the given lanes and leaves those that stagnated; not those that were given up after
- * the third sweep because they contract slowly, if they may be. */
-DAL_INLINE void dal__iterate(dal_step *s, dal_equation *eq, dal_map *map, dal_mask *lanes,
+ * the third iteration because they contract slowly, if they may be. */
+DAL_INLINE void dal__iterate(dal_step *s, dal_equation *eq, dal_iteration_map *map, dal_mask *lanes,
                              int newton, int may_give_up)
 {
     dal_mask slow[DAL_JOINED];
@@ -252,57 +254,59 @@ DAL_INLINE void dal__iterate(dal_step *s, dal_equation *eq, dal_map *map, dal_ma
     DAL_EACH(j, DAL_JOINED) slow[j] = ~dal_all();
     DAL_EACH(j, DAL_JOINED) eq->active[j] = lanes[j];
     for (int k = 0; k < DAL_ITERATIONS(s) && dal__any(eq->active); k++) {
-        dal__sweep(s, eq, map, newton);
-        DAL_EACH(j, DAL_JOINED) dal__judge_sweep(s, eq, j, may_give_up, k, &lanes[j], &slow[j]);
+        dal__iterate_once(s, eq, map, newton);
+        DAL_EACH(j, DAL_JOINED) dal__update_active(s, eq, j, may_give_up, k, &lanes[j], &slow[j]);
     }
     DAL_EACH(j, DAL_JOINED) lanes[j] &= ~eq->active[j];
     DAL_EACH(j, DAL_JOINED) eq->active[j] = lanes[j];
-    for (int k = 0; k < DAL_EXTRA_ITERATIONS(s); k++) dal__sweep(s, eq, map, newton);
+    for (int k = 0; k < DAL_EXTRA_ITERATIONS(s); k++) dal__iterate_once(s, eq, map, newton);
 }
 
-DAL_INLINE void dal__remember(dal_block *b)
+DAL_INLINE void dal__save_block(dal_block *b)
 {
     DAL_EACH(i, DAL_SIZE(b)) b->start[i] = b->u[i];
 }
-DAL_INLINE void dal__remember_guess(dal_equation *eq)
+DAL_INLINE void dal__save_guess(dal_equation *eq)
 {
-    dal__remember(&eq->block[0]);
-    if (eq->blocks > 1) dal__remember(&eq->block[1]);
+    dal__save_block(&eq->block[0]);
+    if (eq->blocks > 1) dal__save_block(&eq->block[1]);
 }
-DAL_INLINE void dal__return(dal_block *b, const dal_mask *lanes)
+DAL_INLINE void dal__restore_block(dal_block *b, const dal_mask *lanes)
 {
     DAL_EACH(i, DAL_SIZE(b)) b->u[i] = dal_select(lanes[i % DAL_JOINED], b->start[i], b->u[i]);
 }
 
 /* Newton's method from the first guess in the lanes left; leaves those where it stagnated, which
- * are stiff from now on. */
-DAL_INLINE dal_status dal__solve_stiff(dal_step *s, dal_equation *eq, dal_map *map,
-                                       dal_matrix *matrix, dal_mask *left)
+ * are uses_newton from now on. */
+DAL_INLINE dal_status dal__solve_by_newton(dal_step *s, dal_equation *eq, dal_iteration_map *map,
+                                           dal_matrix *matrix, dal_mask *left)
 {
-    dal__return(&eq->block[0], left);
-    if (eq->blocks > 1) dal__return(&eq->block[1], left);
+    dal__restore_block(&eq->block[0], left);
+    if (eq->blocks > 1) dal__restore_block(&eq->block[1], left);
     DAL_TRY(matrix(s, eq));
     dal__iterate(s, eq, map, left, 1, 0);
-    DAL_EACH(j, DAL_JOINED) s->stiff[j] = dal_select(left[j], dal_num(1.0), s->stiff[j]);
+    DAL_EACH(j, DAL_JOINED)
+        s->uses_newton[j] = dal_select(left[j], dal_num(1.0), s->uses_newton[j]);
     return DAL_OK;
 }
 
 /* Solves the equation from the guess in u; lanes that fail are recorded and no longer alive.
  * Without a matrix (NULL) there is no Newton. */
-DAL_INLINE dal_status dal_solve(dal_step *s, dal_equation *eq, dal_map *map, dal_matrix *matrix)
+DAL_INLINE dal_status dal_solve(dal_step *s, dal_equation *eq, dal_iteration_map *map,
+                                dal_matrix *matrix)
 {
     const int may_newton = matrix && DAL_MAY_NEWTON(s);
     dal_mask solved[DAL_JOINED], left[DAL_JOINED];
     DAL_EACH(j, DAL_JOINED) {
         solved[j] = s->alive[j];
-        if (may_newton) solved[j] &= ~dal_less(dal_num(0.5), s->stiff[j]);
+        if (may_newton) solved[j] &= ~dal_less(dal_num(0.5), s->uses_newton[j]);
         if (may_newton && DAL_SOLVER(s) == DAL_NEWTON) solved[j] = ~dal_all();
     }
-    dal__remember_guess(eq);
+    dal__save_guess(eq);
     dal__iterate(s, eq, map, solved, 0, may_newton);
     DAL_EACH(j, DAL_JOINED) left[j] = s->alive[j] & ~solved[j];
     if (may_newton && dal__any(left)) {
-        DAL_TRY(dal__solve_stiff(s, eq, map, matrix, left));
+        DAL_TRY(dal__solve_by_newton(s, eq, map, matrix, left));
         DAL_EACH(j, DAL_JOINED) solved[j] |= left[j];
     }
     DAL_EACH(j, DAL_JOINED) {

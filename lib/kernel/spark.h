@@ -7,7 +7,7 @@
  *     v1  = v + h sum_j b_j K_j        q1  = q + h sum_j b_j V_j
  *
  * with as many equations e as multipliers L_i are unknown: all, or all but L_1, which is then L_s
- * of the step before.  The K_i are iterated; in every sweep the L_i are those for which the
+ * of the step before.  The K_i are iterated; in every iteration the L_i are those for which the
  * equations hold to first order, as in constrained.h:
  *
  *     sum_j (h sum_p omega_ep y_pj A_p B_j) L_j
@@ -32,7 +32,7 @@ typedef struct dal_spark_step {
     const dal_spark *method;
     num *V, *parts;        /* [s*n], [s] answers */
     num *q, *v, *normals;  /* a point, and D and A there */
-    num *given, *last;     /* [m] L_1 where it is persistent; L_s of a lane's last sweep */
+    num *given, *last;     /* [m] L_1 where it is persistent; L_s of a lane's last iteration */
     num *shift;            /* [n] h sum y (a_j - K_j) */
     num *matrix, *inverse; /* [(s*m)^2] */
     num *rhs, *L;          /* [s*m] */
@@ -158,7 +158,7 @@ DAL_INLINE void dal__spark_map(dal_step *s, dal_equation *eq)
                 image[(i + first) * n + c] += B[c * m + a] * k->L[i * m + a];
     }
     for (int a = 0; a < m; a++)
-        k->last[a] = DAL_KEEP(eq->active[0], k->L[(count - 1) * m + a], k->last[a]);
+        k->last[a] = DAL_IF_ACTIVE(eq->active[0], k->L[(count - 1) * m + a], k->last[a]);
 }
 
 /* L_1, where it is persistent, and the first guess: F at the present state for every K. */

@@ -61,7 +61,7 @@ DAL_INLINE num dal__euler_v1(const dal_step *s, const dal_euler *k, int i, num r
 DAL_INLINE void dal__euler_map_v(dal_step *s, dal_equation *eq)
 {
     dal_euler *k = (dal_euler *)eq->context;
-    DAL_EACH(i, DAL_NW(s)) k->v[i] = DAL_KEEP(eq->active[0], eq->block[0].u[i], k->v[i]);
+    DAL_EACH(i, DAL_NW(s)) k->v[i] = DAL_IF_ACTIVE(eq->active[0], eq->block[0].u[i], k->v[i]);
     dal__euler_q(s, k);
     dal_force(s, k->t, k->q, k->v, k->f);
     DAL_EACH(i, DAL_NW(s))

@@ -180,11 +180,11 @@ dal_status DAL_WIDE(dal__engine_eval)(void *engine_, int code, double t, const d
 /* ---- judging a step, group by group ---- */
 
 /* The sum of x - x over some components of a group: 0, or NaN where one is not finite. */
-static num poison(const engine *e, int group, int first, int count)
+static num nonfinite(const engine *e, int group, int first, int count)
 {
     const num *y = e->persistent + first * DAL_GROUPS + group;
     num sum = dal_num(0.0);
-    if (DAL_GROUPS == 1) return dal_poison(y, count);
+    if (DAL_GROUPS == 1) return dal_nonfinite(y, count);
     for (int i = 0; i < count * DAL_GROUPS; i += DAL_GROUPS) sum += y[i] - y[i];
     return sum;
 }
@@ -193,10 +193,10 @@ static num poison(const engine *e, int group, int first, int count)
 static dal_mask finite(const engine *e, int group)
 {
     const int dim = e->shape.dim, at_e = 2 * e->shape.n;
-    if (!e->shape.lifted) return dal_equal(poison(e, group, 0, dim), dal_num(0.0));
+    if (!e->shape.lifted) return dal_equal(nonfinite(e, group, 0, dim), dal_num(0.0));
     const num w = 1.0 / e->persistent[at_e * DAL_GROUPS + group];
-    return dal_equal(poison(e, group, 0, at_e) + (w - w) +
-                         poison(e, group, at_e + 1, dim - at_e - 1),
+    return dal_equal(nonfinite(e, group, 0, at_e) + (w - w) +
+                         nonfinite(e, group, at_e + 1, dim - at_e - 1),
                      dal_num(0.0));
 }
 

@@ -8,7 +8,7 @@
 #include "run/run.h"
 #include <dalembert_kernel.h>
 
-enum { MORE_ITERATIONS = 3 }; /* a fixed point needs more sweeps for more digits */
+enum { MORE_ITERATIONS = 3 }; /* a fixed point needs more iterations for more digits */
 
 static const dal__engine_kind *kind(void) { return &dal__engine_kinds[DAL__VARIANT_x1_QUAD]; }
 static size_t round_up(size_t bytes) { return (bytes + 63) / 64 * 64; }
