@@ -79,7 +79,7 @@ DAL_INLINE void dal__momentum_derivatives(dal_step *s, const dal_stages *k, num 
 }
 
 /* The stages' F_q^T Pi for the end of the step: those of a lane's own last iteration. */
-DAL_INLINE void dal__keep_forces(const dal_step *s, const dal_stages *k, dal_mask active)
+DAL_INLINE void dal__save_forces(const dal_step *s, const dal_stages *k, dal_mask active)
 {
     (void)active; /* one lane that does not iterate asks for nothing */
     const int n = DAL_N(s);
@@ -110,7 +110,7 @@ DAL_INLINE void dal__collocation_map(dal_step *s, dal_equation *eq)
     if (DAL_LIFTED(s)) dal__stage_values(s, k, 0, dal_at_pi(s), n, eq->block[1].u, n, k->pi);
     dal__eval_stages(s, k, image);
     if (!DAL_LIFTED(s)) return;
-    dal__keep_forces(s, k, eq->active[0]);
+    dal__save_forces(s, k, eq->active[0]);
     DAL_EACH(i, DAL_STAGES(k->method))
         DAL_EACH(j, n)
             image[i * n + j] = dal_fma(k->pi[i * n + j], k->w[i], k->f[i * k->stride + j]);
@@ -147,7 +147,7 @@ DAL_INLINE void dal__guess_block(dal_block *b, int width, const num *derivative,
     DAL_EACH(i, DAL_SIZE(b))
         b->u[i] = dal_select(lanes[i % DAL_JOINED], derivative[i % width], b->u[i]);
 }
-DAL_INLINE dal_status dal__guess_present(dal_step *s, dal_equation *eq, const dal_mask *lanes)
+DAL_INLINE dal_status dal__guess_from_field(dal_step *s, dal_equation *eq, const dal_mask *lanes)
 {
     DAL_VECTOR(s, dy, DAL_DIM(s));
     DAL_TRY(dal_field(s, s->t, s->y, dy));
@@ -162,8 +162,11 @@ DAL_INLINE void dal__add_multiple(num *DAL_RESTRICT u, double factor, const num 
     DAL_EACH(i, count) u[i] = dal_fma(dal_num(factor), x[i], u[i]);
 }
 
-/* What is kept of a block: derivatives, misses, their differences, each behind the other. */
-DAL_INLINE int dal__kept(const dal_step *s, int stages) { return stages * (DAL_NW(s) + DAL_N(s)); }
+/* What is kept of a block: derivatives, errors, their differences, each behind the other. */
+DAL_INLINE int dal__stride(const dal_step *s, int stages)
+{
+    return stages * (DAL_NW(s) + DAL_N(s));
+}
 
 /* Guess from the last step's polynomial and from how far it was off before. */
 DAL_INLINE void dal__extrapolate(const dal_tableau *m, dal_block *b, int width, const num *last,
@@ -179,21 +182,22 @@ DAL_INLINE void dal__extrapolate(const dal_tableau *m, dal_block *b, int width, 
         DAL_EACH(i, DAL_SIZE(b)) b->u[i] += last[(d + 1) * stride + i];
 }
 
-/* Keeps how far the polynomial was off and the differences, where it served; else nothing.  The
- * first guess is needed no more: the misses take its place. */
-DAL_INLINE void dal__keep_misses(dal_block *b, const dal_mask *lanes, const dal_mask *served,
-                                 num *DAL_RESTRICT last, int stride)
+/* Keeps how far the polynomial was off and the differences, where it accepted; else nothing.  The
+ * first guess is needed no more: the errors take its place. */
+DAL_INLINE void dal__save_predictor_errors(dal_block *b, const dal_mask *lanes,
+                                           const dal_mask *accepted, num *DAL_RESTRICT last,
+                                           int stride)
 {
-    num *const miss = b->start;
-    DAL_EACH(i, DAL_SIZE(b)) miss[i] = b->u[i] - miss[i];
+    num *const error = b->start;
+    DAL_EACH(i, DAL_SIZE(b)) error[i] = b->u[i] - error[i];
     DAL_EACH(d, DAL__DIFFERENCES)
-        DAL_EACH(i, DAL_SIZE(b)) miss[i] += last[(d + 1) * stride + i];
+        DAL_EACH(i, DAL_SIZE(b)) error[i] += last[(d + 1) * stride + i];
     DAL_EACH(d, DAL__DIFFERENCES)
         DAL_EACH(i, DAL_SIZE(b)) {
             const int j = i % DAL_JOINED;
             num *const kept = last + (d + 1) * stride + i, before = *kept;
-            *kept = dal_select(lanes[j], dal_select(served[j], miss[i], dal_num(0.0)), before);
-            miss[i] -= before;
+            *kept = dal_select(lanes[j], dal_select(accepted[j], error[i], dal_num(0.0)), before);
+            error[i] -= before;
         }
 }
 
@@ -208,59 +212,62 @@ DAL_INLINE dal_status dal__try_guess(dal_step *s, dal_equation *eq, dal_mask *tr
     return status;
 }
 
-DAL_INLINE num *dal__kept_momenta(dal_step *s, const dal_stages *k)
+DAL_INLINE num *dal__momentum_derivatives_kept(dal_step *s, const dal_stages *k)
 {
     return s->derivatives + DAL_STAGES(k->method) * DAL_NW(s);
 }
 
-DAL_INLINE void dal__guess_last(dal_step *s, const dal_stages *k, dal_equation *eq)
+DAL_INLINE void dal__predict(dal_step *s, const dal_stages *k, dal_equation *eq)
 {
-    const int stride = dal__kept(s, DAL_STAGES(k->method));
+    const int stride = dal__stride(s, DAL_STAGES(k->method));
     dal__extrapolate(k->method, &eq->block[0], DAL_NW(s), s->derivatives, stride);
     if (DAL_LIFTED(s))
-        dal__extrapolate(k->method, &eq->block[1], DAL_N(s), dal__kept_momenta(s, k), stride);
+        dal__extrapolate(k->method, &eq->block[1], DAL_N(s), dal__momentum_derivatives_kept(s, k),
+                         stride);
 }
-DAL_INLINE void dal__look_back(dal_step *s, const dal_stages *k, dal_equation *eq,
-                               const dal_mask *lanes, const dal_mask *served)
+DAL_INLINE void dal__record_predictor_errors(dal_step *s, const dal_stages *k, dal_equation *eq,
+                                             const dal_mask *lanes, const dal_mask *accepted)
 {
-    const int stride = dal__kept(s, DAL_STAGES(k->method));
-    dal__keep_misses(&eq->block[0], lanes, served, s->derivatives, stride);
+    const int stride = dal__stride(s, DAL_STAGES(k->method));
+    dal__save_predictor_errors(&eq->block[0], lanes, accepted, s->derivatives, stride);
     if (DAL_LIFTED(s))
-        dal__keep_misses(&eq->block[1], lanes, served, dal__kept_momenta(s, k), stride);
+        dal__save_predictor_errors(&eq->block[1], lanes, accepted,
+                                   dal__momentum_derivatives_kept(s, k), stride);
 }
 
-/* From the last step's polynomial, where there is one; *served: where that was enough. */
-DAL_INLINE void dal__go_on(dal_step *s, const dal_stages *k, dal_equation *eq, dal_mask *served)
+/* From the last step's polynomial, where there is one; *accepted: where that was enough. */
+DAL_INLINE void dal__solve_from_predictor(dal_step *s, const dal_stages *k, dal_equation *eq,
+                                          dal_mask *accepted)
 {
     dal_mask lanes[DAL_JOINED];
     DAL_EACH(j, DAL_JOINED) lanes[j] = s->alive[j];
-    DAL_EACH(j, DAL_JOINED) served[j] = lanes[j] & dal_equal(s->derivatives_h[j], dal_num(k->h));
-    dal__guess_last(s, k, eq);
+    DAL_EACH(j, DAL_JOINED) accepted[j] = lanes[j] & dal_equal(s->derivatives_h[j], dal_num(k->h));
+    dal__predict(s, k, eq);
     dal__save_guess(eq); /* read below where nothing is tried, too */
-    dal__try_guess(s, eq, served);
-    dal__look_back(s, k, eq, lanes, served);
+    dal__try_guess(s, eq, accepted);
+    dal__record_predictor_errors(s, k, eq, lanes, accepted);
 }
 
 /* Solves the stages: where the polynomial leads nowhere, from the present derivatives. */
 DAL_INLINE dal_status dal__solve_stages(dal_step *s, const dal_stages *k, dal_equation *eq)
 {
-    dal_mask served[DAL_JOINED], rest[DAL_JOINED];
+    dal_mask accepted[DAL_JOINED], rest[DAL_JOINED];
     dal_status status = DAL_OK;
     DAL_EACH(j, DAL_JOINED) rest[j] = s->alive[j];
-    DAL_EACH(j, DAL_JOINED) served[j] = ~dal_all();
-    if (DAL_STAGE_DERIVATIVES(s)) dal__go_on(s, k, eq, served);
-    DAL_EACH(j, DAL_JOINED) rest[j] &= ~served[j];
+    DAL_EACH(j, DAL_JOINED) accepted[j] = ~dal_all();
+    if (DAL_STAGE_DERIVATIVES(s)) dal__solve_from_predictor(s, k, eq, accepted);
+    DAL_EACH(j, DAL_JOINED) rest[j] &= ~accepted[j];
     if (dal__any(rest)) {
-        DAL_TRY(dal__guess_present(s, eq, rest));
+        DAL_TRY(dal__guess_from_field(s, eq, rest));
         status = dal__try_guess(s, eq, rest);
     }
-    DAL_EACH(j, DAL_JOINED) s->alive[j] = served[j] | rest[j];
+    DAL_EACH(j, DAL_JOINED) s->alive[j] = accepted[j] | rest[j];
     return dal__any(s->alive) ? DAL_OK : status;
 }
 
 /* The same where nothing but the fixed point from the polynomial is needed in any lane; else
  * DAL_NOT_CONVERGED, and nothing has happened. */
-DAL_INLINE dal_status dal__solve_at_once(dal_step *s, const dal_stages *k, dal_equation *eq)
+DAL_INLINE dal_status dal__solve_predicted(dal_step *s, const dal_stages *k, dal_equation *eq)
 {
     dal_mask solved[DAL_JOINED], left[DAL_JOINED];
     if (!DAL_STAGE_DERIVATIVES(s) || (DAL_MAY_NEWTON(s) && DAL_SOLVER(s) == DAL_NEWTON))
@@ -271,17 +278,17 @@ DAL_INLINE dal_status dal__solve_at_once(dal_step *s, const dal_stages *k, dal_e
         solved[j] = s->alive[j];
     }
     if (DAL_RARELY(dal__any(left))) return DAL_NOT_CONVERGED;
-    dal__guess_last(s, k, eq);
+    dal__predict(s, k, eq);
     dal__save_guess(eq);
     dal__iterate(s, eq, dal__collocation_map, solved, 0, DAL_MAY_NEWTON(s));
     DAL_EACH(j, DAL_JOINED) left[j] = s->alive[j] & ~solved[j];
     if (DAL_RARELY(dal__any(left))) return DAL_NOT_CONVERGED;
-    dal__look_back(s, k, eq, solved, solved);
+    dal__record_predictor_errors(s, k, eq, solved, solved);
     return DAL_OK;
 }
 
 /* Keeps the derivatives for the next step's guess. */
-DAL_INLINE void dal__keep_block(const dal_step *s, const dal_block *b, num *DAL_RESTRICT last)
+DAL_INLINE void dal__save_unknowns(const dal_step *s, const dal_block *b, num *DAL_RESTRICT last)
 {
     const num *u = b->u;
     DAL_EACH(i, DAL_SIZE(b)) last[i] = dal_select(s->alive[i % DAL_JOINED], u[i], last[i]);
@@ -289,8 +296,8 @@ DAL_INLINE void dal__keep_block(const dal_step *s, const dal_block *b, num *DAL_
 DAL_INLINE void dal__save_derivatives(dal_step *s, const dal_stages *k, const dal_equation *eq)
 {
     if (!DAL_STAGE_DERIVATIVES(s)) return;
-    dal__keep_block(s, &eq->block[0], s->derivatives);
-    if (DAL_LIFTED(s)) dal__keep_block(s, &eq->block[1], dal__kept_momenta(s, k));
+    dal__save_unknowns(s, &eq->block[0], s->derivatives);
+    if (DAL_LIFTED(s)) dal__save_unknowns(s, &eq->block[1], dal__momentum_derivatives_kept(s, k));
     DAL_EACH(j, DAL_JOINED)
         s->derivatives_h[j] = dal_select(s->alive[j], dal_num(k->h), s->derivatives_h[j]);
 }
@@ -337,7 +344,7 @@ DAL_INLINE dal_status dal__collocation_end(dal_step *s, const dal_stages *k, con
     return dal_update_multiple(s, k->h, k->h, d);
 }
 
-DAL_INLINE dal_status dal__collocate(dal_step *s, const dal_tableau *method, int at_once)
+DAL_INLINE dal_status dal__collocate(dal_step *s, const dal_tableau *method, int predicted)
 {
     DAL_VECTOR(s, v, DAL_STAGES(method) * DAL_NW(s));
     DAL_VECTOR(s, q, DAL_STAGES(method) * DAL_N(s));
@@ -358,7 +365,7 @@ DAL_INLINE dal_status dal__collocate(dal_step *s, const dal_tableau *method, int
         DAL_EACH(i, DAL_STAGES(method) * DAL_N(s)) force[i] = dal_num(0.0);
         eq.block[1].scale[0] = dal_momentum_scale(s, s->h, 0);
     }
-    DAL_TRY(at_once ? dal__solve_at_once(s, &k, &eq) : dal__solve_stages(s, &k, &eq));
+    DAL_TRY(predicted ? dal__solve_predicted(s, &k, &eq) : dal__solve_stages(s, &k, &eq));
     dal__save_derivatives(s, &k, &eq);
     return dal__collocation_end(s, &k, &eq);
 }
@@ -366,7 +373,7 @@ DAL_INLINE dal_status dal__collocate(dal_step *s, const dal_tableau *method, int
 /* One step of size s->h from the present state and time; leaves the time advanced. */
 #ifdef DAL_SPECIALISED
 /* What is rarely needed is kept out of the way, so that the rest finds room in registers. */
-DAL_COLD dal_status dal__collocate_anew(dal_step *s, const dal_tableau *method)
+DAL_COLD dal_status dal__collocate_again(dal_step *s, const dal_tableau *method)
 {
     return dal__collocate(s, method, 0);
 }
@@ -376,7 +383,7 @@ DAL_INLINE dal_status dal_collocation(dal_step *s, const dal_tableau *method)
     if (dal__collocate(s, method, 1) == DAL_OK) return DAL_OK;
     s->evaluations = evaluations;
     dal_step again = *s;
-    const dal_status status = dal__collocate_anew(&again, method);
+    const dal_status status = dal__collocate_again(&again, method);
     *s = again;
     return status;
 }
