@@ -15,7 +15,7 @@
  *     dal_collocation                        lib/kernel/collocation.h   implicit Runge-Kutta steps
  *     dal_substeps                           lib/kernel/composition.h   steps made of steps
  *     dal_control                            lib/kernel/adaptive.h      steps under error control
- *     dal_eval_blocks, dal_react, dal_impose       lib/kernel/constrained.h   steps that impose D
+ *     dal_eval_blocks, dal_eliminate_multipliers, dal_enforce       lib/kernel/constrained.h   steps that impose D
  *     dal_spark_advance                      lib/kernel/spark.h         the same with stages
  *
  * A file ends with one DAL_INTEGRATOR for each method in it; one line in integrators.def (or,

@@ -21,10 +21,10 @@
 #define STILL 0x1p-30
 
 typedef struct gradient {
-    dal_reaction reaction; /* first */
-    num *q, *vb;           /* [n] */
-    num *parts;            /* at (qb, vb) */
-    num *U0, *mid, *end;   /* [3n] U, U_q.v, v.Wv at q0, qb, q1, with vb */
+    dal_elimination reaction; /* first */
+    num *q, *vb;              /* [n] */
+    num *parts;               /* at (qb, vb) */
+    num *U0, *mid, *end;      /* [3n] U, U_q.v, v.Wv at q0, qb, q1, with vb */
 } gradient;
 
 /* h^2 kappa for coordinate i. */
@@ -53,7 +53,7 @@ DAL_INLINE void gradient_map(dal_step *s, dal_equation *eq)
         k->reaction.free[i] =
             half * k->parts[dal_blocks_a(s) + i] - 0.5 * gradient_factor(s, k, i) * k->vb[i];
     DAL_EACH(i, n * m) k->reaction.normals[i] = half * k->parts[dal_blocks_B(s) + i];
-    dal_react(s, eq, k->parts);
+    dal_eliminate_multipliers(s, eq, k->parts);
 }
 
 DAL_INLINE dal_status step(dal_step *s)
@@ -67,11 +67,11 @@ DAL_INLINE dal_status step(dal_step *s)
     DAL_VECTOR(s, end, 3 * DAL_N(s));
     DAL_VECTOR(s, d, DAL_DIM(s));
     DAL_BLOCK(s, block, DAL_N(s), DAL_MAY_NEWTON(s));
-    DAL_REACTION(s, reaction, 0.5 * s->h, 1.0);
+    DAL_ELIMINATION(s, reaction, 0.5 * s->h, 1.0);
     gradient k = {reaction, q, vb, parts, U0, mid, end};
     dal_equation eq = dal_velocity_equation(s, block, &k);
     dal_eval(s, DAL_EVAL_POTENTIAL, s->t + 0.5 * s->h, s->y, s->y + n, NULL, U0);
-    DAL_TRY(dal_impose(s, &eq, gradient_map, 0));
+    DAL_TRY(dal_enforce(s, &eq, gradient_map, 0));
     DAL_EACH(i, n) d[i] = s->h * dal_moved_v(s, i, eq.block[0].u[i]);
     DAL_EACH(i, n) d[n + i] = 2.0 * eq.block[0].u[i];
     return dal_update(s, s->h, d);

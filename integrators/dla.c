@@ -17,9 +17,9 @@
 #include <dalembert_kernel.h>
 
 typedef struct midpoint {
-    dal_reaction reaction; /* first */
-    num *qb, *vb;          /* [n] */
-    num *parts;            /* at (qb, vb); then at the end */
+    dal_elimination reaction; /* first */
+    num *qb, *vb;             /* [n] */
+    num *parts;               /* at (qb, vb); then at the end */
 } midpoint;
 
 /* w = vb - v0; the normals stand as they are. */
@@ -31,7 +31,7 @@ DAL_INLINE void map_midpoint(dal_step *s, dal_equation *eq)
     DAL_EACH(i, DAL_N(s)) k->qb[i] = dal_moved_q(s, i, half * k->vb[i]);
     dal_eval_blocks(s, s->t + half, k->qb, k->vb, k->parts);
     DAL_EACH(i, DAL_N(s)) k->reaction.free[i] = half * k->parts[dal_blocks_a(s) + i];
-    dal_react(s, eq, k->parts);
+    dal_eliminate_multipliers(s, eq, k->parts);
 }
 
 /* w = v1 - v0; what is free stands as it is. */
@@ -42,7 +42,7 @@ DAL_INLINE void map_end(dal_step *s, dal_equation *eq)
     DAL_EACH(i, n) k->vb[i] = dal_moved_v(s, i, eq->block[0].u[i]);
     dal_eval_blocks(s, s->t + s->h, k->qb, k->vb, k->parts);
     DAL_EACH(i, n * m) k->reaction.normals[i] = 0.5 * s->h * k->parts[dal_blocks_B(s) + i];
-    dal_react(s, eq, k->parts);
+    dal_eliminate_multipliers(s, eq, k->parts);
 }
 
 /* To the midpoint; leaves vb, and v0 moved by all but the last impulse. */
@@ -53,7 +53,7 @@ DAL_INLINE dal_status go_to_midpoint(dal_step *s, midpoint *k)
     dal_equation eq = dal_velocity_equation(s, block, k);
     dal_eval_blocks(s, s->t, s->y, s->y + n, k->parts);
     DAL_EACH(i, n * m) k->reaction.normals[i] = 0.5 * s->h * k->parts[dal_blocks_B(s) + i];
-    DAL_TRY(dal_impose(s, &eq, map_midpoint, 0));
+    DAL_TRY(dal_enforce(s, &eq, map_midpoint, 0));
     DAL_EACH(i, n) k->vb[i] = dal_moved_v(s, i, eq.block[0].u[i]);
     DAL_EACH(i, n) k->qb[i] = dal_moved_q(s, i, 0.5 * s->h * k->vb[i]);
     dal_eval_blocks(s, s->t + 0.5 * s->h, k->qb, k->vb, k->parts);
@@ -70,7 +70,7 @@ DAL_INLINE dal_status step(dal_step *s)
     DAL_VECTOR(s, parts, DAL_BLOCKS_SIZE(s));
     DAL_VECTOR(s, d, DAL_DIM(s));
     DAL_BLOCK(s, block, DAL_N(s), 0);
-    DAL_REACTION(s, reaction, 0.5 * s->h, 1.0);
+    DAL_ELIMINATION(s, reaction, 0.5 * s->h, 1.0);
     midpoint k = {reaction, qb, vb, parts};
     DAL_TRY(go_to_midpoint(s, &k));
     dal_equation eq = dal_velocity_equation(s, block, &k);

@@ -11,10 +11,10 @@
 #include <dalembert_kernel.h>
 
 typedef struct leap {
-    dal_reaction reaction; /* first */
-    num *qh, *q1, *v1;     /* [n] */
-    num *before, *after;   /* parts at (qh, v0), (qh, v1) */
-    num *normals;          /* D, A at (q1, v1) */
+    dal_elimination reaction; /* first */
+    num *qh, *q1, *v1;        /* [n] */
+    num *before, *after;      /* parts at (qh, v0), (qh, v1) */
+    num *normals;             /* D, A at (q1, v1) */
 } leap;
 
 DAL_INLINE void take_mean(const dal_step *s, const leap *k)
@@ -38,7 +38,7 @@ DAL_INLINE void leap_map(dal_step *s, dal_equation *eq)
         take_mean(s, k);
     }
     dal_constraint(s, s->t + h, k->q1, k->v1, k->normals);
-    dal_react(s, eq, k->normals);
+    dal_eliminate_multipliers(s, eq, k->normals);
 }
 
 DAL_INLINE dal_status step(dal_step *s)
@@ -53,13 +53,13 @@ DAL_INLINE dal_status step(dal_step *s)
     DAL_VECTOR(s, normals, DAL_CONSTRAINT_SIZE(s));
     DAL_VECTOR(s, d, DAL_DIM(s));
     DAL_BLOCK(s, block, DAL_N(s), DAL_MAY_NEWTON(s));
-    DAL_REACTION(s, reaction, 0.5 * s->h, 0.0);
+    DAL_ELIMINATION(s, reaction, 0.5 * s->h, 0.0);
     leap k = {reaction, qh, q1, v1, before, after, normals};
     dal_equation eq = dal_velocity_equation(s, block, &k);
     DAL_EACH(i, n) qh[i] = dal_moved_q(s, i, 0.5 * h * s->y[n + i]);
     dal_eval_blocks(s, s->t + 0.5 * h, qh, s->y + n, before);
     take_mean(s, &k);
-    DAL_TRY(dal_impose(s, &eq, leap_map, DAL_M(s) == 0 && dal_positional(s)));
+    DAL_TRY(dal_enforce(s, &eq, leap_map, DAL_M(s) == 0 && dal_positional(s)));
     DAL_EACH(i, n) d[n + i] = eq.block[0].u[i];
     DAL_EACH(i, n) d[i] = 0.5 * h * (s->y[n + i] + dal_moved_v(s, i, d[n + i]));
     return dal_update(s, h, d);

@@ -50,7 +50,7 @@ bool dal__uses_newton(const dal__generation *g)
 {
     const bool implicit = dal__method_uses(g, "dal_symplectic_euler") ||
                           dal__method_uses(g, "dal_collocation") ||
-                          dal__method_uses(g, "dal_impose") || dal__method_uses(g, "dal_spark");
+                          dal__method_uses(g, "dal_enforce") || dal__method_uses(g, "dal_spark");
     return implicit && g->spec->options.solver != DAL_FIXED_POINT &&
            g->programs->program[DAL__PROGRAM_JACOBIAN].present;
 }

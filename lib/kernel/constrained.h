@@ -91,15 +91,15 @@ DAL_INLINE void dal_save_multipliers(dal_step *s, const num *h)
 /* ---- one velocity ---- */
 
 /* The context of such an equation begins with this. */
-typedef struct dal_reaction {
+typedef struct dal_elimination {
     dal_stage_matrix newton;        /* how Newton's matrix is made of P F_q and P F_v */
     num *free, *normals;            /* [n], [n*m]: what w is made of; the map sets them */
     num *mu;                        /* [m] multipliers of a lane's last iteration */
     num *g, *inverse, *rhs, *fresh; /* [m*m], [m*m], [m], [m] */
-} dal_reaction;
+} dal_elimination;
 
 /* Declares one with its memory; v and v* move together by z. */
-#define DAL_REACTION(step, name, z, a2)                                                            \
+#define DAL_ELIMINATION(step, name, z, a2)                                                         \
     static const double name##_one = 1.0, name##_a2 = (a2);                                        \
     DAL_VECTOR(step, name##_free, DAL_N(step));                                                    \
     DAL_VECTOR(step, name##_normals, DAL_N(step) * DAL_M(step));                                   \
@@ -109,19 +109,19 @@ typedef struct dal_reaction {
     DAL_VECTOR(step, name##_rhs, DAL_M(step));                                                     \
     DAL_VECTOR(step, name##_fresh, DAL_M(step));                                                   \
     DAL_EACH(i, DAL_M(step)) name##_mu[i] = dal_num(0.0);                                          \
-    dal_reaction name = {{1, (z), &name##_one, &name##_a2, 0},                                     \
-                         name##_free,                                                              \
-                         name##_normals,                                                           \
-                         name##_mu,                                                                \
-                         name##_g,                                                                 \
-                         name##_inverse,                                                           \
-                         name##_rhs,                                                               \
-                         name##_fresh}
+    dal_elimination name = {{1, (z), &name##_one, &name##_a2, 0},                                  \
+                            name##_free,                                                           \
+                            name##_normals,                                                        \
+                            name##_mu,                                                             \
+                            name##_g,                                                              \
+                            name##_inverse,                                                        \
+                            name##_rhs,                                                            \
+                            name##_fresh}
 
 /* image = free + N mu with the mu for which D + A (image - w) = 0; D and A begin `normals`. */
-DAL_INLINE void dal_react(const dal_step *s, dal_equation *eq, const num *normals)
+DAL_INLINE void dal_eliminate_multipliers(const dal_step *s, dal_equation *eq, const num *normals)
 {
-    const dal_reaction *k = (const dal_reaction *)eq->context;
+    const dal_elimination *k = (const dal_elimination *)eq->context;
     const int n = DAL_N(s), m = DAL_M(s);
     const num *A = normals + dal_blocks_A(s), *w = eq->block[0].u;
     num *const image = eq->block[0].image;
@@ -180,7 +180,7 @@ DAL_INLINE dal_status dal_constrained_matrix(dal_step *s, dal_equation *eq)
 
 /* Solves; `direct` says that the map does not depend on w but through D, and on that linearly: then
  * one iteration is the solution. */
-DAL_INLINE dal_status dal_impose(dal_step *s, dal_equation *eq, dal_iteration_map *map, int direct)
+DAL_INLINE dal_status dal_enforce(dal_step *s, dal_equation *eq, dal_iteration_map *map, int direct)
 {
     if (!direct) return dal_solve(s, eq, map, dal_constrained_matrix);
     eq->active[0] = s->alive[0];
