@@ -21,10 +21,10 @@
 #define STILL 0x1p-30
 
 typedef struct gradient {
-    dal_elimination reaction; /* first */
-    num *q, *vb;              /* [n] */
-    num *parts;               /* at (qb, vb) */
-    num *U0, *mid, *end;      /* [3n] U, U_q.v, v.Wv at q0, qb, q1, with vb */
+    dal_elimination elimination; /* first */
+    num *q, *vb;                 /* [n] */
+    num *parts;                  /* at (qb, vb) */
+    num *U0, *mid, *end;         /* [3n] U, U_q.v, v.Wv at q0, qb, q1, with vb */
 } gradient;
 
 /* h^2 kappa for coordinate i. */
@@ -50,9 +50,9 @@ DAL_INLINE void gradient_map(dal_step *s, dal_equation *eq)
     DAL_EACH(i, n) k->q[i] = dal_moved_q(s, i, s->h * k->vb[i]);
     dal_eval(s, DAL_EVAL_POTENTIAL, t, k->q, k->vb, NULL, k->end);
     DAL_EACH(i, n)
-        k->reaction.free[i] =
+        k->elimination.free[i] =
             half * k->parts[dal_blocks_a(s) + i] - 0.5 * gradient_factor(s, k, i) * k->vb[i];
-    DAL_EACH(i, n * m) k->reaction.normals[i] = half * k->parts[dal_blocks_B(s) + i];
+    DAL_EACH(i, n * m) k->elimination.directions[i] = half * k->parts[dal_blocks_B(s) + i];
     dal_eliminate_multipliers(s, eq, k->parts);
 }
 
@@ -67,8 +67,8 @@ DAL_INLINE dal_status step(dal_step *s)
     DAL_VECTOR(s, end, 3 * DAL_N(s));
     DAL_VECTOR(s, d, DAL_DIM(s));
     DAL_BLOCK(s, block, DAL_N(s), DAL_MAY_NEWTON(s));
-    DAL_ELIMINATION(s, reaction, 0.5 * s->h, 1.0);
-    gradient k = {reaction, q, vb, parts, U0, mid, end};
+    DAL_ELIMINATION(s, elimination, 0.5 * s->h, 1.0);
+    gradient k = {elimination, q, vb, parts, U0, mid, end};
     dal_equation eq = dal_velocity_equation(s, block, &k);
     dal_eval(s, DAL_EVAL_POTENTIAL, s->t + 0.5 * s->h, s->y, s->y + n, NULL, U0);
     DAL_TRY(dal_enforce(s, &eq, gradient_map, 0));

@@ -17,9 +17,9 @@
 #include <dalembert_kernel.h>
 
 typedef struct midpoint {
-    dal_elimination reaction; /* first */
-    num *qb, *vb;             /* [n] */
-    num *parts;               /* at (qb, vb); then at the end */
+    dal_elimination elimination; /* first */
+    num *qb, *vb;                /* [n] */
+    num *parts;                  /* at (qb, vb); then at the end */
 } midpoint;
 
 /* w = vb - v0; the normals stand as they are. */
@@ -30,7 +30,7 @@ DAL_INLINE void map_midpoint(dal_step *s, dal_equation *eq)
     DAL_EACH(i, DAL_N(s)) k->vb[i] = dal_moved_v(s, i, eq->block[0].u[i]);
     DAL_EACH(i, DAL_N(s)) k->qb[i] = dal_moved_q(s, i, half * k->vb[i]);
     dal_eval_blocks(s, s->t + half, k->qb, k->vb, k->parts);
-    DAL_EACH(i, DAL_N(s)) k->reaction.free[i] = half * k->parts[dal_blocks_a(s) + i];
+    DAL_EACH(i, DAL_N(s)) k->elimination.free[i] = half * k->parts[dal_blocks_a(s) + i];
     dal_eliminate_multipliers(s, eq, k->parts);
 }
 
@@ -41,7 +41,7 @@ DAL_INLINE void map_end(dal_step *s, dal_equation *eq)
     const int n = DAL_N(s), m = DAL_M(s);
     DAL_EACH(i, n) k->vb[i] = dal_moved_v(s, i, eq->block[0].u[i]);
     dal_eval_blocks(s, s->t + s->h, k->qb, k->vb, k->parts);
-    DAL_EACH(i, n * m) k->reaction.normals[i] = 0.5 * s->h * k->parts[dal_blocks_B(s) + i];
+    DAL_EACH(i, n * m) k->elimination.directions[i] = 0.5 * s->h * k->parts[dal_blocks_B(s) + i];
     dal_eliminate_multipliers(s, eq, k->parts);
 }
 
@@ -52,13 +52,13 @@ DAL_INLINE dal_status go_to_midpoint(dal_step *s, midpoint *k)
     DAL_BLOCK(s, block, DAL_N(s), DAL_MAY_NEWTON(s));
     dal_equation eq = dal_velocity_equation(s, block, k);
     dal_eval_blocks(s, s->t, s->y, s->y + n, k->parts);
-    DAL_EACH(i, n * m) k->reaction.normals[i] = 0.5 * s->h * k->parts[dal_blocks_B(s) + i];
+    DAL_EACH(i, n * m) k->elimination.directions[i] = 0.5 * s->h * k->parts[dal_blocks_B(s) + i];
     DAL_TRY(dal_enforce(s, &eq, map_midpoint, 0));
     DAL_EACH(i, n) k->vb[i] = dal_moved_v(s, i, eq.block[0].u[i]);
     DAL_EACH(i, n) k->qb[i] = dal_moved_q(s, i, 0.5 * s->h * k->vb[i]);
     dal_eval_blocks(s, s->t + 0.5 * s->h, k->qb, k->vb, k->parts);
     DAL_EACH(i, n)
-        k->reaction.free[i] = eq.block[0].u[i] + 0.5 * s->h * k->parts[dal_blocks_a(s) + i];
+        k->elimination.free[i] = eq.block[0].u[i] + 0.5 * s->h * k->parts[dal_blocks_a(s) + i];
     return DAL_OK;
 }
 
@@ -70,13 +70,13 @@ DAL_INLINE dal_status step(dal_step *s)
     DAL_VECTOR(s, parts, DAL_BLOCKS_SIZE(s));
     DAL_VECTOR(s, d, DAL_DIM(s));
     DAL_BLOCK(s, block, DAL_N(s), 0);
-    DAL_ELIMINATION(s, reaction, 0.5 * s->h, 1.0);
-    midpoint k = {reaction, qb, vb, parts};
+    DAL_ELIMINATION(s, elimination, 0.5 * s->h, 1.0);
+    midpoint k = {elimination, qb, vb, parts};
     DAL_TRY(go_to_midpoint(s, &k));
     dal_equation eq = dal_velocity_equation(s, block, &k);
     DAL_EACH(i, n) d[i] = s->h * vb[i];
     DAL_EACH(i, n) qb[i] = dal_moved_q(s, i, d[i]);
-    DAL_EACH(i, n) eq.block[0].u[i] = reaction.free[i];
+    DAL_EACH(i, n) eq.block[0].u[i] = elimination.free[i];
     DAL_TRY(dal_solve(s, &eq, map_end, NULL));
     DAL_EACH(i, n) d[n + i] = eq.block[0].u[i];
     return dal_update(s, s->h, d);

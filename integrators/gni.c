@@ -13,10 +13,10 @@
 #include <dalembert_kernel.h>
 
 typedef struct rattle {
-    dal_elimination reaction; /* first */
-    num *kick;                /* [n] h/2 (a0 + B0 lambda0) */
-    num *q1, *v1;             /* [n] */
-    num *after;               /* parts at (q1, v1) */
+    dal_elimination elimination; /* first */
+    num *kick;                   /* [n] h/2 (a0 + B0 lambda0) */
+    num *q1, *v1;                /* [n] */
+    num *after;                  /* parts at (q1, v1) */
 } rattle;
 
 DAL_INLINE void rattle_map(dal_step *s, dal_equation *eq)
@@ -26,8 +26,8 @@ DAL_INLINE void rattle_map(dal_step *s, dal_equation *eq)
     const double half = 0.5 * s->h;
     DAL_EACH(i, n) k->v1[i] = dal_moved_v(s, i, eq->block[0].u[i]);
     dal_eval_blocks(s, s->t + s->h, k->q1, k->v1, k->after);
-    DAL_EACH(i, n) k->reaction.free[i] = k->kick[i] + half * k->after[dal_blocks_a(s) + i];
-    DAL_EACH(i, n * m) k->reaction.normals[i] = half * k->after[dal_blocks_B(s) + i];
+    DAL_EACH(i, n) k->elimination.free[i] = k->kick[i] + half * k->after[dal_blocks_a(s) + i];
+    DAL_EACH(i, n * m) k->elimination.directions[i] = half * k->after[dal_blocks_B(s) + i];
     dal_eliminate_multipliers(s, eq, k->after);
 }
 
@@ -55,15 +55,15 @@ DAL_INLINE dal_status step(dal_step *s)
     DAL_VECTOR(s, after, DAL_BLOCKS_SIZE(s));
     DAL_VECTOR(s, d, DAL_DIM(s));
     DAL_BLOCK(s, block, DAL_N(s), DAL_MAY_NEWTON(s));
-    DAL_ELIMINATION(s, reaction, 0.5 * s->h, 0.0);
-    rattle k = {reaction, kick, q1, v1, after};
+    DAL_ELIMINATION(s, elimination, 0.5 * s->h, 0.0);
+    rattle k = {elimination, kick, q1, v1, after};
     dal_equation eq = dal_velocity_equation(s, block, &k);
     DAL_TRY(rattle_begin(s, kick));
     DAL_EACH(i, n) d[i] = h * dal_moved_v(s, i, kick[i]);
     DAL_EACH(i, n) q1[i] = dal_moved_q(s, i, d[i]);
     DAL_TRY(dal_enforce(s, &eq, rattle_map, dal_positional(s)));
     DAL_EACH(i, n) d[n + i] = eq.block[0].u[i];
-    dal_save_multipliers(s, k.reaction.mu);
+    dal_save_multipliers(s, k.elimination.mu);
     return dal_update(s, h, d);
 }
 

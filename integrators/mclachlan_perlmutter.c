@@ -11,10 +11,10 @@
 #include <dalembert_kernel.h>
 
 typedef struct leap {
-    dal_elimination reaction; /* first */
-    num *qh, *q1, *v1;        /* [n] */
-    num *before, *after;      /* parts at (qh, v0), (qh, v1) */
-    num *normals;             /* D, A at (q1, v1) */
+    dal_elimination elimination; /* first */
+    num *qh, *q1, *v1;           /* [n] */
+    num *before, *after;         /* parts at (qh, v0), (qh, v1) */
+    num *normals;                /* D, A at (q1, v1) */
 } leap;
 
 DAL_INLINE void take_mean(const dal_step *s, const leap *k)
@@ -22,8 +22,8 @@ DAL_INLINE void take_mean(const dal_step *s, const leap *k)
     const int n = DAL_N(s), m = DAL_M(s), a = dal_blocks_a(s), B = dal_blocks_B(s);
     const num *after = dal_positional(s) ? k->before : k->after;
     const double half = 0.5 * s->h;
-    DAL_EACH(i, n) k->reaction.free[i] = half * (k->before[a + i] + after[a + i]);
-    DAL_EACH(i, n * m) k->reaction.normals[i] = half * (k->before[B + i] + after[B + i]);
+    DAL_EACH(i, n) k->elimination.free[i] = half * (k->before[a + i] + after[a + i]);
+    DAL_EACH(i, n * m) k->elimination.directions[i] = half * (k->before[B + i] + after[B + i]);
 }
 
 DAL_INLINE void leap_map(dal_step *s, dal_equation *eq)
@@ -37,8 +37,8 @@ DAL_INLINE void leap_map(dal_step *s, dal_equation *eq)
         dal_eval_blocks(s, s->t + 0.5 * h, k->qh, k->v1, k->after);
         take_mean(s, k);
     }
-    dal_constraint(s, s->t + h, k->q1, k->v1, k->normals);
-    dal_eliminate_multipliers(s, eq, k->normals);
+    dal_constraint(s, s->t + h, k->q1, k->v1, k->directions);
+    dal_eliminate_multipliers(s, eq, k->directions);
 }
 
 DAL_INLINE dal_status step(dal_step *s)
@@ -53,8 +53,8 @@ DAL_INLINE dal_status step(dal_step *s)
     DAL_VECTOR(s, normals, DAL_CONSTRAINT_SIZE(s));
     DAL_VECTOR(s, d, DAL_DIM(s));
     DAL_BLOCK(s, block, DAL_N(s), DAL_MAY_NEWTON(s));
-    DAL_ELIMINATION(s, reaction, 0.5 * s->h, 0.0);
-    leap k = {reaction, qh, q1, v1, before, after, normals};
+    DAL_ELIMINATION(s, elimination, 0.5 * s->h, 0.0);
+    leap k = {elimination, qh, q1, v1, before, after, normals};
     dal_equation eq = dal_velocity_equation(s, block, &k);
     DAL_EACH(i, n) qh[i] = dal_moved_q(s, i, 0.5 * h * s->y[n + i]);
     dal_eval_blocks(s, s->t + 0.5 * h, qh, s->y + n, before);

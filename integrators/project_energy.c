@@ -51,7 +51,7 @@ DAL_INLINE void level_map(dal_step *s, dal_equation *eq)
     DAL_EACH(i, n) k->q[i] = k->q0[i] + s->h * u[n + i];
     find_missing(s, k);
     dal_multiply(k->inverse, levels, levels, k->missing, k->shift);
-    dal_multiply(k->normals, n, levels, k->shift, image);
+    dal_multiply(k->directions, n, levels, k->shift, image);
     DAL_EACH(i, n) image[n + i] = k->normal[i] * k->shift[levels - 1];
     DAL_EACH(i, 2 * n) image[i] = u[i] - image[i];
 }
@@ -71,8 +71,8 @@ DAL_INLINE void take_normals(dal_step *s, level *k, num *matrix)
     const num *Eq = k->energy + 1, *Ev = Eq + n, *N = Ev + n;
     DAL_EACH(i, n) k->normal[i] = s->h * N[i];
     DAL_EACH(i, n) {
-        DAL_EACH(a, m) k->normals[i * levels + a] = B[i * m + a];
-        k->normals[i * levels + m] = k->v0[i];
+        DAL_EACH(a, m) k->directions[i * levels + a] = B[i * m + a];
+        k->directions[i * levels + m] = k->v0[i];
     }
     DAL_EACH(a, m) {
         dal_multiply(A + a * n, 1, n, k->v0, &matrix[a * levels + m]);

@@ -93,7 +93,7 @@ DAL_INLINE void dal_save_multipliers(dal_step *s, const num *h)
 /* The context of such an equation begins with this. */
 typedef struct dal_elimination {
     dal_stage_matrix newton;        /* how Newton's matrix is made of P F_q and P F_v */
-    num *free, *normals;            /* [n], [n*m]: what w is made of; the map sets them */
+    num *free, *directions;         /* [n], [n*m]: what w is made of; the map sets them */
     num *mu;                        /* [m] multipliers of a lane's last iteration */
     num *g, *inverse, *rhs, *fresh; /* [m*m], [m*m], [m], [m] */
 } dal_elimination;
@@ -102,7 +102,7 @@ typedef struct dal_elimination {
 #define DAL_ELIMINATION(step, name, z, a2)                                                         \
     static const double name##_one = 1.0, name##_a2 = (a2);                                        \
     DAL_VECTOR(step, name##_free, DAL_N(step));                                                    \
-    DAL_VECTOR(step, name##_normals, DAL_N(step) * DAL_M(step));                                   \
+    DAL_VECTOR(step, name##_directions, DAL_N(step) * DAL_M(step));                                \
     DAL_VECTOR(step, name##_mu, DAL_M(step));                                                      \
     DAL_VECTOR(step, name##_g, DAL_SQUARE_M(step));                                                \
     DAL_VECTOR(step, name##_inverse, DAL_SQUARE_M(step));                                          \
@@ -111,7 +111,7 @@ typedef struct dal_elimination {
     DAL_EACH(i, DAL_M(step)) name##_mu[i] = dal_num(0.0);                                          \
     dal_elimination name = {{1, (z), &name##_one, &name##_a2, 0},                                  \
                             name##_free,                                                           \
-                            name##_normals,                                                        \
+                            name##_directions,                                                     \
                             name##_mu,                                                             \
                             name##_g,                                                              \
                             name##_inverse,                                                        \
@@ -132,11 +132,11 @@ DAL_INLINE void dal_eliminate_multipliers(const dal_step *s, dal_equation *eq, c
         DAL_EACH(j, n) sum += A[i * n + j] * (w[j] - k->free[j]);
         k->rhs[i] = sum;
     }
-    dal_gram(A, k->normals, m, n, k->g);
+    dal_gram(A, k->directions, m, n, k->g);
     dal_solve_small(k->g, k->inverse, m, k->rhs, k->fresh);
     DAL_EACH(i, m) k->mu[i] = DAL_IF_ACTIVE(eq->active[0], k->fresh[i], k->mu[i]);
     DAL_EACH(i, n)
-        DAL_EACH(j, m) image[i] += k->normals[i * m + j] * k->fresh[j];
+        DAL_EACH(j, m) image[i] += k->directions[i * m + j] * k->fresh[j];
 }
 
 /* J <- P J for the n*columns matrix J. */
