@@ -14,7 +14,7 @@ typedef struct leap {
     dal_elimination elimination; /* first */
     num *qh, *q1, *v1;           /* [n] */
     num *before, *after;         /* parts at (qh, v0), (qh, v1) */
-    num *normals;                /* D, A at (q1, v1) */
+    num *constraint;             /* D, A at (q1, v1) */
 } leap;
 
 DAL_INLINE void take_mean(const dal_step *s, const leap *k)
@@ -37,8 +37,8 @@ DAL_INLINE void leap_map(dal_step *s, dal_equation *eq)
         dal_eval_blocks(s, s->t + 0.5 * h, k->qh, k->v1, k->after);
         take_mean(s, k);
     }
-    dal_constraint(s, s->t + h, k->q1, k->v1, k->directions);
-    dal_eliminate_multipliers(s, eq, k->directions);
+    dal_constraint(s, s->t + h, k->q1, k->v1, k->constraint);
+    dal_eliminate_multipliers(s, eq, k->constraint);
 }
 
 DAL_INLINE dal_status step(dal_step *s)
@@ -50,11 +50,11 @@ DAL_INLINE dal_status step(dal_step *s)
     DAL_VECTOR(s, v1, DAL_N(s));
     DAL_VECTOR(s, before, DAL_BLOCKS_SIZE(s));
     DAL_VECTOR(s, after, DAL_BLOCKS_SIZE(s));
-    DAL_VECTOR(s, normals, DAL_CONSTRAINT_SIZE(s));
+    DAL_VECTOR(s, constraint, DAL_CONSTRAINT_SIZE(s));
     DAL_VECTOR(s, d, DAL_DIM(s));
     DAL_BLOCK(s, block, DAL_N(s), DAL_MAY_NEWTON(s));
     DAL_ELIMINATION(s, elimination, 0.5 * s->h, 0.0);
-    leap k = {elimination, qh, q1, v1, before, after, normals};
+    leap k = {elimination, qh, q1, v1, before, after, constraint};
     dal_equation eq = dal_velocity_equation(s, block, &k);
     DAL_EACH(i, n) qh[i] = dal_moved_q(s, i, 0.5 * h * s->y[n + i]);
     dal_eval_blocks(s, s->t + 0.5 * h, qh, s->y + n, before);

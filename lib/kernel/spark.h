@@ -30,12 +30,12 @@ typedef struct dal_spark {
 typedef struct dal_spark_step {
     dal_stage_matrix newton; /* first, for dal_constrained_matrix */
     const dal_spark *method;
-    num *V, *parts;        /* [s*n], [s] answers */
-    num *q, *v, *normals;  /* a point, and D and A there */
-    num *given, *last;     /* [m] L_1 where it is persistent; L_s of a lane's last iteration */
-    num *shift;            /* [n] h sum y (a_j - K_j) */
-    num *matrix, *inverse; /* [(s*m)^2] */
-    num *rhs, *L;          /* [s*m] */
+    num *V, *parts;          /* [s*n], [s] answers */
+    num *q, *v, *constraint; /* a point, and D and A there */
+    num *given, *last;       /* [m] L_1 where it is persistent; L_s of a lane's last iteration */
+    num *shift;              /* [n] h sum y (a_j - K_j) */
+    num *matrix, *inverse;   /* [(s*m)^2] */
+    num *rhs, *L;            /* [s*m] */
 } dal_spark_step;
 
 /* h sum_j weight_j x[j*n + i] */
@@ -92,7 +92,7 @@ DAL_INLINE void dal__spark_point(dal_step *s, const dal_spark_step *k, int p, co
         k->v[c] = dal_moved_v(s, c, now);
         k->shift[c] = dal__stage_sum(y, stages, s->h, free, n, c) - now;
     }
-    dal_constraint(s, s->t + k->method->point_c[p] * s->h, k->q, k->v, k->normals);
+    dal_constraint(s, s->t + k->method->point_c[p] * s->h, k->q, k->v, k->constraint);
 }
 
 /* Adds to a row of the matrix the derivative of a constraint with normal A by the multipliers of
@@ -116,8 +116,8 @@ DAL_INLINE void dal__spark_add(const dal_step *s, const dal_spark_step *k, int p
     const int first = k->method->L1_known, size = (stages - first) * m;
     const double *y = k->method->to_v + p * stages;
     for (int a = 0; a < m; a++) {
-        const num *A = k->normals + dal_blocks_A(s) + a * n;
-        num *row = k->matrix + (e * m + a) * size, sum = k->normals[a];
+        const num *A = k->constraint + dal_blocks_A(s) + a * n;
+        num *row = k->matrix + (e * m + a) * size, sum = k->constraint[a];
         for (int c = 0; c < n; c++) sum += A[c] * k->shift[c];
         k->rhs[e * m + a] -= w * sum;
         for (int j = first; j < stages; j++)
@@ -205,7 +205,7 @@ DAL_INLINE dal_status dal_spark_advance(dal_step *s, const dal_spark *method)
     DAL_VECTOR(s, parts, DAL_STAGES(method) * DAL_BLOCKS_SIZE(s));
     DAL_VECTOR(s, q, DAL_N(s));
     DAL_VECTOR(s, v, DAL_N(s));
-    DAL_VECTOR(s, normals, DAL_CONSTRAINT_SIZE(s));
+    DAL_VECTOR(s, constraint, DAL_CONSTRAINT_SIZE(s));
     DAL_VECTOR(s, given, DAL_M(s));
     DAL_VECTOR(s, last, DAL_M(s));
     DAL_VECTOR(s, shift, DAL_N(s));
@@ -220,7 +220,7 @@ DAL_INLINE dal_status dal_spark_advance(dal_step *s, const dal_spark *method)
                         parts,
                         q,
                         v,
-                        normals,
+                        constraint,
                         given,
                         last,
                         shift,
