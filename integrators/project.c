@@ -12,11 +12,11 @@
 #include <dalembert_kernel.h>
 
 typedef struct projection {
-    num *u, *v;   /* [n] */
-    num *out;     /* [m + m*n + n*m] D, A, B at (q1, v) */
-    num *normals; /* [n*m] the frozen B */
-    num *inverse; /* [m*m] G^-1 */
-    num *shift;   /* [m] */
+    num *u, *v;      /* [n] */
+    num *out;        /* [m + m*n + n*m] D, A, B at (q1, v) */
+    num *directions; /* [n*m] the frozen B */
+    num *inverse;    /* [m*m] G^-1 */
+    num *shift;      /* [m] */
 } projection;
 
 DAL_INLINE void eval_constraint(dal_step *s, projection *p)
@@ -32,7 +32,7 @@ DAL_INLINE void projection_map(dal_step *s, dal_equation *eq)
     DAL_EACH(i, n) p->v[i] = p->u[i] + eq->block[0].u[i];
     eval_constraint(s, p);
     dal_multiply(p->inverse, m, m, p->out, p->shift);
-    dal_multiply(p->normals, n, m, p->shift, eq->block[0].image);
+    dal_multiply(p->directions, n, m, p->shift, eq->block[0].image);
     DAL_EACH(i, n) eq->block[0].image[i] = eq->block[0].u[i] - eq->block[0].image[i];
 }
 
@@ -43,7 +43,7 @@ DAL_INLINE dal_status freeze_projection(dal_step *s, projection *p)
     DAL_VECTOR(s, g, DAL_M(s) * DAL_M(s));
     eval_constraint(s, p);
     const num *a = p->out + m, *b = p->out + m + m * n;
-    DAL_EACH(i, n * m) p->normals[i] = b[i];
+    DAL_EACH(i, n * m) p->directions[i] = b[i];
     dal_gram(a, b, m, n, g);
     dal_invert(g, p->inverse, m);
     return DAL_OK;
@@ -54,11 +54,11 @@ DAL_INLINE dal_status project_velocity(dal_step *s)
     const int n = DAL_N(s);
     DAL_VECTOR(s, v, DAL_N(s));
     DAL_VECTOR(s, out, DAL_M(s) + 2 * DAL_M(s) * DAL_N(s));
-    DAL_VECTOR(s, normals, DAL_N(s) * DAL_M(s));
+    DAL_VECTOR(s, directions, DAL_N(s) * DAL_M(s));
     DAL_VECTOR(s, inverse, DAL_M(s) * DAL_M(s));
     DAL_VECTOR(s, shift, DAL_M(s));
     DAL_BLOCK(s, change, DAL_N(s), 0);
-    projection p = {s->y + n, v, out, normals, inverse, shift};
+    projection p = {s->y + n, v, out, directions, inverse, shift};
     dal_equation eq = {{change}, 1, &p, {dal_all()}};
     eq.block[0].scale[0] = dal_max_norm(s->y + n, n);
     DAL_EACH(i, n) eq.block[0].u[i] = dal_num(0.0);

@@ -5,7 +5,7 @@
  *     q1 = q - h^2 k N,   v1 = v - k v - B c,     D(q1, v1, t1) = 0,   E(q1, v1) = E0
  *     B = W^-1 A^T,  N = W^-1 E_q,  at (q, v, t1);       v is W^-1 E_v
  *
- * along the normals of E and D in the metric of the masses, with h as the unit of time between q
+ * along the directions of E and D in the metric of the masses, with h as the unit of time between q
  * and v: with v alone E could not be mended where the motion turns round.  Newton's method to
  * stagnation, its derivative frozen, and without what D does with q, which is of order h^2:
  *
@@ -25,7 +25,7 @@ typedef struct level {
     num *q, *v;           /* [n] */
     num *constraint;      /* [m + m*n + n*m] D, A, B */
     num *energy;          /* [1 + 3n] E, E_q, E_v, N */
-    num *normals;         /* [n*(m + 1)] of v: B and v */
+    num *directions;      /* [n*(m + 1)] of v: B and v */
     num *normal;          /* [n] of q/h: h N */
     num *inverse;         /* [(m+1)*(m+1)] */
     num *missing, *shift; /* [m + 1] */
@@ -63,8 +63,8 @@ DAL_INLINE num dot(const num *a, const num *b, int count)
     return sum;
 }
 
-/* The normals, and M in `matrix`, from what was asked at (q0, v0). */
-DAL_INLINE void take_normals(dal_step *s, level *k, num *matrix)
+/* The directions, and M in `matrix`, from what was asked at (q0, v0). */
+DAL_INLINE void set_directions(dal_step *s, level *k, num *matrix)
 {
     const int n = DAL_N(s), m = DAL_M(s), levels = LEVELS(s);
     const num *A = k->constraint + m, *B = A + m * n;
@@ -95,7 +95,7 @@ DAL_INLINE num level_scale(const dal_step *s, const level *k, num whole)
            weight * (dal_max_norm(k->v0, n) + dal_max_norm(k->normal, n));
 }
 
-DAL_INLINE dal_status freeze_normals(dal_step *s, level *k, dal_equation *eq)
+DAL_INLINE dal_status freeze_directions(dal_step *s, level *k, dal_equation *eq)
 {
     const int n = DAL_N(s), levels = LEVELS(s);
     DAL_VECTOR(s, matrix, LEVELS(s) * LEVELS(s));
@@ -105,7 +105,7 @@ DAL_INLINE dal_status freeze_normals(dal_step *s, level *k, dal_equation *eq)
         eq->block[0].u[i] = eq->block[0].u[n + i] = dal_num(0.0);
     }
     find_missing(s, k);
-    take_normals(s, k, matrix);
+    set_directions(s, k, matrix);
     eq->block[0].scale[0] = level_scale(s, k, matrix[levels * levels - 1]);
     dal_invert(matrix, k->inverse, levels);
     return DAL_OK;
@@ -119,15 +119,15 @@ DAL_INLINE dal_status to_level(dal_step *s)
     DAL_VECTOR(s, v, DAL_N(s));
     DAL_VECTOR(s, constraint, DAL_M(s) + 2 * DAL_M(s) * DAL_N(s));
     DAL_VECTOR(s, energy, 1 + 3 * DAL_N(s));
-    DAL_VECTOR(s, normals, DAL_N(s) * LEVELS(s));
+    DAL_VECTOR(s, directions, DAL_N(s) * LEVELS(s));
     DAL_VECTOR(s, normal, DAL_N(s));
     DAL_VECTOR(s, inverse, LEVELS(s) * LEVELS(s));
     DAL_VECTOR(s, missing, LEVELS(s));
     DAL_VECTOR(s, shift, LEVELS(s));
     DAL_BLOCK(s, change, 2 * DAL_N(s), 0); /* of v and of q/h */
-    level k = {q0, v0, q, v, constraint, energy, normals, normal, inverse, missing, shift};
+    level k = {q0, v0, q, v, constraint, energy, directions, normal, inverse, missing, shift};
     dal_equation eq = {{change}, 1, &k, {dal_all()}};
-    DAL_TRY(freeze_normals(s, &k, &eq));
+    DAL_TRY(freeze_directions(s, &k, &eq));
     DAL_TRY(dal_solve(s, &eq, level_map, NULL));
     DAL_EACH(i, DAL_N(s)) q[i] = s->h * eq.block[0].u[DAL_N(s) + i];
     dal_add(s, 0, DAL_N(s), q);
