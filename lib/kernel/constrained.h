@@ -118,17 +118,18 @@ typedef struct dal_elimination {
                             name##_rhs,                                                            \
                             name##_fresh}
 
-/* image = free + N mu with the mu for which D + A (image - w) = 0; D and A begin `normals`. */
-DAL_INLINE void dal_eliminate_multipliers(const dal_step *s, dal_equation *eq, const num *normals)
+/* image = free + N mu with the mu for which D + A (image - w) = 0; D and A begin `constraint`. */
+DAL_INLINE void dal_eliminate_multipliers(const dal_step *s, dal_equation *eq,
+                                          const num *constraint)
 {
     const dal_elimination *k = (const dal_elimination *)eq->context;
     const int n = DAL_N(s), m = DAL_M(s);
-    const num *A = normals + dal_blocks_A(s), *w = eq->block[0].u;
+    const num *A = constraint + dal_blocks_A(s), *w = eq->block[0].u;
     num *const image = eq->block[0].image;
     DAL_EACH(i, n) image[i] = k->free[i];
     if (m == 0) return;
     DAL_EACH(i, m) {
-        num sum = -normals[i];
+        num sum = -constraint[i];
         DAL_EACH(j, n) sum += A[i * n + j] * (w[j] - k->free[j]);
         k->rhs[i] = sum;
     }
