@@ -11,7 +11,7 @@
  *
  * where A vb = 0 for D linear or homogeneous in v: what E the motion keeps is kept to rounding.
  * O. Verdier's odelab has it for linear D.  Coordinates that neither U nor W couple have a kappa of
- * their own, so that energies of parts that D does not couple are kept one by one; it is 0 where U
+ * their own, so that energies of blocks that D does not couple are kept one by one; it is 0 where U
  * is quadratic.  Order 2, symmetric; keeps the energy, and D at the midpoints: at the nodes D errs
  * by O(h^2), bounded. */
 #include <dalembert_kernel.h>
@@ -23,7 +23,7 @@
 typedef struct gradient {
     dal_elimination elimination; /* first */
     num *q, *vb;                 /* [n] */
-    num *parts;                  /* at (qb, vb) */
+    num *blocks;                 /* at (qb, vb) */
     num *U0, *mid, *end;         /* [3n] U, U_q.v, v.Wv at q0, qb, q1, with vb */
 } gradient;
 
@@ -45,15 +45,15 @@ DAL_INLINE void gradient_map(dal_step *s, dal_equation *eq)
     const double half = 0.5 * s->h, t = s->t + half;
     DAL_EACH(i, n) k->vb[i] = dal_moved_v(s, i, eq->block[0].u[i]);
     DAL_EACH(i, n) k->q[i] = dal_moved_q(s, i, half * k->vb[i]);
-    dal_eval_blocks(s, t, k->q, k->vb, k->parts);
+    dal_eval_blocks(s, t, k->q, k->vb, k->blocks);
     dal_eval(s, DAL_EVAL_POTENTIAL, t, k->q, k->vb, NULL, k->mid);
     DAL_EACH(i, n) k->q[i] = dal_moved_q(s, i, s->h * k->vb[i]);
     dal_eval(s, DAL_EVAL_POTENTIAL, t, k->q, k->vb, NULL, k->end);
     DAL_EACH(i, n)
         k->elimination.free[i] =
-            half * k->parts[dal_blocks_a(s) + i] - 0.5 * gradient_factor(s, k, i) * k->vb[i];
-    DAL_EACH(i, n * m) k->elimination.directions[i] = half * k->parts[dal_blocks_B(s) + i];
-    dal_eliminate_multipliers(s, eq, k->parts);
+            half * k->blocks[dal_blocks_a(s) + i] - 0.5 * gradient_factor(s, k, i) * k->vb[i];
+    DAL_EACH(i, n * m) k->elimination.directions[i] = half * k->blocks[dal_blocks_B(s) + i];
+    dal_eliminate_multipliers(s, eq, k->blocks);
 }
 
 DAL_INLINE dal_status step(dal_step *s)
@@ -61,14 +61,14 @@ DAL_INLINE dal_status step(dal_step *s)
     const int n = DAL_N(s);
     DAL_VECTOR(s, q, DAL_N(s));
     DAL_VECTOR(s, vb, DAL_N(s));
-    DAL_VECTOR(s, parts, DAL_BLOCKS_SIZE(s));
+    DAL_VECTOR(s, blocks, DAL_BLOCKS_SIZE(s));
     DAL_VECTOR(s, U0, 3 * DAL_N(s));
     DAL_VECTOR(s, mid, 3 * DAL_N(s));
     DAL_VECTOR(s, end, 3 * DAL_N(s));
     DAL_VECTOR(s, d, DAL_DIM(s));
     DAL_BLOCK(s, block, DAL_N(s), DAL_MAY_NEWTON(s));
     DAL_ELIMINATION(s, elimination, 0.5 * s->h, 1.0);
-    gradient k = {elimination, q, vb, parts, U0, mid, end};
+    gradient k = {elimination, q, vb, blocks, U0, mid, end};
     dal_equation eq = dal_velocity_equation(s, block, &k);
     dal_eval(s, DAL_EVAL_POTENTIAL, s->t + 0.5 * s->h, s->y, s->y + n, NULL, U0);
     DAL_TRY(dal_enforce(s, &eq, gradient_map, 0));

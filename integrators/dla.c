@@ -19,7 +19,7 @@
 typedef struct midpoint {
     dal_elimination elimination; /* first */
     num *qb, *vb;                /* [n] */
-    num *parts;                  /* at (qb, vb); then at the end */
+    num *blocks;                 /* at (qb, vb); then at the end */
 } midpoint;
 
 /* w = vb - v0; the normals stand as they are. */
@@ -29,9 +29,9 @@ DAL_INLINE void map_midpoint(dal_step *s, dal_equation *eq)
     const double half = 0.5 * s->h;
     DAL_EACH(i, DAL_N(s)) k->vb[i] = dal_moved_v(s, i, eq->block[0].u[i]);
     DAL_EACH(i, DAL_N(s)) k->qb[i] = dal_moved_q(s, i, half * k->vb[i]);
-    dal_eval_blocks(s, s->t + half, k->qb, k->vb, k->parts);
-    DAL_EACH(i, DAL_N(s)) k->elimination.free[i] = half * k->parts[dal_blocks_a(s) + i];
-    dal_eliminate_multipliers(s, eq, k->parts);
+    dal_eval_blocks(s, s->t + half, k->qb, k->vb, k->blocks);
+    DAL_EACH(i, DAL_N(s)) k->elimination.free[i] = half * k->blocks[dal_blocks_a(s) + i];
+    dal_eliminate_multipliers(s, eq, k->blocks);
 }
 
 /* w = v1 - v0; what is free stands as it is. */
@@ -40,9 +40,9 @@ DAL_INLINE void map_end(dal_step *s, dal_equation *eq)
     midpoint *k = (midpoint *)eq->context;
     const int n = DAL_N(s), m = DAL_M(s);
     DAL_EACH(i, n) k->vb[i] = dal_moved_v(s, i, eq->block[0].u[i]);
-    dal_eval_blocks(s, s->t + s->h, k->qb, k->vb, k->parts);
-    DAL_EACH(i, n * m) k->elimination.directions[i] = 0.5 * s->h * k->parts[dal_blocks_B(s) + i];
-    dal_eliminate_multipliers(s, eq, k->parts);
+    dal_eval_blocks(s, s->t + s->h, k->qb, k->vb, k->blocks);
+    DAL_EACH(i, n * m) k->elimination.directions[i] = 0.5 * s->h * k->blocks[dal_blocks_B(s) + i];
+    dal_eliminate_multipliers(s, eq, k->blocks);
 }
 
 /* To the midpoint; leaves vb, and v0 moved by all but the last impulse. */
@@ -51,14 +51,14 @@ DAL_INLINE dal_status go_to_midpoint(dal_step *s, midpoint *k)
     const int n = DAL_N(s), m = DAL_M(s);
     DAL_BLOCK(s, block, DAL_N(s), DAL_MAY_NEWTON(s));
     dal_equation eq = dal_velocity_equation(s, block, k);
-    dal_eval_blocks(s, s->t, s->y, s->y + n, k->parts);
-    DAL_EACH(i, n * m) k->elimination.directions[i] = 0.5 * s->h * k->parts[dal_blocks_B(s) + i];
+    dal_eval_blocks(s, s->t, s->y, s->y + n, k->blocks);
+    DAL_EACH(i, n * m) k->elimination.directions[i] = 0.5 * s->h * k->blocks[dal_blocks_B(s) + i];
     DAL_TRY(dal_enforce(s, &eq, map_midpoint, 0));
     DAL_EACH(i, n) k->vb[i] = dal_moved_v(s, i, eq.block[0].u[i]);
     DAL_EACH(i, n) k->qb[i] = dal_moved_q(s, i, 0.5 * s->h * k->vb[i]);
-    dal_eval_blocks(s, s->t + 0.5 * s->h, k->qb, k->vb, k->parts);
+    dal_eval_blocks(s, s->t + 0.5 * s->h, k->qb, k->vb, k->blocks);
     DAL_EACH(i, n)
-        k->elimination.free[i] = eq.block[0].u[i] + 0.5 * s->h * k->parts[dal_blocks_a(s) + i];
+        k->elimination.free[i] = eq.block[0].u[i] + 0.5 * s->h * k->blocks[dal_blocks_a(s) + i];
     return DAL_OK;
 }
 
@@ -67,11 +67,11 @@ DAL_INLINE dal_status step(dal_step *s)
     const int n = DAL_N(s);
     DAL_VECTOR(s, qb, DAL_N(s));
     DAL_VECTOR(s, vb, DAL_N(s));
-    DAL_VECTOR(s, parts, DAL_BLOCKS_SIZE(s));
+    DAL_VECTOR(s, blocks, DAL_BLOCKS_SIZE(s));
     DAL_VECTOR(s, d, DAL_DIM(s));
     DAL_BLOCK(s, block, DAL_N(s), 0);
     DAL_ELIMINATION(s, elimination, 0.5 * s->h, 1.0);
-    midpoint k = {elimination, qb, vb, parts};
+    midpoint k = {elimination, qb, vb, blocks};
     DAL_TRY(go_to_midpoint(s, &k));
     dal_equation eq = dal_velocity_equation(s, block, &k);
     DAL_EACH(i, n) d[i] = s->h * vb[i];

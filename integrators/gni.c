@@ -16,7 +16,7 @@ typedef struct rattle {
     dal_elimination elimination; /* first */
     num *kick;                   /* [n] h/2 (a0 + B0 lambda0) */
     num *q1, *v1;                /* [n] */
-    num *after;                  /* parts at (q1, v1) */
+    num *after;                  /* blocks at (q1, v1) */
 } rattle;
 
 DAL_INLINE void rattle_map(dal_step *s, dal_equation *eq)

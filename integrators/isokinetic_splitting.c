@@ -47,10 +47,10 @@ DAL_INLINE dal_status turn(dal_step *s, const num *q, num *dv)
     const int n = DAL_N(s), at_A = dal_blocks_A(s);
     const double h = s->h, t = s->t + 0.5 * h;
     const num *v = s->y + n;
-    DAL_VECTOR(s, parts, DAL_BLOCKS_SIZE(s));
+    DAL_VECTOR(s, blocks, DAL_BLOCKS_SIZE(s));
     DAL_VECTOR(s, along, DAL_CONSTRAINT_SIZE(s));
-    dal_eval_blocks(s, t, q, v, parts);
-    const num *a = parts + dal_blocks_a(s), *A = parts + at_A;
+    dal_eval_blocks(s, t, q, v, blocks);
+    const num *a = blocks + dal_blocks_a(s), *A = blocks + at_A;
     dal_constraint(s, t, q, a, along);
     const num twice = dot(v, A, n), alpha = dot(a, A, n) / twice;
     const num xx = 0.25 * (h * h) * (dot(a, along + at_A, n) / twice);

@@ -13,7 +13,7 @@
 typedef struct leap {
     dal_elimination elimination; /* first */
     num *qh, *q1, *v1;           /* [n] */
-    num *before, *after;         /* parts at (qh, v0), (qh, v1) */
+    num *before, *after;         /* blocks at (qh, v0), (qh, v1) */
     num *constraint;             /* D, A at (q1, v1) */
 } leap;
 

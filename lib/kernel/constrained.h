@@ -19,7 +19,7 @@
 #ifndef DAL_KERNEL_CONSTRAINED_H
 #define DAL_KERNEL_CONSTRAINED_H
 
-/* Numbers in an answer to DAL_EVAL_BLOCKS, and where its parts lie: D, A, B as in one to
+/* Numbers in an answer to DAL_EVAL_BLOCKS, and where its blocks lie: D, A, B as in one to
  * DAL_EVAL_CONSTRAINT, then a and c. */
 #define DAL_BLOCKS_SIZE(s)     (2 * DAL_M(s) + DAL_N(s) + 2 * DAL_M(s) * DAL_N(s))
 #define DAL_CONSTRAINT_SIZE(s) (DAL_M(s) + 2 * DAL_M(s) * DAL_N(s))
@@ -59,25 +59,25 @@ DAL_INLINE void dal_solve_small(num *g, num *inverse, int size, const num *rhs, 
 }
 
 /* The multipliers of the continuous motion at the point of an answer: G h = -(c + A a). */
-DAL_INLINE dal_status dal_continuous_multipliers(dal_step *s, const num *parts, num *h)
+DAL_INLINE dal_status dal_continuous_multipliers(dal_step *s, const num *blocks, num *h)
 {
     const int n = DAL_N(s), m = DAL_M(s);
-    const num *A = parts + dal_blocks_A(s), *c = parts + dal_blocks_c(s);
+    const num *A = blocks + dal_blocks_A(s), *c = blocks + dal_blocks_c(s);
     DAL_VECTOR(s, g, DAL_SQUARE_M(s));
     DAL_VECTOR(s, inverse, DAL_SQUARE_M(s));
     DAL_VECTOR(s, rhs, DAL_M(s));
-    dal_multiply(A, m, n, parts + dal_blocks_a(s), rhs);
+    dal_multiply(A, m, n, blocks + dal_blocks_a(s), rhs);
     DAL_EACH(i, m) rhs[i] = -(c[i] + rhs[i]);
-    dal_gram(A, parts + dal_blocks_B(s), m, n, g);
+    dal_gram(A, blocks + dal_blocks_B(s), m, n, g);
     if (m > 0) dal_solve_small(g, inverse, m, rhs, h);
     return DAL_OK;
 }
 
 /* The multipliers persistent from the last step, or the continuous ones where there are none. */
-DAL_INLINE dal_status dal_restore_multipliers(dal_step *s, const num *parts, num *h)
+DAL_INLINE dal_status dal_restore_multipliers(dal_step *s, const num *blocks, num *h)
 {
     const dal_mask known = dal_less(dal_num(0.5), *s->has_multiplier);
-    DAL_TRY(dal_continuous_multipliers(s, parts, h));
+    DAL_TRY(dal_continuous_multipliers(s, blocks, h));
     DAL_EACH(i, DAL_PERSISTENT_MULTIPLIERS(s)) h[i] = dal_select(known, s->multiplier[i], h[i]);
     return DAL_OK;
 }
@@ -141,10 +141,10 @@ DAL_INLINE void dal_eliminate_multipliers(const dal_step *s, dal_equation *eq,
 }
 
 /* J <- P J for the n*columns matrix J. */
-DAL_INLINE dal_status dal__project_matrix(dal_step *s, const num *parts, int columns, num *J)
+DAL_INLINE dal_status dal__project_matrix(dal_step *s, const num *blocks, int columns, num *J)
 {
     const int n = DAL_N(s), m = DAL_M(s);
-    const num *A = parts + dal_blocks_A(s), *B = parts + dal_blocks_B(s);
+    const num *A = blocks + dal_blocks_A(s), *B = blocks + dal_blocks_B(s);
     DAL_VECTOR(s, g, DAL_SQUARE_M(s));
     DAL_VECTOR(s, inverse, DAL_SQUARE_M(s));
     DAL_VECTOR(s, across, DAL_M(s));
@@ -168,13 +168,13 @@ DAL_INLINE dal_status dal_constrained_matrix(dal_step *s, dal_equation *eq)
 {
     const dal_stage_matrix *k = (const dal_stage_matrix *)eq->context;
     const int n = DAL_N(s);
-    DAL_VECTOR(s, parts, DAL_BLOCKS_SIZE(s));
+    DAL_VECTOR(s, blocks, DAL_BLOCKS_SIZE(s));
     DAL_VECTOR(s, jacobian, 2 * DAL_N(s) * DAL_N(s));
     DAL_VECTOR(s, matrix, DAL_STAGES(k) * DAL_N(s) * DAL_STAGES(k) * DAL_N(s));
-    dal_eval_blocks(s, s->t, s->y, s->y + n, parts);
+    dal_eval_blocks(s, s->t, s->y, s->y + n, blocks);
     dal_jacobian(s, 0, s->t, s->y, s->y + n, jacobian);
-    DAL_TRY(dal__project_matrix(s, parts, n, jacobian));
-    DAL_TRY(dal__project_matrix(s, parts, n, jacobian + n * n));
+    DAL_TRY(dal__project_matrix(s, blocks, n, jacobian));
+    DAL_TRY(dal__project_matrix(s, blocks, n, jacobian + n * n));
     dal_stage_inverse(s, k, jacobian, matrix, &eq->block[0], 0);
     return DAL_OK;
 }

@@ -30,7 +30,7 @@ typedef struct dal_spark {
 typedef struct dal_spark_step {
     dal_stage_matrix newton; /* first, for dal_constrained_matrix */
     const dal_spark *method;
-    num *V, *parts;          /* [s*n], [s] answers */
+    num *V, *blocks;         /* [s*n], [s] answers */
     num *q, *v, *constraint; /* a point, and D and A there */
     num *given, *last;       /* [m] L_1 where it is persistent; L_s of a lane's last iteration */
     num *shift;              /* [n] h sum y (a_j - K_j) */
@@ -69,13 +69,13 @@ DAL_INLINE void dal__spark_stages(dal_step *s, const dal_spark_step *k, num *fre
 {
     const int n = DAL_N(s), m = DAL_M(s), stages = DAL_STAGES(k->method);
     for (int i = 0; i < stages; i++) {
-        num *parts = k->parts + i * DAL_BLOCKS_SIZE(s);
+        num *blocks = k->blocks + i * DAL_BLOCKS_SIZE(s);
         dal__spark_position(s, k, k->method->a + i * stages);
-        dal_eval_blocks(s, s->t + k->method->c[i] * s->h, k->q, k->V + i * n, parts);
-        for (int c = 0; c < n; c++) free[i * n + c] = parts[dal_blocks_a(s) + c];
+        dal_eval_blocks(s, s->t + k->method->c[i] * s->h, k->q, k->V + i * n, blocks);
+        for (int c = 0; c < n; c++) free[i * n + c] = blocks[dal_blocks_a(s) + c];
     }
     if (!k->method->L1_known) return;
-    const num *B = k->parts + dal_blocks_B(s);
+    const num *B = k->blocks + dal_blocks_B(s);
     for (int c = 0; c < n; c++)
         for (int a = 0; a < m; a++) free[c] += B[c * m + a] * k->given[a];
 }
@@ -101,7 +101,7 @@ DAL_INLINE void dal__spark_entries(const dal_step *s, const dal_spark_step *k, c
                                    double weight, num *row)
 {
     const int n = DAL_N(s), m = DAL_M(s);
-    const num *B = k->parts + j * DAL_BLOCKS_SIZE(s) + dal_blocks_B(s);
+    const num *B = k->blocks + j * DAL_BLOCKS_SIZE(s) + dal_blocks_B(s);
     for (int b = 0; b < m; b++) {
         num entry = A[0] * B[b];
         for (int c = 1; c < n; c++) entry += A[c] * B[c * m + b];
@@ -152,7 +152,7 @@ DAL_INLINE void dal__spark_map(dal_step *s, dal_equation *eq)
     dal__spark_equations(s, k, K, image);
     dal_solve_small(k->matrix, k->inverse, count * m, k->rhs, k->L);
     for (int i = 0; i < count; i++) {
-        const num *B = k->parts + (i + first) * DAL_BLOCKS_SIZE(s) + dal_blocks_B(s);
+        const num *B = k->blocks + (i + first) * DAL_BLOCKS_SIZE(s) + dal_blocks_B(s);
         for (int c = 0; c < n; c++)
             for (int a = 0; a < m; a++)
                 image[(i + first) * n + c] += B[c * m + a] * k->L[i * m + a];
@@ -170,8 +170,8 @@ DAL_INLINE dal_status dal__spark_begin(dal_step *s, const dal_spark_step *k, dal
     for (int i = 0; i < eq->block[0].size; i++) eq->block[0].u[i] = now[i % n];
     for (int a = 0; a < m; a++) k->last[a] = k->given[a] = dal_num(0.0);
     if (!k->method->L1_known) return DAL_OK;
-    dal_eval_blocks(s, s->t, s->y, s->y + n, k->parts);
-    return dal_restore_multipliers(s, k->parts, k->given);
+    dal_eval_blocks(s, s->t, s->y, s->y + n, k->blocks);
+    return dal_restore_multipliers(s, k->blocks, k->given);
 }
 
 DAL_INLINE dal_status dal__spark_end(dal_step *s, const dal_spark_step *k, const num *K)
@@ -202,7 +202,7 @@ DAL_INLINE dal_status dal_spark_advance(dal_step *s, const dal_spark *method)
 {
     double product[DAL_MOST_STAGES * DAL_MOST_STAGES];
     DAL_VECTOR(s, V, DAL_STAGES(method) * DAL_N(s));
-    DAL_VECTOR(s, parts, DAL_STAGES(method) * DAL_BLOCKS_SIZE(s));
+    DAL_VECTOR(s, blocks, DAL_STAGES(method) * DAL_BLOCKS_SIZE(s));
     DAL_VECTOR(s, q, DAL_N(s));
     DAL_VECTOR(s, v, DAL_N(s));
     DAL_VECTOR(s, constraint, DAL_CONSTRAINT_SIZE(s));
@@ -217,7 +217,7 @@ DAL_INLINE dal_status dal_spark_advance(dal_step *s, const dal_spark *method)
     dal_spark_step k = {{DAL_STAGES(method), s->h, method->ahat, product, 0},
                         method,
                         V,
-                        parts,
+                        blocks,
                         q,
                         v,
                         constraint,
