@@ -3,7 +3,7 @@
 
 /* Whether the groups of lanes can be stepped as one larger system: implicit stages of two groups
  * find room in the registers where there are few of them. */
-static bool is_joined(const dal__generation *g)
+static bool steps_groups_together(const dal__generation *g)
 {
     const unsigned properties = g->shape.method.layer[0]->properties;
     const bool few = properties & DAL_EXTRAPOLATES_STAGES && g->shape.method.layer[0]->stages <= 2;
@@ -22,8 +22,9 @@ static void put_lanes(dal__generation *g)
                             "#define DAL_GROUP 2\n#endif\n");
     dal__text_put(&g->text, dal__source_text("groups.h"));
     dal__text_put(&g->text, "#define DAL_WORK(place) w[(place) * DAL_GROUPS]\n");
-    dal__text_print(&g->text, "enum { DAL_JOINED = %s, DAL_TEAM = DAL_GROUPS / DAL_JOINED };\n",
-                    is_joined(g) ? "DAL_GROUPS" : "1");
+    dal__text_print(
+        &g->text, "enum { DAL_STEP_GROUPS = %s, DAL_STEP_COUNT = DAL_GROUPS / DAL_STEP_GROUPS };\n",
+        steps_groups_together(g) ? "DAL_GROUPS" : "1");
 }
 
 void dal__put_constants(dal__generation *g)
@@ -54,8 +55,8 @@ void dal__put_constants(dal__generation *g)
         {"TANGENT", dal__follows_tangents(g)},
         {"EXPLICIT", is_explicit && k->depth == 1 && !(solves && k->lifted)},
         {"GUARDS", k->system->guards},
-        {"WATCHED", k->m > 0 && dal__wants(g, DAL__PROGRAM_CONSTRAINT) &&
-                        (k->system->properties & DAL_D_RANK_CHECKED) != 0},
+        {"RANK_CHECKED", k->m > 0 && dal__wants(g, DAL__PROGRAM_CONSTRAINT) &&
+                             (k->system->properties & DAL_D_RANK_CHECKED) != 0},
         {"GAUGE", dal__wants(g, DAL__PROGRAM_GAUGE)},
         {"TRACED", g->product == DAL__TRACE},
     };

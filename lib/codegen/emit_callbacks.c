@@ -67,7 +67,8 @@ static void put_evaluation(dal__generation *g, dal__program_code code, const cha
                         momenta ? "pi[i]" : "dal_num(0.0)");
         dal__text_print(&g->text, "        dal__%s(work, t, q_, v_, pi_, all);\n", name);
     }
-    dal__text_print(&g->text, "        dal__keep_sound(all, %d, %d, out);\n        break;\n    }\n",
+    dal__text_print(&g->text,
+                    "        dal__mask_singular(all, %d, %d, out);\n        break;\n    }\n",
                     outputs, p->checked);
 }
 
@@ -76,7 +77,7 @@ static void put_dispatch(dal__generation *g)
     dal__text_put(&g->text,
                   "/* The outputs; NaN in the lanes where one of the pivots behind them, each\n"
                   " * followed by its size, has vanished. */\n"
-                  "DAL_INLINE void dal__keep_sound(const num *all, int outputs, int pivots, "
+                  "DAL_INLINE void dal__mask_singular(const num *all, int outputs, int pivots, "
                   "num *out)\n{\n"
                   "    dal_mask ok = dal_all();\n"
                   "    DAL_EACH(k, pivots)\n    ok &= dal_less(");

@@ -124,15 +124,16 @@ DAL_INLINE dal_status dal__collocation_matrix(dal_step *s, dal_equation *eq)
     const dal_tableau *method = k->method;
     const int stages = DAL_STAGES(method);
     double a[MOST], b[MOST], ab[MOST], ba[MOST];
-    DAL_VECTOR(s, jacobian, DAL_NW(s) * (DAL_N(s) + DAL_NW(s)) / DAL_JOINED);
+    DAL_VECTOR(s, jacobian, DAL_NW(s) * (DAL_N(s) + DAL_NW(s)) / DAL_STEP_GROUPS);
     DAL_VECTOR(s, m,
-               DAL_STAGES(k->method) * DAL_NW(s) * DAL_STAGES(k->method) * DAL_NW(s) / DAL_JOINED);
+               DAL_STAGES(k->method) * DAL_NW(s) * DAL_STAGES(k->method) * DAL_NW(s) /
+                   DAL_STEP_GROUPS);
     dal__rounded(stages * stages, method->a, method->a_tail, a);
     dal__rounded(stages * stages, method->partner, method->partner_tail, b);
     dal__product(stages, a, b, ab);
     dal__product(stages, b, a, ba);
     const dal_stage_matrix x = {stages, k->h, b, ab, 0}, p = {stages, -k->h, a, ba, 1};
-    for (int j = 0; j < DAL_JOINED; j++) {
+    for (int j = 0; j < DAL_STEP_GROUPS; j++) {
         dal_jacobian(s, j, s->t + 0.5 * k->h, s->y, s->y + DAL_N(s), jacobian);
         dal_stage_inverse(s, &x, jacobian, m, &eq->block[0], j);
         if (DAL_LIFTED(s)) dal_stage_inverse(s, &p, jacobian, m, &eq->block[1], j);
@@ -145,7 +146,7 @@ DAL_INLINE void dal__guess_block(dal_block *b, int width, const num *derivative,
                                  const dal_mask *lanes)
 {
     DAL_EACH(i, DAL_SIZE(b))
-        b->u[i] = dal_select(lanes[i % DAL_JOINED], derivative[i % width], b->u[i]);
+        b->u[i] = dal_select(lanes[i % DAL_STEP_GROUPS], derivative[i % width], b->u[i]);
 }
 DAL_INLINE dal_status dal__guess_from_field(dal_step *s, dal_equation *eq, const dal_mask *lanes)
 {
@@ -194,7 +195,7 @@ DAL_INLINE void dal__save_predictor_errors(dal_block *b, const dal_mask *lanes,
         DAL_EACH(i, DAL_SIZE(b)) error[i] += last[(d + 1) * stride + i];
     DAL_EACH(d, DAL__DIFFERENCES)
         DAL_EACH(i, DAL_SIZE(b)) {
-            const int j = i % DAL_JOINED;
+            const int j = i % DAL_STEP_GROUPS;
             num *const kept = last + (d + 1) * stride + i, before = *kept;
             *kept = dal_select(lanes[j], dal_select(accepted[j], error[i], dal_num(0.0)), before);
             error[i] -= before;
@@ -205,10 +206,10 @@ DAL_INLINE void dal__save_predictor_errors(dal_block *b, const dal_mask *lanes,
 DAL_INLINE dal_status dal__try_guess(dal_step *s, dal_equation *eq, dal_mask *tried)
 {
     dal_status status = DAL_OK;
-    DAL_EACH(j, DAL_JOINED) s->unconverged[j] &= ~tried[j];
-    DAL_EACH(j, DAL_JOINED) s->alive[j] = tried[j];
+    DAL_EACH(j, DAL_STEP_GROUPS) s->unconverged[j] &= ~tried[j];
+    DAL_EACH(j, DAL_STEP_GROUPS) s->alive[j] = tried[j];
     if (dal__any(tried)) status = dal_solve(s, eq, dal__collocation_map, dal__collocation_matrix);
-    DAL_EACH(j, DAL_JOINED) tried[j] = s->alive[j];
+    DAL_EACH(j, DAL_STEP_GROUPS) tried[j] = s->alive[j];
     return status;
 }
 
@@ -239,9 +240,10 @@ DAL_INLINE void dal__record_predictor_errors(dal_step *s, const dal_stages *k, d
 DAL_INLINE void dal__solve_from_predictor(dal_step *s, const dal_stages *k, dal_equation *eq,
                                           dal_mask *accepted)
 {
-    dal_mask lanes[DAL_JOINED];
-    DAL_EACH(j, DAL_JOINED) lanes[j] = s->alive[j];
-    DAL_EACH(j, DAL_JOINED) accepted[j] = lanes[j] & dal_equal(s->derivatives_h[j], dal_num(k->h));
+    dal_mask lanes[DAL_STEP_GROUPS];
+    DAL_EACH(j, DAL_STEP_GROUPS) lanes[j] = s->alive[j];
+    DAL_EACH(j, DAL_STEP_GROUPS)
+        accepted[j] = lanes[j] & dal_equal(s->derivatives_h[j], dal_num(k->h));
     dal__predict(s, k, eq);
     dal__save_guess(eq); /* read below where nothing is tried, too */
     dal__try_guess(s, eq, accepted);
@@ -251,17 +253,17 @@ DAL_INLINE void dal__solve_from_predictor(dal_step *s, const dal_stages *k, dal_
 /* Solves the stages: where the polynomial leads nowhere, from the present derivatives. */
 DAL_INLINE dal_status dal__solve_stages(dal_step *s, const dal_stages *k, dal_equation *eq)
 {
-    dal_mask accepted[DAL_JOINED], rest[DAL_JOINED];
+    dal_mask accepted[DAL_STEP_GROUPS], rest[DAL_STEP_GROUPS];
     dal_status status = DAL_OK;
-    DAL_EACH(j, DAL_JOINED) rest[j] = s->alive[j];
-    DAL_EACH(j, DAL_JOINED) accepted[j] = ~dal_all();
+    DAL_EACH(j, DAL_STEP_GROUPS) rest[j] = s->alive[j];
+    DAL_EACH(j, DAL_STEP_GROUPS) accepted[j] = ~dal_all();
     if (DAL_STAGE_DERIVATIVES(s)) dal__solve_from_predictor(s, k, eq, accepted);
-    DAL_EACH(j, DAL_JOINED) rest[j] &= ~accepted[j];
+    DAL_EACH(j, DAL_STEP_GROUPS) rest[j] &= ~accepted[j];
     if (dal__any(rest)) {
         DAL_TRY(dal__guess_from_field(s, eq, rest));
         status = dal__try_guess(s, eq, rest);
     }
-    DAL_EACH(j, DAL_JOINED) s->alive[j] = accepted[j] | rest[j];
+    DAL_EACH(j, DAL_STEP_GROUPS) s->alive[j] = accepted[j] | rest[j];
     return dal__any(s->alive) ? DAL_OK : status;
 }
 
@@ -269,10 +271,10 @@ DAL_INLINE dal_status dal__solve_stages(dal_step *s, const dal_stages *k, dal_eq
  * DAL_NOT_CONVERGED, and nothing has happened. */
 DAL_INLINE dal_status dal__solve_predicted(dal_step *s, const dal_stages *k, dal_equation *eq)
 {
-    dal_mask solved[DAL_JOINED], left[DAL_JOINED];
+    dal_mask solved[DAL_STEP_GROUPS], left[DAL_STEP_GROUPS];
     if (!DAL_STAGE_DERIVATIVES(s) || (DAL_MAY_NEWTON(s) && DAL_SOLVER(s) == DAL_NEWTON))
         return DAL_NOT_CONVERGED;
-    DAL_EACH(j, DAL_JOINED) {
+    DAL_EACH(j, DAL_STEP_GROUPS) {
         left[j] = s->alive[j] & ~dal_equal(s->derivatives_h[j], dal_num(k->h));
         if (DAL_MAY_NEWTON(s)) left[j] |= s->alive[j] & dal_less(dal_num(0.5), s->uses_newton[j]);
         solved[j] = s->alive[j];
@@ -281,7 +283,7 @@ DAL_INLINE dal_status dal__solve_predicted(dal_step *s, const dal_stages *k, dal
     dal__predict(s, k, eq);
     dal__save_guess(eq);
     dal__iterate(s, eq, dal__collocation_map, solved, 0, DAL_MAY_NEWTON(s));
-    DAL_EACH(j, DAL_JOINED) left[j] = s->alive[j] & ~solved[j];
+    DAL_EACH(j, DAL_STEP_GROUPS) left[j] = s->alive[j] & ~solved[j];
     if (DAL_RARELY(dal__any(left))) return DAL_NOT_CONVERGED;
     dal__record_predictor_errors(s, k, eq, solved, solved);
     return DAL_OK;
@@ -291,14 +293,14 @@ DAL_INLINE dal_status dal__solve_predicted(dal_step *s, const dal_stages *k, dal
 DAL_INLINE void dal__save_unknowns(const dal_step *s, const dal_block *b, num *DAL_RESTRICT last)
 {
     const num *u = b->u;
-    DAL_EACH(i, DAL_SIZE(b)) last[i] = dal_select(s->alive[i % DAL_JOINED], u[i], last[i]);
+    DAL_EACH(i, DAL_SIZE(b)) last[i] = dal_select(s->alive[i % DAL_STEP_GROUPS], u[i], last[i]);
 }
 DAL_INLINE void dal__save_derivatives(dal_step *s, const dal_stages *k, const dal_equation *eq)
 {
     if (!DAL_STAGE_DERIVATIVES(s)) return;
     dal__save_unknowns(s, &eq->block[0], s->derivatives);
     if (DAL_LIFTED(s)) dal__save_unknowns(s, &eq->block[1], dal__momentum_derivatives_kept(s, k));
-    DAL_EACH(j, DAL_JOINED)
+    DAL_EACH(j, DAL_STEP_GROUPS)
         s->derivatives_h[j] = dal_select(s->alive[j], dal_num(k->h), s->derivatives_h[j]);
 }
 
@@ -359,7 +361,7 @@ DAL_INLINE dal_status dal__collocate(dal_step *s, const dal_tableau *method, int
                     f,      force, w, mu, DAL_LIFTED(s) ? 3 * DAL_N(s) : DAL_NW(s)};
     dal_equation eq = {{derivatives, momenta}, 1 + DAL_LIFTED(s), &k, {dal_all()}};
     eq.block[0].weight = eq.block[1].weight = fabs(s->h);
-    DAL_EACH(j, DAL_JOINED) eq.block[0].scale[j] = dal_velocity_scale(s, s->h, j);
+    DAL_EACH(j, DAL_STEP_GROUPS) eq.block[0].scale[j] = dal_velocity_scale(s, s->h, j);
     if (DAL_LIFTED(s)) {
         dal__gauge_stages(s, &k);
         DAL_EACH(i, DAL_STAGES(method) * DAL_N(s)) force[i] = dal_num(0.0);

@@ -13,7 +13,7 @@
  * run may end iterations earlier (DAL_SOLVER_TOLERANCE) or later (DAL_EXTRA_ITERATIONS), to show
  * what the solver does to it.
  *
- * Groups of lanes that are stepped as one system (DAL_JOINED) have norms and masks of their own.
+ * Groups of lanes that are stepped as one system (DAL_STEP_GROUPS) have norms and masks of their own.
  *
  * With the solver "auto" a lane whose fixed point contracts more slowly than DAL__SLOW, or not at
  * all, goes over to Newton and stays there (step->uses_newton, which is persistent along). */
@@ -36,11 +36,11 @@
 
 /* One block of unknowns, [size]. */
 typedef struct dal_block {
-    num scale[DAL_JOINED];                   /* size of the state it moves */
-    num now[DAL_JOINED], before[DAL_JOINED]; /* norms of the last two increments */
-    num stagnations[DAL_JOINED];             /* how often in a row the norm did not decrease */
-    num best[2][DAL_JOINED];                 /* the least norm, and the iterations since then */
-    double weight;                           /* a change of u by d moves the state by weight*d */
+    num scale[DAL_STEP_GROUPS];                        /* size of the state it moves */
+    num now[DAL_STEP_GROUPS], before[DAL_STEP_GROUPS]; /* norms of the last two increments */
+    num stagnations[DAL_STEP_GROUPS]; /* how often in a row the norm did not decrease */
+    num best[2][DAL_STEP_GROUPS];     /* the least norm, and the iterations since then */
+    double weight;                    /* a change of u by d moves the state by weight*d */
     int size;
     num *u, *image; /* the unknowns; what map made of them */
     num *start;     /* [size] a copy of the first guess, for a second attempt */
@@ -51,7 +51,7 @@ typedef struct dal_equation {
     dal_block block[2];
     int blocks; /* 1 or 2 */
     void *context;
-    dal_mask active[DAL_JOINED]; /* the lanes that still iterate */
+    dal_mask active[DAL_STEP_GROUPS]; /* the lanes that still iterate */
 } dal_equation;
 
 /* What a map keeps beside the image for the end of the step is that of a lane's own last iteration: the
@@ -68,7 +68,7 @@ typedef dal_status dal_matrix(dal_step *step, dal_equation *equation);  /* fills
 /* Its size.  Compilers lose sight of the constant where groups are joined; a file then has but one.
  */
 #if defined DAL_SPECIALISED
-#define DAL_SIZE(b) (DAL_JOINED > 1 ? DAL__STAGES * DAL__NW * DAL_JOINED : (b)->size)
+#define DAL_SIZE(b) (DAL_STEP_GROUPS > 1 ? DAL__STAGES * DAL__NW * DAL_STEP_GROUPS : (b)->size)
 #else
 #define DAL_SIZE(b) ((b)->size)
 #endif
@@ -78,7 +78,7 @@ typedef dal_status dal_matrix(dal_step *step, dal_equation *equation);  /* fills
     DAL_VECTOR(step, name##_u, count);                                                             \
     DAL_VECTOR(step, name##_image, count);                                                         \
     DAL_VECTOR(step, name##_start, count);                                                         \
-    DAL_VECTOR(step, name##_inverse, (newton) ? (count) * (count) / DAL_JOINED : 0);               \
+    DAL_VECTOR(step, name##_inverse, (newton) ? (count) * (count) / DAL_STEP_GROUPS : 0);          \
     dal_block name = {                                                                             \
         {dal_num(0.0)}, {dal_num(0.0)}, {dal_num(0.0)}, {dal_num(0.0)}, {{dal_num(0.0)}}, 1.0,     \
         (count),        name##_u,       name##_image,   name##_start,   name##_inverse}
@@ -86,16 +86,16 @@ typedef dal_status dal_matrix(dal_step *step, dal_equation *equation);  /* fills
 DAL_INLINE int dal__any(const dal_mask *lanes)
 {
     dal_mask some = lanes[0];
-    DAL_EACH(j, DAL_JOINED - 1) some |= lanes[j + 1];
+    DAL_EACH(j, DAL_STEP_GROUPS - 1) some |= lanes[j + 1];
     return dal_any(some);
 }
 
 /* The max norm of what belongs to group j. */
 DAL_INLINE num dal__group_norm(const num *x, int count, int j)
 {
-    if (DAL_JOINED == 1) return dal_max_norm(x, count);
+    if (DAL_STEP_GROUPS == 1) return dal_max_norm(x, count);
     num norm = dal_num(0.0);
-    DAL_EACH(i, count / DAL_JOINED) norm = dal_max(norm, dal_abs(x[i * DAL_JOINED + j]));
+    DAL_EACH(i, count / DAL_STEP_GROUPS) norm = dal_max(norm, dal_abs(x[i * DAL_STEP_GROUPS + j]));
     return norm;
 }
 
@@ -135,10 +135,10 @@ DAL_INLINE int dal__advance_packs(num *u, num *image, int count, num *norm, num 
 /* Row i of M^-1 image. */
 DAL_INLINE num dal__newton(const dal_block *b, int i)
 {
-    const int rows = DAL_SIZE(b) / DAL_JOINED, group = i % DAL_JOINED;
-    const num *row = b->inverse + (group * rows + i / DAL_JOINED) * rows;
+    const int rows = DAL_SIZE(b) / DAL_STEP_GROUPS, group = i % DAL_STEP_GROUPS;
+    const num *row = b->inverse + (group * rows + i / DAL_STEP_GROUPS) * rows;
     num sum = dal_num(0.0);
-    DAL_EACH(k, rows) sum = dal_fma(row[k], b->image[k * DAL_JOINED + group], sum);
+    DAL_EACH(k, rows) sum = dal_fma(row[k], b->image[k * DAL_STEP_GROUPS + group], sum);
     return sum;
 }
 
@@ -146,19 +146,19 @@ DAL_INLINE num dal__newton(const dal_block *b, int i)
  * pack belongs to one lane, which is active or nobody would call. */
 DAL_INLINE void dal__advance(dal_block *b, const dal_mask *active, int newton)
 {
-    num norm[DAL_JOINED], nonfinite[DAL_JOINED];
-    DAL_EACH(j, DAL_JOINED) norm[j] = nonfinite[j] = dal_num(0.0);
+    num norm[DAL_STEP_GROUPS], nonfinite[DAL_STEP_GROUPS];
+    DAL_EACH(j, DAL_STEP_GROUPS) norm[j] = nonfinite[j] = dal_num(0.0);
     const int seen = newton ? 0 : dal__advance_packs(b->u, b->image, DAL_SIZE(b), norm, nonfinite);
     num *u = b->u + seen, *image = b->image + seen;
     DAL_EACH(i, DAL_SIZE(b) - seen) image[i] -= u[i];
     DAL_EACH(i, DAL_SIZE(b) - seen) {
-        const int j = i % DAL_JOINED;
+        const int j = i % DAL_STEP_GROUPS;
         const num d = newton ? dal__newton(b, i) : image[i];
         norm[j] = dal_max(norm[j], dal_abs(d));
         nonfinite[j] += d - d;
         u[i] = dal_select(active[j], u[i] + d, u[i]);
     }
-    DAL_EACH(j, DAL_JOINED) {
+    DAL_EACH(j, DAL_STEP_GROUPS) {
         b->before[j] = b->now[j];
         b->now[j] = b->weight * norm[j] + nonfinite[j];
     }
@@ -209,10 +209,10 @@ DAL_INLINE dal_mask dal__slow(const dal_block *b, int j)
 
 DAL_INLINE void dal__begin_block(dal_block *b)
 {
-    DAL_EACH(j, DAL_JOINED) b->now[j] = dal_num(INFINITY);
-    DAL_EACH(j, DAL_JOINED) b->stagnations[j] = dal_num(0.0);
-    DAL_EACH(j, DAL_JOINED) b->best[0][j] = dal_num(INFINITY);
-    DAL_EACH(j, DAL_JOINED) b->best[1][j] = dal_num(0.0);
+    DAL_EACH(j, DAL_STEP_GROUPS) b->now[j] = dal_num(INFINITY);
+    DAL_EACH(j, DAL_STEP_GROUPS) b->stagnations[j] = dal_num(0.0);
+    DAL_EACH(j, DAL_STEP_GROUPS) b->best[0][j] = dal_num(INFINITY);
+    DAL_EACH(j, DAL_STEP_GROUPS) b->best[1][j] = dal_num(0.0);
 }
 
 /* One iteration of all blocks in the active lanes. */
@@ -248,17 +248,18 @@ DAL_INLINE void dal__update_active(dal_step *s, dal_equation *eq, int j, int may
 DAL_INLINE void dal__iterate(dal_step *s, dal_equation *eq, dal_iteration_map *map, dal_mask *lanes,
                              int newton, int may_give_up)
 {
-    dal_mask slow[DAL_JOINED];
+    dal_mask slow[DAL_STEP_GROUPS];
     dal__begin_block(&eq->block[0]);
     if (eq->blocks > 1) dal__begin_block(&eq->block[1]);
-    DAL_EACH(j, DAL_JOINED) slow[j] = ~dal_all();
-    DAL_EACH(j, DAL_JOINED) eq->active[j] = lanes[j];
+    DAL_EACH(j, DAL_STEP_GROUPS) slow[j] = ~dal_all();
+    DAL_EACH(j, DAL_STEP_GROUPS) eq->active[j] = lanes[j];
     for (int k = 0; k < DAL_ITERATIONS(s) && dal__any(eq->active); k++) {
         dal__iterate_once(s, eq, map, newton);
-        DAL_EACH(j, DAL_JOINED) dal__update_active(s, eq, j, may_give_up, k, &lanes[j], &slow[j]);
+        DAL_EACH(j, DAL_STEP_GROUPS)
+            dal__update_active(s, eq, j, may_give_up, k, &lanes[j], &slow[j]);
     }
-    DAL_EACH(j, DAL_JOINED) lanes[j] &= ~eq->active[j];
-    DAL_EACH(j, DAL_JOINED) eq->active[j] = lanes[j];
+    DAL_EACH(j, DAL_STEP_GROUPS) lanes[j] &= ~eq->active[j];
+    DAL_EACH(j, DAL_STEP_GROUPS) eq->active[j] = lanes[j];
     for (int k = 0; k < DAL_EXTRA_ITERATIONS(s); k++) dal__iterate_once(s, eq, map, newton);
 }
 
@@ -273,7 +274,7 @@ DAL_INLINE void dal__save_guess(dal_equation *eq)
 }
 DAL_INLINE void dal__restore_block(dal_block *b, const dal_mask *lanes)
 {
-    DAL_EACH(i, DAL_SIZE(b)) b->u[i] = dal_select(lanes[i % DAL_JOINED], b->start[i], b->u[i]);
+    DAL_EACH(i, DAL_SIZE(b)) b->u[i] = dal_select(lanes[i % DAL_STEP_GROUPS], b->start[i], b->u[i]);
 }
 
 /* Newton's method from the first guess in the lanes left; leaves those where it stagnated, which
@@ -285,7 +286,7 @@ DAL_INLINE dal_status dal__solve_by_newton(dal_step *s, dal_equation *eq, dal_it
     if (eq->blocks > 1) dal__restore_block(&eq->block[1], left);
     DAL_TRY(matrix(s, eq));
     dal__iterate(s, eq, map, left, 1, 0);
-    DAL_EACH(j, DAL_JOINED)
+    DAL_EACH(j, DAL_STEP_GROUPS)
         s->uses_newton[j] = dal_select(left[j], dal_num(1.0), s->uses_newton[j]);
     return DAL_OK;
 }
@@ -296,20 +297,20 @@ DAL_INLINE dal_status dal_solve(dal_step *s, dal_equation *eq, dal_iteration_map
                                 dal_matrix *matrix)
 {
     const int may_newton = matrix && DAL_MAY_NEWTON(s);
-    dal_mask solved[DAL_JOINED], left[DAL_JOINED];
-    DAL_EACH(j, DAL_JOINED) {
+    dal_mask solved[DAL_STEP_GROUPS], left[DAL_STEP_GROUPS];
+    DAL_EACH(j, DAL_STEP_GROUPS) {
         solved[j] = s->alive[j];
         if (may_newton) solved[j] &= ~dal_less(dal_num(0.5), s->uses_newton[j]);
         if (may_newton && DAL_SOLVER(s) == DAL_NEWTON) solved[j] = ~dal_all();
     }
     dal__save_guess(eq);
     dal__iterate(s, eq, map, solved, 0, may_newton);
-    DAL_EACH(j, DAL_JOINED) left[j] = s->alive[j] & ~solved[j];
+    DAL_EACH(j, DAL_STEP_GROUPS) left[j] = s->alive[j] & ~solved[j];
     if (may_newton && dal__any(left)) {
         DAL_TRY(dal__solve_by_newton(s, eq, map, matrix, left));
-        DAL_EACH(j, DAL_JOINED) solved[j] |= left[j];
+        DAL_EACH(j, DAL_STEP_GROUPS) solved[j] |= left[j];
     }
-    DAL_EACH(j, DAL_JOINED) {
+    DAL_EACH(j, DAL_STEP_GROUPS) {
         s->unconverged[j] |= s->alive[j] & ~solved[j];
         s->alive[j] &= solved[j];
     }
@@ -330,12 +331,12 @@ typedef struct dal_stage_matrix {
 /* Entry (i, j) of F_q padded with zeros, and of F_(v,g); or of their transposes. */
 DAL_INLINE num dal__fq(const dal_step *s, const num *jacobian, int i, int j)
 {
-    const int n = DAL_N(s) / DAL_JOINED;
+    const int n = DAL_N(s) / DAL_STEP_GROUPS;
     return j < n ? jacobian[i * n + j] : dal_num(0.0);
 }
 DAL_INLINE num dal__fv(const dal_step *s, const num *jacobian, int i, int j)
 {
-    const int n = DAL_N(s) / DAL_JOINED, nw = DAL_NW(s) / DAL_JOINED;
+    const int n = DAL_N(s) / DAL_STEP_GROUPS, nw = DAL_NW(s) / DAL_STEP_GROUPS;
     return jacobian[nw * n + i * nw + j];
 }
 
@@ -343,7 +344,7 @@ DAL_INLINE num dal__fv(const dal_step *s, const num *jacobian, int i, int j)
 DAL_INLINE void dal_stage_inverse(dal_step *s, const dal_stage_matrix *k, const num *jacobian,
                                   num *m, dal_block *block, int group)
 {
-    const int size = DAL_SIZE(block) / DAL_JOINED, width = size / k->stages;
+    const int size = DAL_SIZE(block) / DAL_STEP_GROUPS, width = size / k->stages;
     for (int row = 0; row < size; row++) {
         for (int column = 0; column < size; column++) {
             const int i = row % width, j = column % width;

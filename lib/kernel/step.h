@@ -31,13 +31,13 @@ typedef enum dal_callback_code {
 
 #ifdef DAL_SPECIALISED
 
-/* The dimensions are the generated file's constants, and all memory is local.  DAL_JOINED groups of
+/* The dimensions are the generated file's constants, and all memory is local.  DAL_STEP_GROUPS groups of
  * lanes are stepped as one system of so many times as many components: number i of group j is
- * number i * DAL_JOINED + j. */
-#define DAL_N(s)                      (DAL__N * DAL_JOINED)
-#define DAL_NW(s)                     (DAL__NW * DAL_JOINED)
+ * number i * DAL_STEP_GROUPS + j. */
+#define DAL_N(s)                      (DAL__N * DAL_STEP_GROUPS)
+#define DAL_NW(s)                     (DAL__NW * DAL_STEP_GROUPS)
 #define DAL_M(s)                      DAL__M
-#define DAL_DIM(s)                    (DAL__DIM * DAL_JOINED)
+#define DAL_DIM(s)                    (DAL__DIM * DAL_STEP_GROUPS)
 #define DAL_LIFTED(s)                 DAL__LIFTED
 #define DAL_SOLVER(s)                 DAL__SOLVER
 #define DAL_ITERATIONS(s)             DAL__ITERATIONS
@@ -50,24 +50,24 @@ typedef enum dal_callback_code {
 #define DAL_PERSISTENT_MULTIPLIERS(s) DAL__MULTIPLIER        /* multipliers persistent: m, or 0 */
 #define DAL_STAGE_DERIVATIVES(s)      DAL__STAGE_DERIVATIVES /* numbers kept of derivatives, or 0 */
 #define DAL_STAGES(t)                 DAL__STAGES
-#define DAL__ROOM(count)              ((count) > 0 ? (count) : 1)
+#define DAL__AT_LEAST_ONE(count)      ((count) > 0 ? (count) : 1)
 #define DAL__COUNT_ONE                1
 #define DAL__COUNT_TWO                2
 #define DAL__COUNT_DERIVATIVES        DAL__STAGE_DERIVATIVES
 #define DAL__COUNT_MULTIPLIER         DAL__MULTIPLIER
 
-#define DAL_VECTOR(step, name, count) num name[DAL__ROOM(count)]
+#define DAL_VECTOR(step, name, count) num name[DAL__AT_LEAST_ONE(count)]
 #define DAL_SET_TANGENT(step, on)     (void)0
 #define DAL_MARK(step)                (void)0
 #define DAL_RELEASE(step)             (void)0
 
 struct dal_step {
     double t, h;
-    num y[DAL__DIM * DAL_JOINED], r[DAL__DIM * DAL_JOINED];
-#define X(member, count) num member[DAL__ROOM(DAL__COUNT_##count) * DAL_JOINED];
+    num y[DAL__DIM * DAL_STEP_GROUPS], r[DAL__DIM * DAL_STEP_GROUPS];
+#define X(member, count) num member[DAL__AT_LEAST_ONE(DAL__COUNT_##count) * DAL_STEP_GROUPS];
     DAL__METHOD_STATE_LIST(X)
 #undef X
-    dal_mask alive[DAL_JOINED], unconverged[DAL_JOINED];
+    dal_mask alive[DAL_STEP_GROUPS], unconverged[DAL_STEP_GROUPS];
     const dal_stored *work; /* parameters, and what is made of them alone */
     long long evaluations;
 };
@@ -106,7 +106,7 @@ DAL_INLINE void dal_eval_group(dal_step *s, int group, dal_callback_code code, d
 
 #else
 
-enum { DAL_JOINED = 1 };
+enum { DAL_STEP_GROUPS = 1 };
 
 #define DAL_N(s)                      ((s)->n)
 #define DAL_NW(s)                     ((s)->nw)
@@ -140,10 +140,10 @@ struct dal_step {
     int method_state_count;
     int derivatives_kept;
 
-    dal_mask alive[DAL_JOINED];       /* lanes that go on */
-    dal_mask unconverged[DAL_JOINED]; /* lanes whose implicit equations were not solved */
-    int solver;                       /* dal_solver */
-    int iterations;                   /* most iterations */
+    dal_mask alive[DAL_STEP_GROUPS];       /* lanes that go on */
+    dal_mask unconverged[DAL_STEP_GROUPS]; /* lanes whose implicit equations were not solved */
+    int solver;                            /* dal_solver */
+    int iterations;                        /* most iterations */
     double
         solver_tolerance; /* a relative change that is small enough; 0: where rounding stops it */
     int extra_iterations; /* iterations of what is solved */
@@ -305,17 +305,17 @@ DAL_INLINE void dal_add_multiple(dal_step *s, int first, int count, double facto
 {
     num *const DAL_RESTRICT y = s->y + first, *const DAL_RESTRICT r = s->r + first;
     const num f = dal_num(factor);
-    dal_mask alive[DAL_JOINED];
-    DAL_EACH(j, DAL_JOINED) alive[j] = s->alive[j];
+    dal_mask alive[DAL_STEP_GROUPS];
+    DAL_EACH(j, DAL_STEP_GROUPS) alive[j] = s->alive[j];
     DAL_EACH(i, count) {
-        const dal_mask lanes = alive[i % DAL_JOINED];
+        const dal_mask lanes = alive[i % DAL_STEP_GROUPS];
         const num a = y[i], b = d[i], before = r[i];
         const num sum = a + dal_fma(f, b, before);
         y[i] = dal_select(lanes, sum, a);
         r[i] = dal_select(lanes, dal_fma(f, b, a - sum) + before, before);
     }
     if (DAL_RARELY(DAL_PLAIN(s)))
-        DAL_EACH(i, count) r[i] = dal_select(alive[i % DAL_JOINED], dal_num(0.0), r[i]);
+        DAL_EACH(i, count) r[i] = dal_select(alive[i % DAL_STEP_GROUPS], dal_num(0.0), r[i]);
 }
 
 DAL_INLINE void dal_add(dal_step *s, int first, int count, const num *d)

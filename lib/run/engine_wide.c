@@ -200,7 +200,7 @@ static dal_mask finite(const engine *e, int group)
                      dal_num(0.0));
 }
 
-static dal_mask gauge_holds(const engine *e, int group)
+static dal_mask check_gauge(const engine *e, int group)
 {
     if (!e->shape.lifted) return dal_all();
     const int i = 2 * e->shape.n * DAL_GROUPS + group;
@@ -222,7 +222,7 @@ static void eval_both_ends(engine *e, dal_callback_code code, num *before, num *
     eval_callback(s, code, s->t, e->persistent, e->persistent + s->n, NULL, after);
 }
 
-static lane_mask guards_hold(engine *e)
+static lane_mask check_guards(engine *e)
 {
     const int count = e->shape.system->guards * DAL_GROUPS;
     dal_step *s = &e->step;
@@ -237,13 +237,13 @@ static lane_mask guards_hold(engine *e)
 }
 
 /* Numbers of one group, one behind the other. */
-static void pick(const num *from, int group, int count, num *to)
+static void gather_group(const num *from, int group, int count, num *to)
 {
     for (int i = 0; i < count; i++) to[i] = from[i * DAL_GROUPS + group];
 }
 
 /* No normal of the group turned; c0, c1 are what the constraint said before and after. */
-static dal_mask group_normals_hold(engine *e, const num *c0, const num *c1)
+static dal_mask check_group_rank(engine *e, const num *c0, const num *c1)
 {
     const int m = e->shape.m, n = e->shape.n;
     dal_step *s = &e->step;
@@ -258,7 +258,7 @@ static dal_mask group_normals_hold(engine *e, const num *c0, const num *c1)
     return good;
 }
 
-static lane_mask normals_hold(engine *e)
+static lane_mask check_rank(engine *e)
 {
     const int m = e->shape.m, n = e->shape.n, size = m + 2 * m * n;
     dal_step *s = &e->step;
@@ -268,9 +268,9 @@ static lane_mask normals_hold(engine *e)
     eval_both_ends(e, DAL_EVAL_CONSTRAINT, before, after);
     for (int g = 0; g < DAL_GROUPS; g++) {
         const size_t mark = s->used;
-        pick(before, g, size, c0);
-        pick(after, g, size, c1);
-        good.group[g] = group_normals_hold(e, c0, c1);
+        gather_group(before, g, size, c0);
+        gather_group(after, g, size, c1);
+        good.group[g] = check_group_rank(e, c0, c1);
         s->used = mark;
     }
     return good;
@@ -295,14 +295,14 @@ static dal__lanes reject(lane_mask *left, lane_mask good, dal_status status, dal
     return lanes;
 }
 
-/* The parts of judge that need not ask the system. */
-static dal__lanes judge_state(const engine *e, lane_mask *left, dal_status status, dal_status *why)
+/* The parts of check_step that need not ask the system. */
+static dal__lanes check_state(const engine *e, lane_mask *left, dal_status status, dal_status *why)
 {
     lane_mask solved, gauge, sound;
     dal__lanes failed = 0;
     for (int g = 0; g < DAL_GROUPS; g++) {
         solved.group[g] = ~e->step.unconverged[0];
-        gauge.group[g] = gauge_holds(e, g);
+        gauge.group[g] = check_gauge(e, g);
         sound.group[g] = finite(e, g);
     }
     if (status != DAL_OK && status != DAL_NOT_CONVERGED)
@@ -314,16 +314,16 @@ static dal__lanes judge_state(const engine *e, lane_mask *left, dal_status statu
 
 /* Takes the lanes that did not make the step out of `left`, which has the lanes alive, and returns
  * them. */
-static dal__lanes judge(engine *e, lane_mask *left, dal__lanes alive, dal_status status,
-                        dal_status *why)
+static dal__lanes check_step(engine *e, lane_mask *left, dal__lanes alive, dal_status status,
+                             dal_status *why)
 {
     const dal_system *system = e->shape.system;
-    dal__lanes failed = judge_state(e, left, status, why);
+    dal__lanes failed = check_state(e, left, status, why);
     if (failed == alive) return failed;
     e->step.used = 0;
-    if (system->guards > 0) failed |= reject(left, guards_hold(e), DAL_SINGULAR, why);
+    if (system->guards > 0) failed |= reject(left, check_guards(e), DAL_SINGULAR, why);
     if ((system->properties & DAL_D_RANK_CHECKED) && e->call[DAL_EVAL_CONSTRAINT])
-        failed |= reject(left, normals_hold(e), DAL_SINGULAR, why);
+        failed |= reject(left, check_rank(e), DAL_SINGULAR, why);
     return failed;
 }
 
@@ -389,9 +389,9 @@ dal__lanes DAL_WIDE(dal__engine_step)(void *engine_, double h, dal__lanes alive,
     begin_step(e, h, alive, &moved);
     const dal_status status = e->layer[e->step.depth]->step(&e->step);
     note_progress(e);
-    const dal__lanes failed = judge(e, &moved, alive, status, why);
+    const dal__lanes failed = check_step(e, &moved, alive, status, why);
     advance_clock(e, h, &moved);
-    const bool strayed = DAL_GROUPS > 1 && alive != ~(dal__lanes)0; /* lanes not alive moved */
-    if (failed || strayed) restore(e, &moved);
+    const bool moved_others = DAL_GROUPS > 1 && alive != ~(dal__lanes)0; /* lanes not alive moved */
+    if (failed || moved_others) restore(e, &moved);
     return failed;
 }
