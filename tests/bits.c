@@ -126,7 +126,7 @@ static void differs(motion *m, const char *way, const char *what)
 
 static void compare_batch(motion *m, int width)
 {
-    const size_t bytes = (size_t)m->run[0]->shape.dim * sizeof(double);
+    const size_t bytes = (size_t)m->run[0]->layout.dim * sizeof(double);
     double *state = malloc(bytes);
     char way[NAME];
     int other = 0;
@@ -173,7 +173,7 @@ typedef struct object {
 /* Lanes that go together share the count of evaluations of their system. */
 static bool same_lane(const motion *m, const parts *p, int lane, const double *memory)
 {
-    const size_t evaluations = dal__at(&m->run[0]->shape, DAL__EVALUATIONS);
+    const size_t evaluations = dal__at(&m->run[0]->layout, DAL__EVALUATIONS);
     for (size_t i = 0; i < m->persistent; i++)
         if ((i != evaluations || p->lanes == 1) &&
             memcmp(&p->y[i * (size_t)p->lanes + (size_t)lane], &memory[i], sizeof *memory) != 0)

@@ -45,8 +45,8 @@ static void test_refusals(void)
 static double *multipliers(dal_run *run, double *memory)
 {
     const size_t first =
-        dal__at(&run->shape, DAL__METHOD_STATE) + 2; /* behind stiff and derivatives_h */
-    CU_ASSERT_EQUAL(memory[first], 1.0);             /* they have been set */
+        dal__at(&run->layout, DAL__METHOD_STATE) + 2; /* behind stiff and derivatives_h */
+    CU_ASSERT_EQUAL(memory[first], 1.0);              /* they have been set */
     return memory + first + 1;
 }
 
@@ -75,7 +75,7 @@ static double turning_defect(const char *method, const char *fixture, double sig
     CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_OK);
     double *memory = memory_of(run, &count);
     for (int i = 0; i < n; i++) memory[n + i] = -memory[n + i];
-    for (int i = 0; i < n; i++) memory[run->shape.dim + n + i] = -memory[run->shape.dim + n + i];
+    for (int i = 0; i < n; i++) memory[run->layout.dim + n + i] = -memory[run->layout.dim + n + i];
     for (int i = 0; i < system->m; i++) multipliers(run, memory)[i] *= sign;
     CU_ASSERT_EQUAL(dal_run_restore(run, memory, count, NULL), DAL_OK);
     CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_OK);
@@ -110,7 +110,7 @@ static void end_state(const dal_system *system, const char *method, int count, b
     dal_run *run = fixture_run(&spec);
     size_t size;
     double *memory = memory_of(run, &size);
-    if (wrong) memory[dal__at(&run->shape, DAL__METHOD_STATE) + 2] = 1.0;
+    if (wrong) memory[dal__at(&run->layout, DAL__METHOD_STATE) + 2] = 1.0;
     CU_ASSERT_EQUAL(dal_run_restore(run, memory, size, NULL), DAL_OK);
     CU_ASSERT_EQUAL(dal_run_advance(run, count, NULL), DAL_OK);
     memcpy(state, dal_run_state(run), 2 * (size_t)system->n * sizeof *state);

@@ -25,9 +25,9 @@ static void put_late(dal_run *run, long long k)
     CU_ASSERT_FATAL(count <= sizeof memory / sizeof *memory);
     memcpy(memory, now, count * sizeof *memory);
     const double t = (double)k * h;
-    memory[dal__at(&run->shape, DAL__TIME)] = t;
-    memory[dal__at(&run->shape, DAL__TIME_ERROR)] = fma((double)k, h, -t);
-    memory[dal__at(&run->shape, DAL__STEPS)] = (double)k;
+    memory[dal__at(&run->layout, DAL__TIME)] = t;
+    memory[dal__at(&run->layout, DAL__TIME_ERROR)] = fma((double)k, h, -t);
+    memory[dal__at(&run->layout, DAL__STEPS)] = (double)k;
     CU_ASSERT_EQUAL(dal_run_restore(run, memory, count, NULL), DAL_OK);
 }
 

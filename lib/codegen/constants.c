@@ -5,10 +5,10 @@
  * find room in the registers where there are few of them. */
 static bool steps_groups_together(const dal__generation *g)
 {
-    const unsigned properties = g->shape.method.layer[0]->properties;
-    const bool few = properties & DAL_EXTRAPOLATES_STAGES && g->shape.method.layer[0]->stages <= 2;
+    const unsigned properties = g->layout.method.layer[0]->properties;
+    const bool few = properties & DAL_EXTRAPOLATES_STAGES && g->layout.method.layer[0]->stages <= 2;
     const bool can = properties & DAL_COMPONENTWISE || few;
-    return g->shape.depth == 1 && !g->shape.lifted && can;
+    return g->layout.depth == 1 && !g->layout.lifted && can;
 }
 
 /* Lanes go by registers, as large as the processor has them. */
@@ -29,7 +29,7 @@ static void put_lanes(dal__generation *g)
 
 void dal__put_constants(dal__generation *g)
 {
-    const dal__shape *k = &g->shape;
+    const dal__layout *k = &g->layout;
     const int stages = g->spec->method.layer[0]->stages;
     const bool collocation = dal__method_uses(g, "dal_collocation");
     const bool solves = collocation || dal__method_uses(g, "dal_symplectic_euler");

@@ -112,7 +112,7 @@ static int find_component(const dal_run *run, const char *name)
 
 void dal__put_start(dal__generation *g)
 {
-    const dal__shape *k = &g->shape;
+    const dal__layout *k = &g->layout;
     const int first = k->n + k->nw;
     dal__text_put(&g->text, "/* What is made of the parameters alone. */\n"
                             "static void dal__hoist(dal_stored *w)\n{\n    (void)w;\n");
@@ -173,7 +173,7 @@ static bool has(const dal_run *run, const char *name)
 
 void dal__put_observe(dal__generation *g)
 {
-    const dal_system *system = g->shape.system;
+    const dal_system *system = g->layout.system;
     dal__text *text = &g->text;
     int next = 0;
     dal__text_put(
@@ -185,8 +185,9 @@ void dal__put_observe(dal__generation *g)
     next += system->constraints ? system->m : 0;
     if (system->energy)
         dal__text_print(text, "    dal__energy(w, t, q, v, NULL, out + %d);\n", next++);
-    if (g->shape.lifted) dal__text_print(text, "    dal__observe_lift(w, t, y, out + %d);\n", next);
-    next += g->shape.lifted ? 4 : 0;
+    if (g->layout.lifted)
+        dal__text_print(text, "    dal__observe_lift(w, t, y, out + %d);\n", next);
+    next += g->layout.lifted ? 4 : 0;
     if (system->invariant_values)
         dal__text_print(text, "    dal__invariant_values(w, t, q, v, NULL, out + %d);\n", next);
     next += system->invariant_values ? system->invariants : 0;

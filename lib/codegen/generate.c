@@ -41,7 +41,7 @@ static const dal__source *source_of(const dal_integrator *integrator)
 
 bool dal__method_uses(const dal__generation *g, const char *word)
 {
-    for (int i = 0; i < g->shape.depth; i++)
+    for (int i = 0; i < g->layout.depth; i++)
         if (strstr(g->source[i]->text, word)) return true;
     return false;
 }
@@ -58,13 +58,13 @@ bool dal__uses_newton(const dal__generation *g)
 /* A modifier steps tangent vectors in the place of the momenta. */
 bool dal__follows_tangents(const dal__generation *g)
 {
-    return g->shape.lifted && (dal_method_needs(&g->spec->method) & DAL_NEEDS_JACOBIAN);
+    return g->layout.lifted && (dal_method_needs(&g->spec->method) & DAL_NEEDS_JACOBIAN);
 }
 
 /* What the observables are made of. */
 static bool observes(const dal__generation *g, dal__program_code code)
 {
-    if (code == DAL__PROGRAM_FIELD || code == DAL__PROGRAM_GAUGE) return g->shape.lifted;
+    if (code == DAL__PROGRAM_FIELD || code == DAL__PROGRAM_GAUGE) return g->layout.lifted;
     return code == DAL__PROGRAM_CONSTRAINTS || code == DAL__PROGRAM_ENERGY ||
            code == DAL__PROGRAM_INVARIANTS || code == DAL__PROGRAM_EXACT;
 }
@@ -73,12 +73,12 @@ bool dal__wants(const dal__generation *g, dal__program_code code)
 {
     if (!g->programs->program[code].present) return false;
     if (g->product == DAL__LOOKS) return observes(g, code);
-    const bool watched = g->shape.system->properties & DAL_D_RANK_CHECKED;
+    const bool watched = g->layout.system->properties & DAL_D_RANK_CHECKED;
     const bool imposes = dal_method_needs(&g->spec->method) & DAL_NEEDS_BLOCKS;
     switch (code) {
     case DAL__PROGRAM_ADJOINT:
     case DAL__PROGRAM_GAUGE:
-        return g->shape.lifted;
+        return g->layout.lifted;
     case DAL__PROGRAM_JACOBIAN:
         return dal__uses_newton(g) || dal__follows_tangents(g);
     case DAL__PROGRAM_CONSTRAINT:
@@ -100,7 +100,7 @@ bool dal__wants(const dal__generation *g, dal__program_code code)
 
 static dal_status check_method(dal__generation *g, dal_error *error)
 {
-    for (int i = 0; i < g->shape.depth; i++) {
+    for (int i = 0; i < g->layout.depth; i++) {
         const dal_integrator *link = g->spec->method.layer[i];
         g->source[i] = dal__integrator_wide(link, 4) ? source_of(link) : NULL;
         if (!g->source[i])
@@ -118,7 +118,7 @@ static dal_status check_method(dal__generation *g, dal_error *error)
 static dal_status check_size(const dal__generation *g, dal_error *error)
 {
     double length = 0.0;
-    const double width = (double)g->shape.stages * g->shape.nw;
+    const double width = (double)g->layout.stages * g->layout.nw;
     const bool newton = g->product != DAL__LOOKS && dal__uses_newton(g);
     const double stack = newton ? 4.0 * 8.0 * g->lanes * width * width : 0.0;
     for (int code = 0; code < DAL__PROGRAM_COUNT; code++)
@@ -128,12 +128,12 @@ static dal_status check_size(const dal__generation *g, dal_error *error)
         return dal__fail(
             error, DAL_TOO_LARGE,
             "'%.80s' is too large for straight-line code: %.0f operations (%d at most)",
-            g->shape.system->name, length, MOST_INSTRUCTIONS);
+            g->layout.system->name, length, MOST_INSTRUCTIONS);
     if (stack > MOST_STACK)
         return dal__fail(error, DAL_TOO_LARGE,
                          "Newton's matrices of '%.80s' take %.0f bytes of stack (%d at most); "
                          "solver fixed-point needs none",
-                         g->shape.system->name, stack, MOST_STACK);
+                         g->layout.system->name, stack, MOST_STACK);
     return DAL_OK;
 }
 
@@ -145,11 +145,11 @@ static bool is_width(int lanes)
 /* The programs of the system. */
 static dal_status find_programs(dal__generation *g, dal_error *error)
 {
-    g->programs = dal__programs_of(g->shape.system);
+    g->programs = dal__programs_of(g->layout.system);
     if (g->programs) return DAL_OK;
     return dal__fail(error, DAL_UNSUPPORTED,
                      "'%.80s' is not made from a model: its formulas are not known",
-                     g->shape.system->name ? g->shape.system->name : "this system");
+                     g->layout.system->name ? g->layout.system->name : "this system");
 }
 
 static dal_status check_steps(dal__generation *g, dal_error *error)
@@ -166,7 +166,7 @@ dal_status dal__generation_check(dal__generation *g, const char *prefix, dal_err
 {
     if (!is_width(g->lanes))
         return dal__fail(error, DAL_ARGUMENT, "%d lanes: 1, 2, 4, 8 or 16 are possible", g->lanes);
-    if (g->product != DAL__LOOKS) DAL_TRY(dal__shape_init(&g->shape, g->spec, error));
+    if (g->product != DAL__LOOKS) DAL_TRY(dal__layout_init(&g->layout, g->spec, error));
     DAL_TRY(find_programs(g, error));
     if (g->product != DAL__LOOKS) DAL_TRY(check_steps(g, error));
     DAL_TRY(check_size(g, error));
@@ -205,9 +205,9 @@ static void put_unrolling(dal__generation *g)
 {
     const int stages = g->spec->method.layer[0]->stages;
     const bool coupled = dal__method_uses(g, "dal_collocation");
-    const int width = g->shape.lifted ? 3 * g->shape.n : g->shape.nw;
-    const bool small =
-        g->shape.dim <= MOST_UNROLLED_DIM && (!coupled || stages * stages * width <= MOST_UNROLLED);
+    const int width = g->layout.lifted ? 3 * g->layout.n : g->layout.nw;
+    const bool small = g->layout.dim <= MOST_UNROLLED_DIM &&
+                       (!coupled || stages * stages * width <= MOST_UNROLLED);
     dal__text_put(&g->text, "#define DAL_SPECIALISED 1\n");
     if (small)
         dal__text_put(&g->text, "#if !defined(__clang__) && !defined(__OPTIMIZE_SIZE__)\n"
@@ -263,7 +263,7 @@ static void put_method(dal__generation *g)
                         "    DAL_INLINE dal_status dal__of_##identifier(dal_step *s) "
                         "{ return function(s); } \\\n"
                         "    typedef dal_step dal__after_##identifier\n\n");
-    for (int i = 0; i < g->shape.depth; i++) {
+    for (int i = 0; i < g->layout.depth; i++) {
         if (i > 0) {
             dal__text_print(text,
                             "DAL_INLINE dal_status dal__inner_%d(dal_step *s, double h)\n"
@@ -281,7 +281,7 @@ static void put_method(dal__generation *g)
         dal__text_put(text, "#undef step\n\n");
     }
     dal__text_put(text, "#define dal__method dal__of_");
-    put_identifier(g, g->spec->method.layer[g->shape.depth - 1]);
+    put_identifier(g, g->spec->method.layer[g->layout.depth - 1]);
     dal__text_put(text, "\n\n");
 }
 

@@ -26,7 +26,7 @@ typedef enum dal__product { DAL__FILE, DAL__LANES, DAL__TRACE, DAL__LOOKS } dal_
 typedef struct dal__generation {
     const dal_run_spec *spec;
     const dal_run *run; /* knows names and observables */
-    dal__shape shape;
+    dal__layout layout;
     const dal__programs *programs;
     const dal__source *source[DAL_LAYERS]; /* of each link */
     dal__input_name *input;                /* what the programs call their inputs */
@@ -47,7 +47,7 @@ bool dal__follows_tangents(const dal__generation *g);
 /* Whether a program goes into the file. */
 bool dal__wants(const dal__generation *g, dal__program_code code);
 
-/* Sees whether it can be made, and sets shape, programs, sources and prefix. */
+/* Sees whether it can be made, and sets layout, programs, sources and prefix. */
 dal_status dal__generation_check(dal__generation *g, const char *prefix, dal_error *error);
 dal_status dal__generation_finish(dal__generation *g, char **text, dal_error *error);
 /* What keeps a compiler exact; kernel, system, method and steps. */
@@ -61,9 +61,9 @@ void dal__put_steps(dal__generation *g);
  * Takes nothing from the parameters and the start of the spec. [alloc] */
 dal_status dal__generate_native(const dal_run_spec *spec, dal__product product, int lanes,
                                 char **text, dal_error *error);
-/* The observables of a run of this shape, wherever it stands: the function
+/* The observables of a run of this layout, wherever it stands: the function
  * DAL__NATIVE_PREFIX_looks. [alloc] */
-dal_status dal__generate_looks(const dal__shape *shape, const dal_run *run, char **text,
+dal_status dal__generate_looks(const dal__layout *layout, const dal_run *run, char **text,
                                dal_error *error);
 
 /* ---- prefix.c ---- */

@@ -23,7 +23,7 @@ static bool is_letter(char c) { return is_word(c) && c != '_' && !(c >= '0' && c
 static void default_prefix(dal__generation *g)
 {
     char method[DAL__PREFIX_SIZE];
-    const char *name = g->shape.system->name ? g->shape.system->name : "system";
+    const char *name = g->layout.system->name ? g->layout.system->name : "system";
     const bool odd = !is_letter(name[0]) || is_kernels(name);
     snprintf(g->prefix, sizeof g->prefix, "%s%.25s_%.30s", odd ? "of_" : "", name,
              dal_method_name(&g->spec->method, method, sizeof method));

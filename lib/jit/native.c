@@ -56,12 +56,12 @@ static dal_status compiled(const char *text, dal__product product,
     return status;
 }
 
-static dal_status compiled_steps(const dal__shape *shape, dal__product product, int lanes,
+static dal_status compiled_steps(const dal__layout *layout, dal__product product, int lanes,
                                  const dal_native_options *options, dal__native *native,
                                  dal_error *error)
 {
     const dal_run_spec spec = {
-        .system = shape->system, .method = shape->method, .options = shape->options};
+        .system = layout->system, .method = layout->method, .options = layout->options};
     char *text;
     DAL_TRY(dal__generate_native(&spec, product, lanes, &text, error));
     const dal_status status = compiled(text, product, options, native, error);
@@ -75,7 +75,7 @@ dal_status dal_run_native(dal_run *run, const dal_native_options *options, dal_e
 {
     DAL_REQUIRE(run, error);
     if (dal_run_is_native(run)) return DAL_OK;
-    return compiled_steps(&run->shape, DAL__TRACE, 1, options, &run->native, error);
+    return compiled_steps(&run->layout, DAL__TRACE, 1, options, &run->native, error);
 }
 
 int dal_run_is_native(const dal_run *run) { return run && run->native.traced != NULL; }
@@ -114,11 +114,11 @@ dal_status dal_run_native_observables(dal_run *run, const dal_native_options *op
     dal__native code = {0};
     char *text;
     if (run->looks.states || dal_run_observables(run) == 0) return DAL_OK;
-    DAL_TRY(dal__generate_looks(&run->shape, run, &text, error));
+    DAL_TRY(dal__generate_looks(&run->layout, run, &text, error));
     dal_status status = compiled(text, DAL__LOOKS, options, &code, error);
     free(text);
     if (status == DAL_OK)
-        status = make_room(&run->looks, run->shape.dim, dal_run_observables(run), error);
+        status = make_room(&run->looks, run->layout.dim, dal_run_observables(run), error);
     if (status == DAL_OK)
         run->looks.code = code;
     else
@@ -134,7 +134,7 @@ dal_status dal_batch_native(dal_batch *batch, const dal_native_options *options,
     const int lanes = dal__batch_native_lanes(batch);
     dal__native native = {0};
     if (dal_batch_is_native(batch)) return DAL_OK;
-    DAL_TRY(compiled_steps(dal__batch_shape(batch), DAL__LANES, lanes, options, &native, error));
+    DAL_TRY(compiled_steps(dal__batch_layout(batch), DAL__LANES, lanes, options, &native, error));
     const dal_status status = dal__batch_install(batch, lanes, &native, error);
     if (status != DAL_OK) dal__native_free(&native);
     return status;

@@ -54,7 +54,7 @@ static const char lanes[] = "#define DAL_SPECIALISED 1\n"
 
 static void put_sizes(dal__generation *g)
 {
-    const dal__shape *k = &g->shape;
+    const dal__layout *k = &g->layout;
     const bool small = k->dim <= MOST_UNROLLED;
     dal__text_put(&g->text, small ? "#define DAL_UNROLL _Pragma(\"GCC unroll 64\")\n"
                                   : "#define DAL_UNROLL\n");
@@ -64,12 +64,12 @@ static void put_sizes(dal__generation *g)
                     k->n, k->nw, k->dim, k->lifted, dal_run_observables(g->run));
 }
 
-dal_status dal__generate_looks(const dal__shape *shape, const dal_run *run, char **text,
+dal_status dal__generate_looks(const dal__layout *layout, const dal_run *run, char **text,
                                dal_error *error)
 {
-    dal__generation g = {.run = run, .shape = *shape, .lanes = 8, .product = DAL__LOOKS};
+    dal__generation g = {.run = run, .layout = *layout, .lanes = 8, .product = DAL__LOOKS};
     *text = NULL;
-    if (shape->options.precision != DAL_DOUBLE)
+    if (layout->options.precision != DAL_DOUBLE)
         return dal__fail(error, DAL_UNSUPPORTED, "observables in quad precision are not generated");
     DAL_TRY(dal__generation_check(&g, DAL__NATIVE_PREFIX, error));
     put_declarations(&g);
@@ -81,7 +81,7 @@ dal_status dal__generate_looks(const dal__shape *shape, const dal_run *run, char
     dal__text_put(&g.text, dal__source_text("num.h"));
     dal__text_put(&g.text, dal__source_text("elementary.h"));
     dal__emit_callbacks(&g);
-    if (g.shape.lifted) dal__text_put(&g.text, dal__source_text("observe_lift.inc"));
+    if (g.layout.lifted) dal__text_put(&g.text, dal__source_text("observe_lift.inc"));
     dal__put_observe(&g);
     dal__put_template(&g, dal__source_text("observables.inc"));
     return dal__generation_finish(&g, text, error);

@@ -39,7 +39,7 @@ struct dal_batch {
 
 /* Whether what a step touches, scratch apart, takes no more than half of a second-level cache. */
 enum { NEAR = 1 << 19 };
-static bool is_near(const dal__shape *k, int width)
+static bool is_near(const dal__layout *k, int width)
 {
     const size_t numbers = 2 * k->persistent + k->workspace;
     return numbers * (size_t)width * sizeof(double) <= (size_t)NEAR;
@@ -47,7 +47,7 @@ static bool is_near(const dal__shape *k, int width)
 
 /* The best kinds up to the width asked for (0: up to the one that pays).  A kind of several lanes
  * that lacks the instruction set of a narrower one is slower than that. */
-static choice choose(const dal__shape *k, int width)
+static choice choose(const dal__layout *k, int width)
 {
     choice made = {{NULL}, 0};
     for (int i = 0; i < WIDTHS; i++) {
@@ -96,14 +96,14 @@ static void gather(double *single, const double *wide, size_t numbers, int width
 /* The scalar run's start and parameters into one lane of a block. */
 static void put_lane(dal_batch *batch, const block *b, int lane)
 {
-    const dal__shape *k = &batch->scalar->shape;
+    const dal__layout *k = &batch->scalar->layout;
     spread(b->persistent, batch->scalar->persistent, k->persistent, b->kind->width, lane);
     spread(b->work, batch->scalar->work, k->workspace, b->kind->width, lane);
 }
 
 static void get_lane(dal_batch *batch, const block *b, int lane)
 {
-    const dal__shape *k = &batch->scalar->shape;
+    const dal__layout *k = &batch->scalar->layout;
     gather(batch->scalar->persistent, b->persistent, k->persistent, b->kind->width, lane);
     gather(batch->scalar->work, b->work, k->workspace, b->kind->width, lane);
 }
@@ -118,7 +118,7 @@ static bool measure(dal_batch *batch, const choice *from, size_t *bytes)
     *bytes = ALIGNMENT;
     for (int done = 0; done < batch->count; batch->blocks++) {
         const dal__engine_kind *k = next_kind(from, batch->count - done);
-        const size_t more = round_up(k->bytes(&batch->scalar->shape));
+        const size_t more = round_up(k->bytes(&batch->scalar->layout));
         if (more > SIZE_MAX / 2 - *bytes) return false;
         *bytes += more;
         done += k->width < batch->count - done ? k->width : batch->count - done;
@@ -131,7 +131,7 @@ static void place_block(dal_batch *batch, block *b, const dal__engine_kind *kind
                         void *memory)
 {
     *b = (block){.kind = kind, .first = first};
-    b->engine = kind->place(&batch->scalar->shape, memory, &b->persistent, &b->work);
+    b->engine = kind->place(&batch->scalar->layout, memory, &b->persistent, &b->work);
     for (int lane = 0; lane < kind->width; lane++) {
         put_lane(batch, b, lane);
         if (first + lane < batch->count) b->alive |= (dal__lanes)1 << lane;
@@ -144,7 +144,7 @@ static void place_blocks(dal_batch *batch, const choice *from)
     for (int i = 0, first = 0; i < batch->blocks; i++) {
         const dal__engine_kind *k = next_kind(from, batch->count - first);
         place_block(batch, &batch->block[i], k, first, at);
-        at += round_up(k->bytes(&batch->scalar->shape));
+        at += round_up(k->bytes(&batch->scalar->layout));
         first += k->width;
     }
 }
@@ -170,11 +170,11 @@ dal_status dal__batch_create(dal_batch **batch, const dal_run_spec *spec, int co
     *batch = NULL;
     if (!made) return dal__fail(error, DAL_MEMORY, "no memory for a batch");
     dal_status status = dal_run_create(&made->scalar, spec, error);
-    if (status == DAL_OK && only != DAL__VARIANTS && !dal__engine_can(&made->scalar->shape, only))
+    if (status == DAL_OK && only != DAL__VARIANTS && !dal__engine_can(&made->scalar->layout, only))
         status = dal__fail(error, DAL_UNSUPPORTED, "variant %d cannot run here", (int)only);
     if (status == DAL_OK) {
         const choice one = {{&dal__engine_kinds[only % DAL__VARIANTS]}, 1};
-        const choice from = only == DAL__VARIANTS ? choose(&made->scalar->shape, width) : one;
+        const choice from = only == DAL__VARIANTS ? choose(&made->scalar->layout, width) : one;
         made->count = count;
         status = allocate(made, &from, error);
     }
@@ -218,13 +218,13 @@ void dal_batch_free(dal_batch *batch)
 
 /* ---- compiled steps ---- */
 
-const dal__shape *dal__batch_shape(const dal_batch *batch) { return &batch->scalar->shape; }
+const dal__layout *dal__batch_layout(const dal_batch *batch) { return &batch->scalar->layout; }
 
 /* A register's worth, or less where there are not so many: lanes that nobody asked for cost next to
  * nothing, and code for other numbers of them would have to be compiled too. */
 int dal__batch_native_lanes(const dal_batch *batch)
 {
-    const dal__shape *k = &batch->scalar->shape;
+    const dal__layout *k = &batch->scalar->layout;
     if (batch->count == 1 || !dal__engine_best(k, 4)) return 1;
     return batch->count > 4 && dal__engine_best(k, 8) ? 8 : 4;
 }
@@ -244,7 +244,7 @@ static void move_lanes(dal_batch *from, dal_batch *to)
 dal_status dal__batch_install(dal_batch *batch, int lanes, const dal__native *native,
                               dal_error *error)
 {
-    const choice one = {{dal__engine_best(&batch->scalar->shape, lanes)}, 1};
+    const choice one = {{dal__engine_best(&batch->scalar->layout, lanes)}, 1};
     dal_batch made = {.scalar = batch->scalar, .count = batch->count, .stepped = batch->stepped};
     const dal_status status = allocate(&made, &one, error);
     if (status != DAL_OK) {
@@ -286,7 +286,7 @@ static void record(dal_batch *batch, block *b, dal__lanes failed, const dal_stat
     for (int lane = 0; lane < b->kind->width; lane++) {
         if (!(failed >> lane & 1)) continue;
         get_lane(batch, b, lane);
-        dal__explain(batch->scalar, batch->scalar->shape.options.step, why[lane],
+        dal__explain(batch->scalar, batch->scalar->layout.options.step, why[lane],
                      &batch->error[b->first + lane]);
     }
     b->alive &= ~failed;
@@ -315,7 +315,7 @@ dal_status dal_batch_advance(dal_batch *batch, long long count)
 {
     DAL_REQUIRE(batch, NULL);
     DAL_REQUIRE_COUNT(count, NULL);
-    const double h = batch->scalar->shape.options.step;
+    const double h = batch->scalar->layout.options.step;
     dal_status why[DAL__BLOCK] = {DAL_OK}, last = DAL_OK;
     dal__lanes failed = 0;
     bool alive = false;
@@ -346,7 +346,7 @@ dal_status dal_batch_status(const dal_batch *batch, int lane, dal_error *error)
 double dal_batch_time(const dal_batch *batch, int lane)
 {
     if (!batch || lane < 0 || lane >= batch->count) return NAN;
-    const size_t place = dal__at(&batch->scalar->shape, DAL__TIME);
+    const size_t place = dal__at(&batch->scalar->layout, DAL__TIME);
     const block *b = block_of(batch, lane);
     return b->persistent[place * (size_t)b->kind->width + (size_t)(lane - b->first)];
 }
@@ -355,5 +355,6 @@ void dal_batch_state(const dal_batch *batch, int lane, double *state)
 {
     if (!batch || !state || lane < 0 || lane >= batch->count) return;
     const block *b = block_of(batch, lane);
-    gather(state, b->persistent, (size_t)batch->scalar->shape.dim, b->kind->width, lane - b->first);
+    gather(state, b->persistent, (size_t)batch->scalar->layout.dim, b->kind->width,
+           lane - b->first);
 }

@@ -10,7 +10,7 @@ dal_status dal__batch_create(dal_batch **batch, const dal_run_spec *spec, int co
                              dal__variant only, dal_error *error);
 
 /* What the batch is, and how many of its lanes are best stepped together by compiled code. */
-const dal__shape *dal__batch_shape(const dal_batch *batch);
+const dal__layout *dal__batch_layout(const dal_batch *batch);
 int dal__batch_native_lanes(const dal_batch *batch);
 
 /* From now on lanes of the batch are stepped together by compiled code, which then is the batch's.

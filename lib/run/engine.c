@@ -19,7 +19,7 @@ static bool has_callbacks(const dal_system *s, int width)
     return width == 1 || (width == 4 ? s->wide4 : width == 8 ? s->wide8 : s->wide64);
 }
 
-bool dal__engine_can(const dal__shape *k, dal__variant variant)
+bool dal__engine_can(const dal__layout *k, dal__variant variant)
 {
     const int width = dal__engine_kinds[variant].width;
     if (variant == DAL__VARIANT_x1) return true;
@@ -32,7 +32,7 @@ bool dal__engine_can(const dal__shape *k, dal__variant variant)
     return dal__machine_has(dal__engine_kinds[variant].set);
 }
 
-const dal__engine_kind *dal__engine_best(const dal__shape *k, int width)
+const dal__engine_kind *dal__engine_best(const dal__layout *k, int width)
 {
     const dal__engine_kind *best = NULL;
     for (int v = 0; v < DAL__VARIANTS; v++) {

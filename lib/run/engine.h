@@ -13,24 +13,24 @@
 #include <stdint.h>
 
 /* What a run is, apart from its values. */
-typedef struct dal__shape {
+typedef struct dal__layout {
     const dal_system *system;
     dal_method method;
     dal_options options;
     int n, nw, m, dim, lifted, depth, stages, derivatives, multiplier;
     size_t workspace, persistent, scratch; /* numbers */
-} dal__shape;
+} dal__layout;
 
 /* Numbers of what a method remembers, for DAL__METHOD_STATE_LIST. */
-#define DAL__COUNT_ONE(shape)         1
-#define DAL__COUNT_TWO(shape)         2
-#define DAL__COUNT_DERIVATIVES(shape) ((shape)->derivatives)
-#define DAL__COUNT_MULTIPLIER(shape)  ((shape)->multiplier)
+#define DAL__COUNT_ONE(layout)         1
+#define DAL__COUNT_TWO(layout)         2
+#define DAL__COUNT_DERIVATIVES(layout) ((layout)->derivatives)
+#define DAL__COUNT_MULTIPLIER(layout)  ((layout)->multiplier)
 
 /* Where something of the clock, or the memory, is in the persistent array. */
-static inline size_t dal__at(const dal__shape *shape, int place)
+static inline size_t dal__at(const dal__layout *layout, int place)
 {
-    return 2 * (size_t)shape->dim + (size_t)place;
+    return 2 * (size_t)layout->dim + (size_t)place;
 }
 
 /* Why a step of one lane failed, found by stepping it again with eyes open (one lane only). */
@@ -45,13 +45,13 @@ typedef struct dal__cause {
 } dal__cause;
 
 /* Measures a spec; errors as dal_run_init. */
-dal_status dal__shape_init(dal__shape *shape, const dal_run_spec *spec, dal_error *error);
+dal_status dal__layout_init(dal__layout *layout, const dal_run_spec *spec, dal_error *error);
 
 /* Whether a run can be in quad precision (quad.c).  Errors: DAL_UNSUPPORTED. */
-dal_status dal__quad_check(const dal__shape *shape, dal_error *error);
+dal_status dal__quad_check(const dal__layout *layout, dal_error *error);
 
 /* Numbers in the answer to a dal_callback_code. */
-int dal__eval_size(const dal__shape *shape, int code);
+int dal__eval_size(const dal__layout *layout, int code);
 
 /* The variants by number. */
 typedef enum dal__variant {
@@ -69,8 +69,8 @@ const dal_integrator *dal__integrator_wide(const dal_integrator *integrator, dal
 typedef uint64_t dal__lanes;
 
 #define DAL__ENGINE(name, variant, lanes, set, group)                                              \
-    size_t name##_bytes_##variant(const dal__shape *shape);                                        \
-    void *name##_place_##variant(const dal__shape *shape, void *memory, double **persistent,       \
+    size_t name##_bytes_##variant(const dal__layout *layout);                                      \
+    void *name##_place_##variant(const dal__layout *layout, void *memory, double **persistent,     \
                                  double **work);                                                   \
     dal__lanes name##_step_##variant(void *engine, double h, dal__lanes alive, dal_status *why);   \
     dal_status name##_eval_##variant(void *engine, int code, double t, const double *state,        \
@@ -91,8 +91,8 @@ DAL__VARIANT_LIST(DAL__ENGINE, dal__engine)
 typedef struct dal__engine_kind {
     int width;
     dal__instructions set;
-    size_t (*bytes)(const dal__shape *shape);
-    void *(*place)(const dal__shape *shape, void *memory, double **persistent, double **work);
+    size_t (*bytes)(const dal__layout *layout);
+    void *(*place)(const dal__layout *layout, void *memory, double **persistent, double **work);
     dal__lanes (*step)(void *engine, double h, dal__lanes alive, dal_status *why);
     dal_status (*eval)(void *engine, int code, double t, const double *state, double *out);
     void (*trace)(void *engine, dal__cause *cause);
@@ -101,7 +101,7 @@ extern const dal__engine_kind dal__engine_kinds[DAL__VARIANTS];
 
 /* Whether machine, system and integrators have the variant; the best there is of a width, or NULL
  * (of width 1 there is always one). */
-bool dal__engine_can(const dal__shape *shape, dal__variant variant);
-const dal__engine_kind *dal__engine_best(const dal__shape *shape, int width);
+bool dal__engine_can(const dal__layout *layout, dal__variant variant);
+const dal__engine_kind *dal__engine_best(const dal__layout *layout, int width);
 
 #endif

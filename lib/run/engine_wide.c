@@ -13,7 +13,7 @@
 
 typedef struct engine {
     dal_step step; /* first, so that step->owner is also the engine */
-    dal__shape shape;
+    dal__layout layout;
     const dal_integrator *layer[DAL_LAYERS];
     dal_callback *call[DAL_EVAL_COUNT];
     num *persistent, *backup, *work;
@@ -35,9 +35,10 @@ static const dal_callbacks *callbacks(const dal_system *system)
  * anything it leaves all but y and r alone. */
 static size_t changing(const engine *e)
 {
-    const bool alone = !e->shape.lifted && e->shape.depth == 1 && e->shape.options.tolerance == 0.0;
+    const bool alone =
+        !e->layout.lifted && e->layout.depth == 1 && e->layout.options.tolerance == 0.0;
     const bool plain = alone && (e->layer[0]->properties & DAL_COMPONENTWISE);
-    return (plain ? dal__at(&e->shape, 0) : e->shape.persistent) * DAL_GROUPS;
+    return (plain ? dal__at(&e->layout, 0) : e->layout.persistent) * DAL_GROUPS;
 }
 
 /* Remembers the first answer that is not finite. */
@@ -46,19 +47,19 @@ static void trace(engine *e, dal_callback_code code, const dal_point *at, dal_st
 {
     dal__cause *cause = e->cause;
     double sum = 0.0;
-    for (int i = 0; i < dal__eval_size(&e->shape, code); i++) sum += out[i] - out[i];
+    for (int i = 0; i < dal__eval_size(&e->layout, code); i++) sum += out[i] - out[i];
     if (cause->not_finite || (sum == 0.0 && status == DAL_OK)) return;
     cause->not_finite = true;
     cause->status = status;
     cause->t = at->t;
-    memcpy(cause->q, at->q, (size_t)e->shape.n * sizeof(double));
-    memcpy(cause->v, at->v, (size_t)e->shape.nw * sizeof(double));
+    memcpy(cause->q, at->q, (size_t)e->layout.n * sizeof(double));
+    memcpy(cause->v, at->v, (size_t)e->layout.nw * sizeof(double));
 }
 
 /* The answer where there is none. */
 static void fill(const engine *e, dal_callback_code code, double value, num *out)
 {
-    const int size = dal__eval_size(&e->shape, code) * DAL_GROUPS;
+    const int size = dal__eval_size(&e->layout, code) * DAL_GROUPS;
     for (int i = 0; i < size; i++) out[i] = dal_num(value);
 }
 
@@ -73,12 +74,12 @@ static void eval_callback(dal_step *s, dal_callback_code code, double t, const n
     }
     const dal_point at = {t, (const double *)q, (const double *)v, (const double *)pi,
                           (double *)e->work};
-    const dal_status status = call(e->shape.system, &at, (double *)out);
+    const dal_status status = call(e->layout.system, &at, (double *)out);
     if (status != DAL_OK) fill(e, code, NAN, out);
     if (LANES == 1 && e->cause) trace(e, code, &at, status, (const double *)out);
 }
 
-size_t DAL_WIDE(dal__engine_bytes)(const dal__shape *k)
+size_t DAL_WIDE(dal__engine_bytes)(const dal__layout *k)
 {
     return round_up(sizeof(engine)) + 2 * room(k->persistent) + room(k->workspace) +
            room(k->scratch);
@@ -94,7 +95,7 @@ static num *take(char **at, size_t count)
 /* Number `place` of those persistent. */
 static num *persistent_at(const engine *e, int place)
 {
-    return e->persistent + dal__at(&e->shape, place) * DAL_GROUPS;
+    return e->persistent + dal__at(&e->layout, place) * DAL_GROUPS;
 }
 
 /* What the method remembers, one member behind the other. */
@@ -103,17 +104,17 @@ static void place_method_state(engine *e)
     num *at = e->step.method_state = persistent_at(e, DAL__METHOD_STATE);
 #define X(member, count)                                                                           \
     e->step.member = at;                                                                           \
-    at += DAL__COUNT_##count(&e->shape) * DAL_GROUPS;
+    at += DAL__COUNT_##count(&e->layout) * DAL_GROUPS;
     DAL__METHOD_STATE_LIST(X)
 #undef X
     e->step.method_state_count = (int)(at - e->step.method_state);
-    e->step.derivatives_kept = e->shape.derivatives;
+    e->step.derivatives_kept = e->layout.derivatives;
 }
 
 /* The step's fixed part. */
 static void prepare_step(engine *e)
 {
-    const dal__shape *k = &e->shape;
+    const dal__layout *k = &e->layout;
     dal_step *s = &e->step;
     *s = (dal_step){.m = k->m, .lifted = k->lifted, .n = k->n * DAL_GROUPS};
     s->nw = k->nw * DAL_GROUPS;
@@ -135,14 +136,14 @@ static void prepare_step(engine *e)
     s->owner = e;
 }
 
-void *DAL_WIDE(dal__engine_place)(const dal__shape *k, void *memory, double **persistent,
+void *DAL_WIDE(dal__engine_place)(const dal__layout *k, void *memory, double **persistent,
                                   double **work)
 {
     char *at = memory;
     engine *e = memory;
     at += round_up(sizeof *e);
     memset(memory, 0, DAL_WIDE(dal__engine_bytes)(k) - room(k->scratch));
-    e->shape = *k;
+    e->layout = *k;
     for (int i = 0; i < k->depth; i++)
         e->layer[i] = dal__integrator_wide(k->method.layer[i], DAL_WIDE(DAL__VARIANT));
     const dal_callbacks *c = callbacks(k->system);
@@ -170,11 +171,11 @@ dal_status DAL_WIDE(dal__engine_eval)(void *engine_, int code, double t, const d
                                       double *out)
 {
     engine *e = engine_;
-    const int n = e->shape.n;
+    const int n = e->layout.n;
     if (!e->call[code]) return DAL_UNSUPPORTED;
     const dal_point at = {t, state, state + n * WIDTH, state + (3 * n + 1) * WIDTH,
                           (double *)e->work};
-    return e->call[code](e->shape.system, &at, out);
+    return e->call[code](e->layout.system, &at, out);
 }
 
 /* ---- judging a step, group by group ---- */
@@ -192,8 +193,8 @@ static num nonfinite(const engine *e, int group, int first, int count)
 /* Lanes in which every component of the state is finite; 1/e stands for e. */
 static dal_mask finite(const engine *e, int group)
 {
-    const int dim = e->shape.dim, at_e = 2 * e->shape.n;
-    if (!e->shape.lifted) return dal_equal(nonfinite(e, group, 0, dim), dal_num(0.0));
+    const int dim = e->layout.dim, at_e = 2 * e->layout.n;
+    if (!e->layout.lifted) return dal_equal(nonfinite(e, group, 0, dim), dal_num(0.0));
     const num w = 1.0 / e->persistent[at_e * DAL_GROUPS + group];
     return dal_equal(nonfinite(e, group, 0, at_e) + (w - w) +
                          nonfinite(e, group, at_e + 1, dim - at_e - 1),
@@ -202,8 +203,8 @@ static dal_mask finite(const engine *e, int group)
 
 static dal_mask check_gauge(const engine *e, int group)
 {
-    if (!e->shape.lifted) return dal_all();
-    const int i = 2 * e->shape.n * DAL_GROUPS + group;
+    if (!e->layout.lifted) return dal_all();
+    const int i = 2 * e->layout.n * DAL_GROUPS + group;
     return dal_less(dal_num(0.0), 1.0 / e->backup[i] * e->persistent[i]) |
            ~dal_finite(e->persistent[i]);
 }
@@ -224,7 +225,7 @@ static void eval_both_ends(engine *e, dal_callback_code code, num *before, num *
 
 static lane_mask check_guards(engine *e)
 {
-    const int count = e->shape.system->guards * DAL_GROUPS;
+    const int count = e->layout.system->guards * DAL_GROUPS;
     dal_step *s = &e->step;
     lane_mask good = all_lanes();
     num *before = dal_scratch(s, count), *after = dal_scratch(s, count);
@@ -245,7 +246,7 @@ static void gather_group(const num *from, int group, int count, num *to)
 /* No normal of the group turned; c0, c1 are what the constraint said before and after. */
 static dal_mask check_group_rank(engine *e, const num *c0, const num *c1)
 {
-    const int m = e->shape.m, n = e->shape.n;
+    const int m = e->layout.m, n = e->layout.n;
     dal_step *s = &e->step;
     dal_mask good = dal_all();
     num *g0 = dal_scratch(s, m * m), *g1 = dal_scratch(s, m * m);
@@ -260,7 +261,7 @@ static dal_mask check_group_rank(engine *e, const num *c0, const num *c1)
 
 static lane_mask check_rank(engine *e)
 {
-    const int m = e->shape.m, n = e->shape.n, size = m + 2 * m * n;
+    const int m = e->layout.m, n = e->layout.n, size = m + 2 * m * n;
     dal_step *s = &e->step;
     lane_mask good;
     num *before = dal_scratch(s, size * DAL_GROUPS), *after = dal_scratch(s, size * DAL_GROUPS);
@@ -308,7 +309,7 @@ static dal__lanes check_state(const engine *e, lane_mask *left, dal_status statu
     if (status != DAL_OK && status != DAL_NOT_CONVERGED)
         failed = reject(left, mask_of(0), status, why);
     if (dal_any(e->step.unconverged[0])) failed |= reject(left, solved, DAL_NOT_CONVERGED, why);
-    if (e->shape.lifted) failed |= reject(left, gauge, DAL_GAUGE, why);
+    if (e->layout.lifted) failed |= reject(left, gauge, DAL_GAUGE, why);
     return failed | reject(left, sound, DAL_NOT_FINITE, why);
 }
 
@@ -317,7 +318,7 @@ static dal__lanes check_state(const engine *e, lane_mask *left, dal_status statu
 static dal__lanes check_step(engine *e, lane_mask *left, dal__lanes alive, dal_status status,
                              dal_status *why)
 {
-    const dal_system *system = e->shape.system;
+    const dal_system *system = e->layout.system;
     dal__lanes failed = check_state(e, left, status, why);
     if (failed == alive) return failed;
     e->step.used = 0;
@@ -371,7 +372,7 @@ static void begin_step(engine *e, double h, dal__lanes alive, const lane_mask *l
     s->unconverged[0] = ~dal_all();
     s->used = 0;
     s->evaluations = 0;
-    s->depth = e->shape.depth - 1;
+    s->depth = e->layout.depth - 1;
 }
 
 /* How far the substeps came, if somebody wants to know. */

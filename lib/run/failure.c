@@ -13,7 +13,7 @@ static dal_status singular(const dal__cause *cause, double number, dal_error *er
  * to be finite: then overflow says nothing about the system. */
 static bool ran_away(const dal_run *run, const dal__cause *cause)
 {
-    const dal__shape *k = &run->shape;
+    const dal__layout *k = &run->layout;
     const double far = fmin(1e8 * (1.0 + dal_max_norm(run->persistent, k->n + k->nw)), 1e60);
     return dal_max_norm(cause->q, k->n) > far || dal_max_norm(cause->v, k->nw) > far;
 }
@@ -21,7 +21,7 @@ static bool ran_away(const dal_run *run, const dal__cause *cause)
 /* What the system itself says of the point where its answer was not finite; DAL_OK: nothing. */
 static dal_status diagnose(dal_run *run, const dal__cause *cause, dal_error *error)
 {
-    const dal_system *system = run->shape.system;
+    const dal_system *system = run->layout.system;
     const dal_point at = {cause->t, cause->q, cause->v, NULL, run->work};
     double number = 0.0;
     if (!system->diagnose || ran_away(run, cause)) return DAL_OK;
@@ -35,8 +35,8 @@ static dal_status diagnose(dal_run *run, const dal__cause *cause, dal_error *err
 /* Whether e would pass zero in the step: then a stage may have met it first. */
 static bool gauge_crosses(dal_run *run, double t, double h)
 {
-    if (!run->shape.lifted) return false;
-    const double e = run->persistent[2 * run->shape.n];
+    if (!run->layout.lifted) return false;
+    const double e = run->persistent[2 * run->layout.n];
     double mu[2] = {0.0, 0.0};
     for (int i = 0; i < 2; i++)
         if (run->kind->eval(run->engine, DAL_EVAL_GAUGE, t + i * h, run->persistent, &mu[i]) !=
@@ -48,7 +48,7 @@ static bool gauge_crosses(dal_run *run, double t, double h)
 static dal_status turned(dal_run *run, const dal__cause *cause, double t, double h,
                          dal_error *error)
 {
-    const dal_system *system = run->shape.system;
+    const dal_system *system = run->layout.system;
     if (cause->guard)
         return dal__fail(error,
                          cause->guard == system->mass_guard ? DAL_SINGULAR_MASS : DAL_SINGULAR,
@@ -71,7 +71,7 @@ static bool would_vanish(double now, double then) { return !(1.0 - then / now < 
 /* q, v a piece dt of the tangent further, into run->shadow. */
 static bool predict(dal_run *run, double t, double dt)
 {
-    const dal__shape *k = &run->shape;
+    const dal__layout *k = &run->layout;
     double *f = run->scratch;
     if (run->kind->eval(run->engine, DAL_EVAL_FIELD, t, run->persistent, f) != DAL_OK) return false;
     for (int i = 0; i < k->n; i++)
@@ -91,7 +91,7 @@ static double *eval_both_ends(dal_run *run, int code, int size, double t, double
 
 static int vanishing_guard(dal_run *run, double t, double dt)
 {
-    const int guards = run->shape.system->guards;
+    const int guards = run->layout.system->guards;
     const double *g0 = run->scratch, *g1 = eval_both_ends(run, DAL_EVAL_GUARDS, guards, t, dt);
     for (int i = 0; g1 && i < guards; i++)
         if (would_vanish(g0[i], g1[i])) return i + 1;
@@ -100,8 +100,8 @@ static int vanishing_guard(dal_run *run, double t, double dt)
 
 static int vanishing_normal(dal_run *run, double t, double dt)
 {
-    const int m = run->shape.m, n = run->shape.n, size = m + 2 * m * n;
-    if (!(run->shape.system->properties & DAL_D_RANK_CHECKED)) return 0;
+    const int m = run->layout.m, n = run->layout.n, size = m + 2 * m * n;
+    if (!(run->layout.system->properties & DAL_D_RANK_CHECKED)) return 0;
     const double *c0 = run->scratch, *c1 = eval_both_ends(run, DAL_EVAL_CONSTRAINT, size, t, dt);
     double *g0 = run->scratch + 2 * size, *g1 = g0 + m * m;
     if (!c1) return 0;
@@ -126,15 +126,15 @@ static dal_status unsolved(dal_run *run, double t, double h, dal_error *error)
     return dal__fail(error, DAL_NOT_CONVERGED,
                      "the implicit equations of %s did not converge in the step of %g from "
                      "t = %.17g (at most %d iterations); take a smaller step",
-                     dal_method_name(&run->shape.method, name, sizeof name), h, t,
-                     run->shape.options.iterations);
+                     dal_method_name(&run->layout.method, name, sizeof name), h, t,
+                     run->layout.options.iterations);
 }
 
 /* The control of the step size gave up. */
 static dal_status undivided(dal_run *run, const dal__cause *cause, double t, double h,
                             dal_error *error)
 {
-    const double tolerance = run->shape.options.tolerance;
+    const double tolerance = run->layout.options.tolerance;
     if (cause->substep > 0.0)
         return dal__fail(error, DAL_NOT_CONVERGED,
                          "too many substeps (more than %d) for tolerance %g in the step of %g from "
@@ -150,7 +150,7 @@ static dal_status undivided(dal_run *run, const dal__cause *cause, double t, dou
  * back. */
 static void repeat(dal_run *run, double h, dal__cause *cause)
 {
-    const size_t bytes = run->shape.persistent * sizeof *run->persistent;
+    const size_t bytes = run->layout.persistent * sizeof *run->persistent;
     dal_status why = DAL_OK;
     memcpy(run->shadow, run->persistent, bytes);
     run->kind->trace(run->engine, cause);
@@ -161,7 +161,7 @@ static void repeat(dal_run *run, double h, dal__cause *cause)
 
 dal_status dal__explain(dal_run *run, double h, dal_status status, dal_error *error)
 {
-    const dal__shape *k = &run->shape;
+    const dal__layout *k = &run->layout;
     const double t = dal_run_time(run);
     dal__cause cause = {.q = run->point, .v = run->point + k->n};
     repeat(run, h, &cause);

@@ -7,7 +7,7 @@
 /* Of scratch or of a workspace; sizes in bytes then stay far from overflow. */
 enum { MOST_NUMBERS = 1000000000 };
 
-static dal_status refuse(dal_error *error, const dal__shape *k, const char *lacks)
+static dal_status refuse(dal_error *error, const dal__layout *k, const char *lacks)
 {
     char name[128];
     return dal__fail(error, DAL_UNSUPPORTED, "%s cannot act on %s: the system has no %s",
@@ -27,7 +27,7 @@ static const char *energy_fault(const dal_system *system)
 }
 
 /* With extend-energy the system is that with its energy exact. */
-static dal_status choose_system(dal__shape *k, dal_error *error)
+static dal_status choose_system(dal__layout *k, dal_error *error)
 {
     const char *fault = energy_fault(k->system), *name = k->system->name;
     if (!k->options.extend_energy) return DAL_OK;
@@ -40,7 +40,7 @@ static dal_status choose_system(dal__shape *k, dal_error *error)
 }
 
 /* What methods that impose D themselves need. */
-static dal_status check_blocks(const dal__shape *k, unsigned needs, dal_error *error)
+static dal_status check_blocks(const dal__layout *k, unsigned needs, dal_error *error)
 {
     const dal_system *s = k->system;
     char name[128];
@@ -60,7 +60,7 @@ static dal_status check_blocks(const dal__shape *k, unsigned needs, dal_error *e
     return DAL_OK;
 }
 
-static dal_status check_energy(const dal__shape *k, dal_error *error)
+static dal_status check_energy(const dal__layout *k, dal_error *error)
 {
     const char *fault = energy_fault(k->system), *name = k->system->name;
     char method[128];
@@ -72,7 +72,7 @@ static dal_status check_energy(const dal__shape *k, dal_error *error)
 }
 
 /* What the method, the space and the solver need, the system must have. */
-static dal_status check_needs(const dal__shape *k, dal_error *error)
+static dal_status check_needs(const dal__layout *k, dal_error *error)
 {
     const dal_callbacks *call = &k->system->call;
     const unsigned needs = dal_method_needs(&k->method);
@@ -167,7 +167,7 @@ static dal_status check_inside(const dal_method *method, int depth, dal_error *e
     return DAL_OK;
 }
 
-static dal_status check_layers(dal__shape *k, dal_error *error)
+static dal_status check_layers(dal__layout *k, dal_error *error)
 {
     const dal_method *method = &k->method;
     while (k->depth < DAL_LAYERS && method->layer[k->depth]) {
@@ -184,7 +184,7 @@ static dal_status check_layers(dal__shape *k, dal_error *error)
     return DAL_OK;
 }
 
-static dal_status check_control(const dal__shape *k, dal_error *error)
+static dal_status check_control(const dal__layout *k, dal_error *error)
 {
     char name[128];
     if (k->options.tolerance == 0.0 || dal_method_properties(&k->method) & DAL_ADAPTIVE)
@@ -195,7 +195,7 @@ static dal_status check_control(const dal__shape *k, dal_error *error)
 }
 
 /* Numbers in the answer to a code. */
-int dal__eval_size(const dal__shape *k, int code)
+int dal__eval_size(const dal__layout *k, int code)
 {
     switch (code) {
     case DAL_EVAL_FIELD:
@@ -222,7 +222,7 @@ int dal__eval_size(const dal__shape *k, int code)
 }
 
 /* Numbers of memory, in floating point first so that nothing overflows. */
-static dal_status measure(dal__shape *k, dal_error *error)
+static dal_status measure(dal__layout *k, dal_error *error)
 {
     const double dim = k->dim, n = k->n, nw = k->nw, m = k->m, stages = k->stages;
     const double matrix = (stages * nw) * (stages * nw) * (k->system->call.jacobian ? 6 : 0);
@@ -250,12 +250,12 @@ static dal_status measure(dal__shape *k, dal_error *error)
     return DAL_OK;
 }
 
-dal_status dal__shape_init(dal__shape *k, const dal_run_spec *spec, dal_error *error)
+dal_status dal__layout_init(dal__layout *k, const dal_run_spec *spec, dal_error *error)
 {
     DAL_TRY(dal__check_spec(spec, error));
     DAL_TRY(check_system(spec->system, error));
     DAL_TRY(check_options(&spec->options, error));
-    *k = (dal__shape){.system = spec->system, .method = spec->method, .options = spec->options};
+    *k = (dal__layout){.system = spec->system, .method = spec->method, .options = spec->options};
     DAL_TRY(choose_system(k, error));
     k->n = spec->system->n;
     k->m = spec->system->m;

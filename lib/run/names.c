@@ -36,5 +36,5 @@ char *dal__state_name(const dal_system *system, bool lifted, int i, char *buffer
 char *dal_run_name(const dal_run *run, int i, char *buffer, size_t size)
 {
     if (!run || !buffer) return NULL;
-    return dal__state_name(run->shape.system, run->shape.lifted, i, buffer, size);
+    return dal__state_name(run->layout.system, run->layout.lifted, i, buffer, size);
 }

@@ -19,7 +19,7 @@ static dal_status look(dal_run *run, int k)
     const dal__looks *looks = &run->looks;
     looks->times[k] = dal_run_time(run);
     if (!looks->states) return dal_run_observe(run, looks->values);
-    for (int i = 0; i < run->shape.dim; i++)
+    for (int i = 0; i < run->layout.dim; i++)
         looks->states[(size_t)i * (size_t)looks->room + (size_t)k] = run->persistent[i];
     return DAL_OK;
 }
@@ -38,7 +38,7 @@ static dal_status hand_over(dal_run *run, const dal_observer *o, int count, dal_
 /* Takes count steps and the looks on their way; *taken are those looks. */
 static dal_status collect(dal_run *run, long long every, long long count, int *taken)
 {
-    const double h = run->shape.options.step;
+    const double h = run->layout.options.step;
     while (count > 0) {
         const long long due = every - dal_run_steps(run) % every;
         const long long steps = due < count ? due : count;
@@ -56,7 +56,7 @@ static dal_status collect_trace(dal_run *run, long long count, int *taken)
     unsigned failed = 0;
     int why = DAL_OK;
     const long long tried =
-        run->native.traced(run->persistent, run->work, run->shape.options.step, count, &failed,
+        run->native.traced(run->persistent, run->work, run->layout.options.step, count, &failed,
                            &why, run->looks.states, run->looks.room);
     *taken = (int)(failed ? tried - 1 : tried);
     return failed ? (dal_status)why : DAL_OK;
@@ -79,7 +79,7 @@ dal_status dal__follow(dal_run *run, const dal_observer *o, long long count, dal
         const dal_status status =
             traced ? collect_trace(run, steps, &taken) : collect(run, o->every, steps, &taken);
         DAL_TRY(hand_over(run, o, taken, error));
-        if (status != DAL_OK) return dal__explain(run, run->shape.options.step, status, error);
+        if (status != DAL_OK) return dal__explain(run, run->layout.options.step, status, error);
         count -= steps;
     }
     return DAL_OK;

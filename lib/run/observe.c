@@ -8,16 +8,16 @@ enum { GROUP_D, GROUP_E, GROUP_H, GROUP_NORMS, GROUP_INVARIANTS, GROUP_ERROR, GR
 
 static int group_size(const dal_run *run, int group)
 {
-    const dal_system *system = run->shape.system;
+    const dal_system *system = run->layout.system;
     switch (group) {
     case GROUP_D:
         return system->constraints ? system->m : 0;
     case GROUP_E:
         return system->energy != NULL;
     case GROUP_H:
-        return run->shape.lifted;
+        return run->layout.lifted;
     case GROUP_NORMS:
-        return run->shape.lifted ? 3 : 0;
+        return run->layout.lifted ? 3 : 0;
     case GROUP_INVARIANTS:
         return system->invariant_values ? system->invariants : 0;
     case GROUP_ERROR:
@@ -38,7 +38,7 @@ char *dal_run_observable_name(const dal_run *run, int i, char *buffer, size_t si
     static const char *const fixed[] = {NULL, "E", "H", NULL, NULL, "error"};
     static const char *const norms[] = {"|p|", "|pi|", "|pi_e|"};
     if (!run || !buffer) return NULL;
-    const dal_system *system = run->shape.system;
+    const dal_system *system = run->layout.system;
     int group = 0;
     for (; i >= 0 && group < GROUPS && i >= group_size(run, group); group++)
         i -= group_size(run, group);
@@ -57,7 +57,7 @@ char *dal_run_observable_name(const dal_run *run, int i, char *buffer, size_t si
 /* H = pi.pi/(2e) + pi.F + p.v + mu_e pi_e */
 static double hamiltonian(dal_run *run)
 {
-    const int n = run->shape.n;
+    const int n = run->layout.n;
     const double *y = run->persistent, *v = y + n, *p = y + 2 * n + 1, *pi = y + 3 * n + 1;
     double *f = run->scratch, mu = 0.0, sum = 0.0;
     const double t = dal_run_time(run);
@@ -70,7 +70,7 @@ static double hamiltonian(dal_run *run)
 
 static void norms(const dal_run *run, double *out)
 {
-    const int n = run->shape.n;
+    const int n = run->layout.n;
     out[0] = dal_max_norm(run->persistent + 2 * n + 1, n);
     out[1] = dal_max_norm(run->persistent + 3 * n + 1, n);
     out[2] = fabs(run->persistent[4 * n + 1]);
@@ -78,7 +78,7 @@ static void norms(const dal_run *run, double *out)
 
 static dal_status error_norm(dal_run *run, const dal_point *at, double *out)
 {
-    const dal_system *system = run->shape.system;
+    const dal_system *system = run->layout.system;
     double *exact = run->scratch;
     DAL_TRY(system->exact(system, at, exact));
     for (int i = 0; i < system->n; i++) exact[i] -= run->persistent[i];
@@ -90,7 +90,7 @@ dal_status dal_run_observe(dal_run *run, double *out)
 {
     DAL_REQUIRE(run, NULL);
     DAL_REQUIRE(out, NULL);
-    const dal_system *system = run->shape.system;
+    const dal_system *system = run->layout.system;
     const dal_point at = dal__here(run);
     double *next = out;
     if (run->quad.engine) return dal__quad_observe(run, out);

@@ -2,7 +2,7 @@
  *
  * The run in doubles makes the start, explains failures and shows the state; after every step it
  * gets time, state and all it carries from the long engine, rounded.  Observables are computed in
- * quad precision and then rounded, so that a D of 1e-30 is seen as that.  dal__shape_init sees to it
+ * quad precision and then rounded, so that a D of 1e-30 is seen as that.  dal__layout_init sees to it
  * that there is a system, and a method, in quad precision. */
 #define DAL_NUM_QUAD
 #include "run/run.h"
@@ -15,7 +15,7 @@ static size_t round_up(size_t bytes) { return (bytes + 63) / 64 * 64; }
 
 size_t dal__quad_width(void) { return sizeof(num) / sizeof(double); }
 
-dal_status dal__quad_check(const dal__shape *k, dal_error *error)
+dal_status dal__quad_check(const dal__layout *k, dal_error *error)
 {
     if (DAL_QUAD_DIGITS <= DBL_MANT_DIG)
         return dal__fail(error, DAL_UNSUPPORTED,
@@ -34,27 +34,27 @@ dal_status dal__quad_check(const dal__shape *k, dal_error *error)
 
 /* ---- memory ---- */
 
-static dal__shape shape_of(const dal__shape *k)
+static dal__layout layout_of(const dal__layout *k)
 {
-    dal__shape quad = *k;
+    dal__layout quad = *k;
     quad.system = k->system->quad;
     quad.options.iterations *= MORE_ITERATIONS;
     return quad;
 }
 
-size_t dal__quad_bytes(const dal__shape *k, size_t answers)
+size_t dal__quad_bytes(const dal__layout *k, size_t answers)
 {
-    const dal__shape quad = shape_of(k);
+    const dal__layout quad = layout_of(k);
     return round_up(kind()->bytes(&quad)) + round_up(answers * sizeof(num));
 }
 
 void dal__quad_place(dal_run *run, char *memory, size_t answers)
 {
     dal__quad_run *k = &run->quad;
-    k->shape = shape_of(&run->shape);
+    k->layout = layout_of(&run->layout);
     k->scratch = (double *)(void *)memory;
     memory += round_up(answers * sizeof(num));
-    k->engine = kind()->place(&k->shape, memory, &k->persistent, &k->work);
+    k->engine = kind()->place(&k->layout, memory, &k->persistent, &k->work);
     run->storage = k->persistent;
 }
 
@@ -81,25 +81,25 @@ double dal__quad_rounded(const double *memory, size_t i)
 
 void dal__quad_push(dal_run *run)
 {
-    lengthen(run->quad.persistent, run->persistent, run->shape.persistent);
+    lengthen(run->quad.persistent, run->persistent, run->layout.persistent);
 }
 
 void dal__quad_pull(dal_run *run)
 {
-    shorten(run->persistent, run->quad.persistent, run->shape.persistent);
+    shorten(run->persistent, run->quad.persistent, run->layout.persistent);
 }
 
 static dal_point here(const dal_run *run)
 {
     const dal__quad_run *k = &run->quad;
-    const size_t at_v = (size_t)run->shape.n * dal__quad_width();
+    const size_t at_v = (size_t)run->layout.n * dal__quad_width();
     return (dal_point){dal_run_time(run), k->persistent, k->persistent + at_v, NULL, k->work};
 }
 
 dal_status dal__quad_begin(dal_run *run)
 {
     const dal__quad_run *k = &run->quad;
-    const dal_system *system = k->shape.system;
+    const dal_system *system = k->layout.system;
     lengthen(k->work, run->work, (size_t)system->parameters);
     dal__quad_push(run);
     const dal_point at = here(run);
@@ -120,7 +120,7 @@ static dal_status put(const dal_run *run, dal_callback *callback, int count, dou
     const dal__quad_run *k = &run->quad;
     const dal_point at = here(run);
     if (!callback) return DAL_OK;
-    DAL_TRY(callback(k->shape.system, &at, k->scratch));
+    DAL_TRY(callback(k->layout.system, &at, k->scratch));
     shorten(*out, k->scratch, (size_t)count);
     *out += count;
     return DAL_OK;
@@ -129,18 +129,18 @@ static dal_status put(const dal_run *run, dal_callback *callback, int count, dou
 /* H = pi.pi/(2e) + pi.F + p.v + mu_e pi_e, and the norms of p, pi, pi_e. */
 static dal_status put_lifted(const dal_run *run, double **out)
 {
-    const int n = run->shape.n;
+    const int n = run->layout.n;
     const dal__quad_run *k = &run->quad;
     const num *y = (const num *)(const void *)k->persistent, *v = y + n, *p = y + 2 * n + 1;
     const num *pi = y + 3 * n + 1, *f = (const num *)(const void *)k->scratch;
-    const dal_callbacks *call = &k->shape.system->call;
+    const dal_callbacks *call = &k->layout.system->call;
     const dal_point at = here(run);
     num sum = 0.0;
     if (call->gauge) {
-        DAL_TRY(call->gauge(k->shape.system, &at, k->scratch));
+        DAL_TRY(call->gauge(k->layout.system, &at, k->scratch));
         sum = f[0] * y[4 * n + 1];
     }
-    DAL_TRY(call->field(k->shape.system, &at, k->scratch));
+    DAL_TRY(call->field(k->layout.system, &at, k->scratch));
     for (int i = 0; i < n; i++)
         sum += pi[i] * pi[i] * (0.5 / y[2 * n]) + pi[i] * f[i] + p[i] * v[i];
     *(*out)++ = (double)sum;
@@ -156,19 +156,19 @@ static dal_status put_error(const dal_run *run, double **out)
     const dal_point at = here(run);
     const num *y = (const num *)(const void *)k->persistent;
     num *exact = (num *)(void *)k->scratch;
-    DAL_TRY(k->shape.system->exact(k->shape.system, &at, k->scratch));
-    for (int i = 0; i < run->shape.n; i++) exact[i] -= y[i];
-    *(*out)++ = (double)dal_max_norm(exact, run->shape.n);
+    DAL_TRY(k->layout.system->exact(k->layout.system, &at, k->scratch));
+    for (int i = 0; i < run->layout.n; i++) exact[i] -= y[i];
+    *(*out)++ = (double)dal_max_norm(exact, run->layout.n);
     return DAL_OK;
 }
 
 dal_status dal__quad_observe(dal_run *run, double *out)
 {
-    const dal_system *system = run->quad.shape.system;
+    const dal_system *system = run->quad.layout.system;
     double *next = out;
     DAL_TRY(put(run, system->constraints, system->m, &next));
     DAL_TRY(put(run, system->energy, 1, &next));
-    if (run->shape.lifted) DAL_TRY(put_lifted(run, &next));
+    if (run->layout.lifted) DAL_TRY(put_lifted(run, &next));
     DAL_TRY(put(run, system->invariant_values, system->invariants, &next));
     if (run->exact) DAL_TRY(put_error(run, &next));
     for (double *x = out; x < next; x++) *x += 0.0; /* no -0 */

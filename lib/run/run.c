@@ -6,7 +6,7 @@
 static size_t round_up(size_t bytes) { return (bytes + 63) / 64 * 64; }
 
 /* Most numbers any code's answer has, with room for two of a constraint's and their G. */
-static size_t scratch_count(const dal__shape *k)
+static size_t scratch_count(const dal__layout *k)
 {
     const size_t n = (size_t)k->n, nw = (size_t)k->nw, m = (size_t)k->m;
     const size_t listed = (size_t)k->system->invariants + 2 * (size_t)k->system->guards;
@@ -14,29 +14,29 @@ static size_t scratch_count(const dal__shape *k)
 }
 
 /* A time and the most observables there can be. */
-static size_t look_count(const dal__shape *k)
+static size_t look_count(const dal__layout *k)
 {
     return 1 + (size_t)k->m + 6 + (size_t)k->system->invariants;
 }
 
 /* Doubles in what a run carries. */
-static size_t stored_count(const dal__shape *k)
+static size_t stored_count(const dal__layout *k)
 {
     return k->options.precision == DAL_DOUBLE ? k->persistent : k->persistent * dal__quad_width();
 }
 
 /* Doubles beside those of the engines. */
-static size_t own_numbers(const dal__shape *k)
+static size_t own_numbers(const dal__layout *k)
 {
     return stored_count(k) + scratch_count(k) + (size_t)(k->n + k->nw) + look_count(k);
 }
 
-static size_t quad_bytes(const dal__shape *k)
+static size_t quad_bytes(const dal__layout *k)
 {
     return k->options.precision == DAL_DOUBLE ? 0 : dal__quad_bytes(k, scratch_count(k));
 }
 
-static size_t total_bytes(const dal__shape *k)
+static size_t total_bytes(const dal__layout *k)
 {
     return 64 + round_up(sizeof(dal_run)) + round_up(own_numbers(k) * sizeof(double)) +
            round_up(dal__engine_best(k, 1)->bytes(k)) + quad_bytes(k);
@@ -44,29 +44,29 @@ static size_t total_bytes(const dal__shape *k)
 
 size_t dal_run_size(const dal_run_spec *spec)
 {
-    dal__shape shape;
-    return dal__shape_init(&shape, spec, NULL) == DAL_OK ? total_bytes(&shape) : 0;
+    dal__layout layout;
+    return dal__layout_init(&layout, spec, NULL) == DAL_OK ? total_bytes(&layout) : 0;
 }
 
-static dal_run *place(const dal__shape *shape, void *memory)
+static dal_run *place(const dal__layout *layout, void *memory)
 {
     char *at = (char *)memory + (round_up((uintptr_t)memory) - (uintptr_t)memory);
     dal_run *run = (dal_run *)(void *)at;
-    *run = (dal_run){.shape = *shape};
+    *run = (dal_run){.layout = *layout};
     at += round_up(sizeof *run);
     run->shadow = (double *)(void *)at;
-    run->scratch = run->shadow + stored_count(shape);
-    run->point = run->scratch + scratch_count(shape);
-    run->looks.times = run->point + shape->n + shape->nw;
+    run->scratch = run->shadow + stored_count(layout);
+    run->point = run->scratch + scratch_count(layout);
+    run->looks.times = run->point + layout->n + layout->nw;
     run->looks.values = run->looks.times + 1;
     run->looks.room = 1;
-    at += round_up(own_numbers(shape) * sizeof(double));
-    run->kind = dal__engine_best(shape, 1);
-    run->engine = run->kind->place(shape, at, &run->persistent, &run->work);
+    at += round_up(own_numbers(layout) * sizeof(double));
+    run->kind = dal__engine_best(layout, 1);
+    run->engine = run->kind->place(layout, at, &run->persistent, &run->work);
     run->storage = run->persistent;
-    run->stored = stored_count(shape);
-    at += round_up(run->kind->bytes(shape));
-    if (quad_bytes(shape) > 0) dal__quad_place(run, at, scratch_count(shape));
+    run->stored = stored_count(layout);
+    at += round_up(run->kind->bytes(layout));
+    if (quad_bytes(layout) > 0) dal__quad_place(run, at, scratch_count(layout));
     return run;
 }
 
@@ -74,15 +74,15 @@ dal_status dal_run_init(dal_run **run, void *memory, size_t bytes, const dal_run
                         dal_error *error)
 {
     DAL_REQUIRE(run, error);
-    dal__shape shape;
+    dal__layout layout;
     *run = NULL;
     DAL_REQUIRE(memory, error);
-    DAL_TRY(dal__shape_init(&shape, spec, error));
-    if (bytes < total_bytes(&shape))
+    DAL_TRY(dal__layout_init(&layout, spec, error));
+    if (bytes < total_bytes(&layout))
         return dal__fail(error, DAL_MEMORY, "a run of %s needs %zu bytes, not %zu",
-                         shape.system->name ? shape.system->name : "this system",
-                         total_bytes(&shape), bytes);
-    dal_run *made = place(&shape, memory);
+                         layout.system->name ? layout.system->name : "this system",
+                         total_bytes(&layout), bytes);
+    dal_run *made = place(&layout, memory);
     DAL_TRY(dal__run_start(made, spec->parameters, spec->parameter_count, spec->start,
                            spec->start_count, error));
     if (made->quad.engine) DAL_TRY(dal__quad_begin(made));
@@ -93,10 +93,10 @@ dal_status dal_run_init(dal_run **run, void *memory, size_t bytes, const dal_run
 dal_status dal_run_create(dal_run **run, const dal_run_spec *spec, dal_error *error)
 {
     DAL_REQUIRE(run, error);
-    dal__shape shape;
+    dal__layout layout;
     *run = NULL;
-    DAL_TRY(dal__shape_init(&shape, spec, error));
-    const size_t bytes = total_bytes(&shape);
+    DAL_TRY(dal__layout_init(&layout, spec, error));
+    const size_t bytes = total_bytes(&layout);
     void *memory = malloc(bytes);
     if (!memory) return dal__fail(error, DAL_MEMORY, "no %zu bytes for a run", bytes);
     const dal_status status = dal_run_init(run, memory, bytes, spec, error);
@@ -145,7 +145,7 @@ dal_status dal__run_steps(dal_run *run, double h, long long count)
 dal_status dal_run_advance(dal_run *run, long long count, dal_error *error)
 {
     DAL_REQUIRE(run, error);
-    const double h = run->shape.options.step;
+    const double h = run->layout.options.step;
     if (count < 0) return dal__fail(error, DAL_ARGUMENT, "%lld steps: a run goes forward", count);
     const dal_status status = dal__run_steps(run, h, count);
     return status == DAL_OK ? DAL_OK : dal__explain(run, h, status, error);
@@ -153,33 +153,33 @@ dal_status dal_run_advance(dal_run *run, long long count, dal_error *error)
 
 dal_status dal_run_step(dal_run *run, dal_error *error) { return dal_run_advance(run, 1, error); }
 
-const dal_system *dal_run_system(const dal_run *run) { return run ? run->shape.system : NULL; }
-int dal_run_dimension(const dal_run *run) { return run ? run->shape.dim : 0; }
+const dal_system *dal_run_system(const dal_run *run) { return run ? run->layout.system : NULL; }
+int dal_run_dimension(const dal_run *run) { return run ? run->layout.dim : 0; }
 const double *dal_run_state(const dal_run *run) { return run ? run->persistent : NULL; }
 const double *dal_run_parameters(const dal_run *run) { return run ? run->work : NULL; }
 
 double dal_run_time(const dal_run *run)
 {
-    return run ? run->persistent[dal__at(&run->shape, DAL__TIME)] : NAN;
+    return run ? run->persistent[dal__at(&run->layout, DAL__TIME)] : NAN;
 }
 
-double dal_run_step_size(const dal_run *run) { return run ? run->shape.options.step : NAN; }
+double dal_run_step_size(const dal_run *run) { return run ? run->layout.options.step : NAN; }
 
 long long dal_run_steps(const dal_run *run)
 {
-    return run ? (long long)run->persistent[dal__at(&run->shape, DAL__STEPS)] : 0;
+    return run ? (long long)run->persistent[dal__at(&run->layout, DAL__STEPS)] : 0;
 }
 
 long long dal_run_evaluations(const dal_run *run)
 {
-    return run ? (long long)run->persistent[dal__at(&run->shape, DAL__EVALUATIONS)] : 0;
+    return run ? (long long)run->persistent[dal__at(&run->layout, DAL__EVALUATIONS)] : 0;
 }
 
 dal_status dal_run_set_state(dal_run *run, double t, const double *state, dal_error *error)
 {
     DAL_REQUIRE(run, error);
     DAL_REQUIRE(state, error);
-    const dal__shape *k = &run->shape;
+    const dal__layout *k = &run->layout;
     for (int i = 0; i < k->dim; i++)
         if (!isfinite(state[i]) && !(k->lifted && i == 2 * k->n && isinf(state[i])))
             return dal__fail(error, DAL_NOT_FINITE, "state component %d is not finite: %g", i + 1,
@@ -208,7 +208,7 @@ dal_status dal_run_restore(dal_run *run, const double *memory, size_t count, dal
 {
     DAL_REQUIRE(run, error);
     DAL_REQUIRE(memory, error);
-    const dal__shape *k = &run->shape;
+    const dal__layout *k = &run->layout;
     if (count != run->stored)
         return dal__fail(error, DAL_ARGUMENT, "this run carries %zu numbers, not %zu", run->stored,
                          count);

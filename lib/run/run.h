@@ -23,10 +23,10 @@ typedef struct dal__native {
 
 /* The engine of a run in quad precision, and what belongs to it; see quad.c. */
 typedef struct dal__quad_run {
-    dal__shape shape;   /* of the system in quad precision */
+    dal__layout layout; /* of the system in quad precision */
     void *engine;       /* NULL: the run is in doubles */
-    double *persistent; /* [shape.persistent] its own numbers, each in the place of some doubles */
-    double *work;       /* [shape.workspace] likewise */
+    double *persistent; /* [layout.persistent] its own numbers, each in the place of some doubles */
+    double *work;       /* [layout.workspace] likewise */
     double *scratch;    /* scratch for what the system says, likewise */
 } dal__quad_run;
 
@@ -41,15 +41,15 @@ typedef struct dal__looks {
 } dal__looks;
 
 struct dal_run {
-    dal__shape shape;
+    dal__layout layout;
     const dal__engine_kind *kind; /* of one lane */
     void *engine;
     double *
-        persistent; /* [shape.persistent] the engine's own; in quad precision: rounded from those */
+        persistent; /* [layout.persistent] the engine's own; in quad precision: rounded from those */
     double *storage; /* [stored] all that is persistent from step to step: persistent, or quad's */
     size_t stored;
     dal__quad_run quad;
-    double *work;    /* [shape.workspace] parameters, and the system's */
+    double *work;    /* [layout.workspace] parameters, and the system's */
     double *shadow;  /* [stored] state of the trajectory during a side step */
     double *scratch; /* scratch for what the system says */
     double *point;   /* [n + nw] where a step went wrong */
@@ -92,7 +92,7 @@ void dal__run_revert(dal_run *run);
 /* ---- quad.c: a run in quad precision ---- */
 
 /* Bytes for its engine, aligned to 64; doubles that one of its numbers takes. */
-size_t dal__quad_bytes(const dal__shape *shape, size_t answers);
+size_t dal__quad_bytes(const dal__layout *layout, size_t answers);
 size_t dal__quad_width(void);
 void dal__quad_place(dal_run *run, char *memory, size_t answers);
 /* Takes over parameters, state and clock of the run in doubles; and gives it them, rounded. */
@@ -106,7 +106,7 @@ double dal__quad_rounded(const double *memory, size_t i);
 
 static inline dal_point dal__here(const dal_run *run)
 {
-    const dal__shape *k = &run->shape;
+    const dal__layout *k = &run->layout;
     return (dal_point){run->persistent[dal__at(k, DAL__TIME)], run->persistent,
                        run->persistent + k->n, NULL, run->work};
 }

@@ -113,7 +113,7 @@ static long long steps_to(const sampling *k, double left, double h)
 
 static dal_status go_to_row(sampling *k, long long row, double t)
 {
-    const double h = k->run->shape.options.step;
+    const double h = k->run->layout.options.step;
     const double near = fmax(ALIGNED * h, 4.0 * DBL_EPSILON * fabs(t));
     for (;;) {
         const double left = t - dal_run_time(k->run);
@@ -135,7 +135,7 @@ static double row_time(const dal_observer *o, double T, long long row, long long
 static dal_status check(const dal_run *run, const dal_observer *observer, double T,
                         long long samples, long long first_row, dal_error *error)
 {
-    const double h = run->shape.options.step;
+    const double h = run->layout.options.step;
     if (!(T > 0.0) || !isfinite(T))
         return dal__fail(error, DAL_ARGUMENT, "the time must be positive; it is %g", T);
     if (h > T)

@@ -19,7 +19,7 @@ static dal_status unknown_parameter(const dal_system *system, const char *name, 
 static dal_status set_parameters(dal_run *run, const dal_setting *settings, int count,
                                  dal_error *error)
 {
-    const dal_system *system = run->shape.system;
+    const dal_system *system = run->layout.system;
     for (int i = 0; i < system->parameters; i++)
         run->work[i] = system->value ? system->value[i] : 0.0;
     for (int k = 0; k < count; k++) {
@@ -50,18 +50,18 @@ static dal_status unknown_start(const dal_run *run, const char *name, dal_error 
         if (dal_nearest(name, pair, 2) == other) memcpy(best, other, sizeof best);
     }
     const char *names[] = {*best ? best : NULL};
-    return dal__unknown(error, run->shape.lifted ? "start name" : "start name (q, v space)", name,
+    return dal__unknown(error, run->layout.lifted ? "start name" : "start name (q, v space)", name,
                         names, 1);
 }
 
 static dal_status override(dal_run *run, const dal_setting *settings, int count, dal_error *error)
 {
-    const int e = run->shape.lifted ? 2 * run->shape.n : -1;
+    const int e = run->layout.lifted ? 2 * run->layout.n : -1;
     char name[NAME_SIZE];
     for (int k = 0; k < count; k++) {
         int i = 0;
         while (dal_run_name(run, i, name, sizeof name) && strcmp(name, settings[k].name) != 0) i++;
-        if (i == run->shape.dim) return unknown_start(run, settings[k].name, error);
+        if (i == run->layout.dim) return unknown_start(run, settings[k].name, error);
         if (!isfinite(settings[k].value) && !(i == e && isinf(settings[k].value)))
             return dal__fail(error, DAL_ARGUMENT, "start %s: %g is not a finite number",
                              settings[k].name, settings[k].value);
@@ -73,7 +73,7 @@ static dal_status override(dal_run *run, const dal_setting *settings, int count,
 /* q, v, g and e as the system gives them; momenta are 0. */
 static dal_status default_start(dal_run *run, dal_error *error)
 {
-    const dal__shape *k = &run->shape;
+    const dal__layout *k = &run->layout;
     const int first = k->n + k->nw;
     memset(run->persistent, 0, k->persistent * sizeof *run->persistent);
     double *out = run->scratch;
@@ -89,9 +89,9 @@ static dal_status default_start(dal_run *run, dal_error *error)
 
 static dal_status check_finite(dal_run *run, dal_error *error)
 {
-    const int e = run->shape.lifted ? 2 * run->shape.n : -1;
+    const int e = run->layout.lifted ? 2 * run->layout.n : -1;
     char name[NAME_SIZE];
-    for (int i = 0; i < run->shape.dim; i++) {
+    for (int i = 0; i < run->layout.dim; i++) {
         run->persistent[i] += 0.0; /* no -0: see lib/kernel/step.h */
         if (i == e && isinf(1.0 / run->persistent[i]))
             return dal__fail(error, DAL_GAUGE, "start e = %g: e must not vanish",
@@ -106,7 +106,7 @@ static dal_status check_finite(dal_run *run, dal_error *error)
 static dal_status check_consistent(const dal_run *run, const double *d, const double *a,
                                    dal_error *error)
 {
-    const dal__shape *k = &run->shape;
+    const dal__layout *k = &run->layout;
     const double speed = dal_max_norm(run->persistent + k->n, k->n);
     for (int i = 0; i < k->m; i++) {
         double scale = 0.0;
@@ -121,7 +121,7 @@ static dal_status check_consistent(const dal_run *run, const double *d, const do
 /* Why constraint k has no pivot in G: W itself may have none. */
 static dal_status refuse_pivot(dal_run *run, int k, double pivot, dal_error *error)
 {
-    const dal_system *system = run->shape.system;
+    const dal_system *system = run->layout.system;
     const dal_point at = dal__here(run);
     double number = 0.0;
     if (system->diagnose && system->diagnose(system, &at, &number) == DAL_SINGULAR_MASS)
@@ -137,7 +137,7 @@ static dal_status refuse_pivot(dal_run *run, int k, double pivot, dal_error *err
 static dal_status check_rank(dal_run *run, const double *a, const double *b, double *g,
                              dal_error *error)
 {
-    const int m = run->shape.m, n = run->shape.n;
+    const int m = run->layout.m, n = run->layout.n;
     double *diagonal = g + m * m;
     dal_gram(a, b, m, n, g);
     for (int i = 0; i < m; i++) diagonal[i] = fabs(g[i * m + i]);
@@ -151,7 +151,7 @@ static dal_status check_rank(dal_run *run, const double *a, const double *b, dou
 
 static dal_status check_constraints(dal_run *run, dal_error *error)
 {
-    const dal__shape *k = &run->shape;
+    const dal__layout *k = &run->layout;
     const dal_callbacks *call = &k->system->call;
     if (k->m == 0 || !call->constraint) return DAL_OK;
     const int m = k->m, n = k->n;
@@ -167,7 +167,7 @@ static dal_status check_constraints(dal_run *run, dal_error *error)
 /* The exact solution belongs to this run when it begins where the run does. */
 static bool exact_agrees(dal_run *run)
 {
-    const dal__shape *k = &run->shape;
+    const dal__layout *k = &run->layout;
     const dal_point at = dal__here(run);
     if (!k->system->exact || k->system->exact(k->system, &at, run->scratch) != DAL_OK) return false;
     const double size = 1.0 + dal_max_norm(run->persistent, 2 * k->n);
