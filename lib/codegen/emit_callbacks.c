@@ -147,7 +147,7 @@ void dal__emit_callbacks(dal__generation *g)
 {
     name_inputs(g);
     if (!g->input) return;
-    dal__text_put(&g->text, g->product == DAL__LOOKS
+    dal__text_put(&g->text, g->product == DAL__OBSERVE
                                 ? "\n/* Each lane has its time. */\n"
                                   "typedef num dal_time;\n#define DAL_TIME(t) (t)\n"
                                 : "\n/* All lanes have one time. */\n"
@@ -156,7 +156,7 @@ void dal__emit_callbacks(dal__generation *g)
 #define X(code, name, reads) put_program(g, DAL__PROGRAM_##code, #name);
     DAL__WIDE_LIST(X)
 #undef X
-    if (g->product == DAL__FILE || g->product == DAL__LOOKS) put_single_programs(g);
+    if (g->product == DAL__FILE || g->product == DAL__OBSERVE) put_single_programs(g);
     free(g->input);
     put_dispatch(g);
 }

@@ -72,7 +72,7 @@ static bool observes(const dal__generation *g, dal__program_code code)
 bool dal__wants(const dal__generation *g, dal__program_code code)
 {
     if (!g->programs->program[code].present) return false;
-    if (g->product == DAL__LOOKS) return observes(g, code);
+    if (g->product == DAL__OBSERVE) return observes(g, code);
     const bool watched = g->layout.system->properties & DAL_D_RANK_CHECKED;
     const bool imposes = dal_method_needs(&g->spec->method) & DAL_NEEDS_BLOCKS;
     switch (code) {
@@ -119,7 +119,7 @@ static dal_status check_size(const dal__generation *g, dal_error *error)
 {
     double length = 0.0;
     const double width = (double)g->layout.stages * g->layout.nw;
-    const bool newton = g->product != DAL__LOOKS && dal__uses_newton(g);
+    const bool newton = g->product != DAL__OBSERVE && dal__uses_newton(g);
     const double stack = newton ? 4.0 * 8.0 * g->lanes * width * width : 0.0;
     for (int code = 0; code < DAL__PROGRAM_COUNT; code++)
         if (dal__wants(g, (dal__program_code)code))
@@ -166,9 +166,9 @@ dal_status dal__generation_check(dal__generation *g, const char *prefix, dal_err
 {
     if (!is_width(g->lanes))
         return dal__fail(error, DAL_ARGUMENT, "%d lanes: 1, 2, 4, 8 or 16 are possible", g->lanes);
-    if (g->product != DAL__LOOKS) DAL_TRY(dal__layout_init(&g->layout, g->spec, error));
+    if (g->product != DAL__OBSERVE) DAL_TRY(dal__layout_init(&g->layout, g->spec, error));
     DAL_TRY(find_programs(g, error));
-    if (g->product != DAL__LOOKS) DAL_TRY(check_steps(g, error));
+    if (g->product != DAL__OBSERVE) DAL_TRY(check_steps(g, error));
     DAL_TRY(check_size(g, error));
     return dal__choose_prefix(g, prefix, error);
 }

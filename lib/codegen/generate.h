@@ -21,7 +21,7 @@ enum { DAL__PREFIX_SIZE = 64 };
 
 /* What is made: a whole file; for native mode, the steps of some lanes, those of one lane which may
  * leave a trace of its states, and the observables of many states. */
-typedef enum dal__product { DAL__FILE, DAL__LANES, DAL__TRACE, DAL__LOOKS } dal__product;
+typedef enum dal__product { DAL__FILE, DAL__LANES, DAL__TRACE, DAL__OBSERVE } dal__product;
 
 typedef struct dal__generation {
     const dal_run_spec *spec;
@@ -62,9 +62,9 @@ void dal__put_steps(dal__generation *g);
 dal_status dal__generate_native(const dal_run_spec *spec, dal__product product, int lanes,
                                 char **text, dal_error *error);
 /* The observables of a run of this layout, wherever it stands: the function
- * DAL__NATIVE_PREFIX_looks. [alloc] */
-dal_status dal__generate_looks(const dal__layout *layout, const dal_run *run, char **text,
-                               dal_error *error);
+ * DAL__NATIVE_PREFIX_observables. [alloc] */
+dal_status dal__generate_observables(const dal__layout *layout, const dal_run *run, char **text,
+                                     dal_error *error);
 
 /* ---- prefix.c ---- */
 

@@ -76,7 +76,7 @@ static dal_status make_private(const char *directory, dal_error *error)
     struct stat s;
     if (mkdir(directory, 0700) != 0 && errno != EEXIST)
         return failed(error, "make the directory", directory);
-    if (lstat(directory, &s) != 0) return failed(error, "look at", directory);
+    if (lstat(directory, &s) != 0) return failed(error, "record at", directory);
     if (!S_ISDIR(s.st_mode) || s.st_uid != geteuid() || (s.st_mode & 077) != 0)
         return dal__fail(error, DAL_IO,
                          "'%.200s' is not a directory of this user alone (mode 0700)", directory);
@@ -246,7 +246,7 @@ static dal_status make_object(const command *c, const char *text, const char *pa
     return status;
 }
 
-/* A path that no compiler takes for an option, and no loader for a name to look for. */
+/* A path that no compiler takes for an option, and no loader for a name to record for. */
 static dal_status name_object(const command *c, const char *directory, const char *text, char *path,
                               size_t size, dal_error *error)
 {

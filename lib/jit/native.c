@@ -20,11 +20,11 @@ static bool find(void *handle, dal__product product, dal__native *native)
 {
     static const char *const symbols[] = {[DAL__LANES] = DAL__NATIVE_PREFIX "_lanes",
                                           [DAL__TRACE] = DAL__NATIVE_PREFIX "_traced",
-                                          [DAL__LOOKS] = DAL__NATIVE_PREFIX "_looks"};
+                                          [DAL__OBSERVE] = DAL__NATIVE_PREFIX "_observables"};
     void *found = handle ? dlsym(handle, symbols[product]) : NULL;
     if (product == DAL__LANES) memcpy(&native->steps, &found, sizeof found);
     if (product == DAL__TRACE) memcpy(&native->traced, &found, sizeof found);
-    if (product == DAL__LOOKS) memcpy(&native->looks, &found, sizeof found);
+    if (product == DAL__OBSERVE) memcpy(&native->observables, &found, sizeof found);
     return found != NULL;
 }
 
@@ -85,7 +85,7 @@ enum { REGISTER = 8 }; /* numbers in the widest; as many as a line of the cache 
 /* Looks at a time: whole registers of any machine.  Many of them, since a processor takes about a
  * microsecond to wake the upper halves of its widest registers, and no more than a second-level
  * cache holds. */
-static int room_for_looks(int numbers)
+static int observation_capacity(int numbers)
 {
     enum { MOST = 992, NEAR = (1 << 18) / sizeof(double) };
     const int room = NEAR / numbers / REGISTER * REGISTER;
@@ -93,17 +93,18 @@ static int room_for_looks(int numbers)
 }
 
 /* Zeros at first: a register is read as a whole, and none of them lies across two lines. */
-static dal_status make_room(dal__looks *looks, int dimension, int observables, dal_error *error)
+static dal_status allocate_observations(dal__observations *observations, int dimension,
+                                        int observables, dal_error *error)
 {
-    const int numbers = dimension + 1 + observables, room = room_for_looks(numbers);
+    const int numbers = dimension + 1 + observables, room = observation_capacity(numbers);
     const size_t bytes = sizeof(double) * (size_t)numbers * (size_t)room;
     double *const memory = aligned_alloc(REGISTER * sizeof(double), bytes);
     if (!memory) return dal__fail(error, DAL_MEMORY, "no memory for %d looks at a run", room);
     memset(memory, 0, bytes);
-    looks->room = room;
-    looks->states = memory;
-    looks->times = memory + (size_t)dimension * (size_t)room;
-    looks->values = looks->times + room;
+    observations->capacity = room;
+    observations->states = memory;
+    observations->times = memory + (size_t)dimension * (size_t)room;
+    observations->values = observations->times + room;
     return DAL_OK;
 }
 
@@ -113,14 +114,15 @@ dal_status dal_run_native_observables(dal_run *run, const dal_native_options *op
     DAL_REQUIRE(run, error);
     dal__native code = {0};
     char *text;
-    if (run->looks.states || dal_run_observables(run) == 0) return DAL_OK;
-    DAL_TRY(dal__generate_looks(&run->layout, run, &text, error));
-    dal_status status = compiled(text, DAL__LOOKS, options, &code, error);
+    if (run->observations.states || dal_run_observables(run) == 0) return DAL_OK;
+    DAL_TRY(dal__generate_observables(&run->layout, run, &text, error));
+    dal_status status = compiled(text, DAL__OBSERVE, options, &code, error);
     free(text);
     if (status == DAL_OK)
-        status = make_room(&run->looks, run->layout.dim, dal_run_observables(run), error);
+        status = allocate_observations(&run->observations, run->layout.dim,
+                                       dal_run_observables(run), error);
     if (status == DAL_OK)
-        run->looks.code = code;
+        run->observations.code = code;
     else
         dal__native_free(&code);
     return status;

@@ -64,17 +64,18 @@ static void put_sizes(dal__generation *g)
                     k->n, k->nw, k->dim, k->lifted, dal_run_observables(g->run));
 }
 
-dal_status dal__generate_looks(const dal__layout *layout, const dal_run *run, char **text,
-                               dal_error *error)
+dal_status dal__generate_observables(const dal__layout *layout, const dal_run *run, char **text,
+                                     dal_error *error)
 {
-    dal__generation g = {.run = run, .layout = *layout, .lanes = 8, .product = DAL__LOOKS};
+    dal__generation g = {.run = run, .layout = *layout, .lanes = 8, .product = DAL__OBSERVE};
     *text = NULL;
     if (layout->options.precision != DAL_DOUBLE)
         return dal__fail(error, DAL_UNSUPPORTED, "observables in quad precision are not generated");
     DAL_TRY(dal__generation_check(&g, DAL__NATIVE_PREFIX, error));
     put_declarations(&g);
-    dal__put_template(&g, "void PREFIX_looks(const double *, long long, long long, const double *, "
-                          "double *);\n");
+    dal__put_template(
+        &g, "void PREFIX_observables(const double *, long long, long long, const double *, "
+            "double *);\n");
     dal__put_compiler(&g);
     dal__text_put(&g.text, lanes);
     put_sizes(&g);

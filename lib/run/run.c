@@ -14,7 +14,7 @@ static size_t scratch_count(const dal__layout *k)
 }
 
 /* A time and the most observables there can be. */
-static size_t look_count(const dal__layout *k)
+static size_t observation_numbers(const dal__layout *k)
 {
     return 1 + (size_t)k->m + 6 + (size_t)k->system->invariants;
 }
@@ -28,7 +28,7 @@ static size_t stored_count(const dal__layout *k)
 /* Doubles beside those of the engines. */
 static size_t own_numbers(const dal__layout *k)
 {
-    return stored_count(k) + scratch_count(k) + (size_t)(k->n + k->nw) + look_count(k);
+    return stored_count(k) + scratch_count(k) + (size_t)(k->n + k->nw) + observation_numbers(k);
 }
 
 static size_t quad_bytes(const dal__layout *k)
@@ -57,9 +57,9 @@ static dal_run *place(const dal__layout *layout, void *memory)
     run->shadow = (double *)(void *)at;
     run->scratch = run->shadow + stored_count(layout);
     run->point = run->scratch + scratch_count(layout);
-    run->looks.times = run->point + layout->n + layout->nw;
-    run->looks.values = run->looks.times + 1;
-    run->looks.room = 1;
+    run->observations.times = run->point + layout->n + layout->nw;
+    run->observations.values = run->observations.times + 1;
+    run->observations.capacity = 1;
     at += round_up(own_numbers(layout) * sizeof(double));
     run->kind = dal__engine_best(layout, 1);
     run->engine = run->kind->place(layout, at, &run->persistent, &run->work);
@@ -111,8 +111,8 @@ void dal_run_free(dal_run *run)
 {
     if (!run) return;
     dal__native_free(&run->native);
-    dal__native_free(&run->looks.code);
-    free(run->looks.states);
+    dal__native_free(&run->observations.code);
+    free(run->observations.states);
     free(run->owned);
 }
 

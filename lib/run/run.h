@@ -15,8 +15,8 @@ typedef struct dal__native {
     long long (*traced)(double *persistent, const double *work, double h, long long count,
                         unsigned *failed, int *why, double *states, long long stride);
     /* The observables of such states: number i of state k at values[i * stride + k]. */
-    void (*looks)(const double *states, long long stride, long long count, const double *work,
-                  double *values);
+    void (*observables)(const double *states, long long stride, long long count, const double *work,
+                        double *values);
     void *handle;
     void (*release)(void *handle);
 } dal__native;
@@ -31,14 +31,14 @@ typedef struct dal__quad_run {
 } dal__quad_run;
 
 /* Where the observables of successive looks at a run are collected, up to room of them: observable
- * i of look k is values[i * room + k]. */
-typedef struct dal__looks {
-    int room;
-    double *states; /* [dim * room], to be evaluated together; NULL: every look is at once */
+ * i of record k is values[i * room + k]. */
+typedef struct dal__observations {
+    int capacity;
+    double *states; /* [dim * room], to be evaluated together; NULL: every record is at once */
     double *times;  /* [room], behind states */
     double *values; /* [observables * room] */
     dal__native code;
-} dal__looks;
+} dal__observations;
 
 struct dal_run {
     dal__layout layout;
@@ -56,7 +56,7 @@ struct dal_run {
     bool exact;      /* the exact solution belongs to this start */
     void *owned;     /* memory to free, or NULL */
     dal__native native;
-    dal__looks looks;
+    dal__observations observations;
 };
 
 static inline void dal__native_free(dal__native *native)
@@ -75,9 +75,9 @@ dal_status dal__run_start(dal_run *run, const dal_setting *parameters, int param
 dal_status dal__explain(dal_run *run, double h, dal_status status, dal_error *error);
 
 /* Follows count steps and hands the looks over to observer->values; or the start alone. */
-dal_status dal__follow(dal_run *run, const dal_observer *observer, long long count,
-                       dal_error *error);
-dal_status dal__follow_start(dal_run *run, const dal_observer *observer, dal_error *error);
+dal_status dal__observe_steps(dal_run *run, const dal_observer *observer, long long count,
+                              dal_error *error);
+dal_status dal__observe_start(dal_run *run, const dal_observer *observer, dal_error *error);
 
 /* status, which an observer returned, and what is said of it. */
 dal_status dal__stopped(const dal_run *run, dal_status status, dal_error *error);

@@ -24,7 +24,7 @@ static dal_status stopped(dal_status status, const sampling *k)
     return dal__stopped(k->run, status, k->error);
 }
 
-/* A power of two, so that polls fall together with whole groups of looks. */
+/* A power of two, so that polls fall together with whole groups of observations. */
 static long long polling(const sampling *k)
 {
     const long long wanted = k->observer->polling;
@@ -40,7 +40,7 @@ static dal_status poll(sampling *k)
     return stopped(k->observer->poll(k->observer->user, k->run), k);
 }
 
-static dal_status show(sampling *k, long long row, double t)
+static dal_status sample_row(sampling *k, long long row, double t)
 {
     if (!k->observer->sample) return DAL_OK;
     return stopped(k->observer->sample(k->observer->user, k->run, row, t), k);
@@ -50,7 +50,7 @@ static dal_status show(sampling *k, long long row, double t)
 static dal_status advance(sampling *k, long long count)
 {
     const dal_observer *o = k->observer;
-    if (o->values && o->every > 0) return dal__follow(k->run, o, count, k->error);
+    if (o->values && o->every > 0) return dal__observe_steps(k->run, o, count, k->error);
     if (!o->step || o->every < 1) return dal_run_advance(k->run, count, k->error);
     while (count > 0) {
         const long long due = o->every - dal_run_steps(k->run) % o->every;
@@ -78,24 +78,24 @@ dal_status dal_run_intermediate(dal_run *run, double h,
     return status;
 }
 
-typedef struct side_row {
+typedef struct intermediate_row {
     sampling *k;
     long long row;
     double t;
-} side_row;
+} intermediate_row;
 
-static dal_status show_aside(void *user, dal_run *run)
+static dal_status sample_intermediate(void *user, dal_run *run)
 {
-    const side_row *r = user;
+    const intermediate_row *r = user;
     (void)run;
-    return show(r->k, r->row, r->t);
+    return sample_row(r->k, r->row, r->t);
 }
 
 /* A row between two steps: a step of size h from the present state, shown and taken back. */
-static dal_status side_step(sampling *k, double h, long long row, double t)
+static dal_status intermediate_step(sampling *k, double h, long long row, double t)
 {
-    side_row r = {k, row, t};
-    const dal_status shown = dal_run_intermediate(k->run, h, show_aside, &r, k->error);
+    intermediate_row r = {k, row, t};
+    const dal_status shown = dal_run_intermediate(k->run, h, sample_intermediate, &r, k->error);
     return shown == DAL_OK ? poll(k) : shown;
 }
 
@@ -111,14 +111,14 @@ static long long steps_to(const sampling *k, double left, double h)
     return steps < 1.0 ? 1 : steps > (double)most ? most : (long long)steps;
 }
 
-static dal_status go_to_row(sampling *k, long long row, double t)
+static dal_status advance_to_row(sampling *k, long long row, double t)
 {
     const double h = k->run->layout.options.step;
     const double near = fmax(ALIGNED * h, 4.0 * DBL_EPSILON * fabs(t));
     for (;;) {
         const double left = t - dal_run_time(k->run);
-        if (left <= near) return show(k, row, t);
-        if (left < h - near) return side_step(k, left, row, t);
+        if (left <= near) return sample_row(k, row, t);
+        if (left < h - near) return intermediate_step(k, left, row, t);
         const long long steps = steps_to(k, left, h);
         DAL_TRY(advance(k, steps));
         k->since_poll += ends_group(k) ? polling(k) : steps - 1;
@@ -154,11 +154,11 @@ static dal_status check(const dal_run *run, const dal_observer *observer, double
     return DAL_OK;
 }
 
-static dal_status look_at_start(const sampling *k)
+static dal_status observe_start(const sampling *k)
 {
     const dal_observer *o = k->observer;
     if (o->every < 1) return DAL_OK;
-    if (o->values) return dal__follow_start(k->run, o, k->error);
+    if (o->values) return dal__observe_start(k->run, o, k->error);
     return o->step ? stopped(o->step(o->user, k->run), k) : DAL_OK;
 }
 
@@ -170,8 +170,8 @@ dal_status dal_run_sample(dal_run *run, double T, long long samples, long long f
     if (!observer) observer = &nobody;
     DAL_TRY(check(run, observer, T, samples, first_row, error));
     sampling k = {run, observer, error, 0};
-    if (first_row == 0 && dal_run_steps(run) == 0) DAL_TRY(look_at_start(&k));
+    if (first_row == 0 && dal_run_steps(run) == 0) DAL_TRY(observe_start(&k));
     for (long long row = first_row; row <= samples; row++)
-        DAL_TRY(go_to_row(&k, row, row_time(observer, T, row, samples)));
+        DAL_TRY(advance_to_row(&k, row, row_time(observer, T, row, samples)));
     return DAL_OK;
 }
