@@ -286,8 +286,8 @@ static void record(dal_batch *batch, block *b, dal__lanes failed, const dal_stat
     for (int lane = 0; lane < b->kind->width; lane++) {
         if (!(failed >> lane & 1)) continue;
         get_lane(batch, b, lane);
-        dal__explain(batch->scalar, batch->scalar->layout.options.step, why[lane],
-                     &batch->error[b->first + lane]);
+        dal__failure_reason(batch->scalar, batch->scalar->layout.options.step, why[lane],
+                            &batch->error[b->first + lane]);
     }
     b->alive &= ~failed;
 }

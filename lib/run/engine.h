@@ -34,7 +34,7 @@ static inline size_t dal__at(const dal__layout *layout, int place)
 }
 
 /* Why a step of one lane failed, found by stepping it again with eyes open (one lane only). */
-typedef struct dal__cause {
+typedef struct dal__failure {
     bool not_finite;       /* an answer of the system was not finite */
     dal_status status;     /* what the system said */
     double t;              /* where */
@@ -42,7 +42,7 @@ typedef struct dal__cause {
     double reached;        /* time at which the substeps ended */
     double substep;        /* the one planned then, 0: too small to be told from none */
     int guard, constraint; /* which guard or normal turned, from 1; 0: none */
-} dal__cause;
+} dal__failure;
 
 /* Measures a spec; errors as dal_run_init. */
 dal_status dal__layout_init(dal__layout *layout, const dal_run_spec *spec, dal_error *error);
@@ -75,7 +75,7 @@ typedef uint64_t dal__lanes;
     dal__lanes name##_step_##variant(void *engine, double h, dal__lanes alive, dal_status *why);   \
     dal_status name##_eval_##variant(void *engine, int code, double t, const double *state,        \
                                      double *out);                                                 \
-    void name##_trace_##variant(void *engine, dal__cause *cause);
+    void name##_trace_##variant(void *engine, dal__failure *failure);
 
 /* For each variant:
  * bytes   memory an engine needs, to be aligned to 64 bytes and to 8 bytes a lane;
@@ -95,7 +95,7 @@ typedef struct dal__engine_kind {
     void *(*place)(const dal__layout *layout, void *memory, double **persistent, double **work);
     dal__lanes (*step)(void *engine, double h, dal__lanes alive, dal_status *why);
     dal_status (*eval)(void *engine, int code, double t, const double *state, double *out);
-    void (*trace)(void *engine, dal__cause *cause);
+    void (*trace)(void *engine, dal__failure *failure);
 } dal__engine_kind;
 extern const dal__engine_kind dal__engine_kinds[DAL__VARIANTS];
 

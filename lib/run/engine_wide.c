@@ -17,7 +17,7 @@ typedef struct engine {
     const dal_integrator *layer[DAL_LAYERS];
     dal_callback *call[DAL_EVAL_COUNT];
     num *persistent, *backup, *work;
-    dal__cause *cause;
+    dal__failure *failure;
 } engine;
 
 static size_t round_up(size_t bytes) { return (bytes + 63) / 64 * 64; }
@@ -45,15 +45,15 @@ static size_t changing(const engine *e)
 static void trace(engine *e, dal_callback_code code, const dal_point *at, dal_status status,
                   const double *out)
 {
-    dal__cause *cause = e->cause;
+    dal__failure *failure = e->failure;
     double sum = 0.0;
     for (int i = 0; i < dal__eval_size(&e->layout, code); i++) sum += out[i] - out[i];
-    if (cause->not_finite || (sum == 0.0 && status == DAL_OK)) return;
-    cause->not_finite = true;
-    cause->status = status;
-    cause->t = at->t;
-    memcpy(cause->q, at->q, (size_t)e->layout.n * sizeof(double));
-    memcpy(cause->v, at->v, (size_t)e->layout.nw * sizeof(double));
+    if (failure->not_finite || (sum == 0.0 && status == DAL_OK)) return;
+    failure->not_finite = true;
+    failure->status = status;
+    failure->t = at->t;
+    memcpy(failure->q, at->q, (size_t)e->layout.n * sizeof(double));
+    memcpy(failure->v, at->v, (size_t)e->layout.nw * sizeof(double));
 }
 
 /* The answer where there is none. */
@@ -76,7 +76,7 @@ static void eval_callback(dal_step *s, dal_callback_code code, double t, const n
                           (double *)e->work};
     const dal_status status = call(e->layout.system, &at, (double *)out);
     if (status != DAL_OK) fill(e, code, NAN, out);
-    if (LANES == 1 && e->cause) trace(e, code, &at, status, (const double *)out);
+    if (LANES == 1 && e->failure) trace(e, code, &at, status, (const double *)out);
 }
 
 size_t DAL_WIDE(dal__engine_bytes)(const dal__layout *k)
@@ -162,9 +162,9 @@ void *DAL_WIDE(dal__engine_place)(const dal__layout *k, void *memory, double **p
     return e;
 }
 
-void DAL_WIDE(dal__engine_trace)(void *engine_, dal__cause *cause)
+void DAL_WIDE(dal__engine_trace)(void *engine_, dal__failure *failure)
 {
-    ((engine *)engine_)->cause = cause;
+    ((engine *)engine_)->failure = failure;
 }
 
 dal_status DAL_WIDE(dal__engine_eval)(void *engine_, int code, double t, const double *state,
@@ -209,7 +209,7 @@ static dal_mask check_gauge(const engine *e, int group)
            ~dal_finite(e->persistent[i]);
 }
 
-/* Notes in the cause, if somebody wants to know, the first number that failed in lane 0. */
+/* Notes in the failure, if somebody wants to know, the first number that failed in lane 0. */
 static void note(int *which, dal_mask good, int number)
 {
     if (!*which && !dal_mask_lane(good, 0)) *which = number;
@@ -232,7 +232,7 @@ static lane_mask check_guards(engine *e)
     eval_both_ends(e, DAL_EVAL_GUARDS, before, after);
     for (int i = 0; i < count; i++) {
         good.group[i % DAL_GROUPS] &= dal_less(dal_num(0.0), before[i] * after[i]);
-        if (e->cause) note(&e->cause->guard, good.group[0], i + 1);
+        if (e->failure) note(&e->failure->guard, good.group[0], i + 1);
     }
     return good;
 }
@@ -254,7 +254,7 @@ static dal_mask check_group_rank(engine *e, const num *c0, const num *c1)
     dal_gram(c1 + m, c0 + m + m * n, m, n, g1);
     for (int k = 0; k < m; k++) {
         good &= dal_less(dal_num(0.0), dal_eliminate(g0, m, k) / dal_eliminate(g1, m, k));
-        if (e->cause) note(&e->cause->constraint, good, k + 1);
+        if (e->failure) note(&e->failure->constraint, good, k + 1);
     }
     return good;
 }
@@ -378,9 +378,9 @@ static void begin_step(engine *e, double h, dal__lanes alive, const lane_mask *l
 /* How far the substeps came, if somebody wants to know. */
 static void note_progress(engine *e)
 {
-    if (!e->cause) return;
-    e->cause->reached = e->step.t;
-    e->cause->substep = dal_lane(e->step.substep[0], 0);
+    if (!e->failure) return;
+    e->failure->reached = e->step.t;
+    e->failure->substep = dal_lane(e->step.substep[0], 0);
 }
 
 dal__lanes DAL_WIDE(dal__engine_step)(void *engine_, double h, dal__lanes alive, dal_status *why)

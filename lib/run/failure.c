@@ -2,33 +2,34 @@
 #include "run/run.h"
 #include <dalembert_kernel.h>
 
-static dal_status singular(const dal__cause *cause, double number, dal_error *error)
+static dal_status singular(const dal__failure *failure, double number, dal_error *error)
 {
     return dal__fail(error, DAL_SINGULAR,
                      "constraint %d became singular near t = %.17g: G = A W^-1 A^T has no inverse",
-                     (int)number, cause->t);
+                     (int)number, failure->t);
 }
 
 /* Whether the numbers had run away, in the iteration or in the whole run, before the answer ceased
  * to be finite: then overflow says nothing about the system. */
-static bool ran_away(const dal_run *run, const dal__cause *cause)
+static bool ran_away(const dal_run *run, const dal__failure *failure)
 {
     const dal__layout *k = &run->layout;
     const double far = fmin(1e8 * (1.0 + dal_max_norm(run->persistent, k->n + k->nw)), 1e60);
-    return dal_max_norm(cause->q, k->n) > far || dal_max_norm(cause->v, k->nw) > far;
+    return dal_max_norm(failure->q, k->n) > far || dal_max_norm(failure->v, k->nw) > far;
 }
 
 /* What the system itself says of the point where its answer was not finite; DAL_OK: nothing. */
-static dal_status diagnose(dal_run *run, const dal__cause *cause, dal_error *error)
+static dal_status diagnose(dal_run *run, const dal__failure *failure, dal_error *error)
 {
     const dal_system *system = run->layout.system;
-    const dal_point at = {cause->t, cause->q, cause->v, NULL, run->work};
+    const dal_point at = {failure->t, failure->q, failure->v, NULL, run->work};
     double number = 0.0;
-    if (!system->diagnose || ran_away(run, cause)) return DAL_OK;
+    if (!system->diagnose || ran_away(run, failure)) return DAL_OK;
     const dal_status status = system->diagnose(system, &at, &number);
-    if (status == DAL_SINGULAR) return singular(cause, number, error);
+    if (status == DAL_SINGULAR) return singular(failure, number, error);
     if (status == DAL_SINGULAR_MASS)
-        return dal__fail(error, status, "the mass matrix became singular near t = %.17g", cause->t);
+        return dal__fail(error, status, "the mass matrix became singular near t = %.17g",
+                         failure->t);
     return DAL_OK;
 }
 
@@ -45,19 +46,19 @@ static bool gauge_crosses(dal_run *run, double t, double h)
     return e * (e + h * mu[0]) <= 0.0 || e * (e + h * mu[1]) <= 0.0;
 }
 
-static dal_status turned(dal_run *run, const dal__cause *cause, double t, double h,
+static dal_status turned(dal_run *run, const dal__failure *failure, double t, double h,
                          dal_error *error)
 {
     const dal_system *system = run->layout.system;
-    if (cause->guard)
+    if (failure->guard)
         return dal__fail(error,
-                         cause->guard == system->mass_guard ? DAL_SINGULAR_MASS : DAL_SINGULAR,
+                         failure->guard == system->mass_guard ? DAL_SINGULAR_MASS : DAL_SINGULAR,
                          "%s goes to zero between t = %.17g and %.17g: singular there",
-                         system->guard ? system->guard[cause->guard - 1] : "a guard", t, t + h);
+                         system->guard ? system->guard[failure->guard - 1] : "a guard", t, t + h);
     return dal__fail(error, DAL_SINGULAR,
                      "constraint %d becomes singular between t = %.17g and %.17g: its normal "
                      "shrinks or turns round, so that G = A W^-1 A^T vanishes",
-                     cause->constraint, t, t + h);
+                     failure->constraint, t, t + h);
 }
 
 /* Where the stages are not solved although the step is small, a constraint may be about to become
@@ -112,12 +113,12 @@ static int vanishing_normal(dal_run *run, double t, double dt)
     return 0;
 }
 
-static bool vanishes(dal_run *run, double t, double h, dal__cause *cause)
+static bool vanishes(dal_run *run, double t, double h, dal__failure *failure)
 {
     if (!predict(run, t, PIECE * h)) return false;
-    cause->guard = vanishing_guard(run, t, PIECE * h);
-    if (!cause->guard) cause->constraint = vanishing_normal(run, t, PIECE * h);
-    return cause->guard || cause->constraint;
+    failure->guard = vanishing_guard(run, t, PIECE * h);
+    if (!failure->guard) failure->constraint = vanishing_normal(run, t, PIECE * h);
+    return failure->guard || failure->constraint;
 }
 
 static dal_status unsolved(dal_run *run, double t, double h, dal_error *error)
@@ -131,56 +132,56 @@ static dal_status unsolved(dal_run *run, double t, double h, dal_error *error)
 }
 
 /* The control of the step size gave up. */
-static dal_status undivided(dal_run *run, const dal__cause *cause, double t, double h,
+static dal_status undivided(dal_run *run, const dal__failure *failure, double t, double h,
                             dal_error *error)
 {
     const double tolerance = run->layout.options.tolerance;
-    if (cause->substep > 0.0)
+    if (failure->substep > 0.0)
         return dal__fail(error, DAL_NOT_CONVERGED,
                          "too many substeps (more than %d) for tolerance %g in the step of %g from "
                          "t = %.17g: at t = %.17g their size is %g",
-                         DAL__MOST_TRIALS, tolerance, h, t, cause->reached, cause->substep);
+                         DAL__MOST_TRIALS, tolerance, h, t, failure->reached, failure->substep);
     return dal__fail(error, DAL_NOT_CONVERGED,
                      "the step size went to zero at t = %.17g in the step of %g from t = %.17g: "
                      "no substep there keeps the error within tolerance %g",
-                     cause->reached, h, t, tolerance);
+                     failure->reached, h, t, tolerance);
 }
 
 /* Steps again, watching; a system that is not a pure function may now succeed, so the state is put
  * back. */
-static void repeat(dal_run *run, double h, dal__cause *cause)
+static void repeat(dal_run *run, double h, dal__failure *failure)
 {
     const size_t bytes = run->layout.persistent * sizeof *run->persistent;
     dal_status why = DAL_OK;
     memcpy(run->shadow, run->persistent, bytes);
-    run->kind->trace(run->engine, cause);
+    run->kind->trace(run->engine, failure);
     run->kind->step(run->engine, h, 1u, &why);
     run->kind->trace(run->engine, NULL);
     memcpy(run->persistent, run->shadow, bytes);
 }
 
-dal_status dal__explain(dal_run *run, double h, dal_status status, dal_error *error)
+dal_status dal__failure_reason(dal_run *run, double h, dal_status status, dal_error *error)
 {
     const dal__layout *k = &run->layout;
     const double t = dal_run_time(run);
-    dal__cause cause = {.q = run->point, .v = run->point + k->n};
-    repeat(run, h, &cause);
+    dal__failure failure = {.q = run->point, .v = run->point + k->n};
+    repeat(run, h, &failure);
     if (status == DAL_GAUGE || (status != DAL_SINGULAR && gauge_crosses(run, t, h)))
         return dal__fail(error, DAL_GAUGE,
                          "e reached zero between t = %.17g and %.17g: 1/e is not defined", t,
                          t + h);
-    if (cause.guard || cause.constraint) return turned(run, &cause, t, h, error);
-    if (cause.not_finite) {
-        const dal_status said = diagnose(run, &cause, error);
+    if (failure.guard || failure.constraint) return turned(run, &failure, t, h, error);
+    if (failure.not_finite) {
+        const dal_status said = diagnose(run, &failure, error);
         if (said != DAL_OK) return said;
-        if (cause.status != DAL_OK)
-            return dal__fail(error, cause.status, "the system failed at t = %.17g: %s", cause.t,
-                             dal_status_text(cause.status));
+        if (failure.status != DAL_OK)
+            return dal__fail(error, failure.status, "the system failed at t = %.17g: %s", failure.t,
+                             dal_status_text(failure.status));
     }
-    if (status == DAL_NOT_CONVERGED && vanishes(run, t, h, &cause))
-        return turned(run, &cause, t, h, error);
-    if (status == DAL_NOT_CONVERGED && k->options.tolerance > 0.0 && cause.reached < t + h)
-        return undivided(run, &cause, t, h, error);
+    if (status == DAL_NOT_CONVERGED && vanishes(run, t, h, &failure))
+        return turned(run, &failure, t, h, error);
+    if (status == DAL_NOT_CONVERGED && k->options.tolerance > 0.0 && failure.reached < t + h)
+        return undivided(run, &failure, t, h, error);
     if (status == DAL_NOT_CONVERGED) return unsolved(run, t, h, error);
     if (status == DAL_NOT_FINITE)
         return dal__fail(error, status, "a value is not finite in the step of %g from t = %.17g", h,

@@ -84,7 +84,8 @@ dal_status dal__observe_steps(dal_run *run, const dal_observer *o, long long cou
         const dal_status status =
             traced ? collect_trace(run, steps, &taken) : collect(run, o->every, steps, &taken);
         DAL_TRY(deliver(run, o, taken, error));
-        if (status != DAL_OK) return dal__explain(run, run->layout.options.step, status, error);
+        if (status != DAL_OK)
+            return dal__failure_reason(run, run->layout.options.step, status, error);
         count -= steps;
     }
     return DAL_OK;

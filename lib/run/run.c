@@ -148,7 +148,7 @@ dal_status dal_run_advance(dal_run *run, long long count, dal_error *error)
     const double h = run->layout.options.step;
     if (count < 0) return dal__fail(error, DAL_ARGUMENT, "%lld steps: a run goes forward", count);
     const dal_status status = dal__run_steps(run, h, count);
-    return status == DAL_OK ? DAL_OK : dal__explain(run, h, status, error);
+    return status == DAL_OK ? DAL_OK : dal__failure_reason(run, h, status, error);
 }
 
 dal_status dal_run_step(dal_run *run, dal_error *error) { return dal_run_advance(run, 1, error); }

@@ -72,7 +72,7 @@ dal_status dal__run_start(dal_run *run, const dal_setting *parameters, int param
                           const dal_setting *start, int start_count, dal_error *error);
 
 /* Finds out why a step of size h failed with status, and says it. */
-dal_status dal__explain(dal_run *run, double h, dal_status status, dal_error *error);
+dal_status dal__failure_reason(dal_run *run, double h, dal_status status, dal_error *error);
 
 /* Follows count steps and hands the looks over to observer->values; or the start alone. */
 dal_status dal__observe_steps(dal_run *run, const dal_observer *observer, long long count,

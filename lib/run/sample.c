@@ -72,7 +72,7 @@ dal_status dal_run_intermediate(dal_run *run, double h,
         return dal__fail(error, DAL_ARGUMENT, "an intermediate step must be finite; it is %g", h);
     dal__run_back_up(run);
     dal_status status = dal__run_steps(run, h, 1);
-    if (status != DAL_OK) return dal__explain(run, h, status, error);
+    if (status != DAL_OK) return dal__failure_reason(run, h, status, error);
     status = observe(user, run);
     dal__run_revert(run);
     return status;
