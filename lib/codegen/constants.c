@@ -12,7 +12,7 @@ static bool steps_groups_together(const dal__generation *g)
 }
 
 /* Lanes go by registers, as large as the processor has them. */
-static void put_lanes(dal__generation *g)
+static void write_lanes(dal__generation *g)
 {
     dal__text_print(&g->text, "#define DAL_LANES %d\n", g->lanes);
     dal__text_put(&g->text, "#if DAL_LANES > 8 && defined __AVX512F__\n#define DAL_GROUP 8\n"
@@ -27,7 +27,7 @@ static void put_lanes(dal__generation *g)
         steps_groups_together(g) ? "DAL_GROUPS" : "1");
 }
 
-void dal__put_constants(dal__generation *g)
+void dal__write_constants(dal__generation *g)
 {
     const dal__layout *k = &g->layout;
     const int stages = g->spec->method.layer[0]->stages;
@@ -60,7 +60,7 @@ void dal__put_constants(dal__generation *g)
         {"GAUGE", dal__wants(g, DAL__PROGRAM_GAUGE)},
         {"TRACED", g->product == DAL__TRACE},
     };
-    put_lanes(g);
+    write_lanes(g);
     for (size_t i = 0; i < sizeof list / sizeof *list; i++)
         dal__text_print(&g->text, "#define DAL__%s %d\n", list[i].name, list[i].value);
     dal__text_put(&g->text, "#define DAL__SOLVER_TOLERANCE ");

@@ -35,7 +35,7 @@ static bool is_inlined(const dal__generation *g, dal__program_code code)
     return code != DAL__PROGRAM_JACOBIAN && length <= MOST_INLINED;
 }
 
-static void put_program(dal__generation *g, dal__program_code code, const char *name)
+static void write_program(dal__generation *g, dal__program_code code, const char *name)
 {
     if (!dal__wants(g, code)) return;
     dal__text_print(&g->text,
@@ -48,8 +48,8 @@ static void put_program(dal__generation *g, dal__program_code code, const char *
 
 /* The branch of dal_eval for one code.  What is not inlined gets copies, so that the state
  * itself can stay in registers. */
-static void put_evaluation(dal__generation *g, dal__program_code code, const char *callback,
-                           const char *name)
+static void write_evaluation(dal__generation *g, dal__program_code code, const char *callback,
+                             const char *name)
 {
     const dal__program *p = &g->programs->program[code];
     const int outputs = p->outputs, all = outputs + 2 * p->checked;
@@ -72,7 +72,7 @@ static void put_evaluation(dal__generation *g, dal__program_code code, const cha
                     outputs, p->checked);
 }
 
-static void put_dispatch(dal__generation *g)
+static void write_dispatch(dal__generation *g)
 {
     dal__text_put(&g->text,
                   "/* The outputs; NaN in the lanes where one of the pivots behind them, each\n"
@@ -91,7 +91,7 @@ static void put_dispatch(dal__generation *g)
                   "code, dal_time t,\n    const num *q, const num *v, const num *pi, "
                   "num *out)\n{\n"
                   "    switch (code) {\n");
-#define X(code, name, reads) put_evaluation(g, DAL__PROGRAM_##code, #code, #name);
+#define X(code, name, reads) write_evaluation(g, DAL__PROGRAM_##code, #code, #name);
     DAL__WIDE_LIST(X)
 #undef X
     if (!dal__wants(g, DAL__PROGRAM_GAUGE))
@@ -110,7 +110,7 @@ static int find_component(const dal_run *run, const char *name)
     return 0; /* the run has accepted the name */
 }
 
-void dal__put_start(dal__generation *g)
+void dal__write_start(dal__generation *g)
 {
     const dal__layout *k = &g->layout;
     const int first = k->n + k->nw;
@@ -134,13 +134,13 @@ void dal__put_start(dal__generation *g)
     dal__text_put(&g->text, "}\n\n");
 }
 
-static void put_single_programs(dal__generation *g)
+static void write_single_programs(dal__generation *g)
 {
-    if (g->product == DAL__FILE) put_program(g, DAL__PROGRAM_START, "start_values");
-    put_program(g, DAL__PROGRAM_CONSTRAINTS, "constraints");
-    put_program(g, DAL__PROGRAM_ENERGY, "energy");
-    put_program(g, DAL__PROGRAM_INVARIANTS, "invariant_values");
-    put_program(g, DAL__PROGRAM_EXACT, "exact");
+    if (g->product == DAL__FILE) write_program(g, DAL__PROGRAM_START, "start_values");
+    write_program(g, DAL__PROGRAM_CONSTRAINTS, "constraints");
+    write_program(g, DAL__PROGRAM_ENERGY, "energy");
+    write_program(g, DAL__PROGRAM_INVARIANTS, "invariant_values");
+    write_program(g, DAL__PROGRAM_EXACT, "exact");
 }
 
 void dal__emit_callbacks(dal__generation *g)
@@ -153,12 +153,12 @@ void dal__emit_callbacks(dal__generation *g)
                                 : "\n/* All lanes have one time. */\n"
                                   "typedef double dal_time;\n#define DAL_TIME(t) dal_num(t)\n");
     dal__text_put(&g->text, "\n/* ---- the system ---- */\n\n");
-#define X(code, name, reads) put_program(g, DAL__PROGRAM_##code, #name);
+#define X(code, name, reads) write_program(g, DAL__PROGRAM_##code, #name);
     DAL__WIDE_LIST(X)
 #undef X
-    if (g->product == DAL__FILE || g->product == DAL__OBSERVE) put_single_programs(g);
+    if (g->product == DAL__FILE || g->product == DAL__OBSERVE) write_single_programs(g);
     free(g->input);
-    put_dispatch(g);
+    write_dispatch(g);
 }
 
 /* ---- observables, in the order of dal_run_observables ---- */
@@ -171,7 +171,7 @@ static bool has(const dal_run *run, const char *name)
     return false;
 }
 
-void dal__put_observe(dal__generation *g)
+void dal__write_observe(dal__generation *g)
 {
     const dal_system *system = g->layout.system;
     dal__text *text = &g->text;

@@ -12,7 +12,7 @@ enum { MOST_UNROLLED = 256, MOST_UNROLLED_DIM = 64 };
 
 /* ---- texts ---- */
 
-void dal__put_template(dal__generation *g, const char *text)
+void dal__write_template(dal__generation *g, const char *text)
 {
     static const char word[] = "PREFIX";
     for (const char *next; (next = strstr(text, word)); text = next + strlen(word)) {
@@ -193,7 +193,7 @@ static const char compiler[] =
     "#ifndef __clang__ /* stages that no iteration was made for are never used */\n"
     "#pragma GCC diagnostic ignored \"-Wmaybe-uninitialized\"\n#endif\n\n";
 
-void dal__put_compiler(dal__generation *g) { dal__put_template(g, compiler); }
+void dal__write_compiler(dal__generation *g) { dal__write_template(g, compiler); }
 
 static const char end[] = "\n#pragma GCC diagnostic pop\n"
                           "#ifndef __clang__\n"
@@ -201,7 +201,7 @@ static const char end[] = "\n#pragma GCC diagnostic pop\n"
                           "#endif\n"
                           "#endif /* PREFIX_HEADER */\n";
 
-static void put_unrolling(dal__generation *g)
+static void write_unrolling(dal__generation *g)
 {
     const int stages = g->spec->method.layer[0]->stages;
     const bool coupled = dal__method_uses(g, "dal_collocation");
@@ -218,7 +218,7 @@ static void put_unrolling(dal__generation *g)
 }
 
 /* What the kernel takes from the public header. */
-static void put_enums(dal__generation *g)
+static void write_enums(dal__generation *g)
 {
     dal__text_put(&g->text, "\ntypedef enum dal_status {\n");
 #define X(code, words) dal__text_put(&g->text, "    DAL_" #code ",\n");
@@ -230,7 +230,7 @@ static void put_enums(dal__generation *g)
 }
 
 /* The parts of the kernel that the method needs. */
-static void put_kernel(dal__generation *g)
+static void write_kernel(dal__generation *g)
 {
     static const char *const always[] = {"num.h", "elementary.h", "persistent.h",
                                          "try.h", "step.h",       "algebra.h"};
@@ -251,12 +251,12 @@ static void put_kernel(dal__generation *g)
 }
 
 /* rk4, implicit_midpoint: what an integrator is called in DAL_INTEGRATOR. */
-static void put_identifier(dal__generation *g, const dal_integrator *link)
+static void write_identifier(dal__generation *g, const dal_integrator *link)
 {
     for (const char *c = link->name; *c; c++) dal__text_add(&g->text, *c == '-' ? "_" : c, 1);
 }
 
-static void put_method(dal__generation *g)
+static void write_method(dal__generation *g)
 {
     dal__text *text = &g->text;
     dal__text_put(text, "\n#define DAL_INTEGRATOR(identifier, function, ...) \\\n"
@@ -270,7 +270,7 @@ static void put_method(dal__generation *g)
                             "{\n    const double outer = s->h;\n    s->h = h;\n"
                             "    const dal_status status = dal__of_",
                             i);
-            put_identifier(g, g->spec->method.layer[i - 1]);
+            write_identifier(g, g->spec->method.layer[i - 1]);
             dal__text_print(text,
                             "(s);\n    s->h = outer;\n    return status;\n}\n"
                             "#undef dal_inner\n#define dal_inner dal__inner_%d\n",
@@ -281,36 +281,36 @@ static void put_method(dal__generation *g)
         dal__text_put(text, "#undef step\n\n");
     }
     dal__text_put(text, "#define dal__method dal__of_");
-    put_identifier(g, g->spec->method.layer[g->layout.depth - 1]);
+    write_identifier(g, g->spec->method.layer[g->layout.depth - 1]);
     dal__text_put(text, "\n\n");
 }
 
 /* Kernel, system, method and steps. */
-void dal__put_steps(dal__generation *g)
+void dal__write_steps(dal__generation *g)
 {
-    dal__put_compiler(g);
-    put_unrolling(g);
-    dal__put_constants(g);
-    put_enums(g);
-    put_kernel(g);
+    dal__write_compiler(g);
+    write_unrolling(g);
+    dal__write_constants(g);
+    write_enums(g);
+    write_kernel(g);
     dal__emit_callbacks(g);
     dal__text_put(&g->text, dal__source_text("dispatch.inc"));
-    put_method(g);
-    dal__put_template(g, dal__source_text("stepper.inc"));
+    write_method(g);
+    dal__write_template(g, dal__source_text("stepper.inc"));
 }
 
-static void put_file(dal__generation *g)
+static void write_file(dal__generation *g)
 {
-    dal__put_interface(g);
-    dal__put_template(g, "\n#ifndef PREFIX_HEADER\n\n#include <math.h>\n#include <stddef.h>\n"
-                         "#include <stdint.h>\n#include <string.h>\n\n");
-    dal__put_steps(g);
-    dal__put_start(g);
+    dal__write_interface(g);
+    dal__write_template(g, "\n#ifndef PREFIX_HEADER\n\n#include <math.h>\n#include <stddef.h>\n"
+                           "#include <stdint.h>\n#include <string.h>\n\n");
+    dal__write_steps(g);
+    dal__write_start(g);
     dal__text_put(&g->text, dal__source_text("observe_lift.inc"));
-    dal__put_template(g, dal__source_text("interface.inc"));
-    dal__put_observe(g);
-    dal__put_names(g);
-    dal__put_template(g, end);
+    dal__write_template(g, dal__source_text("interface.inc"));
+    dal__write_observe(g);
+    dal__write_names(g);
+    dal__write_template(g, end);
 }
 
 dal_status dal__generation_finish(dal__generation *g, char **text, dal_error *error)
@@ -334,7 +334,7 @@ dal_status dal_generate(const dal_run_spec *spec, int lanes, const char *prefix,
     dal_run *run;
     DAL_TRY(dal_run_create(&run, spec, error));
     g.run = run;
-    put_file(&g);
+    write_file(&g);
     dal_run_free(run);
     return dal__generation_finish(&g, text, error);
 }

@@ -37,7 +37,7 @@ typedef struct dal__generation {
 } dal__generation;
 
 /* Adds a text in which the word PREFIX becomes the prefix. */
-void dal__put_template(dal__generation *g, const char *text);
+void dal__write_template(dal__generation *g, const char *text);
 /* The text of a source by its name; "" when there is none. */
 const char *dal__source_text(const char *name);
 /* Whether the text of the method uses a word. */
@@ -51,8 +51,8 @@ bool dal__wants(const dal__generation *g, dal__program_code code);
 dal_status dal__generation_check(dal__generation *g, const char *prefix, dal_error *error);
 dal_status dal__generation_finish(dal__generation *g, char **text, dal_error *error);
 /* What keeps a compiler exact; kernel, system, method and steps. */
-void dal__put_compiler(dal__generation *g);
-void dal__put_steps(dal__generation *g);
+void dal__write_compiler(dal__generation *g);
+void dal__write_steps(dal__generation *g);
 
 /* ---- native_text.c: what native mode compiles ---- */
 
@@ -72,15 +72,15 @@ dal_status dal__generate_observables(const dal__layout *layout, const dal_run *r
 dal_status dal__choose_prefix(dal__generation *g, const char *prefix, dal_error *error);
 
 /* ---- constants.c ---- */
-void dal__put_constants(dal__generation *g);
+void dal__write_constants(dal__generation *g);
 
 /* ---- interface.c: what a caller sees ---- */
-void dal__put_interface(dal__generation *g);
-void dal__put_names(dal__generation *g);
+void dal__write_interface(dal__generation *g);
+void dal__write_names(dal__generation *g);
 
 /* ---- emit_callbacks.c: the system ---- */
 void dal__emit_callbacks(dal__generation *g);
-void dal__put_start(dal__generation *g);
-void dal__put_observe(dal__generation *g);
+void dal__write_start(dal__generation *g);
+void dal__write_observe(dal__generation *g);
 
 #endif

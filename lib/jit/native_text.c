@@ -8,7 +8,7 @@
 enum { MOST_UNROLLED = 64 };
 
 /* Declarations instead of headers, which take a compiler longer to read. */
-static void put_declarations(dal__generation *g)
+static void write_declarations(dal__generation *g)
 {
     dal__text_put(&g->text,
                   "typedef __INT64_TYPE__ int64_t;\ntypedef __UINT64_TYPE__ uint64_t;\ntypedef "
@@ -31,13 +31,13 @@ dal_status dal__generate_native(const dal_run_spec *spec, dal__product product, 
     dal__generation g = {.spec = spec, .lanes = lanes, .product = product};
     *text = NULL;
     DAL_TRY(dal__generation_check(&g, DAL__NATIVE_PREFIX, error));
-    put_declarations(&g);
-    dal__put_template(&g, product == DAL__TRACE
-                              ? "long long PREFIX_traced(double *, const double *, double, long "
-                                "long, unsigned *, int *, double *, long long);\n"
-                              : "long long PREFIX_lanes(double *, const double *, double, long "
-                                "long, unsigned, unsigned *, int *);\n");
-    dal__put_steps(&g);
+    write_declarations(&g);
+    dal__write_template(&g, product == DAL__TRACE
+                                ? "long long PREFIX_traced(double *, const double *, double, long "
+                                  "long, unsigned *, int *, double *, long long);\n"
+                                : "long long PREFIX_lanes(double *, const double *, double, long "
+                                  "long, unsigned, unsigned *, int *);\n");
+    dal__write_steps(&g);
     return dal__generation_finish(&g, text, error);
 }
 
@@ -52,7 +52,7 @@ static const char lanes[] = "#define DAL_SPECIALISED 1\n"
                             "typedef enum dal_callback_code { DAL_EVAL_FIELD, DAL_EVAL_GAUGE } "
                             "dal_callback_code;\n";
 
-static void put_sizes(dal__generation *g)
+static void write_sizes(dal__generation *g)
 {
     const dal__layout *k = &g->layout;
     const bool small = k->dim <= MOST_UNROLLED;
@@ -72,18 +72,18 @@ dal_status dal__generate_observables(const dal__layout *layout, const dal_run *r
     if (layout->options.precision != DAL_DOUBLE)
         return dal__fail(error, DAL_UNSUPPORTED, "observables in quad precision are not generated");
     DAL_TRY(dal__generation_check(&g, DAL__NATIVE_PREFIX, error));
-    put_declarations(&g);
-    dal__put_template(
+    write_declarations(&g);
+    dal__write_template(
         &g, "void PREFIX_observables(const double *, long long, long long, const double *, "
             "double *);\n");
-    dal__put_compiler(&g);
+    dal__write_compiler(&g);
     dal__text_put(&g.text, lanes);
-    put_sizes(&g);
+    write_sizes(&g);
     dal__text_put(&g.text, dal__source_text("num.h"));
     dal__text_put(&g.text, dal__source_text("elementary.h"));
     dal__emit_callbacks(&g);
     if (g.layout.lifted) dal__text_put(&g.text, dal__source_text("observe_lift.inc"));
-    dal__put_observe(&g);
-    dal__put_template(&g, dal__source_text("observables.inc"));
+    dal__write_observe(&g);
+    dal__write_template(&g, dal__source_text("observables.inc"));
     return dal__generation_finish(&g, text, error);
 }
