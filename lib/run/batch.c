@@ -12,10 +12,10 @@
 /* The widths a batch may ask for, and the kinds it is made of, the widest first. */
 static const int widths[] = {DAL__BLOCK, 8, 4, 1};
 enum { WIDTHS = sizeof widths / sizeof *widths };
-typedef struct choice {
+typedef struct engine_choice {
     const dal__engine_kind *kind[WIDTHS];
     int count;
-} choice;
+} engine_choice;
 
 typedef struct block {
     const dal__engine_kind *kind;
@@ -47,9 +47,9 @@ static bool is_near(const dal__layout *k, int width)
 
 /* The best kinds up to the width asked for (0: up to the one that pays).  A kind of several lanes
  * that lacks the instruction set of a narrower one is slower than that. */
-static choice choose(const dal__layout *k, int width)
+static engine_choice choose(const dal__layout *k, int width)
 {
-    choice made = {{NULL}, 0};
+    engine_choice made = {{NULL}, 0};
     for (int i = 0; i < WIDTHS; i++) {
         const dal__engine_kind *best = dal__engine_best(k, widths[i]);
         if (!best || (width ? widths[i] > width : widths[i] > 8 && !is_near(k, widths[i])))
@@ -61,7 +61,7 @@ static choice choose(const dal__layout *k, int width)
 }
 
 /* The kind of the next block when so many lanes remain: the widest that is more than half full. */
-static const dal__engine_kind *next_kind(const choice *from, int remaining)
+static const dal__engine_kind *next_kind(const engine_choice *from, int remaining)
 {
     int i = 0;
     while (i < from->count - 1 && remaining <= from->kind[i]->width / 2) i++;
@@ -83,7 +83,7 @@ static block *block_of(const dal_batch *batch, int lane)
 
 /* ---- memory ---- */
 
-static void spread(double *wide, const double *single, size_t numbers, int width, int lane)
+static void scatter(double *wide, const double *single, size_t numbers, int width, int lane)
 {
     for (size_t i = 0; i < numbers; i++) wide[i * (size_t)width + (size_t)lane] = single[i];
 }
@@ -94,14 +94,14 @@ static void gather(double *single, const double *wide, size_t numbers, int width
 }
 
 /* The scalar run's start and parameters into one lane of a block. */
-static void put_lane(dal_batch *batch, const block *b, int lane)
+static void scatter_lane(dal_batch *batch, const block *b, int lane)
 {
     const dal__layout *k = &batch->scalar->layout;
-    spread(b->persistent, batch->scalar->persistent, k->persistent, b->kind->width, lane);
-    spread(b->work, batch->scalar->work, k->workspace, b->kind->width, lane);
+    scatter(b->persistent, batch->scalar->persistent, k->persistent, b->kind->width, lane);
+    scatter(b->work, batch->scalar->work, k->workspace, b->kind->width, lane);
 }
 
-static void get_lane(dal_batch *batch, const block *b, int lane)
+static void gather_lane(dal_batch *batch, const block *b, int lane)
 {
     const dal__layout *k = &batch->scalar->layout;
     gather(batch->scalar->persistent, b->persistent, k->persistent, b->kind->width, lane);
@@ -113,7 +113,7 @@ enum { ALIGNMENT = DAL__BLOCK * sizeof(double) };
 static size_t round_up(size_t bytes) { return (bytes + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT; }
 
 /* The blocks the batch needs, and the bytes of their engines; false: more than there can be. */
-static bool measure(dal_batch *batch, const choice *from, size_t *bytes)
+static bool measure(dal_batch *batch, const engine_choice *from, size_t *bytes)
 {
     *bytes = ALIGNMENT;
     for (int done = 0; done < batch->count; batch->blocks++) {
@@ -133,12 +133,12 @@ static void place_block(dal_batch *batch, block *b, const dal__engine_kind *kind
     *b = (block){.kind = kind, .first = first};
     b->engine = kind->place(&batch->scalar->layout, memory, &b->persistent, &b->work);
     for (int lane = 0; lane < kind->width; lane++) {
-        put_lane(batch, b, lane);
+        scatter_lane(batch, b, lane);
         if (first + lane < batch->count) b->alive |= (dal__lanes)1 << lane;
     }
 }
 
-static void place_blocks(dal_batch *batch, const choice *from)
+static void place_blocks(dal_batch *batch, const engine_choice *from)
 {
     char *at = (char *)batch->memory + (ALIGNMENT - (uintptr_t)batch->memory % ALIGNMENT);
     for (int i = 0, first = 0; i < batch->blocks; i++) {
@@ -149,7 +149,7 @@ static void place_blocks(dal_batch *batch, const choice *from)
     }
 }
 
-static dal_status allocate(dal_batch *batch, const choice *from, dal_error *error)
+static dal_status allocate(dal_batch *batch, const engine_choice *from, dal_error *error)
 {
     size_t bytes;
     if (measure(batch, from, &bytes)) {
@@ -173,8 +173,9 @@ dal_status dal__batch_create(dal_batch **batch, const dal_run_spec *spec, int co
     if (status == DAL_OK && only != DAL__VARIANTS && !dal__engine_can(&made->scalar->layout, only))
         status = dal__fail(error, DAL_UNSUPPORTED, "variant %d cannot run here", (int)only);
     if (status == DAL_OK) {
-        const choice one = {{&dal__engine_kinds[only % DAL__VARIANTS]}, 1};
-        const choice from = only == DAL__VARIANTS ? choose(&made->scalar->layout, width) : one;
+        const engine_choice one = {{&dal__engine_kinds[only % DAL__VARIANTS]}, 1};
+        const engine_choice from =
+            only == DAL__VARIANTS ? choose(&made->scalar->layout, width) : one;
         made->count = count;
         status = allocate(made, &from, error);
     }
@@ -234,8 +235,8 @@ static void move_lanes(dal_batch *from, dal_batch *to)
 {
     for (int lane = 0; lane < from->count; lane++) {
         block *a = block_of(from, lane), *b = block_of(to, lane);
-        get_lane(from, a, lane - a->first);
-        put_lane(to, b, lane - b->first);
+        gather_lane(from, a, lane - a->first);
+        scatter_lane(to, b, lane - b->first);
         to->error[lane] = from->error[lane];
         if (to->error[lane].status != DAL_OK) b->alive &= ~((dal__lanes)1 << (lane - b->first));
     }
@@ -244,7 +245,7 @@ static void move_lanes(dal_batch *from, dal_batch *to)
 dal_status dal__batch_install(dal_batch *batch, int lanes, const dal__native *native,
                               dal_error *error)
 {
-    const choice one = {{dal__engine_best(&batch->scalar->layout, lanes)}, 1};
+    const engine_choice one = {{dal__engine_best(&batch->scalar->layout, lanes)}, 1};
     dal_batch made = {.scalar = batch->scalar, .count = batch->count, .stepped = batch->stepped};
     const dal_status status = allocate(&made, &one, error);
     if (status != DAL_OK) {
@@ -276,16 +277,16 @@ dal_status dal_batch_start(dal_batch *batch, int lane, const dal_setting *parame
     DAL_TRY(dal__check_settings(start, start_count, "start values", error));
     DAL_TRY(dal__run_start(batch->scalar, parameters, parameter_count, start, start_count, error));
     const block *b = block_of(batch, lane);
-    put_lane(batch, b, lane - b->first);
+    scatter_lane(batch, b, lane - b->first);
     return DAL_OK;
 }
 
 /* The scalar run repeats the failing step, to say why. */
-static void record(dal_batch *batch, block *b, dal__lanes failed, const dal_status *why)
+static void record_failures(dal_batch *batch, block *b, dal__lanes failed, const dal_status *why)
 {
     for (int lane = 0; lane < b->kind->width; lane++) {
         if (!(failed >> lane & 1)) continue;
-        get_lane(batch, b, lane);
+        gather_lane(batch, b, lane);
         dal__failure_reason(batch->scalar, batch->scalar->layout.options.step, why[lane],
                             &batch->error[b->first + lane]);
     }
@@ -297,12 +298,12 @@ static long long step_block(dal_batch *batch, block *b, double h, long long coun
                             dal__lanes *failed, dal_status *why)
 {
     unsigned lanes = 0;
-    int said[DAL__BLOCK];
+    int reasons[DAL__BLOCK];
     if (batch->native.steps) {
-        count =
-            batch->native.steps(b->persistent, b->work, h, count, (unsigned)b->alive, &lanes, said);
+        count = batch->native.steps(b->persistent, b->work, h, count, (unsigned)b->alive, &lanes,
+                                    reasons);
         for (int i = 0; i < b->kind->width; i++)
-            if (lanes >> i & 1) why[i] = (dal_status)said[i];
+            if (lanes >> i & 1) why[i] = (dal_status)reasons[i];
         *failed = lanes;
         return count;
     }
@@ -324,7 +325,7 @@ dal_status dal_batch_advance(dal_batch *batch, long long count)
         block *b = &batch->block[i];
         for (long long left = count; left > 0 && b->alive;) {
             left -= step_block(batch, b, h, left, &failed, why);
-            if (failed) record(batch, b, failed, why);
+            if (failed) record_failures(batch, b, failed, why);
         }
         alive |= b->alive != 0;
         if (!b->alive) last = batch->error[b->first].status;
