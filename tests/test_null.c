@@ -5,8 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-FUNCTIONS_dalembert(DECLARE_NULL_TEST) FUNCTIONS_dalembert_method(DECLARE_NULL_TEST)
-    FUNCTIONS_dalembert_model(DECLARE_NULL_TEST) FUNCTIONS_dalembert_codegen(DECLARE_NULL_TEST)
+FUNCTIONS_dalembert(DECLARE_NULL_TEST) FUNCTIONS_dalembert_model(DECLARE_NULL_TEST)
+    FUNCTIONS_dalembert_codegen(DECLARE_NULL_TEST)
 
     /* ---- what the functions are given where they are given anything ---- */
 
@@ -142,7 +142,7 @@ static void null_dal_run_name(void)
     CU_ASSERT_PTR_NULL(dal_run_name(run, -1, buffer, sizeof buffer));
 }
 
-static void null_dal_run_memory(void)
+static void null_dal_run_save(void)
 {
     size_t count = 7;
     CU_ASSERT_PTR_NULL(dal_run_save(NULL, &count));
@@ -150,7 +150,7 @@ static void null_dal_run_memory(void)
     CU_ASSERT_PTR_NULL(dal_run_save(run, NULL));
 }
 
-static void null_dal_run_load(void)
+static void null_dal_run_restore(void)
 {
     size_t count;
     const double *memory = dal_run_save(run, &count);
@@ -184,7 +184,7 @@ static void null_dal_run_sample(void)
 
 static dal_status see(void *user, dal_run *seen) { return user || !seen ? DAL_IO : DAL_OK; }
 
-static void null_dal_run_aside(void)
+static void null_dal_run_intermediate(void)
 {
     REFUSED(dal_run_intermediate(NULL, 0.1, see, NULL, error));
     REFUSED(dal_run_intermediate(run, 0.1, NULL, NULL, error));
@@ -267,7 +267,7 @@ static void null_dal_method_name(void)
 }
 
 static void null_dal_method_order(void) { CU_ASSERT_EQUAL(dal_method_order(NULL), 0); }
-static void null_dal_method_claims(void) { CU_ASSERT_EQUAL(dal_method_properties(NULL), 0); }
+static void null_dal_method_properties(void) { CU_ASSERT_EQUAL(dal_method_properties(NULL), 0); }
 static void null_dal_method_needs(void) { CU_ASSERT_EQUAL(dal_method_needs(NULL), 0); }
 
 /* ---- models ---- */
@@ -379,6 +379,6 @@ static void null_dal_batch_is_native(void) { CU_ASSERT_EQUAL(dal_batch_is_native
 void suite_null(void)
 {
     CU_pSuite suite = CU_add_suite("NULL and negative counts", open_objects, close_objects);
-    FUNCTIONS_dalembert(ADD_NULL_TEST) FUNCTIONS_dalembert_method(ADD_NULL_TEST)
-        FUNCTIONS_dalembert_model(ADD_NULL_TEST) FUNCTIONS_dalembert_codegen(ADD_NULL_TEST)
+    FUNCTIONS_dalembert(ADD_NULL_TEST) FUNCTIONS_dalembert_model(ADD_NULL_TEST)
+        FUNCTIONS_dalembert_codegen(ADD_NULL_TEST)
 }
