@@ -367,8 +367,8 @@ dal_status dal_run_set_state(dal_run *run, double t, const double *state, dal_er
 char *dal_run_name(const dal_run *run, int i, char *buffer, size_t size);
 
 /* The persistent state of a run, *count doubles, valid until the run is freed: all that passes from
- * one step to the next.  A copy is a checkpoint.  restore puts it into a run of the same spec, which
- * then continues with the same bits.  Errors: DAL_ARGUMENT (wrong count), DAL_NOT_FINITE. */
+ * one step to the next.  A copy is a checkpoint.  restore puts it into a run of the same spec,
+ * which then continues with the same bits.  Errors: DAL_ARGUMENT (wrong count), DAL_NOT_FINITE. */
 const double *dal_run_save(const dal_run *run, size_t *count);
 dal_status dal_run_restore(dal_run *run, const double *saved, size_t count, dal_error *error);
 
@@ -401,10 +401,10 @@ typedef struct dal_observer {
     long long polling;
 } dal_observer;
 
-/* Advances the run to time T and samples rows first_row..samples at t = row*T/samples, the last at T
- * exactly.  The trajectory consists of steps h.  An intermediate step of the same method gives a row
- * between two steps and does not change the trajectory.  After an interruption between rows pass the
- * first row not sampled.  observer may be NULL. */
+/* Advances the run to time T and samples rows first_row..samples at t = row*T/samples, the last at
+ * T exactly.  The trajectory consists of steps h.  An intermediate step of the same method gives a
+ * row between two steps and does not change the trajectory.  After an interruption between rows
+ * pass the first row not sampled.  observer may be NULL. */
 dal_status dal_run_sample(dal_run *run, double T, long long samples, long long first_row,
                           const dal_observer *observer, dal_error *error);
 
@@ -430,13 +430,14 @@ void dal_batch_free(dal_batch *batch);
 dal_status dal_batch_start(dal_batch *batch, int lane, const dal_setting *parameters,
                            int parameter_count, const dal_setting *start, int start_count,
                            dal_error *error);
-/* Steps every lane that has not failed; DAL_OK while any such lane is left.  A failed lane keeps its
- * state before the failing step and does not slow down the others. */
+/* Steps every lane that has not failed; DAL_OK while any such lane is left.  A failed lane keeps
+ * its state before the failing step and does not slow down the others. */
 dal_status dal_batch_advance(dal_batch *batch, long long count);
 int dal_batch_count(const dal_batch *batch);
 dal_status dal_batch_status(const dal_batch *batch, int lane, dal_error *error);
 double dal_batch_time(const dal_batch *batch, int lane);
-/* Copies the state of a lane, [dimension] doubles as dal_run_state; does nothing without the lane. */
+/* Copies the state of a lane, [dimension] doubles as dal_run_state; does nothing without the lane.
+ * */
 void dal_batch_state(const dal_batch *batch, int lane, double *state);
 
 #ifdef __cplusplus

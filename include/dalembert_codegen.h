@@ -12,11 +12,11 @@ extern "C" {
 
 /* Writes a self-contained C file that steps this system by this method on this space, lanes (1, 2,
  * 4, 8 or 16) at a time: *text, to be freed with free(); its first comment explains its use.  The
- * bits are those of a run of the same spec.  The system must come from a model, the integrators from
- * the library.  Parameters and start of the spec are the defaults of the file; solver and iterations
- * are fixed in it, the step size is not.  prefix begins every public name (NULL: SYSTEM_METHOD).
- * [alloc]  Errors: as dal_run_create, DAL_ARGUMENT (lanes, prefix), DAL_UNSUPPORTED, DAL_TOO_LARGE
- * (for straight-line code). */
+ * bits are those of a run of the same spec.  The system must come from a model, the integrators
+ * from the library.  Parameters and start of the spec are the defaults of the file; solver and
+ * iterations are fixed in it, the step size is not.  prefix begins every public name (NULL:
+ * SYSTEM_METHOD). [alloc]  Errors: as dal_run_create, DAL_ARGUMENT (lanes, prefix),
+ * DAL_UNSUPPORTED, DAL_TOO_LARGE (for straight-line code). */
 dal_status dal_generate(const dal_run_spec *spec, int lanes, const char *prefix, char **text,
                         dal_error *error);
 
@@ -33,8 +33,9 @@ typedef struct dal_native_options {
  * takes them from the cache.  Bits, checkpoints and errors stay the same; on failure the run
  * continues without compiled code.  Only these functions of the library start a process and write
  * files.  The run must be freed by dal_run_free, which unloads the code, even after dal_run_init.
- * [alloc]  Errors: DAL_UNSUPPORTED (no compiler, it failed or timed out; or as dal_generate), DAL_IO
- * (cache), DAL_ARGUMENT (no cache named), DAL_TOO_LARGE, DAL_MEMORY, DAL_INTERRUPTED (by stop). */
+ * [alloc]  Errors: DAL_UNSUPPORTED (no compiler, it failed or timed out; or as dal_generate),
+ * DAL_IO (cache), DAL_ARGUMENT (no cache named), DAL_TOO_LARGE, DAL_MEMORY, DAL_INTERRUPTED (by
+ * stop). */
 dal_status dal_run_native(dal_run *run, const dal_native_options *options, dal_error *error);
 int dal_run_is_native(const dal_run *run);
 

@@ -10,12 +10,12 @@
  *     dal_step, dal_field, dal_update, ...   lib/kernel/step.h          one step: state, system
  *     dal_invert, dal_multiply               lib/kernel/algebra.h       small dense algebra
  *     dal_solve                              lib/kernel/solve.h         fixed point, Newton
- *     dal_symplectic_euler                    lib/kernel/symplectic_euler.h     symplectic Euler steps
+ *     dal_symplectic_euler   lib/kernel/symplectic_euler.h     symplectic Euler steps
  *     dal_tableau                            lib/kernel/tableau.h       coefficients, weighted sums
  *     dal_collocation                        lib/kernel/collocation.h   implicit Runge-Kutta steps
  *     dal_substeps                           lib/kernel/composition.h   steps made of steps
  *     dal_control                            lib/kernel/adaptive.h      steps under error control
- *     dal_eval_blocks, dal_eliminate_multipliers, dal_enforce       lib/kernel/constrained.h   steps that impose D
+ *     dal_eval_blocks, dal_enforce           lib/kernel/constrained.h   steps that enforce D
  *     dal_spark_advance                      lib/kernel/spark.h         the same with stages
  *
  * A file ends with one DAL_INTEGRATOR for each method in it; one line in integrators.def (or,

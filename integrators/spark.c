@@ -9,8 +9,8 @@
  * Martin de Almagro, D. Martin de Diego, arXiv:1810.10926, whose s = 2 is gni but for forces that
  * depend on v.  Order 2s - 2, symmetric (the second in its multipliers, too, which begin with those
  * of the continuous motion: a wrong beginning costs an order), keep every D.  An error of
- * multipliers that are persistent grows where the motion contracts, as gni's does.  The equations are
- * those of lib/kernel/spark.h.
+ * multipliers that are persistent grows where the motion contracts, as gni's does.  The equations
+ * are those of lib/kernel/spark.h.
  *
  * Nodes: zeros of the (s-2)nd derivative of (x(1-x))^(s-1), then 1; a from C(s),
  * ahat_ij = b_j (1 - a_ji/b_i); behind the rows of both that of the weights b.  omega: a_2 .. a_s,

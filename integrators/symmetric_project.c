@@ -1,5 +1,5 @@
-/* symmetric_project.c - the modifier NAME+symmetric-project: D = 0 by a elimination before and after
- * every step, for a symmetric method.
+/* symmetric_project.c - the modifier NAME+symmetric-project: D = 0 by a elimination before and
+ * after every step, for a symmetric method.
  *
  *     v^ = v0 + B0 mu,   (q1, v~) = step of NAME from (q0, v^),   v1 = v~ + B1 mu
  *     D(q1, v1, t1) = 0;      B = W^-1 A^T,  B0 at (q0, v0, t0),  B1 at (q1, v1, t1)

@@ -59,7 +59,7 @@ typedef struct motion {
     dal_setting start[WIDE];
     dal_run *run[WIDE];
     double *begin[WIDE];     /* [persistent] */
-    dal_status status[WIDE]; /* as a step says, which dal__explain may know better */
+    dal_status status[WIDE]; /* as a step says, which dal__failure_reason may know better */
     size_t persistent;
     int inputs, wrong;
 } motion;

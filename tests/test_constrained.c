@@ -102,7 +102,8 @@ static void test_turning(void)
     }
 }
 
-/* The state at t = 1 after count steps; the multipliers persistent into the first are 0 if wrong. */
+/* The state at t = 1 after count steps; the multipliers persistent into the first are 0 if wrong.
+ * */
 static void end_state(const dal_system *system, const char *method, int count, bool wrong,
                       double *state)
 {

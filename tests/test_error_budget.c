@@ -210,7 +210,7 @@ static void test_by_hand(void)
     dal_error_budget *e = explained(&spec, 1000, 100);
     const dal_shares *loss = of(e, "E");
     CU_ASSERT_EQUAL(e->quad_steps, 0);
-    CU_ASSERT_PTR_NOT_NULL(strstr(e->reason[DAL_COMPARISON_QUAD], "spring has no form in them"));
+    CU_ASSERT_PTR_NOT_NULL(strstr(e->reason[DAL_COMPARISON_QUAD], "spring has no form in it"));
     CU_ASSERT_PTR_NOT_NULL(strstr(e->reason[DAL_COMPARISON_PROJECTION], "no constraint"));
     CU_ASSERT(fabs(loss->order - 5.0) < 0.05);
     CU_ASSERT(isnan(loss->share[DAL_SOURCE_ROUNDING]));

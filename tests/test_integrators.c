@@ -1,5 +1,5 @@
-/* test_integrators.c - conformance: what every descriptor properties, on fixtures with time-dependent
- * and velocity-dependent forces, a full q-dependent mass matrix and m = 2. */
+/* test_integrators.c - conformance: what every descriptor properties, on fixtures with
+ * time-dependent and velocity-dependent forces, a full q-dependent mass matrix and m = 2. */
 #include "fixtures.h"
 #include "quick.h"
 #include <CUnit/CUnit.h>

@@ -296,7 +296,7 @@ static void test_refused(void)
     CU_ASSERT(error.line == 0 && error.column == 0);
     dal_integrator outside = *spec.method.layer[0];
     spec.method.layer[0] = &outside;
-    fixture_refused(&spec, DAL_UNSUPPORTED, "'rk4' has no form in them");
+    fixture_refused(&spec, DAL_UNSUPPORTED, "'rk4' has no form in it");
     dal_model_free(model);
 }
 

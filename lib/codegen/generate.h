@@ -57,12 +57,12 @@ void dal__write_steps(dal__generation *g);
 /* ---- native_text.c: what native mode compiles ---- */
 
 #define DAL__NATIVE_PREFIX "dal_native"
-/* The steps alone, DAL__LANES or DAL__TRACE: the function DAL__NATIVE_PREFIX_lanes or _traced.
+/* The steps alone, DAL__LANES or DAL__TRACE: the function PREFIX_lanes or _traced.
  * Takes nothing from the parameters and the start of the spec. [alloc] */
 dal_status dal__generate_native(const dal_run_spec *spec, dal__product product, int lanes,
                                 char **text, dal_error *error);
 /* The observables of a run of this layout, wherever it stands: the function
- * DAL__NATIVE_PREFIX_observables. [alloc] */
+ * PREFIX_observables. [alloc] */
 dal_status dal__generate_observables(const dal__layout *layout, const dal_run *run, char **text,
                                      dal_error *error);
 

@@ -7,8 +7,8 @@
  * not finite counts as one of great error.  The substeps are whole multiples of the last place of
  * 4h, so that they make up h exactly; one that would be less than that is none, and the step fails.
  *
- * What is planned is persistent to the next step.  A branch on the error of one lane is allowed here
- * alone: steps under control have one lane, and only the variants of one lane have this. */
+ * What is planned is persistent to the next step.  A branch on the error of one lane is allowed
+ * here alone: steps under control have one lane, and only the variants of one lane have this. */
 #ifndef DAL_KERNEL_ADAPTIVE_H
 #define DAL_KERNEL_ADAPTIVE_H
 

@@ -7,14 +7,14 @@
  *     E_i  = e + h sum a_ij mu_j            t_i = t + c_i h
  *     K_i  = F(Q_i, V_i, t_i) + Pi_i/E_i    L_i = -P_i - F_v^T Pi |_i
  *
- * and y1 = y + h sum b_i (derivative)_i.  A partitioned method has other coefficients for w and p than
- * for q, e and pi, each the partner of the other: symplectic where b_i p_ij + b_j a_ji = b_i b_j.
- * For long runs (Hairer, McLachlan, Razakarivony, BIT 48 (2008) 231): each coefficient is head +
- * tail, the head a multiple of 1/1024, summed apart; stages start from y + r; iteration to
+ * and y1 = y + h sum b_i (derivative)_i.  A partitioned method has other coefficients for w and p
+ * than for q, e and pi, each the partner of the other: symplectic where b_i p_ij + b_j a_ji = b_i
+ * b_j. For long runs (Hairer, McLachlan, Razakarivony, BIT 48 (2008) 231): each coefficient is head
+ * + tail, the head a multiple of 1/1024, summed apart; stages start from y + r; iteration to
  * stagnation; the step ends with the stages of the derivatives it ended at.
  *
- * The first guess goes on with the polynomial through the derivatives K of the last step, corrected by
- * how far the same was off before: with miss_k = K_k - E K_(k-1), E the extrapolation,
+ * The first guess goes on with the polynomial through the derivatives K of the last step, corrected
+ * by how far the same was off before: with miss_k = K_k - E K_(k-1), E the extrapolation,
  *
  *     guess_(k+1) = E K_k + miss_k + D miss_k + D^2 miss_k + D^3 miss_k,   D x_k = x_k - x_(k-1),
  *

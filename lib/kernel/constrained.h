@@ -6,16 +6,16 @@
  *
  *     w = free(w) + N(w) mu,     D(q(w), v + w, t) = 0.
  *
- * The multipliers are eliminated: in every iteration they are those for which the constraints hold to
- * first order, so that w alone is iterated (solve.h), and what it stagnates at solves both:
+ * The multipliers are eliminated: in every iteration they are those for which the constraints hold
+ * to first order, so that w alone is iterated (solve.h), and what it stagnates at solves both:
  *
  *     (A N) mu = A (w - free) - D,     image = free + N mu
  *
- * D may be nonlinear, W may depend on q, v, t.  The iterations contract like h; where they are too slow
- * for that, Newton's matrix is 1 - z P F_v - z^2 P F_q with P = 1 - B G^-1 A at the beginning of
- * the step: of the derivative of a iteration the part that can be large, since P B = 0 and the motion
- * along the constraints is that of F.  (With reactions along directions of their own, B is W^-1 of
- * those.) */
+ * D may be nonlinear, W may depend on q, v, t.  The iterations contract like h; where they are too
+ * slow for that, Newton's matrix is 1 - z P F_v - z^2 P F_q with P = 1 - B G^-1 A at the beginning
+ * of the step: of the derivative of a iteration the part that can be large, since P B = 0 and the
+ * motion along the constraints is that of F.  (With reactions along directions of their own, B is
+ * W^-1 of those.) */
 #ifndef DAL_KERNEL_CONSTRAINED_H
 #define DAL_KERNEL_CONSTRAINED_H
 

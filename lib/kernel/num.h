@@ -202,9 +202,9 @@ DAL_INLINE num dal_sqrt(num x)
 #define DAL_RESTRICT __restrict
 
 /* Reductions over many numbers go by packs, which a compiler may not make by itself: the largest,
- * and whether all are finite, since the order does not matter there; sums from DAL__MIN_PACKED numbers
- * on, in one order that all builds keep.  The functions over packs return how many numbers they saw
- * to. */
+ * and whether all are finite, since the order does not matter there; sums from DAL__MIN_PACKED
+ * numbers on, in one order that all builds keep.  The functions over packs return how many numbers
+ * they saw to. */
 enum { DAL__PACK = 8, DAL__MIN_PACKED = 16 };
 #if DAL_LANES == 1 && !defined DAL_SPECIALISED && !defined DAL_NUM_QUAD
 typedef double dal__pack __attribute__((vector_size(64), aligned(8), may_alias));

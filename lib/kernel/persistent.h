@@ -1,9 +1,10 @@
-/* persistent.h - what is persistent from step to step: one list, for the engine and for generated files.
+/* persistent.h - what is persistent from step to step: one list, for the engine and for generated
+ * files.
  *
  *     persistent:  y[dim] | r[dim] | the clock | what the method remembers
  *
- * All that survives a step is this array; all else is scratch.  The derivatives are those of a method
- * that asks for them (DAL_EXTRAPOLATES_STAGES), [1 + DAL__DIFFERENCES][stages*(nw + n)]: see
+ * All that survives a step is this array; all else is scratch.  The derivatives are those of a
+ * method that asks for them (DAL_EXTRAPOLATES_STAGES), [1 + DAL__DIFFERENCES][stages*(nw + n)]: see
  * collocation.h. */
 #ifndef DAL_KERNEL_PERSISTENT_H
 #define DAL_KERNEL_PERSISTENT_H

@@ -1,7 +1,7 @@
 /* quad.h - numbers longer than double, for runs that show what the rounding of doubles does.
  *
- * A source over num compiled with DAL_NUM_QUAD computes in the longest numbers that the compiler has
- * and whose elementary functions are right to their last places: long double where it is longer
+ * A source over num compiled with DAL_NUM_QUAD computes in the longest numbers that the compiler
+ * has and whose elementary functions are right to their last places: long double where it is longer
  * than the 64 binary digits of x87 (IEC 60559 binary128 on AArch64 and others, 113 digits), else
  * binary128 with the functions of glibc (x86-64), else long double, whatever it is.  They are
  * computed by software and some hundred times slower than doubles.

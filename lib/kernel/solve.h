@@ -6,14 +6,15 @@
  * An iteration ends when every block has d = 0, or a d at rounding level that no longer decreases
  * (Hairer, McLachlan, Razakarivony, BIT 48 (2008) 231), or one that twice in a row does not
  * decrease and is small: not at a tolerance.  "Small" only tells stagnation from divergence.  After
- * a few iterations there are two more ends: a d far below rounding level, for where some components are
- * smaller than the roundings of others, they alone may answer to d, which then decreases without
- * end, however slowly; and a small d than which some iterations brought no less, cycles of roundings.
- * Each lane ends by itself and is then left alone, so its bits do not depend on its neighbours.  A
- * run may end iterations earlier (DAL_SOLVER_TOLERANCE) or later (DAL_EXTRA_ITERATIONS), to show
- * what the solver does to it.
+ * a few iterations there are two more ends: a d far below rounding level, for where some components
+ * are smaller than the roundings of others, they alone may answer to d, which then decreases
+ * without end, however slowly; and a small d than which some iterations brought no less, cycles of
+ * roundings. Each lane ends by itself and is then left alone, so its bits do not depend on its
+ * neighbours.  A run may end iterations earlier (DAL_SOLVER_TOLERANCE) or later
+ * (DAL_EXTRA_ITERATIONS), to show what the solver does to it.
  *
- * Groups of lanes that are stepped as one system (DAL_STEP_GROUPS) have norms and masks of their own.
+ * Groups of lanes that are stepped as one system (DAL_STEP_GROUPS) have norms and masks of their
+ * own.
  *
  * With the solver "auto" a lane whose fixed point contracts more slowly than DAL__SLOW, or not at
  * all, goes over to Newton and stays there (step->uses_newton, which is persistent along). */
@@ -26,8 +27,8 @@
 #define DAL__ROUNDING (1.4e-14 * DAL_ULP_RATIO)
 #define DAL__SMALL    (1e-12 * DAL_ULP_RATIO)
 #define DAL__NOISE    (1e-12 * DAL_ULP_RATIO)
-/* After so many iterations: far below rounding, after twice as many below it; and roundings, where so
- * many more bring none less. */
+/* After so many iterations: far below rounding, after twice as many below it; and roundings, where
+ * so many more bring none less. */
 #define DAL__PATIENT 8
 #define DAL__NOTHING (1e-17 * DAL_ULP_RATIO)
 #define DAL__LITTLE  (1e-16 * DAL_ULP_RATIO)
@@ -54,8 +55,8 @@ typedef struct dal_equation {
     dal_mask active[DAL_STEP_GROUPS]; /* the lanes that still iterate */
 } dal_equation;
 
-/* What a map keeps beside the image for the end of the step is that of a lane's own last iteration: the
- * iterations its neighbours still need do not touch it. */
+/* What a map keeps beside the image for the end of the step is that of a lane's own last iteration:
+ * the iterations its neighbours still need do not touch it. */
 #if DAL_LANES == 1
 #define DAL_IF_ACTIVE(active, fresh, kept) (fresh)
 #else
@@ -184,8 +185,8 @@ DAL_INLINE dal_mask dal__is_enough(dal_block *b, int j, int k, num now, num size
            (dal_less_equal(now, cycling * size) & dal_less(dal_num(DAL__CYCLE - 0.5), *since));
 }
 
-/* Lanes of a group where in iteration k a block's increment is zero or stagnates, or is as small as was
- * asked for. */
+/* Lanes of a group where in iteration k a block's increment is zero or stagnates, or is as small as
+ * was asked for. */
 DAL_INLINE dal_mask dal__converged(const dal_step *s, dal_block *b, int j, int k)
 {
     const num now = b->now[j], size = dal__size(b, j);
@@ -223,8 +224,8 @@ DAL_INLINE void dal__iterate_once(dal_step *s, dal_equation *eq, dal_iteration_m
     if (eq->blocks > 1) dal__advance(&eq->block[1], eq->active, newton);
 }
 
-/* Behind iteration k: the lanes of a group that have failed leave `lanes`; those, and the ones that are
- * converged, leave the active ones. */
+/* Behind iteration k: the lanes of a group that have failed leave `lanes`; those, and the ones that
+ * are converged, leave the active ones. */
 DAL_INLINE void dal__update_active(dal_step *s, dal_equation *eq, int j, int may_give_up, int k,
                                    dal_mask *lanes, dal_mask *slow)
 {

@@ -31,9 +31,9 @@ typedef enum dal_callback_code {
 
 #ifdef DAL_SPECIALISED
 
-/* The dimensions are the generated file's constants, and all memory is local.  DAL_STEP_GROUPS groups of
- * lanes are stepped as one system of so many times as many components: number i of group j is
- * number i * DAL_STEP_GROUPS + j. */
+/* The dimensions are the generated file's constants, and all memory is local.  DAL_STEP_GROUPS
+ * groups of lanes are stepped as one system of so many times as many components: number i of group
+ * j is number i * DAL_STEP_GROUPS + j. */
 #define DAL_N(s)                      (DAL__N * DAL_STEP_GROUPS)
 #define DAL_NW(s)                     (DAL__NW * DAL_STEP_GROUPS)
 #define DAL_M(s)                      DAL__M

@@ -1,7 +1,7 @@
 /* engine.h - one step of one or several lanes as a transaction; internal to lib/run.
  *
- * All that survives a step is the array `persistent` (kernel/persistent.h).  The engine exists once per
- * variant (engine_wide.c); arrays are interleaved by lanes. */
+ * All that survives a step is the array `persistent` (kernel/persistent.h).  The engine exists once
+ * per variant (engine_wide.c); arrays are interleaved by lanes. */
 #ifndef DAL_ENGINE_H
 #define DAL_ENGINE_H
 

@@ -1,8 +1,8 @@
 /* observation.c - the observables along a run, handed over several looks at a time.
  *
  * A record is taken after every so many steps.  With compiled observables the states are collected
- * and evaluated together, as many at a time as a register has lanes; else each record is evaluated at
- * once.  Looks are handed over where their number is a multiple of the room, wherever a run was
+ * and evaluated together, as many at a time as a register has lanes; else each record is evaluated
+ * at once.  Looks are handed over where their number is a multiple of the room, wherever a run was
  * begun or interrupted, so that sums in parts find whole parts. */
 #include "run/run.h"
 #include <dalembert_kernel.h>

@@ -2,8 +2,8 @@
  *
  * The run in doubles makes the start, explains failures and shows the state; after every step it
  * gets time, state and all it carries from the long engine, rounded.  Observables are computed in
- * quad precision and then rounded, so that a D of 1e-30 is seen as that.  dal__layout_init sees to it
- * that there is a system, and a method, in quad precision. */
+ * quad precision and then rounded, so that a D of 1e-30 is seen as that.  dal__layout_init sees to
+ * it that there is a system, and a method, in quad precision. */
 #define DAL_NUM_QUAD
 #include "run/run.h"
 #include <dalembert_kernel.h>

@@ -44,8 +44,7 @@ struct dal_run {
     dal__layout layout;
     const dal__engine_kind *kind; /* of one lane */
     void *engine;
-    double *
-        persistent; /* [layout.persistent] the engine's own; in quad precision: rounded from those */
+    double *persistent; /* [layout.persistent] the engine's own; rounded in quad precision */
     double *storage; /* [stored] all that is persistent from step to step: persistent, or quad's */
     size_t stored;
     dal__quad_run quad;
