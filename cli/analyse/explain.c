@@ -3,6 +3,9 @@
 #include "io/output.h"
 #include "io/trend.h"
 #include "run/native.h"
+#include "run/request.h"
+#include "ui/cli.h"
+#include "ui/commands.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -167,41 +170,21 @@ static int write_budget(const char *path, const dal_error_budget *e)
 
 /* ---- the command ---- */
 
-/* name, value, default, help; OPTION is called with the name as a word of C */
-#define OWN_LIST(OPTION)                                                                           \
-    OPTION(quad_steps, "N", "10000", "runs the first N steps in quad precision too; 0: none")      \
-    OPTION(output, "FILE.csv|-", NULL, "writes a CSV file, or CSV to standard output")             \
-    OPTION(native, "auto|on|off", "auto", "runs in double precision use compiled code")
-
-static const char notes[] =
-    "Runs the system again in several ways that differ in one thing each: half the step, a looser "
-    "tolerance of the solver, further iterations of it, plain sums, quad precision (113 binary "
-    "digits, where the machine has them), with and without projection.  For the drift of every "
-    "observable "
-    "the command states how much is truncation, rounding of coefficients, the solver and rounding, "
-    "what a projection changes, and how that was found; '?' marks what these runs do not "
-    "distinguish.\n"
-    "\n"
-    "The shares of the first four add up to 1 where rates are compared.  They hold for the first "
-    "--quad-steps steps, since quad precision is a hundred times slower.\n";
-
-enum { OWN_LIST(CLI_OWN) OWN_OPTIONS };
-
-static int parse_explain_option(void *user, int option, const char *value)
+static int parse_output(void *study, const cli_option *option, const char *text)
 {
-    explain_study *s = user;
-    switch (option) {
-    case OWN_quad_steps:
-        return cli_integer("--quad-steps", value, 0, MAX_STEPS, &s->quad_steps);
-    case OWN_native:
-        return native_parse(value, &s->native);
-    default:
-        if (strcmp(value, "-") != 0 && !cli_ends_in(value, ".csv"))
-            return cli_fail(CLI_USAGE, "--output: '%s' does not end in .csv", value);
-        s->output = value;
-        return CLI_DONE;
-    }
+    if (strcmp(text, "-") != 0 && !cli_ends_in(text, ".csv"))
+        return cli_fail(CLI_USAGE, "--output: '%s' does not end in .csv", text);
+    return cli_parse_text(study, option, text);
 }
+
+static const cli_option options[] = {
+    {"quad-steps", "N", "10000", "runs the first N steps in quad precision too; 0: none",
+     .parse = cli_parse_integer, .offset = offsetof(explain_study, quad_steps), .min = 0,
+     .max = MAX_STEPS},
+    {"output", "FILE.csv|-", NULL, "writes a CSV file, or CSV to standard output",
+     .parse = parse_output, .offset = offsetof(explain_study, output)},
+    NATIVE_OPTION(explain_study),
+};
 
 static int explain_run(explain_study *s)
 {
@@ -225,19 +208,38 @@ static int explain_run(explain_study *s)
     return status;
 }
 
-int command_explain(int argc, char **argv)
+static int run_explain(int argc, char **argv)
 {
-    cli_option own[OWN_OPTIONS] = {OWN_LIST(CLI_OPTION)};
-    own[OWN_quad_steps].name = "quad-steps";
+    enum { OPTIONS = sizeof options / sizeof *options };
+    explain_study s = {.request = request_default()};
     /* The comparison runs differ in precision themselves. */
-    const analysis_command command = {.own = own,
-                                      .own_count = OWN_OPTIONS,
-                                      .without = ANALYSIS_ROWS | ANALYSIS_OPTION(precision),
-                                      .notes = notes,
-                                      .parse = parse_explain_option};
-    explain_study s = {.request = request_default(), .quad_steps = 10000};
-    int status = analysis_read(argc, argv, &command, &s.request, &s);
+    const cli_group groups[] = {
+        {options, OPTIONS, .settings = &s},
+        request_group(&s.request, request_options, REQUEST_ROW_OPTIONS | REQUEST_OPTION(precision)),
+    };
+    int status = cli_read_arguments(&command_explain, argc, argv, groups, 2);
     if (status == CLI_GO_ON) status = explain_run(&s);
     request_free(&s.request);
     return status;
 }
+
+const cli_command command_explain = {
+    .name = "explain",
+    .synopsis = "dalembert explain SYSTEM --integrator NAME --step H --time T [OPTION]...",
+    .about = "finds the error sources of the drift of a run",
+    .notes =
+        "Runs the system again in several ways that differ in one thing each: half the step, a "
+        "looser "
+        "tolerance of the solver, further iterations of it, plain sums, quad precision (113 binary "
+        "digits, where the machine has them), with and without projection.  For the drift of every "
+        "observable "
+        "the command states how much is truncation, rounding of coefficients, the solver and "
+        "rounding, "
+        "what a projection changes, and how that was found; '?' marks what these runs do not "
+        "distinguish.\n"
+        "\n"
+        "The shares of the first four add up to 1 where rates are compared.  They hold for the "
+        "first "
+        "--quad-steps steps, since quad precision is a hundred times slower.\n",
+    .run = run_explain,
+};

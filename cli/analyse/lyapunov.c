@@ -9,7 +9,10 @@
 #include "dalembert_analysis.h"
 #include "io/gnuplot.h"
 #include "io/trajectory_writer.h"
+#include "run/request.h"
 #include "run/row_times.h"
+#include "ui/cli.h"
+#include "ui/commands.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -276,45 +279,28 @@ static int print_means(const tangent_study *s)
 
 /* ---- the commands -------------------------------------------------------------------------- */
 
-/* The last one is of lyapunov alone.  name, value, default, help */
-#define OWN_LIST(OPTION)                                                                           \
-    OPTION(transient, "T0", "0", "the means begin at this time")                                   \
-    OPTION(rows, "N", "100", "rows of the table, at equal distances in t")                         \
-    OPTION(output, "DIR|FILE", NULL,                                                               \
-           "writes the means so far: .csv, .npy, or a directory with a figure")                    \
-    OPTION(exponents, "K", NULL, "computes the K largest only")
+/* The last one is of lyapunov alone. */
+static const cli_option options[] = {
+    {"transient", "T0", "0", "the means begin at this time", .parse = cli_parse_number,
+     .offset = offsetof(tangent_study, transient), .min = 0.0, .max = INFINITY},
+    {"rows", "N", "100", "rows of the table, at equal distances in t", .parse = cli_parse_integer,
+     .offset = offsetof(tangent_study, rows), .min = 1, .max = MAX_ROWS},
+    {"output", "DIR|FILE", NULL,
+     "writes the means so far: .csv, .npy, or a directory with a figure", .parse = cli_parse_text,
+     .offset = offsetof(tangent_study, output)},
+    {"exponents", "K", NULL, "computes the K largest only", .parse = cli_parse_integer,
+     .offset = offsetof(tangent_study, exponents), .min = 1, .max = 1e6},
+};
 
-enum { OWN_LIST(CLI_OWN) OWN_OPTIONS };
-
-static const cli_option own[OWN_OPTIONS] = {OWN_LIST(CLI_OPTION)};
-
-static int parse_tangent_option(void *user, int option, const char *value)
+static int run_command(const cli_command *command, int argc, char **argv, bool is_volume)
 {
-    tangent_study *s = user;
-    switch (option) {
-    case OWN_transient:
-        if (cli_number("--transient", value, &s->transient) != CLI_DONE) return CLI_USAGE;
-        if (s->transient >= 0.0) return CLI_DONE;
-        return cli_fail(CLI_USAGE, "--transient: %s is negative", value);
-    case OWN_rows:
-        return cli_integer("--rows", value, 1, MAX_ROWS, &s->rows);
-    case OWN_exponents:
-        return cli_integer("--exponents", value, 1, 1000000, &s->exponents);
-    default:
-        s->output = value;
-        return CLI_DONE;
-    }
-}
-
-static int run_command(int argc, char **argv, bool is_volume, const char *notes)
-{
-    const analysis_command command = {.own = own,
-                                      .own_count = is_volume ? OWN_exponents : OWN_OPTIONS,
-                                      .without = ANALYSIS_ROWS | ANALYSIS_OPTION(space),
-                                      .notes = notes,
-                                      .parse = parse_tangent_option};
-    tangent_study s = {.is_volume = is_volume, .request = request_default(), .rows = 100};
-    int status = analysis_read(argc, argv, &command, &s.request, &s);
+    enum { OPTIONS = sizeof options / sizeof *options };
+    tangent_study s = {.is_volume = is_volume, .request = request_default()};
+    const cli_group groups[] = {
+        {options, is_volume ? OPTIONS - 1 : OPTIONS, .settings = &s},
+        request_group(&s.request, request_options, REQUEST_ROW_OPTIONS | REQUEST_OPTION(space)),
+    };
+    int status = cli_read_arguments(command, argc, argv, groups, 2);
     if (status == CLI_GO_ON) {
         status = create_spectrum(&s);
         if (status == CLI_DONE) {
@@ -331,11 +317,17 @@ static int run_command(int argc, char **argv, bool is_volume, const char *notes)
     return status;
 }
 
-int command_lyapunov(int argc, char **argv)
+static int run_lyapunov(int argc, char **argv)
 {
-    return run_command(
-        argc, argv, false,
-        "SYSTEM is the name of a built-in system or the path of a system file.  The derivative of "
+    return run_command(&command_lyapunov, argc, argv, false);
+}
+
+const cli_command command_lyapunov = {
+    .name = "lyapunov",
+    .synopsis = "dalembert lyapunov SYSTEM --integrator NAME --step H --time T [OPTION]...",
+    .about = "computes the Lyapunov exponents of a motion",
+    .notes =
+        "The derivative of "
         "each step moves tangent vectors on (q,v), which then are made orthonormal again.  The "
         "exponents, per unit of t, are the means of the logarithms of the lengths that this takes "
         "away; they belong to the motion of the method.  The derivative is exact for Runge-Kutta, "
@@ -352,14 +344,21 @@ int command_lyapunov(int argc, char **argv)
         "steps "
         "is not reliable.\n"
         "\n"
-        "FILE and DIR/lyapunov.csv get rows t, lambda1, .., divergence: the means so far.\n");
+        "FILE and DIR/lyapunov.csv get rows t, lambda1, .., divergence: the means so far.\n",
+    .run = run_lyapunov,
+};
+
+static int run_volume(int argc, char **argv)
+{
+    return run_command(&command_volume, argc, argv, true);
 }
 
-int command_volume(int argc, char **argv)
-{
-    return run_command(
-        argc, argv, true,
-        "SYSTEM is the name of a built-in system or the path of a system file.  The command "
+const cli_command command_volume = {
+    .name = "volume",
+    .synopsis = "dalembert volume SYSTEM --integrator NAME --step H --time T [OPTION]...",
+    .about = "computes the rate at which the volume of the phase space changes",
+    .notes =
+        "The command "
         "computes two rates along the run: the exact divergence of the motion in (q,v), which is "
         "the trace of the derivative of F by v, and log|det J|/h of every step, J being its "
         "derivative: what the method does to the volume.  Where the method enforces D = 0, the "
@@ -370,5 +369,6 @@ int command_volume(int argc, char **argv)
         "log |grad D|.  The exit status is 3 when they differ by more than that and the error of "
         "the method: then the derivative of the steps is not reliable.  The means cover --time, "
         "after the transient.  FILE and DIR/volume.csv get rows t, divergence, step: the means so "
-        "far.\n");
-}
+        "far.\n",
+    .run = run_volume,
+};

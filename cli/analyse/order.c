@@ -7,6 +7,9 @@
 #include "io/gnuplot.h"
 #include "io/output.h"
 #include "run/pool.h"
+#include "run/request.h"
+#include "ui/cli.h"
+#include "ui/commands.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -435,78 +438,29 @@ static int draw_orders(const order_study *s, const char *directory)
 
 /* ---- the command --------------------------------------------------------------------------- */
 
-/* name, value, default, help */
-#define OWN_LIST(OPTION)                                                                           \
-    OPTION(integrators, "LIST|all", "all",                                                         \
-           "integrators, with modifiers or not: rk4,gauss4+project")                               \
-    OPTION(steps, "H1,H2,..", NULL,                                                                \
-           "step sizes, falling, at most 8; replaces --step and --levels")                         \
-    OPTION(levels, "K", "4", "number of step sizes, each half the one before it")                  \
-    OPTION(threads, "N", NULL, "runs at a time (one per processor); results do not depend on it")  \
-    OPTION(output, "DIR|FILE.csv", NULL, "writes the table as CSV; a directory gets diagrams, too")
-
-enum { OWN_LIST(CLI_OWN) OWN_OPTIONS };
-
-static const cli_option own[OWN_OPTIONS] = {OWN_LIST(CLI_OPTION)};
-
-static const char notes[] =
-    "SYSTEM is the name of a built-in system or the path of a system file.  --step is the largest "
-    "step (0.1), --time the time of the errors (10), and the space is (q,v) unless --space lifted "
-    "is given.\n"
-    "\n"
-    "The error is the largest difference in q and v at T, relative to max(1, |x|), from the exact "
-    "solution where the system has one that begins at this start.  Otherwise the reference is "
-    "gauss12, or dop853 where gauss12 does not converge, with half the smallest step; the table "
-    "states its own error.  The order found is the slope between the last two of three steps whose "
-    "errors exceed rounding and ten times the error of the reference, and lie below half the "
-    "solution.  It is found only where the two slopes agree so well that the next term of the "
-    "error changes it by 0.1 at most; '-' means that none is found.  Methods that do not apply to "
-    "the system are listed with the reason.  The exit status is 3 when a run failed.\n"
-    "\n"
-    "DIR gets order.csv, and by gnuplot order.svg (error against step) and work.svg (error against "
-    "evaluations of F, and against processor time), with their scripts.  Only the times differ "
-    "between two runs of the command.\n";
-
-static int parse_order_option(void *user, int option, const char *value)
-{
-    order_study *s = user;
-    switch (option) {
-    case OWN_integrators:
-        s->integrators = value;
-        return CLI_DONE;
-    case OWN_steps:
-        s->steps = value;
-        return CLI_DONE;
-    case OWN_levels:
-        return cli_integer("--levels", value, 2, DAL_ORDER_LEVELS, &s->level_count);
-    case OWN_threads:
-        return cli_integer("--threads", value, 1, POOL_MAX_THREADS, &s->threads);
-    default:
-        s->output = value;
-        return CLI_DONE;
-    }
-}
-
-static void adapt_order_options(cli_option *options)
-{
-    options[REQUEST_step].initial = "0.1";
-    options[REQUEST_time].initial = "10";
-    options[REQUEST_space].initial = "physical";
-}
+static const cli_option options[] = {
+    {"integrators", "LIST|all", NULL,
+     "integrators, with modifiers or not: rk4,gauss4+project (all)", .parse = cli_parse_text,
+     .offset = offsetof(order_study, integrators)},
+    {"steps", "H1,H2,..", NULL, "step sizes, falling, at most 8; replaces --step and --levels",
+     .parse = cli_parse_text, .offset = offsetof(order_study, steps)},
+    {"levels", "K", "4", "number of step sizes, each half the one before it",
+     .parse = cli_parse_integer, .offset = offsetof(order_study, level_count), .min = 2,
+     .max = DAL_ORDER_LEVELS},
+    POOL_THREADS_OPTION(order_study, "runs at a time; results do not depend on it"),
+    {"output", "DIR|FILE.csv", NULL, "writes the table as CSV; a directory gets diagrams, too",
+     .parse = cli_parse_text, .offset = offsetof(order_study, output)},
+};
 
 static int measure_orders(order_study *s)
 {
-    if (!s->request.text[REQUEST_step]) s->request.options.step = 0.1;
-    if (!s->request.text[REQUEST_time]) s->request.time = 10.0;
     int status = list_steps(s);
     if (status == CLI_DONE) status = add_items(s, s->integrators, "--integrators", add_methods);
     if (status == CLI_DONE) status = request_make_spec(&s->request, &s->spec);
     if (status != CLI_DONE) return status;
-    if (!s->request.text[REQUEST_space]) s->spec.options.space = DAL_PHYSICAL;
     cli_catch_signals();
     status = make_reference(s);
-    if (status == CLI_DONE)
-        status = run_methods(s, s->threads > 0 ? (int)s->threads : pool_threads());
+    if (status == CLI_DONE) status = run_methods(s, (int)s->threads);
     if (status == CLI_DONE) status = print_orders(s);
     if (status == CLI_DONE && s->output) {
         analysis_output output;
@@ -520,19 +474,53 @@ static int measure_orders(order_study *s)
     return status;
 }
 
-int command_order(int argc, char **argv)
+static int run_order(int argc, char **argv)
 {
-    const analysis_command command = {.own = own,
-                                      .own_count = OWN_OPTIONS,
-                                      .without = ANALYSIS_ROWS | ANALYSIS_OPTION(integrator),
-                                      .notes = notes,
-                                      .parse = parse_order_option,
-                                      .adapt = adapt_order_options};
-    order_study s = {.request = request_default(), .integrators = "all", .level_count = 4};
-    int status = analysis_read(argc, argv, &command, &s.request, &s);
+    enum { OPTIONS = sizeof options / sizeof *options };
+    order_study s = {.request = request_default(), .integrators = "all", .threads = pool_threads()};
+    cli_option of_request[REQUEST_OPTIONS];
+    memcpy(of_request, request_options, sizeof of_request);
+    of_request[REQUEST_step].initial = "0.1";
+    of_request[REQUEST_time].initial = "10";
+    of_request[REQUEST_space].initial = "physical";
+    const cli_group groups[] = {
+        {options, OPTIONS, .settings = &s},
+        request_group(&s.request, of_request, REQUEST_ROW_OPTIONS | REQUEST_OPTION(integrator)),
+    };
+    int status = cli_read_arguments(&command_order, argc, argv, groups, 2);
     if (status == CLI_GO_ON) status = measure_orders(&s);
     free(s.methods);
     free(s.reference);
     request_free(&s.request);
     return status;
 }
+
+const cli_command command_order = {
+    .name = "order",
+    .synopsis = "dalembert order SYSTEM [OPTION]...",
+    .about = "measures error against step and against work for many integrators",
+    .notes =
+        "--step is the largest "
+        "step (0.1), --time the time of the errors (10), and the space is (q,v) unless --space "
+        "lifted "
+        "is given.\n"
+        "\n"
+        "The error is the largest difference in q and v at T, relative to max(1, |x|), from the "
+        "exact "
+        "solution where the system has one that begins at this start.  Otherwise the reference is "
+        "gauss12, or dop853 where gauss12 does not converge, with half the smallest step; the "
+        "table "
+        "states its own error.  The order found is the slope between the last two of three steps "
+        "whose "
+        "errors exceed rounding and ten times the error of the reference, and lie below half the "
+        "solution.  It is found only where the two slopes agree so well that the next term of the "
+        "error changes it by 0.1 at most; '-' means that none is found.  Methods that do not apply "
+        "to "
+        "the system are listed with the reason.  The exit status is 3 when a run failed.\n"
+        "\n"
+        "DIR gets order.csv, and by gnuplot order.svg (error against step) and work.svg (error "
+        "against "
+        "evaluations of F, and against processor time), with their scripts.  Only the times differ "
+        "between two runs of the command.\n",
+    .run = run_order,
+};

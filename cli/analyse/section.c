@@ -7,6 +7,9 @@
 #include "io/gnuplot.h"
 #include "io/trajectory_writer.h"
 #include "run/native.h"
+#include "run/request.h"
+#include "ui/cli.h"
+#include "ui/commands.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -256,69 +259,26 @@ static int draw_section(const section *s, const char *directory, const int axis[
 
 /* ---- the command --------------------------------------------------------------------------- */
 
-/* name, value, default, help */
-#define OWN_LIST(OPTION)                                                                           \
-    OPTION(on, "FORMULA[=VALUE]", NULL, "the surface: x - 1, y*x' = 0.5, sin(3*t)")                \
-    OPTION(direction, "up|down|both", "both",                                                      \
-           "crossings from below it to above, from above, or all")                                 \
-    OPTION(transient, "T0", "0", "leaves out the crossings before this time")                      \
-    OPTION(axes, "X,Y", NULL,                                                                      \
-           "columns of the figure (the last coordinate that varies, with its velocity)")           \
-    OPTION(native, "auto|on|off", "auto", "compiles the steps, same bits; auto: where it pays")    \
-    OPTION(output, "DIR|FILE|-", "-",                                                              \
-           "where rows go: .csv, .npy, a directory with a figure, or stdout")
-
-enum { OWN_LIST(CLI_OWN) OWN_OPTIONS };
-
-static const cli_option own[OWN_OPTIONS] = {OWN_LIST(CLI_OPTION)};
-
-static const char notes[] =
-    "SYSTEM is the name of a built-in system or the path of a system file.  The formula may name "
-    "coordinates, velocities, parameters, what the system file defines under let, and t.\n"
-    "\n"
-    "A crossing lies where the formula changes its sign within a step.  A step of another size of "
-    "the same method, from the beginning of that step, meets it to rounding, so that the "
-    "trajectory "
-    "is that of 'dalembert run'.  Pairs of crossings within one step are found too; of more than "
-    "two some may be missed.  A touch is no crossing and is counted apart; a start on the surface "
-    "is none.\n"
-    "\n"
-    "Rows are CSV with 17 digits: crossing (from 1), t, direction (1 or -1), then the state as in "
-    "'dalembert run'.  A directory gets section.csv and, by gnuplot, section.svg with its "
-    "script.\n";
-
-static int parse_section_option(void *user, int option, const char *value)
-{
-    static const char *const words[] = {"up", "down", "both"};
-    static const int directions[] = {1, -1, 0};
-    section *s = user;
-    int k;
-    switch (option) {
-    case OWN_on:
-        s->on = value;
-        return CLI_DONE;
-    case OWN_direction:
-        k = cli_word("--direction", value, words, 3);
-        if (k >= 0) s->direction = directions[k];
-        return k >= 0 ? CLI_DONE : CLI_USAGE;
-    case OWN_transient:
-        return cli_number("--transient", value, &s->transient);
-    case OWN_axes:
-        s->axes = value;
-        return CLI_DONE;
-    case OWN_native:
-        return native_parse(value, &s->native);
-    default:
-        s->output = value;
-        return CLI_DONE;
-    }
-}
+static const cli_option options[] = {
+    {"on", "FORMULA[=VALUE]", CLI_REQUIRED, "the surface: x - 1, y*x' = 0.5, sin(3*t)",
+     .parse = cli_parse_text, .offset = offsetof(section, on)},
+    {"direction", "down|both|up", "both", "crossings from above it to below, all, or from below",
+     .parse = cli_parse_word, .offset = offsetof(section, direction)},
+    {"transient", "T0", "0", "leaves out the crossings before this time", .parse = cli_parse_number,
+     .offset = offsetof(section, transient), .min = -INFINITY, .max = INFINITY},
+    {"axes", "X,Y", NULL,
+     "columns of the figure (the last coordinate that varies, with its velocity)",
+     .parse = cli_parse_text, .offset = offsetof(section, axes)},
+    NATIVE_OPTION(section),
+    {"output", "DIR|FILE|-", "-", "where rows go: .csv, .npy, a directory with a figure, or stdout",
+     .parse = cli_parse_text, .offset = offsetof(section, output)},
+};
 
 static int find_crossings(section *s)
 {
     analysis_output output = {0};
     int axis[2];
-    if (!s->on) return cli_fail(CLI_USAGE, "--on is missing");
+    s->direction--; /* -1, 0 or 1 */
     int status = load_section(s);
     if (status == CLI_DONE) status = request_create_run(&s->request);
     if (status != CLI_DONE) return status;
@@ -335,18 +295,43 @@ static int find_crossings(section *s)
     return status;
 }
 
-int command_section(int argc, char **argv)
+static int run_section_command(int argc, char **argv)
 {
-    const analysis_command command = {.own = own,
-                                      .own_count = OWN_OPTIONS,
-                                      .without = ANALYSIS_ROWS,
-                                      .notes = notes,
-                                      .parse = parse_section_option};
-    section s = {.request = request_default(), .output = own[OWN_output].initial};
-    int status = analysis_read(argc, argv, &command, &s.request, &s);
+    enum { OPTIONS = sizeof options / sizeof *options };
+    section s = {.request = request_default()};
+    const cli_group groups[] = {
+        {options, OPTIONS, .settings = &s},
+        request_group(&s.request, request_options, REQUEST_ROW_OPTIONS),
+    };
+    int status = cli_read_arguments(&command_section, argc, argv, groups, 2);
     if (status == CLI_GO_ON) status = find_crossings(&s);
     free(s.names);
     free(s.row);
     request_free(&s.request);
     return status;
 }
+
+const cli_command command_section = {
+    .name = "section",
+    .synopsis = "dalembert section SYSTEM --on FORMULA --integrator NAME --step H --time T "
+                "[OPTION]...",
+    .about = "finds where a motion crosses a surface",
+    .notes = "The formula may name "
+             "coordinates, velocities, parameters, what the system file defines under let, and t.\n"
+             "\n"
+             "A crossing lies where the formula changes its sign within a step.  A step of another "
+             "size of "
+             "the same method, from the beginning of that step, meets it to rounding, so that the "
+             "trajectory "
+             "is that of 'dalembert run'.  Pairs of crossings within one step are found too; of "
+             "more than "
+             "two some may be missed.  A touch is no crossing and is counted apart; a start on the "
+             "surface "
+             "is none.\n"
+             "\n"
+             "Rows are CSV with 17 digits: crossing (from 1), t, direction (1 or -1), then the "
+             "state as in "
+             "'dalembert run'.  A directory gets section.csv and, by gnuplot, section.svg with its "
+             "script.\n",
+    .run = run_section_command,
+};

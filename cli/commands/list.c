@@ -1,7 +1,10 @@
 /* list.c - `dalembert list`: what systems, integrators and modifiers travel inside the program. */
 #include "ui/cli.h"
+#include "ui/commands.h"
+#include "ui/wrap.h"
 
 #include <stdarg.h>
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -68,10 +71,10 @@ static void put_row(const sheet *s, int first, const int *widths, int fits)
     for (int i = fits; i < s->columns && n < sizeof rest; i++)
         n += (size_t)snprintf(rest + n, sizeof rest - n, "%s%s", i > fits ? "; " : "    ",
                               s->cell[first + i]);
-    if (n) cli_fold(stdout, rest, 0, 4);
+    if (n) cli_wrap(stdout, rest, 0, 4);
 }
 
-static void put_rule(const int *widths, int fits, int markdown)
+static void put_rule(const int *widths, int fits, bool markdown)
 {
     for (int i = 0; i < fits; i++) {
         int dashes = widths[i] + (markdown ? 2 : 0);
@@ -92,7 +95,7 @@ static int count_fits(const sheet *s, const int *widths)
     return fits > 0 ? fits : 1;
 }
 
-static void put_table(const sheet *s, const int *widths, int markdown)
+static void put_table(const sheet *s, const int *widths, bool markdown)
 {
     const int fits = markdown ? s->columns : count_fits(s, widths);
     for (int k = 0; k < s->cells; k += s->columns) {
@@ -104,7 +107,7 @@ static void put_table(const sheet *s, const int *widths, int markdown)
     }
 }
 
-static int end(sheet *s, int markdown)
+static int end(sheet *s, bool markdown)
 {
     int widths[COLUMNS_MOST] = {0};
     for (int k = 0; k < s->cells; k++) {
@@ -142,7 +145,7 @@ static const char *energy(const dal_system *system)
     return system->properties & DAL_E_ON_D ? "kept on D = 0" : "not kept";
 }
 
-static int put_system(sheet *s, const char *name, int markdown)
+static int put_system(sheet *s, const char *name, bool markdown)
 {
     dal_model *model;
     const dal_system *system;
@@ -159,7 +162,7 @@ static int put_system(sheet *s, const char *name, int markdown)
     return CLI_DONE;
 }
 
-static int list_systems(int markdown)
+static int list_systems(bool markdown)
 {
     static const char *const headings[] = {"system", "n", "m", "D", "energy", "exact", "title"};
     sheet s;
@@ -196,7 +199,7 @@ static void put_claims(sheet *s, unsigned properties, unsigned inherits)
     put(s, "%s", n ? line : inherits & DAL_SYMMETRIC ? "as NAME" : "-");
 }
 
-static void put_integrator(sheet *s, const dal_integrator *integrator, int markdown)
+static void put_integrator(sheet *s, const dal_integrator *integrator, bool markdown)
 {
     const char *tick = markdown ? "`" : "";
     const char *plus = integrator->properties & DAL_MODIFIER ? "+" : "";
@@ -214,7 +217,7 @@ static void put_integrator(sheet *s, const dal_integrator *integrator, int markd
     put(s, "%s", integrator->reference);
 }
 
-static int list_integrators(int markdown)
+static int list_integrators(bool markdown)
 {
     static const char *const headings[] = {"integrator", "order", "keeps or is", "what it is",
                                            "reference"};
@@ -230,60 +233,63 @@ static int list_integrators(int markdown)
 
 /* ---- the command --------------------------------------------------------------------------- */
 
-#define TABLE_LIST(X) X(systems) X(integrators)
+typedef struct settings {
+    const char *table;
+    bool markdown;
+} settings;
 
 static const struct {
     const char *name;
-    int (*print)(int markdown);
-} tables[] = {
-#define X(name) {#name, list_##name},
-    TABLE_LIST(X)
-#undef X
+    int (*print)(bool markdown);
+} tables[] = {{"systems", list_systems}, {"integrators", list_integrators}};
+
+enum { TABLES = sizeof tables / sizeof *tables };
+
+static const cli_option options[] = {
+    {"markdown", NULL, NULL, "prints Markdown tables", .parse = cli_parse_flag,
+     .offset = offsetof(settings, markdown)},
+    {NULL, "TABLE", NULL, "systems or integrators; both when it is not given",
+     .parse = cli_parse_text, .offset = offsetof(settings, table)},
 };
 
-static const char *const table_names[] = {
-#define X(name) #name,
-    TABLE_LIST(X)
-#undef X
-};
-
-enum { TABLES = sizeof tables / sizeof tables[0] };
-
-static const cli_option options[] = {{"markdown", NULL, "print Markdown tables", NULL}};
-
-static const char notes[] =
-    "Systems: n coordinates, m constraints D; what kind of function of (q,v) D is; whether the\n"
-    "energy E = L_v.v - L is kept by the motion; whether an exact solution is known.\n"
-    "Integrators: 'symplectic lift' speaks of the 4n+2 canonical variables only and says nothing\n"
-    "of D or of the energy; '... D' names the constraints that are kept to rounding on D = 0.\n"
-    "A modifier +WORD is put behind an integrator, NAME+WORD: rk4+project.  'as NAME': it is and\n"
-    "keeps what NAME is and keeps.  'adaptive' takes --tolerance.\n";
-
-static int find(const char *name)
+static int check_table(const char *table)
 {
-    for (int i = 0; i < TABLES; i++)
-        if (strcmp(tables[i].name, name) == 0) return i;
-    return -1;
+    const char *names[TABLES];
+    for (int i = 0; i < TABLES; i++) {
+        names[i] = tables[i].name;
+        if (strcmp(names[i], table) == 0) return CLI_DONE;
+    }
+    return cli_unknown("table", table, names, TABLES);
 }
 
-int command_list(int argc, char **argv)
+static int list(int argc, char **argv)
 {
-    cli_args args = cli_begin(argc, argv, options, 1, notes);
-    const char *value;
-    int markdown = 0, wanted = -1;
-    for (int k; (k = cli_next(&args, &value)) != CLI_STOP;) {
-        if (k != CLI_PLAIN)
-            markdown = 1;
-        else if ((wanted = find(value)) < 0)
-            cli_stop(&args, cli_unknown("table", value, table_names, TABLES));
-    }
-    if (args.status != CLI_GO_ON) return args.status;
-    int status = CLI_DONE;
+    enum { OPTIONS = sizeof options / sizeof *options };
+    settings s = {0};
+    const cli_group group = {options, OPTIONS, .settings = &s};
+    int status = cli_read_arguments(&command_list, argc, argv, &group, 1);
+    if (status != CLI_GO_ON) return status;
+    status = s.table ? check_table(s.table) : CLI_DONE;
     for (int i = 0; i < TABLES && status == CLI_DONE; i++) {
-        if (wanted >= 0 && wanted != i) continue;
-        if (wanted < 0 && i > 0) putchar('\n');
-        status = tables[i].print(markdown);
+        if (s.table && strcmp(s.table, tables[i].name) != 0) continue;
+        if (!s.table && i > 0) putchar('\n');
+        status = tables[i].print(s.markdown);
     }
-    int closed = cli_close(stdout, "standard output");
+    const int closed = cli_close(stdout, "standard output");
     return status == CLI_DONE ? closed : status;
 }
+
+const cli_command command_list = {
+    .name = "list",
+    .synopsis = "dalembert list [systems|integrators] [OPTION]...",
+    .about = "lists the built-in systems, integrators and modifiers",
+    .notes =
+        "Systems: n coordinates, m constraints D; the class of D as a function of (q,v); whether "
+        "the motion conserves the energy E = L_v.v - L; whether an exact solution is known.\n"
+        "\n"
+        "Integrators: 'symplectic lift' concerns the 4n+2 canonical variables only and implies "
+        "nothing about D or the energy; '... D' names the constraints that are preserved to "
+        "rounding on D = 0.  A modifier +WORD follows an integrator, NAME+WORD: rk4+project.  "
+        "'as NAME' means the properties of NAME.  'adaptive' takes --tolerance.\n",
+    .run = list,
+};

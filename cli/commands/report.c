@@ -4,8 +4,10 @@
 #include "report/report_run.h"
 #include "report/report_study.h"
 #include "ui/cli.h"
+#include "ui/commands.h"
 
 #include <stdlib.h>
+#include <string.h>
 #include <unistd.h>
 
 /* The file by which a directory is recognised, and what writes its page. */
@@ -25,56 +27,61 @@ static bool has_file(const char *directory, const char *name)
     return found;
 }
 
-/* name, value, default, help */
-#define OWN_LIST(OPTION) OPTION(format, "svg|png", "svg", "format of the figures")
-
-enum { OWN_LIST(CLI_OWN) OWN_OPTIONS };
-
-static const cli_option options[] = {OWN_LIST(CLI_OPTION)};
-
-static const char notes[] =
-    "DIR is the output of 'dalembert study', 'dalembert run --output DIR' or 'dalembert order "
-    "--output DIR'.  The command writes DIR/report/index.html, one page with everything in it; the "
-    "figures, and the gnuplot scripts that draw them, stand beside it.  Without gnuplot the page "
-    "has no figures.\n";
-
-int command_report(int argc, char **argv)
+static int parse_format(void *user, const cli_option *option, const char *text)
 {
-    static const char *const formats[] = {"svg", "png"};
-    report r = {.format = formats[0]};
-    cli_args args = cli_begin(argc, argv, options, OWN_OPTIONS, notes);
-    const char *value;
-    for (int k; (k = cli_next(&args, &value)) != CLI_STOP;) {
-        if (k == OWN_format && cli_word("--format", value, formats, 2) < 0)
-            cli_stop(&args, CLI_USAGE);
-        else if (k == OWN_format)
-            r.format = value;
-        else if (r.directory)
-            cli_stop(&args, cli_fail(CLI_USAGE, "more than one DIR: '%s'", value));
-        else
-            r.directory = value;
-    }
-    if (args.status != CLI_GO_ON) return args.status;
-    if (!r.directory) return cli_fail(CLI_USAGE, "the DIR is missing");
+    if (strcmp(text, "svg") != 0 && strcmp(text, "png") != 0)
+        return cli_fail(CLI_USAGE, "--format: '%s' is not svg or png", text);
+    return cli_parse_text(user, option, text);
+}
+
+static const cli_option options[] = {
+    {"format", "svg|png", "svg", "format of the figures", .parse = parse_format,
+     .offset = offsetof(report, format)},
+    {NULL, "DIR", CLI_REQUIRED, "what 'study', 'run' or 'order' wrote with --output DIR",
+     .parse = cli_parse_text, .offset = offsetof(report, directory)},
+};
+
+static int write_report(report *r)
+{
     int kind = 0;
-    while (kind < KINDS && !has_file(r.directory, kinds[kind].file)) kind++;
-    if (kind == KINDS && has_file(r.directory, "study.yaml"))
+    while (kind < KINDS && !has_file(r->directory, kinds[kind].file)) kind++;
+    if (kind == KINDS && has_file(r->directory, "study.yaml"))
         return cli_fail(CLI_USAGE,
                         "'%s' holds a study that is not finished: 'dalembert resume' continues it, "
                         "'dalembert merge' merges shards",
-                        r.directory);
+                        r->directory);
     if (kind == KINDS)
         return cli_fail(CLI_USAGE,
                         "'%s' holds neither a study (cells.csv) nor a run (trajectory.npy) nor "
                         "orders (order.csv)",
-                        r.directory);
-    int status = report_open(&r);
-    if (status == CLI_DONE) status = kinds[kind].write(&r);
-    const int closed = report_close(&r);
+                        r->directory);
+    int status = report_open(r);
+    if (status == CLI_DONE) status = kinds[kind].write(r);
+    const int closed = report_close(r);
     cli_progress_end();
     if (status == CLI_DONE) status = closed;
-    if (status == CLI_DONE) printf("%s\n", r.page_path);
-    free(r.place);
-    free(r.page_path);
+    if (status == CLI_DONE) printf("%s\n", r->page_path);
+    free(r->place);
+    free(r->page_path);
     return status == CLI_DONE ? cli_close(stdout, "standard output") : status;
 }
+
+static int run_report(int argc, char **argv)
+{
+    enum { OPTIONS = sizeof options / sizeof *options };
+    report r = {0};
+    const cli_group group = {options, OPTIONS, .settings = &r};
+    const int status = cli_read_arguments(&command_report, argc, argv, &group, 1);
+    return status == CLI_GO_ON ? write_report(&r) : status;
+}
+
+const cli_command command_report = {
+    .name = "report",
+    .synopsis = "dalembert report DIR [OPTION]...",
+    .about = "makes a page of a run, a study or orders: trends, figures",
+    .notes = "The command writes DIR/report/index.html, one page with everything in it; the "
+             "figures, and the gnuplot scripts that draw them, stand beside it.  Without gnuplot "
+             "the page "
+             "has no figures.\n",
+    .run = run_report,
+};

@@ -1,5 +1,6 @@
 /* document.c - nodes of a parsed YAML text, with messages that name their place. */
 #include "document.h"
+#include "ui/options.h"
 
 #include <stdarg.h>
 #include <stdlib.h>

@@ -16,63 +16,44 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* name, value, default, help */
-#define OWN_LIST(X)                                                                                \
-    X(output, "DIR", NULL, "the files go there")                                                   \
-    X(checkpoint, "SECONDS", "5", "a run can be resumed from at most so long ago")                 \
-    X(native, "auto|on|off", "auto", "compile the steps, which changes no bit: when it pays")      \
-    X(force, NULL, NULL, "write over what the directory holds")                                    \
-    X(resume, NULL, NULL, "go on with the study in DIR")
-
-enum { OWN_LIST(CLI_OWN) OWN_OPTIONS };
-
-static const cli_option options[] = {OWN_LIST(CLI_OPTION)};
-
-static const char notes[] =
-    "Runs a study, as 'dalembert study' does, with a process for each cell at a time; to be "
-    "started\n"
-    "by mpirun.  DIR must be seen by all processes.  The results are the same bytes.\n";
-
-/* What all ranks must know; the texts of the study are read from its directory. */
+/* What all ranks must know; they read the texts of the study from its directory. */
 enum { PATH = 4096 };
 typedef struct settings {
     char output[PATH];
-    double interval;
-    int native, force, resume, status; /* status: what rank 0 found of the arguments */
-    const char *study;                 /* of rank 0 alone */
+    run_settings run;
+    bool resume;
+    int status;        /* of rank 0: what its arguments led to */
+    const char *study; /* of rank 0 alone */
 } settings;
 
-static int take(settings *w, int option, const char *value)
+static int parse_output(void *user, const cli_option *option, const char *text)
 {
-    native_mode native;
-    switch (option) {
-    case OWN_output:
-        if (strlen(value) >= sizeof w->output)
-            return cli_fail(CLI_USAGE, "--output: the path is too long");
-        memcpy(w->output, value, strlen(value) + 1);
-        return CLI_DONE;
-    case OWN_checkpoint:
-        return run_parse_interval(value, &w->interval);
-    case OWN_native:
-        if (native_parse(value, &native) != CLI_DONE) return CLI_USAGE;
-        w->native = native;
-        return CLI_DONE;
-    case OWN_force:
-        w->force = 1;
-        return CLI_DONE;
-    case OWN_resume:
-        w->resume = 1;
-        return CLI_DONE;
-    default:
-        if (w->study) return cli_fail(CLI_USAGE, "more than one study: '%s'", value);
-        w->study = value;
-        return CLI_DONE;
-    }
+    settings *w = user;
+    (void)option;
+    if (strlen(text) >= sizeof w->output)
+        return cli_fail(CLI_USAGE, "--output: the path is too long");
+    memcpy(w->output, text, strlen(text) + 1);
+    return CLI_DONE;
 }
+
+static const cli_option options[] = {
+    {"output", "DIR", CLI_REQUIRED, "writes the files there", .parse = parse_output},
+    {"resume", NULL, NULL, "continues the study in DIR", .parse = cli_parse_flag,
+     .offset = offsetof(settings, resume)},
+    {NULL, "STUDY.yaml", NULL, "a study file", .parse = cli_parse_text,
+     .offset = offsetof(settings, study)},
+};
+
+static const cli_command command = {
+    .name = "dalembert-mpi",
+    .synopsis = "mpirun dalembert-mpi STUDY.yaml --output DIR [OPTION]...",
+    .about = "runs a study, as 'dalembert study' does, with a process for each cell at a time",
+    .notes = "mpirun starts the processes.  All of them must see DIR.  The results are the same "
+             "bytes.\n",
+};
 
 static int check(const settings *w)
 {
-    if (!w->output[0]) return cli_fail(CLI_USAGE, "--output is missing");
     if (w->resume && w->study)
         return cli_fail(CLI_USAGE, "--resume: the study is the one in '%s'", w->output);
     if (!w->resume && !w->study) return cli_fail(CLI_USAGE, "the STUDY.yaml is missing");
@@ -81,13 +62,13 @@ static int check(const settings *w)
 
 static int read_arguments(settings *w, int argc, char **argv)
 {
-    cli_args args = cli_begin(argc, argv, options, OWN_OPTIONS, notes);
-    const char *value;
-    for (int k; (k = cli_next(&args, &value)) != CLI_STOP;) {
-        const int taken = take(w, k, value);
-        if (taken != CLI_DONE) cli_stop(&args, taken);
-    }
-    return args.status == CLI_GO_ON ? check(w) : args.status;
+    enum { OPTIONS = sizeof options / sizeof *options };
+    const cli_group groups[] = {
+        {options, OPTIONS, .settings = w},
+        run_group(&w->run, RUN_OPTION(output) | RUN_OPTION(summary) | RUN_OPTION(progress)),
+    };
+    const int status = cli_read_arguments(&command, argc, argv, groups, 2);
+    return status == CLI_GO_ON ? check(w) : status;
 }
 
 /* ---- the study ---- */
@@ -104,7 +85,7 @@ static int describe(const settings *w)
     int status = study_plan_read(&plan, w->study, text, length, NULL);
     study_directory_open(&dir, w->output);
     if (status == CLI_DONE)
-        status = study_directory_begin(&dir, &plan, text, length, whole, w->force);
+        status = study_directory_begin(&dir, &plan, text, length, whole, w->run.force);
     study_plan_free(&plan);
     study_directory_close(&dir);
     free(text);
@@ -207,8 +188,8 @@ static int run_study(const settings *w, int rank, int size)
     study_directory_open(&dir, w->output);
     int status = study_directory_read(&dir, &plan);
     t.order = study_sort_cells(&plan);
-    plan.interval = w->interval;
-    for (int i = 0; i < plan.case_count; i++) plan.cases[i].native = (native_mode)w->native;
+    plan.interval = w->run.interval;
+    for (int i = 0; i < plan.case_count; i++) plan.cases[i].native = w->run.native;
     status = agree(status);
     if (status == CLI_DONE) {
         cli_catch_signals();
@@ -224,7 +205,7 @@ static int run_study(const settings *w, int rank, int size)
 
 static int start(int argc, char **argv, int rank, int size)
 {
-    settings w = {.interval = run_settings_default().interval};
+    settings w = {0};
     if (rank == 0) {
         w.status = read_arguments(&w, argc, argv);
         const int described = w.status == CLI_GO_ON && !w.resume ? describe(&w) : CLI_DONE;
@@ -236,12 +217,10 @@ static int start(int argc, char **argv, int rank, int size)
 
 int main(int argc, char **argv)
 {
-    static char name[] = "mpirun dalembert-mpi STUDY.yaml --output DIR";
     int rank, size;
     MPI_Init(&argc, &argv);
     MPI_Comm_rank(MPI_COMM_WORLD, &rank);
     MPI_Comm_size(MPI_COMM_WORLD, &size);
-    argv[0] = name;
     /* Of a status all ranks return the same, so that mpirun does not blame one of them. */
     int status = start(argc, argv, rank, size);
     MPI_Bcast(&status, 1, MPI_INT, 0, MPI_COMM_WORLD);

@@ -244,13 +244,11 @@ static void write_settings(FILE *page, const char *option, const request_setting
 
 static void write_command(FILE *page, const run_request *request)
 {
-    cli_option options[REQUEST_OPTIONS];
-    request_list_options(options);
     fputs("<h2>How to make it again</h2>\n<pre tabindex=\"0\">dalembert run ", page);
     write_word(page, request->system_name);
-    for (int i = 0; i < REQUEST_OPTIONS; i++) {
+    for (int i = 0; i < REQUEST_system; i++) {
         if (!request->text[i] || i == REQUEST_set || i == REQUEST_start) continue;
-        fprintf(page, " --%s ", options[i].name);
+        fprintf(page, " --%s ", request_options[i].name);
         write_word(page, request->text[i]);
     }
     write_settings(page, "set", &request->set);

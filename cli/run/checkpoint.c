@@ -168,6 +168,6 @@ int checkpoint_load(const run_directory *dir, const trajectory_writer *writer,
     if (has_newer)
         status = load_file(dir, dir->checkpoint, writer, position, run, statistics, count);
     if (status == CLI_DONE || !has_older) return status;
-    if (has_newer) cli_fail(CLI_DONE, "%s is read instead", dir->before);
+    if (has_newer) cli_note("%s is read instead", dir->before);
     return load_file(dir, dir->before, writer, position, run, statistics, count);
 }

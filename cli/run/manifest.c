@@ -112,20 +112,18 @@ static void put_settings(FILE *out, const char *name, const request_settings *se
 /* "input" of a request, allocated. */
 static char *request_text(const run_request *request)
 {
-    cli_option options[REQUEST_OPTIONS];
     char *text;
     size_t length;
     FILE *out = cli_memstream_open(&text, &length);
     const char *system = request->system_name;
-    request_list_options(options);
     json_text_member(out, "{\n    ", "system", cli_is_path(system) ? copy_name : system);
-    for (int i = 0; i < REQUEST_OPTIONS; i++)
+    for (int i = 0; i < REQUEST_system; i++)
         if (request->text[i] && request_option_is_number(i))
-            json_given_member(out, ",\n    ", options[i].name, request->text[i]);
+            json_given_member(out, ",\n    ", request_options[i].name, request->text[i]);
         else if (request->text[i] && i != REQUEST_set && i != REQUEST_start)
-            json_text_member(out, ",\n    ", options[i].name, request->text[i]);
-    put_settings(out, options[REQUEST_set].name, &request->set);
-    put_settings(out, options[REQUEST_start].name, &request->start);
+            json_text_member(out, ",\n    ", request_options[i].name, request->text[i]);
+    put_settings(out, "set", &request->set);
+    put_settings(out, "start", &request->start);
     fputs("\n  }", out);
     cli_memstream_close(out);
     return text;
@@ -262,8 +260,7 @@ static int check_version(const document *doc, const yaml_node_t *root)
                              " resumes what 0.3 or later wrote",
                              version);
     if (made < present)
-        cli_fail(CLI_DONE, "%s: made by dalembert %s; the bits may differ from here on", doc->place,
-                 version);
+        cli_note("%s: made by dalembert %s; the bits may differ from here on", doc->place, version);
     return CLI_DONE;
 }
 

@@ -15,17 +15,6 @@
 #define NS_SAMPLE   50.0
 #define NS_WORTH    5e8
 
-int native_parse(const char *text, native_mode *mode)
-{
-#define WORD(code, word) #word,
-    static const char *const words[] = {NATIVE_LIST(WORD)};
-#undef WORD
-    const int k = cli_word("--native", text, words, sizeof words / sizeof words[0]);
-    if (k < 0) return CLI_USAGE;
-    *mode = (native_mode)k;
-    return CLI_DONE;
-}
-
 static int is_wanted(const dal_run *run, native_mode mode, double cost, double count)
 {
     return mode == NATIVE_ON ||
@@ -70,7 +59,7 @@ static void compile(dal_run *run, compilation *compile_run, atomic_flag *printed
     }
     free(directory);
     if (!cli_is_ok(status) && status != DAL_INTERRUPTED && !atomic_flag_test_and_set(printed))
-        cli_fail(CLI_DONE, "%s are interpreted: %s", what, error.message);
+        cli_note("%s are interpreted: %s", what, error.message);
 }
 
 void native_compile_steps(dal_run *run, const dal_method *method, double steps, native_mode mode)

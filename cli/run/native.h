@@ -3,18 +3,19 @@
 #define DAL_CLI_NATIVE_H
 
 #include "ui/cli.h"
+#include "ui/options.h"
 
-/* code, word */
-#define NATIVE_LIST(MODE) MODE(AUTO, auto) MODE(ON, on) MODE(OFF, off)
+/* The words of --native, "auto|on|off". */
+typedef enum native_mode { NATIVE_AUTO, NATIVE_ON, NATIVE_OFF } native_mode;
 
-typedef enum native_mode {
-#define NATIVE_CODE(code, word) NATIVE_##code,
-    NATIVE_LIST(NATIVE_CODE)
-#undef NATIVE_CODE
-} native_mode;
+/* The row of --native in a table of options. */
+#define NATIVE_OPTION(settings)                                                                    \
+    {                                                                                              \
+        "native", "auto|on|off", "auto",                                                           \
+            "compiles the steps, which changes no bit; auto: where it pays",                       \
+            .parse = cli_parse_word, .offset = offsetof(settings, native)                          \
+    }
 
-/* Parses a word of the list.  Returns CLI_DONE or prints and returns CLI_USAGE. */
-int native_parse(const char *text, native_mode *mode);
 /* Compile the steps of a run, or its observables, where the mode is on, or is auto and that many
  * steps or samples make it worth the time.  A failure is printed once and leaves the run as it
  * is. */

@@ -18,17 +18,6 @@ static const double json_interval = 1.0, line_interval = 0.1;
 
 enum { LINE = 256 };
 
-int progress_parse(const char *text, progress_mode *mode)
-{
-#define WORD(code, word) #word,
-    static const char *const words[] = {PROGRESS_LIST(WORD)};
-#undef WORD
-    const int k = cli_word("--progress", text, words, sizeof words / sizeof words[0]);
-    if (k < 0) return CLI_USAGE;
-    *mode = (progress_mode)k;
-    return CLI_DONE;
-}
-
 /* A line as it is made; a piece that does not fit is left out as a whole. */
 typedef struct progress_line {
     char text[LINE];

@@ -3,63 +3,132 @@
 
 #include "row_times.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 enum { MAX_COUNT = 1000000000 };
 
-/* What --help says of the default of each type; of a choice, its words. */
+/* ---- the options --------------------------------------------------------------------------- */
+
+static int parse_method(void *user, const cli_option *option, const char *text)
+{
+    run_request *request = user;
+    dal_error error = {0};
+    (void)option;
+    if (dal_method_parse(&request->method, text, &error) == DAL_OK) return CLI_DONE;
+    return cli_error(CLI_USAGE, NULL, &error);
+}
+
+static int parse_time(void *user, const cli_option *option, const char *text)
+{
+    run_request *request = user;
+    (void)option;
+    if (cli_number("--time", text, &request->time) != CLI_DONE) return CLI_USAGE;
+    if (request->time > 0.0) return CLI_DONE;
+    return cli_fail(CLI_USAGE, "--time: %s is not positive", text);
+}
+
+static int parse_run_option(void *user, const cli_option *option, const char *text)
+{
+    run_request *request = user;
+    dal_error error = {0};
+    if (dal_options_set(&request->options, option->name, text, &error) == DAL_OK) return CLI_DONE;
+    return cli_error(CLI_USAGE, NULL, &error);
+}
+
+/* e = inf is the one infinite value. */
+static int parse_infinity(const char *name, const char *text, double *value)
+{
+    static const char *const infinities[] = {"inf", "+inf", "infinity"};
+    for (size_t i = 0; strcmp(name, "e") == 0 && i < sizeof infinities / sizeof *infinities; i++) {
+        if (strcmp(text, infinities[i]) != 0) continue;
+        *value = INFINITY;
+        return CLI_DONE;
+    }
+    return CLI_GO_ON;
+}
+
+static int parse_setting(void *user, const cli_option *option, const char *text)
+{
+    const char *equals = strchr(text, '=');
+    double value;
+    if (!equals || equals == text)
+        return cli_fail(CLI_USAGE, "--%s: '%s' is not NAME=VALUE", option->name, text);
+    char *name = cli_strndup(text, (size_t)(equals - text));
+    int status = parse_infinity(name, equals + 1, &value);
+    if (status == CLI_GO_ON) status = cli_number(text, equals + 1, &value);
+    if (status == CLI_DONE)
+        request_add_setting((void *)((char *)user + option->offset), name, value);
+    free(name);
+    return status;
+}
+
+#define FIELD(name) offsetof(run_request, name)
+/* The default of each type; of a choice, its words. */
 #define DEFAULT_double(initial, value)     #initial
 #define DEFAULT_int(initial, value)        #initial
 #define DEFAULT_dal_choice(initial, value) value
 
-/* One table of both kinds of option. */
-static const struct {
-    const char *name, *value, *initial, *help;
-} table[REQUEST_OPTIONS] = {
-#define X(name, value, initial, help) {#name, value, initial, help},
-    REQUEST_OPTION_LIST(X)
-#undef X
-#define X(type, name, word, initial, least, greatest, value, help)                                 \
-    {word, value, DEFAULT_##type(initial, value), help},
-        DAL_OPTION_LIST(X)
-#undef X
-};
+const cli_option request_options[REQUEST_OPTIONS] = {
+    {"integrator", "NAME", CLI_REQUIRED,
+     "rk4, gauss8+project, ...: see 'dalembert list integrators'", .parse = parse_method},
+    {"time", "T", NULL, "integrates from t = 0 to t = T", .parse = parse_time},
+    {"samples", "N", "100", "rows after the first, at equal distances in t",
+     .parse = cli_parse_integer, .offset = FIELD(samples), .min = 1, .max = MAX_COUNT},
+    {"sampling", "linear|log|steps", "linear",
+     "rows at equal distances in t; in log t, after whole steps; in t, after whole steps",
+     .parse = cli_parse_word, .offset = FIELD(sampling)},
+    {"times", "LIST|FILE", NULL, "rows at these times only; T is the last of them by default",
+     .parse = row_times_parse},
+    {"statistics", "K", "1", "the summary observes every K-th step", .parse = cli_parse_integer,
+     .offset = FIELD(statistics), .min = 1, .max = MAX_COUNT},
+    {"set", "PARAMETER=V", NULL, "sets a parameter; may be repeated", .parse = parse_setting,
+     .offset = FIELD(set)},
+    {"start", "NAME=V", NULL, "starts x, x', e, p_x, pi_x, ... at V; may be repeated; e=inf",
+     .parse = parse_setting, .offset = FIELD(start)},
+#define ROW(type, name, word, initial, least, greatest, value, help)                               \
+    {word, value, REQUEST_##name - REQUEST_step ? DEFAULT_##type(initial, value) : CLI_REQUIRED,   \
+     help, .parse = parse_run_option},
+    DAL_OPTION_LIST(ROW)
+#undef ROW
+        {NULL, "SYSTEM", CLI_REQUIRED,
+         "built-in system ('dalembert list systems') or path of a file", .parse = cli_parse_text,
+         .offset = FIELD(system_name)}};
 
-static int is_required(int option)
+cli_group request_group(run_request *request, const cli_option *options, uint64_t without)
 {
-    return option == REQUEST_integrator || option == REQUEST_step || option == REQUEST_time;
+    return (cli_group){options, REQUEST_OPTIONS, request, request->text, without};
 }
 
-void request_list_options(cli_option *options)
+int request_parse_option(run_request *request, int option, const char *text)
 {
-    for (int i = 0; i < REQUEST_OPTIONS; i++)
-        options[i] = (cli_option){table[i].name, table[i].value, table[i].help,
-                                  is_required(i) ? NULL : table[i].initial};
+    request->text[option] = text;
+    return request_options[option].parse(request, &request_options[option], text);
 }
 
 int request_option_is_number(int option)
 {
-    switch (option) {
-    case REQUEST_integrator:
-    case REQUEST_sampling:
-    case REQUEST_times:
-    case REQUEST_set:
-    case REQUEST_start:
-        return 0;
-    default:
-        return !strchr(table[option].value, '|');
-    }
+    const cli_option *o = &request_options[option];
+    return o->parse == parse_time || o->parse == cli_parse_integer ||
+           (o->parse == parse_run_option && !strchr(o->value, '|'));
 }
 
 int request_find_option(const char *name)
 {
-    for (int i = 0; i < REQUEST_OPTIONS; i++)
-        if (strcmp(table[i].name, name) == 0) return i;
+    for (int i = 0; i < REQUEST_system; i++)
+        if (strcmp(request_options[i].name, name) == 0) return i;
     return -1;
 }
 
-run_request request_default(void) { return (run_request){.options = dal_options_default()}; }
+/* ---- the request --------------------------------------------------------------------------- */
+
+run_request request_default(void)
+{
+    run_request request = {.options = dal_options_default()};
+    cli_set_defaults(request_options, REQUEST_OPTIONS, &request);
+    return request;
+}
 
 static void free_settings(request_settings *settings)
 {
@@ -90,54 +159,6 @@ void request_add_setting(request_settings *settings, const char *name, double va
     settings->item[settings->count++] = (dal_setting){cli_strdup(name), value};
 }
 
-static int parse_setting(request_settings *settings, const char *what, const char *text)
-{
-    dal_setting given;
-    const int status = cli_setting(what, text, &given);
-    if (status != CLI_DONE) return status;
-    request_add_setting(settings, given.name, given.value);
-    free((char *)given.name);
-    return CLI_DONE;
-}
-
-int request_parse_option(run_request *request, int option, const char *text)
-{
-    dal_error error = {0};
-    request->text[option] = text;
-    switch (option) {
-    case REQUEST_integrator:
-        if (dal_method_parse(&request->method, text, &error) == DAL_OK) return CLI_DONE;
-        return cli_error(CLI_USAGE, NULL, &error);
-    case REQUEST_time:
-        if (cli_number("--time", text, &request->time) != CLI_DONE) return CLI_USAGE;
-        if (request->time > 0.0) return CLI_DONE;
-        return cli_fail(CLI_USAGE, "--time: %s is not positive", text);
-    case REQUEST_samples:
-        return cli_integer("--samples", text, 1, MAX_COUNT, &request->samples);
-    case REQUEST_sampling:
-        return row_times_parse_sampling(request, text);
-    case REQUEST_times:
-        return row_times_parse(request, text);
-    case REQUEST_statistics:
-        return cli_integer("--statistics", text, 1, MAX_COUNT, &request->statistics);
-    case REQUEST_set:
-        return parse_setting(&request->set, "--set", text);
-    case REQUEST_start:
-        return parse_setting(&request->start, "--start", text);
-    default:
-        if (dal_options_set(&request->options, table[option].name, text, &error) == DAL_OK)
-            return CLI_DONE;
-        return cli_error(CLI_USAGE, NULL, &error);
-    }
-}
-
-static void set_default(run_request *request, int option)
-{
-    if (request->text[option]) return;
-    request_parse_option(request, option, table[option].initial);
-    request->text[option] = NULL;
-}
-
 int request_make_spec(run_request *request, dal_run_spec *spec)
 {
     int status = request->system
@@ -162,13 +183,12 @@ int request_make_spec(run_request *request, dal_run_spec *spec)
 int request_complete(run_request *request, dal_run_spec *spec)
 {
     if (!request->system_name) return cli_fail(CLI_USAGE, "the SYSTEM is missing");
-    for (int i = 0; i < REQUEST_OPTIONS; i++)
-        if (is_required(i) && !request->text[i] && !(i == REQUEST_time && request->times > 0))
-            return cli_fail(CLI_USAGE, "--%s is missing", table[i].name);
+    if (!request->text[REQUEST_integrator]) return cli_fail(CLI_USAGE, "--integrator is missing");
+    if (!request->text[REQUEST_step]) return cli_fail(CLI_USAGE, "--step is missing");
+    if (!request->text[REQUEST_time] && request->times == 0)
+        return cli_fail(CLI_USAGE, "--time is missing");
     if (!(request->options.step > 0.0))
         return cli_fail(CLI_USAGE, "--step: %s is not positive", request->text[REQUEST_step]);
-    set_default(request, REQUEST_samples);
-    set_default(request, REQUEST_statistics);
     const int status = row_times_fill(request);
     return status == CLI_DONE ? request_make_spec(request, spec) : status;
 }

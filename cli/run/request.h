@@ -3,28 +3,28 @@
 #define DAL_CLI_REQUEST_H
 
 #include "ui/cli.h"
+#include "ui/options.h"
 
-/* The options that the library has not; those of the library come behind.
- * name, value, default, help */
-#define REQUEST_OPTION_LIST(X)                                                                     \
-    X(integrator, "NAME", NULL, "rk4, gauss8+project, ...: see 'dalembert list integrators'")      \
-    X(time, "T", NULL, "integrate from t = 0 to t = T")                                            \
-    X(samples, "N", "100", "rows behind the first, at equal distances in t")                       \
-    X(sampling, "linear|log|steps", "linear",                                                      \
-      "rows at equal distances in t; in log t, on whole steps; in t, on whole steps")              \
-    X(times, "LIST|FILE", NULL, "rows at these times alone; T is the last of them when not given") \
-    X(statistics, "K", "1", "observe after every K-th step, for the summary")                      \
-    X(set, "PARAMETER=V", NULL, "give a parameter another value; may be repeated")                 \
-    X(start, "NAME=V", NULL, "start x, x', e, p_x, pi_x, ... at V; may be repeated; e=inf")
+/* What the run itself does not know; the library's options come behind, then the SYSTEM. */
+#define REQUEST_OPTION_LIST(OPTION)                                                                \
+    OPTION(integrator)                                                                             \
+    OPTION(time)                                                                                   \
+    OPTION(samples)                                                                                \
+    OPTION(sampling)                                                                               \
+    OPTION(times)                                                                                  \
+    OPTION(statistics)                                                                             \
+    OPTION(set)                                                                                    \
+    OPTION(start)
 
 enum {
-#define X(name, value, initial, help) REQUEST_##name,
-    REQUEST_OPTION_LIST(X)
-#undef X
-#define X(type, name, word, initial, least, greatest, value, help) REQUEST_##name,
-        DAL_OPTION_LIST(X)
-#undef X
-            REQUEST_OPTIONS
+#define NUMBER(name) REQUEST_##name,
+    REQUEST_OPTION_LIST(NUMBER)
+#undef NUMBER
+#define NUMBER(type, name, word, initial, least, greatest, value, help) REQUEST_##name,
+        DAL_OPTION_LIST(NUMBER)
+#undef NUMBER
+            REQUEST_system,
+    REQUEST_OPTIONS
 };
 
 typedef struct request_settings {
@@ -32,13 +32,11 @@ typedef struct request_settings {
     int count;
 } request_settings;
 
-/* code, word */
-#define REQUEST_SAMPLING_LIST(X) X(LINEAR, linear) X(LOG, log) X(STEPS, steps)
-
+/* The words of --sampling. */
 typedef enum request_sampling {
-#define X(code, word) REQUEST_SAMPLING_##code,
-    REQUEST_SAMPLING_LIST(X)
-#undef X
+    REQUEST_SAMPLING_LINEAR,
+    REQUEST_SAMPLING_LOG,
+    REQUEST_SAMPLING_STEPS
 } request_sampling;
 
 typedef struct run_request {
@@ -61,8 +59,15 @@ typedef struct run_request {
 /* An empty request; release it with request_free. */
 run_request request_default(void);
 void request_free(run_request *request);
-/* Fills options[REQUEST_OPTIONS] with what --help prints of them. */
-void request_list_options(cli_option *options);
+/* A set of options; those that concern rows only. */
+#define REQUEST_OPTION(name) (UINT64_C(1) << REQUEST_##name)
+#define REQUEST_ROW_OPTIONS                                                                        \
+    (REQUEST_OPTION(samples) | REQUEST_OPTION(sampling) | REQUEST_OPTION(times) |                  \
+     REQUEST_OPTION(statistics))
+/* All options; and as a group for a command, which may change their defaults and help in options,
+ * and does not take some. */
+extern const cli_option request_options[REQUEST_OPTIONS];
+cli_group request_group(run_request *request, const cli_option *options, uint64_t without);
 /* Whether an option has a number as its value. */
 int request_option_is_number(int option);
 /* The number of an option by its name, -1 for none. */

@@ -89,8 +89,10 @@ static int parse_list(run_request *request, char *text)
     return status;
 }
 
-int row_times_parse(run_request *request, const char *given)
+int row_times_parse(void *user, const cli_option *option, const char *given)
 {
+    run_request *request = user;
+    (void)option;
     size_t length;
     struct stat info;
     const int is_file = stat(given, &info) == 0 && S_ISREG(info.st_mode);
@@ -134,17 +136,6 @@ static int finish_list(run_request *request)
 }
 
 /* ---- all ----------------------------------------------------------------------------------- */
-
-int row_times_parse_sampling(run_request *request, const char *word)
-{
-#define WORD(code, word) #word,
-    static const char *const words[] = {REQUEST_SAMPLING_LIST(WORD)};
-#undef WORD
-    const int k = cli_word("--sampling", word, words, sizeof words / sizeof words[0]);
-    if (k < 0) return CLI_USAGE;
-    request->sampling = (request_sampling)k;
-    return CLI_DONE;
-}
 
 const char *step_error(double step, double time, char text[STEP_ERROR_SIZE])
 {

@@ -14,9 +14,8 @@ enum { ROW_TIMES_MAX = 100000000, STEP_ERROR_SIZE = 128 };
 const char *step_error(double step, double time, char text[STEP_ERROR_SIZE]);
 /* Checks --step of a request by it. */
 int row_times_check_step(const run_request *request, double time);
-/* Parse the value of --times, a list or a file with one, and of --sampling. */
-int row_times_parse(run_request *request, const char *given);
-int row_times_parse_sampling(run_request *request, const char *word);
+/* Parses the value of --times, a list or a file with one, for a request. */
+cli_parser row_times_parse;
 /* Fills row_time of a request that has all its options, and checks the step. */
 int row_times_fill(run_request *request);
 

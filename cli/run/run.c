@@ -3,45 +3,30 @@
 
 #include "summary.h"
 
+#include <math.h>
 #include <unistd.h>
 
-const cli_option run_options[RUN_OWN] = {RUN_OPTION_LIST(CLI_OPTION)};
+static const cli_option options[RUN_OPTIONS] = {
+    [RUN_output] = {"output", "FILE|DIR|-", "-",
+                    "writes the rows there: .csv, .npy, a directory, or standard output",
+                    .parse = cli_parse_text, .offset = offsetof(run_settings, output)},
+    [RUN_checkpoint] = {"checkpoint", "SECONDS", "5",
+                        "writes a checkpoint to a directory every SECONDS",
+                        .parse = cli_parse_number, .offset = offsetof(run_settings, interval),
+                        .min = 0.0, .max = INFINITY},
+    [RUN_summary] = {"summary", NULL, NULL, "prints the summary though stderr is no terminal",
+                     .parse = cli_parse_flag, .offset = offsetof(run_settings, summary)},
+    [RUN_progress] = {"progress", "auto|json|off", "auto",
+                      "shows a line on a terminal, lines of JSON on stderr, or nothing",
+                      .parse = cli_parse_word, .offset = offsetof(run_settings, progress)},
+    [RUN_native] = NATIVE_OPTION(run_settings),
+    [RUN_force] = {"force", NULL, NULL, "overwrites what the directory holds",
+                   .parse = cli_parse_flag, .offset = offsetof(run_settings, force)},
+};
 
-int run_parse_interval(const char *text, double *interval)
+cli_group run_group(run_settings *settings, uint64_t without)
 {
-    int status = cli_number("--checkpoint", text, interval);
-    if (status == CLI_DONE && *interval < 0.0)
-        return cli_fail(CLI_USAGE, "--checkpoint: %s is negative", text);
-    return status;
-}
-
-run_settings run_settings_default(void)
-{
-    run_settings settings = {.output = run_options[RUN_output - REQUEST_OPTIONS].initial};
-    run_parse_interval(run_options[RUN_checkpoint - REQUEST_OPTIONS].initial, &settings.interval);
-    return settings;
-}
-
-int run_parse_setting(run_settings *settings, int option, const char *text)
-{
-    switch (option) {
-    case RUN_output:
-        settings->output = text;
-        break;
-    case RUN_checkpoint:
-        return run_parse_interval(text, &settings->interval);
-    case RUN_summary:
-        settings->summary = 1;
-        break;
-    case RUN_progress:
-        return progress_parse(text, &settings->progress);
-    case RUN_native:
-        return native_parse(text, &settings->native);
-    case RUN_force:
-        settings->force = 1;
-        break;
-    }
-    return CLI_DONE;
+    return (cli_group){options, RUN_OPTIONS, settings, NULL, without};
 }
 
 static void print_end(const run_recorder *r, int status, const dal_error *error)
@@ -64,12 +49,11 @@ int run_integrate(const run_request *request, run_directory *dir, const run_sett
     recorder.progress = settings->progress;
     const long long row = recorder.position.row;
     if (status == CLI_DONE && recorder_is_finished(&recorder)) {
-        cli_fail(CLI_DONE, "'%s' is finished: %lld rows", dir->path, row);
+        cli_note("'%s' is finished: %lld rows", dir->path, row);
     } else if (status == CLI_DONE) {
         cli_catch_signals();
         if (row > 0)
-            cli_fail(CLI_DONE, "'%s' resumes at t = %g with row %lld", dir->path, dal_run_time(run),
-                     row);
+            cli_note("'%s' resumes at t = %g with row %lld", dir->path, dal_run_time(run), row);
         const double steps = (request->time - dal_run_time(run)) / request->options.step;
         native_compile_steps(run, &request->method, steps, settings->native);
         native_compile_observables(run, steps / (double)request->statistics, settings->native);

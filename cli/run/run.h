@@ -6,43 +6,30 @@
 #include "recorder.h"
 #include "request.h"
 #include "run_directory.h"
+#include "ui/options.h"
 
-/* The options of a run that do not concern the trajectory; they come behind those of the request.
- * name, value, default, help */
+/* The options of a run that do not concern the trajectory. */
 #define RUN_OPTION_LIST(OPTION)                                                                    \
-    OPTION(output, "FILE|DIR|-", "-", "write there: .csv, .npy, a directory, or stdout")           \
-    OPTION(checkpoint, "SECONDS", "5", "seconds between checkpoints of a directory")               \
-    OPTION(summary, NULL, NULL, "print the summary though stderr is no terminal")                  \
-    OPTION(progress, "auto|json|off", "auto",                                                      \
-           "a line on a terminal, lines of JSON on stderr, or none")                               \
-    OPTION(native, "auto|on|off", "auto", "compile the steps, which changes no bit: when it pays") \
-    OPTION(force, NULL, NULL, "write over the run that the directory holds")
+    OPTION(output) OPTION(checkpoint) OPTION(summary) OPTION(progress) OPTION(native) OPTION(force)
 
 enum {
-    RUN_FIRST = REQUEST_OPTIONS - 1,
-#define RUN_OPTION(name, value, initial, help) RUN_##name,
-    RUN_OPTION_LIST(RUN_OPTION)
-#undef RUN_OPTION
-        RUN_OPTIONS,
-    RUN_OWN = RUN_OPTIONS - REQUEST_OPTIONS
+#define NUMBER(name) RUN_##name,
+    RUN_OPTION_LIST(NUMBER)
+#undef NUMBER
+        RUN_OPTIONS
 };
 
-extern const cli_option run_options[RUN_OWN];
-
-/* Where and how the results of a run are written. */
 typedef struct run_settings {
     const char *output;
-    double interval; /* seconds between checkpoints */
-    int summary, force;
+    double interval; /* between checkpoints, in seconds */
+    bool summary, force;
     native_mode native;
     progress_mode progress;
 } run_settings;
 
-run_settings run_settings_default(void);
-/* Parse one of these options, or the value of --checkpoint.  Return CLI_DONE, or print and return
- * CLI_USAGE. */
-int run_parse_setting(run_settings *settings, int option, const char *text);
-int run_parse_interval(const char *text, double *interval);
+/* As a group for a command, which does not take some: a set of RUN_OPTION(name). */
+#define RUN_OPTION(name) (UINT64_C(1) << RUN_##name)
+cli_group run_group(run_settings *settings, uint64_t without);
 /* Integrates the run of a request, in its directory unless dir is NULL; returns the exit status. */
 int run_integrate(const run_request *request, run_directory *dir, const run_settings *settings);
 

@@ -3,8 +3,8 @@
  * Keys beside `systems` are defaults for every system; a system may be a name or a mapping that
  * overrides them.  'dalembert study --help' lists the keys. */
 #include "parsed_study.h"
-
 #include "study_values.h"
+#include "ui/options.h"
 
 #include <string.h>
 
@@ -127,6 +127,9 @@ static int take_option(study_case *e, const document *doc, const yaml_node_pair_
     if (!word) return CLI_USAGE;
     if (strcmp(name, "step") == 0 || strcmp(name, "space") == 0)
         return document_fail(doc, key, "options: %s has a key of its own", name);
+    if (cli_renamed_option(name))
+        return document_fail(doc, key, "options: %s is called %s now", name,
+                             cli_renamed_option(name));
     if (dal_options_set(&options, name, word, &error) != DAL_OK)
         return document_fail(doc, key, "%s", error.message);
     for (int i = 0; i < STUDY_OPTIONS; i++)

@@ -4,6 +4,7 @@
 #include "run/pool.h"
 #include "run/run.h"
 #include "study_directory.h"
+#include "ui/commands.h"
 
 #include <stdlib.h>
 #include <string.h>
@@ -19,29 +20,38 @@ static const char default_directory[] = "dalembert-study";
 typedef struct settings {
     const char *study, *output;
     long long threads;
-    double interval;
     study_shard shard;
-    int show, force;
-    native_mode native;
+    bool show;
+    run_settings run;
 } settings;
 
-/* name, value, default, help */
-#define OWN_LIST(X)                                                                                \
-    X(output, "DIR", default_directory, "the files go there")                                      \
-    X(threads, "N", "OMP_NUM_THREADS or one per processor",                                        \
-      "cells at a time; the results do not depend on it")                                          \
-    X(checkpoint, "SECONDS", "5", "a run can be resumed from at most so long ago")                 \
-    X(shard, "K/N", NULL, "every N-th cell from the K-th on; 'dalembert merge' joins the shards")  \
-    X(native, "auto|on|off", "auto", "compile the steps, which changes no bit: when it pays")      \
-    X(force, NULL, NULL, "write over what the directory holds")                                    \
-    X(show, NULL, NULL, "print the study file itself and do nothing")
+static int parse_shard(void *user, const cli_option *option, const char *text)
+{
+    study_shard *shard = &((settings *)user)->shard;
+    const char *slash = strchr(text, '/');
+    char number[32];
+    (void)option;
+    if (!slash || (size_t)(slash - text) >= sizeof number)
+        return cli_fail(CLI_USAGE, "--shard: '%s' is not K/N", text);
+    snprintf(number, sizeof number, "%.*s", (int)(slash - text), text);
+    int status = cli_integer("--shard", slash + 1, 1, 1000000, &shard->count);
+    if (status != CLI_DONE) return status;
+    return cli_integer("--shard", number, 1, shard->count, &shard->number);
+}
 
-enum { OWN_LIST(CLI_OWN) OWN_OPTIONS };
+static const cli_option options[] = {
+    {"output", "DIR", NULL, "writes the files there (dalembert-study)", .parse = cli_parse_text,
+     .offset = offsetof(settings, output)},
+    POOL_THREADS_OPTION(settings, "cells at a time; results do not depend on it"),
+    {"shard", "K/N", NULL, "runs every N-th cell, from the K-th on; 'dalembert merge' joins shards",
+     .parse = parse_shard},
+    {"show", NULL, NULL, "prints the study file itself and runs nothing", .parse = cli_parse_flag,
+     .offset = offsetof(settings, show)},
+    {NULL, "STUDY.yaml", NULL, "a study file; by default the built-in study",
+     .parse = cli_parse_text, .offset = offsetof(settings, study)},
+};
 
-static const cli_option options[] = {OWN_LIST(CLI_OPTION)};
-
-static const char notes[] =
-    "Without a file the built-in study is run.  A study file is YAML; its keys:\n"
+static const char notes[] = "A study file is YAML; its keys:\n"
 #define X(name, scope, help) "  " #name " (" scope "): " help "\n"
     STUDY_KEY_LIST(X)
 #undef X
@@ -85,45 +95,6 @@ static const char notes[] =
         "unless the study expects it.  A cell is refused, which is no failure, where the\n"
         "integrator needs what the system lacks.\n";
 
-static int take_shard(settings *w, const char *text)
-{
-    const char *slash = strchr(text, '/');
-    char number[32];
-    if (!slash || (size_t)(slash - text) >= sizeof number)
-        return cli_fail(CLI_USAGE, "--shard: '%s' is not K/N", text);
-    snprintf(number, sizeof number, "%.*s", (int)(slash - text), text);
-    int status = cli_integer("--shard", slash + 1, 1, 1000000, &w->shard.count);
-    if (status != CLI_DONE) return status;
-    return cli_integer("--shard", number, 1, w->shard.count, &w->shard.number);
-}
-
-static int take(settings *w, int option, const char *value)
-{
-    switch (option) {
-    case OWN_output:
-        w->output = value;
-        return CLI_DONE;
-    case OWN_threads:
-        return cli_integer("--threads", value, 1, POOL_MAX_THREADS, &w->threads);
-    case OWN_checkpoint:
-        return run_parse_interval(value, &w->interval);
-    case OWN_shard:
-        return take_shard(w, value);
-    case OWN_native:
-        return native_parse(value, &w->native);
-    case OWN_force:
-        w->force = 1;
-        return CLI_DONE;
-    case OWN_show:
-        w->show = 1;
-        return CLI_DONE;
-    default:
-        if (w->study) return cli_fail(CLI_USAGE, "more than one study: '%s'", value);
-        w->study = value;
-        return CLI_DONE;
-    }
-}
-
 /* ---- running ---- */
 
 static int run_cells(study_plan *plan, const study_directory *dir, const study_run_options *how)
@@ -139,7 +110,7 @@ static int begin(const settings *w, study_directory *dir, study_plan *plan, cons
                  size_t length)
 {
     study_directory_open(dir, w->output ? w->output : default_directory);
-    const int force = w->force || (!w->output && study_directory_is_finished(dir));
+    const int force = w->run.force || (!w->output && study_directory_is_finished(dir));
     return study_directory_begin(dir, plan, text, length, w->shard, force);
 }
 
@@ -147,7 +118,7 @@ static int run_text(const settings *w, const char *text, size_t length)
 {
     study_plan plan = {0};
     study_directory dir = {0};
-    const study_run_options how = {(int)w->threads, w->interval, w->native};
+    const study_run_options how = {(int)w->threads, w->run.interval, w->run.native};
     const char *name = w->study ? w->study : builtin_name;
     int status = study_plan_read(&plan, name, text, length, NULL);
     if (status == CLI_DONE) status = begin(w, &dir, &plan, text, length);
@@ -174,19 +145,27 @@ static int run_study(const settings *w)
     return status;
 }
 
-int command_study(int argc, char **argv)
+static int study(int argc, char **argv)
 {
-    settings w = {.threads = pool_threads(), .interval = run_settings_default().interval};
-    cli_args args = cli_begin(argc, argv, options, OWN_OPTIONS, notes);
-    const char *value;
-    for (int k; (k = cli_next(&args, &value)) != CLI_STOP;) {
-        int status = take(&w, k, value);
-        if (status != CLI_DONE) cli_stop(&args, status);
-    }
-    return args.status == CLI_GO_ON ? run_study(&w) : args.status;
+    enum { OPTIONS = sizeof options / sizeof *options };
+    settings s = {.threads = pool_threads()};
+    const cli_group groups[] = {
+        {options, OPTIONS, .settings = &s},
+        run_group(&s.run, RUN_OPTION(output) | RUN_OPTION(summary) | RUN_OPTION(progress)),
+    };
+    const int status = cli_read_arguments(&command_study, argc, argv, groups, 2);
+    return status == CLI_GO_ON ? run_study(&s) : status;
 }
 
-/* ---- going on ---- */
+const cli_command command_study = {
+    .name = "study",
+    .synopsis = "dalembert study [STUDY.yaml] [OPTION]...",
+    .about = "runs systems x integrators x steps and tabulates their drifts",
+    .notes = notes,
+    .run = study,
+};
+
+/* ---- resuming ---- */
 
 int study_resume(const char *directory, const study_run_options *how)
 {

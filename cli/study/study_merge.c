@@ -9,26 +9,13 @@
 #include "run/pool.h"
 #include "run/run.h"
 #include "study_directory.h"
+#include "ui/commands.h"
 
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
-
-/* name, value, default, help */
-#define OWN_LIST(X)                                                                                \
-    X(output, "DIR", NULL, "the whole study goes there; may be one of those that are merged")      \
-    X(threads, "N", NULL, "runs read at a time")                                                   \
-    X(force, NULL, NULL, "write over what the directory holds, unless it is one of those")
-
-enum { OWN_LIST(CLI_OWN) OWN_OPTIONS };
-
-static const cli_option options[] = {OWN_LIST(CLI_OPTION)};
-
-static const char notes[] =
-    "Each DIR is what 'dalembert study --shard K/N --output DIR' made; the shards may have shared\n"
-    "one.  Tables and files are, but for times, the bytes of the study that was not divided.\n";
 
 enum { SOURCES_MOST = 1024 };
 
@@ -37,7 +24,9 @@ typedef struct merge {
     int sources;
     study_directory target;
     study_plan plan;
-    int force;
+    const char *output;
+    long long threads;
+    bool force;
     int *from; /* [cells] which source has the run, -1: none */
 } merge;
 
@@ -234,43 +223,35 @@ static int merge_into(merge *m, const char *output, int threads)
     return study_directory_finish(&m->target, &m->plan, study_pool_run(&m->plan, threads));
 }
 
-static int take(merge *m, const char **output, long long *threads, int option, const char *value)
+static int parse_source(void *user, const cli_option *option, const char *text)
 {
-    switch (option) {
-    case OWN_output:
-        *output = value;
-        return CLI_DONE;
-    case OWN_threads:
-        return cli_integer("--threads", value, 1, POOL_MAX_THREADS, threads);
-    case OWN_force:
-        m->force = 1;
-        return CLI_DONE;
-    default:
-        if (m->sources == SOURCES_MOST)
-            return cli_fail(CLI_USAGE, "merge: more than %d directories", SOURCES_MOST);
-        study_directory_open(&m->source[m->sources++], value);
-        return CLI_DONE;
-    }
+    merge *m = user;
+    (void)option;
+    if (m->sources == SOURCES_MOST)
+        return cli_fail(CLI_USAGE, "merge: more than %d directories", SOURCES_MOST);
+    study_directory_open(&m->source[m->sources++], text);
+    return CLI_DONE;
 }
 
-static int go(merge *m, const char *output, long long threads)
-{
-    if (m->sources == 0) return cli_fail(CLI_USAGE, "merge: the DIRs are missing");
-    if (!output) return cli_fail(CLI_USAGE, "merge: --output is missing");
-    return merge_into(m, output, (int)threads);
-}
+static const cli_option options[] = {
+    {"output", "DIR", CLI_REQUIRED,
+     "writes the whole study there; may be one of those that are merged", .parse = cli_parse_text,
+     .offset = offsetof(merge, output)},
+    POOL_THREADS_OPTION(merge, "runs read at a time"),
+    {"force", NULL, NULL, "overwrites what the directory holds, unless it is one of those",
+     .parse = cli_parse_flag, .offset = offsetof(merge, force)},
+    {NULL, "DIR...", CLI_REQUIRED, "what 'dalembert study --shard K/N --output DIR' wrote",
+     .parse = parse_source},
+};
 
-int command_merge(int argc, char **argv)
+static int merge_shards(int argc, char **argv)
 {
+    enum { OPTIONS = sizeof options / sizeof *options };
     merge *m = cli_calloc(1, sizeof *m);
-    cli_args args = cli_begin(argc, argv, options, OWN_OPTIONS, notes);
-    const char *value, *output = NULL;
-    long long threads = pool_threads();
-    for (int k; (k = cli_next(&args, &value)) != CLI_STOP;) {
-        const int taken = take(m, &output, &threads, k, value);
-        if (taken != CLI_DONE) cli_stop(&args, taken);
-    }
-    const int status = args.status == CLI_GO_ON ? go(m, output, threads) : args.status;
+    const cli_group group = {options, OPTIONS, .settings = m};
+    m->threads = pool_threads();
+    int status = cli_read_arguments(&command_merge, argc, argv, &group, 1);
+    if (status == CLI_GO_ON) status = merge_into(m, m->output, (int)m->threads);
     for (int i = 0; i < m->sources; i++) study_directory_close(&m->source[i]);
     study_directory_close(&m->target);
     study_plan_free(&m->plan);
@@ -278,3 +259,12 @@ int command_merge(int argc, char **argv)
     free(m);
     return status;
 }
+
+const cli_command command_merge = {
+    .name = "merge",
+    .synopsis = "dalembert merge DIR... --output DIR [OPTION]...",
+    .about = "joins the shards of a study",
+    .notes = "Shards may share a directory.  Tables and files are, but for times, the bytes of the "
+             "study that was not divided.\n",
+    .run = merge_shards,
+};

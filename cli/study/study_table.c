@@ -3,6 +3,7 @@
  * Per system and step: the motion itself (D, E, invariants, error), whose numbers are those of
  * (q,v) alone; and, started off p = pi = 0, what only the lift can show (H, p, pi). */
 #include "study.h"
+#include "ui/wrap.h"
 
 #include <math.h>
 #include <string.h>
@@ -234,6 +235,6 @@ void study_print_note(FILE *out, const study_plan *plan)
         "conserve it: never, or off D = 0 where it does so on D = 0 only.  Rates are slopes of\n"
         "fitted lines.  All look at every step.  I are the invariants of the system, the worst\n"
         "of them; ns are of the clock, looking on included.\n";
-    if (is_lifted(plan)) cli_fold_notes(out, lift);
-    cli_fold_notes(out, words);
+    if (is_lifted(plan)) cli_wrap_notes(out, lift);
+    cli_wrap_notes(out, words);
 }

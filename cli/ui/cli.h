@@ -18,40 +18,6 @@
 #include <stdarg.h>
 #include <stdio.h>
 
-/* name, synopsis, what it does */
-#define COMMAND_LIST(X)                                                                            \
-    X(list, "[systems|integrators] [--markdown]", "what travels inside the program")               \
-    X(check, "SYSTEM [OPTION]...", "what can be known of a system before a run")                   \
-    X(run, "SYSTEM --integrator NAME --step H --time T [OPTION]...", "integrate one system")       \
-    X(resume, "DIR [OPTION]...", "go on with a run or a study that was interrupted")               \
-    X(study, "[STUDY.yaml] [OPTION]...", "systems x integrators x steps: tables of drift")         \
-    X(merge, "DIR... --output DIR", "join the shards of a study")                                  \
-    X(order, "SYSTEM [OPTION]...", "error against step and against work, for every integrator")    \
-    X(section, "SYSTEM --on FORMULA --integrator NAME --step H --time T [OPTION]...",              \
-      "where a motion crosses a surface")                                                          \
-    X(lyapunov, "SYSTEM --integrator NAME --step H --time T [OPTION]...",                          \
-      "Lyapunov exponents of a motion")                                                            \
-    X(volume, "SYSTEM --integrator NAME --step H --time T [OPTION]...",                            \
-      "at what rate the volume of the phase space changes")                                        \
-    X(explain, "SYSTEM --integrator NAME --step H --time T [OPTION]...",                           \
-      "what the drift of a run comes from")                                                        \
-    X(generate, "SYSTEM --integrator NAME [OPTION]... -o FILE.c",                                  \
-      "one C file that steps a system and needs nothing else")                                     \
-    X(report, "DIR [OPTION]...", "a page of a run, a study or orders: trends, figures")
-
-#define X(name, synopsis, about) int command_##name(int argc, char **argv);
-COMMAND_LIST(X)
-#undef X
-
-typedef struct cli_command {
-    const char *name, *synopsis, *about;
-    int (*call)(int argc, char **argv);
-} cli_command;
-
-/* A command by its name, NULL for none; what the program says of itself. */
-const cli_command *cli_find(const char *name);
-void cli_usage(FILE *out);
-
 /* ---- exit statuses ------------------------------------------------------------------------- */
 
 #define CLI_EXIT_LIST(X)                                                                           \
@@ -84,6 +50,8 @@ int cli_input_exit(dal_status status);
 /* Prints "dalembert: MESSAGE" and returns exit_status, so that a caller can write
  *     return cli_fail(CLI_USAGE, "unknown table '%s'", name); */
 int cli_fail(int exit_status, const char *format, ...) CLI_PRINTF(2, 3);
+/* The same where nothing has failed. */
+void cli_note(const char *format, ...) CLI_PRINTF(1, 2);
 /* "dalembert: unknown WHAT 'NAME'; did you mean 'NEAREST'?"; returns CLI_USAGE. */
 int cli_unknown(const char *what, const char *name, const char *const *names, int count);
 /* "dalembert: PLACE:line:column: message"; place may be NULL and line 0.  Returns exit_status, or
@@ -130,61 +98,6 @@ char *cli_format_list(const char *format, va_list list) CLI_PRINTF(1, 0);
  * closed. */
 FILE *cli_memstream_open(char **text, size_t *length);
 void cli_memstream_close(FILE *out);
-
-/* ---- arguments ----------------------------------------------------------------------------- */
-
-typedef struct cli_option {
-    const char *name;  /* without its dashes */
-    const char *value; /* what --help calls its value; NULL: a flag */
-    const char *help;
-    const char *initial; /* its default, up to a '|'; NULL: none to tell */
-} cli_option;
-
-/* A command's options are one list of X(name, value, initial, help), which gives their table and
- * the numbers of those that are its own. */
-#define CLI_OPTION(name, value, initial, help) {#name, value, help, initial},
-#define CLI_OWN(name, value, initial, help)    OWN_##name,
-
-typedef struct cli_args {
-    const cli_option *options;
-    int count;
-    const char *notes; /* further paragraphs of --help, or NULL */
-    int argc, next, plain;
-    char **argv;
-    int status; /* CLI_GO_ON, or the exit status: help was printed or a message given */
-} cli_args;
-
-enum { CLI_GO_ON = -1, CLI_STOP = -2, CLI_PLAIN = -1 };
-
-/* Reads the arguments of a command one by one:
- *     cli_args args = cli_begin(argc, argv, options, count, notes);
- *     for (int k; (k = cli_next(&args, &value)) != CLI_STOP;) switch (k) ...
- *     if (args.status != CLI_GO_ON) return args.status;
- * cli_next gives the index of an option and its value, or CLI_PLAIN and an argument that is no
- * option, or CLI_STOP.  --opt value and --opt=value; never an abbreviation; -- ends the options. */
-cli_args cli_begin(int argc, char **argv, const cli_option *options, int count, const char *notes);
-int cli_next(cli_args *args, const char **value);
-/* Ends the reading with an exit status, as a caller does that has printed a message. */
-void cli_stop(cli_args *args, int exit_status);
-/* The usage and options of a command, as --help prints them. */
-void cli_help(FILE *out, const char *command, const cli_option *options, int count,
-              const char *notes);
-
-/* A text from the present column on, in lines of at most 80, further ones at hanging; and the
- * paragraphs and items of notes. */
-void cli_fold(FILE *out, const char *text, int column, int hanging);
-void cli_fold_notes(FILE *out, const char *notes);
-
-/* A finite number, or an integer (1e6 is one) in least..greatest.  what names it in the message,
- * "--time".  Return CLI_DONE or CLI_USAGE. */
-int cli_number(const char *what, const char *text, double *number);
-int cli_integer(const char *what, const char *text, long long least, long long greatest,
-                long long *number);
-/* The index of a text among words; -1 after the message that it is none of them. */
-int cli_word(const char *what, const char *text, const char *const *words, int count);
-/* Splits "NAME=VALUE" at its first '=': a setting whose name is allocated (free it).  An infinite
- * value is taken for the name e alone.  Returns CLI_DONE, CLI_USAGE or CLI_IO. */
-int cli_setting(const char *what, const char *text, dal_setting *setting);
 
 /* ---- systems ------------------------------------------------------------------------------- */
 

@@ -86,19 +86,32 @@ static void make_plain(char *text)
         if ((unsigned char)*text < ' ' || *text == 0x7f) *text = '?';
 }
 
-int cli_fail(int exit_status, const char *format, ...)
+static void print_message(const char *format, va_list list)
 {
     char message[MESSAGE_SIZE];
-    va_list list;
-    va_start(list, format);
-    int length = vsnprintf(message, sizeof message, format, list);
-    va_end(list);
+    const int length = vsnprintf(message, sizeof message, format, list);
     make_plain(message);
     cli_progress_end();
     /* Where both go to one place, the message stands behind the rows, not within one. */
     fflush(stdout);
     fprintf(stderr, "dalembert: %s%s\n", message, length < MESSAGE_SIZE ? "" : "...");
+}
+
+int cli_fail(int exit_status, const char *format, ...)
+{
+    va_list list;
+    va_start(list, format);
+    print_message(format, list);
+    va_end(list);
     return exit_status;
+}
+
+void cli_note(const char *format, ...)
+{
+    va_list list;
+    va_start(list, format);
+    print_message(format, list);
+    va_end(list);
 }
 
 int cli_unknown(const char *what, const char *name, const char *const *names, int count)

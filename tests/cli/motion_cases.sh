@@ -98,7 +98,7 @@ says '--on:1:4: .*a value is missing'
 try 2 section osc.yaml --on levl $fine
 says "--on:1:1: .*'levl'.*did you mean 'level'"
 try 2 section osc.yaml --on x $fine --direction sideways
-says "'sideways' is not up, down or both"
+says "'sideways' is not one of down.both.up"
 try 2 section osc.yaml --on x $fine --axes "x,y"
 says "unknown column 'y'"
 try 2 section osc.yaml --on x $fine --axes x
@@ -149,7 +149,7 @@ says 'gni carries a multiplier'
 try 2 lyapunov saddle.yaml --integrator rk4 --step 0.1 --time 5 --space lifted
 says 'unknown option'
 try 2 lyapunov saddle.yaml --integrator rk4 --step 0.1 --time 5 --transient -1
-says 'transient: -1 is negative'
+says 'transient: -1 is not from 0 to inf'
 try 2 lyapunov saddle.yaml --integrator rk4 --step 0.1 --time 5 --transient 1e30
 says 'more than can be counted'
 try 2 lyapunov saddle.yaml --integrator rk4 --step 0.1

@@ -122,4 +122,4 @@ XDG_CACHE_HOME= HOME= try 0 run $motion --native on --output native.csv
 says 'steps are interpreted: no directory'
 case_is "native: errors"
 try 2 run $motion --native yes
-says "'yes' is not auto, on or off"
+says "'yes' is not one of auto.on.off"

@@ -58,6 +58,9 @@ says "extended.yaml:7:55: unknown option 'extend-energie'; did you mean 'extend-
 sed -i 's/extend-energie: on/step: 3/' extended.yaml
 try 2 study extended.yaml --output in-study
 says "options: step has a key of its own"
+sed -i 's/step: 3/solve-to: 1e-9/' extended.yaml
+try 2 study extended.yaml --output in-study
+says "extended.yaml:7:55: options: solve-to is called solver-tolerance now"
 
 case_is "a method that cannot serve is refused with the reason"
 refuses() { # REASON SYSTEM INTEGRATOR SPACE

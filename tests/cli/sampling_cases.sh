@@ -17,7 +17,7 @@ holds "no more rows than steps" [ "$(cut -d, -f1 out | tr '\n' ' ')" = "t 0 0.12
 try 2 run ./line.yaml --integrator rk4 --step 0.1 --time 0.06 --sampling steps
 says "0.1 is larger than the time 0.06"
 try 2 run ./line.yaml --integrator rk4 --step 0.1 --time 1 --sampling cubic
-says "'cubic' is not linear, log or steps"
+says "'cubic' is not one of linear.log.steps"
 
 case_is "rows at given times"
 try 0 run ./line.yaml --integrator rk4 --step 0.1 --times 0.5,0.75,2
@@ -55,7 +55,7 @@ says '^\{"t": 5, "time": 5, "steps": 50, "rows": 101, .*"remaining": 0, "deviati
 try 0 run ./line.yaml --integrator rk4 --step 0.1 --time 5 --progress off
 silent
 try 2 run ./line.yaml --integrator rk4 --step 0.1 --time 5 --progress loud
-says "'loud' is not auto, json or off"
+says "'loud' is not one of auto.json.off"
 
 case_is "the manifest"
 try 0 run ./line.yaml --integrator rk4 --step 0.1 --time 5 --set k=2 --output counted

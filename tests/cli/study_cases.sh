@@ -136,7 +136,7 @@ bad 'integrators: rk4\nstep: 0.1\ntime: 1\nsamples: 0\nsystems: [knife-edge]\n' 
 try 2 study nowhere.yaml --output there --force
 says 'nowhere.yaml'
 try 2 study small.yaml failing.yaml
-says 'more than one study'
+says 'one STUDY.yaml only'
 try 2 study small.yaml --threads 0 --output there --force
 says '0 is not in'
 

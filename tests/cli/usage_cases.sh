@@ -59,7 +59,7 @@ prints '^  --tolerance TOLERANCE( |$)'
 prints '^  --solver-tolerance CHANGE( |$)'
 try 0 order --help
 holds "order: other defaults" sh -c 'tr -s " \n" " " <out | grep -q -- \
-    "--time T integrate from t = 0 to t = T (10) .* (physical) --solver"'
+    "--time T integrates from t = 0 to t = T (10) .* (physical) --solver"'
 
 case_is "unknown command"
 try 2 rnu
@@ -73,6 +73,17 @@ try 2 run chaplygin-sleigh --integrater rk4
 says "unknown option '--integrater'; did you mean '--integrator'\?"
 try 2 resume --checkpont 1 there
 says "unknown option '--checkpont'; did you mean '--checkpoint'\?"
+
+case_is "renamed options name their new names"
+try 2 run chaplygin-sleigh --integrator gauss8 --step 0.1 --time 1 --solve-to 1e-9
+says "run: the option '--solve-to' is called '--solver-tolerance' now"
+try 2 run chaplygin-sleigh --integrator gauss8 --step 0.1 --time 1 --extra-sweeps=1
+says "run: the option '--extra-sweeps' is called '--extra-iterations' now"
+try 2 explain chaplygin-sleigh --integrator gauss8 --step 0.1 --time 1 --long-steps 1
+says "explain: the option '--long-steps' is called '--quad-steps' now"
+try 2 run chaplygin-sleigh --integrator gauss8 --step 0.1 --time 1 --precision long
+says "option precision: 'long' is not one of double.quad"
+empty
 
 case_is "options are never abbreviated"
 try 2 run chaplygin-sleigh --integ rk4 --step 0.1 --time 1

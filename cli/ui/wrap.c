@@ -1,32 +1,29 @@
-/* fold.c - texts as lines of at most 80 columns.
- *
- * Prose is filled anew.  A line that begins with spaces is an item, "  NAME   what it is"; it goes
- * on below what it is, as do the lines that already stand there. */
-#include "cli.h"
+/* wrap.c - fills lines of at most 80 columns with words. */
+#include "wrap.h"
 
 #include <string.h>
 
-enum { LINE = 80, DEEPEST = 40 };
+enum { LINE = 80, MAX_INDENT = 40 };
 
-/* Where the words of a text stand. */
-typedef struct fold {
+/* The place of the next word. */
+typedef struct wrapper {
     FILE *out;
     int column, hanging;
-} fold;
+} wrapper;
 
-static void put_word(fold *f, const char *word, int length, int spaces)
+static void put_word(wrapper *w, const char *word, int length, int spaces)
 {
-    if (f->column > f->hanging && f->column + spaces + length > LINE) {
-        fprintf(f->out, "\n%*s", f->hanging, "");
-        f->column = f->hanging;
+    if (w->column > w->hanging && w->column + spaces + length > LINE) {
+        fprintf(w->out, "\n%*s", w->hanging, "");
+        w->column = w->hanging;
         spaces = 0;
     }
-    fprintf(f->out, "%*s%.*s", spaces, "", length, word);
-    f->column += spaces + length;
+    fprintf(w->out, "%*s%.*s", spaces, "", length, word);
+    w->column += spaces + length;
 }
 
 /* The end of a line is a space, two of them behind a sentence. */
-static void put_words(fold *f, const char *text, const char *end)
+static void put_words(wrapper *w, const char *text, const char *end)
 {
     while (text < end) {
         int spaces = 0, length = 0;
@@ -36,15 +33,15 @@ static void put_words(fold *f, const char *text, const char *end)
             text += 1 + strspn(text + 1, " ");
         }
         while (text + length < end && text[length] != ' ' && text[length] != '\n') length++;
-        if (length > 0) put_word(f, text, length, spaces);
+        if (length > 0) put_word(w, text, length, spaces);
         text += length;
     }
 }
 
-void cli_fold(FILE *out, const char *text, int column, int hanging)
+void cli_wrap(FILE *out, const char *text, int column, int hanging)
 {
-    fold f = {out, column, hanging};
-    put_words(&f, text, text + strlen(text));
+    wrapper w = {out, column, hanging};
+    put_words(&w, text, text + strlen(text));
     fputc('\n', out);
 }
 
@@ -52,14 +49,14 @@ void cli_fold(FILE *out, const char *text, int column, int hanging)
 static int second_column(const char *line, int length)
 {
     const int indent = (int)strspn(line, " ");
-    for (int i = indent; i + 2 < length && i < DEEPEST; i++)
+    for (int i = indent; i + 2 < length && i < MAX_INDENT; i++)
         if (line[i] == ' ' && line[i + 1] == ' ') return i + (int)strspn(line + i, " ");
     return indent + 4;
 }
 
 static const char *end_of_line(const char *text) { return text + strcspn(text, "\n"); }
 
-void cli_fold_notes(FILE *out, const char *notes)
+void cli_wrap_notes(FILE *out, const char *notes)
 {
     while (*notes) {
         const char *end = end_of_line(notes);
@@ -68,8 +65,8 @@ void cli_fold_notes(FILE *out, const char *notes)
             end = end_of_line(end + 1);
         const int hanging = item ? second_column(notes, (int)(end - notes)) : 0;
         while (item && *end && (int)strspn(end + 1, " ") >= hanging) end = end_of_line(end + 1);
-        fold f = {out, 0, hanging};
-        put_words(&f, notes, end);
+        wrapper w = {out, 0, hanging};
+        put_words(&w, notes, end);
         fputc('\n', out);
         notes = *end ? end + 1 : end;
     }

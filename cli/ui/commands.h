@@ -1,0 +1,31 @@
+/* commands.h - the commands of the program.
+ *
+ * Each gets the arguments behind the name of the program and returns the exit status.  stdout
+ * carries data only; messages begin with "dalembert: " and go to stderr.  The program never calls
+ * setlocale, so the C locale holds and a number is read and written the same everywhere. */
+#ifndef DAL_CLI_COMMANDS_H
+#define DAL_CLI_COMMANDS_H
+
+#include "options.h"
+
+/* In the order of --help. */
+#define COMMAND_LIST(COMMAND)                                                                      \
+    COMMAND(list)                                                                                  \
+    COMMAND(check)                                                                                 \
+    COMMAND(run)                                                                                   \
+    COMMAND(resume)                                                                                \
+    COMMAND(study)                                                                                 \
+    COMMAND(merge)                                                                                 \
+    COMMAND(order)                                                                                 \
+    COMMAND(section)                                                                               \
+    COMMAND(lyapunov)                                                                              \
+    COMMAND(volume)                                                                                \
+    COMMAND(explain)                                                                               \
+    COMMAND(generate)                                                                              \
+    COMMAND(report)
+
+#define DECLARE_COMMAND(name) extern const cli_command command_##name;
+COMMAND_LIST(DECLARE_COMMAND)
+#undef DECLARE_COMMAND
+
+#endif

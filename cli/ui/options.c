@@ -1,0 +1,303 @@
+/* options.c - reading of arguments, and --help, from the rows of options. */
+#include "options.h"
+#include "cli.h"
+#include "wrap.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+const char CLI_REQUIRED[] = "";
+
+/* ---- renamed options ----------------------------------------------------------------------- */
+
+/* old, new */
+#define RENAMED_LIST(RENAMED)                                                                      \
+    RENAMED("solve-to", "solver-tolerance")                                                        \
+    RENAMED("extra-sweeps", "extra-iterations")                                                    \
+    RENAMED("long-steps", "quad-steps")
+
+const char *cli_renamed_option(const char *name)
+{
+#define RENAMED(old, new)                                                                          \
+    if (strcmp(name, old) == 0) return new;
+    RENAMED_LIST(RENAMED)
+#undef RENAMED
+    return NULL;
+}
+
+/* ---- parsers ------------------------------------------------------------------------------- */
+
+int cli_number(const char *what, const char *text, double *number)
+{
+    dal_status read = dal_parse_number(text, strlen(text), number);
+    if (read == DAL_TOO_LARGE) return cli_fail(CLI_USAGE, "%s: '%s' is too large", what, text);
+    if (read != DAL_OK) return cli_fail(CLI_USAGE, "%s: '%s' is not a number", what, text);
+    return CLI_DONE;
+}
+
+int cli_integer(const char *what, const char *text, long long min, long long max, long long *number)
+{
+    double x;
+    if (cli_number(what, text, &x) != CLI_DONE) return CLI_USAGE;
+    if (x != floor(x)) return cli_fail(CLI_USAGE, "%s: %s is not an integer", what, text);
+    if (!(x >= (double)min && x <= (double)max))
+        return cli_fail(CLI_USAGE, "%s: %s is not in %lld..%lld", what, text, min, max);
+    *number = (long long)x;
+    return CLI_DONE;
+}
+
+enum { WHAT = 64 };
+
+/* What messages call an option. */
+static const char *option_title(const cli_option *option, char title[WHAT])
+{
+    snprintf(title, WHAT, "%s%s", option->name ? "--" : "",
+             option->name ? option->name : option->value);
+    return title;
+}
+
+static void *field(void *settings, const cli_option *option)
+{
+    return (char *)settings + option->offset;
+}
+
+int cli_parse_text(void *settings, const cli_option *option, const char *text)
+{
+    const char **stored = field(settings, option);
+    if (!option->name && *stored)
+        return cli_fail(CLI_USAGE, "one %s only, not also '%s'", option->value, text);
+    *stored = text;
+    return CLI_DONE;
+}
+
+int cli_parse_flag(void *settings, const cli_option *option, const char *text)
+{
+    (void)text;
+    *(bool *)field(settings, option) = true;
+    return CLI_DONE;
+}
+
+int cli_parse_number(void *settings, const cli_option *option, const char *text)
+{
+    char title[WHAT];
+    double x;
+    const int status = cli_number(option_title(option, title), text, &x);
+    if (status != CLI_DONE) return status;
+    if (!(x >= option->min && x <= option->max))
+        return cli_fail(CLI_USAGE, "%s: %s is not from %g to %g", title, text, option->min,
+                        option->max);
+    *(double *)field(settings, option) = x;
+    return CLI_DONE;
+}
+
+int cli_parse_integer(void *settings, const cli_option *option, const char *text)
+{
+    char title[WHAT];
+    return cli_integer(option_title(option, title), text, (long long)option->min,
+                       (long long)option->max, field(settings, option));
+}
+
+int cli_parse_word(void *settings, const cli_option *option, const char *text)
+{
+    char title[WHAT];
+    const size_t given = strlen(text);
+    const char *word = option->value;
+    for (int i = 0;; i++, word++) {
+        const size_t length = strcspn(word, "|");
+        if (length == given && memcmp(word, text, length) == 0) {
+            *(int *)field(settings, option) = i;
+            return CLI_DONE;
+        }
+        word += length;
+        if (!*word) break;
+    }
+    return cli_fail(CLI_USAGE, "%s: '%s' is not one of %s", option_title(option, title), text,
+                    option->value);
+}
+
+/* ---- help ---------------------------------------------------------------------------------- */
+
+/* Options in front, what they do behind, below a long one. */
+static void print_option(const cli_option *option)
+{
+    enum { BEHIND = 26 };
+    const char *name = option->name ? option->name : option->value;
+    const char *value = option->name && option->value ? option->value : "";
+    const char *initial = option->initial == CLI_REQUIRED ? NULL : option->initial;
+    char text[512];
+    int column = printf("  %s%s%s%s", option->name ? "--" : "", name, *value ? " " : "", value);
+    if (column > BEHIND - 2) {
+        putchar('\n');
+        column = 0;
+    }
+    printf("%*s", BEHIND - column, "");
+    snprintf(text, sizeof text, initial ? "%s (%.*s)" : "%s", option->help,
+             initial ? (int)strcspn(initial, "|") : 0, initial);
+    cli_wrap(stdout, text, BEHIND, BEHIND);
+}
+
+/* The arguments that are no options, or those that are; returns whether there are any. */
+static bool print_options(const cli_group *groups, int count, bool options, const char *title)
+{
+    bool any = false;
+    for (int g = 0; g < count; g++)
+        for (int k = 0; k < groups[g].count; k++) {
+            const cli_option *option = &groups[g].options[k];
+            if (groups[g].without >> k & 1 || (option->name != NULL) != options) continue;
+            if (!any) printf("\n%s:\n", title);
+            print_option(option);
+            any = true;
+        }
+    return any;
+}
+
+static int print_help(const cli_command *command, const cli_group *groups, int count)
+{
+    static const cli_option help = {.name = "help", .help = "print this"};
+    cli_wrap(stdout, command->synopsis, printf("usage: "), 17);
+    printf("%s\n", command->about);
+    print_options(groups, count, false, "arguments");
+    print_options(groups, count, true, "options");
+    print_option(&help);
+    if (command->notes) {
+        putchar('\n');
+        cli_wrap_notes(stdout, command->notes);
+    }
+    return cli_close(stdout, "standard output");
+}
+
+/* ---- defaults ------------------------------------------------------------------------------ */
+
+void cli_set_defaults(const cli_option *options, int count, void *settings)
+{
+    for (const cli_option *option = options; option < options + count; option++) {
+        const char *text = option->initial;
+        char word[64];
+        if (!text || text == CLI_REQUIRED) continue;
+        /* Of several words the first. */
+        if (strchr(text, '|')) {
+            snprintf(word, sizeof word, "%.*s", (int)strcspn(text, "|"), text);
+            text = word;
+        }
+        option->parse(settings, option, text);
+    }
+}
+
+/* ---- reading ------------------------------------------------------------------------------- */
+
+enum { MAX_GROUPS = 4, MAX_NAMES = 64 };
+
+typedef struct reader {
+    const cli_group *groups;
+    int group_count;
+    int argc, next;
+    char **argv;
+    uint64_t given[MAX_GROUPS]; /* bit k: option k was given */
+} reader;
+
+static int unknown_option(const reader *r, const char *argument, size_t length)
+{
+    const char *names[MAX_NAMES];
+    int count = 0;
+    char *name = cli_strndup(argument, length);
+    const char *bare = name + strspn(name, "-"), *present = cli_renamed_option(bare);
+    for (int g = 0; g < r->group_count; g++)
+        for (int k = 0; k < r->groups[g].count && count < MAX_NAMES - 1; k++)
+            if (r->groups[g].options[k].name && !(r->groups[g].without >> k & 1))
+                names[count++] = r->groups[g].options[k].name;
+    names[count++] = "help";
+    const char *nearest = dal_nearest(bare, names, count);
+    if (present)
+        cli_fail(CLI_USAGE, "%s: the option '%s' is called '--%s' now", r->argv[0], name, present);
+    else if (nearest)
+        cli_fail(CLI_USAGE, "%s: unknown option '%s'; did you mean '--%s'?", r->argv[0], name,
+                 nearest);
+    else
+        cli_fail(CLI_USAGE, "%s: unknown option '%s'", r->argv[0], name);
+    free(name);
+    return CLI_USAGE;
+}
+
+static int parse(reader *r, int group, int k, const char *text)
+{
+    const cli_group *g = &r->groups[group];
+    r->given[group] |= UINT64_C(1) << k;
+    if (g->texts) g->texts[k] = text;
+    return g->options[k].parse(g->settings, &g->options[k], text);
+}
+
+/* Finds option NAME, or (length 0) the argument that is no option; false: there is none. */
+static bool find(const reader *r, const char *name, size_t length, int *group, int *k)
+{
+    for (*group = 0; *group < r->group_count; ++*group)
+        for (*k = 0; *k < r->groups[*group].count; ++*k) {
+            const char *other = r->groups[*group].options[*k].name;
+            if (r->groups[*group].without >> *k & 1) continue;
+            if (other ? strlen(other) == length && memcmp(other, name, length) == 0 : length == 0)
+                return true;
+        }
+    return false;
+}
+
+static int read_plain(reader *r, const char *argument)
+{
+    int group, k;
+    if (find(r, "", 0, &group, &k)) return parse(r, group, k, argument);
+    return cli_fail(CLI_USAGE, "%s: '%s' is no option", r->argv[0], argument);
+}
+
+static int read_option(reader *r, const char *argument)
+{
+    int group, k;
+    const char *equals = strchr(argument, '=');
+    const size_t length = equals ? (size_t)(equals - argument) : strlen(argument);
+    if (length <= 2 || argument[1] != '-' || !find(r, argument + 2, length - 2, &group, &k))
+        return unknown_option(r, argument, length);
+    const cli_option *option = &r->groups[group].options[k];
+    if (!option->value && equals) return cli_fail(CLI_USAGE, "--%s takes no value", option->name);
+    if (!option->value || equals) return parse(r, group, k, equals ? equals + 1 : NULL);
+    const char *text = r->next < r->argc ? r->argv[r->next++] : NULL;
+    if (text && strncmp(text, "--", 2) != 0) return parse(r, group, k, text);
+    return cli_fail(CLI_USAGE, "--%s needs a value: --%s %s", option->name, option->name,
+                    option->value);
+}
+
+/* A required one that is not given; of all an argument that is no option comes first. */
+static const cli_option *find_missing(const reader *r)
+{
+    const cli_option *missing = NULL;
+    for (int g = 0; g < r->group_count; g++)
+        for (int k = 0; k < r->groups[g].count; k++) {
+            const cli_option *option = &r->groups[g].options[k];
+            if (option->initial != CLI_REQUIRED) continue;
+            if ((r->given[g] | r->groups[g].without) >> k & 1) continue;
+            if (!missing || !option->name) missing = option;
+        }
+    return missing;
+}
+
+int cli_read_arguments(const cli_command *command, int argc, char **argv, const cli_group *groups,
+                       int count)
+{
+    reader r = {.groups = groups, .group_count = count, .argc = argc, .next = 1, .argv = argv};
+    bool plain = false;
+    int status = CLI_DONE;
+    for (int g = 0; g < count; g++)
+        cli_set_defaults(groups[g].options, groups[g].count, groups[g].settings);
+    while (status == CLI_DONE && r.next < argc) {
+        const char *argument = argv[r.next++];
+        if (plain || argument[0] != '-' || argument[1] == '\0')
+            status = read_plain(&r, argument);
+        else if (strcmp(argument, "--") == 0)
+            plain = true;
+        else if (strcmp(argument, "--help") == 0 || strcmp(argument, "-h") == 0)
+            return print_help(command, groups, count);
+        else
+            status = read_option(&r, argument);
+    }
+    const cli_option *missing = status == CLI_DONE ? find_missing(&r) : NULL;
+    if (!missing) return status == CLI_DONE ? CLI_GO_ON : status;
+    return missing->name ? cli_fail(CLI_USAGE, "--%s is missing", missing->name)
+                         : cli_fail(CLI_USAGE, "the %s is missing", missing->value);
+}

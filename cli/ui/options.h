@@ -1,0 +1,65 @@
+/* options.h - commands, their options as rows of tables, and the reading of arguments. */
+#ifndef DAL_CLI_OPTIONS_H
+#define DAL_CLI_OPTIONS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <stdio.h>
+
+typedef struct cli_option cli_option;
+
+/* Stores a text, given for an option, in the settings.  Returns CLI_DONE, or prints and returns an
+ * exit status. */
+typedef int cli_parser(void *settings, const cli_option *option, const char *text);
+
+struct cli_option {
+    const char *name;  /* without its dashes; NULL: an argument that is no option */
+    const char *value; /* what --help calls its value, or its words: "auto|on|off"; NULL: a flag */
+    const char *initial; /* its default, up to a '|'; NULL: none; CLI_REQUIRED: it must be given */
+    const char *help;
+    cli_parser *parse;
+    size_t offset;   /* in the settings, of what the parsers below store */
+    double min, max; /* of a number */
+};
+
+extern const char CLI_REQUIRED[];
+
+/* Each stores one type: const char *, bool, double, long long, int or an enumeration. */
+cli_parser cli_parse_text, cli_parse_flag, cli_parse_number, cli_parse_integer, cli_parse_word;
+
+/* Options that fill one struct. */
+typedef struct cli_group {
+    const cli_option *options;
+    int count;
+    void *settings;
+    const char **texts; /* [count] receives what was given; or NULL */
+    uint64_t without;   /* bit k: the command does not take option k */
+} cli_group;
+
+typedef struct cli_command {
+    const char *name, *synopsis, *about;
+    const char *notes; /* further paragraphs of --help */
+    int (*run)(int argc, char **argv);
+} cli_command;
+
+enum { CLI_GO_ON = -1 };
+
+/* Stores the defaults; those that are none for a parser are a mistake of the program. */
+void cli_set_defaults(const cli_option *options, int count, void *settings);
+/* Stores the defaults of all groups and reads all arguments: --option value, --option=value, never
+ * an abbreviation; -- ends the options.  Returns CLI_GO_ON, or an exit status after --help or a
+ * message. */
+int cli_read_arguments(const cli_command *command, int argc, char **argv, const cli_group *groups,
+                       int count);
+
+/* The present name of an option that was renamed, or NULL. */
+const char *cli_renamed_option(const char *name);
+
+/* A finite number, or an integer (1e6 is one) in min..max.  what names it in the message, "--time".
+ * Return CLI_DONE or CLI_USAGE. */
+int cli_number(const char *what, const char *text, double *number);
+int cli_integer(const char *what, const char *text, long long min, long long max,
+                long long *number);
+
+#endif
