@@ -16,53 +16,52 @@
 extern "C" {
 #endif
 
-/* ---- what becomes of a quantity along a run ------------------------------------------------ */
+/* ---- statistics of a quantity along a run -------------------------------------------------- */
 
 enum { DAL_STATISTICS_BLOCKS = 64, DAL_PARTIAL_SUMS = 8 };
 
-/* Another number whenever the members of dal_statistics or their meaning change: who keeps them in
- * a file knows by it what they are.  Each member is of 64 bits and none points anywhere. */
+/* The version of dal_statistics: it changes whenever the members or their meaning do, and is saved
+ * with them in files.  Each member has 64 bits and none is a pointer. */
 enum { DAL_STATISTICS_LAYOUT = 3 };
 
-/* A block of successive values: its middle, and the mean, min and max of x. */
+/* A block of successive values: the middle of its times, and the mean, min and max of x. */
 typedef struct dal_statistics_block {
     double t, x, min, max;
 } dal_statistics_block;
 
-/* One quantity x followed value by value in constant memory, over 1e10 steps or more: plain
- * numbers, to be copied or kept as one likes.  blocks[] hold the means of length values each. */
+/* The statistics of one quantity x over any number of values, in constant memory.  They are plain
+ * numbers and may be copied and saved.  block[] holds the means of length values each. */
 typedef struct dal_statistics {
     long long count;      /* finite values so far */
     long long length;     /* values in a block; doubles when all blocks are full */
     long long blocks;     /* full blocks */
-    long long open_count; /* values in the open one */
-    long long lost;       /* 1 once a value was not finite */
+    long long open_count; /* values in the open block */
+    long long lost;       /* 1 after a value that was not finite */
     double first, last;   /* x at the first and at the last value */
     double min, max;      /* of all full blocks */
     double from, to;      /* t at the first and at the last value */
-    /* Of the open block: t at its first value, min, max, and the sum of x less first, in
-     * parts: value k of the block belongs to part k modulo DAL_PARTIAL_SUMS. */
+    /* Of the open block: t at its first value, min, max, and the partial sums of x - first: value
+     * k of the block belongs to sum k modulo DAL_PARTIAL_SUMS. */
     double open_t, open_min, open_max, open_sum[DAL_PARTIAL_SUMS];
-    /* Sums and means are of `factor` times x less first: 1, or less once a value came near the
-     * largest double. */
+    /* Sums and means are those of factor * (x - first): 1, or less after a value near the largest
+     * double. */
     double factor;
-    /* The squares of differences, in units of rough_unit, a power of two (0: no value was other
-     * than 0): of successive values as long as blocks are short, then of values DAL_PARTIAL_SUMS
-     * apart in every fourth pair of packs, by part; and the pack before, from which the next ones
-     * count. */
+    /* Sums of squared differences, in units of rough_unit, a power of two (0: all values were 0):
+     * rough_steps of successive values while blocks are short; then rough[] of values
+     * DAL_PARTIAL_SUMS apart, one pair in four, by partial sum; held[] is the first of a pair. */
     double rough_unit, rough_steps, rough[DAL_PARTIAL_SUMS], held[DAL_PARTIAL_SUMS];
-    /* x: factor times the mean less first; min and max are plain. */
+    /* x: factor * (mean - first); min and max are those of x itself. */
     dal_statistics_block block[DAL_STATISTICS_BLOCKS];
 } dal_statistics;
 
-/* Begins the statistics of count quantities; adds one value of each, at increasing and about
- * equally distant t.  A value that is not finite is left out and remembered as lost. */
+/* Begins the statistics of count quantities; adds one value of each.  t increases in nearly equal
+ * steps.  A value that is not finite is left out and sets lost. */
 void dal_statistics_start(dal_statistics *statistics, int count);
 void dal_statistics_add(dal_statistics *statistics, int count, double t, const double *values);
-/* Adds `looks` values of each of count quantities, that of quantity i at t[k] being
- * values[i * stride + k]: the same, bit by bit, as adding them one by one, and many times faster.
- */
-void dal_statistics_add_many(dal_statistics *statistics, int count, int looks, const double *t,
+/* Adds `samples` values of each of count quantities; that of quantity i at t[k] is
+ * values[i * stride + k].  The result is bit by bit that of adding them one by one, many times
+ * faster. */
+void dal_statistics_add_many(dal_statistics *statistics, int count, int samples, const double *t,
                              const double *values, size_t stride);
 
 /* max |x| and max |x - first|; infinite when a value was lost. */
@@ -70,8 +69,8 @@ double dal_statistics_max_abs(const dal_statistics *statistics);
 double dal_statistics_deviation(const dal_statistics *statistics);
 
 /* A mean and its 95 % confidence interval, from the means of blocks and the correlation of
- * neighbours.  The interval knows what varies from block to block, nothing else: neither a slow
- * approach to a limit nor the error of the method. */
+ * neighbours.  The interval covers variation from block to block; it covers neither a slow approach
+ * to a limit nor the error of the method. */
 typedef struct dal_average {
     double mean, low, high;
 } dal_average;
@@ -79,10 +78,10 @@ typedef struct dal_average {
 /* NaN without values; an infinite interval with fewer than 3 blocks. */
 void dal_statistics_mean(const dal_statistics *statistics, dal_average *average);
 
-/* Whether the deviation of a quantity is what roundings make.  code, word
+/* The size of a quantity's deviation.  code, word
  *   EXACT     the quantity never changed
- *   ROUNDING  its deviation is what roundings of so many steps make
- *   LARGER    its deviation is larger */
+ *   ROUNDING  the deviation is what the roundings of that many steps cause
+ *   LARGER    the deviation is larger */
 #define DAL_SIZE_LIST(SIZE) SIZE(EXACT, "exact") SIZE(ROUNDING, "rounding") SIZE(LARGER, "larger")
 
 typedef enum dal_size_class {
@@ -92,7 +91,7 @@ typedef enum dal_size_class {
         DAL_SIZE_COUNT
 } dal_size_class;
 
-/* What a quantity does in the long run.  code, word
+/* The trend of a quantity over a long time.  code, word
  *   NONE         it stays about one value
  *   SETTLES      it changes once and then stays about one value
  *   RANDOM_WALK  its steps are independent: it grows like sqrt(t)
@@ -100,7 +99,7 @@ typedef enum dal_size_class {
  *   POWER        it grows like another power of t
  *   EXPONENTIAL  it grows by equal factors in equal times
  *   GROWING      it oscillates about one value, with a growing amplitude
- *   UNDECIDED    too few values, or too slow an oscillation, to tell these apart
+ *   UNDECIDED    too few values, or too slow an oscillation, to distinguish these
  *   ABORTED      a value was not finite, or the run ended before its time */
 #define DAL_TREND_LIST(TREND)                                                                      \
     TREND(NONE, "none")                                                                            \
@@ -122,9 +121,9 @@ typedef enum dal_trend_class {
 
 /* Whether the motion of a run conserves a quantity.  code, text
  *   CONSERVED      it does, or should
- *   NOT_CONSERVED  it need not: forces that depend on time, affine constraints, ...
- *   OFF_SURFACE    it does on D = 0 only, which the run has left by more than roundings
- *   MOVED_BY_PI    pi/e moves (q,v), which is lifted and off pi = 0 */
+ *   NOT_CONSERVED  it need not: forces depend on time, constraints are affine, ...
+ *   OFF_SURFACE    it does on D = 0 only, and the run has left D = 0 by more than roundings
+ *   MOVED_BY_PI    the lifted run is off pi = 0, where pi/e acts on (q,v) */
 #define DAL_CONSERVATION_LIST(CONSERVATION)                                                        \
     CONSERVATION(CONSERVED, "conserved")                                                           \
     CONSERVATION(NOT_CONSERVED, "not conserved by the motion")                                     \
@@ -141,7 +140,7 @@ const char *dal_size_text(dal_size_class size);    /* "rounding" */
 const char *dal_trend_text(dal_trend_class trend); /* "random walk" */
 const char *dal_conservation_text(dal_conservation conservation);
 
-/* Size and trend of a quantity x, and the numbers of the one description behind both. */
+/* Size and trend of a quantity x, with the numbers both are decided by. */
 typedef struct dal_trend {
     long long count;            /* values */
     double first, last;         /* x at the first and at the last */
@@ -149,7 +148,7 @@ typedef struct dal_trend {
     double amplitude;           /* half the range of x about the fitted line */
     double rate;                /* slope of the line, per unit of t */
     double rate_low, rate_high; /* its 95 % interval */
-    double max_drift; /* the largest |drift| over the whole series that this interval admits */
+    double max_drift;           /* max |drift| over the whole series in this interval */
     double exponent; /* of t: 1 linear, 1/2 random walk, 0 none and settles, fitted for a power law;
                          NaN where none can be stated */
     dal_size_class size;
@@ -172,12 +171,12 @@ void dal_statistics_classify(const dal_statistics *statistics, double scale, int
 void dal_run_classify(const dal_run *run, const dal_statistics *statistics, int aborted,
                       dal_trend *trend);
 
-/* ---- a system under the hand --------------------------------------------------------------- */
+/* ---- evaluation and checks of a system ----------------------------------------------------- */
 
-/* A system with parameter values in force and memory to evaluate it in, for one thread. */
+/* A system with parameter values and the memory to evaluate it, for one thread. */
 typedef struct dal_evaluator dal_evaluator;
 
-/* parameters by name, the rest as the system has them.  The system must outlive it. [alloc]
+/* Parameters by name; the others have the system's values.  The system must outlive it. [alloc]
  * Errors: DAL_NAME (nearest name), DAL_NOT_FINITE, DAL_MEMORY, those of prepare. */
 dal_status dal_evaluator_create(dal_evaluator **evaluator, const dal_system *system,
                                 const dal_setting *parameters, int parameter_count,
@@ -189,7 +188,7 @@ const dal_system *dal_evaluator_system(const dal_evaluator *evaluator);
 dal_status dal_evaluator_call(dal_evaluator *evaluator, dal_callback *callback, double t,
                               const double *q, const double *v, const double *pi, double *out);
 /* The start: out[2n + multipliers + 1] = q, v, g, e, with x, x', g1 and e replaced as named.
- * Nothing is asked of the constraints.  Errors: DAL_NAME, those of the system. */
+ * It need not satisfy the constraints.  Errors: DAL_NAME, those of the system. */
 dal_status dal_evaluator_start(dal_evaluator *evaluator, const dal_setting *start, int start_count,
                                double *out, dal_error *error);
 
@@ -199,14 +198,14 @@ dal_status dal_evaluator_start(dal_evaluator *evaluator, const dal_setting *star
 dal_status dal_measure_rate(dal_evaluator *evaluator, dal_callback *callback, int count,
                             const dal_point *at, double *out);
 
-/* What the callbacks give as derivatives against differences of the values: the greatest
- * |given - difference| / max(1, |given|); NaN where there is nothing to compare.  [alloc]
+/* Compares the derivatives that callbacks return with differences of values: the maximum of
+ * |returned - difference| / max(1, |returned|); NaN where there is nothing to compare.  [alloc]
  * Errors: those of the callbacks, DAL_NOT_FINITE: the differences are not finite, DAL_MEMORY. */
 typedef struct dal_derivatives {
-    double jacobian; /* F_q, F_(v,g) */
-    double adjoint;  /* F_q^T pi, F_v^T pi, and its F against field */
-    double normal;   /* A = dD/dv */
-    double gram;     /* asymmetry of G = A W^-1 A^T, relative to its size */
+    double jacobian;            /* F_q, F_(v,g) */
+    double adjoint;             /* F_q^T pi, F_v^T pi, and its F against field */
+    double constraint_jacobian; /* A = dD/dv */
+    double gram;                /* asymmetry of G = A W^-1 A^T, relative to its size */
 } dal_derivatives;
 dal_status dal_check_derivatives(dal_evaluator *evaluator, const dal_point *at,
                                  dal_derivatives *out);
@@ -220,8 +219,8 @@ dal_status dal_measure_rank(dal_evaluator *evaluator, const dal_point *at, int *
  * not; v is then as before. [alloc] */
 dal_status dal_project_velocity(dal_evaluator *evaluator, double t, const double *q, double *v);
 
-/* What D is as a function, by differences at points around *at: each is a necessary condition,
- * met to rounding at every point tried. [alloc] */
+/* The class of D as a function, by differences at points around *at: each member is a necessary
+ * condition, satisfied to rounding at every point tried. [alloc] */
 typedef struct dal_constraint_class {
     int linear;          /* affine in v */
     int constant;        /* affine in (q,v) jointly */
@@ -231,7 +230,7 @@ typedef struct dal_constraint_class {
                             constraint, 0 when one has none */
     int homogeneous;     /* v.D_v = k D with one k per constraint */
     int reversible;      /* F(q,-v,-t) = F(q,v,t) */
-    double force_defect; /* greatest |F(q,-v,-t) - F(q,v,t)| met, relative to max(1, |F|); NaN where
+    double force_defect; /* max |F(q,-v,-t) - F(q,v,t)| / max(1, |F|) over these points; NaN where
                             F has no values */
 } dal_constraint_class;
 /* degree[m], when not NULL, receives the k of each constraint.  Errors: DAL_UNSUPPORTED,
@@ -239,12 +238,12 @@ typedef struct dal_constraint_class {
 dal_status dal_classify_constraints(dal_evaluator *evaluator, const dal_point *at,
                                     dal_constraint_class *out, double *degree);
 
-/* ---- measures of a method ------------------------------------------------------------------ */
+/* ---- order and structure of a method ------------------------------------------------------- */
 
 enum { DAL_ORDER_LEVELS = 8 };
 
-/* Errors at time T for falling steps (step, step/2, step/4, ... where dal_measure_order made them),
- * what they cost, and the slopes between them. */
+/* Errors at time T for decreasing steps (step, step/2, step/4, ... in dal_measure_order), their
+ * cost, and the slopes between them. */
 typedef struct dal_order {
     int levels;
     double step[DAL_ORDER_LEVELS], error[DAL_ORDER_LEVELS];
@@ -253,11 +252,11 @@ typedef struct dal_order {
     double order;                   /* NaN: none can be stated */
 } dal_order;
 
-/* Fills in slope and order from levels, step and error.  Of the last three errors that are above
- * rounding (2e-13, and ten times noise, the error of the reference they were taken against) and
- * below half the solution, the order is the second slope, where the two slopes agree so far that
- * the next term of the error moves it by 0.1 at most.  Else it is NaN: the steps are not in the
- * asymptotic range, or fewer than three errors tell of the method. */
+/* Computes slope and order from levels, step and error.  The order is the second slope of the last
+ * three errors that are above rounding (2e-13, and ten times noise, the error of the reference) and
+ * below half the solution, if the two slopes agree so well that the next term of the error changes
+ * it by at most 0.1.  Otherwise it is NaN: the steps are not in the asymptotic range, or fewer than
+ * three errors are those of the method. */
 void dal_order_slopes(dal_order *order, double noise);
 
 /* The number of steps between two times: n with |n step - (to - from)| <= 1e-9 |to|, 1 <= n < 2^53;
@@ -271,15 +270,15 @@ dal_status dal_measure_order(const dal_run_spec *spec, double T, int levels,
                              const dal_method *reference_method, const double *reference,
                              dal_order *order, dal_error *error);
 
-/* Greatest entry of |J^T Omega J - Omega|, J the derivative of one step from the run's start (or
+/* The maximum entry of |J^T Omega J - Omega|, J the derivative of one step from the run's start (or
  * from state[4n+2] at time t) by differences; pairs (q,p), (v,pi), (e,pi_e).  Lifted space only:
  * DAL_UNSUPPORTED; e must be finite.  increment, to begin with, relative to max(1, h |v|) of a
  * coordinate and max(1, |x|) of all else; 0: 2e-3. [alloc] */
 dal_status dal_check_symplecticity(const dal_run_spec *spec, double t, const double *state,
                                    double increment, double *defect, dal_error *error);
 
-/* rho step rho step = id: greatest difference from the identity, relative to max(1, |x|), over
- * one step from the start (or from state at time t).  rho turns time round, t -> -t, with
+/* rho step rho step = id: the maximum difference from the identity, relative to max(1, |x|), over
+ * one step from the start (or from state at time t).  rho reverses time, t -> -t, with
  *     (q, v) -> (q, -v),      (q, v, e, p, pi, pi_e) -> (q, -v, e, -p, pi, -pi_e),
  * the antisymplectic lift that leaves H = pi.pi/(2e) + pi.F + p.v alone when mu_e is odd in t and
  * F(q,-v,-t) = F(q,v,t); vakonomic g goes to -g where D is odd in v.  [alloc] */
@@ -297,8 +296,8 @@ dal_status dal_adjoint_pairing(const dal_run_spec *spec, const dal_system *tange
 /* ---- the action and Dirac's algebra -------------------------------------------------------- */
 
 /* S = int e/2 |q'' - F(q,q',t)|^2 dt (nh10) with constant e on the curve q[count*n] given at t0,
- * t0 + h, ...: derivatives by differences of order 8, so the four points at either end only lend
- * support; count >= 10. [alloc]  0 on solutions up to discretisation and rounding (about
+ * t0 + h, ...: derivatives by differences of order 8, so the four points at either end serve for
+ * differences only; count >= 10. [alloc]  0 on solutions up to discretisation and rounding (about
  * (2e-15/h^2)^2 and h^16), positive off them. */
 dal_status dal_measure_action(dal_evaluator *evaluator, double t0, double h, long long count,
                               const double *q, double e, double *action);
@@ -307,7 +306,7 @@ dal_status dal_measure_action(dal_evaluator *evaluator, double t0, double h, lon
  *     S = sum_k P_k.(X_(k+1) - X_k) - h H((X_k + X_(k+1))/2, P_k)
  * is from stationary on a path: X_k [2n+1] = q, v, e at the count nodes, P_k [2n+1] = p, pi, pi_e
  * the mean over each of the count-1 intervals, states[count*(4n+2)] the rows of a lifted run.
- * The greatest |dS/dX_k| over inner nodes and |dS/dP_k|, divided by h: zero to rounding for
+ * The maximum of |dS/dX_k| over inner nodes and |dS/dP_k|, divided by h: zero to rounding for
  * implicit-midpoint, of the order of the error for others. [alloc] */
 dal_status dal_check_stationarity(dal_evaluator *evaluator, double t0, double h, long long count,
                                   const double *states, double *defect);
@@ -315,8 +314,8 @@ dal_status dal_check_stationarity(dal_evaluator *evaluator, double t0, double h,
 /* A function on a phase space of 2N numbers z = (X, P). */
 typedef double dal_observable_function(void *user, const double *z);
 
-/* gradient[count] of f at z by differences, increments 2e-3 or, where f changes faster, less.  z is
- * used and put back. */
+/* gradient[count] of f at z by differences with increments of 2e-3, or less where f changes faster.
+ * z is changed meanwhile and restored. */
 void dal_measure_gradient(dal_observable_function *f, void *user, int count, double *z,
                           double *gradient);
 /* {f,g} = sum f_X g_P - f_P g_X from two gradients [2*pairs]. */
@@ -324,16 +323,16 @@ double dal_poisson(const double *f, const double *g, int pairs);
 
 /* Dirac's algebra of (nh14) in 6n+2: X = (q, v, lambda, e), P = (p, pi, pi_lambda, pi_e), with
  * constraints pi_e, pi_lambda, p - lambda (primary), pi, lambda (secondary), all brackets by
- * differences of the functions themselves.  Conservation asks, on the surface, for multipliers
+ * differences of the functions themselves.  Conservation requires, on the surface, multipliers
  * mu of the primary constraints with {phi, H_c} = 0 for every phi. */
 typedef struct dal_dirac {
     int constraints;      /* 4n + 1 */
     int second_class;     /* rank of the matrix of brackets on the surface; 2n */
     int first_class;      /* the rest; 2n + 1 */
     int free_multipliers; /* not determined by conservation; 1, the gauge mu_e */
-    double conservation;  /* least |{phi, H_c}| on the surface over all mu; 0 */
+    double conservation;  /* min |{phi, H_c}| on the surface over all mu; 0 */
     double multipliers;   /* distance of those mu from mu_q = v, mu_lambda = 0; 0 */
-    double secondary;     /* the same least |{phi, H_c}| of the primary ones where pi and lambda
+    double secondary;     /* the same minimum for the primary ones where pi and lambda
                              are not 0: positive, so that the secondary constraints are needed */
     double hamiltonian;   /* |H_c| on the surface; 0 */
 } dal_dirac;
@@ -434,9 +433,9 @@ typedef struct dal_error_budget_observer {
     void (*begin)(void *user, dal_run *run, long long steps);
 } dal_error_budget_observer;
 
-/* Runs a spec for so many steps, and the runs it is compared with, and finds the shares of every
- * observable's drift.  observer may be NULL.  A comparison that is not possible is left out with a
- * reason.  [alloc]  Errors: those of the run itself, DAL_ARGUMENT, DAL_MEMORY. */
+/* Runs a spec for a number of steps, and the runs it is compared with, and finds the shares of
+ * every observable's drift.  observer may be NULL.  A comparison that is not possible is left out,
+ * with a reason.  [alloc]  Errors: those of the run itself, DAL_ARGUMENT, DAL_MEMORY. */
 dal_status dal_error_budget_create(const dal_run_spec *spec, long long steps, long long quad_steps,
                                    const dal_error_budget_observer *observer,
                                    dal_error_budget **budget, dal_error *error);
@@ -452,42 +451,44 @@ char *dal_error_budget_describe(const dal_error_budget *budget, int observable,
 /* A run on (q, v, g) with tangent vectors: J, the derivative of each of its steps, moves them, and
  * Gram-Schmidt makes them orthonormal again,
  *     J V = V' R,    exponent i = mean of log(R_ii)/h,    mean of log|det J|/h = their sum,
- * and the divergence of the motion, the trace of F_(v,g), is followed beside them.  Its long-time
- * mean is that of every density of the phase space, and on D = 0, where the logarithms of densities
- * and of |grad D| grow slower than t: only their total derivatives come in. */
+ * and so is the divergence of the motion, the trace of F_(v,g).  Its mean over a long time holds
+ * for every density of the phase space, and on D = 0, provided that the logarithms of the density
+ * and of |grad D| grow slower than t: they contribute total derivatives only. */
 typedef struct dal_lyapunov dal_lyapunov;
 
-/* count vectors, 0: as many as the step map has directions, that is 2n + multipliers, less m where
- * the method forces D = 0, less one where it forces E.  tangent is dal_model_tangent of the same
- * model, or NULL.  J is exact (to rounding) with it and a Runge-Kutta, polarised or composed
- * method; else by differences of the step, of order 8, with increments that do not depend on how
- * far the coordinates have travelled.  The space of the spec is not looked at. [alloc]  Errors:
- * those of a run; DAL_ARGUMENT (count); DAL_UNSUPPORTED: the step is no smooth map of (q, v, g)
- * alone: a multiplier carried along, a tolerance. */
+/* count vectors; 0: one for each direction of the step map, that is 2n + multipliers, less m where
+ * the method enforces D = 0, less one where it enforces E.  tangent is dal_model_tangent of the
+ * same model, or NULL.  J is exact (to rounding) with it and a Runge-Kutta method, partitioned
+ * symplectic Euler, or a composition; otherwise it is found by differences of the step, of order 8,
+ * with increments that do not depend on how far the coordinates have travelled.  The space of the
+ * spec is ignored. [alloc]  Errors: those of a run; DAL_ARGUMENT (count); DAL_UNSUPPORTED: the step
+ * is no smooth map of (q, v, g) alone: it has a multiplier as persistent state, or a tolerance. */
 dal_status dal_lyapunov_create(dal_lyapunov **lyapunov, const dal_run_spec *spec,
                                const dal_system *tangent, int count, dal_error *error);
 void dal_lyapunov_free(dal_lyapunov *lyapunov);
 /* The same bits as dal_run_advance of a run of the spec.  Errors: those of a step; DAL_SINGULAR
  * when J takes a vector to 0. */
 dal_status dal_lyapunov_advance(dal_lyapunov *lyapunov, long long steps, dal_error *error);
-/* Begins all means anew, as behind a transient; the vectors stay. */
+/* Begins all means at the present time, after a transient; the vectors stay. */
 void dal_lyapunov_discard_transient(dal_lyapunov *lyapunov);
 
-/* Whether the sum of all exponents is the divergence.  Of the flow it is so over any time:
+/* Compares the sum of all exponents with the divergence.  For the flow, over any time,
  *     sum = mean divergence + surface,    surface = (1/T) [log |grad D|] between both ends
- * where the method forces D = 0 (E likewise, |grad| then being the volume that the gradients by (q,
- * v, g) span), else 0: a direction that is forced has no exponent, and that of the flow was a 0. */
+ * where the method enforces D = 0 (and E: |grad| is then the volume spanned by the gradients with
+ * respect to (q, v, g)), else surface = 0: an enforced direction has no exponent, where the flow
+ * has an exponent 0. */
 typedef struct dal_balance {
     double surface;
     double difference; /* sum - mean divergence - surface */
-    double margin;     /* what the method's error may be, the mean of dimension r x^order / (1 - x)
-                          with x = h r and r = max(|F_q|^(1/2), |F_(v,g)|), and those of quadrature
-                          and of J; no interval is in it: both means are of one trajectory */
-    int holds;         /* |difference| <= margin; if not, J has been measured wrongly */
+    double margin;     /* a bound of the errors of the method, the mean of
+                          dimension r x^order / (1 - x) with x = h r and
+                          r = max(|F_q|^(1/2), |F_(v,g)|), of the quadrature and of J; it has no
+                          statistical part: both means are those of one trajectory */
+    int holds;         /* |difference| <= margin; if not, J is wrong */
 } dal_balance;
 
 /* Errors: DAL_UNSUPPORTED: not all exponents, no jacobian, directions lost that neither D nor E
- * explains, a method that turns D into -D in every step, or x >= 1 in some step. [alloc] */
+ * explains, a method that maps D to -D in every step, or x >= 1 in some step. [alloc] */
 dal_status dal_lyapunov_balance(dal_lyapunov *lyapunov, dal_balance *balance, dal_error *error);
 
 const dal_run *dal_lyapunov_run(const dal_lyapunov *lyapunov);
@@ -496,48 +497,45 @@ int dal_lyapunov_is_exact(const dal_lyapunov *lyapunov); /* J by the tangent sys
 /* Whether the vectors span the space, so that their sum is log|det J|/h. */
 int dal_lyapunov_is_whole(const dal_lyapunov *lyapunov);
 
-/* Exponent i, from 0 (NaN past the last); they come in falling order when the vectors have had time
- * to turn. */
+/* Exponent i, from 0 (NaN past the last); their order is decreasing after a transient. */
 void dal_lyapunov_exponent(const dal_lyapunov *lyapunov, int i, dal_average *average);
-/* Of the sum of the exponents. */
+/* The sum of the exponents. */
 void dal_lyapunov_sum(const dal_lyapunov *lyapunov, dal_average *average);
-/* Of the divergence, each step's being the mean of its ends; NaN when the system has no jacobian.
- */
+/* The divergence: for each step the mean of both ends; NaN when the system has no jacobian. */
 void dal_lyapunov_divergence(const dal_lyapunov *lyapunov, dal_average *average);
 
 /* ---- Poincare sections --------------------------------------------------------------------- */
 
 typedef struct dal_crossing {
-    long long number; /* from 1, of those shown */
+    long long number; /* from 1, of those reported */
     double t;
     int direction; /* 1: upwards, -1: downwards */
 } dal_crossing;
 
-/* The crossings of g = 0, g being value number index of a callback of the run's system that leaves
- * count values (an invariant: system->invariant_values). */
+/* The crossings of g = 0; g is value number index of the count values of a callback of the run's
+ * system (system->invariant_values for an invariant). */
 typedef struct dal_poincare {
     dal_callback *callback;
     int count, index;
     int direction; /* 1: from g < 0 to g > 0, -1: the other way, 0: both */
     void *user;
-    /* Called with the run at the crossing; it must not move the run.  May be NULL, as poll, which
-     * is called after every 1000 steps or so.  Any status but DAL_OK ends it all with that status.
-     */
+    /* cross is called with the run at the crossing, poll about every 1000 steps.  Both may be NULL
+     * and must not move the run.  Any status but DAL_OK ends the run with that status. */
     dal_status (*cross)(void *user, dal_run *run, const dal_crossing *crossing);
     dal_status (*poll)(void *user, dal_run *run);
 } dal_poincare;
 
-/* What came of it: crossings met, of either direction, and touches. */
+/* The numbers of crossings by direction, and of touches. */
 typedef struct dal_crossings {
     long long up, down;
-    long long touches; /* minima of |g| below 1e-12 of the greatest |g| met that are no crossings */
+    long long touches; /* minima of |g| below 1e-12 max |g| that are no crossings */
 } dal_crossings;
 
-/* Carries the run to time T, a whole number of its steps, and shows every crossing on the way.
- * Where g changes sign within a step, a step of another size of the same method from where that
- * step began meets it, its size found to rounding; so the trajectory is undisturbed.  A pair of
- * crossings within one step is found where g has an extremum between them.  A start with g = 0 is
- * no crossing. [alloc]  Errors: those of the steps and of the callback; DAL_ARGUMENT. */
+/* Advances the run to time T, a whole number of its steps, and reports every crossing.  Where g
+ * changes sign within a step, a shorter step of the same method from the beginning of that step
+ * ends on g = 0 to rounding; the trajectory itself does not change.  A pair of crossings within one
+ * step is found where g has an extremum between them.  A start with g = 0 is no crossing. [alloc]
+ * Errors: those of the steps and of the callback; DAL_ARGUMENT. */
 dal_status dal_run_crossings(dal_run *run, double T, const dal_poincare *section,
                              dal_crossings *found, dal_error *error);
 

@@ -121,7 +121,7 @@ static void test_derivatives_find_faults(void)
     CU_ASSERT_EQUAL(dal_check_derivatives(evaluator, &at, &d), DAL_OK);
     CU_ASSERT(d.jacobian >= 0.0 && d.jacobian < 1e-12);
     CU_ASSERT(d.adjoint >= 0.0 && d.adjoint < 1e-12);
-    CU_ASSERT(isnan(d.normal) && isnan(d.gram)); /* nothing to compare */
+    CU_ASSERT(isnan(d.constraint_jacobian) && isnan(d.gram)); /* nothing to compare */
     wrong = 1e-6;
     CU_ASSERT_EQUAL(dal_check_derivatives(evaluator, &at, &d), DAL_OK);
     CU_ASSERT_DOUBLE_EQUAL(d.jacobian, 1e-6 / (3.0 * q * q - 1e-6), 1e-11);
@@ -144,7 +144,7 @@ static void test_derivatives_of_systems(void)
         CU_ASSERT_EQUAL(dal_check_derivatives(evaluator, &at, &d), DAL_OK);
         CU_ASSERT(d.jacobian >= 0.0 && d.jacobian < 1e-10);
         CU_ASSERT(d.adjoint >= 0.0 && d.adjoint < 1e-10);
-        CU_ASSERT(d.normal >= 0.0 && d.normal < 1e-10);
+        CU_ASSERT(d.constraint_jacobian >= 0.0 && d.constraint_jacobian < 1e-10);
         CU_ASSERT(d.gram >= 0.0 && d.gram < 1e-14);
         dal_evaluator_free(evaluator);
         dal_model_free(model);

@@ -309,7 +309,7 @@ void check_derivatives(check *c)
         points++;
         max.jacobian = fmax(max.jacobian, d.jacobian);
         max.adjoint = fmax(max.adjoint, d.adjoint);
-        max.normal = fmax(max.normal, d.normal);
+        max.constraint_jacobian = fmax(max.constraint_jacobian, d.constraint_jacobian);
         max.gram = fmax(max.gram, d.gram);
     }
     if (points == 0) {
@@ -322,7 +322,7 @@ void check_derivatives(check *c)
         double value; /* NaN: there is nothing to compare */
     } items[] = {{"F_q, F_v", max.jacobian},
                  {"F_q^T pi, F_v^T pi of the lift", max.adjoint},
-                 {"A = dD/dv", max.normal},
+                 {"A = dD/dv", max.constraint_jacobian},
                  {"symmetry of G = A W^-1 A^T", max.gram}};
     for (size_t k = 0; k < sizeof items / sizeof items[0]; k++)
         if (!isnan(items[k].value)) check_bound(c, items[k].what, items[k].value, limit);

@@ -46,8 +46,8 @@ double dal__inflation(double square, double product, int n)
     return (1.0 + rho) / (1.0 - rho);
 }
 
-/* Half the width of the interval of a line with so many parameters, whose variance is that of the
- * residues over the sum of squares (N for a mean). */
+/* Half the width of the interval of a line with 1 parameter (a mean) or 2; its variance is that of
+ * the residues over the sum of squares (N for a mean). */
 static double half_width(const line *l, const dal_statistics_block *block, int n, int parameters,
                          double squares)
 {

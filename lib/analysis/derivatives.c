@@ -186,11 +186,11 @@ static double asymmetry(const double *gram, int m)
 
 static dal_status compare_constraint(desk *d, dal_derivatives *out)
 {
-    out->normal = out->gram = NAN;
+    out->constraint_jacobian = out->gram = NAN;
     if (d->m == 0 || d->s->call.constraint == NULL) return DAL_OK;
     DAL_TRY(tabulate(d, d->s->constraints, d->m));
     DAL_TRY(call(d, d->s->call.constraint, d->given));
-    out->normal = compare(d, d->given + d->m, d->m, d->n, d->n);
+    out->constraint_jacobian = compare(d, d->given + d->m, d->m, d->n, d->n);
     dal__gram(d->s, d->given, d->scratch);
     out->gram = asymmetry(d->scratch, d->m);
     return DAL_OK;

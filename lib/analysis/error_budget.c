@@ -1,8 +1,8 @@
-/* error_budget.c - a run and its twins, and what each observable does in them.
+/* error_budget.c - a run, the runs it is compared with, and the trends of their observables.
  *
- * All are looked at at the same times, at most LOOKS of them, so that their series can be taken
- * from each other.  Quad precision, being slow, are for the first steps alone; there the run, its
- * twin solved further and the same in quad precision go side by side. */
+ * All are sampled at the same times, at most SAMPLES of them, so that their series can be
+ * subtracted.  Quad precision is slow and covers the first steps alone; there the run, the same
+ * solved further, and both step sizes in quad precision advance together. */
 #include "analysis/block_means.h"
 #include "analysis/error_shares.h"
 #include "analysis/vectors.h"
@@ -14,10 +14,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { LOOKS = 1 << 15, LONGER = 100 /* times slower, to tell how much is done */ };
+enum { SAMPLES = 1 << 15, QUAD_COST = 100 /* times that of a double step, for progress */ };
 
 static const double looser = 1e-10, looser_by = 1e3;
-enum { FURTHER = 2 }; /* sweeps */
+enum { FURTHER = 2 }; /* iterations */
 
 typedef struct comparisons {
     dal_error_budget *of;
@@ -53,21 +53,18 @@ static int depth(const dal_method *method)
     return k;
 }
 
-static bool is_projection(const dal_integrator *link)
-{
-    return (link->properties & DAL_MODIFIER) && (link->needs & DAL_NEEDS_CONSTRAINT);
-}
-
 /* The place of the outermost projection in a method; 0: it has none. */
 static int projection_in(const dal_method *method)
 {
     for (int k = depth(method) - 1; k > 0; k--)
-        if (is_projection(method->layer[k])) return k;
+        if ((method->layer[k]->properties & DAL_MODIFIER) &&
+            (method->layer[k]->needs & DAL_NEEDS_CONSTRAINT))
+            return k;
     return 0;
 }
 
-/* Takes the projection off a method, or puts one on; why it cannot. */
-static const char *project(dal_run_spec *spec)
+/* Removes the projection of a method, or adds one; NULL, or the reason why it cannot. */
+static const char *change_projection(dal_run_spec *spec)
 {
     dal_method *method = &spec->method, projected;
     const int place = projection_in(method), end = depth(method);
@@ -83,8 +80,8 @@ static const char *project(dal_run_spec *spec)
     return NULL;
 }
 
-/* Makes the spec of a run that of a twin; why there is none, NULL: there is. */
-static const char *become(dal_run_spec *spec, dal_comparison_run comparison)
+/* Makes the spec of a run that of a comparison; NULL, or the reason why there is none. */
+static const char *change_spec(dal_run_spec *spec, dal_comparison_run comparison)
 {
     static const char nothing[] = "the method solves no equations";
     dal_options *o = &spec->options;
@@ -97,12 +94,12 @@ static const char *become(dal_run_spec *spec, dal_comparison_run comparison)
         o->sums = o->sums == DAL_SUMS_PLAIN ? DAL_SUMS_COMPENSATED : DAL_SUMS_PLAIN;
         return NULL;
     case DAL_COMPARISON_PROJECTION:
-        return project(spec);
+        return change_projection(spec);
     case DAL_COMPARISON_QUAD:
         o->precision = DAL_QUAD;
         break;
     case DAL_COMPARISON_QUAD_HALVED:
-        o->precision = DAL_QUAD; /* and */
+        o->precision = DAL_QUAD;
         o->step *= 0.5;
         break;
     case DAL_COMPARISON_HALVED:
@@ -116,21 +113,25 @@ static const char *become(dal_run_spec *spec, dal_comparison_run comparison)
     return comparison == DAL_COMPARISON_TIGHTER && !solves(spec) ? nothing : NULL;
 }
 
-/* ---- going ---- */
+/* ---- runs along all steps ---- */
 
-static dal_status tell(comparisons *w, double work)
+static dal_status report_progress(comparisons *w, double work)
 {
     const dal_error_budget_observer *o = w->observer;
     w->done += work;
     if (!o || !o->step) return DAL_OK;
     const dal_status status = o->step(o->user, fmin(w->done / w->work, 1.0));
-    if (status == DAL_OK) return DAL_OK;
-    return dal__fail(w->error, status, "%s", dal_status_text(status));
+    return status == DAL_OK ? status : dal__fail(w->error, status, "%s", dal_status_text(status));
 }
 
 static dal_statistics *series(const comparisons *w, int which)
 {
     return w->series + (size_t)which * (size_t)w->of->observables;
+}
+
+static dal_trend *trends(const comparisons *w, int which)
+{
+    return w->trends + (size_t)which * (size_t)w->of->observables;
 }
 
 static dal_status create(comparisons *w, const dal_run_spec *spec, long long steps, dal_run **run,
@@ -142,11 +143,11 @@ static dal_status create(comparisons *w, const dal_run_spec *spec, long long ste
     return DAL_OK;
 }
 
-/* Steps between two looks at a run of so many. */
-static long long stride_of(long long steps) { return (steps + LOOKS - 1) / LOOKS; }
+/* Steps between two samples of a run. */
+static long long stride_of(long long steps) { return (steps + SAMPLES - 1) / SAMPLES; }
 
-/* Follows a run that takes `per` steps for each step of the explained one. */
-static dal_status follow(comparisons *w, dal_run *run, int which, int per, dal_error *error)
+/* Samples a run that takes `per` steps for each step of the first one. */
+static dal_status sample_run(comparisons *w, dal_run *run, int which, int per, dal_error *error)
 {
     const long long steps = w->of->steps, stride = stride_of(steps);
     const int count = w->of->observables;
@@ -155,18 +156,12 @@ static dal_status follow(comparisons *w, dal_run *run, int which, int per, dal_e
         DAL_TRY(dal_run_observe(run, w->values));
         dal_statistics_add(series(w, which), count, (double)at * w->of->spec.options.step,
                            w->values);
-        if (tell(w, (double)(stride * per)) != DAL_OK) return DAL_INTERRUPTED;
+        if (report_progress(w, (double)(stride * per)) != DAL_OK) return DAL_INTERRUPTED;
     }
     return DAL_OK;
 }
 
-/* The observables of a twin are those of the run, so one with others cannot be compared. */
-static bool is_like(const comparisons *w, const dal_run *run)
-{
-    return dal_run_observables(run) == w->of->observables;
-}
-
-static void give_up(comparisons *w, dal_comparison_run comparison, const char *reason)
+static void leave_out(comparisons *w, dal_comparison_run comparison, const char *reason)
 {
     snprintf(w->of->reason[comparison], sizeof w->of->reason[comparison], "%s", reason);
 }
@@ -178,32 +173,31 @@ static bool ends_all(const comparisons *w, dal_status status, const dal_error *e
     return status == DAL_INTERRUPTED || status == DAL_MEMORY;
 }
 
-/* A twin along all steps. */
 static dal_status run_comparison(comparisons *w, dal_comparison_run comparison)
 {
     dal_run_spec spec = w->of->spec;
     dal_run *run = NULL;
     dal_error error = {0};
     const int per = comparison == DAL_COMPARISON_HALVED ? 2 : 1;
-    const char *fault = become(&spec, comparison);
-    if (fault) return give_up(w, comparison, fault), DAL_OK;
+    const char *reason = change_spec(&spec, comparison);
+    if (reason) return leave_out(w, comparison, reason), DAL_OK;
     dal_status status = create(w, &spec, w->of->steps * per, &run, &error);
-    if (status == DAL_OK && !is_like(w, run)) {
-        give_up(w, comparison, "it has other observables");
+    if (status == DAL_OK && dal_run_observables(run) != w->of->observables) {
+        leave_out(w, comparison, "it has other observables");
         return dal_run_free(run), DAL_OK;
     }
-    if (status == DAL_OK) status = follow(w, run, 1 + (int)comparison, per, &error);
+    if (status == DAL_OK) status = sample_run(w, run, 1 + (int)comparison, per, &error);
     dal_run_free(run);
     w->of->ran[comparison] = status == DAL_OK;
     if (ends_all(w, status, &error)) return status;
-    if (status != DAL_OK) give_up(w, comparison, error.message);
+    if (status != DAL_OK) leave_out(w, comparison, error.message);
     return DAL_OK;
 }
 
-/* ---- side by side ---- */
+/* ---- the beginning ---- */
 
-/* The run; solved further; in quad precision; those with half the step. */
-enum { RUN, TIGHT, LONG, HALF, ABREAST };
+/* The run; solved further; in quad precision; the same with half the step. */
+enum { RUN, TIGHT, QUAD, HALF, TOGETHER };
 
 static void add_beginning(comparisons *w, double t)
 {
@@ -223,22 +217,16 @@ static void add_beginning(comparisons *w, double t)
     dal_statistics_add(series(w, DAL__FIRST_SOLVER_AND_ROUNDING), count, t, quad);
 }
 
-static dal_status advance_abreast(comparisons *w, dal_run **run, long long stride, dal_error *error)
-{
-    for (int k = 0; k < ABREAST; k++) {
-        if (stride > 0) DAL_TRY(dal_run_advance(run[k], k == HALF ? 2 * stride : stride, error));
-        DAL_TRY(dal_run_observe(run[k], w->values + k * w->of->observables));
-    }
-    return DAL_OK;
-}
-
-static dal_status follow_abreast(comparisons *w, dal_run **run, dal_error *error)
+static dal_status sample_beginning(comparisons *w, dal_run **run, dal_error *error)
 {
     const long long steps = w->of->quad_steps, stride = stride_of(steps);
     for (long long at = 0; at <= steps; at += stride) {
-        DAL_TRY(advance_abreast(w, run, at > 0 ? stride : 0, error));
+        for (int k = 0; k < TOGETHER; k++) {
+            if (at > 0) DAL_TRY(dal_run_advance(run[k], k == HALF ? 2 * stride : stride, error));
+            DAL_TRY(dal_run_observe(run[k], w->values + k * w->of->observables));
+        }
         add_beginning(w, (double)at * w->of->spec.options.step);
-        if (tell(w, 3.0 * LONGER * (double)stride) != DAL_OK) return DAL_INTERRUPTED;
+        if (report_progress(w, 3.0 * QUAD_COST * (double)stride) != DAL_OK) return DAL_INTERRUPTED;
     }
     return DAL_OK;
 }
@@ -247,39 +235,34 @@ static dal_status run_beginning(comparisons *w)
 {
     static const dal_comparison_run comparison[] = {
         DAL_COMPARISONS, DAL_COMPARISON_TIGHTER, DAL_COMPARISON_QUAD, DAL_COMPARISON_QUAD_HALVED};
-    dal_run *run[ABREAST] = {NULL};
+    dal_run *run[TOGETHER] = {NULL};
     dal_error error = {0};
     dal_status status = DAL_OK;
-    for (int k = 0; k < ABREAST && status == DAL_OK; k++) {
+    for (int k = 0; k < TOGETHER && status == DAL_OK; k++) {
         dal_run_spec spec = w->of->spec;
-        if (k != RUN) become(&spec, comparison[k]);
+        if (k != RUN) change_spec(&spec, comparison[k]);
         status = create(w, &spec, w->of->quad_steps, &run[k], &error);
     }
-    if (status == DAL_OK) status = follow_abreast(w, run, &error);
-    for (int k = 0; k < ABREAST; k++) dal_run_free(run[k]);
+    if (status == DAL_OK) status = sample_beginning(w, run, &error);
+    for (int k = 0; k < TOGETHER; k++) dal_run_free(run[k]);
     const int ran = status == DAL_OK;
     w->of->ran[DAL_COMPARISON_QUAD] = w->of->ran[DAL_COMPARISON_QUAD_HALVED] = ran;
     if (ends_all(w, status, &error)) return status;
     if (ran) return DAL_OK;
-    give_up(w, DAL_COMPARISON_QUAD, error.message);
-    give_up(w, DAL_COMPARISON_QUAD_HALVED, error.message);
+    leave_out(w, DAL_COMPARISON_QUAD, error.message);
+    leave_out(w, DAL_COMPARISON_QUAD_HALVED, error.message);
     w->of->quad_steps = 0;
     return DAL_OK;
 }
 
 /* ---- the whole ---- */
 
-static const dal_trend *trend_of(const comparisons *w, int which, int i)
-{
-    return w->trends + (size_t)which * (size_t)w->of->observables + i;
-}
-
 /* Rates of parts add up to that of the whole, so they are those of least squares, which are linear
  * in the values. */
 static void use_linear_rates(const comparisons *w, int which)
 {
     for (int i = 0; i < w->of->observables; i++) {
-        dal_trend *const f = w->trends + (size_t)which * (size_t)w->of->observables + i;
+        dal_trend *const f = trends(w, which) + i;
         dal_trend line = *f;
         dal__trend_line(series(w, which) + i, &line);
         f->rate = line.rate;
@@ -288,40 +271,39 @@ static void use_linear_rates(const comparisons *w, int which)
     }
 }
 
-static void classify_all(comparisons *w, const dal_run *run)
+static void find_shares(comparisons *w, const dal_run *run)
 {
     static const int parts[] = {DAL__FIRST_RUN,          DAL__FIRST_ROUNDING,
                                 DAL__FIRST_SOLVER,       DAL__FIRST_SOLVER_AND_ROUNDING,
                                 1 + DAL_COMPARISON_QUAD, 1 + DAL_COMPARISON_QUAD_HALVED};
     for (int which = 0; which < DAL__SERIES; which++)
         if (w->of->observables > 0 && series(w, which)->count > 0)
-            dal_run_classify(run, series(w, which), 0,
-                             w->trends + (size_t)which * (size_t)w->of->observables);
+            dal_run_classify(run, series(w, which), 0, trends(w, which));
     for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++) use_linear_rates(w, parts[i]);
     for (int i = 0; i < w->of->observables; i++) {
-        dal_shares *a = &w->of->shares[i];
-        a->whole = *trend_of(w, DAL__WHOLE_RUN, i);
+        dal_shares *s = &w->of->shares[i];
+        s->whole = trends(w, DAL__WHOLE_RUN)[i];
         for (int k = 0; k < DAL_COMPARISONS; k++)
-            if (w->of->ran[k]) a->comparison[k] = *trend_of(w, 1 + k, i);
+            if (w->of->ran[k]) s->comparison[k] = trends(w, 1 + k)[i];
         if (w->of->quad_steps > 0) {
-            a->beginning = *trend_of(w, DAL__FIRST_RUN, i);
-            a->rounding = *trend_of(w, DAL__FIRST_ROUNDING, i);
-            a->solver = *trend_of(w, DAL__FIRST_SOLVER, i);
-            a->solver_and_rounding = *trend_of(w, DAL__FIRST_SOLVER_AND_ROUNDING, i);
+            s->beginning = trends(w, DAL__FIRST_RUN)[i];
+            s->rounding = trends(w, DAL__FIRST_ROUNDING)[i];
+            s->solver = trends(w, DAL__FIRST_SOLVER)[i];
+            s->solver_and_rounding = trends(w, DAL__FIRST_SOLVER_AND_ROUNDING)[i];
         }
-        dal__find_shares(w->of, a);
+        dal__find_shares(w->of, s);
     }
 }
 
 static dal_status allocate(comparisons *w, const dal_run *run)
 {
     const int count = dal_run_observables(run);
-    const size_t room = count > 0 ? (size_t)count : 1;
+    const size_t rows = count > 0 ? (size_t)count : 1;
     w->of->observables = count;
-    w->of->shares = calloc(room, sizeof *w->of->shares);
-    w->series = calloc(room * DAL__SERIES, sizeof *w->series);
-    w->trends = calloc(room * DAL__SERIES, sizeof *w->trends);
-    w->values = dal__numbers(room, ABREAST);
+    w->of->shares = calloc(rows, sizeof *w->of->shares);
+    w->series = calloc(rows * DAL__SERIES, sizeof *w->series);
+    w->trends = calloc(rows * DAL__SERIES, sizeof *w->trends);
+    w->values = dal__numbers(rows, TOGETHER);
     if (!w->of->shares || !w->series || !w->trends || !w->values)
         return dal__fail(w->error, DAL_MEMORY, "out of memory");
     for (int i = 0; i < count; i++)
@@ -335,11 +317,11 @@ static dal_status run_all(comparisons *w)
     dal_run *run;
     DAL_TRY(create(w, &w->of->spec, w->of->steps, &run, w->error));
     dal_status status = allocate(w, run);
-    if (status == DAL_OK) status = follow(w, run, DAL__WHOLE_RUN, 1, w->error);
+    if (status == DAL_OK) status = sample_run(w, run, DAL__WHOLE_RUN, 1, w->error);
     for (int k = 0; k < DAL_COMPARISON_QUAD && status == DAL_OK; k++)
         status = run_comparison(w, (dal_comparison_run)k);
     if (status == DAL_OK && w->of->quad_steps > 0) status = run_beginning(w);
-    if (status == DAL_OK) classify_all(w, run);
+    if (status == DAL_OK) find_shares(w, run);
     dal_run_free(run);
     return status;
 }
@@ -356,7 +338,8 @@ dal_status dal_error_budget_create(const dal_run_spec *spec, long long steps, lo
                          quad_steps);
     if (spec->options.precision != DAL_DOUBLE)
         return dal__fail(error, DAL_ARGUMENT,
-                         "a run in doubles is explained, by quad precision among others");
+                         "an error budget is that of a run in doubles; quad precision is one of "
+                         "its comparisons");
     dal_error_budget *made = calloc(1, sizeof *made);
     if (!made) return dal__fail(error, DAL_MEMORY, "out of memory");
     made->spec = *spec;
@@ -366,10 +349,10 @@ dal_status dal_error_budget_create(const dal_run_spec *spec, long long steps, lo
         quad_steps > 0 ? quad_steps / stride_of(quad_steps) * stride_of(quad_steps) : 0;
     made->has_projection = projection_in(&spec->method) > 0;
     if (made->quad_steps == 0)
-        snprintf(made->reason[DAL_COMPARISON_QUAD], DAL_MESSAGE_SIZE, "not asked for");
+        snprintf(made->reason[DAL_COMPARISON_QUAD], DAL_MESSAGE_SIZE, "not requested");
     comparisons w = {.of = made, .observer = observer, .error = error};
-    w.work =
-        (DAL_COMPARISON_QUAD + 2.0) * (double)made->steps + 3.0 * LONGER * (double)made->quad_steps;
+    w.work = (DAL_COMPARISON_QUAD + 2.0) * (double)made->steps +
+             3.0 * QUAD_COST * (double)made->quad_steps;
     const dal_status status = run_all(&w);
     free(w.series);
     free(w.trends);

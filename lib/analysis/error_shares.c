@@ -1,8 +1,8 @@
-/* error_shares.c - shares of a drift, from a run and its twins; see dalembert_analysis.h.
+/* error_shares.c - the shares of a drift, from the trends of a run and of its comparisons.
  *
- * A drift is measured by its rate where the run's line of least squares rises by half of all it
- * deviates, and clearly so; rates of parts add up to that of the sum.  Else it is measured by the
- * greatest deviation, and parts are as large as they are. */
+ * A drift is measured by its rate where the line of least squares rises by at least half of the max
+ * deviation and its interval excludes 0; rates of parts add up to that of the sum.  Otherwise it is
+ * measured by the max deviation, and shares need not add up. */
 #include "analysis/error_shares.h"
 #include "core/words.h"
 #include <float.h>
@@ -11,10 +11,10 @@
 
 /* The solver's part must exceed what rounding does by this, or be a rate this far from zero. */
 static const double stands_out = 4.0, clear = 2.0;
-/* What moves no more than this part of a drift is no cause of it; and what is no more than this is
- * nothing, but rounding in quad precision. */
+/* Parts of a drift: below the first a source is none; below the second the rest is rounding in quad
+ * precision. */
 static const double small = 0.1, nothing = 1e-12;
-/* Coefficients move a run by no more than so many roundings of its scale in each step. */
+/* The effect of coefficients in each step, in roundings of the scale, at most. */
 static const double coefficient_roundings = 16.0;
 static const double half_an_order = 0.5;
 
@@ -42,7 +42,7 @@ static double order_of(const dal_trend *whole, const dal_trend *halved, int by_r
     return a > 0.0 && b > 0.0 ? log2(a / b) : NAN;
 }
 
-static void put_share(dal_shares *a, dal_error_source source, const dal_trend *part)
+static void set_share(dal_shares *a, dal_error_source source, const dal_trend *part)
 {
     const double whole = size_of(&a->beginning, a->by_rate);
     a->share[source] = a->by_rate ? part->rate / a->beginning.rate : part->deviation / whole;
@@ -72,12 +72,13 @@ static void weigh_quad(const dal_error_budget *e, dal_shares *a)
         a->order = order_of(quad, &a->comparison[DAL_COMPARISON_QUAD_HALVED], a->by_rate);
     const int coefficients = is_of_coefficients(e, a);
     a->is_motion = !coefficients && a->order < half_an_order;
-    put_share(a, coefficients ? DAL_SOURCE_COEFFICIENTS : DAL_SOURCE_TRUNCATION, quad);
+    set_share(a, coefficients ? DAL_SOURCE_COEFFICIENTS : DAL_SOURCE_TRUNCATION, quad);
     a->share[coefficients ? DAL_SOURCE_TRUNCATION : DAL_SOURCE_COEFFICIENTS] = 0.0;
     if (a->is_motion) a->share[DAL_SOURCE_TRUNCATION] = a->margin[DAL_SOURCE_TRUNCATION] = NAN;
 }
 
-/* Quad precision tell truncation and coefficients from rounding, further sweeps the solver. */
+/* Quad precision separates truncation and coefficients from rounding, more iterations the solver.
+ */
 static void share_beginning(const dal_error_budget *e, dal_shares *a)
 {
     a->by_rate = drifts(&a->beginning, (double)e->quad_steps * e->spec.options.step);
@@ -85,10 +86,10 @@ static void share_beginning(const dal_error_budget *e, dal_shares *a)
     weigh_quad(e, a);
     const int moves = a->by_rate && fabs(a->solver.rate) > clear * half_width(&a->solver);
     a->solver_is_significant = a->solver.deviation > stands_out * a->rounding.deviation || moves;
-    put_share(a, DAL_SOURCE_ROUNDING,
+    set_share(a, DAL_SOURCE_ROUNDING,
               a->solver_is_significant ? &a->rounding : &a->solver_and_rounding);
     if (a->solver_is_significant)
-        put_share(a, DAL_SOURCE_SOLVER, &a->solver);
+        set_share(a, DAL_SOURCE_SOLVER, &a->solver);
     else if (!e->ran[DAL_COMPARISON_TIGHTER] ||
              a->solver.deviation < small * a->beginning.deviation)
         a->share[DAL_SOURCE_SOLVER] = 0.0;
@@ -130,41 +131,37 @@ void dal__find_shares(const dal_error_budget *e, dal_shares *a)
 
 /* ---- in words ---- */
 
-typedef struct sheet {
+typedef struct description {
     const dal_error_budget *e;
     const dal_shares *a;
     char *text;
     size_t size;
-} sheet;
+} description;
 
-/* How many times as large the drift of a twin of the whole run is. */
-static double times(const sheet *s, dal_comparison_run comparison)
+/* The drift of a comparison over that of the run. */
+static double drift_ratio(const description *s, dal_comparison_run comparison)
 {
     const dal_trend *all = &s->a->whole, *other = &s->a->comparison[comparison];
     return s->a->whole_by_rate ? fabs(other->rate / all->rate) : other->deviation / all->deviation;
 }
 
-static const char *what(const sheet *s) { return s->a->by_rate ? "the rate" : "the deviation"; }
-
-static void describe_order(const sheet *s, const char *before)
+static void describe_order(const description *s, const char *before)
 {
-    const char *of = s->e->quad_steps > 0  ? what(s)
-                     : s->a->whole_by_rate ? "the rate"
-                                           : "the deviation";
+    const int by_rate = s->e->quad_steps > 0 ? s->a->by_rate : s->a->whole_by_rate;
     if (isnan(s->a->order))
         snprintf(s->text, s->size, "%s %s", before,
                  s->a->vanishes_in_quad ? "nothing of it is left"
                                         : "nothing of it is left when the step is halved");
     else
         snprintf(s->text, s->size, "%s %s falls by %.3g = 2^%.2f when the step is halved", before,
-                 of, exp2(s->a->order), s->a->order);
+                 by_rate ? "the rate" : "the deviation", exp2(s->a->order), s->a->order);
 }
 
-static void describe_truncation(const sheet *s)
+static void describe_truncation(const description *s)
 {
     if (s->e->quad_steps == 0)
         describe_order(s, isnan(s->a->share[DAL_SOURCE_TRUNCATION])
-                              ? "without quad precision halving alone does not tell:"
+                              ? "halving alone, without quad precision, is not conclusive:"
                               : "by halving alone:");
     else if (s->a->is_motion)
         describe_order(s, "the motion itself changes it:");
@@ -175,10 +172,11 @@ static void describe_truncation(const sheet *s)
         describe_order(s, "in quad precision");
 }
 
-static void describe_coefficients(const sheet *s)
+static void describe_coefficients(const description *s)
 {
     if (s->e->quad_steps == 0)
-        snprintf(s->text, s->size, "without quad precision they cannot be told from truncation");
+        snprintf(s->text, s->size,
+                 "without quad precision they cannot be distinguished from truncation");
     else if (s->a->share[DAL_SOURCE_COEFFICIENTS] == 0.0)
         snprintf(s->text, s->size, "what quad precision leaves is truncation, or nothing");
     else
@@ -188,13 +186,13 @@ static void describe_coefficients(const sheet *s)
                  exp2(s->a->order), s->a->order, dal_method_order(&s->e->spec.method));
 }
 
-static void describe_solver(const sheet *s)
+static void describe_solver(const description *s)
 {
     if (s->e->ran[DAL_COMPARISON_TIGHTER] == 0)
         snprintf(s->text, s->size, "%s", s->e->reason[DAL_COMPARISON_TIGHTER]);
     else if (s->e->quad_steps == 0)
         snprintf(s->text, s->size, "solved further the drift is %.3g times this",
-                 times(s, DAL_COMPARISON_TIGHTER));
+                 drift_ratio(s, DAL_COMPARISON_TIGHTER));
     else if (s->a->solver_is_significant)
         snprintf(
             s->text, s->size,
@@ -203,7 +201,7 @@ static void describe_solver(const sheet *s)
         snprintf(s->text, s->size, "two more iterations change no more than roundings do");
 }
 
-static void describe_rounding(const sheet *s)
+static void describe_rounding(const description *s)
 {
     const char *sums = s->e->spec.options.sums == DAL_SUMS_PLAIN ? "compensated" : "plain";
     if (s->e->quad_steps == 0)
@@ -213,27 +211,27 @@ static void describe_rounding(const sheet *s)
     else
         snprintf(s->text, s->size,
                  "that much goes in quad precision; with %s sums the drift is %.3g times this",
-                 sums, times(s, DAL_COMPARISON_SUMS));
+                 sums, drift_ratio(s, DAL_COMPARISON_SUMS));
 }
 
-static void describe_projection(const sheet *s)
+static void describe_projection(const description *s)
 {
     if (!s->e->ran[DAL_COMPARISON_PROJECTION])
         snprintf(s->text, s->size, "%s", s->e->reason[DAL_COMPARISON_PROJECTION]);
     else
         snprintf(s->text, s->size, "%s the drift is %.3g times this",
                  s->e->has_projection ? "without projection" : "with +project",
-                 times(s, DAL_COMPARISON_PROJECTION));
+                 drift_ratio(s, DAL_COMPARISON_PROJECTION));
 }
 
 char *dal_error_budget_describe(const dal_error_budget *e, int observable, dal_error_source source,
                                 char *buffer, size_t size)
 {
-    static void (*const describe[])(const sheet *) = {describe_truncation, describe_coefficients,
-                                                      describe_solver, describe_rounding,
-                                                      describe_projection};
+    static void (*const describe[])(const description *) = {describe_truncation,
+                                                            describe_coefficients, describe_solver,
+                                                            describe_rounding, describe_projection};
     if (!e || !buffer || observable < 0 || observable >= e->observables) return NULL;
-    const sheet s = {e, &e->shares[observable], buffer, size};
+    const description s = {e, &e->shares[observable], buffer, size};
     if (size > 0) buffer[0] = '\0';
     if (!isfinite(s.a->whole.deviation))
         snprintf(buffer, size, "it is not finite");

@@ -7,7 +7,7 @@
  *
  *     slope_i - p = a g_i + ..,   g_i = (h_(i-1) - h_i) / log(h_(i-1) / h_i),
  *
- * so that two successive slopes tell how far the second is from p:
+ * so that two successive slopes determine how far the second is from p:
  *
  *     slope_i - p = (slope_(i-1) - slope_i) g_i / (g_(i-1) - g_i)
  *
@@ -17,6 +17,7 @@
 #include "core/arguments.h"
 #include "dalembert_analysis.h"
 #include <math.h>
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -60,34 +61,19 @@ static dal_status state_at(const dal_run_spec *spec, double T, double *out, long
 static dal_status reference_state(const dal_run_spec *spec, double T, int levels,
                                   const dal_method *reference_method, double *out, dal_error *error)
 {
-    dal_run_spec finer = *spec;
+    dal_run_spec reference = *spec;
     long long evaluations;
     if (reference_method != NULL)
-        finer.method = *reference_method;
+        reference.method = *reference_method;
     else
-        DAL_TRY(dal_method_parse(&finer.method, "gauss12", error));
-    finer.options.step = ldexp(spec->options.step, -levels);
-    return state_at(&finer, T, out, &evaluations, error);
-}
-
-/* Errors of three steps from level i-2 on are those of the method. */
-static int are_clear(const dal_order *o, int i, double clear)
-{
-    for (int k = i - 2; k <= i; k++)
-        if (!(o->error[k] > clear && o->error[k] < below_the_solution)) return 0;
-    return 1;
+        DAL_TRY(dal_method_parse(&reference.method, "gauss12", error));
+    reference.options.step = ldexp(spec->options.step, -levels);
+    return state_at(&reference, T, out, &evaluations, error);
 }
 
 static double mean_step(const dal_order *o, int i)
 {
     return (o->step[i - 1] - o->step[i]) / log(o->step[i - 1] / o->step[i]);
-}
-
-/* Whether slope i is the order up to what the next term of the error may be. */
-static int is_asymptotic(const dal_order *o, int i)
-{
-    const double g = mean_step(o, i), before = mean_step(o, i - 1);
-    return fabs(o->slope[i - 1] - o->slope[i]) * g <= order_tolerance * (before - g);
 }
 
 void dal_order_slopes(dal_order *o, double noise)
@@ -98,9 +84,18 @@ void dal_order_slopes(dal_order *o, double noise)
     o->order = o->slope[0] = NAN;
     for (int i = 1; i < levels; i++)
         o->slope[i] = log(o->error[i - 1] / o->error[i]) / log(o->step[i - 1] / o->step[i]);
-    int last = levels - 1;
-    while (last >= 2 && !are_clear(o, last, clear)) last--;
-    if (last >= 2 && is_asymptotic(o, last)) o->order = o->slope[last];
+    /* The last three errors that are those of the method. */
+    int last = levels - 1, good = 0;
+    for (int i = levels - 1; i >= 0 && good < 3; i--) {
+        const bool is_good = o->error[i] > clear && o->error[i] < below_the_solution;
+        if (!is_good) last = i - 1;
+        good = is_good ? good + 1 : 0;
+    }
+    if (good < 3) return;
+    /* The next term of the error. */
+    const double g = mean_step(o, last), before = mean_step(o, last - 1);
+    if (fabs(o->slope[last - 1] - o->slope[last]) * g <= order_tolerance * (before - g))
+        o->order = o->slope[last];
 }
 
 static dal_status compare_levels(const dal_run_spec *spec, double T, const double *reference,
@@ -116,26 +111,19 @@ static dal_status compare_levels(const dal_run_spec *spec, double T, const doubl
     return DAL_OK;
 }
 
-static dal_status dimension_of(const dal_run_spec *spec, size_t *count, dal_error *error)
-{
-    dal_run *run;
-    DAL_TRY(dal_run_create(&run, spec, error));
-    *count = (size_t)dal_run_dimension(run);
-    dal_run_free(run);
-    return DAL_OK;
-}
-
 dal_status dal_measure_order(const dal_run_spec *spec, double T, int levels,
                              const dal_method *reference_method, const double *reference,
                              dal_order *order, dal_error *error)
 {
     DAL_REQUIRE(order, error);
     DAL_TRY(dal__check_spec(spec, error));
-    size_t count;
+    dal_run *run;
     if (levels < 2 || levels > DAL_ORDER_LEVELS)
         return dal__fail(error, DAL_ARGUMENT, "levels = %d is not in 2..%d", levels,
                          DAL_ORDER_LEVELS);
-    DAL_TRY(dimension_of(spec, &count, error));
+    DAL_TRY(dal_run_create(&run, spec, error));
+    const size_t count = (size_t)dal_run_dimension(run);
+    dal_run_free(run);
     double *block = dal__numbers(2, count);
     if (block == NULL) return dal__fail(error, DAL_MEMORY, "order: out of memory");
     dal_status status = DAL_OK;

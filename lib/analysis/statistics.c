@@ -5,8 +5,8 @@
  * half and all of them are in use after any number of values: the method of batch means (Flyvbjerg,
  * Petersen 1989, DOI 10.1063/1.457480; Law, Kelton, Simulation Modeling and Analysis, 9.5).
  *
- * How rough the series is tells a sum of roundings from a smooth change.  If its steps are
- * independent, E (x_(k+l) - x_k)^2 = l sigma^2: the sum of squared steps n sigma^2 is that of
+ * The roughness of the series distinguishes a sum of roundings from a smooth change.  If its steps
+ * are independent, E (x_(k+l) - x_k)^2 = l sigma^2: the sum of squared steps n sigma^2 is that of
  * (x_(k+1) - x_k)^2, or, at a fraction of the cost, 4/8 times that of (x_(k+8) - x_k)^2 over one
  * k in four.  A smooth series has steps in one direction and a sum that is smaller by n. */
 #include "analysis/statistics.h"
@@ -204,12 +204,12 @@ static void add_series(dal_statistics *s, tally_packs *add, int values, const do
     }
 }
 
-void dal_statistics_add_many(dal_statistics *s, int count, int looks, const double *t,
+void dal_statistics_add_many(dal_statistics *s, int count, int samples, const double *t,
                              const double *values, size_t stride)
 {
     tally_packs *const add = best_tally();
     if (!s || !t || !values) return;
-    for (int i = 0; i < count; i++) add_series(&s[i], add, looks, t, values + (size_t)i * stride);
+    for (int i = 0; i < count; i++) add_series(&s[i], add, samples, t, values + (size_t)i * stride);
 }
 
 /* ---- extremes ---- */

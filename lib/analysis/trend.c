@@ -1,16 +1,23 @@
-/* trend.c - what a quantity does in the long run, and how big it is.
+/* trend.c - the trend of a quantity over a long time, and the size of its deviation.
  *
  * The evidence of shapes and noises (trend_evidence.c) is a posterior of what they mean; tones are
- * taken out when that pays 15 nats each.  The heaviest meaning is the answer where it is heavy
- * enough and the other numbers agree with it, else the trend is undecided:
+ * taken out when that pays 15 nats each.  The meaning of the largest weight is the trend where
+ * that weight is large enough and the other numbers agree with it; else the trend is undecided:
  *
- *     none           0 lies in the interval of the rate, and the greatest drift that noise without
+ *     none           0 lies in the interval of the rate, and the largest drift that noise without
  *                    a trend admits is small beside the spread of x; the amplitude does not double
  *     settles        the change stands out of the spread; else it is none
  *     random walk    a memory of T/9 explains it less well, and 0 lies well inside the interval
  *     linear         0 lies outside it
  *     power law      the exponent is known to 0.11, and is not 1
  *     growing        the amplitude grows (trend_growth.c), and no drift is certain beside it
+ *
+ *     dal_statistics
+ *       -> dal__trend_series   means of blocks in units of the range; tones are removed
+ *       -> dal__bins           means of equal bins, their cosine coefficients
+ *       -> dal__evidence       how well each shape and each noise explains them
+ *       -> dal__interval       the rate, from the same evidence
+ *       -> dal_trend           the decision
  *
  * Noise is known to be white where differences of the means of neighbouring blocks are as small as
  * white noise of the spread within the blocks makes them. */
@@ -29,35 +36,35 @@ static const double interval_level = 0.966;  /* covers 95 %: trend_drift.c */
 static const double white_odds = 20.0, white_low = 0.55, white_high = 1.7;
 static const double memory_ratio = 3.0; /* of differences: more, and there is memory */
 
-/* The least posteriors. */
+/* The smallest sufficient posteriors. */
 static const double enough = 0.75, enough_for_none = 0.65, enough_for_walk = 0.58;
-/* Of a walk over noise with memory T/9, in nats: what tells them apart is in the slowest waves. */
+/* Of a walk over noise with memory T/9, in nats: only the slowest waves distinguish them. */
 static const double walk_evidence = 1.8;
 static const double certain_line = 0.9, certain_walk = 0.9;
-/* Drifts that go for none, in units of the spread: beside white noise and tones, beside noise with
- * memory, and whatever the noise. */
+/* Drifts that count as none, in units of the spread: beside white noise and tones, beside noise
+ * with memory, and beside any noise. */
 static const double small_drift = 0.3, small_beside_memory = 1.0, tiny_drift = 0.17;
 static const double settled_change = 0.3; /* of the spread */
 static const double well_inside = 0.9;    /* the middle of an interval, in half widths */
 static const double power_error = 0.11, power_span = 0.2;
-static const double not_sure = 0.9; /* of a growing amplitude, and where weights do not say it */
+static const double not_sure = 0.9; /* the confidence where weights do not give one */
 
-/* Everything that the decision looks at. */
-typedef struct picture {
+/* Everything that the decision depends on. */
+typedef struct description {
     dal__trend_series series; /* with its tones */
     dal__bins bins;
     dal__evidence evidence;
     dal__interval drift; /* over the whole series */
     dal__growth growth;
     double spread;      /* of x: deviation within and between bins */
-    double small_drift; /* that goes for none */
-    double wandering;   /* greatest distance of a mean of bins from the mean of all, with tones */
-} picture;
+    double small_drift; /* that counts as none */
+    double wandering;   /* max distance of a mean of bins from the mean of all, with tones */
+} description;
 
-/* ---- the picture ---- */
+/* ---- the description of a series ---- */
 
-/* The deviation within blocks of n values from their mean range: that of so many normal numbers has
- * sqrt(2 log n) in it, that of an oscillation, the same in all blocks, is 2 sqrt(2) deviations. */
+/* The deviation within blocks of n values from their mean range: for n normal numbers it grows like
+ * sqrt(2 log n); for an oscillation, the same in all blocks, it is 2 sqrt(2) deviations. */
 static double within_blocks(const dal__trend_series *s)
 {
     const double normal = 0.1 + 1.6 * sqrt(2.0 * log((double)s->length)), wave = 2.0 * sqrt(2.0);
@@ -76,7 +83,7 @@ static double difference_ratio(const dal__trend_series *s)
     return square / (2.0 * (s->count - 1)) * (double)s->length / (within * within);
 }
 
-static void measure_spread(picture *p)
+static void measure_spread(description *p)
 {
     const double within = within_blocks(&p->series);
     double mean = 0.0, square = 0.0;
@@ -90,7 +97,7 @@ static void measure_spread(picture *p)
 }
 
 /* Weighs the series as it is, and without tones where it has some. */
-static void look_at(picture *p)
+static void describe(description *p)
 {
     const double ratio = difference_ratio(&p->series);
     const bool long_enough = p->series.length >= LEAST_LENGTH;
@@ -159,33 +166,36 @@ typedef struct decision {
     double confidence, exponent;
 } decision;
 
-static bool has_no_drift(const picture *p) { return p->drift.low <= 0.0 && p->drift.high >= 0.0; }
+static bool has_no_drift(const description *p)
+{
+    return p->drift.low <= 0.0 && p->drift.high >= 0.0;
+}
 
-static double greatest(const dal__interval *i) { return fmax(fabs(i->low), fabs(i->high)); }
+static double max_abs(const dal__interval *i) { return fmax(fabs(i->low), fabs(i->high)); }
 
-static bool admits_none(const picture *p)
+static bool admits_none(const description *p)
 {
     const dal__interval drift = dal__trend_drift(&p->evidence, 0.95, true);
     return p->growth == DAL__STEADY && has_no_drift(p) &&
-           greatest(&drift) < p->small_drift * p->spread;
+           max_abs(&drift) < p->small_drift * p->spread;
 }
 
 /* Whatever the noise is, it admits next to no drift. */
-static bool is_tiny(const picture *p, dal__meaning heaviest, double weight)
+static bool is_tiny(const description *p, dal__meaning heaviest, double weight)
 {
     return (heaviest == DAL__MEANS_OTHER || heaviest == DAL__MEANS_NONE ||
             (heaviest == DAL__MEANS_WALK && weight < certain_walk)) &&
            p->growth == DAL__STEADY && has_no_drift(p) &&
-           greatest(&p->drift) < tiny_drift * p->spread;
+           max_abs(&p->drift) < tiny_drift * p->spread;
 }
 
-static bool is_growing(const picture *p, dal__meaning heaviest, double weight)
+static bool is_growing(const description *p, dal__meaning heaviest, double weight)
 {
     const bool drifts = heaviest == DAL__MEANS_LINEAR && weight > certain_line && !has_no_drift(p);
     return p->growth >= DAL__GROWS && !drifts && p->wandering < 0.5 * p->bins.half_range;
 }
 
-static decision decide(const picture *p)
+static decision decide(const description *p)
 {
     const double *const weight = p->evidence.meaning;
     const double middle = fabs(p->drift.low + p->drift.high), width = p->drift.high - p->drift.low;
@@ -265,7 +275,7 @@ static dal_size_class size_of(const dal_statistics *s, double scale, const dal_t
 /* ---- the whole ---- */
 
 /* A drift over the whole series as a rate. */
-static double rate_of(const picture *p, const dal_statistics *s, double drift)
+static double rate_of(const description *p, const dal_statistics *s, double drift)
 {
     const double between = s->block[s->blocks - 1].t - s->block[0].t;
     const double whole = between * (double)s->blocks / ((double)s->blocks - 1.0);
@@ -274,7 +284,7 @@ static double rate_of(const picture *p, const dal_statistics *s, double drift)
 
 static decision classify(const dal_statistics *s, dal_trend *trend)
 {
-    picture p = {0};
+    description p = {0};
     const bool varies = trend->deviation > 0.0;
     if (!dal__trend_read(s, &p.series)) {
         dal__trend_line(s, trend);
@@ -282,7 +292,7 @@ static decision classify(const dal_statistics *s, dal_trend *trend)
         return (decision){is_constant ? DAL_TREND_NONE : DAL_TREND_UNDECIDED, 1.0,
                           is_constant ? 0.0 : NAN};
     }
-    look_at(&p);
+    describe(&p);
     trend->rate = rate_of(&p, s, p.drift.middle);
     trend->rate_low = rate_of(&p, s, p.drift.low);
     trend->rate_high = rate_of(&p, s, p.drift.high);

@@ -44,7 +44,7 @@ static bool read_curve(const dal__trend_series *x, curve *c)
     return true;
 }
 
-/* The mean square root of the residues of z about a rising line through (u, z). */
+/* The root mean square of the residues of z about a rising line through (u, z). */
 static double residue(const double *u, const double *z, int n)
 {
     double mu = 0.0, mz = 0.0, uu = 0.0, uz = 0.0, zz = 0.0;

@@ -1,4 +1,4 @@
-/* lyapunov.c - Lyapunov exponents of the step map, and the volume it keeps.
+/* lyapunov.c - Lyapunov exponents of the step map, and its volume.
  *
  *     z' = step(z),   J = dz'/dz,   J V = V' R   (V, V' orthonormal, R upper triangular)
  *     exponent i = lim (1/T) sum log R_ii        (Benettin, Galgani, Giorgilli, Strelcyn 1980,
@@ -22,28 +22,28 @@
  * differences. */
 static const double lost_direction = 1e-6;
 
-/* What is followed beside the exponents, see growth. */
-enum { FOLLOWED = 4 };
+/* Means beside those of the exponents, see growth. */
+enum { EXTRA_MEANS = 4 };
 
 struct dal_lyapunov {
-    dal_run *run;   /* the trajectory */
-    dal_run *aside; /* steps tangent vectors, or what differences need, from where the run is */
+    dal_run *run;       /* the trajectory */
+    dal_run *auxiliary; /* steps tangent vectors, or displaced states, from the state of the run */
     dal_evaluator *evaluator;
     int n, nw, dimension, count, rank, exact;
-    int order;                  /* of the method */
-    int forced;                 /* functions that the method forces: D, and E behind; 0, m or m+1 */
-    int turns_D;                /* the method turns D into -D: off D = 0 it is not near the flow */
+    int order;    /* of the method */
+    int enforced; /* functions that the method enforces: D, and E behind; 0, m or m+1 */
+    int turns_D;  /* the method turns D into -D: off D = 0 it is not near the flow */
     double h, divergence, rate; /* at the present state; rate: see find_divergence */
     double *vectors;            /* [dimension*dimension] the first count of them are in use */
-    double *growth;  /* [dimension + 4] log R_ii / h of a step, their sum, div F, what the
+    double *growth;    /* [dimension + 4] log R_ii / h of a step, their sum, div F, what the
                         error of the step may be, and by how much div F has changed */
-    double *scratch; /* [5*dimension], or the jacobian's [nw*n + nw*nw] */
-    double *normals; /* [(m + 1)*dimension] of what is forced */
-    double t, *z;    /* [dimension] where the step began */
+    double *scratch;   /* [5*dimension], or the jacobian's [nw*n + nw*nw] */
+    double *gradients; /* [(m + 1)*dimension] of what is enforced */
+    double t, *z;      /* [dimension] where the step began */
     double *memory, *displaced; /* [memory_count] all of the run there, and beside it */
     size_t memory_count;
     int has_remainder;          /* memory is y, r, ..: not in quad precision */
-    double from, log_from;      /* where the means began: t, and log of the size of the normals */
+    double from, log_from;      /* where the means began: t, and log of the size of the gradients */
     const double *direction;    /* the vector along which is differentiated */
     dal_statistics *statistics; /* [count + 4] of growth */
     dal_error *error;
@@ -60,15 +60,15 @@ static dal_status move_exactly(dal_lyapunov *s, double *vector)
     memcpy(x + n, vector, bytes);
     memcpy(x + 2 * n, s->z + n, bytes);
     memcpy(x + 3 * n, vector + n, bytes);
-    DAL_TRY(dal_run_set_state(s->aside, s->t, x, s->error));
-    DAL_TRY(dal_run_step(s->aside, s->error));
-    memcpy(vector, dal_run_state(s->aside) + n, bytes);
-    memcpy(vector + n, dal_run_state(s->aside) + 3 * n, bytes);
+    DAL_TRY(dal_run_set_state(s->auxiliary, s->t, x, s->error));
+    DAL_TRY(dal_run_step(s->auxiliary, s->error));
+    memcpy(vector, dal_run_state(s->auxiliary) + n, bytes);
+    memcpy(vector + n, dal_run_state(s->auxiliary) + 3 * n, bytes);
     return DAL_OK;
 }
 
-/* The run aside at z + size * direction: what y has no room for goes to its remainder r, so that a
- * coordinate may be as far away as it likes.  In quad precision the state is rounded. */
+/* Puts the auxiliary run at z + size * direction: what rounding takes from y goes to its remainder
+ * r, so that a coordinate may be any distance away.  In quad precision the state is rounded. */
 static dal_status displace(dal_lyapunov *s, double size)
 {
     const int d = s->dimension;
@@ -80,8 +80,8 @@ static dal_status displace(dal_lyapunov *s, double size)
         z[i] = y;
         if (s->has_remainder) z[d + i] += (s->z[i] - (y - part)) + (change - part);
     }
-    if (s->has_remainder) return dal_run_restore(s->aside, z, s->memory_count, s->error);
-    return dal_run_set_state(s->aside, s->t, z, s->error);
+    if (s->has_remainder) return dal_run_restore(s->auxiliary, z, s->memory_count, s->error);
+    return dal_run_set_state(s->auxiliary, s->t, z, s->error);
 }
 
 /* How far that is then from z. */
@@ -91,8 +91,8 @@ static dal_status step_along(void *user, double size, double *out)
     const int d = s->dimension;
     size_t count;
     DAL_TRY(displace(s, size));
-    DAL_TRY(dal_run_step(s->aside, s->error));
-    const double *y = dal_run_state(s->aside), *r = dal_run_save(s->aside, &count) + d;
+    DAL_TRY(dal_run_step(s->auxiliary, s->error));
+    const double *y = dal_run_state(s->auxiliary), *r = dal_run_save(s->auxiliary, &count) + d;
     for (int i = 0; i < d; i++) out[i] = y[i] - s->z[i];
     for (int i = 0; i < d && s->has_remainder; i++) out[i] += r[i] - s->memory[d + i];
     return DAL_OK;
@@ -146,14 +146,6 @@ static dal_status move_vectors(dal_lyapunov *s, int count)
     return DAL_OK;
 }
 
-/* Orthonormal vectors in directions of no particular kind. */
-static dal_status draw_vectors(dal_lyapunov *s)
-{
-    dal__random random = {1};
-    for (int i = 0; i < s->dimension * s->dimension; i++) s->vectors[i] = dal__uniform(&random);
-    return orthonormalise(s, s->dimension);
-}
-
 /* ---- a step ---- */
 
 static double row_norm(const double *matrix, int rows, int columns)
@@ -194,15 +186,7 @@ static void hold_state(dal_lyapunov *s, const dal_run *run)
     memcpy(s->memory, memory, s->memory_count * sizeof(double));
 }
 
-/* By how much the sum over a step may be wrong: a power series in h r without its terms up to the
- * order; nothing is known where it does not converge. */
-static double step_error(const dal_lyapunov *s)
-{
-    const double x = s->h * s->rate;
-    return x < 1.0 ? s->dimension * s->rate * pow(x, s->order) / (1.0 - x) : INFINITY;
-}
-
-static dal_status take_step(dal_lyapunov *s)
+static dal_status step_vectors(dal_lyapunov *s)
 {
     const double before = s->divergence;
     double *sum = s->growth + s->count;
@@ -214,9 +198,12 @@ static dal_status take_step(dal_lyapunov *s)
     *sum = 0.0;
     for (int j = 0; j < s->count; j++) *sum += s->growth[j] = log(s->growth[j]) / s->h;
     sum[1] = 0.5 * (before + s->divergence);
-    sum[2] = step_error(s);
+    /* An error bound: a power series in h r without its terms up to the order of the method; there
+     * is none where it does not converge. */
+    const double x = s->h * s->rate;
+    sum[2] = x < 1.0 ? s->dimension * s->rate * pow(x, s->order) / (1.0 - x) : INFINITY;
     sum[3] = s->divergence - before;
-    dal_statistics_add(s->statistics, s->count + FOLLOWED, dal_run_time(s->run), s->growth);
+    dal_statistics_add(s->statistics, s->count + EXTRA_MEANS, dal_run_time(s->run), s->growth);
     return DAL_OK;
 }
 
@@ -226,52 +213,47 @@ dal_status dal_lyapunov_advance(dal_lyapunov *s, long long steps, dal_error *err
     DAL_REQUIRE_COUNT(steps, error);
     dal_status status = DAL_OK;
     s->error = error;
-    for (; steps > 0 && status == DAL_OK; steps--) status = take_step(s);
+    for (; steps > 0 && status == DAL_OK; steps--) status = step_vectors(s);
     s->error = NULL;
     return status;
 }
 
-/* ---- what the method forces ---- */
+/* ---- what the method enforces ---- */
 
-/* normals: the gradients of what is forced, orthonormal; returns the log of the size of the
+/* gradients: the gradients of what is enforced, orthonormal; returns the log of the size of the
  * parallelepiped that they spanned, NaN where they cannot be had. */
-static double find_normals(dal_lyapunov *s)
+static double find_gradients(dal_lyapunov *s)
 {
     const dal_system *system = dal_evaluator_system(s->evaluator);
     const double *z = dal_run_state(s->run);
     const dal_point at = {.t = dal_run_time(s->run), .q = z, .v = z + s->n};
     double size = 0.0;
     dal_status status = DAL_OK;
-    if (s->forced > 0)
-        status = dal__gradients(s->evaluator, system->constraints, system->m, &at, s->normals);
-    if (status == DAL_OK && s->forced > system->m)
+    if (s->enforced > 0)
+        status = dal__gradients(s->evaluator, system->constraints, system->m, &at, s->gradients);
+    if (status == DAL_OK && s->enforced > system->m)
         status = dal__gradients(s->evaluator, system->energy, 1, &at,
-                                s->normals + system->m * s->dimension);
-    for (int j = 0; j < s->forced && status == DAL_OK; j++)
-        size += log(dal__orthonormalise_row(s->normals, j, s->dimension));
+                                s->gradients + system->m * s->dimension);
+    for (int j = 0; j < s->enforced && status == DAL_OK; j++)
+        size += log(dal__orthonormalise_row(s->gradients, j, s->dimension));
     return status == DAL_OK ? size : NAN;
 }
 
 void dal_lyapunov_discard_transient(dal_lyapunov *s)
 {
     if (!s) return;
-    dal_statistics_start(s->statistics, s->count + FOLLOWED);
+    dal_statistics_start(s->statistics, s->count + EXTRA_MEANS);
     s->from = dal_run_time(s->run);
-    s->log_from = find_normals(s);
+    s->log_from = find_gradients(s);
 }
 
-/* The vectors, made tangent to what is forced where the run is. */
+/* The vectors, made tangent to what is enforced where the run is. */
 static dal_status make_tangent(dal_lyapunov *s)
 {
     const int d = s->dimension;
     for (int j = 0; j < s->rank && isfinite(s->log_from); j++) {
         double *x = s->vectors + j * d;
-        for (int k = 0; k < s->forced; k++) {
-            const double *normal = s->normals + k * d;
-            double part = 0.0;
-            for (int i = 0; i < d; i++) part += normal[i] * x[i];
-            for (int i = 0; i < d; i++) x[i] -= part * normal[i];
-        }
+        for (int k = 0; k < s->enforced; k++) dal__remove_part(x, s->gradients + k * d, d);
     }
     return orthonormalise(s, s->rank);
 }
@@ -288,7 +270,7 @@ dal_status dal_lyapunov_balance(dal_lyapunov *s, dal_balance *balance, dal_error
     if (s->count < s->rank)
         return dal__fail(error, DAL_UNSUPPORTED, "%d of %d exponents have no sum to compare",
                          s->count, s->rank);
-    if (s->rank + s->forced < s->dimension)
+    if (s->rank + s->enforced < s->dimension)
         return dal__fail(error, DAL_UNSUPPORTED,
                          "the step map loses %d directions: more than constraints explain",
                          s->dimension - s->rank);
@@ -301,7 +283,7 @@ dal_status dal_lyapunov_balance(dal_lyapunov *s, dal_balance *balance, dal_error
                          "the step is too long: h max(|F_q|^(1/2), |F_v|) reaches 1");
     const double noise = s->exact ? 1e-13 : 1e-7;
     const double jump = dal_statistics_max_abs(&s->statistics[s->count + 3]);
-    balance->surface = (find_normals(s) - s->log_from) / T;
+    balance->surface = (find_gradients(s) - s->log_from) / T;
     if (isnan(balance->surface))
         return dal__fail(error, DAL_UNSUPPORTED, "the gradient of D or E is not finite");
     balance->difference = sum.mean - divergence.mean - balance->surface;
@@ -312,15 +294,7 @@ dal_status dal_lyapunov_balance(dal_lyapunov *s, dal_balance *balance, dal_error
 
 /* ---- making one ---- */
 
-/* A step that is made of values of F alone moves a tangent vector by its own derivative. */
-static int is_exact(const dal_run_spec *spec, const dal_system *tangent)
-{
-    const unsigned of_field = DAL_NEEDS_FIELD | DAL_NEEDS_SYMMETRIC | DAL_NEEDS_ORDER_2;
-    return tangent != NULL && !spec->options.extend_energy &&
-           !(dal_method_needs(&spec->method) & ~of_field);
-}
-
-static dal_status check(const dal_run_spec *spec, const dal_system *tangent, dal_error *error)
+static dal_status check_map(const dal_run_spec *spec, const dal_system *tangent, dal_error *error)
 {
     char name[128];
     dal_method_name(&spec->method, name, sizeof name);
@@ -344,9 +318,12 @@ static dal_status open_runs(dal_lyapunov *s, const dal_run_spec *given, const da
     spec.options.space = DAL_PHYSICAL;
     DAL_TRY(dal_run_create(&s->run, &spec, error));
     const dal_system *system = dal_run_system(s->run);
-    s->exact = is_exact(&spec, tangent);
+    /* A step that is made of values of F alone moves a tangent vector by its own derivative. */
+    const unsigned of_field = DAL_NEEDS_FIELD | DAL_NEEDS_SYMMETRIC | DAL_NEEDS_ORDER_2;
+    s->exact = tangent != NULL && !spec.options.extend_energy &&
+               !(dal_method_needs(&spec.method) & ~of_field);
     if (s->exact) spec.system = tangent, spec.start_count = 0;
-    DAL_TRY(dal_run_create(&s->aside, &spec, error));
+    DAL_TRY(dal_run_create(&s->auxiliary, &spec, error));
     s->n = system->n;
     s->nw = system->n + system->multipliers;
     s->dimension = s->n + s->nw;
@@ -357,46 +334,47 @@ static dal_status open_runs(dal_lyapunov *s, const dal_run_spec *given, const da
                                 error);
 }
 
-static dal_status allocate(dal_lyapunov *s, dal_error *error)
+static dal_status allocate_vectors(dal_lyapunov *s, dal_error *error)
 {
     const size_t d = (size_t)s->dimension, jacobian = (size_t)s->nw * d;
     const size_t scratch = jacobian > 5 * d ? jacobian : 5 * d;
-    const size_t normals = ((size_t)dal_evaluator_system(s->evaluator)->m + 1) * d;
+    const size_t gradients = ((size_t)dal_evaluator_system(s->evaluator)->m + 1) * d;
     dal_run_save(s->run, &s->memory_count);
     const size_t memory = s->memory_count > d ? s->memory_count : d;
-    double *block = dal__numbers(1, d * d + d + d + FOLLOWED + scratch + normals + 2 * memory);
+    double *block = dal__numbers(1, d * d + d + d + EXTRA_MEANS + scratch + gradients + 2 * memory);
     s->vectors = block;
-    s->statistics = calloc(d + FOLLOWED, sizeof *s->statistics);
+    s->statistics = calloc(d + EXTRA_MEANS, sizeof *s->statistics);
     if (block == NULL || s->statistics == NULL)
         return dal__fail(error, DAL_MEMORY, "Lyapunov exponents: out of memory");
     s->z = block + d * d;
     s->growth = s->z + d;
-    s->scratch = s->growth + d + FOLLOWED;
-    s->normals = s->scratch + scratch;
-    s->memory = s->normals + normals;
+    s->scratch = s->growth + d + EXTRA_MEANS;
+    s->gradients = s->scratch + scratch;
+    s->memory = s->gradients + gradients;
     s->displaced = s->memory + memory;
     return DAL_OK;
 }
 
 /* A method that forces E knows from its first step on which. */
-static dal_status hold_usual_state(dal_lyapunov *s, unsigned claims)
+static dal_status hold_usual_state(dal_lyapunov *s, unsigned properties)
 {
     hold_state(s, s->run);
-    if (!(claims & DAL_PRESERVES_ENERGY)) return DAL_OK;
-    DAL_TRY(dal_run_restore(s->aside, s->memory, s->memory_count, s->error));
-    DAL_TRY(dal_run_step(s->aside, s->error));
-    hold_state(s, s->aside);
+    if (!(properties & DAL_PRESERVES_ENERGY)) return DAL_OK;
+    DAL_TRY(dal_run_restore(s->auxiliary, s->memory, s->memory_count, s->error));
+    DAL_TRY(dal_run_step(s->auxiliary, s->error));
+    hold_state(s, s->auxiliary);
     return DAL_OK;
 }
 
 /* How many directions a step leaves: behind them R_ii is 0, or noise.  The vectors stay as that
  * step left them. */
-static dal_status find_rank(dal_lyapunov *s, unsigned claims)
+static dal_status find_rank(dal_lyapunov *s, unsigned properties)
 {
-    dal_error ignored;
-    dal_error *error = s->error;
-    DAL_TRY(hold_usual_state(s, claims));
-    DAL_TRY(draw_vectors(s));
+    dal__random random = {1};
+    dal_error ignored, *error = s->error;
+    DAL_TRY(hold_usual_state(s, properties));
+    for (int i = 0; i < s->dimension * s->dimension; i++) s->vectors[i] = dal__uniform(&random);
+    DAL_TRY(orthonormalise(s, s->dimension));
     DAL_TRY(move_vectors(s, s->dimension));
     s->error = &ignored;
     orthonormalise(s, s->dimension);
@@ -405,28 +383,23 @@ static dal_status find_rank(dal_lyapunov *s, unsigned claims)
     return DAL_OK;
 }
 
-/* Which functions have lost their directions: D, and E behind it. */
-static void find_forced(dal_lyapunov *s, unsigned claims)
+static dal_status start_vectors(dal_lyapunov *s, const dal_run_spec *spec,
+                                const dal_system *tangent, int count, dal_error *error)
 {
-    const int lost = s->dimension - s->rank, m = dal_evaluator_system(s->evaluator)->m;
-    const int max = m + ((claims & DAL_PRESERVES_ENERGY) != 0);
-    s->forced = lost == m || lost == max ? lost : 0;
-    s->turns_D = m > 0 && lost == 0 && claims & DAL_PRESERVES_D_MIDPOINT;
-}
-
-static dal_status make(dal_lyapunov *s, const dal_run_spec *spec, const dal_system *tangent,
-                       int count, dal_error *error)
-{
-    const unsigned claims = dal_method_properties(&spec->method);
+    const unsigned properties = dal_method_properties(&spec->method);
     DAL_TRY(open_runs(s, spec, tangent, error));
-    DAL_TRY(allocate(s, error));
+    DAL_TRY(allocate_vectors(s, error));
     s->error = error;
-    DAL_TRY(find_rank(s, claims));
-    find_forced(s, claims);
+    DAL_TRY(find_rank(s, properties));
+    /* The functions whose directions are lost: D, and E behind it. */
+    const int lost = s->dimension - s->rank, m = dal_evaluator_system(s->evaluator)->m;
+    const int max = m + ((properties & DAL_PRESERVES_ENERGY) != 0);
+    s->enforced = lost == m || lost == max ? lost : 0;
+    s->turns_D = m > 0 && lost == 0 && properties & DAL_PRESERVES_D_MIDPOINT;
     DAL_TRY(find_divergence(s));
     if (count < 0 || count > s->rank)
         return dal__fail(error, DAL_ARGUMENT,
-                         "%d exponents are asked for; the step map has %d directions", count,
+                         "%d exponents are requested; the step map has %d directions", count,
                          s->rank);
     s->count = count > 0 ? count : s->rank;
     dal_lyapunov_discard_transient(s);
@@ -441,10 +414,10 @@ dal_status dal_lyapunov_create(dal_lyapunov **lyapunov, const dal_run_spec *spec
     DAL_REQUIRE(lyapunov, error);
     *lyapunov = NULL;
     DAL_TRY(dal__check_spec(spec, error));
-    DAL_TRY(check(spec, tangent, error));
+    DAL_TRY(check_map(spec, tangent, error));
     dal_lyapunov *s = calloc(1, sizeof *s);
     if (s == NULL) return dal__fail(error, DAL_MEMORY, "Lyapunov exponents: out of memory");
-    const dal_status status = make(s, spec, tangent, count, error);
+    const dal_status status = start_vectors(s, spec, tangent, count, error);
     if (status == DAL_OK)
         *lyapunov = s;
     else
@@ -456,14 +429,14 @@ void dal_lyapunov_free(dal_lyapunov *s)
 {
     if (s == NULL) return;
     dal_run_free(s->run);
-    dal_run_free(s->aside);
+    dal_run_free(s->auxiliary);
     dal_evaluator_free(s->evaluator);
     free(s->vectors);
     free(s->statistics);
     free(s);
 }
 
-/* ---- what is asked of it ---- */
+/* ---- results ---- */
 
 const dal_run *dal_lyapunov_run(const dal_lyapunov *s) { return s ? s->run : NULL; }
 int dal_lyapunov_count(const dal_lyapunov *s) { return s ? s->count : 0; }

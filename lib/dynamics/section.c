@@ -22,14 +22,13 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A minimum of |g| below this part of the greatest |g| touches 0; rounding of g and of the place
- * stay far below it. */
+/* A minimum of |g| below this part of max |g| is a touch; rounding errors are far smaller. */
 static const double touching = 1e-12;
 
 enum { POLL = 1000, ROUNDS = 200 };
 
 typedef struct mark {
-    double *memory; /* all the run carries */
+    double *memory; /* all of the run's persistent state */
     double g;
 } mark;
 
@@ -41,13 +40,13 @@ typedef struct search {
     dal_evaluator *evaluator;
     double *values; /* [count] of the callback */
     size_t carried;
-    mark before, last, now; /* the present state, and those two steps and one step ago */
-    double h, greatest;     /* |g| */
-    long long examined;     /* the last step that was searched for an extremum */
-    bool is_leaving;        /* g was 0 at the last mark, and at all before */
+    mark before, last, now; /* the states two steps and one step ago, and the present one */
+    double h, max_g;        /* max |g| */
+    long long searched;     /* the last step that was searched for an extremum */
     int side;               /* the sign of g where it was last not 0 */
-    int rate;               /* what is asked for: the rate of g, or g */
-    double value;           /* the answer */
+    int rate;               /* whether the rate of g is evaluated, or g */
+    double value;           /* the result */
+    bool is_leaving;        /* g was 0 at the last mark, and at all before */
     dal_crossing crossing;
 } search;
 
@@ -70,22 +69,23 @@ static dal_status evaluate(search *w, double *value)
                      "the section has no value at t = %.17g: %g", at.t, *value);
 }
 
-static dal_status look(void *user, dal_run *run)
+static dal_status evaluate_there(void *user, dal_run *run)
 {
     search *w = user;
     (void)run;
     return evaluate(w, &w->value);
 }
 
-static dal_status go_to(search *w, const mark *place)
+static dal_status return_to(search *w, const mark *place)
 {
     return dal_run_restore(w->run, place->memory, w->carried, w->error);
 }
 
-/* g, or its rate, a step of size s from where the step under examination began. */
+/* g, or its rate, a step of size s from where the searched step began. */
 static dal_status value_at(search *w, double s, double *value)
 {
-    DAL_TRY(s > 0.0 ? dal_run_intermediate(w->run, s, look, w, w->error) : evaluate(w, &w->value));
+    DAL_TRY(s > 0.0 ? dal_run_intermediate(w->run, s, evaluate_there, w, w->error)
+                    : evaluate(w, &w->value));
     *value = w->value;
     return DAL_OK;
 }
@@ -96,7 +96,7 @@ typedef struct node {
     double s, f;
 } node;
 
-/* Where between a and b to look next, as a part of the way from a; c is what was dropped last. */
+/* The next point between a and b, as a part of the way from a; c is the end dropped last. */
 static double next_part(const node *a, const node *b, const node *c, double min)
 {
     const double xi = (a->s - b->s) / (c->s - b->s), phi = (a->f - b->f) / (c->f - b->f);
@@ -129,14 +129,14 @@ static dal_status find_root(search *w, node a, node b, double *root)
 
 /* ---- crossings ---- */
 
-static dal_status show(void *user, dal_run *run)
+static dal_status report_crossing(void *user, dal_run *run)
 {
     search *w = user;
     w->crossing.t = dal_run_time(run);
     return w->section->cross(w->section->user, run, &w->crossing);
 }
 
-/* The crossing between two sizes of the step under examination, away from the present side. */
+/* The crossing between two sizes of the searched step, away from the present side. */
 static dal_status cross(search *w, node a, node b)
 {
     double s;
@@ -147,19 +147,13 @@ static dal_status cross(search *w, node a, node b)
     if (wanted && wanted != w->side) return DAL_OK;
     w->crossing.number++;
     if (!w->section->cross) return DAL_OK;
-    return s > 0.0 ? dal_run_intermediate(w->run, s, show, w, w->error) : show(w, w->run);
-}
-
-/* g has changed its sign in the last step. */
-static dal_status cross_step(search *w)
-{
-    DAL_TRY(go_to(w, &w->last));
-    return cross(w, (node){0.0, w->last.g}, (node){w->h, w->now.g});
+    return s > 0.0 ? dal_run_intermediate(w->run, s, report_crossing, w, w->error)
+                   : report_crossing(w, w->run);
 }
 
 static dal_status rate_at(search *w, const mark *place, double *rate)
 {
-    DAL_TRY(go_to(w, place));
+    DAL_TRY(return_to(w, place));
     w->rate = 1;
     const dal_status status = evaluate(w, rate);
     w->rate = 0;
@@ -167,16 +161,17 @@ static dal_status rate_at(search *w, const mark *place, double *rate)
 }
 
 /* An extremum between two marks, the rates there being of different signs. */
-static dal_status examine(search *w, const mark *from, double rate, const mark *to, double rate_to)
+static dal_status search_extremum(search *w, const mark *from, double rate, const mark *to,
+                                  double rate_to)
 {
     double s, g;
-    DAL_TRY(go_to(w, from));
+    DAL_TRY(return_to(w, from));
     w->rate = 1;
     const dal_status status = find_root(w, (node){0.0, rate}, (node){w->h, rate_to}, &s);
     w->rate = 0;
     DAL_TRY(status);
     DAL_TRY(value_at(w, s, &g));
-    if (sign(g) == -w->side && fabs(g) > touching * w->greatest) {
+    if (sign(g) == -w->side && fabs(g) > touching * w->max_g) {
         /* Where a run starts on the surface it leaves it, which is no crossing. */
         if (w->is_leaving)
             w->side = -w->side;
@@ -184,12 +179,12 @@ static dal_status examine(search *w, const mark *from, double rate, const mark *
             DAL_TRY(cross(w, (node){0.0, from->g}, (node){s, g}));
         return cross(w, (node){s, g}, (node){w->h, to->g});
     }
-    if (!w->is_leaving && fabs(g) <= touching * w->greatest) w->found->touches++;
+    if (!w->is_leaving && fabs(g) <= touching * w->max_g) w->found->touches++;
     return DAL_OK;
 }
 
 /* |g| has a minimum about the last mark, which may hide a pair of crossings. */
-static dal_status examine_minimum(search *w, long long step)
+static dal_status search_minimum(search *w, long long step)
 {
     double first, middle, last;
     DAL_TRY(rate_at(w, &w->before, &first));
@@ -197,18 +192,18 @@ static dal_status examine_minimum(search *w, long long step)
     DAL_TRY(rate_at(w, &w->now, &last));
     if (sign(first) != -w->side || sign(last) != w->side) return DAL_OK;
     const bool is_later = sign(middle) == -w->side;
-    const long long examined = w->examined;
-    w->examined = is_later ? step : step - 1;
-    if (w->examined == examined) return DAL_OK;
-    return is_later ? examine(w, &w->last, middle, &w->now, last)
-                    : examine(w, &w->before, first, &w->last, middle);
+    const long long searched = w->searched;
+    w->searched = is_later ? step : step - 1;
+    if (w->searched == searched) return DAL_OK;
+    return is_later ? search_extremum(w, &w->last, middle, &w->now, last)
+                    : search_extremum(w, &w->before, first, &w->last, middle);
 }
 
 /* The first or the last step.  Where g has no rate there, no extremum is known. */
-static dal_status examine_end(search *w, long long step)
+static dal_status search_end(search *w, long long step)
 {
     double first, last;
-    if (w->examined == step) return DAL_OK;
+    if (w->searched == step) return DAL_OK;
     dal_status status = rate_at(w, &w->last, &first);
     if (status == DAL_OK) status = rate_at(w, &w->now, &last);
     if (status == DAL_NOT_FINITE) {
@@ -217,14 +212,8 @@ static dal_status examine_end(search *w, long long step)
     }
     DAL_TRY(status);
     if (sign(first) != -w->side || sign(last) != w->side) return DAL_OK;
-    w->examined = step;
-    return examine(w, &w->last, first, &w->now, last);
-}
-
-static int is_minimum(const search *w, long long step)
-{
-    const double before = w->side * w->before.g, last = w->side * w->last.g;
-    return step > 1 && before >= last && last >= 0.0 && w->side * w->now.g >= last;
+    w->searched = step;
+    return search_extremum(w, &w->last, first, &w->now, last);
 }
 
 /* ---- the run ---- */
@@ -234,11 +223,11 @@ static dal_status take_mark(search *w)
     size_t count;
     memcpy(w->now.memory, dal_run_save(w->run, &count), w->carried * sizeof(double));
     DAL_TRY(evaluate(w, &w->now.g));
-    w->greatest = fmax(w->greatest, fabs(w->now.g));
+    w->max_g = fmax(w->max_g, fabs(w->now.g));
     return DAL_OK;
 }
 
-static dal_status take_step(search *w, long long step, bool is_end)
+static dal_status search_step(search *w, long long step, bool is_end)
 {
     const mark oldest = w->before;
     w->before = w->last;
@@ -247,27 +236,29 @@ static dal_status take_step(search *w, long long step, bool is_end)
     DAL_TRY(dal_run_step(w->run, w->error));
     DAL_TRY(take_mark(w));
     const int side = sign(w->now.g);
+    const double g0 = w->side * w->before.g, g1 = w->side * w->last.g, g2 = w->side * w->now.g;
     if (w->side == 0) {
         w->side = side;
         w->is_leaving = true;
-        if (side != 0) DAL_TRY(examine_end(w, step));
+        if (side != 0) DAL_TRY(search_end(w, step));
         w->is_leaving = false;
-    } else if (side == -w->side)
-        DAL_TRY(cross_step(w));
-    else {
-        if (is_minimum(w, step)) DAL_TRY(examine_minimum(w, step));
-        if (is_end) DAL_TRY(examine_end(w, step));
+    } else if (side == -w->side) {
+        DAL_TRY(return_to(w, &w->last));
+        DAL_TRY(cross(w, (node){0.0, w->last.g}, (node){w->h, w->now.g}));
+    } else {
+        if (step > 1 && g0 >= g1 && g1 >= 0.0 && g2 >= g1) DAL_TRY(search_minimum(w, step));
+        if (is_end) DAL_TRY(search_end(w, step));
     }
-    return go_to(w, &w->now);
+    return return_to(w, &w->now);
 }
 
-static dal_status go(search *w, long long steps)
+static dal_status search_steps(search *w, long long steps)
 {
     const dal_poincare *p = w->section;
     DAL_TRY(take_mark(w));
     w->side = sign(w->now.g);
     for (long long step = 1; step <= steps; step++) {
-        DAL_TRY(take_step(w, step, step == 1 || step == steps));
+        DAL_TRY(search_step(w, step, step == 1 || step == steps));
         if (p->poll && step % POLL == 0) DAL_TRY(p->poll(p->user, w->run));
     }
     return DAL_OK;
@@ -312,7 +303,7 @@ dal_status dal_run_crossings(dal_run *run, double T, const dal_poincare *section
     w.now.memory = block + 2 * w.carried;
     w.values = block + 3 * w.carried;
     dal_status status = evaluator_of(&w);
-    if (status == DAL_OK) status = go(&w, steps);
+    if (status == DAL_OK) status = search_steps(&w, steps);
     dal_evaluator_free(w.evaluator);
     free(block);
     return status;

@@ -39,7 +39,7 @@ holds "a ratio that is none" sh -c '! grep -q nan out'
 
 case_is "explain: no quad precision"
 try 0 explain line.yaml --integrator rk4 --step 0.1 --time 10 --quad-steps 0
-prints "no quad precision: not asked for"
+prints "no quad precision: not requested"
 
 case_is "explain: bad input"
 try 2 explain chaplygin-sleigh --integrator rk4 --step 0.1

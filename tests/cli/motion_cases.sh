@@ -143,7 +143,7 @@ holds "rows behind the end" awk -F, 'NR > 1 && $1 > 2.6 { exit 1 } END { exit NR
 
 case_is "exponents: bad input"
 try 2 lyapunov saddle.yaml --integrator rk4 --step 0.1 --time 5 --exponents 3
-says '3 exponents are asked for; the step map has 2'
+says '3 exponents are requested; the step map has 2'
 try 2 lyapunov chaplygin-sleigh --integrator gni --step 0.1 --time 5
 says 'gni carries a multiplier'
 try 2 lyapunov saddle.yaml --integrator rk4 --step 0.1 --time 5 --space lifted
