@@ -34,12 +34,6 @@ static double score(const plan *p, int i, int j)
     return size > 0.0 && isfinite(s) ? s : 0.0;
 }
 
-static int preference(const plan *p, int i, int j)
-{
-    unsigned char flag = p->flag[i * p->n + j];
-    return (flag & VARYING ? 0 : 4) + (flag & TOUCHED ? 0 : 2) + (i == j);
-}
-
 static void swap(int *a, int *b)
 {
     int c = *a;
@@ -59,7 +53,10 @@ static bool choose(plan *p, int k)
     for (int i = k; i < p->n; i++)
         for (int j = k; j < p->n; j++) {
             double s = score(p, p->row[i], p->column[j]);
-            int preferred = s < 0.1 * max_score ? -1 : preference(p, p->row[i], p->column[j]);
+            unsigned char flag = p->flag[p->row[i] * p->n + p->column[j]];
+            int preferred =
+                (flag & VARYING ? 0 : 4) + (flag & TOUCHED ? 0 : 2) + (p->row[i] == p->column[j]);
+            if (s < 0.1 * max_score) preferred = -1;
             if (preferred < best || (preferred == best && s <= best_score)) continue;
             best = preferred, best_score = s, best_i = i, best_j = j;
         }

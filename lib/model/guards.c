@@ -22,8 +22,8 @@ typedef struct search {
 static void add_guard(search *s, dal__node node, const char *text)
 {
     dal__equations *e = &s->model->equations;
-    dal__record view = dal__inspect(e->graph, node);
-    dal__record inner = view.op == DAL__COS ? dal__inspect(e->graph, view.a) : view;
+    dal__record r = dal__inspect(e->graph, node);
+    dal__record inner = r.op == DAL__COS ? dal__inspect(e->graph, r.a) : r;
     if (!dal__depends(e->graph, node, e->parameters, e->symbols)) return;
     s->full = s->full || e->guards == MAX_GUARDS;
     if (s->full) return;
@@ -33,7 +33,7 @@ static void add_guard(search *s, dal__node node, const char *text)
         if (i >= 0 && i < e->n) text = e->coordinate[i];
         if (j >= 0 && j < e->n) text = dal__model_print(s->model, "%s'", e->coordinate[j]);
     }
-    if (text && inner.op == DAL__SYMBOL && view.op == DAL__COS)
+    if (text && inner.op == DAL__SYMBOL && r.op == DAL__COS)
         text = dal__model_print(s->model, "cos(%s)", text);
     if (!text) return;
     e->guard[e->guards] = node;
@@ -42,21 +42,21 @@ static void add_guard(search *s, dal__node node, const char *text)
 }
 
 /* A denominator, or a factor of one or of D: down to what is no product. */
-static void split_factor(search *s, dal__node node, dal__record view)
+static void split_factor(search *s, dal__node node, dal__record r)
 {
-    switch (view.op) {
+    switch (r.op) {
     case DAL__MUL:
-        s->flag[view.b] |= FACTOR;
-        s->flag[view.a] |= FACTOR;
+        s->flag[r.b] |= FACTOR;
+        s->flag[r.a] |= FACTOR;
         break;
     case DAL__DIV:
     case DAL__NEG:
     case DAL__SQRT:
-        s->flag[view.a] |= FACTOR;
+        s->flag[r.a] |= FACTOR;
         break;
     case DAL__POW:
-        if (!dal__depends(s->model->equations.graph, view.b, 0, s->model->equations.symbols))
-            s->flag[view.a] |= FACTOR;
+        if (!dal__depends(s->model->equations.graph, r.b, 0, s->model->equations.symbols))
+            s->flag[r.a] |= FACTOR;
         break;
     case DAL__NUMBER:
         break;
@@ -69,21 +69,21 @@ static void visit(search *s, dal__node node)
 {
     const dal__equations *e = &s->model->equations;
     dal__graph *graph = e->graph;
-    dal__record view = dal__inspect(graph, node);
+    dal__record r = dal__inspect(graph, node);
     if (s->flag[node] & WHOLE) { /* D itself, or a factor of it */
-        const bool factors = view.op == DAL__MUL || view.op == DAL__DIV || view.op == DAL__NEG;
+        const bool factors = r.op == DAL__MUL || r.op == DAL__DIV || r.op == DAL__NEG;
         if (!dal__depends(graph, node, e->v, e->v + e->n)) s->flag[node] |= FACTOR;
-        if (view.op == DAL__MUL) s->flag[view.b] |= WHOLE;
-        if (factors) s->flag[view.a] |= WHOLE;
+        if (r.op == DAL__MUL) s->flag[r.b] |= WHOLE;
+        if (factors) s->flag[r.a] |= WHOLE;
     }
-    if (s->flag[node] & FACTOR) split_factor(s, node, view);
-    if (view.a) s->flag[view.a] |= REACHED;
-    if (view.b) s->flag[view.b] |= REACHED;
-    if (view.op == DAL__DIV) s->flag[view.b] |= FACTOR;
-    if (view.op == DAL__TAN) add_guard(s, dal__apply(graph, DAL__COS, view.a, 0), "a denominator");
-    if (view.op != DAL__POW) return;
-    dal__record exponent = dal__inspect(graph, view.b);
-    if (exponent.op == DAL__NUMBER && exponent.value < 0.0) s->flag[view.a] |= FACTOR;
+    if (s->flag[node] & FACTOR) split_factor(s, node, r);
+    if (r.a) s->flag[r.a] |= REACHED;
+    if (r.b) s->flag[r.b] |= REACHED;
+    if (r.op == DAL__DIV) s->flag[r.b] |= FACTOR;
+    if (r.op == DAL__TAN) add_guard(s, dal__apply(graph, DAL__COS, r.a, 0), "a denominator");
+    if (r.op != DAL__POW) return;
+    dal__record exponent = dal__inspect(graph, r.b);
+    if (exponent.op == DAL__NUMBER && exponent.value < 0.0) s->flag[r.a] |= FACTOR;
 }
 
 /* The product of the pivots of W or of A W^-1 B^T, where it varies along a run: the matrix is

@@ -138,17 +138,6 @@ static dal__node unknown(const dal__scope *scope, const char *name, dal_error *e
     return 0;
 }
 
-static dal__node velocity(const dal__scope *scope, const char *name, int i, dal_error *error)
-{
-    const dal__equations *e = &scope->model->equations;
-    if (i >= 0 && scope->may & DAL__MAY_STATE) return dal__symbol(e->graph, e->v + i);
-    if (i >= 0) return misplaced(error, "the velocity of", name, scope->may);
-    int parameter = dal__index_of(name, strlen(name), e->parameter, e->parameters);
-    if (parameter < 0) return unknown(scope, name, error);
-    dal__fail(error, DAL_NAME, "parameter '%.80s' has no velocity", name);
-    return 0;
-}
-
 static bool let_allowed(const dal__scope *scope, dal__node let)
 {
     const dal__equations *e = &scope->model->equations;
@@ -205,7 +194,12 @@ dal__node dal__resolve_name(void *user, const char *text, size_t length, bool pr
     }
     memcpy(name, text, length);
     name[length] = 0;
-    if (prime)
-        return velocity(scope, name, dal__index_of(name, length, e->coordinate, e->n), error);
-    return plain(scope, name, length, error);
+    if (!prime) return plain(scope, name, length, error);
+    const int i = dal__index_of(name, length, e->coordinate, e->n);
+    if (i >= 0 && scope->may & DAL__MAY_STATE) return dal__symbol(e->graph, e->v + i);
+    if (i >= 0) return misplaced(error, "the velocity of", name, scope->may);
+    if (dal__index_of(name, length, e->parameter, e->parameters) < 0)
+        return unknown(scope, name, error);
+    dal__fail(error, DAL_NAME, "parameter '%.80s' has no velocity", name);
+    return 0;
 }
