@@ -38,6 +38,9 @@ static void skip_blanks(dal__lexer *lexer)
     }
 }
 
+#define SYNTAX_ERROR(at, error, ...)                                                               \
+    dal__fail_at(error, DAL_SYNTAX, (at)->line, (at)->column, __VA_ARGS__)
+
 static dal_status number(dal__lexer *lexer, dal__token *token, dal_error *error)
 {
     token->kind = DAL__TOKEN_NUMBER;
@@ -46,11 +49,10 @@ static dal_status number(dal__lexer *lexer, dal__token *token, dal_error *error)
     lexer->at += token->length;
     int shown = token->length < 60 ? (int)token->length : 60;
     if (token->length == 0) {
-        return dal__fail_at(error, DAL_SYNTAX, token->line, token->column, "unexpected '.'");
+        return SYNTAX_ERROR(token, error, "unexpected '.'");
     }
     if (!isfinite(token->value)) {
-        return dal__fail_at(error, DAL_SYNTAX, token->line, token->column,
-                            "the number %.*s is too large", shown, token->text);
+        return SYNTAX_ERROR(token, error, "the number %.*s is too large", shown, token->text);
     }
     return DAL_OK;
 }
@@ -79,14 +81,13 @@ static dal_status other(dal__lexer *lexer, dal__token *token, dal_error *error)
     lexer->at++;
     if (c && strchr("+-*/^(),", c)) return DAL_OK;
     if (c == '\'') {
-        return dal__fail_at(error, DAL_SYNTAX, token->line, token->column,
+        return SYNTAX_ERROR(token, error,
                             "unexpected '; a prime stands right behind a name, as in x'");
     }
     if (c < 0x20 || c > 0x7e) {
-        return dal__fail_at(error, DAL_SYNTAX, token->line, token->column,
-                            "unexpected byte 0x%02x; a formula is plain ASCII", c);
+        return SYNTAX_ERROR(token, error, "unexpected byte 0x%02x; a formula is plain ASCII", c);
     }
-    return dal__fail_at(error, DAL_SYNTAX, token->line, token->column, "unexpected '%c'", c);
+    return SYNTAX_ERROR(token, error, "unexpected '%c'", c);
 }
 
 dal_status dal__lexer_next(dal__lexer *lexer, dal__token *token, dal_error *error)

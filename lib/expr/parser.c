@@ -3,8 +3,8 @@
  *
  *     + -  1      * /  2      unary -  3      ^  4, from the right
  *
- * so that -x^2 = -(x^2), 2^-3 = 1/8 and a/b/c = (a/b)/c.  What waits for its right operand lies on
- * a stack of our own, so a formula may be nested as deep as memory allows. */
+ * so that -x^2 = -(x^2), 2^-3 = 1/8 and a/b/c = (a/b)/c.  What still needs its right operand lies
+ * on an explicit stack, so memory alone limits how deep a formula is nested. */
 #include "expr/parser.h"
 #include "core/error.h"
 #include "expr/lexer.h"
@@ -14,7 +14,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Something that waits for the value right of it; kind: + - * / ^, '~' unary minus, '(' a bracket,
+/* Something that needs the value right of it; kind: + - * / ^, '~' unary minus, '(' a bracket,
  * 'f' the arguments of a function, 0 the formula itself. */
 typedef struct frame {
     char kind;
@@ -58,25 +58,25 @@ static dal__op function_named(const char *name, size_t length)
 
 bool dal__is_function(const char *name, size_t length) { return function_named(name, length) != 0; }
 
-static int binding(char kind)
+static const struct binding {
+    char kind;
+    int power;
+    dal__op op;
+} operators[] = {{'+', 1, DAL__ADD}, {'-', 1, DAL__SUB}, {'*', 2, DAL__MUL},
+                 {'/', 2, DAL__DIV}, {'~', 3, DAL__NEG}, {'^', 4, DAL__POW}};
+
+static const struct binding *find_operator(char kind)
 {
-    switch (kind) {
-    case '+':
-    case '-':
-        return 1;
-    case '*':
-    case '/':
-        return 2;
-    case '~':
-        return 3;
-    case '^':
-        return 4;
-    default:
-        return 0;
-    }
+    for (size_t i = 0; i < sizeof operators / sizeof *operators; i++)
+        if (operators[i].kind == kind) return &operators[i];
+    return NULL;
 }
 
 /* ---- messages ---- */
+
+/* An error at the place of a token or frame. */
+#define SYNTAX_ERROR(p, at, ...)                                                                   \
+    dal__fail_at((p)->error, DAL_SYNTAX, (at)->line, (at)->column, __VA_ARGS__)
 
 static int shown(const dal__token *token)
 {
@@ -95,11 +95,9 @@ static dal_status value_missing(const parser *p)
 {
     const dal__token *t = &p->token;
     if (t->kind == DAL__TOKEN_END) {
-        return dal__fail_at(p->error, DAL_SYNTAX, t->line, t->column,
-                            "a value is missing at the end of the formula");
+        return SYNTAX_ERROR(p, t, "a value is missing at the end of the formula");
     }
-    return dal__fail_at(p->error, DAL_SYNTAX, t->line, t->column, "a value is missing before '%c'",
-                        t->kind);
+    return SYNTAX_ERROR(p, t, "a value is missing before '%c'", t->kind);
 }
 
 /* previous: the token before the present one. */
@@ -107,19 +105,17 @@ static dal_status operator_missing(const parser *p, const dal__token *previous)
 {
     const dal__token *t = &p->token;
     if (previous->kind == DAL__TOKEN_NUMBER && t->kind != DAL__TOKEN_NUMBER) {
-        return dal__fail_at(p->error, DAL_SYNTAX, t->line, t->column,
-                            "an operator is missing: write %.*s*%.*s", shown(previous),
+        return SYNTAX_ERROR(p, t, "an operator is missing: write %.*s*%.*s", shown(previous),
                             previous->text, shown(t), t->text);
     }
-    return dal__fail_at(p->error, DAL_SYNTAX, t->line, t->column,
-                        "an operator is missing before '%.*s'", shown(t), t->text);
+    return SYNTAX_ERROR(p, t, "an operator is missing before '%.*s'", shown(t), t->text);
 }
 
 static dal_status wrong_arguments(const parser *p, const frame *f, int given)
 {
     const struct function *called = &functions[f->function];
-    return dal__fail_at(p->error, DAL_SYNTAX, f->line, f->column, "%s takes %d argument%s, not %d",
-                        called->name, called->arity, called->arity == 1 ? "" : "s", given);
+    return SYNTAX_ERROR(p, f, "%s takes %d argument%s, not %d", called->name, called->arity,
+                        called->arity == 1 ? "" : "s", given);
 }
 
 /* A name that is no function stands before a bracket. */
@@ -130,9 +126,8 @@ static dal_status unknown_function(const parser *p)
     char name[64];
     dal_error ignored = {.status = DAL_OK};
     if (p->resolve(p->user, t->text, t->length, t->prime, &ignored)) {
-        return dal__fail_at(p->error, DAL_SYNTAX, t->line, t->column,
-                            "%.*s is not a function: write %.*s*(...) for a product", shown(t),
-                            t->text, shown(t), t->text);
+        return SYNTAX_ERROR(p, t, "%.*s is not a function: write %.*s*(...) for a product",
+                            shown(t), t->text, shown(t), t->text);
     }
     for (int op = 0; op < DAL__OP_COUNT; op++) names[op] = functions[op].name;
     snprintf(name, sizeof name, "%.*s", shown(t), t->text);
@@ -171,36 +166,22 @@ static dal_status apply(parser *p, dal__node *value)
 {
     const frame *f = &p->stack[--p->depth];
     if (divides_by_zero(p->graph, f, *value)) {
-        return dal__fail_at(p->error, DAL_SYNTAX, f->line, f->column, "division by zero");
+        return SYNTAX_ERROR(p, f, "division by zero");
     }
-    switch (f->kind) {
-    case '+':
-        *value = dal__add(p->graph, f->left, *value);
-        break;
-    case '-':
-        *value = dal__sub(p->graph, f->left, *value);
-        break;
-    case '*':
-        *value = dal__mul(p->graph, f->left, *value);
-        break;
-    case '/':
-        *value = dal__div(p->graph, f->left, *value);
-        break;
-    case '^':
-        *value = dal__apply(p->graph, DAL__POW, f->left, *value);
-        break;
-    default:
-        *value = dal__neg(p->graph, *value);
-        break;
-    }
+    const dal__op op = find_operator(f->kind)->op;
+    *value =
+        op == DAL__NEG ? dal__neg(p->graph, *value) : dal__apply(p->graph, op, f->left, *value);
     return *value ? DAL_OK : graph_fault(p);
 }
 
 /* Applies all operators that bind their right operand stronger than power. */
 static dal_status reduce(parser *p, int power, dal__node *value)
 {
-    while (binding(p->stack[p->depth - 1].kind) >= power) DAL_TRY(apply(p, value));
-    return DAL_OK;
+    for (;;) {
+        const struct binding *top = find_operator(p->stack[p->depth - 1].kind);
+        if (!top || top->power < power) return DAL_OK;
+        DAL_TRY(apply(p, value));
+    }
 }
 
 /* ---- the grammar ---- */
@@ -213,9 +194,8 @@ static dal_status symbol(parser *p, dal__node *value)
         return *value ? DAL_OK : graph_fault(p);
     }
     if (!t->prime && dal__is_function(t->text, t->length)) {
-        return dal__fail_at(p->error, DAL_SYNTAX, t->line, t->column,
-                            "%.*s is a function: write %.*s(...)", shown(t), t->text, shown(t),
-                            t->text);
+        return SYNTAX_ERROR(p, t, "%.*s is a function: write %.*s(...)", shown(t), t->text,
+                            shown(t), t->text);
     }
     dal_error fault = {.status = DAL_OK};
     *value = p->resolve(p->user, t->text, t->length, t->prime, &fault);
@@ -241,7 +221,7 @@ static dal_status name(parser *p, dal__node *value)
 }
 
 /* Everything up to the next value: signs, brackets, functions, and the value. */
-static dal_status operand(parser *p, dal__node *value)
+static dal_status read_operand(parser *p, dal__node *value)
 {
     for (*value = 0; !*value;) {
         const frame *top = &p->stack[p->depth - 1];
@@ -278,8 +258,7 @@ static dal_status close(parser *p, dal__node *value)
     DAL_TRY(reduce(p, 1, value));
     const frame *f = &p->stack[p->depth - 1];
     if (f->kind == 0) {
-        return dal__fail_at(p->error, DAL_SYNTAX, p->token.line, p->token.column,
-                            "')' closes no '('");
+        return SYNTAX_ERROR(p, &p->token, "')' closes no '('");
     }
     p->depth--;
     if (f->kind == '(') return DAL_OK;
@@ -295,50 +274,38 @@ static dal_status comma(parser *p, dal__node *value)
     DAL_TRY(reduce(p, 1, value));
     frame *f = &p->stack[p->depth - 1];
     if (f->kind != 'f') {
-        return dal__fail_at(p->error, DAL_SYNTAX, p->token.line, p->token.column,
-                            "',' stands outside the arguments of a function");
+        return SYNTAX_ERROR(p, &p->token, "',' stands outside the arguments of a function");
     }
     f->arguments++;
     f->left = *value;
     return DAL_OK;
 }
 
-static dal_status end(parser *p, dal__node *value)
-{
-    DAL_TRY(reduce(p, 1, value));
-    const frame *f = &p->stack[p->depth - 1];
-    if (f->kind == 0) return DAL_OK;
-    return dal__fail_at(p->error, DAL_SYNTAX, f->line, f->column, "a '(' is never closed");
-}
-
-/* What follows a value, up to where another one is wanted (*more) or the formula ends. */
-static dal_status operators(parser *p, dal__node *value, bool *more)
+/* What follows a value, up to where another one is expected (*more) or the formula ends. */
+static dal_status read_operators(parser *p, dal__node *value, bool *more)
 {
     for (*more = true;;) {
-        dal__token previous = p->token;
+        const dal__token previous = p->token;
         DAL_TRY(next(p));
-        char kind = p->token.kind;
-        switch (kind) {
-        case '+':
-        case '-':
-        case '*':
-        case '/':
-        case '^':
-            DAL_TRY(reduce(p, binding(kind) + (kind == '^'), value));
+        const char kind = p->token.kind;
+        const struct binding *infix = find_operator(kind);
+        if (infix) {
+            DAL_TRY(reduce(p, infix->power + (kind == '^'), value));
             DAL_TRY(push(p, kind, *value));
             return next(p);
-        case ',':
+        }
+        if (kind == ',') {
             DAL_TRY(comma(p, value));
             return next(p);
-        case ')':
-            DAL_TRY(close(p, value));
-            break;
-        case DAL__TOKEN_END:
-            *more = false;
-            return end(p, value);
-        default:
-            return operator_missing(p, &previous);
         }
+        if (kind == DAL__TOKEN_END) {
+            *more = false;
+            DAL_TRY(reduce(p, 1, value));
+            const frame *f = &p->stack[p->depth - 1];
+            return f->kind ? SYNTAX_ERROR(p, f, "a '(' is never closed") : DAL_OK;
+        }
+        if (kind != ')') return operator_missing(p, &previous);
+        DAL_TRY(close(p, value));
     }
 }
 
@@ -350,8 +317,8 @@ static dal_status parse(parser *p, dal__node *value)
         return dal__fail_at(p->error, DAL_SYNTAX, 1, 1, "the formula is empty");
     }
     for (bool more = true; more;) {
-        DAL_TRY(operand(p, value));
-        DAL_TRY(operators(p, value, &more));
+        DAL_TRY(read_operand(p, value));
+        DAL_TRY(read_operators(p, value, &more));
     }
     return DAL_OK;
 }
