@@ -1,10 +1,10 @@
 /* yaml.c - reads a system file: a mapping of the sections of DAL_SECTION_LIST, read event by event
  * with libyaml.  Nothing nests deeper than a section, so no recursion is needed.
  *
- * Formulas keep their places: the model gets the raw piece of the file, line breaks and all, so
- * that line and column inside a formula are those of the file.  In single quotes '' becomes
- * "' ", which means the same to a formula and is as long.  Only double quotes with escapes and
- * texts that are no formulas are taken as libyaml unfolds them. */
+ * A formula is a verbatim piece of the file, with its line breaks, so that line and column inside
+ * the formula are those of the file.  In single quotes '' becomes "' ", which means the same to a
+ * formula and is as long.  Only double quotes with escapes and texts that are no formulas are used
+ * as libyaml unfolds them. */
 #include "model/model.h"
 #include "model/symbols.h"
 #include <stdlib.h>

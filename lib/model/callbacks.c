@@ -1,4 +1,4 @@
-/* callbacks.c - the callbacks that need one lane only, and the search for what is singular. */
+/* callbacks.c - the callbacks of one lane only, and the diagnosis of singular matrices. */
 #include "model/callbacks.h"
 #include "core/error.h"
 #include <math.h>
@@ -19,8 +19,8 @@ static bool vanished(const double *pivot)
 }
 
 /* The program's outputs are all pivots with their sizes, then one number for each constraint that
- * is finite if its derivatives are.  Faults are sought in the order in which they arise: mass,
- * constraints, elimination of the constraints. */
+ * is finite if its derivatives are.  They are checked in the order in which they are computed:
+ * mass, constraints, elimination of the constraints. */
 static dal_status diagnose(const dal_system *system, const dal_point *at, double *out)
 {
     const dal__programs *p = system->data;

@@ -1,5 +1,5 @@
-/* callbacks_wide.c - the callbacks of a model's system, over num: inputs into the work of the tape,
- * the tape, and NaN in the lanes where a checked pivot has vanished. */
+/* callbacks_wide.c - the callbacks of a model's system, over num: they load the inputs of a
+ * tape, run it, and leave NaN in the lanes where a checked pivot has vanished. */
 #include "kernel/groups.h"
 
 #include "kernel/num.h"

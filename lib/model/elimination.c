@@ -1,9 +1,9 @@
-/* elimination.c - symbolic elimination with pivots chosen by number.
+/* elimination.c - symbolic elimination with pivots chosen numerically.
  *
- * Which entry becomes a pivot is decided before any node is made, by eliminating numbers at the
- * default start (or near it, when the matrix is singular just there).  Among the entries of at
+ * The pivots are chosen before any node is made, by eliminating the numbers at the default start
+ * (or near it, when the matrix is singular there).  Among the entries of at
  * least a tenth of the largest, each relative to the size of its row and column, the first choice
- * are those that depend on parameters alone (they cannot vanish on the way), then untouched ones
+ * are those that depend on parameters alone (they cannot vanish along a run), then untouched ones
  * (no cancellation), then those of the diagonal (they preserve the symmetry).  W may thus be
  * indefinite and have zeros on its diagonal.
  *
@@ -22,7 +22,7 @@ typedef struct plan {
     double *value;       /* [n*n] */
     unsigned char *flag; /* [n*n] */
     double *row_size, *column_size;
-    int *row, *column; /* [n]: the order of pivots, places not yet used behind */
+    int *row, *column; /* [n]: the order of pivots; unused ones behind */
 } plan;
 
 /* ---- the order ---- */
@@ -110,9 +110,9 @@ static int order(plan *p)
     return -1;
 }
 
-/* The pivots at the start, or where the matrix is singular there at a point moved off it by
- * irregular amounts between 1/8 and 5/8, multiples of the golden ratio modulo 1/2: what is singular
- * there too is singular everywhere. */
+/* Chooses the pivots at the start or, where the matrix is singular there, at a point moved off it
+ * by irregular amounts between 1/8 and 5/8, multiples of the golden ratio modulo 1/2: what is
+ * singular there too is singular everywhere. */
 static dal_status make_plan(dal_model *model, dal__linear *s, plan *p)
 {
     const dal__equations *e = &model->equations;
@@ -151,8 +151,8 @@ typedef struct elimination {
     dal__node *reciprocal; /* [n] of the pivots */
 } elimination;
 
-/* x over pivot k.  One right-hand side is divided, with one rounding: that of a multiplied
- * reciprocal would be the same at every step where the pivot is constant, and push D one way. */
+/* x over pivot k.  A single right-hand side is divided, with one rounding: that of a multiplied
+ * reciprocal would be the same in every step where the pivot is constant, and make D drift. */
 static dal__node over_pivot(elimination *w, dal__node x, int k)
 {
     const plan *p = w->p;

@@ -1,14 +1,14 @@
-/* energy.c - whether the motion keeps E = L_v.v - L.
+/* energy.c - whether the motion preserves E = L_v.v - L.
  *
  *     dE/dt = v.Q + sum_a h_a v.B_a - L_t                          (Lagrange-d'Alembert)
  *     dE/dt = v.Q - L_t + g.D_t  on D = 0                          (vakonomic)
  *
  * For B = A and D_a homogeneous of degree k in v Euler's identity v.A_a = k D_a makes E an integral
- * on every level of D for k = 0, on D = 0 (a weak one) for other k; homogeneity is enough, but not
- * necessary.  An identity that simplification does not show is tried at irregular points: a sum
- * counts as zero if it is within rounding of its terms at each.  Where the parts do not vanish one
- * by one, dE/dt as a whole may still do so on D = 0 (a force across all motions that D allows, a
- * constraint force that is none on D = 0): that is tried at points brought there.
+ * on every level of D for k = 0, on D = 0 alone for other k; homogeneity is sufficient, but not
+ * necessary.  An identity that simplification does not show is evaluated at irregular points: a sum
+ * counts as zero if it is within rounding of its terms at each.  Where the terms do not vanish one
+ * by one, dE/dt as a whole may still vanish on D = 0 (a force orthogonal to all motions that D
+ * allows, a constraint force that vanishes on D = 0): it is evaluated at points projected there.
  *
  * The normal of a conserved E, for projections: E_q, E_v and W^-1 E_q.  (W^-1 E_v is v.)
  *
@@ -44,7 +44,7 @@ typedef struct identity {
     int terms;
 } identity;
 
-/* Moves the point to irregular place number, off the start by multiples of the golden ratio. */
+/* Moves the point off the start by multiples of the golden ratio, each number to another place. */
 static void move(const identity *id, int number)
 {
     const double golden = 0.6180339887498949;
@@ -143,8 +143,8 @@ static unsigned by_parts(identity *id)
 
 /* ---- on D = 0 ---- */
 
-/* Makes scratch[a*n ...] the unit vector along what A_a has across the rows before it, and adds to
- * the shift what D_a lacks along it.  The size of the addition. */
+/* Makes scratch[a*n ...] the unit vector along the part of A_a orthogonal to the rows before it,
+ * and adds to the shift the Newton step of D_a along it.  Returns the length of that step. */
 static double shift_along(const identity *id, int a, double *scratch, double *shift)
 {
     const dal__equations *e = id->e;

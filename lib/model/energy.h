@@ -1,4 +1,4 @@
-/* energy.h - whether the energy is conserved, and what that gives. */
+/* energy.h - whether the energy is conserved, and its normal. */
 #ifndef DAL_MODEL_ENERGY_H
 #define DAL_MODEL_ENERGY_H
 

@@ -3,8 +3,8 @@
  *     W = L_vv,  b = L_q - L_vq v - L_vt + Q,  A = D_v,  c = D_q v + D_t
  *     G = A W^-1 B^T,  G h = -(c + A W^-1 b),  F = W^-1 (b + B^T h)              (nh3)-(nh5)
  *
- * with B = A by Chetaev's rule, or as given under reactions.  Given accelerations are the case W =
- * 1. Vakonomic motion is that of L' = L - g.D with the multipliers g as further variables: (nh6),
+ * with B = A by Chetaev's rule, or as given under reactions.  Given accelerations mean W = 1.
+ * Vakonomic motion is that of L' = L - g.D with the multipliers g as further variables: (nh6),
  * (nh35)
  *
  *     ( L'_vv  -A^T ) (dv/dt)   ( L'_q - L'_vq v - L'_vt + Q )
@@ -34,7 +34,7 @@ static dal_status exhausted(const dal_model *model, dal_error *error)
 
 /* ---- W, b, A, c ---- */
 
-/* W, L_v and b of a Lagrangian; L_q stands in b while the rest is made. */
+/* W, L_v and b of a Lagrangian; b holds L_q first. */
 static void derive_lagrangian(dal__equations *e, dal__node L)
 {
     dal__graph *graph = e->graph;

@@ -4,7 +4,8 @@
 
 #include "expr/graph.h"
 
-/* A pivot of the elimination.  It must not be small against what it was subtracted from. */
+/* A pivot of the elimination.  It must not be small compared with the terms it was subtracted
+ * from. */
 typedef struct dal__pivot {
     dal__node pivot, size;
     int constraint; /* whose, from 1; 0: of the mass matrix */
@@ -58,7 +59,7 @@ typedef struct dal__equations {
     int tags;
 } dal__equations;
 
-/* Derives all but the formulas as given.  Errors: DAL_RANK, DAL_SINGULAR_MASS, DAL_MEMORY,
+/* Derives everything but the given formulas.  Errors: DAL_RANK, DAL_SINGULAR_MASS, DAL_MEMORY,
  * DAL_TOO_LARGE. */
 dal_status dal__equations_derive(dal_model *model, dal_error *error);
 /* matrix x = rhs for one right-hand side; adds no pivots, for a matrix solved before. */

@@ -16,7 +16,7 @@
 
 /* ---- one formula ---- */
 
-/* What the formulas of a section are called in a message, before their name or number. */
+/* How a message calls the formulas of a section, before their name or number. */
 static const char *const labels[DAL_SECTION_COUNT] = {
     [DAL_SECTION_PARAMETERS] = "parameter",  [DAL_SECTION_LET] = "let",
     [DAL_SECTION_LAGRANGIAN] = "lagrangian", [DAL_SECTION_ACCELERATIONS] = "acceleration of",
@@ -26,7 +26,7 @@ static const char *const labels[DAL_SECTION_COUNT] = {
     [DAL_SECTION_REACTIONS] = "reaction",    [DAL_SECTION_PICTURE] = "picture",
 };
 
-/* The message gets the name of the entry, the place that of the formula. */
+/* Adds the name of the entry to the message, and its place in the file to that of the error. */
 static dal_status locate(const dal_model *model, const dal__entry *entry, dal_error *error,
                          const dal_error *inner)
 {
@@ -73,7 +73,7 @@ static dal__scope scope_of(const dal__equations *e, unsigned may)
 
 /* ---- sections of coordinates ---- */
 
-/* The number of a word among those there are; what: how a message calls it. */
+/* Finds the index of a word in a list; what: how a message calls it. */
 static dal_status find_word(const char *word, int line, int column, const char *what,
                             const char *const *words, int count, int *i, dal_error *error)
 {
@@ -105,7 +105,7 @@ static dal_status by_coordinate(dal_model *model, dal_section section, dal__scop
 /* ---- sections in order ---- */
 
 /* A default may be a formula in the defaults before it: it is evaluated here, once, and does not
- * follow when those are changed later.  What must follow belongs under let. */
+ * change when those are set later.  What must change with them belongs under let. */
 static dal_status parse_parameters(dal_model *model, dal_error *error)
 {
     dal__equations *e = &model->equations;
@@ -371,7 +371,7 @@ dal_status dal__parse_model(dal_model *model, dal_error *error)
     DAL_TRY(parse_start(model, error));
     DAL_TRY(parse_exact(model, error));
     DAL_TRY(parse_picture(model, error));
-    /* The default start among the values, for everything that is decided by numbers. */
+    /* The default start, at which pivots are chosen and identities evaluated. */
     for (int i = 0; i < 2 * e->n; i++)
         e->value[i < e->n ? e->q + i : e->v + i - e->n] =
             dal__evaluate(e->graph, e->start[i], e->value);

@@ -1,10 +1,10 @@
 /* guards.c - expressions of the constraints, det W and, with given reactions, det A W^-1 B^T: they
  * must keep their signs along a run.
  *
- * Where a denominator passes through zero, or tan(x) through a pole, a step can leap over the
- * singularity without meeting it; so it can where D = f(q,t) (...) loses its normal with f.
- * Guarded are the factors of every denominator, cos(x) for every tan(x) and the factors of D itself
- * that have no velocities in them, as far as they depend on more than parameters. */
+ * Where a denominator passes through zero, or tan(x) through a pole, a step can pass the
+ * singularity without noticing it; so it can where the Jacobian of D = f(q,t) (...) vanishes with
+ * f.  Guards are the factors of every denominator, cos(x) for every tan(x) and the factors of D
+ * itself that are free of velocities, if they depend on more than parameters. */
 #include "model/guards.h"
 #include "expr/simplify.h"
 #include "expr/traversal.h"
@@ -41,7 +41,7 @@ static void add_guard(search *s, dal__node node, const char *text)
         dal__model_print(s->model, "constraint %d: %s", s->constraint, text);
 }
 
-/* A denominator, or a factor of one or of D: down to what is no product. */
+/* A denominator, or a factor of one or of D: split until it is no product. */
 static void split_factor(search *s, dal__node node, dal__record r)
 {
     switch (r.op) {
@@ -87,7 +87,7 @@ static void visit(search *s, dal__node node)
 }
 
 /* The product of the pivots of W or of A W^-1 B^T, where it varies along a run: the matrix is
- * singular where it passes through zero, and a step can leap over that, too. */
+ * singular where it passes through zero, and a step can pass that, too. */
 static bool guard_determinant(search *s, bool mass, const char *name)
 {
     dal__equations *e = &s->model->equations;

@@ -131,8 +131,8 @@ int dal__model_count(const dal_model *model, dal_section section)
     return count;
 }
 
-/* The word that must be a name: that of the entry, or the text of a coordinate.  A start may be
- * that of a velocity, x'. */
+/* Checks the name of an entry, or the text of a coordinate.  A start may be that of a velocity, x'.
+ */
 static dal_status check_name(const dal__entry *entry, dal_error *error)
 {
     const char *name = entry->section == DAL_SECTION_COORDINATES ? entry->text : entry->name;

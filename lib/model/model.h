@@ -1,8 +1,8 @@
 /* model.h - a model: its entries, its equations, its systems.
  *
- * The way of a model: entries (texts with places) -> formulas.c -> equations.c, guards.c,
- * properties.c, energy.c, potential.c -> programs.c -> system.c.  All memory of a model hangs in
- * one list and goes with it. */
+ * Entries (texts with places) are parsed by formulas.c, derived from by equations.c, guards.c,
+ * properties.c, energy.c and potential.c, compiled by programs.c and made a dal_system by system.c.
+ * All memory of a model is in one list and is freed with it. */
 #ifndef DAL_MODEL_MODEL_H
 #define DAL_MODEL_MODEL_H
 
@@ -47,12 +47,12 @@ struct dal_model {
     dal_system system, tangent, extended;
 };
 
-/* count*size bytes of zeros that go with the model; NULL (and out_of_memory) when there are none.
- * The second are nodes, each the initial one. */
+/* count*size bytes of zeros that are freed with the model; NULL, and out_of_memory is set, when
+ * there are none.  The second allocates nodes, each the initial one. */
 void *dal__model_allocate(dal_model *model, size_t count, size_t size);
 dal__node *dal__model_nodes(dal_model *model, int count, dal__node initial);
 char *dal__model_print(dal_model *model, const char *format, ...) DAL__PRINTF(2, 3);
-/* The messages for DAL_MEMORY, and for DAL_MEMORY or DAL_TOO_LARGE. */
+/* The errors DAL_MEMORY, and DAL_MEMORY or DAL_TOO_LARGE of a graph. */
 dal_status dal__memory_error(dal_error *error);
 dal_status dal__size_error(dal_status status, dal_error *error);
 /* Adds a copy of the entry. */

@@ -1,11 +1,11 @@
-/* potential.c - what a discrete gradient of the potential is made of, block by block.
+/* potential.c - the terms of a discrete gradient of the potential, block by block.
  *
  *     L = v.Wv/2 + g(q).v - U(q),   W constant
  *
  * Coordinates that U_qq or W couple form a block; U is the sum of functions U_B of one block each.
- * Every coordinate gets those of its block: U_B up to a constant, U_B,q.v and v.W_B v.  What is
- * preserved block by block stays so.  Where U_B is quadratic its gradient at the midpoint is a
- * discrete gradient already: such a block has U_B = 0 here. */
+ * The outputs of a coordinate are those of its block: U_B up to a constant, U_B,q.v and v.W_B v.
+ * So each block preserves what it would preserve alone.  Where U_B is quadratic its gradient at the
+ * midpoint is a discrete gradient already: such a block has U_B = 0 here. */
 #include "model/potential.h"
 #include "expr/derivative.h"
 #include "expr/simplify.h"

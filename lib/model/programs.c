@@ -95,7 +95,7 @@ dal_status dal__programs_add_motion(dal_model *model, dal__programs *programs, c
     return programs->multipliers ? DAL_OK : add_adjoint(model, programs, F);
 }
 
-/* ---- the end ---- */
+/* ---- the callbacks ---- */
 
 /* Numbers behind scratch: the most that a program with pivots, or the diagnosis, writes. */
 static size_t scratch_size(const dal__programs *programs)

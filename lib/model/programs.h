@@ -5,7 +5,7 @@
 #include "expr/tape.h"
 #include "model/equations.h"
 
-/* The programs of a system.  Of each: the name and what of the inputs it reads. */
+/* The programs of a system: code, name, and the inputs that it reads. */
 enum { DAL__T = 1, DAL__QV = 2, DAL__PI = 4 };
 #define DAL__WIDE_LIST(PROGRAM)                                                                    \
     PROGRAM(FIELD, field, DAL__T | DAL__QV)                                                        \

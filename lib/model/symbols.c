@@ -1,5 +1,5 @@
-/* names.c - the names of a model: no two things of one name, none that a formula or a column of
- * the output already uses; and what a name means inside a formula. */
+/* symbols.c - the names of a model, and what a name means in a formula.  Names are distinct, and
+ * none is that of a function or of another column of the output. */
 #include "model/symbols.h"
 #include "expr/traversal.h"
 #include "model/model.h"
@@ -73,7 +73,7 @@ static dal_status check_clash(const dal_model *model, int k, const dal__entry *e
                             "%s '%.80s': this name is reserved for a column of the output",
                             kinds[k].what, name);
     for (int j = 0; j < k; j++) {
-        /* An invariant may have the name of a parameter or a let: only columns meet. */
+        /* An invariant may have the name of a parameter or a let: only columns must differ. */
         if (kinds[k].section == DAL_SECTION_INVARIANTS && !kinds[j].column) continue;
         for (int i = 0; i < model->count; i++) {
             const dal__entry *other = &model->entries[i];
