@@ -1,6 +1,8 @@
 /* analysis.c - outputs and distances of the commands that examine a system or a motion. */
 #include "analysis.h"
 #include "io/output.h"
+#include "ui/memory.h"
+#include "ui/message.h"
 
 #include <math.h>
 #include <stdlib.h>

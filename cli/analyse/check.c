@@ -3,12 +3,16 @@
  * No property that a system states is trusted: flags, derivatives, invariants and exact solutions
  * are compared with numbers at the start and at random points about it. */
 #include "check.h"
+#include "run/system.h"
+#include "ui/memory.h"
+#include "ui/options.h"
 
 #include "check_sections.h"
 #include "ui/commands.h"
 
 #include <math.h>
 #include <stdarg.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -6,6 +6,7 @@
 #include "analysis.h"
 #include "dalembert_analysis.h"
 #include "run/request.h"
+#include "ui/message.h"
 
 /* The result of an item.  code, text */
 #define CHECK_RESULT_LIST(RESULT)                                                                  \

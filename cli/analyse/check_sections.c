@@ -8,8 +8,12 @@
  * stationary on a trajectory; discretised at midpoints, it is so to rounding on a trajectory of
  * implicit-midpoint, and on none of another method. */
 #include "check_sections.h"
+#include "dalembert.h"
+#include "ui/memory.h"
+#include "ui/message.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 

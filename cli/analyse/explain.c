@@ -1,13 +1,17 @@
 /* explain.c - `dalembert explain`: the error sources of the drift of a run. */
 #include "analysis.h"
+#include "dalembert.h"
 #include "io/output.h"
 #include "io/trend.h"
 #include "run/native.h"
 #include "run/request.h"
-#include "ui/cli.h"
 #include "ui/commands.h"
+#include "ui/message.h"
+#include "ui/options.h"
+#include "ui/signals.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -11,10 +11,14 @@
 #include "io/trajectory_writer.h"
 #include "run/request.h"
 #include "run/row_times.h"
-#include "ui/cli.h"
 #include "ui/commands.h"
+#include "ui/memory.h"
+#include "ui/message.h"
+#include "ui/options.h"
+#include "ui/signals.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 

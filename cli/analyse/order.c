@@ -8,10 +8,15 @@
 #include "io/output.h"
 #include "run/pool.h"
 #include "run/request.h"
-#include "ui/cli.h"
+#include "ui/clock.h"
 #include "ui/commands.h"
+#include "ui/memory.h"
+#include "ui/message.h"
+#include "ui/options.h"
+#include "ui/signals.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 

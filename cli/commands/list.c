@@ -1,10 +1,15 @@
 /* list.c - `dalembert list`: what systems, integrators and modifiers travel inside the program. */
-#include "ui/cli.h"
+#include "dalembert.h"
+#include "run/system.h"
 #include "ui/commands.h"
+#include "ui/memory.h"
+#include "ui/message.h"
+#include "ui/options.h"
 #include "ui/wrap.h"
 
 #include <stdarg.h>
 #include <stdbool.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>

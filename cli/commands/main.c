@@ -1,9 +1,12 @@
 /* main.c - the program `dalembert`: finds the command and gives it the arguments. */
-#include "ui/cli.h"
+#include "dalembert.h"
 #include "ui/commands.h"
+#include "ui/message.h"
+#include "ui/options.h"
 
 #include <fcntl.h>
 #include <signal.h>
+#include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 

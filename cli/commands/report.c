@@ -3,9 +3,11 @@
 #include "report/report_order.h"
 #include "report/report_run.h"
 #include "report/report_study.h"
-#include "ui/cli.h"
 #include "ui/commands.h"
+#include "ui/message.h"
+#include "ui/options.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>

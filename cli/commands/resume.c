@@ -4,6 +4,8 @@
 #include "run/run.h"
 #include "study/study_directory.h"
 #include "ui/commands.h"
+#include "ui/message.h"
+#include "ui/options.h"
 
 static int holds_study(const char *directory)
 {

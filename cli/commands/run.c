@@ -3,6 +3,8 @@
 #include "io/output.h"
 #include "run/manifest.h"
 #include "ui/commands.h"
+#include "ui/message.h"
+#include "ui/options.h"
 
 static int run_in_directory(const run_request *request, const run_settings *settings)
 {

@@ -1,8 +1,11 @@
 /* document.c - nodes of a parsed YAML text, with messages that name their place. */
 #include "document.h"
+#include "dalembert.h"
+#include "ui/memory.h"
 #include "ui/options.h"
 
 #include <stdarg.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 

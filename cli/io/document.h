@@ -2,8 +2,9 @@
 #ifndef DAL_CLI_DOCUMENT_H
 #define DAL_CLI_DOCUMENT_H
 
-#include "ui/cli.h"
+#include "ui/message.h"
 
+#include <stddef.h>
 #include <yaml.h>
 
 typedef struct document {

@@ -1,8 +1,11 @@
 /* file.c - whole files: read, replace, recognise. */
 #include "file.h"
+#include "ui/memory.h"
+#include "ui/message.h"
 
 #include <errno.h>
 #include <fcntl.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>

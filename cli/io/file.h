@@ -2,8 +2,7 @@
 #ifndef DAL_CLI_FILE_H
 #define DAL_CLI_FILE_H
 
-#include "ui/cli.h"
-
+#include <stddef.h>
 #include <stdint.h>
 
 /* The bytes of a file and a NUL, allocated; NULL after a message. */

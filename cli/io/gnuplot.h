@@ -2,7 +2,7 @@
 #ifndef DAL_CLI_GNUPLOT_H
 #define DAL_CLI_GNUPLOT_H
 
-#include "ui/cli.h"
+#include <stdio.h>
 
 /* Begins DIR/NAME.gp with the terminal, the output NAME.FORMAT (svg or png) and the house's look;
  * *path is the script's, to be freed.  NULL when a message was given. */

@@ -7,7 +7,8 @@
 #define DAL_CLI_JSON_H
 
 #include "document.h"
-#include "ui/cli.h"
+
+#include <stdio.h>
 
 /* ---- writing ------------------------------------------------------------------------------- */
 

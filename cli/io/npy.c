@@ -10,6 +10,8 @@
  * old one or the new one at any moment.  Rows behind that number are not read. */
 #include "npy.h"
 #include "endian.h"
+#include "ui/memory.h"
+#include "ui/message.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -2,9 +2,8 @@
 #ifndef DAL_CLI_NPY_H
 #define DAL_CLI_NPY_H
 
-#include "ui/cli.h"
-
 #include <stdint.h>
+#include <stdio.h>
 
 enum { NPY_LINE = 64 };
 

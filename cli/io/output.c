@@ -1,5 +1,7 @@
 /* output.c - writing numbers and files. */
 #include "output.h"
+#include "ui/memory.h"
+#include "ui/message.h"
 
 #include <errno.h>
 #include <math.h>

@@ -2,7 +2,7 @@
 #ifndef DAL_CLI_OUTPUT_H
 #define DAL_CLI_OUTPUT_H
 
-#include "ui/cli.h"
+#include <stdio.h>
 
 /* Writes x with 17 digits, as a double reads it back; minus zero as 0. */
 void cli_put(FILE *out, double x);

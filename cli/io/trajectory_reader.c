@@ -1,5 +1,7 @@
 /* trajectory_reader.c - the rows in the directory of a run, read one by one. */
 #include "trajectory_reader.h"
+#include "ui/memory.h"
+#include "ui/message.h"
 
 #include "output.h"
 

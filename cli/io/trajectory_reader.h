@@ -4,6 +4,8 @@
 
 #include "npy.h"
 
+#include <stdio.h>
+
 typedef struct trajectory_reader {
     int columns;
     char **name;     /* [columns] t, the state, the observables */

@@ -12,6 +12,8 @@
 #include "trajectory_writer.h"
 #include "endian.h"
 #include "output.h"
+#include "ui/memory.h"
+#include "ui/message.h"
 
 #include <errno.h>
 #include <fcntl.h>

@@ -3,9 +3,9 @@
 #define DAL_CLI_TRAJECTORY_WRITER_H
 
 #include "npy.h"
-#include "ui/cli.h"
 
 #include <stdint.h>
+#include <stdio.h>
 
 /* A check sum of rows in their order: see trajectory_writer.c. */
 enum { ROW_SUM_LANES = 4 };

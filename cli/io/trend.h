@@ -3,7 +3,8 @@
 #define DAL_CLI_TREND_H
 
 #include "dalembert_analysis.h"
-#include "ui/cli.h"
+
+#include <stdio.h>
 
 /* The columns amplitude, rate, rate_low, rate_high, exponent, size, trend, confidence of a CSV
  * file: their heads, and the cells with a comma before each; what cannot be stated is empty. */

@@ -11,6 +11,9 @@
 #include "run/pool.h"
 #include "run/run.h"
 #include "study/study_directory.h"
+#include "ui/message.h"
+#include "ui/options.h"
+#include "ui/signals.h"
 
 #include <mpi.h>
 #include <stdlib.h>

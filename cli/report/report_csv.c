@@ -2,7 +2,8 @@
 #include "report_csv.h"
 
 #include "io/file.h"
-#include "ui/cli.h"
+#include "ui/memory.h"
+#include "ui/message.h"
 
 #include <math.h>
 #include <stdlib.h>

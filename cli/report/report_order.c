@@ -5,9 +5,11 @@
 #include "io/output.h"
 #include "report_csv.h"
 #include "report_plot.h"
-#include "ui/cli.h"
+#include "ui/memory.h"
+#include "ui/message.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 
 typedef struct order_page {

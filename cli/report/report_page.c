@@ -2,9 +2,11 @@
  * light or dark as its reader prefers, on wide screens and on narrow ones. */
 #include "report_page.h"
 
+#include "dalembert.h"
 #include "io/file.h"
 #include "io/output.h"
-#include "ui/cli.h"
+#include "ui/memory.h"
+#include "ui/message.h"
 
 #include <errno.h>
 #include <math.h>

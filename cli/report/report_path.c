@@ -3,12 +3,16 @@
  * A system file defines under `picture` where the body is and which one it is.  Its outline here
  * has a length of 2, heading along x, and is drawn at a size that suits the path. */
 #include "report_path.h"
+#include "dalembert.h"
+#include "ui/memory.h"
+#include "ui/message.h"
 
 #include "io/trajectory_reader.h"
 #include "report_plot.h"
 #include "run/manifest.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>

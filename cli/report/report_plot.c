@@ -3,9 +3,11 @@
 #include "report_plot.h"
 
 #include "io/gnuplot.h"
-#include "ui/cli.h"
+#include "ui/memory.h"
+#include "ui/message.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,6 +1,9 @@
 /* report_run.c - the page of a run: its path, its coordinates, and what should not change, over t
  * and as envelopes over log t; then the command that makes the run. */
 #include "report_run.h"
+#include "dalembert.h"
+#include "ui/memory.h"
+#include "ui/message.h"
 
 #include "io/output.h"
 #include "io/trajectory_reader.h"
@@ -10,6 +13,7 @@
 #include "run/manifest.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>

@@ -5,6 +5,8 @@
  * to t, over t, log-log, where a drift ~ t^k is a line of slope k; over all steps the error against
  * the work and, where there are several, against h; and the path of the most accurate run. */
 #include "report_study.h"
+#include "ui/memory.h"
+#include "ui/message.h"
 
 #include "io/document.h"
 #include "io/file.h"
@@ -14,6 +16,7 @@
 #include "report_plot.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>

@@ -12,11 +12,14 @@
  * resumes from the older.  Nothing in it is ever executed or followed.  A later format raises the
  * number and reads this one, too. */
 #include "checkpoint.h"
+#include "ui/memory.h"
+#include "ui/message.h"
 
 #include "io/endian.h"
 #include "io/file.h"
 
 #include <errno.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>

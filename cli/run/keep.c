@@ -1,5 +1,6 @@
 /* keep.c - a run in a directory of its own, begun or gone on with. */
 #include "keep.h"
+#include "ui/message.h"
 
 #include "io/output.h"
 #include "manifest.h"

@@ -2,6 +2,7 @@
 #ifndef DAL_CLI_KEEP_H
 #define DAL_CLI_KEEP_H
 
+#include "dalembert.h"
 #include "recorder.h"
 
 typedef struct cli_keep {

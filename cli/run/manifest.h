@@ -5,6 +5,8 @@
 #include "request.h"
 #include "run_directory.h"
 
+#include <stdio.h>
+
 /* All functions but the last two return CLI_DONE, or print and return CLI_USAGE or CLI_IO. */
 
 /* Writes the manifest of a new run and the copy of its system, and removes the files of an older

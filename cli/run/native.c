@@ -1,5 +1,8 @@
 /* native.c - compiled steps for a run: when they pay, and where they are cached. */
 #include "native.h"
+#include "ui/memory.h"
+#include "ui/message.h"
+#include "ui/signals.h"
 
 #include "dalembert_codegen.h"
 #include "io/output.h"

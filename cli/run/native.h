@@ -2,7 +2,7 @@
 #ifndef DAL_CLI_NATIVE_H
 #define DAL_CLI_NATIVE_H
 
-#include "ui/cli.h"
+#include "dalembert.h"
 #include "ui/options.h"
 
 /* The words of --native, "auto|on|off". */

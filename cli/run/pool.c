@@ -7,8 +7,6 @@
 #endif
 #include "pool.h"
 
-#include "ui/cli.h"
-
 #include <pthread.h>
 #include <sched.h>
 #include <stdatomic.h>

@@ -5,12 +5,16 @@
  *
  * moved is max |x - first|, of as many observables as fit the terminal. */
 #include "progress.h"
+#include "dalembert.h"
+#include "ui/clock.h"
+#include "ui/message.h"
 
 #include "io/json.h"
 #include "recorder.h"
 
 #include <math.h>
 #include <stdarg.h>
+#include <stdio.h>
 #include <string.h>
 
 /* Seconds between two lines. */

@@ -1,10 +1,15 @@
 /* recorder.c - observes a run: rows, statistics, progress and checkpoints. */
 #include "recorder.h"
+#include "ui/clock.h"
+#include "ui/memory.h"
+#include "ui/message.h"
+#include "ui/signals.h"
 
 #include "checkpoint.h"
 #include "manifest.h"
 #include "summary.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>

@@ -2,6 +2,7 @@
 #ifndef DAL_CLI_RECORDER_H
 #define DAL_CLI_RECORDER_H
 
+#include "dalembert.h"
 #include "io/trajectory_writer.h"
 #include "progress.h"
 #include "request.h"

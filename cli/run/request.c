@@ -1,5 +1,8 @@
 /* request.c - what a run is made from: its options, parsed and checked. */
 #include "request.h"
+#include "system.h"
+#include "ui/memory.h"
+#include "ui/message.h"
 
 #include "row_times.h"
 

@@ -2,7 +2,7 @@
 #ifndef DAL_CLI_REQUEST_H
 #define DAL_CLI_REQUEST_H
 
-#include "ui/cli.h"
+#include "dalembert.h"
 #include "ui/options.h"
 
 /* What the run itself does not know; the library's options come behind, then the SYSTEM. */

@@ -5,11 +5,14 @@
  *     steps    t_k = h round(k N/S)                            k = 0..S, N = round(T/h), T = h N
  *     times    as they were given, and T behind them when it is later */
 #include "row_times.h"
+#include "ui/memory.h"
+#include "ui/message.h"
 
 #include "io/file.h"
 #include "io/output.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>

@@ -3,6 +3,7 @@
 #define DAL_CLI_ROW_TIMES_H
 
 #include "request.h"
+#include "ui/options.h"
 
 /* Times that are not equally distant are kept in memory. */
 enum { ROW_TIMES_MAX = 100000000, STEP_ERROR_SIZE = 128 };

@@ -1,9 +1,13 @@
 /* run.c - the integration of one run, as `dalembert run` and `dalembert resume` do it. */
 #include "run.h"
+#include "dalembert.h"
+#include "ui/message.h"
+#include "ui/signals.h"
 
 #include "summary.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <unistd.h>
 
 static const cli_option options[RUN_OPTIONS] = {

@@ -1,5 +1,6 @@
 /* run_directory.c - the directory of a run: its files, and which process may write to them. */
 #include "run_directory.h"
+#include "ui/message.h"
 
 #include "io/output.h"
 

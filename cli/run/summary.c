@@ -1,5 +1,7 @@
 /* summary.c - size and trend of each observable over a run. */
 #include "summary.h"
+#include "dalembert.h"
+#include "ui/memory.h"
 
 #include "io/file.h"
 #include "io/output.h"

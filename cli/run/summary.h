@@ -4,6 +4,8 @@
 
 #include "recorder.h"
 
+#include <stdio.h>
+
 void summary_print(FILE *out, const run_recorder *recorder);
 /* Writes summary.csv.  Returns CLI_DONE or prints and returns CLI_IO. */
 int summary_write(const run_recorder *recorder, const char *path);

@@ -1,6 +1,7 @@
 /* system.c - trend the system a command is about. */
+#include "system.h"
 #include "io/output.h"
-#include "ui/cli.h"
+#include "ui/message.h"
 
 #include <errno.h>
 #include <string.h>
@@ -8,7 +9,7 @@
 
 enum { BUILTINS_MOST = 256 };
 
-int cli_is_path(const char *system)
+bool cli_is_path(const char *system)
 {
     struct stat status;
     if (strchr(system, '/') || cli_ends_in(system, ".yaml") || cli_ends_in(system, ".yml"))

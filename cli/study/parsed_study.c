@@ -3,7 +3,9 @@
  * Keys beside `systems` are defaults for every system; a system may be a name or a mapping that
  * overrides them.  'dalembert study --help' lists the keys. */
 #include "parsed_study.h"
+#include "dalembert.h"
 #include "study_values.h"
+#include "ui/message.h"
 #include "ui/options.h"
 
 #include <string.h>

@@ -5,6 +5,9 @@
 #include "run/run.h"
 #include "study_directory.h"
 #include "ui/commands.h"
+#include "ui/message.h"
+#include "ui/options.h"
+#include "ui/signals.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -9,9 +9,9 @@
 
 #include "dalembert_analysis.h"
 #include "run/native.h"
-#include "ui/cli.h"
 
 #include <stdint.h>
+#include <stdio.h>
 
 /* ---- the plan ---- */
 

@@ -1,7 +1,10 @@
 /* study_cell.c - what is asked of a cell: its names, and its trends by name. */
+#include "dalembert.h"
 #include "io/output.h"
 #include "study.h"
+#include "ui/memory.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -3,13 +3,17 @@
  * What is told of a cell is read from that directory, whether the run was made now, taken up, or
  * finished before: quantities from the statistics in its checkpoint, tracks from its rows.  Rows
  * are taken after whole numbers of steps, so that the trajectory is that of the steps alone. */
+#include "dalembert.h"
 #include "io/file.h"
 #include "io/trajectory_reader.h"
 #include "run/keep.h"
 #include "study.h"
+#include "ui/memory.h"
+#include "ui/message.h"
 
 #include <math.h>
 #include <stdarg.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 

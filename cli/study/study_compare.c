@@ -1,9 +1,12 @@
 /* study_compare.c - what a study stated beforehand against what was found. */
+#include "dalembert.h"
 #include "io/file.h"
 #include "io/output.h"
 #include "study_expect.h"
+#include "ui/memory.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -1,9 +1,13 @@
 /* study_csv.c - the files of a study: every cell, every observable, every track. */
+#include "dalembert.h"
 #include "io/output.h"
 #include "io/trend.h"
 #include "study.h"
+#include "ui/memory.h"
+#include "ui/message.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 

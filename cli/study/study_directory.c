@@ -1,6 +1,9 @@
 /* study_directory.c - the directory of a study: begun, joined, read. */
 #include "study_directory.h"
 #include "io/output.h"
+#include "run/system.h"
+#include "ui/memory.h"
+#include "ui/message.h"
 
 #include "io/file.h"
 #include "io/json.h"
@@ -8,6 +11,7 @@
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>

@@ -13,6 +13,8 @@
 
 #include "study.h"
 
+#include <stddef.h>
+
 #define STUDY_FILE_LIST(X)                                                                         \
     X(study, "study.yaml")                                                                         \
     X(systems, "systems")                                                                          \

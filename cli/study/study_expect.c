@@ -15,6 +15,8 @@
  * something the study does not contain is an error, and so is a size or a trend of E where no
  * system meant conserves it. */
 #include "study_expect.h"
+#include "ui/memory.h"
+#include "ui/message.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -2,8 +2,11 @@
 #ifndef DAL_CLI_STUDY_EXPECT_H
 #define DAL_CLI_STUDY_EXPECT_H
 
+#include "dalembert.h"
 #include "io/document.h"
 #include "study.h"
+
+#include <stddef.h>
 
 /* What bounds may be set to: name, member of dal_trend. */
 #define STUDY_FIELD_LIST(X)                                                                        \

@@ -1,9 +1,13 @@
 /* study_finish.c - what is left of a study in its directory, and told, when cells have been run. */
+#include "dalembert.h"
 #include "io/file.h"
 #include "io/json.h"
 #include "run/manifest.h"
 #include "study_directory.h"
+#include "ui/memory.h"
+#include "ui/message.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 

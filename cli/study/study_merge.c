@@ -10,8 +10,13 @@
 #include "run/run.h"
 #include "study_directory.h"
 #include "ui/commands.h"
+#include "ui/memory.h"
+#include "ui/message.h"
+#include "ui/options.h"
+#include "ui/signals.h"
 
 #include <errno.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>

@@ -1,11 +1,16 @@
 /* study_plan.c - from the keys of a study to its cases and cells. */
+#include "dalembert.h"
 #include "io/document.h"
 #include "parsed_study.h"
 #include "run/request.h"
 #include "run/row_times.h"
+#include "run/system.h"
 #include "study.h"
 #include "study_expect.h"
+#include "ui/memory.h"
+#include "ui/message.h"
 
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>

@@ -2,8 +2,13 @@
  *
  * The costliest cells are taken first, so that none is left for the end; a cell depends on nothing
  * but itself, so results do not depend on the number of threads. */
+#include "dalembert.h"
 #include "run/pool.h"
 #include "study.h"
+#include "ui/clock.h"
+#include "ui/memory.h"
+#include "ui/message.h"
+#include "ui/signals.h"
 
 #include <stdlib.h>
 

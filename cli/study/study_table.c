@@ -2,10 +2,12 @@
  *
  * Per system and step: the motion itself (D, E, invariants, error), whose numbers are those of
  * (q,v) alone; and, started off p = pi = 0, what only the lift can show (H, p, pi). */
+#include "dalembert.h"
 #include "study.h"
 #include "ui/wrap.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 enum { METHOD = 28, CELL = 32 };

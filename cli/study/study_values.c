@@ -9,6 +9,8 @@
  * name does not depend on what else is drawn. */
 #include "study_values.h"
 #include "io/file.h"
+#include "ui/memory.h"
+#include "ui/message.h"
 
 #include <math.h>
 #include <stdlib.h>

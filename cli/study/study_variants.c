@@ -3,10 +3,14 @@
  * A system of a study with `set: {a: [1, 2], b: {from: 0, to: 1, count: 3}}` is six cases, called
  * LABEL_a=1_b=0 and so on; where something is drawn there is one for each of the seeds, called
  * .._seed=7.  What has one value alone is not in the label. */
+#include "dalembert.h"
 #include "parsed_study.h"
 #include "study_values.h"
+#include "ui/memory.h"
+#include "ui/message.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 

@@ -5,7 +5,7 @@
 #ifndef _GNU_SOURCE
 #define _GNU_SOURCE /* fopencookie */
 #endif
-#include "cli.h"
+#include "memory.h"
 
 #include <errno.h>
 #include <pthread.h>

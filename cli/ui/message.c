@@ -1,11 +1,13 @@
 /* message.c - what the program says on stderr, and the exit statuses that go with it. */
-#include "cli.h"
+#include "message.h"
+#include "clock.h"
+#include "memory.h"
+#include "signals.h"
 
 #include <errno.h>
 #include <stdarg.h>
 #include <string.h>
 #include <sys/ioctl.h>
-#include <time.h>
 #include <unistd.h>
 
 enum { MESSAGE_SIZE = 8192 }; /* room for a path of the greatest length, and more */
@@ -155,13 +157,3 @@ int cli_close(FILE *out, const char *path)
     errno = reason;
     return failed ? cli_io("write", path) : CLI_DONE;
 }
-
-static double seconds_of(clockid_t clock)
-{
-    struct timespec now;
-    clock_gettime(clock, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
-double cli_seconds(void) { return seconds_of(CLOCK_MONOTONIC); }
-double cli_thread_seconds(void) { return seconds_of(CLOCK_THREAD_CPUTIME_ID); }

@@ -1,6 +1,8 @@
 /* options.c - reading of arguments, and --help, from the rows of options. */
 #include "options.h"
-#include "cli.h"
+#include "dalembert.h"
+#include "memory.h"
+#include "message.h"
 #include "wrap.h"
 
 #include <math.h>

@@ -1,8 +1,9 @@
 /* signals.c - SIGINT and SIGTERM as a flag, so that a run can end between two steps. */
-#include "cli.h"
+#include "signals.h"
 
 #include <signal.h>
 #include <stdatomic.h>
+#include <stddef.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -49,4 +50,4 @@ void cli_catch_signals(void)
     sigaction(SIGALRM, &action, NULL);
 }
 
-int cli_interrupted(void) { return caught; }
+bool cli_interrupted(void) { return caught; }

@@ -1,0 +1,20 @@
+/* system.h - reads the system of a command. */
+#ifndef DAL_CLI_SYSTEM_H
+#define DAL_CLI_SYSTEM_H
+
+#include "dalembert.h"
+
+#include <stdbool.h>
+
+/* Whether SYSTEM is a path: it has a '/', ends in .yaml or .yml, or names a file and no built-in
+ * system. */
+bool cli_is_path(const char *system);
+/* Reads SYSTEM and makes its system, owned by *model.  Returns CLI_DONE, or prints and returns an
+ * exit status with *model NULL. */
+int cli_load(const char *system, dal_model **model, const dal_system **made);
+/* The same in two parts, between which something may be added to the model.  cli_make frees it on
+ * failure; place is what the message names. */
+int cli_read(const char *system, dal_model **model);
+int cli_make(const char *place, dal_model **model, const dal_system **made);
+
+#endif

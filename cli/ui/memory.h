@@ -1,0 +1,39 @@
+/* memory.h - memory of the program: without it the program ends. */
+#ifndef DAL_CLI_MEMORY_H
+#define DAL_CLI_MEMORY_H
+
+#include "dalembert.h"
+#include "message.h"
+
+#include <stdarg.h>
+#include <stdio.h>
+
+/* Ends the program with a message and status 4. */
+_Noreturn void cli_out_of_memory(void);
+/* Between these two calls a lack of memory in another thread does not end the program, so that
+ * files that belong together are complete and a compiler that was started ends.  cli_is_ending:
+ * another thread waits to end it. */
+void cli_hold_exit(void);
+void cli_release_exit(void);
+int cli_is_ending(void);
+/* Whether a status is DAL_OK; ends the program where it is DAL_MEMORY. */
+int cli_is_ok(dal_status status);
+
+/* As in the C library, but these never return NULL, not even for 0 bytes. */
+void *cli_malloc(size_t size);
+void *cli_calloc(size_t count, size_t size);
+void *cli_realloc(void *memory, size_t size);
+char *cli_strdup(const char *text);
+char *cli_strndup(const char *text, size_t length);
+/* getline of the C library: the length of the next line, below 0 at the end or after a failure. */
+long long cli_getline(char **line, size_t *capacity, FILE *file);
+/* What printf would print, allocated. */
+char *cli_format(const char *format, ...) CLI_PRINTF(1, 2);
+char *cli_format_list(const char *format, va_list list) CLI_PRINTF(1, 0);
+
+/* A file whose text is in memory: *text, allocated, and its *length are complete when the file is
+ * closed. */
+FILE *cli_memstream_open(char **text, size_t *length);
+void cli_memstream_close(FILE *out);
+
+#endif
