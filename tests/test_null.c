@@ -5,8 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-FUNCTIONS_dalembert(DECLARE_NULL_TEST) FUNCTIONS_dalembert_model(DECLARE_NULL_TEST)
-    FUNCTIONS_dalembert_codegen(DECLARE_NULL_TEST)
+FUNCTIONS_dalembert(DECLARE_NULL_TEST) FUNCTIONS_dalembert_codegen(DECLARE_NULL_TEST)
 
     /* ---- what the functions are given where they are given anything ---- */
 
@@ -379,6 +378,5 @@ static void null_dal_batch_is_native(void) { CU_ASSERT_EQUAL(dal_batch_is_native
 void suite_null(void)
 {
     CU_pSuite suite = CU_add_suite("NULL and negative counts", open_objects, close_objects);
-    FUNCTIONS_dalembert(ADD_NULL_TEST) FUNCTIONS_dalembert_model(ADD_NULL_TEST)
-        FUNCTIONS_dalembert_codegen(ADD_NULL_TEST)
+    FUNCTIONS_dalembert(ADD_NULL_TEST) FUNCTIONS_dalembert_codegen(ADD_NULL_TEST)
 }
