@@ -1,4 +1,4 @@
-/* list.c - `dalembert list`: what systems, integrators and modifiers travel inside the program. */
+/* list.c - `dalembert list`: the built-in systems, integrators and modifiers. */
 #include "dalembert.h"
 #include "run/system.h"
 #include "ui/commands.h"

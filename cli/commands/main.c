@@ -18,48 +18,35 @@ static const cli_command *const commands[] = {
 
 enum { COMMANDS = sizeof commands / sizeof *commands };
 
-static void print_exits(FILE *out)
-{
-    static const struct {
-        int number;
-        const char *text;
-    } exits[] = {
-#define X(code, number, text) {number, text},
-        CLI_EXIT_LIST(X)
-#undef X
-    };
-    fputs("\nexit status:\n", out);
-    for (size_t i = 0; i < sizeof exits / sizeof exits[0]; i++)
-        fprintf(out, "  %-4d %s\n", exits[i].number, exits[i].text);
-}
+static const struct {
+    int number;
+    const char *text;
+} exits[] = {
+#define EXIT_ROW(code, number, text) {number, text},
+    CLI_EXIT_LIST(EXIT_ROW)
+#undef EXIT_ROW
+};
 
-static void print_usage(FILE *out)
+static int print_usage(void)
 {
-    fputs("usage: dalembert COMMAND [ARGUMENT]...\n"
-          "Geometric integrators for nonholonomic mechanics.\n\ncommands:\n",
-          out);
-    for (int i = 0; i < COMMANDS; i++)
-        fprintf(out, "  %-8s %s\n", commands[i]->name, commands[i]->about);
-    fputs("\n'dalembert COMMAND --help' describes a command.\n", out);
-    print_exits(out);
-}
-
-/* What a lone option of the program itself asks for; -1 for none. */
-static int own_option(const char *argument)
-{
-    static const char *const own[] = {"--help", "--version"};
-    if (strcmp(argument, "--help") == 0 || strcmp(argument, "-h") == 0)
-        print_usage(stdout);
-    else if (strcmp(argument, "--version") == 0)
-        puts("dalembert " DAL_VERSION);
-    else
-        return argument[0] == '-' ? cli_unknown("option", argument, own, 2) : CLI_GO_ON;
+    puts("usage: dalembert COMMAND [ARGUMENT]...\n"
+         "Geometric integrators for nonholonomic mechanics.\n\ncommands:");
+    for (int i = 0; i < COMMANDS; i++) printf("  %-8s %s\n", commands[i]->name, commands[i]->about);
+    puts("\n'dalembert COMMAND --help' describes a command.\n\nexit status:");
+    for (size_t i = 0; i < sizeof exits / sizeof *exits; i++)
+        printf("  %-4d %s\n", exits[i].number, exits[i].text);
     return cli_close(stdout, "standard output");
 }
 
-/* A file opened while a standard stream is closed would take its number, and messages would end
- * up among the rows.  What is opened here cannot be written to, so that a closed standard output
- * is a failing write as before. */
+static int print_version(void)
+{
+    puts("dalembert " DAL_VERSION);
+    return cli_close(stdout, "standard output");
+}
+
+/* A file opened while a standard stream is closed would take its number, and messages would mix
+ * with rows.  The descriptors opened here are read-only: a write to a closed standard output still
+ * fails. */
 static void occupy_standard_streams(void)
 {
     int descriptor;
@@ -71,18 +58,17 @@ static void occupy_standard_streams(void)
 int main(int argc, char **argv)
 {
     occupy_standard_streams();
-    /* A limit on the size of files is then a failing write like any other. */
+    /* A write beyond a limit on the size of files then fails as any other. */
     signal(SIGXFSZ, SIG_IGN);
-    if (argc < 2) {
-        print_usage(stdout);
-        return cli_close(stdout, "standard output");
-    }
-    int status = own_option(argv[1]);
-    if (status != CLI_GO_ON) return status;
+    static const char *const options[] = {"--help", "--version"};
+    const char *first = argc > 1 ? argv[1] : "--help";
+    if (strcmp(first, "--help") == 0 || strcmp(first, "-h") == 0) return print_usage();
+    if (strcmp(first, "--version") == 0) return print_version();
+    if (first[0] == '-') return cli_unknown("option", first, options, 2);
     const char *names[COMMANDS];
     for (int i = 0; i < COMMANDS; i++) {
         names[i] = commands[i]->name;
-        if (strcmp(names[i], argv[1]) == 0) return commands[i]->run(argc - 1, argv + 1);
+        if (strcmp(names[i], first) == 0) return commands[i]->run(argc - 1, argv + 1);
     }
-    return cli_unknown("command", argv[1], names, COMMANDS);
+    return cli_unknown("command", first, names, COMMANDS);
 }

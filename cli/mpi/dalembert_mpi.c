@@ -2,11 +2,11 @@
  *
  *     mpirun -n 64 dalembert-mpi STUDY.yaml --output DIR
  *
- * DIR lies where all processes see it.  Rank 0 describes the study there and hands out the cells,
- * the costliest first, while it runs cells itself: between steps it looks who has asked.  What
- * passes between processes is the number of a cell; all else goes through the directories of the
- * runs, so that the study can be interrupted and gone on with, by this program or by
- * `dalembert resume`, to the same bytes.  At the end rank 0 reads them and makes the tables. */
+ * All processes see DIR.  Rank 0 describes the study there and assigns the cells, the costliest
+ * first, while it runs cells itself: between steps it polls the requests of the other ranks.  Only
+ * numbers of cells pass between processes; everything else goes through the directories of the
+ * runs.  So this program or `dalembert resume` can continue the study after an interruption, with
+ * the same bytes.  At the end rank 0 reads the directories and makes the tables. */
 #include "io/file.h"
 #include "run/pool.h"
 #include "run/run.h"
@@ -95,19 +95,19 @@ static int describe(const settings *w)
     return status;
 }
 
-typedef struct team {
+typedef struct scheduler {
     study_plan *plan;
     int *order;
     int rank, size;
     int next;    /* of rank 0: the place in order of the next cell */
-    int waiting; /* of rank 0: how many others will still ask */
-} team;
+    int waiting; /* of rank 0: ranks that have not got the end yet */
+} scheduler;
 
-enum { ASK, ANSWER };
+enum { REQUEST_TAG, CELL_TAG };
 
-/* ---- handing out cells ---- */
+/* ---- assigning cells ---- */
 
-static int next_cell(team *t)
+static int next_cell(scheduler *t)
 {
     while (t->next < t->plan->cell_count && !cli_interrupted()) {
         const int cell = t->order[t->next++];
@@ -116,52 +116,53 @@ static int next_cell(team *t)
     return -1;
 }
 
-static void answer_one(team *t)
+static void assign_cell(scheduler *t)
 {
     MPI_Status from;
     int nothing, cell = next_cell(t);
-    MPI_Recv(&nothing, 1, MPI_INT, MPI_ANY_SOURCE, ASK, MPI_COMM_WORLD, &from);
-    MPI_Send(&cell, 1, MPI_INT, from.MPI_SOURCE, ANSWER, MPI_COMM_WORLD);
+    MPI_Recv(&nothing, 1, MPI_INT, MPI_ANY_SOURCE, REQUEST_TAG, MPI_COMM_WORLD, &from);
+    MPI_Send(&cell, 1, MPI_INT, from.MPI_SOURCE, CELL_TAG, MPI_COMM_WORLD);
     if (cell < 0) t->waiting--;
 }
 
-/* Answers all who have asked by now. */
-static void answer(team *t)
+/* Assigns cells to the ranks whose requests have come. */
+static void assign_cells(scheduler *t)
 {
-    for (int asked = 1; asked && t->waiting > 0;) {
-        MPI_Iprobe(MPI_ANY_SOURCE, ASK, MPI_COMM_WORLD, &asked, MPI_STATUS_IGNORE);
-        if (asked) answer_one(t);
+    for (int requested = 1; requested && t->waiting > 0;) {
+        MPI_Iprobe(MPI_ANY_SOURCE, REQUEST_TAG, MPI_COMM_WORLD, &requested, MPI_STATUS_IGNORE);
+        if (requested) assign_cell(t);
     }
 }
 
-static int ask(void)
+static int request_cell(void)
 {
     int cell = -1;
-    MPI_Send(&cell, 1, MPI_INT, 0, ASK, MPI_COMM_WORLD);
-    MPI_Recv(&cell, 1, MPI_INT, 0, ANSWER, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+    MPI_Send(&cell, 1, MPI_INT, 0, REQUEST_TAG, MPI_COMM_WORLD);
+    MPI_Recv(&cell, 1, MPI_INT, 0, CELL_TAG, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
     return cell;
 }
 
 static int stop(void *user)
 {
-    team *t = user;
-    if (t->rank == 0) answer(t);
+    scheduler *t = user;
+    if (t->rank == 0) assign_cells(t);
     return cli_interrupted();
 }
 
 /* A failure of one rank's own leaves the cells to the others. */
-static int run_cells(team *t)
+static int run_cells(scheduler *t)
 {
     const study_stop_check watch = {stop, t};
     int status = CLI_DONE;
-    for (int cell; status == CLI_DONE && (cell = t->rank == 0 ? next_cell(t) : ask()) >= 0;) {
+    for (int cell;
+         status == CLI_DONE && (cell = t->rank == 0 ? next_cell(t) : request_cell()) >= 0;) {
         status = study_cell_run(t->plan, &t->plan->cells[cell], &watch);
         study_cell_free(&t->plan->cells[cell]);
-        if (t->rank == 0) answer(t);
+        if (t->rank == 0) assign_cells(t);
     }
     if (t->rank > 0 && status != CLI_DONE)
-        while (ask() >= 0) continue;
-    while (t->rank == 0 && t->waiting > 0) answer_one(t);
+        while (request_cell() >= 0) continue;
+    while (t->rank == 0 && t->waiting > 0) assign_cell(t);
     return status;
 }
 
@@ -187,7 +188,7 @@ static int run_study(const settings *w, int rank, int size)
 {
     study_plan plan = {0};
     study_directory dir = {0};
-    team t = {.plan = &plan, .rank = rank, .size = size, .waiting = size - 1};
+    scheduler t = {.plan = &plan, .rank = rank, .size = size, .waiting = size - 1};
     study_directory_open(&dir, w->output);
     int status = study_directory_read(&dir, &plan);
     t.order = study_sort_cells(&plan);

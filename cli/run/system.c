@@ -1,4 +1,4 @@
-/* system.c - trend the system a command is about. */
+/* system.c - reads the system of a command. */
 #include "system.h"
 #include "io/output.h"
 #include "ui/message.h"
@@ -7,7 +7,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
-enum { BUILTINS_MOST = 256 };
+enum { MAX_BUILTINS = 256 };
 
 bool cli_is_path(const char *system)
 {
@@ -21,7 +21,7 @@ static int read_path(const char *path, dal_model **model)
 {
     struct stat status;
     dal_error error = {0};
-    /* A wrong path is a wrong input, not a failing disk. */
+    /* A wrong path is a wrong input, no failure of a disk. */
     if (stat(path, &status) != 0)
         return cli_fail(CLI_USAGE, "cannot read '%s': %s", path, strerror(errno));
     if (S_ISDIR(status.st_mode))
@@ -33,9 +33,9 @@ static int read_path(const char *path, dal_model **model)
 
 static int read_builtin(const char *name, dal_model **model)
 {
-    const char *names[BUILTINS_MOST];
+    const char *names[MAX_BUILTINS];
     int count = 0;
-    while (count < BUILTINS_MOST && (names[count] = dal_builtin_name(count))) count++;
+    while (count < MAX_BUILTINS && (names[count] = dal_builtin_name(count))) count++;
     dal_error error = {0};
     if (!dal_builtin_text(name)) return cli_unknown("system", name, names, count);
     dal_status read = dal_model_builtin(model, name, &error);

@@ -1,4 +1,4 @@
-/* message.c - what the program says on stderr, and the exit statuses that go with it. */
+/* message.c - messages on stderr, and the exit statuses that go with them. */
 #include "message.h"
 #include "clock.h"
 #include "memory.h"
@@ -6,6 +6,7 @@
 
 #include <errno.h>
 #include <stdarg.h>
+#include <stdbool.h>
 #include <string.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
@@ -60,8 +61,8 @@ void cli_progress_end(void)
 int cli_width(void)
 {
     struct winsize size;
-    const int told = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
-    return told ? size.ws_col : 80;
+    const bool is_known = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+    return is_known ? size.ws_col : 80;
 }
 
 /* A line that is longer than the terminal is wide would not be replaced by the next one. */

@@ -7,22 +7,22 @@
 #include <time.h>
 #include <unistd.h>
 
-/* Atomic because the threads of a study ask for it, too. */
+/* Atomic, since the threads of a study read it. */
 static atomic_int caught;
 static atomic_llong first; /* when, in ms */
 
-enum { ONE_REQUEST = 500 /* ms */, GRACE = 1 /* s */ };
+enum { SAME_REQUEST = 500 /* ms */, GRACE = 1 /* s */ };
 
 /* timeout(1) and other launchers signal a program and then its group: that is one request.  A later
- * signal finds the default action: a program that hangs can still be killed. */
-static void note(int number)
+ * signal has the default action, so that a program that hangs can be killed. */
+static void catch_signal(int number)
 {
     struct timespec now;
     clock_gettime(CLOCK_MONOTONIC, &now);
     const long long ms = 1000LL * now.tv_sec + now.tv_nsec / 1000000;
     if (!caught) {
         first = ms;
-    } else if (ms - first > ONE_REQUEST) {
+    } else if (ms - first > SAME_REQUEST) {
         signal(number, SIG_DFL);
         raise(number);
     }
@@ -30,7 +30,7 @@ static void note(int number)
     alarm(GRACE);
 }
 
-/* Not to restart what waits for another process; again and again, since there may be several. */
+/* Interrupts a read or a write that waits for another process; repeated, since there may be several. */
 static void end_wait(int number)
 {
     (void)number;
@@ -41,7 +41,7 @@ void cli_catch_signals(void)
 {
     static const int numbers[] = {SIGINT, SIGTERM};
     for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++) {
-        struct sigaction action = {.sa_handler = note, .sa_flags = SA_RESTART};
+        struct sigaction action = {.sa_handler = catch_signal, .sa_flags = SA_RESTART};
         sigemptyset(&action.sa_mask);
         sigaction(numbers[i], &action, NULL);
     }
