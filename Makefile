@@ -112,7 +112,7 @@ $(call SAY,cc)$(CC) $(ALL) $(VARIANT) -MMD -MP -c $< -o $@
 endef
 
 define COMPILE_VARIANT
-$(BUILD)/%_$1.o: VARIANT = $(if $(filter x1,$1),,-DDAL_VARIANT=$1) -DDAL_LANES=$(lanes) -DDAL_GROUP=$(call lanes,$(group)) $(FLAGS_$(instructions))
+$(BUILD)/%_$1.o: VARIANT = $(if $(filter x1,$1),,-DDAL_VARIANT=$1) -DDAL_LINKED -DDAL_LANES=$(lanes) -DDAL_GROUP=$(call lanes,$(group)) $(FLAGS_$(instructions))
 $(BUILD)/%_$1.o: %.c ; $$(COMPILE)
 endef
 $(foreach variant,$(sort $(VARIANTS) $(GROUPS)),$(eval $(call COMPILE_VARIANT,$(variant))))

@@ -23,6 +23,10 @@
 #ifndef DAL_KERNEL_COLLOCATION_H
 #define DAL_KERNEL_COLLOCATION_H
 
+#define dal_collocation DAL_WIDE(dal__collocation)
+DAL_SHARED dal_status dal_collocation(dal_step *s, const dal_tableau *method);
+
+#ifndef DAL_LINKED
 typedef struct dal_stages {
     const dal_tableau *method;
     double h;
@@ -379,7 +383,7 @@ DAL_COLD dal_status dal__collocate_again(dal_step *s, const dal_tableau *method)
 {
     return dal__collocate(s, method, 0);
 }
-DAL_INLINE dal_status dal_collocation(dal_step *s, const dal_tableau *method)
+DAL_SHARED dal_status dal_collocation(dal_step *s, const dal_tableau *method)
 {
     const long long evaluations = s->evaluations;
     if (dal__collocate(s, method, 1) == DAL_OK) return DAL_OK;
@@ -390,10 +394,11 @@ DAL_INLINE dal_status dal_collocation(dal_step *s, const dal_tableau *method)
     return status;
 }
 #else
-DAL_INLINE dal_status dal_collocation(dal_step *s, const dal_tableau *method)
+DAL_SHARED dal_status dal_collocation(dal_step *s, const dal_tableau *method)
 {
     return dal__collocate(s, method, 0);
 }
+#endif
 #endif
 
 #endif

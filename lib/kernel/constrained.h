@@ -48,6 +48,10 @@ DAL_INLINE num dal_moved_v(const dal_step *s, int i, num d)
     return s->y[DAL_N(s) + i] + (s->r[DAL_N(s) + i] + d);
 }
 
+#define dal_continuous_multipliers DAL_WIDE(dal__continuous_multipliers)
+DAL_SHARED dal_status dal_continuous_multipliers(dal_step *s, const num *blocks, num *h);
+
+#ifndef DAL_LINKED
 /* x = g^-1 rhs for a g[size*size] that is destroyed. */
 DAL_INLINE void dal_solve_small(num *g, num *inverse, int size, const num *rhs, num *x)
 {
@@ -59,7 +63,7 @@ DAL_INLINE void dal_solve_small(num *g, num *inverse, int size, const num *rhs, 
 }
 
 /* The multipliers of the continuous motion at the point of an answer: G h = -(c + A a). */
-DAL_INLINE dal_status dal_continuous_multipliers(dal_step *s, const num *blocks, num *h)
+DAL_SHARED dal_status dal_continuous_multipliers(dal_step *s, const num *blocks, num *h)
 {
     const int n = DAL_N(s), m = DAL_M(s);
     const num *A = blocks + dal_blocks_A(s), *c = blocks + dal_blocks_c(s);
@@ -72,6 +76,7 @@ DAL_INLINE dal_status dal_continuous_multipliers(dal_step *s, const num *blocks,
     if (m > 0) dal_solve_small(g, inverse, m, rhs, h);
     return DAL_OK;
 }
+#endif
 
 /* The multipliers persistent from the last step, or the continuous ones where there are none. */
 DAL_INLINE dal_status dal_restore_multipliers(dal_step *s, const num *blocks, num *h)
@@ -118,8 +123,15 @@ typedef struct dal_elimination {
                             name##_rhs,                                                            \
                             name##_fresh}
 
+#define dal_eliminate_multipliers DAL_WIDE(dal__eliminate_multipliers)
+DAL_SHARED void dal_eliminate_multipliers(const dal_step *s, dal_equation *eq,
+                                          const num *constraint);
+#define dal_constrained_matrix DAL_WIDE(dal__constrained_matrix)
+DAL_SHARED dal_status dal_constrained_matrix(dal_step *s, dal_equation *eq);
+
+#ifndef DAL_LINKED
 /* image = free + N mu with the mu for which D + A (image - w) = 0; D and A begin `constraint`. */
-DAL_INLINE void dal_eliminate_multipliers(const dal_step *s, dal_equation *eq,
+DAL_SHARED void dal_eliminate_multipliers(const dal_step *s, dal_equation *eq,
                                           const num *constraint)
 {
     const dal_elimination *k = (const dal_elimination *)eq->context;
@@ -164,7 +176,7 @@ DAL_INLINE dal_status dal__project_matrix(dal_step *s, const num *blocks, int co
 }
 
 /* Newton's matrix; the context begins with a dal_stage_matrix. */
-DAL_INLINE dal_status dal_constrained_matrix(dal_step *s, dal_equation *eq)
+DAL_SHARED dal_status dal_constrained_matrix(dal_step *s, dal_equation *eq)
 {
     const dal_stage_matrix *k = (const dal_stage_matrix *)eq->context;
     const int n = DAL_N(s);
@@ -178,6 +190,7 @@ DAL_INLINE dal_status dal_constrained_matrix(dal_step *s, dal_equation *eq)
     dal_stage_inverse(s, k, jacobian, matrix, &eq->block[0], 0);
     return DAL_OK;
 }
+#endif
 
 /* Solves; `direct` says that the map does not depend on w but through D, and on that linearly: then
  * one iteration is the solution. */

@@ -44,6 +44,15 @@
 #define DAL_COLD   static inline DAL_UNUSED
 #endif
 
+/* Large functions that several integrators share are compiled once per variant in the library, by
+ * lib/run/kernel_wide.c (DAL_LINKS); its other sources (DAL_LINKED) see their declarations.  In all
+ * other files they are a part of the file like the rest of the kernel. */
+#if defined DAL_LINKED || defined DAL_LINKS
+#define DAL_SHARED
+#else
+#define DAL_SHARED DAL_INLINE
+#endif
+
 /* for i = 0 .. count - 1 */
 #define DAL_EACH(i, count) DAL_UNROLL for (int i = 0; i < (count); i++)
 

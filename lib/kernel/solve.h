@@ -113,6 +113,11 @@ DAL_INLINE num dal_momentum_scale(const dal_step *s, double h, int group)
            fabs(h) * dal__group_norm(s->y + dal_at_p(s), DAL_N(s), group);
 }
 
+#define dal_solve DAL_WIDE(dal__solve)
+DAL_SHARED dal_status dal_solve(dal_step *s, dal_equation *eq, dal_iteration_map *map,
+                                dal_matrix *matrix);
+
+#ifndef DAL_LINKED
 #if DAL_LANES == 1 && !defined DAL_SPECIALISED && !defined DAL_NUM_QUAD
 /* image -= u, u += image; norm and nonfinite of what is then in image. */
 DAL_INLINE int dal__advance_packs(num *u, num *image, int count, num *norm, num *nonfinite)
@@ -294,7 +299,7 @@ DAL_INLINE dal_status dal__solve_by_newton(dal_step *s, dal_equation *eq, dal_it
 
 /* Solves the equation from the guess in u; lanes that fail are recorded and no longer alive.
  * Without a matrix (NULL) there is no Newton. */
-DAL_INLINE dal_status dal_solve(dal_step *s, dal_equation *eq, dal_iteration_map *map,
+DAL_SHARED dal_status dal_solve(dal_step *s, dal_equation *eq, dal_iteration_map *map,
                                 dal_matrix *matrix)
 {
     const int may_newton = matrix && DAL_MAY_NEWTON(s);
@@ -317,6 +322,7 @@ DAL_INLINE dal_status dal_solve(dal_step *s, dal_equation *eq, dal_iteration_map
     }
     return dal__any(s->alive) ? DAL_OK : DAL_NOT_CONVERGED;
 }
+#endif
 
 /* The matrix of stage equations for frozen F_q, F_v (jacobian as dal_callbacks):
  *     M_ij = delta_ij 1 - z a_ij F_v - z^2 a2_ij [F_q 0]           i, j = 1..stages
@@ -329,6 +335,11 @@ typedef struct dal_stage_matrix {
     int transposed;
 } dal_stage_matrix;
 
+#define dal_stage_inverse DAL_WIDE(dal__stage_inverse)
+DAL_SHARED void dal_stage_inverse(dal_step *s, const dal_stage_matrix *k, const num *jacobian,
+                                  num *m, dal_block *block, int group);
+
+#ifndef DAL_LINKED
 /* Entry (i, j) of F_q padded with zeros, and of F_(v,g); or of their transposes. */
 DAL_INLINE num dal__fq(const dal_step *s, const num *jacobian, int i, int j)
 {
@@ -342,7 +353,7 @@ DAL_INLINE num dal__fv(const dal_step *s, const num *jacobian, int i, int j)
 }
 
 /* Fills block->inverse for a group; m is scratch, of the same size. */
-DAL_INLINE void dal_stage_inverse(dal_step *s, const dal_stage_matrix *k, const num *jacobian,
+DAL_SHARED void dal_stage_inverse(dal_step *s, const dal_stage_matrix *k, const num *jacobian,
                                   num *m, dal_block *block, int group)
 {
     const int size = DAL_SIZE(block) / DAL_STEP_GROUPS, width = size / k->stages;
@@ -358,6 +369,7 @@ DAL_INLINE void dal_stage_inverse(dal_step *s, const dal_stage_matrix *k, const 
     }
     dal_invert(m, block->inverse + group * size * size, size);
 }
+#endif
 
 /* F_q, F_(v,g) of a group at a point of all, [nw*n + nw*nw]. */
 DAL_INLINE void dal_jacobian(dal_step *s, int group, double t, const num *q, const num *v, num *out)

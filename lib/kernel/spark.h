@@ -27,6 +27,10 @@ typedef struct dal_spark {
     const double *omega;                 /* [(s - persistent)*points] */
 } dal_spark;
 
+#define dal_spark_advance DAL_WIDE(dal__spark_advance)
+DAL_SHARED dal_status dal_spark_advance(dal_step *s, const dal_spark *method);
+
+#ifndef DAL_LINKED
 typedef struct dal_spark_step {
     dal_stage_matrix newton; /* first, for dal_constrained_matrix */
     const dal_spark *method;
@@ -198,7 +202,7 @@ DAL_INLINE void dal__spark_product(const dal_spark *m, double *product)
 }
 
 /* One step of size s->h. */
-DAL_INLINE dal_status dal_spark_advance(dal_step *s, const dal_spark *method)
+DAL_SHARED dal_status dal_spark_advance(dal_step *s, const dal_spark *method)
 {
     double product[DAL_MOST_STAGES * DAL_MOST_STAGES];
     DAL_VECTOR(s, V, DAL_STAGES(method) * DAL_N(s));
@@ -236,5 +240,6 @@ DAL_INLINE dal_status dal_spark_advance(dal_step *s, const dal_spark *method)
     DAL_TRY(dal_solve(s, &eq, dal__spark_map, dal_constrained_matrix));
     return dal__spark_end(s, &k, eq.block[0].u);
 }
+#endif
 
 #endif

@@ -28,6 +28,10 @@ DAL_INLINE dal_polarisation DAL_POLARISATION(int q, int v)
     return at;
 }
 
+#define dal_symplectic_euler DAL_WIDE(dal__symplectic_euler)
+DAL_SHARED dal_status dal_symplectic_euler(dal_step *s, dal_polarisation at, double h);
+
+#ifndef DAL_LINKED
 /* The starred arguments of one step. */
 typedef struct dal_euler {
     dal_polarisation at;
@@ -151,7 +155,7 @@ DAL_INLINE void dal__euler_rates(dal_step *s, dal_euler *k, num mu, num *d)
 }
 
 /* One step of size h from the present state and time. */
-DAL_INLINE dal_status dal_symplectic_euler(dal_step *s, dal_polarisation at, double h)
+DAL_SHARED dal_status dal_symplectic_euler(dal_step *s, dal_polarisation at, double h)
 {
     DAL_MARK(s);
     const int n = DAL_N(s);
@@ -177,5 +181,6 @@ DAL_INLINE dal_status dal_symplectic_euler(dal_step *s, dal_polarisation at, dou
     DAL_RELEASE(s);
     return dal_update_multiple(s, h, h, d);
 }
+#endif
 
 #endif

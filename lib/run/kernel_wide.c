@@ -1,0 +1,4 @@
+/* kernel_wide.c - the large functions of the kernel, once per variant; see DAL_SHARED. */
+#undef DAL_LINKED
+#define DAL_LINKS
+#include <dalembert_kernel.h>
