@@ -181,13 +181,10 @@ const cli_command command_check = {
     .synopsis = "dalembert check SYSTEM [OPTION]...",
     .about = "states what can be known of a system before a run",
     .notes =
-        "Each line is one item: "
-        "'ok' or 'FAIL' where it can be right or wrong, 'not measured' where it has no value, and "
-        "'info' otherwise.  The command evaluates the system at its start and at random points "
-        "about "
-        "it, and does not rely on the properties that the system states.  It compares derivatives "
-        "with "
-        "central differences of order 8.  The exit status is 1 when an item failed or was not "
-        "measured.\n",
+        "Each line is one item: 'ok' or 'FAIL' where it can be right or wrong, 'not measured' "
+        "where it has no value, and 'info' otherwise.  The command evaluates the system at its "
+        "start and at random points about it, and does not rely on the properties that the system "
+        "states.  It compares derivatives with central differences of order 8.  The exit status "
+        "is 1 when an item failed or was not measured.\n",
     .run = run_check,
 };

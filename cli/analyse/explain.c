@@ -233,17 +233,13 @@ const cli_command command_explain = {
     .about = "finds the error sources of the drift of a run",
     .notes =
         "Runs the system again in several ways that differ in one thing each: half the step, a "
-        "looser "
-        "tolerance of the solver, further iterations of it, plain sums, quad precision (113 binary "
-        "digits, where the machine has them), with and without projection.  For the drift of every "
-        "observable "
-        "the command states how much is truncation, rounding of coefficients, the solver and "
-        "rounding, "
-        "what a projection changes, and how that was found; '?' marks what these runs do not "
-        "distinguish.\n"
+        "looser tolerance of the solver, further iterations of it, plain sums, quad precision "
+        "(113 binary digits, where the machine has them), with and without projection.  For the "
+        "drift of every observable the command states how much is truncation, rounding of "
+        "coefficients, the solver and rounding, what a projection changes, and how that was "
+        "found; '?' marks what these runs do not distinguish.\n"
         "\n"
         "The shares of the first four add up to 1 where rates are compared.  They hold for the "
-        "first "
-        "--quad-steps steps, since quad precision is a hundred times slower.\n",
+        "first --quad-steps steps, since quad precision is a hundred times slower.\n",
     .run = run_explain,
 };

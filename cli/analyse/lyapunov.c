@@ -331,22 +331,20 @@ const cli_command command_lyapunov = {
     .synopsis = "dalembert lyapunov SYSTEM --integrator NAME --step H --time T [OPTION]...",
     .about = "computes the Lyapunov exponents of a motion",
     .notes =
-        "The derivative of "
-        "each step moves tangent vectors on (q,v), which then are made orthonormal again.  The "
-        "exponents, per unit of t, are the means of the logarithms of the lengths that this takes "
-        "away; they belong to the motion of the method.  The derivative is exact for Runge-Kutta, "
-        "partitioned symplectic and composed methods, and by differences for the others.\n"
+        "The derivative of each step moves tangent vectors on (q,v), which then are made "
+        "orthonormal again.  The exponents, per unit of t, are the means of the logarithms of the "
+        "lengths that this takes away; they belong to the motion of the method.  The derivative "
+        "is exact for Runge-Kutta, partitioned symplectic and composed methods, and by "
+        "differences for the others.\n"
         "\n"
         "The means cover --time, after the transient.  Their intervals come from means of blocks "
         "and do not cover a slow approach to a limit: exponents of regular motion fall like "
         "log(t)/t, and what is smaller than that is not distinguished from 0.  Every constraint "
         "adds an exponent 0, since D is constant on each level; a method that enforces D = 0 has "
-        "no "
-        "direction for it.  The sum of all exponents is the mean divergence of the motion, plus, "
-        "where the method enforces D = 0, the mean growth of log |grad D|.  The exit status is 3 "
-        "when the two differ by more than the error of the method: then the derivative of the "
-        "steps "
-        "is not reliable.\n"
+        "no direction for it.  The sum of all exponents is the mean divergence of the motion, "
+        "plus, where the method enforces D = 0, the mean growth of log |grad D|.  The exit status "
+        "is 3 when the two differ by more than the error of the method: then the derivative of "
+        "the steps is not reliable.\n"
         "\n"
         "FILE and DIR/lyapunov.csv get rows t, lambda1, .., divergence: the means so far.\n",
     .run = run_lyapunov,
@@ -362,17 +360,15 @@ const cli_command command_volume = {
     .synopsis = "dalembert volume SYSTEM --integrator NAME --step H --time T [OPTION]...",
     .about = "computes the rate at which the volume of the phase space changes",
     .notes =
-        "The command "
-        "computes two rates along the run: the exact divergence of the motion in (q,v), which is "
-        "the trace of the derivative of F by v, and log|det J|/h of every step, J being its "
-        "derivative: what the method does to the volume.  Where the method enforces D = 0, the "
-        "second is that on the surface.\n"
+        "The command computes two rates along the run: the exact divergence of the motion in "
+        "(q,v), which is the trace of the derivative of F by v, and log|det J|/h of every step, J "
+        "being its derivative: what the method does to the volume.  Where the method enforces D = "
+        "0, the second is that on the surface.\n"
         "\n"
         "A system with an invariant measure of bounded density has the mean 0; a negative mean "
-        "shows an attractor.  The means on (q,v) and on D = 0 differ by the mean growth of "
-        "log |grad D|.  The exit status is 3 when they differ by more than that and the error of "
-        "the method: then the derivative of the steps is not reliable.  The means cover --time, "
-        "after the transient.  FILE and DIR/volume.csv get rows t, divergence, step: the means so "
-        "far.\n",
+        "shows an attractor.  The means on (q,v) and on D = 0 differ by the mean growth of log "
+        "|grad D|.  The exit status is 3 when they differ by more than that and the error of the "
+        "method: then the derivative of the steps is not reliable.  The means cover --time, after "
+        "the transient.  FILE and DIR/volume.csv get rows t, divergence, step: the means so far.\n",
     .run = run_volume,
 };

@@ -505,27 +505,21 @@ const cli_command command_order = {
     .synopsis = "dalembert order SYSTEM [OPTION]...",
     .about = "measures error against step and against work for many integrators",
     .notes =
-        "--step is the largest "
-        "step (0.1), --time the time of the errors (10), and the space is (q,v) unless --space "
-        "lifted "
-        "is given.\n"
+        "--step is the largest step (0.1), --time the time of the errors (10), and the space is "
+        "(q,v) unless --space lifted is given.\n"
         "\n"
         "The error is the largest difference in q and v at T, relative to max(1, |x|), from the "
-        "exact "
-        "solution where the system has one that begins at this start.  Otherwise the reference is "
-        "gauss12, or dop853 where gauss12 does not converge, with half the smallest step; the "
-        "table "
-        "states its own error.  The order found is the slope between the last two of three steps "
-        "whose "
-        "errors exceed rounding and ten times the error of the reference, and lie below half the "
-        "solution.  It is found only where the two slopes agree so well that the next term of the "
-        "error changes it by 0.1 at most; '-' means that none is found.  Methods that do not apply "
-        "to "
-        "the system are listed with the reason.  The exit status is 3 when a run failed.\n"
+        "exact solution where the system has one that begins at this start.  Otherwise the "
+        "reference is gauss12, or dop853 where gauss12 does not converge, with half the smallest "
+        "step; the table states its own error.  The order found is the slope between the last two "
+        "of three steps whose errors exceed rounding and ten times the error of the reference, "
+        "and lie below half the solution.  It is found only where the two slopes agree so well "
+        "that the next term of the error changes it by 0.1 at most; '-' means that none is "
+        "found.  Methods that do not apply to the system are listed with the reason.  The exit "
+        "status is 3 when a run failed.\n"
         "\n"
         "DIR gets order.csv, and by gnuplot order.svg (error against step) and work.svg (error "
-        "against "
-        "evaluations of F, and against processor time), with their scripts.  Only the times differ "
-        "between two runs of the command.\n",
+        "against evaluations of F, and against processor time), with their scripts.  Only the "
+        "times differ between two runs of the command.\n",
     .run = run_order,
 };
