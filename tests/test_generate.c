@@ -1,7 +1,7 @@
 /* test_generate.c - generated C files: what is refused, and that memory may run out anywhere.
  * That they compile and give the bits of a run is tested in tests/cli/generate_cases.sh. */
 #include "allocation.h"
-#include "core/text.h"
+#include "core/buffer.h"
 #include "dalembert_codegen.h"
 #include "fixtures.h"
 #include <CUnit/CUnit.h>
@@ -153,14 +153,14 @@ static void test_numbers(void)
 {
     const double number[] = {0.0, 1.0, 0.1, 1e-13, 4e15, 1e300, 0x1p-1074, 0x1.fffffffffffffp1023};
     for (size_t i = 0; i < sizeof number / sizeof *number; i++) {
-        dal__text text = {0};
-        dal__text_number(&text, number[i]);
+        dal__buffer text = {0};
+        dal__buffer_number(&text, number[i]);
         CU_ASSERT_EQUAL(strtod(text.bytes, NULL), number[i]);
-        dal__text_free(&text);
-        dal__text_number(&text, -number[i] - 1.0);
+        dal__buffer_free(&text);
+        dal__buffer_number(&text, -number[i] - 1.0);
         CU_ASSERT_EQUAL(text.bytes[0], '(');
         CU_ASSERT_EQUAL(strtod(text.bytes + 1, NULL), -number[i] - 1.0);
-        dal__text_free(&text);
+        dal__buffer_free(&text);
     }
 }
 

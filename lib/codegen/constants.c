@@ -14,15 +14,15 @@ static bool steps_groups_together(const dal__generation *g)
 /* Lanes go by registers, as large as the processor has them. */
 static void write_lanes(dal__generation *g)
 {
-    dal__text_print(&g->text, "#define DAL_LANES %d\n", g->lanes);
-    dal__text_put(&g->text, "#if DAL_LANES > 8 && defined __AVX512F__\n#define DAL_GROUP 8\n"
-                            "#elif DAL_LANES > 4 && defined __AVX__ && !defined __AVX512F__\n"
-                            "#define DAL_GROUP 4\n"
-                            "#elif DAL_LANES > 2 && !defined __AVX__\n"
-                            "#define DAL_GROUP 2\n#endif\n");
-    dal__text_put(&g->text, dal__source_text("groups.h"));
-    dal__text_put(&g->text, "#define DAL_WORK(place) w[(place) * DAL_GROUPS]\n");
-    dal__text_print(
+    dal__buffer_print(&g->text, "#define DAL_LANES %d\n", g->lanes);
+    dal__buffer_append(&g->text, "#if DAL_LANES > 8 && defined __AVX512F__\n#define DAL_GROUP 8\n"
+                                 "#elif DAL_LANES > 4 && defined __AVX__ && !defined __AVX512F__\n"
+                                 "#define DAL_GROUP 4\n"
+                                 "#elif DAL_LANES > 2 && !defined __AVX__\n"
+                                 "#define DAL_GROUP 2\n#endif\n");
+    dal__buffer_append(&g->text, dal__source_text("groups.h"));
+    dal__buffer_append(&g->text, "#define DAL_WORK(place) w[(place) * DAL_GROUPS]\n");
+    dal__buffer_print(
         &g->text, "enum { DAL_STEP_GROUPS = %s, DAL_STEP_COUNT = DAL_GROUPS / DAL_STEP_GROUPS };\n",
         steps_groups_together(g) ? "DAL_GROUPS" : "1");
 }
@@ -62,8 +62,8 @@ void dal__write_constants(dal__generation *g)
     };
     write_lanes(g);
     for (size_t i = 0; i < sizeof list / sizeof *list; i++)
-        dal__text_print(&g->text, "#define DAL__%s %d\n", list[i].name, list[i].value);
-    dal__text_put(&g->text, "#define DAL__SOLVER_TOLERANCE ");
-    dal__text_number(&g->text, k->options.solver_tolerance);
-    dal__text_put(&g->text, "\n");
+        dal__buffer_print(&g->text, "#define DAL__%s %d\n", list[i].name, list[i].value);
+    dal__buffer_append(&g->text, "#define DAL__SOLVER_TOLERANCE ");
+    dal__buffer_number(&g->text, k->options.solver_tolerance);
+    dal__buffer_append(&g->text, "\n");
 }

@@ -38,12 +38,13 @@ static bool is_inlined(const dal__generation *g, dal__program_code code)
 static void write_program(dal__generation *g, dal__program_code code, const char *name)
 {
     if (!dal__wants(g, code)) return;
-    dal__text_print(&g->text,
-                    "%s void dal__%s(const dal_stored *w, dal_time t, const num *q, const num *v,\n"
-                    "    const num *pi, num *out)\n{\n",
-                    is_inlined(g, code) ? "DAL_INLINE" : "DAL_COLD", name);
+    dal__buffer_print(
+        &g->text,
+        "%s void dal__%s(const dal_stored *w, dal_time t, const num *q, const num *v,\n"
+        "    const num *pi, num *out)\n{\n",
+        is_inlined(g, code) ? "DAL_INLINE" : "DAL_COLD", name);
     dal__tape_write(g->programs->tapes, g->programs->program[code].tape, g->input, &g->text);
-    dal__text_put(&g->text, "}\n\n");
+    dal__buffer_append(&g->text, "}\n\n");
 }
 
 /* The branch of dal_eval for one code.  What is not inlined gets copies, so that the state
@@ -54,50 +55,50 @@ static void write_evaluation(dal__generation *g, dal__program_code code, const c
     const dal__program *p = &g->programs->program[code];
     const int outputs = p->outputs, all = outputs + 2 * p->checked;
     if (!dal__wants(g, code)) return;
-    dal__text_print(&g->text, "    case DAL_EVAL_%s: {\n        num all[%d];\n", callback,
-                    all > 0 ? all : 1);
+    dal__buffer_print(&g->text, "    case DAL_EVAL_%s: {\n        num all[%d];\n", callback,
+                      all > 0 ? all : 1);
     if (is_inlined(g, code)) {
-        dal__text_print(&g->text, "        dal__%s(work, t, q, v, pi, all);\n", name);
+        dal__buffer_print(&g->text, "        dal__%s(work, t, q, v, pi, all);\n", name);
     } else {
         const bool momenta = code == DAL__PROGRAM_ADJOINT;
-        dal__text_put(&g->text, "        num q_[DAL__N], v_[DAL__NW], pi_[DAL__N];\n"
-                                "        DAL_EACH(i, DAL__N) q_[i] = q[i];\n"
-                                "        DAL_EACH(i, DAL__NW) v_[i] = v[i];\n");
-        dal__text_print(&g->text, "        DAL_EACH(i, DAL__N) pi_[i] = %s;\n",
-                        momenta ? "pi[i]" : "dal_num(0.0)");
-        dal__text_print(&g->text, "        dal__%s(work, t, q_, v_, pi_, all);\n", name);
+        dal__buffer_append(&g->text, "        num q_[DAL__N], v_[DAL__NW], pi_[DAL__N];\n"
+                                     "        DAL_EACH(i, DAL__N) q_[i] = q[i];\n"
+                                     "        DAL_EACH(i, DAL__NW) v_[i] = v[i];\n");
+        dal__buffer_print(&g->text, "        DAL_EACH(i, DAL__N) pi_[i] = %s;\n",
+                          momenta ? "pi[i]" : "dal_num(0.0)");
+        dal__buffer_print(&g->text, "        dal__%s(work, t, q_, v_, pi_, all);\n", name);
     }
-    dal__text_print(&g->text,
-                    "        dal__mask_singular(all, %d, %d, out);\n        break;\n    }\n",
-                    outputs, p->checked);
+    dal__buffer_print(&g->text,
+                      "        dal__mask_singular(all, %d, %d, out);\n        break;\n    }\n",
+                      outputs, p->checked);
 }
 
 static void write_dispatch(dal__generation *g)
 {
-    dal__text_put(&g->text,
-                  "/* The outputs; NaN in the lanes where one of the pivots behind them, each\n"
+    dal__buffer_append(
+        &g->text, "/* The outputs; NaN in the lanes where one of the pivots behind them, each\n"
                   " * followed by its size, has vanished. */\n"
                   "DAL_INLINE void dal__mask_singular(const num *all, int outputs, int pivots, "
                   "num *out)\n{\n"
                   "    dal_mask ok = dal_all();\n"
                   "    DAL_EACH(k, pivots)\n    ok &= dal_less(");
-    dal__text_number(&g->text, DAL__PIVOT_LEAST);
-    dal__text_put(&g->text,
-                  " * all[outputs + 2 * k + 1], dal_abs(all[outputs + 2 * k]));\n"
-                  "    DAL_EACH(i, outputs) out[i] = dal_select(ok, all[i], "
-                  "dal_num(NAN));\n}\n\n"
-                  "/* The answer for one group of lanes. */\n"
-                  "DAL_INLINE void dal__eval_group(const dal_stored *work, dal_callback_code "
-                  "code, dal_time t,\n    const num *q, const num *v, const num *pi, "
-                  "num *out)\n{\n"
-                  "    switch (code) {\n");
+    dal__buffer_number(&g->text, DAL__PIVOT_LEAST);
+    dal__buffer_append(&g->text,
+                       " * all[outputs + 2 * k + 1], dal_abs(all[outputs + 2 * k]));\n"
+                       "    DAL_EACH(i, outputs) out[i] = dal_select(ok, all[i], "
+                       "dal_num(NAN));\n}\n\n"
+                       "/* The answer for one group of lanes. */\n"
+                       "DAL_INLINE void dal__eval_group(const dal_stored *work, dal_callback_code "
+                       "code, dal_time t,\n    const num *q, const num *v, const num *pi, "
+                       "num *out)\n{\n"
+                       "    switch (code) {\n");
 #define X(code, name, reads) write_evaluation(g, DAL__PROGRAM_##code, #code, #name);
     DAL__WIDE_LIST(X)
 #undef X
     if (!dal__wants(g, DAL__PROGRAM_GAUGE))
-        dal__text_put(&g->text, "    case DAL_EVAL_GAUGE:\n        out[0] = dal_num(0.0);\n"
-                                "        break;\n");
-    dal__text_put(&g->text, "    default:\n        break;\n    }\n}\n\n");
+        dal__buffer_append(&g->text, "    case DAL_EVAL_GAUGE:\n        out[0] = dal_num(0.0);\n"
+                                     "        break;\n");
+    dal__buffer_append(&g->text, "    default:\n        break;\n    }\n}\n\n");
 }
 
 /* ---- parameters and start ---- */
@@ -114,24 +115,24 @@ void dal__write_start(dal__generation *g)
 {
     const dal__layout *k = &g->layout;
     const int first = k->n + k->nw;
-    dal__text_put(&g->text, "/* What is made of the parameters alone. */\n"
-                            "static void dal__hoist(dal_stored *w)\n{\n    (void)w;\n");
+    dal__buffer_append(&g->text, "/* What is made of the parameters alone. */\n"
+                                 "static void dal__hoist(dal_stored *w)\n{\n    (void)w;\n");
     dal__tapes_write_hoisted(g->programs->tapes, &g->text);
-    dal__text_print(&g->text,
-                    "}\n\n/* The state at t = 0. */\n"
-                    "static void dal__start(const dal_stored *work, num *y)\n{\n"
-                    "    num out[%d];\n"
-                    "    dal__start_values(work, 0.0, NULL, NULL, NULL, out);\n"
-                    "    for (int i = 0; i < DAL__DIM; i++) y[i] = i < %d ? out[i] : "
-                    "dal_num(0.0);\n",
-                    first + 1, first + (k->lifted ? 1 : 0));
+    dal__buffer_print(&g->text,
+                      "}\n\n/* The state at t = 0. */\n"
+                      "static void dal__start(const dal_stored *work, num *y)\n{\n"
+                      "    num out[%d];\n"
+                      "    dal__start_values(work, 0.0, NULL, NULL, NULL, out);\n"
+                      "    for (int i = 0; i < DAL__DIM; i++) y[i] = i < %d ? out[i] : "
+                      "dal_num(0.0);\n",
+                      first + 1, first + (k->lifted ? 1 : 0));
     for (int i = 0; i < g->spec->start_count; i++) {
-        dal__text_print(&g->text, "    y[%d] = dal_num(",
-                        find_component(g->run, g->spec->start[i].name));
-        dal__text_number(&g->text, g->spec->start[i].value);
-        dal__text_put(&g->text, ");\n");
+        dal__buffer_print(&g->text, "    y[%d] = dal_num(",
+                          find_component(g->run, g->spec->start[i].name));
+        dal__buffer_number(&g->text, g->spec->start[i].value);
+        dal__buffer_append(&g->text, ");\n");
     }
-    dal__text_put(&g->text, "}\n\n");
+    dal__buffer_append(&g->text, "}\n\n");
 }
 
 static void write_single_programs(dal__generation *g)
@@ -147,12 +148,13 @@ void dal__emit_callbacks(dal__generation *g)
 {
     name_inputs(g);
     if (!g->input) return;
-    dal__text_put(&g->text, g->product == DAL__OBSERVE
-                                ? "\n/* Each lane has its time. */\n"
-                                  "typedef num dal_time;\n#define DAL_TIME(t) (t)\n"
-                                : "\n/* All lanes have one time. */\n"
-                                  "typedef double dal_time;\n#define DAL_TIME(t) dal_num(t)\n");
-    dal__text_put(&g->text, "\n/* ---- the system ---- */\n\n");
+    dal__buffer_append(&g->text,
+                       g->product == DAL__OBSERVE
+                           ? "\n/* Each lane has its time. */\n"
+                             "typedef num dal_time;\n#define DAL_TIME(t) (t)\n"
+                           : "\n/* All lanes have one time. */\n"
+                             "typedef double dal_time;\n#define DAL_TIME(t) dal_num(t)\n");
+    dal__buffer_append(&g->text, "\n/* ---- the system ---- */\n\n");
 #define X(code, name, reads) write_program(g, DAL__PROGRAM_##code, #name);
     DAL__WIDE_LIST(X)
 #undef X
@@ -174,30 +176,31 @@ static bool has(const dal_run *run, const char *name)
 void dal__write_observe(dal__generation *g)
 {
     const dal_system *system = g->layout.system;
-    dal__text *text = &g->text;
+    dal__buffer *text = &g->text;
     int next = 0;
-    dal__text_put(
+    dal__buffer_append(
         text,
         "\nstatic void dal__observe(const dal_stored *w, dal_time t, const num *y, num *out)\n{\n"
         "    const num *q = y, *v = y + DAL__N;\n"
         "    (void)q, (void)v, (void)w, (void)t, (void)out;\n");
-    if (system->constraints) dal__text_put(text, "    dal__constraints(w, t, q, v, NULL, out);\n");
+    if (system->constraints)
+        dal__buffer_append(text, "    dal__constraints(w, t, q, v, NULL, out);\n");
     next += system->constraints ? system->m : 0;
     if (system->energy)
-        dal__text_print(text, "    dal__energy(w, t, q, v, NULL, out + %d);\n", next++);
+        dal__buffer_print(text, "    dal__energy(w, t, q, v, NULL, out + %d);\n", next++);
     if (g->layout.lifted)
-        dal__text_print(text, "    dal__observe_lift(w, t, y, out + %d);\n", next);
+        dal__buffer_print(text, "    dal__observe_lift(w, t, y, out + %d);\n", next);
     next += g->layout.lifted ? 4 : 0;
     if (system->invariant_values)
-        dal__text_print(text, "    dal__invariant_values(w, t, q, v, NULL, out + %d);\n", next);
+        dal__buffer_print(text, "    dal__invariant_values(w, t, q, v, NULL, out + %d);\n", next);
     next += system->invariant_values ? system->invariants : 0;
     if (has(g->run, "error"))
-        dal__text_print(text,
-                        "    num exact[2 * DAL__N];\n"
-                        "    dal__exact(w, t, q, v, NULL, exact);\n"
-                        "    out[%d] = dal_num(0.0);\n"
-                        "    DAL_EACH(i, DAL__N)\n"
-                        "        out[%d] = dal_max(out[%d], dal_abs(exact[i] - q[i]));\n",
-                        next, next, next);
-    dal__text_put(text, "}\n");
+        dal__buffer_print(text,
+                          "    num exact[2 * DAL__N];\n"
+                          "    dal__exact(w, t, q, v, NULL, exact);\n"
+                          "    out[%d] = dal_num(0.0);\n"
+                          "    DAL_EACH(i, DAL__N)\n"
+                          "        out[%d] = dal_max(out[%d], dal_abs(exact[i] - q[i]));\n",
+                          next, next, next);
+    dal__buffer_append(text, "}\n");
 }

@@ -16,10 +16,10 @@ void dal__write_template(dal__generation *g, const char *text)
 {
     static const char word[] = "PREFIX";
     for (const char *next; (next = strstr(text, word)); text = next + strlen(word)) {
-        dal__text_add(&g->text, text, (size_t)(next - text));
-        dal__text_put(&g->text, g->prefix);
+        dal__buffer_append_bytes(&g->text, text, (size_t)(next - text));
+        dal__buffer_append(&g->text, g->prefix);
     }
-    dal__text_put(&g->text, text);
+    dal__buffer_append(&g->text, text);
 }
 
 const char *dal__source_text(const char *name)
@@ -208,25 +208,25 @@ static void write_unrolling(dal__generation *g)
     const int width = g->layout.lifted ? 3 * g->layout.n : g->layout.nw;
     const bool small = g->layout.dim <= MOST_UNROLLED_DIM &&
                        (!coupled || stages * stages * width <= MOST_UNROLLED);
-    dal__text_put(&g->text, "#define DAL_SPECIALISED 1\n");
+    dal__buffer_append(&g->text, "#define DAL_SPECIALISED 1\n");
     if (small)
-        dal__text_put(&g->text, "#if !defined(__clang__) && !defined(__OPTIMIZE_SIZE__)\n"
-                                "#define DAL_UNROLL _Pragma(\"GCC unroll 64\")\n"
-                                "#else\n#define DAL_UNROLL\n#endif\n");
+        dal__buffer_append(&g->text, "#if !defined(__clang__) && !defined(__OPTIMIZE_SIZE__)\n"
+                                     "#define DAL_UNROLL _Pragma(\"GCC unroll 64\")\n"
+                                     "#else\n#define DAL_UNROLL\n#endif\n");
     else
-        dal__text_put(&g->text, "#define DAL_UNROLL\n");
+        dal__buffer_append(&g->text, "#define DAL_UNROLL\n");
 }
 
 /* What the kernel takes from the public header. */
 static void write_enums(dal__generation *g)
 {
-    dal__text_put(&g->text, "\ntypedef enum dal_status {\n");
-#define X(code, words) dal__text_put(&g->text, "    DAL_" #code ",\n");
+    dal__buffer_append(&g->text, "\ntypedef enum dal_status {\n");
+#define X(code, words) dal__buffer_append(&g->text, "    DAL_" #code ",\n");
     DAL_STATUS_LIST(X)
 #undef X
-    dal__text_put(&g->text, "    DAL_STATUS_COUNT\n} dal_status;\n"
-                            "enum { DAL_SOLVER_AUTO, DAL_FIXED_POINT, DAL_NEWTON };\n");
-    dal__text_print(&g->text, "enum { DAL_BLOCKS_POSITIONAL = %d };\n\n", DAL_BLOCKS_POSITIONAL);
+    dal__buffer_append(&g->text, "    DAL_STATUS_COUNT\n} dal_status;\n"
+                                 "enum { DAL_SOLVER_AUTO, DAL_FIXED_POINT, DAL_NEWTON };\n");
+    dal__buffer_print(&g->text, "enum { DAL_BLOCKS_POSITIONAL = %d };\n\n", DAL_BLOCKS_POSITIONAL);
 }
 
 /* The parts of the kernel that the method needs. */
@@ -237,52 +237,53 @@ static void write_kernel(dal__generation *g)
     const bool euler = dal__method_uses(g, "dal_symplectic_euler");
     const bool collocation = dal__method_uses(g, "dal_collocation");
     for (size_t i = 0; i < sizeof always / sizeof *always; i++)
-        dal__text_put(&g->text, dal__source_text(always[i]));
+        dal__buffer_append(&g->text, dal__source_text(always[i]));
     const bool constrained = dal_method_needs(&g->spec->method) & DAL_NEEDS_BLOCKS;
     if (euler || collocation || constrained || dal__method_uses(g, "dal_solve"))
-        dal__text_put(&g->text, dal__source_text("solve.h"));
-    if (euler) dal__text_put(&g->text, dal__source_text("symplectic_euler.h"));
-    if (collocation) dal__text_put(&g->text, dal__source_text("tableau.h"));
-    if (collocation) dal__text_put(&g->text, dal__source_text("collocation.h"));
+        dal__buffer_append(&g->text, dal__source_text("solve.h"));
+    if (euler) dal__buffer_append(&g->text, dal__source_text("symplectic_euler.h"));
+    if (collocation) dal__buffer_append(&g->text, dal__source_text("tableau.h"));
+    if (collocation) dal__buffer_append(&g->text, dal__source_text("collocation.h"));
     if (dal__method_uses(g, "dal_substeps"))
-        dal__text_put(&g->text, dal__source_text("composition.h"));
-    if (constrained) dal__text_put(&g->text, dal__source_text("constrained.h"));
-    if (dal__method_uses(g, "dal_spark")) dal__text_put(&g->text, dal__source_text("spark.h"));
+        dal__buffer_append(&g->text, dal__source_text("composition.h"));
+    if (constrained) dal__buffer_append(&g->text, dal__source_text("constrained.h"));
+    if (dal__method_uses(g, "dal_spark")) dal__buffer_append(&g->text, dal__source_text("spark.h"));
 }
 
 /* rk4, implicit_midpoint: what an integrator is called in DAL_INTEGRATOR. */
 static void write_identifier(dal__generation *g, const dal_integrator *link)
 {
-    for (const char *c = link->name; *c; c++) dal__text_add(&g->text, *c == '-' ? "_" : c, 1);
+    for (const char *c = link->name; *c; c++)
+        dal__buffer_append_bytes(&g->text, *c == '-' ? "_" : c, 1);
 }
 
 static void write_method(dal__generation *g)
 {
-    dal__text *text = &g->text;
-    dal__text_put(text, "\n#define DAL_INTEGRATOR(identifier, function, ...) \\\n"
-                        "    DAL_INLINE dal_status dal__of_##identifier(dal_step *s) "
-                        "{ return function(s); } \\\n"
-                        "    typedef dal_step dal__after_##identifier\n\n");
+    dal__buffer *text = &g->text;
+    dal__buffer_append(text, "\n#define DAL_INTEGRATOR(identifier, function, ...) \\\n"
+                             "    DAL_INLINE dal_status dal__of_##identifier(dal_step *s) "
+                             "{ return function(s); } \\\n"
+                             "    typedef dal_step dal__after_##identifier\n\n");
     for (int i = 0; i < g->layout.depth; i++) {
         if (i > 0) {
-            dal__text_print(text,
-                            "DAL_INLINE dal_status dal__inner_%d(dal_step *s, double h)\n"
-                            "{\n    const double outer = s->h;\n    s->h = h;\n"
-                            "    const dal_status status = dal__of_",
-                            i);
+            dal__buffer_print(text,
+                              "DAL_INLINE dal_status dal__inner_%d(dal_step *s, double h)\n"
+                              "{\n    const double outer = s->h;\n    s->h = h;\n"
+                              "    const dal_status status = dal__of_",
+                              i);
             write_identifier(g, g->spec->method.layer[i - 1]);
-            dal__text_print(text,
-                            "(s);\n    s->h = outer;\n    return status;\n}\n"
-                            "#undef dal_inner\n#define dal_inner dal__inner_%d\n",
-                            i);
+            dal__buffer_print(text,
+                              "(s);\n    s->h = outer;\n    return status;\n}\n"
+                              "#undef dal_inner\n#define dal_inner dal__inner_%d\n",
+                              i);
         }
-        dal__text_print(text, "#define step dal__step_%d\n", i);
-        dal__text_put(text, g->source[i]->text);
-        dal__text_put(text, "#undef step\n\n");
+        dal__buffer_print(text, "#define step dal__step_%d\n", i);
+        dal__buffer_append(text, g->source[i]->text);
+        dal__buffer_append(text, "#undef step\n\n");
     }
-    dal__text_put(text, "#define dal__method dal__of_");
+    dal__buffer_append(text, "#define dal__method dal__of_");
     write_identifier(g, g->spec->method.layer[g->layout.depth - 1]);
-    dal__text_put(text, "\n\n");
+    dal__buffer_append(text, "\n\n");
 }
 
 /* Kernel, system, method and steps. */
@@ -294,7 +295,7 @@ void dal__write_steps(dal__generation *g)
     write_enums(g);
     write_kernel(g);
     dal__emit_callbacks(g);
-    dal__text_put(&g->text, dal__source_text("dispatch.inc"));
+    dal__buffer_append(&g->text, dal__source_text("dispatch.inc"));
     write_method(g);
     dal__write_template(g, dal__source_text("stepper.inc"));
 }
@@ -306,7 +307,7 @@ static void write_file(dal__generation *g)
                            "#include <stdint.h>\n#include <string.h>\n\n");
     dal__write_steps(g);
     dal__write_start(g);
-    dal__text_put(&g->text, dal__source_text("observe_lift.inc"));
+    dal__buffer_append(&g->text, dal__source_text("observe_lift.inc"));
     dal__write_template(g, dal__source_text("interface.inc"));
     dal__write_observe(g);
     dal__write_names(g);
@@ -316,7 +317,7 @@ static void write_file(dal__generation *g)
 dal_status dal__generation_finish(dal__generation *g, char **text, dal_error *error)
 {
     if (g->text.out_of_memory) {
-        dal__text_free(&g->text);
+        dal__buffer_free(&g->text);
         return dal__fail(error, DAL_MEMORY, "no memory for a generated file");
     }
     *text = g->text.bytes;

@@ -5,7 +5,7 @@
 #ifndef DAL_GENERATE_H
 #define DAL_GENERATE_H
 
-#include "core/text.h"
+#include "core/buffer.h"
 #include "expr/emit.h"
 #include "model/programs.h"
 #include "run/engine.h"
@@ -33,7 +33,7 @@ typedef struct dal__generation {
     int lanes;
     dal__product product;
     char prefix[DAL__PREFIX_SIZE];
-    dal__text text;
+    dal__buffer text;
 } dal__generation;
 
 /* Adds a text in which the word PREFIX becomes the prefix. */

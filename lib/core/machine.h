@@ -6,12 +6,12 @@
  *     DAL__VARIANT_LIST(X, name):   X(name, x4, 4, BASE, x4) X(name, x64, 64, BASE, x2) ...
  *     DAL__INSTRUCTIONS_LIST(X):    X(BASE, NULL) X(AVX2, "-mavx2", "-mfma", NULL) ...
  *
- * with the name of what there is a variant of, the variant (its suffix), its lanes, its instruction
- * set, and the group of lanes it is made of, whose integrators it uses (kernel/groups.h); of two
- * variants with the same lanes the better one comes later.  x1, which every machine has and an
- * integrator from outside may have alone, is not in it.  An instruction set comes with what tells a
- * compiler of it.  QUAD is none, and no machine has it: x1_QUAD computes in quad precision
- * (kernel/quad.h) and is asked for by name. */
+ * with the name of the function, the variant (its suffix), its lanes, its instruction set, and the
+ * group of lanes that it consists of, whose integrators it uses (kernel/groups.h); of two variants
+ * with the same lanes the better one comes later.  x1, which every machine has and an integrator
+ * from outside may have alone, is not in it.  An instruction set comes with the options that a
+ * compiler needs for it.  QUAD is no instruction set of a machine: x1_QUAD computes in quad
+ * precision (kernel/quad.h) and is selected by name. */
 #ifndef DAL_MACHINE_H
 #define DAL_MACHINE_H
 

@@ -13,7 +13,7 @@ typedef struct writer {
     const dal__input_name *input;
     uint32_t *result; /* [workspace] the number of the result that a place holds */
     uint32_t results;
-    dal__text *text;
+    dal__buffer *text;
 } writer;
 
 static const char *const expressions[] = {
@@ -33,15 +33,15 @@ static void write_operand(const writer *w, uint32_t place, bool bare)
 {
     const dal__tapes *tapes = w->tapes;
     if (is_number(tapes, place)) {
-        if (!bare) dal__text_put(w->text, "dal_num(");
-        dal__text_number(w->text, tapes->number[place - (uint32_t)tapes->parameters]);
-        if (!bare) dal__text_put(w->text, ")");
+        if (!bare) dal__buffer_append(w->text, "dal_num(");
+        dal__buffer_number(w->text, tapes->number[place - (uint32_t)tapes->parameters]);
+        if (!bare) dal__buffer_append(w->text, ")");
     } else if (place < tapes->first_input) {
-        dal__text_print(w->text, "DAL_WORK(%u)", place);
+        dal__buffer_print(w->text, "DAL_WORK(%u)", place);
     } else if (place < tapes->temporaries) {
-        dal__text_put(w->text, w->input[place - tapes->first_input].text);
+        dal__buffer_append(w->text, w->input[place - tapes->first_input].text);
     } else {
-        dal__text_print(w->text, "x%u", w->result[place]);
+        dal__buffer_print(w->text, "x%u", w->result[place]);
     }
 }
 
@@ -59,7 +59,7 @@ static void write_expression(const writer *w, const dal__instruction *i)
         if (alone && *at >= 'a' && *at <= 'c')
             write_operand(w, *at == 'a' ? i->a : *at == 'b' ? i->b : i->c, bare);
         else
-            dal__text_put(w->text, *at == '*' && at[1] != ' ' ? "* " : (char[]){*at, '\0'});
+            dal__buffer_append(w->text, *at == '*' && at[1] != ' ' ? "* " : (char[]){*at, '\0'});
     }
 }
 
@@ -67,21 +67,21 @@ static void write_instruction(writer *w, const dal__instruction *i)
 {
     if (i->op == DAL__SINCOS) {
         const uint32_t sine = ++w->results, cosine = ++w->results;
-        dal__text_print(w->text, "    num x%u, x%u;\n    dal_sincos(", sine, cosine);
+        dal__buffer_print(w->text, "    num x%u, x%u;\n    dal_sincos(", sine, cosine);
         write_operand(w, i->a, false);
-        dal__text_print(w->text, ", &x%u, &x%u);\n", sine, cosine);
+        dal__buffer_print(w->text, ", &x%u, &x%u);\n", sine, cosine);
         w->result[i->d] = sine;
         w->result[i->b] = cosine;
         return;
     }
-    dal__text_print(w->text, "    const num x%u = ", w->results + 1);
+    dal__buffer_print(w->text, "    const num x%u = ", w->results + 1);
     write_expression(w, i);
-    dal__text_put(w->text, ";\n");
+    dal__buffer_append(w->text, ";\n");
     w->result[i->d] = ++w->results;
 }
 
 void dal__tape_write(const dal__tapes *tapes, int program, const dal__input_name *input,
-                     dal__text *text)
+                     dal__buffer *text)
 {
     const dal__tape *tape = &tapes->tape[program];
     writer w = {tapes, input, calloc(tapes->workspace + 1, sizeof *w.result), 0, text};
@@ -89,19 +89,19 @@ void dal__tape_write(const dal__tapes *tapes, int program, const dal__input_name
     if (!w.result) return;
     for (int i = 0; i < tape->length; i++) write_instruction(&w, &tape->code[i]);
     for (int k = 0; k < tape->outputs; k++) {
-        dal__text_print(text, "    out[%d] = ", k);
+        dal__buffer_print(text, "    out[%d] = ", k);
         write_operand(&w, tape->place[k], false);
-        dal__text_put(text, ";\n");
+        dal__buffer_append(text, ";\n");
     }
     free(w.result);
 }
 
-void dal__tapes_write_hoisted(const dal__tapes *tapes, dal__text *text)
+void dal__tapes_write_hoisted(const dal__tapes *tapes, dal__buffer *text)
 {
     const writer w = {.tapes = tapes, .text = text};
     for (int i = 0; i < tapes->hoisted.length; i++) {
-        dal__text_print(text, "    DAL_WORK(%u) = ", tapes->hoisted.code[i].d);
+        dal__buffer_print(text, "    DAL_WORK(%u) = ", tapes->hoisted.code[i].d);
         write_expression(&w, &tapes->hoisted.code[i]);
-        dal__text_put(text, ";\n");
+        dal__buffer_append(text, ";\n");
     }
 }

@@ -2,7 +2,7 @@
 #ifndef DAL_EXPR_EMIT_H
 #define DAL_EXPR_EMIT_H
 
-#include "core/text.h"
+#include "core/buffer.h"
 #include "expr/tape.h"
 
 typedef struct dal__input_name {
@@ -14,7 +14,7 @@ typedef struct dal__input_name {
  * hoisted nodes are DAL_WORK(place), with their places in work.  The second writes what
  * dal__tapes_prepare_x1 computes. */
 void dal__tape_write(const dal__tapes *tapes, int program, const dal__input_name *input,
-                     dal__text *text);
-void dal__tapes_write_hoisted(const dal__tapes *tapes, dal__text *text);
+                     dal__buffer *text);
+void dal__tapes_write_hoisted(const dal__tapes *tapes, dal__buffer *text);
 
 #endif

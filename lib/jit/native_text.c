@@ -10,8 +10,8 @@ enum { MOST_UNROLLED = 64 };
 /* Declarations instead of headers, which take a compiler longer to read. */
 static void write_declarations(dal__generation *g)
 {
-    dal__text_put(&g->text,
-                  "typedef __INT64_TYPE__ int64_t;\ntypedef __UINT64_TYPE__ uint64_t;\ntypedef "
+    dal__buffer_append(
+        &g->text, "typedef __INT64_TYPE__ int64_t;\ntypedef __UINT64_TYPE__ uint64_t;\ntypedef "
                   "__SIZE_TYPE__ size_t;\n"
                   "#define INT64_MAX __INT64_MAX__\n#define INT64_MIN (-__INT64_MAX__ - 1)\n"
                   "#define NULL ((void *)0)\n#define INFINITY __builtin_inf()\n"
@@ -56,12 +56,12 @@ static void write_sizes(dal__generation *g)
 {
     const dal__layout *k = &g->layout;
     const bool small = k->dim <= MOST_UNROLLED;
-    dal__text_put(&g->text, small ? "#define DAL_UNROLL _Pragma(\"GCC unroll 64\")\n"
-                                  : "#define DAL_UNROLL\n");
-    dal__text_print(&g->text,
-                    "enum { DAL__N = %d, DAL__NW = %d, DAL__DIM = %d, DAL__LIFTED = %d, "
-                    "DAL__OBSERVABLES = %d };\n",
-                    k->n, k->nw, k->dim, k->lifted, dal_run_observables(g->run));
+    dal__buffer_append(&g->text, small ? "#define DAL_UNROLL _Pragma(\"GCC unroll 64\")\n"
+                                       : "#define DAL_UNROLL\n");
+    dal__buffer_print(&g->text,
+                      "enum { DAL__N = %d, DAL__NW = %d, DAL__DIM = %d, DAL__LIFTED = %d, "
+                      "DAL__OBSERVABLES = %d };\n",
+                      k->n, k->nw, k->dim, k->lifted, dal_run_observables(g->run));
 }
 
 dal_status dal__generate_observables(const dal__layout *layout, const dal_run *run, char **text,
@@ -77,12 +77,12 @@ dal_status dal__generate_observables(const dal__layout *layout, const dal_run *r
         &g, "void PREFIX_observables(const double *, long long, long long, const double *, "
             "double *);\n");
     dal__write_compiler(&g);
-    dal__text_put(&g.text, lanes);
+    dal__buffer_append(&g.text, lanes);
     write_sizes(&g);
-    dal__text_put(&g.text, dal__source_text("num.h"));
-    dal__text_put(&g.text, dal__source_text("elementary.h"));
+    dal__buffer_append(&g.text, dal__source_text("num.h"));
+    dal__buffer_append(&g.text, dal__source_text("elementary.h"));
     dal__emit_callbacks(&g);
-    if (g.layout.lifted) dal__text_put(&g.text, dal__source_text("observe_lift.inc"));
+    if (g.layout.lifted) dal__buffer_append(&g.text, dal__source_text("observe_lift.inc"));
     dal__write_observe(&g);
     dal__write_template(&g, dal__source_text("observables.inc"));
     return dal__generation_finish(&g, text, error);
