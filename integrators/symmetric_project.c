@@ -1,4 +1,4 @@
-/* symmetric_project.c - the modifier NAME+symmetric-project: D = 0 by a elimination before and
+/* symmetric_project.c - the modifier NAME+symmetric-project: D = 0 by a reaction before and
  * after every step, for a symmetric method.
  *
  *     v^ = v0 + B0 mu,   (q1, v~) = step of NAME from (q0, v^),   v1 = v~ + B1 mu
@@ -112,7 +112,7 @@ DAL_INLINE dal_status step(dal_step *s)
 
 DAL_INTEGRATOR(
     symmetric_project, step, .name = "symmetric-project",
-    .summary = "a elimination before and after each step, so that D = 0; p = pi = pi_e = 0",
+    .summary = "a reaction before and after each step, so that D = 0; p = pi = pi_e = 0",
     .reference = "Hairer 2000", .stages = 1,
     .properties = DAL_MODIFIER | DAL_SYMMETRIC | DAL_PRESERVES_D,
     .needs = DAL_NEEDS_CONSTRAINT | DAL_NEEDS_SYMMETRIC,
