@@ -110,10 +110,9 @@ DAL_INLINE dal_status step(dal_step *s)
     return DAL_M(s) > 0 ? reflect(s) : dal_inner(s, s->h);
 }
 
-DAL_INTEGRATOR(
-    symmetric_project, step, .name = "symmetric-project",
-    .summary = "a reaction before and after each step, so that D = 0; p = pi = pi_e = 0",
-    .reference = "Hairer 2000", .stages = 1,
-    .properties = DAL_MODIFIER | DAL_SYMMETRIC | DAL_PRESERVES_D,
-    .needs = DAL_NEEDS_CONSTRAINT | DAL_NEEDS_SYMMETRIC,
-    .inherits = DAL_PRESERVES_BILINEAR | DAL_PRESERVES_QUADRATIC);
+DAL_INTEGRATOR(symmetric_project, step, .name = "symmetric-project",
+               .summary = "a reaction before and after each step, so that D = 0; p = pi = pi_e = 0",
+               .reference = "Hairer 2000", .stages = 1,
+               .properties = DAL_MODIFIER | DAL_SYMMETRIC | DAL_PRESERVES_D,
+               .needs = DAL_NEEDS_CONSTRAINT | DAL_NEEDS_SYMMETRIC,
+               .inherits = DAL_PRESERVES_BILINEAR | DAL_PRESERVES_QUADRATIC);
