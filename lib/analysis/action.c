@@ -94,16 +94,7 @@ static double hamiltonian(void *user, const double *z)
     return square / (2.0 * e) + sum + mu * pi[n];
 }
 
-/* z = midpoint X, mean P of the interval that begins at row, and the gradient of H there. */
-static void enter_interval(path *w, double t, const double *row)
-{
-    int size = 2 * w->half;
-    for (int i = 0; i < size; i++) w->z[i] = 0.5 * (row[i] + row[i + size]);
-    w->t = t + 0.5 * w->h;
-    dal_measure_gradient(hamiltonian, w, size, w->z, w->gradient);
-}
-
-/* before holds P - h/2 H_X of the interval before, as dS/dX of the node between wants it. */
+/* before holds P - h/2 H_X of the interval before, a part of dS/dX at the node between. */
 static double variation(path *w, const double *row, int inner)
 {
     double max = 0.0;
@@ -136,7 +127,10 @@ dal_status dal_check_stationarity(dal_evaluator *evaluator, double t0, double h,
     *defect = 0.0;
     for (long long k = 0; k + 1 < count; k++) {
         const double *row = states + (size_t)k * size;
-        enter_interval(&w, t0 + h * (double)k, row);
+        /* z = midpoint X, mean P of the interval that begins at row, and the gradient of H there. */
+        for (size_t i = 0; i < size; i++) w.z[i] = 0.5 * (row[i] + row[i + size]);
+        w.t = t0 + h * (double)k + 0.5 * h;
+        dal_measure_gradient(hamiltonian, &w, (int)size, w.z, w.gradient);
         double here = variation(&w, row, k > 0);
         if (!(here <= *defect)) *defect = isnan(here) ? INFINITY : here;
     }

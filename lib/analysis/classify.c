@@ -28,11 +28,6 @@ static places find_places(const dal_run *run)
                     .pi = is_lifted ? m + has_energy + 2 : -1};
 }
 
-static int is_on_surface(const dal_trend *constraint)
-{
-    return constraint->size != DAL_SIZE_LARGER && fabs(constraint->first) <= start_roundings;
-}
-
 /* The largest |pi| of a run; 0 where there is none. */
 static double max_pi(const places *at, const dal_trend *trend)
 {
@@ -47,7 +42,8 @@ static dal_conservation conservation_of_energy(const dal_run *run, const places 
     if (max_pi(at, trend) > 0.0 && isfinite(dal_run_state(run)[2 * s->n])) return DAL_MOVED_BY_PI;
     if (s->properties & DAL_E_EXACT) return DAL_CONSERVED;
     for (int a = 0; a < at->constraints; a++)
-        if (!is_on_surface(&trend[a])) return DAL_OFF_SURFACE;
+        if (trend[a].size == DAL_SIZE_LARGER || !(fabs(trend[a].first) <= start_roundings))
+            return DAL_OFF_SURFACE;
     return DAL_CONSERVED;
 }
 

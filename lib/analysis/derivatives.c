@@ -1,4 +1,4 @@
-/* derivatives.c - what a system says of its derivatives, against differences of its own values.
+/* derivatives.c - the derivatives that a system returns, compared with differences of its values.
  *
  *     d/dt f(q,v,t) along the motion = d/ds f(q + s v, v + s F, t + s) at s = 0 */
 #include "analysis/derivatives.h"
@@ -80,16 +80,7 @@ static dal_status along_line(void *user, double s, double *out)
     return status;
 }
 
-/* Column j of the derivative of l->callback by x, count numbers. */
-static dal_status column(line *l, int j, int count, double *scratch, double *out)
-{
-    l->j = j;
-    l->held = l->x[j];
-    const double d = DAL__INCREMENT * fmax(1.0, j < l->n ? 0.0 : fabs(l->held));
-    return dal__differentiate(along_line, l, d, count, scratch, out);
-}
-
-typedef struct desk {
+typedef struct comparison {
     dal_evaluator *evaluator;
     const dal_system *s;
     int n, nw, m;
@@ -97,16 +88,19 @@ typedef struct desk {
     double *x;           /* [n + nw] the point */
     double *differences; /* [rows * (n + nw)] row-major */
     double *given, *scratch, *pi;
-} desk;
+} comparison;
 
 /* differences[rows*(n+nw)] of a callback's first rows values. */
-static dal_status tabulate(desk *d, dal_callback *callback, int rows)
+static dal_status tabulate(comparison *d, dal_callback *callback, int rows)
 {
     line l = {.evaluator = d->evaluator, .callback = callback, .t = d->t, .x = d->x, .n = d->n};
     int columns = d->n + d->nw;
     double *out = d->scratch + 3 * rows;
     for (int j = 0; j < columns; j++) {
-        DAL_TRY(column(&l, j, rows, d->scratch, out));
+        l.j = j;
+        l.held = l.x[j];
+        const double size = DAL__INCREMENT * fmax(1.0, j < l.n ? 0.0 : fabs(l.held));
+        DAL_TRY(dal__differentiate(along_line, &l, size, rows, d->scratch, out));
         for (int i = 0; i < rows; i++) d->differences[i * columns + j] = out[i];
     }
     const double size = dal__max_abs(d->differences, (size_t)rows * (size_t)columns);
@@ -124,7 +118,7 @@ dal_status dal__gradients(dal_evaluator *evaluator, dal_callback *callback, int 
     if (x == NULL) return DAL_MEMORY;
     memcpy(x, at->q, (size_t)s->n * sizeof(double));
     memcpy(x + s->n, at->v, (size_t)nw * sizeof(double));
-    desk d = {
+    comparison d = {
         .evaluator = evaluator, .n = s->n, .nw = nw, .t = at->t, .x = x, .scratch = x + width};
     d.differences = differences;
     const dal_status status = tabulate(&d, callback, rows);
@@ -132,13 +126,13 @@ dal_status dal__gradients(dal_evaluator *evaluator, dal_callback *callback, int 
     return status;
 }
 
-static dal_status call(desk *d, dal_callback *callback, double *out)
+static dal_status call(comparison *d, dal_callback *callback, double *out)
 {
     return dal_evaluator_call(d->evaluator, callback, d->t, d->x, d->x + d->n, d->pi, out);
 }
 
 /* The block rows*columns at given against columns first.. of the differences. */
-static double compare(const desk *d, const double *given, int rows, int first, int columns)
+static double compare(const comparison *d, const double *given, int rows, int first, int columns)
 {
     double max = 0.0;
     for (int i = 0; i < rows; i++) {
@@ -148,7 +142,7 @@ static double compare(const desk *d, const double *given, int rows, int first, i
     return max;
 }
 
-static dal_status compare_jacobian(desk *d, double *defect)
+static dal_status compare_jacobian(comparison *d, double *defect)
 {
     *defect = NAN;
     if (d->s->call.jacobian == NULL) return DAL_OK;
@@ -158,7 +152,7 @@ static dal_status compare_jacobian(desk *d, double *defect)
     return DAL_OK;
 }
 
-static dal_status compare_adjoint(desk *d, double *defect)
+static dal_status compare_adjoint(comparison *d, double *defect)
 {
     *defect = NAN;
     if (d->s->call.adjoint == NULL) return DAL_OK;
@@ -175,16 +169,7 @@ static dal_status compare_adjoint(desk *d, double *defect)
     return DAL_OK;
 }
 
-static double asymmetry(const double *gram, int m)
-{
-    double max = 0.0;
-    for (int i = 0; i < m; i++)
-        for (int j = 0; j < i; j++) max = fmax(max, fabs(gram[i * m + j] - gram[j * m + i]));
-    double size = dal__max_abs(gram, (size_t)m * (size_t)m);
-    return size > 0.0 ? max / size : 0.0;
-}
-
-static dal_status compare_constraint(desk *d, dal_derivatives *out)
+static dal_status compare_constraint(comparison *d, dal_derivatives *out)
 {
     out->constraint_jacobian = out->gram = NAN;
     if (d->m == 0 || d->s->call.constraint == NULL) return DAL_OK;
@@ -192,11 +177,15 @@ static dal_status compare_constraint(desk *d, dal_derivatives *out)
     DAL_TRY(call(d, d->s->call.constraint, d->given));
     out->constraint_jacobian = compare(d, d->given + d->m, d->m, d->n, d->n);
     dal__gram(d->s, d->given, d->scratch);
-    out->gram = asymmetry(d->scratch, d->m);
+    const double *gram = d->scratch, size = dal__max_abs(gram, (size_t)d->m * (size_t)d->m);
+    double max = 0.0;
+    for (int i = 0; i < d->m; i++)
+        for (int j = 0; j < i; j++) max = fmax(max, fabs(gram[i * d->m + j] - gram[j * d->m + i]));
+    out->gram = size > 0.0 ? max / size : 0.0;
     return DAL_OK;
 }
 
-static dal_status compare_all(desk *d, const dal_point *at, dal_derivatives *out)
+static dal_status compare_all(comparison *d, const dal_point *at, dal_derivatives *out)
 {
     dal__random random = {1};
     memcpy(d->x, at->q, (size_t)d->n * sizeof(double));
@@ -222,17 +211,17 @@ dal_status dal_check_derivatives(dal_evaluator *evaluator, const dal_point *at,
     double *block = dal__numbers(1, columns + rows * columns + given + scratch + n);
     if (block == NULL) return DAL_MEMORY;
     double *differences = block + columns, *values = differences + rows * columns;
-    desk d = {.evaluator = evaluator,
-              .s = s,
-              .n = s->n,
-              .nw = s->n + s->multipliers,
-              .m = s->m,
-              .t = at->t,
-              .x = block,
-              .differences = differences,
-              .given = values,
-              .scratch = values + given,
-              .pi = values + given + scratch};
+    comparison d = {.evaluator = evaluator,
+                    .s = s,
+                    .n = s->n,
+                    .nw = s->n + s->multipliers,
+                    .m = s->m,
+                    .t = at->t,
+                    .x = block,
+                    .differences = differences,
+                    .given = values,
+                    .scratch = values + given,
+                    .pi = values + given + scratch};
     dal_status status = compare_all(&d, at, out);
     free(block);
     return status;

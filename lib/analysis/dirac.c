@@ -148,14 +148,6 @@ static double multiplier_error(const algebra *w)
     return max;
 }
 
-/* H_c with the multipliers found. */
-static double total_hamiltonian(algebra *w)
-{
-    double sum = hamiltonian(&w->space, w->z);
-    for (int b = 0; b < w->primary; b++) sum += w->mu[b] * w->space.phi(&w->space, w->z, b);
-    return sum;
-}
-
 /* On the primary surface, off the secondary one: p = lambda and pi of order 1. */
 static void leave_surface(algebra *w)
 {
@@ -176,7 +168,9 @@ static dal_status analyse(algebra *w, dal_dirac *out)
     out->constraints = w->count;
     out->free_multipliers = w->primary - conserve(w, w->count, &out->conservation);
     out->multipliers = multiplier_error(w);
-    out->hamiltonian = fabs(total_hamiltonian(w));
+    double total = hamiltonian(&w->space, w->z);
+    for (int b = 0; b < w->primary; b++) total += w->mu[b] * w->space.phi(&w->space, w->z, b);
+    out->hamiltonian = fabs(total);
     take_brackets(w, w->count, w->count);
     out->second_class = dal__least_squares(w->count, w->count, w->matrix, NULL, NULL,
                                            rank_tolerance, NULL, w->scratch);

@@ -43,27 +43,16 @@ double dal__open_sum(const dal_statistics *s) { return open_sum(s) / s->factor; 
 /* For numbers near the largest double: their sums and differences stay finite. */
 static const double small_factor = 0x1p-200;
 
-static void lower_factor(dal_statistics *s)
-{
-    s->factor = small_factor;
-    for (int i = 0; i < DAL_PARTIAL_SUMS; i++) s->open_sum[i] *= small_factor;
-    for (int i = 0; i < DAL_STATISTICS_BLOCKS; i++) s->block[i].x *= small_factor;
-}
-
-/* The least power of two above |x|, as long as its inverse is a number. */
-static double unit_of(double x)
-{
-    int exponent;
-    frexp(x, &exponent);
-    return ldexp(1.0, exponent < -1000 ? -1000 : exponent > 1000 ? 1000 : exponent);
-}
-
-/* Differences are counted in units of the greatest |x| of all full blocks. */
+/* Differences are counted in units of max |x| of all full blocks. */
 static void raise_rough_unit(dal_statistics *s)
 {
     const double max = fmax(fabs(s->min), fabs(s->max));
     if (max <= s->rough_unit) return;
-    const double unit = unit_of(max), ratio = (s->rough_unit > 0.0 ? s->rough_unit : 1.0) / unit;
+    /* The smallest power of two above it whose inverse is a number. */
+    int exponent;
+    frexp(max, &exponent);
+    const double unit = ldexp(1.0, exponent < -1000 ? -1000 : exponent > 1000 ? 1000 : exponent);
+    const double ratio = (s->rough_unit > 0.0 ? s->rough_unit : 1.0) / unit;
     s->rough_steps = s->rough_steps * ratio * ratio;
     for (int i = 0; i < DAL_PARTIAL_SUMS; i++) s->rough[i] = s->rough[i] * ratio * ratio;
     s->rough_unit = unit;
@@ -136,7 +125,11 @@ static void add_one(dal_statistics *s, double t, double x)
         s->lost = 1;
         return;
     }
-    if (fabs(x) > DAL__PLAIN_LIMIT && s->factor == 1.0) lower_factor(s);
+    if (fabs(x) > DAL__PLAIN_LIMIT && s->factor == 1.0) {
+        s->factor = small_factor;
+        for (int i = 0; i < DAL_PARTIAL_SUMS; i++) s->open_sum[i] *= small_factor;
+        for (int i = 0; i < DAL_STATISTICS_BLOCKS; i++) s->block[i].x *= small_factor;
+    }
     if (s->open_count == 0) open_block(s, t, x);
     add_roughness(s, x);
     s->open_sum[s->open_count % DAL_PARTIAL_SUMS] += x * s->factor - s->first * s->factor;

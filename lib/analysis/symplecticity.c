@@ -72,19 +72,15 @@ static dal_status vary(void *user, double s, double *out)
     return status;
 }
 
-/* What component j is measured by: a coordinate by the way of a step. */
-static double scale_of(const stepmap *m, int j)
-{
-    const int n = dal_run_system(m->run)->n;
-    return j < n ? dal_run_step_size(m->run) * m->z[n + j] : m->z[j];
-}
-
 /* columns[j] = d(step)/dz_j. */
 static dal_status differentiate_step(stepmap *m, double increment, double *columns, double *scratch)
 {
+    const int n = dal_run_system(m->run)->n;
     for (m->j = 0; m->j < m->dimension; m->j++) {
         m->held = m->z[m->j];
-        double d = increment * fmax(1.0, fabs(scale_of(m, m->j)));
+        /* The scale of a coordinate is the way of a step. */
+        const double way = m->j < n ? dal_run_step_size(m->run) * m->z[n + m->j] : m->z[m->j];
+        const double d = increment * fmax(1.0, fabs(way));
         double *out = columns + (size_t)m->j * (size_t)m->dimension;
         DAL_TRY(dal__differentiate(vary, m, d, m->dimension, scratch, out));
     }

@@ -72,12 +72,6 @@ static dal__growth growth_from(const curve *c, int from)
     return by_rate < by_power ? DAL__GROWS_FAST : DAL__GROWS;
 }
 
-static bool is_one_sided(const dal__trend_series *x)
-{
-    const double below = -x->low, above = x->high;
-    return fmin(below, above) < one_sided * fmax(below, above);
-}
-
 dal__growth dal__trend_growth(const dal__trend_series *x)
 {
     curve c;
@@ -88,7 +82,9 @@ dal__growth dal__trend_growth(const dal__trend_series *x)
     if (rise < doubled) return DAL__STEADY;
     if (rise < grown) return DAL__LARGER;
     const dal__growth whole = growth_from(&c, 0);
-    if (whole == DAL__GROWS_FAST && rise > exploded && is_one_sided(x)) return DAL__EXPLODES;
+    const double below = -x->low, above = x->high;
+    const bool is_one_sided = fmin(below, above) < one_sided * fmax(below, above);
+    if (whole == DAL__GROWS_FAST && rise > exploded && is_one_sided) return DAL__EXPLODES;
     int from = 0;
     while (from < c.count && c.z[from] < c.z[0] + clear_of_noise) from++;
     return whole != DAL__LARGER ? whole : growth_from(&c, from);

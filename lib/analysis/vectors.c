@@ -78,21 +78,19 @@ static void swap(double *a, double *b)
     *b = c;
 }
 
-static void exchange(matrix *m, int i, int j)
+/* Moves the longest column from i on to place i; its length. */
+static double pivot_column(matrix *m, int i)
 {
-    for (int k = 0; k < m->rows; k++) swap(&m->a[k * m->columns + i], &m->a[k * m->columns + j]);
-    for (int k = 0; k < i; k++) swap(&m->r[k * m->columns + i], &m->r[k * m->columns + j]);
-    swap(&m->place[i], &m->place[j]);
-}
-
-static double longest(matrix *m, int from, int *where)
-{
-    *where = from;
-    for (int i = from; i < m->columns; i++) {
-        m->norm[i] = sqrt(column_dot(m, i, m->a + i, m->columns));
-        if (m->norm[i] > m->norm[*where]) *where = i;
+    int longest = i;
+    for (int j = i; j < m->columns; j++) {
+        m->norm[j] = sqrt(column_dot(m, j, m->a + j, m->columns));
+        if (m->norm[j] > m->norm[longest]) longest = j;
     }
-    return m->norm[*where];
+    for (int k = 0; k < m->rows; k++)
+        swap(&m->a[k * m->columns + i], &m->a[k * m->columns + longest]);
+    for (int k = 0; k < i; k++) swap(&m->r[k * m->columns + i], &m->r[k * m->columns + longest]);
+    swap(&m->place[i], &m->place[longest]);
+    return m->norm[longest];
 }
 
 /* Column i becomes a unit vector, the later ones lose their part along it. */
@@ -128,13 +126,12 @@ int dal__least_squares(int rows, int columns, double *a, double *right, double *
     size_t square = (size_t)columns * (size_t)columns;
     matrix m = {rows, columns, a, work, work + square, work + square + columns};
     double largest = 0.0, norm = 0.0;
-    int rank = 0, where;
+    int rank = 0;
     for (int i = 0; i < columns; i++) m.place[i] = i;
     for (; rank < columns; rank++) {
-        norm = longest(&m, rank, &where);
+        norm = pivot_column(&m, rank);
         if (rank == 0) largest = norm;
         if (!(norm > tolerance * largest) || norm < DBL_MIN) break;
-        exchange(&m, rank, where);
         orthogonalise(&m, rank, norm);
     }
     if (pivot != NULL) *pivot = rank == columns && columns > 0 ? norm / largest : 0.0;
