@@ -1,5 +1,6 @@
 /* test_json.c - the JSON of the program, read back by jansson and by the program itself. */
 #include "io/json.h"
+#include "ui/clock.h"
 
 #include <CUnit/CUnit.h>
 #include <fcntl.h>
