@@ -14,115 +14,106 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { COLUMNS_MOST = 8 };
+enum { MAX_COLUMNS = 8 };
 
-/* A table of texts; the first row holds the headings. */
-typedef struct sheet {
-    int columns, cells, room;
+/* A table of texts; the first row has the headings. */
+typedef struct text_table {
+    int columns, cells, capacity;
     char **cell;
-} sheet;
+} text_table;
 
-static void put(sheet *s, const char *format, ...) CLI_PRINTF(2, 3);
+static void add_cell(text_table *t, const char *format, ...) CLI_PRINTF(2, 3);
 
-static void grow(sheet *s)
-{
-    if (s->cells < s->room) return;
-    s->room = s->room ? 2 * s->room : 64;
-    s->cell = cli_realloc(s->cell, (size_t)s->room * sizeof *s->cell);
-}
-
-static void put(sheet *s, const char *format, ...)
+static void add_cell(text_table *t, const char *format, ...)
 {
     va_list list;
-    grow(s);
+    if (t->cells == t->capacity) {
+        t->capacity = t->capacity ? 2 * t->capacity : 64;
+        t->cell = cli_realloc(t->cell, (size_t)t->capacity * sizeof *t->cell);
+    }
     va_start(list, format);
-    s->cell[s->cells++] = cli_format_list(format, list);
+    t->cell[t->cells++] = cli_format_list(format, list);
     va_end(list);
 }
 
-static void begin(sheet *s, int columns, const char *const *headings)
+static text_table begin_table(int columns, const char *const *headings)
 {
-    *s = (sheet){.columns = columns};
-    for (int i = 0; i < columns; i++) put(s, "%s", headings[i]);
+    text_table table = {.columns = columns};
+    for (int i = 0; i < columns; i++) add_cell(&table, "%s", headings[i]);
+    return table;
 }
 
 /* Characters, not bytes, of a UTF-8 text. */
-static int width(const char *text)
+static int count_characters(const char *text)
 {
     int n = 0;
     for (; *text; text++) n += ((unsigned char)*text & 0xC0) != 0x80;
     return n;
 }
 
-static void put_markdown(const sheet *s, int first, const int *widths)
+static void print_rule(int length)
 {
-    for (int i = 0; i < s->columns; i++) {
-        const char *text = s->cell[first + i];
-        printf("| %s%*s ", text, widths[i] - width(text), "");
-    }
-    puts("|");
+    while (length-- > 0) putchar('-');
 }
 
-/* The columns from number fits on go to lines of their own, below. */
-static void put_row(const sheet *s, int first, const int *widths, int fits)
+static void print_markdown(const text_table *t, const int *widths)
+{
+    for (int k = 0; k < t->cells; k++) {
+        const int i = k % t->columns;
+        printf("| %s%*s %s", t->cell[k], widths[i] - count_characters(t->cell[k]), "",
+               i == t->columns - 1 ? "|\n" : "");
+        if (k != t->columns - 1) continue;
+        for (int j = 0; j < t->columns; j++) {
+            putchar('|');
+            print_rule(widths[j] + 2);
+        }
+        puts("|");
+    }
+}
+
+/* The first columns side by side; the others in lines of their own, below. */
+static void print_row(const text_table *t, char **cell, const int *widths, int side_by_side)
 {
     char rest[1024] = "";
     size_t n = 0;
-    for (int i = 0; i < fits; i++) {
-        const char *text = s->cell[first + i];
-        printf("%s%*s", text, i == fits - 1 ? 0 : widths[i] - width(text) + 2, "");
-    }
-    putchar('\n');
-    for (int i = fits; i < s->columns && n < sizeof rest; i++)
-        n += (size_t)snprintf(rest + n, sizeof rest - n, "%s%s", i > fits ? "; " : "    ",
-                              s->cell[first + i]);
-    if (n) cli_wrap(stdout, rest, 0, 4);
+    const int last = side_by_side - 1;
+    for (int i = 0; i < last; i++)
+        printf("%s%*s", cell[i], widths[i] - count_characters(cell[i]) + 2, "");
+    puts(cell[last]);
+    for (int i = last + 1; i < t->columns && n < sizeof rest; i++)
+        n += (size_t)snprintf(rest + n, sizeof rest - n, "%s%s", n > 0 ? "; " : "    ", cell[i]);
+    if (n > 0) cli_wrap(stdout, rest, 0, 4);
 }
 
-static void put_rule(const int *widths, int fits, bool markdown)
+static void print_plain(const text_table *t, const int *widths)
 {
-    for (int i = 0; i < fits; i++) {
-        int dashes = widths[i] + (markdown ? 2 : 0);
-        if (markdown) putchar('|');
-        while (dashes-- > 0) putchar('-');
-        if (!markdown && i < fits - 1) fputs("  ", stdout);
+    /* All columns, but on a terminal those that fit. */
+    int side_by_side = t->columns;
+    if (isatty(STDOUT_FILENO)) {
+        int used = widths[0] + 2;
+        side_by_side = 1;
+        while (side_by_side < t->columns && used + widths[side_by_side] <= cli_width())
+            used += widths[side_by_side++] + 2;
     }
-    puts(markdown ? "|" : "");
+    print_row(t, t->cell, widths, side_by_side);
+    for (int i = 0; i < side_by_side; i++) {
+        print_rule(widths[i]);
+        fputs(i == side_by_side - 1 ? "\n" : "  ", stdout);
+    }
+    for (int k = t->columns; k < t->cells; k += t->columns)
+        print_row(t, t->cell + k, widths, side_by_side);
 }
 
-/* How many columns stand side by side: all, unless a terminal is too narrow for that. */
-static int count_fits(const sheet *s, const int *widths)
+static void end_table(text_table *t, bool markdown)
 {
-    const int most = isatty(STDOUT_FILENO) ? cli_width() : 0;
-    int fits = 0, used = 0;
-    if (most == 0) return s->columns;
-    while (fits < s->columns && used + widths[fits] <= most) used += widths[fits++] + 2;
-    return fits > 0 ? fits : 1;
-}
-
-static void put_table(const sheet *s, const int *widths, bool markdown)
-{
-    const int fits = markdown ? s->columns : count_fits(s, widths);
-    for (int k = 0; k < s->cells; k += s->columns) {
-        if (markdown)
-            put_markdown(s, k, widths);
-        else
-            put_row(s, k, widths, fits);
-        if (k == 0) put_rule(widths, fits, markdown);
+    int widths[MAX_COLUMNS] = {0};
+    for (int k = 0; k < t->cells; k++) {
+        const int width = count_characters(t->cell[k]), i = k % t->columns;
+        if (width > widths[i]) widths[i] = width;
     }
-}
-
-static int end(sheet *s, bool markdown)
-{
-    int widths[COLUMNS_MOST] = {0};
-    for (int k = 0; k < s->cells; k++) {
-        int w = width(s->cell[k]), i = k % s->columns;
-        if (w > widths[i]) widths[i] = w;
-    }
-    put_table(s, widths, markdown);
-    for (int k = 0; k < s->cells; k++) free(s->cell[k]);
-    free(s->cell);
-    return CLI_DONE;
+    (markdown ? print_markdown : print_plain)(t, widths);
+    for (int k = 0; k < t->cells; k++) free(t->cell[k]);
+    free(t->cell);
 }
 
 /* ---- systems ------------------------------------------------------------------------------- */
@@ -150,19 +141,19 @@ static const char *energy(const dal_system *system)
     return system->properties & DAL_E_ON_D ? "kept on D = 0" : "not kept";
 }
 
-static int put_system(sheet *s, const char *name, bool markdown)
+static int add_system(text_table *t, const char *name, bool markdown)
 {
     dal_model *model;
     const dal_system *system;
     int status = cli_load(name, &model, &system);
     if (status != CLI_DONE) return status;
-    put(s, markdown ? "`%s`" : "%s", name);
-    put(s, "%d", system->n);
-    put(s, "%d", system->m);
-    put(s, "%s", kind(system));
-    put(s, "%s", energy(system));
-    put(s, "%s", system->exact ? "yes" : "-");
-    put(s, "%s", system->title ? system->title : "");
+    add_cell(t, markdown ? "`%s`" : "%s", name);
+    add_cell(t, "%d", system->n);
+    add_cell(t, "%d", system->m);
+    add_cell(t, "%s", kind(system));
+    add_cell(t, "%s", energy(system));
+    add_cell(t, "%s", system->exact ? "yes" : "-");
+    add_cell(t, "%s", system->title ? system->title : "");
     dal_model_free(model);
     return CLI_DONE;
 }
@@ -170,56 +161,52 @@ static int put_system(sheet *s, const char *name, bool markdown)
 static int list_systems(bool markdown)
 {
     static const char *const headings[] = {"system", "n", "m", "D", "energy", "exact", "title"};
-    sheet s;
     int status = CLI_DONE;
-    begin(&s, sizeof headings / sizeof headings[0], headings);
+    text_table table = begin_table(sizeof headings / sizeof *headings, headings);
     for (int i = 0; status == CLI_DONE && dal_builtin_name(i); i++)
-        status = put_system(&s, dal_builtin_name(i), markdown);
-    int printed = end(&s, markdown);
-    return status == CLI_DONE ? printed : status;
+        status = add_system(&table, dal_builtin_name(i), markdown);
+    end_table(&table, markdown);
+    return status;
 }
 
 /* ---- integrators --------------------------------------------------------------------------- */
 
-static void put_claims(sheet *s, unsigned properties, unsigned inherits)
+static const struct {
+    unsigned property;
+    const char *text;
+} properties[] = {{DAL_EXPLICIT, "explicit"},
+                  {DAL_SYMMETRIC, "symmetric"},
+                  {DAL_SYMPLECTIC, "symplectic lift"},
+                  {DAL_PRESERVES_BILINEAR, "bilinear D"},
+                  {DAL_PRESERVES_QUADRATIC, "quadratic D"},
+                  {DAL_PRESERVES_D, "every D"},
+                  {DAL_PRESERVES_D_MIDPOINT, "D at midpoints"},
+                  {DAL_PRESERVES_ENERGY, "energy"},
+                  {DAL_PERSISTENT_MULTIPLIER, "carries multipliers"},
+                  {DAL_ADAPTIVE, "adaptive"}};
+
+static void add_integrator(text_table *t, const dal_integrator *integrator, bool markdown)
 {
-    static const struct {
-        unsigned claim;
-        const char *text;
-    } texts[] = {{DAL_EXPLICIT, "explicit"},
-                 {DAL_SYMMETRIC, "symmetric"},
-                 {DAL_SYMPLECTIC, "symplectic lift"},
-                 {DAL_PRESERVES_BILINEAR, "bilinear D"},
-                 {DAL_PRESERVES_QUADRATIC, "quadratic D"},
-                 {DAL_PRESERVES_D, "every D"},
-                 {DAL_PRESERVES_D_MIDPOINT, "D at midpoints"},
-                 {DAL_PRESERVES_ENERGY, "energy"},
-                 {DAL_PERSISTENT_MULTIPLIER, "carries multipliers"},
-                 {DAL_ADAPTIVE, "adaptive"}};
+    const char *tick = markdown ? "`" : "", *alias = integrator->alias;
+    const char *plus = integrator->properties & DAL_MODIFIER ? "+" : "";
     char line[160] = "";
     size_t n = 0;
-    for (size_t i = 0; i < sizeof texts / sizeof texts[0]; i++)
-        if (properties & texts[i].claim)
-            n += (size_t)snprintf(line + n, sizeof line - n, "%s%s", n ? ", " : "", texts[i].text);
-    put(s, "%s", n ? line : inherits & DAL_SYMMETRIC ? "as NAME" : "-");
-}
-
-static void put_integrator(sheet *s, const dal_integrator *integrator, bool markdown)
-{
-    const char *tick = markdown ? "`" : "";
-    const char *plus = integrator->properties & DAL_MODIFIER ? "+" : "";
-    if (integrator->alias)
-        put(s, "%s%s%s%s, %s%s%s%s", tick, plus, integrator->name, tick, tick, plus,
-            integrator->alias, tick);
+    for (size_t i = 0; i < sizeof properties / sizeof *properties; i++)
+        if (integrator->properties & properties[i].property)
+            n += (size_t)snprintf(line + n, sizeof line - n, "%s%s", n ? ", " : "",
+                                  properties[i].text);
+    if (alias)
+        add_cell(t, "%s%s%s%s, %s%s%s%s", tick, plus, integrator->name, tick, tick, plus, alias,
+                 tick);
     else
-        put(s, "%s%s%s%s", tick, plus, integrator->name, tick);
+        add_cell(t, "%s%s%s%s", tick, plus, integrator->name, tick);
     if (integrator->order)
-        put(s, "%d", integrator->order);
+        add_cell(t, "%d", integrator->order);
     else
-        put(s, "-");
-    put_claims(s, integrator->properties, integrator->inherits);
-    put(s, "%s", integrator->summary);
-    put(s, "%s", integrator->reference);
+        add_cell(t, "-");
+    add_cell(t, "%s", n ? line : integrator->inherits & DAL_SYMMETRIC ? "as NAME" : "-");
+    add_cell(t, "%s", integrator->summary);
+    add_cell(t, "%s", integrator->reference);
 }
 
 static int list_integrators(bool markdown)
@@ -227,13 +214,13 @@ static int list_integrators(bool markdown)
     static const char *const headings[] = {"integrator", "order", "keeps or is", "what it is",
                                            "reference"};
     const dal_integrator *integrator;
-    sheet s;
-    begin(&s, sizeof headings / sizeof headings[0], headings);
+    text_table table = begin_table(sizeof headings / sizeof *headings, headings);
     for (int modifiers = 0; modifiers < 2; modifiers++)
         for (int i = 0; (integrator = dal_integrator_at(i)); i++)
             if (!(integrator->properties & DAL_MODIFIER) == !modifiers)
-                put_integrator(&s, integrator, markdown);
-    return end(&s, markdown);
+                add_integrator(&table, integrator, markdown);
+    end_table(&table, markdown);
+    return CLI_DONE;
 }
 
 /* ---- the command --------------------------------------------------------------------------- */
