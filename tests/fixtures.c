@@ -87,7 +87,7 @@ dal_run_spec fixture_spec(const dal_system *system, const char *method, dal_spac
     return spec;
 }
 
-bool fixture_serves(const dal_method *method, const dal_system *system, dal_space space)
+bool fixture_accepts(const dal_method *method, const dal_system *system, dal_space space)
 {
     const unsigned needs = dal_method_needs(method);
     if (needs & DAL_NEEDS_BLOCKS && space == DAL_LIFTED) return false;
@@ -119,7 +119,7 @@ void fixture_refused(const dal_run_spec *spec, dal_status status, const char *fr
     CU_ASSERT_PTR_NOT_NULL(strstr(error.message, fragment));
 }
 
-void fixture_displace(dal_run *run, double size)
+void fixture_perturb(dal_run *run, double size)
 {
     const int n = dal_run_system(run)->n;
     double state[256];
@@ -143,7 +143,7 @@ static void end_state(dal_run_spec spec, double T, int count, double displacemen
 {
     spec.options.step = T / count;
     dal_run *run = fixture_run(&spec);
-    if (displacement != 0.0) fixture_displace(run, displacement);
+    if (displacement != 0.0) fixture_perturb(run, displacement);
     CU_ASSERT_EQUAL(dal_run_advance(run, count, NULL), DAL_OK);
     memcpy(state, dal_run_state(run), (size_t)dal_run_dimension(run) * sizeof *state);
     dal_run_free(run);

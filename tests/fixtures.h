@@ -23,7 +23,7 @@ const dal_system *fixture_system(dal_model *model);
 dal_run_spec fixture_spec(const dal_system *system, const char *method, dal_space space,
                           double step);
 /* Whether a method declares that it can act on a system in a space. */
-bool fixture_serves(const dal_method *method, const dal_system *system, dal_space space);
+bool fixture_accepts(const dal_method *method, const dal_system *system, dal_space space);
 /* A run of it; NULL and a failed test when it cannot be made. */
 dal_run *fixture_run(const dal_run_spec *spec);
 
@@ -31,7 +31,7 @@ dal_run *fixture_run(const dal_run_spec *spec);
 void fixture_refused(const dal_run_spec *spec, dal_status status, const char *fragment);
 
 /* Sets p_i and pi_i of a lifted run to a fixed pattern of the given size, at t = 0. */
-void fixture_displace(dal_run *run, double size);
+void fixture_perturb(dal_run *run, double size);
 
 /* The name of a method with integrator number i on its outside: itself, or a modifier around one it
  * can act on. */

@@ -13,7 +13,7 @@
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 
 enum { PARAMETERS = 2, INPUTS = 4, SYMBOLS = PARAMETERS + INPUTS };
-enum { MOST_BYTES = 2000 };
+enum { MAX_BYTES = 2000 };
 
 static const char letters[] = "abxy";
 
@@ -59,7 +59,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     dal__graph *graph = dal__graph_create(PARAMETERS);
     dal__node nodes[3] = {0};
     dal_error error = {.status = DAL_OK};
-    if (size > MOST_BYTES) size = MOST_BYTES;
+    if (size > MAX_BYTES) size = MAX_BYTES;
     const char *text = (const char *)data;
     dal_status status = dal__parse(graph, text, size, resolve, graph, &nodes[0], &error);
     if (status == DAL_OK) {

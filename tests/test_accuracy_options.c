@@ -52,13 +52,13 @@ static void test_one_side(void)
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
         const dal_run_spec spec = fixture_spec(fixture_system(model), names[i], DAL_PHYSICAL, 0.1);
         dal_run *run = fixture_run(&spec);
-        double found[16], most = 0.0;
+        double found[16], max = 0.0;
         for (int k = 0; k < 100; k++) {
             CU_ASSERT_EQUAL(dal_run_advance(run, stretch, NULL), DAL_OK);
             dal_run_observe(run, found);
-            most = fmax(most, fabs(found[0]));
+            max = fmax(max, fabs(found[0]));
         }
-        CU_ASSERT(most < 4.0 * 1.4e-17 * sqrt(400000.0));
+        CU_ASSERT(max < 4.0 * 1.4e-17 * sqrt(400000.0));
         dal_run_free(run);
     }
     dal_model_free(model);

@@ -53,7 +53,7 @@ static double displaced_error(dal_run *run)
     dal_run_spec spec = fixture_spec(dal_run_system(run), "gauss10", DAL_LIFTED, T / 1000);
     dal_run *reference = fixture_run(&spec);
     double error = 0.0;
-    fixture_displace(reference, size);
+    fixture_perturb(reference, size);
     CU_ASSERT_EQUAL(dal_run_advance(reference, 1000, NULL), DAL_OK);
     for (int i = 0; i < dal_run_dimension(run); i++)
         error = fmax(error, fabs(dal_run_state(run)[i] - dal_run_state(reference)[i]));
@@ -71,7 +71,7 @@ static double slope(dal_run_spec spec, int steps, double displacement, error_fun
     for (int k = 0; k < COUNT; k++) {
         spec.options.tolerance = pow(10.0, -4.0 - 0.5 * k);
         dal_run *run = fixture_run(&spec);
-        if (displacement != 0.0) fixture_displace(run, displacement);
+        if (displacement != 0.0) fixture_perturb(run, displacement);
         CU_ASSERT_EQUAL(dal_run_advance(run, steps, NULL), DAL_OK);
         const double x = log(spec.options.tolerance), y = log(error(run));
         sx += x;
@@ -112,15 +112,15 @@ static void test_work(void)
     dal_model *model = fixture_model(kepler);
     dal_run_spec spec = spec_of(fixture_system(model), DAL_PHYSICAL, PERIOD / 20, 1e-9);
     dal_run *run = fixture_run(&spec);
-    long long least = 1000000, most = 0;
+    long long min = 1000000, max = 0;
     for (int i = 0; i < 20; i++) {
         const long long before = dal_run_evaluations(run);
         CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_OK);
         const long long made = dal_run_evaluations(run) - before;
-        least = made < least ? made : least;
-        most = made > most ? made : most;
+        min = made < min ? made : min;
+        max = made > max ? made : max;
     }
-    CU_ASSERT(most >= 10 * least);
+    CU_ASSERT(max >= 10 * min);
     CU_ASSERT_EQUAL(dal_run_time(run), 20 * spec.options.step);
     dal_run_free(run);
     dal_model_free(model);
@@ -147,8 +147,8 @@ static void test_whole(void)
     const dal_run_spec fixed = spec_of(fixture_system(model), DAL_LIFTED, 0.01, 0.0);
     const dal_run_spec loose = spec_of(fixture_system(model), DAL_LIFTED, 0.01, 1e-3);
     dal_run *a = fixture_run(&fixed), *b = fixture_run(&loose);
-    fixture_displace(a, 0.3);
-    fixture_displace(b, 0.3);
+    fixture_perturb(a, 0.3);
+    fixture_perturb(b, 0.3);
     CU_ASSERT_EQUAL(dal_run_advance(a, 50, NULL), DAL_OK);
     CU_ASSERT_EQUAL(dal_run_advance(b, 50, NULL), DAL_OK);
     CU_ASSERT_EQUAL(dal_run_evaluations(a), 50 * STAGES);
@@ -266,7 +266,7 @@ static void test_claims(void)
         fixture_method(i, name, sizeof name);
         CU_ASSERT_EQUAL_FATAL(dal_method_parse(&method, name, NULL), DAL_OK);
         dal_run_spec spec = fixture_spec(fixture_system(model), name, DAL_PHYSICAL, 0.1);
-        if (!fixture_serves(&method, spec.system, DAL_PHYSICAL)) continue;
+        if (!fixture_accepts(&method, spec.system, DAL_PHYSICAL)) continue;
         spec.options.tolerance = 1e-6;
         if (dal_method_properties(&method) & DAL_ADAPTIVE)
             dal_run_free(fixture_run(&spec));

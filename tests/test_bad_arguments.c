@@ -22,7 +22,7 @@ static dal_status unprepared(const dal_system *system, const dal_point *at, doub
 }
 
 /* A struct filled by hand may say anything. */
-static void test_odd_systems(void)
+static void test_systems(void)
 {
     dal_system system = (dal_system){.name = "hand", .n = 1, .call.field = oscillate};
     dal_run_spec spec = fixture_spec(&system, "rk4", DAL_PHYSICAL, 0.1);
@@ -42,7 +42,7 @@ static void test_odd_systems(void)
     fixture_refused(&spec, DAL_NOT_FINITE, "hand cannot be prepared");
 }
 
-static void test_odd_starts(void)
+static void test_starts(void)
 {
     dal_model *model = fixture_model("chaplygin-sleigh");
     const dal_setting massless = {"m", 0.0}, tiny = {"e", 1e-320}; /* 1/e overflows */
@@ -57,7 +57,7 @@ static void test_odd_starts(void)
     dal_model_free(model);
 }
 
-static void test_odd_options(void)
+static void test_options(void)
 {
     const dal_system system = {.name = "hand", .n = 1, .call.field = oscillate};
     dal_run_spec spec = fixture_spec(&system, "rk4", (dal_space)7, 0.1);
@@ -153,10 +153,10 @@ static void test_names_of_methods(void)
         CU_ASSERT_PTR_EQUAL(dal_method_name(&method, name, size), name);
         static const char *const parts[] = {
             "", "rk4", "rk4+", "rk4+project", "rk4+project+", "rk4+project+project-energy"};
-        int most = 0;
+        int longest = 0;
         for (int i = 0; i < 6; i++)
-            if (strlen(parts[i]) < size) most = i;
-        if (size > 0) CU_ASSERT_STRING_EQUAL(name, parts[most]);
+            if (strlen(parts[i]) < size) longest = i;
+        if (size > 0) CU_ASSERT_STRING_EQUAL(name, parts[longest]);
         for (size_t i = size; i < sizeof name; i++) CU_ASSERT_EQUAL(name[i], '?');
     }
 }
@@ -164,9 +164,9 @@ static void test_names_of_methods(void)
 void suite_bad_arguments(void)
 {
     CU_pSuite suite = CU_add_suite("bad arguments", NULL, NULL);
-    CU_add_test(suite, "systems by hand that say odd things", test_odd_systems);
-    CU_add_test(suite, "starts where something is infinite", test_odd_starts);
-    CU_add_test(suite, "options that no text gives", test_odd_options);
+    CU_add_test(suite, "systems by hand with bad members", test_systems);
+    CU_add_test(suite, "starts where something is infinite", test_starts);
+    CU_add_test(suite, "options that no text gives", test_options);
     CU_add_test(suite, "a text that is none", test_no_text);
     CU_add_test(suite, "long names", test_long_names);
     CU_add_test(suite, "arguments of runs", test_run_arguments);

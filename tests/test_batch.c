@@ -10,7 +10,7 @@
 #include <string.h>
 
 /* MANY takes a block of 64, one of 8 and one that is not full. */
-enum { FEW = 11, MANY = 75, ROOM = 32 };
+enum { FEW = 11, MANY = 75, MAX_DIMENSION = 32 };
 
 /* Steps of half a run. */
 static long long half(void) { return long_run(20) + 1; }
@@ -37,13 +37,13 @@ static void single_end(dal_run_spec spec, int lane, double *state)
     spec.parameter_count = spec.start_count = 1;
     dal_run *run = fixture_run(&spec);
     CU_ASSERT_EQUAL(dal_run_advance(run, 2 * half(), NULL), DAL_OK);
-    CU_ASSERT_FATAL(dal_run_dimension(run) <= ROOM);
+    CU_ASSERT_FATAL(dal_run_dimension(run) <= MAX_DIMENSION);
     memcpy(state, dal_run_state(run), (size_t)dal_run_dimension(run) * sizeof *state);
     dal_run_free(run);
 }
 
 /* Runs a batch to its end and compares; takes it over. */
-static void check_batch(dal_batch *batch, int dimension, double (*single)[ROOM])
+static void check_batch(dal_batch *batch, int dimension, double (*single)[MAX_DIMENSION])
 {
     for (int i = 0; i < dal_batch_count(batch); i++) {
         const dal_setting parameter = lane_parameter(i), start = lane_start(i);
@@ -53,7 +53,7 @@ static void check_batch(dal_batch *batch, int dimension, double (*single)[ROOM])
     CU_ASSERT_EQUAL(dal_batch_advance(batch, half()), DAL_OK);
     int wrong = 0;
     for (int i = 0; i < dal_batch_count(batch); i++) {
-        double lane[ROOM];
+        double lane[MAX_DIMENSION];
         dal_batch_state(batch, i, lane);
         wrong += memcmp(single[i], lane, (size_t)dimension * sizeof *lane) != 0;
         wrong += dal_batch_status(batch, i, NULL) != DAL_OK;
@@ -70,7 +70,7 @@ static bool in_blocks(const dal_run_spec *spec)
 }
 
 static void check_variants(const dal_run_spec *spec, int count, int dimension,
-                           double (*single)[ROOM])
+                           double (*single)[MAX_DIMENSION])
 {
     for (int v = 0; v < DAL__VARIANTS; v++) {
         dal_batch *batch = NULL;
@@ -86,7 +86,7 @@ static void check_variants(const dal_run_spec *spec, int count, int dimension,
 static void same_bits(const dal_run_spec *spec, int dimension)
 {
     static const int widths[] = {0, 1, 4, 8, 64};
-    static double single[MANY][ROOM];
+    static double single[MANY][MAX_DIMENSION];
     const int count = in_blocks(spec) ? MANY : FEW;
     for (int i = 0; i < count; i++) single_end(*spec, i, single[i]);
     check_variants(spec, count, dimension, single);
@@ -109,7 +109,7 @@ static void test_same_bits(void)
             if (kind & 2) strcat(name, "+project");
             const dal_space space = kind & 1 ? DAL_PHYSICAL : DAL_LIFTED;
             const dal_run_spec spec = fixture_spec(system, name, space, 0.02);
-            if (!fixture_serves(&spec.method, system, space)) continue;
+            if (!fixture_accepts(&spec.method, system, space)) continue;
             same_bits(&spec, space == DAL_LIFTED ? 4 * system->n + 2 : 2 * system->n);
         }
     }
@@ -323,8 +323,8 @@ static void uneven_sweeps(const dal_system *system, const char *method)
     for (int lane = 0; lane < UNEVEN; lane++) differ += !same_as_single(spec, batch, lane);
     if (differ) printf("\n  %s: %d lanes differ\n", method, differ);
     CU_ASSERT_EQUAL(differ, 0);
-    const dal_setting late = {"e", 2.0};
-    CU_ASSERT_EQUAL(dal_batch_start(batch, 0, NULL, 0, &late, 1, NULL), DAL_ARGUMENT);
+    const dal_setting e = {"e", 2.0};
+    CU_ASSERT_EQUAL(dal_batch_start(batch, 0, NULL, 0, &e, 1, NULL), DAL_ARGUMENT);
     dal_batch_free(batch);
 }
 

@@ -156,7 +156,7 @@ static void trajectory(const dal_system *system, const char *method, double *sta
     const dal_run_spec spec = fixture_spec(system, method, DAL_LIFTED, 0.05);
     dal_run *run = fixture_run(&spec);
     const size_t width = (size_t)dal_run_dimension(run);
-    fixture_displace(run, 0.3);
+    fixture_perturb(run, 0.3);
     for (size_t k = 0; k < STATES; k++) {
         memcpy(states + k * width, dal_run_state(run), width * sizeof *states);
         CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_OK);

@@ -113,13 +113,13 @@ static double irreversibility(const reference *b, double t, const double *x)
 static void check_reversal(const reference *b)
 {
     motion z = motion_default(b->system->name, 0.02);
-    double worst = 0.0;
+    double max_error = 0.0;
     for (int k = 1; k <= 5; k++) {
         motion_advance(&z, 0.2 * k);
-        worst = fmax(worst, irreversibility(b, 0.2 * k, z.x));
+        max_error = fmax(max_error, irreversibility(b, 0.2 * k, z.x));
     }
-    expect(b->system, worst < 1e-12 || worst > 1e-3, "reversal in doubt");
-    expect_tag(b->system, "reversible", worst < 1e-12);
+    expect(b->system, max_error < 1e-12 || max_error > 1e-3, "reversal in doubt");
+    expect_tag(b->system, "reversible", max_error < 1e-12);
     motion_close(&z);
 }
 

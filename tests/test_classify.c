@@ -7,18 +7,18 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { STEPS = 400, MOST = 32, STARTS = 2 };
+enum { STEPS = 400, MAX = 32, STARTS = 2 };
 
 typedef struct followed {
     int count;
-    char names[MOST][64];
-    dal_trend trend[MOST];
+    char names[MAX][64];
+    dal_trend trend[MAX];
 } followed;
 
 static int follow(const dal_run_spec *spec, followed *f)
 {
-    dal_statistics statistics[MOST];
-    double values[MOST];
+    dal_statistics statistics[MAX];
+    double values[MAX];
     dal_run *run;
     dal_error error;
     if (dal_run_create(&run, spec, &error) != DAL_OK) {
@@ -136,10 +136,10 @@ static void test_other_level(void)
 {
     dal_model *model = NULL;
     dal_run_spec spec = {.options = dal_options_default()};
-    dal_statistics statistics[MOST];
-    dal_trend trend[MOST];
+    dal_statistics statistics[MAX];
+    dal_trend trend[MAX];
     dal_run *run = NULL;
-    double values[MOST], state[6] = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6};
+    double values[MAX], state[6] = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6};
     spec.options.space = DAL_PHYSICAL;
     CU_ASSERT_FATAL(dal_model_builtin(&model, "contact-oscillator", NULL) == DAL_OK);
     CU_ASSERT_FATAL(dal_model_system(model, &spec.system, NULL) == DAL_OK);

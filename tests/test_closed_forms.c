@@ -144,13 +144,13 @@ static void test_cvt(void)
 static void test_turntable(void)
 {
     motion z = motion_default("turntable-ball", 0.02);
-    double least = motion_energy(&z), most = least, moving = motion_invariant(&z, 0);
+    double min = motion_energy(&z), max = min, moving = motion_invariant(&z, 0);
     for (int k = 1; k <= 20; k++) {
         motion_advance(&z, k);
-        least = fmin(least, motion_energy(&z)), most = fmax(most, motion_energy(&z));
+        min = fmin(min, motion_energy(&z)), max = fmax(max, motion_energy(&z));
         CU_ASSERT(near(motion_invariant(&z, 0), moving));
     }
-    CU_ASSERT(most - least > 0.5 * least);
+    CU_ASSERT(max - min > 0.5 * min);
     motion_close(&z);
 }
 

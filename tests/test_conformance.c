@@ -81,7 +81,7 @@ static void check_order(const char *name, const dal_method *method, void *user)
     const int order = dal_method_order(method);
     /* A decade of h; at order 6 what rounding leaves of it. */
     const int coarse = order == 1 ? 200 : order < 6 ? 40 : 24, fine = (order < 6 ? 10 : 2) * coarse;
-    if (method->layer[1]->order || !fixture_serves(method, user, DAL_PHYSICAL)) return;
+    if (method->layer[1]->order || !fixture_accepts(method, user, DAL_PHYSICAL)) return;
     const dal_run_spec spec = fixture_spec(user, name, DAL_PHYSICAL, 0.1);
     const double seen = fixture_order(spec, 1.0, coarse, fine, 0.0);
     if (!(fabs(seen - order) <= 0.1)) printf("\n  %s: observed order %.3f\n", name, seen);
@@ -101,7 +101,7 @@ static void check_symmetric(const char *name, const dal_method *method, void *us
 {
     double defect = NAN;
     if (dal_method_properties(method) & DAL_PERSISTENT_MULTIPLIER) return;
-    if (!fixture_serves(method, user, DAL_PHYSICAL)) return;
+    if (!fixture_accepts(method, user, DAL_PHYSICAL)) return;
     const dal_run_spec spec = fixture_spec(user, name, DAL_PHYSICAL, 0.2);
     CU_ASSERT_EQUAL(dal_check_reversibility(&spec, 0.0, NULL, &defect, NULL), DAL_OK);
     if (!(dal_method_properties(method) & DAL_SYMMETRIC)) return;
@@ -130,26 +130,26 @@ static strays strays_of(const dal_system *system, const char *name)
     const dal_run_spec spec = fixture_spec(system, name, DAL_PHYSICAL, 0.02);
     dal_run *run = fixture_run(&spec);
     double first[32], now[32];
-    strays most = {0.0, 0.0};
+    strays max = {0.0, 0.0};
     CU_ASSERT_EQUAL(dal_run_observe(run, first), DAL_OK);
     for (int i = 0; i < 200; i++) {
         CU_ASSERT_EQUAL_FATAL(dal_run_step(run, NULL), DAL_OK);
         CU_ASSERT_EQUAL(dal_run_observe(run, now), DAL_OK);
-        for (int a = 0; a < system->m; a++) most.D = fmax(most.D, fabs(now[a]));
-        most.E = fmax(most.E, fabs(now[system->m] - first[system->m]));
+        for (int a = 0; a < system->m; a++) max.D = fmax(max.D, fabs(now[a]));
+        max.E = fmax(max.E, fabs(now[system->m] - first[system->m]));
     }
     dal_run_free(run);
-    return most;
+    return max;
 }
 
 static void check_kept(const char *name, const dal_method *method, void *user)
 {
     const unsigned properties = dal_method_properties(method);
-    if (!fixture_serves(method, user, DAL_PHYSICAL)) return;
-    const strays most = strays_of(user, name);
-    const bool D = !(properties & DAL_PRESERVES_D) || most.D <= 1e-14;
-    const bool E = !(properties & DAL_PRESERVES_ENERGY) || most.E <= 1e-14;
-    if (!D || !E) printf("\n  %s: D %.2e, E %.2e\n", name, most.D, most.E);
+    if (!fixture_accepts(method, user, DAL_PHYSICAL)) return;
+    const strays max = strays_of(user, name);
+    const bool D = !(properties & DAL_PRESERVES_D) || max.D <= 1e-14;
+    const bool E = !(properties & DAL_PRESERVES_ENERGY) || max.E <= 1e-14;
+    if (!D || !E) printf("\n  %s: D %.2e, E %.2e\n", name, max.D, max.E);
     CU_ASSERT(D);
     CU_ASSERT(E);
 }
@@ -172,7 +172,7 @@ static void check_lanes(const char *name, const dal_method *method, void *user)
 {
     double state[64];
     dal_batch *batch = NULL;
-    if (!fixture_serves(method, user, DAL_PHYSICAL)) return;
+    if (!fixture_accepts(method, user, DAL_PHYSICAL)) return;
     dal_run_spec spec = fixture_spec(user, name, DAL_PHYSICAL, 0.05);
     spec.start_count = 1;
     spec.start = &(dal_setting){"u", 0.0};
@@ -216,7 +216,7 @@ static void check_untouched(const char *name, const dal_method *method, void *us
     static double before[4096];
     dal_status status = DAL_OK;
     size_t count = 0;
-    if (!fixture_serves(method, user, DAL_PHYSICAL)) return;
+    if (!fixture_accepts(method, user, DAL_PHYSICAL)) return;
     const dal_run_spec spec = fixture_spec(user, name, DAL_PHYSICAL, 0.05);
     dal_run *run = fixture_run(&spec);
     for (int i = 0; i < 100 && status == DAL_OK; i++) {

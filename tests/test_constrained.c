@@ -220,16 +220,16 @@ static void test_transmission(void)
     dal_model_free(model);
 }
 
-/* The greatest |E - E(0)| within the next count rows, steps apart that no period divides. */
-static double greatest_change(dal_run *run, double E, long long count)
+/* The largest |E - E(0)| within the next count rows, steps apart that no period divides. */
+static double max_change(dal_run *run, double E, long long count)
 {
-    double seen[8], most = 0.0;
+    double seen[8], max = 0.0;
     for (long long i = 0; i < count; i++) {
         CU_ASSERT_EQUAL_FATAL(dal_run_advance(run, 37, NULL), DAL_OK);
         CU_ASSERT_EQUAL(dal_run_observe(run, seen), DAL_OK);
-        most = fmax(most, fabs(seen[1] - E));
+        max = fmax(max, fabs(seen[1] - E));
     }
-    return most;
+    return max;
 }
 
 /* Contact oscillator, h = 2 sin(pi/40), forty steps to a period: the error of the energy in the
@@ -244,9 +244,9 @@ static void test_bounded(void)
     dal_run *run = fixture_run(&spec);
     double seen[8];
     CU_ASSERT_EQUAL(dal_run_observe(run, seen), DAL_OK);
-    const double first = greatest_change(run, seen[1], rows);
-    greatest_change(run, seen[1], 8 * rows);
-    const double last = greatest_change(run, seen[1], rows);
+    const double first = max_change(run, seen[1], rows);
+    max_change(run, seen[1], 8 * rows);
+    const double last = max_change(run, seen[1], rows);
     const bool full = long_run(10000) == 10000;
     CU_ASSERT(first < h * h && (!full || first > 1e-3));
     CU_ASSERT(!full || fabs(last / first - 1.0) < 0.02);

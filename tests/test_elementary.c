@@ -105,16 +105,16 @@ static void check_accuracy(enum function f, reference *exact)
     mpfr_init2(argument, 53);
     mpfr_init2(value, PRECISION);
     for (int range = 0; range < RANGES; range++) {
-        double worst = 0.0;
+        double max_error = 0.0;
         fill(range, x);
         apply_x1(f, x, x, y, POINTS);
         for (int i = 0; i < POINTS; i++) {
             mpfr_set_d(argument, x[i], MPFR_RNDN);
             exact(value, argument, MPFR_RNDN);
-            worst = fmax(worst, ulps(y[i], value));
+            max_error = fmax(max_error, ulps(y[i], value));
         }
-        CU_ASSERT(worst <= 1.0);
-        if (!(worst <= 1.0)) printf("\n    %s: %.3f ulp\n", ranges[range].name, worst);
+        CU_ASSERT(max_error <= 1.0);
+        if (!(max_error <= 1.0)) printf("\n    %s: %.3f ulp\n", ranges[range].name, max_error);
     }
     mpfr_clear(argument);
     mpfr_clear(value);
@@ -206,8 +206,8 @@ static int fma_keeps_sign(void)
 
 static void test_special(void)
 {
-    const double least = value(F_sin, -0.0, 0.0);
-    CU_ASSERT(least == 0.0 && (signbit(least) || !fma_keeps_sign()));
+    const double zero = value(F_sin, -0.0, 0.0);
+    CU_ASSERT(zero == 0.0 && (signbit(zero) || !fma_keeps_sign()));
     CU_ASSERT(value(F_sin, 0.0, 0.0) == 0.0 && !signbit(value(F_sin, 0.0, 0.0)));
     CU_ASSERT(value(F_cos, -0.0, 0.0) == 1.0);
     CU_ASSERT(isnan(value(F_sin, INFINITY, 0.0)) && isnan(value(F_cos, -INFINITY, 0.0)));

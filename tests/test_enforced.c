@@ -97,23 +97,23 @@ static void test_midpoints(void)
 
 /* ---- energy ---- */
 
-/* The greatest change of observable number which (from 0; m: E) over some steps. */
+/* The largest change of observable number which (from 0; m: E) over some steps. */
 static double change(const char *text, const char *method, double h, long long steps, int which)
 {
     dal_model *model = fixture_model(text);
     const dal_system *system = fixture_system(model);
     const dal_run_spec spec = fixture_spec(system, method, DAL_PHYSICAL, h);
     dal_run *run = fixture_run(&spec);
-    double first[64], now[64], most = 0.0;
+    double first[64], now[64], max = 0.0;
     CU_ASSERT_EQUAL(dal_run_observe(run, first), DAL_OK);
     for (long long i = 0; i < steps; i++) {
         CU_ASSERT_EQUAL_FATAL(dal_run_step(run, NULL), DAL_OK);
         CU_ASSERT_EQUAL(dal_run_observe(run, now), DAL_OK);
-        most = fmax(most, fabs(now[which] - first[which]));
+        max = fmax(max, fabs(now[which] - first[which]));
     }
     dal_run_free(run);
     dal_model_free(model);
-    return most;
+    return max;
 }
 
 static void test_energy(void)

@@ -220,7 +220,7 @@ static void test_by_hand(void)
 }
 
 typedef struct watch {
-    int calls, most, runs;
+    int calls, max_calls, runs;
     double done;
 } watch;
 
@@ -229,7 +229,7 @@ static dal_status step(void *user, double done)
     watch *w = user;
     CU_ASSERT(done >= w->done && done <= 1.0);
     w->done = done;
-    return ++w->calls < w->most ? DAL_OK : DAL_INTERRUPTED;
+    return ++w->calls < w->max_calls ? DAL_OK : DAL_INTERRUPTED;
 }
 static void begin(void *user, dal_run *run, long long steps)
 {
@@ -244,15 +244,15 @@ static void test_observer(void)
     dal_run_spec spec = fixture_spec(fixture_system(model), "gauss4", DAL_PHYSICAL, 0.1);
     dal_error_budget *e = NULL;
     dal_error error = {0};
-    watch w = {.most = 1 << 30};
+    watch w = {.max_calls = 1 << 30};
     const dal_error_budget_observer observer = {&w, step, begin};
     CU_ASSERT_EQUAL(dal_error_budget_create(&spec, 100, 50, &observer, &e, &error), DAL_OK);
     CU_ASSERT_EQUAL(w.runs, 8); /* the run, five comparisons, and the beginning in doubles */
     CU_ASSERT(w.done > 0.99);
     dal_error_budget_free(e);
     const int all = w.calls;
-    for (int most = 1; most < all; most += all / 7) {
-        w = (watch){.most = most};
+    for (int max_calls = 1; max_calls < all; max_calls += all / 7) {
+        w = (watch){.max_calls = max_calls};
         CU_ASSERT_EQUAL(dal_error_budget_create(&spec, 100, 50, &observer, &e, &error),
                         DAL_INTERRUPTED);
         CU_ASSERT_PTR_NULL(e);

@@ -28,7 +28,7 @@ static const double q[] = {0.3, -0.4, 0.7, 0.2}, v[] = {0.9, 0.5, -0.6, 0.35};
 
 static const char *const names[] = {
     "contact-oscillator", "chaplygin-sleigh", "appell-hamel", "vertical-disk", two, pushed};
-enum { NAMES = sizeof names / sizeof *names, MOST = 8 };
+enum { NAMES = sizeof names / sizeof *names, MAX = 8 };
 
 static dal_evaluator *evaluator_of(const dal_system *system)
 {
@@ -50,7 +50,7 @@ static void check_rates(dal_evaluator *extended)
 {
     const dal_system *system = dal_evaluator_system(extended);
     const dal_point at = {.t = 0.0, .q = q, .v = v};
-    double rate[MOST];
+    double rate[MAX];
     CU_ASSERT_EQUAL(dal_measure_rate(extended, system->energy, 1, &at, rate), DAL_OK);
     if (!(fabs(rate[0]) <= 1e-11)) printf("\n  %s: dE/dt %.2e\n", system->name, rate[0]);
     CU_ASSERT(fabs(rate[0]) <= 1e-11);
@@ -62,7 +62,7 @@ static void check_rates(dal_evaluator *extended)
 static void check_surface(dal_evaluator *plain, dal_evaluator *extended)
 {
     const int n = dal_evaluator_system(plain)->n;
-    double on[MOST], F[2][MOST], off_by = 0.0, on_by = 0.0;
+    double on[MAX], F[2][MAX], off_by = 0.0, on_by = 0.0;
     memcpy(on, v, sizeof v);
     CU_ASSERT_EQUAL(dal_project_velocity(plain, 0.0, q, on), DAL_OK);
     field(plain, v, F[0]);
@@ -109,14 +109,14 @@ static double slope(dal_evaluator *evaluator, int k)
     static const double weight[] = {4.0 / 5, -1.0 / 5, 4.0 / 105, -1.0 / 280};
     const dal_system *system = dal_evaluator_system(evaluator);
     const double step = 0.02;
-    double sum = 0.0, E[2], x[2 * MOST];
+    double sum = 0.0, E[2], x[2 * MAX];
     for (int j = 0; j < 4; j++) {
         for (int side = 0; side < 2; side++) {
             memcpy(x, q, sizeof q);
-            memcpy(x + MOST, v, sizeof v);
+            memcpy(x + MAX, v, sizeof v);
             x[k] += (side ? -1 : 1) * (j + 1) * step;
             CU_ASSERT_EQUAL(
-                dal_evaluator_call(evaluator, system->energy, 0.0, x, x + MOST, NULL, &E[side]),
+                dal_evaluator_call(evaluator, system->energy, 0.0, x, x + MAX, NULL, &E[side]),
                 DAL_OK);
         }
         sum += weight[j] * (E[0] - E[1]) / step;
@@ -131,14 +131,14 @@ static void test_normal(void)
         const dal_system *system = fixture_system(model);
         dal_evaluator *evaluator = evaluator_of(system);
         const int n = system->n;
-        double E, out[1 + 3 * MOST], again[1 + 3 * MOST];
+        double E, out[1 + 3 * MAX], again[1 + 3 * MAX];
         dal_callback *normal = system->call.energy_normal;
         CU_ASSERT_EQUAL(dal_evaluator_call(evaluator, normal, 0.0, q, v, NULL, out), DAL_OK);
         CU_ASSERT_EQUAL(dal_evaluator_call(evaluator, system->energy, 0.0, q, v, NULL, &E), DAL_OK);
         CU_ASSERT_EQUAL(out[0], E);
         for (int j = 0; j < n; j++) {
             CU_ASSERT_DOUBLE_EQUAL(out[1 + j], slope(evaluator, j), 1e-11);
-            CU_ASSERT_DOUBLE_EQUAL(out[1 + n + j], slope(evaluator, MOST + j), 1e-11);
+            CU_ASSERT_DOUBLE_EQUAL(out[1 + n + j], slope(evaluator, MAX + j), 1e-11);
         }
         /* E_v is W v, and so E_q where v is W^-1 E_q. */
         const double *x = out + 1 + 2 * n;
@@ -151,21 +151,21 @@ static void test_normal(void)
 
 /* ---- runs ---- */
 
-/* The greatest |dE/E| on count steps of gauss8 with h = 0.1, observed a thousand times. */
+/* The largest |dE/E| on count steps of gauss8 with h = 0.1, observed a thousand times. */
 static double energy_error(const dal_system *system, int extend, long long count)
 {
     dal_run_spec spec = fixture_spec(system, "gauss8", DAL_PHYSICAL, 0.1);
-    double first[16], now[16], greatest = 0.0;
+    double first[16], now[16], max = 0.0;
     spec.options.extend_energy = extend;
     dal_run *run = fixture_run(&spec);
     CU_ASSERT_EQUAL(dal_run_observe(run, first), DAL_OK);
     for (int i = 0; i < 1000; i++) {
         CU_ASSERT_EQUAL_FATAL(dal_run_advance(run, count / 1000, NULL), DAL_OK);
         CU_ASSERT_EQUAL(dal_run_observe(run, now), DAL_OK);
-        greatest = fmax(greatest, fabs(now[1] / first[1] - 1.0));
+        max = fmax(max, fabs(now[1] / first[1] - 1.0));
     }
     dal_run_free(run);
-    return greatest;
+    return max;
 }
 
 /* 1e-12 after 4e6 steps, growing no faster than the square root of their number: a random walk.
@@ -199,7 +199,7 @@ static void test_lifted(void)
     spec.start = start;
     spec.start_count = 6;
     dal_run *run = fixture_run(&spec);
-    fixture_displace(run, 0.3);
+    fixture_perturb(run, 0.3);
     CU_ASSERT_EQUAL(dal_check_symplecticity(&spec, 0.0, dal_run_state(run), 0.0, &defect, NULL),
                     DAL_OK);
     CU_ASSERT(defect <= 1e-9);

@@ -79,22 +79,22 @@ static void test_every_method(void)
         fixture_method(i, name, sizeof name);
         CU_ASSERT_EQUAL(dal_method_parse(&other.method, name, NULL), DAL_OK);
         if (dal_method_needs(&other.method) & DAL_NEEDS_BLOCKS) other.options.space = DAL_PHYSICAL;
-        const bool serves = fixture_serves(&other.method, spec.system, other.options.space);
+        const bool serves = fixture_accepts(&other.method, spec.system, other.options.space);
         CU_ASSERT_EQUAL(generate(&other, 8, NULL, &error), serves ? DAL_OK : DAL_UNSUPPORTED);
     }
 }
 
 /* Whatever a file, and so a system, is called: the names in the text are C. */
-static void test_odd_names(void)
+static void test_unusual_names(void)
 {
-    static const char *const odd[] = {"3body",    "dal", "DAL_", "_x", "a b;system(\"x\")",
-                                      "*/ int x;"};
+    static const char *const unusual[] = {"3body",    "dal", "DAL_", "_x", "a b;system(\"x\")",
+                                          "*/ int x;"};
     dal_error error;
-    for (size_t i = 0; i < sizeof odd / sizeof *odd; i++) {
+    for (size_t i = 0; i < sizeof unusual / sizeof *unusual; i++) {
         dal_system other = *spec.system;
         dal_run_spec with = spec;
         char *text = NULL;
-        other.name = odd[i];
+        other.name = unusual[i];
         other.title = NULL;
         with.system = &other;
         CU_ASSERT_EQUAL(dal_generate(&with, 1, NULL, &text, &error), DAL_OK);
@@ -110,13 +110,13 @@ static void test_odd_names(void)
 /* Terms of a force, each of other frequency: more than straight-line code can be made of. */
 static void test_too_large(void)
 {
-    enum { TERMS = 4000, ROOM = 32 };
-    char *formula = malloc(TERMS * ROOM), *end = formula;
+    enum { TERMS = 4000, TERM_SIZE = 32 };
+    char *formula = malloc(TERMS * TERM_SIZE), *end = formula;
     dal_model *large = dal_model_create("large");
     dal_run_spec of = {.options = dal_options_default()};
     dal_run *run = NULL;
     dal_error error;
-    for (int i = 0; i < TERMS; i++) end += snprintf(end, ROOM, "+ sin(%d*x)", i + 2);
+    for (int i = 0; i < TERMS; i++) end += snprintf(end, TERM_SIZE, "+ sin(%d*x)", i + 2);
     dal_model_add(large, DAL_SECTION_COORDINATES, NULL, "x", 0, 0, &error);
     dal_model_add(large, DAL_SECTION_LAGRANGIAN, NULL, "x'^2/2", 0, 0, &error);
     dal_model_add(large, DAL_SECTION_FORCES, "x", formula + 1, 0, 0, &error);
@@ -170,7 +170,7 @@ void suite_generate(void)
     CU_pSuite suite = CU_add_suite("generate", set_up, tear_down);
     CU_add_test(suite, "what cannot be generated is refused", test_refusals);
     CU_add_test(suite, "every integrator", test_every_method);
-    CU_add_test(suite, "systems with odd names", test_odd_names);
+    CU_add_test(suite, "systems with unusual names", test_unusual_names);
     CU_add_test(suite, "a system too large", test_too_large);
     CU_add_test(suite, "memory runs out", test_memory);
     CU_add_test(suite, "numbers keep their bits", test_numbers);

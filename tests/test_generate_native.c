@@ -91,7 +91,7 @@ static void test_runs(void)
 
 /* ---- batches ---- */
 
-enum { MOST_LANES = 13, STATE = 32 };
+enum { MAX_LANES = 13, STATE = 32 };
 
 /* Falls into the ground at x = 0, where its force ends to be a number; lane 0 soon, lane 8 later.
  */
@@ -143,14 +143,14 @@ static void same_batch(const dal_run_spec *spec, int count, long long first)
 
 static void test_batches(void)
 {
-    static const int counts[] = {1, 3, 4, 8, MOST_LANES};
+    static const int counts[] = {1, 3, 4, 8, MAX_LANES};
     dal_model *model = fixture_model(falling);
     const dal_system *falls = fixture_system(model);
     const dal_run_spec simple = fixture_spec(falls, "rk4", DAL_PHYSICAL, 0.001);
     const dal_run_spec lifted = fixture_spec(falls, "implicit-midpoint", DAL_LIFTED, 0.001);
     for (int i = 0; i < 5; i++) same_batch(&simple, counts[i], 0);
-    same_batch(&simple, MOST_LANES, 700);
-    same_batch(&lifted, MOST_LANES, 700);
+    same_batch(&simple, MAX_LANES, 700);
+    same_batch(&lifted, MAX_LANES, 700);
     dal_model_free(model);
 }
 
@@ -210,7 +210,7 @@ static void test_memory_for_samples(void)
     dal_run *run = fixture_run(&spec);
     double first, again;
     dal_error error = {0};
-    int room = 0;
+    int refused = 0;
     CU_ASSERT_EQUAL(dal_run_observables(run), 1);
     CU_ASSERT_EQUAL(dal_run_observe(run, &first), DAL_OK);
     for (long n = 0;; n++) {
@@ -218,12 +218,12 @@ static void test_memory_for_samples(void)
         const dal_status status = dal_run_native_observables(run, &options, &error);
         if (!allocation_failed()) break;
         CU_ASSERT_NOT_EQUAL(status, DAL_OK);
-        room += strstr(error.message, "looks at a run") != NULL;
+        refused += strstr(error.message, "looks at a run") != NULL;
         CU_ASSERT_EQUAL(dal_run_observe(run, &again), DAL_OK);
         CU_ASSERT(again == first);
     }
     allocation_fail_after(-1);
-    CU_ASSERT_EQUAL(room, compiles);
+    CU_ASSERT_EQUAL(refused, compiles);
     dal_run_free(run);
     dal_model_free(model);
 }
@@ -235,14 +235,14 @@ static dal_run *new_run(dal_model *model)
 }
 
 /* Such options are refused for a reason, and the run goes on. */
-static void refused(const dal_native_options *with, dal_status expected, const char *why)
+static void refused(const dal_native_options *with, dal_status expected, const char *reason)
 {
     dal_model *model = fixture_model(falling);
     dal_run *run = new_run(model);
     dal_error error = {0};
     CU_ASSERT_EQUAL(dal_run_native(run, with, &error), expected);
-    if (!strstr(error.message, why)) printf("\n  '%s' lacks '%s'\n", error.message, why);
-    CU_ASSERT_PTR_NOT_NULL(strstr(error.message, why));
+    if (!strstr(error.message, reason)) printf("\n  '%s' lacks '%s'\n", error.message, reason);
+    CU_ASSERT_PTR_NOT_NULL(strstr(error.message, reason));
     CU_ASSERT(error.line == 0 && error.column == 0);
     CU_ASSERT_FALSE(dal_run_is_native(run));
     CU_ASSERT_EQUAL(dal_run_step(run, &error), DAL_OK);
@@ -250,9 +250,9 @@ static void refused(const dal_native_options *with, dal_status expected, const c
     dal_model_free(model);
 }
 
-static void refused_cache(const char *cache, dal_status expected, const char *why)
+static void refused_cache(const char *cache, dal_status expected, const char *reason)
 {
-    refused(&(dal_native_options){.cache = cache}, expected, why);
+    refused(&(dal_native_options){.cache = cache}, expected, reason);
 }
 
 static void test_cache_refused(void)
@@ -506,7 +506,7 @@ void suite_generate_native(void)
     CU_add_test(suite, "memory runs out", test_memory);
     CU_add_test(suite, "memory for samples runs out", test_memory_for_samples);
     CU_add_test(suite, "directories that cannot be used", test_cache_refused);
-    CU_add_test(suite, "directories with odd names", test_cache_names);
+    CU_add_test(suite, "directories with unusual names", test_cache_names);
     CU_add_test(suite, "compilers that fail", test_compilers_refused);
     CU_add_test(suite, "a compiler that hangs", test_compiler_hangs);
     CU_add_test(suite, "a compiler that is stopped", test_compiler_stopped);

@@ -57,7 +57,7 @@ static void check_order(const char *name, const dal_method *method, void *user)
     for (int space = 0; space < 2; space++) {
         /* Off the surface a projected method jumps back to it: its order is that on the surface. */
         const double displacement = space == DAL_LIFTED && !projected ? 0.02 : 0.0;
-        if (!fixture_serves(method, system, (dal_space)space)) continue;
+        if (!fixture_accepts(method, system, (dal_space)space)) continue;
         const dal_run_spec spec = fixture_spec(system, name, (dal_space)space, 0.1);
         const double seen = fixture_order(spec, w->T, w->coarse, w->fine, displacement);
         if (!(fabs(seen - order) <= 0.1))
@@ -83,12 +83,12 @@ static double revealing_step(const dal_method *method, unsigned claim, double us
 
 static void check_symplectic(const char *name, const dal_method *method, void *user)
 {
-    if (!fixture_serves(method, user, DAL_LIFTED)) return;
+    if (!fixture_accepts(method, user, DAL_LIFTED)) return;
     const double h = revealing_step(method, DAL_SYMPLECTIC, 0.1);
     const dal_run_spec spec = fixture_spec(user, name, DAL_LIFTED, h);
     dal_run *run = fixture_run(&spec);
     double defect = NAN;
-    fixture_displace(run, 0.3);
+    fixture_perturb(run, 0.3);
     CU_ASSERT_EQUAL(dal_check_symplecticity(&spec, 0.0, dal_run_state(run), 0.0, &defect, NULL),
                     DAL_OK);
     dal_run_free(run);
@@ -112,7 +112,7 @@ static void check_symmetric(const char *name, const dal_method *method, void *us
     double defect = NAN;
     /* Carried multipliers would have to be turned round, too: see test_constrained.c. */
     if (dal_method_properties(method) & DAL_PERSISTENT_MULTIPLIER) return;
-    if (!fixture_serves(method, user, DAL_PHYSICAL)) return;
+    if (!fixture_accepts(method, user, DAL_PHYSICAL)) return;
     const double h = revealing_step(method, DAL_SYMMETRIC, 0.2);
     const dal_run_spec spec = fixture_spec(user, name, DAL_PHYSICAL, h);
     CU_ASSERT_EQUAL(dal_check_reversibility(&spec, 0.0, NULL, &defect, NULL), DAL_OK);
@@ -186,7 +186,7 @@ static void check_surface(const char *name, const dal_method *method, void *user
     double physical[32], lifted[32];
     const dal_system *const *systems = user;
     const size_t bytes = 2 * (size_t)systems[0]->n * sizeof(double);
-    if (!fixture_serves(method, systems[0], DAL_LIFTED)) return;
+    if (!fixture_accepts(method, systems[0], DAL_LIFTED)) return;
     surface_end(systems[0], name, DAL_PHYSICAL, 0.0, physical);
     for (int i = 0; i < 2; i++) { /* another mu_e(t) */
         surface_end(systems[i], name, DAL_LIFTED, 1.0, lifted);
@@ -215,23 +215,23 @@ static void test_surface(void)
 
 /* ---- D over 1e5 steps ---- */
 
-typedef struct keeps {
+typedef struct preserved {
     const char *fixture;
-    unsigned claim; /* 0: every method keeps this one */
-} keeps;
+    unsigned claim; /* 0: every method preserves this one */
+} preserved;
 
-static double greatest_d(const dal_system *system, const char *name, double h, long long count)
+static double max_d(const dal_system *system, const char *name, double h, long long count)
 {
     const dal_run_spec spec = fixture_spec(system, name, DAL_PHYSICAL, h);
     dal_run *run = fixture_run(&spec);
-    double seen[32], greatest = 0.0;
+    double seen[32], max = 0.0;
     for (long long i = 0; i < count; i += 100) {
         CU_ASSERT_EQUAL_FATAL(dal_run_advance(run, 100, NULL), DAL_OK);
         CU_ASSERT_EQUAL(dal_run_observe(run, seen), DAL_OK);
-        for (int a = 0; a < system->m; a++) greatest = fmax(greatest, fabs(seen[a]));
+        for (int a = 0; a < system->m; a++) max = fmax(max, fabs(seen[a]));
     }
     dal_run_free(run);
-    return greatest;
+    return max;
 }
 
 static void check_level(const char *name, const dal_method *method, const dal_system *system,
@@ -239,48 +239,48 @@ static void check_level(const char *name, const dal_method *method, const dal_sy
 {
     const unsigned properties = dal_method_properties(method);
     const bool kept = claim == 0 || (properties & (claim | DAL_PRESERVES_D));
-    const double d = kept ? greatest_d(system, name, 0.002, long_run(100000))
-                          : greatest_d(system, name, 0.05, 1000);
+    const double d =
+        kept ? max_d(system, name, 0.002, long_run(100000)) : max_d(system, name, 0.05, 1000);
     /* That the others lose it shows that the test sees a loss; high orders lose little. */
     const bool good = kept ? d <= 1e-13 : d > 1e-12 || dal_method_order(method) > 4;
     if (!good) printf("\n  %s: |D| %.2e\n", name, d);
     CU_ASSERT(good);
 }
 
-static void check_keeps(const char *name, const dal_method *method, void *user)
+static void check_preserved(const char *name, const dal_method *method, void *user)
 {
-    const keeps *k = user;
+    const preserved *k = user;
     dal_model *model = fixture_model(k->fixture);
     const dal_system *system = fixture_system(model);
     /* D at midpoints is another matter: see test_constrained.c. */
     const unsigned properties = dal_method_properties(method);
     const bool nodes = !(properties & DAL_PRESERVES_D_MIDPOINT) || properties & DAL_PRESERVES_D;
-    if (nodes && fixture_serves(method, system, DAL_PHYSICAL))
+    if (nodes && fixture_accepts(method, system, DAL_PHYSICAL))
         check_level(name, method, system, k->claim);
     dal_model_free(model);
 }
 
-static void test_keeps_constant(void)
+static void test_preserved_constant(void)
 {
-    keeps k = {fixture_constant, 0};
-    for_each(false, check_keeps, &k);
+    preserved k = {fixture_constant, 0};
+    for_each(false, check_preserved, &k);
 }
-static void test_keeps_bilinear(void)
+static void test_preserved_bilinear(void)
 {
-    keeps k = {fixture_bilinear, DAL_PRESERVES_BILINEAR | DAL_PRESERVES_QUADRATIC};
-    for_each(false, check_keeps, &k);
+    preserved k = {fixture_bilinear, DAL_PRESERVES_BILINEAR | DAL_PRESERVES_QUADRATIC};
+    for_each(false, check_preserved, &k);
 }
-static void test_keeps_quadratic(void)
+static void test_preserved_quadratic(void)
 {
-    keeps k = {fixture_quadratic, DAL_PRESERVES_QUADRATIC};
-    for_each(false, check_keeps, &k);
+    preserved k = {fixture_quadratic, DAL_PRESERVES_QUADRATIC};
+    for_each(false, check_preserved, &k);
 }
-static void test_project_keeps(void)
+static void test_project_preserves(void)
 {
-    keeps k = {fixture_quadratic, DAL_PRESERVES_D};
-    for_each(true, check_keeps, &k);
+    preserved k = {fixture_quadratic, DAL_PRESERVES_D};
+    for_each(true, check_preserved, &k);
     k.fixture = "chaplygin-sleigh";
-    for_each(true, check_keeps, &k);
+    for_each(true, check_preserved, &k);
 }
 
 void suite_integrators(void)
@@ -292,8 +292,8 @@ void suite_integrators(void)
     CU_add_test(suite, "symmetric, or not", test_symmetric);
     CU_add_test(suite, "adjoint pairing with 1/e = 0", test_pairing);
     CU_add_test(suite, "on the surface: equal bits, zero momenta", test_surface);
-    CU_add_test(suite, "D linear with constant coefficients", test_keeps_constant);
-    CU_add_test(suite, "D bilinear", test_keeps_bilinear);
-    CU_add_test(suite, "D quadratic", test_keeps_quadratic);
-    CU_add_test(suite, "+project keeps every D", test_project_keeps);
+    CU_add_test(suite, "D linear with constant coefficients", test_preserved_constant);
+    CU_add_test(suite, "D bilinear", test_preserved_bilinear);
+    CU_add_test(suite, "D quadratic", test_preserved_quadratic);
+    CU_add_test(suite, "+project preserves every D", test_project_preserves);
 }

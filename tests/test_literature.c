@@ -16,7 +16,7 @@ static double observable(dal_run *run, const char *name)
     return NAN;
 }
 
-/* The greatest error on the way, relative to the size of the solution. */
+/* The largest error on the way, relative to the size of the solution. */
 static double closed_form_error(dal_run *run, long long steps)
 {
     const int n = dal_run_system(run)->n;
@@ -96,7 +96,7 @@ static void test_friction_end(void)
     dal_model_free(model);
 }
 
-/* Greatest distance from the circle (nh30) up to T = 2 with friction k. */
+/* Largest distance from the circle (nh30) up to T = 2 with friction k. */
 static double distance_to_circle(const dal_system *system, double k)
 {
     const dal_setting set[] = {{"k", k}, {"v0", 1.0}, {"omega", 1.0}, {"m", 1.0}};

@@ -3,7 +3,7 @@
  * The clock is a sum with its residue.  As long as k < 2^50 or so, every sum is a multiple of the
  * last place of h that fits into both together, so that nothing is ever lost and
  *     t_k = k h, rounded once.
- * A late step differs from the first in nothing but the clock: the motion of a system that does not
+ * A far step differs from the first in nothing but the clock: the motion of a system that does not
  * know the time must have the same bits. */
 #include "fixtures.h"
 #include "run/run.h"
@@ -14,10 +14,10 @@
 
 static const char oscillator[] = "coordinates: [x]\nlagrangian: x'^2/2 - x^2/2\nstart: {x: 1}\n";
 static const double h = 0.01;
-static const long long late = 10000000000LL;
+static const long long far_step = 10000000000LL;
 
 /* Puts the clock and the count of a run at step k. */
-static void put_late(dal_run *run, long long k)
+static void set_step(dal_run *run, long long k)
 {
     size_t count;
     double memory[256];
@@ -34,18 +34,18 @@ static void put_late(dal_run *run, long long k)
 static void check_clock(const dal_system *system, const char *method, dal_space space)
 {
     const dal_run_spec spec = fixture_spec(system, method, space, h);
-    dal_run *early = fixture_run(&spec), *run = fixture_run(&spec);
-    put_late(run, late);
+    dal_run *first = fixture_run(&spec), *run = fixture_run(&spec);
+    set_step(run, far_step);
     for (int i = 1; i <= 1000; i++) {
         CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_OK);
-        if (dal_run_time(run) != (double)(late + i) * h) CU_FAIL("the clock is not k h");
+        if (dal_run_time(run) != (double)(far_step + i) * h) CU_FAIL("the clock is not k h");
     }
-    CU_ASSERT_EQUAL(dal_run_steps(run), late + 1000);
-    CU_ASSERT_EQUAL(dal_run_advance(early, 1000, NULL), DAL_OK);
-    CU_ASSERT_EQUAL(memcmp(dal_run_state(early), dal_run_state(run),
+    CU_ASSERT_EQUAL(dal_run_steps(run), far_step + 1000);
+    CU_ASSERT_EQUAL(dal_run_advance(first, 1000, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(memcmp(dal_run_state(first), dal_run_state(run),
                            (size_t)dal_run_dimension(run) * sizeof(double)),
                     0);
-    dal_run_free(early);
+    dal_run_free(first);
     dal_run_free(run);
 }
 
@@ -80,7 +80,7 @@ static void test_from_the_start(void)
 enum { ROWS = 8 };
 
 typedef struct seen {
-    int count, most;
+    int count, max;
     double t[ROWS], x[ROWS], clock[ROWS];
     long long steps[ROWS];
 } seen;
@@ -93,7 +93,7 @@ static dal_status see(void *user, dal_run *run, long long row, double t)
     s->t[s->count] = t;
     s->x[s->count] = dal_run_state(run)[0];
     s->steps[s->count] = dal_run_steps(run);
-    return ++s->count == s->most ? DAL_INTERRUPTED : DAL_OK;
+    return ++s->count == s->max ? DAL_INTERRUPTED : DAL_OK;
 }
 
 static void test_rows_on_steps(void)
@@ -101,15 +101,15 @@ static void test_rows_on_steps(void)
     dal_model *model = fixture_model(oscillator);
     const dal_run_spec spec = fixture_spec(fixture_system(model), "rk4", DAL_PHYSICAL, h);
     dal_run *run = fixture_run(&spec);
-    const long long rows = late / 1000 + 3;
+    const long long rows = far_step / 1000 + 3;
     const double T = (double)(1000 * rows) * h;
-    seen s = {.most = ROWS};
+    seen s = {.max = ROWS};
     const dal_observer observer = {.user = &s, .sample = see};
-    put_late(run, late);
+    set_step(run, far_step);
     CU_ASSERT_EQUAL(dal_run_sample(run, T, rows, rows - 2, &observer, NULL), DAL_OK);
     CU_ASSERT_EQUAL(s.count, 3);
     for (int i = 0; i < 3; i++) {
-        CU_ASSERT_EQUAL(s.steps[i], late + 1000 * (i + 1));
+        CU_ASSERT_EQUAL(s.steps[i], far_step + 1000 * (i + 1));
         CU_ASSERT_DOUBLE_EQUAL(s.t[i], (double)s.steps[i] * h, T * DBL_EPSILON);
     }
     CU_ASSERT_EQUAL(s.t[2], T);
@@ -117,12 +117,12 @@ static void test_rows_on_steps(void)
     dal_model_free(model);
 }
 
-/* Row number row a few last places of t from the end of step late + row + 1. */
+/* Row number row a few last places of t from the end of step far_step + row + 1. */
 static const double off[] = {0.0, 5.0, -5.0, 7.0, -7.0, 0.0, 0.0};
 
 static double near_steps(void *user, long long row)
 {
-    const double t = (double)(late + row + 1) * h;
+    const double t = (double)(far_step + row + 1) * h;
     (void)user;
     return t + off[row] * (nextafter(t, INFINITY) - t);
 }
@@ -134,16 +134,16 @@ static void test_rows_near_steps(void)
     dal_model *model = fixture_model(oscillator);
     const dal_run_spec spec = fixture_spec(fixture_system(model), "rk4", DAL_PHYSICAL, h);
     dal_run *run = fixture_run(&spec);
-    seen s = {.most = ROWS};
+    seen s = {.max = ROWS};
     const dal_observer observer = {.user = &s, .sample = see, .row_time = near_steps};
-    put_late(run, late);
-    CU_ASSERT_EQUAL(dal_run_sample(run, (double)(late + 7) * h, 6, 0, &observer, NULL), DAL_OK);
+    set_step(run, far_step);
+    CU_ASSERT_EQUAL(dal_run_sample(run, (double)(far_step + 7) * h, 6, 0, &observer, NULL), DAL_OK);
     CU_ASSERT_EQUAL_FATAL(s.count, 7);
     for (int i = 0; i < 7; i++) {
-        const double step = (double)(late + i + 1) * h;
+        const double step = (double)(far_step + i + 1) * h;
         CU_ASSERT_EQUAL(s.t[i], i < 6 ? near_steps(NULL, i) : step);
         CU_ASSERT_EQUAL(s.clock[i], fabs(off[i]) < 6.0 ? step : s.t[i]);
-        CU_ASSERT_EQUAL(s.steps[i], late + i + 1 + (off[i] > 6.0));
+        CU_ASSERT_EQUAL(s.steps[i], far_step + i + 1 + (off[i] > 6.0));
     }
     dal_run_free(run);
     dal_model_free(model);
@@ -162,7 +162,7 @@ static void test_rows_near_early_steps(void)
     dal_model *model = fixture_model(oscillator);
     const dal_run_spec spec = fixture_spec(fixture_system(model), "rk4", DAL_PHYSICAL, h);
     dal_run *run = fixture_run(&spec);
-    seen s = {.most = ROWS};
+    seen s = {.max = ROWS};
     const dal_observer observer = {.user = &s, .sample = see, .row_time = near_step_one};
     CU_ASSERT_EQUAL(dal_run_sample(run, 2.0 * h, 5, 0, &observer, NULL), DAL_OK);
     CU_ASSERT_EQUAL_FATAL(s.count, 6);
@@ -175,23 +175,23 @@ static void test_rows_near_early_steps(void)
     dal_model_free(model);
 }
 
-/* Rows in the middle of steps, from x = 1, x' = 0 at the late step: x = cos(t - late h), as far as
- * t itself is known. */
+/* Rows in the middle of steps, from x = 1, x' = 0 at the far step: x = cos(t - far_step h), as far
+ * as t itself is known. */
 static void test_rows_between_steps(void)
 {
     dal_model *model = fixture_model(oscillator);
     const dal_run_spec spec = fixture_spec(fixture_system(model), "gauss8", DAL_PHYSICAL, h);
     dal_run *run = fixture_run(&spec);
-    const long long steps = late + 1000;
+    const long long steps = far_step + 1000;
     const double T = (double)steps * h;
-    seen s = {.most = ROWS};
+    seen s = {.max = ROWS};
     const dal_observer observer = {.user = &s, .sample = see};
-    put_late(run, late);
-    CU_ASSERT_EQUAL(dal_run_sample(run, T, 2 * steps, 2 * late + 1, &observer, NULL),
+    set_step(run, far_step);
+    CU_ASSERT_EQUAL(dal_run_sample(run, T, 2 * steps, 2 * far_step + 1, &observer, NULL),
                     DAL_INTERRUPTED);
     CU_ASSERT_EQUAL(s.count, ROWS);
     for (int i = 0; i < s.count; i++) {
-        CU_ASSERT_DOUBLE_EQUAL(s.t[i], ((double)late + 0.5 * (i + 1)) * h, T * DBL_EPSILON);
+        CU_ASSERT_DOUBLE_EQUAL(s.t[i], ((double)far_step + 0.5 * (i + 1)) * h, T * DBL_EPSILON);
         CU_ASSERT_DOUBLE_EQUAL(s.x[i], cos(0.5 * h * (i + 1)), 2.0 * T * DBL_EPSILON);
     }
     dal_run_free(run);

@@ -7,7 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MAX_SAMPLES = 1200, MOST_OBSERVABLES = 16, STEPS = 701 };
+enum { MAX_SAMPLES = 1200, MAX_OBSERVABLES = 16, STEPS = 701 };
 
 static char place[] = "/tmp/dal-follow-XXXXXX";
 static int compiles;
@@ -62,9 +62,9 @@ static dal_run *run_of(const subject *s, const dal_system *system)
 /* ---- samples ---- */
 
 typedef struct series {
-    int samples, observables, most_at_once, refuse;
-    double t[MAX_SAMPLES], x[MOST_OBSERVABLES][MAX_SAMPLES];
-    dal_statistics statistics[MOST_OBSERVABLES];
+    int samples, observables, max_at_once, refuse;
+    double t[MAX_SAMPLES], x[MAX_OBSERVABLES][MAX_SAMPLES];
+    dal_statistics statistics[MAX_OBSERVABLES];
 } series;
 
 static void begin(series *s, const dal_run *run)
@@ -78,7 +78,7 @@ static void begin(series *s, const dal_run *run)
 static dal_status take_one(void *user, dal_run *run)
 {
     series *s = user;
-    double x[MOST_OBSERVABLES];
+    double x[MAX_OBSERVABLES];
     const dal_status status = dal_run_observe(run, x);
     s->t[s->samples] = dal_run_time(run);
     for (int i = 0; i < s->observables; i++) s->x[i][s->samples] = x[i];
@@ -98,7 +98,7 @@ static dal_status take_many(void *user, dal_run *run, int samples, const double 
         memcpy(s->x[i] + s->samples, x + (size_t)i * stride, (size_t)samples * sizeof *x);
     dal_statistics_add_many(s->statistics, s->observables, samples, t, x, stride);
     s->samples += samples;
-    if (samples > s->most_at_once) s->most_at_once = samples;
+    if (samples > s->max_at_once) s->max_at_once = samples;
     return s->samples > s->refuse ? DAL_INTERRUPTED : DAL_OK;
 }
 
@@ -139,7 +139,7 @@ static void same_series(const subject *of, const dal_system *system, int way)
     CU_ASSERT_EQUAL(memcmp(one.t, many.t, sizeof one.t), 0);
     CU_ASSERT_EQUAL(memcmp(one.x, many.x, sizeof one.x), 0);
     CU_ASSERT_EQUAL(memcmp(one.statistics, many.statistics, sizeof one.statistics), 0);
-    if (compiles && way == 3) CU_ASSERT(many.most_at_once > 100);
+    if (compiles && way == 3) CU_ASSERT(many.max_at_once > 100);
     dal_run_free(plain);
     dal_run_free(run);
 }
@@ -201,7 +201,7 @@ static void test_failure(void)
         CU_ASSERT_EQUAL(many.samples, 1 + dal_run_steps(run));
         CU_ASSERT_EQUAL(dal_run_steps(run), dal_run_steps(plain));
         CU_ASSERT_EQUAL(many.t[many.samples - 1], dal_run_time(plain));
-        double x[MOST_OBSERVABLES];
+        double x[MAX_OBSERVABLES];
         CU_ASSERT_EQUAL(dal_run_observe(plain, x), DAL_OK);
         CU_ASSERT_EQUAL(many.x[0][many.samples - 1], x[0]);
         dal_run_free(run);

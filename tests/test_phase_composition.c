@@ -102,7 +102,7 @@ static double symplectic_defect(const dal_run_spec *spec)
 {
     double defect = NAN;
     dal_run *run = fixture_run(spec);
-    fixture_displace(run, 0.3);
+    fixture_perturb(run, 0.3);
     CU_ASSERT_EQUAL(dal_check_symplecticity(spec, 0.0, dal_run_state(run), 0.0, &defect, NULL),
                     DAL_OK);
     dal_run_free(run);
@@ -131,20 +131,20 @@ static void test_symplectic(void)
 
 /* ---- D ---- */
 
-static double greatest_d(const char *fixture, const char *method, double h, long long count)
+static double max_d(const char *fixture, const char *method, double h, long long count)
 {
     dal_model *model = fixture_model(fixture);
     const dal_run_spec spec = fixture_spec(fixture_system(model), method, DAL_PHYSICAL, h);
     dal_run *run = fixture_run(&spec);
-    double seen[32], greatest = 0.0;
+    double seen[32], max = 0.0;
     for (long long i = 0; i < count; i += 10) {
         CU_ASSERT_EQUAL_FATAL(dal_run_advance(run, 10, NULL), DAL_OK);
         CU_ASSERT_EQUAL(dal_run_observe(run, seen), DAL_OK);
-        for (int a = 0; a < spec.system->m; a++) greatest = fmax(greatest, fabs(seen[a]));
+        for (int a = 0; a < spec.system->m; a++) max = fmax(max, fabs(seen[a]));
     }
     dal_run_free(run);
     dal_model_free(model);
-    return greatest;
+    return max;
 }
 
 static void test_keeps(void)
@@ -152,13 +152,12 @@ static void test_keeps(void)
     const long long count = long_run(2000);
     for (int i = 0; i < COMPOSED; i++) {
         const char *name = composed[i].name;
-        CU_ASSERT(greatest_d(fixture_bilinear, join(bases[0], name, ""), 0.02, count) <= 1e-13);
-        CU_ASSERT(greatest_d(fixture_quadratic, join(bases[1], name, ""), 0.02, count) <= 1e-13);
+        CU_ASSERT(max_d(fixture_bilinear, join(bases[0], name, ""), 0.02, count) <= 1e-13);
+        CU_ASSERT(max_d(fixture_quadratic, join(bases[1], name, ""), 0.02, count) <= 1e-13);
     }
-    CU_ASSERT(greatest_d(fixture_quadratic, "stormer-verlet+suzuki4+project", 0.02, count) <=
-              1e-13);
+    CU_ASSERT(max_d(fixture_quadratic, "stormer-verlet+suzuki4+project", 0.02, count) <= 1e-13);
     /* What the method inside does not keep, its compositions do not. */
-    CU_ASSERT(greatest_d(fixture_quadratic, "stormer-verlet+suzuki4", 0.05, count) > 1e-12);
+    CU_ASSERT(max_d(fixture_quadratic, "stormer-verlet+suzuki4", 0.05, count) > 1e-12);
 }
 
 /* ---- on the surface the same bits on both spaces ---- */
@@ -218,10 +217,10 @@ static void test_sum(void)
 
 /* ---- what cannot be composed ---- */
 
-static void refused(const dal_system *system, const char *name, const char *why)
+static void refused(const dal_system *system, const char *name, const char *reason)
 {
     const dal_run_spec spec = fixture_spec(system, name, DAL_LIFTED, 0.1);
-    fixture_refused(&spec, DAL_UNSUPPORTED, why);
+    fixture_refused(&spec, DAL_UNSUPPORTED, reason);
 }
 
 static void test_refused(void)

@@ -123,7 +123,7 @@ static double symplectic_defect(const dal_system *system, const char *name)
     const dal_run_spec spec = fixture_spec(system, name, DAL_LIFTED, 0.1);
     dal_run *run = fixture_run(&spec);
     double defect = NAN;
-    fixture_displace(run, 0.3);
+    fixture_perturb(run, 0.3);
     CU_ASSERT_EQUAL(dal_check_symplecticity(&spec, 0.0, dal_run_state(run), 0.0, &defect, NULL),
                     DAL_OK);
     dal_run_free(run);
@@ -209,10 +209,10 @@ static void test_order(void)
 
 /* ---- what cannot be lifted ---- */
 
-static void refused(const dal_system *system, const char *name, const char *why)
+static void refused(const dal_system *system, const char *name, const char *reason)
 {
     const dal_run_spec spec = fixture_spec(system, name, DAL_LIFTED, 0.1);
-    fixture_refused(&spec, DAL_UNSUPPORTED, why);
+    fixture_refused(&spec, DAL_UNSUPPORTED, reason);
 }
 
 static void test_refused(void)

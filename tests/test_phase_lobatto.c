@@ -20,14 +20,14 @@
 
 typedef long double real;
 
-enum { MOST = 5 };
+enum { MAX = 5 };
 static const dal_tableau *const tableaus[] = {&tableau3, &tableau4, &tableau5};
 enum { TABLEAUS = sizeof tableaus / sizeof *tableaus };
 
 /* A tableau with heads and tails put together; nodes to all places. */
 typedef struct whole {
     int s;
-    real c[MOST], b[MOST], a[MOST][MOST], p[MOST][MOST];
+    real c[MAX], b[MAX], a[MAX][MAX], p[MAX][MAX];
 } whole;
 
 /* (1 - x^2) P_n'(x) / n = P_(n-1) - x P_n and its derivative -(n + 1) P_n. */

@@ -14,7 +14,7 @@ static const char mass_text[] = "coordinates: [x, y, z]\n"
                                 "lagrangian: (x'^2 + y'^2 + z'^2)/2 + cos(z)*x'*y'\n"
                                 "start: {z: 1}\n";
 
-/* Parallel normals where z = pi/4. */
+/* Dependent rows of A where z = pi/4. */
 static const char parallel_text[] = "coordinates: [x, y, z]\n"
                                     "lagrangian: (x'^2 + y'^2 + z'^2)/2\n"
                                     "constraints: [x' + y', cos(z)*x' + sin(z)*y']\n"
@@ -118,7 +118,7 @@ static void test_singular_rate(void)
     reference_free(&b);
 }
 
-/* Parameters alone, or a first pivot, are not watched: no pivots behind the outputs. */
+/* Parameters alone, or a first pivot, are not checked: no pivots behind the outputs. */
 static void test_start_may_be_singular(void)
 {
     reference b = reference_of_text("coordinates: [x, y, z]\n"

@@ -11,21 +11,21 @@ static const double pi = 3.14159265358979323846;
 #define OSCILLATOR(g)                                                                              \
     "coordinates: [x]\nlagrangian: (x'^2 - x^2)/2\nstart: {x: 1}\ninvariants: {g: " g "}\n"
 
-enum { MOST = 64 };
+enum { MAX = 64 };
 
 typedef struct record {
     int count;
-    double t[MOST], g[MOST];
-    int direction[MOST];
-    long long number[MOST];
+    double t[MAX], g[MAX];
+    int direction[MAX];
+    long long number[MAX];
     int polls, stop_after;
 } record;
 
 static dal_status note(void *user, dal_run *run, const dal_crossing *crossing)
 {
     record *r = user;
-    double seen[MOST];
-    CU_ASSERT_FATAL(r->count < MOST);
+    double seen[MAX];
+    CU_ASSERT_FATAL(r->count < MAX);
     CU_ASSERT_EQUAL(dal_run_time(run), crossing->t);
     CU_ASSERT_EQUAL(dal_run_observe(run, seen), DAL_OK);
     const dal_system *s = dal_run_system(run);
@@ -316,7 +316,7 @@ static void test_on_a_step(void)
 static void cross_with(dal_model *model, const char *method, dal_space space)
 {
     dal_run_spec spec = fixture_spec(fixture_system(model), method, space, 0.05);
-    if (!fixture_serves(&spec.method, spec.system, space)) return;
+    if (!fixture_accepts(&spec.method, spec.system, space)) return;
     dal_run *run = fixture_run(&spec), *plain = fixture_run(&spec);
     dal_crossings found;
     dal_error error = {0};

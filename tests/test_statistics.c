@@ -151,7 +151,7 @@ static void fill_samples(double *t, double *x)
 static void test_many(void)
 {
     static double t[SAMPLES], x[QUANTITIES * STRIDE];
-    static const int most[] = {1, 5, 8, 64, 300, SAMPLES};
+    static const int portions[] = {1, 5, 8, 64, 300, SAMPLES};
     dal_statistics one[QUANTITIES], many[QUANTITIES];
     fill_samples(t, x);
     dal_statistics_start(one, QUANTITIES);
@@ -160,11 +160,11 @@ static void test_many(void)
         dal_statistics_add(one, QUANTITIES, t[k], values);
     }
     CU_ASSERT(one[2].lost && one[2].count < SAMPLES && one[1].count == SAMPLES);
-    for (size_t i = 0; i < sizeof most / sizeof most[0]; i++) {
+    for (size_t i = 0; i < sizeof portions / sizeof portions[0]; i++) {
         uint64_t state = i;
         dal_statistics_start(many, QUANTITIES);
         for (int k = 0, portion; k < SAMPLES; k += portion) {
-            portion = (int)(most[i] * 0.5 * (1.0 + fabs(chance(&state)))) + 1;
+            portion = (int)(portions[i] * 0.5 * (1.0 + fabs(chance(&state)))) + 1;
             portion = portion < SAMPLES - k ? portion : SAMPLES - k;
             dal_statistics_add_many(many, QUANTITIES, portion, t + k, x + k, STRIDE);
         }

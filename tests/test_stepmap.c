@@ -201,13 +201,13 @@ static void stability(double B[4][4], double h, double out[4][4])
 static double expected_rk4_defect(double h)
 {
     double B[4][4] = {{0, 1, 0, 0}, {-1, 0, 0, 1}, {0, 0, 0, 1}, {0, 0, -1, 0}};
-    double forward[4][4], backward[4][4], both[4][4], most = 0.0;
+    double forward[4][4], backward[4][4], both[4][4], max = 0.0;
     stability(B, h, forward);
     stability(B, -h, backward);
     multiply(backward, forward, both);
     for (int i = 0; i < 4; i++)
-        for (int j = 0; j < 4; j++) most = fmax(most, fabs(both[i][j] - (i == j)));
-    return most;
+        for (int j = 0; j < 4; j++) max = fmax(max, fabs(both[i][j] - (i == j)));
+    return max;
 }
 
 static void test_symplecticity_closed_form(void)
@@ -240,7 +240,7 @@ static void test_symplecticity(void)
             fixture_spec(fixture_system(model), cases[k].method, DAL_LIFTED, 0.1);
         dal_run *run = fixture_run(&spec);
         double defect;
-        fixture_displace(run, 0.5);
+        fixture_perturb(run, 0.5);
         CU_ASSERT_EQUAL(dal_check_symplecticity(&spec, 0.3, dal_run_state(run), 0.0, &defect, NULL),
                         DAL_OK);
         CU_ASSERT(cases[k].symplectic ? defect < 1e-10 : defect > 1e-8);
@@ -259,7 +259,7 @@ static void test_symplecticity_far(void)
         fixture_spec(fixture_system(model), "stormer-verlet", DAL_LIFTED, 0.1);
     dal_run *run = fixture_run(&spec);
     double defect;
-    fixture_displace(run, 0.5);
+    fixture_perturb(run, 0.5);
     CU_ASSERT_EQUAL(dal_check_symplecticity(&spec, 0.0, dal_run_state(run), 0.0, &defect, NULL),
                     DAL_OK);
     CU_ASSERT(defect < 1e-6);
@@ -273,7 +273,7 @@ static void test_symplecticity_place(void)
     dal_run_spec spec = fixture_spec(fixture_system(model), "rk4", DAL_LIFTED, 0.1);
     dal_run *run = fixture_run(&spec);
     double early, late;
-    fixture_displace(run, 0.5);
+    fixture_perturb(run, 0.5);
     const double *state = dal_run_state(run);
     CU_ASSERT_EQUAL(dal_check_symplecticity(&spec, 0.0, state, 0.0, &early, NULL), DAL_OK);
     CU_ASSERT_EQUAL(dal_check_symplecticity(&spec, 0.9, state, 0.0, &late, NULL), DAL_OK);
@@ -310,7 +310,7 @@ static void test_reversibility(void)
                 fixture_spec(fixture_system(model), methods[i], DAL_LIFTED, 0.2);
             dal_run *run = fixture_run(&spec);
             double defect;
-            fixture_displace(run, 0.5);
+            fixture_perturb(run, 0.5);
             CU_ASSERT_EQUAL(dal_check_reversibility(&spec, 0.0, dal_run_state(run), &defect, NULL),
                             DAL_OK);
             CU_ASSERT(i < 3 ? defect < 1e-14 : defect > 1e-10);

@@ -20,7 +20,7 @@
 
 typedef long double real;
 
-enum { MOST = 6 };
+enum { MAX = 6 };
 
 static const dal_tableau *const tableaus[] = {&tableau2, &tableau3, &tableau4, &tableau5,
                                               &tableau6};
@@ -36,7 +36,7 @@ static void legendre(int count, real x, real *p)
 /* P_s'(x). */
 static real slope(int s, real x)
 {
-    real p[MOST + 2];
+    real p[MAX + 2];
     legendre(s, x, p);
     return s * (x * p[s] - p[s - 1]) / (x * x - 1.0L);
 }
@@ -44,7 +44,7 @@ static real slope(int s, real x)
 /* Root i of P_s from 0, in rising order. */
 static real root(int s, int i)
 {
-    real x = -cosl(3.14159265358979323846264L * (i + 0.75L) / (s + 0.5L)), p[MOST + 2];
+    real x = -cosl(3.14159265358979323846264L * (i + 0.75L) / (s + 0.5L)), p[MAX + 2];
     for (int k = 0; k < 50; k++) {
         legendre(s, x, p);
         x -= p[s] / slope(s, x);
@@ -55,7 +55,7 @@ static real root(int s, int i)
 /* sum_(k<s) (2k + 1) P_k(xi) f_k */
 static real expansion(int s, real xi, const real *f)
 {
-    real p[MOST + 2], sum = 0.0L;
+    real p[MAX + 2], sum = 0.0L;
     legendre(s, xi, p);
     for (int k = 0; k < s; k++) sum += (2 * k + 1) * p[k] * f[k];
     return sum;
@@ -64,7 +64,7 @@ static real expansion(int s, real xi, const real *f)
 /* I_0..I_(s-1) at xi. */
 static void integrals(int s, real xi, real *f)
 {
-    real p[MOST + 2];
+    real p[MAX + 2];
     legendre(s, xi, p);
     f[0] = 0.5L + 0.5L * xi;
     for (int k = 1; k < s; k++) f[k] = (p[k + 1] - p[k - 1]) / (4 * k + 2);
@@ -92,7 +92,7 @@ static void check_column(const dal_tableau *t, const real *xi, int j)
 {
     const int s = t->stages;
     const real d = slope(s, xi[j]), b = 1.0L / ((1.0L - xi[j] * xi[j]) * d * d);
-    real f[MOST + 2];
+    real f[MAX + 2];
     close_to(s, "b", (real)t->b[j] + t->b_tail[j], b, tolerance());
     check_head(t->b[j]);
     for (int i = 0; i < s; i++) {
@@ -113,7 +113,7 @@ static void test_gauss(void)
 {
     for (int k = 0; k < 5; k++) {
         const dal_tableau *t = tableaus[k];
-        real xi[MOST];
+        real xi[MAX];
         CU_ASSERT_EQUAL(t->stages, k + 2);
         for (int i = 0; i < t->stages; i++) {
             xi[i] = root(t->stages, i);

@@ -252,7 +252,7 @@ static void test_lengths(void)
 /* A long chain keeps few numbers at a time. */
 static void test_places_are_reused(void)
 {
-    enum { LINKS = 1000, LEAST = PARAMETERS + INPUTS, FEW = 4 };
+    enum { LINKS = 1000, FIXED = PARAMETERS + INPUTS, FEW = 4 };
     dal__graph *graph = formula_graph();
     dal__node f = dal__symbol(graph, X), y = dal__symbol(graph, Y), z = dal__symbol(graph, Z);
     for (int i = 0; i < LINKS; i++) {
@@ -264,7 +264,7 @@ static void test_places_are_reused(void)
     dal__tapes_add(tapes, &f, 1);
     CU_ASSERT_EQUAL(dal__tapes_finish(tapes), DAL_OK);
     CU_ASSERT_EQUAL(tapes->tape[0].length, 4 * LINKS);
-    CU_ASSERT(tapes->workspace <= LEAST + FEW);
+    CU_ASSERT(tapes->workspace <= FIXED + FEW);
     dal__tapes_free(tapes);
     dal__graph_free(graph);
 }

@@ -110,8 +110,8 @@ static const char *contradiction(const dal_trend *s, const dal_trend *l, double 
     if (grows && l->trend == DAL_TREND_NONE) return "grows, then does not";
     if (s->trend != DAL_TREND_NONE) return NULL;
     if (l->trend == DAL_TREND_POWER || l->trend == DAL_TREND_EXPONENTIAL) return "none, then grows";
-    const double least = fmin(fabs(l->rate_low), fabs(l->rate_high));
-    return l->trend == DAL_TREND_LINEAR && least * T > s->max_drift ? "none, then a line" : NULL;
+    const double min_rate = fmin(fabs(l->rate_low), fabs(l->rate_high));
+    return l->trend == DAL_TREND_LINEAR && min_rate * T > s->max_drift ? "none, then a line" : NULL;
 }
 
 /* Adds the observables of one system and method to the counts. */
@@ -124,10 +124,10 @@ static void compare_lengths(const char *system, const char *method, int *quantit
     run_trends(system, method, h, 50.0 * T, "", lengthy);
     for (int i = 0; i < OBSERVABLES; i++) {
         if (brief[i].trend == DAL_TREND_ABORTED || lengthy[i].trend == DAL_TREND_ABORTED) continue;
-        const char *const why = contradiction(&brief[i], &lengthy[i], T);
+        const char *const reason = contradiction(&brief[i], &lengthy[i], T);
         *quantities += 1;
-        *refuted += why != NULL;
-        if (why) printf("\n  %s, %s, observable %d: %s", system, method, i, why);
+        *refuted += reason != NULL;
+        if (reason) printf("\n  %s, %s, observable %d: %s", system, method, i, reason);
     }
 }
 
