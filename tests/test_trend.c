@@ -321,6 +321,27 @@ static int fill_times(void)
     return 0;
 }
 
+/* A clean tone is taken out of a line to far less than its amplitude, wherever between the
+ * frequencies of the first guess it lies. */
+static void test_line_under_a_tone(void)
+{
+    enum { VALUES = 20000 };
+    const double rate = 1e-3, two_pi = 2.0 * acos(-1.0);
+    for (int k = 0; k < 6; k++) {
+        const double periods = 5.31 + 2.17 * k;
+        dal_statistics s;
+        dal_trend f;
+        dal_statistics_start(&s, 1);
+        for (int i = 0; i <= VALUES; i++) {
+            const double t = (double)i / VALUES;
+            const double x = cos(two_pi * periods * t + 0.3) + rate * t;
+            dal_statistics_add(&s, 1, t, &x);
+        }
+        dal_statistics_classify(&s, VALUES, 0, &f);
+        CU_ASSERT_DOUBLE_EQUAL(f.rate, rate, 1e-6);
+    }
+}
+
 void suite_trend(void)
 {
     CU_pSuite suite = CU_add_suite("trends", fill_times, NULL);
@@ -329,4 +350,5 @@ void suite_trend(void)
     CU_add_test(suite, "peculiarities", test_peculiarities);
     CU_add_test(suite, "exponents", test_exponents);
     CU_add_test(suite, "sizes", test_sizes);
+    CU_add_test(suite, "a line under a clean tone", test_line_under_a_tone);
 }
