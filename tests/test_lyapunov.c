@@ -1,5 +1,6 @@
 /* test_lyapunov.c - Lyapunov exponents and phase volume. */
 #include "allocation.h"
+#include "analysis/differences.h"
 #include "fixtures.h"
 #include "quick.h"
 #include <CUnit/CUnit.h>
@@ -326,6 +327,35 @@ static void test_refuses(void)
     dal_model_free(model);
 }
 
+/* Two springs, at rest at 0.  Every fourth call, the first stage of a step of rk4, is at the state
+ * itself: it counts those whose largest component is no multiple of the increment. */
+static int calls, others;
+
+static dal_status two_springs(const dal_system *system, const dal_point *at, double *out)
+{
+    (void)system;
+    out[0] = -at->q[0], out[1] = -2.0 * at->q[1];
+    if (calls++ % 4 != 0) return DAL_OK;
+    const double size =
+        fmax(fmax(fabs(at->q[0]), fabs(at->q[1])), fmax(fabs(at->v[0]), fabs(at->v[1]))) /
+        DAL__INCREMENT;
+    others += !(fabs(size - round(size)) < 1e-12);
+    return DAL_OK;
+}
+
+static void test_increments(void)
+{
+    const dal_system system = {.name = "springs", .n = 2, .call.field = two_springs};
+    const dal_run_spec spec = fixture_spec(&system, "rk4", DAL_PHYSICAL, 0.1);
+    dal_lyapunov *s = NULL;
+    CU_ASSERT_EQUAL_FATAL(dal_lyapunov_create(&s, &spec, NULL, 4, NULL), DAL_OK);
+    calls = others = 0;
+    CU_ASSERT_EQUAL(dal_lyapunov_advance(s, 10, NULL), DAL_OK);
+    CU_ASSERT(calls >= 10 * 4 * 4 * 8);
+    CU_ASSERT_EQUAL(others, 0);
+    dal_lyapunov_free(s);
+}
+
 static void test_out_of_memory(void)
 {
     dal_model *model = fixture_model(fixture_bilinear);
@@ -363,5 +393,6 @@ void suite_lyapunov(void)
     CU_add_test(suite, "vakonomic motion", test_vakonomic);
     CU_add_test(suite, "the trajectory is that of a run", test_same_bits);
     CU_add_test(suite, "what is refused", test_refuses);
+    CU_add_test(suite, "increments of differences", test_increments);
     CU_add_test(suite, "out of memory", test_out_of_memory);
 }
