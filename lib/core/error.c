@@ -8,6 +8,7 @@
 #include "core/words.h"
 #include <limits.h>
 #include <stdarg.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -55,13 +56,6 @@ dal_status dal__fail_at(dal_error *error, dal_status status, int line, int colum
 
 enum { MAX_LETTERS = 63, CASE = 1, EDIT = 4, MIN_LIMIT = 2 * EDIT };
 
-static int substitution(char a, char b)
-{
-    if (a == b) return 0;
-    char low = (char)(a | 0x20);
-    return (a ^ b) == 0x20 && low >= 'a' && low <= 'z' ? CASE : EDIT;
-}
-
 static int min_of(int a, int b) { return a < b ? a : b; }
 
 /* Quarter edits from a to b, neither longer than MAX_LETTERS.  row[k] holds the distances of the
@@ -76,7 +70,9 @@ static int distance(const char *a, const char *b)
         row[0][0] = i * EDIT;
         for (int j = 1; j <= lb; j++) {
             int d = min_of(row[1][j], row[0][j - 1]) + EDIT;
-            d = min_of(d, row[1][j - 1] + substitution(a[i - 1], b[j - 1]));
+            const char x = a[i - 1], y = b[j - 1], low = (char)(x | 0x20);
+            const bool same_letter = (x ^ y) == 0x20 && low >= 'a' && low <= 'z';
+            d = min_of(d, row[1][j - 1] + (x == y ? 0 : same_letter ? CASE : EDIT));
             if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
                 d = min_of(d, row[2][j - 2] + EDIT);
             row[0][j] = d;

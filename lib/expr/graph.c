@@ -45,19 +45,17 @@ static size_t home(const dal__graph *graph, const dal__record *r)
     return (size_t)(h >> (64 - graph->table_bits));
 }
 
-static bool equal(const dal__record *r, const dal__record *s)
-{
-    return r->op == s->op && r->a == s->a && r->b == s->b && r->symbol == s->symbol &&
-           memcmp(&r->value, &s->value, sizeof r->value) == 0;
-}
-
 /* The place in the table that holds r, or the free one where it belongs. */
 static dal__node *place(const dal__graph *graph, const dal__record *r)
 {
     size_t mask = ((size_t)1 << graph->table_bits) - 1;
-    size_t i = home(graph, r);
-    while (graph->table[i] && !equal(&graph->node[graph->table[i]], r)) i = (i + 1) & mask;
-    return &graph->table[i];
+    for (size_t i = home(graph, r);; i = (i + 1) & mask) {
+        const dal__record *s = &graph->node[graph->table[i]];
+        const bool equal = r->op == s->op && r->a == s->a && r->b == s->b &&
+                           r->symbol == s->symbol &&
+                           memcmp(&r->value, &s->value, sizeof r->value) == 0;
+        if (!graph->table[i] || equal) return &graph->table[i];
+    }
 }
 
 /* Doubles the table and the nodes, which fill at most half of it. */

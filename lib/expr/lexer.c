@@ -29,15 +29,6 @@ dal__lexer dal__lexer_start(const char *text, size_t length)
     return (dal__lexer){.at = text, .end = text + length, .line = 1, .line_start = text};
 }
 
-static void skip_blanks(dal__lexer *lexer)
-{
-    for (; lexer->at < lexer->end; lexer->at++) {
-        char c = *lexer->at;
-        if (c != ' ' && c != '\t' && c != '\r' && c != '\n') return;
-        if (c == '\n') lexer->line++, lexer->line_start = lexer->at + 1;
-    }
-}
-
 #define SYNTAX_ERROR(at, error, ...)                                                               \
     dal__fail_at(error, DAL_SYNTAX, (at)->line, (at)->column, __VA_ARGS__)
 
@@ -92,7 +83,8 @@ static dal_status other(dal__lexer *lexer, dal__token *token, dal_error *error)
 
 dal_status dal__lexer_next(dal__lexer *lexer, dal__token *token, dal_error *error)
 {
-    skip_blanks(lexer);
+    for (; lexer->at < lexer->end && strchr(" \t\r\n", *lexer->at) && *lexer->at; lexer->at++)
+        if (*lexer->at == '\n') lexer->line++, lexer->line_start = lexer->at + 1;
     *token = (dal__token){.kind = DAL__TOKEN_END,
                           .line = lexer->line,
                           .column = (int)(lexer->at - lexer->line_start) + 1,

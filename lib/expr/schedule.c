@@ -116,19 +116,14 @@ static uint32_t allocate_place(dal__schedule *s, dal__tapes *tapes)
     return (uint32_t)place;
 }
 
-/* sin or cos of the same argument as l, when the program wants both; else 0. */
-static dal__node partner(const dal__schedule *s, dal__lowered l, dal__node top)
-{
-    dal__op other = l.op == DAL__SIN ? DAL__COS : DAL__SIN;
-    if (l.op != DAL__SIN && l.op != DAL__COS) return 0;
-    dal__node x = dal__find(s->graph, other, l.a, 0);
-    return x && x <= top && s->reached[x] ? x : 0;
-}
-
 static void emit(dal__schedule *s, dal__tapes *tapes, dal__tape *tape, dal__node i, dal__node top)
 {
     dal__lowered l = dal__lower(s->graph, i);
-    dal__node pair = partner(s, l, top);
+    /* sin or cos of the same argument, when the program wants both; else 0 */
+    dal__node pair = 0;
+    if (l.op == DAL__SIN) pair = dal__find(s->graph, DAL__COS, l.a, 0);
+    if (l.op == DAL__COS) pair = dal__find(s->graph, DAL__SIN, l.a, 0);
+    if (pair > top || !s->reached[pair]) pair = 0;
     dal__instruction code = instruction(s, i, l);
     release(s, tapes, l.a, i);
     release(s, tapes, l.b, i);

@@ -486,18 +486,10 @@ static dal__node power(dal__graph *graph, dal__node a, dal__node b)
     return dal__intern(graph, DAL__POW, a, b);
 }
 
-static dal__node arc_tangent(dal__graph *graph, dal__node a, dal__node b)
-{
-    dal__record r = graph->node[a], s = graph->node[b];
-    if (r.op == DAL__NUMBER && s.op == DAL__NUMBER) {
-        return dal__number(graph, dal__operate(DAL__ATAN2, r.value, s.value, 0.0));
-    }
-    return dal__intern(graph, DAL__ATAN2, a, b);
-}
-
 dal__node dal__apply(dal__graph *graph, dal__op op, dal__node a, dal__node b)
 {
     if (!a) return 0;
+    dal__record r = graph->node[a], s = graph->node[b];
     switch (op) {
     case DAL__ADD:
         return dal__add(graph, a, b);
@@ -512,7 +504,9 @@ dal__node dal__apply(dal__graph *graph, dal__op op, dal__node a, dal__node b)
     case DAL__POW:
         return b ? power(graph, a, b) : 0;
     case DAL__ATAN2:
-        return b ? arc_tangent(graph, a, b) : 0;
+        if (r.op != DAL__NUMBER || s.op != DAL__NUMBER)
+            return b ? dal__intern(graph, DAL__ATAN2, a, b) : 0;
+        return b ? dal__number(graph, dal__operate(DAL__ATAN2, r.value, s.value, 0.0)) : 0;
     default:
         return function(graph, op, a);
     }

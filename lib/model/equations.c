@@ -93,20 +93,20 @@ dal_status dal__solve_vector(dal_model *model, int n, const dal__node *matrix, c
 }
 
 /* The column of W^-1 B_a; that of W^-1 A_a is 1 + a. */
-static int reaction_column(const dal__equations *e, int a) { return 1 + a + (e->servo ? e->m : 0); }
+static int force_column(const dal__equations *e, int a) { return 1 + a + (e->servo ? e->m : 0); }
 
 /* x = W^-1 (b, A^T, B^T), the last only where it differs from A^T. */
 static dal_status solve_mass(dal_model *model, dal__linear *s)
 {
     const dal__equations *e = &model->equations;
-    int columns = reaction_column(e, e->m);
+    int columns = force_column(e, e->m);
     if (!allocate_linear(model, s, e->n, columns, e->n)) return DAL_MEMORY;
     for (int i = 0; i < e->n * e->n; i++) s->matrix[i] = e->W[i];
     for (int i = 0; i < e->n; i++) {
         s->rhs[i * columns] = e->b[i];
         for (int a = 0; a < e->m; a++) {
             s->rhs[i * columns + 1 + a] = e->A[a * e->n + i];
-            s->rhs[i * columns + reaction_column(e, a)] = e->B[a * e->n + i];
+            s->rhs[i * columns + force_column(e, a)] = e->B[a * e->n + i];
         }
     }
     DAL_TRY(dal__linear_solve(model, s));
@@ -114,7 +114,7 @@ static dal_status solve_mass(dal_model *model, dal__linear *s)
     for (int i = 0; i < e->n; i++)
         for (int a = 0; a < e->m; a++) {
             e->U[i * e->m + a] = s->x[i * columns + 1 + a];
-            e->R[i * e->m + a] = s->x[i * columns + reaction_column(e, a)];
+            e->R[i * e->m + a] = s->x[i * columns + force_column(e, a)];
         }
     return DAL_OK;
 }
@@ -128,21 +128,6 @@ static dal__node project(const dal__equations *e, int a, const dal__linear *mass
         sum = dal__add(e->graph, sum, term);
     }
     return sum;
-}
-
-static dal_status solve_reaction(dal_model *model, const dal__linear *mass, dal__linear *s)
-{
-    const dal__equations *e = &model->equations;
-    if (!allocate_linear(model, s, e->m, 1, 0)) return DAL_MEMORY;
-    for (int a = 0; a < e->m; a++) {
-        dal__node pull = dal__add(e->graph, e->c[a], project(e, a, mass, 0));
-        s->rhs[a] = dal__neg(e->graph, pull);
-        for (int b = 0; b < e->m; b++)
-            s->matrix[a * e->m + b] = b < a && !e->servo
-                                          ? s->matrix[b * e->m + a]
-                                          : project(e, a, mass, reaction_column(e, b));
-    }
-    return dal__linear_solve(model, s);
 }
 
 static dal_status singular_mass(const dal_model *model, int row, dal_error *error)
@@ -169,16 +154,25 @@ static dal_status dependent_constraints(const dal_model *model, int row, dal_err
 static dal_status solve_motion(dal_model *model, dal_error *error)
 {
     dal__equations *e = &model->equations;
-    dal__linear mass, reaction;
+    dal__linear mass, force;
     dal_status status = solve_mass(model, &mass);
     if (status == DAL_SINGULAR) return singular_mass(model, mass.singular, error);
     if (status != DAL_OK) return exhausted(model, error);
-    status = solve_reaction(model, &mass, &reaction);
-    if (status == DAL_SINGULAR) return dependent_constraints(model, reaction.singular, error);
+    if (!allocate_linear(model, &force, e->m, 1, 0)) return exhausted(model, error);
+    for (int a = 0; a < e->m; a++) { /* G h = -(c + A W^-1 b) */
+        dal__node pull = dal__add(e->graph, e->c[a], project(e, a, &mass, 0));
+        force.rhs[a] = dal__neg(e->graph, pull);
+        for (int b = 0; b < e->m; b++)
+            force.matrix[a * e->m + b] = b < a && !e->servo
+                                             ? force.matrix[b * e->m + a]
+                                             : project(e, a, &mass, force_column(e, b));
+    }
+    status = dal__linear_solve(model, &force);
+    if (status == DAL_SINGULAR) return dependent_constraints(model, force.singular, error);
     if (status != DAL_OK) return exhausted(model, error);
-    for (int a = 0; a < e->m; a++) e->h[a] = reaction.x[a];
+    for (int a = 0; a < e->m; a++) e->h[a] = force.x[a];
     for (int i = 0; i < e->n; i++) {
-        dal__node pushed = dal__dot(e->graph, e->m, e->R + i * e->m, reaction.x);
+        dal__node pushed = dal__dot(e->graph, e->m, e->R + i * e->m, force.x);
         e->F[i] = dal__add(e->graph, mass.x[i * mass.columns], pushed);
     }
     return DAL_OK;

@@ -296,17 +296,6 @@ static dal_status check_equations(dal_model *model, dal_error *error)
     return DAL_OK;
 }
 
-static dal_status read_mechanics(dal_model *model, dal_error *error)
-{
-    static const char *const words[] = {"lagrange-d'alembert", "vakonomic"};
-    const dal__entry *entry = dal__model_entry(model, DAL_SECTION_MECHANICS, 0);
-    int i = 0;
-    if (entry)
-        DAL_TRY(find_word(entry->text, DAL__AT_TEXT(entry), "mechanics", words, 2, &i, error));
-    model->equations.vakonomic = i == 1;
-    return DAL_OK;
-}
-
 /* Numbers the symbols and allocates all nodes. */
 static dal_status begin_equations(dal_model *model, dal_error *error)
 {
@@ -355,8 +344,14 @@ static dal_status begin_equations(dal_model *model, dal_error *error)
 dal_status dal__parse_model(dal_model *model, dal_error *error)
 {
     dal__equations *e = &model->equations;
+    static const char *const words[] = {"lagrange-d'alembert", "vakonomic"};
+    int vakonomic = 0;
     *e = (dal__equations){.graph = e->graph};
-    DAL_TRY(read_mechanics(model, error));
+    const dal__entry *mechanics = dal__model_entry(model, DAL_SECTION_MECHANICS, 0);
+    if (mechanics)
+        DAL_TRY(find_word(mechanics->text, DAL__AT_TEXT(mechanics), "mechanics", words, 2,
+                          &vakonomic, error));
+    e->vakonomic = vakonomic;
     DAL_TRY(dal__collect_names(model, error));
     e->m = dal__model_count(model, DAL_SECTION_CONSTRAINTS);
     e->multipliers = e->vakonomic ? e->m : 0;

@@ -18,22 +18,6 @@ dal_status dal__programs_begin(const dal__equations *e, dal__programs *programs,
     return programs->tapes ? DAL_OK : DAL_MEMORY;
 }
 
-static bool checks(const dal__equations *e, const dal__pivot *pivot, dal__program_code code)
-{
-    switch (code) {
-    case DAL__PROGRAM_FIELD:
-    case DAL__PROGRAM_ADJOINT:
-    case DAL__PROGRAM_JACOBIAN:
-        return pivot->checked;
-    case DAL__PROGRAM_CONSTRAINT:
-    case DAL__PROGRAM_ENERGY_NORMAL:
-    case DAL__PROGRAM_BLOCKS:
-        return pivot->checked && pivot->constraint == 0 && !e->vakonomic;
-    default:
-        return false;
-    }
-}
-
 dal_status dal__programs_add(dal_model *model, dal__programs *programs, dal__program_code code,
                              const dal__node *outputs, int count)
 {
@@ -43,10 +27,16 @@ dal_status dal__programs_add(dal_model *model, dal__programs *programs, dal__pro
     if (!all) return DAL_MEMORY;
     for (int i = 0; i < count; i++) all[i] = outputs[i];
     program->outputs = count;
+    const bool motion =
+        code == DAL__PROGRAM_FIELD || code == DAL__PROGRAM_ADJOINT || code == DAL__PROGRAM_JACOBIAN;
+    const bool inverts_mass = code == DAL__PROGRAM_CONSTRAINT || code == DAL__PROGRAM_BLOCKS ||
+                              code == DAL__PROGRAM_ENERGY_NORMAL;
     for (int k = 0; k < e->pivots; k++) {
-        if (!checks(e, &e->pivot[k], code)) continue;
-        all[count + 2 * program->checked] = e->pivot[k].pivot;
-        all[count + 2 * program->checked++ + 1] = e->pivot[k].size;
+        const dal__pivot *p = &e->pivot[k];
+        const bool divides = motion || (inverts_mass && p->constraint == 0 && !e->vakonomic);
+        if (!p->checked || !divides) continue;
+        all[count + 2 * program->checked] = p->pivot;
+        all[count + 2 * program->checked++ + 1] = p->size;
     }
     program->tape = dal__tapes_add(programs->tapes, all, count + 2 * program->checked);
     program->present = program->tape >= 0;

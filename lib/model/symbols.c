@@ -146,18 +146,6 @@ static bool let_allowed(const dal__scope *scope, dal__node let)
     return scope->may & DAL__MAY_T || !dal__depends(e->graph, let, e->t, e->t + 1);
 }
 
-/* Multipliers g1, g2, ... of a vakonomic model; 0: not one of them. */
-static dal__node multiplier(const dal__scope *scope, const char *name)
-{
-    const dal__equations *e = &scope->model->equations;
-    char g[16];
-    for (int a = 0; a < e->multipliers && scope->may & DAL__MAY_MULTIPLIERS; a++) {
-        snprintf(g, sizeof g, "g%d", a + 1);
-        if (strcmp(g, name) == 0) return dal__symbol(e->graph, e->g + a);
-    }
-    return 0;
-}
-
 static dal__node plain(const dal__scope *scope, const char *name, size_t length, dal_error *error)
 {
     const dal__equations *e = &scope->model->equations;
@@ -178,8 +166,12 @@ static dal__node plain(const dal__scope *scope, const char *name, size_t length,
         dal__fail(error, DAL_NAME, "e is the gauge variable; exp(1) is Euler's number");
         return 0;
     }
-    dal__node g = multiplier(scope, name);
-    return g ? g : unknown(scope, name, error);
+    char g[16];
+    for (int a = 0; a < e->multipliers && scope->may & DAL__MAY_MULTIPLIERS; a++) {
+        snprintf(g, sizeof g, "g%d", a + 1);
+        if (strcmp(g, name) == 0) return dal__symbol(e->graph, e->g + a);
+    }
+    return unknown(scope, name, error);
 }
 
 dal__node dal__resolve_name(void *user, const char *text, size_t length, bool prime,
