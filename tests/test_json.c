@@ -51,7 +51,7 @@ static char *read_by_program(const char *bytes, size_t length)
     char *copy = NULL;
     if (json_parse(&doc, "test", bytes, length) == CLI_DONE) {
         const yaml_node_t *root = yaml_document_get_root_node(&doc.yaml);
-        const yaml_node_t *node = json_find(&doc, root, "key");
+        const yaml_node_t *node = document_value(&doc, root, "key");
         copy = node ? strdup((const char *)node->data.scalar.value) : NULL;
     }
     yaml_document_delete(&doc.yaml);
@@ -293,11 +293,11 @@ static void test_source(void)
     document doc = {0};
     CU_ASSERT_FATAL(json_parse(&doc, "test", bytes, strlen(bytes)) == CLI_DONE);
     const yaml_node_t *root = yaml_document_get_root_node(&doc.yaml);
-    const yaml_node_t *node = json_find(&doc, root, "input");
+    const yaml_node_t *node = document_value(&doc, root, "input");
     CU_ASSERT_FATAL(node != NULL);
     char *source = json_source(bytes, node);
     CU_ASSERT_STRING_EQUAL(source, "{\"\xc3\xa9\": [1, 2.50]}");
-    CU_ASSERT(json_find(&doc, root, "done") == NULL);
+    CU_ASSERT(document_value(&doc, root, "done") == NULL);
     free(source);
     yaml_document_delete(&doc.yaml);
 }

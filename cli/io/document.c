@@ -2,6 +2,7 @@
 #include "document.h"
 #include "dalembert.h"
 #include "ui/memory.h"
+#include "ui/message.h"
 #include "ui/options.h"
 
 #include <stdarg.h>
@@ -9,7 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MESSAGE = 256, NAMES = 32 };
+enum { MESSAGE = 256, NAMES = 32, MAX_COUNT = 1000000000 };
 
 int document_fail(const document *doc, const yaml_node_t *node, const char *format, ...)
 {
@@ -106,7 +107,7 @@ yaml_node_t *document_node(const document *doc, int number)
 const char *document_scalar(const document *doc, const yaml_node_t *node, const char *what)
 {
     if (node->type != YAML_SCALAR_NODE) {
-        document_fail(doc, node, "%s: a single value is wanted", what);
+        document_fail(doc, node, "%s: a single value is required", what);
         return NULL;
     }
     const char *value = (const char *)node->data.scalar.value;
@@ -131,54 +132,114 @@ int document_number(const document *doc, const yaml_node_t *node, const char *wh
     return cli_number(place, value, number);
 }
 
-static int came_before(const document *doc, const yaml_node_pair_t *first,
-                       const yaml_node_pair_t *pair, const char *name)
+/* ---- mappings ------------------------------------------------------------------------------ */
+
+int document_read_text(void *user, const document *doc, yaml_node_t *value, const document_key *key)
 {
-    for (; first < pair; first++) {
-        const yaml_node_t *key = document_node(doc, first->key);
-        if (strcmp((const char *)key->data.scalar.value, name) == 0) return 1;
+    const char **text = (void *)((char *)user + key->offset);
+    *text = document_scalar(doc, value, key->name);
+    return *text ? CLI_DONE : CLI_USAGE;
+}
+
+int document_read_number(void *user, const document *doc, yaml_node_t *value,
+                         const document_key *key)
+{
+    return document_number(doc, value, key->name, (double *)(void *)((char *)user + key->offset));
+}
+
+int document_read_positive(void *user, const document *doc, yaml_node_t *value,
+                           const document_key *key)
+{
+    const double *x = (void *)((char *)user + key->offset);
+    const int status = document_read_number(user, doc, value, key);
+    if (status != CLI_DONE || *x > 0.0) return status;
+    return document_fail(doc, value, "%s: %g is not positive", key->name, *x);
+}
+
+int document_read_count(void *user, const document *doc, yaml_node_t *value,
+                        const document_key *key)
+{
+    char place[MESSAGE];
+    const char *text = document_scalar(doc, value, key->name);
+    if (!text) return CLI_USAGE;
+    document_place(doc, value, key->name, place, sizeof place);
+    return cli_integer(place, text, 1, MAX_COUNT, (void *)((char *)user + key->offset));
+}
+
+int document_read_node(void *user, const document *doc, yaml_node_t *value, const document_key *key)
+{
+    (void)doc;
+    *(yaml_node_t **)(void *)((char *)user + key->offset) = value;
+    return CLI_DONE;
+}
+
+static const yaml_node_pair_t *find_pair(const document *doc, const yaml_node_t *node,
+                                         const char *name)
+{
+    const yaml_node_pair_t *pair = node->data.mapping.pairs.start;
+    for (; pair < node->data.mapping.pairs.top; pair++) {
+        const yaml_node_t *key = document_node(doc, pair->key);
+        if (key->type == YAML_SCALAR_NODE &&
+            strcmp((const char *)key->data.scalar.value, name) == 0)
+            return pair;
     }
-    return 0;
+    return NULL;
 }
 
-static int unknown_key(const document *doc, const yaml_node_t *node, const char *name,
-                       const document_key *keys, int count)
+yaml_node_t *document_value(const document *doc, const yaml_node_t *node, const char *name)
 {
-    const char *names[NAMES];
-    if (count > NAMES) count = NAMES;
-    for (int i = 0; i < count; i++) names[i] = keys[i].name;
-    return document_fail_unknown(doc, node, "key", name, names, count);
+    const yaml_node_pair_t *pair = find_pair(doc, node, name);
+    return pair ? document_node(doc, pair->value) : NULL;
 }
 
-static int take_pair(const document *doc, const yaml_node_pair_t *pair, const document_key *keys,
-                     int count, void *user)
+int document_each_pair(const document *doc, const yaml_node_t *node, const char *what,
+                       const char *contents, document_visitor *visit, void *user)
 {
-    const yaml_node_t *key = document_node(doc, pair->key);
-    const char *name = (const char *)key->data.scalar.value;
-    for (int i = 0; i < count; i++) {
-        if (strcmp(keys[i].name, name) != 0) continue;
-        return keys[i].take ? keys[i].take(user, doc, document_node(doc, pair->value)) : CLI_DONE;
-    }
-    return unknown_key(doc, key, name, keys, count);
-}
-
-int document_read_mapping(const document *doc, yaml_node_t *node, const char *what,
-                          const document_key *keys, int count, void *user)
-{
+    int status = CLI_DONE;
     if (node->type != YAML_MAPPING_NODE)
-        return document_fail(doc, node, "%s: keys and values are wanted", what);
-    const yaml_node_pair_t *first = node->data.mapping.pairs.start;
-    for (const yaml_node_pair_t *pair = first; pair < node->data.mapping.pairs.top; pair++) {
+        return document_fail(doc, node, "%s: %s are required", what, contents);
+    const yaml_node_pair_t *pair = node->data.mapping.pairs.start;
+    for (; pair < node->data.mapping.pairs.top && status == CLI_DONE; pair++) {
         const yaml_node_t *key = document_node(doc, pair->key);
         const char *name = document_scalar(doc, key, what);
         if (!name) return CLI_USAGE;
-        if (came_before(doc, first, pair, name))
-            return document_fail(doc, key, "the key '%s' comes twice", name);
-        int status = take_pair(doc, pair, keys, count, user);
-        if (status != CLI_DONE) return status;
+        status = visit(user, key, name, document_node(doc, pair->value));
     }
-    return CLI_DONE;
+    return status;
 }
+
+typedef struct mapping_reader {
+    const document *doc;
+    const yaml_node_t *node;
+    const document_key *keys;
+    int count;
+    void *user;
+} mapping_reader;
+
+static int read_pair(void *user, const yaml_node_t *key, const char *name, yaml_node_t *value)
+{
+    const mapping_reader *r = user;
+    const char *names[NAMES];
+    if (document_node(r->doc, find_pair(r->doc, r->node, name)->key) != key)
+        return document_fail(r->doc, key, "the key '%s' comes twice", name);
+    for (int i = 0; i < r->count; i++) {
+        const document_key *k = &r->keys[i];
+        if (strcmp(k->name, name) == 0)
+            return k->read ? k->read(r->user, r->doc, value, k) : CLI_DONE;
+    }
+    const int count = r->count < NAMES ? r->count : NAMES;
+    for (int i = 0; i < count; i++) names[i] = r->keys[i].name;
+    return document_fail_unknown(r->doc, key, "key", name, names, count);
+}
+
+int document_read_mapping(const document *doc, const yaml_node_t *node, const char *what,
+                          const document_key *keys, int count, void *user)
+{
+    mapping_reader reader = {doc, node, keys, count, user};
+    return document_each_pair(doc, node, what, "keys and values", read_pair, &reader);
+}
+
+/* ---- lists --------------------------------------------------------------------------------- */
 
 int document_count(const yaml_node_t *node)
 {

@@ -12,21 +12,16 @@ typedef struct document {
     yaml_document_t yaml;
 } document;
 
-/* A key of a mapping and what takes its value. */
-typedef struct document_key {
-    const char *name;
-    int (*take)(void *user, const document *doc, yaml_node_t *value);
-} document_key;
-
 /* Lists and mappings within each other; more than any file has that the program reads. */
 enum { DOCUMENT_DEPTH = 32 };
 
-/* Parses a text of one document.  All functions return CLI_DONE or print and return CLI_USAGE. */
+/* Parses a text of one document.  All functions that return int return CLI_DONE, or print and
+ * return CLI_USAGE. */
 int document_parse(document *doc, const char *place, const char *bytes, size_t length);
-/* "PLACE:line:column: message" about a node; returns CLI_USAGE. */
+/* Prints "PLACE:line:column: message" about a node. */
 int document_fail(const document *doc, const yaml_node_t *node, const char *format, ...)
     CLI_PRINTF(3, 4);
-/* The same for a name that is not among count; tells the nearest. */
+/* The same for a name that is not among count; suggests the nearest. */
 int document_fail_unknown(const document *doc, const yaml_node_t *node, const char *what,
                           const char *name, const char *const *names, int count);
 /* "PLACE:line:column: WHAT" for messages of others about a node. */
@@ -37,10 +32,44 @@ yaml_node_t *document_node(const document *doc, int number);
 /* The text of a scalar, which lives as long as the document; NULL after a message. */
 const char *document_scalar(const document *doc, const yaml_node_t *node, const char *what);
 int document_number(const document *doc, const yaml_node_t *node, const char *what, double *number);
-/* Gives each value of a mapping to the key of its name; a key that is unknown or comes twice is an
- * error.  Keys without take are passed over. */
-int document_read_mapping(const document *doc, yaml_node_t *node, const char *what,
+
+/* ---- mappings ---- */
+
+/* A key of a mapping and what reads its value, NULL: nothing does.  A function below reads into the
+ * member of *user at offset: const char *, double, double, long long, yaml_node_t *. */
+typedef struct document_key document_key;
+typedef int document_reader(void *user, const document *doc, yaml_node_t *value,
+                            const document_key *key);
+struct document_key {
+    const char *name;
+    document_reader *read;
+    size_t offset;
+};
+int document_read_text(void *user, const document *doc, yaml_node_t *value,
+                       const document_key *key);
+int document_read_number(void *user, const document *doc, yaml_node_t *value,
+                         const document_key *key);
+int document_read_positive(void *user, const document *doc, yaml_node_t *value,
+                           const document_key *key);
+int document_read_count(void *user, const document *doc, yaml_node_t *value,
+                        const document_key *key);
+int document_read_node(void *user, const document *doc, yaml_node_t *value,
+                       const document_key *key);
+
+/* Reads the values of a mapping; a key that is unknown or comes twice is an error. */
+int document_read_mapping(const document *doc, const yaml_node_t *node, const char *what,
                           const document_key *keys, int count, void *user);
+/* Calls visit for each pair; where node is no mapping the message is "WHAT: CONTENTS are
+ * required". */
+typedef int document_visitor(void *user, const yaml_node_t *key, const char *name,
+                             yaml_node_t *value);
+int document_each_pair(const document *doc, const yaml_node_t *node, const char *what,
+                       const char *contents, document_visitor *visit, void *user);
+/* The value of a key, NULL where the mapping has none of that name. */
+yaml_node_t *document_value(const document *doc, const yaml_node_t *node, const char *name);
+
+/* ---- lists ---- */
+
 /* The items of a sequence, or the node itself as the only one. */
 int document_count(const yaml_node_t *node);
 yaml_node_t *document_item(const document *doc, yaml_node_t *node, int i);

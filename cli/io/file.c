@@ -38,6 +38,15 @@ char *file_read(const char *path, size_t *length)
     return text;
 }
 
+int file_equals(const char *path, const void *bytes, size_t length)
+{
+    size_t n;
+    char *text = file_read(path, &n);
+    const int same = text && n == length && memcmp(text, bytes, n) == 0;
+    free(text);
+    return same;
+}
+
 static int write_all(int descriptor, const void *bytes, size_t length, int sync)
 {
     const char *from = bytes;

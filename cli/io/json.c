@@ -146,17 +146,6 @@ int json_parse(document *doc, const char *place, const char *bytes, size_t lengt
     return document_fail(doc, root, "an object is wanted");
 }
 
-const yaml_node_t *json_find(const document *doc, const yaml_node_t *object, const char *name)
-{
-    const yaml_node_pair_t *pair = object->data.mapping.pairs.start;
-    for (; pair < object->data.mapping.pairs.top; pair++) {
-        const char *key = document_scalar(doc, document_node(doc, pair->key), doc->place);
-        if (!key) return NULL;
-        if (strcmp(key, name) == 0) return document_node(doc, pair->value);
-    }
-    return NULL;
-}
-
 /* The marks of libyaml count characters. */
 static size_t byte_of(const char *bytes, size_t character)
 {
@@ -180,7 +169,7 @@ static char *find_text(const char *path, const char *bytes, size_t length, const
     char *copy = NULL;
     if (json_parse(&doc, path, bytes, length) == CLI_DONE) {
         const yaml_node_t *root = yaml_document_get_root_node(&doc.yaml);
-        const yaml_node_t *node = json_find(&doc, root, name);
+        const yaml_node_t *node = document_value(&doc, root, name);
         const char *value = node ? document_scalar(&doc, node, name) : NULL;
         if (value) copy = cli_strdup(value);
     }

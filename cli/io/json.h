@@ -25,8 +25,6 @@ void json_given_member(FILE *out, const char *before, const char *name, const ch
 /* Parses one object, with libyaml: all that is written above is YAML too.  Returns CLI_DONE, or
  * prints and returns CLI_USAGE or CLI_IO; the document is to be deleted either way. */
 int json_parse(document *doc, const char *place, const char *bytes, size_t length);
-/* A member of an object; NULL: it has none of that name. */
-const yaml_node_t *json_find(const document *doc, const yaml_node_t *object, const char *name);
 /* What stands for a value in the bytes that were parsed, allocated. */
 char *json_source(const char *bytes, const yaml_node_t *value);
 /* A text of the object in a file, allocated; NULL where the file or the text is not there, after a

@@ -186,59 +186,43 @@ int manifest_compare(const run_directory *dir, const run_request *held, const ru
 
 /* ---- reading ------------------------------------------------------------------------------- */
 
-static const char *name_of(const document *doc, const yaml_node_pair_t *pair)
-{
-    return document_scalar(doc, document_node(doc, pair->key), "manifest");
-}
+typedef struct input_reader {
+    const run_directory *dir;
+    run_request *request;
+    int option; /* of settings */
+} input_reader;
 
 /* A member of "set" or "start" is parsed as NAME=VALUE. */
-static int read_settings(const document *doc, run_request *request, int option,
-                         const yaml_node_t *node)
+static int read_setting(void *user, const yaml_node_t *key, const char *name, yaml_node_t *value)
 {
-    if (node->type != YAML_MAPPING_NODE)
-        return document_fail(doc, node, "names and values are required");
-    const yaml_node_pair_t *pair = node->data.mapping.pairs.start;
-    for (; pair < node->data.mapping.pairs.top; pair++) {
-        const char *name = name_of(doc, pair);
-        const char *value =
-            name ? document_scalar(doc, document_node(doc, pair->value), name) : NULL;
-        if (!value) return CLI_USAGE;
-        char *given = cli_format("%s=%s", name, value);
-        const int status = request_parse_option(request, option, given);
-        request->text[option] = NULL;
-        free(given);
-        if (status != CLI_DONE) return status;
-    }
-    return CLI_DONE;
+    const input_reader *r = user;
+    const char *text = document_scalar(r->dir->doc, value, name);
+    (void)key;
+    if (!text) return CLI_USAGE;
+    char *given = cli_format("%s=%s", name, text);
+    const int status = request_parse_option(r->request, r->option, given);
+    r->request->text[r->option] = NULL;
+    free(given);
+    return status;
 }
 
-/* The system of a file is the copy in the directory, wherever the program is started. */
-static int read_member(const run_directory *dir, run_request *request, const char *name,
-                       const yaml_node_t *node)
+static int read_member(void *user, const yaml_node_t *key, const char *name, yaml_node_t *value)
 {
-    const int option = request_find_option(name), is_system = strcmp(name, "system") == 0;
+    input_reader *r = user;
+    const document *doc = r->dir->doc;
+    const int option = r->option = request_find_option(name);
+    const int is_system = strcmp(name, "system") == 0;
+    (void)key;
     if (option == REQUEST_set || option == REQUEST_start)
-        return read_settings(dir->doc, request, option, node);
+        return document_each_pair(doc, value, name, "names and values", read_setting, r);
     if (option < 0 && !is_system)
-        return document_fail(dir->doc, node, "unknown option '%s' of a run", name);
-    const char *value = document_scalar(dir->doc, node, name);
-    if (!value) return CLI_USAGE;
-    if (!is_system) return request_parse_option(request, option, value);
-    request->system_name = strcmp(value, copy_name) == 0 ? dir->system : value;
+        return document_fail(doc, value, "unknown option '%s' of a run", name);
+    const char *text = document_scalar(doc, value, name);
+    if (!text) return CLI_USAGE;
+    if (!is_system) return request_parse_option(r->request, option, text);
+    /* The system of a file is the copy in the directory, wherever the program is started. */
+    r->request->system_name = strcmp(text, copy_name) == 0 ? r->dir->system : text;
     return CLI_DONE;
-}
-
-static int read_input(const run_directory *dir, run_request *request, const yaml_node_t *input)
-{
-    const yaml_node_pair_t *pair = input->data.mapping.pairs.start;
-    for (; pair < input->data.mapping.pairs.top; pair++) {
-        const char *name = name_of(dir->doc, pair);
-        const yaml_node_t *value = document_node(dir->doc, pair->value);
-        const int status = name ? read_member(dir, request, name, value) : CLI_USAGE;
-        if (status != CLI_DONE) return status;
-    }
-    if (request->system_name) return CLI_DONE;
-    return document_fail(dir->doc, input, "the system is missing");
 }
 
 /* 1002003 for 1.2.3. */
@@ -251,7 +235,7 @@ static int version_number(const char *version)
 
 static int check_version(const document *doc, const yaml_node_t *root)
 {
-    const yaml_node_t *node = json_find(doc, root, "dalembert");
+    const yaml_node_t *node = document_value(doc, root, "dalembert");
     const char *version = node ? document_scalar(doc, node, "version") : "0";
     if (!version) return CLI_USAGE;
     const int made = version_number(version), present = version_number(DAL_VERSION);
@@ -274,13 +258,16 @@ static int parse_manifest(run_directory *dir, run_request *request, const char *
     int status = json_parse(doc, dir->manifest, bytes, length);
     if (status != CLI_DONE) return status;
     const yaml_node_t *root = yaml_document_get_root_node(&doc->yaml);
-    const yaml_node_t *input = json_find(doc, root, "input");
+    const yaml_node_t *input = document_value(doc, root, "input");
     if (!input || input->type != YAML_MAPPING_NODE)
         return document_fail(doc, root, "there is no input of a run");
     status = check_version(doc, root);
     if (status != CLI_DONE) return status;
     dir->input = json_source(bytes, input);
-    return read_input(dir, request, input);
+    status = document_each_pair(doc, input, "manifest", "members", read_member,
+                                &(input_reader){.dir = dir, .request = request});
+    if (status != CLI_DONE || request->system_name) return status;
+    return document_fail(doc, input, "the system is missing");
 }
 
 int manifest_read(run_directory *dir, run_request *request)

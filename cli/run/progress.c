@@ -11,6 +11,7 @@
 
 #include "io/json.h"
 #include "recorder.h"
+#include "ui/memory.h"
 
 #include <math.h>
 #include <stdarg.h>

@@ -5,6 +5,7 @@
 #include "ui/message.h"
 
 #include "row_times.h"
+#include "ui/options.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -10,6 +10,7 @@
 
 #include "io/file.h"
 #include "io/output.h"
+#include "ui/options.h"
 
 #include <math.h>
 #include <stdio.h>

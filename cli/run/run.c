@@ -5,6 +5,7 @@
 #include "ui/signals.h"
 
 #include "summary.h"
+#include "ui/options.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,118 +1,124 @@
-/* study_cell_run.c - one cell of a study: a run in a directory of its own, and what became of it.
+/* study_cell_run.c - runs one cell of a study in its directory.
  *
- * What is told of a cell is read from that directory, whether the run was made now, taken up, or
- * finished before: quantities from the statistics in its checkpoint, tracks from its rows.  Rows
- * are taken after whole numbers of steps, so that the trajectory is that of the steps alone. */
-#include "dalembert.h"
+ * The results are read from that directory, whether the run was made now, resumed, or finished
+ * before: trends from the statistics in its checkpoint, tracks from its rows.  Rows are taken after
+ * whole numbers of steps, so that the trajectory is that of the steps alone. */
+#include "study_cell_run.h"
+
 #include "io/file.h"
+#include "io/output.h"
 #include "io/trajectory_reader.h"
-#include "run/keep.h"
-#include "study.h"
+#include "run/manifest.h"
+#include "run/recorder.h"
 #include "ui/memory.h"
 #include "ui/message.h"
 
 #include <math.h>
 #include <stdarg.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { TEXT = 512 };
-
-typedef struct walk {
+typedef struct cell_run {
     const study_plan *plan;
     study_cell *cell;
     run_request request;
-    char **text; /* of its options */
-    size_t texts;
-    char *directory;
-    cli_keep keep;
+    char *text[REQUEST_OPTIONS]; /* of its options */
+    run_directory dir;
+    run_recorder recorder;
     trajectory_reader reader;
     int n, m;
     int energy, hamiltonian, momenta, invariants, error; /* places among the observables, or -1 */
     double *values, *first;                              /* [observables] */
-} walk;
+} cell_run;
 
 /* ---- the request ---- */
 
-CLI_PRINTF(3, 4) static int give(walk *w, int option, const char *format, ...)
+/* Sets an option unless *status says that one failed. */
+static CLI_PRINTF(4, 5) void set_option(cell_run *r, int *status, int option, const char *format,
+                                        ...)
 {
+    if (*status != CLI_DONE) return;
     va_list list;
     va_start(list, format);
-    char *text = cli_format_list(format, list);
+    r->text[option] = cli_format_list(format, list);
     va_end(list);
-    w->text = cli_realloc(w->text, (w->texts + 1) * sizeof *w->text);
-    w->text[w->texts] = text;
-    return request_parse_option(&w->request, option, w->text[w->texts++]);
+    *status = request_parse_option(&r->request, option, r->text[option]);
 }
 
-static int give_settings(walk *w, int option, const dal_setting *setting, int count, double unit)
+static void add_settings(request_settings *settings, const dal_setting *setting, int count,
+                         double unit)
 {
-    int status = CLI_DONE;
-    for (int i = 0; i < count && status == CLI_DONE; i++)
-        status = give(w, option, "%s=%.17g", setting[i].name, setting[i].value * unit);
-    return status;
+    for (int i = 0; i < count; i++)
+        request_add_setting(settings, setting[i].name, setting[i].value * unit);
 }
 
-/* p_i = d, -d/2, d/3, ... and pi_i = d/2, -d/3, ...: no two alike, and not along the motion. */
-static int displace(walk *w, double size)
+/* By default p_i = d, -d/2, d/3, ... and pi_i = d/2, -d/3, ...: no two alike, and not along the
+ * motion. */
+static void add_displacement(cell_run *r)
 {
-    const dal_system *s = w->cell->of_case->system;
-    int status = CLI_DONE;
-    for (int i = 0; i < s->n && status == CLI_DONE; i++) {
-        const double signed_size = i % 2 ? -size : size;
-        status = give(w, REQUEST_start, "p_%s=%.17g", s->coordinate[i], signed_size / (i + 1));
-        if (status == CLI_DONE)
-            status = give(w, REQUEST_start, "pi_%s=%.17g", s->coordinate[i], signed_size / (i + 2));
+    const study_case *e = r->cell->of_case;
+    request_settings *start = &r->request.start;
+    add_settings(start, e->displace, e->displace_count, e->displacement);
+    for (int i = 0; e->displace_count == 0 && i < e->system->n; i++) {
+        const double size = i % 2 ? -e->displacement : e->displacement;
+        char *p = cli_format("p_%s", e->system->coordinate[i]);
+        char *pi = cli_format("pi_%s", e->system->coordinate[i]);
+        request_add_setting(start, p, size / (i + 1));
+        request_add_setting(start, pi, size / (i + 2));
+        free(p);
+        free(pi);
     }
-    return status;
 }
 
-static int give_start(walk *w)
+static int make_request(cell_run *r)
 {
-    const study_case *e = w->cell->of_case;
-    int status = give_settings(w, REQUEST_start, e->start, e->start_count, 1.0);
-    if (status != CLI_DONE || w->cell->start != STUDY_DISPLACED) return status;
-    if (e->displace_count == 0) return displace(w, e->displacement);
-    return give_settings(w, REQUEST_start, e->displace, e->displace_count, e->displacement);
-}
-
-static int give_options(walk *w)
-{
-    const study_case *e = w->cell->of_case;
-    int status = CLI_DONE;
-    for (int i = 0; i < STUDY_OPTIONS && status == CLI_DONE; i++)
-        if (e->option[i])
-            status = give(w, request_find_option(study_option_word(i)), "%s", e->option[i]);
-    return status;
-}
-
-static int give_all(walk *w)
-{
-    static const char *const space[] = {
-#define X(code, word, space, about) space,
-        STUDY_START_LIST(X)
-#undef X
-    };
-    const study_cell *c = w->cell;
+#define START_SPACE(code, word, space, about) space,
+    static const char *const space[] = {STUDY_START_LIST(START_SPACE)};
+    const study_cell *c = r->cell;
     const study_case *e = c->of_case;
     char method[STUDY_NAME];
-    w->request.system = e->system;
-    w->request.system_name = e->copy ? e->copy : e->name;
-    int status =
-        give(w, REQUEST_integrator, "%s", dal_method_name(c->method, method, sizeof method));
-    if (status == CLI_DONE) status = give(w, REQUEST_step, "%.17g", c->step);
-    if (status == CLI_DONE) status = give(w, REQUEST_time, "%.17g", e->time);
-    if (status == CLI_DONE) status = give(w, REQUEST_samples, "%lld", e->samples);
-    if (status == CLI_DONE) status = give(w, REQUEST_sampling, "steps");
-    if (status == CLI_DONE) status = give(w, REQUEST_statistics, "%lld", e->statistics);
-    if (status == CLI_DONE) status = give(w, REQUEST_space, "%s", space[c->start]);
-    if (status == CLI_DONE) status = give_options(w);
-    if (status == CLI_DONE) status = give_settings(w, REQUEST_set, e->set, e->set_count, 1.0);
-    return status == CLI_DONE ? give_start(w) : status;
+    int status = CLI_DONE;
+    dal_method_name(c->method, method, sizeof method);
+    r->request.system = e->system;
+    r->request.system_name = e->copy ? e->copy : e->name;
+    set_option(r, &status, REQUEST_integrator, "%s", method);
+    set_option(r, &status, REQUEST_step, "%.17g", c->step);
+    set_option(r, &status, REQUEST_time, "%.17g", e->time);
+    set_option(r, &status, REQUEST_samples, "%lld", e->samples);
+    set_option(r, &status, REQUEST_sampling, "steps");
+    set_option(r, &status, REQUEST_statistics, "%lld", e->statistics);
+    set_option(r, &status, REQUEST_space, "%s", space[c->start]);
+    for (int i = 0; i < REQUEST_OPTIONS; i++)
+        if (e->option[i]) set_option(r, &status, i, "%s", e->option[i]);
+    add_settings(&r->request.set, e->set, e->set_count, 1.0);
+    add_settings(&r->request.start, e->start, e->start_count, 1.0);
+    if (c->start == STUDY_DISPLACED) add_displacement(r);
+    return status;
 }
 
-/* ---- memory and places ---- */
+static void set_failure(study_cell *c, study_state state, dal_status status)
+{
+    c->state = state;
+    c->error.status = status;
+    if (!c->error.message[0])
+        snprintf(c->error.message, sizeof c->error.message, "%s", dal_status_text(status));
+}
+
+/* A cell whose run cannot be created has that as its result, and no run. */
+static int create_run(cell_run *r)
+{
+    dal_run_spec spec;
+    int status = make_request(r);
+    if (status == CLI_DONE) status = request_complete(&r->request, &spec);
+    if (status != CLI_DONE) return status;
+    const dal_status created = dal_run_create(&r->request.run, &spec, &r->cell->error);
+    if (cli_is_ok(created)) return CLI_DONE;
+    r->request.run = NULL;
+    set_failure(r->cell, created == DAL_UNSUPPORTED ? STUDY_REFUSED : STUDY_FAILED, created);
+    return CLI_DONE;
+}
+
+/* ---- results ---- */
 
 static int find(const study_cell *c, const char *name)
 {
@@ -121,200 +127,180 @@ static int find(const study_cell *c, const char *name)
     return -1;
 }
 
-static int make_memory(walk *w)
+static void take_trends(cell_run *r)
 {
-    study_cell *c = w->cell;
-    const run_recorder *r = &w->keep.recorder;
-    const size_t count = (size_t)r->observables + 1;
+    study_cell *c = r->cell;
+    const run_recorder *recorder = &r->recorder;
+    const size_t count = (size_t)recorder->observables + 1;
     c->trend = cli_calloc(count, sizeof *c->trend);
     c->names = cli_calloc(count, sizeof *c->names);
     c->windows = cli_calloc(STUDY_WINDOWS, sizeof *c->windows);
-    w->values = cli_calloc(2 * count, sizeof *w->values);
-    w->first = w->values + count;
-    c->observables = r->observables;
+    r->values = cli_calloc(2 * count, sizeof *r->values);
+    r->first = r->values + count;
+    c->observables = recorder->observables;
     for (int i = 0; i < c->observables; i++) {
-        c->trend[i] = r->trend[i];
-        snprintf(c->names[i], sizeof c->names[i], "%s", recorder_observable_name(r, i));
+        c->trend[i] = recorder->trend[i];
+        snprintf(c->names[i], sizeof c->names[i], "%s", recorder_observable_name(recorder, i));
     }
-    w->n = c->of_case->system->n;
-    w->m = c->of_case->system->m;
-    w->energy = find(c, "E");
-    w->hamiltonian = find(c, "H");
-    w->momenta = find(c, "|p|");
-    w->error = find(c, "error");
-    w->invariants = c->observables - c->of_case->system->invariants - (w->error >= 0);
-    return CLI_DONE;
+    r->n = c->of_case->system->n;
+    r->m = c->of_case->system->m;
+    r->energy = find(c, "E");
+    r->hamiltonian = find(c, "H");
+    r->momenta = find(c, "|p|");
+    r->error = find(c, "error");
+    r->invariants = c->observables - c->of_case->system->invariants - (r->error >= 0);
 }
 
-/* ---- rows ---- */
+/* Not a number counts as infinite. */
+static void raise_to(double *max, double x)
+{
+    if (!(x <= *max)) *max = isnan(x) ? INFINITY : x;
+}
 
 static double max_norm(const double *x, int count)
 {
-    double most = 0.0;
+    double max = 0.0;
     for (int i = 0; i < count; i++)
-        if (!(fabs(x[i]) <= most)) most = fabs(x[i]);
-    return most;
+        if (!(fabs(x[i]) <= max)) max = fabs(x[i]);
+    return max;
 }
 
 /* The observables of a row, in which |p|, |pi| and |pi_e| are left out: they follow from p, pi. */
-static void take_values(walk *w)
+static void read_values(cell_run *r)
 {
-    const double *row = w->reader.row, *p = row + 2 + 2 * w->n;
-    const double *next = row + w->reader.columns - w->cell->observables;
-    if (w->momenta >= 0) next += 3;
-    for (int i = 0; i < w->cell->observables; i++) {
-        if (w->momenta >= 0 && i >= w->momenta && i < w->momenta + 3)
-            w->values[i] = max_norm(p + (i - w->momenta) * w->n, i < w->momenta + 2 ? w->n : 1);
-        else
-            w->values[i] = *next++;
+    const double *row = r->reader.row, *p = row + 2 + 2 * r->n;
+    const double *next = row + r->reader.columns - r->cell->observables;
+    if (r->momenta >= 0) next += 3;
+    for (int i = 0; i < r->cell->observables; i++) {
+        const int k = r->momenta >= 0 ? i - r->momenta : -1;
+        r->values[i] = k >= 0 && k < 3 ? max_norm(p + k * r->n, k < 2 ? r->n : 1) : *next++;
     }
 }
 
-static void raise_to(double *most, double x)
+static void raise_tracks(const cell_run *r, double *max)
 {
-    if (!(x <= *most)) *most = isnan(x) ? INFINITY : x;
-}
-
-static void track(const walk *w, double *most)
-{
-    const double *x = w->values, *first = w->first;
-    for (int a = 0; a < w->m; a++) raise_to(&most[STUDY_TRACK_D], fabs(x[a]));
-    if (w->energy >= 0) raise_to(&most[STUDY_TRACK_E], fabs(x[w->energy] - first[w->energy]));
-    if (w->hamiltonian >= 0)
-        raise_to(&most[STUDY_TRACK_H], fabs(x[w->hamiltonian] - first[w->hamiltonian]));
-    if (w->momenta >= 0) {
-        raise_to(&most[STUDY_TRACK_P], x[w->momenta]);
-        raise_to(&most[STUDY_TRACK_PI], x[w->momenta + 1]);
+    const double *x = r->values, *first = r->first;
+    const int E = r->energy, H = r->hamiltonian, invariants = r->cell->of_case->system->invariants;
+    for (int a = 0; a < r->m; a++) raise_to(&max[STUDY_TRACK_D], fabs(x[a]));
+    if (E >= 0) raise_to(&max[STUDY_TRACK_E], fabs(x[E] - first[E]));
+    if (H >= 0) raise_to(&max[STUDY_TRACK_H], fabs(x[H] - first[H]));
+    if (r->momenta >= 0) {
+        raise_to(&max[STUDY_TRACK_P], x[r->momenta]);
+        raise_to(&max[STUDY_TRACK_PI], x[r->momenta + 1]);
     }
-    for (int i = w->invariants; i < w->invariants + w->cell->of_case->system->invariants; i++)
-        raise_to(&most[STUDY_TRACK_INVARIANTS], fabs(x[i] - first[i]) / fmax(1.0, fabs(first[i])));
-    if (w->error >= 0) raise_to(&most[STUDY_TRACK_ERROR], x[w->error]);
+    for (int i = r->invariants; i < r->invariants + invariants; i++)
+        raise_to(&max[STUDY_TRACK_INVARIANTS], fabs(x[i] - first[i]) / fmax(1.0, fabs(first[i])));
+    if (r->error >= 0) raise_to(&max[STUDY_TRACK_ERROR], x[r->error]);
 }
 
-static void take_row(walk *w, long long k)
+static int read_rows(cell_run *r)
 {
-    study_cell *c = w->cell;
-    const double samples = (double)w->request.samples;
-    take_values(w);
-    if (k == 0) memcpy(w->first, w->values, (size_t)c->observables * sizeof *w->first);
-    const int window = (int)((double)k / (samples + 1.0) * STUDY_WINDOWS);
-    track(w, c->windows[window]);
-    c->window_count = window + 1;
-    c->bits = file_hash(c->bits, w->reader.row + 1, 2 * (size_t)w->n * sizeof(double));
-}
-
-static int read_rows(walk *w)
-{
-    int status = reader_open(&w->reader, w->directory);
+    study_cell *c = r->cell;
+    int status = reader_open(&r->reader, r->dir.path), more = 1;
     if (status != CLI_DONE) return status;
-    w->cell->bits = FILE_HASH_START;
-    int more = 1;
-    for (long long k = 0; k <= w->request.samples && (more = reader_next(&w->reader)) > 0; k++)
-        take_row(w, k);
-    reader_close(&w->reader);
+    c->bits = FILE_HASH_START;
+    for (long long k = 0; k <= r->request.samples && (more = reader_next(&r->reader)) > 0; k++) {
+        read_values(r);
+        if (k == 0) memcpy(r->first, r->values, (size_t)c->observables * sizeof *r->first);
+        const double part = (double)k / ((double)r->request.samples + 1.0);
+        const int window = (int)(part * STUDY_WINDOWS);
+        raise_tracks(r, c->windows[window]);
+        c->window_count = window + 1;
+        c->bits = file_hash(c->bits, r->reader.row + 1, 2 * (size_t)r->n * sizeof(double));
+    }
+    reader_close(&r->reader);
     return more < 0 ? CLI_IO : CLI_DONE;
+}
+
+static int take_results(cell_run *r, const dal_error *error, int ended)
+{
+    study_cell *c = r->cell;
+    const dal_run *run = r->request.run;
+    take_trends(r);
+    const int status = read_rows(r);
+    if (status != CLI_DONE) return status;
+    c->time = dal_run_time(run);
+    c->steps = dal_run_steps(run);
+    c->evaluations = dal_run_evaluations(run);
+    c->seconds = r->recorder.position.seconds;
+    c->state = STUDY_FINISHED;
+    c->error = *error;
+    if (ended == CLI_FAILED) set_failure(c, STUDY_FAILED, error->status);
+    return CLI_DONE;
 }
 
 /* ---- the run ---- */
 
-static void fail(study_cell *c, study_state state, dal_status status)
+/* Begins the run in its directory, or compares it with the run that is there.  Nothing waits for
+ * the disk until the run is longer than the interval of checkpoints: what a power cut takes of a
+ * shorter one is computed again. */
+static int open_recorder(cell_run *r)
 {
-    c->state = state;
-    c->error.status = status;
-    if (!c->error.message[0])
-        snprintf(c->error.message, sizeof c->error.message, "%s", dal_status_text(status));
-}
-
-/* The run itself; a cell whose run cannot be made is settled thereby. */
-static int make_run(walk *w)
-{
-    dal_run_spec spec;
-    study_cell *c = w->cell;
-    int status = give_all(w);
-    if (status == CLI_DONE) status = request_complete(&w->request, &spec);
-    if (status != CLI_DONE) return status;
-    const dal_status made = dal_run_create(&w->request.run, &spec, &c->error);
-    if (cli_is_ok(made)) return CLI_DONE;
-    w->request.run = NULL;
-    fail(c, made == DAL_UNSUPPORTED ? STUDY_REFUSED : STUDY_FAILED, made);
-    return CLI_DONE;
-}
-
-static int collect(walk *w, const dal_error *error, int ended)
-{
-    study_cell *c = w->cell;
-    int status = make_memory(w);
-    if (status == CLI_DONE) status = read_rows(w);
-    if (status != CLI_DONE) return status;
-    c->time = dal_run_time(w->request.run);
-    c->steps = dal_run_steps(w->request.run);
-    c->evaluations = dal_run_evaluations(w->request.run);
-    c->seconds = w->keep.recorder.position.seconds;
-    c->state = STUDY_FINISHED;
-    c->error = *error;
-    if (ended == CLI_FAILED) fail(c, STUDY_FAILED, error->status);
-    return CLI_DONE;
-}
-
-static int go(walk *w, const study_stop_check *watch)
-{
-    const study_case *e = w->cell->of_case;
-    dal_error error = {0};
-    int ended = keep_open(&w->keep, &w->request, w->directory);
-    if (ended == CLI_DONE && !keep_is_finished(&w->keep)) {
-        const double left = (double)(w->request.time - dal_run_time(w->request.run));
-        if (watch) {
-            w->keep.recorder.stop = watch->stop;
-            w->keep.recorder.stop_user = watch->user;
-        }
-        w->keep.recorder.interval = w->plan->interval;
-        native_compile_steps(w->request.run, w->cell->method, left / w->cell->step, e->native);
-        ended = keep_go(&w->keep, &error);
+    run_directory *dir = &r->dir;
+    const int has_run = run_directory_has_run(dir);
+    dir->sync = 0;
+    int status = cli_directory(dir->path);
+    if (status == CLI_DONE) status = run_directory_lock(dir, !has_run);
+    if (status == CLI_DONE && has_run) {
+        run_request held = request_default();
+        status = manifest_read(dir, &held);
+        if (status == CLI_DONE) status = manifest_compare(dir, &held, &r->request);
+        request_free(&held);
+    } else if (status == CLI_DONE) {
+        status = manifest_begin(dir, &r->request);
     }
-    if (ended != CLI_DONE && ended != CLI_FAILED) return ended;
-    return collect(w, &error, ended);
+    return status == CLI_DONE ? recorder_open(&r->recorder, &r->request, dir, dir->path) : status;
 }
 
-static void leave(walk *w)
+static int run_in_directory(cell_run *r, const study_stop_check *check)
 {
-    for (size_t i = 0; i < w->texts; i++) free(w->text[i]);
-    free(w->text);
-    free(w->directory);
-    free(w->values);
-    request_free(&w->request);
+    run_recorder *recorder = &r->recorder;
+    dal_error error = {0};
+    int ended = open_recorder(r);
+    if (ended == CLI_DONE && !recorder_is_finished(recorder)) {
+        const double left = r->request.time - dal_run_time(r->request.run);
+        if (check) {
+            recorder->stop = check->stop;
+            recorder->stop_user = check->user;
+        }
+        recorder->interval = r->plan->interval;
+        recorder->progress = PROGRESS_OFF;
+        native_compile_steps(r->request.run, r->cell->method, left / r->cell->step,
+                             r->cell->of_case->native);
+        ended = recorder_run(recorder, &error);
+    }
+    return ended == CLI_DONE || ended == CLI_FAILED ? take_results(r, &error, ended) : ended;
 }
 
-int study_cell_run(const study_plan *plan, study_cell *cell, const study_stop_check *watch)
+static void free_run(cell_run *r)
 {
-    walk w = {.plan = plan, .cell = cell, .request = request_default()};
-    int status = make_run(&w);
-    if (status == CLI_DONE && w.request.run) {
-        w.directory = study_cell_directory(plan, cell);
-        status = go(&w, watch);
-        keep_close(&w.keep);
+    for (int i = 0; i < REQUEST_OPTIONS; i++) free(r->text[i]);
+    free(r->values);
+    request_free(&r->request);
+}
+
+int study_cell_run(const study_plan *plan, study_cell *cell, const study_stop_check *check)
+{
+    cell_run r = {.plan = plan, .cell = cell, .request = request_default()};
+    int status = create_run(&r);
+    if (status == CLI_DONE && r.request.run) {
+        char *directory = study_cell_directory(plan, cell);
+        run_directory_open(&r.dir, directory);
+        status = run_in_directory(&r, check);
+        recorder_close(&r.recorder);
+        run_directory_close(&r.dir);
+        free(directory);
     }
     if (status != CLI_DONE) study_cell_free(cell);
-    leave(&w);
+    free_run(&r);
     return status;
 }
 
 int study_cell_is_runnable(study_cell *cell)
 {
-    walk w = {.cell = cell, .request = request_default()};
-    const int can = make_run(&w) == CLI_DONE && w.request.run;
-    leave(&w);
+    cell_run r = {.cell = cell, .request = request_default()};
+    const int can = create_run(&r) == CLI_DONE && r.request.run;
+    free_run(&r);
     study_cell_free(cell);
     return can;
-}
-
-void study_cell_free(study_cell *cell)
-{
-    free(cell->trend);
-    free(cell->names);
-    free(cell->windows);
-    *cell = (study_cell){.of_case = cell->of_case,
-                         .method = cell->method,
-                         .step = cell->step,
-                         .start = cell->start,
-                         .elsewhere = cell->elsewhere};
 }

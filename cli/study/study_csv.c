@@ -1,199 +1,126 @@
-/* study_csv.c - the files of a study: every cell, every observable, every track. */
-#include "dalembert.h"
+/* study_csv.c - the results of a study as CSV: every cell, every observable, every track. */
+#include "study_csv.h"
+
 #include "io/output.h"
 #include "io/trend.h"
-#include "study.h"
 #include "ui/memory.h"
 #include "ui/message.h"
 
-#include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
-struct study_output {
-    char *cells_path, *quantities_path, *series_directory;
-    FILE *cells, *quantities, *series;
-    char *series_path;
-    const study_case *series_case;
-};
+/* ---- a row per cell ------------------------------------------------------------------------ */
 
-/* ---- a row per cell ---- */
-
-/* What became of it, or count = 0 where the cell has none. */
-typedef struct quantity {
-    dal_trend trend;
-    const char *name;
-} quantity;
-
-typedef struct row {
+typedef struct csv_row {
     const study_plan *plan;
     const study_cell *cell;
     const study_case *of_case;
-    quantity D, E, H, p, pi, pi_e, invariant, error;
+    study_quantities q;
     char method[STUDY_NAME];
-} row;
+} csv_row;
 
-static quantity make_quantity(const dal_trend *trend, const char *name)
+static void put_same(FILE *out, const csv_row *r)
 {
-    return trend ? (quantity){*trend, name} : (quantity){.name = ""};
-}
-
-static quantity named(const study_cell *cell, const char *name)
-{
-    return make_quantity(study_trend(cell, name), name);
-}
-
-static row make_row(const study_plan *plan, const study_cell *cell)
-{
-    row r = {.plan = plan, .cell = cell, .of_case = cell->of_case};
-    const char *invariant = "";
-    const dal_trend *worst = study_worst_invariant(cell, &invariant);
-    dal_method_name(cell->method, r.method, sizeof r.method);
-    r.D = make_quantity(study_worst_constraint(cell), "D");
-    r.invariant = make_quantity(worst, invariant);
-    r.E = named(cell, "E");
-    r.H = named(cell, "H");
-    r.p = named(cell, "|p|");
-    r.pi = named(cell, "|pi|");
-    r.pi_e = named(cell, "|pi_e|");
-    r.error = named(cell, "error");
-    return r;
-}
-
-static void put_number(FILE *out, const quantity *q, double value)
-{
-    if (q->trend.count > 0) cli_put(out, value);
-}
-
-static void put_size(FILE *out, const quantity *q)
-{
-    if (q->trend.count > 0) fputs(cli_size_word(&q->trend), out);
-}
-
-static void put_trend(FILE *out, const quantity *q)
-{
-    if (q->trend.count > 0) fputs(cli_trend_word(&q->trend), out);
-}
-
-static void put_same(FILE *out, const row *r)
-{
-    const study_cell *physical = study_physical_cell(r->plan, r->cell);
-    if (r->cell->start != STUDY_SURFACE || !physical || physical->state != STUDY_FINISHED) return;
-    if (r->cell->state == STUDY_FINISHED)
+    const study_cell *physical = study_cell_physical(r->plan, r->cell);
+    if (physical && r->cell->state == STUDY_FINISHED)
         fputs(r->cell->bits == physical->bits ? "yes" : "no", out);
 }
 
-/* Its directory below that of the study; a cell whose run could not be made has none. */
-static void put_run(FILE *out, const row *r)
+/* The directory of the run; a cell whose run could not be created has none. */
+static void put_run(FILE *out, const csv_row *r)
 {
-    char *name = r->cell->observables > 0 ? study_cell_name(r->cell) : NULL;
-    char *run = name ? cli_join("runs", name) : NULL;
-    if (run) cli_put_text(out, run);
+    if (r->cell->observables == 0) return;
+    char *name = study_cell_name(r->cell), *run = cli_join("runs", name);
+    cli_put_text(out, run);
     free(run);
     free(name);
 }
 
-/* column, how it is written */
-#define COLUMN_LIST(X)                                                                             \
-    X(label, cli_put_text(out, r->of_case->label))                                                 \
-    X(system, cli_put_text(out, r->of_case->name))                                                 \
-    X(integrator, cli_put_text(out, r->method))                                                    \
-    X(start, fputs(study_start_word(r->cell->start), out))                                         \
-    X(step, cli_put(out, r->cell->step))                                                           \
-    X(time, cli_put(out, r->of_case->time))                                                        \
-    X(state, fputs(study_state_word(r->cell->state), out))                                         \
-    X(status, fputs(dal_status_name(r->cell->error.status), out))                                  \
-    X(reached, cli_put(out, r->cell->time))                                                        \
-    X(steps, fprintf(out, "%lld", r->cell->steps))                                                 \
-    X(evaluations, fprintf(out, "%lld", r->cell->evaluations))                                     \
-    X(D_max, put_number(out, &r->D, r->D.trend.max_abs))                                           \
-    X(D_rate, put_number(out, &r->D, r->D.trend.rate))                                             \
-    X(D_size, put_size(out, &r->D))                                                                \
-    X(D_trend, put_trend(out, &r->D))                                                              \
-    X(E_first, put_number(out, &r->E, r->E.trend.first))                                           \
-    X(E_deviation, put_number(out, &r->E, r->E.trend.deviation))                                   \
-    X(E_rate, put_number(out, &r->E, r->E.trend.rate))                                             \
-    X(E_size, put_size(out, &r->E))                                                                \
-    X(E_trend, put_trend(out, &r->E))                                                              \
-    X(H_first, put_number(out, &r->H, r->H.trend.first))                                           \
-    X(H_deviation, put_number(out, &r->H, r->H.trend.deviation))                                   \
-    X(H_rate, put_number(out, &r->H, r->H.trend.rate))                                             \
-    X(H_size, put_size(out, &r->H))                                                                \
-    X(H_trend, put_trend(out, &r->H))                                                              \
-    X(p_max, put_number(out, &r->p, r->p.trend.max_abs))                                           \
-    X(pi_max, put_number(out, &r->pi, r->pi.trend.max_abs))                                        \
-    X(pi_e_max, put_number(out, &r->pi_e, r->pi_e.trend.max_abs))                                  \
-    X(invariant, cli_put_text(out, r->invariant.name))                                             \
-    X(invariant_deviation, put_number(out, &r->invariant, r->invariant.trend.deviation))           \
-    X(invariant_rate, put_number(out, &r->invariant, r->invariant.trend.rate))                     \
-    X(invariant_size, put_size(out, &r->invariant))                                                \
-    X(invariant_trend, put_trend(out, &r->invariant))                                              \
-    X(error_max, put_number(out, &r->error, r->error.trend.max_abs))                               \
-    X(same_as_physical, put_same(out, r))                                                          \
-    X(bits, fprintf(out, "%016llx", (unsigned long long)r->cell->bits))                            \
-    X(run, put_run(out, r))                                                                        \
-    X(message, cli_put_text(out, r->cell->error.message))                                          \
-    X(seconds, cli_put(out, r->cell->seconds))
+/* A cell is empty where there is no such quantity. */
+#define NUMBER(quantity, member)                                                                   \
+    (r->q.quantity && r->q.quantity->count > 0 ? cli_put(out, r->q.quantity->member) : (void)0)
+#define WORD(quantity, word)                                                                       \
+    (r->q.quantity && r->q.quantity->count > 0 ? (void)fputs(word(r->q.quantity), out) : (void)0)
 
-static void put_heads(FILE *out)
+/* column, how it is written */
+#define COLUMN_LIST(COLUMN)                                                                        \
+    COLUMN(label, cli_put_text(out, r->of_case->label))                                            \
+    COLUMN(system, cli_put_text(out, r->of_case->name))                                            \
+    COLUMN(integrator, cli_put_text(out, r->method))                                               \
+    COLUMN(start, fputs(study_start_words[r->cell->start], out))                                   \
+    COLUMN(step, cli_put(out, r->cell->step))                                                      \
+    COLUMN(time, cli_put(out, r->of_case->time))                                                   \
+    COLUMN(state, fputs(study_state_words[r->cell->state], out))                                   \
+    COLUMN(status, fputs(dal_status_name(r->cell->error.status), out))                             \
+    COLUMN(reached, cli_put(out, r->cell->time))                                                   \
+    COLUMN(steps, fprintf(out, "%lld", r->cell->steps))                                            \
+    COLUMN(evaluations, fprintf(out, "%lld", r->cell->evaluations))                                \
+    COLUMN(D_max, NUMBER(D, max_abs))                                                              \
+    COLUMN(D_rate, NUMBER(D, rate))                                                                \
+    COLUMN(D_size, WORD(D, cli_size_word))                                                         \
+    COLUMN(D_trend, WORD(D, cli_trend_word))                                                       \
+    COLUMN(E_first, NUMBER(E, first))                                                              \
+    COLUMN(E_deviation, NUMBER(E, deviation))                                                      \
+    COLUMN(E_rate, NUMBER(E, rate))                                                                \
+    COLUMN(E_size, WORD(E, cli_size_word))                                                         \
+    COLUMN(E_trend, WORD(E, cli_trend_word))                                                       \
+    COLUMN(H_first, NUMBER(H, first))                                                              \
+    COLUMN(H_deviation, NUMBER(H, deviation))                                                      \
+    COLUMN(H_rate, NUMBER(H, rate))                                                                \
+    COLUMN(H_size, WORD(H, cli_size_word))                                                         \
+    COLUMN(H_trend, WORD(H, cli_trend_word))                                                       \
+    COLUMN(p_max, NUMBER(p, max_abs))                                                              \
+    COLUMN(pi_max, NUMBER(pi, max_abs))                                                            \
+    COLUMN(pi_e_max, NUMBER(pi_e, max_abs))                                                        \
+    COLUMN(invariant, cli_put_text(out, r->q.invariant_name))                                      \
+    COLUMN(invariant_deviation, NUMBER(invariant, deviation))                                      \
+    COLUMN(invariant_rate, NUMBER(invariant, rate))                                                \
+    COLUMN(invariant_size, WORD(invariant, cli_size_word))                                         \
+    COLUMN(invariant_trend, WORD(invariant, cli_trend_word))                                       \
+    COLUMN(error_max, NUMBER(error, max_abs))                                                      \
+    COLUMN(same_as_physical, put_same(out, r))                                                     \
+    COLUMN(bits, fprintf(out, "%016llx", (unsigned long long)r->cell->bits))                       \
+    COLUMN(run, put_run(out, r))                                                                   \
+    COLUMN(message, cli_put_text(out, r->cell->error.message))                                     \
+    COLUMN(seconds, cli_put(out, r->cell->seconds))
+
+static void put_cell(FILE *out, const csv_row *r)
 {
     const char *comma = "";
-#define X(name, how)                                                                               \
-    fprintf(out, "%s%s", comma, #name);                                                            \
-    comma = ",";
-    COLUMN_LIST(X)
-#undef X
-    fputc('\n', out);
-}
-
-static void put_cell(FILE *out, const row *r)
-{
-    int first = 1;
-#define X(name, how)                                                                               \
-    if (!first) fputc(',', out);                                                                   \
+#define COLUMN_CELL(name, how)                                                                     \
+    fputs(comma, out);                                                                             \
     how;                                                                                           \
-    first = 0;
-    COLUMN_LIST(X)
-#undef X
+    comma = ",";
+    COLUMN_LIST(COLUMN_CELL)
+#undef COLUMN_CELL
     fputc('\n', out);
 }
 
-/* ---- a row per observable ---- */
+/* ---- rows per observable and per window ---------------------------------------------------- */
 
-static void put_key(FILE *out, const row *r)
+static void put_key(FILE *out, const csv_row *r)
 {
     cli_put_text(out, r->of_case->label);
     fputc(',', out);
     cli_put_text(out, r->method);
-    fprintf(out, ",%s,", study_start_word(r->cell->start));
+    fprintf(out, ",%s,", study_start_words[r->cell->start]);
     cli_put(out, r->cell->step);
+    fputc(',', out);
 }
 
-static void put_quantities(FILE *out, const row *r)
+static void put_quantities(FILE *out, const csv_row *r)
 {
     for (int i = 0; i < r->cell->observables; i++) {
-        const dal_trend *d = &r->cell->trend[i];
-        const double numbers[] = {d->first, d->last, d->max_abs, d->deviation};
         put_key(out, r);
-        fputc(',', out);
         cli_put_text(out, r->cell->names[i]);
-        for (size_t k = 0; k < sizeof numbers / sizeof numbers[0]; k++) {
-            fputc(',', out);
-            cli_put(out, numbers[k]);
-        }
-        cli_put_trend(out, d);
+        cli_put_values(out, &r->cell->trend[i]);
         fputc('\n', out);
     }
 }
 
-/* ---- tracks ---- */
-
-static void put_series(FILE *out, const row *r)
+static void put_series(FILE *out, const csv_row *r)
 {
     for (int k = 0; k < r->cell->window_count; k++) {
         put_key(out, r);
-        fputc(',', out);
         cli_put(out, r->of_case->time * (k + 1) / STUDY_WINDOWS);
         for (int track = 0; track < STUDY_TRACKS; track++) {
             fputc(',', out);
@@ -203,86 +130,57 @@ static void put_series(FILE *out, const row *r)
     }
 }
 
-static int close_series(study_output *output)
-{
-    int status = output->series ? cli_close(output->series, output->series_path) : CLI_DONE;
-    output->series = NULL;
-    free(output->series_path);
-    output->series_path = NULL;
-    return status;
-}
+/* ---- the files ----------------------------------------------------------------------------- */
 
-static int open_series(study_output *output, const study_case *of_case)
-{
-    char name[512];
-    int status = close_series(output);
-    if (status != CLI_DONE) return status;
-    snprintf(name, sizeof name, "%s.csv", of_case->label);
-    output->series_path = cli_join(output->series_directory, name);
-    output->series = fopen(output->series_path, "w");
-    if (!output->series) return cli_io("write", output->series_path);
-    output->series_case = of_case;
-    fputs("label,integrator,start,step,until", output->series);
-    for (int track = 0; track < STUDY_TRACKS; track++)
-        fprintf(output->series, ",%s", study_track_column(track));
-    fputc('\n', output->series);
-    return CLI_DONE;
-}
+typedef void row_writer(FILE *out, const csv_row *r);
 
-/* ---- the whole ---- */
-
-static int open_file(FILE **file, char **path, const char *directory, const char *name)
+/* Writes DIRECTORY/NAME: heads, then rows of the cells that have results, of one case or of all.  A
+ * case without results has no file. */
+static int write_file(const study_plan *plan, const study_case *of_case, const char *directory,
+                      const char *name, const char *heads, row_writer *put)
 {
-    *path = cli_join(directory, name);
-    *file = fopen(*path, "w");
-    return *file ? CLI_DONE : cli_io("write", *path);
-}
-
-static int open_all(study_output *o, const char *directory)
-{
-    int status = cli_directory(directory);
-    o->series_directory = cli_join(directory, "series");
-    if (status == CLI_DONE) status = cli_directory(o->series_directory);
-    if (status == CLI_DONE) status = open_file(&o->cells, &o->cells_path, directory, "cells.csv");
-    if (status == CLI_DONE)
-        status = open_file(&o->quantities, &o->quantities_path, directory, "quantities.csv");
-    return status;
-}
-
-int study_output_open(study_output **output, const char *directory)
-{
-    study_output *o = *output = cli_calloc(1, sizeof *o);
-    int status = open_all(o, directory);
-    if (status != CLI_DONE) return status;
-    put_heads(o->cells);
-    fprintf(o->quantities, "label,integrator,start,step,quantity,first,last,max,deviation,%s\n",
-            cli_trend_heads);
-    return CLI_DONE;
-}
-
-int study_output_cell(study_output *output, const study_plan *plan, const study_cell *cell)
-{
-    row r = make_row(plan, cell);
-    put_cell(output->cells, &r);
-    put_quantities(output->quantities, &r);
-    if (output->series_case != cell->of_case) {
-        int status = open_series(output, cell->of_case);
-        if (status != CLI_DONE) return status;
+    const int first = of_case ? of_case->first_cell : 0;
+    const int end = of_case ? first + of_case->cells : plan->cell_count;
+    int next = first;
+    while (next < end && plan->cells[next].state == STUDY_WAITING) next++;
+    if (of_case && next == end) return CLI_DONE;
+    char *path = cli_join(directory, name);
+    FILE *out = fopen(path, "w");
+    int status = out ? CLI_DONE : cli_io("write", path);
+    if (out) fprintf(out, "%s\n", heads);
+    for (; next < end && out; next++) {
+        const study_cell *c = &plan->cells[next];
+        if (c->state == STUDY_WAITING) continue;
+        csv_row r = {plan, c, c->of_case, study_cell_quantities(c), ""};
+        dal_method_name(c->method, r.method, sizeof r.method);
+        put(out, &r);
     }
-    put_series(output->series, &r);
-    if (fflush(output->cells) != 0) return cli_io("write", output->cells_path);
-    return CLI_DONE;
+    if (out) status = cli_close(out, path);
+    free(path);
+    return status;
 }
 
-int study_output_close(study_output *o)
+int study_write_csv(const study_plan *plan, const char *directory)
 {
-    if (!o) return CLI_DONE;
-    int status = close_series(o);
-    int cells = o->cells ? cli_close(o->cells, o->cells_path) : CLI_DONE;
-    int quantities = o->quantities ? cli_close(o->quantities, o->quantities_path) : CLI_DONE;
-    free(o->cells_path);
-    free(o->quantities_path);
-    free(o->series_directory);
-    free(o);
-    return status != CLI_DONE ? status : cells != CLI_DONE ? cells : quantities;
+#define COLUMN_HEAD(name, how)   "," #name
+#define TRACK_HEAD(code, column) "," column
+    static const char cell_heads[] = COLUMN_LIST(COLUMN_HEAD);
+    static const char series_heads[] =
+        "label,integrator,start,step,until" STUDY_TRACK_LIST(TRACK_HEAD);
+    char *heads = cli_format("label,integrator,start,step,quantity,first,last,max,deviation,%s",
+                             cli_trend_heads);
+    char *series = cli_join(directory, "series");
+    int status = cli_directory(series);
+    if (status == CLI_DONE)
+        status = write_file(plan, NULL, directory, "cells.csv", cell_heads + 1, put_cell);
+    if (status == CLI_DONE)
+        status = write_file(plan, NULL, directory, "quantities.csv", heads, put_quantities);
+    for (int i = 0; i < plan->case_count && status == CLI_DONE; i++) {
+        char *name = cli_format("%s.csv", plan->cases[i].label);
+        status = write_file(plan, &plan->cases[i], series, name, series_heads, put_series);
+        free(name);
+    }
+    free(heads);
+    free(series);
+    return status;
 }

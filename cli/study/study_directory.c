@@ -1,35 +1,40 @@
-/* study_directory.c - the directory of a study: begun, joined, read. */
+/* study_directory.c - a study in a directory: begun, read, finished. */
 #include "study_directory.h"
-#include "io/output.h"
-#include "run/system.h"
-#include "ui/memory.h"
-#include "ui/message.h"
 
 #include "io/file.h"
 #include "io/json.h"
+#include "io/output.h"
+#include "run/manifest.h"
+#include "run/system.h"
+#include "study_compare.h"
+#include "study_csv.h"
+#include "study_pool.h"
+#include "study_table.h"
+#include "ui/memory.h"
+#include "ui/message.h"
+#include "ui/signals.h"
 
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
-void study_directory_open(study_directory *dir, const char *directory)
+void study_directory_open(study_directory *dir, const char *path)
 {
-    *dir = (study_directory){.directory = directory};
-#define X(name, file) dir->name = cli_join(directory, file);
-    STUDY_FILE_LIST(X)
-#undef X
+    *dir = (study_directory){.path = path};
+#define MAKE_PATH(name, file) dir->name = cli_join(path, file);
+    STUDY_FILE_LIST(MAKE_PATH)
+#undef MAKE_PATH
 }
 
 void study_directory_close(study_directory *dir)
 {
-#define X(name, file) free(dir->name);
-    STUDY_FILE_LIST(X)
-#undef X
+#define FREE_PATH(name, file) free(dir->name);
+    STUDY_FILE_LIST(FREE_PATH)
+#undef FREE_PATH
     free(dir->text);
     *dir = (study_directory){0};
 }
@@ -47,118 +52,149 @@ int study_directory_is_finished(const study_directory *dir)
     return finished;
 }
 
-/* ---- clearing ---- */
+/* ---- shards -------------------------------------------------------------------------------- */
 
-static int is_dot(const char *name) { return strcmp(name, ".") == 0 || strcmp(name, "..") == 0; }
-
-/* Removes what is in a directory, down to a depth that no study exceeds, and the directory. */
-static int remove_all(const char *path, int depth)
-{
-    struct stat status;
-    if (lstat(path, &status) != 0) return errno == ENOENT ? CLI_DONE : cli_io("remove", path);
-    if (!S_ISDIR(status.st_mode)) return file_remove(path);
-    DIR *directory = depth > 0 ? opendir(path) : NULL;
-    if (!directory) return cli_io("remove", path);
-    int done = CLI_DONE;
-    for (struct dirent *entry; done == CLI_DONE && (entry = readdir(directory));) {
-        if (is_dot(entry->d_name)) continue;
-        char *inner = cli_join(path, entry->d_name);
-        done = remove_all(inner, depth - 1);
-        free(inner);
-    }
-    closedir(directory);
-    if (done != CLI_DONE) return done;
-    return rmdir(path) == 0 ? CLI_DONE : cli_io("remove", path);
-}
-
-/* ---- shards ---- */
-
-char *study_directory_manifest(const study_directory *dir, study_shard shard)
-{
-    char name[64];
-    if (shard.count == 0) return cli_strdup(dir->manifest);
-    snprintf(name, sizeof name, "shard-%lld-of-%lld.json", shard.number, shard.count);
-    return cli_join(dir->directory, name);
-}
-
-static int is_manifest(const char *name, study_shard *shard)
-{
-    int end = 0;
-    sscanf(name, "shard-%lld-of-%lld.json%n", &shard->number, &shard->count, &end);
-    return end > 0 && name[end] == '\0' && shard->number >= 1 && shard->number <= shard->count;
-}
-
-int study_directory_each_shard(const study_directory *dir, shard_visitor *visit, void *user)
-{
-    int status = CLI_DONE;
-    DIR *directory = opendir(dir->directory);
-    if (!directory) return cli_io("read", dir->directory);
-    for (struct dirent *entry; status == CLI_DONE && (entry = readdir(directory));) {
-        study_shard shard;
-        if (is_manifest(entry->d_name, &shard)) status = visit(dir, shard, user);
-    }
-    closedir(directory);
-    return status;
-}
-
-static int forget_shard(const study_directory *dir, study_shard shard, void *user)
-{
-    (void)user;
-    char *path = study_directory_manifest(dir, shard);
-    int status = file_remove(path);
-    free(path);
-    return status;
-}
-
-/* Removes the study that is there, its description first. */
-static int clear(const study_directory *dir)
-{
-    int status = CLI_DONE;
-#define X(name, file)                                                                              \
-    if (status == CLI_DONE) status = remove_all(dir->name, 2);
-    STUDY_FILE_LIST(X)
-#undef X
-    return status == CLI_DONE ? study_directory_each_shard(dir, forget_shard, NULL) : status;
-}
-
-int study_shard_has(study_shard shard, int cell)
+static int shard_has_cell(study_shard shard, int cell)
 {
     return shard.count <= 0 || cell % shard.count == shard.number - 1;
 }
 
-static int join_shard(const study_directory *dir, study_shard shard, void *user)
+/* The manifest of a shard, or of the whole; allocated. */
+static char *manifest_path(const study_directory *dir, study_shard shard)
+{
+    if (shard.count == 0) return cli_strdup(dir->manifest);
+    return cli_format("%s/shard-%lld-of-%lld.json", dir->path, shard.number, shard.count);
+}
+
+typedef int shard_visitor(const study_directory *dir, study_shard shard, void *user);
+
+/* Calls visit for each shard that has a manifest. */
+static int each_shard(const study_directory *dir, shard_visitor *visit, void *user)
+{
+    int status = CLI_DONE;
+    DIR *directory = opendir(dir->path);
+    if (!directory) return cli_io("read", dir->path);
+    for (struct dirent *entry; status == CLI_DONE && (entry = readdir(directory));) {
+        study_shard shard;
+        int end = 0;
+        sscanf(entry->d_name, "shard-%lld-of-%lld.json%n", &shard.number, &shard.count, &end);
+        if (end > 0 && entry->d_name[end] == '\0' && shard.number >= 1 &&
+            shard.number <= shard.count)
+            status = visit(dir, shard, user);
+    }
+    closedir(directory);
+    return status;
+}
+
+static int remove_manifest(const study_directory *dir, study_shard shard, void *user)
+{
+    (void)user;
+    char *path = manifest_path(dir, shard);
+    const int status = file_remove(path);
+    free(path);
+    return status;
+}
+
+static int include_cells(const study_directory *dir, study_shard shard, void *user)
 {
     study_plan *plan = user;
     (void)dir;
     for (int i = 0; i < plan->cell_count; i++)
-        if (study_shard_has(shard, i)) plan->cells[i].elsewhere = 0;
+        if (shard_has_cell(shard, i)) plan->cells[i].other_shard = 0;
     return CLI_DONE;
 }
 
-/* ---- beginning ---- */
+/* ---- the manifest -------------------------------------------------------------------------- */
 
-static int equals(const char *path, const char *text, size_t length)
+typedef struct manifest_state {
+    const study_plan *plan;
+    const char *word;
+} manifest_state;
+
+static int write_shard_manifest(const study_directory *dir, study_shard shard, void *user)
 {
-    size_t n;
-    char *held = file_read(path, &n);
-    const int same = held && n == length && memcmp(held, text, n) == 0;
-    free(held);
-    return same;
+    const manifest_state *state = user;
+    const study_plan *plan = state->plan;
+    char *text, *path = manifest_path(dir, shard);
+    size_t length;
+    int count[STUDY_STATES] = {0};
+    double seconds = 0.0;
+    for (int i = 0; i < plan->cell_count; i++) {
+        if (!shard_has_cell(shard, i)) continue;
+        count[plan->cells[i].state]++;
+        seconds += plan->cells[i].seconds;
+    }
+    FILE *out = cli_memstream_open(&text, &length);
+    json_text_member(out, "{\n  ", "dalembert", DAL_VERSION);
+    json_text_member(out, ",\n  ", "study", plan->title);
+    manifest_put_machine(out);
+    json_text_member(out, ",\n  ", "status", state->word);
+    for (int i = 0; i < STUDY_STATES; i++)
+        fprintf(out, "%s\"%s\": %d", i ? ", " : ",\n  \"cells\": {", study_state_words[i],
+                count[i]);
+    fputs("}", out);
+    json_number_member(out, ",\n  ", "seconds", seconds);
+    fputs("\n}\n", out);
+    cli_memstream_close(out);
+    const int status = file_replace(path, text, length, 1);
+    free(text);
+    free(path);
+    return status;
 }
 
-/* A copy that is there already, of a study joined, must be the same. */
+/* state: running, interrupted, failed, unmet, done. */
+static int write_manifest(const study_directory *dir, const study_plan *plan, const char *word)
+{
+    manifest_state state = {plan, word};
+    return dir->shard.count == STUDY_ALL_SHARDS ? each_shard(dir, write_shard_manifest, &state)
+                                                : write_shard_manifest(dir, dir->shard, &state);
+}
+
+/* ---- beginning ----------------------------------------------------------------------------- */
+
+/* Removes a directory and what is in it, down to a depth that no study exceeds; or a file. */
+static int remove_tree(const char *path, int depth)
+{
+    struct stat info;
+    if (lstat(path, &info) != 0) return errno == ENOENT ? CLI_DONE : cli_io("remove", path);
+    if (!S_ISDIR(info.st_mode)) return file_remove(path);
+    DIR *directory = depth > 0 ? opendir(path) : NULL;
+    if (!directory) return cli_io("remove", path);
+    int status = CLI_DONE;
+    for (struct dirent *entry; status == CLI_DONE && (entry = readdir(directory));) {
+        if (strcmp(entry->d_name, ".") == 0 || strcmp(entry->d_name, "..") == 0) continue;
+        char *inner = cli_join(path, entry->d_name);
+        status = remove_tree(inner, depth - 1);
+        free(inner);
+    }
+    closedir(directory);
+    if (status != CLI_DONE) return status;
+    return rmdir(path) == 0 ? CLI_DONE : cli_io("remove", path);
+}
+
+/* Removes the study that is there, study.yaml first. */
+static int clear(const study_directory *dir)
+{
+    int status = CLI_DONE;
+#define REMOVE(name, file)                                                                         \
+    if (status == CLI_DONE) status = remove_tree(dir->name, 2);
+    STUDY_FILE_LIST(REMOVE)
+#undef REMOVE
+    return status == CLI_DONE ? each_shard(dir, remove_manifest, NULL) : status;
+}
+
+/* A copy that is there already, of a study that the shard joins, must be the same. */
 static int copy_system(const study_directory *dir, study_case *e)
 {
     size_t length;
-    if (!e->is_first || (!e->copy && !cli_is_path(e->name))) return CLI_DONE;
-    char *path = study_system_copy(dir->systems, e);
+    if (!e->copy && !cli_is_path(e->name)) return CLI_DONE;
+    char *path = study_plan_copy_path(dir->systems, e);
     char *text = file_read(e->copy ? e->copy : e->name, &length);
     int status = text ? CLI_DONE : CLI_IO;
     if (text && !is_there(path))
         status = file_replace(path, text, length, 1);
-    else if (text && !equals(path, text, length))
-        status =
-            cli_fail(CLI_USAGE, "'%s' is of another study: '%s' differs", dir->directory, path);
+    else if (text && !file_equals(path, text, length))
+        status = cli_fail(CLI_USAGE, "'%s' is of another study: '%s' differs", dir->path, path);
     free(text);
     free(e->copy);
     e->copy = path;
@@ -170,8 +206,10 @@ static int copy_systems(const study_directory *dir, study_plan *plan)
     int status = cli_directory(dir->systems);
     for (int i = 0; i < plan->case_count && status == CLI_DONE; i++) {
         study_case *e = &plan->cases[i];
-        status = copy_system(dir, e);
-        if (!e->is_first) e->copy = e[-1].copy;
+        if (e->is_first)
+            status = copy_system(dir, e);
+        else
+            e->copy = e[-1].copy;
     }
     return status;
 }
@@ -182,43 +220,31 @@ static int check_place(const study_directory *dir, const char *text, size_t leng
     const char *held = is_there(dir->study) ? dir->study : dir->manifest;
     if (!is_there(held)) return CLI_DONE;
     if (is_shard && held == dir->study && !is_there(dir->manifest)) {
-        if (equals(dir->study, text, length)) return CLI_DONE;
+        if (file_equals(dir->study, text, length)) return CLI_DONE;
         return cli_fail(CLI_USAGE, "'%s' is another study; --force writes over it", held);
     }
     return cli_fail(CLI_USAGE,
-                    "'%s' is there already: 'dalembert resume %s' resumes it, --force writes "
-                    "over it",
-                    held, dir->directory);
+                    "'%s' is there already: 'dalembert resume %s' resumes it, --force writes over "
+                    "it",
+                    held, dir->path);
 }
 
-/* What is left of a study that was killed while it was begun, or written over: there is nothing in
- * it to be gone on with. */
-static int is_left_over(const study_directory *dir)
+/* Whether the study was killed while it was begun or written over: nothing of it can be resumed. */
+static int is_incomplete(const study_directory *dir)
 {
     if (is_there(dir->study)) return 0;
     char *title = json_file_text(dir->manifest, "study");
-    const int is_of_study = title != NULL;
+    const int has_title = title != NULL;
     free(title);
-    return is_of_study;
-}
-
-static int make(study_directory *dir, study_plan *plan, const char *text, size_t length,
-                int is_shard, int force)
-{
-    const int begin_anew = force || is_left_over(dir);
-    int status = begin_anew ? clear(dir) : check_place(dir, text, length, is_shard);
-    if (status == CLI_DONE) status = cli_directory(dir->runs);
-    if (status == CLI_DONE) status = copy_systems(dir, plan);
-    if (status == CLI_DONE) status = study_directory_write_manifest(dir, plan, "running");
-    return status == CLI_DONE ? file_replace(dir->study, text, length, 1) : status;
+    return has_title;
 }
 
 /* Shards that begin in one directory at the same time come one after the other: the descriptor of
- * a locked file, -1 where that cannot be had (some network file systems know no locks). */
+ * a locked file, -1 where that cannot be had (some network file systems have no locks). */
 static int lock(const study_directory *dir)
 {
     struct flock whole = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
-    char *path = cli_join(dir->directory, "lock");
+    char *path = cli_join(dir->path, "lock");
     const int descriptor = open(path, O_RDWR | O_CREAT, 0666);
     if (descriptor >= 0) fcntl(descriptor, F_SETLKW, &whole);
     free(path);
@@ -228,31 +254,112 @@ static int lock(const study_directory *dir)
 int study_directory_begin(study_directory *dir, study_plan *plan, const char *text, size_t length,
                           study_shard shard, int force)
 {
-    int status = cli_directory(dir->directory);
+    int status = cli_directory(dir->path);
     if (status != CLI_DONE) return status;
     plan->runs = dir->runs;
     dir->shard = shard;
     for (int i = 0; i < plan->cell_count; i++)
-        plan->cells[i].elsewhere = !study_shard_has(shard, i);
+        plan->cells[i].other_shard = !shard_has_cell(shard, i);
     const int locked = lock(dir);
-    status = make(dir, plan, text, length, shard.count > 0, force);
+    status =
+        force || is_incomplete(dir) ? clear(dir) : check_place(dir, text, length, shard.count > 0);
+    if (status == CLI_DONE) status = cli_directory(dir->runs);
+    if (status == CLI_DONE) status = copy_systems(dir, plan);
+    if (status == CLI_DONE) status = write_manifest(dir, plan, "running");
+    if (status == CLI_DONE) status = file_replace(dir->study, text, length, 1);
     if (locked >= 0) close(locked);
     return status;
 }
 
-/* ---- reading ---- */
+/* ---- reading and running ------------------------------------------------------------------- */
 
 int study_directory_read(study_directory *dir, study_plan *plan)
 {
     if (!is_there(dir->study))
-        return cli_fail(CLI_USAGE, "'%s' holds no study: there is no %s", dir->directory,
-                        dir->study);
+        return cli_fail(CLI_USAGE, "'%s' holds no study: there is no %s", dir->path, dir->study);
     dir->text = file_read(dir->study, &dir->length);
     if (!dir->text) return CLI_IO;
     int status = study_plan_read(plan, dir->study, dir->text, dir->length, dir->systems);
     plan->runs = dir->runs;
     if (status != CLI_DONE || is_there(dir->manifest)) return status;
     dir->shard = (study_shard){.count = STUDY_ALL_SHARDS};
-    for (int i = 0; i < plan->cell_count; i++) plan->cells[i].elsewhere = 1;
-    return study_directory_each_shard(dir, join_shard, plan);
+    for (int i = 0; i < plan->cell_count; i++) plan->cells[i].other_shard = 1;
+    return each_shard(dir, include_cells, plan);
+}
+
+int study_directory_run(const study_directory *dir, study_plan *plan,
+                        const study_run_options *options)
+{
+    cli_catch_signals();
+    plan->interval = options->interval;
+    for (int i = 0; i < plan->case_count; i++) plan->cases[i].native = options->native;
+    return study_directory_finish(dir, plan, study_pool_run(plan, options->threads));
+}
+
+int study_resume(const char *path, const study_run_options *options)
+{
+    study_plan plan = {0};
+    study_directory dir;
+    study_directory_open(&dir, path);
+    int status = study_directory_read(&dir, &plan);
+    if (status == CLI_DONE) status = study_directory_run(&dir, &plan, options);
+    study_plan_free(&plan);
+    study_directory_close(&dir);
+    return status;
+}
+
+/* ---- the end ------------------------------------------------------------------------------- */
+
+static void print_tables(FILE *out, const study_plan *plan)
+{
+    fprintf(out, "%s\n", plan->title);
+    for (int i = 0; i < plan->case_count; i++) {
+        const study_case *e = &plan->cases[i];
+        int has_cells = 0;
+        for (int k = e->first_cell; k < e->first_cell + e->cells; k++)
+            has_cells |= !plan->cells[k].other_shard;
+        if (has_cells) study_print_case(out, plan, e);
+    }
+    study_print_note(out, plan);
+    study_print_expectations(out, plan);
+}
+
+static int write_files(const study_directory *dir, const study_plan *plan)
+{
+    int status = study_write_csv(plan, dir->path);
+    if (status == CLI_DONE) status = study_write_expectations(plan, dir->expectations);
+    if (status != CLI_DONE) return status;
+    FILE *file = fopen(dir->tables, "w");
+    if (!file) return cli_io("write", dir->tables);
+    print_tables(file, plan);
+    return cli_close(file, dir->tables);
+}
+
+/* The exit status of a study whose cells were all run. */
+static int result_status(const study_plan *plan)
+{
+    for (int i = 0; i < plan->cell_count; i++) {
+        const study_cell *cell = &plan->cells[i];
+        if (cell->state == STUDY_FAILED && !study_failure_is_expected(plan, cell))
+            return CLI_FAILED;
+    }
+    return study_count_unmet(plan) > 0 ? CLI_CHECK : CLI_DONE;
+}
+
+int study_directory_finish(const study_directory *dir, const study_plan *plan, int status)
+{
+    const int result = status == CLI_DONE ? result_status(plan) : status;
+    const int is_whole = dir->shard.count == 0;
+    const char *word = result == CLI_DONE || result == CLI_FAILED ? "done"
+                       : result == CLI_CHECK                      ? "unmet"
+                       : result == CLI_SIGNAL                     ? "interrupted"
+                                                                  : "failed";
+    int written = is_whole ? write_files(dir, plan) : CLI_DONE;
+    if (written == CLI_DONE) written = write_manifest(dir, plan, word);
+    if (status != CLI_DONE && status != CLI_SIGNAL) return status;
+    print_tables(stdout, plan);
+    const int printed = cli_close(stdout, "standard output");
+    if (status == CLI_SIGNAL)
+        return cli_fail(status, "interrupted; resume with: dalembert resume %s", dir->path);
+    return written != CLI_DONE ? written : printed != CLI_DONE ? printed : result;
 }

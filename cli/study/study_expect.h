@@ -1,55 +1,50 @@
-/* study_expect.h - what a study states beforehand of its own results. */
+/* study_expect.h - the expectations of a study, from its file. */
 #ifndef DAL_CLI_STUDY_EXPECT_H
 #define DAL_CLI_STUDY_EXPECT_H
 
-#include "dalembert.h"
-#include "io/document.h"
-#include "study.h"
-
-#include <stddef.h>
+#include "study_plan.h"
 
 /* What bounds may be set to: name, member of dal_trend. */
-#define STUDY_FIELD_LIST(X)                                                                        \
-    X(max, max_abs)                                                                                \
-    X(deviation, deviation)                                                                        \
-    X(final, last)                                                                                 \
-    X(amplitude, amplitude)                                                                        \
-    X(rate, rate)                                                                                  \
-    X(rate_low, rate_low)                                                                          \
-    X(rate_high, rate_high)                                                                        \
-    X(exponent, exponent)                                                                          \
-    X(confidence, confidence)
+#define STUDY_FIELD_LIST(FIELD)                                                                    \
+    FIELD(max, max_abs)                                                                            \
+    FIELD(deviation, deviation)                                                                    \
+    FIELD(final, last)                                                                             \
+    FIELD(amplitude, amplitude)                                                                    \
+    FIELD(rate, rate)                                                                              \
+    FIELD(rate_low, rate_low)                                                                      \
+    FIELD(rate_high, rate_high)                                                                    \
+    FIELD(exponent, exponent)                                                                      \
+    FIELD(confidence, confidence)
 
 enum {
-#define X(name, member) STUDY_FIELD_##name,
-    STUDY_FIELD_LIST(X)
-#undef X
+#define FIELD_NUMBER(name, member) STUDY_FIELD_##name,
+    STUDY_FIELD_LIST(FIELD_NUMBER)
+#undef FIELD_NUMBER
         STUDY_FIELDS
 };
 
-/* One thing that is asked: one of some words, or a number within bounds. */
-struct study_expectation {
+/* One of some words, or a number within bounds. */
+typedef struct study_expectation {
     const char *label, *method, *quantity; /* as they are written */
-    double step;                           /* of this alone; 0: of all */
-    int start;                             /* of this alone; -1: of all */
+    double step;                           /* of these cells alone; 0: of all */
+    int start;                             /* of these cells alone; -1: of all */
     size_t line;
-    unsigned words;     /* bit k: size k, bit DAL_SIZE_COUNT + k: trend k, any of which will do; of
-                           the quantity "state" bit k: state k; 0: bounds */
-    int field;          /* STUDY_FIELD_x that has bounds, -1: none */
-    double least, most; /* infinite where there is no bound */
-};
+    unsigned words;  /* bit k: size k, bit DAL_SIZE_COUNT + k: trend k, any of which will do; of
+                        the quantity "state" bit k: state k; 0: bounds */
+    int field;       /* STUDY_FIELD_x that has bounds, -1: none */
+    double min, max; /* infinite where there is no bound */
+} study_expectation;
 
-/* Reads `expect`, node being NULL where there is none; the cases are complete.  Returns CLI_DONE
- * or prints and returns an exit status. */
-int study_expect_read(study_plan *plan, const document *doc, yaml_node_t *node);
+/* Reads `expect` into a plan with its cells; node may be NULL.  Returns CLI_DONE, or prints and
+ * returns CLI_USAGE. */
+int study_expect_read(study_plan *plan, yaml_node_t *node);
 
-/* Whether a case is meant by a label: its own, its group's, its system's, or all; and a method
- * by its name, or all, or all with modifiers: those with just these. */
+/* Whether a label means a case: its own, its group's, its system's, or all. */
 int study_case_matches(const study_case *item, const char *label);
+/* Whether a name means a method: its own, all, or all with exactly its modifiers. */
 int study_method_matches(const dal_method *method, const char *name);
-/* Whether something is said of a cell. */
+/* Whether an expectation is about a cell. */
 int study_expectation_covers(const study_expectation *expectation, const study_cell *cell);
-/* D, D1, D2, ... */
-int study_is_constraint(const char *quantity);
+int study_expectation_is_state(const study_expectation *expectation);
 
 #endif

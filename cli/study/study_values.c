@@ -8,6 +8,7 @@
  * and the upper 53 bits u of the result give low + (high - low) u/2^53.  So what is drawn for one
  * name does not depend on what else is drawn. */
 #include "study_values.h"
+
 #include "io/file.h"
 #include "ui/memory.h"
 #include "ui/message.h"
@@ -20,99 +21,73 @@ static const double beyond = 1e-9; /* parts of a step by which a range may miss 
 
 /* ---- ranges ---- */
 
-enum { RANGE_from, RANGE_to, RANGE_count, RANGE_by, RANGE_PARTS };
-
+/* What is not given is not a number. */
 typedef struct range {
-    double part[RANGE_PARTS];
-    int has[RANGE_PARTS];
+    double from, to, count, by;
     study_values *values;
 } range;
 
-static int take_part(range *r, int part, const char *name, const document *doc, yaml_node_t *value)
-{
-    r->has[part] = 1;
-    return document_number(doc, value, name, &r->part[part]);
-}
-
-#define TAKE(name)                                                                                 \
-    static int take_##name(void *user, const document *doc, yaml_node_t *value)                    \
-    {                                                                                              \
-        return take_part(user, RANGE_##name, #name, doc, value);                                   \
-    }
-TAKE(from)
-TAKE(to)
-TAKE(count)
-TAKE(by)
-
-static int take_between(void *user, const document *doc, yaml_node_t *value)
+static int read_between(void *user, const document *doc, yaml_node_t *value,
+                        const document_key *key)
 {
     study_values *v = ((range *)user)->values;
     if (value->type != YAML_SEQUENCE_NODE || document_count(value) != 2)
-        return document_fail(doc, value, "between: two numbers are wanted, [LOW, HIGH]");
-    int status = document_number(doc, document_item(doc, value, 0), "between", &v->low);
+        return document_fail(doc, value, "between: two numbers are required, [LOW, HIGH]");
+    int status = document_number(doc, document_item(doc, value, 0), key->name, &v->low);
     if (status == CLI_DONE)
-        status = document_number(doc, document_item(doc, value, 1), "between", &v->high);
+        status = document_number(doc, document_item(doc, value, 1), key->name, &v->high);
     if (status == CLI_DONE && !(v->low < v->high))
         return document_fail(doc, value, "between: %g is not below %g", v->low, v->high);
     v->is_drawn = 1;
     return status;
 }
 
-static const document_key range_keys[] = {{"from", take_from},
-                                          {"to", take_to},
-                                          {"count", take_count},
-                                          {"by", take_by},
-                                          {"between", take_between}};
+static const document_key range_keys[] = {{"from", document_read_number, offsetof(range, from)},
+                                          {"to", document_read_number, offsetof(range, to)},
+                                          {"count", document_read_number, offsetof(range, count)},
+                                          {"by", document_read_number, offsetof(range, by)},
+                                          {"between", read_between, 0}};
 
-static void make_room(study_values *v, int count)
+static void allocate_values(study_values *v, int count)
 {
     v->value = cli_calloc((size_t)count, sizeof *v->value);
     v->count = count;
 }
 
-/* How many values there are; 0 when the parts do not make a range. */
-static int range_count(const range *r)
-{
-    const double distance = r->part[RANGE_to] - r->part[RANGE_from];
-    const double count = r->has[RANGE_by] ? floor(distance / r->part[RANGE_by] + beyond) + 1.0
-                                          : r->part[RANGE_count];
-    if (!(count >= 1.0 && count <= STUDY_VALUES_MOST) || count != floor(count)) return 0;
-    return count == 1.0 && !r->has[RANGE_by] && distance != 0.0 ? 0 : (int)count;
-}
-
-static int make_range(const range *r, const document *doc, const yaml_node_t *node,
+static int fill_range(const range *r, const document *doc, const yaml_node_t *node,
                       const char *what)
 {
     study_values *v = r->values;
-    const double a = r->part[RANGE_from], b = r->part[RANGE_to];
-    if (!r->has[RANGE_from] || !r->has[RANGE_to] || r->has[RANGE_count] == r->has[RANGE_by])
+    const int has_by = !isnan(r->by);
+    const double a = r->from, b = r->to, distance = b - a;
+    if (isnan(distance) || has_by == !isnan(r->count))
         return document_fail(doc, node, "%s: a range is {from:, to:, count:} or {from:, to:, by:}",
                              what);
-    const int count = range_count(r);
-    if (count == 0)
+    const double count = has_by ? floor(distance / r->by + beyond) + 1.0 : r->count;
+    if (!(count >= 1.0 && count <= STUDY_VALUES_MAX) || count != floor(count) ||
+        (count == 1.0 && !has_by && distance != 0.0))
         return document_fail(doc, node, "%s: this range does not have 1..%d values", what,
-                             STUDY_VALUES_MOST);
-    make_room(v, count);
-    for (int k = 0; k < count; k++)
-        v->value[k] = r->has[RANGE_by] ? a + k * r->part[RANGE_by]
-                      : k == count - 1 ? b
-                                       : a + k * (b - a) / (count - 1);
+                             STUDY_VALUES_MAX);
+    allocate_values(v, (int)count);
+    for (int k = 0; k < v->count; k++)
+        v->value[k] = has_by              ? a + k * r->by
+                      : k == v->count - 1 ? b
+                                          : a + k * (b - a) / (v->count - 1);
     return CLI_DONE;
 }
 
 static int read_range(study_values *v, const document *doc, yaml_node_t *node, const char *what)
 {
-    range r = {.values = v};
+    range r = {NAN, NAN, NAN, NAN, v};
     const int count = sizeof range_keys / sizeof range_keys[0];
-    int status = document_read_mapping(doc, node, what, range_keys, count, &r);
+    const int status = document_read_mapping(doc, node, what, range_keys, count, &r);
     if (status != CLI_DONE) return status;
-    const int parts = r.has[RANGE_from] + r.has[RANGE_to] + r.has[RANGE_count] + r.has[RANGE_by];
-    if (!v->is_drawn) return make_range(&r, doc, node, what);
-    if (parts == 0) return CLI_DONE;
+    if (!v->is_drawn) return fill_range(&r, doc, node, what);
+    if (isnan(r.from) && isnan(r.to) && isnan(r.count) && isnan(r.by)) return CLI_DONE;
     return document_fail(doc, node, "%s: between goes with nothing else", what);
 }
 
-/* ---- the whole ---- */
+/* ---- all ---- */
 
 int study_values_read(study_values *v, const document *doc, yaml_node_t *node, const char *what)
 {
@@ -120,10 +95,10 @@ int study_values_read(study_values *v, const document *doc, yaml_node_t *node, c
     if (node->type == YAML_MAPPING_NODE) return read_range(v, doc, node, what);
     const int count = document_count(node);
     if (count == 0) return document_fail(doc, node, "%s: the list is empty", what);
-    if (count > STUDY_VALUES_MOST)
-        return document_fail(doc, node, "%s: %d values, not 1..%d", what, count, STUDY_VALUES_MOST);
+    if (count > STUDY_VALUES_MAX)
+        return document_fail(doc, node, "%s: %d values, not 1..%d", what, count, STUDY_VALUES_MAX);
     int status = CLI_DONE;
-    make_room(v, count);
+    allocate_values(v, count);
     for (int i = 0; i < count && status == CLI_DONE; i++)
         status = document_number(doc, document_item(doc, node, i), what, &v->value[i]);
     return status;

@@ -18,7 +18,7 @@ typedef struct study_values {
     double low, high; /* drawn from there */
 } study_values;
 
-enum { STUDY_VALUES_MOST = 10000 };
+enum { STUDY_VALUES_MAX = 10000 };
 
 /* Returns CLI_DONE or prints and returns an exit status; study_values_free it in any case. */
 int study_values_read(study_values *values, const document *doc, yaml_node_t *node,

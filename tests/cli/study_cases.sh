@@ -130,8 +130,8 @@ bad 'integrators: rk4\nstep: 0.1\ntime: 1\nsystems: [knife-egde]\n' "did you mea
 bad 'integrators: rk4\nstep: 0.1\ntime: 1\nsystems: [knife-edge, knife-edge]\n' "two systems called 'knife-edge'"
 bad 'integrators: rk4\nstep: 0.1\ntime: 1\nsystems: [{system: knife-edge, tme: 1}]\n' "unknown key 'tme'; did you mean 'time'"
 bad 'integrators: rk4\nstep: 0.1\ntime: 1\nsystems: [{system: knife-edge, label: a/b}]\n' 'cannot name a file'
-bad 'integrators: rk4\nstep: 0.1\ntime: 1\nsystems: [{system: knife-edge, set: [m]}]\n' 'names and values are wanted'
-bad 'integrators: {rk4: 1}\nstep: 0.1\ntime: 1\nsystems: [knife-edge]\n' 'a single value is wanted'
+bad 'integrators: rk4\nstep: 0.1\ntime: 1\nsystems: [{system: knife-edge, set: [m]}]\n' 'names and values are required'
+bad 'integrators: {rk4: 1}\nstep: 0.1\ntime: 1\nsystems: [knife-edge]\n' 'a single value is required'
 bad 'integrators: rk4\nstep: 0.1\ntime: 1\nsamples: 0\nsystems: [knife-edge]\n' 'not in 1\.\.'
 try 2 study nowhere.yaml --output there --force
 says 'nowhere.yaml'

@@ -201,23 +201,23 @@ unexpected '  line: {rk4: {c: {start: surfac, size: exact}}}\n' \
 unexpected '  line: {rk4: {c: exat}}\n' \
     "expect.yaml:9:19: unknown size or trend 'exat'; did you mean 'exact'"
 unexpected '  line: {rk4: {c: bounded}}\n' \
-    "expect.yaml:9:19: expect: 'bounded' is now the trend 'none'"
+    "expect.yaml:9:19: unknown size or trend 'bounded'"
 unexpected '  line: {rk4: {c: [none, linear drift]}}\n' \
-    "expect.yaml:9:26: expect: 'linear drift' is now the trend 'linear'"
+    "expect.yaml:9:26: unknown size or trend 'linear drift'"
 unexpected '  line: {rk4: {c: {trend: not enough data}}}\n' \
-    "expect.yaml:9:27: expect: 'not enough data' is now the trend 'undecided'"
+    "expect.yaml:9:27: unknown trend 'not enough data'"
 unexpected '  line: {rk4: {c: {verdict: exact}}}\n' \
-    "expect.yaml:9:29: expect: 'verdict' is now 'size' and 'trend'"
+    "expect.yaml:9:20: unknown key 'verdict'"
 unexpected '  line: {rk4: {c: {size: linear}}}\n' "expect.yaml:9:26: unknown size 'linear'"
 unexpected '  line: {rk4: {c: {trend: exact}}}\n' "expect.yaml:9:27: unknown trend 'exact'"
 unexpected '  line: {rk4: {state: dne}}\n' "unknown state 'dne'; did you mean 'done'"
 unexpected '  line: {rk4: {c: []}}\n' 'expect: the list is empty'
-unexpected '  line: {rk4: {c: {rate: {}}}}\n' "'at most' or 'at least' is wanted"
+unexpected '  line: {rk4: {c: {rate: {}}}}\n' "'at most' or 'at least' is required"
 unexpected '  line: {rk4: {c: {at most: few}}}\n' "expect.yaml:9:29: at most: 'few' is not a number"
 unexpected '  line: {rk4: {c: {slope: {at most: 1}}}}\n' "expect.yaml:9:20: unknown key 'slope'"
-unexpected '  line: {rk4: exact}\n' 'quantities are wanted'
-unexpected '  line: rk4\n' 'integrators are wanted'
-unexpected '  [line]\n' 'labels are wanted'
+unexpected '  line: {rk4: exact}\n' 'quantities are required'
+unexpected '  line: rk4\n' 'integrators are required'
+unexpected '  [line]\n' 'labels are required'
 
 case_is "values that are none"
 bad "${common}systems: [{system: line.yaml, set: {k: {from: 0, to: 1}}}]\n" \
@@ -232,7 +232,7 @@ bad "${common}systems: [{system: line.yaml, set: {k: {from: 0, to: 1, cont: 3}}}
     "bad.yaml:5:57: unknown key 'cont'; did you mean 'count'"
 bad "${common}systems: [{system: line.yaml, set: {k: []}}]\n" 'set: the list is empty'
 bad "${common}systems: [{system: line.yaml, set: {k: [1, 1]}}]\n" "two systems called 'line.yaml_k=1'"
-bad "${common}systems: [{system: line.yaml, set: {k: {between: [1, 2]}}}]\n" 'wants seeds'
+bad "${common}systems: [{system: line.yaml, set: {k: {between: [1, 2]}}}]\n" 'needs seeds'
 bad "${common}seeds: [0.5]\nsystems: [{system: line.yaml, set: {k: {between: [1, 2]}}}]\n" \
     'bad.yaml:5:8: seeds: 0.5 is not an integer'
 bad "${common}seeds: 1\nsystems: [{system: line.yaml, set: {k: {between: [2, 1]}}}]\n" \

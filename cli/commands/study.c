@@ -1,9 +1,9 @@
 /* study.c - `dalembert study`: systems x integrators x steps x starts, in tables and files. */
-#include "study.h"
 #include "io/file.h"
 #include "run/pool.h"
 #include "run/run.h"
-#include "study_directory.h"
+#include "study/parsed_study.h"
+#include "study/study_directory.h"
 #include "ui/commands.h"
 #include "ui/message.h"
 #include "ui/options.h"
@@ -12,13 +12,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The study that travels inside the program: bench/studies/canonical-drift.yaml. */
+/* The study that is embedded in the program: bench/studies/canonical-drift.yaml. */
 extern const char study_builtin_text[];
 
 static const char builtin_name[] = "canonical-drift";
 static const char default_directory[] = "dalembert-study";
-
-/* ---- options ---- */
 
 typedef struct settings {
     const char *study, *output;
@@ -55,14 +53,14 @@ static const cli_option options[] = {
 };
 
 static const char notes[] = "A study file is YAML; its keys:\n"
-#define X(name, scope, help) "  " #name " (" scope "): " help "\n"
-    STUDY_KEY_LIST(X)
-#undef X
+#define KEY_HELP(name, scope, read, member, help) "  " #name " (" scope "): " help "\n"
+    STUDY_KEY_LIST(KEY_HELP)
+#undef KEY_HELP
         "\n"
         "Values are one number, a list, {from: 0, to: 1, count: 11}, {from: 0, to: 1, by: 0.1},\n"
         "or, for parameters and starts, {between: [0, 1]}: drawn, once for each of the seeds,\n"
         "as a function of seed and name alone; where something of the start is drawn, its\n"
-        "velocities are then brought onto D = 0.  Every combination of values is a system of\n"
+        "velocities are then projected to D = 0.  Every combination of values is a system of\n"
         "the study, called LABEL_name=value.\n"
         "\n"
         "expect: label, system or all; then integrator, all, or all+project; then quantity: a\n"
@@ -70,7 +68,8 @@ static const char notes[] = "A study file is YAML; its keys:\n"
         "or\n"
         "a mapping of size:, trend:, max:, deviation:, final:, amplitude:, rate:, rate_low:,\n"
         "rate_high:, exponent:, confidence: with such bounds, and step: or start: for those\n"
-        "cells alone; or a list of mappings.  D is the worst of the constraints; state is done,\n"
+        "cells alone; or a list of mappings.  D is the constraint with the largest max |D|; state "
+        "is done,\n"
         "failed or refused.  Exit status 1 when something is not as expected.\n"
         "\n"
         "stdout gets a table per system, step and start; DIR gets\n"
@@ -83,68 +82,36 @@ static const char notes[] = "A study file is YAML; its keys:\n"
         "  cells.csv         a row per cell\n"
         "  quantities.csv    a row per cell and quantity: first, last, max |x|, max |x - first|, "
         "and\n"
-        "                    the columns of summary.csv, from a look at every step\n"
+        "                    the columns of summary.csv, of every step\n"
         "  expectations.csv  what was expected and what was found, where something was\n"
         "  series/LABEL.csv  for figures: maxima of the rows within each hundredth of the time\n"
         "\n"
         "All but times, manifests and checkpoints are the same bytes in every run, whatever the\n"
         "number of threads, interrupted and resumed, in shards and merged.\n"
         "\n"
-        "'dalembert resume DIR' goes on with a study that was interrupted, kill -9 included;\n"
+        "'dalembert resume DIR' resumes a study after an interruption, kill -9 included;\n"
         "what is finished is not run again.  Shards may share one DIR; they print tables of\n"
         "their own cells and leave none behind: 'dalembert merge' makes these.\n"
         "\n"
-        "A cell that fails is told in its row and the study goes on; the exit status is then 3,\n"
+        "A cell that fails has the message in its row and the study continues; the exit status is "
+        "then 3,\n"
         "unless the study expects it.  A cell is refused, which is no failure, where the\n"
         "integrator needs what the system lacks.\n";
 
-/* ---- running ---- */
-
-static int run_cells(study_plan *plan, const study_directory *dir, const study_run_options *how)
+/* A finished study is written over where nobody named the directory: each is there by default. */
+static int run_study(const settings *s, const char *text, size_t length)
 {
-    cli_catch_signals();
-    plan->interval = how->interval;
-    for (int i = 0; i < plan->case_count; i++) plan->cases[i].native = how->native;
-    return study_directory_finish(dir, plan, study_pool_run(plan, how->threads));
-}
-
-/* A study that is over is written over where nobody named the directory: each is so by default. */
-static int begin(const settings *w, study_directory *dir, study_plan *plan, const char *text,
-                 size_t length)
-{
-    study_directory_open(dir, w->output ? w->output : default_directory);
-    const int force = w->run.force || (!w->output && study_directory_is_finished(dir));
-    return study_directory_begin(dir, plan, text, length, w->shard, force);
-}
-
-static int run_text(const settings *w, const char *text, size_t length)
-{
-    study_plan plan = {0};
-    study_directory dir = {0};
-    const study_run_options how = {(int)w->threads, w->run.interval, w->run.native};
-    const char *name = w->study ? w->study : builtin_name;
-    int status = study_plan_read(&plan, name, text, length, NULL);
-    if (status == CLI_DONE) status = begin(w, &dir, &plan, text, length);
-    if (status == CLI_DONE) status = run_cells(&plan, &dir, &how);
+    study_plan plan;
+    study_directory dir;
+    const study_run_options how = {(int)s->threads, s->run.interval, s->run.native};
+    study_directory_open(&dir, s->output ? s->output : default_directory);
+    int status = study_plan_read(&plan, s->study ? s->study : builtin_name, text, length, NULL);
+    const int force = s->run.force || (!s->output && study_directory_is_finished(&dir));
+    if (status == CLI_DONE)
+        status = study_directory_begin(&dir, &plan, text, length, s->shard, force);
+    if (status == CLI_DONE) status = study_directory_run(&dir, &plan, &how);
     study_plan_free(&plan);
     study_directory_close(&dir);
-    return status;
-}
-
-static int run_study(const settings *w)
-{
-    size_t length = strlen(study_builtin_text);
-    char *own = w->study ? file_read(w->study, &length) : NULL;
-    if (w->study && !own) return CLI_USAGE;
-    const char *text = own ? own : study_builtin_text;
-    int status = CLI_DONE;
-    if (w->show) {
-        fwrite(text, 1, length, stdout);
-        status = cli_close(stdout, "standard output");
-    } else {
-        status = run_text(w, text, length);
-    }
-    free(own);
     return status;
 }
 
@@ -156,8 +123,20 @@ static int study(int argc, char **argv)
         {options, OPTIONS, .settings = &s},
         run_group(&s.run, RUN_OPTION(output) | RUN_OPTION(summary) | RUN_OPTION(progress)),
     };
-    const int status = cli_read_arguments(&command_study, argc, argv, groups, 2);
-    return status == CLI_GO_ON ? run_study(&s) : status;
+    int status = cli_read_arguments(&command_study, argc, argv, groups, 2);
+    if (status != CLI_GO_ON) return status;
+    size_t length = strlen(study_builtin_text);
+    char *own = s.study ? file_read(s.study, &length) : NULL;
+    if (s.study && !own) return CLI_USAGE;
+    const char *text = own ? own : study_builtin_text;
+    if (s.show) {
+        fwrite(text, 1, length, stdout);
+        status = cli_close(stdout, "standard output");
+    } else {
+        status = run_study(&s, text, length);
+    }
+    free(own);
+    return status;
 }
 
 const cli_command command_study = {
@@ -167,17 +146,3 @@ const cli_command command_study = {
     .notes = notes,
     .run = study,
 };
-
-/* ---- resuming ---- */
-
-int study_resume(const char *directory, const study_run_options *how)
-{
-    study_plan plan = {0};
-    study_directory dir = {0};
-    study_directory_open(&dir, directory);
-    int status = study_directory_read(&dir, &plan);
-    if (status == CLI_DONE) status = run_cells(&plan, &dir, how);
-    study_plan_free(&plan);
-    study_directory_close(&dir);
-    return status;
-}

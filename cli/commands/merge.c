@@ -1,0 +1,62 @@
+/* merge.c - `dalembert merge`: makes the shards of a study one. */
+#include "run/pool.h"
+#include "study/study_merge.h"
+#include "ui/commands.h"
+#include "ui/memory.h"
+#include "ui/message.h"
+#include "ui/options.h"
+
+#include <stdlib.h>
+
+enum { MAX_SOURCES = 1024 };
+
+typedef struct settings {
+    study_directory *source;
+    int sources;
+    const char *output;
+    long long threads;
+    bool force;
+} settings;
+
+static int parse_source(void *user, const cli_option *option, const char *text)
+{
+    settings *s = user;
+    (void)option;
+    if (s->sources == MAX_SOURCES)
+        return cli_fail(CLI_USAGE, "merge: more than %d directories", MAX_SOURCES);
+    study_directory_open(&s->source[s->sources++], text);
+    return CLI_DONE;
+}
+
+static const cli_option options[] = {
+    {"output", "DIR", CLI_REQUIRED,
+     "writes the whole study there; may be one of those that are merged", .parse = cli_parse_text,
+     .offset = offsetof(settings, output)},
+    POOL_THREADS_OPTION(settings, "runs read at a time"),
+    {"force", NULL, NULL, "overwrites what the directory holds, unless it is one of those",
+     .parse = cli_parse_flag, .offset = offsetof(settings, force)},
+    {NULL, "DIR...", CLI_REQUIRED, "what 'dalembert study --shard K/N --output DIR' wrote",
+     .parse = parse_source},
+};
+
+static int merge(int argc, char **argv)
+{
+    enum { OPTIONS = sizeof options / sizeof *options };
+    settings s = {.source = cli_calloc(MAX_SOURCES, sizeof *s.source), .threads = pool_threads()};
+    const cli_group group = {options, OPTIONS, .settings = &s};
+    int status = cli_read_arguments(&command_merge, argc, argv, &group, 1);
+    if (status == CLI_GO_ON)
+        status = study_merge(s.source, s.sources, s.output, (int)s.threads, s.force);
+    for (int i = 0; i < s.sources; i++) study_directory_close(&s.source[i]);
+    free(s.source);
+    return status;
+}
+
+const cli_command command_merge = {
+    .name = "merge",
+    .synopsis = "dalembert merge DIR... --output DIR [OPTION]...",
+    .about = "joins the shards of a study",
+    .notes = "Shards may share a directory.  Tables and files are, but for times, the bytes of the "
+             "study that was not divided.\n",
+    .run = merge,
+};

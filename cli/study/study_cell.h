@@ -1,0 +1,99 @@
+/* study_cell.h - one cell of a study: a run and its results. */
+#ifndef DAL_CLI_STUDY_CELL_H
+#define DAL_CLI_STUDY_CELL_H
+
+#include "dalembert_analysis.h"
+
+#include <stdint.h>
+
+struct study_case;
+struct study_plan;
+
+/* Where a cell starts.  code, word, space, what it is */
+#define STUDY_START_LIST(START)                                                                    \
+    START(PHYSICAL, "physical", "physical", "(q,v) alone")                                         \
+    START(SURFACE, "surface", "lifted", "lifted, on p = pi = 0")                                   \
+    START(DISPLACED, "displaced", "lifted", "lifted, p and pi displaced")
+
+enum {
+#define START_CODE(code, word, space, about) STUDY_##code,
+    STUDY_START_LIST(START_CODE)
+#undef START_CODE
+        STUDY_STARTS
+};
+extern const char *const study_start_words[STUDY_STARTS];
+
+/* What the figures show over time, window by window.  code, column */
+#define STUDY_TRACK_LIST(TRACK)                                                                    \
+    TRACK(D, "D")                   /* max |D_a| */                                                \
+    TRACK(E, "E")                   /* |E - E(0)| */                                               \
+    TRACK(H, "H")                   /* |H - H(0)| */                                               \
+    TRACK(P, "p")                   /* max |p| */                                                  \
+    TRACK(PI, "pi")                 /* max |pi| */                                                 \
+    TRACK(INVARIANTS, "invariants") /* max |I - I(0)| / max(1, |I(0)|) */                          \
+    TRACK(ERROR, "error")           /* against the exact solution */
+
+enum {
+#define TRACK_CODE(code, column) STUDY_TRACK_##code,
+    STUDY_TRACK_LIST(TRACK_CODE)
+#undef TRACK_CODE
+        STUDY_TRACKS
+};
+
+enum { STUDY_WINDOWS = 100, STUDY_NAME = 80 };
+
+/* Whether a cell has been run, and how that ended. */
+#define STUDY_STATE_LIST(STATE)                                                                    \
+    STATE(WAITING, "not run")                                                                      \
+    STATE(FINISHED, "done")                                                                        \
+    STATE(FAILED, "failed")   /* the run stopped early, or could not begin */                      \
+    STATE(REFUSED, "refused") /* the integrator needs what the system lacks */
+
+typedef enum study_state {
+#define STATE_CODE(code, word) STUDY_##code,
+    STUDY_STATE_LIST(STATE_CODE)
+#undef STATE_CODE
+        STUDY_STATES
+} study_state;
+extern const char *const study_state_words[STUDY_STATES];
+
+typedef struct study_cell {
+    const struct study_case *of_case;
+    const dal_method *method;
+    double step;
+    int start;
+    int other_shard; /* it belongs to another shard */
+    study_state state;
+    dal_error error;
+    double time; /* reached */
+    long long steps, evaluations;
+    double seconds; /* of the thread's processor time, in steps */
+    uint64_t bits;  /* a hash of the bits of (q,v) at all samples */
+    int observables;
+    dal_trend *trend;          /* [observables] in the order of dal_run_observe */
+    char (*names)[STUDY_NAME]; /* [observables] */
+    double (*windows)[STUDY_TRACKS];
+    int window_count;
+} study_cell;
+
+/* Forgets the results. */
+void study_cell_free(study_cell *cell);
+/* The name of a cell and of its directory in plan->runs; and that directory.  Allocated. */
+char *study_cell_name(const study_cell *cell);
+char *study_cell_directory(const struct study_plan *plan, const study_cell *cell);
+/* The trend of an observable by name, NULL for none; of the constraint with the largest D; of the
+ * invariant that moved farthest. */
+const dal_trend *study_cell_trend(const study_cell *cell, const char *name);
+const dal_trend *study_cell_constraint(const study_cell *cell);
+const dal_trend *study_cell_invariant(const study_cell *cell, const char **name);
+/* The trends that tables show, NULL where the cell has none, and the name of that invariant, or
+ * "". */
+typedef struct study_quantities {
+    const dal_trend *D, *E, *H, *p, *pi, *pi_e, *invariant, *error;
+    const char *invariant_name;
+} study_quantities;
+study_quantities study_cell_quantities(const study_cell *cell);
+/* The finished cell in (q,v) with the same method and step as one on the surface, or NULL. */
+const study_cell *study_cell_physical(const struct study_plan *plan, const study_cell *cell);
+
+#endif

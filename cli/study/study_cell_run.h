@@ -1,0 +1,21 @@
+/* study_cell_run.h - runs one cell of a study in its directory. */
+#ifndef DAL_CLI_STUDY_CELL_RUN_H
+#define DAL_CLI_STUDY_CELL_RUN_H
+
+#include "study_plan.h"
+
+/* Called now and then while a run goes: whether to stop it, with a checkpoint. */
+typedef struct study_stop_check {
+    int (*stop)(void *user);
+    void *user;
+} study_stop_check;
+
+/* Runs a cell in its directory, resumes it there, or reads its results when it is finished; without
+ * a check interruptions alone stop it.  How the run ended is in the cell; its state stays
+ * STUDY_WAITING when it was stopped.  Returns CLI_DONE; CLI_SIGNAL when it was stopped; or prints
+ * and returns an exit status.  Different cells may be run by different threads. */
+int study_cell_run(const study_plan *plan, study_cell *cell, const study_stop_check *check);
+/* Whether the run of a cell can be made: a refused one has none. */
+int study_cell_is_runnable(study_cell *cell);
+
+#endif
