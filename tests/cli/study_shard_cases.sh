@@ -166,7 +166,7 @@ says "'shard-2/systems/plane.yaml' and 'shard-1/systems/plane.yaml' differ"
 try 2 merge shard-1 nowhere --output incomplete
 says "'nowhere' holds no study"
 try 2 merge --output incomplete
-says 'the DIRs are missing'
+says 'the DIR... is missing'
 try 2 merge shard-1
 says '--output is missing'
 for shard in 0/2 3/2 2 1/x x/2 1/; do
