@@ -18,26 +18,22 @@ static const double first_weight[5] = {0.0, 4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, 
 static const double second_weight[5] = {-205.0 / 72.0, 8.0 / 5.0, -1.0 / 5.0, 8.0 / 315.0,
                                         -1.0 / 560.0};
 
-/* q', q'' of component i at the row. */
-static void differentiate_row(const double *row, int n, int i, double h, double *v, double *a)
-{
-    double first = 0.0, second = second_weight[0] * row[i];
-    for (int k = 4; k >= 1; k--) {
-        double ahead = row[i + k * n], behind = row[i - k * n];
-        first += first_weight[k] * (ahead - behind);
-        second += second_weight[k] * (ahead + behind);
-    }
-    *v = first / h;
-    *a = second / (h * h);
-}
-
 static dal_status lagrangian(dal_evaluator *evaluator, double t, double h, const double *row,
                              double *scratch, double *value)
 {
     const dal_system *s = dal_evaluator_system(evaluator);
     int n = s->n;
     double *v = scratch, *a = scratch + n, *field = scratch + 2 * n;
-    for (int i = 0; i < n; i++) differentiate_row(row, n, i, h, &v[i], &a[i]);
+    for (int i = 0; i < n; i++) {
+        double first = 0.0, second = second_weight[0] * row[i];
+        for (int k = 4; k >= 1; k--) {
+            double ahead = row[i + k * n], behind = row[i - k * n];
+            first += first_weight[k] * (ahead - behind);
+            second += second_weight[k] * (ahead + behind);
+        }
+        v[i] = first / h;
+        a[i] = second / (h * h);
+    }
     DAL_TRY(dal_evaluator_call(evaluator, s->call.field, t, row, v, NULL, field));
     *value = 0.0;
     for (int i = 0; i < n; i++) *value += (a[i] - field[i]) * (a[i] - field[i]);
@@ -127,7 +123,7 @@ dal_status dal_check_stationarity(dal_evaluator *evaluator, double t0, double h,
     *defect = 0.0;
     for (long long k = 0; k + 1 < count; k++) {
         const double *row = states + (size_t)k * size;
-        /* z = midpoint X, mean P of the interval that begins at row, and the gradient of H there. */
+        /* z = midpoint X, mean P of the interval that begins at row; the gradient of H there. */
         for (size_t i = 0; i < size; i++) w.z[i] = 0.5 * (row[i] + row[i + size]);
         w.t = t0 + h * (double)k + 0.5 * h;
         dal_measure_gradient(hamiltonian, &w, (int)size, w.z, w.gradient);

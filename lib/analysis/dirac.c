@@ -137,29 +137,6 @@ static int conserve(algebra *w, int rows, double *residue)
     return rank;
 }
 
-/* |mu - (free, mu_lambda = 0, mu_q = v)|. */
-static double multiplier_error(const algebra *w)
-{
-    double max = 0.0;
-    for (int i = 0; i < w->n; i++) {
-        max = fmax(max, fabs(w->mu[1 + i]));
-        max = fmax(max, fabs(w->mu[1 + w->n + i] - w->z[w->n + i]));
-    }
-    return max;
-}
-
-/* On the primary surface, off the secondary one: p = lambda and pi of order 1. */
-static void leave_surface(algebra *w)
-{
-    dal__random random = {3};
-    int n = w->n;
-    double *lambda = w->z + 2 * n, *p = w->z + w->pairs, *pi = p + n;
-    for (int i = 0; i < n; i++) {
-        lambda[i] = p[i] = dal__uniform(&random);
-        pi[i] = 0.5 + 0.25 * dal__uniform(&random);
-    }
-}
-
 static dal_status analyse(algebra *w, dal_dirac *out)
 {
     take_gradients(w);
@@ -167,7 +144,11 @@ static dal_status analyse(algebra *w, dal_dirac *out)
         return DAL_NOT_FINITE;
     out->constraints = w->count;
     out->free_multipliers = w->primary - conserve(w, w->count, &out->conservation);
-    out->multipliers = multiplier_error(w);
+    out->multipliers = 0.0;
+    for (int i = 0; i < w->n; i++) {
+        const double mu_q = w->mu[1 + w->n + i], v = w->z[w->n + i];
+        out->multipliers = fmax(out->multipliers, fmax(fabs(w->mu[1 + i]), fabs(mu_q - v)));
+    }
     double total = hamiltonian(&w->space, w->z);
     for (int b = 0; b < w->primary; b++) total += w->mu[b] * w->space.phi(&w->space, w->z, b);
     out->hamiltonian = fabs(total);
@@ -175,7 +156,13 @@ static dal_status analyse(algebra *w, dal_dirac *out)
     out->second_class = dal__least_squares(w->count, w->count, w->matrix, NULL, NULL,
                                            rank_tolerance, NULL, w->scratch);
     out->first_class = w->count - out->second_class;
-    leave_surface(w);
+    /* On the primary surface, off the secondary one: p = lambda and pi of order 1. */
+    dal__random random = {3};
+    double *lambda = w->z + 2 * w->n, *p = w->z + w->pairs, *pi = p + w->n;
+    for (int i = 0; i < w->n; i++) {
+        lambda[i] = p[i] = dal__uniform(&random);
+        pi[i] = 0.5 + 0.25 * dal__uniform(&random);
+    }
     take_gradients(w);
     conserve(w, w->primary, &out->secondary);
     return DAL_OK;

@@ -257,20 +257,6 @@ static dal_status run_beginning(comparisons *w)
 
 /* ---- the whole ---- */
 
-/* Rates of parts add up to that of the whole, so they are those of least squares, which are linear
- * in the values. */
-static void use_linear_rates(const comparisons *w, int which)
-{
-    for (int i = 0; i < w->of->observables; i++) {
-        dal_trend *const f = trends(w, which) + i;
-        dal_trend line = *f;
-        dal__trend_line(series(w, which) + i, &line);
-        f->rate = line.rate;
-        f->rate_low = fmin(f->rate_low, line.rate);
-        f->rate_high = fmax(f->rate_high, line.rate);
-    }
-}
-
 static void find_shares(comparisons *w, const dal_run *run)
 {
     static const int parts[] = {DAL__FIRST_RUN,          DAL__FIRST_ROUNDING,
@@ -279,7 +265,17 @@ static void find_shares(comparisons *w, const dal_run *run)
     for (int which = 0; which < DAL__SERIES; which++)
         if (w->of->observables > 0 && series(w, which)->count > 0)
             dal_run_classify(run, series(w, which), 0, trends(w, which));
-    for (size_t i = 0; i < sizeof parts / sizeof parts[0]; i++) use_linear_rates(w, parts[i]);
+    /* Rates of parts add up to that of the whole, so they are those of least squares, which are
+     * linear in the values. */
+    for (size_t k = 0; k < sizeof parts / sizeof parts[0]; k++)
+        for (int i = 0; i < w->of->observables; i++) {
+            dal_trend *const f = trends(w, parts[k]) + i;
+            dal_trend line = *f;
+            dal__trend_line(series(w, parts[k]) + i, &line);
+            f->rate = line.rate;
+            f->rate_low = fmin(f->rate_low, line.rate);
+            f->rate_high = fmax(f->rate_high, line.rate);
+        }
     for (int i = 0; i < w->of->observables; i++) {
         dal_shares *s = &w->of->shares[i];
         s->whole = trends(w, DAL__WHOLE_RUN)[i];

@@ -98,19 +98,6 @@ void dal_order_slopes(dal_order *o, double noise)
         o->order = o->slope[last];
 }
 
-static dal_status compare_levels(const dal_run_spec *spec, double T, const double *reference,
-                                 size_t count, double *state, dal_order *o, dal_error *error)
-{
-    for (int i = 0; i < o->levels; i++) {
-        dal_run_spec level = *spec;
-        o->step[i] = level.options.step = ldexp(spec->options.step, -i);
-        DAL_TRY(state_at(&level, T, state, &o->evaluations[i], error));
-        o->error[i] = dal__distance(reference, state, count);
-    }
-    dal_order_slopes(o, 0.0);
-    return DAL_OK;
-}
-
 dal_status dal_measure_order(const dal_run_spec *spec, double T, int levels,
                              const dal_method *reference_method, const double *reference,
                              dal_order *order, dal_error *error)
@@ -132,8 +119,13 @@ dal_status dal_measure_order(const dal_run_spec *spec, double T, int levels,
         status = reference_state(spec, T, levels, reference_method, block, error);
         reference = block;
     }
-    if (status == DAL_OK)
-        status = compare_levels(spec, T, reference, count, block + count, order, error);
+    for (int i = 0; i < levels && status == DAL_OK; i++) {
+        dal_run_spec level = *spec;
+        order->step[i] = level.options.step = ldexp(spec->options.step, -i);
+        status = state_at(&level, T, block + count, &order->evaluations[i], error);
+        if (status == DAL_OK) order->error[i] = dal__distance(reference, block + count, count);
+    }
+    if (status == DAL_OK) dal_order_slopes(order, 0.0);
     free(block);
     return status;
 }

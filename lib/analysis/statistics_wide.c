@@ -60,15 +60,6 @@ static seen see_all(seen s, const view *v, const dal_stored *x)
     return s;
 }
 
-static void gather(const seen *s, dal__tally *tally)
-{
-    for (int lane = 0; lane < DAL_LANES; lane++) {
-        const double low = dal_lane(s->min, lane), high = dal_lane(s->max, lane);
-        tally->min = low < tally->min ? low : tally->min;
-        tally->max = high > tally->max ? high : tally->max;
-    }
-}
-
 bool DAL_WIDE(dal__tally_packs)(dal__tally *tally, double first, int phase, int packs,
                                 const double *values)
 {
@@ -89,7 +80,11 @@ bool DAL_WIDE(dal__tally_packs)(dal__tally *tally, double first, int phase, int 
         part[i] = s[i].sum;
         rough[i] = s[i].rough;
         held[i] = s[i].held;
-        gather(&s[i], tally);
+        for (int lane = 0; lane < DAL_LANES; lane++) {
+            const double low = dal_lane(s[i].min, lane), high = dal_lane(s[i].max, lane);
+            tally->min = low < tally->min ? low : tally->min;
+            tally->max = high > tally->max ? high : tally->max;
+        }
     }
     return true;
 }

@@ -219,10 +219,13 @@ static dal_status start_tangent(pairing *w, const double *direction, dal_error *
     return status;
 }
 
-/* The spec with e = infinity instead of any other e; its settings are in start[start_count + 1]. */
-static dal_run_spec without_gauge(const dal_run_spec *spec, dal_setting *start)
+static dal_status open_pairing(pairing *w, const dal_run_spec *spec, const dal_system *tangent,
+                               dal_error *error)
 {
-    dal_run_spec adjoint = *spec;
+    dal_setting *start = calloc((size_t)spec->start_count + 1, sizeof *start);
+    if (start == NULL) return dal__fail(error, DAL_MEMORY, "pairing: out of memory");
+    dal_run_spec adjoint = *spec, physical = *spec;
+    /* e = infinity instead of any other e. */
     int count = 0;
     for (int i = 0; i < spec->start_count; i++)
         if (strcmp(spec->start[i].name, "e") != 0) start[count++] = spec->start[i];
@@ -230,15 +233,6 @@ static dal_run_spec without_gauge(const dal_run_spec *spec, dal_setting *start)
     adjoint.start = start;
     adjoint.start_count = count;
     adjoint.options.space = DAL_LIFTED;
-    return adjoint;
-}
-
-static dal_status open_pairing(pairing *w, const dal_run_spec *spec, const dal_system *tangent,
-                               dal_error *error)
-{
-    dal_setting *start = calloc((size_t)spec->start_count + 1, sizeof *start);
-    if (start == NULL) return dal__fail(error, DAL_MEMORY, "pairing: out of memory");
-    dal_run_spec adjoint = without_gauge(spec, start), physical = *spec;
     physical.system = tangent;
     physical.options.space = DAL_PHYSICAL;
     physical.start_count = 0;

@@ -83,19 +83,6 @@ static double difference_ratio(const dal__trend_series *s)
     return square / (2.0 * (s->count - 1)) * (double)s->length / (within * within);
 }
 
-static void measure_spread(description *p)
-{
-    const double within = within_blocks(&p->series);
-    double mean = 0.0, square = 0.0;
-    for (int m = 0; m < DAL__BINS; m++) mean += p->bins.mean[m] / DAL__BINS;
-    for (int m = 0; m < DAL__BINS; m++) {
-        const double d = p->bins.mean[m] - mean;
-        square += d * d / DAL__BINS;
-        p->wandering = fmax(p->wandering, fabs(d));
-    }
-    p->spread = sqrt(within * within + square);
-}
-
 /* Weighs the series as it is, and without tones where it has some. */
 static void describe(description *p)
 {
@@ -106,7 +93,15 @@ static void describe(description *p)
     dal__bins bins;
     dal__evidence evidence;
     dal__trend_bin(&p->series, &p->bins);
-    measure_spread(p);
+    const double within = within_blocks(&p->series);
+    double mean = 0.0, square = 0.0;
+    for (int m = 0; m < DAL__BINS; m++) mean += p->bins.mean[m] / DAL__BINS;
+    for (int m = 0; m < DAL__BINS; m++) {
+        const double d = p->bins.mean[m] - mean;
+        square += d * d / DAL__BINS;
+        p->wandering = fmax(p->wandering, fabs(d));
+    }
+    p->spread = sqrt(within * within + square);
     dal__trend_weigh(&p->bins, odds, &p->evidence);
     p->growth = dal__trend_growth(&p->series);
     p->small_drift = ratio > memory_ratio ? small_beside_memory : small_drift;

@@ -92,17 +92,6 @@ static void add_weight(dal__evidence *e, dal__meaning meaning, int shape, double
     e->shape[shape] += weight;
 }
 
-/* sum (Y_j - size X_j)^2/v_j, which a difference of sums would lose among roundings. */
-static double line_residue(const dal__bins *b, const dal__noise *n, double size)
-{
-    double sum = 0.0;
-    for (int j = 0; j < DAL__WAVES; j++) {
-        const double r = b->wave[j] - size * dal__shape_wave[j][DAL__LINEAR_SHAPE];
-        sum += n->precision[j] * r * r;
-    }
-    return sum;
-}
-
 /* The straight line, for its interval: its shape is exact. */
 static void weigh_line(const dal__bins *b, int k, const noise_state *s, double xy, dal__evidence *e)
 {
@@ -110,7 +99,13 @@ static void weigh_line(const dal__bins *b, int k, const noise_state *s, double x
     const double xx = dal__shape_square[k][DAL__LINEAR_SHAPE], size = xy / xx;
     const double end_to_end = DAL__BINS / (DAL__BINS - 1.0); /* a shape is 1 from bin to bin */
     const double rest = s->square - size * xy, error = fmax(b->rounding, b->error);
-    const double own = line_residue(b, n, size) + error * error * n->precision_sum;
+    /* sum (Y_j - size X_j)^2/v_j: a difference of sums would lose it among roundings. */
+    double residue = 0.0;
+    for (int j = 0; j < DAL__WAVES; j++) {
+        const double r = b->wave[j] - size * dal__shape_wave[j][DAL__LINEAR_SHAPE];
+        residue += n->precision[j] * r * r;
+    }
+    const double own = residue + error * error * n->precision_sum;
     const double price = line_price(b, size, sqrt(rest / (b->freedom - 1.0) / xx));
     e->drift[k] = end_to_end * size;
     e->drift_deviation[k] = end_to_end * sqrt(own / (b->freedom - 1.0) / xx);

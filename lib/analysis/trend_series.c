@@ -223,23 +223,18 @@ static bool add_tone(tone_fit *f, const double *x)
     return false;
 }
 
-static void subtract_tones(series *s, const tone_fit *f)
-{
-    for (int l = 0; l < f->tones; l++) {
-        double c[DAL_STATISTICS_BLOCKS], d[DAL_STATISTICS_BLOCKS];
-        fill_tone(f->n, f->angle[l], c, d);
-        for (int i = 0; i < f->n; i++) s->mean[i] -= f->a[l] * c[i] + f->b[l] * d[i];
-    }
-    s->tones = f->tones;
-}
-
 void dal__trend_remove_tones(series *s)
 {
     tone_fit f = {.n = s->count};
     fill_polynomials(&f);
     newton_step(&f, s->mean);
     while (f.tones < DAL__TONES && add_tone(&f, s->mean)) continue;
-    if (f.tones > 0) subtract_tones(s, &f);
+    for (int l = 0; l < f.tones; l++) {
+        double c[DAL_STATISTICS_BLOCKS], d[DAL_STATISTICS_BLOCKS];
+        fill_tone(f.n, f.angle[l], c, d);
+        for (int i = 0; i < f.n; i++) s->mean[i] -= f.a[l] * c[i] + f.b[l] * d[i];
+    }
+    if (f.tones > 0) s->tones = f.tones;
 }
 
 /* ---- bins ---- */
