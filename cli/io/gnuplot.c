@@ -68,15 +68,6 @@ FILE *gnuplot_open(const char *directory, const char *name, const char *format, 
     return script;
 }
 
-/* A child ends with its parent, where the system can see to that. */
-static void end_with(pid_t parent)
-{
-#ifdef __linux__
-    prctl(PR_SET_PDEATHSIG, SIGTERM);
-#endif
-    if (getppid() != parent) _exit(1);
-}
-
 static int run(const char *directory, const char *path, int *missing)
 {
     const char *slash = strrchr(path, '/'), *script = slash ? slash + 1 : path;
@@ -86,7 +77,11 @@ static int run(const char *directory, const char *path, int *missing)
     pid_t child = fork();
     if (child < 0) return cli_io("run", "gnuplot");
     if (child == 0) {
-        end_with(parent);
+        /* The child ends with its parent. */
+#ifdef __linux__
+        prctl(PR_SET_PDEATHSIG, SIGTERM);
+#endif
+        if (getppid() != parent) _exit(1);
         if (chdir(directory) == 0) execlp("gnuplot", "gnuplot", script, (char *)NULL);
         _exit(errno == ENOENT ? NOT_FOUND : 1);
     }
@@ -107,7 +102,7 @@ static const char style[] =
     "[fill='black'], [fill='rgb(  0,   0,   0)'] { fill: #e4e4e4; }\n"
     "[color='black'], [color='rgb(  0,   0,   0)'] { color: #e4e4e4; } }</style>\n";
 
-/* Puts the style in the place of gnuplot's title. */
+/* Replaces gnuplot's title by the style. */
 static int put_style(const char *path)
 {
     static const char title[] = "<title>Gnuplot</title>\n", end[] = "</desc>\n";

@@ -4,18 +4,18 @@
 
 #include <stdio.h>
 
-/* Begins DIR/NAME.gp with the terminal, the output NAME.FORMAT (svg or png) and the house's look;
- * *path is the script's, to be freed.  NULL when a message was given. */
+/* Begins DIR/NAME.gp with the terminal, the output NAME.FORMAT (svg or png) and the common style;
+ * free *path, that of the script.  NULL after a message. */
 FILE *gnuplot_open(const char *directory, const char *name, const char *format, int width,
                    int height, char **path);
 /* Closes the script and runs gnuplot on it in DIR; an SVG figure has no background and is readable
- * in light and dark.  Returns CLI_DONE, or prints and returns an exit
- * status; *missing is 1 then where there is no gnuplot at all. */
+ * in light and dark.  Returns CLI_DONE, or prints and returns an exit status; *missing is 1 where
+ * there is no gnuplot. */
 int gnuplot_draw(const char *directory, FILE *script, const char *path, int *missing);
 /* A string of gnuplot, in quotes. */
 void gnuplot_quote(FILE *script, const char *text);
 /* The colours of the curves, one after the other; and as "lc rgb C dt D" for more curves than
- * colours, told apart by dashes. */
+ * colours, which dashes distinguish. */
 enum { GNUPLOT_COLOURS = 8 };
 const char *gnuplot_colour(int i);
 void gnuplot_style(FILE *script, int i);

@@ -40,7 +40,7 @@ static int length_of(const unsigned char *s)
     return 0;
 }
 
-/* The code of a character of at most three bytes, which is what \uXXXX can tell. */
+/* The code of a character of at most three bytes, as \uXXXX has it. */
 static unsigned code_of(const unsigned char *s, int length)
 {
     if (length == 1) return s[0];

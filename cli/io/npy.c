@@ -18,58 +18,37 @@
 #include <string.h>
 #include <sys/stat.h>
 
-enum { PREFIX_1 = 10, PREFIX_2 = 12, MOST_1 = 65535 };
+enum { PREFIX_1 = 10, PREFIX_2 = 12, MAX_LENGTH_1 = 65535 };
 
 static const char magic[] = "\x93NUMPY";
 enum { MAGIC = sizeof magic - 1 };
 
 /* ---- writing ------------------------------------------------------------------------------- */
 
-static void put_names(FILE *out, char *const *names, int columns)
+void npy_make_header(npy_header *header, char *const *names, int columns)
 {
+    char *text;
+    size_t length, prefix = PREFIX_1;
+    FILE *out = cli_memstream_open(&text, &length);
     fputs("{'descr': [", out);
     for (int i = 0; i < columns; i++) {
         const char quote = strchr(names[i], '\'') ? '"' : '\'';
         fprintf(out, "%s(%c%s%c, '<f8')", i ? ", " : "", quote, names[i], quote);
     }
     fputs("], 'fortran_order': False,", out);
-}
-
-static size_t round_up(size_t n) { return (n + NPY_LINE - 1) / NPY_LINE * NPY_LINE; }
-
-/* The lowest byte comes first. */
-static void put_length(char *bytes, size_t length, int count)
-{
-    for (int i = 0; i < count; i++) bytes[i] = (char)(length >> 8 * i & 0xff);
-}
-
-static void place(npy_header *header, const char *names, size_t length)
-{
-    size_t prefix = PREFIX_1;
-    header->length = round_up(prefix + length) + NPY_LINE;
-    if (header->length - prefix > MOST_1) {
+    cli_memstream_close(out);
+    if ((prefix + length + 2 * NPY_LINE - 1) / NPY_LINE * NPY_LINE - prefix > MAX_LENGTH_1)
         prefix = PREFIX_2;
-        header->length = round_up(prefix + length) + NPY_LINE;
-    }
-    header->text = cli_malloc(header->length);
-    memset(header->text, ' ', header->length);
+    const size_t size = (prefix + length + 2 * NPY_LINE - 1) / NPY_LINE * NPY_LINE;
+    *header = (npy_header){cli_malloc(size), size};
+    memset(header->text, ' ', size);
     memcpy(header->text, magic, MAGIC);
     header->text[MAGIC] = prefix == PREFIX_1 ? 1 : 2;
     header->text[MAGIC + 1] = 0;
-    put_length(header->text + MAGIC + 2, header->length - prefix, (int)prefix - MAGIC - 2);
-    memcpy(header->text + prefix, names, length);
+    for (size_t i = MAGIC + 2; i < prefix; i++)
+        header->text[i] = (char)((size - prefix) >> 8 * (i - MAGIC - 2) & 0xff);
+    memcpy(header->text + prefix, text, length);
     npy_set_rows(header, 0);
-}
-
-void npy_make_header(npy_header *header, char *const *names, int columns)
-{
-    char *text;
-    size_t length;
-    *header = (npy_header){0};
-    FILE *out = cli_memstream_open(&text, &length);
-    put_names(out, names, columns);
-    cli_memstream_close(out);
-    place(header, text, length);
     free(text);
 }
 

@@ -7,18 +7,18 @@
 
 enum { NPY_LINE = 64 };
 
-/* What such a file begins with. */
+/* The beginning of such a file. */
 typedef struct npy_header {
-    char *text;    /* [length], allocated; its last NPY_LINE bytes alone tell of the rows */
+    char *text;    /* [length], allocated; its last NPY_LINE bytes have the number of rows */
     size_t length; /* where the rows begin */
 } npy_header;
 
-/* Returns CLI_DONE or prints and returns CLI_IO. */
+/* Makes the header of a file without rows; free its text. */
 void npy_make_header(npy_header *header, char *const *names, int columns);
-/* Puts a number of rows into it. */
+/* Writes the number of rows into it. */
 void npy_set_rows(npy_header *header, long long rows);
 
-/* The names are pieces of one text, names[0], and to be freed with it: npy_free_columns. */
+/* The names are pieces of one text, which names[0] owns. */
 typedef struct npy_columns {
     char **names;
     int columns;
@@ -31,8 +31,8 @@ typedef struct npy_columns {
 int npy_read_header(npy_columns *columns, FILE *file, const char *path);
 void npy_free_columns(npy_columns *columns);
 
-/* Numbers as they stand in such a file, eight bytes each, and back.  Zero has no sign there and
- * what is not a number one form, for equal runs to give equal files. */
+/* Numbers as they are in such a file, eight bytes each, and back.  Zero has no sign there and not a
+ * number one form, so that equal runs give equal files. */
 void npy_encode(unsigned char *bytes, const double *values, int count);
 void npy_decode(const unsigned char *bytes, double *values, int count);
 

@@ -1,14 +1,13 @@
-/* trajectory_writer.c - tables of doubles as CSV or .npy.
+/* trajectory_writer.c - rows of doubles as CSV or .npy.
  *
- * A .npy file grows: rows are gathered and written many at a time, and only then the header tells
- * of them, so that whatever kills the process leaves a file that can be read.
+ * A .npy file grows: rows are collected and written many at a time, and the header gets their
+ * number afterwards, so that the file can be read whatever ends the process.
  *
  * The sum of rows takes word number i, 64 bits, into lane i mod 4,
  *
  *     s <- (rotate(s, 23) xor word) K,
  *
- * with K odd, so that any one word that changes changes it, and four words are under way at once.
- */
+ * with K odd, so that a change of any one word changes it; the four lanes are independent. */
 #include "trajectory_writer.h"
 #include "endian.h"
 #include "output.h"
@@ -37,9 +36,9 @@ static uint64_t mix(uint64_t sum, uint64_t word)
     return ((sum << 23 | sum >> 41) ^ word) * UINT64_C(0x9e3779b97f4a7c15);
 }
 
-static void add_word(row_sum *sum, long long place, const unsigned char *bytes)
+static void add_word(row_sum *sum, long long i, const unsigned char *bytes)
 {
-    uint64_t *lane = &sum->lane[(uint64_t)place % ROW_SUM_LANES];
+    uint64_t *lane = &sum->lane[(uint64_t)i % ROW_SUM_LANES];
     *lane = mix(*lane, read_le64(bytes));
 }
 
@@ -88,8 +87,8 @@ static int write_at(int descriptor, const void *bytes, size_t length, off_t plac
     return 1;
 }
 
-/* The last line of the header, which alone changes. */
-static int announce(trajectory_writer *writer)
+/* Writes the number of rows into the last line of the header, which alone changes. */
+static int write_rows_number(trajectory_writer *writer)
 {
     const size_t place = writer->header.length - NPY_LINE;
     size_t written;
@@ -98,7 +97,7 @@ static int announce(trajectory_writer *writer)
                     &written);
 }
 
-/* Writes the rows that wait.  Of a write that fails the whole rows count. */
+/* Writes the pending rows.  Of a write that fails the whole rows count. */
 static int flush(trajectory_writer *writer)
 {
     size_t written;
@@ -112,29 +111,9 @@ static int flush(trajectory_writer *writer)
     writer->rows += whole;
     writer->pending = 0;
     if (done) return CLI_DONE;
-    announce(writer);
+    write_rows_number(writer);
     errno = reason;
     return failed(writer);
-}
-
-static int begin_anew(trajectory_writer *writer)
-{
-    size_t written;
-    writer->rows = 0;
-    writer->sum = (row_sum){{0}};
-    npy_set_rows(&writer->header, 0);
-    if (ftruncate(writer->descriptor, 0) == 0 &&
-        write_at(writer->descriptor, writer->header.text, writer->header.length, 0, &written))
-        return CLI_DONE;
-    return failed(writer);
-}
-
-static void make_buffer(trajectory_writer *writer, char *const *names)
-{
-    const size_t rows = BUFFER_BYTES / row_bytes(writer);
-    writer->capacity = rows ? (long long)rows : 1;
-    writer->buffer = cli_malloc((size_t)writer->capacity * row_bytes(writer));
-    npy_make_header(&writer->header, names, writer->columns);
 }
 
 void writer_attach(trajectory_writer *writer, const char *path, int descriptor, char *const *names,
@@ -142,20 +121,13 @@ void writer_attach(trajectory_writer *writer, const char *path, int descriptor, 
 {
     *writer =
         (trajectory_writer){.path = path, .columns = columns, .descriptor = descriptor, .rows = -1};
-    make_buffer(writer, names);
+    const size_t rows = BUFFER_BYTES / row_bytes(writer);
+    writer->capacity = rows ? (long long)rows : 1;
+    writer->buffer = cli_malloc((size_t)writer->capacity * row_bytes(writer));
+    npy_make_header(&writer->header, names, columns);
 }
 
-static int other_columns(const trajectory_writer *writer)
-{
-    const size_t length = writer->header.length - NPY_LINE;
-    char *text = cli_malloc(length);
-    const int other = pread(writer->descriptor, text, length, 0) != (ssize_t)length ||
-                      memcmp(text, writer->header.text, length) != 0;
-    free(text);
-    return other;
-}
-
-/* Reads the first rows, bufferful by bufferful, and gives their sum. */
+/* Reads the first rows, one buffer after the other, and gives their sum. */
 static int sum_rows(const trajectory_writer *writer, long long rows, row_sum *sum)
 {
     *sum = (row_sum){{0}};
@@ -165,7 +137,7 @@ static int sum_rows(const trajectory_writer *writer, long long rows, row_sum *su
         const ssize_t n = pread(writer->descriptor, writer->buffer, length, place_of(writer, row));
         if (n < 0) return cli_io("read", writer->path);
         if ((size_t)n < length)
-            return cli_fail(CLI_USAGE, "'%s': shorter than the %lld rows its checkpoint tells of",
+            return cli_fail(CLI_USAGE, "'%s' has fewer rows than the %lld of its checkpoint",
                             writer->path, rows);
         add_words(sum, row * writer->columns, writer->buffer, count * writer->columns);
     }
@@ -176,7 +148,12 @@ int writer_verify(const trajectory_writer *writer, long long rows, const row_sum
 {
     row_sum found;
     if (rows == 0) return CLI_DONE;
-    if (other_columns(writer))
+    const size_t length = writer->header.length - NPY_LINE;
+    char *text = cli_malloc(length);
+    const int same = pread(writer->descriptor, text, length, 0) == (ssize_t)length &&
+                     memcmp(text, writer->header.text, length) == 0;
+    free(text);
+    if (!same)
         return cli_fail(CLI_USAGE, "'%s': its columns are not those of the run", writer->path);
     const int status = sum_rows(writer, rows, &found);
     if (status != CLI_DONE || memcmp(&found, sum, sizeof found) == 0) return status;
@@ -186,56 +163,33 @@ int writer_verify(const trajectory_writer *writer, long long rows, const row_sum
 
 int writer_continue(trajectory_writer *writer, long long rows, const row_sum *sum)
 {
-    if (rows == 0) return begin_anew(writer);
+    size_t written;
     writer->rows = rows;
     writer->sum = *sum;
-    if (ftruncate(writer->descriptor, place_of(writer, rows)) != 0 || !announce(writer))
+    const off_t end = rows > 0 ? place_of(writer, rows) : 0;
+    npy_set_rows(&writer->header, rows);
+    if (ftruncate(writer->descriptor, end) != 0 ||
+        !write_at(writer->descriptor, writer->header.text, writer->header.length, 0, &written))
         return failed(writer);
     return CLI_DONE;
 }
 
-static int create_npy(trajectory_writer *writer, const char *path, char *const *names, int columns)
-{
-    const int descriptor = open(path, O_RDWR | O_CREAT | O_TRUNC, 0666);
-    if (descriptor < 0) return cli_io("write", path);
-    writer_attach(writer, path, descriptor, names, columns);
-    return begin_anew(writer);
-}
+/* ---- either -------------------------------------------------------------------------------- */
 
-static int put_row(trajectory_writer *writer, const double *values)
+int writer_create(trajectory_writer *writer, const char *path, char *const *names, int columns)
 {
-    unsigned char *place = writer->buffer + (size_t)writer->pending * row_bytes(writer);
-    npy_encode(place, values, writer->columns);
-    return ++writer->pending < writer->capacity ? CLI_DONE : flush(writer);
-}
-
-static int sync_npy(trajectory_writer *writer, int sync)
-{
-    if (flush(writer) != CLI_DONE) return CLI_IO;
-    if ((sync && fsync(writer->descriptor) != 0) || !announce(writer)) return failed(writer);
-    return CLI_DONE;
-}
-
-static int close_npy(trajectory_writer *writer)
-{
-    const int begun = writer->rows >= 0 && !writer->failed;
-    if (begun && flush(writer) == CLI_DONE && !announce(writer)) failed(writer);
-    if (close(writer->descriptor) != 0 && !writer->failed) failed(writer);
-    free(writer->header.text);
-    free(writer->buffer);
-    writer->buffer = NULL;
-    return writer->failed ? CLI_IO : CLI_DONE;
-}
-
-/* ---- CSV ----------------------------------------------------------------------------------- */
-
-static int create_csv(trajectory_writer *writer, const char *path, char *const *names)
-{
-    const int standard = strcmp(path, "-") == 0;
-    writer->path = standard ? "standard output" : path;
-    writer->file = standard ? stdout : fopen(path, "wb");
+    const int is_stdout = strcmp(path, "-") == 0;
+    *writer = (trajectory_writer){.columns = columns};
+    if (cli_ends_in(path, ".npy")) {
+        const int descriptor = open(path, O_RDWR | O_CREAT | O_TRUNC, 0666);
+        if (descriptor < 0) return cli_io("write", path);
+        writer_attach(writer, path, descriptor, names, columns);
+        return writer_continue(writer, 0, &(row_sum){{0}});
+    }
+    writer->path = is_stdout ? "standard output" : path;
+    writer->file = is_stdout ? stdout : fopen(path, "wb");
     if (!writer->file) return cli_io("write", path);
-    for (int i = 0; i < writer->columns; i++) {
+    for (int i = 0; i < columns; i++) {
         if (i) fputc(',', writer->file);
         cli_put_text(writer->file, names[i]);
     }
@@ -243,8 +197,13 @@ static int create_csv(trajectory_writer *writer, const char *path, char *const *
     return ferror(writer->file) ? failed(writer) : CLI_DONE;
 }
 
-static int put_line(trajectory_writer *writer, const double *values)
+int writer_append(trajectory_writer *writer, const double *values)
 {
+    if (!writer->file) {
+        unsigned char *place = writer->buffer + (size_t)writer->pending * row_bytes(writer);
+        npy_encode(place, values, writer->columns);
+        return ++writer->pending < writer->capacity ? CLI_DONE : flush(writer);
+    }
     for (int i = 0; i < writer->columns; i++) {
         if (i) fputc(',', writer->file);
         cli_put(writer->file, values[i]);
@@ -255,38 +214,28 @@ static int put_line(trajectory_writer *writer, const double *values)
     return CLI_DONE;
 }
 
-static int close_csv(trajectory_writer *writer)
-{
-    FILE *file = writer->file;
-    writer->file = NULL;
-    if (!writer->failed) return cli_close(file, writer->path);
-    /* The failure has been told already; closing would tell it again. */
-    if (file != stdout) fclose(file);
-    return CLI_IO;
-}
-
-/* ---- either -------------------------------------------------------------------------------- */
-
-int writer_create(trajectory_writer *writer, const char *path, char *const *names, int columns)
-{
-    *writer = (trajectory_writer){.columns = columns};
-    return cli_ends_in(path, ".npy") ? create_npy(writer, path, names, columns)
-                                     : create_csv(writer, path, names);
-}
-
-int writer_append(trajectory_writer *writer, const double *values)
-{
-    return writer->file ? put_line(writer, values) : put_row(writer, values);
-}
-
 int writer_sync(trajectory_writer *writer, int sync)
 {
-    if (!writer->file) return sync_npy(writer, sync);
-    return fflush(writer->file) == 0 ? CLI_DONE : failed(writer);
+    if (writer->file) return fflush(writer->file) == 0 ? CLI_DONE : failed(writer);
+    if (flush(writer) != CLI_DONE) return CLI_IO;
+    if (sync && fsync(writer->descriptor) != 0) return failed(writer);
+    return write_rows_number(writer) ? CLI_DONE : failed(writer);
 }
 
 int writer_close(trajectory_writer *writer)
 {
-    if (writer->file) return close_csv(writer);
-    return writer->buffer ? close_npy(writer) : CLI_DONE;
+    FILE *file = writer->file;
+    writer->file = NULL;
+    if (file && !writer->failed) return cli_close(file, writer->path);
+    /* A failure was printed already; cli_close would print it again. */
+    if (file && file != stdout) fclose(file);
+    if (file) return CLI_IO;
+    if (!writer->buffer) return CLI_DONE;
+    const int has_begun = writer->rows >= 0 && !writer->failed;
+    if (has_begun && flush(writer) == CLI_DONE && !write_rows_number(writer)) failed(writer);
+    if (close(writer->descriptor) != 0 && !writer->failed) failed(writer);
+    free(writer->header.text);
+    free(writer->buffer);
+    writer->buffer = NULL;
+    return writer->failed ? CLI_IO : CLI_DONE;
 }

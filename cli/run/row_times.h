@@ -16,7 +16,7 @@ const char *step_error(double step, double time, char text[STEP_ERROR_SIZE]);
 /* Checks --step of a request by it. */
 int row_times_check_step(const run_request *request, double time);
 /* Parses the value of --times, a list or a file with one, for a request. */
-cli_parser row_times_parse;
+int row_times_parse(void *request, const cli_option *option, const char *given);
 /* Fills row_time of a request that has all its options, and checks the step. */
 int row_times_fill(run_request *request);
 

@@ -120,7 +120,7 @@ static int create_run(cell_run *r)
 
 /* ---- results ---- */
 
-static int find(const study_cell *c, const char *name)
+static int find_observable(const study_cell *c, const char *name)
 {
     for (int i = 0; i < c->observables; i++)
         if (strcmp(c->names[i], name) == 0) return i;
@@ -144,10 +144,10 @@ static void take_trends(cell_run *r)
     }
     r->n = c->of_case->system->n;
     r->m = c->of_case->system->m;
-    r->energy = find(c, "E");
-    r->hamiltonian = find(c, "H");
-    r->momenta = find(c, "|p|");
-    r->error = find(c, "error");
+    r->energy = find_observable(c, "E");
+    r->hamiltonian = find_observable(c, "H");
+    r->momenta = find_observable(c, "|p|");
+    r->error = find_observable(c, "error");
     r->invariants = c->observables - c->of_case->system->invariants - (r->error >= 0);
 }
 
