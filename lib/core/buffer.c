@@ -42,7 +42,7 @@ void dal__buffer_print(dal__buffer *buffer, const char *format, ...)
     const int length = vsnprintf(line, sizeof line, format, arguments);
     va_end(arguments);
     if (length < 0 || (size_t)length >= sizeof line)
-        buffer->out_of_memory = true; /* no caller writes so much at once */
+        buffer->out_of_memory = true; /* no caller prints more at once */
     else
         dal__buffer_append_bytes(buffer, line, (size_t)length);
 }

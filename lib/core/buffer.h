@@ -6,8 +6,8 @@
 #include <stdbool.h>
 #include <stddef.h>
 
-/* Begins as {0}; bytes always ends in a NUL once something was added.  When memory is out it
- * remembers that, and whatever is added later is lost. */
+/* Begins as {0}; bytes always ends in a NUL once something was added.  When memory is out,
+ * out_of_memory is set and further additions are ignored. */
 typedef struct dal__buffer {
     char *bytes;
     size_t length, capacity;

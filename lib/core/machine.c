@@ -1,4 +1,4 @@
-/* machine.c - what this machine can do. */
+/* machine.c - the instruction sets of this machine. */
 #include "core/machine.h"
 
 bool dal__machine_has(dal__instructions set)

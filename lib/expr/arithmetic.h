@@ -1,8 +1,8 @@
 /* arithmetic.h - what each operation computes from a (and b), over num.
  *
  * The one list behind constant folding, dal__evaluate and the tapes, so that they agree in every
- * bit.  The library is compiled without contraction: what is fused stands in DAL__FUSED_LIST, and
- * which sums are is decided by dal__lower. */
+ * bit.  The library is compiled without contraction: fused operations are those of DAL__FUSED_LIST,
+ * and dal__lower chooses the sums that use them. */
 #ifndef DAL_EXPR_ARITHMETIC_H
 #define DAL_EXPR_ARITHMETIC_H
 
@@ -34,7 +34,7 @@
     OP(POW, dal_pow(a, b))                                                                         \
     OP(ATAN2, dal_atan2(a, b))
 
-/* A sum that takes a product into itself: one rounding. */
+/* A sum and a product, with one rounding. */
 #define DAL__FUSED_LIST(OP)                                                                        \
     OP(MUL_ADD, dal_fma(a, b, c))                                                                  \
     OP(MUL_SUB, dal_fma(a, b, -c))                                                                 \

@@ -115,7 +115,7 @@ static int position(const int *symbols, int count, int symbol)
     return k;
 }
 
-/* Marks what f is made of and depends on one of the symbols; as dal__reach. [alloc] */
+/* Marks the nodes between f and the symbols, as dal__reach does. [alloc] */
 static uint8_t *between(dal__graph *graph, dal__node f, const int *symbols, int count)
 {
     uint8_t *mark = dal__reach(graph, f);

@@ -4,7 +4,7 @@
 
 #include "expr/graph.h"
 
-/* Of f by each symbol (reverse mode, one sweep), out[count]; and along a direction:
+/* The derivatives of f by each symbol (reverse mode, one sweep), out[count]; and along a direction:
  * sum_i df/dsymbol_i * seed_i (forward mode). */
 void dal__gradient(dal__graph *graph, dal__node f, const int *symbols, int count, dal__node *out);
 dal__node dal__tangent(dal__graph *graph, dal__node f, const int *symbols, int count,

@@ -1,7 +1,7 @@
 /* emit.c - programs as straight-line C over num: the arithmetic of the tape, written out.
  *
- * Every result is a constant of its own, x1, x2, ...; parameters and what is made of them alone
- * are DAL_WORK(place), with their places in work. */
+ * Every result is a constant x1, x2, ... of its own; parameters and hoisted nodes are
+ * DAL_WORK(place), with their places in work. */
 #include "expr/emit.h"
 #include "expr/arithmetic.h"
 #include "expr/traversal.h"

@@ -12,8 +12,8 @@
  * of quotients is one quotient, and x/c is (1/c)*x wherever 1/c costs nothing in accuracy or in
  * time.
  *
- * When memory is out or the graph grows past its limit, the graph remembers it: nodes made from
- * then on are 0, and every function accepts node 0. */
+ * When memory is out or the graph exceeds its limit, its status says so: nodes made from then on
+ * are 0, and every function accepts node 0. */
 #ifndef DAL_EXPR_GRAPH_H
 #define DAL_EXPR_GRAPH_H
 
@@ -75,25 +75,25 @@ typedef struct dal__graph {
     dal_status status; /* DAL_OK, DAL_MEMORY or DAL_TOO_LARGE */
 } dal__graph;
 
-/* Symbols below parameters are constant along a run: what is made of them and of numbers alone is
- * collected into coefficients, and dividing by it becomes multiplying by a reciprocal.  NULL: out
- * of memory. [alloc] */
+/* Symbols below parameters are constant along a run: nodes that depend on them alone are collected
+ * into coefficients, and dividing by one becomes multiplying by a reciprocal.  NULL: out of memory.
+ * [alloc] */
 dal__graph *dal__graph_create(int parameters);
 void dal__graph_free(dal__graph *graph);
 
 dal__node dal__number(dal__graph *graph, double value);
 dal__node dal__symbol(dal__graph *graph, int symbol); /* symbol >= 0, numbered by the caller */
-/* The node with exactly these parts, made where it is missing; no simplification. */
+/* The node with exactly this operation and operands, made if missing; no simplification. */
 dal__node dal__intern(dal__graph *graph, dal__op op, dal__node a, dal__node b);
-/* The same, or 0 where it is missing; the node of a symbol, likewise. */
+/* The same, or 0 if missing; the node of a symbol, likewise. */
 dal__node dal__find(const dal__graph *graph, dal__op op, dal__node a, dal__node b);
 dal__node dal__find_symbol(const dal__graph *graph, int symbol);
 
 dal__record dal__inspect(const dal__graph *graph, dal__node node);
 bool dal__is_number(const dal__graph *graph, dal__node node, double value);
 
-/* Zeros for each node up to this one, [node + 1] of size bytes; NULL when memory is out, which the
- * graph then remembers. [alloc] */
+/* Zeros for each node up to this one, [node + 1] of size bytes; NULL, and the status is DAL_MEMORY,
+ * when there are none. [alloc] */
 void *dal__per_node(dal__graph *graph, dal__node node, size_t size);
 
 #endif

@@ -1,8 +1,8 @@
 /* schedule.c - from nodes to the instructions of a program.
  *
  * Nodes are computed in the order of their indices.  One sweep down the indices finds what is used
- * and where for the last time; one sweep up writes the instructions and gives places in work to
- * their results. */
+ * and where for the last time; one sweep up writes the instructions and assigns places in work
+ * to their results. */
 #include "expr/schedule.h"
 #include "expr/traversal.h"
 #include <stdlib.h>

@@ -6,10 +6,10 @@
  *     f sin(u)^2 + f cos(u)^2 = f                               c, d fixed
  *
  * A fixed product c d is a number of hoisted nodes, so it costs nothing along a run.  A new term is
- * held against the last two of the sum it joins, so adding costs a bounded time.
+ * compared with the last two of the sum it is added to, so adding costs a bounded time.
  *
  * A function of a number becomes its value, with the bits a tape would give, unless that is not
- * finite: then the node stays, and whoever evaluates it sees the infinity or NaN. */
+ * finite: then the node stays, and its evaluation gives the infinity or NaN. */
 #include "expr/simplify.h"
 #include "expr/traversal.h"
 #include <math.h>
@@ -362,7 +362,7 @@ static dal__node combine(dal__graph *graph, term x, term y)
 
 /* ---- sums ---- */
 
-/* x + y as it is. */
+/* x + y without simplification. */
 static dal__node join(dal__graph *graph, term x, term y)
 {
     bool negative = x.negative && y.negative;

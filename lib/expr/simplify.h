@@ -1,7 +1,8 @@
 /* simplify.h - operations on nodes, in canonical form (graph.h).
  *
- * As for real numbers: on the domain of a formula this changes no value but by rounding; 0*x and
- * x/x lose their own gaps.  Operands may be 0, no node: so is the result then. */
+ * They simplify as for real numbers: on the domain of a formula they change no value but by
+ * rounding; 0*x becomes 0 and x/x becomes 1 everywhere.  If an operand is 0, no node, so is the
+ * result. */
 #ifndef DAL_EXPR_SIMPLIFY_H
 #define DAL_EXPR_SIMPLIFY_H
 

@@ -49,7 +49,7 @@ int dal__tapes_add(dal__tapes *tapes, const dal__node *outputs, int count)
     return tapes->count++;
 }
 
-/* Places for all that is constant along a run, and for the inputs. */
+/* Assigns places to everything that is constant along a run, and to the inputs. */
 static dal_status lay_out(dal__tapes *tapes, dal__schedule *s)
 {
     uint32_t place = (uint32_t)tapes->parameters;

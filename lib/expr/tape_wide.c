@@ -15,7 +15,7 @@ static __attribute__((flatten, noinline)) void execute(const dal__tape *tape, do
 {
     num *w = (num *)work;
     for (int k = 0; k < tape->length; k++) {
-        const dal__instruction i = tape->code[k]; /* a copy: no write to w can change it */
+        const dal__instruction i = tape->code[k]; /* a copy, which no write to w can change */
         switch (i.op) {
 #define CASE(code, expression)                                                                     \
     case DAL__##code:                                                                              \

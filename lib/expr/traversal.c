@@ -1,6 +1,6 @@
-/* traversal.c - passes over a graph: what a node is made of, its value, substitution.
+/* traversal.c - passes over a graph: dependence, values, substitution.
  *
- * Operands have smaller indices than what they make, so marking runs down the indices and computing
+ * Operands have smaller indices than their node, so marking runs down the indices and computing
  * runs up. */
 #include "expr/traversal.h"
 #include "expr/arithmetic.h"

@@ -1,14 +1,14 @@
-/* traversal.h - passes over a graph: what a node is made of, its value, substitution. */
+/* traversal.h - passes over a graph: dependence, values, substitution. */
 #ifndef DAL_EXPR_TRAVERSAL_H
 #define DAL_EXPR_TRAVERSAL_H
 
 #include "expr/graph.h"
 
-/* Marks node and all it is made of, [node + 1]; NULL when memory is out, which the graph then
- * remembers. [alloc] */
+/* Marks node and all nodes it depends on, [node + 1]; NULL, and the status of the graph is
+ * DAL_MEMORY, when memory is out. [alloc] */
 uint8_t *dal__reach(dal__graph *graph, dal__node node);
-/* Whether node depends on a symbol with first <= symbol < end; true when memory is out, which the
- * graph remembers. */
+/* Whether node depends on a symbol with first <= symbol < end; true when memory is out, as
+ * above. */
 bool dal__depends(dal__graph *graph, dal__node node, int first, int end);
 
 /* Operations that are computed as one: both functions of one argument; and a sum or difference one
@@ -20,9 +20,9 @@ enum {
     DAL__SUB_MUL                 /* c - a*b */
 };
 
-/* A node as it is computed, wherever it is: an operation of the graph, or a fused one.  What is
- * fused depends on the node alone: in a sum that is not fixed, a product that is not; of two
- * products the one made later, so that the other is there when it is needed. */
+/* A node as it is computed everywhere: an operation of the graph, or a fused one.  What is fused
+ * depends on the node alone: in a sum that is not fixed, a product that is not; of two products the
+ * one made later, so that the other is computed before it. */
 typedef struct dal__lowered {
     int op;
     dal__node a, b, c; /* 0 where there is none */
@@ -32,7 +32,7 @@ dal__lowered dal__lower(const dal__graph *graph, dal__node node);
 /* One operation on doubles, with the bits of a tape. */
 double dal__operate(int op, double a, double b, double c);
 /* The value of a node; values[symbol].  Slow, for single values (pivots, starts); NaN when memory
- * is out, which the graph remembers. [alloc] */
+ * is out, as above. [alloc] */
 double dal__evaluate(dal__graph *graph, dal__node node, const double *values);
 
 /* f with each symbols[i] replaced by the node by[i]. */
