@@ -406,10 +406,10 @@ typedef struct dal_shares {
     int whole_by_rate; /* the same for the whole run */
     int vanishes_in_quad;      /* quad precision leaves nothing of the drift */
     int is_motion;             /* what it leaves does not fall with the step: the motion itself */
-    int solver_is_significant; /* whether the solver's part stands out from rounding */
+    int solver_is_significant; /* whether the solver's part is well above rounding */
     double order; /* log2 of what halving the step divides the drift by: in quad precision, or
                      without it along the whole run; NaN: nothing to divide */
-    /* share: of the drift; that of PROJECTION goes without it, or with it; NaN: not known.
+    /* share: of the drift; that of PROJECTION vanishes without it, or with it; NaN: not known.
      * margin: half the 95 % interval of a share of rates; NaN: none. */
     double share[DAL_ERROR_SOURCES], margin[DAL_ERROR_SOURCES];
 } dal_shares;

@@ -314,7 +314,7 @@ static void test_refuses(void)
     dal_error error;
     dal_run_spec spec = fixture_spec(fixture_system(model), "gni", DAL_PHYSICAL, 0.05);
     CU_ASSERT_EQUAL(dal_lyapunov_create(&s, &spec, NULL, 0, &error), DAL_UNSUPPORTED);
-    CU_ASSERT(strstr(error.message, "carries a multiplier") != NULL);
+    CU_ASSERT(strstr(error.message, "has a multiplier") != NULL);
     CU_ASSERT(error.line == 0 && error.column == 0);
     spec = fixture_spec(fixture_system(model), "dop853", DAL_PHYSICAL, 0.05);
     spec.options.tolerance = 1e-8;

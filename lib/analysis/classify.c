@@ -2,14 +2,14 @@
  *
  * E = L_v.v - L changes at the rate v.Q + sum_a h_a v.A_a, which may vanish on every level of D, on
  * D = 0 alone, or not at all; off p = pi = 0 the lift adds the force pi/e, which does work.  H
- * changes at the rate pi.F_t.  What the motion need not conserve has no drift that a method could
- * be blamed for. */
+ * changes at the rate pi.F_t.  A quantity that the motion need not conserve has no drift
+ * that is due to the method. */
 #include "core/words.h"
 #include "dalembert_analysis.h"
 #include <float.h>
 #include <math.h>
 
-/* Roundings of a start that was brought to D = 0. */
+/* Roundings of a start that was projected to D = 0. */
 static const double start_roundings = 4096 * DBL_EPSILON;
 
 /* Places among the observables of a run; -1: it has none. */

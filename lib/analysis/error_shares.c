@@ -10,7 +10,7 @@
 #include <stdio.h>
 
 /* The solver's part must exceed what rounding does by this, or be a rate this far from zero. */
-static const double stands_out = 4.0, clear = 2.0;
+static const double significant = 4.0, clear = 2.0;
 /* Parts of a drift: below the first a source is none; below the second the rest is rounding in quad
  * precision. */
 static const double small = 0.1, nothing = 1e-12;
@@ -35,7 +35,7 @@ static double size_of(const dal_trend *f, int by_rate)
     return by_rate ? fabs(f->rate) : f->deviation;
 }
 
-/* log2 of what halving divides by; NaN where there is nothing left. */
+/* log2 of the ratio of a drift to that with half the step; NaN where one is 0. */
 static double order_of(const dal_trend *whole, const dal_trend *halved, int by_rate)
 {
     const double a = size_of(whole, by_rate), b = size_of(halved, by_rate);
@@ -85,7 +85,7 @@ static void share_beginning(const dal_error_budget *e, dal_shares *a)
     if (!(size_of(&a->beginning, a->by_rate) > 0.0)) return;
     weigh_quad(e, a);
     const int moves = a->by_rate && fabs(a->solver.rate) > clear * half_width(&a->solver);
-    a->solver_is_significant = a->solver.deviation > stands_out * a->rounding.deviation || moves;
+    a->solver_is_significant = a->solver.deviation > significant * a->rounding.deviation || moves;
     set_share(a, DAL_SOURCE_ROUNDING,
               a->solver_is_significant ? &a->rounding : &a->solver_and_rounding);
     if (a->solver_is_significant)
@@ -95,7 +95,7 @@ static void share_beginning(const dal_error_budget *e, dal_shares *a)
         a->share[DAL_SOURCE_SOLVER] = 0.0;
 }
 
-/* Without quad precision halving alone: T 2^p is left of T + R, or 1/2^p of it is not. */
+/* Without quad precision: halving the step divides truncation T by 2^p and leaves the rest. */
 static void share_by_halving(const dal_error_budget *e, dal_shares *a)
 {
     const double whole = size_of(&a->whole, a->whole_by_rate);
@@ -196,7 +196,7 @@ static void describe_solver(const description *s)
     else if (s->a->solver_is_significant)
         snprintf(
             s->text, s->size,
-            "that much goes when the equations are solved to rounding and iterated twice more");
+            "this part vanishes when the equations are solved to rounding and iterated twice more");
     else
         snprintf(s->text, s->size, "two more iterations change no more than roundings do");
 }
@@ -207,10 +207,10 @@ static void describe_rounding(const description *s)
     if (s->e->quad_steps == 0)
         snprintf(s->text, s->size, "no quad precision: %s", s->e->reason[DAL_COMPARISON_QUAD]);
     else if (!s->e->ran[DAL_COMPARISON_SUMS])
-        snprintf(s->text, s->size, "that much goes in quad precision");
+        snprintf(s->text, s->size, "this part vanishes in quad precision");
     else
         snprintf(s->text, s->size,
-                 "that much goes in quad precision; with %s sums the drift is %.3g times this",
+                 "this part vanishes in quad precision; with %s sums the drift is %.3g times this",
                  sums, drift_ratio(s, DAL_COMPARISON_SUMS));
 }
 

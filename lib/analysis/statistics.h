@@ -25,8 +25,8 @@ int dal__statistics_blocks(const dal_statistics *statistics,
 
 /* The sum of x - first in the open block. */
 double dal__open_sum(const dal_statistics *statistics);
-/* How far the values would have gone if their steps were independent: sqrt(sum of squared steps),
- * times factor. */
+/* The deviation of the values if their steps were independent: sqrt(sum of squared steps), times
+ * factor. */
 double dal__roughness(const dal_statistics *statistics);
 
 /* Adds packs of DAL_PARTIAL_SUMS values each, the first of them at part 0 and at place `phase` of

@@ -1,9 +1,9 @@
-/* statistics_wide.c - packs of values summed and ranged, over num.
+/* statistics_wide.c - partial sums and extremes of packs of values, over num.
  *
- * Value k of a pack goes to part k of the sum, however many lanes a num has: the order of summation
- * is one.  Least and most do not depend on the order.  What is not finite makes a part of the sum
- * not finite, and nothing else does, so that one test at the end is enough.  Of each cycle
- * of four packs the first is held and the second subtracted from it. */
+ * Value k of a pack is added to partial sum k, whatever the number of lanes: the order of summation
+ * is always the same.  min and max do not depend on the order.  Only a value that is not finite
+ * makes a partial sum not finite, so that one test at the end is enough.  Of each cycle of four
+ * packs the first is subtracted from the second. */
 #include "kernel/groups.h"
 
 #include "analysis/statistics.h"
@@ -11,10 +11,10 @@
 
 enum { NUMS = DAL_PARTIAL_SUMS / DAL_LANES }; /* to a pack */
 
-/* What one num of the packs has seen. */
-typedef struct seen {
+/* The tally of one num of the packs. */
+typedef struct lane_tally {
     num sum, min, max, rough, held;
-} seen;
+} lane_tally;
 
 /* What is the same for all of them. */
 typedef struct view {
@@ -28,9 +28,9 @@ static num rough_square(const view *v, num a, num held)
     return dal_min(d * d, dal_num(DAL__ROUGH_LIMIT));
 }
 
-/* One more value, or a cycle of four: comparisons take a processor long, so that most of them do
- * not wait for each other. */
-static void see(seen *s, const view *v, int phase, num a)
+/* Adds one value, or a cycle of four at once: comparisons are slow, and most of those of a cycle
+ * do not depend on each other. */
+static void add_value(lane_tally *s, const view *v, int phase, num a)
 {
     s->sum += a - v->first;
     s->min = dal_min(s->min, a);
@@ -39,7 +39,7 @@ static void see(seen *s, const view *v, int phase, num a)
     if (phase == 1) s->rough += rough_square(v, a, s->held);
 }
 
-static void see_four(seen *s, const view *v, num a, num b, num c, num d)
+static void add_cycle(lane_tally *s, const view *v, num a, num b, num c, num d)
 {
     s->sum = (((s->sum + (a - v->first)) + (b - v->first)) + (c - v->first)) + (d - v->first);
     s->min = dal_min(s->min, dal_min(dal_min(a, b), dal_min(c, d)));
@@ -49,14 +49,14 @@ static void see_four(seen *s, const view *v, num a, num b, num c, num d)
 }
 
 /* Every NUMS-th num from x on. */
-static seen see_all(seen s, const view *v, const dal_stored *x)
+static lane_tally add_packs(lane_tally s, const view *v, const dal_stored *x)
 {
     int packs = v->packs, phase = v->phase;
     for (; packs > 0 && phase % DAL__CYCLE != 0; packs--, phase++, x += NUMS)
-        see(&s, v, phase, x[0]);
+        add_value(&s, v, phase, x[0]);
     for (; packs >= DAL__CYCLE; packs -= DAL__CYCLE, x += DAL__CYCLE * NUMS)
-        see_four(&s, v, x[0], x[NUMS], x[2 * NUMS], x[3 * NUMS]);
-    for (phase = 0; packs > 0; packs--, phase++, x += NUMS) see(&s, v, phase, x[0]);
+        add_cycle(&s, v, x[0], x[NUMS], x[2 * NUMS], x[3 * NUMS]);
+    for (phase = 0; packs > 0; packs--, phase++, x += NUMS) add_value(&s, v, phase, x[0]);
     return s;
 }
 
@@ -68,10 +68,10 @@ bool DAL_WIDE(dal__tally_packs)(dal__tally *tally, double first, int phase, int 
                       *const held = (dal_stored *)tally->held;
     const view v = {first, tally->per_unit, phase, packs};
     const num limit = dal_num(DAL__PLAIN_LIMIT);
-    seen s[NUMS];
+    lane_tally s[NUMS];
     dal_mask good = dal_all();
     for (int i = 0; i < NUMS; i++) {
-        s[i] = see_all((seen){part[i], x[i], x[i], rough[i], held[i]}, &v, x + i);
+        s[i] = add_packs((lane_tally){part[i], x[i], x[i], rough[i], held[i]}, &v, x + i);
         good &= dal_finite(s[i].sum) & dal_less_equal(s[i].max, limit) &
                 dal_less_equal(-s[i].min, limit);
     }

@@ -142,7 +142,7 @@ static dal_status multiplier_sign(const dal_run_spec *spec, const stepmap *m, do
                      dal_status_text(status));
 }
 
-static void turn_round(int n, int dimension, double sign, double *z)
+static void reverse_time(int n, int dimension, double sign, double *z)
 {
     for (int i = n; i < 2 * n; i++) z[i] = -z[i];
     if (dimension == 4 * n + 2) {
@@ -163,9 +163,9 @@ dal_status dal_check_reversibility(const dal_run_spec *spec, double t, const dou
     double *z = m.z + m.dimension;
     dal_status status = multiplier_sign(spec, &m, &sign, error);
     if (status == DAL_OK) status = step_from(&m, m.t, m.z, z);
-    turn_round(spec->system->n, m.dimension, sign, z);
+    reverse_time(spec->system->n, m.dimension, sign, z);
     if (status == DAL_OK) status = step_from(&m, -dal_run_time(m.run), z, z);
-    turn_round(spec->system->n, m.dimension, sign, z);
+    reverse_time(spec->system->n, m.dimension, sign, z);
     if (status == DAL_OK) *defect = dal__distance(m.z, z, (size_t)m.dimension);
     close_map(&m);
     return status;

@@ -1,12 +1,12 @@
 /* trend.c - the trend of a quantity over a long time, and the size of its deviation.
  *
  * The evidence of shapes and noises (trend_evidence.c) is a posterior of what they mean; tones are
- * taken out when that pays 15 nats each.  The meaning of the largest weight is the trend where
+ * removed when each is worth 15 nats.  The meaning of the largest weight is the trend where
  * that weight is large enough and the other numbers agree with it; else the trend is undecided:
  *
  *     none           0 lies in the interval of the rate, and the largest drift that noise without
  *                    a trend admits is small beside the spread of x; the amplitude does not double
- *     settles        the change stands out of the spread; else it is none
+ *     settles        the change is large beside the spread; else it is none
  *     random walk    a memory of T/9 explains it less well, and 0 lies well inside the interval
  *     linear         0 lies outside it
  *     power law      the exponent is known to 0.11, and is not 1
@@ -29,7 +29,7 @@
 #include <float.h>
 #include <math.h>
 
-enum { LEAST_VALUES = 48, LEAST_LENGTH = 8 };
+enum { MIN_VALUES = 48, MIN_LENGTH = 8 };
 
 static const double tone_price = 0.8 * 15.0; /* nats */
 static const double interval_level = 0.966;  /* covers 95 %: trend_drift.c */
@@ -87,7 +87,7 @@ static double difference_ratio(const dal__trend_series *s)
 static void describe(description *p)
 {
     const double ratio = difference_ratio(&p->series);
-    const bool long_enough = p->series.length >= LEAST_LENGTH;
+    const bool long_enough = p->series.length >= MIN_LENGTH;
     const double odds = long_enough && ratio > white_low && ratio < white_high ? white_odds : 1.0;
     dal__trend_series bare = p->series;
     dal__bins bins;
@@ -176,17 +176,17 @@ static bool admits_none(const description *p)
 }
 
 /* Whatever the noise is, it admits next to no drift. */
-static bool is_tiny(const description *p, dal__meaning heaviest, double weight)
+static bool is_tiny(const description *p, dal__meaning likeliest, double weight)
 {
-    return (heaviest == DAL__MEANS_OTHER || heaviest == DAL__MEANS_NONE ||
-            (heaviest == DAL__MEANS_WALK && weight < certain_walk)) &&
+    return (likeliest == DAL__MEANS_OTHER || likeliest == DAL__MEANS_NONE ||
+            (likeliest == DAL__MEANS_WALK && weight < certain_walk)) &&
            p->growth == DAL__STEADY && has_no_drift(p) &&
            max_abs(&p->drift) < tiny_drift * p->spread;
 }
 
-static bool is_growing(const description *p, dal__meaning heaviest, double weight)
+static bool is_growing(const description *p, dal__meaning likeliest, double weight)
 {
-    const bool drifts = heaviest == DAL__MEANS_LINEAR && weight > certain_line && !has_no_drift(p);
+    const bool drifts = likeliest == DAL__MEANS_LINEAR && weight > certain_line && !has_no_drift(p);
     return p->growth >= DAL__GROWS && !drifts && p->wandering < 0.5 * p->bins.half_range;
 }
 
@@ -291,7 +291,7 @@ static decision classify(const dal_statistics *s, dal_trend *trend)
     trend->rate = rate_of(&p, s, p.drift.middle);
     trend->rate_low = rate_of(&p, s, p.drift.low);
     trend->rate_high = rate_of(&p, s, p.drift.high);
-    return s->count < LEAST_VALUES ? (decision){DAL_TREND_UNDECIDED, 1.0, NAN} : decide(&p);
+    return s->count < MIN_VALUES ? (decision){DAL_TREND_UNDECIDED, 1.0, NAN} : decide(&p);
 }
 
 void dal_statistics_classify(const dal_statistics *s, double scale, int aborted, dal_trend *trend)

@@ -12,7 +12,7 @@
 
 enum { HALVINGS = 60 };
 
-static const double negligible = 1e-5; /* weight of a noise, beside the heaviest */
+static const double negligible = 1e-5; /* weight of a noise, beside the largest */
 
 typedef struct mixture {
     int count;
@@ -23,12 +23,12 @@ typedef struct mixture {
 static mixture mixture_of(const dal__evidence *e, bool no_trend)
 {
     mixture m = {.freedom = e->freedom - 1.0};
-    double heaviest = 0.0;
-    for (int k = 0; k < DAL__SHAPE_NOISES; k++) heaviest = fmax(heaviest, e->drift_weight[k]);
+    double largest = 0.0;
+    for (int k = 0; k < DAL__SHAPE_NOISES; k++) largest = fmax(largest, e->drift_weight[k]);
     for (int pass = no_trend ? 0 : 1; pass < 2 && m.count == 0; pass++)
         for (int k = 0; k < DAL__SHAPE_NOISES; k++) {
             if (pass == 0 && dal__noise_list[k].meaning != DAL__MEANS_NONE) continue;
-            if (!(e->drift_weight[k] > negligible * heaviest) && pass == 1) continue;
+            if (!(e->drift_weight[k] > negligible * largest) && pass == 1) continue;
             m.at[m.count] = e->drift[k];
             m.deviation[m.count] = fmax(e->drift_deviation[k], 1e-300);
             m.weight[m.count++] = e->drift_weight[k];

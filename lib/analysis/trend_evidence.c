@@ -113,7 +113,7 @@ static void weigh_line(const dal__bins *b, int k, const noise_state *s, double x
                          (1.0 + line_odds * price * power_of(s->square / rest, tempered_power(b)));
 }
 
-/* A shape that a walk may hide is none; one that it may just not hide is not known. */
+/* A shape within the deviation of a random walk is none; one slightly above it is undecided. */
 static dal__meaning meaning_of(const dal__shape *shape, const dal__noise *noise, double deviations)
 {
     if (noise->meaning != DAL__MEANS_WALK || deviations >= clear) return shape->meaning;

@@ -5,22 +5,22 @@
  *
  *     z = c + p log s    or    z = c + k s,     s = t/T,
  *
- * leaves residues whose mean square root is a small part of that rise.  Noise may hide how it
- * began: where the whole does not fit, that part is tried that stands clear of the beginning.
- * Beats of two tones rise by as much, but in other shapes.  Values to one side whose z rises so by
- * many e-folds explode: an exponential over more of them than the shapes of trend_tables.h, and
- * modulated besides, shows in z alone. */
+ * leaves residues whose root mean square is a small part of that rise.  Noise may cover the
+ * beginning: if the whole does not fit, the part well above the beginning is tried.  Beats of two
+ * tones rise by as much, but in other shapes.  Values to one side whose z rises in this way by many
+ * e-folds explode: an exponential over more e-folds than the shapes of trend_tables.h have, or a
+ * modulated one, is found in z alone. */
 #include "analysis/trend_growth.h"
 #include <math.h>
 
-enum { NEAR = 2, LEAST_POINTS = 10 };
+enum { NEAR = 2, MIN_POINTS = 10 };
 
 static const double doubled = 0.7, grown = 1.0; /* rises of z */
 static const double misfit = 0.035;             /* of the rise */
 static const double clear_of_noise = 1.5;       /* rise of z above the beginning */
 
 static const double exploded = 8.0;   /* rise of z */
-static const double one_sided = 0.05; /* of the farther end: where the other one is */
+static const double one_sided = 0.05; /* the nearer end over the farther one */
 
 typedef struct curve {
     int count;
@@ -64,7 +64,7 @@ static double residue(const double *u, const double *z, int n)
 static dal__growth growth_from(const curve *c, int from)
 {
     const int n = c->count - from;
-    if (n < LEAST_POINTS) return DAL__LARGER;
+    if (n < MIN_POINTS) return DAL__LARGER;
     const double rise = c->z[c->count - 1] - c->z[from];
     const double by_power = residue(c->log_s + from, c->z + from, n);
     const double by_rate = residue(c->s + from, c->z + from, n);

@@ -1,7 +1,7 @@
 /* trend_series.c - the blocks of a series, its tones, its bins and their cosine coefficients.
  *
  * Tones are found in the means x_i of the N full blocks, less a polynomial of degree 5, as the
- * greatest of |sum x_i e^(-2 pi i f/N)|, and then fitted together with that polynomial by Gauss and
+ * maximum of |sum x_i e^(-2 pi i f/N)|, and then fitted together with that polynomial by Gauss and
  * Newton's method,
  *
  *     x_i = sum_k c_k p_k(i) + sum_l a_l cos(w_l i) + b_l sin(w_l i)
@@ -117,7 +117,7 @@ static void fill_tone(int n, double angle, double *c, double *s)
     }
 }
 
-/* The angle of the greatest Fourier coefficient of the residue, by Goertzel's recurrence, four
+/* The angle of the largest Fourier coefficient of the residue, by Goertzel's recurrence, four
  * frequencies at a time. */
 static double loudest(const tone_fit *f)
 {
@@ -199,7 +199,7 @@ static void newton_step(tone_fit *f, const double *x)
     for (int l = 0; l < f->tones; l++) {
         const double *const part = c + POLYNOMIALS + 3 * l;
         const double limit = 0.5 * 2.0 * pi / n; /* half a period at a time */
-        /* The turn is about the middle. */
+        /* The phase turns about the middle. */
         const double d = fmin(fmax(part[2] / n, -limit), limit), middle = 0.5 * n * d;
         const double a = part[0], b = part[1];
         f->a[l] = a * cos(middle) - b * sin(middle);

@@ -8,7 +8,7 @@
 
 enum { DAL__TONES = 3 };
 
-/* The full blocks: x = first + unit * value, unit a power of two near the greatest deviation. */
+/* The full blocks: x = first + unit * value, unit a power of two near the max deviation. */
 typedef struct dal__trend_series {
     int count;
     long long length; /* values in a block */

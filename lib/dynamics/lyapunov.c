@@ -5,10 +5,10 @@
  *                                                 DOI 10.1007/BF02128236)
  *     log|det J| = sum log R_ii                  when V has all directions
  *
- * J V: a Runge-Kutta or polarised method applied to the tangent system (q, dq, v, dv) moves dq, dv
- * by its own derivative; any other map is differentiated numerically, along each vector by eight
- * steps or, where it is less smooth than that, by more.  R by modified Gram-Schmidt, every vector
- * twice over, so that V' is orthonormal to rounding (Giraud, Langou, Rozloznik 2005,
+ * J V: a Runge-Kutta method or partitioned symplectic Euler, applied to the tangent system
+ * (q, dq, v, dv), moves dq, dv by its own derivative; any other map is differentiated numerically,
+ * along each vector by eight steps, or more where it is less smooth.  R by modified Gram-Schmidt,
+ * twice for every vector, so that V' is orthonormal to rounding (Giraud, Langou, Rozloznik 2005,
  * DOI 10.1016/j.camwa.2005.08.009). */
 #include "analysis/derivatives.h"
 #include "analysis/differences.h"
@@ -18,8 +18,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* J = 1 + O(h), so that R_ii is near 1; a direction that the map loses leaves the noise of
- * differences. */
+/* J = 1 + O(h), so that R_ii is near 1, or the noise of differences in a direction that the map
+ * loses. */
 static const double lost_direction = 1e-6;
 
 /* Means beside those of the exponents, see growth. */
@@ -220,8 +220,8 @@ dal_status dal_lyapunov_advance(dal_lyapunov *s, long long steps, dal_error *err
 
 /* ---- what the method enforces ---- */
 
-/* gradients: the gradients of what is enforced, orthonormal; returns the log of the size of the
- * parallelepiped that they spanned, NaN where they cannot be had. */
+/* Finds the gradients of what is enforced, orthonormalises them and returns the log of the volume
+ * that they spanned, NaN where they cannot be computed. */
 static double find_gradients(dal_lyapunov *s)
 {
     const dal_system *system = dal_evaluator_system(s->evaluator);
@@ -303,8 +303,9 @@ static dal_status check_map(const dal_run_spec *spec, const dal_system *tangent,
                          "a tangent system of %d coordinates for a system of %d", tangent->n,
                          spec->system->n);
     if (dal_method_properties(&spec->method) & DAL_PERSISTENT_MULTIPLIER)
-        return dal__fail(error, DAL_UNSUPPORTED,
-                         "%s carries a multiplier along: its step is no map of (q,v) alone", name);
+        return dal__fail(
+            error, DAL_UNSUPPORTED,
+            "%s has a multiplier as persistent state: its step is no map of (q,v) alone", name);
     if (spec->options.tolerance > 0.0)
         return dal__fail(error, DAL_UNSUPPORTED,
                          "%s with a tolerance divides its step: it is no smooth map", name);

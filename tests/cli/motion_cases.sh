@@ -145,7 +145,7 @@ case_is "exponents: bad input"
 try 2 lyapunov saddle.yaml --integrator rk4 --step 0.1 --time 5 --exponents 3
 says '3 exponents are requested; the step map has 2'
 try 2 lyapunov chaplygin-sleigh --integrator gni --step 0.1 --time 5
-says 'gni carries a multiplier'
+says 'gni has a multiplier'
 try 2 lyapunov saddle.yaml --integrator rk4 --step 0.1 --time 5 --space lifted
 says 'unknown option'
 try 2 lyapunov saddle.yaml --integrator rk4 --step 0.1 --time 5 --transient -1
