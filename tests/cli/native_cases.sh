@@ -85,11 +85,12 @@ if there cc; then
 
     case_is "native: a compiler that fails"
     mkdir -p broken
-    printf '#!/bin/sh\nexit 1\n' >broken/cc
+    printf '#!/bin/sh\necho spoken\necho spoken >&2\nexit 1\n' >broken/cc
     chmod +x broken/cc
     rm -rf cache
     PATH=$PWD/broken:$PATH try 0 run $motion --native on --output native.csv
     says "steps are interpreted: the compiler 'cc' failed"
+    holds "what the compiler wrote" test "$(cat out err | grep -c spoken)" -eq 0
     holds "other bytes" cmp -s tape.csv native.csv
     holds "something is left in the cache" test -z "$(ls cache/dalembert)"
 fi
