@@ -112,7 +112,9 @@ while [ "$count" -lt "$wanted" ] && IFS= read -r candidate <&3; do
     line=$(echo "$candidate" | cut -f2)
     operator=$(echo "$candidate" | cut -f3)
     text=$(printf '%s\n' "$candidate" | cut -f4-)
-    if is_listed "$file" "$text"; then
+    shown=$text
+    [ "$operator" = deleted ] && shown="no $(sed -n "${line}p" "$file" | sed 's/^ *//')"
+    if is_listed "$file" "$shown"; then
         listed=$((listed + 1))
         continue
     fi
@@ -127,11 +129,11 @@ while [ "$count" -lt "$wanted" ] && IFS= read -r candidate <&3; do
         passes "$file" "$limit"
         case $? in
         0) survived=$((survived + 1))
-           printf 'survived  %s:%s: %s:%s\n' "$file" "$line" "$operator" "$text" ;;
+           printf 'survived  %s:%s: %s: %s\n' "$file" "$line" "$operator" "$shown" ;;
         124 | 137) late=$((late + 1)) ;;
         *) killed=$((killed + 1)) ;;
         esac
-        [ -n "$V" ] && printf '          %s:%s: %s: %s (%s)\n' "$file" "$line" "$operator" "$text" "$noticed"
+        [ -n "$V" ] && printf '          %s:%s: %s: %s (%s)\n' "$file" "$line" "$operator" "$shown" "$noticed"
     fi
     cp "$file" "$tree/$file"
 done
