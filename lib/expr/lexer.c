@@ -39,12 +39,9 @@ static dal_status number(dal__lexer *lexer, dal__token *token, dal_error *error)
         dal__read_decimal(token->text, (size_t)(lexer->end - token->text), &token->value);
     lexer->at += token->length;
     int shown = token->length < 60 ? (int)token->length : 60;
-    if (token->length == 0) {
-        return SYNTAX_ERROR(token, error, "unexpected '.'");
-    }
-    if (!isfinite(token->value)) {
+    if (token->length == 0) return SYNTAX_ERROR(token, error, "unexpected '.'");
+    if (!isfinite(token->value))
         return SYNTAX_ERROR(token, error, "the number %.*s is too large", shown, token->text);
-    }
     return DAL_OK;
 }
 
@@ -56,12 +53,11 @@ static dal_status name(dal__lexer *lexer, dal__token *token, dal_error *error)
     token->prime = c < lexer->end && *c == '\'';
     lexer->at = c + token->prime;
     if (!token->prime || lexer->at == lexer->end || *lexer->at != '\'') return DAL_OK;
-    int column = (int)(lexer->at - lexer->line_start) + 1;
+    const int column = (int)(lexer->at - lexer->line_start) + 1;
+    const int shown = token->length < 60 ? (int)token->length : 60;
     return dal__fail_at(error, DAL_SYNTAX, lexer->line, column,
-                        "%.*s'' is a second derivative; a formula knows only %.*s and %.*s'",
-                        token->length < 60 ? (int)token->length : 60, token->text,
-                        token->length < 60 ? (int)token->length : 60, token->text,
-                        token->length < 60 ? (int)token->length : 60, token->text);
+                        "%.*s'' is a second derivative; a formula knows only %.*s and %.*s'", shown,
+                        token->text, shown, token->text, shown, token->text);
 }
 
 static dal_status other(dal__lexer *lexer, dal__token *token, dal_error *error)
@@ -75,9 +71,8 @@ static dal_status other(dal__lexer *lexer, dal__token *token, dal_error *error)
         return SYNTAX_ERROR(token, error,
                             "unexpected '; a prime stands right behind a name, as in x'");
     }
-    if (c < 0x20 || c > 0x7e) {
+    if (c < 0x20 || c > 0x7e)
         return SYNTAX_ERROR(token, error, "unexpected byte 0x%02x; a formula is plain ASCII", c);
-    }
     return SYNTAX_ERROR(token, error, "unexpected '%c'", c);
 }
 

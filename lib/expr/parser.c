@@ -49,9 +49,8 @@ static dal__op function_named(const char *name, size_t length)
 {
     for (int op = 0; op < DAL__OP_COUNT; op++) {
         const char *known = functions[op].name;
-        if (known && strlen(known) == length && memcmp(known, name, length) == 0) {
+        if (known && strlen(known) == length && memcmp(known, name, length) == 0)
             return (dal__op)op;
-        }
     }
     return (dal__op)0;
 }
@@ -94,9 +93,8 @@ static dal_status graph_fault(const parser *p)
 static dal_status value_missing(const parser *p)
 {
     const dal__token *t = &p->token;
-    if (t->kind == DAL__TOKEN_END) {
+    if (t->kind == DAL__TOKEN_END)
         return SYNTAX_ERROR(p, t, "a value is missing at the end of the formula");
-    }
     return SYNTAX_ERROR(p, t, "a value is missing before '%c'", t->kind);
 }
 
@@ -165,9 +163,7 @@ static bool divides_by_zero(const dal__graph *graph, const frame *f, dal__node r
 static dal_status apply(parser *p, dal__node *value)
 {
     const frame *f = &p->stack[--p->depth];
-    if (divides_by_zero(p->graph, f, *value)) {
-        return SYNTAX_ERROR(p, f, "division by zero");
-    }
+    if (divides_by_zero(p->graph, f, *value)) return SYNTAX_ERROR(p, f, "division by zero");
     const dal__op op = find_operator(f->kind)->op;
     *value =
         op == DAL__NEG ? dal__neg(p->graph, *value) : dal__apply(p->graph, op, f->left, *value);
@@ -242,9 +238,8 @@ static dal_status read_operand(parser *p, dal__node *value)
             if (!*value) return graph_fault(p);
             break;
         default:
-            if (p->token.kind == ')' && top->kind == 'f' && top->arguments == 0) {
+            if (p->token.kind == ')' && top->kind == 'f' && top->arguments == 0)
                 return wrong_arguments(p, top, 0);
-            }
             return value_missing(p);
         }
         DAL_TRY(*value ? DAL_OK : next(p));
@@ -257,9 +252,7 @@ static dal_status close(parser *p, dal__node *value)
 {
     DAL_TRY(reduce(p, 1, value));
     const frame *f = &p->stack[p->depth - 1];
-    if (f->kind == 0) {
-        return SYNTAX_ERROR(p, &p->token, "')' closes no '('");
-    }
+    if (f->kind == 0) return SYNTAX_ERROR(p, &p->token, "')' closes no '('");
     p->depth--;
     if (f->kind == '(') return DAL_OK;
     int given = f->arguments + 1, wanted = functions[f->function].arity;
@@ -273,9 +266,8 @@ static dal_status comma(parser *p, dal__node *value)
 {
     DAL_TRY(reduce(p, 1, value));
     frame *f = &p->stack[p->depth - 1];
-    if (f->kind != 'f') {
+    if (f->kind != 'f')
         return SYNTAX_ERROR(p, &p->token, "',' stands outside the arguments of a function");
-    }
     f->arguments++;
     f->left = *value;
     return DAL_OK;
@@ -313,9 +305,8 @@ static dal_status parse(parser *p, dal__node *value)
 {
     DAL_TRY(push(p, 0, 0));
     DAL_TRY(next(p));
-    if (p->token.kind == DAL__TOKEN_END) {
+    if (p->token.kind == DAL__TOKEN_END)
         return dal__fail_at(p->error, DAL_SYNTAX, 1, 1, "the formula is empty");
-    }
     for (bool more = true; more;) {
         DAL_TRY(read_operand(p, value));
         DAL_TRY(read_operators(p, value, &more));
@@ -331,9 +322,8 @@ dal_status dal__parse(dal__graph *graph, const char *text, size_t length, dal__r
                 .resolve = resolve,
                 .user = user,
                 .error = error};
-    if (length >= INT_MAX) {
+    if (length >= INT_MAX)
         return dal__fail_at(error, DAL_TOO_LARGE, 1, 1, "the formula is too long");
-    }
     dal_status status = parse(&p, node);
     free(p.stack);
     if (status != DAL_OK) *node = 0;

@@ -148,15 +148,13 @@ dal_status dal__schedule_tape(dal__schedule *s, dal__tapes *tapes, dal__tape *ta
     s->frees = s->used = 0;
     for (dal__node i = 1; i <= top; i++) {
         if (!is_computed(s, i)) continue;
-        if (s->place[i] == DAL__NOWHERE) {
+        if (s->place[i] == DAL__NOWHERE)
             emit(s, tapes, tape, i, top);
-        } else { /* came with its partner, but others may have read the argument since */
+        else /* came with its partner, but others may have read the argument since */
             release(s, tapes, dal__lower(s->graph, i).a, i);
-        }
     }
     for (int k = 0; k < tape->outputs; k++) tape->place[k] = s->place[tape->output[k]];
-    for (dal__node i = 1; i <= top; i++) {
+    for (dal__node i = 1; i <= top; i++)
         if (s->place[i] >= tapes->temporaries) s->place[i] = DAL__NOWHERE;
-    }
     return DAL_OK;
 }

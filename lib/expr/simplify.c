@@ -139,11 +139,10 @@ dal__node dal__mul(dal__graph *graph, dal__node a, dal__node b)
     x.negative = x.negative != y.negative;
     x.coefficient = coefficients(graph, x.coefficient, y.coefficient);
     if (!x.coefficient) return commute(graph, DAL__MUL, a, b);
-    if (is_one(graph, x.rest)) {
+    if (is_one(graph, x.rest))
         x.rest = y.rest;
-    } else if (!is_one(graph, y.rest)) {
+    else if (!is_one(graph, y.rest))
         x.rest = commute(graph, DAL__MUL, x.rest, y.rest);
-    }
     return attach(graph, x);
 }
 
@@ -170,9 +169,8 @@ static dal__node ratio(dal__graph *graph, dal__node c, dal__node d)
     if (c == d) return one(graph);
     if (is_one(graph, d)) return c;
     dal__record r = graph->node[c], s = graph->node[d];
-    if (r.op == DAL__NUMBER && s.op == DAL__NUMBER && isfinite(r.value / s.value)) {
+    if (r.op == DAL__NUMBER && s.op == DAL__NUMBER && isfinite(r.value / s.value))
         return dal__number(graph, r.value / s.value);
-    }
     if (s.op == DAL__DIV) {
         dal__node product = coefficients(graph, c, reciprocal(graph, d));
         if (product) return product;
@@ -204,13 +202,12 @@ static dal__node divide_fixed(dal__graph *graph, term x, dal__node c)
 {
     dal__node inverse = reciprocal(graph, c);
     dal__node coefficient = inverse ? coefficients(graph, x.coefficient, inverse) : 0;
-    if (coefficient) {
+    if (coefficient)
         x.coefficient = coefficient;
-    } else if (op_of(graph, x.coefficient) == DAL__NUMBER) {
+    else if (op_of(graph, x.coefficient) == DAL__NUMBER)
         x.rest = dal__intern(graph, DAL__DIV, x.rest, c);
-    } else {
+    else
         x.coefficient = ratio(graph, x.coefficient, c);
-    }
     return attach(graph, x);
 }
 
@@ -281,15 +278,13 @@ typedef struct comparison {
 static void compare(comparison *c, const dal__node *x, int nx, const dal__node *y, int ny)
 {
     int i = 0, j = 0;
-    while (i < nx || j < ny) {
-        if (i < nx && j < ny && x[i] == y[j]) {
+    while (i < nx || j < ny)
+        if (i < nx && j < ny && x[i] == y[j])
             c->common[c->commons++] = x[i++], j++;
-        } else if (j == ny || (i < nx && x[i] < y[j])) {
+        else if (j == ny || (i < nx && x[i] < y[j]))
             c->left[c->lefts++] = x[i++];
-        } else {
+        else
             c->right[c->rights++] = y[j++];
-        }
-    }
 }
 
 /* The common factor f of f sin(u)^2 and f cos(u)^2, or 0. */
@@ -353,9 +348,8 @@ static dal__node combine(dal__graph *graph, term x, term y)
         return dal__mul(graph, c.coefficient, signed_sum(graph, x, y));
     }
     dal__node f = 0;
-    if (x.coefficient == y.coefficient && x.negative == y.negative) {
+    if (x.coefficient == y.coefficient && x.negative == y.negative)
         f = pythagoras(graph, x.rest, y.rest);
-    }
     if (f) return x.negative ? dal__neg(graph, f) : f;
     return common_denominator(graph, x, y);
 }
@@ -471,18 +465,15 @@ static dal__node integer_power(dal__graph *graph, dal__node x, int n)
 static dal__node power(dal__graph *graph, dal__node a, dal__node b)
 {
     dal__record r = graph->node[a], s = graph->node[b];
-    if (s.op != DAL__NUMBER) {
+    if (s.op != DAL__NUMBER)
         return dal__is_number(graph, a, 1.0) ? a : dal__intern(graph, DAL__POW, a, b);
-    }
     double value = r.op == DAL__NUMBER ? dal__operate(DAL__POW, r.value, s.value, 0.0) : INFINITY;
     if (isfinite(value)) return dal__number(graph, value);
-    if (fabs(s.value) <= MAX_FOLDS && s.value == floor(s.value)) {
+    if (fabs(s.value) <= MAX_FOLDS && s.value == floor(s.value))
         return integer_power(graph, a, (int)s.value);
-    }
     if (s.value == 0.5) return function(graph, DAL__SQRT, a);
-    if (s.value == -0.5) {
+    if (s.value == -0.5)
         return dal__div(graph, dal__number(graph, 1.0), function(graph, DAL__SQRT, a));
-    }
     return dal__intern(graph, DAL__POW, a, b);
 }
 

@@ -78,17 +78,14 @@ static dal_status lay_out(dal__tapes *tapes, dal__schedule *s)
 static dal_status compile_all(dal__tapes *tapes, dal__schedule *s)
 {
     size_t numbers = 0;
-    for (dal__node i = 1; i <= s->last_node; i++) {
+    for (dal__node i = 1; i <= s->last_node; i++)
         numbers += dal__inspect(tapes->graph, i).op == DAL__NUMBER && s->reached[i];
-    }
     tapes->number = malloc((numbers + 1) * sizeof *tapes->number);
     if (!tapes->number) return DAL_MEMORY;
     DAL_TRY(lay_out(tapes, s));
     tapes->workspace = tapes->temporaries;
     DAL_TRY(dal__schedule_hoisted(s, tapes));
-    for (int i = 0; i < tapes->count; i++) {
-        DAL_TRY(dal__schedule_tape(s, tapes, &tapes->tape[i]));
-    }
+    for (int i = 0; i < tapes->count; i++) DAL_TRY(dal__schedule_tape(s, tapes, &tapes->tape[i]));
     return DAL_OK;
 }
 

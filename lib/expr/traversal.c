@@ -94,9 +94,8 @@ static dal__node replaced(dal__graph *graph, dal__node i, const dal__node *image
     dal__record r = graph->node[i];
     if (r.op == DAL__NUMBER) return i;
     if (r.op == DAL__SYMBOL) {
-        for (int k = 0; k < count; k++) {
+        for (int k = 0; k < count; k++)
             if (symbols[k] == r.symbol) return by[k];
-        }
         return i;
     }
     if (image[r.a] == r.a && image[r.b] == r.b) return i;
@@ -109,9 +108,8 @@ dal__node dal__substitute(dal__graph *graph, dal__node f, const int *symbols, in
     uint8_t *mark = dal__reach(graph, f);
     dal__node *image = dal__per_node(graph, f, sizeof *image), result = 0;
     if (mark && image) {
-        for (dal__node i = 1; i <= f; i++) {
+        for (dal__node i = 1; i <= f; i++)
             if (mark[i]) image[i] = replaced(graph, i, image, symbols, count, by);
-        }
         result = image[f];
     }
     free(mark);

@@ -65,23 +65,68 @@ static void sum_terms(const identity *id, double *sum, double *size)
     }
 }
 
-/* Whether the terms add up to zero wherever they are defined. */
-static bool vanishes(identity *id)
+/* Makes scratch[a*n ...] the unit vector along the part of A_a orthogonal to the rows before it,
+ * and adds to the shift the Newton step of D_a along it.  Returns the length of that step. */
+static double shift_along(const identity *id, int a, double *scratch, double *shift)
 {
-    dal__graph *graph = id->e->graph;
-    dal__node whole = dal__number(graph, 0.0);
-    for (int i = 0; i < id->terms; i++) whole = dal__add(graph, whole, id->term[i]);
-    if (dal__is_number(graph, whole, 0.0)) return true;
+    const dal__equations *e = id->e;
+    int n = e->n;
+    double *unit = scratch + a * n, missing = 0.0;
+    for (int i = 0; i < n; i++) {
+        unit[i] = dal__evaluate(e->graph, e->A[a * n + i], id->point);
+        missing -= unit[i] * shift[i];
+    }
+    missing -= dal__evaluate(e->graph, e->constraint[a], id->point);
+    for (int b = 0; b < a; b++) {
+        double along = dal__dot_product(n, unit, scratch + b * n);
+        for (int i = 0; i < n; i++) unit[i] -= along * scratch[b * n + i];
+    }
+    double size = sqrt(dal__dot_product(n, unit, unit));
+    for (int i = 0; i < n; i++) unit[i] /= size;
+    for (int i = 0; i < n; i++) shift[i] += missing / size * unit[i];
+    return fabs(missing / size);
+}
+
+/* Newton's method in v.  False where it finds no point of D = 0. */
+static bool reach_surface(identity *id, double *scratch)
+{
+    enum { MAX_ITERATIONS = 30 };
+    const dal__equations *e = id->e;
+    double *v = id->point + e->v, *shift = scratch + e->m * e->n;
+    for (int k = 0; k < MAX_ITERATIONS; k++) {
+        double change = 0.0, size = sqrt(dal__dot_product(e->n, v, v));
+        for (int i = 0; i < e->n; i++) shift[i] = 0.0;
+        for (int a = 0; a < e->m; a++) change += shift_along(id, a, scratch, shift);
+        if (!isfinite(change)) return false;
+        for (int i = 0; i < e->n; i++) v[i] += shift[i];
+        if (change <= 8 * DBL_EPSILON * size) return true;
+    }
+    return false;
+}
+
+/* Whether the terms add up to zero at irregular points; with scratch at points of D = 0. */
+static bool vanishes_at_points(identity *id, double *scratch)
+{
     int defined = 0;
     for (int number = 0; number < POINTS; number++) {
         double sum, size;
         move(id, number);
+        if (scratch && !reach_surface(id, scratch)) continue;
         sum_terms(id, &sum, &size);
         if (!isfinite(sum)) continue;
         if (fabs(sum) > ROUNDING * size) return false;
         defined++;
     }
     return defined > POINTS / 2;
+}
+
+/* Whether the terms add up to zero wherever they are defined. */
+static bool vanishes(identity *id)
+{
+    dal__graph *graph = id->e->graph;
+    dal__node whole = dal__number(graph, 0.0);
+    for (int i = 0; i < id->terms; i++) whole = dal__add(graph, whole, id->term[i]);
+    return dal__is_number(graph, whole, 0.0) || vanishes_at_points(id, NULL);
 }
 
 /* ---- energy ---- */
@@ -141,62 +186,6 @@ static unsigned by_parts(identity *id)
     return exact ? DAL_E_EXACT : weak ? DAL_E_ON_D : 0;
 }
 
-/* ---- on D = 0 ---- */
-
-/* Makes scratch[a*n ...] the unit vector along the part of A_a orthogonal to the rows before it,
- * and adds to the shift the Newton step of D_a along it.  Returns the length of that step. */
-static double shift_along(const identity *id, int a, double *scratch, double *shift)
-{
-    const dal__equations *e = id->e;
-    int n = e->n;
-    double *unit = scratch + a * n, missing = 0.0;
-    for (int i = 0; i < n; i++) {
-        unit[i] = dal__evaluate(e->graph, e->A[a * n + i], id->point);
-        missing -= unit[i] * shift[i];
-    }
-    missing -= dal__evaluate(e->graph, e->constraint[a], id->point);
-    for (int b = 0; b < a; b++) {
-        double along = dal__dot_product(n, unit, scratch + b * n);
-        for (int i = 0; i < n; i++) unit[i] -= along * scratch[b * n + i];
-    }
-    double size = sqrt(dal__dot_product(n, unit, unit));
-    for (int i = 0; i < n; i++) unit[i] /= size;
-    for (int i = 0; i < n; i++) shift[i] += missing / size * unit[i];
-    return fabs(missing / size);
-}
-
-/* Newton's method in v.  False where it finds no point of D = 0. */
-static bool reach_surface(identity *id, double *scratch)
-{
-    enum { MAX_ITERATIONS = 30 };
-    const dal__equations *e = id->e;
-    double *v = id->point + e->v, *shift = scratch + e->m * e->n;
-    for (int k = 0; k < MAX_ITERATIONS; k++) {
-        double change = 0.0, size = sqrt(dal__dot_product(e->n, v, v));
-        for (int i = 0; i < e->n; i++) shift[i] = 0.0;
-        for (int a = 0; a < e->m; a++) change += shift_along(id, a, scratch, shift);
-        if (!isfinite(change)) return false;
-        for (int i = 0; i < e->n; i++) v[i] += shift[i];
-        if (change <= 8 * DBL_EPSILON * size) return true;
-    }
-    return false;
-}
-
-static bool vanishes_on_surface(identity *id, double *scratch)
-{
-    int defined = 0;
-    for (int number = 0; number < POINTS; number++) {
-        double sum, size;
-        move(id, number);
-        if (!reach_surface(id, scratch)) continue;
-        sum_terms(id, &sum, &size);
-        if (!isfinite(sum)) continue;
-        if (fabs(sum) > ROUNDING * size) return false;
-        defined++;
-    }
-    return defined > POINTS / 2;
-}
-
 dal_status dal__energy_properties(dal_model *model)
 {
     dal__equations *e = &model->equations;
@@ -213,7 +202,7 @@ dal_status dal__energy_properties(dal_model *model)
         add_term(&id, dal__time_derivative(e, e->energy));
         dal__gradient(e->graph, e->energy, e->symbol + e->v, e->n, E_v);
         for (int i = 0; i < e->n; i++) add_term(&id, dal__mul(e->graph, E_v[i], e->F[i]));
-        found = vanishes(&id) ? DAL_E_EXACT : vanishes_on_surface(&id, scratch) ? DAL_E_ON_D : 0;
+        found = vanishes(&id) ? DAL_E_EXACT : vanishes_at_points(&id, scratch) ? DAL_E_ON_D : 0;
     }
     e->properties |= found;
     return e->graph->status;

@@ -60,7 +60,7 @@ static dal_status derive_constraints(dal_model *model, dal_error *error)
         for (int i = 0; i < e->n; i++)
             depends |= !dal__is_number(e->graph, e->A[a * e->n + i], 0.0);
         if (!depends && e->graph->status == DAL_OK)
-            return dal__fail_at(error, DAL_RANK, entry->line, entry->column,
+            return dal__fail_at(error, DAL_RANK, DAL__AT_TEXT(entry),
                                 "constraint %d does not depend on the velocities", a + 1);
     }
     return DAL_OK;
@@ -144,7 +144,7 @@ static dal_status dependent_constraints(const dal_model *model, int row, dal_err
 {
     const dal__entry *entry = dal__model_entry(model, DAL_SECTION_CONSTRAINTS, row);
     return dal__fail_at(
-        error, DAL_RANK, entry->line, entry->column,
+        error, DAL_RANK, DAL__AT_TEXT(entry),
         model->equations.servo
             ? "constraint %d is not held by the reactions: A W^-1 B^T is singular"
             : "constraint %d is not independent of the others: A W^-1 A^T is singular",
