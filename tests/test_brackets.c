@@ -45,8 +45,8 @@ static dal_status dirac_of(const char *text, double (*phi)(void *, const double 
     double x[16];
     CU_ASSERT_EQUAL(dal_evaluator_start(evaluator, NULL, 0, x, NULL), DAL_OK);
     const dal_point at = {.t = 0.2, .q = x, .v = x + system->n};
-    const dal_status status =
-        phi ? dal__dirac(evaluator, &at, 1.5, phi, out) : dal_check_dirac(evaluator, &at, 1.5, out);
+    const dal_status status = phi ? dal__dirac_algebra(evaluator, &at, 1.5, phi, out)
+                                  : dal_check_dirac(evaluator, &at, 1.5, out);
     *n = system->n;
     dal_evaluator_free(evaluator);
     dal_model_free(model);

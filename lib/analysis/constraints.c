@@ -248,7 +248,7 @@ static dal_status constraint_blocks(dal_evaluator *evaluator, double t, const do
     return isfinite(dal__max_abs(out, count)) ? DAL_OK : DAL_NOT_FINITE;
 }
 
-void dal__gram(const dal_system *s, const double *block, double *gram)
+void dal__gram_matrix(const dal_system *s, const double *block, double *gram)
 {
     int n = s->n, m = s->m;
     const double *A = block + m, *R = block + m + m * n;
@@ -274,7 +274,7 @@ dal_status dal_measure_rank(dal_evaluator *evaluator, const dal_point *at, int *
     double *gram = block + m * (1 + 2 * n), *size = gram + m * m;
     dal_status status = constraint_blocks(evaluator, at->t, at->q, at->v, block);
     if (status == DAL_OK) {
-        dal__gram(s, block, gram);
+        dal__gram_matrix(s, block, gram);
         /* Scaled by the root of the largest entry of each row: constraints in any units. */
         for (size_t a = 0; a < m; a++) size[a] = sqrt(dal__max_abs(gram + a * m, m));
         for (size_t k = 0; k < m * m; k++) {
@@ -318,7 +318,7 @@ static dal_status newton_step(projection *p)
 {
     int n = p->s->n, m = p->s->m;
     memcpy(p->right, p->block, (size_t)m * sizeof(double));
-    dal__gram(p->s, p->block, p->gram);
+    dal__gram_matrix(p->s, p->block, p->gram);
     if (dal__least_squares(m, m, p->gram, p->right, p->step, rank_tolerance, NULL, p->work) < m)
         return DAL_SINGULAR;
     for (int i = 0; i < n; i++)

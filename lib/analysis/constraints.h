@@ -5,6 +5,6 @@
 #include "dalembert_analysis.h"
 
 /* G = A W^-1 A^T [m*m] from the block D, A, W^-1 A^T that a system's constraint callback gives. */
-void dal__gram(const dal_system *system, const double *block, double *gram);
+void dal__gram_matrix(const dal_system *system, const double *block, double *gram);
 
 #endif

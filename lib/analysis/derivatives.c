@@ -176,7 +176,7 @@ static dal_status compare_constraint(comparison *d, dal_derivatives *out)
     DAL_TRY(tabulate(d, d->s->constraints, d->m));
     DAL_TRY(call(d, d->s->call.constraint, d->given));
     out->constraint_jacobian = compare(d, d->given + d->m, d->m, d->n, d->n);
-    dal__gram(d->s, d->given, d->scratch);
+    dal__gram_matrix(d->s, d->given, d->scratch);
     const double *gram = d->scratch, size = dal__max_abs(gram, (size_t)d->m * (size_t)d->m);
     double max = 0.0;
     for (int i = 0; i < d->m; i++)

@@ -168,8 +168,8 @@ static dal_status analyse(algebra *w, dal_dirac *out)
     return DAL_OK;
 }
 
-dal_status dal__dirac(dal_evaluator *evaluator, const dal_point *at, double e,
-                      double (*phi)(void *user, const double *z, int a), dal_dirac *out)
+dal_status dal__dirac_algebra(dal_evaluator *evaluator, const dal_point *at, double e,
+                              double (*phi)(void *user, const double *z, int a), dal_dirac *out)
 {
     const dal_system *s = dal_evaluator_system(evaluator);
     if (s->multipliers > 0) return DAL_UNSUPPORTED;
@@ -195,5 +195,5 @@ dal_status dal_check_dirac(dal_evaluator *evaluator, const dal_point *at, double
     DAL_REQUIRE(evaluator, NULL);
     DAL_REQUIRE_POINT(at);
     DAL_REQUIRE(out, NULL);
-    return dal__dirac(evaluator, at, e, dal__dirac_constraint, out);
+    return dal__dirac_algebra(evaluator, at, e, dal__dirac_constraint, out);
 }

@@ -16,7 +16,7 @@ typedef struct dal__dirac_space {
     double *field; /* [n] */
 } dal__dirac_space;
 double dal__dirac_constraint(void *user, const double *z, int a);
-dal_status dal__dirac(dal_evaluator *evaluator, const dal_point *at, double e,
-                      double (*phi)(void *user, const double *z, int a), dal_dirac *out);
+dal_status dal__dirac_algebra(dal_evaluator *evaluator, const dal_point *at, double e,
+                              double (*phi)(void *user, const double *z, int a), dal_dirac *out);
 
 #endif
