@@ -49,9 +49,8 @@ VERSION := $(shell sed -n 's/^.define DAL_VERSION "\(.*\)"/\1/p' include/dalembe
 SONAME  := libdalembert.so.$(basename $(VERSION))
 
 # Sources over num - files named *_wide.c, and every integrator - are compiled once per variant: a
-# number of lanes and an instruction set, chosen when a batch is made.  Of two with the same lanes
-# the better one comes later.  x1 is what others may call by name.  Blocks, x64, are made of groups of
-# lanes, a register each; their integrators are those of the group.  x1_QUAD has quad precision
+# number of lanes and an instruction set, chosen when a batch is made.  What each gains stands in
+# docs/performance.md.  x1 is what others may call by name.  x1_QUAD has quad precision
 # (lib/kernel/quad.h), which no machine has for an instruction set: it is never chosen for speed.
 VARIANTS        = x1 x1_QUAD $(or $(VARIANTS_$(MACHINE)),x4)
 VARIANTS_x86_64 = x4_AVX2 x8_AVX512
@@ -59,21 +58,16 @@ FLAGS_AVX2      = -mavx2 -mfma
 FLAGS_AVX512    = -mavx512f -mavx512dq -mavx512vl -mfma -mprefer-vector-width=512
 FLAGS_QUAD        = -DDAL_NUM_QUAD
 INSTRUCTIONS    = QUAD AVX2 AVX512
-GROUP_BASE      = x2
-GROUP_AVX2      = x4
-GROUP_AVX512    = x8
 MACHINE        := $(firstword $(subst -, ,$(shell $(CC) -dumpmachine)))
 lanes           = $(patsubst x%,%,$(firstword $(subst _, ,$1)))
 instructions    = $(or $(word 2,$(subst _, ,$1)),BASE)
-group           = $(1:x64%=$(GROUP_$(instructions))%)
-GROUPS          = $(sort $(foreach variant,$(VARIANTS),$(call group,$(variant))))
 
 WIDE_SRC   = $(wildcard lib/*/*_wide.c)
 METHOD_SRC = $(wildcard integrators/*.c)
 LIB_SRC    = $(filter-out $(WIDE_SRC),$(wildcard lib/*/*.c))
 LIB_OBJ    = $(LIB_SRC:%.c=$(BUILD)/%.o) $(BUILD)/generated/systems.o \
              $(BUILD)/generated/sources.o $(BUILD)/generated/trend_tables.o \
-             $(call WIDE,$(VARIANTS),$(WIDE_SRC)) $(call WIDE,$(GROUPS),$(METHOD_SRC))
+             $(call WIDE,$(VARIANTS),$(WIDE_SRC) $(METHOD_SRC))
 CLI_SRC    = $(filter-out cli/mpi/%,$(wildcard cli/*/*.c))
 CLI_OBJ    = $(CLI_SRC:%.c=$(BUILD)/%.o) $(BUILD)/generated/study.o $(BUILD)/generated/report_style.o
 WIDE       = $(foreach variant,$1,$(2:%.c=$(BUILD)/%_$(variant).o))
@@ -81,7 +75,7 @@ WIDE       = $(foreach variant,$1,$(2:%.c=$(BUILD)/%_$(variant).o))
 SUITES    = $(patsubst tests/test_%.c,%,$(filter-out %_wide.c,$(wildcard tests/test_*.c)))
 FUZZERS   = $(patsubst tests/%.c,%,$(wildcard tests/fuzz_*.c))
 TEST_SRC  = $(filter-out tests/fuzz_% %_wide.c,$(wildcard tests/*.c))
-TEST_OBJ  = $(TEST_SRC:%.c=$(BUILD)/%.o) $(call WIDE,$(GROUPS),$(wildcard tests/*_wide.c))
+TEST_OBJ  = $(TEST_SRC:%.c=$(BUILD)/%.o) $(call WIDE,$(VARIANTS),$(wildcard tests/*_wide.c))
 TEST_LIBS = -lcunit -lmpfr -lgmp -ljansson
 
 PROGRAM = $(BUILD)/dalembert
@@ -112,10 +106,10 @@ $(call SAY,cc)$(CC) $(ALL) $(VARIANT) -MMD -MP -c $< -o $@
 endef
 
 define COMPILE_VARIANT
-$(BUILD)/%_$1.o: VARIANT = $(if $(filter x1,$1),,-DDAL_VARIANT=$1) -DDAL_LINKED -DDAL_LANES=$(lanes) -DDAL_GROUP=$(call lanes,$(group)) $(FLAGS_$(instructions))
+$(BUILD)/%_$1.o: VARIANT = $(if $(filter x1,$1),,-DDAL_VARIANT=$1) -DDAL_LINKED -DDAL_LANES=$(lanes) $(FLAGS_$(instructions))
 $(BUILD)/%_$1.o: %.c ; $$(COMPILE)
 endef
-$(foreach variant,$(sort $(VARIANTS) $(GROUPS)),$(eval $(call COMPILE_VARIANT,$(variant))))
+$(foreach variant,$(VARIANTS),$(eval $(call COMPILE_VARIANT,$(variant))))
 $(BUILD)/%.o: %.c ; $(COMPILE)
 $(LIB_OBJ) $(TEST_OBJ): | $(BUILD)/generated/variants.h
 $(LIB_OBJ) $(CLI_OBJ) $(TEST_OBJ): | $(START)
@@ -183,9 +177,8 @@ $(BUILD)/generated/variants.h: Makefile
 	    printf ' X(%s NULL)' 'BASE,' $(foreach set,$(INSTRUCTIONS),'$(set),$(FLAGS_$(set):%= "%",)'); \
 	    echo; \
 	    printf '#define DAL__VARIANT_LIST(X, name)'; \
-	    printf ' X(name, %s, %s, %s, %s)' $(foreach variant,$(filter-out x1,$(VARIANTS)),\
-	        $(variant) $(call lanes,$(variant)) $(call instructions,$(variant)) \
-	        $(call group,$(variant))); echo; } >$@
+	    printf ' X(name, %s, %s, %s)' $(foreach variant,$(filter-out x1,$(VARIANTS)),\
+	        $(variant) $(call lanes,$(variant)) $(call instructions,$(variant))); echo; } >$@
 
 # What an integrator outside the tree includes: one file that needs no other.
 $(KERNEL): tools/amalgamate.sh include/dalembert_kernel.h $(wildcard include/*.h lib/kernel/*.h)

@@ -144,16 +144,16 @@ struct dal_system {
     int multipliers; /* first-order variables beside v (vakonomic g); 0 or m */
     int parameters, invariants, guards, tags;
     unsigned properties;
-    const char *const *coordinate;               /* [n] names; NULL: q1, q2, ... */
-    const char *const *parameter;                /* [parameters] names */
-    const double *value;                         /* [parameters] default values */
-    const char *const *invariant;                /* [invariants] names */
-    const char *const *guard;                    /* [guards] "constraint 1: y1'" for messages */
-    int mass_guard;                              /* which guard, from 1, is det W; 0: none */
-    const char *const *tag;                      /* [tags] */
-    size_t workspace;                            /* doubles in dal_point.work; 0 means parameters */
-    dal_callbacks call;                          /* one lane */
-    const dal_callbacks *wide4, *wide8, *wide64; /* 4 ... lanes interleaved; NULL: fewer at once */
+    const char *const *coordinate;      /* [n] names; NULL: q1, q2, ... */
+    const char *const *parameter;       /* [parameters] names */
+    const double *value;                /* [parameters] default values */
+    const char *const *invariant;       /* [invariants] names */
+    const char *const *guard;           /* [guards] "constraint 1: y1'" for messages */
+    int mass_guard;                     /* which guard, from 1, is det W; 0: none */
+    const char *const *tag;             /* [tags] */
+    size_t workspace;                   /* doubles in dal_point.work; 0 means parameters */
+    dal_callbacks call;                 /* one lane */
+    const dal_callbacks *wide4, *wide8; /* 4 or 8 lanes interleaved; NULL: fewer at once */
     dal_callback *prepare; /* completes work after a change of parameters; out unused */
     dal_callback *start;   /* out[2n + multipliers + 1]: q, v, g, e at t = 0; NULL: 0 and e = 1 */
     dal_callback *constraints;      /* out[m]: D alone; NULL: D is not observed */
@@ -486,8 +486,8 @@ dal_status dal_run_intermediate(dal_run *run, double h,
 typedef struct dal_batch dal_batch;
 
 /* count runs of one spec, stepped several lanes at a time, each with the bits of a single run.
- * width: max lanes at a time, 1, 4, 8 or 64 (only DAL_COMPONENTWISE methods on (q,v), else 8);
- * 0: the fastest.  Different batches may be stepped in different threads.  [alloc] */
+ * width: max lanes at a time, 1, 4 or 8; 0: the fastest.  Different batches may be stepped in
+ * different threads.  [alloc] */
 dal_status dal_batch_create(dal_batch **batch, const dal_run_spec *spec, int count, int width,
                             dal_error *error);
 void dal_batch_free(dal_batch *batch);

@@ -23,7 +23,7 @@ typedef void apply_function(enum function f, const double *a, const double *b, d
                             int count);
 /* For a single number and for every group of lanes. */
 apply_function apply_x1;
-#define DECLARE(name, variant, lanes, set, group) apply_function name##_##group;
+#define DECLARE(name, variant, lanes, set) apply_function name##_##variant;
 DAL__VARIANT_LIST(DECLARE, apply)
 #undef DECLARE
 

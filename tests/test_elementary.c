@@ -145,7 +145,7 @@ static const struct {
     apply_function *apply;
     dal__instructions set;
 } variants[] = {
-#define X(name, variant, lanes, set, group) {name##_##group, DAL__##set},
+#define X(name, variant, lanes, set) {name##_##variant, DAL__##set},
     DAL__VARIANT_LIST(X, apply)
 #undef X
 };

@@ -322,8 +322,8 @@ typedef struct lanes_case {
 
 static void check_lanes(const lanes_case *c)
 {
-    _Alignas(64) double q[REFERENCE_MAX * DAL__BLOCK], v[REFERENCE_MAX * DAL__BLOCK],
-        pi[REFERENCE_MAX * DAL__BLOCK], out[REFERENCE_OUT * DAL__BLOCK];
+    _Alignas(64) double q[REFERENCE_MAX * DAL__MAX_LANES], v[REFERENCE_MAX * DAL__MAX_LANES],
+        pi[REFERENCE_MAX * DAL__MAX_LANES], out[REFERENCE_OUT * DAL__MAX_LANES];
     static double prepared[1 << 12];
     int workspace = (int)c->b->system->workspace;
     CU_ASSERT_FATAL(c->single && c->wide);
@@ -364,7 +364,7 @@ static void test_lanes(void)
 {
     reference b = reference_of_text(hard_text);
     dal_callbacks wide;
-#define X(name, variant, lanes, set, group)                                                        \
+#define X(name, variant, lanes, set)                                                               \
     if (dal__machine_has(DAL__##set)) {                                                            \
         name##_##variant(b.system->data, &wide);                                                   \
         check_variant(&b, lanes, &wide);                                                           \

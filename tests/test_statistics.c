@@ -181,7 +181,7 @@ static void test_packs(void)
         dal__instructions set;
         tally_packs *add;
     } variants[] = {{DAL__BASE, dal__tally_packs_x1},
-#define X(name, variant, lanes, set, group) {DAL__##set, name##_##variant},
+#define X(name, variant, lanes, set) {DAL__##set, name##_##variant},
                     DAL__VARIANT_LIST(X, dal__tally_packs)
 #undef X
     };

@@ -15,8 +15,8 @@ static const struct {
     dal__instructions set;
     runner *run;
 } variants[] = {
-#define X(name, variant, lanes, set, group) {lanes, DAL__##set, name##_##variant},
-    X(dal__tape_run, x1, 1, BASE, x1) DAL__VARIANT_LIST(X, dal__tape_run)
+#define X(name, variant, lanes, set) {lanes, DAL__##set, name##_##variant},
+    X(dal__tape_run, x1, 1, BASE) DAL__VARIANT_LIST(X, dal__tape_run)
 #undef X
 };
 enum { VARIANTS = sizeof variants / sizeof variants[0] };
@@ -111,7 +111,7 @@ static double expected(dal__graph *graph, dal__node node, int round, int lane)
     return dal__evaluate(graph, node, values);
 }
 
-/* right[count*BLOCK]: what the outputs are in each lane. */
+/* right[count*MAX_LANES]: what the outputs are in each lane. */
 static void check_variant(int v, const dal__tapes *tapes, int program, int count, int round,
                           const double *right)
 {
@@ -121,7 +121,7 @@ static void check_variant(int v, const dal__tapes *tapes, int program, int count
     int wrong = 0;
     variants[v].run(tapes, program, work, out);
     for (int i = 0; i < count * lanes; i++)
-        wrong += !same_bits(out[i], right[i / lanes * DAL__BLOCK + i % lanes]);
+        wrong += !same_bits(out[i], right[i / lanes * DAL__MAX_LANES + i % lanes]);
     CU_ASSERT_EQUAL(wrong, 0);
     if (wrong > 0) fprintf(stderr, "program %d, variant %d: %d wrong\n", program, v, wrong);
     free(work);
@@ -131,9 +131,9 @@ static void check_variant(int v, const dal__tapes *tapes, int program, int count
 static void check_program(dal__graph *graph, const dal__tapes *tapes, int program,
                           const dal__node *nodes, int count, int round)
 {
-    double *right = formula_work((size_t)count * DAL__BLOCK);
-    for (int i = 0; i < count * DAL__BLOCK; i++)
-        right[i] = expected(graph, nodes[i / DAL__BLOCK], round, i % DAL__BLOCK);
+    double *right = formula_work((size_t)count * DAL__MAX_LANES);
+    for (int i = 0; i < count * DAL__MAX_LANES; i++)
+        right[i] = expected(graph, nodes[i / DAL__MAX_LANES], round, i % DAL__MAX_LANES);
     for (int v = 0; v < VARIANTS; v++)
         if (dal__machine_has(variants[v].set))
             check_variant(v, tapes, program, count, round, right);

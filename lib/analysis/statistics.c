@@ -152,7 +152,7 @@ typedef bool tally_packs(dal__tally *tally, double first, int phase, int packs,
 static tally_packs *best_tally(void)
 {
     tally_packs *best = dal__tally_packs_x1;
-#define X(name, variant, lanes, set, group)                                                        \
+#define X(name, variant, lanes, set)                                                               \
     if (dal__machine_has(DAL__##set)) best = name##_##variant;
     DAL__VARIANT_LIST(X, dal__tally_packs)
 #undef X

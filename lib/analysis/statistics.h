@@ -32,10 +32,10 @@ double dal__roughness(const dal_statistics *statistics);
 /* Adds packs of DAL_PARTIAL_SUMS values each, the first of them at part 0 and at place `phase` of
  * its cycle; once per variant.  False, and the tally as it was, when a value is not finite or
  * beyond DAL__PLAIN_LIMIT. */
-#define DAL__TALLY(name, variant, lanes, set, group)                                               \
+#define DAL__TALLY(name, variant, lanes, set)                                                      \
     bool name##_##variant(dal__tally *tally, double first, int phase, int packs,                   \
                           const double *values);
-DAL__TALLY(dal__tally_packs, x1, 1, BASE, x1)
+DAL__TALLY(dal__tally_packs, x1, 1, BASE)
 DAL__VARIANT_LIST(DAL__TALLY, dal__tally_packs)
 
 #endif

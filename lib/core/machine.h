@@ -3,14 +3,13 @@
  * A source over num is compiled once for each variant: a number of lanes and an instruction set.
  * All give the same bits.  The Makefile holds the list and writes it to variants.h:
  *
- *     DAL__VARIANT_LIST(X, name):   X(name, x4, 4, BASE, x4) X(name, x64, 64, BASE, x2) ...
+ *     DAL__VARIANT_LIST(X, name):   X(name, x4_AVX2, 4, AVX2) X(name, x8_AVX512, 8, AVX512) ...
  *     DAL__INSTRUCTIONS_LIST(X):    X(BASE, NULL) X(AVX2, "-mavx2", "-mfma", NULL) ...
  *
- * with the name of the function, the variant (its suffix), its lanes, its instruction set, and the
- * group of lanes that it consists of, whose integrators it uses (kernel/groups.h); of two variants
- * with the same lanes the better one comes later.  x1, which every machine has and an integrator
- * from outside may have alone, is not in it.  An instruction set comes with the options that a
- * compiler needs for it.  QUAD is no instruction set of a machine: x1_QUAD computes in quad
+ * with the name of the function, the variant (its suffix), its lanes and its instruction set; of
+ * two variants with the same lanes the better one comes later.  x1, which every machine has and an
+ * integrator from outside may have alone, is not in it.  An instruction set comes with the options
+ * that a compiler needs for it.  QUAD is no instruction set of a machine: x1_QUAD computes in quad
  * precision (kernel/quad.h) and is selected by name. */
 #ifndef DAL_MACHINE_H
 #define DAL_MACHINE_H
@@ -26,7 +25,7 @@ typedef enum dal__instructions {
         DAL__INSTRUCTION_SETS
 } dal__instructions;
 
-enum { DAL__BLOCK = 64 }; /* lanes of a block, the most there are */
+enum { DAL__MAX_LANES = 8 };
 
 /* Whether this machine has an instruction set; BASE is what the whole library is compiled for. */
 bool dal__machine_has(dal__instructions set);

@@ -51,9 +51,9 @@ void dal__tapes_prepare_x1(const dal__tapes *tapes, double *work);
 void dal__tapes_prepare_x1_QUAD(const dal__tapes *tapes, double *work);
 /* Runs a program on the inputs in work and writes its outputs; work and out are interleaved by
  * lanes and aligned to them. */
-#define DAL__TAPE_RUN(name, variant, lanes, set, group)                                            \
+#define DAL__TAPE_RUN(name, variant, lanes, set)                                                   \
     void name##_##variant(const dal__tapes *tapes, int program, double *work, double *out);
-DAL__TAPE_RUN(dal__tape_run, x1, 1, BASE, x1)
+DAL__TAPE_RUN(dal__tape_run, x1, 1, BASE)
 DAL__VARIANT_LIST(DAL__TAPE_RUN, dal__tape_run)
 
 #endif

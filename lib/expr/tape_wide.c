@@ -1,15 +1,7 @@
-/* tape_wide.c - runs a program, over num.
- *
- * An instruction acts on all groups of a block before the next one is read, so all lanes share the
- * cost of decoding it. */
-#include "kernel/groups.h"
-
+/* tape_wide.c - runs a program, over num. */
 #include "expr/arithmetic.h"
 #include "expr/tape.h"
 #include "expr/traversal.h"
-
-#define AT(place)  w[(size_t)(place)*DAL_GROUPS + g]
-#define EACH_GROUP for (size_t g = 0; g < DAL_GROUPS; g++)
 
 static __attribute__((flatten, noinline)) void execute(const dal__tape *tape, double *work)
 {
@@ -18,20 +10,17 @@ static __attribute__((flatten, noinline)) void execute(const dal__tape *tape, do
         const dal__instruction i = tape->code[k]; /* a copy, which no write to w can change */
         switch (i.op) {
 #define CASE(code, expression)                                                                     \
-    case DAL__##code:                                                                              \
-        EACH_GROUP                                                                                 \
-        {                                                                                          \
-            const num a = AT(i.a), b = AT(i.b), c = AT(i.c);                                       \
-            AT(i.d) = expression;                                                                  \
-            (void)b, (void)c;                                                                      \
-        }                                                                                          \
-        break;
+    case DAL__##code: {                                                                            \
+        const num a = w[i.a], b = w[i.b], c = w[i.c];                                              \
+        w[i.d] = expression;                                                                       \
+        (void)b, (void)c;                                                                          \
+    } break;
             DAL__UNARY_LIST(CASE)
             DAL__BINARY_LIST(CASE)
             DAL__FUSED_LIST(CASE)
 #undef CASE
         case DAL__SINCOS:
-            EACH_GROUP dal_sincos(AT(i.a), &AT(i.d), &AT(i.b));
+            dal_sincos(w[i.a], &w[i.d], &w[i.b]);
             break;
         }
     }
@@ -43,10 +32,7 @@ void DAL_WIDE(dal__tape_run)(const dal__tapes *tapes, int program, double *work,
     execute(tape, work);
     const num *w = (const num *)work;
     num *o = (num *)out;
-    for (int k = 0; k < tape->outputs; k++) {
-        const uint32_t place = tape->place[k];
-        EACH_GROUP o[(size_t)k * DAL_GROUPS + g] = AT(place);
-    }
+    for (int k = 0; k < tape->outputs; k++) o[k] = w[tape->place[k]];
 }
 
 #if defined DAL_NUM_QUAD || !defined DAL_VARIANT /* x1 */

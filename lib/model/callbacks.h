@@ -8,9 +8,9 @@
 void dal__callbacks_single(dal__programs *programs, dal_system *system);
 
 /* Sets *call to the callbacks of a variant; what runs its programs. */
-#define DAL__CALLBACKS(name, variant, lanes, set, group)                                           \
+#define DAL__CALLBACKS(name, variant, lanes, set)                                                  \
     dal__run_program *name##_##variant(const dal__programs *programs, dal_callbacks *call);
-DAL__CALLBACKS(dal__callbacks, x1, 1, BASE, x1)
+DAL__CALLBACKS(dal__callbacks, x1, 1, BASE)
 DAL__VARIANT_LIST(DAL__CALLBACKS, dal__callbacks)
 
 #endif

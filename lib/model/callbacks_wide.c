@@ -1,18 +1,16 @@
 /* callbacks_wide.c - the callbacks of a model's system, over num: they load the inputs of a
  * tape, run it, and leave NaN in the lanes where a checked pivot has vanished. */
-#include "kernel/groups.h"
-
 #include "kernel/num.h"
 #include "model/callbacks.h"
 
 /* Doubles that a number takes: one for each lane, or more for a longer one. */
-enum { WIDTH = DAL_GROUPS * (int)(sizeof(num) / sizeof(double)) };
+enum { WIDTH = sizeof(num) / sizeof(double) };
 
 static void load_lanes(double *work, int place, const double *from, int count)
 {
     num *to = (num *)(work + (size_t)place * WIDTH);
     const num *lanes = (const num *)from;
-    for (int i = 0; i < count * DAL_GROUPS; i++) to[i] = lanes[i];
+    for (int i = 0; i < count; i++) to[i] = lanes[i];
 }
 
 /* Lanes where every pivot exceeds its part of the size; a NaN exceeds nothing. */
@@ -20,7 +18,7 @@ static dal_mask pivots_hold(const num *checked, int pivots)
 {
     dal_mask ok = dal_all();
     for (int k = 0; k < pivots; k++) {
-        const num pivot = checked[2 * k * DAL_GROUPS], size = checked[(2 * k + 1) * DAL_GROUPS];
+        const num pivot = checked[2 * k], size = checked[2 * k + 1];
         ok &= dal_less(DAL__PIVOT_LEAST * size, dal_abs(pivot));
     }
     return ok;
@@ -33,7 +31,7 @@ static dal_status run_program(const dal_system *system, const dal_point *at, dou
     const dal__programs *p = system->data;
     const dal__program *program = &p->program[code];
     num *t = (num *)(at->work + (size_t)p->t * WIDTH);
-    for (int g = 0; g < DAL_GROUPS && reads & DAL__T; g++) t[g] = dal_num(at->t);
+    if (reads & DAL__T) *t = dal_num(at->t);
     if (reads & DAL__QV) {
         load_lanes(at->work, p->q, at->q, p->n);
         load_lanes(at->work, p->v, at->v, p->n);
@@ -46,13 +44,10 @@ static dal_status run_program(const dal_system *system, const dal_point *at, dou
     }
     double *scratch = at->work + p->scratch * WIDTH;
     DAL_WIDE(dal__tape_run)(p->tapes, program->tape, at->work, scratch);
-    for (int g = 0; g < DAL_GROUPS; g++) {
-        const num *all = (const num *)scratch + g;
-        num *to = (num *)out + g;
-        const dal_mask ok = pivots_hold(all + program->outputs * DAL_GROUPS, program->checked);
-        for (int i = 0; i < program->outputs * DAL_GROUPS; i += DAL_GROUPS)
-            to[i] = dal_select(ok, all[i], dal_num(NAN));
-    }
+    const num *all = (const num *)scratch;
+    num *to = (num *)out;
+    const dal_mask ok = pivots_hold(all + program->outputs, program->checked);
+    for (int i = 0; i < program->outputs; i++) to[i] = dal_select(ok, all[i], dal_num(NAN));
     return DAL_OK;
 }
 

@@ -128,7 +128,7 @@ static dal_status make_quad(dal_model *model, const dal__programs *programs, dal
     k->system.data = &k->programs;
     k->system.prepare = prepare_quad;
     k->system.call = k->programs.wide1;
-    k->system.wide4 = k->system.wide8 = k->system.wide64 = NULL;
+    k->system.wide4 = k->system.wide8 = NULL;
     system->quad = &k->system;
     return DAL_OK;
 }
@@ -159,7 +159,7 @@ dal_status dal__programs_finish(dal_model *model, dal__programs *programs, dal_s
     system->workspace = programs->scratch + scratch_size(programs);
     system->prepare = prepare;
     programs->run = dal__callbacks_x1(programs, &programs->wide1);
-#define CALLBACKS(name, variant, lanes, set, group)                                                \
+#define CALLBACKS(name, variant, lanes, set)                                                       \
     if (dal__machine_has(DAL__##set)) {                                                            \
         dal__run_program *run = name##_##variant(programs, &programs->wide##lanes);                \
         if (lanes == 1) programs->run = run;                                                       \
@@ -170,6 +170,5 @@ dal_status dal__programs_finish(dal_model *model, dal__programs *programs, dal_s
     dal__callbacks_single(programs, system);
     system->wide4 = if_filled(&programs->wide4);
     system->wide8 = if_filled(&programs->wide8);
-    system->wide64 = if_filled(&programs->wide64);
     return make_quad(model, programs, system);
 }

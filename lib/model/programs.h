@@ -52,7 +52,7 @@ typedef struct dal__programs {
     int t, q, v, pi, g; /* places of the inputs in work */
     size_t scratch;     /* place in work for outputs and checked pivots together */
     dal__program program[DAL__PROGRAM_COUNT];
-    dal_callbacks wide1, wide4, wide8, wide64;
+    dal_callbacks wide1, wide4, wide8;
     dal_picture picture;
     dal__run_program *run; /* a program of one lane */
 } dal__programs;

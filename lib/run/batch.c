@@ -10,7 +10,7 @@
 #include <string.h>
 
 /* The widths a batch may ask for, and the kinds it is made of, the widest first. */
-static const int widths[] = {DAL__BLOCK, 8, 4, 1};
+static const int widths[] = {8, 4, 1};
 enum { WIDTHS = sizeof widths / sizeof *widths };
 typedef struct engine_choice {
     const dal__engine_kind *kind[WIDTHS];
@@ -37,25 +37,13 @@ struct dal_batch {
 
 /* ---- which blocks ---- */
 
-/* Whether what a step touches, scratch apart, takes no more than half of a second-level cache. */
-enum { NEAR = 1 << 19 };
-static bool is_near(const dal__layout *k, int width)
-{
-    const size_t numbers = 2 * k->persistent + k->workspace;
-    return numbers * (size_t)width * sizeof(double) <= (size_t)NEAR;
-}
-
-/* The best kinds up to the width asked for (0: up to the one that pays).  A kind of several lanes
- * that lacks the instruction set of a narrower one is slower than that. */
+/* The best kinds up to a width (0: all). */
 static engine_choice choose(const dal__layout *k, int width)
 {
     engine_choice made = {{NULL}, 0};
     for (int i = 0; i < WIDTHS; i++) {
         const dal__engine_kind *best = dal__engine_best(k, widths[i]);
-        if (!best || (width ? widths[i] > width : widths[i] > 8 && !is_near(k, widths[i])))
-            continue;
-        while (made.count && made.kind[made.count - 1]->set < best->set) made.count--;
-        made.kind[made.count++] = best;
+        if (best && (width == 0 || widths[i] <= width)) made.kind[made.count++] = best;
     }
     return made;
 }
@@ -108,7 +96,7 @@ static void gather_lane(dal_batch *batch, const block *b, int lane)
     gather(batch->scalar->work, b->work, k->workspace, b->kind->width, lane);
 }
 
-enum { ALIGNMENT = DAL__BLOCK * sizeof(double) };
+enum { ALIGNMENT = DAL__MAX_LANES * sizeof(double) };
 
 static size_t round_up(size_t bytes) { return (bytes + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT; }
 
@@ -195,7 +183,7 @@ dal_status dal_batch_create(dal_batch **batch, const dal_run_spec *spec, int cou
     if (count < 1) return dal__fail(error, DAL_ARGUMENT, "a batch of %d runs is empty", count);
     bool known = width == 0;
     for (int i = 0; i < WIDTHS; i++) known |= width == widths[i];
-    if (!known) return dal__fail(error, DAL_ARGUMENT, "width %d is not 0, 1, 4, 8 or 64", width);
+    if (!known) return dal__fail(error, DAL_ARGUMENT, "width %d is not 0, 1, 4 or 8", width);
     if (spec->options.precision != DAL_DOUBLE)
         return dal__fail(error, DAL_UNSUPPORTED, "a batch has no lanes in quad precision");
     return dal__batch_create(batch, spec, count, width, DAL__VARIANTS, error);
@@ -298,7 +286,7 @@ static long long step_block(dal_batch *batch, block *b, double h, long long coun
                             dal__lanes *failed, dal_status *why)
 {
     unsigned lanes = 0;
-    int reasons[DAL__BLOCK];
+    int reasons[DAL__MAX_LANES];
     if (batch->native.steps) {
         count = batch->native.steps(b->persistent, b->work, h, count, (unsigned)b->alive, &lanes,
                                     reasons);
@@ -317,7 +305,7 @@ dal_status dal_batch_advance(dal_batch *batch, long long count)
     DAL_REQUIRE(batch, NULL);
     DAL_REQUIRE_COUNT(count, NULL);
     const double h = batch->scalar->layout.options.step;
-    dal_status why[DAL__BLOCK] = {DAL_OK}, last = DAL_OK;
+    dal_status why[DAL__MAX_LANES] = {DAL_OK}, last = DAL_OK;
     dal__lanes failed = 0;
     bool alive = false;
     batch->stepped = batch->stepped || count > 0;

@@ -2,7 +2,7 @@
 #include "run/engine.h"
 
 const dal__engine_kind dal__engine_kinds[DAL__VARIANTS] = {
-#define X(name, variant, lanes, set, group)                                                        \
+#define X(name, variant, lanes, set)                                                               \
     {lanes,                                                                                        \
      DAL__##set,                                                                                   \
      name##_bytes_##variant,                                                                       \
@@ -10,13 +10,13 @@ const dal__engine_kind dal__engine_kinds[DAL__VARIANTS] = {
      name##_step_##variant,                                                                        \
      name##_eval_##variant,                                                                        \
      name##_trace_##variant},
-    X(dal__engine, x1, 1, BASE, x1) DAL__VARIANT_LIST(X, dal__engine)
+    X(dal__engine, x1, 1, BASE) DAL__VARIANT_LIST(X, dal__engine)
 #undef X
 };
 
 static bool has_callbacks(const dal_system *s, int width)
 {
-    return width == 1 || (width == 4 ? s->wide4 : width == 8 ? s->wide8 : s->wide64);
+    return width == 1 || (width == 4 ? s->wide4 : s->wide8);
 }
 
 bool dal__engine_can(const dal__layout *k, dal__variant variant)
@@ -25,8 +25,6 @@ bool dal__engine_can(const dal__layout *k, dal__variant variant)
     if (variant == DAL__VARIANT_x1) return true;
     if (width > 1 && k->options.tolerance > 0.0) return false; /* each lane has its own substeps */
     if (!has_callbacks(k->system, width)) return false;
-    if (width == DAL__BLOCK && (k->lifted || k->depth > 1)) return false;
-    if (width == DAL__BLOCK && !(k->method.layer[0]->properties & DAL_COMPONENTWISE)) return false;
     for (int i = 0; i < k->depth; i++)
         if (!dal__integrator_wide(k->method.layer[i], variant)) return false;
     return dal__machine_has(dal__engine_kinds[variant].set);

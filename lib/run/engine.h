@@ -56,7 +56,7 @@ int dal__eval_size(const dal__layout *layout, int code);
 /* The variants by number. */
 typedef enum dal__variant {
     DAL__VARIANT_x1,
-#define X(name, variant, lanes, set, group) name##_##variant,
+#define X(name, variant, lanes, set) name##_##variant,
     DAL__VARIANT_LIST(X, DAL__VARIANT)
 #undef X
         DAL__VARIANTS
@@ -68,7 +68,7 @@ const dal_integrator *dal__integrator_wide(const dal_integrator *integrator, dal
 /* A set of lanes: bit i is lane i. */
 typedef uint64_t dal__lanes;
 
-#define DAL__ENGINE(name, variant, lanes, set, group)                                              \
+#define DAL__ENGINE(name, variant, lanes, set)                                                     \
     size_t name##_bytes_##variant(const dal__layout *layout);                                      \
     void *name##_place_##variant(const dal__layout *layout, void *memory, double **persistent,     \
                                  double **work);                                                   \
@@ -84,7 +84,7 @@ typedef uint64_t dal__lanes;
  *         why[lane] set;
  * ask     evaluates the field etc. (dal_callback_code) at a state (adjoint: with its own pi);
  * trace   from now on records causes of failure (NULL: stops). */
-DAL__ENGINE(dal__engine, x1, 1, BASE, x1)
+DAL__ENGINE(dal__engine, x1, 1, BASE)
 DAL__VARIANT_LIST(DAL__ENGINE, dal__engine)
 
 /* The same by number. */

@@ -27,7 +27,6 @@ static const dal_callbacks *callbacks(const dal_system *system)
 {
     if (LANES == 4) return system->wide4;
     if (LANES == 8) return system->wide8;
-    if (LANES == (int)DAL__BLOCK) return system->wide64;
     return &system->call;
 }
 

@@ -2,15 +2,15 @@
 #include "run/engine.h"
 #include <string.h>
 
-#define DECLARE(name, variant, lanes, set, group)                                                  \
-    extern const dal_integrator dal__integrator_##name##_##group;
+#define DECLARE(name, variant, lanes, set)                                                         \
+    extern const dal_integrator dal__integrator_##name##_##variant;
 #define X(name)                                                                                    \
     extern const dal_integrator dal_integrator_##name;                                             \
     DAL__VARIANT_LIST(DECLARE, name)
 #include "../integrators/integrators.def"
 #undef X
 
-#define ADDRESS(name, variant, lanes, set, group) &dal__integrator_##name##_##group,
+#define ADDRESS(name, variant, lanes, set) &dal__integrator_##name##_##variant,
 static const dal_integrator *const entries[][DAL__VARIANTS] = {
 #define X(name) {&dal_integrator_##name, DAL__VARIANT_LIST(ADDRESS, name)},
 #include "../integrators/integrators.def"
