@@ -1,4 +1,4 @@
-/* generate.c - `dalembert generate`: one C file that steps one system, needing nothing else. */
+/* generate.c - `dalembert generate`: writes one C file that steps one system. */
 #include "dalembert_codegen.h"
 #include "io/file.h"
 #include "run/request.h"
@@ -31,13 +31,6 @@ static const uint64_t taken = REQUEST_OPTION(integrator) | REQUEST_OPTION(space)
                               REQUEST_OPTION(extend_energy) | REQUEST_OPTION(set) |
                               REQUEST_OPTION(start) | REQUEST_OPTION(system);
 
-static int write_text(const char *text, const char *output)
-{
-    if (strcmp(output, "-") != 0) return file_replace(output, text, strlen(text), 1);
-    fputs(text, stdout);
-    return cli_close(stdout, "standard output");
-}
-
 static int generate_text(settings *s)
 {
     dal_run_spec spec;
@@ -47,7 +40,12 @@ static int generate_text(settings *s)
     char *text = NULL;
     dal_status made = dal_generate(&spec, (int)s->lanes, s->prefix, &text, &error);
     if (made != DAL_OK) return cli_error(cli_input_exit(made), s->request.system_name, &error);
-    status = write_text(text, s->output);
+    if (strcmp(s->output, "-") != 0) {
+        status = file_replace(s->output, text, strlen(text), 1);
+    } else {
+        fputs(text, stdout);
+        status = cli_close(stdout, "standard output");
+    }
     free(text);
     return status;
 }

@@ -1,4 +1,4 @@
-/* main.c - the program `dalembert`: finds the command and gives it the arguments. */
+/* main.c - the program `dalembert`: runs a command. */
 #include "dalembert.h"
 #include "ui/commands.h"
 #include "ui/message.h"
@@ -38,12 +38,6 @@ static int print_usage(void)
     return cli_close(stdout, "standard output");
 }
 
-static int print_version(void)
-{
-    puts("dalembert " DAL_VERSION);
-    return cli_close(stdout, "standard output");
-}
-
 /* A file opened while a standard stream is closed would take its number, and messages would mix
  * with rows.  The descriptors opened here are read-only: a write to a closed standard output still
  * fails. */
@@ -63,7 +57,10 @@ int main(int argc, char **argv)
     static const char *const options[] = {"--help", "--version"};
     const char *first = argc > 1 ? argv[1] : "--help";
     if (strcmp(first, "--help") == 0 || strcmp(first, "-h") == 0) return print_usage();
-    if (strcmp(first, "--version") == 0) return print_version();
+    if (strcmp(first, "--version") == 0) {
+        puts("dalembert " DAL_VERSION);
+        return cli_close(stdout, "standard output");
+    }
     if (first[0] == '-') return cli_unknown("option", first, options, 2);
     const char *names[COMMANDS];
     for (int i = 0; i < COMMANDS; i++) {

@@ -7,15 +7,6 @@
 #include "ui/message.h"
 #include "ui/options.h"
 
-static int holds_study(const char *directory)
-{
-    study_directory dir;
-    study_directory_open(&dir, directory);
-    const int holds = study_directory_has_study(&dir);
-    study_directory_close(&dir);
-    return holds;
-}
-
 static int resume_run(const char *directory, const run_settings *settings)
 {
     run_directory dir;
@@ -53,7 +44,11 @@ static int resume(int argc, char **argv)
     };
     const int status = cli_read_arguments(&command_resume, argc, argv, groups, 2);
     if (status != CLI_GO_ON) return status;
-    if (!holds_study(s.directory)) return resume_run(s.directory, &s.run);
+    study_directory dir;
+    study_directory_open(&dir, s.directory);
+    const bool is_study = study_directory_has_study(&dir);
+    study_directory_close(&dir);
+    if (!is_study) return resume_run(s.directory, &s.run);
     return study_resume(s.directory,
                         &(study_run_options){(int)s.threads, s.run.interval, s.run.native});
 }

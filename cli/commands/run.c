@@ -15,8 +15,8 @@ static int run_in_directory(const run_request *request, const run_settings *sett
         status == CLI_DONE && !settings->force ? run_directory_find_file(&dir) : NULL;
     if (file)
         status = cli_fail(CLI_USAGE,
-                          "'%s' is there already: 'dalembert resume' resumes a run, --force "
-                          "writes over it",
+                          "'%s' is there already: 'dalembert resume' continues a run, --force "
+                          "overwrites it",
                           file);
     if (status == CLI_DONE) status = run_directory_lock(&dir, 1);
     if (status == CLI_DONE) status = manifest_begin(&dir, request);
@@ -48,23 +48,17 @@ const cli_command command_run = {
     .about = "integrates one system",
     .notes =
         "Rows are CSV with 17 digits: t, the coordinates, the velocities, on the lifted space e, "
-        "p_*,\n"
-        "pi_*, pi_e, then D1.., E, H, the invariants and error; N+1 rows, from t = 0 to exactly "
-        "T.\n"
-        "FILE.npy holds the same as an array of numpy with the names of the columns.\n"
-        "A directory gets manifest.json, system.yaml (when SYSTEM is a file), trajectory.npy,\n"
-        "summary.csv and a checkpoint.  'dalembert resume DIR' resumes the run after any "
-        "interruption,\n"
-        "kill -9 included, and ends in the same bytes.\n"
+        "p_*, pi_*, pi_e, then D1.., E, H, the invariants and error; N+1 rows, from t = 0 to "
+        "exactly T.  FILE.npy has the same as an array of numpy with the names of the columns.\n"
+        "\n"
+        "A directory gets manifest.json, system.yaml (where SYSTEM is a file), trajectory.npy, "
+        "summary.csv and a checkpoint.  'dalembert resume DIR' continues the run after any "
+        "interruption, kill -9 included, and the bytes are the same.\n"
         "\n"
         "The summary has, of every observable at every step: maximum, final value, amplitude of "
-        "its\n"
-        "oscillation, drift rate with its 95 % interval, exponent of growth; its size: exact, "
-        "rounding\n"
-        "or larger; and its trend: none, settles, random walk, linear, power law, exponential, "
-        "growing\n"
-        "oscillation, undecided or aborted, with a confidence.  E has neither size nor trend where "
-        "the\n"
-        "motion does not conserve it.\n",
+        "its oscillation, drift rate with its 95 % interval, exponent of growth; its size: exact, "
+        "rounding or larger; and its trend: none, settles, random walk, linear, power law, "
+        "exponential, growing oscillation, undecided or aborted, with a confidence.  E has "
+        "neither size nor trend where the motion does not conserve it.\n",
     .run = run,
 };

@@ -1,7 +1,7 @@
 /* memory.c - the memory of the program.
  *
- * The one file of the program that allocates.  Nothing here returns without memory: the program
- * then ends with a message and status 4, standard streams and open files flushed. */
+ * Only this file of the program allocates.  Where memory runs out the program ends with a message
+ * and status 4; standard streams and open files are flushed. */
 #ifndef _GNU_SOURCE
 #define _GNU_SOURCE /* fopencookie */
 #endif
@@ -14,36 +14,37 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Threads that must not be cut off hold it to read; the one that ends the program, to write. */
+/* A thread that the end of the program must not interrupt holds it to read; the one that ends the
+ * program, to write. */
 static pthread_rwlock_t exits = PTHREAD_RWLOCK_INITIALIZER;
-static _Thread_local int holds_exit;
+static _Thread_local bool holds_exit;
 
 void cli_hold_exit(void)
 {
     pthread_rwlock_rdlock(&exits);
-    holds_exit = 1;
+    holds_exit = true;
 }
 
 void cli_release_exit(void)
 {
-    holds_exit = 0;
+    holds_exit = false;
     pthread_rwlock_unlock(&exits);
 }
 
-static atomic_int ending;
+static atomic_bool ending;
 
-int cli_is_ending(void) { return ending; }
+bool cli_is_ending(void) { return ending; }
 
 /* Another thread that runs out of memory waits here while the first one ends the program. */
 void cli_out_of_memory(void)
 {
-    ending = 1;
+    ending = true;
     if (holds_exit) cli_release_exit();
     pthread_rwlock_wrlock(&exits);
     exit(cli_fail(CLI_IO, "out of memory"));
 }
 
-int cli_is_ok(dal_status status)
+bool cli_is_ok(dal_status status)
 {
     if (status == DAL_MEMORY) cli_out_of_memory();
     return status == DAL_OK;
@@ -99,30 +100,30 @@ char *cli_format(const char *format, ...)
 
 /* ---- texts that are written as files ------------------------------------------------------- */
 
-/* open_memstream of the C library loses what no memory is found for without an error. */
+/* open_memstream of the C library loses text without an error where memory runs out. */
 typedef struct memstream {
     char **text;
     size_t *length, capacity;
-    int failed;
+    bool failed;
 } memstream;
 
-static int reserve(memstream *m, size_t capacity)
+static bool reserve(memstream *m, size_t capacity)
 {
-    if (capacity <= m->capacity) return 1;
+    if (capacity <= m->capacity) return true;
     if (capacity < 2 * m->capacity) capacity = 2 * m->capacity;
     char *text = realloc(*m->text, capacity);
-    if (!text) return 0;
+    if (!text) return false;
     *m->text = text;
     m->capacity = capacity;
-    return 1;
+    return true;
 }
 
-/* The program cannot end here, within a function of stdio: exit would write to the file again. */
+/* The program cannot end within a function of stdio: exit would write to the file again. */
 static ssize_t append(void *cookie, const char *bytes, size_t length)
 {
     memstream *m = cookie;
     if (m->failed || !reserve(m, *m->length + length + 1)) {
-        m->failed = 1;
+        m->failed = true;
         errno = ENOMEM;
         return 0;
     }
@@ -134,7 +135,7 @@ static ssize_t append(void *cookie, const char *bytes, size_t length)
 
 static int release(void *cookie)
 {
-    const int failed = ((memstream *)cookie)->failed;
+    const bool failed = ((memstream *)cookie)->failed;
     free(cookie);
     return failed ? EOF : 0;
 }

@@ -6,6 +6,7 @@
 #include "message.h"
 
 #include <stdarg.h>
+#include <stdbool.h>
 #include <stdio.h>
 
 /* Ends the program with a message and status 4. */
@@ -15,9 +16,9 @@ _Noreturn void cli_out_of_memory(void);
  * another thread waits to end it. */
 void cli_hold_exit(void);
 void cli_release_exit(void);
-int cli_is_ending(void);
+bool cli_is_ending(void);
 /* Whether a status is DAL_OK; ends the program where it is DAL_MEMORY. */
-int cli_is_ok(dal_status status);
+bool cli_is_ok(dal_status status);
 
 /* As in the C library, but these never return NULL, not even for 0 bytes. */
 void *cli_malloc(size_t size);

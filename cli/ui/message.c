@@ -11,33 +11,34 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
-enum { MESSAGE_SIZE = 8192 }; /* room for a path of the greatest length, and more */
+enum { MESSAGE_SIZE = 8192 }; /* more than the longest path */
 
-#define MAP(X)                                                                                     \
-    X(OK, DONE)                                                                                    \
-    X(MEMORY, IO)                                                                                  \
-    X(ARGUMENT, USAGE)                                                                             \
-    X(SYNTAX, USAGE)                                                                               \
-    X(NAME, USAGE)                                                                                 \
-    X(MODEL, USAGE)                                                                                \
-    X(TOO_LARGE, USAGE)                                                                            \
-    X(INCONSISTENT, USAGE)                                                                         \
-    X(RANK, USAGE)                                                                                 \
-    X(UNSUPPORTED, USAGE)                                                                          \
-    X(SINGULAR, FAILED)                                                                            \
-    X(SINGULAR_MASS, FAILED)                                                                       \
-    X(NOT_FINITE, FAILED)                                                                          \
-    X(NOT_CONVERGED, FAILED)                                                                       \
-    X(GAUGE, FAILED)                                                                               \
-    X(IO, IO)                                                                                      \
-    X(INTERRUPTED, SIGNAL)
+/* status, exit status */
+#define EXIT_OF_STATUS(EXIT)                                                                       \
+    EXIT(OK, DONE)                                                                                 \
+    EXIT(MEMORY, IO)                                                                               \
+    EXIT(ARGUMENT, USAGE)                                                                          \
+    EXIT(SYNTAX, USAGE)                                                                            \
+    EXIT(NAME, USAGE)                                                                              \
+    EXIT(MODEL, USAGE)                                                                             \
+    EXIT(TOO_LARGE, USAGE)                                                                         \
+    EXIT(INCONSISTENT, USAGE)                                                                      \
+    EXIT(RANK, USAGE)                                                                              \
+    EXIT(UNSUPPORTED, USAGE)                                                                       \
+    EXIT(SINGULAR, FAILED)                                                                         \
+    EXIT(SINGULAR_MASS, FAILED)                                                                    \
+    EXIT(NOT_FINITE, FAILED)                                                                       \
+    EXIT(NOT_CONVERGED, FAILED)                                                                    \
+    EXIT(GAUGE, FAILED)                                                                            \
+    EXIT(IO, IO)                                                                                   \
+    EXIT(INTERRUPTED, SIGNAL)
 
 int cli_exit(dal_status status)
 {
     static const int exits[DAL_STATUS_COUNT] = {
-#define X(code, exit) [DAL_##code] = CLI_##exit,
-        MAP(X)
-#undef X
+#define EXIT(code, exit) [DAL_##code] = CLI_##exit,
+        EXIT_OF_STATUS(EXIT)
+#undef EXIT
     };
     return (unsigned)status < DAL_STATUS_COUNT ? exits[status] : CLI_FAILED;
 }
@@ -65,7 +66,7 @@ int cli_width(void)
     return is_known ? size.ws_col : 80;
 }
 
-/* A line that is longer than the terminal is wide would not be replaced by the next one. */
+/* The next line could not replace one that is longer than the terminal is wide. */
 void cli_progress(const char *format, ...)
 {
     char line[512];
@@ -81,8 +82,8 @@ void cli_progress(const char *format, ...)
     progress_time = now;
 }
 
-/* Names and paths stand in messages as the user gave them; a message is one line all the same,
- * and nothing in it commands a terminal. */
+/* Messages contain names and paths as the user gave them; without control characters a message is
+ * one line and does not change the state of the terminal. */
 static void make_plain(char *text)
 {
     for (; *text; text++)
@@ -95,7 +96,7 @@ static void print_message(const char *format, va_list list)
     const int length = vsnprintf(message, sizeof message, format, list);
     make_plain(message);
     cli_progress_end();
-    /* Where both go to one place, the message stands behind the rows, not within one. */
+    /* Where both go to one place, the message follows the rows. */
     fflush(stdout);
     fprintf(stderr, "dalembert: %s%s\n", message, length < MESSAGE_SIZE ? "" : "...");
 }

@@ -1,4 +1,4 @@
-/* options.c - reading of arguments, and --help, from the rows of options. */
+/* options.c - reads arguments and prints --help, from the rows of options. */
 #include "options.h"
 #include "dalembert.h"
 #include "memory.h"
@@ -120,23 +120,23 @@ int cli_parse_word(void *settings, const cli_option *option, const char *text)
 
 /* ---- help ---------------------------------------------------------------------------------- */
 
-/* Options in front, what they do behind, below a long one. */
+/* The option, then what it does; on the next line where the option is long. */
 static void print_option(const cli_option *option)
 {
-    enum { BEHIND = 26 };
+    enum { HELP_COLUMN = 26 };
     const char *name = option->name ? option->name : option->value;
     const char *value = option->name && option->value ? option->value : "";
     const char *initial = option->initial == CLI_REQUIRED ? NULL : option->initial;
     char text[512];
     int column = printf("  %s%s%s%s", option->name ? "--" : "", name, *value ? " " : "", value);
-    if (column > BEHIND - 2) {
+    if (column > HELP_COLUMN - 2) {
         putchar('\n');
         column = 0;
     }
-    printf("%*s", BEHIND - column, "");
+    printf("%*s", HELP_COLUMN - column, "");
     snprintf(text, sizeof text, initial ? "%s (%.*s)" : "%s", option->help,
              initial ? (int)strcspn(initial, "|") : 0, initial);
-    cli_wrap(stdout, text, BEHIND, BEHIND);
+    cli_wrap(stdout, text, HELP_COLUMN, HELP_COLUMN);
 }
 
 /* The arguments that are no options, or those that are; returns whether there are any. */
@@ -265,7 +265,7 @@ static int read_option(reader *r, const char *argument)
                     option->value);
 }
 
-/* A required one that is not given; of all an argument that is no option comes first. */
+/* A required option that is not given; an argument that is no option comes before all options. */
 static const cli_option *find_missing(const reader *r)
 {
     const cli_option *missing = NULL;
