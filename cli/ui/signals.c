@@ -30,7 +30,7 @@ static void catch_signal(int number)
     alarm(GRACE);
 }
 
-/* Interrupts a read or a write that waits for another process; repeated, since there may be several. */
+/* Interrupts a read or a write that waits for another process; repeated, since several may wait. */
 static void end_wait(int number)
 {
     (void)number;
