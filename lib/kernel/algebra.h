@@ -2,6 +2,8 @@
 #ifndef DAL_KERNEL_ALGEBRA_H
 #define DAL_KERNEL_ALGEBRA_H
 
+#include "num.h"
+
 /* y[rows] = M x, M[rows*columns] */
 DAL_INLINE void dal_multiply(const num *m, int rows, int columns, const num *x, num *y)
 {
@@ -60,8 +62,8 @@ DAL_INLINE void dal__eliminate(num *m, int n, int i, int k, num factor)
 }
 
 /* inverse[n*n] of m[n*n], which is destroyed: Gauss-Jordan with partial pivoting in each lane.
- * A singular matrix leaves infinities or NaN.  The callers iterate to stagnation on a residual, so
- * the inverse only sets the rate of convergence, never the result. */
+ * A singular matrix leaves infinities or NaN.  The callers iterate a residual to stagnation, so
+ * the inverse affects the rate of convergence, not the result. */
 DAL_COLD void dal_invert(num *m, num *inverse, int n)
 {
     for (int i = 0; i < n * n; i++) inverse[i] = dal_num(i % (n + 1) == 0);

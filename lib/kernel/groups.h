@@ -1,7 +1,7 @@
-/* groups.h - for sources that work through a block of many lanes one group, a num, after the other.
+/* groups.h - many lanes as groups of lanes; to be included before num.h.
  *
- * To be included before num.h, which then has a num of DAL_GROUP lanes, a register: each number of
- * a block is DAL_GROUPS of them, one behind the other.  The lanes are interleaved as ever. */
+ * A group has as many lanes as a register, and is a num.  Each number of DAL_LANES lanes is then
+ * DAL_GROUPS nums, one after the other; the lanes stay interleaved. */
 #ifndef DAL_KERNEL_GROUPS_H
 #define DAL_KERNEL_GROUPS_H
 

@@ -4,8 +4,8 @@
  * instruction set; every operation acts lane by lane and is IEEE double in each, so a lane has the
  * bits of a single run.  Comparisons give a dal_mask (all bits set or none, per lane) that
  * dal_select consumes; nothing branches on the value of one lane.  num and double mix freely in
- * + - * / : a double is every lane's value.  With DAL_NUM_QUAD there is one lane of quad precision
- * (quad.h). */
+ * + - * / : a double has the same value in every lane.  With DAL_NUM_QUAD a num is one lane of quad
+ * precision (quad.h). */
 #ifndef DAL_KERNEL_NUM_H
 #define DAL_KERNEL_NUM_H
 
@@ -60,7 +60,7 @@
 
 #ifdef DAL_NUM_QUAD
 typedef dal_quad num;
-#define DAL_ULP_RATIO DAL_QUAD_ULP_RATIO /* a unit in the last place, to that of a double */
+#define DAL_ULP_RATIO DAL_QUAD_ULP_RATIO /* unit in the last place, in units of that of a double */
 #else
 typedef double num;
 #define DAL_ULP_RATIO 1.0
@@ -136,7 +136,8 @@ DAL_INLINE dal_mask dal_equal(num a, num b) { return DAL__COMPARE(a, ==, b); }
 #if DAL_LANES == 1
 DAL_INLINE num dal_max(num a, num b) { return a < b ? b : a; }
 DAL_INLINE num dal_min(num a, num b) { return b < a ? b : a; }
-#elif defined __AVX512F__ && DAL_LANES == 8 && !defined __clang__ /* which finds it by itself */
+#elif defined __AVX512F__ && DAL_LANES == 8 &&                                                     \
+    !defined __clang__ /* which finds the instruction itself */
 DAL_INLINE num dal_max(num a, num b)
 {
     return __builtin_ia32_maxpd512_mask(b, a, a, (unsigned char)-1, 4);
@@ -149,7 +150,7 @@ DAL_INLINE num dal_min(num a, num b)
 DAL_INLINE num dal_max(num a, num b) { return dal_select(dal_less(a, b), b, a); }
 DAL_INLINE num dal_min(num a, num b) { return dal_select(dal_less(b, a), b, a); }
 #endif
-/* a or b in every lane alike. */
+/* a or b, the same in every lane. */
 DAL_INLINE num dal_choose(int condition, num a, num b) { return condition ? a : b; }
 /* Lanes where x is neither infinite nor NaN. */
 DAL_INLINE dal_mask dal_finite(num x) { return dal_equal(x - x, dal_num(0.0)); }
@@ -159,14 +160,14 @@ DAL_INLINE dal_mask dal_finite(num x) { return dal_equal(x - x, dal_num(0.0)); }
 #ifdef DAL_NUM_QUAD
 DAL_INLINE num dal_abs(num x) { return DAL_QUAD_FUNCTION(fabs)(x); }
 DAL_INLINE num dal_sqrt(num x) { return DAL_QUAD_FUNCTION(sqrt)(x); }
-DAL_INLINE num dal_fma(num a, num b, num c) { return a * b + c; } /* the rounding is no matter */
+DAL_INLINE num dal_fma(num a, num b, num c) { return a * b + c; } /* its rounding does not matter */
 #elif DAL_LANES == 1
 DAL_INLINE num dal_abs(num x) { return fabs(x); }
 DAL_INLINE num dal_sqrt(num x) { return sqrt(x); }
 DAL_INLINE num dal_fma(num a, num b, num c) { return __builtin_fma(a, b, c); }
 #else
-/* Compilers do not reliably make one instruction of a loop over the lanes, so it is named where
- * there is one, for as many lanes as a register holds. */
+/* Compilers do not reliably turn a loop over the lanes into one instruction, so it is named where it
+ * exists, for as many lanes as a register holds. */
 #if defined __AVX512F__ && DAL_LANES >= 8
 #define DAL__REGISTER      8
 #define DAL__FUSE(a, b, c) __builtin_ia32_vfmaddpd512_mask(a, b, c, (unsigned char)-1, 4)
@@ -210,10 +211,9 @@ DAL_INLINE num dal_sqrt(num x)
 
 #define DAL_RESTRICT __restrict
 
-/* Reductions over many numbers go by packs, which a compiler may not make by itself: the largest,
- * and whether all are finite, since the order does not matter there; sums from DAL__MIN_PACKED
- * numbers on, in one order that all builds keep.  The functions over packs return how many numbers
- * they saw to. */
+/* Reductions over many numbers use packs, which a compiler must not form by itself.  For the maximum
+ * and for finiteness the order does not matter.  Sums use packs from DAL__MIN_PACKED numbers on, in
+ * one order for all builds.  The functions over packs return how many numbers they have processed. */
 enum { DAL__PACK = 8, DAL__MIN_PACKED = 16 };
 #if DAL_LANES == 1 && !defined DAL_SPECIALISED && !defined DAL_NUM_QUAD
 typedef double dal__pack __attribute__((vector_size(64), aligned(8), may_alias));
@@ -227,8 +227,8 @@ DAL_INLINE void dal__pack_max(dal__pack *part, const dal__pack *x)
 }
 DAL_INLINE int dal__norm_packs(const num *x, int count, num *norm)
 {
-    if (count < DAL__PACK) return 0; /* the rest would cost more than a few numbers do */
-    dal__pack part[4] = {{0}};       /* four at a time: each waits for itself alone */
+    if (count < DAL__PACK) return 0; /* packs cost more than a few numbers */
+    dal__pack part[4] = {{0}};       /* four independent chains */
     int i = 0;
     for (; i + 4 * DAL__PACK <= count; i += 4 * DAL__PACK)
         for (int k = 0; k < 4; k++)
@@ -276,7 +276,7 @@ DAL_INLINE num dal_max_norm(const num *x, int count)
     return norm;
 }
 
-/* 0, or NaN where one of them is not finite. */
+/* 0, or NaN where one of the numbers is not finite. */
 DAL_INLINE num dal_nonfinite(const num *x, int count)
 {
     num nonfinite = dal_num(0.0);

@@ -1,38 +1,42 @@
-/* persistent.h - what is persistent from step to step: one list, for the engine and for generated
- * files.
+/* persistent.h - the persistent state of a step: all that passes from one step to the next.
  *
- *     persistent:  y[dim] | r[dim] | the clock | what the method remembers
+ *     y[dim] | r[dim] | clock | state of the method
  *
- * All that survives a step is this array; all else is scratch.  The derivatives are those of a
- * method that asks for them (DAL_EXTRAPOLATES_STAGES), [1 + DAL__DIFFERENCES][stages*(nw + n)]: see
+ * One list serves the engine and generated files.  All else is scratch.  Stage derivatives are stored
+ * for methods with DAL_EXTRAPOLATES_STAGES, [1 + DAL__DIFFERENCES][stages*(nw + n)]; see
  * collocation.h. */
 #ifndef DAL_KERNEL_PERSISTENT_H
 #define DAL_KERNEL_PERSISTENT_H
 
-/* One number each: the time, compensated, and what is counted. */
-#define DAL__CLOCK_LIST(X) X(TIME) X(TIME_ERROR) X(STEPS) X(EVALUATIONS)
+/* One number each: the time, compensated, and two counters. */
+#define DAL__CLOCK_LIST(CLOCK) CLOCK(TIME) CLOCK(TIME_ERROR) CLOCK(STEPS) CLOCK(EVALUATIONS)
 
-/* Members of dal_step, and how many numbers each is: whoever uses the list says, by a macro
- * DAL__COUNT_ONE etc.  The derivatives come last, since most methods keep none. */
-#define DAL__METHOD_STATE_LIST(X)                                                                  \
-    X(uses_newton, ONE)    /* 1 where the fixed point was too slow and Newton took over */         \
-    X(derivatives_h, ONE)  /* the step size behind the derivatives, 0: none */                     \
-    X(has_multiplier, ONE) /* 1 where multiplier has been set */                                   \
-    X(multiplier,                                                                                  \
-      MULTIPLIER)   /* [m] the multipliers of the last step, of methods that carry them */         \
-    X(substep, ONE) /* the size planned for the next substep, 0: there is no plan */               \
-    X(level, TWO)   /* the energy of the start, and 1 when it is known */                          \
-    X(derivatives,                                                                                 \
-      DERIVATIVES) /* stage derivatives of the last collocation step, and differences */
+/* Members of dal_step and their sizes.  A user of the list defines DAL__COUNT_ONE and so on.  The
+ * derivatives come last, since most methods store none.
+ *   uses_newton     1 where the fixed point was too slow and Newton's method took over
+ *   derivatives_h   the step size of the derivatives, 0: none
+ *   has_multiplier  1 where multiplier is set
+ *   multiplier      [m] the multipliers of the last step, with DAL_PERSISTENT_MULTIPLIER
+ *   substep         the size planned for the next substep, 0: none
+ *   level           the energy of the start, and 1 when it is known
+ *   derivatives     stage derivatives of the last step, and differences of predictor errors */
+#define DAL__METHOD_STATE_LIST(MEMBER)                                                             \
+    MEMBER(uses_newton, ONE)                                                                       \
+    MEMBER(derivatives_h, ONE)                                                                     \
+    MEMBER(has_multiplier, ONE)                                                                    \
+    MEMBER(multiplier, MULTIPLIER)                                                                 \
+    MEMBER(substep, ONE)                                                                           \
+    MEMBER(level, TWO)                                                                             \
+    MEMBER(derivatives, DERIVATIVES)
 
-/* Differences kept beside the derivatives. */
+/* Differences stored beside the derivatives. */
 enum { DAL__DIFFERENCES = 4 };
 
 /* Places behind y and r. */
 enum {
-#define X(name) DAL__##name,
-    DAL__CLOCK_LIST(X)
-#undef X
+#define CLOCK(name) DAL__##name,
+    DAL__CLOCK_LIST(CLOCK)
+#undef CLOCK
         DAL__METHOD_STATE
 };
 

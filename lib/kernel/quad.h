@@ -1,14 +1,12 @@
-/* quad.h - numbers longer than double, for runs that show what the rounding of doubles does.
+/* quad.h - quad precision, for runs that show the effect of rounding to double.
  *
- * A source over num compiled with DAL_NUM_QUAD computes in the longest numbers that the compiler
- * has and whose elementary functions are right to their last places: long double where it is longer
- * than the 64 binary digits of x87 (IEC 60559 binary128 on AArch64 and others, 113 digits), else
- * binary128 with the functions of glibc (x86-64), else long double, whatever it is.  They are
- * computed by software and some hundred times slower than doubles.
+ * A source over num compiled with DAL_NUM_QUAD computes in binary128 (113 binary digits): long double
+ * where that is binary128 (AArch64 and others), else __float128 with the functions of glibc (x86-64).
+ * Where neither exists it computes in long double, and runs in quad precision are refused.  The
+ * arithmetic is done by software, about a hundred times slower than in double.
  *
- * What is a double in a source stays one: coefficients, sizes and times of steps, constants of
- * formulas, parameters.  A run in quad precision is so the same method on the same system, less the
- * rounding of its arithmetic. */
+ * Coefficients, step sizes, times, constants of formulas and parameters stay doubles.  So a run in
+ * quad precision is the same method on the same system without the rounding of its arithmetic. */
 #ifndef DAL_KERNEL_QUAD_H
 #define DAL_KERNEL_QUAD_H
 
@@ -25,7 +23,7 @@ typedef __float128 dal_quad __attribute__((may_alias));
 typedef long double dal_quad __attribute__((may_alias));
 #endif
 
-/* The C library may keep the declarations of these to itself. */
+/* The C library may hide these declarations. */
 #define DAL_DECLARE_QUAD(f)  dal_quad DAL_QUAD_FUNCTION(f)(dal_quad x);
 #define DAL_DECLARE_QUAD2(f) dal_quad DAL_QUAD_FUNCTION(f)(dal_quad a, dal_quad b);
 DAL_DECLARE_QUAD(fabs)
@@ -33,7 +31,7 @@ DAL_DECLARE_QUAD(sqrt)
 DAL_DECLARE_QUAD(sin)
 DAL_DECLARE_QUAD(cos)
 
-/* The unit in the last place of 1, less that of a double. */
+/* The unit in the last place of 1, in units of that of a double. */
 #if DAL_QUAD_DIGITS >= 113
 #define DAL_QUAD_ULP_RATIO 0x1p-60
 #elif DAL_QUAD_DIGITS > DBL_MANT_DIG

@@ -3,32 +3,36 @@
  * Fixed point:          u <- u + d,           d = map(u) - u
  * Simplified Newton:    u <- u + M^-1 d,      M = 1 - map'(u) at the beginning of the step
  *
- * An iteration ends when every block has d = 0, or a d at rounding level that no longer decreases
- * (Hairer, McLachlan, Razakarivony, BIT 48 (2008) 231), or one that twice in a row does not
- * decrease and is small: not at a tolerance.  "Small" only tells stagnation from divergence.  After
- * a few iterations there are two more ends: a d far below rounding level, for where some components
- * are smaller than the roundings of others, they alone may answer to d, which then decreases
- * without end, however slowly; and a small d than which some iterations brought no less, cycles of
- * roundings. Each lane ends by itself and is then left alone, so its bits do not depend on its
- * neighbours.  A run may end iterations earlier (DAL_SOLVER_TOLERANCE) or later
- * (DAL_EXTRA_ITERATIONS), to show what the solver does to it.
+ * The iteration ends, not at a tolerance, when every block has
+ *   - d = 0, or
+ *   - d at rounding level that no longer decreases (Hairer, McLachlan, Razakarivony, BIT 48 (2008)
+ *     231), or
+ *   - a small d that twice in a row does not decrease ("small" separates stagnation from divergence).
+ * After several iterations two more ends count: d far below rounding level (components smaller than
+ * the rounding of others may let d decrease without end), and a small d that several iterations have
+ * not decreased (cycles of roundings).  Each lane ends by itself and is then left alone, so its bits
+ * do not depend on its neighbours.  For experiments DAL_SOLVER_TOLERANCE ends the iteration earlier,
+ * DAL_EXTRA_ITERATIONS continues it.
  *
  * Groups of lanes that are stepped as one system (DAL_STEP_GROUPS) have norms and masks of their
  * own.
  *
  * With the solver "auto" a lane whose fixed point contracts more slowly than DAL__SLOW, or not at
- * all, goes over to Newton and stays there (step->uses_newton, which is persistent along). */
+ * all, switches to Newton's method for the rest of the run (step->uses_newton). */
 #ifndef DAL_KERNEL_SOLVE_H
 #define DAL_KERNEL_SOLVE_H
 
+#include "algebra.h"
+#include "step.h"
+
 /* Newton pays from this rate on: a fixed point needs 36/log2(1/rate) iterations. */
 #define DAL__SLOW 0.3
-/* Increments against the size of the state: rounding, stagnation, and where no rate is measured. */
+/* Increments relative to the state: rounding, stagnation, too small to measure a rate. */
 #define DAL__ROUNDING (1.4e-14 * DAL_ULP_RATIO)
 #define DAL__SMALL    (1e-12 * DAL_ULP_RATIO)
 #define DAL__NOISE    (1e-12 * DAL_ULP_RATIO)
-/* After so many iterations: far below rounding, after twice as many below it; and roundings, where
- * so many more bring none less. */
+/* From iteration PATIENT on NOTHING is enough, from twice that on LITTLE, and CYCLING where the last
+ * CYCLE iterations have brought no smaller increment. */
 #define DAL__PATIENT 8
 #define DAL__NOTHING (1e-17 * DAL_ULP_RATIO)
 #define DAL__LITTLE  (1e-16 * DAL_ULP_RATIO)
@@ -39,8 +43,8 @@
 typedef struct dal_block {
     num scale[DAL_STEP_GROUPS];                        /* size of the state it moves */
     num now[DAL_STEP_GROUPS], before[DAL_STEP_GROUPS]; /* norms of the last two increments */
-    num stagnations[DAL_STEP_GROUPS]; /* how often in a row the norm did not decrease */
-    num best[2][DAL_STEP_GROUPS];     /* the least norm, and the iterations since then */
+    num stagnations[DAL_STEP_GROUPS]; /* successive iterations without decrease of the norm */
+    num best[2][DAL_STEP_GROUPS];     /* the min norm, and the iterations since then */
     double weight;                    /* a change of u by d moves the state by weight*d */
     int size;
     num *u, *image; /* the unknowns; what map made of them */
@@ -55,26 +59,26 @@ typedef struct dal_equation {
     dal_mask active[DAL_STEP_GROUPS]; /* the lanes that still iterate */
 } dal_equation;
 
-/* What a map keeps beside the image for the end of the step is that of a lane's own last iteration:
- * the iterations its neighbours still need do not touch it. */
+/* A map may store values for the end of the step: those of a lane's own last iteration, which further
+ * iterations of its neighbours do not change. */
 #if DAL_LANES == 1
-#define DAL_IF_ACTIVE(active, fresh, kept) (fresh)
+#define DAL_IF_ACTIVE(active, fresh, old) (fresh)
 #else
-#define DAL_IF_ACTIVE(active, fresh, kept) dal_select(active, fresh, kept)
+#define DAL_IF_ACTIVE(active, fresh, old) dal_select(active, fresh, old)
 #endif
 
 typedef void dal_iteration_map(dal_step *step, dal_equation *equation); /* u -> image, all blocks */
 typedef dal_status dal_matrix(dal_step *step, dal_equation *equation);  /* fills inverse */
 
-/* Its size.  Compilers lose sight of the constant where groups are joined; a file then has but one.
- */
+/* The size of a block.  Compilers do not see the constant where several groups are stepped as one
+ * system; such a file has blocks of one size only. */
 #if defined DAL_SPECIALISED
 #define DAL_SIZE(b) (DAL_STEP_GROUPS > 1 ? DAL__STAGES * DAL__NW * DAL_STEP_GROUPS : (b)->size)
 #else
 #define DAL_SIZE(b) ((b)->size)
 #endif
 
-/* Declares a block of count unknowns with its memory; newton: it may get an inverse. */
+/* Declares a block of count unknowns with its memory; newton: with an inverse. */
 #define DAL_BLOCK(step, name, count, newton)                                                       \
     DAL_VECTOR(step, name##_u, count);                                                             \
     DAL_VECTOR(step, name##_image, count);                                                         \
@@ -91,7 +95,7 @@ DAL_INLINE int dal__any(const dal_mask *lanes)
     return dal_any(some);
 }
 
-/* The max norm of what belongs to group j. */
+/* The max norm over group j. */
 DAL_INLINE num dal__group_norm(const num *x, int count, int j)
 {
     if (DAL_STEP_GROUPS == 1) return dal_max_norm(x, count);
@@ -100,8 +104,8 @@ DAL_INLINE num dal__group_norm(const num *x, int count, int j)
     return norm;
 }
 
-/* Sizes of a group's state for blocks that move v or pi: what rounding in q or p can do to them
- * within a step that contracts. */
+/* Sizes of a group's state for blocks that move v or pi, with the effect of rounding in q or p within
+ * a step that contracts. */
 DAL_INLINE num dal_velocity_scale(const dal_step *s, double h, int group)
 {
     return dal__group_norm(s->y + DAL_N(s), DAL_NW(s), group) +
@@ -119,7 +123,7 @@ DAL_SHARED dal_status dal_solve(dal_step *s, dal_equation *eq, dal_iteration_map
 
 #ifndef DAL_LINKED
 #if DAL_LANES == 1 && !defined DAL_SPECIALISED && !defined DAL_NUM_QUAD
-/* image -= u, u += image; norm and nonfinite of what is then in image. */
+/* image -= u, u += image; norm: of image; nonfinite: NaN unless image is finite. */
 DAL_INLINE int dal__advance_packs(num *u, num *image, int count, num *norm, num *nonfinite)
 {
     dal__pack sum = {0};
@@ -148,8 +152,8 @@ DAL_INLINE num dal__newton(const dal_block *b, int i)
     return sum;
 }
 
-/* u += d (or M^-1 d) in the active lanes; b->now: the norm of the increment, NaN if not finite.  A
- * pack belongs to one lane, which is active or nobody would call. */
+/* u += d (or M^-1 d) in the active lanes; b->now: the norm of the increment, NaN if not finite.
+ * Packs exist for one lane only, which is then active. */
 DAL_INLINE void dal__advance(dal_block *b, const dal_mask *active, int newton)
 {
     num norm[DAL_STEP_GROUPS], nonfinite[DAL_STEP_GROUPS];
@@ -175,23 +179,22 @@ DAL_INLINE num dal__size(const dal_block *b, int j)
     return b->scale[j] + b->weight * dal__group_norm(b->u, DAL_SIZE(b), j);
 }
 
-/* Whether it is zero, or small enough after many iterations. */
-DAL_INLINE dal_mask dal__is_enough(dal_block *b, int j, int k, num now, num size)
+/* Lanes where an increment is zero, or small enough after several iterations. */
+DAL_INLINE dal_mask dal__negligible(dal_block *b, int j, int k, num now, num size)
 {
     const double nothing = k < DAL__PATIENT       ? 0.0
                            : k < 2 * DAL__PATIENT ? DAL__NOTHING
                                                   : DAL__LITTLE;
     const double cycling = k < DAL__PATIENT ? 0.0 : DAL__CYCLING;
-    num *least = &b->best[0][j], *since = &b->best[1][j];
-    const dal_mask less = dal_less(now, *least);
-    *least = dal_select(less, now, *least);
+    num *min = &b->best[0][j], *since = &b->best[1][j];
+    const dal_mask less = dal_less(now, *min);
+    *min = dal_select(less, now, *min);
     *since = dal_select(less, dal_num(0.0), *since + 1.0);
     return dal_less_equal(now, nothing * size) |
            (dal_less_equal(now, cycling * size) & dal_less(dal_num(DAL__CYCLE - 0.5), *since));
 }
 
-/* Lanes of a group where in iteration k a block's increment is zero or stagnates, or is as small as
- * was asked for. */
+/* Lanes of a group where the increment of iteration k is zero, stagnates, or is below the tolerance. */
 DAL_INLINE dal_mask dal__converged(const dal_step *s, dal_block *b, int j, int k)
 {
     const num now = b->now[j], size = dal__size(b, j);
@@ -199,7 +202,7 @@ DAL_INLINE dal_mask dal__converged(const dal_step *s, dal_block *b, int j, int k
         dal_select(dal_less_equal(b->before[j], now), b->stagnations[j] + 1.0, dal_num(0.0));
     const dal_mask once = dal_less(dal_num(0.5), b->stagnations[j]),
                    twice = dal_less(dal_num(1.5), b->stagnations[j]);
-    const dal_mask stagnates = dal__is_enough(b, j, k, now, size) |
+    const dal_mask stagnates = dal__negligible(b, j, k, now, size) |
                                (once & dal_less_equal(now, DAL__ROUNDING * size)) |
                                (twice & dal_less_equal(now, DAL__SMALL * size));
     if (DAL_RARELY(DAL_SOLVER_TOLERANCE(s) > 0.0))
@@ -229,8 +232,8 @@ DAL_INLINE void dal__iterate_once(dal_step *s, dal_equation *eq, dal_iteration_m
     if (eq->blocks > 1) dal__advance(&eq->block[1], eq->active, newton);
 }
 
-/* Behind iteration k: the lanes of a group that have failed leave `lanes`; those, and the ones that
- * are converged, leave the active ones. */
+/* After iteration k: removes the lanes of a group that have failed from `lanes`, and those and the
+ * converged ones from the active lanes. */
 DAL_INLINE void dal__update_active(dal_step *s, dal_equation *eq, int j, int may_give_up, int k,
                                    dal_mask *lanes, dal_mask *slow)
 {
@@ -249,8 +252,8 @@ DAL_INLINE void dal__update_active(dal_step *s, dal_equation *eq, int j, int may
     eq->active[j] = active & finite & ~converged;
 }
 
-/* Iterates in the given lanes and leaves those that stagnated; not those that were given up after
- * the third iteration because they contract slowly, if they may be. */
+/* Iterates in the given lanes and leaves those that converged in `lanes`.  may_give_up: lanes that
+ * contract slowly are given up after the third iteration. */
 DAL_INLINE void dal__iterate(dal_step *s, dal_equation *eq, dal_iteration_map *map, dal_mask *lanes,
                              int newton, int may_give_up)
 {
@@ -283,8 +286,8 @@ DAL_INLINE void dal__restore_block(dal_block *b, const dal_mask *lanes)
     DAL_EACH(i, DAL_SIZE(b)) b->u[i] = dal_select(lanes[i % DAL_STEP_GROUPS], b->start[i], b->u[i]);
 }
 
-/* Newton's method from the first guess in the lanes left; leaves those where it stagnated, which
- * are uses_newton from now on. */
+/* Newton's method from the first guess in the lanes left; leaves those that converged, which use
+ * Newton's method from now on. */
 DAL_INLINE dal_status dal__solve_by_newton(dal_step *s, dal_equation *eq, dal_iteration_map *map,
                                            dal_matrix *matrix, dal_mask *left)
 {
@@ -297,8 +300,8 @@ DAL_INLINE dal_status dal__solve_by_newton(dal_step *s, dal_equation *eq, dal_it
     return DAL_OK;
 }
 
-/* Solves the equation from the guess in u; lanes that fail are recorded and no longer alive.
- * Without a matrix (NULL) there is no Newton. */
+/* Solves the equation from the guess in u; lanes that fail are marked unconverged and no longer
+ * alive.  matrix NULL: the fixed point only. */
 DAL_SHARED dal_status dal_solve(dal_step *s, dal_equation *eq, dal_iteration_map *map,
                                 dal_matrix *matrix)
 {

@@ -2,12 +2,14 @@
  *
  * The state y, [dim]:   physical  q[n], v[n], g[multipliers]              dim = n + nw
  *                       lifted    q[n], v[n], e, p[n], pi[n], pi_e        dim = 4n + 2
- * with nw = n + multipliers.  A state is kept as y + r, r what has been rounded off so far,
- * products with h included (compensated summation, Kahan, CACM 8 (1965) 40), and y is never -0, so
- * that the same motion has the same bits on both spaces. */
+ * with nw = n + multipliers.  The state is y + r, where r holds the rounding errors so far,
+ * products with h included (compensated summation, Kahan, CACM 8 (1965) 40).  y is never -0, so that
+ * the same motion has the same bits on both spaces. */
 #ifndef DAL_KERNEL_STEP_H
 #define DAL_KERNEL_STEP_H
 
+#include "../../include/dalembert.h"
+#include "num.h"
 #include "persistent.h"
 #include "try.h"
 
@@ -15,25 +17,28 @@ typedef struct dal_step dal_step;
 
 enum { DAL_MOST_STAGES = 16 };
 
-/* What a system can be asked for; outputs as in dal_callbacks. */
+/* The callbacks of a system; outputs as in dal_callbacks. */
+#define DAL__CALLBACK_LIST(CALLBACK)                                                               \
+    CALLBACK(FIELD, field)                                                                         \
+    CALLBACK(ADJOINT, adjoint)                                                                     \
+    CALLBACK(JACOBIAN, jacobian)                                                                   \
+    CALLBACK(CONSTRAINT, constraint)                                                               \
+    CALLBACK(ENERGY_NORMAL, energy_normal)                                                         \
+    CALLBACK(GAUGE, gauge)                                                                         \
+    CALLBACK(GUARDS, guards)                                                                       \
+    CALLBACK(BLOCKS, blocks)                                                                       \
+    CALLBACK(POTENTIAL, potential)
 typedef enum dal_callback_code {
-    DAL_EVAL_FIELD,
-    DAL_EVAL_ADJOINT,
-    DAL_EVAL_JACOBIAN,
-    DAL_EVAL_CONSTRAINT,
-    DAL_EVAL_ENERGY_NORMAL,
-    DAL_EVAL_GAUGE,
-    DAL_EVAL_GUARDS,
-    DAL_EVAL_BLOCKS,
-    DAL_EVAL_POTENTIAL,
-    DAL_EVAL_COUNT
+#define CALLBACK(code, member) DAL_EVAL_##code,
+    DAL__CALLBACK_LIST(CALLBACK)
+#undef CALLBACK
+        DAL_EVAL_COUNT
 } dal_callback_code;
 
 #ifdef DAL_SPECIALISED
 
-/* The dimensions are the generated file's constants, and all memory is local.  DAL_STEP_GROUPS
- * groups of lanes are stepped as one system of so many times as many components: number i of group
- * j is number i * DAL_STEP_GROUPS + j. */
+/* In a generated file dimensions are constants and all memory is local.  DAL_STEP_GROUPS groups of
+ * lanes are stepped as one larger system: component i of group j is number i*DAL_STEP_GROUPS + j. */
 #define DAL_N(s)                      (DAL__N * DAL_STEP_GROUPS)
 #define DAL_NW(s)                     (DAL__NW * DAL_STEP_GROUPS)
 #define DAL_M(s)                      DAL__M
@@ -47,8 +52,8 @@ typedef enum dal_callback_code {
 #define DAL_MAY_NEWTON(s)             DAL__NEWTON
 #define DAL_TANGENT(s)                DAL__TANGENT
 #define DAL_PROPERTIES(s)             DAL__PROPERTIES
-#define DAL_PERSISTENT_MULTIPLIERS(s) DAL__MULTIPLIER        /* multipliers persistent: m, or 0 */
-#define DAL_STAGE_DERIVATIVES(s)      DAL__STAGE_DERIVATIVES /* numbers kept of derivatives, or 0 */
+#define DAL_PERSISTENT_MULTIPLIERS(s) DAL__MULTIPLIER        /* m, or 0 */
+#define DAL_STAGE_DERIVATIVES(s)      DAL__STAGE_DERIVATIVES /* size, or 0 */
 #define DAL_STAGES(t)                 DAL__STAGES
 #define DAL__AT_LEAST_ONE(count)      ((count) > 0 ? (count) : 1)
 #define DAL__COUNT_ONE                1
@@ -64,43 +69,43 @@ typedef enum dal_callback_code {
 struct dal_step {
     double t, h;
     num y[DAL__DIM * DAL_STEP_GROUPS], r[DAL__DIM * DAL_STEP_GROUPS];
-#define X(member, count) num member[DAL__AT_LEAST_ONE(DAL__COUNT_##count) * DAL_STEP_GROUPS];
-    DAL__METHOD_STATE_LIST(X)
-#undef X
+#define MEMBER(member, count) num member[DAL__AT_LEAST_ONE(DAL__COUNT_##count) * DAL_STEP_GROUPS];
+    DAL__METHOD_STATE_LIST(MEMBER)
+#undef MEMBER
     dal_mask alive[DAL_STEP_GROUPS], unconverged[DAL_STEP_GROUPS];
-    const dal_stored *work; /* parameters, and what is made of them alone */
+    const dal_stored *work; /* parameters, and values that depend on them alone */
     long long evaluations;
 };
 
-/* A copy of what the method remembers, and back from the copy in some lanes. */
+/* Copies the state of the method; restores it in some lanes. */
 enum {
     DAL__METHOD_STATE_SIZE = 0
-#define X(member, count) +DAL__COUNT_##count
-    DAL__METHOD_STATE_LIST(X)
-#undef X
+#define MEMBER(member, count) +DAL__COUNT_##count
+    DAL__METHOD_STATE_LIST(MEMBER)
+#undef MEMBER
 };
 #define DAL_METHOD_STATE(s) DAL__METHOD_STATE_SIZE
 DAL_INLINE void dal_save_method_state(const dal_step *s, num *to)
 {
-#define X(member, count)                                                                           \
+#define MEMBER(member, count)                                                                      \
     DAL_EACH(i, DAL__COUNT_##count) to[i] = s->member[i];                                          \
     to += DAL__COUNT_##count;
-    DAL__METHOD_STATE_LIST(X)
-#undef X
+    DAL__METHOD_STATE_LIST(MEMBER)
+#undef MEMBER
 }
 DAL_INLINE void dal_restore_method_state(dal_step *s, dal_mask lanes, const num *from)
 {
-#define X(member, count)                                                                           \
+#define MEMBER(member, count)                                                                      \
     DAL_EACH(i, DAL__COUNT_##count) s->member[i] = dal_select(lanes, from[i], s->member[i]);       \
     from += DAL__COUNT_##count;
-    DAL__METHOD_STATE_LIST(X)
-#undef X
+    DAL__METHOD_STATE_LIST(MEMBER)
+#undef MEMBER
 }
 
 /* The system as straight-line code, further down. */
 DAL_INLINE void dal_eval(dal_step *s, dal_callback_code code, double t, const num *q, const num *v,
                          const num *pi, num *out);
-/* The answer for one group of lanes alone. */
+/* The same for one group of lanes. */
 DAL_INLINE void dal_eval_group(dal_step *s, int group, dal_callback_code code, double t,
                                const num *q, const num *v, num *out);
 
@@ -126,41 +131,40 @@ enum { DAL_STEP_GROUPS = 1 };
 #define DAL_STAGES(t)                 ((t)->stages) /* of a tableau */
 
 struct dal_step {
-    double t, h; /* where the step begins, and its size; dal_update moves t */
+    double t, h; /* start and size of the step; dal_update advances t */
     int n, nw, m, dim;
     int lifted;  /* 1 on the canonical space */
     int tangent; /* 1 while p, pi hold a tangent vector (dq, dv) */
     num *y, *r;  /* [dim] */
 
-    /* Carried from step to step beside the state, see persistent.h. */
-#define X(member, count)              num *member;
-    DAL__METHOD_STATE_LIST(X)
-#undef X
+    /* The state of the method, see persistent.h. */
+#define MEMBER(member, count)         num *member;
+    DAL__METHOD_STATE_LIST(MEMBER)
+#undef MEMBER
     num *method_state; /* [method_state_count] all these, one after the other */
     int method_state_count;
     int derivatives_kept;
 
-    dal_mask alive[DAL_STEP_GROUPS];       /* lanes that go on */
-    dal_mask unconverged[DAL_STEP_GROUPS]; /* lanes whose implicit equations were not solved */
+    dal_mask alive[DAL_STEP_GROUPS];       /* lanes that have not failed */
+    dal_mask unconverged[DAL_STEP_GROUPS]; /* lanes whose implicit equations failed */
     int solver;                            /* dal_solver */
-    int iterations;                        /* most iterations */
-    double
-        solver_tolerance; /* a relative change that is small enough; 0: where rounding stops it */
-    int extra_iterations; /* iterations of what is solved */
-    int plain;            /* 1: sums without compensation, r stays 0 */
+    int iterations;                        /* max iterations */
+    double solver_tolerance;               /* relative change; 0: rounding level */
+    int extra_iterations;                  /* after convergence */
+    int plain;                             /* 1: sums without compensation, r stays 0 */
     int has_jacobian;
     unsigned properties; /* of the system */
-    double tolerance;    /* of substeps, 0: the step is not to be divided */
+    double tolerance;    /* of substeps, 0: no substeps */
 
     num *scratch; /* bump allocator, see dal_scratch */
-    size_t used, room;
+    size_t used, capacity;
 
     const dal_integrator *const *layer; /* innermost first */
     int depth;                          /* which of the chain is at work */
 
     void (*eval)(dal_step *step, dal_callback_code code, double t, const num *q, const num *v,
                  const num *pi, num *out);
-    void *owner;           /* of ask */
+    void *owner;           /* of eval */
     long long evaluations; /* of the field or the lifted field */
 };
 
@@ -170,20 +174,20 @@ DAL_INLINE num *dal_scratch(dal_step *s, int count)
 {
     num *p = s->scratch + s->used;
     s->used += (size_t)count;
-    return s->used <= s->room ? p : NULL;
+    return s->used <= s->capacity ? p : NULL;
 }
 
 /* Declares a scratch vector.  The count must be made of constants and the macros above. */
 #define DAL_VECTOR(step, name, count)                                                              \
     num *const name = dal_scratch((step), (count));                                                \
     if (DAL_RARELY(!name)) return DAL_MEMORY
-/* From now on dal_field steps a tangent vector in the place of p and pi, or no longer. */
+/* Selects whether dal_field moves a tangent vector stored in p and pi. */
 #define DAL_SET_TANGENT(step, on) (step)->tangent = (on)
-/* From DAL_RELEASE on the vectors since DAL_MARK are gone. */
+/* DAL_RELEASE frees the vectors declared since DAL_MARK. */
 #define DAL_MARK(step)            const size_t dal__mark = (step)->used
 #define DAL_RELEASE(step)         (step)->used = dal__mark
 
-/* A copy of what the method remembers, and back from the copy in some lanes. */
+/* Copies the state of the method; restores it in some lanes. */
 #define DAL_METHOD_STATE(s)       ((s)->method_state_count)
 DAL_INLINE void dal_save_method_state(const dal_step *s, num *to)
 {
@@ -250,7 +254,7 @@ DAL_INLINE num dal_gauge_rate(const num *pi, int n, num w)
     return 0.5 * dal_square(pi, n) * (w * w);
 }
 
-/* The field of x' = f, dx' = Df dx, with the tangent vector dx in the place of p and pi. */
+/* The field of x' = f, dx' = Df dx, with the tangent vector dx stored in p and pi. */
 DAL_INLINE dal_status dal__tangent_field(dal_step *s, double t, const num *y, num *DAL_RESTRICT dy)
 {
     const int n = DAL_N(s), dq = dal_at_p(s), dv = dal_at_pi(s);
@@ -297,10 +301,9 @@ DAL_INLINE dal_status dal_field(dal_step *s, double t, const num *y, num *DAL_RE
     return DAL_OK;
 }
 
-/* y + r += factor*d for count components, compensated; lanes that are no longer alive stay as they
- * are.  What y has no room for is factor*d less what y has gained: nothing is lost where |y| >=
- * |d|, product included, and else no more than the rounding of d itself.  A sum is -0 only if both
- * parts are, and y is not. */
+/* y + r += factor*d for count components, compensated; lanes that are not alive stay unchanged.  r is
+ * factor*d less the change of y: exact where |y| >= |d|, product included, else within the rounding
+ * of d.  A sum is -0 only if both terms are, and y is not. */
 DAL_INLINE void dal_add_multiple(dal_step *s, int first, int count, double factor, const num *d)
 {
     num *const DAL_RESTRICT y = s->y + first, *const DAL_RESTRICT r = s->r + first;
@@ -327,7 +330,7 @@ DAL_INLINE void dal_add(dal_step *s, int first, int count, const num *d)
 DAL_INLINE dal_status dal_update_multiple(dal_step *s, double h, double factor, const num *d)
 {
     dal_add_multiple(s, 0, DAL_DIM(s), factor, d);
-    if (DAL_LIFTED(s)) { /* an infinite e swallows its increment and has no rounding error */
+    if (DAL_LIFTED(s)) { /* an infinite e has no rounding error */
         num *error = s->r + dal_at_e(s);
         *error = dal_select(dal_finite(*error), *error, dal_num(0.0));
     }

@@ -101,11 +101,11 @@ static num *persistent_at(const engine *e, int place)
 static void place_method_state(engine *e)
 {
     num *at = e->step.method_state = persistent_at(e, DAL__METHOD_STATE);
-#define X(member, count)                                                                           \
+#define MEMBER(member, count)                                                                      \
     e->step.member = at;                                                                           \
     at += DAL__COUNT_##count(&e->layout) * DAL_GROUPS;
-    DAL__METHOD_STATE_LIST(X)
-#undef X
+    DAL__METHOD_STATE_LIST(MEMBER)
+#undef MEMBER
     e->step.method_state_count = (int)(at - e->step.method_state);
     e->step.derivatives_kept = e->layout.derivatives;
 }
@@ -128,7 +128,7 @@ static void prepare_step(engine *e)
     s->has_jacobian = k->system->call.jacobian != NULL;
     s->properties = k->system->properties;
     s->tolerance = k->options.tolerance;
-    s->room = k->scratch * DAL_GROUPS;
+    s->capacity = k->scratch * DAL_GROUPS;
     place_method_state(e);
     s->layer = e->layer;
     s->eval = eval_callback;
@@ -146,11 +146,9 @@ void *DAL_WIDE(dal__engine_place)(const dal__layout *k, void *memory, double **p
     for (int i = 0; i < k->depth; i++)
         e->layer[i] = dal__integrator_wide(k->method.layer[i], DAL_WIDE(DAL__VARIANT));
     const dal_callbacks *c = callbacks(k->system);
-    /* In the order of dal_callback_code. */
-    dal_callback *const calls[] = {c->field,      c->adjoint,       c->jacobian,
-                                   c->constraint, c->energy_normal, c->gauge,
-                                   c->guards,     c->blocks,        c->potential};
-    memcpy(e->call, calls, sizeof e->call);
+#define CALLBACK(code, member) e->call[DAL_EVAL_##code] = c->member;
+    DAL__CALLBACK_LIST(CALLBACK)
+#undef CALLBACK
     e->persistent = take(&at, k->persistent);
     e->backup = take(&at, k->persistent);
     e->work = take(&at, k->workspace);

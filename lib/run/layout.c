@@ -244,9 +244,9 @@ static dal_status measure(dal__layout *k, dal_error *error)
     k->derivatives = remembers ? (1 + DAL__DIFFERENCES) * k->stages * (k->nw + k->n) : 0;
     k->multiplier = dal_method_properties(&k->method) & DAL_PERSISTENT_MULTIPLIER ? k->m : 0;
     k->persistent = dal__at(k, DAL__METHOD_STATE);
-#define X(member, count) k->persistent += (size_t)DAL__COUNT_##count(k);
-    DAL__METHOD_STATE_LIST(X)
-#undef X
+#define MEMBER(member, count) k->persistent += (size_t)DAL__COUNT_##count(k);
+    DAL__METHOD_STATE_LIST(MEMBER)
+#undef MEMBER
     return DAL_OK;
 }
 
