@@ -377,7 +377,8 @@ typedef struct dal_options {
 } dal_options;
 
 dal_options dal_options_default(void);
-/* Sets one option from text.  Errors: DAL_NAME (nearest name), DAL_ARGUMENT, DAL_SYNTAX. */
+/* Sets one option from text.  Errors: DAL_NAME (with the nearest name), DAL_ARGUMENT, DAL_SYNTAX.
+ * */
 dal_status dal_options_set(dal_options *options, const char *name, const char *text,
                            dal_error *error);
 

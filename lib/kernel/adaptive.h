@@ -1,16 +1,18 @@
-/* adaptive.h - a step made of substeps whose sizes follow an estimate of their error.
+/* adaptive.h - a step divided into substeps under error control.
  *
  *     h_next = h / clip(r / SAFE, 1/FASTEST, SLOWEST),    accepted where r <= 1
  *
- * with r = (error / tolerance)^(1/order), which the method says of each trial.  Hairer, Norsett,
- * Wanner, Solving ODEs I (1993), II.4; constants and their use as in dop853.f.  A trial that is
- * not finite counts as one of great error.  The substeps are whole multiples of the last place of
- * 4h, so that they make up h exactly; one that would be less than that is none, and the step fails.
+ * with r = (error / tolerance)^(1/order) from the method.  Hairer, Norsett, Wanner, Solving ODEs I
+ * (1993), II.4; constants as in dop853.f.  A trial that is not finite counts as one with a large
+ * error.  Substeps are whole multiples of the last place of 4h, so that they add up to h exactly;
+ * where the next one would be 0 the step fails.
  *
- * What is planned is persistent to the next step.  A branch on the error of one lane is allowed
- * here alone: steps under control have one lane, and only the variants of one lane have this. */
+ * The size planned last persists to the next step.  Here alone the code branches on the error of a
+ * lane: steps under control have one lane, and only variants of one lane compile this. */
 #ifndef DAL_KERNEL_ADAPTIVE_H
 #define DAL_KERNEL_ADAPTIVE_H
+
+#include "step.h"
 
 #if DAL_LANES == 1 && !defined DAL_SPECIALISED
 #define DAL_CONTROLLED(s) ((s)->tolerance > 0.0)
@@ -18,7 +20,7 @@
 #define DAL__SAFE    0.9
 #define DAL__FASTEST 6.0
 #define DAL__SLOWEST (1.0 / 0.333)
-/* What is left is one substep when it is no longer than the plan by more than this. */
+/* The rest of the step is one substep if it is at most this times the planned size. */
 #define DAL__STRETCH 1.01
 
 enum { DAL__MOST_TRIALS = 100000 };
@@ -40,7 +42,7 @@ DAL_INLINE double dal__substep(double whole, double left, double planned)
     return left <= DAL__STRETCH * planned ? left : (planned + coarse) - coarse;
 }
 
-/* The size after a trial of the given size; NaN is slow. */
+/* The size after a trial; a ratio of NaN counts as large. */
 DAL_INLINE double dal__next_size(double size, double ratio)
 {
     const double slower = ratio / DAL__SAFE;
@@ -48,8 +50,8 @@ DAL_INLINE double dal__next_size(double size, double ratio)
     return slower < 1.0 / DAL__FASTEST ? size * DAL__FASTEST : size / slower;
 }
 
-/* The plan after a trial of the given size.  A substep that was short because there was no more
- * left says nothing against a longer one, and one behind a rejected trial nothing for it. */
+/* The size planned after a trial.  The last substep of a step does not shorten the plan, one after
+ * a rejected trial does not lengthen it. */
 DAL_INLINE double dal__plan(const dal_trial *trial, double size, double planned)
 {
     const double next = dal__next_size(size, trial->ratio);
@@ -57,8 +59,8 @@ DAL_INLINE double dal__plan(const dal_trial *trial, double size, double planned)
     return size < planned && next < planned ? planned : next;
 }
 
-/* s->h from the state as it is.  Where no size will do, s->t has the time that was reached and
- * s->substep the last plan, which is 0 when it is below all that can be distinguished. */
+/* Steps by s->h.  On failure s->t is the time reached, s->substep the size planned last, 0 if below
+ * the last place. */
 DAL_INLINE dal_status dal_control(dal_step *s, dal_attempt *attempt, dal_trial *trial)
 {
     const double t = s->t, whole = fabs(s->h), direction = s->h < 0.0 ? -1.0 : 1.0;

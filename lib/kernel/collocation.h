@@ -10,28 +10,27 @@
  * and y1 = y + h sum b_i (derivative)_i.  A partitioned method has other coefficients for w and p
  * than for q, e and pi, each the partner of the other: symplectic where b_i p_ij + b_j a_ji = b_i
  * b_j. For long runs (Hairer, McLachlan, Razakarivony, BIT 48 (2008) 231): each coefficient is head
- * + tail, the head a multiple of 1/1024, summed apart; stages start from y + r; iteration to
- * stagnation; the step ends with the stages of the derivatives it ended at.
+ * + tail, the head a multiple of 1/1024, summed apart; stages start from y + r; the iteration runs
+ * to stagnation; the step ends with the stage values of the last derivatives.
  *
- * The first guess goes on with the polynomial through the derivatives K of the last step, corrected
- * by how far the same was off before: with miss_k = K_k - E K_(k-1), E the extrapolation,
+ * The predictor extrapolates (E) the polynomial through the derivatives K of the last step and
+ * corrects it by its earlier errors e_k = K_k - E K_(k-1):
  *
- *     guess_(k+1) = E K_k + miss_k + D miss_k + D^2 miss_k + D^3 miss_k,   D x_k = x_k - x_(k-1),
+ *     guess_(k+1) = E K_k + e_k + D e_k + D^2 e_k + D^3 e_k,      D x_k = x_k - x_(k-1),
  *
- * of which each term gains an order in h.  In a first step, or where it leads nowhere (it is far
- * off when h is large), it is the derivatives at the present state. */
+ * where each term gains an order in h.  In a first step, and where the iteration from the predictor
+ * fails (as for large h), the guess is the field at the present state. */
 #ifndef DAL_KERNEL_COLLOCATION_H
 #define DAL_KERNEL_COLLOCATION_H
 
-#define dal_collocation DAL_WIDE(dal__collocation)
-DAL_SHARED dal_status dal_collocation(dal_step *s, const dal_tableau *method);
+#include "solve.h"
+#include "tableau.h"
 
-#ifndef DAL_LINKED
 typedef struct dal_stages {
     const dal_tableau *method;
     double h;
     num *v, *q, *pi; /* [s*nw], [s*n], [s*n] */
-    num *f, *force;  /* [s*3n] or [s*nw]; [s*n] of it kept: F_q^T Pi */
+    num *f, *force;  /* [s*3n] or [s*nw]; [s*n] F_q^T Pi */
     num *w;          /* [s] 1/E_i */
     num *mu;         /* [s] */
     int stride;      /* of f */
@@ -82,10 +81,10 @@ DAL_INLINE void dal__momentum_derivatives(dal_step *s, const dal_stages *k, num 
     }
 }
 
-/* The stages' F_q^T Pi for the end of the step: those of a lane's own last iteration. */
+/* Saves F_q^T Pi of the stages for the end of the step, from a lane's own last iteration. */
 DAL_INLINE void dal__save_forces(const dal_step *s, const dal_stages *k, dal_mask active)
 {
-    (void)active; /* one lane that does not iterate asks for nothing */
+    (void)active; /* one lane is always active here */
     const int n = DAL_N(s);
     DAL_EACH(i, DAL_STAGES(k->method))
         DAL_EACH(j, n)
@@ -93,7 +92,7 @@ DAL_INLINE void dal__save_forces(const dal_step *s, const dal_stages *k, dal_mas
                 DAL_IF_ACTIVE(active, k->f[i * k->stride + n + j], k->force[i * n + j]);
 }
 
-/* Asks the system at every stage; on the physical space F is the image of K. */
+/* Evaluates the system at every stage; on the physical space F is the image of K. */
 DAL_INLINE void dal__eval_stages(dal_step *s, const dal_stages *k, num *image)
 {
     DAL_EACH(i, DAL_STAGES(k->method)) {
@@ -145,7 +144,7 @@ DAL_INLINE dal_status dal__collocation_matrix(dal_step *s, dal_equation *eq)
     return DAL_OK;
 }
 
-/* Guess from the derivatives at the present state, every stage alike, in the given lanes. */
+/* Guesses the field at the present state for every stage, in the given lanes. */
 DAL_INLINE void dal__guess_block(dal_block *b, int width, const num *derivative,
                                  const dal_mask *lanes)
 {
@@ -167,13 +166,13 @@ DAL_INLINE void dal__add_multiple(num *DAL_RESTRICT u, double factor, const num 
     DAL_EACH(i, count) u[i] = dal_fma(dal_num(factor), x[i], u[i]);
 }
 
-/* What is kept of a block: derivatives, errors, their differences, each behind the other. */
+/* Distance between the stored derivatives, predictor errors and their differences. */
 DAL_INLINE int dal__stride(const dal_step *s, int stages)
 {
     return stages * (DAL_NW(s) + DAL_N(s));
 }
 
-/* Guess from the last step's polynomial and from how far it was off before. */
+/* The predictor: the polynomial of the last step and its earlier errors. */
 DAL_INLINE void dal__extrapolate(const dal_tableau *m, dal_block *b, int width, const num *last,
                                  int stride)
 {
@@ -187,8 +186,8 @@ DAL_INLINE void dal__extrapolate(const dal_tableau *m, dal_block *b, int width, 
         DAL_EACH(i, DAL_SIZE(b)) b->u[i] += last[(d + 1) * stride + i];
 }
 
-/* Keeps how far the polynomial was off and the differences, where it accepted; else nothing.  The
- * first guess is needed no more: the errors take its place. */
+/* Saves the predictor errors and their differences where the predictor was accepted, else 0.  They
+ * replace the first guess, which is no longer needed. */
 DAL_INLINE void dal__save_predictor_errors(dal_block *b, const dal_mask *lanes,
                                            const dal_mask *accepted, num *DAL_RESTRICT last,
                                            int stride)
@@ -206,7 +205,7 @@ DAL_INLINE void dal__save_predictor_errors(dal_block *b, const dal_mask *lanes,
         }
 }
 
-/* Solves the stages in the lanes tried, which are then those where that was possible. */
+/* Solves the stages in the lanes tried; leaves those that were solved. */
 DAL_INLINE dal_status dal__try_guess(dal_step *s, dal_equation *eq, dal_mask *tried)
 {
     dal_status status = DAL_OK;
@@ -240,7 +239,7 @@ DAL_INLINE void dal__record_predictor_errors(dal_step *s, const dal_stages *k, d
                                    dal__momentum_derivatives_kept(s, k), stride);
 }
 
-/* From the last step's polynomial, where there is one; *accepted: where that was enough. */
+/* Solves from the predictor, where there is one; *accepted: the lanes solved. */
 DAL_INLINE void dal__solve_from_predictor(dal_step *s, const dal_stages *k, dal_equation *eq,
                                           dal_mask *accepted)
 {
@@ -249,12 +248,12 @@ DAL_INLINE void dal__solve_from_predictor(dal_step *s, const dal_stages *k, dal_
     DAL_EACH(j, DAL_STEP_GROUPS)
         accepted[j] = lanes[j] & dal_equal(s->derivatives_h[j], dal_num(k->h));
     dal__predict(s, k, eq);
-    dal__save_guess(eq); /* read below where nothing is tried, too */
+    dal__save_guess(eq); /* the predictor errors need it even where nothing is tried */
     dal__try_guess(s, eq, accepted);
     dal__record_predictor_errors(s, k, eq, lanes, accepted);
 }
 
-/* Solves the stages: where the polynomial leads nowhere, from the present derivatives. */
+/* Solves the stages; where the predictor fails, from the field at the present state. */
 DAL_INLINE dal_status dal__solve_stages(dal_step *s, const dal_stages *k, dal_equation *eq)
 {
     dal_mask accepted[DAL_STEP_GROUPS], rest[DAL_STEP_GROUPS];
@@ -271,8 +270,8 @@ DAL_INLINE dal_status dal__solve_stages(dal_step *s, const dal_stages *k, dal_eq
     return dal__any(s->alive) ? DAL_OK : status;
 }
 
-/* The same where nothing but the fixed point from the polynomial is needed in any lane; else
- * DAL_NOT_CONVERGED, and nothing has happened. */
+/* The same where the fixed point from the predictor suffices in all lanes; else DAL_NOT_CONVERGED,
+ * and nothing has changed. */
 DAL_INLINE dal_status dal__solve_predicted(dal_step *s, const dal_stages *k, dal_equation *eq)
 {
     dal_mask solved[DAL_STEP_GROUPS], left[DAL_STEP_GROUPS];
@@ -293,7 +292,7 @@ DAL_INLINE dal_status dal__solve_predicted(dal_step *s, const dal_stages *k, dal
     return DAL_OK;
 }
 
-/* Keeps the derivatives for the next step's guess. */
+/* Saves the derivatives for the next predictor. */
 DAL_INLINE void dal__save_unknowns(const dal_step *s, const dal_block *b, num *DAL_RESTRICT last)
 {
     const num *u = b->u;
@@ -321,7 +320,7 @@ DAL_INLINE void dal__gauge_stages(dal_step *s, dal_stages *k)
     }
 }
 
-/* The momenta's half of (y1 - y)/h. */
+/* (y1 - y)/h of the momenta. */
 DAL_INLINE dal_status dal__collocation_momenta(dal_step *s, const dal_stages *k,
                                                const dal_equation *eq, num *d)
 {
@@ -378,7 +377,7 @@ DAL_INLINE dal_status dal__collocate(dal_step *s, const dal_tableau *method, int
 
 /* One step of size s->h from the present state and time; leaves the time advanced. */
 #ifdef DAL_SPECIALISED
-/* What is rarely needed is kept out of the way, so that the rest finds room in registers. */
+/* The rare case is a function of its own, so that the usual one fits into registers. */
 DAL_COLD dal_status dal__collocate_again(dal_step *s, const dal_tableau *method)
 {
     return dal__collocate(s, method, 0);

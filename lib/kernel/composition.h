@@ -1,12 +1,13 @@
-/* composition.h - a step made of shorter and longer ones, some of them backwards.
+/* composition.h - the sizes of the substeps of a symmetric composition.
  *
  *     h = c_1 h + c_2 h + ... + c_k h,     c_(k+1-i) = c_i
  *
- * Rounded as they stand the sizes c_i h would end a little before or behind h in every step; here
- * each is a multiple of the last place of h, and the middle (one, or two alike) takes what is left,
- * so that they make up h as exactly as numbers near h can. */
+ * Rounded sizes c_i h would not add up to h.  Here each is a multiple of the last place of h, and
+ * the middle substep (or the two in the middle) takes the rest, so that the sum is h. */
 #ifndef DAL_KERNEL_COMPOSITION_H
 #define DAL_KERNEL_COMPOSITION_H
+
+#include "num.h"
 
 enum { DAL_MOST_SUBSTEPS = 35 };
 
@@ -19,7 +20,7 @@ typedef struct dal_composition {
 DAL_INLINE void dal_substeps(const dal_composition *k, double h, double *size)
 {
     const int before = (k->substeps - 1) / 2, last = k->substeps - 1;
-    const double coarse = 4.0 * h; /* what is added to it loses its finer places */
+    const double coarse = 4.0 * h; /* rounds to a multiple of the last place of 4h */
     double sum = 0.0;
     for (int i = 0; i < before; i++) {
         size[i] = size[last - i] = (k->c[i] * h + coarse) - coarse;

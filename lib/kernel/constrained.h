@@ -1,26 +1,27 @@
-/* constrained.h - steps that impose the constraints themselves instead of following F.
+/* constrained.h - steps that enforce the constraints themselves instead of following F.
  *
  *     q' = v,   v' = a + B lambda,   D(q, v, t) = 0;     a = W^-1 b,   B = W^-1 A^T
  *
- * A method that imposes D on one velocity seeks the increment w of v, and multipliers, with
+ * A method that enforces D at one velocity solves for the increment w of v, and multipliers, with
  *
  *     w = free(w) + N(w) mu,     D(q(w), v + w, t) = 0.
  *
- * The multipliers are eliminated: in every iteration they are those for which the constraints hold
- * to first order, so that w alone is iterated (solve.h), and what it stagnates at solves both:
+ * Each iteration eliminates the multipliers: they are those for which the constraints hold to first
+ * order, so that w alone is iterated (solve.h), and its limit solves both:
  *
  *     (A N) mu = A (w - free) - D,     image = free + N mu
  *
- * D may be nonlinear, W may depend on q, v, t.  The iterations contract like h; where they are too
- * slow for that, Newton's matrix is 1 - z P F_v - z^2 P F_q with P = 1 - B G^-1 A at the beginning
- * of the step: of the derivative of a iteration the part that can be large, since P B = 0 and the
- * motion along the constraints is that of F.  (With reactions along directions of their own, B is
- * W^-1 of those.) */
+ * D may be nonlinear, W may depend on q, v, t.  The iteration contracts like h.  Where that is too
+ * slow, Newton's matrix is 1 - z P F_v - z^2 P F_q with P = 1 - B G^-1 A at the beginning of the
+ * step: the large part of the derivative of an iteration, since P B = 0 and the motion along the
+ * constraints is that of F.  (For servo constraints B = W^-1 times their own directions.) */
 #ifndef DAL_KERNEL_CONSTRAINED_H
 #define DAL_KERNEL_CONSTRAINED_H
 
-/* Numbers in an answer to DAL_EVAL_BLOCKS, and where its blocks lie: D, A, B as in one to
- * DAL_EVAL_CONSTRAINT, then a and c. */
+#include "solve.h"
+
+/* Sizes of the outputs of DAL_EVAL_BLOCKS and DAL_EVAL_CONSTRAINT, and the places of their blocks:
+ * D, A, B, then a and c in the former only. */
 #define DAL_BLOCKS_SIZE(s)     (2 * DAL_M(s) + DAL_N(s) + 2 * DAL_M(s) * DAL_N(s))
 #define DAL_CONSTRAINT_SIZE(s) (DAL_M(s) + 2 * DAL_M(s) * DAL_N(s))
 #define DAL_SQUARE_M(s)        (DAL_M(s) * DAL_M(s))
@@ -35,24 +36,20 @@ DAL_INLINE void dal_eval_blocks(dal_step *s, double t, const num *q, const num *
     dal_eval(s, DAL_EVAL_BLOCKS, t, q, v, NULL, out);
 }
 
-/* Without constraints there is no such code. */
+/* Without constraints there is no such callback. */
 DAL_INLINE void dal_constraint(dal_step *s, double t, const num *q, const num *v, num *out)
 {
     if (DAL_M(s) > 0) dal_eval(s, DAL_EVAL_CONSTRAINT, t, q, v, NULL, out);
 }
 
-/* The present state moved by d: y + (r + d), for component i of q or of v. */
+/* Component i of q or v of the present state, moved by d: y + (r + d). */
 DAL_INLINE num dal_moved_q(const dal_step *s, int i, num d) { return s->y[i] + (s->r[i] + d); }
 DAL_INLINE num dal_moved_v(const dal_step *s, int i, num d)
 {
     return s->y[DAL_N(s) + i] + (s->r[DAL_N(s) + i] + d);
 }
 
-#define dal_continuous_multipliers DAL_WIDE(dal__continuous_multipliers)
-DAL_SHARED dal_status dal_continuous_multipliers(dal_step *s, const num *blocks, num *h);
-
-#ifndef DAL_LINKED
-/* x = g^-1 rhs for a g[size*size] that is destroyed. */
+/* x = g^-1 rhs; g[size*size] is destroyed. */
 DAL_INLINE void dal_solve_small(num *g, num *inverse, int size, const num *rhs, num *x)
 {
     if (size == 1)
@@ -62,7 +59,7 @@ DAL_INLINE void dal_solve_small(num *g, num *inverse, int size, const num *rhs, 
     dal_multiply(inverse, size, size, rhs, x);
 }
 
-/* The multipliers of the continuous motion at the point of an answer: G h = -(c + A a). */
+/* The multipliers of the continuous motion at the point of the blocks: G h = -(c + A a). */
 DAL_SHARED dal_status dal_continuous_multipliers(dal_step *s, const num *blocks, num *h)
 {
     const int n = DAL_N(s), m = DAL_M(s);
@@ -78,7 +75,7 @@ DAL_SHARED dal_status dal_continuous_multipliers(dal_step *s, const num *blocks,
 }
 #endif
 
-/* The multipliers persistent from the last step, or the continuous ones where there are none. */
+/* The multipliers of the last step, or the continuous ones where there are none. */
 DAL_INLINE dal_status dal_restore_multipliers(dal_step *s, const num *blocks, num *h)
 {
     const dal_mask known = dal_less(dal_num(0.5), *s->has_multiplier);
@@ -95,15 +92,15 @@ DAL_INLINE void dal_save_multipliers(dal_step *s, const num *h)
 
 /* ---- one velocity ---- */
 
-/* The context of such an equation begins with this. */
+/* Context of an equation for one velocity, as its first member. */
 typedef struct dal_elimination {
-    dal_stage_matrix newton;        /* how Newton's matrix is made of P F_q and P F_v */
-    num *free, *directions;         /* [n], [n*m]: what w is made of; the map sets them */
+    dal_stage_matrix newton;        /* Newton's matrix from P F_q and P F_v */
+    num *free, *directions;         /* [n], [n*m] free and N above; the map sets them */
     num *mu;                        /* [m] multipliers of a lane's last iteration */
     num *g, *inverse, *rhs, *fresh; /* [m*m], [m*m], [m], [m] */
 } dal_elimination;
 
-/* Declares one with its memory; v and v* move together by z. */
+/* Declares an elimination with its memory; z, a2 as in dal_stage_matrix. */
 #define DAL_ELIMINATION(step, name, z, a2)                                                         \
     static const double name##_one = 1.0, name##_a2 = (a2);                                        \
     DAL_VECTOR(step, name##_free, DAL_N(step));                                                    \
@@ -192,8 +189,8 @@ DAL_SHARED dal_status dal_constrained_matrix(dal_step *s, dal_equation *eq)
 }
 #endif
 
-/* Solves; `direct` says that the map does not depend on w but through D, and on that linearly: then
- * one iteration is the solution. */
+/* Solves.  direct: the map depends on w through D only, and linearly, so that one iteration solves.
+ * */
 DAL_INLINE dal_status dal_enforce(dal_step *s, dal_equation *eq, dal_iteration_map *map, int direct)
 {
     if (!direct) return dal_solve(s, eq, map, dal_constrained_matrix);
@@ -203,13 +200,13 @@ DAL_INLINE dal_status dal_enforce(dal_step *s, dal_equation *eq, dal_iteration_m
     return DAL_OK;
 }
 
-/* Whether a and B do not depend on v, and D linearly. */
+/* Whether a and B do not depend on v, and D is linear in v. */
 DAL_INLINE int dal_positional(const dal_step *s)
 {
     return (DAL_PROPERTIES(s) & DAL_BLOCKS_POSITIONAL) != 0;
 }
 
-/* An equation for the increment w of v, that begins at w = 0. */
+/* An equation for the increment w of v, started from w = 0. */
 DAL_INLINE dal_equation dal_velocity_equation(const dal_step *s, dal_block block, void *context)
 {
     dal_equation eq = {{block}, 1, context, {dal_all()}};

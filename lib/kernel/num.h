@@ -166,8 +166,8 @@ DAL_INLINE num dal_abs(num x) { return fabs(x); }
 DAL_INLINE num dal_sqrt(num x) { return sqrt(x); }
 DAL_INLINE num dal_fma(num a, num b, num c) { return __builtin_fma(a, b, c); }
 #else
-/* Compilers do not reliably turn a loop over the lanes into one instruction, so it is named where it
- * exists, for as many lanes as a register holds. */
+/* Compilers do not reliably turn a loop over the lanes into one instruction, so it is named where
+ * it exists, for as many lanes as a register holds. */
 #if defined __AVX512F__ && DAL_LANES >= 8
 #define DAL__REGISTER      8
 #define DAL__FUSE(a, b, c) __builtin_ia32_vfmaddpd512_mask(a, b, c, (unsigned char)-1, 4)
@@ -211,9 +211,10 @@ DAL_INLINE num dal_sqrt(num x)
 
 #define DAL_RESTRICT __restrict
 
-/* Reductions over many numbers use packs, which a compiler must not form by itself.  For the maximum
- * and for finiteness the order does not matter.  Sums use packs from DAL__MIN_PACKED numbers on, in
- * one order for all builds.  The functions over packs return how many numbers they have processed. */
+/* Reductions over many numbers use packs, which a compiler must not form by itself.  For the
+ * maximum and for finiteness the order does not matter.  Sums use packs from DAL__MIN_PACKED
+ * numbers on, in one order for all builds.  The functions over packs return how many numbers they
+ * have processed. */
 enum { DAL__PACK = 8, DAL__MIN_PACKED = 16 };
 #if DAL_LANES == 1 && !defined DAL_SPECIALISED && !defined DAL_NUM_QUAD
 typedef double dal__pack __attribute__((vector_size(64), aligned(8), may_alias));

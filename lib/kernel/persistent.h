@@ -2,8 +2,8 @@
  *
  *     y[dim] | r[dim] | clock | state of the method
  *
- * One list serves the engine and generated files.  All else is scratch.  Stage derivatives are stored
- * for methods with DAL_EXTRAPOLATES_STAGES, [1 + DAL__DIFFERENCES][stages*(nw + n)]; see
+ * One list serves the engine and generated files.  All else is scratch.  Stage derivatives are
+ * stored for methods with DAL_EXTRAPOLATES_STAGES, [1 + DAL__DIFFERENCES][stages*(nw + n)]; see
  * collocation.h. */
 #ifndef DAL_KERNEL_PERSISTENT_H
 #define DAL_KERNEL_PERSISTENT_H

@@ -9,10 +9,10 @@
  *     231), or
  *   - a small d that twice in a row does not decrease ("small" separates stagnation from divergence).
  * After several iterations two more ends count: d far below rounding level (components smaller than
- * the rounding of others may let d decrease without end), and a small d that several iterations have
- * not decreased (cycles of roundings).  Each lane ends by itself and is then left alone, so its bits
- * do not depend on its neighbours.  For experiments DAL_SOLVER_TOLERANCE ends the iteration earlier,
- * DAL_EXTRA_ITERATIONS continues it.
+ * the rounding of others may let d decrease without end), and a small d that several iterations
+ * have not decreased (cycles of roundings).  Each lane ends by itself and is then left alone, so
+ * its bits do not depend on its neighbours.  For experiments DAL_SOLVER_TOLERANCE ends the
+ * iteration earlier, DAL_EXTRA_ITERATIONS continues it.
  *
  * Groups of lanes that are stepped as one system (DAL_STEP_GROUPS) have norms and masks of their
  * own.
@@ -31,8 +31,8 @@
 #define DAL__ROUNDING (1.4e-14 * DAL_ULP_RATIO)
 #define DAL__SMALL    (1e-12 * DAL_ULP_RATIO)
 #define DAL__NOISE    (1e-12 * DAL_ULP_RATIO)
-/* From iteration PATIENT on NOTHING is enough, from twice that on LITTLE, and CYCLING where the last
- * CYCLE iterations have brought no smaller increment. */
+/* From iteration PATIENT on NOTHING is enough, from twice that on LITTLE, and CYCLING where the
+ * last CYCLE iterations have brought no smaller increment. */
 #define DAL__PATIENT 8
 #define DAL__NOTHING (1e-17 * DAL_ULP_RATIO)
 #define DAL__LITTLE  (1e-16 * DAL_ULP_RATIO)
@@ -59,8 +59,8 @@ typedef struct dal_equation {
     dal_mask active[DAL_STEP_GROUPS]; /* the lanes that still iterate */
 } dal_equation;
 
-/* A map may store values for the end of the step: those of a lane's own last iteration, which further
- * iterations of its neighbours do not change. */
+/* A map may store values for the end of the step: those of a lane's own last iteration, which
+ * further iterations of its neighbours do not change. */
 #if DAL_LANES == 1
 #define DAL_IF_ACTIVE(active, fresh, old) (fresh)
 #else
@@ -104,8 +104,8 @@ DAL_INLINE num dal__group_norm(const num *x, int count, int j)
     return norm;
 }
 
-/* Sizes of a group's state for blocks that move v or pi, with the effect of rounding in q or p within
- * a step that contracts. */
+/* Sizes of a group's state for blocks that move v or pi, with the effect of rounding in q or p
+ * within a step that contracts. */
 DAL_INLINE num dal_velocity_scale(const dal_step *s, double h, int group)
 {
     return dal__group_norm(s->y + DAL_N(s), DAL_NW(s), group) +
@@ -194,7 +194,8 @@ DAL_INLINE dal_mask dal__negligible(dal_block *b, int j, int k, num now, num siz
            (dal_less_equal(now, cycling * size) & dal_less(dal_num(DAL__CYCLE - 0.5), *since));
 }
 
-/* Lanes of a group where the increment of iteration k is zero, stagnates, or is below the tolerance. */
+/* Lanes of a group where the increment of iteration k is zero, stagnates, or is below the
+ * tolerance. */
 DAL_INLINE dal_mask dal__converged(const dal_step *s, dal_block *b, int j, int k)
 {
     const num now = b->now[j], size = dal__size(b, j);

@@ -6,9 +6,9 @@
  *     v_p = v + h sum_j y_pj K_j       q_p = q + h sum_j x_pj V_j
  *     v1  = v + h sum_j b_j K_j        q1  = q + h sum_j b_j V_j
  *
- * with as many equations e as multipliers L_i are unknown: all, or all but L_1, which is then L_s
- * of the step before.  The K_i are iterated; in every iteration the L_i are those for which the
- * equations hold to first order, as in constrained.h:
+ * with as many equations e as unknown multipliers L_i: all, or all but L_1, which is then L_s of
+ * the last step.  The K_i are iterated; each iteration takes the L_i for which the equations hold
+ * to first order, as in constrained.h:
  *
  *     sum_j (h sum_p omega_ep y_pj A_p B_j) L_j
  *         = - sum_p omega_ep (D_p + A_p h sum_j y_pj (a_j - K_j))
@@ -17,6 +17,8 @@
  * arXiv:1810.10926. */
 #ifndef DAL_KERNEL_SPARK_H
 #define DAL_KERNEL_SPARK_H
+
+#include "constrained.h"
 
 typedef struct dal_spark {
     int stages;
@@ -34,9 +36,9 @@ DAL_SHARED dal_status dal_spark_advance(dal_step *s, const dal_spark *method);
 typedef struct dal_spark_step {
     dal_stage_matrix newton; /* first, for dal_constrained_matrix */
     const dal_spark *method;
-    num *V, *blocks;         /* [s*n], [s] answers */
-    num *q, *v, *constraint; /* a point, and D and A there */
-    num *given, *last;       /* [m] L_1 where it is persistent; L_s of a lane's last iteration */
+    num *V, *blocks;         /* [s*n], [s] blocks */
+    num *q, *v, *constraint; /* a point, and D, A, B there */
+    num *given, *last;       /* [m] L_1 where it is known; L_s of a lane's last iteration */
     num *shift;              /* [n] h sum y (a_j - K_j) */
     num *matrix, *inverse;   /* [(s*m)^2] */
     num *rhs, *L;            /* [s*m] */
@@ -84,7 +86,7 @@ DAL_INLINE void dal__spark_stages(dal_step *s, const dal_spark_step *k, num *fre
         for (int a = 0; a < m; a++) free[c] += B[c * m + a] * k->given[a];
 }
 
-/* The point p, what D is there, and how far the free accelerations would move its velocity. */
+/* The point p, D there, and the change of its velocity by the free accelerations. */
 DAL_INLINE void dal__spark_point(dal_step *s, const dal_spark_step *k, int p, const num *K,
                                  const num *free)
 {
@@ -99,8 +101,8 @@ DAL_INLINE void dal__spark_point(dal_step *s, const dal_spark_step *k, int p, co
     dal_constraint(s, s->t + k->method->point_c[p] * s->h, k->q, k->v, k->constraint);
 }
 
-/* Adds to a row of the matrix the derivative of a constraint with normal A by the multipliers of
- * stage j; weight: by how much B L_j moves the velocity at the point, times omega. */
+/* Adds to a row of the matrix the derivative of a constraint with gradient A with respect to the
+ * multipliers of stage j; weight: omega times the coefficient of B L_j in the velocity. */
 DAL_INLINE void dal__spark_entries(const dal_step *s, const dal_spark_step *k, const num *A, int j,
                                    double weight, num *row)
 {
@@ -165,7 +167,7 @@ DAL_INLINE void dal__spark_map(dal_step *s, dal_equation *eq)
         k->last[a] = DAL_IF_ACTIVE(eq->active[0], k->L[(count - 1) * m + a], k->last[a]);
 }
 
-/* L_1, where it is persistent, and the first guess: F at the present state for every K. */
+/* L_1, where it is known, and the first guess: F at the present state for every K. */
 DAL_INLINE dal_status dal__spark_begin(dal_step *s, const dal_spark_step *k, dal_equation *eq)
 {
     const int n = DAL_N(s), m = DAL_M(s);

@@ -3,8 +3,8 @@
  * The state y, [dim]:   physical  q[n], v[n], g[multipliers]              dim = n + nw
  *                       lifted    q[n], v[n], e, p[n], pi[n], pi_e        dim = 4n + 2
  * with nw = n + multipliers.  The state is y + r, where r holds the rounding errors so far,
- * products with h included (compensated summation, Kahan, CACM 8 (1965) 40).  y is never -0, so that
- * the same motion has the same bits on both spaces. */
+ * products with h included (compensated summation, Kahan, CACM 8 (1965) 40).  y is never -0, so
+ * that the same motion has the same bits on both spaces. */
 #ifndef DAL_KERNEL_STEP_H
 #define DAL_KERNEL_STEP_H
 
@@ -38,7 +38,8 @@ typedef enum dal_callback_code {
 #ifdef DAL_SPECIALISED
 
 /* In a generated file dimensions are constants and all memory is local.  DAL_STEP_GROUPS groups of
- * lanes are stepped as one larger system: component i of group j is number i*DAL_STEP_GROUPS + j. */
+ * lanes are stepped as one larger system: component i of group j is number i*DAL_STEP_GROUPS + j.
+ * */
 #define DAL_N(s)                      (DAL__N * DAL_STEP_GROUPS)
 #define DAL_NW(s)                     (DAL__NW * DAL_STEP_GROUPS)
 #define DAL_M(s)                      DAL__M
@@ -301,9 +302,9 @@ DAL_INLINE dal_status dal_field(dal_step *s, double t, const num *y, num *DAL_RE
     return DAL_OK;
 }
 
-/* y + r += factor*d for count components, compensated; lanes that are not alive stay unchanged.  r is
- * factor*d less the change of y: exact where |y| >= |d|, product included, else within the rounding
- * of d.  A sum is -0 only if both terms are, and y is not. */
+/* y + r += factor*d for count components, compensated; lanes that are not alive stay unchanged.  r
+ * is factor*d less the change of y: exact where |y| >= |d|, product included, else within the
+ * rounding of d.  A sum is -0 only if both terms are, and y is not. */
 DAL_INLINE void dal_add_multiple(dal_step *s, int first, int count, double factor, const num *d)
 {
     num *const DAL_RESTRICT y = s->y + first, *const DAL_RESTRICT r = s->r + first;

@@ -1,8 +1,8 @@
-/* symplectic_euler.h - symplectic Euler steps of every polarisation.
+/* symplectic_euler.h - symplectic Euler in partitioned form, for every polarisation.
  *
  * For each canonical pair (X, P) the Hamiltonian is evaluated at (X0, P1) where the polarisation is
  * 0 and at (X1, P0) where it is 1:  X1 = X0 + h dH/dP,  P1 = P0 - h dH/dX.  With (s_q, s_v), and
- * the pair (e, pi_e) and the time going with q, a star marking the argument so chosen,
+ * the pair (e, pi_e) and the time going with q, a star marking the chosen argument,
  *
  *     q1 = q + h v*                     v1 = v + h (F(q*, v*, t*) + pi* / e*)
  *     p1 = p - h F_q^T pi*              pi1 = pi - h (p* + F_v^T pi*)
@@ -18,6 +18,8 @@
  * for (v, g) there. */
 #ifndef DAL_KERNEL_SYMPLECTIC_EULER_H
 #define DAL_KERNEL_SYMPLECTIC_EULER_H
+
+#include "solve.h"
 
 typedef struct dal_polarisation {
     int q, v;
@@ -37,7 +39,7 @@ typedef struct dal_euler {
     dal_polarisation at;
     double h, t;
     num *q, *v, *p, *pi; /* [n], [nw], [n], [n] */
-    num *f;              /* [3n] or [nw]: what the system said last */
+    num *f;              /* [3n] or [nw]: the field or adjoint of the last evaluation */
     num w;               /* 1/e* */
 } dal_euler;
 
@@ -48,7 +50,7 @@ DAL_INLINE void dal__euler_q(dal_step *s, dal_euler *k)
         k->q[i] = dal_choose(k->at.q, s->y[i] + dal_fma(dal_num(k->h), k->v[i], s->r[i]), s->y[i]);
 }
 
-/* F + pi* w, from the field last asked for. */
+/* F + pi* w, from the last field. */
 DAL_INLINE num dal__euler_rate_v(const dal_step *s, const dal_euler *k, int i)
 {
     return DAL_LIFTED(s) ? dal_fma(k->pi[i], k->w, k->f[i]) : k->f[i];
@@ -72,7 +74,7 @@ DAL_INLINE void dal__euler_map_v(dal_step *s, dal_equation *eq)
         eq->block[0].image[i] = dal__euler_v1(s, k, i, dal__euler_rate_v(s, k, i));
 }
 
-/* p* for the momentum pi*, from the adjoint last asked for. */
+/* p* for the momentum pi*, from the last adjoint. */
 DAL_INLINE void dal__euler_p(dal_step *s, dal_euler *k)
 {
     const int n = DAL_N(s), p = dal_at_p(s);
@@ -130,7 +132,7 @@ DAL_INLINE dal_status dal__euler_solve(dal_step *s, dal_euler *k)
     return DAL_OK;
 }
 
-/* The momenta's half of the rates d. */
+/* The rates d of the momenta. */
 DAL_INLINE void dal__euler_momenta(dal_step *s, const dal_euler *k, num mu, num *d)
 {
     const int n = DAL_N(s);
@@ -142,7 +144,7 @@ DAL_INLINE void dal__euler_momenta(dal_step *s, const dal_euler *k, num mu, num 
     d[dal_at_pi_e(s)] = dal_gauge_rate(k->pi, n, k->w);
 }
 
-/* The field at the starred arguments, and from it the rates of all components. */
+/* The field at the starred arguments and the rates of all components. */
 DAL_INLINE void dal__euler_rates(dal_step *s, dal_euler *k, num mu, num *d)
 {
     const int n = DAL_N(s);

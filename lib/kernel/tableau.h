@@ -6,6 +6,8 @@
 #ifndef DAL_KERNEL_TABLEAU_H
 #define DAL_KERNEL_TABLEAU_H
 
+#include "num.h"
+
 typedef struct dal_tableau {
     int stages;
     const double *c;                      /* [s] */
@@ -31,8 +33,9 @@ DAL_INLINE num dal__weighted(const double *head, const double *tail, int stages,
     DAL_EACH(i, stages - 1) small = dal_fma(dal_num(tail[i + 1]), x[(i + 1) * stride], small);
     return large + small;
 }
-/* The statement with STAGES a constant where there are few of them: the sum over the stages then
- * unrolls, and components go side by side through vector registers. */
+
+/* The statement with a constant STAGES where there are few: the sum over the stages then unrolls,
+ * and the loop over components uses vector registers. */
 #define DAL__BY_STAGES(stages, statement)                                                          \
     switch (stages) {                                                                              \
     case 1: {                                                                                      \
@@ -60,8 +63,9 @@ DAL_INLINE void dal__weighted_all(const double *head, const double *tail, int st
     DAL__BY_STAGES(stages,
                    DAL_EACH(c, count) out[c] = dal__weighted(head, tail, STAGES, x + c, stride));
 }
-/* Coefficients rounded to one number each, good enough for Newton's matrix, and products of them.
- */
+
+/* Coefficients rounded to one double each, for Newton's matrix, and products of matrices of them.
+ * */
 DAL_INLINE void dal__rounded(int count, const double *head, const double *tail, double *a)
 {
     for (int i = 0; i < count; i++) a[i] = head[i] + (tail ? tail[i] : 0.0);
