@@ -377,8 +377,7 @@ typedef struct dal_options {
 } dal_options;
 
 dal_options dal_options_default(void);
-/* Sets one option from text.  Errors: DAL_NAME (with the nearest name), DAL_ARGUMENT, DAL_SYNTAX.
- * */
+/* Sets one option from text.  Errors: DAL_NAME (nearest name), DAL_ARGUMENT, DAL_SYNTAX. */
 dal_status dal_options_set(dal_options *options, const char *name, const char *text,
                            dal_error *error);
 
@@ -503,8 +502,8 @@ dal_status dal_batch_advance(dal_batch *batch, long long count);
 int dal_batch_count(const dal_batch *batch);
 dal_status dal_batch_status(const dal_batch *batch, int lane, dal_error *error);
 double dal_batch_time(const dal_batch *batch, int lane);
-/* Copies the state of a lane, [dimension] doubles as dal_run_state; does nothing without the lane.
- * */
+/* Copies the state of a lane, [dimension] doubles as dal_run_state; does nothing without the
+ * lane. */
 void dal_batch_state(const dal_batch *batch, int lane, double *state);
 
 #ifdef __cplusplus

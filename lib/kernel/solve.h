@@ -7,7 +7,7 @@
  *   - d = 0, or
  *   - d at rounding level that no longer decreases (Hairer, McLachlan, Razakarivony, BIT 48 (2008)
  *     231), or
- *   - a small d that twice in a row does not decrease ("small" separates stagnation from divergence).
+ *   - a small d that twice in a row does not decrease ("small" excludes divergence).
  * After several iterations two more ends count: d far below rounding level (components smaller than
  * the rounding of others may let d decrease without end), and a small d that several iterations
  * have not decreased (cycles of roundings).  Each lane ends by itself and is then left alone, so

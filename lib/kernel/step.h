@@ -38,8 +38,8 @@ typedef enum dal_callback_code {
 #ifdef DAL_SPECIALISED
 
 /* In a generated file dimensions are constants and all memory is local.  DAL_STEP_GROUPS groups of
- * lanes are stepped as one larger system: component i of group j is number i*DAL_STEP_GROUPS + j.
- * */
+ * lanes are stepped as one larger system: component i of group j is number i*DAL_STEP_GROUPS +
+ * j. */
 #define DAL_N(s)                      (DAL__N * DAL_STEP_GROUPS)
 #define DAL_NW(s)                     (DAL__NW * DAL_STEP_GROUPS)
 #define DAL_M(s)                      DAL__M
