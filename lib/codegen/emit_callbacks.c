@@ -1,5 +1,5 @@
 /* emit_callbacks.c - a system's programs as C: what dal_eval says, the start, the observables. */
-#include "codegen/generate.h"
+#include "codegen/emit_callbacks.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,5 +1,8 @@
 /* generate.c - one self-contained C file for one system, method and space; see generate.h. */
 #include "codegen/generate.h"
+#include "codegen/emit_callbacks.h"
+#include "codegen/interface.h"
+#include "core/arguments.h"
 #include "dalembert_codegen.h"
 #include <stdio.h>
 #include <stdlib.h>
@@ -173,6 +176,75 @@ dal_status dal__generation_check(dal__generation *g, const char *prefix, dal_err
     return dal__choose_prefix(g, prefix, error);
 }
 
+/* ---- constants ---- */
+
+/* Whether the groups of lanes can be stepped as one larger system: implicit stages of two groups
+ * find room in the registers where there are few of them. */
+static bool steps_groups_together(const dal__generation *g)
+{
+    const unsigned properties = g->layout.method.layer[0]->properties;
+    const bool few = properties & DAL_EXTRAPOLATES_STAGES && g->layout.method.layer[0]->stages <= 2;
+    const bool can = properties & DAL_COMPONENTWISE || few;
+    return g->layout.depth == 1 && !g->layout.lifted && can;
+}
+
+/* Lanes go by registers, as large as the processor has them. */
+static void write_lanes(dal__generation *g)
+{
+    dal__text_print(&g->text, "#define DAL_LANES %d\n", g->lanes);
+    dal__text_put(&g->text, "#if DAL_LANES > 8 && defined __AVX512F__\n#define DAL_GROUP 8\n"
+                            "#elif DAL_LANES > 4 && defined __AVX__ && !defined __AVX512F__\n"
+                            "#define DAL_GROUP 4\n"
+                            "#elif DAL_LANES > 2 && !defined __AVX__\n"
+                            "#define DAL_GROUP 2\n#endif\n");
+    dal__text_put(&g->text, dal__source_text("groups.h"));
+    dal__text_put(&g->text, "#define DAL_WORK(place) w[(place) * DAL_GROUPS]\n");
+    dal__text_print(
+        &g->text, "enum { DAL_STEP_GROUPS = %s, DAL_STEP_COUNT = DAL_GROUPS / DAL_STEP_GROUPS };\n",
+        steps_groups_together(g) ? "DAL_GROUPS" : "1");
+}
+
+static void write_constants(dal__generation *g)
+{
+    const dal__layout *k = &g->layout;
+    const int stages = g->spec->method.layer[0]->stages;
+    const bool collocation = dal__method_uses(g, "dal_collocation");
+    const bool solves = collocation || dal__method_uses(g, "dal_symplectic_euler");
+    const bool is_explicit = dal_method_properties(&g->spec->method) & DAL_EXPLICIT;
+    const struct {
+        const char *name;
+        int value;
+    } list[] = {
+        {"N", k->n},
+        {"NW", k->nw},
+        {"M", k->m},
+        {"DIM", k->dim},
+        {"LIFTED", k->lifted},
+        {"STAGES", stages},
+        {"STAGE_DERIVATIVES", k->derivatives},
+        {"SOLVER", k->options.solver},
+        {"ITERATIONS", k->options.iterations},
+        {"EXTRA_ITERATIONS", k->options.extra_iterations},
+        {"PLAIN", k->options.sums == DAL_SUMS_PLAIN},
+        {"PROPERTIES", (int)k->system->properties},
+        {"MULTIPLIER", k->multiplier},
+        {"NEWTON", dal__uses_newton(g)},
+        {"TANGENT", dal__follows_tangents(g)},
+        {"EXPLICIT", is_explicit && k->depth == 1 && !(solves && k->lifted)},
+        {"GUARDS", k->system->guards},
+        {"RANK_CHECKED", k->m > 0 && dal__wants(g, DAL__PROGRAM_CONSTRAINT) &&
+                             (k->system->properties & DAL_D_RANK_CHECKED) != 0},
+        {"GAUGE", dal__wants(g, DAL__PROGRAM_GAUGE)},
+        {"TRACED", g->product == DAL__TRACE},
+    };
+    write_lanes(g);
+    for (size_t i = 0; i < sizeof list / sizeof *list; i++)
+        dal__text_print(&g->text, "#define DAL__%s %d\n", list[i].name, list[i].value);
+    dal__text_put(&g->text, "#define DAL__SOLVER_TOLERANCE ");
+    dal__text_number(&g->text, k->options.solver_tolerance);
+    dal__text_put(&g->text, "\n");
+}
+
 /* ---- the file ---- */
 
 static const char compiler[] =
@@ -291,7 +363,7 @@ void dal__write_steps(dal__generation *g)
 {
     dal__write_compiler(g);
     write_unrolling(g);
-    dal__write_constants(g);
+    write_constants(g);
     write_enums(g);
     write_kernel(g);
     dal__emit_callbacks(g);

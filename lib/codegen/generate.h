@@ -54,33 +54,4 @@ dal_status dal__generation_finish(dal__generation *g, char **text, dal_error *er
 void dal__write_compiler(dal__generation *g);
 void dal__write_steps(dal__generation *g);
 
-/* ---- native_text.c: what native mode compiles ---- */
-
-#define DAL__NATIVE_PREFIX "dal_native"
-/* The steps alone, DAL__LANES or DAL__TRACE: the function PREFIX_lanes or _traced.
- * Takes nothing from the parameters and the start of the spec. [alloc] */
-dal_status dal__generate_native(const dal_run_spec *spec, dal__product product, int lanes,
-                                char **text, dal_error *error);
-/* The observables of a run of this layout, wherever it stands: the function
- * PREFIX_observables. [alloc] */
-dal_status dal__generate_observables(const dal__layout *layout, const dal_run *run, char **text,
-                                     dal_error *error);
-
-/* ---- prefix.c ---- */
-
-/* A prefix of the caller's, or (NULL) SYSTEM_METHOD.  Errors: DAL_ARGUMENT. */
-dal_status dal__choose_prefix(dal__generation *g, const char *prefix, dal_error *error);
-
-/* ---- constants.c ---- */
-void dal__write_constants(dal__generation *g);
-
-/* ---- interface.c: what a caller sees ---- */
-void dal__write_interface(dal__generation *g);
-void dal__write_names(dal__generation *g);
-
-/* ---- emit_callbacks.c: the system ---- */
-void dal__emit_callbacks(dal__generation *g);
-void dal__write_start(dal__generation *g);
-void dal__write_observe(dal__generation *g);
-
 #endif

@@ -2,8 +2,8 @@
  *
  * The loaded function works on the persistent array of a run, or of a block of lanes, with the same
  * bits as the tape, so it can be put in at any time; failures are explained by the tape. */
-#include "codegen/generate.h"
 #include "jit/cache.h"
+#include "jit/native_text.h"
 #include "run/batch.h"
 #include "run/run.h"
 #include <dlfcn.h>

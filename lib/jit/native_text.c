@@ -2,7 +2,9 @@
  *
  * The observables have an object of their own, since they are evaluated for as many states at a
  * time as a register has lanes, whatever the steps do, and are the same for all methods. */
-#include "codegen/generate.h"
+#include "jit/native_text.h"
+#include "codegen/emit_callbacks.h"
+#include "codegen/interface.h"
 
 /* Loops over components are unrolled up to this size of a state. */
 enum { MOST_UNROLLED = 64 };

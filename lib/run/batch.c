@@ -5,6 +5,8 @@
  * variants the blocks are one lane wide: the bits are the same. */
 #include "run/batch.h"
 #include "dalembert_codegen.h"
+#include "run/failure.h"
+#include "run/start.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -106,7 +108,7 @@ static bool measure(dal_batch *batch, const engine_choice *from, size_t *bytes)
     *bytes = ALIGNMENT;
     for (int done = 0; done < batch->count; batch->blocks++) {
         const dal__engine_kind *k = next_kind(from, batch->count - done);
-        const size_t more = round_up(k->bytes(&batch->scalar->layout));
+        const size_t more = round_up(k->engine->bytes(&batch->scalar->layout));
         if (more > SIZE_MAX / 2 - *bytes) return false;
         *bytes += more;
         done += k->width < batch->count - done ? k->width : batch->count - done;
@@ -119,7 +121,7 @@ static void place_block(dal_batch *batch, block *b, const dal__engine_kind *kind
                         void *memory)
 {
     *b = (block){.kind = kind, .first = first};
-    b->engine = kind->place(&batch->scalar->layout, memory, &b->persistent, &b->work);
+    b->engine = kind->engine->place(&batch->scalar->layout, memory, &b->persistent, &b->work);
     for (int lane = 0; lane < kind->width; lane++) {
         scatter_lane(batch, b, lane);
         if (first + lane < batch->count) b->alive |= (dal__lanes)1 << lane;
@@ -132,7 +134,7 @@ static void place_blocks(dal_batch *batch, const engine_choice *from)
     for (int i = 0, first = 0; i < batch->blocks; i++) {
         const dal__engine_kind *k = next_kind(from, batch->count - first);
         place_block(batch, &batch->block[i], k, first, at);
-        at += round_up(k->bytes(&batch->scalar->layout));
+        at += round_up(k->engine->bytes(&batch->scalar->layout));
         first += k->width;
     }
 }
@@ -296,7 +298,7 @@ static long long step_block(dal_batch *batch, block *b, double h, long long coun
         return count;
     }
     for (long long step = 1; step <= count; step++)
-        if ((*failed = b->kind->step(b->engine, h, b->alive, why)) != 0) return step;
+        if ((*failed = b->kind->engine->step(b->engine, h, b->alive, why)) != 0) return step;
     return count;
 }
 

@@ -1,17 +1,10 @@
-/* engine.c - which variant of the engine steps a run or a block of a batch. */
+/* engine.c - the choice of the engine that steps a run or a group of a batch. */
 #include "run/engine.h"
 
 const dal__engine_kind dal__engine_kinds[DAL__VARIANTS] = {
-#define X(name, variant, lanes, set)                                                               \
-    {lanes,                                                                                        \
-     DAL__##set,                                                                                   \
-     name##_bytes_##variant,                                                                       \
-     name##_place_##variant,                                                                       \
-     name##_step_##variant,                                                                        \
-     name##_eval_##variant,                                                                        \
-     name##_trace_##variant},
-    X(dal__engine, x1, 1, BASE) DAL__VARIANT_LIST(X, dal__engine)
-#undef X
+#define VARIANT(name, variant, lanes, set) {lanes, DAL__##set, &name##_##variant},
+    VARIANT(dal__engine, x1, 1, BASE) DAL__VARIANT_LIST(VARIANT, dal__engine)
+#undef VARIANT
 };
 
 static bool has_callbacks(const dal_system *s, int width)

@@ -9,7 +9,51 @@
  * A block of lanes is stepped as one system of DAL_GROUPS times as many components: its integrator,
  * which acts on each component alike (DAL_COMPONENTWISE), need not know.  The engine and the system
  * do: number i of lane l of group g is lane l of num i * DAL_GROUPS + g. */
-#include "run/lanes.h"
+#include "kernel/groups.h"
+
+#include "run/engine.h"
+#include <dalembert_kernel.h>
+
+/* ---- lanes, as bits and as masks ---- */
+
+/* The lanes that are stepped together. */
+enum { LANES = DAL_GROUPS * DAL_LANES };
+/* Doubles that one of their numbers takes: one for each, or more for a longer number. */
+enum { WIDTH = DAL_GROUPS * (int)(sizeof(num) / sizeof(double)) };
+
+/* Lanes of all groups. */
+typedef struct lane_mask {
+    dal_mask group[DAL_GROUPS];
+} lane_mask;
+
+static inline lane_mask mask_of(dal__lanes lanes)
+{
+    int64_t all[LANES];
+    lane_mask mask;
+    for (int i = 0; i < LANES; i++) all[i] = -(int64_t)(lanes >> i & 1);
+    memcpy(&mask, all, sizeof mask);
+    return mask;
+}
+
+static inline dal__lanes lanes_of(const lane_mask *mask)
+{
+    dal__lanes lanes = 0;
+    for (int g = 0; g < DAL_GROUPS; g++) {
+        if (!dal_any(mask->group[g])) continue;
+        for (int i = 0; i < DAL_LANES; i++)
+            lanes |= (dal__lanes)dal_mask_lane(mask->group[g], i) << (g * DAL_LANES + i);
+    }
+    return lanes;
+}
+
+static inline lane_mask all_lanes(void)
+{
+    lane_mask all;
+    for (int g = 0; g < DAL_GROUPS; g++) all.group[g] = dal_all();
+    return all;
+}
+
+/* ---- memory and callbacks ---- */
 
 typedef struct engine {
     dal_step step; /* first, so that step->owner is also the engine */
@@ -78,7 +122,7 @@ static void eval_callback(dal_step *s, dal_callback_code code, double t, const n
     if (LANES == 1 && e->failure) trace(e, code, &at, status, (const double *)out);
 }
 
-size_t DAL_WIDE(dal__engine_bytes)(const dal__layout *k)
+static size_t engine_bytes(const dal__layout *k)
 {
     return round_up(sizeof(engine)) + 2 * room(k->persistent) + room(k->workspace) +
            room(k->scratch);
@@ -135,13 +179,12 @@ static void prepare_step(engine *e)
     s->owner = e;
 }
 
-void *DAL_WIDE(dal__engine_place)(const dal__layout *k, void *memory, double **persistent,
-                                  double **work)
+static void *place_engine(const dal__layout *k, void *memory, double **persistent, double **work)
 {
     char *at = memory;
     engine *e = memory;
     at += round_up(sizeof *e);
-    memset(memory, 0, DAL_WIDE(dal__engine_bytes)(k) - room(k->scratch));
+    memset(memory, 0, engine_bytes(k) - room(k->scratch));
     e->layout = *k;
     for (int i = 0; i < k->depth; i++)
         e->layer[i] = dal__integrator_wide(k->method.layer[i], DAL_WIDE(DAL__VARIANT));
@@ -159,13 +202,12 @@ void *DAL_WIDE(dal__engine_place)(const dal__layout *k, void *memory, double **p
     return e;
 }
 
-void DAL_WIDE(dal__engine_trace)(void *engine_, dal__failure *failure)
+static void trace_engine(void *engine_, dal__failure *failure)
 {
     ((engine *)engine_)->failure = failure;
 }
 
-dal_status DAL_WIDE(dal__engine_eval)(void *engine_, int code, double t, const double *state,
-                                      double *out)
+static dal_status eval_engine(void *engine_, int code, double t, const double *state, double *out)
 {
     engine *e = engine_;
     const int n = e->layout.n;
@@ -380,7 +422,7 @@ static void note_progress(engine *e)
     e->failure->substep = dal_lane(e->step.substep[0], 0);
 }
 
-dal__lanes DAL_WIDE(dal__engine_step)(void *engine_, double h, dal__lanes alive, dal_status *why)
+static dal__lanes step_engine(void *engine_, double h, dal__lanes alive, dal_status *why)
 {
     engine *e = engine_;
     lane_mask moved = mask_of(alive);
@@ -393,3 +435,9 @@ dal__lanes DAL_WIDE(dal__engine_step)(void *engine_, double h, dal__lanes alive,
     if (failed || moved_others) restore(e, &moved);
     return failed;
 }
+
+const dal__engine DAL_WIDE(dal__engine) = {.bytes = engine_bytes,
+                                           .place = place_engine,
+                                           .step = step_engine,
+                                           .eval = eval_engine,
+                                           .trace = trace_engine};

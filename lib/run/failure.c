@@ -1,5 +1,5 @@
 /* failure.c - why a step failed: it is stepped once more, the system's answers being watched. */
-#include "run/run.h"
+#include "run/failure.h"
 #include <dalembert_kernel.h>
 
 static dal_status singular(const dal__failure *failure, double number, dal_error *error)
@@ -40,8 +40,8 @@ static bool gauge_crosses(dal_run *run, double t, double h)
     const double e = run->persistent[2 * run->layout.n];
     double mu[2] = {0.0, 0.0};
     for (int i = 0; i < 2; i++)
-        if (run->kind->eval(run->engine, DAL_EVAL_GAUGE, t + i * h, run->persistent, &mu[i]) !=
-            DAL_OK)
+        if (run->kind->engine->eval(run->engine, DAL_EVAL_GAUGE, t + i * h, run->persistent,
+                                    &mu[i]) != DAL_OK)
             return false;
     return e * (e + h * mu[0]) <= 0.0 || e * (e + h * mu[1]) <= 0.0;
 }
@@ -74,7 +74,8 @@ static bool predict(dal_run *run, double t, double dt)
 {
     const dal__layout *k = &run->layout;
     double *f = run->scratch;
-    if (run->kind->eval(run->engine, DAL_EVAL_FIELD, t, run->persistent, f) != DAL_OK) return false;
+    if (run->kind->engine->eval(run->engine, DAL_EVAL_FIELD, t, run->persistent, f) != DAL_OK)
+        return false;
     for (int i = 0; i < k->n; i++)
         run->shadow[i] = run->persistent[i] + dt * run->persistent[k->n + i];
     for (int i = 0; i < k->nw; i++) run->shadow[k->n + i] = run->persistent[k->n + i] + dt * f[i];
@@ -85,8 +86,9 @@ static bool predict(dal_run *run, double t, double dt)
 static double *eval_both_ends(dal_run *run, int code, int size, double t, double dt)
 {
     double *first = run->scratch, *second = first + size;
-    const bool good = run->kind->eval(run->engine, code, t, run->persistent, first) == DAL_OK &&
-                      run->kind->eval(run->engine, code, t + dt, run->shadow, second) == DAL_OK;
+    const bool good =
+        run->kind->engine->eval(run->engine, code, t, run->persistent, first) == DAL_OK &&
+        run->kind->engine->eval(run->engine, code, t + dt, run->shadow, second) == DAL_OK;
     return good ? second : NULL;
 }
 
@@ -154,9 +156,9 @@ static void repeat(dal_run *run, double h, dal__failure *failure)
     const size_t bytes = run->layout.persistent * sizeof *run->persistent;
     dal_status why = DAL_OK;
     memcpy(run->shadow, run->persistent, bytes);
-    run->kind->trace(run->engine, failure);
-    run->kind->step(run->engine, h, 1u, &why);
-    run->kind->trace(run->engine, NULL);
+    run->kind->engine->trace(run->engine, failure);
+    run->kind->engine->step(run->engine, h, 1u, &why);
+    run->kind->engine->trace(run->engine, NULL);
     memcpy(run->persistent, run->shadow, bytes);
 }
 

@@ -1,5 +1,5 @@
 /* layout.c - the dimensions and the memory of a run, and whether its parts fit together. */
-#include "run/engine.h"
+#include "run/quad.h"
 #include <dalembert_kernel.h>
 #include <math.h>
 #include <stdint.h>

@@ -1,7 +1,49 @@
-/* observe.c - what can be said of the present state: D, E, H, norms, invariants, error. */
-#include "run/run.h"
+/* observe.c - the observables of the present state: D, E, H, norms, invariants, error; and the names
+ * of observables and of state components. */
+#include "run/quad.h"
 #include <dalembert_kernel.h>
 #include <stdio.h>
+
+/* ---- names of state components ---- */
+
+/* prefix, name of coordinate i (q1, q2, ... when it has none), suffix */
+static char *compose(const dal_system *system, const char *prefix, int i, const char *suffix,
+                     char *buffer, size_t size)
+{
+    if (system->coordinate)
+        snprintf(buffer, size, "%s%s%s", prefix, system->coordinate[i], suffix);
+    else
+        snprintf(buffer, size, "%sq%d%s", prefix, i + 1, suffix);
+    return buffer;
+}
+
+static char *state_name(const dal_system *system, bool lifted, int i, char *buffer, size_t size)
+{
+    const int n = system->n;
+    if (i < 0) return NULL;
+    if (i < n) return compose(system, "", i, "", buffer, size);
+    if (i < 2 * n) return compose(system, "", i - n, "'", buffer, size);
+    if (!lifted) {
+        if (i >= 2 * n + system->multipliers) return NULL;
+        snprintf(buffer, size, "g%d", i - 2 * n + 1);
+        return buffer;
+    }
+    if (i == 2 * n || i == 4 * n + 1) {
+        snprintf(buffer, size, "%s", i == 2 * n ? "e" : "pi_e");
+        return buffer;
+    }
+    if (i < 3 * n + 1) return compose(system, "p_", i - 2 * n - 1, "", buffer, size);
+    if (i < 4 * n + 1) return compose(system, "pi_", i - 3 * n - 1, "", buffer, size);
+    return NULL;
+}
+
+char *dal_run_name(const dal_run *run, int i, char *buffer, size_t size)
+{
+    if (!run || !buffer) return NULL;
+    return state_name(run->layout.system, run->layout.lifted, i, buffer, size);
+}
+
+/* ---- observables ---- */
 
 /* The groups of observables in their order. */
 enum { GROUP_D, GROUP_E, GROUP_H, GROUP_NORMS, GROUP_INVARIANTS, GROUP_ERROR, GROUPS };
@@ -61,8 +103,8 @@ static double hamiltonian(dal_run *run)
     const double *y = run->persistent, *v = y + n, *p = y + 2 * n + 1, *pi = y + 3 * n + 1;
     double *f = run->scratch, mu = 0.0, sum = 0.0;
     const double t = dal_run_time(run);
-    run->kind->eval(run->engine, DAL_EVAL_FIELD, t, y, f);
-    run->kind->eval(run->engine, DAL_EVAL_GAUGE, t, y, &mu);
+    run->kind->engine->eval(run->engine, DAL_EVAL_FIELD, t, y, f);
+    run->kind->engine->eval(run->engine, DAL_EVAL_GAUGE, t, y, &mu);
     for (int i = 0; i < n; i++)
         sum += pi[i] * pi[i] * (0.5 / y[2 * n]) + pi[i] * f[i] + p[i] * v[i];
     return sum + mu * y[4 * n + 1];

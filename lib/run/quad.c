@@ -5,7 +5,7 @@
  * quad precision and then rounded, so that a D of 1e-30 is seen as that.  dal__layout_init sees to
  * it that there is a system, and a method, in quad precision. */
 #define DAL_NUM_QUAD
-#include "run/run.h"
+#include "run/quad.h"
 #include <dalembert_kernel.h>
 
 enum { MORE_ITERATIONS = 3 }; /* a fixed point needs more iterations for more digits */
@@ -45,7 +45,7 @@ static dal__layout layout_of(const dal__layout *k)
 size_t dal__quad_bytes(const dal__layout *k, size_t answers)
 {
     const dal__layout quad = layout_of(k);
-    return round_up(kind()->bytes(&quad)) + round_up(answers * sizeof(num));
+    return round_up(kind()->engine->bytes(&quad)) + round_up(answers * sizeof(num));
 }
 
 void dal__quad_place(dal_run *run, char *memory, size_t answers)
@@ -54,7 +54,7 @@ void dal__quad_place(dal_run *run, char *memory, size_t answers)
     k->layout = layout_of(&run->layout);
     k->scratch = (double *)(void *)memory;
     memory += round_up(answers * sizeof(num));
-    k->engine = kind()->place(&k->layout, memory, &k->persistent, &k->work);
+    k->engine = kind()->engine->place(&k->layout, memory, &k->persistent, &k->work);
     run->storage = k->persistent;
 }
 
@@ -109,7 +109,7 @@ dal_status dal__quad_begin(dal_run *run)
 dal_status dal__quad_step(dal_run *run, double h)
 {
     dal_status why = DAL_OK;
-    return kind()->step(run->quad.engine, h, 1u, &why) ? why : DAL_OK;
+    return kind()->engine->step(run->quad.engine, h, 1u, &why) ? why : DAL_OK;
 }
 
 /* ---- observables, in the order of observe.c ---- */

@@ -1,5 +1,6 @@
 /* registry.c - the integrators of the library, and methods by name: BASE+MODIFIER+... */
-#include "run/engine.h"
+#include "run/registry.h"
+
 #include <string.h>
 
 #define DECLARE(name, variant, lanes, set)                                                         \

@@ -1,5 +1,8 @@
 /* run.c - a run: one system, one method, one block of memory. */
 #include "run/run.h"
+#include "run/failure.h"
+#include "run/quad.h"
+#include "run/start.h"
 #include <dalembert_kernel.h>
 #include <stdlib.h>
 
@@ -39,7 +42,7 @@ static size_t quad_bytes(const dal__layout *k)
 static size_t total_bytes(const dal__layout *k)
 {
     return 64 + round_up(sizeof(dal_run)) + round_up(own_numbers(k) * sizeof(double)) +
-           round_up(dal__engine_best(k, 1)->bytes(k)) + quad_bytes(k);
+           round_up(dal__engine_best(k, 1)->engine->bytes(k)) + quad_bytes(k);
 }
 
 size_t dal_run_size(const dal_run_spec *spec)
@@ -62,10 +65,10 @@ static dal_run *place(const dal__layout *layout, void *memory)
     run->observations.capacity = 1;
     at += round_up(own_numbers(layout) * sizeof(double));
     run->kind = dal__engine_best(layout, 1);
-    run->engine = run->kind->place(layout, at, &run->persistent, &run->work);
+    run->engine = run->kind->engine->place(layout, at, &run->persistent, &run->work);
     run->storage = run->persistent;
     run->stored = stored_count(layout);
-    at += round_up(run->kind->bytes(layout));
+    at += round_up(run->kind->engine->bytes(layout));
     if (quad_bytes(layout) > 0) dal__quad_place(run, at, scratch_count(layout));
     return run;
 }
@@ -138,7 +141,7 @@ dal_status dal__run_steps(dal_run *run, double h, long long count)
     if (run->quad.engine) return quad_steps(run, h, count);
     if (run->native.traced) return native_steps(run, h, count);
     for (long long i = 0; i < count; i++)
-        if (run->kind->step(run->engine, h, 1u, &why)) return why;
+        if (run->kind->engine->step(run->engine, h, 1u, &why)) return why;
     return DAL_OK;
 }
 

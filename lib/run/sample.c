@@ -1,16 +1,23 @@
-/* sample.c - rows at t = row*T/samples from a trajectory of steps h.
+/* sample.c - a run observed: rows at t = row*T/samples, and observations every so often.
  *
- * A row time counts as reached when it is nearer than ALIGNED steps, or than the rounding of the
- * clock, to the time of a step; otherwise a side step gives the row and is then forgotten. */
+ * The trajectory consists of steps h.  A row counts as reached when its time is nearer than ALIGNED
+ * steps, or than the rounding of the clock, to that of a step; otherwise an intermediate step gives
+ * the row.
+ *
+ * dal_observer.values receives observations in batches.  With compiled observables the states are
+ * collected and evaluated together, as many at a time as a register has lanes; else each is
+ * evaluated at once.  A batch ends where the number of observations since t = 0 is a multiple of
+ * the capacity, wherever a run was begun or interrupted, so that sums in parts find whole parts. */
+#include "core/arguments.h"
+#include "run/failure.h"
 #include "run/run.h"
 #include <float.h>
 #include <math.h>
-#include <string.h>
 
-#define ALIGNED    1e-9
-#define MOST_STEPS 0x1p53
+#define ALIGNED   1e-9
+#define MAX_STEPS 0x1p53
 
-enum { POLL = 992 /* whole blocks of looks, lib/jit/native.c */ };
+enum { POLL = 992 /* whole batches of observations, see lib/jit/native.c */ };
 
 typedef struct sampling {
     dal_run *run;
@@ -19,48 +26,108 @@ typedef struct sampling {
     long long since_poll;
 } sampling;
 
-static dal_status stopped(dal_status status, const sampling *k)
+/* The status of an observer, which ends the run unless it is DAL_OK. */
+static dal_status observed(const sampling *k, dal_status status)
 {
-    return dal__stopped(k->run, status, k->error);
+    if (status == DAL_OK) return DAL_OK;
+    return dal__fail(k->error, status, "%s at t = %.17g", dal_status_text(status),
+                     dal_run_time(k->run));
 }
 
-/* A power of two, so that polls fall together with whole groups of observations. */
-static long long polling(const sampling *k)
+/* ---- observations ---- */
+
+/* Stores the present state as observation number i. */
+static dal_status store_observation(dal_run *run, int i)
 {
-    const long long wanted = k->observer->polling;
-    long long most = POLL;
-    while (wanted > 0 && most > wanted) most /= 2;
-    return most;
+    const dal__observations *o = &run->observations;
+    o->times[i] = dal_run_time(run);
+    if (!o->states) return dal_run_observe(run, o->values);
+    for (int c = 0; c < run->layout.dim; c++)
+        o->states[(size_t)c * (size_t)o->capacity + (size_t)i] = run->persistent[c];
+    return DAL_OK;
 }
 
-static dal_status poll(sampling *k)
+static dal_status deliver(const sampling *k, int count)
 {
-    if (++k->since_poll < polling(k) || !k->observer->poll) return DAL_OK;
-    k->since_poll = 0;
-    return stopped(k->observer->poll(k->observer->user, k->run), k);
+    const dal__observations *o = &k->run->observations;
+    if (count == 0) return DAL_OK;
+    if (o->states) o->code.observables(o->states, o->capacity, count, k->run->work, o->values);
+    return observed(k, k->observer->values(k->observer->user, k->run, count, o->times, o->values,
+                                           (size_t)o->capacity));
 }
 
-static dal_status sample_row(sampling *k, long long row, double t)
+/* Takes count steps and stores *made observations on their way. */
+static dal_status collect(dal_run *run, long long every, long long count, int *made)
 {
-    if (!k->observer->sample) return DAL_OK;
-    return stopped(k->observer->sample(k->observer->user, k->run, row, t), k);
+    while (count > 0) {
+        const long long due = every - dal_run_steps(run) % every;
+        const long long steps = due < count ? due : count;
+        DAL_TRY(dal__run_steps(run, run->layout.options.step, steps));
+        if (steps == due) DAL_TRY(store_observation(run, *made));
+        *made += steps == due;
+        count -= steps;
+    }
+    return DAL_OK;
 }
 
-/* Up to count steps, shown where that is asked for. */
-static dal_status advance(sampling *k, long long count)
+/* The same where every step is observed and compiled steps leave a trace. */
+static dal_status collect_trace(dal_run *run, long long count, int *made)
+{
+    unsigned failed = 0;
+    int reason = DAL_OK;
+    const long long tried =
+        run->native.traced(run->persistent, run->work, run->layout.options.step, count, &failed,
+                           &reason, run->observations.states, run->observations.capacity);
+    *made = (int)(failed ? tried - 1 : tried);
+    return failed ? (dal_status)reason : DAL_OK;
+}
+
+static dal_status observe_steps(const sampling *k, long long count)
+{
+    dal_run *run = k->run;
+    const long long every = k->observer->every, capacity = run->observations.capacity;
+    const bool traced = every == 1 && run->native.traced && run->observations.states;
+    while (count > 0) {
+        const long long made = dal_run_steps(run), last = made / every;
+        const long long ahead = (last + capacity - (last + 1) % capacity) * every - made;
+        const long long steps = ahead < count ? ahead : count;
+        int stored = 0;
+        const dal_status status =
+            traced ? collect_trace(run, steps, &stored) : collect(run, every, steps, &stored);
+        DAL_TRY(deliver(k, stored));
+        if (status != DAL_OK)
+            return dal__failure_reason(run, run->layout.options.step, status, k->error);
+        count -= steps;
+    }
+    return DAL_OK;
+}
+
+static dal_status observe_start(const sampling *k)
 {
     const dal_observer *o = k->observer;
-    if (o->values && o->every > 0) return dal__observe_steps(k->run, o, count, k->error);
+    if (o->every < 1) return DAL_OK;
+    if (!o->values) return o->step ? observed(k, o->step(o->user, k->run)) : DAL_OK;
+    DAL_TRY(observed(k, store_observation(k->run, 0)));
+    return deliver(k, 1);
+}
+
+/* Takes up to count steps and observes those that are due. */
+static dal_status advance(const sampling *k, long long count)
+{
+    const dal_observer *o = k->observer;
+    if (o->values && o->every > 0) return observe_steps(k, count);
     if (!o->step || o->every < 1) return dal_run_advance(k->run, count, k->error);
     while (count > 0) {
         const long long due = o->every - dal_run_steps(k->run) % o->every;
         const long long steps = due < count ? due : count;
         DAL_TRY(dal_run_advance(k->run, steps, k->error));
-        if (steps == due) DAL_TRY(stopped(o->step(o->user, k->run), k));
+        if (steps == due) DAL_TRY(observed(k, o->step(o->user, k->run)));
         count -= steps;
     }
     return DAL_OK;
 }
+
+/* ---- rows ---- */
 
 dal_status dal_run_intermediate(dal_run *run, double h,
                                 dal_status (*observe)(void *user, dal_run *run), void *user,
@@ -78,50 +145,60 @@ dal_status dal_run_intermediate(dal_run *run, double h,
     return status;
 }
 
-typedef struct intermediate_row {
-    sampling *k;
+/* Steps and rows between polls: 992 / 2^i, so that polls coincide with ends of batches. */
+static long long polling(const sampling *k)
+{
+    const long long wanted = k->observer->polling;
+    long long steps = POLL;
+    while (wanted > 0 && steps > wanted) steps /= 2;
+    return steps;
+}
+
+static dal_status poll(sampling *k)
+{
+    if (++k->since_poll < polling(k) || !k->observer->poll) return DAL_OK;
+    k->since_poll = 0;
+    return observed(k, k->observer->poll(k->observer->user, k->run));
+}
+
+typedef struct sampled_row {
+    const sampling *k;
     long long row;
     double t;
-} intermediate_row;
+} sampled_row;
 
-static dal_status sample_intermediate(void *user, dal_run *run)
+static dal_status sample_row(void *user, dal_run *run)
 {
-    const intermediate_row *r = user;
-    (void)run;
-    return sample_row(r->k, r->row, r->t);
+    const sampled_row *r = user;
+    const dal_observer *o = r->k->observer;
+    return o->sample ? observed(r->k, o->sample(o->user, run, r->row, r->t)) : DAL_OK;
 }
 
-/* A row between two steps: a step of size h from the present state, shown and taken back. */
-static dal_status intermediate_step(sampling *k, double h, long long row, double t)
-{
-    intermediate_row r = {k, row, t};
-    const dal_status shown = dal_run_intermediate(k->run, h, sample_intermediate, &r, k->error);
-    return shown == DAL_OK ? poll(k) : shown;
-}
-
-/* Whether the run stands where a group of looks has just been handed over. */
-static bool ends_group(const sampling *k) { return (dal_run_steps(k->run) + 1) % polling(k) == 0; }
-
-/* Steps that surely end before a row that is left away, the last two are taken one by one; and not
- * beyond a step at which looks are handed over anyway. */
-static long long steps_to(const sampling *k, double left, double h)
+/* Steps that surely end before a row at distance `left`, the last two excepted, and not after the
+ * next end of a batch. */
+static long long steps_towards(const sampling *k, double left, double h)
 {
     const double steps = left / h - 2.0;
-    const long long group = polling(k), most = group - (dal_run_steps(k->run) + 1) % group;
-    return steps < 1.0 ? 1 : steps > (double)most ? most : (long long)steps;
+    const long long batch = polling(k), max = batch - (dal_run_steps(k->run) + 1) % batch;
+    return steps < 1.0 ? 1 : steps > (double)max ? max : (long long)steps;
 }
 
 static dal_status advance_to_row(sampling *k, long long row, double t)
 {
     const double h = k->run->layout.options.step;
     const double near = fmax(ALIGNED * h, 4.0 * DBL_EPSILON * fabs(t));
+    sampled_row r = {k, row, t};
     for (;;) {
         const double left = t - dal_run_time(k->run);
-        if (left <= near) return sample_row(k, row, t);
-        if (left < h - near) return intermediate_step(k, left, row, t);
-        const long long steps = steps_to(k, left, h);
+        if (left <= near) return sample_row(&r, k->run);
+        if (left < h - near) {
+            DAL_TRY(dal_run_intermediate(k->run, left, sample_row, &r, k->error));
+            return poll(k);
+        }
+        const long long steps = steps_towards(k, left, h);
         DAL_TRY(advance(k, steps));
-        k->since_poll += ends_group(k) ? polling(k) : steps - 1;
+        const bool batch_ends = (dal_run_steps(k->run) + 1) % polling(k) == 0;
+        k->since_poll += batch_ends ? polling(k) : steps - 1;
         DAL_TRY(poll(k));
     }
 }
@@ -132,18 +209,18 @@ static double row_time(const dal_observer *o, double T, long long row, long long
     return row == samples ? T : T * ((double)row / (double)samples);
 }
 
-static dal_status check(const dal_run *run, const dal_observer *observer, double T,
-                        long long samples, long long first_row, dal_error *error)
+static dal_status check_arguments(const dal_run *run, const dal_observer *observer, double T,
+                                  long long samples, long long first_row, dal_error *error)
 {
     const double h = run->layout.options.step;
     if (!(T > 0.0) || !isfinite(T))
         return dal__fail(error, DAL_ARGUMENT, "the time must be positive; it is %g", T);
     if (h > T)
         return dal__fail(error, DAL_ARGUMENT, "the step %g is larger than the time %g", h, T);
-    if (T / h > MOST_STEPS)
+    if (T / h > MAX_STEPS)
         return dal__fail(error, DAL_ARGUMENT, "%g steps of %g are more than can be counted (2^53)",
                          T / h, h);
-    if (samples < 1 || (double)samples > MOST_STEPS)
+    if (samples < 1 || (double)samples > MAX_STEPS)
         return dal__fail(error, DAL_ARGUMENT, "samples must be at least 1; it is %lld", samples);
     if (first_row < 0 || first_row > samples)
         return dal__fail(error, DAL_ARGUMENT, "there is no row %lld among 0..%lld", first_row,
@@ -154,21 +231,13 @@ static dal_status check(const dal_run *run, const dal_observer *observer, double
     return DAL_OK;
 }
 
-static dal_status observe_start(const sampling *k)
-{
-    const dal_observer *o = k->observer;
-    if (o->every < 1) return DAL_OK;
-    if (o->values) return dal__observe_start(k->run, o, k->error);
-    return o->step ? stopped(o->step(o->user, k->run), k) : DAL_OK;
-}
-
 dal_status dal_run_sample(dal_run *run, double T, long long samples, long long first_row,
                           const dal_observer *observer, dal_error *error)
 {
     static const dal_observer nobody = {0};
     DAL_REQUIRE(run, error);
     if (!observer) observer = &nobody;
-    DAL_TRY(check(run, observer, T, samples, first_row, error));
+    DAL_TRY(check_arguments(run, observer, T, samples, first_row, error));
     sampling k = {run, observer, error, 0};
     if (first_row == 0 && dal_run_steps(run) == 0) DAL_TRY(observe_start(&k));
     for (long long row = first_row; row <= samples; row++)

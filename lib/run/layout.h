@@ -1,0 +1,35 @@
+/* layout.h - the dimensions and sizes of a run. */
+#ifndef DAL_LAYOUT_H
+#define DAL_LAYOUT_H
+
+#include "core/arguments.h"
+#include "kernel/persistent.h"
+
+/* A run without its values.  derivatives and multiplier count numbers of the method's state. */
+typedef struct dal__layout {
+    const dal_system *system;
+    dal_method method;
+    dal_options options;
+    int n, nw, m, dim, lifted, depth, stages, derivatives, multiplier;
+    size_t workspace, persistent, scratch; /* numbers */
+} dal__layout;
+
+/* Sizes for DAL__METHOD_STATE_LIST. */
+#define DAL__COUNT_ONE(layout)         1
+#define DAL__COUNT_TWO(layout)         2
+#define DAL__COUNT_DERIVATIVES(layout) ((layout)->derivatives)
+#define DAL__COUNT_MULTIPLIER(layout)  ((layout)->multiplier)
+
+/* The place of an item of the clock, or of the method's state, in the persistent state. */
+static inline size_t dal__at(const dal__layout *layout, int place)
+{
+    return 2 * (size_t)layout->dim + (size_t)place;
+}
+
+/* Checks a spec and computes its layout; errors as dal_run_init. */
+dal_status dal__layout_init(dal__layout *layout, const dal_run_spec *spec, dal_error *error);
+
+/* Numbers in the output of a callback, a dal_callback_code. */
+int dal__eval_size(const dal__layout *layout, int code);
+
+#endif

@@ -1,0 +1,25 @@
+/* quad.h - a run in quad precision, behind a run in double. */
+#ifndef DAL_RUN_QUAD_H
+#define DAL_RUN_QUAD_H
+
+#include "run/run.h"
+
+/* Whether a run can be in quad precision.  Errors: DAL_UNSUPPORTED. */
+dal_status dal__quad_check(const dal__layout *layout, dal_error *error);
+
+/* Bytes for its engine, aligned to 64, with scratch for outputs; doubles per number. */
+size_t dal__quad_bytes(const dal__layout *layout, size_t outputs);
+size_t dal__quad_width(void);
+void dal__quad_place(dal_run *run, char *memory, size_t outputs);
+/* Takes parameters and persistent state from the run in double; copies the persistent state from it
+ * (push) or to it, rounded (pull). */
+dal_status dal__quad_begin(dal_run *run);
+void dal__quad_push(dal_run *run);
+void dal__quad_pull(dal_run *run);
+dal_status dal__quad_step(dal_run *run, double h);
+/* As dal_run_observe. */
+dal_status dal__quad_observe(dal_run *run, double *out);
+/* Number i of stored quad numbers, rounded. */
+double dal__quad_rounded(const double *stored, size_t i);
+
+#endif

@@ -1,0 +1,20 @@
+/* registry.h - the integrators of the library by variant. */
+#ifndef DAL_REGISTRY_H
+#define DAL_REGISTRY_H
+
+#include "core/arguments.h"
+#include "core/machine.h"
+#include "dalembert.h"
+
+typedef enum dal__variant {
+    DAL__VARIANT_x1,
+#define VARIANT(name, variant, lanes, set, group) name##_##variant,
+    DAL__VARIANT_LIST(VARIANT, DAL__VARIANT)
+#undef VARIANT
+        DAL__VARIANTS
+} dal__variant;
+
+/* The descriptor of an integrator of the library for a variant; NULL: none. */
+const dal_integrator *dal__integrator_wide(const dal_integrator *integrator, dal__variant variant);
+
+#endif

@@ -1,0 +1,11 @@
+/* start.h - parameters and start of a run. */
+#ifndef DAL_START_H
+#define DAL_START_H
+
+#include "run/run.h"
+
+/* Sets parameters and the start at t = 0 and checks them. */
+dal_status dal__run_start(dal_run *run, const dal_setting *parameters, int parameter_count,
+                          const dal_setting *start, int start_count, dal_error *error);
+
+#endif
