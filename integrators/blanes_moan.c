@@ -29,7 +29,7 @@ DAL_INLINE dal_status alternate(dal_step *s, int substeps, const double *c)
 {
     const dal_composition k = {substeps, c};
     const double end = s->t + s->h;
-    double size[DAL_MOST_SUBSTEPS];
+    double size[DAL_MAX_SUBSTEPS];
     dal_substeps(&k, s->h, size);
     for (int i = 0; i < substeps; i += 2) {
         DAL_TRY(dal_symplectic_euler(s, DAL_POLARISATION(1, 0), size[i]));

@@ -43,7 +43,7 @@ DAL_INLINE dal_status compose(dal_step *s, int substeps, const double *c)
 {
     const dal_composition k = {substeps, c};
     const double end = s->t + s->h;
-    double size[DAL_MOST_SUBSTEPS];
+    double size[DAL_MAX_SUBSTEPS];
     dal_substeps(&k, s->h, size);
     for (int i = 0; i < substeps; i++) DAL_TRY(dal_inner(s, size[i]));
     s->t = end;

@@ -1,11 +1,11 @@
-/* emit_callbacks.c - a system's programs as C: what dal_eval says, the start, the observables. */
+/* emit_callbacks.c - the programs of a system as C: dal_eval, the start, the observables. */
 #include "codegen/emit_callbacks.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* A program longer than this is a function of its own, that is not inlined where it is asked. */
-enum { MOST_INLINED = 600 };
+/* A longer program is a function that is not inlined. */
+enum { MAX_INLINED = 600 };
 
 /* ---- inputs ---- */
 
@@ -32,7 +32,7 @@ static void name_inputs(dal__generation *g)
 static bool is_inlined(const dal__generation *g, dal__program_code code)
 {
     const int length = g->programs->tapes->tape[g->programs->program[code].tape].length;
-    return code != DAL__PROGRAM_JACOBIAN && length <= MOST_INLINED;
+    return code != DAL__PROGRAM_JACOBIAN && length <= MAX_INLINED;
 }
 
 static void write_program(dal__generation *g, dal__program_code code, const char *name)
@@ -47,10 +47,10 @@ static void write_program(dal__generation *g, dal__program_code code, const char
     dal__buffer_append(&g->text, "}\n\n");
 }
 
-/* The branch of dal_eval for one code.  What is not inlined gets copies, so that the state
- * itself can stay in registers. */
-static void write_evaluation(dal__generation *g, dal__program_code code, const char *callback,
-                             const char *name)
+/* The case of one callback.  A function that is not inlined gets copies, so that the state itself
+ * can stay in registers. */
+static void write_case(dal__generation *g, dal__program_code code, const char *callback,
+                       const char *name)
 {
     const dal__program *p = &g->programs->program[code];
     const int outputs = p->outputs, all = outputs + 2 * p->checked;
@@ -75,26 +75,27 @@ static void write_evaluation(dal__generation *g, dal__program_code code, const c
 
 static void write_dispatch(dal__generation *g)
 {
-    dal__buffer_append(
-        &g->text, "/* The outputs; NaN in the lanes where one of the pivots behind them, each\n"
-                  " * followed by its size, has vanished. */\n"
-                  "DAL_INLINE void dal__mask_singular(const num *all, int outputs, int pivots, "
+    dal__text_put(
+        &g->text,
+        "/* Copies the outputs; NaN in the lanes where one of the pivots behind them, each\n"
+        " * followed by its size, has vanished. */\n"
+        "DAL_INLINE void dal__mask_singular(const num *all, int outputs, int pivots, "
+        "num *out)\n{\n"
+        "    dal_mask ok = dal_all();\n"
+        "    DAL_EACH(k, pivots)\n    ok &= dal_less(");
+    dal__text_number(&g->text, DAL__PIVOT_LEAST);
+    dal__text_put(&g->text,
+                  " * all[outputs + 2 * k + 1], dal_abs(all[outputs + 2 * k]));\n"
+                  "    DAL_EACH(i, outputs) out[i] = dal_select(ok, all[i], "
+                  "dal_num(NAN));\n}\n\n"
+                  "/* Evaluates a callback for one group of lanes. */\n"
+                  "DAL_INLINE void dal__eval_group(const dal_stored *work, dal_callback_code "
+                  "code, dal_time t,\n    const num *q, const num *v, const num *pi, "
                   "num *out)\n{\n"
-                  "    dal_mask ok = dal_all();\n"
-                  "    DAL_EACH(k, pivots)\n    ok &= dal_less(");
-    dal__buffer_number(&g->text, DAL__PIVOT_LEAST);
-    dal__buffer_append(&g->text,
-                       " * all[outputs + 2 * k + 1], dal_abs(all[outputs + 2 * k]));\n"
-                       "    DAL_EACH(i, outputs) out[i] = dal_select(ok, all[i], "
-                       "dal_num(NAN));\n}\n\n"
-                       "/* The answer for one group of lanes. */\n"
-                       "DAL_INLINE void dal__eval_group(const dal_stored *work, dal_callback_code "
-                       "code, dal_time t,\n    const num *q, const num *v, const num *pi, "
-                       "num *out)\n{\n"
-                       "    switch (code) {\n");
-#define X(code, name, reads) write_evaluation(g, DAL__PROGRAM_##code, #code, #name);
-    DAL__WIDE_LIST(X)
-#undef X
+                  "    switch (code) {\n");
+#define PROGRAM(code, name, reads) write_case(g, DAL__PROGRAM_##code, #code, #name);
+    DAL__WIDE_LIST(PROGRAM)
+#undef PROGRAM
     if (!dal__wants(g, DAL__PROGRAM_GAUGE))
         dal__buffer_append(&g->text, "    case DAL_EVAL_GAUGE:\n        out[0] = dal_num(0.0);\n"
                                      "        break;\n");
@@ -148,16 +149,15 @@ void dal__emit_callbacks(dal__generation *g)
 {
     name_inputs(g);
     if (!g->input) return;
-    dal__buffer_append(&g->text,
-                       g->product == DAL__OBSERVE
-                           ? "\n/* Each lane has its time. */\n"
-                             "typedef num dal_time;\n#define DAL_TIME(t) (t)\n"
-                           : "\n/* All lanes have one time. */\n"
-                             "typedef double dal_time;\n#define DAL_TIME(t) dal_num(t)\n");
-    dal__buffer_append(&g->text, "\n/* ---- the system ---- */\n\n");
-#define X(code, name, reads) write_program(g, DAL__PROGRAM_##code, #name);
-    DAL__WIDE_LIST(X)
-#undef X
+    dal__text_put(&g->text, g->product == DAL__OBSERVE
+                                ? "\n/* Each lane has its time. */\n"
+                                  "typedef num dal_time;\n#define DAL_TIME(t) (t)\n"
+                                : "\n/* All lanes have one time. */\n"
+                                  "typedef double dal_time;\n#define DAL_TIME(t) dal_num(t)\n");
+    dal__text_put(&g->text, "\n/* ---- the system ---- */\n\n");
+#define PROGRAM(code, name, reads) write_program(g, DAL__PROGRAM_##code, #name);
+    DAL__WIDE_LIST(PROGRAM)
+#undef PROGRAM
     if (g->product == DAL__FILE || g->product == DAL__OBSERVE) write_single_programs(g);
     free(g->input);
     write_dispatch(g);

@@ -8,12 +8,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Straight-line code beyond these takes a compiler too long; Newton's matrices lie on the stack. */
-enum { MOST_INSTRUCTIONS = 20000, MOST_STACK = 1 << 22 };
+/* Longer straight-line code takes a compiler too long; Newton's matrices are on the stack. */
+enum { MAX_INSTRUCTIONS = 20000, MAX_STACK = 1 << 22 };
 /* Loops over components are unrolled for steps up to this size. */
-enum { MOST_UNROLLED = 256, MOST_UNROLLED_DIM = 64 };
+enum { MAX_UNROLLED = 256, MAX_UNROLLED_DIM = 64 };
 
-/* ---- texts ---- */
+/* ---- templates and sources ---- */
 
 void dal__write_template(dal__generation *g, const char *text)
 {
@@ -32,7 +32,7 @@ const char *dal__source_text(const char *name)
     return "";
 }
 
-/* The integrator whose text has the name in quotes; kernel headers have none. */
+/* The source that contains the name of the integrator in quotes. */
 static const dal__source *source_of(const dal_integrator *integrator)
 {
     char quoted[72];
@@ -58,13 +58,13 @@ bool dal__uses_newton(const dal__generation *g)
            g->programs->program[DAL__PROGRAM_JACOBIAN].present;
 }
 
-/* A modifier steps tangent vectors in the place of the momenta. */
+/* Whether a modifier moves tangent vectors stored in the momenta. */
 bool dal__follows_tangents(const dal__generation *g)
 {
     return g->layout.lifted && (dal_method_needs(&g->spec->method) & DAL_NEEDS_JACOBIAN);
 }
 
-/* What the observables are made of. */
+/* Whether the observables need a program. */
 static bool observes(const dal__generation *g, dal__program_code code)
 {
     if (code == DAL__PROGRAM_FIELD || code == DAL__PROGRAM_GAUGE) return g->layout.lifted;
@@ -99,21 +99,21 @@ bool dal__wants(const dal__generation *g, dal__program_code code)
     }
 }
 
-/* ---- what can be generated ---- */
+/* ---- checks ---- */
 
 static dal_status check_method(dal__generation *g, dal_error *error)
 {
     for (int i = 0; i < g->layout.depth; i++) {
-        const dal_integrator *link = g->spec->method.layer[i];
-        g->source[i] = dal__integrator_wide(link, 4) ? source_of(link) : NULL;
+        const dal_integrator *layer = g->spec->method.layer[i];
+        g->source[i] = dal__integrator_wide(layer, 4) ? source_of(layer) : NULL;
         if (!g->source[i])
             return dal__fail(error, DAL_UNSUPPORTED,
-                             "'%s' is not an integrator of the library: its text is not known",
-                             link->name ? link->name : "?");
+                             "'%s' is not an integrator of the library: its source is not known",
+                             layer->name ? layer->name : "?");
         for (int j = 0; j < i; j++)
             if (g->source[j] == g->source[i])
                 return dal__fail(error, DAL_UNSUPPORTED,
-                                 "'%s' twice in a method cannot be generated", link->name);
+                                 "'%s' twice in a method cannot be generated", layer->name);
     }
     return DAL_OK;
 }
@@ -127,16 +127,16 @@ static dal_status check_size(const dal__generation *g, dal_error *error)
     for (int code = 0; code < DAL__PROGRAM_COUNT; code++)
         if (dal__wants(g, (dal__program_code)code))
             length += g->programs->tapes->tape[g->programs->program[code].tape].length;
-    if (length > MOST_INSTRUCTIONS)
+    if (length > MAX_INSTRUCTIONS)
         return dal__fail(
             error, DAL_TOO_LARGE,
             "'%.80s' is too large for straight-line code: %.0f operations (%d at most)",
-            g->layout.system->name, length, MOST_INSTRUCTIONS);
-    if (stack > MOST_STACK)
+            g->layout.system->name, length, MAX_INSTRUCTIONS);
+    if (stack > MAX_STACK)
         return dal__fail(error, DAL_TOO_LARGE,
                          "Newton's matrices of '%.80s' take %.0f bytes of stack (%d at most); "
                          "solver fixed-point needs none",
-                         g->layout.system->name, stack, MOST_STACK);
+                         g->layout.system->name, stack, MAX_STACK);
     return DAL_OK;
 }
 
@@ -145,7 +145,6 @@ static bool is_width(int lanes)
     return lanes == 1 || lanes == 2 || lanes == 4 || lanes == 8 || lanes == 16;
 }
 
-/* The programs of the system. */
 static dal_status find_programs(dal__generation *g, dal_error *error)
 {
     g->programs = dal__programs_of(g->layout.system);
@@ -178,8 +177,8 @@ dal_status dal__generation_check(dal__generation *g, const char *prefix, dal_err
 
 /* ---- constants ---- */
 
-/* Whether the groups of lanes can be stepped as one larger system: implicit stages of two groups
- * find room in the registers where there are few of them. */
+/* Whether the groups of lanes are stepped as one larger system: registers hold implicit stages of
+ * two groups where there are few. */
 static bool steps_groups_together(const dal__generation *g)
 {
     const unsigned properties = g->layout.method.layer[0]->properties;
@@ -188,7 +187,7 @@ static bool steps_groups_together(const dal__generation *g)
     return g->layout.depth == 1 && !g->layout.lifted && can;
 }
 
-/* Lanes go by registers, as large as the processor has them. */
+/* The lanes of a group fill a register. */
 static void write_lanes(dal__generation *g)
 {
     dal__text_print(&g->text, "#define DAL_LANES %d\n", g->lanes);
@@ -278,9 +277,9 @@ static void write_unrolling(dal__generation *g)
     const int stages = g->spec->method.layer[0]->stages;
     const bool coupled = dal__method_uses(g, "dal_collocation");
     const int width = g->layout.lifted ? 3 * g->layout.n : g->layout.nw;
-    const bool small = g->layout.dim <= MOST_UNROLLED_DIM &&
-                       (!coupled || stages * stages * width <= MOST_UNROLLED);
-    dal__buffer_append(&g->text, "#define DAL_SPECIALISED 1\n");
+    const bool small =
+        g->layout.dim <= MAX_UNROLLED_DIM && (!coupled || stages * stages * width <= MAX_UNROLLED);
+    dal__text_put(&g->text, "#define DAL_SPECIALISED 1\n");
     if (small)
         dal__buffer_append(&g->text, "#if !defined(__clang__) && !defined(__OPTIMIZE_SIZE__)\n"
                                      "#define DAL_UNROLL _Pragma(\"GCC unroll 64\")\n"
@@ -289,19 +288,19 @@ static void write_unrolling(dal__generation *g)
         dal__buffer_append(&g->text, "#define DAL_UNROLL\n");
 }
 
-/* What the kernel takes from the public header. */
+/* The types of the public header that the kernel needs. */
 static void write_enums(dal__generation *g)
 {
-    dal__buffer_append(&g->text, "\ntypedef enum dal_status {\n");
-#define X(code, words) dal__buffer_append(&g->text, "    DAL_" #code ",\n");
-    DAL_STATUS_LIST(X)
-#undef X
-    dal__buffer_append(&g->text, "    DAL_STATUS_COUNT\n} dal_status;\n"
-                                 "enum { DAL_SOLVER_AUTO, DAL_FIXED_POINT, DAL_NEWTON };\n");
-    dal__buffer_print(&g->text, "enum { DAL_BLOCKS_POSITIONAL = %d };\n\n", DAL_BLOCKS_POSITIONAL);
+    dal__text_put(&g->text, "\ntypedef enum dal_status {\n");
+#define STATUS(code, words) dal__text_put(&g->text, "    DAL_" #code ",\n");
+    DAL_STATUS_LIST(STATUS)
+#undef STATUS
+    dal__text_put(&g->text, "    DAL_STATUS_COUNT\n} dal_status;\n"
+                            "enum { DAL_SOLVER_AUTO, DAL_FIXED_POINT, DAL_NEWTON };\n");
+    dal__text_print(&g->text, "enum { DAL_BLOCKS_POSITIONAL = %d };\n\n", DAL_BLOCKS_POSITIONAL);
 }
 
-/* The parts of the kernel that the method needs. */
+/* The headers of the kernel that the method needs. */
 static void write_kernel(dal__generation *g)
 {
     static const char *const always[] = {"num.h", "elementary.h", "persistent.h",
@@ -322,11 +321,10 @@ static void write_kernel(dal__generation *g)
     if (dal__method_uses(g, "dal_spark")) dal__buffer_append(&g->text, dal__source_text("spark.h"));
 }
 
-/* rk4, implicit_midpoint: what an integrator is called in DAL_INTEGRATOR. */
-static void write_identifier(dal__generation *g, const dal_integrator *link)
+/* rk4, implicit_midpoint: the name in DAL_INTEGRATOR. */
+static void write_identifier(dal__generation *g, const dal_integrator *layer)
 {
-    for (const char *c = link->name; *c; c++)
-        dal__buffer_append_bytes(&g->text, *c == '-' ? "_" : c, 1);
+    for (const char *c = layer->name; *c; c++) dal__text_add(&g->text, *c == '-' ? "_" : c, 1);
 }
 
 static void write_method(dal__generation *g)
@@ -358,7 +356,6 @@ static void write_method(dal__generation *g)
     dal__buffer_append(text, "\n\n");
 }
 
-/* Kernel, system, method and steps. */
 void dal__write_steps(dal__generation *g)
 {
     dal__write_compiler(g);

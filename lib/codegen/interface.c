@@ -1,10 +1,10 @@
-/* interface.c - the beginning of a generated file: how to call it, and its declarations. */
+/* interface.c - what the caller of a generated file sees: usage, declarations, names. */
 #include "codegen/interface.h"
 #include <stdio.h>
 #include <string.h>
 
-/* A text of the user's inside a comment: one line, and no end of the comment. */
-static void write_comment(dal__buffer *text, const char *words)
+/* A text of the user in a comment: one line that does not end the comment. */
+static void write_comment(dal__text *text, const char *words)
 {
     for (char before = '\0'; words && *words; before = *words++) {
         const bool ends = (before == '*' && *words == '/') || (before == '/' && *words == '*');
@@ -13,7 +13,7 @@ static void write_comment(dal__buffer *text, const char *words)
     }
 }
 
-/* Words that cannot name a member: of C, of C++, and macros of the headers. */
+/* Words that cannot name a member: those of C and C++, and macros of the headers. */
 static const char *const reserved[] = {
     "alignas",     "alignof",    "and",          "and_eq",
     "asm",         "auto",       "bitand",       "bitor",
@@ -57,7 +57,7 @@ static bool is_reserved(const char *name)
     return false;
 }
 
-/* The member for parameter i; what is reserved gets "_parameter_" and its number behind. */
+/* The member for parameter i; "_parameter_" and its number follow a reserved name. */
 static void write_member(dal__generation *g, int i)
 {
     const char *name = g->layout.system->parameter[i];
@@ -144,35 +144,35 @@ static void write_structs(dal__generation *g)
     }
     if (g->layout.system->parameters == 0) dal__buffer_append(&g->text, "    double none;\n");
     dal__write_template(
-        g,
-        "} PREFIX_parameters;\n\n"
-        "typedef struct PREFIX_state {\n"
-        "    double y[PREFIX_PERSISTENT * PREFIX_LANES]; /* the state, then what a step carries "
-        "*/\n"
-        "    double work[(PREFIX_WORK > 0 ? PREFIX_WORK : 1) * PREFIX_LANES]; /* parameters */\n"
-        "    int status[PREFIX_LANES]; /* 0: goes on */\n"
-        "} PREFIX_state;\n\n"
-        "#ifdef __cplusplus\nextern \"C\" {\n#endif\n"
-        "extern const char *const PREFIX_component[PREFIX_DIMENSION];\n"
-        "extern const char *const PREFIX_parameter[PREFIX_PARAMETERS + 1];\n"
-        "extern const char *const PREFIX_observable[PREFIX_OBSERVABLES + 1];\n"
-        "const char *PREFIX_text(int status);\n"
-        "PREFIX_parameters PREFIX_defaults(void);\n"
-        "int PREFIX_start(PREFIX_state *state, const PREFIX_parameters *parameters);\n"
-        "int PREFIX_start_lane(PREFIX_state *state, int lane, const PREFIX_parameters "
-        "*parameters);\n"
-        "void PREFIX_set(PREFIX_state *state, int lane, const PREFIX_parameters *parameters);\n"
-        "int PREFIX_step(PREFIX_state *state, double h);\n"
-        "int PREFIX_advance(PREFIX_state *state, double h, long long count);\n"
-        "double PREFIX_time(const PREFIX_state *state, int lane);\n"
-        "void PREFIX_observe(const PREFIX_state *state, double *out);\n"
-        "/* The inside of PREFIX_advance: up to count steps of the lanes in the mask, until one "
-        "fails;\n"
-        " * the number of steps tried.  The lanes in *failed did not make the last one; why[lane]. "
-        "*/\n"
-        "long long PREFIX_lanes(double *y, const double *work, double h, long long count,\n"
-        "                       unsigned lanes, unsigned *failed, int *why);\n"
-        "#ifdef __cplusplus\n}\n#endif\n#endif\n");
+        g, "} PREFIX_parameters;\n\n"
+           "typedef struct PREFIX_state {\n"
+           "    double y[PREFIX_PERSISTENT * PREFIX_LANES]; /* the state, then what a step carries "
+           "*/\n"
+           "    double work[(PREFIX_WORK > 0 ? PREFIX_WORK : 1) * PREFIX_LANES]; /* parameters */\n"
+           "    int status[PREFIX_LANES]; /* 0: goes on */\n"
+           "} PREFIX_state;\n\n"
+           "#ifdef __cplusplus\nextern \"C\" {\n#endif\n"
+           "extern const char *const PREFIX_component[PREFIX_DIMENSION];\n"
+           "extern const char *const PREFIX_parameter[PREFIX_PARAMETERS + 1];\n"
+           "extern const char *const PREFIX_observable[PREFIX_OBSERVABLES + 1];\n"
+           "const char *PREFIX_text(int status);\n"
+           "PREFIX_parameters PREFIX_defaults(void);\n"
+           "int PREFIX_start(PREFIX_state *state, const PREFIX_parameters *parameters);\n"
+           "int PREFIX_start_lane(PREFIX_state *state, int lane, const PREFIX_parameters "
+           "*parameters);\n"
+           "void PREFIX_set(PREFIX_state *state, int lane, const PREFIX_parameters *parameters);\n"
+           "int PREFIX_step(PREFIX_state *state, double h);\n"
+           "int PREFIX_advance(PREFIX_state *state, double h, long long count);\n"
+           "double PREFIX_time(const PREFIX_state *state, int lane);\n"
+           "void PREFIX_observe(const PREFIX_state *state, double *out);\n"
+           "/* The inside of PREFIX_advance: up to count steps of the lanes in the mask, until one "
+           "fails;\n"
+           " * the number of steps tried.  The lanes in *failed did not make the last one; "
+           "reason[lane]. "
+           "*/\n"
+           "long long PREFIX_lanes(double *y, const double *work, double h, long long count,\n"
+           "                       unsigned lanes, unsigned *failed, int *reason);\n"
+           "#ifdef __cplusplus\n}\n#endif\n#endif\n");
 }
 
 void dal__write_interface(dal__generation *g)
@@ -189,7 +189,7 @@ static bool is_word(char c)
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
 }
 
-/* Names that begin so could be the kernel's own. */
+/* Whether a name could be one of the kernel. */
 static bool is_kernels(const char *prefix)
 {
     static const char *const names[] = {"dal", "DAL"};
@@ -259,12 +259,12 @@ static void write_list(dal__generation *g, const char *declaration, name_functio
 static void write_text_function(dal__generation *g)
 {
     dal__write_template(g, "\nconst char *PREFIX_text(int status)\n{\n    switch (status) {\n");
-#define X(code, words)                                                                             \
+#define STATUS(code, words)                                                                        \
     if (DAL_##code == DAL_OK || (DAL_##code >= DAL_SINGULAR && DAL_##code <= DAL_GAUGE))           \
-        dal__buffer_append(&g->text, "    case DAL_" #code ":\n        return \"" words "\";\n");
-    DAL_STATUS_LIST(X)
-#undef X
-    dal__buffer_append(&g->text, "    default:\n        return \"unknown status\";\n    }\n}\n");
+        dal__text_put(&g->text, "    case DAL_" #code ":\n        return \"" words "\";\n");
+    DAL_STATUS_LIST(STATUS)
+#undef STATUS
+    dal__text_put(&g->text, "    default:\n        return \"unknown status\";\n    }\n}\n");
 }
 
 static void write_defaults(dal__generation *g)

@@ -1,8 +1,9 @@
-/* cache.c - compiled steps kept in a private directory.
+/* cache.c - compiled code in a private directory.
  *
- * An object is called after a hash of its text and of the command that compiles it, and ends, where
- * no loader looks, in a hash of its own bytes: what was cut short or changed is compiled anew.  It
- * is written under a name of its own and renamed, so that two processes never see half of one. */
+ * The name of an object is a hash of its text and of the command that compiles it.  A hash of its
+ * own bytes follows at its end, where loaders do not read, so that a truncated or changed object is
+ * compiled again.  It is written under a temporary name and renamed, so that no process sees a part
+ * of it. */
 #include "jit/cache.h"
 #include "core/machine.h"
 #include <errno.h>
@@ -21,8 +22,8 @@
 
 extern char **environ;
 
-/* How it is compiled; the bits do not depend on it.  What is said of the machine goes into the name
- * of the object, since machines may share a directory. */
+/* Compiler options; the bits do not depend on them.  Those of the machine are a part of the name of
+ * the object, since machines may share a directory. */
 static const char *const usual[] = {"-x",      "c",     "-std=gnu11",        "-O2", "-w",
                                     "-shared", "-fPIC", "-ffp-contract=off", NULL};
 static const char *const machine[][8] = {
@@ -32,9 +33,9 @@ static const char *const machine[][8] = {
 };
 enum { PATH_SIZE = 1024, PATIENCE = 60 /* seconds */ };
 
-/* A command under way. */
+/* A command. */
 typedef struct command {
-    char *word[32]; /* changed by nobody, though posix_spawn leaves that open */
+    char *word[32]; /* not const for posix_spawn, which does not change it */
     int words, patience;
     int (*stop)(void *user);
     void *user;
@@ -47,7 +48,7 @@ static void add_words(command *c, const char *const *words)
     while (*words) add_word(c, *words++);
 }
 
-/* All but the files. */
+/* The command without its files. */
 static command begin_command(const dal_native_options *options)
 {
     command c = {.patience = options->patience > 0 ? options->patience : PATIENCE,
@@ -85,7 +86,7 @@ static dal_status make_private(const char *directory, dal_error *error)
 
 /* ---- whole files ---- */
 
-/* Not to wait for the writer of a FIFO, which is no regular file. */
+/* Reads a regular file; does not wait for the writer of a FIFO. */
 static char *read_all(const char *path, size_t *length)
 {
     struct stat s;
@@ -125,9 +126,9 @@ static dal_status write_new(const char *path, const char *bytes, size_t length, 
 
 /* ---- the compiler ---- */
 
-/* What became of a process. */
+/* The end of a process. */
 typedef struct outcome {
-    int status; /* as it ended with, or -1 */
+    int status; /* exit status, or -1 */
     bool hung, stopped;
 } outcome;
 
@@ -159,7 +160,8 @@ static outcome wait_for(const command *c, pid_t process)
     }
 }
 
-/* Starts a command without input and output, as the head of a process group; 0 or an errno. */
+/* Starts a command without input and output, as leader of a process group; returns 0 or an
+ * errno. */
 static int start(const command *c, pid_t *process)
 {
     posix_spawn_file_actions_t actions;
@@ -233,7 +235,7 @@ static dal_status make_object(const command *c, const char *text, const char *pa
                               dal_error *error)
 {
     char source[PATH_SIZE + 40], object[PATH_SIZE + 40];
-    const void *mine = source; /* differs from thread to thread, as the process's number does not */
+    const void *mine = source; /* differs between threads of a process */
     snprintf(source, sizeof source, "%s.%ld.%p.c", path, (long)getpid(), mine);
     snprintf(object, sizeof object, "%s.%ld.%p.so", path, (long)getpid(), mine);
     unlink(object);
@@ -272,7 +274,7 @@ dal_status dal__cache_object(const dal_native_options *options, const char *text
                              size_t size, dal_error *error)
 {
     if (!options || !options->cache || !options->cache[0])
-        return dal__fail(error, DAL_ARGUMENT, "no directory to keep compiled steps in");
+        return dal__fail(error, DAL_ARGUMENT, "no directory for compiled steps");
     const command c = begin_command(options);
     DAL_TRY(
         name_object(&c, options->cache, text, path, size < PATH_SIZE ? size : PATH_SIZE, error));

@@ -1,4 +1,4 @@
-/* cache.h - compiled steps kept in a private directory; internal to lib/codegen. */
+/* cache.h - compiled code in a private directory. */
 #ifndef DAL_GENERATE_CACHE_H
 #define DAL_GENERATE_CACHE_H
 
@@ -10,7 +10,7 @@
  * compiler, it failed or hung), DAL_MEMORY. */
 dal_status dal__cache_object(const dal_native_options *options, const char *text, char *path,
                              size_t size, dal_error *error);
-/* Forgets an object that could not be loaded. */
+/* Removes an object that could not be loaded. */
 void dal__cache_forget(const char *path);
 
 #endif

@@ -1,7 +1,8 @@
-/* native.c - runs and batches whose steps are compiled: generate, compile, load, and step by it.
+/* native.c - runs and batches with compiled steps: generate, compile, load.
  *
- * The loaded function works on the persistent array of a run, or of a block of lanes, with the same
- * bits as the tape, so it can be put in at any time; failures are explained by the tape. */
+ * The compiled function works on the persistent state of a run, or of a group of lanes, with the
+ * same bits as the interpreter, so that it can be installed at any time; the interpreter explains
+ * failures. */
 #include "jit/cache.h"
 #include "jit/native_text.h"
 #include "run/batch.h"
@@ -42,7 +43,7 @@ static dal_status load(const char *path, dal__product product, dal__native *nati
     return DAL_OK;
 }
 
-/* An object that cannot be loaded, whoever has made it, is made anew. */
+/* An object that cannot be loaded is compiled again. */
 static dal_status compiled(const char *text, dal__product product,
                            const dal_native_options *options, dal__native *native, dal_error *error)
 {

@@ -1,4 +1,4 @@
-/* native_text.c - what native mode compiles: the steps alone, and the observables alone.
+/* native_text.c - the files compiled for runs and batches: steps only, or observables only.
  *
  * The observables have an object of their own, since they are evaluated for as many states at a
  * time as a register has lanes, whatever the steps do, and are the same for all methods. */
@@ -7,9 +7,9 @@
 #include "codegen/interface.h"
 
 /* Loops over components are unrolled up to this size of a state. */
-enum { MOST_UNROLLED = 64 };
+enum { MAX_UNROLLED = 64 };
 
-/* Declarations instead of headers, which take a compiler longer to read. */
+/* Declarations instead of headers, which take a compiler longer. */
 static void write_declarations(dal__generation *g)
 {
     dal__buffer_append(
@@ -57,13 +57,13 @@ static const char lanes[] = "#define DAL_SPECIALISED 1\n"
 static void write_sizes(dal__generation *g)
 {
     const dal__layout *k = &g->layout;
-    const bool small = k->dim <= MOST_UNROLLED;
-    dal__buffer_append(&g->text, small ? "#define DAL_UNROLL _Pragma(\"GCC unroll 64\")\n"
-                                       : "#define DAL_UNROLL\n");
-    dal__buffer_print(&g->text,
-                      "enum { DAL__N = %d, DAL__NW = %d, DAL__DIM = %d, DAL__LIFTED = %d, "
-                      "DAL__OBSERVABLES = %d };\n",
-                      k->n, k->nw, k->dim, k->lifted, dal_run_observables(g->run));
+    const bool small = k->dim <= MAX_UNROLLED;
+    dal__text_put(&g->text, small ? "#define DAL_UNROLL _Pragma(\"GCC unroll 64\")\n"
+                                  : "#define DAL_UNROLL\n");
+    dal__text_print(&g->text,
+                    "enum { DAL__N = %d, DAL__NW = %d, DAL__DIM = %d, DAL__LIFTED = %d, "
+                    "DAL__OBSERVABLES = %d };\n",
+                    k->n, k->nw, k->dim, k->lifted, dal_run_observables(g->run));
 }
 
 dal_status dal__generate_observables(const dal__layout *layout, const dal_run *run, char **text,

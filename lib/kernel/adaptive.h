@@ -23,7 +23,7 @@
 /* The rest of the step is one substep if it is at most this times the planned size. */
 #define DAL__STRETCH 1.01
 
-enum { DAL__MOST_TRIALS = 100000 };
+enum { DAL__MAX_TRIALS = 100000 };
 
 typedef struct dal_trial {
     double h;         /* its size */
@@ -67,7 +67,7 @@ DAL_INLINE dal_status dal_control(dal_step *s, dal_attempt *attempt, dal_trial *
     double left = whole, planned = dal_lane(*s->substep, 0);
     if (!(planned > 0.0)) planned = whole;
     trial->again = 0;
-    for (int count = 0; count < DAL__MOST_TRIALS; count++) {
+    for (int count = 0; count < DAL__MAX_TRIALS; count++) {
         const double size = dal__substep(whole, left, planned);
         if (!(size > 0.0)) {
             *s->substep = dal_num(0.0);

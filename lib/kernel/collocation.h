@@ -122,11 +122,11 @@ DAL_INLINE void dal__collocation_map(dal_step *s, dal_equation *eq)
 
 DAL_INLINE dal_status dal__collocation_matrix(dal_step *s, dal_equation *eq)
 {
-    enum { MOST = DAL_MOST_STAGES * DAL_MOST_STAGES };
+    enum { MAX = DAL_MAX_STAGES * DAL_MAX_STAGES };
     const dal_stages *k = (const dal_stages *)eq->context;
     const dal_tableau *method = k->method;
     const int stages = DAL_STAGES(method);
-    double a[MOST], b[MOST], ab[MOST], ba[MOST];
+    double a[MAX], b[MAX], ab[MAX], ba[MAX];
     DAL_VECTOR(s, jacobian, DAL_NW(s) * (DAL_N(s) + DAL_NW(s)) / DAL_STEP_GROUPS);
     DAL_VECTOR(s, m,
                DAL_STAGES(k->method) * DAL_NW(s) * DAL_STAGES(k->method) * DAL_NW(s) /

@@ -9,7 +9,7 @@
 
 #include "num.h"
 
-enum { DAL_MOST_SUBSTEPS = 35 };
+enum { DAL_MAX_SUBSTEPS = 35 };
 
 typedef struct dal_composition {
     int substeps;

@@ -206,7 +206,7 @@ DAL_INLINE void dal__spark_product(const dal_spark *m, double *product)
 /* One step of size s->h. */
 DAL_SHARED dal_status dal_spark_advance(dal_step *s, const dal_spark *method)
 {
-    double product[DAL_MOST_STAGES * DAL_MOST_STAGES];
+    double product[DAL_MAX_STAGES * DAL_MAX_STAGES];
     DAL_VECTOR(s, V, DAL_STAGES(method) * DAL_N(s));
     DAL_VECTOR(s, blocks, DAL_STAGES(method) * DAL_BLOCKS_SIZE(s));
     DAL_VECTOR(s, q, DAL_N(s));

@@ -15,7 +15,7 @@
 
 typedef struct dal_step dal_step;
 
-enum { DAL_MOST_STAGES = 16 };
+enum { DAL_MAX_STAGES = 16 };
 
 /* The callbacks of a system; outputs as in dal_callbacks. */
 #define DAL__CALLBACK_LIST(CALLBACK)                                                               \

@@ -1,8 +1,8 @@
 /* batch.c - many runs of one spec, stepped several lanes at a time.
  *
- * A scalar run makes the starts and explains failures; blocks of lanes do the steps: as many of the
- * widest kind as the count fills, then narrower ones.  Where a system or an integrator has no wide
- * variants the blocks are one lane wide: the bits are the same. */
+ * A scalar run makes the starts and explains failures.  Groups of lanes are stepped together: as
+ * many of the widest engine as the count fills, then narrower ones.  Where a system or an
+ * integrator has no wide variants a group has one lane; the bits are the same. */
 #include "run/batch.h"
 #include "dalembert_codegen.h"
 #include "run/failure.h"
@@ -11,35 +11,44 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The widths a batch may ask for, and the kinds it is made of, the widest first. */
-static const int widths[] = {8, 4, 1};
+/* The widths of groups, the widest first. */
+static const int widths[] = {DAL__BLOCK, 8, 4, 1};
 enum { WIDTHS = sizeof widths / sizeof *widths };
 typedef struct engine_choice {
     const dal__engine_kind *kind[WIDTHS];
     int count;
 } engine_choice;
 
-typedef struct block {
+typedef struct group {
     const dal__engine_kind *kind;
-    int first; /* the batch's lane that is its lane 0 */
+    int first; /* lane 0 of the group is this lane of the batch */
     void *engine;
     double *persistent, *work;
     dal__lanes alive;
-} block;
+} group;
 
 struct dal_batch {
     dal_run *scalar;
-    int count, blocks;
-    bool stepped;     /* lanes share their time: none may start anew */
-    block *block;     /* [blocks] */
+    int count, groups;
+    bool stepped;     /* lanes share their time: none may be started again */
+    group *group;     /* [groups] */
     dal_error *error; /* [count] */
     void *memory;     /* of the engines */
     dal__native native;
 };
 
-/* ---- which blocks ---- */
+/* ---- choice of the engines ---- */
 
-/* The best kinds up to a width (0: all). */
+/* Whether the data of a step without scratch fit into half of a second-level cache. */
+enum { NEAR = 1 << 19 };
+static bool is_near(const dal__layout *k, int width)
+{
+    const size_t numbers = 2 * k->persistent + k->workspace;
+    return numbers * (size_t)width * sizeof(double) <= (size_t)NEAR;
+}
+
+/* The best engines up to a width (0: up to the one that pays).  One of several lanes without the
+ * instruction set of a narrower one is slower than that. */
 static engine_choice choose(const dal__layout *k, int width)
 {
     engine_choice made = {{NULL}, 0};
@@ -50,7 +59,7 @@ static engine_choice choose(const dal__layout *k, int width)
     return made;
 }
 
-/* The kind of the next block when so many lanes remain: the widest that is more than half full. */
+/* The engine of the next group: the widest that the remaining lanes fill by more than half. */
 static const dal__engine_kind *next_kind(const engine_choice *from, int remaining)
 {
     int i = 0;
@@ -58,17 +67,17 @@ static const dal__engine_kind *next_kind(const engine_choice *from, int remainin
     return from->kind[i];
 }
 
-static block *block_of(const dal_batch *batch, int lane)
+static group *group_of(const dal_batch *batch, int lane)
 {
-    int low = 0, high = batch->blocks - 1;
+    int low = 0, high = batch->groups - 1;
     while (low < high) {
         const int middle = low + (high - low + 1) / 2;
-        if (batch->block[middle].first <= lane)
+        if (batch->group[middle].first <= lane)
             low = middle;
         else
             high = middle - 1;
     }
-    return &batch->block[low];
+    return &batch->group[low];
 }
 
 /* ---- memory ---- */
@@ -83,15 +92,15 @@ static void gather(double *single, const double *wide, size_t numbers, int width
     for (size_t i = 0; i < numbers; i++) single[i] = wide[i * (size_t)width + (size_t)lane];
 }
 
-/* The scalar run's start and parameters into one lane of a block. */
-static void scatter_lane(dal_batch *batch, const block *b, int lane)
+/* Copies start and parameters of the scalar run to one lane of a group. */
+static void scatter_lane(dal_batch *batch, const group *b, int lane)
 {
     const dal__layout *k = &batch->scalar->layout;
     scatter(b->persistent, batch->scalar->persistent, k->persistent, b->kind->width, lane);
     scatter(b->work, batch->scalar->work, k->workspace, b->kind->width, lane);
 }
 
-static void gather_lane(dal_batch *batch, const block *b, int lane)
+static void gather_lane(dal_batch *batch, const group *b, int lane)
 {
     const dal__layout *k = &batch->scalar->layout;
     gather(batch->scalar->persistent, b->persistent, k->persistent, b->kind->width, lane);
@@ -102,11 +111,11 @@ enum { ALIGNMENT = DAL__MAX_LANES * sizeof(double) };
 
 static size_t round_up(size_t bytes) { return (bytes + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT; }
 
-/* The blocks the batch needs, and the bytes of their engines; false: more than there can be. */
-static bool measure(dal_batch *batch, const engine_choice *from, size_t *bytes)
+/* Counts groups and bytes of their engines; false: too many bytes. */
+static bool measure_groups(dal_batch *batch, const engine_choice *from, size_t *bytes)
 {
     *bytes = ALIGNMENT;
-    for (int done = 0; done < batch->count; batch->blocks++) {
+    for (int done = 0; done < batch->count; batch->groups++) {
         const dal__engine_kind *k = next_kind(from, batch->count - done);
         const size_t more = round_up(k->engine->bytes(&batch->scalar->layout));
         if (more > SIZE_MAX / 2 - *bytes) return false;
@@ -116,11 +125,11 @@ static bool measure(dal_batch *batch, const engine_choice *from, size_t *bytes)
     return true;
 }
 
-/* Lanes past the count hold a copy of the start, so that they compute nothing unusual. */
-static void place_block(dal_batch *batch, block *b, const dal__engine_kind *kind, int first,
+/* Lanes past the count are copies of the start. */
+static void place_group(dal_batch *batch, group *b, const dal__engine_kind *kind, int first,
                         void *memory)
 {
-    *b = (block){.kind = kind, .first = first};
+    *b = (group){.kind = kind, .first = first};
     b->engine = kind->engine->place(&batch->scalar->layout, memory, &b->persistent, &b->work);
     for (int lane = 0; lane < kind->width; lane++) {
         scatter_lane(batch, b, lane);
@@ -128,12 +137,12 @@ static void place_block(dal_batch *batch, block *b, const dal__engine_kind *kind
     }
 }
 
-static void place_blocks(dal_batch *batch, const engine_choice *from)
+static void place_groups(dal_batch *batch, const engine_choice *from)
 {
     char *at = (char *)batch->memory + (ALIGNMENT - (uintptr_t)batch->memory % ALIGNMENT);
-    for (int i = 0, first = 0; i < batch->blocks; i++) {
+    for (int i = 0, first = 0; i < batch->groups; i++) {
         const dal__engine_kind *k = next_kind(from, batch->count - first);
-        place_block(batch, &batch->block[i], k, first, at);
+        place_group(batch, &batch->group[i], k, first, at);
         at += round_up(k->engine->bytes(&batch->scalar->layout));
         first += k->width;
     }
@@ -142,14 +151,14 @@ static void place_blocks(dal_batch *batch, const engine_choice *from)
 static dal_status allocate(dal_batch *batch, const engine_choice *from, dal_error *error)
 {
     size_t bytes;
-    if (measure(batch, from, &bytes)) {
-        batch->block = calloc((size_t)batch->blocks, sizeof *batch->block);
+    if (measure_groups(batch, from, &bytes)) {
+        batch->group = calloc((size_t)batch->groups, sizeof *batch->group);
         batch->error = calloc((size_t)batch->count, sizeof *batch->error);
         batch->memory = malloc(bytes);
     }
-    if (!batch->block || !batch->error || !batch->memory)
+    if (!batch->group || !batch->error || !batch->memory)
         return dal__fail(error, DAL_MEMORY, "no memory for a batch of %d", batch->count);
-    place_blocks(batch, from);
+    place_groups(batch, from);
     return DAL_OK;
 }
 
@@ -191,9 +200,9 @@ dal_status dal_batch_create(dal_batch **batch, const dal_run_spec *spec, int cou
     return dal__batch_create(batch, spec, count, width, DAL__VARIANTS, error);
 }
 
-static void free_blocks(dal_batch *batch)
+static void free_groups(dal_batch *batch)
 {
-    free(batch->block);
+    free(batch->group);
     free(batch->error);
     free(batch->memory);
 }
@@ -203,7 +212,7 @@ void dal_batch_free(dal_batch *batch)
     if (!batch) return;
     dal_run_free(batch->scalar);
     dal__native_free(&batch->native);
-    free_blocks(batch);
+    free_groups(batch);
     free(batch);
 }
 
@@ -211,8 +220,8 @@ void dal_batch_free(dal_batch *batch)
 
 const dal__layout *dal__batch_layout(const dal_batch *batch) { return &batch->scalar->layout; }
 
-/* A register's worth, or less where there are not so many: lanes that nobody asked for cost next to
- * nothing, and code for other numbers of them would have to be compiled too. */
+/* A full register, or less for few lanes: surplus lanes cost almost nothing, and code for other
+ * numbers of lanes would have to be compiled as well. */
 int dal__batch_native_lanes(const dal_batch *batch)
 {
     const dal__layout *k = &batch->scalar->layout;
@@ -220,11 +229,11 @@ int dal__batch_native_lanes(const dal_batch *batch)
     return batch->count > 4 && dal__engine_best(k, 8) ? 8 : 4;
 }
 
-/* The lanes of a batch as they are, in the blocks of another. */
+/* Copies the lanes of a batch to the groups of another. */
 static void move_lanes(dal_batch *from, dal_batch *to)
 {
     for (int lane = 0; lane < from->count; lane++) {
-        block *a = block_of(from, lane), *b = block_of(to, lane);
+        group *a = group_of(from, lane), *b = group_of(to, lane);
         gather_lane(from, a, lane - a->first);
         scatter_lane(to, b, lane - b->first);
         to->error[lane] = from->error[lane];
@@ -239,11 +248,11 @@ dal_status dal__batch_install(dal_batch *batch, int lanes, const dal__native *na
     dal_batch made = {.scalar = batch->scalar, .count = batch->count, .stepped = batch->stepped};
     const dal_status status = allocate(&made, &one, error);
     if (status != DAL_OK) {
-        free_blocks(&made);
+        free_groups(&made);
         return status;
     }
     move_lanes(batch, &made);
-    free_blocks(batch);
+    free_groups(batch);
     *batch = made;
     batch->native = *native;
     return DAL_OK;
@@ -262,30 +271,30 @@ dal_status dal_batch_start(dal_batch *batch, int lane, const dal_setting *parame
         return dal__fail(error, DAL_ARGUMENT, "lane %d of %d does not exist", lane, batch->count);
     if (batch->stepped)
         return dal__fail(error, DAL_ARGUMENT,
-                         "lane %d cannot start anew: its batch has been stepped", lane);
+                         "lane %d cannot be started again: its batch has been stepped", lane);
     DAL_TRY(dal__check_settings(parameters, parameter_count, "parameters", error));
     DAL_TRY(dal__check_settings(start, start_count, "start values", error));
     DAL_TRY(dal__run_start(batch->scalar, parameters, parameter_count, start, start_count, error));
-    const block *b = block_of(batch, lane);
+    const group *b = group_of(batch, lane);
     scatter_lane(batch, b, lane - b->first);
     return DAL_OK;
 }
 
-/* The scalar run repeats the failing step, to say why. */
-static void record_failures(dal_batch *batch, block *b, dal__lanes failed, const dal_status *why)
+/* The scalar run repeats the failing step, to say reason. */
+static void record_failures(dal_batch *batch, group *b, dal__lanes failed, const dal_status *reason)
 {
     for (int lane = 0; lane < b->kind->width; lane++) {
         if (!(failed >> lane & 1)) continue;
         gather_lane(batch, b, lane);
-        dal__failure_reason(batch->scalar, batch->scalar->layout.options.step, why[lane],
+        dal__failure_reason(batch->scalar, batch->scalar->layout.options.step, reason[lane],
                             &batch->error[b->first + lane]);
     }
     b->alive &= ~failed;
 }
 
-/* Up to count steps of a block, until a lane fails; the number of steps tried. */
-static long long step_block(dal_batch *batch, block *b, double h, long long count,
-                            dal__lanes *failed, dal_status *why)
+/* Takes up to count steps of a group, until a lane fails; returns the number of steps tried. */
+static long long step_group(dal_batch *batch, group *b, double h, long long count,
+                            dal__lanes *failed, dal_status *reason)
 {
     unsigned lanes = 0;
     int reasons[DAL__MAX_LANES];
@@ -293,12 +302,12 @@ static long long step_block(dal_batch *batch, block *b, double h, long long coun
         count = batch->native.steps(b->persistent, b->work, h, count, (unsigned)b->alive, &lanes,
                                     reasons);
         for (int i = 0; i < b->kind->width; i++)
-            if (lanes >> i & 1) why[i] = (dal_status)reasons[i];
+            if (lanes >> i & 1) reason[i] = (dal_status)reasons[i];
         *failed = lanes;
         return count;
     }
     for (long long step = 1; step <= count; step++)
-        if ((*failed = b->kind->engine->step(b->engine, h, b->alive, why)) != 0) return step;
+        if ((*failed = b->kind->engine->step(b->engine, h, b->alive, reason)) != 0) return step;
     return count;
 }
 
@@ -307,15 +316,15 @@ dal_status dal_batch_advance(dal_batch *batch, long long count)
     DAL_REQUIRE(batch, NULL);
     DAL_REQUIRE_COUNT(count, NULL);
     const double h = batch->scalar->layout.options.step;
-    dal_status why[DAL__MAX_LANES] = {DAL_OK}, last = DAL_OK;
+    dal_status reason[DAL__BLOCK] = {DAL_OK}, last = DAL_OK;
     dal__lanes failed = 0;
     bool alive = false;
     batch->stepped = batch->stepped || count > 0;
-    for (int i = 0; i < batch->blocks; i++) {
-        block *b = &batch->block[i];
+    for (int i = 0; i < batch->groups; i++) {
+        group *b = &batch->group[i];
         for (long long left = count; left > 0 && b->alive;) {
-            left -= step_block(batch, b, h, left, &failed, why);
-            if (failed) record_failures(batch, b, failed, why);
+            left -= step_group(batch, b, h, left, &failed, reason);
+            if (failed) record_failures(batch, b, failed, reason);
         }
         alive |= b->alive != 0;
         if (!b->alive) last = batch->error[b->first].status;
@@ -338,14 +347,14 @@ double dal_batch_time(const dal_batch *batch, int lane)
 {
     if (!batch || lane < 0 || lane >= batch->count) return NAN;
     const size_t place = dal__at(&batch->scalar->layout, DAL__TIME);
-    const block *b = block_of(batch, lane);
+    const group *b = group_of(batch, lane);
     return b->persistent[place * (size_t)b->kind->width + (size_t)(lane - b->first)];
 }
 
 void dal_batch_state(const dal_batch *batch, int lane, double *state)
 {
     if (!batch || !state || lane < 0 || lane >= batch->count) return;
-    const block *b = block_of(batch, lane);
+    const group *b = group_of(batch, lane);
     gather(state, b->persistent, (size_t)batch->scalar->layout.dim, b->kind->width,
            lane - b->first);
 }

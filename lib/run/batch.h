@@ -1,4 +1,4 @@
-/* batch.h - the inside of batches for native mode, and batches of one chosen variant for tests. */
+/* batch.h - batches for compiled code, and batches of one variant for tests. */
 #ifndef DAL_BATCH_H
 #define DAL_BATCH_H
 
@@ -9,12 +9,12 @@
 dal_status dal__batch_create(dal_batch **batch, const dal_run_spec *spec, int count, int width,
                              dal__variant only, dal_error *error);
 
-/* What the batch is, and how many of its lanes are best stepped together by compiled code. */
+/* The layout of the batch; how many of its lanes compiled code should step together. */
 const dal__layout *dal__batch_layout(const dal_batch *batch);
 int dal__batch_native_lanes(const dal_batch *batch);
 
-/* From now on lanes of the batch are stepped together by compiled code, which then is the batch's.
- * Errors: DAL_MEMORY; the batch is as before, and the code the caller's. */
+/* Steps so many lanes together by compiled code from now on; the batch then owns the code.  Errors:
+ * DAL_MEMORY; the batch is unchanged, and the caller still owns the code. */
 dal_status dal__batch_install(dal_batch *batch, int lanes, const dal__native *native,
                               dal_error *error);
 

@@ -1,7 +1,7 @@
 /* engine.h - one step of one or several lanes as a transaction.
  *
- * All that survives a step is the persistent state (kernel/persistent.h).  The engine exists once per
- * variant (engine_wide.c); its arrays are interleaved by lanes. */
+ * All that survives a step is the persistent state (kernel/persistent.h).  The engine exists once
+ * per variant (engine_wide.c); its arrays are interleaved by lanes. */
 #ifndef DAL_ENGINE_H
 #define DAL_ENGINE_H
 

@@ -1,14 +1,14 @@
 /* engine_wide.c - a step of one or several lanes as a transaction; see engine.h.
  *
- * After the integrator has done its work the engine accepts or rejects lane by lane: solved,
- * finite, e still on its side of zero, the guards of the constraints still on theirs, and no normal
- * of a watched constraint turned by a right angle or more: det(A1 B0) det(A0 B0) > 0 for all
- * leading minors, with B = W^-1 A^T.  A turn through a right angle within one step means that
- * G = A B vanished on the way (or that the step is far too large to tell).
+ * After the integrator has stepped, the engine accepts or rejects lane by lane.  A lane is accepted
+ * if its equations are solved, its state is finite, e and the guards keep their signs, and the rank
+ * check holds: det(A1 B0) det(A0 B0) > 0 for all leading minors, with B = W^-1 A^T.  If a gradient
+ * of a constraint turns by a right angle within one step, then G = A B was singular in between (or
+ * the step is far too large).
  *
- * A block of lanes is stepped as one system of DAL_GROUPS times as many components: its integrator,
- * which acts on each component alike (DAL_COMPONENTWISE), need not know.  The engine and the system
- * do: number i of lane l of group g is lane l of num i * DAL_GROUPS + g. */
+ * Several groups of lanes are stepped as one system of DAL_GROUPS times as many components.  Such
+ * an integrator acts on each component alike (DAL_COMPONENTWISE).  Number i of lane l of group g is
+ * lane l of num i*DAL_GROUPS + g. */
 #include "kernel/groups.h"
 
 #include "run/engine.h"
@@ -18,7 +18,7 @@
 
 /* The lanes that are stepped together. */
 enum { LANES = DAL_GROUPS * DAL_LANES };
-/* Doubles that one of their numbers takes: one for each, or more for a longer number. */
+/* Doubles in one number of all lanes. */
 enum { WIDTH = DAL_GROUPS * (int)(sizeof(num) / sizeof(double)) };
 
 /* Lanes of all groups. */
@@ -46,13 +46,6 @@ static inline dal__lanes lanes_of(const lane_mask *mask)
     return lanes;
 }
 
-static inline lane_mask all_lanes(void)
-{
-    lane_mask all;
-    for (int g = 0; g < DAL_GROUPS; g++) all.group[g] = dal_all();
-    return all;
-}
-
 /* ---- memory and callbacks ---- */
 
 typedef struct engine {
@@ -65,7 +58,7 @@ typedef struct engine {
 } engine;
 
 static size_t round_up(size_t bytes) { return (bytes + 63) / 64 * 64; }
-static size_t room(size_t numbers) { return round_up(numbers * DAL_GROUPS * sizeof(num)); }
+static size_t bytes_of(size_t numbers) { return round_up(numbers * DAL_GROUPS * sizeof(num)); }
 
 static const dal_callbacks *callbacks(const dal_system *system)
 {
@@ -74,8 +67,8 @@ static const dal_callbacks *callbacks(const dal_system *system)
     return &system->call;
 }
 
-/* Nums of the persistent array that an integrator may change: where it neither solves nor divides
- * anything it leaves all but y and r alone. */
+/* Nums of the persistent state that an integrator may change; one that neither solves nor divides
+ * changes y and r only. */
 static size_t changing(const engine *e)
 {
     const bool alone =
@@ -84,7 +77,7 @@ static size_t changing(const engine *e)
     return (plain ? dal__at(&e->layout, 0) : e->layout.persistent) * DAL_GROUPS;
 }
 
-/* Remembers the first answer that is not finite. */
+/* Records the first evaluation that is not finite. */
 static void trace(engine *e, dal_callback_code code, const dal_point *at, dal_status status,
                   const double *out)
 {
@@ -99,7 +92,7 @@ static void trace(engine *e, dal_callback_code code, const dal_point *at, dal_st
     memcpy(failure->v, at->v, (size_t)e->layout.nw * sizeof(double));
 }
 
-/* The answer where there is none. */
+/* Fills the output of a callback. */
 static void fill(const engine *e, dal_callback_code code, double value, num *out)
 {
     const int size = dal__eval_size(&e->layout, code) * DAL_GROUPS;
@@ -111,7 +104,7 @@ static void eval_callback(dal_step *s, dal_callback_code code, double t, const n
 {
     engine *e = s->owner;
     dal_callback *const call = e->call[code];
-    if (!call) { /* only the gauge may be missing here */
+    if (!call) { /* only the gauge may be missing */
         fill(e, code, 0.0, out);
         return;
     }
@@ -124,24 +117,24 @@ static void eval_callback(dal_step *s, dal_callback_code code, double t, const n
 
 static size_t engine_bytes(const dal__layout *k)
 {
-    return round_up(sizeof(engine)) + 2 * room(k->persistent) + room(k->workspace) +
-           room(k->scratch);
+    return round_up(sizeof(engine)) + 2 * bytes_of(k->persistent) + bytes_of(k->workspace) +
+           bytes_of(k->scratch);
 }
 
-static num *take(char **at, size_t count)
+static num *allocate(char **at, size_t count)
 {
     num *p = (num *)(void *)*at;
-    *at += room(count);
+    *at += bytes_of(count);
     return p;
 }
 
-/* Number `place` of those persistent. */
+/* Number `place` behind y and r. */
 static num *persistent_at(const engine *e, int place)
 {
     return e->persistent + dal__at(&e->layout, place) * DAL_GROUPS;
 }
 
-/* What the method remembers, one member behind the other. */
+/* The state of the method, one member after the other. */
 static void place_method_state(engine *e)
 {
     num *at = e->step.method_state = persistent_at(e, DAL__METHOD_STATE);
@@ -154,7 +147,7 @@ static void place_method_state(engine *e)
     e->step.derivatives_kept = e->layout.derivatives;
 }
 
-/* The step's fixed part. */
+/* What is the same in every step. */
 static void prepare_step(engine *e)
 {
     const dal__layout *k = &e->layout;
@@ -184,7 +177,7 @@ static void *place_engine(const dal__layout *k, void *memory, double **persisten
     char *at = memory;
     engine *e = memory;
     at += round_up(sizeof *e);
-    memset(memory, 0, engine_bytes(k) - room(k->scratch));
+    memset(memory, 0, engine_bytes(k) - bytes_of(k->scratch));
     e->layout = *k;
     for (int i = 0; i < k->depth; i++)
         e->layer[i] = dal__integrator_wide(k->method.layer[i], DAL_WIDE(DAL__VARIANT));
@@ -192,11 +185,11 @@ static void *place_engine(const dal__layout *k, void *memory, double **persisten
 #define CALLBACK(code, member) e->call[DAL_EVAL_##code] = c->member;
     DAL__CALLBACK_LIST(CALLBACK)
 #undef CALLBACK
-    e->persistent = take(&at, k->persistent);
-    e->backup = take(&at, k->persistent);
-    e->work = take(&at, k->workspace);
+    e->persistent = allocate(&at, k->persistent);
+    e->backup = allocate(&at, k->persistent);
+    e->work = allocate(&at, k->workspace);
     prepare_step(e);
-    e->step.scratch = take(&at, k->scratch);
+    e->step.scratch = allocate(&at, k->scratch);
     *persistent = (double *)e->persistent;
     *work = (double *)e->work;
     return e;
@@ -217,10 +210,10 @@ static dal_status eval_engine(void *engine_, int code, double t, const double *s
     return e->call[code](e->layout.system, &at, out);
 }
 
-/* ---- judging a step, group by group ---- */
+/* ---- checks of a step, group by group ---- */
 
-/* The sum of x - x over some components of a group: 0, or NaN where one is not finite. */
-static num nonfinite(const engine *e, int group, int first, int count)
+/* 0, or NaN where some component of a group is not finite. */
+static num sum_nonfinite(const engine *e, int group, int first, int count)
 {
     const num *y = e->persistent + first * DAL_GROUPS + group;
     num sum = dal_num(0.0);
@@ -233,10 +226,10 @@ static num nonfinite(const engine *e, int group, int first, int count)
 static dal_mask finite(const engine *e, int group)
 {
     const int dim = e->layout.dim, at_e = 2 * e->layout.n;
-    if (!e->layout.lifted) return dal_equal(nonfinite(e, group, 0, dim), dal_num(0.0));
+    if (!e->layout.lifted) return dal_equal(sum_nonfinite(e, group, 0, dim), dal_num(0.0));
     const num w = 1.0 / e->persistent[at_e * DAL_GROUPS + group];
-    return dal_equal(nonfinite(e, group, 0, at_e) + (w - w) +
-                         nonfinite(e, group, at_e + 1, dim - at_e - 1),
+    return dal_equal(sum_nonfinite(e, group, 0, at_e) + (w - w) +
+                         sum_nonfinite(e, group, at_e + 1, dim - at_e - 1),
                      dal_num(0.0));
 }
 
@@ -248,13 +241,13 @@ static dal_mask check_gauge(const engine *e, int group)
            ~dal_finite(e->persistent[i]);
 }
 
-/* Notes in the failure, if somebody wants to know, the first number that failed in lane 0. */
-static void note(int *which, dal_mask good, int number)
+/* Records the first number that failed in lane 0. */
+static void record(int *which, dal_mask good, int number)
 {
     if (!*which && !dal_mask_lane(good, 0)) *which = number;
 }
 
-/* What the system says to a code before and after the step. */
+/* Evaluates a callback before and after the step. */
 static void eval_both_ends(engine *e, dal_callback_code code, num *before, num *after)
 {
     dal_step *s = &e->step;
@@ -266,23 +259,23 @@ static lane_mask check_guards(engine *e)
 {
     const int count = e->layout.system->guards * DAL_GROUPS;
     dal_step *s = &e->step;
-    lane_mask good = all_lanes();
+    lane_mask good = mask_of(~(dal__lanes)0);
     num *before = dal_scratch(s, count), *after = dal_scratch(s, count);
     eval_both_ends(e, DAL_EVAL_GUARDS, before, after);
     for (int i = 0; i < count; i++) {
         good.group[i % DAL_GROUPS] &= dal_less(dal_num(0.0), before[i] * after[i]);
-        if (e->failure) note(&e->failure->guard, good.group[0], i + 1);
+        if (e->failure) record(&e->failure->guard, good.group[0], i + 1);
     }
     return good;
 }
 
-/* Numbers of one group, one behind the other. */
+/* Gathers the numbers of one group. */
 static void gather_group(const num *from, int group, int count, num *to)
 {
     for (int i = 0; i < count; i++) to[i] = from[i * DAL_GROUPS + group];
 }
 
-/* No normal of the group turned; c0, c1 are what the constraint said before and after. */
+/* The rank check of a group; c0, c1: D, A, B before and after. */
 static dal_mask check_group_rank(engine *e, const num *c0, const num *c1)
 {
     const int m = e->layout.m, n = e->layout.n;
@@ -293,7 +286,7 @@ static dal_mask check_group_rank(engine *e, const num *c0, const num *c1)
     dal_gram(c1 + m, c0 + m + m * n, m, n, g1);
     for (int k = 0; k < m; k++) {
         good &= dal_less(dal_num(0.0), dal_eliminate(g0, m, k) / dal_eliminate(g1, m, k));
-        if (e->failure) note(&e->failure->constraint, good, k + 1);
+        if (e->failure) record(&e->failure->constraint, good, k + 1);
     }
     return good;
 }
@@ -318,8 +311,8 @@ static lane_mask check_rank(engine *e)
 
 /* ---- a step ---- */
 
-/* Takes out of `left` the lanes that lack `good`, gives them their reason, and returns them. */
-static dal__lanes reject(lane_mask *left, lane_mask good, dal_status status, dal_status *why)
+/* Removes the lanes that are not good from `left`, sets their reason, and returns them. */
+static dal__lanes reject(lane_mask *left, lane_mask good, dal_status status, dal_status *reason)
 {
     dal_mask any = ~dal_all();
     for (int g = 0; g < DAL_GROUPS; g++) any |= left->group[g] & ~good.group[g];
@@ -331,12 +324,13 @@ static dal__lanes reject(lane_mask *left, lane_mask good, dal_status status, dal
     }
     const dal__lanes lanes = lanes_of(&bad);
     for (int i = 0; i < LANES; i++)
-        if (lanes >> i & 1) why[i] = status;
+        if (lanes >> i & 1) reason[i] = status;
     return lanes;
 }
 
-/* The parts of check_step that need not ask the system. */
-static dal__lanes check_state(const engine *e, lane_mask *left, dal_status status, dal_status *why)
+/* The checks that do not evaluate the system. */
+static dal__lanes check_state(const engine *e, lane_mask *left, dal_status status,
+                              dal_status *reason)
 {
     lane_mask solved, gauge, sound;
     dal__lanes failed = 0;
@@ -346,28 +340,27 @@ static dal__lanes check_state(const engine *e, lane_mask *left, dal_status statu
         sound.group[g] = finite(e, g);
     }
     if (status != DAL_OK && status != DAL_NOT_CONVERGED)
-        failed = reject(left, mask_of(0), status, why);
-    if (dal_any(e->step.unconverged[0])) failed |= reject(left, solved, DAL_NOT_CONVERGED, why);
-    if (e->layout.lifted) failed |= reject(left, gauge, DAL_GAUGE, why);
-    return failed | reject(left, sound, DAL_NOT_FINITE, why);
+        failed = reject(left, mask_of(0), status, reason);
+    if (dal_any(e->step.unconverged[0])) failed |= reject(left, solved, DAL_NOT_CONVERGED, reason);
+    if (e->layout.lifted) failed |= reject(left, gauge, DAL_GAUGE, reason);
+    return failed | reject(left, sound, DAL_NOT_FINITE, reason);
 }
 
-/* Takes the lanes that did not make the step out of `left`, which has the lanes alive, and returns
- * them. */
+/* Removes the lanes that failed from `left`, the alive ones, and returns them. */
 static dal__lanes check_step(engine *e, lane_mask *left, dal__lanes alive, dal_status status,
-                             dal_status *why)
+                             dal_status *reason)
 {
     const dal_system *system = e->layout.system;
-    dal__lanes failed = check_state(e, left, status, why);
+    dal__lanes failed = check_state(e, left, status, reason);
     if (failed == alive) return failed;
     e->step.used = 0;
-    if (system->guards > 0) failed |= reject(left, check_guards(e), DAL_SINGULAR, why);
+    if (system->guards > 0) failed |= reject(left, check_guards(e), DAL_SINGULAR, reason);
     if ((system->properties & DAL_D_RANK_CHECKED) && e->call[DAL_EVAL_CONSTRAINT])
-        failed |= reject(left, check_rank(e), DAL_SINGULAR, why);
+        failed |= reject(left, check_rank(e), DAL_SINGULAR, reason);
     return failed;
 }
 
-/* The clock of the lanes that made it, compensated, and the counters. */
+/* Advances clock (compensated) and counters of the lanes that moved. */
 static void advance_clock(engine *e, double h, const lane_mask *moved)
 {
     num *time = persistent_at(e, DAL__TIME), *error = persistent_at(e, DAL__TIME_ERROR);
@@ -383,7 +376,7 @@ static void advance_clock(engine *e, double h, const lane_mask *moved)
     }
 }
 
-/* The lanes that did not move get back what they had. */
+/* Restores the lanes that did not move. */
 static void restore(engine *e, const lane_mask *moved)
 {
     for (size_t g = 0; g < DAL_GROUPS; g++) {
@@ -393,7 +386,7 @@ static void restore(engine *e, const lane_mask *moved)
     }
 }
 
-/* The time of the first lane alive; all that are alive have the same. */
+/* The time of the first alive lane, which is that of all of them. */
 static double time_of(const engine *e, dal__lanes alive)
 {
     int first = 0;
@@ -414,24 +407,20 @@ static void begin_step(engine *e, double h, dal__lanes alive, const lane_mask *l
     s->depth = e->layout.depth - 1;
 }
 
-/* How far the substeps came, if somebody wants to know. */
-static void note_progress(engine *e)
-{
-    if (!e->failure) return;
-    e->failure->reached = e->step.t;
-    e->failure->substep = dal_lane(e->step.substep[0], 0);
-}
-
-static dal__lanes step_engine(void *engine_, double h, dal__lanes alive, dal_status *why)
+static dal__lanes step_engine(void *engine_, double h, dal__lanes alive, dal_status *reason)
 {
     engine *e = engine_;
     lane_mask moved = mask_of(alive);
     begin_step(e, h, alive, &moved);
     const dal_status status = e->layer[e->step.depth]->step(&e->step);
-    note_progress(e);
-    const dal__lanes failed = check_step(e, &moved, alive, status, why);
+    if (e->failure) {
+        e->failure->reached = e->step.t;
+        e->failure->substep = dal_lane(e->step.substep[0], 0);
+    }
+    const dal__lanes failed = check_step(e, &moved, alive, status, reason);
     advance_clock(e, h, &moved);
-    const bool moved_others = DAL_GROUPS > 1 && alive != ~(dal__lanes)0; /* lanes not alive moved */
+    const bool moved_others =
+        DAL_GROUPS > 1 && alive != ~(dal__lanes)0; /* lanes that are not alive moved */
     if (failed || moved_others) restore(e, &moved);
     return failed;
 }

@@ -1,4 +1,4 @@
-/* failure.c - why a step failed: it is stepped once more, the system's answers being watched. */
+/* failure.c - reason a step failed: it is stepped once more, the system's answers being watched. */
 #include "run/failure.h"
 #include <dalembert_kernel.h>
 
@@ -9,22 +9,22 @@ static dal_status singular(const dal__failure *failure, double number, dal_error
                      (int)number, failure->t);
 }
 
-/* Whether the numbers had run away, in the iteration or in the whole run, before the answer ceased
- * to be finite: then overflow says nothing about the system. */
-static bool ran_away(const dal_run *run, const dal__failure *failure)
+/* Whether the point is far away, in the iteration or in the whole run: then the overflow says
+ * nothing about the system. */
+static bool is_far_away(const dal_run *run, const dal__failure *failure)
 {
     const dal__layout *k = &run->layout;
     const double far = fmin(1e8 * (1.0 + dal_max_norm(run->persistent, k->n + k->nw)), 1e60);
     return dal_max_norm(failure->q, k->n) > far || dal_max_norm(failure->v, k->nw) > far;
 }
 
-/* What the system itself says of the point where its answer was not finite; DAL_OK: nothing. */
+/* The reason that the system gives for the point; DAL_OK: none. */
 static dal_status diagnose(dal_run *run, const dal__failure *failure, dal_error *error)
 {
     const dal_system *system = run->layout.system;
     const dal_point at = {failure->t, failure->q, failure->v, NULL, run->work};
     double number = 0.0;
-    if (!system->diagnose || ran_away(run, failure)) return DAL_OK;
+    if (!system->diagnose || is_far_away(run, failure)) return DAL_OK;
     const dal_status status = system->diagnose(system, &at, &number);
     if (status == DAL_SINGULAR) return singular(failure, number, error);
     if (status == DAL_SINGULAR_MASS)
@@ -33,7 +33,7 @@ static dal_status diagnose(dal_run *run, const dal__failure *failure, dal_error 
     return DAL_OK;
 }
 
-/* Whether e would pass zero in the step: then a stage may have met it first. */
+/* Whether e would pass zero in the step; a stage may have reached it. */
 static bool gauge_crosses(dal_run *run, double t, double h)
 {
     if (!run->layout.lifted) return false;
@@ -61,15 +61,15 @@ static dal_status turned(dal_run *run, const dal__failure *failure, double t, do
                      failure->constraint, t, t + h);
 }
 
-/* Where the stages are not solved although the step is small, a constraint may be about to become
- * singular: a guard, or a pivot of G, that would vanish within NEAR steps at the rate of a short
- * piece PIECE*h of the tangent. */
+/* Where the stages of a small step are not solved, a constraint may be about to become singular: a
+ * guard, or a pivot of G, would vanish within NEAR steps at its rate over PIECE*h of the
+ * tangent. */
 #define PIECE 1e-4
 #define NEAR  4.0
 
 static bool would_vanish(double now, double then) { return !(1.0 - then / now < PIECE / NEAR); }
 
-/* q, v a piece dt of the tangent further, into run->shadow. */
+/* Stores q, v a piece dt of the tangent ahead in run->shadow. */
 static bool predict(dal_run *run, double t, double dt)
 {
     const dal__layout *k = &run->layout;
@@ -82,7 +82,7 @@ static bool predict(dal_run *run, double t, double dt)
     return true;
 }
 
-/* Asks at the present state and at the predicted one; where the second answer begins. */
+/* Evaluates a callback at the present state and at the predicted one; returns the second output. */
 static double *eval_both_ends(dal_run *run, int code, int size, double t, double dt)
 {
     double *first = run->scratch, *second = first + size;
@@ -133,7 +133,7 @@ static dal_status unsolved(dal_run *run, double t, double h, dal_error *error)
                      run->layout.options.iterations);
 }
 
-/* The control of the step size gave up. */
+/* Step-size control failed. */
 static dal_status undivided(dal_run *run, const dal__failure *failure, double t, double h,
                             dal_error *error)
 {
@@ -142,22 +142,22 @@ static dal_status undivided(dal_run *run, const dal__failure *failure, double t,
         return dal__fail(error, DAL_NOT_CONVERGED,
                          "too many substeps (more than %d) for tolerance %g in the step of %g from "
                          "t = %.17g: at t = %.17g their size is %g",
-                         DAL__MOST_TRIALS, tolerance, h, t, failure->reached, failure->substep);
+                         DAL__MAX_TRIALS, tolerance, h, t, failure->reached, failure->substep);
     return dal__fail(error, DAL_NOT_CONVERGED,
                      "the step size went to zero at t = %.17g in the step of %g from t = %.17g: "
                      "no substep there keeps the error within tolerance %g",
                      failure->reached, h, t, tolerance);
 }
 
-/* Steps again, watching; a system that is not a pure function may now succeed, so the state is put
- * back. */
+/* Repeats the step and records it.  A system that is not a pure function may succeed now, so the
+ * state is restored. */
 static void repeat(dal_run *run, double h, dal__failure *failure)
 {
     const size_t bytes = run->layout.persistent * sizeof *run->persistent;
-    dal_status why = DAL_OK;
+    dal_status reason = DAL_OK;
     memcpy(run->shadow, run->persistent, bytes);
     run->kind->engine->trace(run->engine, failure);
-    run->kind->engine->step(run->engine, h, 1u, &why);
+    run->kind->engine->step(run->engine, h, 1u, &reason);
     run->kind->engine->trace(run->engine, NULL);
     memcpy(run->persistent, run->shadow, bytes);
 }

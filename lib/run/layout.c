@@ -1,11 +1,11 @@
-/* layout.c - the dimensions and the memory of a run, and whether its parts fit together. */
+/* layout.c - the dimensions and sizes of a run, and whether system, method and options fit. */
 #include "run/quad.h"
 #include <dalembert_kernel.h>
 #include <math.h>
 #include <stdint.h>
 
-/* Of scratch or of a workspace; sizes in bytes then stay far from overflow. */
-enum { MOST_NUMBERS = 1000000000 };
+/* Of scratch or of a workspace, so that sizes in bytes do not overflow. */
+enum { MAX_NUMBERS = 1000000000 };
 
 static dal_status refuse(dal_error *error, const dal__layout *k, const char *lacks)
 {
@@ -15,7 +15,7 @@ static dal_status refuse(dal_error *error, const dal__layout *k, const char *lac
                      k->system->name ? k->system->name : "this system", lacks);
 }
 
-/* Why there is nothing to keep of the energy; NULL where it is conserved. */
+/* The reason why the motion conserves no energy; NULL: it does. */
 static const char *energy_fault(const dal_system *system)
 {
     if (system->properties & DAL_VAKONOMIC)
@@ -26,7 +26,7 @@ static const char *energy_fault(const dal_system *system)
     return NULL;
 }
 
-/* With extend-energy the system is that with its energy exact. */
+/* Takes the system with exact energy for extend-energy. */
 static dal_status choose_system(dal__layout *k, dal_error *error)
 {
     const char *fault = energy_fault(k->system), *name = k->system->name;
@@ -39,16 +39,16 @@ static dal_status choose_system(dal__layout *k, dal_error *error)
     return DAL_OK;
 }
 
-/* What methods that impose D themselves need. */
+/* What methods that enforce D need. */
 static dal_status check_blocks(const dal__layout *k, unsigned needs, dal_error *error)
 {
     const dal_system *s = k->system;
     char name[128];
     if (k->lifted)
         return dal__fail(error, DAL_UNSUPPORTED,
-                         "%s imposes D on (q,v) and has no lifted form; take the physical space",
+                         "%s enforces D on (q,v) and has no lifted form; take the physical space",
                          dal_method_name(&k->method, name, sizeof name));
-    if (!s->call.blocks || s->multipliers) return refuse(error, k, "parts a, B of F = a + B h");
+    if (!s->call.blocks || s->multipliers) return refuse(error, k, "blocks a, B of F = a + B h");
     if (k->m > 0 && !s->call.constraint) return refuse(error, k, "constraint callback");
     if (needs & DAL_NEEDS_POTENTIAL && !(s->properties & DAL_MASS_CONSTANT))
         return refuse(error, k, "constant mass matrix");
@@ -131,7 +131,7 @@ static dal_status check_options(const dal_options *o, dal_error *error)
     return DAL_OK;
 }
 
-/* Those that are symplectic treat p and pi in other ways than q and v. */
+/* Symplectic methods treat p and pi unlike q and v. */
 static bool is_runge_kutta(unsigned properties)
 {
     return (properties & DAL_EXPLICIT) && (properties & DAL_COMPONENTWISE) &&
@@ -171,13 +171,13 @@ static dal_status check_layers(dal__layout *k, dal_error *error)
 {
     const dal_method *method = &k->method;
     while (k->depth < DAL_LAYERS && method->layer[k->depth]) {
-        const dal_integrator *link = method->layer[k->depth];
-        const int modifier = (link->properties & DAL_MODIFIER) != 0;
-        if (!link->step || link->stages < 0 || modifier != (k->depth > 0))
-            return dal__fail(error, DAL_ARGUMENT, "'%s' is not usable as part %d of a method",
-                             link->name ? link->name : "?", k->depth + 1);
+        const dal_integrator *layer = method->layer[k->depth];
+        const int modifier = (layer->properties & DAL_MODIFIER) != 0;
+        if (!layer->step || layer->stages < 0 || modifier != (k->depth > 0))
+            return dal__fail(error, DAL_ARGUMENT, "'%s' is not usable as layer %d of a method",
+                             layer->name ? layer->name : "?", k->depth + 1);
         if (modifier) DAL_TRY(check_inside(method, k->depth, error));
-        if (link->stages > k->stages) k->stages = link->stages;
+        if (layer->stages > k->stages) k->stages = layer->stages;
         k->depth++;
     }
     if (k->depth == 0) return dal__fail(error, DAL_ARGUMENT, "a run needs an integrator");
@@ -194,7 +194,7 @@ static dal_status check_control(const dal__layout *k, dal_error *error)
                      dal_method_name(&k->method, name, sizeof name));
 }
 
-/* Numbers in the answer to a code. */
+/* Numbers in the output of a callback. */
 int dal__eval_size(const dal__layout *k, int code)
 {
     switch (code) {
@@ -221,7 +221,7 @@ int dal__eval_size(const dal__layout *k, int code)
     }
 }
 
-/* Numbers of memory, in floating point first so that nothing overflows. */
+/* Sizes, in floating point first so that nothing overflows. */
 static dal_status measure(dal__layout *k, dal_error *error)
 {
     const double dim = k->dim, n = k->n, nw = k->nw, m = k->m, stages = k->stages;
@@ -233,12 +233,12 @@ static dal_status measure(dal__layout *k, dal_error *error)
         imposes ? 2 * (stages + 2) * (n + 2 * m + 2 * m * n) + 4 * equations * equations : 0;
     const double scratch = (16 * stages + 16) * dim + matrix + 2 * nw * (n + nw) + constraint +
                            parts + 2.0 * k->system->guards + 16 * n + 64;
-    if (scratch > MOST_NUMBERS || k->stages > 1000)
+    if (scratch > MAX_NUMBERS || k->stages > 1000)
         return dal__fail(error, DAL_TOO_LARGE, "a run with n = %d, m = %d needs %g numbers", k->n,
                          k->m, scratch);
     k->scratch = (size_t)scratch;
     k->workspace = k->system->workspace ? k->system->workspace : (size_t)k->system->parameters;
-    if (k->workspace > MOST_NUMBERS)
+    if (k->workspace > MAX_NUMBERS)
         return dal__fail(error, DAL_TOO_LARGE, "a workspace of %zu numbers", k->workspace);
     const bool remembers = k->method.layer[0]->properties & DAL_EXTRAPOLATES_STAGES;
     k->derivatives = remembers ? (1 + DAL__DIFFERENCES) * k->stages * (k->nw + k->n) : 0;

@@ -1,5 +1,5 @@
-/* observe.c - the observables of the present state: D, E, H, norms, invariants, error; and the names
- * of observables and of state components. */
+/* observe.c - the observables of the present state: D, E, H, norms, invariants, error; and the
+ * names of observables and of state components. */
 #include "run/quad.h"
 #include <dalembert_kernel.h>
 #include <stdio.h>

@@ -1,14 +1,14 @@
-/* quad.c - a run in quad precision: an engine of the variant x1_QUAD behind a run in doubles.
+/* quad.c - a run in quad precision: an engine of the variant x1_QUAD behind a run in double.
  *
- * The run in doubles makes the start, explains failures and shows the state; after every step it
- * gets time, state and all it carries from the long engine, rounded.  Observables are computed in
- * quad precision and then rounded, so that a D of 1e-30 is seen as that.  dal__layout_init sees to
- * it that there is a system, and a method, in quad precision. */
+ * The run in double makes the start, explains failures and shows the state; after every step it
+ * receives time, state and all other persistent state rounded.  Observables are computed in quad
+ * precision and then rounded, so that a D of 1e-30 shows as such.  dal__layout_init ensures that
+ * system and method exist in quad precision. */
 #define DAL_NUM_QUAD
 #include "run/quad.h"
 #include <dalembert_kernel.h>
 
-enum { MORE_ITERATIONS = 3 }; /* a fixed point needs more iterations for more digits */
+enum { MORE_ITERATIONS = 3 }; /* for more digits */
 
 static const dal__engine_kind *kind(void) { return &dal__engine_kinds[DAL__VARIANT_x1_QUAD]; }
 static size_t round_up(size_t bytes) { return (bytes + 63) / 64 * 64; }
@@ -17,7 +17,7 @@ size_t dal__quad_width(void) { return sizeof(num) / sizeof(double); }
 
 dal_status dal__quad_check(const dal__layout *k, dal_error *error)
 {
-    if (DAL_QUAD_DIGITS <= DBL_MANT_DIG)
+    if (DAL_QUAD_DIGITS < 113)
         return dal__fail(error, DAL_UNSUPPORTED,
                          "quad precision: this machine has no type of 113 binary digits");
     if (!k->system->quad)
@@ -42,31 +42,31 @@ static dal__layout layout_of(const dal__layout *k)
     return quad;
 }
 
-size_t dal__quad_bytes(const dal__layout *k, size_t answers)
+size_t dal__quad_bytes(const dal__layout *k, size_t outputs)
 {
     const dal__layout quad = layout_of(k);
-    return round_up(kind()->engine->bytes(&quad)) + round_up(answers * sizeof(num));
+    return round_up(kind()->engine->bytes(&quad)) + round_up(outputs * sizeof(num));
 }
 
-void dal__quad_place(dal_run *run, char *memory, size_t answers)
+void dal__quad_place(dal_run *run, char *memory, size_t outputs)
 {
     dal__quad_run *k = &run->quad;
     k->layout = layout_of(&run->layout);
     k->scratch = (double *)(void *)memory;
-    memory += round_up(answers * sizeof(num));
+    memory += round_up(outputs * sizeof(num));
     k->engine = kind()->engine->place(&k->layout, memory, &k->persistent, &k->work);
     run->storage = k->persistent;
 }
 
-/* ---- to and from doubles ---- */
+/* ---- to and from double ---- */
 
-static void lengthen(double *to, const double *from, size_t count)
+static void widen(double *to, const double *from, size_t count)
 {
     num *x = (num *)(void *)to;
     for (size_t i = 0; i < count; i++) x[i] = from[i];
 }
 
-static void shorten(double *to, const double *from, size_t count)
+static void round_all(double *to, const double *from, size_t count)
 {
     const num *x = (const num *)(const void *)from;
     for (size_t i = 0; i < count; i++) to[i] = (double)x[i];
@@ -81,12 +81,12 @@ double dal__quad_rounded(const double *memory, size_t i)
 
 void dal__quad_push(dal_run *run)
 {
-    lengthen(run->quad.persistent, run->persistent, run->layout.persistent);
+    widen(run->quad.persistent, run->persistent, run->layout.persistent);
 }
 
 void dal__quad_pull(dal_run *run)
 {
-    shorten(run->persistent, run->quad.persistent, run->layout.persistent);
+    round_all(run->persistent, run->quad.persistent, run->layout.persistent);
 }
 
 static dal_point here(const dal_run *run)
@@ -100,7 +100,7 @@ dal_status dal__quad_begin(dal_run *run)
 {
     const dal__quad_run *k = &run->quad;
     const dal_system *system = k->layout.system;
-    lengthen(k->work, run->work, (size_t)system->parameters);
+    widen(k->work, run->work, (size_t)system->parameters);
     dal__quad_push(run);
     const dal_point at = here(run);
     return system->prepare ? system->prepare(system, &at, NULL) : DAL_OK;
@@ -108,26 +108,26 @@ dal_status dal__quad_begin(dal_run *run)
 
 dal_status dal__quad_step(dal_run *run, double h)
 {
-    dal_status why = DAL_OK;
-    return kind()->engine->step(run->quad.engine, h, 1u, &why) ? why : DAL_OK;
+    dal_status reason = DAL_OK;
+    return kind()->engine->step(run->quad.engine, h, 1u, &reason) ? reason : DAL_OK;
 }
 
 /* ---- observables, in the order of observe.c ---- */
 
-/* Puts count values of a callback behind *out; nothing where there is none. */
-static dal_status put(const dal_run *run, dal_callback *callback, int count, double **out)
+/* Appends the count values of a callback to *out; nothing without the callback. */
+static dal_status append(const dal_run *run, dal_callback *callback, int count, double **out)
 {
     const dal__quad_run *k = &run->quad;
     const dal_point at = here(run);
     if (!callback) return DAL_OK;
     DAL_TRY(callback(k->layout.system, &at, k->scratch));
-    shorten(*out, k->scratch, (size_t)count);
+    round_all(*out, k->scratch, (size_t)count);
     *out += count;
     return DAL_OK;
 }
 
 /* H = pi.pi/(2e) + pi.F + p.v + mu_e pi_e, and the norms of p, pi, pi_e. */
-static dal_status put_lifted(const dal_run *run, double **out)
+static dal_status append_lifted(const dal_run *run, double **out)
 {
     const int n = run->layout.n;
     const dal__quad_run *k = &run->quad;
@@ -150,7 +150,7 @@ static dal_status put_lifted(const dal_run *run, double **out)
     return DAL_OK;
 }
 
-static dal_status put_error(const dal_run *run, double **out)
+static dal_status append_error(const dal_run *run, double **out)
 {
     const dal__quad_run *k = &run->quad;
     const dal_point at = here(run);
@@ -166,11 +166,11 @@ dal_status dal__quad_observe(dal_run *run, double *out)
 {
     const dal_system *system = run->quad.layout.system;
     double *next = out;
-    DAL_TRY(put(run, system->constraints, system->m, &next));
-    DAL_TRY(put(run, system->energy, 1, &next));
-    if (run->layout.lifted) DAL_TRY(put_lifted(run, &next));
-    DAL_TRY(put(run, system->invariant_values, system->invariants, &next));
-    if (run->exact) DAL_TRY(put_error(run, &next));
+    DAL_TRY(append(run, system->constraints, system->m, &next));
+    DAL_TRY(append(run, system->energy, 1, &next));
+    if (run->layout.lifted) DAL_TRY(append_lifted(run, &next));
+    DAL_TRY(append(run, system->invariant_values, system->invariants, &next));
+    if (run->exact) DAL_TRY(append_error(run, &next));
     for (double *x = out; x < next; x++) *x += 0.0; /* no -0 */
     return DAL_OK;
 }

@@ -38,7 +38,7 @@ static int is_modifier(const dal_integrator *integrator)
     return (integrator->properties & DAL_MODIFIER) != 0;
 }
 
-/* Finds an integrator (modifier = 0) or a modifier by name or alias. */
+/* An integrator (modifier = 0) or a modifier by name or alias. */
 static const dal_integrator *find(const char *name, int modifier)
 {
     for (int i = 0; i < COUNT; i++) {

@@ -8,7 +8,7 @@
 
 static size_t round_up(size_t bytes) { return (bytes + 63) / 64 * 64; }
 
-/* Most numbers any code's answer has, with room for two of a constraint's and their G. */
+/* Max numbers in the output of a callback, or in two of the constraint's with their G. */
 static size_t scratch_count(const dal__layout *k)
 {
     const size_t n = (size_t)k->n, nw = (size_t)k->nw, m = (size_t)k->m;
@@ -22,7 +22,7 @@ static size_t observation_numbers(const dal__layout *k)
     return 1 + (size_t)k->m + 6 + (size_t)k->system->invariants;
 }
 
-/* Doubles in what a run carries. */
+/* Doubles in the persistent state. */
 static size_t stored_count(const dal__layout *k)
 {
     return k->options.precision == DAL_DOUBLE ? k->persistent : k->persistent * dal__quad_width();
@@ -122,9 +122,9 @@ void dal_run_free(dal_run *run)
 static dal_status native_steps(dal_run *run, double h, long long count)
 {
     unsigned failed = 0;
-    int why = DAL_OK;
-    run->native.traced(run->persistent, run->work, h, count, &failed, &why, NULL, 0);
-    return failed ? (dal_status)why : DAL_OK;
+    int reason = DAL_OK;
+    run->native.traced(run->persistent, run->work, h, count, &failed, &reason, NULL, 0);
+    return failed ? (dal_status)reason : DAL_OK;
 }
 
 static dal_status quad_steps(dal_run *run, double h, long long count)
@@ -137,11 +137,11 @@ static dal_status quad_steps(dal_run *run, double h, long long count)
 
 dal_status dal__run_steps(dal_run *run, double h, long long count)
 {
-    dal_status why = DAL_OK;
+    dal_status reason = DAL_OK;
     if (run->quad.engine) return quad_steps(run, h, count);
     if (run->native.traced) return native_steps(run, h, count);
     for (long long i = 0; i < count; i++)
-        if (run->kind->engine->step(run->engine, h, 1u, &why)) return why;
+        if (run->kind->engine->step(run->engine, h, 1u, &reason)) return reason;
     return DAL_OK;
 }
 
@@ -213,7 +213,8 @@ dal_status dal_run_restore(dal_run *run, const double *memory, size_t count, dal
     DAL_REQUIRE(memory, error);
     const dal__layout *k = &run->layout;
     if (count != run->stored)
-        return dal__fail(error, DAL_ARGUMENT, "this run carries %zu numbers, not %zu", run->stored,
+        return dal__fail(error, DAL_ARGUMENT,
+                         "the persistent state of this run has %zu numbers, not %zu", run->stored,
                          count);
     for (size_t i = 0; i < k->persistent; i++) {
         const double x = stored_number(run, memory, i);

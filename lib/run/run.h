@@ -33,7 +33,8 @@ typedef struct dal__quad_run {
     double *scratch;    /* for outputs of callbacks */
 } dal__quad_run;
 
-/* Up to capacity successive observations: observable i of observation k is values[i*capacity + k]. */
+/* Up to capacity successive observations: observable i of observation k is values[i*capacity +
+ * k]. */
 typedef struct dal__observations {
     int capacity;
     double *states; /* [dim*capacity], evaluated together; NULL: each is evaluated at once */

@@ -41,7 +41,7 @@ static dal_status set_parameters(dal_run *run, const dal_setting *settings, int 
                      system->name ? system->name : "the system");
 }
 
-/* The name nearest to a start name that does not exist. */
+/* Suggests the name nearest to an unknown start name. */
 static dal_status unknown_start(const dal_run *run, const char *name, dal_error *error)
 {
     char best[NAME_SIZE] = "", other[NAME_SIZE];
@@ -70,7 +70,7 @@ static dal_status override(dal_run *run, const dal_setting *settings, int count,
     return DAL_OK;
 }
 
-/* q, v, g and e as the system gives them; momenta are 0. */
+/* q, v, g and e of the system; momenta are 0. */
 static dal_status default_start(dal_run *run, dal_error *error)
 {
     const dal__layout *k = &run->layout;
@@ -118,7 +118,7 @@ static dal_status check_consistent(const dal_run *run, const double *d, const do
     return DAL_OK;
 }
 
-/* Why constraint k has no pivot in G: W itself may have none. */
+/* Constraint k has no pivot in G; W itself may be singular. */
 static dal_status refuse_pivot(dal_run *run, int k, double pivot, dal_error *error)
 {
     const dal_system *system = run->layout.system;
@@ -164,7 +164,7 @@ static dal_status check_constraints(dal_run *run, dal_error *error)
     return check_rank(run, a, b, b + n * m, error);
 }
 
-/* The exact solution belongs to this run when it begins where the run does. */
+/* Whether the exact solution has the start of this run. */
 static bool exact_agrees(dal_run *run)
 {
     const dal__layout *k = &run->layout;
