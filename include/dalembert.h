@@ -454,7 +454,7 @@ typedef struct dal_observer {
     dal_status (*poll)(void *user, dal_run *run);
     /* Called at the start and after every `every` steps. */
     dal_status (*step)(void *user, dal_run *run);
-    /* Replaces step in long runs: receives the observables of several such steps at once.
+    /* Replaces step for long runs: receives the observables of several such steps at once.
      * Observable i at t[k], k < count, is values[i * stride + k].  The run stands at the last of
      * them, or behind it and before the next. */
     dal_status (*values)(void *user, dal_run *run, int count, const double *t, const double *values,

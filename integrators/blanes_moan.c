@@ -2,8 +2,9 @@
  *
  *     Psi_h = Phi*_(c_1 h) o Phi_(c_2 h) o ... o Phi*_(c_2 h) o Phi_(c_1 h),     sum c_i = 1
  *
- * the same sizes both ways, Phi = symplectic Euler (1,0), new q and old v, Phi* = (0,1).  With both
- * at hand fewer and smaller steps give an order than with a symmetric method alone.
+ * the same sizes both ways, Phi = symplectic Euler (1,0), new q and old v, Phi* = (0,1).
+ * Compositions of both reach an order with fewer and smaller steps than those of a symmetric
+ * method.
  *
  *     bm4         12 steps, from the splitting S_6 of order 4       Blanes, Moan, J. Comput. Appl.
  *     bm6         20 steps, from the splitting S_10 of order 6      Math. 142 (2002) 313
@@ -12,7 +13,7 @@
  *                                                 McLachlan, SIAM J. Sci. Comput. 16 (1995) 151
  *
  * A splitting a_1, b_1, a_2, ... of two flows is c_1 = a_1, c_2 = b_1 - c_1, c_3 = a_2 - c_2, ....
- * Symmetric, symplectic on the lift; keep D bilinear in (q,v). */
+ * Symmetric, symplectic on the lift; preserve D bilinear in (q,v). */
 #include <dalembert_kernel.h>
 
 /* clang-format off */
@@ -39,7 +40,7 @@ DAL_INLINE dal_status alternate(dal_step *s, int substeps, const double *c)
     return DAL_OK;
 }
 
-/* A method of so many substeps. */
+/* Defines a method of substeps_ substeps. */
 #define ALTERNATING(identifier, substeps_, order_, name_, reference_)                              \
     DAL_INLINE dal_status step_##identifier(dal_step *s)                                           \
     {                                                                                              \

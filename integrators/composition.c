@@ -3,8 +3,9 @@
  *     Psi_h = Phi_(c_1 h) o Phi_(c_2 h) o ... o Phi_(c_2 h) o Phi_(c_1 h),     sum c_i = 1
  *
  * of a symmetric method Phi of order 2; the c_i annihilate its error terms up to the order in the
- * name.  Symmetric; symplectic, and keeps of D, what Phi is and keeps.  Each has c_i < 0 (Sheng
- * 1989; Suzuki, J. Math. Phys. 32 (1991) 400): steps backwards, which strong friction makes grow.
+ * name.  Symmetric; symplectic where Phi is, and preserves the D that Phi preserves.  Each has c_i
+ * < 0 (Sheng 1989; Suzuki, J. Math. Phys. 32 (1991) 400): steps backwards, which grow under strong
+ * friction.
  *
  *     yoshida4    c_1 = 1/(2 - 2^(1/3)), 3 steps        Yoshida, Phys. Lett. A 150 (1990) 262
  *     suzuki4     c_1 = c_2 = 1/(4 - 4^(1/3)), 5 steps  Suzuki, Phys. Lett. A 146 (1990) 319
@@ -50,7 +51,7 @@ DAL_INLINE dal_status compose(dal_step *s, int substeps, const double *c)
     return DAL_OK;
 }
 
-/* A modifier of so many substeps. */
+/* Defines a modifier of substeps_ substeps. */
 #define COMPOSITION(identifier, substeps_, order_, name_, reference_)                              \
     DAL_INLINE dal_status step_##identifier(dal_step *s)                                           \
     {                                                                                              \

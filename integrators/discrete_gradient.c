@@ -9,14 +9,14 @@
  *
  *     E1 - E0 = h vb.Q + h lambda.(A vb)
  *
- * where A vb = 0 for D linear or homogeneous in v: what E the motion keeps is kept to rounding.
- * O. Verdier's odelab has it for linear D.  Coordinates that neither U nor W couple have a kappa of
- * their own, so that energies of blocks that D does not couple are kept one by one; it is 0 where U
- * is quadratic.  Order 2, symmetric; keeps the energy, and D at the midpoints: at the nodes D errs
- * by O(h^2), bounded. */
+ * where A vb = 0 for D linear or homogeneous in v: an E that the motion conserves is preserved to
+ * rounding. O. Verdier's odelab has it for linear D.  Coordinates that neither U nor W couple have
+ * a kappa of their own, so that energies of blocks that D does not couple are kept one by one; it
+ * is 0 where U is quadratic.  Order 2, symmetric; preserves the energy, and D at the midpoints: at
+ * the nodes D errs by O(h^2), bounded. */
 #include <dalembert_kernel.h>
 
-/* Where v.Wv is below this part of U, kappa d is left away: it is a third power of v and changes
+/* Where v.Wv is below this part of U, kappa d is omitted: it is of third order in v and changes
  * the energy by less than rounding, while the rounding of U would be divided by v. */
 #define STILL 0x1p-30
 

@@ -5,7 +5,7 @@
  *     Ld(q0,q1) = h L((q0 + q1)/2, (q1 - q0)/h, t + h/2)
  *
  * J. Cortes, S. Martinez, Nonlinearity 14 (2001) 1365, here as a map of (q, v) on D = 0.  The
- * impulse lambda_k at a node is divided between the step that ends there, whose part brings v onto
+ * impulse lambda_k at a node is divided between the step that ends there, whose part brings v to
  * D = 0, and the one that begins:
  *
  *     vb = v0 + h/2 a(qb, vb) + h/2 B(q0, v0) mu,   qb = q0 + h/2 vb,   D(qb, vb, t + h/2) = 0
@@ -22,7 +22,7 @@ typedef struct midpoint {
     num *blocks;                 /* at (qb, vb); then at the end */
 } midpoint;
 
-/* w = vb - v0; the normals stand as they are. */
+/* w = vb - v0; the directions do not change. */
 DAL_INLINE void map_midpoint(dal_step *s, dal_equation *eq)
 {
     midpoint *k = (midpoint *)eq->context;
@@ -34,7 +34,7 @@ DAL_INLINE void map_midpoint(dal_step *s, dal_equation *eq)
     dal_eliminate_multipliers(s, eq, k->blocks);
 }
 
-/* w = v1 - v0; what is free stands as it is. */
+/* w = v1 - v0; free does not change. */
 DAL_INLINE void map_end(dal_step *s, dal_equation *eq)
 {
     midpoint *k = (midpoint *)eq->context;
@@ -45,8 +45,8 @@ DAL_INLINE void map_end(dal_step *s, dal_equation *eq)
     dal_eliminate_multipliers(s, eq, k->blocks);
 }
 
-/* To the midpoint; leaves vb, and v0 moved by all but the last impulse. */
-DAL_INLINE dal_status go_to_midpoint(dal_step *s, midpoint *k)
+/* Steps to the midpoint; leaves vb, and v0 moved by all but the last impulse in `free`. */
+DAL_INLINE dal_status step_to_midpoint(dal_step *s, midpoint *k)
 {
     const int n = DAL_N(s), m = DAL_M(s);
     DAL_BLOCK(s, block, DAL_N(s), DAL_MAY_NEWTON(s));
@@ -72,7 +72,7 @@ DAL_INLINE dal_status step(dal_step *s)
     DAL_BLOCK(s, block, DAL_N(s), 0);
     DAL_ELIMINATION(s, elimination, 0.5 * s->h, 1.0);
     midpoint k = {elimination, qb, vb, blocks};
-    DAL_TRY(go_to_midpoint(s, &k));
+    DAL_TRY(step_to_midpoint(s, &k));
     dal_equation eq = dal_velocity_equation(s, block, &k);
     DAL_EACH(i, n) d[i] = s->h * vb[i];
     DAL_EACH(i, n) qb[i] = dal_moved_q(s, i, d[i]);

@@ -3,7 +3,7 @@
  *     k_i = f(t + c_i h, y + h sum_(j<i) a_ij k_j), i = 1..12       y1 = y + h sum_i b_i k_i
  *
  * Dormand, Prince; Hairer, Norsett, Wanner, Solving ODEs I (1993), II.5, II.10.  Digits as in
- * Hairer's dop853.f and Williams' dop853 (BSD).  Order 8, explicit, twelve evaluations; keeps D
+ * Hairer's dop853.f and Williams' dop853 (BSD).  Order 8, explicit, twelve evaluations; preserves D
  * with constant coefficients, no other.  With a tolerance the sizes of substeps follow the two
  * estimates of the error in dop853.f. */
 #include <dalembert_kernel.h>
@@ -50,8 +50,8 @@ static const double a853[] = {5.26001519587677318785587544488e-2,
 enum { STAGES_853 = 12 };
 
 /* out += sum_(j < count) weight_j k_j */
-DAL_INLINE void add_slopes(int dim, int count, const double *weight, const num *k,
-                           num *DAL_RESTRICT out)
+DAL_INLINE void add_derivatives(int dim, int count, const double *weight, const num *k,
+                                num *DAL_RESTRICT out)
 {
     DAL_EACH(j, count) {
         if (weight[j] == 0.0) continue;
@@ -67,12 +67,12 @@ DAL_INLINE dal_status derivatives(dal_step *s, double size, int first, num *k, n
     DAL_EACH(stage, STAGES_853) {
         if (stage < first) continue;
         DAL_EACH(i, dim) sum[i] = dal_num(0.0);
-        add_slopes(dim, stage, a853 + stage * (stage - 1) / 2, k, sum);
+        add_derivatives(dim, stage, a853 + stage * (stage - 1) / 2, k, sum);
         DAL_EACH(i, dim) sum[i] = dal_fma(h, sum[i], s->y[i]);
         DAL_TRY(dal_field(s, s->t + c853[stage] * size, sum, k + stage * dim));
     }
     DAL_EACH(i, dim) sum[i] = dal_num(0.0);
-    add_slopes(dim, STAGES_853, b853, k, sum);
+    add_derivatives(dim, STAGES_853, b853, k, sum);
     return DAL_OK;
 }
 
@@ -116,8 +116,8 @@ static dal_status attempt853(dal_step *s, dal_trial *k)
     DAL_TRY(derivatives(s, k->h, k->again ? 1 : 0, k->derivatives, k->derivative));
     DAL_EACH(i, dim) e3[i] = -k->derivative[i];
     DAL_EACH(i, dim) e5[i] = 0.0;
-    add_slopes(dim, STAGES_853, third853, k->derivatives, e3);
-    add_slopes(dim, STAGES_853, fifth853, k->derivatives, e5);
+    add_derivatives(dim, STAGES_853, third853, k->derivatives, e3);
+    add_derivatives(dim, STAGES_853, fifth853, k->derivatives, e5);
     double error = error853(s, k, e3, e5, 0, n + DAL_NW(s));
     if (DAL_LIFTED(s)) {
         const double momenta = error853(s, k, e3, e5, dal_at_p(s), 2 * n);

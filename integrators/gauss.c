@@ -5,7 +5,7 @@
  * c_i: the roots of P_s(2c - 1); a_ij, b_i: the integrals from 0 to c_i and to 1 of the Lagrange
  * polynomials l_j on them, so that sum_j a_ij c_j^(k-1) = c_i^k / k for k = 1..s.  Kuntzmann 1961,
  * Butcher 1964; Hairer, Lubich, Wanner, Geometric Numerical Integration (2006), II.1.3.
- * Symmetric, symplectic on the lift; keep D quadratic in (q,v).
+ * Symmetric, symplectic on the lift; preserve D quadratic in (q,v).
  *
  * Tables: computed with 70 decimal digits from these definitions; order conditions and
  * b_i a_ij + b_j a_ji = b_i b_j hold to 1e-50 there, and are tested again from these digits.  Each

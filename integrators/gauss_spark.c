@@ -1,11 +1,11 @@
-/* gauss_spark.c - Gauss methods with D imposed on the mean over the stages, and at the end.
+/* gauss_spark.c - Gauss methods with D enforced on the mean over the stages, and at the end.
  *
  *     K_i = a(Q_i,V_i) + B(Q_i,V_i) L_i,   sum_j b_j c_j^k D(Q_j, V_j) = 0, k = 0..s-2,
  *     D(q1, v1) = 0
  *
  * with the Gauss coefficients for q and v alike; lib/kernel/spark.h.  The family is that of L. Jay,
  * Lagrange-d'Alembert SPARK integrators (2009); this choice of equations stood the tests of order,
- * symmetry and reversal.  Order 2s, symmetric, keep every D. */
+ * symmetry and reversal.  Order 2s, symmetric, preserve every D. */
 #include <dalembert_kernel.h>
 
 static const double c1[] = {0.5}, a1[] = {0.5}, b1[] = {1.0};
@@ -29,7 +29,7 @@ DAL_INTEGRATOR(gauss_spark2, step1, .name = "gauss-spark2",
                .needs = DAL_NEEDS_FIELD | DAL_NEEDS_BLOCKS);
 
 DAL_INTEGRATOR(gauss_spark4, step2, .name = "gauss-spark4",
-               .summary = "Gauss-Legendre, 2 stages, D imposed on their mean and at the end",
+               .summary = "Gauss-Legendre, 2 stages, D enforced on their mean and at the end",
                .reference = "Jay 2009", .order = 4, .stages = 2,
                .properties = DAL_SYMMETRIC | DAL_PRESERVES_D,
                .needs = DAL_NEEDS_FIELD | DAL_NEEDS_BLOCKS);

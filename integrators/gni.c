@@ -7,9 +7,9 @@
  * D. Iglesias, D. Martin de Diego, Nonlinearity 21 (2008) 1911, and, in this form, Ferraro,
  * Iglesias, Martin de Diego, Discrete Contin. Dyn. Syst. Suppl. (2009) 220.  vh -> vh of the next
  * step is a reflection in D = 0: without forces, and with constant W, its kinetic energy is kept.
- * Order 2, symmetric in (q, v, lambda), keeps every D; explicit where forces depend on q alone and
- * D is linear.  An error of lambda changes its sign from step to step and grows where the motion
- * contracts: on the straight motion of chaplygin-sleigh-offset the energy is lost. */
+ * Order 2, symmetric in (q, v, lambda), preserves every D; explicit where forces depend on q alone
+ * and D is linear.  An error of lambda changes its sign from step to step and grows where the
+ * motion contracts: on the straight motion of chaplygin-sleigh-offset the energy is lost. */
 #include <dalembert_kernel.h>
 
 typedef struct rattle {

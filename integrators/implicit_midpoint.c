@@ -3,7 +3,7 @@
  *     y1 = y + h f(t + h/2, (y + y1)/2)           (solved to rounding)
  *
  * The Gauss method with one stage; Hairer, Lubich, Wanner, Geometric Numerical Integration (2006),
- * II.1.  Order 2, symmetric, symplectic on the lift; keeps D quadratic in (q,v). */
+ * II.1.  Order 2, symmetric, symplectic on the lift; preserves D quadratic in (q,v). */
 #include <dalembert_kernel.h>
 
 static const double half[] = {0.5}, one[] = {1.0};

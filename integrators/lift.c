@@ -13,7 +13,7 @@
  * p = pi = 0 and where 1/e = 0, else 2.  Costs 2n steps of NAME with F_q, F_v. */
 #include <dalembert_kernel.h>
 
-/* The flow of pi^2/(2e) over a time h; where it stands still, q, v keep the bits of NAME. */
+/* The flow of pi^2/(2e) over a time h; where pi = 0, q, v have the bits of NAME. */
 DAL_INLINE dal_status drift(dal_step *s, double h)
 {
     const int n = DAL_N(s);

@@ -7,7 +7,8 @@
  * 1 of the Lagrange polynomials on them; p_ij = b_j (1 - a_ji/b_i) (IIIB).  Of each canonical pair
  * one member goes by IIIA (q, pi), the other by IIIB (p, v): symplectic on the lift.  s = 2 is
  * Stormer-Verlet.  Sun 1993, Jay 1996; Hairer, Lubich, Wanner, Geometric Numerical Integration
- * (2006), II.2.2, VI.4.2.  Symmetric; keep D bilinear in (q,v), as q and v are of different kinds.
+ * (2006), II.2.2, VI.4.2.  Symmetric; preserve D bilinear in (q,v), as q and v are of different
+ * kinds.
  *
  * Tables: computed with 90 decimal digits from these definitions and checked there to 1e-70
  * against the closed form of b and against sum_j p_ij c_j^(k-1) = c_i^k/k, k <= s - 2; tested again

@@ -5,9 +5,10 @@
  *     q1 = qh + h/2 v1,   D(q1, v1, t1) = 0            a and B at t + h/2, solved to rounding
  *
  * R. McLachlan, M. Perlmutter, J. Nonlinear Sci. 16 (2006) 283, eq. 4.18, for linear D, where B
- * depends on q alone; the mean of B serves nonlinear D and keeps the symmetry.  Order 2, symmetric,
- * keeps every D.  With a mass matrix, a = W^-1 b and B = W^-1 A^T.  Where forces depend on q alone
- * and D is linear only the m multipliers are solved for, one evaluation a step. */
+ * depends on q alone; the mean of B allows nonlinear D and preserves the symmetry.  Order 2,
+ * symmetric, preserves every D.  With a mass matrix, a = W^-1 b and B = W^-1 A^T.  Where forces
+ * depend on q alone and D is linear only the m multipliers are solved for, one evaluation a
+ * step. */
 #include <dalembert_kernel.h>
 
 typedef struct leap {
@@ -17,7 +18,7 @@ typedef struct leap {
     num *constraint;             /* D, A at (q1, v1) */
 } leap;
 
-DAL_INLINE void take_mean(const dal_step *s, const leap *k)
+DAL_INLINE void set_mean_directions(const dal_step *s, const leap *k)
 {
     const int n = DAL_N(s), m = DAL_M(s), a = dal_blocks_a(s), B = dal_blocks_B(s);
     const num *after = dal_positional(s) ? k->before : k->after;
@@ -35,7 +36,7 @@ DAL_INLINE void leap_map(dal_step *s, dal_equation *eq)
     DAL_EACH(i, n) k->q1[i] = dal_moved_q(s, i, 0.5 * h * (s->y[n + i] + k->v1[i]));
     if (!dal_positional(s)) {
         dal_eval_blocks(s, s->t + 0.5 * h, k->qh, k->v1, k->after);
-        take_mean(s, k);
+        set_mean_directions(s, k);
     }
     dal_constraint(s, s->t + h, k->q1, k->v1, k->constraint);
     dal_eliminate_multipliers(s, eq, k->constraint);
@@ -58,7 +59,7 @@ DAL_INLINE dal_status step(dal_step *s)
     dal_equation eq = dal_velocity_equation(s, block, &k);
     DAL_EACH(i, n) qh[i] = dal_moved_q(s, i, 0.5 * h * s->y[n + i]);
     dal_eval_blocks(s, s->t + 0.5 * h, qh, s->y + n, before);
-    take_mean(s, &k);
+    set_mean_directions(s, &k);
     DAL_TRY(dal_enforce(s, &eq, leap_map, DAL_M(s) == 0 && dal_positional(s)));
     DAL_EACH(i, n) d[n + i] = eq.block[0].u[i];
     DAL_EACH(i, n) d[i] = 0.5 * h * (s->y[n + i] + dal_moved_v(s, i, d[n + i]));

@@ -63,7 +63,7 @@ DAL_INLINE num dot(const num *a, const num *b, int count)
     return sum;
 }
 
-/* The directions, and M in `matrix`, from what was asked at (q0, v0). */
+/* The directions, and M in `matrix`, at (q0, v0). */
 DAL_INLINE void set_directions(dal_step *s, level *k, num *matrix)
 {
     const int n = DAL_N(s), m = DAL_M(s), levels = LEVELS(s);

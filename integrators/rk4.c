@@ -5,7 +5,7 @@
  *     y1 = y + h/6 (k1 + 2 k2 + 2 k3 + k4)
  *
  * W. Kutta, Z. Math. Phys. 46 (1901) 435; Hairer, Norsett, Wanner, Solving ODEs I (1993), II.1.
- * Order 4, explicit, four evaluations; keeps D with constant coefficients, no other. */
+ * Order 4, explicit, four evaluations; preserves D with constant coefficients, no other. */
 #include <dalembert_kernel.h>
 
 DAL_INLINE dal_status step(dal_step *s)

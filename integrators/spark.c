@@ -1,4 +1,4 @@
-/* spark.c - Lobatto IIIA-IIIB with D imposed, in two forms: q by IIIA (a), v by IIIB (ahat).
+/* spark.c - Lobatto IIIA-IIIB with D enforced, in two forms: q by IIIA (a), v by IIIB (ahat).
  *
  *     spark                  sum_j a_ij D(Q_j, V_j) = 0, i = 2..s,   D(q1, v1) = 0;
  *                            all L_i unknown
@@ -8,7 +8,7 @@
  * L. Jay, Math. Comp. 75 (2006) 641 and Lagrange-d'Alembert SPARK integrators (2009); R. Sato
  * Martin de Almagro, D. Martin de Diego, arXiv:1810.10926, whose s = 2 is gni but for forces that
  * depend on v.  Order 2s - 2, symmetric (the second in its multipliers, too, which begin with those
- * of the continuous motion: a wrong beginning costs an order), keep every D.  An error of
+ * of the continuous motion: a wrong beginning costs an order), preserve every D.  An error of
  * multipliers that are persistent grows where the motion contracts, as gni's does.  The equations
  * are those of lib/kernel/spark.h.
  *
@@ -118,12 +118,12 @@ static const double unit4[] = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
         return dal_spark_advance(step, &next##s);                                                  \
     }                                                                                              \
     DAL_INTEGRATOR(spark##order_, step_all##s, .name = spark_,                                     \
-                   .summary = "Lobatto IIIA-IIIB, " #s " stages, D imposed on them",               \
+                   .summary = "Lobatto IIIA-IIIB, " #s " stages, D enforced at them",              \
                    .reference = "Jay 2006", .order = order_, .stages = s,                          \
                    .properties = DAL_SYMMETRIC | DAL_PRESERVES_D,                                  \
                    .needs = DAL_NEEDS_FIELD | DAL_NEEDS_BLOCKS);                                   \
     DAL_INTEGRATOR(lobatto_nonholonomic##order_, step_next##s, .name = nonholonomic_,              \
-                   .summary = "Lobatto IIIA-IIIB, " #s " stages, D imposed at its nodes",          \
+                   .summary = "Lobatto IIIA-IIIB, " #s " stages, D enforced at its nodes",         \
                    .reference = "Sato Martin de Almagro, Martin de Diego 2018", .order = order_,   \
                    .stages = s,                                                                    \
                    .properties = DAL_SYMMETRIC | DAL_PRESERVES_D | DAL_PERSISTENT_MULTIPLIER,      \

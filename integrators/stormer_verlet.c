@@ -6,7 +6,7 @@
  *
  * The composition of symplectic Euler (1,0) with its adjoint; Hairer, Lubich, Wanner,
  * Geometric Numerical Integration (2006), VI.3.  Order 2, symmetric, symplectic on the lift;
- * keeps D bilinear in (q,v). */
+ * preserves D bilinear in (q,v). */
 #include <dalembert_kernel.h>
 
 DAL_INLINE dal_status step(dal_step *s)

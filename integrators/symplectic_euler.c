@@ -8,7 +8,7 @@
  *
  * with the momenta as in dal_symplectic_euler.  Hairer, Lubich, Wanner, Geometric Numerical
  * Integration (2006), VI.3.  Order 1, symplectic on the lift whatever the polarisation; (1,0) and
- * (0,1) keep D bilinear in (q,v). */
+ * (0,1) preserve D bilinear in (q,v). */
 #include <dalembert_kernel.h>
 
 static DAL_UNUSED const char reference[] = "Hairer, Lubich, Wanner 2006, VI.3";

@@ -193,7 +193,7 @@ static void test_surface(void)
 /* They are the same both ways and make up h: exactly, where the middle is no longer than h. */
 static void check_sum(const struct composed *k, double h)
 {
-    double size[DAL_MOST_SUBSTEPS], middle;
+    double size[DAL_MAX_SUBSTEPS], middle;
     long double sum = 0.0L;
     const dal_composition table = {k->substeps, k->c};
     dal_substeps(&table, h, size);

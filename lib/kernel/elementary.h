@@ -5,7 +5,7 @@
  *     n = nearest integer to x 2/pi,   r - tail = x - n pi/2,   |r| <= pi/4,
  *     sin r = r - r^3 S(r^2),          cos r = 1 - r^2/2 + r^4 C(r^2),
  *
- * and n mod 4 says which of +-sin, +-cos is wanted.  Error below 0.85 ulp for |x| <= 1e7; beyond,
+ * and n mod 4 selects +-sin or +-cos.  Error below 0.85 ulp for |x| <= 1e7; beyond,
  * and for what is not finite, the lane concerned is libm's.
  *
  * Reduction (Cody and Waite 1980, chapter 8) with fused products: pi/2 = P1 + P2 + P3, each the
@@ -84,7 +84,7 @@ DAL_INLINE num dal__quintic(const double *c, num z, num zz)
     return dal_fma(zz, dal_fma(zz, high, middle), low);
 }
 
-/* sin(r - tail), r^2 = z.  What is taken from r is +0 where r is -0, which thus keeps its sign. */
+/* sin(r - tail), r^2 = z.  The correction of r is +0 where r is -0, which thus keeps its sign. */
 DAL_INLINE num dal__sin_kernel(num r, num tail, num z, num zz)
 {
     static const double S[] = {0x1.5555555555549p-3,  -0x1.111111110f823p-7,

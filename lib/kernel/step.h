@@ -214,7 +214,7 @@ DAL_INLINE void dal_eval_group(dal_step *s, int group, dal_callback_code code, d
 
 #endif
 
-/* Where the parts of a state begin. */
+/* Places of e, p, pi, pi_e in a state. */
 DAL_INLINE int dal_at_e(const dal_step *s) { return 2 * DAL_N(s); }
 DAL_INLINE int dal_at_p(const dal_step *s) { return 2 * DAL_N(s) + 1; }
 DAL_INLINE int dal_at_pi(const dal_step *s) { return 3 * DAL_N(s) + 1; }

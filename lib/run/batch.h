@@ -13,8 +13,8 @@ dal_status dal__batch_create(dal_batch **batch, const dal_run_spec *spec, int co
 const dal__layout *dal__batch_layout(const dal_batch *batch);
 int dal__batch_native_lanes(const dal_batch *batch);
 
-/* Steps so many lanes together by compiled code from now on; the batch then owns the code.  Errors:
- * DAL_MEMORY; the batch is unchanged, and the caller still owns the code. */
+/* Steps that number of lanes together by compiled code from now on; the batch then owns the code.
+ * Errors: DAL_MEMORY; the batch is unchanged, and the caller still owns the code. */
 dal_status dal__batch_install(dal_batch *batch, int lanes, const dal__native *native,
                               dal_error *error);
 

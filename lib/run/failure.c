@@ -1,4 +1,5 @@
-/* failure.c - reason a step failed: it is stepped once more, the system's answers being watched. */
+/* failure.c - the reason why a step failed: the step is repeated and its evaluations are
+ * recorded. */
 #include "run/failure.h"
 #include <dalembert_kernel.h>
 
