@@ -277,9 +277,9 @@ static void test_claims(void)
     spec.options.tolerance = 1e-6;
     fixture_refused(&spec, DAL_UNSUPPORTED, "dop853+lift has no control of its step size");
     spec = spec_of(spec.system, DAL_LIFTED, 0.1, -1e-6);
-    fixture_refused(&spec, DAL_ARGUMENT, "the tolerance must be from 0 to 1; it is -1e-06");
+    fixture_refused(&spec, DAL_ARGUMENT, "option tolerance: -1e-06 is not from 0 to 1");
     spec.options.tolerance = NAN;
-    fixture_refused(&spec, DAL_ARGUMENT, "the tolerance must be from 0 to 1");
+    fixture_refused(&spec, DAL_ARGUMENT, "is not from 0 to 1");
     dal_model_free(model);
 }
 

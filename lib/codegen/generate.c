@@ -140,20 +140,6 @@ static dal_status check_size(const dal__generation *g, dal_error *error)
     return DAL_OK;
 }
 
-static bool is_width(int lanes)
-{
-    return lanes == 1 || lanes == 2 || lanes == 4 || lanes == 8 || lanes == 16;
-}
-
-static dal_status find_programs(dal__generation *g, dal_error *error)
-{
-    g->programs = dal__programs_of(g->layout.system);
-    if (g->programs) return DAL_OK;
-    return dal__fail(error, DAL_UNSUPPORTED,
-                     "'%.80s' is not made from a model: its formulas are not known",
-                     g->layout.system->name ? g->layout.system->name : "this system");
-}
-
 static dal_status check_steps(dal__generation *g, dal_error *error)
 {
     if (g->spec->options.tolerance > 0.0)
@@ -166,10 +152,14 @@ static dal_status check_steps(dal__generation *g, dal_error *error)
 
 dal_status dal__generation_check(dal__generation *g, const char *prefix, dal_error *error)
 {
-    if (!is_width(g->lanes))
+    if (g->lanes < 1 || g->lanes > 16 || (g->lanes & (g->lanes - 1)))
         return dal__fail(error, DAL_ARGUMENT, "%d lanes: 1, 2, 4, 8 or 16 are possible", g->lanes);
     if (g->product != DAL__OBSERVE) DAL_TRY(dal__layout_init(&g->layout, g->spec, error));
-    DAL_TRY(find_programs(g, error));
+    g->programs = dal__programs_of(g->layout.system);
+    if (!g->programs)
+        return dal__fail(error, DAL_UNSUPPORTED,
+                         "'%.80s' is not made from a model: its formulas are not known",
+                         g->layout.system->name ? g->layout.system->name : "this system");
     if (g->product != DAL__OBSERVE) DAL_TRY(check_steps(g, error));
     DAL_TRY(check_size(g, error));
     return dal__choose_prefix(g, prefix, error);

@@ -7,14 +7,6 @@
 /* Of scratch or of a workspace, so that sizes in bytes do not overflow. */
 enum { MAX_NUMBERS = 1000000000 };
 
-static dal_status refuse(dal_error *error, const dal__layout *k, const char *lacks)
-{
-    char name[128];
-    return dal__fail(error, DAL_UNSUPPORTED, "%s cannot act on %s: the system has no %s",
-                     dal_method_name(&k->method, name, sizeof name),
-                     k->system->name ? k->system->name : "this system", lacks);
-}
-
 /* The reason why the motion conserves no energy; NULL: it does. */
 static const char *energy_fault(const dal_system *system)
 {
@@ -39,55 +31,46 @@ static dal_status choose_system(dal__layout *k, dal_error *error)
     return DAL_OK;
 }
 
-/* What methods that enforce D need. */
-static dal_status check_blocks(const dal__layout *k, unsigned needs, dal_error *error)
+/* The reason why method, space or solver cannot act on the system; NULL: they can. */
+static const char *misfit(const dal__layout *k)
 {
     const dal_system *s = k->system;
-    char name[128];
-    if (k->lifted)
-        return dal__fail(error, DAL_UNSUPPORTED,
-                         "%s enforces D on (q,v) and has no lifted form; take the physical space",
-                         dal_method_name(&k->method, name, sizeof name));
-    if (!s->call.blocks || s->multipliers) return refuse(error, k, "blocks a, B of F = a + B h");
-    if (k->m > 0 && !s->call.constraint) return refuse(error, k, "constraint callback");
+    const dal_callbacks *call = &s->call;
+    const unsigned needs = dal_method_needs(&k->method);
+    if (!call->field) return "the system has no field";
+    if (k->lifted && s->multipliers)
+        return "the system has no lifted space, being vakonomic; take the physical space";
+    if (k->lifted && !call->adjoint) return "the system has no lifted space: no adjoint";
+    if (needs & (DAL_NEEDS_CONSTRAINT | DAL_NEEDS_BLOCKS) && k->m > 0 && !call->constraint)
+        return "the system has no constraint callback";
+    if (needs & DAL_NEEDS_ENERGY && energy_fault(s)) return energy_fault(s);
+    if (needs & DAL_NEEDS_ENERGY && !call->energy_normal) return "the system has no energy_normal";
+    if (needs & DAL_NEEDS_JACOBIAN && k->lifted && !call->jacobian)
+        return "the system has no jacobian";
+    if (k->options.solver == DAL_NEWTON && !call->jacobian)
+        return "the system has no jacobian, which the solver newton needs";
+    if (needs & DAL_NEEDS_BLOCKS && k->lifted)
+        return "the method enforces D on (q,v) and has no lifted form; take the physical space";
+    if (needs & DAL_NEEDS_BLOCKS && (!call->blocks || s->multipliers))
+        return "the system has no blocks a, B of F = a + B h";
     if (needs & DAL_NEEDS_POTENTIAL && !(s->properties & DAL_MASS_CONSTANT))
-        return refuse(error, k, "constant mass matrix");
-    if (needs & DAL_NEEDS_POTENTIAL && !s->call.potential)
-        return refuse(error, k, "potential (its accelerations are given, not a Lagrangian)");
+        return "the system has no constant mass matrix";
+    if (needs & DAL_NEEDS_POTENTIAL && !call->potential)
+        return "the system has no potential (its accelerations are given, not a Lagrangian)";
     if (needs & DAL_NEEDS_ISOKINETIC && !(s->properties & DAL_D_ISOKINETIC))
-        return refuse(error, k,
-                      "isokinetic constraint v.Wv/2 - K with constant W and forces of q and t");
-    return DAL_OK;
+        return "the system has no isokinetic constraint v.Wv/2 - K with constant W and forces of q "
+               "and t";
+    return NULL;
 }
 
-static dal_status check_energy(const dal__layout *k, dal_error *error)
+static dal_status check_needs(const dal__layout *k, dal_error *error)
 {
-    const char *fault = energy_fault(k->system), *name = k->system->name;
+    const char *fault = misfit(k), *name = k->system->name;
     char method[128];
-    if (!fault && !k->system->call.energy_normal) fault = "the system has no energy_normal";
     if (!fault) return DAL_OK;
     return dal__fail(error, DAL_UNSUPPORTED, "%s cannot act on %s: %s",
                      dal_method_name(&k->method, method, sizeof method),
                      name ? name : "this system", fault);
-}
-
-/* What the method, the space and the solver need, the system must have. */
-static dal_status check_needs(const dal__layout *k, dal_error *error)
-{
-    const dal_callbacks *call = &k->system->call;
-    const unsigned needs = dal_method_needs(&k->method);
-    if (!call->field) return refuse(error, k, "field");
-    if (k->lifted && k->system->multipliers)
-        return refuse(error, k, "lifted space, being vakonomic; take the physical space");
-    if (k->lifted && !call->adjoint) return refuse(error, k, "lifted space: no adjoint");
-    if ((needs & DAL_NEEDS_CONSTRAINT) && k->m > 0 && !call->constraint)
-        return refuse(error, k, "constraint callback");
-    if (needs & DAL_NEEDS_ENERGY) DAL_TRY(check_energy(k, error));
-    if ((needs & DAL_NEEDS_JACOBIAN) && k->lifted && !call->jacobian)
-        return refuse(error, k, "jacobian");
-    if (k->options.solver == DAL_NEWTON && !call->jacobian)
-        return refuse(error, k, "jacobian, which the solver newton needs");
-    return needs & DAL_NEEDS_BLOCKS ? check_blocks(k, needs, error) : DAL_OK;
 }
 
 static dal_status check_system(const dal_system *system, dal_error *error)
@@ -110,18 +93,6 @@ static dal_status check_options(const dal_options *o, dal_error *error)
     if (!(o->step > 0.0) || !isfinite(o->step))
         return dal__fail(error, DAL_ARGUMENT, "the step must be positive and finite; it is %g",
                          o->step);
-    if (o->iterations < 1)
-        return dal__fail(error, DAL_ARGUMENT, "iterations must be at least 1; it is %d",
-                         o->iterations);
-    if (o->space < DAL_LIFTED || o->space > DAL_PHYSICAL)
-        return dal__fail(error, DAL_ARGUMENT, "there is no space number %d", o->space);
-    if (o->extend_energy < 0 || o->extend_energy > 1)
-        return dal__fail(error, DAL_ARGUMENT, "extend-energy is %d, not 0 or 1", o->extend_energy);
-    if (!(o->tolerance >= 0.0 && o->tolerance <= 1.0))
-        return dal__fail(error, DAL_ARGUMENT, "the tolerance must be from 0 to 1; it is %g",
-                         o->tolerance);
-    if (o->solver < DAL_SOLVER_AUTO || o->solver > DAL_NEWTON)
-        return dal__fail(error, DAL_ARGUMENT, "there is no solver number %d", o->solver);
 #define X(type, name, word, initial, least, greatest, value, help)                                 \
     if (!(o->name >= least && o->name <= greatest))                                                \
         return dal__fail(error, DAL_ARGUMENT, "option %s: %g is not from %g to %g", word,          \

@@ -119,29 +119,22 @@ void dal_run_free(dal_run *run)
     free(run->owned);
 }
 
-static dal_status native_steps(dal_run *run, double h, long long count)
-{
-    unsigned failed = 0;
-    int reason = DAL_OK;
-    run->native.traced(run->persistent, run->work, h, count, &failed, &reason, NULL, 0);
-    return failed ? (dal_status)reason : DAL_OK;
-}
-
-static dal_status quad_steps(dal_run *run, double h, long long count)
-{
-    dal_status status = DAL_OK;
-    for (long long i = 0; i < count && status == DAL_OK; i++) status = dal__quad_step(run, h);
-    dal__quad_pull(run);
-    return status;
-}
-
 dal_status dal__run_steps(dal_run *run, double h, long long count)
 {
-    dal_status reason = DAL_OK;
-    if (run->quad.engine) return quad_steps(run, h, count);
-    if (run->native.traced) return native_steps(run, h, count);
+    dal_status status = DAL_OK;
+    if (run->native.traced) {
+        unsigned failed = 0;
+        int reason = DAL_OK;
+        run->native.traced(run->persistent, run->work, h, count, &failed, &reason, NULL, 0);
+        return failed ? (dal_status)reason : DAL_OK;
+    }
+    if (run->quad.engine) {
+        for (long long i = 0; i < count && status == DAL_OK; i++) status = dal__quad_step(run, h);
+        dal__quad_pull(run);
+        return status;
+    }
     for (long long i = 0; i < count; i++)
-        if (run->kind->engine->step(run->engine, h, 1u, &reason)) return reason;
+        if (run->kind->engine->step(run->engine, h, 1u, &status)) return status;
     return DAL_OK;
 }
 

@@ -10,12 +10,6 @@
 
 enum { NAME_SIZE = 128 };
 
-static dal_status unknown_parameter(const dal_system *system, const char *name, dal_error *error)
-{
-    const int known = system->parameter ? system->parameters : 0;
-    return dal__unknown(error, "parameter", name, system->parameter, known);
-}
-
 static dal_status set_parameters(dal_run *run, const dal_setting *settings, int count,
                                  dal_error *error)
 {
@@ -28,7 +22,8 @@ static dal_status set_parameters(dal_run *run, const dal_setting *settings, int 
                strcmp(system->parameter[i], settings[k].name) != 0)
             i++;
         if (i == system->parameters || !system->parameter)
-            return unknown_parameter(system, settings[k].name, error);
+            return dal__unknown(error, "parameter", settings[k].name, system->parameter,
+                                system->parameter ? system->parameters : 0);
         if (!isfinite(settings[k].value))
             return dal__fail(error, DAL_ARGUMENT, "parameter %s: %g is not a finite number",
                              settings[k].name, settings[k].value);
