@@ -347,33 +347,34 @@ typedef enum dal_sums { DAL_SUMS_COMPENSATED, DAL_SUMS_PLAIN } dal_sums;
 /* One of several words, by its number. */
 typedef int dal_choice;
 
-/* type, name, its word outside C, default (of a choice the first word), least, greatest, value (the
- * words of a choice, or what texts call the number), help */
-#define DAL_OPTION_LIST(X)                                                                         \
-    X(double, step, "step", 0.01, 0.0, 1e300, "H", "step size h in units of t")                    \
-    X(dal_choice, space, "space", DAL_LIFTED, 0, 1, "lifted|physical",                             \
-      "4n+2 canonical variables, or (q,v); vakonomic systems have (q,v) alone")                    \
-    X(dal_choice, solver, "solver", DAL_SOLVER_AUTO, 0, 2, "auto|fixed-point|newton",              \
-      "for implicit equations; solves to rounding level without solver-tolerance")                 \
-    X(int, iterations, "iterations", 100, 1, 100000, "N",                                          \
-      "maximum number of iterations of an implicit equation")                                      \
-    X(dal_choice, extend_energy, "extend-energy", 0, 0, 1, "off|on",                               \
-      "continue F off D = 0 so that E is conserved there too")                                     \
-    X(double, tolerance, "tolerance", 0, 0.0, 1.0, "TOLERANCE",                                    \
-      "estimated error, absolute and relative, of the substeps of dop853; 0: no substeps")         \
-    X(double, solver_tolerance, "solver-tolerance", 0, 0.0, 1.0, "CHANGE",                         \
-      "relative change at which an implicit equation counts as solved; 0: rounding level")         \
-    X(int, extra_iterations, "extra-iterations", 0, 0, 1000, "N",                                  \
-      "iterations after an implicit equation is solved")                                           \
-    X(dal_choice, sums, "sums", DAL_SUMS_COMPENSATED, 0, 1, "compensated|plain",                   \
-      "how steps are added to the state")                                                          \
-    X(dal_choice, precision, "precision", DAL_DOUBLE, 0, 1, "double|quad",                         \
-      "arithmetic of the run; quad has 113 binary digits and takes some hundred times longer")
+/* type, name, its word outside C, default (of a choice the first word), min, max, value (the words
+ * of a choice, or the name of the number in texts), help */
+#define DAL_OPTION_LIST(OPTION)                                                                    \
+    OPTION(double, step, "step", 0.01, 0.0, 1e300, "H", "step size h in units of t")               \
+    OPTION(dal_choice, space, "space", DAL_LIFTED, 0, 1, "lifted|physical",                        \
+           "4n+2 canonical variables, or (q,v); vakonomic systems have (q,v) alone")               \
+    OPTION(dal_choice, solver, "solver", DAL_SOLVER_AUTO, 0, 2, "auto|fixed-point|newton",         \
+           "for implicit equations; solves to rounding level without solver-tolerance")            \
+    OPTION(int, iterations, "iterations", 100, 1, 100000, "N",                                     \
+           "maximum number of iterations of an implicit equation")                                 \
+    OPTION(dal_choice, extend_energy, "extend-energy", 0, 0, 1, "off|on",                          \
+           "continue F off D = 0 so that E is conserved there too")                                \
+    OPTION(double, tolerance, "tolerance", 0, 0.0, 1.0, "TOLERANCE",                               \
+           "estimated error, absolute and relative, of the substeps of dop853; 0: no substeps")    \
+    OPTION(double, solver_tolerance, "solver-tolerance", 0, 0.0, 1.0, "CHANGE",                    \
+           "relative change at which an implicit equation counts as solved; 0: rounding level")    \
+    OPTION(int, extra_iterations, "extra-iterations", 0, 0, 1000, "N",                             \
+           "iterations after an implicit equation is solved")                                      \
+    OPTION(dal_choice, sums, "sums", DAL_SUMS_COMPENSATED, 0, 1, "compensated|plain",              \
+           "how steps are added to the state")                                                     \
+    OPTION(                                                                                        \
+        dal_choice, precision, "precision", DAL_DOUBLE, 0, 1, "double|quad",                       \
+        "arithmetic of the run; quad has 113 binary digits and takes some hundred times longer")
 
 typedef struct dal_options {
-#define X(type, name, word, initial, least, greatest, value, help) type name;
-    DAL_OPTION_LIST(X)
-#undef X
+#define OPTION(type, name, word, initial, min, max, value, help) type name;
+    DAL_OPTION_LIST(OPTION)
+#undef OPTION
 } dal_options;
 
 dal_options dal_options_default(void);

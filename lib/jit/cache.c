@@ -27,9 +27,9 @@ extern char **environ;
 static const char *const usual[] = {"-x",      "c",     "-std=gnu11",        "-O2", "-w",
                                     "-shared", "-fPIC", "-ffp-contract=off", NULL};
 static const char *const machine[][8] = {
-#define X(set, ...) {__VA_ARGS__},
-    DAL__INSTRUCTIONS_LIST(X)
-#undef X
+#define SET(set, ...) {__VA_ARGS__},
+    DAL__INSTRUCTIONS_LIST(SET)
+#undef SET
 };
 enum { PATH_SIZE = 1024, PATIENCE = 60 /* seconds */ };
 

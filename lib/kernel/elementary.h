@@ -167,23 +167,25 @@ DAL_INLINE num dal_sign(num x)
     return dal_select(dal_less(zero, x), dal_num(1.0), negative);
 }
 
-#define DAL__LIBM_UNARY(X)                                                                         \
-    X(tan) X(asin) X(acos) X(atan) X(sinh) X(cosh) X(tanh) X(asinh) X(exp) X(log)
-#define DAL__LIBM_BINARY(X) X(atan2) X(pow)
+#define DAL__LIBM_UNARY(FUNCTION)                                                                  \
+    FUNCTION(tan)                                                                                  \
+    FUNCTION(asin) FUNCTION(acos) FUNCTION(atan) FUNCTION(sinh) FUNCTION(cosh) FUNCTION(tanh)      \
+        FUNCTION(asinh) FUNCTION(exp) FUNCTION(log)
+#define DAL__LIBM_BINARY(FUNCTION) FUNCTION(atan2) FUNCTION(pow)
 
 #ifdef DAL_NUM_QUAD
-#define X(f)                                                                                       \
+#define FUNCTION(f)                                                                                \
     DAL_DECLARE_QUAD(f)                                                                            \
     DAL_INLINE num dal_##f(num x) { return DAL_QUAD_FUNCTION(f)(x); }
-DAL__LIBM_UNARY(X)
-#undef X
-#define X(f)                                                                                       \
+DAL__LIBM_UNARY(FUNCTION)
+#undef FUNCTION
+#define FUNCTION(f)                                                                                \
     DAL_DECLARE_QUAD2(f)                                                                           \
     DAL_INLINE num dal_##f(num a, num b) { return DAL_QUAD_FUNCTION(f)(a, b); }
-DAL__LIBM_BINARY(X)
-#undef X
+DAL__LIBM_BINARY(FUNCTION)
+#undef FUNCTION
 #else
-#define X(f)                                                                                       \
+#define FUNCTION(f)                                                                                \
     DAL_INLINE num dal_##f(num x)                                                                  \
     {                                                                                              \
         num y = x;                                                                                 \
@@ -191,9 +193,9 @@ DAL__LIBM_BINARY(X)
             y = dal_with_lane(y, lane, f(dal_lane(x, lane)));                                      \
         return y;                                                                                  \
     }
-DAL__LIBM_UNARY(X)
-#undef X
-#define X(f)                                                                                       \
+DAL__LIBM_UNARY(FUNCTION)
+#undef FUNCTION
+#define FUNCTION(f)                                                                                \
     DAL_INLINE num dal_##f(num a, num b)                                                           \
     {                                                                                              \
         num y = a;                                                                                 \
@@ -201,8 +203,8 @@ DAL__LIBM_UNARY(X)
             y = dal_with_lane(y, lane, f(dal_lane(a, lane), dal_lane(b, lane)));                   \
         return y;                                                                                  \
     }
-DAL__LIBM_BINARY(X)
-#undef X
+DAL__LIBM_BINARY(FUNCTION)
+#undef FUNCTION
 #endif
 
 #endif

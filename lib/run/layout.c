@@ -93,12 +93,12 @@ static dal_status check_options(const dal_options *o, dal_error *error)
     if (!(o->step > 0.0) || !isfinite(o->step))
         return dal__fail(error, DAL_ARGUMENT, "the step must be positive and finite; it is %g",
                          o->step);
-#define X(type, name, word, initial, least, greatest, value, help)                                 \
-    if (!(o->name >= least && o->name <= greatest))                                                \
+#define OPTION(type, name, word, initial, min, max, value, help)                                   \
+    if (!(o->name >= min && o->name <= max))                                                       \
         return dal__fail(error, DAL_ARGUMENT, "option %s: %g is not from %g to %g", word,          \
-                         (double)o->name, (double)least, (double)greatest);
-    DAL_OPTION_LIST(X)
-#undef X
+                         (double)o->name, (double)min, (double)max);
+    DAL_OPTION_LIST(OPTION)
+#undef OPTION
     return DAL_OK;
 }
 
@@ -109,7 +109,7 @@ static bool is_runge_kutta(unsigned properties)
            !(properties & DAL_SYMPLECTIC);
 }
 
-/* A modifier must suit the method inside it, parts 0..depth-1 of the chain. */
+/* A modifier must suit the method inside it, layers 0..depth-1. */
 static dal_status check_inside(const dal_method *method, int depth, dal_error *error)
 {
     const dal_integrator *outer = method->layer[depth];

@@ -9,9 +9,9 @@
 dal_options dal_options_default(void)
 {
     return (dal_options){
-#define X(type, name, word, initial, least, greatest, value, help) .name = initial,
-        DAL_OPTION_LIST(X)
-#undef X
+#define OPTION(type, name, word, initial, min, max, value, help) .name = initial,
+        DAL_OPTION_LIST(OPTION)
+#undef OPTION
     };
 }
 
@@ -35,7 +35,7 @@ static dal_status number(const char *name, const char *text, double *value, dal_
 
 typedef struct option {
     const char *name, *value;
-    double least, greatest;
+    double min, max;
     bool is_whole, is_choice;
     size_t offset;
 } option;
@@ -49,10 +49,10 @@ static dal_status parse(const option *k, const char *text, double *value, dal_er
                          k->value);
     }
     DAL_TRY(number(k->name, text, value, error));
-    const bool is_in_range = *value >= k->least && *value <= k->greatest;
+    const bool is_in_range = *value >= k->min && *value <= k->max;
     if (is_in_range && (!k->is_whole || *value == floor(*value))) return DAL_OK;
     return dal__fail(error, DAL_ARGUMENT, "option %s: %.60s is not %s from %g to %g", k->name, text,
-                     k->is_whole ? "a whole number" : "a number", k->least, k->greatest);
+                     k->is_whole ? "a whole number" : "a number", k->min, k->max);
 }
 
 /* of each type of options: is_whole, is_choice */
@@ -64,10 +64,10 @@ dal_status dal_options_set(dal_options *options, const char *name, const char *t
                            dal_error *error)
 {
     static const option table[] = {
-#define X(type, field, word, initial, least, greatest, value, help)                                \
-    {word, value, least, greatest, DAL__TYPE_##type, offsetof(dal_options, field)},
-        DAL_OPTION_LIST(X)
-#undef X
+#define OPTION(type, field, word, initial, min, max, value, help)                                  \
+    {word, value, min, max, DAL__TYPE_##type, offsetof(dal_options, field)},
+        DAL_OPTION_LIST(OPTION)
+#undef OPTION
     };
     enum { COUNT = sizeof table / sizeof *table };
     const char *names[COUNT];

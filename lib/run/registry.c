@@ -3,19 +3,19 @@
 
 #include <string.h>
 
-#define DECLARE(name, variant, lanes, set)                                                         \
-    extern const dal_integrator dal__integrator_##name##_##variant;
-#define X(name)                                                                                    \
+#define DECLARE(name, variant, lanes, set)                                                  \
+    extern const dal_integrator dal__integrator_##name##_##group;
+#define INTEGRATOR(name)                                                                           \
     extern const dal_integrator dal_integrator_##name;                                             \
     DAL__VARIANT_LIST(DECLARE, name)
 #include "../integrators/integrators.def"
-#undef X
+#undef INTEGRATOR
 
 #define ADDRESS(name, variant, lanes, set) &dal__integrator_##name##_##variant,
 static const dal_integrator *const entries[][DAL__VARIANTS] = {
-#define X(name) {&dal_integrator_##name, DAL__VARIANT_LIST(ADDRESS, name)},
+#define INTEGRATOR(name) {&dal_integrator_##name, DAL__VARIANT_LIST(ADDRESS, name)},
 #include "../integrators/integrators.def"
-#undef X
+#undef INTEGRATOR
 };
 
 enum { COUNT = sizeof entries / sizeof *entries };
