@@ -83,9 +83,9 @@ int dal_run_is_native(const dal_run *run) { return run && run->native.traced != 
 
 enum { REGISTER = 8 }; /* numbers in the widest; as many as a line of the cache has */
 
-/* Observations at a time: whole registers of any machine.  Many of them, since a processor takes about a
- * microsecond to wake the upper halves of its widest registers, and no more than a second-level
- * cache holds. */
+/* Observations at a time: whole registers of any machine.  Many of them, since a processor takes
+ * about a microsecond to wake the upper halves of its widest registers, and no more than a
+ * second-level cache holds. */
 static int observation_capacity(int numbers)
 {
     enum { MOST = 992, NEAR = (1 << 18) / sizeof(double) };
@@ -100,7 +100,7 @@ static dal_status allocate_observations(dal__observations *observations, int dim
     const int numbers = dimension + 1 + observables, room = observation_capacity(numbers);
     const size_t bytes = sizeof(double) * (size_t)numbers * (size_t)room;
     double *const memory = aligned_alloc(REGISTER * sizeof(double), bytes);
-    if (!memory) return dal__fail(error, DAL_MEMORY, "no memory for %d observations of a run", room);
+    if (!memory) return dal__fail(error, DAL_MEMORY, "no memory for %d observations", room);
     memset(memory, 0, bytes);
     observations->capacity = room;
     observations->states = memory;
