@@ -75,7 +75,7 @@ static void write_case(dal__generation *g, dal__program_code code, const char *c
 
 static void write_dispatch(dal__generation *g)
 {
-    dal__text_put(
+    dal__buffer_append(
         &g->text,
         "/* Copies the outputs; NaN in the lanes where one of the pivots behind them, each\n"
         " * followed by its size, has vanished. */\n"
@@ -83,16 +83,16 @@ static void write_dispatch(dal__generation *g)
         "num *out)\n{\n"
         "    dal_mask ok = dal_all();\n"
         "    DAL_EACH(k, pivots)\n    ok &= dal_less(");
-    dal__text_number(&g->text, DAL__PIVOT_LEAST);
-    dal__text_put(&g->text,
-                  " * all[outputs + 2 * k + 1], dal_abs(all[outputs + 2 * k]));\n"
-                  "    DAL_EACH(i, outputs) out[i] = dal_select(ok, all[i], "
-                  "dal_num(NAN));\n}\n\n"
-                  "/* Evaluates a callback for one group of lanes. */\n"
-                  "DAL_INLINE void dal__eval_group(const dal_stored *work, dal_callback_code "
-                  "code, dal_time t,\n    const num *q, const num *v, const num *pi, "
-                  "num *out)\n{\n"
-                  "    switch (code) {\n");
+    dal__buffer_number(&g->text, DAL__PIVOT_LEAST);
+    dal__buffer_append(&g->text,
+                       " * all[outputs + 2 * k + 1], dal_abs(all[outputs + 2 * k]));\n"
+                       "    DAL_EACH(i, outputs) out[i] = dal_select(ok, all[i], "
+                       "dal_num(NAN));\n}\n\n"
+                       "/* Evaluates a callback for one group of lanes. */\n"
+                       "DAL_INLINE void dal__eval_group(const dal_stored *work, dal_callback_code "
+                       "code, dal_time t,\n    const num *q, const num *v, const num *pi, "
+                       "num *out)\n{\n"
+                       "    switch (code) {\n");
 #define PROGRAM(code, name, reads) write_case(g, DAL__PROGRAM_##code, #code, #name);
     DAL__WIDE_LIST(PROGRAM)
 #undef PROGRAM
@@ -149,12 +149,13 @@ void dal__emit_callbacks(dal__generation *g)
 {
     name_inputs(g);
     if (!g->input) return;
-    dal__text_put(&g->text, g->product == DAL__OBSERVE
-                                ? "\n/* Each lane has its time. */\n"
-                                  "typedef num dal_time;\n#define DAL_TIME(t) (t)\n"
-                                : "\n/* All lanes have one time. */\n"
-                                  "typedef double dal_time;\n#define DAL_TIME(t) dal_num(t)\n");
-    dal__text_put(&g->text, "\n/* ---- the system ---- */\n\n");
+    dal__buffer_append(&g->text,
+                       g->product == DAL__OBSERVE
+                           ? "\n/* Each lane has its time. */\n"
+                             "typedef num dal_time;\n#define DAL_TIME(t) (t)\n"
+                           : "\n/* All lanes have one time. */\n"
+                             "typedef double dal_time;\n#define DAL_TIME(t) dal_num(t)\n");
+    dal__buffer_append(&g->text, "\n/* ---- the system ---- */\n\n");
 #define PROGRAM(code, name, reads) write_program(g, DAL__PROGRAM_##code, #name);
     DAL__WIDE_LIST(PROGRAM)
 #undef PROGRAM

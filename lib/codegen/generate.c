@@ -180,15 +180,15 @@ static bool steps_groups_together(const dal__generation *g)
 /* The lanes of a group fill a register. */
 static void write_lanes(dal__generation *g)
 {
-    dal__text_print(&g->text, "#define DAL_LANES %d\n", g->lanes);
-    dal__text_put(&g->text, "#if DAL_LANES > 8 && defined __AVX512F__\n#define DAL_GROUP 8\n"
-                            "#elif DAL_LANES > 4 && defined __AVX__ && !defined __AVX512F__\n"
-                            "#define DAL_GROUP 4\n"
-                            "#elif DAL_LANES > 2 && !defined __AVX__\n"
-                            "#define DAL_GROUP 2\n#endif\n");
-    dal__text_put(&g->text, dal__source_text("groups.h"));
-    dal__text_put(&g->text, "#define DAL_WORK(place) w[(place) * DAL_GROUPS]\n");
-    dal__text_print(
+    dal__buffer_print(&g->text, "#define DAL_LANES %d\n", g->lanes);
+    dal__buffer_append(&g->text, "#if DAL_LANES > 8 && defined __AVX512F__\n#define DAL_GROUP 8\n"
+                                 "#elif DAL_LANES > 4 && defined __AVX__ && !defined __AVX512F__\n"
+                                 "#define DAL_GROUP 4\n"
+                                 "#elif DAL_LANES > 2 && !defined __AVX__\n"
+                                 "#define DAL_GROUP 2\n#endif\n");
+    dal__buffer_append(&g->text, dal__source_text("groups.h"));
+    dal__buffer_append(&g->text, "#define DAL_WORK(place) w[(place) * DAL_GROUPS]\n");
+    dal__buffer_print(
         &g->text, "enum { DAL_STEP_GROUPS = %s, DAL_STEP_COUNT = DAL_GROUPS / DAL_STEP_GROUPS };\n",
         steps_groups_together(g) ? "DAL_GROUPS" : "1");
 }
@@ -228,10 +228,10 @@ static void write_constants(dal__generation *g)
     };
     write_lanes(g);
     for (size_t i = 0; i < sizeof list / sizeof *list; i++)
-        dal__text_print(&g->text, "#define DAL__%s %d\n", list[i].name, list[i].value);
-    dal__text_put(&g->text, "#define DAL__SOLVER_TOLERANCE ");
-    dal__text_number(&g->text, k->options.solver_tolerance);
-    dal__text_put(&g->text, "\n");
+        dal__buffer_print(&g->text, "#define DAL__%s %d\n", list[i].name, list[i].value);
+    dal__buffer_append(&g->text, "#define DAL__SOLVER_TOLERANCE ");
+    dal__buffer_number(&g->text, k->options.solver_tolerance);
+    dal__buffer_append(&g->text, "\n");
 }
 
 /* ---- the file ---- */
@@ -269,7 +269,7 @@ static void write_unrolling(dal__generation *g)
     const int width = g->layout.lifted ? 3 * g->layout.n : g->layout.nw;
     const bool small =
         g->layout.dim <= MAX_UNROLLED_DIM && (!coupled || stages * stages * width <= MAX_UNROLLED);
-    dal__text_put(&g->text, "#define DAL_SPECIALISED 1\n");
+    dal__buffer_append(&g->text, "#define DAL_SPECIALISED 1\n");
     if (small)
         dal__buffer_append(&g->text, "#if !defined(__clang__) && !defined(__OPTIMIZE_SIZE__)\n"
                                      "#define DAL_UNROLL _Pragma(\"GCC unroll 64\")\n"
@@ -281,13 +281,13 @@ static void write_unrolling(dal__generation *g)
 /* The types of the public header that the kernel needs. */
 static void write_enums(dal__generation *g)
 {
-    dal__text_put(&g->text, "\ntypedef enum dal_status {\n");
-#define STATUS(code, words) dal__text_put(&g->text, "    DAL_" #code ",\n");
+    dal__buffer_append(&g->text, "\ntypedef enum dal_status {\n");
+#define STATUS(code, words) dal__buffer_append(&g->text, "    DAL_" #code ",\n");
     DAL_STATUS_LIST(STATUS)
 #undef STATUS
-    dal__text_put(&g->text, "    DAL_STATUS_COUNT\n} dal_status;\n"
-                            "enum { DAL_SOLVER_AUTO, DAL_FIXED_POINT, DAL_NEWTON };\n");
-    dal__text_print(&g->text, "enum { DAL_BLOCKS_POSITIONAL = %d };\n\n", DAL_BLOCKS_POSITIONAL);
+    dal__buffer_append(&g->text, "    DAL_STATUS_COUNT\n} dal_status;\n"
+                                 "enum { DAL_SOLVER_AUTO, DAL_FIXED_POINT, DAL_NEWTON };\n");
+    dal__buffer_print(&g->text, "enum { DAL_BLOCKS_POSITIONAL = %d };\n\n", DAL_BLOCKS_POSITIONAL);
 }
 
 /* The headers of the kernel that the method needs. */
@@ -314,7 +314,8 @@ static void write_kernel(dal__generation *g)
 /* rk4, implicit_midpoint: the name in DAL_INTEGRATOR. */
 static void write_identifier(dal__generation *g, const dal_integrator *layer)
 {
-    for (const char *c = layer->name; *c; c++) dal__text_add(&g->text, *c == '-' ? "_" : c, 1);
+    for (const char *c = layer->name; *c; c++)
+        dal__buffer_append_bytes(&g->text, *c == '-' ? "_" : c, 1);
 }
 
 static void write_method(dal__generation *g)

@@ -4,7 +4,7 @@
 #include <string.h>
 
 /* A text of the user in a comment: one line that does not end the comment. */
-static void write_comment(dal__text *text, const char *words)
+static void write_comment(dal__buffer *text, const char *words)
 {
     for (char before = '\0'; words && *words; before = *words++) {
         const bool ends = (before == '*' && *words == '/') || (before == '/' && *words == '*');
@@ -261,10 +261,10 @@ static void write_text_function(dal__generation *g)
     dal__write_template(g, "\nconst char *PREFIX_text(int status)\n{\n    switch (status) {\n");
 #define STATUS(code, words)                                                                        \
     if (DAL_##code == DAL_OK || (DAL_##code >= DAL_SINGULAR && DAL_##code <= DAL_GAUGE))           \
-        dal__text_put(&g->text, "    case DAL_" #code ":\n        return \"" words "\";\n");
+        dal__buffer_append(&g->text, "    case DAL_" #code ":\n        return \"" words "\";\n");
     DAL_STATUS_LIST(STATUS)
 #undef STATUS
-    dal__text_put(&g->text, "    default:\n        return \"unknown status\";\n    }\n}\n");
+    dal__buffer_append(&g->text, "    default:\n        return \"unknown status\";\n    }\n}\n");
 }
 
 static void write_defaults(dal__generation *g)

@@ -58,12 +58,12 @@ static void write_sizes(dal__generation *g)
 {
     const dal__layout *k = &g->layout;
     const bool small = k->dim <= MAX_UNROLLED;
-    dal__text_put(&g->text, small ? "#define DAL_UNROLL _Pragma(\"GCC unroll 64\")\n"
-                                  : "#define DAL_UNROLL\n");
-    dal__text_print(&g->text,
-                    "enum { DAL__N = %d, DAL__NW = %d, DAL__DIM = %d, DAL__LIFTED = %d, "
-                    "DAL__OBSERVABLES = %d };\n",
-                    k->n, k->nw, k->dim, k->lifted, dal_run_observables(g->run));
+    dal__buffer_append(&g->text, small ? "#define DAL_UNROLL _Pragma(\"GCC unroll 64\")\n"
+                                       : "#define DAL_UNROLL\n");
+    dal__buffer_print(&g->text,
+                      "enum { DAL__N = %d, DAL__NW = %d, DAL__DIM = %d, DAL__LIFTED = %d, "
+                      "DAL__OBSERVABLES = %d };\n",
+                      k->n, k->nw, k->dim, k->lifted, dal_run_observables(g->run));
 }
 
 dal_status dal__generate_observables(const dal__layout *layout, const dal_run *run, char **text,

@@ -26,6 +26,10 @@
 #include "solve.h"
 #include "tableau.h"
 
+#define dal_collocation DAL_WIDE(dal__collocation)
+DAL_SHARED dal_status dal_collocation(dal_step *s, const dal_tableau *method);
+
+#ifndef DAL_LINKED
 typedef struct dal_stages {
     const dal_tableau *method;
     double h;

@@ -49,6 +49,10 @@ DAL_INLINE num dal_moved_v(const dal_step *s, int i, num d)
     return s->y[DAL_N(s) + i] + (s->r[DAL_N(s) + i] + d);
 }
 
+#define dal_continuous_multipliers DAL_WIDE(dal__continuous_multipliers)
+DAL_SHARED dal_status dal_continuous_multipliers(dal_step *s, const num *blocks, num *h);
+
+#ifndef DAL_LINKED
 /* x = g^-1 rhs; g[size*size] is destroyed. */
 DAL_INLINE void dal_solve_small(num *g, num *inverse, int size, const num *rhs, num *x)
 {
