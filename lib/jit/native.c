@@ -88,24 +88,24 @@ enum { REGISTER = 8 }; /* numbers in the widest; as many as a line of the cache 
  * second-level cache holds. */
 static int observation_capacity(int numbers)
 {
-    enum { MOST = 992, NEAR = (1 << 18) / sizeof(double) };
-    const int room = NEAR / numbers / REGISTER * REGISTER;
-    return room > MOST ? MOST : room < REGISTER ? REGISTER : room;
+    enum { MAX = 992, NEAR = (1 << 18) / sizeof(double) };
+    const int capacity = NEAR / numbers / REGISTER * REGISTER;
+    return capacity > MAX ? MAX : capacity < REGISTER ? REGISTER : capacity;
 }
 
 /* Zeros at first: a register is read as a whole, and none of them lies across two lines. */
 static dal_status allocate_observations(dal__observations *observations, int dimension,
                                         int observables, dal_error *error)
 {
-    const int numbers = dimension + 1 + observables, room = observation_capacity(numbers);
-    const size_t bytes = sizeof(double) * (size_t)numbers * (size_t)room;
+    const int numbers = dimension + 1 + observables, capacity = observation_capacity(numbers);
+    const size_t bytes = sizeof(double) * (size_t)numbers * (size_t)capacity;
     double *const memory = aligned_alloc(REGISTER * sizeof(double), bytes);
-    if (!memory) return dal__fail(error, DAL_MEMORY, "no memory for %d observations", room);
+    if (!memory) return dal__fail(error, DAL_MEMORY, "no memory for %d observations", capacity);
     memset(memory, 0, bytes);
-    observations->capacity = room;
+    observations->capacity = capacity;
     observations->states = memory;
-    observations->times = memory + (size_t)dimension * (size_t)room;
-    observations->values = observations->times + room;
+    observations->times = memory + (size_t)dimension * (size_t)capacity;
+    observations->values = observations->times + capacity;
     return DAL_OK;
 }
 

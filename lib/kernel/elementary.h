@@ -171,8 +171,8 @@ DAL_INLINE num dal_sign(num x)
     FUNCTION(tan)                                                                                  \
     FUNCTION(asin)                                                                                 \
     FUNCTION(acos)                                                                                 \
-    FUNCTION(atan) FUNCTION(sinh) FUNCTION(cosh) FUNCTION(tanh) FUNCTION(asinh) FUNCTION(exp)      \
-        FUNCTION(log)
+    FUNCTION(atan)                                                                                 \
+    FUNCTION(sinh) FUNCTION(cosh) FUNCTION(tanh) FUNCTION(asinh) FUNCTION(exp) FUNCTION(log)
 #define DAL__LIBM_BINARY(FUNCTION) FUNCTION(atan2) FUNCTION(pow)
 
 #ifdef DAL_NUM_QUAD
