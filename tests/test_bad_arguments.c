@@ -61,10 +61,10 @@ static void test_options(void)
 {
     const dal_system system = {.name = "hand", .n = 1, .call.field = oscillate};
     dal_run_spec spec = fixture_spec(&system, "rk4", (dal_space)7, 0.1);
-    fixture_refused(&spec, DAL_ARGUMENT, "space number 7");
+    fixture_refused(&spec, DAL_ARGUMENT, "option space: 7 is not from 0 to 1");
     spec = fixture_spec(&system, "rk4", DAL_PHYSICAL, 0.1);
     spec.options.solver = -1;
-    fixture_refused(&spec, DAL_ARGUMENT, "solver number -1");
+    fixture_refused(&spec, DAL_ARGUMENT, "option solver: -1 is not from 0 to 2");
 }
 
 static void test_no_text(void)

@@ -1,4 +1,4 @@
-/* test_constrained.c - methods that impose D themselves: what they are refused for, what they keep,
+/* test_constrained.c - methods that enforce D themselves: refusals, what they preserve,
  * their persistent multipliers, and the long runs by which they differ. */
 #include "fixtures.h"
 #include "quick.h"
@@ -31,9 +31,9 @@ static void test_refusals(void)
     CU_ASSERT_EQUAL(refusal(&system, "gni", DAL_LIFTED, "lifted"), DAL_UNSUPPORTED);
     CU_ASSERT_EQUAL(refusal(&system, "gni", DAL_PHYSICAL, ""), DAL_OK);
     system.call.blocks = NULL;
-    CU_ASSERT_EQUAL(refusal(&system, "gni", DAL_PHYSICAL, "parts"), DAL_UNSUPPORTED);
+    CU_ASSERT_EQUAL(refusal(&system, "gni", DAL_PHYSICAL, "blocks"), DAL_UNSUPPORTED);
     other = fixture_model("chaplygin-sleigh-vakonomic");
-    CU_ASSERT_EQUAL(refusal(fixture_system(other), "mclachlan-perlmutter", DAL_PHYSICAL, "parts"),
+    CU_ASSERT_EQUAL(refusal(fixture_system(other), "mclachlan-perlmutter", DAL_PHYSICAL, "blocks"),
                     DAL_UNSUPPORTED);
     dal_model_free(other);
     dal_model_free(full);
