@@ -12,7 +12,7 @@
 #include <string.h>
 
 /* The widths of groups, the widest first. */
-static const int widths[] = {DAL__BLOCK, 8, 4, 1};
+static const int widths[] = {8, 4, 1};
 enum { WIDTHS = sizeof widths / sizeof *widths };
 typedef struct engine_choice {
     const dal__engine_kind *kind[WIDTHS];
@@ -39,16 +39,7 @@ struct dal_batch {
 
 /* ---- choice of the engines ---- */
 
-/* Whether the data of a step without scratch fit into half of a second-level cache. */
-enum { NEAR = 1 << 19 };
-static bool is_near(const dal__layout *k, int width)
-{
-    const size_t numbers = 2 * k->persistent + k->workspace;
-    return numbers * (size_t)width * sizeof(double) <= (size_t)NEAR;
-}
-
-/* The best engines up to a width (0: up to the one that pays).  One of several lanes without the
- * instruction set of a narrower one is slower than that. */
+/* The best engines up to a width (0: all). */
 static engine_choice choose(const dal__layout *k, int width)
 {
     engine_choice made = {{NULL}, 0};
@@ -316,7 +307,7 @@ dal_status dal_batch_advance(dal_batch *batch, long long count)
     DAL_REQUIRE(batch, NULL);
     DAL_REQUIRE_COUNT(count, NULL);
     const double h = batch->scalar->layout.options.step;
-    dal_status reason[DAL__BLOCK] = {DAL_OK}, last = DAL_OK;
+    dal_status reason[DAL__MAX_LANES] = {DAL_OK}, last = DAL_OK;
     dal__lanes failed = 0;
     bool alive = false;
     batch->stepped = batch->stepped || count > 0;

@@ -13,9 +13,7 @@ bool dal__engine_can(const dal__layout *k, dal__variant variant)
     const dal_system *s = k->system;
     if (variant == DAL__VARIANT_x1) return true;
     if (width > 1 && k->options.tolerance > 0.0) return false; /* each lane has its own substeps */
-    if (width > 1 && !(width == 4 ? s->wide4 : width == 8 ? s->wide8 : s->wide64)) return false;
-    if (width == DAL__BLOCK && (k->lifted || k->depth > 1)) return false;
-    if (width == DAL__BLOCK && !(k->method.layer[0]->properties & DAL_COMPONENTWISE)) return false;
+    if (width > 1 && !(width == 4 ? s->wide4 : s->wide8)) return false;
     for (int i = 0; i < k->depth; i++)
         if (!dal__integrator_wide(k->method.layer[i], variant)) return false;
     return dal__machine_has(dal__engine_kinds[variant].set);

@@ -3,8 +3,8 @@
 
 #include <string.h>
 
-#define DECLARE(name, variant, lanes, set)                                                  \
-    extern const dal_integrator dal__integrator_##name##_##group;
+#define DECLARE(name, variant, lanes, set)                                                         \
+    extern const dal_integrator dal__integrator_##name##_##variant;
 #define INTEGRATOR(name)                                                                           \
     extern const dal_integrator dal_integrator_##name;                                             \
     DAL__VARIANT_LIST(DECLARE, name)

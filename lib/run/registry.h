@@ -8,7 +8,7 @@
 
 typedef enum dal__variant {
     DAL__VARIANT_x1,
-#define VARIANT(name, variant, lanes, set, group) name##_##variant,
+#define VARIANT(name, variant, lanes, set) name##_##variant,
     DAL__VARIANT_LIST(VARIANT, DAL__VARIANT)
 #undef VARIANT
         DAL__VARIANTS
