@@ -53,7 +53,7 @@ SONAME  := libdalembert.so.$(basename $(VERSION))
 # docs/performance.md.  x1 is what others may call by name.  x1_QUAD has quad precision
 # (lib/kernel/quad.h), which no machine has for an instruction set: it is never chosen for speed.
 VARIANTS        = x1 x1_QUAD $(or $(VARIANTS_$(MACHINE)),x4)
-VARIANTS_x86_64 = x4_AVX2 x8_AVX512
+VARIANTS_x86_64 = x1_AVX2 x4_AVX2 x8_AVX512
 FLAGS_AVX2      = -mavx2 -mfma
 FLAGS_AVX512    = -mavx512f -mavx512dq -mavx512vl -mfma -mprefer-vector-width=512
 FLAGS_QUAD        = -DDAL_NUM_QUAD
