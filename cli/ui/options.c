@@ -242,13 +242,6 @@ static bool find(const reader *r, const char *name, size_t length, int *group, i
     return false;
 }
 
-static int read_plain(reader *r, const char *argument)
-{
-    int group, k;
-    if (find(r, "", 0, &group, &k)) return parse(r, group, k, argument);
-    return cli_fail(CLI_USAGE, "%s: '%s' is no option", r->argv[0], argument);
-}
-
 static int read_option(reader *r, const char *argument)
 {
     int group, k;
@@ -284,13 +277,15 @@ int cli_read_arguments(const cli_command *command, int argc, char **argv, const 
 {
     reader r = {.groups = groups, .group_count = count, .argc = argc, .next = 1, .argv = argv};
     bool plain = false;
-    int status = CLI_DONE;
+    int group, k, status = CLI_DONE;
     for (int g = 0; g < count; g++)
         cli_set_defaults(groups[g].options, groups[g].count, groups[g].settings);
     while (status == CLI_DONE && r.next < argc) {
         const char *argument = argv[r.next++];
         if (plain || argument[0] != '-' || argument[1] == '\0')
-            status = read_plain(&r, argument);
+            status = find(&r, "", 0, &group, &k)
+                         ? parse(&r, group, k, argument)
+                         : cli_fail(CLI_USAGE, "%s: '%s' is no option", argv[0], argument);
         else if (strcmp(argument, "--") == 0)
             plain = true;
         else if (strcmp(argument, "--help") == 0 || strcmp(argument, "-h") == 0)
