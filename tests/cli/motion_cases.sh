@@ -52,8 +52,8 @@ varied() { # DIR
 }
 if command -v gnuplot >/dev/null 2>&1; then
     case_is "the picture of a section"
-    # That of README.md; on it D makes y' = 0.
-    readme=$(sed -n 's/^    build\/dalembert section //p' "$here/../../README.md")
+    # That of docs/program.md; on it D makes y' = 0.
+    readme=$(sed -n 's/^    build\/dalembert section //p' "$here/../../docs/program.md")
     eval "try 0 section $readme --output of-readme"
     holds "axes that do not vary" varied of-readme
     try 0 section contact-oscillator --on y --integrator gauss4 --step 0.1 --time 300 --output on-y

@@ -155,5 +155,5 @@ check "no changeable globals" globals
 check "calls of the library" calls
 check "memory of the program" memory
 check "the shared library exports what the headers declare" exports
-check "README" sh $here/readme.sh "$BUILD/dalembert"
+check "documents" sh $here/documents.sh "$BUILD/dalembert"
 exit $failed
