@@ -5,6 +5,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -38,7 +39,7 @@ char *file_read(const char *path, size_t *length)
     return text;
 }
 
-int file_equals(const char *path, const void *bytes, size_t length)
+bool file_equals(const char *path, const void *bytes, size_t length)
 {
     size_t n;
     char *text = file_read(path, &n);

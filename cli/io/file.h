@@ -2,13 +2,14 @@
 #ifndef DAL_CLI_FILE_H
 #define DAL_CLI_FILE_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
 /* The bytes of a file and a NUL, allocated; NULL after a message. */
 char *file_read(const char *path, size_t *length);
 /* Whether a file has exactly these bytes. */
-int file_equals(const char *path, const void *bytes, size_t length);
+bool file_equals(const char *path, const void *bytes, size_t length);
 /* Writes a file; renames one.  With sync they wait until that is on the disk, so that it outlives
  * a power cut and not only the process. */
 int file_write(const char *path, const void *bytes, size_t length, int sync);

@@ -8,6 +8,7 @@
 #include "file.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -24,7 +25,7 @@ static const struct {
 
 enum { FORMS = sizeof forms / sizeof forms[0] };
 
-static int is_continuation(unsigned char c) { return (c & 0xc0) == 0x80; }
+static bool is_continuation(unsigned char c) { return (c & 0xc0) == 0x80; }
 
 /* The bytes of the character that begins here; 0: none does. */
 static int length_of(const unsigned char *s)
@@ -49,7 +50,7 @@ static unsigned code_of(const unsigned char *s, int length)
 }
 
 /* Controls, line ends (U+2028, U+2029), the mark of byte order and what is no character. */
-static int is_escaped(unsigned code)
+static bool is_escaped(unsigned code)
 {
     return code < 0x20 || (code >= 0x7f && code < 0xa0) || code == 0x2028 || code == 0x2029 ||
            code == 0xfeff || code >= 0xfffe;
@@ -101,7 +102,7 @@ void json_number_member(FILE *out, const char *before, const char *name, double 
 }
 
 /* RFC 8259: -? (0 | [1-9][0-9]*) (. [0-9]+)? ([eE] [+-]? [0-9]+)? */
-static int is_number(const char *text)
+static bool is_number(const char *text)
 {
     static const char digits[] = "0123456789";
     const char *s = text + (*text == '-');

@@ -5,6 +5,7 @@
 
 #include <errno.h>
 #include <math.h>
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -51,7 +52,7 @@ int cli_directory(const char *path)
 }
 
 /* A device or a pipe is written to as it is, whatever its name. */
-int cli_is_directory(const char *output)
+bool cli_is_directory(const char *output)
 {
     struct stat status;
     if (strcmp(output, "-") == 0 || cli_ends_in(output, ".csv") || cli_ends_in(output, ".npy"))

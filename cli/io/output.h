@@ -2,6 +2,7 @@
 #ifndef DAL_CLI_OUTPUT_H
 #define DAL_CLI_OUTPUT_H
 
+#include <stdbool.h>
 #include <stdio.h>
 
 /* Writes x with 17 digits, as a double reads it back; minus zero as 0. */
@@ -12,7 +13,7 @@ int cli_ends_in(const char *text, const char *ending);
 /* Makes a directory unless it is there.  Returns CLI_DONE or prints and returns CLI_IO. */
 int cli_directory(const char *path);
 /* Whether an output is a directory: not "-", no .csv or .npy, no device and no pipe. */
-int cli_is_directory(const char *output);
+bool cli_is_directory(const char *output);
 /* "DIR/NAME", allocated. */
 char *cli_join(const char *directory, const char *name);
 

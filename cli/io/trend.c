@@ -4,11 +4,12 @@
 #include "output.h"
 
 #include <math.h>
+#include <stdbool.h>
 
 const char cli_trend_heads[] = "amplitude,rate,rate_low,rate_high,exponent,size,trend,confidence";
 
 /* What the motion need not conserve has neither size nor trend. */
-static int is_stated(const dal_trend *trend) { return trend->conservation == DAL_CONSERVED; }
+static bool is_stated(const dal_trend *trend) { return trend->conservation == DAL_CONSERVED; }
 
 void cli_put_trend(FILE *out, const dal_trend *trend)
 {

@@ -19,6 +19,7 @@
 #include "io/file.h"
 
 #include <errno.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -159,7 +160,7 @@ static int load_file(const run_directory *dir, const char *path, const trajector
     return status;
 }
 
-static int exists(const char *path) { return access(path, F_OK) == 0 || errno != ENOENT; }
+static bool exists(const char *path) { return access(path, F_OK) == 0 || errno != ENOENT; }
 
 int checkpoint_load(const run_directory *dir, const trajectory_writer *writer,
                     run_position *position, dal_run *run, dal_statistics *statistics, int count)

@@ -21,6 +21,7 @@
 #include "io/json.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -88,7 +89,7 @@ int manifest_write(const run_directory *dir, const run_request *request,
     return status;
 }
 
-int manifest_has_ended(const char *path)
+bool manifest_has_ended(const char *path)
 {
     char *state = json_file_text(path, "status");
     const int ended = state && (strcmp(state, "done") == 0 || strcmp(state, "failed") == 0);

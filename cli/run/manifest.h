@@ -5,6 +5,7 @@
 #include "request.h"
 #include "run_directory.h"
 
+#include <stdbool.h>
 #include <stdio.h>
 
 /* All functions but the last two return CLI_DONE, or print and return CLI_USAGE or CLI_IO. */
@@ -20,7 +21,7 @@ int manifest_compare(const run_directory *dir, const run_request *held, const ru
 int manifest_write(const run_directory *dir, const run_request *request,
                    const run_position *position, const char *state, const char *message);
 /* Whether a manifest states that its run is done or has failed. */
-int manifest_has_ended(const char *path);
+bool manifest_has_ended(const char *path);
 /* Writes the member "machine" behind a comma. */
 void manifest_put_machine(FILE *out);
 

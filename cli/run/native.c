@@ -8,6 +8,7 @@
 #include "io/output.h"
 
 #include <stdatomic.h>
+#include <stdbool.h>
 #include <stdlib.h>
 #include <sys/stat.h>
 
@@ -18,7 +19,7 @@
 #define NS_SAMPLE   50.0
 #define NS_WORTH    5e8
 
-static int is_wanted(const dal_run *run, native_mode mode, double cost, double count)
+static bool is_wanted(const dal_run *run, native_mode mode, double cost, double count)
 {
     return mode == NATIVE_ON ||
            (mode == NATIVE_AUTO && count * cost * dal_run_system(run)->n > NS_WORTH);

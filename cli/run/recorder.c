@@ -9,6 +9,7 @@
 #include "manifest.h"
 #include "summary.h"
 
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -105,7 +106,7 @@ void recorder_close(run_recorder *r)
     free(r->trend);
 }
 
-int recorder_is_finished(const run_recorder *r) { return r->position.row > r->request->samples; }
+bool recorder_is_finished(const run_recorder *r) { return r->position.row > r->request->samples; }
 
 const char *recorder_observable_name(const run_recorder *r, int i)
 {

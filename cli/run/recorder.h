@@ -8,6 +8,8 @@
 #include "request.h"
 #include "run_directory.h"
 
+#include <stdbool.h>
+
 typedef struct run_recorder {
     const run_request *request;
     run_directory *dir; /* NULL: rows go to a file or to stdout, and nothing else is written */
@@ -43,7 +45,7 @@ void recorder_close(run_recorder *recorder);
 /* Integrates to the end.  Returns CLI_DONE; CLI_FAILED and the like with the reason in *error;
  * CLI_SIGNAL; or CLI_IO and the like after a message, *error then having none. */
 int recorder_run(run_recorder *recorder, dal_error *error);
-int recorder_is_finished(const run_recorder *recorder);
+bool recorder_is_finished(const run_recorder *recorder);
 const char *recorder_observable_name(const run_recorder *recorder, int i);
 
 #endif

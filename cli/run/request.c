@@ -8,6 +8,7 @@
 #include "ui/options.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -111,7 +112,7 @@ int request_parse_option(run_request *request, int option, const char *text)
     return request_options[option].parse(request, &request_options[option], text);
 }
 
-int request_option_is_number(int option)
+bool request_option_is_number(int option)
 {
     const cli_option *o = &request_options[option];
     return o->parse == parse_time || o->parse == cli_parse_integer ||

@@ -5,6 +5,8 @@
 #include "dalembert.h"
 #include "ui/options.h"
 
+#include <stdbool.h>
+
 /* What the run itself does not know; the library's options come behind, then the SYSTEM. */
 #define REQUEST_OPTION_LIST(OPTION)                                                                \
     OPTION(integrator)                                                                             \
@@ -69,7 +71,7 @@ void request_free(run_request *request);
 extern const cli_option request_options[REQUEST_OPTIONS];
 cli_group request_group(run_request *request, const cli_option *options, uint64_t without);
 /* Whether an option has a number as its value. */
-int request_option_is_number(int option);
+bool request_option_is_number(int option);
 /* The number of an option by its name, -1 for none. */
 int request_find_option(const char *name);
 /* Adds a setting to those of a parameter or a start, or replaces that of the same name. */

@@ -6,6 +6,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <stdbool.h>
 #include <stdlib.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -41,7 +42,7 @@ const char *run_directory_find_file(const run_directory *dir)
     return NULL;
 }
 
-int run_directory_has_run(const run_directory *dir) { return access(dir->manifest, F_OK) == 0; }
+bool run_directory_has_run(const run_directory *dir) { return access(dir->manifest, F_OK) == 0; }
 
 int run_directory_lock(run_directory *dir, int is_new)
 {

@@ -16,6 +16,8 @@
 #include "io/document.h"
 #include "io/trajectory_writer.h"
 
+#include <stdbool.h>
+
 /* member of run_directory, file */
 #define RUN_FILE_LIST(PATH)                                                                        \
     PATH(manifest, "manifest.json")                                                                \
@@ -50,7 +52,7 @@ void run_directory_open(run_directory *dir, const char *path);
 void run_directory_close(run_directory *dir);
 /* A file in the directory that a new run would write over, or NULL. */
 const char *run_directory_find_file(const run_directory *dir);
-int run_directory_has_run(const run_directory *dir);
+bool run_directory_has_run(const run_directory *dir);
 /* Opens trajectory.npy for this process alone, creating it for a new run.  Returns CLI_DONE, or
  * prints and returns CLI_USAGE where another process has it or a run has lost it, or CLI_IO. */
 int run_directory_lock(run_directory *dir, int is_new);

@@ -15,6 +15,7 @@
 
 #include <math.h>
 #include <stdarg.h>
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -296,7 +297,7 @@ int study_cell_run(const study_plan *plan, study_cell *cell, const study_stop_ch
     return status;
 }
 
-int study_cell_is_runnable(study_cell *cell)
+bool study_cell_is_runnable(study_cell *cell)
 {
     cell_run r = {.cell = cell, .request = request_default()};
     const int can = create_run(&r) == CLI_DONE && r.request.run;

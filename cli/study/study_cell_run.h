@@ -4,6 +4,8 @@
 
 #include "study_plan.h"
 
+#include <stdbool.h>
+
 /* Called now and then while a run goes: whether to stop it, with a checkpoint. */
 typedef struct study_stop_check {
     int (*stop)(void *user);
@@ -16,6 +18,6 @@ typedef struct study_stop_check {
  * and returns an exit status.  Different cells may be run by different threads. */
 int study_cell_run(const study_plan *plan, study_cell *cell, const study_stop_check *check);
 /* Whether the run of a cell can be made: a refused one has none. */
-int study_cell_is_runnable(study_cell *cell);
+bool study_cell_is_runnable(study_cell *cell);
 
 #endif

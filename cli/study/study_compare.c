@@ -7,6 +7,7 @@
 #include "ui/memory.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -18,7 +19,7 @@ static const dal_trend *find_trend(const study_expectation *x, const study_cell 
 }
 
 /* A quantity that the motion need not conserve has numbers, but neither size nor trend. */
-static int is_stated(const study_expectation *x, const dal_trend *trend)
+static bool is_stated(const study_expectation *x, const dal_trend *trend)
 {
     const int is_number =
         x->field >= 0 && x->field != STUDY_FIELD_exponent && x->field != STUDY_FIELD_confidence;
@@ -27,7 +28,7 @@ static int is_stated(const study_expectation *x, const dal_trend *trend)
 
 /* Whether a cell is compared.  A label may mean several systems; those that never conserve E are
  * passed over. */
-static int is_compared(const study_expectation *x, const study_cell *c)
+static bool is_compared(const study_expectation *x, const study_cell *c)
 {
     if (!study_expectation_covers(x, c) || c->other_shard || c->state == STUDY_WAITING) return 0;
     if (study_expectation_is_state(x)) return 1;
@@ -43,7 +44,7 @@ static double field_value(const dal_trend *trend, int field)
     return value[field];
 }
 
-static int is_met(const study_expectation *x, const study_cell *c)
+static bool is_met(const study_expectation *x, const study_cell *c)
 {
     if (study_expectation_is_state(x)) return x->words >> c->state & 1;
     const dal_trend *trend = find_trend(x, c);
@@ -164,7 +165,7 @@ int study_count_unmet(const study_plan *plan)
     return compare(plan, NULL, NULL, &count);
 }
 
-int study_failure_is_expected(const study_plan *plan, const study_cell *cell)
+bool study_failure_is_expected(const study_plan *plan, const study_cell *cell)
 {
     for (int i = 0; i < plan->expectation_count; i++) {
         const study_expectation *x = &plan->expectations[i];

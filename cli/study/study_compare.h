@@ -4,12 +4,13 @@
 
 #include "study_plan.h"
 
+#include <stdbool.h>
 #include <stdio.h>
 
 /* How many expectations are not met. */
 int study_count_unmet(const study_plan *plan);
 /* Whether an expectation is that this cell fails. */
-int study_failure_is_expected(const study_plan *plan, const study_cell *cell);
+bool study_failure_is_expected(const study_plan *plan, const study_cell *cell);
 /* The unmet ones and their number; nothing where nothing is expected. */
 void study_print_expectations(FILE *out, const study_plan *plan);
 /* Writes all of them to a file, or removes it where there are none.  Returns CLI_DONE or prints and

@@ -17,6 +17,7 @@
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -39,11 +40,11 @@ void study_directory_close(study_directory *dir)
     *dir = (study_directory){0};
 }
 
-static int is_there(const char *path) { return access(path, F_OK) == 0; }
+static bool is_there(const char *path) { return access(path, F_OK) == 0; }
 
-int study_directory_has_study(const study_directory *dir) { return is_there(dir->study); }
+bool study_directory_has_study(const study_directory *dir) { return is_there(dir->study); }
 
-int study_directory_is_finished(const study_directory *dir)
+bool study_directory_is_finished(const study_directory *dir)
 {
     if (!is_there(dir->study)) return 0;
     char *state = json_file_text(dir->manifest, "status");
@@ -54,7 +55,7 @@ int study_directory_is_finished(const study_directory *dir)
 
 /* ---- shards -------------------------------------------------------------------------------- */
 
-static int shard_has_cell(study_shard shard, int cell)
+static bool shard_has_cell(study_shard shard, int cell)
 {
     return shard.count <= 0 || cell % shard.count == shard.number - 1;
 }
@@ -230,7 +231,7 @@ static int check_place(const study_directory *dir, const char *text, size_t leng
 }
 
 /* Whether the study was killed while it was begun or written over: nothing of it can be resumed. */
-static int is_incomplete(const study_directory *dir)
+static bool is_incomplete(const study_directory *dir)
 {
     if (is_there(dir->study)) return 0;
     char *title = json_file_text(dir->manifest, "study");

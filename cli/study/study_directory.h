@@ -13,6 +13,8 @@
 
 #include "study_plan.h"
 
+#include <stdbool.h>
+
 /* member of study_directory, file */
 #define STUDY_FILE_LIST(PATH)                                                                      \
     PATH(study, "study.yaml")                                                                      \
@@ -53,9 +55,9 @@ typedef struct study_run_options {
 /* Makes the names of the files in a directory. */
 void study_directory_open(study_directory *dir, const char *path);
 void study_directory_close(study_directory *dir);
-int study_directory_has_study(const study_directory *dir);
+bool study_directory_has_study(const study_directory *dir);
 /* Whether a whole study is there and has ended. */
-int study_directory_is_finished(const study_directory *dir);
+bool study_directory_is_finished(const study_directory *dir);
 
 /* All below return CLI_DONE, or print and return an exit status. */
 

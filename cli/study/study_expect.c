@@ -19,6 +19,7 @@
 #include "ui/message.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -40,13 +41,13 @@ static int add(expect_reader *r, const yaml_node_t *node)
 
 /* ---- what an expectation is about ---- */
 
-int study_case_matches(const study_case *e, const char *label)
+bool study_case_matches(const study_case *e, const char *label)
 {
     return strcmp(label, e->label) == 0 || strcmp(label, e->group) == 0 ||
            strcmp(label, e->name) == 0 || strcmp(label, "all") == 0;
 }
 
-int study_method_matches(const dal_method *method, const char *name)
+bool study_method_matches(const dal_method *method, const char *name)
 {
     char own[STUDY_NAME];
     dal_method_name(method, own, sizeof own);
@@ -54,20 +55,20 @@ int study_method_matches(const dal_method *method, const char *name)
     return strcmp(name, "all") == 0 || strcmp(name, own) == 0;
 }
 
-int study_expectation_covers(const study_expectation *x, const study_cell *c)
+bool study_expectation_covers(const study_expectation *x, const study_cell *c)
 {
     if (x->step > 0.0 && x->step != c->step) return 0;
     if (x->start >= 0 && x->start != c->start) return 0;
     return study_case_matches(c->of_case, x->label) && study_method_matches(c->method, x->method);
 }
 
-int study_expectation_is_state(const study_expectation *x)
+bool study_expectation_is_state(const study_expectation *x)
 {
     return strcmp(x->quantity, "state") == 0;
 }
 
 /* D, D1, D2, ... */
-static int is_constraint(const char *quantity)
+static bool is_constraint(const char *quantity)
 {
     return quantity[0] == 'D' && strspn(quantity + 1, "0123456789") == strlen(quantity + 1);
 }
@@ -93,7 +94,7 @@ static const word_list of_value[] = {
     {"trend", trend_words + DAL_SIZE_COUNT, DAL_TREND_COUNT, DAL_SIZE_COUNT}};
 
 /* Whether a system of the label conserves E, at least on D = 0. */
-static int is_energy_conserved(const expect_reader *r)
+static bool is_energy_conserved(const expect_reader *r)
 {
     for (int i = 0; i < r->plan->case_count; i++) {
         const study_case *e = &r->plan->cases[i];
@@ -222,7 +223,7 @@ static int add_mapping(expect_reader *r, yaml_node_t *node)
 
 /* ---- what the study contains ---- */
 
-static int has_quantity(const study_case *e, const char *name)
+static bool has_quantity(const study_case *e, const char *name)
 {
     static const char *const lifted_names[] = {"H", "|p|", "|pi|", "|pi_e|"};
     const dal_system *s = e->system;

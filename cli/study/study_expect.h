@@ -4,6 +4,8 @@
 
 #include "study_plan.h"
 
+#include <stdbool.h>
+
 /* What bounds may be set to: name, member of dal_trend. */
 #define STUDY_FIELD_LIST(FIELD)                                                                    \
     FIELD(max, max_abs)                                                                            \
@@ -40,11 +42,11 @@ typedef struct study_expectation {
 int study_expect_read(study_plan *plan, yaml_node_t *node);
 
 /* Whether a label means a case: its own, its group's, its system's, or all. */
-int study_case_matches(const study_case *item, const char *label);
+bool study_case_matches(const study_case *item, const char *label);
 /* Whether a name means a method: its own, all, or all with exactly its modifiers. */
-int study_method_matches(const dal_method *method, const char *name);
+bool study_method_matches(const dal_method *method, const char *name);
 /* Whether an expectation is about a cell. */
-int study_expectation_covers(const study_expectation *expectation, const study_cell *cell);
-int study_expectation_is_state(const study_expectation *expectation);
+bool study_expectation_covers(const study_expectation *expectation, const study_cell *cell);
+bool study_expectation_is_state(const study_expectation *expectation);
 
 #endif

@@ -15,6 +15,7 @@
 #include "ui/signals.h"
 
 #include <errno.h>
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -30,7 +31,7 @@ typedef struct merge {
 
 /* ---- the sources ---- */
 
-static int is_same_place(const char *a, const char *b)
+static bool is_same_place(const char *a, const char *b)
 {
     struct stat x, y;
     return stat(a, &x) == 0 && stat(b, &y) == 0 && x.st_dev == y.st_dev && x.st_ino == y.st_ino;

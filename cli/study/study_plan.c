@@ -8,6 +8,7 @@
 #include "ui/memory.h"
 #include "ui/message.h"
 
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -38,7 +39,7 @@ static int read_displacement(void *user, const yaml_node_t *key, const char *nam
     return document_number(g->doc, value, "displace", &setting->value);
 }
 
-static int has_method(const study_case *e, const dal_method *method)
+static bool has_method(const study_case *e, const dal_method *method)
 {
     char name[STUDY_NAME], other[STUDY_NAME];
     dal_method_name(method, name, sizeof name);
