@@ -53,7 +53,7 @@ try 2 study "$long.yaml"
 try 2 study line.yaml --output "$long"
 try 2 resume "$long"
 try 2 report "$long"
-try 2 generate line.yaml --integrator rk4 -o "$quad.c"
+try 2 generate line.yaml --integrator rk4 -o "$long.c"
 
 case_is "ranges"
 printf 'integrators: rk4\nstep: {from: 0.5, to: 0.1, by: -0.2}\ntime: 1\nstarts: physical\n'"
