@@ -9,6 +9,7 @@
 #define _DEFAULT_SOURCE
 #include "bench.h"
 #include "io/trajectory_writer.h"
+#include "ui/message.h"
 #include <fcntl.h>
 #include <unistd.h>
 
