@@ -16,7 +16,7 @@ BENCH_CXX   ?= g++
 BENCH_PEERS  = $(call BENCH_HAVE,gsl/gsl_odeiv2.h,$(CC) -x c,gsl) \
                $(call BENCH_HAVE,arkode/arkode_erkstep.h,$(CC) -x c,sundials) \
                $(call BENCH_HAVE,$(BENCH_RK4),$(BENCH_CXX) -x c++,odeint)
-BENCH_HEADERS = $(wildcard bench/*.h examples/*.h lib/kernel/*.h) include/dalembert.h
+BENCH_HEADERS = $(wildcard bench/*.h bench/*.inc examples/*.h lib/kernel/*.h) include/dalembert.h
 
 $(BENCH)/lib/libdalembert.a: FORCE
 	@$(MAKE) -s --no-print-directory BUILD=$(BENCH)/lib CFLAGS="-O3 -march=native" $@

@@ -18,7 +18,7 @@ static inline void real_sincos(real x, real *s, real *c)
     *s = sin(x);
     *c = cos(x);
 }
-#include "fields.h"
+#include "fields.inc"
 
 #define FLUID_STEP 0.002
 

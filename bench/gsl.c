@@ -20,7 +20,7 @@ static inline void real_sincos(real x, real *s, real *c)
     *s = sin(x);
     *c = cos(x);
 }
-#include "fields.h"
+#include "fields.inc"
 
 enum { STEPS = 1000 };
 

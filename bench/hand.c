@@ -13,7 +13,7 @@ static inline void real_sincos(real x, real *s, real *c)
     *s = sin(x);
     *c = cos(x);
 }
-#include "fields.h"
+#include "fields.inc"
 
 enum { SMALL_STEPS = 1000, LARGE_STEPS = 200, LARGE_DIM = 2 * CHAIN_N };
 

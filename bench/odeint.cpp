@@ -21,14 +21,14 @@ static inline void real_sincos(real x, real *s, real *c)
     *s = sin(x);
     *c = cos(x);
 }
-#include "fields.h"
+#include "fields.inc"
 } // namespace scalar
 
 namespace wide
 {
 typedef num real;
 static inline void real_sincos(real x, real *s, real *c) { dal_sincos(x, s, c); }
-#include "fields.h"
+#include "fields.inc"
 } // namespace wide
 
 constexpr int DIM = scalar::SMALL_DIM, STEPS = 1000;

@@ -21,7 +21,7 @@ static inline void real_sincos(real x, real *s, real *c)
     *s = sin(x);
     *c = cos(x);
 }
-#include "fields.h"
+#include "fields.inc"
 
 /* The iteration ends when the weighted norm of an increment is below 1e-4 of TOLERANCE |y|: at
  * rounding, from where the next increment would not change y. */

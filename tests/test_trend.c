@@ -333,9 +333,9 @@ static void test_line_under_a_tone(void)
         dal_trend f;
         dal_statistics_start(&s, 1);
         for (int i = 0; i <= VALUES; i++) {
-            const double t = (double)i / VALUES;
-            const double x = cos(two_pi * periods * t + 0.3) + rate * t;
-            dal_statistics_add(&s, 1, t, &x);
+            const double time = (double)i / VALUES;
+            const double value = cos(two_pi * periods * time + 0.3) + rate * time;
+            dal_statistics_add(&s, 1, time, &value);
         }
         dal_statistics_classify(&s, VALUES, 0, &f);
         CU_ASSERT_DOUBLE_EQUAL(f.rate, rate, 1e-6);

@@ -100,15 +100,13 @@ static void gather_lane(dal_batch *batch, const group *b, int lane)
 
 enum { ALIGNMENT = DAL__MAX_LANES * sizeof(double) };
 
-static size_t round_up(size_t bytes) { return (bytes + ALIGNMENT - 1) / ALIGNMENT * ALIGNMENT; }
-
 /* Counts groups and bytes of their engines; false: too many bytes. */
 static bool measure_groups(dal_batch *batch, const engine_choice *from, size_t *bytes)
 {
     *bytes = ALIGNMENT;
     for (int done = 0; done < batch->count; batch->groups++) {
         const dal__engine_kind *k = next_kind(from, batch->count - done);
-        const size_t more = round_up(k->engine->bytes(&batch->scalar->layout));
+        const size_t more = dal__align(k->engine->bytes(&batch->scalar->layout));
         if (more > SIZE_MAX / 2 - *bytes) return false;
         *bytes += more;
         done += k->width < batch->count - done ? k->width : batch->count - done;
@@ -134,7 +132,7 @@ static void place_groups(dal_batch *batch, const engine_choice *from)
     for (int i = 0, first = 0; i < batch->groups; i++) {
         const dal__engine_kind *k = next_kind(from, batch->count - first);
         place_group(batch, &batch->group[i], k, first, at);
-        at += round_up(k->engine->bytes(&batch->scalar->layout));
+        at += dal__align(k->engine->bytes(&batch->scalar->layout));
         first += k->width;
     }
 }

@@ -24,6 +24,9 @@ typedef struct dal__failure {
 /* A set of lanes: bit i is lane i. */
 typedef uint64_t dal__lanes;
 
+/* The next multiple of 64 bytes: a cache line, and the widest vector register. */
+static inline size_t dal__align(size_t bytes) { return (bytes + 63) / 64 * 64; }
+
 /* The functions of an engine of one variant. */
 typedef struct dal__engine {
     /* Bytes of an engine, to be aligned to 64 bytes and to 8 bytes a lane. */

@@ -57,15 +57,7 @@ typedef struct engine {
     dal__failure *failure;
 } engine;
 
-static size_t round_up(size_t bytes) { return (bytes + 63) / 64 * 64; }
-static size_t bytes_of(size_t numbers) { return round_up(numbers * DAL_GROUPS * sizeof(num)); }
-
-static const dal_callbacks *callbacks(const dal_system *system)
-{
-    if (LANES == 4) return system->wide4;
-    if (LANES == 8) return system->wide8;
-    return &system->call;
-}
+static size_t bytes_of(size_t numbers) { return dal__align(numbers * DAL_GROUPS * sizeof(num)); }
 
 /* Nums of the persistent state that an integrator may change; one that neither solves nor divides
  * changes y and r only. */
@@ -117,7 +109,7 @@ static void eval_callback(dal_step *s, dal_callback_code code, double t, const n
 
 static size_t engine_bytes(const dal__layout *k)
 {
-    return round_up(sizeof(engine)) + 2 * bytes_of(k->persistent) + bytes_of(k->workspace) +
+    return dal__align(sizeof(engine)) + 2 * bytes_of(k->persistent) + bytes_of(k->workspace) +
            bytes_of(k->scratch);
 }
 
@@ -176,12 +168,13 @@ static void *place_engine(const dal__layout *k, void *memory, double **persisten
 {
     char *at = memory;
     engine *e = memory;
-    at += round_up(sizeof *e);
+    at += dal__align(sizeof *e);
     memset(memory, 0, engine_bytes(k) - bytes_of(k->scratch));
     e->layout = *k;
     for (int i = 0; i < k->depth; i++)
         e->layer[i] = dal__integrator_wide(k->method.layer[i], DAL_WIDE(DAL__VARIANT));
-    const dal_callbacks *c = callbacks(k->system);
+    const dal_system *system = k->system;
+    const dal_callbacks *c = LANES == 4 ? system->wide4 : LANES == 8 ? system->wide8 : &system->call;
 #define CALLBACK(code, member) e->call[DAL_EVAL_##code] = c->member;
     DAL__CALLBACK_LIST(CALLBACK)
 #undef CALLBACK
@@ -386,19 +379,13 @@ static void restore(engine *e, const lane_mask *moved)
     }
 }
 
-/* The time of the first alive lane, which is that of all of them. */
-static double time_of(const engine *e, dal__lanes alive)
-{
-    int first = 0;
-    while (first < LANES - 1 && !(alive >> first & 1)) first++;
-    return dal_lane(persistent_at(e, DAL__TIME)[first / DAL_LANES], first % DAL_LANES);
-}
-
 static void begin_step(engine *e, double h, dal__lanes alive, const lane_mask *lanes)
 {
     dal_step *s = &e->step;
     memcpy(e->backup, e->persistent, changing(e) * sizeof(num));
-    s->t = time_of(e, alive);
+    int first = 0; /* alive lane; its time is that of all of them */
+    while (first < LANES - 1 && !(alive >> first & 1)) first++;
+    s->t = dal_lane(persistent_at(e, DAL__TIME)[first / DAL_LANES], first % DAL_LANES);
     s->h = h;
     s->alive[0] = DAL_GROUPS > 1 ? dal_all() : lanes->group[0];
     s->unconverged[0] = ~dal_all();

@@ -3,13 +3,6 @@
 #include "run/failure.h"
 #include <dalembert_kernel.h>
 
-static dal_status singular(const dal__failure *failure, double number, dal_error *error)
-{
-    return dal__fail(error, DAL_SINGULAR,
-                     "constraint %d became singular near t = %.17g: G = A W^-1 A^T has no inverse",
-                     (int)number, failure->t);
-}
-
 /* Whether the point is far away, in the iteration or in the whole run: then the overflow says
  * nothing about the system. */
 static bool is_far_away(const dal_run *run, const dal__failure *failure)
@@ -27,7 +20,11 @@ static dal_status diagnose(dal_run *run, const dal__failure *failure, dal_error 
     double number = 0.0;
     if (!system->diagnose || is_far_away(run, failure)) return DAL_OK;
     const dal_status status = system->diagnose(system, &at, &number);
-    if (status == DAL_SINGULAR) return singular(failure, number, error);
+    if (status == DAL_SINGULAR)
+        return dal__fail(
+            error, status,
+            "constraint %d became singular near t = %.17g: G = A W^-1 A^T has no inverse",
+            (int)number, failure->t);
     if (status == DAL_SINGULAR_MASS)
         return dal__fail(error, status, "the mass matrix became singular near t = %.17g",
                          failure->t);

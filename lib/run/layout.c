@@ -102,13 +102,6 @@ static dal_status check_options(const dal_options *o, dal_error *error)
     return DAL_OK;
 }
 
-/* Symplectic methods treat p and pi unlike q and v. */
-static bool is_runge_kutta(unsigned properties)
-{
-    return (properties & DAL_EXPLICIT) && (properties & DAL_COMPONENTWISE) &&
-           !(properties & DAL_SYMPLECTIC);
-}
-
 /* A modifier must suit the method inside it, layers 0..depth-1. */
 static dal_status check_inside(const dal_method *method, int depth, dal_error *error)
 {
@@ -130,7 +123,10 @@ static dal_status check_inside(const dal_method *method, int depth, dal_error *e
     if ((outer->needs & DAL_NEEDS_ORDER_2) && order != 2)
         return dal__fail(error, DAL_UNSUPPORTED, "+%s needs a method of order 2: %s is of order %d",
                          outer->name, name, order);
-    if ((outer->needs & DAL_NEEDS_RUNGE_KUTTA) && !is_runge_kutta(dal_method_properties(&inside)))
+    /* Symplectic methods treat p and pi unlike q and v. */
+    const unsigned explicit_rk = DAL_EXPLICIT | DAL_COMPONENTWISE;
+    if ((outer->needs & DAL_NEEDS_RUNGE_KUTTA) &&
+        (dal_method_properties(&inside) & (explicit_rk | DAL_SYMPLECTIC)) != explicit_rk)
         return dal__fail(error, DAL_UNSUPPORTED,
                          "+%s needs an explicit Runge-Kutta method that is not symplectic by "
                          "itself: %s is not one",

@@ -27,12 +27,6 @@ static int choice(const char *words, const char *text)
     }
 }
 
-static dal_status number(const char *name, const char *text, double *value, dal_error *error)
-{
-    if (dal_parse_number(text, strlen(text), value) == DAL_OK) return DAL_OK;
-    return dal__fail(error, DAL_SYNTAX, "option %s: '%.60s' is not a number", name, text);
-}
-
 typedef struct option {
     const char *name, *value;
     double min, max;
@@ -48,7 +42,8 @@ static dal_status parse(const option *k, const char *text, double *value, dal_er
         return dal__fail(error, DAL_ARGUMENT, "option %s: '%.60s' is not one of %s", k->name, text,
                          k->value);
     }
-    DAL_TRY(number(k->name, text, value, error));
+    if (dal_parse_number(text, strlen(text), value) != DAL_OK)
+        return dal__fail(error, DAL_SYNTAX, "option %s: '%.60s' is not a number", k->name, text);
     const bool is_in_range = *value >= k->min && *value <= k->max;
     if (is_in_range && (!k->is_whole || *value == floor(*value))) return DAL_OK;
     return dal__fail(error, DAL_ARGUMENT, "option %s: %.60s is not %s from %g to %g", k->name, text,

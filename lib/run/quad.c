@@ -11,7 +11,6 @@
 enum { MORE_ITERATIONS = 3 }; /* for more digits */
 
 static const dal__engine_kind *kind(void) { return &dal__engine_kinds[DAL__VARIANT_x1_QUAD]; }
-static size_t round_up(size_t bytes) { return (bytes + 63) / 64 * 64; }
 
 size_t dal__quad_width(void) { return sizeof(num) / sizeof(double); }
 
@@ -45,7 +44,7 @@ static dal__layout layout_of(const dal__layout *k)
 size_t dal__quad_bytes(const dal__layout *k, size_t outputs)
 {
     const dal__layout quad = layout_of(k);
-    return round_up(kind()->engine->bytes(&quad)) + round_up(outputs * sizeof(num));
+    return dal__align(kind()->engine->bytes(&quad)) + dal__align(outputs * sizeof(num));
 }
 
 void dal__quad_place(dal_run *run, char *memory, size_t outputs)
@@ -53,7 +52,7 @@ void dal__quad_place(dal_run *run, char *memory, size_t outputs)
     dal__quad_run *k = &run->quad;
     k->layout = layout_of(&run->layout);
     k->scratch = (double *)(void *)memory;
-    memory += round_up(outputs * sizeof(num));
+    memory += dal__align(outputs * sizeof(num));
     k->engine = kind()->engine->place(&k->layout, memory, &k->persistent, &k->work);
     run->storage = k->persistent;
 }

@@ -6,20 +6,12 @@
 #include <dalembert_kernel.h>
 #include <stdlib.h>
 
-static size_t round_up(size_t bytes) { return (bytes + 63) / 64 * 64; }
-
 /* Max numbers in the output of a callback, or in two of the constraint's with their G. */
 static size_t scratch_count(const dal__layout *k)
 {
     const size_t n = (size_t)k->n, nw = (size_t)k->nw, m = (size_t)k->m;
     const size_t listed = (size_t)k->system->invariants + 2 * (size_t)k->system->guards;
     return 4 * n + 2 * nw + 2 * (m + 2 * m * n) + 2 * m * m + m + 2 + listed;
-}
-
-/* A time and the most observables there can be. */
-static size_t observation_numbers(const dal__layout *k)
-{
-    return 1 + (size_t)k->m + 6 + (size_t)k->system->invariants;
 }
 
 /* Doubles in the persistent state. */
@@ -31,7 +23,8 @@ static size_t stored_count(const dal__layout *k)
 /* Doubles beside those of the engines. */
 static size_t own_numbers(const dal__layout *k)
 {
-    return stored_count(k) + scratch_count(k) + (size_t)(k->n + k->nw) + observation_numbers(k);
+    const size_t time_and_observables = 1 + (size_t)k->m + 6 + (size_t)k->system->invariants;
+    return stored_count(k) + scratch_count(k) + (size_t)(k->n + k->nw) + time_and_observables;
 }
 
 static size_t quad_bytes(const dal__layout *k)
@@ -41,8 +34,8 @@ static size_t quad_bytes(const dal__layout *k)
 
 static size_t total_bytes(const dal__layout *k)
 {
-    return 64 + round_up(sizeof(dal_run)) + round_up(own_numbers(k) * sizeof(double)) +
-           round_up(dal__engine_best(k, 1)->engine->bytes(k)) + quad_bytes(k);
+    return 64 + dal__align(sizeof(dal_run)) + dal__align(own_numbers(k) * sizeof(double)) +
+           dal__align(dal__engine_best(k, 1)->engine->bytes(k)) + quad_bytes(k);
 }
 
 size_t dal_run_size(const dal_run_spec *spec)
@@ -53,22 +46,22 @@ size_t dal_run_size(const dal_run_spec *spec)
 
 static dal_run *place(const dal__layout *layout, void *memory)
 {
-    char *at = (char *)memory + (round_up((uintptr_t)memory) - (uintptr_t)memory);
+    char *at = (char *)memory + (dal__align((uintptr_t)memory) - (uintptr_t)memory);
     dal_run *run = (dal_run *)(void *)at;
     *run = (dal_run){.layout = *layout};
-    at += round_up(sizeof *run);
+    at += dal__align(sizeof *run);
     run->shadow = (double *)(void *)at;
     run->scratch = run->shadow + stored_count(layout);
     run->point = run->scratch + scratch_count(layout);
     run->observations.times = run->point + layout->n + layout->nw;
     run->observations.values = run->observations.times + 1;
     run->observations.capacity = 1;
-    at += round_up(own_numbers(layout) * sizeof(double));
+    at += dal__align(own_numbers(layout) * sizeof(double));
     run->kind = dal__engine_best(layout, 1);
     run->engine = run->kind->engine->place(layout, at, &run->persistent, &run->work);
     run->storage = run->persistent;
     run->stored = stored_count(layout);
-    at += round_up(run->kind->engine->bytes(layout));
+    at += dal__align(run->kind->engine->bytes(layout));
     if (quad_bytes(layout) > 0) dal__quad_place(run, at, scratch_count(layout));
     return run;
 }
@@ -194,12 +187,6 @@ const double *dal_run_save(const dal_run *run, size_t *count)
     return run && count ? run->storage : NULL;
 }
 
-/* Carried number i of a memory, in doubles. */
-static double stored_number(const dal_run *run, const double *memory, size_t i)
-{
-    return run->quad.engine ? dal__quad_rounded(memory, i) : memory[i];
-}
-
 dal_status dal_run_restore(dal_run *run, const double *memory, size_t count, dal_error *error)
 {
     DAL_REQUIRE(run, error);
@@ -210,7 +197,7 @@ dal_status dal_run_restore(dal_run *run, const double *memory, size_t count, dal
                          "the persistent state of this run has %zu numbers, not %zu", run->stored,
                          count);
     for (size_t i = 0; i < k->persistent; i++) {
-        const double x = stored_number(run, memory, i);
+        const double x = run->quad.engine ? dal__quad_rounded(memory, i) : memory[i];
         if (!isfinite(x) && !(k->lifted && i == 2 * (size_t)k->n && isinf(x)))
             return dal__fail(error, DAL_NOT_FINITE, "persistent number %zu is not finite", i + 1);
     }

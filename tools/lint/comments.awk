@@ -3,7 +3,7 @@
 # one that begins others (DAL_SOLVER_) stands for them.  Words that are made elsewhere: see `made`.
 
 BEGIN {
-    n = split("sleigh.c variants.h dal_integrator_NAME DAL__NATIVE_PREFIX_lanes DAL__NATIVE_PREFIX_looks dop853.f", made, " ")
+    n = split("sleigh.c variants.h dal_integrator_NAME dop853.f", made, " ")
     for (i = 1; i <= n; i++) known[made[i]] = 1
 }
 

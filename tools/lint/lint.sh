@@ -111,7 +111,7 @@ alone() {
 }
 headers() {
     where=$BUILD/declared-where.txt
-    find include lib cli -name '*.h' | xargs ctags -x --c-kinds=p --_xformat='prototype %F %N %{line}' >"$where"
+    find include lib cli -name '*.h' | xargs ctags -x --c-kinds=pv --_xformat='prototype %F %N %{line}' >"$where"
     find lib cli -name '*.c' | xargs ctags -x --c-kinds=f --_xformat='function %F %N %{line}' >>"$where"
     find lib cli -name '*.c' | xargs awk -f $here/headers.awk "$where"
 }
