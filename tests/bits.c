@@ -153,7 +153,7 @@ static void compare_batch(motion *m, int width)
 static void compare_batches(motion *m)
 {
     static const int widths[] = {1, 4, 8};
-    for (int i = 0; i < 4; i++) compare_batch(m, widths[i]);
+    for (size_t i = 0; i < sizeof widths / sizeof *widths; i++) compare_batch(m, widths[i]);
 }
 
 /* ---- generated files ---- */

@@ -136,15 +136,6 @@ void dal__write_start(dal__generation *g)
     dal__buffer_append(&g->text, "}\n\n");
 }
 
-static void write_single_programs(dal__generation *g)
-{
-    if (g->product == DAL__FILE) write_program(g, DAL__PROGRAM_START, "start_values");
-    write_program(g, DAL__PROGRAM_CONSTRAINTS, "constraints");
-    write_program(g, DAL__PROGRAM_ENERGY, "energy");
-    write_program(g, DAL__PROGRAM_INVARIANTS, "invariant_values");
-    write_program(g, DAL__PROGRAM_EXACT, "exact");
-}
-
 void dal__emit_callbacks(dal__generation *g)
 {
     name_inputs(g);
@@ -159,7 +150,13 @@ void dal__emit_callbacks(dal__generation *g)
 #define PROGRAM(code, name, reads) write_program(g, DAL__PROGRAM_##code, #name);
     DAL__WIDE_LIST(PROGRAM)
 #undef PROGRAM
-    if (g->product == DAL__FILE || g->product == DAL__OBSERVE) write_single_programs(g);
+    if (g->product == DAL__FILE) write_program(g, DAL__PROGRAM_START, "start_values");
+    if (g->product == DAL__FILE || g->product == DAL__OBSERVE) {
+        write_program(g, DAL__PROGRAM_CONSTRAINTS, "constraints");
+        write_program(g, DAL__PROGRAM_ENERGY, "energy");
+        write_program(g, DAL__PROGRAM_INVARIANTS, "invariant_values");
+        write_program(g, DAL__PROGRAM_EXACT, "exact");
+    }
     free(g->input);
     write_dispatch(g);
 }

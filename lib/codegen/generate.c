@@ -167,19 +167,14 @@ dal_status dal__generation_check(dal__generation *g, const char *prefix, dal_err
 
 /* ---- constants ---- */
 
-/* Whether the groups of lanes are stepped as one larger system: registers hold implicit stages of
- * two groups where there are few. */
-static bool steps_groups_together(const dal__generation *g)
-{
-    const unsigned properties = g->layout.method.layer[0]->properties;
-    const bool few = properties & DAL_EXTRAPOLATES_STAGES && g->layout.method.layer[0]->stages <= 2;
-    const bool can = properties & DAL_COMPONENTWISE || few;
-    return g->layout.depth == 1 && !g->layout.lifted && can;
-}
-
-/* The lanes of a group fill a register. */
+/* The lanes of a group fill a register.  The groups are stepped as one larger system where
+ * registers hold what a step needs of two groups. */
 static void write_lanes(dal__generation *g)
 {
+    const dal_integrator *method = g->layout.method.layer[0];
+    const bool few_stages = method->properties & DAL_EXTRAPOLATES_STAGES && method->stages <= 2;
+    const bool together = g->layout.depth == 1 && !g->layout.lifted &&
+                          (method->properties & DAL_COMPONENTWISE || few_stages);
     dal__buffer_print(&g->text, "#define DAL_LANES %d\n", g->lanes);
     dal__buffer_append(&g->text, "#if DAL_LANES > 8 && defined __AVX512F__\n#define DAL_GROUP 8\n"
                                  "#elif DAL_LANES > 4 && defined __AVX__ && !defined __AVX512F__\n"
@@ -190,7 +185,7 @@ static void write_lanes(dal__generation *g)
     dal__buffer_append(&g->text, "#define DAL_WORK(place) w[(place) * DAL_GROUPS]\n");
     dal__buffer_print(
         &g->text, "enum { DAL_STEP_GROUPS = %s, DAL_STEP_COUNT = DAL_GROUPS / DAL_STEP_GROUPS };\n",
-        steps_groups_together(g) ? "DAL_GROUPS" : "1");
+        together ? "DAL_GROUPS" : "1");
 }
 
 static void write_constants(dal__generation *g)

@@ -174,7 +174,9 @@ static void *place_engine(const dal__layout *k, void *memory, double **persisten
     for (int i = 0; i < k->depth; i++)
         e->layer[i] = dal__integrator_wide(k->method.layer[i], DAL_WIDE(DAL__VARIANT));
     const dal_system *system = k->system;
-    const dal_callbacks *c = LANES == 4 ? system->wide4 : LANES == 8 ? system->wide8 : &system->call;
+    const dal_callbacks *c = LANES == 4   ? system->wide4
+                             : LANES == 8 ? system->wide8
+                                          : &system->call;
 #define CALLBACK(code, member) e->call[DAL_EVAL_##code] = c->member;
     DAL__CALLBACK_LIST(CALLBACK)
 #undef CALLBACK

@@ -91,7 +91,7 @@ exports() {
         sed 's/^\t\(.*\)/\1 is declared but not exported/; t; s/$/ is exported but not declared/'
 }
 
-# The words that texts do without.
+# Words that texts avoid.
 words() {
     git ls-files | grep -v '^tests/cli/data/\|\.npy$\|^LICENSE$\|^tools/lint/words\|\.svg$\|\.png$' |
         xargs awk -f $here/words.awk $here/words.txt
@@ -147,6 +147,12 @@ check "dependencies of directories" dependencies
 check "lines and files" sizes
 check "functions" functions
 check "nesting" nesting
+check "words" words
+check "headers compile on their own" alone
+check "headers declare what their files define" headers
+check "sources in a directory" crowded
+check "names of static functions" names
+check "static functions called once" once
 check "names in comments" comments
 check "the public header in C++" cplusplus
 check "scripts" scripts
