@@ -265,7 +265,7 @@ run-fuzzers: $(FUZZERS:%=$(BUILD)/tests/%)
 $(FUZZERS:%=$(BUILD)/tests/%): %: %.o $(STATIC)
 	$(call SAY,ld)$(CC) $(CFLAGS) -fsanitize=fuzzer $^ $(LIBS) -o $@
 
-lint: all
+lint: all $(BUILD)/generated/functions.h
 	@CC="$(CC)" BUILD=$(BUILD) sh tools/lint/lint.sh
 
 # Faults planted one by one: make mutants MODULE=lib/dynamics/section.c, or MODULE=integrators; see
