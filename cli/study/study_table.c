@@ -23,7 +23,11 @@ typedef struct table_row {
 /* A format of a number, or 0 where it is exactly so. */
 static void say_number(char *text, const dal_trend *trend, const char *format, double x)
 {
-    if (trend && trend->count > 0) snprintf(text, CELL, x == 0.0 ? "0" : format, x);
+    if (!trend || trend->count <= 0) return;
+    if (x == 0.0)
+        snprintf(text, CELL, "0");
+    else
+        snprintf(text, CELL, format, x);
 }
 
 /* "rounding, linear"; "exact" has no trend. */
