@@ -93,6 +93,19 @@ static const word_list of_value[] = {
     {"size", trend_words, DAL_SIZE_COUNT, 0},
     {"trend", trend_words + DAL_SIZE_COUNT, DAL_TREND_COUNT, DAL_SIZE_COUNT}};
 
+/* A word of 0.2 is refused with its successor. */
+static int refuse_word(const expect_reader *r, const yaml_node_t *item, const word_list *known,
+                       const char *word)
+{
+    static const char *const renamed[][2] = {
+        {"bounded", "none"}, {"linear drift", "linear"}, {"not enough data", "undecided"}};
+    for (size_t i = 0; i < sizeof renamed / sizeof renamed[0]; i++)
+        if (strcmp(word, renamed[i][0]) == 0)
+            return document_fail(r->doc, item, "expect: '%s' is now the trend '%s'", word,
+                                 renamed[i][1]);
+    return document_fail_unknown(r->doc, item, known->what, word, known->word, known->count);
+}
+
 /* Whether a system of the label conserves E, at least on D = 0. */
 static bool is_energy_conserved(const expect_reader *r)
 {
@@ -121,9 +134,7 @@ static int add_words(expect_reader *r, yaml_node_t *node, const word_list *known
         if (!word) return CLI_USAGE;
         int k = 0;
         while (k < known->count && strcmp(known->word[k], word) != 0) k++;
-        if (k == known->count)
-            return document_fail_unknown(r->doc, item, known->what, word, known->word,
-                                         known->count);
+        if (k == known->count) return refuse_word(r, item, known, word);
         x->words |= 1u << (known->first + k);
     }
     if (x->words == 0) return document_fail(r->doc, node, "expect: the list is empty");
@@ -210,6 +221,8 @@ static int add_mapping(expect_reader *r, yaml_node_t *node)
     const char *quantity = r->expectation.quantity;
     if (study_expectation_is_state(&r->expectation))
         return document_fail(r->doc, node, "state: words are required");
+    const yaml_node_t *old = document_value(r->doc, node, "verdict");
+    if (old) return document_fail(r->doc, old, "expect: 'verdict' is now 'size' and 'trend'");
     const int status = read_cells(r, node);
     if (status != CLI_DONE) return status;
     if (!document_value(r->doc, node, "at most") && !document_value(r->doc, node, "at least"))

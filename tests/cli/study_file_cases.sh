@@ -201,13 +201,13 @@ unexpected '  line: {rk4: {c: {start: surfac, size: exact}}}\n' \
 unexpected '  line: {rk4: {c: exat}}\n' \
     "expect.yaml:9:19: unknown size or trend 'exat'; did you mean 'exact'"
 unexpected '  line: {rk4: {c: bounded}}\n' \
-    "expect.yaml:9:19: unknown size or trend 'bounded'"
+    "expect.yaml:9:19: expect: 'bounded' is now the trend 'none'"
 unexpected '  line: {rk4: {c: [none, linear drift]}}\n' \
-    "expect.yaml:9:26: unknown size or trend 'linear drift'"
+    "expect.yaml:9:26: expect: 'linear drift' is now the trend 'linear'"
 unexpected '  line: {rk4: {c: {trend: not enough data}}}\n' \
-    "expect.yaml:9:27: unknown trend 'not enough data'"
+    "expect.yaml:9:27: expect: 'not enough data' is now the trend 'undecided'"
 unexpected '  line: {rk4: {c: {verdict: exact}}}\n' \
-    "expect.yaml:9:20: unknown key 'verdict'"
+    "expect.yaml:9:29: expect: 'verdict' is now 'size' and 'trend'"
 unexpected '  line: {rk4: {c: {size: linear}}}\n' "expect.yaml:9:26: unknown size 'linear'"
 unexpected '  line: {rk4: {c: {trend: exact}}}\n' "expect.yaml:9:27: unknown trend 'exact'"
 unexpected '  line: {rk4: {state: dne}}\n' "unknown state 'dne'; did you mean 'done'"
