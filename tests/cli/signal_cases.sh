@@ -17,6 +17,15 @@ ends() {
     done
     return 1
 }
+# ends_by SIGNAL STATUS: the signal ends the process $pid, with that status.
+ends_by() {
+    kill -"$1" $pid
+    holds "it goes on" ends $pid
+    kill -9 $pid 2>/dev/null
+    wait $pid
+    status=$?
+    holds "exit $status after SIG$1, not $2" test $status -eq "$2"
+}
 for signal in INT TERM; do
     [ $signal = INT ] && number=2 || number=15
     case_is "a second SIG$signal ends what the first did not"
@@ -28,12 +37,7 @@ for signal in INT TERM; do
     kill -$signal $pid # a launcher signals a program and then its group: that is one request
     sleep 0.7
     holds "ended by a request in the midst of a step" alive $pid
-    kill -$signal $pid
-    holds "it goes on" ends $pid
-    kill -9 $pid 2>/dev/null
-    wait $pid
-    status=$?
-    holds "exit $status, not that of SIG$signal" test $status -eq $((128 + number))
+    ends_by $signal $((128 + number))
 done
 
 case_is "a section is interrupted: its rows are kept"
@@ -44,12 +48,7 @@ mv out whole.csv
 pid=$!
 appears cut/section.csv
 sleep 1
-kill -INT $pid
-holds "it goes on" ends $pid
-kill -9 $pid 2>/dev/null
-wait $pid
-status=$?
-holds "exit $status, not 130" test $status -eq 130
+ends_by INT 130
 says '^dalembert: interrupted; [0-9]+ rows are kept$'
 holds "whole lines" awk -F, 'NR == 1 { n = NF } NF != n { exit 1 }' cut/section.csv
 rows=$(($(wc -l <cut/section.csv) - 1))
@@ -67,11 +66,6 @@ case_is "order is interrupted"
 "$program" order ./swing.yaml --integrators rk4 --time 1e7 --step 0.01 >out 2>err &
 pid=$!
 sleep 0.5
-kill -INT $pid
-holds "it goes on" ends $pid
-kill -9 $pid 2>/dev/null
-wait $pid
-status=$?
-holds "exit $status, not 130" test $status -eq 130
+ends_by INT 130
 says '^dalembert: interrupted$'
 empty
