@@ -299,6 +299,6 @@ void suite_error_budget(void)
     CU_add_test(suite, "coefficients", test_coefficients);
     CU_add_test(suite, "sums", test_sums);
     CU_add_test(suite, "without quad precision", test_by_hand);
-    CU_add_test(suite, "looking on", test_observer);
+    CU_add_test(suite, "observers", test_observer);
     CU_add_test(suite, "out of memory", test_out_of_memory);
 }

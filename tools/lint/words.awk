@@ -1,7 +1,7 @@
 # words.awk - reads words.txt, then texts, and names the lines that use one of its words.
 FILENAME ~ /lint\/words\.txt$/ {
     if (/^#/ || NF == 0) next
-    split($0, part, /  +/)
+    if (split($0, part, /  +/) != 2) { print FILENAME ":" FNR ": WORD, two blanks, the usual one"; next }
     count = split(part[1], word, "|")
     for (i = 1; i <= count; i++) {
         pattern = tolower(word[i])
