@@ -182,7 +182,7 @@ static void test_tangent(void)
                               formula_node(graph, "sin(x) + a")};
         dal__gradient(graph, f, symbols, N, gradient);
         for (int k = 0; k < N; k++) {
-            sum = dal__add(graph, sum, dal__mul(graph, gradient[k], seeds[k]));
+            sum = dal__node_add(graph, sum, dal__node_mul(graph, gradient[k], seeds[k]));
         }
         check_equal(graph, dal__tangent(graph, f, symbols, N, seeds), sum, mixtures[i]);
         dal__graph_free(graph);
@@ -201,7 +201,7 @@ static void test_gradient_is_cheap(void)
     for (int i = 0; i < N; i++) {
         symbols[i] = i;
         dal__node x = dal__symbol(graph, i);
-        f = dal__mul(graph, f, dal__apply(graph, DAL__SIN, x, 0));
+        f = dal__node_mul(graph, f, dal__apply(graph, DAL__SIN, x, 0));
     }
     int before = graph->count;
     /* By one symbol, only what depends on it is visited: no more than the N products. */

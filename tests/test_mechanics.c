@@ -369,7 +369,7 @@ static void test_lanes(void)
         name##_##variant(b.system->data, &wide);                                                   \
         check_variant(&b, lanes, &wide);                                                           \
     }
-    DAL__VARIANT_LIST(X, dal__callbacks)
+    DAL__VARIANT_LIST(X, dal__fill_callbacks)
 #undef X
     reference_free(&b);
 }

@@ -257,8 +257,8 @@ static void test_places_are_reused(void)
     dal__node f = dal__symbol(graph, X), y = dal__symbol(graph, Y), z = dal__symbol(graph, Z);
     for (int i = 0; i < LINKS; i++) {
         dal__node s = dal__apply(graph, DAL__SIN, f, 0), c = dal__apply(graph, DAL__COS, f, 0);
-        dal__node g = dal__apply(graph, DAL__EXP, dal__mul(graph, s, c), 0);
-        f = dal__add(graph, dal__mul(graph, g, y), z);
+        dal__node g = dal__apply(graph, DAL__EXP, dal__node_mul(graph, s, c), 0);
+        f = dal__node_add(graph, dal__node_mul(graph, g, y), z);
     }
     dal__tapes *tapes = dal__tapes_create(graph, PARAMETERS, INPUTS);
     dal__tapes_add(tapes, &f, 1);

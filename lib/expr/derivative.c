@@ -11,13 +11,13 @@
 
 static dal__node number(dal__graph *graph, double value) { return dal__number(graph, value); }
 
-static dal__node square(dal__graph *graph, dal__node x) { return dal__mul(graph, x, x); }
+static dal__node square(dal__graph *graph, dal__node x) { return dal__node_mul(graph, x, x); }
 
 /* sqrt(c + sign x^2) */
 static dal__node root(dal__graph *graph, double c, double sign, dal__node x)
 {
-    dal__node x2 = dal__mul(graph, number(graph, sign), square(graph, x));
-    return dal__apply(graph, DAL__SQRT, dal__add(graph, number(graph, c), x2), 0);
+    dal__node x2 = dal__node_mul(graph, number(graph, sign), square(graph, x));
+    return dal__apply(graph, DAL__SQRT, dal__node_add(graph, number(graph, c), x2), 0);
 }
 
 /* k f'(a) of y = f(a), for the functions of one argument. */
@@ -26,35 +26,35 @@ static dal__node by_argument(dal__graph *g, dal__op op, dal__node y, dal__node a
     dal__node one = number(g, 1.0);
     switch (op) {
     case DAL__NEG:
-        return dal__neg(g, k);
+        return dal__node_neg(g, k);
     case DAL__SQRT:
-        return dal__div(g, k, dal__mul(g, number(g, 2.0), y));
+        return dal__node_div(g, k, dal__node_mul(g, number(g, 2.0), y));
     case DAL__EXP:
-        return dal__mul(g, k, y);
+        return dal__node_mul(g, k, y);
     case DAL__LOG:
-        return dal__div(g, k, a);
+        return dal__node_div(g, k, a);
     case DAL__SIN:
-        return dal__mul(g, k, dal__apply(g, DAL__COS, a, 0));
+        return dal__node_mul(g, k, dal__apply(g, DAL__COS, a, 0));
     case DAL__COS:
-        return dal__neg(g, dal__mul(g, k, dal__apply(g, DAL__SIN, a, 0)));
+        return dal__node_neg(g, dal__node_mul(g, k, dal__apply(g, DAL__SIN, a, 0)));
     case DAL__TAN:
-        return dal__mul(g, k, dal__add(g, one, square(g, y)));
+        return dal__node_mul(g, k, dal__node_add(g, one, square(g, y)));
     case DAL__ASIN:
-        return dal__div(g, k, root(g, 1.0, -1.0, a));
+        return dal__node_div(g, k, root(g, 1.0, -1.0, a));
     case DAL__ACOS:
-        return dal__neg(g, dal__div(g, k, root(g, 1.0, -1.0, a)));
+        return dal__node_neg(g, dal__node_div(g, k, root(g, 1.0, -1.0, a)));
     case DAL__ATAN:
-        return dal__div(g, k, dal__add(g, one, square(g, a)));
+        return dal__node_div(g, k, dal__node_add(g, one, square(g, a)));
     case DAL__SINH:
-        return dal__mul(g, k, dal__apply(g, DAL__COSH, a, 0));
+        return dal__node_mul(g, k, dal__apply(g, DAL__COSH, a, 0));
     case DAL__COSH:
-        return dal__mul(g, k, dal__apply(g, DAL__SINH, a, 0));
+        return dal__node_mul(g, k, dal__apply(g, DAL__SINH, a, 0));
     case DAL__TANH:
-        return dal__mul(g, k, dal__sub(g, one, square(g, y)));
+        return dal__node_mul(g, k, dal__node_sub(g, one, square(g, y)));
     case DAL__ASINH:
-        return dal__div(g, k, root(g, 1.0, 1.0, a));
+        return dal__node_div(g, k, root(g, 1.0, 1.0, a));
     case DAL__ABS:
-        return dal__mul(g, k, dal__apply(g, DAL__SIGN, a, 0));
+        return dal__node_mul(g, k, dal__apply(g, DAL__SIGN, a, 0));
     default:
         return number(g, 0.0); /* SIGN is piecewise constant */
     }
@@ -65,15 +65,16 @@ static dal__node by_first(dal__graph *g, dal__op op, dal__node a, dal__node b, d
 {
     switch (op) {
     case DAL__MUL:
-        return dal__mul(g, k, b);
+        return dal__node_mul(g, k, b);
     case DAL__DIV:
-        return dal__div(g, k, b);
+        return dal__node_div(g, k, b);
     case DAL__POW: {
-        dal__node less = dal__apply(g, DAL__POW, a, dal__sub(g, b, number(g, 1.0)));
-        return dal__mul(g, k, dal__mul(g, b, less));
+        dal__node less = dal__apply(g, DAL__POW, a, dal__node_sub(g, b, number(g, 1.0)));
+        return dal__node_mul(g, k, dal__node_mul(g, b, less));
     }
     case DAL__ATAN2:
-        return dal__div(g, dal__mul(g, k, b), dal__add(g, square(g, a), square(g, b)));
+        return dal__node_div(g, dal__node_mul(g, k, b),
+                             dal__node_add(g, square(g, a), square(g, b)));
     default:
         return k; /* ADD, SUB */
     }
@@ -85,15 +86,16 @@ static dal__node by_second(dal__graph *g, dal__op op, dal__node y, dal__node a, 
 {
     switch (op) {
     case DAL__SUB:
-        return dal__neg(g, k);
+        return dal__node_neg(g, k);
     case DAL__MUL:
-        return dal__mul(g, k, a);
+        return dal__node_mul(g, k, a);
     case DAL__DIV:
-        return dal__neg(g, dal__div(g, dal__mul(g, k, y), b));
+        return dal__node_neg(g, dal__node_div(g, dal__node_mul(g, k, y), b));
     case DAL__POW:
-        return dal__mul(g, k, dal__mul(g, y, dal__apply(g, DAL__LOG, a, 0)));
+        return dal__node_mul(g, k, dal__node_mul(g, y, dal__apply(g, DAL__LOG, a, 0)));
     case DAL__ATAN2:
-        return dal__neg(g, dal__div(g, dal__mul(g, k, a), dal__add(g, square(g, a), square(g, b))));
+        return dal__node_neg(g, dal__node_div(g, dal__node_mul(g, k, a),
+                                              dal__node_add(g, square(g, a), square(g, b))));
     default:
         return k; /* ADD */
     }
@@ -139,7 +141,7 @@ static void reverse(dal__graph *graph, dal__node f, const uint8_t *active, dal__
             dal__node x = operand[k];
             if (!active[x]) continue;
             dal__node term = partial(graph, i, k, adjoint[i]);
-            adjoint[x] = adjoint[x] ? dal__add(graph, adjoint[x], term) : term;
+            adjoint[x] = adjoint[x] ? dal__node_add(graph, adjoint[x], term) : term;
         }
     }
 }
@@ -164,7 +166,7 @@ static dal__node forward(dal__graph *graph, dal__node i, const uint8_t *active,
     dal__node operand[2] = {graph->node[i].a, graph->node[i].b}, sum = number(graph, 0.0);
     for (int k = 0; k < 2; k++) {
         dal__node x = operand[k];
-        if (active[x]) sum = dal__add(graph, sum, partial(graph, i, k, tangent[x]));
+        if (active[x]) sum = dal__node_add(graph, sum, partial(graph, i, k, tangent[x]));
     }
     return sum;
 }

@@ -165,8 +165,8 @@ static dal_status apply(parser *p, dal__node *value)
     const frame *f = &p->stack[--p->depth];
     if (divides_by_zero(p->graph, f, *value)) return SYNTAX_ERROR(p, f, "division by zero");
     const dal__op op = find_operator(f->kind)->op;
-    *value =
-        op == DAL__NEG ? dal__neg(p->graph, *value) : dal__apply(p->graph, op, f->left, *value);
+    *value = op == DAL__NEG ? dal__node_neg(p->graph, *value)
+                            : dal__apply(p->graph, op, f->left, *value);
     return *value ? DAL_OK : graph_fault(p);
 }
 

@@ -92,7 +92,7 @@ static dal__node attach(dal__graph *graph, term t)
     return is_one(graph, t.rest) ? c : commute(graph, DAL__MUL, c, t.rest);
 }
 
-dal__node dal__neg(dal__graph *graph, dal__node a)
+dal__node dal__node_neg(dal__graph *graph, dal__node a)
 {
     if (!a) return 0;
     term t = split(graph, a);
@@ -129,7 +129,7 @@ static dal__node coefficients(dal__graph *graph, dal__node c, dal__node d)
     return is_one(graph, rest) ? number : dal__intern(graph, DAL__MUL, number, rest);
 }
 
-dal__node dal__mul(dal__graph *graph, dal__node a, dal__node b)
+dal__node dal__node_mul(dal__graph *graph, dal__node a, dal__node b)
 {
     if (!a || !b) return 0;
     if (is_zero(graph, a) || is_zero(graph, b)) return dal__number(graph, 0.0);
@@ -184,13 +184,13 @@ static dal__node fraction(dal__graph *graph, dal__node u, dal__node w)
     dal__record p = graph->node[u], q = graph->node[w];
     if (q.op == DAL__DIV && p.op != DAL__DIV && graph->depth < MAX_DEPTH) {
         graph->depth++;
-        dal__node node = dal__div(graph, dal__mul(graph, u, q.b), q.a);
+        dal__node node = dal__node_div(graph, dal__node_mul(graph, u, q.b), q.a);
         graph->depth--;
         return node;
     }
     if (p.op == DAL__DIV && graph->depth < MAX_DEPTH) {
         graph->depth++;
-        dal__node node = dal__div(graph, p.a, dal__mul(graph, p.b, w));
+        dal__node node = dal__node_div(graph, p.a, dal__node_mul(graph, p.b, w));
         graph->depth--;
         return node;
     }
@@ -211,7 +211,7 @@ static dal__node divide_fixed(dal__graph *graph, term x, dal__node c)
     return attach(graph, x);
 }
 
-dal__node dal__div(dal__graph *graph, dal__node a, dal__node b)
+dal__node dal__node_div(dal__graph *graph, dal__node a, dal__node b)
 {
     if (!a || !b) return 0;
     if (is_zero(graph, b)) return dal__intern(graph, DAL__DIV, a, b);
@@ -239,7 +239,7 @@ dal__node dal__div(dal__graph *graph, dal__node a, dal__node b)
     } else {
         dal__node quotient = fraction(graph, x.rest, below);
         x.rest = one(graph);
-        return dal__mul(graph, attach(graph, x), quotient);
+        return dal__node_mul(graph, attach(graph, x), quotient);
     }
     return attach(graph, x);
 }
@@ -301,7 +301,7 @@ static dal__node pythagoras(dal__graph *graph, dal__node x, dal__node y)
     bool squares = (s.op == DAL__SIN && t.op == DAL__COS) || (s.op == DAL__COS && t.op == DAL__SIN);
     if (!squares || s.a != t.a) return 0;
     dal__node f = one(graph);
-    for (int i = 0; i < c.commons; i++) f = dal__mul(graph, f, c.common[i]);
+    for (int i = 0; i < c.commons; i++) f = dal__node_mul(graph, f, c.common[i]);
     return f;
 }
 
@@ -313,7 +313,7 @@ static dal__node fixed_sum(dal__graph *graph, term x, term y)
     dal__record r = graph->node[x.coefficient], s = graph->node[y.coefficient];
     if (x.coefficient == y.coefficient) {
         if (x.negative != y.negative) return dal__number(graph, 0.0);
-        x.coefficient = dal__mul(graph, dal__number(graph, 2.0), x.coefficient);
+        x.coefficient = dal__node_mul(graph, dal__number(graph, 2.0), x.coefficient);
         return attach(graph, x);
     }
     if (r.op != DAL__NUMBER || s.op != DAL__NUMBER) return 0;
@@ -327,11 +327,12 @@ static dal__node common_denominator(dal__graph *graph, term x, term y)
 {
     dal__record r = graph->node[x.rest], s = graph->node[y.rest];
     if (r.op != DAL__DIV || s.op != DAL__DIV || r.b != s.b) return 0;
-    dal__node c[2] = {dal__mul(graph, x.coefficient, r.a), dal__mul(graph, y.coefficient, s.a)};
+    dal__node c[2] = {dal__node_mul(graph, x.coefficient, r.a),
+                      dal__node_mul(graph, y.coefficient, s.a)};
     term u = split(graph, c[0]), w = split(graph, c[1]);
     u.negative = u.negative != x.negative;
     w.negative = w.negative != y.negative;
-    return dal__div(graph, signed_sum(graph, u, w), r.b);
+    return dal__node_div(graph, signed_sum(graph, u, w), r.b);
 }
 
 /* x + y as one term, or 0 when they do not combine. */
@@ -342,15 +343,15 @@ static dal__node combine(dal__graph *graph, term x, term y)
     if (x_fixed || y_fixed) return 0;
     term c = {x.coefficient, one(graph), x.negative}, d = c;
     d.coefficient = y.coefficient, d.negative = y.negative;
-    if (x.rest == y.rest) return dal__mul(graph, signed_sum(graph, c, d), x.rest);
+    if (x.rest == y.rest) return dal__node_mul(graph, signed_sum(graph, c, d), x.rest);
     if (x.coefficient == y.coefficient && !is_one(graph, x.coefficient)) {
         x.coefficient = y.coefficient = one(graph);
-        return dal__mul(graph, c.coefficient, signed_sum(graph, x, y));
+        return dal__node_mul(graph, c.coefficient, signed_sum(graph, x, y));
     }
     dal__node f = 0;
     if (x.coefficient == y.coefficient && x.negative == y.negative)
         f = pythagoras(graph, x.rest, y.rest);
-    if (f) return x.negative ? dal__neg(graph, f) : f;
+    if (f) return x.negative ? dal__node_neg(graph, f) : f;
     return common_denominator(graph, x, y);
 }
 
@@ -413,8 +414,14 @@ static dal__node add(dal__graph *graph, dal__node a, dal__node b, bool minus)
     return signed_sum(graph, x, y);
 }
 
-dal__node dal__add(dal__graph *graph, dal__node a, dal__node b) { return add(graph, a, b, false); }
-dal__node dal__sub(dal__graph *graph, dal__node a, dal__node b) { return add(graph, a, b, true); }
+dal__node dal__node_add(dal__graph *graph, dal__node a, dal__node b)
+{
+    return add(graph, a, b, false);
+}
+dal__node dal__node_sub(dal__graph *graph, dal__node a, dal__node b)
+{
+    return add(graph, a, b, true);
+}
 
 /* ---- functions and powers ---- */
 
@@ -448,7 +455,7 @@ static dal__node function(dal__graph *graph, dal__op op, dal__node a)
     if (op == DAL__ABS && r.op == DAL__ABS) return a;
     double value = r.op == DAL__NUMBER ? dal__operate(op, r.value, 0.0, 0.0) : INFINITY;
     dal__node node = isfinite(value) ? dal__number(graph, value) : dal__intern(graph, op, a, 0);
-    return negative ? dal__neg(graph, node) : node;
+    return negative ? dal__node_neg(graph, node) : node;
 }
 
 /* x^n by squaring. */
@@ -456,10 +463,10 @@ static dal__node integer_power(dal__graph *graph, dal__node x, int n)
 {
     dal__node result = dal__number(graph, 1.0);
     for (int rest = n < 0 ? -n : n; rest > 0; rest /= 2) {
-        if (rest % 2) result = dal__mul(graph, result, x);
-        if (rest > 1) x = dal__mul(graph, x, x);
+        if (rest % 2) result = dal__node_mul(graph, result, x);
+        if (rest > 1) x = dal__node_mul(graph, x, x);
     }
-    return n < 0 ? dal__div(graph, dal__number(graph, 1.0), result) : result;
+    return n < 0 ? dal__node_div(graph, dal__number(graph, 1.0), result) : result;
 }
 
 static dal__node power(dal__graph *graph, dal__node a, dal__node b)
@@ -473,7 +480,7 @@ static dal__node power(dal__graph *graph, dal__node a, dal__node b)
         return integer_power(graph, a, (int)s.value);
     if (s.value == 0.5) return function(graph, DAL__SQRT, a);
     if (s.value == -0.5)
-        return dal__div(graph, dal__number(graph, 1.0), function(graph, DAL__SQRT, a));
+        return dal__node_div(graph, dal__number(graph, 1.0), function(graph, DAL__SQRT, a));
     return dal__intern(graph, DAL__POW, a, b);
 }
 
@@ -483,15 +490,15 @@ dal__node dal__apply(dal__graph *graph, dal__op op, dal__node a, dal__node b)
     dal__record r = graph->node[a], s = graph->node[b];
     switch (op) {
     case DAL__ADD:
-        return dal__add(graph, a, b);
+        return dal__node_add(graph, a, b);
     case DAL__SUB:
-        return dal__sub(graph, a, b);
+        return dal__node_sub(graph, a, b);
     case DAL__MUL:
-        return dal__mul(graph, a, b);
+        return dal__node_mul(graph, a, b);
     case DAL__DIV:
-        return dal__div(graph, a, b);
+        return dal__node_div(graph, a, b);
     case DAL__NEG:
-        return dal__neg(graph, a);
+        return dal__node_neg(graph, a);
     case DAL__POW:
         return b ? power(graph, a, b) : 0;
     case DAL__ATAN2:

@@ -9,10 +9,10 @@
 #include "expr/graph.h"
 
 dal__node dal__apply(dal__graph *graph, dal__op op, dal__node a, dal__node b); /* b: 0 if unary */
-dal__node dal__add(dal__graph *graph, dal__node a, dal__node b);
-dal__node dal__sub(dal__graph *graph, dal__node a, dal__node b);
-dal__node dal__mul(dal__graph *graph, dal__node a, dal__node b);
-dal__node dal__div(dal__graph *graph, dal__node a, dal__node b);
-dal__node dal__neg(dal__graph *graph, dal__node a);
+dal__node dal__node_add(dal__graph *graph, dal__node a, dal__node b);
+dal__node dal__node_sub(dal__graph *graph, dal__node a, dal__node b);
+dal__node dal__node_mul(dal__graph *graph, dal__node a, dal__node b);
+dal__node dal__node_div(dal__graph *graph, dal__node a, dal__node b);
+dal__node dal__node_neg(dal__graph *graph, dal__node a);
 
 #endif

@@ -15,9 +15,9 @@ enum { PATH_SIZE = 1024 };
 
 static void release(void *handle) { dlclose(handle); }
 
-/* Of the functions in dal__native an object has one, named after the product.  ISO C has no
+/* Of the functions in dal__native_code an object has one, named after the product.  ISO C has no
  * conversion from what dlsym finds. */
-static bool find(void *handle, dal__product product, dal__native *native)
+static bool find(void *handle, dal__product product, dal__native_code *native)
 {
     static const char *const symbols[] = {[DAL__LANES] = DAL__NATIVE_PREFIX "_lanes",
                                           [DAL__TRACE] = DAL__NATIVE_PREFIX "_traced",
@@ -29,7 +29,7 @@ static bool find(void *handle, dal__product product, dal__native *native)
     return found != NULL;
 }
 
-static dal_status load(const char *path, dal__product product, dal__native *native,
+static dal_status load(const char *path, dal__product product, dal__native_code *native,
                        dal_error *error)
 {
     void *handle = dlopen(path, RTLD_NOW | RTLD_LOCAL);
@@ -45,7 +45,8 @@ static dal_status load(const char *path, dal__product product, dal__native *nati
 
 /* An object that cannot be loaded is compiled again. */
 static dal_status compiled(const char *text, dal__product product,
-                           const dal_native_options *options, dal__native *native, dal_error *error)
+                           const dal_native_options *options, dal__native_code *native,
+                           dal_error *error)
 {
     char path[PATH_SIZE];
     dal_status status = DAL_IO;
@@ -58,7 +59,7 @@ static dal_status compiled(const char *text, dal__product product,
 }
 
 static dal_status compiled_steps(const dal__layout *layout, dal__product product, int lanes,
-                                 const dal_native_options *options, dal__native *native,
+                                 const dal_native_options *options, dal__native_code *native,
                                  dal_error *error)
 {
     const dal_run_spec spec = {
@@ -113,7 +114,7 @@ dal_status dal_run_native_observables(dal_run *run, const dal_native_options *op
                                       dal_error *error)
 {
     DAL_REQUIRE(run, error);
-    dal__native code = {0};
+    dal__native_code code = {0};
     char *text;
     if (run->observations.states || dal_run_observables(run) == 0) return DAL_OK;
     DAL_TRY(dal__generate_observables(&run->layout, run, &text, error));
@@ -135,7 +136,7 @@ dal_status dal_batch_native(dal_batch *batch, const dal_native_options *options,
 {
     DAL_REQUIRE(batch, error);
     const int lanes = dal__batch_native_lanes(batch);
-    dal__native native = {0};
+    dal__native_code native = {0};
     if (dal_batch_is_native(batch)) return DAL_OK;
     DAL_TRY(compiled_steps(dal__batch_layout(batch), DAL__LANES, lanes, options, &native, error));
     const dal_status status = dal__batch_install(batch, lanes, &native, error);

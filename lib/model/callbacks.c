@@ -42,7 +42,7 @@ static dal_status diagnose(const dal_system *system, const dal_point *at, double
     return DAL_OK;
 }
 
-void dal__callbacks_single(dal__programs *programs, dal_system *system)
+void dal__fill_single_callbacks(dal__programs *programs, dal_system *system)
 {
 #define SET(code, name, reads)                                                                     \
     system->name = programs->program[DAL__PROGRAM_##code].present ? name : NULL;

@@ -59,7 +59,7 @@ static dal_status run_program(const dal_system *system, const dal_point *at, dou
 DAL__WIDE_LIST(CALLBACK)
 #undef CALLBACK
 
-dal__run_program *DAL_WIDE(dal__callbacks)(const dal__programs *programs, dal_callbacks *call)
+dal__run_program *DAL_WIDE(dal__fill_callbacks)(const dal__programs *programs, dal_callbacks *call)
 {
 #define SET(code, name, reads)                                                                     \
     call->name = programs->program[DAL__PROGRAM_##code].present ? name : NULL;

@@ -157,8 +157,8 @@ static dal__node over_pivot(elimination *w, dal__node x, int k)
 {
     const plan *p = w->p;
     dal__node pivot = w->s->matrix[p->row[k] * w->s->n + p->column[k]];
-    if (w->s->columns == 1) return dal__div(w->graph, x, pivot);
-    return dal__mul(w->graph, x, w->reciprocal[k]);
+    if (w->s->columns == 1) return dal__node_div(w->graph, x, pivot);
+    return dal__node_mul(w->graph, x, w->reciprocal[k]);
 }
 
 static bool is_zero(const elimination *w, dal__node node)
@@ -169,7 +169,7 @@ static bool is_zero(const elimination *w, dal__node node)
 static void subtract(elimination *w, dal__node *from, dal__node a, dal__node b)
 {
     if (!is_zero(w, a) && !is_zero(w, b))
-        *from = dal__sub(w->graph, *from, dal__mul(w->graph, a, b));
+        *from = dal__node_sub(w->graph, *from, dal__node_mul(w->graph, a, b));
 }
 
 static void eliminate_row(elimination *w, int k, int other)
@@ -182,10 +182,10 @@ static void eliminate_row(elimination *w, int k, int other)
     for (int j = k + 1; j < n; j++) {
         int c = w->p->column[j];
         if (is_zero(w, pivots[c])) continue;
-        dal__node product = dal__mul(w->graph, factor, pivots[c]);
+        dal__node product = dal__node_mul(w->graph, factor, pivots[c]);
         dal__node size = dal__apply(w->graph, DAL__ABS, product, 0);
-        below[c] = dal__sub(w->graph, below[c], product);
-        w->size[other * n + c] = dal__add(w->graph, w->size[other * n + c], size);
+        below[c] = dal__node_sub(w->graph, below[c], product);
+        w->size[other * n + c] = dal__node_add(w->graph, w->size[other * n + c], size);
     }
     for (int j = 0; j < columns; j++)
         subtract(w, &w->s->rhs[other * columns + j], factor, w->s->rhs[row * columns + j]);
@@ -218,7 +218,7 @@ dal_status dal__linear_solve(dal_model *model, dal__linear *s)
         w.size[i] = dal__apply(e->graph, DAL__ABS, s->matrix[i], 0);
     for (int k = 0; k < s->n; k++) {
         record_pivot(e, &w, k);
-        w.reciprocal[k] = dal__div(e->graph, one, s->matrix[p.row[k] * s->n + p.column[k]]);
+        w.reciprocal[k] = dal__node_div(e->graph, one, s->matrix[p.row[k] * s->n + p.column[k]]);
         for (int i = k + 1; i < s->n; i++) eliminate_row(&w, k, p.row[i]);
     }
     for (int k = s->n; k-- > 0;)

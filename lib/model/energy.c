@@ -125,7 +125,7 @@ static bool vanishes(identity *id)
 {
     dal__graph *graph = id->e->graph;
     dal__node whole = dal__number(graph, 0.0);
-    for (int i = 0; i < id->terms; i++) whole = dal__add(graph, whole, id->term[i]);
+    for (int i = 0; i < id->terms; i++) whole = dal__node_add(graph, whole, id->term[i]);
     return dal__is_number(graph, whole, 0.0) || vanishes_at_points(id, NULL);
 }
 
@@ -148,7 +148,7 @@ static void virtual_power(identity *id, int a)
     const dal__equations *e = id->e;
     id->terms = 0;
     for (int i = 0; i < e->n; i++)
-        add_term(id, dal__mul(e->graph, e->flow[1 + i], e->B[a * e->n + i]));
+        add_term(id, dal__node_mul(e->graph, e->flow[1 + i], e->B[a * e->n + i]));
 }
 
 /* v.B_a = k D_a for some k, which is found at one point. */
@@ -162,7 +162,7 @@ static bool is_homogeneous(identity *id, int a)
     double k = power / dal__evaluate(e->graph, e->constraint[a], id->point);
     if (!isfinite(k)) return false;
     if (fabs(k - nearbyint(k)) < ROUNDING * fabs(k)) k = nearbyint(k);
-    add_term(id, dal__mul(e->graph, dal__number(e->graph, -k), e->constraint[a]));
+    add_term(id, dal__node_mul(e->graph, dal__number(e->graph, -k), e->constraint[a]));
     return vanishes(id);
 }
 
@@ -171,11 +171,12 @@ static unsigned by_parts(identity *id)
     const dal__equations *e = id->e;
     bool exact = !e->multipliers, weak = true;
     id->terms = 0;
-    for (int i = 0; i < e->n; i++) add_term(id, dal__mul(e->graph, e->flow[1 + i], e->force[i]));
-    add_term(id, dal__neg(e->graph, partial_t(e, e->lagrangian)));
+    for (int i = 0; i < e->n; i++)
+        add_term(id, dal__node_mul(e->graph, e->flow[1 + i], e->force[i]));
+    add_term(id, dal__node_neg(e->graph, partial_t(e, e->lagrangian)));
     for (int a = 0; a < e->multipliers; a++)
-        add_term(id, dal__mul(e->graph, dal__symbol(e->graph, e->g + a),
-                              partial_t(e, e->constraint[a])));
+        add_term(id, dal__node_mul(e->graph, dal__symbol(e->graph, e->g + a),
+                                   partial_t(e, e->constraint[a])));
     if (!vanishes(id)) return 0;
     for (int a = 0; a < e->m && !e->vakonomic; a++) {
         virtual_power(id, a);
@@ -201,7 +202,7 @@ dal_status dal__energy_properties(dal_model *model)
         id.terms = 0; /* dE/dt = E_q v + E_t + E_v F */
         add_term(&id, dal__time_derivative(e, e->energy));
         dal__gradient(e->graph, e->energy, e->symbol + e->v, e->n, E_v);
-        for (int i = 0; i < e->n; i++) add_term(&id, dal__mul(e->graph, E_v[i], e->F[i]));
+        for (int i = 0; i < e->n; i++) add_term(&id, dal__node_mul(e->graph, E_v[i], e->F[i]));
         found = vanishes(&id) ? DAL_E_EXACT : vanishes_at_points(&id, scratch) ? DAL_E_ON_D : 0;
     }
     e->properties |= found;
@@ -222,7 +223,8 @@ static dal_status find_beta(dal_model *model, dal__node *along, dal__node *beta)
         for (int b = a; b < m; b++) {
             dal__node sum = dal__number(e->graph, 0.0);
             for (int i = 0; i < n; i++)
-                sum = dal__add(e->graph, sum, dal__mul(e->graph, e->A[a * n + i], e->U[i * m + b]));
+                sum = dal__node_add(e->graph, sum,
+                                    dal__node_mul(e->graph, e->A[a * n + i], e->U[i * m + b]));
             G[a * m + b] = G[b * m + a] = sum;
         }
     }
@@ -241,17 +243,18 @@ static dal_status extend(dal_model *model)
     if (status != DAL_OK) return status == DAL_SINGULAR ? DAL_OK : status; /* B is not A */
     const dal__node *v = e->flow + 1;
     dal__node whole = dal__dot(graph, n, v, e->normal + 1 + n);
-    dal__node free = dal__sub(graph, whole, dal__dot(graph, m, along, beta));
-    dal__node divisor = dal__add(graph, free, dal__number(graph, REST));
-    dal__node rate = dal__sub(graph, dal__dot(graph, n, v, e->force), partial_t(e, e->lagrangian));
+    dal__node free = dal__node_sub(graph, whole, dal__dot(graph, m, along, beta));
+    dal__node divisor = dal__node_add(graph, free, dal__number(graph, REST));
+    dal__node rate =
+        dal__node_sub(graph, dal__dot(graph, n, v, e->force), partial_t(e, e->lagrangian));
     for (int a = 0; a < m; a++) {
         dal__node pushed = dal__dot(graph, n, e->B + a * n, v);
-        rate = dal__add(graph, rate, dal__mul(graph, e->h[a], pushed));
+        rate = dal__node_add(graph, rate, dal__node_mul(graph, e->h[a], pushed));
     }
-    dal__node alpha = dal__neg(graph, dal__div(graph, rate, divisor));
+    dal__node alpha = dal__node_neg(graph, dal__node_div(graph, rate, divisor));
     for (int i = 0; i < n; i++) {
-        dal__node along_free = dal__sub(graph, v[i], dal__dot(graph, m, e->U + i * m, beta));
-        extended[i] = dal__add(graph, e->F[i], dal__mul(graph, alpha, along_free));
+        dal__node along_free = dal__node_sub(graph, v[i], dal__dot(graph, m, e->U + i * m, beta));
+        extended[i] = dal__node_add(graph, e->F[i], dal__node_mul(graph, alpha, along_free));
     }
     e->extended = extended;
     return graph->status;

@@ -18,7 +18,8 @@
 dal__node dal__dot(dal__graph *graph, int count, const dal__node *a, const dal__node *b)
 {
     dal__node sum = dal__number(graph, 0.0);
-    for (int i = 0; i < count; i++) sum = dal__add(graph, sum, dal__mul(graph, a[i], b[i]));
+    for (int i = 0; i < count; i++)
+        sum = dal__node_add(graph, sum, dal__node_mul(graph, a[i], b[i]));
     return sum;
 }
 
@@ -42,11 +43,11 @@ static void derive_lagrangian(dal__equations *e, dal__node L)
     dal__gradient(graph, L, e->symbol + e->q, e->n, e->b);
     for (int i = 0; i < e->n; i++) {
         dal__gradient(graph, e->momentum[i], e->symbol + e->v, e->n, e->W + i * e->n);
-        e->b[i] = dal__sub(graph, e->b[i], dal__time_derivative(e, e->momentum[i]));
-        e->b[i] = dal__add(graph, e->b[i], e->force[i]);
+        e->b[i] = dal__node_sub(graph, e->b[i], dal__time_derivative(e, e->momentum[i]));
+        e->b[i] = dal__node_add(graph, e->b[i], e->force[i]);
     }
     dal__node twice = dal__dot(graph, e->n, e->flow + 1, e->momentum);
-    e->energy = dal__sub(graph, twice, L);
+    e->energy = dal__node_sub(graph, twice, L);
 }
 
 static dal_status derive_constraints(dal_model *model, dal_error *error)
@@ -124,8 +125,9 @@ static dal__node project(const dal__equations *e, int a, const dal__linear *mass
 {
     dal__node sum = dal__number(e->graph, 0.0);
     for (int i = 0; i < e->n; i++) {
-        dal__node term = dal__mul(e->graph, e->A[a * e->n + i], mass->x[i * mass->columns + k]);
-        sum = dal__add(e->graph, sum, term);
+        dal__node term =
+            dal__node_mul(e->graph, e->A[a * e->n + i], mass->x[i * mass->columns + k]);
+        sum = dal__node_add(e->graph, sum, term);
     }
     return sum;
 }
@@ -160,8 +162,8 @@ static dal_status solve_motion(dal_model *model, dal_error *error)
     if (status != DAL_OK) return exhausted(model, error);
     if (!allocate_linear(model, &force, e->m, 1, 0)) return exhausted(model, error);
     for (int a = 0; a < e->m; a++) { /* G h = -(c + A W^-1 b) */
-        dal__node pull = dal__add(e->graph, e->c[a], project(e, a, &mass, 0));
-        force.rhs[a] = dal__neg(e->graph, pull);
+        dal__node pull = dal__node_add(e->graph, e->c[a], project(e, a, &mass, 0));
+        force.rhs[a] = dal__node_neg(e->graph, pull);
         for (int b = 0; b < e->m; b++)
             force.matrix[a * e->m + b] = b < a && !e->servo
                                              ? force.matrix[b * e->m + a]
@@ -173,7 +175,7 @@ static dal_status solve_motion(dal_model *model, dal_error *error)
     for (int a = 0; a < e->m; a++) e->h[a] = force.x[a];
     for (int i = 0; i < e->n; i++) {
         dal__node pushed = dal__dot(e->graph, e->m, e->R + i * e->m, force.x);
-        e->F[i] = dal__add(e->graph, mass.x[i * mass.columns], pushed);
+        e->F[i] = dal__node_add(e->graph, mass.x[i * mass.columns], pushed);
     }
     return DAL_OK;
 }
@@ -192,7 +194,7 @@ static dal_status solve_vakonomic(dal_model *model, dal_error *error)
     dal__node L = e->lagrangian;
     for (int a = 0; a < e->m; a++) {
         dal__node g = dal__symbol(e->graph, e->g + a);
-        L = dal__sub(e->graph, L, dal__mul(e->graph, g, e->constraint[a]));
+        L = dal__node_sub(e->graph, L, dal__node_mul(e->graph, g, e->constraint[a]));
     }
     derive_lagrangian(e, L);
     if (!allocate_linear(model, &s, e->n + e->m, 1, e->n)) return exhausted(model, error);
@@ -203,10 +205,10 @@ static dal_status solve_vakonomic(dal_model *model, dal_error *error)
         for (int j = 0; j < n; j++) s.matrix[i * size + j] = e->W[i * n + j];
         for (int a = 0; a < e->m; a++) {
             s.matrix[(n + a) * size + i] = e->A[a * n + i];
-            s.matrix[i * size + n + a] = dal__neg(e->graph, e->A[a * n + i]);
+            s.matrix[i * size + n + a] = dal__node_neg(e->graph, e->A[a * n + i]);
         }
     }
-    for (int a = 0; a < e->m; a++) s.rhs[n + a] = dal__neg(e->graph, e->c[a]);
+    for (int a = 0; a < e->m; a++) s.rhs[n + a] = dal__node_neg(e->graph, e->c[a]);
     status = dal__linear_solve(model, &s);
     if (status == DAL_SINGULAR && s.singular < e->n) return singular_mass(model, s.singular, error);
     if (status == DAL_SINGULAR) return dependent_constraints(model, s.singular - e->n, error);

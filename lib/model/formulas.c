@@ -97,7 +97,7 @@ static dal_status by_coordinate(dal_model *model, dal_section section, dal__scop
         DAL_TRY(find_word(entry->name, DAL__AT_NAME(entry), what, e->coordinate, e->n, &i, error));
         DAL_TRY(parse_entry(model, entry, scope, &node, error));
         if (entry->item) i += (entry->item - 1) * e->n;
-        out[i] = dal__add(e->graph, out[i], node);
+        out[i] = dal__node_add(e->graph, out[i], node);
     }
     return DAL_OK;
 }

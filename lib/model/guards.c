@@ -93,7 +93,8 @@ static bool guard_determinant(search *s, bool mass, const char *name)
     dal__equations *e = &s->model->equations;
     dal__node det = dal__number(e->graph, 1.0);
     for (int k = 0; k < e->pivots; k++)
-        if (mass == (e->pivot[k].constraint == 0)) det = dal__mul(e->graph, det, e->pivot[k].pivot);
+        if (mass == (e->pivot[k].constraint == 0))
+            det = dal__node_mul(e->graph, det, e->pivot[k].pivot);
     if (e->vakonomic || !dal__depends(e->graph, det, e->parameters, e->symbols)) return false;
     s->full = s->full || e->guards == MAX_GUARDS;
     if (s->full) return false;

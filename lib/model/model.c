@@ -7,10 +7,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-typedef struct dal__block {
-    struct dal__block *next;
+typedef struct dal__allocation {
+    struct dal__allocation *next;
     max_align_t memory[];
-} dal__block;
+} dal__allocation;
 
 const char *dal__section_name(dal_section section)
 {
@@ -46,7 +46,7 @@ bool dal__section_named(dal_section section)
 
 void *dal__model_allocate(dal_model *model, size_t count, size_t size)
 {
-    dal__block *block = NULL;
+    dal__allocation *block = NULL;
     size_t most = SIZE_MAX - sizeof *block;
     if (size == 0 || count <= most / size) block = calloc(1, sizeof *block + count * size);
     if (!block) {
@@ -107,7 +107,7 @@ void dal_model_free(dal_model *model)
     dal__tapes_free(model->tangent_programs.tapes);
     dal__tapes_free(model->extended_programs.tapes);
     dal__graph_free(model->equations.graph);
-    for (dal__block *block = model->blocks, *next; block; block = next) {
+    for (dal__allocation *block = model->blocks, *next; block; block = next) {
         next = block->next;
         free(block);
     }

@@ -37,8 +37,8 @@ typedef struct dal__entry {
 
 struct dal_model {
     char *name;
-    struct dal__block *blocks; /* all memory */
-    bool out_of_memory;        /* an allocation failed */
+    struct dal__allocation *blocks; /* all memory */
+    bool out_of_memory;             /* an allocation failed */
     dal__entry *entries;
     int count, capacity;
     dal__equations equations;

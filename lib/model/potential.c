@@ -40,7 +40,8 @@ static void fill_block(const blocks *b, int block, dal__node *out)
     dal__node zero = dal__number(e->graph, 0.0), power = zero;
     for (int i = 0; i < n && !quadratic; i++)
         if (b->block[i] == block)
-            power = dal__add(e->graph, power, dal__mul(e->graph, b->U_q[i], e->flow[1 + i]));
+            power =
+                dal__node_add(e->graph, power, dal__node_mul(e->graph, b->U_q[i], e->flow[1 + i]));
     dal__node U = zero;
     for (int i = 0; i < n && !quadratic;
          i++) /* the coordinates of all other blocks at their start */
@@ -50,7 +51,7 @@ static void fill_block(const blocks *b, int block, dal__node *out)
     for (int i = 0; i < n; i++) {
         if (b->block[i] != block) continue;
         dal__node momentum = dal__dot(e->graph, n, e->W + i * n, e->flow + 1);
-        size = dal__add(e->graph, size, dal__mul(e->graph, e->flow[1 + i], momentum));
+        size = dal__node_add(e->graph, size, dal__node_mul(e->graph, e->flow[1 + i], momentum));
     }
     for (int i = 0; i < n; i++) {
         if (b->block[i] != block) continue;
@@ -73,8 +74,8 @@ dal_status dal__potential(dal_model *model)
     b.other = dal__model_nodes(model, e->n, 0);
     if (model->out_of_memory) return DAL_MEMORY;
     /* L is a polynomial of degree 2 in v: U is what remains of -L without v. */
-    b.U =
-        dal__neg(e->graph, dal__substitute(e->graph, e->lagrangian, e->symbol + e->v, e->n, b.row));
+    b.U = dal__node_neg(e->graph,
+                        dal__substitute(e->graph, e->lagrangian, e->symbol + e->v, e->n, b.row));
     dal__gradient(e->graph, b.U, e->symbol + e->q, e->n, b.U_q);
     for (int i = 0; i < e->n; i++) b.block[i] = i;
     for (int i = 0; i < e->n * e->n; i++) {

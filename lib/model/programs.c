@@ -54,7 +54,7 @@ static dal_status add_adjoint(dal_model *model, dal__programs *programs, const d
     dal__node product = dal__number(e->graph, 0.0);
     for (int i = 0; i < n; i++) {
         dal__node pi = dal__symbol(e->graph, e->pi + i);
-        product = dal__add(e->graph, product, dal__mul(e->graph, pi, F[i]));
+        product = dal__node_add(e->graph, product, dal__node_mul(e->graph, pi, F[i]));
         out[i] = F[i];
     }
     dal__gradient(e->graph, product, e->symbol + e->q, n, out + n);
@@ -123,7 +123,7 @@ static dal_status make_quad(dal_model *model, const dal__programs *programs, dal
     dal__quad_system *k = dal__model_allocate(model, 1, sizeof *k);
     if (!k) return DAL_MEMORY;
     k->programs = *programs;
-    k->programs.run = dal__callbacks_x1_QUAD(&k->programs, &k->programs.wide1);
+    k->programs.run = dal__fill_callbacks_x1_QUAD(&k->programs, &k->programs.wide1);
     k->system = *system;
     k->system.data = &k->programs;
     k->system.prepare = prepare_quad;
@@ -158,16 +158,16 @@ dal_status dal__programs_finish(dal_model *model, dal__programs *programs, dal_s
     system->data = programs;
     system->workspace = programs->scratch + scratch_size(programs);
     system->prepare = prepare;
-    programs->run = dal__callbacks_x1(programs, &programs->wide1);
+    programs->run = dal__fill_callbacks_x1(programs, &programs->wide1);
 #define CALLBACKS(name, variant, lanes, set)                                                       \
     if (dal__machine_has(DAL__##set)) {                                                            \
         dal__run_program *run = name##_##variant(programs, &programs->wide##lanes);                \
         if (lanes == 1) programs->run = run;                                                       \
     }
-    DAL__VARIANT_LIST(CALLBACKS, dal__callbacks)
+    DAL__VARIANT_LIST(CALLBACKS, dal__fill_callbacks)
 #undef CALLBACKS
     system->call = programs->wide1;
-    dal__callbacks_single(programs, system);
+    dal__fill_single_callbacks(programs, system);
     system->wide4 = if_filled(&programs->wide4);
     system->wide8 = if_filled(&programs->wide8);
     return make_quad(model, programs, system);

@@ -63,11 +63,12 @@ static bool is_isokinetic(const dal__equations *e, dal__node *row)
     for (int i = 0; i < e->n; i++) {
         dal__gradient(graph, e->A[i], e->symbol + e->v, e->n, row);
         for (int j = 0; j < e->n; j++) {
-            dal__node expected = dal__mul(graph, first, e->W[i * e->n + j]);
-            dal__node defect = dal__sub(graph, dal__mul(graph, row[j], e->W[0]), expected);
+            dal__node expected = dal__node_mul(graph, first, e->W[i * e->n + j]);
+            dal__node defect =
+                dal__node_sub(graph, dal__node_mul(graph, row[j], e->W[0]), expected);
             if (!dal__is_number(graph, defect, 0.0)) return false;
         }
-        dal__node rest = dal__sub(graph, e->A[i], dal__dot(graph, e->n, row, v));
+        dal__node rest = dal__node_sub(graph, e->A[i], dal__dot(graph, e->n, row, v));
         if (!dal__is_number(graph, rest, 0.0)) return false;
     }
     return true;

@@ -54,8 +54,8 @@ static dal_status add_diagnosis(dal_model *model, dal__programs *programs)
         out[2 * k + 1] = e->pivot[k].size;
     }
     for (int a = 0; a < e->m; a++) {
-        dal__node sum = dal__add(e->graph, e->constraint[a], e->c[a]);
-        for (int i = 0; i < e->n; i++) sum = dal__add(e->graph, sum, e->A[a * e->n + i]);
+        dal__node sum = dal__node_add(e->graph, e->constraint[a], e->c[a]);
+        for (int i = 0; i < e->n; i++) sum = dal__node_add(e->graph, sum, e->A[a * e->n + i]);
         out[2 * e->pivots + a] = sum;
     }
     return dal__programs_add(model, programs, DAL__PROGRAM_DIAGNOSE, out, 2 * e->pivots + e->m);

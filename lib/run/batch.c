@@ -34,7 +34,7 @@ struct dal_batch {
     group *group;     /* [groups] */
     dal_error *error; /* [count] */
     void *memory;     /* of the engines */
-    dal__native native;
+    dal__native_code native;
 };
 
 /* ---- choice of the engines ---- */
@@ -230,7 +230,7 @@ static void move_lanes(dal_batch *from, dal_batch *to)
     }
 }
 
-dal_status dal__batch_install(dal_batch *batch, int lanes, const dal__native *native,
+dal_status dal__batch_install(dal_batch *batch, int lanes, const dal__native_code *native,
                               dal_error *error)
 {
     const engine_choice one = {{dal__engine_best(&batch->scalar->layout, lanes)}, 1};

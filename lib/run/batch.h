@@ -15,7 +15,7 @@ int dal__batch_native_lanes(const dal_batch *batch);
 
 /* Steps that number of lanes together by compiled code from now on; the batch then owns the code.
  * Errors: DAL_MEMORY; the batch is unchanged, and the caller still owns the code. */
-dal_status dal__batch_install(dal_batch *batch, int lanes, const dal__native *native,
+dal_status dal__batch_install(dal_batch *batch, int lanes, const dal__native_code *native,
                               dal_error *error);
 
 #endif

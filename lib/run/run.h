@@ -9,7 +9,7 @@
 
 /* Compiled functions, see lib/jit/native.c; an object has one of them.  persistent, work and states
  * are as everywhere; lanes is a mask. */
-typedef struct dal__native {
+typedef struct dal__native_code {
     /* Takes up to count steps until a lane fails; returns the number of steps tried. */
     long long (*steps)(double *persistent, const double *work, double h, long long count,
                        unsigned lanes, unsigned *failed, int *reason);
@@ -22,7 +22,7 @@ typedef struct dal__native {
                         double *values);
     void *handle;
     void (*release)(void *handle);
-} dal__native;
+} dal__native_code;
 
 /* The engine of a run in quad precision, see quad.c.  Its arrays hold quad numbers. */
 typedef struct dal__quad_run {
@@ -40,7 +40,7 @@ typedef struct dal__observations {
     double *states; /* [dim*capacity], evaluated together; NULL: each is evaluated at once */
     double *times;  /* [capacity], behind states */
     double *values; /* [observables*capacity] */
-    dal__native code;
+    dal__native_code code;
 } dal__observations;
 
 struct dal_run {
@@ -57,7 +57,7 @@ struct dal_run {
     double *point;   /* [n + nw] where a step failed */
     bool exact;      /* the exact solution agrees with the start */
     void *owned;     /* memory to free, or NULL */
-    dal__native native;
+    dal__native_code native;
     dal__observations observations;
 };
 
@@ -68,7 +68,7 @@ dal_status dal__run_steps(dal_run *run, double h, long long count);
 void dal__run_back_up(dal_run *run);
 void dal__run_revert(dal_run *run);
 
-static inline void dal__native_free(dal__native *native)
+static inline void dal__native_free(dal__native_code *native)
 {
     if (native->release) native->release(native->handle);
 }
