@@ -113,6 +113,43 @@ static void put_settings(FILE *out, const char *name, const request_settings *se
     fputc('}', out);
 }
 
+/* The word of a choice, by its number among those of the option. */
+static void put_choice(FILE *out, int option, int choice)
+{
+    const char *word = request_options[option].value;
+    for (; choice > 0; choice--) word = strchr(word, '|') + 1;
+    fprintf(out, "\"%.*s\"", (int)strcspn(word, "|"), word);
+}
+
+/* What a plan sets by value: see study_cell_run.c. */
+static void put_value(FILE *out, const run_request *request, int option)
+{
+    char method[256];
+    switch (option) {
+    case REQUEST_integrator:
+        json_text(out, dal_method_name(&request->method, method, sizeof method));
+        break;
+    case REQUEST_step:
+        json_number(out, request->options.step);
+        break;
+    case REQUEST_time:
+        json_number(out, request->time);
+        break;
+    case REQUEST_samples:
+        fprintf(out, "%lld", request->samples);
+        break;
+    case REQUEST_statistics:
+        fprintf(out, "%lld", request->statistics);
+        break;
+    case REQUEST_sampling:
+        put_choice(out, option, (int)request->sampling);
+        break;
+    case REQUEST_space:
+        put_choice(out, option, request->options.space);
+        break;
+    }
+}
+
 /* "input" of a request, allocated. */
 static char *request_text(const run_request *request)
 {
@@ -121,11 +158,18 @@ static char *request_text(const run_request *request)
     FILE *out = cli_memstream_open(&text, &length);
     const char *system = request->system_name;
     json_text_member(out, "{\n    ", "system", cli_is_path(system) ? copy_name : system);
-    for (int i = 0; i < REQUEST_system; i++)
-        if (request->text[i] && request_option_is_number(i))
-            json_given_member(out, ",\n    ", request_options[i].name, request->text[i]);
-        else if (request->text[i] && i != REQUEST_set && i != REQUEST_start)
-            json_text_member(out, ",\n    ", request_options[i].name, request->text[i]);
+    for (int i = 0; i < REQUEST_system; i++) {
+        const char *given = request->text[i];
+        if (i == REQUEST_set || i == REQUEST_start || !request_has(request, i)) continue;
+        if (given && request_option_is_number(i)) {
+            json_given_member(out, ",\n    ", request_options[i].name, given);
+        } else if (given) {
+            json_text_member(out, ",\n    ", request_options[i].name, given);
+        } else {
+            fprintf(out, ",\n    \"%s\": ", request_options[i].name);
+            put_value(out, request, i);
+        }
+    }
     put_settings(out, "set", &request->set);
     put_settings(out, "start", &request->start);
     fputs("\n  }", out);
@@ -190,30 +234,25 @@ int manifest_compare(const run_directory *dir, const run_request *held, const ru
 typedef struct input_reader {
     const run_directory *dir;
     run_request *request;
-    int option; /* of settings */
+    request_settings *settings; /* that are being read */
 } input_reader;
 
-/* A member of "set" or "start" is parsed as NAME=VALUE. */
 static int read_setting(void *user, const yaml_node_t *key, const char *name, yaml_node_t *value)
 {
     const input_reader *r = user;
     const char *text = document_scalar(r->dir->doc, value, name);
     (void)key;
-    if (!text) return CLI_USAGE;
-    char *given = cli_format("%s=%s", name, text);
-    const int status = request_parse_option(r->request, r->option, given);
-    r->request->text[r->option] = NULL;
-    free(given);
-    return status;
+    return text ? request_parse_setting(r->settings, name, name, text) : CLI_USAGE;
 }
 
 static int read_member(void *user, const yaml_node_t *key, const char *name, yaml_node_t *value)
 {
     input_reader *r = user;
     const document *doc = r->dir->doc;
-    const int option = r->option = request_find_option(name);
+    const int option = request_find_option(name);
     const int is_system = strcmp(name, "system") == 0;
     (void)key;
+    r->settings = option == REQUEST_set ? &r->request->set : &r->request->start;
     if (option == REQUEST_set || option == REQUEST_start)
         return document_each_pair(doc, value, name, "names and values", read_setting, r);
     if (option < 0 && !is_system)

@@ -42,29 +42,14 @@ static int parse_run_option(void *user, const cli_option *option, const char *te
     return cli_error(CLI_USAGE, NULL, &error);
 }
 
-/* e = inf is the one infinite value. */
-static int parse_infinity(const char *name, const char *text, double *value)
-{
-    static const char *const infinities[] = {"inf", "+inf", "infinity"};
-    for (size_t i = 0; strcmp(name, "e") == 0 && i < sizeof infinities / sizeof *infinities; i++) {
-        if (strcmp(text, infinities[i]) != 0) continue;
-        *value = INFINITY;
-        return CLI_DONE;
-    }
-    return CLI_GO_ON;
-}
-
 static int parse_setting(void *user, const cli_option *option, const char *text)
 {
     const char *equals = strchr(text, '=');
-    double value;
     if (!equals || equals == text)
         return cli_fail(CLI_USAGE, "--%s: '%s' is not NAME=VALUE", option->name, text);
     char *name = cli_strndup(text, (size_t)(equals - text));
-    int status = parse_infinity(name, equals + 1, &value);
-    if (status == CLI_GO_ON) status = cli_number(text, equals + 1, &value);
-    if (status == CLI_DONE)
-        request_add_setting((void *)((char *)user + option->offset), name, value);
+    const int status =
+        request_parse_setting((void *)((char *)user + option->offset), text, name, equals + 1);
     free(name);
     return status;
 }
@@ -110,6 +95,11 @@ int request_parse_option(run_request *request, int option, const char *text)
 {
     request->text[option] = text;
     return request_options[option].parse(request, &request_options[option], text);
+}
+
+bool request_has(const run_request *request, int option)
+{
+    return request->text[option] || request->typed >> option & 1;
 }
 
 bool request_option_is_number(int option)
@@ -164,6 +154,18 @@ void request_add_setting(request_settings *settings, const char *name, double va
     settings->item[settings->count++] = (dal_setting){cli_strdup(name), value};
 }
 
+int request_parse_setting(request_settings *settings, const char *what, const char *name,
+                          const char *text)
+{
+    static const char *const infinities[] = {"inf", "+inf", "infinity"};
+    double value = 0.0;
+    for (size_t i = 0; strcmp(name, "e") == 0 && i < sizeof infinities / sizeof *infinities; i++)
+        if (strcmp(text, infinities[i]) == 0) value = INFINITY;
+    const int status = isinf(value) ? CLI_DONE : cli_number(what, text, &value);
+    if (status == CLI_DONE) request_add_setting(settings, name, value);
+    return status;
+}
+
 int request_make_spec(run_request *request, dal_run_spec *spec)
 {
     int status = request->system
@@ -174,7 +176,7 @@ int request_make_spec(run_request *request, dal_run_spec *spec)
      * --space=lifted is an error. */
     const int has_lift =
         request->system->call.adjoint && !(dal_method_needs(&request->method) & DAL_NEEDS_BLOCKS);
-    if (!request->text[REQUEST_space] && !has_lift) request->options.space = DAL_PHYSICAL;
+    if (!request_has(request, REQUEST_space) && !has_lift) request->options.space = DAL_PHYSICAL;
     *spec = (dal_run_spec){.system = request->system,
                            .method = request->method,
                            .options = request->options,
@@ -188,12 +190,13 @@ int request_make_spec(run_request *request, dal_run_spec *spec)
 int request_complete(run_request *request, dal_run_spec *spec)
 {
     if (!request->system_name) return cli_fail(CLI_USAGE, "the SYSTEM is missing");
-    if (!request->text[REQUEST_integrator]) return cli_fail(CLI_USAGE, "--integrator is missing");
-    if (!request->text[REQUEST_step]) return cli_fail(CLI_USAGE, "--step is missing");
-    if (!request->text[REQUEST_time] && request->times == 0)
+    if (!request_has(request, REQUEST_integrator))
+        return cli_fail(CLI_USAGE, "--integrator is missing");
+    if (!request_has(request, REQUEST_step)) return cli_fail(CLI_USAGE, "--step is missing");
+    if (!request_has(request, REQUEST_time) && request->times == 0)
         return cli_fail(CLI_USAGE, "--time is missing");
     if (!(request->options.step > 0.0))
-        return cli_fail(CLI_USAGE, "--step: %s is not positive", request->text[REQUEST_step]);
+        return cli_fail(CLI_USAGE, "--step: %g is not positive", request->options.step);
     const int status = row_times_fill(request);
     return status == CLI_DONE ? request_make_spec(request, spec) : status;
 }

@@ -43,7 +43,8 @@ typedef enum request_sampling {
 
 typedef struct run_request {
     const char *system_name; /* a built-in name or a path; the caller's, as all texts here */
-    const char *text[REQUEST_OPTIONS]; /* as given, the last one; NULL: not given */
+    const char *text[REQUEST_OPTIONS]; /* as given, the last one; NULL: not given as a text */
+    uint64_t typed; /* set of options whose values below were given without a text */
     double time;
     long long samples, statistics;
     request_sampling sampling;
@@ -70,7 +71,8 @@ void request_free(run_request *request);
  * and does not take some. */
 extern const cli_option request_options[REQUEST_OPTIONS];
 cli_group request_group(run_request *request, const cli_option *options, uint64_t without);
-/* Whether an option has a number as its value. */
+/* Whether an option was given; and whether it has a number as its value. */
+bool request_has(const run_request *request, int option);
 bool request_option_is_number(int option);
 /* The number of an option by its name, -1 for none. */
 int request_find_option(const char *name);
@@ -81,6 +83,10 @@ void request_add_setting(request_settings *settings, const char *name, double va
 
 /* Parses the value of one option; request points to the text. */
 int request_parse_option(run_request *request, int option, const char *text);
+/* Parses the value of a setting, e = inf being the one infinite value, and adds it; what names it
+ * in a message. */
+int request_parse_setting(request_settings *settings, const char *what, const char *name,
+                          const char *text);
 /* Loads the system, chooses the space and makes the spec of the run. */
 int request_make_spec(run_request *request, dal_run_spec *spec);
 /* After the last option: checks that none is missing and makes the spec; and the run as well. */

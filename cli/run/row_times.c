@@ -124,9 +124,9 @@ int row_times_parse(void *user, const cli_option *option, const char *given)
 static int finish_list(run_request *request)
 {
     const double last = request->row_time[request->times - 1];
-    if (request->text[REQUEST_samples] || request->text[REQUEST_sampling])
+    if (request_has(request, REQUEST_samples) || request_has(request, REQUEST_sampling))
         return cli_fail(CLI_USAGE, "--times: neither --samples nor --sampling goes with it");
-    if (!request->text[REQUEST_time]) request->time = last;
+    if (!request_has(request, REQUEST_time)) request->time = last;
     if (!(request->time > 0.0) || request->time < last)
         return cli_fail(CLI_USAGE, "--times: %.17g is no time up to T = %g", last, request->time);
     request->samples = request->times - 1;

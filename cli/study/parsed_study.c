@@ -56,7 +56,6 @@ static int read_option(void *user, const yaml_node_t *key, const char *name, yam
 {
     const option_reader *r = user;
     dal_error error = {0};
-    dal_options options = dal_options_default();
     const char *word = document_scalar(r->doc, value, name);
     if (!word) return CLI_USAGE;
     if (strcmp(name, "step") == 0 || strcmp(name, "space") == 0)
@@ -64,7 +63,7 @@ static int read_option(void *user, const yaml_node_t *key, const char *name, yam
     if (cli_renamed_option(name))
         return document_fail(r->doc, key, "options: %s is called %s now", name,
                              cli_renamed_option(name));
-    if (dal_options_set(&options, name, word, &error) != DAL_OK)
+    if (dal_options_set(&r->item->options, name, word, &error) != DAL_OK)
         return document_fail(r->doc, key, "%s", error.message);
     r->item->option[request_find_option(name)] = word;
     return CLI_DONE;

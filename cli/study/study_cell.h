@@ -11,9 +11,9 @@ struct study_plan;
 
 /* Where a cell starts.  code, word, space, what it is */
 #define STUDY_START_LIST(START)                                                                    \
-    START(PHYSICAL, "physical", "physical", "(q,v) alone")                                         \
-    START(SURFACE, "surface", "lifted", "lifted, on p = pi = 0")                                   \
-    START(DISPLACED, "displaced", "lifted", "lifted, p and pi displaced")
+    START(PHYSICAL, "physical", DAL_PHYSICAL, "(q,v) alone")                                       \
+    START(SURFACE, "surface", DAL_LIFTED, "lifted, on p = pi = 0")                                 \
+    START(DISPLACED, "displaced", DAL_LIFTED, "lifted, p and pi displaced")
 
 enum {
 #define START_CODE(code, word, space, about) STUDY_##code,

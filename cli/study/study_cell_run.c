@@ -14,7 +14,6 @@
 #include "ui/message.h"
 
 #include <math.h>
-#include <stdarg.h>
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
@@ -23,7 +22,6 @@ typedef struct cell_run {
     const study_plan *plan;
     study_cell *cell;
     run_request request;
-    char *text[REQUEST_OPTIONS]; /* of its options */
     run_directory dir;
     run_recorder recorder;
     trajectory_reader reader;
@@ -33,18 +31,6 @@ typedef struct cell_run {
 } cell_run;
 
 /* ---- the request ---- */
-
-/* Sets an option unless *status says that one failed. */
-static CLI_PRINTF(4, 5) void set_option(cell_run *r, int *status, int option, const char *format,
-                                        ...)
-{
-    if (*status != CLI_DONE) return;
-    va_list list;
-    va_start(list, format);
-    r->text[option] = cli_format_list(format, list);
-    va_end(list);
-    *status = request_parse_option(&r->request, option, r->text[option]);
-}
 
 static void add_settings(request_settings *settings, const dal_setting *setting, int count,
                          double unit)
@@ -71,30 +57,31 @@ static void add_displacement(cell_run *r)
     }
 }
 
-static int make_request(cell_run *r)
+static void make_request(cell_run *r)
 {
 #define START_SPACE(code, word, space, about) space,
-    static const char *const space[] = {STUDY_START_LIST(START_SPACE)};
+    static const dal_choice space[] = {STUDY_START_LIST(START_SPACE)};
+#undef START_SPACE
     const study_cell *c = r->cell;
     const study_case *e = c->of_case;
-    char method[STUDY_NAME];
-    int status = CLI_DONE;
-    dal_method_name(c->method, method, sizeof method);
-    r->request.system = e->system;
-    r->request.system_name = e->copy ? e->copy : e->name;
-    set_option(r, &status, REQUEST_integrator, "%s", method);
-    set_option(r, &status, REQUEST_step, "%.17g", c->step);
-    set_option(r, &status, REQUEST_time, "%.17g", e->time);
-    set_option(r, &status, REQUEST_samples, "%lld", e->samples);
-    set_option(r, &status, REQUEST_sampling, "steps");
-    set_option(r, &status, REQUEST_statistics, "%lld", e->statistics);
-    set_option(r, &status, REQUEST_space, "%s", space[c->start]);
-    for (int i = 0; i < REQUEST_OPTIONS; i++)
-        if (e->option[i]) set_option(r, &status, i, "%s", e->option[i]);
-    add_settings(&r->request.set, e->set, e->set_count, 1.0);
-    add_settings(&r->request.start, e->start, e->start_count, 1.0);
+    run_request *request = &r->request;
+    request->system = e->system;
+    request->system_name = e->copy ? e->copy : e->name;
+    request->method = *c->method;
+    request->options = e->options;
+    request->options.step = c->step;
+    request->options.space = space[c->start];
+    request->time = e->time;
+    request->samples = e->samples;
+    request->sampling = REQUEST_SAMPLING_STEPS;
+    request->statistics = e->statistics;
+    request->typed = REQUEST_OPTION(integrator) | REQUEST_OPTION(step) | REQUEST_OPTION(space) |
+                     REQUEST_OPTION(time) | REQUEST_OPTION(samples) | REQUEST_OPTION(sampling) |
+                     REQUEST_OPTION(statistics);
+    memcpy(request->text, e->option, sizeof request->text);
+    add_settings(&request->set, e->set, e->set_count, 1.0);
+    add_settings(&request->start, e->start, e->start_count, 1.0);
     if (c->start == STUDY_DISPLACED) add_displacement(r);
-    return status;
 }
 
 static void set_failure(study_cell *c, study_state state, dal_status status)
@@ -109,8 +96,8 @@ static void set_failure(study_cell *c, study_state state, dal_status status)
 static int create_run(cell_run *r)
 {
     dal_run_spec spec;
-    int status = make_request(r);
-    if (status == CLI_DONE) status = request_complete(&r->request, &spec);
+    make_request(r);
+    const int status = request_complete(&r->request, &spec);
     if (status != CLI_DONE) return status;
     const dal_status created = dal_run_create(&r->request.run, &spec, &r->cell->error);
     if (cli_is_ok(created)) return CLI_DONE;
@@ -275,7 +262,6 @@ static int run_in_directory(cell_run *r, const study_stop_check *check)
 
 static void free_run(cell_run *r)
 {
-    for (int i = 0; i < REQUEST_OPTIONS; i++) free(r->text[i]);
     free(r->values);
     request_free(&r->request);
 }

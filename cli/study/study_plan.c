@@ -287,6 +287,7 @@ int study_plan_read(study_plan *plan, const char *place, const char *bytes, size
     document *doc = cli_calloc(1, sizeof *doc);
     parsed_study base = {.item = {.samples = 400,
                                   .statistics = 1,
+                                  .options = dal_options_default(),
                                   .displacement = 1e-8,
                                   .starts = (1 << STUDY_STARTS) - 1}};
     *plan = (study_plan){.doc = doc, .copies = copies};

@@ -23,7 +23,8 @@ typedef struct study_case {
     double step[STUDY_STEPS], time, displacement;
     int steps, starts; /* starts: bit STUDY_x set */
     long long samples, statistics;
-    const char *option[REQUEST_OPTIONS]; /* as given; NULL: not given.  Neither step nor space */
+    dal_options options;                 /* but step and space, and as they were given: */
+    const char *option[REQUEST_OPTIONS]; /* NULL: not given */
     dal_setting *set, *start, *displace;
     int set_count, start_count, displace_count;
     char *names; /* of velocities, where start names those of a projection to D = 0 */
