@@ -83,10 +83,11 @@ STATIC  = $(BUILD)/libdalembert.a
 SHARED  = $(BUILD)/libdalembert.so
 KERNEL  = $(BUILD)/generated/dalembert_kernel.h
 SYSTEMS = $(BUILD)/generated/systems.c
+MANUAL  = $(BUILD)/dalembert.1
 
 SAY = $(if $(V),,@echo '  $1 $@';)
 
-all: $(PROGRAM) $(STATIC) $(SHARED) $(KERNEL)
+all: $(PROGRAM) $(STATIC) $(SHARED) $(KERNEL) $(MANUAL)
 
 help:
 	@sed -n '3,/^BUILD/{/^BUILD/q; s/^# \{0,1\}//p;}' $(firstword $(MAKEFILE_LIST))
@@ -184,6 +185,12 @@ $(BUILD)/generated/variants.h: Makefile
 $(KERNEL): tools/amalgamate.sh include/dalembert_kernel.h $(wildcard include/*.h lib/kernel/*.h)
 	@mkdir -p $(@D)
 	$(call SAY,sh)sh tools/amalgamate.sh include/dalembert_kernel.h >$@.tmp && mv $@.tmp $@
+
+# The program describes its commands itself.  Where it cannot run here, HOST_PROGRAM is one that can.
+HOST_PROGRAM ?= $(PROGRAM)
+$(MANUAL): man/dalembert.1.in $(PROGRAM)
+	$(call SAY,man){ sed 's|@VERSION@|$(VERSION)|; /^@COMMANDS@/,$$d' $< && $(HOST_PROGRAM) help --man && \
+	    sed '1,/^@COMMANDS@/d' $<; } >$@.tmp && mv $@.tmp $@
 
 # The test suites there are.  The list changes with the files, so it is made in every run;
 # suites.h, which declares them, goes before every test source.
@@ -300,7 +307,7 @@ install: all
 	install -m 644 $(PUBLIC:%=include/%) $(KERNEL) $(INCLUDE)
 	sed 's|@PREFIX@|$(PREFIX)|; s|@VERSION@|$(VERSION)|' tools/dalembert.pc.in \
 	    >$(LIB)/pkgconfig/dalembert.pc
-	install -m 644 man/dalembert.1 $(MAN)
+	install -m 644 $(MANUAL) $(MAN)
 	install -m 644 systems/*.yaml $(SHARE)/systems
 
 uninstall:

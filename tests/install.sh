@@ -57,7 +57,9 @@ awk "$near"' { near($2, sin(1), 1e-4); near($3, 1 - cos(1), 1e-4); near($4, 1, 1
 # The program finds its built-in systems wherever it stands, and reads the installed files.
 "$prefix/bin/dalembert" check "$prefix/share/dalembert/systems/chaplygin-sleigh.yaml" \
     >/dev/null || fail "the installed system file does not pass its check"
-[ -s "$prefix/share/man/man1/dalembert.1" ] || fail "no man page"
+manual=$prefix/share/man/man1/dalembert.1
+grep -q '^\.SS run$' "$manual" && grep -q '^\.SH EXAMPLES$' "$manual" || fail "no man page of all commands"
+! grep -q '@' "$manual" || fail "a part of the man page is not filled in"
 # Before 1.0 the soname has the minor version: libdalembert.so.0.3 of 0.3.0.
 soname=libdalembert.so.$("$prefix/bin/dalembert" --version | sed 's/.* //; s/\.[0-9]*$//')
 [ "$(readlink "$prefix/lib/libdalembert.so")" = "$soname" ] || fail "no link to $soname"

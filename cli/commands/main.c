@@ -18,26 +18,6 @@ static const cli_command *const commands[] = {
 
 enum { COMMANDS = sizeof commands / sizeof *commands };
 
-static const struct {
-    int number;
-    const char *text;
-} exits[] = {
-#define EXIT_ROW(code, number, text) {number, text},
-    CLI_EXIT_LIST(EXIT_ROW)
-#undef EXIT_ROW
-};
-
-static int print_usage(void)
-{
-    puts("usage: dalembert COMMAND [ARGUMENT]...\n"
-         "Geometric integrators for nonholonomic mechanics.\n\ncommands:");
-    for (int i = 0; i < COMMANDS; i++) printf("  %-8s %s\n", commands[i]->name, commands[i]->about);
-    puts("\n'dalembert COMMAND --help' describes a command.\n\nexit status:");
-    for (size_t i = 0; i < sizeof exits / sizeof *exits; i++)
-        printf("  %-4d %s\n", exits[i].number, exits[i].text);
-    return cli_close(stdout, "standard output");
-}
-
 /* A file opened while a standard stream is closed would take its number, and messages would mix
  * with rows.  The descriptors opened here are read-only: a write to a closed standard output still
  * fails. */
@@ -55,8 +35,10 @@ int main(int argc, char **argv)
     /* A write beyond a limit on the size of files then fails as any other. */
     signal(SIGXFSZ, SIG_IGN);
     static const char *const options[] = {"--help", "--version"};
+    static char help[] = "help";
     const char *first = argc > 1 ? argv[1] : "--help";
-    if (strcmp(first, "--help") == 0 || strcmp(first, "-h") == 0) return print_usage();
+    if (strcmp(first, "--help") == 0 || strcmp(first, "-h") == 0)
+        return command_help.run(1, (char *[]){help, NULL});
     if (strcmp(first, "--version") == 0) {
         puts("dalembert " DAL_VERSION);
         return cli_close(stdout, "standard output");

@@ -88,7 +88,7 @@ const cli_option request_options[REQUEST_OPTIONS] = {
 
 cli_group request_group(run_request *request, const cli_option *options, uint64_t without)
 {
-    return (cli_group){options, REQUEST_OPTIONS, request, request->text, without};
+    return (cli_group){options, REQUEST_OPTIONS, request, request->text, without, "run"};
 }
 
 int request_parse_option(run_request *request, int option, const char *text)

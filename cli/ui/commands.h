@@ -22,7 +22,8 @@
     COMMAND(volume)                                                                                \
     COMMAND(explain)                                                                               \
     COMMAND(generate)                                                                              \
-    COMMAND(report)
+    COMMAND(report)                                                                                \
+    COMMAND(help)
 
 #define DECLARE_COMMAND(name) extern const cli_command command_##name;
 COMMAND_LIST(DECLARE_COMMAND)

@@ -1,9 +1,9 @@
-/* options.c - reads arguments and prints --help, from the rows of options. */
+/* options.c - reads arguments by the rows of options. */
 #include "options.h"
 #include "dalembert.h"
+#include "help.h"
 #include "memory.h"
 #include "message.h"
-#include "wrap.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -118,57 +118,6 @@ int cli_parse_word(void *settings, const cli_option *option, const char *text)
                     option->value);
 }
 
-/* ---- help ---------------------------------------------------------------------------------- */
-
-/* The option, then what it does; on the next line where the option is long. */
-static void print_option(const cli_option *option)
-{
-    enum { HELP_COLUMN = 26 };
-    const char *name = option->name ? option->name : option->value;
-    const char *value = option->name && option->value ? option->value : "";
-    const char *initial = option->initial == CLI_REQUIRED ? NULL : option->initial;
-    char text[512];
-    int column = printf("  %s%s%s%s", option->name ? "--" : "", name, *value ? " " : "", value);
-    if (column > HELP_COLUMN - 2) {
-        putchar('\n');
-        column = 0;
-    }
-    printf("%*s", HELP_COLUMN - column, "");
-    snprintf(text, sizeof text, initial ? "%s (%.*s)" : "%s", option->help,
-             initial ? (int)strcspn(initial, "|") : 0, initial);
-    cli_wrap(stdout, text, HELP_COLUMN, HELP_COLUMN);
-}
-
-/* The arguments that are no options, or those that are; returns whether there are any. */
-static bool print_options(const cli_group *groups, int count, bool options, const char *title)
-{
-    bool any = false;
-    for (int g = 0; g < count; g++)
-        for (int k = 0; k < groups[g].count; k++) {
-            const cli_option *option = &groups[g].options[k];
-            if (groups[g].without >> k & 1 || (option->name != NULL) != options) continue;
-            if (!any) printf("\n%s:\n", title);
-            print_option(option);
-            any = true;
-        }
-    return any;
-}
-
-static int print_help(const cli_command *command, const cli_group *groups, int count)
-{
-    static const cli_option help = {.name = "help", .help = "print this"};
-    cli_wrap(stdout, command->synopsis, printf("usage: "), 17);
-    printf("%s\n", command->about);
-    print_options(groups, count, false, "arguments");
-    print_options(groups, count, true, "options");
-    print_option(&help);
-    if (command->notes) {
-        putchar('\n');
-        cli_wrap_notes(stdout, command->notes);
-    }
-    return cli_close(stdout, "standard output");
-}
-
 /* ---- defaults ------------------------------------------------------------------------------ */
 
 void cli_set_defaults(const cli_option *options, int count, void *settings)
@@ -278,6 +227,7 @@ int cli_read_arguments(const cli_command *command, int argc, char **argv, const 
     reader r = {.groups = groups, .group_count = count, .argc = argc, .next = 1, .argv = argv};
     bool plain = false;
     int group, k, status = CLI_DONE;
+    cli_help_format format;
     for (int g = 0; g < count; g++)
         cli_set_defaults(groups[g].options, groups[g].count, groups[g].settings);
     while (status == CLI_DONE && r.next < argc) {
@@ -288,8 +238,8 @@ int cli_read_arguments(const cli_command *command, int argc, char **argv, const 
                          : cli_fail(CLI_USAGE, "%s: '%s' is no option", argv[0], argument);
         else if (strcmp(argument, "--") == 0)
             plain = true;
-        else if (strcmp(argument, "--help") == 0 || strcmp(argument, "-h") == 0)
-            return print_help(command, groups, count);
+        else if (cli_is_help(argument, &format))
+            return cli_print_help(command, groups, count, format);
         else
             status = read_option(&r, argument);
     }

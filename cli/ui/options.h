@@ -35,6 +35,7 @@ typedef struct cli_group {
     void *settings;
     const char **texts; /* [count] receives what was given; or NULL */
     uint64_t without;   /* bit k: the command does not take option k */
+    const char *owner;  /* the command whose reference describes them; NULL: each one's own */
 } cli_group;
 
 typedef struct cli_command {

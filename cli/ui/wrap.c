@@ -45,29 +45,44 @@ void cli_wrap(FILE *out, const char *text, int column, int hanging)
     fputc('\n', out);
 }
 
-/* Where the second column of an item begins: behind the first gap of two spaces. */
-static int second_column(const char *line, int length)
+static const char *end_of_line(const char *text) { return text + strcspn(text, "\n"); }
+
+/* The second column of an item begins behind the first gap of two spaces. */
+static void divide_item(const char *line, int length, cli_paragraph *p)
 {
     const int indent = (int)strspn(line, " ");
-    for (int i = indent; i + 2 < length && i < MAX_INDENT; i++)
-        if (line[i] == ' ' && line[i + 1] == ' ') return i + (int)strspn(line + i, " ");
-    return indent + 4;
+    p->text = p->name = line + indent;
+    p->hanging = indent + 4;
+    for (int i = indent; i + 2 < length && i < MAX_INDENT; i++) {
+        if (line[i] != ' ' || line[i + 1] != ' ') continue;
+        p->hanging = i + (int)strspn(line + i, " ");
+        p->text = line + p->hanging;
+        p->name_length = i - indent;
+        return;
+    }
 }
 
-static const char *end_of_line(const char *text) { return text + strcspn(text, "\n"); }
+const char *cli_next_paragraph(const char *notes, cli_paragraph *p)
+{
+    const char *end = end_of_line(notes);
+    *p = (cli_paragraph){.begin = notes, .text = notes, .is_item = *notes == ' '};
+    const bool is_empty = end == notes;
+    if (p->is_item) divide_item(notes, (int)(end - notes), p);
+    while (!p->is_item && !is_empty && *end && end[1] && end[1] != ' ' && end[1] != '\n')
+        end = end_of_line(end + 1);
+    while (p->is_item && *end && (int)strspn(end + 1, " ") >= p->hanging)
+        end = end_of_line(end + 1);
+    p->end = end;
+    return *end ? end + 1 : end;
+}
 
 void cli_wrap_notes(FILE *out, const char *notes)
 {
     while (*notes) {
-        const char *end = end_of_line(notes);
-        const int item = *notes == ' ', empty = end == notes;
-        while (!item && !empty && *end && end[1] && end[1] != ' ' && end[1] != '\n')
-            end = end_of_line(end + 1);
-        const int hanging = item ? second_column(notes, (int)(end - notes)) : 0;
-        while (item && *end && (int)strspn(end + 1, " ") >= hanging) end = end_of_line(end + 1);
-        wrapper w = {out, 0, hanging};
-        put_words(&w, notes, end);
+        cli_paragraph p;
+        notes = cli_next_paragraph(notes, &p);
+        wrapper w = {out, 0, p.hanging};
+        put_words(&w, p.begin, p.end);
         fputc('\n', out);
-        notes = *end ? end + 1 : end;
     }
 }

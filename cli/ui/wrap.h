@@ -2,13 +2,23 @@
 #ifndef DAL_CLI_WRAP_H
 #define DAL_CLI_WRAP_H
 
+#include <stdbool.h>
 #include <stdio.h>
 
 /* Prints a text from the present column on; further lines begin at hanging. */
 void cli_wrap(FILE *out, const char *text, int column, int hanging);
-/* Prints paragraphs and items.  Prose is filled again.  A line that begins with spaces is an item,
- * "  NAME   what it is"; its further lines begin below what it is, as do lines that already stand
- * there. */
+/* Notes are paragraphs and items.  A line that begins with spaces is an item, "  NAME   what it
+ * is", to which lines belong that begin below what it is. */
+typedef struct cli_paragraph {
+    const char *begin, *text, *end; /* text: behind the name */
+    const char *name;               /* of an item */
+    int name_length;                /* 0: it has none */
+    int hanging;                    /* where further lines begin */
+    bool is_item;
+} cli_paragraph;
+/* Finds the end of the first paragraph; returns where the next one begins. */
+const char *cli_next_paragraph(const char *notes, cli_paragraph *p);
+/* Prints notes, each paragraph filled again. */
 void cli_wrap_notes(FILE *out, const char *notes);
 
 #endif

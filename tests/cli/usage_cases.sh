@@ -23,6 +23,45 @@ while read -r command; do
     silent
 done <commands
 
+case_is "the command help"
+try 0 --help
+mv out usage
+try 0 help
+holds "it does not list the commands" cmp usage out
+while read -r command; do
+    try 0 "$command" --help
+    mv out described
+    try 0 help "$command"
+    holds "$command: help and --help differ" cmp described out
+done <commands
+try 2 help rnu
+says "^dalembert: unknown command 'rnu'; did you mean 'run'\?$"
+
+# part COMMAND BEGIN: its part of a reference in which BEGIN is before the name of each.
+part() { awk -v title="$2$1" -v begin="$2" 'index($0, begin) == 1 { on = $0 == title } on' out; }
+case_is "the reference has every option of every command"
+for format in markdown man; do
+    try 0 help --$format
+    silent
+    while read -r command; do
+        case $format in markdown) begin="## " ;; man) begin=".SS " ;; esac
+        "$program" "$command" --help | sed -n 's/^  --\([a-z-]*\).*/\1/p' | grep -vx help >names
+        part "$command" "$begin" | tr -d '\\' >part
+        while read -r name; do
+            holds "$format: $command lacks --$name" grep -Eq -- "^(- .|.B .|As for .*)--$name[^a-z-]" part
+        done <names
+    done <commands
+done
+try 0 help run --markdown
+prints '^- `--sampling linear\|log\|steps`: rows at equal distances in t; .* \(linear\)$'
+prints 'p\\_\\\*, pi\\_\\\*'
+prints '^- `trajectory.npy`: the rows'
+holds "other commands" test "$(grep -c '^## ' out)" -eq 1
+if there groff; then
+    { echo '.TH D 1'; "$program" help --man; } | groff -ww -man -Tutf8 >page 2>err
+    silent
+fi
+
 case_is "no help is wider than 80 columns"
 while read -r command; do
     try 0 "$command" --help
