@@ -44,7 +44,7 @@ ALL   = -std=c11 -D_POSIX_C_SOURCE=200809L $(WARN) $(EXACT) -fPIC -pthread -Iinc
 PLACE = -Ilib
 LIBS  = -lyaml -lm -pthread
 
-VERSION := $(shell sed -n 's/^.define DAL_VERSION "\(.*\)"/\1/p' include/dalembert.h)
+VERSION := $(shell awk '/define DAL_VERSION_(MAJOR|MINOR|PATCH) / { printf "%s%s", dot, $$3; dot = "." }' include/dalembert.h)
 # Before 1.0 a minor version may change the interface.
 SONAME  := libdalembert.so.$(basename $(VERSION))
 

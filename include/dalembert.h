@@ -25,7 +25,14 @@
 extern "C" {
 #endif
 
-#define DAL_VERSION "0.3.0"
+/* The version as numbers, and as the text "0.3.0". */
+#define DAL_VERSION_MAJOR 0
+#define DAL_VERSION_MINOR 3
+#define DAL_VERSION_PATCH 0
+#define DAL_VERSION       DAL__VERSION(DAL_VERSION_MAJOR, DAL_VERSION_MINOR, DAL_VERSION_PATCH)
+
+#define DAL__VERSION(major, minor, patch)      DAL__VERSION_TEXT(major, minor, patch)
+#define DAL__VERSION_TEXT(major, minor, patch) #major "." #minor "." #patch
 
 /* ---- statuses ------------------------------------------------------------------------------ */
 

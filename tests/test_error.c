@@ -2,6 +2,7 @@
 #include "core/error.h"
 
 #include <CUnit/Basic.h>
+#include <stdio.h>
 #include <string.h>
 
 static void test_every_status_has_its_words(void)
@@ -16,6 +17,14 @@ static void test_every_status_has_its_words(void)
         }
     CU_ASSERT_STRING_EQUAL(dal_status_name(DAL_STATUS_COUNT), "DAL_?");
     CU_ASSERT_STRING_EQUAL(dal_status_text((dal_status)-1), "unknown status");
+}
+
+static void test_version_text_has_the_numbers(void)
+{
+    char text[32];
+    snprintf(text, sizeof text, "%d.%d.%d", DAL_VERSION_MAJOR, DAL_VERSION_MINOR,
+             DAL_VERSION_PATCH);
+    CU_ASSERT_STRING_EQUAL(DAL_VERSION, text);
 }
 
 static void test_record(void)
@@ -102,6 +111,7 @@ void suite_error(void)
 {
     CU_pSuite suite = CU_add_suite("errors", NULL, NULL);
     CU_add_test(suite, "every status has its own words", test_every_status_has_its_words);
+    CU_add_test(suite, "the version", test_version_text_has_the_numbers);
     CU_add_test(suite, "an error record", test_record);
     CU_add_test(suite, "an error that is about no text", test_record_without_a_place);
     CU_add_test(suite, "a long message is cut", test_record_is_cut_not_overrun);
