@@ -1,14 +1,12 @@
-/* check.c - `dalembert check SYSTEM`: examines a system before a run.
+/* check.c - examines a system before a run.
  *
  * No property that a system states is trusted: flags, derivatives, invariants and exact solutions
  * are compared with numbers at the start and at random points about it. */
 #include "check.h"
 #include "run/system.h"
 #include "ui/memory.h"
-#include "ui/options.h"
 
 #include "check_sections.h"
-#include "ui/commands.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -87,7 +85,7 @@ static void choose_points(check *c, double *memory)
     }
 }
 
-/* ---- the command ---- */
+/* ---- all ---- */
 
 static int prepare_check(check *c)
 {
@@ -148,43 +146,14 @@ static int print_check(check *c)
     return written != CLI_DONE ? written : c->failed + c->unmeasured > 0 ? CLI_CHECK : CLI_DONE;
 }
 
-static int examine(check *c)
+int check_system(run_request *request)
 {
-    run_request *request = c->request;
+    check c = {.request = request};
     int status = cli_load(request->system_name, &request->model, &request->system);
-    c->system = request->system;
-    if (c->system && status == CLI_DONE) status = prepare_check(c);
-    if (c->system && status == CLI_DONE) status = print_check(c);
-    return status;
-}
-
-static int run_check(int argc, char **argv)
-{
-    static const uint64_t taken =
-        REQUEST_OPTION(set) | REQUEST_OPTION(start) | REQUEST_OPTION(system);
-    run_request request = request_default();
-    cli_option options[REQUEST_OPTIONS];
-    memcpy(options, request_options, sizeof options);
-    options[REQUEST_start].help = "starts x, x', e or g1 at V; may be repeated";
-    const cli_group group = request_group(&request, options, ~taken);
-    check c = {.request = &request};
-    int status = cli_read_arguments(&command_check, argc, argv, &group, 1);
-    if (status == CLI_GO_ON) status = examine(&c);
+    c.system = request->system;
+    if (status == CLI_DONE) status = prepare_check(&c);
+    if (status == CLI_DONE) status = print_check(&c);
     free(c.start);
     dal_evaluator_free(c.evaluator);
-    request_free(&request);
     return status;
 }
-
-const cli_command command_check = {
-    .name = "check",
-    .synopsis = "dalembert check SYSTEM [OPTION]...",
-    .about = "states what can be known of a system before a run",
-    .notes =
-        "Each line is one item: 'ok' or 'FAIL' where it can be right or wrong, 'not measured' "
-        "where it has no value, and 'info' otherwise.  The command evaluates the system at its "
-        "start and at random points about it, and does not rely on the properties that the system "
-        "states.  It compares derivatives with central differences of order 8.  The exit status "
-        "is 1 when an item failed or was not measured.\n",
-    .run = run_check,
-};

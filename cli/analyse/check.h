@@ -1,5 +1,5 @@
-/* check.h - what the two files of `dalembert check` share: the system, points about its start, and
- * the lines of the report. */
+/* check.h - examines a system before a run; and what the two files of it share: the system, points
+ * about its start, and the lines of the report. */
 #ifndef DAL_CLI_CHECK_H
 #define DAL_CLI_CHECK_H
 
@@ -44,5 +44,9 @@ void check_item(check *c, check_result result, const char *what, const char *for
     CLI_PRINTF(4, 5);
 /* The item of a number with an upper limit. */
 void check_bound(check *c, const char *what, double value, double limit);
+
+/* Prints the report.  Returns CLI_DONE, CLI_CHECK where an item failed or was not measured, or
+ * prints and returns an exit status. */
+int check_system(run_request *request);
 
 #endif

@@ -1,28 +1,16 @@
-/* explain.c - `dalembert explain`: the error sources of the drift of a run. */
+/* explain.c - the error sources of the drift of a run, in words and as CSV. */
+#include "explain.h"
 #include "analysis.h"
 #include "dalembert.h"
 #include "io/output.h"
 #include "io/trend.h"
-#include "run/native.h"
-#include "run/request.h"
-#include "ui/commands.h"
 #include "ui/message.h"
-#include "ui/options.h"
 #include "ui/signals.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-enum { MAX_STEPS = 2000000000 };
-
-typedef struct explain_study {
-    run_request request;
-    long long quad_steps;
-    const char *output;
-    native_mode native;
-} explain_study;
 
 /* ---- while it runs ---- */
 
@@ -35,7 +23,7 @@ static dal_status show_progress(void *user, double done)
 
 static void compile_run(void *user, dal_run *run, long long steps)
 {
-    const explain_study *s = user;
+    const explain_settings *s = user;
     native_compile_steps(run, &s->request.method, (double)steps, s->native);
 }
 
@@ -172,25 +160,9 @@ static int write_budget(const char *path, const dal_error_budget *e)
     return cli_close(out, is_stdout ? "standard output" : path);
 }
 
-/* ---- the command ---- */
+/* ---- all ---- */
 
-static int parse_output(void *study, const cli_option *option, const char *text)
-{
-    if (strcmp(text, "-") != 0 && !cli_ends_in(text, ".csv"))
-        return cli_fail(CLI_USAGE, "--output: '%s' does not end in .csv", text);
-    return cli_parse_text(study, option, text);
-}
-
-static const cli_option options[] = {
-    {"quad-steps", "N", "10000", "runs the first N steps in quad precision too; 0: none",
-     .parse = cli_parse_integer, .offset = offsetof(explain_study, quad_steps), .min = 0,
-     .max = MAX_STEPS},
-    {"output", "FILE.csv|-", NULL, "writes a CSV file, or CSV to standard output",
-     .parse = parse_output, .offset = offsetof(explain_study, output)},
-    NATIVE_OPTION(explain_study),
-};
-
-static int explain_run(explain_study *s)
+int explain_run(explain_settings *s)
 {
     dal_run_spec spec;
     dal_error_budget *e = NULL;
@@ -199,8 +171,9 @@ static int explain_run(explain_study *s)
     if (status == CLI_DONE) status = request_make_spec(&s->request, &spec);
     if (status != CLI_DONE) return status;
     const double steps = nearbyint(s->request.time / s->request.options.step);
-    if (!(steps <= MAX_STEPS))
-        return cli_fail(CLI_USAGE, "%.3g steps: explain takes at most %d", steps, MAX_STEPS);
+    if (!(steps <= EXPLAIN_MAX_STEPS))
+        return cli_fail(CLI_USAGE, "%.3g steps: explain takes at most %d", steps,
+                        EXPLAIN_MAX_STEPS);
     const dal_error_budget_observer observer = {s, show_progress, compile_run};
     cli_catch_signals();
     const dal_status done =
@@ -211,35 +184,3 @@ static int explain_run(explain_study *s)
     dal_error_budget_free(e);
     return status;
 }
-
-static int run_explain(int argc, char **argv)
-{
-    enum { OPTIONS = sizeof options / sizeof *options };
-    explain_study s = {.request = request_default()};
-    /* The comparison runs differ in precision themselves. */
-    const cli_group groups[] = {
-        {options, OPTIONS, .settings = &s},
-        request_group(&s.request, request_options, REQUEST_ROW_OPTIONS | REQUEST_OPTION(precision)),
-    };
-    int status = cli_read_arguments(&command_explain, argc, argv, groups, 2);
-    if (status == CLI_GO_ON) status = explain_run(&s);
-    request_free(&s.request);
-    return status;
-}
-
-const cli_command command_explain = {
-    .name = "explain",
-    .synopsis = "dalembert explain SYSTEM --integrator NAME --step H --time T [OPTION]...",
-    .about = "finds the error sources of the drift of a run",
-    .notes =
-        "Runs the system again in several ways that differ in one thing each: half the step, a "
-        "looser tolerance of the solver, further iterations of it, plain sums, quad precision "
-        "(113 binary digits, where the machine has them), with and without projection.  For the "
-        "drift of every observable the command states how much is truncation, rounding of "
-        "coefficients, the solver and rounding, what a projection changes, and how that was "
-        "found; '?' marks what these runs do not distinguish.\n"
-        "\n"
-        "The shares of the first four add up to 1 where rates are compared.  They hold for the "
-        "first --quad-steps steps, since quad precision is a hundred times slower.\n",
-    .run = run_explain,
-};

@@ -1,17 +1,16 @@
-/* lyapunov.c - `dalembert lyapunov` and `dalembert volume`: a run with tangent vectors, whose means
+/* lyapunov.c - a run with tangent vectors, whose means
  * are the Lyapunov exponents and the rate of the volume of the phase space.
  *
  *     d/dt log(volume) = div (v, F) = trace F_v,     step: log|det J| / h
  *
  * On D = 0 the long-time mean is the same where log |grad D| stays bounded: D is constant on every
  * level, and the densities of the levels differ by a total derivative. */
+#include "lyapunov.h"
 #include "analysis.h"
 #include "dalembert_analysis.h"
 #include "io/gnuplot.h"
 #include "io/trajectory_writer.h"
-#include "run/request.h"
 #include "run/row_times.h"
-#include "ui/commands.h"
 #include "ui/memory.h"
 #include "ui/message.h"
 #include "ui/options.h"
@@ -26,11 +25,8 @@
 enum { CHUNK = 200, MAX_ROWS = 100000000, MAX_COLUMN_NAME = 24 };
 
 typedef struct tangent_study {
-    bool is_volume;
-    run_request request;
-    const char *output;
-    double transient;
-    long long rows, exponents; /* exponents: 0 for all */
+    const lyapunov_settings *set;
+    run_request *request;
     dal_lyapunov *spectrum;
     double begin; /* t at the beginning of the means */
     /* A table of the means so far: its name, which is the file's and the figure's, and what it has
@@ -46,7 +42,7 @@ typedef struct tangent_study {
 
 static int create_spectrum(tangent_study *s)
 {
-    run_request *request = &s->request;
+    run_request *request = s->request;
     const dal_system *tangent = NULL;
     dal_error error = {0};
     dal_run_spec spec;
@@ -54,12 +50,13 @@ static int create_spectrum(tangent_study *s)
     /* Creating a run of its own finds what is wrong with the options. */
     int status = request_create_run(request);
     if (status == CLI_DONE) status = request_make_spec(request, &spec);
-    if (status == CLI_DONE) status = row_times_check_step(request, s->transient + request->time);
+    if (status == CLI_DONE)
+        status = row_times_check_step(request, s->set->transient + request->time);
     if (status != CLI_DONE) return status;
     /* A vakonomic system has no tangent system; its derivatives are differences. */
     dal_status made = dal_model_tangent(request->model, &tangent, &error);
     if (made == DAL_OK || made == DAL_UNSUPPORTED)
-        made = dal_lyapunov_create(&s->spectrum, &spec, tangent, (int)s->exponents, &error);
+        made = dal_lyapunov_create(&s->spectrum, &spec, tangent, (int)s->set->exponents, &error);
     return made == DAL_OK ? CLI_DONE
                           : cli_error(cli_input_exit(made), request->system_name, &error);
 }
@@ -68,9 +65,9 @@ static int create_spectrum(tangent_study *s)
 static void name_columns(tangent_study *s)
 {
     const int count = dal_lyapunov_count(s->spectrum);
-    s->name = s->is_volume ? "volume" : "lyapunov";
-    s->ylabel = s->is_volume ? "rate, mean so far" : "mean so far";
-    s->columns = s->is_volume ? 2 : count + 1;
+    s->name = s->set->is_volume ? "volume" : "lyapunov";
+    s->ylabel = s->set->is_volume ? "rate, mean so far" : "mean so far";
+    s->columns = s->set->is_volume ? 2 : count + 1;
     const size_t heads = (size_t)s->columns + 1;
     s->values = cli_calloc(heads, sizeof *s->values);
     s->heads = cli_calloc(heads, sizeof *s->heads + MAX_COLUMN_NAME);
@@ -78,9 +75,9 @@ static void name_columns(tangent_study *s)
         s->heads[i] = (char *)(s->heads + heads) + i * MAX_COLUMN_NAME;
         if (i == 0)
             snprintf(s->heads[i], MAX_COLUMN_NAME, "t");
-        else if (i == (s->is_volume ? 1 : count + 1))
+        else if (i == (s->set->is_volume ? 1 : count + 1))
             snprintf(s->heads[i], MAX_COLUMN_NAME, "divergence");
-        else if (s->is_volume)
+        else if (s->set->is_volume)
             snprintf(s->heads[i], MAX_COLUMN_NAME, "step");
         else
             snprintf(s->heads[i], MAX_COLUMN_NAME, "lambda%d", i);
@@ -92,12 +89,12 @@ static int write_means(tangent_study *s)
     dal_average divergence, other;
     s->values[0] = dal_run_time(dal_lyapunov_run(s->spectrum));
     dal_lyapunov_divergence(s->spectrum, &divergence);
-    s->values[s->is_volume ? 1 : s->columns] = divergence.mean;
-    if (s->is_volume) {
+    s->values[s->set->is_volume ? 1 : s->columns] = divergence.mean;
+    if (s->set->is_volume) {
         dal_lyapunov_sum(s->spectrum, &other);
         s->values[2] = other.mean;
     }
-    for (int i = 0; !s->is_volume && i < s->columns - 1; i++) {
+    for (int i = 0; !s->set->is_volume && i < s->columns - 1; i++) {
         dal_lyapunov_exponent(s->spectrum, i, &other);
         s->values[1 + i] = other.mean;
     }
@@ -111,20 +108,21 @@ static int advance_spectrum(tangent_study *s, long long steps)
     dal_error error = {0};
     for (; steps > 0 && status == DAL_OK; steps -= CHUNK) {
         if (cli_interrupted()) return CLI_SIGNAL;
-        cli_progress("t = %.6g of %.6g", dal_run_time(run), s->transient + s->request.time);
+        cli_progress("t = %.6g of %.6g", dal_run_time(run), s->set->transient + s->request->time);
         status = dal_lyapunov_advance(s->spectrum, steps < CHUNK ? steps : CHUNK, &error);
     }
     return status == DAL_OK ? CLI_DONE
-                            : cli_error(cli_exit(status), s->request.system_name, &error);
+                            : cli_error(cli_exit(status), s->request->system_name, &error);
 }
 
 /* The transient, then the rows at equal distances; after a failure or a signal the means so far are
  * good. */
 static int run_to_end(tangent_study *s)
 {
-    const double h = s->request.options.step;
-    const long long total = llround(s->request.time / h), rows = s->rows < total ? s->rows : total;
-    int status = advance_spectrum(s, llround(s->transient / h));
+    const double h = s->request->options.step;
+    const long long total = llround(s->request->time / h),
+                    rows = s->set->rows < total ? s->set->rows : total;
+    int status = advance_spectrum(s, llround(s->set->transient / h));
     dal_lyapunov_discard_transient(s->spectrum);
     s->begin = dal_run_time(dal_lyapunov_run(s->spectrum));
     for (long long k = 1, done = 0; k <= rows && status == CLI_DONE; k++) {
@@ -143,9 +141,9 @@ static int draw_means(const tangent_study *s, const char *directory)
     int missing;
     FILE *script = gnuplot_open(directory, s->name, "svg", 800, 500, &path);
     if (!script) return CLI_IO;
-    dal_method_name(&s->request.method, method, sizeof method);
-    snprintf(title, sizeof title, "%.80s, %.80s, h = %g", s->request.system_name, method,
-             s->request.options.step);
+    dal_method_name(&s->request->method, method, sizeof method);
+    snprintf(title, sizeof title, "%.80s, %.80s, h = %g", s->request->system_name, method,
+             s->request->options.step);
     fputs("set title ", script);
     gnuplot_quote(script, title);
     fprintf(script,
@@ -167,7 +165,7 @@ static int draw_means(const tangent_study *s, const char *directory)
 static int run_with_table(tangent_study *s)
 {
     analysis_output output = {0};
-    int status = s->output ? analysis_open(&output, s->output, s->name) : CLI_DONE;
+    int status = s->set->output ? analysis_open(&output, s->set->output, s->name) : CLI_DONE;
     if (status == CLI_DONE && output.table)
         status = writer_create(&s->table, output.table, s->heads, s->columns + 1);
     if (status == CLI_DONE) {
@@ -258,21 +256,21 @@ static int print_balance(const tangent_study *s)
     return cli_fail(CLI_FAILED,
                     "%s: the sum of the exponents differs from the mean divergence by %g, more "
                     "than %g: the derivative of the steps is not reliable",
-                    s->request.system_name, b.difference, b.margin);
+                    s->request->system_name, b.difference, b.margin);
 }
 
 static int print_means(const tangent_study *s)
 {
     char method[128];
     const dal_run *run = dal_lyapunov_run(s->spectrum);
-    dal_method_name(&s->request.method, method, sizeof method);
-    printf("%s, %s, h = %g: means over t = %g .. %g\n", s->request.system_name, method,
-           s->request.options.step, s->begin, dal_run_time(run));
+    dal_method_name(&s->request->method, method, sizeof method);
+    printf("%s, %s, h = %g: means over t = %g .. %g\n", s->request->system_name, method,
+           s->request->options.step, s->begin, dal_run_time(run));
     printf("the derivative of the step %s\n\n", dal_lyapunov_is_exact(s->spectrum)
                                                     ? "exact, by the tangent system"
                                                     : "by differences of order 8");
     printf("%-24s %12s %25s\n", "", "mean", "95 % interval");
-    if (s->is_volume)
+    if (s->set->is_volume)
         print_volume(s);
     else
         print_exponents(s);
@@ -281,94 +279,40 @@ static int print_means(const tangent_study *s)
     return closed != CLI_DONE ? closed : balanced;
 }
 
-/* ---- the commands -------------------------------------------------------------------------- */
+/* ---- all ----------------------------------------------------------------------------------- */
 
-/* The last one is of lyapunov alone. */
 static const cli_option options[] = {
     {"transient", "T0", "0", "the means begin at this time", .parse = cli_parse_number,
-     .offset = offsetof(tangent_study, transient), .min = 0.0, .max = INFINITY},
+     .offset = offsetof(lyapunov_settings, transient), .min = 0.0, .max = INFINITY},
     {"rows", "N", "100", "rows of the table, at equal distances in t", .parse = cli_parse_integer,
-     .offset = offsetof(tangent_study, rows), .min = 1, .max = MAX_ROWS},
+     .offset = offsetof(lyapunov_settings, rows), .min = 1, .max = MAX_ROWS},
     {"output", "DIR|FILE", NULL,
      "writes the means so far: .csv, .npy, or a directory with a figure", .parse = cli_parse_text,
-     .offset = offsetof(tangent_study, output)},
+     .offset = offsetof(lyapunov_settings, output)},
     {"exponents", "K", NULL, "computes the K largest only", .parse = cli_parse_integer,
-     .offset = offsetof(tangent_study, exponents), .min = 1, .max = 1e6},
+     .offset = offsetof(lyapunov_settings, exponents), .min = 1, .max = 1e6},
 };
 
-static int run_command(const cli_command *command, int argc, char **argv, bool is_volume)
+cli_group lyapunov_group(lyapunov_settings *settings)
 {
     enum { OPTIONS = sizeof options / sizeof *options };
-    tangent_study s = {.is_volume = is_volume, .request = request_default()};
-    const cli_group groups[] = {
-        {options, is_volume ? OPTIONS - 1 : OPTIONS, .settings = &s},
-        request_group(&s.request, request_options, REQUEST_ROW_OPTIONS | REQUEST_OPTION(space)),
-    };
-    int status = cli_read_arguments(command, argc, argv, groups, 2);
-    if (status == CLI_GO_ON) {
-        status = create_spectrum(&s);
-        if (status == CLI_DONE) {
-            name_columns(&s);
-            status = run_with_table(&s);
-            const int printed = status == CLI_IO || status == CLI_USAGE ? status : print_means(&s);
-            if (status == CLI_DONE) status = printed;
-        }
+    /* The last one is of lyapunov alone. */
+    return (cli_group){options, settings->is_volume ? OPTIONS - 1 : OPTIONS, settings,
+                       .owner = "lyapunov"};
+}
+
+int lyapunov_measure(lyapunov_settings *settings)
+{
+    tangent_study s = {.set = settings, .request = &settings->request};
+    int status = create_spectrum(&s);
+    if (status == CLI_DONE) {
+        name_columns(&s);
+        status = run_with_table(&s);
+        const int printed = status == CLI_IO || status == CLI_USAGE ? status : print_means(&s);
+        if (status == CLI_DONE) status = printed;
     }
     free(s.heads);
     free(s.values);
     dal_lyapunov_free(s.spectrum);
-    request_free(&s.request);
     return status;
 }
-
-static int run_lyapunov(int argc, char **argv)
-{
-    return run_command(&command_lyapunov, argc, argv, false);
-}
-
-const cli_command command_lyapunov = {
-    .name = "lyapunov",
-    .synopsis = "dalembert lyapunov SYSTEM --integrator NAME --step H --time T [OPTION]...",
-    .about = "computes the Lyapunov exponents of a motion",
-    .notes =
-        "The derivative of each step moves tangent vectors on (q,v), which then are made "
-        "orthonormal again.  The exponents, per unit of t, are the means of the logarithms of the "
-        "lengths that this takes away; they belong to the motion of the method.  The derivative "
-        "is exact for Runge-Kutta, partitioned symplectic and composed methods, and by "
-        "differences for the others.\n"
-        "\n"
-        "The means cover --time, after the transient.  Their intervals come from means of blocks "
-        "and do not cover a slow approach to a limit: exponents of regular motion fall like "
-        "log(t)/t, and what is smaller than that is not distinguished from 0.  Every constraint "
-        "adds an exponent 0, since D is constant on each level; a method that enforces D = 0 has "
-        "no direction for it.  The sum of all exponents is the mean divergence of the motion, "
-        "plus, where the method enforces D = 0, the mean growth of log |grad D|.  The exit status "
-        "is 3 when the two differ by more than the error of the method: then the derivative of "
-        "the steps is not reliable.\n"
-        "\n"
-        "FILE and DIR/lyapunov.csv get rows t, lambda1, .., divergence: the means so far.\n",
-    .run = run_lyapunov,
-};
-
-static int run_volume(int argc, char **argv)
-{
-    return run_command(&command_volume, argc, argv, true);
-}
-
-const cli_command command_volume = {
-    .name = "volume",
-    .synopsis = "dalembert volume SYSTEM --integrator NAME --step H --time T [OPTION]...",
-    .about = "computes the rate at which the volume of the phase space changes",
-    .notes =
-        "The command computes two rates along the run: the exact divergence of the motion in "
-        "(q,v), which is the trace of the derivative of F by v, and log|det J|/h of every step, J "
-        "being its derivative: what the method does to the volume.  Where the method enforces D = "
-        "0, the second is that on the surface.\n"
-        "\n"
-        "A system with an invariant measure of bounded density has the mean 0; a negative mean "
-        "shows an attractor.  The means on (q,v) and on D = 0 differ by the mean growth of log "
-        "|grad D|.  The exit status is 3 when they differ by more than that and the error of the "
-        "method: then the derivative of the steps is not reliable.  The means cover --time, after "
-        "the transient.  FILE and DIR/volume.csv get rows t, divergence, step: the means so far.\n",
-    .run = run_volume,
-};

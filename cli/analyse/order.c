@@ -1,18 +1,16 @@
-/* order.c - `dalembert order`: the error of many methods against step and against work.
+/* order.c - the error of many methods against step and against work.
  *
  * First a reference; then every method at every step, on threads; then a table, a CSV file and two
  * diagrams. */
+#include "order.h"
 #include "analysis.h"
 #include "dalembert_analysis.h"
 #include "io/gnuplot.h"
 #include "io/output.h"
 #include "run/pool.h"
-#include "run/request.h"
 #include "ui/clock.h"
-#include "ui/commands.h"
 #include "ui/memory.h"
 #include "ui/message.h"
-#include "ui/options.h"
 #include "ui/signals.h"
 
 #include <math.h>
@@ -53,9 +51,8 @@ typedef struct order_method {
 } order_method;
 
 typedef struct order_study {
-    run_request request;
-    const char *integrators, *steps, *output;
-    long long level_count, threads;
+    const order_settings *set;
+    run_request *request;
     dal_run_spec spec; /* but for method and step */
     double step[DAL_ORDER_LEVELS];
     int levels;
@@ -124,11 +121,11 @@ static int add_items(order_study *s, const char *list, const char *option,
 
 static int list_steps(order_study *s)
 {
-    const double T = s->request.time;
-    int status = s->steps ? add_items(s, s->steps, "--steps", add_step) : CLI_DONE;
+    const double T = s->request->time;
+    int status = s->set->steps ? add_items(s, s->set->steps, "--steps", add_step) : CLI_DONE;
     if (status != CLI_DONE) return status;
-    for (int i = 0; !s->steps && i < s->level_count; i++)
-        s->step[s->levels++] = ldexp(s->request.options.step, -i);
+    for (int i = 0; !s->set->steps && i < s->set->level_count; i++)
+        s->step[s->levels++] = ldexp(s->request->options.step, -i);
     if (!(s->step[0] > 0.0)) return cli_fail(CLI_USAGE, "--step: it must be positive");
     if (s->levels < 2) return cli_fail(CLI_USAGE, "--steps: a slope needs two steps at least");
     for (int i = 0; i < s->levels; i++)
@@ -153,7 +150,7 @@ static dal_status run_to_end(const order_study *s, const dal_run_spec *spec, dou
     dal_status status = dal_run_create(&run, spec, error);
     if (status != DAL_OK) return status;
     const double begin = cli_thread_seconds();
-    for (long long left = llround(s->request.time / spec->options.step);
+    for (long long left = llround(s->request->time / spec->options.step);
          left > 0 && status == DAL_OK; left -= CHUNK)
         status = cli_interrupted() ? DAL_INTERRUPTED
                                    : dal_run_advance(run, left < CHUNK ? left : CHUNK, error);
@@ -167,7 +164,7 @@ static dal_status run_to_end(const order_study *s, const dal_run_spec *spec, dou
 static bool use_exact_solution(order_study *s)
 {
     const dal_system *system = s->spec.system;
-    const run_request *request = &s->request;
+    const run_request *request = s->request;
     double *start = s->reference + s->numbers;
     dal_evaluator *evaluator;
     if (!system->exact || system->multipliers ||
@@ -287,10 +284,10 @@ static const char *failure_message(const order_study *s, const order_method *m)
 static int print_orders(const order_study *s)
 {
     const int last = s->levels - 1;
-    const double steps = round(s->request.time / s->step[last]);
+    const double steps = round(s->request->time / s->step[last]);
     bool any_without_order = false;
-    printf("%s, error of (q,v) at t = %g, %s\nagainst %s\n\n", s->request.system_name,
-           s->request.time, s->spec.options.space == DAL_LIFTED ? "lifted" : "physical",
+    printf("%s, error of (q,v) at t = %g, %s\nagainst %s\n\n", s->request->system_name,
+           s->request->time, s->spec.options.space == DAL_LIFTED ? "lifted" : "physical",
            s->reference_text);
     printf("%-21s %13s  %-*s %15s\n", "", "order", 8 * s->levels - 1,
            "error at h =", "cost of a step");
@@ -330,7 +327,7 @@ static void write_number(FILE *out, double x)
 /* At a step; level < 0: a method that was refused. */
 static void write_level(FILE *out, const order_study *s, const order_method *m, int level)
 {
-    cli_put_text(out, s->request.system_name);
+    cli_put_text(out, s->request->system_name);
     fputc(',', out);
     cli_put_text(out, m->name);
     fprintf(out, ",%d,", dal_method_order(&m->method));
@@ -341,7 +338,7 @@ static void write_level(FILE *out, const order_study *s, const order_method *m, 
     } else {
         const bool succeeded = m->failure[level].status == DAL_OK;
         write_number(out, s->step[level]);
-        fprintf(out, "%lld,", llround(s->request.time / s->step[level]));
+        fprintf(out, "%lld,", llround(s->request->time / s->step[level]));
         write_number(out, m->order.error[level]);
         write_number(out, m->order.slope[level]);
         write_number(out, succeeded ? (double)m->order.evaluations[level] : NAN);
@@ -411,8 +408,8 @@ static int draw_panels(const order_study *s, const char *directory, const char *
     int missing;
     FILE *script = gnuplot_open(directory, name, "svg", 1100, 600, &path);
     if (!script) return CLI_IO;
-    snprintf(title, sizeof title, "%.80s: error of (q,v) at t = %g", s->request.system_name,
-             s->request.time);
+    snprintf(title, sizeof title, "%.80s: error of (q,v) at t = %g", s->request->system_name,
+             s->request->time);
     fputs("is(name) = strcol('integrator') eq name && strcol('state') eq 'done'\n"
           "set logscale xy\nset format y '%.0e'\nset ylabel 'error'\n"
           "set xrange [*:*] noextend\nset offsets graph 0.05, graph 0.05\n"
@@ -441,35 +438,22 @@ static int draw_orders(const order_study *s, const char *directory)
     return status;
 }
 
-/* ---- the command --------------------------------------------------------------------------- */
+/* ---- all ----------------------------------------------------------------------------------- */
 
-static const cli_option options[] = {
-    {"integrators", "LIST|all", NULL,
-     "integrators, with modifiers or not: rk4,gauss4+project (all)", .parse = cli_parse_text,
-     .offset = offsetof(order_study, integrators)},
-    {"steps", "H1,H2,..", NULL, "step sizes, falling, at most 8; replaces --step and --levels",
-     .parse = cli_parse_text, .offset = offsetof(order_study, steps)},
-    {"levels", "K", "4", "number of step sizes, each half the one before it",
-     .parse = cli_parse_integer, .offset = offsetof(order_study, level_count), .min = 2,
-     .max = DAL_ORDER_LEVELS},
-    POOL_THREADS_OPTION(order_study, "runs at a time; results do not depend on it"),
-    {"output", "DIR|FILE.csv", NULL, "writes the table as CSV; a directory gets diagrams, too",
-     .parse = cli_parse_text, .offset = offsetof(order_study, output)},
-};
-
-static int measure_orders(order_study *s)
+static int measure(order_study *s)
 {
     int status = list_steps(s);
-    if (status == CLI_DONE) status = add_items(s, s->integrators, "--integrators", add_methods);
-    if (status == CLI_DONE) status = request_make_spec(&s->request, &s->spec);
+    if (status == CLI_DONE)
+        status = add_items(s, s->set->integrators, "--integrators", add_methods);
+    if (status == CLI_DONE) status = request_make_spec(s->request, &s->spec);
     if (status != CLI_DONE) return status;
     cli_catch_signals();
     status = make_reference(s);
-    if (status == CLI_DONE) status = run_methods(s, (int)s->threads);
+    if (status == CLI_DONE) status = run_methods(s, (int)s->set->threads);
     if (status == CLI_DONE) status = print_orders(s);
-    if (status == CLI_DONE && s->output) {
+    if (status == CLI_DONE && s->set->output) {
         analysis_output output;
-        status = analysis_open(&output, s->output, "order");
+        status = analysis_open(&output, s->set->output, "order");
         if (status == CLI_DONE) status = write_orders(s, output.table);
         if (status == CLI_DONE && output.directory) status = draw_orders(s, output.directory);
         free(output.table);
@@ -479,47 +463,11 @@ static int measure_orders(order_study *s)
     return status;
 }
 
-static int run_order(int argc, char **argv)
+int order_measure(order_settings *settings)
 {
-    enum { OPTIONS = sizeof options / sizeof *options };
-    order_study s = {.request = request_default(), .integrators = "all", .threads = pool_threads()};
-    cli_option of_request[REQUEST_OPTIONS];
-    memcpy(of_request, request_options, sizeof of_request);
-    of_request[REQUEST_step].initial = "0.1";
-    of_request[REQUEST_time].initial = "10";
-    of_request[REQUEST_space].initial = "physical";
-    const cli_group groups[] = {
-        {options, OPTIONS, .settings = &s},
-        request_group(&s.request, of_request, REQUEST_ROW_OPTIONS | REQUEST_OPTION(integrator)),
-    };
-    int status = cli_read_arguments(&command_order, argc, argv, groups, 2);
-    if (status == CLI_GO_ON) status = measure_orders(&s);
+    order_study s = {.set = settings, .request = &settings->request};
+    const int status = measure(&s);
     free(s.methods);
     free(s.reference);
-    request_free(&s.request);
     return status;
 }
-
-const cli_command command_order = {
-    .name = "order",
-    .synopsis = "dalembert order SYSTEM [OPTION]...",
-    .about = "measures error against step and against work for many integrators",
-    .notes =
-        "--step is the largest step (0.1), --time the time of the errors (10), and the space is "
-        "(q,v) unless --space lifted is given.\n"
-        "\n"
-        "The error is the largest difference in q and v at T, relative to max(1, |x|), from the "
-        "exact solution where the system has one that begins at this start.  Otherwise the "
-        "reference is gauss12, or dop853 where gauss12 does not converge, with half the smallest "
-        "step; the table states its own error.  The order found is the slope between the last two "
-        "of three steps whose errors exceed rounding and ten times the error of the reference, "
-        "and lie below half the solution.  It is found only where the two slopes agree so well "
-        "that the next term of the error changes it by 0.1 at most; '-' means that none is "
-        "found.  Methods that do not apply to the system are listed with the reason.  The exit "
-        "status is 3 when a run failed.\n"
-        "\n"
-        "DIR gets order.csv, and by gnuplot order.svg (error against step) and work.svg (error "
-        "against evaluations of F, and against processor time), with their scripts.  Only the "
-        "times differ between two runs of the command.\n",
-    .run = run_order,
-};

@@ -1,18 +1,15 @@
-/* section.c - `dalembert section`: where a motion crosses a surface g(q,v,t) = 0.
+/* section.c - where a motion crosses a surface g(q,v,t) = 0.
  *
  * The formula of g becomes one more invariant of the system's model: it may name whatever an
  * invariant may, and is evaluated as invariants are. */
+#include "section.h"
 #include "analysis.h"
 #include "dalembert_analysis.h"
 #include "io/gnuplot.h"
 #include "io/trajectory_writer.h"
-#include "run/native.h"
-#include "run/request.h"
 #include "run/system.h"
-#include "ui/commands.h"
 #include "ui/memory.h"
 #include "ui/message.h"
-#include "ui/options.h"
 #include "ui/signals.h"
 
 #include <math.h>
@@ -27,11 +24,8 @@ enum { MAX_NAME = 80 };
 enum { COLUMN_CROSSING, COLUMN_T, COLUMN_DIRECTION, FIRST_STATE_COLUMN };
 
 typedef struct section {
-    run_request request;
-    const char *on, *axes, *output;
-    int direction;
-    double transient;
-    native_mode native;
+    const section_settings *set;
+    run_request *request;
     trajectory_writer table;
     int columns;
     char **names;            /* [columns], then their texts */
@@ -73,19 +67,19 @@ static int load_with_invariant(run_request *request, const char *name, const cha
 
 static int load_section(section *s)
 {
-    run_request *request = &s->request;
+    run_request *request = s->request;
     char name[MAX_NAME] = "section_1";
-    const char *equals = strchr(s->on, '=');
+    const char *equals = strchr(s->set->on, '=');
     /* First without the section: then any later error is one of the section. */
     int status = cli_load(request->system_name, &request->model, &request->system);
     if (status != CLI_DONE) return status;
     for (int k = 2; is_name_used(request->system, name); k++)
         snprintf(name, sizeof name, "section_%d", k);
-    if (!equals) return load_with_invariant(request, name, s->on, 1);
+    if (!equals) return load_with_invariant(request, name, s->set->on, 1);
     /* "A = B" means (A) - (B).  Each side is made alone first, so that an error names its column in
      * --on. */
-    const int length = (int)(equals - s->on);
-    char *left = cli_format("%.*s", length, s->on);
+    const int length = (int)(equals - s->set->on);
+    char *left = cli_format("%.*s", length, s->set->on);
     char *difference = cli_format("(%s)-(%s)", left, equals + 1);
     status = load_with_invariant(request, name, left, 1);
     if (status == CLI_DONE) status = load_with_invariant(request, name, equals + 1, length + 2);
@@ -100,7 +94,7 @@ static int load_section(section *s)
 static void name_row(section *s)
 {
     static const char *const first[FIRST_STATE_COLUMN] = {"crossing", "t", "direction"};
-    s->columns = FIRST_STATE_COLUMN + dal_run_dimension(s->request.run);
+    s->columns = FIRST_STATE_COLUMN + dal_run_dimension(s->request->run);
     const size_t columns = (size_t)s->columns;
     s->names = cli_calloc(columns, sizeof *s->names + MAX_NAME);
     s->row = cli_calloc(3 * columns, sizeof *s->row);
@@ -113,14 +107,14 @@ static void name_row(section *s)
         if (i < FIRST_STATE_COLUMN)
             snprintf(s->names[i], MAX_NAME, "%s", first[i]);
         else
-            dal_run_name(s->request.run, i - FIRST_STATE_COLUMN, s->names[i], MAX_NAME);
+            dal_run_name(s->request->run, i - FIRST_STATE_COLUMN, s->names[i], MAX_NAME);
     }
 }
 
 static dal_status write_crossing(void *user, dal_run *run, const dal_crossing *crossing)
 {
     section *s = user;
-    if (crossing->t < s->transient) return DAL_OK;
+    if (crossing->t < s->set->transient) return DAL_OK;
     s->row[COLUMN_CROSSING] = (double)++s->rows;
     s->row[COLUMN_T] = crossing->t;
     s->row[COLUMN_DIRECTION] = crossing->direction;
@@ -137,26 +131,26 @@ static dal_status write_crossing(void *user, dal_run *run, const dal_crossing *c
 static dal_status poll_signals(void *user, dal_run *run)
 {
     const section *s = user;
-    cli_progress("t = %.6g of %.6g, %lld crossings", dal_run_time(run), s->request.time, s->rows);
+    cli_progress("t = %.6g of %.6g, %lld crossings", dal_run_time(run), s->request->time, s->rows);
     return cli_interrupted() ? DAL_INTERRUPTED : DAL_OK;
 }
 
 static int run_section(section *s, const char *path)
 {
-    run_request *r = &s->request;
+    run_request *r = s->request;
     dal_error error = {0};
     dal_crossings found = {0};
     const dal_poincare poincare = {.callback = r->system->invariant_values,
                                    .count = r->system->invariants,
                                    .index = r->system->invariants - 1,
-                                   .direction = s->direction,
+                                   .direction = s->set->direction,
                                    .user = s,
                                    .cross = write_crossing,
                                    .poll = poll_signals};
     int status = writer_create(&s->table, path, s->names, s->columns);
     if (status == CLI_DONE) {
         cli_catch_signals();
-        native_compile_steps(r->run, &r->method, r->time / r->options.step, s->native);
+        native_compile_steps(r->run, &r->method, r->time / r->options.step, s->set->native);
         const dal_status done = dal_run_crossings(r->run, r->time, &poincare, &found, &error);
         cli_progress_end();
         if (s->write_status != CLI_DONE)
@@ -189,11 +183,11 @@ static int find_column(const section *s, const char *name)
 static int find_axes(const section *s, int axis[2])
 {
     axis[0] = axis[1] = -1;
-    const char *comma = s->axes ? strchr(s->axes, ',') : NULL;
-    if (s->axes && !comma)
-        return cli_fail(CLI_USAGE, "--axes: '%s' is not two columns, X,Y", s->axes);
-    if (!s->axes) return CLI_DONE;
-    char *first = cli_strndup(s->axes, (size_t)(comma - s->axes));
+    const char *comma = s->set->axes ? strchr(s->set->axes, ',') : NULL;
+    if (s->set->axes && !comma)
+        return cli_fail(CLI_USAGE, "--axes: '%s' is not two columns, X,Y", s->set->axes);
+    if (!s->set->axes) return CLI_DONE;
+    char *first = cli_strndup(s->set->axes, (size_t)(comma - s->set->axes));
     axis[0] = find_column(s, first);
     axis[1] = axis[0] < 0 ? -1 : find_column(s, comma + 1);
     free(first);
@@ -204,7 +198,7 @@ static int find_axes(const section *s, int axis[2])
  * largest of all coordinates, or of all velocities. */
 static bool varies(const section *s, int column)
 {
-    const int n = s->request.system->n, q = FIRST_STATE_COLUMN;
+    const int n = s->request->system->n, q = FIRST_STATE_COLUMN;
     const int first = column < q + n ? q : q + n;
     const double range = s->max[column] - s->min[column];
     const double size = fmax(fabs(s->min[column]), fabs(s->max[column]));
@@ -218,7 +212,7 @@ static bool varies(const section *s, int column)
  * vary; else t and the one that does. */
 static void choose_axes(const section *s, int axis[2])
 {
-    const int n = s->request.system->n, q = FIRST_STATE_COLUMN;
+    const int n = s->request->system->n, q = FIRST_STATE_COLUMN;
     for (int i = q + n - 1; i >= q; i--) {
         if (!varies(s, i) || !varies(s, i + n)) continue;
         axis[0] = i;
@@ -238,8 +232,8 @@ static int draw_section(const section *s, const char *directory, const int axis[
     int missing;
     FILE *script = gnuplot_open(directory, "section", "svg", 800, 600, &path);
     if (!script) return CLI_IO;
-    snprintf(title, sizeof title, "%.80s: %.80s, h = %g, t to %g", s->request.system_name, s->on,
-             s->request.options.step, dal_run_time(s->request.run));
+    snprintf(title, sizeof title, "%.80s: %.80s, h = %g, t to %g", s->request->system_name,
+             s->set->on, s->request->options.step, dal_run_time(s->request->run));
     fputs("set title ", script);
     gnuplot_quote(script, title);
     fputs("\nset xlabel ", script);
@@ -250,93 +244,40 @@ static int draw_section(const section *s, const char *directory, const int axis[
           "graph 0.02, graph 0.02\nside(d, x) = column('direction') == d ? x : NaN\nplot \\\n",
           script);
     for (int side = 1; side >= -1; side -= 2) {
-        if (s->direction == -side) continue;
+        if (s->set->direction == -side) continue;
         fprintf(script,
                 "  'section.csv' using (side(%d, column(%d))):%d with points pt 7 ps 0.3 "
                 "lc rgb '%s' title '%s'%s\n",
                 side, axis[0] + 1, axis[1] + 1, gnuplot_colour(side > 0 ? 11 : 1),
-                side > 0 ? "upwards" : "downwards", side > 0 && s->direction == 0 ? ", \\" : "");
+                side > 0 ? "upwards" : "downwards",
+                side > 0 && s->set->direction == 0 ? ", \\" : "");
     }
     const int status = gnuplot_draw(directory, script, path, &missing);
     free(path);
     return status;
 }
 
-/* ---- the command --------------------------------------------------------------------------- */
+/* ---- all ----------------------------------------------------------------------------------- */
 
-static const cli_option options[] = {
-    {"on", "FORMULA[=VALUE]", CLI_REQUIRED, "the surface: x - 1, y*x' = 0.5, sin(3*t)",
-     .parse = cli_parse_text, .offset = offsetof(section, on)},
-    {"direction", "down|both|up", "both", "crossings from above it to below, all, or from below",
-     .parse = cli_parse_word, .offset = offsetof(section, direction)},
-    {"transient", "T0", "0", "leaves out the crossings before this time", .parse = cli_parse_number,
-     .offset = offsetof(section, transient), .min = -INFINITY, .max = INFINITY},
-    {"axes", "X,Y", NULL,
-     "columns of the figure (the last coordinate that varies, with its velocity)",
-     .parse = cli_parse_text, .offset = offsetof(section, axes)},
-    NATIVE_OPTION(section),
-    {"output", "DIR|FILE|-", "-", "where rows go: .csv, .npy, a directory with a figure, or stdout",
-     .parse = cli_parse_text, .offset = offsetof(section, output)},
-};
-
-static int find_crossings(section *s)
+int section_find(section_settings *settings)
 {
+    section s = {.set = settings, .request = &settings->request};
     analysis_output output = {0};
     int axis[2];
-    s->direction--; /* -1, 0 or 1 */
-    int status = load_section(s);
-    if (status == CLI_DONE) status = request_create_run(&s->request);
+    int status = load_section(&s);
+    if (status == CLI_DONE) status = request_create_run(s.request);
     if (status != CLI_DONE) return status;
-    name_row(s);
-    status = find_axes(s, axis);
-    if (status == CLI_DONE) status = analysis_open(&output, s->output, "section");
-    if (status == CLI_DONE) status = run_section(s, output.table);
-    if ((status == CLI_DONE || status == CLI_SIGNAL) && output.directory && s->rows > 0) {
-        if (axis[0] < 0) choose_axes(s, axis);
-        const int drawn = draw_section(s, output.directory, axis);
+    name_row(&s);
+    status = find_axes(&s, axis);
+    if (status == CLI_DONE) status = analysis_open(&output, settings->output, "section");
+    if (status == CLI_DONE) status = run_section(&s, output.table);
+    if ((status == CLI_DONE || status == CLI_SIGNAL) && output.directory && s.rows > 0) {
+        if (axis[0] < 0) choose_axes(&s, axis);
+        const int drawn = draw_section(&s, output.directory, axis);
         if (status == CLI_DONE) status = drawn;
     }
     free(output.table);
-    return status;
-}
-
-static int run_section_command(int argc, char **argv)
-{
-    enum { OPTIONS = sizeof options / sizeof *options };
-    section s = {.request = request_default()};
-    const cli_group groups[] = {
-        {options, OPTIONS, .settings = &s},
-        request_group(&s.request, request_options, REQUEST_ROW_OPTIONS),
-    };
-    int status = cli_read_arguments(&command_section, argc, argv, groups, 2);
-    if (status == CLI_GO_ON) status = find_crossings(&s);
     free(s.names);
     free(s.row);
-    request_free(&s.request);
     return status;
 }
-
-const cli_command command_section = {
-    .name = "section",
-    .synopsis = "dalembert section SYSTEM --on FORMULA --integrator NAME --step H --time T "
-                "[OPTION]...",
-    .about = "finds where a motion crosses a surface",
-    .notes = "The formula may name "
-             "coordinates, velocities, parameters, what the system file defines under let, and t.\n"
-             "\n"
-             "A crossing lies where the formula changes its sign within a step.  A step of another "
-             "size of "
-             "the same method, from the beginning of that step, meets it to rounding, so that the "
-             "trajectory "
-             "is that of 'dalembert run'.  Pairs of crossings within one step are found too; of "
-             "more than "
-             "two some may be missed.  A touch is no crossing and is counted apart; a start on the "
-             "surface "
-             "is none.\n"
-             "\n"
-             "Rows are CSV with 17 digits: crossing (from 1), t, direction (1 or -1), then the "
-             "state as in "
-             "'dalembert run'.  A directory gets section.csv and, by gnuplot, section.svg with its "
-             "script.\n",
-    .run = run_section_command,
-};

@@ -1,0 +1,20 @@
+/* section.h - where a motion crosses a surface g(q,v,t) = 0. */
+#ifndef DAL_CLI_SECTION_H
+#define DAL_CLI_SECTION_H
+
+#include "run/native.h"
+#include "run/request.h"
+
+typedef struct section_settings {
+    run_request request;
+    const char *on, *axes, *output;
+    int direction; /* of crossings: -1 down, 0 both, 1 up */
+    double transient;
+    native_mode native;
+} section_settings;
+
+/* Writes a row for each crossing, and a figure.  Returns CLI_DONE or prints and returns an exit
+ * status. */
+int section_find(section_settings *settings);
+
+#endif

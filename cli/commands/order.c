@@ -1,0 +1,66 @@
+/* order.c - `dalembert order`: the error of many methods against step and against work. */
+#include "analyse/order.h"
+#include "dalembert_analysis.h"
+#include "run/pool.h"
+#include "ui/commands.h"
+#include "ui/options.h"
+
+#include <string.h>
+
+static const cli_option options[] = {
+    {"integrators", "LIST|all", NULL,
+     "integrators, with modifiers or not: rk4,gauss4+project (all)", .parse = cli_parse_text,
+     .offset = offsetof(order_settings, integrators)},
+    {"steps", "H1,H2,..", NULL, "step sizes, falling, at most 8; replaces --step and --levels",
+     .parse = cli_parse_text, .offset = offsetof(order_settings, steps)},
+    {"levels", "K", "4", "number of step sizes, each half the one before it",
+     .parse = cli_parse_integer, .offset = offsetof(order_settings, level_count), .min = 2,
+     .max = DAL_ORDER_LEVELS},
+    POOL_THREADS_OPTION(order_settings, "runs at a time; results do not depend on it"),
+    {"output", "DIR|FILE.csv", NULL, "writes the table as CSV; a directory gets diagrams, too",
+     .parse = cli_parse_text, .offset = offsetof(order_settings, output)},
+};
+
+static int order(int argc, char **argv)
+{
+    enum { OPTIONS = sizeof options / sizeof *options };
+    order_settings s = {
+        .request = request_default(), .integrators = "all", .threads = pool_threads()};
+    cli_option of_request[REQUEST_OPTIONS];
+    memcpy(of_request, request_options, sizeof of_request);
+    of_request[REQUEST_step].initial = "0.1";
+    of_request[REQUEST_time].initial = "10";
+    of_request[REQUEST_space].initial = "physical";
+    const cli_group groups[] = {
+        {options, OPTIONS, .settings = &s},
+        request_group(&s.request, of_request, REQUEST_ROW_OPTIONS | REQUEST_OPTION(integrator)),
+    };
+    int status = cli_read_arguments(&command_order, argc, argv, groups, 2);
+    if (status == CLI_GO_ON) status = order_measure(&s);
+    request_free(&s.request);
+    return status;
+}
+
+const cli_command command_order = {
+    .name = "order",
+    .synopsis = "dalembert order SYSTEM [OPTION]...",
+    .about = "measures error against step and against work for many integrators",
+    .notes =
+        "--step is the largest step (0.1), --time the time of the errors (10), and the space is "
+        "(q,v) unless --space lifted is given.\n"
+        "\n"
+        "The error is the largest difference in q and v at T, relative to max(1, |x|), from the "
+        "exact solution where the system has one that begins at this start.  Otherwise the "
+        "reference is gauss12, or dop853 where gauss12 does not converge, with half the smallest "
+        "step; the table states its own error.  The order found is the slope between the last two "
+        "of three steps whose errors exceed rounding and ten times the error of the reference, "
+        "and lie below half the solution.  It is found only where the two slopes agree so well "
+        "that the next term of the error changes it by 0.1 at most; '-' means that none is "
+        "found.  Methods that do not apply to the system are listed with the reason.  The exit "
+        "status is 3 when a run failed.\n"
+        "\n"
+        "DIR gets order.csv, and by gnuplot order.svg (error against step) and work.svg (error "
+        "against evaluations of F, and against processor time), with their scripts.  Only the "
+        "times differ between two runs of the command.\n",
+    .run = order,
+};

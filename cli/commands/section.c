@@ -1,0 +1,61 @@
+/* section.c - `dalembert section`: where a motion crosses a surface. */
+#include "analyse/section.h"
+#include "ui/commands.h"
+#include "ui/options.h"
+
+#include <math.h>
+
+static const cli_option options[] = {
+    {"on", "FORMULA[=VALUE]", CLI_REQUIRED, "the surface: x - 1, y*x' = 0.5, sin(3*t)",
+     .parse = cli_parse_text, .offset = offsetof(section_settings, on)},
+    {"direction", "down|both|up", "both", "crossings from above it to below, all, or from below",
+     .parse = cli_parse_word, .offset = offsetof(section_settings, direction)},
+    {"transient", "T0", "0", "leaves out the crossings before this time", .parse = cli_parse_number,
+     .offset = offsetof(section_settings, transient), .min = -INFINITY, .max = INFINITY},
+    {"axes", "X,Y", NULL,
+     "columns of the figure (the last coordinate that varies, with its velocity)",
+     .parse = cli_parse_text, .offset = offsetof(section_settings, axes)},
+    NATIVE_OPTION(section_settings),
+    {"output", "DIR|FILE|-", "-", "where rows go: .csv, .npy, a directory with a figure, or stdout",
+     .parse = cli_parse_text, .offset = offsetof(section_settings, output)},
+};
+
+static int section(int argc, char **argv)
+{
+    enum { OPTIONS = sizeof options / sizeof *options };
+    section_settings s = {.request = request_default()};
+    const cli_group groups[] = {
+        {options, OPTIONS, .settings = &s},
+        request_group(&s.request, request_options, REQUEST_ROW_OPTIONS),
+    };
+    int status = cli_read_arguments(&command_section, argc, argv, groups, 2);
+    s.direction--; /* -1, 0 or 1 */
+    if (status == CLI_GO_ON) status = section_find(&s);
+    request_free(&s.request);
+    return status;
+}
+
+const cli_command command_section = {
+    .name = "section",
+    .synopsis = "dalembert section SYSTEM --on FORMULA --integrator NAME --step H --time T "
+                "[OPTION]...",
+    .about = "finds where a motion crosses a surface",
+    .notes = "The formula may name "
+             "coordinates, velocities, parameters, what the system file defines under let, and t.\n"
+             "\n"
+             "A crossing lies where the formula changes its sign within a step.  A step of another "
+             "size of "
+             "the same method, from the beginning of that step, meets it to rounding, so that the "
+             "trajectory "
+             "is that of 'dalembert run'.  Pairs of crossings within one step are found too; of "
+             "more than "
+             "two some may be missed.  A touch is no crossing and is counted apart; a start on the "
+             "surface "
+             "is none.\n"
+             "\n"
+             "Rows are CSV with 17 digits: crossing (from 1), t, direction (1 or -1), then the "
+             "state as in "
+             "'dalembert run'.  A directory gets section.csv and, by gnuplot, section.svg with its "
+             "script.\n",
+    .run = section,
+};

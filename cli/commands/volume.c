@@ -1,0 +1,35 @@
+/* volume.c - `dalembert volume`: the rate at which the volume of the phase space changes. */
+#include "analyse/lyapunov.h"
+#include "ui/commands.h"
+#include "ui/options.h"
+
+static int volume(int argc, char **argv)
+{
+    lyapunov_settings s = {.request = request_default(), .is_volume = true};
+    const cli_group groups[] = {
+        lyapunov_group(&s),
+        request_group(&s.request, request_options, REQUEST_ROW_OPTIONS | REQUEST_OPTION(space)),
+    };
+    int status = cli_read_arguments(&command_volume, argc, argv, groups, 2);
+    if (status == CLI_GO_ON) status = lyapunov_measure(&s);
+    request_free(&s.request);
+    return status;
+}
+
+const cli_command command_volume = {
+    .name = "volume",
+    .synopsis = "dalembert volume SYSTEM --integrator NAME --step H --time T [OPTION]...",
+    .about = "computes the rate at which the volume of the phase space changes",
+    .notes =
+        "The command computes two rates along the run: the exact divergence of the motion in "
+        "(q,v), which is the trace of the derivative of F by v, and log|det J|/h of every step, J "
+        "being its derivative: what the method does to the volume.  Where the method enforces D = "
+        "0, the second is that on the surface.\n"
+        "\n"
+        "A system with an invariant measure of bounded density has the mean 0; a negative mean "
+        "shows an attractor.  The means on (q,v) and on D = 0 differ by the mean growth of log "
+        "|grad D|.  The exit status is 3 when they differ by more than that and the error of the "
+        "method: then the derivative of the steps is not reliable.  The means cover --time, after "
+        "the transient.  FILE and DIR/volume.csv get rows t, divergence, step: the means so far.\n",
+    .run = volume,
+};
