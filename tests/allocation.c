@@ -1,29 +1,24 @@
 /* allocation.c - malloc, calloc, realloc, aligned_alloc, free of the tests (linked with --wrap). */
 #include "allocation.h"
 
+#include <CUnit/CUnit.h>
 #include <stdatomic.h>
 #include <stddef.h>
 
-static _Thread_local long calls, left = -1;
+static _Thread_local long left = -1;
 static _Thread_local int failed;
-static atomic_long blocks;
+static atomic_long blocks; /* allocated and not yet freed, of all threads */
 
 void allocation_fail_after(long count)
 {
-    calls = 0;
     left = count;
     failed = 0;
 }
 
 int allocation_failed(void) { return failed; }
 
-long allocation_count(void) { return calls; }
-
-long allocation_blocks(void) { return blocks; }
-
 static int refuse(void)
 {
-    calls++;
     if (left < 0) return 0;
     if (left > 0) return left--, 0;
     return failed = 1;
@@ -69,4 +64,24 @@ void __wrap_free(void *memory)
 {
     if (memory) blocks--;
     __real_free(memory);
+}
+
+/* ---- trials ---- */
+
+bool allocation_next(allocation_trial *trial)
+{
+    if (trial->failures == 0 && !trial->passed) trial->blocks = blocks;
+    CU_ASSERT_EQUAL(blocks, trial->blocks);
+    return !trial->passed;
+}
+
+void allocation_start(const allocation_trial *trial) { allocation_fail_after(trial->failures); }
+
+bool allocation_end(allocation_trial *trial, dal_status status)
+{
+    CU_ASSERT_EQUAL(status, failed ? DAL_MEMORY : DAL_OK);
+    left = -1;
+    trial->failures += failed;
+    trial->passed = !failed;
+    return failed;
 }

@@ -1,22 +1,33 @@
 /* allocation.h - makes allocation fail on demand, to see that out of memory is a status.
  *
- *     for (long n = 0;; n++) {
- *         long blocks = allocation_blocks();
- *         allocation_fail_after(n);           n allocations succeed, all later ones fail
+ *     allocation_trial trial = {0};
+ *     while (allocation_next(&trial)) {
+ *         allocation_start(&trial);           trial.failures allocations succeed, no later one
  *         status = ...;
- *         if (!allocation_failed()) break;    it went through: every place has failed once
- *         ... status must be DAL_MEMORY, and allocation_blocks() == blocks ...
+ *         allocation_end(&trial, status);     back to normal
+ *         ... frees what there is ...
  *     }
- *     allocation_fail_after(-1);              back to normal
  *
  * Only calls from the library's and the tests' own objects count. */
 #ifndef ALLOCATION_H
 #define ALLOCATION_H
 
+#include <dalembert.h>
+#include <stdbool.h>
+
 void allocation_fail_after(long count);
 int allocation_failed(void); /* has one been refused since? */
-long allocation_count(void); /* calls since the last allocation_fail_after */
-/* Blocks that are allocated and not yet freed, of all threads. */
-long allocation_blocks(void);
+
+typedef struct allocation_trial {
+    long failures, blocks; /* so far; before the first */
+    bool passed;
+} allocation_trial;
+
+/* Whether another allocation is to fail: until none did.  Checks that all blocks are free again. */
+bool allocation_next(allocation_trial *trial);
+void allocation_start(const allocation_trial *trial);
+/* Whether an allocation failed: checks that then, and only then, the status is DAL_MEMORY, and
+ * DAL_OK otherwise. */
+bool allocation_end(allocation_trial *trial, dal_status status);
 
 #endif

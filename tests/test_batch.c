@@ -330,23 +330,17 @@ static void test_out_of_memory(void)
 {
     dal_model *model = fixture_model(disk);
     const dal_run_spec spec = fixture_spec(fixture_system(model), "gauss4", DAL_PHYSICAL, 0.1);
-    long n = 0;
-    for (;; n++) {
-        const long blocks = allocation_blocks();
+    allocation_trial trial = {0};
+    while (allocation_next(&trial)) {
         dal_batch *batch = NULL;
         dal_error error = {0};
-        allocation_fail_after(n);
+        allocation_start(&trial);
         const dal_status status = dal_batch_create(&batch, &spec, 5, 0, &error);
-        const int failed = allocation_failed();
-        allocation_fail_after(-1);
-        CU_ASSERT_EQUAL(status, failed ? DAL_MEMORY : DAL_OK);
+        CU_ASSERT_EQUAL(batch == NULL, allocation_end(&trial, status));
         CU_ASSERT(error.status == status && error.line == 0 && error.column == 0);
-        CU_ASSERT_EQUAL(batch == NULL, failed);
         dal_batch_free(batch);
-        CU_ASSERT_EQUAL(allocation_blocks(), blocks);
-        if (!failed) break;
     }
-    CU_ASSERT(n >= 4);
+    CU_ASSERT(trial.failures >= 4);
     dal_model_free(model);
 }
 

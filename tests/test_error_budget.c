@@ -271,21 +271,15 @@ static void test_out_of_memory(void)
 {
     dal_model *model = fixture_model("knife-edge");
     const dal_run_spec spec = fixture_spec(fixture_system(model), "gauss4", DAL_PHYSICAL, 0.1);
-    long n = 0;
-    for (;; n++) {
-        const long blocks = allocation_blocks();
+    allocation_trial trial = {0};
+    while (allocation_next(&trial)) {
         dal_error_budget *e = NULL;
-        allocation_fail_after(n);
+        allocation_start(&trial);
         const dal_status status = dal_error_budget_create(&spec, 4, 2, NULL, &e, NULL);
-        const int failed = allocation_failed();
-        allocation_fail_after(-1);
-        CU_ASSERT_EQUAL(status, failed ? DAL_MEMORY : DAL_OK);
-        CU_ASSERT_EQUAL(e == NULL, failed);
+        CU_ASSERT_EQUAL(e == NULL, allocation_end(&trial, status));
         dal_error_budget_free(e);
-        CU_ASSERT_EQUAL(allocation_blocks(), blocks);
-        if (!failed) break;
     }
-    CU_ASSERT(n >= 10);
+    CU_ASSERT(trial.failures >= 10);
     dal_model_free(model);
 }
 

@@ -342,16 +342,12 @@ static dal_status whole_life(const char *name, dal_error *error)
 /* Every allocation fails once; each time the outcome is a status and nothing is lost. */
 static void check_memory(const char *name)
 {
-    for (long n = 0;; n++) {
-        const long blocks = allocation_blocks();
+    allocation_trial trial = {0};
+    while (allocation_next(&trial)) {
         dal_error error = {.line = -1};
-        allocation_fail_after(n);
-        dal_status status = whole_life(name, &error);
-        int failed = allocation_failed();
-        allocation_fail_after(-1);
-        CU_ASSERT_EQUAL(allocation_blocks(), blocks);
-        if (!failed) break;
-        CU_ASSERT(status == DAL_MEMORY && error.status == DAL_MEMORY);
+        allocation_start(&trial);
+        if (allocation_end(&trial, whole_life(name, &error)))
+            CU_ASSERT_EQUAL(error.status, DAL_MEMORY);
     }
 }
 
