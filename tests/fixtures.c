@@ -3,6 +3,7 @@
 #include <CUnit/CUnit.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 const char fixture_full[] =
@@ -55,26 +56,61 @@ const char fixture_quadratic[] =
     "constraints: [(x'^2 + y'^2 + z'^2 + 0.1*x^2 - 1)/2]\n"
     "start: {x: 0, y: 0.3, z: 0.5, x': 0.6, y': 0, z': 0.8}\n";
 
-dal_model *fixture_model(const char *text)
+/* The models that were made so far, a list. */
+typedef struct fixture {
+    struct fixture *next;
+    dal_model *model;
+    char text[];
+} fixture;
+static fixture *fixtures;
+
+static void require(dal_status status, const dal_error *error)
 {
-    dal_model *model = NULL;
-    dal_error error = {0};
-    const dal_status status = strchr(text, '\n')
-                                  ? dal_model_read(&model, "fixture", text, strlen(text), &error)
-                                  : dal_model_builtin(&model, text, &error);
-    if (status != DAL_OK) printf("\n  %d:%d: %s\n", error.line, error.column, error.message);
+    if (status != DAL_OK) printf("\n  %d:%d: %s\n", error->line, error->column, error->message);
     CU_ASSERT_EQUAL_FATAL(status, DAL_OK);
-    return model;
 }
 
-const dal_system *fixture_system(dal_model *model)
+static dal_model *model_of(const char *text)
+{
+    for (const fixture *f = fixtures; f; f = f->next)
+        if (strcmp(f->text, text) == 0) return f->model;
+    const size_t length = strlen(text);
+    fixture *made = calloc(1, sizeof *made + length + 1);
+    dal_error error = {0};
+    CU_ASSERT_PTR_NOT_NULL_FATAL(made);
+    require(strchr(text, '\n') ? dal_model_read(&made->model, "fixture", text, length, &error)
+                               : dal_model_builtin(&made->model, text, &error),
+            &error);
+    memcpy(made->text, text, length);
+    made->next = fixtures;
+    fixtures = made;
+    return made->model;
+}
+
+const dal_system *fixture_system(const char *text)
 {
     const dal_system *system = NULL;
     dal_error error = {0};
-    const dal_status status = dal_model_system(model, &system, &error);
-    if (status != DAL_OK) printf("\n  %d:%d: %s\n", error.line, error.column, error.message);
-    CU_ASSERT_EQUAL_FATAL(status, DAL_OK);
+    require(dal_model_system(model_of(text), &system, &error), &error);
     return system;
+}
+
+const dal_system *fixture_tangent(const char *text)
+{
+    const dal_system *tangent = NULL;
+    dal_error error = {0};
+    require(dal_model_tangent(model_of(text), &tangent, &error), &error);
+    return tangent;
+}
+
+void fixture_free(void)
+{
+    for (fixture *f = fixtures, *next; f; f = next) {
+        next = f->next;
+        dal_model_free(f->model);
+        free(f);
+    }
+    fixtures = NULL;
 }
 
 dal_run_spec fixture_spec(const dal_system *system, const char *method, dal_space space,
@@ -101,9 +137,7 @@ dal_run *fixture_run(const dal_run_spec *spec)
 {
     dal_run *run = NULL;
     dal_error error = {0};
-    const dal_status status = dal_run_create(&run, spec, &error);
-    if (status != DAL_OK) printf("\n  %s\n", error.message);
-    CU_ASSERT_EQUAL_FATAL(status, DAL_OK);
+    require(dal_run_create(&run, spec, &error), &error);
     return run;
 }
 

@@ -15,9 +15,11 @@ extern const char fixture_gentle[];
 /* D with constant coefficients; D bilinear in (q,v); D quadratic in v; all conservative. */
 extern const char fixture_constant[], fixture_bilinear[], fixture_quadratic[];
 
-/* A model from YAML text or (no newline in it) a built-in name; fails the test when it cannot. */
-dal_model *fixture_model(const char *text);
-const dal_system *fixture_system(dal_model *model);
+/* The system of a model from YAML text or (no newline in it) a built-in name, and that of its
+ * tangent map; fails the test when there is none.  Equal texts have the same. */
+const dal_system *fixture_system(const char *text);
+const dal_system *fixture_tangent(const char *text);
+void fixture_free(void); /* all of them, at the end */
 
 /* A spec with default options; method by name. */
 dal_run_spec fixture_spec(const dal_system *system, const char *method, dal_space space,

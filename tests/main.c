@@ -1,6 +1,7 @@
 /* main.c - runs the CUnit suites: all, or those named; --list names them, --quick cuts long runs;
  * --bits PART/PARTS compares generated code instead, see bits.h. */
 #include "bits.h"
+#include "fixtures.h"
 #include "quick.h"
 
 #include <CUnit/Basic.h>
@@ -49,5 +50,6 @@ int main(int argc, char **argv)
     int broken = CU_basic_run_tests() != CUE_SUCCESS;
     unsigned failures = CU_get_number_of_failure_records();
     CU_cleanup_registry();
+    fixture_free();
     return broken || failures > 0;
 }

@@ -15,8 +15,8 @@ static void test_sums(void)
 {
     enum { STEPS = 100000 };
     const double h = 0.01, v = 0.1;
-    dal_model *model = fixture_model(free_motion);
-    dal_run_spec spec = fixture_spec(fixture_system(model), "symplectic-euler-10", DAL_PHYSICAL, h);
+    dal_run_spec spec =
+        fixture_spec(fixture_system(free_motion), "symplectic-euler-10", DAL_PHYSICAL, h);
     dal_run *exact = fixture_run(&spec);
     spec.options.sums = DAL_SUMS_PLAIN;
     dal_run *plain = fixture_run(&spec);
@@ -37,7 +37,6 @@ static void test_sums(void)
     CU_ASSERT(fabs(x - right) > 1e-13 * right);
     dal_run_free(exact);
     dal_run_free(plain);
-    dal_model_free(model);
 }
 
 /* 0.1 = 4/5 2^-3: its products with numbers of 53 digits have one of five remainders, shifted by a
@@ -48,9 +47,9 @@ static void test_one_side(void)
     static const char *const names[] = {"implicit-midpoint", "gauss4",         "gauss8",
                                         "lobatto4",          "stormer-verlet", "mclachlan4"};
     const long long steps = long_run(400000), stretch = steps / 100;
-    dal_model *model = fixture_model("contact-oscillator");
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
-        const dal_run_spec spec = fixture_spec(fixture_system(model), names[i], DAL_PHYSICAL, 0.1);
+        const dal_run_spec spec =
+            fixture_spec(fixture_system("contact-oscillator"), names[i], DAL_PHYSICAL, 0.1);
         dal_run *run = fixture_run(&spec);
         double found[16], max = 0.0;
         for (int k = 0; k < 100; k++) {
@@ -61,7 +60,6 @@ static void test_one_side(void)
         CU_ASSERT(max < 4.0 * 1.4e-17 * sqrt(400000.0));
         dal_run_free(run);
     }
-    dal_model_free(model);
 }
 
 static dal_run *stepped(const dal_run_spec *spec, int steps)
@@ -77,8 +75,8 @@ static dal_run *stepped(const dal_run_spec *spec, int steps)
 static void test_looser(void)
 {
     static const double tolerance[] = {1e-3, 1e-5, 1e-7, 1e-9};
-    dal_model *model = fixture_model(oscillator);
-    dal_run_spec spec = fixture_spec(fixture_system(model), "implicit-midpoint", DAL_PHYSICAL, 0.5);
+    dal_run_spec spec =
+        fixture_spec(fixture_system(oscillator), "implicit-midpoint", DAL_PHYSICAL, 0.5);
     spec.options.solver = DAL_FIXED_POINT;
     dal_run *solved = stepped(&spec, 1);
     long long evaluations = 0;
@@ -94,14 +92,13 @@ static void test_looser(void)
     }
     CU_ASSERT(dal_run_evaluations(solved) > evaluations);
     dal_run_free(solved);
-    dal_model_free(model);
 }
 
 /* A sweep of the midpoint rule is one evaluation, and one more changes no more than roundings. */
 static void test_tighter(void)
 {
-    dal_model *model = fixture_model(oscillator);
-    dal_run_spec spec = fixture_spec(fixture_system(model), "implicit-midpoint", DAL_PHYSICAL, 0.5);
+    dal_run_spec spec =
+        fixture_spec(fixture_system(oscillator), "implicit-midpoint", DAL_PHYSICAL, 0.5);
     spec.options.solver = DAL_FIXED_POINT;
     dal_run *solved = stepped(&spec, 1);
     spec.options.extra_iterations = 3;
@@ -121,15 +118,13 @@ static void test_tighter(void)
     dal_run_free(more);
     dal_run_free(again);
     dal_run_free(loose);
-    dal_model_free(model);
 }
 
 /* Every lane has the bits of a run of its own. */
 static void test_lanes(void)
 {
     enum { COUNT = 5, STEPS = 50, STATE = 6 };
-    dal_model *model = fixture_model(oscillator);
-    dal_run_spec spec = fixture_spec(fixture_system(model), "gauss6", DAL_LIFTED, 0.4);
+    dal_run_spec spec = fixture_spec(fixture_system(oscillator), "gauss6", DAL_LIFTED, 0.4);
     dal_batch *batch = NULL;
     spec.options.solver_tolerance = 1e-6;
     spec.options.extra_iterations = 1;
@@ -151,13 +146,12 @@ static void test_lanes(void)
         dal_run_free(run);
     }
     dal_batch_free(batch);
-    dal_model_free(model);
 }
 
 static void test_refused(void)
 {
-    dal_model *model = fixture_model(oscillator);
-    dal_run_spec spec = fixture_spec(fixture_system(model), "implicit-midpoint", DAL_PHYSICAL, 0.5);
+    dal_run_spec spec =
+        fixture_spec(fixture_system(oscillator), "implicit-midpoint", DAL_PHYSICAL, 0.5);
     spec.options.solver_tolerance = -1e-3;
     fixture_refused(&spec, DAL_ARGUMENT, "option solver-tolerance: -0.001 is not from 0 to 1");
     spec.options.solver_tolerance = NAN;
@@ -165,7 +159,6 @@ static void test_refused(void)
     spec.options.solver_tolerance = 0.0;
     spec.options.sums = 2;
     fixture_refused(&spec, DAL_ARGUMENT, "option sums: 2 is not from 0 to 1");
-    dal_model_free(model);
 }
 
 void suite_accuracy_options(void)

@@ -95,13 +95,11 @@ static void test_error(void)
                  {"damped-oscillator", DAL_PHYSICAL, 10.0, 0.0, exact_error},
                  {fixture_full, DAL_LIFTED, 1.0, 0.3, displaced_error}};
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        dal_model *model = fixture_model(cases[i].text);
         const dal_run_spec spec =
-            spec_of(fixture_system(model), cases[i].space, cases[i].T / 2, 0.0);
+            spec_of(fixture_system(cases[i].text), cases[i].space, cases[i].T / 2, 0.0);
         const double seen = slope(spec, 2, cases[i].displacement, cases[i].error);
         if (!(fabs(seen - 1.0) <= 0.15)) printf("\n  case %d: slope %.3f\n", (int)i, seen);
         CU_ASSERT(fabs(seen - 1.0) <= 0.15);
-        dal_model_free(model);
     }
 }
 
@@ -109,8 +107,7 @@ static void test_error(void)
  * the period and sees some of that.  Free motion needs no division. */
 static void test_work(void)
 {
-    dal_model *model = fixture_model(kepler);
-    dal_run_spec spec = spec_of(fixture_system(model), DAL_PHYSICAL, PERIOD / 20, 1e-9);
+    dal_run_spec spec = spec_of(fixture_system(kepler), DAL_PHYSICAL, PERIOD / 20, 1e-9);
     dal_run *run = fixture_run(&spec);
     long long min = 1000000, max = 0;
     for (int i = 0; i < 20; i++) {
@@ -123,14 +120,12 @@ static void test_work(void)
     CU_ASSERT(max >= 10 * min);
     CU_ASSERT_EQUAL(dal_run_time(run), 20 * spec.options.step);
     dal_run_free(run);
-    dal_model_free(model);
-    model = fixture_model("coordinates: [x]\nlagrangian: x'^2/2\nstart: {x: 1, x': 3}\n");
-    spec = spec_of(fixture_system(model), DAL_PHYSICAL, 0.5, 1e-9);
+    const char *const free_motion = "coordinates: [x]\nlagrangian: x'^2/2\nstart: {x: 1, x': 3}\n";
+    spec = spec_of(fixture_system(free_motion), DAL_PHYSICAL, 0.5, 1e-9);
     run = fixture_run(&spec);
     CU_ASSERT_EQUAL(dal_run_advance(run, 10, NULL), DAL_OK);
     CU_ASSERT_EQUAL(dal_run_evaluations(run), 10 * STAGES);
     dal_run_free(run);
-    dal_model_free(model);
 }
 
 /* ---- bits ---- */
@@ -143,9 +138,8 @@ static void same_state(const dal_run *a, const dal_run *b, int count)
 /* Where the error of h is below the tolerance the divided step is the fixed one. */
 static void test_whole(void)
 {
-    dal_model *model = fixture_model(fixture_full);
-    const dal_run_spec fixed = spec_of(fixture_system(model), DAL_LIFTED, 0.01, 0.0);
-    const dal_run_spec loose = spec_of(fixture_system(model), DAL_LIFTED, 0.01, 1e-3);
+    const dal_run_spec fixed = spec_of(fixture_system(fixture_full), DAL_LIFTED, 0.01, 0.0);
+    const dal_run_spec loose = spec_of(fixture_system(fixture_full), DAL_LIFTED, 0.01, 1e-3);
     dal_run *a = fixture_run(&fixed), *b = fixture_run(&loose);
     fixture_perturb(a, 0.3);
     fixture_perturb(b, 0.3);
@@ -156,14 +150,12 @@ static void test_whole(void)
     same_state(a, b, dal_run_dimension(a));
     dal_run_free(a);
     dal_run_free(b);
-    dal_model_free(model);
 }
 
 static void test_surface(void)
 {
     const double gauges[] = {1.0, -3.0, INFINITY};
-    dal_model *model = fixture_model(fixture_full);
-    const dal_system *system = fixture_system(model);
+    const dal_system *system = fixture_system(fixture_full);
     const dal_run_spec physical = spec_of(system, DAL_PHYSICAL, 0.7, 1e-8);
     dal_run *below = fixture_run(&physical);
     CU_ASSERT_EQUAL(dal_run_advance(below, 5, NULL), DAL_OK);
@@ -180,14 +172,12 @@ static void test_surface(void)
         dal_run_free(above);
     }
     dal_run_free(below);
-    dal_model_free(model);
 }
 
 /* What is planned travels with the state. */
 static void test_load(void)
 {
-    dal_model *model = fixture_model(kepler);
-    const dal_run_spec spec = spec_of(fixture_system(model), DAL_PHYSICAL, PERIOD / 20, 1e-9);
+    const dal_run_spec spec = spec_of(fixture_system(kepler), DAL_PHYSICAL, PERIOD / 20, 1e-9);
     dal_run *whole = fixture_run(&spec), *first = fixture_run(&spec), *second = fixture_run(&spec);
     size_t count, again;
     CU_ASSERT_EQUAL(dal_run_advance(whole, 20, NULL), DAL_OK);
@@ -201,15 +191,13 @@ static void test_load(void)
     dal_run_free(whole);
     dal_run_free(first);
     dal_run_free(second);
-    dal_model_free(model);
 }
 
 /* Each lane of a batch has the substeps, and the bits, of a run by itself. */
 static void test_batch(void)
 {
     enum { LANES = 9, STEPS = 7 };
-    dal_model *model = fixture_model(kepler);
-    dal_run_spec spec = spec_of(fixture_system(model), DAL_PHYSICAL, PERIOD / 20, 1e-9);
+    dal_run_spec spec = spec_of(fixture_system(kepler), DAL_PHYSICAL, PERIOD / 20, 1e-9);
     dal_batch *batch = NULL;
     CU_ASSERT_EQUAL_FATAL(dal_batch_create(&batch, &spec, LANES, 0, NULL), DAL_OK);
     for (int lane = 0; lane < LANES; lane++) {
@@ -229,7 +217,6 @@ static void test_batch(void)
         dal_run_free(run);
     }
     dal_batch_free(batch);
-    dal_model_free(model);
 }
 
 /* ---- projections ---- */
@@ -238,9 +225,8 @@ static void test_batch(void)
 static void test_projected(void)
 {
     static const char *const names[] = {"dop853+project", "dop853+project-energy"};
-    dal_model *model = fixture_model("knife-edge");
     for (int i = 0; i < 2; i++) {
-        dal_run_spec spec = fixture_spec(fixture_system(model), names[i], DAL_PHYSICAL, 5.0);
+        dal_run_spec spec = fixture_spec(fixture_system("knife-edge"), names[i], DAL_PHYSICAL, 5.0);
         double out[32];
         spec.options.tolerance = 1e-9;
         dal_run *run = fixture_run(&spec);
@@ -251,7 +237,6 @@ static void test_projected(void)
         CU_ASSERT(exact_error(run) <= 1e-6);
         dal_run_free(run);
     }
-    dal_model_free(model);
 }
 
 /* ---- refusals and failures ---- */
@@ -259,13 +244,13 @@ static void test_projected(void)
 /* Who claims control takes a tolerance, and nobody else does. */
 static void test_claims(void)
 {
-    dal_model *model = fixture_model("contact-oscillator");
     for (int i = 0; dal_integrator_at(i); i++) {
         char name[96];
         dal_method method;
         fixture_method(i, name, sizeof name);
         CU_ASSERT_EQUAL_FATAL(dal_method_parse(&method, name, NULL), DAL_OK);
-        dal_run_spec spec = fixture_spec(fixture_system(model), name, DAL_PHYSICAL, 0.1);
+        dal_run_spec spec =
+            fixture_spec(fixture_system("contact-oscillator"), name, DAL_PHYSICAL, 0.1);
         if (!fixture_accepts(&method, spec.system, DAL_PHYSICAL)) continue;
         spec.options.tolerance = 1e-6;
         if (dal_method_properties(&method) & DAL_ADAPTIVE)
@@ -273,25 +258,26 @@ static void test_claims(void)
         else
             fixture_refused(&spec, DAL_UNSUPPORTED, name);
     }
-    dal_run_spec spec = fixture_spec(fixture_system(model), "dop853+lift", DAL_LIFTED, 0.1);
+    dal_run_spec spec =
+        fixture_spec(fixture_system("contact-oscillator"), "dop853+lift", DAL_LIFTED, 0.1);
     spec.options.tolerance = 1e-6;
     fixture_refused(&spec, DAL_UNSUPPORTED, "dop853+lift has no control of its step size");
     spec = spec_of(spec.system, DAL_LIFTED, 0.1, -1e-6);
     fixture_refused(&spec, DAL_ARGUMENT, "option tolerance: -1e-06 is not from 0 to 1");
     spec.options.tolerance = NAN;
     fixture_refused(&spec, DAL_ARGUMENT, "is not from 0 to 1");
-    dal_model_free(model);
 }
 
 /* At rest, x = x' = 0, nothing but the momenta moves: with 1/e = 0, p' = pi and pi' = -p, so that
  * pi = cos t and p = sin t, which one step of h = 20 must divide for their sake alone. */
 static void test_momenta_alone(void)
 {
-    dal_model *model = fixture_model("coordinates: [x]\nlagrangian: (x'^2 - x^2)/2\n");
     const dal_setting start[] = {{"e", INFINITY}, {"pi_x", 1.0}};
     for (int k = 0; k < 3; k++) {
         static const double tolerances[] = {1e-6, 1e-9, 1e-12};
-        dal_run_spec spec = spec_of(fixture_system(model), DAL_LIFTED, 20.0, tolerances[k]);
+        dal_run_spec spec =
+            spec_of(fixture_system("coordinates: [x]\nlagrangian: (x'^2 - x^2)/2\n"), DAL_LIFTED,
+                    20.0, tolerances[k]);
         spec.start = start;
         spec.start_count = 2;
         dal_run *run = fixture_run(&spec);
@@ -302,13 +288,12 @@ static void test_momenta_alone(void)
         CU_ASSERT(z[0] == 0.0 && z[1] == 0.0);
         dal_run_free(run);
     }
-    dal_model_free(model);
 }
 
 static void test_not_generated(void)
 {
-    dal_model *model = fixture_model("contact-oscillator");
-    const dal_run_spec spec = spec_of(fixture_system(model), DAL_PHYSICAL, 0.1, 1e-6);
+    const dal_run_spec spec =
+        spec_of(fixture_system("contact-oscillator"), DAL_PHYSICAL, 0.1, 1e-6);
     dal_error error = {0};
     char *text = NULL;
     CU_ASSERT_EQUAL(dal_generate(&spec, 1, NULL, &text, &error), DAL_UNSUPPORTED);
@@ -320,14 +305,12 @@ static void test_not_generated(void)
     CU_ASSERT_FALSE(dal_run_is_native(run));
     CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_OK);
     dal_run_free(run);
-    dal_model_free(model);
 }
 
 /* A step that fails says how, and leaves everything as it was. */
 static void fails(const char *text, double step, const char *reason, double reached)
 {
-    dal_model *model = fixture_model(text);
-    const dal_run_spec spec = spec_of(fixture_system(model), DAL_PHYSICAL, step, 1e-10);
+    const dal_run_spec spec = spec_of(fixture_system(text), DAL_PHYSICAL, step, 1e-10);
     dal_run *run = fixture_run(&spec);
     dal_error error = {0};
     double before[64];
@@ -344,7 +327,6 @@ static void fails(const char *text, double step, const char *reason, double reac
     if (reached > 0.0) CU_ASSERT(fabs(strtod(where + strlen("at t = "), NULL) - reached) <= 1e-6);
     CU_ASSERT_EQUAL(memcmp(before, memory, count * sizeof *memory), 0);
     dal_run_free(run);
-    dal_model_free(model);
 }
 
 /* x = 1/(1 - t) ends at 1, and its scale goes with it; sqrt(1 - t) has no value behind 1; 160000

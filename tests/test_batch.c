@@ -89,8 +89,7 @@ static void same_bits(const dal_run_spec *spec, int dimension)
 
 static void test_same_bits(void)
 {
-    dal_model *model = fixture_model(fixture_full);
-    const dal_system *system = fixture_system(model);
+    const dal_system *system = fixture_system(fixture_full);
     for (int i = 0; dal_integrator_at(i); i++) {
         const int kinds = dal_integrator_at(i)->properties & DAL_MODIFIER ? 2 : 4;
         for (int kind = 0; kind < kinds; kind++) {
@@ -103,14 +102,13 @@ static void test_same_bits(void)
             same_bits(&spec, space == DAL_LIFTED ? 4 * system->n + 2 : 2 * system->n);
         }
     }
-    dal_model_free(model);
 }
 
 /* Some lanes need Newton, some do not; the others must not notice. */
 static void test_mixed_stiffness(void)
 {
-    dal_model *model = fixture_model("chaplygin-sleigh-friction");
-    const dal_run_spec spec = fixture_spec(fixture_system(model), "gauss6", DAL_LIFTED, 0.02);
+    const dal_run_spec spec =
+        fixture_spec(fixture_system("chaplygin-sleigh-friction"), "gauss6", DAL_LIFTED, 0.02);
     dal_batch *batch = NULL;
     CU_ASSERT_EQUAL_FATAL(dal_batch_create(&batch, &spec, 8, 8, NULL), DAL_OK);
     dal_setting k[8];
@@ -131,7 +129,6 @@ static void test_mixed_stiffness(void)
         dal_run_free(run);
     }
     dal_batch_free(batch);
-    dal_model_free(model);
 }
 
 /* A lane that fails stops, says why, keeps its last state; the others go on. */
@@ -161,12 +158,10 @@ static void test_failing_lane(void)
 {
     const char *text = "coordinates: [x]\nparameters: {s: 1}\nlagrangian: x'^2/2\n"
                        "forces: {x: -s*sqrt(x)}\nstart: {x: 1}\n";
-    dal_model *model = fixture_model(text);
-    const dal_run_spec spec = fixture_spec(fixture_system(model), "rk4", DAL_PHYSICAL, 0.01);
+    const dal_run_spec spec = fixture_spec(fixture_system(text), "rk4", DAL_PHYSICAL, 0.01);
     check_failing_lane(&spec, 6, 4, 2);
     check_failing_lane(&spec, 6, 1, 5);
     check_failing_lane(&spec, 13, 8, 12);
-    dal_model_free(model);
 }
 
 /* A field that fails in the lane with start x = 2 while broken, and is sound again later. */
@@ -215,8 +210,7 @@ static void test_singular_lane(void)
                        "lagrangian: (x'^2 + y'^2 + z'^2)/2 - 9.81*z\n"
                        "constraints: [(x'^2 + y'^2 - z'^2)/2]\n"
                        "start: {x': 1, z': -1}\n";
-    dal_model *model = fixture_model(text);
-    const dal_run_spec spec = fixture_spec(fixture_system(model), "rk4", DAL_PHYSICAL, 0.013);
+    const dal_run_spec spec = fixture_spec(fixture_system(text), "rk4", DAL_PHYSICAL, 0.013);
     const dal_setting upwards[] = {{"x'", 0.0}, {"y'", 1.0}, {"z'", 1.0}};
     static const int widths[] = {1, 4, 8};
     for (int w = 0; w < 3; w++) {
@@ -229,13 +223,12 @@ static void test_singular_lane(void)
         CU_ASSERT_DOUBLE_EQUAL(dal_batch_time(batch, 37), 2.0 / 9.81, 2 * 0.013);
         dal_batch_free(batch);
     }
-    dal_model_free(model);
 }
 
 static void test_arguments(void)
 {
-    dal_model *model = fixture_model("chaplygin-sleigh");
-    const dal_run_spec spec = fixture_spec(fixture_system(model), "rk4", DAL_LIFTED, 0.1);
+    const dal_run_spec spec =
+        fixture_spec(fixture_system("chaplygin-sleigh"), "rk4", DAL_LIFTED, 0.1);
     dal_batch *batch = NULL;
     dal_error error;
     CU_ASSERT_EQUAL(dal_batch_create(&batch, &spec, 0, 0, &error), DAL_ARGUMENT);
@@ -247,7 +240,6 @@ static void test_arguments(void)
     const dal_setting bad = {"y2'", 1.0};
     CU_ASSERT_EQUAL(dal_batch_start(batch, 1, NULL, 0, &bad, 1, &error), DAL_INCONSISTENT);
     dal_batch_free(batch);
-    dal_model_free(model);
 }
 
 /* ---- lanes that need different numbers of sweeps ---- */
@@ -321,15 +313,12 @@ static void test_uneven_sweeps(void)
                                           "gauss12",          "gauss4+project",
                                           "stormer-verlet",   "symplectic-euler-11",
                                           "implicit-midpoint"};
-    dal_model *model = fixture_model(disk);
-    for (int i = 0; i < 7; i++) uneven_sweeps(fixture_system(model), methods[i]);
-    dal_model_free(model);
+    for (int i = 0; i < 7; i++) uneven_sweeps(fixture_system(disk), methods[i]);
 }
 
 static void test_out_of_memory(void)
 {
-    dal_model *model = fixture_model(disk);
-    const dal_run_spec spec = fixture_spec(fixture_system(model), "gauss4", DAL_PHYSICAL, 0.1);
+    const dal_run_spec spec = fixture_spec(fixture_system(disk), "gauss4", DAL_PHYSICAL, 0.1);
     allocation_trial trial = {0};
     while (allocation_next(&trial)) {
         dal_batch *batch = NULL;
@@ -341,7 +330,6 @@ static void test_out_of_memory(void)
         dal_batch_free(batch);
     }
     CU_ASSERT(trial.failures >= 4);
-    dal_model_free(model);
 }
 
 void suite_batch(void)

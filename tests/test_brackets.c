@@ -39,8 +39,7 @@ static void test_brackets(void)
 static dal_status dirac_of(const char *text, double (*phi)(void *, const double *, int),
                            dal_dirac *out, int *n)
 {
-    dal_model *model = fixture_model(text);
-    const dal_system *system = fixture_system(model);
+    const dal_system *system = fixture_system(text);
     dal_evaluator *evaluator = evaluator_of(system);
     double x[16];
     CU_ASSERT_EQUAL(dal_evaluator_start(evaluator, NULL, 0, x, NULL), DAL_OK);
@@ -49,7 +48,6 @@ static dal_status dirac_of(const char *text, double (*phi)(void *, const double 
                                   : dal_check_dirac(evaluator, &at, 1.5, out);
     *n = system->n;
     dal_evaluator_free(evaluator);
-    dal_model_free(model);
     return status;
 }
 
@@ -112,8 +110,8 @@ static void test_dirac_finds_wrong_constraints(void)
 static void test_action_closed_form(void)
 {
     enum { NODES = 40 };
-    dal_model *model = fixture_model("coordinates: [x]\naccelerations: {x: 0}\n");
-    dal_evaluator *evaluator = evaluator_of(fixture_system(model));
+    dal_evaluator *evaluator =
+        evaluator_of(fixture_system("coordinates: [x]\naccelerations: {x: 0}\n"));
     const double h = 0.05, a = 0.7, e = 1.5;
     double x[NODES], action;
     for (int k = 0; k < NODES; k++) x[k] = 0.5 * a * h * k * h * k;
@@ -122,7 +120,6 @@ static void test_action_closed_form(void)
     CU_ASSERT_EQUAL(dal_measure_action(evaluator, 0.0, h, 9, x, e, &action), DAL_ARGUMENT);
     CU_ASSERT_EQUAL(dal_measure_action(evaluator, 0.0, 0.0, NODES, x, e, &action), DAL_ARGUMENT);
     dal_evaluator_free(evaluator);
-    dal_model_free(model);
 }
 
 /* On the circle (nh30) the action of the sleigh vanishes; moved by s sin(t) along y1, which changes
@@ -130,8 +127,7 @@ static void test_action_closed_form(void)
 static void test_action_of_the_sleigh(void)
 {
     enum { NODES = 80 };
-    dal_model *model = fixture_model("chaplygin-sleigh");
-    dal_evaluator *evaluator = evaluator_of(fixture_system(model));
+    dal_evaluator *evaluator = evaluator_of(fixture_system("chaplygin-sleigh"));
     double q[3 * NODES], action[2];
     for (int moved = 0; moved < 2; moved++) {
         for (int k = 0; k < NODES; k++) {
@@ -146,7 +142,6 @@ static void test_action_of_the_sleigh(void)
     CU_ASSERT(action[0] < 1e-21);
     CU_ASSERT(action[1] > 1e-6);
     dal_evaluator_free(evaluator);
-    dal_model_free(model);
 }
 
 enum { STATES = 12, WIDE = 4 * 4 + 2 };
@@ -167,8 +162,7 @@ static void trajectory(const dal_system *system, const char *method, double *sta
 /* (nh23) at midpoints is the discrete principle of the implicit midpoint rule and of no other. */
 static void test_stationarity(void)
 {
-    dal_model *model = fixture_model(fixture_full);
-    const dal_system *system = fixture_system(model);
+    const dal_system *system = fixture_system(fixture_full);
     dal_evaluator *evaluator = evaluator_of(system);
     double states[STATES * WIDE], midpoint, other;
     trajectory(system, "gauss4", states);
@@ -183,7 +177,6 @@ static void test_stationarity(void)
     CU_ASSERT_EQUAL(dal_check_stationarity(evaluator, 0.0, 0.05, STATES, states, &other), DAL_OK);
     CU_ASSERT(other > 1e-4);
     dal_evaluator_free(evaluator);
-    dal_model_free(model);
 }
 
 void suite_brackets(void)

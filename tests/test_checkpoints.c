@@ -6,8 +6,8 @@
 
 static void test_checkpoint(void)
 {
-    dal_model *model = fixture_model(fixture_full);
-    const dal_run_spec spec = fixture_spec(fixture_system(model), "gauss8", DAL_LIFTED, 0.02);
+    const dal_run_spec spec =
+        fixture_spec(fixture_system(fixture_full), "gauss8", DAL_LIFTED, 0.02);
     dal_run *whole = fixture_run(&spec), *first = fixture_run(&spec), *second = fixture_run(&spec);
     size_t count;
     CU_ASSERT_EQUAL(dal_run_advance(whole, 80, NULL), DAL_OK);
@@ -22,14 +22,12 @@ static void test_checkpoint(void)
     dal_run_free(whole);
     dal_run_free(first);
     dal_run_free(second);
-    dal_model_free(model);
 }
 
 static void test_own_memory(void)
 {
-    dal_model *model = fixture_model("vertical-disk");
     const dal_run_spec spec =
-        fixture_spec(fixture_system(model), "gauss4+project", DAL_LIFTED, 0.1);
+        fixture_spec(fixture_system("vertical-disk"), "gauss4+project", DAL_LIFTED, 0.1);
     const size_t bytes = dal_run_size(&spec);
     CU_ASSERT_FATAL(bytes > 0);
     char *memory = malloc(bytes + 7);
@@ -45,7 +43,6 @@ static void test_own_memory(void)
     dal_run_free(run); /* frees nothing */
     dal_run_free(other);
     free(memory);
-    dal_model_free(model);
 }
 
 void suite_checkpoints(void)

@@ -1,5 +1,6 @@
 /* test_classify.c - which observables of a run have a size and a trend: E and H where the motion of
  * the run conserves them (theory: dE/dt = v.Q + sum_a h_a v.A_a, dH/dt = pi.F_t). */
+#include "fixtures.h"
 #include <CUnit/CUnit.h>
 #include <dalembert.h>
 #include <dalembert_analysis.h>
@@ -55,18 +56,11 @@ static const char *fate(const dal_system *system, const char *method, const dal_
 static const char *fate_of(const char *name, const char *of, const char *method, int space,
                            int extend, const dal_setting *start)
 {
-    dal_model *model = NULL;
-    const dal_system *system;
     dal_options options = dal_options_default();
     options.step = 0.05;
     options.space = space;
     options.extend_energy = extend;
-    const char *text = "";
-    if (dal_model_builtin(&model, of, NULL) == DAL_OK &&
-        dal_model_system(model, &system, NULL) == DAL_OK)
-        text = fate(system, method, &options, start, name);
-    dal_model_free(model);
-    return text;
+    return fate(fixture_system(of), method, &options, start, name);
 }
 
 static void test_energy(void)
@@ -115,17 +109,13 @@ static const char driven[] = "coordinates: [x]\naccelerations: {x: -x + cos(t)}\
 
 static void test_hamiltonian(void)
 {
-    dal_model *model = NULL;
-    const dal_system *system = NULL;
+    const dal_system *system = fixture_system(driven);
     const dal_options options = dal_options_default();
     const dal_setting pushed[STARTS] = {{"pi_x", 1.0}}, none[STARTS] = {{NULL, 0.0}};
-    CU_ASSERT_FATAL(dal_model_read(&model, "driven", driven, sizeof driven - 1, NULL) == DAL_OK);
-    CU_ASSERT_FATAL(dal_model_system(model, &system, NULL) == DAL_OK);
     const char *off = fate(system, "gauss4", &options, pushed, "H");
     const char *on = fate(system, "gauss4", &options, none, "H");
     CU_ASSERT_STRING_EQUAL(off, dal_conservation_text(DAL_NOT_CONSERVED));
     CU_ASSERT_STRING_EQUAL(on, dal_conservation_text(DAL_CONSERVED));
-    dal_model_free(model);
     CU_ASSERT_STRING_EQUAL(fate_of("H", "contact-oscillator", "gauss4", DAL_LIFTED, 0, pushed),
                            dal_conservation_text(DAL_CONSERVED));
 }
@@ -134,17 +124,12 @@ static void test_hamiltonian(void)
  * drift: D = x' - y z' of the contact oscillator under a method that keeps it. */
 static void test_other_level(void)
 {
-    dal_model *model = NULL;
-    dal_run_spec spec = {.options = dal_options_default()};
+    const dal_run_spec spec = fixture_spec(fixture_system("contact-oscillator"), "stormer-verlet",
+                                           DAL_PHYSICAL, dal_options_default().step);
     dal_statistics statistics[MAX];
     dal_trend trend[MAX];
-    dal_run *run = NULL;
+    dal_run *run = fixture_run(&spec);
     double values[MAX], state[6] = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6};
-    spec.options.space = DAL_PHYSICAL;
-    CU_ASSERT_FATAL(dal_model_builtin(&model, "contact-oscillator", NULL) == DAL_OK);
-    CU_ASSERT_FATAL(dal_model_system(model, &spec.system, NULL) == DAL_OK);
-    CU_ASSERT_FATAL(dal_method_parse(&spec.method, "stormer-verlet", NULL) == DAL_OK);
-    CU_ASSERT_FATAL(dal_run_create(&run, &spec, NULL) == DAL_OK);
     CU_ASSERT_FATAL(dal_run_set_state(run, 0.0, state, NULL) == DAL_OK);
     const int count = dal_run_observables(run);
     dal_statistics_start(statistics, count);
@@ -157,7 +142,6 @@ static void test_other_level(void)
     CU_ASSERT(fabs(trend[0].first) > 0.1 && trend[0].size != DAL_SIZE_LARGER);
     CU_ASSERT_EQUAL(trend[1].conservation, DAL_OFF_SURFACE);
     dal_run_free(run);
-    dal_model_free(model);
 }
 
 /* exp(k s), 0 <= s <= 1, modulated by half, to one side or to both. */

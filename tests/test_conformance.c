@@ -90,9 +90,7 @@ static void check_order(const char *name, const dal_method *method, void *user)
 
 static void test_order(void)
 {
-    dal_model *model = fixture_model(conservative);
-    for_each_modified(check_order, (void *)fixture_system(model));
-    dal_model_free(model);
+    for_each_modified(check_order, (void *)fixture_system(conservative));
 }
 
 /* ---- symmetry ---- */
@@ -113,9 +111,7 @@ static void test_symmetric(void)
 {
     static const char *const names[] = {"contact-oscillator", "knife-edge", "appell-hamel"};
     for (int i = 0; i < 3; i++) {
-        dal_model *model = fixture_model(i ? names[i] : fixture_bilinear);
-        for_each_modified(check_symmetric, (void *)fixture_system(model));
-        dal_model_free(model);
+        for_each_modified(check_symmetric, (void *)fixture_system(i ? names[i] : fixture_bilinear));
     }
 }
 
@@ -156,12 +152,10 @@ static void check_kept(const char *name, const dal_method *method, void *user)
 
 static void test_kept(void)
 {
-    dal_model *model = fixture_model(conservative);
-    for_each_modified(check_kept, (void *)fixture_system(model));
-    const strays plain = strays_of(fixture_system(model), "rk4");
+    for_each_modified(check_kept, (void *)fixture_system(conservative));
+    const strays plain = strays_of(fixture_system(conservative), "rk4");
     CU_ASSERT(plain.D > 1e-12); /* the test sees a loss */
     CU_ASSERT(plain.E > 1e-12);
-    dal_model_free(model);
 }
 
 /* ---- lanes ---- */
@@ -198,9 +192,7 @@ static void check_lanes(const char *name, const dal_method *method, void *user)
 
 static void test_lanes(void)
 {
-    dal_model *model = fixture_model(conservative);
-    for_each_modified(check_lanes, (void *)fixture_system(model));
-    dal_model_free(model);
+    for_each_modified(check_lanes, (void *)fixture_system(conservative));
 }
 
 /* ---- a failed step changes nothing ---- */
@@ -232,15 +224,13 @@ static void check_untouched(const char *name, const dal_method *method, void *us
 
 static void test_untouched(void)
 {
-    dal_model *model = fixture_model(ending);
-    const dal_system *system = fixture_system(model);
+    const dal_system *system = fixture_system(ending);
     for_each_modified(check_untouched, (void *)system);
     for (int i = 0; dal_integrator_at(i); i++) {
         const dal_method plain = {{dal_integrator_at(i)}};
         if (dal_integrator_at(i)->properties & DAL_MODIFIER) continue;
         check_untouched(dal_integrator_at(i)->name, &plain, (void *)system);
     }
-    dal_model_free(model);
 }
 
 /* ---- motions that come to rest in part ---- */
@@ -262,11 +252,11 @@ static void test_rest(void)
                                         "spark6"};
     static const double lengths[] = {0.15, 0.5, 1.0};
     const long long steps = long_run(3000);
-    dal_model *model = fixture_model("chaplygin-sleigh-offset");
     for (size_t i = 0; i < sizeof names / sizeof *names; i++)
         for (int k = 0; k < 3; k++) {
             const dal_setting a = {"a", lengths[k]};
-            dal_run_spec spec = fixture_spec(fixture_system(model), names[i], DAL_PHYSICAL, 0.1);
+            dal_run_spec spec = fixture_spec(fixture_system("chaplygin-sleigh-offset"), names[i],
+                                             DAL_PHYSICAL, 0.1);
             spec.parameters = &a;
             spec.parameter_count = 1;
             dal_run *run = fixture_run(&spec);
@@ -279,7 +269,6 @@ static void test_rest(void)
             CU_ASSERT(steps < 3000 || fabs(dal_run_state(run)[5]) < 1e-14);
             dal_run_free(run);
         }
-    dal_model_free(model);
 }
 
 /* Velocities grow like exp(0.7 t), while D = 0 is a difference of their squares: 1e-16 |v|^2 of it
@@ -288,9 +277,9 @@ static void test_cancellation(void)
 {
     static const char *const names[] = {"gauss4+project", "gauss4+symmetric-project",
                                         "mclachlan-perlmutter", "dla", "spark4"};
-    dal_model *model = fixture_model("relativistic-em");
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
-        const dal_run_spec spec = fixture_spec(fixture_system(model), names[i], DAL_PHYSICAL, 0.1);
+        const dal_run_spec spec =
+            fixture_spec(fixture_system("relativistic-em"), names[i], DAL_PHYSICAL, 0.1);
         dal_run *run = fixture_run(&spec);
         double found[16];
         CU_ASSERT_EQUAL(dal_run_advance(run, 100, NULL), DAL_OK);
@@ -298,17 +287,14 @@ static void test_cancellation(void)
         CU_ASSERT(fabs(found[0]) < 1e-9);
         dal_run_free(run);
     }
-    dal_model_free(model);
 }
 
 /* ---- refusals ---- */
 
 static void refused(const char *text, const char *name, dal_space space, const char *reason)
 {
-    dal_model *model = fixture_model(text);
-    const dal_run_spec spec = fixture_spec(fixture_system(model), name, space, 0.1);
+    const dal_run_spec spec = fixture_spec(fixture_system(text), name, space, 0.1);
     fixture_refused(&spec, DAL_UNSUPPORTED, reason);
-    dal_model_free(model);
 }
 
 static void test_refused(void)

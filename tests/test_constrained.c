@@ -26,17 +26,14 @@ static dal_status refusal(const dal_system *system, const char *method, dal_spac
 
 static void test_refusals(void)
 {
-    dal_model *full = fixture_model(fixture_full), *other;
-    dal_system system = *fixture_system(full);
+    dal_system system = *fixture_system(fixture_full);
+    const dal_system *vakonomic = fixture_system("chaplygin-sleigh-vakonomic");
     CU_ASSERT_EQUAL(refusal(&system, "gni", DAL_LIFTED, "lifted"), DAL_UNSUPPORTED);
     CU_ASSERT_EQUAL(refusal(&system, "gni", DAL_PHYSICAL, ""), DAL_OK);
     system.call.blocks = NULL;
     CU_ASSERT_EQUAL(refusal(&system, "gni", DAL_PHYSICAL, "blocks"), DAL_UNSUPPORTED);
-    other = fixture_model("chaplygin-sleigh-vakonomic");
-    CU_ASSERT_EQUAL(refusal(fixture_system(other), "mclachlan-perlmutter", DAL_PHYSICAL, "blocks"),
+    CU_ASSERT_EQUAL(refusal(vakonomic, "mclachlan-perlmutter", DAL_PHYSICAL, "blocks"),
                     DAL_UNSUPPORTED);
-    dal_model_free(other);
-    dal_model_free(full);
 }
 
 /* ---- persistent multipliers ---- */
@@ -63,8 +60,7 @@ static double *memory_of(const dal_run *run, size_t *count)
  * step: back at the start, to rounding. */
 static double turning_defect(const char *method, const char *fixture, double sign)
 {
-    dal_model *model = fixture_model(fixture);
-    const dal_system *system = fixture_system(model);
+    const dal_system *system = fixture_system(fixture);
     const dal_run_spec spec = fixture_spec(system, method, DAL_PHYSICAL, 0.1);
     dal_run *run = fixture_run(&spec);
     size_t count;
@@ -85,7 +81,6 @@ static double turning_defect(const char *method, const char *fixture, double sig
     }
     free(memory);
     dal_run_free(run);
-    dal_model_free(model);
     return defect;
 }
 
@@ -135,21 +130,18 @@ static double carried_order(const dal_system *system, const char *method, bool w
  * higher order two orders for good. */
 static void test_beginning(void)
 {
-    dal_model *model = fixture_model(fixture_bilinear);
-    const dal_system *system = fixture_system(model);
+    const dal_system *system = fixture_system(fixture_bilinear);
     CU_ASSERT_DOUBLE_EQUAL(carried_order(system, "lobatto-nonholonomic4", false), 4.0, 0.1);
     CU_ASSERT_DOUBLE_EQUAL(carried_order(system, "lobatto-nonholonomic4", true), 2.0, 0.1);
     CU_ASSERT_DOUBLE_EQUAL(carried_order(system, "lobatto-nonholonomic6", false), 6.0, 0.1);
     CU_ASSERT_DOUBLE_EQUAL(carried_order(system, "lobatto-nonholonomic6", true), 4.0, 0.1);
-    dal_model_free(model);
 }
 
 /* A run set to a state begins again, with the multipliers that belong to it: those of a fresh run.
  */
 static void test_set_state(void)
 {
-    dal_model *model = fixture_model(fixture_full);
-    const dal_run_spec spec = fixture_spec(fixture_system(model), "gni", DAL_PHYSICAL, 0.05);
+    const dal_run_spec spec = fixture_spec(fixture_system(fixture_full), "gni", DAL_PHYSICAL, 0.05);
     dal_run *run = fixture_run(&spec), *fresh = fixture_run(&spec);
     double start[16];
     size_t count;
@@ -171,7 +163,6 @@ static void test_set_state(void)
     free(memory);
     dal_run_free(run);
     dal_run_free(fresh);
-    dal_model_free(model);
 }
 
 /* ---- long runs ---- */
@@ -198,8 +189,7 @@ static double growth(const dal_system *system, const char *method, double spin, 
  * turns the other way, at a rate like h^2; with a librating one, and for gni, it stays. */
 static void test_transmission(void)
 {
-    dal_model *model = fixture_model("pendulum-cvt");
-    const dal_system *system = fixture_system(model);
+    const dal_system *system = fixture_system("pendulum-cvt");
     const bool full = long_run(8000) == 8000; /* what is slow does not show in a quick run */
     const double T = (double)long_run(8000);
     const double coarse = growth(system, "mclachlan-perlmutter", 2.6, 0.1, T);
@@ -217,7 +207,6 @@ static void test_transmission(void)
     CU_ASSERT(!full || fabs(gni) < 1e-6);
     CU_ASSERT(!full || fabs(gradient) < 1e-16);
     CU_ASSERT(!full || midpoint > 5e-5);
-    dal_model_free(model);
 }
 
 /* The largest |E - E(0)| within the next count rows, steps apart that no period divides. */
@@ -238,9 +227,8 @@ static void test_bounded(void)
 {
     const double h = 2.0 * sin(acos(-1.0) / 40.0);
     const long long rows = long_run(10000) * 40 / 37 / 10;
-    dal_model *model = fixture_model("contact-oscillator");
     const dal_run_spec spec =
-        fixture_spec(fixture_system(model), "mclachlan-perlmutter", DAL_PHYSICAL, h);
+        fixture_spec(fixture_system("contact-oscillator"), "mclachlan-perlmutter", DAL_PHYSICAL, h);
     dal_run *run = fixture_run(&spec);
     double seen[8];
     CU_ASSERT_EQUAL(dal_run_observe(run, seen), DAL_OK);
@@ -251,7 +239,6 @@ static void test_bounded(void)
     CU_ASSERT(first < h * h && (!full || first > 1e-3));
     CU_ASSERT(!full || fabs(last / first - 1.0) < 0.02);
     dal_run_free(run);
-    dal_model_free(model);
 }
 
 enum { STARTS = 41 };
@@ -277,9 +264,8 @@ static double spread(const dal_batch *batch, dal_evaluator *evaluator)
 static void test_walk(void)
 {
     const long long steps = long_run(5000);
-    dal_model *model = fixture_model("chaotic-oscillators");
-    const dal_run_spec spec =
-        fixture_spec(fixture_system(model), "mclachlan-perlmutter", DAL_PHYSICAL, 0.2);
+    const dal_run_spec spec = fixture_spec(fixture_system("chaotic-oscillators"),
+                                           "mclachlan-perlmutter", DAL_PHYSICAL, 0.2);
     dal_batch *batch = NULL;
     dal_evaluator *evaluator = NULL;
     CU_ASSERT_EQUAL_FATAL(dal_batch_create(&batch, &spec, STARTS, 0, NULL), DAL_OK);
@@ -296,7 +282,6 @@ static void test_walk(void)
     CU_ASSERT(steps < 5000 || (ratio > 2.3 && ratio < 7.0));
     dal_evaluator_free(evaluator);
     dal_batch_free(batch);
-    dal_model_free(model);
 }
 
 void suite_constrained(void)

@@ -32,8 +32,7 @@ static void end_state(const dal_system *system, const char *method, int count, d
 
 static void check_order(const char *text, const char *method)
 {
-    dal_model *model = fixture_model(text);
-    const dal_system *system = fixture_system(model);
+    const dal_system *system = fixture_system(text);
     double reference[16], state[16], error[2] = {0.0, 0.0};
     end_state(system, "gauss10", 200, reference);
     for (int k = 0; k < 2; k++) {
@@ -46,7 +45,6 @@ static void check_order(const char *text, const char *method)
     if (fabs(seen - 2.0) > 0.1) printf("\n  %s: order %.3f\n", method, seen);
     CU_ASSERT_DOUBLE_EQUAL(seen, 2.0, 0.1);
     CU_ASSERT_EQUAL(dal_method_order(&declared), 2);
-    dal_model_free(model);
 }
 
 static void test_order(void)
@@ -62,8 +60,7 @@ static void test_order(void)
 static double midpoint_defect(const char *text, const char *method)
 {
     const double h = 0.1;
-    dal_model *model = fixture_model(text);
-    const dal_system *system = fixture_system(model);
+    const dal_system *system = fixture_system(text);
     const dal_run_spec spec = fixture_spec(system, method, DAL_PHYSICAL, h);
     const int n = system->n;
     double q[8], v[8], D[8], defect = 0.0;
@@ -84,7 +81,6 @@ static double midpoint_defect(const char *text, const char *method)
     }
     dal_evaluator_free(evaluator);
     dal_run_free(run);
-    dal_model_free(model);
     return defect;
 }
 
@@ -100,8 +96,7 @@ static void test_midpoints(void)
 /* The largest change of observable number which (from 0; m: E) over some steps. */
 static double change(const char *text, const char *method, double h, long long steps, int which)
 {
-    dal_model *model = fixture_model(text);
-    const dal_system *system = fixture_system(model);
+    const dal_system *system = fixture_system(text);
     const dal_run_spec spec = fixture_spec(system, method, DAL_PHYSICAL, h);
     dal_run *run = fixture_run(&spec);
     double first[64], now[64], max = 0.0;
@@ -112,7 +107,6 @@ static double change(const char *text, const char *method, double h, long long s
         max = fmax(max, fabs(now[which] - first[which]));
     }
     dal_run_free(run);
-    dal_model_free(model);
     return max;
 }
 
@@ -148,8 +142,8 @@ static void force(const double *q, double *f)
 static void test_two_step(void)
 {
     const double h = 0.1;
-    dal_model *model = fixture_model(fixture_bilinear);
-    const dal_run_spec spec = fixture_spec(fixture_system(model), "dla", DAL_PHYSICAL, h);
+    const dal_run_spec spec =
+        fixture_spec(fixture_system(fixture_bilinear), "dla", DAL_PHYSICAL, h);
     dal_run *run = fixture_run(&spec);
     double q[3][3], middle[3], f[2][3], rest[3];
     for (int k = 0; k < 30; k++) {
@@ -167,14 +161,13 @@ static void test_two_step(void)
         CU_ASSERT_DOUBLE_EQUAL(rest[2], q[1][1] * rest[0], 2e-14);
     }
     dal_run_free(run);
-    dal_model_free(model);
 }
 
 /* Without forces gni reflects: the speed between the nodes is kept. */
 static void test_reflection(void)
 {
-    dal_model *model = fixture_model("nonholonomic-particle-free");
-    const dal_run_spec spec = fixture_spec(fixture_system(model), "gni", DAL_PHYSICAL, 0.1);
+    const dal_run_spec spec =
+        fixture_spec(fixture_system("nonholonomic-particle-free"), "gni", DAL_PHYSICAL, 0.1);
     dal_run *run = fixture_run(&spec);
     double q[3], first = 0.0;
     for (int k = 0; k < 1000; k++) {
@@ -187,18 +180,15 @@ static void test_reflection(void)
         CU_ASSERT_DOUBLE_EQUAL(square / first, 1.0, 1e-11);
     }
     dal_run_free(run);
-    dal_model_free(model);
 }
 
 /* Where forces do not depend on v the Lobatto method of two stages is gni. */
 static void test_same_method(void)
 {
-    dal_model *model = fixture_model(fixture_bilinear);
     double a[16], b[16];
-    end_state(fixture_system(model), "gni", 50, a);
-    end_state(fixture_system(model), "lobatto-nonholonomic2", 50, b);
+    end_state(fixture_system(fixture_bilinear), "gni", 50, a);
+    end_state(fixture_system(fixture_bilinear), "lobatto-nonholonomic2", 50, b);
     for (int i = 0; i < 6; i++) CU_ASSERT_DOUBLE_EQUAL(a[i], b[i], 1e-14);
-    dal_model_free(model);
 }
 
 /* ---- lanes, stiffness, failure ---- */
@@ -206,8 +196,7 @@ static void test_same_method(void)
 /* Every lane of a batch against a run of its own start. */
 static void check_lanes(const char *text, const char *method, const char *name, double from)
 {
-    dal_model *model = fixture_model(text);
-    dal_run_spec spec = fixture_spec(fixture_system(model), method, DAL_PHYSICAL, 0.05);
+    dal_run_spec spec = fixture_spec(fixture_system(text), method, DAL_PHYSICAL, 0.05);
     dal_batch *batch = NULL;
     double state[16];
     const size_t bytes = 2 * (size_t)spec.system->n * sizeof *state;
@@ -228,7 +217,6 @@ static void check_lanes(const char *text, const char *method, const char *name, 
         dal_run_free(run);
     }
     dal_batch_free(batch);
-    dal_model_free(model);
 }
 
 static void test_lanes(void)
@@ -243,9 +231,9 @@ static void test_stiff(void)
 {
     static const char *const methods[] = {"mclachlan-perlmutter", "gni", "spark4", "gauss-spark4"};
     const dal_setting k = {"k", 3e5};
-    dal_model *model = fixture_model("chaplygin-sleigh-friction");
     for (int i = 0; i < 4; i++) {
-        dal_run_spec spec = fixture_spec(fixture_system(model), methods[i], DAL_PHYSICAL, 0.01);
+        dal_run_spec spec = fixture_spec(fixture_system("chaplygin-sleigh-friction"), methods[i],
+                                         DAL_PHYSICAL, 0.01);
         spec.parameters = &k;
         spec.parameter_count = 1;
         dal_run *run = fixture_run(&spec);
@@ -254,17 +242,15 @@ static void test_stiff(void)
         CU_ASSERT(error.status == DAL_OK);
         dal_run_free(run);
     }
-    dal_model_free(model);
 }
 
 static void test_failure(void)
 {
     static const char *const methods[] = {"dla", "discrete-gradient", "spark6", "gauss-spark4",
                                           "lobatto-nonholonomic4"};
-    dal_model *model = fixture_model(fixture_bilinear);
     for (int i = 0; i < 5; i++) {
         const dal_run_spec spec =
-            fixture_spec(fixture_system(model), methods[i], DAL_PHYSICAL, 1e3);
+            fixture_spec(fixture_system(fixture_bilinear), methods[i], DAL_PHYSICAL, 1e3);
         dal_run *run = fixture_run(&spec);
         size_t count;
         double before[256];
@@ -274,7 +260,6 @@ static void test_failure(void)
         CU_ASSERT_EQUAL(memcmp(before, memory, count * sizeof *before), 0);
         dal_run_free(run);
     }
-    dal_model_free(model);
 }
 
 void suite_enforced(void)

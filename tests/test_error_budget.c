@@ -52,8 +52,7 @@ static int says(const dal_error_budget *e, const char *name, dal_error_source so
  * With +project D stays, and E moves like h^5 alone. */
 static void test_truncation(void)
 {
-    dal_model *model = fixture_model("chaplygin-sleigh");
-    dal_run_spec spec = fixture_spec(fixture_system(model), "rk4", DAL_PHYSICAL, 0.1);
+    dal_run_spec spec = fixture_spec(fixture_system("chaplygin-sleigh"), "rk4", DAL_PHYSICAL, 0.1);
     dal_error_budget *e = explained(&spec, 600, 400);
     const dal_shares *d = of(e, "D1"), *energy = of(e, "E");
     CU_ASSERT(fabs(d->share[DAL_SOURCE_TRUNCATION] - 1.0) < 1e-6);
@@ -78,14 +77,12 @@ static void test_truncation(void)
     CU_ASSERT(fabs(of(e, "D1")->share[DAL_SOURCE_ROUNDING] - 1.0) < 1e-9);
     CU_ASSERT(says(e, "D1", DAL_SOURCE_TRUNCATION, "nothing of it is left"));
     dal_error_budget_free(e);
-    dal_model_free(model);
 }
 
 /* On a constraint nonlinear in v, whose forces do work: E changes by the motion itself. */
 static void test_nonlinear(void)
 {
-    dal_model *model = fixture_model("isokinetic");
-    const dal_run_spec spec = fixture_spec(fixture_system(model), "rk4", DAL_PHYSICAL, 0.05);
+    const dal_run_spec spec = fixture_spec(fixture_system("isokinetic"), "rk4", DAL_PHYSICAL, 0.05);
     dal_error_budget *e = explained(&spec, 400, 200);
     const dal_shares *d = of(e, "D1"), *energy = of(e, "E");
     CU_ASSERT(fabs(d->share[DAL_SOURCE_TRUNCATION] - 1.0) < 1e-5);
@@ -94,15 +91,13 @@ static void test_nonlinear(void)
     CU_ASSERT(isnan(energy->share[DAL_SOURCE_TRUNCATION]));
     CU_ASSERT(says(e, "E", DAL_SOURCE_TRUNCATION, "the motion itself"));
     dal_error_budget_free(e);
-    dal_model_free(model);
 }
 
 /* The midpoint rule keeps a bilinear D, and its one coefficient is 1/2: what moves is rounding. */
 static void test_rounding(void)
 {
-    dal_model *model = fixture_model("contact-oscillator");
     const dal_run_spec spec =
-        fixture_spec(fixture_system(model), "implicit-midpoint", DAL_PHYSICAL, 0.1);
+        fixture_spec(fixture_system("contact-oscillator"), "implicit-midpoint", DAL_PHYSICAL, 0.1);
     dal_error_budget *e = explained(&spec, 2000, 500);
     const dal_shares *d = of(e, "D1");
     CU_ASSERT(fabs(d->share[DAL_SOURCE_ROUNDING] - 1.0) < 1e-9);
@@ -115,15 +110,14 @@ static void test_rounding(void)
     CU_ASSERT(fabs(of(e, "E")->share[DAL_SOURCE_TRUNCATION] - 1.0) < 1e-6);
     CU_ASSERT(fabs(of(e, "E")->order - 2.0) < 0.1);
     dal_error_budget_free(e);
-    dal_model_free(model);
 }
 
 /* Equations solved to 1e-8: what the solver leaves moves D by far more than truncation does, whose
  * part is as large as when they are solved. */
 static void test_solver(void)
 {
-    dal_model *model = fixture_model("chaplygin-sleigh");
-    dal_run_spec spec = fixture_spec(fixture_system(model), "gauss8", DAL_PHYSICAL, 0.1);
+    dal_run_spec spec =
+        fixture_spec(fixture_system("chaplygin-sleigh"), "gauss8", DAL_PHYSICAL, 0.1);
     dal_error_budget *solved = explained(&spec, 400, 400);
     spec.options.solver_tolerance = 1e-8;
     dal_error_budget *e = explained(&spec, 400, 400);
@@ -141,15 +135,14 @@ static void test_solver(void)
     CU_ASSERT(says(e, "D1", DAL_SOURCE_SOLVER, "solved to rounding"));
     dal_error_budget_free(solved);
     dal_error_budget_free(e);
-    dal_model_free(model);
 }
 
 /* gauss8 keeps a bilinear D but for its coefficients, which are good to 20 digits: what they do to
  * D in a unit of time is proportional to h (h^2 in a step), and far below rounding. */
 static void test_coefficients(void)
 {
-    dal_model *model = fixture_model("contact-oscillator");
-    const dal_run_spec spec = fixture_spec(fixture_system(model), "gauss8", DAL_PHYSICAL, 0.1);
+    const dal_run_spec spec =
+        fixture_spec(fixture_system("contact-oscillator"), "gauss8", DAL_PHYSICAL, 0.1);
     dal_error_budget *e = explained(&spec, 600, 600);
     const dal_shares *d = of(e, "D1");
     CU_ASSERT(fabs(d->order - 1.0) < 0.1);
@@ -159,16 +152,15 @@ static void test_coefficients(void)
     CU_ASSERT(fabs(d->share[DAL_SOURCE_ROUNDING] - 1.0) < 1e-3);
     CU_ASSERT(says(e, "D1", DAL_SOURCE_COEFFICIENTS, "coefficients are doubles"));
     dal_error_budget_free(e);
-    dal_model_free(model);
 }
 
 /* x + h v in plain sums: all of the error is rounding, and goes in compensated ones. */
 static void test_sums(void)
 {
-    dal_model *model = fixture_model("coordinates: [x]\nlagrangian: x'^2/2\nstart: {x': 0.1}\n"
-                                     "exact: {x: 0.1*t}\n");
     dal_run_spec spec =
-        fixture_spec(fixture_system(model), "symplectic-euler-10", DAL_PHYSICAL, 0.01);
+        fixture_spec(fixture_system("coordinates: [x]\nlagrangian: x'^2/2\nstart: {x': 0.1}\n"
+                                    "exact: {x: 0.1*t}\n"),
+                     "symplectic-euler-10", DAL_PHYSICAL, 0.01);
     spec.options.sums = DAL_SUMS_PLAIN;
     dal_error_budget *e = explained(&spec, 20000, 20000);
     const dal_shares *error = of(e, "error");
@@ -176,7 +168,6 @@ static void test_sums(void)
     CU_ASSERT(error->comparison[DAL_COMPARISON_SUMS].deviation < 0.05 * error->whole.deviation);
     CU_ASSERT(says(e, "error", DAL_SOURCE_ROUNDING, "with compensated sums"));
     dal_error_budget_free(e);
-    dal_model_free(model);
 }
 
 /* ---- what cannot be had ---- */
@@ -240,8 +231,7 @@ static void begin(void *user, dal_run *run, long long steps)
 
 static void test_observer(void)
 {
-    dal_model *model = fixture_model("knife-edge");
-    dal_run_spec spec = fixture_spec(fixture_system(model), "gauss4", DAL_PHYSICAL, 0.1);
+    dal_run_spec spec = fixture_spec(fixture_system("knife-edge"), "gauss4", DAL_PHYSICAL, 0.1);
     dal_error_budget *e = NULL;
     dal_error error = {0};
     watch w = {.max_calls = 1 << 30};
@@ -264,13 +254,12 @@ static void test_observer(void)
     spec.options.iterations = 1;
     CU_ASSERT_EQUAL(dal_error_budget_create(&spec, 100, 50, NULL, &e, &error), DAL_NOT_CONVERGED);
     CU_ASSERT_PTR_NULL(e);
-    dal_model_free(model);
 }
 
 static void test_out_of_memory(void)
 {
-    dal_model *model = fixture_model("knife-edge");
-    const dal_run_spec spec = fixture_spec(fixture_system(model), "gauss4", DAL_PHYSICAL, 0.1);
+    const dal_run_spec spec =
+        fixture_spec(fixture_system("knife-edge"), "gauss4", DAL_PHYSICAL, 0.1);
     allocation_trial trial = {0};
     while (allocation_next(&trial)) {
         dal_error_budget *e = NULL;
@@ -280,7 +269,6 @@ static void test_out_of_memory(void)
         dal_error_budget_free(e);
     }
     CU_ASSERT(trial.failures >= 10);
-    dal_model_free(model);
 }
 
 void suite_error_budget(void)

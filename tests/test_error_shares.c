@@ -52,8 +52,7 @@ static const dal_shares *shares_of(made_up *m)
 /* 0.08 of 0.1 in quad precision, falling by 2^4; 0.02 of rounding; a quarter without projection. */
 static void test_rates(void)
 {
-    dal_model *model = fixture_model("chaplygin-sleigh");
-    made_up m = make(fixture_system(model), "gauss4");
+    made_up m = make(fixture_system("chaplygin-sleigh"), "gauss4");
     const dal_shares *a = shares_of(&m);
     CU_ASSERT(a->by_rate && a->whole_by_rate && !a->vanishes_in_quad && !a->is_motion &&
               !a->solver_is_significant);
@@ -64,7 +63,6 @@ static void test_rates(void)
     IS(a->margin[DAL_SOURCE_TRUNCATION], 0.02);
     IS(a->margin[DAL_SOURCE_ROUNDING], 0.04);
     IS(a->order, 4.0);
-    dal_model_free(model);
 }
 
 /* A rate counts where it is beyond its interval and T times it is half of the deviation. */
@@ -76,23 +74,21 @@ static void test_by_rate(void)
     } cases[] = {{0.1, 1.99, 0.01, 1}, {0.1, 2.01, 0.01, 0},   {0.1, 1.0, 0.0999, 1},
                  {0.1, 1.0, 0.1, 0},   {-0.1, 1.99, 0.01, 1},  {-0.1, 2.01, 0.01, 0},
                  {0.1, 1.0, 0.2, 0},   {-0.1, 1.0, 0.0999, 1}, {0.0, 0.0, 0.0, 0}};
-    dal_model *model = fixture_model("chaplygin-sleigh");
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        made_up m = make(fixture_system(model), "gauss4");
+        made_up m = make(fixture_system("chaplygin-sleigh"), "gauss4");
         m.a.whole = drift(cases[i].rate, cases[i].deviation, cases[i].margin);
         CU_ASSERT_EQUAL(shares_of(&m)->whole_by_rate, cases[i].by_rate);
         CU_ASSERT(m.a.by_rate);
-        m = make(fixture_system(model), "gauss4");
+        m = make(fixture_system("chaplygin-sleigh"), "gauss4");
         m.a.beginning = drift(cases[i].rate, cases[i].deviation, cases[i].margin);
         CU_ASSERT_EQUAL(shares_of(&m)->by_rate, cases[i].by_rate);
     }
     /* The early part is shorter than the run: its own time counts. */
-    made_up m = make(fixture_system(model), "gauss4");
+    made_up m = make(fixture_system("chaplygin-sleigh"), "gauss4");
     m.e.quad_steps = 100;
     CU_ASSERT(shares_of(&m)->by_rate == 0 && m.a.whole_by_rate == 1);
     IS(m.a.share[DAL_SOURCE_TRUNCATION], 0.8); /* of deviations */
     CU_ASSERT(isnan(m.a.margin[DAL_SOURCE_TRUNCATION]));
-    dal_model_free(model);
 }
 
 /* The solver is significant where it deviates by four times what rounding does, or its rate is
@@ -107,9 +103,8 @@ static void test_solver(void)
                  {0.0, 0.09, 1.0, 0, 0.0},     {0.0, 0.11, 1.0, 0, NAN},
                  {0.021, 0.2, 0.01, 1, 0.21},  {0.019, 0.2, 0.01, 0, NAN},
                  {-0.021, 0.2, 0.01, 1, -0.21}};
-    dal_model *model = fixture_model("chaplygin-sleigh");
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        made_up m = make(fixture_system(model), "gauss4");
+        made_up m = make(fixture_system("chaplygin-sleigh"), "gauss4");
         m.a.solver = drift(cases[i].rate, cases[i].deviation, cases[i].margin);
         m.a.solver_and_rounding = drift(0.03, 0.3, 0.006);
         CU_ASSERT_EQUAL(shares_of(&m)->solver_is_significant, cases[i].is_significant);
@@ -121,19 +116,17 @@ static void test_solver(void)
         if (cases[i].is_significant) IS(m.a.margin[DAL_SOURCE_SOLVER], cases[i].margin / 0.1);
     }
     /* With nothing to solve there is no share of it. */
-    made_up m = make(fixture_system(model), "gauss4");
+    made_up m = make(fixture_system("chaplygin-sleigh"), "gauss4");
     m.a.solver = drift(0.0, 0.5, 1.0);
     m.e.ran[DAL_COMPARISON_TIGHTER] = 0;
     CU_ASSERT(shares_of(&m)->share[DAL_SOURCE_SOLVER] == 0.0);
-    dal_model_free(model);
 }
 
 /* What quad precision leaves: nothing, the motion, or coefficients as doubles. */
 static void test_quad_precision(void)
 {
     const double steps = 1000.0, rounding = 16.0 * DBL_EPSILON * steps;
-    dal_model *model = fixture_model("chaplygin-sleigh");
-    const dal_system *system = fixture_system(model);
+    const dal_system *system = fixture_system("chaplygin-sleigh");
     /* 1e-12 of the drift is nothing. */
     for (int k = 0; k < 2; k++) {
         made_up m = make(system, "gauss4");
@@ -171,17 +164,15 @@ static void test_quad_precision(void)
         CU_ASSERT_DOUBLE_EQUAL(shares_of(&m)->share[source], 0.5, 1e-12);
         CU_ASSERT(m.a.share[other] == 0.0 && !m.a.is_motion);
     }
-    dal_model_free(model);
 }
 
 /* Halving alone: of T + R + T/2^p, which the whole run has and the half one, T 2^p/(2^p - 1) is the
  * difference, where the drift falls as it should within half an order. */
 static void test_halving(void)
 {
-    dal_model *model = fixture_model("chaplygin-sleigh");
     for (int k = 0; k < 4; k++) {
         static const double order[] = {3.51, 3.49, 4.49, 4.51};
-        made_up m = make(fixture_system(model), "gauss4");
+        made_up m = make(fixture_system("chaplygin-sleigh"), "gauss4");
         const double rest = exp2(-order[k]);
         m.e.quad_steps = 0;
         m.a.comparison[DAL_COMPARISON_HALVED] = drift(0.1 * rest, 1.0, 0.0);
@@ -194,19 +185,17 @@ static void test_halving(void)
         CU_ASSERT(isnan(m.a.share[DAL_SOURCE_ROUNDING]) && isnan(m.a.share[DAL_SOURCE_SOLVER]));
         IS(m.a.share[DAL_SOURCE_PROJECTION], 0.75);
     }
-    made_up m = make(fixture_system(model), "gauss4");
+    made_up m = make(fixture_system("chaplygin-sleigh"), "gauss4");
     m.e.quad_steps = 0;
     m.e.ran[DAL_COMPARISON_HALVED] = m.e.ran[DAL_COMPARISON_PROJECTION] = 0;
     CU_ASSERT(isnan(shares_of(&m)->share[DAL_SOURCE_TRUNCATION]) && isnan(m.a.order));
     CU_ASSERT(isnan(m.a.share[DAL_SOURCE_PROJECTION]));
-    dal_model_free(model);
 }
 
 /* Projection: what goes without it, never less than nothing; nothing of what never moved. */
 static void test_projection(void)
 {
-    dal_model *model = fixture_model("chaplygin-sleigh");
-    made_up m = make(fixture_system(model), "gauss4");
+    made_up m = make(fixture_system("chaplygin-sleigh"), "gauss4");
     m.a.comparison[DAL_COMPARISON_PROJECTION] = drift(0.3, 1.0, 0.0);
     CU_ASSERT(shares_of(&m)->share[DAL_SOURCE_PROJECTION] == 0.0);
     m.a.whole = drift(0.0, 0.5, 0.0); /* by deviations */
@@ -217,7 +206,6 @@ static void test_projection(void)
     for (int k = 0; k < DAL_ERROR_SOURCES; k++)
         CU_ASSERT(isnan(m.a.share[k]) && isnan(m.a.margin[k]));
     CU_ASSERT(isnan(m.a.order));
-    dal_model_free(model);
 }
 
 void suite_error_shares(void)

@@ -78,8 +78,7 @@ static void check_surface(dal_evaluator *plain, dal_evaluator *extended)
 static void test_field(void)
 {
     for (int i = 0; i < NAMES; i++) {
-        dal_model *model = fixture_model(names[i]);
-        const dal_system *system = fixture_system(model);
+        const dal_system *system = fixture_system(names[i]);
         dal_evaluator *plain = evaluator_of(system), *extended = evaluator_of(system->extended);
         CU_ASSERT(!(system->properties & DAL_E_EXACT));
         CU_ASSERT(system->extended->properties & DAL_E_EXACT);
@@ -87,18 +86,15 @@ static void test_field(void)
         check_surface(plain, extended);
         dal_evaluator_free(plain);
         dal_evaluator_free(extended);
-        dal_model_free(model);
     }
 }
 
 /* What is exact already is its own extension. */
 static void test_exact(void)
 {
-    dal_model *model = fixture_model("chaplygin-sleigh-nonlinear");
-    const dal_system *system = fixture_system(model);
+    const dal_system *system = fixture_system("chaplygin-sleigh-nonlinear");
     CU_ASSERT(system->properties & DAL_E_EXACT);
     CU_ASSERT_PTR_EQUAL(system->extended, system);
-    dal_model_free(model);
 }
 
 /* ---- the normal of E = const ---- */
@@ -127,8 +123,7 @@ static double slope(dal_evaluator *evaluator, int k)
 static void test_normal(void)
 {
     for (int i = 0; i < NAMES; i++) {
-        dal_model *model = fixture_model(names[i]);
-        const dal_system *system = fixture_system(model);
+        const dal_system *system = fixture_system(names[i]);
         dal_evaluator *evaluator = evaluator_of(system);
         const int n = system->n;
         double E, out[1 + 3 * MAX], again[1 + 3 * MAX];
@@ -145,7 +140,6 @@ static void test_normal(void)
         CU_ASSERT_EQUAL(dal_evaluator_call(evaluator, normal, 0.0, q, x, NULL, again), DAL_OK);
         for (int j = 0; j < n; j++) CU_ASSERT_DOUBLE_EQUAL(again[1 + n + j], out[1 + j], 1e-13);
         dal_evaluator_free(evaluator);
-        dal_model_free(model);
     }
 }
 
@@ -174,8 +168,7 @@ static void test_long(void)
 {
     const long long count = long_run(100000);
     const double bound = 1e-12 * sqrt((double)count / 4e6);
-    dal_model *model = fixture_model("contact-oscillator");
-    const dal_system *system = fixture_system(model);
+    const dal_system *system = fixture_system("contact-oscillator");
     const double error = energy_error(system, 1, count);
     if (count < 100000) { /* here it is the method's own error that is seen */
         CU_ASSERT(error <= 1e-13);
@@ -184,14 +177,13 @@ static void test_long(void)
         CU_ASSERT(error <= bound);
         CU_ASSERT(energy_error(system, 0, count) > 10.0 * bound);
     }
-    dal_model_free(model);
 }
 
 /* The lift of F~ is a canonical system like that of F. */
 static void test_lifted(void)
 {
-    dal_model *model = fixture_model("contact-oscillator");
-    dal_run_spec spec = fixture_spec(fixture_system(model), "gauss4", DAL_LIFTED, 0.1);
+    dal_run_spec spec =
+        fixture_spec(fixture_system("contact-oscillator"), "gauss4", DAL_LIFTED, 0.1);
     const dal_setting start[] = {{"x", 0.8},    {"y", 0.6},  {"z", -0.5},
                                  {"x'", -0.24}, {"y'", 0.7}, {"z'", 0.4}};
     double defect = NAN;
@@ -204,18 +196,15 @@ static void test_lifted(void)
                     DAL_OK);
     CU_ASSERT(defect <= 1e-9);
     dal_run_free(run);
-    dal_model_free(model);
 }
 
 /* ---- refusals ---- */
 
 static void refused(const char *text, const char *reason)
 {
-    dal_model *model = fixture_model(text);
-    dal_run_spec spec = fixture_spec(fixture_system(model), "rk4", DAL_PHYSICAL, 0.1);
+    dal_run_spec spec = fixture_spec(fixture_system(text), "rk4", DAL_PHYSICAL, 0.1);
     spec.options.extend_energy = 1;
     fixture_refused(&spec, DAL_UNSUPPORTED, reason);
-    dal_model_free(model);
 }
 
 static void test_refused(void)
@@ -224,8 +213,7 @@ static void test_refused(void)
     refused("chaplygin-sleigh-friction", "the motion does not conserve its energy");
     refused("chaplygin-sleigh-vakonomic", "vakonomic");
     refused("coordinates: [x]\naccelerations: {x: -x}\n", "the system has no energy");
-    dal_model *model = fixture_model("contact-oscillator");
-    dal_system by_hand = *fixture_system(model);
+    dal_system by_hand = *fixture_system("contact-oscillator");
     dal_run_spec spec = fixture_spec(&by_hand, "rk4", DAL_PHYSICAL, 0.1);
     dal_error error = {0};
     dal_run *run = NULL;
@@ -235,7 +223,6 @@ static void test_refused(void)
     CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "the system has no such extension"));
     spec.options.extend_energy = 2;
     CU_ASSERT_EQUAL(dal_run_create(&run, &spec, &error), DAL_ARGUMENT);
-    dal_model_free(model);
 }
 
 void suite_extension(void)

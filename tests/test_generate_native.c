@@ -72,9 +72,9 @@ static void same_run(const dal_run_spec *of)
 
 static void test_runs(void)
 {
-    dal_model *model = fixture_model("chaplygin-sleigh");
     const dal_setting slow = {"omega", 0.25};
-    dal_run_spec spec = fixture_spec(fixture_system(model), "gauss4+project", DAL_LIFTED, 0.01);
+    dal_run_spec spec =
+        fixture_spec(fixture_system("chaplygin-sleigh"), "gauss4+project", DAL_LIFTED, 0.01);
     spec.parameters = &slow;
     spec.parameter_count = 1;
     same_run(&spec);
@@ -86,7 +86,6 @@ static void test_runs(void)
     spec.options.extra_iterations = 2;
     spec.options.sums = DAL_SUMS_PLAIN;
     same_run(&spec);
-    dal_model_free(model);
 }
 
 /* ---- batches ---- */
@@ -144,21 +143,18 @@ static void same_batch(const dal_run_spec *spec, int count, long long first)
 static void test_batches(void)
 {
     static const int counts[] = {1, 3, 4, 8, MAX_LANES};
-    dal_model *model = fixture_model(falling);
-    const dal_system *falls = fixture_system(model);
+    const dal_system *falls = fixture_system(falling);
     const dal_run_spec simple = fixture_spec(falls, "rk4", DAL_PHYSICAL, 0.001);
     const dal_run_spec lifted = fixture_spec(falls, "implicit-midpoint", DAL_LIFTED, 0.001);
     for (int i = 0; i < 5; i++) same_batch(&simple, counts[i], 0);
     same_batch(&simple, MAX_LANES, 700);
     same_batch(&lifted, MAX_LANES, 700);
-    dal_model_free(model);
 }
 
 /* A batch that is native already may still be given its starts, and is not compiled again. */
 static void test_batch_start(void)
 {
-    dal_model *model = fixture_model(falling);
-    const dal_run_spec spec = fixture_spec(fixture_system(model), "rk4", DAL_PHYSICAL, 0.001);
+    const dal_run_spec spec = fixture_spec(fixture_system(falling), "rk4", DAL_PHYSICAL, 0.001);
     const dal_setting start = {"y", 2.0};
     dal_batch *const tape = lanes_of(&spec, 5), *const native = lanes_of(&spec, 5);
     if (compiles) CU_ASSERT_EQUAL(dal_batch_native(native, &options, NULL), DAL_OK);
@@ -171,7 +167,6 @@ static void test_batch_start(void)
     for (int lane = 0; lane < 5; lane++) same_lane(tape, native, lane);
     dal_batch_free(tape);
     dal_batch_free(native);
-    dal_model_free(model);
 }
 
 /* ---- what goes wrong ---- */
@@ -179,8 +174,7 @@ static void test_batch_start(void)
 /* Whatever cannot be allocated, all is left stepping by its tape. */
 static void test_memory(void)
 {
-    dal_model *model = fixture_model(falling);
-    const dal_run_spec spec = fixture_spec(fixture_system(model), "rk4", DAL_PHYSICAL, 0.001);
+    const dal_run_spec spec = fixture_spec(fixture_system(falling), "rk4", DAL_PHYSICAL, 0.001);
     dal_run *run = fixture_run(&spec);
     dal_batch *tape = lanes_of(&spec, 5), *batch = lanes_of(&spec, 5);
     for (long n = 0;; n++) {
@@ -199,14 +193,12 @@ static void test_memory(void)
     dal_run_free(run);
     dal_batch_free(batch);
     dal_batch_free(tape);
-    dal_model_free(model);
 }
 
 /* The same of compiled observables. */
 static void test_memory_for_samples(void)
 {
-    dal_model *model = fixture_model(falling);
-    const dal_run_spec spec = fixture_spec(fixture_system(model), "rk4", DAL_PHYSICAL, 0.001);
+    const dal_run_spec spec = fixture_spec(fixture_system(falling), "rk4", DAL_PHYSICAL, 0.001);
     dal_run *run = fixture_run(&spec);
     double first, again;
     dal_error error = {0};
@@ -225,10 +217,9 @@ static void test_memory_for_samples(void)
     allocation_fail_after(-1);
     CU_ASSERT_EQUAL(refused, compiles);
     dal_run_free(run);
-    dal_model_free(model);
 }
 
-static dal_run *new_run(dal_model *model)
+static dal_run *new_run(const char *model)
 {
     const dal_run_spec spec = fixture_spec(fixture_system(model), "rk4", DAL_PHYSICAL, 0.01);
     return fixture_run(&spec);
@@ -237,8 +228,7 @@ static dal_run *new_run(dal_model *model)
 /* Such options are refused for a reason, and the run goes on. */
 static void refused(const dal_native_options *with, dal_status expected, const char *reason)
 {
-    dal_model *model = fixture_model(falling);
-    dal_run *run = new_run(model);
+    dal_run *run = new_run(falling);
     dal_error error = {0};
     CU_ASSERT_EQUAL(dal_run_native(run, with, &error), expected);
     if (!strstr(error.message, reason)) printf("\n  '%s' lacks '%s'\n", error.message, reason);
@@ -247,7 +237,6 @@ static void refused(const dal_native_options *with, dal_status expected, const c
     CU_ASSERT_FALSE(dal_run_is_native(run));
     CU_ASSERT_EQUAL(dal_run_step(run, &error), DAL_OK);
     dal_run_free(run);
-    dal_model_free(model);
 }
 
 static void refused_cache(const char *cache, dal_status expected, const char *reason)
@@ -287,9 +276,8 @@ static void test_cache_names(void)
 {
     static const char *const names[] = {"-fplugin=x", "@list", "$(touch evil)", "; touch evil",
                                         "-o"};
-    dal_model *model = fixture_model(falling);
     for (int i = 0; i < 3 && compiles; i++) {
-        dal_run *run = new_run(model);
+        dal_run *run = new_run(falling);
         CU_ASSERT_EQUAL(dal_run_native(run, &(dal_native_options){.cache = names[i]}, NULL),
                         DAL_OK);
         CU_ASSERT_EQUAL(folder_files(names[i]), 1);
@@ -297,7 +285,6 @@ static void test_cache_names(void)
         folder_remove(names[i]);
     }
     CU_ASSERT_NOT_EQUAL(access("evil", F_OK), 0);
-    dal_model_free(model);
 }
 
 /* A compiler by the name of ./fake. */
@@ -371,8 +358,7 @@ static void test_compiler_stopped(void)
 static void test_foreign_object(void)
 {
     const dal_native_options fake = {.cache = "cache", .compiler = "./fake"};
-    dal_model *model = fixture_model(falling);
-    dal_run *run = new_run(model);
+    dal_run *run = new_run(falling);
     fake_compiler("if [ -e seen ]; then exec cc \"$@\"; fi; : >seen\n"
                   "echo 'int other;' >other.c; while [ $# -gt 2 ]; do shift; done\n"
                   "exec cc -shared -fPIC other.c -o \"$1\"");
@@ -383,7 +369,6 @@ static void test_foreign_object(void)
     }
     CU_ASSERT_EQUAL(dal_run_step(run, NULL), DAL_OK);
     dal_run_free(run);
-    dal_model_free(model);
 }
 
 /* ---- an object is taken from the cache while it is as it was written ---- */
@@ -429,7 +414,7 @@ static long compilations(void)
     return stat("called", &s) == 0 ? (long)s.st_size : 0;
 }
 
-static void use_cache(dal_model *model)
+static void use_cache(const char *model)
 {
     dal_run *run = new_run(model);
     const dal_native_options counted = {.cache = kept, .compiler = "./fake"};
@@ -442,7 +427,7 @@ static void use_cache(dal_model *model)
 /* Any byte of it, of what the loader never reads too; cut short, or longer, or empty. */
 static void test_changed_object(void)
 {
-    dal_model *model = fixture_model(falling);
+    const char *const model = falling;
     char path[512];
     long length, again;
     fake_compiler("printf x >>called; exec cc \"$@\"");
@@ -471,19 +456,17 @@ static void test_changed_object(void)
     unlink("called");
     unlink("fake");
     folder_remove(kept);
-    dal_model_free(model);
 }
 
 /* Another text, and another command, has an object of its own. */
 static void test_objects_apart(void)
 {
-    dal_model *model = fixture_model(falling);
     const char *const compilers[] = {"./fake", "./same"};
     fake_compiler("exec cc \"$@\"");
     CU_ASSERT_EQUAL(symlink("fake", "same"), 0);
     for (int i = 0; i < 4; i++) {
         const dal_native_options with = {.cache = kept, .compiler = compilers[i % 2]};
-        const dal_run_spec spec = fixture_spec(fixture_system(model),
+        const dal_run_spec spec = fixture_spec(fixture_system(falling),
                                                i < 2 ? "rk4" : "stormer-verlet", DAL_PHYSICAL, 0.1);
         dal_run *run = fixture_run(&spec);
         CU_ASSERT_EQUAL(dal_run_native(run, &with, NULL), DAL_OK);
@@ -493,7 +476,6 @@ static void test_objects_apart(void)
     unlink("fake");
     unlink("same");
     folder_remove(kept);
-    dal_model_free(model);
 }
 
 void suite_generate_native(void);

@@ -51,8 +51,7 @@ static void check_order(const char *name, const dal_method *method, void *user)
 {
     const int order = dal_method_order(method);
     const window *w = window_of(order);
-    dal_model *model = fixture_model(w->fixture);
-    const dal_system *system = fixture_system(model);
+    const dal_system *system = fixture_system(w->fixture);
     const bool projected = user != NULL;
     for (int space = 0; space < 2; space++) {
         /* Off the surface a projected method jumps back to it: its order is that on the surface. */
@@ -64,7 +63,6 @@ static void check_order(const char *name, const dal_method *method, void *user)
             printf("\n  %s, space %d: observed order %.3f\n", name, space, seen);
         CU_ASSERT(fabs(seen - order) <= 0.1);
     }
-    dal_model_free(model);
 }
 
 static void test_order(void) { for_each(false, check_order, NULL); }
@@ -100,11 +98,9 @@ static void check_symplectic(const char *name, const dal_method *method, void *u
 
 static void test_symplectic(void)
 {
-    dal_model *model = fixture_model(fixture_full);
-    const dal_system *system = fixture_system(model);
+    const dal_system *system = fixture_system(fixture_full);
     for_each(false, check_symplectic, (void *)system);
     for_each(true, check_symplectic, (void *)system);
-    dal_model_free(model);
 }
 
 static void check_symmetric(const char *name, const dal_method *method, void *user)
@@ -124,23 +120,20 @@ static void check_symmetric(const char *name, const dal_method *method, void *us
 
 static void test_symmetric(void)
 {
-    dal_model *model = fixture_model(fixture_bilinear);
-    for_each(false, check_symmetric, (void *)fixture_system(model));
-    dal_model_free(model);
+    for_each(false, check_symmetric, (void *)fixture_system(fixture_bilinear));
 }
 
 /* ---- p.dq + pi.dv with 1/e = 0 ---- */
 
 static void check_pairing(const char *name, const dal_method *method, void *user)
 {
-    dal_model *model = user;
-    const dal_system *tangent = NULL;
+    const char *const text = user;
     const dal_setting start[] = {{"e", INFINITY}, {"p_x", 0.7}, {"p_z", -0.4}, {"pi_y", 1.1}};
     const double direction[] = {0.3, -0.2, 0.5, 0.1, 0.4, -0.6};
     dal_statistics pairing;
     if (!(dal_method_properties(method) & DAL_SYMPLECTIC)) return;
-    CU_ASSERT_EQUAL_FATAL(dal_model_tangent(model, &tangent, NULL), DAL_OK);
-    dal_run_spec spec = fixture_spec(fixture_system(model), name, DAL_LIFTED, 0.005);
+    const dal_system *tangent = fixture_tangent(text);
+    dal_run_spec spec = fixture_spec(fixture_system(text), name, DAL_LIFTED, 0.005);
     spec.start = start;
     spec.start_count = 4;
     CU_ASSERT_EQUAL(dal_adjoint_pairing(&spec, tangent, direction, 1000, &pairing, NULL), DAL_OK);
@@ -152,12 +145,7 @@ static void check_pairing(const char *name, const dal_method *method, void *user
     CU_ASSERT(fabs(pairing.first) > 0.1);
 }
 
-static void test_pairing(void)
-{
-    dal_model *model = fixture_model(fixture_bilinear);
-    for_each(false, check_pairing, model);
-    dal_model_free(model);
-}
+static void test_pairing(void) { for_each(false, check_pairing, (void *)fixture_bilinear); }
 
 /* ---- on the surface: the same bits whatever the space and the gauge; p, pi, H exactly 0 ---- */
 
@@ -205,12 +193,9 @@ static void test_surface(void)
     char *gauge = strstr(other, "gauge:");
     CU_ASSERT_PTR_NOT_NULL_FATAL(gauge);
     strcpy(gauge, "gauge: {e: 3, mu_e: 0.05*exp(-t) - 0.01*t}\n");
-    dal_model *models[] = {fixture_model(fixture_full), fixture_model(other)};
-    const dal_system *systems[] = {fixture_system(models[0]), fixture_system(models[1])};
+    const dal_system *systems[] = {fixture_system(fixture_full), fixture_system(other)};
     for_each(false, check_surface, systems);
     for_each(true, check_surface, systems);
-    dal_model_free(models[0]);
-    dal_model_free(models[1]);
 }
 
 /* ---- D over 1e5 steps ---- */
@@ -250,14 +235,12 @@ static void check_level(const char *name, const dal_method *method, const dal_sy
 static void check_preserved(const char *name, const dal_method *method, void *user)
 {
     const preserved *k = user;
-    dal_model *model = fixture_model(k->fixture);
-    const dal_system *system = fixture_system(model);
+    const dal_system *system = fixture_system(k->fixture);
     /* D at midpoints is another matter: see test_constrained.c. */
     const unsigned properties = dal_method_properties(method);
     const bool nodes = !(properties & DAL_PRESERVES_D_MIDPOINT) || properties & DAL_PRESERVES_D;
     if (nodes && fixture_accepts(method, system, DAL_PHYSICAL))
         check_level(name, method, system, k->claim);
-    dal_model_free(model);
 }
 
 static void test_preserved_constant(void)

@@ -40,17 +40,15 @@ static void test_closed_forms(void)
                                         "appell-hamel",
                                         "isokinetic"};
     for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
-        dal_model *model = fixture_model(names[i]);
         for (int space = 0; space < 2; space++) {
             const dal_run_spec spec =
-                fixture_spec(fixture_system(model), "gauss8", (dal_space)space, 0.01);
+                fixture_spec(fixture_system(names[i]), "gauss8", (dal_space)space, 0.01);
             dal_run *run = fixture_run(&spec);
             const double error = closed_form_error(run, 100);
             if (!(error <= 1e-13)) printf("\n  %s: error %.2e\n", names[i], error);
             CU_ASSERT(error <= 1e-13);
             dal_run_free(run);
         }
-        dal_model_free(model);
     }
 }
 
@@ -66,8 +64,8 @@ static void test_other_parameters(void)
         {"damped-oscillator", {{"omega", 0.7}, {"k", 1.9}, {"k", 1.9}}},
     };
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        dal_model *model = fixture_model(cases[i].name);
-        dal_run_spec spec = fixture_spec(fixture_system(model), "gauss8", DAL_PHYSICAL, 0.01);
+        dal_run_spec spec =
+            fixture_spec(fixture_system(cases[i].name), "gauss8", DAL_PHYSICAL, 0.01);
         spec.parameters = cases[i].set;
         spec.parameter_count = 3;
         dal_run *run = fixture_run(&spec);
@@ -75,7 +73,6 @@ static void test_other_parameters(void)
         if (!(error <= 1e-13)) printf("\n  %s: error %.2e\n", cases[i].name, error);
         CU_ASSERT(error <= 1e-13);
         dal_run_free(run);
-        dal_model_free(model);
     }
 }
 
@@ -84,8 +81,8 @@ static void test_other_parameters(void)
 static void test_friction_end(void)
 {
     const dal_setting set[] = {{"m", 1.3}, {"k", 9.0}, {"v0", 1.1}, {"omega", 1.7}};
-    dal_model *model = fixture_model("chaplygin-sleigh-friction");
-    dal_run_spec spec = fixture_spec(fixture_system(model), "gauss6", DAL_PHYSICAL, 0.02);
+    dal_run_spec spec =
+        fixture_spec(fixture_system("chaplygin-sleigh-friction"), "gauss6", DAL_PHYSICAL, 0.02);
     spec.parameters = set;
     spec.parameter_count = 4;
     dal_run *run = fixture_run(&spec);
@@ -93,7 +90,6 @@ static void test_friction_end(void)
     CU_ASSERT_DOUBLE_EQUAL(dal_run_state(run)[0], 0.31777778, 5e-9);
     CU_ASSERT_DOUBLE_EQUAL(dal_run_state(run)[0], 2.0 * 1.1 * 1.3 / 9.0, 1e-12);
     dal_run_free(run);
-    dal_model_free(model);
 }
 
 /* Largest distance from the circle (nh30) up to T = 2 with friction k. */
@@ -116,8 +112,7 @@ static double distance_to_circle(const dal_system *system, double k)
 
 static void test_friction_limit(void)
 {
-    dal_model *model = fixture_model("chaplygin-sleigh-friction");
-    const dal_system *system = fixture_system(model);
+    const dal_system *system = fixture_system("chaplygin-sleigh-friction");
     double last = distance_to_circle(system, 1e1);
     for (double k = 1e2; k < 2e4; k *= 10.0) {
         const double now = distance_to_circle(system, k);
@@ -126,19 +121,16 @@ static void test_friction_limit(void)
         CU_ASSERT_DOUBLE_EQUAL(slope, 1.0, k < 5e2 ? 0.15 : 0.02);
         last = now;
     }
-    dal_model_free(model);
 }
 
 /* Reference end states R1 and R3 of two independent high-order integrations. */
 static void reference_state(const char *text, double T, const double *state)
 {
-    dal_model *model = fixture_model(text);
-    const dal_run_spec spec = fixture_spec(fixture_system(model), "gauss10", DAL_PHYSICAL, 0.02);
+    const dal_run_spec spec = fixture_spec(fixture_system(text), "gauss10", DAL_PHYSICAL, 0.02);
     dal_run *run = fixture_run(&spec);
     CU_ASSERT_EQUAL(dal_run_advance(run, llround(T / 0.02), NULL), DAL_OK);
     for (int i = 0; i < 6; i++) CU_ASSERT_DOUBLE_EQUAL(dal_run_state(run)[i], state[i], 2e-13);
     dal_run_free(run);
-    dal_model_free(model);
 }
 
 static void test_references(void)

@@ -51,18 +51,16 @@ static void check_clock(const dal_system *system, const char *method, dal_space 
 
 static void test_clock(void)
 {
-    dal_model *model = fixture_model(oscillator);
-    check_clock(fixture_system(model), "rk4", DAL_PHYSICAL);
-    check_clock(fixture_system(model), "gauss4", DAL_LIFTED);
-    check_clock(fixture_system(model), "stormer-verlet", DAL_PHYSICAL);
-    dal_model_free(model);
+    check_clock(fixture_system(oscillator), "rk4", DAL_PHYSICAL);
+    check_clock(fixture_system(oscillator), "gauss4", DAL_LIFTED);
+    check_clock(fixture_system(oscillator), "stormer-verlet", DAL_PHYSICAL);
 }
 
 /* The clock from step 0 on, 200000 steps, against k h. */
 static void test_from_the_start(void)
 {
-    dal_model *model = fixture_model(oscillator);
-    dal_run_spec spec = fixture_spec(fixture_system(model), "symplectic-euler", DAL_PHYSICAL, h);
+    dal_run_spec spec =
+        fixture_spec(fixture_system(oscillator), "symplectic-euler", DAL_PHYSICAL, h);
     dal_run *run = fixture_run(&spec);
     for (long long k = 1; k <= 200000; k++) {
         CU_ASSERT_EQUAL_FATAL(dal_run_step(run, NULL), DAL_OK);
@@ -72,7 +70,6 @@ static void test_from_the_start(void)
         }
     }
     dal_run_free(run);
-    dal_model_free(model);
 }
 
 /* ---- rows ---- */
@@ -98,8 +95,7 @@ static dal_status see(void *user, dal_run *run, long long row, double t)
 
 static void test_rows_on_steps(void)
 {
-    dal_model *model = fixture_model(oscillator);
-    const dal_run_spec spec = fixture_spec(fixture_system(model), "rk4", DAL_PHYSICAL, h);
+    const dal_run_spec spec = fixture_spec(fixture_system(oscillator), "rk4", DAL_PHYSICAL, h);
     dal_run *run = fixture_run(&spec);
     const long long rows = far_step / 1000 + 3;
     const double T = (double)(1000 * rows) * h;
@@ -114,7 +110,6 @@ static void test_rows_on_steps(void)
     }
     CU_ASSERT_EQUAL(s.t[2], T);
     dal_run_free(run);
-    dal_model_free(model);
 }
 
 /* Row number row a few last places of t from the end of step far_step + row + 1. */
@@ -131,8 +126,7 @@ static double near_steps(void *user, long long row)
  * nearer than that to a step is shown at the step, one farther off at its own time. */
 static void test_rows_near_steps(void)
 {
-    dal_model *model = fixture_model(oscillator);
-    const dal_run_spec spec = fixture_spec(fixture_system(model), "rk4", DAL_PHYSICAL, h);
+    const dal_run_spec spec = fixture_spec(fixture_system(oscillator), "rk4", DAL_PHYSICAL, h);
     dal_run *run = fixture_run(&spec);
     seen s = {.max = ROWS};
     const dal_observer observer = {.user = &s, .sample = see, .row_time = near_steps};
@@ -146,7 +140,6 @@ static void test_rows_near_steps(void)
         CU_ASSERT_EQUAL(s.steps[i], far_step + i + 1 + (off[i] > 6.0));
     }
     dal_run_free(run);
-    dal_model_free(model);
 }
 
 /* Early in a run the tolerance is 1e-9 of a step. */
@@ -159,8 +152,7 @@ static double near_step_one(void *user, long long row)
 
 static void test_rows_near_early_steps(void)
 {
-    dal_model *model = fixture_model(oscillator);
-    const dal_run_spec spec = fixture_spec(fixture_system(model), "rk4", DAL_PHYSICAL, h);
+    const dal_run_spec spec = fixture_spec(fixture_system(oscillator), "rk4", DAL_PHYSICAL, h);
     dal_run *run = fixture_run(&spec);
     seen s = {.max = ROWS};
     const dal_observer observer = {.user = &s, .sample = see, .row_time = near_step_one};
@@ -172,15 +164,13 @@ static void test_rows_near_early_steps(void)
         CU_ASSERT_DOUBLE_EQUAL(s.clock[i], i == 2 || i == 3 ? h : t, 1e-17);
     }
     dal_run_free(run);
-    dal_model_free(model);
 }
 
 /* Rows in the middle of steps, from x = 1, x' = 0 at the far step: x = cos(t - far_step h), as far
  * as t itself is known. */
 static void test_rows_between_steps(void)
 {
-    dal_model *model = fixture_model(oscillator);
-    const dal_run_spec spec = fixture_spec(fixture_system(model), "gauss8", DAL_PHYSICAL, h);
+    const dal_run_spec spec = fixture_spec(fixture_system(oscillator), "gauss8", DAL_PHYSICAL, h);
     dal_run *run = fixture_run(&spec);
     const long long steps = far_step + 1000;
     const double T = (double)steps * h;
@@ -195,7 +185,6 @@ static void test_rows_between_steps(void)
         CU_ASSERT_DOUBLE_EQUAL(s.x[i], cos(0.5 * h * (i + 1)), 2.0 * T * DBL_EPSILON);
     }
     dal_run_free(run);
-    dal_model_free(model);
 }
 
 void suite_long_clock(void)

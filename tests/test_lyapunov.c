@@ -10,14 +10,13 @@
 /* ---- exponents ---- */
 
 /* The exponents of a fixture after a transient and then steps more. */
-static dal_lyapunov *lyapunov_of(dal_model *model, const char *method, double step,
+static dal_lyapunov *lyapunov_of(const char *model, const char *method, double step,
                                  long long transient, long long steps)
 {
-    const dal_system *tangent = NULL;
     dal_lyapunov *s = NULL;
     dal_error error = {0};
     const dal_run_spec spec = fixture_spec(fixture_system(model), method, DAL_PHYSICAL, step);
-    CU_ASSERT_EQUAL_FATAL(dal_model_tangent(model, &tangent, NULL), DAL_OK);
+    const dal_system *tangent = fixture_tangent(model);
     CU_ASSERT_EQUAL_FATAL(dal_lyapunov_create(&s, &spec, tangent, 0, &error), DAL_OK);
     CU_ASSERT_EQUAL(dal_lyapunov_advance(s, transient, &error), DAL_OK);
     dal_lyapunov_discard_transient(s);
@@ -47,8 +46,8 @@ static double log_midpoint(double a, double b)
 static void test_saddle(void)
 {
     const double h = 0.1;
-    dal_model *model = fixture_model("coordinates: [x]\naccelerations: {x: x}\nstart: {x: 0}\n");
-    dal_lyapunov *s = lyapunov_of(model, "rk4", h, 300, 200);
+    dal_lyapunov *s =
+        lyapunov_of("coordinates: [x]\naccelerations: {x: x}\nstart: {x: 0}\n", "rk4", h, 300, 200);
     CU_ASSERT(dal_lyapunov_is_exact(s));
     CU_ASSERT(dal_lyapunov_is_whole(s));
     CU_ASSERT_EQUAL_FATAL(dal_lyapunov_count(s), 2);
@@ -56,7 +55,6 @@ static void test_saddle(void)
     CU_ASSERT_DOUBLE_EQUAL(fixture_exponent(s, 1), log_rk4(-h, 0.0) / h, 1e-13);
     CU_ASSERT_EQUAL(fixture_divergence(s), 0.0);
     dal_lyapunov_free(s);
-    dal_model_free(model);
 }
 
 /* x'' = -x - k x': a spiral; det J = |R(h lambda)|^2 in every step. */
@@ -65,8 +63,7 @@ static void test_spiral(void)
     const double h = 0.1, k = 0.3;
     const double a = -h * k / 2.0, b = h * sqrt(1.0 - k * k / 4.0);
     const double by_rk4 = log_rk4(a, b) / h, by_midpoint = log_midpoint(a, b) / h;
-    dal_model *model =
-        fixture_model("coordinates: [x]\naccelerations: {x: -x - 0.3*x'}\nstart: {x: 1}\n");
+    const char *const model = "coordinates: [x]\naccelerations: {x: -x - 0.3*x'}\nstart: {x: 1}\n";
     dal_lyapunov *s = lyapunov_of(model, "rk4", h, 0, 20000);
     CU_ASSERT_DOUBLE_EQUAL(fixture_sum(s), 2.0 * by_rk4, 1e-13);
     CU_ASSERT_DOUBLE_EQUAL(fixture_divergence(s), -k, 1e-15);
@@ -76,7 +73,6 @@ static void test_spiral(void)
     s = lyapunov_of(model, "implicit-midpoint", h, 0, 100);
     CU_ASSERT_DOUBLE_EQUAL(fixture_sum(s), 2.0 * by_midpoint, 1e-13);
     dal_lyapunov_free(s);
-    dal_model_free(model);
 }
 
 /* Lorenz's system as velocities: 0.9056, 0, -14.5723 (Sprott, Chaos and Time-Series Analysis, 2003,
@@ -90,9 +86,8 @@ enum { LONG = 40000 };
 
 static void test_lorenz(void)
 {
-    dal_model *model = fixture_model(lorenz);
     const long long steps = long_run(LONG);
-    dal_lyapunov *s = lyapunov_of(model, "rk4", 0.01, 2000, steps);
+    dal_lyapunov *s = lyapunov_of(lorenz, "rk4", 0.01, 2000, steps);
     dal_average a;
     CU_ASSERT_DOUBLE_EQUAL(fixture_divergence(s), -41.0 / 3.0, 1e-12);
     CU_ASSERT_DOUBLE_EQUAL(fixture_sum(s), -41.0 / 3.0, 1e-3);
@@ -103,18 +98,17 @@ static void test_lorenz(void)
         CU_ASSERT_DOUBLE_EQUAL(fixture_exponent(s, 5), -14.5723, 0.05);
     }
     dal_lyapunov_free(s);
-    dal_model_free(model);
 }
 
 /* Henon and Heiles at E = 1/8, a chaotic orbit; a symplectic map has exponents in pairs. */
 static void test_pairs(void)
 {
-    dal_model *model = fixture_model("coordinates: [x, y]\n"
-                                     "lagrangian: >-\n"
-                                     "  (x'^2 + y'^2 - x^2 - y^2)/2 - x^2*y + y^3/3\n"
-                                     "start: {y: -0.25, x': 0.4208127057650699}\n");
     const long long steps = long_run(LONG);
-    dal_lyapunov *s = lyapunov_of(model, "stormer-verlet", 0.05, 1000, steps);
+    dal_lyapunov *s = lyapunov_of("coordinates: [x, y]\n"
+                                  "lagrangian: >-\n"
+                                  "  (x'^2 + y'^2 - x^2 - y^2)/2 - x^2*y + y^3/3\n"
+                                  "start: {y: -0.25, x': 0.4208127057650699}\n",
+                                  "stormer-verlet", 0.05, 1000, steps);
     dal_average a;
     CU_ASSERT_DOUBLE_EQUAL(fixture_sum(s), 0.0, 1e-13);
     CU_ASSERT_EQUAL(fixture_divergence(s), 0.0);
@@ -126,17 +120,15 @@ static void test_pairs(void)
         CU_ASSERT_DOUBLE_EQUAL(fixture_exponent(s, 2), 0.0, 1e-2);
     }
     dal_lyapunov_free(s);
-    dal_model_free(model);
 }
 
 /* ---- the tangent system against differences ---- */
 
-static void compare_ways(dal_model *model, const char *method, double tolerance)
+static void compare_ways(const char *model, const char *method, double tolerance)
 {
-    const dal_system *tangent = NULL;
     dal_lyapunov *way[2] = {NULL, NULL};
     const dal_run_spec spec = fixture_spec(fixture_system(model), method, DAL_PHYSICAL, 0.05);
-    CU_ASSERT_EQUAL_FATAL(dal_model_tangent(model, &tangent, NULL), DAL_OK);
+    const dal_system *tangent = fixture_tangent(model);
     for (int k = 0; k < 2; k++) {
         const dal_system *given = k == 0 ? tangent : NULL;
         CU_ASSERT_EQUAL_FATAL(dal_lyapunov_create(&way[k], &spec, given, 0, NULL), DAL_OK);
@@ -154,21 +146,18 @@ static void test_ways(void)
     static const char *const methods[] = {
         "rk4", "symplectic-euler-10",       "stormer-verlet", "gauss4", "lobatto4", "dop853",
         "bm4", "implicit-midpoint+yoshida4"};
-    dal_model *model = fixture_model(fixture_full);
     for (size_t i = 0; i < sizeof methods / sizeof *methods; i++)
-        compare_ways(model, methods[i], 1e-9);
-    dal_model_free(model);
+        compare_ways(fixture_full, methods[i], 1e-9);
 }
 
 /* A system of small lengths: increments of 2e-3 lead round the circle many times. */
 static void test_small_lengths(void)
 {
-    dal_model *model = fixture_model("coordinates: [x]\n"
-                                     "accelerations: {x: -1e-5*sin(x*7e4) - 0.1*x'}\n"
-                                     "start: {x: 1e-5}\n");
+    const char *const model = "coordinates: [x]\n"
+                              "accelerations: {x: -1e-5*sin(x*7e4) - 0.1*x'}\n"
+                              "start: {x: 1e-5}\n";
     compare_ways(model, "rk4", 1e-6);
     compare_ways(model, "gauss4", 1e-6);
-    dal_model_free(model);
 }
 
 /* ---- what a step map has ---- */
@@ -176,14 +165,12 @@ static void test_small_lengths(void)
 static void test_rank(void)
 {
     static const char *const forcing[] = {"gauss4+project", "mclachlan-perlmutter", "dla"};
-    dal_model *model = fixture_model("chaplygin-sleigh-offset");
-    const dal_system *tangent = NULL;
     dal_lyapunov *s = NULL;
     dal_error error;
-    CU_ASSERT_EQUAL_FATAL(dal_model_tangent(model, &tangent, NULL), DAL_OK);
+    const dal_system *tangent = fixture_tangent("chaplygin-sleigh-offset");
     for (size_t i = 0; i < sizeof forcing / sizeof *forcing; i++) {
         const dal_run_spec spec =
-            fixture_spec(fixture_system(model), forcing[i], DAL_PHYSICAL, 0.05);
+            fixture_spec(fixture_system("chaplygin-sleigh-offset"), forcing[i], DAL_PHYSICAL, 0.05);
         CU_ASSERT_EQUAL_FATAL(dal_lyapunov_create(&s, &spec, tangent, 0, &error), DAL_OK);
         CU_ASSERT_EQUAL(dal_lyapunov_count(s), 5);
         CU_ASSERT(dal_lyapunov_is_whole(s) && !dal_lyapunov_is_exact(s));
@@ -197,7 +184,6 @@ static void test_rank(void)
         CU_ASSERT(strstr(error.message, "the step map has 5") != NULL);
         CU_ASSERT(error.line == 0 && error.column == 0);
     }
-    dal_model_free(model);
 }
 
 /* ---- what the shipped systems say of their measure ---- */
@@ -217,7 +203,7 @@ static bool returns(const char *name)
            strcmp(name, "chaplygin-sleigh-incline") != 0;
 }
 
-static void check_tags(dal_model *model, const char *name)
+static void check_tags(const char *model, const char *name)
 {
     const dal_system *system = fixture_system(model);
     const bool kept = has_tag(system, "measure-preserving"), lost = has_tag(system, "attractor");
@@ -238,9 +224,7 @@ static void test_tags(void)
 {
     const char *name;
     for (int i = 0; (name = dal_builtin_name(i)) != NULL; i++) {
-        dal_model *model = fixture_model(name);
-        check_tags(model, name);
-        dal_model_free(model);
+        check_tags(name, name);
     }
 }
 
@@ -248,7 +232,7 @@ static void test_tags(void)
 static void test_attractor(void)
 {
     static const char *const methods[] = {"gauss4", "gauss4+project"};
-    dal_model *model = fixture_model("chaplygin-sleigh-offset");
+    const char *const model = "chaplygin-sleigh-offset";
     for (int i = 0; i < 2; i++) {
         dal_lyapunov *s = lyapunov_of(model, methods[i], 0.02, 500, 500);
         CU_ASSERT(fixture_divergence(s) < -0.1);
@@ -259,42 +243,38 @@ static void test_attractor(void)
         CU_ASSERT_DOUBLE_EQUAL(2.0 * fixture_sum(s), 2.0 * fixture_divergence(s), 0.5);
         dal_lyapunov_free(s);
     }
-    dal_model_free(model);
 }
 
 /* The sleigh with J = I + m a^2 = 4, m = a = 1: on D = 0 the divergence is -(m a/J) v with v = V
  * tanh tau and dtau/dt = V/4, so that its integral is -log(cosh tau/cosh tau0). */
 static void test_full_turn(void)
 {
-    dal_model *model = fixture_model("chaplygin-sleigh-full-turn");
     const double V = sqrt(0.8 * 0.8 + 1.0), tau0 = asinh(-0.8), T = 10.0;
     const double exact = -log(cosh(tau0 + V / 4.0 * T) / cosh(tau0)) / T;
-    dal_lyapunov *s = lyapunov_of(model, "gauss8", 0.02, 0, 500);
+    dal_lyapunov *s = lyapunov_of("chaplygin-sleigh-full-turn", "gauss8", 0.02, 0, 500);
     CU_ASSERT_DOUBLE_EQUAL(fixture_sum(s), exact, 1e-6);
     CU_ASSERT_DOUBLE_EQUAL(fixture_divergence(s), exact, 1e-5);
     dal_lyapunov_free(s);
-    dal_model_free(model);
 }
 
 static void test_vakonomic(void)
 {
-    dal_model *model = fixture_model("chaplygin-sleigh-vakonomic");
     dal_lyapunov *s = NULL;
-    const dal_run_spec spec = fixture_spec(fixture_system(model), "gauss6", DAL_PHYSICAL, 0.05);
+    const dal_run_spec spec =
+        fixture_spec(fixture_system("chaplygin-sleigh-vakonomic"), "gauss6", DAL_PHYSICAL, 0.05);
     CU_ASSERT_EQUAL_FATAL(dal_lyapunov_create(&s, &spec, NULL, 0, NULL), DAL_OK);
     CU_ASSERT_EQUAL(dal_lyapunov_count(s), 7);
     CU_ASSERT_EQUAL(dal_lyapunov_advance(s, 100, NULL), DAL_OK);
     CU_ASSERT_DOUBLE_EQUAL(fixture_sum(s), fixture_divergence(s), 1e-5);
     dal_lyapunov_free(s);
-    dal_model_free(model);
 }
 
 static void test_same_bits(void)
 {
-    dal_model *model = fixture_model(fixture_full);
-    const dal_run_spec spec = fixture_spec(fixture_system(model), "gauss4", DAL_PHYSICAL, 0.05);
+    const dal_run_spec spec =
+        fixture_spec(fixture_system(fixture_full), "gauss4", DAL_PHYSICAL, 0.05);
     dal_run *run = fixture_run(&spec);
-    dal_lyapunov *s = lyapunov_of(model, "gauss4", 0.05, 7, 23);
+    dal_lyapunov *s = lyapunov_of(fixture_full, "gauss4", 0.05, 7, 23);
     size_t count, other;
     CU_ASSERT_EQUAL(dal_run_advance(run, 30, NULL), DAL_OK);
     const double *memory = dal_run_save(run, &count);
@@ -302,21 +282,19 @@ static void test_same_bits(void)
         memcmp(memory, dal_run_save(dal_lyapunov_run(s), &other), count * sizeof *memory), 0);
     dal_lyapunov_free(s);
     dal_run_free(run);
-    dal_model_free(model);
 }
 
 /* ---- what is refused ---- */
 
 static void test_refuses(void)
 {
-    dal_model *model = fixture_model("chaplygin-sleigh");
     dal_lyapunov *s = NULL;
     dal_error error;
-    dal_run_spec spec = fixture_spec(fixture_system(model), "gni", DAL_PHYSICAL, 0.05);
+    dal_run_spec spec = fixture_spec(fixture_system("chaplygin-sleigh"), "gni", DAL_PHYSICAL, 0.05);
     CU_ASSERT_EQUAL(dal_lyapunov_create(&s, &spec, NULL, 0, &error), DAL_UNSUPPORTED);
     CU_ASSERT(strstr(error.message, "has a multiplier") != NULL);
     CU_ASSERT(error.line == 0 && error.column == 0);
-    spec = fixture_spec(fixture_system(model), "dop853", DAL_PHYSICAL, 0.05);
+    spec = fixture_spec(fixture_system("chaplygin-sleigh"), "dop853", DAL_PHYSICAL, 0.05);
     spec.options.tolerance = 1e-8;
     CU_ASSERT_EQUAL(dal_lyapunov_create(&s, &spec, NULL, 0, &error), DAL_UNSUPPORTED);
     CU_ASSERT(strstr(error.message, "tolerance") != NULL);
@@ -324,7 +302,6 @@ static void test_refuses(void)
     spec.options.tolerance = 0.0;
     CU_ASSERT_EQUAL(dal_lyapunov_create(&s, &spec, NULL, -1, &error), DAL_ARGUMENT);
     CU_ASSERT_PTR_NULL(s);
-    dal_model_free(model);
 }
 
 /* Two springs, at rest at 0.  Every fourth call, the first stage of a step of rk4, is at the state
@@ -358,8 +335,8 @@ static void test_increments(void)
 
 static void test_out_of_memory(void)
 {
-    dal_model *model = fixture_model(fixture_bilinear);
-    const dal_run_spec spec = fixture_spec(fixture_system(model), "rk4", DAL_PHYSICAL, 0.25);
+    const dal_run_spec spec =
+        fixture_spec(fixture_system(fixture_bilinear), "rk4", DAL_PHYSICAL, 0.25);
     allocation_trial trial = {0};
     while (allocation_next(&trial)) {
         dal_lyapunov *s = NULL;
@@ -368,7 +345,6 @@ static void test_out_of_memory(void)
         dal_lyapunov_free(s);
     }
     CU_ASSERT(trial.failures >= 7);
-    dal_model_free(model);
 }
 
 void suite_lyapunov(void)

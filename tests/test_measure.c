@@ -57,8 +57,7 @@ static dal_evaluator *evaluator_of(const dal_system *system)
 
 static void test_evaluator(void)
 {
-    dal_model *model = fixture_model("chaplygin-sleigh");
-    const dal_system *system = fixture_system(model);
+    const dal_system *system = fixture_system("chaplygin-sleigh");
     const dal_setting set[] = {{"v0", 3.0}}, start[] = {{"phi'", 2.0}, {"e", 5.0}};
     dal_evaluator *evaluator;
     double x[7];
@@ -74,17 +73,15 @@ static void test_evaluator(void)
     CU_ASSERT_EQUAL(dal_evaluator_call(evaluator, NULL, 0.0, x, x + 3, NULL, &energy),
                     DAL_UNSUPPORTED);
     dal_evaluator_free(evaluator);
-    dal_model_free(model);
 }
 
 static void test_evaluator_names(void)
 {
-    dal_model *model = fixture_model("chaplygin-sleigh");
     const dal_setting set[] = {{"omge", 3.0}}, start[] = {{"phy", 2.0}}, inf = {"m", INFINITY};
     dal_error error;
     dal_evaluator *evaluator;
     double x[7];
-    const dal_system *system = fixture_system(model);
+    const dal_system *system = fixture_system("chaplygin-sleigh");
     CU_ASSERT_EQUAL(dal_evaluator_create(&evaluator, system, set, 1, &error), DAL_NAME);
     CU_ASSERT_PTR_NULL(evaluator);
     CU_ASSERT(strstr(error.message, "'omge'; did you mean 'omega'?") != NULL);
@@ -93,7 +90,6 @@ static void test_evaluator_names(void)
     CU_ASSERT_EQUAL(dal_evaluator_start(evaluator, start, 1, x, &error), DAL_NAME);
     CU_ASSERT(strstr(error.message, "'phy'; did you mean 'phi'?") != NULL);
     dal_evaluator_free(evaluator);
-    dal_model_free(model);
 }
 
 /* ---- rates and derivatives ---- */
@@ -135,19 +131,17 @@ static void test_derivatives_of_systems(void)
     const char *const texts[] = {fixture_full, fixture_bilinear, fixture_quadratic, "vertical-disk",
                                  "chaplygin-sleigh-nonlinear"};
     for (size_t k = 0; k < sizeof texts / sizeof *texts; k++) {
-        dal_model *model = fixture_model(texts[k]);
-        dal_evaluator *evaluator = evaluator_of(fixture_system(model));
+        dal_evaluator *evaluator = evaluator_of(fixture_system(texts[k]));
         double x[16];
         dal_derivatives d;
         CU_ASSERT_EQUAL(dal_evaluator_start(evaluator, NULL, 0, x, NULL), DAL_OK);
-        const dal_point at = {.t = 0.3, .q = x, .v = x + fixture_system(model)->n};
+        const dal_point at = {.t = 0.3, .q = x, .v = x + fixture_system(texts[k])->n};
         CU_ASSERT_EQUAL(dal_check_derivatives(evaluator, &at, &d), DAL_OK);
         CU_ASSERT(d.jacobian >= 0.0 && d.jacobian < 1e-10);
         CU_ASSERT(d.adjoint >= 0.0 && d.adjoint < 1e-10);
         CU_ASSERT(d.constraint_jacobian >= 0.0 && d.constraint_jacobian < 1e-10);
         CU_ASSERT(d.gram >= 0.0 && d.gram < 1e-14);
         dal_evaluator_free(evaluator);
-        dal_model_free(model);
     }
 }
 
@@ -166,25 +160,22 @@ static void test_rank(void)
         int rank;
     } cases[] = {{"vertical-disk", 2}, {twice, 1}, {fixture_full, 2}, {"knife-edge", 1}};
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
-        dal_model *model = fixture_model(cases[k].text);
-        dal_evaluator *evaluator = evaluator_of(fixture_system(model));
+        dal_evaluator *evaluator = evaluator_of(fixture_system(cases[k].text));
         double x[16], pivot;
         int rank;
         CU_ASSERT_EQUAL(dal_evaluator_start(evaluator, NULL, 0, x, NULL), DAL_OK);
         if (cases[k].text == twice) x[2] = 1e-12;
-        const dal_point at = {.t = 0.0, .q = x, .v = x + fixture_system(model)->n};
+        const dal_point at = {.t = 0.0, .q = x, .v = x + fixture_system(cases[k].text)->n};
         CU_ASSERT_EQUAL(dal_measure_rank(evaluator, &at, &rank, &pivot), DAL_OK);
         CU_ASSERT_EQUAL(rank, cases[k].rank);
-        CU_ASSERT(rank == fixture_system(model)->m ? pivot > 0.01 : pivot == 0.0);
+        CU_ASSERT(rank == fixture_system(cases[k].text)->m ? pivot > 0.01 : pivot == 0.0);
         dal_evaluator_free(evaluator);
-        dal_model_free(model);
     }
 }
 
 static void test_project_velocity(void)
 {
-    dal_model *model = fixture_model(fixture_full);
-    const dal_system *system = fixture_system(model);
+    const dal_system *system = fixture_system(fixture_full);
     dal_evaluator *evaluator = evaluator_of(system);
     const double q[] = {0.1, 0.4, 0.3, 0.2};
     double v[] = {0.9, 0.7, 0.1, 1.3}, D[2];
@@ -192,21 +183,19 @@ static void test_project_velocity(void)
     CU_ASSERT_EQUAL(dal_evaluator_call(evaluator, system->constraints, 0.4, q, v, NULL, D), DAL_OK);
     CU_ASSERT(fabs(D[0]) < 1e-15 && fabs(D[1]) < 1e-15);
     dal_evaluator_free(evaluator);
-    dal_model_free(model);
 }
 
 /* x'^2 + y'^2 + 1 has no zero: v must come back as it was. */
 static void test_project_velocity_nothing(void)
 {
-    dal_model *model = fixture_model("coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\n"
-                                     "constraints: [x'^2 + y'^2 + 1]\nstart: {x': 1}\n");
-    dal_evaluator *evaluator = evaluator_of(fixture_system(model));
+    dal_evaluator *evaluator =
+        evaluator_of(fixture_system("coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\n"
+                                    "constraints: [x'^2 + y'^2 + 1]\nstart: {x': 1}\n"));
     const double q[] = {0.0, 0.0};
     double v[] = {0.6, 0.3};
     CU_ASSERT_NOT_EQUAL(dal_project_velocity(evaluator, 0.0, q, v), DAL_OK);
     CU_ASSERT(v[0] == 0.6 && v[1] == 0.3);
     dal_evaluator_free(evaluator);
-    dal_model_free(model);
 }
 
 /* D = sqrt(x'^2 + d^2) has no zero, and Newton's method goes from x' = d to -d, where |D| is the
@@ -215,17 +204,18 @@ static void test_project_velocity_rounding(void)
 {
     for (int k = 0; k < 2; k++) {
         const dal_setting d = {"d", (k ? 1.5e-13 : 0.9e-13) / sqrt(2.0)};
-        dal_model *model = fixture_model("coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\n"
-                                         "parameters: {d: 1}\n"
-                                         "constraints: [sqrt(x'^2 + d^2)]\n");
         dal_evaluator *evaluator = NULL;
-        CU_ASSERT_EQUAL_FATAL(dal_evaluator_create(&evaluator, fixture_system(model), &d, 1, NULL),
-                              DAL_OK);
+        CU_ASSERT_EQUAL_FATAL(
+            dal_evaluator_create(&evaluator,
+                                 fixture_system("coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\n"
+                                                "parameters: {d: 1}\n"
+                                                "constraints: [sqrt(x'^2 + d^2)]\n"),
+                                 &d, 1, NULL),
+            DAL_OK);
         const double q[] = {0.0, 0.0};
         double v[] = {d.value, 0.0};
         CU_ASSERT_EQUAL(dal_project_velocity(evaluator, 0.0, q, v), k ? DAL_NOT_CONVERGED : DAL_OK);
         dal_evaluator_free(evaluator);
-        dal_model_free(model);
     }
 }
 
@@ -256,8 +246,7 @@ static const kind kinds[] = {
 
 static void examine_kind(const kind *expected)
 {
-    dal_model *model = fixture_model(expected->text);
-    dal_evaluator *evaluator = evaluator_of(fixture_system(model));
+    dal_evaluator *evaluator = evaluator_of(fixture_system(expected->text));
     double x[8], degree = -1.0;
     dal_constraint_class d;
     CU_ASSERT_EQUAL(dal_evaluator_start(evaluator, NULL, 0, x, NULL), DAL_OK);
@@ -272,7 +261,6 @@ static void examine_kind(const kind *expected)
     if (d.homogeneous) CU_ASSERT_DOUBLE_EQUAL(degree, expected->degree, 1e-9);
     CU_ASSERT_EQUAL(d.reversible, expected->reversible);
     dal_evaluator_free(evaluator);
-    dal_model_free(model);
 }
 
 static void test_degree(void)
@@ -299,8 +287,7 @@ static void test_nearly(void)
         dal_constraint_class d;
         snprintf(text, sizeof text, PLANE "[x' + 2*y' - z' + %g*%s]\nstart: {x': 1, z': 1}\n",
                  factor[i % 2], cases[i / 2].more);
-        dal_model *model = fixture_model(text);
-        dal_evaluator *evaluator = evaluator_of(fixture_system(model));
+        dal_evaluator *evaluator = evaluator_of(fixture_system(text));
         CU_ASSERT_EQUAL(dal_evaluator_start(evaluator, NULL, 0, x, NULL), DAL_OK);
         const dal_point at = {.t = 0.0, .q = x, .v = x + 3};
         CU_ASSERT_EQUAL(dal_classify_constraints(evaluator, &at, &d, NULL), DAL_OK);
@@ -311,7 +298,6 @@ static void test_nearly(void)
         CU_ASSERT_EQUAL(d.parity, i % 2 ? cases[i / 2].parity : -1);
         CU_ASSERT_EQUAL(d.homogeneous, i % 2 ? cases[i / 2].homogeneous : 1);
         dal_evaluator_free(evaluator);
-        dal_model_free(model);
     }
 }
 
@@ -329,8 +315,7 @@ static void test_nearly_dependent(void)
                  PLANE "[x' - y', x' - (1 + s)*y']\n"
                        "parameters: {s: %g}\n",
                  s[i]);
-        dal_model *model = fixture_model(text);
-        dal_evaluator *evaluator = evaluator_of(fixture_system(model));
+        dal_evaluator *evaluator = evaluator_of(fixture_system(text));
         CU_ASSERT_EQUAL(dal_evaluator_start(evaluator, NULL, 0, x, NULL), DAL_OK);
         const dal_point at = {.t = 0.0, .q = x, .v = x + 3};
         CU_ASSERT_EQUAL(dal_measure_rank(evaluator, &at, &rank, &pivot), DAL_OK);
@@ -338,7 +323,6 @@ static void test_nearly_dependent(void)
         CU_ASSERT_EQUAL(rank, full ? 2 : 1);
         CU_ASSERT_DOUBLE_EQUAL(pivot, full ? s[i] * s[i] / 8.0 : 0.0, 0.15 * s[i] * s[i] / 8.0);
         dal_evaluator_free(evaluator);
-        dal_model_free(model);
     }
 }
 
@@ -348,14 +332,17 @@ static void test_nearly_reversible(void)
 {
     static const double frictions[] = {0.0, 1e-12, 3.7e-11, 5.1e-11, 1e-9, 1e-4};
     for (int i = 0; i < 6; i++) {
-        dal_model *model = fixture_model("coordinates: [x]\nparameters: {k: 0}\n"
-                                         "accelerations: {x: -0.5*x - k*x'}\nstart: {x': 1}\n");
         const dal_setting k = {"k", frictions[i]};
         dal_evaluator *evaluator;
         double x[3];
         dal_constraint_class d;
-        CU_ASSERT_EQUAL_FATAL(dal_evaluator_create(&evaluator, fixture_system(model), &k, 1, NULL),
-                              DAL_OK);
+        CU_ASSERT_EQUAL_FATAL(
+            dal_evaluator_create(
+                &evaluator,
+                fixture_system("coordinates: [x]\nparameters: {k: 0}\n"
+                               "accelerations: {x: -0.5*x - k*x'}\nstart: {x': 1}\n"),
+                &k, 1, NULL),
+            DAL_OK);
         CU_ASSERT_EQUAL(dal_evaluator_start(evaluator, NULL, 0, x, NULL), DAL_OK);
         const dal_point at = {.t = 0.0, .q = x, .v = x + 1};
         CU_ASSERT_EQUAL(dal_classify_constraints(evaluator, &at, &d, NULL), DAL_OK);
@@ -363,7 +350,6 @@ static void test_nearly_reversible(void)
         CU_ASSERT(d.force_defect <= 2.6 * frictions[i] + 1e-15);
         CU_ASSERT_EQUAL(d.reversible, i < 3);
         dal_evaluator_free(evaluator);
-        dal_model_free(model);
     }
 }
 
@@ -386,8 +372,7 @@ static void test_unmeasured(void)
 {
     const double q[] = {0.1, 0.2}, v[] = {1.0, 0.5};
     const dal_point at = {.t = 0.0, .q = q, .v = v};
-    dal_model *model = fixture_model(no_values);
-    const dal_system *system = fixture_system(model);
+    const dal_system *system = fixture_system(no_values);
     dal_evaluator *evaluator = evaluator_of(system);
     dal_derivatives derivatives;
     dal_constraint_class class;
@@ -399,7 +384,6 @@ static void test_unmeasured(void)
     CU_ASSERT(!class.linear && !class.constant && !class.bilinear && !class.quadratic);
     CU_ASSERT(!class.homogeneous);
     dal_evaluator_free(evaluator);
-    dal_model_free(model);
     const dal_system empty = {.name = "empty", .n = 1, .call = {.field = no_field}};
     evaluator = evaluator_of(&empty);
     CU_ASSERT_EQUAL(dal_classify_constraints(evaluator, &at, &class, NULL), DAL_OK);
@@ -416,15 +400,13 @@ static void test_derivatives_anywhere(void)
                                  "coordinates: [x]\naccelerations: {x: -1e-6*sin(1e6*x + 1)}\n"};
     const double place[] = {1e5, 0.0}, v = 0.3;
     for (int k = 0; k < 2; k++) {
-        dal_model *model = fixture_model(texts[k]);
-        dal_evaluator *evaluator = evaluator_of(fixture_system(model));
+        dal_evaluator *evaluator = evaluator_of(fixture_system(texts[k]));
         const dal_point at = {.t = 0.0, .q = &place[k], .v = &v};
         dal_derivatives d;
         CU_ASSERT_EQUAL(dal_check_derivatives(evaluator, &at, &d), DAL_OK);
         CU_ASSERT(d.jacobian >= 0.0 && d.jacobian < 1e-8);
         CU_ASSERT(d.adjoint >= 0.0 && d.adjoint < 1e-8);
         dal_evaluator_free(evaluator);
-        dal_model_free(model);
     }
 }
 
@@ -454,15 +436,13 @@ static dal_status all_measures(const dal_system *system)
 
 static void test_out_of_memory(void)
 {
-    dal_model *model = fixture_model("chaplygin-sleigh");
-    const dal_system *system = fixture_system(model);
+    const dal_system *system = fixture_system("chaplygin-sleigh");
     allocation_trial trial = {0};
     while (allocation_next(&trial)) {
         allocation_start(&trial);
         allocation_end(&trial, all_measures(system));
     }
     CU_ASSERT(trial.failures >= 7);
-    dal_model_free(model);
 }
 
 void suite_measure(void)

@@ -147,9 +147,8 @@ static void same_series(const subject *of, const dal_system *system, int way)
 static void test_bits(void)
 {
     for (size_t i = 0; i < sizeof subjects / sizeof subjects[0]; i++) {
-        dal_model *model = fixture_model(subjects[i].system);
-        for (int way = 0; way < 16; way++) same_series(&subjects[i], fixture_system(model), way);
-        dal_model_free(model);
+        for (int way = 0; way < 16; way++)
+            same_series(&subjects[i], fixture_system(subjects[i].system), way);
     }
 }
 
@@ -158,8 +157,7 @@ static void test_pieces(void)
 {
     static series whole, pieces;
     enum { ROWS = 23 };
-    dal_model *model = fixture_model(subjects[0].system);
-    const dal_system *system = fixture_system(model);
+    const dal_system *system = fixture_system(subjects[0].system);
     dal_run *run = run_of(&subjects[0], system), *other = run_of(&subjects[0], system);
     size_t count;
     begin(&whole, run);
@@ -179,7 +177,6 @@ static void test_pieces(void)
     CU_ASSERT_EQUAL(memcmp(whole.statistics, pieces.statistics, sizeof whole.statistics), 0);
     dal_run_free(run);
     dal_run_free(other);
-    dal_model_free(model);
 }
 
 /* ---- ends before their time ---- */
@@ -189,10 +186,9 @@ static void test_failure(void)
 {
     static series one, many;
     const subject fall = {falling, "rk4", DAL_PHYSICAL, 0};
-    dal_model *model = fixture_model(falling);
-    dal_run *plain = run_of(&fall, fixture_system(model));
+    dal_run *plain = run_of(&fall, fixture_system(falling));
     for (int way = 0; way < 4; way++) {
-        dal_run *run = run_of(&fall, fixture_system(model));
+        dal_run *run = run_of(&fall, fixture_system(falling));
         begin(&one, run);
         begin(&many, run);
         compile(run, way & 1, way & 2);
@@ -207,16 +203,14 @@ static void test_failure(void)
         dal_run_free(run);
     }
     dal_run_free(plain);
-    dal_model_free(model);
 }
 
 /* An observer that wants no more ends the run where it stands. */
 static void test_refusal(void)
 {
     static series s;
-    dal_model *model = fixture_model(subjects[0].system);
     for (int way = 0; way < 4; way++) {
-        dal_run *run = run_of(&subjects[0], fixture_system(model));
+        dal_run *run = run_of(&subjects[0], fixture_system(subjects[0].system));
         begin(&s, run);
         s.refuse = 300;
         compile(run, way & 1, way & 2);
@@ -224,7 +218,6 @@ static void test_refusal(void)
         CU_ASSERT(s.samples > 300 && dal_run_steps(run) == s.samples - 1);
         dal_run_free(run);
     }
-    dal_model_free(model);
 }
 
 void suite_observables(void)

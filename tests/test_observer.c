@@ -36,10 +36,7 @@ static double given(void *user, long long row)
 /* 100 steps of 0.1; rows on, between and at the end of steps do not disturb the observer. */
 static void test_calls(void)
 {
-    dal_model *model;
-    const dal_system *system;
-    CU_ASSERT_EQUAL_FATAL(dal_model_builtin(&model, "chaplygin-sleigh", NULL), DAL_OK);
-    CU_ASSERT_EQUAL_FATAL(dal_model_system(model, &system, NULL), DAL_OK);
+    const dal_system *system = fixture_system("chaplygin-sleigh");
     const dal_run_spec spec = fixture_spec(system, "rk4", DAL_PHYSICAL, 0.1);
     for (int every = 1; every <= 7; every += 3) {
         samples l = {.every = every};
@@ -53,7 +50,6 @@ static void test_calls(void)
         CU_ASSERT_EQUAL(dal_run_steps(run), 100);
         dal_run_free(run);
     }
-    dal_model_free(model);
 }
 
 void suite_observer(void)

@@ -52,9 +52,9 @@ static const char *join(const char *base, const char *modifier, const char *more
 
 static void check_order(const struct composed *k, const char *name, double displacement)
 {
-    dal_model *model = fixture_model(k->fixture);
     for (int space = 0; space < 2; space++) {
-        const dal_run_spec spec = fixture_spec(fixture_system(model), name, (dal_space)space, 0.1);
+        const dal_run_spec spec =
+            fixture_spec(fixture_system(k->fixture), name, (dal_space)space, 0.1);
         CU_ASSERT_EQUAL(dal_method_order(&spec.method), k->order);
         const double seen =
             fixture_order(spec, k->T, k->coarse, k->fine, space == DAL_LIFTED ? displacement : 0.0);
@@ -62,7 +62,6 @@ static void check_order(const struct composed *k, const char *name, double displ
             printf("\n  %s, space %d: observed order %.3f\n", name, space, seen);
         CU_ASSERT(fabs(seen - k->order) <= 0.1);
     }
-    dal_model_free(model);
 }
 
 static void test_order(void)
@@ -83,19 +82,18 @@ static void test_order_projected(void)
 
 static void test_symmetric(void)
 {
-    dal_model *model = fixture_model(fixture_bilinear);
     for (int i = 0; i < COMPOSED; i++) {
         for (int b = 0; b < 2; b++) {
             double defect = NAN;
-            const dal_run_spec spec = fixture_spec(
-                fixture_system(model), join(bases[b], composed[i].name, ""), DAL_PHYSICAL, 0.2);
+            const dal_run_spec spec =
+                fixture_spec(fixture_system(fixture_bilinear), join(bases[b], composed[i].name, ""),
+                             DAL_PHYSICAL, 0.2);
             CU_ASSERT(dal_method_properties(&spec.method) & DAL_SYMMETRIC);
             CU_ASSERT_EQUAL(dal_check_reversibility(&spec, 0.0, NULL, &defect, NULL), DAL_OK);
             if (!(defect <= 1e-14)) printf("\n  %s: defect %.2e\n", composed[i].name, defect);
             CU_ASSERT(defect <= 1e-14);
         }
     }
-    dal_model_free(model);
 }
 
 static double symplectic_defect(const dal_run_spec *spec)
@@ -111,30 +109,28 @@ static double symplectic_defect(const dal_run_spec *spec)
 
 static void test_symplectic(void)
 {
-    dal_model *model = fixture_model(fixture_full);
     for (int i = 0; i < COMPOSED; i++) {
         for (int b = 0; b < 2; b++) {
-            const dal_run_spec spec = fixture_spec(
-                fixture_system(model), join(bases[b], composed[i].name, ""), DAL_LIFTED, 0.1);
+            const dal_run_spec spec =
+                fixture_spec(fixture_system(fixture_full), join(bases[b], composed[i].name, ""),
+                             DAL_LIFTED, 0.1);
             const double defect = symplectic_defect(&spec);
             CU_ASSERT(dal_method_properties(&spec.method) & DAL_SYMPLECTIC);
             if (!(defect <= 1e-9)) printf("\n  %s: defect %.2e\n", composed[i].name, defect);
             CU_ASSERT(defect <= 1e-9);
         }
     }
-    const dal_run_spec projected =
-        fixture_spec(fixture_system(model), "stormer-verlet+yoshida4+project", DAL_LIFTED, 0.1);
+    const dal_run_spec projected = fixture_spec(fixture_system(fixture_full),
+                                                "stormer-verlet+yoshida4+project", DAL_LIFTED, 0.1);
     CU_ASSERT_FALSE(dal_method_properties(&projected.method) & (DAL_SYMPLECTIC | DAL_SYMMETRIC));
     CU_ASSERT(symplectic_defect(&projected) >= 1e-7);
-    dal_model_free(model);
 }
 
 /* ---- D ---- */
 
 static double max_d(const char *fixture, const char *method, double h, long long count)
 {
-    dal_model *model = fixture_model(fixture);
-    const dal_run_spec spec = fixture_spec(fixture_system(model), method, DAL_PHYSICAL, h);
+    const dal_run_spec spec = fixture_spec(fixture_system(fixture), method, DAL_PHYSICAL, h);
     dal_run *run = fixture_run(&spec);
     double seen[32], max = 0.0;
     for (long long i = 0; i < count; i += 10) {
@@ -143,7 +139,6 @@ static double max_d(const char *fixture, const char *method, double h, long long
         for (int a = 0; a < spec.system->m; a++) max = fmax(max, fabs(seen[a]));
     }
     dal_run_free(run);
-    dal_model_free(model);
     return max;
 }
 
@@ -175,8 +170,7 @@ static void surface_end(const dal_system *system, const char *name, dal_space sp
 
 static void test_surface(void)
 {
-    dal_model *model = fixture_model(fixture_full);
-    const dal_system *system = fixture_system(model);
+    const dal_system *system = fixture_system(fixture_full);
     for (int i = 0; i < COMPOSED; i++) {
         for (int b = 0; b < 2; b++) {
             double physical[8], lifted[8];
@@ -185,7 +179,6 @@ static void test_surface(void)
             CU_ASSERT_EQUAL(memcmp(physical, lifted, sizeof lifted), 0);
         }
     }
-    dal_model_free(model);
 }
 
 /* ---- the steps ---- */
@@ -225,15 +218,13 @@ static void refused(const dal_system *system, const char *name, const char *reas
 
 static void test_refused(void)
 {
-    dal_model *model = fixture_model(fixture_full);
-    const dal_system *system = fixture_system(model);
+    const dal_system *system = fixture_system(fixture_full);
     refused(system, "rk4+yoshida4", "+yoshida4 needs a symmetric method: rk4 is not symmetric");
     refused(system, "gauss4+suzuki8", "+suzuki8 needs a method of order 2: gauss4 is of order 4");
     refused(system, "stormer-verlet+project+suzuki4",
             "+suzuki4 needs a symmetric method: stormer-verlet+project is not symmetric");
     refused(system, "stormer-verlet+yoshida4+yoshida6",
             "+yoshida6 needs a method of order 2: stormer-verlet+yoshida4 is of order 4");
-    dal_model_free(model);
 }
 
 void suite_phase_composition(void)

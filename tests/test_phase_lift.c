@@ -132,14 +132,12 @@ static double symplectic_defect(const dal_system *system, const char *name)
 
 static void test_symplectic(void)
 {
-    dal_model *model = fixture_model(fixture_full);
     for (int i = 0; i < BASES; i++) {
-        const double defect = symplectic_defect(fixture_system(model), lifted_name(i));
+        const double defect = symplectic_defect(fixture_system(fixture_full), lifted_name(i));
         if (!(defect <= 1e-9)) printf("\n  %s: defect %.2e\n", lifted_name(i), defect);
         CU_ASSERT(defect <= 1e-9);
     }
-    CU_ASSERT(symplectic_defect(fixture_system(model), "rk4") >= 1e-7);
-    dal_model_free(model);
+    CU_ASSERT(symplectic_defect(fixture_system(fixture_full), "rk4") >= 1e-7);
 }
 
 /* p.dq + pi.dv with 1/e = 0: kept to rounding, though the base loses it. */
@@ -147,14 +145,13 @@ static void test_pairing(void)
 {
     const dal_setting start[] = {{"e", INFINITY}, {"p_x", 0.7}, {"p_z", -0.4}, {"pi_y", 1.1}};
     const double direction[] = {0.3, -0.2, 0.5, 0.1, 0.4, -0.6};
-    dal_model *model = fixture_model(fixture_bilinear);
-    const dal_system *tangent = NULL;
-    CU_ASSERT_EQUAL_FATAL(dal_model_tangent(model, &tangent, NULL), DAL_OK);
+    const dal_system *tangent = fixture_tangent(fixture_bilinear);
     for (int i = 0; i < 2 * BASES; i++) {
         const bool lifted = i < BASES;
         dal_statistics pairing;
-        dal_run_spec spec = fixture_spec(fixture_system(model), lifted ? lifted_name(i) : "rk4",
-                                         DAL_LIFTED, lifted ? 0.01 : 0.1);
+        dal_run_spec spec =
+            fixture_spec(fixture_system(fixture_bilinear), lifted ? lifted_name(i) : "rk4",
+                         DAL_LIFTED, lifted ? 0.01 : 0.1);
         spec.start = start;
         spec.start_count = 4;
         CU_ASSERT_EQUAL(dal_adjoint_pairing(&spec, tangent, direction, 300, &pairing, NULL),
@@ -163,7 +160,6 @@ static void test_pairing(void)
         const double size = fmax(1.0, dal_statistics_max_abs(&pairing));
         CU_ASSERT(lifted ? moved <= 1e-13 * size : moved > 1e-8);
     }
-    dal_model_free(model);
 }
 
 static void end_state(const dal_system *system, const char *name, dal_space space, double *state)
@@ -178,8 +174,7 @@ static void end_state(const dal_system *system, const char *name, dal_space spac
 /* The bits of the base, on either space. */
 static void test_surface(void)
 {
-    dal_model *model = fixture_model(fixture_full);
-    const dal_system *system = fixture_system(model);
+    const dal_system *system = fixture_system(fixture_full);
     const size_t bytes = 2 * (size_t)system->n * sizeof(double);
     for (int i = 0; i < BASES; i++) {
         double base[32], lift[32], physical[32];
@@ -190,21 +185,17 @@ static void test_surface(void)
         CU_ASSERT_EQUAL(memcmp(base, lift, bytes), 0);
         for (int j = 2 * system->n + 1; j < 4 * system->n + 2; j++) CU_ASSERT_EQUAL(lift[j], 0.0);
     }
-    dal_model_free(model);
 }
 
 /* On the surface the order of the base; off it that of the splitting. */
 static void test_order(void)
 {
-    dal_model *model = fixture_model(fixture_full), *gentle = fixture_model(fixture_gentle);
-    const dal_system *full = fixture_system(model), *weak = fixture_system(gentle);
+    const dal_system *full = fixture_system(fixture_full), *weak = fixture_system(fixture_gentle);
     const dal_run_spec rk4 = fixture_spec(full, "rk4+lift", DAL_LIFTED, 0.1);
     const dal_run_spec dop853 = fixture_spec(weak, "dop853+lift", DAL_LIFTED, 0.1);
     CU_ASSERT(fabs(fixture_order(rk4, 1.0, 40, 400, 0.0) - 4.0) <= 0.1);
     CU_ASSERT(fabs(fixture_order(rk4, 1.0, 40, 400, 0.02) - 2.0) <= 0.1);
     CU_ASSERT(fabs(fixture_order(dop853, 20.0, 46, 82, 0.0) - 8.0) <= 0.1);
-    dal_model_free(model);
-    dal_model_free(gentle);
 }
 
 /* ---- what cannot be lifted ---- */
@@ -217,14 +208,12 @@ static void refused(const dal_system *system, const char *name, const char *reas
 
 static void test_refused(void)
 {
-    dal_model *model = fixture_model(fixture_full);
-    dal_system blind = *fixture_system(model);
+    dal_system blind = *fixture_system(fixture_full);
     refused(&blind, "gauss4+lift", "gauss4 is not one");
     refused(&blind, "symplectic-euler-10+lift", "symplectic-euler-10 is not one");
     refused(&blind, "rk4+project+lift", "rk4+project is not one");
     blind.call.jacobian = NULL;
     refused(&blind, "rk4+lift", "the system has no jacobian");
-    dal_model_free(model);
 }
 
 void suite_phase_lift(void)

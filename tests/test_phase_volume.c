@@ -16,14 +16,11 @@ static dal_balance balance_of(dal_lyapunov *s)
     return b;
 }
 
-static dal_model *kept_model; /* of the exponents that differences() made last */
-
 /* A run by differences from the given start, steps long. */
 static dal_lyapunov *differences(const char *text, const char *method, const dal_setting *start,
                                  int count, long long steps)
 {
-    dal_model *model = fixture_model(text);
-    dal_run_spec spec = fixture_spec(fixture_system(model), method, DAL_PHYSICAL, 0.05);
+    dal_run_spec spec = fixture_spec(fixture_system(text), method, DAL_PHYSICAL, 0.05);
     dal_lyapunov *s = NULL;
     dal_error error = {0};
     spec.start = start;
@@ -31,14 +28,7 @@ static dal_lyapunov *differences(const char *text, const char *method, const dal
     CU_ASSERT_EQUAL_FATAL(dal_lyapunov_create(&s, &spec, NULL, 0, &error), DAL_OK);
     CU_ASSERT_EQUAL_FATAL(dal_lyapunov_advance(s, steps, &error), DAL_OK);
     balance_of(s);
-    kept_model = model;
     return s;
-}
-
-static void free_both(dal_lyapunov *s)
-{
-    dal_lyapunov_free(s);
-    dal_model_free(kept_model);
 }
 
 /* x and y are cyclic: where the sleigh is does not matter, to the bit. */
@@ -53,12 +43,12 @@ static void test_translation(void)
         dal_lyapunov *s = differences("chaplygin-sleigh-offset", methods[k], NULL, 0, 200);
         count = dal_lyapunov_count(s);
         for (int i = 0; i < count; i++) near[i] = fixture_exponent(s, i);
-        free_both(s);
+        dal_lyapunov_free(s);
         s = differences("chaplygin-sleigh-offset", methods[k], far, 2, 200);
         CU_ASSERT_EQUAL_FATAL(dal_lyapunov_count(s), count);
         for (int i = 0; i < count; i++)
             CU_ASSERT_DOUBLE_EQUAL(fixture_exponent(s, i), near[i], 1e-9);
-        free_both(s);
+        dal_lyapunov_free(s);
     }
 }
 
@@ -76,9 +66,8 @@ static void test_far_attractor(void)
         {"x", 1e5}, {"x'", V * cos(phi)}, {"y'", V * sin(phi)}, {"phi'", 0.0}};
     const long long steps = 400;
     for (size_t k = 0; k < sizeof methods / sizeof *methods; k++) {
-        dal_model *model = fixture_model("chaplygin-sleigh-offset");
-        dal_run_spec spec =
-            fixture_spec(fixture_system(model), methods[k].method, DAL_PHYSICAL, 0.001);
+        dal_run_spec spec = fixture_spec(fixture_system("chaplygin-sleigh-offset"),
+                                         methods[k].method, DAL_PHYSICAL, 0.001);
         dal_lyapunov *s = NULL;
         spec.start = start;
         spec.start_count = 4;
@@ -92,7 +81,6 @@ static void test_far_attractor(void)
         CU_ASSERT_DOUBLE_EQUAL(fixture_divergence(s), rate, 1e-9);
         balance_of(s);
         dal_lyapunov_free(s);
-        dal_model_free(model);
     }
 }
 
@@ -113,7 +101,7 @@ static void test_long_way(void)
         CU_ASSERT_DOUBLE_EQUAL(balance_of(s).surface, density / T, 1e-7);
         CU_ASSERT_DOUBLE_EQUAL(fixture_exponent(s, 4), -V / 2.0, 1e-3);
     }
-    free_both(s);
+    dal_lyapunov_free(s);
 }
 
 /* A particle of constant speed in a field: theta = 0 attracts with f/V = 1, and x goes away.  By
@@ -127,7 +115,7 @@ static void test_long_isokinetic(void)
     CU_ASSERT_EQUAL_FATAL(dal_lyapunov_count(s), 3);
     /* theta' = -sin theta: d theta grows by sin(theta)/sin(0.1) */
     CU_ASSERT_DOUBLE_EQUAL(fixture_sum(s), (log(sin(theta)) - log(sin(0.1))) / T, 1e-4);
-    free_both(s);
+    dal_lyapunov_free(s);
 }
 
 static double log_rk4(double z)
@@ -145,14 +133,14 @@ static void test_linear_far(void)
     CU_ASSERT_DOUBLE_EQUAL(fixture_sum(s), log_rk4(-0.015) / 0.05, 1e-9);
     CU_ASSERT_DOUBLE_EQUAL(fixture_divergence(s), -0.3, 1e-14);
     CU_ASSERT_DOUBLE_EQUAL(fixture_exponent(s, 3), log_rk4(-0.015) / 0.05, 1e-1);
-    free_both(s);
+    dal_lyapunov_free(s);
 }
 
 /* In quad precision the state is displaced as a whole. */
 static void test_quad(void)
 {
-    dal_model *model = fixture_model("chaplygin-sleigh-offset");
-    dal_run_spec spec = fixture_spec(fixture_system(model), "gauss4+project", DAL_PHYSICAL, 0.05);
+    dal_run_spec spec = fixture_spec(fixture_system("chaplygin-sleigh-offset"), "gauss4+project",
+                                     DAL_PHYSICAL, 0.05);
     double value[2][5];
     for (int k = 0; k < 2; k++) {
         dal_lyapunov *s = NULL;
@@ -164,7 +152,6 @@ static void test_quad(void)
         dal_lyapunov_free(s);
     }
     for (int i = 0; i < 5; i++) CU_ASSERT_DOUBLE_EQUAL(value[0][i], value[1][i], 1e-9);
-    dal_model_free(model);
 }
 
 /* ---- the balance of volume ---- */
@@ -172,12 +159,10 @@ static void test_quad(void)
 /* J from the tangent system of another motion: x'' = -0.5 x' instead of -0.3 x'. */
 static void test_wrong_derivative(void)
 {
-    dal_model *model = fixture_model("coordinates: [x]\naccelerations: {x: -0.3*x'}\n");
-    dal_model *other = fixture_model("coordinates: [x]\naccelerations: {x: -0.5*x'}\n");
+    const char *const model = "coordinates: [x]\naccelerations: {x: -0.3*x'}\n";
     const dal_run_spec spec = fixture_spec(fixture_system(model), "rk4", DAL_PHYSICAL, 0.05);
-    const dal_system *tangent[2] = {NULL, NULL};
-    CU_ASSERT_EQUAL(dal_model_tangent(model, &tangent[0], NULL), DAL_OK);
-    CU_ASSERT_EQUAL(dal_model_tangent(other, &tangent[1], NULL), DAL_OK);
+    const dal_system *tangent[] = {
+        fixture_tangent(model), fixture_tangent("coordinates: [x]\naccelerations: {x: -0.5*x'}\n")};
     for (int k = 0; k < 2; k++) {
         dal_lyapunov *s = NULL;
         dal_balance b;
@@ -189,8 +174,6 @@ static void test_wrong_derivative(void)
         CU_ASSERT_EQUAL(b.surface, 0.0);
         dal_lyapunov_free(s);
     }
-    dal_model_free(model);
-    dal_model_free(other);
 }
 
 /* Of the flow the sum is the divergence and the growth of |grad D|, at every time and for every
@@ -205,13 +188,13 @@ static void test_balance(void)
         const dal_balance b = balance_of(s);
         CU_ASSERT(fabs(b.difference) < 1e-4);
         CU_ASSERT(k == 0 ? b.surface == 0.0 : fabs(b.surface) > 1e-3);
-        free_both(s);
+        dal_lyapunov_free(s);
     }
 }
 
 static void test_no_balance(void)
 {
-    dal_model *model = fixture_model("chaplygin-sleigh-offset");
+    const dal_system *system = fixture_system("chaplygin-sleigh-offset");
     dal_balance b;
     dal_error error;
     dal_lyapunov *s = NULL;
@@ -225,14 +208,13 @@ static void test_no_balance(void)
                  {"gauss4", 0, 1.5, "too long"}};
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         const dal_run_spec spec =
-            fixture_spec(fixture_system(model), cases[k].method, DAL_PHYSICAL, cases[k].step);
+            fixture_spec(system, cases[k].method, DAL_PHYSICAL, cases[k].step);
         CU_ASSERT_EQUAL_FATAL(dal_lyapunov_create(&s, &spec, NULL, cases[k].count, NULL), DAL_OK);
         CU_ASSERT_EQUAL(dal_lyapunov_advance(s, 3, NULL), DAL_OK);
         CU_ASSERT_EQUAL(dal_lyapunov_balance(s, &b, &error), DAL_UNSUPPORTED);
         CU_ASSERT(strstr(error.message, cases[k].reason) != NULL);
         dal_lyapunov_free(s);
     }
-    dal_model_free(model);
 }
 
 void suite_phase_volume(void)

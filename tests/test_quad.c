@@ -130,10 +130,9 @@ static void test_order(void)
         double step;
         double time;
     } cases[] = {{"implicit-midpoint", 2, 0x1p-18, 0x1p-15}, {"gauss8", 8, 0x1p-4, 0.5}};
-    dal_model *model = fixture_model("chaplygin-sleigh");
     for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        dal_run_spec spec =
-            fixture_spec(fixture_system(model), cases[i].method, DAL_PHYSICAL, cases[i].step);
+        dal_run_spec spec = fixture_spec(fixture_system("chaplygin-sleigh"), cases[i].method,
+                                         DAL_PHYSICAL, cases[i].step);
         spec.options.precision = DAL_QUAD;
         const int steps = (int)(cases[i].time / cases[i].step);
         const double coarse = error_at_end(&spec, steps);
@@ -145,16 +144,14 @@ static void test_order(void)
         CU_ASSERT(fabs(slope - cases[i].order) < 0.02);
         CU_ASSERT(coarse < 1e-16);
     }
-    dal_model_free(model);
 }
 
 /* The midpoint rule keeps quadratic D; its one coefficient is 1/2. */
 static void test_constraint(void)
 {
     double out[32];
-    dal_model *model = fixture_model(fixture_quadratic);
     dal_run_spec spec =
-        fixture_spec(fixture_system(model), "implicit-midpoint", DAL_PHYSICAL, 0.05);
+        fixture_spec(fixture_system(fixture_quadratic), "implicit-midpoint", DAL_PHYSICAL, 0.05);
     dal_run *in_double = stepped(&spec, 200);
     spec.options.precision = DAL_QUAD;
     dal_run *start = fixture_run(&spec);
@@ -168,7 +165,6 @@ static void test_constraint(void)
     dal_run_free(in_double);
     dal_run_free(start);
     dal_run_free(in_quad);
-    dal_model_free(model);
 }
 
 /* Every integrator, and every observable off p = pi = 0: only rounding separates the two. */
@@ -207,8 +203,7 @@ static void compare(const dal_run_spec *of)
 
 static void test_methods(void)
 {
-    dal_model *model = fixture_model("contact-oscillator");
-    const dal_system *system = fixture_system(model);
+    const dal_system *system = fixture_system("contact-oscillator");
     char name[128];
     int compared = 0;
     for (int i = 0; dal_integrator_at(i); i++) {
@@ -221,11 +216,9 @@ static void test_methods(void)
         }
     }
     CU_ASSERT(compared >= 50);
-    dal_model_free(model);
-    model = fixture_model(fixture_full);
-    const dal_run_spec spec = fixture_spec(fixture_system(model), "gauss4", DAL_LIFTED, 0.02);
+    const dal_run_spec spec =
+        fixture_spec(fixture_system(fixture_full), "gauss4", DAL_LIFTED, 0.02);
     compare(&spec);
-    dal_model_free(model);
 }
 
 /* ---- memory ---- */
@@ -240,8 +233,7 @@ static dal_status nothing(void *user, dal_run *run, long long row, double t)
 /* Rows between steps, and a copy of the memory in the middle, change no bit. */
 static void test_memory(void)
 {
-    dal_model *model = fixture_model("knife-edge");
-    dal_run_spec spec = fixture_spec(fixture_system(model), "gauss4", DAL_LIFTED, 0.125);
+    dal_run_spec spec = fixture_spec(fixture_system("knife-edge"), "gauss4", DAL_LIFTED, 0.125);
     spec.options.precision = DAL_QUAD;
     dal_run *straight = stepped(&spec, 16), *sampled = fixture_run(&spec);
     int rows = 0;
@@ -267,7 +259,6 @@ static void test_memory(void)
     dal_run_free(straight);
     dal_run_free(sampled);
     dal_run_free(loaded);
-    dal_model_free(model);
 }
 
 /* ---- refusals ---- */
@@ -288,8 +279,7 @@ static void test_refused(void)
     char *text;
     spec.options.precision = DAL_QUAD;
     fixture_refused(&spec, DAL_UNSUPPORTED, "quad precision: spring has no form in it");
-    dal_model *model = fixture_model("knife-edge");
-    spec = fixture_spec(fixture_system(model), "rk4", DAL_PHYSICAL, 0.1);
+    spec = fixture_spec(fixture_system("knife-edge"), "rk4", DAL_PHYSICAL, 0.1);
     spec.options.precision = DAL_QUAD;
     CU_ASSERT_EQUAL(dal_batch_create(&batch, &spec, 4, 0, &error), DAL_UNSUPPORTED);
     CU_ASSERT_EQUAL(dal_generate(&spec, 1, NULL, &text, &error), DAL_UNSUPPORTED);
@@ -298,7 +288,6 @@ static void test_refused(void)
     dal_integrator outside = *spec.method.layer[0];
     spec.method.layer[0] = &outside;
     fixture_refused(&spec, DAL_UNSUPPORTED, "'rk4' has no form in it");
-    dal_model_free(model);
 }
 
 void suite_quad(void)

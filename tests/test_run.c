@@ -58,8 +58,7 @@ static void test_by_hand(void)
 
 static void test_refusals(void)
 {
-    dal_model *model = fixture_model("chaplygin-sleigh");
-    const dal_system *system = fixture_system(model);
+    const dal_system *system = fixture_system("chaplygin-sleigh");
     const double steps[] = {0.0, -0.1, NAN, INFINITY};
     for (int i = 0; i < 4; i++) {
         const dal_run_spec spec = fixture_spec(system, "rk4", DAL_LIFTED, steps[i]);
@@ -77,13 +76,11 @@ static void test_refusals(void)
     spec = fixture_spec(system, "rk4", DAL_PHYSICAL, 0.1);
     spec.method.layer[0] = NULL;
     fixture_refused(&spec, DAL_ARGUMENT, "integrator");
-    dal_model_free(model);
 }
 
 static void test_settings(void)
 {
-    dal_model *model = fixture_model("chaplygin-sleigh");
-    dal_run_spec spec = fixture_spec(fixture_system(model), "rk4", DAL_LIFTED, 0.1);
+    dal_run_spec spec = fixture_spec(fixture_system("chaplygin-sleigh"), "rk4", DAL_LIFTED, 0.1);
     dal_setting bad = {"omeg", 1.0};
     spec.parameters = &bad;
     spec.parameter_count = 1;
@@ -110,7 +107,6 @@ static void test_settings(void)
     dal_run *run = fixture_run(&spec);
     CU_ASSERT_EQUAL(dal_run_state(run)[3], 2.5);
     dal_run_free(run);
-    dal_model_free(model);
 }
 
 static dal_status stand_still(const dal_system *system, const dal_point *at, double *out)
@@ -186,9 +182,8 @@ static void fails(const char *name, const char *method, double h, long long step
                   const dal_setting *start, int start_count, dal_status status,
                   const char *fragment)
 {
-    dal_model *model = fixture_model(name);
     dal_error error = {0};
-    dal_run_spec spec = fixture_spec(fixture_system(model), method, DAL_LIFTED, h);
+    dal_run_spec spec = fixture_spec(fixture_system(name), method, DAL_LIFTED, h);
     spec.start = start;
     spec.start_count = start_count;
     dal_run *run = fixture_run(&spec);
@@ -197,7 +192,6 @@ static void fails(const char *name, const char *method, double h, long long step
     CU_ASSERT_PTR_NOT_NULL(strstr(error.message, fragment));
     for (int i = 0; i < dal_run_dimension(run); i++) CU_ASSERT(isfinite(dal_run_state(run)[i]));
     dal_run_free(run);
-    dal_model_free(model);
 }
 
 static void test_failures(void)
@@ -232,14 +226,12 @@ static void test_rest_is_singular(void)
     for (int i = 0; i < 9; i++)
         fails(text, methods[i / 3], steps[i % 3], 1000, NULL, 0, DAL_SINGULAR, "constraint 1");
     const dal_setting falling = {"z'", -1.0};
-    dal_model *model = fixture_model(text);
-    dal_run_spec spec = fixture_spec(fixture_system(model), "gauss8", DAL_LIFTED, 0.013);
+    dal_run_spec spec = fixture_spec(fixture_system(text), "gauss8", DAL_LIFTED, 0.013);
     spec.start = &falling;
     spec.start_count = 1;
     dal_run *run = fixture_run(&spec);
     CU_ASSERT_EQUAL(dal_run_advance(run, 100, NULL), DAL_OK);
     dal_run_free(run);
-    dal_model_free(model);
 }
 
 /* A snakeboard whose axles come to stand across it, phi = pi/2, where the two constraints depend;

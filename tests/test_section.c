@@ -62,8 +62,7 @@ static dal_status cross(dal_run *run, double T, int direction, record *r, dal_cr
 static record crossings_of(const char *text, const char *method, double step, double T,
                            int direction, dal_crossings *found)
 {
-    dal_model *model = fixture_model(text);
-    const dal_run_spec spec = fixture_spec(fixture_system(model), method, DAL_PHYSICAL, step);
+    const dal_run_spec spec = fixture_spec(fixture_system(text), method, DAL_PHYSICAL, step);
     dal_run *run = fixture_run(&spec);
     dal_error error = {0};
     record r = {0};
@@ -71,7 +70,6 @@ static record crossings_of(const char *text, const char *method, double step, do
     if (status != DAL_OK) printf("\n  %s\n", error.message);
     CU_ASSERT_EQUAL(status, DAL_OK);
     dal_run_free(run);
-    dal_model_free(model);
     return r;
 }
 
@@ -87,8 +85,8 @@ static dal_status copy_x(void *user, dal_run *run)
 
 static void test_intermediate(void)
 {
-    dal_model *model = fixture_model(OSCILLATOR("x"));
-    const dal_run_spec spec = fixture_spec(fixture_system(model), "gauss12", DAL_LIFTED, 0.25);
+    const dal_run_spec spec =
+        fixture_spec(fixture_system(OSCILLATOR("x")), "gauss12", DAL_LIFTED, 0.25);
     dal_run *run = fixture_run(&spec);
     double seen[2], before[256];
     size_t count;
@@ -107,7 +105,6 @@ static void test_intermediate(void)
     CU_ASSERT_EQUAL(dal_run_intermediate(run, NAN, copy_x, seen, NULL), DAL_ARGUMENT);
     CU_ASSERT_EQUAL(memcmp(before, memory, count * sizeof *memory), 0);
     dal_run_free(run);
-    dal_model_free(model);
 }
 
 /* ---- crossings of a known motion ---- */
@@ -277,8 +274,8 @@ static void test_touches_within(void)
 static void test_whole_steps(void)
 {
     static const double off[] = {0.9e-9, -0.9e-9, 1.1e-9, -1.1e-9};
-    dal_model *model = fixture_model(OSCILLATOR("x"));
-    const dal_run_spec spec = fixture_spec(fixture_system(model), "rk4", DAL_PHYSICAL, 0.25);
+    const dal_run_spec spec =
+        fixture_spec(fixture_system(OSCILLATOR("x")), "rk4", DAL_PHYSICAL, 0.25);
     for (int i = 0; i < 4; i++) {
         dal_run *run = fixture_run(&spec);
         dal_crossings found;
@@ -288,7 +285,6 @@ static void test_whole_steps(void)
         CU_ASSERT_EQUAL(dal_run_steps(run), i < 2 ? 8 : 0);
         dal_run_free(run);
     }
-    dal_model_free(model);
 }
 
 /* g = 0 exactly at a step: (t - 1)^2 touches there, t - 1 crosses there, once. */
@@ -313,7 +309,7 @@ static void test_on_a_step(void)
 
 /* ---- every method, either space ---- */
 
-static void cross_with(dal_model *model, const char *method, dal_space space)
+static void cross_with(const char *model, const char *method, dal_space space)
 {
     dal_run_spec spec = fixture_spec(fixture_system(model), method, space, 0.05);
     if (!fixture_accepts(&spec.method, spec.system, space)) return;
@@ -342,25 +338,23 @@ static void cross_with(dal_model *model, const char *method, dal_space space)
 static void test_methods(void)
 {
     char name[128];
-    dal_model *model =
-        fixture_model("coordinates: [x, y, z]\n"
-                      "lagrangian: (x'^2 + y'^2 + z'^2)/2 - (x^2 + y^2 + z^2)/2\n"
-                      "constraints: [x' + y*z']\n"
-                      "start: {x: 0.8, y: 0.6, z: -0.5, x': -0.24, y': 0.7, z': 0.4}\n"
-                      "invariants: {g: y}\n");
+    const char *const model = "coordinates: [x, y, z]\n"
+                              "lagrangian: (x'^2 + y'^2 + z'^2)/2 - (x^2 + y^2 + z^2)/2\n"
+                              "constraints: [x' + y*z']\n"
+                              "start: {x: 0.8, y: 0.6, z: -0.5, x': -0.24, y': 0.7, z': 0.4}\n"
+                              "invariants: {g: y}\n";
     for (int i = 0; dal_integrator_at(i) != NULL; i++) {
         cross_with(model, fixture_method(i, name, sizeof name), DAL_PHYSICAL);
         cross_with(model, fixture_method(i, name, sizeof name), DAL_LIFTED);
     }
-    dal_model_free(model);
 }
 
 /* ---- what is refused, and ends ---- */
 
 static void test_refuses(void)
 {
-    dal_model *model = fixture_model(OSCILLATOR("log(0.5 - t)"));
-    const dal_run_spec spec = fixture_spec(fixture_system(model), "rk4", DAL_PHYSICAL, 0.1);
+    const dal_run_spec spec =
+        fixture_spec(fixture_system(OSCILLATOR("log(0.5 - t)")), "rk4", DAL_PHYSICAL, 0.1);
     dal_run *run = fixture_run(&spec);
     dal_crossings found;
     dal_error error;
@@ -374,13 +368,12 @@ static void test_refuses(void)
     CU_ASSERT_EQUAL(dal_run_crossings(run, 1.0, &wrong, &found, &error), DAL_ARGUMENT);
     CU_ASSERT(strstr(error.message, "value 2 of 1") != NULL);
     dal_run_free(run);
-    dal_model_free(model);
 }
 
 static void test_stops(void)
 {
-    dal_model *model = fixture_model(OSCILLATOR("x"));
-    const dal_run_spec spec = fixture_spec(fixture_system(model), "rk4", DAL_PHYSICAL, 0.01);
+    const dal_run_spec spec =
+        fixture_spec(fixture_system(OSCILLATOR("x")), "rk4", DAL_PHYSICAL, 0.01);
     dal_run *run = fixture_run(&spec);
     dal_crossings found;
     record r = {.stop_after = 2};
@@ -392,13 +385,12 @@ static void test_stops(void)
     CU_ASSERT_EQUAL(cross(run, 40.0, 0, &r, &found, NULL), DAL_OK);
     CU_ASSERT_EQUAL(r.polls, 4);
     dal_run_free(run);
-    dal_model_free(model);
 }
 
 static void test_out_of_memory(void)
 {
-    dal_model *model = fixture_model(OSCILLATOR("x - 0.999"));
-    const dal_run_spec spec = fixture_spec(fixture_system(model), "rk4", DAL_PHYSICAL, 0.1);
+    const dal_run_spec spec =
+        fixture_spec(fixture_system(OSCILLATOR("x - 0.999")), "rk4", DAL_PHYSICAL, 0.1);
     allocation_trial trial = {0};
     while (allocation_next(&trial)) {
         dal_run *run = fixture_run(&spec);
@@ -409,7 +401,6 @@ static void test_out_of_memory(void)
         dal_run_free(run);
     }
     CU_ASSERT(trial.failures >= 4);
-    dal_model_free(model);
 }
 
 void suite_section(void)

@@ -7,14 +7,12 @@
 /* The status of a run of a text with its start overridden. */
 static dal_status status_of(const char *text, const dal_setting *start, int count)
 {
-    dal_model *model = fixture_model(text);
-    dal_run_spec spec = fixture_spec(fixture_system(model), "rk4", DAL_PHYSICAL, 0.1);
+    dal_run_spec spec = fixture_spec(fixture_system(text), "rk4", DAL_PHYSICAL, 0.1);
     dal_run *run = NULL;
     spec.start = start;
     spec.start_count = count;
     const dal_status status = dal_run_create(&run, &spec, NULL);
     dal_run_free(run);
-    dal_model_free(model);
     return status;
 }
 
@@ -64,16 +62,16 @@ static void test_rank(void)
 /* x = 2 exp(-t): the error is observed where |x - 2|, |x' + 2| <= 1e-10 (1 + 2). */
 static int observables(const char *name, double off)
 {
-    dal_model *model = fixture_model("coordinates: [x]\naccelerations: {x: x}\n"
-                                     "start: {x: 2, x': -2}\nexact: {x: 2*exp(-t)}\n");
-    dal_run_spec spec = fixture_spec(fixture_system(model), "rk4", DAL_PHYSICAL, 0.1);
+    dal_run_spec spec =
+        fixture_spec(fixture_system("coordinates: [x]\naccelerations: {x: x}\n"
+                                    "start: {x: 2, x': -2}\nexact: {x: 2*exp(-t)}\n"),
+                     "rk4", DAL_PHYSICAL, 0.1);
     const dal_setting start = {name, (name[1] ? -2.0 : 2.0) + off};
     spec.start = &start;
     spec.start_count = 1;
     dal_run *run = fixture_run(&spec);
     const int count = dal_run_observables(run);
     dal_run_free(run);
-    dal_model_free(model);
     return count;
 }
 
@@ -90,14 +88,14 @@ static void test_exact(void)
 /* A start that the parameters make infinite is named, with its value. */
 static void test_not_finite(void)
 {
-    dal_model *model = fixture_model("coordinates: [x]\nlagrangian: x'^2/2\nparameters: {k: 0}\n"
-                                     "start: {x: 1e200*exp(k), x': 1}\n");
-    dal_run_spec spec = fixture_spec(fixture_system(model), "rk4", DAL_PHYSICAL, 0.1);
+    dal_run_spec spec =
+        fixture_spec(fixture_system("coordinates: [x]\nlagrangian: x'^2/2\nparameters: {k: 0}\n"
+                                    "start: {x: 1e200*exp(k), x': 1}\n"),
+                     "rk4", DAL_PHYSICAL, 0.1);
     const dal_setting k = {"k", 500.0};
     spec.parameters = &k;
     spec.parameter_count = 1;
     fixture_refused(&spec, DAL_NOT_FINITE, "start x is not finite: inf");
-    dal_model_free(model);
 }
 
 void suite_start(void)

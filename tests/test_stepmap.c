@@ -17,32 +17,29 @@ static void test_order(void)
                  {"stormer-verlet", 0.025, 2.0},
                  {"rk4", 0.025, 4.0},
                  {"gauss4", 0.05, 4.0}};
-    dal_model *model = fixture_model(fixture_full);
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
-        const dal_run_spec spec =
-            fixture_spec(fixture_system(model), cases[k].method, DAL_PHYSICAL, cases[k].step);
+        const dal_run_spec spec = fixture_spec(fixture_system(fixture_full), cases[k].method,
+                                               DAL_PHYSICAL, cases[k].step);
         dal_order order;
         CU_ASSERT_EQUAL(dal_measure_order(&spec, 1.0, 3, NULL, NULL, &order, NULL), DAL_OK);
         CU_ASSERT_DOUBLE_EQUAL(order.order, cases[k].order, 0.1);
         CU_ASSERT_EQUAL(order.step[2], cases[k].step / 4.0);
         CU_ASSERT(order.error[0] > order.error[1] && order.error[1] > order.error[2]);
     }
-    dal_model_free(model);
 }
 
 /* Against the closed form; and nothing is claimed where rounding is all there is. */
 static void test_order_of_reference(void)
 {
-    dal_model *model = fixture_model("chaplygin-sleigh");
     const double x[] = {sin(1.0), 1.0 - cos(1.0), 1.0, cos(1.0), sin(1.0), 1.0};
-    dal_run_spec spec = fixture_spec(fixture_system(model), "gauss6", DAL_PHYSICAL, 0.25);
+    dal_run_spec spec =
+        fixture_spec(fixture_system("chaplygin-sleigh"), "gauss6", DAL_PHYSICAL, 0.25);
     dal_order order;
     CU_ASSERT_EQUAL(dal_measure_order(&spec, 1.0, 3, NULL, x, &order, NULL), DAL_OK);
     CU_ASSERT_DOUBLE_EQUAL(order.order, 6.0, 0.1);
-    spec = fixture_spec(fixture_system(model), "gauss12", DAL_PHYSICAL, 0.0625);
+    spec = fixture_spec(fixture_system("chaplygin-sleigh"), "gauss12", DAL_PHYSICAL, 0.0625);
     CU_ASSERT_EQUAL(dal_measure_order(&spec, 1.0, 2, NULL, x, &order, NULL), DAL_OK);
     CU_ASSERT(isnan(order.order));
-    dal_model_free(model);
 }
 
 /* Slopes of errors h^3 and their noise; rk4 evaluates F four times a step. */
@@ -136,37 +133,34 @@ static void test_whole_steps(void)
 static void test_order_whole_steps(void)
 {
     static const double off[] = {0.9e-9, -0.9e-9, 1.1e-9, -1.1e-9};
-    dal_model *model = fixture_model("chaplygin-sleigh");
-    const dal_run_spec spec = fixture_spec(fixture_system(model), "rk4", DAL_PHYSICAL, 0.25);
+    const dal_run_spec spec =
+        fixture_spec(fixture_system("chaplygin-sleigh"), "rk4", DAL_PHYSICAL, 0.25);
     for (int i = 0; i < 4; i++) {
         dal_order order;
         CU_ASSERT_EQUAL(dal_measure_order(&spec, 1.0 + off[i], 2, NULL, NULL, &order, NULL),
                         i < 2 ? DAL_OK : DAL_ARGUMENT);
     }
-    dal_model_free(model);
 }
 
 static void test_order_work(void)
 {
-    dal_model *model = fixture_model("chaplygin-sleigh");
-    const dal_run_spec spec = fixture_spec(fixture_system(model), "rk4", DAL_PHYSICAL, 0.25);
+    const dal_run_spec spec =
+        fixture_spec(fixture_system("chaplygin-sleigh"), "rk4", DAL_PHYSICAL, 0.25);
     dal_order order;
     CU_ASSERT_EQUAL(dal_measure_order(&spec, 1.0, 3, NULL, NULL, &order, NULL), DAL_OK);
     for (int i = 0; i < 3; i++) CU_ASSERT_EQUAL(order.evaluations[i], 16LL << i);
-    dal_model_free(model);
 }
 
 static void test_order_refuses(void)
 {
-    dal_model *model = fixture_model("chaplygin-sleigh");
-    const dal_run_spec spec = fixture_spec(fixture_system(model), "rk4", DAL_LIFTED, 0.3);
+    const dal_run_spec spec =
+        fixture_spec(fixture_system("chaplygin-sleigh"), "rk4", DAL_LIFTED, 0.3);
     dal_order order;
     dal_error error;
     CU_ASSERT_EQUAL(dal_measure_order(&spec, 1.0, 3, NULL, NULL, &order, &error), DAL_ARGUMENT);
     CU_ASSERT(strstr(error.message, "whole number of steps") != NULL);
     CU_ASSERT_EQUAL(dal_measure_order(&spec, 0.9, 1, NULL, NULL, &order, &error), DAL_ARGUMENT);
     CU_ASSERT_EQUAL(dal_measure_order(&spec, 0.9, 9, NULL, NULL, &order, &error), DAL_ARGUMENT);
-    dal_model_free(model);
 }
 
 /* ---- symplecticity ---- */
@@ -212,14 +206,12 @@ static double expected_rk4_defect(double h)
 
 static void test_symplecticity_closed_form(void)
 {
-    dal_model *model = fixture_model(oscillator);
     const double h = 0.4;
-    dal_run_spec spec = fixture_spec(fixture_system(model), "rk4", DAL_LIFTED, h);
+    dal_run_spec spec = fixture_spec(fixture_system(oscillator), "rk4", DAL_LIFTED, h);
     double defect;
     CU_ASSERT_EQUAL(dal_check_symplecticity(&spec, 0.0, NULL, 0.0, &defect, NULL), DAL_OK);
     CU_ASSERT_DOUBLE_EQUAL(defect, expected_rk4_defect(h), 1e-11);
     CU_ASSERT(defect > 1e-5);
-    dal_model_free(model);
 }
 
 static void test_symplecticity(void)
@@ -234,10 +226,9 @@ static void test_symplecticity(void)
                  {"gauss4", 1},
                  {"rk4", 0},
                  {"gauss4+project", 0}};
-    dal_model *model = fixture_model(fixture_full);
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         const dal_run_spec spec =
-            fixture_spec(fixture_system(model), cases[k].method, DAL_LIFTED, 0.1);
+            fixture_spec(fixture_system(fixture_full), cases[k].method, DAL_LIFTED, 0.1);
         dal_run *run = fixture_run(&spec);
         double defect;
         fixture_perturb(run, 0.5);
@@ -246,17 +237,15 @@ static void test_symplecticity(void)
         CU_ASSERT(cases[k].symplectic ? defect < 1e-10 : defect > 1e-8);
         dal_run_free(run);
     }
-    dal_model_free(model);
 }
 
 /* The angle of a pendulum that has gone round 16000 times. */
 static void test_symplecticity_far(void)
 {
-    dal_model *model = fixture_model("coordinates: [phi]\n"
-                                     "accelerations: {phi: -sin(phi)}\n"
-                                     "start: {phi: 1e5, phi': 1}\n");
-    const dal_run_spec spec =
-        fixture_spec(fixture_system(model), "stormer-verlet", DAL_LIFTED, 0.1);
+    const dal_run_spec spec = fixture_spec(fixture_system("coordinates: [phi]\n"
+                                                          "accelerations: {phi: -sin(phi)}\n"
+                                                          "start: {phi: 1e5, phi': 1}\n"),
+                                           "stormer-verlet", DAL_LIFTED, 0.1);
     dal_run *run = fixture_run(&spec);
     double defect;
     fixture_perturb(run, 0.5);
@@ -264,13 +253,11 @@ static void test_symplecticity_far(void)
                     DAL_OK);
     CU_ASSERT(defect < 1e-6);
     dal_run_free(run);
-    dal_model_free(model);
 }
 
 static void test_symplecticity_place(void)
 {
-    dal_model *model = fixture_model(fixture_full);
-    dal_run_spec spec = fixture_spec(fixture_system(model), "rk4", DAL_LIFTED, 0.1);
+    dal_run_spec spec = fixture_spec(fixture_system(fixture_full), "rk4", DAL_LIFTED, 0.1);
     dal_run *run = fixture_run(&spec);
     double early, late;
     fixture_perturb(run, 0.5);
@@ -281,7 +268,6 @@ static void test_symplecticity_place(void)
     spec.options.space = DAL_PHYSICAL;
     CU_ASSERT_EQUAL(dal_check_symplecticity(&spec, 0.0, NULL, 0.0, &early, NULL), DAL_UNSUPPORTED);
     dal_run_free(run);
-    dal_model_free(model);
 }
 
 /* ---- reversibility ---- */
@@ -289,13 +275,11 @@ static void test_symplecticity_place(void)
 /* Explicit Euler on x'' = -x: rho Phi rho Phi = (1 - hA)(1 + hA) = 1 + h^2. */
 static void test_reversibility_closed_form(void)
 {
-    dal_model *model = fixture_model(oscillator);
     const dal_run_spec spec =
-        fixture_spec(fixture_system(model), "symplectic-euler-00", DAL_PHYSICAL, 0.1);
+        fixture_spec(fixture_system(oscillator), "symplectic-euler-00", DAL_PHYSICAL, 0.1);
     double defect;
     CU_ASSERT_EQUAL(dal_check_reversibility(&spec, 0.0, NULL, &defect, NULL), DAL_OK);
     CU_ASSERT_DOUBLE_EQUAL(defect, 0.1 * 0.1 * 0.7, 1e-15);
-    dal_model_free(model);
 }
 
 /* Off p = pi = 0 as well, where rho turns p and pi_e but not pi. */
@@ -303,11 +287,10 @@ static void test_reversibility(void)
 {
     const char *const systems[] = {"contact-oscillator", "chaplygin-sleigh", "appell-hamel"};
     for (size_t k = 0; k < sizeof systems / sizeof *systems; k++) {
-        dal_model *model = fixture_model(systems[k]);
         const char *const methods[] = {"implicit-midpoint", "gauss8", "stormer-verlet", "rk4"};
         for (int i = 0; i < 4; i++) {
             const dal_run_spec spec =
-                fixture_spec(fixture_system(model), methods[i], DAL_LIFTED, 0.2);
+                fixture_spec(fixture_system(systems[k]), methods[i], DAL_LIFTED, 0.2);
             dal_run *run = fixture_run(&spec);
             double defect;
             fixture_perturb(run, 0.5);
@@ -316,58 +299,52 @@ static void test_reversibility(void)
             CU_ASSERT(i < 3 ? defect < 1e-14 : defect > 1e-10);
             dal_run_free(run);
         }
-        dal_model_free(model);
     }
 }
 
 /* F(q,-v,-t) = F(q,v,t) where time enters by cos(t): the second step begins at minus the time. */
 static void test_reversibility_in_time(void)
 {
-    dal_model *model = fixture_model("coordinates: [x]\naccelerations: {x: -x*(1 + cos(t)/2)}\n");
-    const dal_run_spec spec = fixture_spec(fixture_system(model), "gauss4", DAL_PHYSICAL, 0.1);
+    const dal_run_spec spec =
+        fixture_spec(fixture_system("coordinates: [x]\naccelerations: {x: -x*(1 + cos(t)/2)}\n"),
+                     "gauss4", DAL_PHYSICAL, 0.1);
     const double state[] = {0.7, 0.4};
     double defect;
     CU_ASSERT_EQUAL(dal_check_reversibility(&spec, 0.8, state, &defect, NULL), DAL_OK);
     CU_ASSERT(defect < 1e-15);
-    dal_model_free(model);
 }
 
 /* A motion that friction makes irreversible is so with a symmetric method, too; a vakonomic one
  * turns round when g changes its sign with v. */
 static void test_irreversible_and_vakonomic(void)
 {
-    dal_model *model = fixture_model("chaplygin-sleigh-friction");
-    dal_run_spec spec = fixture_spec(fixture_system(model), "gauss8", DAL_PHYSICAL, 0.1);
+    const dal_system *system = fixture_system("chaplygin-sleigh-friction");
+    dal_run_spec spec = fixture_spec(system, "gauss8", DAL_PHYSICAL, 0.1);
     const double state[] = {0.1, 0.2, 0.3, 1.0, 0.5, 1.0};
     double defect;
     CU_ASSERT_EQUAL(dal_check_reversibility(&spec, 0.0, state, &defect, NULL), DAL_OK);
     CU_ASSERT(defect > 0.01);
-    dal_model_free(model);
-    model = fixture_model("chaplygin-sleigh-vakonomic");
-    spec = fixture_spec(fixture_system(model), "gauss8", DAL_PHYSICAL, 0.1);
+    system = fixture_system("chaplygin-sleigh-vakonomic");
+    spec = fixture_spec(system, "gauss8", DAL_PHYSICAL, 0.1);
     CU_ASSERT_EQUAL(dal_check_reversibility(&spec, 0.0, NULL, &defect, NULL), DAL_OK);
     CU_ASSERT(defect < 1e-14);
-    dal_model_free(model);
 }
 
 /* ---- pairing ---- */
 
 static double pairing_of(const char *text, const char *method, long long steps)
 {
-    dal_model *model = fixture_model(text);
-    const dal_system *tangent = NULL;
     const double direction[] = {0.3, -0.2, 0.5, 0.1, 0.4, -0.6};
     const dal_setting start[] = {{"p_x", 0.7}, {"p_z", -0.4}, {"pi_y", 0.5}, {"e", 2.0}};
     dal_statistics pairing;
-    CU_ASSERT_EQUAL_FATAL(dal_model_tangent(model, &tangent, NULL), DAL_OK);
-    dal_run_spec spec = fixture_spec(fixture_system(model), method, DAL_LIFTED, 0.05);
+    const dal_system *tangent = fixture_tangent(text);
+    dal_run_spec spec = fixture_spec(fixture_system(text), method, DAL_LIFTED, 0.05);
     spec.start = start;
     spec.start_count = 4;
     CU_ASSERT_EQUAL(dal_adjoint_pairing(&spec, tangent, direction, steps, &pairing, NULL), DAL_OK);
     CU_ASSERT_EQUAL(pairing.count, steps + 1);
     /* p.dq + pi.dv at the start */
     CU_ASSERT_DOUBLE_EQUAL(pairing.first, 0.7 * 0.3 - 0.4 * 0.5 + 0.5 * 0.4, 1e-15);
-    dal_model_free(model);
     return dal_statistics_deviation(&pairing);
 }
 
@@ -397,17 +374,15 @@ static dal_status all_measures(const dal_run_spec *spec, const dal_system *tange
 
 static void test_out_of_memory(void)
 {
-    dal_model *model = fixture_model(fixture_bilinear);
-    const dal_system *tangent = NULL;
-    const dal_run_spec spec = fixture_spec(fixture_system(model), "rk4", DAL_LIFTED, 0.25);
-    CU_ASSERT_EQUAL_FATAL(dal_model_tangent(model, &tangent, NULL), DAL_OK);
+    const dal_run_spec spec =
+        fixture_spec(fixture_system(fixture_bilinear), "rk4", DAL_LIFTED, 0.25);
+    const dal_system *tangent = fixture_tangent(fixture_bilinear);
     allocation_trial trial = {0};
     while (allocation_next(&trial)) {
         allocation_start(&trial);
         allocation_end(&trial, all_measures(&spec, tangent));
     }
     CU_ASSERT(trial.failures >= 8);
-    dal_model_free(model);
 }
 
 void suite_stepmap(void)

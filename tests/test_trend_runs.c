@@ -1,5 +1,6 @@
 /* test_trend_runs.c - trends of runs of shipped systems: those that were named wrongly once, and
  * whether a run fifty times as long contradicts the statement about a short one. */
+#include "fixtures.h"
 #include "quick.h"
 #include "series.h"
 #include <CUnit/CUnit.h>
@@ -22,20 +23,14 @@ static dal_status take(void *user, dal_run *run, int samples, const double *at,
 static int run_trends(const char *system, const char *method, double h, double T,
                       const char *observable, dal_trend *trend)
 {
-    dal_run_spec spec = {.options = dal_options_default()};
+    const dal_run_spec spec = fixture_spec(fixture_system(system), method, DAL_PHYSICAL, h);
     dal_statistics statistics[OBSERVABLES];
     const dal_observer observer = {.user = statistics, .values = take, .every = 1};
-    dal_model *model = NULL;
-    dal_run *run = NULL;
+    dal_run *run = NULL; /* a method may refuse the system */
     char name[64];
     int place = -1;
-    spec.options.step = h;
-    spec.options.space = DAL_PHYSICAL;
     dal_statistics_start(statistics, OBSERVABLES);
-    if (dal_model_builtin(&model, system, NULL) == DAL_OK &&
-        dal_model_system(model, &spec.system, NULL) == DAL_OK &&
-        dal_method_parse(&spec.method, method, NULL) == DAL_OK &&
-        dal_run_create(&run, &spec, NULL) == DAL_OK &&
+    if (dal_run_create(&run, &spec, NULL) == DAL_OK &&
         dal_run_sample(run, T, 1, 0, &observer, NULL) == DAL_OK) {
         dal_run_classify(run, statistics, 0, trend);
         for (int i = 0; i < dal_run_observables(run); i++) {
@@ -45,7 +40,6 @@ static int run_trends(const char *system, const char *method, double h, double T
         }
     }
     dal_run_free(run);
-    dal_model_free(model);
     return place;
 }
 
