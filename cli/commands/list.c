@@ -137,8 +137,8 @@ static const char *kind(const dal_system *system)
 static const char *energy(const dal_system *system)
 {
     if (!system->energy) return "-";
-    if (system->properties & DAL_E_EXACT) return "kept";
-    return system->properties & DAL_E_ON_D ? "kept on D = 0" : "not kept";
+    if (system->properties & DAL_E_EXACT) return "conserved";
+    return system->properties & DAL_E_ON_D ? "conserved on D = 0" : "not conserved";
 }
 
 static int add_system(text_table *t, const char *name, bool markdown)
@@ -171,30 +171,37 @@ static int list_systems(bool markdown)
 
 /* ---- integrators --------------------------------------------------------------------------- */
 
-static const struct {
-    unsigned property;
+typedef struct property {
+    unsigned code;
     const char *text;
-} properties[] = {{DAL_EXPLICIT, "explicit"},
-                  {DAL_SYMMETRIC, "symmetric"},
-                  {DAL_SYMPLECTIC, "symplectic lift"},
-                  {DAL_PRESERVES_BILINEAR, "bilinear D"},
-                  {DAL_PRESERVES_QUADRATIC, "quadratic D"},
-                  {DAL_PRESERVES_D, "every D"},
-                  {DAL_PRESERVES_D_MIDPOINT, "D at midpoints"},
-                  {DAL_PRESERVES_ENERGY, "energy"},
-                  {DAL_PERSISTENT_MULTIPLIER, "carries multipliers"},
-                  {DAL_ADAPTIVE, "adaptive"}};
+} property;
+
+static const property qualities[] = {
+    {DAL_EXPLICIT, "explicit"},          {DAL_SYMMETRIC, "symmetric"},
+    {DAL_SYMPLECTIC, "symplectic lift"}, {DAL_PERSISTENT_MULTIPLIER, "persistent multipliers"},
+    {DAL_ADAPTIVE, "adaptive"},          {0, NULL}};
+static const property invariants[] = {
+    {DAL_PRESERVES_BILINEAR, "bilinear D"}, {DAL_PRESERVES_QUADRATIC, "quadratic D"},
+    {DAL_PRESERVES_D, "every D"},           {DAL_PRESERVES_D_MIDPOINT, "D at midpoints"},
+    {DAL_PRESERVES_ENERGY, "energy"},       {0, NULL}};
+
+static void add_properties(text_table *t, const dal_integrator *integrator, const property *p)
+{
+    char line[160] = "";
+    size_t n = 0;
+    bool inherits = false;
+    for (; p->text; p++) {
+        inherits |= (integrator->inherits & p->code) != 0;
+        if (integrator->properties & p->code)
+            n += (size_t)snprintf(line + n, sizeof line - n, "%s%s", n ? ", " : "", p->text);
+    }
+    add_cell(t, "%s", n ? line : inherits ? "as NAME" : "-");
+}
 
 static void add_integrator(text_table *t, const dal_integrator *integrator, bool markdown)
 {
     const char *tick = markdown ? "`" : "", *alias = integrator->alias;
     const char *plus = integrator->properties & DAL_MODIFIER ? "+" : "";
-    char line[160] = "";
-    size_t n = 0;
-    for (size_t i = 0; i < sizeof properties / sizeof *properties; i++)
-        if (integrator->properties & properties[i].property)
-            n += (size_t)snprintf(line + n, sizeof line - n, "%s%s", n ? ", " : "",
-                                  properties[i].text);
     if (alias)
         add_cell(t, "%s%s%s%s, %s%s%s%s", tick, plus, integrator->name, tick, tick, plus, alias,
                  tick);
@@ -204,15 +211,16 @@ static void add_integrator(text_table *t, const dal_integrator *integrator, bool
         add_cell(t, "%d", integrator->order);
     else
         add_cell(t, "-");
-    add_cell(t, "%s", n ? line : integrator->inherits & DAL_SYMMETRIC ? "as NAME" : "-");
+    add_properties(t, integrator, qualities);
+    add_properties(t, integrator, invariants);
     add_cell(t, "%s", integrator->summary);
     add_cell(t, "%s", integrator->reference);
 }
 
 static int list_integrators(bool markdown)
 {
-    static const char *const headings[] = {"integrator", "order", "keeps or is", "what it is",
-                                           "reference"};
+    static const char *const headings[] = {"integrator", "order",      "properties",
+                                           "preserves",  "what it is", "reference"};
     const dal_integrator *integrator;
     text_table table = begin_table(sizeof headings / sizeof *headings, headings);
     for (int modifiers = 0; modifiers < 2; modifiers++)
@@ -280,8 +288,8 @@ const cli_command command_list = {
         "the motion conserves the energy E = L_v.v - L; whether an exact solution is known.\n"
         "\n"
         "Integrators: 'symplectic lift' concerns the 4n+2 canonical variables only and implies "
-        "nothing about D or the energy; '... D' names the constraints that are preserved to "
-        "rounding on D = 0.  A modifier +WORD follows an integrator, NAME+WORD: rk4+project.  "
+        "nothing about D or the energy.  Constraints D and the energy are preserved to rounding on "
+        "D = 0.  A modifier +WORD follows an integrator, NAME+WORD: rk4+project.  "
         "'as NAME' means the properties of NAME.  'adaptive' takes --tolerance.\n",
     .run = list,
 };
