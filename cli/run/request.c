@@ -38,6 +38,9 @@ static int parse_run_option(void *user, const cli_option *option, const char *te
 {
     run_request *request = user;
     dal_error error = {0};
+    const char *present = cli_renamed_value(option->name, text);
+    if (present)
+        return cli_fail(CLI_USAGE, "--%s: '%s' is called '%s' now", option->name, text, present);
     if (dal_options_set(&request->options, option->name, text, &error) == DAL_OK) return CLI_DONE;
     return cli_error(CLI_USAGE, NULL, &error);
 }

@@ -63,6 +63,9 @@ static int read_option(void *user, const yaml_node_t *key, const char *name, yam
     if (cli_renamed_option(name))
         return document_fail(r->doc, key, "options: %s is called %s now", name,
                              cli_renamed_option(name));
+    if (cli_renamed_value(name, word))
+        return document_fail(r->doc, key, "options: %s: %s is called %s now", name, word,
+                             cli_renamed_value(name, word));
     if (dal_options_set(&r->item->options, name, word, &error) != DAL_OK)
         return document_fail(r->doc, key, "%s", error.message);
     r->item->option[request_find_option(name)] = word;

@@ -11,7 +11,7 @@
 
 const char CLI_REQUIRED[] = "";
 
-/* ---- renamed options ----------------------------------------------------------------------- */
+/* ---- renamed words ------------------------------------------------------------------------- */
 
 /* old, new */
 #define RENAMED_LIST(RENAMED)                                                                      \
@@ -26,6 +26,12 @@ const char *cli_renamed_option(const char *name)
     RENAMED_LIST(RENAMED)
 #undef RENAMED
     return NULL;
+}
+
+const char *cli_renamed_value(const char *option, const char *text)
+{
+    const bool is_long = strcmp(option, "precision") == 0 && strcmp(text, "long") == 0;
+    return is_long ? "quad" : NULL;
 }
 
 /* ---- parsers ------------------------------------------------------------------------------- */

@@ -54,8 +54,9 @@ void cli_set_defaults(const cli_option *options, int count, void *settings);
 int cli_read_arguments(const cli_command *command, int argc, char **argv, const cli_group *groups,
                        int count);
 
-/* The present name of an option that was renamed, or NULL. */
+/* The present name of an option that was renamed, and of a value of an option; or NULL. */
 const char *cli_renamed_option(const char *name);
+const char *cli_renamed_value(const char *option, const char *text);
 
 /* A finite number, or an integer (1e6 is one) in min..max.  what names it in the message, "--time".
  * Return CLI_DONE or CLI_USAGE. */

@@ -61,6 +61,9 @@ says "options: step has a key of its own"
 sed -i 's/step: 3/solve-to: 1e-9/' extended.yaml
 try 2 study extended.yaml --output in-study
 says "extended.yaml:7:55: options: solve-to is called solver-tolerance now"
+sed -i 's/solve-to: 1e-9/precision: long/' extended.yaml
+try 2 study extended.yaml --output in-study
+says "extended.yaml:7:55: options: precision: long is called quad now"
 
 case_is "a method that cannot serve is refused with the reason"
 refuses() { # REASON SYSTEM INTEGRATOR SPACE
