@@ -77,7 +77,7 @@ bool dal__wants(const dal__generation *g, dal__program_code code)
     if (!g->programs->program[code].present) return false;
     if (g->product == DAL__OBSERVE) return observes(g, code);
     const bool watched = g->layout.system->properties & DAL_D_RANK_CHECKED;
-    const bool imposes = dal_method_needs(&g->spec->method) & DAL_NEEDS_BLOCKS;
+    const bool enforces = dal_method_needs(&g->spec->method) & DAL_NEEDS_BLOCKS;
     switch (code) {
     case DAL__PROGRAM_ADJOINT:
     case DAL__PROGRAM_GAUGE:
@@ -85,9 +85,9 @@ bool dal__wants(const dal__generation *g, dal__program_code code)
     case DAL__PROGRAM_JACOBIAN:
         return dal__uses_newton(g) || dal__follows_tangents(g);
     case DAL__PROGRAM_CONSTRAINT:
-        return watched || imposes || dal__method_uses(g, "DAL_EVAL_CONSTRAINT");
+        return watched || enforces || dal__method_uses(g, "DAL_EVAL_CONSTRAINT");
     case DAL__PROGRAM_BLOCKS:
-        return imposes;
+        return enforces;
     case DAL__PROGRAM_POTENTIAL:
         return dal_method_needs(&g->spec->method) & DAL_NEEDS_POTENTIAL;
     case DAL__PROGRAM_ENERGY_NORMAL:

@@ -194,10 +194,10 @@ static dal_status measure(dal__layout *k, dal_error *error)
     const double dim = k->dim, n = k->n, nw = k->nw, m = k->m, stages = k->stages;
     const double matrix = (stages * nw) * (stages * nw) * (k->system->call.jacobian ? 6 : 0);
     const double constraint = 4 * (m + 2 * m * n) + 8 * m * m;
-    const bool imposes = dal_method_needs(&k->method) & DAL_NEEDS_BLOCKS;
+    const bool enforces = dal_method_needs(&k->method) & DAL_NEEDS_BLOCKS;
     const double equations = (stages + 1) * m;
     const double parts =
-        imposes ? 2 * (stages + 2) * (n + 2 * m + 2 * m * n) + 4 * equations * equations : 0;
+        enforces ? 2 * (stages + 2) * (n + 2 * m + 2 * m * n) + 4 * equations * equations : 0;
     const double scratch = (16 * stages + 16) * dim + matrix + 2 * nw * (n + nw) + constraint +
                            parts + 2.0 * k->system->guards + 16 * n + 64;
     if (scratch > MAX_NUMBERS || k->stages > 1000)
