@@ -28,8 +28,11 @@ static char *written(const char *text, size_t *length)
 {
     char *bytes = NULL;
     FILE *out = open_memstream(&bytes, length);
-    json_text_member(out, "{", "key", text);
-    fputs("}\n", out);
+    json_writer w = {.out = out};
+    json_open(&w, NULL, JSON_ON_ONE_LINE);
+    json_put_text(&w, "key", text);
+    json_close(&w);
+    fputc('\n', out);
     fclose(out);
     return bytes;
 }
@@ -173,13 +176,15 @@ static void test_not_utf8(void)
 /* ---- numbers ---- */
 
 /* The value of {"x": NUMBER}; NULL of jansson's is no number. */
-static json_t *number_of(void (*put)(FILE *out, const void *number), const void *number)
+static json_t *number_of(void (*put)(json_writer *writer, const void *number), const void *number)
 {
     char *bytes = NULL;
     size_t length = 0;
     FILE *out = open_memstream(&bytes, &length);
-    put(out, number);
-    fputc('}', out);
+    json_writer w = {.out = out};
+    json_open(&w, NULL, JSON_LINES);
+    put(&w, number);
+    json_close(&w);
     fclose(out);
     json_t *root = json_loadb(bytes, length, JSON_REJECT_DUPLICATES, NULL);
     json_t *value = json_incref(json_object_get(root, "x"));
@@ -188,12 +193,12 @@ static json_t *number_of(void (*put)(FILE *out, const void *number), const void 
     return value;
 }
 
-static void put_double(FILE *out, const void *x)
+static void put_double(json_writer *writer, const void *x)
 {
-    json_number_member(out, "{", "x", *(const double *)x);
+    json_put_number(writer, "x", *(const double *)x);
 }
 
-static void put_given(FILE *out, const void *text) { json_given_member(out, "{", "x", text); }
+static void put_given(json_writer *writer, const void *text) { json_put_given(writer, "x", text); }
 
 static void test_numbers(void)
 {
@@ -235,10 +240,12 @@ static void test_given_numbers(void)
     }
     char *bytes = NULL;
     size_t length = 0;
-    FILE *out = open_memstream(&bytes, &length);
-    json_given_member(out, "", "step", "0.10");
-    fclose(out);
-    CU_ASSERT_STRING_EQUAL(bytes, "\"step\": 0.10");
+    json_writer w = {.out = open_memstream(&bytes, &length)};
+    json_open(&w, NULL, JSON_ON_ONE_LINE);
+    json_put_given(&w, "step", "0.10");
+    json_close(&w);
+    fclose(w.out);
+    CU_ASSERT_STRING_EQUAL(bytes, "{\"step\": 0.10}");
     free(bytes);
 }
 

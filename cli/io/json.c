@@ -56,7 +56,7 @@ static bool is_escaped(unsigned code)
            code == 0xfeff || code >= 0xfffe;
 }
 
-void json_text(FILE *out, const char *text)
+static void put_text(FILE *out, const char *text)
 {
     fputc('"', out);
     for (const unsigned char *s = (const unsigned char *)text; *s;) {
@@ -74,40 +74,75 @@ void json_text(FILE *out, const char *text)
     fputc('"', out);
 }
 
-void json_number(FILE *out, double x)
+/* What goes between two members, and before the first and behind the last on lines of their own. */
+static void put_gap(const json_writer *w, int depth)
 {
+    if (w->depth <= w->lines)
+        fprintf(w->out, "\n%*s", 2 * depth, "");
+    else if (!w->is_empty && depth == w->depth)
+        fputc(' ', w->out);
+}
+
+static FILE *put_name(json_writer *w, const char *name)
+{
+    if (!name) return w->out;
+    if (!w->is_empty) fputc(',', w->out);
+    put_gap(w, w->depth);
+    put_text(w->out, name);
+    fputs(": ", w->out);
+    w->is_empty = false;
+    return w->out;
+}
+
+void json_open(json_writer *w, const char *name, json_layout layout)
+{
+    fputc('{', put_name(w, name));
+    w->depth++;
+    if (layout == JSON_LINES) w->lines = w->depth;
+    w->is_empty = true;
+}
+
+void json_close(json_writer *w)
+{
+    put_gap(w, w->depth - 1);
+    if (w->lines == w->depth) w->lines--;
+    w->depth--;
+    w->is_empty = false;
+    fputc('}', w->out);
+}
+
+void json_put_text(json_writer *w, const char *name, const char *text)
+{
+    put_text(put_name(w, name), text);
+}
+
+void json_put_number(json_writer *w, const char *name, double x)
+{
+    FILE *out = put_name(w, name);
     if (isfinite(x))
         cli_put(out, x);
     else
         fputs("null", out);
 }
 
-static void put_name(FILE *out, const char *before, const char *name)
+void json_put_integer(json_writer *w, const char *name, long long x)
 {
-    fputs(before, out);
-    json_text(out, name);
-    fputs(": ", out);
+    fprintf(put_name(w, name), "%lld", x);
 }
 
-void json_text_member(FILE *out, const char *before, const char *name, const char *text)
+void json_put_source(json_writer *w, const char *name, const char *source)
 {
-    put_name(out, before, name);
-    json_text(out, text);
+    fputs(source, put_name(w, name));
 }
 
-void json_number_member(FILE *out, const char *before, const char *name, double x)
-{
-    put_name(out, before, name);
-    json_number(out, x);
-}
-
-/* RFC 8259: -? (0 | [1-9][0-9]*) (. [0-9]+)? ([eE] [+-]? [0-9]+)? */
-static bool is_number(const char *text)
+/* RFC 8259: -? (0 | [1-9][0-9]*) (. [0-9]+)? ([eE] [+-]? [0-9]+)?  The length of the number that
+ * begins here; 0: none does. */
+static size_t number_length(const char *text)
 {
     static const char digits[] = "0123456789";
     const char *s = text + (*text == '-');
-    size_t n = strspn(s, digits);
-    if (n == 0 || (n > 1 && *s == '0')) return 0;
+    size_t n = *s == '0' ? 1 : strspn(s, digits);
+    if (n == 0) return 0;
     s += n;
     if (*s == '.') {
         n = strspn(++s, digits);
@@ -121,47 +156,213 @@ static bool is_number(const char *text)
         if (n == 0) return 0;
         s += n;
     }
-    return *s == '\0';
+    return (size_t)(s - text);
 }
 
-void json_given_member(FILE *out, const char *before, const char *name, const char *number)
+void json_put_given(json_writer *w, const char *name, const char *number)
 {
     double x = NAN;
-    put_name(out, before, name);
-    if (is_number(number))
-        fputs(number, out);
+    const size_t length = number_length(number);
+    if (length > 0 && !number[length])
+        json_put_source(w, name, number);
     else if (dal_parse_number(number, strlen(number), &x) == DAL_OK)
-        json_number(out, x);
+        json_put_number(w, name, x);
     else
-        json_text(out, number);
+        json_put_text(w, name, number);
 }
 
 /* ---- reading ------------------------------------------------------------------------------- */
 
-int json_parse(document *doc, const char *place, const char *bytes, size_t length)
+typedef struct json_reader {
+    document *doc;
+    const char *text, *at;
+    size_t line;            /* of what stands at `at`, from 0 */
+    const char *line_start; /* of that line */
+    int depth;
+} json_reader;
+
+static yaml_mark_t mark(const json_reader *r)
 {
-    const int status = document_parse(doc, place, bytes, length);
-    if (status != CLI_DONE) return status;
-    const yaml_node_t *root = yaml_document_get_root_node(&doc->yaml);
-    if (root->type == YAML_MAPPING_NODE) return CLI_DONE;
-    return document_fail(doc, root, "an object is wanted");
+    return (yaml_mark_t){(size_t)(r->at - r->text), r->line, (size_t)(r->at - r->line_start)};
 }
 
-/* The marks of libyaml count characters. */
-static size_t byte_of(const char *bytes, size_t character)
+/* Returns 0, which is no node. */
+static int fail(const json_reader *r, const char *reason)
 {
-    size_t i = 0;
-    for (; bytes[i]; i++) {
-        if (is_continuation((unsigned char)bytes[i])) continue;
-        if (character-- == 0) break;
+    const yaml_node_t here = {.start_mark = mark(r)};
+    document_fail(r->doc, &here, "%s", reason);
+    return 0;
+}
+
+static int added(int node)
+{
+    if (!node) cli_out_of_memory();
+    return node;
+}
+
+static void skip_space(json_reader *r)
+{
+    for (; *r->at && strchr(" \t\r\n", *r->at); r->at++)
+        if (*r->at == '\n') {
+            r->line++;
+            r->line_start = r->at + 1;
+        }
+}
+
+/* The code of a \uXXXX that begins at s, or -1. */
+static long parse_escape(const char *s)
+{
+    char digits[5] = "";
+    if (s[0] != '\\' || s[1] != 'u' || strspn(s + 2, "0123456789abcdefABCDEF") < 4) return -1;
+    memcpy(digits, s + 2, 4);
+    return strtol(digits, NULL, 16);
+}
+
+static char *put_code(char *to, long code)
+{
+    static const unsigned char lead[] = {0, 0, 0xc0, 0xe0, 0xf0};
+    const int length = code < 0x80 ? 1 : code < 0x800 ? 2 : code < 0x10000 ? 3 : 4;
+    for (int i = length - 1; i > 0; i--, code >>= 6) to[i] = (char)(0x80 | (code & 0x3f));
+    to[0] = (char)(lead[length] | code);
+    return to + length;
+}
+
+/* Reads an escape at r->at into UTF-8 and returns the end of that, or NULL.  Half of a surrogate
+ * pair is no character. */
+static char *read_escape(json_reader *r, char *to)
+{
+    static const char short_form[] = "\"\\/bfnrt", meaning[] = "\"\\/\b\f\n\r\t";
+    long code = parse_escape(r->at);
+    const char *found = r->at[1] ? strchr(short_form, r->at[1]) : NULL;
+    if (code < 0 && !found) return NULL;
+    r->at += found ? 2 : 6;
+    if (found) {
+        code = (unsigned char)meaning[found - short_form];
+    } else if (code >= 0xd800 && code < 0xe000) {
+        const long low = parse_escape(r->at);
+        const bool is_pair = code < 0xdc00 && low >= 0xdc00 && low < 0xe000;
+        code = is_pair ? 0x10000 + ((code - 0xd800) << 10) + (low - 0xdc00) : 0xfffd;
+        if (is_pair) r->at += 6;
     }
-    return i;
+    return put_code(to, code);
+}
+
+/* A text in quotes; what is read is never longer than what stands there. */
+static int parse_text(json_reader *r)
+{
+    char *text = cli_malloc(strlen(r->at) + 1), *to = text;
+    int node = 0;
+    r->at++;
+    while (to && *r->at != '"') {
+        const int length = length_of((const unsigned char *)r->at);
+        if (*r->at == '\\') {
+            to = read_escape(r, to);
+        } else if (length == 0 || (unsigned char)*r->at < 0x20) {
+            to = NULL;
+        } else {
+            memcpy(to, r->at, (size_t)length);
+            to += length;
+            r->at += length;
+        }
+    }
+    if (to)
+        node = added(yaml_document_add_scalar(&r->doc->yaml, NULL, (const yaml_char_t *)text,
+                                              (int)(to - text), YAML_DOUBLE_QUOTED_SCALAR_STYLE));
+    free(text);
+    r->at += to != NULL;
+    return node ? node : fail(r, "no JSON: the text does not go on so");
+}
+
+/* A number, true, false or null. */
+static int parse_word(json_reader *r)
+{
+    static const char *const words[] = {"true", "false", "null"};
+    size_t length = number_length(r->at);
+    for (int i = 0; i < 3; i++)
+        if (strncmp(r->at, words[i], strlen(words[i])) == 0) length = strlen(words[i]);
+    if (length == 0) return fail(r, "no JSON: a value is expected");
+    r->at += length;
+    return added(yaml_document_add_scalar(&r->doc->yaml, NULL, (const yaml_char_t *)r->at - length,
+                                          (int)length, YAML_PLAIN_SCALAR_STYLE));
+}
+
+static int parse_value(json_reader *r);
+
+/* "NAME": VALUE of an object, or a value of an array. */
+static int parse_member(json_reader *r, int node, bool is_object)
+{
+    int key = 0;
+    skip_space(r);
+    if (is_object) {
+        if (*r->at != '"') return fail(r, "no JSON: a name in quotes is expected");
+        key = parse_value(r);
+        if (!key) return 0;
+        skip_space(r);
+        if (*r->at != ':') return fail(r, "no JSON: a colon is expected");
+        r->at++;
+    }
+    const int value = parse_value(r);
+    if (!value) return 0;
+    skip_space(r);
+    return added(is_object ? yaml_document_append_mapping_pair(&r->doc->yaml, node, key, value)
+                           : yaml_document_append_sequence_item(&r->doc->yaml, node, value));
+}
+
+/* An object or an array. */
+static int parse_members(json_reader *r)
+{
+    const bool is_object = *r->at++ == '{';
+    const char end = is_object ? '}' : ']';
+    const int node = added(
+        is_object ? yaml_document_add_mapping(&r->doc->yaml, NULL, YAML_FLOW_MAPPING_STYLE)
+                  : yaml_document_add_sequence(&r->doc->yaml, NULL, YAML_FLOW_SEQUENCE_STYLE));
+    if (++r->depth > DOCUMENT_DEPTH) return fail(r, "deeper than 32 levels");
+    skip_space(r);
+    if (*r->at != end) {
+        if (!parse_member(r, node, is_object)) return 0;
+        while (*r->at == ',') {
+            r->at++;
+            if (!parse_member(r, node, is_object)) return 0;
+        }
+    }
+    if (*r->at != end) return fail(r, "no JSON: a comma or an end is expected");
+    r->at++;
+    r->depth--;
+    return node;
+}
+
+static int parse_value(json_reader *r)
+{
+    skip_space(r);
+    const yaml_mark_t start = mark(r);
+    const int number = *r->at == '{' || *r->at == '[' ? parse_members(r)
+                       : *r->at == '"'                ? parse_text(r)
+                                                      : parse_word(r);
+    yaml_node_t *node = document_node(r->doc, number);
+    if (!node) return 0;
+    node->start_mark = start;
+    node->end_mark = mark(r);
+    return number;
+}
+
+int json_parse(document *doc, const char *place, const char *bytes, size_t length)
+{
+    json_reader r = {.doc = doc, .text = bytes, .at = bytes, .line_start = bytes};
+    doc->place = place;
+    added(yaml_document_initialize(&doc->yaml, NULL, NULL, NULL, 1, 1));
+    const int root = parse_value(&r);
+    skip_space(&r);
+    if (root && r.at != bytes + length) fail(&r, "no JSON: there is more behind it");
+    if (!root || r.at != bytes + length) return CLI_USAGE;
+    const yaml_node_t *node = document_node(doc, root);
+    if (node->type == YAML_MAPPING_NODE) return CLI_DONE;
+    return document_fail(doc, node, "an object is wanted");
 }
 
 char *json_source(const char *bytes, const yaml_node_t *value)
 {
-    const size_t begin = byte_of(bytes, value->start_mark.index);
-    return cli_strndup(bytes + begin, byte_of(bytes, value->end_mark.index) - begin);
+    return cli_strndup(bytes + value->start_mark.index,
+                       value->end_mark.index - value->start_mark.index);
 }
 
 static char *find_text(const char *path, const char *bytes, size_t length, const char *name)

@@ -8,22 +8,39 @@
 
 #include "document.h"
 
+#include <stdbool.h>
 #include <stdio.h>
 
 /* ---- writing ------------------------------------------------------------------------------- */
 
-void json_text(FILE *out, const char *text);
-void json_number(FILE *out, double x);
-/* "NAME": VALUE behind what goes before, as an indentation or a comma. */
-void json_text_member(FILE *out, const char *before, const char *name, const char *text);
-void json_number_member(FILE *out, const char *before, const char *name, double x);
-/* The same of a number that was given as a text: digit for digit where JSON writes it so. */
-void json_given_member(FILE *out, const char *before, const char *name, const char *number);
+/* Writes objects within each other, with their commas and line ends; begin with {.out = file}. */
+typedef struct json_writer {
+    FILE *out;
+    int depth;     /* of the present object; */
+    int lines;     /* down to this one each member has a line of its own */
+    bool is_empty; /* the present object */
+} json_writer;
+
+typedef enum json_layout { JSON_ON_ONE_LINE, JSON_LINES } json_layout;
+
+/* Begins an object, of lines only within such; name is NULL for the outermost.  Ends it. */
+void json_open(json_writer *writer, const char *name, json_layout layout);
+void json_close(json_writer *writer);
+/* Members of the present object. */
+void json_put_text(json_writer *writer, const char *name, const char *text);
+void json_put_number(json_writer *writer, const char *name, double x);
+void json_put_integer(json_writer *writer, const char *name, long long x);
+/* A number that was given as a text: digit for digit where JSON writes it so. */
+void json_put_given(json_writer *writer, const char *name, const char *number);
+/* A value that is JSON already. */
+void json_put_source(json_writer *writer, const char *name, const char *source);
 
 /* ---- reading ------------------------------------------------------------------------------- */
 
-/* Parses one object, with libyaml: all that is written above is YAML too.  Returns CLI_DONE, or
- * prints and returns CLI_USAGE or CLI_IO; the document is to be deleted either way. */
+/* Parses one object (RFC 8259), length bytes and a NUL, at most DOCUMENT_DEPTH levels deep, to the
+ * nodes of a YAML document: texts are quoted scalars; numbers, true, false and null plain ones.
+ * Half of a surrogate pair is U+FFFD.  Returns CLI_DONE, or prints and returns CLI_USAGE; the
+ * document is to be deleted either way. */
 int json_parse(document *doc, const char *place, const char *bytes, size_t length);
 /* What stands for a value in the bytes that were parsed, allocated. */
 char *json_source(const char *bytes, const yaml_node_t *value);

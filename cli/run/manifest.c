@@ -18,7 +18,6 @@
 
 #include "dalembert_codegen.h"
 #include "io/file.h"
-#include "io/json.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -47,20 +46,19 @@ static const char copy_name[] = "system.yaml";
 
 /* ---- writing ------------------------------------------------------------------------------- */
 
-void manifest_put_machine(FILE *out)
+void manifest_put_machine(json_writer *w)
 {
     struct utsname machine;
-    fputs(",\n  \"machine\": {", out);
+    json_open(w, "machine", JSON_LINES);
     if (uname(&machine) == 0) {
-        json_text_member(out, "\n    ", "system", machine.sysname);
-        json_text_member(out, ",\n    ", "release", machine.release);
-        json_text_member(out, ",\n    ", "processor", machine.machine);
-        fputc(',', out);
+        json_put_text(w, "system", machine.sysname);
+        json_put_text(w, "release", machine.release);
+        json_put_text(w, "processor", machine.machine);
     }
-    json_text_member(out, "\n    ", "compiler", COMPILER);
-    json_text_member(out, ",\n    ", "flags", CLI_FLAGS);
-    json_text_member(out, ",\n    ", "libyaml", yaml_get_version_string());
-    fputs("\n  }", out);
+    json_put_text(w, "compiler", COMPILER);
+    json_put_text(w, "flags", CLI_FLAGS);
+    json_put_text(w, "libyaml", yaml_get_version_string());
+    json_close(w);
 }
 
 int manifest_write(const run_directory *dir, const run_request *request,
@@ -69,21 +67,23 @@ int manifest_write(const run_directory *dir, const run_request *request,
     char *text, method[256];
     size_t length;
     const dal_run *run = request->run;
-    FILE *out = cli_memstream_open(&text, &length);
-    dal_method_name(&request->method, method, sizeof method);
-    json_text_member(out, "{\n  ", "dalembert", DAL_VERSION);
-    fprintf(out, ",\n  \"input\": %s", dir->input);
-    manifest_put_machine(out);
-    json_text_member(out, ",\n  ", "method", method);
-    json_text_member(out, ",\n  ", "status", state);
-    json_number_member(out, ",\n  ", "t", dal_run_time(run));
-    fprintf(out, ",\n  \"rows\": %lld,\n  \"steps\": %lld,\n  \"evaluations\": %lld", position->row,
-            dal_run_steps(run), dal_run_evaluations(run));
-    fprintf(out, ",\n  \"native\": %s", dal_run_is_native(run) ? "true" : "false");
-    json_number_member(out, ",\n  ", "seconds", position->seconds);
-    if (message[0]) json_text_member(out, ",\n  ", "message", message);
-    fputs("\n}\n", out);
-    cli_memstream_close(out);
+    json_writer w = {.out = cli_memstream_open(&text, &length)};
+    json_open(&w, NULL, JSON_LINES);
+    json_put_text(&w, "dalembert", DAL_VERSION);
+    json_put_source(&w, "input", dir->input);
+    manifest_put_machine(&w);
+    json_put_text(&w, "method", dal_method_name(&request->method, method, sizeof method));
+    json_put_text(&w, "status", state);
+    json_put_number(&w, "t", dal_run_time(run));
+    json_put_integer(&w, "rows", position->row);
+    json_put_integer(&w, "steps", dal_run_steps(run));
+    json_put_integer(&w, "evaluations", dal_run_evaluations(run));
+    json_put_source(&w, "native", dal_run_is_native(run) ? "true" : "false");
+    json_put_number(&w, "seconds", position->seconds);
+    if (message[0]) json_put_text(&w, "message", message);
+    json_close(&w);
+    fputc('\n', w.out);
+    cli_memstream_close(w.out);
     const int status = file_replace(dir->manifest, text, length, dir->sync);
     free(text);
     return status;
@@ -99,81 +99,82 @@ bool manifest_has_ended(const char *path)
 
 /* ---- the request --------------------------------------------------------------------------- */
 
-static void put_settings(FILE *out, const char *name, const request_settings *settings)
+static void put_settings(json_writer *w, const char *name, const request_settings *settings)
 {
-    fprintf(out, ",\n    \"%s\": {", name);
+    json_open(w, name, JSON_ON_ONE_LINE);
     for (int i = 0; i < settings->count; i++) {
         const dal_setting *s = &settings->item[i];
-        const char *before = i ? ", " : "";
         if (isfinite(s->value))
-            json_number_member(out, before, s->name, s->value);
+            json_put_number(w, s->name, s->value);
         else
-            json_text_member(out, before, s->name, "inf");
+            json_put_text(w, s->name, "inf");
     }
-    fputc('}', out);
+    json_close(w);
 }
 
-/* The word of a choice, by its number among those of the option. */
-static void put_choice(FILE *out, int option, int choice)
+/* A choice is the number of a word of the option. */
+static void put_choice(json_writer *w, int option, int choice)
 {
-    const char *word = request_options[option].value;
-    for (; choice > 0; choice--) word = strchr(word, '|') + 1;
-    fprintf(out, "\"%.*s\"", (int)strcspn(word, "|"), word);
+    char word[32];
+    const char *words = request_options[option].value;
+    for (; choice > 0; choice--) words = strchr(words, '|') + 1;
+    snprintf(word, sizeof word, "%.*s", (int)strcspn(words, "|"), words);
+    json_put_text(w, request_options[option].name, word);
 }
 
 /* What a plan sets by value: see study_cell_run.c. */
-static void put_value(FILE *out, const run_request *request, int option)
+static void put_value(json_writer *w, const run_request *request, int option)
 {
     char method[256];
+    const char *name = request_options[option].name;
     switch (option) {
     case REQUEST_integrator:
-        json_text(out, dal_method_name(&request->method, method, sizeof method));
+        json_put_text(w, name, dal_method_name(&request->method, method, sizeof method));
         break;
     case REQUEST_step:
-        json_number(out, request->options.step);
+        json_put_number(w, name, request->options.step);
         break;
     case REQUEST_time:
-        json_number(out, request->time);
+        json_put_number(w, name, request->time);
         break;
     case REQUEST_samples:
-        fprintf(out, "%lld", request->samples);
+        json_put_integer(w, name, request->samples);
         break;
     case REQUEST_statistics:
-        fprintf(out, "%lld", request->statistics);
+        json_put_integer(w, name, request->statistics);
         break;
     case REQUEST_sampling:
-        put_choice(out, option, (int)request->sampling);
+        put_choice(w, option, (int)request->sampling);
         break;
     case REQUEST_space:
-        put_choice(out, option, request->options.space);
+        put_choice(w, option, request->options.space);
         break;
     }
 }
 
-/* "input" of a request, allocated. */
+/* "input" of a request, allocated, as it stands one level deep. */
 static char *request_text(const run_request *request)
 {
     char *text;
     size_t length;
-    FILE *out = cli_memstream_open(&text, &length);
+    json_writer w = {.out = cli_memstream_open(&text, &length), .depth = 1, .lines = 1};
     const char *system = request->system_name;
-    json_text_member(out, "{\n    ", "system", cli_is_path(system) ? copy_name : system);
+    json_open(&w, NULL, JSON_LINES);
+    json_put_text(&w, "system", cli_is_path(system) ? copy_name : system);
     for (int i = 0; i < REQUEST_system; i++) {
-        const char *given = request->text[i];
+        const char *given = request->text[i], *name = request_options[i].name;
         if (i == REQUEST_set || i == REQUEST_start || !request_has(request, i)) continue;
-        if (given && request_option_is_number(i)) {
-            json_given_member(out, ",\n    ", request_options[i].name, given);
-        } else if (given) {
-            json_text_member(out, ",\n    ", request_options[i].name, given);
-        } else {
-            fprintf(out, ",\n    \"%s\": ", request_options[i].name);
-            put_value(out, request, i);
-        }
+        if (!given)
+            put_value(&w, request, i);
+        else if (request_option_is_number(i))
+            json_put_given(&w, name, given);
+        else
+            json_put_text(&w, name, given);
     }
-    put_settings(out, "set", &request->set);
-    put_settings(out, "start", &request->start);
-    fputs("\n  }", out);
-    cli_memstream_close(out);
+    put_settings(&w, "set", &request->set);
+    put_settings(&w, "start", &request->start);
+    json_close(&w);
+    cli_memstream_close(w.out);
     return text;
 }
 

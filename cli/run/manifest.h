@@ -2,11 +2,11 @@
 #ifndef DAL_CLI_MANIFEST_H
 #define DAL_CLI_MANIFEST_H
 
+#include "io/json.h"
 #include "request.h"
 #include "run_directory.h"
 
 #include <stdbool.h>
-#include <stdio.h>
 
 /* All functions but the last two return CLI_DONE, or print and return CLI_USAGE or CLI_IO. */
 
@@ -22,7 +22,7 @@ int manifest_write(const run_directory *dir, const run_request *request,
                    const run_position *position, const char *state, const char *message);
 /* Whether a manifest states that its run is done or has failed. */
 bool manifest_has_ended(const char *path);
-/* Writes the member "machine" behind a comma. */
-void manifest_put_machine(FILE *out);
+/* Writes the member "machine". */
+void manifest_put_machine(json_writer *writer);
 
 #endif

@@ -83,17 +83,21 @@ static void show_line(const run_recorder *r, double t)
 
 static void show_json(const run_recorder *r, double t)
 {
-    json_number_member(stderr, "{", "t", t);
-    json_number_member(stderr, ", ", "time", r->request->time);
-    fprintf(stderr, ", \"steps\": %lld, \"rows\": %lld", dal_run_steps(r->request->run),
-            r->position.row);
-    json_number_member(stderr, ", ", "seconds", r->position.seconds);
-    json_number_member(stderr, ", ", "remaining", t >= r->request->time ? 0.0 : remaining(r, t));
-    fputs(", \"deviation\": {", stderr);
+    json_writer w = {.out = stderr};
+    json_open(&w, NULL, JSON_ON_ONE_LINE);
+    json_put_number(&w, "t", t);
+    json_put_number(&w, "time", r->request->time);
+    json_put_integer(&w, "steps", dal_run_steps(r->request->run));
+    json_put_integer(&w, "rows", r->position.row);
+    json_put_number(&w, "seconds", r->position.seconds);
+    json_put_number(&w, "remaining", t >= r->request->time ? 0.0 : remaining(r, t));
+    json_open(&w, "deviation", JSON_ON_ONE_LINE);
     for (int i = 0; i < r->observables; i++)
-        json_number_member(stderr, i ? ", " : "", recorder_observable_name(r, i),
-                           dal_statistics_deviation(&r->statistics[i]));
-    fputs("}}\n", stderr);
+        json_put_number(&w, recorder_observable_name(r, i),
+                        dal_statistics_deviation(&r->statistics[i]));
+    json_close(&w);
+    json_close(&w);
+    fputc('\n', w.out);
 }
 
 void progress_show(run_recorder *r, double t, int at_the_end)

@@ -125,18 +125,19 @@ static int write_shard_manifest(const study_directory *dir, study_shard shard, v
         count[plan->cells[i].state]++;
         seconds += plan->cells[i].seconds;
     }
-    FILE *out = cli_memstream_open(&text, &length);
-    json_text_member(out, "{\n  ", "dalembert", DAL_VERSION);
-    json_text_member(out, ",\n  ", "study", plan->title);
-    manifest_put_machine(out);
-    json_text_member(out, ",\n  ", "status", state->word);
-    for (int i = 0; i < STUDY_STATES; i++)
-        fprintf(out, "%s\"%s\": %d", i ? ", " : ",\n  \"cells\": {", study_state_words[i],
-                count[i]);
-    fputs("}", out);
-    json_number_member(out, ",\n  ", "seconds", seconds);
-    fputs("\n}\n", out);
-    cli_memstream_close(out);
+    json_writer w = {.out = cli_memstream_open(&text, &length)};
+    json_open(&w, NULL, JSON_LINES);
+    json_put_text(&w, "dalembert", DAL_VERSION);
+    json_put_text(&w, "study", plan->title);
+    manifest_put_machine(&w);
+    json_put_text(&w, "status", state->word);
+    json_open(&w, "cells", JSON_ON_ONE_LINE);
+    for (int i = 0; i < STUDY_STATES; i++) json_put_integer(&w, study_state_words[i], count[i]);
+    json_close(&w);
+    json_put_number(&w, "seconds", seconds);
+    json_close(&w);
+    fputc('\n', w.out);
+    cli_memstream_close(w.out);
     const int status = file_replace(path, text, length, 1);
     free(text);
     free(path);

@@ -79,7 +79,7 @@ for open in '[' '{a: ' '- ' '[\n'; do
     mkdir -p deep
     cp bad.yaml deep/manifest.json
     try 2 resume deep
-    says '^dalembert: deep/manifest\.json:[0-9]+:[0-9]+: deeper than 32 levels$'
+    says '^dalembert: deep/manifest\.json:[0-9]+:[0-9]+: (deeper than 32 levels|no JSON: .*)$'
     cp bad.yaml deep/study.yaml
     try 2 resume deep
     took=$(($(date +%s) - begun))
