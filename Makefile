@@ -221,6 +221,10 @@ $(BUILD)/tests/suite: $(TEST_OBJ) $(BUILD)/tests/program.a $(STATIC)
 	$(call SAY,ld)$(CC) $(CFLAGS) $(LDFLAGS) $(WRAPPED:%=-Wl,--wrap=%) \
 	    $^ $(LIBS) $(OPENMP) $(TEST_LIBS) -o $@
 
+# The reader of JSON alone, for a comparison with Python's.
+$(BUILD)/tests/read_json: tests/cli/read_json.c $(BUILD)/tests/program.a $(STATIC)
+	$(call SAY,cc)$(CC) $(ALL) -Icli $(LDFLAGS) $^ $(LIBS) -o $@
+
 # A locale with a decimal comma; where there is none the tests that want one say so.  (Not under
 # the leak checkers: with LOCPATH the C library's newlocale leaks.)
 $(BUILD)/locale:
@@ -229,7 +233,7 @@ $(BUILD)/locale:
 RUN_SUITE = LOCPATH=$(BUILD)/locale
 
 HAS_MPI = $(shell command -v $(MPICC) >/dev/null && echo $(MPI_PROGRAM))
-check: all $(HAS_MPI) $(BUILD)/tests/suite $(BUILD)/locale
+check: all $(HAS_MPI) $(BUILD)/tests/suite $(BUILD)/tests/read_json $(BUILD)/locale
 	@sh tests/cli/run.sh $(PROGRAM)
 	@CC="$(CC)" CFLAGS="$(CFLAGS)" sh tests/install.sh "$(MAKE)" $(BUILD)
 	@sh tests/browser/run.sh $(PROGRAM)

@@ -1,16 +1,19 @@
-# The JSON that the program writes, read by another parser: python3's, where there is one.  (The C
-# suite json reads texts and numbers back everywhere.)
+# The JSON that the program writes, read by another parser, and that it reads: python3's, where there
+# is one.  (The C suite json reads texts and numbers back everywhere.)
 
 # json FILE EXPRESSION: each line of the file, or the file, is JSON d, of which this is true.
 json() {
     python3 - "$@" <<'END'
 import json, sys
 def refuse(word): raise ValueError(word)
+def once(pairs):
+    assert len(dict(pairs)) == len(pairs), pairs
+    return dict(pairs)
 text = open(sys.argv[1], encoding='utf-8').read()
 lines = text.splitlines() if sys.argv[1].endswith('.lines') else [text]
 assert lines
 for line in lines:
-    d = json.loads(line, parse_constant=refuse)
+    d = json.loads(line, parse_constant=refuse, object_pairs_hook=once)
     assert eval('(' + sys.argv[2] + ')', {'d': d, 'number': lambda x: type(x) in (int, float)}), d
 END
 }
@@ -80,6 +83,19 @@ END
     cp err burst.lines
     holds "what is not finite is not null" json burst.lines "d['deviation']['never'] is None
         and d['deviation']['E'] == 0"
+
+    case_is "all manifests, in which no name comes twice"
+    for manifest in $(find . -name '*.json'); do
+        holds "$manifest" json "$manifest" "d['dalembert'] and d['machine'] and d['status']"
+    done
+
+    case_is "the reader of JSON and that of Python"
+    reader=${program%/*}/tests/read_json
+    if [ -x "$reader" ]; then
+        python3 "$here/read_json.py" "$reader" >compared 2>&1
+        status=$?
+        holds "$(cat compared)" [ $status -eq 0 ]
+    fi
 fi
 
 case_is "a manifest nested too deep is refused at once"
