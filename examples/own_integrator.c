@@ -9,13 +9,13 @@
 
 DAL_INLINE dal_status step(dal_step *s)
 {
-    DAL_VECTOR(s, k1, s->dim);
-    DAL_VECTOR(s, k2, s->dim);
-    DAL_VECTOR(s, y, s->dim);
-    DAL_TRY(dal_field(s, s->t, s->y, k1));
-    for (int i = 0; i < s->dim; i++) y[i] = s->y[i] + s->h * k1[i];
-    DAL_TRY(dal_field(s, s->t + s->h, y, k2));
-    for (int i = 0; i < s->dim; i++) y[i] = 0.5 * s->h * (k1[i] + k2[i]);
+    DAL_VECTOR(s, k1, DAL_DIM(s));
+    DAL_VECTOR(s, k2, DAL_DIM(s));
+    DAL_VECTOR(s, y, DAL_DIM(s));
+    dal_field(s, s->t, s->y, k1);
+    DAL_EACH(i, DAL_DIM(s)) y[i] = s->y[i] + s->h * k1[i];
+    dal_field(s, s->t + s->h, y, k2);
+    DAL_EACH(i, DAL_DIM(s)) y[i] = 0.5 * s->h * (k1[i] + k2[i]);
     return dal_update(s, s->h, y);
 }
 

@@ -2,8 +2,17 @@
  *
  * An integrator advances a state y in place by one step h.  It is written once, in plain C over the
  * type num (one double, or several lanes), and is compiled at each width.  It must not branch on
- * the value of one lane, store anything outside *step, or call the system except through these
- * functions, all declared in lib/kernel:
+ * the value of one lane, store anything outside *step, or call the system except through the
+ * functions below.  No function returns behind the author's back.  Five macros serve every
+ * integrator:
+ *
+ *     DAL_INLINE                            before each function
+ *     DAL_DIM(s)                            numbers in the state; DAL_N, DAL_NW, DAL_M likewise
+ *     DAL_VECTOR(s, name, count)            num name[count], scratch until the step ends
+ *     DAL_EACH(i, count)                    for i = 0 .. count - 1
+ *     DAL_INTEGRATOR(name, step, ...)       the descriptor, at the end of the file
+ *
+ * and the functions, all declared in lib/kernel, are:
  *
  *     num, dal_select, dal_less, ...        num.h                lanes
  *     dal_sin, dal_cos, dal_exp, ...        elementary.h         elementary functions

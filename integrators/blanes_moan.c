@@ -33,8 +33,10 @@ DAL_INLINE dal_status alternate(dal_step *s, int substeps, const double *c)
     double size[DAL_MAX_SUBSTEPS];
     dal_substeps(&k, s->h, size);
     for (int i = 0; i < substeps; i += 2) {
-        DAL_TRY(dal_symplectic_euler(s, DAL_POLARISATION(1, 0), size[i]));
-        DAL_TRY(dal_symplectic_euler(s, DAL_POLARISATION(0, 1), size[i + 1]));
+        if (dal_failed(dal_symplectic_euler(s, DAL_POLARISATION(1, 0), size[i])))
+            return DAL_NOT_CONVERGED;
+        if (dal_failed(dal_symplectic_euler(s, DAL_POLARISATION(0, 1), size[i + 1])))
+            return DAL_NOT_CONVERGED;
     }
     s->t = end;
     return DAL_OK;

@@ -46,7 +46,10 @@ DAL_INLINE dal_status compose(dal_step *s, int substeps, const double *c)
     const double end = s->t + s->h;
     double size[DAL_MAX_SUBSTEPS];
     dal_substeps(&k, s->h, size);
-    for (int i = 0; i < substeps; i++) DAL_TRY(dal_inner(s, size[i]));
+    for (int i = 0; i < substeps; i++) {
+        const dal_status status = dal_inner(s, size[i]);
+        if (dal_failed(status)) return status;
+    }
     s->t = end;
     return DAL_OK;
 }

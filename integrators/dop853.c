@@ -60,7 +60,7 @@ DAL_INLINE void add_derivatives(int dim, int count, const double *weight, const 
 }
 
 /* k_i of a step of size h, from the first on that is not known yet, and the sum of b_i k_i. */
-DAL_INLINE dal_status derivatives(dal_step *s, double size, int first, num *k, num *sum)
+DAL_INLINE void derivatives(dal_step *s, double size, int first, num *k, num *sum)
 {
     const int dim = DAL_DIM(s);
     const num h = dal_num(size);
@@ -69,11 +69,10 @@ DAL_INLINE dal_status derivatives(dal_step *s, double size, int first, num *k, n
         DAL_EACH(i, dim) sum[i] = dal_num(0.0);
         add_derivatives(dim, stage, a853 + stage * (stage - 1) / 2, k, sum);
         DAL_EACH(i, dim) sum[i] = dal_fma(h, sum[i], s->y[i]);
-        DAL_TRY(dal_field(s, s->t + c853[stage] * size, sum, k + stage * dim));
+        dal_field(s, s->t + c853[stage] * size, sum, k + stage * dim);
     }
     DAL_EACH(i, dim) sum[i] = dal_num(0.0);
     add_derivatives(dim, STAGES_853, b853, k, sum);
-    return DAL_OK;
 }
 
 #ifdef DAL_CONTROLLED
@@ -107,13 +106,12 @@ static double error853(const dal_step *s, const dal_trial *k, const num *e3, con
 
 /* The error of (q,v) and that of (p,pi) each by itself, and none of e and pi_e, so that the
  * substeps of (q,v) on the surface know neither the space nor the gauge. */
-static dal_status attempt853(dal_step *s, dal_trial *k)
+static void attempt853(dal_step *s, dal_trial *k)
 {
     const int dim = DAL_DIM(s), n = DAL_N(s);
-    DAL_MARK(s);
     DAL_VECTOR(s, e3, DAL_DIM(s));
     DAL_VECTOR(s, e5, DAL_DIM(s));
-    DAL_TRY(derivatives(s, k->h, k->again ? 1 : 0, k->derivatives, k->derivative));
+    derivatives(s, k->h, k->again ? 1 : 0, k->derivatives, k->derivative);
     DAL_EACH(i, dim) e3[i] = -k->derivative[i];
     DAL_EACH(i, dim) e5[i] = 0.0;
     add_derivatives(dim, STAGES_853, third853, k->derivatives, e3);
@@ -124,8 +122,6 @@ static dal_status attempt853(dal_step *s, dal_trial *k)
         if (momenta > error || isnan(momenta)) error = momenta;
     }
     k->ratio = sqrt(sqrt(sqrt(error)));
-    DAL_RELEASE(s);
-    return DAL_OK;
 }
 #endif
 
@@ -137,7 +133,7 @@ DAL_INLINE dal_status step(dal_step *s)
     if (DAL_CONTROLLED(s))
         return dal_control(s, attempt853, &(dal_trial){.derivatives = k, .derivative = sum});
 #endif
-    DAL_TRY(derivatives(s, s->h, 0, k, sum));
+    derivatives(s, s->h, 0, k, sum);
     return dal_update_multiple(s, s->h, s->h, sum);
 }
 

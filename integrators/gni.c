@@ -32,17 +32,16 @@ DAL_INLINE void rattle_map(dal_step *s, dal_equation *eq)
 }
 
 /* The first half of the step. */
-DAL_INLINE dal_status rattle_begin(dal_step *s, num *kick)
+DAL_INLINE void rattle_begin(dal_step *s, num *kick)
 {
     const int n = DAL_N(s), m = DAL_M(s);
     DAL_VECTOR(s, before, DAL_BLOCKS_SIZE(s));
     DAL_VECTOR(s, lambda, DAL_M(s));
     DAL_VECTOR(s, pull, DAL_N(s));
     dal_eval_blocks(s, s->t, s->y, s->y + n, before);
-    DAL_TRY(dal_restore_multipliers(s, before, lambda));
+    dal_restore_multipliers(s, before, lambda);
     dal_multiply(before + dal_blocks_B(s), n, m, lambda, pull);
     DAL_EACH(i, n) kick[i] = 0.5 * s->h * (before[dal_blocks_a(s) + i] + pull[i]);
-    return DAL_OK;
 }
 
 DAL_INLINE dal_status step(dal_step *s)
@@ -58,10 +57,10 @@ DAL_INLINE dal_status step(dal_step *s)
     DAL_ELIMINATION(s, elimination, 0.5 * s->h, 0.0);
     rattle k = {elimination, kick, q1, v1, after};
     dal_equation eq = dal_velocity_equation(s, block, &k);
-    DAL_TRY(rattle_begin(s, kick));
+    rattle_begin(s, kick);
     DAL_EACH(i, n) d[i] = h * dal_moved_v(s, i, kick[i]);
     DAL_EACH(i, n) q1[i] = dal_moved_q(s, i, d[i]);
-    DAL_TRY(dal_enforce(s, &eq, rattle_map, dal_positional(s)));
+    if (dal_failed(dal_enforce(s, &eq, rattle_map, dal_positional(s)))) return DAL_NOT_CONVERGED;
     DAL_EACH(i, n) d[n + i] = eq.block[0].u[i];
     dal_save_multipliers(s, k.elimination.mu);
     return dal_update(s, h, d);

@@ -14,7 +14,7 @@
 #include <dalembert_kernel.h>
 
 /* The flow of pi^2/(2e) over a time h; where pi = 0, q, v have the bits of NAME. */
-DAL_INLINE dal_status drift(dal_step *s, double h)
+DAL_INLINE void drift(dal_step *s, double h)
 {
     const int n = DAL_N(s);
     const num *pi = s->y + dal_at_pi(s), w = 1.0 / s->y[dal_at_e(s)];
@@ -26,7 +26,6 @@ DAL_INLINE dal_status drift(dal_step *s, double h)
     dal_add(s, n, n, d);
     dal_add(s, dal_at_pi_e(s), 1, &rate);
     s->alive[0] = alive;
-    return DAL_OK;
 }
 
 /* Puts numbers into the state, in the lanes alive. */
@@ -45,15 +44,15 @@ DAL_INLINE dal_status differentiate(dal_step *s, int j, num *unit, num *zero, nu
     for (int i = 0; i < size; i++) unit[i] = dal_num(i == j);
     for (int i = 0; i < size; i++) zero[i] = dal_num(0.0);
     put(s, p, size, unit, zero);
-    DAL_SET_TANGENT(s, 1);
+    dal_set_tangent(s, 1);
     const dal_status status = dal_inner(s, s->h);
-    DAL_SET_TANGENT(s, 0);
+    dal_set_tangent(s, 0);
     for (int i = 0; i < size; i++) column[i] = (s->y[p + i] - unit[i]) + s->r[p + i];
     return status;
 }
 
 /* d = -(1 + C)^-T C^T P; the columns are the rows of C^T and become those of (1 + C)^T. */
-DAL_INLINE dal_status pull(dal_step *s, num *columns, const num *momenta, num *d)
+DAL_INLINE void pull(dal_step *s, num *columns, const num *momenta, num *d)
 {
     const int size = 2 * DAL_N(s);
     DAL_VECTOR(s, inverse, 4 * DAL_N(s) * DAL_N(s));
@@ -63,7 +62,6 @@ DAL_INLINE dal_status pull(dal_step *s, num *columns, const num *momenta, num *d
     dal_invert(columns, inverse, size);
     dal_multiply(inverse, size, size, image, d);
     for (int i = 0; i < size; i++) d[i] = -d[i];
-    return DAL_OK;
 }
 
 /* (x, e, P) -> (Phi(x), e1, DPhi^-T P) */
@@ -81,9 +79,10 @@ DAL_INLINE dal_status flow(dal_step *s)
     for (int j = 0; j < size; j++) {
         put(s, 0, p, y, r);
         s->t = t;
-        DAL_TRY(differentiate(s, j, unit, d, columns + j * size));
+        const dal_status status = differentiate(s, j, unit, d, columns + j * size);
+        if (dal_failed(status)) return status;
     }
-    DAL_TRY(pull(s, columns, y + p, d));
+    pull(s, columns, y + p, d);
     put(s, p, size, y + p, r + p);
     dal_add(s, p, size, d);
     return DAL_OK;
@@ -92,9 +91,11 @@ DAL_INLINE dal_status flow(dal_step *s)
 DAL_INLINE dal_status step(dal_step *s)
 {
     if (!DAL_LIFTED(s)) return dal_inner(s, s->h);
-    DAL_TRY(drift(s, 0.5 * s->h));
-    DAL_TRY(flow(s));
-    return drift(s, 0.5 * s->h);
+    drift(s, 0.5 * s->h);
+    const dal_status status = flow(s);
+    if (dal_failed(status)) return status;
+    drift(s, 0.5 * s->h);
+    return DAL_OK;
 }
 
 DAL_INTEGRATOR(

@@ -37,7 +37,7 @@ DAL_INLINE void projection_map(dal_step *s, dal_equation *eq)
 }
 
 /* B and G^-1 at (q1, u). */
-DAL_INLINE dal_status freeze_projection(dal_step *s, projection *p)
+DAL_INLINE void freeze_projection(dal_step *s, projection *p)
 {
     const int n = DAL_N(s), m = DAL_M(s);
     DAL_VECTOR(s, g, DAL_M(s) * DAL_M(s));
@@ -46,7 +46,6 @@ DAL_INLINE dal_status freeze_projection(dal_step *s, projection *p)
     DAL_EACH(i, n * m) p->directions[i] = b[i];
     dal_gram(a, b, m, n, g);
     dal_invert(g, p->inverse, m);
-    return DAL_OK;
 }
 
 DAL_INLINE dal_status project_velocity(dal_step *s)
@@ -63,16 +62,17 @@ DAL_INLINE dal_status project_velocity(dal_step *s)
     eq.block[0].scale[0] = dal_max_norm(s->y + n, n);
     DAL_EACH(i, n) eq.block[0].u[i] = dal_num(0.0);
     DAL_EACH(i, n) v[i] = s->y[n + i];
-    DAL_TRY(freeze_projection(s, &p));
-    DAL_TRY(dal_solve(s, &eq, projection_map, NULL));
+    freeze_projection(s, &p);
+    if (dal_failed(dal_solve(s, &eq, projection_map, NULL))) return DAL_NOT_CONVERGED;
     dal_add(s, n, n, eq.block[0].u);
     return DAL_OK;
 }
 
 DAL_INLINE dal_status step(dal_step *s)
 {
-    DAL_TRY(dal_inner(s, s->h));
-    if (DAL_M(s) > 0) DAL_TRY(project_velocity(s));
+    const dal_status status = dal_inner(s, s->h);
+    if (dal_failed(status)) return status;
+    if (DAL_M(s) > 0 && dal_failed(project_velocity(s))) return DAL_NOT_CONVERGED;
     dal_clear_momenta(s);
     return DAL_OK;
 }

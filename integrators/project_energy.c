@@ -95,7 +95,7 @@ DAL_INLINE num level_scale(const dal_step *s, const level *k, num whole)
            weight * (dal_max_norm(k->v0, n) + dal_max_norm(k->normal, n));
 }
 
-DAL_INLINE dal_status freeze_directions(dal_step *s, level *k, dal_equation *eq)
+DAL_INLINE void freeze_directions(dal_step *s, level *k, dal_equation *eq)
 {
     const int n = DAL_N(s), levels = LEVELS(s);
     DAL_VECTOR(s, matrix, LEVELS(s) * LEVELS(s));
@@ -108,7 +108,6 @@ DAL_INLINE dal_status freeze_directions(dal_step *s, level *k, dal_equation *eq)
     set_directions(s, k, matrix);
     eq->block[0].scale[0] = level_scale(s, k, matrix[levels * levels - 1]);
     dal_invert(matrix, k->inverse, levels);
-    return DAL_OK;
 }
 
 DAL_INLINE dal_status to_level(dal_step *s)
@@ -127,8 +126,8 @@ DAL_INLINE dal_status to_level(dal_step *s)
     DAL_BLOCK(s, change, 2 * DAL_N(s), 0); /* of v and of q/h */
     level k = {q0, v0, q, v, constraint, energy, directions, normal, inverse, missing, shift};
     dal_equation eq = {{change}, 1, &k, {dal_all()}};
-    DAL_TRY(freeze_directions(s, &k, &eq));
-    DAL_TRY(dal_solve(s, &eq, level_map, NULL));
+    freeze_directions(s, &k, &eq);
+    if (dal_failed(dal_solve(s, &eq, level_map, NULL))) return DAL_NOT_CONVERGED;
     DAL_EACH(i, DAL_N(s)) q[i] = s->h * eq.block[0].u[DAL_N(s) + i];
     dal_add(s, 0, DAL_N(s), q);
     dal_add(s, DAL_N(s), DAL_N(s), eq.block[0].u);
@@ -136,22 +135,22 @@ DAL_INLINE dal_status to_level(dal_step *s)
 }
 
 /* level: E0 and, once it is known, 1. */
-DAL_INLINE dal_status note_energy(dal_step *s)
+DAL_INLINE void note_energy(dal_step *s)
 {
     const dal_mask fresh = s->alive[0] & dal_less(s->level[1], dal_num(0.5));
     DAL_VECTOR(s, energy, 1 + 3 * DAL_N(s));
-    if (!dal_any(fresh)) return DAL_OK;
+    if (!dal_any(fresh)) return;
     dal_eval(s, DAL_EVAL_ENERGY_NORMAL, s->t, s->y, s->y + DAL_N(s), NULL, energy);
     s->level[0] = dal_select(fresh, energy[0], s->level[0]);
     s->level[1] = dal_select(fresh, dal_num(1.0), s->level[1]);
-    return DAL_OK;
 }
 
 DAL_INLINE dal_status step(dal_step *s)
 {
-    DAL_TRY(note_energy(s));
-    DAL_TRY(dal_inner(s, s->h));
-    DAL_TRY(to_level(s));
+    note_energy(s);
+    const dal_status status = dal_inner(s, s->h);
+    if (dal_failed(status)) return status;
+    if (dal_failed(to_level(s))) return DAL_NOT_CONVERGED;
     dal_clear_momenta(s);
     return DAL_OK;
 }

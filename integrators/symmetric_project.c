@@ -65,7 +65,7 @@ DAL_INLINE void reflection_map(dal_step *s, dal_equation *eq)
 }
 
 /* All that a step from here may change, and the constraint here. */
-DAL_INLINE dal_status begin_reflection(dal_step *s, reflection *k, dal_equation *eq)
+DAL_INLINE void begin_reflection(dal_step *s, reflection *k, dal_equation *eq)
 {
     const int n = DAL_N(s), m = DAL_M(s);
     const num *A = k->out + m, *B = A + m * n;
@@ -82,7 +82,6 @@ DAL_INLINE dal_status begin_reflection(dal_step *s, reflection *k, dal_equation 
     eq->block[0].scale[0] = eq->block[1].scale[0] / dal_max_norm(B, n * m);
     DAL_EACH(a, m) eq->block[0].u[a] = dal_num(0.0);
     DAL_EACH(i, n) eq->block[1].u[i] = s->y[n + i];
-    return DAL_OK;
 }
 
 DAL_INLINE dal_status reflect(dal_step *s)
@@ -99,7 +98,7 @@ DAL_INLINE dal_status reflect(dal_step *s)
     DAL_BLOCK(s, v1, DAL_N(s), 0);
     reflection k = {s->t, y0, r0, method_state0, B0, inverse, out, push, shift, ~dal_all(), DAL_OK};
     dal_equation eq = {{mu, v1}, 2, &k, {dal_all()}};
-    DAL_TRY(begin_reflection(s, &k, &eq));
+    begin_reflection(s, &k, &eq);
     const dal_status status = dal_solve(s, &eq, reflection_map, NULL);
     return k.status == DAL_OK ? status : k.status;
 }

@@ -3,13 +3,20 @@
 #define DAL_ERROR_H
 
 #include "dalembert.h"
-#include "kernel/try.h"
 
 #if defined(__GNUC__)
 #define DAL__PRINTF(f, a) __attribute__((format(printf, f, a)))
 #else
 #define DAL__PRINTF(f, a)
 #endif
+
+/* Returns the status of a call that failed.  A compiler without the hint takes the code behind
+ * several of these for cold and leaves it slow. */
+#define DAL_TRY(expression)                                                                        \
+    do {                                                                                           \
+        dal_status dal__s = (expression);                                                          \
+        if (__builtin_expect(dal__s != DAL_OK, 0)) return dal__s;                                  \
+    } while (0)
 
 /* Fills *error (may be NULL) and returns status, so that a caller can write
  *     return dal__fail(error, DAL_MEMORY, "no memory for a batch");

@@ -34,7 +34,7 @@ typedef struct dal_trial {
 } dal_trial;
 
 /* Tries a substep of size trial->h from s->t, s->y, which stay as they are. */
-typedef dal_status dal_attempt(dal_step *s, dal_trial *trial);
+typedef void dal_attempt(dal_step *s, dal_trial *trial);
 
 DAL_INLINE double dal__substep(double whole, double left, double planned)
 {
@@ -74,12 +74,14 @@ DAL_INLINE dal_status dal_control(dal_step *s, dal_attempt *attempt, dal_trial *
             break;
         }
         trial->h = direction * size;
-        DAL_TRY(attempt(s, trial));
+        DAL__MARK(s);
+        attempt(s, trial);
+        DAL__RELEASE(s);
         planned = dal__plan(trial, size, planned);
         *s->substep = dal_num(planned);
         trial->again = !(trial->ratio <= 1.0);
         if (trial->again) continue;
-        DAL_TRY(dal_update_multiple(s, trial->h, trial->h, trial->derivative));
+        dal_update_multiple(s, trial->h, trial->h, trial->derivative);
         left -= size;
         s->t = t + direction * (whole - left);
         if (left == 0.0) return DAL_OK;

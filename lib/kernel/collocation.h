@@ -124,7 +124,7 @@ DAL_INLINE void dal__collocation_map(dal_step *s, dal_equation *eq)
     dal__momentum_derivatives(s, k, eq->block[1].image);
 }
 
-DAL_INLINE dal_status dal__collocation_matrix(dal_step *s, dal_equation *eq)
+DAL_INLINE void dal__collocation_matrix(dal_step *s, dal_equation *eq)
 {
     enum { MAX = DAL_MAX_STAGES * DAL_MAX_STAGES };
     const dal_stages *k = (const dal_stages *)eq->context;
@@ -145,7 +145,6 @@ DAL_INLINE dal_status dal__collocation_matrix(dal_step *s, dal_equation *eq)
         dal_stage_inverse(s, &x, jacobian, m, &eq->block[0], j);
         if (DAL_LIFTED(s)) dal_stage_inverse(s, &p, jacobian, m, &eq->block[1], j);
     }
-    return DAL_OK;
 }
 
 /* Guesses the field at the present state for every stage, in the given lanes. */
@@ -155,13 +154,12 @@ DAL_INLINE void dal__guess_block(dal_block *b, int width, const num *derivative,
     DAL_EACH(i, DAL_SIZE(b))
         b->u[i] = dal_select(lanes[i % DAL_STEP_GROUPS], derivative[i % width], b->u[i]);
 }
-DAL_INLINE dal_status dal__guess_from_field(dal_step *s, dal_equation *eq, const dal_mask *lanes)
+DAL_INLINE void dal__guess_from_field(dal_step *s, dal_equation *eq, const dal_mask *lanes)
 {
     DAL_VECTOR(s, dy, DAL_DIM(s));
-    DAL_TRY(dal_field(s, s->t, s->y, dy));
+    dal_field(s, s->t, s->y, dy);
     dal__guess_block(&eq->block[0], DAL_NW(s), dy + DAL_N(s), lanes);
     if (DAL_LIFTED(s)) dal__guess_block(&eq->block[1], DAL_N(s), dy + dal_at_pi(s), lanes);
-    return DAL_OK;
 }
 
 /* u += factor x */
@@ -267,7 +265,7 @@ DAL_INLINE dal_status dal__solve_stages(dal_step *s, const dal_stages *k, dal_eq
     if (DAL_STAGE_DERIVATIVES(s)) dal__solve_from_predictor(s, k, eq, accepted);
     DAL_EACH(j, DAL_STEP_GROUPS) rest[j] &= ~accepted[j];
     if (dal__any(rest)) {
-        DAL_TRY(dal__guess_from_field(s, eq, rest));
+        dal__guess_from_field(s, eq, rest);
         status = dal__try_guess(s, eq, rest);
     }
     DAL_EACH(j, DAL_STEP_GROUPS) s->alive[j] = accepted[j] | rest[j];
@@ -325,8 +323,8 @@ DAL_INLINE void dal__gauge_stages(dal_step *s, dal_stages *k)
 }
 
 /* (y1 - y)/h of the momenta. */
-DAL_INLINE dal_status dal__collocation_momenta(dal_step *s, const dal_stages *k,
-                                               const dal_equation *eq, num *d)
+DAL_INLINE void dal__collocation_momenta(dal_step *s, const dal_stages *k, const dal_equation *eq,
+                                         num *d)
 {
     const int n = DAL_N(s);
     DAL_VECTOR(s, rate, DAL_STAGES(k->method));
@@ -337,7 +335,6 @@ DAL_INLINE dal_status dal__collocation_momenta(dal_step *s, const dal_stages *k,
     dal__end(k, eq->block[1].u, n, n, d + dal_at_pi(s));
     dal__end(k, k->mu, 1, 1, d + dal_at_e(s));
     dal__end(k, rate, 1, 1, d + dal_at_pi_e(s));
-    return DAL_OK;
 }
 
 /* (y1 - y)/h from the solved stages, and the end of the step. */
@@ -349,7 +346,7 @@ DAL_INLINE dal_status dal__collocation_end(dal_step *s, const dal_stages *k, con
     if (DAL_LIFTED(s)) dal__stage_values(s, k, 0, dal_at_pi(s), n, eq->block[1].u, n, k->pi);
     dal__end(k, k->v, nw, n, d);
     dal__end(k, eq->block[0].u, nw, nw, d + n);
-    if (DAL_LIFTED(s)) DAL_TRY(dal__collocation_momenta(s, k, eq, d));
+    if (DAL_LIFTED(s)) dal__collocation_momenta(s, k, eq, d);
     return dal_update_multiple(s, k->h, k->h, d);
 }
 
@@ -374,7 +371,8 @@ DAL_INLINE dal_status dal__collocate(dal_step *s, const dal_tableau *method, int
         DAL_EACH(i, DAL_STAGES(method) * DAL_N(s)) force[i] = dal_num(0.0);
         eq.block[1].scale[0] = dal_momentum_scale(s, s->h, 0);
     }
-    DAL_TRY(predicted ? dal__solve_predicted(s, &k, &eq) : dal__solve_stages(s, &k, &eq));
+    if (dal_failed(predicted ? dal__solve_predicted(s, &k, &eq) : dal__solve_stages(s, &k, &eq)))
+        return DAL_NOT_CONVERGED;
     dal__save_derivatives(s, &k, &eq);
     return dal__collocation_end(s, &k, &eq);
 }

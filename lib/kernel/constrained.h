@@ -50,7 +50,7 @@ DAL_INLINE num dal_moved_v(const dal_step *s, int i, num d)
 }
 
 #define dal_continuous_multipliers DAL_WIDE(dal__continuous_multipliers)
-DAL_SHARED dal_status dal_continuous_multipliers(dal_step *s, const num *blocks, num *h);
+DAL_SHARED void dal_continuous_multipliers(dal_step *s, const num *blocks, num *h);
 
 #ifndef DAL_LINKED
 /* x = g^-1 rhs; g[size*size] is destroyed. */
@@ -64,7 +64,7 @@ DAL_INLINE void dal_solve_small(num *g, num *inverse, int size, const num *rhs, 
 }
 
 /* The multipliers of the continuous motion at the point of the blocks: G h = -(c + A a). */
-DAL_SHARED dal_status dal_continuous_multipliers(dal_step *s, const num *blocks, num *h)
+DAL_SHARED void dal_continuous_multipliers(dal_step *s, const num *blocks, num *h)
 {
     const int n = DAL_N(s), m = DAL_M(s);
     const num *A = blocks + dal_blocks_A(s), *c = blocks + dal_blocks_c(s);
@@ -75,17 +75,15 @@ DAL_SHARED dal_status dal_continuous_multipliers(dal_step *s, const num *blocks,
     DAL_EACH(i, m) rhs[i] = -(c[i] + rhs[i]);
     dal_gram(A, blocks + dal_blocks_B(s), m, n, g);
     if (m > 0) dal_solve_small(g, inverse, m, rhs, h);
-    return DAL_OK;
 }
 #endif
 
 /* The multipliers of the last step, or the continuous ones where there are none. */
-DAL_INLINE dal_status dal_restore_multipliers(dal_step *s, const num *blocks, num *h)
+DAL_INLINE void dal_restore_multipliers(dal_step *s, const num *blocks, num *h)
 {
     const dal_mask known = dal_less(dal_num(0.5), *s->has_multiplier);
-    DAL_TRY(dal_continuous_multipliers(s, blocks, h));
+    dal_continuous_multipliers(s, blocks, h);
     DAL_EACH(i, DAL_PERSISTENT_MULTIPLIERS(s)) h[i] = dal_select(known, s->multiplier[i], h[i]);
-    return DAL_OK;
 }
 DAL_INLINE void dal_save_multipliers(dal_step *s, const num *h)
 {
@@ -128,7 +126,7 @@ typedef struct dal_elimination {
 DAL_SHARED void dal_eliminate_multipliers(const dal_step *s, dal_equation *eq,
                                           const num *constraint);
 #define dal_constrained_matrix DAL_WIDE(dal__constrained_matrix)
-DAL_SHARED dal_status dal_constrained_matrix(dal_step *s, dal_equation *eq);
+DAL_SHARED void dal_constrained_matrix(dal_step *s, dal_equation *eq);
 
 #ifndef DAL_LINKED
 /* image = free + N mu with the mu for which D + A (image - w) = 0; D and A begin `constraint`. */
@@ -154,7 +152,7 @@ DAL_SHARED void dal_eliminate_multipliers(const dal_step *s, dal_equation *eq,
 }
 
 /* J <- P J for the n*columns matrix J. */
-DAL_INLINE dal_status dal__project_matrix(dal_step *s, const num *blocks, int columns, num *J)
+DAL_INLINE void dal__project_matrix(dal_step *s, const num *blocks, int columns, num *J)
 {
     const int n = DAL_N(s), m = DAL_M(s);
     const num *A = blocks + dal_blocks_A(s), *B = blocks + dal_blocks_B(s);
@@ -173,11 +171,10 @@ DAL_INLINE dal_status dal__project_matrix(dal_step *s, const num *blocks, int co
         for (int j = 0; j < n; j++)
             for (int i = 0; i < m; i++) J[j * columns + c] -= B[j * m + i] * x[i];
     }
-    return DAL_OK;
 }
 
 /* Newton's matrix; the context begins with a dal_stage_matrix. */
-DAL_SHARED dal_status dal_constrained_matrix(dal_step *s, dal_equation *eq)
+DAL_SHARED void dal_constrained_matrix(dal_step *s, dal_equation *eq)
 {
     const dal_stage_matrix *k = (const dal_stage_matrix *)eq->context;
     const int n = DAL_N(s);
@@ -186,10 +183,9 @@ DAL_SHARED dal_status dal_constrained_matrix(dal_step *s, dal_equation *eq)
     DAL_VECTOR(s, matrix, DAL_STAGES(k) * DAL_N(s) * DAL_STAGES(k) * DAL_N(s));
     dal_eval_blocks(s, s->t, s->y, s->y + n, blocks);
     dal_jacobian(s, 0, s->t, s->y, s->y + n, jacobian);
-    DAL_TRY(dal__project_matrix(s, blocks, n, jacobian));
-    DAL_TRY(dal__project_matrix(s, blocks, n, jacobian + n * n));
+    dal__project_matrix(s, blocks, n, jacobian);
+    dal__project_matrix(s, blocks, n, jacobian + n * n);
     dal_stage_inverse(s, k, jacobian, matrix, &eq->block[0], 0);
-    return DAL_OK;
 }
 #endif
 

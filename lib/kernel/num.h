@@ -31,7 +31,8 @@
 #define DAL_WIDE(name) DAL__PASTE2(name##_x, DAL_LANES)
 #endif
 
-#define DAL_UNUSED __attribute__((unused))
+#define DAL_UNUSED            __attribute__((unused))
+#define DAL_RARELY(condition) __builtin_expect(!!(condition), 0)
 
 /* A generated file defines DAL_SPECIALISED: there all sizes are constants and a whole step becomes
  * one function, its loops over components unrolled where DAL_UNROLL says so. */

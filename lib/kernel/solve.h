@@ -68,7 +68,7 @@ typedef struct dal_equation {
 #endif
 
 typedef void dal_iteration_map(dal_step *step, dal_equation *equation); /* u -> image, all blocks */
-typedef dal_status dal_matrix(dal_step *step, dal_equation *equation);  /* fills inverse */
+typedef void dal_matrix(dal_step *step, dal_equation *equation);        /* fills inverse */
 
 /* The size of a block.  Compilers do not see the constant where several groups are stepped as one
  * system; such a file has blocks of one size only. */
@@ -289,16 +289,15 @@ DAL_INLINE void dal__restore_block(dal_block *b, const dal_mask *lanes)
 
 /* Newton's method from the first guess in the lanes left; leaves those that converged, which use
  * Newton's method from now on. */
-DAL_INLINE dal_status dal__solve_by_newton(dal_step *s, dal_equation *eq, dal_iteration_map *map,
-                                           dal_matrix *matrix, dal_mask *left)
+DAL_INLINE void dal__solve_by_newton(dal_step *s, dal_equation *eq, dal_iteration_map *map,
+                                     dal_matrix *matrix, dal_mask *left)
 {
     dal__restore_block(&eq->block[0], left);
     if (eq->blocks > 1) dal__restore_block(&eq->block[1], left);
-    DAL_TRY(matrix(s, eq));
+    matrix(s, eq);
     dal__iterate(s, eq, map, left, 1, 0);
     DAL_EACH(j, DAL_STEP_GROUPS)
         s->uses_newton[j] = dal_select(left[j], dal_num(1.0), s->uses_newton[j]);
-    return DAL_OK;
 }
 
 /* Solves the equation from the guess in u; lanes that fail are marked unconverged and no longer
@@ -317,7 +316,7 @@ DAL_SHARED dal_status dal_solve(dal_step *s, dal_equation *eq, dal_iteration_map
     dal__iterate(s, eq, map, solved, 0, may_newton);
     DAL_EACH(j, DAL_STEP_GROUPS) left[j] = s->alive[j] & ~solved[j];
     if (may_newton && dal__any(left)) {
-        DAL_TRY(dal__solve_by_newton(s, eq, map, matrix, left));
+        dal__solve_by_newton(s, eq, map, matrix, left);
         DAL_EACH(j, DAL_STEP_GROUPS) solved[j] |= left[j];
     }
     DAL_EACH(j, DAL_STEP_GROUPS) {

@@ -168,16 +168,16 @@ DAL_INLINE void dal__spark_map(dal_step *s, dal_equation *eq)
 }
 
 /* L_1, where it is known, and the first guess: F at the present state for every K. */
-DAL_INLINE dal_status dal__spark_begin(dal_step *s, const dal_spark_step *k, dal_equation *eq)
+DAL_INLINE void dal__spark_begin(dal_step *s, const dal_spark_step *k, dal_equation *eq)
 {
     const int n = DAL_N(s), m = DAL_M(s);
     DAL_VECTOR(s, now, DAL_N(s));
     dal_force(s, s->t, s->y, s->y + n, now);
     for (int i = 0; i < eq->block[0].size; i++) eq->block[0].u[i] = now[i % n];
     for (int a = 0; a < m; a++) k->last[a] = k->given[a] = dal_num(0.0);
-    if (!k->method->L1_known) return DAL_OK;
+    if (!k->method->L1_known) return;
     dal_eval_blocks(s, s->t, s->y, s->y + n, k->blocks);
-    return dal_restore_multipliers(s, k->blocks, k->given);
+    dal_restore_multipliers(s, k->blocks, k->given);
 }
 
 DAL_INLINE dal_status dal__spark_end(dal_step *s, const dal_spark_step *k, const num *K)
@@ -238,8 +238,9 @@ DAL_SHARED dal_status dal_spark_advance(dal_step *s, const dal_spark *method)
     eq.block[0].weight = fabs(s->h);
     eq.block[0].scale[0] = dal_velocity_scale(s, s->h, 0);
     dal__spark_product(method, product);
-    DAL_TRY(dal__spark_begin(s, &k, &eq));
-    DAL_TRY(dal_solve(s, &eq, dal__spark_map, dal_constrained_matrix));
+    dal__spark_begin(s, &k, &eq);
+    if (dal_failed(dal_solve(s, &eq, dal__spark_map, dal_constrained_matrix)))
+        return DAL_NOT_CONVERGED;
     return dal__spark_end(s, &k, eq.block[0].u);
 }
 #endif

@@ -11,7 +11,6 @@
 #include "../../include/dalembert.h"
 #include "num.h"
 #include "persistent.h"
-#include "try.h"
 
 typedef struct dal_step dal_step;
 
@@ -63,9 +62,8 @@ typedef enum dal_callback_code {
 #define DAL__COUNT_MULTIPLIER         DAL__MULTIPLIER
 
 #define DAL_VECTOR(step, name, count) num name[DAL__AT_LEAST_ONE(count)]
-#define DAL_SET_TANGENT(step, on)     (void)0
-#define DAL_MARK(step)                (void)0
-#define DAL_RELEASE(step)             (void)0
+#define DAL__MARK(step)               (void)0
+#define DAL__RELEASE(step)            (void)0
 
 struct dal_step {
     double t, h;
@@ -159,6 +157,7 @@ struct dal_step {
 
     num *scratch; /* bump allocator, see dal_scratch */
     size_t used, capacity;
+    int exhausted; /* 1: more was requested, and the step fails */
 
     const dal_integrator *const *layer; /* innermost first */
     int depth;                          /* which of the chain is at work */
@@ -169,27 +168,28 @@ struct dal_step {
     long long evaluations; /* of the field or the lifted field */
 };
 
-/* count numbers of scratch, valid until the step ends or DAL_RELEASE; their values are undefined.
- */
+/* count numbers of scratch, valid until the step ends or DAL__RELEASE; their values are undefined.
+ * The stages of the descriptor determine how many there are.  Where that is too few the step fails
+ * with DAL_MEMORY when it ends; until then numbers share their memory. */
 DAL_INLINE num *dal_scratch(dal_step *s, int count)
 {
-    num *p = s->scratch + s->used;
-    s->used += (size_t)count;
-    return s->used <= s->capacity ? p : NULL;
+    const size_t size = (size_t)count;
+    if (DAL_RARELY(s->used + size > s->capacity)) {
+        s->exhausted = 1;
+        return size <= s->capacity ? s->scratch : NULL;
+    }
+    s->used += size;
+    return s->scratch + s->used - size;
 }
 
 /* Declares a scratch vector.  The count must be made of constants and the macros above. */
-#define DAL_VECTOR(step, name, count)                                                              \
-    num *const name = dal_scratch((step), (count));                                                \
-    if (DAL_RARELY(!name)) return DAL_MEMORY
-/* Selects whether dal_field moves a tangent vector stored in p and pi. */
-#define DAL_SET_TANGENT(step, on) (step)->tangent = (on)
-/* DAL_RELEASE frees the vectors declared since DAL_MARK. */
-#define DAL_MARK(step)            const size_t dal__mark = (step)->used
-#define DAL_RELEASE(step)         (step)->used = dal__mark
+#define DAL_VECTOR(step, name, count) num *const name = dal_scratch((step), (count))
+/* DAL__RELEASE frees the vectors declared since DAL__MARK. */
+#define DAL__MARK(step)               const size_t dal__mark = (step)->used
+#define DAL__RELEASE(step)            (step)->used = dal__mark
 
 /* Copies the state of the method; restores it in some lanes. */
-#define DAL_METHOD_STATE(s)       ((s)->method_state_count)
+#define DAL_METHOD_STATE(s)           ((s)->method_state_count)
 DAL_INLINE void dal_save_method_state(const dal_step *s, num *to)
 {
     DAL_EACH(i, s->method_state_count) to[i] = s->method_state[i];
@@ -213,6 +213,19 @@ DAL_INLINE void dal_eval_group(dal_step *s, int group, dal_callback_code code, d
 }
 
 #endif
+
+/* Whether a step, or a part of it, has failed in all lanes.  Without the hint a compiler takes the
+ * code behind several returns for cold and leaves it slow. */
+DAL_INLINE int dal_failed(dal_status status) { return DAL_RARELY(status != DAL_OK); }
+
+/* Selects whether dal_field moves a tangent vector stored in p and pi. */
+DAL_INLINE void dal_set_tangent(dal_step *s, int on)
+{
+#ifndef DAL_SPECIALISED
+    s->tangent = on;
+#endif
+    (void)s, (void)on;
+}
 
 /* Places of e, p, pi, pi_e in a state. */
 DAL_INLINE int dal_at_e(const dal_step *s) { return 2 * DAL_N(s); }
@@ -256,10 +269,10 @@ DAL_INLINE num dal_gauge_rate(const num *pi, int n, num w)
 }
 
 /* The field of x' = f, dx' = Df dx, with the tangent vector dx stored in p and pi. */
-DAL_INLINE dal_status dal__tangent_field(dal_step *s, double t, const num *y, num *DAL_RESTRICT dy)
+DAL_INLINE void dal__tangent_field(dal_step *s, double t, const num *y, num *DAL_RESTRICT dy)
 {
     const int n = DAL_N(s), dq = dal_at_p(s), dv = dal_at_pi(s);
-    DAL_MARK(s);
+    DAL__MARK(s);
     DAL_VECTOR(s, jacobian, 2 * DAL_N(s) * DAL_N(s));
     dal_force(s, t, y, y + n, dy + n);
     dal_eval(s, DAL_EVAL_JACOBIAN, t, y, y + n, NULL, jacobian);
@@ -272,23 +285,14 @@ DAL_INLINE dal_status dal__tangent_field(dal_step *s, double t, const num *y, nu
     }
     dy[dal_at_e(s)] = dal_mu_e(s, t);
     dy[dal_at_pi_e(s)] = dal_num(0.0);
-    DAL_RELEASE(s);
-    return DAL_OK;
+    DAL__RELEASE(s);
 }
 
-/* The whole first-order field in the space of the run, dy[dim]:
- *     q' = v   v' = F + pi/e   e' = mu_e   p' = -F_q^T pi   pi' = -p - F_v^T pi   pi_e' = pi^2/2e^2
- * after (nh20). */
-DAL_INLINE dal_status dal_field(dal_step *s, double t, const num *y, num *DAL_RESTRICT dy)
+/* That of the canonical variables but q' = v. */
+DAL_INLINE void dal__lifted_field(dal_step *s, double t, const num *y, num *DAL_RESTRICT dy)
 {
     const int n = DAL_N(s);
-    DAL_EACH(i, n) dy[i] = y[n + i];
-    if (!DAL_LIFTED(s)) {
-        dal_force(s, t, y, y + n, dy + n);
-        return DAL_OK;
-    }
-    if (DAL_TANGENT(s)) return dal__tangent_field(s, t, y, dy);
-    DAL_MARK(s);
+    DAL__MARK(s);
     DAL_VECTOR(s, f, 3 * DAL_N(s));
     const num *p = y + dal_at_p(s), *pi = y + dal_at_pi(s);
     const num w = 1.0 / y[dal_at_e(s)];
@@ -298,8 +302,22 @@ DAL_INLINE dal_status dal_field(dal_step *s, double t, const num *y, num *DAL_RE
     DAL_EACH(i, n) dy[dal_at_pi(s) + i] = -p[i] - f[2 * n + i];
     dy[dal_at_e(s)] = dal_mu_e(s, t);
     dy[dal_at_pi_e(s)] = dal_gauge_rate(pi, n, w);
-    DAL_RELEASE(s);
-    return DAL_OK;
+    DAL__RELEASE(s);
+}
+
+/* The whole first-order field in the space of the run, dy[dim]:
+ *     q' = v   v' = F + pi/e   e' = mu_e   p' = -F_q^T pi   pi' = -p - F_v^T pi   pi_e' = pi^2/2e^2
+ * after (nh20). */
+DAL_INLINE void dal_field(dal_step *s, double t, const num *y, num *DAL_RESTRICT dy)
+{
+    const int n = DAL_N(s);
+    DAL_EACH(i, n) dy[i] = y[n + i];
+    if (!DAL_LIFTED(s))
+        dal_force(s, t, y, y + n, dy + n);
+    else if (DAL_TANGENT(s))
+        dal__tangent_field(s, t, y, dy);
+    else
+        dal__lifted_field(s, t, y, dy);
 }
 
 /* y + r += factor*d for count components, compensated; lanes that are not alive stay unchanged.  r
@@ -347,14 +365,14 @@ DAL_INLINE dal_status dal_update(dal_step *s, double h, const num *d)
 /* A step of size h of the method inside the present modifier. */
 DAL_INLINE dal_status dal_inner(dal_step *s, double h)
 {
-    DAL_MARK(s);
+    DAL__MARK(s);
     const double outer = s->h;
     s->h = h;
     s->depth--;
     const dal_status status = s->layer[s->depth]->step(s);
     s->depth++;
     s->h = outer;
-    DAL_RELEASE(s);
+    DAL__RELEASE(s);
     return status;
 }
 #endif

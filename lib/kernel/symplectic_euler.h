@@ -97,7 +97,7 @@ DAL_INLINE void dal__euler_map_pi(dal_step *s, dal_equation *eq)
 }
 
 /* 1 - h F_v - [s_q=1] h^2 F_q, or 1 + h F_v^T - [s_q=0] h^2 F_q^T. */
-DAL_INLINE dal_status dal__euler_matrix(dal_step *s, dal_equation *eq)
+DAL_INLINE void dal__euler_matrix(dal_step *s, dal_equation *eq)
 {
     static const double one = 1.0, zero = 0.0;
     const dal_euler *k = (const dal_euler *)eq->context;
@@ -108,7 +108,6 @@ DAL_INLINE dal_status dal__euler_matrix(dal_step *s, dal_equation *eq)
     const dal_stage_matrix matrix = {1, k->at.v ? k->h : -k->h, &one, q_moves ? &one : &zero,
                                      !k->at.v};
     dal_stage_inverse(s, &matrix, jacobian, m, &eq->block[0], 0);
-    return DAL_OK;
 }
 
 /* Solves for v1 (s_v = 1) or pi1 (s_v = 0). */
@@ -120,13 +119,15 @@ DAL_INLINE dal_status dal__euler_solve(dal_step *s, dal_euler *k)
     if (k->at.v) {
         eq.block[0].scale[0] = dal_velocity_scale(s, k->h, 0);
         DAL_EACH(i, nw) eq.block[0].u[i] = s->y[n + i];
-        DAL_TRY(dal_solve(s, &eq, dal__euler_map_v, dal__euler_matrix));
+        if (dal_failed(dal_solve(s, &eq, dal__euler_map_v, dal__euler_matrix)))
+            return DAL_NOT_CONVERGED;
         DAL_EACH(i, nw) k->v[i] = eq.block[0].u[i];
     } else {
         eq.block[0].size = n;
         eq.block[0].scale[0] = dal_momentum_scale(s, k->h, 0);
         DAL_EACH(i, n) eq.block[0].u[i] = s->y[pi + i];
-        DAL_TRY(dal_solve(s, &eq, dal__euler_map_pi, dal__euler_matrix));
+        if (dal_failed(dal_solve(s, &eq, dal__euler_map_pi, dal__euler_matrix)))
+            return DAL_NOT_CONVERGED;
         DAL_EACH(i, n) k->pi[i] = eq.block[0].u[i];
     }
     return DAL_OK;
@@ -159,7 +160,7 @@ DAL_INLINE void dal__euler_rates(dal_step *s, dal_euler *k, num mu, num *d)
 /* One step of size h from the present state and time. */
 DAL_SHARED dal_status dal_symplectic_euler(dal_step *s, dal_polarisation at, double h)
 {
-    DAL_MARK(s);
+    DAL__MARK(s);
     const int n = DAL_N(s);
     DAL_VECTOR(s, q, DAL_N(s));
     DAL_VECTOR(s, v, DAL_NW(s));
@@ -177,10 +178,10 @@ DAL_SHARED dal_status dal_symplectic_euler(dal_step *s, dal_polarisation at, dou
         DAL_EACH(i, n) pi[i] = s->y[dal_at_pi(s) + i];
     }
     dal__euler_q(s, &k);
-    if (at.v || DAL_LIFTED(s)) DAL_TRY(dal__euler_solve(s, &k));
+    if ((at.v || DAL_LIFTED(s)) && dal_failed(dal__euler_solve(s, &k))) return DAL_NOT_CONVERGED;
     dal__euler_q(s, &k);
     dal__euler_rates(s, &k, mu, d);
-    DAL_RELEASE(s);
+    DAL__RELEASE(s);
     return dal_update_multiple(s, h, h, d);
 }
 #endif

@@ -392,6 +392,7 @@ static void begin_step(engine *e, double h, dal__lanes alive, const lane_mask *l
     s->alive[0] = DAL_GROUPS > 1 ? dal_all() : lanes->group[0];
     s->unconverged[0] = ~dal_all();
     s->used = 0;
+    s->exhausted = 0;
     s->evaluations = 0;
     s->depth = e->layout.depth - 1;
 }
@@ -401,7 +402,8 @@ static dal__lanes step_engine(void *engine_, double h, dal__lanes alive, dal_sta
     engine *e = engine_;
     lane_mask moved = mask_of(alive);
     begin_step(e, h, alive, &moved);
-    const dal_status status = e->layer[e->step.depth]->step(&e->step);
+    dal_status status = e->layer[e->step.depth]->step(&e->step);
+    if (e->step.exhausted) status = DAL_MEMORY;
     if (e->failure) {
         e->failure->reached = e->step.t;
         e->failure->substep = dal_lane(e->step.substep[0], 0);
