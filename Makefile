@@ -17,6 +17,7 @@
 #     make mutants          whether the tests notice COUNT faults, drawn by SEED, planted in MODULE
 #     make bench            the timed comparisons of bench/cases.txt; bench-smoke, bench-long
 #     make gallery          the pictures that the README shows
+#     make references       the tables in docs/ that are made by the program
 #
 # BUILD=dir puts everything elsewhere; CFLAGS=-O3\ -march=native changes the speed, never a bit;
 # V=1 shows the commands.  All processors work on a build unless there is a -j.
@@ -290,6 +291,10 @@ mutants:
 gallery: all
 	@sh tools/gallery.sh $(PROGRAM) docs/gallery
 
+# The tables in docs/ that are made; lint and the tests of documents compare them.
+references: all
+	@sh tools/references.sh $(PROGRAM)
+
 # ---- installation ----------------------------------------------------------------------------
 
 BIN     = "$(DESTDIR)$(PREFIX)/bin"
@@ -325,7 +330,7 @@ clean:
 include bench/bench.mk
 
 FORCE:
-.PHONY: all help check check-bits check-browser check-sanitize check-valgrind fuzz run-fuzzers gallery lint mutants install uninstall clean FORCE mpi
+.PHONY: all help check check-bits check-browser check-sanitize check-valgrind fuzz run-fuzzers gallery references lint mutants install uninstall clean FORCE mpi
 .SECONDARY:
 
 -include $(LIB_OBJ:.o=.d) $(CLI_OBJ:.o=.d) $(TEST_OBJ:.o=.d) $(FUZZERS:%=$(BUILD)/tests/%.d)

@@ -32,3 +32,25 @@ for document in "$here/../../README.md" "$here"/../../docs/*.md; do
     done 3<commands
     cd .. || exit 1
 done
+
+# The page of formats names every column of the tables that its commands wrote.
+case_is "the columns of formats.md"
+for table in formats/*.csv formats/*/*.csv formats/*/series/*.csv; do
+    head -1 "$table" | tr ',' '\n' | while read -r column; do
+        grep -Fq "\`$column\`" "$here/../../docs/formats.md" || echo "$column"
+    done >columns
+    case $table in # the coordinates of the systems
+    *rows.csv) sed -i "/y[12]\|phi\|speed\|spin/d" columns ;;
+    *section.csv) sed -i "/^[xy]'*$\|xi/d" columns ;;
+    *lyapunov.csv) sed -i "/^lambda[2-9]$/d" columns ;;
+    esac
+    holds "$table: $(tr '\n' ' ' <columns)" test ! -s columns
+done
+holds "there are tables" test -s formats/study/cells.csv
+
+# The tables of choosing.md are the results of its study.
+case_is "the tables of choosing.md"
+sed -n '/^<!-- choosing -->$/,/^<!-- end of choosing -->$/{/^<!--/d;p;}' \
+    "$here/../../docs/choosing.md" | sed '1d;$d' >stated
+awk -f "$here/../../tools/choosing.awk" choosing/choice/cells.csv >measured
+holds "make references writes other tables: $(diff stated measured | head -3)" cmp stated measured

@@ -1,13 +1,36 @@
 #!/bin/sh
-# documents.sh PROGRAM - the tables of docs/ must be what the program prints, and what a link of a
-# document names must be there.
-for what in systems integrators; do
-    awk -v begin="<!-- $what -->" -v end="<!-- end of $what -->" \
-        '$0 == end { on = 0 } on && NF; $0 == begin { on = 1 }' docs/$what.md >"$1.$what.txt"
-    "$1" list $what --markdown | awk NF | diff "$1.$what.txt" - >"$1.$what.diff" ||
-        { echo "docs/$what.md: the table is not what the program prints:"; cat "$1.$what.diff"; }
-    rm -f "$1.$what.txt" "$1.$what.diff"
-done
+# documents.sh PROGRAM - the tables of docs/ must be what the program prints, or name what the lists
+# of the sources name, in their order; and what a link of a document names must be there.
+
+# printed WHAT ARGUMENT...: what the program prints is the part of docs/WHAT.md between its marks.
+printed() {
+    what=$1
+    shift
+    "$program" "$@" --markdown | awk NF >"$program.printed"
+    sed -n "/^<!-- $what -->$/,/^<!-- end of $what -->$/{/^<!-- /d;p;}" "docs/$what.md" | awk NF |
+        diff - "$program.printed" >"$program.diff" ||
+        { echo "docs/$what.md: run make references:"; cat "$program.diff"; }
+    rm -f "$program.printed" "$program.diff"
+}
+program=$1
+printed systems list systems
+printed integrators list integrators
+printed commands help
+
+# listed WHAT DOCUMENT PATTERN SOURCE: the first names of the table WHAT of a document are what the
+# pattern finds in the source, \1 of it.
+listed() {
+    sed -n "s/^.*$3.*$/\1/p" "$4" >"$names.source"
+    sed -n "/^<!-- $1 -->$/,/^<!-- end of $1 -->$/s/^| \`\([a-z0-9_]*\).*/\1/p" "docs/$2.md" |
+        diff "$names.source" - >"$names.diff" ||
+        { echo "docs/$2.md: the table of $1 is not the list of $4:"; cat "$names.diff"; }
+    rm -f "$names.source" "$names.diff"
+}
+names=$program.names
+listed functions formulas 'OP([A-Z0-9]*, [12], "\([a-z0-9]*\)")' lib/expr/graph.h
+listed 'system keys' formats ' SECTION([A-Z]*, "\([a-z]*\)")' include/dalembert.h
+listed 'study keys' formats ' KEY(\([a-z]*\), "[a-z]*", .*' cli/study/parsed_study.h
+
 for document in README.md CONTRIBUTING.md docs/*.md; do
     grep -o '](\([^)]*\))' "$document" | sed 's/^](//; s/[)#].*//' | while read -r link; do
         case $link in '' | http*) continue ;; esac

@@ -1,0 +1,29 @@
+#!/bin/sh
+# references.sh PROGRAM - writes the tables of docs/ that are made: systems, integrators, modifiers
+# and commands as the program prints them, and the results of the study of choosing.md, which it runs.
+program=$(cd "$(dirname "$1")" && pwd)/$(basename "$1")
+cd "$(dirname "$0")/.." || exit 2
+made=$(mktemp -d) || exit 2
+trap 'rm -rf "$made"' EXIT
+LC_ALL=C
+export LC_ALL
+
+# replace WHAT DOCUMENT: what stands between the marks of WHAT becomes standard input.
+replace() {
+    cat >"$made/table"
+    awk -v what="$1" -v table="$made/table" '
+        $0 == "<!-- end of " what " -->" { inside = 0 }
+        !inside
+        $0 == "<!-- " what " -->" {
+            inside = 1
+            print ""
+            while ((getline line <table) > 0) print line
+            print ""
+        }' "docs/$2" >"$made/document" && cat "$made/document" >"docs/$2"
+}
+"$program" list systems --markdown | replace systems systems.md
+"$program" list integrators --markdown | replace integrators integrators.md
+"$program" help --markdown | replace commands commands.md
+awk '/^```yaml$/ { inside = 1; next } /^```$/ { inside = 0 } inside' docs/choosing.md >"$made/choice.yaml"
+"$program" study "$made/choice.yaml" --output "$made/choice" >"$made/out" || cat "$made/out"
+awk -f tools/choosing.awk "$made/choice/cells.csv" | replace choosing choosing.md
