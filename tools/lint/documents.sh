@@ -9,7 +9,7 @@ printed() {
     "$program" "$@" --markdown | awk NF >"$program.printed"
     sed -n "/^<!-- $what -->$/,/^<!-- end of $what -->$/{/^<!-- /d;p;}" "docs/$what.md" | awk NF |
         diff - "$program.printed" >"$program.diff" ||
-        { echo "docs/$what.md: run make references:"; cat "$program.diff"; }
+        { echo "docs/$what.md: run make references:"; head -20 "$program.diff"; }
     rm -f "$program.printed" "$program.diff"
 }
 program=$1
@@ -31,10 +31,20 @@ listed functions formulas 'OP([A-Z0-9]*, [12], "\([a-z0-9]*\)")' lib/expr/graph.
 listed 'system keys' formats ' SECTION([A-Z]*, "\([a-z]*\)")' include/dalembert.h
 listed 'study keys' formats ' KEY(\([a-z]*\), "[a-z]*", .*' cli/study/parsed_study.h
 
+# The names of the headings of a document, as links have them.
+headings() {
+    sed -n 's/^##* //p' "$1" | tr 'A-Z ' 'a-z-' | tr -cd 'a-z0-9_\n-'
+}
 for document in README.md CONTRIBUTING.md docs/*.md; do
-    grep -o '](\([^)]*\))' "$document" | sed 's/^](//; s/[)#].*//' | while read -r link; do
-        case $link in '' | http*) continue ;; esac
-        [ -e "$(dirname "$document")/$link" ] || echo "$document: there is no $link"
+    grep -o '](\([^)]*\))' "$document" | sed 's/^](//; s/)$//' | while read -r link; do
+        case $link in http*) continue ;; esac
+        file=${link%%#*}
+        [ -z "$file" ] || file=$(dirname "$document")/$file
+        [ -e "${file:-$document}" ] || { echo "$document: there is no $link"; continue; }
+        case $link in
+        *'#'*) headings "${file:-$document}" | grep -qx "${link#*#}" ||
+            echo "$document: there is no heading for $link" ;;
+        esac
     done
 done
 [ "$(wc -m <README.md)" -le 8000 ] || echo "README.md: longer than 8000 characters"
