@@ -17,7 +17,7 @@
 #     make mutants          whether the tests notice COUNT faults, drawn by SEED, planted in MODULE
 #     make bench            the timed comparisons of bench/cases.txt; bench-smoke, bench-long
 #     make gallery          the pictures that the README shows
-#     make references       the tables in docs/ that are made by the program
+#     make references       the parts of docs/ that the program prints; CHOOSING=1: and its study's tables
 #
 # BUILD=dir puts everything elsewhere; CFLAGS=-O3\ -march=native changes the speed, never a bit;
 # V=1 shows the commands.  All processors work on a build unless there is a -j.
@@ -291,9 +291,9 @@ mutants:
 gallery: all
 	@sh tools/gallery.sh $(PROGRAM) docs/gallery
 
-# The tables in docs/ that are made; lint and the tests of documents compare them.
+# The parts of docs/ that are made; lint and the tests of documents compare them.
 references: all
-	@sh tools/references.sh $(PROGRAM)
+	@sh tools/references.sh $(PROGRAM) $(CHOOSING)
 
 # ---- installation ----------------------------------------------------------------------------
 

@@ -1,6 +1,7 @@
 #!/bin/sh
-# references.sh PROGRAM - writes the tables of docs/ that are made: systems, integrators, modifiers
-# and commands as the program prints them, and the results of the study of choosing.md, which it runs.
+# references.sh PROGRAM [choosing] - writes the parts of docs/ that are made: systems, integrators,
+# modifiers and commands as the program prints them; with a second argument also the results of the
+# study of choosing.md, which takes half a minute.
 program=$(cd "$(dirname "$1")" && pwd)/$(basename "$1")
 cd "$(dirname "$0")/.." || exit 2
 made=$(mktemp -d) || exit 2
@@ -24,6 +25,7 @@ replace() {
 "$program" list systems --markdown | replace systems systems.md
 "$program" list integrators --markdown | replace integrators integrators.md
 "$program" help --markdown | replace commands commands.md
+[ "$2" ] || exit 0
 awk '/^```yaml$/ { inside = 1; next } /^```$/ { inside = 0 } inside' docs/choosing.md >"$made/choice.yaml"
 "$program" study "$made/choice.yaml" --output "$made/choice" >"$made/out" || cat "$made/out"
 awk -f tools/choosing.awk "$made/choice/cells.csv" | replace choosing choosing.md

@@ -288,8 +288,8 @@ const cli_command command_list = {
         "the motion conserves the energy E = L_v.v - L; whether an exact solution is known.\n"
         "\n"
         "Integrators: 'symplectic lift' concerns the 4n+2 canonical variables only and implies "
-        "nothing about D or the energy.  Constraints D and the energy are preserved to rounding on "
-        "D = 0.  A modifier +WORD follows an integrator, NAME+WORD: rk4+project.  "
-        "'as NAME' means the properties of NAME.  'adaptive' takes --tolerance.\n",
+        "nothing about D or the energy; '... D' names the constraints, 'energy' the energy, that "
+        "are preserved to rounding on D = 0.  A modifier +WORD follows an integrator, NAME+WORD: "
+        "rk4+project.  'as NAME' means the properties of NAME.  'adaptive' takes --tolerance.\n",
     .run = list,
 };
