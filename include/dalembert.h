@@ -1,21 +1,31 @@
-/* dalembert.h - geometric integrators for nonholonomic mechanics.  This header is the manual.
+/* dalembert.h - systems, methods, options, runs and batches.
  *
- * What moves is a system, how it moves is an integrator; a run joins the two over one block of
- * memory; a batch is the same run several lanes wide; measures look at what comes out.
+ * A system says what moves, a method how.  A run joins the two in one block of memory.  A batch
+ * steps many runs of one kind, several lanes at a time.
  *
  *     d/dt L_v - L_q = Q + A^T h,   D(q,v,t) = 0,   A = dD/dv            (Lagrange-d'Alembert)
  *     H = pi.pi/(2e) + pi.F(q,v,t) + p.v + mu_e pi_e                     (canonical lift, 4n+2)
  *
- * A. A. Deriglazov, arXiv:2510.24492; equation numbers (nhK) in this project are that paper's.
+ * q and v are coordinates and velocities, L is the Lagrangian, Q are forces, h the multipliers of
+ * the constraints (and h a step size), W = L_vv the mass matrix, E = L_v.v - L.  Equation numbers
+ * (nhK) are those of A. A. Deriglazov, arXiv:2510.24492.
  *
- * Conventions.  Every function that can fail returns a dal_status and, where it takes a dal_error,
- * fills it (it may be NULL).  A NULL pointer where an object, a text, numbers or a place for a
- * result is required, a NULL name in a dal_setting and a negative count are errors: DAL_ARGUMENT.
- * A function without a status then returns 0, NaN or NULL, writes NaN to its result, or does
- * nothing.  *_free(NULL) does nothing.  What may be NULL besides is said at its place.  [alloc]
- * marks what allocates; create/free own memory, init borrows it.  Nothing here prints, reads the
- * environment, installs signals or keeps global state; two objects may be used from two threads.
- * Quantities are in the user's own units throughout. */
+ * Statuses.  Every function that can fail returns a dal_status and, where it takes a dal_error,
+ * fills it; a dal_error may be NULL.  A NULL pointer to an object, a text, numbers or a result, a
+ * NULL name in a dal_setting and a negative count are errors, DAL_ARGUMENT, unless the function
+ * allows them.  A function without a status then returns 0, NaN or NULL, writes NaN to its result,
+ * or does nothing.  *_free(NULL) does nothing.
+ *
+ * Memory.  [alloc] marks functions that allocate, and these may also fail with DAL_MEMORY.  create
+ * makes an object that free releases; init places one in memory of the caller.  A returned pointer
+ * to constant data belongs to its object and is valid as long as that.
+ *
+ * Shapes.  [n] after a pointer is the number of its elements; matrices are row-major.  n, m and
+ * multipliers are those of dal_system, dimension is dal_run_dimension.  Quantities have the units
+ * of the system, which are the user's own; angles in formulas are in radians.
+ *
+ * Nothing here prints, reads the environment or has global state.  Different objects may be used in
+ * different threads. */
 #ifndef DALEMBERT_H
 #define DALEMBERT_H
 
@@ -25,17 +35,20 @@
 extern "C" {
 #endif
 
-/* The version as numbers, and as the text "0.3.0". */
-#define DAL_VERSION_MAJOR 0
-#define DAL_VERSION_MINOR 3
-#define DAL_VERSION_PATCH 0
-#define DAL_VERSION       DAL__VERSION(DAL_VERSION_MAJOR, DAL_VERSION_MINOR, DAL_VERSION_PATCH)
+/* ---- version ------------------------------------------------------------------------------- */
+
+#define DAL_VERSION_MAJOR 0 /* before 1.0 a new minor version may change the interface */
+#define DAL_VERSION_MINOR 3 /* a part of the soname, libdalembert.so.MAJOR.MINOR, before 1.0 */
+#define DAL_VERSION_PATCH 0 /* leaves the interface as it is */
+/* The version as a text, "0.3.0". */
+#define DAL_VERSION DAL__VERSION(DAL_VERSION_MAJOR, DAL_VERSION_MINOR, DAL_VERSION_PATCH)
 
 #define DAL__VERSION(major, minor, patch)      DAL__VERSION_TEXT(major, minor, patch)
 #define DAL__VERSION_TEXT(major, minor, patch) #major "." #minor "." #patch
 
 /* ---- statuses ------------------------------------------------------------------------------ */
 
+/* All statuses: STATUS(code, text). */
 #define DAL_STATUS_LIST(STATUS)                                                                    \
     STATUS(OK, "done")                                                                             \
     STATUS(MEMORY, "out of memory")                                                                \
@@ -55,6 +68,7 @@ extern "C" {
     STATUS(IO, "input or output failed")                                                           \
     STATUS(INTERRUPTED, "interrupted")
 
+/* The result of a function: DAL_OK, which is 0, or the kind of failure. */
 typedef enum dal_status {
 #define CODE(code, text) DAL_##code,
     DAL_STATUS_LIST(CODE)
@@ -62,49 +76,52 @@ typedef enum dal_status {
         DAL_STATUS_COUNT
 } dal_status;
 
-const char *dal_status_name(dal_status status); /* "DAL_SINGULAR" */
-const char *dal_status_text(dal_status status); /* "a constraint became singular" */
+/* The identifier of a status, "DAL_SINGULAR"; "DAL_?" for other numbers. */
+const char *dal_status_name(dal_status status);
+/* The text of a status, "a constraint became singular". */
+const char *dal_status_text(dal_status status);
 
-enum { DAL_MESSAGE_SIZE = 320 };
+enum { DAL_MESSAGE_SIZE = 320 /* bytes of a message, with its NUL */ };
 
-/* The caller's own record of a failure.  line and column count from 1; 0: no place in a text. */
+/* The caller's own record of a failure. */
 typedef struct dal_error {
-    dal_status status;
-    int line, column;
+    dal_status status;              /* what the function returned */
+    int line, column;               /* place in the text that was read, from 1; 0: none */
     char message[DAL_MESSAGE_SIZE]; /* names the object and the value; no newline */
 } dal_error;
 
-/* The name among count nearest to name by edits (Damerau-Levenshtein), for "did you mean"; NULL
- * when none is within a third of the length of name (at least two edits) and has a letter in
- * common with it.  Names may hold NULLs. */
+/* Returns the element of names[count] with the fewest edits from name, for "did you mean" (distance
+ * of Damerau and Levenshtein); NULL when none has a letter in common with it and is within a third
+ * of its length, or within two edits.  Elements of names may be NULL. */
 const char *dal_nearest(const char *name, const char *const *names, int count);
 
-/* Reads a decimal number - sign, digits, one point, exponent, and nothing else - the same under
- * every locale, correctly rounded.  Errors: DAL_SYNTAX, DAL_TOO_LARGE (overflow). */
+/* Reads a decimal number from text[length]: sign, digits, one point, exponent, and nothing else;
+ * correctly rounded, in every locale the same.  Errors: DAL_SYNTAX, DAL_TOO_LARGE (overflow). */
 dal_status dal_parse_number(const char *text, size_t length, double *value);
 
 /* ---- systems ------------------------------------------------------------------------------- */
 
 typedef struct dal_system dal_system;
 
-/* Where a system is evaluated.  work holds the parameter values first, [system->parameters]; the
+/* Where a system is evaluated.  work begins with the parameter values, [system->parameters]; the
  * rest of its system->workspace doubles are the system's own (filled by prepare) and scratch.
- * Functions that evaluate a system by themselves read t, q and v alone. */
+ * Functions with a memory of their own, as those of a dal_evaluator, read t, q and v alone. */
 typedef struct dal_point {
-    double t;
+    double t;         /* time */
     const double *q;  /* [n] coordinates */
     const double *v;  /* [n] velocities, then [multipliers] vakonomic multipliers g */
     const double *pi; /* [n] momenta of the velocities; adjoint only */
     double *work;     /* [workspace] */
 } dal_point;
 
-/* Every callback is a pure function of *at (work beyond the parameters is scratch).  In the wide
- * sets each array is interleaved, x[component*lanes + lane], aligned to its lanes; t is common.
- * A callback that fails returns a status, or leaves NaN in the lanes concerned. */
+/* A formula of a system: a pure function of *at (work beyond the parameters is scratch) that writes
+ * out; the member that points to it says what.  In the wide sets each array is interleaved,
+ * x[component*lanes + lane], and aligned to its lanes; t is common.  A callback that fails returns
+ * a status, or leaves NaN in the lanes that failed. */
 typedef dal_status dal_callback(const dal_system *system, const dal_point *at, double *out);
 
-/* nw = n + multipliers below.  Matrices are row-major.  Only field is needed; each comment states
- * what a NULL excludes. */
+/* The callbacks of a step; nw = n + multipliers.  All but field may be NULL, which excludes what is
+ * in parentheses. */
 typedef struct dal_callbacks {
     dal_callback *field;      /* out[nw]: F, then dg/dt */
     dal_callback *adjoint;    /* out[3n]: F, F_q^T pi, F_v^T pi          (NULL: no lifted space) */
@@ -113,15 +130,13 @@ typedef struct dal_callbacks {
     dal_callback
         *energy_normal;      /* out[1 + 3n]: E, E_q, E_v, W^-1 E_q  (NULL: no +project-energy) */
     dal_callback *gauge;     /* out[1]: mu_e(t)                         (NULL: mu_e = 0) */
-    dal_callback *guards;    /* out[guards]: must keep their signs along a run: denominators and
-                                the like of the constraints             (NULL: none) */
-    dal_callback *blocks;    /* out[m + m*n + n*m + n + m]: D, A, R, a, c of F = a + R h: R is
-                                W^-1 B^T, B = A by Chetaev's rule, a = W^-1 b, c = D_q v + D_t
-                                                        (NULL: no methods that enforce D) */
+    dal_callback *guards;    /* out[guards]: must keep their signs, denominators   (NULL: none) */
+    dal_callback *blocks;    /* out[m + m*n + n*m + n + m]: D, A, R = W^-1 B^T, a = W^-1 b,
+                                c = D_q v + D_t of F = a + R h; B = A by Chetaev's rule
+                                                              (NULL: no methods that enforce D) */
     dal_callback *potential; /* out[3n]: of L = v.Wv/2 + g.v - U, W constant, for each coordinate
-                                U, U_q.v and v.Wv of those it is coupled with by U and W: 0 for
-                                the first two where that U is quadratic
-                                                         (NULL: no discrete-gradient) */
+                                U, U_q.v and v.Wv of those it is coupled with by U and W; the first
+                                two are 0 where that U is quadratic  (NULL: no discrete-gradient) */
 } dal_callbacks;
 
 /* What is known of the constraints and of the energy; set by a model, or by hand. */
@@ -130,13 +145,13 @@ enum {
     DAL_D_CONSTANT = 1 << 1,     /* every D linear in (q,v) with constant coefficients */
     DAL_D_BILINEAR = 1 << 2,     /* every D bilinear: c.v + q^T B v + d.q */
     DAL_D_QUADRATIC = 1 << 3,    /* every D a polynomial of degree <= 2 in (q,v) */
-    DAL_D_RANK_CHECKED = 1 << 4, /* G can vanish along a run: compare the normals A step by step */
+    DAL_D_RANK_CHECKED = 1 << 4, /* det A W^-1 A^T can vanish along a run: it is checked in steps */
     DAL_E_EXACT = 1 << 5,        /* dE/dt = 0 for every level of D */
     DAL_E_ON_D = 1 << 6,         /* dE/dt = 0 on D = 0 only */
     DAL_AUTONOMOUS = 1 << 7,     /* F does not depend on t */
     DAL_MASS_CONSTANT = 1 << 8,  /* W depends on parameters alone */
-    DAL_VAKONOMIC = 1 << 9,
-    DAL_SERVO = 1 << 10,             /* reactions along directions B of their own, not along A^T */
+    DAL_VAKONOMIC = 1 << 9,      /* vakonomic equations, with multipliers g */
+    DAL_SERVO = 1 << 10,         /* reactions along directions B of their own, not along A^T */
     DAL_BLOCKS_POSITIONAL = 1 << 11, /* every D linear, W^-1 b and A without v */
     DAL_D_ISOKINETIC = 1 << 12       /* one D = k (v.Wv/2 - K), W constant, W^-1 b without v */
 };
@@ -144,96 +159,98 @@ enum {
 /* A second-order system with constraints, as a plain struct: filled by a model or by hand with
  * designated initialisers; what is not named may stay zero. */
 struct dal_system {
-    const char *name;
-    const char *title, *reference;
-    int n;           /* coordinates, >= 1 */
-    int m;           /* constraints */
-    int multipliers; /* first-order variables beside v (vakonomic g); 0 or m */
-    int parameters, invariants, guards, tags;
-    unsigned properties;
-    const char *const *coordinate;      /* [n] names; NULL: q1, q2, ... */
-    const char *const *parameter;       /* [parameters] names */
-    const double *value;                /* [parameters] default values */
-    const char *const *invariant;       /* [invariants] names */
-    const char *const *guard;           /* [guards] "constraint 1: y1'" for messages */
-    int mass_guard;                     /* which guard, from 1, is det W; 0: none */
-    const char *const *tag;             /* [tags] */
-    size_t workspace;                   /* doubles in dal_point.work; 0 means parameters */
-    dal_callbacks call;                 /* one lane */
-    const dal_callbacks *wide4, *wide8; /* 4 or 8 lanes interleaved; NULL: fewer at once */
+    const char *name;              /* for messages and files; may be NULL, as the next two */
+    const char *title, *reference; /* a line for people; where the system is from */
+    int n;                         /* coordinates, >= 1 */
+    int m;                         /* constraints */
+    int multipliers;               /* first-order variables beside v (vakonomic g); 0 or m */
+    int parameters, invariants, guards, tags; /* how many there are */
+    unsigned properties;                      /* DAL_D_LINEAR | ...: what is known of D and E */
+    const char *const *coordinate;            /* [n] names; NULL: q1, q2, ... */
+    const char *const *parameter;             /* [parameters] names */
+    const double *value;                      /* [parameters] default values */
+    const char *const *invariant;             /* [invariants] names */
+    const char *const *guard;                 /* [guards] "constraint 1: y1'" for messages */
+    int mass_guard;                           /* which guard, from 1, is det W; 0: none */
+    const char *const *tag;                   /* [tags] words that classify the system */
+    size_t workspace;                         /* doubles in dal_point.work; 0 means parameters */
+    dal_callbacks call;                       /* one lane */
+    const dal_callbacks *wide4, *wide8;       /* of 4 and of 8 lanes, interleaved; may be NULL */
     dal_callback *prepare; /* completes work after a change of parameters; out unused */
     dal_callback *start;   /* out[2n + multipliers + 1]: q, v, g, e at t = 0; NULL: 0 and e = 1 */
     dal_callback *constraints;      /* out[m]: D alone; NULL: D is not observed */
     dal_callback *energy;           /* out[1]: E = L_v.v - L; NULL: unknown */
-    dal_callback *invariant_values; /* out[invariants] */
+    dal_callback *invariant_values; /* out[invariants]; NULL: no invariants */
     dal_callback *exact;    /* out[2n]: q, v of the exact solution at at->t; NULL: unknown */
     dal_callback *diagnose; /* out[1]: why field is not finite here: returns DAL_SINGULAR with the
                                number of the constraint (from 1), DAL_SINGULAR_MASS, or DAL_OK */
-    const dal_system *extended; /* the same with F continued off D = 0 so that E is exact, for the
-                                   option extend-energy; NULL: there is none */
-    const dal_system *quad;     /* the same with work in quad precision, for the option precision;
-                                   NULL: none */
+    const dal_system *extended; /* F continued off D = 0 so that E is exact, for extend-energy */
+    const dal_system *quad;     /* work in quad precision, for precision; these two may be NULL */
     const struct dal_picture *picture; /* how it is drawn; NULL: not at all */
-    void *data;                        /* the owner's */
+    void *data;                        /* of the owner, for callbacks */
 };
 
 /* ---- pictures ------------------------------------------------------------------------------ */
 
-/* The numbers of a picture, 0 where not given.  x, y: the place; angle: the heading, from x to y;
- * steer: the turn of the front axle of a board, whose other one turns against it, or of the arm of
- * a racer; width: of a disk, breadth over length as seen.  Then the words for a body. */
+/* The numbers of a picture, NUMBER(code, name); 0 where a system gives none. */
 #define DAL_PICTURE_LIST(NUMBER)                                                                   \
-    NUMBER(X, "x")                                                                                 \
-    NUMBER(Y, "y") NUMBER(ANGLE, "angle") NUMBER(STEER, "steer") NUMBER(WIDTH, "width")
+    NUMBER(X, "x")         /* place on the abscissa */                                             \
+    NUMBER(Y, "y")         /* place on the ordinate */                                             \
+    NUMBER(ANGLE, "angle") /* heading, from x to y */                                              \
+    NUMBER(STEER, "steer") /* angle of a board's front axle (minus that of the other), or arm */   \
+    NUMBER(WIDTH, "width") /* of a disk: breadth over length as seen */
+/* The bodies that are drawn, BODY(code, name). */
 #define DAL_BODY_LIST(BODY)                                                                        \
     BODY(POINT, "point")                                                                           \
     BODY(SLEIGH, "sleigh")                                                                         \
     BODY(BLADE, "blade")                                                                           \
     BODY(DISK, "disk")                                                                             \
     BODY(BALL, "ball") BODY(ROBOT, "robot") BODY(BOARD, "board") BODY(RACER, "racer")
+/* Places of the numbers of a picture. */
 enum {
 #define CODE(code, name) DAL_PICTURE_##code,
     DAL_PICTURE_LIST(CODE) DAL_PICTURE_COUNT
 #undef CODE
 };
+/* The body that is drawn at the place of a system. */
 typedef enum dal_body {
 #define CODE(code, name) DAL_BODY_##code,
     DAL_BODY_LIST(CODE) DAL_BODY_COUNT
 #undef CODE
 } dal_body;
 
-/* How a system is drawn in the plane, of no consequence for its motion. */
+/* How a system is drawn in the plane; without effect on its motion. */
 typedef struct dal_picture {
-    dal_callback *evaluate; /* out[DAL_PICTURE_COUNT] */
-    dal_body body;
+    dal_callback *evaluate; /* out[DAL_PICTURE_COUNT]: the numbers of the picture */
+    dal_body body;          /* what is drawn there */
 } dal_picture;
 
 /* ---- integrators and methods --------------------------------------------------------------- */
 
 /* Declared properties of an integrator; the conformance suite verifies them. */
 enum {
-    DAL_SYMMETRIC = 1 << 0,
-    DAL_SYMPLECTIC = 1 << 1,             /* on the lifted space; says nothing about D or E */
-    DAL_PRESERVES_BILINEAR = 1 << 2,     /* D bilinear in (q,v) */
-    DAL_PRESERVES_QUADRATIC = 1 << 3,    /* D quadratic in (q,v) */
-    DAL_PRESERVES_D = 1 << 4,            /* every D */
-    DAL_EXPLICIT = 1 << 5,               /* on the physical space */
-    DAL_MODIFIER = 1 << 6,               /* acts on another integrator: NAME+this */
-    DAL_COMPONENTWISE = 1 << 7,          /* on (q,v) only adds multiples of v and F */
-    DAL_PRESERVES_D_MIDPOINT = 1 << 8,   /* D((q0 + q1)/2, (q1 - q0)/h, t + h/2) = 0 in each step */
-    DAL_PRESERVES_ENERGY = 1 << 9,       /* E, where the motion conserves it */
-    DAL_PERSISTENT_MULTIPLIER = 1 << 10, /* a map of (q, v, multipliers of the last step), symmetric
-                                            and reversible in them */
-    DAL_ADAPTIVE = 1 << 11,              /* divides a step h where the option tolerance is not 0 */
-    DAL_EXTRAPOLATES_STAGES = 1 << 12    /* from one step to the first guess of the next */
+    DAL_SYMMETRIC = 1 << 0,            /* a step h, then a step -h, is the identity */
+    DAL_SYMPLECTIC = 1 << 1,           /* on the lifted space; says nothing about D or E */
+    DAL_PRESERVES_BILINEAR = 1 << 2,   /* every D bilinear in (q,v) */
+    DAL_PRESERVES_QUADRATIC = 1 << 3,  /* every D quadratic in (q,v) */
+    DAL_PRESERVES_D = 1 << 4,          /* every D */
+    DAL_EXPLICIT = 1 << 5,             /* on the physical space */
+    DAL_MODIFIER = 1 << 6,             /* acts on another integrator: NAME+this */
+    DAL_COMPONENTWISE = 1 << 7,        /* on (q,v) only adds multiples of v and F */
+    DAL_PRESERVES_D_MIDPOINT = 1 << 8, /* D((q0 + q1)/2, (q1 - q0)/h, t + h/2) = 0 in each step */
+    DAL_PRESERVES_ENERGY = 1 << 9,     /* E, where the motion conserves it */
+    DAL_PERSISTENT_MULTIPLIER =
+        1 << 10,                      /* a reversible map of (q, v, multipliers of the last step) */
+    DAL_ADAPTIVE = 1 << 11,           /* divides a step h where the option tolerance is not 0 */
+    DAL_EXTRAPOLATES_STAGES = 1 << 12 /* the first guess of a step is made from the last step */
 };
 
 /* What an integrator needs of the system or, a modifier, of the method inside. */
 enum {
-    DAL_NEEDS_FIELD = 1 << 0,
-    DAL_NEEDS_CONSTRAINT = 1 << 1,
-    DAL_NEEDS_SYMMETRIC = 1 << 2,  /* a symmetric method */
-    DAL_NEEDS_ORDER_2 = 1 << 3,    /* a method of order 2 */
+    DAL_NEEDS_FIELD = 1 << 0,      /* F, on the lifted space with its adjoint */
+    DAL_NEEDS_CONSTRAINT = 1 << 1, /* D, A, W^-1 A^T */
+    DAL_NEEDS_SYMMETRIC = 1 << 2,  /* a symmetric method inside */
+    DAL_NEEDS_ORDER_2 = 1 << 3,    /* a method of order 2 inside */
     DAL_NEEDS_BLOCKS = 1 << 4,     /* D, A, R, a, c; acts on p = pi = 0 only */
     DAL_NEEDS_POTENTIAL = 1 << 5,  /* U, and a constant W */
     DAL_NEEDS_ISOKINETIC = 1 << 6, /* DAL_D_ISOKINETIC */
@@ -242,45 +259,55 @@ enum {
     DAL_NEEDS_RUNGE_KUTTA = 1 << 9 /* an explicit method that calls dal_field alone */
 };
 
-struct dal_step; /* dalembert_kernel.h */
+struct dal_step;
+/* One step; see dalembert_kernel.h. */
 typedef dal_status dal_step_function(struct dal_step *step);
 
 /* A constant descriptor; its file in integrators/ holds the mathematics. */
 typedef struct dal_integrator {
-    const char *name, *alias; /* alias: another name, or NULL */
-    const char *summary, *reference;
-    int order;  /* 0 for a modifier: that of the inner method */
-    int stages; /* solved together or stored at once; determines scratch and, with
-                   DAL_EXTRAPOLATES_STAGES, persistent state */
-    unsigned properties, needs;
-    unsigned inherits; /* a modifier: properties of the method inside that it preserves */
-    dal_step_function *step;
+    const char *name;        /* lower case, "rk4"; of a modifier the part behind the + */
+    const char *alias;       /* another name, or NULL */
+    const char *summary;     /* what it is, in a few words */
+    const char *reference;   /* where it is from */
+    int order;               /* 0 for a modifier: that of the inner method */
+    int stages;              /* solved together or stored at once; determines scratch and, with
+                                DAL_EXTRAPOLATES_STAGES, persistent state */
+    unsigned properties;     /* DAL_SYMMETRIC | ... */
+    unsigned needs;          /* DAL_NEEDS_FIELD | ... */
+    unsigned inherits;       /* a modifier: properties of the method inside that it preserves */
+    dal_step_function *step; /* takes one step */
 } dal_integrator;
 
-enum { DAL_LAYERS = 4 };
+enum { DAL_LAYERS = 4 /* max integrators in a method: one, and modifiers */ };
 
-/* An integrator, then the modifiers around it, innermost first; unused layers are NULL.
- * An integrator outside the library is used by its address: {{&my_integrator}}. */
+/* An integrator and the modifiers around it.  An integrator that is not in the library is used by
+ * its address: {{&my_integrator}}. */
 typedef struct dal_method {
-    const dal_integrator *layer[DAL_LAYERS];
+    const dal_integrator *layer[DAL_LAYERS]; /* innermost first; unused ones are NULL */
 } dal_method;
 
-/* Integrator or modifier number i of the library, NULL past the last. */
+/* Integrator or modifier number i of the library, from 0; NULL past the last. */
 const dal_integrator *dal_integrator_at(int i);
 
-/* "rk4", "gauss8+project".  Errors: DAL_NAME with the nearest name. */
+/* Finds a method of the library by name: "rk4", "gauss8+project".  Errors: DAL_NAME with the
+ * nearest name. */
 dal_status dal_method_parse(dal_method *method, const char *name, dal_error *error);
-/* Writes the full name, at most size bytes with its NUL; returns buffer. */
+/* Writes the full name into buffer[size], cut where it does not fit; returns buffer. */
 char *dal_method_name(const dal_method *method, char *buffer, size_t size);
+/* The stated order. */
 int dal_method_order(const dal_method *method);
-unsigned dal_method_properties(const dal_method *method); /* of all its layers together */
-unsigned dal_method_needs(const dal_method *method);      /* of any of its layers */
+/* Properties of all layers together, DAL_SYMMETRIC | ... */
+unsigned dal_method_properties(const dal_method *method);
+/* Needs of any layer, DAL_NEEDS_FIELD | ... */
+unsigned dal_method_needs(const dal_method *method);
 
 /* ---- models: systems from formulas --------------------------------------------------------- */
 
+/* A system as formulas, from a file or added one by one. */
 typedef struct dal_model dal_model;
 
-/* The sections of a system file; lists and single values have no names. */
+/* The sections of a system file, SECTION(code, name).  A comment says what the names and texts of
+ * dal_model_add are; lists and single values have no names. */
 #define DAL_SECTION_LIST(SECTION)                                                                  \
     SECTION(TITLE, "title")                                                                        \
     SECTION(REFERENCE, "reference")                                                                \
@@ -300,6 +327,10 @@ typedef struct dal_model dal_model;
     SECTION(TAGS, "tags")             /* a word */                                                 \
     SECTION(PICTURE, "picture")       /* x, y, angle, ..: formula; body: a word */
 
+/* A section of a system file.  Reactions are along B_a = dD_a/dv (Chetaev's rule), unless the file
+ * gives B_a(q,v,t), as for an actuator that enforces a servo constraint:
+ *     W dv/dt = b + B^T h,   (A W^-1 B^T) h = -(c + A W^-1 b)
+ * A component of B_a that is not named is 0. */
 typedef enum dal_section {
 #define CODE(code, text) DAL_SECTION_##code,
     DAL_SECTION_LIST(CODE)
@@ -307,55 +338,71 @@ typedef enum dal_section {
         DAL_SECTION_COUNT
 } dal_section;
 
-/* Without reactions Chetaev's rule gives them: constraint a pushes along dD_a/dv.  With them it
- * pushes along B_a(q,v,t), as an actuator does that enforces a servo constraint:
- *     W dv/dt = b + B^T h,   (A W^-1 B^T) h = -(c + A W^-1 b)
- * In a file reactions is a list parallel to constraints; its item a maps coordinates to the
- * components of B_a, those not named being 0:    reactions: [{x: 1, theta: -l*cos(theta)}]
- * picture has x and y at least:    picture: {x: y1, y: y2, angle: phi, body: sleigh} */
-
-/* An empty model, or NULL when memory is out; without a name (NULL) it is called "". [alloc] */
+/* Makes an empty model; NULL when out of memory.  A NULL name is "". [alloc] */
 dal_model *dal_model_create(const char *name);
+/* Frees a model and its systems. */
 void dal_model_free(dal_model *model);
 
-/* Adds one entry; texts are copied and parsed by dal_model_system, so the order of calls is free.
- * line and column (from 1, or 0) say where the text stood, for messages. [alloc]
- * Errors: DAL_NAME, DAL_SYNTAX, DAL_MODEL (duplicate), DAL_MEMORY. */
+/* Adds an entry to a section.  Texts are copied, and parsed by dal_model_system, so that entries
+ * may be added in any order.  line and column (from 1, or 0) say where the text stands, for
+ * messages. [alloc]  Errors: DAL_NAME, DAL_SYNTAX, DAL_MODEL (duplicate). */
 dal_status dal_model_add(dal_model *model, dal_section section, const char *name, const char *text,
                          int line, int column, dal_error *error);
 
-/* Reads a system file (YAML). [alloc]  The first takes the text itself, the second a path, the
- * third the name of a system that is embedded in the library ("chaplygin-sleigh").  The name of a
- * text may be NULL. */
+/* Makes *model from the YAML text of a system file, text[length].  name is for messages and may be
+ * NULL. [alloc]  Errors: DAL_SYNTAX, DAL_NAME and DAL_MODEL, with place. */
 dal_status dal_model_read(dal_model **model, const char *name, const char *text, size_t length,
                           dal_error *error);
+/* Makes *model from the file at path. [alloc]  Errors: DAL_IO, those of dal_model_read. */
 dal_status dal_model_read_file(dal_model **model, const char *path, dal_error *error);
+/* Makes *model from a system of the library, "chaplygin-sleigh". [alloc]  Errors: DAL_NAME with
+ * the nearest name. */
 dal_status dal_model_builtin(dal_model **model, const char *name, dal_error *error);
 
-/* Name of built-in system number i, NULL past the last; and its YAML text. */
+/* Name of system number i of the library, from 0; NULL past the last. */
 const char *dal_builtin_name(int i);
+/* The YAML text of a system of the library; NULL where there is none of this name. */
 const char *dal_builtin_text(const char *name);
 
-/* The system of a complete model, owned by the model, made at the first call. [alloc]
- * Errors: every fault of the formulas, with place; DAL_MODEL; DAL_TOO_LARGE. */
+/* Gives the system of a complete model, made at the first call and owned by the model: the formulas
+ * are parsed and F is derived, with exact derivatives. [alloc]  Errors: DAL_SYNTAX and DAL_NAME
+ * with place, DAL_MODEL, DAL_TOO_LARGE. */
 dal_status dal_model_system(dal_model *model, const dal_system **system, dal_error *error);
 
-/* The tangent system, 2n coordinates (q, delta q): F and F_q dq + F_v dv, without constraints.
- * A Runge-Kutta or polarised method applied to it is its exact tangent map. [alloc] */
+/* Gives the tangent system, owned by the model: 2n coordinates (q, dq), accelerations F and
+ * F_q dq + F_v dv, no constraints.  A Runge-Kutta or partitioned method applied to it is that
+ * method's exact tangent map. [alloc]  Errors: those of dal_model_system. */
 dal_status dal_model_tangent(dal_model *model, const dal_system **system, dal_error *error);
 
 /* ---- options ------------------------------------------------------------------------------- */
 
-typedef enum dal_space { DAL_LIFTED, DAL_PHYSICAL } dal_space;
-typedef enum dal_solver { DAL_SOLVER_AUTO, DAL_FIXED_POINT, DAL_NEWTON } dal_solver;
-typedef enum dal_precision { DAL_DOUBLE, DAL_QUAD } dal_precision;
-typedef enum dal_sums { DAL_SUMS_COMPENSATED, DAL_SUMS_PLAIN } dal_sums;
+/* The variables of a run. */
+typedef enum dal_space {
+    DAL_LIFTED,  /* (q, v, e, p, pi, pi_e), the canonical lift (nh20) */
+    DAL_PHYSICAL /* (q, v), and g of a vakonomic system */
+} dal_space;
+/* How implicit equations are solved. */
+typedef enum dal_solver {
+    DAL_SOLVER_AUTO, /* fixed point; Newton where that fails and there is a jacobian */
+    DAL_FIXED_POINT, /* fixed-point iteration */
+    DAL_NEWTON       /* simplified Newton iteration */
+} dal_solver;
+/* The arithmetic of a run. */
+typedef enum dal_precision {
+    DAL_DOUBLE, /* 53 binary digits */
+    DAL_QUAD    /* 113 binary digits */
+} dal_precision;
+/* How steps are added to the state. */
+typedef enum dal_sums {
+    DAL_SUMS_COMPENSATED, /* what a sum rounds off is added to the next one (Kahan 1965) */
+    DAL_SUMS_PLAIN        /* plain sums */
+} dal_sums;
 
 /* One of several words, by its number. */
 typedef int dal_choice;
 
-/* type, name, its word outside C, default (of a choice the first word), min, max, value (the words
- * of a choice, or the name of the number in texts), help */
+/* All options: OPTION(type, member, name in texts, default, min, max, the words of a choice or a
+ * placeholder for the number, help). */
 #define DAL_OPTION_LIST(OPTION)                                                                    \
     OPTION(double, step, "step", 0.01, 0.0, 1e300, "H", "step size h in units of t")               \
     OPTION(dal_choice, space, "space", DAL_LIFTED, 0, 1, "lifted|physical",                        \
@@ -378,84 +425,106 @@ typedef int dal_choice;
         dal_choice, precision, "precision", DAL_DOUBLE, 0, 1, "double|quad",                       \
         "arithmetic of the run; quad has 113 binary digits and takes some hundred times longer")
 
+/* How a method takes its steps. */
 typedef struct dal_options {
 #define OPTION(type, name, word, initial, min, max, value, help) type name;
     DAL_OPTION_LIST(OPTION)
 #undef OPTION
 } dal_options;
 
+/* The default of every option. */
 dal_options dal_options_default(void);
-/* Sets one option from text.  Errors: DAL_NAME (nearest name), DAL_ARGUMENT, DAL_SYNTAX. */
+/* Sets the option with a name from a text, "newton" or "0.01".  Errors: DAL_NAME with the nearest
+ * name, DAL_ARGUMENT (out of range), DAL_SYNTAX. */
 dal_status dal_options_set(dal_options *options, const char *name, const char *text,
                            dal_error *error);
 
 /* ---- runs ---------------------------------------------------------------------------------- */
 
+/* One motion of a system by a method.  Its steps do not allocate. */
 typedef struct dal_run dal_run;
 
+/* A value for a name. */
 typedef struct dal_setting {
-    const char *name;
-    double value;
+    const char *name; /* of a parameter or of a component of the state */
+    double value;     /* finite, but for e = INFINITY */
 } dal_setting;
 
-/* What a run is made from.  parameters: by name.  start: x, x', e, p_x, pi_x, pi_e, g1, ...; the
- * system gives what is not named.  e = INFINITY gives 1/e = 0, the adjoint system. */
+/* What a run is made from.  It may be freed or changed when the run is made; the system and the
+ * integrators' descriptors must outlive the run. */
 typedef struct dal_run_spec {
-    const dal_system *system;
-    dal_method method;
-    dal_options options;
-    const dal_setting *parameters, *start;
-    int parameter_count, start_count;
+    const dal_system *system;         /* what moves */
+    dal_method method;                /* how */
+    dal_options options;              /* dal_options_default(), changed at will */
+    const dal_setting *parameters;    /* [parameter_count] those that differ from their default */
+    const dal_setting *start;         /* [start_count] of x, x', e, p_x, pi_x, pi_e, g1; the system
+                                      gives the rest; e = INFINITY: 1/e = 0, the adjoint system */
+    int parameter_count, start_count; /* how many there are */
 } dal_run_spec;
 
-/* Bytes that a run needs; 0 when the spec is not usable. */
+/* Bytes that a run needs; 0 when the spec cannot be used. */
 size_t dal_run_size(const dal_run_spec *spec);
-/* Places a run in the caller's memory (any alignment, dal_run_size bytes); nothing to free.
- * The system and the descriptors must outlive it.  Errors: DAL_ARGUMENT, DAL_NAME (nearest name),
- * DAL_UNSUPPORTED, DAL_INCONSISTENT (|D| beyond 1e-10 relative), DAL_RANK, DAL_SINGULAR_MASS,
- * DAL_GAUGE, DAL_NOT_FINITE, DAL_MEMORY (too few bytes). */
+
+/* Places a run in memory[bytes] of the caller, dal_run_size bytes at least, of any alignment; it
+ * need not be freed, unless dal_run_native is used.  Errors: DAL_ARGUMENT, DAL_NAME with the
+ * nearest name, DAL_UNSUPPORTED, DAL_INCONSISTENT (|D| beyond 1e-10 relative), DAL_RANK,
+ * DAL_SINGULAR_MASS, DAL_GAUGE, DAL_NOT_FINITE, DAL_MEMORY (too few bytes). */
 dal_status dal_run_init(dal_run **run, void *memory, size_t bytes, const dal_run_spec *spec,
                         dal_error *error);
-/* The same in memory of its own. [alloc] */
+/* The same in memory of its own. [alloc]  Errors: those of dal_run_init. */
 dal_status dal_run_create(dal_run **run, const dal_run_spec *spec, dal_error *error);
+/* Frees what the run owns: its memory after dal_run_create, compiled code always. */
 void dal_run_free(dal_run *run);
 
-/* One step, or count steps.  A step succeeds or leaves the run unchanged to the bit.  Errors:
- * DAL_SINGULAR, DAL_SINGULAR_MASS, DAL_NOT_FINITE, DAL_NOT_CONVERGED, DAL_GAUGE; the error names
- * the constraint and the time. */
+/* Takes one step.  It succeeds or leaves the run unchanged to the bit.  Errors: DAL_SINGULAR,
+ * DAL_SINGULAR_MASS, DAL_NOT_FINITE, DAL_NOT_CONVERGED, DAL_GAUGE; the message names the constraint
+ * and the time. */
 dal_status dal_run_step(dal_run *run, dal_error *error);
+/* Takes count steps, or those before the first that fails.  Errors: those of a step. */
 dal_status dal_run_advance(dal_run *run, long long count, dal_error *error);
 
+/* The system of the spec, or the one that the option extend-energy selects. */
 const dal_system *dal_run_system(const dal_run *run);
+/* The present time, from 0. */
 double dal_run_time(const dal_run *run);
-double dal_run_step_size(const dal_run *run);      /* h */
-long long dal_run_steps(const dal_run *run);       /* since t = 0, those before a restore too */
-long long dal_run_evaluations(const dal_run *run); /* of the field, or of the lifted field */
-int dal_run_dimension(const dal_run *run);         /* 4n+2 lifted; 2n + multipliers physical */
-/* [dimension] q, v, e, p, pi, pi_e (lifted) or q, v, g (physical); valid until the run is freed. */
+/* The step size h, in units of t. */
+double dal_run_step_size(const dal_run *run);
+/* Steps since t = 0, those before a restore included. */
+long long dal_run_steps(const dal_run *run);
+/* Evaluations of the field, or of the lifted field, since t = 0. */
+long long dal_run_evaluations(const dal_run *run);
+/* Numbers in a state: 4n + 2 on the lifted space, 2n + multipliers on the physical one. */
+int dal_run_dimension(const dal_run *run);
+/* The present state, [dimension]: q, v, e, p, pi, pi_e (lifted) or q, v, g (physical). */
 const double *dal_run_state(const dal_run *run);
-const double *dal_run_parameters(const dal_run *run); /* [parameters] values in force */
-/* Replaces time and state, which need only be finite; clears all other persistent state. */
+/* The parameter values of the run, [parameters]. */
+const double *dal_run_parameters(const dal_run *run);
+/* Replaces time and state, state[dimension], and clears all other persistent state.  The state need
+ * not satisfy the constraints.  Errors: DAL_NOT_FINITE. */
 dal_status dal_run_set_state(dal_run *run, double t, const double *state, dal_error *error);
-/* Name of state component i: x, x', e, p_x, pi_x, pi_e, g1; returns buffer, NULL past the end. */
+/* Writes the name of state component i, from 0, into buffer[size]: x, x', e, p_x, pi_x, pi_e, g1;
+ * returns buffer, NULL past the last. */
 char *dal_run_name(const dal_run *run, int i, char *buffer, size_t size);
 
-/* The persistent state of a run, *count doubles, valid until the run is freed: all that passes from
- * one step to the next.  A copy is a checkpoint.  restore puts it into a run of the same spec,
- * which then continues with the same bits.  Errors: DAL_ARGUMENT (wrong count), DAL_NOT_FINITE. */
+/* The persistent state, *count doubles: all that passes from one step to the next.  A copy of it is
+ * a checkpoint. */
 const double *dal_run_save(const dal_run *run, size_t *count);
+/* Restores a copy, saved[count], into a run of the same spec, which then continues with the same
+ * bits.  Errors: DAL_ARGUMENT (wrong count), DAL_NOT_FINITE. */
 dal_status dal_run_restore(dal_run *run, const double *saved, size_t count, dal_error *error);
 
-/* Observables at the present state, in this order: D1..Dm, E (with an energy), H (lifted),
- * |p|, |pi|, |pi_e| (lifted, max norms), invariants, error (with an exact solution that agrees with
- * the start; max norm over q). */
+/* The number of observables, in this order: D1..Dm, E (with an energy), H, |p|, |pi|, |pi_e|
+ * (lifted; max norms), invariants, error (max norm over q; with an exact solution from the start).
+ */
 int dal_run_observables(const dal_run *run);
+/* Writes the name of observable i into buffer[size]; returns buffer, NULL past the last. */
 char *dal_run_observable_name(const dal_run *run, int i, char *buffer, size_t size);
+/* Writes the observables of the present state to out.  Errors: those of the callbacks. */
 dal_status dal_run_observe(dal_run *run, double *out);
 
 /* Callbacks of dal_run_sample; any may be NULL.  Any status but DAL_OK ends the run with it. */
 typedef struct dal_observer {
-    void *user;
+    void *user; /* the first argument of every callback */
     /* Called for each row. */
     dal_status (*sample)(void *user, dal_run *run, long long row, double t);
     /* Called now and then between rows. */
@@ -478,7 +547,8 @@ typedef struct dal_observer {
 /* Advances the run to time T and samples rows first_row..samples at t = row*T/samples, the last at
  * T exactly.  The trajectory consists of steps h.  An intermediate step of the same method gives a
  * row between two steps and does not change the trajectory.  After an interruption between rows
- * pass the first row not sampled.  observer may be NULL. */
+ * pass the first row not sampled.  observer may be NULL.  Errors: those of a step; DAL_ARGUMENT;
+ * what a callback returns. */
 dal_status dal_run_sample(dal_run *run, double T, long long samples, long long first_row,
                           const dal_observer *observer, dal_error *error);
 
@@ -491,27 +561,31 @@ dal_status dal_run_intermediate(dal_run *run, double h,
 
 /* ---- batches ------------------------------------------------------------------------------- */
 
+/* Many runs of one system and method, called lanes, that differ in parameters and start. */
 typedef struct dal_batch dal_batch;
 
-/* count runs of one spec, stepped several lanes at a time, each with the bits of a single run.
- * width: max lanes at a time, 1, 4 or 8; 0: the fastest.  Different batches may be stepped in
- * different threads.  [alloc] */
+/* Makes count runs of one spec that are stepped several at a time, each with the bits of a single
+ * run.  width: max lanes at a time, 1, 4 or 8; 0: the fastest.  [alloc]  Errors: those of
+ * dal_run_init, DAL_ARGUMENT (count, width), DAL_UNSUPPORTED (quad precision). */
 dal_status dal_batch_create(dal_batch **batch, const dal_run_spec *spec, int count, int width,
                             dal_error *error);
+/* Frees a batch. */
 void dal_batch_free(dal_batch *batch);
-/* Sets parameters and start of one lane, which replace those of the spec, at t = 0.  Allowed before
- * the first step only. */
+/* Sets parameters[parameter_count] and start[start_count] of one lane, which replace those of the
+ * spec, at t = 0.  Errors: those of dal_run_init; DAL_ARGUMENT (lane, or after a step). */
 dal_status dal_batch_start(dal_batch *batch, int lane, const dal_setting *parameters,
                            int parameter_count, const dal_setting *start, int start_count,
                            dal_error *error);
-/* Steps every lane that has not failed; DAL_OK while any such lane is left.  A failed lane keeps
- * its state before the failing step and does not slow down the others. */
+/* Takes count steps in every lane that has not failed.  A lane that fails keeps the state before
+ * the failing step and does not slow down the others.  Returns DAL_OK while a lane is left. */
 dal_status dal_batch_advance(dal_batch *batch, long long count);
+/* The number of lanes. */
 int dal_batch_count(const dal_batch *batch);
+/* The status of a lane: DAL_OK, or why its step failed; DAL_ARGUMENT without the lane. */
 dal_status dal_batch_status(const dal_batch *batch, int lane, dal_error *error);
+/* The present time of a lane; NaN without the lane. */
 double dal_batch_time(const dal_batch *batch, int lane);
-/* Copies the state of a lane, [dimension] doubles as dal_run_state; does nothing without the
- * lane. */
+/* Copies the state of a lane to state[dimension], ordered as dal_run_state. */
 void dal_batch_state(const dal_batch *batch, int lane, double *state);
 
 #ifdef __cplusplus

@@ -1,8 +1,7 @@
-/* dalembert_analysis.h - analysis of systems, methods and motions.
+/* dalembert_analysis.h - statistics, trends, checks, order, error budgets, Lyapunov exponents.
  *
- * Everything here works from outside, through the same calls a user has: derivatives are compared
- * with differences, declared properties with numbers.  Differences are central, of order 8, so that
- * their noise is near 1e-12.  The conventions are those of dalembert.h.
+ * The conventions are those of dalembert.h.  Everything here uses its public functions only.
+ * Derivatives are compared with central differences of order 8, whose noise is near 1e-12.
  *
  * Symplecticity on the lifted space says nothing about D or the energy of the motion itself: on
  * p = pi = 0 every one-step method whose step on (q,v) is locally invertible, explicit Euler
@@ -18,15 +17,18 @@ extern "C" {
 
 /* ---- statistics of a quantity along a run -------------------------------------------------- */
 
-enum { DAL_STATISTICS_BLOCKS = 64, DAL_PARTIAL_SUMS = 8 };
+enum { DAL_STATISTICS_BLOCKS = 64 /* max blocks of values */ };
+enum { DAL_PARTIAL_SUMS = 8 /* sums that a block is added up in */ };
 
 /* The version of dal_statistics: it changes whenever the members or their meaning do, and is saved
  * with them in files.  Each member has 64 bits and none is a pointer. */
 enum { DAL_STATISTICS_LAYOUT = 3 };
 
-/* A block of successive values: the middle of its times, and the mean, min and max of x. */
+/* A block of successive values of x. */
 typedef struct dal_statistics_block {
-    double t, x, min, max;
+    double t;        /* the middle of its times */
+    double x;        /* the mean */
+    double min, max; /* the extreme values */
 } dal_statistics_block;
 
 /* The statistics of one quantity x over any number of values, in constant memory.  They are plain
@@ -54,36 +56,40 @@ typedef struct dal_statistics {
     dal_statistics_block block[DAL_STATISTICS_BLOCKS];
 } dal_statistics;
 
-/* Begins the statistics of count quantities; adds one value of each.  t increases in nearly equal
- * steps.  A value that is not finite is left out and sets lost. */
+/* Begins the statistics of count quantities, statistics[count], which belong to the caller. */
 void dal_statistics_start(dal_statistics *statistics, int count);
+/* Adds one value of each quantity, values[count], at time t, which increases in nearly equal steps.
+ * A value that is not finite is left out and sets lost. */
 void dal_statistics_add(dal_statistics *statistics, int count, double t, const double *values);
-/* Adds `samples` values of each of count quantities; that of quantity i at t[k] is
- * values[i * stride + k].  The result is bit by bit that of adding them one by one, many times
+/* Adds the values of each quantity at t[samples]; that of quantity i at t[k] is
+ * values[i * stride + k].  The result has the bits of adding them one by one; it is many times
  * faster. */
 void dal_statistics_add_many(dal_statistics *statistics, int count, int samples, const double *t,
                              const double *values, size_t stride);
 
-/* max |x| and max |x - first|; infinite when a value was lost. */
+/* max |x|; infinite when a value was lost. */
 double dal_statistics_max_abs(const dal_statistics *statistics);
+/* max |x - first|; infinite when a value was lost. */
 double dal_statistics_deviation(const dal_statistics *statistics);
 
 /* A mean and its 95 % confidence interval, from the means of blocks and the correlation of
  * neighbours.  The interval covers variation from block to block; it covers neither a slow approach
  * to a limit nor the error of the method. */
 typedef struct dal_average {
-    double mean, low, high;
+    double mean;      /* the mean */
+    double low, high; /* ends of the interval */
 } dal_average;
 
-/* NaN without values; an infinite interval with fewer than 3 blocks. */
+/* The mean of x; NaN without values; an infinite interval with fewer than 3 blocks. */
 void dal_statistics_mean(const dal_statistics *statistics, dal_average *average);
 
-/* The size of a quantity's deviation.  code, word
- *   EXACT     the quantity never changed
- *   ROUNDING  the deviation is what the roundings of that many steps cause
- *   LARGER    the deviation is larger */
-#define DAL_SIZE_LIST(SIZE) SIZE(EXACT, "exact") SIZE(ROUNDING, "rounding") SIZE(LARGER, "larger")
+/* Sizes: SIZE(code, word). */
+#define DAL_SIZE_LIST(SIZE)                                                                        \
+    SIZE(EXACT, "exact")       /* the quantity never changed */                                    \
+    SIZE(ROUNDING, "rounding") /* no more than the roundings of that many steps cause */           \
+    SIZE(LARGER, "larger")     /* more */
 
+/* The size of a quantity's deviation. */
 typedef enum dal_size_class {
 #define SIZE_CODE(code, word) DAL_SIZE_##code,
     DAL_SIZE_LIST(SIZE_CODE)
@@ -91,27 +97,19 @@ typedef enum dal_size_class {
         DAL_SIZE_COUNT
 } dal_size_class;
 
-/* The trend of a quantity over a long time.  code, word
- *   NONE         it stays about one value
- *   SETTLES      it changes once and then stays about one value
- *   RANDOM_WALK  its steps are independent: it grows like sqrt(t)
- *   LINEAR       it drifts at one rate, whatever oscillates about the line
- *   POWER        it grows like another power of t
- *   EXPONENTIAL  it grows by equal factors in equal times
- *   GROWING      it oscillates about one value, with a growing amplitude
- *   UNDECIDED    too few values, or too slow an oscillation, to distinguish these
- *   ABORTED      a value was not finite, or the run ended before its time */
+/* Trends: TREND(code, word). */
 #define DAL_TREND_LIST(TREND)                                                                      \
-    TREND(NONE, "none")                                                                            \
-    TREND(SETTLES, "settles")                                                                      \
-    TREND(RANDOM_WALK, "random walk")                                                              \
-    TREND(LINEAR, "linear")                                                                        \
-    TREND(POWER, "power law")                                                                      \
-    TREND(EXPONENTIAL, "exponential")                                                              \
-    TREND(GROWING, "growing oscillation")                                                          \
-    TREND(UNDECIDED, "undecided")                                                                  \
-    TREND(ABORTED, "aborted")
+    TREND(NONE, "none")                   /* it stays about one value */                           \
+    TREND(SETTLES, "settles")             /* it changes once and then stays about one value */     \
+    TREND(RANDOM_WALK, "random walk")     /* its steps are independent: it grows like sqrt(t) */   \
+    TREND(LINEAR, "linear")               /* it drifts at one rate, and may oscillate */           \
+    TREND(POWER, "power law")             /* it grows like another power of t */                   \
+    TREND(EXPONENTIAL, "exponential")     /* it grows by equal factors in equal times */           \
+    TREND(GROWING, "growing oscillation") /* about one value, with a growing amplitude */          \
+    TREND(UNDECIDED, "undecided")         /* too few values, or too slow an oscillation */         \
+    TREND(ABORTED, "aborted")             /* a value was not finite, or the run ended early */
 
+/* The trend of a quantity over a long time. */
 typedef enum dal_trend_class {
 #define TREND_CODE(code, word) DAL_TREND_##code,
     DAL_TREND_LIST(TREND_CODE)
@@ -119,25 +117,23 @@ typedef enum dal_trend_class {
         DAL_TREND_COUNT
 } dal_trend_class;
 
-/* Whether the motion of a run conserves a quantity.  code, text
- *   CONSERVED      it does, or should
- *   NOT_CONSERVED  it need not: forces depend on time, constraints are affine, ...
- *   OFF_SURFACE    it does on D = 0 only, and the run has left D = 0 by more than roundings
- *   MOVED_BY_PI    the lifted run is off pi = 0, where pi/e acts on (q,v) */
+/* CONSERVATION(code, text). */
 #define DAL_CONSERVATION_LIST(CONSERVATION)                                                        \
     CONSERVATION(CONSERVED, "conserved")                                                           \
     CONSERVATION(NOT_CONSERVED, "not conserved by the motion")                                     \
     CONSERVATION(OFF_SURFACE, "conserved on D = 0 only, and D is not 0")                           \
     CONSERVATION(MOVED_BY_PI, "not conserved where pi is not 0")
 
+/* Whether the motion of a run conserves a quantity. */
 typedef enum dal_conservation {
 #define CONSERVATION_CODE(code, text) DAL_##code,
     DAL_CONSERVATION_LIST(CONSERVATION_CODE)
 #undef CONSERVATION_CODE
 } dal_conservation;
 
-const char *dal_size_text(dal_size_class size);    /* "rounding" */
-const char *dal_trend_text(dal_trend_class trend); /* "random walk" */
+const char *dal_size_text(dal_size_class size);    /* the word, "rounding" */
+const char *dal_trend_text(dal_trend_class trend); /* the word, "random walk" */
+/* The text, "conserved". */
 const char *dal_conservation_text(dal_conservation conservation);
 
 /* Size and trend of a quantity x, with the numbers both are decided by. */
@@ -151,14 +147,14 @@ typedef struct dal_trend {
     double max_drift;           /* max |drift| over the whole series in this interval */
     double exponent; /* of t: 1 linear, 1/2 random walk, 0 none and settles, fitted for a power law;
                          NaN where none can be stated */
-    dal_size_class size;
-    dal_trend_class trend;
+    dal_size_class size;           /* of the deviation */
+    dal_trend_class trend;         /* of x */
     double confidence;             /* 0..1, of the trend */
     dal_conservation conservation; /* unless DAL_CONSERVED, exponent, size, trend and confidence
                                       state nothing; see dal_run_classify */
 } dal_trend;
 
-/* Classifies a quantity by a scale (its natural size, in its unit; roundings are measured by it).
+/* Classifies a quantity.  scale is its natural size, in its unit; roundings are measured by it.
  * aborted: the run ended before its time.  More values may be added afterwards. */
 void dal_statistics_classify(const dal_statistics *statistics, double scale, int aborted,
                              dal_trend *trend);
@@ -176,19 +172,23 @@ void dal_run_classify(const dal_run *run, const dal_statistics *statistics, int 
 /* A system with parameter values and the memory to evaluate it, for one thread. */
 typedef struct dal_evaluator dal_evaluator;
 
-/* Parameters by name; the others have the system's values.  The system must outlive it. [alloc]
- * Errors: DAL_NAME (nearest name), DAL_NOT_FINITE, DAL_MEMORY, those of prepare. */
+/* Makes an evaluator with parameters[parameter_count]; the others have the system's values.  The
+ * system must outlive it. [alloc]  Errors: DAL_NAME with the nearest name, DAL_NOT_FINITE, those of
+ * prepare. */
 dal_status dal_evaluator_create(dal_evaluator **evaluator, const dal_system *system,
                                 const dal_setting *parameters, int parameter_count,
                                 dal_error *error);
+/* Frees an evaluator. */
 void dal_evaluator_free(dal_evaluator *evaluator);
+/* The system that is evaluated. */
 const dal_system *dal_evaluator_system(const dal_evaluator *evaluator);
-/* Calls any callback of the system; pi may be NULL but for the adjoint.  DAL_UNSUPPORTED when
- * the callback is NULL. */
+/* Calls a callback of the system at t, q[n], v[n + multipliers]; pi[n] is read by the adjoint alone
+ * and may else be NULL.  Errors: DAL_UNSUPPORTED (callback is NULL), those of the callback. */
 dal_status dal_evaluator_call(dal_evaluator *evaluator, dal_callback *callback, double t,
                               const double *q, const double *v, const double *pi, double *out);
-/* The start: out[2n + multipliers + 1] = q, v, g, e, with x, x', g1 and e replaced as named.
- * It need not satisfy the constraints.  Errors: DAL_NAME, those of the system. */
+/* The start: out[2n + multipliers + 1] = q, v, g, e, with x, x', g1 and e replaced by
+ * start[start_count].  It need not satisfy the constraints.  Errors: DAL_NAME, those of the system.
+ */
 dal_status dal_evaluator_start(dal_evaluator *evaluator, const dal_setting *start, int start_count,
                                double *out, dal_error *error);
 
@@ -198,29 +198,30 @@ dal_status dal_evaluator_start(dal_evaluator *evaluator, const dal_setting *star
 dal_status dal_measure_rate(dal_evaluator *evaluator, dal_callback *callback, int count,
                             const dal_point *at, double *out);
 
-/* Compares the derivatives that callbacks return with differences of values: the maximum of
- * |returned - difference| / max(1, |returned|); NaN where there is nothing to compare.  [alloc]
- * Errors: those of the callbacks, DAL_NOT_FINITE: the differences are not finite, DAL_MEMORY. */
+/* Derivatives that callbacks return against differences of values: the maximum of
+ * |returned - difference| / max(1, |returned|); NaN where there is nothing to compare. */
 typedef struct dal_derivatives {
     double jacobian;            /* F_q, F_(v,g) */
     double adjoint;             /* F_q^T pi, F_v^T pi, and its F against field */
     double constraint_jacobian; /* A = dD/dv */
     double gram;                /* asymmetry of G = A W^-1 A^T, relative to its size */
 } dal_derivatives;
+/* Compares the derivatives at a point.  [alloc]  Errors: those of the callbacks, DAL_NOT_FINITE:
+ * the differences are not finite. */
 dal_status dal_check_derivatives(dal_evaluator *evaluator, const dal_point *at,
                                  dal_derivatives *out);
 
 /* The numerical rank of G = A W^-1 A^T, and its smallest pivot relative to the largest entry of
- * G scaled to a unit diagonal (0 where G is singular). [alloc] */
+ * G scaled to a unit diagonal (0 where G is singular). [alloc]  Errors: those of the callbacks. */
 dal_status dal_measure_rank(dal_evaluator *evaluator, const dal_point *at, int *rank,
                             double *pivot);
 
-/* Moves v[n] along W^-1 A^T until D = 0 (Newton, to stagnation).  DAL_NOT_CONVERGED when it does
- * not; v is then as before. [alloc] */
+/* Moves v[n] along W^-1 A^T until D = 0 (Newton, to stagnation). [alloc]  Errors:
+ * DAL_NOT_CONVERGED, v being as before; those of the callbacks. */
 dal_status dal_project_velocity(dal_evaluator *evaluator, double t, const double *q, double *v);
 
 /* The class of D as a function, by differences at points around *at: each member is a necessary
- * condition, satisfied to rounding at every point tried. [alloc] */
+ * condition, satisfied to rounding at every point tried. */
 typedef struct dal_constraint_class {
     int linear;          /* affine in v */
     int constant;        /* affine in (q,v) jointly */
@@ -233,20 +234,21 @@ typedef struct dal_constraint_class {
     double force_defect; /* max |F(q,-v,-t) - F(q,v,t)| / max(1, |F|) over these points; NaN where
                             F has no values */
 } dal_constraint_class;
-/* degree[m], when not NULL, receives the k of each constraint.  Errors: DAL_UNSUPPORTED,
- * DAL_NOT_FINITE: D has no values about the point, DAL_MEMORY. */
+/* Classifies D about a point; degree[m], when not NULL, receives the k of each constraint. [alloc]
+ * Errors: DAL_UNSUPPORTED, DAL_NOT_FINITE: D has no values about the point. */
 dal_status dal_classify_constraints(dal_evaluator *evaluator, const dal_point *at,
                                     dal_constraint_class *out, double *degree);
 
 /* ---- order and structure of a method ------------------------------------------------------- */
 
-enum { DAL_ORDER_LEVELS = 8 };
+enum { DAL_ORDER_LEVELS = 8 /* max step sizes of dal_order */ };
 
 /* Errors at time T for decreasing steps (step, step/2, step/4, ... in dal_measure_order), their
  * cost, and the slopes between them. */
 typedef struct dal_order {
-    int levels;
-    double step[DAL_ORDER_LEVELS], error[DAL_ORDER_LEVELS];
+    int levels;                              /* step sizes, at most DAL_ORDER_LEVELS */
+    double step[DAL_ORDER_LEVELS];           /* step sizes, decreasing */
+    double error[DAL_ORDER_LEVELS];          /* max norm of the error at T */
     long long evaluations[DAL_ORDER_LEVELS]; /* of the field */
     double slope[DAL_ORDER_LEVELS]; /* slope[i] between levels i-1 and i; slope[0] is NaN */
     double order;                   /* NaN: none can be stated */
@@ -263,9 +265,9 @@ void dal_order_slopes(dal_order *order, double noise);
  * 0 where there is none. */
 long long dal_whole_steps(double from, double to, double step);
 
-/* The observed order: max norm of the whole state at T against reference[dimension], or, when it
- * is NULL, against gauss12 (or *reference_method) with half the smallest step. [alloc]
- * T must hold a whole number of the steps.  Errors: those of the runs, DAL_ARGUMENT. */
+/* Measures the order with levels step sizes: the state at T, a whole number of the steps, against
+ * reference[dimension], or, when that is NULL, against gauss12 (or *reference_method) with half the
+ * smallest step. [alloc]  Errors: those of the runs, DAL_ARGUMENT. */
 dal_status dal_measure_order(const dal_run_spec *spec, double T, int levels,
                              const dal_method *reference_method, const double *reference,
                              dal_order *order, dal_error *error);
@@ -273,7 +275,7 @@ dal_status dal_measure_order(const dal_run_spec *spec, double T, int levels,
 /* The maximum entry of |J^T Omega J - Omega|, J the derivative of one step from the run's start (or
  * from state[4n+2] at time t) by differences; pairs (q,p), (v,pi), (e,pi_e).  Lifted space only:
  * DAL_UNSUPPORTED; e must be finite.  increment, to begin with, relative to max(1, h |v|) of a
- * coordinate and max(1, |x|) of all else; 0: 2e-3. [alloc] */
+ * coordinate and max(1, |x|) of all else; 0: 2e-3. [alloc]  Errors: those of a step. */
 dal_status dal_check_symplecticity(const dal_run_spec *spec, double t, const double *state,
                                    double increment, double *defect, dal_error *error);
 
@@ -281,14 +283,15 @@ dal_status dal_check_symplecticity(const dal_run_spec *spec, double t, const dou
  * one step from the start (or from state at time t).  rho reverses time, t -> -t, with
  *     (q, v) -> (q, -v),      (q, v, e, p, pi, pi_e) -> (q, -v, e, -p, pi, -pi_e),
  * the antisymplectic lift that leaves H = pi.pi/(2e) + pi.F + p.v alone when mu_e is odd in t and
- * F(q,-v,-t) = F(q,v,t); vakonomic g goes to -g where D is odd in v.  [alloc] */
+ * F(q,-v,-t) = F(q,v,t); vakonomic g goes to -g where D is odd in v.  [alloc]
+ * Errors: those of a step. */
 dal_status dal_check_reversibility(const dal_run_spec *spec, double t, const double *state,
                                    double *defect, dal_error *error);
 
 /* p.dq + pi.dv along steps of spec->method with 1/e = 0: (q,p,v,pi) from a lifted run with the
  * start of spec (its p_x, pi_x name the covector), (dq,dv) from the tangent system of the same
  * model (dal_model_tangent) in the physical space, beginning with direction[2n].  Constant for
- * symplectic methods.  The statistics cover every step. [alloc] */
+ * symplectic methods.  The statistics cover every step. [alloc]  Errors: those of the runs. */
 dal_status dal_adjoint_pairing(const dal_run_spec *spec, const dal_system *tangent,
                                const double *direction, long long steps, dal_statistics *statistics,
                                dal_error *error);
@@ -307,7 +310,8 @@ dal_status dal_measure_action(dal_evaluator *evaluator, double t0, double h, lon
  * is from stationary on a path: X_k [2n+1] = q, v, e at the count nodes, P_k [2n+1] = p, pi, pi_e
  * the mean over each of the count-1 intervals, states[count*(4n+2)] the rows of a lifted run.
  * The maximum of |dS/dX_k| over inner nodes and |dS/dP_k|, divided by h: zero to rounding for
- * implicit-midpoint, of the order of the error for others. [alloc] */
+ * implicit-midpoint, of the order of the error for others. [alloc]  Errors: DAL_ARGUMENT, those of
+ * the callbacks. */
 dal_status dal_check_stationarity(dal_evaluator *evaluator, double t0, double h, long long count,
                                   const double *states, double *defect);
 
@@ -336,7 +340,8 @@ typedef struct dal_dirac {
                              are not 0: positive, so that the secondary constraints are needed */
     double hamiltonian;   /* |H_c| on the surface; 0 */
 } dal_dirac;
-/* Errors: DAL_UNSUPPORTED (vakonomic), DAL_NOT_FINITE, DAL_MEMORY. [alloc] */
+/* Performs Dirac's algorithm at a point, with a value of e.  [alloc]  Errors: DAL_UNSUPPORTED
+ * (vakonomic), DAL_NOT_FINITE. */
 dal_status dal_check_dirac(dal_evaluator *evaluator, const dal_point *at, double e, dal_dirac *out);
 
 /* ---- error budgets ------------------------------------------------------------------------- */
@@ -356,7 +361,8 @@ dal_status dal_check_dirac(dal_evaluator *evaluator, const dal_point *at, double
  * as truncation does.  The effect of projection is that of leaving it out, or of adding it; it is
  * no part of the sum. */
 
-/* code, word, text.  Runs in quad precision cover the first quad_steps steps, the others all. */
+/* RUN(code, word, text).  Runs in quad precision cover the first quad_steps steps, the others all.
+ */
 #define DAL_COMPARISON_LIST(RUN)                                                                   \
     RUN(HALVED, "half-step", "half the step")                                                      \
     RUN(LOOSER, "looser", "equations solved less far")                                             \
@@ -366,6 +372,7 @@ dal_status dal_check_dirac(dal_evaluator *evaluator, const dal_point *at, double
     RUN(QUAD, "quad", "quad precision, solved further")                                            \
     RUN(QUAD_HALVED, "quad-half-step", "quad precision, solved further, half the step")
 
+/* The runs that a run is compared with. */
 typedef enum dal_comparison_run {
 #define RUN_CODE(code, word, text) DAL_COMPARISON_##code,
     DAL_COMPARISON_LIST(RUN_CODE)
@@ -373,7 +380,7 @@ typedef enum dal_comparison_run {
         DAL_COMPARISONS
 } dal_comparison_run;
 
-/* code, word */
+/* SOURCE(code, word). */
 #define DAL_ERROR_SOURCE_LIST(SOURCE)                                                              \
     SOURCE(TRUNCATION, "truncation")                                                               \
     SOURCE(COEFFICIENTS, "coefficients")                                                           \
@@ -381,6 +388,7 @@ typedef enum dal_comparison_run {
     SOURCE(ROUNDING, "rounding")                                                                   \
     SOURCE(PROJECTION, "projection")
 
+/* The sources of a drift. */
 typedef enum dal_error_source {
 #define SOURCE_CODE(code, word) DAL_SOURCE_##code,
     DAL_ERROR_SOURCE_LIST(SOURCE_CODE)
@@ -388,14 +396,14 @@ typedef enum dal_error_source {
         DAL_ERROR_SOURCES
 } dal_error_source;
 
-const char *dal_comparison_name(dal_comparison_run comparison); /* "half-step" */
-const char *dal_comparison_text(dal_comparison_run comparison); /* "half the step" */
-const char *dal_error_source_name(dal_error_source source);
+const char *dal_comparison_name(dal_comparison_run comparison); /* the word, "half-step" */
+const char *dal_comparison_text(dal_comparison_run comparison); /* the text, "half the step" */
+const char *dal_error_source_name(dal_error_source source);     /* the word, "truncation" */
 
 /* The behaviour of one observable, and the shares of its drift.  "Beginning": the first
  * quad_steps steps of the run. */
 typedef struct dal_shares {
-    char name[64];
+    char name[64];                         /* of the observable */
     dal_trend whole;                       /* along the whole run */
     dal_trend beginning;                   /* of the run, along the beginning */
     dal_trend comparison[DAL_COMPARISONS]; /* of those that ran */
@@ -414,35 +422,39 @@ typedef struct dal_shares {
     double share[DAL_ERROR_SOURCES], margin[DAL_ERROR_SOURCES];
 } dal_shares;
 
+/* A run, the runs it was compared with, and the shares of every observable's drift. */
 typedef struct dal_error_budget {
-    dal_run_spec spec;
-    long long steps, quad_steps; /* of the run; of those also in quad precision, 0: none */
-    int has_projection;          /* the method projects: DAL_COMPARISON_PROJECTION does not */
-    int ran[DAL_COMPARISONS];    /* whether each ran to its end, and if not, the reason */
-    char reason[DAL_COMPARISONS][DAL_MESSAGE_SIZE];
-    int observables;
-    dal_shares *shares; /* [observables] */
+    dal_run_spec spec;        /* of the run */
+    long long steps;          /* of the run */
+    long long quad_steps;     /* of those also in quad precision; 0: none */
+    int has_projection;       /* the method projects: DAL_COMPARISON_PROJECTION does not */
+    int ran[DAL_COMPARISONS]; /* whether each ran to its end */
+    char reason[DAL_COMPARISONS][DAL_MESSAGE_SIZE]; /* and if not, the reason */
+    int observables;                                /* of the run */
+    dal_shares *shares;                             /* [observables] */
 } dal_error_budget;
 
-/* Any member may be NULL.  step is called now and then with the share of the work that is done; any
- * status but DAL_OK ends it.  begin is called with every new run in doubles, and may replace its
- * steps by compiled code. */
+/* Callbacks of dal_error_budget_create; any may be NULL. */
 typedef struct dal_error_budget_observer {
-    void *user;
+    void *user; /* the first argument of every callback */
+    /* Called now and then with the share of the work that is done, 0..1; any status but DAL_OK ends
+     * it. */
     dal_status (*step)(void *user, double done);
+    /* Called with every new run in doubles; may replace its steps by compiled code. */
     void (*begin)(void *user, dal_run *run, long long steps);
 } dal_error_budget_observer;
 
 /* Runs a spec for a number of steps, and the runs it is compared with, and finds the shares of
  * every observable's drift.  observer may be NULL.  A comparison that is not possible is left out,
- * with a reason.  [alloc]  Errors: those of the run itself, DAL_ARGUMENT, DAL_MEMORY. */
+ * with a reason.  [alloc]  Errors: those of the run itself, DAL_ARGUMENT. */
 dal_status dal_error_budget_create(const dal_run_spec *spec, long long steps, long long quad_steps,
                                    const dal_error_budget_observer *observer,
                                    dal_error_budget **budget, dal_error *error);
+/* Frees a budget. */
 void dal_error_budget_free(dal_error_budget *budget);
 
-/* Describes in words how a share was found; returns buffer, NULL where there is no such observable.
- */
+/* Describes in words how a share was found, in buffer[size]; returns buffer, NULL where there is no
+ * such observable. */
 char *dal_error_budget_describe(const dal_error_budget *budget, int observable,
                                 dal_error_source source, char *buffer, size_t size);
 
@@ -456,18 +468,20 @@ char *dal_error_budget_describe(const dal_error_budget *budget, int observable,
  * and of |grad D| grow slower than t: they contribute total derivatives only. */
 typedef struct dal_lyapunov dal_lyapunov;
 
-/* count vectors; 0: one for each direction of the step map, that is 2n + multipliers, less m where
- * the method enforces D = 0, less one where it enforces E.  tangent is dal_model_tangent of the
- * same model, or NULL.  J is exact (to rounding) with it and a Runge-Kutta method, partitioned
- * symplectic Euler, or a composition; otherwise it is found by differences of the step, of order 8,
- * with increments that do not depend on how far the coordinates have travelled.  The space of the
- * spec is ignored. [alloc]  Errors: those of a run; DAL_ARGUMENT (count); DAL_UNSUPPORTED: the step
- * is no smooth map of (q, v, g) alone: it has a multiplier as persistent state, or a tolerance. */
+/* Makes count tangent vectors; 0: one for each direction of the step map, that is 2n +
+ * multipliers, less m where the method enforces D = 0, less one where it enforces E.  tangent is
+ * dal_model_tangent of the same model, or NULL.  J is exact (to rounding) with it and a
+ * Runge-Kutta method, partitioned symplectic Euler, or a composition; otherwise it is found by
+ * differences of the step, of order 8, with increments that do not depend on how far the
+ * coordinates have travelled.  The space of the spec is ignored. [alloc]  Errors: those of a run;
+ * DAL_ARGUMENT (count); DAL_UNSUPPORTED: the step is no smooth map of (q, v, g) alone: it has a
+ * multiplier as persistent state, or a tolerance. */
 dal_status dal_lyapunov_create(dal_lyapunov **lyapunov, const dal_run_spec *spec,
                                const dal_system *tangent, int count, dal_error *error);
+/* Frees it, with its run. */
 void dal_lyapunov_free(dal_lyapunov *lyapunov);
-/* The same bits as dal_run_advance of a run of the spec.  Errors: those of a step; DAL_SINGULAR
- * when J takes a vector to 0. */
+/* Takes steps of the run and its vectors; the run has the bits of dal_run_advance.  Errors: those
+ * of a step; DAL_SINGULAR when J takes a vector to 0. */
 dal_status dal_lyapunov_advance(dal_lyapunov *lyapunov, long long steps, dal_error *error);
 /* Begins all means at the present time, after a transient; the vectors stay. */
 void dal_lyapunov_discard_transient(dal_lyapunov *lyapunov);
@@ -478,7 +492,7 @@ void dal_lyapunov_discard_transient(dal_lyapunov *lyapunov);
  * respect to (q, v, g)), else surface = 0: an enforced direction has no exponent, where the flow
  * has an exponent 0. */
 typedef struct dal_balance {
-    double surface;
+    double surface;    /* [log |grad D|] between both ends, over the time, or 0 */
     double difference; /* sum - mean divergence - surface */
     double margin;     /* a bound of the errors of the method, the mean of
                           dimension r x^order / (1 - x) with x = h r and
@@ -487,13 +501,17 @@ typedef struct dal_balance {
     int holds;         /* |difference| <= margin; if not, J is wrong */
 } dal_balance;
 
-/* Errors: DAL_UNSUPPORTED: not all exponents, no jacobian, directions lost that neither D nor E
- * explains, a method that maps D to -D in every step, or x >= 1 in some step. [alloc] */
+/* Compares them over all steps so far. Errors: DAL_UNSUPPORTED: not all exponents, no jacobian,
+ * directions lost that neither D nor E explains, a method that maps D to -D in every step, or x >=
+ * 1 in some step. [alloc] */
 dal_status dal_lyapunov_balance(dal_lyapunov *lyapunov, dal_balance *balance, dal_error *error);
 
+/* The run, at its present state. */
 const dal_run *dal_lyapunov_run(const dal_lyapunov *lyapunov);
+/* The number of vectors, and of exponents. */
 int dal_lyapunov_count(const dal_lyapunov *lyapunov);
-int dal_lyapunov_is_exact(const dal_lyapunov *lyapunov); /* J by the tangent system */
+/* Whether J is by the tangent system, not by differences. */
+int dal_lyapunov_is_exact(const dal_lyapunov *lyapunov);
 /* Whether the vectors span the space, so that their sum is log|det J|/h. */
 int dal_lyapunov_is_whole(const dal_lyapunov *lyapunov);
 
@@ -506,29 +524,31 @@ void dal_lyapunov_divergence(const dal_lyapunov *lyapunov, dal_average *average)
 
 /* ---- Poincare sections --------------------------------------------------------------------- */
 
+/* One crossing of g = 0. */
 typedef struct dal_crossing {
     long long number; /* from 1, of those reported */
-    double t;
-    int direction; /* 1: upwards, -1: downwards */
+    double t;         /* its time */
+    int direction;    /* 1: upwards, -1: downwards */
 } dal_crossing;
 
-/* The crossings of g = 0; g is value number index of the count values of a callback of the run's
- * system (system->invariant_values for an invariant). */
+/* A Poincare section, the surface g = 0.  cross and poll may be NULL and must not move the run; any
+ * status but DAL_OK ends the run with that status. */
 typedef struct dal_poincare {
-    dal_callback *callback;
-    int count, index;
-    int direction; /* 1: from g < 0 to g > 0, -1: the other way, 0: both */
-    void *user;
-    /* cross is called with the run at the crossing, poll about every 1000 steps.  Both may be NULL
-     * and must not move the run.  Any status but DAL_OK ends the run with that status. */
+    dal_callback *callback; /* of the run's system; invariant_values for an invariant */
+    int count;              /* its values */
+    int index;              /* that of g, from 0 */
+    int direction;          /* 1: from g < 0 to g > 0, -1: the other way, 0: both */
+    void *user;             /* the first argument of both callbacks */
+    /* Called with the run at the crossing. */
     dal_status (*cross)(void *user, dal_run *run, const dal_crossing *crossing);
+    /* Called about every 1000 steps. */
     dal_status (*poll)(void *user, dal_run *run);
 } dal_poincare;
 
-/* The numbers of crossings by direction, and of touches. */
+/* The numbers of crossings, reported or not. */
 typedef struct dal_crossings {
-    long long up, down;
-    long long touches; /* minima of |g| below 1e-12 max |g| that are no crossings */
+    long long up, down; /* by direction */
+    long long touches;  /* minima of |g| below 1e-12 max |g| that are no crossings */
 } dal_crossings;
 
 /* Advances the run to time T, a whole number of its steps, and reports every crossing.  Where g

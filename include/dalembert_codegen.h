@@ -10,6 +10,8 @@
 extern "C" {
 #endif
 
+/* ---- generated C files --------------------------------------------------------------------- */
+
 /* Writes a self-contained C file that steps this system by this method on this space, lanes (1, 2,
  * 4, 8 or 16) at a time: *text, to be freed with free(); its first comment explains its use.  The
  * bits are those of a run of the same spec.  The system must come from a model, the integrators
@@ -19,6 +21,8 @@ extern "C" {
  * DAL_UNSUPPORTED, DAL_TOO_LARGE (for straight-line code). */
 dal_status dal_generate(const dal_run_spec *spec, int lanes, const char *prefix, char **text,
                         dal_error *error);
+
+/* ---- compiled runs and batches ------------------------------------------------------------- */
 
 /* How steps are compiled and where compiled code is cached; 0 and NULL have the stated meaning. */
 typedef struct dal_native_options {
@@ -37,6 +41,7 @@ typedef struct dal_native_options {
  * DAL_IO (cache), DAL_ARGUMENT (no cache named), DAL_TOO_LARGE, DAL_MEMORY, DAL_INTERRUPTED (by
  * stop). */
 dal_status dal_run_native(dal_run *run, const dal_native_options *options, dal_error *error);
+/* Whether the steps of a run are compiled. */
 int dal_run_is_native(const dal_run *run);
 
 /* Compiles the observables for dal_observer.values: many states at a time, with the same bits.
@@ -45,8 +50,10 @@ int dal_run_is_native(const dal_run *run);
 dal_status dal_run_native_observables(dal_run *run, const dal_native_options *options,
                                       dal_error *error);
 
-/* Compiles the steps of a batch: all its lanes, as many at a time as the machine favours. */
+/* Compiles the steps of a batch: all its lanes, as many at a time as the machine favours.  [alloc]
+ * Errors: as dal_run_native. */
 dal_status dal_batch_native(dal_batch *batch, const dal_native_options *options, dal_error *error);
+/* Whether the steps of a batch are compiled. */
 int dal_batch_is_native(const dal_batch *batch);
 
 #ifdef __cplusplus
