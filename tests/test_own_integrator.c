@@ -27,8 +27,7 @@ DAL_INTEGRATOR(greedy, step, .name = "greedy", .order = MAX_VECTORS, .stages = 1
 /* Too little scratch is an error of the step, which leaves the run as it was. */
 static void test_scratch(void)
 {
-    dal_model *model = fixture_model(fixture_full);
-    dal_run_spec spec = fixture_spec(fixture_system(model), "rk4", DAL_PHYSICAL, 0.01);
+    dal_run_spec spec = fixture_spec(fixture_system(fixture_full), "rk4", DAL_PHYSICAL, 0.01);
     dal_error error;
     size_t count;
     spec.method = (dal_method){{&dal_integrator_frugal}};
@@ -46,7 +45,6 @@ static void test_scratch(void)
     CU_ASSERT_EQUAL(memcmp(before, dal_run_save(run, &count), count * sizeof *before), 0);
     CU_ASSERT_EQUAL(dal_run_steps(run), 0);
     dal_run_free(run);
-    dal_model_free(model);
 }
 
 void suite_own_integrator(void);
