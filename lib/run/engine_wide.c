@@ -5,44 +5,26 @@
  * check holds: det(A1 B0) det(A0 B0) > 0 for all leading minors, with B = W^-1 A^T.  If a gradient
  * of a constraint turns by a right angle within one step, then G = A B was singular in between (or
  * the step is far too large).
- *
- * Several groups of lanes are stepped as one system of DAL_GROUPS times as many components.  Such
- * an integrator acts on each component alike (DAL_COMPONENTWISE).  Number i of lane l of group g is
- * lane l of num i*DAL_GROUPS + g. */
-#include "kernel/groups.h"
-
+ */
 #include "run/engine.h"
 #include <dalembert_kernel.h>
 
 /* ---- lanes, as bits and as masks ---- */
 
-/* The lanes that are stepped together. */
-enum { LANES = DAL_GROUPS * DAL_LANES };
-/* Doubles in one number of all lanes. */
-enum { WIDTH = DAL_GROUPS * (int)(sizeof(num) / sizeof(double)) };
-
-/* Lanes of all groups. */
-typedef struct lane_mask {
-    dal_mask group[DAL_GROUPS];
-} lane_mask;
-
-static inline lane_mask mask_of(dal__lanes lanes)
+static inline dal_mask mask_of(dal__lanes lanes)
 {
-    int64_t all[LANES];
-    lane_mask mask;
-    for (int i = 0; i < LANES; i++) all[i] = -(int64_t)(lanes >> i & 1);
+    int64_t all[DAL_LANES];
+    dal_mask mask;
+    for (int i = 0; i < DAL_LANES; i++) all[i] = -(int64_t)(lanes >> i & 1);
     memcpy(&mask, all, sizeof mask);
     return mask;
 }
 
-static inline dal__lanes lanes_of(const lane_mask *mask)
+static inline dal__lanes lanes_of(dal_mask mask)
 {
     dal__lanes lanes = 0;
-    for (int g = 0; g < DAL_GROUPS; g++) {
-        if (!dal_any(mask->group[g])) continue;
-        for (int i = 0; i < DAL_LANES; i++)
-            lanes |= (dal__lanes)dal_mask_lane(mask->group[g], i) << (g * DAL_LANES + i);
-    }
+    for (int i = 0; dal_any(mask) && i < DAL_LANES; i++)
+        lanes |= (dal__lanes)dal_mask_lane(mask, i) << i;
     return lanes;
 }
 
@@ -57,7 +39,7 @@ typedef struct engine {
     dal__failure *failure;
 } engine;
 
-static size_t bytes_of(size_t numbers) { return dal__align(numbers * DAL_GROUPS * sizeof(num)); }
+static size_t bytes_of(size_t numbers) { return dal__align(numbers * sizeof(num)); }
 
 /* Nums of the persistent state that an integrator may change; one that neither solves nor divides
  * changes y and r only. */
@@ -66,7 +48,7 @@ static size_t changing(const engine *e)
     const bool alone =
         !e->layout.lifted && e->layout.depth == 1 && e->layout.options.tolerance == 0.0;
     const bool plain = alone && (e->layer[0]->properties & DAL_COMPONENTWISE);
-    return (plain ? dal__at(&e->layout, 0) : e->layout.persistent) * DAL_GROUPS;
+    return plain ? dal__at(&e->layout, 0) : e->layout.persistent;
 }
 
 /* Records the first evaluation that is not finite. */
@@ -87,7 +69,7 @@ static void trace(engine *e, dal_callback_code code, const dal_point *at, dal_st
 /* Fills the output of a callback. */
 static void fill(const engine *e, dal_callback_code code, double value, num *out)
 {
-    const int size = dal__eval_size(&e->layout, code) * DAL_GROUPS;
+    const int size = dal__eval_size(&e->layout, code);
     for (int i = 0; i < size; i++) out[i] = dal_num(value);
 }
 
@@ -104,7 +86,7 @@ static void eval_callback(dal_step *s, dal_callback_code code, double t, const n
                           (double *)e->work};
     const dal_status status = call(e->layout.system, &at, (double *)out);
     if (status != DAL_OK) fill(e, code, NAN, out);
-    if (LANES == 1 && e->failure) trace(e, code, &at, status, (const double *)out);
+    if (DAL_LANES == 1 && e->failure) trace(e, code, &at, status, (const double *)out);
 }
 
 static size_t engine_bytes(const dal__layout *k)
@@ -123,7 +105,7 @@ static num *allocate(char **at, size_t count)
 /* Number `place` behind y and r. */
 static num *persistent_at(const engine *e, int place)
 {
-    return e->persistent + dal__at(&e->layout, place) * DAL_GROUPS;
+    return e->persistent + dal__at(&e->layout, place);
 }
 
 /* The state of the method, one member after the other. */
@@ -132,7 +114,7 @@ static void place_method_state(engine *e)
     num *at = e->step.method_state = persistent_at(e, DAL__METHOD_STATE);
 #define MEMBER(member, count)                                                                      \
     e->step.member = at;                                                                           \
-    at += DAL__COUNT_##count(&e->layout) * DAL_GROUPS;
+    at += DAL__COUNT_##count(&e->layout);
     DAL__METHOD_STATE_LIST(MEMBER)
 #undef MEMBER
     e->step.method_state_count = (int)(at - e->step.method_state);
@@ -144,9 +126,7 @@ static void prepare_step(engine *e)
 {
     const dal__layout *k = &e->layout;
     dal_step *s = &e->step;
-    *s = (dal_step){.m = k->m, .lifted = k->lifted, .n = k->n * DAL_GROUPS};
-    s->nw = k->nw * DAL_GROUPS;
-    s->dim = k->dim * DAL_GROUPS;
+    *s = (dal_step){.n = k->n, .nw = k->nw, .m = k->m, .dim = k->dim, .lifted = k->lifted};
     s->y = e->persistent;
     s->r = e->persistent + s->dim;
     s->solver = k->options.solver;
@@ -157,7 +137,7 @@ static void prepare_step(engine *e)
     s->has_jacobian = k->system->call.jacobian != NULL;
     s->properties = k->system->properties;
     s->tolerance = k->options.tolerance;
-    s->capacity = k->scratch * DAL_GROUPS;
+    s->capacity = k->scratch;
     place_method_state(e);
     s->layer = e->layer;
     s->eval = eval_callback;
@@ -174,9 +154,9 @@ static void *place_engine(const dal__layout *k, void *memory, double **persisten
     for (int i = 0; i < k->depth; i++)
         e->layer[i] = dal__integrator_wide(k->method.layer[i], DAL_WIDE(DAL__VARIANT));
     const dal_system *system = k->system;
-    const dal_callbacks *c = LANES == 4   ? system->wide4
-                             : LANES == 8 ? system->wide8
-                                          : &system->call;
+    const dal_callbacks *c = DAL_LANES == 4   ? system->wide4
+                             : DAL_LANES == 8 ? system->wide8
+                                              : &system->call;
 #define CALLBACK(code, member) e->call[DAL_EVAL_##code] = c->member;
     DAL__CALLBACK_LIST(CALLBACK)
 #undef CALLBACK
@@ -198,40 +178,29 @@ static void trace_engine(void *engine_, dal__failure *failure)
 static dal_status eval_engine(void *engine_, int code, double t, const double *state, double *out)
 {
     engine *e = engine_;
-    const int n = e->layout.n;
+    const int n = e->layout.n, width = (int)(sizeof(num) / sizeof(double));
     if (!e->call[code]) return DAL_UNSUPPORTED;
-    const dal_point at = {t, state, state + n * WIDTH, state + (3 * n + 1) * WIDTH,
+    const dal_point at = {t, state, state + n * width, state + (3 * n + 1) * width,
                           (double *)e->work};
     return e->call[code](e->layout.system, &at, out);
 }
 
-/* ---- checks of a step, group by group ---- */
-
-/* 0, or NaN where some component of a group is not finite. */
-static num sum_nonfinite(const engine *e, int group, int first, int count)
-{
-    const num *y = e->persistent + first * DAL_GROUPS + group;
-    num sum = dal_num(0.0);
-    if (DAL_GROUPS == 1) return dal_nonfinite(y, count);
-    for (int i = 0; i < count * DAL_GROUPS; i += DAL_GROUPS) sum += y[i] - y[i];
-    return sum;
-}
+/* ---- checks of a step ---- */
 
 /* Lanes in which every component of the state is finite; 1/e stands for e. */
-static dal_mask finite(const engine *e, int group)
+static dal_mask finite(const engine *e)
 {
     const int dim = e->layout.dim, at_e = 2 * e->layout.n;
-    if (!e->layout.lifted) return dal_equal(sum_nonfinite(e, group, 0, dim), dal_num(0.0));
-    const num w = 1.0 / e->persistent[at_e * DAL_GROUPS + group];
-    return dal_equal(sum_nonfinite(e, group, 0, at_e) + (w - w) +
-                         sum_nonfinite(e, group, at_e + 1, dim - at_e - 1),
+    const num *y = e->persistent;
+    if (!e->layout.lifted) return dal_equal(dal_nonfinite(y, dim), dal_num(0.0));
+    const num w = 1.0 / y[at_e];
+    return dal_equal(dal_nonfinite(y, at_e) + (w - w) + dal_nonfinite(y + at_e + 1, dim - at_e - 1),
                      dal_num(0.0));
 }
 
-static dal_mask check_gauge(const engine *e, int group)
+static dal_mask check_gauge(const engine *e)
 {
-    if (!e->layout.lifted) return dal_all();
-    const int i = 2 * e->layout.n * DAL_GROUPS + group;
+    const int i = 2 * e->layout.n;
     return dal_less(dal_num(0.0), 1.0 / e->backup[i] * e->persistent[i]) |
            ~dal_finite(e->persistent[i]);
 }
@@ -250,33 +219,28 @@ static void eval_both_ends(engine *e, dal_callback_code code, num *before, num *
     eval_callback(s, code, s->t, e->persistent, e->persistent + s->n, NULL, after);
 }
 
-static lane_mask check_guards(engine *e)
+static dal_mask check_guards(engine *e)
 {
-    const int count = e->layout.system->guards * DAL_GROUPS;
+    const int count = e->layout.system->guards;
     dal_step *s = &e->step;
-    lane_mask good = mask_of(~(dal__lanes)0);
+    dal_mask good = dal_all();
     num *before = dal_scratch(s, count), *after = dal_scratch(s, count);
     eval_both_ends(e, DAL_EVAL_GUARDS, before, after);
     for (int i = 0; i < count; i++) {
-        good.group[i % DAL_GROUPS] &= dal_less(dal_num(0.0), before[i] * after[i]);
-        if (e->failure) record(&e->failure->guard, good.group[0], i + 1);
+        good &= dal_less(dal_num(0.0), before[i] * after[i]);
+        if (e->failure) record(&e->failure->guard, good, i + 1);
     }
     return good;
 }
 
-/* Gathers the numbers of one group. */
-static void gather_group(const num *from, int group, int count, num *to)
+static dal_mask check_rank(engine *e)
 {
-    for (int i = 0; i < count; i++) to[i] = from[i * DAL_GROUPS + group];
-}
-
-/* The rank check of a group; c0, c1: D, A, B before and after. */
-static dal_mask check_group_rank(engine *e, const num *c0, const num *c1)
-{
-    const int m = e->layout.m, n = e->layout.n;
+    const int m = e->layout.m, n = e->layout.n, size = m + 2 * m * n;
     dal_step *s = &e->step;
     dal_mask good = dal_all();
+    num *c0 = dal_scratch(s, size), *c1 = dal_scratch(s, size);
     num *g0 = dal_scratch(s, m * m), *g1 = dal_scratch(s, m * m);
+    eval_both_ends(e, DAL_EVAL_CONSTRAINT, c0, c1);
     dal_gram(c0 + m, c0 + m + m * n, m, n, g0);
     dal_gram(c1 + m, c0 + m + m * n, m, n, g1);
     for (int k = 0; k < m; k++) {
@@ -286,67 +250,28 @@ static dal_mask check_group_rank(engine *e, const num *c0, const num *c1)
     return good;
 }
 
-static lane_mask check_rank(engine *e)
-{
-    const int m = e->layout.m, n = e->layout.n, size = m + 2 * m * n;
-    dal_step *s = &e->step;
-    lane_mask good;
-    num *before = dal_scratch(s, size * DAL_GROUPS), *after = dal_scratch(s, size * DAL_GROUPS);
-    num *c0 = dal_scratch(s, size), *c1 = dal_scratch(s, size);
-    eval_both_ends(e, DAL_EVAL_CONSTRAINT, before, after);
-    for (int g = 0; g < DAL_GROUPS; g++) {
-        const size_t mark = s->used;
-        gather_group(before, g, size, c0);
-        gather_group(after, g, size, c1);
-        good.group[g] = check_group_rank(e, c0, c1);
-        s->used = mark;
-    }
-    return good;
-}
-
 /* ---- a step ---- */
 
 /* Removes the lanes that are not good from `left`, sets their reason, and returns them. */
-static dal__lanes reject(lane_mask *left, lane_mask good, dal_status status, dal_status *reason)
+static dal__lanes reject(dal_mask *left, dal_mask good, dal_status status, dal_status *reason)
 {
-    dal_mask any = ~dal_all();
-    for (int g = 0; g < DAL_GROUPS; g++) any |= left->group[g] & ~good.group[g];
-    if (!dal_any(any)) return 0;
-    lane_mask bad;
-    for (int g = 0; g < DAL_GROUPS; g++) {
-        bad.group[g] = left->group[g] & ~good.group[g];
-        left->group[g] &= good.group[g];
-    }
-    const dal__lanes lanes = lanes_of(&bad);
-    for (int i = 0; i < LANES; i++)
+    const dal__lanes lanes = lanes_of(*left & ~good);
+    *left &= good;
+    for (int i = 0; i < DAL_LANES; i++)
         if (lanes >> i & 1) reason[i] = status;
     return lanes;
 }
 
-/* The checks that do not evaluate the system. */
-static dal__lanes check_state(const engine *e, lane_mask *left, dal_status status,
-                              dal_status *reason)
-{
-    lane_mask solved, gauge, sound;
-    dal__lanes failed = 0;
-    for (int g = 0; g < DAL_GROUPS; g++) {
-        solved.group[g] = ~e->step.unconverged[0];
-        gauge.group[g] = check_gauge(e, g);
-        sound.group[g] = finite(e, g);
-    }
-    if (status != DAL_OK && status != DAL_NOT_CONVERGED)
-        failed = reject(left, mask_of(0), status, reason);
-    if (dal_any(e->step.unconverged[0])) failed |= reject(left, solved, DAL_NOT_CONVERGED, reason);
-    if (e->layout.lifted) failed |= reject(left, gauge, DAL_GAUGE, reason);
-    return failed | reject(left, sound, DAL_NOT_FINITE, reason);
-}
-
 /* Removes the lanes that failed from `left`, the alive ones, and returns them. */
-static dal__lanes check_step(engine *e, lane_mask *left, dal__lanes alive, dal_status status,
+static dal__lanes check_step(engine *e, dal_mask *left, dal__lanes alive, dal_status status,
                              dal_status *reason)
 {
     const dal_system *system = e->layout.system;
-    dal__lanes failed = check_state(e, left, status, reason);
+    const bool is_lost = status != DAL_OK && status != DAL_NOT_CONVERGED;
+    dal__lanes failed = is_lost ? reject(left, ~dal_all(), status, reason) : 0;
+    failed |= reject(left, ~e->step.unconverged[0], DAL_NOT_CONVERGED, reason);
+    if (e->layout.lifted) failed |= reject(left, check_gauge(e), DAL_GAUGE, reason);
+    failed |= reject(left, finite(e), DAL_NOT_FINITE, reason);
     if (failed == alive) return failed;
     e->step.used = 0;
     if (system->guards > 0) failed |= reject(left, check_guards(e), DAL_SINGULAR, reason);
@@ -356,40 +281,33 @@ static dal__lanes check_step(engine *e, lane_mask *left, dal__lanes alive, dal_s
 }
 
 /* Advances clock (compensated) and counters of the lanes that moved. */
-static void advance_clock(engine *e, double h, const lane_mask *moved)
+static void advance_clock(engine *e, double h, dal_mask moved)
 {
     num *time = persistent_at(e, DAL__TIME), *error = persistent_at(e, DAL__TIME_ERROR);
     num *steps = persistent_at(e, DAL__STEPS), *evaluations = persistent_at(e, DAL__EVALUATIONS);
-    for (int g = 0; g < DAL_GROUPS; g++) {
-        const dal_mask m = moved->group[g];
-        const num a = time[g], b = h + error[g], sum = a + b, c = sum - a;
-        error[g] = dal_select(m, (a - (sum - c)) + (b - c), error[g]);
-        time[g] = dal_select(m, sum, a);
-        steps[g] = dal_select(m, steps[g] + 1.0, steps[g]);
-        evaluations[g] =
-            dal_select(m, evaluations[g] + (double)e->step.evaluations, evaluations[g]);
-    }
+    const num a = *time, b = h + *error, sum = a + b, c = sum - a;
+    *error = dal_select(moved, (a - (sum - c)) + (b - c), *error);
+    *time = dal_select(moved, sum, a);
+    *steps = dal_select(moved, *steps + 1.0, *steps);
+    *evaluations = dal_select(moved, *evaluations + (double)e->step.evaluations, *evaluations);
 }
 
 /* Restores the lanes that did not move. */
-static void restore(engine *e, const lane_mask *moved)
+static void restore(engine *e, dal_mask moved)
 {
-    for (size_t g = 0; g < DAL_GROUPS; g++) {
-        if (!dal_any(~moved->group[g])) continue;
-        for (size_t i = g; i < changing(e); i += DAL_GROUPS)
-            e->persistent[i] = dal_select(moved->group[g], e->persistent[i], e->backup[i]);
-    }
+    for (size_t i = 0; i < changing(e); i++)
+        e->persistent[i] = dal_select(moved, e->persistent[i], e->backup[i]);
 }
 
-static void begin_step(engine *e, double h, dal__lanes alive, const lane_mask *lanes)
+static void begin_step(engine *e, double h, dal__lanes alive, dal_mask lanes)
 {
     dal_step *s = &e->step;
     memcpy(e->backup, e->persistent, changing(e) * sizeof(num));
     int first = 0; /* alive lane; its time is that of all of them */
-    while (first < LANES - 1 && !(alive >> first & 1)) first++;
-    s->t = dal_lane(persistent_at(e, DAL__TIME)[first / DAL_LANES], first % DAL_LANES);
+    while (first < DAL_LANES - 1 && !(alive >> first & 1)) first++;
+    s->t = dal_lane(*persistent_at(e, DAL__TIME), first);
     s->h = h;
-    s->alive[0] = DAL_GROUPS > 1 ? dal_all() : lanes->group[0];
+    s->alive[0] = lanes;
     s->unconverged[0] = ~dal_all();
     s->used = 0;
     s->exhausted = 0;
@@ -400,8 +318,8 @@ static void begin_step(engine *e, double h, dal__lanes alive, const lane_mask *l
 static dal__lanes step_engine(void *engine_, double h, dal__lanes alive, dal_status *reason)
 {
     engine *e = engine_;
-    lane_mask moved = mask_of(alive);
-    begin_step(e, h, alive, &moved);
+    dal_mask moved = mask_of(alive);
+    begin_step(e, h, alive, moved);
     dal_status status = e->layer[e->step.depth]->step(&e->step);
     if (e->step.exhausted) status = DAL_MEMORY;
     if (e->failure) {
@@ -409,10 +327,8 @@ static dal__lanes step_engine(void *engine_, double h, dal__lanes alive, dal_sta
         e->failure->substep = dal_lane(e->step.substep[0], 0);
     }
     const dal__lanes failed = check_step(e, &moved, alive, status, reason);
-    advance_clock(e, h, &moved);
-    const bool moved_others =
-        DAL_GROUPS > 1 && alive != ~(dal__lanes)0; /* lanes that are not alive moved */
-    if (failed || moved_others) restore(e, &moved);
+    advance_clock(e, h, moved);
+    if (failed) restore(e, moved);
     return failed;
 }
 
