@@ -288,8 +288,8 @@ static void write_enums(dal__generation *g)
 /* The headers of the kernel that the method needs. */
 static void write_kernel(dal__generation *g)
 {
-    static const char *const always[] = {"num.h", "elementary.h", "persistent.h", "step.h",
-                                         "algebra.h"};
+    static const char *const always[] = {"num.h",  "elementary.h", "persistent.h",
+                                         "step.h", "algebra.h",    "acceptance.h"};
     const bool euler = dal__method_uses(g, "dal_symplectic_euler");
     const bool collocation = dal__method_uses(g, "dal_collocation");
     for (size_t i = 0; i < sizeof always / sizeof *always; i++)

@@ -20,11 +20,8 @@
 
 #include "solve.h"
 
-/* Sizes of the outputs of DAL_EVAL_BLOCKS and DAL_EVAL_CONSTRAINT, and the places of their blocks:
- * D, A, B, then a and c in the former only. */
-#define DAL_BLOCKS_SIZE(s)     (2 * DAL_M(s) + DAL_N(s) + 2 * DAL_M(s) * DAL_N(s))
-#define DAL_CONSTRAINT_SIZE(s) (DAL_M(s) + 2 * DAL_M(s) * DAL_N(s))
-#define DAL_SQUARE_M(s)        (DAL_M(s) * DAL_M(s))
+/* The output of DAL_EVAL_BLOCKS: D, A, B as in that of DAL_EVAL_CONSTRAINT, then a and c. */
+#define DAL_BLOCKS_SIZE(s) (2 * DAL_M(s) + DAL_N(s) + 2 * DAL_M(s) * DAL_N(s))
 DAL_INLINE int dal_blocks_A(const dal_step *s) { return DAL_M(s); }
 DAL_INLINE int dal_blocks_B(const dal_step *s) { return DAL_M(s) + DAL_M(s) * DAL_N(s); }
 DAL_INLINE int dal_blocks_a(const dal_step *s) { return DAL_CONSTRAINT_SIZE(s); }

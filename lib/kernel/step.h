@@ -52,6 +52,8 @@ typedef enum dal_callback_code {
 #define DAL_MAY_NEWTON(s)             DAL__NEWTON
 #define DAL_TANGENT(s)                DAL__TANGENT
 #define DAL_PROPERTIES(s)             DAL__PROPERTIES
+#define DAL_GUARDS(s)                 DAL__GUARDS
+#define DAL_RANK_CHECKED(s)           DAL__RANK_CHECKED
 #define DAL_PERSISTENT_MULTIPLIERS(s) DAL__MULTIPLIER        /* m, or 0 */
 #define DAL_STAGE_DERIVATIVES(s)      DAL__STAGE_DERIVATIVES /* size, or 0 */
 #define DAL_STAGES(t)                 DAL__STAGES
@@ -125,6 +127,8 @@ enum { DAL_STEP_GROUPS = 1 };
 #define DAL_TANGENT(s)                ((s)->tangent)
 #define DAL_MAY_NEWTON(s)             ((s)->has_jacobian && (s)->solver != DAL_FIXED_POINT)
 #define DAL_PROPERTIES(s)             ((s)->properties)
+#define DAL_GUARDS(s)                 ((s)->guards)
+#define DAL_RANK_CHECKED(s)           ((s)->rank_checked)
 #define DAL_PERSISTENT_MULTIPLIERS(s) ((s)->m)
 #define DAL_STAGE_DERIVATIVES(s)      ((s)->derivatives_kept)
 #define DAL_STAGES(t)                 ((t)->stages) /* of a tableau */
@@ -153,6 +157,8 @@ struct dal_step {
     int plain;                             /* 1: sums without compensation, r stays 0 */
     int has_jacobian;
     unsigned properties; /* of the system */
+    int guards;          /* of the system */
+    int rank_checked;    /* 1: steps are subject to the rank check */
     double tolerance;    /* of substeps, 0: no substeps */
 
     num *scratch; /* bump allocator, see dal_scratch */
@@ -226,6 +232,10 @@ DAL_INLINE void dal_set_tangent(dal_step *s, int on)
 #endif
     (void)s, (void)on;
 }
+
+/* The output of DAL_EVAL_CONSTRAINT for a group: D, A, B.  The size of G. */
+#define DAL_CONSTRAINT_SIZE(s) (DAL_M(s) + 2 * DAL_M(s) * (DAL_N(s) / DAL_STEP_GROUPS))
+#define DAL_SQUARE_M(s)        (DAL_M(s) * DAL_M(s))
 
 /* Places of e, p, pi, pi_e in a state. */
 DAL_INLINE int dal_at_e(const dal_step *s) { return 2 * DAL_N(s); }

@@ -1,11 +1,8 @@
 /* engine_wide.c - a step of one or several lanes as a transaction; see engine.h.
  *
- * After the integrator has stepped, the engine accepts or rejects lane by lane.  A lane is accepted
- * if its equations are solved, its state is finite, e and the guards keep their signs, and the rank
- * check holds: det(A1 B0) det(A0 B0) > 0 for all leading minors, with B = W^-1 A^T.  If a gradient
- * of a constraint turns by a right angle within one step, then G = A B was singular in between (or
- * the step is far too large).
- */
+ * After the integrator has stepped, the engine accepts or rejects lane by lane, see
+ * kernel/acceptance.h. */
+#include "kernel/acceptance.h"
 #include "run/engine.h"
 #include <dalembert_kernel.h>
 
@@ -136,6 +133,8 @@ static void prepare_step(engine *e)
     s->plain = k->options.sums == DAL_SUMS_PLAIN;
     s->has_jacobian = k->system->call.jacobian != NULL;
     s->properties = k->system->properties;
+    s->guards = k->system->guards;
+    s->rank_checked = s->properties & DAL_D_RANK_CHECKED && k->system->call.constraint;
     s->tolerance = k->options.tolerance;
     s->capacity = k->scratch;
     place_method_state(e);
@@ -185,118 +184,40 @@ static dal_status eval_engine(void *engine_, int code, double t, const double *s
     return e->call[code](e->layout.system, &at, out);
 }
 
-/* ---- checks of a step ---- */
-
-/* Lanes in which every component of the state is finite; 1/e stands for e. */
-static dal_mask finite(const engine *e)
-{
-    const int dim = e->layout.dim, at_e = 2 * e->layout.n;
-    const num *y = e->persistent;
-    if (!e->layout.lifted) return dal_equal(dal_nonfinite(y, dim), dal_num(0.0));
-    const num w = 1.0 / y[at_e];
-    return dal_equal(dal_nonfinite(y, at_e) + (w - w) + dal_nonfinite(y + at_e + 1, dim - at_e - 1),
-                     dal_num(0.0));
-}
-
-static dal_mask check_gauge(const engine *e)
-{
-    const int i = 2 * e->layout.n;
-    return dal_less(dal_num(0.0), 1.0 / e->backup[i] * e->persistent[i]) |
-           ~dal_finite(e->persistent[i]);
-}
-
-/* Records the first number that failed in lane 0. */
-static void record(int *which, dal_mask good, int number)
-{
-    if (!*which && !dal_mask_lane(good, 0)) *which = number;
-}
-
-/* Evaluates a callback before and after the step. */
-static void eval_both_ends(engine *e, dal_callback_code code, num *before, num *after)
-{
-    dal_step *s = &e->step;
-    eval_callback(s, code, s->t - s->h, e->backup, e->backup + s->n, NULL, before);
-    eval_callback(s, code, s->t, e->persistent, e->persistent + s->n, NULL, after);
-}
-
-static dal_mask check_guards(engine *e)
-{
-    const int count = e->layout.system->guards;
-    dal_step *s = &e->step;
-    dal_mask good = dal_all();
-    num *before = dal_scratch(s, count), *after = dal_scratch(s, count);
-    eval_both_ends(e, DAL_EVAL_GUARDS, before, after);
-    for (int i = 0; i < count; i++) {
-        good &= dal_less(dal_num(0.0), before[i] * after[i]);
-        if (e->failure) record(&e->failure->guard, good, i + 1);
-    }
-    return good;
-}
-
-static dal_mask check_rank(engine *e)
-{
-    const int m = e->layout.m, n = e->layout.n, size = m + 2 * m * n;
-    dal_step *s = &e->step;
-    dal_mask good = dal_all();
-    num *c0 = dal_scratch(s, size), *c1 = dal_scratch(s, size);
-    num *g0 = dal_scratch(s, m * m), *g1 = dal_scratch(s, m * m);
-    eval_both_ends(e, DAL_EVAL_CONSTRAINT, c0, c1);
-    dal_gram(c0 + m, c0 + m + m * n, m, n, g0);
-    dal_gram(c1 + m, c0 + m + m * n, m, n, g1);
-    for (int k = 0; k < m; k++) {
-        good &= dal_less(dal_num(0.0), dal_eliminate(g0, m, k) / dal_eliminate(g1, m, k));
-        if (e->failure) record(&e->failure->constraint, good, k + 1);
-    }
-    return good;
-}
-
 /* ---- a step ---- */
 
-/* Removes the lanes that are not good from `left`, sets their reason, and returns them. */
-static dal__lanes reject(dal_mask *left, dal_mask good, dal_status status, dal_status *reason)
+/* Removes the lanes that fail from `left`, the alive ones, and returns them. */
+static dal__lanes check_step(engine *e, dal_mask *left, dal_status status, dal_status *reason)
 {
-    const dal__lanes lanes = lanes_of(*left & ~good);
-    *left &= good;
-    for (int i = 0; i < DAL_LANES; i++)
-        if (lanes >> i & 1) reason[i] = status;
-    return lanes;
-}
-
-/* Removes the lanes that failed from `left`, the alive ones, and returns them. */
-static dal__lanes check_step(engine *e, dal_mask *left, dal__lanes alive, dal_status status,
-                             dal_status *reason)
-{
-    const dal_system *system = e->layout.system;
-    const bool is_lost = status != DAL_OK && status != DAL_NOT_CONVERGED;
-    dal__lanes failed = is_lost ? reject(left, ~dal_all(), status, reason) : 0;
-    failed |= reject(left, ~e->step.unconverged[0], DAL_NOT_CONVERGED, reason);
-    if (e->layout.lifted) failed |= reject(left, check_gauge(e), DAL_GAUGE, reason);
-    failed |= reject(left, finite(e), DAL_NOT_FINITE, reason);
-    if (failed == alive) return failed;
-    e->step.used = 0;
-    if (system->guards > 0) failed |= reject(left, check_guards(e), DAL_SINGULAR, reason);
-    if ((system->properties & DAL_D_RANK_CHECKED) && e->call[DAL_EVAL_CONSTRAINT])
-        failed |= reject(left, check_rank(e), DAL_SINGULAR, reason);
+    dal_step *s = &e->step;
+    dal__failure *failure = e->failure;
+    const dal_mask alive = *left;
+    dal_checks c = {~s->unconverged[0], dal_check_gauge(s, e->backup), dal_finite_state(s, 0),
+                    dal_all()};
+    *left &= c.solved & c.gauge & c.finite;
+    if (status != DAL_OK && status != DAL_NOT_CONVERGED) *left = ~dal_all();
+    s->used = 0;
+    if (dal_any(*left))
+        c.regular = dal_check_regular(s, 0, e->backup, failure ? &failure->guard : NULL,
+                                      failure ? &failure->constraint : NULL);
+    *left &= c.regular;
+    const dal__lanes failed = lanes_of(alive & ~*left);
+    for (int i = 0; failed && i < DAL_LANES; i++)
+        if (failed >> i & 1) reason[i] = dal_rejection(&c, status, i);
     return failed;
 }
 
-/* Advances clock (compensated) and counters of the lanes that moved. */
+/* Advances clock and counters of the lanes that moved. */
 static void advance_clock(engine *e, double h, dal_mask moved)
 {
     num *time = persistent_at(e, DAL__TIME), *error = persistent_at(e, DAL__TIME_ERROR);
     num *steps = persistent_at(e, DAL__STEPS), *evaluations = persistent_at(e, DAL__EVALUATIONS);
-    const num a = *time, b = h + *error, sum = a + b, c = sum - a;
-    *error = dal_select(moved, (a - (sum - c)) + (b - c), *error);
-    *time = dal_select(moved, sum, a);
+    dal_clock clock = {*time, *error};
+    dal_advance_clock(&clock, h);
+    *time = dal_select(moved, clock.time, *time);
+    *error = dal_select(moved, clock.error, *error);
     *steps = dal_select(moved, *steps + 1.0, *steps);
     *evaluations = dal_select(moved, *evaluations + (double)e->step.evaluations, *evaluations);
-}
-
-/* Restores the lanes that did not move. */
-static void restore(engine *e, dal_mask moved)
-{
-    for (size_t i = 0; i < changing(e); i++)
-        e->persistent[i] = dal_select(moved, e->persistent[i], e->backup[i]);
 }
 
 static void begin_step(engine *e, double h, dal__lanes alive, dal_mask lanes)
@@ -326,9 +247,10 @@ static dal__lanes step_engine(void *engine_, double h, dal__lanes alive, dal_sta
         e->failure->reached = e->step.t;
         e->failure->substep = dal_lane(e->step.substep[0], 0);
     }
-    const dal__lanes failed = check_step(e, &moved, alive, status, reason);
+    const dal__lanes failed = check_step(e, &moved, status, reason);
     advance_clock(e, h, moved);
-    if (failed) restore(e, moved);
+    for (size_t i = 0; failed && i < changing(e); i++)
+        e->persistent[i] = dal_select(moved, e->persistent[i], e->backup[i]);
     return failed;
 }
 

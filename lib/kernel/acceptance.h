@@ -1,0 +1,126 @@
+/* acceptance.h - whether a step is accepted, and the clock that it advances.
+ *
+ * A lane is accepted if its equations are solved, its state is finite, e and the guards keep their
+ * signs, and the rank check holds: det(A1 B0) det(A0 B0) > 0 for all leading minors, with
+ * B = W^-1 A^T.  If a gradient of a constraint turns by a right angle within one step, then
+ * G = A B was singular in between (or the step is far too large).
+ *
+ * The engine (lib/run) and generated files (lib/codegen) drive these checks, each by a loop of its
+ * own.  y0 is the state before the step.  Its number i of a group of lanes is
+ * y0[i*DAL_STEP_GROUPS + group], as in the state of the step. */
+#ifndef DAL_KERNEL_ACCEPTANCE_H
+#define DAL_KERNEL_ACCEPTANCE_H
+
+#include "algebra.h"
+#include "step.h"
+
+/* Lanes of a group that have passed each check. */
+typedef struct dal_checks {
+    dal_mask solved, gauge, finite, regular;
+} dal_checks;
+
+/* Why a lane failed in a step that returned status: the first check it did not pass. */
+DAL_INLINE dal_status dal_rejection(const dal_checks *c, dal_status status, int lane)
+{
+    if (status != DAL_OK && status != DAL_NOT_CONVERGED) return status;
+    if (!dal_mask_lane(c->solved, lane)) return DAL_NOT_CONVERGED;
+    if (!dal_mask_lane(c->gauge, lane)) return DAL_GAUGE;
+    if (!dal_mask_lane(c->finite, lane)) return DAL_NOT_FINITE;
+    return dal_mask_lane(c->regular, lane) ? DAL_OK : DAL_SINGULAR;
+}
+
+/* 0, or NaN where one of count numbers of a group is not finite. */
+DAL_INLINE num dal_group_nonfinite(const num *x, int count, int group)
+{
+    if (DAL_STEP_GROUPS == 1) return dal_nonfinite(x, count);
+    num nonfinite = dal_num(0.0);
+    DAL_EACH(i, count) nonfinite += x[i * DAL_STEP_GROUPS + group] - x[i * DAL_STEP_GROUPS + group];
+    return nonfinite;
+}
+
+/* Lanes in which every component of the state is finite; 1/e stands for e. */
+DAL_INLINE dal_mask dal_finite_state(const dal_step *s, int group)
+{
+    const int dim = DAL_DIM(s) / DAL_STEP_GROUPS;
+    if (!DAL_LIFTED(s)) return dal_equal(dal_group_nonfinite(s->y, dim, group), dal_num(0.0));
+    const int at_e = dal_at_e(s), at_p = dal_at_p(s);
+    const num w = 1.0 / s->y[at_e]; /* the lifted space has one group */
+    return dal_equal(dal_nonfinite(s->y, at_e) + (w - w) + dal_nonfinite(s->y + at_p, dim - at_p),
+                     dal_num(0.0));
+}
+
+/* Lanes in which e keeps its sign; an infinite one has none to lose. */
+DAL_INLINE dal_mask dal_check_gauge(const dal_step *s, const num *y0)
+{
+    if (!DAL_LIFTED(s)) return dal_all();
+    const num e0 = y0[dal_at_e(s)], e = s->y[dal_at_e(s)];
+    return dal_less(dal_num(0.0), 1.0 / e0 * e) | ~dal_finite(e);
+}
+
+/* Evaluates a callback for a group before and after the step. */
+DAL_INLINE void dal_eval_both_ends(dal_step *s, int group, dal_callback_code code, const num *y0,
+                                   num *before, num *after)
+{
+    dal_eval_group(s, group, code, s->t - s->h, y0, y0 + DAL_N(s), before);
+    dal_eval_group(s, group, code, s->t, s->y, s->y + DAL_N(s), after);
+}
+
+/* Removes from good the lanes where x is not positive; *first becomes the number of the first x
+ * for which lane 0 is removed (NULL: not recorded). */
+DAL_INLINE void dal_keep_positive(num x, int number, dal_mask *good, int *first)
+{
+    *good &= dal_less(dal_num(0.0), x);
+    if (first && !*first && !dal_mask_lane(*good, 0)) *first = number;
+}
+
+/* Lanes where the guards keep their signs. */
+DAL_INLINE dal_mask dal_check_guards(dal_step *s, int group, const num *y0, int *first)
+{
+    dal_mask good = dal_all();
+    DAL_VECTOR(s, before, DAL_GUARDS(s));
+    DAL_VECTOR(s, after, DAL_GUARDS(s));
+    dal_eval_both_ends(s, group, DAL_EVAL_GUARDS, y0, before, after);
+    DAL_EACH(i, DAL_GUARDS(s)) dal_keep_positive(before[i] * after[i], i + 1, &good, first);
+    return good;
+}
+
+/* Lanes where the rank check holds. */
+DAL_INLINE dal_mask dal_check_rank(dal_step *s, int group, const num *y0, int *first)
+{
+    const int m = DAL_M(s), n = DAL_N(s) / DAL_STEP_GROUPS;
+    DAL_VECTOR(s, c0, DAL_CONSTRAINT_SIZE(s));
+    DAL_VECTOR(s, c1, DAL_CONSTRAINT_SIZE(s));
+    DAL_VECTOR(s, g0, DAL_SQUARE_M(s));
+    DAL_VECTOR(s, g1, DAL_SQUARE_M(s));
+    dal_mask good = dal_all();
+    dal_eval_both_ends(s, group, DAL_EVAL_CONSTRAINT, y0, c0, c1);
+    dal_gram(c0 + m, c0 + m + m * n, m, n, g0);
+    dal_gram(c1 + m, c0 + m + m * n, m, n, g1);
+    DAL_EACH(k, m)
+        dal_keep_positive(dal_eliminate(g0, m, k) / dal_eliminate(g1, m, k), k + 1, &good, first);
+    return good;
+}
+
+/* Lanes where the constraints stay independent; *guard, *constraint as *first above. */
+DAL_INLINE dal_mask dal_check_regular(dal_step *s, int group, const num *y0, int *guard,
+                                      int *constraint)
+{
+    dal_mask good = dal_all();
+    if (DAL_GUARDS(s) > 0) good &= dal_check_guards(s, group, y0, guard);
+    if (DAL_RANK_CHECKED(s)) good &= dal_check_rank(s, group, y0, constraint);
+    return good;
+}
+
+/* The time of all lanes, compensated. */
+typedef struct dal_clock {
+    num time, error;
+} dal_clock;
+
+DAL_INLINE void dal_advance_clock(dal_clock *clock, double h)
+{
+    const num a = clock->time, b = h + clock->error, sum = a + b, c = sum - a;
+    clock->error = (a - (sum - c)) + (b - c);
+    clock->time = sum;
+}
+
+#endif
