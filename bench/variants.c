@@ -46,7 +46,7 @@ static int make(contender *j, char **argv, int count, dal_error *error)
            dal_model_system(model, &j->spec.system, error) ||
            dal_method_parse(&j->spec.method, argv[2], error) ||
            dal_options_set(&j->spec.options, "space", argv[3], error) ||
-           dal__batch_create(&j->batch, &j->spec, count, 0, (dal__variant)variant, error);
+           dal__batch_of_variant(&j->batch, &j->spec, count, 0, (dal__variant)variant, error);
 }
 
 int main(int argc, char **argv)

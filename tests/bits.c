@@ -111,7 +111,7 @@ static bool begin_motion(motion *m, int system, int method, dal_space space)
     }
     m->inputs = (int)dal__programs_of(m->spec.system)->tapes->first_input;
     for (int lane = 0; lane < WIDE; lane++)
-        m->status[lane] = dal__run_steps(m->run[lane], m->spec.options.step, STEPS);
+        m->status[lane] = dal__step_run(m->run[lane], m->spec.options.step, STEPS);
     return true;
 }
 

@@ -68,7 +68,7 @@ static void check_variants(const dal_run_spec *spec, int dimension, double (*sin
         dal_batch *batch = NULL;
         const bool can = dal__machine_has(variants[v].set);
         const dal_status status =
-            dal__batch_create(&batch, spec, FEW, 0, variants[v].variant, NULL);
+            dal__batch_of_variant(&batch, spec, FEW, 0, variants[v].variant, NULL);
         CU_ASSERT_EQUAL(status, can ? DAL_OK : DAL_UNSUPPORTED);
         if (batch) check_batch(batch, dimension, single);
     }

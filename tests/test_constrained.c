@@ -42,8 +42,8 @@ static void test_refusals(void)
 static double *multipliers(dal_run *run, double *memory)
 {
     const size_t first =
-        dal__at(&run->layout, DAL__METHOD_STATE) + 2; /* behind stiff and derivatives_h */
-    CU_ASSERT_EQUAL(memory[first], 1.0);              /* they have been set */
+        dal__at(&run->layout, DAL__CLOCK_SIZE) + 2; /* behind stiff and derivatives_h */
+    CU_ASSERT_EQUAL(memory[first], 1.0);            /* they have been set */
     return memory + first + 1;
 }
 
@@ -106,7 +106,7 @@ static void end_state(const dal_system *system, const char *method, int count, b
     dal_run *run = fixture_run(&spec);
     size_t size;
     double *memory = memory_of(run, &size);
-    if (wrong) memory[dal__at(&run->layout, DAL__METHOD_STATE) + 2] = 1.0;
+    if (wrong) memory[dal__at(&run->layout, DAL__CLOCK_SIZE) + 2] = 1.0;
     CU_ASSERT_EQUAL(dal_run_restore(run, memory, size, NULL), DAL_OK);
     CU_ASSERT_EQUAL(dal_run_advance(run, count, NULL), DAL_OK);
     memcpy(state, dal_run_state(run), 2 * (size_t)system->n * sizeof *state);

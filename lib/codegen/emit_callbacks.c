@@ -17,7 +17,7 @@ static void name_inputs(dal__generation *g)
     g->input = calloc((size_t)count + 1, sizeof *g->input);
     g->text.out_of_memory |= !g->input;
     if (!g->input) return;
-    snprintf(g->input[p->t - first].text, sizeof g->input->text, "DAL_TIME(t)");
+    snprintf(g->input[p->t - first].text, sizeof g->input->text, "DAL_NUM_TIME(t)");
     for (int i = 0; i < p->n; i++) {
         snprintf(g->input[p->q - first + i].text, sizeof g->input->text, "q[%d]", i);
         snprintf(g->input[p->v - first + i].text, sizeof g->input->text, "v[%d]", i);
@@ -84,15 +84,15 @@ static void write_dispatch(dal__generation *g)
         "    dal_mask ok = dal_all();\n"
         "    DAL_EACH(k, pivots)\n    ok &= dal_less(");
     dal__buffer_number(&g->text, DAL__PIVOT_LEAST);
-    dal__buffer_append(&g->text,
-                       " * all[outputs + 2 * k + 1], dal_abs(all[outputs + 2 * k]));\n"
-                       "    DAL_EACH(i, outputs) out[i] = dal_select(ok, all[i], "
-                       "dal_num(NAN));\n}\n\n"
-                       "/* Evaluates a callback for one group of lanes. */\n"
-                       "DAL_INLINE void dal__eval_group(const dal_stored *work, dal_callback_code "
-                       "code, dal_time t,\n    const num *q, const num *v, const num *pi, "
-                       "num *out)\n{\n"
-                       "    switch (code) {\n");
+    dal__buffer_append(
+        &g->text, " * all[outputs + 2 * k + 1], dal_abs(all[outputs + 2 * k]));\n"
+                  "    DAL_EACH(i, outputs) out[i] = dal_select(ok, all[i], "
+                  "dal_num(NAN));\n}\n\n"
+                  "/* Evaluates a callback for one group of lanes. */\n"
+                  "DAL_INLINE void dal__eval_program(const dal_stored *work, dal_callback_code "
+                  "code, dal_time t,\n    const num *q, const num *v, const num *pi, "
+                  "num *out)\n{\n"
+                  "    switch (code) {\n");
 #define PROGRAM(code, name, reads) write_case(g, DAL__PROGRAM_##code, #code, #name);
     DAL__WIDE_LIST(PROGRAM)
 #undef PROGRAM
@@ -143,9 +143,9 @@ void dal__emit_callbacks(dal__generation *g)
     dal__buffer_append(&g->text,
                        g->product == DAL__OBSERVE
                            ? "\n/* Each lane has its time. */\n"
-                             "typedef num dal_time;\n#define DAL_TIME(t) (t)\n"
+                             "typedef num dal_time;\n#define DAL_NUM_TIME(t) (t)\n"
                            : "\n/* All lanes have one time. */\n"
-                             "typedef double dal_time;\n#define DAL_TIME(t) dal_num(t)\n");
+                             "typedef double dal_time;\n#define DAL_NUM_TIME(t) dal_num(t)\n");
     dal__buffer_append(&g->text, "\n/* ---- the system ---- */\n\n");
 #define PROGRAM(code, name, reads) write_program(g, DAL__PROGRAM_##code, #name);
     DAL__WIDE_LIST(PROGRAM)

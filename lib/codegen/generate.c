@@ -337,7 +337,7 @@ static void write_method(dal__generation *g)
         dal__buffer_append(text, g->source[i]->text);
         dal__buffer_append(text, "#undef step\n\n");
     }
-    dal__buffer_append(text, "#define dal__method dal__of_");
+    dal__buffer_append(text, "#define dal__whole_step dal__of_");
     write_identifier(g, g->spec->method.layer[g->layout.depth - 1]);
     dal__buffer_append(text, "\n\n");
 }

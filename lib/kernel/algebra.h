@@ -56,7 +56,7 @@ DAL_INLINE void dal__pivot(num *m, num *inverse, int n, int k)
 }
 
 /* row i -= factor * row k */
-DAL_INLINE void dal__eliminate(num *m, int n, int i, int k, num factor)
+DAL_INLINE void dal__subtract_row(num *m, int n, int i, int k, num factor)
 {
     for (int j = 0; j < n; j++) m[i * n + j] -= factor * m[k * n + j];
 }
@@ -77,8 +77,8 @@ DAL_COLD void dal_invert(num *m, num *inverse, int n)
         for (int i = 0; i < n; i++) {
             if (i == k) continue;
             const num factor = m[i * n + k];
-            dal__eliminate(m, n, i, k, factor);
-            dal__eliminate(inverse, n, i, k, factor);
+            dal__subtract_row(m, n, i, k, factor);
+            dal__subtract_row(inverse, n, i, k, factor);
         }
     }
 }

@@ -163,7 +163,7 @@ DAL_INLINE void dal__guess_from_field(dal_step *s, dal_equation *eq, const dal_m
 }
 
 /* u += factor x */
-DAL_INLINE void dal__add_multiple(num *DAL_RESTRICT u, double factor, const num *x, int count)
+DAL_INLINE void dal__accumulate(num *DAL_RESTRICT u, double factor, const num *x, int count)
 {
     DAL_EACH(i, count) u[i] = dal_fma(dal_num(factor), x[i], u[i]);
 }
@@ -182,8 +182,8 @@ DAL_INLINE void dal__extrapolate(const dal_tableau *m, dal_block *b, int width, 
     DAL_EACH(i, DAL_SIZE(b)) b->u[i] = dal_num(0.0);
     DAL_EACH(i, stages)
         DAL_EACH(j, stages)
-            dal__add_multiple(b->u + i * width, m->extrapolation[i * stages + j], last + j * width,
-                              width);
+            dal__accumulate(b->u + i * width, m->extrapolation[i * stages + j], last + j * width,
+                            width);
     DAL_EACH(d, DAL__DIFFERENCES)
         DAL_EACH(i, DAL_SIZE(b)) b->u[i] += last[(d + 1) * stride + i];
 }
@@ -213,7 +213,8 @@ DAL_INLINE dal_status dal__try_guess(dal_step *s, dal_equation *eq, dal_mask *tr
     dal_status status = DAL_OK;
     DAL_EACH(j, DAL_STEP_GROUPS) s->unconverged[j] &= ~tried[j];
     DAL_EACH(j, DAL_STEP_GROUPS) s->alive[j] = tried[j];
-    if (dal__any(tried)) status = dal_solve(s, eq, dal__collocation_map, dal__collocation_matrix);
+    if (dal__any_group(tried))
+        status = dal_solve(s, eq, dal__collocation_map, dal__collocation_matrix);
     DAL_EACH(j, DAL_STEP_GROUPS) tried[j] = s->alive[j];
     return status;
 }
@@ -264,12 +265,12 @@ DAL_INLINE dal_status dal__solve_stages(dal_step *s, const dal_stages *k, dal_eq
     DAL_EACH(j, DAL_STEP_GROUPS) accepted[j] = ~dal_all();
     if (DAL_STAGE_DERIVATIVES(s)) dal__solve_from_predictor(s, k, eq, accepted);
     DAL_EACH(j, DAL_STEP_GROUPS) rest[j] &= ~accepted[j];
-    if (dal__any(rest)) {
+    if (dal__any_group(rest)) {
         dal__guess_from_field(s, eq, rest);
         status = dal__try_guess(s, eq, rest);
     }
     DAL_EACH(j, DAL_STEP_GROUPS) s->alive[j] = accepted[j] | rest[j];
-    return dal__any(s->alive) ? DAL_OK : status;
+    return dal__any_group(s->alive) ? DAL_OK : status;
 }
 
 /* The same where the fixed point from the predictor suffices in all lanes; else DAL_NOT_CONVERGED,
@@ -284,12 +285,12 @@ DAL_INLINE dal_status dal__solve_predicted(dal_step *s, const dal_stages *k, dal
         if (DAL_MAY_NEWTON(s)) left[j] |= s->alive[j] & dal_less(dal_num(0.5), s->uses_newton[j]);
         solved[j] = s->alive[j];
     }
-    if (DAL_RARELY(dal__any(left))) return DAL_NOT_CONVERGED;
+    if (DAL_RARELY(dal__any_group(left))) return DAL_NOT_CONVERGED;
     dal__predict(s, k, eq);
     dal__save_guess(eq);
     dal__iterate(s, eq, dal__collocation_map, solved, 0, DAL_MAY_NEWTON(s));
     DAL_EACH(j, DAL_STEP_GROUPS) left[j] = s->alive[j] & ~solved[j];
-    if (DAL_RARELY(dal__any(left))) return DAL_NOT_CONVERGED;
+    if (DAL_RARELY(dal__any_group(left))) return DAL_NOT_CONVERGED;
     dal__record_predictor_errors(s, k, eq, solved, solved);
     return DAL_OK;
 }

@@ -37,7 +37,7 @@ enum {
 #define CLOCK(name) DAL__##name,
     DAL__CLOCK_LIST(CLOCK)
 #undef CLOCK
-        DAL__METHOD_STATE
+        DAL__CLOCK_SIZE
 };
 
 #endif

@@ -88,7 +88,7 @@ typedef void dal_matrix(dal_step *step, dal_equation *equation);        /* fills
         {dal_num(0.0)}, {dal_num(0.0)}, {dal_num(0.0)}, {dal_num(0.0)}, {{dal_num(0.0)}}, 1.0,     \
         (count),        name##_u,       name##_image,   name##_start,   name##_inverse}
 
-DAL_INLINE int dal__any(const dal_mask *lanes)
+DAL_INLINE int dal__any_group(const dal_mask *lanes)
 {
     dal_mask some = lanes[0];
     DAL_EACH(j, DAL_STEP_GROUPS - 1) some |= lanes[j + 1];
@@ -263,7 +263,7 @@ DAL_INLINE void dal__iterate(dal_step *s, dal_equation *eq, dal_iteration_map *m
     if (eq->blocks > 1) dal__begin_block(&eq->block[1]);
     DAL_EACH(j, DAL_STEP_GROUPS) slow[j] = ~dal_all();
     DAL_EACH(j, DAL_STEP_GROUPS) eq->active[j] = lanes[j];
-    for (int k = 0; k < DAL_ITERATIONS(s) && dal__any(eq->active); k++) {
+    for (int k = 0; k < DAL_ITERATIONS(s) && dal__any_group(eq->active); k++) {
         dal__iterate_once(s, eq, map, newton);
         DAL_EACH(j, DAL_STEP_GROUPS)
             dal__update_active(s, eq, j, may_give_up, k, &lanes[j], &slow[j]);
@@ -315,7 +315,7 @@ DAL_SHARED dal_status dal_solve(dal_step *s, dal_equation *eq, dal_iteration_map
     dal__save_guess(eq);
     dal__iterate(s, eq, map, solved, 0, may_newton);
     DAL_EACH(j, DAL_STEP_GROUPS) left[j] = s->alive[j] & ~solved[j];
-    if (may_newton && dal__any(left)) {
+    if (may_newton && dal__any_group(left)) {
         dal__solve_by_newton(s, eq, map, matrix, left);
         DAL_EACH(j, DAL_STEP_GROUPS) solved[j] |= left[j];
     }
@@ -323,7 +323,7 @@ DAL_SHARED dal_status dal_solve(dal_step *s, dal_equation *eq, dal_iteration_map
         s->unconverged[j] |= s->alive[j] & ~solved[j];
         s->alive[j] &= solved[j];
     }
-    return dal__any(s->alive) ? DAL_OK : DAL_NOT_CONVERGED;
+    return dal__any_group(s->alive) ? DAL_OK : DAL_NOT_CONVERGED;
 }
 #endif
 

@@ -151,8 +151,8 @@ static dal_status allocate(dal_batch *batch, const engine_choice *from, dal_erro
     return DAL_OK;
 }
 
-dal_status dal__batch_create(dal_batch **batch, const dal_run_spec *spec, int count, int width,
-                             dal__variant only, dal_error *error)
+dal_status dal__batch_of_variant(dal_batch **batch, const dal_run_spec *spec, int count, int width,
+                                 dal__variant only, dal_error *error)
 {
     dal_batch *made = calloc(1, sizeof *made);
     *batch = NULL;
@@ -186,7 +186,7 @@ dal_status dal_batch_create(dal_batch **batch, const dal_run_spec *spec, int cou
     if (!known) return dal__fail(error, DAL_ARGUMENT, "width %d is not 0, 1, 4 or 8", width);
     if (spec->options.precision != DAL_DOUBLE)
         return dal__fail(error, DAL_UNSUPPORTED, "a batch has no lanes in quad precision");
-    return dal__batch_create(batch, spec, count, width, DAL__VARIANTS, error);
+    return dal__batch_of_variant(batch, spec, count, width, DAL__VARIANTS, error);
 }
 
 static void free_groups(dal_batch *batch)

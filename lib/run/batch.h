@@ -6,8 +6,8 @@
 
 /* As dal_batch_create, all blocks of this variant (DAL__VARIANTS: chosen as there).
  * Errors: also DAL_UNSUPPORTED, when machine, system or integrator lack the variant. */
-dal_status dal__batch_create(dal_batch **batch, const dal_run_spec *spec, int count, int width,
-                             dal__variant only, dal_error *error);
+dal_status dal__batch_of_variant(dal_batch **batch, const dal_run_spec *spec, int count, int width,
+                                 dal__variant only, dal_error *error);
 
 /* The layout of the batch; how many of its lanes compiled code should step together. */
 const dal__layout *dal__batch_layout(const dal_batch *batch);

@@ -108,7 +108,7 @@ static num *persistent_at(const engine *e, int place)
 /* The state of the method, one member after the other. */
 static void place_method_state(engine *e)
 {
-    num *at = e->step.method_state = persistent_at(e, DAL__METHOD_STATE);
+    num *at = e->step.method_state = persistent_at(e, DAL__CLOCK_SIZE);
 #define MEMBER(member, count)                                                                      \
     e->step.member = at;                                                                           \
     at += DAL__COUNT_##count(&e->layout);

@@ -112,7 +112,7 @@ void dal_run_free(dal_run *run)
     free(run->owned);
 }
 
-dal_status dal__run_steps(dal_run *run, double h, long long count)
+dal_status dal__step_run(dal_run *run, double h, long long count)
 {
     dal_status status = DAL_OK;
     if (run->native.traced) {
@@ -136,7 +136,7 @@ dal_status dal_run_advance(dal_run *run, long long count, dal_error *error)
     DAL_REQUIRE(run, error);
     const double h = run->layout.options.step;
     if (count < 0) return dal__fail(error, DAL_ARGUMENT, "%lld steps: a run goes forward", count);
-    const dal_status status = dal__run_steps(run, h, count);
+    const dal_status status = dal__step_run(run, h, count);
     return status == DAL_OK ? DAL_OK : dal__failure_reason(run, h, status, error);
 }
 

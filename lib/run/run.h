@@ -62,7 +62,7 @@ struct dal_run {
 };
 
 /* Takes count steps of size h, until one fails; does not explain a failure. */
-dal_status dal__run_steps(dal_run *run, double h, long long count);
+dal_status dal__step_run(dal_run *run, double h, long long count);
 
 /* Saves the persistent state in the shadow, and restores it. */
 void dal__run_back_up(dal_run *run);

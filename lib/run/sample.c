@@ -62,7 +62,7 @@ static dal_status collect(dal_run *run, long long every, long long count, int *m
     while (count > 0) {
         const long long due = every - dal_run_steps(run) % every;
         const long long steps = due < count ? due : count;
-        DAL_TRY(dal__run_steps(run, run->layout.options.step, steps));
+        DAL_TRY(dal__step_run(run, run->layout.options.step, steps));
         if (steps == due) DAL_TRY(store_observation(run, *made));
         *made += steps == due;
         count -= steps;
@@ -138,7 +138,7 @@ dal_status dal_run_intermediate(dal_run *run, double h,
     if (!isfinite(h))
         return dal__fail(error, DAL_ARGUMENT, "an intermediate step must be finite; it is %g", h);
     dal__run_back_up(run);
-    dal_status status = dal__run_steps(run, h, 1);
+    dal_status status = dal__step_run(run, h, 1);
     if (status != DAL_OK) return dal__failure_reason(run, h, status, error);
     status = observe(user, run);
     dal__run_revert(run);
