@@ -16,7 +16,7 @@
 #     make fuzz             each fuzz target for FUZZ_SECONDS
 #     make mutants          whether the tests notice COUNT faults, drawn by SEED, planted in MODULE
 #     make bench            the timed comparisons of bench/cases.txt; bench-smoke, bench-long
-#     make gallery          the pictures that the README shows
+#     make gallery          the pictures of the README and of docs/
 #     make references       the parts of docs/ that the program prints; CHOOSING=1: and its study's tables
 #
 # BUILD=dir puts everything elsewhere; CFLAGS=-O3\ -march=native changes the speed, never a bit;
@@ -287,7 +287,7 @@ COUNT ?= 20
 mutants:
 	@CC="$(CC)" BUILD="$(BUILD)" sh tools/mutants/mutants.sh "$(MODULE)" $(SEED) $(COUNT)
 
-# The pictures of the README.
+# The pictures of the README and of docs/
 gallery: all
 	@sh tools/gallery.sh $(PROGRAM) docs/gallery
 

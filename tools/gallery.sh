@@ -1,6 +1,7 @@
 #!/bin/sh
-# gallery.sh PROGRAM DIR - the pictures that the README shows, as SVG in DIR: figures of the report
-# of a study, bench/studies/gallery.yaml, and of two runs.  The same machine draws the same bytes.
+# gallery.sh PROGRAM DIR - the pictures of the README and of docs/, as SVG in DIR: figures of the
+# reports of a study, bench/studies/gallery.yaml, of two runs, and of the study and the run of the
+# tutorial.  The same machine draws the same bytes.
 set -e
 case $1 in /*) program=$1 ;; *) program=$PWD/$1 ;; esac
 command -v gnuplot >/dev/null 2>&1 || { echo "gallery: gnuplot is not installed"; exit 1; }
@@ -11,11 +12,20 @@ mkdir -p "$2"
 "$program" study bench/studies/gallery.yaml --output "$work/study" >/dev/null
 "$program" run falling-disk --integrator gauss8 --step 0.01 --time 20 --samples 400 --output "$work/disk"
 "$program" run snakeboard --integrator gauss8 --step 0.01 --time 12 --samples 240 --output "$work/board"
-for directory in study disk board; do
+top=$PWD
+cd "$work"
+awk -f "$top/tools/yaml_blocks.awk" "$top/docs/tutorial.md"
+"$program" study mine.yaml --output skate-study >/dev/null
+"$program" run skate.yaml --integrator spark4 --step 0.05 --time 60 --samples 1200 --output skate
+cd "$top"
+for directory in study disk board skate skate-study; do
     "$program" report "$work/$directory" >/dev/null
 done
 cp "$work/study/report/transmission-E.svg" "$2/drift.svg"
 cp "$work/study/report/sleigh-work.svg" "$2/work.svg"
 cp "$work/disk/report/path.svg" "$2/disk.svg"
 cp "$work/board/report/path.svg" "$2/board.svg"
+cp "$work/skate/report/path.svg" "$2/skate_path.svg"
+cp "$work/skate-study/report/skate-D.svg" "$2/skate_constraint.svg"
+cp "$work/skate-study/report/skate-E.svg" "$2/skate_energy.svg"
 ls -l "$2"/*.svg | awk '{ print "gallery: " $9 ", " $5 " bytes" }'

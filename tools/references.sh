@@ -26,6 +26,9 @@ replace() {
 "$program" list integrators --markdown | replace integrators integrators.md
 "$program" help --markdown | replace commands commands.md
 [ "$2" ] || exit 0
-awk '/^```yaml$/ { inside = 1; next } /^```$/ { inside = 0 } inside' docs/choosing.md >"$made/choice.yaml"
-"$program" study "$made/choice.yaml" --output "$made/choice" >"$made/out" || cat "$made/out"
+top=$PWD
+cd "$made" || exit 2
+awk -f "$top/tools/yaml_blocks.awk" "$top/docs/choosing.md"
+"$program" study choice.yaml --output choice >out || cat out
+cd "$top" || exit 2
 awk -f tools/choosing.awk "$made/choice/cells.csv" | replace choosing choosing.md
