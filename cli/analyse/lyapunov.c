@@ -282,23 +282,23 @@ static int print_means(const tangent_study *s)
 /* ---- all ----------------------------------------------------------------------------------- */
 
 static const cli_option options[] = {
-    {"transient", "T0", "0", "the means begin at this time", .parse = cli_parse_number,
-     .offset = offsetof(lyapunov_settings, transient), .min = 0.0, .max = INFINITY},
-    {"rows", "N", "100", "rows of the table, at equal distances in t", .parse = cli_parse_integer,
-     .offset = offsetof(lyapunov_settings, rows), .min = 1, .max = MAX_ROWS},
+    {"transient", "T0", "0", "the means begin at this time",
+     CLI_NUMBER(lyapunov_settings, transient, 0.0, INFINITY)},
+    {"rows", "N", "100", "rows of the table, at equal distances in t",
+     CLI_INTEGER(lyapunov_settings, rows, 1, MAX_ROWS)},
     {"output", "DIR|FILE", NULL,
-     "writes the means so far: .csv, .npy, or a directory with a figure", .parse = cli_parse_text,
-     .offset = offsetof(lyapunov_settings, output)},
-    {"exponents", "K", NULL, "computes the K largest only", .parse = cli_parse_integer,
-     .offset = offsetof(lyapunov_settings, exponents), .min = 1, .max = 1e6},
+     "writes the means so far: .csv, .npy, or a directory with a figure",
+     CLI_TEXT(lyapunov_settings, output)},
+    {"exponents", "K", NULL, "computes the K largest only",
+     CLI_INTEGER(lyapunov_settings, exponents, 1, 1e6)},
 };
 
 cli_group lyapunov_group(lyapunov_settings *settings)
 {
-    enum { OPTIONS = sizeof options / sizeof *options };
-    /* The last one is of lyapunov alone. */
-    return (cli_group){options, settings->is_volume ? OPTIONS - 1 : OPTIONS, settings,
-                       .owner = "lyapunov"};
+    cli_group group = CLI_GROUP(options, settings);
+    group.owner = "lyapunov";
+    group.count -= settings->is_volume; /* the last one is of lyapunov alone */
+    return group;
 }
 
 int lyapunov_measure(lyapunov_settings *settings)

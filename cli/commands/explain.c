@@ -16,8 +16,7 @@ static int parse_output(void *user, const cli_option *option, const char *text)
 
 static const cli_option options[] = {
     {"quad-steps", "N", "10000", "runs the first N steps in quad precision too; 0: none",
-     .parse = cli_parse_integer, .offset = offsetof(explain_settings, quad_steps), .min = 0,
-     .max = EXPLAIN_MAX_STEPS},
+     CLI_INTEGER(explain_settings, quad_steps, 0, EXPLAIN_MAX_STEPS)},
     {"output", "FILE.csv|-", NULL, "writes a CSV file, or CSV to standard output",
      .parse = parse_output, .offset = offsetof(explain_settings, output)},
     NATIVE_OPTION(explain_settings),
@@ -25,11 +24,10 @@ static const cli_option options[] = {
 
 static int explain(int argc, char **argv)
 {
-    enum { OPTIONS = sizeof options / sizeof *options };
     explain_settings s = {.request = request_default()};
     /* The comparison runs differ in precision themselves. */
     const cli_group groups[] = {
-        {options, OPTIONS, .settings = &s},
+        CLI_GROUP(options, &s),
         request_group(&s.request, request_options, REQUEST_ROW_OPTIONS | REQUEST_OPTION(precision)),
     };
     int status = cli_read_arguments(&command_explain, argc, argv, groups, 2);

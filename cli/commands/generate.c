@@ -18,11 +18,11 @@ typedef struct settings {
 
 static const cli_option options[] = {
     {"output", "FILE|-", "-", "writes there, or to standard output; also -o",
-     .parse = cli_parse_text, .offset = offsetof(settings, output)},
-    {"lanes", "W", "1", "steps 1, 2, 4, 8 or 16 systems at a time", .parse = cli_parse_integer,
-     .offset = offsetof(settings, lanes), .min = 1, .max = 16},
+     CLI_TEXT(settings, output)},
+    {"lanes", "W", "1", "steps 1, 2, 4, 8 or 16 systems at a time",
+     CLI_INTEGER(settings, lanes, 1, 16)},
     {"prefix", "NAME", NULL, "public names begin with it (SYSTEM_INTEGRATOR)",
-     .parse = cli_parse_text, .offset = offsetof(settings, prefix)},
+     CLI_TEXT(settings, prefix)},
 };
 
 /* The options of a run that a generated file needs. */
@@ -52,13 +52,12 @@ static int generate_text(settings *s)
 
 static int generate(int argc, char **argv)
 {
-    enum { OPTIONS = sizeof options / sizeof *options };
     static char output[] = "--output"; /* -o is what compilers call it */
     for (int i = 1; i < argc; i++)
         if (strcmp(argv[i], "-o") == 0) argv[i] = output;
     settings s = {.request = request_default()};
     const cli_group groups[] = {
-        {options, OPTIONS, .settings = &s},
+        CLI_GROUP(options, &s),
         request_group(&s.request, request_options, ~taken),
     };
     int status = cli_read_arguments(&command_generate, argc, argv, groups, 2);

@@ -22,11 +22,10 @@ typedef struct settings {
 
 static const cli_option options[] = {
     {"markdown", NULL, NULL, "prints the reference of all commands, or of one, as Markdown",
-     .parse = cli_parse_flag, .offset = offsetof(settings, markdown)},
-    {"man", NULL, NULL, "the same as a part of a manual page", .parse = cli_parse_flag,
-     .offset = offsetof(settings, man)},
+     CLI_FLAG(settings, markdown)},
+    {"man", NULL, NULL, "the same as a part of a manual page", CLI_FLAG(settings, man)},
     {NULL, "COMMAND", NULL, "describes this command; without it, all are listed",
-     .parse = cli_parse_text, .offset = offsetof(settings, command)},
+     CLI_TEXT(settings, command)},
 };
 
 static int print_usage(void)
@@ -65,9 +64,8 @@ static int print_reference(cli_help_format format)
 
 static int help(int argc, char **argv)
 {
-    enum { OPTIONS = sizeof options / sizeof *options };
     settings s = {0};
-    const cli_group group = {options, OPTIONS, .settings = &s};
+    const cli_group group = CLI_GROUP(options, &s);
     const int status = cli_read_arguments(&command_help, argc, argv, &group, 1);
     if (status != CLI_GO_ON) return status;
     const cli_help_format format = s.markdown ? CLI_HELP_MARKDOWN

@@ -246,10 +246,9 @@ static const struct {
 enum { TABLES = sizeof tables / sizeof *tables };
 
 static const cli_option options[] = {
-    {"markdown", NULL, NULL, "prints Markdown tables", .parse = cli_parse_flag,
-     .offset = offsetof(settings, markdown)},
+    {"markdown", NULL, NULL, "prints Markdown tables", CLI_FLAG(settings, markdown)},
     {NULL, "TABLE", NULL, "systems or integrators; both when it is not given",
-     .parse = cli_parse_text, .offset = offsetof(settings, table)},
+     CLI_TEXT(settings, table)},
 };
 
 static int check_table(const char *table)
@@ -264,9 +263,8 @@ static int check_table(const char *table)
 
 static int list(int argc, char **argv)
 {
-    enum { OPTIONS = sizeof options / sizeof *options };
     settings s = {0};
-    const cli_group group = {options, OPTIONS, .settings = &s};
+    const cli_group group = CLI_GROUP(options, &s);
     int status = cli_read_arguments(&command_list, argc, argv, &group, 1);
     if (status != CLI_GO_ON) return status;
     status = s.table ? check_table(s.table) : CLI_DONE;

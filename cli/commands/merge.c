@@ -30,20 +30,19 @@ static int parse_source(void *user, const cli_option *option, const char *text)
 
 static const cli_option options[] = {
     {"output", "DIR", CLI_REQUIRED,
-     "writes the whole study there; may be one of those that are merged", .parse = cli_parse_text,
-     .offset = offsetof(settings, output)},
+     "writes the whole study there; may be one of those that are merged",
+     CLI_TEXT(settings, output)},
     POOL_THREADS_OPTION(settings, "runs read at a time"),
     {"force", NULL, NULL, "overwrites what the directory holds, unless it is one of those",
-     .parse = cli_parse_flag, .offset = offsetof(settings, force)},
+     CLI_FLAG(settings, force)},
     {NULL, "DIR...", CLI_REQUIRED, "what 'dalembert study --shard K/N --output DIR' wrote",
      .parse = parse_source},
 };
 
 static int merge(int argc, char **argv)
 {
-    enum { OPTIONS = sizeof options / sizeof *options };
     settings s = {.source = cli_calloc(MAX_SOURCES, sizeof *s.source), .threads = pool_threads()};
-    const cli_group group = {options, OPTIONS, .settings = &s};
+    const cli_group group = CLI_GROUP(options, &s);
     int status = cli_read_arguments(&command_merge, argc, argv, &group, 1);
     if (status == CLI_GO_ON)
         status = study_merge(s.source, s.sources, s.output, (int)s.threads, s.force);

@@ -9,21 +9,19 @@
 
 static const cli_option options[] = {
     {"integrators", "LIST|all", NULL,
-     "integrators, with modifiers or not: rk4,gauss4+project (all)", .parse = cli_parse_text,
-     .offset = offsetof(order_settings, integrators)},
+     "integrators, with modifiers or not: rk4,gauss4+project (all)",
+     CLI_TEXT(order_settings, integrators)},
     {"steps", "H1,H2,..", NULL, "step sizes, falling, at most 8; replaces --step and --levels",
-     .parse = cli_parse_text, .offset = offsetof(order_settings, steps)},
+     CLI_TEXT(order_settings, steps)},
     {"levels", "K", "4", "number of step sizes, each half the one before it",
-     .parse = cli_parse_integer, .offset = offsetof(order_settings, level_count), .min = 2,
-     .max = DAL_ORDER_LEVELS},
+     CLI_INTEGER(order_settings, level_count, 2, DAL_ORDER_LEVELS)},
     POOL_THREADS_OPTION(order_settings, "runs at a time; results do not depend on it"),
     {"output", "DIR|FILE.csv", NULL, "writes the table as CSV; a directory gets diagrams, too",
-     .parse = cli_parse_text, .offset = offsetof(order_settings, output)},
+     CLI_TEXT(order_settings, output)},
 };
 
 static int order(int argc, char **argv)
 {
-    enum { OPTIONS = sizeof options / sizeof *options };
     order_settings s = {
         .request = request_default(), .integrators = "all", .threads = pool_threads()};
     cli_option of_request[REQUEST_OPTIONS];
@@ -32,7 +30,7 @@ static int order(int argc, char **argv)
     of_request[REQUEST_time].initial = "10";
     of_request[REQUEST_space].initial = "physical";
     const cli_group groups[] = {
-        {options, OPTIONS, .settings = &s},
+        CLI_GROUP(options, &s),
         request_group(&s.request, of_request, REQUEST_ROW_OPTIONS | REQUEST_OPTION(integrator)),
     };
     int status = cli_read_arguments(&command_order, argc, argv, groups, 2);

@@ -40,7 +40,7 @@ static const cli_option options[] = {
     {"format", "svg|png", "svg", "format of the figures", .parse = parse_format,
      .offset = offsetof(report, format)},
     {NULL, "DIR", CLI_REQUIRED, "what 'study', 'run' or 'order' wrote with --output DIR",
-     .parse = cli_parse_text, .offset = offsetof(report, directory)},
+     CLI_TEXT(report, directory)},
 };
 
 static int write_report(report *r)
@@ -70,9 +70,8 @@ static int write_report(report *r)
 
 static int run_report(int argc, char **argv)
 {
-    enum { OPTIONS = sizeof options / sizeof *options };
     report r = {0};
-    const cli_group group = {options, OPTIONS, .settings = &r};
+    const cli_group group = CLI_GROUP(options, &r);
     const int status = cli_read_arguments(&command_report, argc, argv, &group, 1);
     return status == CLI_GO_ON ? write_report(&r) : status;
 }

@@ -31,16 +31,15 @@ static const cli_option options[] = {
     POOL_THREADS_OPTION(settings, "cells of a study at a time"),
     {NULL, "DIR", CLI_REQUIRED,
      "what 'dalembert run --output DIR' or 'dalembert study --output DIR' wrote",
-     .parse = cli_parse_text, .offset = offsetof(settings, directory)},
+     CLI_TEXT(settings, directory)},
 };
 
 static int resume(int argc, char **argv)
 {
-    enum { OPTIONS = sizeof options / sizeof *options };
     settings s = {.threads = pool_threads()};
     const cli_group groups[] = {
         run_group(&s.run, RUN_OPTION(output) | RUN_OPTION(force)),
-        {options, OPTIONS, .settings = &s},
+        CLI_GROUP(options, &s),
     };
     const int status = cli_read_arguments(&command_resume, argc, argv, groups, 2);
     if (status != CLI_GO_ON) return status;

@@ -7,25 +7,24 @@
 
 static const cli_option options[] = {
     {"on", "FORMULA[=VALUE]", CLI_REQUIRED, "the surface: x - 1, y*x' = 0.5, sin(3*t)",
-     .parse = cli_parse_text, .offset = offsetof(section_settings, on)},
+     CLI_TEXT(section_settings, on)},
     {"direction", "down|both|up", "both", "crossings from above it to below, all, or from below",
-     .parse = cli_parse_word, .offset = offsetof(section_settings, direction)},
-    {"transient", "T0", "0", "leaves out the crossings before this time", .parse = cli_parse_number,
-     .offset = offsetof(section_settings, transient), .min = -INFINITY, .max = INFINITY},
+     CLI_WORD(section_settings, direction)},
+    {"transient", "T0", "0", "leaves out the crossings before this time",
+     CLI_NUMBER(section_settings, transient, -INFINITY, INFINITY)},
     {"axes", "X,Y", NULL,
      "columns of the figure (the last coordinate that varies, with its velocity)",
-     .parse = cli_parse_text, .offset = offsetof(section_settings, axes)},
+     CLI_TEXT(section_settings, axes)},
     NATIVE_OPTION(section_settings),
     {"output", "DIR|FILE|-", "-", "where rows go: .csv, .npy, a directory with a figure, or stdout",
-     .parse = cli_parse_text, .offset = offsetof(section_settings, output)},
+     CLI_TEXT(section_settings, output)},
 };
 
 static int section(int argc, char **argv)
 {
-    enum { OPTIONS = sizeof options / sizeof *options };
     section_settings s = {.request = request_default()};
     const cli_group groups[] = {
-        {options, OPTIONS, .settings = &s},
+        CLI_GROUP(options, &s),
         request_group(&s.request, request_options, REQUEST_ROW_OPTIONS),
     };
     int status = cli_read_arguments(&command_section, argc, argv, groups, 2);

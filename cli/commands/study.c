@@ -41,15 +41,13 @@ static int parse_shard(void *user, const cli_option *option, const char *text)
 }
 
 static const cli_option options[] = {
-    {"output", "DIR", NULL, "writes the files there (dalembert-study)", .parse = cli_parse_text,
-     .offset = offsetof(settings, output)},
+    {"output", "DIR", NULL, "writes the files there (dalembert-study)", CLI_TEXT(settings, output)},
     POOL_THREADS_OPTION(settings, "cells at a time; results do not depend on it"),
     {"shard", "K/N", NULL, "runs every N-th cell, from the K-th on; 'dalembert merge' joins shards",
      .parse = parse_shard},
-    {"show", NULL, NULL, "prints the study file itself and runs nothing", .parse = cli_parse_flag,
-     .offset = offsetof(settings, show)},
+    {"show", NULL, NULL, "prints the study file itself and runs nothing", CLI_FLAG(settings, show)},
     {NULL, "STUDY.yaml", NULL, "a study file; by default the built-in study",
-     .parse = cli_parse_text, .offset = offsetof(settings, study)},
+     CLI_TEXT(settings, study)},
 };
 
 static const char notes[] = "A study file is YAML; its keys:\n"
@@ -115,10 +113,9 @@ static int run_study(const settings *s, const char *text, size_t length)
 
 static int study(int argc, char **argv)
 {
-    enum { OPTIONS = sizeof options / sizeof *options };
     settings s = {.threads = pool_threads()};
     const cli_group groups[] = {
-        {options, OPTIONS, .settings = &s},
+        CLI_GROUP(options, &s),
         run_group(&s.run, RUN_OPTION(output) | RUN_OPTION(summary) | RUN_OPTION(progress)),
     };
     int status = cli_read_arguments(&command_study, argc, argv, groups, 2);

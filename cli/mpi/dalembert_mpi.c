@@ -43,10 +43,8 @@ static int parse_output(void *user, const cli_option *option, const char *text)
 
 static const cli_option options[] = {
     {"output", "DIR", CLI_REQUIRED, "writes the files there", .parse = parse_output},
-    {"resume", NULL, NULL, "continues the study in DIR", .parse = cli_parse_flag,
-     .offset = offsetof(mpi_settings, resume)},
-    {NULL, "STUDY.yaml", NULL, "a study file", .parse = cli_parse_text,
-     .offset = offsetof(mpi_settings, study)},
+    {"resume", NULL, NULL, "continues the study in DIR", CLI_FLAG(mpi_settings, resume)},
+    {NULL, "STUDY.yaml", NULL, "a study file", CLI_TEXT(mpi_settings, study)},
 };
 
 static const cli_command command = {
@@ -59,9 +57,8 @@ static const cli_command command = {
 
 static int parse_arguments(mpi_settings *s, int argc, char **argv)
 {
-    enum { OPTIONS = sizeof options / sizeof *options };
     const cli_group groups[] = {
-        {options, OPTIONS, .settings = s},
+        CLI_GROUP(options, s),
         run_group(&s->run, RUN_OPTION(output) | RUN_OPTION(summary) | RUN_OPTION(progress)),
     };
     const int status = cli_read_arguments(&command, argc, argv, groups, 2);

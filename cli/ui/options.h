@@ -28,6 +28,16 @@ extern const char CLI_REQUIRED[];
 /* Each stores one type: const char *, bool, double, long long, int or an enumeration. */
 cli_parser cli_parse_text, cli_parse_flag, cli_parse_number, cli_parse_integer, cli_parse_word;
 
+/* The end of a row: which parser stores which member of the settings, and the range of a number. */
+#define CLI_ROW(parser, settings, member) .parse = parser, .offset = offsetof(settings, member)
+#define CLI_TEXT(settings, member)        CLI_ROW(cli_parse_text, settings, member)
+#define CLI_FLAG(settings, member)        CLI_ROW(cli_parse_flag, settings, member)
+#define CLI_WORD(settings, member)        CLI_ROW(cli_parse_word, settings, member)
+#define CLI_NUMBER(settings, member, least, greatest)                                              \
+    CLI_ROW(cli_parse_number, settings, member), .min = least, .max = greatest
+#define CLI_INTEGER(settings, member, least, greatest)                                             \
+    CLI_ROW(cli_parse_integer, settings, member), .min = least, .max = greatest
+
 /* Options that fill one struct. */
 typedef struct cli_group {
     const cli_option *options;
@@ -37,6 +47,10 @@ typedef struct cli_group {
     uint64_t without;   /* bit k: the command does not take option k */
     const char *owner;  /* the command whose reference describes them; NULL: each one's own */
 } cli_group;
+
+/* The rows of a command that fill its settings. */
+#define CLI_GROUP(rows, target)                                                                    \
+    (cli_group) { .options = rows, .count = sizeof rows / sizeof *rows, .settings = target }
 
 typedef struct cli_command {
     const char *name, *synopsis, *about;
