@@ -13,34 +13,28 @@
 
 enum { MESSAGE_SIZE = 8192 }; /* more than the longest path */
 
-/* status, exit status */
-#define EXIT_OF_STATUS(EXIT)                                                                       \
-    EXIT(OK, DONE)                                                                                 \
-    EXIT(MEMORY, IO)                                                                               \
-    EXIT(ARGUMENT, USAGE)                                                                          \
-    EXIT(SYNTAX, USAGE)                                                                            \
-    EXIT(NAME, USAGE)                                                                              \
-    EXIT(MODEL, USAGE)                                                                             \
-    EXIT(TOO_LARGE, USAGE)                                                                         \
-    EXIT(INCONSISTENT, USAGE)                                                                      \
-    EXIT(RANK, USAGE)                                                                              \
-    EXIT(UNSUPPORTED, USAGE)                                                                       \
-    EXIT(SINGULAR, FAILED)                                                                         \
-    EXIT(SINGULAR_MASS, FAILED)                                                                    \
-    EXIT(NOT_FINITE, FAILED)                                                                       \
-    EXIT(NOT_CONVERGED, FAILED)                                                                    \
-    EXIT(GAUGE, FAILED)                                                                            \
-    EXIT(IO, IO)                                                                                   \
-    EXIT(INTERRUPTED, SIGNAL)
-
 int cli_exit(dal_status status)
 {
-    static const int exits[DAL_STATUS_COUNT] = {
-#define EXIT(code, exit) [DAL_##code] = CLI_##exit,
-        EXIT_OF_STATUS(EXIT)
-#undef EXIT
-    };
-    return (unsigned)status < DAL_STATUS_COUNT ? exits[status] : CLI_FAILED;
+    switch (status) {
+    case DAL_OK:
+        return CLI_DONE;
+    case DAL_MEMORY:
+    case DAL_IO:
+        return CLI_IO;
+    case DAL_INTERRUPTED:
+        return CLI_SIGNAL;
+    case DAL_ARGUMENT:
+    case DAL_SYNTAX:
+    case DAL_NAME:
+    case DAL_MODEL:
+    case DAL_TOO_LARGE:
+    case DAL_INCONSISTENT:
+    case DAL_RANK:
+    case DAL_UNSUPPORTED:
+        return CLI_USAGE;
+    default:
+        return CLI_FAILED;
+    }
 }
 
 int cli_input_exit(dal_status status)
