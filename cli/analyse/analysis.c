@@ -30,3 +30,11 @@ double analysis_distance(const double *a, const double *b, int count)
     }
     return max;
 }
+
+void analysis_put_cells(FILE *out, const double *numbers, int count)
+{
+    for (int i = 0; i < count; i++) {
+        fputc(',', out);
+        if (!isnan(numbers[i])) cli_put(out, numbers[i]);
+    }
+}

@@ -3,6 +3,8 @@
 #ifndef DAL_CLI_ANALYSIS_H
 #define DAL_CLI_ANALYSIS_H
 
+#include <stdio.h>
+
 /* An output: a directory with NAME.csv in it, or a file. */
 typedef struct analysis_output {
     const char *directory; /* NULL: a file, or stdout */
@@ -14,5 +16,8 @@ int analysis_open(analysis_output *output, const char *path, const char *name);
 
 /* max |a_i - b_i| / max(1, |b_i|); infinite where an entry is not a number. */
 double analysis_distance(const double *a, const double *b, int count);
+
+/* Writes cells of a CSV file, each behind a comma; those that are not a number stay empty. */
+void analysis_put_cells(FILE *out, const double *numbers, int count);
 
 #endif

@@ -105,21 +105,13 @@ static int print_budget(const run_request *request, const dal_error_budget *e)
 
 /* ---- as CSV ---- */
 
-static void write_numbers(FILE *out, const double *numbers, int count)
-{
-    for (int i = 0; i < count; i++) {
-        fputc(',', out);
-        if (!isnan(numbers[i])) cli_put(out, numbers[i]);
-    }
-}
-
 static void write_run(FILE *out, const char *observable, const char *name, long long steps,
                       const dal_trend *f)
 {
     const double numbers[] = {f->rate, f->rate_low, f->rate_high, f->deviation};
     cli_put_text(out, observable);
     fprintf(out, ",run,%s,%lld,,", name, steps);
-    write_numbers(out, numbers, 4);
+    analysis_put_cells(out, numbers, 4);
     fprintf(out, ",%s,%s,", cli_size_word(f), cli_trend_word(f));
     if (f->conservation == DAL_CONSERVED) cli_put(out, f->confidence);
     fputs(",\n", out);
@@ -140,7 +132,7 @@ static void write_observable(FILE *out, const dal_error_budget *e, int i)
         cli_put_text(out, a->name);
         fprintf(out, ",source,%s,%lld", dal_error_source_name((dal_error_source)k),
                 k == DAL_SOURCE_PROJECTION || e->quad_steps == 0 ? e->steps : e->quad_steps);
-        write_numbers(out, numbers, 2);
+        analysis_put_cells(out, numbers, 2);
         fputs(",,,,,,,,", out);
         cli_put_text(out,
                      dal_error_budget_describe(e, i, (dal_error_source)k, words, sizeof words));

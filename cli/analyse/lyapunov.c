@@ -61,44 +61,41 @@ static int create_spectrum(tangent_study *s)
                           : cli_error(cli_input_exit(made), request->system_name, &error);
 }
 
-/* t, lambda1, .., divergence or t, divergence, step. */
-static void name_columns(tangent_study *s)
+/* Column i of the table and its name: t, lambda1, .., divergence or t, divergence, step. */
+static double read_column(const tangent_study *s, int i, char name[MAX_COLUMN_NAME])
 {
-    const int count = dal_lyapunov_count(s->spectrum);
+    dal_average a = {.mean = dal_run_time(dal_lyapunov_run(s->spectrum))};
+    if (i == 0) {
+        snprintf(name, MAX_COLUMN_NAME, "t");
+    } else if (i == (s->set->is_volume ? 1 : s->columns)) {
+        snprintf(name, MAX_COLUMN_NAME, "divergence");
+        dal_lyapunov_divergence(s->spectrum, &a);
+    } else if (s->set->is_volume) {
+        snprintf(name, MAX_COLUMN_NAME, "step");
+        dal_lyapunov_sum(s->spectrum, &a);
+    } else {
+        snprintf(name, MAX_COLUMN_NAME, "lambda%d", i);
+        dal_lyapunov_exponent(s->spectrum, i - 1, &a);
+    }
+    return a.mean;
+}
+
+static void read_means(tangent_study *s)
+{
+    for (int i = 0; i <= s->columns; i++) s->values[i] = read_column(s, i, s->heads[i]);
+}
+
+static void allocate_columns(tangent_study *s)
+{
     s->name = s->set->is_volume ? "volume" : "lyapunov";
     s->ylabel = s->set->is_volume ? "rate, mean so far" : "mean so far";
-    s->columns = s->set->is_volume ? 2 : count + 1;
+    s->columns = s->set->is_volume ? 2 : dal_lyapunov_count(s->spectrum) + 1;
     const size_t heads = (size_t)s->columns + 1;
     s->values = cli_calloc(heads, sizeof *s->values);
     s->heads = cli_calloc(heads, sizeof *s->heads + MAX_COLUMN_NAME);
-    for (int i = 0; i <= s->columns; i++) {
+    for (size_t i = 0; i < heads; i++)
         s->heads[i] = (char *)(s->heads + heads) + i * MAX_COLUMN_NAME;
-        if (i == 0)
-            snprintf(s->heads[i], MAX_COLUMN_NAME, "t");
-        else if (i == (s->set->is_volume ? 1 : count + 1))
-            snprintf(s->heads[i], MAX_COLUMN_NAME, "divergence");
-        else if (s->set->is_volume)
-            snprintf(s->heads[i], MAX_COLUMN_NAME, "step");
-        else
-            snprintf(s->heads[i], MAX_COLUMN_NAME, "lambda%d", i);
-    }
-}
-
-static int write_means(tangent_study *s)
-{
-    dal_average divergence, other;
-    s->values[0] = dal_run_time(dal_lyapunov_run(s->spectrum));
-    dal_lyapunov_divergence(s->spectrum, &divergence);
-    s->values[s->set->is_volume ? 1 : s->columns] = divergence.mean;
-    if (s->set->is_volume) {
-        dal_lyapunov_sum(s->spectrum, &other);
-        s->values[2] = other.mean;
-    }
-    for (int i = 0; !s->set->is_volume && i < s->columns - 1; i++) {
-        dal_lyapunov_exponent(s->spectrum, i, &other);
-        s->values[1 + i] = other.mean;
-    }
-    return s->table.path ? writer_append(&s->table, s->values) : CLI_DONE;
+    read_means(s);
 }
 
 static int advance_spectrum(tangent_study *s, long long steps)
@@ -129,7 +126,9 @@ static int run_to_end(tangent_study *s)
         const long long next = llround((double)k / (double)rows * (double)total);
         status = advance_spectrum(s, next - done);
         done = next;
-        if (status == CLI_DONE) status = write_means(s);
+        if (status != CLI_DONE) break;
+        read_means(s);
+        if (s->table.path) status = writer_append(&s->table, s->values);
     }
     cli_progress_end();
     return status;
@@ -138,16 +137,14 @@ static int run_to_end(tangent_study *s)
 static int draw_means(const tangent_study *s, const char *directory)
 {
     char *path, title[256], method[128];
-    int missing;
     FILE *script = gnuplot_open(directory, s->name, "svg", 800, 500, &path);
     if (!script) return CLI_IO;
     dal_method_name(&s->request->method, method, sizeof method);
     snprintf(title, sizeof title, "%.80s, %.80s, h = %g", s->request->system_name, method,
              s->request->options.step);
-    fputs("set title ", script);
-    gnuplot_quote(script, title);
+    gnuplot_set(script, "title", title);
     fprintf(script,
-            "\nset xlabel 't'\nset ylabel '%s'\nset xrange [*:*] noextend\n"
+            "set xlabel 't'\nset ylabel '%s'\nset xrange [*:*] noextend\n"
             "set key outside right top Left reverse samplen 2\nplot \\\n",
             s->ylabel);
     for (int i = 1; i <= s->columns; i++) {
@@ -157,7 +154,7 @@ static int draw_means(const tangent_study *s, const char *directory)
         gnuplot_quote(script, s->heads[i]);
         fputs(i < s->columns ? ", \\\n" : "\n", script);
     }
-    const int status = gnuplot_draw(directory, script, path, &missing);
+    const int status = gnuplot_draw(directory, script, path, NULL);
     free(path);
     return status;
 }
@@ -306,7 +303,7 @@ int lyapunov_measure(lyapunov_settings *settings)
     tangent_study s = {.set = settings, .request = &settings->request};
     int status = create_spectrum(&s);
     if (status == CLI_DONE) {
-        name_columns(&s);
+        allocate_columns(&s);
         status = run_with_table(&s);
         const int printed = status == CLI_IO || status == CLI_USAGE ? status : print_means(&s);
         if (status == CLI_DONE) status = printed;

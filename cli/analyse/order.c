@@ -318,34 +318,25 @@ static int print_orders(const order_study *s)
 
 /* ---- CSV ----------------------------------------------------------------------------------- */
 
-static void write_number(FILE *out, double x)
-{
-    if (!isnan(x)) cli_put(out, x);
-    fputc(',', out);
-}
-
 /* At a step; level < 0: a method that was refused. */
 static void write_level(FILE *out, const order_study *s, const order_method *m, int level)
 {
+    const bool has_run = level >= 0, succeeded = has_run && m->failure[level].status == DAL_OK;
+    const double h = has_run ? s->step[level] : NAN;
+    const double cells[] = {m->order.order,
+                            h,
+                            round(s->request->time / h),
+                            has_run ? m->order.error[level] : NAN,
+                            has_run ? m->order.slope[level] : NAN,
+                            succeeded ? (double)m->order.evaluations[level] : NAN,
+                            succeeded ? m->seconds[level] : NAN};
     cli_put_text(out, s->request->system_name);
     fputc(',', out);
     cli_put_text(out, m->name);
-    fprintf(out, ",%d,", dal_method_order(&m->method));
-    write_number(out, m->order.order);
-    if (level < 0) {
-        fprintf(out, ",,,,,,%s,", state_words[m->state]);
-        cli_put_text(out, failure_message(s, m));
-    } else {
-        const bool succeeded = m->failure[level].status == DAL_OK;
-        write_number(out, s->step[level]);
-        fprintf(out, "%lld,", llround(s->request->time / s->step[level]));
-        write_number(out, m->order.error[level]);
-        write_number(out, m->order.slope[level]);
-        write_number(out, succeeded ? (double)m->order.evaluations[level] : NAN);
-        write_number(out, succeeded ? m->seconds[level] : NAN);
-        fprintf(out, "%s,", state_words[succeeded ? ORDER_DONE : ORDER_FAILED]);
-        cli_put_text(out, m->failure[level].message);
-    }
+    fprintf(out, ",%d", dal_method_order(&m->method));
+    analysis_put_cells(out, cells, sizeof cells / sizeof *cells);
+    fprintf(out, ",%s,", state_words[succeeded ? ORDER_DONE : has_run ? ORDER_FAILED : m->state]);
+    cli_put_text(out, has_run ? m->failure[level].message : failure_message(s, m));
     fputc('\n', out);
 }
 
@@ -405,7 +396,6 @@ static int draw_panels(const order_study *s, const char *directory, const char *
                        const panel *panels, int count)
 {
     char *path, title[2 * MAX_NAME];
-    int missing;
     FILE *script = gnuplot_open(directory, name, "svg", 1100, 600, &path);
     if (!script) return CLI_IO;
     snprintf(title, sizeof title, "%.80s: error of (q,v) at t = %g", s->request->system_name,
@@ -415,13 +405,12 @@ static int draw_panels(const order_study *s, const char *directory, const char *
           "set xrange [*:*] noextend\nset offsets graph 0.05, graph 0.05\n"
           "set tmargin at screen 0.92\nset bmargin at screen 0.12\n"
           "set key at screen 0.79, screen 0.94 left top Left reverse samplen 2 maxrows 34 "
-          "spacing 0.95 font ',9'\nset multiplot title ",
+          "spacing 0.95 font ',9'\n",
           script);
-    gnuplot_quote(script, title);
-    fputc('\n', script);
+    gnuplot_set(script, "multiplot title", title);
     for (int i = 0; i < count; i++) put_panel(script, s, &panels[i]);
     fputs("unset multiplot\n", script);
-    const int status = gnuplot_draw(directory, script, path, &missing);
+    const int status = gnuplot_draw(directory, script, path, NULL);
     free(path);
     return status;
 }

@@ -229,18 +229,14 @@ static void choose_axes(const section *s, int axis[2])
 static int draw_section(const section *s, const char *directory, const int axis[2])
 {
     char *path, title[256];
-    int missing;
     FILE *script = gnuplot_open(directory, "section", "svg", 800, 600, &path);
     if (!script) return CLI_IO;
     snprintf(title, sizeof title, "%.80s: %.80s, h = %g, t to %g", s->request->system_name,
              s->set->on, s->request->options.step, dal_run_time(s->request->run));
-    fputs("set title ", script);
-    gnuplot_quote(script, title);
-    fputs("\nset xlabel ", script);
-    gnuplot_quote(script, s->names[axis[0]]);
-    fputs("\nset ylabel ", script);
-    gnuplot_quote(script, s->names[axis[1]]);
-    fputs("\nset key outside top right reverse Left\nset offsets graph 0.02, graph 0.02, "
+    gnuplot_set(script, "title", title);
+    gnuplot_set(script, "xlabel", s->names[axis[0]]);
+    gnuplot_set(script, "ylabel", s->names[axis[1]]);
+    fputs("set key outside top right reverse Left\nset offsets graph 0.02, graph 0.02, "
           "graph 0.02, graph 0.02\nside(d, x) = column('direction') == d ? x : NaN\nplot \\\n",
           script);
     for (int side = 1; side >= -1; side -= 2) {
@@ -252,7 +248,7 @@ static int draw_section(const section *s, const char *directory, const int axis[
                 side > 0 ? "upwards" : "downwards",
                 side > 0 && s->set->direction == 0 ? ", \\" : "");
     }
-    const int status = gnuplot_draw(directory, script, path, &missing);
+    const int status = gnuplot_draw(directory, script, path, NULL);
     free(path);
     return status;
 }

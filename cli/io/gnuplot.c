@@ -29,6 +29,13 @@ void gnuplot_quote(FILE *script, const char *text)
     fputc('"', script);
 }
 
+void gnuplot_set(FILE *script, const char *what, const char *text)
+{
+    fprintf(script, "set %s ", what);
+    gnuplot_quote(script, text);
+    fputc('\n', script);
+}
+
 /* Of middling luminance (0.17 to 0.25), so that each stands out on white and on black alike, by a
  * contrast of 3.6 at least. */
 const char *gnuplot_colour(int i)
@@ -60,15 +67,14 @@ FILE *gnuplot_open(const char *directory, const char *name, const char *format, 
             strcmp(format, "png") == 0 ? "pngcairo background 'white'" : "svg dynamic", width,
             height);
     snprintf(file, sizeof file, "%s.%s", name, format);
-    fputs("set output ", script);
-    gnuplot_quote(script, file);
-    fputs("\nset datafile separator comma\nset datafile missing ''\nset tics nomirror font ',10'\n"
+    gnuplot_set(script, "output", file);
+    fputs("set datafile separator comma\nset datafile missing ''\nset tics nomirror font ',10'\n"
           "set border 3\nset grid back lt 1 lw 1 lc rgb '#c0808080'\n",
           script);
     return script;
 }
 
-static int run(const char *directory, const char *path, int *missing)
+static int run(const char *directory, const char *path, bool *missing)
 {
     const char *slash = strrchr(path, '/'), *script = slash ? slash + 1 : path;
     int state;
@@ -88,8 +94,9 @@ static int run(const char *directory, const char *path, int *missing)
     while (waitpid(child, &state, 0) < 0)
         if (errno != EINTR) return cli_io("wait for", "gnuplot");
     if (WIFEXITED(state) && WEXITSTATUS(state) == 0) return CLI_DONE;
-    *missing = WIFEXITED(state) && WEXITSTATUS(state) == NOT_FOUND;
-    if (*missing)
+    const bool is_missing = WIFEXITED(state) && WEXITSTATUS(state) == NOT_FOUND;
+    if (missing) *missing = is_missing;
+    if (is_missing)
         return cli_fail(CLI_IO, "gnuplot is not installed; the figures need it ('%s' is written)",
                         path);
     return cli_fail(CLI_IO, "gnuplot failed on '%s'", path);
@@ -123,10 +130,10 @@ static int put_style(const char *path)
     return status;
 }
 
-int gnuplot_draw(const char *directory, FILE *script, const char *path, int *missing)
+int gnuplot_draw(const char *directory, FILE *script, const char *path, bool *missing)
 {
     int status = cli_close(script, path);
-    *missing = 0;
+    if (missing) *missing = false;
     if (status == CLI_DONE) status = run(directory, path, missing);
     if (status != CLI_DONE) return status;
     /* NAME.gp has drawn NAME.svg or NAME.png. */

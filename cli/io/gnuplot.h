@@ -2,6 +2,7 @@
 #ifndef DAL_CLI_GNUPLOT_H
 #define DAL_CLI_GNUPLOT_H
 
+#include <stdbool.h>
 #include <stdio.h>
 
 /* Begins DIR/NAME.gp with the terminal, the output NAME.FORMAT (svg or png) and the common style;
@@ -9,11 +10,12 @@
 FILE *gnuplot_open(const char *directory, const char *name, const char *format, int width,
                    int height, char **path);
 /* Closes the script and runs gnuplot on it in DIR; an SVG figure has no background and is readable
- * in light and dark.  Returns CLI_DONE, or prints and returns an exit status; *missing is 1 where
- * there is no gnuplot. */
-int gnuplot_draw(const char *directory, FILE *script, const char *path, int *missing);
-/* A string of gnuplot, in quotes. */
+ * in light and dark.  Returns CLI_DONE, or prints and returns an exit status; *missing, unless
+ * NULL, is whether there is no gnuplot. */
+int gnuplot_draw(const char *directory, FILE *script, const char *path, bool *missing);
+/* A string of gnuplot, in quotes; the same as a setting: set WHAT "TEXT". */
 void gnuplot_quote(FILE *script, const char *text);
+void gnuplot_set(FILE *script, const char *what, const char *text);
 /* The colours of the curves, one after the other; and as "lc rgb C dt D" for more curves than
  * colours, which dashes distinguish. */
 enum { GNUPLOT_COLOURS = 8 };

@@ -116,13 +116,6 @@ static void write_axis(FILE *s, const char *axis, const report_plot *plot, int k
                 axis, below < -3.0 || above > 4.0 ? "%.0e" : "%g");
 }
 
-static void write_label(FILE *s, const char *what, const char *text)
-{
-    fprintf(s, "set %s ", what);
-    gnuplot_quote(s, text);
-    fputc('\n', s);
-}
-
 static int key_rows(const report_plot *plot)
 {
     int titles = 0;
@@ -144,9 +137,9 @@ static int figure_height(const report_plot *plot)
 static void write_axes(FILE *s, const report_plot *plot)
 {
     const double height = figure_height(plot), key = KEY_ROW * key_rows(plot);
-    write_label(s, "title", plot->title);
-    write_label(s, "xlabel offset 0,0.4", plot->xlabel);
-    write_label(s, "ylabel", plot->ylabel);
+    gnuplot_set(s, "title", plot->title);
+    gnuplot_set(s, "xlabel offset 0,0.4", plot->xlabel);
+    gnuplot_set(s, "ylabel", plot->ylabel);
     write_axis(s, "x", plot, 0, plot->log_x);
     write_axis(s, "y", plot, 1, plot->log_y);
     if (plot->is_to_scale) {
@@ -223,7 +216,8 @@ static int make_figure(report *r, const report_plot *plot)
     write_axes(s, plot);
     write_curves(s, plot);
     /* Without gnuplot the page has no figures; the first one has printed the message. */
-    int status, missing = 0;
+    int status;
+    bool missing = false;
     if (r->lacks_gnuplot) {
         status = cli_close(s, path);
     } else {
