@@ -78,12 +78,17 @@ static int draw_errors(const order_page *o, int figure, int part)
         {"seconds", "time", "Time and precision", "seconds of processor time",
          "Lower left is better: less error in less time."},
     };
-    report_plot plot = {.log_x = true, .log_y = true, .has_marks = true, .ylabel = "error"};
+    char name[PLOT_NAME];
+    report_plot plot = {.name = name,
+                        .title = figures[figure].title,
+                        .xlabel = figures[figure].xlabel,
+                        .ylabel = "error",
+                        .caption = figures[figure].caption,
+                        .log_x = true,
+                        .log_y = true,
+                        .has_marks = true};
     const int first = part * PLOT_CURVES;
-    plot.caption = figures[figure].caption;
-    snprintf(plot.name, sizeof plot.name, part ? "%s-%d" : "%s", figures[figure].name, part + 1);
-    snprintf(plot.title, sizeof plot.title, "%s", figures[figure].title);
-    snprintf(plot.xlabel, sizeof plot.xlabel, "%s", figures[figure].xlabel);
+    snprintf(name, sizeof name, part ? "%s-%d" : "%s", figures[figure].name, part + 1);
     for (int m = first; m < o->methods.count && m < first + PLOT_CURVES; m++) {
         plot_curve *curve = report_curve(&plot, o->methods.word[m]);
         for (int row = 1; row < o->csv.rows; row++)

@@ -76,72 +76,53 @@ static void draw_axle(const pen *p, double x, double y, double turn)
     }
 }
 
-static void draw_point(const pen *p) { draw_ellipse(p, 0.3, 0.3); }
+/* The lines of a body that do not change. */
+static const struct {
+    dal_body body;
+    int count;
+    double at[6][2];
+} outlines[] = {
+    {DAL_BODY_BLADE, 2, {{-1, 0}, {1, 0}}},
+    {DAL_BODY_BLADE, 3, {{0.5, 0.3}, {1, 0}, {0.5, -0.3}}},
+    {DAL_BODY_SLEIGH,
+     6,
+     {{1.2, 0}, {0.4, 0.55}, {-0.9, 0.55}, {-0.9, -0.55}, {0.4, -0.55}, {1.2, 0}}},
+    {DAL_BODY_SLEIGH, 2, {{-0.5, 0}, {0.5, 0}}},
+    {DAL_BODY_DISK, 2, {{0, -0.35}, {0, 0.35}}}, /* the axle: upright, the disk is a line */
+    {DAL_BODY_ROBOT, 2, {{0, 0}, {0.9, 0}}},
+    {DAL_BODY_BOARD, 2, {{-1, 0}, {1, 0}}},
+};
 
-static void draw_blade(const pen *p)
+static void draw_body(const pen *p, dal_body body)
 {
-    static const double blade[][2] = {{-1, 0}, {1, 0}},
-                        tip[][2] = {{0.5, 0.3}, {1, 0}, {0.5, -0.3}};
-    draw_line(p, blade, 2);
-    draw_line(p, tip, 3);
-}
-
-static void draw_sleigh(const pen *p)
-{
-    static const double hull[][2] = {{1.2, 0},      {0.4, 0.55},  {-0.9, 0.55},
-                                     {-0.9, -0.55}, {0.4, -0.55}, {1.2, 0}};
-    static const double blade[][2] = {{-0.5, 0}, {0.5, 0}};
-    draw_line(p, hull, 6);
-    draw_line(p, blade, 2);
-}
-
-/* Upright and seen from above a disk is a line; its axle shows which. */
-static void draw_disk(const pen *p)
-{
-    static const double axle[][2] = {{0, -0.35}, {0, 0.35}};
-    draw_ellipse(p, 1.0, p->pose[DAL_PICTURE_WIDTH]);
-    draw_line(p, axle, 2);
-}
-
-static void draw_ball(const pen *p) { draw_ellipse(p, 0.7, 0.7); }
-
-static void draw_robot(const pen *p)
-{
-    static const double front[][2] = {{0, 0}, {0.9, 0}};
-    draw_ellipse(p, 0.9, 0.9);
-    draw_line(p, front, 2);
-}
-
-static void draw_board(const pen *p)
-{
-    static const double board[][2] = {{-1, 0}, {1, 0}};
-    draw_line(p, board, 2);
-    draw_axle(p, 1.0, 0.0, p->pose[DAL_PICTURE_STEER]);
-    draw_axle(p, -1.0, 0.0, -p->pose[DAL_PICTURE_STEER]);
-}
-
-static void draw_racer(const pen *p)
-{
-    const double turn = p->pose[DAL_PICTURE_STEER], arm = 0.7;
-    const double frame[][2] = {{0, 0}, {1.2, 0}, {1.2 + arm * cos(turn), arm * sin(turn)}};
-    draw_line(p, frame, 3);
-    draw_axle(p, 0.0, 0.0, 0.0);
-    draw_axle(p, frame[2][0], frame[2][1], turn);
+    static const double radius[DAL_BODY_COUNT] = {[DAL_BODY_POINT] = 0.3,
+                                                  [DAL_BODY_DISK] = 1.0,
+                                                  [DAL_BODY_BALL] = 0.7,
+                                                  [DAL_BODY_ROBOT] = 0.9};
+    const double r = radius[body], steer = p->pose[DAL_PICTURE_STEER];
+    if (r > 0.0) draw_ellipse(p, r, body == DAL_BODY_DISK ? p->pose[DAL_PICTURE_WIDTH] : r);
+    for (size_t i = 0; i < sizeof outlines / sizeof outlines[0]; i++)
+        if (outlines[i].body == body) draw_line(p, outlines[i].at, outlines[i].count);
+    if (body == DAL_BODY_BOARD) {
+        draw_axle(p, 1.0, 0.0, steer);
+        draw_axle(p, -1.0, 0.0, -steer);
+    } else if (body == DAL_BODY_RACER) {
+        const double arm = 0.7, end[2] = {1.2 + arm * cos(steer), arm * sin(steer)};
+        const double frame[][2] = {{0, 0}, {1.2, 0}, {end[0], end[1]}};
+        draw_line(p, frame, 3);
+        draw_axle(p, 0.0, 0.0, 0.0);
+        draw_axle(p, end[0], end[1], steer);
+    }
 }
 
 static void draw_bodies(const body_path *p, report_plot *plot)
 {
-    static void (*const draw[])(const pen *p) = {
-        [DAL_BODY_POINT] = draw_point, [DAL_BODY_SLEIGH] = draw_sleigh,
-        [DAL_BODY_BLADE] = draw_blade, [DAL_BODY_DISK] = draw_disk,
-        [DAL_BODY_BALL] = draw_ball,   [DAL_BODY_ROBOT] = draw_robot,
-        [DAL_BODY_BOARD] = draw_board, [DAL_BODY_RACER] = draw_racer};
     const double extent = fmax(p->high[0] - p->low[0], p->high[1] - p->low[1]);
     plot_curve *curve = report_curve(plot, "");
     curve->is_black = true;
     for (int k = 0; k < p->poses; k++)
-        draw[p->request.system->picture->body](
-            &(pen){plot, curve, p->pose[k], extent > 0.0 ? half_length * extent : 1.0});
+        draw_body(&(pen){plot, curve, p->pose[k], extent > 0.0 ? half_length * extent : 1.0},
+                  p->request.system->picture->body);
 }
 
 /* ---- the path ------------------------------------------------------------------------------ */
@@ -174,12 +155,11 @@ static int draw_path(body_path *p, report *r, const char *name, const char *capt
 #undef BODY_WORD
     };
     const dal_body body = p->request.system->picture->body;
-    char text[2 * PLOT_NAME] = "";
+    char text[2 * PLOT_NAME] = "", title[PLOT_NAME];
     int more, status = CLI_DONE;
-    report_plot plot = {.xlabel = "x", .ylabel = "y", .is_to_scale = true};
-    snprintf(plot.name, sizeof plot.name, "%s", name);
-    snprintf(plot.title, sizeof plot.title, body == DAL_BODY_POINT ? "Path" : "Path of the %s",
-             words[body]);
+    report_plot plot = {
+        .name = name, .title = title, .xlabel = "x", .ylabel = "y", .is_to_scale = true};
+    snprintf(title, sizeof title, body == DAL_BODY_POINT ? "Path" : "Path of the %s", words[body]);
     plot_curve *curve = report_curve(&plot, "");
     for (long long k = 0; (more = reader_next(&p->reader)) > 0; k++) add_row(p, &plot, curve, k);
     if (more < 0) status = CLI_IO;

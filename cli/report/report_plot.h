@@ -17,8 +17,7 @@ typedef struct plot_curve {
 } plot_curve;
 
 typedef struct report_plot {
-    char name[PLOT_NAME], title[PLOT_NAME], xlabel[PLOT_TITLE], ylabel[PLOT_TITLE];
-    const char *caption;
+    const char *name, *title, *xlabel, *ylabel, *caption; /* the caller's */
     const char *zero_text; /* what the page says instead when all values are 0, or NULL */
     bool log_x, log_y;
     bool has_marks;   /* at the points of the curves */

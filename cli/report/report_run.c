@@ -108,20 +108,10 @@ static void place_columns(run_page *run)
 
 static void name_plots(run_page *run)
 {
-    static const struct {
-        const char *name, *title, *ylabel, *zero_text;
-    } texts[] = {
-#define GROUP_TEXTS(code, name, title, ylabel, zero_text) {name, title, ylabel, zero_text},
-        GROUP_LIST(GROUP_TEXTS)
-#undef GROUP_TEXTS
-    };
-    for (int g = 0; g < GROUPS; g++) {
-        report_plot *plot = &run->plot[g];
-        *plot = (report_plot){.xlabel = "t", .caption = "", .zero_text = texts[g].zero_text};
-        snprintf(plot->name, sizeof plot->name, "%s", texts[g].name);
-        snprintf(plot->title, sizeof plot->title, "%s", texts[g].title);
-        snprintf(plot->ylabel, sizeof plot->ylabel, "%s", texts[g].ylabel);
-    }
+#define NAME_PLOT(code, file, text, label, zero)                                                   \
+    run->plot[GROUP_##code] = (report_plot){file, text, "t", label, "", .zero_text = zero};
+    GROUP_LIST(NAME_PLOT)
+#undef NAME_PLOT
     run->drift = (report_plot){.name = "drift",
                                .title = "Drift of what should not change",
                                .xlabel = "t",

@@ -37,36 +37,49 @@ static bool is_cell(const study_page *s, int row, const char *head, const char *
     return report_csv_is(&s->cells, row, head, text);
 }
 
-/* The row of a cell with this start, or else the other one; 0: none has numbers. */
+/* What tables and figures are about: its column in series/LABEL.csv, those in cells.csv, of which
+ * the first is empty where a system lacks it; the texts of its figures; and the title of its table,
+ * NULL where there is none. */
+typedef struct quantity {
+    const char *column, *value, *size, *trend, *name, *title, *ylabel, *heading;
+    bool is_displaced; /* shown of runs that start off p = pi = 0 */
+} quantity;
+
+static const quantity quantities[] = {
+    {"D", "D_max", "D_size", "D_trend", "D", "Constraints", "max |D|", "Constraints: max |D|",
+     false},
+    {"E", "E_deviation", "E_size", "E_trend", "E", "Energy", "max |E - E(0)|",
+     "Energy: max |E − E(0)|", false},
+    {"invariants", "invariant_deviation", "invariant_size", "invariant_trend", "I", "Invariants",
+     "max |I - I(0)| / max(1, |I(0)|)",
+     "Invariants of the systems: max |I − I(0)|, the largest of each", false},
+    {"H", "H_deviation", "H_size", "H_trend", "H", "H, started off p = pi = 0", "max |H - H(0)|",
+     "Hamiltonian of the lift: max |H − H(0)|, started off p = π = 0", true},
+    {"error", "error_max", NULL, NULL, "error", "Error", "max |q - exact|", NULL, false},
+};
+
+enum { QUANTITIES = sizeof quantities / sizeof quantities[0] };
+
+/* On p = pi = 0 the lifted run has the bits of the physical one: where there is no physical run,
+ * either will do. */
+static const char *const starts[][2] = {{"physical", "surface"}, {"displaced", "displaced"}};
+
+/* The row of a cell with the first of these starts, or else the second; 0: none has numbers. */
 static int find_cell(const study_page *s, const char *label, const char *method, const char *step,
-                     const char *start, const char *other)
+                     bool is_displaced)
 {
     int found = 0;
     for (int row = 1; row < s->cells.rows; row++) {
         if (!is_cell(s, row, "label", label) || !is_cell(s, row, "step", step) ||
             !is_cell(s, row, "integrator", method) || is_cell(s, row, "state", "refused"))
             continue;
-        if (is_cell(s, row, "start", start)) return row;
-        if (is_cell(s, row, "start", other)) found = row;
+        if (is_cell(s, row, "start", starts[is_displaced][0])) return row;
+        if (is_cell(s, row, "start", starts[is_displaced][1])) found = row;
     }
     return found;
 }
 
 /* ---- tables of sizes and trends ------------------------------------------------------------ */
-
-typedef struct theme {
-    const char *title, *start, *other, *value, *size, *trend;
-} theme;
-
-/* On p = pi = 0 the lifted run has the bits of the physical one, so that either will do. */
-static const theme themes[] = {
-    {"Constraints: max |D|", "physical", "surface", "D_max", "D_size", "D_trend"},
-    {"Energy: max |E − E(0)|", "physical", "surface", "E_deviation", "E_size", "E_trend"},
-    {"Invariants of the systems: max |I − I(0)|, the largest of each", "physical", "surface",
-     "invariant_deviation", "invariant_size", "invariant_trend"},
-    {"Hamiltonian of the lift: max |H − H(0)|, started off p = π = 0", "displaced", "displaced",
-     "H_deviation", "H_size", "H_trend"},
-};
 
 /* A column of the tables: a label at a step. */
 typedef struct table_column {
@@ -90,17 +103,18 @@ static void add_column(table_columns *all, const char *label, const char *step)
     if (all->count < REPORT_WORDS) all->at[all->count++] = (table_column){label, step, is_alone};
 }
 
-static bool has_value(const study_page *s, const table_column *column, const theme *t)
+static bool has_value(const study_page *s, const table_column *column, const quantity *t)
 {
     for (int row = 1; row < s->cells.rows; row++)
         if (is_cell(s, row, "label", column->label) && is_cell(s, row, "step", column->step) &&
-            (is_cell(s, row, "start", t->start) || is_cell(s, row, "start", t->other)) &&
+            (is_cell(s, row, "start", starts[t->is_displaced][0]) ||
+             is_cell(s, row, "start", starts[t->is_displaced][1])) &&
             !is_cell(s, row, t->value, ""))
             return true;
     return false;
 }
 
-static void write_trend_cell(const study_page *s, int row, const theme *t)
+static void write_trend_cell(const study_page *s, int row, const quantity *t)
 {
     FILE *page = s->r->page;
     char number[32] = "";
@@ -116,15 +130,16 @@ static void write_trend_cell(const study_page *s, int row, const theme *t)
 }
 
 /* Labels without a value and methods that apply to none of the others are left out. */
-static void write_theme(const study_page *s, const table_columns *all, const theme *t)
+static void write_trends(const study_page *s, const table_columns *all, const quantity *t)
 {
     FILE *page = s->r->page;
     table_columns shown = {.count = 0};
+    if (!t->heading) return;
     for (int i = 0; i < all->count; i++)
         if (has_value(s, &all->at[i], t)) shown.at[shown.count++] = all->at[i];
     if (shown.count == 0) return;
     fprintf(page, "<h3>%s</h3>\n<div class=\"wide\" tabindex=\"0\"><table><thead><tr><td></td>",
-            t->title);
+            t->heading);
     for (int i = 0; i < shown.count; i++) {
         fputs("<th scope=\"col\">", page);
         report_text(page, shown.at[i].label);
@@ -138,7 +153,7 @@ static void write_theme(const study_page *s, const table_columns *all, const the
         bool is_found = false;
         for (int i = 0; i < shown.count; i++) {
             rows[i] = find_cell(s, shown.at[i].label, s->methods.word[m], shown.at[i].step,
-                                t->start, t->other);
+                                t->is_displaced);
             is_found |= rows[i] > 0;
         }
         if (!is_found) continue;
@@ -227,39 +242,19 @@ static const char *find_accuracy(const label_figures *f)
 }
 
 /* A file name of a label, of what is drawn and of numbers that distinguish figures. */
-static void name_plot(report_plot *plot, const label_figures *f, const char *what, int step,
-                      int part)
+static const char *name_plot(char name[PLOT_NAME], const label_figures *f, const char *what,
+                             int step, int part)
 {
-    char suffix[48] = "";
-    if (step > 0) snprintf(suffix, sizeof suffix, "-h%d", step + 1);
-    if (part > 0)
-        snprintf(suffix + strlen(suffix), sizeof suffix - strlen(suffix), "-%d", part + 1);
-    snprintf(plot->name, sizeof plot->name, "%.120s-%s%s", f->label, what, suffix);
+    int n = snprintf(name, PLOT_NAME, "%.120s-%s", f->label, what);
+    if (step > 0) n += snprintf(name + n, PLOT_NAME - (size_t)n, "-h%d", step + 1);
+    if (part > 0) snprintf(name + n, PLOT_NAME - (size_t)n, "-%d", part + 1);
+    return name;
 }
 
-/* What the envelopes of a figure are of: the column of series/LABEL.csv, that of cells.csv which is
- * empty where a system lacks it, the start whose runs are shown and another with the same numbers,
- * title, label of the axis, file name. */
-typedef struct track {
-    const char *column, *value, *start, *other, *title, *ylabel, *name;
-} track;
-
-static const track tracks[] = {
-    {"D", "D_max", "physical", "surface", "Constraints", "max |D|", "D"},
-    {"E", "E_deviation", "physical", "surface", "Energy", "max |E - E(0)|", "E"},
-    {"invariants", "invariant_deviation", "physical", "surface", "Invariants",
-     "max |I - I(0)| / max(1, |I(0)|)", "I"},
-    {"H", "H_deviation", "displaced", "displaced", "H, started off p = pi = 0", "max |H - H(0)|",
-     "H"},
-    {"error", "error_max", "physical", "surface", "Error", "max |q - exact|", "error"},
-};
-
-enum { TRACKS = sizeof tracks / sizeof tracks[0] };
-
 static void add_envelope(const label_figures *f, report_plot *plot, const char *method,
-                         const char *step, const track *t)
+                         const char *step, const quantity *t)
 {
-    const int cell = find_cell(f->s, f->label, method, step, t->start, t->other);
+    const int cell = find_cell(f->s, f->label, method, step, t->is_displaced);
     if (cell == 0 || is_cell(f->s, cell, t->value, "")) return;
     const char *start = get_cell(f->s, cell, "start");
     plot_curve *curve = NULL;
@@ -280,14 +275,18 @@ static void add_envelope(const label_figures *f, report_plot *plot, const char *
     if (curve) report_title_envelope(curve, method);
 }
 
-static int draw_track(const label_figures *f, const track *t, int step, int part)
+static int draw_quantity(const label_figures *f, const quantity *t, int step, int part)
 {
     const char *h = f->steps.word[step];
-    report_plot plot = {
-        .log_x = true, .log_y = true, .xlabel = "t", .caption = report_envelope_caption};
-    name_plot(&plot, f, t->name, step, part);
-    snprintf(plot.title, sizeof plot.title, "%s, h = %g", t->title, strtod(h, NULL));
-    snprintf(plot.ylabel, sizeof plot.ylabel, "%s", t->ylabel);
+    char name[PLOT_NAME], heading[PLOT_NAME];
+    report_plot plot = {.name = name_plot(name, f, t->name, step, part),
+                        .title = heading,
+                        .xlabel = "t",
+                        .ylabel = t->ylabel,
+                        .caption = report_envelope_caption,
+                        .log_x = true,
+                        .log_y = true};
+    snprintf(heading, sizeof heading, "%s, h = %g", t->title, strtod(h, NULL));
     const int first = part * PLOT_CURVES;
     for (int m = first; m < f->methods.count && m < first + PLOT_CURVES; m++)
         add_envelope(f, &plot, f->methods.word[m], h, t);
@@ -308,24 +307,25 @@ static int draw_track(const label_figures *f, const track *t, int step, int part
 static int draw_errors(const label_figures *f, bool over_work, int part)
 {
     const report_csv *cells = &f->s->cells;
-    report_plot plot = {.log_x = true, .log_y = true, .has_marks = true};
-    plot.caption = over_work ? "Lower left is better: less error for less work."
-                             : "A method of order p is a line of slope p.";
-    name_plot(&plot, f, over_work ? "work" : "order", 0, part);
-    snprintf(plot.title, sizeof plot.title, over_work ? "Work and precision" : "Order");
-    snprintf(plot.xlabel, sizeof plot.xlabel,
-             over_work ? "evaluations of F per unit of t" : "step h");
-    snprintf(plot.ylabel, sizeof plot.ylabel,
-             strcmp(f->accuracy, "error_max") == 0     ? "max error"
-             : strcmp(f->accuracy, "E_deviation") == 0 ? "max |E - E(0)|"
-                                                       : "max |I - I(0)|");
+    char name[PLOT_NAME];
+    report_plot plot = {.name = name_plot(name, f, over_work ? "work" : "order", 0, part),
+                        .title = over_work ? "Work and precision" : "Order",
+                        .xlabel = over_work ? "evaluations of F per unit of t" : "step h",
+                        .ylabel = strcmp(f->accuracy, "error_max") == 0     ? "max error"
+                                  : strcmp(f->accuracy, "E_deviation") == 0 ? "max |E - E(0)|"
+                                                                            : "max |I - I(0)|",
+                        .caption = over_work ? "Lower left is better: less error for less work."
+                                             : "A method of order p is a line of slope p.",
+                        .log_x = true,
+                        .log_y = true,
+                        .has_marks = true};
     const int first = part * PLOT_CURVES;
     for (int m = first; m < f->methods.count && m < first + PLOT_CURVES; m++) {
         const char *method = f->methods.word[m];
         plot_curve *curve = report_curve(&plot, method);
         for (int h = 0; h < f->steps.count; h++) {
             const char *step = f->steps.word[h];
-            const int row = find_cell(f->s, f->label, method, step, "physical", "surface");
+            const int row = find_cell(f->s, f->label, method, step, false);
             if (row == 0 || !is_cell(f->s, row, "state", "done")) continue;
             const double work = report_csv_number(cells, row, "evaluations") /
                                 report_csv_number(cells, row, "time");
@@ -375,8 +375,8 @@ static int draw_label(const label_figures *f)
         }
         fputs("<div class=\"figures\">\n", page);
         if (part == 0) status = draw_best_path(f);
-        for (int i = 0; i < f->steps.count * TRACKS && status == CLI_DONE; i++)
-            status = draw_track(f, &tracks[i % TRACKS], i / TRACKS, part);
+        for (int i = 0; i < f->steps.count * QUANTITIES && status == CLI_DONE; i++)
+            status = draw_quantity(f, &quantities[i % QUANTITIES], i / QUANTITIES, part);
         if (status == CLI_DONE && f->accuracy) status = draw_errors(f, true, part);
         if (status == CLI_DONE && f->accuracy && f->steps.count > 1)
             status = draw_errors(f, false, part);
@@ -489,7 +489,7 @@ static int write_study(const study_page *s)
     table_columns *all = cli_calloc(1, sizeof *all);
     for (int row = 1; row < s->cells.rows; row++)
         add_column(all, get_cell(s, row, "label"), get_cell(s, row, "step"));
-    for (size_t k = 0; k < sizeof themes / sizeof themes[0]; k++) write_theme(s, all, &themes[k]);
+    for (int k = 0; k < QUANTITIES; k++) write_trends(s, all, &quantities[k]);
     free(all);
     status = report_expectations(r);
     for (int i = 0; i < s->labels.count && status != CLI_IO; i++) {
@@ -521,8 +521,8 @@ int report_study(report *r)
     }
     if (status == CLI_DONE && s->labels.count == 0)
         status = cli_fail(CLI_USAGE, "'%s' has no rows", path);
-    for (size_t k = 0; status == CLI_DONE && k < sizeof themes / sizeof themes[0]; k++)
-        status = report_csv_require(&s->cells, path, themes[k].trend);
+    for (int k = 0; status == CLI_DONE && k < QUANTITIES; k++)
+        if (quantities[k].trend) status = report_csv_require(&s->cells, path, quantities[k].trend);
     if (status == CLI_DONE) status = write_study(s);
     report_csv_free(&s->cells);
     free(s);
