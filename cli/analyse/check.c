@@ -5,6 +5,7 @@
 #include "check.h"
 #include "run/system.h"
 #include "ui/memory.h"
+#include "ui/wrap.h"
 
 #include "check_sections.h"
 
@@ -16,7 +17,7 @@
 
 /* Points lie this far from the start, relative to max(1, |x|). */
 static const double neighbourhood = 0.1;
-enum { MAX_ATTEMPTS = 20 * CHECK_POINTS };
+enum { MAX_ATTEMPTS = 20 * CHECK_POINTS, VALUE_COLUMN = 44 };
 
 void check_item(check *c, check_result result, const char *what, const char *format, ...)
 {
@@ -29,11 +30,12 @@ void check_item(check *c, check_result result, const char *what, const char *for
     c->items++;
     c->failed += result == CHECK_FAIL;
     c->unmeasured += result == CHECK_UNMEASURED;
-    printf("  %-34s  %-4s  ", what, words[result]);
     va_start(list, format);
-    vprintf(format, list);
+    char *text = cli_format_list(format, list);
     va_end(list);
-    putchar('\n');
+    const int column = printf("  %-34s  %-4s  ", what, words[result]);
+    cli_wrap(stdout, text, column, VALUE_COLUMN);
+    free(text);
 }
 
 void check_bound(check *c, const char *what, double value, double limit)

@@ -116,8 +116,7 @@ void check_start(check *c)
     else if (status != DAL_UNSUPPORTED)
         check_item(c, CHECK_FAIL, "rank of G at the start", "it has no value: %s",
                    dal_status_text(status));
-    check_item(c, found, points, "%d, of which %d could be projected to D = 0", c->near_count,
-               c->surface_count);
+    check_item(c, found, points, "%d; %d projected to D = 0", c->near_count, c->surface_count);
 }
 
 /* ---- constraints ---- */
@@ -156,27 +155,20 @@ static bool is_integrator_accepted(check *c, const dal_integrator *integrator)
  * D is preserved by all of them. */
 static void list_methods(check *c, bool is_constant, unsigned properties)
 {
-    enum { INDENT = 44, MAX_LINE = 52 };
     static const char what[] = "D is preserved by";
     char text[4096] = "";
-    size_t length = 0, line = 0;
+    size_t length = 0;
     dal_error error = {.message = ""};
     const dal_integrator *k;
     for (int i = 0; !is_constant && (k = dal_integrator_at(i)); i++) {
         if (!(k->properties & properties) || !is_integrator_accepted(c, k)) continue;
-        const bool is_full = length - line + strlen(k->name) + 3 > MAX_LINE;
-        const size_t begin = length;
-        length += (size_t)snprintf(text + length, sizeof text - length, "%s%*s%s%.40s",
-                                   is_full      ? "\n"
-                                   : length > 0 ? " "
-                                                : "",
-                                   is_full ? INDENT : 0, "",
-                                   k->properties & DAL_MODIFIER ? "+" : "", k->name);
-        if (is_full) line = begin + 1 + INDENT;
+        length += (size_t)snprintf(text + length, sizeof text - length, "%s%s%.40s",
+                                   length > 0 ? " " : "", k->properties & DAL_MODIFIER ? "+" : "",
+                                   k->name);
     }
     const bool is_any = length > 0 || is_accepted(c, "rk4", &error);
     if (is_constant && is_any)
-        check_item(c, CHECK_INFO, what, "every method that applies to the system");
+        check_item(c, CHECK_INFO, what, "every method that applies");
     else
         check_item(c, CHECK_INFO, what, "%s%s%s", length > 0 ? text : "no method",
                    is_any ? "" : ": ", is_any ? "" : error.message);
@@ -290,9 +282,8 @@ void check_reversal(check *c)
                    dal_status_text(cli_is_ok(status) ? DAL_NOT_FINITE : status));
         return;
     }
-    check_item(c, CHECK_INFO, what, "%s, largest difference %.2g",
-               d.reversible ? "yes: reversible" : "no: not reversible under v -> -v",
-               d.force_defect);
+    check_item(c, CHECK_INFO, what, "%s (difference %.2g)",
+               d.reversible ? "yes: reversible" : "no: not reversible", d.force_defect);
     if (c->m > 0) check_item(c, CHECK_INFO, "D under v -> -v", "%s", parity[d.parity + 1]);
 }
 
@@ -404,7 +395,7 @@ void check_algebra(check *c)
         return;
     }
     check_item(c, d.second_class == 2 * n ? CHECK_OK : CHECK_FAIL, "second-class constraints",
-               "rank %d of the %d x %d matrix of brackets, 2n = %d", d.second_class, d.constraints,
+               "rank %d of %d x %d brackets, 2n = %d", d.second_class, d.constraints,
                d.constraints, 2 * n);
     check_item(c, d.first_class == 2 * n + 1 ? CHECK_OK : CHECK_FAIL, "first-class constraints",
                "%d, 2n+1 = %d", d.first_class, 2 * n + 1);
@@ -413,7 +404,7 @@ void check_algebra(check *c)
     check_item(c, d.free_multipliers == 1 ? CHECK_OK : CHECK_FAIL, "free multipliers",
                "%d (mu_e, the gauge)", d.free_multipliers);
     check_item(c, d.secondary > 1e-3 ? CHECK_OK : CHECK_FAIL, "{primary phi, H} off pi = 0",
-               "%.2g: not 0, so that pi = 0, lambda = 0 are needed", d.secondary);
+               "%.2g  (more than 1e-03)", d.secondary);
     check_bound(c, "H on the surface", d.hamiltonian, zero);
 }
 
@@ -479,7 +470,7 @@ static void check_second_order_action(check *c)
     free(path.rows);
     if (done)
         check_item(c, solved < 1e-9 * perturbed ? CHECK_OK : CHECK_FAIL, what,
-                   "%.2g on a trajectory, %.2g on a perturbed one", solved, perturbed);
+                   "%.2g; %.2g on a perturbed path", solved, perturbed);
     else
         check_item(c, CHECK_UNMEASURED, what,
                    "gauss8 gives no trajectory, or F is not finite on it");

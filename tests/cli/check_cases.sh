@@ -17,7 +17,7 @@ prints '^  D affine in v +ok +yes$'
 prints '^  D bilinear in \(q,v\) +info +no$'
 prints '^  D quadratic in \(q,v\) +info +no$'
 prints '^  energy E +ok +conserved on D = 0 only'
-prints '^  second-class constraints +ok +rank 6 of the 13 x 13 matrix'
+prints '^  second-class constraints +ok +rank 6 of 13 x 13 brackets'
 prints '^  first-class constraints +ok +7,'
 prints '^  free multipliers +ok +1 '
 prints '^  action int e/2 .* +ok '
@@ -32,9 +32,9 @@ prints '^  D quadratic in \(q,v\) +ok +yes$'
 prints '^  D is preserved by .*gauss4'
 try 0 check vertical-disk
 prints '^  rank of G at the start +ok +2 of 2'
-prints '^  second-class constraints +ok +rank 8 of the 17 x 17 matrix'
+prints '^  second-class constraints +ok +rank 8 of 17 x 17 brackets'
 try 0 check plane.yaml
-prints '^  D is preserved by +info +every method that applies to the system$'
+prints '^  D is preserved by +info +every method that applies$'
 
 # The names after "D is preserved by", a modifier around gauss4, symmetric and not of order 2.
 preserving() {
@@ -64,7 +64,7 @@ try 0 check chaplygin-sleigh-vakonomic
 preserving >methods
 holds "a method of reactions on vakonomic motion" sh -c '! grep -q spark methods'
 try 1 check chaplygin-sleigh --start "y2'=0.5"
-prints '^  D is preserved by +info +no method: the start violates constraint 1'
+prints '^  D is preserved by +info +no method: the start violates'
 
 case_is "energy and reversal"
 try 0 check isokinetic
@@ -151,3 +151,9 @@ case_is "no constraint, no word of D = 0"
 try 0 check damped-oscillator
 prints '^  points about the start +ok +8$'
 holds "D = 0" test "$(grep -c 'projected' out)" -eq 0
+
+case_is "no line is wider than 80 columns"
+while read -r system; do
+    try 0 check "$system"
+    holds "$system" awk 'NR > 2 && length($0) > 80 { exit 1 }' out
+done <systems
