@@ -450,18 +450,9 @@ static int begin_study(report *r)
     char *path = cli_join(r->directory, "study.yaml"), *bytes = file_read(path, &length);
     const int status = bytes ? document_parse(&doc, path, bytes, length) : CLI_IO;
     if (status == CLI_DONE) {
-        const char *title = "A study of drift";
-        const yaml_node_t *root = document_node(&doc, 1);
-        const bool is_mapping = root && root->type == YAML_MAPPING_NODE;
-        const yaml_node_pair_t *pair = is_mapping ? root->data.mapping.pairs.start : NULL;
-        for (; is_mapping && pair < root->data.mapping.pairs.top; pair++) {
-            const yaml_node_t *key = document_node(&doc, pair->key);
-            const yaml_node_t *value = document_node(&doc, pair->value);
-            if (key->type == YAML_SCALAR_NODE && value->type == YAML_SCALAR_NODE &&
-                strcmp((const char *)key->data.scalar.value, "title") == 0)
-                title = (const char *)value->data.scalar.value;
-        }
-        report_title(r, title);
+        const yaml_node_t *title = document_value(&doc, document_node(&doc, 1), "title");
+        const bool is_text = title && title->type == YAML_SCALAR_NODE;
+        report_title(r, is_text ? (const char *)title->data.scalar.value : "A study of drift");
         yaml_document_delete(&doc.yaml);
     }
     free(bytes);

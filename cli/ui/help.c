@@ -25,6 +25,13 @@ bool cli_is_help(const char *argument, cli_help_format *format)
 
 /* ---- texts --------------------------------------------------------------------------------- */
 
+/* What stands before a paragraph; before and behind the name of an item; before one without. */
+static const struct {
+    const char *paragraph, *item, *item_end, *bullet;
+} marks[] = {[CLI_HELP_TEXT] = {"", "", "", ""},
+             [CLI_HELP_MARKDOWN] = {"\n", "- `", "`: ", "- "},
+             [CLI_HELP_MAN] = {".PP\n", ".TP\n.B \"", "\"\n", ".IP \\(bu 2\n"}};
+
 /* A text on one line, what has a meaning in the format escaped. */
 static void put_escaped(const char *text, int length, cli_help_format format)
 {
@@ -39,23 +46,17 @@ static void put_escaped(const char *text, int length, cli_help_format format)
     }
 }
 
-/* The text begins with a small letter. */
-static void put_sentence(const char *text, cli_help_format format)
+static void print_item(const char *name, int name_length, const char *text, int length,
+                       cli_help_format format)
 {
-    putchar(*text - 'a' + 'A');
-    put_escaped(text + 1, (int)strlen(text + 1), format);
-    puts(".");
-}
-
-static void begin_item(const char *name, int length, cli_help_format format)
-{
-    if (format == CLI_HELP_MARKDOWN) {
-        printf("- `%.*s`: ", length, name);
-    } else {
-        fputs(".TP\n.B \"", stdout);
-        put_escaped(name, length, format);
-        puts("\"");
-    }
+    fputs(name_length > 0 ? marks[format].item : marks[format].bullet, stdout);
+    if (format == CLI_HELP_MARKDOWN)
+        printf("%.*s", name_length, name);
+    else
+        put_escaped(name, name_length, format);
+    if (name_length > 0) fputs(marks[format].item_end, stdout);
+    put_escaped(text, length, format);
+    putchar('\n');
 }
 
 /* Paragraphs stand apart, items below each other. */
@@ -65,17 +66,16 @@ static void print_notes(const char *notes, cli_help_format format)
     while (*notes) {
         cli_paragraph p;
         notes = cli_next_paragraph(notes, &p);
-        if (p.text == p.end) continue;
-        if (!p.is_item)
-            puts(format == CLI_HELP_MARKDOWN ? "" : ".PP");
-        else if (!follows_item && format == CLI_HELP_MARKDOWN)
+        const int length = (int)(p.end - p.text);
+        if (length == 0) continue;
+        if (!p.is_item || (!follows_item && format == CLI_HELP_MARKDOWN))
+            fputs(marks[format].paragraph, stdout);
+        if (p.is_item)
+            print_item(p.name, p.name_length, p.text, length, format);
+        else {
+            put_escaped(p.text, length, format);
             putchar('\n');
-        if (p.name_length > 0)
-            begin_item(p.name, p.name_length, format);
-        else if (p.is_item)
-            fputs(format == CLI_HELP_MARKDOWN ? "- " : ".IP \\(bu 2\n", stdout);
-        put_escaped(p.text, (int)(p.end - p.text), format);
-        putchar('\n');
+        }
         follows_item = p.is_item;
     }
 }
@@ -100,9 +100,7 @@ static void print_option(const cli_option *option, cli_help_format format)
     snprintf(help, sizeof help, initial ? "%s (%.*s)" : "%s", option->help,
              initial ? (int)strcspn(initial, "|") : 0, initial);
     if (format != CLI_HELP_TEXT) {
-        begin_item(name, length, format);
-        put_escaped(help, (int)strlen(help), format);
-        putchar('\n');
+        print_item(name, length, help, (int)strlen(help), format);
         return;
     }
     const bool is_long = length > HELP_COLUMN - 4;
@@ -147,7 +145,8 @@ static void refer_to_owner(const cli_command *command, const cli_group *g, cli_h
     const bool is_markdown = format == CLI_HELP_MARKDOWN;
     const char *separator = ": ";
     if (!is_elsewhere(command, g, format)) return;
-    printf(is_markdown ? "\nAs for [%s](#%s)" : ".PP\nAs for %s", g->owner, g->owner);
+    fputs(marks[format].paragraph, stdout);
+    printf(is_markdown ? "As for [%s](#%s)" : "As for %s", g->owner, g->owner);
     for (int k = 0; k < g->count; k++) {
         const char *name = g->options[k].name;
         if (!name || g->without >> k & 1) continue;
@@ -165,13 +164,16 @@ static void print_reference(const cli_command *command, const cli_group *groups,
                             cli_help_format format)
 {
     if (format == CLI_HELP_MARKDOWN) {
-        printf("## %s\n\n    %s\n\n", command->name, command->synopsis);
+        printf("## %s\n\n    %s\n", command->name, command->synopsis);
     } else {
         printf(".SS %s\n", command->name);
         put_escaped(command->synopsis, (int)strlen(command->synopsis), format);
-        puts("\n.PP");
+        putchar('\n');
     }
-    put_sentence(command->about, format);
+    /* "lists the commands" becomes "Lists the commands." */
+    printf("%s%c", marks[format].paragraph, command->about[0] - 'a' + 'A');
+    put_escaped(command->about + 1, (int)strlen(command->about + 1), format);
+    puts(".");
     const char *title = format == CLI_HELP_MARKDOWN ? "\n" : "";
     for (option_kind kind = ARGUMENT; kind <= OPTIONAL; kind++)
         title = print_options(title, command, groups, count, kind, format);
