@@ -395,8 +395,8 @@ void check_algebra(check *c)
         return;
     }
     check_item(c, d.second_class == 2 * n ? CHECK_OK : CHECK_FAIL, "second-class constraints",
-               "rank %d of %d x %d brackets, 2n = %d", d.second_class, d.constraints,
-               d.constraints, 2 * n);
+               "rank %d of %d x %d brackets, 2n = %d", d.second_class, d.constraints, d.constraints,
+               2 * n);
     check_item(c, d.first_class == 2 * n + 1 ? CHECK_OK : CHECK_FAIL, "first-class constraints",
                "%d, 2n+1 = %d", d.first_class, 2 * n + 1);
     check_bound(c, "{phi, H} on the surface", d.conservation, zero);
