@@ -24,10 +24,6 @@ typedef struct cell_run {
     run_request request;
     run_directory dir;
     run_recorder recorder;
-    trajectory_reader reader;
-    int n, m;
-    int energy, hamiltonian, momenta, invariants, error; /* places among the observables, or -1 */
-    double *values, *first;                              /* [observables] */
 } cell_run;
 
 /* ---- the request ---- */
@@ -108,95 +104,84 @@ static int create_run(cell_run *r)
 
 /* ---- results ---- */
 
-static int find_observable(const study_cell *c, const char *name)
+static void take_trends(study_cell *c, const run_recorder *recorder)
 {
-    for (int i = 0; i < c->observables; i++)
-        if (strcmp(c->names[i], name) == 0) return i;
-    return -1;
-}
-
-static void take_trends(cell_run *r)
-{
-    study_cell *c = r->cell;
-    const run_recorder *recorder = &r->recorder;
-    const size_t count = (size_t)recorder->observables + 1;
+    const size_t count = (size_t)recorder->observables;
     c->trend = cli_calloc(count, sizeof *c->trend);
     c->names = cli_calloc(count, sizeof *c->names);
     c->windows = cli_calloc(STUDY_WINDOWS, sizeof *c->windows);
-    r->values = cli_calloc(2 * count, sizeof *r->values);
-    r->first = r->values + count;
     c->observables = recorder->observables;
-    for (int i = 0; i < c->observables; i++) {
-        c->trend[i] = recorder->trend[i];
+    memcpy(c->trend, recorder->trend, count * sizeof *c->trend);
+    for (int i = 0; i < c->observables; i++)
         snprintf(c->names[i], sizeof c->names[i], "%s", recorder_observable_name(recorder, i));
+}
+
+/* What of a column is on a track: its size, or its change since the start, absolute or relative to
+ * a first value above 1. */
+typedef enum column_measure { NOT_TRACKED, MAX_ABS, CHANGE, RELATIVE_CHANGE } column_measure;
+
+typedef struct tracked_column {
+    column_measure measure;
+    int track;
+    double first;
+} tracked_column;
+
+/* The columns of p and pi, and those of observables, which come last and without |p|, |pi|,
+ * |pi_e|. */
+static void choose_tracks(const study_cell *c, int columns, tracked_column *column)
+{
+    const dal_system *s = c->of_case->system;
+    const int error = c->observables - (study_cell_trend(c, "error") != NULL);
+    const bool is_lifted = study_cell_trend(c, "|p|") != NULL;
+    for (int i = 0; is_lifted && i < 2 * s->n; i++)
+        column[2 + 2 * s->n + i] =
+            (tracked_column){MAX_ABS, i < s->n ? STUDY_TRACK_P : STUDY_TRACK_PI, 0.0};
+    tracked_column *next = column + columns - c->observables + (is_lifted ? 3 : 0);
+    for (int i = 0; i < c->observables; i++) {
+        const char *name = c->names[i];
+        if (name[0] == '|') continue;
+        *next++ = i < s->m     ? (tracked_column){MAX_ABS, STUDY_TRACK_D, 0.0}
+                  : i == error ? (tracked_column){MAX_ABS, STUDY_TRACK_ERROR, 0.0}
+                  : i >= error - s->invariants
+                      ? (tracked_column){RELATIVE_CHANGE, STUDY_TRACK_INVARIANTS, 0.0}
+                  : strcmp(name, "E") == 0 ? (tracked_column){CHANGE, STUDY_TRACK_E, 0.0}
+                                           : (tracked_column){CHANGE, STUDY_TRACK_H, 0.0};
     }
-    r->n = c->of_case->system->n;
-    r->m = c->of_case->system->m;
-    r->energy = find_observable(c, "E");
-    r->hamiltonian = find_observable(c, "H");
-    r->momenta = find_observable(c, "|p|");
-    r->error = find_observable(c, "error");
-    r->invariants = c->observables - c->of_case->system->invariants - (r->error >= 0);
 }
 
 /* Not a number counts as infinite. */
-static void raise_to(double *max, double x)
+static void raise_tracks(const tracked_column *column, const double *row, int columns, double *max)
 {
-    if (!(x <= *max)) *max = isnan(x) ? INFINITY : x;
-}
-
-static double max_norm(const double *x, int count)
-{
-    double max = 0.0;
-    for (int i = 0; i < count; i++)
-        if (!(fabs(x[i]) <= max)) max = fabs(x[i]);
-    return max;
-}
-
-/* The observables of a row, in which |p|, |pi| and |pi_e| are left out: they follow from p, pi. */
-static void read_values(cell_run *r)
-{
-    const double *row = r->reader.row, *p = row + 2 + 2 * r->n;
-    const double *next = row + r->reader.columns - r->cell->observables;
-    if (r->momenta >= 0) next += 3;
-    for (int i = 0; i < r->cell->observables; i++) {
-        const int k = r->momenta >= 0 ? i - r->momenta : -1;
-        r->values[i] = k >= 0 && k < 3 ? max_norm(p + k * r->n, k < 2 ? r->n : 1) : *next++;
+    for (int i = 0; i < columns; i++) {
+        const tracked_column *c = &column[i];
+        double x = fabs(row[i] - c->first);
+        if (c->measure == NOT_TRACKED) continue;
+        if (c->measure == RELATIVE_CHANGE) x /= fmax(1.0, fabs(c->first));
+        if (!(x <= max[c->track])) max[c->track] = isnan(x) ? INFINITY : x;
     }
 }
 
-static void raise_tracks(const cell_run *r, double *max)
+static int read_rows(const cell_run *r)
 {
-    const double *x = r->values, *first = r->first;
-    const int E = r->energy, H = r->hamiltonian, invariants = r->cell->of_case->system->invariants;
-    for (int a = 0; a < r->m; a++) raise_to(&max[STUDY_TRACK_D], fabs(x[a]));
-    if (E >= 0) raise_to(&max[STUDY_TRACK_E], fabs(x[E] - first[E]));
-    if (H >= 0) raise_to(&max[STUDY_TRACK_H], fabs(x[H] - first[H]));
-    if (r->momenta >= 0) {
-        raise_to(&max[STUDY_TRACK_P], x[r->momenta]);
-        raise_to(&max[STUDY_TRACK_PI], x[r->momenta + 1]);
-    }
-    for (int i = r->invariants; i < r->invariants + invariants; i++)
-        raise_to(&max[STUDY_TRACK_INVARIANTS], fabs(x[i] - first[i]) / fmax(1.0, fabs(first[i])));
-    if (r->error >= 0) raise_to(&max[STUDY_TRACK_ERROR], x[r->error]);
-}
-
-static int read_rows(cell_run *r)
-{
+    trajectory_reader reader;
     study_cell *c = r->cell;
-    int status = reader_open(&r->reader, r->dir.path), more = 1;
+    const size_t n = (size_t)c->of_case->system->n;
+    int status = reader_open(&reader, r->dir.path), more = 1;
     if (status != CLI_DONE) return status;
+    tracked_column *column = cli_calloc((size_t)reader.columns, sizeof *column);
+    choose_tracks(c, reader.columns, column);
     c->bits = FILE_HASH_START;
-    for (long long k = 0; k <= r->request.samples && (more = reader_next(&r->reader)) > 0; k++) {
-        read_values(r);
-        if (k == 0) memcpy(r->first, r->values, (size_t)c->observables * sizeof *r->first);
+    for (long long k = 0; k <= r->request.samples && (more = reader_next(&reader)) > 0; k++) {
+        for (int i = 0; k == 0 && i < reader.columns; i++)
+            if (column[i].measure != MAX_ABS) column[i].first = reader.row[i];
         const double part = (double)k / ((double)r->request.samples + 1.0);
         const int window = (int)(part * STUDY_WINDOWS);
-        raise_tracks(r, c->windows[window]);
+        raise_tracks(column, reader.row, reader.columns, c->windows[window]);
         c->window_count = window + 1;
-        c->bits = file_hash(c->bits, r->reader.row + 1, 2 * (size_t)r->n * sizeof(double));
+        c->bits = file_hash(c->bits, reader.row + 1, 2 * n * sizeof(double));
     }
-    reader_close(&r->reader);
+    free(column);
+    reader_close(&reader);
     return more < 0 ? CLI_IO : CLI_DONE;
 }
 
@@ -204,7 +189,7 @@ static int take_results(cell_run *r, const dal_error *error, int ended)
 {
     study_cell *c = r->cell;
     const dal_run *run = r->request.run;
-    take_trends(r);
+    take_trends(c, &r->recorder);
     const int status = read_rows(r);
     if (status != CLI_DONE) return status;
     c->time = dal_run_time(run);
@@ -260,12 +245,6 @@ static int run_in_directory(cell_run *r, const study_stop_check *check)
     return ended == CLI_DONE || ended == CLI_FAILED ? take_results(r, &error, ended) : ended;
 }
 
-static void free_run(cell_run *r)
-{
-    free(r->values);
-    request_free(&r->request);
-}
-
 int study_cell_run(const study_plan *plan, study_cell *cell, const study_stop_check *check)
 {
     cell_run r = {.plan = plan, .cell = cell, .request = request_default()};
@@ -279,7 +258,7 @@ int study_cell_run(const study_plan *plan, study_cell *cell, const study_stop_ch
         free(directory);
     }
     if (status != CLI_DONE) study_cell_free(cell);
-    free_run(&r);
+    request_free(&r.request);
     return status;
 }
 
@@ -287,7 +266,7 @@ bool study_cell_is_runnable(study_cell *cell)
 {
     cell_run r = {.cell = cell, .request = request_default()};
     const int can = create_run(&r) == CLI_DONE && r.request.run;
-    free_run(&r);
+    request_free(&r.request);
     study_cell_free(cell);
     return can;
 }
