@@ -8,7 +8,7 @@
  * space.  Prints nanoseconds per row and, for the bytes are to be the same, numbers read back. */
 #define _DEFAULT_SOURCE
 #include "bench.h"
-#include "io/trajectory_writer.h"
+#include "io/trajectory.h"
 #include "ui/message.h"
 #include <fcntl.h>
 #include <unistd.h>

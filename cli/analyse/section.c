@@ -6,7 +6,7 @@
 #include "analysis.h"
 #include "dalembert_analysis.h"
 #include "io/gnuplot.h"
-#include "io/trajectory_writer.h"
+#include "io/trajectory.h"
 #include "run/system.h"
 #include "ui/memory.h"
 #include "ui/message.h"

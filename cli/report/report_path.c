@@ -7,7 +7,7 @@
 #include "ui/memory.h"
 #include "ui/message.h"
 
-#include "io/trajectory_reader.h"
+#include "io/trajectory.h"
 #include "report_plot.h"
 #include "run/manifest.h"
 

@@ -6,7 +6,7 @@
 #include "ui/message.h"
 
 #include "io/output.h"
-#include "io/trajectory_reader.h"
+#include "io/trajectory.h"
 #include "report_csv.h"
 #include "report_path.h"
 #include "report_plot.h"

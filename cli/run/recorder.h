@@ -3,7 +3,7 @@
 #define DAL_CLI_RECORDER_H
 
 #include "dalembert.h"
-#include "io/trajectory_writer.h"
+#include "io/trajectory.h"
 #include "progress.h"
 #include "request.h"
 #include "run_directory.h"

@@ -2,7 +2,7 @@
  *
  *     DIR/manifest.json      the request, the machine, and how far the run is: see manifest.c
  *     DIR/system.yaml        copy of the system file; absent for a built-in system
- *     DIR/trajectory.npy     the rows: see npy.c
+ *     DIR/trajectory.npy     the rows: see trajectory.c
  *     DIR/checkpoint         the state of the run: see checkpoint.c
  *     DIR/checkpoint.before  the checkpoint before that one
  *     DIR/summary.csv        at the end: one row per observable
@@ -14,7 +14,7 @@
 
 #include "dalembert_analysis.h"
 #include "io/document.h"
-#include "io/trajectory_writer.h"
+#include "io/trajectory.h"
 
 #include <stdbool.h>
 

@@ -7,7 +7,7 @@
 
 #include "io/file.h"
 #include "io/output.h"
-#include "io/trajectory_reader.h"
+#include "io/trajectory.h"
 #include "run/manifest.h"
 #include "run/recorder.h"
 #include "ui/memory.h"
