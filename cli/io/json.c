@@ -11,65 +11,52 @@
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 /* ---- writing ------------------------------------------------------------------------------- */
 
-/* Well-formed UTF-8 beyond ASCII (The Unicode Standard, table 3-7): the first byte, the second, and
- * bytes 80..BF up to the length. */
-static const struct {
-    unsigned char first, last, low, high, length;
-} forms[] = {{0xc2, 0xdf, 0x80, 0xbf, 2}, {0xe0, 0xe0, 0xa0, 0xbf, 3}, {0xe1, 0xec, 0x80, 0xbf, 3},
-             {0xed, 0xed, 0x80, 0x9f, 3}, {0xee, 0xef, 0x80, 0xbf, 3}, {0xf0, 0xf0, 0x90, 0xbf, 4},
-             {0xf1, 0xf3, 0x80, 0xbf, 4}, {0xf4, 0xf4, 0x80, 0x8f, 4}};
-
-enum { FORMS = sizeof forms / sizeof forms[0] };
-
-static bool is_continuation(unsigned char c) { return (c & 0xc0) == 0x80; }
-
-/* The bytes of the character that begins here; 0: none does. */
-static int length_of(const unsigned char *s)
+/* The bytes of the character of UTF-8 that begins here, and its code; 0: none does.  Overlong
+ * forms, surrogates and codes beyond U+10FFFF are none (The Unicode Standard, table 3-7). */
+static int read_character(const char *text, long *code)
 {
-    if (s[0] < 0x80) return 1;
-    for (int i = 0; i < FORMS; i++) {
-        if (s[0] < forms[i].first || s[0] > forms[i].last) continue;
-        if (s[1] < forms[i].low || s[1] > forms[i].high) return 0;
-        for (int k = 2; k < forms[i].length; k++)
-            if (!is_continuation(s[k])) return 0;
-        return forms[i].length;
+    static const long min[] = {0, 0, 0x80, 0x800, 0x10000};
+    const unsigned char *s = (const unsigned char *)text;
+    const int length = s[0] < 0x80   ? 1
+                       : s[0] < 0xc0 ? 0
+                       : s[0] < 0xe0 ? 2
+                       : s[0] < 0xf0 ? 3
+                       : s[0] < 0xf8 ? 4
+                                     : 0;
+    *code = length > 1 ? s[0] & (0x7f >> length) : s[0];
+    for (int i = 1; i < length; i++) {
+        if ((s[i] & 0xc0) != 0x80) return 0;
+        *code = *code << 6 | (s[i] & 0x3f);
     }
-    return 0;
-}
-
-/* The code of a character of at most three bytes, as \uXXXX has it. */
-static unsigned code_of(const unsigned char *s, int length)
-{
-    if (length == 1) return s[0];
-    if (length == 2) return (s[0] & 0x1fu) << 6 | (s[1] & 0x3fu);
-    return (s[0] & 0x0fu) << 12 | (s[1] & 0x3fu) << 6 | (s[2] & 0x3fu);
+    if (*code < min[length] || *code > 0x10ffff) return 0;
+    return *code < 0xd800 || *code > 0xdfff ? length : 0;
 }
 
 /* Controls, line ends (U+2028, U+2029), the mark of byte order and what is no character. */
-static bool is_escaped(unsigned code)
+static bool is_escaped(long code)
 {
     return code < 0x20 || (code >= 0x7f && code < 0xa0) || code == 0x2028 || code == 0x2029 ||
-           code == 0xfeff || code >= 0xfffe;
+           code == 0xfeff || code == 0xfffe || code == 0xffff;
 }
 
 static void put_text(FILE *out, const char *text)
 {
+    long code;
     fputc('"', out);
-    for (const unsigned char *s = (const unsigned char *)text; *s;) {
-        const int length = length_of(s);
+    while (*text) {
+        const int length = read_character(text, &code);
         if (length == 0)
             fputs("\\ufffd", out);
-        else if (*s == '"' || *s == '\\')
-            fprintf(out, "\\%c", *s);
-        else if (length < 4 && is_escaped(code_of(s, length)))
-            fprintf(out, "\\u%04x", code_of(s, length));
+        else if (code == '"' || code == '\\')
+            fprintf(out, "\\%c", *text);
+        else if (is_escaped(code))
+            fprintf(out, "\\u%04lx", (unsigned long)code);
         else
-            fwrite(s, 1, (size_t)length, out);
-        s += length ? length : 1;
+            fwrite(text, 1, (size_t)length, out);
+        text += length ? length : 1;
     }
     fputc('"', out);
 }
@@ -209,13 +196,27 @@ static void skip_space(json_reader *r)
         }
 }
 
-/* The code of a \uXXXX that begins at s, or -1. */
+/* The code of a \uXXXX that begins here, or -1. */
 static long parse_escape(const char *s)
 {
-    char digits[5] = "";
+    unsigned code;
     if (s[0] != '\\' || s[1] != 'u' || strspn(s + 2, "0123456789abcdefABCDEF") < 4) return -1;
-    memcpy(digits, s + 2, 4);
-    return strtol(digits, NULL, 16);
+    return sscanf(s + 2, "%4x", &code) == 1 ? (long)code : -1;
+}
+
+/* Reads an escape; half of a surrogate pair is no character. */
+static long read_escape(json_reader *r)
+{
+    static const char short_form[] = "\"\\/bfnrt", meaning[] = "\"\\/\b\f\n\r\t";
+    const char *found = r->at[1] ? strchr(short_form, r->at[1]) : NULL;
+    const long code = found ? meaning[found - short_form] : parse_escape(r->at);
+    if (code < 0) return code;
+    r->at += found ? 2 : 6;
+    if (code < 0xd800 || code > 0xdfff) return code;
+    const long low = parse_escape(r->at);
+    if (code > 0xdbff || low < 0xdc00 || low > 0xdfff) return 0xfffd;
+    r->at += 6;
+    return 0x10000 + ((code - 0xd800) << 10) + (low - 0xdc00);
 }
 
 static char *put_code(char *to, long code)
@@ -227,50 +228,31 @@ static char *put_code(char *to, long code)
     return to + length;
 }
 
-/* Reads an escape at r->at into UTF-8 and returns the end of that, or NULL.  Half of a surrogate
- * pair is no character. */
-static char *read_escape(json_reader *r, char *to)
-{
-    static const char short_form[] = "\"\\/bfnrt", meaning[] = "\"\\/\b\f\n\r\t";
-    long code = parse_escape(r->at);
-    const char *found = r->at[1] ? strchr(short_form, r->at[1]) : NULL;
-    if (code < 0 && !found) return NULL;
-    r->at += found ? 2 : 6;
-    if (found) {
-        code = (unsigned char)meaning[found - short_form];
-    } else if (code >= 0xd800 && code < 0xe000) {
-        const long low = parse_escape(r->at);
-        const bool is_pair = code < 0xdc00 && low >= 0xdc00 && low < 0xe000;
-        code = is_pair ? 0x10000 + ((code - 0xd800) << 10) + (low - 0xdc00) : 0xfffd;
-        if (is_pair) r->at += 6;
-    }
-    return put_code(to, code);
-}
-
 /* A text in quotes; what is read is never longer than what stands there. */
 static int parse_text(json_reader *r)
 {
-    char *text = cli_malloc(strlen(r->at) + 1), *to = text;
-    int node = 0;
-    r->at++;
-    while (to && *r->at != '"') {
-        const int length = length_of((const unsigned char *)r->at);
-        if (*r->at == '\\') {
-            to = read_escape(r, to);
-        } else if (length == 0 || (unsigned char)*r->at < 0x20) {
-            to = NULL;
-        } else {
-            memcpy(to, r->at, (size_t)length);
-            to += length;
+    const char *end = ++r->at;
+    while (*end && *end != '"') end += *end == '\\' && end[1] ? 2 : 1;
+    char *text = cli_malloc((size_t)(end - r->at)), *to = text;
+    long code = 0;
+    while (code >= 0 && *r->at != '"') {
+        const int length = read_character(r->at, &code);
+        if (code == '\\')
+            code = read_escape(r);
+        else if (length == 0 || code < 0x20)
+            code = -1;
+        else
             r->at += length;
-        }
+        if (code >= 0) to = put_code(to, code);
     }
-    if (to)
-        node = added(yaml_document_add_scalar(&r->doc->yaml, NULL, (const yaml_char_t *)text,
-                                              (int)(to - text), YAML_DOUBLE_QUOTED_SCALAR_STYLE));
+    const int node =
+        code < 0
+            ? fail(r, "no JSON: the text does not go on so")
+            : added(yaml_document_add_scalar(&r->doc->yaml, NULL, (yaml_char_t *)text,
+                                             (int)(to - text), YAML_DOUBLE_QUOTED_SCALAR_STYLE));
     free(text);
-    r->at += to != NULL;
-    return node ? node : fail(r, "no JSON: the text does not go on so");
+    r->at += node != 0;
+    return node;
 }
 
 /* A number, true, false or null. */
@@ -382,7 +364,7 @@ static char *find_text(const char *path, const char *bytes, size_t length, const
 char *json_file_text(const char *path, const char *name)
 {
     size_t length;
-    if (access(path, F_OK) != 0) return NULL;
+    if (!file_exists(path)) return NULL;
     char *bytes = file_read(path, &length);
     char *text = bytes ? find_text(path, bytes, length, name) : NULL;
     free(bytes);
