@@ -116,6 +116,16 @@ const char *document_scalar(const document *doc, const yaml_node_t *node, const 
     return NULL;
 }
 
+int document_word(const document *doc, const yaml_node_t *node, const char *what,
+                  const char *const *words, int count)
+{
+    const char *text = document_scalar(doc, node, what);
+    for (int i = 0; text && i < count; i++)
+        if (strcmp(words[i], text) == 0) return i;
+    if (text) document_fail_unknown(doc, node, what, text, words, count);
+    return -1;
+}
+
 void document_place(const document *doc, const yaml_node_t *node, const char *what, char *place,
                     size_t size)
 {

@@ -29,6 +29,9 @@ void document_place(const document *doc, const yaml_node_t *node, const char *wh
                     size_t size);
 /* A node of the document by its number. */
 yaml_node_t *document_node(const document *doc, int number);
+/* The number of a scalar among words; -1 after a message with the nearest of them. */
+int document_word(const document *doc, const yaml_node_t *node, const char *what,
+                  const char *const *words, int count);
 /* The text of a scalar, which lives as long as the document; NULL after a message. */
 const char *document_scalar(const document *doc, const yaml_node_t *node, const char *what);
 int document_number(const document *doc, const yaml_node_t *node, const char *what, double *number);

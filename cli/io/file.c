@@ -39,11 +39,22 @@ char *file_read(const char *path, size_t *length)
     return text;
 }
 
+bool file_exists(const char *path) { return access(path, F_OK) == 0; }
+
 bool file_equals(const char *path, const void *bytes, size_t length)
 {
     size_t n;
     char *text = file_read(path, &n);
     const int same = text && n == length && memcmp(text, bytes, n) == 0;
+    free(text);
+    return same;
+}
+
+bool file_is_copy(const char *path, const char *other)
+{
+    size_t length;
+    char *text = file_read(other, &length);
+    const int same = text && file_equals(path, text, length);
     free(text);
     return same;
 }
@@ -105,6 +116,15 @@ int file_replace(const char *path, const void *bytes, size_t length, int sync)
     if (status != CLI_DONE) unlink(fresh);
     cli_release_exit();
     free(fresh);
+    return status;
+}
+
+int file_copy(const char *from, const char *to, int sync)
+{
+    size_t length;
+    char *bytes = file_read(from, &length);
+    const int status = bytes ? file_replace(to, bytes, length, sync) : CLI_IO;
+    free(bytes);
     return status;
 }
 

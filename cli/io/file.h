@@ -8,8 +8,10 @@
 
 /* The bytes of a file and a NUL, allocated; NULL after a message. */
 char *file_read(const char *path, size_t *length);
-/* Whether a file has exactly these bytes. */
+bool file_exists(const char *path);
+/* Whether a file has exactly these bytes, or those of another. */
 bool file_equals(const char *path, const void *bytes, size_t length);
+bool file_is_copy(const char *path, const char *other);
 /* Writes a file; renames one.  With sync they wait until that is on the disk, so that it outlives
  * a power cut and not only the process. */
 int file_write(const char *path, const void *bytes, size_t length, int sync);
@@ -17,6 +19,7 @@ int file_rename(const char *from, const char *to, int sync);
 /* Writes PATH.new and renames it, so that PATH is never half written.  Return CLI_DONE or print and
  * return CLI_IO. */
 int file_replace(const char *path, const void *bytes, size_t length, int sync);
+int file_copy(const char *from, const char *to, int sync);
 /* Removes a file that may be absent. */
 int file_remove(const char *path);
 

@@ -25,7 +25,6 @@
 #include <string.h>
 #include <sys/stat.h>
 #include <sys/utsname.h>
-#include <unistd.h>
 
 #if defined(__clang__)
 #define COMPILER __VERSION__
@@ -182,7 +181,7 @@ static char *request_text(const run_request *request)
 static int find_fingerprint(run_directory *dir, const char *builtin)
 {
     size_t length = builtin ? strlen(builtin) : 0;
-    if (!builtin && access(dir->system, F_OK) != 0)
+    if (!builtin && !file_exists(dir->system))
         return cli_fail(CLI_USAGE, "'%s' is missing: the run cannot be continued", dir->system);
     char *copy = builtin ? NULL : file_read(dir->system, &length);
     if (!builtin && !copy) return CLI_IO;
@@ -190,15 +189,6 @@ static int find_fingerprint(run_directory *dir, const char *builtin)
     dir->fingerprint = file_hash(hash, builtin ? builtin : copy, length);
     free(copy);
     return CLI_DONE;
-}
-
-static int copy_system(const run_directory *dir, const char *from)
-{
-    size_t length;
-    char *text = file_read(from, &length);
-    const int status = text ? file_replace(dir->system, text, length, dir->sync) : CLI_IO;
-    free(text);
-    return status;
 }
 
 int manifest_begin(run_directory *dir, const run_request *request)
@@ -212,7 +202,8 @@ int manifest_begin(run_directory *dir, const run_request *request)
     RUN_FILE_LIST(REMOVE)
 #undef REMOVE
     if (status == CLI_DONE)
-        status = is_path ? copy_system(dir, request->system_name) : file_remove(dir->system);
+        status = is_path ? file_copy(request->system_name, dir->system, dir->sync)
+                         : file_remove(dir->system);
     if (status != CLI_DONE) return status;
     dir->input = request_text(request);
     status = find_fingerprint(dir, is_path ? NULL : dal_builtin_text(request->system_name));

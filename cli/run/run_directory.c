@@ -2,6 +2,7 @@
 #include "run_directory.h"
 #include "ui/message.h"
 
+#include "io/file.h"
 #include "io/output.h"
 
 #include <errno.h>
@@ -42,12 +43,12 @@ const char *run_directory_find_file(const run_directory *dir)
     return NULL;
 }
 
-bool run_directory_has_run(const run_directory *dir) { return access(dir->manifest, F_OK) == 0; }
+bool run_directory_has_run(const run_directory *dir) { return file_exists(dir->manifest); }
 
 int run_directory_lock(run_directory *dir, int is_new)
 {
     struct flock whole = {.l_type = F_WRLCK, .l_whence = SEEK_SET};
-    if (!is_new && access(dir->rows, F_OK) != 0)
+    if (!is_new && !file_exists(dir->rows))
         return cli_fail(CLI_USAGE, "'%s' is missing: the run cannot be continued", dir->rows);
     dir->descriptor = open(dir->rows, O_RDWR | (is_new ? O_CREAT : 0), 0666);
     if (dir->descriptor < 0) return cli_io("write", dir->rows);

@@ -7,8 +7,6 @@
 #include <string.h>
 #include <sys/stat.h>
 
-enum { MAX_BUILTINS = 256 };
-
 bool cli_is_path(const char *system)
 {
     struct stat status;
@@ -26,34 +24,37 @@ static int read_path(const char *path, dal_model **model)
         return cli_fail(CLI_USAGE, "cannot read '%s': %s", path, strerror(errno));
     if (S_ISDIR(status.st_mode))
         return cli_fail(CLI_USAGE, "cannot read '%s': it is a directory", path);
-    dal_status read = dal_model_read_file(model, path, &error);
+    const dal_status read = dal_model_read_file(model, path, &error);
     if (read == DAL_OK) return CLI_DONE;
     return cli_error(read == DAL_IO ? CLI_IO : cli_input_exit(read), path, &error);
 }
 
+int cli_builtins(const char *names[CLI_MAX_BUILTINS])
+{
+    int count = 0;
+    while (count < CLI_MAX_BUILTINS && (names[count] = dal_builtin_name(count))) count++;
+    return count;
+}
+
 static int read_builtin(const char *name, dal_model **model)
 {
-    const char *names[MAX_BUILTINS];
-    int count = 0;
-    while (count < MAX_BUILTINS && (names[count] = dal_builtin_name(count))) count++;
+    const char *names[CLI_MAX_BUILTINS];
     dal_error error = {0};
-    if (!dal_builtin_text(name)) return cli_unknown("system", name, names, count);
-    dal_status read = dal_model_builtin(model, name, &error);
+    if (!dal_builtin_text(name)) return cli_unknown("system", name, names, cli_builtins(names));
+    const dal_status read = dal_model_builtin(model, name, &error);
     return read == DAL_OK ? CLI_DONE : cli_error(cli_input_exit(read), name, &error);
 }
 
 int cli_read(const char *system, dal_model **model)
 {
     *model = NULL;
-    int status = cli_is_path(system) ? read_path(system, model) : read_builtin(system, model);
-    if (status != CLI_DONE) *model = NULL;
-    return status;
+    return cli_is_path(system) ? read_path(system, model) : read_builtin(system, model);
 }
 
 int cli_make(const char *place, dal_model **model, const dal_system **made)
 {
     dal_error error = {0};
-    dal_status make = dal_model_system(*model, made, &error);
+    const dal_status make = dal_model_system(*model, made, &error);
     if (make == DAL_OK) return CLI_DONE;
     dal_model_free(*model);
     *model = NULL;
@@ -62,6 +63,6 @@ int cli_make(const char *place, dal_model **model, const dal_system **made)
 
 int cli_load(const char *system, dal_model **model, const dal_system **made)
 {
-    int status = cli_read(system, model);
+    const int status = cli_read(system, model);
     return status == CLI_DONE ? cli_make(system, model, made) : status;
 }

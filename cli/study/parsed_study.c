@@ -81,17 +81,13 @@ static int read_options(void *user, const document *doc, yaml_node_t *value,
 
 static int read_starts(void *user, const document *doc, yaml_node_t *value, const document_key *key)
 {
+    (void)key;
     study_case *e = &((parsed_study *)user)->item;
     e->starts = 0;
     for (int i = 0; i < document_count(value); i++) {
-        const yaml_node_t *item = document_item(doc, value, i);
-        const char *word = document_scalar(doc, item, key->name);
-        if (!word) return CLI_USAGE;
-        int start = 0;
-        while (start < STUDY_STARTS && strcmp(study_start_words[start], word) != 0) start++;
-        if (start == STUDY_STARTS)
-            return document_fail(doc, item, "starts: '%s' is not physical, surface or displaced",
-                                 word);
+        const int start = document_word(doc, document_item(doc, value, i), "start",
+                                        study_start_words, STUDY_STARTS);
+        if (start < 0) return CLI_USAGE;
         e->starts |= 1 << start;
     }
     return e->starts ? CLI_DONE : document_fail(doc, value, "starts: the list is empty");

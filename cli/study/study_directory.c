@@ -40,13 +40,11 @@ void study_directory_close(study_directory *dir)
     *dir = (study_directory){0};
 }
 
-static bool is_there(const char *path) { return access(path, F_OK) == 0; }
-
-bool study_directory_has_study(const study_directory *dir) { return is_there(dir->study); }
+bool study_directory_has_study(const study_directory *dir) { return file_exists(dir->study); }
 
 bool study_directory_is_finished(const study_directory *dir)
 {
-    if (!is_there(dir->study)) return 0;
+    if (!file_exists(dir->study)) return 0;
     char *state = json_file_text(dir->manifest, "status");
     const int finished = state && (strcmp(state, "done") == 0 || strcmp(state, "unmet") == 0);
     free(state);
@@ -67,55 +65,31 @@ static char *manifest_path(const study_directory *dir, study_shard shard)
     return cli_format("%s/shard-%lld-of-%lld.json", dir->path, shard.number, shard.count);
 }
 
-typedef int shard_visitor(const study_directory *dir, study_shard shard, void *user);
-
-/* Calls visit for each shard that has a manifest. */
-static int each_shard(const study_directory *dir, shard_visitor *visit, void *user)
+/* The shards that have manifests in the directory, allocated. */
+static int find_shards(const study_directory *dir, study_shard **shards, int *count)
 {
-    int status = CLI_DONE;
     DIR *directory = opendir(dir->path);
+    *shards = NULL;
+    *count = 0;
     if (!directory) return cli_io("read", dir->path);
-    for (struct dirent *entry; status == CLI_DONE && (entry = readdir(directory));) {
+    for (struct dirent *entry; (entry = readdir(directory));) {
         study_shard shard;
         int end = 0;
         sscanf(entry->d_name, "shard-%lld-of-%lld.json%n", &shard.number, &shard.count, &end);
-        if (end > 0 && entry->d_name[end] == '\0' && shard.number >= 1 &&
-            shard.number <= shard.count)
-            status = visit(dir, shard, user);
+        if (end == 0 || entry->d_name[end] || shard.number < 1 || shard.number > shard.count)
+            continue;
+        *shards = cli_realloc(*shards, ((size_t)*count + 1) * sizeof **shards);
+        (*shards)[(*count)++] = shard;
     }
     closedir(directory);
-    return status;
-}
-
-static int remove_manifest(const study_directory *dir, study_shard shard, void *user)
-{
-    (void)user;
-    char *path = manifest_path(dir, shard);
-    const int status = file_remove(path);
-    free(path);
-    return status;
-}
-
-static int include_cells(const study_directory *dir, study_shard shard, void *user)
-{
-    study_plan *plan = user;
-    (void)dir;
-    for (int i = 0; i < plan->cell_count; i++)
-        if (shard_has_cell(shard, i)) plan->cells[i].other_shard = 0;
     return CLI_DONE;
 }
 
 /* ---- the manifest -------------------------------------------------------------------------- */
 
-typedef struct manifest_state {
-    const study_plan *plan;
-    const char *word;
-} manifest_state;
-
-static int write_shard_manifest(const study_directory *dir, study_shard shard, void *user)
+static int write_shard_manifest(const study_directory *dir, study_shard shard,
+                                const study_plan *plan, const char *state)
 {
-    const manifest_state *state = user;
-    const study_plan *plan = state->plan;
     char *text, *path = manifest_path(dir, shard);
     size_t length;
     int count[STUDY_STATES] = {0};
@@ -130,7 +104,7 @@ static int write_shard_manifest(const study_directory *dir, study_shard shard, v
     json_put_text(&w, "dalembert", DAL_VERSION);
     json_put_text(&w, "study", plan->title);
     manifest_put_machine(&w);
-    json_put_text(&w, "status", state->word);
+    json_put_text(&w, "status", state);
     json_open(&w, "cells", JSON_ON_ONE_LINE);
     for (int i = 0; i < STUDY_STATES; i++) json_put_integer(&w, study_state_words[i], count[i]);
     json_close(&w);
@@ -145,11 +119,17 @@ static int write_shard_manifest(const study_directory *dir, study_shard shard, v
 }
 
 /* state: running, interrupted, failed, unmet, done. */
-static int write_manifest(const study_directory *dir, const study_plan *plan, const char *word)
+static int write_manifest(const study_directory *dir, const study_plan *plan, const char *state)
 {
-    manifest_state state = {plan, word};
-    return dir->shard.count == STUDY_ALL_SHARDS ? each_shard(dir, write_shard_manifest, &state)
-                                                : write_shard_manifest(dir, dir->shard, &state);
+    study_shard *shards;
+    int count;
+    if (dir->shard.count != STUDY_ALL_SHARDS)
+        return write_shard_manifest(dir, dir->shard, plan, state);
+    int status = find_shards(dir, &shards, &count);
+    for (int i = 0; i < count && status == CLI_DONE; i++)
+        status = write_shard_manifest(dir, shards[i], plan, state);
+    free(shards);
+    return status;
 }
 
 /* ---- beginning ----------------------------------------------------------------------------- */
@@ -177,27 +157,33 @@ static int remove_tree(const char *path, int depth)
 /* Removes the study that is there, study.yaml first. */
 static int clear(const study_directory *dir)
 {
-    int status = CLI_DONE;
+    study_shard *shards = NULL;
+    int status = CLI_DONE, count = 0;
 #define REMOVE(name, file)                                                                         \
     if (status == CLI_DONE) status = remove_tree(dir->name, 2);
     STUDY_FILE_LIST(REMOVE)
 #undef REMOVE
-    return status == CLI_DONE ? each_shard(dir, remove_manifest, NULL) : status;
+    if (status == CLI_DONE) status = find_shards(dir, &shards, &count);
+    for (int i = 0; i < count && status == CLI_DONE; i++) {
+        char *path = manifest_path(dir, shards[i]);
+        status = file_remove(path);
+        free(path);
+    }
+    free(shards);
+    return status;
 }
 
 /* A copy that is there already, of a study that the shard joins, must be the same. */
 static int copy_system(const study_directory *dir, study_case *e)
 {
-    size_t length;
-    if (!e->copy && !cli_is_path(e->name)) return CLI_DONE;
+    const char *from = e->copy ? e->copy : e->name;
+    if (!e->copy && !cli_is_path(from)) return CLI_DONE;
     char *path = study_plan_copy_path(dir->systems, e);
-    char *text = file_read(e->copy ? e->copy : e->name, &length);
-    int status = text ? CLI_DONE : CLI_IO;
-    if (text && !is_there(path))
-        status = file_replace(path, text, length, 1);
-    else if (text && !file_equals(path, text, length))
+    int status = CLI_DONE;
+    if (!file_exists(path))
+        status = file_copy(from, path, 1);
+    else if (!file_is_copy(path, from))
         status = cli_fail(CLI_USAGE, "'%s' is of another study: '%s' differs", dir->path, path);
-    free(text);
     free(e->copy);
     e->copy = path;
     return status;
@@ -206,22 +192,20 @@ static int copy_system(const study_directory *dir, study_case *e)
 static int copy_systems(const study_directory *dir, study_plan *plan)
 {
     int status = cli_directory(dir->systems);
-    for (int i = 0; i < plan->case_count && status == CLI_DONE; i++) {
-        study_case *e = &plan->cases[i];
-        if (e->is_first)
-            status = copy_system(dir, e);
+    for (int i = 0; i < plan->case_count && status == CLI_DONE; i++)
+        if (plan->cases[i].is_first)
+            status = copy_system(dir, &plan->cases[i]);
         else
-            e->copy = e[-1].copy;
-    }
+            plan->cases[i].copy = plan->cases[i - 1].copy;
     return status;
 }
 
 /* Whether this study may be written there: a new one, or one more shard. */
 static int check_place(const study_directory *dir, const char *text, size_t length, int is_shard)
 {
-    const char *held = is_there(dir->study) ? dir->study : dir->manifest;
-    if (!is_there(held)) return CLI_DONE;
-    if (is_shard && held == dir->study && !is_there(dir->manifest)) {
+    const char *held = file_exists(dir->study) ? dir->study : dir->manifest;
+    if (!file_exists(held)) return CLI_DONE;
+    if (is_shard && held == dir->study && !file_exists(dir->manifest)) {
         if (file_equals(dir->study, text, length)) return CLI_DONE;
         return cli_fail(CLI_USAGE, "'%s' is another study; --force writes over it", held);
     }
@@ -234,9 +218,8 @@ static int check_place(const study_directory *dir, const char *text, size_t leng
 /* Whether the study was killed while it was begun or written over: nothing of it can be resumed. */
 static bool is_incomplete(const study_directory *dir)
 {
-    if (is_there(dir->study)) return 0;
-    char *title = json_file_text(dir->manifest, "study");
-    const int has_title = title != NULL;
+    char *title = file_exists(dir->study) ? NULL : json_file_text(dir->manifest, "study");
+    const bool has_title = title != NULL;
     free(title);
     return has_title;
 }
@@ -277,16 +260,24 @@ int study_directory_begin(study_directory *dir, study_plan *plan, const char *te
 
 int study_directory_read(study_directory *dir, study_plan *plan)
 {
-    if (!is_there(dir->study))
+    if (!file_exists(dir->study))
         return cli_fail(CLI_USAGE, "'%s' holds no study: there is no %s", dir->path, dir->study);
     dir->text = file_read(dir->study, &dir->length);
     if (!dir->text) return CLI_IO;
     int status = study_plan_read(plan, dir->study, dir->text, dir->length, dir->systems);
     plan->runs = dir->runs;
-    if (status != CLI_DONE || is_there(dir->manifest)) return status;
+    if (status != CLI_DONE || file_exists(dir->manifest)) return status;
+    study_shard *shards;
+    int count;
     dir->shard = (study_shard){.count = STUDY_ALL_SHARDS};
-    for (int i = 0; i < plan->cell_count; i++) plan->cells[i].other_shard = 1;
-    return each_shard(dir, include_cells, plan);
+    status = find_shards(dir, &shards, &count);
+    for (int i = 0; i < plan->cell_count; i++) {
+        plan->cells[i].other_shard = 1;
+        for (int k = 0; k < count; k++)
+            if (shard_has_cell(shards[k], i)) plan->cells[i].other_shard = 0;
+    }
+    free(shards);
+    return status;
 }
 
 int study_directory_run(const study_directory *dir, study_plan *plan,

@@ -94,16 +94,16 @@ static const word_list of_value[] = {
     {"trend", trend_words + DAL_SIZE_COUNT, DAL_TREND_COUNT, DAL_SIZE_COUNT}};
 
 /* A word of 0.2 is refused with its successor. */
-static int refuse_word(const expect_reader *r, const yaml_node_t *item, const word_list *known,
-                       const char *word)
+static int check_word(const expect_reader *r, const yaml_node_t *item)
 {
     static const char *const renamed[][2] = {
         {"bounded", "none"}, {"linear drift", "linear"}, {"not enough data", "undecided"}};
+    const char *word = item->type == YAML_SCALAR_NODE ? (char *)item->data.scalar.value : "";
     for (size_t i = 0; i < sizeof renamed / sizeof renamed[0]; i++)
         if (strcmp(word, renamed[i][0]) == 0)
             return document_fail(r->doc, item, "expect: '%s' is now the trend '%s'", word,
                                  renamed[i][1]);
-    return document_fail_unknown(r->doc, item, known->what, word, known->word, known->count);
+    return CLI_DONE;
 }
 
 /* Whether a system of the label conserves E, at least on D = 0. */
@@ -130,11 +130,9 @@ static int add_words(expect_reader *r, yaml_node_t *node, const word_list *known
                              x->label);
     for (int i = 0; i < document_count(node); i++) {
         const yaml_node_t *item = document_item(r->doc, node, i);
-        const char *word = document_scalar(r->doc, item, known->what);
-        if (!word) return CLI_USAGE;
-        int k = 0;
-        while (k < known->count && strcmp(known->word[k], word) != 0) k++;
-        if (k == known->count) return refuse_word(r, item, known, word);
+        if (check_word(r, item) != CLI_DONE) return CLI_USAGE;
+        const int k = document_word(r->doc, item, known->what, known->word, known->count);
+        if (k < 0) return CLI_USAGE;
         x->words |= 1u << (known->first + k);
     }
     if (x->words == 0) return document_fail(r->doc, node, "expect: the list is empty");
@@ -149,24 +147,21 @@ static int read_words(void *user, const document *doc, yaml_node_t *value, const
 
 /* ---- bounds ---- */
 
-#define AT_MOST                                                                                    \
-    {                                                                                              \
-        "at most", document_read_number, offsetof(expect_reader, expectation.max)                  \
-    }
-#define AT_LEAST                                                                                   \
-    {                                                                                              \
-        "at least", document_read_number, offsetof(expect_reader, expectation.min)                 \
-    }
+/* Bounds of a field have the first two keys alone. */
+static const document_key bound_keys[] = {
+    {"at most", document_read_number, offsetof(expect_reader, expectation.max)},
+    {"at least", document_read_number, offsetof(expect_reader, expectation.min)},
+    {.name = "step"},
+    {.name = "start"}};
 
-static int add_bounds(expect_reader *r, int field, yaml_node_t *node, const document_key *keys,
-                      int count)
+static int add_bounds(expect_reader *r, int field, yaml_node_t *node, int keys)
 {
     study_expectation *x = &r->expectation;
     x->field = field;
     x->words = 0;
     x->min = -INFINITY;
     x->max = INFINITY;
-    int status = document_read_mapping(r->doc, node, "bounds", keys, count, r);
+    int status = document_read_mapping(r->doc, node, "bounds", bound_keys, keys, r);
     if (status != CLI_DONE) return status;
     if (isinf(x->min) && isinf(x->max))
         return document_fail(r->doc, node, "bounds: 'at most' or 'at least' is required");
@@ -175,9 +170,8 @@ static int add_bounds(expect_reader *r, int field, yaml_node_t *node, const docu
 
 static int read_field(void *user, const document *doc, yaml_node_t *value, const document_key *key)
 {
-    static const document_key keys[] = {AT_MOST, AT_LEAST};
     (void)doc;
-    return add_bounds(user, (int)key->offset, value, keys, 2);
+    return add_bounds(user, (int)key->offset, value, 2);
 }
 
 /* ---- mappings ---- */
@@ -191,16 +185,8 @@ static int read_cells(expect_reader *r, yaml_node_t *node)
     yaml_node_t *start = document_value(r->doc, node, "start");
     study_expectation *x = &r->expectation;
     if (step && document_read_number(r, r->doc, step, &step_key) != CLI_DONE) return CLI_USAGE;
-    if (start) {
-        const char *word = document_scalar(r->doc, start, "start");
-        if (!word) return CLI_USAGE;
-        x->start = 0;
-        while (x->start < STUDY_STARTS && strcmp(study_start_words[x->start], word) != 0)
-            x->start++;
-        if (x->start == STUDY_STARTS)
-            return document_fail_unknown(r->doc, start, "start", word, study_start_words,
-                                         STUDY_STARTS);
-    }
+    if (start) x->start = document_word(r->doc, start, "start", study_start_words, STUDY_STARTS);
+    if (start && x->start < 0) return CLI_USAGE;
     for (int i = 0; i < r->plan->cell_count; i++)
         if (study_expectation_covers(x, &r->plan->cells[i])) return CLI_DONE;
     return document_fail(r->doc, node, "expect: the study has no such step and start");
@@ -208,8 +194,6 @@ static int read_cells(expect_reader *r, yaml_node_t *node)
 
 static int add_mapping(expect_reader *r, yaml_node_t *node)
 {
-    static const document_key size_keys[] = {
-        AT_MOST, AT_LEAST, {.name = "step"}, {.name = "start"}};
     static const document_key keys[] = {{"size", read_words, 0},
                                         {"trend", read_words, 1},
                                         {.name = "step"},
@@ -230,8 +214,7 @@ static int add_mapping(expect_reader *r, yaml_node_t *node)
     /* Bounds beside the cells are of the size that the tables show. */
     const int is_max =
         quantity[0] == '|' || strcmp(quantity, "error") == 0 || is_constraint(quantity);
-    return add_bounds(r, is_max ? STUDY_FIELD_max : STUDY_FIELD_deviation, node, size_keys,
-                      sizeof size_keys / sizeof size_keys[0]);
+    return add_bounds(r, is_max ? STUDY_FIELD_max : STUDY_FIELD_deviation, node, 4);
 }
 
 /* ---- what the study contains ---- */
@@ -252,43 +235,28 @@ static bool has_quantity(const study_case *e, const char *name)
     return 0;
 }
 
-static int check_label(const expect_reader *r, const yaml_node_t *node, const char *label)
+/* Whether a system of the label is run with a method, or has a quantity; NULL: any. */
+static bool is_in_study(const expect_reader *r, const char *method, const char *quantity)
+{
+    for (int i = 0; i < r->plan->case_count; i++) {
+        const study_case *e = &r->plan->cases[i];
+        if (!study_case_matches(e, r->expectation.label)) continue;
+        if (quantity && !has_quantity(e, quantity)) continue;
+        for (int k = 0; k < e->method_count; k++)
+            if (!method || study_method_matches(&e->methods[k], method)) return true;
+    }
+    return false;
+}
+
+static int refuse_label(const expect_reader *r, const yaml_node_t *node, const char *label)
 {
     const study_plan *plan = r->plan;
-    const char **names = cli_calloc((size_t)plan->case_count + 1, sizeof *names);
-    int found = 0;
-    for (int i = 0; i < plan->case_count; i++) {
-        names[i] = plan->cases[i].label;
-        found |= study_case_matches(&plan->cases[i], label);
-    }
-    int status = found ? CLI_DONE
-                       : document_fail_unknown(r->doc, node, "label of this study", label, names,
-                                               plan->case_count);
+    const char **names = cli_calloc((size_t)plan->case_count, sizeof *names);
+    for (int i = 0; i < plan->case_count; i++) names[i] = plan->cases[i].label;
+    const int status =
+        document_fail_unknown(r->doc, node, "label of this study", label, names, plan->case_count);
     free(names);
     return status;
-}
-
-static int check_method(const expect_reader *r, const yaml_node_t *node, const char *method)
-{
-    const char *label = r->expectation.label;
-    for (int i = 0; i < r->plan->case_count; i++) {
-        const study_case *e = &r->plan->cases[i];
-        for (int k = 0; study_case_matches(e, label) && k < e->method_count; k++)
-            if (study_method_matches(&e->methods[k], method)) return CLI_DONE;
-    }
-    return document_fail(r->doc, node, "expect: '%s' is not run with '%s' in this study", label,
-                         method);
-}
-
-static int check_quantity(const expect_reader *r, const yaml_node_t *node, const char *quantity)
-{
-    const char *label = r->expectation.label;
-    for (int i = 0; i < r->plan->case_count; i++) {
-        const study_case *e = &r->plan->cases[i];
-        if (study_case_matches(e, label) && has_quantity(e, quantity)) return CLI_DONE;
-    }
-    return document_fail(r->doc, node, "expect: '%s' has no quantity '%s' in this study", label,
-                         quantity);
 }
 
 /* ---- the levels of the mapping ---- */
@@ -298,10 +266,13 @@ static int read_quantity(void *user, const yaml_node_t *key, const char *name, y
 {
     expect_reader *r = user;
     study_expectation *x = &r->expectation;
-    int status = check_quantity(r, key, name);
     const int count = document_count(value);
     const int is_list = value->type == YAML_SEQUENCE_NODE && count > 0 &&
                         document_item(r->doc, value, 0)->type == YAML_MAPPING_NODE;
+    int status = CLI_DONE;
+    if (!is_in_study(r, NULL, name))
+        return document_fail(r->doc, key, "expect: '%s' has no quantity '%s' in this study",
+                             x->label, name);
     for (int i = 0; i < (is_list ? count : 1) && status == CLI_DONE; i++) {
         yaml_node_t *item = is_list ? document_item(r->doc, value, i) : value;
         *x = (study_expectation){
@@ -318,8 +289,9 @@ static int read_method(void *user, const yaml_node_t *key, const char *name, yam
 {
     expect_reader *r = user;
     r->expectation.method = name;
-    int status = check_method(r, key, name);
-    if (status != CLI_DONE) return status;
+    if (!is_in_study(r, name, NULL))
+        return document_fail(r->doc, key, "expect: '%s' is not run with '%s' in this study",
+                             r->expectation.label, name);
     return document_each_pair(r->doc, value, "expect", "quantities", read_quantity, r);
 }
 
@@ -327,8 +299,7 @@ static int read_label(void *user, const yaml_node_t *key, const char *name, yaml
 {
     expect_reader *r = user;
     r->expectation.label = name;
-    int status = check_label(r, key, name);
-    if (status != CLI_DONE) return status;
+    if (!is_in_study(r, NULL, NULL)) return refuse_label(r, key, name);
     return document_each_pair(r->doc, value, "expect", "integrators", read_method, r);
 }
 

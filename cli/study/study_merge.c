@@ -19,7 +19,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 typedef struct merge {
     study_directory *source;
@@ -40,11 +39,7 @@ static bool is_same_place(const char *a, const char *b)
 /* Compares a file of source i with that of the first. */
 static int compare_files(const merge *m, int i, const char *path, const char *first)
 {
-    size_t length;
-    char *text = file_read(first, &length);
-    const int same = text && file_equals(path, text, length);
-    free(text);
-    if (same) return CLI_DONE;
+    if (file_is_copy(path, first)) return CLI_DONE;
     return cli_fail(CLI_USAGE, "'%s' and '%s' are of two studies: '%s' and '%s' differ",
                     m->source[i].path, m->source[0].path, path, first);
 }
@@ -76,7 +71,7 @@ static int find_in_source(merge *m, int cell, int source, const char *name)
     const study_directory *s = &m->source[source];
     char *run = cli_join(s->runs, name), *manifest = cli_join(run, "manifest.json");
     int status = CLI_DONE;
-    if (access(manifest, F_OK) == 0) {
+    if (file_exists(manifest)) {
         if (m->from[cell] >= 0)
             status = cli_fail(CLI_USAGE, "'%s' is in '%s' and in '%s'", name,
                               m->source[m->from[cell]].path, s->path);

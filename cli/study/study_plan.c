@@ -1,6 +1,7 @@
 /* study_plan.c - from the keys of a study to its cases and cells. */
 #include "study_plan.h"
 
+#include "io/file.h"
 #include "run/row_times.h"
 #include "run/system.h"
 #include "study_expect.h"
@@ -11,7 +12,6 @@
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 /* What is read of one system: a group of cases. */
 typedef struct group_reader {
@@ -98,19 +98,16 @@ char *study_plan_copy_path(const char *directory, const study_case *e)
 /* In the directory of a study a system with a copy was a file, wherever the program is started. */
 static int load_system(const group_reader *g, study_case *e)
 {
-    enum { MAX_NAMES = 256 };
-    const char *names[MAX_NAMES], *copies = g->plan->copies;
-    int count = 0;
+    const char *names[CLI_MAX_BUILTINS], *copies = g->plan->copies;
     const int is_path = cli_is_path(e->name);
     char *copy = copies ? study_plan_copy_path(copies, e) : NULL;
-    if (copy && (is_path || access(copy, F_OK) == 0))
+    if (copy && (is_path || file_exists(copy)))
         e->copy = copy;
     else
         free(copy);
     if (e->copy || is_path || dal_builtin_text(e->name))
         return cli_load(e->copy ? e->copy : e->name, &e->model, &e->system);
-    while (count < MAX_NAMES && (names[count] = dal_builtin_name(count))) count++;
-    return document_fail_unknown(g->doc, g->node, "system", e->name, names, count);
+    return document_fail_unknown(g->doc, g->node, "system", e->name, names, cli_builtins(names));
 }
 
 /* Checks that the system knows the names; what else may be wrong with values is for the cells. */

@@ -125,7 +125,7 @@ bad 'integrators: rk4\nstep: 1e-300\ntime: 1\nsystems: [line.yaml]\n' 'steps of 
 bad 'integrators: rk4\nstep: -1\ntime: 1\nsystems: [line.yaml]\n' 'bad.yaml:2:7: step: -1 is not positive'
 bad 'integrators: rk4\nstep: nan\ntime: 1\nsystems: [line.yaml]\n' "'nan' is not a number"
 bad 'integrators: rk5\nstep: 0.1\ntime: 1\nsystems: [line.yaml]\n' "bad.yaml:1:14: .*did you mean 'rk4'"
-bad 'integrators: rk4\nstep: 0.1\ntime: 1\nstarts: [surfaces]\nsystems: [line.yaml]\n' "'surfaces' is not"
+bad 'integrators: rk4\nstep: 0.1\ntime: 1\nstarts: [surfaces]\nsystems: [line.yaml]\n' "unknown start 'surfaces'; did you mean 'surface'"
 bad 'integrators: rk4\nstep: 0.1\ntime: 1\nsystems: [knife-egde]\n' "did you mean 'knife-edge'"
 bad 'integrators: rk4\nstep: 0.1\ntime: 1\nsystems: [knife-edge, knife-edge]\n' "two systems called 'knife-edge'"
 bad 'integrators: rk4\nstep: 0.1\ntime: 1\nsystems: [{system: knife-edge, tme: 1}]\n' "unknown key 'tme'; did you mean 'time'"
