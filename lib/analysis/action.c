@@ -43,9 +43,7 @@ static dal_status lagrangian(dal_evaluator *evaluator, double t, double h, const
 dal_status dal_measure_action(dal_evaluator *evaluator, double t0, double h, long long count,
                               const double *q, double e, double *action)
 {
-    DAL_REQUIRE(evaluator, NULL);
-    DAL_REQUIRE(q, NULL);
-    DAL_REQUIRE(action, NULL);
+    DAL_REQUIRE(evaluator && q && action, NULL);
     const dal_system *s = dal_evaluator_system(evaluator);
     if (s->multipliers > 0) return DAL_UNSUPPORTED;
     if (count < 10 || !(h > 0.0)) return DAL_ARGUMENT;
@@ -109,9 +107,7 @@ static double variation(path *w, const double *row, int inner)
 dal_status dal_check_stationarity(dal_evaluator *evaluator, double t0, double h, long long count,
                                   const double *states, double *defect)
 {
-    DAL_REQUIRE(evaluator, NULL);
-    DAL_REQUIRE(states, NULL);
-    DAL_REQUIRE(defect, NULL);
+    DAL_REQUIRE(evaluator && states && defect, NULL);
     const dal_system *s = dal_evaluator_system(evaluator);
     if (s->multipliers > 0) return DAL_UNSUPPORTED;
     if (count < 3 || !(h > 0.0)) return DAL_ARGUMENT;

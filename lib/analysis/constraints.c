@@ -9,8 +9,8 @@
  *     G = A W^-1 A^T;     v <- v - W^-1 A^T G^-1 D until D = 0 (Newton) */
 #include "analysis/constraints.h"
 #include "analysis/differences.h"
-#include "analysis/evaluator.h"
 #include "analysis/vectors.h"
+#include "core/arguments.h"
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
@@ -214,9 +214,7 @@ static void classify_constraints(survey *w, dal_constraint_class *out, double *d
 dal_status dal_classify_constraints(dal_evaluator *evaluator, const dal_point *at,
                                     dal_constraint_class *out, double *degree)
 {
-    DAL_REQUIRE(evaluator, NULL);
-    DAL_REQUIRE_POINT(at);
-    DAL_REQUIRE(out, NULL);
+    DAL_REQUIRE(evaluator && dal__has_state(at) && out, NULL);
     const dal_system *s = dal_evaluator_system(evaluator);
     if (s->m > 0 && s->constraints == NULL) return DAL_UNSUPPORTED;
     size_t nw = (size_t)s->n + (size_t)s->multipliers, x = (size_t)s->n + nw;
@@ -263,10 +261,7 @@ void dal__gram_matrix(const dal_system *s, const double *block, double *gram)
 
 dal_status dal_measure_rank(dal_evaluator *evaluator, const dal_point *at, int *rank, double *pivot)
 {
-    DAL_REQUIRE(evaluator, NULL);
-    DAL_REQUIRE_POINT(at);
-    DAL_REQUIRE(rank, NULL);
-    DAL_REQUIRE(pivot, NULL);
+    DAL_REQUIRE(evaluator && dal__has_state(at) && rank && pivot, NULL);
     const dal_system *s = dal_evaluator_system(evaluator);
     size_t n = (size_t)s->n, m = (size_t)s->m;
     double *block = dal__numbers(1, m * (1 + 2 * n) + m * m + m + m * (m + 2));
@@ -344,9 +339,7 @@ static dal_status stagnate(projection *p)
 
 dal_status dal_project_velocity(dal_evaluator *evaluator, double t, const double *q, double *v)
 {
-    DAL_REQUIRE(evaluator, NULL);
-    DAL_REQUIRE(q, NULL);
-    DAL_REQUIRE(v, NULL);
+    DAL_REQUIRE(evaluator && q && v, NULL);
     const dal_system *s = dal_evaluator_system(evaluator);
     size_t n = (size_t)s->n, m = (size_t)s->m;
     size_t bytes = (n + (size_t)s->multipliers) * sizeof(double);

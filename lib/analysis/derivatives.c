@@ -4,8 +4,8 @@
 #include "analysis/derivatives.h"
 #include "analysis/constraints.h"
 #include "analysis/differences.h"
-#include "analysis/evaluator.h"
 #include "analysis/vectors.h"
+#include "core/arguments.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -43,9 +43,7 @@ static dal_status rate_in(flow *f, int count, double *scratch, double *out)
 dal_status dal_measure_rate(dal_evaluator *evaluator, dal_callback *callback, int count,
                             const dal_point *at, double *out)
 {
-    DAL_REQUIRE(evaluator, NULL);
-    DAL_REQUIRE_POINT(at);
-    DAL_REQUIRE(out, NULL);
+    DAL_REQUIRE(evaluator && dal__has_state(at) && out, NULL);
     DAL_REQUIRE_COUNT(count, NULL);
     const dal_system *s = dal_evaluator_system(evaluator);
     int n = s->n, nw = s->n + s->multipliers;
@@ -200,9 +198,7 @@ static dal_status compare_all(comparison *d, const dal_point *at, dal_derivative
 dal_status dal_check_derivatives(dal_evaluator *evaluator, const dal_point *at,
                                  dal_derivatives *out)
 {
-    DAL_REQUIRE(evaluator, NULL);
-    DAL_REQUIRE_POINT(at);
-    DAL_REQUIRE(out, NULL);
+    DAL_REQUIRE(evaluator && dal__has_state(at) && out, NULL);
     const dal_system *s = dal_evaluator_system(evaluator);
     size_t n = (size_t)s->n, nw = n + (size_t)s->multipliers, m = (size_t)s->m;
     size_t rows = nw > m ? nw : m, columns = n + nw;

@@ -8,8 +8,8 @@
  * {phi_a, phi_b} over all constraints counts the second-class ones. */
 #include "analysis/dirac.h"
 #include "analysis/differences.h"
-#include "analysis/evaluator.h"
 #include "analysis/vectors.h"
+#include "core/arguments.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -192,8 +192,6 @@ dal_status dal__dirac_algebra(dal_evaluator *evaluator, const dal_point *at, dou
 
 dal_status dal_check_dirac(dal_evaluator *evaluator, const dal_point *at, double e, dal_dirac *out)
 {
-    DAL_REQUIRE(evaluator, NULL);
-    DAL_REQUIRE_POINT(at);
-    DAL_REQUIRE(out, NULL);
+    DAL_REQUIRE(evaluator && dal__has_state(at) && out, NULL);
     return dal__dirac_algebra(evaluator, at, e, dal__dirac_constraint, out);
 }

@@ -1,6 +1,6 @@
 /* evaluator.c - a system with its parameters in force and memory to evaluate it in. */
-#include "analysis/evaluator.h"
 #include "analysis/vectors.h"
+#include "core/arguments.h"
 #include "dalembert_analysis.h"
 #include <math.h>
 #include <stdio.h>
@@ -81,10 +81,7 @@ const dal_system *dal_evaluator_system(const dal_evaluator *evaluator)
 dal_status dal_evaluator_call(dal_evaluator *evaluator, dal_callback *callback, double t,
                               const double *q, const double *v, const double *pi, double *out)
 {
-    DAL_REQUIRE(evaluator, NULL);
-    DAL_REQUIRE(q, NULL);
-    DAL_REQUIRE(v, NULL);
-    DAL_REQUIRE(out, NULL);
+    DAL_REQUIRE(evaluator && q && v && out, NULL);
     if (callback == NULL) return DAL_UNSUPPORTED;
     if (callback == evaluator->system->call.adjoint) DAL_REQUIRE(pi, NULL);
     return callback(evaluator->system, &(dal_point){t, q, v, pi, evaluator->work}, out);

@@ -3,12 +3,14 @@
 #define DAL_ARGUMENTS_H
 
 #include "core/error.h"
+#include <stdbool.h>
 
 /* The errors that an argument is NULL, or negative; they return DAL_ARGUMENT. */
 dal_status dal__missing(dal_error *error, const char *function, const char *argument);
 dal_status dal__negative(dal_error *error, const char *function, const char *argument,
                          long long value);
 
+/* Where error is NULL, of several pointers: DAL_REQUIRE(a && b, NULL). */
 #define DAL_REQUIRE(pointer, error)                                                                \
     do {                                                                                           \
         if (!(pointer)) return dal__missing(error, __func__, #pointer);                            \
@@ -17,6 +19,9 @@ dal_status dal__negative(dal_error *error, const char *function, const char *arg
     do {                                                                                           \
         if ((count) < 0) return dal__negative(error, __func__, #count, count);                     \
     } while (0)
+
+/* Whether a point has coordinates and velocities. */
+static inline bool dal__has_state(const dal_point *at) { return at && at->q && at->v; }
 
 /* Checks that count settings are there and have names; what: how a message calls them, in the
  * plural. */

@@ -68,8 +68,7 @@ size_t dal__read_decimal(const char *text, size_t length, double *value)
 
 dal_status dal_parse_number(const char *text, size_t length, double *value)
 {
-    DAL_REQUIRE(text, NULL);
-    DAL_REQUIRE(value, NULL);
+    DAL_REQUIRE(text && value, NULL);
     const size_t sign = length > 0 && (text[0] == '+' || text[0] == '-');
     double size;
     const size_t read = dal__read_decimal(text + sign, length - sign, &size);
