@@ -1,6 +1,6 @@
 /* test_brackets.c - measures of the lift: brackets, Dirac's algebra, actions. */
 #include "analysis/dirac.h"
-#include "analysis/vectors.h"
+#include "core/vectors.h"
 #include "fixtures.h"
 #include <CUnit/CUnit.h>
 #include <math.h>

@@ -9,8 +9,8 @@
  *     G = A W^-1 A^T;     v <- v - W^-1 A^T G^-1 D until D = 0 (Newton) */
 #include "analysis/constraints.h"
 #include "analysis/differences.h"
-#include "analysis/vectors.h"
 #include "core/arguments.h"
+#include "core/vectors.h"
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>

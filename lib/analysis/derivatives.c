@@ -4,8 +4,8 @@
 #include "analysis/derivatives.h"
 #include "analysis/constraints.h"
 #include "analysis/differences.h"
-#include "analysis/vectors.h"
 #include "core/arguments.h"
+#include "core/vectors.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 /* differences.c - derivatives by central differences of order 8, with increments that adapt. */
 #include "analysis/differences.h"
-#include "analysis/vectors.h"
 #include "core/error.h"
+#include "core/vectors.h"
 #include <math.h>
 #include <stdbool.h>
 #include <string.h>

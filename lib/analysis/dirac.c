@@ -8,8 +8,8 @@
  * {phi_a, phi_b} over all constraints counts the second-class ones. */
 #include "analysis/dirac.h"
 #include "analysis/differences.h"
-#include "analysis/vectors.h"
 #include "core/arguments.h"
+#include "core/vectors.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

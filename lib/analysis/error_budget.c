@@ -5,8 +5,8 @@
  * solved further, and both step sizes in quad precision advance together. */
 #include "analysis/block_means.h"
 #include "analysis/error_shares.h"
-#include "analysis/vectors.h"
 #include "core/arguments.h"
+#include "core/vectors.h"
 #include "core/words.h"
 #include <math.h>
 #include <stdbool.h>

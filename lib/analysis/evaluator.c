@@ -1,6 +1,6 @@
 /* evaluator.c - a system with its parameters in force and memory to evaluate it in. */
-#include "analysis/vectors.h"
 #include "core/arguments.h"
+#include "core/vectors.h"
 #include "dalembert_analysis.h"
 #include <math.h>
 #include <stdio.h>

@@ -9,7 +9,7 @@
  *
  * A tone is taken when it lowers N/2 log of the sum of squares by tone_worth. */
 #include "analysis/trend_series.h"
-#include "core/vector.h"
+#include "core/vectors.h"
 #include <float.h>
 #include <math.h>
 #include <string.h>

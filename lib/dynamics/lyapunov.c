@@ -12,8 +12,8 @@
  * DOI 10.1016/j.camwa.2005.08.009). */
 #include "analysis/derivatives.h"
 #include "analysis/differences.h"
-#include "analysis/vectors.h"
 #include "core/arguments.h"
+#include "core/vectors.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -20,7 +20,7 @@
  *
  * The divisor is the square of that part of v that D leaves free, so F~ = F on D = 0. */
 #include "model/energy.h"
-#include "core/vector.h"
+#include "core/vectors.h"
 #include "expr/derivative.h"
 #include "expr/simplify.h"
 #include "expr/traversal.h"

@@ -8,6 +8,17 @@
 /* rows*columns zeroed doubles, or NULL (also when the product overflows); freed with free. */
 double *dal__numbers(size_t rows, size_t columns);
 
+/* a.b in four partial sums: one order of summation, with vector registers or without. */
+static inline double dal__dot_product(int n, const double *a, const double *b)
+{
+    double sum[4] = {0};
+    int i = 0;
+    for (; i + 4 <= n; i += 4)
+        for (int k = 0; k < 4; k++) sum[k] += a[i + k] * b[i + k];
+    for (; i < n; i++) sum[0] += a[i] * b[i];
+    return (sum[0] + sum[1]) + (sum[2] + sum[3]);
+}
+
 double dal__max_abs(const double *x, size_t count); /* max |x|; infinite if one is NaN */
 /* max_i |a - b| / max(1, |a|); infinite if one is NaN. */
 double dal__distance(const double *a, const double *b, size_t count);

@@ -1,5 +1,5 @@
 /* vectors.c - memory, norms, orthonormal rows, least squares and random numbers. */
-#include "analysis/vectors.h"
+#include "core/vectors.h"
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
