@@ -77,12 +77,7 @@ static double shift_along(const identity *id, int a, double *scratch, double *sh
         missing -= unit[i] * shift[i];
     }
     missing -= dal__evaluate(e->graph, e->constraint[a], id->point);
-    for (int b = 0; b < a; b++) {
-        double along = dal__dot_product(n, unit, scratch + b * n);
-        for (int i = 0; i < n; i++) unit[i] -= along * scratch[b * n + i];
-    }
-    double size = sqrt(dal__dot_product(n, unit, unit));
-    for (int i = 0; i < n; i++) unit[i] /= size;
+    const double size = dal__orthonormalise_row(scratch, a, n);
     for (int i = 0; i < n; i++) shift[i] += missing / size * unit[i];
     return fabs(missing / size);
 }
