@@ -8,7 +8,7 @@
  *
  *     G = A W^-1 A^T;     v <- v - W^-1 A^T G^-1 D until D = 0 (Newton) */
 #include "analysis/constraints.h"
-#include "analysis/differences.h"
+#include "analysis/derivatives.h"
 #include "core/arguments.h"
 #include "core/vectors.h"
 #include <math.h>

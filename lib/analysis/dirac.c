@@ -7,7 +7,7 @@
  * primary phi_b, is solved for mu by least squares; the residue must vanish.  The rank of
  * {phi_a, phi_b} over all constraints counts the second-class ones. */
 #include "analysis/dirac.h"
-#include "analysis/differences.h"
+#include "analysis/derivatives.h"
 #include "core/arguments.h"
 #include "core/vectors.h"
 #include <math.h>

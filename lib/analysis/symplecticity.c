@@ -9,7 +9,7 @@
  * For 1/e = 0, H = P.f(x) is linear in P = (p, pi): its flow is the motion and its adjoint, and
  * P.dx with dx from the tangent map is constant in time.  A symplectic method preserves it exactly,
  * for (dx, P) is then one tangent vector and one covector moved by the same map. */
-#include "analysis/differences.h"
+#include "analysis/derivatives.h"
 #include "core/arguments.h"
 #include "core/error.h"
 #include "core/vectors.h"
