@@ -64,6 +64,28 @@ dal_status dal__differentiate(dal__curve *curve, void *user, double d, int count
     return isinf(min) ? failure : DAL_OK;
 }
 
+typedef struct varied {
+    double *x, held;
+    dal__values *values;
+    void *user;
+} varied;
+
+static dal_status vary(void *user, double s, double *out)
+{
+    const varied *w = user;
+    *w->x = w->held + s;
+    const dal_status status = w->values(w->user, out);
+    *w->x = w->held;
+    return status;
+}
+
+dal_status dal__differentiate_by(double *x, dal__values *values, void *user, double d, int count,
+                                 double *scratch, double *out)
+{
+    varied w = {x, *x, values, user};
+    return dal__differentiate(vary, &w, d, count, scratch, out);
+}
+
 /* ---- the rate of a quantity along the motion ---- */
 
 typedef struct flow {
@@ -113,28 +135,10 @@ dal_status dal_measure_rate(dal_evaluator *evaluator, dal_callback *callback, in
 /* ---- derivatives ---- */
 
 /* A callback as a function of one component of (q, v, g), the others held. */
-typedef struct line {
-    dal_evaluator *evaluator;
-    dal_callback *callback;
-    double t;
-    double *x; /* [n + nw] */
-    int n, j;
-    double held;
-} line;
-
-static dal_status along_line(void *user, double s, double *out)
-{
-    line *l = user;
-    l->x[l->j] = l->held + s;
-    dal_status status =
-        dal_evaluator_call(l->evaluator, l->callback, l->t, l->x, l->x + l->n, NULL, out);
-    l->x[l->j] = l->held;
-    return status;
-}
-
 typedef struct comparison {
     dal_evaluator *evaluator;
     const dal_system *s;
+    dal_callback *callback; /* that is differentiated */
     int n, nw, m;
     double t;
     double *x;           /* [n + nw] the point */
@@ -142,17 +146,21 @@ typedef struct comparison {
     double *given, *scratch, *pi;
 } comparison;
 
+static dal_status values_of(void *user, double *out)
+{
+    const comparison *d = user;
+    return dal_evaluator_call(d->evaluator, d->callback, d->t, d->x, d->x + d->n, NULL, out);
+}
+
 /* differences[rows*(n+nw)] of a callback's first rows values. */
 static dal_status tabulate(comparison *d, dal_callback *callback, int rows)
 {
-    line l = {.evaluator = d->evaluator, .callback = callback, .t = d->t, .x = d->x, .n = d->n};
-    int columns = d->n + d->nw;
+    const int columns = d->n + d->nw;
     double *out = d->scratch + 3 * rows;
+    d->callback = callback;
     for (int j = 0; j < columns; j++) {
-        l.j = j;
-        l.held = l.x[j];
-        const double size = DAL__INCREMENT * fmax(1.0, j < l.n ? 0.0 : fabs(l.held));
-        DAL_TRY(dal__differentiate(along_line, &l, size, rows, d->scratch, out));
+        const double size = DAL__INCREMENT * fmax(1.0, j < d->n ? 0.0 : fabs(d->x[j]));
+        DAL_TRY(dal__differentiate_by(&d->x[j], values_of, d, size, rows, d->scratch, out));
         for (int i = 0; i < rows; i++) d->differences[i * columns + j] = out[i];
     }
     const double size = dal__max_abs(d->differences, (size_t)rows * (size_t)columns);

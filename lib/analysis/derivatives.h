@@ -19,6 +19,11 @@ typedef dal_status dal__curve(void *user, double s, double *out);
 dal_status dal__differentiate(dal__curve *curve, void *user, double d, int count, double *scratch,
                               double *out);
 
+/* That of values by *x, which is varied in place. */
+typedef dal_status dal__values(void *user, double *out);
+dal_status dal__differentiate_by(double *x, dal__values *values, void *user, double d, int count,
+                                 double *scratch, double *out);
+
 /* The derivatives by (q, v, g), differences[rows * (n + nw)], of the first rows values of a
  * callback at a point. [alloc] */
 dal_status dal__gradients(dal_evaluator *evaluator, dal_callback *callback, int rows,

@@ -17,20 +17,16 @@
 /* Brackets are 0 or of order 1, with noise near 1e-12. */
 static const double rank_tolerance = 1e-6;
 
-typedef struct varied {
+typedef struct observable {
     dal_observable_function *f;
     void *user;
     double *z;
-    int j;
-    double held;
-} varied;
+} observable;
 
-static dal_status vary(void *user, double s, double *out)
+static dal_status value_of(void *user, double *out)
 {
-    varied *w = user;
-    w->z[w->j] = w->held + s;
+    const observable *w = user;
     *out = w->f(w->user, w->z);
-    w->z[w->j] = w->held;
     return DAL_OK;
 }
 
@@ -39,10 +35,9 @@ void dal_measure_gradient(dal_observable_function *f, void *user, int count, dou
 {
     if (!f || !z || !gradient) return;
     double scratch[3];
-    for (int j = 0; j < count; j++) {
-        varied w = {f, user, z, j, z[j]};
-        dal__differentiate(vary, &w, DAL__INCREMENT, 1, scratch, &gradient[j]);
-    }
+    observable w = {f, user, z};
+    for (int j = 0; j < count; j++)
+        dal__differentiate_by(&z[j], value_of, &w, DAL__INCREMENT, 1, scratch, &gradient[j]);
 }
 
 double dal_poisson(const double *f, const double *g, int pairs)

@@ -23,8 +23,7 @@ typedef struct stepmap {
     dal_run *run;
     double t;
     double *z; /* [dimension] */
-    int dimension, j;
-    double held;
+    int dimension;
     dal_error *error;
 } stepmap;
 
@@ -63,26 +62,22 @@ static void close_map(stepmap *m)
 
 /* ---- symplecticity ---- */
 
-static dal_status vary(void *user, double s, double *out)
+static dal_status step_of(void *user, double *out)
 {
     stepmap *m = user;
-    m->z[m->j] = m->held + s;
-    dal_status status = step_from(m, m->t, m->z, out);
-    m->z[m->j] = m->held;
-    return status;
+    return step_from(m, m->t, m->z, out);
 }
 
 /* columns[j] = d(step)/dz_j. */
 static dal_status differentiate_step(stepmap *m, double increment, double *columns, double *scratch)
 {
     const int n = dal_run_system(m->run)->n;
-    for (m->j = 0; m->j < m->dimension; m->j++) {
-        m->held = m->z[m->j];
+    for (int j = 0; j < m->dimension; j++) {
         /* The scale of a coordinate is the way of a step. */
-        const double way = m->j < n ? dal_run_step_size(m->run) * m->z[n + m->j] : m->z[m->j];
+        const double way = j < n ? dal_run_step_size(m->run) * m->z[n + j] : m->z[j];
         const double d = increment * fmax(1.0, fabs(way));
-        double *out = columns + (size_t)m->j * (size_t)m->dimension;
-        DAL_TRY(dal__differentiate(vary, m, d, m->dimension, scratch, out));
+        double *out = columns + (size_t)j * (size_t)m->dimension;
+        DAL_TRY(dal__differentiate_by(&m->z[j], step_of, m, d, m->dimension, scratch, out));
     }
     return DAL_OK;
 }
