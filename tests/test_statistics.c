@@ -1,5 +1,4 @@
 /* test_statistics.c - what is kept of a quantity along a run, against closed forms. */
-#include "analysis/block_means.h"
 #include "analysis/statistics.h"
 #include <CUnit/CUnit.h>
 #include <math.h>

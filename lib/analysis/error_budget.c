@@ -3,8 +3,8 @@
  * All are sampled at the same times, at most SAMPLES of them, so that their series can be
  * subtracted.  Quad precision is slow and covers the first steps alone; there the run, the same
  * solved further, and both step sizes in quad precision advance together. */
-#include "analysis/block_means.h"
 #include "analysis/error_shares.h"
+#include "analysis/statistics.h"
 #include "core/arguments.h"
 #include "core/vectors.h"
 #include "core/words.h"

@@ -29,6 +29,17 @@ double dal__open_sum(const dal_statistics *statistics);
  * factor. */
 double dal__roughness(const dal_statistics *statistics);
 
+/* The 97.5 % quantile of Student's distribution. */
+double dal__student(double freedom);
+/* How many times fewer independent values n residues are worth, given the sum of their squares and
+ * that of the products of neighbours. */
+double dal__inflation(double square, double product, int n);
+
+/* The rate of least squares and its interval. */
+void dal__trend_line(const dal_statistics *statistics, dal_trend *trend);
+/* Half the range of x about a line of this rate, less what the line itself rises in a block. */
+double dal__trend_amplitude(const dal_statistics *statistics, double rate);
+
 /* Adds packs of DAL_PARTIAL_SUMS values each, the first of them at part 0 and at place `phase` of
  * its cycle; once per variant.  False, and the tally as it was, when a value is not finite or
  * beyond DAL__PLAIN_LIMIT. */

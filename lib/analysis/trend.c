@@ -21,9 +21,8 @@
  *
  * Noise is known to be white where differences of the means of neighbouring blocks are as small as
  * white noise of the spread within the blocks makes them. */
-#include "analysis/block_means.h"
 #include "analysis/statistics.h"
-#include "analysis/trend_drift.h"
+#include "analysis/trend_evidence.h"
 #include "analysis/trend_growth.h"
 #include "core/words.h"
 #include <float.h>
@@ -32,7 +31,7 @@
 enum { MIN_VALUES = 48, MIN_LENGTH = 8 };
 
 static const double tone_price = 0.8 * 15.0; /* nats */
-static const double interval_level = 0.966;  /* covers 95 %: trend_drift.c */
+static const double interval_level = 0.966;  /* covers 95 %: trend_evidence.c */
 static const double white_odds = 20.0, white_low = 0.55, white_high = 1.7;
 static const double memory_ratio = 3.0; /* of differences: more, and there is memory */
 

@@ -19,4 +19,12 @@ typedef struct dal__evidence {
 /* white_odds: how many times likelier than usual the noise is white. */
 void dal__trend_weigh(const dal__bins *bins, double white_odds, dal__evidence *evidence);
 
+typedef struct dal__interval {
+    double low, middle, high;
+} dal__interval;
+
+/* The drift over the whole series; between the quantiles (1 -+ level)/2, under all noises or under
+ * those alone that say there is no trend. */
+dal__interval dal__trend_drift(const dal__evidence *evidence, double level, bool no_trend);
+
 #endif
