@@ -1,5 +1,11 @@
-/* tape.c - the programs of one system, and the layout of their block of numbers. */
-#include "expr/schedule.h"
+/* tape.c - the programs of one system, and the layout of their block of numbers.
+ *
+ * Nodes are computed in the order of their indices.  One sweep down the indices finds what is used
+ * and where for the last time; one sweep up writes the instructions and assigns places in work
+ * to their results. */
+#include "expr/tape.h"
+#include "core/error.h"
+#include "expr/traversal.h"
 #include <stdlib.h>
 #include <string.h>
 
@@ -49,8 +55,180 @@ int dal__tapes_add(dal__tapes *tapes, const dal__node *outputs, int count)
     return tapes->count++;
 }
 
+/* ---- a schedule ---- */
+
+/* Arrays are indexed by node, [last_node + 1]. */
+typedef struct schedule {
+    const dal__graph *graph;
+    dal__node last_node;
+    bool *constant;     /* depends on parameters alone */
+    uint8_t *reached;   /* needed by any program; then, by the present one */
+    uint32_t *place;    /* in work; NOWHERE while a temporary is not alive */
+    dal__node *last;    /* the node whose instruction reads this one last */
+    uint32_t *free;     /* places of temporaries to be used again, as a stack */
+    size_t frees, used; /* temporaries: on that stack, and taken in all */
+} schedule;
+
+#define NOWHERE UINT32_MAX
+
+/* Starts from the outputs of all programs.  To be freed also when it failed. */
+static dal_status begin_schedule(schedule *s, const dal__tapes *tapes)
+{
+    *s = (schedule){.graph = tapes->graph, .last_node = tapes->graph->count};
+    const size_t count = (size_t)s->last_node + 1;
+    s->constant = calloc(count, sizeof *s->constant);
+    s->reached = calloc(count, sizeof *s->reached);
+    s->place = malloc(count * sizeof *s->place);
+    s->last = calloc(count, sizeof *s->last);
+    s->free = malloc(count * sizeof *s->free);
+    if (!s->constant || !s->reached || !s->place || !s->last || !s->free) return DAL_MEMORY;
+    s->place[0] = 0; /* of operands that are missing */
+    for (dal__node i = 1; i <= s->last_node; i++) {
+        const dal__record r = dal__inspect(s->graph, i);
+        const bool operands = s->constant[r.a] && (!r.b || s->constant[r.b]);
+        s->constant[i] = r.op == DAL__NUMBER   ? true
+                         : r.op == DAL__SYMBOL ? r.symbol < tapes->parameters
+                                               : operands;
+        s->place[i] = NOWHERE;
+    }
+    for (int p = 0; p < tapes->count; p++) {
+        const dal__tape *tape = &tapes->tape[p];
+        for (int k = 0; k < tape->outputs; k++) s->reached[tape->output[k]] = 1;
+    }
+    if (s->reached[0]) return DAL_ARGUMENT;
+    for (dal__node i = s->last_node; i > 0; i--) {
+        const dal__record r = dal__inspect(s->graph, i);
+        if (s->reached[i]) s->reached[r.a] = s->reached[r.b] = 1;
+    }
+    return DAL_OK;
+}
+
+static void free_schedule(schedule *s)
+{
+    free(s->constant);
+    free(s->reached);
+    free(s->place);
+    free(s->last);
+    free(s->free);
+}
+
+/* ---- instructions ---- */
+
+static dal__instruction instruction(const schedule *s, dal__node i, dal__lowered l)
+{
+    return (dal__instruction){(uint32_t)l.op, s->place[i], s->place[l.a], s->place[l.b],
+                              s->place[l.c]};
+}
+
+/* The program of what is constant along a run, whose places are set. */
+static dal_status schedule_hoisted(schedule *s, dal__tapes *tapes)
+{
+    dal__tape *tape = &tapes->hoisted;
+    tape->code = malloc((tapes->first_input + 1) * sizeof *tape->code);
+    if (!tape->code) return DAL_MEMORY;
+    for (dal__node i = 1; i <= s->last_node; i++) {
+        dal__lowered l = dal__lower(s->graph, i);
+        if (!s->reached[i] || !s->constant[i] || !l.a) continue;
+        tape->code[tape->length++] = instruction(s, i, l);
+    }
+    return DAL_OK;
+}
+
+/* Whether a node is computed by the program: neither constant nor an input. */
+static bool is_computed(const schedule *s, dal__node i)
+{
+    return s->reached[i] && !s->constant[i] && dal__inspect(s->graph, i).op != DAL__SYMBOL;
+}
+
+/* Fills reached and last for one program; returns how many instructions it needs at most. */
+static int find_lives(schedule *s, const dal__tape *tape, dal__node top)
+{
+    int computed = 0;
+    memset(s->reached, 0, (size_t)top + 1);
+    memset(s->last, 0, ((size_t)top + 1) * sizeof *s->last);
+    for (int k = 0; k < tape->outputs; k++) {
+        s->reached[tape->output[k]] = 1;
+        s->last[tape->output[k]] = top + 1;
+    }
+    for (dal__node i = top; i > 0; i--) {
+        if (!is_computed(s, i)) continue;
+        computed++;
+        const dal__lowered l = dal__lower(s->graph, i);
+        const dal__node operand[] = {l.a, l.b, l.c};
+        for (int k = 0; k < 3; k++) {
+            s->reached[operand[k]] = 1;
+            if (!s->last[operand[k]]) s->last[operand[k]] = i;
+        }
+    }
+    return computed;
+}
+
+/* Frees the place of a temporary that node i reads last. */
+static void release(schedule *s, const dal__tapes *tapes, dal__node x, dal__node i)
+{
+    uint32_t place = s->place[x];
+    if (!x || s->last[x] != i || place == NOWHERE || place < tapes->temporaries) return;
+    s->free[s->frees++] = place;
+    s->last[x] = 0;
+}
+
+static uint32_t allocate_place(schedule *s, dal__tapes *tapes)
+{
+    if (s->frees > 0) return s->free[--s->frees];
+    size_t place = tapes->temporaries + s->used++;
+    if (place >= tapes->workspace) tapes->workspace = place + 1;
+    return (uint32_t)place;
+}
+
+static void emit(schedule *s, dal__tapes *tapes, dal__tape *tape, dal__node i, dal__node top)
+{
+    dal__lowered l = dal__lower(s->graph, i);
+    /* sin or cos of the same argument, when the program wants both; else 0 */
+    dal__node pair = 0;
+    if (l.op == DAL__SIN) pair = dal__find(s->graph, DAL__COS, l.a, 0);
+    if (l.op == DAL__COS) pair = dal__find(s->graph, DAL__SIN, l.a, 0);
+    if (pair > top || !s->reached[pair]) pair = 0;
+    dal__instruction code = instruction(s, i, l);
+    release(s, tapes, l.a, i);
+    release(s, tapes, l.b, i);
+    release(s, tapes, l.c, i);
+    code.d = s->place[i] = allocate_place(s, tapes);
+    if (pair) {
+        s->place[pair] = allocate_place(s, tapes);
+        code.op = DAL__SINCOS;
+        code.d = s->place[l.op == DAL__SIN ? i : pair];
+        code.b = s->place[l.op == DAL__SIN ? pair : i];
+    }
+    tape->code[tape->length++] = code;
+}
+
+/* Schedules one program: temporaries occupy places until their last use; the workspace grows to hold
+ * them. */
+static dal_status schedule_tape(schedule *s, dal__tapes *tapes, dal__tape *tape)
+{
+    dal__node top = 0;
+    for (int k = 0; k < tape->outputs; k++)
+        if (tape->output[k] > top) top = tape->output[k];
+    tape->code = malloc(((size_t)find_lives(s, tape, top) + 1) * sizeof *tape->code);
+    if (!tape->code) return DAL_MEMORY;
+    s->frees = s->used = 0;
+    for (dal__node i = 1; i <= top; i++) {
+        if (!is_computed(s, i)) continue;
+        if (s->place[i] == NOWHERE)
+            emit(s, tapes, tape, i, top);
+        else /* came with its partner, but others may have read the argument since */
+            release(s, tapes, dal__lower(s->graph, i).a, i);
+    }
+    for (int k = 0; k < tape->outputs; k++) tape->place[k] = s->place[tape->output[k]];
+    for (dal__node i = 1; i <= top; i++)
+        if (s->place[i] >= tapes->temporaries) s->place[i] = NOWHERE;
+    return DAL_OK;
+}
+
+/* ---- the layout ---- */
+
 /* Assigns places to everything that is constant along a run, and to the inputs. */
-static dal_status lay_out(dal__tapes *tapes, dal__schedule *s)
+static dal_status lay_out(dal__tapes *tapes, schedule *s)
 {
     uint32_t place = (uint32_t)tapes->parameters;
     for (int pass = 0; pass < 2; pass++) { /* numbers, then what is hoisted */
@@ -75,7 +253,7 @@ static dal_status lay_out(dal__tapes *tapes, dal__schedule *s)
     return DAL_OK;
 }
 
-static dal_status compile_all(dal__tapes *tapes, dal__schedule *s)
+static dal_status compile_all(dal__tapes *tapes, schedule *s)
 {
     size_t numbers = 0;
     for (dal__node i = 1; i <= s->last_node; i++)
@@ -84,17 +262,17 @@ static dal_status compile_all(dal__tapes *tapes, dal__schedule *s)
     if (!tapes->number) return DAL_MEMORY;
     DAL_TRY(lay_out(tapes, s));
     tapes->workspace = tapes->temporaries;
-    DAL_TRY(dal__schedule_hoisted(s, tapes));
-    for (int i = 0; i < tapes->count; i++) DAL_TRY(dal__schedule_tape(s, tapes, &tapes->tape[i]));
+    DAL_TRY(schedule_hoisted(s, tapes));
+    for (int i = 0; i < tapes->count; i++) DAL_TRY(schedule_tape(s, tapes, &tapes->tape[i]));
     return DAL_OK;
 }
 
 dal_status dal__tapes_finish(dal__tapes *tapes)
 {
     DAL_TRY(tapes->graph->status);
-    dal__schedule s;
-    dal_status status = dal__schedule_create(&s, tapes);
+    schedule s;
+    dal_status status = begin_schedule(&s, tapes);
     if (status == DAL_OK) status = compile_all(tapes, &s);
-    dal__schedule_free(&s);
+    free_schedule(&s);
     return status;
 }
