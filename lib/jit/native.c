@@ -1,10 +1,16 @@
 /* native.c - runs and batches with compiled steps: generate, compile, load.
  *
+ * An object holds steps only, or observables only.  The observables have one of their own, since they
+ * are evaluated for as many states at a time as a register has lanes, whatever the steps do, and are
+ * the same for all methods.
+ *
  * The compiled function works on the persistent state of a run, or of a group of lanes, with the
  * same bits as the interpreter, so that it can be installed at any time; the interpreter explains
  * failures. */
+#include "codegen/emit_callbacks.h"
+#include "codegen/generate.h"
+#include "codegen/interface.h"
 #include "jit/cache.h"
-#include "jit/native_text.h"
 #include "run/batch.h"
 #include "run/run.h"
 #include <dlfcn.h>
@@ -13,15 +19,62 @@
 
 enum { PATH_SIZE = 1024 };
 
+#define PREFIX "dal_native"
+
+/* ---- texts ---- */
+
+/* Loops over components are unrolled up to this size of a state. */
+enum { MAX_UNROLLED = 64 };
+
+/* Declarations instead of headers, which take a compiler longer. */
+static void write_declarations(dal__generation *g)
+{
+    dal__buffer_append(
+        &g->text, "typedef __INT64_TYPE__ int64_t;\ntypedef __UINT64_TYPE__ uint64_t;\ntypedef "
+                  "__SIZE_TYPE__ size_t;\n"
+                  "#define INT64_MAX __INT64_MAX__\n#define INT64_MIN (-__INT64_MAX__ - 1)\n"
+                  "#define NULL ((void *)0)\n#define INFINITY __builtin_inf()\n"
+                  "#define NAN __builtin_nan(\"\")\n"
+                  "void *memcpy(void *, const void *, size_t);\n"
+                  "double sin(double), cos(double), tan(double), asin(double), acos(double);\n"
+                  "double atan(double), sinh(double), cosh(double), tanh(double), asinh(double);\n"
+                  "double exp(double), log(double), sqrt(double), fabs(double);\n"
+                  "double atan2(double, double), pow(double, double);\n");
+}
+
+/* A register full of lanes; the parameters are those of one lane. */
+static const char lanes_text[] =
+    "#define DAL_SPECIALISED 1\n"
+    "#if defined __AVX512F__\n#define DAL_LANES 8\n"
+    "#elif defined __AVX__\n#define DAL_LANES 4\n"
+    "#else\n#define DAL_LANES 2\n#endif\n"
+    "#define DAL_WORK(place) dal_num(((const double *)w)[place])\n"
+    "typedef enum dal_callback_code { DAL_EVAL_FIELD, DAL_EVAL_GAUGE } "
+    "dal_callback_code;\n";
+
+static void write_sizes(dal__generation *g)
+{
+    const dal__layout *k = &g->layout;
+    const bool small = k->dim <= MAX_UNROLLED;
+    dal__buffer_append(&g->text, small ? "#define DAL_UNROLL _Pragma(\"GCC unroll 64\")\n"
+                                       : "#define DAL_UNROLL\n");
+    dal__buffer_print(&g->text,
+                      "enum { DAL__N = %d, DAL__NW = %d, DAL__DIM = %d, DAL__LIFTED = %d, "
+                      "DAL__OBSERVABLES = %d };\n",
+                      k->n, k->nw, k->dim, k->lifted, dal_run_observables(g->run));
+}
+
+/* ---- objects ---- */
+
 static void release(void *handle) { dlclose(handle); }
 
 /* Of the functions in dal__native_code an object has one, named after the product.  ISO C has no
  * conversion from what dlsym finds. */
 static bool find(void *handle, dal__product product, dal__native_code *native)
 {
-    static const char *const symbols[] = {[DAL__LANES] = DAL__NATIVE_PREFIX "_lanes",
-                                          [DAL__TRACE] = DAL__NATIVE_PREFIX "_traced",
-                                          [DAL__OBSERVE] = DAL__NATIVE_PREFIX "_observables"};
+    static const char *const symbols[] = {[DAL__LANES] = PREFIX "_lanes",
+                                          [DAL__TRACE] = PREFIX "_traced",
+                                          [DAL__OBSERVE] = PREFIX "_observables"};
     void *found = handle ? dlsym(handle, symbols[product]) : NULL;
     if (product == DAL__LANES) memcpy(&native->steps, &found, sizeof found);
     if (product == DAL__TRACE) memcpy(&native->traced, &found, sizeof found);
@@ -43,32 +96,63 @@ static dal_status load(const char *path, dal__product product, dal__native_code 
     return DAL_OK;
 }
 
-/* An object that cannot be loaded is compiled again. */
-static dal_status compiled(const char *text, dal__product product,
-                           const dal_native_options *options, dal__native_code *native,
-                           dal_error *error)
+/* Compiles and loads a text; an object that cannot be loaded is compiled again. */
+static dal_status compile(dal__generation *g, const dal_native_options *options,
+                          dal__native_code *native, dal_error *error)
 {
-    char path[PATH_SIZE];
+    char path[PATH_SIZE], *text;
     dal_status status = DAL_IO;
+    DAL_TRY(dal__generation_finish(g, &text, error));
     for (int attempt = 0; attempt < 2 && status != DAL_OK; attempt++) {
         status = dal__cache_object(options, text, path, sizeof path, error);
         if (status != DAL_OK) break;
-        status = load(path, product, native, error);
+        status = load(path, g->product, native, error);
     }
+    free(text);
     return status;
 }
 
-static dal_status compiled_steps(const dal__layout *layout, dal__product product, int lanes,
-                                 const dal_native_options *options, dal__native_code *native,
-                                 dal_error *error)
+/* The steps alone, DAL__LANES or DAL__TRACE: the function PREFIX_lanes or PREFIX_traced. */
+static dal_status compile_steps(const dal__layout *layout, dal__product product, int lanes,
+                                const dal_native_options *options, dal__native_code *native,
+                                dal_error *error)
 {
     const dal_run_spec spec = {
         .system = layout->system, .method = layout->method, .options = layout->options};
-    char *text;
-    DAL_TRY(dal__generate_native(&spec, product, lanes, &text, error));
-    const dal_status status = compiled(text, product, options, native, error);
-    free(text);
-    return status;
+    dal__generation g = {.spec = &spec, .lanes = lanes, .product = product};
+    DAL_TRY(dal__generation_check(&g, PREFIX, error));
+    write_declarations(&g);
+    dal__write_template(&g, product == DAL__TRACE
+                                ? "long long PREFIX_traced(double *, const double *, double, long "
+                                  "long, unsigned *, int *, double *, long long);\n"
+                                : "long long PREFIX_lanes(double *, const double *, double, long "
+                                  "long, unsigned, unsigned *, int *);\n");
+    dal__write_steps(&g);
+    return compile(&g, options, native, error);
+}
+
+/* The observables of a run, wherever it stands: the function PREFIX_observables. */
+static dal_status compile_observables(const dal_run *run, const dal_native_options *options,
+                                      dal__native_code *native, dal_error *error)
+{
+    dal__generation g = {.run = run, .layout = run->layout, .lanes = 8, .product = DAL__OBSERVE};
+    if (g.layout.options.precision != DAL_DOUBLE)
+        return dal__fail(error, DAL_UNSUPPORTED, "observables in quad precision are not generated");
+    DAL_TRY(dal__generation_check(&g, PREFIX, error));
+    write_declarations(&g);
+    dal__write_template(
+        &g, "void PREFIX_observables(const double *, long long, long long, const double *, "
+            "double *);\n");
+    dal__write_compiler(&g);
+    dal__buffer_append(&g.text, lanes_text);
+    write_sizes(&g);
+    dal__buffer_append(&g.text, dal__source_text("num.h"));
+    dal__buffer_append(&g.text, dal__source_text("elementary.h"));
+    dal__emit_callbacks(&g);
+    if (g.layout.lifted) dal__buffer_append(&g.text, dal__source_text("observe_lift.inc"));
+    dal__write_observe(&g);
+    dal__write_template(&g, dal__source_text("observables.inc"));
+    return compile(&g, options, native, error);
 }
 
 /* ---- runs ---- */
@@ -77,7 +161,7 @@ dal_status dal_run_native(dal_run *run, const dal_native_options *options, dal_e
 {
     DAL_REQUIRE(run, error);
     if (dal_run_is_native(run)) return DAL_OK;
-    return compiled_steps(&run->layout, DAL__TRACE, 1, options, &run->native, error);
+    return compile_steps(&run->layout, DAL__TRACE, 1, options, &run->native, error);
 }
 
 int dal_run_is_native(const dal_run *run) { return run && run->native.traced != NULL; }
@@ -115,14 +199,10 @@ dal_status dal_run_native_observables(dal_run *run, const dal_native_options *op
 {
     DAL_REQUIRE(run, error);
     dal__native_code code = {0};
-    char *text;
     if (run->observations.states || dal_run_observables(run) == 0) return DAL_OK;
-    DAL_TRY(dal__generate_observables(&run->layout, run, &text, error));
-    dal_status status = compiled(text, DAL__OBSERVE, options, &code, error);
-    free(text);
-    if (status == DAL_OK)
-        status = allocate_observations(&run->observations, run->layout.dim,
-                                       dal_run_observables(run), error);
+    DAL_TRY(compile_observables(run, options, &code, error));
+    const dal_status status =
+        allocate_observations(&run->observations, run->layout.dim, dal_run_observables(run), error);
     if (status == DAL_OK)
         run->observations.code = code;
     else
@@ -138,7 +218,7 @@ dal_status dal_batch_native(dal_batch *batch, const dal_native_options *options,
     const int lanes = dal__batch_native_lanes(batch);
     dal__native_code native = {0};
     if (dal_batch_is_native(batch)) return DAL_OK;
-    DAL_TRY(compiled_steps(dal__batch_layout(batch), DAL__LANES, lanes, options, &native, error));
+    DAL_TRY(compile_steps(dal__batch_layout(batch), DAL__LANES, lanes, options, &native, error));
     const dal_status status = dal__batch_install(batch, lanes, &native, error);
     if (status != DAL_OK) dal__native_free(&native);
     return status;
