@@ -3,7 +3,7 @@
  * that depends on q (and one without positive diagonal), forces that depend on velocities, several
  * constraints, linear and not. */
 #include "expr/simplify.h"
-#include "model/callbacks.h"
+#include "model/programs.h"
 #include "model/model.h"
 #include "reference.h"
 

@@ -80,4 +80,10 @@ const dal__programs *dal__programs_of(const dal_system *system);
 /* Finishes the tapes and points the system to its callbacks, and to itself in quad precision. */
 dal_status dal__programs_finish(dal_model *model, dal__programs *programs, dal_system *system);
 
+/* Sets *call to the callbacks of a variant; what runs its programs. */
+#define DAL__CALLBACKS(name, variant, lanes, set)                                                  \
+    dal__run_program *name##_##variant(const dal__programs *programs, dal_callbacks *call);
+DAL__CALLBACKS(dal__fill_callbacks, x1, 1, BASE)
+DAL__VARIANT_LIST(DAL__CALLBACKS, dal__fill_callbacks)
+
 #endif

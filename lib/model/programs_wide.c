@@ -1,7 +1,7 @@
-/* callbacks_wide.c - the callbacks of a model's system, over num: they load the inputs of a
+/* programs_wide.c - the callbacks of a model's system, over num: they load the inputs of a
  * tape, run it, and leave NaN in the lanes where a checked pivot has vanished. */
 #include "kernel/num.h"
-#include "model/callbacks.h"
+#include "model/programs.h"
 
 /* Doubles that a number takes: one for each lane, or more for a longer one. */
 enum { WIDTH = sizeof(num) / sizeof(double) };
