@@ -11,104 +11,69 @@
 
 static dal__node number(dal__graph *graph, double value) { return dal__number(graph, value); }
 
-static dal__node square(dal__graph *graph, dal__node x) { return dal__node_mul(graph, x, x); }
+/* ---- the derivatives of one operation ---- */
+
+#define SUM(x, y)        dal__node_add(g, x, y)
+#define DIFFERENCE(x, y) dal__node_sub(g, x, y)
+#define PRODUCT(x, y)    dal__node_mul(g, x, y)
+#define RATIO(x, y)      dal__node_div(g, x, y)
+#define MINUS(x)         dal__node_neg(g, x)
+#define SQUARE(x)        dal__node_mul(g, x, x)
+#define OF(function, x)  dal__apply(g, DAL__##function, x, 0)
+
+/* k dy/da and k dy/db of y = a op b; of abs it is sign, and that of sign is 0. */
+#define DERIVATIVE_LIST(OF_BOTH, OF_ONE)                                                           \
+    OF_BOTH(ADD, k, k)                                                                             \
+    OF_BOTH(SUB, k, MINUS(k))                                                                      \
+    OF_BOTH(MUL, PRODUCT(k, b), PRODUCT(k, a))                                                     \
+    OF_BOTH(DIV, RATIO(k, b), MINUS(RATIO(PRODUCT(k, y), b)))                                      \
+    OF_BOTH(POW, PRODUCT(k, PRODUCT(b, dal__apply(g, DAL__POW, a, DIFFERENCE(b, one)))),           \
+            PRODUCT(k, PRODUCT(y, OF(LOG, a))))                                                    \
+    OF_BOTH(ATAN2, RATIO(PRODUCT(k, b), SUM(SQUARE(a), SQUARE(b))),                                \
+            MINUS(RATIO(PRODUCT(k, a), SUM(SQUARE(a), SQUARE(b)))))                                \
+    OF_ONE(NEG, MINUS(k))                                                                          \
+    OF_ONE(SQRT, RATIO(k, PRODUCT(number(g, 2.0), y)))                                             \
+    OF_ONE(EXP, PRODUCT(k, y))                                                                     \
+    OF_ONE(LOG, RATIO(k, a))                                                                       \
+    OF_ONE(SIN, PRODUCT(k, OF(COS, a)))                                                            \
+    OF_ONE(COS, MINUS(PRODUCT(k, OF(SIN, a))))                                                     \
+    OF_ONE(TAN, PRODUCT(k, SUM(one, SQUARE(y))))                                                   \
+    OF_ONE(ASIN, RATIO(k, root(g, 1.0, -1.0, a)))                                                  \
+    OF_ONE(ACOS, MINUS(RATIO(k, root(g, 1.0, -1.0, a))))                                           \
+    OF_ONE(ATAN, RATIO(k, SUM(one, SQUARE(a))))                                                    \
+    OF_ONE(SINH, PRODUCT(k, OF(COSH, a)))                                                          \
+    OF_ONE(COSH, PRODUCT(k, OF(SINH, a)))                                                          \
+    OF_ONE(TANH, PRODUCT(k, DIFFERENCE(one, SQUARE(y))))                                           \
+    OF_ONE(ASINH, RATIO(k, root(g, 1.0, 1.0, a)))                                                  \
+    OF_ONE(ABS, PRODUCT(k, OF(SIGN, a)))
 
 /* sqrt(c + sign x^2) */
-static dal__node root(dal__graph *graph, double c, double sign, dal__node x)
+static dal__node root(dal__graph *g, double c, double sign, dal__node x)
 {
-    dal__node x2 = dal__node_mul(graph, number(graph, sign), square(graph, x));
-    return dal__apply(graph, DAL__SQRT, dal__node_add(graph, number(graph, c), x2), 0);
-}
-
-/* k f'(a) of y = f(a), for the functions of one argument. */
-static dal__node by_argument(dal__graph *g, dal__op op, dal__node y, dal__node a, dal__node k)
-{
-    dal__node one = number(g, 1.0);
-    switch (op) {
-    case DAL__NEG:
-        return dal__node_neg(g, k);
-    case DAL__SQRT:
-        return dal__node_div(g, k, dal__node_mul(g, number(g, 2.0), y));
-    case DAL__EXP:
-        return dal__node_mul(g, k, y);
-    case DAL__LOG:
-        return dal__node_div(g, k, a);
-    case DAL__SIN:
-        return dal__node_mul(g, k, dal__apply(g, DAL__COS, a, 0));
-    case DAL__COS:
-        return dal__node_neg(g, dal__node_mul(g, k, dal__apply(g, DAL__SIN, a, 0)));
-    case DAL__TAN:
-        return dal__node_mul(g, k, dal__node_add(g, one, square(g, y)));
-    case DAL__ASIN:
-        return dal__node_div(g, k, root(g, 1.0, -1.0, a));
-    case DAL__ACOS:
-        return dal__node_neg(g, dal__node_div(g, k, root(g, 1.0, -1.0, a)));
-    case DAL__ATAN:
-        return dal__node_div(g, k, dal__node_add(g, one, square(g, a)));
-    case DAL__SINH:
-        return dal__node_mul(g, k, dal__apply(g, DAL__COSH, a, 0));
-    case DAL__COSH:
-        return dal__node_mul(g, k, dal__apply(g, DAL__SINH, a, 0));
-    case DAL__TANH:
-        return dal__node_mul(g, k, dal__node_sub(g, one, square(g, y)));
-    case DAL__ASINH:
-        return dal__node_div(g, k, root(g, 1.0, 1.0, a));
-    case DAL__ABS:
-        return dal__node_mul(g, k, dal__apply(g, DAL__SIGN, a, 0));
-    default:
-        return number(g, 0.0); /* SIGN is piecewise constant */
-    }
-}
-
-/* k dy/da of y = a op b. */
-static dal__node by_first(dal__graph *g, dal__op op, dal__node a, dal__node b, dal__node k)
-{
-    switch (op) {
-    case DAL__MUL:
-        return dal__node_mul(g, k, b);
-    case DAL__DIV:
-        return dal__node_div(g, k, b);
-    case DAL__POW: {
-        dal__node less = dal__apply(g, DAL__POW, a, dal__node_sub(g, b, number(g, 1.0)));
-        return dal__node_mul(g, k, dal__node_mul(g, b, less));
-    }
-    case DAL__ATAN2:
-        return dal__node_div(g, dal__node_mul(g, k, b),
-                             dal__node_add(g, square(g, a), square(g, b)));
-    default:
-        return k; /* ADD, SUB */
-    }
-}
-
-/* k dy/db of y = a op b. */
-static dal__node by_second(dal__graph *g, dal__op op, dal__node y, dal__node a, dal__node b,
-                           dal__node k)
-{
-    switch (op) {
-    case DAL__SUB:
-        return dal__node_neg(g, k);
-    case DAL__MUL:
-        return dal__node_mul(g, k, a);
-    case DAL__DIV:
-        return dal__node_neg(g, dal__node_div(g, dal__node_mul(g, k, y), b));
-    case DAL__POW:
-        return dal__node_mul(g, k, dal__node_mul(g, y, dal__apply(g, DAL__LOG, a, 0)));
-    case DAL__ATAN2:
-        return dal__node_neg(g, dal__node_div(g, dal__node_mul(g, k, a),
-                                              dal__node_add(g, square(g, a), square(g, b))));
-    default:
-        return k; /* ADD */
-    }
+    dal__node x2 = PRODUCT(number(g, sign), SQUARE(x));
+    return OF(SQRT, SUM(number(g, c), x2));
 }
 
 /* k times the derivative of node y by its operand (0 the first, 1 the second). */
-static dal__node partial(dal__graph *graph, dal__node y, int operand, dal__node k)
+static dal__node partial(dal__graph *g, dal__node y, int operand, dal__node k)
 {
-    dal__record r = graph->node[y];
-    dal__op op = (dal__op)r.op;
-    if (!r.b) return by_argument(graph, op, y, r.a, k);
-    return operand == 0 ? by_first(graph, op, r.a, r.b, k) : by_second(graph, op, y, r.a, r.b, k);
+    const dal__node a = g->node[y].a, b = g->node[y].b, one = number(g, 1.0);
+    switch ((dal__op)g->node[y].op) {
+#define OF_BOTH(code, first, second)                                                               \
+    case DAL__##code:                                                                              \
+        return operand == 0 ? first : second;
+#define OF_ONE(code, derivative)                                                                   \
+    case DAL__##code:                                                                              \
+        return derivative;
+        DERIVATIVE_LIST(OF_BOTH, OF_ONE)
+#undef OF_BOTH
+#undef OF_ONE
+    default:
+        return number(g, 0.0);
+    }
 }
+
+/* ---- all of a graph ---- */
 
 static int position(const int *symbols, int count, int symbol)
 {
