@@ -57,67 +57,56 @@ int dal__tapes_add(dal__tapes *tapes, const dal__node *outputs, int count)
 
 /* ---- a schedule ---- */
 
-/* Arrays are indexed by node, [last_node + 1]. */
+#define NOWHERE UINT32_MAX
+
+/* What is known of a node; of node 0 nothing. */
+typedef struct node_use {
+    uint32_t place;  /* in work; NOWHERE while a temporary is not alive */
+    dal__node last;  /* the node whose instruction reads this one last */
+    uint32_t vacant; /* number k of a stack of places that temporaries have left */
+    bool constant;   /* depends on parameters alone */
+    bool reached;    /* needed by any program; then, by the present one */
+} node_use;
+
 typedef struct schedule {
     const dal__graph *graph;
     dal__node last_node;
-    bool *constant;     /* depends on parameters alone */
-    uint8_t *reached;   /* needed by any program; then, by the present one */
-    uint32_t *place;    /* in work; NOWHERE while a temporary is not alive */
-    dal__node *last;    /* the node whose instruction reads this one last */
-    uint32_t *free;     /* places of temporaries to be used again, as a stack */
-    size_t frees, used; /* temporaries: on that stack, and taken in all */
+    node_use *use;          /* [last_node + 1] */
+    size_t vacancies, used; /* temporaries: on that stack, and taken in all */
 } schedule;
 
-#define NOWHERE UINT32_MAX
-
-/* Starts from the outputs of all programs.  To be freed also when it failed. */
+/* Starts from the outputs of all programs. [alloc] */
 static dal_status begin_schedule(schedule *s, const dal__tapes *tapes)
 {
     *s = (schedule){.graph = tapes->graph, .last_node = tapes->graph->count};
-    const size_t count = (size_t)s->last_node + 1;
-    s->constant = calloc(count, sizeof *s->constant);
-    s->reached = calloc(count, sizeof *s->reached);
-    s->place = malloc(count * sizeof *s->place);
-    s->last = calloc(count, sizeof *s->last);
-    s->free = malloc(count * sizeof *s->free);
-    if (!s->constant || !s->reached || !s->place || !s->last || !s->free) return DAL_MEMORY;
-    s->place[0] = 0; /* of operands that are missing */
+    node_use *use = s->use = calloc((size_t)s->last_node + 1, sizeof *use);
+    if (!use) return DAL_MEMORY;
     for (dal__node i = 1; i <= s->last_node; i++) {
         const dal__record r = dal__inspect(s->graph, i);
-        const bool operands = s->constant[r.a] && (!r.b || s->constant[r.b]);
-        s->constant[i] = r.op == DAL__NUMBER   ? true
-                         : r.op == DAL__SYMBOL ? r.symbol < tapes->parameters
-                                               : operands;
-        s->place[i] = NOWHERE;
+        const bool operands = use[r.a].constant && (!r.b || use[r.b].constant);
+        use[i].constant = r.op == DAL__NUMBER   ? true
+                          : r.op == DAL__SYMBOL ? r.symbol < tapes->parameters
+                                                : operands;
+        use[i].place = NOWHERE;
     }
     for (int p = 0; p < tapes->count; p++) {
         const dal__tape *tape = &tapes->tape[p];
-        for (int k = 0; k < tape->outputs; k++) s->reached[tape->output[k]] = 1;
+        for (int k = 0; k < tape->outputs; k++) use[tape->output[k]].reached = true;
     }
-    if (s->reached[0]) return DAL_ARGUMENT;
+    if (use[0].reached) return DAL_ARGUMENT;
     for (dal__node i = s->last_node; i > 0; i--) {
         const dal__record r = dal__inspect(s->graph, i);
-        if (s->reached[i]) s->reached[r.a] = s->reached[r.b] = 1;
+        if (use[i].reached) use[r.a].reached = use[r.b].reached = true;
     }
     return DAL_OK;
-}
-
-static void free_schedule(schedule *s)
-{
-    free(s->constant);
-    free(s->reached);
-    free(s->place);
-    free(s->last);
-    free(s->free);
 }
 
 /* ---- instructions ---- */
 
 static dal__instruction instruction(const schedule *s, dal__node i, dal__lowered l)
 {
-    return (dal__instruction){(uint32_t)l.op, s->place[i], s->place[l.a], s->place[l.b],
-                              s->place[l.c]};
+    return (dal__instruction){(uint32_t)l.op, s->use[i].place, s->use[l.a].place, s->use[l.b].place,
+                              s->use[l.c].place};
 }
 
 /* The program of what is constant along a run, whose places are set. */
@@ -128,7 +117,7 @@ static dal_status schedule_hoisted(schedule *s, dal__tapes *tapes)
     if (!tape->code) return DAL_MEMORY;
     for (dal__node i = 1; i <= s->last_node; i++) {
         dal__lowered l = dal__lower(s->graph, i);
-        if (!s->reached[i] || !s->constant[i] || !l.a) continue;
+        if (!s->use[i].reached || !s->use[i].constant || !l.a) continue;
         tape->code[tape->length++] = instruction(s, i, l);
     }
     return DAL_OK;
@@ -137,18 +126,17 @@ static dal_status schedule_hoisted(schedule *s, dal__tapes *tapes)
 /* Whether a node is computed by the program: neither constant nor an input. */
 static bool is_computed(const schedule *s, dal__node i)
 {
-    return s->reached[i] && !s->constant[i] && dal__inspect(s->graph, i).op != DAL__SYMBOL;
+    return s->use[i].reached && !s->use[i].constant && dal__inspect(s->graph, i).op != DAL__SYMBOL;
 }
 
 /* Fills reached and last for one program; returns how many instructions it needs at most. */
 static int find_lives(schedule *s, const dal__tape *tape, dal__node top)
 {
     int computed = 0;
-    memset(s->reached, 0, (size_t)top + 1);
-    memset(s->last, 0, ((size_t)top + 1) * sizeof *s->last);
+    for (dal__node i = 0; i <= top; i++) s->use[i].reached = false, s->use[i].last = 0;
     for (int k = 0; k < tape->outputs; k++) {
-        s->reached[tape->output[k]] = 1;
-        s->last[tape->output[k]] = top + 1;
+        s->use[tape->output[k]].reached = true;
+        s->use[tape->output[k]].last = top + 1;
     }
     for (dal__node i = top; i > 0; i--) {
         if (!is_computed(s, i)) continue;
@@ -156,8 +144,8 @@ static int find_lives(schedule *s, const dal__tape *tape, dal__node top)
         const dal__lowered l = dal__lower(s->graph, i);
         const dal__node operand[] = {l.a, l.b, l.c};
         for (int k = 0; k < 3; k++) {
-            s->reached[operand[k]] = 1;
-            if (!s->last[operand[k]]) s->last[operand[k]] = i;
+            s->use[operand[k]].reached = true;
+            if (!s->use[operand[k]].last) s->use[operand[k]].last = i;
         }
     }
     return computed;
@@ -166,15 +154,15 @@ static int find_lives(schedule *s, const dal__tape *tape, dal__node top)
 /* Frees the place of a temporary that node i reads last. */
 static void release(schedule *s, const dal__tapes *tapes, dal__node x, dal__node i)
 {
-    uint32_t place = s->place[x];
-    if (!x || s->last[x] != i || place == NOWHERE || place < tapes->temporaries) return;
-    s->free[s->frees++] = place;
-    s->last[x] = 0;
+    uint32_t place = s->use[x].place;
+    if (!x || s->use[x].last != i || place == NOWHERE || place < tapes->temporaries) return;
+    s->use[s->vacancies++].vacant = place;
+    s->use[x].last = 0;
 }
 
 static uint32_t allocate_place(schedule *s, dal__tapes *tapes)
 {
-    if (s->frees > 0) return s->free[--s->frees];
+    if (s->vacancies > 0) return s->use[--s->vacancies].vacant;
     size_t place = tapes->temporaries + s->used++;
     if (place >= tapes->workspace) tapes->workspace = place + 1;
     return (uint32_t)place;
@@ -187,17 +175,17 @@ static void emit(schedule *s, dal__tapes *tapes, dal__tape *tape, dal__node i, d
     dal__node pair = 0;
     if (l.op == DAL__SIN) pair = dal__find(s->graph, DAL__COS, l.a, 0);
     if (l.op == DAL__COS) pair = dal__find(s->graph, DAL__SIN, l.a, 0);
-    if (pair > top || !s->reached[pair]) pair = 0;
+    if (pair > top || !s->use[pair].reached) pair = 0;
     dal__instruction code = instruction(s, i, l);
     release(s, tapes, l.a, i);
     release(s, tapes, l.b, i);
     release(s, tapes, l.c, i);
-    code.d = s->place[i] = allocate_place(s, tapes);
+    code.d = s->use[i].place = allocate_place(s, tapes);
     if (pair) {
-        s->place[pair] = allocate_place(s, tapes);
+        s->use[pair].place = allocate_place(s, tapes);
         code.op = DAL__SINCOS;
-        code.d = s->place[l.op == DAL__SIN ? i : pair];
-        code.b = s->place[l.op == DAL__SIN ? pair : i];
+        code.d = s->use[l.op == DAL__SIN ? i : pair].place;
+        code.b = s->use[l.op == DAL__SIN ? pair : i].place;
     }
     tape->code[tape->length++] = code;
 }
@@ -211,17 +199,17 @@ static dal_status schedule_tape(schedule *s, dal__tapes *tapes, dal__tape *tape)
         if (tape->output[k] > top) top = tape->output[k];
     tape->code = malloc(((size_t)find_lives(s, tape, top) + 1) * sizeof *tape->code);
     if (!tape->code) return DAL_MEMORY;
-    s->frees = s->used = 0;
+    s->vacancies = s->used = 0;
     for (dal__node i = 1; i <= top; i++) {
         if (!is_computed(s, i)) continue;
-        if (s->place[i] == NOWHERE)
+        if (s->use[i].place == NOWHERE)
             emit(s, tapes, tape, i, top);
         else /* came with its partner, but others may have read the argument since */
             release(s, tapes, dal__lower(s->graph, i).a, i);
     }
-    for (int k = 0; k < tape->outputs; k++) tape->place[k] = s->place[tape->output[k]];
+    for (int k = 0; k < tape->outputs; k++) tape->place[k] = s->use[tape->output[k]].place;
     for (dal__node i = 1; i <= top; i++)
-        if (s->place[i] >= tapes->temporaries) s->place[i] = NOWHERE;
+        if (s->use[i].place >= tapes->temporaries) s->use[i].place = NOWHERE;
     return DAL_OK;
 }
 
@@ -234,21 +222,21 @@ static dal_status lay_out(dal__tapes *tapes, schedule *s)
     for (int pass = 0; pass < 2; pass++) { /* numbers, then what is hoisted */
         for (dal__node i = 1; i <= s->last_node; i++) {
             dal__record r = dal__inspect(tapes->graph, i);
-            bool wanted = s->constant[i] && s->reached[i] && r.op != DAL__SYMBOL;
+            bool wanted = s->use[i].constant && s->use[i].reached && r.op != DAL__SYMBOL;
             if (!wanted || (r.op == DAL__NUMBER) != (pass == 0)) continue;
             if (pass == 0) tapes->number[tapes->numbers++] = r.value;
-            s->place[i] = place++;
+            s->use[i].place = place++;
         }
     }
     tapes->first_input = place;
     tapes->temporaries = place + (size_t)tapes->inputs;
     for (dal__node i = 1; i <= s->last_node; i++) {
         dal__record r = dal__inspect(tapes->graph, i);
-        if (r.op != DAL__SYMBOL || !s->reached[i]) continue;
+        if (r.op != DAL__SYMBOL || !s->use[i].reached) continue;
         if (r.symbol >= tapes->parameters + tapes->inputs) return DAL_ARGUMENT;
-        s->place[i] = r.symbol < tapes->parameters
-                          ? (uint32_t)r.symbol
-                          : place + (uint32_t)(r.symbol - tapes->parameters);
+        s->use[i].place = r.symbol < tapes->parameters
+                              ? (uint32_t)r.symbol
+                              : place + (uint32_t)(r.symbol - tapes->parameters);
     }
     return DAL_OK;
 }
@@ -257,7 +245,7 @@ static dal_status compile_all(dal__tapes *tapes, schedule *s)
 {
     size_t numbers = 0;
     for (dal__node i = 1; i <= s->last_node; i++)
-        numbers += dal__inspect(tapes->graph, i).op == DAL__NUMBER && s->reached[i];
+        numbers += dal__inspect(tapes->graph, i).op == DAL__NUMBER && s->use[i].reached;
     tapes->number = malloc((numbers + 1) * sizeof *tapes->number);
     if (!tapes->number) return DAL_MEMORY;
     DAL_TRY(lay_out(tapes, s));
@@ -273,6 +261,6 @@ dal_status dal__tapes_finish(dal__tapes *tapes)
     schedule s;
     dal_status status = begin_schedule(&s, tapes);
     if (status == DAL_OK) status = compile_all(tapes, &s);
-    free_schedule(&s);
+    free(s.use);
     return status;
 }
