@@ -90,14 +90,6 @@ static dal_status graph_fault(const parser *p)
                         status == DAL_MEMORY ? "out of memory" : "the formula is too large");
 }
 
-static dal_status value_missing(const parser *p)
-{
-    const dal__token *t = &p->token;
-    if (t->kind == DAL__TOKEN_END)
-        return SYNTAX_ERROR(p, t, "a value is missing at the end of the formula");
-    return SYNTAX_ERROR(p, t, "a value is missing before '%c'", t->kind);
-}
-
 /* previous: the token before the present one. */
 static dal_status operator_missing(const parser *p, const dal__token *previous)
 {
@@ -159,24 +151,18 @@ static bool divides_by_zero(const dal__graph *graph, const frame *f, dal__node r
            r.value < 0.0;
 }
 
-/* Applies the operator on top of the stack to what is left and right of it. */
-static dal_status apply(parser *p, dal__node *value)
-{
-    const frame *f = &p->stack[--p->depth];
-    if (divides_by_zero(p->graph, f, *value)) return SYNTAX_ERROR(p, f, "division by zero");
-    const dal__op op = find_operator(f->kind)->op;
-    *value = op == DAL__NEG ? dal__node_neg(p->graph, *value)
-                            : dal__apply(p->graph, op, f->left, *value);
-    return *value ? DAL_OK : graph_fault(p);
-}
-
-/* Applies all operators that bind their right operand stronger than power. */
+/* Applies all operators on top of the stack that bind their right operand stronger than power. */
 static dal_status reduce(parser *p, int power, dal__node *value)
 {
     for (;;) {
-        const struct binding *top = find_operator(p->stack[p->depth - 1].kind);
+        const frame *f = &p->stack[p->depth - 1];
+        const struct binding *top = find_operator(f->kind);
         if (!top || top->power < power) return DAL_OK;
-        DAL_TRY(apply(p, value));
+        p->depth--;
+        if (divides_by_zero(p->graph, f, *value)) return SYNTAX_ERROR(p, f, "division by zero");
+        *value = top->op == DAL__NEG ? dal__node_neg(p->graph, *value)
+                                     : dal__apply(p->graph, top->op, f->left, *value);
+        if (!*value) return graph_fault(p);
     }
 }
 
@@ -240,7 +226,9 @@ static dal_status read_operand(parser *p, dal__node *value)
         default:
             if (p->token.kind == ')' && top->kind == 'f' && top->arguments == 0)
                 return wrong_arguments(p, top, 0);
-            return value_missing(p);
+            if (p->token.kind == DAL__TOKEN_END)
+                return SYNTAX_ERROR(p, &p->token, "a value is missing at the end of the formula");
+            return SYNTAX_ERROR(p, &p->token, "a value is missing before '%c'", p->token.kind);
         }
         DAL_TRY(*value ? DAL_OK : next(p));
     }

@@ -52,11 +52,10 @@ static dal_status parser_error(reader *r)
     return dal__fail_at(r->error, DAL_SYNTAX, line, column, "malformed YAML: %s", problem);
 }
 
-static dal_status here(reader *r, dal_status status, const char *message)
-{
-    return dal__fail_at(r->error, status, line_of(r->event.start_mark),
-                        column_of(r->event.start_mark), "%s", message);
-}
+/* An error at the present event. */
+#define HERE(r, status, ...)                                                                       \
+    dal__fail_at((r)->error, status, line_of((r)->event.start_mark),                               \
+                 column_of((r)->event.start_mark), __VA_ARGS__)
 
 static bool has_anchor(const yaml_event_t *event)
 {
@@ -79,7 +78,7 @@ static dal_status next(reader *r)
     if (r->holding) yaml_event_delete(&r->event);
     r->holding = yaml_parser_parse(&r->parser, &r->event);
     if (!r->holding) return parser_error(r);
-    if (has_anchor(&r->event)) return here(r, DAL_SYNTAX, "anchors and aliases are not supported");
+    if (has_anchor(&r->event)) return HERE(r, DAL_SYNTAX, "anchors and aliases are not supported");
     return DAL_OK;
 }
 
@@ -112,14 +111,12 @@ static dal_status read_scalar(reader *r, dal__entry *entry)
     size_t length = event->data.scalar.length;
     yaml_scalar_style_t style = event->data.scalar.style;
     size_t begin = offset_of(r, event->start_mark), end = offset_of(r, event->end_mark);
-    bool prose = entry->section == DAL_SECTION_TITLE || entry->section == DAL_SECTION_REFERENCE ||
-                 entry->section == DAL_SECTION_TAGS || entry->section == DAL_SECTION_MECHANICS ||
-                 entry->section == DAL_SECTION_COORDINATES;
+    const bool prose = dal__sections[entry->section].label == NULL;
     bool single = style == YAML_SINGLE_QUOTED_SCALAR_STYLE;
     bool quoted = single || style == YAML_DOUBLE_QUOTED_SCALAR_STYLE;
     entry->line = line_of(event->start_mark);
     entry->column = column_of(event->start_mark) + quoted;
-    if (memchr(value, 0, length)) return here(r, DAL_SYNTAX, "a text holds a NUL character");
+    if (memchr(value, 0, length)) return HERE(r, DAL_SYNTAX, "a text holds a NUL character");
     bool escaped = quoted && !single && memchr(r->text + begin, '\\', end - begin);
     if (prose || escaped || end < begin + 2 * (size_t)quoted) {
         entry->text = copy(r->model, value, length);
@@ -142,8 +139,8 @@ static dal_status read_key(reader *r, dal__entry *entry)
 {
     const char *value = (const char *)r->event.data.scalar.value;
     size_t length = r->event.data.scalar.length;
-    if (r->event.type != YAML_SCALAR_EVENT) return here(r, DAL_SYNTAX, "a name is expected here");
-    if (memchr(value, 0, length)) return here(r, DAL_SYNTAX, "a text holds a NUL character");
+    if (r->event.type != YAML_SCALAR_EVENT) return HERE(r, DAL_SYNTAX, "a name is expected here");
+    if (memchr(value, 0, length)) return HERE(r, DAL_SYNTAX, "a text holds a NUL character");
     entry->name = copy(r->model, value, length);
     entry->name_line = line_of(r->event.start_mark);
     entry->name_column = column_of(r->event.start_mark);
@@ -158,18 +155,15 @@ static dal_status wrong_form(reader *r, dal_section section)
                                         [DAL__LIST] = "a list",
                                         [DAL__MAPPING] = "a mapping of names",
                                         [DAL__MAPPINGS] = "a list of mappings"};
-    return dal__fail_at(r->error, DAL_SYNTAX, line_of(r->event.start_mark),
-                        column_of(r->event.start_mark), "%s must be %s", dal__section_name(section),
-                        forms[dal__section_form(section)]);
+    return HERE(r, DAL_SYNTAX, "%s must be %s", dal__section_name(section),
+                forms[dal__sections[section].form]);
 }
 
 /* The present event must be a scalar; it becomes the text of the entry. */
 static dal_status read_entry(reader *r, dal__entry entry)
 {
     if (r->event.type != YAML_SCALAR_EVENT)
-        return dal__fail_at(r->error, DAL_SYNTAX, line_of(r->event.start_mark),
-                            column_of(r->event.start_mark), "a text is expected in %s",
-                            dal__section_name(entry.section));
+        return HERE(r, DAL_SYNTAX, "a text is expected in %s", dal__section_name(entry.section));
     DAL_TRY(read_scalar(r, &entry));
     if (!entry.name) {
         entry.name_line = entry.line;
@@ -195,7 +189,7 @@ static dal_status read_mapping(reader *r, dal_section section, int item)
         dal__entry entry = {.section = section, .item = item};
         DAL_TRY(next(r));
         if (r->event.type == YAML_MAPPING_END_EVENT && item && count == 0)
-            return here(r, DAL_SYNTAX, "this mapping is empty");
+            return HERE(r, DAL_SYNTAX, "this mapping is empty");
         if (r->event.type == YAML_MAPPING_END_EVENT) return DAL_OK;
         DAL_TRY(read_key(r, &entry));
         DAL_TRY(next(r));
@@ -209,7 +203,7 @@ static dal_status read_mappings(reader *r, dal_section section)
     for (int item = 1;; item++) {
         DAL_TRY(next(r));
         if (r->event.type == YAML_SEQUENCE_END_EVENT && item == 1)
-            return here(r, DAL_SYNTAX, "this list is empty");
+            return HERE(r, DAL_SYNTAX, "this list is empty");
         if (r->event.type == YAML_SEQUENCE_END_EVENT) return DAL_OK;
         DAL_TRY(read_mapping(r, section, item));
     }
@@ -217,7 +211,7 @@ static dal_status read_mappings(reader *r, dal_section section)
 
 static dal_status read_section(reader *r, dal_section section)
 {
-    switch (dal__section_form(section)) {
+    switch (dal__sections[section].form) {
     case DAL__LIST:
         return read_list(r, section);
     case DAL__MAPPING:
@@ -266,15 +260,15 @@ static dal_status read_document(reader *r)
 {
     DAL_TRY(next(r)); /* the stream */
     DAL_TRY(next(r));
-    if (r->event.type == YAML_STREAM_END_EVENT) return here(r, DAL_SYNTAX, "the file is empty");
+    if (r->event.type == YAML_STREAM_END_EVENT) return HERE(r, DAL_SYNTAX, "the file is empty");
     DAL_TRY(next(r));
     if (r->event.type != YAML_MAPPING_START_EVENT)
-        return here(r, DAL_SYNTAX, "a system file is a mapping, as 'coordinates: [x, y]'");
+        return HERE(r, DAL_SYNTAX, "a system file is a mapping, as 'coordinates: [x, y]'");
     DAL_TRY(read_sections(r));
     DAL_TRY(next(r)); /* the end of the document */
     DAL_TRY(next(r));
     if (r->event.type == YAML_STREAM_END_EVENT) return DAL_OK;
-    return here(r, DAL_SYNTAX, "a second document begins here: a system file has one");
+    return HERE(r, DAL_SYNTAX, "a second document begins here: a system file has one");
 }
 
 static dal_status check_text(const char *text, size_t length, dal_error *error)

@@ -16,16 +16,6 @@
 
 /* ---- one formula ---- */
 
-/* How a message calls the formulas of a section, before their name or number. */
-static const char *const labels[DAL_SECTION_COUNT] = {
-    [DAL_SECTION_PARAMETERS] = "parameter",  [DAL_SECTION_LET] = "let",
-    [DAL_SECTION_LAGRANGIAN] = "lagrangian", [DAL_SECTION_ACCELERATIONS] = "acceleration of",
-    [DAL_SECTION_FORCES] = "force on",       [DAL_SECTION_CONSTRAINTS] = "constraint",
-    [DAL_SECTION_GAUGE] = "gauge",           [DAL_SECTION_START] = "start of",
-    [DAL_SECTION_INVARIANTS] = "invariant",  [DAL_SECTION_EXACT] = "exact solution for",
-    [DAL_SECTION_REACTIONS] = "reaction",    [DAL_SECTION_PICTURE] = "picture",
-};
-
 /* Adds the name of the entry to the message, and its place in the file to that of the error. */
 static dal_status locate(const dal_model *model, const dal__entry *entry, dal_error *error,
                          const dal_error *inner)
@@ -38,12 +28,12 @@ static dal_status locate(const dal_model *model, const dal__entry *entry, dal_er
         snprintf(name, sizeof name, " %d on %.80s", entry->item, entry->name);
     else if (entry->name)
         snprintf(name, sizeof name, " %.80s", entry->name);
-    else if (dal__section_form(entry->section) == DAL__LIST)
+    else if (dal__sections[entry->section].form == DAL__LIST)
         snprintf(name, sizeof name, " %d", number);
     int line = entry->line ? entry->line : 1, column = entry->line ? entry->column : 1;
     return dal__fail_at(error, inner->status, line + inner->line - 1,
                         inner->line == 1 ? column + inner->column - 1 : inner->column, "%s%s: %s",
-                        labels[entry->section], name, inner->message);
+                        dal__sections[entry->section].label, name, inner->message);
 }
 
 /* Parses the text of an entry; the message of an error gets the entry's name and place. */

@@ -17,30 +17,27 @@ const char *dal__section_name(dal_section section)
     DAL__RETURN_WORD(DAL_SECTION_LIST, DAL__SECOND, section, "?");
 }
 
-dal__form dal__section_form(dal_section section)
-{
-    switch (section) {
-    case DAL_SECTION_TITLE:
-    case DAL_SECTION_REFERENCE:
-    case DAL_SECTION_LAGRANGIAN:
-    case DAL_SECTION_MECHANICS:
-        return DAL__SCALAR;
-    case DAL_SECTION_COORDINATES:
-    case DAL_SECTION_CONSTRAINTS:
-    case DAL_SECTION_TAGS:
-        return DAL__LIST;
-    case DAL_SECTION_REACTIONS:
-        return DAL__MAPPINGS;
-    default:
-        return DAL__MAPPING;
-    }
-}
+const dal__section dal__sections[DAL_SECTION_COUNT] = {
+    [DAL_SECTION_TITLE] = {DAL__SCALAR, NULL},
+    [DAL_SECTION_REFERENCE] = {DAL__SCALAR, NULL},
+    [DAL_SECTION_COORDINATES] = {DAL__LIST, NULL},
+    [DAL_SECTION_PARAMETERS] = {DAL__MAPPING, "parameter"},
+    [DAL_SECTION_LET] = {DAL__MAPPING, "let"},
+    [DAL_SECTION_LAGRANGIAN] = {DAL__SCALAR, "lagrangian"},
+    [DAL_SECTION_ACCELERATIONS] = {DAL__MAPPING, "acceleration of"},
+    [DAL_SECTION_FORCES] = {DAL__MAPPING, "force on"},
+    [DAL_SECTION_CONSTRAINTS] = {DAL__LIST, "constraint"},
+    [DAL_SECTION_REACTIONS] = {DAL__MAPPINGS, "reaction"},
+    [DAL_SECTION_MECHANICS] = {DAL__SCALAR, NULL},
+    [DAL_SECTION_GAUGE] = {DAL__MAPPING, "gauge"},
+    [DAL_SECTION_START] = {DAL__MAPPING, "start of"},
+    [DAL_SECTION_INVARIANTS] = {DAL__MAPPING, "invariant"},
+    [DAL_SECTION_EXACT] = {DAL__MAPPING, "exact solution for"},
+    [DAL_SECTION_TAGS] = {DAL__LIST, NULL},
+    [DAL_SECTION_PICTURE] = {DAL__MAPPING, "picture"},
+};
 
-bool dal__section_named(dal_section section)
-{
-    const dal__form form = dal__section_form(section);
-    return form == DAL__MAPPING || form == DAL__MAPPINGS;
-}
+bool dal__section_named(dal_section section) { return dal__sections[section].form >= DAL__MAPPING; }
 
 /* ---- memory ---- */
 
@@ -158,7 +155,7 @@ static dal_status check_duplicate(const dal_model *model, const dal__entry *entr
     for (int k = 0; k < model->count; k++) {
         const dal__entry *other = &model->entries[k];
         if (other->section != entry->section || other->item != entry->item) continue;
-        if (dal__section_form(entry->section) == DAL__SCALAR)
+        if (dal__sections[entry->section].form == DAL__SCALAR)
             return dal__fail_at(error, DAL_MODEL, DAL__AT_NAME(entry), "duplicate %s", section);
         if (strcmp(named ? other->name : other->text, name) == 0)
             return dal__fail_at(error, DAL_MODEL, DAL__AT_NAME(entry), "duplicate '%.80s' in %s",

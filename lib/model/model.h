@@ -17,12 +17,16 @@ enum {
     DAL__MAX_LETTERS = 100      /* of a name; pi_NAME fits into every buffer of 128 */
 };
 
-/* How the entries of a section stand in a file. */
+/* How the entries of a section stand in a file; in mappings each has a name and a text. */
 typedef enum dal__form { DAL__SCALAR, DAL__LIST, DAL__MAPPING, DAL__MAPPINGS } dal__form;
-dal__form dal__section_form(dal_section section);
-/* Whether each entry has a name and a text. */
-bool dal__section_named(dal_section section);
+
+typedef struct dal__section {
+    dal__form form;
+    const char *label; /* how a message calls a formula of it; NULL: its texts are no formulas */
+} dal__section;
+extern const dal__section dal__sections[DAL_SECTION_COUNT];
 const char *dal__section_name(dal_section section);
+bool dal__section_named(dal_section section); /* whether it has mappings */
 
 /* One text of a model, and where it and its name stood. */
 typedef struct dal__entry {
