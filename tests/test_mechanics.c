@@ -3,8 +3,8 @@
  * that depends on q (and one without positive diagonal), forces that depend on velocities, several
  * constraints, linear and not. */
 #include "expr/simplify.h"
-#include "model/programs.h"
 #include "model/model.h"
+#include "model/programs.h"
 #include "reference.h"
 
 #include <CUnit/Basic.h>

@@ -1,5 +1,5 @@
-/* derivatives.c - derivatives by central differences of order 8, with increments that adapt, and the
- * derivatives that a system returns compared with them.
+/* derivatives.c - derivatives by central differences of order 8, with increments that adapt, and
+ * the derivatives that a system returns compared with them.
  *
  *     d/dt f(q,v,t) along the motion = d/ds f(q + s v, v + s F, t + s) at s = 0 */
 #include "analysis/derivatives.h"

@@ -190,8 +190,8 @@ static void emit(schedule *s, dal__tapes *tapes, dal__tape *tape, dal__node i, d
     tape->code[tape->length++] = code;
 }
 
-/* Schedules one program: temporaries occupy places until their last use; the workspace grows to hold
- * them. */
+/* Schedules one program: temporaries occupy places until their last use; the workspace grows to
+ * hold them. */
 static dal_status schedule_tape(schedule *s, dal__tapes *tapes, dal__tape *tape)
 {
     dal__node top = 0;

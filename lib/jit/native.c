@@ -1,8 +1,8 @@
 /* native.c - runs and batches with compiled steps: generate, compile, load.
  *
- * An object holds steps only, or observables only.  The observables have one of their own, since they
- * are evaluated for as many states at a time as a register has lanes, whatever the steps do, and are
- * the same for all methods.
+ * An object holds steps only, or observables only.  The observables have one of their own, since
+ * they are evaluated for as many states at a time as a register has lanes, whatever the steps do,
+ * and are the same for all methods.
  *
  * The compiled function works on the persistent state of a run, or of a group of lanes, with the
  * same bits as the interpreter, so that it can be installed at any time; the interpreter explains
