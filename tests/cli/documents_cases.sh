@@ -1,7 +1,7 @@
 # The command lines of README.md and docs/ do what they say: those that begin with build/dalembert,
 # in their order, in a directory of each document that holds the files it shows.  A description
 # stands behind two blanks.  Without what follows it, `study` runs the built-in study, which takes
-# too long here.
+# too long here.  Each indented line between the marks of `printed` is a line that they print.
 
 for document in "$here/../../README.md" "$here"/../../docs/*.md; do
     case_is "the commands of $(basename "$document")"
@@ -19,7 +19,13 @@ for document in "$here/../../README.md" "$here"/../../docs/*.md; do
         report*) there gnuplot || continue ;;
         esac
         eval "try 0 $command"
+        cat out err >>printed
     done 3<commands
+    sed -n '/^<!-- printed -->$/,/^<!-- end of printed -->$/s/^    //p' "$document" |
+        while IFS= read -r line; do
+            grep -Fqx -- "$line" printed || echo "$line"
+        done >missing
+    holds "a command prints: $(head -1 missing)" test ! -s missing
     cd .. || exit 1
 done
 
