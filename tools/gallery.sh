@@ -1,6 +1,6 @@
 #!/bin/sh
 # gallery.sh PROGRAM DIR - the pictures of the README and of docs/, as SVG in DIR: figures of the
-# reports of a study, bench/studies/gallery.yaml, of two runs, and of the study and the run of the
+# reports of a study, bench/studies/gallery.yaml, of two runs, a section, and of the study and the run of the
 # tutorial.  The same machine draws the same bytes.
 set -e
 case $1 in /*) program=$1 ;; *) program=$PWD/$1 ;; esac
@@ -12,6 +12,8 @@ mkdir -p "$2"
 "$program" study bench/studies/gallery.yaml --output "$work/study" >/dev/null
 "$program" run falling-disk --integrator gauss8 --step 0.01 --time 20 --samples 400 --output "$work/disk"
 "$program" run snakeboard --integrator gauss8 --step 0.01 --time 12 --samples 240 --output "$work/board"
+"$program" section pendulum-cvt --on "sin(xi)" --direction up --integrator gni --step 0.1 \
+    --time 1000 --axes "x,x'" --output "$work/section" 2>/dev/null
 top=$PWD
 cd "$work"
 awk -f "$top/tools/yaml_blocks.awk" "$top/docs/tutorial.md"
@@ -25,6 +27,7 @@ cp "$work/study/report/transmission-E.svg" "$2/drift.svg"
 cp "$work/study/report/sleigh-work.svg" "$2/work.svg"
 cp "$work/disk/report/path.svg" "$2/disk.svg"
 cp "$work/board/report/path.svg" "$2/board.svg"
+cp "$work/section/section.svg" "$2/section.svg"
 cp "$work/skate/report/path.svg" "$2/skate_path.svg"
 cp "$work/skate-study/report/skate-D.svg" "$2/skate_constraint.svg"
 cp "$work/skate-study/report/skate-E.svg" "$2/skate_energy.svg"
