@@ -48,3 +48,5 @@ for document in README.md CONTRIBUTING.md docs/*.md; do
     done
 done
 [ "$(wc -m <README.md)" -le 8000 ] || echo "README.md: longer than 8000 characters"
+version=$("$program" --version | sed 's/.* //')
+grep -qx "version: $version" CITATION.cff || echo "CITATION.cff: the version is not $version"
