@@ -18,6 +18,7 @@
 #     make bench            the timed comparisons of bench/cases.txt; bench-smoke, bench-long
 #     make gallery          the pictures of the README and of docs/
 #     make references       the parts of docs/ that the program prints; CHOOSING=1: and its study's tables
+#     make docs             build/site: docs/ and the reference of the public headers as web pages
 #
 # BUILD=dir puts everything elsewhere; CFLAGS=-O3\ -march=native changes the speed, never a bit;
 # V=1 shows the commands.  All processors work on a build unless there is a -j.
@@ -287,6 +288,10 @@ COUNT ?= 20
 mutants:
 	@CC="$(CC)" BUILD="$(BUILD)" sh tools/mutants/mutants.sh "$(MODULE)" $(SEED) $(COUNT)
 
+# The documents, and the reference of the public headers.
+docs:
+	@sh tools/site/site.sh $(BUILD)
+
 # The pictures of the README and of docs/
 gallery: all
 	@sh tools/gallery.sh $(PROGRAM) docs/gallery
@@ -330,7 +335,7 @@ clean:
 include bench/bench.mk
 
 FORCE:
-.PHONY: all help check check-bits check-browser check-sanitize check-valgrind fuzz run-fuzzers gallery references lint mutants install uninstall clean FORCE mpi
+.PHONY: all help check check-bits check-browser check-sanitize check-valgrind docs fuzz run-fuzzers gallery references lint mutants install uninstall clean FORCE mpi
 .SECONDARY:
 
 -include $(LIB_OBJ:.o=.d) $(CLI_OBJ:.o=.d) $(TEST_OBJ:.o=.d) $(FUZZERS:%=$(BUILD)/tests/%.d)

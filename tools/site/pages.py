@@ -1,0 +1,101 @@
+"""pages.py OUT - collects the pages of the site in OUT and writes OUT.yml for mkdocs.
+
+The documents keep the links that they have in the repository.  Here a link to another document
+leads to its page, one to a public header to the reference, one to any other file to a page that
+shows it.  The order of the pages is that of docs/index.md, which must name every document.
+"""
+import glob
+import json
+import os
+import re
+import shutil
+import sys
+
+# Documents outside of docs/, and their pages.
+OUTSIDE = {'README.md': 'index.md', 'CONTRIBUTING.md': 'contributing.md', 'CHANGELOG.md': 'changes.md'}
+LANGUAGE = {'.c': 'c', '.h': 'c', '.yaml': 'yaml'}
+LINK = re.compile(r'\]\(((?!https?:|mailto:|#)[^)#\s]+)(#[^)]*)?\)')
+
+
+class Site:
+    def __init__(self, out):
+        self.out, self.sources = out, {}
+
+    def write(self, name, text):
+        path = os.path.join(self.out, name)
+        os.makedirs(os.path.dirname(path), exist_ok=True)
+        with open(path, 'w', encoding='utf-8') as file:
+            file.write(text)
+
+    def target(self, path):
+        """The page or file of the site that stands for a path of the repository."""
+        if path in OUTSIDE:
+            return OUTSIDE[path]
+        if path.startswith('docs/'):
+            return path[len('docs/'):]
+        if path == 'include':
+            return 'reference/modules.html'
+        if path.startswith('include/'):
+            return 'reference/group__%s.html' % os.path.basename(path)[:-2].replace('_', '__')
+        self.sources[path] = 'files/%s.md' % path.replace('.', '_')
+        return self.sources[path]
+
+    def page(self, document, name):
+        """Writes a document as a page, with its links changed."""
+        def link(match):
+            path = os.path.normpath(os.path.join(os.path.dirname(document), match.group(1)))
+            target = os.path.relpath(self.target(path), os.path.dirname(name) or '.')
+            return '](%s%s)' % (target, match.group(2) or '')
+        with open(document, encoding='utf-8') as file:
+            self.write(name, LINK.sub(link, file.read()))
+
+    def show(self, path, name):
+        """Writes a page that shows a file, or the names in a directory."""
+        if os.path.isdir(path):
+            text = '\n'.join(sorted(os.listdir(path)))
+        else:
+            with open(path, encoding='utf-8') as file:
+                text = file.read()
+        language = LANGUAGE.get(os.path.splitext(path)[1], 'text')
+        self.write(name, '# %s\n\n```%s\n%s\n```\n' % (path, language, text.rstrip('\n')))
+
+
+def navigation(index):
+    """The headings and links of docs/index.md, in their order."""
+    groups = []
+    for line in index.split('\n'):
+        if re.match(r'[A-Z].*:$', line):
+            groups.append((line.rstrip(':'), []))
+        item = re.match(r'- \[(.*?)\]\((.*?)\)', line)
+        if item:
+            groups[-1][1].append({item.group(1): item.group(2)})
+    return groups
+
+
+def main(out):
+    site = Site(out)
+    for name in sorted(glob.glob('docs/*.md')):
+        site.page(name, os.path.basename(name))
+    for name, page in OUTSIDE.items():
+        if page != 'index.md':
+            site.page(name, page)
+    shutil.copytree('docs/gallery', os.path.join(out, 'gallery'), dirs_exist_ok=True)
+    shutil.copy('tools/site/site.css', out)
+    for path in sorted(site.sources):
+        site.show(path, site.sources[path])
+
+    with open(os.path.join(out, 'index.md'), encoding='utf-8') as file:
+        groups = navigation(file.read())
+    listed = {target.split('#')[0] for _, items in groups for item in items for target in item.values()}
+    for name in sorted(glob.glob('docs/*.md')):
+        if os.path.basename(name) not in listed | {'index.md'}:
+            sys.exit('%s: docs/index.md does not name it' % name)
+    with open('tools/site/mkdocs.json', encoding='utf-8') as file:
+        settings = json.load(file)
+    settings['docs_dir'] = os.path.abspath(out)
+    settings['nav'] = [{'Home': 'index.md'}] + [{title: items} for title, items in groups]
+    with open(out + '.yml', 'w', encoding='utf-8') as file:
+        json.dump(settings, file, indent=1)
+
+
+main(sys.argv[1])

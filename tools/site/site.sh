@@ -1,0 +1,31 @@
+#!/bin/sh
+# site.sh BUILD - makes BUILD/site from docs/ (mkdocs) and from the public headers (Doxygen), and
+# follows every link in it.  A warning of a tool, an undocumented declaration or a broken link fails.
+cd "$(dirname "$0")/../.." || exit 2
+pages=$1/pages site=$1/site
+
+missing=
+for tool in mkdocs doxygen linkchecker; do
+    command -v $tool >/dev/null || missing="$missing $tool"
+done
+mkdocs build --help 2>/dev/null | grep -q '[[|]material[]|]' || missing="$missing mkdocs-material"
+if [ -n "$missing" ]; then
+    echo "make docs needs$missing: sudo apt-get install --no-install-recommends$missing" >&2
+    exit 1
+fi
+
+logged() { "$@" >"$pages.log" 2>&1 || { cat "$pages.log" >&2; exit 1; }; }
+
+rm -rf "$pages" "$site"
+mkdir -p "$pages" || exit 1
+export PAGES="$pages"
+logged doxygen tools/site/Doxyfile
+python3 tools/site/pages.py "$pages" || exit 1
+logged mkdocs build --config-file "$pages.yml" --site-dir "$(realpath "$pages/..")/site"
+
+# As root the checker becomes nobody, who may not read here.
+copy=$(mktemp -d) || exit 1
+trap 'rm -rf "$copy"' EXIT
+cp -r "$site" "$copy" && chmod -R a+rX "$copy"
+logged linkchecker --config tools/site/linkchecker.ini "$copy/site/index.html"
+echo "$site/index.html"
