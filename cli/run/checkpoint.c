@@ -41,18 +41,17 @@ enum {
 
 static const uint64_t magic = UINT64_C(0x33304b48434c4144); /* "DALCHK03" */
 
-/* ---- saving -------------------------------------------------------------------------------- */
-
-static unsigned char *write_words(unsigned char *to, const void *words, size_t count)
+/* From memory to the bytes of a file, or back: where that exchanges bytes, both do alike. */
+static void copy_words(void *to, const void *from, size_t count)
 {
-    const unsigned char *from = words;
-    for (size_t i = 0; i < count; i++, from += WORD, to += WORD) {
+    for (size_t i = 0; i < count; i++) {
         uint64_t word;
-        memcpy(&word, from, sizeof word);
-        write_le64(to, word);
+        memcpy(&word, (const char *)from + i * WORD, WORD);
+        write_le64((unsigned char *)to + i * WORD, word);
     }
-    return to;
 }
+
+/* ---- saving -------------------------------------------------------------------------------- */
 
 int checkpoint_save(const run_directory *dir, const run_position *position, const dal_run *run,
                     const dal_statistics *statistics, int count)
@@ -70,11 +69,12 @@ int checkpoint_save(const run_directory *dir, const run_position *position, cons
                                       .layout = DAL_STATISTICS_LAYOUT};
     const size_t words = HEADER_WORDS + state_words + (size_t)count * STATISTICS_WORDS;
     unsigned char *bytes = cli_malloc((words + 1) * WORD);
-    unsigned char *end = write_words(bytes, &header, HEADER_WORDS);
-    end = write_words(end, state, state_words);
-    end = write_words(end, statistics, (size_t)count * STATISTICS_WORDS);
+    unsigned char *body = bytes + HEADER_WORDS * WORD;
+    copy_words(bytes, &header, HEADER_WORDS);
+    copy_words(body, state, state_words);
+    copy_words(body + state_words * WORD, statistics, (size_t)count * STATISTICS_WORDS);
     const uint64_t sum = file_hash(FILE_HASH_START, bytes, words * WORD);
-    write_words(end, &sum, 1);
+    copy_words(bytes + words * WORD, &sum, 1);
     cli_hold_exit();
     int status = file_write(dir->fresh, bytes, (words + 1) * WORD, dir->sync);
     if (status == CLI_DONE && rename(dir->checkpoint, dir->before) != 0 && errno != ENOENT)
@@ -87,16 +87,6 @@ int checkpoint_save(const run_directory *dir, const run_position *position, cons
 }
 
 /* ---- loading ------------------------------------------------------------------------------- */
-
-static const unsigned char *read_words(const unsigned char *from, void *words, size_t count)
-{
-    unsigned char *to = words;
-    for (size_t i = 0; i < count; i++, from += WORD, to += WORD) {
-        const uint64_t word = read_le64(from);
-        memcpy(to, &word, sizeof word);
-    }
-    return from;
-}
 
 static int damaged(const char *path, const char *reason)
 {
@@ -113,7 +103,8 @@ static int check_bytes(const char *path, const unsigned char *bytes, size_t leng
     const size_t words = length / WORD - 1, body = words - HEADER_WORDS;
     if (length % WORD || length < (HEADER_WORDS + 1) * WORD)
         return damaged(path, "it is too short");
-    read_words(read_words(bytes, h, HEADER_WORDS) + body * WORD, &sum, 1);
+    copy_words(h, bytes, HEADER_WORDS);
+    copy_words(&sum, bytes + words * WORD, 1);
     if (h->magic != magic) return damaged(path, "it does not begin as one");
     if (sum != file_hash(FILE_HASH_START, bytes, words * WORD))
         return damaged(path, "its check sum is wrong");
@@ -136,12 +127,12 @@ static int restore(const char *path, const checkpoint_header *header, const unsi
 {
     dal_error error = {0};
     double *state = cli_malloc((header->state + 1) * sizeof *state);
-    body = read_words(body, state, header->state);
+    copy_words(state, body, header->state);
     const dal_status loaded = dal_run_restore(run, state, header->state, &error);
     free(state);
     if (loaded != DAL_OK) return cli_error(CLI_USAGE, path, &error);
     *position = (run_position){header->row, header->sum, header->seconds};
-    read_words(body, statistics, header->statistics * STATISTICS_WORDS);
+    copy_words(statistics, body + header->state * WORD, header->statistics * STATISTICS_WORDS);
     return CLI_DONE;
 }
 
