@@ -10,7 +10,7 @@
 #include "io/file.h"
 #include "run/pool.h"
 #include "run/run.h"
-#include "study/study_cell_run.h"
+#include "study/study_cell.h"
 #include "study/study_directory.h"
 #include "study/study_pool.h"
 #include "ui/message.h"

@@ -121,7 +121,7 @@ static void put_choice(json_writer *w, int option, int choice)
     json_put_text(w, request_options[option].name, word);
 }
 
-/* What a plan sets by value: see study_cell_run.c. */
+/* What a plan sets by value: see study_cell.c. */
 static void put_value(json_writer *w, const run_request *request, int option)
 {
     char method[256];

@@ -4,11 +4,13 @@
 
 #include "dalembert.h"
 #include "io/trajectory.h"
-#include "progress.h"
 #include "request.h"
 #include "run_directory.h"
 
 #include <stdbool.h>
+
+/* The words of --progress, "auto|json|off". */
+typedef enum progress_mode { PROGRESS_AUTO, PROGRESS_JSON, PROGRESS_OFF } progress_mode;
 
 typedef struct run_recorder {
     const run_request *request;

@@ -1,10 +1,21 @@
-/* study_cell.c - one cell of a study: its name and its results by name. */
+/* study_cell.c - one cell of a study: its name, its run in a directory, its results.
+ *
+ * The results are read from that directory, whether the run was made now, resumed, or finished
+ * before: trends from the statistics in its checkpoint, tracks from its rows.  Rows are taken after
+ * whole numbers of steps, so that the trajectory is that of the steps alone. */
 #include "study_cell.h"
 
+#include "io/file.h"
 #include "io/output.h"
+#include "io/trajectory.h"
+#include "run/manifest.h"
+#include "run/recorder.h"
 #include "study_plan.h"
 #include "ui/memory.h"
+#include "ui/message.h"
 
+#include <math.h>
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -98,4 +109,257 @@ const study_cell *study_cell_physical(const study_plan *plan, const study_cell *
             return c;
     }
     return NULL;
+}
+
+typedef struct cell_run {
+    const study_plan *plan;
+    study_cell *cell;
+    run_request request;
+    run_directory dir;
+    run_recorder recorder;
+} cell_run;
+
+/* ---- the request ---- */
+
+static void add_settings(request_settings *settings, const dal_setting *setting, int count,
+                         double unit)
+{
+    for (int i = 0; i < count; i++)
+        request_add_setting(settings, setting[i].name, setting[i].value * unit);
+}
+
+/* By default p_i = d, -d/2, d/3, ... and pi_i = d/2, -d/3, ...: no two alike, and not along the
+ * motion. */
+static void add_displacement(cell_run *r)
+{
+    const study_case *e = r->cell->of_case;
+    request_settings *start = &r->request.start;
+    add_settings(start, e->displace, e->displace_count, e->displacement);
+    for (int i = 0; e->displace_count == 0 && i < e->system->n; i++) {
+        const double size = i % 2 ? -e->displacement : e->displacement;
+        char *p = cli_format("p_%s", e->system->coordinate[i]);
+        char *pi = cli_format("pi_%s", e->system->coordinate[i]);
+        request_add_setting(start, p, size / (i + 1));
+        request_add_setting(start, pi, size / (i + 2));
+        free(p);
+        free(pi);
+    }
+}
+
+static void make_request(cell_run *r)
+{
+#define START_SPACE(code, word, space, about) space,
+    static const dal_choice space[] = {STUDY_START_LIST(START_SPACE)};
+#undef START_SPACE
+    const study_cell *c = r->cell;
+    const study_case *e = c->of_case;
+    run_request *request = &r->request;
+    request->system = e->system;
+    request->system_name = e->copy ? e->copy : e->name;
+    request->method = *c->method;
+    request->options = e->options;
+    request->options.step = c->step;
+    request->options.space = space[c->start];
+    request->time = e->time;
+    request->samples = e->samples;
+    request->sampling = REQUEST_SAMPLING_STEPS;
+    request->statistics = e->statistics;
+    request->typed = REQUEST_OPTION(integrator) | REQUEST_OPTION(step) | REQUEST_OPTION(space) |
+                     REQUEST_OPTION(time) | REQUEST_OPTION(samples) | REQUEST_OPTION(sampling) |
+                     REQUEST_OPTION(statistics);
+    memcpy(request->text, e->option, sizeof request->text);
+    add_settings(&request->set, e->set, e->set_count, 1.0);
+    add_settings(&request->start, e->start, e->start_count, 1.0);
+    if (c->start == STUDY_DISPLACED) add_displacement(r);
+}
+
+static void set_failure(study_cell *c, study_state state, dal_status status)
+{
+    c->state = state;
+    c->error.status = status;
+    if (!c->error.message[0])
+        snprintf(c->error.message, sizeof c->error.message, "%s", dal_status_text(status));
+}
+
+/* A cell whose run cannot be created has that as its result, and no run. */
+static int create_run(cell_run *r)
+{
+    dal_run_spec spec;
+    make_request(r);
+    const int status = request_complete(&r->request, &spec);
+    if (status != CLI_DONE) return status;
+    const dal_status created = dal_run_create(&r->request.run, &spec, &r->cell->error);
+    if (cli_is_ok(created)) return CLI_DONE;
+    r->request.run = NULL;
+    set_failure(r->cell, created == DAL_UNSUPPORTED ? STUDY_REFUSED : STUDY_FAILED, created);
+    return CLI_DONE;
+}
+
+/* ---- results ---- */
+
+static void take_trends(study_cell *c, const run_recorder *recorder)
+{
+    const size_t count = (size_t)recorder->observables;
+    c->trend = cli_calloc(count, sizeof *c->trend);
+    c->names = cli_calloc(count, sizeof *c->names);
+    c->windows = cli_calloc(STUDY_WINDOWS, sizeof *c->windows);
+    c->observables = recorder->observables;
+    memcpy(c->trend, recorder->trend, count * sizeof *c->trend);
+    for (int i = 0; i < c->observables; i++)
+        snprintf(c->names[i], sizeof c->names[i], "%s", recorder_observable_name(recorder, i));
+}
+
+/* What of a column is on a track: its size, or its change since the start, absolute or relative to
+ * a first value above 1. */
+typedef enum column_measure { NOT_TRACKED, MAX_ABS, CHANGE, RELATIVE_CHANGE } column_measure;
+
+typedef struct tracked_column {
+    column_measure measure;
+    int track;
+    double first;
+} tracked_column;
+
+/* The columns of p and pi, and those of observables, which come last and without |p|, |pi|,
+ * |pi_e|. */
+static void choose_tracks(const study_cell *c, int columns, tracked_column *column)
+{
+    const dal_system *s = c->of_case->system;
+    const int error = c->observables - (study_cell_trend(c, "error") != NULL);
+    const bool is_lifted = study_cell_trend(c, "|p|") != NULL;
+    for (int i = 0; is_lifted && i < 2 * s->n; i++)
+        column[2 + 2 * s->n + i] =
+            (tracked_column){MAX_ABS, i < s->n ? STUDY_TRACK_P : STUDY_TRACK_PI, 0.0};
+    tracked_column *next = column + columns - c->observables + (is_lifted ? 3 : 0);
+    for (int i = 0; i < c->observables; i++) {
+        const char *name = c->names[i];
+        if (name[0] == '|') continue;
+        *next++ = i < s->m     ? (tracked_column){MAX_ABS, STUDY_TRACK_D, 0.0}
+                  : i == error ? (tracked_column){MAX_ABS, STUDY_TRACK_ERROR, 0.0}
+                  : i >= error - s->invariants
+                      ? (tracked_column){RELATIVE_CHANGE, STUDY_TRACK_INVARIANTS, 0.0}
+                  : strcmp(name, "E") == 0 ? (tracked_column){CHANGE, STUDY_TRACK_E, 0.0}
+                                           : (tracked_column){CHANGE, STUDY_TRACK_H, 0.0};
+    }
+}
+
+/* Not a number counts as infinite. */
+static void raise_tracks(const tracked_column *column, const double *row, int columns, double *max)
+{
+    for (int i = 0; i < columns; i++) {
+        const tracked_column *c = &column[i];
+        double x = fabs(row[i] - c->first);
+        if (c->measure == NOT_TRACKED) continue;
+        if (c->measure == RELATIVE_CHANGE) x /= fmax(1.0, fabs(c->first));
+        if (!(x <= max[c->track])) max[c->track] = isnan(x) ? INFINITY : x;
+    }
+}
+
+static int read_rows(const cell_run *r)
+{
+    trajectory_reader reader;
+    study_cell *c = r->cell;
+    const size_t n = (size_t)c->of_case->system->n;
+    int status = reader_open(&reader, r->dir.path), more = 1;
+    if (status != CLI_DONE) return status;
+    tracked_column *column = cli_calloc((size_t)reader.columns, sizeof *column);
+    choose_tracks(c, reader.columns, column);
+    c->bits = FILE_HASH_START;
+    for (long long k = 0; k <= r->request.samples && (more = reader_next(&reader)) > 0; k++) {
+        for (int i = 0; k == 0 && i < reader.columns; i++)
+            if (column[i].measure != MAX_ABS) column[i].first = reader.row[i];
+        const double part = (double)k / ((double)r->request.samples + 1.0);
+        const int window = (int)(part * STUDY_WINDOWS);
+        raise_tracks(column, reader.row, reader.columns, c->windows[window]);
+        c->window_count = window + 1;
+        c->bits = file_hash(c->bits, reader.row + 1, 2 * n * sizeof(double));
+    }
+    free(column);
+    reader_close(&reader);
+    return more < 0 ? CLI_IO : CLI_DONE;
+}
+
+static int take_results(cell_run *r, const dal_error *error, int ended)
+{
+    study_cell *c = r->cell;
+    const dal_run *run = r->request.run;
+    take_trends(c, &r->recorder);
+    const int status = read_rows(r);
+    if (status != CLI_DONE) return status;
+    c->time = dal_run_time(run);
+    c->steps = dal_run_steps(run);
+    c->evaluations = dal_run_evaluations(run);
+    c->seconds = r->recorder.position.seconds;
+    c->state = STUDY_FINISHED;
+    c->error = *error;
+    if (ended == CLI_FAILED) set_failure(c, STUDY_FAILED, error->status);
+    return CLI_DONE;
+}
+
+/* ---- the run ---- */
+
+/* Begins the run in its directory, or compares it with the run that is there.  Nothing waits for
+ * the disk until the run is longer than the interval of checkpoints: what a power cut takes of a
+ * shorter one is computed again. */
+static int open_recorder(cell_run *r)
+{
+    run_directory *dir = &r->dir;
+    const int has_run = run_directory_has_run(dir);
+    dir->sync = 0;
+    int status = cli_directory(dir->path);
+    if (status == CLI_DONE) status = run_directory_lock(dir, !has_run);
+    if (status == CLI_DONE && has_run) {
+        run_request held = request_default();
+        status = manifest_read(dir, &held);
+        if (status == CLI_DONE) status = manifest_compare(dir, &held, &r->request);
+        request_free(&held);
+    } else if (status == CLI_DONE) {
+        status = manifest_begin(dir, &r->request);
+    }
+    return status == CLI_DONE ? recorder_open(&r->recorder, &r->request, dir, dir->path) : status;
+}
+
+static int run_in_directory(cell_run *r, const study_stop_check *check)
+{
+    run_recorder *recorder = &r->recorder;
+    dal_error error = {0};
+    int ended = open_recorder(r);
+    if (ended == CLI_DONE && !recorder_is_finished(recorder)) {
+        const double left = r->request.time - dal_run_time(r->request.run);
+        if (check) {
+            recorder->stop = check->stop;
+            recorder->stop_user = check->user;
+        }
+        recorder->interval = r->plan->interval;
+        recorder->progress = PROGRESS_OFF;
+        native_compile_steps(r->request.run, r->cell->method, left / r->cell->step,
+                             r->cell->of_case->native);
+        ended = recorder_run(recorder, &error);
+    }
+    return ended == CLI_DONE || ended == CLI_FAILED ? take_results(r, &error, ended) : ended;
+}
+
+int study_cell_run(const study_plan *plan, study_cell *cell, const study_stop_check *check)
+{
+    cell_run r = {.plan = plan, .cell = cell, .request = request_default()};
+    int status = create_run(&r);
+    if (status == CLI_DONE && r.request.run) {
+        char *directory = study_cell_directory(plan, cell);
+        run_directory_open(&r.dir, directory);
+        status = run_in_directory(&r, check);
+        recorder_close(&r.recorder);
+        run_directory_close(&r.dir);
+        free(directory);
+    }
+    if (status != CLI_DONE) study_cell_free(cell);
+    request_free(&r.request);
+    return status;
+}
+
+bool study_cell_is_runnable(study_cell *cell)
+{
+    cell_run r = {.cell = cell, .request = request_default()};
+    const int can = create_run(&r) == CLI_DONE && r.request.run;
+    request_free(&r.request);
+    study_cell_free(cell);
+    return can;
 }

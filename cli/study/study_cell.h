@@ -4,6 +4,7 @@
 
 #include "dalembert_analysis.h"
 
+#include <stdbool.h>
 #include <stdint.h>
 
 struct study_case;
@@ -95,5 +96,19 @@ typedef struct study_quantities {
 study_quantities study_cell_quantities(const study_cell *cell);
 /* The finished cell in (q,v) with the same method and step as one on the surface, or NULL. */
 const study_cell *study_cell_physical(const struct study_plan *plan, const study_cell *cell);
+
+/* Called now and then while a run goes: whether to stop it, with a checkpoint. */
+typedef struct study_stop_check {
+    int (*stop)(void *user);
+    void *user;
+} study_stop_check;
+
+/* Runs a cell in its directory, resumes it there, or reads its results when it is finished; without
+ * a check interruptions alone stop it.  How the run ended is in the cell; its state stays
+ * STUDY_WAITING when it was stopped.  Returns CLI_DONE; CLI_SIGNAL when it was stopped; or prints
+ * and returns an exit status.  Different cells may be run by different threads. */
+int study_cell_run(const struct study_plan *plan, study_cell *cell, const study_stop_check *check);
+/* Whether the run of a cell can be made: a refused one has none. */
+bool study_cell_is_runnable(study_cell *cell);
 
 #endif

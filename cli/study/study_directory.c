@@ -7,7 +7,6 @@
 #include "run/manifest.h"
 #include "run/system.h"
 #include "study_compare.h"
-#include "study_csv.h"
 #include "study_pool.h"
 #include "study_table.h"
 #include "ui/memory.h"

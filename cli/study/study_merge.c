@@ -8,7 +8,7 @@
 #include "io/file.h"
 #include "io/output.h"
 #include "run/manifest.h"
-#include "study_cell_run.h"
+#include "study_cell.h"
 #include "study_pool.h"
 #include "ui/memory.h"
 #include "ui/message.h"

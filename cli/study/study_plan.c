@@ -5,7 +5,7 @@
 #include "run/row_times.h"
 #include "run/system.h"
 #include "study_expect.h"
-#include "study_variants.h"
+#include "study_values.h"
 #include "ui/memory.h"
 #include "ui/message.h"
 

@@ -5,7 +5,7 @@
 #include "study_pool.h"
 
 #include "run/pool.h"
-#include "study_cell_run.h"
+#include "study_cell.h"
 #include "ui/clock.h"
 #include "ui/memory.h"
 #include "ui/message.h"

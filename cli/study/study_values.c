@@ -1,4 +1,4 @@
-/* study_values.c - one value, a list, a range, a draw.
+/* study_values.c - one value, a list, a range, a draw; and the cases that these make.
  *
  * Value k of a range {from: a, to: b, count: n} is a + k (b - a)/(n - 1), the last exactly b; of
  * {from: a, to: b, by: d} it is a + k d, as long as that is not beyond b by more than d/1e9.
@@ -6,9 +6,14 @@
  * A draw needs no state: SplitMix64 (Steele, Lea, Flood 2014, doi 10.1145/2660193.2660195) mixes
  *     z = FNV-1a(name) + seed 0x9e3779b97f4a7c15    (mod 2^64)
  * and the upper 53 bits u of the result give low + (high - low) u/2^53.  So what is drawn for one
- * name does not depend on what else is drawn. */
+ * name does not depend on what else is drawn.
+ *
+ * A system of a study with `set: {a: [1, 2], b: {from: 0, to: 1, count: 3}}` is six cases, called
+ * LABEL_a=1_b=0 and so on; where something is drawn there is one for each of the seeds, called
+ * .._seed=7.  What has one value alone is not in the label. */
 #include "study_values.h"
 
+#include "dalembert_analysis.h"
 #include "io/file.h"
 #include "ui/memory.h"
 #include "ui/message.h"
@@ -110,7 +115,8 @@ void study_values_free(study_values *values)
     *values = (study_values){0};
 }
 
-double study_draw(const char *name, uint64_t seed, double low, double high)
+/* The draw of a name ("set:mass") for a seed, uniform in [low, high). */
+static double draw(const char *name, uint64_t seed, double low, double high)
 {
     uint64_t z = file_hash(FILE_HASH_START, name, strlen(name));
     z += seed * UINT64_C(0x9e3779b97f4a7c15);
@@ -118,4 +124,220 @@ double study_draw(const char *name, uint64_t seed, double low, double high)
     z = (z ^ z >> 27) * UINT64_C(0x94d049bb133111eb);
     z ^= z >> 31;
     return low + (high - low) * ((double)(z >> 11) * 0x1p-53);
+}
+
+typedef struct variant_setting {
+    const char *name;
+    study_values values;
+    const char *format; /* of its values in labels */
+} variant_setting;
+
+struct study_variants {
+    const document *doc;
+    const yaml_node_t *start_node;
+    const char *what;         /* that is being read: set, then start */
+    variant_setting *setting; /* those of set come first */
+    int count, of_set, drawn, start_drawn;
+    variant_setting seed;
+};
+
+/* ---- several settings ---------------------------------------------------------------------- */
+
+/* Six digits where these distinguish the values, else seventeen. */
+static const char *choose_format(const study_values *values)
+{
+    char before[32] = "", text[32];
+    for (int i = 0; i < values->count; i++) {
+        snprintf(text, sizeof text, "%.6g", values->value[i]);
+        if (i > 0 && strcmp(before, text) == 0) return "%.17g";
+        memcpy(before, text, sizeof before);
+    }
+    return "%.6g";
+}
+
+static int read_setting(void *user, const yaml_node_t *key, const char *name, yaml_node_t *value)
+{
+    study_variants *v = user;
+    const size_t count = (size_t)v->count + 1;
+    for (int i = v->of_set; i < v->count; i++)
+        if (strcmp(v->setting[i].name, name) == 0)
+            return document_fail(v->doc, key, "%s: '%s' comes twice", v->what, name);
+    v->setting = cli_realloc(v->setting, count * sizeof *v->setting);
+    variant_setting *s = &v->setting[v->count++];
+    *s = (variant_setting){.name = name};
+    /* e alone may be infinite. */
+    if (value->type == YAML_SCALAR_NODE && strcmp(name, "e") == 0 &&
+        strcmp((const char *)value->data.scalar.value, "inf") == 0) {
+        s->values = (study_values){.value = cli_malloc(sizeof(double)), .count = 1};
+        s->values.value[0] = INFINITY;
+    } else {
+        const int status = study_values_read(&s->values, v->doc, value, v->what);
+        if (status != CLI_DONE) return status;
+    }
+    s->format = choose_format(&s->values);
+    v->drawn += s->values.is_drawn;
+    return CLI_DONE;
+}
+
+static int read_settings(study_variants *v, yaml_node_t *node, const char *what)
+{
+    v->what = what;
+    v->of_set = v->count;
+    if (!node) return CLI_DONE;
+    return document_each_pair(v->doc, node, what, "names and values", read_setting, v);
+}
+
+static int read_seeds(study_variants *v, const document *doc, const parsed_study *p)
+{
+    study_values *seeds = &v->seed.values;
+    const yaml_node_t *place = p->set ? p->set : p->start;
+    if (v->drawn == 0 && !p->seeds) return CLI_DONE;
+    if (!p->seeds)
+        return document_fail(doc, place, "what is drawn needs seeds: give a list of them");
+    const int status = study_values_read(seeds, doc, p->seeds, "seeds");
+    if (status != CLI_DONE) return status;
+    v->seed.name = "seed";
+    v->seed.format = "%.17g";
+    if (seeds->is_drawn) return document_fail(doc, p->seeds, "seeds: not to be drawn");
+    for (int i = 0; i < seeds->count; i++) {
+        const double seed = seeds->value[i];
+        if (!(seed >= 0.0 && seed <= 0x1p53) || seed != floor(seed))
+            return document_fail(doc, p->seeds, "seeds: %g is not an integer in 0..2^53", seed);
+    }
+    return CLI_DONE;
+}
+
+int study_variants_read(study_variants **variants, const document *doc, const parsed_study *p,
+                        int *count)
+{
+    study_variants *v = *variants = cli_calloc(1, sizeof *v);
+    v->doc = doc;
+    v->start_node = p->start;
+    int status = read_settings(v, p->set, "set");
+    const int set_drawn = v->drawn;
+    if (status == CLI_DONE) status = read_settings(v, p->start, "start");
+    v->start_drawn = v->drawn - set_drawn;
+    if (status == CLI_DONE) status = read_seeds(v, doc, p);
+    if (status != CLI_DONE) return status;
+    double combinations = v->drawn ? v->seed.values.count : 1;
+    for (int i = 0; i < v->count; i++)
+        if (!v->setting[i].values.is_drawn) combinations *= v->setting[i].values.count;
+    if (combinations > STUDY_VALUES_MAX)
+        return document_fail(doc, p->set ? p->set : p->start,
+                             "%g combinations of values, not 1..%d", combinations,
+                             STUDY_VALUES_MAX);
+    *count = (int)combinations;
+    return CLI_DONE;
+}
+
+void study_variants_free(study_variants *v)
+{
+    if (!v) return;
+    for (int i = 0; i < v->count; i++) study_values_free(&v->setting[i].values);
+    study_values_free(&v->seed.values);
+    free(v->setting);
+    free(v);
+}
+
+/* ---- one combination ----------------------------------------------------------------------- */
+
+/* x' is v_x in a label, which names files. */
+static void put_label(FILE *out, const variant_setting *s, double value)
+{
+    const size_t length = strlen(s->name);
+    const int is_velocity = length > 1 && s->name[length - 1] == '\'';
+    fprintf(out, "_%s%.*s=", is_velocity ? "v_" : "", (int)(length - (size_t)is_velocity), s->name);
+    fprintf(out, s->format, value);
+}
+
+/* The value that the lowest digit of *i chooses, which is taken off. */
+static double choose(const study_values *values, int *i)
+{
+    const double value = values->value[*i % values->count];
+    *i /= values->count;
+    return value;
+}
+
+/* The digits of i choose the values; the lowest is that of the seed, then that of the last
+ * setting. */
+void study_variants_apply(const study_variants *v, int i, study_case *e)
+{
+    char name[256];
+    size_t length;
+    const size_t of_set = (size_t)v->of_set, of_start = (size_t)v->count - of_set;
+    const double seed = v->drawn ? choose(&v->seed.values, &i) : 0.0;
+    e->set = cli_calloc((size_t)v->count + 1, sizeof *e->set);
+    e->start = cli_calloc(of_start + 1, sizeof *e->start);
+    for (int k = v->count - 1; k >= 0; k--) {
+        const variant_setting *s = &v->setting[k];
+        snprintf(name, sizeof name, "%s:%s", k < v->of_set ? "set" : "start", s->name);
+        e->set[k].name = s->name;
+        e->set[k].value = s->values.is_drawn
+                              ? draw(name, (uint64_t)seed, s->values.low, s->values.high)
+                              : choose(&s->values, &i);
+    }
+    memcpy(e->start, e->set + of_set, of_start * sizeof *e->start);
+    e->set_count = (int)of_set;
+    e->start_count = (int)of_start;
+    FILE *out = cli_memstream_open(&e->label, &length);
+    fputs(e->group, out);
+    for (int k = 0; k < v->count; k++)
+        if (v->setting[k].values.count > 1) put_label(out, &v->setting[k], e->set[k].value);
+    if (v->drawn) put_label(out, &v->seed, seed);
+    cli_memstream_close(out);
+}
+
+/* ---- projection to D = 0 ------------------------------------------------------------------- */
+
+/* All velocities become settings of the start; their names x' are in memory of the case. */
+static void replace_velocities(study_case *e, const double *v)
+{
+    const int n = e->system->n;
+    size_t length;
+    FILE *out = cli_memstream_open(&e->names, &length);
+    for (int i = 0; i < n; i++) fprintf(out, "%s'%c", e->system->coordinate[i], '\0');
+    cli_memstream_close(out);
+    const char *name = e->names;
+    e->start = cli_realloc(e->start, ((size_t)e->start_count + (size_t)n + 1) * sizeof *e->start);
+    for (int k = 0; k < n; k++, name += strlen(name) + 1) {
+        int i = 0;
+        while (i < e->start_count && strcmp(e->start[i].name, name) != 0) i++;
+        e->start[i] = (dal_setting){name, v[k]};
+        if (i == e->start_count) e->start_count++;
+    }
+}
+
+/* x[2n + ..] becomes the start with its velocities projected to D = 0. */
+static dal_status find_velocities(const study_case *e, double *x, dal_error *error)
+{
+    dal_evaluator *evaluator = NULL;
+    dal_setting *start = cli_calloc((size_t)e->start_count + 1, sizeof *start);
+    int count = 0;
+    for (int i = 0; i < e->start_count; i++) {
+        const char *name = e->start[i].name;
+        if (strncmp(name, "p_", 2) != 0 && strncmp(name, "pi_", 3) != 0)
+            start[count++] = e->start[i];
+    }
+    dal_status status = dal_evaluator_create(&evaluator, e->system, e->set, e->set_count, error);
+    if (status == DAL_OK) status = dal_evaluator_start(evaluator, start, count, x, error);
+    if (status == DAL_OK) status = dal_project_velocity(evaluator, 0.0, x, x + e->system->n);
+    dal_evaluator_free(evaluator);
+    free(start);
+    return status;
+}
+
+int study_variants_project_start(const study_variants *v, study_case *e)
+{
+    dal_error error = {0};
+    if (v->start_drawn == 0 || e->system->m == 0) return CLI_DONE;
+    double *x = cli_calloc(2 * (size_t)e->system->n + (size_t)e->system->m + 1, sizeof *x);
+    const dal_status found = find_velocities(e, x, &error);
+    int status = CLI_DONE;
+    if (cli_is_ok(found))
+        replace_velocities(e, x + e->system->n);
+    else
+        status = document_fail(v->doc, v->start_node, "%s: no start on D = 0 was found: %s",
+                               e->label, error.message[0] ? error.message : dal_status_text(found));
+    free(x);
+    return status;
 }

@@ -1,10 +1,8 @@
-/* study_values.h - the values a key of a study may take: one, several, or drawn at random. */
+/* study_values.h - the values that a key of a study may have, and the cases that these make. */
 #ifndef DAL_CLI_STUDY_VALUES_H
 #define DAL_CLI_STUDY_VALUES_H
 
-#include "io/document.h"
-
-#include <stdint.h>
+#include "parsed_study.h"
 
 /*     0.1                                one value
  *     [0.1, 0.05]                        a list
@@ -25,8 +23,19 @@ int study_values_read(study_values *values, const document *doc, yaml_node_t *no
                       const char *what);
 void study_values_free(study_values *values);
 
-/* The draw of a name ("set:mass") for a seed, uniform in [low, high): a function of these alone,
- * the same on every machine.  See study_values.c. */
-double study_draw(const char *name, uint64_t seed, double low, double high);
+/* The settings of a system with several values or drawn ones, and all their combinations. */
+typedef struct study_variants study_variants;
+
+/* Reads set, start and seeds; *count is the number of combinations, the last setting changing
+ * fastest and the seeds faster still.  Call study_variants_free in any case.  Returns CLI_DONE, or
+ * prints and returns CLI_USAGE, as study_variants_project_start. */
+int study_variants_read(study_variants **variants, const document *doc, const parsed_study *parsed,
+                        int *count);
+void study_variants_free(study_variants *variants);
+/* Gives a case the settings of combination i and its label. */
+void study_variants_apply(const study_variants *variants, int i, study_case *item);
+/* Where velocities or coordinates were drawn, projects the velocities of the start to D = 0 along
+ * W^-1 A^T.  The case must have its system. */
+int study_variants_project_start(const study_variants *variants, study_case *item);
 
 #endif
