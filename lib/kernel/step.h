@@ -174,18 +174,21 @@ struct dal_step {
     long long evaluations; /* of the field or the lifted field */
 };
 
+static DAL_UNUSED __attribute__((noinline, cold)) num *dal__exhausted(dal_step *s, int count)
+{
+    s->used -= (size_t)count;
+    s->exhausted = 1;
+    return (size_t)count <= s->capacity ? s->scratch : NULL;
+}
+
 /* count numbers of scratch, valid until the step ends or DAL__RELEASE; their values are undefined.
  * The stages of the descriptor determine how many there are.  Where that is too few the step fails
  * with DAL_MEMORY when it ends; until then numbers share their memory. */
 DAL_INLINE num *dal_scratch(dal_step *s, int count)
 {
-    const size_t size = (size_t)count;
-    if (DAL_RARELY(s->used + size > s->capacity)) {
-        s->exhausted = 1;
-        return size <= s->capacity ? s->scratch : NULL;
-    }
-    s->used += size;
-    return s->scratch + s->used - size;
+    num *const vector = s->scratch + s->used;
+    s->used += (size_t)count;
+    return DAL_RARELY(s->used > s->capacity) ? dal__exhausted(s, count) : vector;
 }
 
 /* Declares a scratch vector.  The count must be made of constants and the macros above. */
