@@ -109,7 +109,7 @@ $(call SAY,cc)$(CC) $(ALL) $(VARIANT) -MMD -MP -c $< -o $@
 endef
 
 define COMPILE_VARIANT
-$(BUILD)/%_$1.o: VARIANT = $(if $(filter x1,$1),,-DDAL_VARIANT=$1) -DDAL_LINKED -DDAL_LANES=$(lanes) $(FLAGS_$(instructions))
+$(BUILD)/%_$1.o: VARIANT = $(if $(filter x1,$1),,-DDAL_VARIANT_NAME=$1) -DDAL_LINKED -DDAL_LANES=$(lanes) $(FLAGS_$(instructions))
 $(BUILD)/%_$1.o: %.c ; $$(COMPILE)
 endef
 $(foreach variant,$(VARIANTS),$(eval $(call COMPILE_VARIANT,$(variant))))

@@ -49,14 +49,14 @@
 /* DAL_INTEGRATOR(NAME, step function, the descriptor's other members) defines the constant
  * descriptor dal_integrator_NAME.  Other variants have names of their own for the library's
  * registry. */
-#ifndef DAL_VARIANT
+#ifndef DAL_VARIANT_NAME
 #define DAL_INTEGRATOR(identifier, function, ...)                                                  \
     extern const dal_integrator dal_integrator_##identifier;                                       \
     const dal_integrator dal_integrator_##identifier = {.step = (function), __VA_ARGS__}
 #else
 #define DAL_INTEGRATOR(identifier, function, ...)                                                  \
-    extern const dal_integrator DAL_WIDE(dal__integrator_##identifier);                            \
-    const dal_integrator DAL_WIDE(dal__integrator_##identifier) = {.step = (function), __VA_ARGS__}
+    extern const dal_integrator DAL_WIDE(dal__wide_##identifier);                                  \
+    const dal_integrator DAL_WIDE(dal__wide_##identifier) = {.step = (function), __VA_ARGS__}
 #endif
 
 #endif

@@ -35,7 +35,7 @@ void DAL_WIDE(dal__tape_run)(const dal__tapes *tapes, int program, double *work,
     for (int k = 0; k < tape->outputs; k++) o[k] = w[tape->place[k]];
 }
 
-#if defined DAL_NUM_QUAD || !defined DAL_VARIANT /* x1 */
+#if defined DAL_NUM_QUAD || !defined DAL_VARIANT_NAME /* x1 */
 void DAL_WIDE(dal__tapes_prepare)(const dal__tapes *tapes, double *work)
 {
     num *numbers = (num *)work + tapes->parameters;

@@ -26,7 +26,7 @@
 #include "solve.h"
 #include "tableau.h"
 
-#define dal_collocation DAL_WIDE(dal__collocation)
+#define dal_collocation DAL_WIDE(dal_collocation)
 DAL_SHARED dal_status dal_collocation(dal_step *s, const dal_tableau *method);
 
 #ifndef DAL_LINKED

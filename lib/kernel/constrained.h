@@ -46,7 +46,7 @@ DAL_INLINE num dal_moved_v(const dal_step *s, int i, num d)
     return s->y[DAL_N(s) + i] + (s->r[DAL_N(s) + i] + d);
 }
 
-#define dal_continuous_multipliers DAL_WIDE(dal__continuous_multipliers)
+#define dal_continuous_multipliers DAL_WIDE(dal_continuous_multipliers)
 DAL_SHARED void dal_continuous_multipliers(dal_step *s, const num *blocks, num *h);
 
 #ifndef DAL_LINKED
@@ -119,10 +119,10 @@ typedef struct dal_elimination {
                             name##_rhs,                                                            \
                             name##_fresh}
 
-#define dal_eliminate_multipliers DAL_WIDE(dal__eliminate_multipliers)
+#define dal_eliminate_multipliers DAL_WIDE(dal_eliminate_multipliers)
 DAL_SHARED void dal_eliminate_multipliers(const dal_step *s, dal_equation *eq,
                                           const num *constraint);
-#define dal_constrained_matrix DAL_WIDE(dal__constrained_matrix)
+#define dal_constrained_matrix DAL_WIDE(dal_constrained_matrix)
 DAL_SHARED void dal_constrained_matrix(dal_step *s, dal_equation *eq);
 
 #ifndef DAL_LINKED

@@ -25,8 +25,8 @@
 #define DAL__PASTE2(a, b) DAL__PASTE(a, b)
 /* The name of a function that exists once per variant: DAL_WIDE(f) is f_x1, f_x8, f_x8_AVX512, ...
  */
-#ifdef DAL_VARIANT
-#define DAL_WIDE(name) DAL__PASTE2(name##_, DAL_VARIANT)
+#ifdef DAL_VARIANT_NAME
+#define DAL_WIDE(name) DAL__PASTE2(name##_, DAL_VARIANT_NAME)
 #else
 #define DAL_WIDE(name) DAL__PASTE2(name##_x, DAL_LANES)
 #endif
@@ -49,7 +49,7 @@
  * lib/run/kernel_wide.c (DAL_LINKS); its other sources (DAL_LINKED) see their declarations.  In all
  * other files they are a part of the file like the rest of the kernel. */
 #if defined DAL_LINKED || defined DAL_LINKS
-#define DAL_SHARED
+#define DAL_SHARED __attribute__((visibility("hidden")))
 #else
 #define DAL_SHARED DAL_INLINE
 #endif

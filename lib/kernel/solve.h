@@ -117,7 +117,7 @@ DAL_INLINE num dal_momentum_scale(const dal_step *s, double h, int group)
            fabs(h) * dal__group_norm(s->y + dal_at_p(s), DAL_N(s), group);
 }
 
-#define dal_solve DAL_WIDE(dal__solve)
+#define dal_solve DAL_WIDE(dal_solve)
 DAL_SHARED dal_status dal_solve(dal_step *s, dal_equation *eq, dal_iteration_map *map,
                                 dal_matrix *matrix);
 
@@ -338,7 +338,7 @@ typedef struct dal_stage_matrix {
     int transposed;
 } dal_stage_matrix;
 
-#define dal_stage_inverse DAL_WIDE(dal__stage_inverse)
+#define dal_stage_inverse DAL_WIDE(dal_stage_inverse)
 DAL_SHARED void dal_stage_inverse(dal_step *s, const dal_stage_matrix *k, const num *jacobian,
                                   num *m, dal_block *block, int group);
 

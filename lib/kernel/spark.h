@@ -29,7 +29,7 @@ typedef struct dal_spark {
     const double *omega;                 /* [(s - persistent)*points] */
 } dal_spark;
 
-#define dal_spark_advance DAL_WIDE(dal__spark_advance)
+#define dal_spark_advance DAL_WIDE(dal_spark_advance)
 DAL_SHARED dal_status dal_spark_advance(dal_step *s, const dal_spark *method);
 
 #ifndef DAL_LINKED

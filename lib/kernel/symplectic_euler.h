@@ -30,7 +30,7 @@ DAL_INLINE dal_polarisation DAL_POLARISATION(int q, int v)
     return at;
 }
 
-#define dal_symplectic_euler DAL_WIDE(dal__symplectic_euler)
+#define dal_symplectic_euler DAL_WIDE(dal_symplectic_euler)
 DAL_SHARED dal_status dal_symplectic_euler(dal_step *s, dal_polarisation at, double h);
 
 #ifndef DAL_LINKED

@@ -3,15 +3,14 @@
 
 #include <string.h>
 
-#define DECLARE(name, variant, lanes, set)                                                         \
-    extern const dal_integrator dal__integrator_##name##_##variant;
+#define DECLARE(name, variant, lanes, set) extern const dal_integrator dal__wide_##name##_##variant;
 #define INTEGRATOR(name)                                                                           \
     extern const dal_integrator dal_integrator_##name;                                             \
     DAL__VARIANT_LIST(DECLARE, name)
 #include "../integrators/integrators.def"
 #undef INTEGRATOR
 
-#define ADDRESS(name, variant, lanes, set) &dal__integrator_##name##_##variant,
+#define ADDRESS(name, variant, lanes, set) &dal__wide_##name##_##variant,
 static const dal_integrator *const entries[][DAL__VARIANTS] = {
 #define INTEGRATOR(name) {&dal_integrator_##name, DAL__VARIANT_LIST(ADDRESS, name)},
 #include "../integrators/integrators.def"
