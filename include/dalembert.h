@@ -406,13 +406,13 @@ typedef int dal_choice;
 #define DAL_OPTION_LIST(OPTION)                                                                    \
     OPTION(double, step, "step", 0.01, 0.0, 1e300, "H", "step size h in units of t")               \
     OPTION(dal_choice, space, "space", DAL_LIFTED, 0, 1, "lifted|physical",                        \
-           "4n+2 canonical variables, or (q,v); vakonomic systems have (q,v) alone")               \
+           "variables: the 4n+2 of the lift, or (q,v); vakonomic systems have (q,v) alone")        \
     OPTION(dal_choice, solver, "solver", DAL_SOLVER_AUTO, 0, 2, "auto|fixed-point|newton",         \
-           "for implicit equations; solves to rounding level without solver-tolerance")            \
+           "how implicit equations are solved; to rounding level without solver-tolerance")        \
     OPTION(int, iterations, "iterations", 100, 1, 100000, "N",                                     \
            "maximum number of iterations of an implicit equation")                                 \
     OPTION(dal_choice, extend_energy, "extend-energy", 0, 0, 1, "off|on",                          \
-           "continue F off D = 0 so that E is conserved there too")                                \
+           "continues F off D = 0 so that E is conserved there too")                               \
     OPTION(double, tolerance, "tolerance", 0, 0.0, 1.0, "TOLERANCE",                               \
            "estimated error, absolute and relative, of the substeps of dop853; 0: no substeps")    \
     OPTION(double, solver_tolerance, "solver-tolerance", 0, 0.0, 1.0, "CHANGE",                    \

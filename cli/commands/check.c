@@ -12,7 +12,7 @@ static int check_command(int argc, char **argv)
     run_request request = request_default();
     cli_option options[REQUEST_OPTIONS];
     memcpy(options, request_options, sizeof options);
-    options[REQUEST_start].help = "starts x, x', e or g1 at V; may be repeated";
+    options[REQUEST_start].help = "sets a start value: x, x', e or g1; may be repeated";
     const cli_group group = request_group(&request, options, ~taken);
     int status = cli_read_arguments(&command_check, argc, argv, &group, 1);
     if (status == CLI_GO_ON) status = check_system(&request);
@@ -23,7 +23,7 @@ static int check_command(int argc, char **argv)
 const cli_command command_check = {
     .name = "check",
     .synopsis = "dalembert check SYSTEM [OPTION]...",
-    .about = "states what can be known of a system before a run",
+    .about = "examines a system before a run: constraints, energy, derivatives",
     .notes =
         "Each line is one item: 'ok' or 'FAIL' where it can be right or wrong, 'not measured' "
         "where it has no value, and 'info' otherwise.  The command evaluates the system at its "

@@ -79,7 +79,7 @@ static int run_report(int argc, char **argv)
 const cli_command command_report = {
     .name = "report",
     .synopsis = "dalembert report DIR [OPTION]...",
-    .about = "makes a page of a run, a study or orders: trends, figures",
+    .about = "makes a page with figures of a run, a study or orders",
     .notes = "The command writes DIR/report/index.html, one page with everything in it; the "
              "figures, and the gnuplot scripts that draw them, stand beside it.  Without gnuplot "
              "the page "

@@ -50,7 +50,8 @@ static const cli_option options[] = {
      CLI_TEXT(settings, study)},
 };
 
-static const char notes[] = "A study file is YAML; its keys:\n"
+static const char notes[] =
+    "A study file is YAML.  Its keys belong to the study, to a system of it, or to both:\n"
 #define KEY_HELP(name, scope, read, member, help) "  " #name " (" scope "): " help "\n"
     STUDY_KEY_LIST(KEY_HELP)
 #undef KEY_HELP

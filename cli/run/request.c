@@ -65,12 +65,13 @@ static int parse_setting(void *user, const cli_option *option, const char *text)
 
 const cli_option request_options[REQUEST_OPTIONS] = {
     {"integrator", "NAME", CLI_REQUIRED,
-     "rk4, gauss8+project, ...: see 'dalembert list integrators'", .parse = parse_method},
+     "the method: rk4, gauss8+project, ...; see 'dalembert list integrators'",
+     .parse = parse_method},
     {"time", "T", NULL, "integrates from t = 0 to t = T", .parse = parse_time},
     {"samples", "N", "100", "rows after the first, at equal distances in t",
      .parse = cli_parse_integer, .offset = FIELD(samples), .min = 1, .max = MAX_COUNT},
     {"sampling", "linear|log|steps", "linear",
-     "rows at equal distances in t; in log t, after whole steps; in t, after whole steps",
+     "rows at equal distances in t, in log t, or in t; the last two after whole steps",
      .parse = cli_parse_word, .offset = FIELD(sampling)},
     {"times", "LIST|FILE", NULL, "rows at these times only; T is the last of them by default",
      .parse = row_times_parse},
@@ -78,7 +79,8 @@ const cli_option request_options[REQUEST_OPTIONS] = {
      .offset = FIELD(statistics), .min = 1, .max = MAX_COUNT},
     {"set", "PARAMETER=V", NULL, "sets a parameter; may be repeated", .parse = parse_setting,
      .offset = FIELD(set)},
-    {"start", "NAME=V", NULL, "starts x, x', e, p_x, pi_x, ... at V; may be repeated; e=inf",
+    {"start", "NAME=V", NULL,
+     "sets a start value: x, x', e (or e=inf), p_x, pi_x, ...; may be repeated",
      .parse = parse_setting, .offset = FIELD(start)},
 #define ROW(type, name, word, initial, least, greatest, value, help)                               \
     {word, value, REQUEST_##name - REQUEST_step ? DEFAULT_##type(initial, value) : CLI_REQUIRED,   \
@@ -86,8 +88,8 @@ const cli_option request_options[REQUEST_OPTIONS] = {
     DAL_OPTION_LIST(ROW)
 #undef ROW
         {NULL, "SYSTEM", CLI_REQUIRED,
-         "built-in system ('dalembert list systems') or path of a file", .parse = cli_parse_text,
-         .offset = FIELD(system_name)}};
+         "a built-in system ('dalembert list systems') or the path of a file",
+         .parse = cli_parse_text, .offset = FIELD(system_name)}};
 
 cli_group request_group(run_request *request, const cli_option *options, uint64_t without)
 {

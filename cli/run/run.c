@@ -19,7 +19,7 @@ static const cli_option options[RUN_OPTIONS] = {
                         "writes a checkpoint to a directory every SECONDS",
                         .parse = cli_parse_number, .offset = offsetof(run_settings, interval),
                         .min = 0.0, .max = INFINITY},
-    [RUN_summary] = {"summary", NULL, NULL, "prints the summary though stderr is no terminal",
+    [RUN_summary] = {"summary", NULL, NULL, "prints the summary on stderr even where it is no terminal",
                      .parse = cli_parse_flag, .offset = offsetof(run_settings, summary)},
     [RUN_progress] = {"progress", "auto|json|off", "auto",
                       "shows a line on a terminal, lines of JSON on stderr, or nothing",

@@ -8,13 +8,13 @@
  * Beside `systems` a key is the default of every system.  The keys of the whole study come first,
  * then those of both, then those of a system. */
 #define STUDY_KEY_LIST(KEY)                                                                        \
-    KEY(title, "study", document_read_text, title, "text")                                         \
+    KEY(title, "study", document_read_text, title, "title of tables and pages")                    \
     KEY(systems, "study", document_read_node, systems,                                             \
         "list of names, paths, or mappings of the keys below")                                     \
     KEY(expect, "study", document_read_node, expect,                                               \
         "label: {integrator: {quantity: expected result}}; see below")                             \
     KEY(integrators, "both", document_read_node, integrators,                                      \
-        "list of names with modifiers; all, all+project: every integrator")                        \
+        "list of names, with modifiers or not; all or all+project: every integrator")              \
     KEY(step, "both", read_steps, item, "one step, or at most 16")                                 \
     KEY(time, "both", document_read_positive, item.time,                                           \
         "integrate from 0 to this, in whole steps")                                                \
@@ -22,9 +22,9 @@
     KEY(statistics, "both", document_read_count, item.statistics,                                  \
         "observe the quantities after every K-th step (1)")                                        \
     KEY(seeds, "both", document_read_node, seeds,                                                  \
-        "integers; a case for each of them where something is drawn")                              \
+        "integers; one case for each where a value is random")                                     \
     KEY(options, "both", read_options, item,                                                       \
-        "of the runs, but step and space: solver: newton, extend-energy: on, ..")                  \
+        "of the runs, except step and space: {solver: newton, extend-energy: on}")                 \
     KEY(starts, "both", read_starts, item, "list of physical, surface, displaced (all three)")     \
     KEY(displacement, "both", document_read_positive, item.displacement,                           \
         "size d of p, pi where displaced (1e-8)")                                                  \

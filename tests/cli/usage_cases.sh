@@ -53,7 +53,7 @@ for format in markdown man; do
     done <commands
 done
 try 0 help run --markdown
-prints '^- `--sampling linear\|log\|steps`: rows at equal distances in t; .* \(linear\)$'
+prints '^- `--sampling linear\|log\|steps`: rows at equal distances in t, in log t, .* \(linear\)$'
 prints 'p\\_\\\*, pi\\_\\\*'
 prints '^- `trajectory.npy`: the rows'
 holds "other commands" test "$(grep -c '^## ' out)" -eq 1
