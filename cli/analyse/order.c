@@ -130,7 +130,7 @@ static int list_steps(order_study *s)
     if (s->levels < 2) return cli_fail(CLI_USAGE, "--steps: a slope needs two steps at least");
     for (int i = 0; i < s->levels; i++)
         if (dal_whole_steps(0.0, T, s->step[i]) == 0)
-            return cli_fail(CLI_USAGE, "the time %g does not hold a whole number of steps %.9g", T,
+            return cli_fail(CLI_USAGE, "the time %g is not a whole number of steps of %.9g", T,
                             s->step[i]);
     return CLI_DONE;
 }

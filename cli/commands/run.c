@@ -15,7 +15,7 @@ static int run_in_directory(const run_request *request, const run_settings *sett
         status == CLI_DONE && !settings->force ? run_directory_find_file(&dir) : NULL;
     if (file)
         status = cli_fail(CLI_USAGE,
-                          "'%s' is there already: 'dalembert resume' continues a run, --force "
+                          "'%s' exists already: 'dalembert resume' continues a run, --force "
                           "overwrites it",
                           file);
     if (status == CLI_DONE) status = run_directory_lock(&dir, 1);

@@ -93,7 +93,7 @@ int document_parse(document *doc, const char *place, const char *bytes, size_t l
     }
     int status = CLI_DONE;
     if (!yaml_document_get_root_node(&doc->yaml))
-        status = cli_fail(CLI_USAGE, "%s: there is nothing in it", place);
+        status = cli_fail(CLI_USAGE, "%s: it is empty", place);
     if (status == CLI_DONE) status = only_document(place, &parser);
     yaml_parser_delete(&parser);
     return status;

@@ -338,7 +338,7 @@ int json_parse(document *doc, const char *place, const char *bytes, size_t lengt
     if (!root || r.at != bytes + length) return CLI_USAGE;
     const yaml_node_t *node = document_node(doc, root);
     if (node->type == YAML_MAPPING_NODE) return CLI_DONE;
-    return document_fail(doc, node, "an object is wanted");
+    return document_fail(doc, node, "an object is required");
 }
 
 char *json_source(const char *bytes, const yaml_node_t *value)

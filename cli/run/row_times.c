@@ -89,7 +89,7 @@ static int parse_list(run_request *request, char *text)
          word = strtok(NULL, ", \t\r\n"))
         status = add_time(request, word);
     if (status == CLI_DONE && request->times == 0)
-        return cli_fail(CLI_USAGE, "--times: there is none");
+        return cli_fail(CLI_USAGE, "--times: the list is empty");
     return status;
 }
 
@@ -125,10 +125,10 @@ static int finish_list(run_request *request)
 {
     const double last = request->row_time[request->times - 1];
     if (request_has(request, REQUEST_samples) || request_has(request, REQUEST_sampling))
-        return cli_fail(CLI_USAGE, "--times: neither --samples nor --sampling goes with it");
+        return cli_fail(CLI_USAGE, "--times excludes --samples and --sampling");
     if (!request_has(request, REQUEST_time)) request->time = last;
     if (!(request->time > 0.0) || request->time < last)
-        return cli_fail(CLI_USAGE, "--times: %.17g is no time up to T = %g", last, request->time);
+        return cli_fail(CLI_USAGE, "--times: %.17g is later than T = %g", last, request->time);
     request->samples = request->times - 1;
     if (request->time > last) request->row_time[++request->samples] = request->time;
     if (request->samples > 0) return CLI_DONE;

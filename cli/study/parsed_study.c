@@ -23,7 +23,7 @@ static int read_label(void *user, const document *doc, yaml_node_t *value, const
 static int set_steps(study_case *e, const document *doc, const yaml_node_t *node,
                      const study_values *values)
 {
-    if (values->is_drawn) return document_fail(doc, node, "step: it cannot be drawn");
+    if (values->is_drawn) return document_fail(doc, node, "step: it must not be random");
     if (values->count > STUDY_STEPS)
         return document_fail(doc, node, "step: %d values, not 1..%d", values->count, STUDY_STEPS);
     e->steps = values->count;

@@ -209,7 +209,7 @@ static int check_place(const study_directory *dir, const char *text, size_t leng
         return cli_fail(CLI_USAGE, "'%s' is another study; --force writes over it", held);
     }
     return cli_fail(CLI_USAGE,
-                    "'%s' is there already: 'dalembert resume %s' resumes it, --force writes over "
+                    "'%s' exists already: 'dalembert resume %s' resumes it, --force writes over "
                     "it",
                     held, dir->path);
 }

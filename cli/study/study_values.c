@@ -89,7 +89,7 @@ static int read_range(study_values *v, const document *doc, yaml_node_t *node, c
     if (status != CLI_DONE) return status;
     if (!v->is_drawn) return fill_range(&r, doc, node, what);
     if (isnan(r.from) && isnan(r.to) && isnan(r.count) && isnan(r.by)) return CLI_DONE;
-    return document_fail(doc, node, "%s: between goes with nothing else", what);
+    return document_fail(doc, node, "%s: between excludes all other keys", what);
 }
 
 /* ---- all ---- */
@@ -193,12 +193,12 @@ static int read_seeds(study_variants *v, const document *doc, const parsed_study
     const yaml_node_t *place = p->set ? p->set : p->start;
     if (v->drawn == 0 && !p->seeds) return CLI_DONE;
     if (!p->seeds)
-        return document_fail(doc, place, "what is drawn needs seeds: give a list of them");
+        return document_fail(doc, place, "random values need seeds: give a list of them");
     const int status = study_values_read(seeds, doc, p->seeds, "seeds");
     if (status != CLI_DONE) return status;
     v->seed.name = "seed";
     v->seed.format = "%.17g";
-    if (seeds->is_drawn) return document_fail(doc, p->seeds, "seeds: not to be drawn");
+    if (seeds->is_drawn) return document_fail(doc, p->seeds, "seeds: they must not be random");
     for (int i = 0; i < seeds->count; i++) {
         const double seed = seeds->value[i];
         if (!(seed >= 0.0 && seed <= 0x1p53) || seed != floor(seed))

@@ -74,7 +74,7 @@ int cli_parse_text(void *settings, const cli_option *option, const char *text)
 {
     const char **stored = field(settings, option);
     if (!option->name && *stored)
-        return cli_fail(CLI_USAGE, "one %s only, not also '%s'", option->value, text);
+        return cli_fail(CLI_USAGE, "only one %s, not also '%s'", option->value, text);
     *stored = text;
     return CLI_DONE;
 }
@@ -241,7 +241,7 @@ int cli_read_arguments(const cli_command *command, int argc, char **argv, const 
         if (plain || argument[0] != '-' || argument[1] == '\0')
             status = find(&r, "", 0, &group, &k)
                          ? parse(&r, group, k, argument)
-                         : cli_fail(CLI_USAGE, "%s: '%s' is no option", argv[0], argument);
+                         : cli_fail(CLI_USAGE, "%s: unexpected argument '%s'", argv[0], argument);
         else if (strcmp(argument, "--") == 0)
             plain = true;
         else if (cli_is_help(argument, &format))

@@ -47,7 +47,7 @@ static dal_status state_at(const dal_run_spec *spec, double T, double *out, long
     dal_run *run;
     const long long steps = dal_whole_steps(0.0, T, spec->options.step);
     if (steps == 0)
-        return dal__fail(error, DAL_ARGUMENT, "time %g does not hold a whole number of steps %g", T,
+        return dal__fail(error, DAL_ARGUMENT, "time %g is not a whole number of steps of %g", T,
                          spec->options.step);
     DAL_TRY(dal_run_create(&run, spec, error));
     dal_status status = dal_run_advance(run, steps, error);

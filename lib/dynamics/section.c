@@ -293,8 +293,7 @@ dal_status dal_run_crossings(dal_run *run, double T, const dal_poincare *section
                          section->callback == NULL ? 0 : section->count);
     const long long steps = dal_whole_steps(dal_run_time(run), T, h);
     if (steps == 0)
-        return dal__fail(error, DAL_ARGUMENT, "time %g does not hold a whole number of steps %g", T,
-                         h);
+        return dal__fail(error, DAL_ARGUMENT, "time %g is not a whole number of steps of %g", T, h);
     dal_run_save(run, &w.carried);
     double *block = dal__numbers(1, 3 * w.carried + (size_t)section->count);
     if (block == NULL) return dal__fail(error, DAL_MEMORY, "section: out of memory");

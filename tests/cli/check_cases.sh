@@ -142,7 +142,7 @@ case_is "bad arguments of check"
 try 2 check
 says 'the SYSTEM is missing'
 try 2 check knife-edge vertical-disk
-says "one SYSTEM only, not also 'vertical-disk'"
+says "only one SYSTEM, not also 'vertical-disk'"
 try 2 check knife-egde
 says "did you mean 'knife-edge'\?"
 empty

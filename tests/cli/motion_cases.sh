@@ -104,7 +104,7 @@ says "unknown column 'y'"
 try 2 section osc.yaml --on x $fine --axes x
 says "'x' is not two columns"
 try 2 section osc.yaml --on x --integrator rk4 --step 0.3 --time 20
-says 'does not hold a whole number of steps 0.3'
+says 'is not a whole number of steps of 0.3'
 try 3 section osc.yaml --on "log(5 - t)" --integrator rk4 --step 0.1 --time 20
 says 'the section has no value at t = 5'
 [ -e /dev/full ] && try 4 section osc.yaml --on x $fine --output /dev/full

@@ -79,9 +79,9 @@ says "unknown integrator 'rk5'; did you mean 'rk4'"
 try 2 order line.yaml --integrators rk4,,gauss4
 says "is not a list between commas"
 try 2 order line.yaml --steps 0.3,0.1
-says 'the time 10 does not hold a whole number of steps 0.3'
+says 'the time 10 is not a whole number of steps of 0.3'
 try 2 order line.yaml --step 1e-300 --time 1
-says 'does not hold a whole number of steps 1e-300'
+says 'is not a whole number of steps of 1e-300'
 try 2 order line.yaml --steps 0.1,0.2
 says 'steps: 0.2 is not positive and below the one before'
 try 2 order line.yaml --steps 0.1
@@ -91,5 +91,5 @@ says '9 is not in 2\.\.8'
 try 2 order line.yaml --samples 3
 says 'unknown option'
 try 2 order line.yaml plane.yaml
-says 'one SYSTEM only'
+says 'only one SYSTEM'
 [ -e /dev/full ] && try 4 order line.yaml --integrators rk4 --time 1 --output /dev/full

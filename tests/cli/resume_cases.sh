@@ -17,11 +17,11 @@ holds "the rows are those of a file" cmp whole.npy whole/trajectory.npy
 
 case_is "a directory is not written over"
 try 2 run $long --output whole
-says "'whole/manifest.json' is there already"
+says "'whole/manifest.json' exists already"
 mkdir -p mine
 echo 'not a copy' >mine/system.yaml
 try 2 run $long --output mine
-says "'mine/system.yaml' is there already"
+says "'mine/system.yaml' exists already"
 holds "the file was touched" grep -qx 'not a copy' mine/system.yaml
 try 0 run ./line.yaml --integrator rk4 --step 0.1 --time 1 --output other
 try 0 run ./line.yaml --integrator rk4 --step 0.1 --time 1 --samples 5 --output other --force

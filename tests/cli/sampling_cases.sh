@@ -34,13 +34,13 @@ holds "T is no row" test "$(cut -d, -f1 out | tr '\n' ' ')" = "t 0.5 3 "
 try 2 run ./line.yaml --integrator rk4 --step 0.1 --times 0.5,0.5
 says '--times: 0.5 does not come after the time before'
 try 2 run ./line.yaml --integrator rk4 --step 0.1 --times 0.5,4 --time 3
-says '--times: 4 is no time up to T = 3'
+says '--times: 4 is later than T = 3'
 try 2 run ./line.yaml --integrator rk4 --step 0.1 --times 1,x
 says "'x' is not a number"
 try 2 run ./line.yaml --integrator rk4 --step 0.1 --times ,
-says '--times: there is none'
+says '--times: the list is empty'
 try 2 run ./line.yaml --integrator rk4 --step 0.1 --times 1 --samples 3
-says 'neither --samples nor --sampling'
+says '--times excludes --samples and --sampling'
 
 case_is "a directory with rows at given times goes on"
 try 0 run ./line.yaml --integrator rk4 --step 0.1 --times times.txt --output timed

@@ -112,7 +112,7 @@ holds "the manifest" grep -q '"cells": {"not run": 1, "done": 1, "failed": 0' th
 
 case_is "study files that are none"
 bad 'systems: [line.yaml\n' 'bad.yaml:'
-bad '' 'bad.yaml: there is nothing in it'
+bad '' 'bad.yaml: it is empty'
 bad 'title: x\n---\ntitle: y\n' 'a second document'
 bad 'titel: x\n' "bad.yaml:1:1: unknown key 'titel'; did you mean 'title'"
 bad 'title: x\ntitle: y\n' "bad.yaml:2:1: the key 'title' comes twice"
@@ -136,7 +136,7 @@ bad 'integrators: rk4\nstep: 0.1\ntime: 1\nsamples: 0\nsystems: [knife-edge]\n' 
 try 2 study nowhere.yaml --output there --force
 says 'nowhere.yaml'
 try 2 study small.yaml failing.yaml
-says 'one STUDY.yaml only'
+says 'only one STUDY.yaml'
 try 2 study small.yaml --threads 0 --output there --force
 says '0 is not in'
 
@@ -157,7 +157,7 @@ cp small.yaml other.yaml
 echo '# other' >>other.yaml
 try 0 study small.yaml --output held
 try 2 study other.yaml --output held
-says "'held/study.yaml' is there already: 'dalembert resume held' resumes it, --force writes"
+says "'held/study.yaml' exists already: 'dalembert resume held' resumes it, --force writes"
 try 2 study small.yaml --output held
 try 2 study small.yaml --output held --shard 1/2
 try 0 study closed.yaml --output held --force
@@ -165,14 +165,14 @@ holds "runs of the old study" test "$(ls held/runs | tr '\n' ' ')" = "line.yaml_
 holds "series of the old study" test "$(ls held/series | tr '\n' ' ')" = "line.yaml.csv "
 try 0 run line.yaml --integrator rk4 --step 0.1 --time 1 --output of-a-run
 try 2 study small.yaml --output of-a-run
-says "'of-a-run/manifest.json' is there already"
+says "'of-a-run/manifest.json' exists already"
 # By default each is written over the one before, when that is over.
 try 0 study small.yaml
 try 0 study closed.yaml
 holds "not the last one" cmp -s closed.yaml dalembert-study/study.yaml
 sed -i 's/"status": "done"/"status": "running"/' dalembert-study/manifest.json
 try 2 study small.yaml
-says "'dalembert-study/study.yaml' is there already"
+says "'dalembert-study/study.yaml' exists already"
 
 case_is "output that cannot be written"
 try 4 study small.yaml --output line.yaml

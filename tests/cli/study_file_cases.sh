@@ -232,7 +232,7 @@ bad "${common}systems: [{system: line.yaml, set: {k: {from: 0, to: 1, cont: 3}}}
     "bad.yaml:5:57: unknown key 'cont'; did you mean 'count'"
 bad "${common}systems: [{system: line.yaml, set: {k: []}}]\n" 'set: the list is empty'
 bad "${common}systems: [{system: line.yaml, set: {k: [1, 1]}}]\n" "two systems called 'line.yaml_k=1'"
-bad "${common}systems: [{system: line.yaml, set: {k: {between: [1, 2]}}}]\n" 'needs seeds'
+bad "${common}systems: [{system: line.yaml, set: {k: {between: [1, 2]}}}]\n" 'need seeds'
 bad "${common}seeds: [0.5]\nsystems: [{system: line.yaml, set: {k: {between: [1, 2]}}}]\n" \
     'bad.yaml:5:8: seeds: 0.5 is not an integer'
 bad "${common}seeds: 1\nsystems: [{system: line.yaml, set: {k: {between: [2, 1]}}}]\n" \

@@ -117,7 +117,7 @@ try 0 merge shard-1 shard-2 shard-3 --output merged
 prints '^Expectations: 6 of 6 are met\.$'
 holds "other bytes" same_study whole-study merged
 try 2 merge shard-1 shard-2 shard-3 --output merged
-says "'merged/study.yaml' is there already"
+says "'merged/study.yaml' exists already"
 try 0 merge shard-3 shard-1 shard-2 --output merged --force
 holds "other bytes in another order" same_study whole-study merged
 
@@ -127,7 +127,7 @@ wait
 cat err.1 err.2 >err
 silent
 try 2 study pieces.yaml --output shared
-says "'shared/study.yaml' is there already"
+says "'shared/study.yaml' exists already"
 try 2 study another.yaml --output shared --shard 1/2
 says "'shared/study.yaml' is another study"
 try 0 merge shared --output shared
@@ -192,7 +192,7 @@ if [ -x "$mpi_program" ] && command -v mpirun >/dev/null; then
     prints '^Expectations: 6 of 6 are met\.$'
     holds "other bytes" same_study whole-study by-mpi
     by_mpi 2 -n 2 "$mpi_program" pieces.yaml --output by-mpi
-    says "'by-mpi/study.yaml' is there already"
+    says "'by-mpi/study.yaml' exists already"
     rm -r by-mpi/runs/plane* by-mpi/cells.csv
     by_mpi 0 -n 3 "$mpi_program" --resume --output by-mpi
     holds "other bytes, resumed" same_study whole-study by-mpi

@@ -150,7 +150,7 @@ says '^dalembert: --step needs a value'
 try 2 run chaplygin-sleigh --summary=yes
 says '^dalembert: --summary takes no value$'
 try 2 run chaplygin-sleigh knife-edge
-says "one SYSTEM only, not also 'knife-edge'"
+says "only one SYSTEM, not also 'knife-edge'"
 
 case_is "--opt=value is --opt value"
 try 0 run chaplygin-sleigh --integrator rk4 --step 0.1 --time 1
