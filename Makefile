@@ -190,9 +190,9 @@ $(KERNEL): tools/amalgamate.sh include/dalembert_kernel.h $(wildcard include/*.h
 
 # The program describes its commands itself.  Where it cannot run here, HOST_PROGRAM is one that can.
 HOST_PROGRAM ?= $(PROGRAM)
-$(MANUAL): man/dalembert.1.in $(PROGRAM)
-	$(call SAY,man){ sed 's|@VERSION@|$(VERSION)|; /^@COMMANDS@/,$$d' $< && $(HOST_PROGRAM) help --man && \
-	    sed '1,/^@COMMANDS@/d' $<; } >$@.tmp && mv $@.tmp $@
+$(MANUAL): man/dalembert.1.in tools/manual.awk $(PROGRAM)
+	$(call SAY,man)$(HOST_PROGRAM) help --markdown >$@.md && \
+	    awk -v version=$(VERSION) -v commands=$@.md -f tools/manual.awk $< >$@.tmp && mv $@.tmp $@
 
 # The test suites there are.  The list changes with the files, so it is made in every run;
 # suites.h, which declares them, goes before every test source.

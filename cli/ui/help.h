@@ -4,27 +4,13 @@
 
 #include "options.h"
 
-#include <stdbool.h>
+/* The argument for which a command prints its part of the reference. */
+#define CLI_HELP_MARKDOWN "--help=markdown"
 
-/* code, word: --help, --help=WORD */
-#define CLI_HELP_FORMAT_LIST(FORMAT)                                                               \
-    FORMAT(TEXT, "text")                                                                           \
-    FORMAT(MARKDOWN, "markdown")                                                                   \
-    FORMAT(MAN, "man")
-
-typedef enum cli_help_format {
-#define FORMAT_CODE(code, word) CLI_HELP_##code,
-    CLI_HELP_FORMAT_LIST(FORMAT_CODE)
-#undef FORMAT_CODE
-} cli_help_format;
-
-/* Whether an argument is -h, --help or --help=FORMAT. */
-bool cli_is_help(const char *argument, cli_help_format *format);
-/* Prints the synopsis, the options and the notes of a command.  In the reference it refers to the
- * owner of options that are not its own.  Returns the exit status. */
-int cli_print_help(const cli_command *command, const cli_group *groups, int count,
-                   cli_help_format format);
-/* Prints the list of the exit statuses. */
-void cli_print_exits(cli_help_format format);
+/* Both print the synopsis, the options and the notes of a command and return the exit status: for a
+ * terminal of 80 columns; and in Markdown, where it refers to the owner of options that are not its
+ * own. */
+int cli_print_help(const cli_command *command, const cli_group *groups, int count);
+int cli_print_reference(const cli_command *command, const cli_group *groups, int count);
 
 #endif

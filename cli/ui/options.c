@@ -233,7 +233,6 @@ int cli_read_arguments(const cli_command *command, int argc, char **argv, const 
     reader r = {.groups = groups, .group_count = count, .argc = argc, .next = 1, .argv = argv};
     bool plain = false;
     int group, k, status = CLI_DONE;
-    cli_help_format format;
     for (int g = 0; g < count; g++)
         cli_set_defaults(groups[g].options, groups[g].count, groups[g].settings);
     while (status == CLI_DONE && r.next < argc) {
@@ -244,8 +243,10 @@ int cli_read_arguments(const cli_command *command, int argc, char **argv, const 
                          : cli_fail(CLI_USAGE, "%s: unexpected argument '%s'", argv[0], argument);
         else if (strcmp(argument, "--") == 0)
             plain = true;
-        else if (cli_is_help(argument, &format))
-            return cli_print_help(command, groups, count, format);
+        else if (strcmp(argument, "--help") == 0 || strcmp(argument, "-h") == 0)
+            return cli_print_help(command, groups, count);
+        else if (strcmp(argument, CLI_HELP_MARKDOWN) == 0)
+            return cli_print_reference(command, groups, count);
         else
             status = read_option(&r, argument);
     }

@@ -37,29 +37,31 @@ done <commands
 try 2 help rnu
 says "^dalembert: unknown command 'rnu'; did you mean 'run'\?$"
 
-# part COMMAND BEGIN: its part of a reference in which BEGIN is before the name of each.
-part() { awk -v title="$2$1" -v begin="$2" 'index($0, begin) == 1 { on = $0 == title } on' out; }
 case_is "the reference has every option of every command"
-for format in markdown man; do
-    try 0 help --$format
-    silent
-    while read -r command; do
-        case $format in markdown) begin="## " ;; man) begin=".SS " ;; esac
-        "$program" "$command" --help | sed -n 's/^  --\([a-z-]*\).*/\1/p' | grep -vx help >names
-        part "$command" "$begin" | tr -d '\\' >part
-        while read -r name; do
-            holds "$format: $command lacks --$name" grep -Eq -- "^(- .|.B .|As for .*)--$name[^a-z-]" part
-        done <names
-    done <commands
-done
+try 0 help --markdown
+silent
+mv out reference
+while read -r command; do
+    "$program" "$command" --help | sed -n 's/^  --\([a-z-]*\).*/\1/p' | grep -vx help >names
+    awk -v title="## $command" '/^## / { on = $0 == title } on' reference >part
+    while read -r name; do
+        holds "$command lacks --$name" grep -Eq -- "^(- .|As for .*)--$name[^a-z-]" part
+    done <names
+done <commands
 try 0 help run --markdown
 prints '^- `--sampling linear\|log\|steps`: rows at equal distances in t, in log t, .* \(linear\)$'
 prints 'p\\_\\\*, pi\\_\\\*'
 prints '^- `trajectory.npy`: the rows'
 holds "other commands" test "$(grep -c '^## ' out)" -eq 1
 if there groff; then
-    { echo '.TH D 1'; "$program" help --man; } | groff -ww -man -Tutf8 >page 2>err
+    # The page that is made of it, without what stands about the commands.
+    { echo '.TH D 1'; echo '@COMMANDS@'; } |
+        awk -v version=0 -v commands=reference -f "$here/../../tools/manual.awk" >page.1
+    groff -ww -man -Tascii page.1 2>err | sed 's/.\x08//g' >page
     silent
+    holds "no option of run" grep -q '^ *--sampling linear|log|steps$' page
+    holds "no note of run" grep -q '^ *trajectory.npy$' page
+    holds "escapes are left" sh -c '! grep -q "\\\\" page'
 fi
 
 case_is "no help is wider than 80 columns"
