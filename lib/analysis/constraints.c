@@ -32,14 +32,15 @@ typedef struct survey {
     double *x, *d, *y;            /* [n+nw] base, direction, point on the line */
     double *value[4];             /* [max(m, nw)] */
     double *sign, *degree, *rate; /* [m] */
-    double t;
-    bool undecided; /* D had no values at any point tried */
+    double t, dt;                 /* the same of time */
+    bool undecided;               /* D had no values at any point tried */
 } survey;
 
 static dal_status values_at(survey *w, double s, double *out)
 {
     for (int i = 0; i < w->n + w->nw; i++) w->y[i] = w->x[i] + s * w->d[i];
-    return dal_evaluator_call(w->evaluator, w->s->constraints, w->t, w->y, w->y + w->n, NULL, out);
+    return dal_evaluator_call(w->evaluator, w->s->constraints, w->t + s * w->dt, w->y, w->y + w->n,
+                              NULL, out);
 }
 
 static void draw_base(survey *w)
@@ -51,16 +52,19 @@ static void draw_base(survey *w)
     w->t = w->at.t + dal__uniform(&w->random);
 }
 
+enum { IN_Q = 1, IN_V = 2, IN_T = 4 };
+
 /* Whether the difference with these weights of the values at s = -1, 0, ... vanishes for every
- * constraint on every line tried, in directions of the coordinates, of the velocities, or both. */
-static bool vanishes(survey *w, bool in_q, bool in_v, int count, const double *weight)
+ * constraint on every line tried, in the directions of coordinates, velocities or time. */
+static bool vanishes(survey *w, unsigned directions, int count, const double *weight)
 {
     bool decided = false;
+    w->dt = directions & IN_T ? 0.5 : 0.0;
     for (int trial = 0; trial < TRIALS; trial++) {
         bool good = true;
         draw_base(w);
         for (int i = 0; i < w->n + w->nw; i++) {
-            const bool varies = i < w->n ? in_q : in_v && i < 2 * w->n;
+            const bool varies = i < w->n ? directions & IN_Q : directions & IN_V && i < 2 * w->n;
             w->d[i] = varies ? neighbourhood * dal__uniform(&w->random) : 0.0;
         }
         for (int k = 0; k < count && good; k++)
@@ -77,28 +81,7 @@ static bool vanishes(survey *w, bool in_q, bool in_v, int count, const double *w
         }
     }
     w->undecided |= !decided;
-    return decided;
-}
-
-static bool is_affine(survey *w, bool in_q, bool in_v)
-{
-    static const double second[] = {1.0, -2.0, 1.0};
-    return vanishes(w, in_q, in_v, 3, second);
-}
-
-static bool is_without_time(survey *w)
-{
-    bool decided = false;
-    for (int trial = 0; trial < TRIALS; trial++) {
-        draw_base(w);
-        if (values_at(w, 0.0, w->value[0]) != DAL_OK) continue;
-        w->t += 0.5;
-        if (values_at(w, 0.0, w->value[1]) != DAL_OK) continue;
-        if (!isfinite(dal__max_abs(w->value[0], (size_t)w->m))) continue;
-        if (!(dal__distance(w->value[0], w->value[1], (size_t)w->m) <= tolerance)) return false;
-        decided = true;
-    }
-    w->undecided |= !decided;
+    w->dt = 0.0;
     return decided;
 }
 
@@ -117,7 +100,6 @@ static int find_parity(survey *w)
     for (int a = 0; a < w->m; a++) w->sign[a] = 2.0;
     for (int trial = 0; trial < TRIALS; trial++) {
         draw_base(w);
-        memset(w->d, 0, (size_t)(w->n + w->nw) * sizeof(double));
         if (values_at(w, 0.0, w->value[0]) != DAL_OK) continue;
         reverse(w);
         if (values_at(w, 0.0, w->value[1]) != DAL_OK) continue;
@@ -194,14 +176,15 @@ static bool is_homogeneous(survey *w)
 
 static void classify_constraints(survey *w, dal_constraint_class *out, double *degree)
 {
+    static const double first[] = {-1.0, 1.0}, second[] = {1.0, -2.0, 1.0};
     static const double third[] = {-1.0, 3.0, -3.0, 1.0};
     *out = (dal_constraint_class){0};
     if (w->m > 0) {
-        const bool steady = is_without_time(w);
-        out->linear = is_affine(w, false, true);
-        out->constant = steady && is_affine(w, true, true);
-        out->bilinear = steady && out->linear && is_affine(w, true, false);
-        out->quadratic = steady && vanishes(w, true, true, 4, third);
+        const bool steady = vanishes(w, IN_T, 2, first);
+        out->linear = vanishes(w, IN_V, 3, second);
+        out->constant = steady && vanishes(w, IN_Q | IN_V, 3, second);
+        out->bilinear = steady && out->linear && vanishes(w, IN_Q, 3, second);
+        out->quadratic = steady && vanishes(w, IN_Q | IN_V, 4, third);
         out->homogeneous = is_homogeneous(w);
         out->parity = find_parity(w);
     }

@@ -204,7 +204,6 @@ static double compare(const comparison *d, const double *given, int rows, int fi
 
 static dal_status compare_jacobian(comparison *d, double *defect)
 {
-    *defect = NAN;
     if (d->s->call.jacobian == NULL) return DAL_OK;
     DAL_TRY(call(d, d->s->call.jacobian, d->given));
     *defect = fmax(compare(d, d->given, d->nw, 0, d->n),
@@ -214,7 +213,6 @@ static dal_status compare_jacobian(comparison *d, double *defect)
 
 static dal_status compare_adjoint(comparison *d, double *defect)
 {
-    *defect = NAN;
     if (d->s->call.adjoint == NULL) return DAL_OK;
     int n = d->n, columns = n + d->nw;
     double *field = d->scratch, *products = d->scratch + d->nw;
@@ -231,7 +229,6 @@ static dal_status compare_adjoint(comparison *d, double *defect)
 
 static dal_status compare_constraint(comparison *d, dal_derivatives *out)
 {
-    out->constraint_jacobian = out->gram = NAN;
     if (d->m == 0 || d->s->call.constraint == NULL) return DAL_OK;
     DAL_TRY(tabulate(d, d->s->constraints, d->m));
     DAL_TRY(call(d, d->s->call.constraint, d->given));
@@ -248,6 +245,7 @@ static dal_status compare_constraint(comparison *d, dal_derivatives *out)
 static dal_status compare_all(comparison *d, const dal_point *at, dal_derivatives *out)
 {
     dal__random random = {1};
+    *out = (dal_derivatives){NAN, NAN, NAN, NAN};
     memcpy(d->x, at->q, (size_t)d->n * sizeof(double));
     memcpy(d->x + d->n, at->v, (size_t)d->nw * sizeof(double));
     for (int i = 0; i < d->n; i++) d->pi[i] = dal__uniform(&random);

@@ -186,13 +186,11 @@ static double pair(const pairing *w)
 static dal_status add_pairings(pairing *w, long long steps, dal_statistics *statistics,
                                dal_error *error)
 {
-    double value = pair(w);
     dal_statistics_start(statistics, 1);
-    dal_statistics_add(statistics, 1, dal_run_time(w->lifted), &value);
-    for (long long k = 0; k < steps; k++) {
-        DAL_TRY(dal_run_step(w->lifted, error));
-        DAL_TRY(dal_run_step(w->tangent, error));
-        value = pair(w);
+    for (long long k = 0; k <= steps; k++) {
+        if (k > 0) DAL_TRY(dal_run_step(w->lifted, error));
+        if (k > 0) DAL_TRY(dal_run_step(w->tangent, error));
+        const double value = pair(w);
         dal_statistics_add(statistics, 1, dal_run_time(w->lifted), &value);
     }
     return DAL_OK;

@@ -182,19 +182,13 @@ static dal__node ratio(dal__graph *graph, dal__node c, dal__node d)
 static dal__node fraction(dal__graph *graph, dal__node u, dal__node w)
 {
     dal__record p = graph->node[u], q = graph->node[w];
-    if (q.op == DAL__DIV && p.op != DAL__DIV && graph->depth < MAX_DEPTH) {
-        graph->depth++;
-        dal__node node = dal__node_div(graph, dal__node_mul(graph, u, q.b), q.a);
-        graph->depth--;
-        return node;
-    }
-    if (p.op == DAL__DIV && graph->depth < MAX_DEPTH) {
-        graph->depth++;
-        dal__node node = dal__node_div(graph, p.a, dal__node_mul(graph, p.b, w));
-        graph->depth--;
-        return node;
-    }
-    return dal__intern(graph, DAL__DIV, u, w);
+    if ((p.op != DAL__DIV && q.op != DAL__DIV) || graph->depth >= MAX_DEPTH)
+        return dal__intern(graph, DAL__DIV, u, w);
+    graph->depth++;
+    dal__node node = p.op == DAL__DIV ? dal__node_div(graph, p.a, dal__node_mul(graph, p.b, w))
+                                      : dal__node_div(graph, dal__node_mul(graph, u, q.b), q.a);
+    graph->depth--;
+    return node;
 }
 
 /* x/c with c fixed. */
