@@ -36,8 +36,6 @@ static double open_sum(const dal_statistics *s)
     return ((a[0] + a[4]) + (a[2] + a[6])) + ((a[1] + a[5]) + (a[3] + a[7]));
 }
 
-double dal__open_sum(const dal_statistics *s) { return open_sum(s) / s->factor; }
-
 /* ---- units ---- */
 
 /* For numbers near the largest double: their sums and differences stay finite. */
@@ -324,7 +322,7 @@ void dal_statistics_mean(const dal_statistics *s, dal_average *average)
         return;
     }
     const int n = dal__statistics_blocks(s, block);
-    double sum = s->open_count > 0 ? dal__open_sum(s) : 0.0;
+    double sum = s->open_count > 0 ? open_sum(s) / s->factor : 0.0;
     for (int i = 0; i < n; i++) sum += block[i].x * (double)s->length;
     const double mean = s->lost || s->count == 0 ? NAN : s->first + sum / (double)s->count;
     line level = fit_line(block, n);

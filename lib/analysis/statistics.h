@@ -23,8 +23,6 @@ typedef struct dal__tally {
 int dal__statistics_blocks(const dal_statistics *statistics,
                            dal_statistics_block *block /* [DAL_STATISTICS_BLOCKS] */);
 
-/* The sum of x - first in the open block. */
-double dal__open_sum(const dal_statistics *statistics);
 /* The deviation of the values if their steps were independent: sqrt(sum of squared steps), times
  * factor. */
 double dal__roughness(const dal_statistics *statistics);

@@ -10,7 +10,7 @@
  *     random walk    a memory of T/9 explains it less well, and 0 lies well inside the interval
  *     linear         0 lies outside it
  *     power law      the exponent is known to 0.11, and is not 1
- *     growing        the amplitude grows (trend_growth.c), and no drift is certain beside it
+ *     growing        the amplitude grows (see there), and no drift is certain beside it
  *
  *     dal_statistics
  *       -> dal__trend_series   means of blocks in units of the range; tones are removed
@@ -23,7 +23,6 @@
  * white noise of the spread within the blocks makes them. */
 #include "analysis/statistics.h"
 #include "analysis/trend_evidence.h"
-#include "analysis/trend_growth.h"
 #include "core/words.h"
 #include <float.h>
 #include <math.h>
@@ -48,19 +47,112 @@ static const double well_inside = 0.9;    /* the middle of an interval, in half 
 static const double power_error = 0.11, power_span = 0.2;
 static const double not_sure = 0.9; /* the confidence where weights do not give one */
 
+/* ---- the growth of an amplitude ---- */
+
+/* a_i is the range of x over five blocks about block i; z = log a.  The amplitude grows when z
+ * rises by more than 1 and
+ *
+ *     z = c + p log s    or    z = c + k s,     s = t/T,
+ *
+ * leaves residues whose root mean square is a small part of that rise.  Noise may cover the
+ * beginning: if the whole does not fit, the part well above the beginning is tried.  Beats of two
+ * tones rise by as much, but in other shapes.  Values to one side whose z rises in this way by many
+ * e-folds explode: an exponential over more e-folds than the shapes of trend_tables.h have, or a
+ * modulated one, is found in z alone. */
+/* What the amplitude of an oscillation does: LARGER by a factor of 2 and more, in no known way.
+ * EXPLODES: no oscillation, but values to one side that grow by equal factors in equal times. */
+typedef enum growth { STEADY, LARGER, EXPLODES, GROWS, GROWS_FAST } growth;
+
+enum { NEAR = 2, MIN_POINTS = 10 };
+
+static const double doubled = 0.7, grown = 1.0; /* rises of z */
+static const double misfit = 0.035;             /* of the rise */
+static const double clear_of_noise = 1.5;       /* rise of z above the beginning */
+
+static const double exploded = 8.0;   /* rise of z */
+static const double one_sided = 0.05; /* the nearer end over the farther one */
+
+typedef struct curve {
+    int count;
+    double s[DAL_STATISTICS_BLOCKS], log_s[DAL_STATISTICS_BLOCKS], z[DAL_STATISTICS_BLOCKS];
+} curve;
+
+static bool read_curve(const dal__trend_series *x, curve *c)
+{
+    c->count = 0;
+    for (int i = NEAR; i < x->count - NEAR; i++) {
+        double low = INFINITY, high = -INFINITY;
+        for (int k = i - NEAR; k <= i + NEAR; k++) {
+            low = fmin(low, x->min[k]);
+            high = fmax(high, x->max[k]);
+        }
+        if (!(high > low)) return false;
+        c->s[c->count] = (i + 0.5) / x->count;
+        c->log_s[c->count] = log(c->s[c->count]);
+        c->z[c->count++] = log(high - low);
+    }
+    return true;
+}
+
+/* The root mean square of the residues of z about a rising line through (u, z). */
+static double residue(const double *u, const double *z, int n)
+{
+    double mu = 0.0, mz = 0.0, uu = 0.0, uz = 0.0, zz = 0.0;
+    for (int i = 0; i < n; i++) {
+        mu += u[i] / n;
+        mz += z[i] / n;
+    }
+    for (int i = 0; i < n; i++) {
+        uu += (u[i] - mu) * (u[i] - mu);
+        uz += (u[i] - mu) * (z[i] - mz);
+        zz += (z[i] - mz) * (z[i] - mz);
+    }
+    return uz > 0.0 ? sqrt(fmax(zz - uz * uz / uu, 0.0) / n) : INFINITY;
+}
+
+/* From point `from` on. */
+static growth growth_from(const curve *c, int from)
+{
+    const int n = c->count - from;
+    if (n < MIN_POINTS) return LARGER;
+    const double rise = c->z[c->count - 1] - c->z[from];
+    const double by_power = residue(c->log_s + from, c->z + from, n);
+    const double by_rate = residue(c->s + from, c->z + from, n);
+    if (rise < grown || fmin(by_power, by_rate) > misfit * rise) return LARGER;
+    return by_rate < by_power ? GROWS_FAST : GROWS;
+}
+
+static growth growth_of(const dal__trend_series *x)
+{
+    curve c;
+    double rise = 0.0;
+    if (!read_curve(x, &c)) return STEADY;
+    const int eighth = x->count / 8;
+    for (int i = 0; i < eighth; i++) rise += (c.z[c.count - 1 - i] - c.z[i]) / eighth;
+    if (rise < doubled) return STEADY;
+    if (rise < grown) return LARGER;
+    const growth whole = growth_from(&c, 0);
+    const double below = -x->low, above = x->high;
+    const bool is_one_sided = fmin(below, above) < one_sided * fmax(below, above);
+    if (whole == GROWS_FAST && rise > exploded && is_one_sided) return EXPLODES;
+    int from = 0;
+    while (from < c.count && c.z[from] < c.z[0] + clear_of_noise) from++;
+    return whole != LARGER ? whole : growth_from(&c, from);
+}
+
+/* ---- the description of a series ---- */
+
 /* Everything that the decision depends on. */
 typedef struct description {
     dal__trend_series series; /* with its tones */
     dal__bins bins;
     dal__evidence evidence;
     dal__interval drift; /* over the whole series */
-    dal__growth growth;
+    growth growth;
     double spread;      /* of x: deviation within and between bins */
     double small_drift; /* that counts as none */
     double wandering;   /* max distance of a mean of bins from the mean of all, with tones */
 } description;
-
-/* ---- the description of a series ---- */
 
 /* The deviation within blocks of n values from their mean range: for n normal numbers it grows like
  * sqrt(2 log n); for an oscillation, the same in all blocks, it is 2 sqrt(2) deviations. */
@@ -102,7 +194,7 @@ static void describe(description *p)
     }
     p->spread = sqrt(within * within + square);
     dal__trend_weigh(&p->bins, odds, &p->evidence);
-    p->growth = dal__trend_growth(&p->series);
+    p->growth = growth_of(&p->series);
     p->small_drift = ratio > memory_ratio ? small_beside_memory : small_drift;
     dal__trend_remove_tones(&bare);
     if (bare.tones > 0) {
@@ -170,8 +262,7 @@ static double max_abs(const dal__interval *i) { return fmax(fabs(i->low), fabs(i
 static bool admits_none(const description *p)
 {
     const dal__interval drift = dal__trend_drift(&p->evidence, 0.95, true);
-    return p->growth == DAL__STEADY && has_no_drift(p) &&
-           max_abs(&drift) < p->small_drift * p->spread;
+    return p->growth == STEADY && has_no_drift(p) && max_abs(&drift) < p->small_drift * p->spread;
 }
 
 /* Whatever the noise is, it admits next to no drift. */
@@ -179,14 +270,13 @@ static bool is_tiny(const description *p, dal__meaning likeliest, double weight)
 {
     return (likeliest == DAL__MEANS_OTHER || likeliest == DAL__MEANS_NONE ||
             (likeliest == DAL__MEANS_WALK && weight < certain_walk)) &&
-           p->growth == DAL__STEADY && has_no_drift(p) &&
-           max_abs(&p->drift) < tiny_drift * p->spread;
+           p->growth == STEADY && has_no_drift(p) && max_abs(&p->drift) < tiny_drift * p->spread;
 }
 
 static bool is_growing(const description *p, dal__meaning likeliest, double weight)
 {
     const bool drifts = likeliest == DAL__MEANS_LINEAR && weight > certain_line && !has_no_drift(p);
-    return p->growth >= DAL__GROWS && !drifts && p->wandering < 0.5 * p->bins.half_range;
+    return p->growth >= GROWS && !drifts && p->wandering < 0.5 * p->bins.half_range;
 }
 
 static decision decide(const description *p)
@@ -198,7 +288,7 @@ static decision decide(const description *p)
         if (weight[i] > weight[best]) best = i;
     const double w = weight[best];
     const decision undecided = {DAL_TREND_UNDECIDED, w, NAN};
-    if (p->growth == DAL__EXPLODES && best == DAL__MEANS_OTHER)
+    if (p->growth == EXPLODES && best == DAL__MEANS_OTHER)
         return (decision){DAL_TREND_EXPONENTIAL, not_sure, NAN};
     if (is_growing(p, best, w)) return (decision){DAL_TREND_GROWING, not_sure, NAN};
     if (best == DAL__MEANS_SETTLES && p->bins.range < settled_change * p->spread)

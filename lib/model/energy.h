@@ -1,4 +1,4 @@
-/* energy.h - whether the energy is conserved, and its normal. */
+/* energy.h - whether the energy is conserved, its normal, and the potential. */
 #ifndef DAL_MODEL_ENERGY_H
 #define DAL_MODEL_ENERGY_H
 
@@ -9,5 +9,8 @@ dal_status dal__energy_properties(dal_model *model);
 /* After the properties: the normal of a conserved energy, and F continued off D = 0.  Errors:
  * DAL_MEMORY, DAL_TOO_LARGE. */
 dal_status dal__conserved_energy(dal_model *model);
+/* What a discrete gradient needs of the potential, where W is constant.  Errors: DAL_MEMORY,
+ * DAL_TOO_LARGE. */
+dal_status dal__potential(dal_model *model);
 
 #endif

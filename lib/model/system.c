@@ -5,7 +5,6 @@
 #include "model/formulas.h"
 #include "model/guards.h"
 #include "model/model.h"
-#include "model/potential.h"
 #include "model/properties.h"
 
 /* ---- programs ---- */
