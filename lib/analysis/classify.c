@@ -17,17 +17,6 @@ typedef struct places {
     int constraints, energy, hamiltonian, pi;
 } places;
 
-static places find_places(const dal_run *run)
-{
-    const dal_system *s = dal_run_system(run);
-    const int m = s->constraints ? s->m : 0, has_energy = s->energy != NULL;
-    const int is_lifted = dal_run_dimension(run) == 4 * s->n + 2;
-    return (places){.constraints = m,
-                    .energy = has_energy ? m : -1,
-                    .hamiltonian = is_lifted ? m + has_energy : -1,
-                    .pi = is_lifted ? m + has_energy + 2 : -1};
-}
-
 /* The largest |pi| of a run; 0 where there is none. */
 static double max_pi(const places *at, const dal_trend *trend)
 {
@@ -56,13 +45,19 @@ void dal_run_classify(const dal_run *run, const dal_statistics *statistics, int 
                       dal_trend *trend)
 {
     if (!run || !statistics || !trend) return;
-    const places at = find_places(run);
+    const dal_system *s = dal_run_system(run);
+    const int m = s->constraints ? s->m : 0, has_energy = s->energy != NULL;
+    const int is_lifted = dal_run_dimension(run) == 4 * s->n + 2;
+    const places at = {.constraints = m,
+                       .energy = has_energy ? m : -1,
+                       .hamiltonian = is_lifted ? m + has_energy : -1,
+                       .pi = is_lifted ? m + has_energy + 2 : -1};
     for (int i = 0; i < dal_run_observables(run); i++) {
         const double own = dal_statistics_max_abs(&statistics[i]);
         const double scale = i == at.hamiltonian ? own : fmax(1.0, own);
         dal_statistics_classify(&statistics[i], scale, aborted, &trend[i]);
     }
     if (at.energy >= 0) trend[at.energy].conservation = conservation_of_energy(run, &at, trend);
-    if (max_pi(&at, trend) > 0.0 && !(dal_run_system(run)->properties & DAL_AUTONOMOUS))
+    if (max_pi(&at, trend) > 0.0 && !(s->properties & DAL_AUTONOMOUS))
         trend[at.hamiltonian].conservation = DAL_NOT_CONSERVED;
 }

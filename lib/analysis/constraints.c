@@ -174,29 +174,11 @@ static bool is_homogeneous(survey *w)
 
 /* ---- the class ---- */
 
-static void classify_constraints(survey *w, dal_constraint_class *out, double *degree)
-{
-    static const double first[] = {-1.0, 1.0}, second[] = {1.0, -2.0, 1.0};
-    static const double third[] = {-1.0, 3.0, -3.0, 1.0};
-    *out = (dal_constraint_class){0};
-    if (w->m > 0) {
-        const bool steady = vanishes(w, IN_T, 2, first);
-        out->linear = vanishes(w, IN_V, 3, second);
-        out->constant = steady && vanishes(w, IN_Q | IN_V, 3, second);
-        out->bilinear = steady && out->linear && vanishes(w, IN_Q, 3, second);
-        out->quadratic = steady && vanishes(w, IN_Q | IN_V, 4, third);
-        out->homogeneous = is_homogeneous(w);
-        out->parity = find_parity(w);
-    }
-    for (int a = 0; a < w->m && degree != NULL; a++) degree[a] = w->degree[a];
-    out->force_defect = force_defect(w);
-    const bool has_parity = w->s->multipliers == 0 || out->parity != 0;
-    out->reversible = has_parity && out->force_defect <= 1e-10;
-}
-
 dal_status dal_classify_constraints(dal_evaluator *evaluator, const dal_point *at,
                                     dal_constraint_class *out, double *degree)
 {
+    static const double first[] = {-1.0, 1.0}, second[] = {1.0, -2.0, 1.0};
+    static const double third[] = {-1.0, 3.0, -3.0, 1.0};
     DAL_REQUIRE(evaluator && dal__has_state(at) && out, NULL);
     const dal_system *s = dal_evaluator_system(evaluator);
     if (s->m > 0 && s->constraints == NULL) return DAL_UNSUPPORTED;
@@ -209,7 +191,20 @@ dal_status dal_classify_constraints(dal_evaluator *evaluator, const dal_point *a
     w.x = block, w.d = block + x, w.y = block + 2 * x;
     for (size_t k = 0; k < 4; k++) w.value[k] = block + 3 * x + k * rows;
     w.sign = w.value[3] + rows, w.degree = w.sign + rows, w.rate = w.degree + rows;
-    classify_constraints(&w, out, degree);
+    *out = (dal_constraint_class){0};
+    if (w.m > 0) {
+        const bool steady = vanishes(&w, IN_T, 2, first);
+        out->linear = vanishes(&w, IN_V, 3, second);
+        out->constant = steady && vanishes(&w, IN_Q | IN_V, 3, second);
+        out->bilinear = steady && out->linear && vanishes(&w, IN_Q, 3, second);
+        out->quadratic = steady && vanishes(&w, IN_Q | IN_V, 4, third);
+        out->homogeneous = is_homogeneous(&w);
+        out->parity = find_parity(&w);
+    }
+    for (int a = 0; a < w.m && degree != NULL; a++) degree[a] = w.degree[a];
+    out->force_defect = force_defect(&w);
+    const bool has_parity = w.s->multipliers == 0 || out->parity != 0;
+    out->reversible = has_parity && out->force_defect <= 1e-10;
     free(block);
     return w.undecided ? DAL_NOT_FINITE : DAL_OK;
 }

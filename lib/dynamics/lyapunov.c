@@ -246,17 +246,6 @@ void dal_lyapunov_discard_transient(dal_lyapunov *s)
     s->log_from = find_gradients(s);
 }
 
-/* The vectors, made tangent to what is enforced where the run is. */
-static dal_status make_tangent(dal_lyapunov *s)
-{
-    const int d = s->dimension;
-    for (int j = 0; j < s->rank && isfinite(s->log_from); j++) {
-        double *x = s->vectors + j * d;
-        for (int k = 0; k < s->enforced; k++) dal__remove_part(x, s->gradients + k * d, d);
-    }
-    return orthonormalise(s, s->rank);
-}
-
 dal_status dal_lyapunov_balance(dal_lyapunov *s, dal_balance *balance, dal_error *error)
 {
     DAL_REQUIRE(s, error);
@@ -355,24 +344,18 @@ static dal_status allocate_vectors(dal_lyapunov *s, dal_error *error)
     return DAL_OK;
 }
 
-/* A method that forces E knows from its first step on which. */
-static dal_status hold_usual_state(dal_lyapunov *s, unsigned properties)
-{
-    hold_state(s, s->run);
-    if (!(properties & DAL_PRESERVES_ENERGY)) return DAL_OK;
-    DAL_TRY(dal_run_restore(s->auxiliary, s->memory, s->memory_count, s->error));
-    DAL_TRY(dal_run_step(s->auxiliary, s->error));
-    hold_state(s, s->auxiliary);
-    return DAL_OK;
-}
-
 /* How many directions a step leaves: behind them R_ii is 0, or noise.  The vectors stay as that
  * step left them. */
 static dal_status find_rank(dal_lyapunov *s, unsigned properties)
 {
     dal__random random = {1};
     dal_error ignored, *error = s->error;
-    DAL_TRY(hold_usual_state(s, properties));
+    hold_state(s, s->run);
+    if (properties & DAL_PRESERVES_ENERGY) { /* it knows from its first step on which */
+        DAL_TRY(dal_run_restore(s->auxiliary, s->memory, s->memory_count, s->error));
+        DAL_TRY(dal_run_step(s->auxiliary, s->error));
+        hold_state(s, s->auxiliary);
+    }
     for (int i = 0; i < s->dimension * s->dimension; i++) s->vectors[i] = dal__uniform(&random);
     DAL_TRY(orthonormalise(s, s->dimension));
     DAL_TRY(move_vectors(s, s->dimension));
@@ -403,7 +386,11 @@ static dal_status start_vectors(dal_lyapunov *s, const dal_run_spec *spec,
                          s->rank);
     s->count = count > 0 ? count : s->rank;
     dal_lyapunov_discard_transient(s);
-    const dal_status status = make_tangent(s);
+    for (int j = 0; j < s->rank && isfinite(s->log_from); j++) /* tangent to what is enforced */
+        for (int k = 0; k < s->enforced; k++)
+            dal__remove_part(s->vectors + j * s->dimension, s->gradients + k * s->dimension,
+                             s->dimension);
+    const dal_status status = orthonormalise(s, s->rank);
     s->error = NULL;
     return status;
 }

@@ -35,21 +35,16 @@ static uint64_t mix(uint64_t h, uint64_t word)
     return h ^ (h >> 29);
 }
 
-static size_t home(const dal__graph *graph, const dal__record *r)
+/* The place in the table that holds r, or the free one where it belongs. */
+static dal__node *place(const dal__graph *graph, const dal__record *r)
 {
+    const size_t mask = ((size_t)1 << graph->table_bits) - 1;
     uint64_t bits, h = r->op;
     memcpy(&bits, &r->value, sizeof bits);
     h = mix(h, bits);
     h = mix(h, (uint64_t)(uint32_t)r->a << 32 | (uint32_t)r->b);
     h = mix(h, (uint32_t)r->symbol);
-    return (size_t)(h >> (64 - graph->table_bits));
-}
-
-/* The place in the table that holds r, or the free one where it belongs. */
-static dal__node *place(const dal__graph *graph, const dal__record *r)
-{
-    size_t mask = ((size_t)1 << graph->table_bits) - 1;
-    for (size_t i = home(graph, r);; i = (i + 1) & mask) {
+    for (size_t i = (size_t)(h >> (64 - graph->table_bits));; i = (i + 1) & mask) {
         const dal__record *s = &graph->node[graph->table[i]];
         const bool equal = r->op == s->op && r->a == s->a && r->b == s->b &&
                            r->symbol == s->symbol &&

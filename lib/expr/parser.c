@@ -350,17 +350,6 @@ static dal_status close(parser *p, dal__node *value)
     return *value ? DAL_OK : graph_fault(p);
 }
 
-static dal_status comma(parser *p, dal__node *value)
-{
-    DAL_TRY(reduce(p, 1, value));
-    frame *f = &p->stack[p->depth - 1];
-    if (f->kind != 'f')
-        return SYNTAX_ERROR(p, &p->token, "',' stands outside the arguments of a function");
-    f->arguments++;
-    f->left = *value;
-    return DAL_OK;
-}
-
 /* What follows a value, up to where another one is expected (*more) or the formula ends. */
 static dal_status read_operators(parser *p, dal__node *value, bool *more)
 {
@@ -375,7 +364,12 @@ static dal_status read_operators(parser *p, dal__node *value, bool *more)
             return next(p);
         }
         if (kind == ',') {
-            DAL_TRY(comma(p, value));
+            DAL_TRY(reduce(p, 1, value));
+            frame *f = &p->stack[p->depth - 1];
+            if (f->kind != 'f')
+                return SYNTAX_ERROR(p, &p->token, "',' stands outside the arguments of a function");
+            f->arguments++;
+            f->left = *value;
             return next(p);
         }
         if (kind == TOKEN_END) {

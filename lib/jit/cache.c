@@ -262,24 +262,18 @@ static dal_status name_object(const command *c, const char *directory, const cha
     return dal__fail(error, DAL_ARGUMENT, "the path '%.80s...' is too long", directory);
 }
 
-/* A rename replaces all but a directory. */
-static dal_status check_place(const char *path, dal_error *error)
-{
-    struct stat s;
-    if (lstat(path, &s) != 0 || !S_ISDIR(s.st_mode)) return DAL_OK;
-    return dal__fail(error, DAL_IO, "'%.200s' is in the way: it is a directory", path);
-}
-
 dal_status dal__cache_object(const dal_native_options *options, const char *text, char *path,
                              size_t size, dal_error *error)
 {
     if (!options || !options->cache || !options->cache[0])
         return dal__fail(error, DAL_ARGUMENT, "no directory for compiled steps");
     const command c = begin_command(options);
+    struct stat s;
     DAL_TRY(
         name_object(&c, options->cache, text, path, size < PATH_SIZE ? size : PATH_SIZE, error));
     DAL_TRY(make_private(options->cache, error));
-    DAL_TRY(check_place(path, error));
+    if (lstat(path, &s) == 0 && S_ISDIR(s.st_mode)) /* a rename replaces all else */
+        return dal__fail(error, DAL_IO, "'%.200s' is in the way: it is a directory", path);
     return is_whole(path) ? DAL_OK : make_object(&c, text, path, error);
 }
 

@@ -70,27 +70,22 @@ static void release(void *handle) { dlclose(handle); }
 
 /* Of the functions in dal__native_code an object has one, named after the product.  ISO C has no
  * conversion from what dlsym finds. */
-static bool find(void *handle, dal__product product, dal__native_code *native)
+static dal_status load(const char *path, dal__product product, dal__native_code *native,
+                       dal_error *error)
 {
     static const char *const symbols[] = {[DAL__LANES] = PREFIX "_lanes",
                                           [DAL__TRACE] = PREFIX "_traced",
                                           [DAL__OBSERVE] = PREFIX "_observables"};
-    void *found = handle ? dlsym(handle, symbols[product]) : NULL;
-    if (product == DAL__LANES) memcpy(&native->steps, &found, sizeof found);
-    if (product == DAL__TRACE) memcpy(&native->traced, &found, sizeof found);
-    if (product == DAL__OBSERVE) memcpy(&native->observables, &found, sizeof found);
-    return found != NULL;
-}
-
-static dal_status load(const char *path, dal__product product, dal__native_code *native,
-                       dal_error *error)
-{
     void *handle = dlopen(path, RTLD_NOW | RTLD_LOCAL);
-    if (!find(handle, product, native)) {
+    void *found = handle ? dlsym(handle, symbols[product]) : NULL;
+    if (!found) {
         if (handle) dlclose(handle);
         dal__cache_forget(path);
         return dal__fail(error, DAL_IO, "'%.200s' cannot be loaded", path);
     }
+    if (product == DAL__LANES) memcpy(&native->steps, &found, sizeof found);
+    if (product == DAL__TRACE) memcpy(&native->traced, &found, sizeof found);
+    if (product == DAL__OBSERVE) memcpy(&native->observables, &found, sizeof found);
     native->handle = handle;
     native->release = release;
     return DAL_OK;

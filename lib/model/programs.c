@@ -126,17 +126,6 @@ static dal_status diagnose(const dal_system *system, const dal_point *at, double
     return DAL_OK;
 }
 
-static void fill_single_callbacks(dal__programs *programs, dal_system *system)
-{
-#define SET(code, name, reads)                                                                     \
-    system->name = programs->program[DAL__PROGRAM_##code].present ? name : NULL;
-    DAL__SINGLE_LIST(SET)
-#undef SET
-    programs->picture = (dal_picture){picture, programs->equations->body};
-    system->picture = programs->program[DAL__PROGRAM_PICTURE].present ? &programs->picture : NULL;
-    system->diagnose = programs->program[DAL__PROGRAM_DIAGNOSE].present ? diagnose : NULL;
-}
-
 /* ---- the whole ---- */
 
 /* Numbers behind scratch: the most that a program with pivots, or the diagnosis, writes. */
@@ -219,7 +208,13 @@ dal_status dal__programs_finish(dal_model *model, dal__programs *programs, dal_s
     DAL__VARIANT_LIST(CALLBACKS, dal__fill_callbacks)
 #undef CALLBACKS
     system->call = programs->wide1;
-    fill_single_callbacks(programs, system);
+#define SET(code, name, reads)                                                                     \
+    system->name = programs->program[DAL__PROGRAM_##code].present ? name : NULL;
+    DAL__SINGLE_LIST(SET)
+#undef SET
+    programs->picture = (dal_picture){picture, e->body};
+    system->picture = programs->program[DAL__PROGRAM_PICTURE].present ? &programs->picture : NULL;
+    system->diagnose = programs->program[DAL__PROGRAM_DIAGNOSE].present ? diagnose : NULL;
     system->wide4 = if_filled(&programs->wide4);
     system->wide8 = if_filled(&programs->wide8);
     return make_quad(model, programs, system);
