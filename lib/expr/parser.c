@@ -1,5 +1,5 @@
-/* parser.c - formulas to tokens, and these to nodes by binding powers (V. R. Pratt, Top down operator
- * precedence, 1973).
+/* parser.c - formulas to tokens, and these to nodes by binding powers (V. R. Pratt, Top down
+ * operator precedence, 1973).
  *
  *     number   digits [. digits] [e [+-] digits], or . digits ...
  *     name     [A-Za-z_][A-Za-z0-9_]*, with ' right behind it for a velocity
