@@ -12,27 +12,11 @@ struct dal_evaluator {
     double *work;
 };
 
-static dal_status set_parameter(dal_evaluator *evaluator, const dal_setting *setting,
-                                dal_error *error)
-{
-    const dal_system *s = evaluator->system;
-    for (int i = 0; i < s->parameters; i++) {
-        if (s->parameter == NULL || strcmp(s->parameter[i], setting->name) != 0) continue;
-        evaluator->work[i] = setting->value;
-        if (isfinite(setting->value)) return DAL_OK;
-        return dal__fail(error, DAL_NOT_FINITE, "parameter %s = %g is not finite", setting->name,
-                         setting->value);
-    }
-    return dal__unknown(error, "parameter", setting->name, s->parameter,
-                        s->parameter != NULL ? s->parameters : 0);
-}
-
 static dal_status fill(dal_evaluator *evaluator, const dal_setting *parameters, int count,
                        dal_error *error)
 {
     const dal_system *s = evaluator->system;
-    for (int i = 0; i < s->parameters; i++) evaluator->work[i] = s->value ? s->value[i] : 0.0;
-    for (int i = 0; i < count; i++) DAL_TRY(set_parameter(evaluator, &parameters[i], error));
+    DAL_TRY(dal__set_parameters(s, parameters, count, DAL_NOT_FINITE, evaluator->work, error));
     if (s->prepare == NULL) return DAL_OK;
     dal_status status = s->prepare(s, &(dal_point){.work = evaluator->work}, NULL);
     if (status == DAL_OK) return DAL_OK;

@@ -1,5 +1,7 @@
 /* arguments.c - what public functions require of their arguments: see dalembert.h, conventions. */
 #include "core/arguments.h"
+#include <math.h>
+#include <string.h>
 
 dal_status dal__missing(dal_error *error, const char *function, const char *argument)
 {
@@ -23,6 +25,24 @@ dal_status dal__check_settings(const dal_setting *settings, int count, const cha
         if (!settings[i].name)
             return dal__fail(error, DAL_ARGUMENT, "the name of number %d of the %s is NULL", i + 1,
                              what);
+    return DAL_OK;
+}
+
+dal_status dal__set_parameters(const dal_system *s, const dal_setting *settings, int count,
+                               dal_status not_finite, double *value, dal_error *error)
+{
+    const int names = s->parameter ? s->parameters : 0;
+    for (int i = 0; i < s->parameters; i++) value[i] = s->value ? s->value[i] : 0.0;
+    for (int k = 0; k < count; k++) {
+        int i = 0;
+        while (i < names && strcmp(s->parameter[i], settings[k].name) != 0) i++;
+        if (i == names)
+            return dal__unknown(error, "parameter", settings[k].name, s->parameter, names);
+        if (!isfinite(settings[k].value))
+            return dal__fail(error, not_finite, "parameter %s: %g is not a finite number",
+                             settings[k].name, settings[k].value);
+        value[i] = settings[k].value;
+    }
     return DAL_OK;
 }
 

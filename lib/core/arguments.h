@@ -27,6 +27,10 @@ static inline bool dal__has_state(const dal_point *at) { return at && at->q && a
  * plural. */
 dal_status dal__check_settings(const dal_setting *settings, int count, const char *what,
                                dal_error *error);
+/* Sets the values of all parameters: those of the system, and settings over them.  Errors: DAL_NAME
+ * with the nearest name, not_finite where a value is not finite. */
+dal_status dal__set_parameters(const dal_system *system, const dal_setting *settings, int count,
+                               dal_status not_finite, double *value, dal_error *error);
 /* Checks that a spec has a system and its settings; ignores the rest of it. */
 dal_status dal__check_spec(const dal_run_spec *spec, dal_error *error);
 

@@ -3,6 +3,7 @@
  * A start is consistent when |D_a| <= 1e-10 |A_a| |v| (1-norm times max norm), and the constraints
  * are independent when no pivot of G is below 1e-12 of its diagonal entry. */
 #include "run/start.h"
+#include "core/arguments.h"
 #include <dalembert_kernel.h>
 
 #define CONSISTENT  1e-10
@@ -14,21 +15,7 @@ static dal_status set_parameters(dal_run *run, const dal_setting *settings, int 
                                  dal_error *error)
 {
     const dal_system *system = run->layout.system;
-    for (int i = 0; i < system->parameters; i++)
-        run->work[i] = system->value ? system->value[i] : 0.0;
-    for (int k = 0; k < count; k++) {
-        int i = 0;
-        while (i < system->parameters && system->parameter &&
-               strcmp(system->parameter[i], settings[k].name) != 0)
-            i++;
-        if (i == system->parameters || !system->parameter)
-            return dal__unknown(error, "parameter", settings[k].name, system->parameter,
-                                system->parameter ? system->parameters : 0);
-        if (!isfinite(settings[k].value))
-            return dal__fail(error, DAL_ARGUMENT, "parameter %s: %g is not a finite number",
-                             settings[k].name, settings[k].value);
-        run->work[i] = settings[k].value;
-    }
+    DAL_TRY(dal__set_parameters(system, settings, count, DAL_ARGUMENT, run->work, error));
     const dal_point at = dal__here(run);
     const dal_status status = system->prepare ? system->prepare(system, &at, NULL) : DAL_OK;
     if (status == DAL_OK) return DAL_OK;
