@@ -18,15 +18,19 @@ dal_status dal__programs_begin(const dal__equations *e, dal__programs *programs,
     return programs->tapes ? DAL_OK : DAL_MEMORY;
 }
 
-dal_status dal__programs_add(dal_model *model, dal__programs *programs, dal__program_code code,
-                             const dal__node *outputs, int count)
+dal_status dal__programs_add_lists(dal_model *model, dal__programs *programs,
+                                   dal__program_code code, const dal__nodes *lists, int count)
 {
     const dal__equations *e = &model->equations;
     dal__program *program = &programs->program[code];
-    dal__node *all = dal__model_nodes(model, count + 2 * e->pivots, 0);
+    int total = 2 * e->pivots;
+    for (int k = 0; k < count; k++) total += lists[k].count;
+    dal__node *all = dal__model_nodes(model, total, 0);
     if (!all) return DAL_MEMORY;
-    for (int i = 0; i < count; i++) all[i] = outputs[i];
-    program->outputs = count;
+    total = 0;
+    for (int k = 0; k < count; k++)
+        for (int i = 0; i < lists[k].count; i++) all[total++] = lists[k].list[i];
+    program->outputs = total;
     const bool motion =
         code == DAL__PROGRAM_FIELD || code == DAL__PROGRAM_ADJOINT || code == DAL__PROGRAM_JACOBIAN;
     const bool inverts_mass = code == DAL__PROGRAM_CONSTRAINT || code == DAL__PROGRAM_BLOCKS ||
@@ -35,12 +39,19 @@ dal_status dal__programs_add(dal_model *model, dal__programs *programs, dal__pro
         const dal__pivot *p = &e->pivot[k];
         const bool divides = motion || (inverts_mass && p->constraint == 0 && !e->vakonomic);
         if (!p->checked || !divides) continue;
-        all[count + 2 * program->checked] = p->pivot;
-        all[count + 2 * program->checked++ + 1] = p->size;
+        all[total++] = p->pivot;
+        all[total++] = p->size;
+        program->checked++;
     }
-    program->tape = dal__tapes_add(programs->tapes, all, count + 2 * program->checked);
+    program->tape = dal__tapes_add(programs->tapes, all, total);
     program->present = program->tape >= 0;
     return program->present ? DAL_OK : DAL_MEMORY;
+}
+
+dal_status dal__programs_add(dal_model *model, dal__programs *programs, dal__program_code code,
+                             const dal__node *outputs, int count)
+{
+    return dal__programs_add_lists(model, programs, code, &(dal__nodes){outputs, count}, 1);
 }
 
 /* ---- derivatives of the motion ---- */

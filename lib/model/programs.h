@@ -70,7 +70,13 @@ typedef struct dal__quad_system {
 /* Begins the programs of a system whose coordinates and velocities have n symbols each. */
 dal_status dal__programs_begin(const dal__equations *e, dal__programs *programs, int n,
                                int multipliers);
-/* Adds a program: count outputs, followed by the pivots it checks. */
+/* Adds a program: the nodes of some lists, followed by the pivots it checks; or of one list. */
+typedef struct dal__nodes {
+    const dal__node *list;
+    int count;
+} dal__nodes;
+dal_status dal__programs_add_lists(dal_model *model, dal__programs *programs,
+                                   dal__program_code code, const dal__nodes *lists, int count);
 dal_status dal__programs_add(dal_model *model, dal__programs *programs, dal__program_code code,
                              const dal__node *outputs, int count);
 /* Adds field, adjoint and jacobian of dx/dt = F: nw nodes, the first n of them accelerations. */

@@ -13,34 +13,22 @@
 static dal_status add_constraint(dal_model *model, dal__programs *programs)
 {
     const dal__equations *e = &model->equations;
-    int n = e->n, m = e->m;
+    const int m = e->m, mn = m * e->n;
+    const dal__nodes lists[] = {{e->constraint, m}, {e->A, mn}, {e->U, mn}};
     if (m == 0) return DAL_OK;
     DAL_TRY(dal__programs_add(model, programs, DAL__PROGRAM_CONSTRAINTS, e->constraint, m));
     if (!e->U[0]) return DAL_OK;
-    dal__node *out = dal__model_nodes(model, m + 2 * m * n, 0);
-    if (!out) return DAL_MEMORY;
-    for (int a = 0; a < m; a++) out[a] = e->constraint[a];
-    for (int i = 0; i < m * n; i++) {
-        out[m + i] = e->A[i];
-        out[m + m * n + i] = e->U[i];
-    }
-    return dal__programs_add(model, programs, DAL__PROGRAM_CONSTRAINT, out, m + 2 * m * n);
+    return dal__programs_add_lists(model, programs, DAL__PROGRAM_CONSTRAINT, lists, 3);
 }
 
 /* D, A, R = W^-1 B^T, W^-1 b, c; nothing for vakonomic systems. */
-static dal_status add_parts(dal_model *model, dal__programs *programs)
+static dal_status add_blocks(dal_model *model, dal__programs *programs)
 {
     const dal__equations *e = &model->equations;
-    int n = e->n, m = e->m, count = 0;
+    const int n = e->n, m = e->m, mn = m * n;
+    const dal__nodes lists[] = {{e->constraint, m}, {e->A, mn}, {e->R, mn}, {e->a, n}, {e->c, m}};
     if (e->vakonomic) return DAL_OK;
-    dal__node *out = dal__model_nodes(model, n + 2 * (m + m * n), 0);
-    if (!out) return DAL_MEMORY;
-    for (int a = 0; a < m; a++) out[count++] = e->constraint[a];
-    for (int i = 0; i < m * n; i++) out[count++] = e->A[i];
-    for (int i = 0; i < n * m; i++) out[count++] = e->R[i];
-    for (int i = 0; i < n; i++) out[count++] = e->a[i];
-    for (int a = 0; a < m; a++) out[count++] = e->c[a];
-    return dal__programs_add(model, programs, DAL__PROGRAM_BLOCKS, out, count);
+    return dal__programs_add_lists(model, programs, DAL__PROGRAM_BLOCKS, lists, 5);
 }
 
 static dal_status add_diagnosis(dal_model *model, dal__programs *programs)
@@ -74,7 +62,7 @@ static dal_status add_programs(dal_model *model, dal__programs *p, const dal__no
     DAL_TRY(dal__programs_begin(e, p, e->n, e->multipliers));
     DAL_TRY(dal__programs_add_motion(model, p, F));
     DAL_TRY(add_constraint(model, p));
-    DAL_TRY(add_parts(model, p));
+    DAL_TRY(add_blocks(model, p));
     DAL_TRY(add_if(model, p, e->potential, DAL__PROGRAM_POTENTIAL, e->potential, 3 * e->n));
     DAL_TRY(add_diagnosis(model, p));
     DAL_TRY(add_if(model, p, e->normal, DAL__PROGRAM_ENERGY_NORMAL, e->normal, 1 + 3 * e->n));
