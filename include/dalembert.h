@@ -274,6 +274,7 @@ typedef struct dal_integrator {
                                 DAL_EXTRAPOLATES_STAGES, persistent state */
     unsigned properties;     /* DAL_SYMMETRIC | ... */
     unsigned needs;          /* DAL_NEEDS_FIELD | ... */
+    unsigned kernel;         /* DAL_KERNEL_SOLVE | ..., see dalembert_kernel.h */
     unsigned inherits;       /* a modifier: properties of the method inside that it preserves */
     dal_step_function *step; /* takes one step */
 } dal_integrator;

@@ -24,21 +24,25 @@
  *     dal_collocation                       collocation.h        implicit Runge-Kutta steps
  *     dal_substeps                          composition.h        compositions of steps
  *     dal_control                           adaptive.h           steps under error control
+ *     dal_eval_blocks                       blocks.h             a, A, B, c of constrained motion
  *     dal_enforce                           constrained.h        steps that enforce D
  *     dal_spark_advance                     spark.h              the same with stages
  *
- * A file ends with one DAL_INTEGRATOR for each method in it; one line in integrators.def (or,
+ * A file ends with one DAL_INTEGRATOR for each method in it, whose member kernel names what the
+ * file uses of these (parts.h); one line in integrators.def (or,
  * outside the tree, the descriptor's address in a dal_method) makes it known. */
 #ifndef DALEMBERT_KERNEL_H
 #define DALEMBERT_KERNEL_H
 
 #include "../lib/kernel/adaptive.h"
 #include "../lib/kernel/algebra.h"
+#include "../lib/kernel/blocks.h"
 #include "../lib/kernel/collocation.h"
 #include "../lib/kernel/composition.h"
 #include "../lib/kernel/constrained.h"
 #include "../lib/kernel/elementary.h"
 #include "../lib/kernel/num.h"
+#include "../lib/kernel/parts.h"
 #include "../lib/kernel/solve.h"
 #include "../lib/kernel/spark.h"
 #include "../lib/kernel/step.h"

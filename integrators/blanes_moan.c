@@ -52,7 +52,7 @@ DAL_INLINE dal_status alternate(dal_step *s, int substeps, const double *c)
                    .summary = "composition of " #substeps_ " symplectic Euler steps",              \
                    .reference = reference_, .order = order_, .stages = 1,                          \
                    .properties = DAL_SYMMETRIC | DAL_SYMPLECTIC | DAL_PRESERVES_BILINEAR,          \
-                   .needs = DAL_NEEDS_FIELD)
+                   .needs = DAL_NEEDS_FIELD, .kernel = DAL_KERNEL_EULER | DAL_KERNEL_COMPOSITION)
 
 ALTERNATING(mclachlan4, 10, 4, "mclachlan4", "McLachlan 1995");
 ALTERNATING(bm4, 12, 4, "bm4", "Blanes, Moan 2002");

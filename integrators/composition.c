@@ -64,6 +64,7 @@ DAL_INLINE dal_status compose(dal_step *s, int substeps, const double *c)
                    .summary = "composition of " #substeps_ " steps of a symmetric method",         \
                    .reference = reference_, .order = order_, .properties = DAL_MODIFIER,           \
                    .needs = DAL_NEEDS_SYMMETRIC | DAL_NEEDS_ORDER_2,                               \
+                   .kernel = DAL_KERNEL_COMPOSITION,                                               \
                    .inherits = DAL_SYMMETRIC | DAL_SYMPLECTIC | DAL_PRESERVES_BILINEAR |           \
                                DAL_PRESERVES_QUADRATIC | DAL_PRESERVES_D | DAL_EXPLICIT |          \
                                DAL_PRESERVES_ENERGY)

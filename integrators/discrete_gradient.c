@@ -81,4 +81,5 @@ DAL_INTEGRATOR(discrete_gradient, step, .name = "discrete-gradient",
                .summary = "midpoint with a discrete gradient of U", .reference = "Gonzalez 1996",
                .order = 2, .stages = 1,
                .properties = DAL_SYMMETRIC | DAL_PRESERVES_ENERGY | DAL_PRESERVES_D_MIDPOINT,
-               .needs = DAL_NEEDS_FIELD | DAL_NEEDS_BLOCKS | DAL_NEEDS_POTENTIAL);
+               .needs = DAL_NEEDS_FIELD | DAL_NEEDS_BLOCKS | DAL_NEEDS_POTENTIAL,
+               .kernel = DAL_KERNEL_ENFORCE | DAL_KERNEL_POTENTIAL);

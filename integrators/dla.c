@@ -85,4 +85,4 @@ DAL_INLINE dal_status step(dal_step *s)
 DAL_INTEGRATOR(dla, step, .name = "dla", .summary = "discrete Lagrange-d'Alembert, midpoint",
                .reference = "Cortes, Martinez 2001", .order = 2, .stages = 1,
                .properties = DAL_SYMMETRIC | DAL_PRESERVES_D | DAL_PRESERVES_D_MIDPOINT,
-               .needs = DAL_NEEDS_FIELD | DAL_NEEDS_BLOCKS);
+               .needs = DAL_NEEDS_FIELD | DAL_NEEDS_BLOCKS, .kernel = DAL_KERNEL_ENFORCE);

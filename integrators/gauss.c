@@ -144,7 +144,7 @@ static const double e6[] = {-1.56791634615187423369e-1, 5.46632254422443822806e-
         .reference = "Hairer, Lubich, Wanner 2006, II.1.3", .order = order_, .stages = s,          \
         .properties =                                                                              \
             DAL_SYMMETRIC | DAL_SYMPLECTIC | DAL_PRESERVES_QUADRATIC | DAL_EXTRAPOLATES_STAGES,    \
-        .needs = DAL_NEEDS_FIELD)
+        .needs = DAL_NEEDS_FIELD, .kernel = DAL_KERNEL_COLLOCATION)
 
 GAUSS(2, 4, "gauss4");
 GAUSS(3, 6, "gauss6");

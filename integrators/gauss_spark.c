@@ -26,10 +26,10 @@ DAL_INLINE dal_status step2(dal_step *s) { return dal_spark_advance(s, &gauss2);
 DAL_INTEGRATOR(gauss_spark2, step1, .name = "gauss-spark2",
                .summary = "implicit midpoint with D at its end", .reference = "Jay 2009",
                .order = 2, .stages = 1, .properties = DAL_SYMMETRIC | DAL_PRESERVES_D,
-               .needs = DAL_NEEDS_FIELD | DAL_NEEDS_BLOCKS);
+               .needs = DAL_NEEDS_FIELD | DAL_NEEDS_BLOCKS, .kernel = DAL_KERNEL_SPARK);
 
 DAL_INTEGRATOR(gauss_spark4, step2, .name = "gauss-spark4",
                .summary = "Gauss-Legendre, 2 stages, D enforced on their mean and at the end",
                .reference = "Jay 2009", .order = 4, .stages = 2,
                .properties = DAL_SYMMETRIC | DAL_PRESERVES_D,
-               .needs = DAL_NEEDS_FIELD | DAL_NEEDS_BLOCKS);
+               .needs = DAL_NEEDS_FIELD | DAL_NEEDS_BLOCKS, .kernel = DAL_KERNEL_SPARK);

@@ -70,4 +70,4 @@ DAL_INTEGRATOR(gni, step, .name = "gni", .alias = "nonholonomic-rattle",
                .summary = "RATTLE with D on the velocities",
                .reference = "Ferraro, Iglesias, Martin de Diego 2008", .order = 2, .stages = 1,
                .properties = DAL_SYMMETRIC | DAL_PRESERVES_D | DAL_PERSISTENT_MULTIPLIER,
-               .needs = DAL_NEEDS_FIELD | DAL_NEEDS_BLOCKS);
+               .needs = DAL_NEEDS_FIELD | DAL_NEEDS_BLOCKS, .kernel = DAL_KERNEL_ENFORCE);

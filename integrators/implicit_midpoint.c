@@ -17,4 +17,4 @@ DAL_INTEGRATOR(implicit_midpoint, step, .name = "implicit-midpoint",
                .reference = "Hairer, Lubich, Wanner 2006, II.1", .order = 2, .stages = 1,
                .properties = DAL_SYMMETRIC | DAL_SYMPLECTIC | DAL_PRESERVES_QUADRATIC |
                              DAL_EXTRAPOLATES_STAGES,
-               .needs = DAL_NEEDS_FIELD);
+               .needs = DAL_NEEDS_FIELD, .kernel = DAL_KERNEL_COLLOCATION);

@@ -76,4 +76,5 @@ DAL_INTEGRATOR(isokinetic_splitting, step, .name = "isokinetic-splitting",
                .summary = "exact turns and drifts at constant kinetic energy",
                .reference = "Minary, Martyna, Tuckerman 2003", .order = 2, .stages = 1,
                .properties = DAL_SYMMETRIC | DAL_PRESERVES_D | DAL_EXPLICIT,
-               .needs = DAL_NEEDS_FIELD | DAL_NEEDS_BLOCKS | DAL_NEEDS_ISOKINETIC);
+               .needs = DAL_NEEDS_FIELD | DAL_NEEDS_BLOCKS | DAL_NEEDS_ISOKINETIC,
+               .kernel = DAL_KERNEL_FUNCTIONS | DAL_KERNEL_BLOCKS | DAL_KERNEL_CONSTRAINT);

@@ -102,4 +102,5 @@ DAL_INTEGRATOR(
     lift, step, .name = "lift",
     .summary = "cotangent lift of an explicit Runge-Kutta method; order 2 off p = pi = 0",
     .reference = "Sanz-Serna 2016", .stages = 4, .properties = DAL_MODIFIER | DAL_SYMPLECTIC,
-    .needs = DAL_NEEDS_RUNGE_KUTTA | DAL_NEEDS_JACOBIAN, .inherits = DAL_EXPLICIT);
+    .needs = DAL_NEEDS_RUNGE_KUTTA | DAL_NEEDS_JACOBIAN,
+    .kernel = DAL_KERNEL_ALGEBRA | DAL_KERNEL_TANGENT, .inherits = DAL_EXPLICIT);

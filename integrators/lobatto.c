@@ -114,7 +114,7 @@ static const double e5[] = {0.0, 0.0, 0.0, 0.0, 1.00000000000000000000e+0,
         .reference = "Hairer, Lubich, Wanner 2006, II.2.2", .order = order_, .stages = s,          \
         .properties =                                                                              \
             DAL_SYMMETRIC | DAL_SYMPLECTIC | DAL_PRESERVES_BILINEAR | DAL_EXTRAPOLATES_STAGES,     \
-        .needs = DAL_NEEDS_FIELD)
+        .needs = DAL_NEEDS_FIELD, .kernel = DAL_KERNEL_COLLOCATION)
 
 LOBATTO(3, 4, "lobatto4");
 LOBATTO(4, 6, "lobatto6");

@@ -70,4 +70,5 @@ DAL_INLINE dal_status step(dal_step *s)
 DAL_INTEGRATOR(mclachlan_perlmutter, step, .name = "mclachlan-perlmutter",
                .summary = "leapfrog with D at its end", .reference = "McLachlan, Perlmutter 2006",
                .order = 2, .stages = 1, .properties = DAL_SYMMETRIC | DAL_PRESERVES_D,
-               .needs = DAL_NEEDS_FIELD | DAL_NEEDS_BLOCKS);
+               .needs = DAL_NEEDS_FIELD | DAL_NEEDS_BLOCKS,
+               .kernel = DAL_KERNEL_ENFORCE | DAL_KERNEL_CONSTRAINT);

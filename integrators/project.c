@@ -81,5 +81,6 @@ DAL_INTEGRATOR(project, step, .name = "project",
                .summary = "after each step back to D = 0, p = pi = pi_e = 0, in the mass metric",
                .reference = "Hairer, Lubich, Wanner 2006, IV.4", .stages = 1,
                .properties = DAL_MODIFIER | DAL_PRESERVES_D, .needs = DAL_NEEDS_CONSTRAINT,
+               .kernel = DAL_KERNEL_SOLVE | DAL_KERNEL_CONSTRAINT,
                .inherits = DAL_PRESERVES_BILINEAR | DAL_PRESERVES_QUADRATIC | DAL_EXPLICIT |
                            DAL_ADAPTIVE);

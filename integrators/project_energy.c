@@ -160,5 +160,6 @@ DAL_INTEGRATOR(project_energy, step, .name = "project-energy",
                .reference = "Hairer, Lubich, Wanner 2006, IV.4", .stages = 1,
                .properties = DAL_MODIFIER | DAL_PRESERVES_D | DAL_PRESERVES_ENERGY,
                .needs = DAL_NEEDS_CONSTRAINT | DAL_NEEDS_ENERGY,
+               .kernel = DAL_KERNEL_SOLVE | DAL_KERNEL_CONSTRAINT | DAL_KERNEL_ENERGY_NORMAL,
                .inherits = DAL_PRESERVES_BILINEAR | DAL_PRESERVES_QUADRATIC | DAL_EXPLICIT |
                            DAL_ADAPTIVE);

@@ -121,13 +121,13 @@ static const double unit4[] = {1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0};
                    .summary = "Lobatto IIIA-IIIB, " #s " stages, D enforced at them",              \
                    .reference = "Jay 2006", .order = order_, .stages = s,                          \
                    .properties = DAL_SYMMETRIC | DAL_PRESERVES_D,                                  \
-                   .needs = DAL_NEEDS_FIELD | DAL_NEEDS_BLOCKS);                                   \
+                   .needs = DAL_NEEDS_FIELD | DAL_NEEDS_BLOCKS, .kernel = DAL_KERNEL_SPARK);       \
     DAL_INTEGRATOR(lobatto_nonholonomic##order_, step_next##s, .name = nonholonomic_,              \
                    .summary = "Lobatto IIIA-IIIB, " #s " stages, D enforced at its nodes",         \
                    .reference = "Sato Martin de Almagro, Martin de Diego 2018", .order = order_,   \
                    .stages = s,                                                                    \
                    .properties = DAL_SYMMETRIC | DAL_PRESERVES_D | DAL_PERSISTENT_MULTIPLIER,      \
-                   .needs = DAL_NEEDS_FIELD | DAL_NEEDS_BLOCKS)
+                   .needs = DAL_NEEDS_FIELD | DAL_NEEDS_BLOCKS, .kernel = DAL_KERNEL_SPARK)
 
 LOBATTO(2, 2, "spark2", "lobatto-nonholonomic2");
 LOBATTO(3, 4, "spark4", "lobatto-nonholonomic4");

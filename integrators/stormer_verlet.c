@@ -20,4 +20,4 @@ DAL_INTEGRATOR(stormer_verlet, step, .name = "stormer-verlet",
                .summary = "generalised Stormer-Verlet",
                .reference = "Hairer, Lubich, Wanner 2006, VI.3", .order = 2, .stages = 1,
                .properties = DAL_SYMMETRIC | DAL_SYMPLECTIC | DAL_PRESERVES_BILINEAR,
-               .needs = DAL_NEEDS_FIELD);
+               .needs = DAL_NEEDS_FIELD, .kernel = DAL_KERNEL_EULER);

@@ -114,4 +114,5 @@ DAL_INTEGRATOR(symmetric_project, step, .name = "symmetric-project",
                .reference = "Hairer 2000", .stages = 1,
                .properties = DAL_MODIFIER | DAL_SYMMETRIC | DAL_PRESERVES_D,
                .needs = DAL_NEEDS_CONSTRAINT | DAL_NEEDS_SYMMETRIC,
+               .kernel = DAL_KERNEL_SOLVE | DAL_KERNEL_CONSTRAINT | DAL_KERNEL_METHOD_STATE,
                .inherits = DAL_PRESERVES_BILINEAR | DAL_PRESERVES_QUADRATIC);

@@ -22,7 +22,7 @@ DAL_INTEGRATOR(symplectic_euler_00, step_00, .name = "symplectic-euler-00",
                .summary = "symplectic Euler; explicit Euler on (q,v)", .reference = reference,
                .order = 1, .stages = 1,
                .properties = DAL_SYMPLECTIC | DAL_EXPLICIT | DAL_COMPONENTWISE,
-               .needs = DAL_NEEDS_FIELD);
+               .needs = DAL_NEEDS_FIELD, .kernel = DAL_KERNEL_EULER);
 
 DAL_INLINE dal_status step_10(dal_step *s)
 {
@@ -34,7 +34,7 @@ DAL_INTEGRATOR(symplectic_euler_10, step_10, .name = "symplectic-euler-10",
                .reference = reference, .order = 1, .stages = 1,
                .properties = DAL_SYMPLECTIC | DAL_PRESERVES_BILINEAR | DAL_EXPLICIT |
                              DAL_COMPONENTWISE,
-               .needs = DAL_NEEDS_FIELD);
+               .needs = DAL_NEEDS_FIELD, .kernel = DAL_KERNEL_EULER);
 
 DAL_INLINE dal_status step_01(dal_step *s)
 {
@@ -44,7 +44,7 @@ DAL_INLINE dal_status step_01(dal_step *s)
 DAL_INTEGRATOR(symplectic_euler_01, step_01, .name = "symplectic-euler-01",
                .summary = "symplectic Euler, old q and new v", .reference = reference, .order = 1,
                .stages = 1, .properties = DAL_SYMPLECTIC | DAL_PRESERVES_BILINEAR,
-               .needs = DAL_NEEDS_FIELD);
+               .needs = DAL_NEEDS_FIELD, .kernel = DAL_KERNEL_EULER);
 
 DAL_INLINE dal_status step_11(dal_step *s)
 {
@@ -53,4 +53,5 @@ DAL_INLINE dal_status step_11(dal_step *s)
 
 DAL_INTEGRATOR(symplectic_euler_11, step_11, .name = "symplectic-euler-11",
                .summary = "symplectic Euler; implicit Euler on (q,v)", .reference = reference,
-               .order = 1, .stages = 1, .properties = DAL_SYMPLECTIC, .needs = DAL_NEEDS_FIELD);
+               .order = 1, .stages = 1, .properties = DAL_SYMPLECTIC, .needs = DAL_NEEDS_FIELD,
+               .kernel = DAL_KERNEL_EULER);

@@ -96,7 +96,7 @@ static void write_dispatch(dal__generation *g)
 #define PROGRAM(code, name, reads) write_case(g, DAL__PROGRAM_##code, #code, #name);
     DAL__WIDE_LIST(PROGRAM)
 #undef PROGRAM
-    if (!dal__wants(g, DAL__PROGRAM_GAUGE))
+    if (dal__evaluates(g, DAL__PROGRAM_GAUGE) && !dal__wants(g, DAL__PROGRAM_GAUGE))
         dal__buffer_append(&g->text, "    case DAL_EVAL_GAUGE:\n        out[0] = dal_num(0.0);\n"
                                      "        break;\n");
     dal__buffer_append(&g->text, "    default:\n        break;\n    }\n}\n\n");

@@ -2,6 +2,7 @@
 #include "codegen/generate.h"
 #include "codegen/emit_callbacks.h"
 #include "codegen/interface.h"
+#include "codegen/parts.h"
 #include "core/arguments.h"
 #include "dalembert_codegen.h"
 #include <stdio.h>
@@ -13,55 +14,26 @@ enum { MAX_INSTRUCTIONS = 20000, MAX_STACK = 1 << 22 };
 /* Loops over components are unrolled for steps up to this size. */
 enum { MAX_UNROLLED = 256, MAX_UNROLLED_DIM = 64 };
 
-/* ---- templates and sources ---- */
-
-void dal__write_template(dal__generation *g, const char *text)
-{
-    static const char word[] = "PREFIX";
-    for (const char *next; (next = strstr(text, word)); text = next + strlen(word)) {
-        dal__buffer_append_bytes(&g->text, text, (size_t)(next - text));
-        dal__buffer_append(&g->text, g->prefix);
-    }
-    dal__buffer_append(&g->text, text);
-}
-
-const char *dal__source_text(const char *name)
-{
-    for (const dal__source *k = dal__sources; k->name; k++)
-        if (strcmp(k->name, name) == 0) return k->text;
-    return "";
-}
-
-/* The source that contains the name of the integrator in quotes. */
-static const dal__source *source_of(const dal_integrator *integrator)
-{
-    char quoted[72];
-    snprintf(quoted, sizeof quoted, "\"%s\"", integrator->name);
-    for (const dal__source *k = dal__sources; k->name; k++)
-        if (strstr(k->name, ".c") && strstr(k->text, quoted)) return k;
-    return NULL;
-}
-
-bool dal__method_uses(const dal__generation *g, const char *word)
-{
-    for (int i = 0; i < g->layout.depth; i++)
-        if (strstr(g->source[i]->text, word)) return true;
-    return false;
-}
+/* ---- what a file needs ---- */
 
 bool dal__uses_newton(const dal__generation *g)
 {
-    const bool implicit = dal__method_uses(g, "dal_symplectic_euler") ||
-                          dal__method_uses(g, "dal_collocation") ||
-                          dal__method_uses(g, "dal_enforce") || dal__method_uses(g, "dal_spark");
-    return implicit && g->spec->options.solver != DAL_FIXED_POINT &&
+    const unsigned implicit = DAL_KERNEL_EULER | DAL_KERNEL_COLLOCATION | DAL_KERNEL_ENFORCE;
+    return g->kernel & implicit && g->spec->options.solver != DAL_FIXED_POINT &&
            g->programs->program[DAL__PROGRAM_JACOBIAN].present;
 }
 
 /* Whether a modifier moves tangent vectors stored in the momenta. */
 bool dal__follows_tangents(const dal__generation *g)
 {
-    return g->layout.lifted && (dal_method_needs(&g->spec->method) & DAL_NEEDS_JACOBIAN);
+    return g->layout.lifted && g->kernel & DAL_KERNEL_TANGENT;
+}
+
+/* Whether the rank of the constraints is checked in each step. */
+static bool checks_rank(const dal__generation *g)
+{
+    return g->layout.m > 0 && g->layout.system->properties & DAL_D_RANK_CHECKED &&
+           g->programs->program[DAL__PROGRAM_CONSTRAINT].present;
 }
 
 /* Whether the observables need a program. */
@@ -72,31 +44,41 @@ static bool observes(const dal__generation *g, dal__program_code code)
            code == DAL__PROGRAM_INVARIANTS || code == DAL__PROGRAM_EXACT;
 }
 
-bool dal__wants(const dal__generation *g, dal__program_code code)
+/* Whether the kernel, or the method, evaluates a callback, be it present or not. */
+bool dal__evaluates(const dal__generation *g, dal__program_code code)
 {
-    if (!g->programs->program[code].present) return false;
+    const unsigned kernel = g->kernel;
     if (g->product == DAL__OBSERVE) return observes(g, code);
-    const bool watched = g->layout.system->properties & DAL_D_RANK_CHECKED;
-    const bool enforces = dal_method_needs(&g->spec->method) & DAL_NEEDS_BLOCKS;
     switch (code) {
     case DAL__PROGRAM_ADJOINT:
     case DAL__PROGRAM_GAUGE:
-        return g->layout.lifted;
+        return g->layout.lifted || kernel & (DAL_KERNEL_EULER | DAL_KERNEL_COLLOCATION);
     case DAL__PROGRAM_JACOBIAN:
-        return dal__uses_newton(g) || dal__follows_tangents(g);
+        return kernel & (DAL_KERNEL_SOLVE | DAL_KERNEL_TANGENT);
     case DAL__PROGRAM_CONSTRAINT:
-        return watched || enforces || dal__method_uses(g, "DAL_EVAL_CONSTRAINT");
+        return kernel & DAL_KERNEL_CONSTRAINT || checks_rank(g);
     case DAL__PROGRAM_BLOCKS:
-        return enforces;
+        return kernel & DAL_KERNEL_BLOCKS;
     case DAL__PROGRAM_POTENTIAL:
-        return dal_method_needs(&g->spec->method) & DAL_NEEDS_POTENTIAL;
+        return kernel & DAL_KERNEL_POTENTIAL;
     case DAL__PROGRAM_ENERGY_NORMAL:
-        return dal__method_uses(g, "DAL_EVAL_ENERGY_NORMAL");
+        return kernel & DAL_KERNEL_ENERGY_NORMAL;
+    case DAL__PROGRAM_GUARDS:
+        return g->layout.system->guards > 0;
     case DAL__PROGRAM_DIAGNOSE:
+    case DAL__PROGRAM_PICTURE:
         return false;
     default:
         return true;
     }
+}
+
+bool dal__wants(const dal__generation *g, dal__program_code code)
+{
+    const bool lift = code == DAL__PROGRAM_ADJOINT || code == DAL__PROGRAM_GAUGE;
+    if (!g->programs->program[code].present || !dal__evaluates(g, code)) return false;
+    if (code == DAL__PROGRAM_JACOBIAN) return dal__uses_newton(g) || dal__follows_tangents(g);
+    return g->layout.lifted || !lift;
 }
 
 /* ---- checks ---- */
@@ -105,8 +87,7 @@ static dal_status check_method(dal__generation *g, dal_error *error)
 {
     for (int i = 0; i < g->layout.depth; i++) {
         const dal_integrator *layer = g->spec->method.layer[i];
-        g->source[i] = dal__integrator_wide(layer, 4) ? source_of(layer) : NULL;
-        if (!g->source[i])
+        if (!dal__find_source(layer, &g->identifier[i], &g->source[i]))
             return dal__fail(error, DAL_UNSUPPORTED,
                              "'%s' is not an integrator of the library: its source is not known",
                              layer->name ? layer->name : "?");
@@ -147,6 +128,7 @@ static dal_status check_steps(dal__generation *g, dal_error *error)
                          "steps under a tolerance are not generated: each lane has its own");
     if (g->spec->options.precision != DAL_DOUBLE)
         return dal__fail(error, DAL_UNSUPPORTED, "steps in quad precision are not generated");
+    g->kernel = dal__kernel_of(&g->spec->method);
     return check_method(g, error);
 }
 
@@ -165,7 +147,60 @@ dal_status dal__generation_check(dal__generation *g, const char *prefix, dal_err
     return dal__choose_prefix(g, prefix, error);
 }
 
-/* ---- constants ---- */
+/* ---- constants and conditions ---- */
+
+/* The kinds of elementary functions that the programs in the file call. */
+static unsigned calls_of_programs(const dal__generation *g)
+{
+    unsigned calls = dal__tape_calls(&g->programs->tapes->hoisted);
+    for (int code = 0; code < DAL__PROGRAM_COUNT; code++)
+        if (dal__wants(g, (dal__program_code)code))
+            calls |= dal__tape_calls(&g->programs->tapes->tape[g->programs->program[code].tape]);
+    return g->kernel & DAL_KERNEL_FUNCTIONS ? ~0u : calls;
+}
+
+void dal__decide_conditions(dal__generation *g)
+{
+    const unsigned calls = calls_of_programs(g);
+    const bool rank = checks_rank(g), guards = g->layout.system->guards > 0;
+    if (calls) g->kernel |= DAL_KERNEL_FUNCTIONS;
+    if (rank) g->kernel |= DAL_KERNEL_ALGEBRA;
+    const unsigned kernel = g->kernel, lifts = DAL_KERNEL_EULER | DAL_KERNEL_COLLOCATION;
+    const dal__condition list[] = {
+        {"DAL_SPECIALISED", true},
+        {"DAL_NUM_QUAD", false},
+        {"DAL_LINKED", false},
+        {"DAL_CONTROLLED", false},
+        {"DAL_PACKS", false},
+        {"DAL_SCALAR", g->lanes == 1},
+        {"DAL_WITH_SINCOS", calls & DAL__CALLS_SINCOS},
+        {"DAL_WITH_SIGN", calls & DAL__CALLS_SIGN},
+        {"DAL_WITH_LIBM", calls & DAL__CALLS_LIBM},
+        {"DAL_WITH_LIFT", g->layout.lifted || kernel & lifts},
+        {"DAL_WITH_TANGENT", kernel & DAL_KERNEL_TANGENT},
+        {"DAL_WITH_SOLVE", kernel & DAL_KERNEL_SOLVE},
+        {"DAL_WITH_METHOD_STATE", kernel & DAL_KERNEL_METHOD_STATE},
+        {"DAL_WITH_CONSTRAINT", kernel & DAL_KERNEL_CONSTRAINT},
+        {"DAL_WITH_GAUGE", g->layout.lifted && dal__wants(g, DAL__PROGRAM_GAUGE)},
+        {"DAL_WITH_GUARDS", guards},
+        {"DAL_WITH_RANK", rank},
+        {"DAL_WITH_REGULAR", guards || rank},
+        {"DAL_WITH_TRACE", g->product == DAL__TRACE},
+    };
+    g->conditions = sizeof list / sizeof *list;
+    memcpy(g->condition, list, sizeof list);
+}
+
+static void write_callback_codes(dal__generation *g)
+{
+    dal__buffer_append(&g->text, "typedef enum dal_callback_code {");
+#define PROGRAM(code, name, reads)                                                                 \
+    if (dal__evaluates(g, DAL__PROGRAM_##code))                                                    \
+        dal__buffer_append(&g->text, " DAL_EVAL_" #code ",");
+    DAL__WIDE_LIST(PROGRAM)
+#undef PROGRAM
+    dal__buffer_append(&g->text, " } dal_callback_code;\n\n");
+}
 
 /* The lanes of a group fill a register.  The groups are stepped as one larger system where
  * registers hold what a step needs of two groups. */
@@ -181,7 +216,7 @@ static void write_lanes(dal__generation *g)
                                  "#define DAL_GROUP 4\n"
                                  "#elif DAL_LANES > 2 && !defined __AVX__\n"
                                  "#define DAL_GROUP 2\n#endif\n");
-    dal__buffer_append(&g->text, dal__source_text("groups.h"));
+    dal__write_source(g, "groups.h");
     dal__buffer_append(&g->text, "#define DAL_WORK(place) w[(place) * DAL_GROUPS]\n");
     dal__buffer_print(
         &g->text, "enum { DAL_STEP_GROUPS = %s, DAL_STEP_COUNT = DAL_GROUPS / DAL_STEP_GROUPS };\n",
@@ -192,8 +227,7 @@ static void write_constants(dal__generation *g)
 {
     const dal__layout *k = &g->layout;
     const int stages = g->spec->method.layer[0]->stages;
-    const bool collocation = dal__method_uses(g, "dal_collocation");
-    const bool solves = collocation || dal__method_uses(g, "dal_symplectic_euler");
+    const bool solves = g->kernel & (DAL_KERNEL_COLLOCATION | DAL_KERNEL_EULER);
     const bool is_explicit = dal_method_properties(&g->spec->method) & DAL_EXPLICIT;
     const struct {
         const char *name;
@@ -216,10 +250,7 @@ static void write_constants(dal__generation *g)
         {"TANGENT", dal__follows_tangents(g)},
         {"EXPLICIT", is_explicit && k->depth == 1 && !(solves && k->lifted)},
         {"GUARDS", k->system->guards},
-        {"RANK_CHECKED", k->m > 0 && dal__wants(g, DAL__PROGRAM_CONSTRAINT) &&
-                             (k->system->properties & DAL_D_RANK_CHECKED) != 0},
-        {"GAUGE", dal__wants(g, DAL__PROGRAM_GAUGE)},
-        {"TRACED", g->product == DAL__TRACE},
+        {"RANK_CHECKED", checks_rank(g)},
     };
     write_lanes(g);
     for (size_t i = 0; i < sizeof list / sizeof *list; i++)
@@ -260,7 +291,7 @@ static const char end[] = "\n#pragma GCC diagnostic pop\n"
 static void write_unrolling(dal__generation *g)
 {
     const int stages = g->spec->method.layer[0]->stages;
-    const bool coupled = dal__method_uses(g, "dal_collocation");
+    const bool coupled = g->kernel & DAL_KERNEL_COLLOCATION;
     const int width = g->layout.lifted ? 3 * g->layout.n : g->layout.nw;
     const bool small =
         g->layout.dim <= MAX_UNROLLED_DIM && (!coupled || stages * stages * width <= MAX_UNROLLED);
@@ -285,34 +316,6 @@ static void write_enums(dal__generation *g)
     dal__buffer_print(&g->text, "enum { DAL_BLOCKS_POSITIONAL = %d };\n\n", DAL_BLOCKS_POSITIONAL);
 }
 
-/* The headers of the kernel that the method needs. */
-static void write_kernel(dal__generation *g)
-{
-    static const char *const always[] = {"num.h",  "elementary.h", "persistent.h",
-                                         "step.h", "algebra.h",    "acceptance.h"};
-    const bool euler = dal__method_uses(g, "dal_symplectic_euler");
-    const bool collocation = dal__method_uses(g, "dal_collocation");
-    for (size_t i = 0; i < sizeof always / sizeof *always; i++)
-        dal__buffer_append(&g->text, dal__source_text(always[i]));
-    const bool constrained = dal_method_needs(&g->spec->method) & DAL_NEEDS_BLOCKS;
-    if (euler || collocation || constrained || dal__method_uses(g, "dal_solve"))
-        dal__buffer_append(&g->text, dal__source_text("solve.h"));
-    if (euler) dal__buffer_append(&g->text, dal__source_text("symplectic_euler.h"));
-    if (collocation) dal__buffer_append(&g->text, dal__source_text("tableau.h"));
-    if (collocation) dal__buffer_append(&g->text, dal__source_text("collocation.h"));
-    if (dal__method_uses(g, "dal_substeps"))
-        dal__buffer_append(&g->text, dal__source_text("composition.h"));
-    if (constrained) dal__buffer_append(&g->text, dal__source_text("constrained.h"));
-    if (dal__method_uses(g, "dal_spark")) dal__buffer_append(&g->text, dal__source_text("spark.h"));
-}
-
-/* rk4, implicit_midpoint: the name in DAL_INTEGRATOR. */
-static void write_identifier(dal__generation *g, const dal_integrator *layer)
-{
-    for (const char *c = layer->name; *c; c++)
-        dal__buffer_append_bytes(&g->text, *c == '-' ? "_" : c, 1);
-}
-
 static void write_method(dal__generation *g)
 {
     dal__buffer *text = &g->text;
@@ -327,32 +330,34 @@ static void write_method(dal__generation *g)
                               "{\n    const double outer = s->h;\n    s->h = h;\n"
                               "    const dal_status status = dal__of_",
                               i);
-            write_identifier(g, g->spec->method.layer[i - 1]);
+            dal__buffer_append(text, g->identifier[i - 1]);
             dal__buffer_print(text,
                               "(s);\n    s->h = outer;\n    return status;\n}\n"
                               "#undef dal_inner\n#define dal_inner dal__inner_%d\n",
                               i);
         }
         dal__buffer_print(text, "#define step dal__step_%d\n", i);
-        dal__buffer_append(text, g->source[i]->text);
+        dal__write_selected(g, g->source[i]);
         dal__buffer_append(text, "#undef step\n\n");
     }
     dal__buffer_append(text, "#define dal__whole_step dal__of_");
-    write_identifier(g, g->spec->method.layer[g->layout.depth - 1]);
+    dal__buffer_append(text, g->identifier[g->layout.depth - 1]);
     dal__buffer_append(text, "\n\n");
 }
 
 void dal__write_steps(dal__generation *g)
 {
+    dal__decide_conditions(g);
     dal__write_compiler(g);
     write_unrolling(g);
     write_constants(g);
     write_enums(g);
-    write_kernel(g);
+    write_callback_codes(g);
+    dal__write_kernel(g);
     dal__emit_callbacks(g);
-    dal__buffer_append(&g->text, dal__source_text("dispatch.inc"));
+    dal__write_source(g, "dispatch.inc");
     write_method(g);
-    dal__write_template(g, dal__source_text("stepper.inc"));
+    dal__write_source(g, "stepper.inc");
 }
 
 static void write_file(dal__generation *g)
@@ -362,8 +367,8 @@ static void write_file(dal__generation *g)
                            "#include <stdint.h>\n#include <string.h>\n\n");
     dal__write_steps(g);
     dal__write_start(g);
-    dal__buffer_append(&g->text, dal__source_text("observe_lift.inc"));
-    dal__write_template(g, dal__source_text("interface.inc"));
+    if (g->layout.lifted) dal__write_source(g, "observe_lift.inc");
+    dal__write_source(g, "interface.inc");
     dal__write_observe(g);
     dal__write_names(g);
     dal__write_template(g, end);

@@ -7,6 +7,7 @@
 
 #include "core/buffer.h"
 #include "expr/emit.h"
+#include "kernel/parts.h"
 #include "model/programs.h"
 #include "run/engine.h"
 
@@ -23,27 +24,37 @@ enum { DAL__PREFIX_SIZE = 64 };
  * states, or the observables of many states. */
 typedef enum dal__product { DAL__FILE, DAL__LANES, DAL__TRACE, DAL__OBSERVE } dal__product;
 
+/* A name that lines #if of a source are decided by, see parts.h. */
+typedef struct dal__condition {
+    const char *name;
+    bool value;
+} dal__condition;
+enum { DAL__MAX_CONDITIONS = 24 };
+
 typedef struct dal__generation {
     const dal_run_spec *spec;
     const dal_run *run; /* for names and observables */
     dal__layout layout;
     const dal__programs *programs;
-    const dal__source *source[DAL_LAYERS]; /* of each layer */
-    dal__input_name *input;                /* names of the inputs in the programs */
+    unsigned kernel;                    /* DAL_KERNEL_*: the parts of the method */
+    const char *identifier[DAL_LAYERS]; /* of each layer */
+    const char *source[DAL_LAYERS];     /* its text */
+    dal__input_name *input;             /* names of the inputs in the programs */
     int lanes;
     dal__product product;
     char prefix[DAL__PREFIX_SIZE];
+    dal__condition condition[DAL__MAX_CONDITIONS];
+    int conditions;
     dal__buffer text;
 } dal__generation;
 
-/* Writes a text, with the prefix for the word PREFIX. */
-void dal__write_template(dal__generation *g, const char *text);
-/* The text of a source by its name; "" when there is none. */
-const char *dal__source_text(const char *name);
-/* Whether the text of the method uses a word. */
-bool dal__method_uses(const dal__generation *g, const char *word);
+/* Decides what lines #if of the sources depend on; adds the parts of the kernel that the system
+ * needs. */
+void dal__decide_conditions(dal__generation *g);
 bool dal__uses_newton(const dal__generation *g);
 bool dal__follows_tangents(const dal__generation *g);
+/* Whether the kernel, or the method, evaluates a callback. */
+bool dal__evaluates(const dal__generation *g, dal__program_code code);
 /* Whether a program goes into the file. */
 bool dal__wants(const dal__generation *g, dal__program_code code);
 

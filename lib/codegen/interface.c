@@ -1,5 +1,6 @@
 /* interface.c - what the caller of a generated file sees: usage, declarations, names. */
 #include "codegen/interface.h"
+#include "codegen/parts.h"
 #include <stdio.h>
 #include <string.h>
 

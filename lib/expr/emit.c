@@ -105,3 +105,18 @@ void dal__tapes_write_hoisted(const dal__tapes *tapes, dal__buffer *text)
         dal__buffer_append(text, ";\n");
     }
 }
+
+unsigned dal__tape_calls(const dal__tape *tape)
+{
+    unsigned calls = 0;
+    for (int i = 0; i < tape->length; i++) {
+        const uint32_t op = tape->code[i].op;
+        if (op == DAL__SIN || op == DAL__COS || op == DAL__SINCOS)
+            calls |= DAL__CALLS_SINCOS;
+        else if (op == DAL__SIGN)
+            calls |= DAL__CALLS_SIGN;
+        else if (op >= DAL__POW && op != DAL__SQRT && op <= DAL__ASINH)
+            calls |= DAL__CALLS_LIBM;
+    }
+    return calls;
+}

@@ -17,4 +17,8 @@ void dal__tape_write(const dal__tapes *tapes, int program, const dal__input_name
                      dal__buffer *text);
 void dal__tapes_write_hoisted(const dal__tapes *tapes, dal__buffer *text);
 
+/* The kinds of elementary functions that a tape calls. */
+enum { DAL__CALLS_SINCOS = 1 << 0, DAL__CALLS_SIGN = 1 << 1, DAL__CALLS_LIBM = 1 << 2 };
+unsigned dal__tape_calls(const dal__tape *tape);
+
 #endif

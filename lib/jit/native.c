@@ -10,6 +10,7 @@
 #include "codegen/emit_callbacks.h"
 #include "codegen/generate.h"
 #include "codegen/interface.h"
+#include "codegen/parts.h"
 #include "jit/cache.h"
 #include "run/batch.h"
 #include "run/run.h"
@@ -141,12 +142,13 @@ static dal_status compile_observables(const dal_run *run, const dal_native_optio
     dal__write_compiler(&g);
     dal__buffer_append(&g.text, lanes_text);
     write_sizes(&g);
-    dal__buffer_append(&g.text, dal__source_text("num.h"));
-    dal__buffer_append(&g.text, dal__source_text("elementary.h"));
+    dal__decide_conditions(&g);
+    dal__write_source(&g, "num.h");
+    dal__write_source(&g, "elementary.h");
     dal__emit_callbacks(&g);
-    if (g.layout.lifted) dal__buffer_append(&g.text, dal__source_text("observe_lift.inc"));
+    if (g.layout.lifted) dal__write_source(&g, "observe_lift.inc");
     dal__write_observe(&g);
-    dal__write_template(&g, dal__source_text("observables.inc"));
+    dal__write_source(&g, "observables.inc");
     return compile(&g, options, native, error);
 }
 

@@ -49,6 +49,7 @@ DAL_INLINE dal_mask dal_finite_state(const dal_step *s, int group)
                      dal_num(0.0));
 }
 
+#if DAL_WITH_GAUGE
 /* Lanes in which e keeps its sign; an infinite one has none to lose. */
 DAL_INLINE dal_mask dal_check_gauge(const dal_step *s, const num *y0)
 {
@@ -56,7 +57,9 @@ DAL_INLINE dal_mask dal_check_gauge(const dal_step *s, const num *y0)
     const num e0 = y0[dal_at_e(s)], e = s->y[dal_at_e(s)];
     return dal_less(dal_num(0.0), 1.0 / e0 * e) | ~dal_finite(e);
 }
+#endif
 
+#if DAL_WITH_REGULAR
 /* Evaluates a callback for a group before and after the step. */
 DAL_INLINE void dal_eval_both_ends(dal_step *s, int group, dal_callback_code code, const num *y0,
                                    num *before, num *after)
@@ -72,7 +75,9 @@ DAL_INLINE void dal_keep_positive(num x, int number, dal_mask *good, int *first)
     *good &= dal_less(dal_num(0.0), x);
     if (first && !*first && !dal_mask_lane(*good, 0)) *first = number;
 }
+#endif
 
+#if DAL_WITH_GUARDS
 /* Lanes where the guards keep their signs. */
 DAL_INLINE dal_mask dal_check_guards(dal_step *s, int group, const num *y0, int *first)
 {
@@ -83,7 +88,9 @@ DAL_INLINE dal_mask dal_check_guards(dal_step *s, int group, const num *y0, int 
     DAL_EACH(i, DAL_GUARDS(s)) dal_keep_positive(before[i] * after[i], i + 1, &good, first);
     return good;
 }
+#endif
 
+#if DAL_WITH_RANK
 /* Lanes where the rank check holds. */
 DAL_INLINE dal_mask dal_check_rank(dal_step *s, int group, const num *y0, int *first)
 {
@@ -100,16 +107,23 @@ DAL_INLINE dal_mask dal_check_rank(dal_step *s, int group, const num *y0, int *f
         dal_keep_positive(dal_eliminate(g0, m, k) / dal_eliminate(g1, m, k), k + 1, &good, first);
     return good;
 }
+#endif
 
+#if DAL_WITH_REGULAR
 /* Lanes where the constraints stay independent; *guard, *constraint as *first above. */
 DAL_INLINE dal_mask dal_check_regular(dal_step *s, int group, const num *y0, int *guard,
                                       int *constraint)
 {
     dal_mask good = dal_all();
+#if DAL_WITH_GUARDS
     if (DAL_GUARDS(s) > 0) good &= dal_check_guards(s, group, y0, guard);
+#endif
+#if DAL_WITH_RANK
     if (DAL_RANK_CHECKED(s)) good &= dal_check_rank(s, group, y0, constraint);
+#endif
     return good;
 }
+#endif
 
 /* The time of all lanes, compensated. */
 typedef struct dal_clock {

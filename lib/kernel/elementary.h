@@ -27,9 +27,10 @@
 
 #include "num.h"
 
+#if DAL_WITH_SINCOS
 #ifndef DAL_NUM_QUAD
 
-#if DAL_LANES == 1
+#if DAL_SCALAR
 typedef uint64_t dal__unsigned;
 DAL_INLINE dal_mask dal__bits(num x)
 {
@@ -158,7 +159,9 @@ DAL_INLINE num dal_cos(num x)
     dal_sincos(x, &s, &c);
     return c;
 }
+#endif
 
+#if DAL_WITH_SIGN
 /* -1, 0 or 1; zeros and NaN stay what they are. */
 DAL_INLINE num dal_sign(num x)
 {
@@ -166,7 +169,9 @@ DAL_INLINE num dal_sign(num x)
     num negative = dal_select(dal_less(x, zero), dal_num(-1.0), x);
     return dal_select(dal_less(zero, x), dal_num(1.0), negative);
 }
+#endif
 
+#if DAL_WITH_LIBM
 #define DAL__LIBM_UNARY(FUNCTION)                                                                  \
     FUNCTION(tan)                                                                                  \
     FUNCTION(asin)                                                                                 \
@@ -207,6 +212,7 @@ DAL__LIBM_UNARY(FUNCTION)
     }
 DAL__LIBM_BINARY(FUNCTION)
 #undef FUNCTION
+#endif
 #endif
 
 #endif

@@ -21,14 +21,40 @@
 #define DAL_LANES 1
 #endif
 
-#define DAL__PASTE(a, b)  a##b
-#define DAL__PASTE2(a, b) DAL__PASTE(a, b)
+/* A generated file (DAL_SPECIALISED) has the parts that it needs, and no others. */
+#ifndef DAL_SPECIALISED
+#define DAL_SCALAR            (DAL_LANES == 1)
+#define DAL_WITH_SINCOS       1
+#define DAL_WITH_LIBM         1 /* the functions of libm */
+#define DAL_WITH_SIGN         1
+#define DAL_WITH_LIFT         1 /* the canonical variables */
+#define DAL_WITH_TANGENT      1 /* tangent vectors in their place */
+#define DAL_WITH_SOLVE        1 /* implicit equations */
+#define DAL_WITH_METHOD_STATE 1 /* saved within a step */
+#define DAL_WITH_GAUGE        1 /* e changes */
+#define DAL_WITH_CONSTRAINT   1 /* the callback */
+#define DAL_WITH_GUARDS       1
+#define DAL_WITH_RANK         1 /* the rank check */
+#define DAL_WITH_REGULAR      1 /* one of these */
+#ifdef DAL_NUM_QUAD
+#define DAL_PACKS 0
+#else
+#define DAL_PACKS DAL_SCALAR
+#endif
+#endif
+
 /* The name of a function that exists once per variant: DAL_WIDE(f) is f_x1, f_x8, f_x8_AVX512, ...
  */
+#ifdef DAL_SPECIALISED
+#define DAL_WIDE(name) name##_once
+#else
+#define DAL__PASTE(a, b)  a##b
+#define DAL__PASTE2(a, b) DAL__PASTE(a, b)
 #ifdef DAL_VARIANT_NAME
 #define DAL_WIDE(name) DAL__PASTE2(name##_, DAL_VARIANT_NAME)
 #else
 #define DAL_WIDE(name) DAL__PASTE2(name##_x, DAL_LANES)
+#endif
 #endif
 
 #define DAL_UNUSED            __attribute__((unused))
@@ -39,12 +65,11 @@
 #ifdef DAL_SPECIALISED
 #define DAL_INLINE static inline DAL_UNUSED __attribute__((always_inline))
 #define DAL_COLD   static DAL_UNUSED __attribute__((noinline, cold))
+#define DAL_SHARED DAL_INLINE
 #else
 #define DAL_UNROLL
 #define DAL_INLINE static inline DAL_UNUSED
 #define DAL_COLD   static inline DAL_UNUSED
-#endif
-
 /* Large functions that several integrators share are compiled once per variant in the library, by
  * lib/run/kernel_wide.c (DAL_LINKS); its other sources (DAL_LINKED) see their declarations.  In all
  * other files they are a part of the file like the rest of the kernel. */
@@ -53,11 +78,12 @@
 #else
 #define DAL_SHARED DAL_INLINE
 #endif
+#endif
 
 /* for i = 0 .. count - 1 */
 #define DAL_EACH(i, count) DAL_UNROLL for (int i = 0; i < (count); i++)
 
-#if DAL_LANES == 1
+#if DAL_SCALAR
 
 #ifdef DAL_NUM_QUAD
 typedef dal_quad num;
@@ -134,7 +160,7 @@ DAL_INLINE int dal_mask_lane(dal_mask m, int lane) { return m[lane] != 0; }
 DAL_INLINE dal_mask dal_less(num a, num b) { return DAL__COMPARE(a, <, b); }
 DAL_INLINE dal_mask dal_less_equal(num a, num b) { return DAL__COMPARE(a, <=, b); }
 DAL_INLINE dal_mask dal_equal(num a, num b) { return DAL__COMPARE(a, ==, b); }
-#if DAL_LANES == 1
+#if DAL_SCALAR
 DAL_INLINE num dal_max(num a, num b) { return a < b ? b : a; }
 DAL_INLINE num dal_min(num a, num b) { return b < a ? b : a; }
 #elif defined __AVX512F__ && DAL_LANES == 8 &&                                                     \
@@ -162,7 +188,7 @@ DAL_INLINE dal_mask dal_finite(num x) { return dal_equal(x - x, dal_num(0.0)); }
 DAL_INLINE num dal_abs(num x) { return DAL_QUAD_FUNCTION(fabs)(x); }
 DAL_INLINE num dal_sqrt(num x) { return DAL_QUAD_FUNCTION(sqrt)(x); }
 DAL_INLINE num dal_fma(num a, num b, num c) { return a * b + c; } /* its rounding does not matter */
-#elif DAL_LANES == 1
+#elif DAL_SCALAR
 DAL_INLINE num dal_abs(num x) { return fabs(x); }
 DAL_INLINE num dal_sqrt(num x) { return sqrt(x); }
 DAL_INLINE num dal_fma(num a, num b, num c) { return __builtin_fma(a, b, c); }
@@ -217,7 +243,7 @@ DAL_INLINE num dal_sqrt(num x)
  * numbers on, in one order for all builds.  The functions over packs return how many numbers they
  * have processed. */
 enum { DAL__PACK = 8, DAL__MIN_PACKED = 16 };
-#if DAL_LANES == 1 && !defined DAL_SPECIALISED && !defined DAL_NUM_QUAD
+#if DAL_PACKS
 typedef double dal__pack __attribute__((vector_size(64), aligned(8), may_alias));
 typedef int64_t dal__pack_mask __attribute__((vector_size(64)));
 
@@ -270,6 +296,7 @@ DAL_INLINE int dal__square_packs(const num *u, int count, num *part)
 }
 #endif
 
+#if DAL_WITH_SOLVE
 DAL_INLINE num dal_max_norm(const num *x, int count)
 {
     num norm = dal_num(0.0);
@@ -277,6 +304,7 @@ DAL_INLINE num dal_max_norm(const num *x, int count)
     DAL_EACH(i, count - seen) norm = dal_max(norm, dal_abs(x[seen + i]));
     return norm;
 }
+#endif
 
 /* 0, or NaN where one of the numbers is not finite. */
 DAL_INLINE num dal_nonfinite(const num *x, int count)
@@ -287,6 +315,7 @@ DAL_INLINE num dal_nonfinite(const num *x, int count)
     return nonfinite;
 }
 
+#if DAL_WITH_LIFT
 /* |u|^2 */
 DAL_INLINE num dal_square(const num *u, int count)
 {
@@ -299,5 +328,6 @@ DAL_INLINE num dal_square(const num *u, int count)
             ((part[1] + part[5]) + (part[3] + part[7]))) +
            sum;
 }
+#endif
 
 #endif

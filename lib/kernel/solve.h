@@ -61,7 +61,7 @@ typedef struct dal_equation {
 
 /* A map may store values for the end of the step: those of a lane's own last iteration, which
  * further iterations of its neighbours do not change. */
-#if DAL_LANES == 1
+#if DAL_SCALAR
 #define DAL_IF_ACTIVE(active, fresh, old) (fresh)
 #else
 #define DAL_IF_ACTIVE(active, fresh, old) dal_select(active, fresh, old)
@@ -72,7 +72,7 @@ typedef void dal_matrix(dal_step *step, dal_equation *equation);        /* fills
 
 /* The size of a block.  Compilers do not see the constant where several groups are stepped as one
  * system; such a file has blocks of one size only. */
-#if defined DAL_SPECIALISED
+#ifdef DAL_SPECIALISED
 #define DAL_SIZE(b) (DAL_STEP_GROUPS > 1 ? DAL__STAGES * DAL__NW * DAL_STEP_GROUPS : (b)->size)
 #else
 #define DAL_SIZE(b) ((b)->size)
@@ -122,7 +122,7 @@ DAL_SHARED dal_status dal_solve(dal_step *s, dal_equation *eq, dal_iteration_map
                                 dal_matrix *matrix);
 
 #ifndef DAL_LINKED
-#if DAL_LANES == 1 && !defined DAL_SPECIALISED && !defined DAL_NUM_QUAD
+#if DAL_PACKS
 /* image -= u, u += image; norm: of image; nonfinite: NaN unless image is finite. */
 DAL_INLINE int dal__advance_packs(num *u, num *image, int count, num *norm, num *nonfinite)
 {

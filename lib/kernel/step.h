@@ -10,6 +10,7 @@
 
 #include "../../include/dalembert.h"
 #include "num.h"
+#include "parts.h"
 #include "persistent.h"
 
 typedef struct dal_step dal_step;
@@ -27,36 +28,40 @@ enum { DAL_MAX_STAGES = 16 };
     CALLBACK(GUARDS, guards)                                                                       \
     CALLBACK(BLOCKS, blocks)                                                                       \
     CALLBACK(POTENTIAL, potential)
+#ifndef DAL_SPECIALISED
 typedef enum dal_callback_code {
 #define CALLBACK(code, member) DAL_EVAL_##code,
     DAL__CALLBACK_LIST(CALLBACK)
 #undef CALLBACK
         DAL_EVAL_COUNT
 } dal_callback_code;
+#endif
 
 #ifdef DAL_SPECIALISED
 
 /* In a generated file dimensions are constants and all memory is local.  DAL_STEP_GROUPS groups of
  * lanes are stepped as one larger system: component i of group j is number i*DAL_STEP_GROUPS +
  * j. */
-#define DAL_N(s)                      (DAL__N * DAL_STEP_GROUPS)
-#define DAL_NW(s)                     (DAL__NW * DAL_STEP_GROUPS)
-#define DAL_M(s)                      DAL__M
-#define DAL_DIM(s)                    (DAL__DIM * DAL_STEP_GROUPS)
-#define DAL_LIFTED(s)                 DAL__LIFTED
-#define DAL_SOLVER(s)                 DAL__SOLVER
-#define DAL_ITERATIONS(s)             DAL__ITERATIONS
-#define DAL_SOLVER_TOLERANCE(s)       DAL__SOLVER_TOLERANCE
-#define DAL_EXTRA_ITERATIONS(s)       DAL__EXTRA_ITERATIONS
+#define DAL_N(s)      (DAL__N * DAL_STEP_GROUPS)
+#define DAL_NW(s)     (DAL__NW * DAL_STEP_GROUPS)
+#define DAL_M(s)      DAL__M
+#define DAL_DIM(s)    (DAL__DIM * DAL_STEP_GROUPS)
+#define DAL_LIFTED(s) DAL__LIFTED
+#if DAL_WITH_SOLVE
+#define DAL_SOLVER(s)           DAL__SOLVER
+#define DAL_ITERATIONS(s)       DAL__ITERATIONS
+#define DAL_SOLVER_TOLERANCE(s) DAL__SOLVER_TOLERANCE
+#define DAL_EXTRA_ITERATIONS(s) DAL__EXTRA_ITERATIONS
+#define DAL_MAY_NEWTON(s)       DAL__NEWTON
+#define DAL_STAGES(t)           DAL__STAGES
+#endif
 #define DAL_PLAIN(s)                  DAL__PLAIN
-#define DAL_MAY_NEWTON(s)             DAL__NEWTON
 #define DAL_TANGENT(s)                DAL__TANGENT
 #define DAL_PROPERTIES(s)             DAL__PROPERTIES
 #define DAL_GUARDS(s)                 DAL__GUARDS
 #define DAL_RANK_CHECKED(s)           DAL__RANK_CHECKED
 #define DAL_PERSISTENT_MULTIPLIERS(s) DAL__MULTIPLIER        /* m, or 0 */
 #define DAL_STAGE_DERIVATIVES(s)      DAL__STAGE_DERIVATIVES /* size, or 0 */
-#define DAL_STAGES(t)                 DAL__STAGES
 #define DAL__AT_LEAST_ONE(count)      ((count) > 0 ? (count) : 1)
 #define DAL__COUNT_ONE                1
 #define DAL__COUNT_TWO                2
@@ -78,6 +83,7 @@ struct dal_step {
     long long evaluations;
 };
 
+#if DAL_WITH_METHOD_STATE
 /* Copies the state of the method; restores it in some lanes. */
 enum {
     DAL__METHOD_STATE_SIZE = 0
@@ -102,6 +108,7 @@ DAL_INLINE void dal_restore_method_state(dal_step *s, dal_mask lanes, const num 
     DAL__METHOD_STATE_LIST(MEMBER)
 #undef MEMBER
 }
+#endif
 
 /* The system as straight-line code, further down. */
 DAL_INLINE void dal_eval(dal_step *s, dal_callback_code code, double t, const num *q, const num *v,
@@ -227,6 +234,7 @@ DAL_INLINE void dal_eval_group(dal_step *s, int group, dal_callback_code code, d
  * code behind several returns for cold and leaves it slow. */
 DAL_INLINE int dal_failed(dal_status status) { return DAL_RARELY(status != DAL_OK); }
 
+#if DAL_WITH_TANGENT
 /* Selects whether dal_field moves a tangent vector stored in p and pi. */
 DAL_INLINE void dal_set_tangent(dal_step *s, int on)
 {
@@ -235,6 +243,7 @@ DAL_INLINE void dal_set_tangent(dal_step *s, int on)
 #endif
     (void)s, (void)on;
 }
+#endif
 
 /* The output of DAL_EVAL_CONSTRAINT for a group: D, A, B.  The size of G. */
 #define DAL_CONSTRAINT_SIZE(s) (DAL_M(s) + 2 * DAL_M(s) * (DAL_N(s) / DAL_STEP_GROUPS))
@@ -262,6 +271,7 @@ DAL_INLINE void dal_force(dal_step *s, double t, const num *q, const num *v, num
     s->evaluations++;
     dal_eval(s, DAL_EVAL_FIELD, t, q, v, NULL, out);
 }
+#if DAL_WITH_LIFT
 DAL_INLINE void dal_adjoint(dal_step *s, double t, const num *q, const num *v, const num *pi,
                             num *out)
 {
@@ -280,7 +290,9 @@ DAL_INLINE num dal_gauge_rate(const num *pi, int n, num w)
 {
     return 0.5 * dal_square(pi, n) * (w * w);
 }
+#endif
 
+#if DAL_WITH_TANGENT
 /* The field of x' = f, dx' = Df dx, with the tangent vector dx stored in p and pi. */
 DAL_INLINE void dal__tangent_field(dal_step *s, double t, const num *y, num *DAL_RESTRICT dy)
 {
@@ -300,7 +312,9 @@ DAL_INLINE void dal__tangent_field(dal_step *s, double t, const num *y, num *DAL
     dy[dal_at_pi_e(s)] = dal_num(0.0);
     DAL__RELEASE(s);
 }
+#endif
 
+#if DAL_WITH_LIFT
 /* That of the canonical variables but q' = v. */
 DAL_INLINE void dal__lifted_field(dal_step *s, double t, const num *y, num *DAL_RESTRICT dy)
 {
@@ -317,6 +331,7 @@ DAL_INLINE void dal__lifted_field(dal_step *s, double t, const num *y, num *DAL_
     dy[dal_at_pi_e(s)] = dal_gauge_rate(pi, n, w);
     DAL__RELEASE(s);
 }
+#endif
 
 /* The whole first-order field in the space of the run, dy[dim]:
  *     q' = v   v' = F + pi/e   e' = mu_e   p' = -F_q^T pi   pi' = -p - F_v^T pi   pi_e' = pi^2/2e^2
@@ -325,12 +340,13 @@ DAL_INLINE void dal_field(dal_step *s, double t, const num *y, num *DAL_RESTRICT
 {
     const int n = DAL_N(s);
     DAL_EACH(i, n) dy[i] = y[n + i];
-    if (!DAL_LIFTED(s))
-        dal_force(s, t, y, y + n, dy + n);
-    else if (DAL_TANGENT(s))
-        dal__tangent_field(s, t, y, dy);
-    else
-        dal__lifted_field(s, t, y, dy);
+    if (!DAL_LIFTED(s)) dal_force(s, t, y, y + n, dy + n);
+#if DAL_WITH_TANGENT
+    if (DAL_LIFTED(s) && DAL_TANGENT(s)) dal__tangent_field(s, t, y, dy);
+#endif
+#if DAL_WITH_LIFT
+    if (DAL_LIFTED(s) && !DAL_TANGENT(s)) dal__lifted_field(s, t, y, dy);
+#endif
 }
 
 /* y + r += factor*d for count components, compensated; lanes that are not alive stay unchanged.  r

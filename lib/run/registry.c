@@ -4,7 +4,7 @@
 #include <string.h>
 
 #define DECLARE(name, variant, lanes, set) extern const dal_integrator dal__wide_##name##_##variant;
-#define INTEGRATOR(name)                                                                           \
+#define INTEGRATOR(name, file)                                                                     \
     extern const dal_integrator dal_integrator_##name;                                             \
     DAL__VARIANT_LIST(DECLARE, name)
 #include "../integrators/integrators.def"
@@ -12,7 +12,7 @@
 
 #define ADDRESS(name, variant, lanes, set) &dal__wide_##name##_##variant,
 static const dal_integrator *const entries[][DAL__VARIANTS] = {
-#define INTEGRATOR(name) {&dal_integrator_##name, DAL__VARIANT_LIST(ADDRESS, name)},
+#define INTEGRATOR(name, file) {&dal_integrator_##name, DAL__VARIANT_LIST(ADDRESS, name)},
 #include "../integrators/integrators.def"
 #undef INTEGRATOR
 };

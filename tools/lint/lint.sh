@@ -82,7 +82,7 @@ memory() {
 exported() { nm -D --defined-only "$BUILD/libdalembert.so" | awk '{ print $3 }' | sort; }
 declared() {
     ctags -x --c-kinds=p --_xformat='%N' include/dalembert.h include/dalembert_[!k]*.h
-    sed -n 's/^INTEGRATOR(\(.*\))$/dal_integrator_\1/p' integrators/integrators.def
+    sed -n 's/^INTEGRATOR(\(.*\),.*/dal_integrator_\1/p' integrators/integrators.def
 }
 exports() {
     exported >"$BUILD/exported.txt"

@@ -1,0 +1,88 @@
+/* test_generate_parts.c - the parts of the kernel that descriptors declare.  Each integrator
+ * compiles with these alone, so none is missing, and without one of them it does not, so none is
+ * superfluous. */
+#include "codegen/parts.h"
+#include "fixtures.h"
+#include <CUnit/CUnit.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static bool compiles;
+
+static int set_up(void)
+{
+    compiles = system("cc --version >/dev/null 2>&1") == 0;
+    if (!compiles) puts("(no compiler here)");
+    return 0;
+}
+
+/* Whether a compiler accepts the steps. */
+static bool accepts(const char *text)
+{
+    FILE *compiler = popen("cc -std=gnu11 -Werror=implicit-function-declaration -fsyntax-only "
+                           "-x c - 2>/dev/null",
+                           "w");
+    CU_ASSERT_PTR_NOT_NULL_FATAL(compiler);
+    fputs("#include <math.h>\n#include <stddef.h>\n#include <stdint.h>\n#include <string.h>\n",
+          compiler);
+    fputs(text, compiler);
+    return pclose(compiler) == 0;
+}
+
+/* A system on which the integrator, or the modifier, can act. */
+static const char *system_for(const dal_integrator *integrator)
+{
+    return integrator->needs & DAL_NEEDS_ISOKINETIC ? "isokinetic-cluster" : "chaplygin-sleigh";
+}
+
+/* Writes the steps with these parts and those that they use.  A modifier stands around rk4, which
+ * uses none, whether it suits it or not. */
+static bool accepts_with(int number, unsigned parts, int lanes)
+{
+    const dal_integrator *integrator = dal_integrator_at(number);
+    char name[64], *text = NULL;
+    const dal_system *system = fixture_system(system_for(integrator));
+    const bool physical = integrator->needs & (DAL_NEEDS_BLOCKS | DAL_NEEDS_ISOKINETIC);
+    dal_run_spec spec = fixture_spec(system, fixture_method(number, name, sizeof name),
+                                     physical ? DAL_PHYSICAL : DAL_LIFTED, 0.01);
+    dal__generation g = {.spec = &spec, .lanes = lanes, .product = DAL__LANES};
+    CU_ASSERT_EQUAL_FATAL(dal__generation_check(&g, "steps", NULL), DAL_OK);
+    if (integrator->properties & DAL_MODIFIER) {
+        dal_method rk4;
+        CU_ASSERT_EQUAL_FATAL(dal_method_parse(&rk4, "rk4", NULL), DAL_OK);
+        g.layout.method.layer[0] = rk4.layer[0];
+        dal__find_source(rk4.layer[0], &g.identifier[0], &g.source[0]);
+    }
+    g.kernel = dal__kernel_closure(parts);
+    dal__write_steps(&g);
+    CU_ASSERT_EQUAL_FATAL(dal__generation_finish(&g, &text, NULL), DAL_OK);
+    const bool accepted = accepts(text);
+    free(text);
+    return accepted;
+}
+
+static void test_parts(void)
+{
+    for (int i = 0; compiles && dal_integrator_at(i); i++) {
+        const dal_integrator *integrator = dal_integrator_at(i);
+        const unsigned parts = integrator->kernel;
+        for (int lanes = 1; lanes <= 8; lanes *= 8)
+            if (!accepts_with(i, parts, lanes)) {
+                printf("\n  %s, %d lanes: lacks a part\n", integrator->name, lanes);
+                CU_FAIL("a part of the kernel is missing");
+            }
+        for (unsigned part = 1; part <= parts; part <<= 1)
+            if (parts & part && accepts_with(i, parts & ~part, 1)) {
+                printf("\n  %s: part %#x is superfluous\n", integrator->name, part);
+                CU_FAIL("a part of the kernel is superfluous");
+            }
+    }
+}
+
+void suite_generate_parts(void);
+void suite_generate_parts(void)
+{
+    CU_pSuite suite = CU_add_suite("generate parts", set_up, NULL);
+    CU_add_test(suite, "integrators compile with what they declare", test_parts);
+}
