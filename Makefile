@@ -86,10 +86,11 @@ SHARED  = $(BUILD)/libdalembert.so
 KERNEL  = $(BUILD)/generated/dalembert_kernel.h
 SYSTEMS = $(BUILD)/generated/systems.c
 MANUAL  = $(BUILD)/dalembert.1
+COMPLETION = $(BUILD)/dalembert.bash
 
 SAY = $(if $(V),,@echo '  $1 $@';)
 
-all: $(PROGRAM) $(STATIC) $(SHARED) $(KERNEL) $(MANUAL)
+all: $(PROGRAM) $(STATIC) $(SHARED) $(KERNEL) $(MANUAL) $(COMPLETION)
 
 help:
 	@sed -n '3,/^BUILD/{/^BUILD/q; s/^# \{0,1\}//p;}' $(firstword $(MAKEFILE_LIST))
@@ -190,9 +191,13 @@ $(KERNEL): tools/amalgamate.sh include/dalembert_kernel.h $(wildcard include/*.h
 
 # The program describes its commands itself.  Where it cannot run here, HOST_PROGRAM is one that can.
 HOST_PROGRAM ?= $(PROGRAM)
-$(MANUAL): man/dalembert.1.in tools/manual.awk $(PROGRAM)
-	$(call SAY,man)$(HOST_PROGRAM) help --markdown >$@.md && \
-	    awk -v version=$(VERSION) -v commands=$@.md -f tools/manual.awk $< >$@.tmp && mv $@.tmp $@
+REFERENCE     = $(BUILD)/generated/commands.md
+$(REFERENCE): $(PROGRAM)
+	$(call SAY,md)$(HOST_PROGRAM) help --markdown >$@.tmp && mv $@.tmp $@
+$(MANUAL): tools/manual.awk $(REFERENCE) man/dalembert.1.in
+	$(call SAY,awk)awk -v version=$(VERSION) -v commands=$(REFERENCE) -f $< man/dalembert.1.in >$@.tmp && mv $@.tmp $@
+$(COMPLETION): tools/completion.awk $(REFERENCE)
+	$(call SAY,awk)awk -f $^ >$@.tmp && mv $@.tmp $@
 
 # The test suites there are.  The list changes with the files, so it is made in every run;
 # suites.h, which declares them, goes before every test source.
@@ -307,12 +312,13 @@ LIB     = "$(DESTDIR)$(PREFIX)/lib"
 INCLUDE = "$(DESTDIR)$(PREFIX)/include"
 MAN     = "$(DESTDIR)$(PREFIX)/share/man/man1"
 SHARE   = "$(DESTDIR)$(PREFIX)/share/dalembert"
+BASH    = "$(DESTDIR)$(PREFIX)/share/bash-completion/completions"
 PUBLIC  = $(filter-out dalembert_kernel.h,$(notdir $(wildcard include/*.h)))
 HEADERS = $(PUBLIC) dalembert_kernel.h
 LINKS   = libdalembert.so $(SONAME) libdalembert.so.$(VERSION)
 
 install: all
-	install -d $(BIN) $(LIB)/pkgconfig $(INCLUDE) $(MAN) $(SHARE)/systems
+	install -d $(BIN) $(LIB)/pkgconfig $(INCLUDE) $(MAN) $(BASH) $(SHARE)/systems
 	install $(PROGRAM) $(wildcard $(MPI_PROGRAM)) $(BIN)
 	install -m 644 $(STATIC) $(LIB)
 	install -m 644 $(SHARED).$(VERSION) $(LIB)
@@ -322,11 +328,12 @@ install: all
 	sed 's|@PREFIX@|$(PREFIX)|; s|@VERSION@|$(VERSION)|' tools/dalembert.pc.in \
 	    >$(LIB)/pkgconfig/dalembert.pc
 	install -m 644 $(MANUAL) $(MAN)
+	install -m 644 $(COMPLETION) $(BASH)/dalembert
 	install -m 644 systems/*.yaml $(SHARE)/systems
 
 uninstall:
 	rm -f $(BIN)/dalembert $(BIN)/dalembert-mpi $(LIB)/libdalembert.a $(LINKS:%=$(LIB)/%) $(HEADERS:%=$(INCLUDE)/%)
-	rm -f $(LIB)/pkgconfig/dalembert.pc $(MAN)/dalembert.1
+	rm -f $(LIB)/pkgconfig/dalembert.pc $(MAN)/dalembert.1 $(BASH)/dalembert
 	rm -rf $(SHARE)
 
 clean:

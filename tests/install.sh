@@ -60,6 +60,7 @@ awk "$near"' { near($2, sin(1), 1e-4); near($3, 1 - cos(1), 1e-4); near($4, 1, 1
 manual=$prefix/share/man/man1/dalembert.1
 grep -q '^\.SS run$' "$manual" && grep -q '^\.SH EXAMPLES$' "$manual" || fail "no man page of all commands"
 ! grep -q '@' "$manual" || fail "a part of the man page is not filled in"
+bash -n "$prefix/share/bash-completion/completions/dalembert" || fail "no completion for bash"
 # Before 1.0 the soname has the minor version: libdalembert.so.0.3 of 0.3.0.
 soname=libdalembert.so.$("$prefix/bin/dalembert" --version | sed 's/.* //; s/\.[0-9]*$//')
 [ "$(readlink "$prefix/lib/libdalembert.so")" = "$soname" ] || fail "no link to $soname"

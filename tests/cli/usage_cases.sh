@@ -64,6 +64,23 @@ if there groff; then
     holds "escapes are left" sh -c '! grep -q "\\\\" page'
 fi
 
+# completes WORDS...: what bash offers for the last one.
+completes() {
+    bash -c '. ./completion; COMP_WORDS=(dalembert "$@"); COMP_CWORD=$#; _dalembert "$0"
+             echo "${COMPREPLY[*]}"' "$program" "$@"
+}
+if there bash; then
+    case_is "completion by bash"
+    awk -f "$here/../../tools/completion.awk" reference >completion
+    holds "commands" test "$(completes re)" = "resume report"
+    holds "options" test "$(completes run --sam)" = "--samples --sampling"
+    holds "options of run in section" test "$(completes section --sp)" = "--space"
+    holds "an option that it does not take" test -z "$(completes lyapunov --sp)"
+    holds "words" test "$(completes run --sampling l)" = "linear log"
+    holds "systems" test "$(completes check knife)" = "knife-edge"
+    holds "integrators" test "$(completes run knife-edge --integrator gauss1)" = "gauss10 gauss12"
+fi
+
 case_is "no help is wider than 80 columns"
 while read -r command; do
     try 0 "$command" --help
