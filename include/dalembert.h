@@ -472,7 +472,7 @@ size_t dal_run_size(const dal_run_spec *spec);
  * DAL_SINGULAR_MASS, DAL_GAUGE, DAL_NOT_FINITE, DAL_MEMORY (too few bytes). */
 dal_status dal_run_init(dal_run **run, void *memory, size_t bytes, const dal_run_spec *spec,
                         dal_error *error);
-/* The same in memory of its own. [alloc]  Errors: those of dal_run_init. */
+/* Makes a run in memory of its own. [alloc]  Errors: those of dal_run_init. */
 dal_status dal_run_create(dal_run **run, const dal_run_spec *spec, dal_error *error);
 /* Frees what the run owns: its memory after dal_run_create, compiled code always. */
 void dal_run_free(dal_run *run);

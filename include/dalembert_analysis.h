@@ -460,12 +460,12 @@ char *dal_error_budget_describe(const dal_error_budget *budget, int observable,
 
 /* ---- Lyapunov exponents and phase volume --------------------------------------------------- */
 
-/* A run on (q, v, g) with tangent vectors: J, the derivative of each of its steps, moves them, and
- * Gram-Schmidt makes them orthonormal again,
- *     J V = V' R,    exponent i = mean of log(R_ii)/h,    mean of log|det J|/h = their sum,
- * and so is the divergence of the motion, the trace of F_(v,g).  Its mean over a long time holds
- * for every density of the phase space, and on D = 0, provided that the logarithms of the density
- * and of |grad D| grow slower than t: they contribute total derivatives only. */
+/* A run on (q, v, g) with tangent vectors.  J, the derivative of each of its steps, moves them, and
+ * Gram-Schmidt makes them orthonormal again.
+ *     J V = V' R,    exponent i = mean of log(R_ii)/h,    mean of log|det J|/h = their sum
+ * The mean divergence of the motion, that of the trace of F_(v,g), is their sum, too.  Over a long
+ * time it holds for every density of the phase space, and on D = 0, provided that the logarithms of
+ * the density and of |grad D| grow slower than t: they contribute total derivatives only. */
 typedef struct dal_lyapunov dal_lyapunov;
 
 /* Makes count tangent vectors; 0: one for each direction of the step map, that is 2n +
@@ -478,7 +478,7 @@ typedef struct dal_lyapunov dal_lyapunov;
  * multiplier as persistent state, or a tolerance. */
 dal_status dal_lyapunov_create(dal_lyapunov **lyapunov, const dal_run_spec *spec,
                                const dal_system *tangent, int count, dal_error *error);
-/* Frees it, with its run. */
+/* Frees the vectors and their run. */
 void dal_lyapunov_free(dal_lyapunov *lyapunov);
 /* Takes steps of the run and its vectors; the run has the bits of dal_run_advance.  Errors: those
  * of a step; DAL_SINGULAR when J takes a vector to 0. */
@@ -486,7 +486,7 @@ dal_status dal_lyapunov_advance(dal_lyapunov *lyapunov, long long steps, dal_err
 /* Begins all means at the present time, after a transient; the vectors stay. */
 void dal_lyapunov_discard_transient(dal_lyapunov *lyapunov);
 
-/* Compares the sum of all exponents with the divergence.  For the flow, over any time,
+/* The sum of all exponents against the divergence.  For the flow, over any time,
  *     sum = mean divergence + surface,    surface = (1/T) [log |grad D|] between both ends
  * where the method enforces D = 0 (and E: |grad| is then the volume spanned by the gradients with
  * respect to (q, v, g)), else surface = 0: an enforced direction has no exponent, where the flow
@@ -501,9 +501,9 @@ typedef struct dal_balance {
     int holds;         /* |difference| <= margin; if not, J is wrong */
 } dal_balance;
 
-/* Compares them over all steps so far. Errors: DAL_UNSUPPORTED: not all exponents, no jacobian,
- * directions lost that neither D nor E explains, a method that maps D to -D in every step, or x >=
- * 1 in some step. [alloc] */
+/* Compares the sum of all exponents so far with the divergence.  [alloc]  Errors: DAL_UNSUPPORTED:
+ * not all exponents, no jacobian, directions lost that neither D nor E explains, a method that maps
+ * D to -D in every step, or x >= 1 in some step. */
 dal_status dal_lyapunov_balance(dal_lyapunov *lyapunov, dal_balance *balance, dal_error *error);
 
 /* The run, at its present state. */

@@ -14,23 +14,25 @@
  *
  * and the functions, all declared in lib/kernel, are:
  *
- *     num, dal_select, dal_less, ...        num.h                lanes
- *     dal_sin, dal_cos, dal_exp, ...        elementary.h         elementary functions
- *     dal_step, dal_field, dal_update, ...  step.h               one step: state, system
- *     dal_invert, dal_multiply              algebra.h            small dense matrices
- *     dal_solve                             solve.h              fixed point, Newton
- *     dal_symplectic_euler                  symplectic_euler.h   partitioned symplectic Euler
- *     dal_tableau                           tableau.h            coefficients, weighted sums
- *     dal_collocation                       collocation.h        implicit Runge-Kutta steps
- *     dal_substeps                          composition.h        compositions of steps
- *     dal_control                           adaptive.h           steps under error control
- *     dal_eval_blocks                       blocks.h             a, A, B, c of constrained motion
- *     dal_enforce                           constrained.h        steps that enforce D
- *     dal_spark_advance                     spark.h              the same with stages
+ *     num.h               num dal_mask dal_num dal_all dal_select dal_any dal_less dal_equal
+ *                         dal_max dal_min dal_abs dal_sqrt dal_fma dal_max_norm
+ *     elementary.h        dal_sin dal_cos
+ *     step.h              dal_step dal_failed dal_field dal_force dal_eval dal_add dal_update
+ *                         dal_add_multiple dal_update_multiple dal_inner dal_clear_momenta
+ *     algebra.h           dal_multiply dal_gram dal_invert
+ *     solve.h             dal_block DAL_BLOCK dal_equation dal_iteration_map dal_matrix dal_solve
+ *     symplectic_euler.h  dal_polarisation dal_symplectic_euler
+ *     tableau.h           dal_tableau
+ *     collocation.h       dal_collocation
+ *     composition.h       dal_composition dal_substeps
+ *     adaptive.h          dal_trial dal_attempt dal_control
+ *     blocks.h            dal_eval_blocks
+ *     constrained.h       dal_positional dal_velocity_equation dal_enforce
+ *     spark.h             dal_spark dal_spark_advance
  *
  * A file ends with one DAL_INTEGRATOR for each method in it, whose member kernel names what the
- * file uses of these (parts.h); one line in integrators.def (or,
- * outside the tree, the descriptor's address in a dal_method) makes it known. */
+ * file uses of these (parts.h); one line in integrators.def (or, outside the tree, the descriptor's
+ * address in a dal_method) makes it known. */
 #ifndef DALEMBERT_KERNEL_H
 #define DALEMBERT_KERNEL_H
 
@@ -50,10 +52,10 @@
 #include "../lib/kernel/tableau.h"
 #include "dalembert.h"
 
+#ifndef DAL_VARIANT_NAME
 /* DAL_INTEGRATOR(NAME, step function, the descriptor's other members) defines the constant
  * descriptor dal_integrator_NAME.  Other variants have names of their own for the library's
  * registry. */
-#ifndef DAL_VARIANT_NAME
 #define DAL_INTEGRATOR(identifier, function, ...)                                                  \
     extern const dal_integrator dal_integrator_##identifier;                                       \
     const dal_integrator dal_integrator_##identifier = {.step = (function), __VA_ARGS__}

@@ -25,6 +25,7 @@
 
 enum { DAL__MAX_TRIALS = 100000 };
 
+/* A substep that is tried. */
 typedef struct dal_trial {
     double h;         /* its size */
     int again;        /* 1: it begins where the last one did */

@@ -12,6 +12,7 @@ DAL_INLINE int dal_blocks_B(const dal_step *s) { return DAL_M(s) + DAL_M(s) * DA
 DAL_INLINE int dal_blocks_a(const dal_step *s) { return DAL_CONSTRAINT_SIZE(s); }
 DAL_INLINE int dal_blocks_c(const dal_step *s) { return DAL_CONSTRAINT_SIZE(s) + DAL_N(s); }
 
+/* The blocks at a point, out[DAL_BLOCKS_SIZE(s)]; counts as an evaluation of F. */
 DAL_INLINE void dal_eval_blocks(dal_step *s, double t, const num *q, const num *v, num *out)
 {
     s->evaluations++;

@@ -26,6 +26,7 @@
 #include "solve.h"
 #include "tableau.h"
 
+/* One step of size s->h from the present state and time; leaves the time advanced. */
 #define dal_collocation DAL_WIDE(dal_collocation)
 DAL_SHARED dal_status dal_collocation(dal_step *s, const dal_tableau *method);
 
@@ -378,7 +379,6 @@ DAL_INLINE dal_status dal__collocate(dal_step *s, const dal_tableau *method, int
     return dal__collocation_end(s, &k, &eq);
 }
 
-/* One step of size s->h from the present state and time; leaves the time advanced. */
 #ifdef DAL_SPECIALISED
 /* The rare case is a function of its own, so that the usual one fits into registers. */
 DAL_COLD dal_status dal__collocate_again(dal_step *s, const dal_tableau *method)

@@ -11,8 +11,9 @@
 
 enum { DAL_MAX_SUBSTEPS = 35 };
 
+/* A symmetric composition of steps of sizes c_i h. */
 typedef struct dal_composition {
-    int substeps;
+    int substeps;    /* at most DAL_MAX_SUBSTEPS */
     const double *c; /* [(substeps - 1)/2] |c_i| < 2, up to the middle */
 } dal_composition;
 

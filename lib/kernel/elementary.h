@@ -146,6 +146,7 @@ DAL_INLINE void dal_sincos(num x, num *s, num *c)
 
 #endif
 
+/* sin x, wrong by less than one unit in the last place. */
 DAL_INLINE num dal_sin(num x)
 {
     num s, c;
@@ -153,6 +154,7 @@ DAL_INLINE num dal_sin(num x)
     return s;
 }
 
+/* cos x, likewise. */
 DAL_INLINE num dal_cos(num x)
 {
     num s, c;

@@ -89,12 +89,15 @@
 typedef dal_quad num;
 #define DAL_ULP_RATIO DAL_QUAD_ULP_RATIO /* unit in the last place, in units of that of a double */
 #else
+/* A number, or one for each lane, with + - * / and unary minus. */
 typedef double num;
 #define DAL_ULP_RATIO 1.0
 #endif
 typedef double dal_stored;
+/* A choice of lanes, with & | ~. */
 typedef int64_t dal_mask;
 
+/* A double in all lanes; all lanes; a where m is set, else b; whether m is set in any lane. */
 DAL_INLINE num dal_num(double x) { return x; }
 DAL_INLINE dal_mask dal_all(void) { return -1; }
 DAL_INLINE num dal_select(dal_mask m, num a, num b) { return m ? a : b; }
@@ -157,6 +160,7 @@ DAL_INLINE int dal_mask_lane(dal_mask m, int lane) { return m[lane] != 0; }
 
 #endif
 
+/* In each lane: comparisons, the larger and the smaller number. */
 DAL_INLINE dal_mask dal_less(num a, num b) { return DAL__COMPARE(a, <, b); }
 DAL_INLINE dal_mask dal_less_equal(num a, num b) { return DAL__COMPARE(a, <=, b); }
 DAL_INLINE dal_mask dal_equal(num a, num b) { return DAL__COMPARE(a, ==, b); }
@@ -182,8 +186,8 @@ DAL_INLINE num dal_choose(int condition, num a, num b) { return condition ? a : 
 /* Lanes where x is neither infinite nor NaN. */
 DAL_INLINE dal_mask dal_finite(num x) { return dal_equal(x - x, dal_num(0.0)); }
 
-/* a b + c, rounded once.  Where the processor has no instruction for it the C library computes it:
- * the same bits, slowly. */
+/* |x|; the square root; a b + c, rounded once.  Where the processor has no instruction for that the
+ * C library computes it: the same bits, slowly. */
 #ifdef DAL_NUM_QUAD
 DAL_INLINE num dal_abs(num x) { return DAL_QUAD_FUNCTION(fabs)(x); }
 DAL_INLINE num dal_sqrt(num x) { return DAL_QUAD_FUNCTION(sqrt)(x); }
@@ -297,6 +301,7 @@ DAL_INLINE int dal__square_packs(const num *u, int count, num *part)
 #endif
 
 #if DAL_WITH_SOLVE
+/* max |x_i|, of x[count] */
 DAL_INLINE num dal_max_norm(const num *x, int count)
 {
     num norm = dal_num(0.0);

@@ -5,21 +5,22 @@
 #ifndef DAL_KERNEL_PARTS_H
 #define DAL_KERNEL_PARTS_H
 
+/* The parts of the kernel, and the callbacks. */
 enum {
-    DAL_KERNEL_FUNCTIONS = 1 << 0,    /* dal_sin, ...: elementary.h */
-    DAL_KERNEL_ALGEBRA = 1 << 1,      /* algebra.h */
-    DAL_KERNEL_SOLVE = 1 << 2,        /* dal_solve */
-    DAL_KERNEL_EULER = 1 << 3,        /* dal_symplectic_euler */
-    DAL_KERNEL_COLLOCATION = 1 << 4,  /* dal_collocation */
-    DAL_KERNEL_COMPOSITION = 1 << 5,  /* dal_substeps */
-    DAL_KERNEL_BLOCKS = 1 << 6,       /* dal_eval_blocks */
-    DAL_KERNEL_ENFORCE = 1 << 7,      /* dal_enforce */
-    DAL_KERNEL_SPARK = 1 << 8,        /* dal_spark_advance */
-    DAL_KERNEL_METHOD_STATE = 1 << 9, /* dal_save_method_state */
-    DAL_KERNEL_TANGENT = 1 << 10,     /* dal_set_tangent */
-    DAL_KERNEL_CONSTRAINT = 1 << 11,  /* DAL_EVAL_CONSTRAINT; and so on: */
-    DAL_KERNEL_ENERGY_NORMAL = 1 << 12,
-    DAL_KERNEL_POTENTIAL = 1 << 13
+    DAL_KERNEL_FUNCTIONS = 1 << 0,      /* dal_sin, ...: elementary.h */
+    DAL_KERNEL_ALGEBRA = 1 << 1,        /* algebra.h */
+    DAL_KERNEL_SOLVE = 1 << 2,          /* dal_solve */
+    DAL_KERNEL_EULER = 1 << 3,          /* dal_symplectic_euler */
+    DAL_KERNEL_COLLOCATION = 1 << 4,    /* dal_collocation */
+    DAL_KERNEL_COMPOSITION = 1 << 5,    /* dal_substeps */
+    DAL_KERNEL_BLOCKS = 1 << 6,         /* dal_eval_blocks */
+    DAL_KERNEL_ENFORCE = 1 << 7,        /* dal_enforce */
+    DAL_KERNEL_SPARK = 1 << 8,          /* dal_spark_advance */
+    DAL_KERNEL_METHOD_STATE = 1 << 9,   /* dal_save_method_state */
+    DAL_KERNEL_TANGENT = 1 << 10,       /* dal_set_tangent */
+    DAL_KERNEL_CONSTRAINT = 1 << 11,    /* DAL_EVAL_CONSTRAINT */
+    DAL_KERNEL_ENERGY_NORMAL = 1 << 12, /* DAL_EVAL_ENERGY_NORMAL */
+    DAL_KERNEL_POTENTIAL = 1 << 13      /* DAL_EVAL_POTENTIAL */
 };
 
 #endif

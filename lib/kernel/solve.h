@@ -46,16 +46,17 @@ typedef struct dal_block {
     num stagnations[DAL_STEP_GROUPS]; /* successive iterations without decrease of the norm */
     num best[2][DAL_STEP_GROUPS];     /* the min norm, and the iterations since then */
     double weight;                    /* a change of u by d moves the state by weight*d */
-    int size;
-    num *u, *image; /* the unknowns; what map made of them */
-    num *start;     /* [size] a copy of the first guess, for a second attempt */
-    num *inverse;   /* [size*size] M^-1 (of each group), Newton only */
+    int size;                         /* unknowns */
+    num *u, *image;                   /* the unknowns; what map made of them */
+    num *start;                       /* [size] a copy of the first guess, for a second attempt */
+    num *inverse;                     /* [size*size] M^-1 (of each group), Newton only */
 } dal_block;
 
+/* An implicit equation u = map(u), of one or two blocks. */
 typedef struct dal_equation {
-    dal_block block[2];
-    int blocks; /* 1 or 2 */
-    void *context;
+    dal_block block[2];               /* the unknowns */
+    int blocks;                       /* 1 or 2 */
+    void *context;                    /* of the map */
     dal_mask active[DAL_STEP_GROUPS]; /* the lanes that still iterate */
 } dal_equation;
 
@@ -67,8 +68,10 @@ typedef struct dal_equation {
 #define DAL_IF_ACTIVE(active, fresh, old) dal_select(active, fresh, old)
 #endif
 
-typedef void dal_iteration_map(dal_step *step, dal_equation *equation); /* u -> image, all blocks */
-typedef void dal_matrix(dal_step *step, dal_equation *equation);        /* fills inverse */
+/* Computes the image of u, for all blocks. */
+typedef void dal_iteration_map(dal_step *step, dal_equation *equation);
+/* Computes the inverse of Newton's matrix, for all blocks. */
+typedef void dal_matrix(dal_step *step, dal_equation *equation);
 
 /* The size of a block.  Compilers do not see the constant where several groups are stepped as one
  * system; such a file has blocks of one size only. */

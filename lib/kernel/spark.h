@@ -20,8 +20,9 @@
 
 #include "constrained.h"
 
+/* The coefficients of a method; see above for their letters. */
 typedef struct dal_spark {
-    int stages;
+    int stages;                          /* s */
     int L1_known;                        /* 1: L_1 is known */
     const double *c, *b, *a, *ahat;      /* [s], [s], [s*s], [s*s] */
     int points;                          /* at most s + 1 */

@@ -13,6 +13,8 @@
 #include "parts.h"
 #include "persistent.h"
 
+/* One step: s->t and s->h are its start and size, s->y[DAL_DIM(s)] is the state.  What else an
+ * integrator needs, the functions of the kernel give. */
 typedef struct dal_step dal_step;
 
 enum { DAL_MAX_STAGES = 16 };
@@ -121,6 +123,7 @@ DAL_INLINE void dal_eval_group(dal_step *s, int group, dal_callback_code code, d
 
 enum { DAL_STEP_GROUPS = 1 };
 
+/* Coordinates; n + multipliers; constraints; numbers in the state; properties of this run. */
 #define DAL_N(s)                      ((s)->n)
 #define DAL_NW(s)                     ((s)->nw)
 #define DAL_M(s)                      ((s)->m)
@@ -216,6 +219,7 @@ DAL_INLINE void dal_restore_method_state(dal_step *s, dal_mask lanes, const num 
         s->method_state[i] = dal_select(lanes, from[i], s->method_state[i]);
 }
 
+/* Evaluates a callback of the system, DAL_EVAL_FIELD or the like, in all lanes. */
 DAL_INLINE void dal_eval(dal_step *s, dal_callback_code code, double t, const num *q, const num *v,
                          const num *pi, num *out)
 {
@@ -369,6 +373,7 @@ DAL_INLINE void dal_add_multiple(dal_step *s, int first, int count, double facto
         DAL_EACH(i, count) r[i] = dal_select(alive[i % DAL_STEP_GROUPS], dal_num(0.0), r[i]);
 }
 
+/* y + r += d for count components from `first` on. */
 DAL_INLINE void dal_add(dal_step *s, int first, int count, const num *d)
 {
     dal_add_multiple(s, first, count, 1.0, d);
@@ -385,6 +390,7 @@ DAL_INLINE dal_status dal_update_multiple(dal_step *s, double h, double factor, 
     s->t += h;
     return DAL_OK;
 }
+/* Ends a (sub)step of size h: y + r += d, d[dim], and t += h. */
 DAL_INLINE dal_status dal_update(dal_step *s, double h, const num *d)
 {
     return dal_update_multiple(s, h, 1.0, d);

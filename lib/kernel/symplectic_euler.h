@@ -21,8 +21,9 @@
 
 #include "solve.h"
 
+/* The choice (s_q, s_v) of partitioned symplectic Euler. */
 typedef struct dal_polarisation {
-    int q, v;
+    int q, v; /* 0 or 1 each */
 } dal_polarisation;
 DAL_INLINE dal_polarisation DAL_POLARISATION(int q, int v)
 {

@@ -8,8 +8,9 @@
 
 #include "num.h"
 
+/* The coefficients of a method with s stages; tails may be NULL. */
 typedef struct dal_tableau {
-    int stages;
+    int stages;                           /* s */
     const double *c;                      /* [s] */
     const double *b, *b_tail;             /* [s] multiples of 1/1024, and the rest */
     const double *a, *a_tail;             /* [s*s] */

@@ -128,6 +128,48 @@ def constants(code):
     return ['#define ' + item.replace(' = ', ' ') for item in match.group(1).split(', ')] if match else None
 
 
+KERNEL = 'include/dalembert_kernel.h'
+
+
+def kernel_names():
+    """What the head of dalembert_kernel.h lists: file of lib/kernel -> names."""
+    with open(KERNEL, encoding='utf-8') as file:
+        head = file.read().split('*/')[0]
+    names, path = {'num.h': ['DAL_EACH'],
+                   'step.h': ['DAL_N', 'DAL_NW', 'DAL_M', 'DAL_DIM', 'DAL_VECTOR']}, None
+    for line in re.findall(r'^ \*     +(.*)', head, re.M):
+        words = line.split()
+        if words[0].endswith('.h'):
+            path = words.pop(0)
+        if path:
+            names.setdefault(path, []).extend(words)
+    return names
+
+
+def kernel_part(source, names):
+    """The declarations of some names in a header of lib/kernel, without bodies.  A comment is that of
+    the declarations below it up to a blank line; of several declarations, the last with one counts,
+    which is not that of generated files.
+    """
+    out = []
+    for name in names:
+        forms = (r'^#define %s\b(?:.*\\\n)*.*', r'^typedef [^;{}()]*\b%s(?=[ ;(])[^;{}]*;',
+                 r'^typedef struct %s \{(?:.*\n)*?\}[^;]*;', r'^DAL_(?:INLINE|SHARED|COLD) [^;{}=]*\b%s\([^)]*\)')
+        found = []
+        for form in forms:
+            for match in re.finditer(form % name, source, re.M):
+                block = source[:match.start()].rsplit('\n\n', 1)[-1]
+                comment = re.findall(r'^' + COMMENT, block, re.M)
+                text = match.group().rstrip(';') + ';' if not match.group().startswith('#') else match.group()
+                if 'DAL_WIDE' not in text:
+                    found.append((len(comment) > 0, comment[-1] if comment else '', text))
+        if not found:
+            sys.exit('%s lists %s, which lib/kernel does not declare' % (KERNEL, name))
+        comment, text = max(reversed(found), key=lambda item: item[0])[1:]
+        out.append('%s\n%s\n' % (comment, re.sub(r'^DAL_(INLINE|SHARED|COLD) ', '', text)))
+    return '\n'.join(out)
+
+
 class Writer:
     def __init__(self, stem):
         self.stem, self.out, self.above, self.titled, self.group = stem, [], '', False, ''
@@ -196,7 +238,18 @@ def main(path):
     stem = re.sub(r'.*/|\.h$', '', path)
     with open(path, encoding='utf-8') as file:
         source = file.read()
-    sys.stdout.write(Writer(stem).header(expand_lists(source)))
+    writer = Writer(stem)
+    if path.startswith('include') or '/include/' in path:
+        text = writer.header(expand_lists(source))
+    else:
+        writer.titled = True
+        names = kernel_names().get(stem + '.h', [])
+        head = re.match(COMMENT, source).group().replace(stem + '.h - ', '', 1)
+        section = '/* ---- %s.h ---- */\n%s\n\n' % (stem, head)
+        writer.stem = 'dalembert_kernel'
+        part = source[source.index('*/') + 2:] if stem == 'parts' else kernel_part(source, names)
+        text = writer.header(section + part) + '/** @} */\n' if part else ''
+    sys.stdout.write(text)
 
 
 main(sys.argv[1])
