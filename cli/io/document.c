@@ -126,11 +126,13 @@ int document_word(const document *doc, const yaml_node_t *node, const char *what
     return -1;
 }
 
-void document_place(const document *doc, const yaml_node_t *node, const char *what, char *place,
-                    size_t size)
+/* "PLACE:line:column: WHAT" for messages of others about a node. */
+static const char *name_place(const document *doc, const yaml_node_t *node, const char *what,
+                              char place[MESSAGE])
 {
-    snprintf(place, size, "%s:%zu:%zu: %s", doc->place, node->start_mark.line + 1,
+    snprintf(place, MESSAGE, "%s:%zu:%zu: %s", doc->place, node->start_mark.line + 1,
              node->start_mark.column + 1, what);
+    return place;
 }
 
 int document_number(const document *doc, const yaml_node_t *node, const char *what, double *number)
@@ -138,8 +140,7 @@ int document_number(const document *doc, const yaml_node_t *node, const char *wh
     char place[MESSAGE];
     const char *value = document_scalar(doc, node, what);
     if (!value) return CLI_USAGE;
-    document_place(doc, node, what, place, sizeof place);
-    return cli_number(place, value, number);
+    return cli_number(name_place(doc, node, what, place), value, number);
 }
 
 /* ---- mappings ------------------------------------------------------------------------------ */
@@ -172,8 +173,8 @@ int document_read_count(void *user, const document *doc, yaml_node_t *value,
     char place[MESSAGE];
     const char *text = document_scalar(doc, value, key->name);
     if (!text) return CLI_USAGE;
-    document_place(doc, value, key->name, place, sizeof place);
-    return cli_integer(place, text, 1, MAX_COUNT, (void *)((char *)user + key->offset));
+    return cli_integer(name_place(doc, value, key->name, place), text, 1, MAX_COUNT,
+                       (void *)((char *)user + key->offset));
 }
 
 int document_read_node(void *user, const document *doc, yaml_node_t *value, const document_key *key)
@@ -183,70 +184,57 @@ int document_read_node(void *user, const document *doc, yaml_node_t *value, cons
     return CLI_DONE;
 }
 
-static const yaml_node_pair_t *find_pair(const document *doc, const yaml_node_t *node,
-                                         const char *name)
+bool document_get_pair(const document *doc, const yaml_node_t *node, int i, document_pair *pair)
 {
-    const yaml_node_pair_t *pair = node->data.mapping.pairs.start;
-    for (; pair < node->data.mapping.pairs.top; pair++) {
-        const yaml_node_t *key = document_node(doc, pair->key);
-        if (key->type == YAML_SCALAR_NODE &&
-            strcmp((const char *)key->data.scalar.value, name) == 0)
-            return pair;
-    }
-    return NULL;
+    const yaml_node_pair_t *found = node->data.mapping.pairs.start + i;
+    if (found >= node->data.mapping.pairs.top) return false;
+    yaml_node_t *key = document_node(doc, found->key);
+    *pair = (document_pair){(char *)key->data.scalar.value, key, document_node(doc, found->value)};
+    return true;
+}
+
+int document_check_mapping(const document *doc, const yaml_node_t *node, const char *what,
+                           const char *contents)
+{
+    document_pair pair;
+    if (node->type != YAML_MAPPING_NODE)
+        return document_fail(doc, node, "%s: %s are required", what, contents);
+    for (int i = 0; document_get_pair(doc, node, i, &pair); i++)
+        if (!document_scalar(doc, pair.key, what)) return CLI_USAGE;
+    return CLI_DONE;
 }
 
 yaml_node_t *document_value(const document *doc, const yaml_node_t *node, const char *name)
 {
-    const yaml_node_pair_t *pair = find_pair(doc, node, name);
-    return pair ? document_node(doc, pair->value) : NULL;
+    document_pair pair;
+    for (int i = 0; document_get_pair(doc, node, i, &pair); i++)
+        if (pair.key->type == YAML_SCALAR_NODE && strcmp(pair.name, name) == 0) return pair.value;
+    return NULL;
 }
 
-int document_each_pair(const document *doc, const yaml_node_t *node, const char *what,
-                       const char *contents, document_visitor *visit, void *user)
+static int read_pair(const document *doc, const document_pair *pair, const document_key *keys,
+                     int count, void *user)
 {
-    int status = CLI_DONE;
-    if (node->type != YAML_MAPPING_NODE)
-        return document_fail(doc, node, "%s: %s are required", what, contents);
-    const yaml_node_pair_t *pair = node->data.mapping.pairs.start;
-    for (; pair < node->data.mapping.pairs.top && status == CLI_DONE; pair++) {
-        const yaml_node_t *key = document_node(doc, pair->key);
-        const char *name = document_scalar(doc, key, what);
-        if (!name) return CLI_USAGE;
-        status = visit(user, key, name, document_node(doc, pair->value));
-    }
-    return status;
-}
-
-typedef struct mapping_reader {
-    const document *doc;
-    const yaml_node_t *node;
-    const document_key *keys;
-    int count;
-    void *user;
-} mapping_reader;
-
-static int read_pair(void *user, const yaml_node_t *key, const char *name, yaml_node_t *value)
-{
-    const mapping_reader *r = user;
     const char *names[NAMES];
-    if (document_node(r->doc, find_pair(r->doc, r->node, name)->key) != key)
-        return document_fail(r->doc, key, "the key '%s' comes twice", name);
-    for (int i = 0; i < r->count; i++) {
-        const document_key *k = &r->keys[i];
-        if (strcmp(k->name, name) == 0)
-            return k->read ? k->read(r->user, r->doc, value, k) : CLI_DONE;
-    }
-    const int count = r->count < NAMES ? r->count : NAMES;
-    for (int i = 0; i < count; i++) names[i] = r->keys[i].name;
-    return document_fail_unknown(r->doc, key, "key", name, names, count);
+    for (int i = 0; i < count; i++)
+        if (strcmp(keys[i].name, pair->name) == 0)
+            return keys[i].read ? keys[i].read(user, doc, pair->value, &keys[i]) : CLI_DONE;
+    if (count > NAMES) count = NAMES;
+    for (int i = 0; i < count; i++) names[i] = keys[i].name;
+    return document_fail_unknown(doc, pair->key, "key", pair->name, names, count);
 }
 
 int document_read_mapping(const document *doc, const yaml_node_t *node, const char *what,
                           const document_key *keys, int count, void *user)
 {
-    mapping_reader reader = {doc, node, keys, count, user};
-    return document_each_pair(doc, node, what, "keys and values", read_pair, &reader);
+    int status = document_check_mapping(doc, node, what, "keys and values");
+    document_pair pair;
+    for (int i = 0; status == CLI_DONE && document_get_pair(doc, node, i, &pair); i++) {
+        if (document_value(doc, node, pair.name) != pair.value)
+            return document_fail(doc, pair.key, "the key '%s' comes twice", pair.name);
+        status = read_pair(doc, &pair, keys, count, user);
+    }
+    return status;
 }
 
 /* ---- lists --------------------------------------------------------------------------------- */

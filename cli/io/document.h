@@ -4,6 +4,7 @@
 
 #include "ui/message.h"
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <yaml.h>
 
@@ -24,9 +25,6 @@ int document_fail(const document *doc, const yaml_node_t *node, const char *form
 /* The same for a name that is not among count; suggests the nearest. */
 int document_fail_unknown(const document *doc, const yaml_node_t *node, const char *what,
                           const char *name, const char *const *names, int count);
-/* "PLACE:line:column: WHAT" for messages of others about a node. */
-void document_place(const document *doc, const yaml_node_t *node, const char *what, char *place,
-                    size_t size);
 /* A node of the document by its number. */
 yaml_node_t *document_node(const document *doc, int number);
 /* The number of a scalar among words; -1 after a message with the nearest of them. */
@@ -62,12 +60,16 @@ int document_read_node(void *user, const document *doc, yaml_node_t *value,
 /* Reads the values of a mapping; a key that is unknown or comes twice is an error. */
 int document_read_mapping(const document *doc, const yaml_node_t *node, const char *what,
                           const document_key *keys, int count, void *user);
-/* Calls visit for each pair; where node is no mapping the message is "WHAT: CONTENTS are
- * required". */
-typedef int document_visitor(void *user, const yaml_node_t *key, const char *name,
-                             yaml_node_t *value);
-int document_each_pair(const document *doc, const yaml_node_t *node, const char *what,
-                       const char *contents, document_visitor *visit, void *user);
+/* Pair i of a mapping; false: there are no more. */
+typedef struct document_pair {
+    const char *name;
+    yaml_node_t *key, *value;
+} document_pair;
+bool document_get_pair(const document *doc, const yaml_node_t *node, int i, document_pair *pair);
+/* Checks before that that node is a mapping and its keys are texts; where it is none the message is
+ * "WHAT: CONTENTS are required". */
+int document_check_mapping(const document *doc, const yaml_node_t *node, const char *what,
+                           const char *contents);
 /* The value of a key, NULL where the mapping has none of that name. */
 yaml_node_t *document_value(const document *doc, const yaml_node_t *node, const char *name);
 

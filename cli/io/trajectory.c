@@ -406,15 +406,6 @@ int reader_next(trajectory_reader *reader)
     return 1;
 }
 
-int reader_seek(trajectory_reader *reader, long long k)
-{
-    const off_t bytes = (off_t)(k * reader->columns * WORD);
-    if (fseeko(reader->file, (off_t)reader->offset + bytes, SEEK_SET) != 0)
-        return cli_io("read", reader->path);
-    reader->next = k;
-    return CLI_DONE;
-}
-
 void reader_close(trajectory_reader *reader)
 {
     if (reader->file) fclose(reader->file);

@@ -58,8 +58,6 @@ typedef struct trajectory_reader {
 int reader_open(trajectory_reader *reader, const char *directory);
 /* Returns 1 with the next row in row, 0 after the last row, -1 after a failure and its message. */
 int reader_next(trajectory_reader *reader);
-/* Makes row k, from 0, the next one.  Returns as reader_open. */
-int reader_seek(trajectory_reader *reader, long long k);
 void reader_close(trajectory_reader *reader);
 
 #endif

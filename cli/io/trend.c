@@ -11,26 +11,18 @@ const char cli_trend_heads[] = "amplitude,rate,rate_low,rate_high,exponent,size,
 /* What the motion need not conserve has neither size nor trend. */
 static bool is_stated(const dal_trend *trend) { return trend->conservation == DAL_CONSERVED; }
 
-void cli_put_trend(FILE *out, const dal_trend *trend)
+void cli_put_values(FILE *out, const dal_trend *t)
 {
-    const double cells[] = {trend->amplitude, trend->rate, trend->rate_low, trend->rate_high,
-                            is_stated(trend) ? trend->exponent : NAN};
-    for (size_t i = 0; i < sizeof cells / sizeof cells[0]; i++) {
+    enum { ALWAYS = 4 };
+    const double cells[] = {t->first,     t->last,      t->max_abs,
+                            t->deviation, t->amplitude, t->rate,
+                            t->rate_low,  t->rate_high, is_stated(t) ? t->exponent : NAN};
+    for (int i = 0; i < (int)(sizeof cells / sizeof cells[0]); i++) {
         fputc(',', out);
-        if (!isnan(cells[i])) cli_put(out, cells[i]);
+        if (i < ALWAYS || !isnan(cells[i])) cli_put(out, cells[i]);
     }
-    fprintf(out, ",%s,%s,", cli_size_word(trend), cli_trend_word(trend));
-    if (is_stated(trend)) cli_put(out, trend->confidence);
-}
-
-void cli_put_values(FILE *out, const dal_trend *trend)
-{
-    const double values[] = {trend->first, trend->last, trend->max_abs, trend->deviation};
-    for (size_t i = 0; i < sizeof values / sizeof values[0]; i++) {
-        fputc(',', out);
-        cli_put(out, values[i]);
-    }
-    cli_put_trend(out, trend);
+    fprintf(out, ",%s,%s,", cli_size_word(t), cli_trend_word(t));
+    if (is_stated(t)) cli_put(out, t->confidence);
 }
 
 const char *cli_size_word(const dal_trend *trend)

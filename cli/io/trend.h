@@ -7,10 +7,9 @@
 #include <stdio.h>
 
 /* The columns amplitude, rate, rate_low, rate_high, exponent, size, trend, confidence of a CSV
- * file: their heads, and the cells with a comma before each; what cannot be stated is empty. */
+ * file; and the cells first, last, max |x|, max |x - first| and those, with a comma before each:
+ * what cannot be stated is empty. */
 extern const char cli_trend_heads[];
-void cli_put_trend(FILE *out, const dal_trend *trend);
-/* The cells first, last, max |x|, max |x - first| and those, with a comma before each. */
 void cli_put_values(FILE *out, const dal_trend *trend);
 /* Size and trend as words; "" where the motion need not conserve the quantity. */
 const char *cli_size_word(const dal_trend *trend);

@@ -223,37 +223,31 @@ int manifest_compare(const run_directory *dir, const run_request *held, const ru
 
 /* ---- reading ------------------------------------------------------------------------------- */
 
-typedef struct input_reader {
-    const run_directory *dir;
-    run_request *request;
-    request_settings *settings; /* that are being read */
-} input_reader;
-
-static int read_setting(void *user, const yaml_node_t *key, const char *name, yaml_node_t *value)
+static int read_settings(request_settings *settings, const document *doc,
+                         const document_pair *member)
 {
-    const input_reader *r = user;
-    const char *text = document_scalar(r->dir->doc, value, name);
-    (void)key;
-    return text ? request_parse_setting(r->settings, name, name, text) : CLI_USAGE;
+    document_pair pair;
+    int status = document_check_mapping(doc, member->value, member->name, "names and values");
+    for (int i = 0; status == CLI_DONE && document_get_pair(doc, member->value, i, &pair); i++) {
+        const char *text = document_scalar(doc, pair.value, pair.name);
+        status = text ? request_parse_setting(settings, pair.name, pair.name, text) : CLI_USAGE;
+    }
+    return status;
 }
 
-static int read_member(void *user, const yaml_node_t *key, const char *name, yaml_node_t *value)
+static int read_member(const run_directory *dir, run_request *request, const document_pair *member)
 {
-    input_reader *r = user;
-    const document *doc = r->dir->doc;
-    const int option = request_find_option(name);
-    const int is_system = strcmp(name, "system") == 0;
-    (void)key;
-    r->settings = option == REQUEST_set ? &r->request->set : &r->request->start;
-    if (option == REQUEST_set || option == REQUEST_start)
-        return document_each_pair(doc, value, name, "names and values", read_setting, r);
+    const int option = request_find_option(member->name);
+    const int is_system = strcmp(member->name, "system") == 0;
+    if (option == REQUEST_set) return read_settings(&request->set, dir->doc, member);
+    if (option == REQUEST_start) return read_settings(&request->start, dir->doc, member);
     if (option < 0 && !is_system)
-        return document_fail(doc, value, "unknown option '%s' of a run", name);
-    const char *text = document_scalar(doc, value, name);
+        return document_fail(dir->doc, member->value, "unknown option '%s' of a run", member->name);
+    const char *text = document_scalar(dir->doc, member->value, member->name);
     if (!text) return CLI_USAGE;
-    if (!is_system) return request_parse_option(r->request, option, text);
+    if (!is_system) return request_parse_option(request, option, text);
     /* The system of a file is the copy in the directory, wherever the program is started. */
-    r->request->system_name = strcmp(text, copy_name) == 0 ? r->dir->system : text;
+    request->system_name = strcmp(text, copy_name) == 0 ? dir->system : text;
     return CLI_DONE;
 }
 
@@ -296,8 +290,9 @@ static int parse_manifest(run_directory *dir, run_request *request, const char *
     status = check_version(doc, root);
     if (status != CLI_DONE) return status;
     dir->input = json_source(bytes, input);
-    status = document_each_pair(doc, input, "manifest", "members", read_member,
-                                &(input_reader){.dir = dir, .request = request});
+    document_pair member;
+    for (int i = 0; status == CLI_DONE && document_get_pair(doc, input, i, &member); i++)
+        status = read_member(dir, request, &member);
     if (status != CLI_DONE || request->system_name) return status;
     return document_fail(doc, input, "the system is missing");
 }

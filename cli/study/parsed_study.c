@@ -47,36 +47,34 @@ static int read_steps(void *user, const document *doc, yaml_node_t *value, const
     return status;
 }
 
-typedef struct option_reader {
-    study_case *item;
-    const document *doc;
-} option_reader;
-
-static int read_option(void *user, const yaml_node_t *key, const char *name, yaml_node_t *value)
+static int read_option(study_case *e, const document *doc, const document_pair *pair)
 {
-    const option_reader *r = user;
     dal_error error = {0};
-    const char *word = document_scalar(r->doc, value, name);
+    const char *name = pair->name, *word = document_scalar(doc, pair->value, name);
     if (!word) return CLI_USAGE;
     if (strcmp(name, "step") == 0 || strcmp(name, "space") == 0)
-        return document_fail(r->doc, key, "options: %s has a key of its own", name);
+        return document_fail(doc, pair->key, "options: %s has a key of its own", name);
     if (cli_renamed_option(name))
-        return document_fail(r->doc, key, "options: %s is called %s now", name,
+        return document_fail(doc, pair->key, "options: %s is called %s now", name,
                              cli_renamed_option(name));
     if (cli_renamed_value(name, word))
-        return document_fail(r->doc, key, "options: %s: %s is called %s now", name, word,
+        return document_fail(doc, pair->key, "options: %s: %s is called %s now", name, word,
                              cli_renamed_value(name, word));
-    if (dal_options_set(&r->item->options, name, word, &error) != DAL_OK)
-        return document_fail(r->doc, key, "%s", error.message);
-    r->item->option[request_find_option(name)] = word;
+    if (dal_options_set(&e->options, name, word, &error) != DAL_OK)
+        return document_fail(doc, pair->key, "%s", error.message);
+    e->option[request_find_option(name)] = word;
     return CLI_DONE;
 }
 
 static int read_options(void *user, const document *doc, yaml_node_t *value,
                         const document_key *key)
 {
-    option_reader reader = {&((parsed_study *)user)->item, doc};
-    return document_each_pair(doc, value, key->name, "names and values", read_option, &reader);
+    parsed_study *p = user;
+    document_pair pair;
+    int status = document_check_mapping(doc, value, key->name, "names and values");
+    for (int i = 0; status == CLI_DONE && document_get_pair(doc, value, i, &pair); i++)
+        status = read_option(&p->item, doc, &pair);
+    return status;
 }
 
 static int read_starts(void *user, const document *doc, yaml_node_t *value, const document_key *key)

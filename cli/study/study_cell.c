@@ -49,14 +49,6 @@ char *study_cell_name(const study_cell *c)
                       study_start_words[c->start], step);
 }
 
-char *study_cell_directory(const study_plan *plan, const study_cell *c)
-{
-    char *name = study_cell_name(c);
-    char *directory = cli_join(plan->runs, name);
-    free(name);
-    return directory;
-}
-
 const dal_trend *study_cell_trend(const study_cell *cell, const char *name)
 {
     for (int i = 0; i < cell->observables; i++)
@@ -72,21 +64,9 @@ const dal_trend *study_cell_constraint(const study_cell *cell)
     return largest;
 }
 
-const dal_trend *study_cell_invariant(const study_cell *cell, const char **name)
-{
-    const dal_trend *largest = NULL;
-    const dal_system *s = cell->of_case->system;
-    for (int i = 0; i < s->invariants; i++) {
-        const dal_trend *trend = study_cell_trend(cell, s->invariant[i]);
-        if (!trend || (largest && trend->deviation <= largest->deviation)) continue;
-        largest = trend;
-        if (name) *name = s->invariant[i];
-    }
-    return largest;
-}
-
 study_quantities study_cell_quantities(const study_cell *c)
 {
+    const dal_system *s = c->of_case->system;
     study_quantities q = {.D = study_cell_constraint(c),
                           .E = study_cell_trend(c, "E"),
                           .H = study_cell_trend(c, "H"),
@@ -95,7 +75,12 @@ study_quantities study_cell_quantities(const study_cell *c)
                           .pi_e = study_cell_trend(c, "|pi_e|"),
                           .error = study_cell_trend(c, "error"),
                           .invariant_name = ""};
-    q.invariant = study_cell_invariant(c, &q.invariant_name);
+    for (int i = 0; i < s->invariants; i++) {
+        const dal_trend *trend = study_cell_trend(c, s->invariant[i]);
+        if (!trend || (q.invariant && trend->deviation <= q.invariant->deviation)) continue;
+        q.invariant = trend;
+        q.invariant_name = s->invariant[i];
+    }
     return q;
 }
 
@@ -343,7 +328,8 @@ int study_cell_run(const study_plan *plan, study_cell *cell, const study_stop_ch
     cell_run r = {.plan = plan, .cell = cell, .request = request_default()};
     int status = create_run(&r);
     if (status == CLI_DONE && r.request.run) {
-        char *directory = study_cell_directory(plan, cell);
+        char *name = study_cell_name(cell), *directory = cli_join(plan->runs, name);
+        free(name);
         run_directory_open(&r.dir, directory);
         status = run_in_directory(&r, check);
         recorder_close(&r.recorder);

@@ -79,16 +79,13 @@ typedef struct study_cell {
 
 /* Forgets the results. */
 void study_cell_free(study_cell *cell);
-/* The name of a cell and of its directory in plan->runs; and that directory.  Allocated. */
+/* The name of a cell and of its directory in plan->runs, allocated. */
 char *study_cell_name(const study_cell *cell);
-char *study_cell_directory(const struct study_plan *plan, const study_cell *cell);
-/* The trend of an observable by name, NULL for none; of the constraint with the largest D; of the
- * invariant that moved farthest. */
+/* The trend of an observable by name, NULL for none; of the constraint with the largest D. */
 const dal_trend *study_cell_trend(const study_cell *cell, const char *name);
 const dal_trend *study_cell_constraint(const study_cell *cell);
-const dal_trend *study_cell_invariant(const study_cell *cell, const char **name);
-/* The trends that tables show, NULL where the cell has none, and the name of that invariant, or
- * "". */
+/* The trends that tables show, NULL where the cell has none, and the name of the invariant that
+ * moved farthest, or "". */
 typedef struct study_quantities {
     const dal_trend *D, *E, *H, *p, *pi, *pi_e, *invariant, *error;
     const char *invariant_name;

@@ -41,13 +41,15 @@ static int add(expect_reader *r, const yaml_node_t *node)
 
 /* ---- what an expectation is about ---- */
 
-bool study_case_matches(const study_case *e, const char *label)
+/* Whether a label means a case: its own, its group's, its system's, or all. */
+static bool is_case(const study_case *e, const char *label)
 {
     return strcmp(label, e->label) == 0 || strcmp(label, e->group) == 0 ||
            strcmp(label, e->name) == 0 || strcmp(label, "all") == 0;
 }
 
-bool study_method_matches(const dal_method *method, const char *name)
+/* Whether a name means a method: its own, all, or all with exactly its modifiers. */
+static bool is_method(const dal_method *method, const char *name)
 {
     char own[STUDY_NAME];
     dal_method_name(method, own, sizeof own);
@@ -59,7 +61,7 @@ bool study_expectation_covers(const study_expectation *x, const study_cell *c)
 {
     if (x->step > 0.0 && x->step != c->step) return 0;
     if (x->start >= 0 && x->start != c->start) return 0;
-    return study_case_matches(c->of_case, x->label) && study_method_matches(c->method, x->method);
+    return is_case(c->of_case, x->label) && is_method(c->method, x->method);
 }
 
 bool study_expectation_is_state(const study_expectation *x)
@@ -111,8 +113,7 @@ static bool is_energy_conserved(const expect_reader *r)
 {
     for (int i = 0; i < r->plan->case_count; i++) {
         const study_case *e = &r->plan->cases[i];
-        if (study_case_matches(e, r->expectation.label) &&
-            e->system->properties & (DAL_E_EXACT | DAL_E_ON_D))
+        if (is_case(e, r->expectation.label) && e->system->properties & (DAL_E_EXACT | DAL_E_ON_D))
             return 1;
     }
     return 0;
@@ -240,10 +241,10 @@ static bool is_in_study(const expect_reader *r, const char *method, const char *
 {
     for (int i = 0; i < r->plan->case_count; i++) {
         const study_case *e = &r->plan->cases[i];
-        if (!study_case_matches(e, r->expectation.label)) continue;
+        if (!is_case(e, r->expectation.label)) continue;
         if (quantity && !has_quantity(e, quantity)) continue;
         for (int k = 0; k < e->method_count; k++)
-            if (!method || study_method_matches(&e->methods[k], method)) return true;
+            if (!method || is_method(&e->methods[k], method)) return true;
     }
     return false;
 }
@@ -262,21 +263,21 @@ static int refuse_label(const expect_reader *r, const yaml_node_t *node, const c
 /* ---- the levels of the mapping ---- */
 
 /* A word, a list of words, a mapping, or a list of mappings. */
-static int read_quantity(void *user, const yaml_node_t *key, const char *name, yaml_node_t *value)
+static int read_quantity(expect_reader *r, const document_pair *pair)
 {
-    expect_reader *r = user;
+    yaml_node_t *value = pair->value;
     study_expectation *x = &r->expectation;
     const int count = document_count(value);
     const int is_list = value->type == YAML_SEQUENCE_NODE && count > 0 &&
                         document_item(r->doc, value, 0)->type == YAML_MAPPING_NODE;
     int status = CLI_DONE;
-    if (!is_in_study(r, NULL, name))
-        return document_fail(r->doc, key, "expect: '%s' has no quantity '%s' in this study",
-                             x->label, name);
+    if (!is_in_study(r, NULL, pair->name))
+        return document_fail(r->doc, pair->key, "expect: '%s' has no quantity '%s' in this study",
+                             x->label, pair->name);
     for (int i = 0; i < (is_list ? count : 1) && status == CLI_DONE; i++) {
         yaml_node_t *item = is_list ? document_item(r->doc, value, i) : value;
         *x = (study_expectation){
-            .label = x->label, .method = x->method, .quantity = name, .start = -1};
+            .label = x->label, .method = x->method, .quantity = pair->name, .start = -1};
         if (item->type == YAML_MAPPING_NODE)
             status = add_mapping(r, item);
         else
@@ -285,27 +286,36 @@ static int read_quantity(void *user, const yaml_node_t *key, const char *name, y
     return status;
 }
 
-static int read_method(void *user, const yaml_node_t *key, const char *name, yaml_node_t *value)
+static int read_method(expect_reader *r, const document_pair *method)
 {
-    expect_reader *r = user;
-    r->expectation.method = name;
-    if (!is_in_study(r, name, NULL))
-        return document_fail(r->doc, key, "expect: '%s' is not run with '%s' in this study",
-                             r->expectation.label, name);
-    return document_each_pair(r->doc, value, "expect", "quantities", read_quantity, r);
+    document_pair pair;
+    r->expectation.method = method->name;
+    if (!is_in_study(r, method->name, NULL))
+        return document_fail(r->doc, method->key, "expect: '%s' is not run with '%s' in this study",
+                             r->expectation.label, method->name);
+    int status = document_check_mapping(r->doc, method->value, "expect", "quantities");
+    for (int i = 0; status == CLI_DONE && document_get_pair(r->doc, method->value, i, &pair); i++)
+        status = read_quantity(r, &pair);
+    return status;
 }
 
-static int read_label(void *user, const yaml_node_t *key, const char *name, yaml_node_t *value)
+static int read_label(expect_reader *r, const document_pair *label)
 {
-    expect_reader *r = user;
-    r->expectation.label = name;
-    if (!is_in_study(r, NULL, NULL)) return refuse_label(r, key, name);
-    return document_each_pair(r->doc, value, "expect", "integrators", read_method, r);
+    document_pair pair;
+    r->expectation.label = label->name;
+    if (!is_in_study(r, NULL, NULL)) return refuse_label(r, label->key, label->name);
+    int status = document_check_mapping(r->doc, label->value, "expect", "integrators");
+    for (int i = 0; status == CLI_DONE && document_get_pair(r->doc, label->value, i, &pair); i++)
+        status = read_method(r, &pair);
+    return status;
 }
 
 int study_expect_read(study_plan *plan, yaml_node_t *node)
 {
     expect_reader r = {.plan = plan, .doc = plan->doc};
-    if (!node) return CLI_DONE;
-    return document_each_pair(plan->doc, node, "expect", "labels", read_label, &r);
+    document_pair pair;
+    int status = node ? document_check_mapping(plan->doc, node, "expect", "labels") : CLI_DONE;
+    for (int i = 0; node && status == CLI_DONE && document_get_pair(plan->doc, node, i, &pair); i++)
+        status = read_label(&r, &pair);
+    return status;
 }

@@ -41,10 +41,6 @@ typedef struct study_expectation {
  * returns CLI_USAGE. */
 int study_expect_read(study_plan *plan, yaml_node_t *node);
 
-/* Whether a label means a case: its own, its group's, its system's, or all. */
-bool study_case_matches(const study_case *item, const char *label);
-/* Whether a name means a method: its own, all, or all with exactly its modifiers. */
-bool study_method_matches(const dal_method *method, const char *name);
 /* Whether an expectation is about a cell. */
 bool study_expectation_covers(const study_expectation *expectation, const study_cell *cell);
 bool study_expectation_is_state(const study_expectation *expectation);

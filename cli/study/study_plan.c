@@ -26,17 +26,17 @@ typedef struct group_reader {
 /* ---- settings and methods ---- */
 
 /* Momenta in units of the displacement: one value each. */
-static int read_displacement(void *user, const yaml_node_t *key, const char *name,
-                             yaml_node_t *value)
+static int read_displacement(study_case *e, const document *doc, const yaml_node_t *node)
 {
-    const group_reader *g = user;
-    study_case *e = g->item;
-    const size_t count = (size_t)e->displace_count + 1;
-    (void)key;
-    e->displace = cli_realloc(e->displace, count * sizeof *e->displace);
-    dal_setting *setting = &e->displace[e->displace_count++];
-    setting->name = name;
-    return document_number(g->doc, value, "displace", &setting->value);
+    document_pair pair;
+    int status = document_check_mapping(doc, node, "displace", "names and values");
+    for (int i = 0; status == CLI_DONE && document_get_pair(doc, node, i, &pair); i++) {
+        const size_t count = (size_t)++e->displace_count;
+        e->displace = cli_realloc(e->displace, count * sizeof *e->displace);
+        e->displace[i].name = pair.name;
+        status = document_number(doc, pair.value, "displace", &e->displace[i].value);
+    }
+    return status;
 }
 
 static bool has_method(const study_case *e, const dal_method *method)
@@ -179,9 +179,7 @@ static int add_case(group_reader *g, int i, const study_case *first)
             status = document_fail(g->doc, g->node, "two systems called '%s': give one a label",
                                    e->label);
     plan->case_count++;
-    if (status == CLI_DONE && displace)
-        status = document_each_pair(g->doc, displace, "displace", "names and values",
-                                    read_displacement, g);
+    if (status == CLI_DONE && displace) status = read_displacement(e, g->doc, displace);
     if (status != CLI_DONE) return status;
     if (i == 0) {
         status = read_first_case(g, e);

@@ -135,7 +135,6 @@ typedef struct variant_setting {
 struct study_variants {
     const document *doc;
     const yaml_node_t *start_node;
-    const char *what;         /* that is being read: set, then start */
     variant_setting *setting; /* those of set come first */
     int count, of_set, drawn, start_drawn;
     variant_setting seed;
@@ -155,36 +154,36 @@ static const char *choose_format(const study_values *values)
     return "%.6g";
 }
 
-static int read_setting(void *user, const yaml_node_t *key, const char *name, yaml_node_t *value)
+static int read_setting(variant_setting *s, const document *doc, yaml_node_t *value,
+                        const char *what)
 {
-    study_variants *v = user;
-    const size_t count = (size_t)v->count + 1;
-    for (int i = v->of_set; i < v->count; i++)
-        if (strcmp(v->setting[i].name, name) == 0)
-            return document_fail(v->doc, key, "%s: '%s' comes twice", v->what, name);
-    v->setting = cli_realloc(v->setting, count * sizeof *v->setting);
-    variant_setting *s = &v->setting[v->count++];
-    *s = (variant_setting){.name = name};
     /* e alone may be infinite. */
-    if (value->type == YAML_SCALAR_NODE && strcmp(name, "e") == 0 &&
+    if (value->type == YAML_SCALAR_NODE && strcmp(s->name, "e") == 0 &&
         strcmp((const char *)value->data.scalar.value, "inf") == 0) {
-        s->values = (study_values){.value = cli_malloc(sizeof(double)), .count = 1};
+        allocate_values(&s->values, 1);
         s->values.value[0] = INFINITY;
-    } else {
-        const int status = study_values_read(&s->values, v->doc, value, v->what);
-        if (status != CLI_DONE) return status;
+    } else if (study_values_read(&s->values, doc, value, what) != CLI_DONE) {
+        return CLI_USAGE;
     }
     s->format = choose_format(&s->values);
-    v->drawn += s->values.is_drawn;
     return CLI_DONE;
 }
 
 static int read_settings(study_variants *v, yaml_node_t *node, const char *what)
 {
-    v->what = what;
+    document_pair pair;
     v->of_set = v->count;
-    if (!node) return CLI_DONE;
-    return document_each_pair(v->doc, node, what, "names and values", read_setting, v);
+    int status = node ? document_check_mapping(v->doc, node, what, "names and values") : CLI_DONE;
+    for (int i = 0; node && status == CLI_DONE && document_get_pair(v->doc, node, i, &pair); i++) {
+        if (document_value(v->doc, node, pair.name) != pair.value)
+            return document_fail(v->doc, pair.key, "%s: '%s' comes twice", what, pair.name);
+        v->setting = cli_realloc(v->setting, ((size_t)v->count + 1) * sizeof *v->setting);
+        variant_setting *s = &v->setting[v->count++];
+        *s = (variant_setting){.name = pair.name};
+        status = read_setting(s, v->doc, pair.value, what);
+        v->drawn += s->values.is_drawn;
+    }
+    return status;
 }
 
 static int read_seeds(study_variants *v, const document *doc, const parsed_study *p)
