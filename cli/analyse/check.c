@@ -115,19 +115,6 @@ static int prepare_check(check *c)
 
 static int print_check(check *c)
 {
-    static const struct {
-        const char *title;
-        void (*examine)(check *c);
-    } sections[] = {
-        {"start", check_start},
-        {"constraints", check_constraints},
-        {"energy and invariants", check_energy},
-        {"reversal of the motion", check_reversal},
-        {"derivatives against differences", check_derivatives},
-        {"exact solution", check_exact},
-        {"Dirac's algebra in 6n+2", check_algebra},
-        {"actions", check_action},
-    };
     const dal_system *s = c->system;
     printf("%s", s->name);
     if (s->title) printf(": %s", s->title);
@@ -135,10 +122,10 @@ static int print_check(check *c)
     if (s->multipliers > 0) printf(", %d multipliers (vakonomic)", s->multipliers);
     if (s->reference) printf("; %s", s->reference);
     putchar('\n');
-    for (size_t k = 0; k < sizeof sections / sizeof sections[0]; k++) {
+    for (int k = 0; k < CHECK_SECTIONS; k++) {
         const int items = c->items;
-        printf("\n%s\n", sections[k].title);
-        sections[k].examine(c);
+        printf("\n%s\n", check_sections[k].title);
+        check_sections[k].examine(c);
         if (c->items == items) check_item(c, CHECK_INFO, "-", "does not apply");
     }
     printf("\n%d items, %d failed", c->items, c->failed);

@@ -90,7 +90,7 @@ static double start_defect(check *c)
     return defect / size;
 }
 
-void check_start(check *c)
+static void check_start(check *c)
 {
     static const char points[] = "points about the start";
     const double e = c->start[c->size];
@@ -198,7 +198,7 @@ static void check_classes(check *c, const dal_constraint_class *d)
     }
 }
 
-void check_constraints(check *c)
+static void check_constraints(check *c)
 {
     dal_constraint_class d;
     dal_callback *D = c->system->constraints;
@@ -254,7 +254,7 @@ static void check_system_energy(check *c)
                                  : "");
 }
 
-void check_energy(check *c)
+static void check_energy(check *c)
 {
     const dal_system *s = c->system;
     if (s->energy)
@@ -270,7 +270,7 @@ void check_energy(check *c)
     }
 }
 
-void check_reversal(check *c)
+static void check_reversal(check *c)
 {
     static const char *const parity[] = {"D(q,-v) = -D(q,v)", "neither even nor odd in v",
                                          "D(q,-v) = +D(q,v)"};
@@ -289,7 +289,7 @@ void check_reversal(check *c)
 
 /* ---- derivatives ---- */
 
-void check_derivatives(check *c)
+static void check_derivatives(check *c)
 {
     static const double limit = 1e-8;
     dal_derivatives max = {NAN, NAN, NAN, NAN}, d;
@@ -350,7 +350,7 @@ static double exact_residual(check *c, double t, double d)
     return analysis_distance(rate, v, 2 * n); /* the field stands behind v */
 }
 
-void check_exact(check *c)
+static void check_exact(check *c)
 {
     static const char start[] = "exact solution at t = 0";
     static const char equation[] = "residual of q' = v, v' = F, t < 1";
@@ -381,7 +381,7 @@ void check_exact(check *c)
 
 /* ---- Dirac's algebra ---- */
 
-void check_algebra(check *c)
+static void check_algebra(check *c)
 {
     dal_dirac d;
     const int n = c->n;
@@ -500,7 +500,7 @@ static void check_stationarity(check *c, const char *method, double limit)
     free(path.rows);
 }
 
-void check_action(check *c)
+static void check_action(check *c)
 {
     const double e = c->start[c->size];
     if (c->system->multipliers > 0 || e == 0.0 || isinf(e)) return;
@@ -509,3 +509,14 @@ void check_action(check *c)
     check_stationarity(c, "implicit-midpoint", 1e-8);
     check_stationarity(c, "rk4", INFINITY);
 }
+
+const struct check_section check_sections[CHECK_SECTIONS] = {
+    {"start", check_start},
+    {"constraints", check_constraints},
+    {"energy and invariants", check_energy},
+    {"reversal of the motion", check_reversal},
+    {"derivatives against differences", check_derivatives},
+    {"exact solution", check_exact},
+    {"Dirac's algebra in 6n+2", check_algebra},
+    {"actions", check_action},
+};

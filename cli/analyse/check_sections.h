@@ -4,14 +4,11 @@
 
 #include "check.h"
 
-/* Each prints items, or none where it does not apply to the system. */
-void check_start(check *c);
-void check_constraints(check *c);
-void check_energy(check *c);
-void check_reversal(check *c);
-void check_derivatives(check *c);
-void check_exact(check *c);
-void check_algebra(check *c);
-void check_action(check *c);
+/* In their order.  Each prints items, or none where it does not apply to the system. */
+enum { CHECK_SECTIONS = 8 };
+extern const struct check_section {
+    const char *title;
+    void (*examine)(check *c);
+} check_sections[CHECK_SECTIONS];
 
 #endif

@@ -22,25 +22,26 @@ typedef struct text_table {
     char **cell;
 } text_table;
 
-static void add_cell(text_table *t, const char *format, ...) CLI_PRINTF(2, 3);
+static void add_row(text_table *t, const char *format, ...) CLI_PRINTF(2, 3);
 
-static void add_cell(text_table *t, const char *format, ...)
+/* Of cells between tabs. */
+static void add_row(text_table *t, const char *format, ...)
 {
     va_list list;
-    if (t->cells == t->capacity) {
-        t->capacity = t->capacity ? 2 * t->capacity : 64;
-        t->cell = cli_realloc(t->cell, (size_t)t->capacity * sizeof *t->cell);
-    }
     va_start(list, format);
-    t->cell[t->cells++] = cli_format_list(format, list);
+    char *row = cli_format_list(format, list), *cell = row;
     va_end(list);
-}
-
-static text_table begin_table(int columns, const char *const *headings)
-{
-    text_table table = {.columns = columns};
-    for (int i = 0; i < columns; i++) add_cell(&table, "%s", headings[i]);
-    return table;
+    for (t->columns = 0; cell; t->columns++) {
+        char *end = strchr(cell, '\t');
+        if (end) *end++ = '\0';
+        if (t->cells == t->capacity) {
+            t->capacity = t->capacity ? 2 * t->capacity : 64;
+            t->cell = cli_realloc(t->cell, (size_t)t->capacity * sizeof *t->cell);
+        }
+        t->cell[t->cells++] = cli_strdup(cell);
+        cell = end;
+    }
+    free(row);
 }
 
 /* Characters, not bytes, of a UTF-8 text. */
@@ -147,22 +148,18 @@ static int add_system(text_table *t, const char *name, bool markdown)
     const dal_system *system;
     int status = cli_load(name, &model, &system);
     if (status != CLI_DONE) return status;
-    add_cell(t, markdown ? "`%s`" : "%s", name);
-    add_cell(t, "%d", system->n);
-    add_cell(t, "%d", system->m);
-    add_cell(t, "%s", kind(system));
-    add_cell(t, "%s", energy(system));
-    add_cell(t, "%s", system->exact ? "yes" : "-");
-    add_cell(t, "%s", system->title ? system->title : "");
+    const char *tick = markdown ? "`" : "", *title = system->title ? system->title : "";
+    add_row(t, "%s%s%s\t%d\t%d\t%s\t%s\t%s\t%s", tick, name, tick, system->n, system->m,
+            kind(system), energy(system), system->exact ? "yes" : "-", title);
     dal_model_free(model);
     return CLI_DONE;
 }
 
 static int list_systems(bool markdown)
 {
-    static const char *const headings[] = {"system", "n", "m", "D", "energy", "exact", "title"};
     int status = CLI_DONE;
-    text_table table = begin_table(sizeof headings / sizeof *headings, headings);
+    text_table table = {.cells = 0};
+    add_row(&table, "system\tn\tm\tD\tenergy\texact\ttitle");
     for (int i = 0; status == CLI_DONE && dal_builtin_name(i); i++)
         status = add_system(&table, dal_builtin_name(i), markdown);
     end_table(&table, markdown);
@@ -185,44 +182,36 @@ static const property invariants[] = {
     {DAL_PRESERVES_D, "every D"},           {DAL_PRESERVES_D_MIDPOINT, "D at midpoints"},
     {DAL_PRESERVES_ENERGY, "energy"},       {0, NULL}};
 
-static void add_properties(text_table *t, const dal_integrator *integrator, const property *p)
+enum { LINE = 160 };
+
+static const char *list_properties(char line[LINE], const dal_integrator *k, const property *p)
 {
-    char line[160] = "";
     size_t n = 0;
     bool inherits = false;
     for (; p->text; p++) {
-        inherits |= (integrator->inherits & p->code) != 0;
-        if (integrator->properties & p->code)
-            n += (size_t)snprintf(line + n, sizeof line - n, "%s%s", n ? ", " : "", p->text);
+        inherits |= (k->inherits & p->code) != 0;
+        if (k->properties & p->code)
+            n += (size_t)snprintf(line + n, LINE - n, "%s%s", n ? ", " : "", p->text);
     }
-    add_cell(t, "%s", n ? line : inherits ? "as NAME" : "-");
+    return n > 0 ? line : inherits ? "as NAME" : "-";
 }
 
-static void add_integrator(text_table *t, const dal_integrator *integrator, bool markdown)
+static void add_integrator(text_table *t, const dal_integrator *k, bool markdown)
 {
-    const char *tick = markdown ? "`" : "", *alias = integrator->alias;
-    const char *plus = integrator->properties & DAL_MODIFIER ? "+" : "";
-    if (alias)
-        add_cell(t, "%s%s%s%s, %s%s%s%s", tick, plus, integrator->name, tick, tick, plus, alias,
-                 tick);
-    else
-        add_cell(t, "%s%s%s%s", tick, plus, integrator->name, tick);
-    if (integrator->order)
-        add_cell(t, "%d", integrator->order);
-    else
-        add_cell(t, "-");
-    add_properties(t, integrator, qualities);
-    add_properties(t, integrator, invariants);
-    add_cell(t, "%s", integrator->summary);
-    add_cell(t, "%s", integrator->reference);
+    const char *tick = markdown ? "`" : "", *plus = k->properties & DAL_MODIFIER ? "+" : "";
+    char alias[LINE] = "", order[16] = "-", is[LINE], preserves[LINE];
+    if (k->alias) snprintf(alias, sizeof alias, ", %s%s%s%s", tick, plus, k->alias, tick);
+    if (k->order) snprintf(order, sizeof order, "%d", k->order);
+    add_row(t, "%s%s%s%s%s\t%s\t%s\t%s\t%s\t%s", tick, plus, k->name, tick, alias, order,
+            list_properties(is, k, qualities), list_properties(preserves, k, invariants),
+            k->summary, k->reference);
 }
 
 static int list_integrators(bool markdown)
 {
-    static const char *const headings[] = {"integrator", "order",      "properties",
-                                           "preserves",  "what it is", "reference"};
     const dal_integrator *integrator;
-    text_table table = begin_table(sizeof headings / sizeof *headings, headings);
+    text_table table = {.cells = 0};
+    add_row(&table, "integrator\torder\tproperties\tpreserves\twhat it is\treference");
     for (int modifiers = 0; modifiers < 2; modifiers++)
         for (int i = 0; (integrator = dal_integrator_at(i)); i++)
             if (!(integrator->properties & DAL_MODIFIER) == !modifiers)

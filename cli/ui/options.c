@@ -13,18 +13,13 @@ const char CLI_REQUIRED[] = "";
 
 /* ---- renamed words ------------------------------------------------------------------------- */
 
-/* old, new */
-#define RENAMED_LIST(RENAMED)                                                                      \
-    RENAMED("solve-to", "solver-tolerance")                                                        \
-    RENAMED("extra-sweeps", "extra-iterations")                                                    \
-    RENAMED("long-steps", "quad-steps")
-
 const char *cli_renamed_option(const char *name)
 {
-#define RENAMED(old, new)                                                                          \
-    if (strcmp(name, old) == 0) return new;
-    RENAMED_LIST(RENAMED)
-#undef RENAMED
+    static const char *const renamed[][2] = {{"solve-to", "solver-tolerance"},
+                                             {"extra-sweeps", "extra-iterations"},
+                                             {"long-steps", "quad-steps"}};
+    for (size_t i = 0; i < sizeof renamed / sizeof *renamed; i++)
+        if (strcmp(name, renamed[i][0]) == 0) return renamed[i][1];
     return NULL;
 }
 
