@@ -69,14 +69,6 @@ char *cli_strdup(const char *text) { return checked(strdup(text)); }
 
 char *cli_strndup(const char *text, size_t length) { return checked(strndup(text, length)); }
 
-long long cli_getline(char **line, size_t *capacity, FILE *file)
-{
-    errno = 0;
-    const ssize_t length = getline(line, capacity, file);
-    if (length < 0 && errno == ENOMEM) cli_out_of_memory();
-    return length;
-}
-
 char *cli_format_list(const char *format, va_list list)
 {
     va_list again;

@@ -26,8 +26,6 @@ void *cli_calloc(size_t count, size_t size);
 void *cli_realloc(void *memory, size_t size);
 char *cli_strdup(const char *text);
 char *cli_strndup(const char *text, size_t length);
-/* getline of the C library: the length of the next line, below 0 at the end or after a failure. */
-long long cli_getline(char **line, size_t *capacity, FILE *file);
 /* What printf would print, allocated. */
 char *cli_format(const char *format, ...) CLI_PRINTF(1, 2);
 char *cli_format_list(const char *format, va_list list) CLI_PRINTF(1, 0);
