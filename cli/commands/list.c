@@ -22,10 +22,10 @@ typedef struct text_table {
     char **cell;
 } text_table;
 
-static void add_row(text_table *t, const char *format, ...) CLI_PRINTF(2, 3);
+static void append_row(text_table *t, const char *format, ...) CLI_PRINTF(2, 3);
 
 /* Of cells between tabs. */
-static void add_row(text_table *t, const char *format, ...)
+static void append_row(text_table *t, const char *format, ...)
 {
     va_list list;
     va_start(list, format);
@@ -149,8 +149,8 @@ static int add_system(text_table *t, const char *name, bool markdown)
     int status = cli_load(name, &model, &system);
     if (status != CLI_DONE) return status;
     const char *tick = markdown ? "`" : "", *title = system->title ? system->title : "";
-    add_row(t, "%s%s%s\t%d\t%d\t%s\t%s\t%s\t%s", tick, name, tick, system->n, system->m,
-            kind(system), energy(system), system->exact ? "yes" : "-", title);
+    append_row(t, "%s%s%s\t%d\t%d\t%s\t%s\t%s\t%s", tick, name, tick, system->n, system->m,
+               kind(system), energy(system), system->exact ? "yes" : "-", title);
     dal_model_free(model);
     return CLI_DONE;
 }
@@ -159,7 +159,7 @@ static int list_systems(bool markdown)
 {
     int status = CLI_DONE;
     text_table table = {.cells = 0};
-    add_row(&table, "system\tn\tm\tD\tenergy\texact\ttitle");
+    append_row(&table, "system\tn\tm\tD\tenergy\texact\ttitle");
     for (int i = 0; status == CLI_DONE && dal_builtin_name(i); i++)
         status = add_system(&table, dal_builtin_name(i), markdown);
     end_table(&table, markdown);
@@ -202,16 +202,16 @@ static void add_integrator(text_table *t, const dal_integrator *k, bool markdown
     char alias[LINE] = "", order[16] = "-", is[LINE], preserves[LINE];
     if (k->alias) snprintf(alias, sizeof alias, ", %s%s%s%s", tick, plus, k->alias, tick);
     if (k->order) snprintf(order, sizeof order, "%d", k->order);
-    add_row(t, "%s%s%s%s%s\t%s\t%s\t%s\t%s\t%s", tick, plus, k->name, tick, alias, order,
-            list_properties(is, k, qualities), list_properties(preserves, k, invariants),
-            k->summary, k->reference);
+    append_row(t, "%s%s%s%s%s\t%s\t%s\t%s\t%s\t%s", tick, plus, k->name, tick, alias, order,
+               list_properties(is, k, qualities), list_properties(preserves, k, invariants),
+               k->summary, k->reference);
 }
 
 static int list_integrators(bool markdown)
 {
     const dal_integrator *integrator;
     text_table table = {.cells = 0};
-    add_row(&table, "integrator\torder\tproperties\tpreserves\twhat it is\treference");
+    append_row(&table, "integrator\torder\tproperties\tpreserves\twhat it is\treference");
     for (int modifiers = 0; modifiers < 2; modifiers++)
         for (int i = 0; (integrator = dal_integrator_at(i)); i++)
             if (!(integrator->properties & DAL_MODIFIER) == !modifiers)
