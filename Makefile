@@ -152,7 +152,7 @@ $(SYSTEMS): tools/embed.sh $(wildcard systems/*.yaml) systems
 	@mkdir -p $(@D)
 	$(call SAY,sh)sh tools/embed.sh $(addsuffix .yaml,$(sort $(basename $(wildcard systems/*.yaml)))) >$@.tmp && mv $@.tmp $@
 # So do the kernel and the integrators, for generated files.
-SOURCES = $(wildcard lib/kernel/*.h) $(addprefix lib/codegen/,dispatch.inc stepper.inc observe_lift.inc interface.inc observables.inc) \
+SOURCES = $(wildcard lib/kernel/*.h) $(addprefix lib/codegen/,dispatch.inc stepper.inc interface.inc observables.inc) \
           $(wildcard integrators/*.c)
 $(BUILD)/generated/sources.c: tools/embed-sources.sh $(SOURCES)
 	@mkdir -p $(@D)

@@ -220,6 +220,31 @@ static void test_refusal(void)
     }
 }
 
+/* H = pi.pi/(2e) + pi.F + p.v + mu_e pi_e of numbers that are sums of few powers of 2: no rounding,
+ * F = (-x, -2 y x'). */
+static void test_lift(void)
+{
+    static const char model[] = "coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\n"
+                                "forces: {x: -x, y: -2*y*x'}\ngauge: {e: 2, mu_e: 0.25}\n";
+    static const dal_setting start[] = {{"x", 0.5},    {"y", 0.25},     {"x'", 0.75},
+                                        {"y'", -0.5},  {"p_x", 0.125},  {"p_y", -1},
+                                        {"pi_x", 0.5}, {"pi_y", -0.25}, {"pi_e", -0.375}};
+    const double lift[] = {(0.25 + 0.0625) / 4 + (-0.25 + 0.09375) + (0.09375 + 0.5) - 0.09375, 1.0,
+                           0.5, 0.375};
+    for (dal_choice precision = DAL_DOUBLE; precision <= DAL_QUAD; precision++) {
+        dal_run_spec spec = fixture_spec(fixture_system(model), "rk4", DAL_LIFTED, 0.01);
+        double out[MAX_OBSERVABLES];
+        spec.options.precision = precision;
+        spec.start = start;
+        spec.start_count = sizeof start / sizeof *start;
+        dal_run *run = fixture_run(&spec);
+        const int first = dal_run_observables(run) - 4;
+        CU_ASSERT_EQUAL(dal_run_observe(run, out), DAL_OK);
+        for (int i = 0; i < 4; i++) CU_ASSERT_EQUAL(out[first + i], lift[i]);
+        dal_run_free(run);
+    }
+}
+
 void suite_observables(void)
 {
     CU_pSuite suite = CU_add_suite("observables of many steps", set_up, tear_down);
@@ -227,4 +252,5 @@ void suite_observables(void)
     CU_add_test(suite, "in pieces", test_pieces);
     CU_add_test(suite, "a step fails", test_failure);
     CU_add_test(suite, "an observer ends it", test_refusal);
+    CU_add_test(suite, "H and the norms", test_lift);
 }

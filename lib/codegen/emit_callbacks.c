@@ -1,5 +1,6 @@
 /* emit_callbacks.c - the programs of a system as C: dal_eval, the start, the observables. */
 #include "codegen/emit_callbacks.h"
+#include "run/run.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -161,44 +162,34 @@ void dal__emit_callbacks(dal__generation *g)
     write_dispatch(g);
 }
 
-/* ---- observables, in the order of dal_run_observables ---- */
+/* ---- observables ---- */
 
-static bool has(const dal_run *run, const char *name)
-{
-    char other[128];
-    for (int i = 0; dal_run_observable_name(run, i, other, sizeof other); i++)
-        if (strcmp(other, name) == 0) return true;
-    return false;
-}
+/* What writes a group of observables; %d is the number of its first. */
+static const char *const observed[DAL__OBSERVABLE_GROUPS] = {
+    [DAL__OBSERVE_D] = "    dal__constraints(w, t, q, v, NULL, out + %d);\n",
+    [DAL__OBSERVE_E] = "    dal__energy(w, t, q, v, NULL, out + %d);\n",
+    [DAL__OBSERVE_LIFT] = "    num f[DAL__NW], mu;\n"
+                          "    dal__eval_program(w, DAL_EVAL_FIELD, t, q, v, NULL, f);\n"
+                          "    dal__eval_program(w, DAL_EVAL_GAUGE, t, q, v, NULL, &mu);\n"
+                          "    dal_lift_observables(y, DAL__N, f, mu, out + %d);\n",
+    [DAL__OBSERVE_INVARIANTS] = "    dal__invariant_values(w, t, q, v, NULL, out + %d);\n",
+    [DAL__OBSERVE_ERROR] = "    num exact[2 * DAL__N];\n"
+                           "    dal__exact(w, t, q, v, NULL, exact);\n"
+                           "    out[%d] = dal_max_distance(exact, q, DAL__N);\n",
+};
 
 void dal__write_observe(dal__generation *g)
 {
-    const dal_system *system = g->layout.system;
-    dal__buffer *text = &g->text;
     int next = 0;
     dal__buffer_append(
-        text,
+        &g->text,
         "\nstatic void dal__observe(const dal_stored *w, dal_time t, const num *y, num *out)\n{\n"
         "    const num *q = y, *v = y + DAL__N;\n"
         "    (void)q, (void)v, (void)w, (void)t, (void)out;\n");
-    if (system->constraints)
-        dal__buffer_append(text, "    dal__constraints(w, t, q, v, NULL, out);\n");
-    next += system->constraints ? system->m : 0;
-    if (system->energy)
-        dal__buffer_print(text, "    dal__energy(w, t, q, v, NULL, out + %d);\n", next++);
-    if (g->layout.lifted)
-        dal__buffer_print(text, "    dal__observe_lift(w, t, y, out + %d);\n", next);
-    next += g->layout.lifted ? 4 : 0;
-    if (system->invariant_values)
-        dal__buffer_print(text, "    dal__invariant_values(w, t, q, v, NULL, out + %d);\n", next);
-    next += system->invariant_values ? system->invariants : 0;
-    if (has(g->run, "error"))
-        dal__buffer_print(text,
-                          "    num exact[2 * DAL__N];\n"
-                          "    dal__exact(w, t, q, v, NULL, exact);\n"
-                          "    out[%d] = dal_num(0.0);\n"
-                          "    DAL_EACH(i, DAL__N)\n"
-                          "        out[%d] = dal_max(out[%d], dal_abs(exact[i] - q[i]));\n",
-                          next, next, next);
-    dal__buffer_append(text, "}\n");
+    for (int group = 0; group < DAL__OBSERVABLE_GROUPS; group++) {
+        const int count = dal__observable_count(&g->layout, group, g->run->exact);
+        if (count > 0) dal__buffer_print(&g->text, observed[group], next);
+        next += count;
+    }
+    dal__buffer_append(&g->text, "}\n");
 }

@@ -5,6 +5,7 @@
 #include "codegen/parts.h"
 #include "core/arguments.h"
 #include "dalembert_codegen.h"
+#include "run/run.h"
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -185,6 +186,7 @@ void dal__decide_conditions(dal__generation *g)
         {"DAL_WITH_GUARDS", guards},
         {"DAL_WITH_RANK", rank},
         {"DAL_WITH_REGULAR", guards || rank},
+        {"DAL_WITH_EXACT", g->run && g->run->exact},
         {"DAL_WITH_TRACE", g->product == DAL__TRACE},
     };
     g->conditions = sizeof list / sizeof *list;
@@ -367,7 +369,7 @@ static void write_file(dal__generation *g)
                            "#include <stdint.h>\n#include <string.h>\n\n");
     dal__write_steps(g);
     dal__write_start(g);
-    if (g->layout.lifted) dal__write_source(g, "observe_lift.inc");
+    dal__write_source(g, "observables.h");
     dal__write_source(g, "interface.inc");
     dal__write_observe(g);
     dal__write_names(g);

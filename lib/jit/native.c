@@ -146,7 +146,7 @@ static dal_status compile_observables(const dal_run *run, const dal_native_optio
     dal__write_source(&g, "num.h");
     dal__write_source(&g, "elementary.h");
     dal__emit_callbacks(&g);
-    if (g.layout.lifted) dal__write_source(&g, "observe_lift.inc");
+    dal__write_source(&g, "observables.h");
     dal__write_observe(&g);
     dal__write_source(&g, "observables.inc");
     return compile(&g, options, native, error);

@@ -36,6 +36,7 @@
 #define DAL_WITH_GUARDS       1
 #define DAL_WITH_RANK         1 /* the rank check */
 #define DAL_WITH_REGULAR      1 /* one of these */
+#define DAL_WITH_EXACT        1 /* an exact solution */
 #ifdef DAL_NUM_QUAD
 #define DAL_PACKS 0
 #else

@@ -38,6 +38,9 @@ typedef struct dal__engine {
     dal__lanes (*step)(void *engine, double h, dal__lanes alive, dal_status *reason);
     /* Evaluates a callback (dal_callback_code) at a state, with its own pi. */
     dal_status (*eval)(void *engine, int code, double t, const double *state, double *out);
+    /* The observables of the present state; exact_known as in dal__observable_count.  NULL for
+     * several lanes. */
+    dal_status (*observe)(void *engine, bool exact_known, double *out);
     /* Records failures from now on (NULL: no longer). */
     void (*trace)(void *engine, dal__failure *failure);
 } dal__engine;

@@ -3,6 +3,7 @@
  * After the integrator has stepped, the engine accepts or rejects lane by lane, see
  * kernel/acceptance.h. */
 #include "kernel/acceptance.h"
+#include "kernel/observables.h"
 #include "run/engine.h"
 #include <dalembert_kernel.h>
 
@@ -184,6 +185,49 @@ static dal_status eval_engine(void *engine_, int code, double t, const double *s
     return e->call[code](e->layout.system, &at, out);
 }
 
+/* ---- observables ---- */
+
+#if DAL_LANES == 1
+static void observe_lift(engine *e, double t, num *out)
+{
+    const num *y = e->persistent;
+    const int n = e->layout.n;
+    num *f = out + 4, mu;
+    eval_callback(&e->step, DAL_EVAL_FIELD, t, y, y + n, NULL, f);
+    eval_callback(&e->step, DAL_EVAL_GAUGE, t, y, y + n, NULL, &mu);
+    dal_lift_observables(y, n, f, mu, out);
+}
+
+static dal_status observe_engine(void *engine_, bool exact_known, double *out)
+{
+    engine *e = engine_;
+    const dal_system *system = e->layout.system;
+    const num *q = e->persistent;
+    num *values = e->step.scratch;
+    const dal_point at = {(double)*persistent_at(e, DAL__TIME), (const double *)q,
+                          (const double *)(q + e->layout.n), NULL, (double *)e->work};
+    dal_callback *const formulas[] = {[DAL__OBSERVE_D] = system->constraints,
+                                      [DAL__OBSERVE_E] = system->energy,
+                                      [DAL__OBSERVE_INVARIANTS] = system->invariant_values,
+                                      [DAL__OBSERVE_ERROR] = system->exact};
+    for (int group = 0; group < DAL__OBSERVABLE_GROUPS; group++) {
+        const int count = dal__observable_count(&e->layout, group, exact_known);
+        if (count == 0) continue;
+        dal_status status = DAL_OK;
+        if (group == DAL__OBSERVE_LIFT)
+            observe_lift(e, at.t, values);
+        else
+            status = formulas[group](system, &at, (double *)values);
+        if (status != DAL_OK) return status;
+        if (group == DAL__OBSERVE_ERROR) values[0] = dal_max_distance(values, q, e->layout.n);
+        for (int i = 0; i < count; i++) *out++ = (double)values[i] + 0.0; /* no -0 */
+    }
+    return DAL_OK;
+}
+#else
+#define observe_engine NULL
+#endif
+
 /* ---- a step ---- */
 
 /* Removes the lanes that fail from `left`, the alive ones, and returns them. */
@@ -258,4 +302,5 @@ const dal__engine DAL_WIDE(dal__engine) = {.bytes = engine_bytes,
                                            .place = place_engine,
                                            .step = step_engine,
                                            .eval = eval_engine,
+                                           .observe = observe_engine,
                                            .trace = trace_engine};

@@ -188,6 +188,25 @@ int dal__eval_size(const dal__layout *k, int code)
     }
 }
 
+int dal__observable_count(const dal__layout *k, int group, bool exact_known)
+{
+    const dal_system *system = k->system;
+    switch (group) {
+    case DAL__OBSERVE_D:
+        return system->constraints ? system->m : 0;
+    case DAL__OBSERVE_E:
+        return system->energy != NULL;
+    case DAL__OBSERVE_LIFT:
+        return k->lifted ? 4 : 0;
+    case DAL__OBSERVE_INVARIANTS:
+        return system->invariant_values ? system->invariants : 0;
+    case DAL__OBSERVE_ERROR:
+        return exact_known;
+    default:
+        return 0;
+    }
+}
+
 /* Sizes, in floating point first so that nothing overflows. */
 static dal_status measure(dal__layout *k, dal_error *error)
 {
@@ -199,7 +218,7 @@ static dal_status measure(dal__layout *k, dal_error *error)
     const double parts =
         enforces ? 2 * (stages + 2) * (n + 2 * m + 2 * m * n) + 4 * equations * equations : 0;
     const double scratch = (16 * stages + 16) * dim + matrix + 2 * nw * (n + nw) + constraint +
-                           parts + 2.0 * k->system->guards + 16 * n + 64;
+                           parts + 2.0 * k->system->guards + k->system->invariants + 16 * n + 64;
     if (scratch > MAX_NUMBERS || k->stages > 1000)
         return dal__fail(error, DAL_TOO_LARGE, "a run with n = %d, m = %d needs %g numbers", k->n,
                          k->m, scratch);

@@ -29,6 +29,20 @@ static inline size_t dal__at(const dal__layout *layout, int place)
 /* Checks a spec and computes its layout; errors as dal_run_init. */
 dal_status dal__layout_init(dal__layout *layout, const dal_run_spec *spec, dal_error *error);
 
+/* The groups of observables in their order; LIFT: H, |p|, |pi|, |pi_e|; ERROR: where the exact
+ * solution is known to be that of the run. */
+typedef enum dal__observable_group {
+    DAL__OBSERVE_D,
+    DAL__OBSERVE_E,
+    DAL__OBSERVE_LIFT,
+    DAL__OBSERVE_INVARIANTS,
+    DAL__OBSERVE_ERROR,
+    DAL__OBSERVABLE_GROUPS
+} dal__observable_group;
+
+/* Observables in a group. */
+int dal__observable_count(const dal__layout *layout, int group, bool exact_known);
+
 /* Numbers in the output of a callback, a dal_callback_code. */
 int dal__eval_size(const dal__layout *layout, int code);
 

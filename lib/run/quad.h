@@ -7,10 +7,10 @@
 /* Whether a run can be in quad precision.  Errors: DAL_UNSUPPORTED. */
 dal_status dal__quad_check(const dal__layout *layout, dal_error *error);
 
-/* Bytes for its engine, aligned to 64, with scratch for outputs; doubles per number. */
-size_t dal__quad_bytes(const dal__layout *layout, size_t outputs);
+/* Bytes for its engine, aligned to 64; doubles per number. */
+size_t dal__quad_bytes(const dal__layout *layout);
 size_t dal__quad_width(void);
-void dal__quad_place(dal_run *run, char *memory, size_t outputs);
+void dal__quad_place(dal_run *run, char *memory);
 /* Takes parameters and persistent state from the run in double; copies the persistent state from it
  * (push) or to it, rounded (pull). */
 dal_status dal__quad_begin(dal_run *run);

@@ -29,7 +29,7 @@ static size_t own_numbers(const dal__layout *k)
 
 static size_t quad_bytes(const dal__layout *k)
 {
-    return k->options.precision == DAL_DOUBLE ? 0 : dal__quad_bytes(k, scratch_count(k));
+    return k->options.precision == DAL_DOUBLE ? 0 : dal__quad_bytes(k);
 }
 
 static size_t total_bytes(const dal__layout *k)
@@ -62,7 +62,7 @@ static dal_run *place(const dal__layout *layout, void *memory)
     run->storage = run->persistent;
     run->stored = stored_count(layout);
     at += dal__align(run->kind->engine->bytes(layout));
-    if (quad_bytes(layout) > 0) dal__quad_place(run, at, scratch_count(layout));
+    if (quad_bytes(layout) > 0) dal__quad_place(run, at);
     return run;
 }
 

@@ -30,7 +30,6 @@ typedef struct dal__quad_run {
     void *engine;       /* NULL: the run is in double */
     double *persistent; /* [layout.persistent] */
     double *work;       /* [layout.workspace] */
-    double *scratch;    /* for outputs of callbacks */
 } dal__quad_run;
 
 /* Up to capacity successive observations: observable i of observation k is values[i*capacity +

@@ -1,0 +1,36 @@
+/* observables.h - the observables that are not formulas of the system, for runs in double and in
+ * quad precision and for generated files. */
+#ifndef DAL_KERNEL_OBSERVABLES_H
+#define DAL_KERNEL_OBSERVABLES_H
+
+#include "num.h"
+
+#if DAL_WITH_LIFT
+/* H = pi.pi/(2e) + pi.F + p.v + mu_e pi_e and the max norms of p, pi, pi_e, out[4], of the state
+ * y[4n + 2], where f[n] is F and mu is mu_e. */
+DAL_INLINE void dal_lift_observables(const num *y, int n, const num *f, num mu, num *out)
+{
+    const num *v = y + n, *p = y + 2 * n + 1, *pi = y + 3 * n + 1;
+    num sum = dal_num(0.0);
+    DAL_EACH(i, n) sum += pi[i] * pi[i] * (0.5 / y[2 * n]) + pi[i] * f[i] + p[i] * v[i];
+    out[0] = sum + mu * y[4 * n + 1];
+    out[1] = out[2] = dal_num(0.0);
+    DAL_EACH(i, n) {
+        out[1] = dal_max(out[1], dal_abs(p[i]));
+        out[2] = dal_max(out[2], dal_abs(pi[i]));
+    }
+    out[3] = dal_abs(y[4 * n + 1]);
+}
+#endif
+
+#if DAL_WITH_EXACT
+/* max |a_i - b_i| */
+DAL_INLINE num dal_max_distance(const num *a, const num *b, int count)
+{
+    num max = dal_num(0.0);
+    DAL_EACH(i, count) max = dal_max(max, dal_abs(a[i] - b[i]));
+    return max;
+}
+#endif
+
+#endif
