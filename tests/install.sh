@@ -28,6 +28,18 @@ for name in embed by_hand own_integrator contact_chain isokinetic_fluid; do
     cmp "$root/$name.txt" "$root/$name-static.txt" || fail "$name: shared and static differ"
 done
 
+# The lines of C that documents show.
+for document in README.md docs/embedding.md; do
+    {
+        echo '#include <dalembert.h>'
+        echo 'int main(void) {'
+        sed -n '/^    dal_model \*model;$/,/^$/p' $document
+        echo 'dal_run_free(run); dal_model_free(model); return !q; }'
+    } >"$root/shown.c"
+    logged $cc -std=c11 $CFLAGS "$root/shown.c" $(pkg-config --cflags --libs dalembert) -o "$root/shown"
+    LD_LIBRARY_PATH=$prefix/lib "$root/shown" || fail "the lines of $document fail"
+done
+
 # A generated file needs no library at all.
 logged "$prefix/bin/dalembert" generate chaplygin-sleigh --integrator gauss4+project \
     --prefix sleigh -o "$root/sleigh.c"
