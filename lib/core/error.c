@@ -23,34 +23,18 @@ const char *dal_status_text(dal_status status)
     DAL__RETURN_WORD(DAL_STATUS_LIST, DAL__SECOND, status, "unknown status");
 }
 
-/* Names come from the user's text: whatever would break the line or the terminal is masked. */
-static void write_record(dal_error *error, dal_error place, const char *format, va_list arguments)
-{
-    *error = place;
-    vsnprintf(error->message, sizeof error->message, format, arguments);
-    for (char *c = error->message; *c; c++)
-        if ((unsigned char)*c < ' ' || *c == 127) *c = '?';
-}
-
-dal_status dal__fail(dal_error *error, dal_status status, const char *format, ...)
-{
-    if (!error) return status;
-    va_list arguments;
-    va_start(arguments, format);
-    write_record(error, (dal_error){.status = status}, format, arguments);
-    va_end(arguments);
-    return status;
-}
-
 dal_status dal__fail_at(dal_error *error, dal_status status, int line, int column,
                         const char *format, ...)
 {
     if (!error) return status;
     va_list arguments;
+    *error = (dal_error){.status = status, .line = line, .column = column};
     va_start(arguments, format);
-    write_record(error, (dal_error){.status = status, .line = line, .column = column}, format,
-                 arguments);
+    vsnprintf(error->message, sizeof error->message, format, arguments);
     va_end(arguments);
+    /* Names come from the user's text: what would break the line or the terminal is masked. */
+    for (char *c = error->message; *c; c++)
+        if ((unsigned char)*c < ' ' || *c == 127) *c = '?';
     return status;
 }
 
@@ -108,10 +92,4 @@ dal_status dal__unknown_at(dal_error *error, int line, int column, const char *w
                             name);
     return dal__fail_at(error, DAL_NAME, line, column, "unknown %s '%s'; did you mean '%s'?", what,
                         name, nearest);
-}
-
-dal_status dal__unknown(dal_error *error, const char *what, const char *name,
-                        const char *const *names, int count)
-{
-    return dal__unknown_at(error, 0, 0, what, name, names, count);
 }

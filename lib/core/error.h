@@ -21,15 +21,13 @@
 /* Fills *error (may be NULL) and returns status, so that a caller can write
  *     return dal__fail(error, DAL_MEMORY, "no memory for a batch");
  * The error is about no text: its line and column are 0. */
-dal_status dal__fail(dal_error *error, dal_status status, const char *format, ...)
-    DAL__PRINTF(3, 4);
+#define dal__fail(error, status, ...) dal__fail_at(error, status, 0, 0, __VA_ARGS__)
 /* The same for an error at a place of the user's text, where lines and columns begin with 1. */
 dal_status dal__fail_at(dal_error *error, dal_status status, int line, int column,
                         const char *format, ...) DAL__PRINTF(5, 6);
 
 /* "unknown WHAT 'NAME'; did you mean 'NEAREST'?" with the status DAL_NAME; see dal_nearest. */
-dal_status dal__unknown(dal_error *error, const char *what, const char *name,
-                        const char *const *names, int count);
+#define dal__unknown(error, ...) dal__unknown_at(error, 0, 0, __VA_ARGS__)
 dal_status dal__unknown_at(dal_error *error, int line, int column, const char *what,
                            const char *name, const char *const *names, int count);
 

@@ -19,14 +19,23 @@ typedef struct search {
     bool full;
 } search;
 
-static void add_guard(search *s, dal__node node, const char *text)
+/* False where the node is no guard, since it is constant along a run, or there are too many. */
+static bool append_guard(search *s, dal__node node, const char *name)
 {
     dal__equations *e = &s->model->equations;
+    if (!dal__depends(e->graph, node, e->parameters, e->symbols)) return false;
+    s->full = s->full || e->guards == MAX_GUARDS;
+    if (s->full) return false;
+    e->guard[e->guards] = node;
+    e->guard_name[e->guards++] = name;
+    return true;
+}
+
+static void add_guard(search *s, dal__node node, const char *text)
+{
+    const dal__equations *e = &s->model->equations;
     dal__record r = dal__inspect(e->graph, node);
     dal__record inner = r.op == DAL__COS ? dal__inspect(e->graph, r.a) : r;
-    if (!dal__depends(e->graph, node, e->parameters, e->symbols)) return;
-    s->full = s->full || e->guards == MAX_GUARDS;
-    if (s->full) return;
     if (inner.op == DAL__SYMBOL) {
         const int i = inner.symbol - e->q, j = inner.symbol - e->v;
         text = "t";
@@ -35,10 +44,8 @@ static void add_guard(search *s, dal__node node, const char *text)
     }
     if (text && inner.op == DAL__SYMBOL && r.op == DAL__COS)
         text = dal__model_print(s->model, "cos(%s)", text);
-    if (!text) return;
-    e->guard[e->guards] = node;
-    e->guard_name[e->guards++] =
-        dal__model_print(s->model, "constraint %d: %s", s->constraint, text);
+    if (text)
+        append_guard(s, node, dal__model_print(s->model, "constraint %d: %s", s->constraint, text));
 }
 
 /* A denominator, or a factor of one or of D: split until it is no product. */
@@ -95,12 +102,7 @@ static bool guard_determinant(search *s, bool mass, const char *name)
     for (int k = 0; k < e->pivots; k++)
         if (mass == (e->pivot[k].constraint == 0))
             det = dal__node_mul(e->graph, det, e->pivot[k].pivot);
-    if (e->vakonomic || !dal__depends(e->graph, det, e->parameters, e->symbols)) return false;
-    s->full = s->full || e->guards == MAX_GUARDS;
-    if (s->full) return false;
-    e->guard[e->guards] = det;
-    e->guard_name[e->guards++] = name;
-    return true;
+    return !e->vakonomic && append_guard(s, det, name);
 }
 
 dal_status dal__guards(dal_model *model)
