@@ -14,7 +14,9 @@ typedef struct dal__buffer {
     bool out_of_memory;
 } dal__buffer;
 
+/* Frees the bytes; the buffer is as at first. */
 void dal__buffer_free(dal__buffer *buffer);
+/* Appends bytes; a string. [alloc] */
 void dal__buffer_append_bytes(dal__buffer *buffer, const char *bytes, size_t length);
 void dal__buffer_append(dal__buffer *buffer, const char *string);
 /* No floating point: that would follow the locale. */

@@ -81,6 +81,7 @@ typedef struct dal__graph {
 dal__graph *dal__graph_create(int parameters);
 void dal__graph_free(dal__graph *graph);
 
+/* The nodes of a number and of a symbol, made if missing. [alloc] */
 dal__node dal__number(dal__graph *graph, double value);
 dal__node dal__symbol(dal__graph *graph, int symbol); /* symbol >= 0, numbered by the caller */
 /* The node with exactly this operation and operands, made if missing; no simplification. */
@@ -89,6 +90,7 @@ dal__node dal__intern(dal__graph *graph, dal__op op, dal__node a, dal__node b);
 dal__node dal__find(const dal__graph *graph, dal__op op, dal__node a, dal__node b);
 dal__node dal__find_symbol(const dal__graph *graph, int symbol);
 
+/* What a node is; whether it is this number. */
 dal__record dal__inspect(const dal__graph *graph, dal__node node);
 bool dal__is_number(const dal__graph *graph, dal__node node, double value);
 

@@ -37,7 +37,10 @@ typedef struct dal__tapes {
     size_t first_input, temporaries, workspace; /* places; workspace: the size of work */
 } dal__tapes;
 
+/* A set without programs, of a graph that must outlive dal__tapes_finish; NULL: out of memory.
+ * [alloc] */
 dal__tapes *dal__tapes_create(const dal__graph *graph, int parameters, int inputs);
+/* Frees a set and its programs; NULL is allowed. */
 void dal__tapes_free(dal__tapes *tapes);
 /* Adds a program with these outputs and returns its number, from 0 (-1: out of memory). */
 int dal__tapes_add(dal__tapes *tapes, const dal__node *outputs, int count);
