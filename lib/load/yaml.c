@@ -57,20 +57,13 @@ static dal_status parser_error(reader *r)
     dal__fail_at((r)->error, status, line_of((r)->event.start_mark),                               \
                  column_of((r)->event.start_mark), __VA_ARGS__)
 
+/* An anchor is the first member of all events that may have one. */
 static bool has_anchor(const yaml_event_t *event)
 {
-    switch (event->type) {
-    case YAML_ALIAS_EVENT:
-        return true;
-    case YAML_SCALAR_EVENT:
-        return event->data.scalar.anchor != NULL;
-    case YAML_SEQUENCE_START_EVENT:
-        return event->data.sequence_start.anchor != NULL;
-    case YAML_MAPPING_START_EVENT:
-        return event->data.mapping_start.anchor != NULL;
-    default:
-        return false;
-    }
+    const bool may_have = event->type == YAML_ALIAS_EVENT || event->type == YAML_SCALAR_EVENT ||
+                          event->type == YAML_SEQUENCE_START_EVENT ||
+                          event->type == YAML_MAPPING_START_EVENT;
+    return may_have && event->data.scalar.anchor != NULL;
 }
 
 static dal_status next(reader *r)
