@@ -141,6 +141,38 @@ dal_run *fixture_run(const dal_run_spec *spec)
     return run;
 }
 
+dal_run *fixture_stepped(const dal_run_spec *spec, int steps)
+{
+    dal_run *run = fixture_run(spec);
+    CU_ASSERT_EQUAL(dal_run_advance(run, steps, NULL), DAL_OK);
+    return run;
+}
+
+double fixture_symplectic_defect(const dal_run_spec *spec)
+{
+    dal_run *run = fixture_run(spec);
+    double defect = NAN;
+    fixture_perturb(run, 0.3);
+    CU_ASSERT_EQUAL(dal_check_symplecticity(spec, 0.0, dal_run_state(run), 0.0, &defect, NULL),
+                    DAL_OK);
+    dal_run_free(run);
+    return defect;
+}
+
+dal_evaluator *fixture_evaluator(const dal_system *system)
+{
+    dal_evaluator *evaluator = NULL;
+    CU_ASSERT_EQUAL_FATAL(dal_evaluator_create(&evaluator, system, NULL, 0, NULL), DAL_OK);
+    return evaluator;
+}
+
+dal_status fixture_oscillate(const dal_system *system, const dal_point *at, double *out)
+{
+    (void)system;
+    out[0] = -at->q[0];
+    return DAL_OK;
+}
+
 void fixture_refused(const dal_run_spec *spec, dal_status status, const char *fragment)
 {
     dal_run *run = NULL;

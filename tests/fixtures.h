@@ -29,6 +29,15 @@ bool fixture_accepts(const dal_method *method, const dal_system *system, dal_spa
 /* A run of it; NULL and a failed test when it cannot be made. */
 dal_run *fixture_run(const dal_run_spec *spec);
 
+/* The same after some steps. */
+dal_run *fixture_stepped(const dal_run_spec *spec, int steps);
+/* How far a step from a perturbed lifted state is from symplectic. */
+double fixture_symplectic_defect(const dal_run_spec *spec);
+/* An evaluator with the system's own parameters. */
+dal_evaluator *fixture_evaluator(const dal_system *system);
+/* The field of x'' = -x, for systems made by hand. */
+dal_status fixture_oscillate(const dal_system *system, const dal_point *at, double *out);
+
 /* A run of it is refused with this status and a message that has this fragment. */
 void fixture_refused(const dal_run_spec *spec, dal_status status, const char *fragment);
 

@@ -62,13 +62,6 @@ static void test_one_side(void)
     }
 }
 
-static dal_run *stepped(const dal_run_spec *spec, int steps)
-{
-    dal_run *run = fixture_run(spec);
-    CU_ASSERT_EQUAL(dal_run_advance(run, steps, NULL), DAL_OK);
-    return run;
-}
-
 /* The midpoint rule's fixed point contracts by (h/2)^2 = 1/16 on an oscillator.  The state's size
  * is |v| + |x|/h = 2.5 and that of the unknown 0.5: the first change below the tolerance leaves
  * between a 272th and a 17th of it. */
@@ -78,11 +71,11 @@ static void test_looser(void)
     dal_run_spec spec =
         fixture_spec(fixture_system(oscillator), "implicit-midpoint", DAL_PHYSICAL, 0.5);
     spec.options.solver = DAL_FIXED_POINT;
-    dal_run *solved = stepped(&spec, 1);
+    dal_run *solved = fixture_stepped(&spec, 1);
     long long evaluations = 0;
     for (size_t i = 0; i < sizeof tolerance / sizeof *tolerance; i++) {
         spec.options.solver_tolerance = tolerance[i];
-        dal_run *loose = stepped(&spec, 1);
+        dal_run *loose = fixture_stepped(&spec, 1);
         const double left = fabs(dal_run_state(loose)[1] - dal_run_state(solved)[1]);
         CU_ASSERT(left > 2.5 / 272 * tolerance[i]);
         CU_ASSERT(left < 3.0 / 17 * tolerance[i]);
@@ -100,17 +93,17 @@ static void test_tighter(void)
     dal_run_spec spec =
         fixture_spec(fixture_system(oscillator), "implicit-midpoint", DAL_PHYSICAL, 0.5);
     spec.options.solver = DAL_FIXED_POINT;
-    dal_run *solved = stepped(&spec, 1);
+    dal_run *solved = fixture_stepped(&spec, 1);
     spec.options.extra_iterations = 3;
-    dal_run *more = stepped(&spec, 1);
+    dal_run *more = fixture_stepped(&spec, 1);
     CU_ASSERT_EQUAL(dal_run_evaluations(more), dal_run_evaluations(solved) + 3);
     for (int i = 0; i < 2; i++)
         CU_ASSERT(fabs(dal_run_state(more)[i] - dal_run_state(solved)[i]) < 1e-15);
     /* Early stopping and then sweeps again: each contracts by 1/16. */
     spec.options.solver_tolerance = 1e-4;
-    dal_run *again = stepped(&spec, 1);
+    dal_run *again = fixture_stepped(&spec, 1);
     spec.options.extra_iterations = 0;
-    dal_run *loose = stepped(&spec, 1);
+    dal_run *loose = fixture_stepped(&spec, 1);
     const double before = dal_run_state(loose)[1] - dal_run_state(solved)[1];
     const double after = dal_run_state(again)[1] - dal_run_state(solved)[1];
     CU_ASSERT(fabs(fabs(after / before) * 16 * 16 * 16 - 1) < 1e-3);
@@ -140,7 +133,7 @@ static void test_lanes(void)
         double state[STATE];
         spec.start = &start;
         spec.start_count = 1;
-        dal_run *run = stepped(&spec, STEPS);
+        dal_run *run = fixture_stepped(&spec, STEPS);
         dal_batch_state(batch, lane, state);
         CU_ASSERT_EQUAL(memcmp(state, dal_run_state(run), sizeof state), 0);
         dal_run_free(run);

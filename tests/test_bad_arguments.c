@@ -6,13 +6,6 @@
 #include <stdio.h>
 #include <string.h>
 
-static dal_status oscillate(const dal_system *system, const dal_point *at, double *out)
-{
-    (void)system;
-    out[0] = -at->q[0];
-    return DAL_OK;
-}
-
 static dal_status unprepared(const dal_system *system, const dal_point *at, double *out)
 {
     (void)system;
@@ -24,7 +17,7 @@ static dal_status unprepared(const dal_system *system, const dal_point *at, doub
 /* A struct filled by hand may say anything. */
 static void test_systems(void)
 {
-    dal_system system = (dal_system){.name = "hand", .n = 1, .call.field = oscillate};
+    dal_system system = (dal_system){.name = "hand", .n = 1, .call.field = fixture_oscillate};
     dal_run_spec spec = fixture_spec(&system, "rk4", DAL_PHYSICAL, 0.1);
     system.workspace = SIZE_MAX;
     fixture_refused(&spec, DAL_TOO_LARGE, "workspace");
@@ -57,7 +50,7 @@ static void test_starts(void)
 
 static void test_options(void)
 {
-    const dal_system system = {.name = "hand", .n = 1, .call.field = oscillate};
+    const dal_system system = {.name = "hand", .n = 1, .call.field = fixture_oscillate};
     dal_run_spec spec = fixture_spec(&system, "rk4", (dal_space)7, 0.1);
     fixture_refused(&spec, DAL_ARGUMENT, "option space: 7 is not from 0 to 1");
     spec = fixture_spec(&system, "rk4", DAL_PHYSICAL, 0.1);

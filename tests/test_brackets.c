@@ -6,13 +6,6 @@
 #include <math.h>
 #include <string.h>
 
-static dal_evaluator *evaluator_of(const dal_system *system)
-{
-    dal_evaluator *evaluator = NULL;
-    CU_ASSERT_EQUAL_FATAL(dal_evaluator_create(&evaluator, system, NULL, 0, NULL), DAL_OK);
-    return evaluator;
-}
-
 /* ---- brackets ---- */
 
 /* z = (x, y, z; p_x, p_y, p_z): components of x cross p. */
@@ -40,7 +33,7 @@ static dal_status dirac_of(const char *text, double (*phi)(void *, const double 
                            dal_dirac *out, int *n)
 {
     const dal_system *system = fixture_system(text);
-    dal_evaluator *evaluator = evaluator_of(system);
+    dal_evaluator *evaluator = fixture_evaluator(system);
     double x[16];
     CU_ASSERT_EQUAL(dal_evaluator_start(evaluator, NULL, 0, x, NULL), DAL_OK);
     const dal_point at = {.t = 0.2, .q = x, .v = x + system->n};
@@ -111,7 +104,7 @@ static void test_action_closed_form(void)
 {
     enum { NODES = 40 };
     dal_evaluator *evaluator =
-        evaluator_of(fixture_system("coordinates: [x]\naccelerations: {x: 0}\n"));
+        fixture_evaluator(fixture_system("coordinates: [x]\naccelerations: {x: 0}\n"));
     const double h = 0.05, a = 0.7, e = 1.5;
     double x[NODES], action;
     for (int k = 0; k < NODES; k++) x[k] = 0.5 * a * h * k * h * k;
@@ -127,7 +120,7 @@ static void test_action_closed_form(void)
 static void test_action_of_the_sleigh(void)
 {
     enum { NODES = 80 };
-    dal_evaluator *evaluator = evaluator_of(fixture_system("chaplygin-sleigh"));
+    dal_evaluator *evaluator = fixture_evaluator(fixture_system("chaplygin-sleigh"));
     double q[3 * NODES], action[2];
     for (int moved = 0; moved < 2; moved++) {
         for (int k = 0; k < NODES; k++) {
@@ -163,7 +156,7 @@ static void trajectory(const dal_system *system, const char *method, double *sta
 static void test_stationarity(void)
 {
     const dal_system *system = fixture_system(fixture_full);
-    dal_evaluator *evaluator = evaluator_of(system);
+    dal_evaluator *evaluator = fixture_evaluator(system);
     double states[STATES * WIDE], midpoint, other;
     trajectory(system, "gauss4", states);
     CU_ASSERT_EQUAL(dal_check_stationarity(evaluator, 0.0, 0.05, STATES, states, &other), DAL_OK);

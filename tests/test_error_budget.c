@@ -172,12 +172,6 @@ static void test_sums(void)
 
 /* ---- what cannot be had ---- */
 
-static dal_status field(const dal_system *system, const dal_point *at, double *out)
-{
-    (void)system;
-    out[0] = -at->q[0];
-    return DAL_OK;
-}
 static dal_status energy(const dal_system *system, const dal_point *at, double *out)
 {
     (void)system;
@@ -195,8 +189,11 @@ static dal_status start(const dal_system *system, const dal_point *at, double *o
 /* Without quad precision halving alone decides: rk4 on an oscillator loses energy like h^5. */
 static void test_by_hand(void)
 {
-    const dal_system spring = {
-        .name = "spring", .n = 1, .call = {.field = field}, .energy = energy, .start = start};
+    const dal_system spring = {.name = "spring",
+                               .n = 1,
+                               .call = {.field = fixture_oscillate},
+                               .energy = energy,
+                               .start = start};
     const dal_run_spec spec = fixture_spec(&spring, "rk4", DAL_PHYSICAL, 0.1);
     dal_error_budget *e = explained(&spec, 1000, 100);
     const dal_shares *loss = of(e, "E");

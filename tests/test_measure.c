@@ -46,13 +46,6 @@ static const dal_system cubic = {
     .call = {.field = cubic_field, .jacobian = cubic_jacobian, .adjoint = cubic_adjoint},
     .energy = cubic_energy};
 
-static dal_evaluator *evaluator_of(const dal_system *system)
-{
-    dal_evaluator *evaluator = NULL;
-    CU_ASSERT_EQUAL_FATAL(dal_evaluator_create(&evaluator, system, NULL, 0, NULL), DAL_OK);
-    return evaluator;
-}
-
 /* ---- evaluator ---- */
 
 static void test_evaluator(void)
@@ -86,7 +79,7 @@ static void test_evaluator_names(void)
     CU_ASSERT_PTR_NULL(evaluator);
     CU_ASSERT(strstr(error.message, "'omge'; did you mean 'omega'?") != NULL);
     CU_ASSERT_EQUAL(dal_evaluator_create(&evaluator, system, &inf, 1, &error), DAL_NOT_FINITE);
-    evaluator = evaluator_of(system);
+    evaluator = fixture_evaluator(system);
     CU_ASSERT_EQUAL(dal_evaluator_start(evaluator, start, 1, x, &error), DAL_NAME);
     CU_ASSERT(strstr(error.message, "'phy'; did you mean 'phi'?") != NULL);
     dal_evaluator_free(evaluator);
@@ -98,7 +91,7 @@ static void test_rate(void)
 {
     const double q = 0.8, v = -1.3;
     const dal_point at = {.t = 0.0, .q = &q, .v = &v};
-    dal_evaluator *evaluator = evaluator_of(&cubic);
+    dal_evaluator *evaluator = fixture_evaluator(&cubic);
     double rate;
     /* dE/dt = v (v' + x^3) = -v^2/2 */
     CU_ASSERT_EQUAL(dal_measure_rate(evaluator, cubic.energy, 1, &at, &rate), DAL_OK);
@@ -111,7 +104,7 @@ static void test_derivatives_find_faults(void)
 {
     const double q = 0.8, v = -1.3;
     const dal_point at = {.t = 0.0, .q = &q, .v = &v};
-    dal_evaluator *evaluator = evaluator_of(&cubic);
+    dal_evaluator *evaluator = fixture_evaluator(&cubic);
     dal_derivatives d;
     wrong = 0.0;
     CU_ASSERT_EQUAL(dal_check_derivatives(evaluator, &at, &d), DAL_OK);
@@ -131,7 +124,7 @@ static void test_derivatives_of_systems(void)
     const char *const texts[] = {fixture_full, fixture_bilinear, fixture_quadratic, "vertical-disk",
                                  "chaplygin-sleigh-nonlinear"};
     for (size_t k = 0; k < sizeof texts / sizeof *texts; k++) {
-        dal_evaluator *evaluator = evaluator_of(fixture_system(texts[k]));
+        dal_evaluator *evaluator = fixture_evaluator(fixture_system(texts[k]));
         double x[16];
         dal_derivatives d;
         CU_ASSERT_EQUAL(dal_evaluator_start(evaluator, NULL, 0, x, NULL), DAL_OK);
@@ -160,7 +153,7 @@ static void test_rank(void)
         int rank;
     } cases[] = {{"vertical-disk", 2}, {twice, 1}, {fixture_full, 2}, {"knife-edge", 1}};
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
-        dal_evaluator *evaluator = evaluator_of(fixture_system(cases[k].text));
+        dal_evaluator *evaluator = fixture_evaluator(fixture_system(cases[k].text));
         double x[16], pivot;
         int rank;
         CU_ASSERT_EQUAL(dal_evaluator_start(evaluator, NULL, 0, x, NULL), DAL_OK);
@@ -176,7 +169,7 @@ static void test_rank(void)
 static void test_project_velocity(void)
 {
     const dal_system *system = fixture_system(fixture_full);
-    dal_evaluator *evaluator = evaluator_of(system);
+    dal_evaluator *evaluator = fixture_evaluator(system);
     const double q[] = {0.1, 0.4, 0.3, 0.2};
     double v[] = {0.9, 0.7, 0.1, 1.3}, D[2];
     CU_ASSERT_EQUAL(dal_project_velocity(evaluator, 0.4, q, v), DAL_OK);
@@ -189,8 +182,8 @@ static void test_project_velocity(void)
 static void test_project_velocity_nothing(void)
 {
     dal_evaluator *evaluator =
-        evaluator_of(fixture_system("coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\n"
-                                    "constraints: [x'^2 + y'^2 + 1]\nstart: {x': 1}\n"));
+        fixture_evaluator(fixture_system("coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\n"
+                                         "constraints: [x'^2 + y'^2 + 1]\nstart: {x': 1}\n"));
     const double q[] = {0.0, 0.0};
     double v[] = {0.6, 0.3};
     CU_ASSERT_NOT_EQUAL(dal_project_velocity(evaluator, 0.0, q, v), DAL_OK);
@@ -246,7 +239,7 @@ static const kind kinds[] = {
 
 static void examine_kind(const kind *expected)
 {
-    dal_evaluator *evaluator = evaluator_of(fixture_system(expected->text));
+    dal_evaluator *evaluator = fixture_evaluator(fixture_system(expected->text));
     double x[8], degree = -1.0;
     dal_constraint_class d;
     CU_ASSERT_EQUAL(dal_evaluator_start(evaluator, NULL, 0, x, NULL), DAL_OK);
@@ -287,7 +280,7 @@ static void test_nearly(void)
         dal_constraint_class d;
         snprintf(text, sizeof text, PLANE "[x' + 2*y' - z' + %g*%s]\nstart: {x': 1, z': 1}\n",
                  factor[i % 2], cases[i / 2].more);
-        dal_evaluator *evaluator = evaluator_of(fixture_system(text));
+        dal_evaluator *evaluator = fixture_evaluator(fixture_system(text));
         CU_ASSERT_EQUAL(dal_evaluator_start(evaluator, NULL, 0, x, NULL), DAL_OK);
         const dal_point at = {.t = 0.0, .q = x, .v = x + 3};
         CU_ASSERT_EQUAL(dal_classify_constraints(evaluator, &at, &d, NULL), DAL_OK);
@@ -315,7 +308,7 @@ static void test_nearly_dependent(void)
                  PLANE "[x' - y', x' - (1 + s)*y']\n"
                        "parameters: {s: %g}\n",
                  s[i]);
-        dal_evaluator *evaluator = evaluator_of(fixture_system(text));
+        dal_evaluator *evaluator = fixture_evaluator(fixture_system(text));
         CU_ASSERT_EQUAL(dal_evaluator_start(evaluator, NULL, 0, x, NULL), DAL_OK);
         const dal_point at = {.t = 0.0, .q = x, .v = x + 3};
         CU_ASSERT_EQUAL(dal_measure_rank(evaluator, &at, &rank, &pivot), DAL_OK);
@@ -373,7 +366,7 @@ static void test_unmeasured(void)
     const double q[] = {0.1, 0.2}, v[] = {1.0, 0.5};
     const dal_point at = {.t = 0.0, .q = q, .v = v};
     const dal_system *system = fixture_system(no_values);
-    dal_evaluator *evaluator = evaluator_of(system);
+    dal_evaluator *evaluator = fixture_evaluator(system);
     dal_derivatives derivatives;
     dal_constraint_class class;
     double rate;
@@ -385,7 +378,7 @@ static void test_unmeasured(void)
     CU_ASSERT(!class.homogeneous);
     dal_evaluator_free(evaluator);
     const dal_system empty = {.name = "empty", .n = 1, .call = {.field = no_field}};
-    evaluator = evaluator_of(&empty);
+    evaluator = fixture_evaluator(&empty);
     CU_ASSERT_EQUAL(dal_classify_constraints(evaluator, &at, &class, NULL), DAL_OK);
     CU_ASSERT(isnan(class.force_defect) && !class.reversible);
     dal_evaluator_free(evaluator);
@@ -400,7 +393,7 @@ static void test_derivatives_anywhere(void)
                                  "coordinates: [x]\naccelerations: {x: -1e-6*sin(1e6*x + 1)}\n"};
     const double place[] = {1e5, 0.0}, v = 0.3;
     for (int k = 0; k < 2; k++) {
-        dal_evaluator *evaluator = evaluator_of(fixture_system(texts[k]));
+        dal_evaluator *evaluator = fixture_evaluator(fixture_system(texts[k]));
         const dal_point at = {.t = 0.0, .q = &place[k], .v = &v};
         dal_derivatives d;
         CU_ASSERT_EQUAL(dal_check_derivatives(evaluator, &at, &d), DAL_OK);

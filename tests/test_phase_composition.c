@@ -96,17 +96,6 @@ static void test_symmetric(void)
     }
 }
 
-static double symplectic_defect(const dal_run_spec *spec)
-{
-    double defect = NAN;
-    dal_run *run = fixture_run(spec);
-    fixture_perturb(run, 0.3);
-    CU_ASSERT_EQUAL(dal_check_symplecticity(spec, 0.0, dal_run_state(run), 0.0, &defect, NULL),
-                    DAL_OK);
-    dal_run_free(run);
-    return defect;
-}
-
 static void test_symplectic(void)
 {
     for (int i = 0; i < COMPOSED; i++) {
@@ -114,7 +103,7 @@ static void test_symplectic(void)
             const dal_run_spec spec =
                 fixture_spec(fixture_system(fixture_full), join(bases[b], composed[i].name, ""),
                              DAL_LIFTED, 0.1);
-            const double defect = symplectic_defect(&spec);
+            const double defect = fixture_symplectic_defect(&spec);
             CU_ASSERT(dal_method_properties(&spec.method) & DAL_SYMPLECTIC);
             if (!(defect <= 1e-9)) printf("\n  %s: defect %.2e\n", composed[i].name, defect);
             CU_ASSERT(defect <= 1e-9);
@@ -123,7 +112,7 @@ static void test_symplectic(void)
     const dal_run_spec projected = fixture_spec(fixture_system(fixture_full),
                                                 "stormer-verlet+yoshida4+project", DAL_LIFTED, 0.1);
     CU_ASSERT_FALSE(dal_method_properties(&projected.method) & (DAL_SYMPLECTIC | DAL_SYMMETRIC));
-    CU_ASSERT(symplectic_defect(&projected) >= 1e-7);
+    CU_ASSERT(fixture_symplectic_defect(&projected) >= 1e-7);
 }
 
 /* ---- D ---- */

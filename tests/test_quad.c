@@ -102,18 +102,11 @@ static void test_functions(void)
 
 /* ---- runs ---- */
 
-static dal_run *stepped(const dal_run_spec *spec, int steps)
-{
-    dal_run *run = fixture_run(spec);
-    CU_ASSERT_EQUAL(dal_run_advance(run, steps, NULL), DAL_OK);
-    return run;
-}
-
 /* The last observable, which is the error against the closed form. */
 static double error_at_end(const dal_run_spec *spec, int steps)
 {
     double out[32];
-    dal_run *run = stepped(spec, steps);
+    dal_run *run = fixture_stepped(spec, steps);
     CU_ASSERT_EQUAL(dal_run_observe(run, out), DAL_OK);
     const double error = out[dal_run_observables(run) - 1];
     dal_run_free(run);
@@ -152,12 +145,12 @@ static void test_constraint(void)
     double out[32];
     dal_run_spec spec =
         fixture_spec(fixture_system(fixture_quadratic), "implicit-midpoint", DAL_PHYSICAL, 0.05);
-    dal_run *in_double = stepped(&spec, 200);
+    dal_run *in_double = fixture_stepped(&spec, 200);
     spec.options.precision = DAL_QUAD;
     dal_run *start = fixture_run(&spec);
     CU_ASSERT_EQUAL(dal_run_observe(start, out), DAL_OK);
     const double before = out[0];
-    dal_run *in_quad = stepped(&spec, 200);
+    dal_run *in_quad = fixture_stepped(&spec, 200);
     CU_ASSERT_EQUAL(dal_run_observe(in_quad, out), DAL_OK);
     CU_ASSERT(fabs(out[0] - before) < 1e-30);
     CU_ASSERT_EQUAL(dal_run_observe(in_double, out), DAL_OK);
@@ -235,7 +228,7 @@ static void test_memory(void)
 {
     dal_run_spec spec = fixture_spec(fixture_system("knife-edge"), "gauss4", DAL_LIFTED, 0.125);
     spec.options.precision = DAL_QUAD;
-    dal_run *straight = stepped(&spec, 16), *sampled = fixture_run(&spec);
+    dal_run *straight = fixture_stepped(&spec, 16), *sampled = fixture_run(&spec);
     int rows = 0;
     const dal_observer observer = {.user = &rows, .sample = nothing};
     dal_error error = {0};
@@ -263,16 +256,9 @@ static void test_memory(void)
 
 /* ---- refusals ---- */
 
-static dal_status field(const dal_system *system, const dal_point *at, double *out)
-{
-    (void)system;
-    out[0] = -at->q[0];
-    return DAL_OK;
-}
-
 static void test_refused(void)
 {
-    const dal_system by_hand = {.name = "spring", .n = 1, .call = {.field = field}};
+    const dal_system by_hand = {.name = "spring", .n = 1, .call = {.field = fixture_oscillate}};
     dal_run_spec spec = fixture_spec(&by_hand, "rk4", DAL_PHYSICAL, 0.1);
     dal_error error = {0};
     dal_batch *batch;

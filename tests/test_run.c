@@ -9,19 +9,12 @@
 
 /* ---- a system by hand: x'' = -x, and x'' = -x that fails now and then ---- */
 
-static dal_status oscillate(const dal_system *system, const dal_point *at, double *out)
-{
-    (void)system;
-    out[0] = -at->q[0];
-    return DAL_OK;
-}
-
 /* data: an int that counts down to a failure. */
 static dal_status fail_sometimes(const dal_system *system, const dal_point *at, double *out)
 {
     int *left = system->data;
     if (--*left == 0) return DAL_NOT_FINITE;
-    return oscillate(system, at, out);
+    return fixture_oscillate(system, at, out);
 }
 
 static dal_status unit_start(const dal_system *system, const dal_point *at, double *out)
@@ -40,7 +33,7 @@ static dal_system hand_made(dal_callback *field, void *data)
 
 static void test_by_hand(void)
 {
-    const dal_system system = hand_made(oscillate, NULL);
+    const dal_system system = hand_made(fixture_oscillate, NULL);
     dal_run_spec spec = fixture_spec(&system, "gauss8", DAL_PHYSICAL, 0.1);
     dal_run *run = fixture_run(&spec);
     CU_ASSERT_EQUAL(dal_run_advance(run, 100, NULL), DAL_OK);
@@ -64,13 +57,13 @@ static void test_refusals(void)
         const dal_run_spec spec = fixture_spec(system, "rk4", DAL_LIFTED, steps[i]);
         fixture_refused(&spec, DAL_ARGUMENT, "step");
     }
-    const dal_system bare = hand_made(oscillate, NULL);
+    const dal_system bare = hand_made(fixture_oscillate, NULL);
     dal_run_spec spec = fixture_spec(&bare, "rk4", DAL_LIFTED, 0.1);
     fixture_refused(&spec, DAL_UNSUPPORTED, "rk4 cannot act on hand");
     spec = fixture_spec(&bare, "implicit-midpoint", DAL_PHYSICAL, 0.1);
     spec.options.solver = DAL_NEWTON;
     fixture_refused(&spec, DAL_UNSUPPORTED, "jacobian");
-    const dal_system empty = {.name = "empty", .n = 0, .call.field = oscillate};
+    const dal_system empty = {.name = "empty", .n = 0, .call.field = fixture_oscillate};
     spec = fixture_spec(&empty, "rk4", DAL_PHYSICAL, 0.1);
     fixture_refused(&spec, DAL_ARGUMENT, "n is 0");
     spec = fixture_spec(system, "rk4", DAL_PHYSICAL, 0.1);
@@ -294,7 +287,7 @@ static void sample(dal_run *run, double T, long long samples, long long first, r
 
 static void test_samples(void)
 {
-    const dal_system system = hand_made(oscillate, NULL);
+    const dal_system system = hand_made(fixture_oscillate, NULL);
     const dal_run_spec spec = fixture_spec(&system, "gauss8", DAL_PHYSICAL, 0.3);
     rows a = {.stop_at = 99}, b = {.stop_at = 99};
     dal_run *run = fixture_run(&spec), *other = fixture_run(&spec);
@@ -352,7 +345,7 @@ static dal_status note_poll(void *user, dal_run *run)
 /* 9 is rounded down to 7, 100 to 62; by default there are 992 steps from one to the next. */
 static void test_polls(void)
 {
-    const dal_system system = hand_made(oscillate, NULL);
+    const dal_system system = hand_made(fixture_oscillate, NULL);
     const dal_run_spec spec = fixture_spec(&system, "rk4", DAL_PHYSICAL, 0.1);
     static const struct {
         long long polling, steps, gap;
