@@ -1,28 +1,14 @@
 /* evaluator.c - a system with its parameters in force and memory to evaluate it in. */
 #include "core/arguments.h"
-#include "core/vectors.h"
 #include "dalembert_analysis.h"
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 struct dal_evaluator {
     const dal_system *system;
-    double *work;
+    double work[];
 };
-
-static dal_status fill(dal_evaluator *evaluator, const dal_setting *parameters, int count,
-                       dal_error *error)
-{
-    const dal_system *s = evaluator->system;
-    DAL_TRY(dal__set_parameters(s, parameters, count, DAL_NOT_FINITE, evaluator->work, error));
-    if (s->prepare == NULL) return DAL_OK;
-    dal_status status = s->prepare(s, &(dal_point){.work = evaluator->work}, NULL);
-    if (status == DAL_OK) return DAL_OK;
-    return dal__fail(error, status, "%s: the parameters cannot be used: %s", s->name,
-                     dal_status_text(status));
-}
 
 dal_status dal_evaluator_create(dal_evaluator **evaluator, const dal_system *system,
                                 const dal_setting *parameters, int parameter_count,
@@ -32,30 +18,27 @@ dal_status dal_evaluator_create(dal_evaluator **evaluator, const dal_system *sys
     *evaluator = NULL;
     DAL_REQUIRE(system, error);
     DAL_TRY(dal__check_settings(parameters, parameter_count, "parameters", error));
-    size_t size = system->workspace;
-    if (size < (size_t)system->parameters) size = (size_t)system->parameters;
-    *evaluator = calloc(1, sizeof **evaluator);
-    double *work = dal__numbers(size, 1);
-    if (*evaluator == NULL || work == NULL) {
-        free(work);
-        free(*evaluator);
-        *evaluator = NULL;
-        return dal__fail(error, DAL_MEMORY, "%s: out of memory", system->name);
+    const size_t values = (size_t)system->parameters;
+    const size_t size = system->workspace > values ? system->workspace : values;
+    dal_evaluator *made = calloc(1, sizeof *made + size * sizeof *made->work);
+    if (made == NULL) return dal__fail(error, DAL_MEMORY, "%s: out of memory", system->name);
+    made->system = system;
+    dal_status status =
+        dal__set_parameters(system, parameters, parameter_count, DAL_NOT_FINITE, made->work, error);
+    if (status == DAL_OK && system->prepare != NULL) {
+        status = system->prepare(system, &(dal_point){.work = made->work}, NULL);
+        if (status != DAL_OK)
+            dal__fail(error, status, "%s: the parameters cannot be used: %s", system->name,
+                      dal_status_text(status));
     }
-    **evaluator = (dal_evaluator){system, work};
-    dal_status status = fill(*evaluator, parameters, parameter_count, error);
-    if (status == DAL_OK) return DAL_OK;
-    dal_evaluator_free(*evaluator);
-    *evaluator = NULL;
+    if (status == DAL_OK)
+        *evaluator = made;
+    else
+        free(made);
     return status;
 }
 
-void dal_evaluator_free(dal_evaluator *evaluator)
-{
-    if (evaluator == NULL) return;
-    free(evaluator->work);
-    free(evaluator);
-}
+void dal_evaluator_free(dal_evaluator *evaluator) { free(evaluator); }
 
 const dal_system *dal_evaluator_system(const dal_evaluator *evaluator)
 {
