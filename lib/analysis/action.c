@@ -6,7 +6,7 @@
  * with X = (q,v,e), P = (p,pi,pi_e) at mid-interval and H = pi.pi/(2e) + pi.F + p.v + mu_e pi_e:
  *     dS_d/dP_k = X_(k+1) - X_k - h H_P,
  *     dS_d/dX_k = P_(k-1) - P_k - h/2 (H_X of interval k-1 + H_X of interval k). */
-#include "core/arguments.h"
+#include "core/error.h"
 #include "core/vectors.h"
 #include "dalembert_analysis.h"
 #include <math.h>

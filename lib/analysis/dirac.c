@@ -8,7 +8,7 @@
  * {phi_a, phi_b} over all constraints counts the second-class ones. */
 #include "analysis/dirac.h"
 #include "analysis/derivatives.h"
-#include "core/arguments.h"
+#include "core/error.h"
 #include "core/vectors.h"
 #include <math.h>
 #include <stdlib.h>

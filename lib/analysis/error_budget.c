@@ -5,7 +5,7 @@
  * solved further, and both step sizes in quad precision advance together. */
 #include "analysis/error_shares.h"
 #include "analysis/statistics.h"
-#include "core/arguments.h"
+#include "core/error.h"
 #include "core/vectors.h"
 #include "core/words.h"
 #include <math.h>

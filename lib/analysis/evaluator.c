@@ -1,5 +1,5 @@
 /* evaluator.c - a system with its parameters in force and memory to evaluate it in. */
-#include "core/arguments.h"
+#include "core/error.h"
 #include "dalembert_analysis.h"
 #include <stdio.h>
 #include <stdlib.h>

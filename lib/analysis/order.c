@@ -13,7 +13,7 @@
  *
  * (for halved steps their difference; a third of it, and overestimated, where the next term is
  * a h^2).  An order is stated where that is small. */
-#include "core/arguments.h"
+#include "core/error.h"
 #include "core/vectors.h"
 #include "dalembert_analysis.h"
 #include <math.h>

@@ -10,7 +10,6 @@
  * P.dx with dx from the tangent map is constant in time.  A symplectic method preserves it exactly,
  * for (dx, P) is then one tangent vector and one covector moved by the same map. */
 #include "analysis/derivatives.h"
-#include "core/arguments.h"
 #include "core/error.h"
 #include "core/vectors.h"
 #include "dalembert_analysis.h"

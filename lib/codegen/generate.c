@@ -3,7 +3,7 @@
 #include "codegen/emit_callbacks.h"
 #include "codegen/interface.h"
 #include "codegen/parts.h"
-#include "core/arguments.h"
+#include "core/error.h"
 #include "dalembert_codegen.h"
 #include "run/run.h"
 #include <stdio.h>

@@ -6,7 +6,7 @@
  * Two doubles and the point halfway between them have at most 767 digits, so of the digits behind
  * that it matters only whether one is not 0: a last digit 1 stands for them. */
 #include "core/decimal.h"
-#include "core/arguments.h"
+#include "core/error.h"
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>

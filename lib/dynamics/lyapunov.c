@@ -11,7 +11,7 @@
  * twice for every vector, so that V' is orthonormal to rounding (Giraud, Langou, Rozloznik 2005,
  * DOI 10.1016/j.camwa.2005.08.009). */
 #include "analysis/derivatives.h"
-#include "core/arguments.h"
+#include "core/error.h"
 #include "core/vectors.h"
 #include <math.h>
 #include <stdlib.h>

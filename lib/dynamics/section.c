@@ -13,7 +13,7 @@
  * above its neighbours', the rate of g at the ends of the two steps there shows which holds the
  * extremum, and its place is the root of that rate.  The first and the last step lack a neighbour;
  * there the rates at both ends decide alone. */
-#include "core/arguments.h"
+#include "core/error.h"
 #include "core/vectors.h"
 #include "dalembert_analysis.h"
 #include <float.h>

@@ -1,6 +1,6 @@
 /* builtin.c - the systems that are embedded in the library. */
 #include "load/builtin.h"
-#include "core/arguments.h"
+#include "core/error.h"
 #include <string.h>
 
 const char *dal_builtin_name(int i)

@@ -6,7 +6,7 @@
 #ifndef DAL_MODEL_MODEL_H
 #define DAL_MODEL_MODEL_H
 
-#include "core/arguments.h"
+#include "core/error.h"
 #include "model/equations.h"
 #include "model/programs.h"
 

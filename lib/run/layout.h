@@ -2,7 +2,7 @@
 #ifndef DAL_LAYOUT_H
 #define DAL_LAYOUT_H
 
-#include "core/arguments.h"
+#include "core/error.h"
 #include "kernel/persistent.h"
 
 /* A run without its values.  derivatives and multiplier count numbers of the method's state. */

@@ -1,5 +1,5 @@
 /* options.c - the options of a run, all from the one table DAL_OPTION_LIST. */
-#include "core/arguments.h"
+#include "core/error.h"
 
 #include <math.h>
 #include <stdbool.h>

@@ -2,7 +2,7 @@
 #ifndef DAL_REGISTRY_H
 #define DAL_REGISTRY_H
 
-#include "core/arguments.h"
+#include "core/error.h"
 #include "core/machine.h"
 #include "dalembert.h"
 

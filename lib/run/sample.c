@@ -8,7 +8,7 @@
  * collected and evaluated together, as many at a time as a register has lanes; else each is
  * evaluated at once.  A batch ends where the number of observations since t = 0 is a multiple of
  * the capacity, wherever a run was begun or interrupted, so that sums in parts find whole parts. */
-#include "core/arguments.h"
+#include "core/error.h"
 #include "run/failure.h"
 #include "run/run.h"
 #include <float.h>

@@ -3,7 +3,7 @@
  * A start is consistent when |D_a| <= 1e-10 |A_a| |v| (1-norm times max norm), and the constraints
  * are independent when no pivot of G is below 1e-12 of its diagonal entry. */
 #include "run/start.h"
-#include "core/arguments.h"
+#include "core/error.h"
 #include <dalembert_kernel.h>
 
 #define CONSISTENT  1e-10
