@@ -33,16 +33,13 @@ static void write_orders_table(const order_page *o)
 {
     FILE *page = o->r->page;
     int failures = 0;
-    fputs("<div class=\"wide\" tabindex=\"0\"><table><thead><tr><td></td><th>order, stated</th>"
-          "<th>order, found</th>",
-          page);
+    fputs(REPORT_TABLE "<td></td><th>order, stated</th><th>order, found</th>", page);
     for (int h = 0; h < o->steps.count; h++)
         fprintf(page, "<th>h = %g</th>", strtod(o->steps.word[h], NULL));
-    fputs("</tr></thead>\n<tbody>", page);
+    fputs(REPORT_ROWS, page);
     for (int m = 0; m < o->methods.count; m++) {
         const int first = find_row(o, o->methods.word[m], NULL);
-        fputs("<tr>", page);
-        report_element(page, "th scope=\"row\"", o->methods.word[m]);
+        report_row(page, o->methods.word[m]);
         report_number(page, "%g", report_csv_number(&o->csv, first, "stated_order"));
         report_number(page, "%.2f", report_csv_number(&o->csv, first, "observed_order"));
         for (int h = 0; h < o->steps.count; h++) {
@@ -51,8 +48,8 @@ static void write_orders_table(const order_page *o)
         }
         fputs("</tr>\n", page);
     }
-    fputs("</tbody></table></div>\n<p>An order is found where two successive slopes of the error "
-          "agree.</p>\n",
+    fputs(REPORT_TABLE_END
+          "<p>An order is found where two successive slopes of the error agree.</p>\n",
           page);
     for (int row = 1; row < o->csv.rows; row++) {
         if (report_csv_is(&o->csv, row, "message", "")) continue;

@@ -39,6 +39,12 @@ void report_element(FILE *page, const char *element, const char *text)
     fprintf(page, "</%.*s>", (int)strcspn(element, " "), element);
 }
 
+void report_row(FILE *page, const char *name)
+{
+    fputs("<tr>", page);
+    report_element(page, "th scope=\"row\"", name);
+}
+
 void report_number(FILE *page, const char *format, double x)
 {
     char text[64] = "–";

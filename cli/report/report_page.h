@@ -29,6 +29,11 @@ void report_title(report *r, const char *title);
 /* A text with &, <, > and quotes escaped; the same in an element. */
 void report_text(FILE *page, const char *text);
 void report_element(FILE *page, const char *element, const char *text);
+/* A table has a row of heads, REPORT_TABLE ... REPORT_ROWS, then rows that begin with their names. */
+#define REPORT_TABLE     "<div class=\"wide\" tabindex=\"0\"><table><thead><tr>"
+#define REPORT_ROWS      "</tr></thead>\n<tbody>"
+#define REPORT_TABLE_END "</tbody></table></div>\n"
+void report_row(FILE *page, const char *name);
 /* A cell of a table with a number; "–" for NaN. */
 void report_number(FILE *page, const char *format, double x);
 /* A cell of a table with a size and a trend, in words and in colour, and a number below them.

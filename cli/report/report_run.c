@@ -176,10 +176,11 @@ static void write_summary(const run_page *run, double time)
     const report_csv *csv = &run->summary;
     FILE *page = run->r->page;
     if (csv->rows < 2) return;
-    fputs("<h2>Size and trend</h2>\n<div class=\"wide\" tabindex=\"0\"><table><thead><tr><td></td>"
-          "<th>size, trend</th><th>confi&shy;dence</th><th>first</th><th>final</th><th>max |x|</th>"
+    fputs("<h2>Size and trend</h2>\n" REPORT_TABLE
+          "<td></td><th>size, "
+          "trend</th><th>confi&shy;dence</th><th>first</th><th>final</th><th>max |x|</th>"
           "<th>max |x − first|</th><th>rate</th><th>rate, from</th><th>to (95 %)</th>"
-          "<th>exponent</th></tr></thead>\n<tbody>",
+          "<th>exponent</th>" REPORT_ROWS,
           page);
     for (int row = 1; row < csv->rows; row++) {
         /* Without a trend: the largest drift that the interval of the rate admits. */
@@ -188,15 +189,14 @@ static void write_summary(const run_page *run, double time)
                                      fabs(report_csv_number(csv, row, "rate_high")));
         if (report_csv_is(csv, row, "trend", "none") && !report_csv_is(csv, row, "size", "exact"))
             snprintf(drift, sizeof drift, "|drift| ≤ %.1e", max_rate * time);
-        fputs("<tr>", page);
-        report_element(page, "th scope=\"row\"", report_csv_get(csv, row, "observable"));
+        report_row(page, report_csv_get(csv, row, "observable"));
         report_trend(page, report_csv_get(csv, row, "size"), report_csv_get(csv, row, "trend"),
                      drift);
         for (size_t k = 0; k < sizeof columns / sizeof columns[0]; k++)
             report_number(page, "%.4g", report_csv_number(csv, row, columns[k]));
         fputs("</tr>\n", page);
     }
-    fputs("</tbody></table></div>\n", page);
+    fputs(REPORT_TABLE_END, page);
     for (int row = 1; row < csv->rows; row++)
         if (report_csv_is(csv, row, "trend", ""))
             fprintf(page,

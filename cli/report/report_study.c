@@ -138,8 +138,7 @@ static void write_trends(const study_page *s, const table_columns *all, const qu
     for (int i = 0; i < all->count; i++)
         if (has_value(s, &all->at[i], t)) shown.at[shown.count++] = all->at[i];
     if (shown.count == 0) return;
-    fprintf(page, "<h3>%s</h3>\n<div class=\"wide\" tabindex=\"0\"><table><thead><tr><td></td>",
-            t->heading);
+    fprintf(page, "<h3>%s</h3>\n" REPORT_TABLE "<td></td>", t->heading);
     for (int i = 0; i < shown.count; i++) {
         fputs("<th scope=\"col\">", page);
         report_text(page, shown.at[i].label);
@@ -147,7 +146,7 @@ static void write_trends(const study_page *s, const table_columns *all, const qu
             fprintf(page, "<br><small>h = %g</small>", strtod(shown.at[i].step, NULL));
         fputs("</th>", page);
     }
-    fputs("</tr></thead>\n<tbody>", page);
+    fputs(REPORT_ROWS, page);
     for (int m = 0; m < s->methods.count; m++) {
         int rows[REPORT_WORDS];
         bool is_found = false;
@@ -157,12 +156,11 @@ static void write_trends(const study_page *s, const table_columns *all, const qu
             is_found |= rows[i] > 0;
         }
         if (!is_found) continue;
-        fputs("<tr>", page);
-        report_element(page, "th scope=\"row\"", s->methods.word[m]);
+        report_row(page, s->methods.word[m]);
         for (int i = 0; i < shown.count; i++) write_trend_cell(s, rows[i], t);
         fputs("</tr>\n", page);
     }
-    fputs("</tbody></table></div>\n", page);
+    fputs(REPORT_TABLE_END, page);
 }
 
 /* ---- expectations -------------------------------------------------------------------------- */
@@ -171,15 +169,13 @@ static void write_expectations(FILE *page, const report_csv *csv, bool only_unme
 {
     static const char *const heads[] = {"integrator", "start",    "step",
                                         "quantity",   "expected", "found"};
-    fputs("<div class=\"wide\" tabindex=\"0\"><table><thead><tr><th>system</th><th>integrator</th>"
-          "<th>start</th><th>h</th><th>quantity</th><th>expected</th><th>found</th><th></th></tr>"
-          "</thead>\n<tbody>",
+    fputs(REPORT_TABLE "<th>system</th><th>integrator</th><th>start</th><th>h</th>"
+                       "<th>quantity</th><th>expected</th><th>found</th><th></th>" REPORT_ROWS,
           page);
     for (int row = 1; row < csv->rows; row++) {
         const bool is_met = report_csv_is(csv, row, "met", "yes");
         if (only_unmet && is_met) continue;
-        fputs("<tr>", page);
-        report_element(page, "th scope=\"row\"", report_csv_get(csv, row, "label"));
+        report_row(page, report_csv_get(csv, row, "label"));
         for (size_t k = 0; k < sizeof heads / sizeof heads[0]; k++)
             if (strcmp(heads[k], "step") == 0)
                 report_number(page, "%g", report_csv_number(csv, row, "step"));
@@ -188,7 +184,7 @@ static void write_expectations(FILE *page, const report_csv *csv, bool only_unme
         fprintf(page, "<td class=\"%s\">%s</td></tr>\n", is_met ? "kept" : "drift",
                 is_met ? "met" : "not met");
     }
-    fputs("</tbody></table></div>\n", page);
+    fputs(REPORT_TABLE_END, page);
 }
 
 /* A study need not have expectations.  Those that are not met are open on the page, above the fold
