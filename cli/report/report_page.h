@@ -29,7 +29,7 @@ void report_title(report *r, const char *title);
 /* A text with &, <, > and quotes escaped; the same in an element. */
 void report_text(FILE *page, const char *text);
 void report_element(FILE *page, const char *element, const char *text);
-/* A table has a row of heads, REPORT_TABLE ... REPORT_ROWS, then rows that begin with their names. */
+/* A table has its heads between REPORT_TABLE and REPORT_ROWS, then rows that begin with a name. */
 #define REPORT_TABLE     "<div class=\"wide\" tabindex=\"0\"><table><thead><tr>"
 #define REPORT_ROWS      "</tr></thead>\n<tbody>"
 #define REPORT_TABLE_END "</tbody></table></div>\n"

@@ -176,8 +176,7 @@ static void write_summary(const run_page *run, double time)
     const report_csv *csv = &run->summary;
     FILE *page = run->r->page;
     if (csv->rows < 2) return;
-    fputs("<h2>Size and trend</h2>\n" REPORT_TABLE
-          "<td></td><th>size, "
+    fputs("<h2>Size and trend</h2>\n" REPORT_TABLE "<td></td><th>size, "
           "trend</th><th>confi&shy;dence</th><th>first</th><th>final</th><th>max |x|</th>"
           "<th>max |x − first|</th><th>rate</th><th>rate, from</th><th>to (95 %)</th>"
           "<th>exponent</th>" REPORT_ROWS,
