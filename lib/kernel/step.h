@@ -123,11 +123,10 @@ DAL_INLINE void dal_eval_group(dal_step *s, int group, dal_callback_code code, d
 
 enum { DAL_STEP_GROUPS = 1 };
 
-/* Coordinates; n + multipliers; constraints; numbers in the state; properties of this run. */
-#define DAL_N(s)                      ((s)->n)
-#define DAL_NW(s)                     ((s)->nw)
-#define DAL_M(s)                      ((s)->m)
-#define DAL_DIM(s)                    ((s)->dim)
+#define DAL_N(s)                      ((s)->n)   /* coordinates */
+#define DAL_NW(s)                     ((s)->nw)  /* velocities and vakonomic multipliers */
+#define DAL_M(s)                      ((s)->m)   /* constraints */
+#define DAL_DIM(s)                    ((s)->dim) /* numbers in the state */
 #define DAL_LIFTED(s)                 ((s)->lifted)
 #define DAL_SOLVER(s)                 ((s)->solver)
 #define DAL_ITERATIONS(s)             ((s)->iterations)

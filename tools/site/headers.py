@@ -67,6 +67,10 @@ def inner(comment):
     return comment[2:-2].strip()
 
 
+def capital(text):
+    return text[0].upper() + text[1:]
+
+
 def read_lists(source):
     """X-lists: name -> rows (arguments, comment)."""
     lists = {}
@@ -147,22 +151,26 @@ def kernel_names():
 
 
 def kernel_part(source, names):
-    """The declarations of some names in a header of lib/kernel, without bodies.  A comment is that of
-    the declarations below it up to a blank line; of several declarations, the last with one counts,
+    """The declarations of some names in a header of lib/kernel, without bodies.  A comment is that
+    of the declarations below it up to a blank line; of several declarations, the last with one counts,
     which is not that of generated files.
     """
     out = []
     for name in names:
         forms = (r'^#define %s\b(?:.*\\\n)*.*', r'^typedef [^;{}()]*\b%s(?=[ ;(])[^;{}]*;',
-                 r'^typedef struct %s \{(?:.*\n)*?\}[^;]*;', r'^DAL_(?:INLINE|SHARED|COLD) [^;{}=]*\b%s\([^)]*\)')
+                 r'^typedef struct %s \{(?:.*\n)*?\}[^;]*;',
+                 r'^DAL_(?:INLINE|SHARED|COLD) [^;{}=]*\b%s\([^)]*\)')
         found = []
         for form in forms:
             for match in re.finditer(form % name, source, re.M):
+                text, is_macro = match.group(), match.group().startswith('#')
+                if 'DAL_WIDE' in text:
+                    continue
                 block = source[:match.start()].rsplit('\n\n', 1)[-1]
-                comment = re.findall(r'^' + COMMENT, block, re.M)
-                text = match.group().rstrip(';') + ';' if not match.group().startswith('#') else match.group()
-                if 'DAL_WIDE' not in text:
-                    found.append((len(comment) > 0, comment[-1] if comment else '', text))
+                above = re.findall(r'^' + COMMENT, block, re.M)[-1:]
+                if is_macro and '/*' in text:
+                    above = ['']
+                found.append((len(above), ''.join(above), text if is_macro else text.rstrip(';') + ';'))
         if not found:
             sys.exit('%s lists %s, which lib/kernel does not declare' % (KERNEL, name))
         comment, text = max(reversed(found), key=lambda item: item[0])[1:]
@@ -191,12 +199,12 @@ class Writer:
             title = section.group(1)
             self.group = self.stem + '_' + re.sub(r'\W+', '_', title)
             self.heading = len(self.out)
-            self.write('/** @defgroup %s %s\n' % (self.group, title[0].upper() + title[1:]))
+            self.write('/** @defgroup %s %s\n' % (self.group, title if '.h' in title else capital(title)))
             self.write('@ingroup %s */\n/** @{ */' % self.stem)
         elif not self.titled:
             self.titled = True
             name, text = text.split(' - ', 1)
-            text = text[0].upper() + text[1:]
+            text = capital(text)
             self.write('/** @file\n%s */' % documentation(re.sub(r'(?<=\.)\s.*', '', text, flags=re.S)))
             self.write('/** @defgroup %s %s\n%s */' % (self.stem, name, documentation(text)))
         else:
@@ -244,8 +252,8 @@ def main(path):
     else:
         writer.titled = True
         names = kernel_names().get(stem + '.h', [])
-        head = re.match(COMMENT, source).group().replace(stem + '.h - ', '', 1)
-        section = '/* ---- %s.h ---- */\n%s\n\n' % (stem, head)
+        head = capital(inner(re.match(COMMENT, source).group()).split(' - ', 1)[1])
+        section = '/* ---- %s.h ---- */\n/* %s */\n\n' % (stem, head)
         writer.stem = 'dalembert_kernel'
         part = source[source.index('*/') + 2:] if stem == 'parts' else kernel_part(source, names)
         text = writer.header(section + part) + '/** @} */\n' if part else ''

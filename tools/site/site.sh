@@ -19,7 +19,7 @@ logged() { "$@" >"$pages.log" 2>&1 || { cat "$pages.log" >&2; exit 1; }; }
 rm -rf "$pages" "$site"
 mkdir -p "$pages" || exit 1
 export PAGES="$pages"
-logged doxygen tools/site/Doxyfile
+doxygen tools/site/Doxyfile >/dev/null || exit 1
 python3 tools/site/pages.py "$pages" || exit 1
 logged mkdocs build --config-file "$pages.yml" --site-dir "$(realpath "$pages/..")/site"
 
