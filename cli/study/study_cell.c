@@ -33,6 +33,7 @@ void study_cell_free(study_cell *cell)
                          .method = cell->method,
                          .step = cell->step,
                          .start = cell->start,
+                         .name = cell->name,
                          .other_shard = cell->other_shard};
 }
 
@@ -328,8 +329,7 @@ int study_cell_run(const study_plan *plan, study_cell *cell, const study_stop_ch
     cell_run r = {.plan = plan, .cell = cell, .request = request_default()};
     int status = create_run(&r);
     if (status == CLI_DONE && r.request.run) {
-        char *name = study_cell_name(cell), *directory = cli_join(plan->runs, name);
-        free(name);
+        char *directory = cli_join(plan->runs, cell->name);
         run_directory_open(&r.dir, directory);
         status = run_in_directory(&r, check);
         recorder_close(&r.recorder);

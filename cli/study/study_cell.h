@@ -63,6 +63,7 @@ typedef struct study_cell {
     const dal_method *method;
     double step;
     int start;
+    char *name;      /* that of its directory, too */
     int other_shard; /* it belongs to another shard */
     study_state state;
     dal_error error;
@@ -79,7 +80,7 @@ typedef struct study_cell {
 
 /* Forgets the results. */
 void study_cell_free(study_cell *cell);
-/* The name of a cell and of its directory in plan->runs, allocated. */
+/* The name of a cell, allocated. */
 char *study_cell_name(const study_cell *cell);
 /* The trend of an observable by name, NULL for none; of the constraint with the largest D. */
 const dal_trend *study_cell_trend(const study_cell *cell, const char *name);

@@ -6,7 +6,7 @@
 #include "io/output.h"
 #include "run/manifest.h"
 #include "run/system.h"
-#include "study_compare.h"
+#include "study_expect.h"
 #include "study_pool.h"
 #include "study_table.h"
 #include "ui/memory.h"

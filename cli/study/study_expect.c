@@ -1,4 +1,4 @@
-/* study_expect.c - the expectations of a study, from its file.
+/* study_expect.c - the expectations of a study, read from its file and compared with results.
  *
  *     expect:
  *       LABEL:                              a label, that of a group, a system, or all
@@ -15,6 +15,9 @@
  * expectation about something that the study does not contain is an error, and so is a size or a
  * trend of E where no system of the label conserves it. */
 #include "study_expect.h"
+
+#include "io/file.h"
+#include "io/output.h"
 #include "ui/memory.h"
 #include "ui/message.h"
 
@@ -22,6 +25,37 @@
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
+
+/* What bounds may be set to: name, member of dal_trend. */
+#define STUDY_FIELD_LIST(FIELD)                                                                    \
+    FIELD(max, max_abs)                                                                            \
+    FIELD(deviation, deviation)                                                                    \
+    FIELD(final, last)                                                                             \
+    FIELD(amplitude, amplitude)                                                                    \
+    FIELD(rate, rate)                                                                              \
+    FIELD(rate_low, rate_low)                                                                      \
+    FIELD(rate_high, rate_high)                                                                    \
+    FIELD(exponent, exponent)                                                                      \
+    FIELD(confidence, confidence)
+
+enum {
+#define FIELD_NUMBER(name, member) STUDY_FIELD_##name,
+    STUDY_FIELD_LIST(FIELD_NUMBER)
+#undef FIELD_NUMBER
+        STUDY_FIELDS
+};
+
+/* One of some words, or a number within bounds. */
+typedef struct study_expectation {
+    const char *label, *method, *quantity; /* as they are written */
+    double step;                           /* of these cells alone; 0: of all */
+    int start;                             /* of these cells alone; -1: of all */
+    size_t line;
+    unsigned words;  /* bit k: size k, bit DAL_SIZE_COUNT + k: trend k, any of which will do; of
+                        the quantity "state" bit k: state k; 0: bounds */
+    int field;       /* STUDY_FIELD_x that has bounds, -1: none */
+    double min, max; /* infinite where there is no bound */
+} study_expectation;
 
 typedef struct expect_reader {
     study_plan *plan;
@@ -57,17 +91,15 @@ static bool is_method(const dal_method *method, const char *name)
     return strcmp(name, "all") == 0 || strcmp(name, own) == 0;
 }
 
-bool study_expectation_covers(const study_expectation *x, const study_cell *c)
+/* Whether an expectation is about a cell. */
+static bool covers(const study_expectation *x, const study_cell *c)
 {
     if (x->step > 0.0 && x->step != c->step) return 0;
     if (x->start >= 0 && x->start != c->start) return 0;
     return is_case(c->of_case, x->label) && is_method(c->method, x->method);
 }
 
-bool study_expectation_is_state(const study_expectation *x)
-{
-    return strcmp(x->quantity, "state") == 0;
-}
+static bool is_state(const study_expectation *x) { return strcmp(x->quantity, "state") == 0; }
 
 /* D, D1, D2, ... */
 static bool is_constraint(const char *quantity)
@@ -189,7 +221,7 @@ static int read_cells(expect_reader *r, yaml_node_t *node)
     if (start) x->start = document_word(r->doc, start, "start", study_start_words, STUDY_STARTS);
     if (start && x->start < 0) return CLI_USAGE;
     for (int i = 0; i < r->plan->cell_count; i++)
-        if (study_expectation_covers(x, &r->plan->cells[i])) return CLI_DONE;
+        if (covers(x, &r->plan->cells[i])) return CLI_DONE;
     return document_fail(r->doc, node, "expect: the study has no such step and start");
 }
 
@@ -204,8 +236,7 @@ static int add_mapping(expect_reader *r, yaml_node_t *node)
 #undef FIELD_KEY
     };
     const char *quantity = r->expectation.quantity;
-    if (study_expectation_is_state(&r->expectation))
-        return document_fail(r->doc, node, "state: words are required");
+    if (is_state(&r->expectation)) return document_fail(r->doc, node, "state: words are required");
     const yaml_node_t *old = document_value(r->doc, node, "verdict");
     if (old) return document_fail(r->doc, old, "expect: 'verdict' is now 'size' and 'trend'");
     const int status = read_cells(r, node);
@@ -281,7 +312,7 @@ static int read_quantity(expect_reader *r, const document_pair *pair)
         if (item->type == YAML_MAPPING_NODE)
             status = add_mapping(r, item);
         else
-            status = add_words(r, item, study_expectation_is_state(x) ? &of_state : &any_words);
+            status = add_words(r, item, is_state(x) ? &of_state : &any_words);
     }
     return status;
 }
@@ -317,5 +348,196 @@ int study_expect_read(study_plan *plan, yaml_node_t *node)
     int status = node ? document_check_mapping(plan->doc, node, "expect", "labels") : CLI_DONE;
     for (int i = 0; node && status == CLI_DONE && document_get_pair(plan->doc, node, i, &pair); i++)
         status = read_label(&r, &pair);
+    return status;
+}
+
+/* ---- comparing ----------------------------------------------------------------------------- */
+
+static const dal_trend *find_trend(const study_expectation *x, const study_cell *c)
+{
+    if (is_state(x)) return NULL;
+    return strcmp(x->quantity, "D") == 0 ? study_cell_constraint(c)
+                                         : study_cell_trend(c, x->quantity);
+}
+
+/* A quantity that the motion need not conserve has numbers, but neither size nor trend. */
+static bool is_stated(const study_expectation *x, const dal_trend *trend)
+{
+    const int is_number =
+        x->field >= 0 && x->field != STUDY_FIELD_exponent && x->field != STUDY_FIELD_confidence;
+    return is_number || trend->conservation == DAL_CONSERVED;
+}
+
+/* Whether a cell is compared.  A label may mean several systems; those that never conserve E are
+ * passed over. */
+static bool is_compared(const study_expectation *x, const study_cell *c)
+{
+    if (!covers(x, c) || c->other_shard || c->state == STUDY_WAITING) return 0;
+    if (is_state(x)) return 1;
+    const dal_trend *trend = c->state == STUDY_REFUSED ? NULL : find_trend(x, c);
+    return trend && (is_stated(x, trend) || trend->conservation != DAL_NOT_CONSERVED);
+}
+
+static double field_value(const dal_trend *trend, int field)
+{
+#define FIELD_VALUE(name, member) trend->member,
+    const double value[] = {STUDY_FIELD_LIST(FIELD_VALUE)};
+#undef FIELD_VALUE
+    return value[field];
+}
+
+static bool is_met(const study_expectation *x, const study_cell *c)
+{
+    if (is_state(x)) return x->words >> c->state & 1;
+    const dal_trend *trend = find_trend(x, c);
+    if (!is_stated(x, trend)) return 0;
+    if (x->field < 0)
+        return (x->words >> trend->size | x->words >> (DAL_SIZE_COUNT + trend->trend)) & 1;
+    const double value = field_value(trend, x->field);
+    return value >= x->min && value <= x->max;
+}
+
+/* ---- as text ---- */
+
+static void put_expected(FILE *out, const study_expectation *x)
+{
+#define FIELD_NAME(name, member) #name,
+    static const char *const field_names[] = {STUDY_FIELD_LIST(FIELD_NAME)};
+#undef FIELD_NAME
+    const char *separator = "";
+    for (unsigned k = 0; x->words >> k; k++) {
+        if (!(x->words >> k & 1)) continue;
+        const char *word = is_state(x) ? study_state_words[k]
+                           : k < DAL_SIZE_COUNT
+                               ? dal_size_text((dal_size_class)k)
+                               : dal_trend_text((dal_trend_class)(k - DAL_SIZE_COUNT));
+        fprintf(out, "%s%s", separator, word);
+        separator = " or ";
+    }
+    if (x->field < 0) return;
+    fputs(field_names[x->field], out);
+    if (x->min > -INFINITY) fprintf(out, " >= %g", x->min);
+    if (x->max < INFINITY) fprintf(out, "%s <= %g", x->min > -INFINITY ? "," : "", x->max);
+}
+
+/* The size where a size is expected, the trend where a trend is.  c is NULL where no run has it. */
+static void put_found(FILE *out, const study_expectation *x, const study_cell *c)
+{
+    const unsigned sizes = (1u << DAL_SIZE_COUNT) - 1u;
+    const int has_size = (x->words & sizes) != 0, has_trend = (x->words & ~sizes) != 0;
+    const dal_trend *trend = c ? find_trend(x, c) : NULL;
+    if (!trend)
+        fputs(c ? study_state_words[c->state] : "no run that has it", out);
+    else if (!is_stated(x, trend))
+        fputs(dal_conservation_text(trend->conservation), out);
+    else if (x->field >= 0)
+        fprintf(out, "%.3g", field_value(trend, x->field));
+    else
+        fprintf(out, "%s%s%s", has_size ? dal_size_text(trend->size) : "",
+                has_size && has_trend ? " and " : "",
+                has_trend ? dal_trend_text(trend->trend) : "");
+}
+
+static void print_unmet(FILE *out, const study_expectation *x, const study_cell *c, int met)
+{
+    char name[STUDY_NAME];
+    if (met) return;
+    fprintf(out, "  %-24s %-24s ", c ? c->of_case->label : x->label,
+            c ? dal_method_name(c->method, name, sizeof name) : x->method);
+    if (c) fprintf(out, "%-9s h = %-8g ", study_start_words[c->start], c->step);
+    fprintf(out, "%s: expected ", x->quantity);
+    put_expected(out, x);
+    fputs(", found ", out);
+    put_found(out, x, c);
+    fprintf(out, " (line %zu)\n", x->line);
+}
+
+static void write_row(FILE *out, const study_expectation *x, const study_cell *c, int met)
+{
+    char name[STUDY_NAME];
+    cli_put_text(out, c ? c->of_case->label : x->label);
+    fputc(',', out);
+    cli_put_text(out, c ? dal_method_name(c->method, name, sizeof name) : x->method);
+    fprintf(out, ",%s,", c ? study_start_words[c->start] : "");
+    if (c) cli_put(out, c->step);
+    fputc(',', out);
+    cli_put_text(out, x->quantity);
+    fputs(",\"", out);
+    put_expected(out, x);
+    fputs("\",\"", out);
+    put_found(out, x, c);
+    fprintf(out, "\",%s\n", met ? "yes" : "no");
+}
+
+/* ---- all of them ---- */
+
+typedef void comparison_writer(FILE *out, const study_expectation *x, const study_cell *cell,
+                               int met);
+
+/* Writes each comparison, unless write is NULL, with the cell NULL where no run has the quantity.
+ * Returns how many are not met, and in *count how many there are. */
+static int compare(const study_plan *plan, FILE *out, comparison_writer *write, int *count)
+{
+    int unmet = 0;
+    *count = 0;
+    for (int i = 0; i < plan->expectation_count; i++) {
+        const study_expectation *x = &plan->expectations[i];
+        int compared = 0, waiting = 0;
+        for (int k = 0; k < plan->cell_count; k++) {
+            const study_cell *c = &plan->cells[k];
+            waiting |= covers(x, c) && c->state == STUDY_WAITING;
+            if (!is_compared(x, c)) continue;
+            const int met = is_met(x, c);
+            compared++;
+            unmet += !met;
+            if (write) write(out, x, c, met);
+        }
+        if (compared == 0 && !waiting) {
+            if (write) write(out, x, NULL, 0);
+            unmet += ++compared;
+        }
+        *count += compared;
+    }
+    return unmet;
+}
+
+int study_count_unmet(const study_plan *plan)
+{
+    int count;
+    return compare(plan, NULL, NULL, &count);
+}
+
+bool study_failure_is_expected(const study_plan *plan, const study_cell *cell)
+{
+    for (int i = 0; i < plan->expectation_count; i++) {
+        const study_expectation *x = &plan->expectations[i];
+        const unsigned word =
+            is_state(x) ? STUDY_FAILED : (unsigned)DAL_SIZE_COUNT + DAL_TREND_ABORTED;
+        if (is_compared(x, cell) && x->field < 0 && x->words >> word & 1) return 1;
+    }
+    return 0;
+}
+
+void study_print_expectations(FILE *out, const study_plan *plan)
+{
+    int count;
+    if (plan->expectation_count == 0) return;
+    const int unmet = compare(plan, NULL, NULL, &count);
+    fprintf(out, "\nExpectations: %d of %d are met.\n", count - unmet, count);
+    compare(plan, out, print_unmet, &count);
+}
+
+int study_write_expectations(const study_plan *plan, const char *path)
+{
+    int count;
+    size_t length;
+    char *text;
+    if (plan->expectation_count == 0) return file_remove(path);
+    FILE *out = cli_memstream_open(&text, &length);
+    fputs("label,integrator,start,step,quantity,expected,found,met\n", out);
+    compare(plan, out, write_row, &count);
+    cli_memstream_close(out);
+    const int status = file_replace(path, text, length, 1);
+    free(text);
     return status;
 }

@@ -86,7 +86,7 @@ static int find_in_source(merge *m, int cell, int source, const char *name)
 
 static int find_run(merge *m, int cell)
 {
-    char *name = study_cell_name(&m->plan.cells[cell]);
+    const char *name = m->plan.cells[cell].name;
     int status = CLI_DONE;
     m->from[cell] = -1;
     for (int i = 0; i < m->sources && status == CLI_DONE; i++)
@@ -94,7 +94,6 @@ static int find_run(merge *m, int cell)
     if (status == CLI_DONE && m->from[cell] < 0 && study_cell_is_runnable(&m->plan.cells[cell]))
         status =
             cli_fail(CLI_USAGE, "'%s' is in none of the directories: a shard is missing", name);
-    free(name);
     return status;
 }
 
@@ -140,13 +139,12 @@ static int copy_runs(const merge *m)
     for (int i = 0; i < m->plan.cell_count && status == CLI_DONE; i++) {
         const int from = m->from[i];
         if (from < 0 || is_same_place(m->source[from].path, m->target.path)) continue;
-        char *name = study_cell_name(&m->plan.cells[i]);
+        const char *name = m->plan.cells[i].name;
         char *source = cli_join(m->source[from].runs, name);
         char *target = cli_join(m->target.runs, name);
         status = copy_run(source, target);
         free(source);
         free(target);
-        free(name);
     }
     return status;
 }

@@ -1,4 +1,7 @@
-/* study_plan.c - from the keys of a study to its cases and cells. */
+/* study_plan.c - from the keys of a study to its cases and cells.
+ *
+ * Keys beside `systems` are defaults for every system; a system may be a name or a mapping that
+ * overrides them.  'dalembert study --help' lists the keys. */
 #include "study_plan.h"
 
 #include "io/file.h"
@@ -8,10 +11,121 @@
 #include "study_values.h"
 #include "ui/memory.h"
 #include "ui/message.h"
+#include "ui/options.h"
 
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
+
+/* ---- the keys of a study file -------------------------------------------------------------- */
+
+static int read_label(void *user, const document *doc, yaml_node_t *value, const document_key *key)
+{
+    parsed_study *p = user;
+    const int status = document_read_text(user, doc, value, key);
+    if (status != CLI_DONE) return status;
+    const char *label = p->item.group;
+    if (label[0] && !strchr(label, '/') && label[0] != '.') return CLI_DONE;
+    return document_fail(doc, value, "label: '%s' cannot name a file", label);
+}
+
+static int set_steps(study_case *e, const document *doc, const yaml_node_t *node,
+                     const study_values *values)
+{
+    if (values->is_drawn) return document_fail(doc, node, "step: it must not be random");
+    if (values->count > STUDY_STEPS)
+        return document_fail(doc, node, "step: %d values, not 1..%d", values->count, STUDY_STEPS);
+    e->steps = values->count;
+    for (int i = 0; i < e->steps; i++) {
+        e->step[i] = values->value[i];
+        if (!(e->step[i] > 0.0))
+            return document_fail(doc, node, "step: %g is not positive", e->step[i]);
+        for (int k = 0; k < i; k++)
+            if (e->step[k] == e->step[i])
+                return document_fail(doc, node, "step: %g comes twice", e->step[i]);
+    }
+    return CLI_DONE;
+}
+
+static int read_steps(void *user, const document *doc, yaml_node_t *value, const document_key *key)
+{
+    study_values values;
+    int status = study_values_read(&values, doc, value, key->name);
+    if (status == CLI_DONE) status = set_steps(&((parsed_study *)user)->item, doc, value, &values);
+    study_values_free(&values);
+    return status;
+}
+
+static int read_option(study_case *e, const document *doc, const document_pair *pair)
+{
+    dal_error error = {0};
+    const char *name = pair->name, *word = document_scalar(doc, pair->value, name);
+    if (!word) return CLI_USAGE;
+    if (strcmp(name, "step") == 0 || strcmp(name, "space") == 0)
+        return document_fail(doc, pair->key, "options: %s has a key of its own", name);
+    if (cli_renamed_option(name))
+        return document_fail(doc, pair->key, "options: %s is called %s now", name,
+                             cli_renamed_option(name));
+    if (cli_renamed_value(name, word))
+        return document_fail(doc, pair->key, "options: %s: %s is called %s now", name, word,
+                             cli_renamed_value(name, word));
+    if (dal_options_set(&e->options, name, word, &error) != DAL_OK)
+        return document_fail(doc, pair->key, "%s", error.message);
+    e->option[request_find_option(name)] = word;
+    return CLI_DONE;
+}
+
+static int read_options(void *user, const document *doc, yaml_node_t *value,
+                        const document_key *key)
+{
+    parsed_study *p = user;
+    document_pair pair;
+    int status = document_check_mapping(doc, value, key->name, "names and values");
+    for (int i = 0; status == CLI_DONE && document_get_pair(doc, value, i, &pair); i++)
+        status = read_option(&p->item, doc, &pair);
+    return status;
+}
+
+static int read_starts(void *user, const document *doc, yaml_node_t *value, const document_key *key)
+{
+    (void)key;
+    study_case *e = &((parsed_study *)user)->item;
+    e->starts = 0;
+    for (int i = 0; i < document_count(value); i++) {
+        const int start = document_word(doc, document_item(doc, value, i), "start",
+                                        study_start_words, STUDY_STARTS);
+        if (start < 0) return CLI_USAGE;
+        e->starts |= 1 << start;
+    }
+    return e->starts ? CLI_DONE : document_fail(doc, value, "starts: the list is empty");
+}
+
+#define KEY(name, scope, read, member, help) {#name, read, offsetof(parsed_study, member)},
+static const document_key keys[] = {STUDY_KEY_LIST(KEY)};
+#undef KEY
+
+/* The places of keys in their list. */
+enum {
+#define KEY_NUMBER(name, scope, read, member, help) KEY_##name,
+    STUDY_KEY_LIST(KEY_NUMBER)
+#undef KEY_NUMBER
+        KEYS
+};
+
+static int read_study(parsed_study *parsed, const document *doc, yaml_node_t *node)
+{
+    return document_read_mapping(doc, node, "a study", keys, KEY_system, parsed);
+}
+
+static int read_system(parsed_study *parsed, const document *doc, yaml_node_t *node)
+{
+    if (node->type != YAML_MAPPING_NODE)
+        return document_read_text(parsed, doc, node, &keys[KEY_system]);
+    return document_read_mapping(doc, node, "a system", keys + KEY_integrators,
+                                 KEYS - KEY_integrators, parsed);
+}
+
+/* ---- settings and methods ---- */
 
 /* What is read of one system: a group of cases. */
 typedef struct group_reader {
@@ -22,8 +136,6 @@ typedef struct group_reader {
     study_variants *variants;
     study_case *item; /* the present case */
 } group_reader;
-
-/* ---- settings and methods ---- */
 
 /* Momenta in units of the displacement: one value each. */
 static int read_displacement(study_case *e, const document *doc, const yaml_node_t *node)
@@ -198,7 +310,7 @@ static int add_group(study_plan *plan, yaml_node_t *node, const parsed_study *ba
 {
     group_reader g = {.plan = plan, .doc = plan->doc, .node = node, .parsed = *base};
     study_case *e = &g.parsed.item;
-    int count = 0, status = parsed_study_read_system(&g.parsed, g.doc, node);
+    int count = 0, status = read_system(&g.parsed, g.doc, node);
     if (status == CLI_DONE) status = check_case(&g);
     if (status != CLI_DONE) return status;
     const char *slash = strrchr(e->name, '/');
@@ -226,52 +338,30 @@ static int read_systems(study_plan *plan, const yaml_node_t *root, const parsed_
 
 /* ---- cells ---- */
 
-static void fill_cells(const study_case *e, study_cell *cell)
-{
-    const int per_method = e->steps * STUDY_STARTS;
-    for (int i = 0; i < e->method_count * per_method; i++) {
-        const int start = i % STUDY_STARTS;
-        if (e->starts & 1 << start)
-            *cell++ = (study_cell){.of_case = e,
-                                   .method = &e->methods[i / per_method],
-                                   .step = e->step[i % per_method / STUDY_STARTS],
-                                   .start = start};
-    }
-}
-
 /* Every cell has a directory of its own, whose name must fit. */
-static int check_cell_name(const study_plan *plan, const study_cell *cell)
+static int add_cells(study_plan *plan, study_case *e)
 {
     enum { MAX_NAME = 255 };
-    char *name = study_cell_name(cell);
-    const size_t length = strlen(name);
-    int status = CLI_DONE;
-    if (length > MAX_NAME)
-        status = cli_fail(CLI_USAGE,
-                          "%s: '%.60s...' is too long a name for a directory: %zu bytes, not at "
-                          "most %d; a short label helps",
-                          plan->doc->place, name, length, (int)MAX_NAME);
-    free(name);
-    return status;
-}
-
-static int make_cells(study_plan *plan)
-{
-    int status = CLI_DONE;
-    for (int i = 0; i < plan->case_count; i++) {
-        study_case *e = &plan->cases[i];
-        int starts = 0;
-        for (int start = 0; start < STUDY_STARTS; start++) starts += (e->starts >> start) & 1;
-        e->first_cell = plan->cell_count;
-        e->cells = e->method_count * e->steps * starts;
-        plan->cell_count += e->cells;
+    const int per_method = e->steps * STUDY_STARTS, max = e->method_count * per_method;
+    const size_t capacity = (size_t)plan->cell_count + (size_t)max;
+    plan->cells = cli_realloc(plan->cells, capacity * sizeof *plan->cells);
+    e->first_cell = plan->cell_count;
+    for (int i = 0; i < max; i++) {
+        study_cell cell = {.of_case = e,
+                           .method = &e->methods[i / per_method],
+                           .step = e->step[i % per_method / STUDY_STARTS],
+                           .start = i % STUDY_STARTS};
+        if (!(e->starts & 1 << cell.start)) continue;
+        cell.name = study_cell_name(&cell);
+        plan->cells[plan->cell_count++] = cell;
+        if (strlen(cell.name) > MAX_NAME)
+            return cli_fail(CLI_USAGE,
+                            "%s: '%.60s...' is too long a name for a directory: %zu bytes, not at "
+                            "most %d; a short label helps",
+                            plan->doc->place, cell.name, strlen(cell.name), (int)MAX_NAME);
     }
-    plan->cells = cli_calloc((size_t)plan->cell_count + 1, sizeof *plan->cells);
-    for (int i = 0; i < plan->case_count; i++)
-        fill_cells(&plan->cases[i], plan->cells + plan->cases[i].first_cell);
-    for (int i = 0; i < plan->cell_count && status == CLI_DONE; i++)
-        status = check_cell_name(plan, &plan->cells[i]);
-    return status;
+    e->cells = plan->cell_count - e->first_cell;
+    return CLI_DONE;
 }
 
 /* ---- the plan ---- */
@@ -289,16 +379,20 @@ int study_plan_read(study_plan *plan, const char *place, const char *bytes, size
     int status = document_parse(doc, place, bytes, length);
     if (status != CLI_DONE) return status;
     yaml_node_t *root = yaml_document_get_root_node(&doc->yaml);
-    status = parsed_study_read(&base, doc, root);
+    status = read_study(&base, doc, root);
     plan->title = base.title ? base.title : "A study";
     if (status == CLI_DONE) status = read_systems(plan, root, &base);
-    if (status == CLI_DONE) status = make_cells(plan);
+    for (int i = 0; i < plan->case_count && status == CLI_DONE; i++)
+        status = add_cells(plan, &plan->cases[i]);
     return status == CLI_DONE ? study_expect_read(plan, base.expect) : status;
 }
 
 void study_plan_free(study_plan *plan)
 {
-    for (int i = 0; i < plan->cell_count && plan->cells; i++) study_cell_free(&plan->cells[i]);
+    for (int i = 0; i < plan->cell_count; i++) {
+        study_cell_free(&plan->cells[i]);
+        free(plan->cells[i].name);
+    }
     for (int i = 0; i < plan->case_count; i++) {
         study_case *e = &plan->cases[i];
         if (e->is_first) {

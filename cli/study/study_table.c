@@ -230,10 +230,9 @@ static void put_same(FILE *out, const csv_row *r)
 static void put_run(FILE *out, const csv_row *r)
 {
     if (r->cell->observables == 0) return;
-    char *name = study_cell_name(r->cell), *run = cli_join("runs", name);
+    char *run = cli_join("runs", r->cell->name);
     cli_put_text(out, run);
     free(run);
-    free(name);
 }
 
 /* A cell is empty where there is no such quantity. */

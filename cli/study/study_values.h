@@ -2,7 +2,7 @@
 #ifndef DAL_CLI_STUDY_VALUES_H
 #define DAL_CLI_STUDY_VALUES_H
 
-#include "parsed_study.h"
+#include "study_plan.h"
 
 /*     0.1                                one value
  *     [0.1, 0.05]                        a list

@@ -29,7 +29,7 @@ listed() {
 names=$program.names
 listed functions formulas 'OP([A-Z0-9]*, [12], "\([a-z0-9]*\)")' lib/expr/graph.h
 listed 'system keys' formats ' SECTION([A-Z]*, "\([a-z]*\)")' include/dalembert.h
-listed 'study keys' formats ' KEY(\([a-z]*\), "[a-z]*", .*' cli/study/parsed_study.h
+listed 'study keys' formats ' KEY(\([a-z]*\), "[a-z]*", .*' cli/study/study_plan.h
 
 # The names of the headings of a document, as links have them.
 headings() {
