@@ -1,6 +1,6 @@
 #!/bin/sh
 # references.sh PROGRAM [choosing] - writes the parts of docs/ that are made: systems, integrators,
-# modifiers and commands as the program prints them; with a second argument also the results of the
+# modifiers, commands and keys of studies as the program prints them; with a second argument also the results of the
 # study of choosing.md, which takes half a minute.
 program=$(cd "$(dirname "$1")" && pwd)/$(basename "$1")
 cd "$(dirname "$0")/.." || exit 2
@@ -25,6 +25,7 @@ replace() {
 "$program" list systems --markdown | replace systems systems.md
 "$program" list integrators --markdown | replace integrators integrators.md
 "$program" help --markdown | replace commands commands.md
+"$program" help study --markdown | awk -f tools/study_keys.awk | replace 'study keys' formats.md
 [ "$2" ] || exit 0
 top=$PWD
 cd "$made" || exit 2

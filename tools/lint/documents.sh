@@ -2,20 +2,19 @@
 # documents.sh PROGRAM - the tables of docs/ must be what the program prints, or name what the lists
 # of the sources name, in their order; and what a link of a document names must be there.
 
-# printed WHAT ARGUMENT...: what the program prints is the part of docs/WHAT.md between its marks.
-printed() {
-    what=$1
-    shift
-    "$program" "$@" --markdown | awk NF >"$program.printed"
-    sed -n "/^<!-- $what -->$/,/^<!-- end of $what -->$/{/^<!-- /d;p;}" "docs/$what.md" | awk NF |
+# same WHAT DOCUMENT: standard input is the part of docs/DOCUMENT.md between the marks of WHAT.
+same() {
+    awk NF >"$program.printed"
+    sed -n "/^<!-- $1 -->$/,/^<!-- end of $1 -->$/{/^<!-- /d;p;}" "docs/$2.md" | awk NF |
         diff - "$program.printed" >"$program.diff" ||
-        { echo "docs/$what.md: run make references:"; head -20 "$program.diff"; }
+        { echo "docs/$2.md: run make references:"; head -20 "$program.diff"; }
     rm -f "$program.printed" "$program.diff"
 }
 program=$1
-printed systems list systems
-printed integrators list integrators
-printed commands help
+"$program" list systems --markdown | same systems systems
+"$program" list integrators --markdown | same integrators integrators
+"$program" help --markdown | same commands commands
+"$program" help study --markdown | awk -f tools/study_keys.awk | same 'study keys' formats
 
 # listed WHAT DOCUMENT PATTERN SOURCE: the first names of the table WHAT of a document are what the
 # pattern finds in the source, \1 of it.
@@ -29,7 +28,6 @@ listed() {
 names=$program.names
 listed functions formulas 'OP([A-Z0-9]*, [12], "\([a-z0-9]*\)")' lib/expr/graph.h
 listed 'system keys' formats ' SECTION([A-Z]*, "\([a-z]*\)")' include/dalembert.h
-listed 'study keys' formats ' KEY(\([a-z]*\), "[a-z]*", .*' cli/study/study_plan.h
 
 # The names of the headings of a document, as links have them.
 headings() {
