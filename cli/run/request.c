@@ -42,7 +42,11 @@ static int parse_run_option(void *user, const cli_option *option, const char *te
     if (present)
         return cli_fail(CLI_USAGE, "--%s: '%s' is called '%s' now", option->name, text, present);
     if (dal_options_set(&request->options, option->name, text, &error) == DAL_OK) return CLI_DONE;
-    return cli_error(CLI_USAGE, NULL, &error);
+    /* "option step: ..." of the library is "--step: ..." of the program. */
+    static const char begin[] = "option ";
+    if (strncmp(error.message, begin, sizeof begin - 1) != 0)
+        return cli_error(CLI_USAGE, NULL, &error);
+    return cli_fail(CLI_USAGE, "--%s", error.message + sizeof begin - 1);
 }
 
 static int parse_setting(void *user, const cli_option *option, const char *text)

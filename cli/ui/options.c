@@ -247,6 +247,6 @@ int cli_read_arguments(const cli_command *command, int argc, char **argv, const 
     }
     const cli_option *missing = status == CLI_DONE ? find_missing(&r) : NULL;
     if (!missing) return status == CLI_DONE ? CLI_GO_ON : status;
-    return missing->name ? cli_fail(CLI_USAGE, "--%s is missing", missing->name)
-                         : cli_fail(CLI_USAGE, "the %s is missing", missing->value);
+    return cli_fail(CLI_USAGE, "%s%s is missing; usage: %s", missing->name ? "--" : "the ",
+                    missing->name ? missing->name : missing->value, command->synopsis);
 }

@@ -106,7 +106,7 @@ says "rk4 has no control of its step size"
 try 2 run knife-edge --integrator dop853+lift --step 0.1 --time 1 --tolerance 1e-6
 says "dop853.lift has no control of its step size"
 try 2 run knife-edge --integrator dop853 --step 0.1 --time 1 --tolerance -1
-says "option tolerance: -1 is not a number from 0 to 1"
+says "^dalembert: --tolerance: -1 is not a number from 0 to 1"
 
 case_is "tolerance: listed and explained"
 try 0 list integrators

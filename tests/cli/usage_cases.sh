@@ -151,9 +151,9 @@ says "unknown option '--sample'; did you mean '--samples'\?"
 
 case_is "missing options are named"
 try 2 run chaplygin-sleigh --step 0.1 --time 1
-says '^dalembert: --integrator is missing$'
+says "^dalembert: --integrator is missing; usage: dalembert run SYSTEM --integrator NAME --step H"
 try 2 run chaplygin-sleigh --integrator rk4 --time 1
-says '^dalembert: --step is missing$'
+says "^dalembert: --step is missing; usage: dalembert run "
 try 2 run chaplygin-sleigh --integrator rk4 --step 0.1
 says '^dalembert: --time is missing$'
 try 2 run --integrator rk4 --step 0.1 --time 1
