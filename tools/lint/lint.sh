@@ -119,7 +119,11 @@ headers() {
 dependencies() {
     sh $here/dependencies.sh >"$BUILD/dependencies.dot" || return 1
     cmp -s "$BUILD/dependencies.dot" docs/dependencies.dot ||
-        echo "docs/dependencies.dot: sh tools/lint/dependencies.sh >docs/dependencies.dot"
+        echo "docs/dependencies.dot: run make references"
+    sed -n 's/^ *"\(.*\)" -> "\(.*\)";/\1 \2/p' docs/dependencies.dot | sort >"$BUILD/dependencies.txt"
+    sed -n 's/^<title>\(.*\)&#45;&gt;\(.*\)<\/title>/\1 \2/p' docs/gallery/dependencies.svg | sort |
+        cmp -s - "$BUILD/dependencies.txt" ||
+        echo "docs/gallery/dependencies.svg: run make references, with dot (graphviz)"
 }
 crowded() {
     find lib cli -name '*.c' | sed 's#/[^/]*$##' | sort | uniq -c |
