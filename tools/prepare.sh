@@ -6,7 +6,7 @@ set -e
 packages='gcc libc6-dev make pkg-config libyaml-dev libcunit1-dev libmpfr-dev libjansson-dev locales gnuplot-nox python3'
 if [ "$1" = lint ]; then
     packages="$packages binutils clang clang-format libclang-rt-14-dev universal-ctags valgrind openmpi-bin libopenmpi-dev chromium"
-    packages="$packages doxygen mkdocs mkdocs-material linkchecker"
+    packages="$packages doxygen graphviz mkdocs mkdocs-material linkchecker"
 fi
 if [ "$1" = bench ]; then
     packages="$packages g++ libgsl-dev libsundials-dev libboost-dev"
