@@ -45,6 +45,8 @@ for document in README.md CONTRIBUTING.md docs/*.md; do
         esac
     done
 done
+count=$("$program" list integrators --markdown | grep -c '^| `[a-z]')
+grep -q "one of $count integrators" README.md || echo "README.md: there are $count integrators"
 [ "$(wc -m <README.md)" -le 8000 ] || echo "README.md: longer than 8000 characters"
 version=$("$program" --version | sed 's/.* //')
 grep -qx "version: $version" CITATION.cff || echo "CITATION.cff: the version is not $version"
