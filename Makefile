@@ -345,4 +345,4 @@ FORCE:
 .PHONY: all help check check-bits check-browser check-sanitize check-valgrind docs fuzz run-fuzzers gallery references lint mutants install uninstall clean FORCE mpi
 .SECONDARY:
 
--include $(LIB_OBJ:.o=.d) $(CLI_OBJ:.o=.d) $(TEST_OBJ:.o=.d) $(FUZZERS:%=$(BUILD)/tests/%.d)
+-include $(LIB_OBJ:.o=.d) $(CLI_OBJ:.o=.d) $(BUILD)/cli/mpi/dalembert_mpi.d $(TEST_OBJ:.o=.d) $(FUZZERS:%=$(BUILD)/tests/%.d)
