@@ -94,34 +94,19 @@ static double per_step(const table_row *r, double x)
 
 /* ---- rows ---------------------------------------------------------------------------------- */
 
+/* The two lines of the head, or with a row the line of a cell. */
 #define PUT_COLUMN(head, second, width, what)                                                      \
     {                                                                                              \
         char text[CELL] = "";                                                                      \
-        what;                                                                                      \
-        fprintf(out, " %*s", width, text[0] ? text : "-");                                         \
+        if (r) {                                                                                   \
+            what;                                                                                  \
+        }                                                                                          \
+        const char *shown = line == 0 ? head : line == 1 ? second : text[0] ? text : "-";          \
+        fprintf(out, " %*s", width, shown);                                                        \
     }
-#define PUT_HEAD(head, second, width, what)   fprintf(out, " %*s", width, head);
-#define PUT_SECOND(head, second, width, what) fprintf(out, " %*s", width, second);
 
-static void put_motion(FILE *out, const table_row *r) { MOTION_LIST(PUT_COLUMN) }
-static void put_lift(FILE *out, const table_row *r) { LIFT_LIST(PUT_COLUMN) }
-
-static void put_heads(FILE *out, int is_lift)
-{
-    fprintf(out, "  %-*s", METHOD, "integrator");
-    if (is_lift) {
-        LIFT_LIST(PUT_HEAD)
-    } else {
-        MOTION_LIST(PUT_HEAD)
-    }
-    fprintf(out, "\n  %-*s", METHOD, "");
-    if (is_lift) {
-        LIFT_LIST(PUT_SECOND)
-    } else {
-        MOTION_LIST(PUT_SECOND)
-    }
-    fputc('\n', out);
-}
+static void put_motion(FILE *out, int line, const table_row *r) { MOTION_LIST(PUT_COLUMN) }
+static void put_lift(FILE *out, int line, const table_row *r) { LIFT_LIST(PUT_COLUMN) }
 
 /* A cell without numbers has its state instead. */
 static void put_state(FILE *out, const study_cell *c)
@@ -139,9 +124,15 @@ static void print_table(FILE *out, const study_plan *plan, const study_case *e, 
 #define START_TITLE(code, word, space, about) about,
     static const char *const titles[] = {STUDY_START_LIST(START_TITLE)};
 #undef START_TITLE
+    void (*const put_line)(FILE *, int, const table_row *) =
+        start == STUDY_DISPLACED ? put_lift : put_motion;
     fprintf(out, "\n %s%s, h = %g, T = %g\n", start == STUDY_PHYSICAL ? "in " : "", titles[start],
             step, e->time);
-    put_heads(out, start == STUDY_DISPLACED);
+    for (int line = 0; line < 2; line++) {
+        fprintf(out, "  %-*s", METHOD, line == 0 ? "integrator" : "");
+        put_line(out, line, NULL);
+        fputc('\n', out);
+    }
     for (int i = e->first_cell; i < e->first_cell + e->cells; i++) {
         const study_cell *c = &plan->cells[i];
         char name[STUDY_NAME];
@@ -155,10 +146,8 @@ static void print_table(FILE *out, const study_plan *plan, const study_case *e, 
         const table_row row = {plan, c, study_cell_quantities(c), physical != NULL};
         if (c->state != STUDY_FINISHED)
             put_state(out, c);
-        else if (start == STUDY_DISPLACED)
-            put_lift(out, &row);
         else
-            put_motion(out, &row);
+            put_line(out, 2, &row);
         fputc('\n', out);
     }
 }
