@@ -1,6 +1,6 @@
 /* analysis.c - outputs and distances of the commands that examine a system or a motion. */
 #include "analysis.h"
-#include "io/output.h"
+#include "io/file.h"
 #include "ui/memory.h"
 #include "ui/message.h"
 

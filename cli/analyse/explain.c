@@ -2,7 +2,7 @@
 #include "explain.h"
 #include "analysis.h"
 #include "dalembert.h"
-#include "io/output.h"
+#include "io/file.h"
 #include "io/trend.h"
 #include "ui/message.h"
 #include "ui/signals.h"

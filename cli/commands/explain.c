@@ -1,6 +1,6 @@
 /* explain.c - `dalembert explain`: the error sources of the drift of a run. */
 #include "analyse/explain.h"
-#include "io/output.h"
+#include "io/file.h"
 #include "ui/commands.h"
 #include "ui/message.h"
 #include "ui/options.h"

@@ -1,5 +1,5 @@
 /* report.c - `dalembert report DIR`: a page with figures by gnuplot. */
-#include "io/output.h"
+#include "io/file.h"
 #include "report/report_order.h"
 #include "report/report_run.h"
 #include "report/report_study.h"

@@ -1,6 +1,6 @@
 /* run.c - `dalembert run`: integrates one system and writes rows. */
 #include "run/run.h"
-#include "io/output.h"
+#include "io/file.h"
 #include "run/manifest.h"
 #include "ui/commands.h"
 #include "ui/message.h"

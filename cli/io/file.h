@@ -1,10 +1,11 @@
-/* file.h - whole files: read, replace, recognise. */
+/* file.h - files and directories, and the numbers and texts of CSV. */
 #ifndef DAL_CLI_FILE_H
 #define DAL_CLI_FILE_H
 
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
+#include <stdio.h>
 
 /* The bytes of a file and a NUL, allocated; NULL after a message. */
 char *file_read(const char *path, size_t *length);
@@ -26,5 +27,17 @@ int file_remove(const char *path);
 /* FNV-1a, 64 bits, going on from hash. */
 #define FILE_HASH_START UINT64_C(0xcbf29ce484222325)
 uint64_t file_hash(uint64_t hash, const void *bytes, size_t length);
+
+/* Writes x with 17 digits, as a double reads it back; minus zero as 0. */
+void cli_put(FILE *out, double x);
+/* Writes a cell of a CSV file; one with a comma or a quote in it is quoted, as RFC 4180 has it. */
+void cli_put_text(FILE *out, const char *text);
+int cli_ends_in(const char *text, const char *ending);
+/* Makes a directory unless it is there.  Returns CLI_DONE or prints and returns CLI_IO. */
+int cli_directory(const char *path);
+/* Whether an output is a directory: not "-", no .csv or .npy, no device and no pipe. */
+bool cli_is_directory(const char *output);
+/* "DIR/NAME", allocated. */
+char *cli_join(const char *directory, const char *name);
 
 #endif

@@ -1,6 +1,5 @@
 /* gnuplot.c - writing scripts for gnuplot and running them. */
 #include "gnuplot.h"
-#include "output.h"
 #include "ui/memory.h"
 #include "ui/message.h"
 

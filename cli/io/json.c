@@ -1,7 +1,6 @@
 /* json.c - the JSON that the program writes, and reads of its own files. */
 #include "json.h"
 #include "dalembert.h"
-#include "output.h"
 #include "ui/memory.h"
 #include "ui/message.h"
 

@@ -19,7 +19,7 @@
  * with K odd, so that a change of any one word changes it; the four lanes are independent. */
 #include "trajectory.h"
 #include "endian.h"
-#include "output.h"
+#include "file.h"
 #include "ui/memory.h"
 #include "ui/message.h"
 

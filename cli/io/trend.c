@@ -1,7 +1,7 @@
 /* trend.c - the columns of a trend, the same for runs and studies. */
 #include "trend.h"
 
-#include "output.h"
+#include "file.h"
 
 #include <math.h>
 #include <stdbool.h>

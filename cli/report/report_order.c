@@ -2,7 +2,7 @@
  * method, and the error over step and work. */
 #include "report_order.h"
 
-#include "io/output.h"
+#include "io/file.h"
 #include "report_csv.h"
 #include "report_plot.h"
 #include "ui/memory.h"

@@ -4,7 +4,6 @@
 
 #include "dalembert.h"
 #include "io/file.h"
-#include "io/output.h"
 #include "ui/memory.h"
 #include "ui/message.h"
 

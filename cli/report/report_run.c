@@ -5,7 +5,7 @@
 #include "ui/memory.h"
 #include "ui/message.h"
 
-#include "io/output.h"
+#include "io/file.h"
 #include "io/trajectory.h"
 #include "report_csv.h"
 #include "report_path.h"

@@ -10,7 +10,6 @@
 
 #include "io/document.h"
 #include "io/file.h"
-#include "io/output.h"
 #include "report_csv.h"
 #include "report_path.h"
 #include "report_plot.h"

@@ -5,7 +5,7 @@
 #include "ui/signals.h"
 
 #include "dalembert_codegen.h"
-#include "io/output.h"
+#include "io/file.h"
 
 #include <stdatomic.h>
 #include <stdbool.h>

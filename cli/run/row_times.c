@@ -9,7 +9,6 @@
 #include "ui/message.h"
 
 #include "io/file.h"
-#include "io/output.h"
 #include "ui/options.h"
 
 #include <math.h>

@@ -3,7 +3,6 @@
 #include "ui/message.h"
 
 #include "io/file.h"
-#include "io/output.h"
 
 #include <errno.h>
 #include <fcntl.h>

@@ -4,7 +4,6 @@
 #include "ui/memory.h"
 
 #include "io/file.h"
-#include "io/output.h"
 #include "io/trend.h"
 
 #include <math.h>

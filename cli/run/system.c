@@ -1,6 +1,6 @@
 /* system.c - reads the system of a command. */
 #include "system.h"
-#include "io/output.h"
+#include "io/file.h"
 #include "ui/message.h"
 
 #include <errno.h>

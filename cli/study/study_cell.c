@@ -6,7 +6,6 @@
 #include "study_cell.h"
 
 #include "io/file.h"
-#include "io/output.h"
 #include "io/trajectory.h"
 #include "run/manifest.h"
 #include "run/recorder.h"

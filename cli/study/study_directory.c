@@ -3,7 +3,6 @@
 
 #include "io/file.h"
 #include "io/json.h"
-#include "io/output.h"
 #include "run/manifest.h"
 #include "run/system.h"
 #include "study_expect.h"

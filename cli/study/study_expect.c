@@ -17,7 +17,6 @@
 #include "study_expect.h"
 
 #include "io/file.h"
-#include "io/output.h"
 #include "ui/memory.h"
 #include "ui/message.h"
 

@@ -6,7 +6,6 @@
 #include "study_merge.h"
 
 #include "io/file.h"
-#include "io/output.h"
 #include "run/manifest.h"
 #include "study_cell.h"
 #include "study_pool.h"

@@ -4,7 +4,7 @@
  * are those of (q,v) alone; and, off p = pi = 0, what only the lift can show (H, p, pi). */
 #include "study_table.h"
 
-#include "io/output.h"
+#include "io/file.h"
 #include "io/trend.h"
 #include "ui/memory.h"
 #include "ui/message.h"
