@@ -58,19 +58,6 @@ static dal_status state_at(const dal_run_spec *spec, double T, double *out, long
     return status;
 }
 
-static dal_status reference_state(const dal_run_spec *spec, double T, int levels,
-                                  const dal_method *reference_method, double *out, dal_error *error)
-{
-    dal_run_spec reference = *spec;
-    long long evaluations;
-    if (reference_method != NULL)
-        reference.method = *reference_method;
-    else
-        DAL_TRY(dal_method_parse(&reference.method, "gauss12", error));
-    reference.options.step = ldexp(spec->options.step, -levels);
-    return state_at(&reference, T, out, &evaluations, error);
-}
-
 static double mean_step(const dal_order *o, int i)
 {
     return (o->step[i - 1] - o->step[i]) / log(o->step[i - 1] / o->step[i]);
@@ -116,7 +103,14 @@ dal_status dal_measure_order(const dal_run_spec *spec, double T, int levels,
     dal_status status = DAL_OK;
     *order = (dal_order){.levels = levels};
     if (reference == NULL) {
-        status = reference_state(spec, T, levels, reference_method, block, error);
+        dal_run_spec accurate = *spec;
+        long long evaluations;
+        accurate.options.step = ldexp(spec->options.step, -levels);
+        if (reference_method != NULL)
+            accurate.method = *reference_method;
+        else
+            status = dal_method_parse(&accurate.method, "gauss12", error);
+        if (status == DAL_OK) status = state_at(&accurate, T, block, &evaluations, error);
         reference = block;
     }
     for (int i = 0; i < levels && status == DAL_OK; i++) {

@@ -104,24 +104,20 @@ static char *read_all(const char *path, size_t *length)
     return bytes;
 }
 
-static bool write_all(int file, const char *bytes, size_t length)
+/* Opens a file with these flags and writes the bytes; what: how a message calls that. */
+static dal_status write_bytes(const char *path, int flags, const char *what, const void *bytes,
+                              size_t length, dal_error *error)
 {
-    while (length > 0) {
-        const ssize_t put = write(file, bytes, length);
-        if (put < 0 && errno == EINTR) continue;
-        if (put <= 0) return false;
-        bytes += put;
-        length -= (size_t)put;
+    const int file = open(path, O_WRONLY | O_CLOEXEC | flags, 0600);
+    if (file < 0) return failed(error, what, path);
+    bool written = true;
+    for (const char *at = bytes; written && length > 0;) {
+        const ssize_t put = write(file, at, length);
+        written = put > 0 || (put < 0 && errno == EINTR);
+        at += put > 0 ? put : 0;
+        length -= put > 0 ? (size_t)put : 0;
     }
-    return true;
-}
-
-static dal_status write_new(const char *path, const char *bytes, size_t length, dal_error *error)
-{
-    const int file = open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
-    if (file < 0) return failed(error, "write", path);
-    const bool written = write_all(file, bytes, length);
-    return close(file) == 0 && written ? DAL_OK : failed(error, "write", path);
+    return close(file) == 0 && written ? DAL_OK : failed(error, what, path);
 }
 
 /* ---- the compiler ---- */
@@ -220,15 +216,10 @@ static dal_status seal(const char *path, dal_error *error)
 {
     size_t length;
     char *bytes = read_all(path, &length);
-    const uint64_t sum = bytes ? hash(0, bytes, length) : 0;
+    if (!bytes) return failed(error, "seal", path);
+    const uint64_t sum = hash(0, bytes, length);
     free(bytes);
-    const int file = open(path, O_WRONLY | O_APPEND | O_CLOEXEC);
-    if (!bytes || file < 0) {
-        if (file >= 0) close(file);
-        return failed(error, "seal", path);
-    }
-    const bool written = write_all(file, (const char *)&sum, sizeof sum);
-    return close(file) == 0 && written ? DAL_OK : failed(error, "seal", path);
+    return write_bytes(path, O_APPEND, "seal", &sum, sizeof sum, error);
 }
 
 static dal_status make_object(const command *c, const char *text, const char *path,
@@ -239,7 +230,7 @@ static dal_status make_object(const command *c, const char *text, const char *pa
     snprintf(source, sizeof source, "%s.%ld.%p.c", path, (long)getpid(), mine);
     snprintf(object, sizeof object, "%s.%ld.%p.so", path, (long)getpid(), mine);
     unlink(object);
-    dal_status status = write_new(source, text, strlen(text), error);
+    dal_status status = write_bytes(source, O_CREAT | O_EXCL, "write", text, strlen(text), error);
     if (status == DAL_OK) status = compile(*c, source, object, error);
     if (status == DAL_OK) status = seal(object, error);
     if (status == DAL_OK && rename(object, path) != 0) status = failed(error, "write", path);

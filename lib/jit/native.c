@@ -165,21 +165,16 @@ int dal_run_is_native(const dal_run *run) { return run && run->native.traced != 
 
 enum { REGISTER = 8 }; /* numbers in the widest; as many as a line of the cache has */
 
-/* Observations at a time: whole registers of any machine.  Many of them, since a processor takes
- * about a microsecond to wake the upper halves of its widest registers, and no more than a
- * second-level cache holds. */
-static int observation_capacity(int numbers)
-{
-    enum { MAX = 992, NEAR = (1 << 18) / sizeof(double) };
-    const int capacity = NEAR / numbers / REGISTER * REGISTER;
-    return capacity > MAX ? MAX : capacity < REGISTER ? REGISTER : capacity;
-}
-
 /* Zeros at first: a register is read as a whole, and none of them lies across two lines. */
 static dal_status allocate_observations(dal__observations *observations, int dimension,
                                         int observables, dal_error *error)
 {
-    const int numbers = dimension + 1 + observables, capacity = observation_capacity(numbers);
+    /* Observations at a time: whole registers of any machine.  Many of them, since a processor takes
+     * about a microsecond to wake the upper halves of its widest registers, and no more than a
+     * second-level cache holds. */
+    enum { MAX = 992, NEAR = (1 << 18) / sizeof(double) };
+    const int numbers = dimension + 1 + observables, most = NEAR / numbers / REGISTER * REGISTER;
+    const int capacity = most > MAX ? MAX : most < REGISTER ? REGISTER : most;
     const size_t bytes = sizeof(double) * (size_t)numbers * (size_t)capacity;
     double *const memory = aligned_alloc(REGISTER * sizeof(double), bytes);
     if (!memory) return dal__fail(error, DAL_MEMORY, "no memory for %d observations", capacity);

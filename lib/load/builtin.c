@@ -25,9 +25,6 @@ dal_status dal_model_builtin(dal_model **model, const char *name, dal_error *err
     *model = NULL;
     DAL_REQUIRE(name, error);
     if (text) return dal_model_read(model, name, text, strlen(text), error);
-    while (count < 64 && dal_builtin_name(count)) {
-        names[count] = dal_builtin_name(count);
-        count++;
-    }
+    while (count < 64 && (names[count] = dal_builtin_name(count)) != NULL) count++;
     return dal__unknown(error, "system", name, names, count);
 }
