@@ -6,5 +6,8 @@
 
 /* Sets the properties of the equations.  Errors: DAL_MEMORY, DAL_TOO_LARGE. */
 dal_status dal__properties(dal_model *model);
+/* Collects the guards of the constraints and of the mass matrix.  Errors: DAL_MEMORY,
+ * DAL_TOO_LARGE. */
+dal_status dal__guards(dal_model *model);
 
 #endif

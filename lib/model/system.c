@@ -3,7 +3,6 @@
 #include "expr/simplify.h"
 #include "model/energy.h"
 #include "model/formulas.h"
-#include "model/guards.h"
 #include "model/model.h"
 #include "model/properties.h"
 
