@@ -377,6 +377,15 @@ DAL_SHARED void dal_stage_inverse(dal_step *s, const dal_stage_matrix *k, const 
 }
 #endif
 
+/* ab = a b for s*s coefficients each. */
+DAL_INLINE void dal__product(int s, const double *a, const double *b, double *ab)
+{
+    for (int i = 0; i < s * s; i++) {
+        ab[i] = 0.0;
+        for (int j = 0; j < s; j++) ab[i] += a[i / s * s + j] * b[j * s + i % s];
+    }
+}
+
 /* F_q, F_(v,g) of a group at a point of all, [nw*n + nw*nw]. */
 DAL_INLINE void dal_jacobian(dal_step *s, int group, double t, const num *q, const num *v, num *out)
 {

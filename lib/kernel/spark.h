@@ -194,16 +194,6 @@ DAL_INLINE dal_status dal__spark_end(dal_step *s, const dal_spark_step *k, const
     return dal_update(s, s->h, d);
 }
 
-/* a ahat: how the positions follow the accelerations. */
-DAL_INLINE void dal__spark_product(const dal_spark *m, double *product)
-{
-    const int s = DAL_STAGES(m);
-    for (int i = 0; i < s * s; i++) {
-        product[i] = 0.0;
-        for (int j = 0; j < s; j++) product[i] += m->a[i / s * s + j] * m->ahat[j * s + i % s];
-    }
-}
-
 /* One step of size s->h. */
 DAL_SHARED dal_status dal_spark_advance(dal_step *s, const dal_spark *method)
 {
@@ -238,7 +228,7 @@ DAL_SHARED dal_status dal_spark_advance(dal_step *s, const dal_spark *method)
     dal_equation eq = {{block}, 1, &k, {dal_all()}};
     eq.block[0].weight = fabs(s->h);
     eq.block[0].scale[0] = dal_velocity_scale(s, s->h, 0);
-    dal__spark_product(method, product);
+    dal__product(DAL_STAGES(method), method->a, method->ahat, product);
     dal__spark_begin(s, &k, &eq);
     if (dal_failed(dal_solve(s, &eq, dal__spark_map, dal_constrained_matrix)))
         return DAL_NOT_CONVERGED;

@@ -65,18 +65,9 @@ DAL_INLINE void dal__weighted_all(const double *head, const double *tail, int st
                    DAL_EACH(c, count) out[c] = dal__weighted(head, tail, STAGES, x + c, stride));
 }
 
-/* Coefficients rounded to one double each, for Newton's matrix, and products of matrices of
- * them. */
+/* Coefficients rounded to one double each, for Newton's matrix. */
 DAL_INLINE void dal__rounded(int count, const double *head, const double *tail, double *a)
 {
     for (int i = 0; i < count; i++) a[i] = head[i] + (tail ? tail[i] : 0.0);
 }
-DAL_INLINE void dal__product(int s, const double *a, const double *b, double *ab)
-{
-    for (int i = 0; i < s * s; i++) {
-        ab[i] = 0.0;
-        for (int j = 0; j < s; j++) ab[i] += a[i / s * s + j] * b[j * s + i % s];
-    }
-}
-
 #endif
