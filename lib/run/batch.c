@@ -58,17 +58,12 @@ static const dal__engine_kind *next_kind(const engine_choice *from, int remainin
     return from->kind[i];
 }
 
+/* Groups before that of a lane are at most as many as the widest would be. */
 static group *group_of(const dal_batch *batch, int lane)
 {
-    int low = 0, high = batch->groups - 1;
-    while (low < high) {
-        const int middle = low + (high - low + 1) / 2;
-        if (batch->group[middle].first <= lane)
-            low = middle;
-        else
-            high = middle - 1;
-    }
-    return &batch->group[low];
+    group *b = &batch->group[lane / batch->group[0].kind->width];
+    while (lane >= b->first + b->kind->width) b++;
+    return b;
 }
 
 /* ---- memory ---- */
@@ -119,7 +114,7 @@ static void place_group(dal_batch *batch, group *b, const dal__engine_kind *kind
                         void *memory)
 {
     *b = (group){.kind = kind, .first = first};
-    b->engine = kind->engine->place(&batch->scalar->layout, memory, &b->persistent, &b->work);
+    b->engine = kind->engine->place(&batch->scalar->layout, memory, &b->persistent, &b->work, NULL);
     for (int lane = 0; lane < kind->width; lane++) {
         scatter_lane(batch, b, lane);
         if (first + lane < batch->count) b->alive |= (dal__lanes)1 << lane;

@@ -31,8 +31,10 @@ static inline size_t dal__align(size_t bytes) { return (bytes + 63) / 64 * 64; }
 typedef struct dal__engine {
     /* Bytes of an engine, to be aligned to 64 bytes and to 8 bytes a lane. */
     size_t (*bytes)(const dal__layout *layout);
-    /* Makes an engine; *persistent and *work receive its interleaved arrays (zeroed). */
-    void *(*place)(const dal__layout *layout, void *memory, double **persistent, double **work);
+    /* Makes an engine; *persistent and *work receive its interleaved arrays (zeroed), *scratch
+     * (unless NULL) what is free between steps. */
+    void *(*place)(const dal__layout *layout, void *memory, double **persistent, double **work,
+                   double **scratch);
     /* Advances the alive lanes by h.  Returns those that failed, which are unchanged, and sets
      * their reason[lane]. */
     dal__lanes (*step)(void *engine, double h, dal__lanes alive, dal_status *reason);

@@ -144,7 +144,8 @@ static void prepare_step(engine *e)
     s->owner = e;
 }
 
-static void *place_engine(const dal__layout *k, void *memory, double **persistent, double **work)
+static void *place_engine(const dal__layout *k, void *memory, double **persistent, double **work,
+                          double **scratch)
 {
     char *at = memory;
     engine *e = memory;
@@ -167,6 +168,7 @@ static void *place_engine(const dal__layout *k, void *memory, double **persisten
     e->step.scratch = allocate(&at, k->scratch);
     *persistent = (double *)e->persistent;
     *work = (double *)e->work;
+    if (scratch) *scratch = (double *)e->step.scratch;
     return e;
 }
 

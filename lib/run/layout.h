@@ -4,6 +4,7 @@
 
 #include "core/error.h"
 #include "kernel/persistent.h"
+#include <math.h>
 
 /* A run without its values.  derivatives and multiplier count numbers of the method's state. */
 typedef struct dal__layout {
@@ -24,6 +25,12 @@ typedef struct dal__layout {
 static inline size_t dal__at(const dal__layout *layout, int place)
 {
     return 2 * (size_t)layout->dim + (size_t)place;
+}
+
+/* Whether x can be number i of the persistent state: finite, or an infinite e. */
+static inline bool dal__is_possible(const dal__layout *k, size_t i, double x)
+{
+    return isfinite(x) || (k->lifted && i == 2 * (size_t)k->n && isinf(x));
 }
 
 /* Checks a spec and computes its layout; errors as dal_run_init. */

@@ -51,7 +51,7 @@ void dal__quad_place(dal_run *run, char *memory)
 {
     dal__quad_run *k = &run->quad;
     k->layout = layout_of(&run->layout);
-    k->engine = kind()->engine->place(&k->layout, memory, &k->persistent, &k->work);
+    k->engine = kind()->engine->place(&k->layout, memory, &k->persistent, &k->work, NULL);
     run->storage = k->persistent;
 }
 

@@ -6,14 +6,6 @@
 #include <dalembert_kernel.h>
 #include <stdlib.h>
 
-/* Max numbers in the output of a callback, or in two of the constraint's with their G. */
-static size_t scratch_count(const dal__layout *k)
-{
-    const size_t n = (size_t)k->n, nw = (size_t)k->nw, m = (size_t)k->m;
-    const size_t listed = (size_t)k->system->invariants + 2 * (size_t)k->system->guards;
-    return 4 * n + 2 * nw + 2 * (m + 2 * m * n) + 2 * m * m + m + 2 + listed;
-}
-
 /* Doubles in the persistent state. */
 static size_t stored_count(const dal__layout *k)
 {
@@ -24,7 +16,7 @@ static size_t stored_count(const dal__layout *k)
 static size_t own_numbers(const dal__layout *k)
 {
     const size_t time_and_observables = 1 + (size_t)k->m + 6 + (size_t)k->system->invariants;
-    return stored_count(k) + scratch_count(k) + (size_t)(k->n + k->nw) + time_and_observables;
+    return stored_count(k) + (size_t)(k->n + k->nw) + time_and_observables;
 }
 
 static size_t quad_bytes(const dal__layout *k)
@@ -51,14 +43,13 @@ static dal_run *place(const dal__layout *layout, void *memory)
     *run = (dal_run){.layout = *layout};
     at += dal__align(sizeof *run);
     run->shadow = (double *)(void *)at;
-    run->scratch = run->shadow + stored_count(layout);
-    run->point = run->scratch + scratch_count(layout);
+    run->point = run->shadow + stored_count(layout);
     run->observations.times = run->point + layout->n + layout->nw;
     run->observations.values = run->observations.times + 1;
     run->observations.capacity = 1;
     at += dal__align(own_numbers(layout) * sizeof(double));
     run->kind = dal__engine_best(layout, 1);
-    run->engine = run->kind->engine->place(layout, at, &run->persistent, &run->work);
+    run->engine = run->kind->engine->place(layout, at, &run->persistent, &run->work, &run->scratch);
     run->storage = run->persistent;
     run->stored = stored_count(layout);
     at += dal__align(run->kind->engine->bytes(layout));
@@ -170,7 +161,7 @@ dal_status dal_run_set_state(dal_run *run, double t, const double *state, dal_er
     DAL_REQUIRE(state, error);
     const dal__layout *k = &run->layout;
     for (int i = 0; i < k->dim; i++)
-        if (!isfinite(state[i]) && !(k->lifted && i == 2 * k->n && isinf(state[i])))
+        if (!dal__is_possible(k, (size_t)i, state[i]))
             return dal__fail(error, DAL_NOT_FINITE, "state component %d is not finite: %g", i + 1,
                              state[i]);
     if (!isfinite(t)) return dal__fail(error, DAL_NOT_FINITE, "time %g is not finite", t);
@@ -198,7 +189,7 @@ dal_status dal_run_restore(dal_run *run, const double *memory, size_t count, dal
                          count);
     for (size_t i = 0; i < k->persistent; i++) {
         const double x = run->quad.engine ? dal__quad_rounded(memory, i) : memory[i];
-        if (!isfinite(x) && !(k->lifted && i == 2 * (size_t)k->n && isinf(x)))
+        if (!dal__is_possible(k, i, x))
             return dal__fail(error, DAL_NOT_FINITE, "persistent number %zu is not finite", i + 1);
     }
     memcpy(run->storage, memory, count * sizeof *memory);

@@ -1,6 +1,6 @@
 /* run.h - the inside of a dal_run.
  *
- * One block of memory:   dal_run | shadow, scratch, point, observations | engine | quad engine
+ * One block of memory:   dal_run | shadow, point, observations | engine | quad engine
  */
 #ifndef DAL_RUN_H
 #define DAL_RUN_H
@@ -52,7 +52,7 @@ struct dal_run {
     dal__quad_run quad;
     double *work;    /* [layout.workspace] parameters, and numbers of the system */
     double *shadow;  /* [stored] the state before an intermediate step */
-    double *scratch; /* for outputs of callbacks */
+    double *scratch; /* of the engine, for outputs of callbacks */
     double *point;   /* [n + nw] where a step failed */
     bool exact;      /* the exact solution agrees with the start */
     void *owned;     /* memory to free, or NULL */

@@ -38,13 +38,12 @@ static dal_status unknown_start(const dal_run *run, const char *name, dal_error 
 
 static dal_status override(dal_run *run, const dal_setting *settings, int count, dal_error *error)
 {
-    const int e = run->layout.lifted ? 2 * run->layout.n : -1;
     char name[NAME_SIZE];
     for (int k = 0; k < count; k++) {
         int i = 0;
         while (dal_run_name(run, i, name, sizeof name) && strcmp(name, settings[k].name) != 0) i++;
         if (i == run->layout.dim) return unknown_start(run, settings[k].name, error);
-        if (!isfinite(settings[k].value) && !(i == e && isinf(settings[k].value)))
+        if (!dal__is_possible(&run->layout, (size_t)i, settings[k].value))
             return dal__fail(error, DAL_ARGUMENT, "start %s: %g is not a finite number",
                              settings[k].name, settings[k].value);
         run->persistent[i] = settings[k].value;
@@ -78,7 +77,7 @@ static dal_status check_finite(dal_run *run, dal_error *error)
         if (i == e && isinf(1.0 / run->persistent[i]))
             return dal__fail(error, DAL_GAUGE, "start e = %g: e must not vanish",
                              run->persistent[i]);
-        if (isnan(run->persistent[i]) || (isinf(run->persistent[i]) && i != e))
+        if (!dal__is_possible(&run->layout, (size_t)i, run->persistent[i]))
             return dal__fail(error, DAL_NOT_FINITE, "start %s is not finite: %g",
                              dal_run_name(run, i, name, sizeof name), run->persistent[i]);
     }
