@@ -169,9 +169,9 @@ enum { REGISTER = 8 }; /* numbers in the widest; as many as a line of the cache 
 static dal_status allocate_observations(dal__observations *observations, int dimension,
                                         int observables, dal_error *error)
 {
-    /* Observations at a time: whole registers of any machine.  Many of them, since a processor takes
-     * about a microsecond to wake the upper halves of its widest registers, and no more than a
-     * second-level cache holds. */
+    /* Observations at a time: whole registers of any machine.  Many of them, since a processor
+     * takes about a microsecond to wake the upper halves of its widest registers, and no more than
+     * a second-level cache holds. */
     enum { MAX = 992, NEAR = (1 << 18) / sizeof(double) };
     const int numbers = dimension + 1 + observables, most = NEAR / numbers / REGISTER * REGISTER;
     const int capacity = most > MAX ? MAX : most < REGISTER ? REGISTER : most;
