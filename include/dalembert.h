@@ -501,7 +501,7 @@ const double *dal_run_state(const dal_run *run);
 /* The parameter values of the run, [parameters]. */
 const double *dal_run_parameters(const dal_run *run);
 /* Replaces time and state, state[dimension], and clears all other persistent state.  The state need
- * not satisfy the constraints.  Errors: DAL_NOT_FINITE. */
+ * not satisfy the constraints, and e may be infinite.  Errors: DAL_NOT_FINITE. */
 dal_status dal_run_set_state(dal_run *run, double t, const double *state, dal_error *error);
 /* Writes the name of state component i, from 0, into buffer[size]: x, x', e, p_x, pi_x, pi_e, g1;
  * returns buffer, NULL past the last. */

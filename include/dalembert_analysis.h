@@ -117,7 +117,7 @@ typedef enum dal_trend_class {
         DAL_TREND_COUNT
 } dal_trend_class;
 
-/* CONSERVATION(code, text). */
+/* Kinds of conservation: CONSERVATION(code, text). */
 #define DAL_CONSERVATION_LIST(CONSERVATION)                                                        \
     CONSERVATION(CONSERVED, "conserved")                                                           \
     CONSERVATION(NOT_CONSERVED, "not conserved by the motion")                                     \
@@ -265,9 +265,10 @@ void dal_order_slopes(dal_order *order, double noise);
  * 0 where there is none. */
 long long dal_whole_steps(double from, double to, double step);
 
-/* Measures the order with levels step sizes: the state at T, a whole number of the steps, against
- * reference[dimension], or, when that is NULL, against gauss12 (or *reference_method) with half the
- * smallest step. [alloc]  Errors: those of the runs, DAL_ARGUMENT. */
+/* Measures the order with 2 to DAL_ORDER_LEVELS step sizes: the state at T, a whole number of the
+ * steps, against reference[dimension], or, when that is NULL, against gauss12 (or
+ * *reference_method) with half the smallest step. [alloc]  Errors: those of the runs, DAL_ARGUMENT.
+ */
 dal_status dal_measure_order(const dal_run_spec *spec, double T, int levels,
                              const dal_method *reference_method, const double *reference,
                              dal_order *order, dal_error *error);
@@ -305,13 +306,12 @@ dal_status dal_adjoint_pairing(const dal_run_spec *spec, const dal_system *tange
 dal_status dal_measure_action(dal_evaluator *evaluator, double t0, double h, long long count,
                               const double *q, double e, double *action);
 
-/* How far the discrete first-order action (nh23)
+/* How far the discrete first-order action (nh23) is from stationary on a path.
  *     S = sum_k P_k.(X_(k+1) - X_k) - h H((X_k + X_(k+1))/2, P_k)
- * is from stationary on a path: X_k [2n+1] = q, v, e at the count nodes, P_k [2n+1] = p, pi, pi_e
- * the mean over each of the count-1 intervals, states[count*(4n+2)] the rows of a lifted run.
- * The maximum of |dS/dX_k| over inner nodes and |dS/dP_k|, divided by h: zero to rounding for
- * implicit-midpoint, of the order of the error for others. [alloc]  Errors: DAL_ARGUMENT, those of
- * the callbacks. */
+ * with X_k [2n+1] = q, v, e at the count >= 3 nodes, P_k [2n+1] = p, pi, pi_e the mean over each
+ * of the count-1 intervals, states[count*(4n+2)] the rows of a lifted run.  The maximum of
+ * |dS/dX_k| over inner nodes and |dS/dP_k|, divided by h: zero to rounding for implicit-midpoint,
+ * of the order of the error for others. [alloc]  Errors: DAL_ARGUMENT, those of the callbacks. */
 dal_status dal_check_stationarity(dal_evaluator *evaluator, double t0, double h, long long count,
                                   const double *states, double *defect);
 
@@ -361,8 +361,8 @@ dal_status dal_check_dirac(dal_evaluator *evaluator, const dal_point *at, double
  * as truncation does.  The effect of projection is that of leaving it out, or of adding it; it is
  * no part of the sum. */
 
-/* RUN(code, word, text).  Runs in quad precision cover the first quad_steps steps, the others all.
- */
+/* Comparison runs: RUN(code, word, text).  Those in quad precision cover the first quad_steps
+ * steps, the others all. */
 #define DAL_COMPARISON_LIST(RUN)                                                                   \
     RUN(HALVED, "half-step", "half the step")                                                      \
     RUN(LOOSER, "looser", "equations solved less far")                                             \
@@ -380,7 +380,7 @@ typedef enum dal_comparison_run {
         DAL_COMPARISONS
 } dal_comparison_run;
 
-/* SOURCE(code, word). */
+/* Error sources: SOURCE(code, word). */
 #define DAL_ERROR_SOURCE_LIST(SOURCE)                                                              \
     SOURCE(TRUNCATION, "truncation")                                                               \
     SOURCE(COEFFICIENTS, "coefficients")                                                           \

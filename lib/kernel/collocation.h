@@ -385,6 +385,7 @@ DAL_COLD dal_status dal__collocate_again(dal_step *s, const dal_tableau *method)
 {
     return dal__collocate(s, method, 0);
 }
+
 DAL_SHARED dal_status dal_collocation(dal_step *s, const dal_tableau *method)
 {
     const long long evaluations = s->evaluations;

@@ -81,7 +81,7 @@
 #endif
 #endif
 
-/* for i = 0 .. count - 1 */
+/* A loop over i from 0 to count - 1. */
 #define DAL_EACH(i, count) DAL_UNROLL for (int i = 0; i < (count); i++)
 
 #if DAL_SCALAR
@@ -113,9 +113,9 @@ DAL_INLINE int dal_mask_lane(dal_mask m, int lane) { return (void)lane, m != 0; 
 
 #define DAL_ULP_RATIO 1.0
 typedef double num __attribute__((vector_size(8 * DAL_LANES), may_alias));
+typedef int64_t dal_mask __attribute__((vector_size(8 * DAL_LANES), may_alias));
 /* A num in memory of doubles that need not be aligned to its lanes. */
 typedef double dal_stored __attribute__((vector_size(8 * DAL_LANES), may_alias, aligned(8)));
-typedef int64_t dal_mask __attribute__((vector_size(8 * DAL_LANES), may_alias));
 
 DAL_INLINE num dal_num(double x)
 {
