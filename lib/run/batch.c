@@ -95,20 +95,6 @@ static void gather_lane(dal_batch *batch, const group *b, int lane)
 
 enum { ALIGNMENT = DAL__MAX_LANES * sizeof(double) };
 
-/* Counts groups and bytes of their engines; false: too many bytes. */
-static bool measure_groups(dal_batch *batch, const engine_choice *from, size_t *bytes)
-{
-    *bytes = ALIGNMENT;
-    for (int done = 0; done < batch->count; batch->groups++) {
-        const dal__engine_kind *k = next_kind(from, batch->count - done);
-        const size_t more = dal__align(k->engine->bytes(&batch->scalar->layout));
-        if (more > SIZE_MAX / 2 - *bytes) return false;
-        *bytes += more;
-        done += k->width < batch->count - done ? k->width : batch->count - done;
-    }
-    return true;
-}
-
 /* Lanes past the count are copies of the start. */
 static void place_group(dal_batch *batch, group *b, const dal__engine_kind *kind, int first,
                         void *memory)
@@ -121,28 +107,37 @@ static void place_group(dal_batch *batch, group *b, const dal__engine_kind *kind
     }
 }
 
-static void place_groups(dal_batch *batch, const engine_choice *from)
+/* Counts groups and bytes of their engines, and places them unless memory is NULL; false: too many
+ * bytes. */
+static bool place_groups(dal_batch *batch, const engine_choice *from, char *memory, size_t *bytes)
 {
-    char *at = (char *)batch->memory + (ALIGNMENT - (uintptr_t)batch->memory % ALIGNMENT);
-    for (int i = 0, first = 0; i < batch->groups; i++) {
-        const dal__engine_kind *k = next_kind(from, batch->count - first);
-        place_group(batch, &batch->group[i], k, first, at);
-        at += dal__align(k->engine->bytes(&batch->scalar->layout));
-        first += k->width;
+    *bytes = 0;
+    batch->groups = 0;
+    for (int left = batch->count; left > 0; batch->groups++) {
+        const dal__engine_kind *kind = next_kind(from, left);
+        const size_t more = dal__align(kind->engine->bytes(&batch->scalar->layout));
+        if (more > SIZE_MAX / 2 - *bytes) return false;
+        if (memory)
+            place_group(batch, &batch->group[batch->groups], kind, batch->count - left,
+                        memory + *bytes);
+        *bytes += more;
+        left -= kind->width;
     }
+    return true;
 }
 
 static dal_status allocate(dal_batch *batch, const engine_choice *from, dal_error *error)
 {
     size_t bytes;
-    if (measure_groups(batch, from, &bytes)) {
+    if (place_groups(batch, from, NULL, &bytes)) {
         batch->group = calloc((size_t)batch->groups, sizeof *batch->group);
         batch->error = calloc((size_t)batch->count, sizeof *batch->error);
-        batch->memory = malloc(bytes);
+        batch->memory = malloc(bytes + ALIGNMENT);
     }
     if (!batch->group || !batch->error || !batch->memory)
         return dal__fail(error, DAL_MEMORY, "no memory for a batch of %d", batch->count);
-    place_groups(batch, from);
+    char *aligned = (char *)batch->memory + (ALIGNMENT - (uintptr_t)batch->memory % ALIGNMENT);
+    place_groups(batch, from, aligned, &bytes);
     return DAL_OK;
 }
 
