@@ -32,44 +32,36 @@ const dal_integrator *dal__integrator_wide(const dal_integrator *integrator, dal
     return NULL;
 }
 
-static int is_modifier(const dal_integrator *integrator)
-{
-    return (integrator->properties & DAL_MODIFIER) != 0;
-}
-
-/* An integrator (modifier = 0) or a modifier by name or alias. */
-static const dal_integrator *find(const char *name, int modifier)
-{
-    for (int i = 0; i < COUNT; i++) {
-        const dal_integrator *k = entries[i][DAL__VARIANT_x1];
-        if (is_modifier(k) != modifier) continue;
-        if (strcmp(k->name, name) == 0 || (k->alias && strcmp(k->alias, name) == 0)) return k;
-    }
-    return NULL;
-}
-
-static dal_status unknown(const char *name, int modifier, dal_error *error)
+/* Finds an integrator, or a modifier, by name or alias. */
+static dal_status find(const char *name, bool modifier, const dal_integrator **found,
+                       dal_error *error)
 {
     const char *names[2 * COUNT];
     for (int i = 0; i < COUNT; i++) {
         const dal_integrator *k = entries[i][DAL__VARIANT_x1];
-        names[2 * i] = is_modifier(k) == modifier ? k->name : NULL;
-        names[2 * i + 1] = is_modifier(k) == modifier ? k->alias : NULL;
+        const bool fits = !(k->properties & DAL_MODIFIER) == !modifier;
+        names[2 * i] = fits ? k->name : NULL;
+        names[2 * i + 1] = fits ? k->alias : NULL;
+        for (int j = 2 * i; j < 2 * i + 2; j++) {
+            if (!names[j] || strcmp(names[j], name) != 0) continue;
+            *found = k;
+            return DAL_OK;
+        }
     }
     return dal__unknown(error, modifier ? "modifier" : "integrator", name, names, 2 * COUNT);
 }
 
 enum { NAME_SIZE = 64 };
 
-/* Copies the part of *name up to the next '+' and moves past it; 0 when it is too long. */
-static int next_part(const char **name, char *part)
+/* Copies the part of *name up to the next '+' and moves past it; false: it is too long. */
+static bool next_part(const char **name, char *part)
 {
     const size_t length = strcspn(*name, "+");
-    if (length >= NAME_SIZE) return 0;
+    if (length >= NAME_SIZE) return false;
     memcpy(part, *name, length);
     part[length] = '\0';
     *name += length;
-    return 1;
+    return true;
 }
 
 dal_status dal_method_parse(dal_method *method, const char *name, dal_error *error)
@@ -85,8 +77,7 @@ dal_status dal_method_parse(dal_method *method, const char *name, dal_error *err
                              DAL_LAYERS - 1);
         if (!next_part(&rest, part))
             return dal__fail(error, DAL_NAME, "integrator name '%.60s...' is too long", name);
-        method->layer[i] = find(part, i > 0);
-        if (!method->layer[i]) return unknown(part, i > 0, error);
+        DAL_TRY(find(part, i > 0, &method->layer[i], error));
         for (int k = 1; k < i; k++)
             if (method->layer[k] == method->layer[i])
                 return dal__fail(error, DAL_ARGUMENT, "integrator '%.60s': +%s comes twice", name,
