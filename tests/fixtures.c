@@ -141,7 +141,7 @@ dal_run *fixture_run(const dal_run_spec *spec)
     return run;
 }
 
-dal_run *fixture_stepped(const dal_run_spec *spec, int steps)
+dal_run *fixture_stepped(const dal_run_spec *spec, long long steps)
 {
     dal_run *run = fixture_run(spec);
     CU_ASSERT_EQUAL(dal_run_advance(run, steps, NULL), DAL_OK);

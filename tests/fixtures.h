@@ -30,7 +30,7 @@ bool fixture_accepts(const dal_method *method, const dal_system *system, dal_spa
 dal_run *fixture_run(const dal_run_spec *spec);
 
 /* The same after some steps. */
-dal_run *fixture_stepped(const dal_run_spec *spec, int steps);
+dal_run *fixture_stepped(const dal_run_spec *spec, long long steps);
 /* How far a step from a perturbed lifted state is from symplectic. */
 double fixture_symplectic_defect(const dal_run_spec *spec);
 /* An evaluator with the system's own parameters. */

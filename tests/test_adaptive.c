@@ -122,8 +122,7 @@ static void test_work(void)
     dal_run_free(run);
     const char *const free_motion = "coordinates: [x]\nlagrangian: x'^2/2\nstart: {x: 1, x': 3}\n";
     spec = spec_of(fixture_system(free_motion), DAL_PHYSICAL, 0.5, 1e-9);
-    run = fixture_run(&spec);
-    CU_ASSERT_EQUAL(dal_run_advance(run, 10, NULL), DAL_OK);
+    run = fixture_stepped(&spec, 10);
     CU_ASSERT_EQUAL(dal_run_evaluations(run), 10 * STAGES);
     dal_run_free(run);
 }
@@ -157,16 +156,14 @@ static void test_surface(void)
     const double gauges[] = {1.0, -3.0, INFINITY};
     const dal_system *system = fixture_system(fixture_full);
     const dal_run_spec physical = spec_of(system, DAL_PHYSICAL, 0.7, 1e-8);
-    dal_run *below = fixture_run(&physical);
-    CU_ASSERT_EQUAL(dal_run_advance(below, 5, NULL), DAL_OK);
+    dal_run *below = fixture_stepped(&physical, 5);
     CU_ASSERT(dal_run_evaluations(below) > 2 * 5 * STAGES);
     for (int i = 0; i < 3; i++) {
         const dal_setting e = {"e", gauges[i]};
         dal_run_spec lifted = spec_of(system, DAL_LIFTED, 0.7, 1e-8);
         lifted.start = &e;
         lifted.start_count = 1;
-        dal_run *above = fixture_run(&lifted);
-        CU_ASSERT_EQUAL(dal_run_advance(above, 5, NULL), DAL_OK);
+        dal_run *above = fixture_stepped(&lifted, 5);
         CU_ASSERT_EQUAL(dal_run_evaluations(above), dal_run_evaluations(below));
         same_state(above, below, 2 * system->n);
         dal_run_free(above);
@@ -210,8 +207,7 @@ static void test_batch(void)
         double state[4];
         spec.start = &x;
         spec.start_count = 1;
-        dal_run *run = fixture_run(&spec);
-        CU_ASSERT_EQUAL(dal_run_advance(run, STEPS, NULL), DAL_OK);
+        dal_run *run = fixture_stepped(&spec, STEPS);
         dal_batch_state(batch, lane, state);
         CU_ASSERT_EQUAL(memcmp(state, dal_run_state(run), sizeof state), 0);
         dal_run_free(run);
@@ -229,8 +225,7 @@ static void test_projected(void)
         dal_run_spec spec = fixture_spec(fixture_system("knife-edge"), names[i], DAL_PHYSICAL, 5.0);
         double out[32];
         spec.options.tolerance = 1e-9;
-        dal_run *run = fixture_run(&spec);
-        CU_ASSERT_EQUAL(dal_run_advance(run, 2, NULL), DAL_OK);
+        dal_run *run = fixture_stepped(&spec, 2);
         CU_ASSERT(dal_run_evaluations(run) > 4 * STAGES);
         CU_ASSERT_EQUAL(dal_run_observe(run, out), DAL_OK);
         CU_ASSERT(fabs(out[0]) <= 1e-14);

@@ -35,8 +35,7 @@ static void single_end(dal_run_spec spec, int lane, double *state)
     spec.parameters = &parameter;
     spec.start = &start;
     spec.parameter_count = spec.start_count = 1;
-    dal_run *run = fixture_run(&spec);
-    CU_ASSERT_EQUAL(dal_run_advance(run, 2 * half(), NULL), DAL_OK);
+    dal_run *run = fixture_stepped(&spec, 2 * half());
     CU_ASSERT_FATAL(dal_run_dimension(run) <= MAX_DIMENSION);
     memcpy(state, dal_run_state(run), (size_t)dal_run_dimension(run) * sizeof *state);
     dal_run_free(run);
@@ -122,8 +121,7 @@ static void test_mixed_stiffness(void)
         dal_run_spec one = spec;
         one.parameters = &k[i];
         one.parameter_count = 1;
-        dal_run *run = fixture_run(&one);
-        CU_ASSERT_EQUAL(dal_run_advance(run, 50, NULL), DAL_OK);
+        dal_run *run = fixture_stepped(&one, 50);
         dal_batch_state(batch, i, lane);
         CU_ASSERT_EQUAL(memcmp(lane, dal_run_state(run), 14 * sizeof *lane), 0);
         dal_run_free(run);

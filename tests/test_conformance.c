@@ -178,8 +178,7 @@ static void check_lanes(const char *name, const dal_method *method, void *user)
     CU_ASSERT_EQUAL(dal_batch_advance(batch, 10), DAL_OK);
     for (int i = 0; i < LANES; i++) {
         spec.start = &(dal_setting){"u", 0.1 * i};
-        dal_run *run = fixture_run(&spec);
-        CU_ASSERT_EQUAL(dal_run_advance(run, 10, NULL), DAL_OK);
+        dal_run *run = fixture_stepped(&spec, 10);
         dal_batch_state(batch, i, state);
         const size_t bytes = (size_t)dal_run_dimension(run) * sizeof *state;
         const bool same = memcmp(state, dal_run_state(run), bytes) == 0;

@@ -24,8 +24,7 @@ static const char forced[] =
 static void end_state(const dal_system *system, const char *method, int count, double *state)
 {
     const dal_run_spec spec = fixture_spec(system, method, DAL_PHYSICAL, 1.0 / count);
-    dal_run *run = fixture_run(&spec);
-    CU_ASSERT_EQUAL(dal_run_advance(run, count, NULL), DAL_OK);
+    dal_run *run = fixture_stepped(&spec, count);
     memcpy(state, dal_run_state(run), 2 * (size_t)system->n * sizeof *state);
     dal_run_free(run);
 }
@@ -210,8 +209,7 @@ static void check_lanes(const char *text, const char *method, const char *name, 
     for (int i = 0; i < 8; i++) {
         spec.start = &start[i];
         spec.start_count = 1;
-        dal_run *run = fixture_run(&spec);
-        CU_ASSERT_EQUAL(dal_run_advance(run, 50, NULL), DAL_OK);
+        dal_run *run = fixture_stepped(&spec, 50);
         dal_batch_state(batch, i, state);
         CU_ASSERT_EQUAL(memcmp(state, dal_run_state(run), bytes), 0);
         dal_run_free(run);

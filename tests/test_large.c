@@ -23,8 +23,7 @@ static void test_one_link(void)
     static const double expected[] = {0.2697845407561,  0.1292207494387, 0.9132110728864,
                                       -0.6961539931339, 0.7623144460279, -0.1266709767770};
     const dal_run_spec spec = fixture_spec(chain_one(), "gauss8", DAL_PHYSICAL, 0.02);
-    dal_run *run = fixture_run(&spec);
-    CU_ASSERT_EQUAL(dal_run_advance(run, 50, NULL), DAL_OK);
+    dal_run *run = fixture_stepped(&spec, 50);
     for (int i = 0; i < 6; i++) CU_ASSERT_DOUBLE_EQUAL(dal_run_state(run)[i], expected[i], 1e-11);
     dal_run_free(run);
 }

@@ -85,8 +85,7 @@ static void test_friction_end(void)
         fixture_spec(fixture_system("chaplygin-sleigh-friction"), "gauss6", DAL_PHYSICAL, 0.02);
     spec.parameters = set;
     spec.parameter_count = 4;
-    dal_run *run = fixture_run(&spec);
-    CU_ASSERT_EQUAL(dal_run_advance(run, 3000, NULL), DAL_OK);
+    dal_run *run = fixture_stepped(&spec, 3000);
     CU_ASSERT_DOUBLE_EQUAL(dal_run_state(run)[0], 0.31777778, 5e-9);
     CU_ASSERT_DOUBLE_EQUAL(dal_run_state(run)[0], 2.0 * 1.1 * 1.3 / 9.0, 1e-12);
     dal_run_free(run);
@@ -127,8 +126,7 @@ static void test_friction_limit(void)
 static void reference_state(const char *text, double T, const double *state)
 {
     const dal_run_spec spec = fixture_spec(fixture_system(text), "gauss10", DAL_PHYSICAL, 0.02);
-    dal_run *run = fixture_run(&spec);
-    CU_ASSERT_EQUAL(dal_run_advance(run, llround(T / 0.02), NULL), DAL_OK);
+    dal_run *run = fixture_stepped(&spec, llround(T / 0.02));
     for (int i = 0; i < 6; i++) CU_ASSERT_DOUBLE_EQUAL(dal_run_state(run)[i], state[i], 2e-13);
     dal_run_free(run);
 }

@@ -149,8 +149,7 @@ static void test_keeps(void)
 static void surface_end(const dal_system *system, const char *name, dal_space space, double *qv)
 {
     const dal_run_spec spec = fixture_spec(system, name, space, 0.05);
-    dal_run *run = fixture_run(&spec);
-    CU_ASSERT_EQUAL(dal_run_advance(run, 100, NULL), DAL_OK);
+    dal_run *run = fixture_stepped(&spec, 100);
     memcpy(qv, dal_run_state(run), 2 * (size_t)system->n * sizeof *qv);
     for (int i = 2 * system->n + 1; i < dal_run_dimension(run); i++)
         CU_ASSERT_EQUAL(dal_run_state(run)[i], 0.0);

@@ -156,8 +156,7 @@ static void test_pairing(void)
 static void end_state(const dal_system *system, const char *name, dal_space space, double *state)
 {
     const dal_run_spec spec = fixture_spec(system, name, space, 0.05);
-    dal_run *run = fixture_run(&spec);
-    CU_ASSERT_EQUAL(dal_run_advance(run, 100, NULL), DAL_OK);
+    dal_run *run = fixture_stepped(&spec, 100);
     memcpy(state, dal_run_state(run), (size_t)dal_run_dimension(run) * sizeof *state);
     dal_run_free(run);
 }

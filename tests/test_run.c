@@ -35,8 +35,7 @@ static void test_by_hand(void)
 {
     const dal_system system = hand_made(fixture_oscillate, NULL);
     dal_run_spec spec = fixture_spec(&system, "gauss8", DAL_PHYSICAL, 0.1);
-    dal_run *run = fixture_run(&spec);
-    CU_ASSERT_EQUAL(dal_run_advance(run, 100, NULL), DAL_OK);
+    dal_run *run = fixture_stepped(&spec, 100);
     CU_ASSERT_DOUBLE_EQUAL(dal_run_state(run)[0], cos(10.0), 1e-13);
     CU_ASSERT_DOUBLE_EQUAL(dal_run_state(run)[1], -sin(10.0), 1e-13);
     CU_ASSERT_DOUBLE_EQUAL(dal_run_time(run), 10.0, 0.0);
@@ -160,8 +159,7 @@ static void test_transaction(void)
         }
         /* The failures left no trace. */
         countdown = 1 << 20;
-        dal_run *other = fixture_run(&spec);
-        CU_ASSERT_EQUAL(dal_run_advance(other, dal_run_steps(run), NULL), DAL_OK);
+        dal_run *other = fixture_stepped(&spec, dal_run_steps(run));
         CU_ASSERT_EQUAL(memcmp(dal_run_state(run), dal_run_state(other), 2 * sizeof(double)), 0);
         free(copy);
         dal_run_free(run);
@@ -222,8 +220,7 @@ static void test_rest_is_singular(void)
     dal_run_spec spec = fixture_spec(fixture_system(text), "gauss8", DAL_LIFTED, 0.013);
     spec.start = &falling;
     spec.start_count = 1;
-    dal_run *run = fixture_run(&spec);
-    CU_ASSERT_EQUAL(dal_run_advance(run, 100, NULL), DAL_OK);
+    dal_run *run = fixture_stepped(&spec, 100);
     dal_run_free(run);
 }
 
