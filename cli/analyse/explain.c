@@ -4,8 +4,10 @@
 #include "dalembert.h"
 #include "io/file.h"
 #include "io/trend.h"
+#include "ui/memory.h"
 #include "ui/message.h"
 #include "ui/signals.h"
+#include "ui/wrap.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -29,10 +31,19 @@ static void compile_run(void *user, dal_run *run, long long steps)
 
 /* ---- in words ---- */
 
-static void print_rate(const dal_trend *f, double whole)
+/* A row of the table of runs, 80 columns wide; a long label has a line of its own. */
+enum { RATE_COLUMN = 30, WORDS_COLUMN = 35 };
+
+static void print_run(const char *label, const dal_trend *f, double whole)
 {
-    printf("%+10.2e (%+.1e %+.1e)  %9.2e", f->rate, f->rate_low, f->rate_high, f->deviation);
-    if (whole > 0.0 && isfinite(whole)) printf("  x %.3g", f->deviation / whole);
+    int column = printf("%s", label);
+    if (column > RATE_COLUMN - 1) {
+        putchar('\n');
+        column = 0;
+    }
+    printf("%*s%+10.2e (%+.1e %+.1e) %8.2e", RATE_COLUMN - column, "", f->rate, f->rate_low,
+           f->rate_high, f->deviation);
+    if (whole > 0.0 && isfinite(whole)) printf(" x %.3g", f->deviation / whole);
     putchar('\n');
 }
 
@@ -60,21 +71,23 @@ static void print_observable(const dal_error_budget *e, int i)
         if (!isnan(a->share[k])) length = snprintf(number, sizeof number, "%.3g", a->share[k]);
         if (length > 0 && !isnan(a->margin[k]))
             snprintf(number + length, sizeof number - (size_t)length, " +- %.1g", a->margin[k]);
-        printf("    %-13s %-17s  %s\n", dal_error_source_name((dal_error_source)k), number,
-               dal_error_budget_describe(e, i, (dal_error_source)k, words, sizeof words));
+        const int column =
+            printf("  %-13s %-17s  ", dal_error_source_name((dal_error_source)k), number);
+        cli_wrap(stdout, dal_error_budget_describe(e, i, (dal_error_source)k, words, sizeof words),
+                 column, WORDS_COLUMN);
     }
-    printf("    %-48s %-31s %10s\n", "", "rate", "deviation");
-    printf("    all %-44lld ", e->steps);
-    print_rate(&a->whole, 0.0);
+    printf("%*s %-29s %9s\n", RATE_COLUMN, "", "rate, 95 % interval", "deviation");
+    snprintf(text, sizeof text, "  all %lld", e->steps);
+    print_run(text, &a->whole, 0.0);
     for (int k = 0; k < DAL_COMPARISONS; k++) {
         if (k == DAL_COMPARISON_QUAD && e->quad_steps > 0) {
-            printf("    the first %-38lld ", e->quad_steps);
-            print_rate(&a->beginning, 0.0);
+            snprintf(text, sizeof text, "  the first %lld", e->quad_steps);
+            print_run(text, &a->beginning, 0.0);
         }
         if (!e->ran[k]) continue;
-        printf("      %-46s ", comparison_text(e, k));
-        print_rate(&a->comparison[k],
-                   k < DAL_COMPARISON_QUAD ? a->whole.deviation : a->beginning.deviation);
+        snprintf(text, sizeof text, "    %s", comparison_text(e, k));
+        print_run(text, &a->comparison[k],
+                  k < DAL_COMPARISON_QUAD ? a->whole.deviation : a->beginning.deviation);
     }
     putchar('\n');
 }
@@ -97,9 +110,12 @@ static int print_budget(const run_request *request, const dal_error_budget *e)
         separator = ", ";
     }
     if (*separator == ',') putchar('\n');
-    for (int k = 0; k < DAL_COMPARISONS; k++)
-        if (!e->ran[k] && *e->reason[k])
-            printf("not run: %s: %s\n", comparison_text(e, k), e->reason[k]);
+    for (int k = 0; k < DAL_COMPARISONS; k++) {
+        if (e->ran[k] || !*e->reason[k]) continue;
+        char *text = cli_format("not run: %s: %s", comparison_text(e, k), e->reason[k]);
+        cli_wrap(stdout, text, 0, 4);
+        free(text);
+    }
     return cli_close(stdout, "standard output");
 }
 

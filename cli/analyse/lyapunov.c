@@ -189,7 +189,7 @@ static double resolution(const tangent_study *s)
 
 static void print_mean(const char *name, const dal_average *a, const char *word)
 {
-    printf("%-24s %12.6g %12.5g %12.5g  %s\n", name, a->mean, a->low, a->high, word);
+    printf("%-15s %12.6g %12.5g %12.5g  %s\n", name, a->mean, a->low, a->high, word);
 }
 
 static const char *sign_word(const dal_average *a, double resolution, const char *positive,
@@ -197,7 +197,7 @@ static const char *sign_word(const dal_average *a, double resolution, const char
 {
     if (a->low > resolution) return positive;
     if (a->high < -resolution) return negative;
-    return "not distinguishable from 0";
+    return "may be 0";
 }
 
 static void print_exponents(const tangent_study *s)
@@ -231,7 +231,7 @@ static void print_volume(const tangent_study *s)
     dal_lyapunov_divergence(s->spectrum, &motion);
     dal_lyapunov_sum(s->spectrum, &step);
     print_rate_of_volume(s, "divergence of F", &motion);
-    print_rate_of_volume(s, "log|det J|/h of a step", &step);
+    print_rate_of_volume(s, "log|det J|/h", &step);
     printf("\n%d of %d directions; step less motion: %.2g\n", dal_lyapunov_count(s->spectrum),
            dal_run_dimension(dal_lyapunov_run(s->spectrum)), step.mean - motion.mean);
 }
@@ -266,7 +266,7 @@ static int print_means(const tangent_study *s)
     printf("the derivative of the step %s\n\n", dal_lyapunov_is_exact(s->spectrum)
                                                     ? "exact, by the tangent system"
                                                     : "by differences of order 8");
-    printf("%-24s %12s %25s\n", "", "mean", "95 % interval");
+    printf("%-15s %12s %25s\n", "", "mean", "95 % interval");
     if (s->set->is_volume)
         print_volume(s);
     else
