@@ -19,7 +19,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 /* Steps between two polls of the signals. */
 enum { CHUNK = 200, MAX_ROWS = 100000000, MAX_COLUMN_NAME = 24 };

@@ -7,7 +7,6 @@
 #include "ui/commands.h"
 #include "ui/message.h"
 #include "ui/options.h"
-#include "ui/signals.h"
 
 #include <stdlib.h>
 #include <string.h>

@@ -9,7 +9,6 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
 /* Of the figure without its key, and of a row of the key. */
 enum { WIDTH = 420, HEIGHT = 290, KEY_ROW = 16, KEY_COLUMNS = 2 };
