@@ -38,7 +38,7 @@ holds() {
 try() {
     expected=$1
     shift
-    timeout 60 "$program" "$@" >out 2>err
+    timeout "${limit:-60}" "$program" "$@" >out 2>err
     status=$?
     if [ $status -eq "$expected" ]; then pass; else fail "exit $status, not $expected: $*"; fi
 }
