@@ -73,8 +73,9 @@ double dal_statistics_max_abs(const dal_statistics *statistics);
 double dal_statistics_deviation(const dal_statistics *statistics);
 
 /* A mean and its 95 % confidence interval, from the means of blocks and the correlation of
- * neighbours.  The interval covers variation from block to block; it covers neither a slow approach
- * to a limit nor the error of the method. */
+ * neighbours (Flyvbjerg, Petersen 1989, DOI 10.1063/1.457480).  The interval covers
+ * variation from block to block; it covers neither a slow approach to a limit nor the error of the
+ * method. */
 typedef struct dal_average {
     double mean;      /* the mean */
     double low, high; /* ends of the interval */
@@ -154,8 +155,9 @@ typedef struct dal_trend {
                                       state nothing; see dal_run_classify */
 } dal_trend;
 
-/* Classifies a quantity.  scale is its natural size, in its unit; roundings are measured by it.
- * aborted: the run ended before its time.  More values may be added afterwards. */
+/* Classifies a quantity by the evidence for each shape (Kass, Raftery 1995, DOI
+ * 10.1080/01621459.1995.10476572).  scale is its natural size, in its unit; roundings are measured
+ * by it.  aborted: the run ended before its time.  More values may be added afterwards. */
 void dal_statistics_classify(const dal_statistics *statistics, double scale, int aborted,
                              dal_trend *trend);
 
@@ -325,7 +327,7 @@ void dal_measure_gradient(dal_observable_function *f, void *user, int count, dou
 /* {f,g} = sum f_X g_P - f_P g_X from two gradients [2*pairs]. */
 double dal_poisson(const double *f, const double *g, int pairs);
 
-/* Dirac's algebra of (nh14) in 6n+2: X = (q, v, lambda, e), P = (p, pi, pi_lambda, pi_e), with
+/* Dirac's algebra (nh12)-(nh19) in 6n+2: X = (q, v, lambda, e), P = (p, pi, pi_lambda, pi_e), with
  * constraints pi_e, pi_lambda, p - lambda (primary), pi, lambda (secondary), all brackets by
  * differences of the functions themselves.  Conservation requires, on the surface, multipliers
  * mu of the primary constraints with {phi, H_c} = 0 for every phi. */
@@ -461,7 +463,8 @@ char *dal_error_budget_describe(const dal_error_budget *budget, int observable,
 /* ---- Lyapunov exponents and phase volume --------------------------------------------------- */
 
 /* A run on (q, v, g) with tangent vectors.  J, the derivative of each of its steps, moves them, and
- * Gram-Schmidt makes them orthonormal again.
+ * Gram-Schmidt makes them orthonormal again (Benettin, Galgani, Giorgilli, Strelcyn 1980,
+ * DOI 10.1007/BF02128236).
  *     J V = V' R,    exponent i = mean of log(R_ii)/h,    mean of log|det J|/h = their sum
  * The mean divergence of the motion, that of the trace of F_(v,g), is their sum, too.  Over a long
  * time it holds for every density of the phase space, and on D = 0, provided that the logarithms of
@@ -553,8 +556,9 @@ typedef struct dal_crossings {
 
 /* Advances the run to time T, a whole number of its steps, and reports every crossing.  Where g
  * changes sign within a step, a shorter step of the same method from the beginning of that step
- * ends on g = 0 to rounding; the trajectory itself does not change.  A pair of crossings within one
- * step is found where g has an extremum between them.  A start with g = 0 is no crossing. [alloc]
+ * ends on g = 0 to rounding (compare Henon 1982, DOI 10.1016/0167-2789(82)90034-3); the
+ * trajectory itself does not change.  A pair of crossings within one step is found where g has an
+ * extremum between them.  A start with g = 0 is no crossing. [alloc]
  * Errors: those of the steps and of the callback; DAL_ARGUMENT. */
 dal_status dal_run_crossings(dal_run *run, double T, const dal_poincare *section,
                              dal_crossings *found, dal_error *error);
