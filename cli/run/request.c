@@ -134,7 +134,7 @@ run_request request_default(void)
     return request;
 }
 
-static void free_settings(request_settings *settings)
+void request_free_settings(request_settings *settings)
 {
     for (int i = 0; i < settings->count; i++) free((char *)settings->item[i].name);
     free(settings->item);
@@ -144,8 +144,8 @@ void request_free(run_request *request)
 {
     dal_run_free(request->run);
     dal_model_free(request->model);
-    free_settings(&request->set);
-    free_settings(&request->start);
+    request_free_settings(&request->set);
+    request_free_settings(&request->start);
     free(request->row_time);
     free(request->list);
     *request = request_default();

@@ -78,6 +78,7 @@ bool request_option_is_number(int option);
 int request_find_option(const char *name);
 /* Adds a setting to those of a parameter or a start, or replaces that of the same name. */
 void request_add_setting(request_settings *settings, const char *name, double value);
+void request_free_settings(request_settings *settings);
 
 /* All below return CLI_DONE, or print and return an exit status. */
 

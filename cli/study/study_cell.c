@@ -106,11 +106,10 @@ typedef struct cell_run {
 
 /* ---- the request ---- */
 
-static void add_settings(request_settings *settings, const dal_setting *setting, int count,
-                         double unit)
+static void add_settings(request_settings *to, const request_settings *from, double unit)
 {
-    for (int i = 0; i < count; i++)
-        request_add_setting(settings, setting[i].name, setting[i].value * unit);
+    for (int i = 0; i < from->count; i++)
+        request_add_setting(to, from->item[i].name, from->item[i].value * unit);
 }
 
 /* By default p_i = d, -d/2, d/3, ... and pi_i = d/2, -d/3, ...: no two alike, and not along the
@@ -119,8 +118,8 @@ static void add_displacement(cell_run *r)
 {
     const study_case *e = r->cell->of_case;
     request_settings *start = &r->request.start;
-    add_settings(start, e->displace, e->displace_count, e->displacement);
-    for (int i = 0; e->displace_count == 0 && i < e->system->n; i++) {
+    add_settings(start, &e->displace, e->displacement);
+    for (int i = 0; e->displace.count == 0 && i < e->system->n; i++) {
         const double size = i % 2 ? -e->displacement : e->displacement;
         char *p = cli_format("p_%s", e->system->coordinate[i]);
         char *pi = cli_format("pi_%s", e->system->coordinate[i]);
@@ -153,8 +152,8 @@ static void make_request(cell_run *r)
                      REQUEST_OPTION(time) | REQUEST_OPTION(samples) | REQUEST_OPTION(sampling) |
                      REQUEST_OPTION(statistics);
     memcpy(request->text, e->option, sizeof request->text);
-    add_settings(&request->set, e->set, e->set_count, 1.0);
-    add_settings(&request->start, e->start, e->start_count, 1.0);
+    add_settings(&request->set, &e->set, 1.0);
+    add_settings(&request->start, &e->start, 1.0);
     if (c->start == STUDY_DISPLACED) add_displacement(r);
 }
 

@@ -141,12 +141,11 @@ typedef struct group_reader {
 static int read_displacement(study_case *e, const document *doc, const yaml_node_t *node)
 {
     document_pair pair;
+    double value;
     int status = document_check_mapping(doc, node, "displace", "names and values");
     for (int i = 0; status == CLI_DONE && document_get_pair(doc, node, i, &pair); i++) {
-        const size_t count = (size_t)++e->displace_count;
-        e->displace = cli_realloc(e->displace, count * sizeof *e->displace);
-        e->displace[i].name = pair.name;
-        status = document_number(doc, pair.value, "displace", &e->displace[i].value);
+        status = document_number(doc, pair.value, "displace", &value);
+        if (status == CLI_DONE) request_add_setting(&e->displace, pair.name, value);
     }
     return status;
 }
@@ -224,7 +223,7 @@ static int load_system(const group_reader *g, study_case *e)
 
 /* Checks that the system knows the names; what else may be wrong with values is for the cells. */
 static int check_names(const group_reader *g, const yaml_node_t *node, const char *what,
-                       const dal_setting *start, int count)
+                       const request_settings *start)
 {
     dal_run *run;
     dal_error error = {0};
@@ -232,10 +231,10 @@ static int check_names(const group_reader *g, const yaml_node_t *node, const cha
     dal_run_spec spec = {.system = e->system,
                          .method = e->methods[0],
                          .options = dal_options_default(),
-                         .parameters = e->set,
-                         .parameter_count = e->set_count,
-                         .start = start,
-                         .start_count = count};
+                         .parameters = e->set.item,
+                         .parameter_count = e->set.count,
+                         .start = start->item,
+                         .start_count = start->count};
     if (!node) return CLI_DONE;
     if (!e->system->call.adjoint) spec.options.space = DAL_PHYSICAL;
     const dal_status created = dal_run_create(&run, &spec, &error);
@@ -250,10 +249,9 @@ static int read_first_case(const group_reader *g, study_case *e)
     const parsed_study *p = &g->parsed;
     int status = read_methods(e, g->doc, p->integrators);
     if (status == CLI_DONE) status = load_system(g, e);
-    if (status == CLI_DONE) status = check_names(g, p->set, "set", NULL, 0);
-    if (status == CLI_DONE) status = check_names(g, p->start, "start", e->start, e->start_count);
-    if (status == CLI_DONE)
-        status = check_names(g, p->displace, "displace", e->displace, e->displace_count);
+    if (status == CLI_DONE) status = check_names(g, p->set, "set", &(request_settings){0});
+    if (status == CLI_DONE) status = check_names(g, p->start, "start", &e->start);
+    if (status == CLI_DONE) status = check_names(g, p->displace, "displace", &e->displace);
     return status;
 }
 
@@ -401,10 +399,9 @@ void study_plan_free(study_plan *plan)
             free(e->methods);
         }
         free(e->label);
-        free(e->names);
-        free(e->set);
-        free(e->start);
-        free(e->displace);
+        request_free_settings(&e->set);
+        request_free_settings(&e->start);
+        request_free_settings(&e->displace);
     }
     if (plan->doc) yaml_document_delete(&plan->doc->yaml);
     free(plan->doc);

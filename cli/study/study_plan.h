@@ -23,11 +23,9 @@ typedef struct study_case {
     double step[STUDY_STEPS], time, displacement;
     int steps, starts; /* starts: bit STUDY_x set */
     long long samples, statistics;
-    dal_options options;                 /* but step and space, and as they were given: */
-    const char *option[REQUEST_OPTIONS]; /* NULL: not given */
-    dal_setting *set, *start, *displace;
-    int set_count, start_count, displace_count;
-    char *names; /* of velocities, where start names those of a projection to D = 0 */
+    dal_options options;                   /* but step and space, and as they were given: */
+    const char *option[REQUEST_OPTIONS];   /* NULL: not given */
+    request_settings set, start, displace; /* displace: in units of displacement */
     dal_method *methods;
     int method_count;
     int first_cell, cells; /* its cells stand together */

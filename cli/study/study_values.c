@@ -263,61 +263,40 @@ void study_variants_apply(const study_variants *v, int i, study_case *e)
 {
     char name[256];
     size_t length;
-    const size_t of_set = (size_t)v->of_set, of_start = (size_t)v->count - of_set;
+    double *value = cli_calloc((size_t)v->count, sizeof *value);
     const double seed = v->drawn ? choose(&v->seed.values, &i) : 0.0;
-    e->set = cli_calloc((size_t)v->count + 1, sizeof *e->set);
-    e->start = cli_calloc(of_start + 1, sizeof *e->start);
     for (int k = v->count - 1; k >= 0; k--) {
-        const variant_setting *s = &v->setting[k];
-        snprintf(name, sizeof name, "%s:%s", k < v->of_set ? "set" : "start", s->name);
-        e->set[k].name = s->name;
-        e->set[k].value = s->values.is_drawn
-                              ? draw(name, (uint64_t)seed, s->values.low, s->values.high)
-                              : choose(&s->values, &i);
+        const study_values *values = &v->setting[k].values;
+        snprintf(name, sizeof name, "%s:%s", k < v->of_set ? "set" : "start", v->setting[k].name);
+        value[k] = values->is_drawn ? draw(name, (uint64_t)seed, values->low, values->high)
+                                    : choose(values, &i);
     }
-    memcpy(e->start, e->set + of_set, of_start * sizeof *e->start);
-    e->set_count = (int)of_set;
-    e->start_count = (int)of_start;
+    for (int k = 0; k < v->count; k++)
+        request_add_setting(k < v->of_set ? &e->set : &e->start, v->setting[k].name, value[k]);
     FILE *out = cli_memstream_open(&e->label, &length);
     fputs(e->group, out);
     for (int k = 0; k < v->count; k++)
-        if (v->setting[k].values.count > 1) put_label(out, &v->setting[k], e->set[k].value);
+        if (v->setting[k].values.count > 1) put_label(out, &v->setting[k], value[k]);
     if (v->drawn) put_label(out, &v->seed, seed);
     cli_memstream_close(out);
+    free(value);
 }
 
 /* ---- projection to D = 0 ------------------------------------------------------------------- */
-
-/* All velocities become settings of the start; their names x' are in memory of the case. */
-static void replace_velocities(study_case *e, const double *v)
-{
-    const int n = e->system->n;
-    size_t length;
-    FILE *out = cli_memstream_open(&e->names, &length);
-    for (int i = 0; i < n; i++) fprintf(out, "%s'%c", e->system->coordinate[i], '\0');
-    cli_memstream_close(out);
-    const char *name = e->names;
-    e->start = cli_realloc(e->start, ((size_t)e->start_count + (size_t)n + 1) * sizeof *e->start);
-    for (int k = 0; k < n; k++, name += strlen(name) + 1) {
-        int i = 0;
-        while (i < e->start_count && strcmp(e->start[i].name, name) != 0) i++;
-        e->start[i] = (dal_setting){name, v[k]};
-        if (i == e->start_count) e->start_count++;
-    }
-}
 
 /* x[2n + ..] becomes the start with its velocities projected to D = 0. */
 static dal_status find_velocities(const study_case *e, double *x, dal_error *error)
 {
     dal_evaluator *evaluator = NULL;
-    dal_setting *start = cli_calloc((size_t)e->start_count + 1, sizeof *start);
+    dal_setting *start = cli_calloc((size_t)e->start.count, sizeof *start);
     int count = 0;
-    for (int i = 0; i < e->start_count; i++) {
-        const char *name = e->start[i].name;
+    for (int i = 0; i < e->start.count; i++) {
+        const char *name = e->start.item[i].name;
         if (strncmp(name, "p_", 2) != 0 && strncmp(name, "pi_", 3) != 0)
-            start[count++] = e->start[i];
+            start[count++] = e->start.item[i];
     }
-    dal_status status = dal_evaluator_create(&evaluator, e->system, e->set, e->set_count, error);
+    dal_status status =
+        dal_evaluator_create(&evaluator, e->system, e->set.item, e->set.count, error);
     if (status == DAL_OK) status = dal_evaluator_start(evaluator, start, count, x, error);
     if (status == DAL_OK) status = dal_project_velocity(evaluator, 0.0, x, x + e->system->n);
     dal_evaluator_free(evaluator);
@@ -329,12 +308,16 @@ int study_variants_project_start(const study_variants *v, study_case *e)
 {
     dal_error error = {0};
     if (v->start_drawn == 0 || e->system->m == 0) return CLI_DONE;
-    double *x = cli_calloc(2 * (size_t)e->system->n + (size_t)e->system->m + 1, sizeof *x);
+    const int n = e->system->n;
+    double *x = cli_calloc(2 * (size_t)n + (size_t)e->system->m, sizeof *x);
     const dal_status found = find_velocities(e, x, &error);
     int status = CLI_DONE;
-    if (cli_is_ok(found))
-        replace_velocities(e, x + e->system->n);
-    else
+    for (int i = 0; cli_is_ok(found) && i < n; i++) {
+        char *name = cli_format("%s'", e->system->coordinate[i]);
+        request_add_setting(&e->start, name, x[n + i]);
+        free(name);
+    }
+    if (found != DAL_OK)
         status = document_fail(v->doc, v->start_node, "%s: no start on D = 0 was found: %s",
                                e->label, error.message[0] ? error.message : dal_status_text(found));
     free(x);
