@@ -134,10 +134,10 @@ static void put_value(json_writer *w, const run_request *request, int option)
         json_put_number(w, name, request->options.step);
         break;
     case REQUEST_time:
-        json_put_number(w, name, request->time);
+        json_put_number(w, name, request->given_time);
         break;
     case REQUEST_samples:
-        json_put_integer(w, name, request->samples);
+        json_put_integer(w, name, request->given_samples);
         break;
     case REQUEST_statistics:
         json_put_integer(w, name, request->statistics);

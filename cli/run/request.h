@@ -48,6 +48,8 @@ typedef struct run_request {
     double time;
     long long samples, statistics;
     request_sampling sampling;
+    double given_time; /* these two before they are made those of whole steps */
+    long long given_samples;
     double *row_time; /* [samples + 1]; NULL: at equal distances */
     long long times;  /* number of times that were given */
     char *list;       /* those as a text */

@@ -162,6 +162,8 @@ int row_times_check_step(const run_request *request, double time)
 
 int row_times_fill(run_request *request)
 {
+    request->given_time = request->time;
+    request->given_samples = request->samples;
     int status = request->times > 0 ? finish_list(request) : CLI_DONE;
     if (status == CLI_DONE) status = row_times_check_step(request, request->time);
     if (status != CLI_DONE || request->times > 0) return status;

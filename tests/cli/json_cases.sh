@@ -68,6 +68,26 @@ END
     try 0 study breaks.yaml --output breaks
     holds "line ends" json breaks/manifest.json "d['study'] == 'a status\n  done'"
 
+    case_is "a cell makes the request that its options make"
+    cat >cell.yaml <<'END'
+integrators: [gauss4]
+step: 0.3
+time: 1.6
+samples: 7
+statistics: 2
+starts: displaced
+options: {solver-tolerance: 1e-11, solver: newton}
+systems: [{system: line.yaml, label: cell, set: {k: 0.7}, start: {x: 0.1}, displace: {p_x: 3}}]
+END
+    try 0 study cell.yaml --output cell
+    try 0 run ./line.yaml --integrator gauss4 --step 0.29999999999999999 --time 1.6 --samples 7 \
+        --sampling steps --statistics 2 --space lifted --solver-tolerance 1e-11 --solver newton \
+        --set k=0.7 --start x=0.1 --start p_x=3.0000000000000004e-8 --output one
+    input() { python3 -c 'import json, sys; print(json.load(open(sys.argv[1]))["input"])' "$1"; }
+    holds "$(input cell/runs/cell_*/manifest.json)" \
+        [ "$(input cell/runs/cell_*/manifest.json)" = "$(input one/manifest.json)" ]
+    holds "other rows" cmp cell/runs/cell_*/trajectory.npy one/trajectory.npy
+
     case_is "progress"
     try 0 run ./line.yaml --integrator rk4 --step 0.1 --time 5 --progress json --output -
     cp err progress.lines
