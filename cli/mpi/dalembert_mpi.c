@@ -185,7 +185,7 @@ static int run_study(const mpi_settings *s, int rank, int size)
     int status = study_directory_read(&dir, &plan);
     q.order = study_sort_cells(&plan);
     plan.interval = s->run.interval;
-    for (int i = 0; i < plan.case_count; i++) plan.cases[i].native = s->run.native;
+    plan.native = s->run.native;
     status = max_status(status);
     if (status == CLI_DONE) {
         cli_catch_signals();

@@ -316,7 +316,7 @@ static int run_in_directory(cell_run *r, const study_stop_check *check)
         recorder->interval = r->plan->interval;
         recorder->progress = PROGRESS_OFF;
         native_compile_steps(r->request.run, r->cell->method, left / r->cell->step,
-                             r->cell->of_case->native);
+                             r->plan->native);
         ended = recorder_run(recorder, &error);
     }
     return ended == CLI_DONE || ended == CLI_FAILED ? take_results(r, &error, ended) : ended;

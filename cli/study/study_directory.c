@@ -283,7 +283,7 @@ int study_directory_run(const study_directory *dir, study_plan *plan,
 {
     cli_catch_signals();
     plan->interval = options->interval;
-    for (int i = 0; i < plan->case_count; i++) plan->cases[i].native = options->native;
+    plan->native = options->native;
     return study_directory_finish(dir, plan, study_pool_run(plan, options->threads));
 }
 

@@ -29,13 +29,13 @@ typedef struct study_case {
     dal_method *methods;
     int method_count;
     int first_cell, cells; /* its cells stand together */
-    native_mode native;
 } study_case;
 
 typedef struct study_plan {
     const char *copies; /* directory with copies of system files, or NULL */
     const char *runs;   /* where the directories of the runs are */
     double interval;    /* seconds between checkpoints of a run */
+    native_mode native;
     const char *title;
     document *doc; /* the parsed text, to which all names point */
     study_case *cases;
