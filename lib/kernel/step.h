@@ -318,8 +318,9 @@ DAL_INLINE void dal__tangent_field(dal_step *s, double t, const num *y, num *DAL
 #endif
 
 #if DAL_WITH_LIFT
-/* That of the canonical variables but q' = v. */
-DAL_INLINE void dal__lifted_field(dal_step *s, double t, const num *y, num *DAL_RESTRICT dy)
+/* That of the canonical variables but q' = v.  As a call of its own it would cost 6 % of a step. */
+static inline DAL_UNUSED __attribute__((always_inline)) void
+dal__lifted_field(dal_step *s, double t, const num *y, num *DAL_RESTRICT dy)
 {
     const int n = DAL_N(s);
     DAL__MARK(s);
