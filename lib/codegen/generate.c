@@ -178,7 +178,7 @@ void dal__decide_conditions(dal__generation *g)
         {"DAL_WITH_SIGN", calls & DAL__CALLS_SIGN},
         {"DAL_WITH_LIBM", calls & DAL__CALLS_LIBM},
         {"DAL_WITH_LIFT", g->layout.lifted || kernel & lifts},
-        {"DAL_WITH_TANGENT", kernel & DAL_KERNEL_TANGENT},
+        {"DAL_WITH_TANGENT", g->layout.lifted && kernel & DAL_KERNEL_TANGENT},
         {"DAL_WITH_SOLVE", kernel & DAL_KERNEL_SOLVE},
         {"DAL_WITH_METHOD_STATE", kernel & DAL_KERNEL_METHOD_STATE},
         {"DAL_WITH_CONSTRAINT", kernel & DAL_KERNEL_CONSTRAINT},
