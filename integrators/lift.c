@@ -13,7 +13,6 @@
  * p = pi = 0 and where 1/e = 0, else 2.  Costs 2n steps of NAME with F_q, F_v. */
 #include <dalembert_kernel.h>
 
-#if DAL_WITH_TANGENT
 /* The flow of pi^2/(2e) over a time h; where pi = 0, q, v have the bits of NAME. */
 DAL_INLINE void drift(dal_step *s, double h)
 {
@@ -88,20 +87,15 @@ DAL_INLINE dal_status flow(dal_step *s)
     dal_add(s, p, size, d);
     return DAL_OK;
 }
-#endif
 
 DAL_INLINE dal_status step(dal_step *s)
 {
-#if DAL_WITH_TANGENT /* a generated file of the physical space has none */
-    if (DAL_LIFTED(s)) {
-        drift(s, 0.5 * s->h);
-        const dal_status status = flow(s);
-        if (dal_failed(status)) return status;
-        drift(s, 0.5 * s->h);
-        return DAL_OK;
-    }
-#endif
-    return dal_inner(s, s->h);
+    if (!DAL_LIFTED(s)) return dal_inner(s, s->h);
+    drift(s, 0.5 * s->h);
+    const dal_status status = flow(s);
+    if (dal_failed(status)) return status;
+    drift(s, 0.5 * s->h);
+    return DAL_OK;
 }
 
 DAL_INTEGRATOR(

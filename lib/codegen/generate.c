@@ -45,6 +45,14 @@ static bool observes(const dal__generation *g, dal__program_code code)
            code == DAL__PROGRAM_INVARIANTS || code == DAL__PROGRAM_EXACT;
 }
 
+/* Whether the file has the code of the canonical variables, of which some methods have calls on
+ * any space. */
+static bool has_lift(const dal__generation *g)
+{
+    return g->layout.lifted ||
+           g->kernel & (DAL_KERNEL_EULER | DAL_KERNEL_COLLOCATION | DAL_KERNEL_TANGENT);
+}
+
 /* Whether the kernel, or the method, evaluates a callback, be it present or not. */
 bool dal__evaluates(const dal__generation *g, dal__program_code code)
 {
@@ -53,7 +61,7 @@ bool dal__evaluates(const dal__generation *g, dal__program_code code)
     switch (code) {
     case DAL__PROGRAM_ADJOINT:
     case DAL__PROGRAM_GAUGE:
-        return g->layout.lifted || kernel & (DAL_KERNEL_EULER | DAL_KERNEL_COLLOCATION);
+        return has_lift(g);
     case DAL__PROGRAM_JACOBIAN:
         return kernel & (DAL_KERNEL_SOLVE | DAL_KERNEL_TANGENT);
     case DAL__PROGRAM_CONSTRAINT:
@@ -166,7 +174,7 @@ void dal__decide_conditions(dal__generation *g)
     const bool rank = checks_rank(g), guards = g->layout.system->guards > 0;
     if (calls) g->kernel |= DAL_KERNEL_FUNCTIONS;
     if (rank) g->kernel |= DAL_KERNEL_ALGEBRA;
-    const unsigned kernel = g->kernel, lifts = DAL_KERNEL_EULER | DAL_KERNEL_COLLOCATION;
+    const unsigned kernel = g->kernel;
     const dal__condition list[] = {
         {"DAL_SPECIALISED", true},
         {"DAL_NUM_QUAD", false},
@@ -177,8 +185,8 @@ void dal__decide_conditions(dal__generation *g)
         {"DAL_WITH_SINCOS", calls & DAL__CALLS_SINCOS},
         {"DAL_WITH_SIGN", calls & DAL__CALLS_SIGN},
         {"DAL_WITH_LIBM", calls & DAL__CALLS_LIBM},
-        {"DAL_WITH_LIFT", g->layout.lifted || kernel & lifts},
-        {"DAL_WITH_TANGENT", g->layout.lifted && kernel & DAL_KERNEL_TANGENT},
+        {"DAL_WITH_LIFT", has_lift(g)},
+        {"DAL_WITH_TANGENT", kernel & DAL_KERNEL_TANGENT},
         {"DAL_WITH_SOLVE", kernel & DAL_KERNEL_SOLVE},
         {"DAL_WITH_METHOD_STATE", kernel & DAL_KERNEL_METHOD_STATE},
         {"DAL_WITH_CONSTRAINT", kernel & DAL_KERNEL_CONSTRAINT},
