@@ -120,23 +120,28 @@ typedef struct dal_point {
  * a status, or leaves NaN in the lanes that failed. */
 typedef dal_status dal_callback(const dal_system *system, const dal_point *at, double *out);
 
-/* The callbacks of a step; nw = n + multipliers.  All but field may be NULL, which excludes what is
- * in parentheses. */
+/* The callbacks of a step: code, member, what each reads of its point, the numbers of its output,
+ * with nw = n + multipliers, and what they are.  All but field may be NULL, which excludes what is
+ * in parentheses.  guards keep their signs; blocks is of F = a + R h, B = A by Chetaev's rule;
+ * potential is of L = v.Wv/2 + g.v - U, W constant, for each coordinate those that U and W couple
+ * it with, and the first two are 0 where that U is quadratic. */
+/* clang-format off */
+#define DAL_CALLBACK_LIST(CALLBACK) \
+    CALLBACK(FIELD, field, tqv, nw) /* F, then dg/dt */ \
+    CALLBACK(ADJOINT, adjoint, tqvpi, 3 * n) /* F, F_q^T pi, F_v^T pi (lifted space) */ \
+    CALLBACK(JACOBIAN, jacobian, tqv, nw * (n + nw)) /* F_q, F_(v,g) (Newton) */ \
+    CALLBACK(CONSTRAINT, constraint, tqv, m + 2 * m * n) /* D, A, W^-1 A^T (+project) */ \
+    CALLBACK(ENERGY_NORMAL, energy_normal, tqv, 1 + 3 * n) /* E, E_q, E_v, W^-1 E_q */ \
+    CALLBACK(GAUGE, gauge, t, 1) /* mu_e(t); NULL: 0 */ \
+    CALLBACK(GUARDS, guards, tqv, guards) /* denominators; NULL: none */ \
+    CALLBACK(BLOCKS, blocks, tqv, 2 * (m + m * n) + n) /* D, A, R = W^-1 B^T, a = W^-1 b, */ \
+        /* c = D_q v + D_t (methods that enforce D) */ \
+    CALLBACK(POTENTIAL, potential, tqv, 3 * n) /* U, U_q.v, v.Wv (discrete-gradient) */
+/* clang-format on */
 typedef struct dal_callbacks {
-    dal_callback *field;      /* out[nw]: F, then dg/dt */
-    dal_callback *adjoint;    /* out[3n]: F, F_q^T pi, F_v^T pi          (NULL: no lifted space) */
-    dal_callback *jacobian;   /* out[nw*n + nw*nw]: F_q, F_(v,g)         (NULL: no Newton) */
-    dal_callback *constraint; /* out[m + m*n + n*m]: D, A, W^-1 A^T      (NULL: no +project) */
-    dal_callback
-        *energy_normal;      /* out[1 + 3n]: E, E_q, E_v, W^-1 E_q  (NULL: no +project-energy) */
-    dal_callback *gauge;     /* out[1]: mu_e(t)                         (NULL: mu_e = 0) */
-    dal_callback *guards;    /* out[guards]: must keep their signs, denominators   (NULL: none) */
-    dal_callback *blocks;    /* out[m + m*n + n*m + n + m]: D, A, R = W^-1 B^T, a = W^-1 b,
-                                c = D_q v + D_t of F = a + R h; B = A by Chetaev's rule
-                                                              (NULL: no methods that enforce D) */
-    dal_callback *potential; /* out[3n]: of L = v.Wv/2 + g.v - U, W constant, for each coordinate
-                                U, U_q.v and v.Wv of those it is coupled with by U and W; the first
-                                two are 0 where that U is quadratic  (NULL: no discrete-gradient) */
+#define MEMBER(code, member, ...) dal_callback *member;
+    DAL_CALLBACK_LIST(MEMBER)
+#undef MEMBER
 } dal_callbacks;
 
 /* What is known of the constraints and of the energy; set by a model, or by hand. */

@@ -84,6 +84,22 @@ static void test_every_method(void)
     }
 }
 
+/* What rk4 does not use of the kernel is not in its file. */
+static void test_length(void)
+{
+    enum { MAX_LINES = 900 };
+    dal_run_spec rk4 = spec;
+    char *text = NULL;
+    int lines = 0;
+    CU_ASSERT_EQUAL(dal_method_parse(&rk4.method, "rk4", NULL), DAL_OK);
+    CU_ASSERT_EQUAL_FATAL(dal_generate(&rk4, 1, NULL, &text, NULL), DAL_OK);
+    for (const char *c = text; *c; c++) lines += *c == '\n';
+    CU_ASSERT(lines <= MAX_LINES);
+    CU_ASSERT_PTR_NULL(strstr(text, "dal_solve"));
+    CU_ASSERT_PTR_NULL(strstr(text, "dal_invert"));
+    free(text);
+}
+
 /* Whatever a file, and so a system, is called: the names in the text are C. */
 static void test_unusual_names(void)
 {
@@ -166,6 +182,7 @@ void suite_generate(void)
     CU_pSuite suite = CU_add_suite("generate", set_up, tear_down);
     CU_add_test(suite, "what cannot be generated is refused", test_refusals);
     CU_add_test(suite, "every integrator", test_every_method);
+    CU_add_test(suite, "a file has what it needs", test_length);
     CU_add_test(suite, "systems with unusual names", test_unusual_names);
     CU_add_test(suite, "a system too large", test_too_large);
     CU_add_test(suite, "memory runs out", test_memory);

@@ -1,12 +1,26 @@
 #!/bin/sh
 # embed-sources.sh FILE... - writes the C table of the sources that are embedded in the library for
-# generated files, without their #include lines: a generated file holds them all.
+# generated files.  They lack their #include lines, since a generated file holds them all; those of
+# the kernel and the templates also lack include guards, comments that begin a line, and empty
+# lines: they are explained where they stand, and a generated file has its own comment.
 set -e
+plain() { # FILE
+    case $1 in
+    *.c) grep -v '^#include' "$1" ;;
+    *) awk '
+        /^#include/ || /^$/ || /^#ifndef DAL_KERNEL_[A-Z_]*_H$/ { next }
+        /^#define DAL_KERNEL_[A-Z_]*_H$/ { guarded = 1; next }
+        /^\/\*/ { comment = 1 }
+        comment { if (/\*\/$/) comment = 0; next }
+        { if (held) print line; line = $0; held = 1 }
+        END { if (!guarded) print line }' "$1" ;; # the last #endif is that of the guard
+    esac
+}
 echo '#include "codegen/generate.h"'
 number=0
 for file in "$@"; do
     printf 'static const char text%d[] = {\n' $number
-    grep -v '^#include' "$file" | od -An -v -tx1 | sed 's/ \(..\)/0x\1,/g'
+    plain "$file" | od -An -v -tx1 | sed 's/ \(..\)/0x\1,/g'
     echo '0};'
     number=$((number + 1))
 done

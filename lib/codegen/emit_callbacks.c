@@ -39,13 +39,16 @@ static bool is_inlined(const dal__generation *g, dal__program_code code)
 static void write_program(dal__generation *g, dal__program_code code, const char *name)
 {
     if (!dal__wants(g, code)) return;
-    dal__buffer_print(
-        &g->text,
-        "%s void dal__%s(const dal_stored *w, dal_time t, const num *q, const num *v,\n"
-        "    const num *pi, num *out)\n{\n",
-        is_inlined(g, code) ? "DAL_INLINE" : "DAL_COLD", name);
+    dal__buffer_print(&g->text, "%s void dal__%s(DAL__ARGUMENTS)\n{\n",
+                      is_inlined(g, code) ? "DAL_INLINE" : "DAL_COLD", name);
     dal__tape_write(g->programs->tapes, g->programs->program[code].tape, g->input, &g->text);
-    dal__buffer_append(&g->text, "}\n\n");
+    dal__buffer_append(&g->text, "}\n");
+}
+
+/* Whether a program writes its outputs where they belong: none of them depends on a pivot. */
+static bool is_direct(const dal__generation *g, dal__program_code code)
+{
+    return is_inlined(g, code) && g->programs->program[code].checked == 0;
 }
 
 /* The case of one callback.  A function that is not inlined gets copies, so that the state itself
@@ -56,10 +59,15 @@ static void write_case(dal__generation *g, dal__program_code code, const char *c
     const dal__program *p = &g->programs->program[code];
     const int outputs = p->outputs, all = outputs + 2 * p->checked;
     if (!dal__wants(g, code)) return;
+    if (is_direct(g, code)) {
+        dal__buffer_print(&g->text, "    case DAL_EVAL_%s: dal__%s(w, t, q, v, pi, out); break;\n",
+                          callback, name);
+        return;
+    }
     dal__buffer_print(&g->text, "    case DAL_EVAL_%s: {\n        num all[%d];\n", callback,
                       all > 0 ? all : 1);
     if (is_inlined(g, code)) {
-        dal__buffer_print(&g->text, "        dal__%s(work, t, q, v, pi, all);\n", name);
+        dal__buffer_print(&g->text, "        dal__%s(w, t, q, v, pi, all);\n", name);
     } else {
         const bool momenta = code == DAL__PROGRAM_ADJOINT;
         dal__buffer_append(&g->text, "        num q_[DAL__N], v_[DAL__NW], pi_[DAL__N];\n"
@@ -67,14 +75,14 @@ static void write_case(dal__generation *g, dal__program_code code, const char *c
                                      "        DAL_EACH(i, DAL__NW) v_[i] = v[i];\n");
         dal__buffer_print(&g->text, "        DAL_EACH(i, DAL__N) pi_[i] = %s;\n",
                           momenta ? "pi[i]" : "dal_num(0.0)");
-        dal__buffer_print(&g->text, "        dal__%s(work, t, q_, v_, pi_, all);\n", name);
+        dal__buffer_print(&g->text, "        dal__%s(w, t, q_, v_, pi_, all);\n", name);
     }
     dal__buffer_print(&g->text,
                       "        dal__mask_singular(all, %d, %d, out);\n        break;\n    }\n",
                       outputs, p->checked);
 }
 
-static void write_dispatch(dal__generation *g)
+static void write_mask(dal__generation *g)
 {
     dal__buffer_append(
         &g->text,
@@ -85,22 +93,30 @@ static void write_dispatch(dal__generation *g)
         "    dal_mask ok = dal_all();\n"
         "    DAL_EACH(k, pivots)\n    ok &= dal_less(");
     dal__buffer_number(&g->text, DAL__PIVOT_LEAST);
-    dal__buffer_append(
-        &g->text, " * all[outputs + 2 * k + 1], dal_abs(all[outputs + 2 * k]));\n"
-                  "    DAL_EACH(i, outputs) out[i] = dal_select(ok, all[i], "
-                  "dal_num(NAN));\n}\n\n"
-                  "/* Evaluates a callback for one group of lanes. */\n"
-                  "DAL_INLINE void dal__eval_program(const dal_stored *work, dal_callback_code "
-                  "code, dal_time t,\n    const num *q, const num *v, const num *pi, "
-                  "num *out)\n{\n"
-                  "    switch (code) {\n");
-#define PROGRAM(code, name, reads) write_case(g, DAL__PROGRAM_##code, #code, #name);
-    DAL__WIDE_LIST(PROGRAM)
+    dal__buffer_append(&g->text, " * all[outputs + 2 * k + 1], dal_abs(all[outputs + 2 * k]));\n"
+                                 "    DAL_EACH(i, outputs) out[i] = dal_select(ok, all[i], "
+                                 "dal_num(NAN));\n}\n");
+}
+
+static void write_dispatch(dal__generation *g)
+{
+    bool direct = true;
+#define PROGRAM(code, name, ...)                                                                   \
+    if (dal__wants(g, DAL__PROGRAM_##code)) direct &= is_direct(g, DAL__PROGRAM_##code);
+    DAL_CALLBACK_LIST(PROGRAM)
+#undef PROGRAM
+    if (!direct) write_mask(g);
+    dal__buffer_append(&g->text,
+                       "/* Evaluates a callback for one group of lanes. */\n"
+                       "DAL_INLINE void dal__eval_program(const dal_stored *w, dal_callback_code "
+                       "code, dal_time t, const num *q,\n    const num *v, const num *pi, num *out)"
+                       "\n{\n    switch (code) {\n");
+#define PROGRAM(code, name, ...) write_case(g, DAL__PROGRAM_##code, #code, #name);
+    DAL_CALLBACK_LIST(PROGRAM)
 #undef PROGRAM
     if (dal__evaluates(g, DAL__PROGRAM_GAUGE) && !dal__wants(g, DAL__PROGRAM_GAUGE))
-        dal__buffer_append(&g->text, "    case DAL_EVAL_GAUGE:\n        out[0] = dal_num(0.0);\n"
-                                     "        break;\n");
-    dal__buffer_append(&g->text, "    default:\n        break;\n    }\n}\n\n");
+        dal__buffer_append(&g->text, "    case DAL_EVAL_GAUGE: out[0] = dal_num(0.0); break;\n");
+    dal__buffer_append(&g->text, "    default: break;\n    }\n}\n");
 }
 
 /* ---- parameters and start ---- */
@@ -121,7 +137,7 @@ void dal__write_start(dal__generation *g)
                                  "static void dal__hoist(dal_stored *w)\n{\n    (void)w;\n");
     dal__tapes_write_hoisted(g->programs->tapes, &g->text);
     dal__buffer_print(&g->text,
-                      "}\n\n/* The state at t = 0. */\n"
+                      "}\n/* The state at t = 0. */\n"
                       "static void dal__start(const dal_stored *work, num *y)\n{\n"
                       "    num out[%d];\n"
                       "    dal__start_values(work, 0.0, NULL, NULL, NULL, out);\n"
@@ -134,7 +150,7 @@ void dal__write_start(dal__generation *g)
         dal__buffer_number(&g->text, g->spec->start[i].value);
         dal__buffer_append(&g->text, ");\n");
     }
-    dal__buffer_append(&g->text, "}\n\n");
+    dal__buffer_append(&g->text, "}\n");
 }
 
 void dal__emit_callbacks(dal__generation *g)
@@ -143,13 +159,15 @@ void dal__emit_callbacks(dal__generation *g)
     if (!g->input) return;
     dal__buffer_append(&g->text,
                        g->product == DAL__OBSERVE
-                           ? "\n/* Each lane has its time. */\n"
+                           ? "/* Each lane has its time. */\n"
                              "typedef num dal_time;\n#define DAL_NUM_TIME(t) (t)\n"
-                           : "\n/* All lanes have one time. */\n"
+                           : "/* All lanes have one time. */\n"
                              "typedef double dal_time;\n#define DAL_NUM_TIME(t) dal_num(t)\n");
-    dal__buffer_append(&g->text, "\n/* ---- the system ---- */\n\n");
-#define PROGRAM(code, name, reads) write_program(g, DAL__PROGRAM_##code, #name);
-    DAL__WIDE_LIST(PROGRAM)
+    dal__buffer_append(&g->text, "/* ---- the system ---- */\n"
+                                 "#define DAL__ARGUMENTS const dal_stored *w, dal_time t, const "
+                                 "num *q, const num *v, \\\n    const num *pi, num *out\n");
+#define PROGRAM(code, name, ...) write_program(g, DAL__PROGRAM_##code, #name);
+    DAL_CALLBACK_LIST(PROGRAM)
 #undef PROGRAM
     if (g->product == DAL__FILE) write_program(g, DAL__PROGRAM_START, "start_values");
     if (g->product == DAL__FILE || g->product == DAL__OBSERVE) {
@@ -183,7 +201,7 @@ void dal__write_observe(dal__generation *g)
     int next = 0;
     dal__buffer_append(
         &g->text,
-        "\nstatic void dal__observe(const dal_stored *w, dal_time t, const num *y, num *out)\n{\n"
+        "static void dal__observe(const dal_stored *w, dal_time t, const num *y, num *out)\n{\n"
         "    const num *q = y, *v = y + DAL__N;\n"
         "    (void)q, (void)v, (void)w, (void)t, (void)out;\n");
     for (int group = 0; group < DAL__OBSERVABLE_GROUPS; group++) {

@@ -158,6 +158,16 @@ dal_status dal__generation_check(dal__generation *g, const char *prefix, dal_err
 
 /* ---- constants and conditions ---- */
 
+/* Whether all groups of lanes are stepped as one larger system: where registers hold what a step
+ * needs of two groups. */
+static bool steps_together(const dal__generation *g)
+{
+    const dal_integrator *method = g->layout.method.layer[0];
+    const bool few_stages = method->properties & DAL_EXTRAPOLATES_STAGES && method->stages <= 2;
+    return g->lanes > 1 && g->layout.depth == 1 && !g->layout.lifted &&
+           (method->properties & DAL_COMPONENTWISE || few_stages);
+}
+
 /* The kinds of elementary functions that the programs in the file call. */
 static unsigned calls_of_programs(const dal__generation *g)
 {
@@ -182,7 +192,8 @@ void dal__decide_conditions(dal__generation *g)
         {"DAL_CONTROLLED", false},
         {"DAL_PACKS", false},
         {"DAL_SCALAR", g->lanes == 1},
-        {"DAL_WITH_SINCOS", calls & DAL__CALLS_SINCOS},
+        {"DAL_WITH_SINCOS", calls & (DAL__CALLS_SIN | DAL__CALLS_SINCOS)},
+        {"DAL_WITH_SIN", calls & DAL__CALLS_SIN},
         {"DAL_WITH_SIGN", calls & DAL__CALLS_SIGN},
         {"DAL_WITH_LIBM", calls & DAL__CALLS_LIBM},
         {"DAL_WITH_LIFT", has_lift(g)},
@@ -195,6 +206,8 @@ void dal__decide_conditions(dal__generation *g)
         {"DAL_WITH_RANK", rank},
         {"DAL_WITH_REGULAR", guards || rank},
         {"DAL_WITH_EXACT", g->run && g->run->exact},
+        {"DAL_WITH_EVAL_GROUP", guards || rank || kernel & DAL_KERNEL_SOLVE},
+        {"DAL_WITH_GROUPS", steps_together(g)},
         {"DAL_WITH_TRACE", g->product == DAL__TRACE},
     };
     g->conditions = sizeof list / sizeof *list;
@@ -204,22 +217,23 @@ void dal__decide_conditions(dal__generation *g)
 static void write_callback_codes(dal__generation *g)
 {
     dal__buffer_append(&g->text, "typedef enum dal_callback_code {");
-#define PROGRAM(code, name, reads)                                                                 \
+#define PROGRAM(code, name, ...)                                                                   \
     if (dal__evaluates(g, DAL__PROGRAM_##code))                                                    \
         dal__buffer_append(&g->text, " DAL_EVAL_" #code ",");
-    DAL__WIDE_LIST(PROGRAM)
+    DAL_CALLBACK_LIST(PROGRAM)
 #undef PROGRAM
-    dal__buffer_append(&g->text, " } dal_callback_code;\n\n");
+    dal__buffer_append(&g->text, " } dal_callback_code;\n");
 }
 
-/* The lanes of a group fill a register.  The groups are stepped as one larger system where
- * registers hold what a step needs of two groups. */
+/* A register holds the lanes of a group. */
 static void write_lanes(dal__generation *g)
 {
-    const dal_integrator *method = g->layout.method.layer[0];
-    const bool few_stages = method->properties & DAL_EXTRAPOLATES_STAGES && method->stages <= 2;
-    const bool together = g->layout.depth == 1 && !g->layout.lifted &&
-                          (method->properties & DAL_COMPONENTWISE || few_stages);
+    if (g->lanes == 1) {
+        dal__buffer_append(&g->text, "#define DAL_WORK(place) w[place]\n"
+                                     "enum { DAL_LANES = 1, DAL_GROUPS = 1, DAL_STEP_GROUPS = 1, "
+                                     "DAL_STEP_COUNT = 1 };\n");
+        return;
+    }
     dal__buffer_print(&g->text, "#define DAL_LANES %d\n", g->lanes);
     dal__buffer_append(&g->text, "#if DAL_LANES > 8 && defined __AVX512F__\n#define DAL_GROUP 8\n"
                                  "#elif DAL_LANES > 4 && defined __AVX__ && !defined __AVX512F__\n"
@@ -230,41 +244,51 @@ static void write_lanes(dal__generation *g)
     dal__buffer_append(&g->text, "#define DAL_WORK(place) w[(place) * DAL_GROUPS]\n");
     dal__buffer_print(
         &g->text, "enum { DAL_STEP_GROUPS = %s, DAL_STEP_COUNT = DAL_GROUPS / DAL_STEP_GROUPS };\n",
-        together ? "DAL_GROUPS" : "1");
+        steps_together(g) ? "DAL_GROUPS" : "1");
 }
 
 static void write_constants(dal__generation *g)
 {
     const dal__layout *k = &g->layout;
-    const int stages = g->spec->method.layer[0]->stages;
     const bool solves = g->kernel & (DAL_KERNEL_COLLOCATION | DAL_KERNEL_EULER);
     const bool is_explicit = dal_method_properties(&g->spec->method) & DAL_EXPLICIT;
     const struct {
         const char *name;
         int value;
+        bool solver; /* needed with implicit equations alone */
     } list[] = {
-        {"N", k->n},
-        {"NW", k->nw},
-        {"M", k->m},
-        {"DIM", k->dim},
-        {"LIFTED", k->lifted},
-        {"STAGES", stages},
-        {"STAGE_DERIVATIVES", k->derivatives},
-        {"SOLVER", k->options.solver},
-        {"ITERATIONS", k->options.iterations},
-        {"EXTRA_ITERATIONS", k->options.extra_iterations},
-        {"PLAIN", k->options.sums == DAL_SUMS_PLAIN},
-        {"PROPERTIES", (int)k->system->properties},
-        {"MULTIPLIER", k->multiplier},
-        {"NEWTON", dal__uses_newton(g)},
-        {"TANGENT", dal__follows_tangents(g)},
-        {"EXPLICIT", is_explicit && k->depth == 1 && !(solves && k->lifted)},
-        {"GUARDS", k->system->guards},
-        {"RANK_CHECKED", checks_rank(g)},
+        {"N", k->n, false},
+        {"NW", k->nw, false},
+        {"M", k->m, false},
+        {"DIM", k->dim, false},
+        {"LIFTED", k->lifted, false},
+        {"PLAIN", k->options.sums == DAL_SUMS_PLAIN, false},
+        {"MULTIPLIER", k->multiplier, false},
+        {"TANGENT", dal__follows_tangents(g), false},
+        {"EXPLICIT", is_explicit && k->depth == 1 && !(solves && k->lifted), false},
+        {"GUARDS", k->system->guards, false},
+        {"RANK_CHECKED", checks_rank(g), false},
+        {"STAGES", g->spec->method.layer[0]->stages, true},
+        {"STAGE_DERIVATIVES", k->derivatives, true},
+        {"SOLVER", k->options.solver, true},
+        {"ITERATIONS", k->options.iterations, true},
+        {"EXTRA_ITERATIONS", k->options.extra_iterations, true},
+        {"PROPERTIES", (int)k->system->properties, true},
+        {"NEWTON", dal__uses_newton(g), true},
     };
+    enum { COUNT = sizeof list / sizeof *list };
     write_lanes(g);
-    for (size_t i = 0; i < sizeof list / sizeof *list; i++)
-        dal__buffer_print(&g->text, "#define DAL__%s %d\n", list[i].name, list[i].value);
+    dal__buffer_append(&g->text, "enum {\n   ");
+    for (int i = 0; i < COUNT; i++) {
+        char item[48];
+        snprintf(item, sizeof item, "DAL__%s = %d,", list[i].name, list[i].value);
+        if (!list[i].solver) dal__write_item(g, item);
+    }
+    dal__buffer_append(&g->text, "\n};\n");
+    for (int i = 0; i < COUNT; i++)
+        if (list[i].solver && g->kernel & DAL_KERNEL_SOLVE)
+            dal__buffer_print(&g->text, "#define DAL__%s %d\n", list[i].name, list[i].value);
+    if (!(g->kernel & DAL_KERNEL_SOLVE)) return;
     dal__buffer_append(&g->text, "#define DAL__SOLVER_TOLERANCE ");
     dal__buffer_number(&g->text, k->options.solver_tolerance);
     dal__buffer_append(&g->text, "\n");
@@ -285,14 +309,20 @@ static const char compiler[] =
     "    \"schedule-insns\", \"sched-pressure\")\n"
     "#endif\n"
     "#pragma GCC diagnostic push\n"
-    "#pragma GCC diagnostic ignored \"-Wunused-parameter\"\n"
-    "#pragma GCC diagnostic ignored \"-Wpsabi\"\n"
-    "#ifndef __clang__ /* stages that no iteration was made for are never used */\n"
-    "#pragma GCC diagnostic ignored \"-Wmaybe-uninitialized\"\n#endif\n\n";
+    "#pragma GCC diagnostic ignored \"-Wunused-parameter\"\n";
 
-void dal__write_compiler(dal__generation *g) { dal__write_template(g, compiler); }
+void dal__write_compiler(dal__generation *g)
+{
+    dal__buffer_append(&g->text, compiler);
+    if (g->lanes == 1 && !(g->kernel & DAL_KERNEL_SOLVE)) return;
+    dal__buffer_append(
+        &g->text,
+        "#pragma GCC diagnostic ignored \"-Wpsabi\"\n"
+        "#ifndef __clang__ /* lanes one by one; stages that no iteration was made for */\n"
+        "#pragma GCC diagnostic ignored \"-Wmaybe-uninitialized\"\n#endif\n");
+}
 
-static const char end[] = "\n#pragma GCC diagnostic pop\n"
+static const char end[] = "#pragma GCC diagnostic pop\n"
                           "#ifndef __clang__\n"
                           "#pragma GCC pop_options\n"
                           "#endif\n"
@@ -305,7 +335,6 @@ static void write_unrolling(dal__generation *g)
     const int width = g->layout.lifted ? 3 * g->layout.n : g->layout.nw;
     const bool small =
         g->layout.dim <= MAX_UNROLLED_DIM && (!coupled || stages * stages * width <= MAX_UNROLLED);
-    dal__buffer_append(&g->text, "#define DAL_SPECIALISED 1\n");
     if (small)
         dal__buffer_append(&g->text, "#if !defined(__clang__) && !defined(__OPTIMIZE_SIZE__)\n"
                                      "#define DAL_UNROLL _Pragma(\"GCC unroll 64\")\n"
@@ -317,22 +346,23 @@ static void write_unrolling(dal__generation *g)
 /* The types of the public header that the kernel needs. */
 static void write_enums(dal__generation *g)
 {
-    dal__buffer_append(&g->text, "\ntypedef enum dal_status {\n");
-#define STATUS(code, words) dal__buffer_append(&g->text, "    DAL_" #code ",\n");
+    dal__buffer_append(&g->text, "typedef enum dal_status {\n   ");
+#define STATUS(code, words) dal__write_item(g, "DAL_" #code ",");
     DAL_STATUS_LIST(STATUS)
 #undef STATUS
-    dal__buffer_append(&g->text, "    DAL_STATUS_COUNT\n} dal_status;\n"
-                                 "enum { DAL_SOLVER_AUTO, DAL_FIXED_POINT, DAL_NEWTON };\n");
-    dal__buffer_print(&g->text, "enum { DAL_BLOCKS_POSITIONAL = %d };\n\n", DAL_BLOCKS_POSITIONAL);
+    dal__buffer_append(&g->text, "\n} dal_status;\n");
+    if (!(g->kernel & DAL_KERNEL_SOLVE)) return;
+    dal__buffer_append(&g->text, "enum { DAL_SOLVER_AUTO, DAL_FIXED_POINT, DAL_NEWTON };\n");
+    dal__buffer_print(&g->text, "enum { DAL_BLOCKS_POSITIONAL = %d };\n", DAL_BLOCKS_POSITIONAL);
 }
 
 static void write_method(dal__generation *g)
 {
     dal__buffer *text = &g->text;
-    dal__buffer_append(text, "\n#define DAL_INTEGRATOR(identifier, function, ...) \\\n"
+    dal__buffer_append(text, "#define DAL_INTEGRATOR(identifier, function, ...) \\\n"
                              "    DAL_INLINE dal_status dal__of_##identifier(dal_step *s) "
                              "{ return function(s); } \\\n"
-                             "    typedef dal_step dal__after_##identifier\n\n");
+                             "    typedef dal_step dal__after_##identifier\n");
     for (int i = 0; i < g->layout.depth; i++) {
         if (i > 0) {
             dal__buffer_print(text,
@@ -348,11 +378,11 @@ static void write_method(dal__generation *g)
         }
         dal__buffer_print(text, "#define step dal__step_%d\n", i);
         dal__write_selected(g, g->source[i]);
-        dal__buffer_append(text, "#undef step\n\n");
+        dal__buffer_append(text, "#undef step\n");
     }
     dal__buffer_append(text, "#define dal__whole_step dal__of_");
     dal__buffer_append(text, g->identifier[g->layout.depth - 1]);
-    dal__buffer_append(text, "\n\n");
+    dal__buffer_append(text, "\n");
 }
 
 void dal__write_steps(dal__generation *g)
@@ -373,13 +403,13 @@ void dal__write_steps(dal__generation *g)
 static void write_file(dal__generation *g)
 {
     dal__write_interface(g);
-    dal__write_template(g, "\n#ifndef PREFIX_HEADER\n\n#include <math.h>\n#include <stddef.h>\n"
+    dal__write_template(g, "#ifndef PREFIX_HEADER\n#include <math.h>\n#include <stddef.h>\n"
                            "#include <stdint.h>\n#include <string.h>\n\n");
     dal__write_steps(g);
     dal__write_start(g);
     dal__write_source(g, "observables.h");
-    dal__write_source(g, "interface.inc");
     dal__write_observe(g);
+    dal__write_source(g, "interface.inc");
     dal__write_names(g);
     dal__write_template(g, end);
 }

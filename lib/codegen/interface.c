@@ -86,10 +86,7 @@ static const char usage[] =
     " *\n"
     " *     cc -O3 -march=native -c FILE.c         as C11 or C++17; needs libm alone\n"
     " *\n"
-    " * On x86-64 -march=native, or -mfma, is worth much: without it every fused multiply-add is a "
-    "call\n"
-    " * of libm's fma.\n"
-    " *\n"
+    " * Without -march=native, or -mfma, a fused multiply-add on x86-64 is a slow call of libm.\n"
     " * From another file: #define PREFIX_HEADER, then #include this one: declarations only.\n"
     " * The bits are those of dalembert itself, whatever the compiler and its options; "
     "-ffast-math\n"
@@ -117,7 +114,7 @@ static void write_head(dal__generation *g)
 static void write_sizes(dal__generation *g)
 {
     const dal__layout *k = &g->layout;
-    dal__write_template(g, "#ifndef PREFIX_DECLARED\n#define PREFIX_DECLARED\n\nenum {\n");
+    dal__write_template(g, "#ifndef PREFIX_DECLARED\n#define PREFIX_DECLARED\nenum {\n   ");
     const struct {
         const char *name;
         int value;
@@ -130,9 +127,12 @@ static void write_sizes(dal__generation *g)
         {"PERSISTENT", (int)k->persistent},
         {"WORK", (int)g->programs->tapes->first_input},
     };
-    for (size_t i = 0; i < sizeof list / sizeof *list; i++)
-        dal__buffer_print(&g->text, "    %s_%s = %d,\n", g->prefix, list[i].name, list[i].value);
-    dal__write_template(g, "    PREFIX_SIZES\n};\n\n");
+    for (size_t i = 0; i < sizeof list / sizeof *list; i++) {
+        char item[DAL__PREFIX_SIZE + 32];
+        snprintf(item, sizeof item, "%s_%s = %d,", g->prefix, list[i].name, list[i].value);
+        dal__write_item(g, item);
+    }
+    dal__buffer_append(&g->text, "\n};\n");
 }
 
 static void write_structs(dal__generation *g)
@@ -145,13 +145,13 @@ static void write_structs(dal__generation *g)
     }
     if (g->layout.system->parameters == 0) dal__buffer_append(&g->text, "    double none;\n");
     dal__write_template(
-        g, "} PREFIX_parameters;\n\n"
+        g, "} PREFIX_parameters;\n"
            "typedef struct PREFIX_state {\n"
            "    double y[PREFIX_PERSISTENT * PREFIX_LANES]; /* the state, then what a step carries "
            "*/\n"
            "    double work[(PREFIX_WORK > 0 ? PREFIX_WORK : 1) * PREFIX_LANES]; /* parameters */\n"
            "    int status[PREFIX_LANES]; /* 0: goes on */\n"
-           "} PREFIX_state;\n\n"
+           "} PREFIX_state;\n"
            "#ifdef __cplusplus\nextern \"C\" {\n#endif\n"
            "extern const char *const PREFIX_component[PREFIX_DIMENSION];\n"
            "extern const char *const PREFIX_parameter[PREFIX_PARAMETERS + 1];\n"
@@ -173,7 +173,7 @@ static void write_structs(dal__generation *g)
            "*/\n"
            "long long PREFIX_lanes(double *y, const double *work, double h, long long count,\n"
            "                       unsigned lanes, unsigned *failed, int *reason);\n"
-           "#ifdef __cplusplus\n}\n#endif\n#endif\n");
+           "#ifdef __cplusplus\n}\n#endif\n#endif\n\n");
 }
 
 void dal__write_interface(dal__generation *g)
@@ -247,32 +247,32 @@ static void write_list(dal__generation *g, const char *declaration, name_functio
 {
     char buffer[160];
     dal__write_template(g, declaration);
-    dal__buffer_append(&g->text, " = {\n");
+    dal__buffer_append(&g->text, " = {\n   ");
     for (int i = 0; name(g->run, i, buffer, sizeof buffer); i++) {
-        dal__buffer_append(&g->text, "    \"");
-        dal__buffer_append(&g->text, buffer);
-        dal__buffer_append(&g->text, "\",\n");
+        char item[sizeof buffer + 4];
+        snprintf(item, sizeof item, "\"%s\",", buffer);
+        dal__write_item(g, item);
     }
-    if (name != dal_run_name) dal__buffer_append(&g->text, "    0,\n");
-    dal__buffer_append(&g->text, "};\n");
+    if (name != dal_run_name) dal__write_item(g, "0,");
+    dal__buffer_append(&g->text, "\n};\n");
 }
 
 static void write_text_function(dal__generation *g)
 {
-    dal__write_template(g, "\nconst char *PREFIX_text(int status)\n{\n    switch (status) {\n");
+    dal__write_template(g, "const char *PREFIX_text(int status)\n{\n    switch (status) {\n");
 #define STATUS(code, words)                                                                        \
     if (DAL_##code == DAL_OK || (DAL_##code >= DAL_SINGULAR && DAL_##code <= DAL_GAUGE))           \
-        dal__buffer_append(&g->text, "    case DAL_" #code ":\n        return \"" words "\";\n");
+        dal__buffer_append(&g->text, "    case DAL_" #code ": return \"" words "\";\n");
     DAL_STATUS_LIST(STATUS)
 #undef STATUS
-    dal__buffer_append(&g->text, "    default:\n        return \"unknown status\";\n    }\n}\n");
+    dal__buffer_append(&g->text, "    default: return \"unknown status\";\n    }\n}\n");
 }
 
 static void write_defaults(dal__generation *g)
 {
     const double *value = dal_run_parameters(g->run);
     const int count = g->layout.system->parameters;
-    dal__write_template(g, "\nPREFIX_parameters PREFIX_defaults(void)\n{\n"
+    dal__write_template(g, "PREFIX_parameters PREFIX_defaults(void)\n{\n"
                            "    PREFIX_parameters p;\n");
     for (int i = 0; i < count; i++) {
         dal__buffer_append(&g->text, "    p.");
@@ -287,7 +287,7 @@ static void write_defaults(dal__generation *g)
 
 void dal__write_names(dal__generation *g)
 {
-    write_list(g, "\nconst char *const PREFIX_component[PREFIX_DIMENSION]", dal_run_name);
+    write_list(g, "const char *const PREFIX_component[PREFIX_DIMENSION]", dal_run_name);
     write_list(g, "const char *const PREFIX_parameter[PREFIX_PARAMETERS + 1]", parameter_name);
     write_list(g, "const char *const PREFIX_observable[PREFIX_OBSERVABLES + 1]",
                dal_run_observable_name);

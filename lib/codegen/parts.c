@@ -178,6 +178,15 @@ void dal__write_template(dal__generation *g, const char *text)
     write_part(g, text, text + strlen(text));
 }
 
+void dal__write_item(dal__generation *g, const char *item)
+{
+    enum { WIDTH = 100 };
+    size_t column = strlen(item) + 1;
+    for (size_t i = g->text.length; i > 0 && g->text.bytes[i - 1] != '\n'; i--) column++;
+    dal__buffer_append(&g->text, column > WIDTH ? "\n    " : " ");
+    dal__buffer_append(&g->text, item);
+}
+
 void dal__write_selected(dal__generation *g, const char *text)
 {
     enum { MAX_DEPTH = 16 };

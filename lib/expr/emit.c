@@ -111,7 +111,9 @@ unsigned dal__tape_calls(const dal__tape *tape)
     unsigned calls = 0;
     for (int i = 0; i < tape->length; i++) {
         const uint32_t op = tape->code[i].op;
-        if (op == DAL__SIN || op == DAL__COS || op == DAL__SINCOS)
+        if (op == DAL__SIN || op == DAL__COS)
+            calls |= DAL__CALLS_SIN;
+        else if (op == DAL__SINCOS)
             calls |= DAL__CALLS_SINCOS;
         else if (op == DAL__SIGN)
             calls |= DAL__CALLS_SIGN;

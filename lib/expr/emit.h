@@ -18,7 +18,12 @@ void dal__tape_write(const dal__tapes *tapes, int program, const dal__input_name
 void dal__tapes_write_hoisted(const dal__tapes *tapes, dal__buffer *text);
 
 /* The kinds of elementary functions that a tape calls. */
-enum { DAL__CALLS_SINCOS = 1 << 0, DAL__CALLS_SIGN = 1 << 1, DAL__CALLS_LIBM = 1 << 2 };
+enum {
+    DAL__CALLS_SIN = 1 << 0, /* or cos, alone */
+    DAL__CALLS_SINCOS = 1 << 1,
+    DAL__CALLS_SIGN = 1 << 2,
+    DAL__CALLS_LIBM = 1 << 3
+};
 unsigned dal__tape_calls(const dal__tape *tape);
 
 #endif

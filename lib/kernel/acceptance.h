@@ -30,13 +30,16 @@ DAL_INLINE dal_status dal_rejection(const dal_checks *c, dal_status status, int 
 }
 
 /* 0, or NaN where one of count numbers of a group is not finite. */
+#if DAL_WITH_GROUPS
 DAL_INLINE num dal_group_nonfinite(const num *x, int count, int group)
 {
-    if (DAL_STEP_GROUPS == 1) return dal_nonfinite(x, count);
     num nonfinite = dal_num(0.0);
     DAL_EACH(i, count) nonfinite += x[i * DAL_STEP_GROUPS + group] - x[i * DAL_STEP_GROUPS + group];
     return nonfinite;
 }
+#else
+#define dal_group_nonfinite(x, count, group) ((void)(group), dal_nonfinite(x, count))
+#endif
 
 /* Lanes in which every component of the state is finite; 1/e stands for e. */
 DAL_INLINE dal_mask dal_finite_state(const dal_step *s, int group)

@@ -106,17 +106,13 @@ DAL_INLINE num dal__cos_kernel(num r, num tail, num z, num zz)
     return w + dal_fma(zz, dal__quintic(C, z, zz), dal_fma(r, tail, lost));
 }
 
-/* near, but libm's sin x or cos x in the lanes beyond. */
-DAL_COLD num dal__sin_beyond(num x, dal_mask beyond, num near)
+/* near, but libm's sin x, or cos x, in the lanes beyond. */
+DAL_COLD num dal__beyond(int sine, num x, dal_mask beyond, num near)
 {
-    for (int lane = 0; lane < DAL_LANES; lane++)
-        if (dal_mask_lane(beyond, lane)) near = dal_with_lane(near, lane, sin(dal_lane(x, lane)));
-    return near;
-}
-DAL_COLD num dal__cos_beyond(num x, dal_mask beyond, num near)
-{
-    for (int lane = 0; lane < DAL_LANES; lane++)
-        if (dal_mask_lane(beyond, lane)) near = dal_with_lane(near, lane, cos(dal_lane(x, lane)));
+    for (int lane = 0; lane < DAL_LANES; lane++) {
+        const double angle = dal_lane(x, lane), value = sine ? sin(angle) : cos(angle);
+        if (dal_mask_lane(beyond, lane)) near = dal_with_lane(near, lane, value);
+    }
     return near;
 }
 
@@ -131,8 +127,8 @@ DAL_INLINE void dal_sincos(num x, num *s, num *c)
     *c = dal__flip(dal_select(odd, sine, cosine), angle.quadrant + 1);
     dal_mask beyond = ~dal_less_equal(dal_abs(x), dal_num(1e7));
     if (dal_any(beyond)) {
-        *s = dal__sin_beyond(x, beyond, *s);
-        *c = dal__cos_beyond(x, beyond, *c);
+        *s = dal__beyond(1, x, beyond, *s);
+        *c = dal__beyond(0, x, beyond, *c);
     }
 }
 
@@ -145,7 +141,9 @@ DAL_INLINE void dal_sincos(num x, num *s, num *c)
 }
 
 #endif
+#endif
 
+#if DAL_WITH_SIN
 /* sin x, wrong by less than one unit in the last place. */
 DAL_INLINE num dal_sin(num x)
 {

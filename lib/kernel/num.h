@@ -17,14 +17,14 @@
 #include "quad.h"
 #endif
 
+/* A generated file (DAL_SPECIALISED) has the parts that it needs, and no others. */
+#ifndef DAL_SPECIALISED
 #ifndef DAL_LANES
 #define DAL_LANES 1
 #endif
-
-/* A generated file (DAL_SPECIALISED) has the parts that it needs, and no others. */
-#ifndef DAL_SPECIALISED
 #define DAL_SCALAR            (DAL_LANES == 1)
-#define DAL_WITH_SINCOS       1
+#define DAL_WITH_SINCOS       1 /* sine and cosine together */
+#define DAL_WITH_SIN          1 /* one of them */
 #define DAL_WITH_LIBM         1 /* the functions of libm */
 #define DAL_WITH_SIGN         1
 #define DAL_WITH_LIFT         1 /* the canonical variables */
@@ -37,6 +37,8 @@
 #define DAL_WITH_RANK         1 /* the rank check */
 #define DAL_WITH_REGULAR      1 /* one of these */
 #define DAL_WITH_EXACT        1 /* an exact solution */
+#define DAL_WITH_GROUPS       0 /* of lanes, stepped as one larger system */
+#define DAL_WITH_EVAL_GROUP   1
 #ifdef DAL_NUM_QUAD
 #define DAL_PACKS 0
 #else
@@ -47,7 +49,9 @@
 /* The name of a function that exists once per variant: DAL_WIDE(f) is f_x1, f_x8, f_x8_AVX512, ...
  */
 #ifdef DAL_SPECIALISED
+#if DAL_WITH_SOLVE
 #define DAL_WIDE(name) name##_once
+#endif
 #else
 #define DAL__PASTE(a, b)  a##b
 #define DAL__PASTE2(a, b) DAL__PASTE(a, b)
@@ -66,7 +70,9 @@
 #ifdef DAL_SPECIALISED
 #define DAL_INLINE static inline DAL_UNUSED __attribute__((always_inline))
 #define DAL_COLD   static DAL_UNUSED __attribute__((noinline, cold))
+#if DAL_WITH_SOLVE
 #define DAL_SHARED DAL_INLINE
+#endif
 #else
 #define DAL_UNROLL
 #define DAL_INLINE static inline DAL_UNUSED
@@ -245,8 +251,8 @@ DAL_INLINE num dal_sqrt(num x)
 
 /* Reductions over many numbers use packs, which a compiler must not form by itself.  For the
  * maximum and for finiteness the order does not matter.  Sums use packs from DAL__MIN_PACKED
- * numbers on, in one order for all builds.  The functions over packs return how many numbers they
- * have processed. */
+ * numbers on, in one order for all builds.  Functions over packs that return a number say how many
+ * numbers they have processed. */
 enum { DAL__PACK = 8, DAL__MIN_PACKED = 16 };
 #if DAL_PACKS
 typedef double dal__pack __attribute__((vector_size(64), aligned(8), may_alias));
@@ -281,24 +287,17 @@ DAL_INLINE int dal__nonfinite_packs(const num *x, int count, num *nonfinite)
     for (int j = 0; j < DAL__PACK; j++) *nonfinite += part[j];
     return i;
 }
-/* part_j += sum of u_i^2, i = j modulo the size of a pack */
-DAL_INLINE int dal__square_packs(const num *u, int count, num *part)
+/* part_j = sum of u_i^2, i = j modulo the size of a pack; count is a multiple of it. */
+DAL_INLINE void dal__square_packs(const num *u, int count, num *part)
 {
     dal__pack sum = {0};
-    int i = 0;
-    for (; i + DAL__PACK <= count; i += DAL__PACK)
+    for (int i = 0; i < count; i += DAL__PACK)
         sum += *(const dal__pack *)(u + i) * *(const dal__pack *)(u + i);
     for (int j = 0; j < DAL__PACK; j++) part[j] = sum[j];
-    return i;
 }
 #else
 #define dal__norm_packs(x, count, norm)           0
 #define dal__nonfinite_packs(x, count, nonfinite) 0
-DAL_INLINE int dal__square_packs(const num *u, int count, num *part)
-{
-    DAL_EACH(i, count / DAL__PACK * DAL__PACK) part[i % DAL__PACK] += u[i] * u[i];
-    return count / DAL__PACK * DAL__PACK;
-}
 #endif
 
 #if DAL_WITH_SOLVE
@@ -327,7 +326,12 @@ DAL_INLINE num dal_square(const num *u, int count)
 {
     num part[DAL__PACK], sum = dal_num(0.0);
     DAL_EACH(j, DAL__PACK) part[j] = dal_num(0.0);
-    const int seen = count < DAL__MIN_PACKED ? 0 : dal__square_packs(u, count, part);
+    const int seen = count < DAL__MIN_PACKED ? 0 : count / DAL__PACK * DAL__PACK;
+#if DAL_PACKS
+    if (seen > 0) dal__square_packs(u, seen, part);
+#else
+    DAL_EACH(i, seen) part[i % DAL__PACK] += u[i] * u[i];
+#endif
     DAL_EACH(i, count - seen) sum += u[seen + i] * u[seen + i];
     if (seen == 0) return sum;
     return (((part[0] + part[4]) + (part[2] + part[6])) +

@@ -25,6 +25,8 @@
 #include "algebra.h"
 #include "step.h"
 
+enum { DAL_MAX_STAGES = 16 };
+
 /* Newton pays from this rate on: a fixed point needs 36/log2(1/rate) iterations. */
 #define DAL__SLOW 0.3
 /* Increments relative to the state: rounding, stagnation, too small to measure a rate. */

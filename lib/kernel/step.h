@@ -17,23 +17,10 @@
  * integrator needs, the functions of the kernel give. */
 typedef struct dal_step dal_step;
 
-enum { DAL_MAX_STAGES = 16 };
-
-/* The callbacks of a system; outputs as in dal_callbacks. */
-#define DAL__CALLBACK_LIST(CALLBACK)                                                               \
-    CALLBACK(FIELD, field)                                                                         \
-    CALLBACK(ADJOINT, adjoint)                                                                     \
-    CALLBACK(JACOBIAN, jacobian)                                                                   \
-    CALLBACK(CONSTRAINT, constraint)                                                               \
-    CALLBACK(ENERGY_NORMAL, energy_normal)                                                         \
-    CALLBACK(GAUGE, gauge)                                                                         \
-    CALLBACK(GUARDS, guards)                                                                       \
-    CALLBACK(BLOCKS, blocks)                                                                       \
-    CALLBACK(POTENTIAL, potential)
 #ifndef DAL_SPECIALISED
 typedef enum dal_callback_code {
-#define CALLBACK(code, member) DAL_EVAL_##code,
-    DAL__CALLBACK_LIST(CALLBACK)
+#define CALLBACK(code, ...) DAL_EVAL_##code,
+    DAL_CALLBACK_LIST(CALLBACK)
 #undef CALLBACK
         DAL_EVAL_COUNT
 } dal_callback_code;
@@ -50,25 +37,29 @@ typedef enum dal_callback_code {
 #define DAL_DIM(s)    (DAL__DIM * DAL_STEP_GROUPS)
 #define DAL_LIFTED(s) DAL__LIFTED
 #if DAL_WITH_SOLVE
-#define DAL_SOLVER(s)           DAL__SOLVER
-#define DAL_ITERATIONS(s)       DAL__ITERATIONS
-#define DAL_SOLVER_TOLERANCE(s) DAL__SOLVER_TOLERANCE
-#define DAL_EXTRA_ITERATIONS(s) DAL__EXTRA_ITERATIONS
-#define DAL_MAY_NEWTON(s)       DAL__NEWTON
-#define DAL_STAGES(t)           DAL__STAGES
-#endif
-#define DAL_PLAIN(s)                  DAL__PLAIN
-#define DAL_TANGENT(s)                DAL__TANGENT
+#define DAL_SOLVER(s)                 DAL__SOLVER
+#define DAL_ITERATIONS(s)             DAL__ITERATIONS
+#define DAL_SOLVER_TOLERANCE(s)       DAL__SOLVER_TOLERANCE
+#define DAL_EXTRA_ITERATIONS(s)       DAL__EXTRA_ITERATIONS
+#define DAL_MAY_NEWTON(s)             DAL__NEWTON
+#define DAL_STAGES(t)                 DAL__STAGES
 #define DAL_PROPERTIES(s)             DAL__PROPERTIES
-#define DAL_GUARDS(s)                 DAL__GUARDS
-#define DAL_RANK_CHECKED(s)           DAL__RANK_CHECKED
 #define DAL_PERSISTENT_MULTIPLIERS(s) DAL__MULTIPLIER        /* m, or 0 */
 #define DAL_STAGE_DERIVATIVES(s)      DAL__STAGE_DERIVATIVES /* size, or 0 */
-#define DAL__AT_LEAST_ONE(count)      ((count) > 0 ? (count) : 1)
-#define DAL__COUNT_ONE                1
-#define DAL__COUNT_TWO                2
 #define DAL__COUNT_DERIVATIVES        DAL__STAGE_DERIVATIVES
-#define DAL__COUNT_MULTIPLIER         DAL__MULTIPLIER
+#else
+#define DAL__COUNT_DERIVATIVES 0
+#endif
+#if DAL_WITH_REGULAR
+#define DAL_GUARDS(s)       DAL__GUARDS
+#define DAL_RANK_CHECKED(s) DAL__RANK_CHECKED
+#endif
+#define DAL_PLAIN(s)             DAL__PLAIN
+#define DAL_TANGENT(s)           DAL__TANGENT
+#define DAL__AT_LEAST_ONE(count) ((count) > 0 ? (count) : 1)
+#define DAL__COUNT_ONE           1
+#define DAL__COUNT_TWO           2
+#define DAL__COUNT_MULTIPLIER    DAL__MULTIPLIER
 
 #define DAL_VECTOR(step, name, count) num name[DAL__AT_LEAST_ONE(count)]
 #define DAL__MARK(step)               (void)0
@@ -115,9 +106,11 @@ DAL_INLINE void dal_restore_method_state(dal_step *s, dal_mask lanes, const num 
 /* The system as straight-line code, further down. */
 DAL_INLINE void dal_eval(dal_step *s, dal_callback_code code, double t, const num *q, const num *v,
                          const num *pi, num *out);
+#if DAL_WITH_EVAL_GROUP
 /* The same for one group of lanes. */
 DAL_INLINE void dal_eval_group(dal_step *s, int group, dal_callback_code code, double t,
                                const num *q, const num *v, num *out);
+#endif
 
 #else
 
@@ -258,7 +251,8 @@ DAL_INLINE int dal_at_p(const dal_step *s) { return 2 * DAL_N(s) + 1; }
 DAL_INLINE int dal_at_pi(const dal_step *s) { return 3 * DAL_N(s) + 1; }
 DAL_INLINE int dal_at_pi_e(const dal_step *s) { return 4 * DAL_N(s) + 1; }
 
-/* p = pi = pi_e = 0. */
+#if DAL_WITH_CONSTRAINT
+/* p = pi = pi_e = 0, behind a projection. */
 DAL_INLINE void dal_clear_momenta(dal_step *s)
 {
     const int first = dal_at_p(s);
@@ -267,6 +261,7 @@ DAL_INLINE void dal_clear_momenta(dal_step *s)
         s->r[first + i] = dal_select(s->alive[0], dal_num(0.0), s->r[first + i]);
     }
 }
+#endif
 
 /* F(q, v, t), out[nw]; and F, F_q^T pi, F_v^T pi, out[3n]. */
 DAL_INLINE void dal_force(dal_step *s, double t, const num *q, const num *v, num *out)
@@ -318,9 +313,8 @@ DAL_INLINE void dal__tangent_field(dal_step *s, double t, const num *y, num *DAL
 #endif
 
 #if DAL_WITH_LIFT
-/* That of the canonical variables but q' = v.  As a call of its own it would cost 6 % of a step. */
-static inline DAL_UNUSED __attribute__((always_inline)) void
-dal__lifted_field(dal_step *s, double t, const num *y, num *DAL_RESTRICT dy)
+/* That of the canonical variables but q' = v. */
+DAL_INLINE void dal__lifted_field(dal_step *s, double t, const num *y, num *DAL_RESTRICT dy)
 {
     const int n = DAL_N(s);
     DAL__MARK(s);

@@ -102,10 +102,10 @@ dal_status dal__programs_add_motion(dal_model *model, dal__programs *programs, c
     static dal_status name(const dal_system *system, const dal_point *at, double *out)             \
     {                                                                                              \
         const dal__programs *p = system->data;                                                     \
-        return p->run(system, at, out, DAL__PROGRAM_##code, reads);                                \
+        return p->run(system, at, out, DAL__PROGRAM_##code, DAL__READS_##reads);                   \
     }
 DAL__SINGLE_LIST(CALLBACK)
-CALLBACK(PICTURE, picture, DAL__T | DAL__QV)
+CALLBACK(PICTURE, picture, tqv)
 #undef CALLBACK
 
 static bool vanished(const double *pivot)
@@ -121,7 +121,7 @@ static dal_status diagnose(const dal_system *system, const dal_point *at, double
     const dal__programs *p = system->data;
     const dal__equations *e = p->equations;
     double *value = at->work + p->scratch;
-    DAL_TRY(p->run(system, at, value, DAL__PROGRAM_DIAGNOSE, DAL__T | DAL__QV));
+    DAL_TRY(p->run(system, at, value, DAL__PROGRAM_DIAGNOSE, DAL__READS_tqv));
     out[0] = 0.0;
     for (int k = 0; k < e->pivots; k++)
         if (e->pivot[k].constraint == 0 && vanished(value + 2 * k)) return DAL_SINGULAR_MASS;

@@ -5,28 +5,19 @@
 #include "expr/tape.h"
 #include "model/equations.h"
 
-/* The programs of a system: code, name, and the inputs that it reads. */
-enum { DAL__T = 1, DAL__QV = 2, DAL__PI = 4 };
-#define DAL__WIDE_LIST(PROGRAM)                                                                    \
-    PROGRAM(FIELD, field, DAL__T | DAL__QV)                                                        \
-    PROGRAM(ADJOINT, adjoint, DAL__T | DAL__QV | DAL__PI)                                          \
-    PROGRAM(JACOBIAN, jacobian, DAL__T | DAL__QV)                                                  \
-    PROGRAM(CONSTRAINT, constraint, DAL__T | DAL__QV)                                              \
-    PROGRAM(ENERGY_NORMAL, energy_normal, DAL__T | DAL__QV)                                        \
-    PROGRAM(GAUGE, gauge, DAL__T)                                                                  \
-    PROGRAM(GUARDS, guards, DAL__T | DAL__QV)                                                      \
-    PROGRAM(BLOCKS, blocks, DAL__T | DAL__QV)                                                      \
-    PROGRAM(POTENTIAL, potential, DAL__T | DAL__QV)
+/* The programs of a system besides those of its callbacks (DAL_CALLBACK_LIST): code, name, and the
+ * inputs that it reads. */
+enum { DAL__READS_none, DAL__READS_t, DAL__READS_tqv, DAL__READS_tqvpi };
 #define DAL__SINGLE_LIST(PROGRAM)                                                                  \
-    PROGRAM(START, start, 0)                                                                       \
-    PROGRAM(CONSTRAINTS, constraints, DAL__T | DAL__QV)                                            \
-    PROGRAM(ENERGY, energy, DAL__T | DAL__QV)                                                      \
-    PROGRAM(INVARIANTS, invariant_values, DAL__T | DAL__QV)                                        \
-    PROGRAM(EXACT, exact, DAL__T)
+    PROGRAM(START, start, none)                                                                    \
+    PROGRAM(CONSTRAINTS, constraints, tqv)                                                         \
+    PROGRAM(ENERGY, energy, tqv)                                                                   \
+    PROGRAM(INVARIANTS, invariant_values, tqv)                                                     \
+    PROGRAM(EXACT, exact, t)
 
 typedef enum dal__program_code {
-#define CODE(code, name, reads) DAL__PROGRAM_##code,
-    DAL__WIDE_LIST(CODE) DAL__SINGLE_LIST(CODE)
+#define CODE(code, ...) DAL__PROGRAM_##code,
+    DAL_CALLBACK_LIST(CODE) DAL__SINGLE_LIST(CODE)
 #undef CODE
         DAL__PROGRAM_PICTURE,
     DAL__PROGRAM_DIAGNOSE,
@@ -42,7 +33,7 @@ typedef struct dal__program {
 
 /* Evaluates a program on what it reads of *at. */
 typedef dal_status dal__run_program(const dal_system *system, const dal_point *at, double *out,
-                                    dal__program_code code, unsigned reads);
+                                    dal__program_code code, int reads);
 
 /* What a dal_system of a model holds as its data. */
 typedef struct dal__programs {

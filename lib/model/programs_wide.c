@@ -26,18 +26,18 @@ static dal_mask pivots_hold(const num *checked, int pivots)
 
 /* Leaves NaN in the lanes where a pivot has vanished. */
 static dal_status run_program(const dal_system *system, const dal_point *at, double *out,
-                              dal__program_code code, unsigned reads)
+                              dal__program_code code, int reads)
 {
     const dal__programs *p = system->data;
     const dal__program *program = &p->program[code];
     num *t = (num *)(at->work + (size_t)p->t * WIDTH);
-    if (reads & DAL__T) *t = dal_num(at->t);
-    if (reads & DAL__QV) {
+    if (reads >= DAL__READS_t) *t = dal_num(at->t);
+    if (reads >= DAL__READS_tqv) {
         load_lanes(at->work, p->q, at->q, p->n);
         load_lanes(at->work, p->v, at->v, p->n);
         load_lanes(at->work, p->g, at->v + p->n * WIDTH, p->multipliers);
     }
-    if (reads & DAL__PI) load_lanes(at->work, p->pi, at->pi, p->n);
+    if (reads >= DAL__READS_tqvpi) load_lanes(at->work, p->pi, at->pi, p->n);
     if (program->checked == 0) {
         DAL_WIDE(dal__tape_run)(p->tapes, program->tape, at->work, out);
         return DAL_OK;
@@ -51,19 +51,19 @@ static dal_status run_program(const dal_system *system, const dal_point *at, dou
     return DAL_OK;
 }
 
-#define CALLBACK(code, name, reads)                                                                \
+#define CALLBACK(code, name, reads, numbers)                                                       \
     static dal_status name(const dal_system *system, const dal_point *at, double *out)             \
     {                                                                                              \
-        return run_program(system, at, out, DAL__PROGRAM_##code, reads);                           \
+        return run_program(system, at, out, DAL__PROGRAM_##code, DAL__READS_##reads);              \
     }
-DAL__WIDE_LIST(CALLBACK)
+DAL_CALLBACK_LIST(CALLBACK)
 #undef CALLBACK
 
 dal__run_program *DAL_WIDE(dal__fill_callbacks)(const dal__programs *programs, dal_callbacks *call)
 {
-#define SET(code, name, reads)                                                                     \
+#define SET(code, name, ...)                                                                       \
     call->name = programs->program[DAL__PROGRAM_##code].present ? name : NULL;
-    DAL__WIDE_LIST(SET)
+    DAL_CALLBACK_LIST(SET)
 #undef SET
     return run_program;
 }

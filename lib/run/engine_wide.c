@@ -158,8 +158,8 @@ static void *place_engine(const dal__layout *k, void *memory, double **persisten
     const dal_callbacks *c = DAL_LANES == 4   ? system->wide4
                              : DAL_LANES == 8 ? system->wide8
                                               : &system->call;
-#define CALLBACK(code, member) e->call[DAL_EVAL_##code] = c->member;
-    DAL__CALLBACK_LIST(CALLBACK)
+#define CALLBACK(code, member, ...) e->call[DAL_EVAL_##code] = c->member;
+    DAL_CALLBACK_LIST(CALLBACK)
 #undef CALLBACK
     e->persistent = allocate(&at, k->persistent);
     e->backup = allocate(&at, k->persistent);

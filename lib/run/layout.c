@@ -164,25 +164,13 @@ static dal_status check_control(const dal__layout *k, dal_error *error)
 /* Numbers in the output of a callback. */
 int dal__eval_size(const dal__layout *k, int code)
 {
+    const int n = k->n, nw = k->nw, m = k->m, guards = k->system->guards;
     switch (code) {
-    case DAL_EVAL_FIELD:
-        return k->nw;
-    case DAL_EVAL_ADJOINT:
-        return 3 * k->n;
-    case DAL_EVAL_JACOBIAN:
-        return k->nw * (k->n + k->nw);
-    case DAL_EVAL_CONSTRAINT:
-        return k->m + 2 * k->m * k->n;
-    case DAL_EVAL_ENERGY_NORMAL:
-        return 1 + 3 * k->n;
-    case DAL_EVAL_GAUGE:
-        return 1;
-    case DAL_EVAL_GUARDS:
-        return k->system->guards;
-    case DAL_EVAL_BLOCKS:
-        return k->n + 2 * (k->m + k->m * k->n);
-    case DAL_EVAL_POTENTIAL:
-        return 3 * k->n;
+#define SIZE(code, member, reads, numbers)                                                         \
+    case DAL_EVAL_##code:                                                                          \
+        return numbers;
+        DAL_CALLBACK_LIST(SIZE)
+#undef SIZE
     default:
         return 0;
     }
