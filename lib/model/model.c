@@ -17,7 +17,7 @@ const char *dal__section_name(dal_section section)
     DAL__RETURN_WORD(DAL_SECTION_LIST, DAL__SECOND, section, "?");
 }
 
-const dal__section dal__sections[DAL_SECTION_COUNT] = {
+const dal__model_section dal__sections[DAL_SECTION_COUNT] = {
     [DAL_SECTION_TITLE] = {DAL__SCALAR, NULL},
     [DAL_SECTION_REFERENCE] = {DAL__SCALAR, NULL},
     [DAL_SECTION_COORDINATES] = {DAL__LIST, NULL},

@@ -20,11 +20,11 @@ enum {
 /* How the entries of a section stand in a file; in mappings each has a name and a text. */
 typedef enum dal__form { DAL__SCALAR, DAL__LIST, DAL__MAPPING, DAL__MAPPINGS } dal__form;
 
-typedef struct dal__section {
+typedef struct dal__model_section {
     dal__form form;
     const char *label; /* how a message calls a formula of it; NULL: its texts are no formulas */
-} dal__section;
-extern const dal__section dal__sections[DAL_SECTION_COUNT];
+} dal__model_section;
+extern const dal__model_section dal__sections[DAL_SECTION_COUNT];
 const char *dal__section_name(dal_section section);
 bool dal__section_named(dal_section section); /* whether it has mappings */
 
