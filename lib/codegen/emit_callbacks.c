@@ -70,10 +70,11 @@ static void write_case(dal__generation *g, dal__program_code code, const char *c
         dal__buffer_print(&g->text, "        dal__%s(w, t, q, v, pi, all);\n", name);
     } else {
         const bool momenta = code == DAL__PROGRAM_ADJOINT;
-        dal__buffer_append(&g->text, "        num q_[DAL__N], v_[DAL__NW], pi_[DAL__N];\n"
-                                     "        DAL_EACH(i, DAL__N) q_[i] = q[i];\n"
-                                     "        DAL_EACH(i, DAL__NW) v_[i] = v[i];\n");
-        dal__buffer_print(&g->text, "        DAL_EACH(i, DAL__N) pi_[i] = %s;\n",
+        dal__buffer_append(&g->text,
+                           "        num q_[DAL_FIXED_N], v_[DAL_FIXED_NW], pi_[DAL_FIXED_N];\n"
+                           "        DAL_EACH(i, DAL_FIXED_N) q_[i] = q[i];\n"
+                           "        DAL_EACH(i, DAL_FIXED_NW) v_[i] = v[i];\n");
+        dal__buffer_print(&g->text, "        DAL_EACH(i, DAL_FIXED_N) pi_[i] = %s;\n",
                           momenta ? "pi[i]" : "dal_num(0.0)");
         dal__buffer_print(&g->text, "        dal__%s(w, t, q_, v_, pi_, all);\n", name);
     }
@@ -141,7 +142,7 @@ void dal__write_start(dal__generation *g)
                       "static void dal__start(const dal_stored *work, num *y)\n{\n"
                       "    num out[%d];\n"
                       "    dal__start_values(work, 0.0, NULL, NULL, NULL, out);\n"
-                      "    for (int i = 0; i < DAL__DIM; i++) y[i] = i < %d ? out[i] : "
+                      "    for (int i = 0; i < DAL_FIXED_DIM; i++) y[i] = i < %d ? out[i] : "
                       "dal_num(0.0);\n",
                       first + 1, first + (k->lifted ? 1 : 0));
     for (int i = 0; i < g->spec->start_count; i++) {
@@ -186,14 +187,14 @@ void dal__emit_callbacks(dal__generation *g)
 static const char *const observed[DAL__OBSERVABLE_GROUPS] = {
     [DAL__OBSERVE_D] = "    dal__constraints(w, t, q, v, NULL, out + %d);\n",
     [DAL__OBSERVE_E] = "    dal__energy(w, t, q, v, NULL, out + %d);\n",
-    [DAL__OBSERVE_LIFT] = "    num f[DAL__NW], mu;\n"
+    [DAL__OBSERVE_LIFT] = "    num f[DAL_FIXED_NW], mu;\n"
                           "    dal__eval_program(w, DAL_EVAL_FIELD, t, q, v, NULL, f);\n"
                           "    dal__eval_program(w, DAL_EVAL_GAUGE, t, q, v, NULL, &mu);\n"
-                          "    dal_lift_observables(y, DAL__N, f, mu, out + %d);\n",
+                          "    dal_lift_observables(y, DAL_FIXED_N, f, mu, out + %d);\n",
     [DAL__OBSERVE_INVARIANTS] = "    dal__invariant_values(w, t, q, v, NULL, out + %d);\n",
-    [DAL__OBSERVE_ERROR] = "    num exact[2 * DAL__N];\n"
+    [DAL__OBSERVE_ERROR] = "    num exact[2 * DAL_FIXED_N];\n"
                            "    dal__exact(w, t, q, v, NULL, exact);\n"
-                           "    out[%d] = dal_max_distance(exact, q, DAL__N);\n",
+                           "    out[%d] = dal_max_distance(exact, q, DAL_FIXED_N);\n",
 };
 
 void dal__write_observe(dal__generation *g)
@@ -202,7 +203,7 @@ void dal__write_observe(dal__generation *g)
     dal__buffer_append(
         &g->text,
         "static void dal__observe(const dal_stored *w, dal_time t, const num *y, num *out)\n{\n"
-        "    const num *q = y, *v = y + DAL__N;\n"
+        "    const num *q = y, *v = y + DAL_FIXED_N;\n"
         "    (void)q, (void)v, (void)w, (void)t, (void)out;\n");
     for (int group = 0; group < DAL__OBSERVABLE_GROUPS; group++) {
         const int count = dal__observable_count(&g->layout, group, g->run->exact);

@@ -281,15 +281,15 @@ static void write_constants(dal__generation *g)
     dal__buffer_append(&g->text, "enum {\n   ");
     for (int i = 0; i < COUNT; i++) {
         char item[48];
-        snprintf(item, sizeof item, "DAL__%s = %d,", list[i].name, list[i].value);
+        snprintf(item, sizeof item, "DAL_FIXED_%s = %d,", list[i].name, list[i].value);
         if (!list[i].solver) dal__write_item(g, item);
     }
     dal__buffer_append(&g->text, "\n};\n");
     for (int i = 0; i < COUNT; i++)
         if (list[i].solver && g->kernel & DAL_KERNEL_SOLVE)
-            dal__buffer_print(&g->text, "#define DAL__%s %d\n", list[i].name, list[i].value);
+            dal__buffer_print(&g->text, "#define DAL_FIXED_%s %d\n", list[i].name, list[i].value);
     if (!(g->kernel & DAL_KERNEL_SOLVE)) return;
-    dal__buffer_append(&g->text, "#define DAL__SOLVER_TOLERANCE ");
+    dal__buffer_append(&g->text, "#define DAL_FIXED_SOLVER_TOLERANCE ");
     dal__buffer_number(&g->text, k->options.solver_tolerance);
     dal__buffer_append(&g->text, "\n");
 }

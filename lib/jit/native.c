@@ -60,8 +60,8 @@ static void write_sizes(dal__generation *g)
     dal__buffer_append(&g->text, small ? "#define DAL_UNROLL _Pragma(\"GCC unroll 64\")\n"
                                        : "#define DAL_UNROLL\n");
     dal__buffer_print(&g->text,
-                      "enum { DAL__N = %d, DAL__NW = %d, DAL__DIM = %d, DAL__LIFTED = %d, "
-                      "DAL__OBSERVABLES = %d };\n",
+                      "enum { DAL_FIXED_N = %d, DAL_FIXED_NW = %d, DAL_FIXED_DIM = %d, "
+                      "DAL_FIXED_LIFTED = %d, DAL__OBSERVABLES = %d };\n",
                       k->n, k->nw, k->dim, k->lifted, dal_run_observables(g->run));
 }
 

@@ -78,7 +78,8 @@ typedef void dal_matrix(dal_step *step, dal_equation *equation);
 /* The size of a block.  Compilers do not see the constant where several groups are stepped as one
  * system; such a file has blocks of one size only. */
 #ifdef DAL_SPECIALISED
-#define DAL_SIZE(b) (DAL_STEP_GROUPS > 1 ? DAL__STAGES * DAL__NW * DAL_STEP_GROUPS : (b)->size)
+#define DAL_SIZE(b)                                                                                \
+    (DAL_STEP_GROUPS > 1 ? DAL_FIXED_STAGES * DAL_FIXED_NW * DAL_STEP_GROUPS : (b)->size)
 #else
 #define DAL_SIZE(b) ((b)->size)
 #endif

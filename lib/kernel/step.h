@@ -31,35 +31,35 @@ typedef enum dal_callback_code {
 /* In a generated file dimensions are constants and all memory is local.  DAL_STEP_GROUPS groups of
  * lanes are stepped as one larger system: component i of group j is number i*DAL_STEP_GROUPS +
  * j. */
-#define DAL_N(s)      (DAL__N * DAL_STEP_GROUPS)
-#define DAL_NW(s)     (DAL__NW * DAL_STEP_GROUPS)
-#define DAL_M(s)      DAL__M
-#define DAL_DIM(s)    (DAL__DIM * DAL_STEP_GROUPS)
-#define DAL_LIFTED(s) DAL__LIFTED
+#define DAL_N(s)      (DAL_FIXED_N * DAL_STEP_GROUPS)
+#define DAL_NW(s)     (DAL_FIXED_NW * DAL_STEP_GROUPS)
+#define DAL_M(s)      DAL_FIXED_M
+#define DAL_DIM(s)    (DAL_FIXED_DIM * DAL_STEP_GROUPS)
+#define DAL_LIFTED(s) DAL_FIXED_LIFTED
 #if DAL_WITH_SOLVE
-#define DAL_SOLVER(s)                 DAL__SOLVER
-#define DAL_ITERATIONS(s)             DAL__ITERATIONS
-#define DAL_SOLVER_TOLERANCE(s)       DAL__SOLVER_TOLERANCE
-#define DAL_EXTRA_ITERATIONS(s)       DAL__EXTRA_ITERATIONS
-#define DAL_MAY_NEWTON(s)             DAL__NEWTON
-#define DAL_STAGES(t)                 DAL__STAGES
-#define DAL_PROPERTIES(s)             DAL__PROPERTIES
-#define DAL_PERSISTENT_MULTIPLIERS(s) DAL__MULTIPLIER        /* m, or 0 */
-#define DAL_STAGE_DERIVATIVES(s)      DAL__STAGE_DERIVATIVES /* size, or 0 */
-#define DAL__COUNT_DERIVATIVES        DAL__STAGE_DERIVATIVES
+#define DAL_SOLVER(s)                 DAL_FIXED_SOLVER
+#define DAL_ITERATIONS(s)             DAL_FIXED_ITERATIONS
+#define DAL_SOLVER_TOLERANCE(s)       DAL_FIXED_SOLVER_TOLERANCE
+#define DAL_EXTRA_ITERATIONS(s)       DAL_FIXED_EXTRA_ITERATIONS
+#define DAL_MAY_NEWTON(s)             DAL_FIXED_NEWTON
+#define DAL_STAGES(t)                 DAL_FIXED_STAGES
+#define DAL_PROPERTIES(s)             DAL_FIXED_PROPERTIES
+#define DAL_PERSISTENT_MULTIPLIERS(s) DAL_FIXED_MULTIPLIER        /* m, or 0 */
+#define DAL_STAGE_DERIVATIVES(s)      DAL_FIXED_STAGE_DERIVATIVES /* size, or 0 */
+#define DAL__COUNT_DERIVATIVES        DAL_FIXED_STAGE_DERIVATIVES
 #else
 #define DAL__COUNT_DERIVATIVES 0
 #endif
 #if DAL_WITH_REGULAR
-#define DAL_GUARDS(s)       DAL__GUARDS
-#define DAL_RANK_CHECKED(s) DAL__RANK_CHECKED
+#define DAL_GUARDS(s)       DAL_FIXED_GUARDS
+#define DAL_RANK_CHECKED(s) DAL_FIXED_RANK_CHECKED
 #endif
-#define DAL_PLAIN(s)             DAL__PLAIN
-#define DAL_TANGENT(s)           DAL__TANGENT
+#define DAL_PLAIN(s)             DAL_FIXED_PLAIN
+#define DAL_TANGENT(s)           DAL_FIXED_TANGENT
 #define DAL__AT_LEAST_ONE(count) ((count) > 0 ? (count) : 1)
 #define DAL__COUNT_ONE           1
 #define DAL__COUNT_TWO           2
-#define DAL__COUNT_MULTIPLIER    DAL__MULTIPLIER
+#define DAL__COUNT_MULTIPLIER    DAL_FIXED_MULTIPLIER
 
 #define DAL_VECTOR(step, name, count) num name[DAL__AT_LEAST_ONE(count)]
 #define DAL__MARK(step)               (void)0
@@ -67,7 +67,7 @@ typedef enum dal_callback_code {
 
 struct dal_step {
     double t, h;
-    num y[DAL__DIM * DAL_STEP_GROUPS], r[DAL__DIM * DAL_STEP_GROUPS];
+    num y[DAL_FIXED_DIM * DAL_STEP_GROUPS], r[DAL_FIXED_DIM * DAL_STEP_GROUPS];
 #define MEMBER(member, count) num member[DAL__AT_LEAST_ONE(DAL__COUNT_##count) * DAL_STEP_GROUPS];
     DAL__METHOD_STATE_LIST(MEMBER)
 #undef MEMBER
