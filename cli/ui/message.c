@@ -7,6 +7,7 @@
 #include <errno.h>
 #include <stdarg.h>
 #include <stdbool.h>
+#include <stdlib.h>
 #include <string.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
@@ -53,11 +54,21 @@ void cli_progress_end(void)
     progress_shown = 0;
 }
 
-int cli_width(void)
+static int terminal_width(int descriptor)
 {
     struct winsize size;
-    const bool is_known = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+    const bool is_known = ioctl(descriptor, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
     return is_known ? size.ws_col : 80;
+}
+
+int cli_width(void) { return terminal_width(STDERR_FILENO); }
+
+int cli_output_width(void)
+{
+    const char *text = getenv("COLUMNS");
+    const long columns = text ? strtol(text, NULL, 10) : 0;
+    if (columns > 0 && columns < 10000) return (int)columns;
+    return isatty(STDOUT_FILENO) ? terminal_width(STDOUT_FILENO) : 0;
 }
 
 /* The next line could not replace one that is longer than the terminal is wide. */

@@ -1,4 +1,4 @@
-/* wrap.c - fills lines of at most 80 columns with words. */
+/* wrap.c - fills lines with words. */
 #include "wrap.h"
 
 #include <string.h>
@@ -8,12 +8,12 @@ enum { LINE = 80, MAX_INDENT = 40 };
 /* The place of the next word. */
 typedef struct wrapper {
     FILE *out;
-    int column, hanging;
+    int column, hanging, width;
 } wrapper;
 
 static void put_word(wrapper *w, const char *word, int length, int spaces)
 {
-    if (w->column > w->hanging && w->column + spaces + length > LINE) {
+    if (w->column > w->hanging && w->column + spaces + length > w->width) {
         fprintf(w->out, "\n%*s", w->hanging, "");
         w->column = w->hanging;
         spaces = 0;
@@ -38,11 +38,16 @@ static void put_words(wrapper *w, const char *text, const char *end)
     }
 }
 
-void cli_wrap(FILE *out, const char *text, int column, int hanging)
+void cli_wrap_to(FILE *out, const char *text, int column, int hanging, int width)
 {
-    wrapper w = {out, column, hanging};
+    wrapper w = {out, column, hanging, width};
     put_words(&w, text, text + strlen(text));
     fputc('\n', out);
+}
+
+void cli_wrap(FILE *out, const char *text, int column, int hanging)
+{
+    cli_wrap_to(out, text, column, hanging, LINE);
 }
 
 static const char *end_of_line(const char *text) { return text + strcspn(text, "\n"); }
@@ -81,7 +86,7 @@ void cli_wrap_notes(FILE *out, const char *notes)
     while (*notes) {
         cli_paragraph p;
         notes = cli_next_paragraph(notes, &p);
-        wrapper w = {out, 0, p.hanging};
+        wrapper w = {out, 0, p.hanging, LINE};
         put_words(&w, p.begin, p.end);
         fputc('\n', out);
     }

@@ -7,6 +7,8 @@
 
 /* Prints a text from the present column on; further lines begin at hanging. */
 void cli_wrap(FILE *out, const char *text, int column, int hanging);
+/* The same with lines of WIDTH columns. */
+void cli_wrap_to(FILE *out, const char *text, int column, int hanging, int width);
 /* Notes are paragraphs and items.  A line that begins with spaces is an item, "  NAME   what it
  * is", to which lines belong that begin below what it is. */
 typedef struct cli_paragraph {

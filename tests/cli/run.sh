@@ -17,6 +17,7 @@ trap 'rm -rf "$top" ${memory:+"$memory"}' EXIT
 cd "$top" || exit 1
 LC_ALL=C
 export LC_ALL
+unset COLUMNS
 
 passed=0
 failed=0

@@ -94,10 +94,73 @@ if terminal; then
     case_is "tables on a terminal of 80 columns"
     script -qec "stty cols 80; '$program' list" /dev/null </dev/null | tr -d '\r' >narrow
     holds "a line is wider" awk 'length($0) > 80 { exit 1 }' narrow
-    holds "a title is lost" grep -q "^    Chaplygin's symmetric sleigh, linear constraint$" narrow
-    try 0 list
-    prints '^chaplygin-sleigh  .*yes    Chaplygin.s symmetric sleigh, linear constraint$'
+    holds "the text does not go on below itself" grep -q "^                                  constraint$" narrow
+    COLUMNS=80 "$program" list >out
+    holds "COLUMNS gives another table" cmp narrow out
+    script -qec "stty cols 80; '$program' list --long" /dev/null </dev/null | tr -d '\r' >narrow
+    holds "a line is wider" awk 'length($0) > 80 { exit 1 }' narrow
+    holds "a title is lost" grep -q "^    Chaplygin's symmetric sleigh, linear constraint; paper, rev" narrow
 fi
+
+case_is "tables that fit"
+for columns in 60 80 100 130 200; do
+    COLUMNS=$columns "$program" list >out
+    holds "a line of $columns is wider" awk -v most=$columns 'length($0) > most { exit 1 }' out
+    holds "lines of $columns lack something" sh -c 'grep -q "^vertical-disk " out && grep -q "^+lift " out'
+done
+prints '^chaplygin-sleigh  .*linear in v .*conserved on D = 0  yes .* sleigh, linear constraint$'
+COLUMNS=80 "$program" list >out
+prints '^chaplygin-sleigh +3  1  Chaplygin.s symmetric sleigh, linear$'
+prints '^rk4 +4 +classical Runge-Kutta$'
+COLUMNS=100 "$program" list >out
+prints '^dla +2 +every D, D at midpoints +discrete'
+try 0 list
+mv out complete
+for columns in 0 -1 wide; do
+    COLUMNS=$columns "$program" list >out
+    holds "COLUMNS=$columns gives another table" cmp complete out
+done
+COLUMNS=80 "$program" list --markdown >out
+prints '^\| `chaplygin-sleigh` .*\| conserved on D = 0 \|'
+try 0 list --long
+prints '^chaplygin-sleigh .*linear constraint +paper, reversible, integrable'
+prints '^gni, nonholonomic-rattle .*Ferraro'
+
+# first: the first words of the rows on standard output.
+first() { sed '1,2d; s/[ ,].*//' out | tr '\n' ' '; }
+case_is "lists that are filtered"
+try 0 list --order 8
+holds "order 8" test "$(first)" = "dop853 gauss8 lobatto8 +suzuki8 +kahan-li8 "
+try 0 list --preserves energy
+holds "energy" test "$(first)" = "discrete-gradient +project-energy "
+try 0 list --preserves midpoints
+holds "D at midpoints" test "$(first)" = "dla discrete-gradient "
+for word in bilinear quadratic every; do
+    try 0 list --preserves $word --order 4
+    first >$word
+done
+holds "bilinear D" test "$(cat bilinear)" = \
+    "mclachlan4 bm4 gauss4 lobatto4 spark4 gauss-spark4 lobatto-nonholonomic4 "
+holds "quadratic D" test "$(cat quadratic)" = "gauss4 spark4 gauss-spark4 lobatto-nonholonomic4 "
+holds "every D" test "$(cat every)" = "spark4 gauss-spark4 lobatto-nonholonomic4 "
+try 0 list --tag chaotic
+holds "a tag" test "$(first)" = "chaotic-oscillators "
+try 0 list --tag chaotic --order 12
+prints '^chaotic-oscillators '
+prints '^gauss12 '
+holds "more is listed" test "$(wc -l <out)" -eq 7
+for filter in '--order 7' '--tag chaos' '--preserves energy --order 12'; do
+    try 2 list $filter
+    says "^dalembert: list: nothing matches; "
+    empty
+done
+try 2 list systems --order 4
+says '^dalembert: list systems: --order and --preserves select integrators$'
+try 2 list integrators --tag chaotic
+says '^dalembert: list integrators: --tag selects systems$'
+try 2 list --preserves D
+says "^dalembert: --preserves: 'D' is not one of bilinear\|quadratic\|every\|midpoints\|energy$"
+empty
 
 case_is "every option of a run is listed"
 try 0 run --help
