@@ -71,7 +71,8 @@ LIB_OBJ    = $(LIB_SRC:%.c=$(BUILD)/%.o) $(BUILD)/generated/systems.o \
              $(BUILD)/generated/sources.o $(BUILD)/generated/trend_tables.o \
              $(call WIDE,$(VARIANTS),$(WIDE_SRC) $(METHOD_SRC))
 CLI_SRC    = $(filter-out cli/mpi/%,$(wildcard cli/*/*.c))
-CLI_OBJ    = $(CLI_SRC:%.c=$(BUILD)/%.o) $(BUILD)/generated/study.o $(BUILD)/generated/report_style.o
+EMBEDDED   = study report_style template
+CLI_OBJ    = $(CLI_SRC:%.c=$(BUILD)/%.o) $(EMBEDDED:%=$(BUILD)/generated/%.o)
 WIDE       = $(foreach variant,$1,$(2:%.c=$(BUILD)/%_$(variant).o))
 
 SUITES    = $(patsubst tests/test_%.c,%,$(filter-out %_wide.c,$(wildcard tests/test_*.c)))
@@ -163,15 +164,15 @@ $(BUILD)/generated/trend_tables.c: tools/trend-tables.c lib/analysis/trend_table
 	@mkdir -p $(@D)
 	$(call SAY,cc)$(HOST_CC) -std=c11 -O2 -Ilib $< -lm -o $(@D)/trend-tables
 	$(@D)/trend-tables >$@.tmp && mv $@.tmp $@
-# The built-in study and the style sheet of reports are parts of the program.
-$(BUILD)/generated/study.c: tools/embed-text.sh bench/studies/canonical-drift.yaml
-	@mkdir -p $(@D)
-	sh tools/embed-text.sh study_builtin_text bench/studies/canonical-drift.yaml >$@.tmp
-	mv $@.tmp $@
-$(BUILD)/generated/report_style.c: tools/embed-text.sh cli/report/report.css
-	@mkdir -p $(@D)
-	sh tools/embed-text.sh report_style cli/report/report.css >$@.tmp
-	mv $@.tmp $@
+# Texts that are parts of the program: the built-in study, the style sheet of reports, a new system.
+define EMBED
+$(BUILD)/generated/$1.c: tools/embed-text.sh $3
+	@mkdir -p $$(@D)
+	sh tools/embed-text.sh $2 $3 >$$@.tmp && mv $$@.tmp $$@
+endef
+$(eval $(call EMBED,study,study_builtin_text,bench/studies/canonical-drift.yaml))
+$(eval $(call EMBED,report_style,report_style,cli/report/report.css))
+$(eval $(call EMBED,template,system_template,cli/commands/template.yaml))
 $(BUILD)/generated/%.o: $(BUILD)/generated/%.c ; $(COMPILE)
 
 # The lists of variants and of instruction sets for lib/core/machine.h.

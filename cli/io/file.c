@@ -89,10 +89,9 @@ static void sync_directory(const char *path)
     free(directory);
 }
 
-int file_write(const char *path, const void *bytes, size_t length, int sync)
+static int write_and_close(int descriptor, const char *path, const void *bytes, size_t length,
+                           int sync)
 {
-    int descriptor = open(path, O_WRONLY | O_CREAT | O_TRUNC, 0666);
-    if (descriptor < 0) return cli_io("write", path);
     int written = write_all(descriptor, bytes, length, sync);
     int reason = errno;
     if (close(descriptor) != 0 && written) {
@@ -101,6 +100,24 @@ int file_write(const char *path, const void *bytes, size_t length, int sync)
     }
     errno = reason;
     return written ? CLI_DONE : cli_io("write", path);
+}
+
+int file_write(const char *path, const void *bytes, size_t length, int sync)
+{
+    const int descriptor = open(path, O_WRONLY | O_CREAT | O_TRUNC, 0666);
+    if (descriptor < 0) return cli_io("write", path);
+    return write_and_close(descriptor, path, bytes, length, sync);
+}
+
+int file_create(const char *path, const void *bytes, size_t length)
+{
+    const int descriptor = open(path, O_WRONLY | O_CREAT | O_EXCL, 0666);
+    if (descriptor < 0 && errno == EEXIST)
+        return cli_fail(CLI_USAGE, "'%s' exists; it is not overwritten", path);
+    if (descriptor < 0) return cli_io("write", path);
+    const int status = write_and_close(descriptor, path, bytes, length, 1);
+    if (status != CLI_DONE) unlink(path);
+    return status;
 }
 
 int file_rename(const char *from, const char *to, int sync)

@@ -17,6 +17,9 @@ bool file_is_copy(const char *path, const char *other);
  * a power cut and not only the process. */
 int file_write(const char *path, const void *bytes, size_t length, int sync);
 int file_rename(const char *from, const char *to, int sync);
+/* Writes a file that is not there yet.  Returns CLI_DONE, or prints and returns CLI_USAGE or
+ * CLI_IO. */
+int file_create(const char *path, const void *bytes, size_t length);
 /* Writes PATH.new and renames it, so that PATH is never half written.  Return CLI_DONE or print and
  * return CLI_IO. */
 int file_replace(const char *path, const void *bytes, size_t length, int sync);

@@ -11,6 +11,8 @@
 /* In the order of --help. */
 #define COMMAND_LIST(COMMAND)                                                                      \
     COMMAND(list)                                                                                  \
+    COMMAND(show)                                                                                  \
+    COMMAND(new)                                                                                   \
     COMMAND(check)                                                                                 \
     COMMAND(run)                                                                                   \
     COMMAND(resume)                                                                                \

@@ -71,6 +71,9 @@ if there cc && cc -shared -fPIC -O1 "$here/fail_allocation.c" -o "$shim" 2>/dev/
     fails_cleanly run --integrater rk4
 
     case_is "no memory: directories"
+    prepare() { mkdir place; }
+    fails_cleanly new place/begun
+    prepare() { :; }
     fails_cleanly run $motion --output place
     fails_cleanly study scarce.yaml --output place --threads 2
     prepare() { cp -R scarce/halves/begun place; }

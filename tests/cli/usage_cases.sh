@@ -14,7 +14,7 @@ prints '^dalembert [0-9]+\.[0-9]+\.[0-9]+$'
 
 case_is "help of every command"
 "$program" --help | sed -n '/^commands:/,/^$/s/^  \([a-z]*\) .*/\1/p' >commands
-for command in list check run resume study report; do
+for command in list show new check run resume study report; do
     holds "--help does not list $command" grep -qx $command commands
 done
 while read -r command; do
@@ -78,6 +78,9 @@ if there bash; then
     holds "an option that it does not take" test -z "$(completes lyapunov --sp)"
     holds "words" test "$(completes run --sampling l)" = "linear log"
     holds "systems" test "$(completes check knife)" = "knife-edge"
+    holds "systems to show" test "$(completes show knife)" = "knife-edge"
+    holds "new" test "$(completes new --)" = "--help"
+    holds "what is preserved" test "$(completes list --preserves e)" = "every energy"
     holds "integrators" test "$(completes run knife-edge --integrator gauss1)" = "gauss10 gauss12"
 fi
 

@@ -1,0 +1,69 @@
+# Files of systems: those that are built in, and one to begin with.
+
+case_is "the file of a built-in system"
+for file in "$here"/../../systems/*.yaml; do
+    try 0 show "$(basename "$file" .yaml)"
+    holds "other bytes" cmp out "$file"
+    silent
+done
+try 0 show knife-edge --output blade.yaml
+empty
+silent
+holds "other bytes" cmp blade.yaml "$here/../../systems/knife-edge.yaml"
+try 0 run knife-edge --integrator rk4 --step 0.1 --time 1
+mv out builtin
+try 0 run blade.yaml --integrator rk4 --step 0.1 --time 1
+holds "other rows" cmp builtin out
+try 0 show suslov --output -
+prints '^title: Suslov problem$'
+
+case_is "a file is never overwritten"
+echo mine >mine.yaml
+mkdir folder.yaml
+for command in 'show suslov --output mine.yaml' 'new mine' 'new mine.yaml' 'new folder'; do
+    try 2 $command
+    says "^dalembert: '(mine|folder).yaml' exists; it is not overwritten$"
+    empty
+done
+holds "it was" test "$(cat mine.yaml)" = mine
+ln -s nowhere dangling.yaml
+try 2 new dangling
+holds "a link was followed" test ! -e nowhere
+try 4 new nowhere/system
+says "^dalembert: cannot write 'nowhere/system.yaml': No such file or directory$"
+try 2 show knife-egde
+says "^dalembert: unknown system 'knife-egde'; did you mean 'knife-edge'\?$"
+try 2 show blade.yaml
+says "^dalembert: unknown system 'blade.yaml'"
+empty
+try 2 new
+says '^dalembert: the NAME is missing; usage: dalembert new NAME$'
+
+case_is "a system to begin with"
+try 0 new begun
+empty
+says "^dalembert: wrote 'begun.yaml'; 'dalembert check begun.yaml' examines it$"
+try 0 new folder.yaml/other.yaml
+holds "other bytes" cmp begun.yaml folder.yaml/other.yaml
+try 0 check begun.yaml
+prints ', 0 failed$'
+# Its command lines, and what it has in comments.
+sed -n 's/^#     dalembert \(.*\)/\1/p' begun.yaml >commands
+holds "no command lines" test "$(wc -l <commands)" -eq 2
+while read -r words; do
+    try 0 $(echo "$words" | sed 's/FILE/begun.yaml/')
+done <commands
+holds "no rows" test "$(wc -l <out)" -gt 50
+says '^E .*larger'
+says '^spin .*(exact|rounding)'
+sed 's/^# \(forces:\)/\1/' begun.yaml >damped.yaml
+holds "no forces" grep -q ^forces: damped.yaml
+try 0 check damped.yaml
+prints '^  energy E +ok +not conserved'
+if there prlimit; then
+    case_is "a file that cannot be written is not left"
+    prlimit --fsize=64 "$program" new large 2>err
+    holds "another status" test $? -eq 4
+    says "^dalembert: cannot write 'large.yaml': File too large$"
+    holds "half of it is left" test ! -e large.yaml
+fi
