@@ -35,6 +35,6 @@ void analysis_put_cells(FILE *out, const double *numbers, int count)
 {
     for (int i = 0; i < count; i++) {
         fputc(',', out);
-        if (!isnan(numbers[i])) cli_put(out, numbers[i]);
+        cli_put_known(out, numbers[i]);
     }
 }

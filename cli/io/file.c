@@ -171,6 +171,11 @@ void cli_put(FILE *out, double x)
         fprintf(out, "%.17g", x);
 }
 
+void cli_put_known(FILE *out, double x)
+{
+    if (!isnan(x)) cli_put(out, x);
+}
+
 void cli_put_text(FILE *out, const char *text)
 {
     if (!strpbrk(text, ",\"\n")) {

@@ -33,6 +33,8 @@ uint64_t file_hash(uint64_t hash, const void *bytes, size_t length);
 
 /* Writes x with 17 digits, as a double reads it back; minus zero as 0. */
 void cli_put(FILE *out, double x);
+/* The same, and nothing where x is NaN: a cell of a CSV file is empty where there is no value. */
+void cli_put_known(FILE *out, double x);
 /* Writes a cell of a CSV file; one with a comma or a quote in it is quoted, as RFC 4180 has it. */
 void cli_put_text(FILE *out, const char *text);
 int cli_ends_in(const char *text, const char *ending);

@@ -19,7 +19,7 @@ void cli_put_values(FILE *out, const dal_trend *t)
                             t->rate_low,  t->rate_high, is_stated(t) ? t->exponent : NAN};
     for (int i = 0; i < (int)(sizeof cells / sizeof cells[0]); i++) {
         fputc(',', out);
-        if (i < ALWAYS || !isnan(cells[i])) cli_put(out, cells[i]);
+        (i < ALWAYS ? cli_put : cli_put_known)(out, cells[i]);
     }
     fprintf(out, ",%s,%s,", cli_size_word(t), cli_trend_word(t));
     if (is_stated(t)) cli_put(out, t->confidence);

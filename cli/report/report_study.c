@@ -264,7 +264,7 @@ static void add_envelope(const label_figures *f, report_plot *plot, const char *
         }
         if (!curve) curve = report_curve(plot, method);
         const double x = report_csv_number(&f->series, row, t->column);
-        if (!(x <= max)) max = x;
+        if (x > max) max = x;
         report_point(plot, curve, report_csv_number(&f->series, row, "until"), max);
     }
     if (curve) report_title_envelope(curve, method);
@@ -390,7 +390,7 @@ static int report_label(const study_page *s, const char *label)
     for (int with_modifiers = 0; with_modifiers < 2 && f->methods.count == 0; with_modifiers++)
         for (int row = 1; row < s->cells.rows; row++) {
             const char *method = get_cell(s, row, "integrator");
-            if (is_of_label(f, row) && !is_cell(s, row, "steps", "0") &&
+            if (is_of_label(f, row) && report_csv_number(&s->cells, row, "steps") > 0.0 &&
                 (with_modifiers || !strchr(method, '+')))
                 report_add_word(&f->methods, method);
         }

@@ -187,6 +187,8 @@ static void take_trends(study_cell *c, const run_recorder *recorder)
     c->trend = cli_calloc(count, sizeof *c->trend);
     c->names = cli_calloc(count, sizeof *c->names);
     c->windows = cli_calloc(STUDY_WINDOWS, sizeof *c->windows);
+    for (int i = 0; i < STUDY_WINDOWS * STUDY_TRACKS; i++)
+        c->windows[i / STUDY_TRACKS][i % STUDY_TRACKS] = NAN;
     c->observables = recorder->observables;
     memcpy(c->trend, recorder->trend, count * sizeof *c->trend);
     for (int i = 0; i < c->observables; i++)

@@ -72,9 +72,9 @@ typedef struct study_cell {
     double seconds; /* of the thread's processor time, in steps */
     uint64_t bits;  /* a hash of the bits of (q,v) at all samples */
     int observables;
-    dal_trend *trend;          /* [observables] in the order of dal_run_observe */
-    char (*names)[STUDY_NAME]; /* [observables] */
-    double (*windows)[STUDY_TRACKS];
+    dal_trend *trend;                /* [observables] in the order of dal_run_observe */
+    char (*names)[STUDY_NAME];       /* [observables] */
+    double (*windows)[STUDY_TRACKS]; /* maxima; NaN: no rows, or no such column */
     int window_count;
 } study_cell;
 

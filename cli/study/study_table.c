@@ -224,9 +224,10 @@ static void put_run(FILE *out, const csv_row *r)
     free(run);
 }
 
-/* A cell is empty where there is no such quantity. */
+/* A cell is empty where there is no such quantity, or no run. */
 #define NUMBER(quantity, member)                                                                   \
     (r->q.quantity && r->q.quantity->count > 0 ? cli_put(out, r->q.quantity->member) : (void)0)
+#define RUN(how) (r->cell->observables > 0 ? (void)(how) : (void)0)
 #define WORD(quantity, word)                                                                       \
     (r->q.quantity && r->q.quantity->count > 0 ? (void)fputs(word(r->q.quantity), out) : (void)0)
 
@@ -240,9 +241,9 @@ static void put_run(FILE *out, const csv_row *r)
     COLUMN(time, cli_put(out, r->of_case->time))                                                   \
     COLUMN(state, fputs(study_state_words[r->cell->state], out))                                   \
     COLUMN(status, fputs(dal_status_name(r->cell->error.status), out))                             \
-    COLUMN(reached, cli_put(out, r->cell->time))                                                   \
-    COLUMN(steps, fprintf(out, "%lld", r->cell->steps))                                            \
-    COLUMN(evaluations, fprintf(out, "%lld", r->cell->evaluations))                                \
+    COLUMN(reached, RUN(cli_put(out, r->cell->time)))                                              \
+    COLUMN(steps, RUN(fprintf(out, "%lld", r->cell->steps)))                                       \
+    COLUMN(evaluations, RUN(fprintf(out, "%lld", r->cell->evaluations)))                           \
     COLUMN(D_max, NUMBER(D, max_abs))                                                              \
     COLUMN(D_rate, NUMBER(D, rate))                                                                \
     COLUMN(D_size, WORD(D, cli_size_word))                                                         \
@@ -267,10 +268,10 @@ static void put_run(FILE *out, const csv_row *r)
     COLUMN(invariant_trend, WORD(invariant, cli_trend_word))                                       \
     COLUMN(error_max, NUMBER(error, max_abs))                                                      \
     COLUMN(same_as_physical, put_same(out, r))                                                     \
-    COLUMN(bits, fprintf(out, "%016llx", (unsigned long long)r->cell->bits))                       \
+    COLUMN(bits, RUN(fprintf(out, "%016llx", (unsigned long long)r->cell->bits)))                  \
     COLUMN(run, put_run(out, r))                                                                   \
     COLUMN(message, cli_put_text(out, r->cell->error.message))                                     \
-    COLUMN(seconds, cli_put(out, r->cell->seconds))
+    COLUMN(seconds, RUN(cli_put(out, r->cell->seconds)))
 
 static void put_cell(FILE *out, const csv_row *r)
 {
@@ -313,7 +314,7 @@ static void put_series(FILE *out, const csv_row *r)
         cli_put(out, r->of_case->time * (k + 1) / STUDY_WINDOWS);
         for (int track = 0; track < STUDY_TRACKS; track++) {
             fputc(',', out);
-            cli_put(out, r->cell->windows[k][track]);
+            cli_put_known(out, r->cell->windows[k][track]);
         }
         fputc('\n', out);
     }

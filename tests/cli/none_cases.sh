@@ -1,0 +1,66 @@
+# Cells without a value are empty, in every CSV file.
+
+# cell FILE HEAD TEXT...: the cells of a column in the rows that have all TEXTs.
+cell() {
+    head -1 "$1" >chosen
+    table=$1 head=$2
+    shift 2
+    sed 1d "$table" >>chosen
+    for text; do awk -v text="$text" 'NR == 1 || index($0, text)' chosen >fewer && mv fewer chosen; done
+    column "$head" chosen
+}
+# is_empty FILE HEADS TEXT...: these columns have no value in those rows, of which there are some.
+is_empty() {
+    table=$1 heads=$2
+    shift 2
+    for name in $heads; do
+        cell $table $name "$@" >cells
+        holds "$table: $name: $*" sh -c 'test -s cells && ! grep -q . cells'
+    done
+}
+has_values() {
+    table=$1 heads=$2
+    shift 2
+    for name in $heads; do
+        cell $table $name "$@" >cells
+        holds "$table: $name: $*" sh -c 'test -s cells && ! grep -qvE "^-?[0-9.e+-]+$|^[0-9a-f]{16}$" cells'
+    done
+}
+
+case_is "no value: cells of a study"
+cat >some.yaml <<'END2'
+integrators: [rk4, gni]
+step: [0.1, 0.5]
+time: 2
+starts: [physical, surface]
+systems: [{system: plane.yaml, label: plane}, {system: line.yaml, label: line}]
+END2
+try 0 study some.yaml --output some
+reached="reached steps evaluations bits"
+is_empty some/cells.csv "$reached D_max E_first run" gni,surface refused
+has_values some/cells.csv "$reached E_first seconds" rk4
+holds "seconds of no run" sh -c '! grep refused some/cells.csv | grep -qv "physical space\",$"'
+is_empty some/cells.csv "D_max D_rate" line rk4
+has_values some/cells.csv "D_max D_rate" plane rk4
+is_empty some/cells.csv "H_first p_max" rk4,physical
+has_values some/cells.csv "H_first p_max" rk4,surface
+
+case_is "no value: parts of the time"
+is_empty some/series/line.csv D rk4
+is_empty some/series/plane.csv "invariants error" rk4
+is_empty some/series/plane.csv "H p pi" rk4,physical
+# Five rows within a hundred parts
+for quantity in D E H pi; do
+    cell some/series/plane.csv $quantity rk4,surface,0.5 >cells
+    holds "$quantity: parts without rows" test "$(grep -c . cells)" -eq 5 -a "$(wc -l <cells)" -gt 80
+done
+holds "nan" sh -c '! grep -r --include=*.csv nan some'
+if there gnuplot; then
+    case_is "no value: an envelope over parts without rows"
+    printf '%s\n' 'integrators: implicit-midpoint' 'step: 0.5' 'time: 20' 'starts: physical' \
+        'systems: {system: pendulum-cvt, label: cvt}' >swings.yaml
+    try 0 study swings.yaml --output swings
+    try 0 report swings
+    sed -n '/^\$curve1/,/^END/p' swings/report/cvt-E.gp | grep , >envelope
+    holds "it is no maximum" awk -F, '$2 < max { bad = 1 } { max = $2 } END { exit bad || NR < 4 }' envelope
+fi
