@@ -9,7 +9,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 mkdir -p "$2"
 
-"$program" study bench/studies/gallery.yaml --output "$work/study" >/dev/null
+"$program" study bench/studies/gallery.yaml --no-page --output "$work/study" >/dev/null
 "$program" run falling-disk --integrator gauss8 --step 0.01 --time 20 --samples 400 --output "$work/disk"
 "$program" run snakeboard --integrator gauss8 --step 0.01 --time 12 --samples 240 --output "$work/board"
 "$program" section pendulum-cvt --on "sin(xi)" --direction up --integrator gni --step 0.1 \
@@ -17,7 +17,7 @@ mkdir -p "$2"
 top=$PWD
 cd "$work"
 awk -f "$top/tools/yaml_blocks.awk" "$top/docs/tutorial.md"
-"$program" study mine.yaml --output skate-study >/dev/null
+"$program" study mine.yaml --no-page --output skate-study >/dev/null
 "$program" run skate.yaml --integrator spark4 --step 0.05 --time 60 --samples 1200 --output skate
 cd "$top"
 for directory in study disk board skate skate-study; do

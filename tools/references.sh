@@ -39,6 +39,6 @@ fi
 top=$PWD
 cd "$made" || exit 2
 awk -f "$top/tools/yaml_blocks.awk" "$top/docs/choosing.md"
-"$program" study choice.yaml --output choice >out || cat out
+"$program" study choice.yaml --output choice --no-page >out || cat out
 cd "$top" || exit 2
 awk -f tools/choosing.awk "$made/choice/cells.csv" | replace choosing choosing.md

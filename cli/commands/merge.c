@@ -1,4 +1,5 @@
 /* merge.c - `dalembert merge`: makes the shards of a study one. */
+#include "report/report_study.h"
 #include "run/pool.h"
 #include "study/study_merge.h"
 #include "ui/commands.h"
@@ -15,7 +16,7 @@ typedef struct settings {
     int sources;
     const char *output;
     long long threads;
-    bool force;
+    bool force, no_page;
 } settings;
 
 static int parse_source(void *user, const cli_option *option, const char *text)
@@ -33,6 +34,7 @@ static const cli_option options[] = {
      "writes the whole study there; may be one of those that are merged",
      CLI_TEXT(settings, output)},
     POOL_THREADS_OPTION(settings, "runs read at a time"),
+    REPORT_NO_PAGE_OPTION(settings),
     {"force", NULL, NULL, "overwrites what the directory holds, unless it is one of those",
      CLI_FLAG(settings, force)},
     {NULL, "DIR...", CLI_REQUIRED, "what 'dalembert study --shard K/N --output DIR' wrote",
@@ -44,8 +46,10 @@ static int merge(int argc, char **argv)
     settings s = {.source = cli_calloc(MAX_SOURCES, sizeof *s.source), .threads = pool_threads()};
     const cli_group group = CLI_GROUP(options, &s);
     int status = cli_read_arguments(&command_merge, argc, argv, &group, 1);
-    if (status == CLI_GO_ON)
+    if (status == CLI_GO_ON) {
         status = study_merge(s.source, s.sources, s.output, (int)s.threads, s.force);
+        if (!s.no_page) status = report_after_study(s.output, status, true);
+    }
     for (int i = 0; i < s.sources; i++) study_directory_close(&s.source[i]);
     free(s.source);
     return status;

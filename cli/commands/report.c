@@ -57,11 +57,7 @@ static int write_report(report *r)
                         "'%s' holds neither a study (cells.csv) nor a run (trajectory.npy) nor "
                         "orders (order.csv)",
                         r->directory);
-    int status = report_open(r);
-    if (status == CLI_DONE) status = kinds[kind].write(r);
-    const int closed = report_close(r);
-    cli_progress_end();
-    if (status == CLI_DONE) status = closed;
+    const int status = report_make(r, kinds[kind].write);
     if (status == CLI_DONE) printf("%s\n", r->page_path);
     free(r->place);
     free(r->page_path);

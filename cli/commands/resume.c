@@ -1,4 +1,5 @@
 /* resume.c - `dalembert resume`: continues the run or the study of a directory. */
+#include "report/report_study.h"
 #include "run/manifest.h"
 #include "run/pool.h"
 #include "run/run.h"
@@ -24,11 +25,13 @@ static int resume_run(const char *directory, const run_settings *settings)
 typedef struct settings {
     const char *directory;
     long long threads;
+    bool no_page;
     run_settings run;
 } settings;
 
 static const cli_option options[] = {
     POOL_THREADS_OPTION(settings, "cells of a study at a time"),
+    REPORT_NO_PAGE_OPTION(settings),
     {NULL, "DIR", CLI_REQUIRED,
      "what 'dalembert run --output DIR' or 'dalembert study --output DIR' wrote",
      CLI_TEXT(settings, directory)},
@@ -48,18 +51,19 @@ static int resume(int argc, char **argv)
     const bool is_study = study_directory_has_study(&dir);
     study_directory_close(&dir);
     if (!is_study) return resume_run(s.directory, &s.run);
-    return study_resume(s.directory,
-                        &(study_run_options){(int)s.threads, s.run.interval, s.run.native});
+    const study_run_options how = {(int)s.threads, s.run.interval, s.run.native, false};
+    const int ended = study_resume(s.directory, &how);
+    return s.no_page ? ended : report_after_study(s.directory, ended, true);
 }
 
 const cli_command command_resume = {
     .name = "resume",
     .synopsis = "dalembert resume DIR [OPTION]...",
     .about = "continues a run or a study that was interrupted",
-    .notes =
-        "The rows are, byte for byte, those of a run of the same version that was never "
-        "interrupted.  A finished run is left alone.  Of a study, the unfinished runs are "
-        "continued and the tables made; of shards, those that were begun in DIR.  --threads is for "
-        "studies, --summary and --progress are for runs.\n",
+    .notes = "The rows are, byte for byte, those of a run of the same version that was never "
+             "interrupted.  A finished run is left alone.  Of a study, the unfinished runs are "
+             "continued and the tables and the page made; of shards, those that were begun in DIR. "
+             " --threads is for "
+             "studies, --summary and --progress are for runs.\n",
     .run = resume,
 };

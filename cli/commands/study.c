@@ -1,5 +1,6 @@
 /* study.c - `dalembert study`: systems x integrators x steps x starts, in tables and files. */
 #include "io/file.h"
+#include "report/report_study.h"
 #include "run/pool.h"
 #include "run/run.h"
 #include "study/study_directory.h"
@@ -21,7 +22,7 @@ typedef struct settings {
     const char *study, *output;
     long long threads;
     study_shard shard;
-    bool show;
+    bool show, tables, no_page;
     run_settings run;
 } settings;
 
@@ -44,6 +45,8 @@ static const cli_option options[] = {
     POOL_THREADS_OPTION(settings, "cells at a time; results do not depend on it"),
     {"shard", "K/N", NULL, "runs every N-th cell, from the K-th on; 'dalembert merge' joins shards",
      .parse = parse_shard},
+    {"tables", NULL, NULL, "prints the tables, not a screenful", CLI_FLAG(settings, tables)},
+    REPORT_NO_PAGE_OPTION(settings),
     {"show", NULL, NULL, "prints the study file itself and runs nothing", CLI_FLAG(settings, show)},
     {NULL, "STUDY.yaml", NULL, "a study file; by default the built-in study",
      CLI_TEXT(settings, study)},
@@ -68,13 +71,16 @@ static const char notes[] =
         "only; or a list of mappings.  D is the constraint with the largest max |D|; state is "
         "done, failed or refused.  The exit status is 1 when a result is not as expected.\n"
         "\n"
-        "stdout gets a table per system, step and start; DIR gets\n"
+        "stdout gets at most 40 lines: trend and decade of the constraints and of the energy, for "
+        "representative integrators and the first start and step of each system, and what of all "
+        "integrators holds.  DIR gets\n"
         "  study.yaml        the study itself; systems/ copies of system files\n"
         "  runs/NAME/        a directory per cell (system, integrator, start, step), as 'run' "
         "makes it,\n"
         "                    with rows after whole numbers of steps\n"
         "  manifest.json     machine and progress; of shards shard-K-of-N.json\n"
-        "  tables.txt        the tables\n"
+        "  tables.txt        a table per system, step and start\n"
+        "  report/           the page, as 'dalembert report' makes it, where there is gnuplot\n"
         "  cells.csv         a row per cell\n"
         "  quantities.csv    a row per cell and quantity: first, last, max |x|, max |x - first|, "
         "and\n"
@@ -86,8 +92,9 @@ static const char notes[] =
         "any number of threads, interrupted and resumed, in shards and merged.\n"
         "\n"
         "'dalembert resume DIR' continues a study after an interruption, kill -9 included; it does "
-        "not repeat finished runs.  Shards may share one DIR; they print tables of their own cells "
-        "and write none: 'dalembert merge' makes the tables of the study.  'mpirun dalembert-mpi "
+        "not repeat finished runs.  Shards may share one DIR; they print what their own cells show "
+        "and "
+        "write no tables: 'dalembert merge' makes those of the study.  'mpirun dalembert-mpi "
         "STUDY.yaml --output DIR' runs a study on the processes of a cluster.\n"
         "\n"
         "A cell that fails has the message in its row and the study continues; the exit status is "
@@ -99,7 +106,7 @@ static int run_study(const settings *s, const char *text, size_t length)
 {
     study_plan plan;
     study_directory dir;
-    const study_run_options how = {(int)s->threads, s->run.interval, s->run.native};
+    const study_run_options how = {(int)s->threads, s->run.interval, s->run.native, s->tables};
     study_directory_open(&dir, s->output ? s->output : default_directory);
     int status = study_plan_read(&plan, s->study ? s->study : builtin_name, text, length, NULL);
     const int force = s->run.force || (!s->output && study_directory_is_finished(&dir));
@@ -107,6 +114,7 @@ static int run_study(const settings *s, const char *text, size_t length)
         status = study_directory_begin(&dir, &plan, text, length, s->shard, force);
     if (status == CLI_DONE) status = study_directory_run(&dir, &plan, &how);
     study_plan_free(&plan);
+    if (!s->no_page) status = report_after_study(dir.path, status, !s->tables);
     study_directory_close(&dir);
     return status;
 }

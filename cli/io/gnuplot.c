@@ -73,6 +73,20 @@ FILE *gnuplot_open(const char *directory, const char *name, const char *format, 
     return script;
 }
 
+bool gnuplot_is_there(void)
+{
+    const char *place = getenv("PATH");
+    bool found = false;
+    while (place && *place && !found) {
+        const int length = (int)strcspn(place, ":");
+        char *path = cli_format("%.*s/gnuplot", length, place);
+        found = access(path, X_OK) == 0;
+        free(path);
+        place += length + (place[length] == ':');
+    }
+    return found;
+}
+
 static int run(const char *directory, const char *path, bool *missing)
 {
     const char *slash = strrchr(path, '/'), *script = slash ? slash + 1 : path;

@@ -13,6 +13,8 @@ FILE *gnuplot_open(const char *directory, const char *name, const char *format, 
  * in light and dark.  Returns CLI_DONE, or prints and returns an exit status; *missing, unless
  * NULL, is whether there is no gnuplot. */
 int gnuplot_draw(const char *directory, FILE *script, const char *path, bool *missing);
+/* Whether there is a gnuplot to run. */
+bool gnuplot_is_there(void);
 /* A string of gnuplot, in quotes; the same as a setting: set WHAT "TEXT". */
 void gnuplot_quote(FILE *script, const char *text);
 void gnuplot_set(FILE *script, const char *what, const char *text);

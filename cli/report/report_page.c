@@ -159,3 +159,12 @@ int report_close(report *r)
     fputs("</p>\n</body></html>\n", r->page);
     return cli_close(r->page, r->page_path);
 }
+
+int report_make(report *r, int (*write)(report *r))
+{
+    int status = report_open(r);
+    if (status == CLI_DONE) status = write(r);
+    const int closed = report_close(r);
+    cli_progress_end();
+    return status == CLI_DONE ? closed : status;
+}

@@ -24,6 +24,8 @@ typedef struct report {
 /* All that return an int return CLI_DONE, or print and return an exit status. */
 int report_open(report *r);
 int report_close(report *r);
+/* Makes the page of r->directory, opened and closed; the caller frees r->place and r->page_path. */
+int report_make(report *r, int (*write)(report *r));
 /* Ends the head and begins the body with the title as its heading. */
 void report_title(report *r, const char *title);
 /* A text with &, <, > and quotes escaped; the same in an element. */

@@ -7,9 +7,11 @@
 #include "report_study.h"
 #include "ui/memory.h"
 #include "ui/message.h"
+#include "ui/signals.h"
 
 #include "io/document.h"
 #include "io/file.h"
+#include "io/gnuplot.h"
 #include "report_csv.h"
 #include "report_path.h"
 #include "report_plot.h"
@@ -479,6 +481,9 @@ static int write_study(const study_page *s)
     free(all);
     status = report_expectations(r);
     for (int i = 0; i < s->labels.count && status != CLI_IO; i++) {
+        if (cli_interrupted())
+            return cli_fail(CLI_SIGNAL, "interrupted; 'dalembert report %s' makes the page",
+                            r->directory);
         cli_progress("report: %s", s->labels.word[i]);
         fprintf(r->page, "<h2 id=\"s%d\">", i + 1);
         report_text(r->page, s->labels.word[i]);
@@ -491,7 +496,7 @@ static int write_study(const study_page *s)
           r->page);
     report_file(r, "study.yaml", "study.yaml");
     report_file(r, "manifest.json", "what it was made with: manifest.json");
-    report_file(r, "tables.txt", "the tables as they were printed: tables.txt");
+    report_file(r, "tables.txt", "the tables: tables.txt");
     return status;
 }
 
@@ -514,4 +519,24 @@ int report_study(report *r)
     free(s);
     free(path);
     return status;
+}
+
+int report_after_study(const char *directory, int status, bool names_page)
+{
+    report r = {.directory = directory, .format = "svg"};
+    char *cells = cli_join(directory, "cells.csv");
+    const bool has_results =
+        (status == CLI_DONE || status == CLI_CHECK || status == CLI_FAILED) && file_exists(cells);
+    free(cells);
+    if (!has_results || cli_interrupted()) return status;
+    if (gnuplot_is_there()) {
+        if (report_make(&r, report_study) == CLI_DONE && names_page)
+            printf("Page: %s\n", r.page_path);
+    } else if (names_page) {
+        printf("Page: 'dalembert report %s' makes it, with figures by gnuplot\n", directory);
+    }
+    free(r.place);
+    free(r.page_path);
+    const int printed = cli_close(stdout, "standard output");
+    return printed == CLI_DONE ? status : printed;
 }

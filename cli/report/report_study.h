@@ -3,8 +3,18 @@
 #define DAL_CLI_REPORT_STUDY_H
 
 #include "report_page.h"
+#include "ui/options.h"
 
 /* Returns CLI_DONE or prints and returns an exit status. */
 int report_study(report *r);
+/* The row of --no-page, a bool. */
+#define REPORT_NO_PAGE_OPTION(settings)                                                            \
+    {                                                                                              \
+        "no-page", NULL, NULL, "writes no page of the study", CLI_FLAG(settings, no_page)          \
+    }
+/* Behind a study that ended with this exit status, which is returned: writes its page where there
+ * is gnuplot, and says where that is where names_page is set.  A page that cannot be written is no
+ * error of the study. */
+int report_after_study(const char *directory, int status, bool names_page);
 
 #endif

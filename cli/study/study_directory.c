@@ -7,6 +7,7 @@
 #include "run/system.h"
 #include "study_expect.h"
 #include "study_pool.h"
+#include "study_screen.h"
 #include "study_table.h"
 #include "ui/memory.h"
 #include "ui/message.h"
@@ -284,6 +285,7 @@ int study_directory_run(const study_directory *dir, study_plan *plan,
     cli_catch_signals();
     plan->interval = options->interval;
     plan->native = options->native;
+    plan->shows_tables = options->shows_tables;
     return study_directory_finish(dir, plan, study_pool_run(plan, options->threads));
 }
 
@@ -326,6 +328,19 @@ static int write_files(const study_directory *dir, const study_plan *plan)
     return cli_close(file, dir->tables);
 }
 
+/* The screen, in colour on a terminal (https://no-color.org), or the tables. */
+static int print_results(const study_directory *dir, const study_plan *plan)
+{
+    const char *no_colour = getenv("NO_COLOR"), *terminal = getenv("TERM");
+    const bool in_colour = isatty(STDOUT_FILENO) && !(no_colour && no_colour[0]) &&
+                           !(terminal && strcmp(terminal, "dumb") == 0);
+    if (plan->shows_tables)
+        print_tables(stdout, plan);
+    else
+        study_print_screen(stdout, plan, dir->shard.count == 0 ? dir->tables : NULL, in_colour);
+    return cli_close(stdout, "standard output");
+}
+
 /* The exit status of a study whose cells were all run. */
 static int result_status(const study_plan *plan)
 {
@@ -348,8 +363,7 @@ int study_directory_finish(const study_directory *dir, const study_plan *plan, i
     int written = is_whole ? write_files(dir, plan) : CLI_DONE;
     if (written == CLI_DONE) written = write_manifest(dir, plan, word);
     if (status != CLI_DONE && status != CLI_SIGNAL) return status;
-    print_tables(stdout, plan);
-    const int printed = cli_close(stdout, "standard output");
+    const int printed = print_results(dir, plan);
     if (status == CLI_SIGNAL)
         return cli_fail(status, "interrupted; resume with: dalembert resume %s", dir->path);
     return written != CLI_DONE ? written : printed != CLI_DONE ? printed : result;

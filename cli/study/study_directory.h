@@ -7,6 +7,7 @@
  *     DIR/shard-K-of-N.json  the same of each of them
  *     DIR/tables.txt, cells.csv, quantities.csv, expectations.csv, series/LABEL.csv
  *                            at the end, or after an interruption
+ *     DIR/report/            the page, by cli/report
  *     DIR/lock               empty; locked while a shard begins */
 #ifndef DAL_CLI_STUDY_DIRECTORY_H
 #define DAL_CLI_STUDY_DIRECTORY_H
@@ -20,6 +21,7 @@
     PATH(study, "study.yaml")                                                                      \
     PATH(systems, "systems")                                                                       \
     PATH(runs, "runs")                                                                             \
+    PATH(report, "report")                                                                         \
     PATH(series, "series")                                                                         \
     PATH(manifest, "manifest.json")                                                                \
     PATH(tables, "tables.txt")                                                                     \
@@ -50,6 +52,7 @@ typedef struct study_run_options {
     int threads;
     double interval; /* seconds between checkpoints of a run */
     native_mode native;
+    bool shows_tables; /* prints the tables, not the screen */
 } study_run_options;
 
 /* Makes the names of the files in a directory. */
@@ -72,7 +75,7 @@ int study_directory_read(study_directory *dir, study_plan *plan);
 int study_directory_run(const study_directory *dir, study_plan *plan,
                         const study_run_options *options);
 int study_resume(const char *path, const study_run_options *options);
-/* After cells have been run with this status: writes the tables to stdout and, of a whole study,
+/* After cells have been run with this status: prints the screen and writes, of a whole study,
  * all files. */
 int study_directory_finish(const study_directory *dir, const study_plan *plan, int status);
 

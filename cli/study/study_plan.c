@@ -334,6 +334,30 @@ static int read_systems(study_plan *plan, const yaml_node_t *root, const parsed_
     return status;
 }
 
+/* The integrators that the screen shows, each of them run somewhere. */
+static int read_representatives(study_plan *plan, yaml_node_t *node)
+{
+    const document *doc = plan->doc;
+    const int count = node ? document_count(node) : 0;
+    if (count > STUDY_REPRESENTATIVES)
+        return document_fail(doc, node, "representatives: %d are more than %d", count,
+                             STUDY_REPRESENTATIVES);
+    for (int i = 0; i < count; i++) {
+        const yaml_node_t *item = document_item(doc, node, i);
+        const char *name = document_scalar(doc, item, "representatives");
+        dal_method *method = &plan->representative[plan->representatives++];
+        dal_error error = {0};
+        bool is_run = false;
+        if (!name) return CLI_USAGE;
+        if (dal_method_parse(method, name, &error) != DAL_OK)
+            return document_fail(doc, item, "%s", error.message);
+        for (int k = 0; k < plan->case_count; k++) is_run |= has_method(&plan->cases[k], method);
+        if (!is_run)
+            return document_fail(doc, item, "representatives: '%s' is not run in this study", name);
+    }
+    return CLI_DONE;
+}
+
 /* ---- cells ---- */
 
 /* Every cell has a directory of its own, whose name must fit. */
@@ -380,6 +404,7 @@ int study_plan_read(study_plan *plan, const char *place, const char *bytes, size
     status = read_study(&base, doc, root);
     plan->title = base.title ? base.title : "A study";
     if (status == CLI_DONE) status = read_systems(plan, root, &base);
+    if (status == CLI_DONE) status = read_representatives(plan, base.representatives);
     for (int i = 0; i < plan->case_count && status == CLI_DONE; i++)
         status = add_cells(plan, &plan->cases[i]);
     return status == CLI_DONE ? study_expect_read(plan, base.expect) : status;

@@ -7,7 +7,9 @@
 #include "run/request.h"
 #include "study_cell.h"
 
-enum { STUDY_STEPS = 16 };
+#include <stdbool.h>
+
+enum { STUDY_STEPS = 16, STUDY_REPRESENTATIVES = 16 };
 
 /* One system of a study, with one value for each of its settings.  Cases that differ in these
  * values alone are of one group: they stand together and share the model, the copy and the methods,
@@ -44,6 +46,10 @@ typedef struct study_plan {
     int cell_count;
     struct study_expectation *expectations;
     int expectation_count;
+    dal_method representative[STUDY_REPRESENTATIVES];
+    int representatives;
+    double seconds; /* that the runs have taken */
+    bool shows_tables;
 } study_plan;
 
 /* Reads a plan and makes its systems and cells; place is the file, for messages, copies a member of
@@ -64,6 +70,8 @@ char *study_plan_copy_path(const char *directory, const study_case *item);
         "list of names, paths, or mappings of the keys below")                                     \
     KEY(expect, "study", document_read_node, expect,                                               \
         "label: {integrator: {quantity: expected result}}; see below")                             \
+    KEY(representatives, "study", document_read_node, representatives,                             \
+        "at most 16 of the integrators, for the screen (the first of each family)")                \
     KEY(integrators, "both", document_read_node, integrators,                                      \
         "list of names, with modifiers or not; all or all+project: every integrator")              \
     KEY(step, "both", read_steps, item, "one step, or at most 16")                                 \
@@ -90,7 +98,7 @@ char *study_plan_copy_path(const char *directory, const study_case *item);
 typedef struct parsed_study {
     study_case item;
     yaml_node_t *integrators, *set, *start, *displace, *seeds;
-    yaml_node_t *systems, *expect;
+    yaml_node_t *systems, *expect, *representatives;
     const char *title;
 } parsed_study;
 

@@ -75,11 +75,11 @@ if there cc && cc -shared -fPIC -O1 "$here/fail_allocation.c" -o "$shim" 2>/dev/
     fails_cleanly new place/begun
     prepare() { :; }
     fails_cleanly run $motion --output place
-    fails_cleanly study scarce.yaml --output place --threads 2
+    fails_cleanly study scarce.yaml --output place --threads 2 --no-page
     prepare() { cp -R scarce/halves/begun place; }
-    fails_cleanly resume place --threads 2
+    fails_cleanly resume place --threads 2 --no-page
     prepare() { cp -R scarce/halves place; }
-    fails_cleanly merge place/one place/two --output place/all
+    fails_cleanly merge place/one place/two --output place/all --no-page
     if there gnuplot; then
         prepare() { cp -R scarce/whole place; }
         fails_cleanly report place

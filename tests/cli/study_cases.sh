@@ -10,7 +10,7 @@ systems:
   - {system: plane.yaml, label: plane, starts: [surface, physical]}
 END
 case_is "cells, tables and files"
-try 0 study small.yaml --output there --force
+try 0 study small.yaml --output there --force --tables
 silent
 prints '^a small study$'
 prints '^chaplygin-sleigh: '
@@ -68,7 +68,7 @@ systems:
   - {system: appell-hamel, set: {w0: -1}}
   - line.yaml
 END
-try 3 study failing.yaml --output there --force
+try 3 study failing.yaml --output there --force --tables
 # z' = 1 comes to rest at t = z' (1 + nu^2)/g = 2
 prints '^  rk4 +failed after t = 2: constraint 1 '
 holds "no failed cells" test "$(column state there/cells.csv | sort | uniq -c | tr -d ' \n')" = 2done2failed
@@ -81,7 +81,7 @@ step: 0.1
 time: 1
 systems: chaplygin-sleigh-vakonomic
 END
-try 0 study refused.yaml --output there --force
+try 0 study refused.yaml --output there --force --tables
 prints '^  rk4 +refused: '
 # Vakonomic motion is in (q,v) alone, where its ten steps are shown: they take four evaluations each.
 prints '^  rk4 .* only +10 +4\.0 '
@@ -96,7 +96,7 @@ systems:
   - {system: line.yaml, label: short, time: 1}
   - {system: line.yaml, label: endless, time: 1e12}
 END
-"$program" study endless.yaml --output there --force --threads 2 >out 2>err &
+"$program" study endless.yaml --output there --force --threads 2 --tables >out 2>err &
 pid=$!
 sleep 1
 kill -INT $pid
@@ -186,6 +186,125 @@ if [ -w /dev/full ]; then
     says 'standard output'
 fi
 
+# A screen has at most 40 lines of 80 columns.
+is_screen() {
+    holds "more than a screen" awk 'length($0) > 80 || NR > 40 { wide = 1 } END { exit wide || !NR }' out
+}
+
+case_is "the first screen"
+try 0 study small.yaml --output there --force
+silent
+is_screen
+prints '^a small study$'
+prints '^ 1 chaplygin-sleigh +2 plane$'
+# D of the plane is constant and linear: every method keeps it.
+prints '^rk4 +[a-z]-[01][0-9] +(0|[nru]-1[5-9])$'
+prints '^Of 8 runs '
+prints '^From p = pi = 0 the lift has the bits of \(q,v\) alone in 8 of 8 runs\.$'
+prints '^20 runs in [0-9.]+ s: 20 done\.$'
+prints '^Tables: there/tables\.txt$'
+holds "it is coloured" sh -c "! grep -q '\[3' out"
+try 0 study small.yaml --output there --force --no-page
+holds "there is a page" test ! -e there/report
+holds "a page is named" sh -c '! grep -q ^Page out'
+
+case_is "the first screen: rows"
+cat >rows.yaml <<'END'
+integrators: [gauss8, all, all+project]
+representatives: [gauss4+project, rk4]
+step: 0.1
+time: 1
+starts: physical
+systems: [line.yaml, plane.yaml]
+END
+# The first column of the matrix of D.
+rows() { awk '/^$|^l-08/ { on = 0 } on { printf "%s ", $1 } /^max .D/ { on = 1 }' out; }
+try 0 study rows.yaml --output there --force --no-page
+is_screen
+prints '^ 1 plane\.yaml +2 line\.yaml$'
+holds "other rows: $(rows)" test "$(rows)" = "gauss4+project rk4 "
+sed -i /representatives/d rows.yaml
+try 0 study rows.yaml --output there --force --no-page
+is_screen
+prints '^gauss8 '
+prints '^rk4 '
+holds "two of a family" sh -c "! grep -q '^gauss1\?[0246] ' out"
+holds "not 16 rows" test "$(rows | wc -w)" -eq 16
+for wrong in 'gauss4, rk5' 'gauss4+project-energy' 'rk4, [rk4]'; do
+    printf 'integrators: all\nrepresentatives: [%s]\nstep: 1\ntime: 1\nsystems: [line.yaml]\n' "$wrong" >bad.yaml
+    try 2 study bad.yaml --output there --force
+    says '^dalembert: bad\.yaml:2:[0-9]+: '
+done
+seventeen=$(seq -s, 17 | sed 's/[0-9][0-9]*/rk4/g')
+bad "integrators: all\nrepresentatives: [$seventeen]\nstep: 1\ntime: 1\nsystems: [line.yaml]\n" \
+    '17 are more than 16'
+
+case_is "the first screen: many systems, failures, unmet expectations"
+cat >many.yaml <<'END'
+title: many
+integrators: [rk4, gauss4]
+step: [0.1, 0.05]
+time: 3
+starts: physical
+systems:
+  - {system: line.yaml, label: line, set: {k: {from: 0.1, to: 2, count: 20}}}
+  - {system: appell-hamel, label: falls, set: {w0: -1}}
+  - {system: chaplygin-sleigh-vakonomic, label: no, starts: surface}
+expect:
+  line: {all: {E: {deviation: {at most: 1e-30}}}}
+END
+try 3 study many.yaml --output there --force
+is_screen
+prints '^ 1 falls +2 no$'
+prints '^   and 10 more, which the tables show$'
+prints '^rk4 +fail ref\.$'
+prints '^Expectations: 0 of 80 are met\.$'
+prints '^  line_k=0\.1 rk4 physical h = 0\.1 E: expected deviation <= 1e-30, found '
+prints '^88 runs in .*: 80 done, 4 failed, 4 refused\.$'
+prints '^  failed first: rk4 on falls: constraint 1 '
+
+case_is "the first screen: one system without constraint"
+try 0 study closed.yaml --output there --force
+is_screen
+prints '^No finished run on p = pi = 0 has a constraint to keep\.$'
+prints '^max error +1$'
+prints '^A step takes '
+case_is "the page of a study"
+mkdir broken
+printf '#!/bin/sh\nexit 1\n' >broken/gnuplot
+chmod +x broken/gnuplot
+PATH=$PWD/broken:$PATH try 0 study closed.yaml --output there --force
+says "^dalembert: gnuplot failed on 'there/report/"
+prints '^Tables: there/tables\.txt$'
+holds "a page is named" sh -c '! grep -q ^Page out'
+PATH=/nonexistent "$program" study closed.yaml --output there --force >out 2>err
+status=$?
+holds "exit $status, not 0" test $status -eq 0
+silent
+prints "^Page: 'dalembert report there' makes it"
+holds "a page of another study" test ! -e there/report
+if there gnuplot; then
+    try 0 study closed.yaml --output there --force --tables
+    holds "a page is named" cmp out there/tables.txt
+    holds "no page" grep -q '<svg' there/report/line.yaml-E.svg
+    rm -r there/report
+    try 0 resume there
+    prints '^Page: there/report/index\.html$'
+    try 0 study closed.yaml --output halved --force --shard 1/1
+    prints "^Tables: 'dalembert merge' makes them$"
+    holds "a shard names a page" sh -c '! grep -q ^Page out'
+    try 0 merge halved --output merged
+    prints '^Page: merged/report/index\.html$'
+fi
+if terminal; then
+    case_is "the first screen: colours"
+    colours() { script -qec "$1 '$program' study small.yaml --output there --force" /dev/null </dev/null; }
+    colours "env -u NO_COLOR TERM=xterm" >out
+    holds "none" grep -q "$(printf '\033')\[3[0-9]m" out
+    colours "env NO_COLOR=1 TERM=xterm" >out
+    holds "NO_COLOR is not respected" sh -c "! grep -q '$(printf '\033')\[' out"
+fi
+
 case_is "the built-in study"
 try 0 study --show
 holds "--show is not the file" cmp -s out "$here/../../bench/studies/canonical-drift.yaml"
@@ -196,8 +315,23 @@ silent
 for system in damped-oscillator chaplygin-sleigh-friction chaplygin-sleigh \
     chaplygin-sleigh-nonlinear chaplygin-sleigh-vakonomic contact-oscillator \
     nonholonomic-particle knife-edge vertical-disk appell-hamel isokinetic; do
-    prints "^$system: "
+    holds "no table of $system" grep -q "^$system: " builtin/tables.txt
 done
+is_screen
+prints '^ 1 chaplygin-sleigh '
+prints '^max \|D\| +1 +2 '
+prints '^max \|E-E0\| '
+prints '^Of [0-9]+ runs [0-9]+ keep D at rounding, '
+prints '^From p = pi = 0 the lift has the bits of \(q,v\) alone in ([0-9]+) of \1 runs\.$'
+prints '^Expectations: [0-9]+ of [0-9]+ are met\.$'
+# A sleigh drifts under rk4, and does not where D is enforced.
+prints '^rk4 +l-0[0-9] '
+prints '^gni +n-1[5-9] '
+prints '^Tables: builtin/tables\.txt$'
+if there gnuplot; then
+    prints '^Page: builtin/report/index\.html$'
+    holds "no page" grep -q '</html>' builtin/report/index.html
+fi
 holds "lifted and (q,v) differ somewhere" sh -c '! cut -d, -f35 builtin/cells.csv | grep -q no'
 long=$(grep '^nonholonomic-particle-long,' builtin/cells.csv)
 holds "not 1e5 steps" test "$(echo "$long" | cut -d, -f10 | sort -u)" = 100000

@@ -114,7 +114,7 @@ holds "all met" test "$(column met there/expectations.csv | sort -u)" = yes
 # E of x' = exp(-t) falls from 1/2 to exp(-6)/2: by 0.49876
 expecting '  line_k=1: {rk4: {E: {deviation: {at most: 0.4987}, final: {at least: 0.01}}, c: power law}}
   appell-hamel: {all: {state: [failed, refused]}}\n'
-try 1 study expect.yaml --output there --force
+try 1 study expect.yaml --output there --force --tables
 prints '^Expectations: 2 of 5 are met\.$'
 prints '^  line_k=1 .* rk4 .* E: expected deviation <= 0\.4987, found 0\.499 \(line 9\)$'
 prints '^  line_k=1 .* E: expected final >= 0\.01, found 0\.00124 \(line 9\)$'
@@ -160,10 +160,10 @@ for field in $fields; do
     low=$(awk "BEGIN { printf \"%.17g\", $x - 0.01 }")
     high=$(awk "BEGIN { printf \"%.17g\", $x + 0.01 }")
     bounds "half: {$field: {at most: $low}}"
-    try 1 study bounds.yaml --output bounds --force
+    try 1 study bounds.yaml --output bounds --force --tables
     prints "half: expected $field <= .* \(line 6\)"
     bounds "half: {$field: {at least: $high}}"
-    try 1 study bounds.yaml --output bounds --force
+    try 1 study bounds.yaml --output bounds --force --tables
     prints "half: expected $field >= .* \(line 6\)"
     bounds "half: {$field: {at least: $low, at most: $high}}"
     try 0 study bounds.yaml --output bounds --force
@@ -173,7 +173,7 @@ case_is "statements about some cells"
 printf 'integrators: rk4\nstep: [0.1, 0.2]\ntime: 1\nsystems: [plane.yaml]\nexpect:\n  plane.yaml:\n'"\
     rk4: {E: [{step: 0.1, at most: 1}, {start: surface, final: {at most: 0.5}}],
           state: done}\n" >some.yaml
-try 1 study some.yaml --output there --force
+try 1 study some.yaml --output there --force --tables
 # E = 1 throughout: the first holds at 3 starts, the second at none of 2 steps; 6 states
 prints '^Expectations: 9 of 11 are met\.$'
 prints '^  plane.yaml +rk4 +surface +h = 0.2 +E: expected final <= 0.5, found 1 \(line 7\)$'

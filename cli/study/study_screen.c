@@ -1,0 +1,509 @@
+/* study_screen.c - the results of a study on one screen.
+ *
+ * A matrix of integrators and systems for the constraints and, where the lines allow, for the
+ * energy and the error; then sentences that count over all integrators.  A system is represented by
+ * its first start and its first step. */
+#include "study_screen.h"
+
+#include "study_expect.h"
+#include "ui/memory.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum {
+    LINES = 39, /* one more is for the place of the page */
+    WIDTH = 80,
+    SYSTEMS = 12,
+    CELL = 5,  /* " l-08" */
+    ITEM = 40, /* of the legend, two on a line */
+    UNMET = 3  /* expectations that are named */
+};
+
+/* What is shown of a run: the heading, the name in sentences, and what is measured. */
+static const struct {
+    const char *heading, *name;
+    bool is_displacement;
+} quantities[] = {
+    {"max |D|", "D", false}, {"max |E-E0|", "E", true}, {"max error", "error", false}};
+
+enum { CONSTRAINT, ENERGY, QUANTITIES = sizeof quantities / sizeof quantities[0] };
+
+/* What becomes of a quantity: STEADY where it is at rounding or bounded. */
+enum { RUNS, AT_ROUNDING, STEADY, DRIFTING, FATES };
+
+/* An integrator, its name, and how many of its runs have which fate. */
+typedef struct screen_method {
+    char name[STUDY_NAME];
+    int count[QUANTITIES][FATES];
+} screen_method;
+
+typedef struct screen {
+    const study_plan *plan;
+    screen_method *methods; /* all of the study */
+    int method_count;
+    const screen_method *row[STUDY_REPRESENTATIVES];
+    const study_case *column[SYSTEMS];
+    int rows, columns;
+    bool in_colour;
+} screen;
+
+/* ---- what a run shows ---------------------------------------------------------------------- */
+
+static int first_start(const study_case *e)
+{
+    int start = 0;
+    while (!(e->starts >> start & 1)) start++;
+    return start;
+}
+
+/* NULL where the run has no such quantity, or nothing can be stated of it; of a run that failed it
+ * is aborted, neither at rounding nor bounded nor drifting. */
+static const dal_trend *get_trend(const study_cell *c, int quantity)
+{
+    const dal_trend *trend = quantity == CONSTRAINT ? study_cell_constraint(c)
+                             : quantity == ENERGY   ? study_cell_trend(c, "E")
+                                                    : study_cell_trend(c, "error");
+    return trend && trend->conservation == DAL_CONSERVED ? trend : NULL;
+}
+
+static bool is_at_rounding(const dal_trend *trend)
+{
+    return trend->size != DAL_SIZE_LARGER && trend->trend != DAL_TREND_ABORTED;
+}
+
+static bool is_bounded(const dal_trend *trend)
+{
+    return trend->trend == DAL_TREND_NONE || trend->trend == DAL_TREND_SETTLES ||
+           (trend->size == DAL_SIZE_EXACT && trend->trend != DAL_TREND_ABORTED);
+}
+
+static bool is_drifting(const dal_trend *trend)
+{
+    return !is_bounded(trend) && trend->trend != DAL_TREND_UNDECIDED &&
+           trend->trend != DAL_TREND_ABORTED;
+}
+
+/* ---- integrators and systems --------------------------------------------------------------- */
+
+static screen_method *find_method(const screen *s, const dal_method *method)
+{
+    char name[STUDY_NAME];
+    dal_method_name(method, name, sizeof name);
+    for (int i = 0; i < s->method_count; i++)
+        if (strcmp(s->methods[i].name, name) == 0) return &s->methods[i];
+    return NULL;
+}
+
+static void list_methods(screen *s)
+{
+    for (int i = 0; i < s->plan->case_count; i++) {
+        const study_case *e = &s->plan->cases[i];
+        for (int k = 0; e->is_first && k < e->method_count; k++) {
+            if (find_method(s, &e->methods[k])) continue;
+            const size_t count = (size_t)s->method_count + 1;
+            s->methods = cli_realloc(s->methods, count * sizeof *s->methods);
+            screen_method *new = &s->methods[s->method_count++];
+            *new = (screen_method){0};
+            dal_method_name(&e->methods[k], new->name, sizeof new->name);
+        }
+    }
+}
+
+/* Names of a family differ in numbers alone: gauss4 and gauss6, symplectic-euler-00 and -01. */
+static bool is_same_family(const char *a, const char *b)
+{
+    static const char number[] = "-0123456789";
+    for (;; a++, b++) {
+        a += strspn(a, number);
+        b += strspn(b, number);
+        if (*a != *b) return false;
+        if (!*a) return true;
+    }
+}
+
+static bool has_family(const screen *s, const char *name)
+{
+    for (int i = 0; i < s->rows; i++)
+        if (is_same_family(s->row[i]->name, name)) return true;
+    return false;
+}
+
+/* Those that the study lists; else all or, where these are too many, the first of each family. */
+static void choose_rows(screen *s)
+{
+    const study_plan *plan = s->plan;
+    for (; s->rows < plan->representatives; s->rows++)
+        s->row[s->rows] = find_method(s, &plan->representative[s->rows]);
+    for (int i = 0; plan->representatives == 0 && i < s->method_count; i++)
+        if (s->rows < STUDY_REPRESENTATIVES &&
+            (s->method_count <= STUDY_REPRESENTATIVES || !has_family(s, s->methods[i].name)))
+            s->row[s->rows++] = &s->methods[i];
+}
+
+/* Systems with constraints come first; where these are too many, one of each group. */
+static void choose_columns(screen *s)
+{
+    const bool are_many = s->plan->case_count > SYSTEMS;
+    for (int rank = 0; rank < 4; rank++)
+        for (int i = 0; i < s->plan->case_count && s->columns < SYSTEMS; i++) {
+            const study_case *e = &s->plan->cases[i];
+            if ((e->system->m == 0) * 2 + (are_many && !e->is_first) == rank)
+                s->column[s->columns++] = e;
+        }
+}
+
+/* Of the runs on p = pi = 0 from the first start of a system, whose numbers are those of (q,v). */
+static void count_runs(const screen *s)
+{
+    for (int i = 0; i < s->plan->cell_count; i++) {
+        const study_cell *c = &s->plan->cells[i];
+        if (c->start == STUDY_DISPLACED || c->start != first_start(c->of_case)) continue;
+        screen_method *method = find_method(s, c->method);
+        for (int k = 0; k < QUANTITIES; k++) {
+            const dal_trend *trend = get_trend(c, k);
+            int *count = method->count[k];
+            if (!trend) continue;
+            count[RUNS]++;
+            count[AT_ROUNDING] += is_at_rounding(trend);
+            count[STEADY] += is_at_rounding(trend) || is_bounded(trend);
+            count[DRIFTING] += !is_at_rounding(trend) && is_drifting(trend);
+        }
+    }
+}
+
+static const study_cell *find_cell(const screen *s, const study_case *e, const screen_method *m)
+{
+    for (int i = e->first_cell; i < e->first_cell + e->cells; i++) {
+        const study_cell *c = &s->plan->cells[i];
+        if (c->start == first_start(e) && c->step == e->step[0] && find_method(s, c->method) == m)
+            return c;
+    }
+    return NULL;
+}
+
+/* ---- the matrix ---------------------------------------------------------------------------- */
+
+/* The text as far as it fits, with a ~ where it ends early. */
+static void put_cut(FILE *out, const char *text, int width, bool is_filled)
+{
+    int length = (int)strlen(text), spaces = width - length;
+    if (length > width) {
+        length = width - 1;
+        while (length > 0 && ((unsigned char)text[length] & 0xc0u) == 0x80u) length--;
+        spaces = width - length - 1;
+    }
+    fprintf(out, "%.*s%s", length, text, text[length] ? "~" : "");
+    if (is_filled && spaces > 0) fprintf(out, "%*s", spaces, "");
+}
+
+/* The colours of the page: kept, bounded, small, drifting; the rest is faint. */
+static int get_colour(const dal_trend *trend)
+{
+    enum { FAINT = 2, RED = 31, GREEN, YELLOW, CYAN = 36 };
+    if (is_bounded(trend)) return is_at_rounding(trend) ? GREEN : YELLOW;
+    if (!is_drifting(trend)) return FAINT;
+    return is_at_rounding(trend) ? CYAN : RED;
+}
+
+static void put_cell(FILE *out, const screen *s, const study_cell *c, int quantity)
+{
+    static const char *const states[STUDY_STATES] = {
+        [STUDY_WAITING] = "..", [STUDY_FAILED] = "fail", [STUDY_REFUSED] = "ref."};
+    const char *state = c ? states[c->state] : NULL;
+    const dal_trend *trend = c && !state ? get_trend(c, quantity) : NULL;
+    char text[16];
+    snprintf(text, sizeof text, "%s", state ? state : "-");
+    if (trend && trend->size == DAL_SIZE_EXACT) {
+        snprintf(text, sizeof text, "0");
+    } else if (trend) {
+        const double x = quantities[quantity].is_displacement ? trend->deviation : trend->max_abs;
+        const double decade = fmax(-99.0, fmin(99.0, floor(log10(x))));
+        snprintf(text, sizeof text, "%c%+03.0f", dal_trend_text(trend->trend)[0], decade);
+    }
+    if (s->in_colour)
+        fprintf(out, " \033[%dm%*s\033[0m", trend ? get_colour(trend) : 2, CELL - 1, text);
+    else
+        fprintf(out, " %*s", CELL - 1, text);
+}
+
+/* A system has a column where something can be stated of it. */
+static bool has_column(const screen *s, const study_case *e, int quantity)
+{
+    bool has = quantity == CONSTRAINT && e->system->m > 0;
+    for (int i = 0; i < s->rows && !has; i++) {
+        const study_cell *c = find_cell(s, e, s->row[i]);
+        has = c && get_trend(c, quantity);
+    }
+    return has;
+}
+
+static void print_matrix(FILE *out, const screen *s, int quantity)
+{
+    bool is_shown[SYSTEMS];
+    int shown = 0, width = (int)strlen(quantities[quantity].heading);
+    for (int k = 0; k < s->columns; k++)
+        shown += is_shown[k] = has_column(s, s->column[k], quantity);
+    if (shown == 0) return;
+    for (int i = 0; i < s->rows; i++) {
+        const int length = (int)strlen(s->row[i]->name);
+        if (length > width) width = length;
+    }
+    if (width > WIDTH - CELL * shown) width = WIDTH - CELL * shown;
+    for (int i = -1; i < s->rows; i++) {
+        put_cut(out, i < 0 ? quantities[quantity].heading : s->row[i]->name, width, true);
+        for (int k = 0; k < s->columns; k++) {
+            if (!is_shown[k]) continue;
+            if (i < 0)
+                fprintf(out, " %*d", CELL - 1, k + 1);
+            else
+                put_cell(out, s, find_cell(s, s->column[k], s->row[i]), quantity);
+        }
+        fputc('\n', out);
+    }
+}
+
+/* ---- legends ------------------------------------------------------------------------------- */
+
+static void print_systems(FILE *out, const screen *s)
+{
+    put_cut(out, s->plan->title, WIDTH, false);
+    for (int k = 0; k < s->columns; k++) {
+        const study_case *e = s->column[k];
+        char *text = cli_format("%2d %s%s", k + 1, e->label,
+                                first_start(e) == STUDY_DISPLACED ? " displaced" : "");
+        const bool ends = k % 2 == 1 || k == s->columns - 1;
+        if (k % 2 == 0) fputc('\n', out);
+        put_cut(out, text, ITEM - 1, !ends);
+        if (!ends) fputc(' ', out);
+        free(text);
+    }
+    fputc('\n', out);
+    const int left = s->plan->case_count - s->columns;
+    if (left > 0) fprintf(out, "   and %d more, which the tables show\n", left);
+}
+
+static void print_key(FILE *out)
+{
+    int column = fprintf(out, "l-08: trend, decade.");
+    for (int i = 0; i < DAL_TREND_ABORTED; i++) {
+        const char *word = dal_trend_text((dal_trend_class)i);
+        if (column + 4 + (int)strlen(word) > WIDTH) column = fprintf(out, "\n ") - 1;
+        column += fprintf(out, " %c %s,", word[0], word);
+    }
+    fputs(" 0 constant, - not stated\n", out);
+}
+
+/* ---- sentences ----------------------------------------------------------------------------- */
+
+static void say_fates(FILE *out, const screen *s, int quantity)
+{
+    int sum[FATES] = {0};
+    for (int i = 0; i < s->method_count; i++)
+        for (int k = 0; k < FATES; k++) sum[k] += s->methods[i].count[quantity][k];
+    if (sum[RUNS] == 0)
+        fprintf(out, "No finished run on p = pi = 0 has %s to keep.\n",
+                quantity == CONSTRAINT ? "a constraint" : "an energy");
+    else
+        fprintf(out, "Of %d runs %d keep %s at rounding, %d keep it bounded, %d let it drift.\n",
+                sum[RUNS], sum[AT_ROUNDING], quantities[quantity].name,
+                sum[STEADY] - sum[AT_ROUNDING], sum[DRIFTING]);
+}
+
+static bool has_fate(const screen_method *m, int quantity, int fate)
+{
+    const int *count = m->count[quantity];
+    return count[RUNS] > 0 && count[fate] == count[RUNS];
+}
+
+/* The integrators of which all runs have a fate, as many as fit a line. */
+static void say_methods(FILE *out, const screen *s, int quantity, int fate, const char *what)
+{
+    static const char more[] = ", ...";
+    int all = 0, count = 0, listed = 0;
+    for (int i = 0; i < s->method_count; i++) {
+        all += s->methods[i].count[quantity][RUNS] > 0;
+        count += has_fate(&s->methods[i], quantity, fate);
+    }
+    if (all == 0) return;
+    int column = fprintf(out, "%d of %d integrators %s", count, all, what);
+    for (int i = 0; i < s->method_count; i++) {
+        const screen_method *m = &s->methods[i];
+        if (!has_fate(m, quantity, fate)) continue;
+        if (column + 2 + strlen(m->name) > WIDTH - (sizeof more - 1)) break;
+        column += fprintf(out, "%s%s", listed++ ? ", " : ": ", m->name);
+    }
+    fprintf(out, "%s\n", listed == count ? "." : more);
+}
+
+/* What the lift adds on p = pi = 0; returns whether the study has such runs. */
+static bool say_lift(FILE *out, const screen *s)
+{
+    int pairs = 0, same = 0;
+    for (int i = 0; i < s->plan->cell_count; i++) {
+        const study_cell *c = &s->plan->cells[i];
+        const study_cell *physical =
+            c->state == STUDY_FINISHED ? study_cell_physical(s->plan, c) : NULL;
+        pairs += physical != NULL;
+        same += physical && physical->bits == c->bits;
+    }
+    if (pairs > 0)
+        fprintf(out, "From p = pi = 0 the lift has the bits of (q,v) alone in %d of %d runs.\n",
+                same, pairs);
+    return pairs > 0;
+}
+
+static double seconds_per_step(const study_cell *c)
+{
+    return c->state == STUDY_FINISHED && c->steps > 0 ? c->seconds / (double)c->steps : NAN;
+}
+
+static void say_speed(FILE *out, const screen *s)
+{
+    const study_cell *fastest = NULL, *slowest = NULL;
+    char fast[STUDY_NAME], slow[STUDY_NAME];
+    for (int i = 0; i < s->plan->cell_count; i++) {
+        const study_cell *c = &s->plan->cells[i];
+        const double seconds = seconds_per_step(c);
+        if (isnan(seconds)) continue;
+        if (!fastest || seconds < seconds_per_step(fastest)) fastest = c;
+        if (!slowest || seconds > seconds_per_step(slowest)) slowest = c;
+    }
+    if (!fastest) return;
+    char *line = cli_format(
+        "A step takes %.2g us (%s) to %.2g us (%s).", 1e6 * seconds_per_step(fastest),
+        dal_method_name(fastest->method, fast, sizeof fast), 1e6 * seconds_per_step(slowest),
+        dal_method_name(slowest->method, slow, sizeof slow));
+    put_cut(out, line, WIDTH, false);
+    fputc('\n', out);
+    free(line);
+}
+
+static void print_sentences(FILE *out, const screen *s)
+{
+    say_fates(out, s, CONSTRAINT);
+    say_methods(out, s, CONSTRAINT, AT_ROUNDING, "keep D at rounding in every run");
+    say_fates(out, s, ENERGY);
+    say_methods(out, s, ENERGY, STEADY, "let E drift in no run");
+    if (!say_lift(out, s)) say_speed(out, s);
+}
+
+/* ---- the end ------------------------------------------------------------------------------- */
+
+/* The number of expectations that are met, and the first that are not. */
+static void print_expectations(FILE *out, const study_plan *plan)
+{
+    char *text;
+    size_t length;
+    FILE *all = cli_memstream_open(&text, &length);
+    study_print_expectations(all, plan);
+    cli_memstream_close(all);
+    char *line = text + strspn(text, "\n");
+    for (int i = 0; i <= UNMET && *line; i++) {
+        const size_t end = strcspn(line, "\n");
+        char *next = line + end + (line[end] != '\0'), *to = line;
+        line[end] = '\0';
+        /* The columns of the table are not those of others here. */
+        for (const char *from = line; *from; from++)
+            if (*from != ' ' || from < line + 2 || from[-1] != ' ') *to++ = *from;
+        *to = '\0';
+        put_cut(out, line, WIDTH, false);
+        fputc('\n', out);
+        line = next;
+    }
+    free(text);
+}
+
+static void print_runs(FILE *out, const study_plan *plan)
+{
+    int runs = 0, count[STUDY_STATES] = {0};
+    const study_cell *failed = NULL;
+    for (int i = 0; i < plan->cell_count; i++) {
+        const study_cell *c = &plan->cells[i];
+        if (c->other_shard) continue;
+        runs++;
+        count[c->state]++;
+        if (!failed && c->state == STUDY_FAILED) failed = c;
+    }
+    fprintf(out, "%d runs in %.*f s", runs, plan->seconds < 10.0 ? 2 : 0, plan->seconds);
+    const char *separator = ": ";
+    for (int i = 0; i < STUDY_STATES; i++) {
+        if (count[i] == 0) continue;
+        fprintf(out, "%s%d %s", separator, count[i], study_state_words[i]);
+        separator = ", ";
+    }
+    fputs(".\n", out);
+    if (!failed) return;
+    char name[STUDY_NAME];
+    char *text = cli_format("  failed first: %s on %s: %s",
+                            dal_method_name(failed->method, name, sizeof name),
+                            failed->of_case->label, failed->error.message);
+    put_cut(out, text, WIDTH, false);
+    fputc('\n', out);
+    free(text);
+}
+
+/* ---- the screen ---------------------------------------------------------------------------- */
+
+/* The parts from top to bottom: a matrix for each quantity is between the legend and the key. */
+enum { LEGEND, MATRIX, KEY = MATRIX + QUANTITIES, SENTENCES, END, PARTS };
+
+static void print_part(FILE *out, const screen *s, int part, const char *tables)
+{
+    if (part == LEGEND) {
+        print_systems(out, s);
+    } else if (part == KEY) {
+        print_key(out);
+    } else if (part == SENTENCES) {
+        print_sentences(out, s);
+    } else if (part == END) {
+        print_expectations(out, s->plan);
+        print_runs(out, s->plan);
+        fprintf(out, "Tables: %s\n", tables ? tables : "'dalembert merge' makes them");
+    } else {
+        print_matrix(out, s, part - MATRIX);
+    }
+}
+
+static int count_lines(const char *text)
+{
+    int lines = 0;
+    while ((text = strchr(text, '\n'))) {
+        text++;
+        lines++;
+    }
+    return lines;
+}
+
+/* The last matrices are left out where they do not fit; blank lines fill what is left. */
+void study_print_screen(FILE *out, const study_plan *plan, const char *tables, bool in_colour)
+{
+    screen s = {.plan = plan, .in_colour = in_colour};
+    char *text[PARTS];
+    size_t length;
+    int lines = 0;
+    list_methods(&s);
+    choose_rows(&s);
+    choose_columns(&s);
+    count_runs(&s);
+    for (int i = 0; i < PARTS; i++) {
+        FILE *part = cli_memstream_open(&text[i], &length);
+        print_part(part, &s, i, tables);
+        cli_memstream_close(part);
+        lines += count_lines(text[i]);
+    }
+    for (int i = KEY - 1; i > MATRIX && lines > LINES; i--) {
+        lines -= count_lines(text[i]);
+        text[i][0] = '\0';
+    }
+    for (int i = 0; i < PARTS; i++) {
+        if (i > 0 && i != KEY && text[i][0] && lines < LINES) {
+            fputc('\n', out);
+            lines++;
+        }
+        fputs(text[i], out);
+        free(text[i]);
+    }
+    free(s.methods);
+}
