@@ -305,16 +305,25 @@ static void say_fates(FILE *out, const screen *s, int quantity)
     if (sum[RUNS] == 0)
         fprintf(out, "No finished run on p = pi = 0 has %s to keep.\n",
                 quantity == CONSTRAINT ? "a constraint" : "an energy");
+    else if (quantity == CONSTRAINT)
+        fprintf(out, "Of %d runs %d keep D at rounding, %d keep it bounded, %d let it drift.\n",
+                sum[RUNS], sum[AT_ROUNDING], sum[STEADY] - sum[AT_ROUNDING], sum[DRIFTING]);
     else
-        fprintf(out, "Of %d runs %d keep %s at rounding, %d keep it bounded, %d let it drift.\n",
-                sum[RUNS], sum[AT_ROUNDING], quantities[quantity].name,
-                sum[STEADY] - sum[AT_ROUNDING], sum[DRIFTING]);
+        fprintf(out, "On D = 0, %d of %d runs keep E at rounding, %d bounded, %d let it drift.\n",
+                sum[AT_ROUNDING], sum[RUNS], sum[STEADY] - sum[AT_ROUNDING], sum[DRIFTING]);
+}
+
+/* E is stated of a run on D = 0 alone; of an integrator where all of its runs are. */
+static bool is_stated(const screen_method *m, int quantity)
+{
+    if (m->count[quantity][RUNS] == 0) return false;
+    return quantity == CONSTRAINT ||
+           m->count[CONSTRAINT][AT_ROUNDING] == m->count[CONSTRAINT][RUNS];
 }
 
 static bool has_fate(const screen_method *m, int quantity, int fate)
 {
-    const int *count = m->count[quantity];
-    return count[RUNS] > 0 && count[fate] == count[RUNS];
+    return is_stated(m, quantity) && m->count[quantity][fate] == m->count[quantity][RUNS];
 }
 
 /* The integrators of which all runs have a fate, as many as fit a line. */
@@ -323,11 +332,11 @@ static void say_methods(FILE *out, const screen *s, int quantity, int fate, cons
     static const char more[] = ", ...";
     int all = 0, count = 0, listed = 0;
     for (int i = 0; i < s->method_count; i++) {
-        all += s->methods[i].count[quantity][RUNS] > 0;
+        all += is_stated(&s->methods[i], quantity);
         count += has_fate(&s->methods[i], quantity, fate);
     }
     if (all == 0) return;
-    int column = fprintf(out, "%d of %d integrators %s", count, all, what);
+    int column = fprintf(out, "%d of %d %s", count, all, what);
     for (int i = 0; i < s->method_count; i++) {
         const screen_method *m = &s->methods[i];
         if (!has_fate(m, quantity, fate)) continue;
@@ -383,9 +392,9 @@ static void say_speed(FILE *out, const screen *s)
 static void print_sentences(FILE *out, const screen *s)
 {
     say_fates(out, s, CONSTRAINT);
-    say_methods(out, s, CONSTRAINT, AT_ROUNDING, "keep D at rounding in every run");
+    say_methods(out, s, CONSTRAINT, AT_ROUNDING, "integrators keep D at rounding in every run");
     say_fates(out, s, ENERGY);
-    say_methods(out, s, ENERGY, STEADY, "let E drift in no run");
+    say_methods(out, s, ENERGY, STEADY, "integrators that stay on D = 0 keep E from drifting");
     if (!say_lift(out, s)) say_speed(out, s);
 }
 
