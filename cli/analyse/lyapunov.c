@@ -10,6 +10,7 @@
 #include "dalembert_analysis.h"
 #include "io/gnuplot.h"
 #include "io/trajectory.h"
+#include "run/request.h"
 #include "run/row_times.h"
 #include "ui/memory.h"
 #include "ui/message.h"
@@ -19,6 +20,14 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+
+typedef struct lyapunov_settings {
+    bool is_volume;
+    run_request request;
+    const char *output;
+    double transient;
+    long long rows, exponents; /* exponents: 0 for all */
+} lyapunov_settings;
 
 /* Steps between two polls of the signals. */
 enum { CHUNK = 200, MAX_ROWS = 100000000, MAX_COLUMN_NAME = 24 };
@@ -289,7 +298,7 @@ static const cli_option options[] = {
      CLI_INTEGER(lyapunov_settings, exponents, 1, 1e6)},
 };
 
-cli_group lyapunov_group(lyapunov_settings *settings)
+static cli_group lyapunov_group(lyapunov_settings *settings)
 {
     cli_group group = CLI_GROUP(options, settings);
     group.owner = "lyapunov";
@@ -297,7 +306,7 @@ cli_group lyapunov_group(lyapunov_settings *settings)
     return group;
 }
 
-int lyapunov_measure(lyapunov_settings *settings)
+static int measure_means(lyapunov_settings *settings)
 {
     tangent_study s = {.set = settings, .request = &settings->request};
     int status = create_spectrum(&s);
@@ -310,5 +319,18 @@ int lyapunov_measure(lyapunov_settings *settings)
     free(s.heads);
     free(s.values);
     dal_lyapunov_free(s.spectrum);
+    return status;
+}
+
+int lyapunov_command(const cli_command *command, bool is_volume, int argc, char **argv)
+{
+    lyapunov_settings s = {.request = request_default(), .is_volume = is_volume};
+    const cli_group groups[] = {
+        lyapunov_group(&s),
+        request_group(&s.request, request_options, REQUEST_ROW_OPTIONS | REQUEST_OPTION(space)),
+    };
+    int status = cli_read_arguments(command, argc, argv, groups, 2);
+    if (status == CLI_GO_ON) status = measure_means(&s);
+    request_free(&s.request);
     return status;
 }

@@ -2,22 +2,13 @@
 #ifndef DAL_CLI_LYAPUNOV_H
 #define DAL_CLI_LYAPUNOV_H
 
-#include "run/request.h"
+#include "ui/options.h"
 
 #include <stdbool.h>
 
-typedef struct lyapunov_settings {
-    bool is_volume;
-    run_request request;
-    const char *output;
-    double transient;
-    long long rows, exponents; /* exponents: 0 for all */
-} lyapunov_settings;
-
-/* The options that both commands take. */
-cli_group lyapunov_group(lyapunov_settings *settings);
-/* Prints the means, writes a table of the means so far and a figure.  Returns CLI_DONE or prints
- * and returns an exit status. */
-int lyapunov_measure(lyapunov_settings *settings);
+/* The commands lyapunov and, with is_volume, volume: reads the arguments, prints the means, writes
+ * a table of the means so far and a figure.  Returns CLI_DONE or prints and returns an exit
+ * status. */
+int lyapunov_command(const cli_command *command, bool is_volume, int argc, char **argv);
 
 #endif

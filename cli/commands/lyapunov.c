@@ -1,19 +1,10 @@
 /* lyapunov.c - `dalembert lyapunov`: the Lyapunov exponents of a motion. */
 #include "analyse/lyapunov.h"
 #include "ui/commands.h"
-#include "ui/options.h"
 
 static int lyapunov(int argc, char **argv)
 {
-    lyapunov_settings s = {.request = request_default()};
-    const cli_group groups[] = {
-        lyapunov_group(&s),
-        request_group(&s.request, request_options, REQUEST_ROW_OPTIONS | REQUEST_OPTION(space)),
-    };
-    int status = cli_read_arguments(&command_lyapunov, argc, argv, groups, 2);
-    if (status == CLI_GO_ON) status = lyapunov_measure(&s);
-    request_free(&s.request);
-    return status;
+    return lyapunov_command(&command_lyapunov, false, argc, argv);
 }
 
 const cli_command command_lyapunov = {

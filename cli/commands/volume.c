@@ -1,19 +1,10 @@
 /* volume.c - `dalembert volume`: the rate at which the volume of the phase space changes. */
 #include "analyse/lyapunov.h"
 #include "ui/commands.h"
-#include "ui/options.h"
 
 static int volume(int argc, char **argv)
 {
-    lyapunov_settings s = {.request = request_default(), .is_volume = true};
-    const cli_group groups[] = {
-        lyapunov_group(&s),
-        request_group(&s.request, request_options, REQUEST_ROW_OPTIONS | REQUEST_OPTION(space)),
-    };
-    int status = cli_read_arguments(&command_volume, argc, argv, groups, 2);
-    if (status == CLI_GO_ON) status = lyapunov_measure(&s);
-    request_free(&s.request);
-    return status;
+    return lyapunov_command(&command_volume, true, argc, argv);
 }
 
 const cli_command command_volume = {
