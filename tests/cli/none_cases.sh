@@ -9,23 +9,18 @@ cell() {
     for text; do awk -v text="$text" 'NR == 1 || index($0, text)' chosen >fewer && mv fewer chosen; done
     column "$head" chosen
 }
-# is_empty FILE HEADS TEXT...: these columns have no value in those rows, of which there are some.
-is_empty() {
-    table=$1 heads=$2
-    shift 2
+# are_all PATTERN FILE HEADS TEXT...: all cells of these columns in those rows, of which there are
+# some, match the pattern.
+are_all() {
+    pattern=$1 table=$2 heads=$3
+    shift 3
     for name in $heads; do
         cell $table $name "$@" >cells
-        holds "$table: $name: $*" sh -c 'test -s cells && ! grep -q . cells'
+        holds "$table: $name: $*" test -s cells -a "$(grep -cvE "$pattern" cells)" -eq 0
     done
 }
-has_values() {
-    table=$1 heads=$2
-    shift 2
-    for name in $heads; do
-        cell $table $name "$@" >cells
-        holds "$table: $name: $*" sh -c 'test -s cells && ! grep -qvE "^-?[0-9.e+-]+$|^[0-9a-f]{16}$" cells'
-    done
-}
+is_empty() { are_all '^$' "$@"; }
+has_values() { are_all '^-?[0-9.e+-]+$|^[0-9a-f]{16}$' "$@"; }
 
 case_is "no value: cells of a study"
 cat >some.yaml <<'END2'
