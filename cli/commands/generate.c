@@ -17,7 +17,7 @@ typedef struct settings {
 } settings;
 
 static const cli_option options[] = {
-    {"output", "FILE|-", "-", "writes there, or to standard output; also -o",
+    {"output", "FILE|-", "-", "writes there, or to standard output",
      CLI_TEXT(settings, output)},
     {"lanes", "W", "1", "steps 1, 2, 4, 8 or 16 systems at a time",
      CLI_INTEGER(settings, lanes, 1, 16)},
@@ -52,9 +52,6 @@ static int generate_text(settings *s)
 
 static int generate(int argc, char **argv)
 {
-    static char output[] = "--output"; /* -o is what compilers call it */
-    for (int i = 1; i < argc; i++)
-        if (strcmp(argv[i], "-o") == 0) argv[i] = output;
     settings s = {.request = request_default()};
     const cli_group groups[] = {
         CLI_GROUP(options, &s),
@@ -68,7 +65,7 @@ static int generate(int argc, char **argv)
 
 const cli_command command_generate = {
     .name = "generate",
-    .synopsis = "dalembert generate SYSTEM --integrator NAME [OPTION]... -o FILE.c",
+    .synopsis = "dalembert generate SYSTEM [OPTION]... -o FILE.c",
     .about = "writes one C file that steps a system and needs nothing else",
     .notes = "The file is C11 and C++17, needs libm alone, and computes the same bits as "
              "'dalembert run'; its first comment says how to call it.  --set and --start become "

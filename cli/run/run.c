@@ -32,7 +32,7 @@ static const cli_option options[RUN_OPTIONS] = {
 
 cli_group run_group(run_settings *settings, uint64_t without)
 {
-    return (cli_group){options, RUN_OPTIONS, settings, NULL, without, "run"};
+    return (cli_group){options, RUN_OPTIONS, settings, NULL, without, "run", NULL};
 }
 
 static void print_end(const run_recorder *r, int status, const dal_error *error)

@@ -27,7 +27,9 @@ static void describe_option(const cli_option *option, option_printer *print)
     char name[128], help[512];
     snprintf(name, sizeof name, "%s%s%s%s", option->name ? "--" : "",
              option->name ? option->name : option->value, *value ? " " : "", value);
-    snprintf(help, sizeof help, initial ? "%s (%.*s)" : "%s", option->help,
+    const bool has_short = option->name && strcmp(option->name, CLI_OUTPUT) == 0;
+    snprintf(help, sizeof help, initial ? "%s%s (%.*s)" : "%s%s", option->help,
+             has_short ? "; also " CLI_SHORT_OUTPUT : "",
              initial ? (int)strcspn(initial, "|") : 0, initial);
     print(name, help);
 }

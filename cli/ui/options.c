@@ -145,10 +145,35 @@ typedef struct reader {
     int group_count;
     int argc, next;
     char **argv;
+    bool plain;                 /* behind -- */
     uint64_t given[MAX_GROUPS]; /* bit k: option k was given */
 } reader;
 
-static int unknown_option(const reader *r, const char *argument, size_t length)
+/* Finds option NAME, or (length 0) the argument that is no option; false: there is none. */
+static bool find(const reader *r, const char *name, size_t length, int *group, int *k)
+{
+    for (*group = 0; *group < r->group_count; ++*group)
+        for (*k = 0; *k < r->groups[*group].count; ++*k) {
+            const char *other = r->groups[*group].options[*k].name;
+            if (r->groups[*group].without >> *k & 1) continue;
+            if (other ? strlen(other) == length && memcmp(other, name, length) == 0 : length == 0)
+                return true;
+        }
+    return false;
+}
+
+/* Skips the value of an unknown option: of one that is like an option with a value, or of any where
+ * all arguments that are no options have been read. */
+static void skip_value(reader *r, const char *meant)
+{
+    int group, k;
+    if (r->next == r->argc || r->argv[r->next][0] == '-') return;
+    if (find(r, meant ? meant : "", meant ? strlen(meant) : 0, &group, &k) &&
+        (meant ? r->groups[group].options[k].value != NULL : r->given[group] >> k & 1))
+        r->next++;
+}
+
+static int unknown_option(reader *r, const char *argument, size_t length)
 {
     const char *names[MAX_NAMES];
     int count = 0;
@@ -167,6 +192,7 @@ static int unknown_option(const reader *r, const char *argument, size_t length)
                  nearest);
     else
         cli_fail(CLI_USAGE, "%s: unknown option '%s'", r->argv[0], name);
+    if (!argument[length]) skip_value(r, present ? present : nearest);
     free(name);
     return CLI_USAGE;
 }
@@ -177,19 +203,6 @@ static int parse(reader *r, int group, int k, const char *text)
     r->given[group] |= UINT64_C(1) << k;
     if (g->texts) g->texts[k] = text;
     return g->options[k].parse(g->settings, &g->options[k], text);
-}
-
-/* Finds option NAME, or (length 0) the argument that is no option; false: there is none. */
-static bool find(const reader *r, const char *name, size_t length, int *group, int *k)
-{
-    for (*group = 0; *group < r->group_count; ++*group)
-        for (*k = 0; *k < r->groups[*group].count; ++*k) {
-            const char *other = r->groups[*group].options[*k].name;
-            if (r->groups[*group].without >> *k & 1) continue;
-            if (other ? strlen(other) == length && memcmp(other, name, length) == 0 : length == 0)
-                return true;
-        }
-    return false;
 }
 
 static int read_option(reader *r, const char *argument)
@@ -208,45 +221,63 @@ static int read_option(reader *r, const char *argument)
                     option->value);
 }
 
-/* A required option that is not given; an argument that is no option comes before all options. */
-static const cli_option *find_missing(const reader *r)
+/* Names what is required and was not given: first the arguments that are no options. */
+static int report_missing(const reader *r, const cli_command *command)
 {
-    const cli_option *missing = NULL;
-    for (int g = 0; g < r->group_count; g++)
-        for (int k = 0; k < r->groups[g].count; k++) {
-            const cli_option *option = &r->groups[g].options[k];
-            if (option->initial != CLI_REQUIRED) continue;
-            if ((r->given[g] | r->groups[g].without) >> k & 1) continue;
-            if (!missing || !option->name) missing = option;
-        }
-    return missing;
+    int status = CLI_DONE;
+    for (int is_option = 0; is_option <= 1; is_option++)
+        for (int g = 0; g < r->group_count; g++)
+            for (int k = 0; k < r->groups[g].count; k++) {
+                const cli_option *option = &r->groups[g].options[k];
+                if (option->initial != CLI_REQUIRED || (option->name != NULL) != is_option ||
+                    (r->given[g] | r->groups[g].without) >> k & 1)
+                    continue;
+                const bool is_first = status == CLI_DONE;
+                status = cli_fail(CLI_USAGE, "%s%s is missing%s%s", is_option ? "--" : "the ",
+                                  is_option ? option->name : option->value,
+                                  is_first ? "; usage: " : "", is_first ? command->synopsis : "");
+            }
+    return status;
 }
 
+static int read_argument(reader *r, const char *argument)
+{
+    int group, k;
+    if (!r->plain && strcmp(argument, "--") == 0) {
+        r->plain = true;
+        return CLI_DONE;
+    }
+    if (!r->plain && strcmp(argument, CLI_SHORT_OUTPUT) == 0 &&
+        find(r, CLI_OUTPUT, strlen(CLI_OUTPUT), &group, &k))
+        argument = "--" CLI_OUTPUT;
+    if (!r->plain && argument[0] == '-' && argument[1]) return read_option(r, argument);
+    if (find(r, "", 0, &group, &k)) return parse(r, group, k, argument);
+    return cli_fail(CLI_USAGE, "%s: unexpected argument '%s'", r->argv[0], argument);
+}
+
+/* Everything that is wrong is named, not the first alone. */
 int cli_read_arguments(const cli_command *command, int argc, char **argv, const cli_group *groups,
                        int count)
 {
     reader r = {.groups = groups, .group_count = count, .argc = argc, .next = 1, .argv = argv};
-    bool plain = false;
-    int group, k, status = CLI_DONE;
+    int status = CLI_DONE;
     for (int g = 0; g < count; g++)
         cli_set_defaults(groups[g].options, groups[g].count, groups[g].settings);
-    while (status == CLI_DONE && r.next < argc) {
+    while (r.next < argc) {
         const char *argument = argv[r.next++];
-        if (plain || argument[0] != '-' || argument[1] == '\0')
-            status = find(&r, "", 0, &group, &k)
-                         ? parse(&r, group, k, argument)
-                         : cli_fail(CLI_USAGE, "%s: unexpected argument '%s'", argv[0], argument);
-        else if (strcmp(argument, "--") == 0)
-            plain = true;
-        else if (strcmp(argument, "--help") == 0 || strcmp(argument, "-h") == 0)
+        const bool may_help = !r.plain && status == CLI_DONE;
+        if (may_help && (strcmp(argument, "--help") == 0 || strcmp(argument, "-h") == 0))
             return cli_print_help(command, groups, count);
-        else if (strcmp(argument, CLI_HELP_MARKDOWN) == 0)
+        if (may_help && strcmp(argument, CLI_HELP_MARKDOWN) == 0)
             return cli_print_reference(command, groups, count);
-        else
-            status = read_option(&r, argument);
+        const int read = read_argument(&r, argument);
+        if (status == CLI_DONE) status = read;
     }
-    const cli_option *missing = status == CLI_DONE ? find_missing(&r) : NULL;
-    if (!missing) return status == CLI_DONE ? CLI_GO_ON : status;
-    return cli_fail(CLI_USAGE, "%s%s is missing; usage: %s", missing->name ? "--" : "the ",
-                    missing->name ? missing->name : missing->value, command->synopsis);
+    const int missing = report_missing(&r, command);
+    if (status == CLI_DONE) status = missing;
+    for (int g = 0; g < count; g++) {
+        const int completed = groups[g].complete ? groups[g].complete(&groups[g], status) : CLI_DONE;
+        if (status == CLI_DONE) status = completed;
+    }
+    return status == CLI_DONE ? CLI_GO_ON : status;
 }

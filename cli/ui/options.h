@@ -25,6 +25,10 @@ struct cli_option {
 
 extern const char CLI_REQUIRED[];
 
+/* The one option with a short form. */
+#define CLI_OUTPUT       "output"
+#define CLI_SHORT_OUTPUT "-o"
+
 /* Each stores one type: const char *, bool, double, long long, int or an enumeration. */
 cli_parser cli_parse_text, cli_parse_flag, cli_parse_number, cli_parse_integer, cli_parse_word;
 
@@ -39,14 +43,18 @@ cli_parser cli_parse_text, cli_parse_flag, cli_parse_number, cli_parse_integer, 
     CLI_ROW(cli_parse_integer, settings, member), .min = least, .max = greatest
 
 /* Options that fill one struct. */
-typedef struct cli_group {
+typedef struct cli_group cli_group;
+struct cli_group {
     const cli_option *options;
     int count;
     void *settings;
     const char **texts; /* [count] receives what was given; or NULL */
     uint64_t without;   /* bit k: the command does not take option k */
     const char *owner;  /* the command whose reference describes them; NULL: each one's own */
-} cli_group;
+    /* Completes the settings when all arguments have been read, with that exit status; or NULL.
+     * Returns CLI_DONE, or prints and returns an exit status. */
+    int (*complete)(const cli_group *group, int status);
+};
 
 /* The rows of a command that fill its settings. */
 #define CLI_GROUP(rows, target)                                                                    \
@@ -64,7 +72,7 @@ enum { CLI_GO_ON = -1 };
 void cli_set_defaults(const cli_option *options, int count, void *settings);
 /* Stores the defaults of all groups and reads all arguments: --option value, --option=value, never
  * an abbreviation; -- ends the options.  Returns CLI_GO_ON, or an exit status after --help or a
- * message. */
+ * message for each thing that is missing or wrong. */
 int cli_read_arguments(const cli_command *command, int argc, char **argv, const cli_group *groups,
                        int count);
 
