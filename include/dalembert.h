@@ -192,6 +192,7 @@ struct dal_system {
     const dal_system *extended; /* F continued off D = 0 so that E is exact, for extend-energy */
     const dal_system *quad;     /* work in quad precision, for precision; these two may be NULL */
     const struct dal_picture *picture; /* how it is drawn; NULL: not at all */
+    const struct dal_defaults *defaults; /* what its file proposes for a run; NULL: nothing */
     void *data;                        /* of the owner, for callbacks */
 };
 
@@ -229,6 +230,14 @@ typedef struct dal_picture {
     dal_callback *evaluate; /* out[DAL_PICTURE_COUNT]: the numbers of the picture */
     dal_body body;          /* what is drawn there */
 } dal_picture;
+
+/* What a system file proposes for a run that shows the motion, as it stands there; the library does
+ * not use it.  What the file does not give is NULL. */
+typedef struct dal_defaults {
+    const char *integrator;  /* name of a method, not checked */
+    const char *step, *time; /* positive numbers */
+    int line, column;        /* of the integrator in the file */
+} dal_defaults;
 
 /* ---- integrators and methods --------------------------------------------------------------- */
 
@@ -331,7 +340,8 @@ typedef struct dal_model dal_model;
     SECTION(INVARIANTS, "invariants") /* name, formula */                                          \
     SECTION(EXACT, "exact")           /* coordinate, formula in t and parameters */                \
     SECTION(TAGS, "tags")             /* a word */                                                 \
-    SECTION(PICTURE, "picture")       /* x, y, angle, ..: formula; body: a word */
+    SECTION(PICTURE, "picture")       /* x, y, angle, ..: formula; body: a word */                 \
+    SECTION(DEFAULTS, "defaults")     /* integrator: a method; step, time: a number */
 
 /* A section of a system file.  Reactions are along B_a = dD_a/dv (Chetaev's rule), unless the file
  * gives B_a(q,v,t), as for an actuator that enforces a servo constraint:

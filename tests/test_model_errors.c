@@ -108,6 +108,12 @@ static const bad_file names[] = {
     {DAL_MODEL, "picture has no y: it needs x and y", XY L "picture: {@x: x, angle: y}\n"},
     {DAL_NAME, "picture width: unknown name 'z'", XY L "picture: {x: x, y: y, width: 2*@z}\n"},
     {DAL_SYNTAX, "picture must be a mapping of names", XY L "picture: @sleigh\n"},
+    {DAL_NAME, "unknown entry of defaults 'stp'; did you mean 'step'?",
+     XY L "defaults: {time: 1, @stp: 0.1}\n"},
+    {DAL_SYNTAX, "step in defaults: '1/10' is not a positive number",
+     XY L "defaults: {step: @1/10}\n"},
+    {DAL_SYNTAX, "time in defaults: '0' is not a positive number", XY L "defaults: {time: @0}\n"},
+    {DAL_SYNTAX, "defaults must be a mapping of names", XY L "defaults: @rk4\n"},
     {DAL_NAME, "unknown mechanics 'vakonomc'; did you mean 'vakonomic'?",
      XY L "mechanics: @vakonomc\n"},
 };

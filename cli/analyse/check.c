@@ -137,10 +137,8 @@ static int print_check(check *c)
 
 int check_system(run_request *request)
 {
-    check c = {.request = request};
-    int status = cli_load(request->system_name, &request->model, &request->system);
-    c.system = request->system;
-    if (status == CLI_DONE) status = prepare_check(&c);
+    check c = {.request = request, .system = request->system};
+    int status = prepare_check(&c);
     if (status == CLI_DONE) status = print_check(&c);
     free(c.start);
     dal_evaluator_free(c.evaluator);

@@ -70,9 +70,7 @@ static int load_section(section *s)
     run_request *request = s->request;
     char name[MAX_NAME] = "section_1";
     const char *equals = strchr(s->set->on, '=');
-    /* First without the section: then any later error is one of the section. */
-    int status = cli_load(request->system_name, &request->model, &request->system);
-    if (status != CLI_DONE) return status;
+    /* The system has been loaded without the section: any error is one of the section. */
     for (int k = 2; is_name_used(request->system, name); k++)
         snprintf(name, sizeof name, "section_%d", k);
     if (!equals) return load_with_invariant(request, name, s->set->on, 1);
@@ -81,7 +79,7 @@ static int load_section(section *s)
     const int length = (int)(equals - s->set->on);
     char *left = cli_format("%.*s", length, s->set->on);
     char *difference = cli_format("(%s)-(%s)", left, equals + 1);
-    status = load_with_invariant(request, name, left, 1);
+    int status = load_with_invariant(request, name, left, 1);
     if (status == CLI_DONE) status = load_with_invariant(request, name, equals + 1, length + 2);
     if (status == CLI_DONE) status = load_with_invariant(request, name, difference, 1);
     free(left);

@@ -38,7 +38,7 @@ static int explain(int argc, char **argv)
 
 const cli_command command_explain = {
     .name = "explain",
-    .synopsis = "dalembert explain SYSTEM --integrator NAME --step H --time T [OPTION]...",
+    .synopsis = "dalembert explain SYSTEM [OPTION]...",
     .about = "finds the error sources of the drift of a run",
     .notes =
         "Runs the system again in several ways that differ in one thing each: half the step, a "

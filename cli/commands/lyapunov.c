@@ -9,7 +9,7 @@ static int lyapunov(int argc, char **argv)
 
 const cli_command command_lyapunov = {
     .name = "lyapunov",
-    .synopsis = "dalembert lyapunov SYSTEM --integrator NAME --step H --time T [OPTION]...",
+    .synopsis = "dalembert lyapunov SYSTEM [OPTION]...",
     .about = "computes the Lyapunov exponents of a motion",
     .notes =
         "The derivative of each step moves tangent vectors on (q,v), which then are made "

@@ -7,12 +7,19 @@
 
 #include <string.h>
 
+static int parse_steps(void *user, const cli_option *option, const char *text)
+{
+    order_settings *s = user;
+    s->request.typed |= REQUEST_OPTION(step); /* no default for it is needed */
+    return cli_parse_text(user, option, text);
+}
+
 static const cli_option options[] = {
     {"integrators", "LIST|all", NULL,
      "integrators, with modifiers or not: rk4,gauss4+project (all)",
      CLI_TEXT(order_settings, integrators)},
     {"steps", "H1,H2,..", NULL, "step sizes, falling, at most 8; replaces --step and --levels",
-     CLI_TEXT(order_settings, steps)},
+     .parse = parse_steps, .offset = offsetof(order_settings, steps)},
     {"levels", "K", "4", "number of step sizes, each half the one before it",
      CLI_INTEGER(order_settings, level_count, 2, DAL_ORDER_LEVELS)},
     POOL_THREADS_OPTION(order_settings, "runs at a time; results do not depend on it"),
@@ -44,8 +51,9 @@ const cli_command command_order = {
     .synopsis = "dalembert order SYSTEM [OPTION]...",
     .about = "measures error against step and against work for many integrators",
     .notes =
-        "--step is the largest step (0.1), --time the time of the errors (10), and the space is "
-        "(q,v) unless --space lifted is given.\n"
+        "--step is the largest step, --time the time of the errors; both come from the defaults of "
+        "the system file where they are not given, or are 0.1 and 10.  The space is (q,v) unless "
+        "--space lifted is given.\n"
         "\n"
         "The error is the largest difference in q and v at T, relative to max(1, |x|), from the "
         "exact solution where the system has one that begins at this start.  Otherwise the "

@@ -44,9 +44,12 @@ static int run(int argc, char **argv)
 
 const cli_command command_run = {
     .name = "run",
-    .synopsis = "dalembert run SYSTEM --integrator NAME --step H --time T [OPTION]...",
+    .synopsis = "dalembert run SYSTEM [OPTION]...",
     .about = "integrates one system",
     .notes =
+        "The integrator, the step and the time come from the defaults of the system file where they "
+        "are not given; a line on standard error says so.\n"
+        "\n"
         "Rows are CSV with 17 digits: t, the coordinates, the velocities, the multipliers g1.. of "
         "a vakonomic system, on the lifted space e, p_*, pi_*, pi_e, then D1.., E, H, the "
         "invariants and error; N+1 rows, from t = 0 to exactly T.  Where a row falls between two "

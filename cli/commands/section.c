@@ -36,8 +36,7 @@ static int section(int argc, char **argv)
 
 const cli_command command_section = {
     .name = "section",
-    .synopsis = "dalembert section SYSTEM --on FORMULA --integrator NAME --step H --time T "
-                "[OPTION]...",
+    .synopsis = "dalembert section SYSTEM --on FORMULA [OPTION]...",
     .about = "finds where a motion crosses a surface",
     .notes = "The formula may name "
              "coordinates, velocities, parameters, what the system file defines under let, and t.\n"

@@ -9,7 +9,7 @@ static int volume(int argc, char **argv)
 
 const cli_command command_volume = {
     .name = "volume",
-    .synopsis = "dalembert volume SYSTEM --integrator NAME --step H --time T [OPTION]...",
+    .synopsis = "dalembert volume SYSTEM [OPTION]...",
     .about = "computes the rate at which the volume of the phase space changes",
     .notes =
         "The command computes two rates along the run: the exact divergence of the motion in "

@@ -68,7 +68,7 @@ static int parse_setting(void *user, const cli_option *option, const char *text)
 #define DEFAULT_dal_choice(initial, value) value
 
 const cli_option request_options[REQUEST_OPTIONS] = {
-    {"integrator", "NAME", CLI_REQUIRED,
+    {"integrator", "NAME", NULL,
      "the method: rk4, gauss8+project, ...; see 'dalembert list integrators'",
      .parse = parse_method},
     {"time", "T", NULL, "integrates from t = 0 to t = T", .parse = parse_time},
@@ -87,17 +87,53 @@ const cli_option request_options[REQUEST_OPTIONS] = {
      "sets a start value: x, x', e (or e=inf), p_x, pi_x, ...; may be repeated",
      .parse = parse_setting, .offset = FIELD(start)},
 #define ROW(type, name, word, initial, least, greatest, value, help)                               \
-    {word, value, REQUEST_##name - REQUEST_step ? DEFAULT_##type(initial, value) : CLI_REQUIRED,   \
-     help, .parse = parse_run_option},
+    {word, value, REQUEST_##name - REQUEST_step ? DEFAULT_##type(initial, value) : NULL, help,     \
+      .parse = parse_run_option},
     DAL_OPTION_LIST(ROW)
 #undef ROW
         {NULL, "SYSTEM", CLI_REQUIRED,
          "a built-in system ('dalembert list systems') or the path of a file",
          .parse = cli_parse_text, .offset = FIELD(system_name)}};
 
+/* The options that a system file may give. */
+static const int default_options[REQUEST_DEFAULTS] = {REQUEST_integrator, REQUEST_step,
+                                                      REQUEST_time};
+
+/* Takes those that the command needs and does not have; a line says which. */
+static int take_defaults(const cli_group *group, int status)
+{
+    run_request *request = group->settings;
+    char taken[512] = "";
+    if (!request->system_name) return CLI_DONE;
+    int found = cli_load(request->system_name, &request->model, &request->system);
+    if (found != CLI_DONE) return found;
+    const dal_defaults none = {0}, *given = request->system->defaults;
+    if (!given) given = &none;
+    const char *const texts[REQUEST_DEFAULTS] = {given->integrator, given->step, given->time};
+    for (int i = 0; i < REQUEST_DEFAULTS; i++) {
+        const int k = default_options[i];
+        const cli_option *option = &group->options[k];
+        const size_t length = strlen(taken);
+        if (group->without >> k & 1 || request_has(request, k)) continue;
+        if (k == REQUEST_time && request_has(request, REQUEST_times)) continue;
+        if (!texts[i] && !option->initial)
+            found = cli_fail(CLI_USAGE, "--%s is missing, and %s has no default for it",
+                             option->name, request->system_name);
+        if (!texts[i]) continue;
+        snprintf(taken + length, sizeof taken - length, " --%s %s", option->name, texts[i]);
+        request->taken[i] = cli_strdup(texts[i]);
+        const int parsed = request_parse_option(request, k, request->taken[i]);
+        if (found == CLI_DONE) found = parsed;
+    }
+    if (taken[0] && found == CLI_DONE && status == CLI_DONE)
+        cli_note("%s gives%s", request->system_name, taken);
+    return found;
+}
+
 cli_group request_group(run_request *request, const cli_option *options, uint64_t without)
 {
-    return (cli_group){options, REQUEST_OPTIONS, request, request->text, without, "run"};
+    return (cli_group){options, REQUEST_OPTIONS, request, request->text,
+                       without, "run",           take_defaults};
 }
 
 int request_parse_option(run_request *request, int option, const char *text)
@@ -148,6 +184,7 @@ void request_free(run_request *request)
     request_free_settings(&request->start);
     free(request->row_time);
     free(request->list);
+    for (int i = 0; i < REQUEST_DEFAULTS; i++) free(request->taken[i]);
     *request = request_default();
 }
 

@@ -28,6 +28,7 @@ enum {
             REQUEST_system,
     REQUEST_OPTIONS
 };
+enum { REQUEST_DEFAULTS = 3 }; /* the options that a system file may give */
 
 typedef struct request_settings {
     dal_setting *item; /* with names of their own */
@@ -53,6 +54,7 @@ typedef struct run_request {
     double *row_time; /* [samples + 1]; NULL: at equal distances */
     long long times;  /* number of times that were given */
     char *list;       /* those as a text */
+    char *taken[REQUEST_DEFAULTS]; /* texts that came from the system file */
     dal_options options;
     request_settings set, start;
     dal_method method;
@@ -70,7 +72,7 @@ void request_free(run_request *request);
     (REQUEST_OPTION(samples) | REQUEST_OPTION(sampling) | REQUEST_OPTION(times) |                  \
      REQUEST_OPTION(statistics))
 /* All options; and as a group for a command, which may change their defaults and help in options,
- * and does not take some. */
+ * and does not take some.  A command that has read its arguments has loaded the system. */
 extern const cli_option request_options[REQUEST_OPTIONS];
 cli_group request_group(run_request *request, const cli_option *options, uint64_t without);
 /* Whether an option was given; and whether it has a number as its value. */

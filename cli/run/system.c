@@ -54,7 +54,14 @@ int cli_read(const char *system, dal_model **model)
 int cli_make(const char *place, dal_model **model, const dal_system **made)
 {
     dal_error error = {0};
-    const dal_status make = dal_model_system(*model, made, &error);
+    dal_method method;
+    dal_status make = dal_model_system(*model, made, &error);
+    const dal_defaults *defaults = make == DAL_OK ? (*made)->defaults : NULL;
+    if (defaults && defaults->integrator) {
+        make = dal_method_parse(&method, defaults->integrator, &error);
+        error.line = defaults->line;
+        error.column = defaults->column;
+    }
     if (make == DAL_OK) return CLI_DONE;
     dal_model_free(*model);
     *model = NULL;

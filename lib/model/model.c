@@ -35,6 +35,7 @@ const dal__model_section dal__sections[DAL_SECTION_COUNT] = {
     [DAL_SECTION_EXACT] = {DAL__MAPPING, "exact solution for"},
     [DAL_SECTION_TAGS] = {DAL__LIST, NULL},
     [DAL_SECTION_PICTURE] = {DAL__MAPPING, "picture"},
+    [DAL_SECTION_DEFAULTS] = {DAL__MAPPING, NULL},
 };
 
 bool dal__section_named(dal_section section) { return dal__sections[section].form >= DAL__MAPPING; }

@@ -44,7 +44,7 @@ try 0 explain line.yaml --integrator rk4 --step 0.1 --time 10 --quad-steps 0
 prints "no quad precision: not requested"
 
 case_is "explain: bad input"
-try 2 explain chaplygin-sleigh --integrator rk4 --step 0.1
+try 2 explain line.yaml --integrator rk4 --step 0.1
 says "--time is missing"
 try 2 explain chaplygin-sleigh --integrator rk5 --step 0.1 --time 1
 says "did you mean 'rk4'"

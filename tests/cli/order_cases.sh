@@ -52,7 +52,7 @@ case_is "no order outside the asymptotic range"
 for system in falling-disk isokinetic-cluster; do
     expected=0
     [ $system = falling-disk ] && expected=3
-    try $expected order $system --output range.csv
+    try $expected order $system --step 0.1 --time 10 --output range.csv
     holds "$system: another order" awk -F, 'NR > 1 && $4 != "" { if (($4 - $3)^2 > 0.15^2) exit 1
         found[$2] } END { n = 0; for (m in found) n++; exit n < 15 }' range.csv
     holds "$system: an order of symplectic-euler" test -z "$(

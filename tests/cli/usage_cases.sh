@@ -216,16 +216,49 @@ try 2 run chaplygin-sleigh --integrator rk4 --step 0.1 --time 1 --sample 3
 says "unknown option '--sample'; did you mean '--samples'\?"
 
 case_is "missing options are named"
-try 2 run chaplygin-sleigh --step 0.1 --time 1
-says "^dalembert: --integrator is missing; usage: dalembert run SYSTEM --integrator NAME --step H"
-try 2 run chaplygin-sleigh --integrator rk4 --time 1
-says "^dalembert: --step is missing; usage: dalembert run "
-try 2 run chaplygin-sleigh --integrator rk4 --step 0.1
-says '^dalembert: --time is missing$'
+printf 'coordinates: [x]\nlagrangian: (x'"'^2 - x^2)/2\nstart: {x: 1}\n" >plain.yaml
+try 2 run plain.yaml --step 0.1 --time 1
+says "^dalembert: --integrator is missing, and plain.yaml has no default for it$"
+try 2 run plain.yaml --integrator rk4 --time 1
+says "^dalembert: --step is missing, and plain.yaml has no default for it$"
+try 2 run plain.yaml --integrator rk4 --step 0.1
+says "^dalembert: --time is missing, and plain.yaml has no default for it$"
+try 0 run plain.yaml --integrator rk4 --step 0.1 --times 0,1
+silent
 try 2 run --integrator rk4 --step 0.1 --time 1
-says 'SYSTEM is missing'
+says '^dalembert: the SYSTEM is missing; usage: dalembert run SYSTEM '
 try 2 resume
 says 'DIR is missing'
+
+# errors N: the number of messages.
+errors() { holds "$(wc -l <err) messages" test "$(wc -l <err)" -eq "$1"; }
+case_is "all that is wrong is named at once"
+try 2 run chaplygin-sleig --integrater rk4 --step x --tim 3 --precision dubble --solver newtn
+says "unknown option '--integrater'; did you mean '--integrator'\?"
+says "^dalembert: --step: 'x' is not a number"
+says "unknown option '--tim'; did you mean '--time'\?"
+says "^dalembert: --precision: 'dubble'"
+says "^dalembert: --solver: 'newtn'"
+says "unknown system 'chaplygin-sleig'; did you mean 'chaplygin-sleigh'\?"
+errors 6
+try 2 run plain.yaml --integrator rk5 --sampling cubic
+says "did you mean 'rk4'"
+says "^dalembert: --sampling: 'cubic'"
+says '^dalembert: --step is missing'
+says '^dalembert: --time is missing'
+errors 4
+try 2 merge --froce
+says "did you mean '--force'"
+says 'the DIR... is missing; usage:'
+says '^dalembert: --output is missing$'
+errors 3
+try 2 section plain.yaml knife-edge
+says 'only one SYSTEM'
+says '^dalembert: --on is missing; usage:'
+errors 5
+try 2 run plain.yaml --colour red --integrator rk4 --step 0.1 --time 1
+says "unknown option '--colour'"
+errors 1
 
 case_is "missing and superfluous values"
 try 2 run chaplygin-sleigh --step
@@ -242,6 +275,20 @@ try 0 run chaplygin-sleigh --integrator rk4 --step 0.1 --time 1
 mv out apart
 try 0 run --integrator=rk4 --step=0.1 --time=1 -- chaplygin-sleigh
 holds "the rows differ" cmp apart out
+
+case_is "-o is --output in every command that has it"
+while read -r command; do
+    "$program" "$command" --help | grep -q '^  --output ' || continue
+    try 2 "$command" -o
+    says '^dalembert: --output needs a value: --output '
+    echo "$command"
+done <commands >with_output
+holds "$(tr '\n' ' ' <with_output)" test "$(wc -l <with_output)" -ge 9
+try 0 run plain.yaml --integrator rk4 --step 0.1 --time 1 -o short.csv
+try 0 run plain.yaml --integrator rk4 --step 0.1 --time 1 --output long.csv
+holds "the rows differ" cmp short.csv long.csv
+try 2 check plain.yaml -o x.csv
+says "unknown option '-o'"
 
 case_is "lists"
 try 0 list
