@@ -18,7 +18,7 @@ int analysis_open(analysis_output *output, const char *path, const char *name)
     char *file = cli_format("%s.csv", name);
     output->table = cli_join(path, file);
     free(file);
-    return cli_directory(path);
+    return cli_output_directory(path);
 }
 
 double analysis_distance(const double *a, const double *b, int count)

@@ -8,6 +8,7 @@
 #include "lyapunov.h"
 #include "analysis.h"
 #include "dalembert_analysis.h"
+#include "io/file.h"
 #include "io/gnuplot.h"
 #include "io/trajectory.h"
 #include "run/request.h"
@@ -293,7 +294,7 @@ static const cli_option options[] = {
      CLI_INTEGER(lyapunov_settings, rows, 1, MAX_ROWS)},
     {"output", "DIR|FILE", NULL,
      "writes the means so far: .csv, .npy, or a directory with a figure",
-     CLI_TEXT(lyapunov_settings, output)},
+     CLI_ROW(cli_parse_output, lyapunov_settings, output)},
     {"exponents", "K", NULL, "computes the K largest only",
      CLI_INTEGER(lyapunov_settings, exponents, 1, 1e6)},
 };

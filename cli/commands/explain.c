@@ -2,23 +2,13 @@
 #include "analyse/explain.h"
 #include "io/file.h"
 #include "ui/commands.h"
-#include "ui/message.h"
 #include "ui/options.h"
-
-#include <string.h>
-
-static int parse_output(void *user, const cli_option *option, const char *text)
-{
-    if (strcmp(text, "-") != 0 && !cli_ends_in(text, ".csv"))
-        return cli_fail(CLI_USAGE, "--output: '%s' does not end in .csv", text);
-    return cli_parse_text(user, option, text);
-}
 
 static const cli_option options[] = {
     {"quad-steps", "N", "10000", "runs the first N steps in quad precision too; 0: none",
      CLI_INTEGER(explain_settings, quad_steps, 0, EXPLAIN_MAX_STEPS)},
     {"output", "FILE.csv|-", NULL, "writes a CSV file, or CSV to standard output",
-     .parse = parse_output, .offset = offsetof(explain_settings, output)},
+     CLI_ROW(cli_parse_output, explain_settings, output)},
     NATIVE_OPTION(explain_settings),
 };
 

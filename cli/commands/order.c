@@ -1,6 +1,7 @@
 /* order.c - `dalembert order`: the error of many methods against step and against work. */
 #include "analyse/order.h"
 #include "dalembert_analysis.h"
+#include "io/file.h"
 #include "run/pool.h"
 #include "ui/commands.h"
 #include "ui/options.h"
@@ -24,7 +25,7 @@ static const cli_option options[] = {
      CLI_INTEGER(order_settings, level_count, 2, DAL_ORDER_LEVELS)},
     POOL_THREADS_OPTION(order_settings, "runs at a time; results do not depend on it"),
     {"output", "DIR|FILE.csv", NULL, "writes the table as CSV; a directory gets diagrams, too",
-     CLI_TEXT(order_settings, output)},
+     CLI_ROW(cli_parse_output, order_settings, output)},
 };
 
 static int order(int argc, char **argv)

@@ -10,7 +10,7 @@ static int run_in_directory(const run_request *request, const run_settings *sett
 {
     run_directory dir;
     run_directory_open(&dir, settings->output);
-    int status = cli_directory(dir.path);
+    int status = cli_output_directory(dir.path);
     const char *file =
         status == CLI_DONE && !settings->force ? run_directory_find_file(&dir) : NULL;
     if (file)

@@ -1,5 +1,6 @@
 /* section.c - `dalembert section`: where a motion crosses a surface. */
 #include "analyse/section.h"
+#include "io/file.h"
 #include "ui/commands.h"
 #include "ui/options.h"
 
@@ -17,7 +18,7 @@ static const cli_option options[] = {
      CLI_TEXT(section_settings, axes)},
     NATIVE_OPTION(section_settings),
     {"output", "DIR|FILE|-", "-", "where rows go: .csv, .npy, a directory with a figure, or stdout",
-     CLI_TEXT(section_settings, output)},
+     CLI_ROW(cli_parse_output, section_settings, output)},
 };
 
 static int section(int argc, char **argv)

@@ -4,6 +4,7 @@
 #include "ui/memory.h"
 #include "ui/message.h"
 
+#include <ctype.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <math.h>
@@ -204,6 +205,40 @@ int cli_directory(const char *path)
     if (reason == EEXIST && stat(path, &status) == 0 && S_ISDIR(status.st_mode)) return CLI_DONE;
     errno = reason;
     return cli_io("make the directory", path);
+}
+
+/* ".h5" of "out/x.h5"; NULL where what follows the last dot is no format, as in "h0.1". */
+static const char *ending_of(const char *path)
+{
+    const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
+    const char *dot = strrchr(name, '.');
+    if (!dot || dot == name || !isalpha((unsigned char)dot[1])) return NULL;
+    for (const char *c = dot + 1; *c; c++)
+        if (!isalnum((unsigned char)*c)) return NULL;
+    return dot;
+}
+
+int cli_parse_output(void *settings, const cli_option *option, const char *text)
+{
+    struct stat status;
+    const bool has_directory = strstr(option->value, "DIR") != NULL;
+    const bool has_npy = strstr(option->value, "FILE.csv") == NULL;
+    const bool exists = stat(text, &status) == 0;
+    const bool is_fine =
+        strcmp(text, "-") == 0 || cli_ends_in(text, ".csv") ||
+        (has_npy && cli_ends_in(text, ".npy")) || (has_directory && !ending_of(text)) ||
+        (exists && !S_ISREG(status.st_mode) && (has_directory || !S_ISDIR(status.st_mode)));
+    if (is_fine) return cli_parse_text(settings, option, text);
+    return cli_fail(CLI_USAGE, "--%s: '%s' does not end in %s%s", option->name, text,
+                    has_npy ? ".csv or .npy" : ".csv",
+                    has_directory ? "; a directory has no ending" : "");
+}
+
+int cli_output_directory(const char *path)
+{
+    const int status = cli_directory(path);
+    if (status == CLI_DONE) cli_note("'%s' is a directory", path);
+    return status;
 }
 
 /* A device or a pipe is written to as it is, whatever its name. */

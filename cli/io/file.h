@@ -2,6 +2,8 @@
 #ifndef DAL_CLI_FILE_H
 #define DAL_CLI_FILE_H
 
+#include "ui/options.h"
+
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -40,8 +42,13 @@ void cli_put_text(FILE *out, const char *text);
 int cli_ends_in(const char *text, const char *ending);
 /* Makes a directory unless it is there.  Returns CLI_DONE or prints and returns CLI_IO. */
 int cli_directory(const char *path);
+/* The same for an output, and says on stderr that it is a directory. */
+int cli_output_directory(const char *path);
 /* Whether an output is a directory: not "-", no .csv or .npy, no device and no pipe. */
 bool cli_is_directory(const char *output);
+/* Stores the text of an option --output, whose value names what it may be: FILE, FILE.csv, DIR.  A
+ * file with another ending than .csv and .npy is an error, one that exists and is no file is not. */
+cli_parser cli_parse_output;
 /* "DIR/NAME", allocated. */
 char *cli_join(const char *directory, const char *name);
 

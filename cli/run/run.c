@@ -1,6 +1,7 @@
 /* run.c - the integration of one run, as `dalembert run` and `dalembert resume` do it. */
 #include "run.h"
 #include "dalembert.h"
+#include "io/file.h"
 #include "ui/message.h"
 #include "ui/signals.h"
 
@@ -14,7 +15,7 @@
 static const cli_option options[RUN_OPTIONS] = {
     [RUN_output] = {"output", "FILE|DIR|-", "-",
                     "writes the rows there: .csv, .npy, a directory, or standard output",
-                    .parse = cli_parse_text, .offset = offsetof(run_settings, output)},
+                    .parse = cli_parse_output, .offset = offsetof(run_settings, output)},
     [RUN_checkpoint] = {"checkpoint", "SECONDS", "5",
                         "writes a checkpoint to a directory every SECONDS",
                         .parse = cli_parse_number, .offset = offsetof(run_settings, interval),

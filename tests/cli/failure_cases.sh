@@ -73,8 +73,9 @@ try 4 run $sleigh --output line.yaml/rows.npy
 says "cannot write 'line.yaml/rows.npy': Not a directory"
 try 4 run $sleigh --output missing/folder
 says "cannot make the directory 'missing/folder': No such file or directory"
-try 4 run $sleigh --output line.yaml
-says "cannot make the directory 'line.yaml': File exists"
+cp line.yaml line
+try 4 run $sleigh --output line
+says "cannot make the directory 'line': File exists"
 
 case_is "a full disk"
 try 4 run $sleigh --output /dev/full
