@@ -197,6 +197,23 @@ static int open_path(body_path *p, const char *run)
     return reader_open(&p->reader, run);
 }
 
+/* A path needs all of q and v, which a run with --columns may not have. */
+static bool has_state(const body_path *p)
+{
+    const dal_system *system = p->request.system;
+    const int n = system->n;
+    if (p->reader.columns <= 2 * n) return false;
+    for (int i = 0; i < n; i++) {
+        const char *velocity = p->reader.name[1 + n + i];
+        const size_t length = strlen(system->coordinate[i]);
+        if (strcmp(p->reader.name[1 + i], system->coordinate[i]) != 0 ||
+            strncmp(velocity, system->coordinate[i], length) != 0 ||
+            strcmp(velocity + length, "'") != 0)
+            return false;
+    }
+    return true;
+}
+
 int report_path(report *r, const char *run, const char *name, const char *caption)
 {
     body_path p = {.request = request_default(),
@@ -205,8 +222,7 @@ int report_path(report *r, const char *run, const char *name, const char *captio
                    .high = {-INFINITY, -INFINITY}};
     int status = open_path(&p, run);
     if (status == CLI_DONE && p.evaluator) {
-        if (p.reader.count > 0 && p.reader.columns > 2 * p.request.system->n)
-            status = draw_path(&p, r, name, caption);
+        if (p.reader.count > 0 && has_state(&p)) status = draw_path(&p, r, name, caption);
         reader_close(&p.reader);
     }
     dal_evaluator_free(p.evaluator);

@@ -11,6 +11,7 @@
 #include "report_path.h"
 #include "report_plot.h"
 #include "run/manifest.h"
+#include "run/system.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -53,6 +54,7 @@ typedef struct run_page {
     report *r;
     trajectory_reader reader;
     report_csv summary;   /* no rows unless the run is over */
+    const dal_system *system; /* where the run has not all columns; otherwise NULL */
     run_column *column;   /* [columns of the reader] */
     double envelope_time; /* t of the last point of the envelopes */
     report_plot plot[GROUPS], drift;
@@ -75,6 +77,21 @@ static plot_curve *add_curve(report_plot *plot, const char *title)
     return plot->count < PLOT_CURVES ? report_curve(plot, title) : NULL;
 }
 
+static bool is_coordinate(const dal_system *system, const char *name)
+{
+    for (int i = 0; i < system->n; i++)
+        if (strcmp(name, system->coordinate[i]) == 0) return true;
+    return false;
+}
+
+/* Of a velocity, a multiplier or the lift. */
+static bool is_rest_of_state(const char *name)
+{
+    return strchr(name, '\'') || strncmp(name, "p_", 2) == 0 || strncmp(name, "pi_", 3) == 0 ||
+           strcmp(name, "e") == 0 ||
+           (name[0] == 'g' && name[1] && !name[1 + strspn(name + 1, "0123456789")]);
+}
+
 /* Gives each column its curves.  The columns are t, q, q', the rest of the state, then D1.., E, H,
  * invariants, error.  A coordinate may have the name D1 or E; only after the velocities is a column
  * an observable. */
@@ -86,6 +103,11 @@ static void place_columns(run_page *run)
     int observables = 1 + 2 * n;
     while (observables < t->columns && observable_group(t->name[observables]) > GROUP_H)
         observables++;
+    if (run->system) {
+        for (n = 0; 1 + n < t->columns && is_coordinate(run->system, t->name[1 + n]);) n++;
+        observables = 1 + n;
+        while (observables < t->columns && is_rest_of_state(t->name[observables])) observables++;
+    }
     run->column = cli_calloc((size_t)t->columns, sizeof *run->column);
     for (int i = 1; i < t->columns; i++) {
         run_column *c = &run->column[i];
@@ -265,6 +287,9 @@ int report_run(report *r)
     run_directory_open(&dir, r->directory);
     if (status == CLI_DONE && access(dir.manifest, F_OK) == 0)
         status = manifest_read(&dir, &request);
+    if (status == CLI_DONE && request.columns)
+        status = cli_load(request.system_name, &request.model, &request.system);
+    run->system = request.system;
     if (status == CLI_DONE && access(summary, F_OK) == 0)
         status = report_csv_read(&run->summary, summary);
     if (status == CLI_DONE && run->summary.rows > 0)

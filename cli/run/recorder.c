@@ -19,51 +19,33 @@
 #include <string.h>
 #include <unistd.h>
 
-enum { NAME_SIZE = 256 };
+/* ---- opening -------------------------------------------------------------------------------- */
 
-/* ---- columns ------------------------------------------------------------------------------- */
-
-/* The norms |p|, |pi|, |pi_e| follow from other columns: they are for the summary alone. */
-static void name_values(run_recorder *r, int count)
+static int allocate_values(run_recorder *r)
 {
-    char buffer[NAME_SIZE];
-    const dal_run *run = r->request->run;
-    for (int i = 0; i < count; i++) {
-        const int k = i - 1, observable = k - r->dimension;
-        const char *name = i == 0 ? "t"
-                           : observable < 0
-                               ? dal_run_name(run, k, buffer, NAME_SIZE)
-                               : dal_run_observable_name(run, observable, buffer, NAME_SIZE);
-        r->names[i] = cli_strdup(name ? name : "?");
-        if (r->names[i][0] != '|') r->column[r->columns++] = i;
-    }
-}
-
-static void allocate_values(run_recorder *r)
-{
+    const int status = columns_make(&r->columns, r->request);
     r->dimension = dal_run_dimension(r->request->run);
     r->observables = dal_run_observables(r->request->run);
-    size_t count = 1 + (size_t)r->dimension + (size_t)r->observables;
+    const size_t count = (size_t)r->columns.values;
     r->values = cli_calloc(count, sizeof *r->values);
     r->row = cli_calloc(count, sizeof *r->row);
-    r->names = cli_calloc(count, sizeof *r->names);
-    r->column = cli_calloc(count, sizeof *r->column);
     r->statistics = cli_calloc((size_t)r->observables + 1, sizeof *r->statistics);
     r->trend = cli_calloc((size_t)r->observables + 1, sizeof *r->trend);
-    name_values(r, (int)count);
     dal_statistics_start(r->statistics, r->observables);
+    return status;
 }
 
 static int open_writer(run_recorder *r, const char *output)
 {
-    char **names = cli_calloc((size_t)r->columns, sizeof *names);
-    for (int i = 0; i < r->columns; i++) names[i] = r->names[r->column[i]];
+    const run_columns *c = &r->columns;
+    char **names = cli_calloc((size_t)c->count, sizeof *names);
+    for (int i = 0; i < c->count; i++) names[i] = c->name[c->index[i]];
     run_directory *dir = r->dir;
     int status = CLI_DONE;
     if (dir)
-        writer_attach(&r->writer, dir->rows, dir->descriptor, names, r->columns);
+        writer_attach(&r->writer, dir->rows, dir->descriptor, names, c->count);
     else
-        status = writer_create(&r->writer, output, names, r->columns);
+        status = writer_create(&r->writer, output, names, c->count);
     free(names);
     if (!dir) return status;
     dir->descriptor = -1;
@@ -90,8 +72,8 @@ int recorder_open(run_recorder *r, const run_request *request, run_directory *di
     *r = (run_recorder){.request = request, .dir = dir, .stop = is_interrupted};
     r->no_line =
         !isatty(STDERR_FILENO) || (!dir && strcmp(output, "-") == 0 && isatty(STDOUT_FILENO));
-    allocate_values(r);
-    const int status = open_writer(r, output);
+    int status = allocate_values(r);
+    if (status == CLI_DONE) status = open_writer(r, output);
     if (status != CLI_DONE || !recorder_is_finished(r)) return status;
     dal_run_classify(request->run, r->statistics, 0, r->trend);
     /* The run may have been killed between its last checkpoint and the manifest. */
@@ -101,11 +83,9 @@ int recorder_open(run_recorder *r, const run_request *request, run_directory *di
 void recorder_close(run_recorder *r)
 {
     writer_close(&r->writer);
-    for (int i = 0; r->names && i < 1 + r->dimension + r->observables; i++) free(r->names[i]);
     free(r->values);
     free(r->row);
-    free(r->names);
-    free(r->column);
+    columns_free(&r->columns);
     free(r->statistics);
     free(r->trend);
 }
@@ -114,7 +94,7 @@ bool recorder_is_finished(const run_recorder *r) { return r->position.row > r->r
 
 const char *recorder_observable_name(const run_recorder *r, int i)
 {
-    return r->names[1 + r->dimension + i];
+    return r->columns.name[1 + r->dimension + i];
 }
 
 /* ---- progress ------------------------------------------------------------------------------ */
@@ -255,7 +235,7 @@ static dal_status add_row(void *user, dal_run *run, long long row, double t)
     memcpy(state, dal_run_state(run), (size_t)r->dimension * sizeof *state);
     dal_status status = dal_run_observe(run, state + r->dimension);
     if (status != DAL_OK) return status;
-    for (int i = 0; i < r->columns; i++) r->row[i] = r->values[r->column[i]];
+    for (int i = 0; i < r->columns.count; i++) r->row[i] = r->values[r->columns.index[i]];
     r->position.row++;
     status = library_status(r, writer_append(&r->writer, r->row));
     /* In a directory the next poll ends the run: only there may a checkpoint be taken, and not

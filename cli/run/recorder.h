@@ -2,6 +2,7 @@
 #ifndef DAL_CLI_RECORDER_H
 #define DAL_CLI_RECORDER_H
 
+#include "columns.h"
 #include "dalembert.h"
 #include "io/trajectory.h"
 #include "request.h"
@@ -16,11 +17,10 @@ typedef struct run_recorder {
     const run_request *request;
     run_directory *dir; /* NULL: rows go to a file or to stdout, and nothing else is written */
     trajectory_writer writer;
-    int dimension, observables, columns;
+    int dimension, observables;
+    run_columns columns;
     double *values;             /* [1 + dimension + observables] t, state, all observables */
-    double *row;                /* [columns] the same without |p|, |pi|, |pi_e| */
-    char **names;               /* [1 + dimension + observables] of values */
-    int *column;                /* [columns] which of values a column is */
+    double *row;                /* those of them that are columns */
     dal_statistics *statistics; /* [observables] */
     dal_trend *trend;           /* [observables] when the run is finished or has failed */
     run_position position;

@@ -1,5 +1,6 @@
 /* request.c - what a run is made from: its options, parsed and checked. */
 #include "request.h"
+#include "columns.h"
 #include "system.h"
 #include "ui/memory.h"
 #include "ui/message.h"
@@ -81,6 +82,9 @@ const cli_option request_options[REQUEST_OPTIONS] = {
      .parse = row_times_parse},
     {"statistics", "K", "1", "the summary observes every K-th step", .parse = cli_parse_integer,
      .offset = FIELD(statistics), .min = 1, .max = MAX_COUNT},
+    {"columns", "LIST", NULL,
+     "columns beside t: names, q, v, lift, D, E, invariants, patterns: x,x',D,p_*",
+     .parse = cli_parse_text, .offset = FIELD(columns)},
     {"set", "PARAMETER=V", NULL, "sets a parameter; may be repeated", .parse = parse_setting,
      .offset = FIELD(set)},
     {"start", "NAME=V", NULL,
@@ -247,6 +251,15 @@ int request_complete(run_request *request, dal_run_spec *spec)
     return status == CLI_DONE ? request_make_spec(request, spec) : status;
 }
 
+/* Before any file is made. */
+static int check_columns(const run_request *request)
+{
+    run_columns columns;
+    const int status = columns_make(&columns, request);
+    columns_free(&columns);
+    return status;
+}
+
 int request_create_run(run_request *request)
 {
     dal_run_spec spec;
@@ -254,7 +267,7 @@ int request_create_run(run_request *request)
     const int status = request_complete(request, &spec);
     if (status != CLI_DONE) return status;
     const dal_status made = dal_run_create(&request->run, &spec, &error);
-    if (made == DAL_OK) return CLI_DONE;
+    if (made == DAL_OK) return check_columns(request);
     request->run = NULL;
     return cli_error(cli_input_exit(made), request->system_name, &error);
 }

@@ -15,6 +15,7 @@
     OPTION(sampling)                                                                               \
     OPTION(times)                                                                                  \
     OPTION(statistics)                                                                             \
+    OPTION(columns)                                                                                \
     OPTION(set)                                                                                    \
     OPTION(start)
 
@@ -44,6 +45,7 @@ typedef enum request_sampling {
 
 typedef struct run_request {
     const char *system_name; /* a built-in name or a path; the caller's, as all texts here */
+    const char *columns;     /* --columns; NULL: all */
     const char *text[REQUEST_OPTIONS]; /* as given, the last one; NULL: not given as a text */
     uint64_t typed; /* set of options whose values below were given without a text */
     double time;
@@ -70,7 +72,7 @@ void request_free(run_request *request);
 #define REQUEST_OPTION(name) (UINT64_C(1) << REQUEST_##name)
 #define REQUEST_ROW_OPTIONS                                                                        \
     (REQUEST_OPTION(samples) | REQUEST_OPTION(sampling) | REQUEST_OPTION(times) |                  \
-     REQUEST_OPTION(statistics))
+     REQUEST_OPTION(statistics) | REQUEST_OPTION(columns))
 /* All options; and as a group for a command, which may change their defaults and help in options,
  * and does not take some.  A command that has read its arguments has loaded the system. */
 extern const cli_option request_options[REQUEST_OPTIONS];

@@ -30,3 +30,73 @@ try 0 lyapunov knife-edge --integrator gauss4 --step 0.1 --time 2 --rows 4 --out
 says "^dalembert: 'means' is a directory$"
 try 0 run $circle -o rows.csv
 silent
+
+# selects LIST NAMES [OPTION]...: the columns of a run of named.yaml are NAMES.
+cat >named.yaml <<'END2'
+coordinates: [q, phi, p_]
+parameters: {k: 1}
+lagrangian: (q'^2 + phi'^2 + p_'^2 - k*q^2)/2
+constraints: [p_' - q*phi']
+start: {q: 1, phi': 0.5, p_': 0.5}
+invariants: {spin_1: phi'*sqrt(1 + q^2), speed: phi'^2 + p_'^2}
+END2
+selects() {
+    list=$1 names=$2
+    shift 2
+    try 0 run named.yaml --integrator rk4 --step 0.1 --time 0.5 --samples 5 --columns "$list" "$@"
+    holds "--columns $list: $(head -1 out)" test "$(head -1 out)" = "$names"
+}
+case_is "columns: names, groups and patterns, in the order of the row"
+physical="--space physical"
+selects phi t,phi
+selects "E,q'" "t,q',E"
+selects t t $physical
+selects v "t,q',phi',p_'"
+selects D,E,invariants t,D1,E,spin_1,speed $physical
+selects 's*' t,spin_1,speed
+selects "?hi,*'" "t,phi,q',phi',p_'"
+selects lift t,e,p_q,p_phi,p_p_,pi_q,pi_phi,pi_p_,pi_e,H
+selects 'pi_*,H' t,pi_q,pi_phi,pi_p_,pi_e,H
+selects 'D1,D1,D' t,D1
+
+case_is "columns: the name of a coordinate wins over a group"
+selects q t,q
+sed 's/\bq\b/x/g' named.yaml >x.yaml
+try 0 run x.yaml --integrator rk4 --step 0.1 --time 0.5 --columns q
+holds "$(head -1 out)" test "$(head -1 out)" = t,x,phi,p_
+
+case_is "columns: the numbers are those of the whole row"
+try 0 run named.yaml --integrator rk4 --step 0.1 --time 1 --output whole.csv
+try 0 run named.yaml --integrator rk4 --step 0.1 --time 1 --columns phi,E --output part.csv
+cut -d, -f1,3,"$(head -1 whole.csv | tr ',' '\n' | grep -nx E | cut -d: -f1)" whole.csv >expected.csv
+holds "other numbers" cmp expected.csv part.csv
+
+case_is "columns: what matches nothing is named, and no file is made"
+try 2 run named.yaml --integrator rk4 --step 0.1 --time 1 --columns phy,E,sped --output none
+says "^dalembert: --columns: the run has no column 'phy'; did you mean 'phi'\?$"
+says "^dalembert: --columns: the run has no column 'sped'; did you mean 'speed'\?$"
+holds "a directory was made" test ! -e none
+try 2 run named.yaml --integrator rk4 --step 0.1 --time 1 --space physical --columns lift
+says "no column 'lift'$"
+try 2 run named.yaml --integrator rk4 --step 0.1 --time 1 --columns ''
+says "no column ''"
+try 2 lyapunov named.yaml --integrator rk4 --step 0.1 --time 1 --columns q
+says "unknown option '--columns'"
+
+case_is "columns: resume keeps the list"
+long="named.yaml --integrator rk4 --step 0.001 --time 2000 --samples 20000 --native off"
+try 0 run $long --columns "phi,E" --output all.npy
+"$program" run $long --columns "phi,E" --output kept --checkpoint 0.05 2>err &
+appears kept/checkpoint
+kill -9 $!
+wait $! 2>/dev/null
+holds "not in the manifest" grep -q '^    "columns": "phi,E",$' kept/manifest.json
+try 0 resume kept
+holds "another number of columns" test "$(columns_of kept/trajectory.npy)" -eq 3
+holds "other bytes" cmp all.npy kept/trajectory.npy
+holds "the summary lacks what is no column" grep -q '^speed,' kept/summary.csv
+if there gnuplot; then
+    try 0 report kept
+    holds "the energy is no figure" test -s kept/report/E.svg
+    holds "a path without q and v" test ! -e kept/report/path.svg
+fi

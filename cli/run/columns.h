@@ -1,0 +1,24 @@
+/* columns.h - the columns of a run: their names, and which of them --columns selects.
+ *
+ * The values of a row are t, the state and all observables; the norms |p|, |pi|, |pi_e| follow from
+ * other columns and are for the summary alone.  An item of --columns is the name of a column, a
+ * group or a pattern with * and ?, in this order, so that a coordinate named q is that coordinate.
+ * Columns keep the order of the whole row, and t is always the first. */
+#ifndef DAL_CLI_COLUMNS_H
+#define DAL_CLI_COLUMNS_H
+
+#include "request.h"
+
+typedef struct run_columns {
+    int values;  /* 1 + the dimension + the number of observables */
+    char **name; /* [values] */
+    int count;
+    int *index; /* [count] which of the values a column is */
+} run_columns;
+
+/* Makes the columns of the run of a request.  Returns CLI_DONE, or prints and returns CLI_USAGE
+ * where an item of --columns matches none; free them in any case. */
+int columns_make(run_columns *columns, const run_request *request);
+void columns_free(run_columns *columns);
+
+#endif
