@@ -70,8 +70,8 @@ int recorder_open(run_recorder *r, const run_request *request, run_directory *di
                   const char *output)
 {
     *r = (run_recorder){.request = request, .dir = dir, .stop = is_interrupted};
-    r->no_line =
-        !isatty(STDERR_FILENO) || (!dir && strcmp(output, "-") == 0 && isatty(STDOUT_FILENO));
+    r->no_line = !isatty(STDERR_FILENO);
+    r->shows_rows = !dir && strcmp(output, "-") == 0 && isatty(STDOUT_FILENO);
     int status = allocate_values(r);
     if (status == CLI_DONE) status = open_writer(r, output);
     if (status != CLI_DONE || !recorder_is_finished(r)) return status;
@@ -237,6 +237,7 @@ static dal_status add_row(void *user, dal_run *run, long long row, double t)
     if (status != DAL_OK) return status;
     for (int i = 0; i < r->columns.count; i++) r->row[i] = r->values[r->columns.index[i]];
     r->position.row++;
+    if (r->shows_rows) cli_progress_end();
     status = library_status(r, writer_append(&r->writer, r->row));
     /* In a directory the next poll ends the run: only there may a checkpoint be taken, and not
      * within a step that has a row between its ends. */

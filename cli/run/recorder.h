@@ -35,7 +35,8 @@ typedef struct run_recorder {
     progress_mode progress;
     int (*stop)(void *user); /* whether to end the run; cli_interrupted by default */
     void *stop_user;
-    int no_line; /* no line of progress: no terminal, or the rows themselves go to it */
+    int no_line;    /* no line of progress: no terminal */
+    int shows_rows; /* on a terminal, where they would follow a line of progress */
     int failure; /* exit status of a failure of the program's own, already printed */
 } run_recorder;
 

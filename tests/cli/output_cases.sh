@@ -100,3 +100,19 @@ if there gnuplot; then
     holds "the energy is no figure" test -s kept/report/E.svg
     holds "a path without q and v" test ! -e kept/report/path.svg
 fi
+
+if terminal; then
+    case_is "progress on a terminal while rows go to standard output"
+    slow="run named.yaml --integrator rk4 --step 0.001 --time 1000 --samples 4 --native off --space physical --columns phi"
+    try 0 $slow
+    mv out rows
+    # The rows to a pipe, and both to one terminal.
+    script -qec "'$program' $slow | cat >piped" shown </dev/null >/dev/null
+    holds "other rows" cmp rows piped
+    holds "no line of progress" grep -q 't = [0-9.]* ([0-9]* %), ' shown
+    script -qec "stty cols 100; '$program' $slow" both </dev/null >/dev/null
+    holds "no line of progress beside rows" grep -q 't = [0-9.]* ([0-9]* %), ' both
+    # What a terminal shows of it: each \r begins the line again.
+    tr -d '\000' <both | sed 's/\r$//; s/.*\r//' | grep '^[0-9t.e+-]*,[a-z0-9.e+-]*$' >left
+    holds "rows are not whole lines" cmp rows left
+fi
