@@ -98,7 +98,13 @@ holds "the summary lacks what is no column" grep -q '^speed,' kept/summary.csv
 if there gnuplot; then
     try 0 report kept
     holds "the energy is no figure" test -s kept/report/E.svg
-    holds "a path without q and v" test ! -e kept/report/path.svg
+    holds "a coordinate that is none" sh -c '! grep -q ">E<" kept/report/coordinates.svg'
+    try 0 run $circle --columns 'phi,v,D,lift' --output pathless
+    try 0 report pathless
+    holds "a path without q" test ! -e pathless/report/path.svg
+    try 0 run $circle --columns 'q,v' --output path
+    try 0 report path
+    holds "no path with q and v" test -s path/report/path.svg
 fi
 
 if terminal; then
