@@ -192,7 +192,6 @@ struct dal_system {
     const dal_system *extended; /* F continued off D = 0 so that E is exact, for extend-energy */
     const dal_system *quad;     /* work in quad precision, for precision; these two may be NULL */
     const struct dal_picture *picture; /* how it is drawn; NULL: not at all */
-    const struct dal_defaults *defaults; /* what its file proposes for a run; NULL: nothing */
     void *data;                        /* of the owner, for callbacks */
 };
 
@@ -230,14 +229,6 @@ typedef struct dal_picture {
     dal_callback *evaluate; /* out[DAL_PICTURE_COUNT]: the numbers of the picture */
     dal_body body;          /* what is drawn there */
 } dal_picture;
-
-/* What a system file proposes for a run that shows the motion, as it stands there; the library does
- * not use it.  What the file does not give is NULL. */
-typedef struct dal_defaults {
-    const char *integrator;  /* name of a method, not checked */
-    const char *step, *time; /* positive numbers */
-    int line, column;        /* of the integrator in the file */
-} dal_defaults;
 
 /* ---- integrators and methods --------------------------------------------------------------- */
 
@@ -358,13 +349,13 @@ typedef enum dal_section {
 dal_model *dal_model_create(const char *name);
 /* Frees a model and its systems. */
 void dal_model_free(dal_model *model);
-
-/* Adds an entry to a section.  Texts are copied, and parsed by dal_model_system, so that entries
- * may be added in any order.  line and column (from 1, or 0) say where the text stands, for
- * messages. [alloc]  Errors: DAL_NAME, DAL_SYNTAX, DAL_MODEL (duplicate). */
+/* Adds an entry to a section, in any order.  Its text is copied, and parsed by dal_model_system;
+ * line and column (from 1 or 0) are its place. [alloc]  Errors: DAL_NAME, DAL_SYNTAX, DAL_MODEL. */
 dal_status dal_model_add(dal_model *model, dal_section section, const char *name, const char *text,
                          int line, int column, dal_error *error);
-
+/* Text number i of a section, from 0, and where not NULL its name and place; NULL past the last. */
+const char *dal_model_text(const dal_model *model, dal_section section, int i, const char **name,
+                           int *line, int *column);
 /* Makes *model from the YAML text of a system file, text[length].  name is for messages and may be
  * NULL. [alloc]  Errors: DAL_SYNTAX, DAL_NAME and DAL_MODEL, with place. */
 dal_status dal_model_read(dal_model **model, const char *name, const char *text, size_t length,
@@ -374,7 +365,6 @@ dal_status dal_model_read_file(dal_model **model, const char *path, dal_error *e
 /* Makes *model from a system of the library, "chaplygin-sleigh". [alloc]  Errors: DAL_NAME with
  * the nearest name. */
 dal_status dal_model_builtin(dal_model **model, const char *name, dal_error *error);
-
 /* Name of system number i of the library, from 0; NULL past the last. */
 const char *dal_builtin_name(int i);
 /* The YAML text of a system of the library; NULL where there is none of this name. */

@@ -292,6 +292,25 @@ static void null_dal_model_add(void)
     dal_model_free(made);
 }
 
+static void null_dal_model_text(void)
+{
+    dal_model *made = dal_model_create("made");
+    const char *name = NULL;
+    int line = 0, column = 0;
+    CU_ASSERT_EQUAL(dal_model_add(made, DAL_SECTION_START, "x", "1", 2, 9, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_model_add(made, DAL_SECTION_START, "y", "2*k", 3, 7, NULL), DAL_OK);
+    CU_ASSERT_PTR_NULL(dal_model_text(NULL, DAL_SECTION_START, 0, &name, &line, &column));
+    CU_ASSERT_PTR_NULL(dal_model_text(made, DAL_SECTION_START, -1, &name, &line, &column));
+    CU_ASSERT_PTR_NULL(dal_model_text(made, DAL_SECTION_START, 2, &name, &line, &column));
+    CU_ASSERT_PTR_NULL(dal_model_text(made, (dal_section)-1, 0, &name, &line, &column));
+    CU_ASSERT_PTR_NULL(name);
+    CU_ASSERT_STRING_EQUAL(dal_model_text(made, DAL_SECTION_START, 1, NULL, NULL, NULL), "2*k");
+    dal_model_text(made, DAL_SECTION_START, 1, &name, &line, &column);
+    CU_ASSERT_STRING_EQUAL(name, "y");
+    CU_ASSERT(line == 3 && column == 7);
+    dal_model_free(made);
+}
+
 static void null_dal_model_read(void)
 {
     dal_model *made = model;

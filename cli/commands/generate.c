@@ -17,8 +17,7 @@ typedef struct settings {
 } settings;
 
 static const cli_option options[] = {
-    {"output", "FILE|-", "-", "writes there, or to standard output",
-     CLI_TEXT(settings, output)},
+    {"output", "FILE|-", "-", "writes there, or to standard output", CLI_TEXT(settings, output)},
     {"lanes", "W", "1", "steps 1, 2, 4, 8 or 16 systems at a time",
      CLI_INTEGER(settings, lanes, 1, 16)},
     {"prefix", "NAME", NULL, "public names begin with it (SYSTEM_INTEGRATOR)",

@@ -47,7 +47,8 @@ const cli_command command_run = {
     .synopsis = "dalembert run SYSTEM [OPTION]...",
     .about = "integrates one system",
     .notes =
-        "The integrator, the step and the time come from the defaults of the system file where they "
+        "The integrator, the step and the time come from the defaults of the system file where "
+        "they "
         "are not given; a line on standard error says so.\n"
         "\n"
         "Rows are CSV with 17 digits: t, the coordinates, the velocities, the multipliers g1.. of "

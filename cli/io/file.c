@@ -4,7 +4,6 @@
 #include "ui/memory.h"
 #include "ui/message.h"
 
-#include <ctype.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <math.h>
@@ -210,12 +209,12 @@ int cli_directory(const char *path)
 /* ".h5" of "out/x.h5"; NULL where what follows the last dot is no format, as in "h0.1". */
 static const char *ending_of(const char *path)
 {
+    static const char digits_and_letters[] =
+        "0123456789abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
     const char *slash = strrchr(path, '/'), *name = slash ? slash + 1 : path;
     const char *dot = strrchr(name, '.');
-    if (!dot || dot == name || !isalpha((unsigned char)dot[1])) return NULL;
-    for (const char *c = dot + 1; *c; c++)
-        if (!isalnum((unsigned char)*c)) return NULL;
-    return dot;
+    if (!dot || dot == name || strspn(dot + 1, digits_and_letters + 10) == 0) return NULL;
+    return dot[1 + strspn(dot + 1, digits_and_letters)] ? NULL : dot;
 }
 
 int cli_parse_output(void *settings, const cli_option *option, const char *text)

@@ -46,8 +46,8 @@ int cli_directory(const char *path);
 int cli_output_directory(const char *path);
 /* Whether an output is a directory: not "-", no .csv or .npy, no device and no pipe. */
 bool cli_is_directory(const char *output);
-/* Stores the text of an option --output, whose value names what it may be: FILE, FILE.csv, DIR.  A
- * file with another ending than .csv and .npy is an error, one that exists and is no file is not. */
+/* Stores the text of an option --output, whose value names what it may be: FILE, FILE.csv, DIR.
+ * Another ending than .csv and .npy is an error, but for what exists and is no plain file. */
 cli_parser cli_parse_output;
 /* "DIR/NAME", allocated. */
 char *cli_join(const char *directory, const char *name);

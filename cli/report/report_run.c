@@ -53,10 +53,10 @@ typedef struct run_column {
 typedef struct run_page {
     report *r;
     trajectory_reader reader;
-    report_csv summary;   /* no rows unless the run is over */
+    report_csv summary;       /* no rows unless the run is over */
     const dal_system *system; /* where the run has not all columns; otherwise NULL */
-    run_column *column;   /* [columns of the reader] */
-    double envelope_time; /* t of the last point of the envelopes */
+    run_column *column;       /* [columns of the reader] */
+    double envelope_time;     /* t of the last point of the envelopes */
     report_plot plot[GROUPS], drift;
 } run_page;
 

@@ -10,8 +10,8 @@
 
 /* The groups of --columns; what belongs to none has a name only. */
 #define COLUMN_GROUP_LIST(GROUP)                                                                   \
-    GROUP(Q, "q") GROUP(V, "v") GROUP(LIFT, "lift") GROUP(D, "D") GROUP(E, "E")                    \
-    GROUP(INVARIANTS, "invariants")
+    GROUP(Q, "q")                                                                                  \
+    GROUP(V, "v") GROUP(LIFT, "lift") GROUP(D, "D") GROUP(E, "E") GROUP(INVARIANTS, "invariants")
 
 typedef enum column_group {
 #define GROUP_CODE(code, word) COLUMNS_##code,
@@ -56,10 +56,10 @@ static void name_values(run_columns *c, const dal_run *run)
     c->name = cli_calloc((size_t)c->values, sizeof *c->name);
     for (int i = 0; i < c->values; i++) {
         const int k = i - 1, observable = k - dimension;
-        const char *name = i == 0           ? "t"
-                           : observable < 0 ? dal_run_name(run, k, buffer, NAME_SIZE)
-                                            : dal_run_observable_name(run, observable, buffer,
-                                                                      NAME_SIZE);
+        const char *name = i == 0 ? "t"
+                           : observable < 0
+                               ? dal_run_name(run, k, buffer, NAME_SIZE)
+                               : dal_run_observable_name(run, observable, buffer, NAME_SIZE);
         c->name[i] = cli_strdup(name ? name : "?");
     }
 }

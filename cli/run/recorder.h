@@ -37,7 +37,7 @@ typedef struct run_recorder {
     void *stop_user;
     int no_line;    /* no line of progress: no terminal */
     int shows_rows; /* on a terminal, where they would follow a line of progress */
-    int failure; /* exit status of a failure of the program's own, already printed */
+    int failure;    /* exit status of a failure of the program's own, already printed */
 } run_recorder;
 
 /* Opens the writer: output is a file or "-"; in a directory trajectory.npy, with the run standing

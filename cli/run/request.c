@@ -92,7 +92,7 @@ const cli_option request_options[REQUEST_OPTIONS] = {
      .parse = parse_setting, .offset = FIELD(start)},
 #define ROW(type, name, word, initial, least, greatest, value, help)                               \
     {word, value, REQUEST_##name - REQUEST_step ? DEFAULT_##type(initial, value) : NULL, help,     \
-      .parse = parse_run_option},
+     .parse = parse_run_option},
     DAL_OPTION_LIST(ROW)
 #undef ROW
         {NULL, "SYSTEM", CLI_REQUIRED,
@@ -111,21 +111,19 @@ static int take_defaults(const cli_group *group, int status)
     if (!request->system_name) return CLI_DONE;
     int found = cli_load(request->system_name, &request->model, &request->system);
     if (found != CLI_DONE) return found;
-    const dal_defaults none = {0}, *given = request->system->defaults;
-    if (!given) given = &none;
-    const char *const texts[REQUEST_DEFAULTS] = {given->integrator, given->step, given->time};
     for (int i = 0; i < REQUEST_DEFAULTS; i++) {
         const int k = default_options[i];
         const cli_option *option = &group->options[k];
+        const char *text = cli_default(request->model, option->name, NULL, NULL);
         const size_t length = strlen(taken);
         if (group->without >> k & 1 || request_has(request, k)) continue;
         if (k == REQUEST_time && request_has(request, REQUEST_times)) continue;
-        if (!texts[i] && !option->initial)
+        if (!text && !option->initial)
             found = cli_fail(CLI_USAGE, "--%s is missing, and %s has no default for it",
                              option->name, request->system_name);
-        if (!texts[i]) continue;
-        snprintf(taken + length, sizeof taken - length, " --%s %s", option->name, texts[i]);
-        request->taken[i] = cli_strdup(texts[i]);
+        if (!text) continue;
+        snprintf(taken + length, sizeof taken - length, " --%s %s", option->name, text);
+        request->taken[i] = cli_strdup(text);
         const int parsed = request_parse_option(request, k, request->taken[i]);
         if (found == CLI_DONE) found = parsed;
     }
@@ -136,7 +134,7 @@ static int take_defaults(const cli_group *group, int status)
 
 cli_group request_group(run_request *request, const cli_option *options, uint64_t without)
 {
-    return (cli_group){options, REQUEST_OPTIONS, request, request->text,
+    return (cli_group){options, REQUEST_OPTIONS, request,      request->text,
                        without, "run",           take_defaults};
 }
 

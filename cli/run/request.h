@@ -53,9 +53,9 @@ typedef struct run_request {
     request_sampling sampling;
     double given_time; /* these two before they are made those of whole steps */
     long long given_samples;
-    double *row_time; /* [samples + 1]; NULL: at equal distances */
-    long long times;  /* number of times that were given */
-    char *list;       /* those as a text */
+    double *row_time;              /* [samples + 1]; NULL: at equal distances */
+    long long times;               /* number of times that were given */
+    char *list;                    /* those as a text */
     char *taken[REQUEST_DEFAULTS]; /* texts that came from the system file */
     dal_options options;
     request_settings set, start;

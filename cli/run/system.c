@@ -51,16 +51,26 @@ int cli_read(const char *system, dal_model **model)
     return cli_is_path(system) ? read_path(system, model) : read_builtin(system, model);
 }
 
+const char *cli_default(const dal_model *model, const char *name, int *line, int *column)
+{
+    const char *text, *key;
+    for (int i = 0;
+         (text = dal_model_text(model, DAL_SECTION_DEFAULTS, i, &key, line, column)) != NULL; i++)
+        if (strcmp(key, name) == 0) return text;
+    return NULL;
+}
+
 int cli_make(const char *place, dal_model **model, const dal_system **made)
 {
     dal_error error = {0};
     dal_method method;
+    int line, column;
     dal_status make = dal_model_system(*model, made, &error);
-    const dal_defaults *defaults = make == DAL_OK ? (*made)->defaults : NULL;
-    if (defaults && defaults->integrator) {
-        make = dal_method_parse(&method, defaults->integrator, &error);
-        error.line = defaults->line;
-        error.column = defaults->column;
+    const char *integrator = cli_default(*model, "integrator", &line, &column);
+    if (make == DAL_OK && integrator) {
+        make = dal_method_parse(&method, integrator, &error);
+        error.line = line;
+        error.column = column;
     }
     if (make == DAL_OK) return CLI_DONE;
     dal_model_free(*model);

@@ -16,6 +16,8 @@ int cli_load(const char *system, dal_model **model, const dal_system **made);
  * failure; place is what the message names. */
 int cli_read(const char *system, dal_model **model);
 int cli_make(const char *place, dal_model **model, const dal_system **made);
+/* The default for a run that a system file gives under a name, and where; NULL: none. */
+const char *cli_default(const dal_model *model, const char *name, int *line, int *column);
 /* The names of the built-in systems; returns how many. */
 enum { CLI_MAX_BUILTINS = 256 };
 int cli_builtins(const char *names[CLI_MAX_BUILTINS]);

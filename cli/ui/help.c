@@ -29,8 +29,8 @@ static void describe_option(const cli_option *option, option_printer *print)
              option->name ? option->name : option->value, *value ? " " : "", value);
     const bool has_short = option->name && strcmp(option->name, CLI_OUTPUT) == 0;
     snprintf(help, sizeof help, initial ? "%s%s (%.*s)" : "%s%s", option->help,
-             has_short ? "; also " CLI_SHORT_OUTPUT : "",
-             initial ? (int)strcspn(initial, "|") : 0, initial);
+             has_short ? "; also " CLI_SHORT_OUTPUT : "", initial ? (int)strcspn(initial, "|") : 0,
+             initial);
     print(name, help);
 }
 

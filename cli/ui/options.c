@@ -221,22 +221,26 @@ static int read_option(reader *r, const char *argument)
                     option->value);
 }
 
-/* Names what is required and was not given: first the arguments that are no options. */
-static int report_missing(const reader *r, const cli_command *command)
+static bool is_missing(const reader *r, int group, int k)
+{
+    const cli_group *g = &r->groups[group];
+    return g->options[k].initial == CLI_REQUIRED && !((r->given[group] | g->without) >> k & 1);
+}
+
+/* Names what is required and was not given: options, or arguments that are none.  The first message
+ * has the synopsis. */
+static int report_missing(const reader *r, bool of_options, const char *synopsis)
 {
     int status = CLI_DONE;
-    for (int is_option = 0; is_option <= 1; is_option++)
-        for (int g = 0; g < r->group_count; g++)
-            for (int k = 0; k < r->groups[g].count; k++) {
-                const cli_option *option = &r->groups[g].options[k];
-                if (option->initial != CLI_REQUIRED || (option->name != NULL) != is_option ||
-                    (r->given[g] | r->groups[g].without) >> k & 1)
-                    continue;
-                const bool is_first = status == CLI_DONE;
-                status = cli_fail(CLI_USAGE, "%s%s is missing%s%s", is_option ? "--" : "the ",
-                                  is_option ? option->name : option->value,
-                                  is_first ? "; usage: " : "", is_first ? command->synopsis : "");
-            }
+    for (int g = 0; g < r->group_count; g++)
+        for (int k = 0; k < r->groups[g].count; k++) {
+            const cli_option *option = &r->groups[g].options[k];
+            if (!is_missing(r, g, k) || (option->name != NULL) != of_options) continue;
+            status = cli_fail(CLI_USAGE, "%s%s is missing%s%s", of_options ? "--" : "the ",
+                              of_options ? option->name : option->value,
+                              synopsis ? "; usage: " : "", synopsis ? synopsis : "");
+            synopsis = NULL;
+        }
     return status;
 }
 
@@ -273,10 +277,12 @@ int cli_read_arguments(const cli_command *command, int argc, char **argv, const 
         const int read = read_argument(&r, argument);
         if (status == CLI_DONE) status = read;
     }
-    const int missing = report_missing(&r, command);
-    if (status == CLI_DONE) status = missing;
+    const int argument = report_missing(&r, false, command->synopsis);
+    const int option = report_missing(&r, true, argument == CLI_DONE ? command->synopsis : NULL);
+    if (status == CLI_DONE) status = argument != CLI_DONE ? argument : option;
     for (int g = 0; g < count; g++) {
-        const int completed = groups[g].complete ? groups[g].complete(&groups[g], status) : CLI_DONE;
+        const cli_group *group = &groups[g];
+        const int completed = group->complete ? group->complete(group, status) : CLI_DONE;
         if (status == CLI_DONE) status = completed;
     }
     return status == CLI_DONE ? CLI_GO_ON : status;

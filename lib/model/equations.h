@@ -32,7 +32,6 @@ typedef struct dal__equations {
     dal__node mu;          /* mu_e, or 0 */
     dal__node *picture;    /* [DAL_PICTURE_COUNT], or NULL */
     dal_body body;
-    dal_defaults defaults;
     /* Derived. */
     dal__node *W;        /* [n*n] */
     dal__node *b;        /* [n] */

@@ -231,26 +231,20 @@ static dal_status parse_picture(dal_model *model, dal_error *error)
 
 /* ---- the defaults of a run ---- */
 
-static dal_status parse_defaults(dal_model *model, dal_error *error)
+/* A number is positive; the integrator may be one that the library does not have. */
+static dal_status check_defaults(const dal_model *model, dal_error *error)
 {
     static const char *const names[] = {"integrator", "step", "time"};
-    dal_defaults *defaults = &model->equations.defaults;
     const dal__entry *entry;
     for (int k = 0, i; (entry = dal__model_entry(model, DAL_SECTION_DEFAULTS, k)) != NULL; k++) {
         double value = 0.0;
-        DAL_TRY(find_word(entry->name, DAL__AT_NAME(entry), "entry of defaults", names, 3, &i,
-                          error));
-        *(i == 1 ? &defaults->step : i == 2 ? &defaults->time : &defaults->integrator) =
-            entry->text;
-        if (i == 0) {
-            defaults->line = entry->line;
-            defaults->column = entry->column;
-        } else if (dal_parse_number(entry->text, strlen(entry->text), &value) != DAL_OK ||
-                   !(value > 0.0)) {
+        DAL_TRY(
+            find_word(entry->name, DAL__AT_NAME(entry), "entry of defaults", names, 3, &i, error));
+        if (i > 0 && (dal_parse_number(entry->text, strlen(entry->text), &value) != DAL_OK ||
+                      !(value > 0.0)))
             return dal__fail_at(error, DAL_SYNTAX, DAL__AT_TEXT(entry),
                                 "%s in defaults: '%.80s' is not a positive number", names[i],
                                 entry->text);
-        }
     }
     return DAL_OK;
 }
@@ -382,7 +376,7 @@ dal_status dal__parse_model(dal_model *model, dal_error *error)
     DAL_TRY(parse_start(model, error));
     DAL_TRY(parse_exact(model, error));
     DAL_TRY(parse_picture(model, error));
-    DAL_TRY(parse_defaults(model, error));
+    DAL_TRY(check_defaults(model, error));
     /* The default start, at which pivots are chosen and identities evaluated. */
     for (int i = 0; i < 2 * e->n; i++)
         e->value[i < e->n ? e->q + i : e->v + i - e->n] =

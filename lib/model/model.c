@@ -129,6 +129,17 @@ int dal__model_count(const dal_model *model, dal_section section)
     return count;
 }
 
+const char *dal_model_text(const dal_model *model, dal_section section, int i, const char **name,
+                           int *line, int *column)
+{
+    const dal__entry *entry = model && i >= 0 ? dal__model_entry(model, section, i) : NULL;
+    if (!entry) return NULL;
+    if (name) *name = entry->name;
+    if (line) *line = entry->line;
+    if (column) *column = entry->column;
+    return entry->text;
+}
+
 /* Checks the name of an entry, or the text of a coordinate.  A start may be that of a velocity, x'.
  */
 static dal_status check_name(const dal__entry *entry, dal_error *error)

@@ -104,7 +104,6 @@ static void describe(dal_model *model)
         .invariant = e->invariant_name,
         .guard = e->guard_name,
         .tag = e->tag,
-        .defaults = dal__model_count(model, DAL_SECTION_DEFAULTS) ? &e->defaults : NULL,
     };
 }
 
