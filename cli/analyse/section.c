@@ -7,6 +7,7 @@
 #include "dalembert_analysis.h"
 #include "io/gnuplot.h"
 #include "io/trajectory.h"
+#include "run/columns.h"
 #include "run/system.h"
 #include "ui/memory.h"
 #include "ui/message.h"
@@ -145,6 +146,7 @@ static int run_section(section *s, const char *path)
                                    .user = s,
                                    .cross = write_crossing,
                                    .poll = poll_signals};
+    for (int i = 0; i < s->columns; i++) columns_rename(r, s->names[i]); /* --axes is read */
     int status = writer_create(&s->table, path, s->names, s->columns);
     if (status == CLI_DONE) {
         cli_catch_signals();

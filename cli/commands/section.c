@@ -26,7 +26,7 @@ static int section(int argc, char **argv)
     section_settings s = {.request = request_default()};
     const cli_group groups[] = {
         CLI_GROUP(options, &s),
-        request_group(&s.request, request_options, REQUEST_ROW_OPTIONS),
+        request_group(&s.request, request_options, REQUEST_ROW_OPTIONS & ~REQUEST_OPTION(names)),
     };
     int status = cli_read_arguments(&command_section, argc, argv, groups, 2);
     s.direction--; /* -1, 0 or 1 */

@@ -9,6 +9,7 @@
 
 #include "io/trajectory.h"
 #include "report_plot.h"
+#include "run/columns.h"
 #include "run/manifest.h"
 
 #include <math.h>
@@ -204,11 +205,9 @@ static bool has_state(const body_path *p)
     const int n = system->n;
     if (p->reader.columns <= 2 * n) return false;
     for (int i = 0; i < n; i++) {
-        const char *velocity = p->reader.name[1 + n + i];
-        const size_t length = strlen(system->coordinate[i]);
-        if (strcmp(p->reader.name[1 + i], system->coordinate[i]) != 0 ||
-            strncmp(velocity, system->coordinate[i], length) != 0 ||
-            strcmp(velocity + length, "'") != 0)
+        const char *coordinate = system->coordinate[i], *velocity = p->reader.name[1 + n + i];
+        if (strcmp(p->reader.name[1 + i], coordinate) != 0 ||
+            !columns_is_velocity(&p->request, velocity, coordinate))
             return false;
     }
     return true;

@@ -10,6 +10,7 @@
 #include "report_csv.h"
 #include "report_path.h"
 #include "report_plot.h"
+#include "run/columns.h"
 #include "run/manifest.h"
 #include "run/system.h"
 
@@ -52,6 +53,7 @@ typedef struct run_column {
 
 typedef struct run_page {
     report *r;
+    const run_request *request;
     trajectory_reader reader;
     report_csv summary;       /* no rows unless the run is over */
     const dal_system *system; /* where the run has not all columns; otherwise NULL */
@@ -85,10 +87,11 @@ static bool is_coordinate(const dal_system *system, const char *name)
 }
 
 /* Of a velocity, a multiplier or the lift. */
-static bool is_rest_of_state(const char *name)
+static bool is_rest_of_state(const run_page *run, const char *name)
 {
-    return strchr(name, '\'') || strncmp(name, "p_", 2) == 0 || strncmp(name, "pi_", 3) == 0 ||
-           strcmp(name, "e") == 0 ||
+    for (int i = 0; i < run->system->n; i++)
+        if (columns_is_velocity(run->request, name, run->system->coordinate[i])) return true;
+    return strncmp(name, "p_", 2) == 0 || strncmp(name, "pi_", 3) == 0 || strcmp(name, "e") == 0 ||
            (name[0] == 'g' && name[1] && !name[1 + strspn(name + 1, "0123456789")]);
 }
 
@@ -99,14 +102,16 @@ static void place_columns(run_page *run)
 {
     const trajectory_reader *t = &run->reader;
     int n = 0;
-    while (1 + n < t->columns && !strchr(t->name[1 + n], '\'')) n++;
+    while (1 + n < t->columns && !columns_is_velocity(run->request, t->name[1 + n], t->name[1]))
+        n++;
     int observables = 1 + 2 * n;
     while (observables < t->columns && observable_group(t->name[observables]) > GROUP_H)
         observables++;
     if (run->system) {
         for (n = 0; 1 + n < t->columns && is_coordinate(run->system, t->name[1 + n]);) n++;
         observables = 1 + n;
-        while (observables < t->columns && is_rest_of_state(t->name[observables])) observables++;
+        while (observables < t->columns && is_rest_of_state(run, t->name[observables]))
+            observables++;
     }
     run->column = cli_calloc((size_t)t->columns, sizeof *run->column);
     for (int i = 1; i < t->columns; i++) {
@@ -290,6 +295,7 @@ int report_run(report *r)
     if (status == CLI_DONE && request.columns)
         status = cli_load(request.system_name, &request.model, &request.system);
     run->system = request.system;
+    run->request = &request;
     if (status == CLI_DONE && access(summary, F_OK) == 0)
         status = report_csv_read(&run->summary, summary);
     if (status == CLI_DONE && run->summary.rows > 0)

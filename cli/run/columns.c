@@ -119,6 +119,36 @@ static int select_items(const run_columns *c, const run_request *request, bool *
     return status;
 }
 
+void columns_rename(const run_request *request, char *name)
+{
+    const size_t length = strlen(name);
+    if (request->names != REQUEST_NAMES_PLAIN || length < 2 || name[length - 1] != '\'') return;
+    memmove(name + 1, name, length - 1);
+    name[0] = 'v';
+}
+
+bool columns_is_velocity(const run_request *request, const char *name, const char *coordinate)
+{
+    const size_t length = strlen(coordinate);
+    if (request->names == REQUEST_NAMES_PLAIN)
+        return name[0] == 'v' && strcmp(name + 1, coordinate) == 0;
+    return strncmp(name, coordinate, length) == 0 && strcmp(name + length, "'") == 0;
+}
+
+/* vx may be a coordinate, an invariant or any other column. */
+static int rename_all(run_columns *c, const run_request *request)
+{
+    for (int i = 0; i < c->values; i++) {
+        const bool is_velocity = strchr(c->name[i], '\'') != NULL;
+        columns_rename(request, c->name[i]);
+        for (int k = 0; is_velocity && k < c->values; k++)
+            if (k != i && strcmp(c->name[i], c->name[k]) == 0)
+                return cli_fail(CLI_USAGE, "--names plain: %s' would be '%s', another column",
+                                c->name[i] + 1, c->name[i]);
+    }
+    return CLI_DONE;
+}
+
 int columns_make(run_columns *columns, const run_request *request)
 {
     *columns = (run_columns){0};
@@ -131,7 +161,8 @@ int columns_make(run_columns *columns, const run_request *request)
         if (i == 0 || (request->columns ? selected[i] : !is_hidden(columns->name[i])))
             columns->index[columns->count++] = i;
     free(selected);
-    return status;
+    const int renamed = rename_all(columns, request);
+    return status == CLI_DONE ? renamed : status;
 }
 
 void columns_free(run_columns *columns)

@@ -85,6 +85,8 @@ const cli_option request_options[REQUEST_OPTIONS] = {
     {"columns", "LIST", NULL,
      "columns beside t: names, q, v, lift, D, E, invariants, patterns: x,x',D,p_*",
      .parse = cli_parse_text, .offset = FIELD(columns)},
+    {"names", "system|plain", "system", "names of columns; plain: vx for x', for pandas and Julia",
+     .parse = cli_parse_word, .offset = FIELD(names)},
     {"set", "PARAMETER=V", NULL, "sets a parameter; may be repeated", .parse = parse_setting,
      .offset = FIELD(set)},
     {"start", "NAME=V", NULL,

@@ -16,6 +16,7 @@
     OPTION(times)                                                                                  \
     OPTION(statistics)                                                                             \
     OPTION(columns)                                                                                \
+    OPTION(names)                                                                                  \
     OPTION(set)                                                                                    \
     OPTION(start)
 
@@ -43,6 +44,9 @@ typedef enum request_sampling {
     REQUEST_SAMPLING_STEPS
 } request_sampling;
 
+/* The words of --names. */
+typedef enum request_names { REQUEST_NAMES_SYSTEM, REQUEST_NAMES_PLAIN } request_names;
+
 typedef struct run_request {
     const char *system_name; /* a built-in name or a path; the caller's, as all texts here */
     const char *columns;     /* --columns; NULL: all */
@@ -51,6 +55,7 @@ typedef struct run_request {
     double time;
     long long samples, statistics;
     request_sampling sampling;
+    request_names names;
     double given_time; /* these two before they are made those of whole steps */
     long long given_samples;
     double *row_time;              /* [samples + 1]; NULL: at equal distances */
@@ -72,7 +77,7 @@ void request_free(run_request *request);
 #define REQUEST_OPTION(name) (UINT64_C(1) << REQUEST_##name)
 #define REQUEST_ROW_OPTIONS                                                                        \
     (REQUEST_OPTION(samples) | REQUEST_OPTION(sampling) | REQUEST_OPTION(times) |                  \
-     REQUEST_OPTION(statistics) | REQUEST_OPTION(columns))
+     REQUEST_OPTION(statistics) | REQUEST_OPTION(columns) | REQUEST_OPTION(names))
 /* All options; and as a group for a command, which may change their defaults and help in options,
  * and does not take some.  A command that has read its arguments has loaded the system. */
 extern const cli_option request_options[REQUEST_OPTIONS];

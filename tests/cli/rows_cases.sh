@@ -124,3 +124,76 @@ holds "rows, then the message" awk '
     NR > 1 && !/^dalembert: / && !/^[0-9].*,[0-9]/ { bad = 1 }
     /^dalembert: / { at = NR }
     END { exit bad || at != NR || NR < 50 }' both
+
+case_is "names that are words"
+try 0 run ./plane.yaml --integrator rk4 --step 0.1 --time 1
+mv out system
+try 0 run ./plane.yaml --integrator rk4 --step 0.1 --time 1 --names system
+holds "another header" cmp out system
+try 0 run ./plane.yaml --integrator rk4 --step 0.1 --time 1 --names plain
+holds "header" [ "$(head -1 out)" = "t,x,y,vx,vy,e,p_x,p_y,pi_x,pi_y,pi_e,D1,E,H" ]
+sed 1d system >system.rows
+sed 1d out | cmp - system.rows >compared
+holds "other rows" test ! -s compared
+try 0 section pendulum-cvt --on 'sin(xi)' --integrator gni --step 0.1 --time 20 --names plain \
+    --axes "xi,xi'" --output section.csv
+holds "header" [ "$(head -1 section.csv)" = "crossing,t,direction,xi,x,y,vxi,vx,vy" ]
+try 2 run ./plane.yaml --integrator rk4 --step 0.1 --time 1 --names pandas
+says "^dalembert: --names: 'pandas' is not one of system\|plain$"
+try 2 order line.yaml --names plain
+says "unknown option '--names'"
+
+case_is "names that are words: resumed, and reported"
+words="chaplygin-sleigh --integrator gauss8 --step 0.001 --time 200 --samples 20001"
+try 0 run $words --names plain --output plain.npy
+"$program" run $words --names plain --output plain --checkpoint 0 2>err &
+appears plain/checkpoint
+kill -9 $!
+wait $! 2>/dev/null
+try 0 resume plain
+holds "the names are not kept" cmp plain.npy plain/trajectory.npy
+try 0 run $words --output primed
+for directory in plain primed; do
+    try 0 report $directory
+    ls $directory/report >$directory.files
+done
+holds "other figures" cmp plain.files primed.files
+if there gnuplot; then
+    for figure in coordinates D E drift; do
+        holds "another figure of $figure" cmp plain/report/$figure.svg primed/report/$figure.svg
+    done
+fi
+
+case_is "names that another column has"
+cat >twice.yaml <<'END2'
+coordinates: [x, vx]
+lagrangian: (x'^2 + vx'^2)/2
+start: {x': 1}
+END2
+cat >invariant.yaml <<'END2'
+coordinates: [v, x]
+lagrangian: (v'^2 + x'^2)/2
+start: {x': 1}
+invariants: {vx: x'}
+END2
+for system in twice invariant; do
+    for output in - place place.npy; do
+        try 2 run ./$system.yaml --integrator rk4 --step 0.1 --time 1 --names plain --output $output
+        says "^dalembert: --names plain: x' would be 'vx', another column$"
+        empty
+        holds "$output was made" test ! -e $output
+    done
+    try 0 run ./$system.yaml --integrator rk4 --step 0.1 --time 1
+done
+sed -i '/^invariants/d' invariant.yaml
+try 0 run ./invariant.yaml --integrator rk4 --step 0.1 --time 1 --names plain --space physical
+holds "header" [ "$(head -1 out)" = "t,v,x,vv,vx,E" ]
+cat >also.yaml <<'END2'
+coordinates: [x]
+lagrangian: x'^2/2
+start: {x': 1}
+invariants: {v: x'}
+END2
+try 0 run ./also.yaml --integrator rk4 --step 0.1 --time 1 --names plain --columns "x',v" --output some
+holds "header" sh -c "head -c 8192 some/trajectory.npy | grep -aq \"[[(]'t', '<f8'), ('vx', '<f8'), ('v', '<f8')\""
+try 0 report some
