@@ -26,7 +26,7 @@ static int new_system(int argc, char **argv)
     if (status != CLI_GO_ON) return status;
     char *path = cli_format("%s%s", s.name, cli_ends_in(s.name, ".yaml") ? "" : ".yaml");
     status = file_create(path, system_template, strlen(system_template));
-    if (status == CLI_DONE) cli_note("wrote '%s'; 'dalembert check %s' examines it", path, path);
+    if (status == CLI_DONE) cli_note("wrote '%s': dalembert run %s", path, path);
     free(path);
     return status;
 }
@@ -35,7 +35,7 @@ const cli_command command_new = {
     .name = "new",
     .synopsis = "dalembert new NAME",
     .about = "writes NAME.yaml, a commented system to begin with",
-    .notes = "The system runs as it stands; its first lines say how.  A file that exists is never "
+    .notes = "The system runs as it stands.  A file that exists is never "
              "overwritten.\n",
     .run = new_system,
 };

@@ -33,7 +33,7 @@ static int show(int argc, char **argv)
 
 const cli_command command_show = {
     .name = "show",
-    .synopsis = "dalembert show SYSTEM [--output FILE.yaml]",
+    .synopsis = "dalembert show SYSTEM [-o FILE.yaml]",
     .about = "prints the file of a built-in system",
     .notes = "The file is a system like any other: dalembert run FILE.yaml.  One that exists is "
              "never overwritten.\n",

@@ -6,7 +6,7 @@ for file in "$here"/../../systems/*.yaml; do
     holds "other bytes" cmp out "$file"
     silent
 done
-try 0 show knife-edge --output blade.yaml
+try 0 show knife-edge -o blade.yaml
 empty
 silent
 holds "other bytes" cmp blade.yaml "$here/../../systems/knife-edge.yaml"
@@ -42,7 +42,7 @@ says '^dalembert: the NAME is missing; usage: dalembert new NAME$'
 case_is "a system to begin with"
 try 0 new begun
 empty
-says "^dalembert: wrote 'begun.yaml'; 'dalembert check begun.yaml' examines it$"
+says "^dalembert: wrote 'begun.yaml': dalembert run begun.yaml$"
 try 0 new folder.yaml/other.yaml
 holds "other bytes" cmp begun.yaml folder.yaml/other.yaml
 try 0 check begun.yaml
