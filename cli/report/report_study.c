@@ -12,7 +12,9 @@
 #include "io/document.h"
 #include "io/file.h"
 #include "io/gnuplot.h"
+#include "report_cells.h"
 #include "report_csv.h"
+#include "report_matrix.h"
 #include "report_path.h"
 #include "report_plot.h"
 
@@ -21,148 +23,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-
-typedef struct study_page {
-    report *r;
-    report_csv cells;
-    report_words labels, methods;
-} study_page;
-
-static const char *get_cell(const study_page *s, int row, const char *head)
-{
-    return report_csv_get(&s->cells, row, head);
-}
-
-static bool is_cell(const study_page *s, int row, const char *head, const char *text)
-{
-    return report_csv_is(&s->cells, row, head, text);
-}
-
-/* What tables and figures are about: its column in series/LABEL.csv, those in cells.csv, of which
- * the first is empty where a system lacks it; the texts of its figures; and the title of its table,
- * NULL where there is none. */
-typedef struct quantity {
-    const char *column, *value, *size, *trend, *name, *title, *ylabel, *heading;
-    bool is_displaced; /* shown of runs that start off p = pi = 0 */
-} quantity;
-
-static const quantity quantities[] = {
-    {"D", "D_max", "D_size", "D_trend", "D", "Constraints", "max |D|", "Constraints: max |D|",
-     false},
-    {"E", "E_deviation", "E_size", "E_trend", "E", "Energy", "max |E - E(0)|",
-     "Energy: max |E − E(0)|", false},
-    {"invariants", "invariant_deviation", "invariant_size", "invariant_trend", "I", "Invariants",
-     "max |I - I(0)| / max(1, |I(0)|)",
-     "Invariants of the systems: max |I − I(0)|, the largest of each", false},
-    {"H", "H_deviation", "H_size", "H_trend", "H", "H, started off p = pi = 0", "max |H - H(0)|",
-     "Hamiltonian of the lift: max |H − H(0)|, started off p = π = 0", true},
-    {"error", "error_max", NULL, NULL, "error", "Error", "max |q - exact|", NULL, false},
-};
-
-enum { QUANTITIES = sizeof quantities / sizeof quantities[0] };
-
-/* On p = pi = 0 the lifted run has the bits of the physical one: where there is no physical run,
- * either will do. */
-static const char *const starts[][2] = {{"physical", "surface"}, {"displaced", "displaced"}};
-
-/* The row of a cell with the first of these starts, or else the second; 0: none has numbers. */
-static int find_cell(const study_page *s, const char *label, const char *method, const char *step,
-                     bool is_displaced)
-{
-    int found = 0;
-    for (int row = 1; row < s->cells.rows; row++) {
-        if (!is_cell(s, row, "label", label) || !is_cell(s, row, "step", step) ||
-            !is_cell(s, row, "integrator", method) || is_cell(s, row, "state", "refused"))
-            continue;
-        if (is_cell(s, row, "start", starts[is_displaced][0])) return row;
-        if (is_cell(s, row, "start", starts[is_displaced][1])) found = row;
-    }
-    return found;
-}
-
-/* ---- tables of sizes and trends ------------------------------------------------------------ */
-
-/* A column of the tables: a label at a step. */
-typedef struct table_column {
-    const char *label, *step;
-    bool is_alone; /* the only step of its label */
-} table_column;
-
-typedef struct table_columns {
-    table_column at[REPORT_WORDS];
-    int count;
-} table_columns;
-
-static void add_column(table_columns *all, const char *label, const char *step)
-{
-    bool is_alone = true;
-    for (int i = 0; i < all->count; i++) {
-        if (strcmp(all->at[i].label, label) != 0) continue;
-        if (strcmp(all->at[i].step, step) == 0) return;
-        is_alone = all->at[i].is_alone = false;
-    }
-    if (all->count < REPORT_WORDS) all->at[all->count++] = (table_column){label, step, is_alone};
-}
-
-static bool has_value(const study_page *s, const table_column *column, const quantity *t)
-{
-    for (int row = 1; row < s->cells.rows; row++)
-        if (is_cell(s, row, "label", column->label) && is_cell(s, row, "step", column->step) &&
-            (is_cell(s, row, "start", starts[t->is_displaced][0]) ||
-             is_cell(s, row, "start", starts[t->is_displaced][1])) &&
-            !is_cell(s, row, t->value, ""))
-            return true;
-    return false;
-}
-
-static void write_trend_cell(const study_page *s, int row, const quantity *t)
-{
-    FILE *page = s->r->page;
-    char number[32] = "";
-    const char *value = row > 0 ? get_cell(s, row, t->value) : "";
-    const double size = strtod(value, NULL);
-    if (value[0]) snprintf(number, sizeof number, size == 0.0 ? "0" : "%.1e", size);
-    if (row > 0 && is_cell(s, row, "state", "failed"))
-        report_trend(page, "", "failed", number);
-    else if (!value[0])
-        fputs("<td>–</td>", page);
-    else
-        report_trend(page, get_cell(s, row, t->size), get_cell(s, row, t->trend), number);
-}
-
-/* Labels without a value and methods that apply to none of the others are left out. */
-static void write_trends(const study_page *s, const table_columns *all, const quantity *t)
-{
-    FILE *page = s->r->page;
-    table_columns shown = {.count = 0};
-    if (!t->heading) return;
-    for (int i = 0; i < all->count; i++)
-        if (has_value(s, &all->at[i], t)) shown.at[shown.count++] = all->at[i];
-    if (shown.count == 0) return;
-    fprintf(page, "<h3>%s</h3>\n" REPORT_TABLE "<td></td>", t->heading);
-    for (int i = 0; i < shown.count; i++) {
-        fputs("<th scope=\"col\">", page);
-        report_text(page, shown.at[i].label);
-        if (!shown.at[i].is_alone)
-            fprintf(page, "<br><small>h = %g</small>", strtod(shown.at[i].step, NULL));
-        fputs("</th>", page);
-    }
-    fputs(REPORT_ROWS, page);
-    for (int m = 0; m < s->methods.count; m++) {
-        int rows[REPORT_WORDS];
-        bool is_found = false;
-        for (int i = 0; i < shown.count; i++) {
-            rows[i] = find_cell(s, shown.at[i].label, s->methods.word[m], shown.at[i].step,
-                                t->is_displaced);
-            is_found |= rows[i] > 0;
-        }
-        if (!is_found) continue;
-        report_row(page, s->methods.word[m]);
-        for (int i = 0; i < shown.count; i++) write_trend_cell(s, rows[i], t);
-        fputs("</tr>\n", page);
-    }
-    fputs(REPORT_TABLE_END, page);
-}
 
 /* ---- expectations -------------------------------------------------------------------------- */
 
@@ -474,11 +334,7 @@ static int write_study(const study_page *s)
     for (int row = 1; row < s->cells.rows; row++)
         is_lifted |= !is_cell(s, row, "start", "physical");
     if (is_lifted) fputs(about_lift, r->page);
-    table_columns *all = cli_calloc(1, sizeof *all);
-    for (int row = 1; row < s->cells.rows; row++)
-        add_column(all, get_cell(s, row, "label"), get_cell(s, row, "step"));
-    for (int k = 0; k < QUANTITIES; k++) write_trends(s, all, &quantities[k]);
-    free(all);
+    report_matrices(s);
     status = report_expectations(r);
     for (int i = 0; i < s->labels.count && status != CLI_IO; i++) {
         if (cli_interrupted())

@@ -1,0 +1,38 @@
+/* report_cells.h - the cells of a study, and the quantities that its tables and figures show. */
+#ifndef DAL_CLI_REPORT_CELLS_H
+#define DAL_CLI_REPORT_CELLS_H
+
+#include "report_csv.h"
+#include "report_page.h"
+
+#include <stdbool.h>
+
+typedef struct study_page {
+    report *r;
+    report_csv cells; /* cells.csv */
+    report_words labels, methods;
+} study_page;
+
+/* The text of a cell under a head of cells.csv; whether it is another one. */
+const char *get_cell(const study_page *s, int row, const char *head);
+bool is_cell(const study_page *s, int row, const char *head, const char *text);
+
+/* What tables and figures are about: its column in series/LABEL.csv, those in cells.csv, of which
+ * the first is empty where a system lacks it; the texts of its figures; and the title of its table,
+ * NULL where there is none. */
+typedef struct quantity {
+    const char *column, *value, *size, *trend, *name, *title, *ylabel, *heading;
+    bool is_displaced; /* shown of runs that start off p = pi = 0 */
+} quantity;
+
+enum { QUANTITIES = 5 };
+extern const quantity quantities[QUANTITIES];
+
+/* Whether a cell starts as a quantity is shown. */
+bool is_shown(const study_page *s, int row, const quantity *t);
+/* The row of a cell that starts so, without p and pi rather than on p = pi = 0; 0: none has
+ * numbers. */
+int find_cell(const study_page *s, const char *label, const char *method, const char *step,
+              bool is_displaced);
+
+#endif

@@ -1,0 +1,96 @@
+/* report_matrix.c - the tables of sizes and trends on the page of a study: methods against systems. */
+#include "report_matrix.h"
+#include "ui/memory.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A column of the tables: a label at a step. */
+typedef struct table_column {
+    const char *label, *step;
+    bool is_alone; /* the only step of its label */
+} table_column;
+
+typedef struct table_columns {
+    table_column at[REPORT_WORDS];
+    int count;
+} table_columns;
+
+static void add_column(table_columns *all, const char *label, const char *step)
+{
+    bool is_alone = true;
+    for (int i = 0; i < all->count; i++) {
+        if (strcmp(all->at[i].label, label) != 0) continue;
+        if (strcmp(all->at[i].step, step) == 0) return;
+        is_alone = all->at[i].is_alone = false;
+    }
+    if (all->count < REPORT_WORDS) all->at[all->count++] = (table_column){label, step, is_alone};
+}
+
+static bool has_value(const study_page *s, const table_column *column, const quantity *t)
+{
+    for (int row = 1; row < s->cells.rows; row++)
+        if (is_cell(s, row, "label", column->label) && is_cell(s, row, "step", column->step) &&
+            is_shown(s, row, t) && !is_cell(s, row, t->value, ""))
+            return true;
+    return false;
+}
+
+static void write_trend_cell(const study_page *s, int row, const quantity *t)
+{
+    FILE *page = s->r->page;
+    char number[32] = "";
+    const char *value = row > 0 ? get_cell(s, row, t->value) : "";
+    const double size = strtod(value, NULL);
+    if (value[0]) snprintf(number, sizeof number, size == 0.0 ? "0" : "%.1e", size);
+    if (row > 0 && is_cell(s, row, "state", "failed"))
+        report_trend(page, "", "failed", number);
+    else if (!value[0])
+        fputs("<td>–</td>", page);
+    else
+        report_trend(page, get_cell(s, row, t->size), get_cell(s, row, t->trend), number);
+}
+
+/* Labels without a value and methods that apply to none of the others are left out. */
+static void write_matrix(const study_page *s, const table_columns *all, const quantity *t)
+{
+    FILE *page = s->r->page;
+    table_columns shown = {.count = 0};
+    if (!t->heading) return;
+    for (int i = 0; i < all->count; i++)
+        if (has_value(s, &all->at[i], t)) shown.at[shown.count++] = all->at[i];
+    if (shown.count == 0) return;
+    fprintf(page, "<h3>%s</h3>\n" REPORT_TABLE "<td></td>", t->heading);
+    for (int i = 0; i < shown.count; i++) {
+        fputs("<th scope=\"col\">", page);
+        report_text(page, shown.at[i].label);
+        if (!shown.at[i].is_alone)
+            fprintf(page, "<br><small>h = %g</small>", strtod(shown.at[i].step, NULL));
+        fputs("</th>", page);
+    }
+    fputs(REPORT_ROWS, page);
+    for (int m = 0; m < s->methods.count; m++) {
+        int rows[REPORT_WORDS];
+        bool is_found = false;
+        for (int i = 0; i < shown.count; i++) {
+            rows[i] = find_cell(s, shown.at[i].label, s->methods.word[m], shown.at[i].step,
+                                t->is_displaced);
+            is_found |= rows[i] > 0;
+        }
+        if (!is_found) continue;
+        report_row(page, s->methods.word[m]);
+        for (int i = 0; i < shown.count; i++) write_trend_cell(s, rows[i], t);
+        fputs("</tr>\n", page);
+    }
+    fputs(REPORT_TABLE_END, page);
+}
+
+void report_matrices(const study_page *s)
+{
+    table_columns *all = cli_calloc(1, sizeof *all);
+    for (int row = 1; row < s->cells.rows; row++)
+        add_column(all, get_cell(s, row, "label"), get_cell(s, row, "step"));
+    for (int k = 0; k < QUANTITIES; k++) write_matrix(s, all, &quantities[k]);
+    free(all);
+}
