@@ -1,4 +1,4 @@
-/* report_matrix.c - the tables of sizes and trends on the page of a study: methods against systems. */
+/* report_matrix.c - the tables of sizes and trends of a study: methods against systems. */
 #include "report_matrix.h"
 #include "ui/memory.h"
 
