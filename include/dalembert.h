@@ -208,9 +208,8 @@ struct dal_system {
 #define DAL_BODY_LIST(BODY)                                                                        \
     BODY(POINT, "point")                                                                           \
     BODY(SLEIGH, "sleigh")                                                                         \
-    BODY(BLADE, "blade")                                                                           \
-    BODY(DISK, "disk")                                                                             \
-    BODY(BALL, "ball") BODY(ROBOT, "robot") BODY(BOARD, "board") BODY(RACER, "racer")
+    BODY(BLADE, "blade") BODY(DISK, "disk") BODY(BALL, "ball") BODY(ROBOT, "robot")                \
+        BODY(BOARD, "board") BODY(RACER, "racer")
 /* Places of the numbers of a picture. */
 enum {
 #define CODE(code, name) DAL_PICTURE_##code,
@@ -520,8 +519,7 @@ const double *dal_run_save(const dal_run *run, size_t *count);
 dal_status dal_run_restore(dal_run *run, const double *saved, size_t count, dal_error *error);
 
 /* The number of observables, in this order: D1..Dm, E (with an energy), H, |p|, |pi|, |pi_e|
- * (lifted; max norms), invariants, error (max norm over q; with an exact solution from the start).
- */
+ * (lifted; max norms), invariants, error (max over q; with an exact solution from the start). */
 int dal_run_observables(const dal_run *run);
 /* Writes the name of observable i into buffer[size]; returns buffer, NULL past the last. */
 char *dal_run_observable_name(const dal_run *run, int i, char *buffer, size_t size);
@@ -593,6 +591,8 @@ dal_status dal_batch_status(const dal_batch *batch, int lane, dal_error *error);
 double dal_batch_time(const dal_batch *batch, int lane);
 /* Copies the state of a lane to state[dimension], ordered as dal_run_state. */
 void dal_batch_state(const dal_batch *batch, int lane, double *state);
+/* Copies the states of all lanes, one after the other, to states[count*dimension]. */
+void dal_batch_states(const dal_batch *batch, double *states);
 
 #ifdef __cplusplus
 }

@@ -51,10 +51,16 @@ static void check_batch(dal_batch *batch, int dimension, double (*single)[MAX_DI
     CU_ASSERT_EQUAL(dal_batch_advance(batch, half()), DAL_OK);
     CU_ASSERT_EQUAL(dal_batch_advance(batch, half()), DAL_OK);
     int wrong = 0;
+    double states[(FEW + 1) * MAX_DIMENSION];
+    const size_t size = (size_t)dimension * sizeof *states, end = (size_t)(FEW * dimension);
+    states[end] = 1.5; /* is not written */
+    dal_batch_states(batch, states);
+    CU_ASSERT_EQUAL(states[end], 1.5);
     for (int i = 0; i < dal_batch_count(batch); i++) {
         double lane[MAX_DIMENSION];
         dal_batch_state(batch, i, lane);
-        wrong += memcmp(single[i], lane, (size_t)dimension * sizeof *lane) != 0;
+        wrong += memcmp(single[i], lane, size) != 0;
+        wrong += memcmp(single[i], states + i * dimension, size) != 0;
         wrong += dal_batch_status(batch, i, NULL) != DAL_OK;
     }
     CU_ASSERT_EQUAL(wrong, 0);

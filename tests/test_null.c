@@ -248,6 +248,14 @@ static void null_dal_batch_state(void)
     CU_ASSERT_EQUAL(numbers[0], 7.0);
 }
 
+static void null_dal_batch_states(void)
+{
+    numbers[0] = 7.0;
+    dal_batch_states(NULL, numbers);
+    dal_batch_states(batch, NULL);
+    CU_ASSERT_EQUAL(numbers[0], 7.0);
+}
+
 /* ---- methods ---- */
 
 static void null_dal_integrator_at(void) { CU_ASSERT_PTR_NULL(dal_integrator_at(-1)); }

@@ -337,3 +337,10 @@ void dal_batch_state(const dal_batch *batch, int lane, double *state)
     gather(state, b->persistent, (size_t)batch->scalar->layout.dim, b->kind->width,
            lane - b->first);
 }
+
+void dal_batch_states(const dal_batch *batch, double *states)
+{
+    const size_t dimension = batch ? (size_t)batch->scalar->layout.dim : 0;
+    for (int lane = 0; states && lane < dal_batch_count(batch); lane++)
+        dal_batch_state(batch, lane, states + (size_t)lane * dimension);
+}
