@@ -208,8 +208,9 @@ struct dal_system {
 #define DAL_BODY_LIST(BODY)                                                                        \
     BODY(POINT, "point")                                                                           \
     BODY(SLEIGH, "sleigh")                                                                         \
-    BODY(BLADE, "blade") BODY(DISK, "disk") BODY(BALL, "ball") BODY(ROBOT, "robot")                \
-        BODY(BOARD, "board") BODY(RACER, "racer")
+    BODY(BLADE, "blade")                                                                           \
+    BODY(DISK, "disk")                                                                             \
+    BODY(BALL, "ball") BODY(ROBOT, "robot") BODY(BOARD, "board") BODY(RACER, "racer")
 /* Places of the numbers of a picture. */
 enum {
 #define CODE(code, name) DAL_PICTURE_##code,
@@ -373,7 +374,6 @@ const char *dal_builtin_text(const char *name);
  * are parsed and F is derived, with exact derivatives. [alloc]  Errors: DAL_SYNTAX and DAL_NAME
  * with place, DAL_MODEL, DAL_TOO_LARGE. */
 dal_status dal_model_system(dal_model *model, const dal_system **system, dal_error *error);
-
 /* Gives the tangent system, owned by the model: 2n coordinates (q, dq), accelerations F and
  * F_q dq + F_v dv, no constraints.  A Runge-Kutta or partitioned method applied to it is that
  * method's exact tangent map. [alloc]  Errors: those of dal_model_system. */
