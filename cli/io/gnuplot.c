@@ -4,6 +4,7 @@
 #include "ui/message.h"
 
 #include "file.h"
+#include "svg.h"
 
 #include <errno.h>
 #include <signal.h>
@@ -115,34 +116,6 @@ static int run(const char *directory, const char *path, bool *missing)
     return cli_fail(CLI_IO, "gnuplot failed on '%s'", path);
 }
 
-/* What is black in a figure without background is light where the reader likes the dark. */
-static const char style[] =
-    "<style>@media (prefers-color-scheme: dark) {\n"
-    "[stroke='black'], [stroke='rgb(  0,   0,   0)'] { stroke: #e4e4e4; }\n"
-    "[fill='black'], [fill='rgb(  0,   0,   0)'] { fill: #e4e4e4; }\n"
-    "[color='black'], [color='rgb(  0,   0,   0)'] { color: #e4e4e4; } }</style>\n";
-
-/* Replaces gnuplot's title by the style. */
-static int put_style(const char *path)
-{
-    static const char title[] = "<title>Gnuplot</title>\n", end[] = "</desc>\n";
-    size_t length;
-    char *text = file_read(path, &length);
-    if (!text) return CLI_IO;
-    char *head = strstr(text, title), *rest = head ? strstr(head, end) : NULL;
-    FILE *file = rest ? fopen(path, "w") : NULL;
-    int status = CLI_DONE;
-    if (rest && !file) status = cli_io("write", path);
-    if (file) {
-        fwrite(text, 1, (size_t)(head - text), file);
-        fputs(style, file);
-        fputs(rest + sizeof end - 1, file);
-        status = cli_close(file, path);
-    }
-    free(text);
-    return status;
-}
-
 int gnuplot_draw(const char *directory, FILE *script, const char *path, bool *missing)
 {
     int status = cli_close(script, path);
@@ -151,7 +124,7 @@ int gnuplot_draw(const char *directory, FILE *script, const char *path, bool *mi
     if (status != CLI_DONE) return status;
     /* NAME.gp has drawn NAME.svg or NAME.png. */
     char *figure = cli_format("%.*ssvg", (int)strlen(path) - 2, path);
-    if (access(figure, F_OK) == 0) status = put_style(figure);
+    if (access(figure, F_OK) == 0) status = svg_tidy(figure);
     free(figure);
     return status;
 }

@@ -4,6 +4,7 @@
 
 #include "dalembert.h"
 #include "io/file.h"
+#include "io/svg.h"
 #include "ui/memory.h"
 #include "ui/message.h"
 
@@ -110,10 +111,14 @@ int report_embed(report *r, const char *name, const char *alt, const char *capti
     if (!bytes) return CLI_IO;
     fputs("<figure><img alt=\"", r->page);
     report_text(r->page, alt);
-    fprintf(r->page, "\" src=\"data:image/%s;base64,",
-            strcmp(r->format, "svg") == 0 ? "svg+xml" : r->format);
-    write_base64(r->page, bytes, length);
-    fputs("\">", r->page);
+    fputs("\" src='", r->page);
+    if (strcmp(r->format, "svg") == 0) {
+        svg_write_url(r->page, bytes);
+    } else {
+        fprintf(r->page, "data:image/%s;base64,", r->format);
+        write_base64(r->page, bytes, length);
+    }
+    fputs("'>", r->page);
     if (caption[0]) fprintf(r->page, "<figcaption>%s</figcaption>", caption);
     fputs("</figure>\n", r->page);
     r->figures++;

@@ -45,8 +45,7 @@ addEventListener('load', () => {
     const look = (image, name) => {
         const box = image.getBoundingClientRect(), holder = document.createElement('div');
         holder.style = `position: absolute; left: 0; top: 0; width: ${box.width}px`;
-        holder.innerHTML = new TextDecoder().decode(
-            Uint8Array.from(atob(image.src.split(',')[1]), c => c.charCodeAt(0)));
+        holder.innerHTML = decodeURIComponent(image.src.slice(image.src.indexOf(',') + 1));
         document.body.append(holder);
         const frame = holder.querySelector('svg').getBoundingClientRect();
         const texts = [...holder.querySelectorAll('text')].filter(t => t.textContent.trim());
