@@ -2,7 +2,7 @@
 #
 #     make                  build/dalembert, build/libdalembert.a, build/libdalembert.so
 #     make help             this list
-#     make install          to PREFIX (/usr/local), below DESTDIR; uninstall removes it
+#     make install          to PREFIX (/usr/local), below DESTDIR; uninstall removes it (docs/installation.md)
 #     make mpi              build/dalembert-mpi, where there is Open MPI
 #     make clean            remove build/
 #
@@ -308,34 +308,21 @@ references: all
 
 # ---- installation ----------------------------------------------------------------------------
 
-BIN     = "$(DESTDIR)$(PREFIX)/bin"
-LIB     = "$(DESTDIR)$(PREFIX)/lib"
-INCLUDE = "$(DESTDIR)$(PREFIX)/include"
-MAN     = "$(DESTDIR)$(PREFIX)/share/man/man1"
-SHARE   = "$(DESTDIR)$(PREFIX)/share/dalembert"
-BASH    = "$(DESTDIR)$(PREFIX)/share/bash-completion/completions"
-PUBLIC  = $(filter-out dalembert_kernel.h,$(notdir $(wildcard include/*.h)))
-HEADERS = $(PUBLIC) dalembert_kernel.h
-LINKS   = libdalembert.so $(SONAME) libdalembert.so.$(VERSION)
+# The directories of the GNU coding standards; DESTDIR stands before each, for packages.
+BINDIR     ?= $(PREFIX)/bin
+LIBDIR     ?= $(PREFIX)/lib
+INCLUDEDIR ?= $(PREFIX)/include
+DATADIR    ?= $(PREFIX)/share
+MANDIR     ?= $(DATADIR)/man
+DOCDIR     ?= $(DATADIR)/doc/dalembert
+PLACES      = $(foreach name,DESTDIR PREFIX BINDIR LIBDIR INCLUDEDIR DATADIR MANDIR DOCDIR,$(name)="$($(name))") \
+              BUILD="$(BUILD)" VERSION=$(VERSION) SONAME=$(SONAME)
 
 install: all
-	install -d $(BIN) $(LIB)/pkgconfig $(INCLUDE) $(MAN) $(BASH) $(SHARE)/systems
-	install $(PROGRAM) $(wildcard $(MPI_PROGRAM)) $(BIN)
-	install -m 644 $(STATIC) $(LIB)
-	install -m 644 $(SHARED).$(VERSION) $(LIB)
-	ln -sf libdalembert.so.$(VERSION) $(LIB)/$(SONAME)
-	ln -sf $(SONAME) $(LIB)/libdalembert.so
-	install -m 644 $(PUBLIC:%=include/%) $(KERNEL) $(INCLUDE)
-	sed 's|@PREFIX@|$(PREFIX)|; s|@VERSION@|$(VERSION)|' tools/dalembert.pc.in \
-	    >$(LIB)/pkgconfig/dalembert.pc
-	install -m 644 $(MANUAL) $(MAN)
-	install -m 644 $(COMPLETION) $(BASH)/dalembert
-	install -m 644 systems/*.yaml $(SHARE)/systems
+	@$(PLACES) sh tools/install.sh install
 
 uninstall:
-	rm -f $(BIN)/dalembert $(BIN)/dalembert-mpi $(LIB)/libdalembert.a $(LINKS:%=$(LIB)/%) $(HEADERS:%=$(INCLUDE)/%)
-	rm -f $(LIB)/pkgconfig/dalembert.pc $(MAN)/dalembert.1 $(BASH)/dalembert
-	rm -rf $(SHARE)
+	@$(PLACES) sh tools/install.sh uninstall
 
 clean:
 	rm -rf $(BUILD)

@@ -9,10 +9,16 @@ trap 'rm -rf "$root"' EXIT
 fail() { echo "install: $*" >&2; exit 1; }
 
 logged() { "$@" >"$root/log" 2>&1 || { cat "$root/log" >&2; fail "$* failed"; }; }
+installing() { logged $make --no-print-directory BUILD="$build" CC="$cc" CFLAGS="$CFLAGS" "$@"; }
+# Directories that a packager gave to make do not count here.
+unset BINDIR LIBDIR INCLUDEDIR DATADIR MANDIR DOCDIR
+MAKEFLAGS=${MAKEFLAGS%% -- *}
 
+# The libraries where Debian has them.
 prefix=$root/usr
-logged $make --no-print-directory BUILD="$build" PREFIX="$prefix" DESTDIR= install
-PKG_CONFIG_PATH=$prefix/lib/pkgconfig
+lib=$prefix/lib/x86_64-linux-gnu
+installing PREFIX="$prefix" LIBDIR="$lib" DESTDIR= install
+PKG_CONFIG_PATH=$lib/pkgconfig
 export PKG_CONFIG_PATH
 [ "$(pkg-config --modversion dalembert)" = "$("$prefix/bin/dalembert" --version | sed 's/.* //')" ] ||
     fail "dalembert.pc and dalembert --version do not agree"
@@ -21,9 +27,9 @@ export PKG_CONFIG_PATH
 for name in embed by_hand own_integrator contact_chain isokinetic_fluid; do
     flags="-std=c11 -Wall -Wextra -Werror -Wno-psabi -ffp-contract=off $CFLAGS examples/$name.c"
     logged $cc $flags $(pkg-config --cflags --libs dalembert) -lm -o "$root/$name"
-    logged $cc $flags $(pkg-config --cflags dalembert) "$prefix/lib/libdalembert.a" \
-        $(pkg-config --libs yaml-0.1) -lm -o "$root/$name-static"
-    LD_LIBRARY_PATH=$prefix/lib "$root/$name" >"$root/$name.txt" || fail "$name failed"
+    logged $cc $flags $(pkg-config --static --cflags --libs dalembert | sed 's/-ldalembert/-l:libdalembert.a/') \
+        -o "$root/$name-static"
+    LD_LIBRARY_PATH=$lib "$root/$name" >"$root/$name.txt" || fail "$name failed"
     "$root/$name-static" >"$root/$name-static.txt" || fail "$name-static failed"
     cmp "$root/$name.txt" "$root/$name-static.txt" || fail "$name: shared and static differ"
 done
@@ -37,13 +43,62 @@ for document in README.md docs/embedding.md; do
         echo 'dal_run_free(run); dal_model_free(model); return !q; }'
     } >"$root/shown.c"
     logged $cc -std=c11 $CFLAGS "$root/shown.c" $(pkg-config --cflags --libs dalembert) -o "$root/shown"
-    LD_LIBRARY_PATH=$prefix/lib "$root/shown" || fail "the lines of $document fail"
+    LD_LIBRARY_PATH=$lib "$root/shown" || fail "the lines of $document fail"
 done
 sed -n '/^\/\* heun.c/,/^```$/p' docs/design.md | sed '$d' >"$root/heun.c"
 logged $cc -std=c11 -Wall -Wextra -Werror -Wno-psabi $CFLAGS $(pkg-config --cflags dalembert) -c "$root/heun.c" \
     -o "$root/heun.o"
 logged nm "$root/heun.o"
 grep -q dal_integrator_heun "$root/log" || fail "the integrator of docs/design.md defines no descriptor"
+
+# From C++ the headers have no warnings, and that of the kernel none from C++17 on.
+cxx=${CXX:-c++}
+if command -v "${cxx%% *}" >/dev/null; then
+    for source in 'c++11 dalembert_analysis dalembert_codegen dalembert' 'c++17 dalembert_kernel'; do
+        printf '#include <%s.h>\n' ${source#* } >"$root/headers.cpp"
+        logged $cxx -std=${source%% *} -Wall -Wextra -Wpedantic -Werror -Wno-psabi \
+            $(pkg-config --cflags dalembert) -fsyntax-only "$root/headers.cpp"
+    done
+fi
+
+# The examples by CMake: with the shared library, then, from a copy of the installation, with the
+# static one; each variant gives the numbers of embed.  Other minor versions are refused.
+cmake_examples() { # PREFIX LIBRARY
+    CC=$cc CXX=$cxx CFLAGS="-Wall -Wextra -Werror -Wno-psabi -ffp-contract=off $CFLAGS" CXXFLAGS=$CFLAGS logged \
+        cmake -S "$1/share/doc/dalembert/examples" -B "$root/$2" -DCMAKE_PREFIX_PATH="$1" -DLIBRARY=dalembert::$2
+    logged cmake --build "$root/$2"
+    for name in embed embed_cpp; do
+        "$root/$2/$name" | cmp - "$root/embed.txt" || fail "cmake, dalembert::$2: $name differs"
+    done
+}
+if command -v cmake >/dev/null && command -v "${cxx%% *}" >/dev/null; then
+    moved="$root/moved there"
+    cp -a "$prefix" "$moved"
+    cmake_examples "$prefix" dalembert
+    ldd "$root/dalembert/embed" | grep -q "$lib/libdalembert" || fail "cmake: embed has not the shared library"
+    mv "$prefix" "$prefix.away"
+    cmake_examples "$moved" static
+    mv "$prefix.away" "$prefix"
+    ! ldd "$root/static/embed" | grep libdalembert || fail "cmake: dalembert::static is shared"
+    mkdir "$root/find"
+    cat >"$root/find/CMakeLists.txt" <<'LISTS'
+cmake_minimum_required(VERSION 3.10)
+project(find C)
+foreach(version 0.2 ${MINOR} ${MINOR}.0 ${MINOR}.99 0.99 1.0)
+    unset(dalembert_DIR CACHE)
+    find_package(dalembert ${version})
+    if(dalembert_FOUND)
+        message(STATUS "found ${version}")
+    endif()
+endforeach()
+LISTS
+    minor=$(pkg-config --modversion dalembert | sed 's/\.[0-9]*$//')
+    logged cmake -S "$root/find" -B "$root/found" -DCMAKE_PREFIX_PATH="$prefix" -DMINOR=$minor
+    [ "$(sed -n 's/^-- found //p' "$root/log" | tr '\n' ' ')" = "$minor $minor.0 " ] ||
+        fail "cmake takes this for another version, or not for its own: $(cat "$root/log")"
+else
+    echo "install: no cmake or no $cxx: find_package is not tried"
+fi
 
 # A generated file needs no library at all.
 logged "$prefix/bin/dalembert" generate chaplygin-sleigh --integrator gauss4+project \
@@ -77,17 +132,38 @@ awk "$near"' { near($2, sin(1), 1e-4); near($3, 1 - cos(1), 1e-4); near($4, 1, 1
 manual=$prefix/share/man/man1/dalembert.1
 grep -q '^\.SS run$' "$manual" && grep -q '^\.SH EXAMPLES$' "$manual" || fail "no man page of all commands"
 ! grep -q '@' "$manual" || fail "a part of the man page is not filled in"
-bash -n "$prefix/share/bash-completion/completions/dalembert" || fail "no completion for bash"
+bash -n "$prefix/share/bash-completion/completions/dalembert.bash" || fail "no completion for bash"
 # Before 1.0 the soname has the minor version: libdalembert.so.0.3 of 0.3.0.
 soname=libdalembert.so.$("$prefix/bin/dalembert" --version | sed 's/.* //; s/\.[0-9]*$//')
-[ "$(readlink "$prefix/lib/libdalembert.so")" = "$soname" ] || fail "no link to $soname"
-objdump -p "$prefix/lib/$soname" | grep -q "SONAME *$soname\$" || fail "the soname is not $soname"
+[ "$(readlink "$lib/libdalembert.so")" = "$soname" ] || fail "no link to $soname"
+objdump -p "$lib/$soname" | grep -q "SONAME *$soname\$" || fail "the soname is not $soname"
 
-# DESTDIR, with a space; uninstall leaves no file.
-logged $make --no-print-directory BUILD="$build" PREFIX=/opt/dal DESTDIR="$root/a b" install
+# All that the tree has of a kind is installed.
+copies() { # DIRECTORY FILE...
+    directory=$prefix/share/$1
+    shift
+    for file; do cmp "$file" "$directory/${file##*/}" || fail "$file is not installed"; done
+}
+copies dalembert/systems systems/*
+copies dalembert/studies bench/studies/*
+copies doc/dalembert README.md LICENSE
+copies doc/dalembert/docs docs/*.md
+copies doc/dalembert/docs/gallery docs/gallery/*
+copies doc/dalembert/examples examples/*
+for header in include/*.h; do
+    [ -f "$prefix/$header" ] || fail "$header is not installed"
+done
+! grep '#include "' "$prefix/include/dalembert_kernel.h" || fail "dalembert_kernel.h includes files of the tree"
+
+# DESTDIR, with a space.  What is not of the installation stays when it is removed, all else goes.
+staged() { installing PREFIX=/opt/dal DESTDIR="$root/a b" "$@"; }
+mkdir -p "$root/a b/opt/dal/lib" "$root/a b/opt/dal/share/dalembert"
+touch "$root/a b/opt/dal/lib/libother.so" "$root/a b/opt/dal/share/dalembert/mine.yaml"
+find "$root/a b" | sort >"$root/before"
+staged install
 [ -x "$root/a b/opt/dal/bin/dalembert" ] || fail "DESTDIR does not work"
-grep -q "^prefix=/opt/dal$" "$root/a b/opt/dal/lib/pkgconfig/dalembert.pc" ||
-    fail "dalembert.pc knows DESTDIR"
-logged $make --no-print-directory BUILD="$build" PREFIX=/opt/dal DESTDIR="$root/a b" uninstall
-[ -z "$(find "$root/a b" -type f -o -type l)" ] || fail "uninstall leaves files"
+! grep -r "$root" "$root/a b" --include='*.pc' --include='*.cmake' || fail "a file knows DESTDIR"
+grep -q "^prefix=/opt/dal$" "$root/a b/opt/dal/lib/pkgconfig/dalembert.pc" || fail "dalembert.pc has another prefix"
+staged uninstall
+find "$root/a b" | sort | diff "$root/before" - || fail "uninstall leaves or takes other files"
 echo "install: ok"

@@ -3,13 +3,13 @@
 # `lint` also those of the whole continuous check, with `bench` also the libraries that `make bench`
 # compares with; does nothing when all are there.
 set -e
-packages='gcc libc6-dev make pkg-config libyaml-dev libcunit1-dev libmpfr-dev libjansson-dev locales gnuplot-nox python3'
+packages='gcc libc6-dev make pkg-config libyaml-dev libcunit1-dev libmpfr-dev libjansson-dev locales gnuplot-nox python3 g++ cmake'
 if [ "$1" = lint ]; then
     packages="$packages binutils clang clang-format libclang-rt-14-dev universal-ctags valgrind openmpi-bin libopenmpi-dev chromium"
     packages="$packages doxygen graphviz mkdocs mkdocs-material linkchecker"
 fi
 if [ "$1" = bench ]; then
-    packages="$packages g++ libgsl-dev libsundials-dev libboost-dev"
+    packages="$packages libgsl-dev libsundials-dev libboost-dev"
 fi
 missing=
 for package in $packages; do
