@@ -3,6 +3,7 @@
 #     make                  build/dalembert, build/libdalembert.a, build/libdalembert.so
 #     make help             this list
 #     make install          to PREFIX (/usr/local), below DESTDIR; uninstall removes it (docs/installation.md)
+#     make dist             build/dalembert-VERSION.tar.gz, of the last commit
 #     make mpi              build/dalembert-mpi, where there is Open MPI
 #     make clean            remove build/
 #
@@ -10,6 +11,7 @@
 #     make check-sanitize   the tests under the address and undefined-behaviour sanitizers
 #     make check-valgrind   the CUnit suites under valgrind
 #     make check-browser    the report's pages in headless Chromium; a part of check
+#     make check-dist       the tarball: it builds, passes a part of its tests and installs
 #     make check-kill       runs killed at KILLS random moments and resumed
 #     make check-bits       generated code against the interpreter, all cases, hours; BITS_JOBS at a time
 #     make lint             the rules of the source, and the tools that check C and shell
@@ -255,6 +257,10 @@ check-sanitize:
 	$(MAKE) BUILD=$(BUILD)/sanitize CFLAGS="$(CHECKED) -fsanitize=address,undefined" \
 	    RUN_SUITE= check
 
+# Not a part of check: it builds everything once more.
+check-dist:
+	@CC="$(CC)" CFLAGS="$(CFLAGS)" sh tests/dist.sh "$(MAKE)" $(BUILD)
+
 KILLS ?= 1000
 check-kill: all
 	@CALLS=1 KILLS=$(KILLS) sh tests/cli/run.sh $(PROGRAM) kill
@@ -324,13 +330,21 @@ install: all
 uninstall:
 	@$(PLACES) sh tools/install.sh uninstall
 
+# The tarball of the last commit: the same bytes wherever and whenever it is made.
+TARBALL = $(BUILD)/dalembert-$(VERSION).tar
+dist:
+	@mkdir -p $(BUILD)
+	@test -z "$$(git diff-index HEAD)" || echo "dist: changes without a commit are left out" >&2
+	git -c tar.umask=022 archive --prefix=dalembert-$(VERSION)/ -o $(TARBALL) HEAD
+	gzip -9nf $(TARBALL)
+
 clean:
 	rm -rf $(BUILD)
 
 include bench/bench.mk
 
 FORCE:
-.PHONY: all help check check-bits check-browser check-sanitize check-valgrind docs fuzz run-fuzzers gallery references lint mutants install uninstall clean FORCE mpi
+.PHONY: all help check check-bits check-browser check-dist check-sanitize check-valgrind dist docs fuzz run-fuzzers gallery references lint mutants install uninstall clean FORCE mpi
 .SECONDARY:
 
 -include $(LIB_OBJ:.o=.d) $(CLI_OBJ:.o=.d) $(BUILD)/cli/mpi/dalembert_mpi.d $(TEST_OBJ:.o=.d) $(FUZZERS:%=$(BUILD)/tests/%.d)
