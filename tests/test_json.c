@@ -198,6 +198,16 @@ static void put_double(json_writer *writer, const void *x)
     json_put_number(writer, "x", *(const double *)x);
 }
 
+static const char *format_number(double x)
+{
+    static char text[64];
+    json_writer w = {.out = fmemopen(text, sizeof text, "w"), .depth = 1, .lists = 2u};
+    w.is_empty = true;
+    json_put_number(&w, NULL, x);
+    fclose(w.out);
+    return text;
+}
+
 static void put_given(json_writer *writer, const void *text) { json_put_given(writer, "x", text); }
 
 static void test_numbers(void)
@@ -221,6 +231,63 @@ static void test_numbers(void)
         CU_ASSERT(json_is_null(value));
         json_decref(value);
     }
+}
+
+/* The number with one digit less is another one: the text is the shortest. */
+static void test_shortest(void)
+{
+    static const char *const known[] = {
+        "0", "0.1", "-2.5", "1e-09", "100", "5e-324", "0.30000000000000004"};
+    char shorter[40];
+    state = 9;
+    for (int i = 0; i < 20000; i++) {
+        const uint64_t bits = draw();
+        double x;
+        memcpy(&x, &bits, sizeof x);
+        if (i % 2) x = 1e-3 * (double)(bits % 100000); /* with few digits */
+        if (!isfinite(x)) continue;
+        const char *text = format_number(x);
+        int digits = 0;
+        for (const char *c = text; *c && *c != 'e'; c++)
+            digits += *c >= '0' && *c <= '9' && (digits > 0 || *c != '0');
+        CU_ASSERT(strtod(text, NULL) == x);
+        if (digits == 1 || !strchr(text, '.')) continue;
+        snprintf(shorter, sizeof shorter, "%.*e", digits - 2, x);
+        CU_ASSERT(strtod(shorter, NULL) != x);
+    }
+    for (size_t i = 0; i < sizeof known / sizeof *known; i++)
+        CU_ASSERT_STRING_EQUAL(format_number(strtod(known[i], NULL)), known[i]);
+    CU_ASSERT_STRING_EQUAL(format_number(-0.0), "0");
+}
+
+/* ---- lists ---- */
+
+static void test_lists(void)
+{
+    char *bytes = NULL;
+    size_t length = 0;
+    json_writer w = {.out = open_memstream(&bytes, &length)};
+    json_open(&w, NULL, JSON_LINES);
+    json_open_list(&w, "none", JSON_LINES);
+    json_close(&w);
+    json_open_list(&w, "some", JSON_LINES);
+    json_open_list(&w, NULL, JSON_ON_ONE_LINE);
+    json_put_integer(&w, NULL, 1);
+    json_put_text(&w, NULL, NULL);
+    json_close(&w);
+    json_open(&w, NULL, JSON_ON_ONE_LINE);
+    json_put_flag(&w, "yes", true);
+    json_put_flag(&w, "no", false);
+    json_close(&w);
+    json_close(&w);
+    json_close(&w);
+    fclose(w.out);
+    CU_ASSERT_STRING_EQUAL(bytes, "{\n  \"none\": [],\n  \"some\": [\n    [1, null],\n"
+                                  "    {\"yes\": true, \"no\": false}\n  ]\n}");
+    json_t *root = json_loadb(bytes, length, JSON_REJECT_DUPLICATES, NULL);
+    CU_ASSERT(json_array_size(json_object_get(root, "some")) == 2);
+    json_decref(root);
+    free(bytes);
 }
 
 /* What JSON has no such form for is the same number in another. */
@@ -316,7 +383,9 @@ void suite_json(void)
     CU_add_test(suite, "bytes", test_known_bytes);
     CU_add_test(suite, "what is not UTF-8", test_not_utf8);
     CU_add_test(suite, "numbers", test_numbers);
+    CU_add_test(suite, "numbers are as short as they can be", test_shortest);
     CU_add_test(suite, "numbers as they were given", test_given_numbers);
+    CU_add_test(suite, "lists", test_lists);
     CU_add_test(suite, "depth", test_depth);
     CU_add_test(suite, "the bytes of a value", test_source);
 }

@@ -6,6 +6,7 @@
 
 #include "file.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
@@ -44,6 +45,10 @@ static bool is_escaped(long code)
 static void put_text(FILE *out, const char *text)
 {
     long code;
+    if (!text) {
+        fputs("null", out);
+        return;
+    }
     fputc('"', out);
     while (*text) {
         const int length = read_character(text, &code);
@@ -69,32 +74,49 @@ static void put_gap(const json_writer *w, int depth)
         fputc(' ', w->out);
 }
 
+static bool is_list(const json_writer *w) { return w->lists >> w->depth & 1u; }
+
 static FILE *put_name(json_writer *w, const char *name)
 {
-    if (!name) return w->out;
+    if (!name && !is_list(w)) return w->out;
     if (!w->is_empty) fputc(',', w->out);
     put_gap(w, w->depth);
-    put_text(w->out, name);
-    fputs(": ", w->out);
+    if (name) {
+        put_text(w->out, name);
+        fputs(": ", w->out);
+    }
     w->is_empty = false;
     return w->out;
 }
 
-void json_open(json_writer *w, const char *name, json_layout layout)
+static void open_level(json_writer *w, const char *name, json_layout layout, bool list)
 {
-    fputc('{', put_name(w, name));
+    fputc(list ? '[' : '{', put_name(w, name));
     w->depth++;
+    w->lists = (w->lists & ~(1u << w->depth)) | (unsigned)list << w->depth;
     if (layout == JSON_LINES) w->lines = w->depth;
     w->is_empty = true;
 }
 
+void json_open(json_writer *w, const char *name, json_layout layout)
+{
+    open_level(w, name, layout, false);
+}
+
+void json_open_list(json_writer *w, const char *name, json_layout layout)
+{
+    open_level(w, name, layout, true);
+}
+
 void json_close(json_writer *w)
 {
-    put_gap(w, w->depth - 1);
+    const char end = is_list(w) ? ']' : '}';
+    if (!w->is_empty) put_gap(w, w->depth - 1);
     if (w->lines == w->depth) w->lines--;
+    w->lists &= ~(1u << w->depth);
     w->depth--;
     w->is_empty = false;
-    fputc('}', w->out);
+    fputc(end, w->out);
 }
 
 void json_put_text(json_writer *w, const char *name, const char *text)
@@ -102,13 +124,21 @@ void json_put_text(json_writer *w, const char *name, const char *text)
     put_text(put_name(w, name), text);
 }
 
+void json_put_flag(json_writer *w, const char *name, bool flag)
+{
+    fputs(flag ? "true" : "false", put_name(w, name));
+}
+
+/* Zero has no sign.  All doubles keep 15 digits, but for those so small that they have fewer. */
 void json_put_number(json_writer *w, const char *name, double x)
 {
-    FILE *out = put_name(w, name);
-    if (isfinite(x))
-        cli_put(out, x);
-    else
-        fputs("null", out);
+    char text[32] = "null";
+    double read = NAN;
+    for (int digits = fabs(x) < DBL_MIN ? 1 : DBL_DIG; isfinite(x) && read != x; digits++) {
+        const int length = snprintf(text, sizeof text, "%.*g", digits, x + 0.0);
+        dal_parse_number(text, (size_t)length, &read);
+    }
+    fputs(text, put_name(w, name));
 }
 
 void json_put_integer(json_writer *w, const char *name, long long x)
@@ -155,6 +185,23 @@ void json_put_given(json_writer *w, const char *name, const char *number)
         json_put_number(w, name, x);
     else
         json_put_text(w, name, number);
+}
+
+json_writer json_begin_results(const char *command)
+{
+    json_writer w = {.out = stdout};
+    char *schema = cli_format("dalembert/%s/1", command);
+    json_open(&w, NULL, JSON_LINES);
+    json_put_text(&w, "schema", schema);
+    json_put_text(&w, "dalembert", DAL_VERSION);
+    free(schema);
+    return w;
+}
+
+void json_end_results(json_writer *w)
+{
+    json_close(w);
+    fputc('\n', w->out);
 }
 
 /* ---- reading ------------------------------------------------------------------------------- */

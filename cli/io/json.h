@@ -1,8 +1,8 @@
 /* json.h - the JSON that the program writes, and reads of its own files.
  *
  * Texts are UTF-8.  Control characters, marks of line ends and of byte order are written as \uXXXX,
- * a byte that belongs to no character as \uFFFD.  Numbers are numbers, with 17 digits where they
- * were computed; one that is not finite is null. */
+ * a byte that belongs to no character as \uFFFD.  Numbers are numbers, in the shortest form that
+ * reads back exactly; one that is not finite is null. */
 #ifndef DAL_CLI_JSON_H
 #define DAL_CLI_JSON_H
 
@@ -13,27 +13,41 @@
 
 /* ---- writing ------------------------------------------------------------------------------- */
 
-/* Writes objects within each other, with their commas and line ends; begin with {.out = file}. */
+/* Writes objects and lists within each other, with their commas and line ends; begin with
+ * {.out = file}. */
 typedef struct json_writer {
     FILE *out;
-    int depth;     /* of the present object; */
-    int lines;     /* down to this one each member has a line of its own */
-    bool is_empty; /* the present object */
+    int depth;      /* of the present object or list; */
+    int lines;      /* down to this one each member has a line of its own */
+    unsigned lists; /* bit d: the one of depth d is a list */
+    bool is_empty;  /* the present one */
 } json_writer;
 
 typedef enum json_layout { JSON_ON_ONE_LINE, JSON_LINES } json_layout;
 
-/* Begins an object, of lines only within such; name is NULL for the outermost.  Ends it. */
+/* Begins an object or a list, of lines only within such; name is NULL for the outermost, and below
+ * for all that stands in a list.  Ends it. */
 void json_open(json_writer *writer, const char *name, json_layout layout);
+void json_open_list(json_writer *writer, const char *name, json_layout layout);
 void json_close(json_writer *writer);
-/* Members of the present object. */
-void json_put_text(json_writer *writer, const char *name, const char *text);
+/* Members of the present object or list. */
+void json_put_text(json_writer *writer, const char *name, const char *text); /* NULL: null */
+void json_put_flag(json_writer *writer, const char *name, bool flag);
 void json_put_number(json_writer *writer, const char *name, double x);
 void json_put_integer(json_writer *writer, const char *name, long long x);
 /* A number that was given as a text: digit for digit where JSON writes it so. */
 void json_put_given(json_writer *writer, const char *name, const char *number);
 /* A value that is JSON already. */
 void json_put_source(json_writer *writer, const char *name, const char *source);
+
+/* Begins and ends what a command prints with --json: an object with its schema, such as
+ * dalembert/order/1, and the version of the program. */
+#define JSON_OPTION(settings)                                                                      \
+    {                                                                                              \
+        "json", NULL, NULL, "prints the results as JSON", CLI_FLAG(settings, json)                 \
+    }
+json_writer json_begin_results(const char *command);
+void json_end_results(json_writer *writer);
 
 /* ---- reading ------------------------------------------------------------------------------- */
 
