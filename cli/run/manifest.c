@@ -12,6 +12,7 @@
  * The text of the input never changes, whatever else is written.  Its hash, continued over the
  * text of the system, is in each checkpoint, so that a checkpoint belongs to one request alone. */
 #include "manifest.h"
+#include "request_json.h"
 #include "system.h"
 #include "ui/memory.h"
 #include "ui/message.h"
@@ -98,59 +99,6 @@ bool manifest_has_ended(const char *path)
 
 /* ---- the request --------------------------------------------------------------------------- */
 
-static void put_settings(json_writer *w, const char *name, const request_settings *settings)
-{
-    json_open(w, name, JSON_ON_ONE_LINE);
-    for (int i = 0; i < settings->count; i++) {
-        const dal_setting *s = &settings->item[i];
-        if (isfinite(s->value))
-            json_put_number(w, s->name, s->value);
-        else
-            json_put_text(w, s->name, "inf");
-    }
-    json_close(w);
-}
-
-/* A choice is the number of a word of the option. */
-static void put_choice(json_writer *w, int option, int choice)
-{
-    char word[32];
-    const char *words = request_options[option].value;
-    for (; choice > 0; choice--) words = strchr(words, '|') + 1;
-    snprintf(word, sizeof word, "%.*s", (int)strcspn(words, "|"), words);
-    json_put_text(w, request_options[option].name, word);
-}
-
-/* What a plan sets by value: see study_cell.c. */
-static void put_value(json_writer *w, const run_request *request, int option)
-{
-    char method[256];
-    const char *name = request_options[option].name;
-    switch (option) {
-    case REQUEST_integrator:
-        json_put_text(w, name, dal_method_name(&request->method, method, sizeof method));
-        break;
-    case REQUEST_step:
-        json_put_number(w, name, request->options.step);
-        break;
-    case REQUEST_time:
-        json_put_number(w, name, request->given_time);
-        break;
-    case REQUEST_samples:
-        json_put_integer(w, name, request->given_samples);
-        break;
-    case REQUEST_statistics:
-        json_put_integer(w, name, request->statistics);
-        break;
-    case REQUEST_sampling:
-        put_choice(w, option, (int)request->sampling);
-        break;
-    case REQUEST_space:
-        put_choice(w, option, request->options.space);
-        break;
-    }
-}
-
 /* "input" of a request, allocated, as it stands one level deep. */
 static char *request_text(const run_request *request)
 {
@@ -164,14 +112,14 @@ static char *request_text(const run_request *request)
         const char *given = request->text[i], *name = request_options[i].name;
         if (i == REQUEST_set || i == REQUEST_start || !request_has(request, i)) continue;
         if (!given)
-            put_value(&w, request, i);
+            request_put_value(&w, request, i); /* see study_cell.c */
         else if (request_option_is_number(i))
             json_put_given(&w, name, given);
         else
             json_put_text(&w, name, given);
     }
-    put_settings(&w, "set", &request->set);
-    put_settings(&w, "start", &request->start);
+    request_put_settings(&w, "set", &request->set);
+    request_put_settings(&w, "start", &request->start);
     json_close(&w);
     cli_memstream_close(w.out);
     return text;

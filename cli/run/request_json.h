@@ -1,0 +1,18 @@
+/* request_json.h - a request, and values of it, as JSON. */
+#ifndef DAL_CLI_REQUEST_JSON_H
+#define DAL_CLI_REQUEST_JSON_H
+
+#include "io/json.h"
+
+#include "request.h"
+
+/* The member of an option: a number or a word. */
+void request_put_value(json_writer *writer, const run_request *request, int option);
+/* An object of names and values; the infinite e is the text "inf", since JSON has no such number.
+ */
+void request_put_settings(json_writer *writer, const char *name, const request_settings *settings);
+/* Begins the object "request" of the results of a command: the system, the value of each parameter,
+ * the start values that were given, and all options but those that the command does not take. */
+void request_open_json(json_writer *writer, const run_request *request, uint64_t without);
+
+#endif
