@@ -6,6 +6,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 int analysis_open(analysis_output *output, const char *path, const char *name)
 {
@@ -19,6 +20,17 @@ int analysis_open(analysis_output *output, const char *path, const char *name)
     output->table = cli_join(path, file);
     free(file);
     return cli_output_directory(path);
+}
+
+int analysis_check_output(const char *output, bool json)
+{
+    if (!json || !output || strcmp(output, "-") != 0) return CLI_DONE;
+    return cli_fail(CLI_USAGE, "--json and --output - would both write to standard output");
+}
+
+const char *analysis_state(int status)
+{
+    return status == CLI_DONE ? "done" : status == CLI_SIGNAL ? "interrupted" : "failed";
 }
 
 double analysis_distance(const double *a, const double *b, int count)

@@ -3,6 +3,7 @@
 #ifndef DAL_CLI_ANALYSIS_H
 #define DAL_CLI_ANALYSIS_H
 
+#include <stdbool.h>
 #include <stdio.h>
 
 /* An output: a directory with NAME.csv in it, or a file. */
@@ -13,6 +14,13 @@ typedef struct analysis_output {
 
 /* Makes the directory.  Returns CLI_DONE or prints and returns an exit status; free the table. */
 int analysis_open(analysis_output *output, const char *path, const char *name);
+
+/* Whether stdout is free for JSON: --output, NULL where there is none, must not go there.  Returns
+ * CLI_DONE, or prints and returns CLI_USAGE. */
+int analysis_check_output(const char *output, bool json);
+
+/* The word for how a run ended that returned this exit status: done, failed, interrupted. */
+const char *analysis_state(int status);
 
 /* max |a_i - b_i| / max(1, |b_i|); infinite where an entry is not a number. */
 double analysis_distance(const double *a, const double *b, int count);

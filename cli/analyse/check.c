@@ -3,7 +3,8 @@
  * No property that a system states is trusted: flags, derivatives, invariants and exact solutions
  * are compared with numbers at the start and at random points about it. */
 #include "check.h"
-#include "run/system.h"
+#include "io/json.h"
+#include "run/request_json.h"
 #include "ui/memory.h"
 #include "ui/wrap.h"
 
@@ -19,29 +20,50 @@
 static const double neighbourhood = 0.1;
 enum { MAX_ATTEMPTS = 20 * CHECK_POINTS, VALUE_COLUMN = 44 };
 
-void check_item(check *c, check_result result, const char *what, const char *format, ...)
-{
-    static const char *const words[] = {
+static const char *const result_words[] = {
 #define RESULT_TEXT(code, text) text,
-        CHECK_RESULT_LIST(RESULT_TEXT)
+    CHECK_RESULT_LIST(RESULT_TEXT)
 #undef RESULT_TEXT
-    };
-    va_list list;
-    c->items++;
+};
+
+/* ---- the items ---- */
+
+static check_entry *add_entry(check *c, check_result result, const char *what, char *text)
+{
+    c->entry = cli_realloc(c->entry, ((size_t)c->items + 1) * sizeof *c->entry);
     c->failed += result == CHECK_FAIL;
     c->unmeasured += result == CHECK_UNMEASURED;
+    check_entry *entry = &c->entry[c->items++];
+    *entry = (check_entry){.section = c->section, .result = result, .text = text};
+    entry->value = entry->least = entry->most = NAN;
+    entry->what = what ? cli_strdup(what) : NULL;
+    return entry;
+}
+
+void check_item(check *c, check_result result, const char *what, const char *format, ...)
+{
+    va_list list;
     va_start(list, format);
-    char *text = cli_format_list(format, list);
+    add_entry(c, result, what, cli_format_list(format, list));
     va_end(list);
-    const int column = printf("  %-34s  %-4s  ", what, words[result]);
-    cli_wrap(stdout, text, column, VALUE_COLUMN);
-    free(text);
+}
+
+void check_number(check *c, check_result result, const char *what, double value, double least,
+                  double most, const char *format, ...)
+{
+    va_list list;
+    va_start(list, format);
+    check_entry *entry = add_entry(c, result, what, cli_format_list(format, list));
+    va_end(list);
+    entry->value = value;
+    entry->least = least;
+    entry->most = most;
 }
 
 void check_bound(check *c, const char *what, double value, double limit)
 {
-    check_item(c, value <= limit ? CHECK_OK : CHECK_FAIL, what, "%.2g  (at most %.0e)", value,
-               limit);
+    check_number(c, value <= limit ? CHECK_OK : CHECK_FAIL, what, value, -INFINITY, limit,
+                 "%.2g  (at most %.0e)", value, limit);
 }
 
 /* ---- points about the start ---- */
@@ -113,34 +135,105 @@ static int prepare_check(check *c)
     return CLI_DONE;
 }
 
-static int print_check(check *c)
+static void examine(check *c)
+{
+    for (int k = 0; k < CHECK_SECTIONS; k++) {
+        const int items = c->items;
+        c->section = check_sections[k].title;
+        check_sections[k].examine(c);
+        if (c->items == items) check_item(c, CHECK_INFO, NULL, "does not apply");
+    }
+}
+
+/* ---- in words ---- */
+
+static void print_check(const check *c)
 {
     const dal_system *s = c->system;
+    const char *section = NULL;
     printf("%s", s->name);
     if (s->title) printf(": %s", s->title);
     printf("\n%d coordinates, %d constraints", c->n, c->m);
     if (s->multipliers > 0) printf(", %d multipliers (vakonomic)", s->multipliers);
     if (s->reference) printf("; %s", s->reference);
     putchar('\n');
-    for (int k = 0; k < CHECK_SECTIONS; k++) {
-        const int items = c->items;
-        printf("\n%s\n", check_sections[k].title);
-        check_sections[k].examine(c);
-        if (c->items == items) check_item(c, CHECK_INFO, "-", "does not apply");
+    for (const check_entry *e = c->entry; e < c->entry + c->items; e++) {
+        if (e->section != section) printf("\n%s\n", e->section);
+        section = e->section;
+        const int column =
+            printf("  %-34s  %-4s  ", e->what ? e->what : "-", result_words[e->result]);
+        cli_wrap(stdout, e->text, column, VALUE_COLUMN);
     }
     printf("\n%d items, %d failed", c->items, c->failed);
     if (c->unmeasured > 0) printf(", %d not measured", c->unmeasured);
     putchar('\n');
-    const int written = cli_close(stdout, "standard output");
-    return written != CLI_DONE ? written : c->failed + c->unmeasured > 0 ? CLI_CHECK : CLI_DONE;
 }
 
-int check_system(run_request *request)
+/* ---- as JSON ---- */
+
+static void put_item(json_writer *w, const check_entry *e)
 {
-    check c = {.request = request, .system = request->system};
+    json_open(w, NULL, JSON_ON_ONE_LINE);
+    json_put_text(w, "section", e->section);
+    json_put_text(w, "item", e->what);
+    json_put_text(w, "result", result_words[e->result]);
+    json_put_number(w, "value", e->value);
+    json_put_number(w, "at_least", e->least);
+    json_put_number(w, "at_most", e->most);
+    json_put_text(w, "text", e->text);
+    json_close(w);
+}
+
+static void put_check(const check *c)
+{
+    const dal_system *s = c->system;
+    json_writer w = json_begin_results("check");
+    request_open_json(&w, c->request, ~UINT64_C(0));
+    json_close(&w);
+    json_put_text(&w, "title", s->title);
+    json_put_text(&w, "reference", s->reference);
+    json_put_integer(&w, "coordinates", c->n);
+    json_put_integer(&w, "constraints", c->m);
+    json_put_integer(&w, "multipliers", s->multipliers);
+    json_open_list(&w, "items", JSON_LINES);
+    for (int i = 0; i < c->items; i++)
+        if (c->entry[i].what) put_item(&w, &c->entry[i]);
+    json_close(&w);
+    if (c->preservers < 0) json_put_text(&w, "preserving", NULL);
+    if (c->preservers >= 0) json_open_list(&w, "preserving", JSON_ON_ONE_LINE);
+    for (int i = 0; i < c->preservers; i++) json_put_text(&w, NULL, c->preserving[i]);
+    if (c->preservers >= 0) json_close(&w);
+    json_put_integer(&w, "failed", c->failed);
+    json_put_integer(&w, "not_measured", c->unmeasured);
+    json_end_results(&w);
+}
+
+/* ---- */
+
+static void free_check(check *c)
+{
+    for (int i = 0; i < c->items; i++) {
+        free(c->entry[i].what);
+        free(c->entry[i].text);
+    }
+    for (int i = 0; i < c->preservers; i++) free(c->preserving[i]);
+    free(c->preserving);
+    free(c->entry);
+    free(c->start);
+    dal_evaluator_free(c->evaluator);
+}
+
+int check_system(check_settings *settings)
+{
+    run_request *request = &settings->request;
+    check c = {.request = request, .system = request->system, .preservers = -1};
     int status = prepare_check(&c);
-    if (status == CLI_DONE) status = print_check(&c);
-    free(c.start);
-    dal_evaluator_free(c.evaluator);
+    if (status == CLI_DONE) {
+        examine(&c);
+        (settings->json ? put_check : print_check)(&c);
+        status = cli_close(stdout, "standard output");
+    }
+    if (status == CLI_DONE && c.failed + c.unmeasured > 0) status = CLI_CHECK;
+    free_check(&c);
     return status;
 }

@@ -8,6 +8,8 @@
 #include "run/request.h"
 #include "ui/message.h"
 
+#include <stdbool.h>
+
 /* The result of an item.  code, text */
 #define CHECK_RESULT_LIST(RESULT)                                                                  \
     RESULT(OK, "ok")                                                                               \
@@ -20,6 +22,15 @@ typedef enum check_result {
     CHECK_RESULT_LIST(RESULT_CODE)
 #undef RESULT_CODE
 } check_result;
+
+/* An item of the report. */
+typedef struct check_entry {
+    const char *section;
+    char *what; /* NULL: the section does not apply */
+    check_result result;
+    double value, least, most; /* a number and its limits; NaN: it has none */
+    char *text;
+} check_entry;
 
 enum { CHECK_POINTS = 8 };
 
@@ -34,19 +45,31 @@ typedef struct check {
     dal_point near[CHECK_POINTS];    /* points about the start, 0 <= t < 1 */
     dal_point surface[CHECK_POINTS]; /* the same, projected to D = 0 */
     int near_count, surface_count;
-    double *values; /* scratch for the values of any one callback */
+    double *values;      /* scratch for the values of any one callback */
+    const char *section; /* the present one */
+    check_entry *entry;  /* [items] the report */
     int items, failed, unmeasured;
+    char **preserving; /* [preservers] names of integrators that preserve D; */
+    int preservers;    /* -1: it is not known which, or there is no D, or all do */
 } check;
 
-/* One line of the report: what is examined, the result, and a value.  CHECK_UNMEASURED is as bad as
- * a failure. */
+/* Adds an item: what is examined, the result, and a text.  CHECK_UNMEASURED is as bad as a
+ * failure. */
 void check_item(check *c, check_result result, const char *what, const char *format, ...)
     CLI_PRINTF(4, 5);
+/* The same of a number; an infinite limit is none. */
+void check_number(check *c, check_result result, const char *what, double value, double least,
+                  double most, const char *format, ...) CLI_PRINTF(7, 8);
 /* The item of a number with an upper limit. */
 void check_bound(check *c, const char *what, double value, double limit);
 
-/* Prints the report.  Returns CLI_DONE, CLI_CHECK where an item failed or was not measured, or
- * prints and returns an exit status. */
-int check_system(run_request *request);
+typedef struct check_settings {
+    run_request request;
+    bool json;
+} check_settings;
+
+/* Prints the report, as text or as JSON.  Returns CLI_DONE, CLI_CHECK where an item failed or was
+ * not measured, or prints and returns an exit status. */
+int check_system(check_settings *settings);
 
 #endif

@@ -65,10 +65,10 @@ static void check_motion_rate(check *c, const char *what, const motion_rate *rat
         check_item(c, CHECK_UNMEASURED, what, "at none of %d points: %s", rate->points,
                    dal_status_text(rate->status));
     else if (isinf(limit))
-        check_item(c, CHECK_INFO, what, "%.2g%s", rate->max, extent);
+        check_number(c, CHECK_INFO, what, rate->max, -INFINITY, limit, "%.2g%s", rate->max, extent);
     else
-        check_item(c, rate->max <= limit ? CHECK_OK : CHECK_FAIL, what, "%.2g  (at most %.0e)%s",
-                   rate->max, limit, extent);
+        check_number(c, rate->max <= limit ? CHECK_OK : CHECK_FAIL, what, rate->max, -INFINITY,
+                     limit, "%.2g  (at most %.0e)%s", rate->max, limit, extent);
 }
 
 /* ---- the start ---- */
@@ -96,10 +96,11 @@ static void check_start(check *c)
     const double e = c->start[c->size];
     check_item(c, c->is_regular ? CHECK_OK : CHECK_FAIL, "F at the start", "%s",
                c->is_regular ? "finite" : "not finite: the motion is not determined");
-    check_item(c, e != 0.0 && !isnan(e) ? CHECK_OK : CHECK_FAIL, "gauge variable e", "%g", e);
+    check_number(c, e != 0.0 && !isnan(e) ? CHECK_OK : CHECK_FAIL, "gauge variable e", e, -INFINITY,
+                 INFINITY, "%g", e);
     const check_result found = c->near_count > 0 ? CHECK_OK : CHECK_FAIL;
     if (c->m == 0) {
-        check_item(c, found, points, "%d", c->near_count);
+        check_number(c, found, points, c->near_count, 1, INFINITY, "%d", c->near_count);
         return;
     }
     const double defect = c->system->call.constraint ? start_defect(c) : 0.0;
@@ -111,12 +112,13 @@ static void check_start(check *c)
     double pivot = 0.0;
     const dal_status status = dal_measure_rank(c->evaluator, &c->origin, &rank, &pivot);
     if (cli_is_ok(status))
-        check_item(c, rank == c->m ? CHECK_OK : CHECK_FAIL, "rank of G at the start",
-                   "%d of %d, smallest pivot %.2g", rank, c->m, pivot);
+        check_number(c, rank == c->m ? CHECK_OK : CHECK_FAIL, "rank of G at the start", rank, c->m,
+                     c->m, "%d of %d, smallest pivot %.2g", rank, c->m, pivot);
     else if (status != DAL_UNSUPPORTED)
         check_item(c, CHECK_FAIL, "rank of G at the start", "it has no value: %s",
                    dal_status_text(status));
-    check_item(c, found, points, "%d; %d projected to D = 0", c->near_count, c->surface_count);
+    check_number(c, found, points, c->near_count, 1, INFINITY, "%d; %d projected to D = 0",
+                 c->near_count, c->surface_count);
 }
 
 /* ---- constraints ---- */
@@ -151,6 +153,14 @@ static bool is_integrator_accepted(check *c, const dal_integrator *integrator)
     return false;
 }
 
+static char *add_preserving(check *c, const dal_integrator *k)
+{
+    const size_t count = (size_t)c->preservers + 1;
+    c->preserving = cli_realloc(c->preserving, count * sizeof *c->preserving);
+    char *name = cli_format("%s%s", k->properties & DAL_MODIFIER ? "+" : "", k->name);
+    return c->preserving[c->preservers++] = name;
+}
+
 /* The methods that have one of these properties and that `run` accepts; with constant coefficients
  * D is preserved by all of them. */
 static void list_methods(check *c, bool is_constant, unsigned properties)
@@ -160,11 +170,12 @@ static void list_methods(check *c, bool is_constant, unsigned properties)
     size_t length = 0;
     dal_error error = {.message = ""};
     const dal_integrator *k;
+    if (!is_constant) c->preservers = 0;
     for (int i = 0; !is_constant && (k = dal_integrator_at(i)); i++) {
         if (!(k->properties & properties) || !is_integrator_accepted(c, k)) continue;
-        length += (size_t)snprintf(text + length, sizeof text - length, "%s%s%.40s",
-                                   length > 0 ? " " : "", k->properties & DAL_MODIFIER ? "+" : "",
-                                   k->name);
+        char *name = add_preserving(c, k);
+        length += (size_t)snprintf(text + length, sizeof text - length, "%s%.40s",
+                                   length > 0 ? " " : "", name);
     }
     const bool is_any = length > 0 || is_accepted(c, "rk4", &error);
     if (is_constant && is_any)
@@ -282,8 +293,8 @@ static void check_reversal(check *c)
                    dal_status_text(cli_is_ok(status) ? DAL_NOT_FINITE : status));
         return;
     }
-    check_item(c, CHECK_INFO, what, "%s (difference %.2g)",
-               d.reversible ? "yes: reversible" : "no: not reversible", d.force_defect);
+    check_number(c, CHECK_INFO, what, d.force_defect, -INFINITY, INFINITY, "%s (difference %.2g)",
+                 d.reversible ? "yes: reversible" : "no: not reversible", d.force_defect);
     if (c->m > 0) check_item(c, CHECK_INFO, "D under v -> -v", "%s", parity[d.parity + 1]);
 }
 
@@ -362,8 +373,9 @@ static void check_exact(check *c)
     if (isinf(distance))
         check_item(c, CHECK_UNMEASURED, start, "it has no value");
     else
-        check_item(c, distance <= zero ? CHECK_OK : CHECK_INFO, start,
-                   distance <= zero ? "the start, to %.2g" : "another start, %.2g away", distance);
+        check_number(c, distance <= zero ? CHECK_OK : CHECK_INFO, start, distance, -INFINITY,
+                     INFINITY, distance <= zero ? "the start, to %.2g" : "another start, %.2g away",
+                     distance);
     for (size_t k = 0; k < sizeof times / sizeof times[0]; k++) {
         /* Which increment is best depends on how fast the solution is. */
         double residual = INFINITY;
@@ -394,17 +406,17 @@ static void check_algebra(check *c)
         check_item(c, CHECK_UNMEASURED, "brackets", "%s", dal_status_text(status));
         return;
     }
-    check_item(c, d.second_class == 2 * n ? CHECK_OK : CHECK_FAIL, "second-class constraints",
-               "rank %d of %d x %d brackets, 2n = %d", d.second_class, d.constraints, d.constraints,
-               2 * n);
-    check_item(c, d.first_class == 2 * n + 1 ? CHECK_OK : CHECK_FAIL, "first-class constraints",
-               "%d, 2n+1 = %d", d.first_class, 2 * n + 1);
+    check_number(c, d.second_class == 2 * n ? CHECK_OK : CHECK_FAIL, "second-class constraints",
+                 d.second_class, 2 * n, 2 * n, "rank %d of %d x %d brackets, 2n = %d",
+                 d.second_class, d.constraints, d.constraints, 2 * n);
+    check_number(c, d.first_class == 2 * n + 1 ? CHECK_OK : CHECK_FAIL, "first-class constraints",
+                 d.first_class, 2 * n + 1, 2 * n + 1, "%d, 2n+1 = %d", d.first_class, 2 * n + 1);
     check_bound(c, "{phi, H} on the surface", d.conservation, zero);
     check_bound(c, "mu_q = v, mu_lambda = 0", d.multipliers, zero);
-    check_item(c, d.free_multipliers == 1 ? CHECK_OK : CHECK_FAIL, "free multipliers",
-               "%d (mu_e, the gauge)", d.free_multipliers);
-    check_item(c, d.secondary > 1e-3 ? CHECK_OK : CHECK_FAIL, "{primary phi, H} off pi = 0",
-               "%.2g  (more than 1e-03)", d.secondary);
+    check_number(c, d.free_multipliers == 1 ? CHECK_OK : CHECK_FAIL, "free multipliers",
+                 d.free_multipliers, 1, 1, "%d (mu_e, the gauge)", d.free_multipliers);
+    check_number(c, d.secondary > 1e-3 ? CHECK_OK : CHECK_FAIL, "{primary phi, H} off pi = 0",
+                 d.secondary, 1e-3, INFINITY, "%.2g  (more than 1e-03)", d.secondary);
     check_bound(c, "H on the surface", d.hamiltonian, zero);
 }
 
@@ -469,8 +481,8 @@ static void check_second_order_action(check *c)
     }
     free(path.rows);
     if (done)
-        check_item(c, solved < 1e-9 * perturbed ? CHECK_OK : CHECK_FAIL, what,
-                   "%.2g; %.2g on a perturbed path", solved, perturbed);
+        check_number(c, solved < 1e-9 * perturbed ? CHECK_OK : CHECK_FAIL, what, solved, -INFINITY,
+                     1e-9 * perturbed, "%.2g; %.2g on a perturbed path", solved, perturbed);
     else
         check_item(c, CHECK_UNMEASURED, what,
                    "gauss8 gives no trajectory, or F is not finite on it");
@@ -494,7 +506,7 @@ static void check_stationarity(check *c, const char *method, double limit)
             dal_check_stationarity(c->evaluator, 0.0, path.h, LIFTED_NODES, path.rows, &defect)))
         check_item(c, CHECK_UNMEASURED, what, "there is no trajectory");
     else if (isinf(limit))
-        check_item(c, CHECK_INFO, what, "%.2g", defect);
+        check_number(c, CHECK_INFO, what, defect, -INFINITY, INFINITY, "%.2g", defect);
     else
         check_bound(c, what, defect, limit);
     free(path.rows);

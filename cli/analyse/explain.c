@@ -1,9 +1,10 @@
-/* explain.c - the error sources of the drift of a run, in words and as CSV. */
+/* explain.c - the error sources of the drift of a run, in words, as CSV and as JSON. */
 #include "explain.h"
 #include "analysis.h"
 #include "dalembert.h"
 #include "io/file.h"
 #include "io/trend.h"
+#include "run/request_json.h"
 #include "ui/memory.h"
 #include "ui/message.h"
 #include "ui/signals.h"
@@ -92,9 +93,10 @@ static void print_observable(const dal_error_budget *e, int i)
     putchar('\n');
 }
 
-static int print_budget(const run_request *request, const dal_error_budget *e)
+static void print_budget(const explain_settings *s, const dal_error_budget *e)
 {
     char method[128];
+    const run_request *request = &s->request;
     const char *separator = "exact: ";
     printf("%s, %s, %s, h = %g: %lld steps", request->system_name,
            dal_method_name(&request->method, method, sizeof method),
@@ -116,10 +118,20 @@ static int print_budget(const run_request *request, const dal_error_budget *e)
         cli_wrap(stdout, text, 0, 4);
         free(text);
     }
-    return cli_close(stdout, "standard output");
 }
 
 /* ---- as CSV ---- */
+
+/* The steps that a comparison and a share are about. */
+static long long steps_of_run(const dal_error_budget *e, int comparison)
+{
+    return comparison < DAL_COMPARISON_QUAD ? e->steps : e->quad_steps;
+}
+
+static long long steps_of_share(const dal_error_budget *e, int source)
+{
+    return source == DAL_SOURCE_PROJECTION || e->quad_steps == 0 ? e->steps : e->quad_steps;
+}
 
 static void write_run(FILE *out, const char *observable, const char *name, long long steps,
                       const dal_trend *f)
@@ -141,13 +153,13 @@ static void write_observable(FILE *out, const dal_error_budget *e, int i)
     if (e->quad_steps > 0) write_run(out, a->name, "first-steps", e->quad_steps, &a->beginning);
     for (int k = 0; k < DAL_COMPARISONS; k++)
         if (e->ran[k])
-            write_run(out, a->name, dal_comparison_name((dal_comparison_run)k),
-                      k < DAL_COMPARISON_QUAD ? e->steps : e->quad_steps, &a->comparison[k]);
+            write_run(out, a->name, dal_comparison_name((dal_comparison_run)k), steps_of_run(e, k),
+                      &a->comparison[k]);
     for (int k = 0; k < DAL_ERROR_SOURCES; k++) {
         const double numbers[] = {a->share[k], a->margin[k]};
         cli_put_text(out, a->name);
         fprintf(out, ",source,%s,%lld", dal_error_source_name((dal_error_source)k),
-                k == DAL_SOURCE_PROJECTION || e->quad_steps == 0 ? e->steps : e->quad_steps);
+                steps_of_share(e, k));
         analysis_put_cells(out, numbers, 2);
         fputs(",,,,,,,,", out);
         cli_put_text(out,
@@ -168,6 +180,73 @@ static int write_budget(const char *path, const dal_error_budget *e)
     return cli_close(out, is_stdout ? "standard output" : path);
 }
 
+/* ---- as JSON ---- */
+
+static void put_run(json_writer *w, const char *name, long long steps, const dal_trend *f)
+{
+    json_open(w, NULL, JSON_ON_ONE_LINE);
+    json_put_text(w, "name", name);
+    json_put_integer(w, "steps", steps);
+    json_put_number(w, "deviation", f->deviation);
+    cli_put_trend(w, f);
+    json_close(w);
+}
+
+static void put_source(json_writer *w, const dal_error_budget *e, int i, int source)
+{
+    char words[512];
+    const dal_shares *a = &e->shares[i];
+    json_open(w, NULL, JSON_ON_ONE_LINE);
+    json_put_text(w, "name", dal_error_source_name((dal_error_source)source));
+    json_put_integer(w, "steps", steps_of_share(e, source));
+    json_put_number(w, "share", a->share[source]);
+    json_put_number(w, "margin", a->margin[source]);
+    json_put_text(w, "words",
+                  dal_error_budget_describe(e, i, (dal_error_source)source, words, sizeof words));
+    json_close(w);
+}
+
+static void put_observable(json_writer *w, const dal_error_budget *e, int i)
+{
+    const dal_shares *a = &e->shares[i];
+    json_open(w, NULL, JSON_LINES);
+    json_put_text(w, "name", a->name);
+    json_open_list(w, "runs", JSON_LINES);
+    put_run(w, "all", e->steps, &a->whole);
+    if (e->quad_steps > 0) put_run(w, "first-steps", e->quad_steps, &a->beginning);
+    for (int k = 0; k < DAL_COMPARISONS; k++)
+        if (e->ran[k])
+            put_run(w, dal_comparison_name((dal_comparison_run)k), steps_of_run(e, k),
+                    &a->comparison[k]);
+    json_close(w);
+    json_open_list(w, "sources", JSON_LINES);
+    for (int k = 0; k < DAL_ERROR_SOURCES; k++) put_source(w, e, i, k);
+    json_close(w);
+    json_close(w);
+}
+
+static void put_budget(const explain_settings *s, const dal_error_budget *e)
+{
+    json_writer w = json_begin_results("explain");
+    request_open_json(&w, &s->request, EXPLAIN_WITHOUT);
+    json_close(&w);
+    json_put_integer(&w, "steps", e->steps);
+    json_put_integer(&w, "quad_steps", e->quad_steps);
+    json_open_list(&w, "observables", JSON_LINES);
+    for (int i = 0; i < e->observables; i++) put_observable(&w, e, i);
+    json_close(&w);
+    json_open_list(&w, "not_run", JSON_LINES);
+    for (int k = 0; k < DAL_COMPARISONS; k++) {
+        if (e->ran[k] || !*e->reason[k]) continue;
+        json_open(&w, NULL, JSON_ON_ONE_LINE);
+        json_put_text(&w, "name", dal_comparison_name((dal_comparison_run)k));
+        json_put_text(&w, "reason", e->reason[k]);
+        json_close(&w);
+    }
+    json_close(&w);
+    json_end_results(&w);
+}
+
 /* ---- all ---- */
 
 int explain_run(explain_settings *s)
@@ -175,7 +254,8 @@ int explain_run(explain_settings *s)
     dal_run_spec spec;
     dal_error_budget *e = NULL;
     dal_error error = {0};
-    int status = request_create_run(&s->request);
+    int status = analysis_check_output(s->output, s->json);
+    if (status == CLI_DONE) status = request_create_run(&s->request);
     if (status == CLI_DONE) status = request_make_spec(&s->request, &spec);
     if (status != CLI_DONE) return status;
     const double steps = nearbyint(s->request.time / s->request.options.step);
@@ -188,7 +268,11 @@ int explain_run(explain_settings *s)
         dal_error_budget_create(&spec, (long long)steps, s->quad_steps, &observer, &e, &error);
     cli_progress_end();
     if (done != DAL_OK) return cli_error(cli_exit(done), s->request.system_name, &error);
-    status = s->output ? write_budget(s->output, e) : print_budget(&s->request, e);
+    status = s->output ? write_budget(s->output, e) : CLI_DONE;
+    if (status == CLI_DONE && (s->json || !s->output)) {
+        (s->json ? put_budget : print_budget)(s, e);
+        status = cli_close(stdout, "standard output");
+    }
     dal_error_budget_free(e);
     return status;
 }

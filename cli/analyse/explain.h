@@ -7,11 +7,15 @@
 
 enum { EXPLAIN_MAX_STEPS = 2000000000 };
 
+/* The options of a run that it does not take: comparison runs differ in precision themselves. */
+#define EXPLAIN_WITHOUT (REQUEST_ROW_OPTIONS | REQUEST_OPTION(precision))
+
 typedef struct explain_settings {
     run_request request;
     long long quad_steps;
     const char *output; /* of CSV; NULL: sentences to stdout */
     native_mode native;
+    bool json; /* to stdout, instead of sentences */
 } explain_settings;
 
 /* Returns CLI_DONE or prints and returns an exit status. */

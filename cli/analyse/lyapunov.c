@@ -10,8 +10,10 @@
 #include "dalembert_analysis.h"
 #include "io/file.h"
 #include "io/gnuplot.h"
+#include "io/json.h"
 #include "io/trajectory.h"
 #include "run/request.h"
+#include "run/request_json.h"
 #include "run/row_times.h"
 #include "ui/memory.h"
 #include "ui/message.h"
@@ -23,12 +25,15 @@
 #include <stdlib.h>
 
 typedef struct lyapunov_settings {
-    bool is_volume;
+    bool is_volume, json;
     run_request request;
     const char *output;
     double transient;
     long long rows, exponents; /* exponents: 0 for all */
 } lyapunov_settings;
+
+/* The options of a run that the commands do not take. */
+#define LYAPUNOV_WITHOUT (REQUEST_ROW_OPTIONS | REQUEST_OPTION(space))
 
 /* Steps between two polls of the signals. */
 enum { CHUNK = 200, MAX_ROWS = 100000000, MAX_COLUMN_NAME = 24 };
@@ -38,6 +43,7 @@ typedef struct tangent_study {
     run_request *request;
     dal_lyapunov *spectrum;
     double begin; /* t at the beginning of the means */
+    int status;   /* of the run */
     /* A table of the means so far: its name, which is the file's and the figure's, and what it has
      * beside t. */
     const char *name, *ylabel;
@@ -188,17 +194,18 @@ static int run_with_table(tangent_study *s)
 
 /* ---- the results --------------------------------------------------------------------------- */
 
+/* The sum of the exponents against the divergence; the reason is "" where they are compared. */
+typedef struct balance {
+    dal_balance found;
+    const char *reason;
+} balance;
+
 /* What cannot be distinguished from 0 after this time: exponents of regular motion are about
  * log(T)/T. */
 static double resolution(const tangent_study *s)
 {
     const double T = dal_run_time(dal_lyapunov_run(s->spectrum)) - s->begin;
     return log(fmax(T, 1.0) + 1.0) / fmax(T, 1.0);
-}
-
-static void print_mean(const char *name, const dal_average *a, const char *word)
-{
-    printf("%-15s %12.6g %12.5g %12.5g  %s\n", name, a->mean, a->low, a->high, word);
 }
 
 static const char *sign_word(const dal_average *a, double resolution, const char *positive,
@@ -209,6 +216,25 @@ static const char *sign_word(const dal_average *a, double resolution, const char
     return "may be 0";
 }
 
+static const char *exponent_word(const tangent_study *s, const dal_average *a)
+{
+    return sign_word(a, resolution(s), "positive", "negative");
+}
+
+static const char *volume_word(const tangent_study *s, const dal_average *a)
+{
+    static const double rounding = 1e-11;
+    const bool is_zero = fabs(a->low) <= rounding && fabs(a->high) <= rounding;
+    return is_zero ? "preserved at every step" : sign_word(a, resolution(s), "grows", "shrinks");
+}
+
+/* ---- in words ------------------------------------------------------------------------------ */
+
+static void print_mean(const char *name, const dal_average *a, const char *word)
+{
+    printf("%-15s %12.6g %12.5g %12.5g  %s\n", name, a->mean, a->low, a->high, word);
+}
+
 static void print_exponents(const tangent_study *s)
 {
     dal_average a;
@@ -216,7 +242,7 @@ static void print_exponents(const tangent_study *s)
         char name[32];
         snprintf(name, sizeof name, "exponent %d", i + 1);
         dal_lyapunov_exponent(s->spectrum, i, &a);
-        print_mean(name, &a, sign_word(&a, resolution(s), "positive", "negative"));
+        print_mean(name, &a, exponent_word(s, &a));
     }
     dal_lyapunov_sum(s->spectrum, &a);
     print_mean("their sum", &a, dal_lyapunov_is_whole(s->spectrum) ? "all" : "not all");
@@ -225,47 +251,30 @@ static void print_exponents(const tangent_study *s)
     printf("\nexponents of regular motion may reach about log(T)/T = %.2g\n", resolution(s));
 }
 
-static void print_rate_of_volume(const tangent_study *s, const char *name, const dal_average *a)
-{
-    static const double rounding = 1e-11;
-    const bool is_zero = fabs(a->low) <= rounding && fabs(a->high) <= rounding;
-    print_mean(name, a,
-               is_zero ? "preserved at every step"
-                       : sign_word(a, resolution(s), "grows", "shrinks"));
-}
-
 static void print_volume(const tangent_study *s)
 {
     dal_average motion, step;
     dal_lyapunov_divergence(s->spectrum, &motion);
     dal_lyapunov_sum(s->spectrum, &step);
-    print_rate_of_volume(s, "divergence of F", &motion);
-    print_rate_of_volume(s, "log|det J|/h", &step);
+    print_mean("divergence of F", &motion, volume_word(s, &motion));
+    print_mean("log|det J|/h", &step, volume_word(s, &step));
     printf("\n%d of %d directions; step less motion: %.2g\n", dal_lyapunov_count(s->spectrum),
            dal_run_dimension(dal_lyapunov_run(s->spectrum)), step.mean - motion.mean);
 }
 
-/* The sum of the exponents against the divergence. */
-static int print_balance(const tangent_study *s)
+static void print_balance(const balance *b)
 {
-    dal_balance b;
-    dal_error error;
-    if (dal_lyapunov_balance(s->spectrum, &b, &error) != DAL_OK) {
-        printf("sum less divergence: not compared: %s\n", error.message);
-        return CLI_DONE;
+    if (b->reason[0]) {
+        printf("sum less divergence: not compared: %s\n", b->reason);
+        return;
     }
     printf("sum less divergence: %.2g; the error of the method is at most about %.2g\n",
-           b.difference, b.margin);
-    if (b.surface != 0.0)
-        printf("(the surface that the method enforces accounts for %.2g more)\n", b.surface);
-    if (b.holds) return CLI_DONE;
-    return cli_fail(CLI_FAILED,
-                    "%s: the sum of the exponents differs from the mean divergence by %g, more "
-                    "than %g: the derivative of the steps is not reliable",
-                    s->request->system_name, b.difference, b.margin);
+           b->found.difference, b->found.margin);
+    if (b->found.surface != 0.0)
+        printf("(the surface that the method enforces accounts for %.2g more)\n", b->found.surface);
 }
 
-static int print_means(const tangent_study *s)
+static void print_means(const tangent_study *s, const balance *b)
 {
     char method[128];
     const dal_run *run = dal_lyapunov_run(s->spectrum);
@@ -276,13 +285,74 @@ static int print_means(const tangent_study *s)
                                                     ? "exact, by the tangent system"
                                                     : "by differences of order 8");
     printf("%-15s %12s %25s\n", "", "mean", "95 % interval");
-    if (s->set->is_volume)
-        print_volume(s);
-    else
-        print_exponents(s);
-    const int balanced = print_balance(s);
-    const int closed = cli_close(stdout, "standard output");
-    return closed != CLI_DONE ? closed : balanced;
+    (s->set->is_volume ? print_volume : print_exponents)(s);
+    print_balance(b);
+}
+
+/* ---- as JSON ------------------------------------------------------------------------------- */
+
+static void put_mean(json_writer *w, const char *name, const dal_average *a, const char *word)
+{
+    json_open(w, name, JSON_ON_ONE_LINE);
+    json_put_number(w, "mean", a->mean);
+    json_put_number(w, "low", a->low);
+    json_put_number(w, "high", a->high);
+    if (word) json_put_text(w, "result", word);
+    json_close(w);
+}
+
+static void put_exponents(json_writer *w, const tangent_study *s)
+{
+    dal_average a;
+    json_open_list(w, "exponents", JSON_LINES);
+    for (int i = 0; i < dal_lyapunov_count(s->spectrum); i++) {
+        dal_lyapunov_exponent(s->spectrum, i, &a);
+        put_mean(w, NULL, &a, exponent_word(s, &a));
+    }
+    json_close(w);
+    dal_lyapunov_sum(s->spectrum, &a);
+    put_mean(w, "sum", &a, NULL);
+    json_put_flag(w, "sum_is_of_all", dal_lyapunov_is_whole(s->spectrum));
+    dal_lyapunov_divergence(s->spectrum, &a);
+    put_mean(w, "divergence", &a, NULL);
+}
+
+static void put_volume(json_writer *w, const tangent_study *s)
+{
+    dal_average motion, step;
+    dal_lyapunov_divergence(s->spectrum, &motion);
+    dal_lyapunov_sum(s->spectrum, &step);
+    put_mean(w, "divergence", &motion, volume_word(s, &motion));
+    put_mean(w, "step", &step, volume_word(s, &step));
+    json_put_integer(w, "directions", dal_lyapunov_count(s->spectrum));
+    json_put_integer(w, "dimension", dal_run_dimension(dal_lyapunov_run(s->spectrum)));
+}
+
+static void put_balance(json_writer *w, const balance *b)
+{
+    const bool is_compared = !b->reason[0];
+    json_open(w, "balance", JSON_LINES);
+    json_put_number(w, "difference", is_compared ? b->found.difference : NAN);
+    json_put_number(w, "margin", is_compared ? b->found.margin : NAN);
+    json_put_number(w, "surface", is_compared ? b->found.surface : NAN);
+    json_put_text(w, "reason", is_compared ? NULL : b->reason);
+    json_close(w);
+}
+
+static void put_means(const tangent_study *s, const balance *b)
+{
+    json_writer w = json_begin_results(s->name);
+    request_open_json(&w, s->request, LYAPUNOV_WITHOUT);
+    json_put_number(&w, "transient", s->set->transient);
+    json_close(&w);
+    json_put_text(&w, "state", analysis_state(s->status));
+    json_put_number(&w, "from", s->begin);
+    json_put_number(&w, "to", dal_run_time(dal_lyapunov_run(s->spectrum)));
+    json_put_text(&w, "derivative", dal_lyapunov_is_exact(s->spectrum) ? "exact" : "differences");
+    json_put_number(&w, "resolution", resolution(s));
+    (s->set->is_volume ? put_volume : put_exponents)(&w, s);
+    put_balance(&w, b);
+    json_end_results(&w);
 }
 
 /* ---- all ----------------------------------------------------------------------------------- */
@@ -295,6 +365,7 @@ static const cli_option options[] = {
     {"output", "DIR|FILE", NULL,
      "writes the means so far: .csv, .npy, or a directory with a figure",
      CLI_ROW(cli_parse_output, lyapunov_settings, output)},
+    JSON_OPTION(lyapunov_settings),
     {"exponents", "K", NULL, "computes the K largest only",
      CLI_INTEGER(lyapunov_settings, exponents, 1, 1e6)},
 };
@@ -307,14 +378,30 @@ static cli_group lyapunov_group(lyapunov_settings *settings)
     return group;
 }
 
+/* Prints the means, which after a failure are those so far. */
+static int report_means(const tangent_study *s)
+{
+    dal_error error = {0};
+    balance b = {.reason = ""};
+    if (dal_lyapunov_balance(s->spectrum, &b.found, &error) != DAL_OK) b.reason = error.message;
+    (s->set->json ? put_means : print_means)(s, &b);
+    const int closed = cli_close(stdout, "standard output");
+    if (closed != CLI_DONE || b.reason[0] || b.found.holds) return closed;
+    return cli_fail(CLI_FAILED,
+                    "%s: the sum of the exponents differs from the mean divergence by %g, more "
+                    "than %g: the derivative of the steps is not reliable",
+                    s->request->system_name, b.found.difference, b.found.margin);
+}
+
 static int measure_means(lyapunov_settings *settings)
 {
     tangent_study s = {.set = settings, .request = &settings->request};
-    int status = create_spectrum(&s);
+    int status = analysis_check_output(settings->output, settings->json);
+    if (status == CLI_DONE) status = create_spectrum(&s);
     if (status == CLI_DONE) {
         allocate_columns(&s);
-        status = run_with_table(&s);
-        const int printed = status == CLI_IO || status == CLI_USAGE ? status : print_means(&s);
+        status = s.status = run_with_table(&s);
+        const int printed = status == CLI_IO || status == CLI_USAGE ? status : report_means(&s);
         if (status == CLI_DONE) status = printed;
     }
     free(s.heads);
@@ -328,7 +415,7 @@ int lyapunov_command(const cli_command *command, bool is_volume, int argc, char 
     lyapunov_settings s = {.request = request_default(), .is_volume = is_volume};
     const cli_group groups[] = {
         lyapunov_group(&s),
-        request_group(&s.request, request_options, REQUEST_ROW_OPTIONS | REQUEST_OPTION(space)),
+        request_group(&s.request, request_options, LYAPUNOV_WITHOUT),
     };
     int status = cli_read_arguments(command, argc, argv, groups, 2);
     if (status == CLI_GO_ON) status = measure_means(&s);

@@ -1,13 +1,14 @@
 /* order.c - the error of many methods against step and against work.
  *
- * First a reference; then every method at every step, on threads; then a table, a CSV file and two
- * diagrams. */
+ * First a reference; then every method at every step, on threads; then a table or JSON, a CSV file
+ * and two diagrams. */
 #include "order.h"
 #include "analysis.h"
 #include "dalembert_analysis.h"
 #include "io/file.h"
 #include "io/gnuplot.h"
 #include "run/pool.h"
+#include "run/request_json.h"
 #include "ui/clock.h"
 #include "ui/memory.h"
 #include "ui/message.h"
@@ -58,9 +59,10 @@ typedef struct order_study {
     int levels;
     order_method *methods;
     int method_count;
-    int numbers;       /* that are compared: q, v and vakonomic g */
-    double *reference; /* [numbers] at T, and room for as many */
-    char reference_text[MAX_NAME];
+    int numbers;                  /* that are compared: q, v and vakonomic g */
+    double *reference;            /* [numbers] at T, and room for as many */
+    const char *reference_method; /* NULL: the exact solution */
+    double reference_step;
     double noise; /* the error of the reference; 0 where it is not known */
 } order_study;
 
@@ -180,7 +182,6 @@ static bool use_exact_solution(order_study *s)
                                           NULL, s->reference) == DAL_OK &&
                        isfinite(analysis_distance(s->reference, s->reference, s->numbers));
     dal_evaluator_free(evaluator);
-    snprintf(s->reference_text, sizeof s->reference_text, "the exact solution");
     return found;
 }
 
@@ -200,8 +201,8 @@ static dal_status use_method(order_study *s, const char *name, dal_error *error)
     if (status == DAL_OK) status = run_to_end(s, &spec, s->reference, &cost, error);
     if (status != DAL_OK) return status;
     s->noise = fmax(analysis_distance(coarse, s->reference, s->numbers), rounding);
-    snprintf(s->reference_text, sizeof s->reference_text, "%s with h = %g, itself within %.0e",
-             name, 0.5 * h, s->noise);
+    s->reference_method = name;
+    s->reference_step = 0.5 * h;
     return DAL_OK;
 }
 
@@ -281,14 +282,18 @@ static const char *failure_message(const order_study *s, const order_method *m)
     return "";
 }
 
-static int print_orders(const order_study *s)
+static void print_orders(const order_study *s)
 {
     const int last = s->levels - 1;
     const double steps = round(s->request->time / s->step[last]);
     bool any_without_order = false;
-    printf("%s, error of (q,v) at t = %g, %s\nagainst %s\n\n", s->request->system_name,
-           s->request->time, s->spec.options.space == DAL_LIFTED ? "lifted" : "physical",
-           s->reference_text);
+    printf("%s, error of (q,v) at t = %g, %s\nagainst ", s->request->system_name, s->request->time,
+           s->spec.options.space == DAL_LIFTED ? "lifted" : "physical");
+    if (s->reference_method)
+        printf("%s with h = %g, itself within %.0e\n\n", s->reference_method, s->reference_step,
+               s->noise);
+    else
+        fputs("the exact solution\n\n", stdout);
     printf("%-21s %13s  %-*s %15s\n", "", "order", 8 * s->levels - 1,
            "error at h =", "cost of a step");
     printf("%-21s %6s %6s", "integrator", "stated", "found");
@@ -313,7 +318,52 @@ static int print_orders(const order_study *s)
         if (m->state != ORDER_DONE)
             printf("\n%s: %s: %s", m->name, state_words[m->state], failure_message(s, m));
     putchar('\n');
-    return cli_close(stdout, "standard output");
+}
+
+/* ---- JSON ---------------------------------------------------------------------------------- */
+
+static void put_level(json_writer *w, const order_study *s, const order_method *m, int level)
+{
+    const bool succeeded = m->failure[level].status == DAL_OK;
+    json_open(w, NULL, JSON_ON_ONE_LINE);
+    json_put_number(w, "step", s->step[level]);
+    json_put_integer(w, "steps", dal_whole_steps(0.0, s->request->time, s->step[level]));
+    json_put_number(w, "error", m->order.error[level]);
+    json_put_number(w, "slope", m->order.slope[level]);
+    json_put_number(w, "evaluations", succeeded ? (double)m->order.evaluations[level] : NAN);
+    json_put_number(w, "seconds", succeeded ? m->seconds[level] : NAN);
+    json_put_text(w, "message", succeeded ? NULL : m->failure[level].message);
+    json_close(w);
+}
+
+static void put_method(json_writer *w, const order_study *s, const order_method *m)
+{
+    json_open(w, NULL, JSON_LINES);
+    json_put_text(w, "integrator", m->name);
+    json_put_integer(w, "stated_order", dal_method_order(&m->method));
+    json_put_number(w, "observed_order", m->order.order);
+    json_put_text(w, "state", state_words[m->state]);
+    json_put_text(w, "message", m->state == ORDER_DONE ? NULL : failure_message(s, m));
+    json_open_list(w, "levels", JSON_LINES);
+    for (int i = 0; m->state != ORDER_REFUSED && i < s->levels; i++) put_level(w, s, m, i);
+    json_close(w);
+    json_close(w);
+}
+
+static void put_orders(const order_study *s)
+{
+    json_writer w = json_begin_results("order");
+    request_open_json(&w, s->request, ORDER_WITHOUT | REQUEST_OPTION(step));
+    json_close(&w);
+    json_open(&w, "reference", JSON_ON_ONE_LINE);
+    json_put_text(&w, "integrator", s->reference_method);
+    json_put_number(&w, "step", s->reference_method ? s->reference_step : NAN);
+    json_put_number(&w, "error", s->reference_method ? s->noise : NAN);
+    json_close(&w);
+    json_open_list(&w, "methods", JSON_LINES);
+    for (int i = 0; i < s->method_count; i++) put_method(&w, s, &s->methods[i]);
+    json_close(&w);
+    json_end_results(&w);
 }
 
 /* ---- CSV ----------------------------------------------------------------------------------- */
@@ -431,7 +481,8 @@ static int draw_orders(const order_study *s, const char *directory)
 
 static int measure(order_study *s)
 {
-    int status = list_steps(s);
+    int status = analysis_check_output(s->set->output, s->set->json);
+    if (status == CLI_DONE) status = list_steps(s);
     if (status == CLI_DONE)
         status = add_items(s, s->set->integrators, "--integrators", add_methods);
     if (status == CLI_DONE) status = request_make_spec(s->request, &s->spec);
@@ -439,7 +490,10 @@ static int measure(order_study *s)
     cli_catch_signals();
     status = make_reference(s);
     if (status == CLI_DONE) status = run_methods(s, (int)s->set->threads);
-    if (status == CLI_DONE) status = print_orders(s);
+    if (status == CLI_DONE) {
+        (s->set->json ? put_orders : print_orders)(s);
+        status = cli_close(stdout, "standard output");
+    }
     if (status == CLI_DONE && s->set->output) {
         analysis_output output;
         status = analysis_open(&output, s->set->output, "order");

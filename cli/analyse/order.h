@@ -4,14 +4,20 @@
 
 #include "run/request.h"
 
+#include <stdbool.h>
+
+/* The options of a run that it does not take. */
+#define ORDER_WITHOUT (REQUEST_ROW_OPTIONS | REQUEST_OPTION(integrator))
+
 typedef struct order_settings {
     run_request request;
     const char *integrators, *steps; /* lists between commas; steps NULL: step and level_count */
     const char *output;
     long long level_count, threads;
+    bool json; /* to stdout, instead of a table */
 } order_settings;
 
-/* Prints a table, writes CSV and diagrams.  Returns CLI_DONE or prints and returns an exit
+/* Prints a table or JSON, writes CSV and diagrams.  Returns CLI_DONE or prints and returns an exit
  * status. */
 int order_measure(order_settings *settings);
 

@@ -8,6 +8,7 @@
 #include "io/gnuplot.h"
 #include "io/trajectory.h"
 #include "run/columns.h"
+#include "run/request_json.h"
 #include "run/system.h"
 #include "ui/memory.h"
 #include "ui/message.h"
@@ -27,11 +28,13 @@ enum { COLUMN_CROSSING, COLUMN_T, COLUMN_DIRECTION, FIRST_STATE_COLUMN };
 typedef struct section {
     const section_settings *set;
     run_request *request;
-    trajectory_writer table;
+    trajectory_writer table; /* where rows go, unless they go to stdout as JSON */
     int columns;
     char **names;            /* [columns], then their texts */
     double *row, *min, *max; /* [columns] of a row, and of all */
-    long long rows;
+    long long rows, capacity;
+    double *kept; /* [rows * columns] for JSON; NULL: none are kept */
+    dal_crossings found;
     int write_status; /* of the last row */
 } section;
 
@@ -110,11 +113,21 @@ static void name_row(section *s)
     }
 }
 
+static void keep_row(section *s)
+{
+    const size_t columns = (size_t)s->columns;
+    if (s->rows == s->capacity) {
+        s->capacity = 2 * s->capacity + 64;
+        s->kept = cli_realloc(s->kept, (size_t)s->capacity * columns * sizeof *s->kept);
+    }
+    memcpy(s->kept + (size_t)s->rows * columns, s->row, columns * sizeof *s->row);
+}
+
 static dal_status write_crossing(void *user, dal_run *run, const dal_crossing *crossing)
 {
     section *s = user;
     if (crossing->t < s->set->transient) return DAL_OK;
-    s->row[COLUMN_CROSSING] = (double)++s->rows;
+    s->row[COLUMN_CROSSING] = (double)s->rows + 1.0;
     s->row[COLUMN_T] = crossing->t;
     s->row[COLUMN_DIRECTION] = crossing->direction;
     memcpy(s->row + FIRST_STATE_COLUMN, dal_run_state(run),
@@ -123,7 +136,9 @@ static dal_status write_crossing(void *user, dal_run *run, const dal_crossing *c
         s->min[i] = fmin(s->min[i], s->row[i]);
         s->max[i] = fmax(s->max[i], s->row[i]);
     }
-    s->write_status = writer_append(&s->table, s->row);
+    if (s->set->json) keep_row(s);
+    s->rows++;
+    if (s->table.path) s->write_status = writer_append(&s->table, s->row);
     return s->write_status == CLI_DONE ? DAL_OK : DAL_IO;
 }
 
@@ -138,7 +153,6 @@ static int run_section(section *s, const char *path)
 {
     run_request *r = s->request;
     dal_error error = {0};
-    dal_crossings found = {0};
     const dal_poincare poincare = {.callback = r->system->invariant_values,
                                    .count = r->system->invariants,
                                    .index = r->system->invariants - 1,
@@ -147,11 +161,12 @@ static int run_section(section *s, const char *path)
                                    .cross = write_crossing,
                                    .poll = poll_signals};
     for (int i = 0; i < s->columns; i++) columns_rename(r, s->names[i]); /* --axes is read */
-    int status = writer_create(&s->table, path, s->names, s->columns);
+    const bool is_stdout = strcmp(path, "-") == 0, has_table = !(s->set->json && is_stdout);
+    int status = has_table ? writer_create(&s->table, path, s->names, s->columns) : CLI_DONE;
     if (status == CLI_DONE) {
         cli_catch_signals();
         native_compile_steps(r->run, &r->method, r->time / r->options.step, s->set->native);
-        const dal_status done = dal_run_crossings(r->run, r->time, &poincare, &found, &error);
+        const dal_status done = dal_run_crossings(r->run, r->time, &poincare, &s->found, &error);
         cli_progress_end();
         if (s->write_status != CLI_DONE)
             status = s->write_status;
@@ -161,12 +176,42 @@ static int run_section(section *s, const char *path)
             status = cli_error(done == DAL_ARGUMENT ? CLI_USAGE : cli_exit(done), r->system_name,
                                &error);
     }
-    const int closed = writer_close(&s->table);
-    FILE *out = strcmp(path, "-") == 0 ? stderr : stdout;
-    if (out == stdout || isatty(STDERR_FILENO))
+    const int closed = has_table ? writer_close(&s->table) : CLI_DONE;
+    FILE *out = is_stdout ? stderr : stdout;
+    if (!s->set->json && (!is_stdout || isatty(STDERR_FILENO)))
         fprintf(out, "t = %g: %lld upwards, %lld downwards, %lld touches; %lld rows\n",
-                dal_run_time(r->run), found.up, found.down, found.touches, s->rows);
+                dal_run_time(r->run), s->found.up, s->found.down, s->found.touches, s->rows);
     return status == CLI_DONE ? closed : status;
+}
+
+/* ---- JSON ---------------------------------------------------------------------------------- */
+
+static int put_section(const section *s, int status)
+{
+    static const char *const directions[] = {"down", "both", "up"};
+    json_writer w = json_begin_results("section");
+    request_open_json(&w, s->request, SECTION_WITHOUT);
+    json_put_text(&w, "on", s->set->on);
+    json_put_text(&w, "direction", directions[s->set->direction + 1]);
+    json_put_number(&w, "transient", s->set->transient);
+    json_close(&w);
+    json_put_text(&w, "state", analysis_state(status));
+    json_put_number(&w, "to", dal_run_time(s->request->run));
+    json_put_integer(&w, "up", s->found.up);
+    json_put_integer(&w, "down", s->found.down);
+    json_put_integer(&w, "touches", s->found.touches);
+    json_open_list(&w, "columns", JSON_ON_ONE_LINE);
+    for (int i = 0; i < s->columns; i++) json_put_text(&w, NULL, s->names[i]);
+    json_close(&w);
+    json_open_list(&w, "rows", JSON_LINES);
+    for (long long k = 0; k < s->rows; k++) {
+        json_open_list(&w, NULL, JSON_ON_ONE_LINE);
+        for (int i = 0; i < s->columns; i++) json_put_number(&w, NULL, s->kept[k * s->columns + i]);
+        json_close(&w);
+    }
+    json_close(&w);
+    json_end_results(&w);
+    return cli_close(stdout, "standard output");
 }
 
 /* ---- the figure ---------------------------------------------------------------------------- */
@@ -267,6 +312,10 @@ int section_find(section_settings *settings)
     status = find_axes(&s, axis);
     if (status == CLI_DONE) status = analysis_open(&output, settings->output, "section");
     if (status == CLI_DONE) status = run_section(&s, output.table);
+    if (settings->json && status != CLI_USAGE && status != CLI_IO) {
+        const int written = put_section(&s, status);
+        if (status == CLI_DONE) status = written;
+    }
     if ((status == CLI_DONE || status == CLI_SIGNAL) && output.directory && s.rows > 0) {
         if (axis[0] < 0) choose_axes(&s, axis);
         const int drawn = draw_section(&s, output.directory, axis);
@@ -275,5 +324,6 @@ int section_find(section_settings *settings)
     free(output.table);
     free(s.names);
     free(s.row);
+    free(s.kept);
     return status;
 }

@@ -5,16 +5,22 @@
 #include "run/native.h"
 #include "run/request.h"
 
+#include <stdbool.h>
+
 typedef struct section_settings {
     run_request request;
     const char *on, *axes, *output;
     int direction; /* of crossings: -1 down, 0 both, 1 up */
     double transient;
     native_mode native;
+    bool json; /* to stdout, instead of rows */
 } section_settings;
 
-/* Writes a row for each crossing, and a figure.  Returns CLI_DONE or prints and returns an exit
- * status. */
+/* The options of a run that it does not take. */
+#define SECTION_WITHOUT (REQUEST_ROW_OPTIONS & ~REQUEST_OPTION(names))
+
+/* Writes a row for each crossing, or all as JSON, and a figure.  Returns CLI_DONE or prints and
+ * returns an exit status. */
 int section_find(section_settings *settings);
 
 #endif

@@ -1,22 +1,26 @@
 /* check.c - `dalembert check`: examines a system before a run. */
 #include "analyse/check.h"
+#include "io/json.h"
 #include "ui/commands.h"
 #include "ui/options.h"
 
 #include <string.h>
 
+static const cli_option options[] = {JSON_OPTION(check_settings)};
+
 static int check_command(int argc, char **argv)
 {
     static const uint64_t taken =
         REQUEST_OPTION(set) | REQUEST_OPTION(start) | REQUEST_OPTION(system);
-    run_request request = request_default();
-    cli_option options[REQUEST_OPTIONS];
-    memcpy(options, request_options, sizeof options);
-    options[REQUEST_start].help = "sets a start value: x, x', e or g1; may be repeated";
-    const cli_group group = request_group(&request, options, ~taken);
-    int status = cli_read_arguments(&command_check, argc, argv, &group, 1);
-    if (status == CLI_GO_ON) status = check_system(&request);
-    request_free(&request);
+    check_settings s = {.request = request_default()};
+    cli_option of_request[REQUEST_OPTIONS];
+    memcpy(of_request, request_options, sizeof of_request);
+    of_request[REQUEST_start].help = "sets a start value: x, x', e or g1; may be repeated";
+    const cli_group groups[] = {CLI_GROUP(options, &s),
+                                request_group(&s.request, of_request, ~taken)};
+    int status = cli_read_arguments(&command_check, argc, argv, groups, 2);
+    if (status == CLI_GO_ON) status = check_system(&s);
+    request_free(&s.request);
     return status;
 }
 

@@ -1,6 +1,7 @@
 /* explain.c - `dalembert explain`: the error sources of the drift of a run. */
 #include "analyse/explain.h"
 #include "io/file.h"
+#include "io/json.h"
 #include "ui/commands.h"
 #include "ui/options.h"
 
@@ -9,17 +10,15 @@ static const cli_option options[] = {
      CLI_INTEGER(explain_settings, quad_steps, 0, EXPLAIN_MAX_STEPS)},
     {"output", "FILE.csv|-", NULL, "writes a CSV file, or CSV to standard output",
      CLI_ROW(cli_parse_output, explain_settings, output)},
+    JSON_OPTION(explain_settings),
     NATIVE_OPTION(explain_settings),
 };
 
 static int explain(int argc, char **argv)
 {
     explain_settings s = {.request = request_default()};
-    /* The comparison runs differ in precision themselves. */
-    const cli_group groups[] = {
-        CLI_GROUP(options, &s),
-        request_group(&s.request, request_options, REQUEST_ROW_OPTIONS | REQUEST_OPTION(precision)),
-    };
+    const cli_group groups[] = {CLI_GROUP(options, &s),
+                                request_group(&s.request, request_options, EXPLAIN_WITHOUT)};
     int status = cli_read_arguments(&command_explain, argc, argv, groups, 2);
     if (status == CLI_GO_ON) status = explain_run(&s);
     request_free(&s.request);

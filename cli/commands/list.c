@@ -1,5 +1,8 @@
-/* list.c - `dalembert list`: the built-in systems, integrators and modifiers. */
+/* list.c - `dalembert list`: the built-in systems, integrators and modifiers.
+ *
+ * What is listed is selected first, and then written as tables or as JSON. */
 #include "dalembert.h"
+#include "io/json.h"
 #include "run/system.h"
 #include "ui/commands.h"
 #include "ui/memory.h"
@@ -7,6 +10,7 @@
 #include "ui/options.h"
 #include "ui/wrap.h"
 
+#include <math.h>
 #include <stdarg.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -19,9 +23,21 @@ typedef struct settings {
     const char *table, *tag;
     long long order;
     int preserves; /* a row of invariants; -1: any */
-    bool markdown, is_long;
+    bool markdown, is_long, json;
     int width; /* what the tables fit into; 0: they have what they have */
 } settings;
+
+enum { SYSTEMS, INTEGRATORS, TABLES };
+
+/* What is listed. */
+typedef struct selection {
+    bool has[TABLES];
+    int systems, integrators;
+    const char *name[CLI_MAX_BUILTINS]; /* [systems] */
+    dal_model *model[CLI_MAX_BUILTINS];
+    const dal_system *system[CLI_MAX_BUILTINS];
+    const dal_integrator *integrator[CLI_MAX_BUILTINS]; /* [integrators] */
+} selection;
 
 /* A table of texts; the first row has the headings. */
 typedef struct text_table {
@@ -136,27 +152,24 @@ static void print_short(const text_table *t, const int *widths, int width)
     }
 }
 
-static int end_table(text_table *t, const settings *s)
+static void end_table(text_table *t, const settings *s)
 {
     int widths[MAX_COLUMNS] = {0};
     for (int k = 0; k < t->cells; k++) {
         const int width = count_characters(t->cell[k]), i = k % t->columns;
         if (width > widths[i]) widths[i] = width;
     }
-    const bool is_empty = t->cells == t->columns;
-    if (!is_empty && s->markdown)
+    if (s->markdown)
         print_markdown(t, widths);
-    else if (!is_empty)
+    else
         (s->width > 0 && !s->is_long ? print_short : print_long)(t, widths, s->width);
     for (int k = 0; k < t->cells; k++) free(t->cell[k]);
     free(t->cell);
-    if (!is_empty) return CLI_DONE;
-    return cli_fail(CLI_USAGE, "list: nothing matches; 'dalembert list --long' shows orders, "
-                               "what is preserved, and tags");
 }
 
 /* ---- systems ------------------------------------------------------------------------------- */
 
+/* The class of D; NULL without constraints. */
 static const char *kind(const dal_system *system)
 {
     static const struct {
@@ -167,15 +180,16 @@ static const char *kind(const dal_system *system)
                  {DAL_D_BILINEAR, "bilinear"},
                  {DAL_D_QUADRATIC, "quadratic"},
                  {DAL_D_LINEAR, "linear in v"}};
-    if (system->m == 0) return "-";
+    if (system->m == 0) return NULL;
     for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; i++)
         if (system->properties & kinds[i].property) return kinds[i].text;
     return "nonlinear";
 }
 
+/* NULL where none is known. */
 static const char *energy(const dal_system *system)
 {
-    if (!system->energy) return "-";
+    if (!system->energy) return NULL;
     if (system->properties & DAL_E_EXACT) return "conserved";
     return system->properties & DAL_E_ON_D ? "conserved on D = 0" : "not conserved";
 }
@@ -187,6 +201,24 @@ static bool has_tag(const dal_system *system, const char *tag)
     return false;
 }
 
+static int select_systems(selection *list, const settings *s)
+{
+    const char *name;
+    for (int i = 0; list->systems < CLI_MAX_BUILTINS && (name = dal_builtin_name(i)); i++) {
+        const int k = list->systems;
+        const int status = cli_load(name, &list->model[k], &list->system[k]);
+        if (status != CLI_DONE) return status;
+        list->name[k] = name;
+        if (!s->tag || has_tag(list->system[k], s->tag))
+            list->systems++;
+        else
+            dal_model_free(list->model[k]);
+    }
+    return CLI_DONE;
+}
+
+static const char *or_none(const char *text) { return text ? text : "-"; }
+
 static void add_system(text_table *t, const char *name, const dal_system *system, const settings *s)
 {
     const char *tick = s->markdown ? "`" : "", *title = system->title ? system->title : "";
@@ -197,27 +229,49 @@ static void add_system(text_table *t, const char *name, const dal_system *system
         tags = longer;
     }
     append_row(t, "%s%s%s\t%d\t%d\t%s\t%s\t%s\t%s%s", tick, name, tick, system->n, system->m,
-               kind(system), energy(system), system->exact ? "yes" : "-", title,
+               or_none(kind(system)), or_none(energy(system)), system->exact ? "yes" : "-", title,
                s->is_long && !*tags ? "\t-" : tags);
     free(tags);
 }
 
-static int list_systems(const settings *s)
+static void print_systems(const selection *list, const settings *s)
 {
     text_table table = {.text = 6};
     append_row(&table, "system\tn\tm\tD\tenergy\texact\ttitle%s", s->is_long ? "\ttags" : "");
-    int status = CLI_DONE;
-    for (int i = 0; status == CLI_DONE && dal_builtin_name(i); i++) {
-        const char *name = dal_builtin_name(i);
-        dal_model *model;
-        const dal_system *system;
-        status = cli_load(name, &model, &system);
-        if (status != CLI_DONE) continue;
-        if (!s->tag || has_tag(system, s->tag)) add_system(&table, name, system, s);
-        dal_model_free(model);
-    }
-    const int ended = end_table(&table, s);
-    return status == CLI_DONE ? ended : status;
+    for (int i = 0; i < list->systems; i++) add_system(&table, list->name[i], list->system[i], s);
+    end_table(&table, s);
+}
+
+static void put_words(json_writer *w, const char *name, const char *const *words, int count)
+{
+    json_open_list(w, name, JSON_ON_ONE_LINE);
+    for (int i = 0; i < count; i++) json_put_text(w, NULL, words[i]);
+    json_close(w);
+}
+
+static void put_system(json_writer *w, const char *name, const dal_system *system)
+{
+    json_open(w, NULL, JSON_LINES);
+    json_put_text(w, "system", name);
+    json_put_text(w, "title", system->title);
+    json_put_text(w, "reference", system->reference);
+    put_words(w, "coordinates", system->coordinate, system->n);
+    json_put_integer(w, "constraints", system->m);
+    json_put_text(w, "constraint_class", kind(system));
+    json_put_text(w, "energy", energy(system));
+    json_put_flag(w, "exact", system->exact != NULL);
+    json_open(w, "parameters", JSON_ON_ONE_LINE);
+    for (int i = 0; i < system->parameters; i++)
+        json_put_number(w, system->parameter[i], system->value[i]);
+    json_close(w);
+    put_words(w, "invariants", system->invariant, system->invariants);
+    put_words(w, "tags", system->tag, system->tags);
+    json_close(w);
+}
+
+static void put_systems(json_writer *w, const selection *list)
+{
+    for (int i = 0; i < list->systems; i++) put_system(w, list->name[i], list->system[i]);
 }
 
 /* ---- integrators --------------------------------------------------------------------------- */
@@ -226,23 +280,24 @@ typedef struct property {
     unsigned code;
     const char *text;
     unsigned implied_by;
+    const char *word; /* of --preserves; NULL: the text */
 } property;
 
-static const property qualities[] = {{DAL_EXPLICIT, "explicit", 0},
-                                     {DAL_SYMMETRIC, "symmetric", 0},
-                                     {DAL_SYMPLECTIC, "symplectic lift", 0},
-                                     {DAL_PERSISTENT_MULTIPLIER, "persistent multipliers", 0},
-                                     {DAL_ADAPTIVE, "adaptive", 0},
-                                     {0, NULL, 0}};
+static const property qualities[] = {{DAL_EXPLICIT, "explicit", 0, NULL},
+                                     {DAL_SYMMETRIC, "symmetric", 0, NULL},
+                                     {DAL_SYMPLECTIC, "symplectic lift", 0, NULL},
+                                     {DAL_PERSISTENT_MULTIPLIER, "persistent multipliers", 0, NULL},
+                                     {DAL_ADAPTIVE, "adaptive", 0, NULL},
+                                     {0, NULL, 0, NULL}};
 static const char PRESERVED[] =
     "bilinear|quadratic|every|midpoints|energy"; /* words for the rows */
 static const property invariants[] = {
-    {DAL_PRESERVES_BILINEAR, "bilinear D", DAL_PRESERVES_QUADRATIC | DAL_PRESERVES_D},
-    {DAL_PRESERVES_QUADRATIC, "quadratic D", DAL_PRESERVES_D},
-    {DAL_PRESERVES_D, "every D", 0},
-    {DAL_PRESERVES_D_MIDPOINT, "D at midpoints", 0},
-    {DAL_PRESERVES_ENERGY, "energy", 0},
-    {0, NULL, 0}};
+    {DAL_PRESERVES_BILINEAR, "bilinear D", DAL_PRESERVES_QUADRATIC | DAL_PRESERVES_D, "bilinear"},
+    {DAL_PRESERVES_QUADRATIC, "quadratic D", DAL_PRESERVES_D, "quadratic"},
+    {DAL_PRESERVES_D, "every D", 0, "every"},
+    {DAL_PRESERVES_D_MIDPOINT, "D at midpoints", 0, "midpoints"},
+    {DAL_PRESERVES_ENERGY, "energy", 0, "energy"},
+    {0, NULL, 0, NULL}};
 
 enum { LINE = 160 };
 
@@ -279,29 +334,65 @@ static void add_integrator(text_table *t, const dal_integrator *k, const setting
                k->summary, k->reference);
 }
 
-static int list_integrators(const settings *s)
+static int select_integrators(selection *list, const settings *s)
 {
-    const dal_integrator *integrator;
+    const dal_integrator *k;
+    for (int modifiers = 0; modifiers < 2; modifiers++)
+        for (int i = 0; list->integrators < CLI_MAX_BUILTINS && (k = dal_integrator_at(i)); i++)
+            if (!(k->properties & DAL_MODIFIER) == !modifiers && is_selected(k, s))
+                list->integrator[list->integrators++] = k;
+    return CLI_DONE;
+}
+
+static void print_integrators(const selection *list, const settings *s)
+{
     text_table table = {.text = 4};
     append_row(&table, "integrator\torder\tproperties\tpreserves\twhat it is\treference");
-    for (int modifiers = 0; modifiers < 2; modifiers++)
-        for (int i = 0; (integrator = dal_integrator_at(i)); i++)
-            if (!(integrator->properties & DAL_MODIFIER) == !modifiers &&
-                is_selected(integrator, s))
-                add_integrator(&table, integrator, s);
-    return end_table(&table, s);
+    for (int i = 0; i < list->integrators; i++) add_integrator(&table, list->integrator[i], s);
+    end_table(&table, s);
+}
+
+static void put_properties(json_writer *w, unsigned codes, const property *p)
+{
+    for (; p->text; p++)
+        if (codes & p->code) json_put_text(w, NULL, p->word ? p->word : p->text);
+}
+
+static void put_integrators(json_writer *w, const selection *list)
+{
+    for (int i = 0; i < list->integrators; i++) {
+        const dal_integrator *k = list->integrator[i];
+        json_open(w, NULL, JSON_LINES);
+        json_put_text(w, "integrator", k->name);
+        json_put_text(w, "alias", k->alias);
+        json_put_flag(w, "is_modifier", (k->properties & DAL_MODIFIER) != 0);
+        json_put_number(w, "order", k->order ? k->order : NAN);
+        json_open_list(w, "properties", JSON_ON_ONE_LINE);
+        put_properties(w, k->properties, qualities);
+        json_close(w);
+        json_open_list(w, "preserves", JSON_ON_ONE_LINE);
+        put_properties(w, k->properties, invariants);
+        json_close(w);
+        json_open_list(w, "inherits", JSON_ON_ONE_LINE);
+        put_properties(w, k->inherits, qualities);
+        put_properties(w, k->inherits, invariants);
+        json_close(w);
+        json_put_text(w, "summary", k->summary);
+        json_put_text(w, "reference", k->reference);
+        json_close(w);
+    }
 }
 
 /* ---- the command --------------------------------------------------------------------------- */
 
 static const struct {
-    const char *name;
-    int (*print)(const settings *s);
-    const char *filters;
-} tables[] = {{"systems", list_systems, "--tag selects"},
-              {"integrators", list_integrators, "--order and --preserves select"}};
-
-enum { TABLES = sizeof tables / sizeof *tables };
+    const char *name, *filters;
+    int (*select)(selection *list, const settings *s);
+    void (*print)(const selection *list, const settings *s);
+    void (*put)(json_writer *w, const selection *list);
+} tables[TABLES] = {{"systems", "--tag selects", select_systems, print_systems, put_systems},
+                    {"integrators", "--order and --preserves select", select_integrators,
+                     print_integrators, put_integrators}};
 
 static const cli_option options[] = {
     {"long", NULL, NULL, "prints everything, on a terminal too; also tags of systems",
@@ -312,6 +403,7 @@ static const cli_option options[] = {
     {"preserves", PRESERVED, NULL, "lists the integrators that preserve this",
      CLI_WORD(settings, preserves)},
     {"markdown", NULL, NULL, "prints Markdown tables", CLI_FLAG(settings, markdown)},
+    JSON_OPTION(settings),
     {NULL, "TABLE", NULL, "systems or integrators; both when it is not given",
      CLI_TEXT(settings, table)},
 };
@@ -327,32 +419,69 @@ static int check_table(const char *table)
 }
 
 /* Without a table's name those that are filtered, or both. */
-static int print_tables(const settings *s)
+static int select_tables(selection *list, const settings *s)
 {
     const bool filtered[TABLES] = {s->tag != NULL, s->order > 0 || s->preserves >= 0};
-    int status = s->table ? check_table(s->table) : CLI_DONE, printed = 0;
+    int status = s->table ? check_table(s->table) : CLI_DONE;
     for (int i = 0; i < TABLES && status == CLI_DONE; i++) {
         const bool is_named = s->table && strcmp(s->table, tables[i].name) == 0;
         const bool is_wanted = filtered[i] || filtered[0] == filtered[1];
         if (s->table && !is_named && filtered[i])
-            status =
-                cli_fail(CLI_USAGE, "list %s: %s %s", s->table, tables[i].filters, tables[i].name);
-        if (status != CLI_DONE || !(s->table ? is_named : is_wanted)) continue;
-        if (printed++ > 0) putchar('\n');
-        status = tables[i].print(s);
+            return cli_fail(CLI_USAGE, "list %s: %s %s", s->table, tables[i].filters,
+                            tables[i].name);
+        list->has[i] = s->table ? is_named : is_wanted;
+        if (list->has[i]) status = tables[i].select(list, s);
     }
-    return status;
+    const bool is_empty = (list->has[SYSTEMS] && list->systems == 0) ||
+                          (list->has[INTEGRATORS] && list->integrators == 0);
+    if (status != CLI_DONE || !is_empty) return status;
+    return cli_fail(CLI_USAGE, "list: nothing matches; 'dalembert list --long' shows orders, "
+                               "what is preserved, and tags");
+}
+
+static void print_tables(const selection *list, const settings *s)
+{
+    const char *separator = "";
+    for (int i = 0; i < TABLES; i++) {
+        if (!list->has[i]) continue;
+        fputs(separator, stdout);
+        tables[i].print(list, s);
+        separator = "\n";
+    }
+}
+
+static void put_tables(const selection *list, const settings *s)
+{
+    json_writer w = json_begin_results("list");
+    json_open(&w, "request", JSON_ON_ONE_LINE);
+    json_put_text(&w, "table", s->table);
+    json_put_text(&w, "tag", s->tag);
+    json_put_number(&w, "order", s->order > 0 ? (double)s->order : NAN);
+    json_put_text(&w, "preserves", s->preserves < 0 ? NULL : invariants[s->preserves].word);
+    json_close(&w);
+    for (int i = 0; i < TABLES; i++) {
+        json_open_list(&w, tables[i].name, JSON_LINES);
+        if (list->has[i]) tables[i].put(&w, list);
+        json_close(&w);
+    }
+    json_end_results(&w);
 }
 
 static int list(int argc, char **argv)
 {
     settings s = {.preserves = -1, .width = cli_output_width()};
+    selection selected = {.systems = 0};
     const cli_group group = CLI_GROUP(options, &s);
     int status = cli_read_arguments(&command_list, argc, argv, &group, 1);
     if (status != CLI_GO_ON) return status;
-    status = print_tables(&s);
-    const int closed = cli_close(stdout, "standard output");
-    return status == CLI_DONE ? closed : status;
+    if (s.json && s.markdown) return cli_fail(CLI_USAGE, "list: --json excludes --markdown");
+    status = select_tables(&selected, &s);
+    if (status == CLI_DONE) {
+        (s.json ? put_tables : print_tables)(&selected, &s);
+        status = cli_close(stdout, "standard output");
+    }
+    for (int i = 0; i < selected.systems; i++) dal_model_free(selected.model[i]);
+    return status;
 }
 
 const cli_command command_list = {

@@ -2,6 +2,7 @@
 #include "analyse/order.h"
 #include "dalembert_analysis.h"
 #include "io/file.h"
+#include "io/json.h"
 #include "run/pool.h"
 #include "ui/commands.h"
 #include "ui/options.h"
@@ -26,6 +27,7 @@ static const cli_option options[] = {
     POOL_THREADS_OPTION(order_settings, "runs at a time; results do not depend on it"),
     {"output", "DIR|FILE.csv", NULL, "writes the table as CSV; a directory gets diagrams, too",
      CLI_ROW(cli_parse_output, order_settings, output)},
+    JSON_OPTION(order_settings),
 };
 
 static int order(int argc, char **argv)
@@ -37,10 +39,8 @@ static int order(int argc, char **argv)
     of_request[REQUEST_step].initial = "0.1";
     of_request[REQUEST_time].initial = "10";
     of_request[REQUEST_space].initial = "physical";
-    const cli_group groups[] = {
-        CLI_GROUP(options, &s),
-        request_group(&s.request, of_request, REQUEST_ROW_OPTIONS | REQUEST_OPTION(integrator)),
-    };
+    const cli_group groups[] = {CLI_GROUP(options, &s),
+                                request_group(&s.request, of_request, ORDER_WITHOUT)};
     int status = cli_read_arguments(&command_order, argc, argv, groups, 2);
     if (status == CLI_GO_ON) status = order_measure(&s);
     request_free(&s.request);

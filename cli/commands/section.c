@@ -1,6 +1,7 @@
 /* section.c - `dalembert section`: where a motion crosses a surface. */
 #include "analyse/section.h"
 #include "io/file.h"
+#include "io/json.h"
 #include "ui/commands.h"
 #include "ui/options.h"
 
@@ -19,15 +20,14 @@ static const cli_option options[] = {
     NATIVE_OPTION(section_settings),
     {"output", "DIR|FILE|-", "-", "where rows go: .csv, .npy, a directory with a figure, or stdout",
      CLI_ROW(cli_parse_output, section_settings, output)},
+    JSON_OPTION(section_settings),
 };
 
 static int section(int argc, char **argv)
 {
     section_settings s = {.request = request_default()};
-    const cli_group groups[] = {
-        CLI_GROUP(options, &s),
-        request_group(&s.request, request_options, REQUEST_ROW_OPTIONS & ~REQUEST_OPTION(names)),
-    };
+    const cli_group groups[] = {CLI_GROUP(options, &s),
+                                request_group(&s.request, request_options, SECTION_WITHOUT)};
     int status = cli_read_arguments(&command_section, argc, argv, groups, 2);
     s.direction--; /* -1, 0 or 1 */
     if (status == CLI_GO_ON) status = section_find(&s);

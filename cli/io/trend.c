@@ -25,6 +25,19 @@ void cli_put_values(FILE *out, const dal_trend *t)
     if (is_stated(t)) cli_put(out, t->confidence);
 }
 
+void cli_put_trend(json_writer *w, const dal_trend *t)
+{
+    const bool stated = is_stated(t);
+    json_put_number(w, "amplitude", t->amplitude);
+    json_put_number(w, "rate", t->rate);
+    json_put_number(w, "rate_low", t->rate_low);
+    json_put_number(w, "rate_high", t->rate_high);
+    json_put_number(w, "exponent", stated ? t->exponent : NAN);
+    json_put_text(w, "size", stated ? dal_size_text(t->size) : NULL);
+    json_put_text(w, "trend", stated ? dal_trend_text(t->trend) : NULL);
+    json_put_number(w, "confidence", stated ? t->confidence : NAN);
+}
+
 const char *cli_size_word(const dal_trend *trend)
 {
     return is_stated(trend) ? dal_size_text(trend->size) : "";

@@ -4,6 +4,8 @@
 
 #include "dalembert_analysis.h"
 
+#include "json.h"
+
 #include <stdio.h>
 
 /* The columns amplitude, rate, rate_low, rate_high, exponent, size, trend, confidence of a CSV
@@ -11,6 +13,8 @@
  * what cannot be stated is empty. */
 extern const char cli_trend_heads[];
 void cli_put_values(FILE *out, const dal_trend *trend);
+/* The same as members of an object: amplitude to confidence; what cannot be stated is null. */
+void cli_put_trend(json_writer *writer, const dal_trend *trend);
 /* Size and trend as words; "" where the motion need not conserve the quantity. */
 const char *cli_size_word(const dal_trend *trend);
 const char *cli_trend_word(const dal_trend *trend);

@@ -1,23 +1,6 @@
 # The JSON that the program writes, read by another parser, and that it reads: python3's, where there
 # is one.  (The C suite json reads texts and numbers back everywhere.)
 
-# json FILE EXPRESSION: each line of the file, or the file, is JSON d, of which this is true.
-json() {
-    python3 - "$@" <<'END'
-import json, sys
-def refuse(word): raise ValueError(word)
-def once(pairs):
-    assert len(dict(pairs)) == len(pairs), pairs
-    return dict(pairs)
-text = open(sys.argv[1], encoding='utf-8').read()
-lines = text.splitlines() if sys.argv[1].endswith('.lines') else [text]
-assert lines
-for line in lines:
-    d = json.loads(line, parse_constant=refuse, object_pairs_hook=once)
-    assert eval('(' + sys.argv[2] + ')', {'d': d, 'number': lambda x: type(x) in (int, float)}), d
-END
-}
-
 if there python3; then
     case_is "the manifest of a run"
     try 0 run ./line.yaml --integrator rk4 --step .1 --time 1e1 --sums plain --times 1,2.5,10 \

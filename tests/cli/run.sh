@@ -56,6 +56,9 @@ terminal() { there script && there stty && script -qec true /dev/null >/dev/null
 has_rows() { head -c 8192 "$1" | grep -aq "'shape': ($2,), }"; }
 columns_of() { head -c 8192 "$1" | grep -ao "'<f8'" | wc -l; }
 
+# json FILE EXPRESSION: what is true of a JSON document d, read by Python.
+json() { python3 "$here/holds_json.py" "$@"; }
+
 # appears FILE: waits for it, at most ten seconds.
 appears() {
     for i in 1 2 3 4 5 6 7 8 9 10; do
