@@ -14,7 +14,7 @@
  * fills it; a dal_error may be NULL.  A NULL pointer to an object, a text, numbers or a result, a
  * NULL name in a dal_setting and a negative count are errors, DAL_ARGUMENT, unless the function
  * allows them.  A function without a status then returns 0, NaN or NULL, writes NaN to its result,
- * or does nothing.  *_free(NULL) does nothing.
+ * does nothing, or returns -1 for an index.  *_free(NULL) does nothing.
  *
  * Memory.  [alloc] marks functions that allocate, and these may also fail with DAL_MEMORY.  create
  * makes an object that free releases; init places one in memory of the caller.  A returned pointer
@@ -57,8 +57,8 @@ extern "C" {
     STATUS(NAME, "unknown name")                                                                   \
     STATUS(MODEL, "the model cannot be used")                                                      \
     STATUS(TOO_LARGE, "too large")                                                                 \
-    STATUS(INCONSISTENT, "the start violates a constraint")                                        \
-    STATUS(RANK, "the constraints are rank-deficient at the start")                                \
+    STATUS(INCONSISTENT, "a constraint is violated")                                               \
+    STATUS(RANK, "the constraints are rank-deficient")                                             \
     STATUS(UNSUPPORTED, "the integrator needs what the system lacks")                              \
     STATUS(SINGULAR, "a constraint became singular")                                               \
     STATUS(SINGULAR_MASS, "the mass matrix became singular")                                       \
@@ -82,7 +82,6 @@ const char *dal_status_name(dal_status status);
 const char *dal_status_text(dal_status status);
 
 enum { DAL_MESSAGE_SIZE = 320 /* bytes of a message, with its NUL */ };
-
 /* The caller's own record of a failure. */
 typedef struct dal_error {
     dal_status status;              /* what the function returned */
@@ -94,7 +93,6 @@ typedef struct dal_error {
  * of Damerau and Levenshtein); NULL when none has a letter in common with it and is within a third
  * of its length, or within two edits.  Elements of names may be NULL. */
 const char *dal_nearest(const char *name, const char *const *names, int count);
-
 /* Reads a decimal number from text[length]: sign, digits, one point, exponent, and nothing else;
  * correctly rounded, in every locale the same.  Errors: DAL_SYNTAX, DAL_TOO_LARGE (overflow). */
 dal_status dal_parse_number(const char *text, size_t length, double *value);
@@ -234,20 +232,19 @@ typedef struct dal_picture {
 
 /* Declared properties of an integrator; the conformance suite verifies them. */
 enum {
-    DAL_SYMMETRIC = 1 << 0,            /* a step h, then a step -h, is the identity */
-    DAL_SYMPLECTIC = 1 << 1,           /* on the lifted space; says nothing about D or E */
-    DAL_PRESERVES_BILINEAR = 1 << 2,   /* every D bilinear in (q,v) */
-    DAL_PRESERVES_QUADRATIC = 1 << 3,  /* every D quadratic in (q,v) */
-    DAL_PRESERVES_D = 1 << 4,          /* every D */
-    DAL_EXPLICIT = 1 << 5,             /* on the physical space */
-    DAL_MODIFIER = 1 << 6,             /* acts on another integrator: NAME+this */
-    DAL_COMPONENTWISE = 1 << 7,        /* on (q,v) only adds multiples of v and F */
-    DAL_PRESERVES_D_MIDPOINT = 1 << 8, /* D((q0 + q1)/2, (q1 - q0)/h, t + h/2) = 0 in each step */
-    DAL_PRESERVES_ENERGY = 1 << 9,     /* E, where the motion conserves it */
-    DAL_PERSISTENT_MULTIPLIER =
-        1 << 10,                      /* a reversible map of (q, v, multipliers of the last step) */
-    DAL_ADAPTIVE = 1 << 11,           /* divides a step h where the option tolerance is not 0 */
-    DAL_EXTRAPOLATES_STAGES = 1 << 12 /* the first guess of a step is made from the last step */
+    DAL_SYMMETRIC = 1 << 0,              /* a step h, then a step -h, is the identity */
+    DAL_SYMPLECTIC = 1 << 1,             /* on the lifted space; says nothing about D or E */
+    DAL_PRESERVES_BILINEAR = 1 << 2,     /* every D bilinear in (q,v) */
+    DAL_PRESERVES_QUADRATIC = 1 << 3,    /* every D quadratic in (q,v) */
+    DAL_PRESERVES_D = 1 << 4,            /* every D */
+    DAL_EXPLICIT = 1 << 5,               /* on the physical space */
+    DAL_MODIFIER = 1 << 6,               /* acts on another integrator: NAME+this */
+    DAL_COMPONENTWISE = 1 << 7,          /* on (q,v) only adds multiples of v and F */
+    DAL_PRESERVES_D_MIDPOINT = 1 << 8,   /* D((q0 + q1)/2, (q1 - q0)/h, t + h/2) = 0 in each step */
+    DAL_PRESERVES_ENERGY = 1 << 9,       /* E, where the motion conserves it */
+    DAL_PERSISTENT_MULTIPLIER = 1 << 10, /* a reversible map of (q, v, last multipliers) */
+    DAL_ADAPTIVE = 1 << 11,              /* divides a step h where the option tolerance is not 0 */
+    DAL_EXTRAPOLATES_STAGES = 1 << 12    /* the first guess of a step is made from the last step */
 };
 
 /* What an integrator needs of the system or, a modifier, of the method inside. */
@@ -294,7 +291,6 @@ typedef struct dal_method {
 
 /* Integrator or modifier number i of the library, from 0; NULL past the last. */
 const dal_integrator *dal_integrator_at(int i);
-
 /* Finds a method of the library by name: "rk4", "gauss8+project".  Errors: DAL_NAME with the
  * nearest name. */
 dal_status dal_method_parse(dal_method *method, const char *name, dal_error *error);
@@ -311,7 +307,6 @@ unsigned dal_method_needs(const dal_method *method);
 
 /* A system as formulas, from a file or added one by one. */
 typedef struct dal_model dal_model;
-
 /* The sections of a system file, SECTION(code, name).  A comment says what the names and texts of
  * dal_model_add are; lists and single values have no names. */
 #define DAL_SECTION_LIST(SECTION)                                                                  \
@@ -405,7 +400,6 @@ typedef enum dal_sums {
 
 /* One of several words, by its number. */
 typedef int dal_choice;
-
 /* All options: OPTION(type, member, name in texts, default, min, max, the words of a choice or a
  * placeholder for the number, help). */
 #define DAL_OPTION_LIST(OPTION)                                                                    \
@@ -469,7 +463,6 @@ typedef struct dal_run_spec {
 
 /* Bytes that a run needs; 0 when the spec cannot be used. */
 size_t dal_run_size(const dal_run_spec *spec);
-
 /* Places a run in memory[bytes] of the caller, dal_run_size bytes at least, of any alignment; it
  * need not be freed, unless dal_run_native is used.  Errors: DAL_ARGUMENT, DAL_NAME with the
  * nearest name, DAL_UNSUPPORTED, DAL_INCONSISTENT (|D| beyond 1e-10 relative), DAL_RANK,
@@ -481,9 +474,8 @@ dal_status dal_run_create(dal_run **run, const dal_run_spec *spec, dal_error *er
 /* Frees what the run owns: its memory after dal_run_create, compiled code always. */
 void dal_run_free(dal_run *run);
 
-/* Takes one step.  It succeeds or leaves the run unchanged to the bit.  Errors: DAL_SINGULAR,
- * DAL_SINGULAR_MASS, DAL_NOT_FINITE, DAL_NOT_CONVERGED, DAL_GAUGE; the message names the constraint
- * and the time. */
+/* Takes one step, or leaves the run unchanged to the bit.  Errors: DAL_SINGULAR, DAL_SINGULAR_MASS,
+ * DAL_NOT_FINITE, DAL_NOT_CONVERGED, DAL_GAUGE; the message names the constraint and the time. */
 dal_status dal_run_step(dal_run *run, dal_error *error);
 /* Takes count steps, or those before the first that fails.  Errors: those of a step. */
 dal_status dal_run_advance(dal_run *run, long long count, dal_error *error);
@@ -510,9 +502,17 @@ dal_status dal_run_set_state(dal_run *run, double t, const double *state, dal_er
 /* Writes the name of state component i, from 0, into buffer[size]: x, x', e, p_x, pi_x, pi_e, g1;
  * returns buffer, NULL past the last. */
 char *dal_run_name(const dal_run *run, int i, char *buffer, size_t size);
+/* The number of the state component with a name of dal_run_name; -1 where there is none. */
+int dal_run_index(const dal_run *run, const char *name);
+/* Sets one parameter between two steps.  The next step is like a first one: no stages are
+ * extrapolated, and +project-energy takes the energy of the present state.  The observable error is
+ * NaN from then on.  DAL_INCONSISTENT says that the parameter is set, and that a constraint is thus
+ * violated (as at a start).  Errors, which change nothing: DAL_NAME with the nearest name,
+ * DAL_NOT_FINITE, DAL_SINGULAR_MASS, DAL_SINGULAR, DAL_RANK, those of prepare and field. */
+dal_status dal_run_set_parameter(dal_run *run, const char *name, double value, dal_error *error);
 
-/* The persistent state, *count doubles: all that passes from one step to the next.  A copy of it is
- * a checkpoint. */
+/* The persistent state and the parameters, *count doubles: all that passes from one step to the
+ * next.  A copy of it is a checkpoint. */
 const double *dal_run_save(const dal_run *run, size_t *count);
 /* Restores a copy, saved[count], into a run of the same spec, which then continues with the same
  * bits.  Errors: DAL_ARGUMENT (wrong count), DAL_NOT_FINITE. */
@@ -535,9 +535,8 @@ typedef struct dal_observer {
     dal_status (*poll)(void *user, dal_run *run);
     /* Called at the start and after every `every` steps. */
     dal_status (*step)(void *user, dal_run *run);
-    /* Replaces step for long runs: receives the observables of several such steps at once.
-     * Observable i at t[k], k < count, is values[i * stride + k].  The run stands at the last of
-     * them, or behind it and before the next. */
+    /* Replaces step for long runs: receives the observables of several such steps at once, number
+     * i at t[k], k < count, in values[i * stride + k].  The run is not yet at the next of them. */
     dal_status (*values)(void *user, dal_run *run, int count, const double *t, const double *values,
                          size_t stride);
     long long every; /* steps between two calls of step or values; 0: no calls */
@@ -549,13 +548,11 @@ typedef struct dal_observer {
 } dal_observer;
 
 /* Advances the run to time T and samples rows first_row..samples at t = row*T/samples, the last at
- * T exactly.  The trajectory consists of steps h.  An intermediate step of the same method gives a
- * row between two steps and does not change the trajectory.  After an interruption between rows
- * pass the first row not sampled.  observer may be NULL.  Errors: those of a step; DAL_ARGUMENT;
- * what a callback returns. */
+ * T exactly.  The trajectory consists of steps h; a row between two is an intermediate step.  After
+ * an interruption between rows pass the first row not sampled.  observer may be NULL.
+ * Errors: those of a step; DAL_ARGUMENT; what a callback returns. */
 dal_status dal_run_sample(dal_run *run, double T, long long samples, long long first_row,
                           const dal_observer *observer, dal_error *error);
-
 /* Takes a step of size h from the present state, calls observe there, and restores the run to the
  * bit.  observe must not move the run.  Errors: those of a step, the run being unchanged;
  * DAL_ARGUMENT; what observe returns. */
@@ -567,7 +564,6 @@ dal_status dal_run_intermediate(dal_run *run, double h,
 
 /* Many runs of one system and method, called lanes, that differ in parameters and start. */
 typedef struct dal_batch dal_batch;
-
 /* Makes count runs of one spec that are stepped several at a time, each with the bits of a single
  * run.  width: max lanes at a time, 1, 4 or 8; 0: the fastest.  [alloc]  Errors: those of
  * dal_run_init, DAL_ARGUMENT (count, width), DAL_UNSUPPORTED (quad precision). */
@@ -580,6 +576,10 @@ void dal_batch_free(dal_batch *batch);
 dal_status dal_batch_start(dal_batch *batch, int lane, const dal_setting *parameters,
                            int parameter_count, const dal_setting *start, int start_count,
                            dal_error *error);
+/* dal_run_set_parameter for one lane.  Errors: also DAL_ARGUMENT (lane), the status of a lane that
+ * has failed. */
+dal_status dal_batch_set_parameter(dal_batch *batch, int lane, const char *name, double value,
+                                   dal_error *error);
 /* Takes count steps in every lane that has not failed.  A lane that fails keeps the state before
  * the failing step and does not slow down the others.  Returns DAL_OK while a lane is left. */
 dal_status dal_batch_advance(dal_batch *batch, long long count);

@@ -82,7 +82,7 @@ static bool begin_lane(motion *m, int lane)
     const double *memory = dal_run_save(m->run[lane], &count);
     m->begin[lane] = malloc(count * sizeof *memory);
     memcpy(m->begin[lane], memory, count * sizeof *memory);
-    m->persistent = count;
+    m->persistent = m->run[lane]->layout.persistent;
     return true;
 }
 

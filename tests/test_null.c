@@ -141,6 +141,18 @@ static void null_dal_run_name(void)
     CU_ASSERT_PTR_NULL(dal_run_name(run, -1, buffer, sizeof buffer));
 }
 
+static void null_dal_run_index(void)
+{
+    CU_ASSERT_EQUAL(dal_run_index(NULL, "phi"), -1);
+    CU_ASSERT_EQUAL(dal_run_index(run, NULL), -1);
+}
+
+static void null_dal_run_set_parameter(void)
+{
+    REFUSED(dal_run_set_parameter(NULL, "m", 1.0, error));
+    REFUSED(dal_run_set_parameter(run, NULL, 1.0, error));
+}
+
 static void null_dal_run_save(void)
 {
     size_t count = 7;
@@ -217,6 +229,13 @@ static void null_dal_batch_start(void)
 }
 
 /* A batch refused to go backwards has not been stepped: its lanes may still be started. */
+static void null_dal_batch_set_parameter(void)
+{
+    REFUSED(dal_batch_set_parameter(NULL, 0, "m", 1.0, error));
+    REFUSED(dal_batch_set_parameter(batch, -1, "m", 1.0, error));
+    REFUSED(dal_batch_set_parameter(batch, 0, NULL, 1.0, error));
+}
+
 static void null_dal_batch_advance(void)
 {
     REFUSED_STATUS(dal_batch_advance(NULL, 1));

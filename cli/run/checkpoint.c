@@ -2,15 +2,16 @@
  *
  * Little-endian words of 64 bits, doubles by their bits:
  *
- *     header      the word DALCHK03, then as in the struct below
- *     state       [state] all that the run carries from step to step
+ *     header      the word DALCHK04, then as in the struct below
+ *     state       [state] all that the run carries from step to step, and its parameters
  *     statistics  [statistics * words] those of each observable, in a layout that has a number
  *     sum         FNV-1a of all before
  *
  * The file is written under another name, brought to the disk and renamed, and the previous one is
  * kept: where the newer one is damaged, or the rows are not those it was written with, the run
  * resumes from the older.  Nothing in it is ever executed or followed.  A later format raises the
- * number and reads this one, too. */
+ * number and reads this one, too.  In DALCHK03 the state ends before the parameters, which no
+ * command changes. */
 #include "checkpoint.h"
 #include "ui/memory.h"
 #include "ui/message.h"
@@ -39,7 +40,8 @@ enum {
     STATISTICS_WORDS = sizeof(dal_statistics) / WORD, /* each member is one of 64 bits */
 };
 
-static const uint64_t magic = UINT64_C(0x33304b48434c4144); /* "DALCHK03" */
+static const uint64_t magic = UINT64_C(0x34304b48434c4144);    /* "DALCHK04" */
+static const uint64_t magic_03 = UINT64_C(0x33304b48434c4144); /* "DALCHK03" */
 
 /* From memory to the bytes of a file, or back: where that exchanges bytes, both do alike. */
 static void copy_words(void *to, const void *from, size_t count)
@@ -105,7 +107,7 @@ static int check_bytes(const char *path, const unsigned char *bytes, size_t leng
         return damaged(path, "it is too short");
     copy_words(h, bytes, HEADER_WORDS);
     copy_words(&sum, bytes + words * WORD, 1);
-    if (h->magic != magic) return damaged(path, "it does not begin as one");
+    if (h->magic != magic && h->magic != magic_03) return damaged(path, "it does not begin as one");
     if (sum != file_hash(FILE_HASH_START, bytes, words * WORD))
         return damaged(path, "its check sum is wrong");
     if (h->fingerprint != fingerprint)
@@ -126,9 +128,13 @@ static int restore(const char *path, const checkpoint_header *header, const unsi
                    run_position *position, dal_run *run, dal_statistics *statistics)
 {
     dal_error error = {0};
-    double *state = cli_malloc((header->state + 1) * sizeof *state);
+    size_t count;
+    const double *begun = dal_run_save(run, &count);
+    const bool older = header->magic == magic_03 && header->state < count;
+    double *state = cli_malloc((header->state + count) * sizeof *state);
+    memcpy(state, begun, count * sizeof *state);
     copy_words(state, body, header->state);
-    const dal_status loaded = dal_run_restore(run, state, header->state, &error);
+    const dal_status loaded = dal_run_restore(run, state, older ? count : header->state, &error);
     free(state);
     if (loaded != DAL_OK) return cli_error(CLI_USAGE, path, &error);
     *position = (run_position){header->row, header->sum, header->seconds};

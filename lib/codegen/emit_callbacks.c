@@ -122,14 +122,6 @@ static void write_dispatch(dal__generation *g)
 
 /* ---- parameters and start ---- */
 
-static int find_component(const dal_run *run, const char *name)
-{
-    char other[128];
-    for (int i = 0; dal_run_name(run, i, other, sizeof other); i++)
-        if (strcmp(other, name) == 0) return i;
-    return 0; /* the run has accepted the name */
-}
-
 void dal__write_start(dal__generation *g)
 {
     const dal__layout *k = &g->layout;
@@ -147,7 +139,7 @@ void dal__write_start(dal__generation *g)
                       first + 1, first + (k->lifted ? 1 : 0));
     for (int i = 0; i < g->spec->start_count; i++) {
         dal__buffer_print(&g->text, "    y[%d] = dal_num(",
-                          find_component(g->run, g->spec->start[i].name));
+                          dal_run_index(g->run, g->spec->start[i].name));
         dal__buffer_number(&g->text, g->spec->start[i].value);
         dal__buffer_append(&g->text, ");\n");
     }

@@ -123,16 +123,23 @@ dal_status dal__check_settings(const dal_setting *settings, int count, const cha
     return DAL_OK;
 }
 
+dal_status dal__find_parameter(const dal_system *s, const char *name, int *number, dal_error *error)
+{
+    const int names = s->parameter ? s->parameters : 0;
+    for (int i = 0; i < names; i++) {
+        *number = i;
+        if (strcmp(s->parameter[i], name) == 0) return DAL_OK;
+    }
+    return dal__unknown(error, "parameter", name, s->parameter, names);
+}
+
 dal_status dal__set_parameters(const dal_system *s, const dal_setting *settings, int count,
                                dal_status not_finite, double *value, dal_error *error)
 {
-    const int names = s->parameter ? s->parameters : 0;
     for (int i = 0; i < s->parameters; i++) value[i] = s->value ? s->value[i] : 0.0;
     for (int k = 0; k < count; k++) {
-        int i = 0;
-        while (i < names && strcmp(s->parameter[i], settings[k].name) != 0) i++;
-        if (i == names)
-            return dal__unknown(error, "parameter", settings[k].name, s->parameter, names);
+        int i;
+        DAL_TRY(dal__find_parameter(s, settings[k].name, &i, error));
         if (!isfinite(settings[k].value))
             return dal__fail(error, not_finite, "parameter %s: %g is not a finite number",
                              settings[k].name, settings[k].value);

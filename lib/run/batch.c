@@ -259,6 +259,18 @@ dal_status dal_batch_start(dal_batch *batch, int lane, const dal_setting *parame
     return DAL_OK;
 }
 
+dal_status dal_batch_set_parameter(dal_batch *batch, int lane, const char *name, double value,
+                                   dal_error *error)
+{
+    DAL_REQUIRE(batch, error);
+    DAL_TRY(dal_batch_status(batch, lane, error));
+    const group *b = group_of(batch, lane);
+    gather_lane(batch, b, lane - b->first);
+    const dal_status status = dal_run_set_parameter(batch->scalar, name, value, error);
+    if (status == DAL_OK || status == DAL_INCONSISTENT) scatter_lane(batch, b, lane - b->first);
+    return status;
+}
+
 /* The scalar run repeats the failing step, to say reason. */
 static void record_failures(dal_batch *batch, group *b, dal__lanes failed, const dal_status *reason)
 {

@@ -89,8 +89,8 @@ static void eval_callback(dal_step *s, dal_callback_code code, double t, const n
 
 static size_t engine_bytes(const dal__layout *k)
 {
-    return dal__align(sizeof(engine)) + 2 * bytes_of(k->persistent) + bytes_of(k->workspace) +
-           bytes_of(k->scratch);
+    return dal__align(sizeof(engine)) + bytes_of(k->persistent + k->workspace) +
+           bytes_of(k->persistent) + bytes_of(k->scratch);
 }
 
 static num *allocate(char **at, size_t count)
@@ -161,9 +161,9 @@ static void *place_engine(const dal__layout *k, void *memory, double **persisten
 #define CALLBACK(code, member, ...) e->call[DAL_EVAL_##code] = c->member;
     DAL_CALLBACK_LIST(CALLBACK)
 #undef CALLBACK
-    e->persistent = allocate(&at, k->persistent);
+    e->persistent = allocate(&at, k->persistent + k->workspace);
+    e->work = e->persistent + k->persistent;
     e->backup = allocate(&at, k->persistent);
-    e->work = allocate(&at, k->workspace);
     prepare_step(e);
     e->step.scratch = allocate(&at, k->scratch);
     *persistent = (double *)e->persistent;
@@ -205,6 +205,7 @@ static dal_status observe_engine(void *engine_, bool exact_known, double *out)
     engine *e = engine_;
     const dal_system *system = e->layout.system;
     const num *q = e->persistent;
+    const bool changed = e->persistent[dal__at_changed(&e->layout)] != 0.0;
     num *values = e->step.scratch;
     const dal_point at = {(double)*persistent_at(e, DAL__TIME), (const double *)q,
                           (const double *)(q + e->layout.n), NULL, (double *)e->work};
@@ -221,7 +222,8 @@ static dal_status observe_engine(void *engine_, bool exact_known, double *out)
         else
             status = formulas[group](system, &at, (double *)values);
         if (status != DAL_OK) return status;
-        if (group == DAL__OBSERVE_ERROR) values[0] = dal_max_distance(values, q, e->layout.n);
+        if (group == DAL__OBSERVE_ERROR)
+            values[0] = changed ? dal_num(NAN) : dal_max_distance(values, q, e->layout.n);
         for (int i = 0; i < count; i++) *out++ = (double)values[i] + 0.0; /* no -0 */
     }
     return DAL_OK;

@@ -217,7 +217,7 @@ static dal_status measure(dal__layout *k, dal_error *error)
     const bool remembers = k->method.layer[0]->properties & DAL_EXTRAPOLATES_STAGES;
     k->derivatives = remembers ? (1 + DAL__DIFFERENCES) * k->stages * (k->nw + k->n) : 0;
     k->multiplier = dal_method_properties(&k->method) & DAL_PERSISTENT_MULTIPLIER ? k->m : 0;
-    k->persistent = dal__at(k, DAL__CLOCK_SIZE);
+    k->persistent = dal__at(k, DAL__CLOCK_SIZE) + 1; /* changed */
 #define MEMBER(member, count) k->persistent += (size_t)DAL__COUNT_##count(k);
     DAL__METHOD_STATE_LIST(MEMBER)
 #undef MEMBER

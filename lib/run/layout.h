@@ -27,6 +27,15 @@ static inline size_t dal__at(const dal__layout *layout, int place)
     return 2 * (size_t)layout->dim + (size_t)place;
 }
 
+/* The place of the number that says whether a parameter was changed between steps. */
+static inline size_t dal__at_changed(const dal__layout *layout) { return layout->persistent - 1; }
+
+/* Numbers that a checkpoint holds: the persistent state and the parameters. */
+static inline size_t dal__saved_count(const dal__layout *layout)
+{
+    return layout->persistent + (size_t)layout->system->parameters;
+}
+
 /* Whether x can be number i of the persistent state: finite, or an infinite e. */
 static inline bool dal__is_possible(const dal__layout *k, size_t i, double x)
 {

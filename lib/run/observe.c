@@ -2,6 +2,7 @@
  * components.  The engine computes them (engine_wide.c). */
 #include "run/quad.h"
 #include <stdio.h>
+#include <string.h>
 
 /* ---- names of state components ---- */
 
@@ -40,6 +41,14 @@ char *dal_run_name(const dal_run *run, int i, char *buffer, size_t size)
 {
     if (!run || !buffer) return NULL;
     return state_name(run->layout.system, run->layout.lifted, i, buffer, size);
+}
+
+int dal_run_index(const dal_run *run, const char *name)
+{
+    char other[DAL__NAME_SIZE];
+    for (int i = 0; name && dal_run_name(run, i, other, sizeof other); i++)
+        if (strcmp(other, name) == 0) return i;
+    return -1;
 }
 
 /* ---- observables ---- */

@@ -57,12 +57,6 @@ void dal__quad_place(dal_run *run, char *memory)
 
 /* ---- to and from double ---- */
 
-static void widen(double *to, const double *from, size_t count)
-{
-    num *x = (num *)(void *)to;
-    for (size_t i = 0; i < count; i++) x[i] = from[i];
-}
-
 double dal__quad_rounded(const double *memory, size_t i)
 {
     num x;
@@ -70,23 +64,22 @@ double dal__quad_rounded(const double *memory, size_t i)
     return (double)x;
 }
 
-void dal__quad_push(dal_run *run)
+void dal__quad_push(dal_run *run, size_t first)
 {
-    widen(run->quad.persistent, run->persistent, run->layout.persistent);
+    num *to = (num *)(void *)run->quad.persistent;
+    for (size_t i = first; i < dal__saved_count(&run->layout); i++) to[i] = run->persistent[i];
 }
 
 void dal__quad_pull(dal_run *run)
 {
-    for (size_t i = 0; i < run->layout.persistent; i++)
+    for (size_t i = 0; i < dal__saved_count(&run->layout); i++)
         run->persistent[i] = dal__quad_rounded(run->quad.persistent, i);
 }
 
-dal_status dal__quad_begin(dal_run *run)
+dal_status dal__quad_prepare(dal_run *run)
 {
     const dal__quad_run *k = &run->quad;
     const dal_system *system = k->layout.system;
-    widen(k->work, run->work, (size_t)system->parameters);
-    dal__quad_push(run);
     const size_t at_v = (size_t)run->layout.n * dal__quad_width();
     const dal_point at = {dal_run_time(run), k->persistent, k->persistent + at_v, NULL, k->work};
     return system->prepare ? system->prepare(system, &at, NULL) : DAL_OK;

@@ -11,11 +11,12 @@ dal_status dal__quad_check(const dal__layout *layout, dal_error *error);
 size_t dal__quad_bytes(const dal__layout *layout);
 size_t dal__quad_width(void);
 void dal__quad_place(dal_run *run, char *memory);
-/* Takes parameters and persistent state from the run in double; copies the persistent state from it
- * (push) or to it, rounded (pull). */
-dal_status dal__quad_begin(dal_run *run);
-void dal__quad_push(dal_run *run);
+/* Copies persistent state and parameters from the run in double, those before number `first`
+ * excepted (push), or to it, rounded (pull). */
+void dal__quad_push(dal_run *run, size_t first);
 void dal__quad_pull(dal_run *run);
+/* Completes work from the parameters. */
+dal_status dal__quad_prepare(dal_run *run);
 dal_status dal__quad_step(dal_run *run, double h);
 /* As dal_run_observe. */
 dal_status dal__quad_observe(dal_run *run, double *out);

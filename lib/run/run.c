@@ -6,10 +6,11 @@
 #include <dalembert_kernel.h>
 #include <stdlib.h>
 
-/* Doubles in the persistent state. */
+/* Doubles in a checkpoint. */
 static size_t stored_count(const dal__layout *k)
 {
-    return k->options.precision == DAL_DOUBLE ? k->persistent : k->persistent * dal__quad_width();
+    const size_t count = dal__saved_count(k);
+    return k->options.precision == DAL_DOUBLE ? count : count * dal__quad_width();
 }
 
 /* Doubles beside those of the engines. */
@@ -72,7 +73,7 @@ dal_status dal_run_init(dal_run **run, void *memory, size_t bytes, const dal_run
     dal_run *made = place(&layout, memory);
     DAL_TRY(dal__run_start(made, spec->parameters, spec->parameter_count, spec->start,
                            spec->start_count, error));
-    if (made->quad.engine) DAL_TRY(dal__quad_begin(made));
+    if (made->quad.engine) dal__quad_push(made, 0);
     *run = made;
     return DAL_OK;
 }
@@ -165,10 +166,10 @@ dal_status dal_run_set_state(dal_run *run, double t, const double *state, dal_er
             return dal__fail(error, DAL_NOT_FINITE, "state component %d is not finite: %g", i + 1,
                              state[i]);
     if (!isfinite(t)) return dal__fail(error, DAL_NOT_FINITE, "time %g is not finite", t);
-    memset(run->persistent, 0, k->persistent * sizeof *run->persistent);
+    memset(run->persistent, 0, dal__at_changed(k) * sizeof *run->persistent);
     for (int i = 0; i < k->dim; i++) run->persistent[i] = state[i] + 0.0;
     run->persistent[dal__at(k, DAL__TIME)] = t;
-    if (run->quad.engine) dal__quad_push(run);
+    if (run->quad.engine) dal__quad_push(run, 0);
     return DAL_OK;
 }
 
@@ -176,6 +177,18 @@ const double *dal_run_save(const dal_run *run, size_t *count)
 {
     if (count) *count = run ? run->stored : 0;
     return run && count ? run->storage : NULL;
+}
+
+/* Takes state and parameters from a copy, which are prepared where they are others. */
+static dal_status load(dal_run *run, const double *saved)
+{
+    const size_t count = dal__saved_count(&run->layout), width = run->stored / count;
+    const size_t first = run->layout.persistent * width, bytes = sizeof *saved;
+    const bool same =
+        memcmp(run->storage + first, saved + first, (run->stored - first) * bytes) == 0;
+    memcpy(run->storage, saved, run->stored * bytes);
+    if (run->quad.engine) dal__quad_pull(run);
+    return same ? DAL_OK : dal__run_prepare(run);
 }
 
 dal_status dal_run_restore(dal_run *run, const double *memory, size_t count, dal_error *error)
@@ -187,14 +200,16 @@ dal_status dal_run_restore(dal_run *run, const double *memory, size_t count, dal
         return dal__fail(error, DAL_ARGUMENT,
                          "the persistent state of this run has %zu numbers, not %zu", run->stored,
                          count);
-    for (size_t i = 0; i < k->persistent; i++) {
+    for (size_t i = 0; i < dal__saved_count(k); i++) {
         const double x = run->quad.engine ? dal__quad_rounded(memory, i) : memory[i];
         if (!dal__is_possible(k, i, x))
             return dal__fail(error, DAL_NOT_FINITE, "persistent number %zu is not finite", i + 1);
     }
-    memcpy(run->storage, memory, count * sizeof *memory);
-    if (run->quad.engine) dal__quad_pull(run);
-    return DAL_OK;
+    dal__run_back_up(run);
+    const dal_status status = load(run, memory);
+    if (status == DAL_OK) return DAL_OK;
+    dal__run_revert(run);
+    return dal__fail(error, status, "the system cannot be prepared with the saved parameters");
 }
 
 void dal__run_back_up(dal_run *run)
@@ -202,8 +217,4 @@ void dal__run_back_up(dal_run *run)
     memcpy(run->shadow, run->storage, run->stored * sizeof *run->storage);
 }
 
-void dal__run_revert(dal_run *run)
-{
-    memcpy(run->storage, run->shadow, run->stored * sizeof *run->storage);
-    if (run->quad.engine) dal__quad_pull(run);
-}
+void dal__run_revert(dal_run *run) { load(run, run->shadow); }

@@ -47,13 +47,13 @@ struct dal_run {
     const dal__engine_kind *kind; /* of one lane */
     void *engine;
     double *persistent; /* [layout.persistent] of the engine; in quad precision: rounded */
-    double *storage;    /* [stored] the persistent state: persistent, or that of quad */
+    double *storage;    /* [stored] persistent and, behind it, parameters; or those of quad */
     size_t stored;
     dal__quad_run quad;
     double *work;    /* [layout.workspace] parameters, and numbers of the system */
     double *shadow;  /* [stored] the state before an intermediate step */
     double *scratch; /* of the engine, for outputs of callbacks */
-    double *point;   /* [n + nw] where a step failed */
+    double *point;   /* [n + nw] where a step failed; D before a change of parameters */
     bool exact;      /* the exact solution agrees with the start */
     void *owned;     /* memory to free, or NULL */
     dal__native_code native;
@@ -63,7 +63,9 @@ struct dal_run {
 /* Takes count steps of size h, until one fails; does not explain a failure. */
 dal_status dal__step_run(dal_run *run, double h, long long count);
 
-/* Saves the persistent state in the shadow, and restores it. */
+enum { DAL__NAME_SIZE = 128 /* bytes of the name of a state component */ };
+
+/* Saves state and parameters in the shadow, and restores them. */
 void dal__run_back_up(dal_run *run);
 void dal__run_revert(dal_run *run);
 

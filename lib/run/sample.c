@@ -47,11 +47,21 @@ static dal_status store_observation(dal_run *run, int i)
     return DAL_OK;
 }
 
+/* Evaluates the observables of count stored states together. */
+static void evaluate_states(const dal_run *run, int count)
+{
+    const dal__observations *o = &run->observations;
+    const bool changed = run->persistent[dal__at_changed(&run->layout)] != 0.0;
+    double *error = o->values + (size_t)(dal_run_observables(run) - 1) * (size_t)o->capacity;
+    o->code.observables(o->states, o->capacity, count, run->work, o->values);
+    for (int i = 0; i < count && run->exact && changed; i++) error[i] = NAN;
+}
+
 static dal_status deliver(const sampling *k, int count)
 {
     const dal__observations *o = &k->run->observations;
     if (count == 0) return DAL_OK;
-    if (o->states) o->code.observables(o->states, o->capacity, count, k->run->work, o->values);
+    if (o->states) evaluate_states(k->run, count);
     return observed(k, k->observer->values(k->observer->user, k->run, count, o->times, o->values,
                                            (size_t)o->capacity));
 }

@@ -1,32 +1,47 @@
-/* start.c - parameters and start of a run: set by name, completed by the system, checked.
+/* start.c - parameters and start of a run: set by name, completed by the system, checked; and a
+ * parameter set between steps.
  *
  * A start is consistent when |D_a| <= 1e-10 |A_a| |v| (1-norm times max norm), and the constraints
  * are independent when no pivot of G is below 1e-12 of its diagonal entry. */
 #include "run/start.h"
 #include "core/error.h"
+#include "run/quad.h"
 #include <dalembert_kernel.h>
 
 #define CONSISTENT  1e-10
 #define INDEPENDENT 1e-12
 
-enum { NAME_SIZE = 128 };
+dal_status dal__run_prepare(dal_run *run)
+{
+    const dal__layout *k = &run->layout;
+    const dal_point at = dal__here(run);
+    if (k->system->prepare) DAL_TRY(k->system->prepare(k->system, &at, NULL));
+    if (!run->quad.engine) return DAL_OK;
+    dal__quad_push(run, k->persistent);
+    return dal__quad_prepare(run);
+}
+
+static dal_status prepare(dal_run *run, dal_error *error)
+{
+    const char *name = run->layout.system->name;
+    const dal_status status = dal__run_prepare(run);
+    if (status == DAL_OK) return DAL_OK;
+    return dal__fail(error, status, "%s cannot be prepared with these parameters",
+                     name ? name : "the system");
+}
 
 static dal_status set_parameters(dal_run *run, const dal_setting *settings, int count,
                                  dal_error *error)
 {
-    const dal_system *system = run->layout.system;
-    DAL_TRY(dal__set_parameters(system, settings, count, DAL_ARGUMENT, run->work, error));
-    const dal_point at = dal__here(run);
-    const dal_status status = system->prepare ? system->prepare(system, &at, NULL) : DAL_OK;
-    if (status == DAL_OK) return DAL_OK;
-    return dal__fail(error, status, "%s cannot be prepared with these parameters",
-                     system->name ? system->name : "the system");
+    DAL_TRY(
+        dal__set_parameters(run->layout.system, settings, count, DAL_ARGUMENT, run->work, error));
+    return prepare(run, error);
 }
 
 /* Suggests the name nearest to an unknown start name. */
 static dal_status unknown_start(const dal_run *run, const char *name, dal_error *error)
 {
-    char best[NAME_SIZE] = "", other[NAME_SIZE];
+    char best[DAL__NAME_SIZE] = "", other[DAL__NAME_SIZE];
     for (int i = 0; dal_run_name(run, i, other, sizeof other); i++) {
         const char *pair[] = {*best ? best : NULL, other};
         if (dal_nearest(name, pair, 2) == other) memcpy(best, other, sizeof best);
@@ -38,11 +53,9 @@ static dal_status unknown_start(const dal_run *run, const char *name, dal_error 
 
 static dal_status override(dal_run *run, const dal_setting *settings, int count, dal_error *error)
 {
-    char name[NAME_SIZE];
     for (int k = 0; k < count; k++) {
-        int i = 0;
-        while (dal_run_name(run, i, name, sizeof name) && strcmp(name, settings[k].name) != 0) i++;
-        if (i == run->layout.dim) return unknown_start(run, settings[k].name, error);
+        const int i = dal_run_index(run, settings[k].name);
+        if (i < 0) return unknown_start(run, settings[k].name, error);
         if (!dal__is_possible(&run->layout, (size_t)i, settings[k].value))
             return dal__fail(error, DAL_ARGUMENT, "start %s: %g is not a finite number",
                              settings[k].name, settings[k].value);
@@ -71,7 +84,7 @@ static dal_status default_start(dal_run *run, dal_error *error)
 static dal_status check_finite(dal_run *run, dal_error *error)
 {
     const int e = run->layout.lifted ? 2 * run->layout.n : -1;
-    char name[NAME_SIZE];
+    char name[DAL__NAME_SIZE];
     for (int i = 0; i < run->layout.dim; i++) {
         run->persistent[i] += 0.0; /* no -0: see lib/kernel/step.h */
         if (i == e && isinf(1.0 / run->persistent[i]))
@@ -84,65 +97,87 @@ static dal_status check_finite(dal_run *run, dal_error *error)
     return DAL_OK;
 }
 
-static dal_status check_consistent(const dal_run *run, const double *d, const double *a,
-                                   dal_error *error)
+/* D, A, W^-1 A^T of the present state, and behind them the numbers for G and its diagonal.  place:
+ * that state in messages.  before: D of the parameters before a change; NULL at the start. */
+typedef struct constraint_values {
+    const double *D, *A, *B, *before;
+    double *G;
+    const char *place;
+} constraint_values;
+
+static dal_status eval_constraints(dal_run *run, constraint_values *c, dal_error *error)
+{
+    const dal_system *system = run->layout.system;
+    const int m = system->m, n = system->n;
+    const dal_point at = dal__here(run);
+    const dal_status status = system->call.constraint(system, &at, run->scratch);
+    c->D = run->scratch;
+    c->A = c->D + m;
+    c->B = c->A + m * n;
+    c->G = run->scratch + m + 2 * m * n;
+    if (status == DAL_OK) return DAL_OK;
+    return dal__fail(error, status, "the constraints cannot be evaluated at %s", c->place);
+}
+
+static dal_status check_consistent(const dal_run *run, const constraint_values *c, dal_error *error)
 {
     const dal__layout *k = &run->layout;
     const double speed = dal_max_norm(run->persistent + k->n, k->n);
     for (int i = 0; i < k->m; i++) {
         double scale = 0.0;
-        for (int j = 0; j < k->n; j++) scale += fabs(a[i * k->n + j]);
-        if (fabs(d[i]) <= CONSISTENT * scale * speed) continue;
-        return dal__fail(error, isfinite(d[i]) ? DAL_INCONSISTENT : DAL_NOT_FINITE,
-                         "the start violates constraint %d: D%d = %.6g", i + 1, i + 1, d[i]);
+        for (int j = 0; j < k->n; j++) scale += fabs(c->A[i * k->n + j]);
+        const double small = CONSISTENT * scale * speed;
+        if (fabs(c->D[i]) <= small) continue;
+        if (c->before && fabs(c->D[i] - c->before[i]) <= small) continue; /* the drift of a run */
+        return dal__fail(error, isfinite(c->D[i]) ? DAL_INCONSISTENT : DAL_NOT_FINITE,
+                         "%s violates constraint %d: D%d = %.6g", c->place, i + 1, i + 1, c->D[i]);
     }
     return DAL_OK;
 }
 
 /* Constraint k has no pivot in G; W itself may be singular. */
-static dal_status refuse_pivot(dal_run *run, int k, double pivot, dal_error *error)
+static dal_status refuse_pivot(dal_run *run, int k, double pivot, const char *place,
+                               dal_error *error)
 {
     const dal_system *system = run->layout.system;
     const dal_point at = dal__here(run);
     double number = 0.0;
     if (system->diagnose && system->diagnose(system, &at, &number) == DAL_SINGULAR_MASS)
-        return dal__fail(error, DAL_SINGULAR_MASS, "the mass matrix is singular at the start");
+        return dal__fail(error, DAL_SINGULAR_MASS, "the mass matrix is singular at %s", place);
     return dal__fail(error, DAL_RANK,
-                     "constraint %d restricts no velocity at the start, or none that those "
-                     "before it leave free (pivot %g of G)",
-                     k + 1, pivot);
+                     "constraint %d restricts no velocity at %s, or none that those before it "
+                     "leave free (pivot %g of G)",
+                     k + 1, place, pivot);
 }
 
 /* Pivots of G = A B, each against its diagonal entry before elimination, constraint by constraint.
  */
-static dal_status check_rank(dal_run *run, const double *a, const double *b, double *g,
-                             dal_error *error)
+static dal_status check_rank(dal_run *run, const constraint_values *c, dal_error *error)
 {
     const int m = run->layout.m, n = run->layout.n;
-    double *diagonal = g + m * m;
-    dal_gram(a, b, m, n, g);
-    for (int i = 0; i < m; i++) diagonal[i] = fabs(g[i * m + i]);
+    double *diagonal = c->G + m * m;
+    dal_gram(c->A, c->B, m, n, c->G);
+    for (int i = 0; i < m; i++) diagonal[i] = fabs(c->G[i * m + i]);
     for (int k = 0; k < m; k++) {
-        const double rest = dal_eliminate(g, m, k);
+        const double rest = dal_eliminate(c->G, m, k);
         if (fabs(rest) > INDEPENDENT * diagonal[k] && isfinite(rest)) continue;
-        return refuse_pivot(run, k, rest, error);
+        return refuse_pivot(run, k, rest, c->place, error);
     }
     return DAL_OK;
 }
 
+static bool has_constraints(const dal_run *run)
+{
+    return run->layout.m > 0 && run->layout.system->call.constraint;
+}
+
 static dal_status check_constraints(dal_run *run, dal_error *error)
 {
-    const dal__layout *k = &run->layout;
-    const dal_callbacks *call = &k->system->call;
-    if (k->m == 0 || !call->constraint) return DAL_OK;
-    const int m = k->m, n = k->n;
-    const dal_point at = dal__here(run);
-    double *d = run->scratch, *a = d + m, *b = a + m * n;
-    const dal_status status = call->constraint(k->system, &at, d);
-    if (status != DAL_OK)
-        return dal__fail(error, status, "the constraints cannot be evaluated at the start");
-    DAL_TRY(check_consistent(run, d, a, error));
-    return check_rank(run, a, b, b + n * m, error);
+    constraint_values c = {.place = "the start"};
+    if (!has_constraints(run)) return DAL_OK;
+    DAL_TRY(eval_constraints(run, &c, error));
+    DAL_TRY(check_consistent(run, &c, error));
+    return check_rank(run, &c, error);
 }
 
 /* Whether the exact solution has the start of this run. */
@@ -167,4 +202,81 @@ dal_status dal__run_start(dal_run *run, const dal_setting *parameters, int param
     DAL_TRY(check_constraints(run, error));
     run->exact = exact_agrees(run);
     return DAL_OK;
+}
+
+/* ---- a parameter between steps ---- */
+
+/* Whether the present state has accelerations: W and G are regular there, F is finite. */
+static dal_status check_field(dal_run *run, dal_error *error)
+{
+    const dal_system *system = run->layout.system;
+    const dal_point at = dal__here(run);
+    double number = 0.0, *f = run->scratch;
+    const dal_status fault = system->diagnose ? system->diagnose(system, &at, &number) : DAL_OK;
+    if (fault == DAL_SINGULAR_MASS)
+        return dal__fail(error, fault, "the mass matrix is singular at the present state");
+    if (fault == DAL_SINGULAR)
+        return dal__fail(error, fault, "constraint %d is singular at the present state",
+                         (int)number);
+    const dal_status status = system->call.field(system, &at, f);
+    if (status != DAL_OK) return dal__fail(error, status, "the system fails at the present state");
+    for (int i = 0; i < run->layout.nw; i++)
+        if (!isfinite(f[i]))
+            return dal__fail(error, DAL_NOT_FINITE,
+                             "acceleration %d is not finite at the present state: %g", i + 1, f[i]);
+    return DAL_OK;
+}
+
+/* Stores D of the present state; NaN where it cannot be evaluated. */
+static void note_constraints(dal_run *run, double *D)
+{
+    constraint_values c;
+    const bool known = has_constraints(run) && eval_constraints(run, &c, NULL) == DAL_OK;
+    for (int i = 0; i < run->layout.m; i++) D[i] = known ? c.D[i] : NAN;
+}
+
+/* DAL_INCONSISTENT: the parameters can be used, but D, which was `before`, is not 0 with them. */
+static dal_status check_parameters(dal_run *run, const double *before, dal_error *error)
+{
+    constraint_values c = {.place = "the present state", .before = before};
+    DAL_TRY(prepare(run, error));
+    DAL_TRY(check_field(run, error));
+    if (!has_constraints(run)) return DAL_OK;
+    DAL_TRY(eval_constraints(run, &c, error));
+    DAL_TRY(check_rank(run, &c, error));
+    return check_consistent(run, &c, error);
+}
+
+/* The next step is the method's first, and the solution no longer the exact one. */
+static void begin_again(dal_run *run)
+{
+    const dal__layout *k = &run->layout;
+    const size_t first = dal__at(k, DAL__CLOCK_SIZE), changed = dal__at_changed(k);
+    memset(run->persistent + first, 0, (changed - first) * sizeof *run->persistent);
+    run->persistent[changed] = 1.0;
+    if (run->quad.engine) dal__quad_push(run, first);
+}
+
+dal_status dal_run_set_parameter(dal_run *run, const char *name, double value, dal_error *error)
+{
+    dal_error reason = {0};
+    int i;
+    DAL_REQUIRE(run, error);
+    DAL_REQUIRE(name, error);
+    DAL_TRY(dal__find_parameter(run->layout.system, name, &i, error));
+    if (!isfinite(value))
+        return dal__fail(error, DAL_NOT_FINITE, "parameter %s: %g is not a finite number", name,
+                         value);
+    const double before = run->work[i];
+    note_constraints(run, run->point);
+    run->work[i] = value;
+    const dal_status status = check_parameters(run, run->point, &reason);
+    if (status == DAL_OK || status == DAL_INCONSISTENT) {
+        begin_again(run);
+    } else {
+        run->work[i] = before;
+        dal__run_prepare(run);
+    }
+    if (status == DAL_OK) return DAL_OK;
+    return dal__fail(error, status, "parameter %s = %g: %s", name, value, reason.message);
 }

@@ -4,6 +4,8 @@
 
 #include "run/run.h"
 
+/* Completes work from the parameters. */
+dal_status dal__run_prepare(dal_run *run);
 /* Sets parameters and the start at t = 0 and checks them. */
 dal_status dal__run_start(dal_run *run, const dal_setting *parameters, int parameter_count,
                           const dal_setting *start, int start_count, dal_error *error);

@@ -241,6 +241,18 @@ dalembert $present resumes what 0\.3 or later wrote$"
     says "taken/checkpoint: its statistics have layout $layout; dalembert $present reads layout"
 done
 
+case_is "a checkpoint of format 03, without parameters"
+rm -rf taken
+cp -r "$here/data/format-03" taken
+holds "its format" [ "$(head -c 8 taken/checkpoint)" = DALCHK03 ]
+try 0 resume taken
+says "'taken' resumes at t = 29\.75 with row 149"
+holds "the format of now" [ "$(head -c 8 taken/checkpoint)" = DALCHK04 ]
+try 0 run taken/system.yaml --integrator gauss4 --step 0.01 --time 40 --samples 200 --space physical \
+    --set k=9 --output never
+holds "not the rows of a run never interrupted" cmp taken/trajectory.npy never/trajectory.npy
+holds "not the summary of a run never interrupted" cmp taken/summary.csv never/summary.csv
+
 case_is "files of a run that are lost or damaged"
 rm -rf lost
 try 0 run line.yaml --integrator rk4 --step 0.1 --time 1 --output lost
