@@ -63,12 +63,12 @@ FILE *gnuplot_open(const char *directory, const char *name, const char *format, 
         free(*path);
         return NULL;
     }
-    fprintf(script, "set terminal %s size %d,%d noenhanced font 'sans,11'\n",
+    fprintf(script, "set terminal %s size %d,%d noenhanced font 'sans,12'\n",
             strcmp(format, "png") == 0 ? "pngcairo background 'white'" : "svg dynamic", width,
             height);
     snprintf(file, sizeof file, "%s.%s", name, format);
     gnuplot_set(script, "output", file);
-    fputs("set datafile separator comma\nset datafile missing ''\nset tics nomirror font ',10'\n"
+    fputs("set datafile separator comma\nset datafile missing ''\nset tics nomirror font ',11.5'\n"
           "set border 3\nset grid back lt 1 lw 1 lc rgb '#c0808080'\n",
           script);
     return script;

@@ -10,7 +10,7 @@
 typedef struct study_page {
     report *r;
     report_csv cells; /* cells.csv */
-    report_words labels, methods;
+    report_words labels, methods, representatives;
 } study_page;
 
 /* The text of a cell under a head of cells.csv; whether it is another one. */

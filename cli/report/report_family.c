@@ -5,8 +5,10 @@
 #include "report_family.h"
 #include "dalembert.h"
 
+#include <string.h>
+
 const char *const method_family_name[METHOD_FAMILIES] = {
-#define FAMILY_NAME(code, name) name,
+#define FAMILY_NAME(code, name, member) name,
     METHOD_FAMILY_LIST(FAMILY_NAME)
 #undef FAMILY_NAME
 };
@@ -24,4 +26,31 @@ method_family method_family_of(const char *name)
            : properties & DAL_PRESERVES_QUADRATIC      ? METHOD_FAMILY_GAUSS
            : properties & DAL_SYMPLECTIC               ? METHOD_FAMILY_SYMPLECTIC
                                                        : METHOD_FAMILY_RUNGE_KUTTA;
+}
+
+/* A member among some methods; NULL: there is none. */
+static const char *find_member(method_family family, const report_words *methods)
+{
+    static const char *const known[METHOD_FAMILIES] = {
+#define FAMILY_MEMBER(code, name, member) member,
+        METHOD_FAMILY_LIST(FAMILY_MEMBER)
+#undef FAMILY_MEMBER
+    };
+    const char *first = NULL;
+    for (int i = 0; i < methods->count; i++) {
+        if (method_family_of(methods->word[i]) != family) continue;
+        if (strcmp(methods->word[i], known[family]) == 0) return methods->word[i];
+        if (!first) first = methods->word[i];
+    }
+    return first;
+}
+
+void method_family_members(const report_words *all, const report_words *preferred,
+                           report_words *members)
+{
+    for (int family = 0; family < METHOD_FAMILIES; family++) {
+        const char *member = find_member((method_family)family, preferred);
+        if (!member) member = find_member((method_family)family, all);
+        if (member) report_add_word(members, member);
+    }
 }

@@ -4,6 +4,7 @@
 
 #include "io/file.h"
 #include "report_csv.h"
+#include "report_family.h"
 #include "report_plot.h"
 #include "ui/memory.h"
 #include "ui/message.h"
@@ -63,8 +64,9 @@ static void write_orders_table(const order_page *o)
     if (failures > 0) fputs("</ul></details>\n", page);
 }
 
-/* The error of some methods over a column. */
-static int draw_errors(const order_page *o, int figure, int part)
+/* The error of some methods over a column; suffix distinguishes the files. */
+static int draw_errors(const order_page *o, int figure, const report_words *methods,
+                       const char *suffix)
 {
     static const struct {
         const char *column, *name, *title, *xlabel, *caption;
@@ -84,16 +86,62 @@ static int draw_errors(const order_page *o, int figure, int part)
                         .log_x = true,
                         .log_y = true,
                         .has_marks = true};
-    const int first = part * PLOT_CURVES;
-    snprintf(name, sizeof name, part ? "%s-%d" : "%s", figures[figure].name, part + 1);
-    for (int m = first; m < o->methods.count && m < first + PLOT_CURVES; m++) {
-        plot_curve *curve = report_curve(&plot, o->methods.word[m]);
+    snprintf(name, sizeof name, "%s%s", figures[figure].name, suffix);
+    for (int m = 0; m < methods->count; m++) {
+        plot_curve *curve = report_curve(&plot, methods->word[m]);
         for (int row = 1; row < o->csv.rows; row++)
-            if (report_csv_is(&o->csv, row, "integrator", o->methods.word[m]))
+            if (report_csv_is(&o->csv, row, "integrator", methods->word[m]))
                 report_point(&plot, curve, report_csv_number(&o->csv, row, figures[figure].column),
                              report_csv_number(&o->csv, row, "error"));
     }
     return report_draw(o->r, &plot);
+}
+
+static int draw_methods(const order_page *o, const report_words *methods, const char *suffix)
+{
+    int status = CLI_DONE;
+    fputs("<div class=\"figures\">\n", o->r->page);
+    for (int figure = 0; figure < 3 && status == CLI_DONE; figure++)
+        status = draw_errors(o, figure, methods, suffix);
+    fputs("</div>\n", o->r->page);
+    return status;
+}
+
+/* The members of a family, folded, PLOT_METHODS at a time. */
+static int draw_family(const order_page *o, method_family family)
+{
+    report_words some = {.count = 0};
+    int status = CLI_DONE, parts = 0, found = 0;
+    for (int m = 0; m < o->methods.count && status == CLI_DONE; m++) {
+        char suffix[32];
+        if (method_family_of(o->methods.word[m]) != family) continue;
+        if (found++ == 0)
+            fprintf(o->r->page, "<details><summary>%s</summary>\n", method_family_name[family]);
+        report_add_word(&some, o->methods.word[m]);
+        if (some.count < PLOT_METHODS) continue;
+        snprintf(suffix, sizeof suffix, "-%d-%d", (int)family + 1, ++parts);
+        status = draw_methods(o, &some, suffix);
+        some.count = 0;
+    }
+    char suffix[32];
+    snprintf(suffix, sizeof suffix, "-%d-%d", (int)family + 1, parts + 1);
+    if (status == CLI_DONE && some.count > 0) status = draw_methods(o, &some, suffix);
+    if (found > 0) fputs("</details>\n", o->r->page);
+    return status;
+}
+
+/* All methods in the figures; of many one of each family, and each family in figures of its own. */
+static int draw_figures(const order_page *o)
+{
+    report_words members = {.count = 0}, none = {.count = 0};
+    fputs("<h2>Figures</h2>\n", o->r->page);
+    if (o->methods.count <= PLOT_METHODS) return draw_methods(o, &o->methods, "");
+    method_family_members(&o->methods, &none, &members);
+    fputs("<p>One method of each family; all of them below.</p>\n", o->r->page);
+    int status = draw_methods(o, &members, "");
+    for (int family = 0; family < METHOD_FAMILIES && status == CLI_DONE; family++)
+        status = draw_family(o, (method_family)family);
+    return status;
 }
 
 int report_order(report *r)
@@ -114,11 +162,7 @@ int report_order(report *r)
                  report_csv_get(&o->csv, 1, "label"));
         report_title(r, title);
         write_orders_table(o);
-        fputs("<h2>Figures</h2>\n<div class=\"figures\">\n", r->page);
-        for (int part = 0; part * PLOT_CURVES < o->methods.count; part++)
-            for (int figure = 0; figure < 3 && status == CLI_DONE; figure++)
-                status = draw_errors(o, figure, part);
-        fputs("</div>\n", r->page);
+        status = draw_figures(o);
     }
     report_csv_free(&o->csv);
     free(o);

@@ -9,12 +9,15 @@
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
-/* Of the figure without its key, and of a row of the key. */
-enum { WIDTH = 420, HEIGHT = 290, KEY_ROW = 16, KEY_COLUMNS = 2 };
+/* Of the figure without its key, and of a row of the key.  A page shows a figure at 0.97 of this
+ * width at least, and no letter may be smaller than 11 there.  A letter is about so wide. */
+enum { WIDTH = 360, HEIGHT = 270, KEY_ROW = 17, KEY_SAMPLE = 50 };
+static const double letter = 7.0;
 /* Above and below the axes, and the range of the height between them; left and right ends of the
  * axes as parts of the width. */
-enum { ABOVE = 32, BELOW = 48, FRAME = ABOVE + BELOW, MIN_HEIGHT = 100, MAX_HEIGHT = 340 };
+enum { ABOVE = 32, BELOW = 54, FRAME = ABOVE + BELOW, MIN_HEIGHT = 100, MAX_HEIGHT = 340 };
 #define LEFT  0.215
 #define RIGHT 0.95
 
@@ -22,20 +25,22 @@ enum { ABOVE = 32, BELOW = 48, FRAME = ABOVE + BELOW, MIN_HEIGHT = 100, MAX_HEIG
 
 plot_curve *report_curve(report_plot *plot, const char *title)
 {
-    plot_curve *curve = &plot->curve[plot->count++];
-    *curve = (plot_curve){.count = 0};
+    plot_curve *curve = &plot->curve[plot->count];
+    *curve = (plot_curve){.colour = plot->count++};
     snprintf(curve->title, sizeof curve->title, "%s", title);
     return curve;
 }
 
-static void append_point(plot_curve *curve, double x, double y)
+static void append_point(plot_curve *curve, double x, double y, double upper)
 {
     if (curve->count == curve->capacity) {
         curve->capacity = curve->capacity ? 2 * curve->capacity : 64;
         curve->at = cli_realloc(curve->at, (size_t)curve->capacity * sizeof *curve->at);
     }
-    curve->at[curve->count][0] = x;
-    curve->at[curve->count++][1] = y;
+    double *at = curve->at[curve->count++];
+    at[0] = x;
+    at[1] = y;
+    at[2] = upper;
 }
 
 void report_point(const report_plot *plot, plot_curve *curve, double x, double y)
@@ -44,21 +49,29 @@ void report_point(const report_plot *plot, plot_curve *curve, double x, double y
     if (!(fabs(y) <= curve->max_abs)) curve->max_abs = fabs(y);
     if (!isfinite(x) || !isfinite(y) || (plot->log_x && x <= 0.0) || (plot->log_y && y <= 0.0))
         return;
-    append_point(curve, x, y);
+    append_point(curve, x, y, y);
     if (plot->has_marks || curve->count < 3) return;
     /* A point on the level line between its neighbours is redundant. */
-    double(*at)[2] = curve->at + curve->count - 3;
+    double(*at)[3] = curve->at + curve->count - 3;
     if (at[0][1] != at[1][1] || at[1][1] != at[2][1]) return;
     at[1][0] = at[2][0];
     curve->count--;
 }
 
-void report_lift(plot_curve *curve) { append_point(curve, NAN, NAN); }
+void report_band(const report_plot *plot, plot_curve *curve, double x, double low, double high)
+{
+    curve->values++;
+    curve->max_abs = fmax(curve->max_abs, fmax(fabs(low), fabs(high)));
+    if (plot->log_y && low <= 0.0) return;
+    append_point(curve, x, low, high);
+}
+
+void report_lift(plot_curve *curve) { append_point(curve, NAN, NAN, NAN); }
 
 const char report_envelope_caption[] = "The maximum up to t; in brackets its slope over the last "
                                        "tenfold of t: 0 constant, 1 linear.";
 
-void report_title_envelope(plot_curve *curve, const char *name)
+void report_title_envelope(plot_curve *curve)
 {
     char suffix[32] = "";
     int last = curve->count - 1, first = last;
@@ -70,7 +83,8 @@ void report_title_envelope(plot_curve *curve, const char *name)
         const double slope = log(b[1] / a[1]) / log(b[0] / a[0]);
         if (isfinite(slope)) snprintf(suffix, sizeof suffix, " (%.1f)", fabs(slope));
     }
-    snprintf(curve->title, sizeof curve->title, "%.60s%s", name, suffix);
+    const size_t length = strlen(curve->title), limit = sizeof curve->title - sizeof suffix;
+    snprintf(curve->title + (length < limit ? length : limit), sizeof suffix, "%s", suffix);
 }
 
 /* ---- the script ---------------------------------------------------------------------------- */
@@ -83,10 +97,10 @@ static int find_range(const report_plot *plot, int k, double *min, double *max)
     *max = -INFINITY;
     for (int i = 0; i < plot->count; i++)
         for (int j = 0; j < plot->curve[i].count; j++) {
-            const double x = plot->curve[i].at[j][k];
-            if (isnan(x)) continue;
-            *min = fmin(*min, x);
-            *max = fmax(*max, x);
+            const double *at = plot->curve[i].at[j];
+            if (isnan(at[k])) continue;
+            *min = fmin(*min, at[k]);
+            *max = fmax(*max, k ? at[2] : at[0]);
             count++;
         }
     return count;
@@ -115,11 +129,23 @@ static void write_axis(FILE *s, const char *axis, const report_plot *plot, int k
                 axis, below < -3.0 || above > 4.0 ? "%.0e" : "%g");
 }
 
+/* As many titles side by side as the longest leaves room for. */
+static int key_columns(const report_plot *plot)
+{
+    size_t longest = 0;
+    for (int i = 0; i < plot->count; i++) {
+        const size_t length = strlen(plot->curve[i].title);
+        if (length > longest) longest = length;
+    }
+    return (int)fmax(1.0, WIDTH / (KEY_SAMPLE + letter * (double)longest));
+}
+
 static int key_rows(const report_plot *plot)
 {
+    const int columns = key_columns(plot);
     int titles = 0;
     for (int i = 0; i < plot->count; i++) titles += plot->curve[i].title[0] != '\0';
-    return (titles + KEY_COLUMNS - 1) / KEY_COLUMNS;
+    return (titles + columns - 1) / columns;
 }
 
 /* One scale on both axes makes a figure as high as its path. */
@@ -136,9 +162,8 @@ static int figure_height(const report_plot *plot)
 static void write_axes(FILE *s, const report_plot *plot)
 {
     const double height = figure_height(plot), key = KEY_ROW * key_rows(plot);
-    gnuplot_set(s, "title", plot->title);
+    gnuplot_set(s, "title offset 0,-0.4", plot->title);
     gnuplot_set(s, "xlabel offset 0,0.4", plot->xlabel);
-    gnuplot_set(s, "ylabel", plot->ylabel);
     write_axis(s, "x", plot, 0, plot->log_x);
     write_axis(s, "y", plot, 1, plot->log_y);
     if (plot->is_to_scale) {
@@ -157,20 +182,21 @@ static void write_axes(FILE *s, const report_plot *plot)
         if (extent > 0.0)
             fprintf(s, "set xtics %.9g\nset ytics %.9g\n", times * power, times * power);
     }
-    /* The key stands below, as wide as the figure. */
+    /* The key stands below, as wide as the figure; the label of the ordinate stands at the edge,
+     * however wide the numbers beside it are. */
+    gnuplot_set(s, "label 1", plot->ylabel);
     fprintf(s,
+            "set label 1 at screen 0.035, graph 0.5 center rotate\n"
             "set lmargin at screen %.4f\nset rmargin at screen %.4f\n"
             "set tmargin at screen %.4f\nset bmargin at screen %.4f\n"
-            "set key at screen 0.02, screen %.4f left top Left reverse maxrows %d samplen 2.5 "
-            "width -1 font ',10'\n",
+            "set key at screen 0.02, screen %.4f left top Left reverse maxrows %d maxcols %d "
+            "samplen 2 width 1 font ',11.5'\n",
             LEFT, RIGHT, 1.0 - ABOVE / height, (BELOW + key) / height, (key + 3.0) / height,
-            key_rows(plot));
+            key_rows(plot), key_columns(plot));
 }
 
-/* The data of each curve, then the curves; a curve without points is in the key only. */
-static void write_curves(FILE *s, const report_plot *plot)
+static void write_data(FILE *s, const report_plot *plot)
 {
-    const char *line = plot->has_marks ? "linespoints" : "lines";
     for (int i = 0; i < plot->count; i++) {
         const plot_curve *curve = &plot->curve[i];
         if (curve->count == 0) continue;
@@ -178,29 +204,63 @@ static void write_curves(FILE *s, const report_plot *plot)
         for (int j = 0; j < curve->count; j++)
             if (isnan(curve->at[j][0]))
                 fputc('\n', s);
+            else if (curve->is_band)
+                fprintf(s, "%.9g,%.9g,%.9g\n", curve->at[j][0], curve->at[j][1], curve->at[j][2]);
             else
                 fprintf(s, "%.9g,%.9g\n", curve->at[j][0], curve->at[j][1]);
         fputs("END\n", s);
     }
+}
+
+static void write_title(FILE *s, const char *title)
+{
+    fputs(title[0] ? " title " : " notitle", s);
+    if (title[0]) gnuplot_quote(s, title);
+}
+
+/* Filled, with both edges. */
+static void write_band(FILE *s, const report_plot *plot, int i)
+{
+    const char *colour = gnuplot_colour(plot->curve[i].colour);
+    fprintf(s, "  $curve%d using 1:2:3 with filledcurves lc rgb '%s' fs transparent solid 0.4",
+            i + 1, colour);
+    write_title(s, plot->curve[i].title);
+    for (int k = 2; k <= 3; k++)
+        fprintf(s, ", \\\n  $curve%d using 1:%d with lines lw 1 lc rgb '%s' notitle", i + 1, k,
+                colour);
+}
+
+/* A curve without points is in the key only. */
+static void write_curve(FILE *s, const report_plot *plot, int i)
+{
+    const plot_curve *curve = &plot->curve[i];
+    const char *line = plot->has_marks ? "linespoints" : "lines";
+    if (curve->count)
+        fprintf(s, "  $curve%d using 1:2 with %s ", i + 1,
+                curve->has_dots ? "points pt 7 ps 0.25" : line);
+    else
+        fprintf(s, "  keyentry with %s ", line);
+    if (curve->is_black)
+        fputs("lw 1.2 lc rgb 'black'", s);
+    else if (curve->has_dots)
+        fprintf(s, "lc rgb '%s'", gnuplot_colour(curve->colour));
+    else {
+        fputs("lw 1.8 ", s);
+        gnuplot_style(s, curve->colour);
+    }
+    if (plot->has_marks) fprintf(s, " pt %d ps 0.7", 4 + curve->colour % GNUPLOT_COLOURS);
+    write_title(s, curve->title);
+}
+
+static void write_curves(FILE *s, const report_plot *plot)
+{
+    write_data(s, plot);
     fputs("plot \\\n", s);
     for (int i = 0; i < plot->count; i++) {
-        const plot_curve *curve = &plot->curve[i];
-        if (curve->count)
-            fprintf(s, "  $curve%d using 1:2 with %s ", i + 1,
-                    curve->has_dots ? "points pt 7 ps 0.2" : line);
+        if (plot->curve[i].is_band)
+            write_band(s, plot, i);
         else
-            fprintf(s, "  keyentry with %s ", line);
-        if (curve->is_black)
-            fputs("lw 1.2 lc rgb 'black'", s);
-        else if (curve->has_dots)
-            fprintf(s, "lc rgb '%s'", gnuplot_colour(i));
-        else {
-            fputs("lw 1.8 ", s);
-            gnuplot_style(s, i);
-        }
-        if (plot->has_marks) fprintf(s, " pt %d ps 0.7", 4 + i % GNUPLOT_COLOURS);
-        fputs(curve->title[0] ? " title " : " notitle", s);
-        if (curve->title[0]) gnuplot_quote(s, curve->title);
+            write_curve(s, plot, i);
         fputs(i + 1 < plot->count ? ", \\\n" : "\n", s);
     }
 }

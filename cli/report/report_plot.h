@@ -4,15 +4,18 @@
 
 #include "report_page.h"
 
-enum { PLOT_CURVES = 12, PLOT_TITLE = 96, PLOT_NAME = 192 };
+/* PLOT_METHODS: curves with long names, for which there is room below a figure. */
+enum { PLOT_CURVES = 12, PLOT_METHODS = 8, PLOT_TITLE = 96, PLOT_NAME = 192 };
 
 typedef struct plot_curve {
     char title[PLOT_TITLE]; /* "" keeps it out of the key */
+    int colour;             /* its number, 0 for the first curve unless the caller changes it */
     bool is_black;
-    bool has_dots;  /* points without lines */
-    int values;     /* points so far, those left out included, */
-    double max_abs; /* and max |y| of them; NaN once y was none */
-    double (*at)[2];
+    bool has_dots;   /* points without lines */
+    bool is_band;    /* between two values at each x */
+    int values;      /* points so far, those left out included, */
+    double max_abs;  /* and max |y| of them; NaN once y was none */
+    double (*at)[3]; /* x, y and of a band the upper y */
     int count, capacity;
 } plot_curve;
 
@@ -30,11 +33,13 @@ typedef struct report_plot {
 plot_curve *report_curve(report_plot *plot, const char *title);
 /* Adds a point.  What is not finite, or has no logarithm where one is needed, is left out. */
 void report_point(const report_plot *plot, plot_curve *curve, double x, double y);
+/* Adds to a band what lies between two values. */
+void report_band(const report_plot *plot, plot_curve *curve, double x, double low, double high);
 /* Ends a line; the next point begins another. */
 void report_lift(plot_curve *curve);
-/* The title of an envelope: a name, and in brackets the slope of log y over log x between the last
- * point and the one at a tenth of its x, or why there is none. */
-void report_title_envelope(plot_curve *curve, const char *name);
+/* Adds to the title of an envelope in brackets the slope of log y over log x between the last point
+ * and the one at a tenth of its x, or why there is none. */
+void report_title_envelope(plot_curve *curve);
 extern const char report_envelope_caption[];
 /* Draws it on the page and frees the points.  Without values it puts nothing there. */
 int report_draw(report *r, report_plot *plot);

@@ -1,5 +1,6 @@
-/* report_run.c - the page of a run: its path, its coordinates, and what should not change, over t
- * and as envelopes over log t; then the command that makes the run. */
+/* report_run.c - the page of a run: what moves and how, sizes and trends, its path, its
+ * coordinates, and what should not change, over t and as envelopes over log t; then the command
+ * that makes the run. */
 #include "report_run.h"
 #include "dalembert.h"
 #include "ui/memory.h"
@@ -10,6 +11,8 @@
 #include "report_csv.h"
 #include "report_path.h"
 #include "report_plot.h"
+#include "report_rows.h"
+#include "report_system.h"
 #include "run/columns.h"
 #include "run/manifest.h"
 #include "run/system.h"
@@ -20,15 +23,14 @@
 #include <string.h>
 #include <unistd.h>
 
-/* Of more rows than these a figure over t shows every k-th; an envelope has a point wherever t has
- * grown by a factor. */
-enum { MAX_POINTS = 2000 };
-static const double envelope_factor = 1.02;
+/* An envelope has a point wherever t has grown by a factor. */
+static const double envelope_factor = 1.05;
 
 /* The figures over t.  code, file name, title, label of the axis, what
  * the page says instead when all values at all rows are 0 */
 #define GROUP_LIST(GROUP)                                                                          \
     GROUP(COORDINATES, "coordinates", "Coordinates", "q", NULL)                                    \
+    GROUP(ANGLES, "angles", "Angles", "q in radians", NULL)                                        \
     GROUP(D, "D", "Constraints", "D", "D is 0 at all rows.")                                       \
     GROUP(E, "E", "Energy", "E - E(0)", "E is the same at all rows.")                              \
     GROUP(H, "H", "H of the lift", "H - H(0)", "H is the same at all rows.")                       \
@@ -46,6 +48,9 @@ enum {
 typedef struct run_column {
     int group;                    /* or NO_GROUP */
     plot_curve *curve, *envelope; /* NULL: it has none, or there are too many */
+    row_series *series;           /* of the curve */
+    int velocity;                 /* the column of that of a coordinate, 0: there is none */
+    row_distance distance;        /* of a coordinate */
     bool is_conserved;            /* it should not change */
     double first, max_abs;        /* at the first row; of all rows so far, but for E, H and the
                                      invariants less first */
@@ -64,6 +69,11 @@ typedef struct run_page {
 
 /* ---- columns ------------------------------------------------------------------------------- */
 
+static bool is_angle(const run_page *run, const char *name)
+{
+    return run->request->model && report_is_angle(run->request->model, name);
+}
+
 static int observable_group(const char *name)
 {
     if (name[0] == 'D' && name[1] && name[1 + strspn(name + 1, "0123456789")] == '\0')
@@ -77,6 +87,14 @@ static int observable_group(const char *name)
 static plot_curve *add_curve(report_plot *plot, const char *title)
 {
     return plot->count < PLOT_CURVES ? report_curve(plot, title) : NULL;
+}
+
+/* The column of the velocity of a coordinate; 0: there is none. */
+static int find_velocity(const run_page *run, const char *coordinate)
+{
+    for (int i = 1; i < run->reader.columns; i++)
+        if (columns_is_velocity(run->request, run->reader.name[i], coordinate)) return i;
+    return 0;
 }
 
 static bool is_coordinate(const dal_system *system, const char *name)
@@ -117,9 +135,11 @@ static void place_columns(run_page *run)
     for (int i = 1; i < t->columns; i++) {
         run_column *c = &run->column[i];
         const char *name = t->name[i];
-        c->group = i <= n             ? GROUP_COORDINATES
-                   : i >= observables ? observable_group(name)
-                                      : NO_GROUP;
+        c->group = i >= observables      ? observable_group(name)
+                   : i > n               ? NO_GROUP
+                   : is_angle(run, name) ? GROUP_ANGLES
+                                         : GROUP_COORDINATES;
+        if (i <= n) c->velocity = find_velocity(run, name);
         /* Of E and H the summary knows: it gives a trend to what should not change. */
         bool has_trend = c->group != GROUP_E && c->group != GROUP_H;
         for (int row = 1; row < run->summary.rows; row++)
@@ -127,6 +147,7 @@ static void place_columns(run_page *run)
                          !report_csv_is(&run->summary, row, "trend", "");
         c->is_conserved = i >= observables && has_trend;
         if (c->group != NO_GROUP) c->curve = add_curve(&run->plot[c->group], name);
+        if (c->curve) c->series = cli_calloc(1, sizeof *c->series);
         if (c->is_conserved) c->envelope = add_curve(&run->drift, name);
     }
 }
@@ -153,9 +174,9 @@ static void name_plots(run_page *run)
 static void add_row(run_page *run, long long k)
 {
     const trajectory_reader *reader = &run->reader;
-    const long long stride = 1 + reader->count / MAX_POINTS, last = reader->count - 1;
     const double t = reader->row[0];
-    const bool has_envelope = t >= envelope_factor * run->envelope_time || k == last;
+    const bool is_last = k == reader->count - 1;
+    const bool has_envelope = t >= envelope_factor * run->envelope_time || is_last;
     for (int i = 1; i < reader->columns; i++) {
         run_column *c = &run->column[i];
         double x = reader->row[i];
@@ -163,8 +184,8 @@ static void add_row(run_page *run, long long k)
         if (c->group == NO_GROUP) continue;
         if (c->group == GROUP_E || c->group == GROUP_H || c->group == GROUP_INVARIANTS)
             x -= c->first;
-        if (c->curve && (k % stride == 0 || k == last))
-            report_point(&run->plot[c->group], c->curve, t, x);
+        if (c->series) row_series_add(c->series, t, x);
+        if (c->velocity > 0) row_distance_add(&c->distance, t, x, reader->row[c->velocity]);
         if (!(fabs(x) <= c->max_abs)) c->max_abs = fabs(x);
         if (has_envelope && c->envelope) report_point(&run->drift, c->envelope, t, c->max_abs);
     }
@@ -178,9 +199,14 @@ static int draw_figures(run_page *run)
     place_columns(run);
     for (long long k = 0; (more = reader_next(&run->reader)) > 0; k++) add_row(run, k);
     if (more < 0) status = CLI_IO;
+    bool is_sparse = false;
+    for (int i = 1; i < run->reader.columns; i++)
+        is_sparse |= row_distance_is_sparse(&run->column[i].distance);
     for (int i = 1; i < run->reader.columns; i++) {
-        const run_column *c = &run->column[i];
-        if (c->envelope) report_title_envelope(c->envelope, run->reader.name[i]);
+        run_column *c = &run->column[i];
+        if (c->series) row_series_draw(c->series, &run->plot[c->group], c->curve, is_sparse);
+        free(c->series);
+        if (c->envelope) report_title_envelope(c->envelope);
         /* A sentence about all values needs all columns and all rows; figures leave some out. */
         if (c->group != NO_GROUP && c->max_abs != 0.0) run->plot[c->group].zero_text = NULL;
         if (c->is_conserved && c->max_abs != 0.0) run->drift.zero_text = NULL;
@@ -278,6 +304,28 @@ static void write_command(FILE *page, const run_request *request)
 
 /* ---- the page ------------------------------------------------------------------------------ */
 
+/* What moves and how, and why the run ended where it did not reach its end. */
+static void write_head(const run_page *run, const char *manifest)
+{
+    const run_request *request = run->request;
+    FILE *page = run->r->page;
+    char *state = json_file_text(manifest, "status");
+    char *message = json_file_text(manifest, "message");
+    fputs(REPORT_FACTS, page);
+    report_fact(page, "system", request->system_name);
+    report_system(page, request->model, request);
+    report_method(page, request);
+    fputs(REPORT_FACTS_END, page);
+    if (state && strcmp(state, "done") != 0) {
+        fprintf(page, "<p><strong>This run is %s", state);
+        fputs(message ? ": " : "", page);
+        report_text(page, message ? message : "");
+        fputs(".</strong></p>\n", page);
+    }
+    free(state);
+    free(message);
+}
+
 int report_run(report *r)
 {
     run_directory dir = {.descriptor = -1};
@@ -292,8 +340,10 @@ int report_run(report *r)
     run_directory_open(&dir, r->directory);
     if (status == CLI_DONE && access(dir.manifest, F_OK) == 0)
         status = manifest_read(&dir, &request);
+    if (status == CLI_DONE && request.system_name)
+        status = cli_read(request.system_name, &request.model);
     if (status == CLI_DONE && request.columns)
-        status = cli_load(request.system_name, &request.model, &request.system);
+        status = cli_make(request.system_name, &request.model, &request.system);
     run->system = request.system;
     run->request = &request;
     if (status == CLI_DONE && access(summary, F_OK) == 0)
@@ -301,12 +351,8 @@ int report_run(report *r)
     if (status == CLI_DONE && run->summary.rows > 0)
         status = report_csv_require(&run->summary, summary, "trend");
     if (status == CLI_DONE) {
-        const char *method = request.text[REQUEST_integrator];
-        char title[2 * PLOT_NAME] = "A run";
-        if (request.system_name)
-            snprintf(title, sizeof title, "%.80s by %.80s", request.system_name,
-                     method ? method : "?");
-        report_title(r, title);
+        report_title(r, report_model_title(request.model, "A run"));
+        if (request.model) write_head(run, dir.manifest);
         write_summary(run, request.time);
         fputs("<h2>Figures</h2>\n<div class=\"figures\">\n", r->page);
         if (request.system_name) status = report_path(r, r->directory, "path", "");

@@ -14,6 +14,7 @@
 #include "io/gnuplot.h"
 #include "report_cells.h"
 #include "report_csv.h"
+#include "report_family.h"
 #include "report_matrix.h"
 #include "report_path.h"
 #include "report_plot.h"
@@ -75,7 +76,8 @@ typedef struct label_figures {
     const study_page *s;
     const char *label;
     report_csv series;
-    report_words methods; /* those drawn: without modifiers, if there are such */
+    report_words methods; /* those drawn: of many one of each family */
+    bool are_families;
     report_words steps;
     const char *accuracy; /* the column of errors, or NULL */
 } label_figures;
@@ -98,14 +100,25 @@ static const char *find_accuracy(const label_figures *f)
     return NULL;
 }
 
-/* A file name of a label, of what is drawn and of numbers that distinguish figures. */
+/* A file name of a label, of what is drawn and of the number of a step. */
 static const char *name_plot(char name[PLOT_NAME], const label_figures *f, const char *what,
-                             int step, int part)
+                             int step)
 {
-    int n = snprintf(name, PLOT_NAME, "%.120s-%s", f->label, what);
-    if (step > 0) n += snprintf(name + n, PLOT_NAME - (size_t)n, "-h%d", step + 1);
-    if (part > 0) snprintf(name + n, PLOT_NAME - (size_t)n, "-%d", part + 1);
+    const int n = snprintf(name, PLOT_NAME, "%.120s-%s", f->label, what);
+    if (step > 0) snprintf(name + n, PLOT_NAME - (size_t)n, "-h%d", step + 1);
     return name;
+}
+
+/* The curve of a method: "gauss4", or "Gauss: gauss4" in the colour of its family. */
+static plot_curve *add_method(const label_figures *f, report_plot *plot, const char *method)
+{
+    char name[PLOT_TITLE];
+    const method_family family = method_family_of(method);
+    if (!f->are_families) return report_curve(plot, method);
+    snprintf(name, sizeof name, "%s: %.60s", method_family_name[family], method);
+    plot_curve *curve = report_curve(plot, name);
+    curve->colour = (int)family;
+    return curve;
 }
 
 static void add_envelope(const label_figures *f, report_plot *plot, const char *method,
@@ -124,19 +137,19 @@ static void add_envelope(const label_figures *f, report_plot *plot, const char *
             if (curve) break;
             continue;
         }
-        if (!curve) curve = report_curve(plot, method);
+        if (!curve) curve = add_method(f, plot, method);
         const double x = report_csv_number(&f->series, row, t->column);
         if (x > max) max = x;
         report_point(plot, curve, report_csv_number(&f->series, row, "until"), max);
     }
-    if (curve) report_title_envelope(curve, method);
+    if (curve) report_title_envelope(curve);
 }
 
-static int draw_quantity(const label_figures *f, const quantity *t, int step, int part)
+static int draw_quantity(const label_figures *f, const quantity *t, int step)
 {
     const char *h = f->steps.word[step];
-    char name[PLOT_NAME], heading[PLOT_NAME];
-    report_plot plot = {.name = name_plot(name, f, t->name, step, part),
+    char name[PLOT_NAME], heading[PLOT_NAME], text[PLOT_METHODS * PLOT_TITLE];
+    report_plot plot = {.name = name_plot(name, f, t->name, step),
                         .title = heading,
                         .xlabel = "t",
                         .ylabel = t->ylabel,
@@ -144,16 +157,14 @@ static int draw_quantity(const label_figures *f, const quantity *t, int step, in
                         .log_x = true,
                         .log_y = true};
     snprintf(heading, sizeof heading, "%s, h = %g", t->title, strtod(h, NULL));
-    const int first = part * PLOT_CURVES;
-    for (int m = first; m < f->methods.count && m < first + PLOT_CURVES; m++)
-        add_envelope(f, &plot, f->methods.word[m], h, t);
     /* "max |D| is 0 at all rows with A, B, C." */
-    char text[PLOT_CURVES * PLOT_TITLE];
     size_t n = (size_t)snprintf(text, sizeof text, "%s is 0 at all rows with", plot.ylabel);
-    for (int i = 0; i < plot.count && n < sizeof text; i++) {
-        const char *title = plot.curve[i].title;
-        n += (size_t)snprintf(text + n, sizeof text - n, "%s %.*s", i ? "," : "",
-                              (int)strcspn(title, " "), title);
+    for (int m = 0; m < f->methods.count && n < sizeof text; m++) {
+        const int before = plot.count;
+        add_envelope(f, &plot, f->methods.word[m], h, t);
+        if (plot.count > before)
+            n += (size_t)snprintf(text + n, sizeof text - n, "%s %.60s", before > 0 ? "," : "",
+                                  f->methods.word[m]);
     }
     if (n < sizeof text) snprintf(text + n, sizeof text - n, ".");
     plot.zero_text = text;
@@ -161,11 +172,11 @@ static int draw_quantity(const label_figures *f, const quantity *t, int step, in
 }
 
 /* The errors of some methods over the work, or over the step. */
-static int draw_errors(const label_figures *f, bool over_work, int part)
+static int draw_errors(const label_figures *f, bool over_work)
 {
     const report_csv *cells = &f->s->cells;
     char name[PLOT_NAME];
-    report_plot plot = {.name = name_plot(name, f, over_work ? "work" : "order", 0, part),
+    report_plot plot = {.name = name_plot(name, f, over_work ? "work" : "order", 0),
                         .title = over_work ? "Work and precision" : "Order",
                         .xlabel = over_work ? "evaluations of F per unit of t" : "step h",
                         .ylabel = strcmp(f->accuracy, "error_max") == 0     ? "max error"
@@ -176,10 +187,9 @@ static int draw_errors(const label_figures *f, bool over_work, int part)
                         .log_x = true,
                         .log_y = true,
                         .has_marks = true};
-    const int first = part * PLOT_CURVES;
-    for (int m = first; m < f->methods.count && m < first + PLOT_CURVES; m++) {
+    for (int m = 0; m < f->methods.count; m++) {
         const char *method = f->methods.word[m];
-        plot_curve *curve = report_curve(&plot, method);
+        plot_curve *curve = add_method(f, &plot, method);
         for (int h = 0; h < f->steps.count; h++) {
             const char *step = f->steps.word[h];
             const int row = find_cell(f->s, f->label, method, step, false);
@@ -219,27 +229,36 @@ static int draw_best_path(const label_figures *f)
     return status;
 }
 
-/* Twelve methods at a time, all but the first of them folded. */
 static int draw_label(const label_figures *f)
 {
     FILE *page = f->s->r->page;
-    int status = CLI_DONE;
-    for (int part = 0; part * PLOT_CURVES < f->methods.count && status == CLI_DONE; part++) {
-        if (part > 0) {
-            fputs("<details><summary>further methods: ", page);
-            report_text(page, f->methods.word[part * PLOT_CURVES]);
-            fputs(" ...</summary>\n", page);
-        }
-        fputs("<div class=\"figures\">\n", page);
-        if (part == 0) status = draw_best_path(f);
-        for (int i = 0; i < f->steps.count * QUANTITIES && status == CLI_DONE; i++)
-            status = draw_quantity(f, &quantities[i % QUANTITIES], i / QUANTITIES, part);
-        if (status == CLI_DONE && f->accuracy) status = draw_errors(f, true, part);
-        if (status == CLI_DONE && f->accuracy && f->steps.count > 1)
-            status = draw_errors(f, false, part);
-        fputs(part > 0 ? "</div></details>\n" : "</div>\n", page);
-    }
+    fputs("<div class=\"figures\">\n", page);
+    int status = draw_best_path(f);
+    for (int i = 0; i < f->steps.count * QUANTITIES && status == CLI_DONE; i++)
+        status = draw_quantity(f, &quantities[i % QUANTITIES], i / QUANTITIES);
+    if (status == CLI_DONE && f->accuracy) status = draw_errors(f, true);
+    if (status == CLI_DONE && f->accuracy && f->steps.count > 1) status = draw_errors(f, false);
+    fputs("</div>\n", page);
     return status;
+}
+
+/* The methods of a label that have numbers: all in the figures, or of many one of each family. */
+static void choose_methods(label_figures *f)
+{
+    const study_page *s = f->s;
+    report_words all = {.count = 0}, preferred = {.count = 0};
+    for (int row = 1; row < s->cells.rows; row++)
+        if (is_of_label(f, row) && report_csv_number(&s->cells, row, "steps") > 0.0)
+            report_add_word(&all, get_cell(s, row, "integrator"));
+    for (int i = 0; i < all.count; i++)
+        for (int k = 0; k < s->representatives.count; k++)
+            if (strcmp(all.word[i], s->representatives.word[k]) == 0)
+                report_add_word(&preferred, all.word[i]);
+    f->are_families = all.count > PLOT_METHODS;
+    if (f->are_families)
+        method_family_members(&all, &preferred, &f->methods);
+    else
+        f->methods = all;
 }
 
 static int report_label(const study_page *s, const char *label)
@@ -249,13 +268,7 @@ static int report_label(const study_page *s, const char *label)
     f->accuracy = find_accuracy(f);
     for (int row = 1; row < s->cells.rows; row++)
         if (is_of_label(f, row)) report_add_word(&f->steps, get_cell(s, row, "step"));
-    for (int with_modifiers = 0; with_modifiers < 2 && f->methods.count == 0; with_modifiers++)
-        for (int row = 1; row < s->cells.rows; row++) {
-            const char *method = get_cell(s, row, "integrator");
-            if (is_of_label(f, row) && report_csv_number(&s->cells, row, "steps") > 0.0 &&
-                (with_modifiers || !strchr(method, '+')))
-                report_add_word(&f->methods, method);
-        }
+    choose_methods(f);
     int status = CLI_DONE;
     if (f->methods.count == 0) {
         fputs("<p>No run has numbers to show.</p>\n", s->r->page);
@@ -299,17 +312,30 @@ static const char about_lift[] =
     "p = π = 0, in H. A step that lands in D = 0 has no lift of 4n+2 variables; restricted to\n"
     "D = 0 it lifts to T*{D = 0}, of dimension 2(2n − m).</p>\n";
 
-/* With the title of study.yaml. */
-static int begin_study(report *r)
+/* The methods that the study file has among its representatives. */
+static void list_representatives(study_page *s, const document *doc, yaml_node_t *list)
+{
+    for (int i = 0; list && i < document_count(list); i++) {
+        const char *name = document_scalar(doc, document_item(doc, list, i), "representatives");
+        for (int m = 0; name && m < s->methods.count; m++)
+            if (strcmp(s->methods.word[m], name) == 0)
+                report_add_word(&s->representatives, s->methods.word[m]);
+    }
+}
+
+/* With the title and the representatives of study.yaml. */
+static int begin_study(study_page *s)
 {
     document doc = {.place = "study.yaml"};
     size_t length = 0;
-    char *path = cli_join(r->directory, "study.yaml"), *bytes = file_read(path, &length);
+    char *path = cli_join(s->r->directory, "study.yaml"), *bytes = file_read(path, &length);
     const int status = bytes ? document_parse(&doc, path, bytes, length) : CLI_IO;
     if (status == CLI_DONE) {
-        const yaml_node_t *title = document_value(&doc, document_node(&doc, 1), "title");
+        const yaml_node_t *root = document_node(&doc, 1);
+        const yaml_node_t *title = document_value(&doc, root, "title");
         const bool is_text = title && title->type == YAML_SCALAR_NODE;
-        report_title(r, is_text ? (const char *)title->data.scalar.value : "A study of drift");
+        report_title(s->r, is_text ? (const char *)title->data.scalar.value : "A study of drift");
+        list_representatives(s, &doc, document_value(&doc, root, "representatives"));
         yaml_document_delete(&doc.yaml);
     }
     free(bytes);
@@ -317,10 +343,10 @@ static int begin_study(report *r)
     return status;
 }
 
-static int write_study(const study_page *s)
+static int write_study(study_page *s)
 {
     report *r = s->r;
-    int status = begin_study(r);
+    int status = begin_study(s);
     if (status != CLI_DONE) return status;
     bool is_lifted = false;
     fprintf(r->page, "<p>%d runs: %d systems, %d methods.</p>\n<p>Figures:", s->cells.rows - 1,

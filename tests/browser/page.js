@@ -29,7 +29,7 @@ addEventListener('load', () => {
     document.querySelectorAll('details').forEach(d => d.open = true);
     if (document.documentElement.scrollWidth > innerWidth)
         fault(`the page is ${document.documentElement.scrollWidth} wide`);
-    for (const e of document.querySelectorAll('h1, h2, h3, p, li, figcaption, summary, th, td, pre')) {
+    for (const e of document.querySelectorAll('h1, h2, h3, p, li, dt, dd, small, figcaption, summary, th, td, pre')) {
         const box = e.getBoundingClientRect(), style = getComputedStyle(e);
         const name = `<${e.tagName.toLowerCase()}> "${e.textContent.trim().slice(0, 40)}"`;
         count.texts++;
@@ -38,7 +38,7 @@ addEventListener('load', () => {
             style.display !== 'inline') fault(`${name} flows over`);
         if (e.textContent.trim() && contrast(style.color, ground(e)) < 4.5)
             fault(`${name} is faint: ${style.color} on ${ground(e)}`);
-        if (parseFloat(style.fontSize) < 10) fault(`${name} has letters of ${style.fontSize}`);
+        if (parseFloat(style.fontSize) < 11) fault(`${name} has letters of ${style.fontSize}`);
     }
 
     // A figure is unpacked and laid out as it stands on the page, so that its letters have boxes.
@@ -49,6 +49,7 @@ addEventListener('load', () => {
         document.body.append(holder);
         const frame = holder.querySelector('svg').getBoundingClientRect();
         const texts = [...holder.querySelectorAll('text')].filter(t => t.textContent.trim());
+        const scale = frame.width / holder.querySelector('svg').viewBox.baseVal.width;
         const boxes = texts.map(t => t.getBoundingClientRect());
         texts.forEach((t, i) => {
             const b = boxes[i], what = `${name}: "${t.textContent.trim()}"`;
@@ -56,7 +57,8 @@ addEventListener('load', () => {
             if (b.left < frame.left - 0.5 || b.right > frame.right + 0.5 || b.top < frame.top - 0.5 ||
                 b.bottom > frame.bottom + 0.5) fault(`${what} is cut off`);
             if (contrast(getComputedStyle(t).fill, paper) < 4.5) fault(`${what} is faint`);
-            if (b.height < 8 && b.width < 8) fault(`${what} is too small`);
+            const size = scale * parseFloat(getComputedStyle(t).fontSize);
+            if (!(size >= 11)) fault(`${what} has letters of ${size.toFixed(1)}px`);
             for (let j = 0; j < i; j++) {
                 const o = boxes[j];
                 if (Math.min(b.right, o.right) - Math.max(b.left, o.left) > 1 &&
@@ -64,6 +66,15 @@ addEventListener('load', () => {
                     fault(`${what} covers "${texts[j].textContent.trim()}"`);
             }
         });
+        // The key stands beside the curves: no name of a curve covers what is drawn of one.
+        const drawn = [...holder.querySelectorAll('g[id^=gnuplot_plot] :is(path, polygon, use)')]
+            .map(e => e.getBoundingClientRect());
+        for (const t of holder.querySelectorAll('g[id^=gnuplot_plot] text')) {
+            const b = t.getBoundingClientRect();
+            if (drawn.some(d => Math.min(b.right, d.right) - Math.max(b.left, d.left) > 1 &&
+                                Math.min(b.bottom, d.bottom) - Math.max(b.top, d.top) > 1))
+                fault(`${name}: "${t.textContent}" in the key covers a curve`);
+        }
         for (const line of holder.querySelectorAll('g[id^=gnuplot_plot] path[stroke]')) {
             const colour = getComputedStyle(line).stroke;
             if (contrast(colour, paper) < 3) fault(`${name}: a line of ${colour} is faint`);

@@ -91,6 +91,73 @@ if command -v gnuplot >/dev/null 2>&1; then
     holds "no picture" test -s ran/report/path.png
     holds "no picture on the page" grep -q 'data:image/png;base64,iVBOR' ran/report/index.html
 
+    case_is "the page of a run says what moves and how"
+    cat >pulled.yaml <<'END_OF_SYSTEM'
+title: A <weight> on a spring & a turn
+coordinates: [x, phi, s]
+parameters: {k: 1, m: 2}
+let: {pull: k*cos(phi)}
+lagrangian: m/2*(x'^2 + s'^2) + phi'^2/2 - k*x^2/2
+constraints: [s' - sin(phi)*x']
+forces: {x: -pull*x'}
+start: {x: k}
+END_OF_SYSTEM
+    try 0 run pulled.yaml --integrator rk4+project --step 0.1 --time 2 --set k=0.5 --start "phi'=3" \
+        --output pulled
+    try 0 report pulled
+    for fact in "<h1>A &lt;weight&gt; on a spring &amp; a turn</h1>" \
+        "<code>L = m/2\*(x'^2 + s'^2) + phi'^2/2 - k\*x^2/2</code>" \
+        "<code>s' - sin(phi)\*x' = 0</code>" "<code>Q_x = -pull\*x'</code>" \
+        "<code>pull = k\*cos(phi)</code>" "<code>k = 0.5</code> instead of <code>1</code>" \
+        "<code>m = 2</code>" "<code>x = k</code>, <code>phi' = 3</code>" \
+        "<dd>rk4+project, order 4: classical Runge-Kutta; after each step" "<dt>step h</dt><dd>0.1</dd>" \
+        "<dt>time T</dt><dd>2</dd>"; do
+        holds "it lacks $fact" grep -q "$fact" pulled/report/index.html
+    done
+
+    case_is "angles and positions have axes of their own"
+    holds "other curves among the angles" test "$(sed -n 's/.*title "\([a-z]*\)".*/\1/p' pulled/report/angles.gp)" = phi
+    holds "other curves among the positions" test \
+        "$(sed -n 's/.*title "\([a-z]*\)".*/\1/p' pulled/report/coordinates.gp | tr '\n' ' ')" = "x s "
+
+    # x = cos t: 16,000 rows in 637 half periods; rows a period apart, where x is 1 and x' is 0 but
+    # y = sin t is not at rest; and 64 rows in a period.
+    case_is "bands, dots and lines"
+    cat >round.yaml <<'END_OF_SYSTEM'
+coordinates: [x, y]
+lagrangian: (x'^2 + y'^2 - x^2 - y^2)/2
+start: {x: 1, y': 1}
+END_OF_SYSTEM
+    try 0 run round.yaml --integrator gauss8 --step 0.125 --time 2000 --samples 16000 --output many
+    try 0 run round.yaml --integrator gauss8 --step 0.19634954084936207 --time 125.66370614359172 \
+        --samples 20 --output few
+    try 0 run round.yaml --integrator gauss8 --step 0.19634954084936207 --time 6.283185307179586 \
+        --samples 32 --output enough
+    for run in many few enough; do try 0 report $run; done
+    holds "no band" grep -q 'curve1 using 1:2:3 with filledcurves' many/report/coordinates.gp
+    holds "the band is not from -1 to 1" sh -c "sed -n '/curve1 <</,/^END/p' many/report/coordinates.gp |
+        awk -F, 'NF == 3 { n++; if (\$2 > -0.99 || \$2 < -1.0001 || \$3 < 0.99 || \$3 > 1.0001) bad++
+            if (n == 1 && \$1 != 0) bad++; last = \$1 } END { exit bad || n < 20 || last != 2000 }'"
+    holds "a line through rows far apart" grep -q 'curve2 using 1:2 with points' few/report/coordinates.gp
+    holds "no line through rows close together" grep -q 'curve2 using 1:2 with lines' \
+        enough/report/coordinates.gp
+
+    case_is "of many methods one of each family"
+    cat >families.yaml <<'END_OF_STUDY'
+integrators: [symplectic-euler-10, stormer-verlet, dop853, rk4, gauss6, gauss4, spark2, dla, gni,
+              discrete-gradient, gauss4+project, gauss4+yoshida6]
+representatives: [gni, symplectic-euler-10, gauss6]
+step: 0.1
+time: 2
+starts: physical
+systems: [nonholonomic-particle]
+END_OF_STUDY
+    try 0 study families.yaml --no-page --output families
+    try 0 report families
+    holds "other curves" test "$(sed -n 's/^ .*title "\([^"(]*\) .*/\1/p' \
+        families/report/nonholonomic-particle-D.gp | tr '\n' ,)" = \
+        "Runge-Kutta: rk4,Gauss: gauss6,symplectic: symplectic-euler-10,constraint form: gni,projected: gauss4+project,energy-preserving: discrete-gradient,"
+
     case_is "the report of orders"
     try 0 order line.yaml --integrators rk4,gauss4,isokinetic-splitting --levels 3 --time 1 \
         --output orders

@@ -317,6 +317,9 @@ for system in damped-oscillator chaplygin-sleigh-friction chaplygin-sleigh \
     nonholonomic-particle knife-edge vertical-disk appell-hamel isokinetic; do
     holds "no table of $system" grep -q "^$system: " builtin/tables.txt
 done
+if there gnuplot; then
+    holds "its figures have more than 1.2 MB" test "$(cat builtin/report/*.svg | wc -c)" -le 1200000
+fi
 is_screen
 prints '^ 1 chaplygin-sleigh '
 prints '^max \|D\| +1 +2 '

@@ -1,0 +1,104 @@
+/* report_rows.c - columns of a run as curves over t.
+ *
+ * Rows are read once, and may be many: they are put into bins, and when all bins are full, each two
+ * neighbours become one.  Of a bin its least and its greatest value are drawn, in their order. */
+#include "report_rows.h"
+
+#include <math.h>
+#include <string.h>
+
+/* A curve that turns oftener than this is a block, and drawn as a band.  A line shows a turn with
+ * that many rows at least, and a band has that many turns in each of its parts. */
+enum { MAX_TURNS = 80, TURN_ROWS = 4, BAND_TURNS = 4 };
+
+/* ---- bins ---------------------------------------------------------------------------------- */
+
+static void join_bins(row_bin *bin, const row_bin *next)
+{
+    bin->rows += next->rows;
+    if (next->low[1] < bin->low[1]) memcpy(bin->low, next->low, sizeof bin->low);
+    if (next->high[1] > bin->high[1]) memcpy(bin->high, next->high, sizeof bin->high);
+}
+
+static void halve_bins(row_series *s)
+{
+    for (int i = 0; i < ROW_BINS / 2; i++) {
+        s->bin[i] = s->bin[2 * i];
+        join_bins(&s->bin[i], &s->bin[2 * i + 1]);
+    }
+    s->bins = ROW_BINS / 2;
+    s->rows_of_bin *= 2;
+}
+
+void row_series_add(row_series *s, double t, double x)
+{
+    if (!isfinite(t) || !isfinite(x)) return;
+    const double change = x - s->last;
+    if (s->rows > 0 && change != 0.0) {
+        s->turns += change * s->rise < 0.0;
+        s->rise = copysign(1.0, change);
+    }
+    s->last = x;
+    s->end = t;
+    s->rows++;
+    if (s->rows_of_bin == 0) s->rows_of_bin = 1;
+    const row_bin row = {1, t, {t, x}, {t, x}};
+    if (s->bins > 0 && s->bin[s->bins - 1].rows < s->rows_of_bin) {
+        join_bins(&s->bin[s->bins - 1], &row);
+        return;
+    }
+    if (s->bins == ROW_BINS) halve_bins(s);
+    s->bin[s->bins++] = row;
+}
+
+/* ---- curves -------------------------------------------------------------------------------- */
+
+/* The parts of a band hold several turns each; its ends are those of the rows. */
+static void draw_band(const row_series *s, const report_plot *plot, plot_curve *curve)
+{
+    const int parts = (int)fmax(1.0, fmin(s->bins, (double)s->turns / BAND_TURNS));
+    curve->is_band = true;
+    for (int i = 0; i < parts; i++) {
+        const int first = i * s->bins / parts, next = (i + 1) * s->bins / parts;
+        const double end = next < s->bins ? s->bin[next].begin : s->end;
+        row_bin part = s->bin[first];
+        for (int k = first + 1; k < next; k++) join_bins(&part, &s->bin[k]);
+        if (i == 0) report_band(plot, curve, part.begin, part.low[1], part.high[1]);
+        report_band(plot, curve, 0.5 * (part.begin + end), part.low[1], part.high[1]);
+        if (i == parts - 1) report_band(plot, curve, end, part.low[1], part.high[1]);
+    }
+}
+
+void row_series_draw(const row_series *s, const report_plot *plot, plot_curve *curve,
+                     bool is_sparse)
+{
+    if (s->turns > MAX_TURNS && s->rows > ROW_BINS) {
+        draw_band(s, plot, curve);
+        return;
+    }
+    curve->has_dots = is_sparse || TURN_ROWS * s->turns > s->rows;
+    for (int i = 0; i < s->bins; i++) {
+        const row_bin *bin = &s->bin[i];
+        const bool falls = bin->high[0] < bin->low[0];
+        const double *first = falls ? bin->high : bin->low, *second = falls ? bin->low : bin->high;
+        report_point(plot, curve, first[0], first[1]);
+        if (second[0] > first[0]) report_point(plot, curve, second[0], second[1]);
+    }
+}
+
+/* ---- distances ----------------------------------------------------------------------------- */
+
+void row_distance_add(row_distance *d, double t, double q, double v)
+{
+    if (d->has_row) {
+        d->moved += fabs(q - d->q);
+        d->travelled += 0.5 * (fabs(d->v) + fabs(v)) * (t - d->t);
+    }
+    *d = (row_distance){true, t, q, v, d->moved, d->travelled, fmax(d->max_abs, fabs(q))};
+}
+
+/* Rows a period apart, say, seem to be at rest; roundings do not count. */
+bool row_distance_is_sparse(const row_distance *d)
+{
+    return d->travelled > 2.0 * d->moved + 0.05 * d->max_abs;
+}
