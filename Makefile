@@ -8,6 +8,7 @@
 #     make clean            remove build/
 #
 #     make check            all tests; the CUnit summary comes last
+#     make check-python     the package of python/, where Python has cffi, numpy and pytest; a part of check
 #     make check-sanitize   the tests under the address and undefined-behaviour sanitizers
 #     make check-valgrind   the CUnit suites under valgrind
 #     make check-browser    the report's pages in headless Chromium; a part of check
@@ -247,7 +248,11 @@ check: all $(HAS_MPI) $(BUILD)/tests/suite $(BUILD)/tests/read_json $(BUILD)/loc
 	@sh tests/cli/run.sh $(PROGRAM)
 	@CC="$(CC)" CFLAGS="$(CFLAGS)" sh tests/install.sh "$(MAKE)" $(BUILD)
 	@sh tests/browser/run.sh $(PROGRAM)
+	@CC="$(CC)" CFLAGS="$(CFLAGS)" sh tests/python.sh "$(MAKE)" $(BUILD)
 	@$(RUN_SUITE) $(BUILD)/tests/suite $(SUITE)
+
+check-python: all
+	@CC="$(CC)" CFLAGS="$(CFLAGS)" sh tests/python.sh "$(MAKE)" $(BUILD)
 
 check-browser: all
 	@sh tests/browser/run.sh $(PROGRAM)
@@ -344,7 +349,7 @@ clean:
 include bench/bench.mk
 
 FORCE:
-.PHONY: all help check check-bits check-browser check-dist check-sanitize check-valgrind dist docs fuzz run-fuzzers gallery references lint mutants install uninstall clean FORCE mpi
+.PHONY: all help check check-bits check-browser check-dist check-python check-sanitize check-valgrind dist docs fuzz run-fuzzers gallery references lint mutants install uninstall clean FORCE mpi
 .SECONDARY:
 
 -include $(LIB_OBJ:.o=.d) $(CLI_OBJ:.o=.d) $(BUILD)/cli/mpi/dalembert_mpi.d $(TEST_OBJ:.o=.d) $(FUZZERS:%=$(BUILD)/tests/%.d)

@@ -18,7 +18,7 @@ check() { # TITLE COMMAND...: a violation is a line of output, or a command that
     fi
 }
 
-sources() { find include lib integrators cli tests examples bench -name '*.[ch]' | sort; }
+sources() { find include lib integrators cli python tests examples bench -name '*.[ch]' | sort; }
 objects() { find "$BUILD/lib" "$BUILD/integrators" -name '*.o' | sort; }
 
 format() {

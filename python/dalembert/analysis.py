@@ -1,0 +1,408 @@
+"""What is measured along runs: trends, order, exponents, sections, error sources; and generated C.
+
+Every function makes runs of its own from a system, a method and the other arguments of `Run`.
+"""
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from ._library import ffi, lib
+from .errors import Error, InputError, call, call_steps, check, keep_exception
+from .run import Array, doubles
+from .spec import Spec, SystemLike, chunks
+from .system import text_of
+
+# Steps with tangent vectors between two moments in which Python handles signals.
+TANGENT_CHUNK = 200
+
+
+# ---- trends ------------------------------------------------------------------------------------
+
+@dataclass(frozen=True)
+class Trend:
+    """Size and trend of a quantity x along a run.
+
+    Attributes
+    ----------
+    count : int
+        Values.
+    first, last, max_abs : float
+        x at the first and at the last, max |x|.
+    deviation : float
+        max |x - first|.
+    amplitude : float
+        Half the range about the fitted line.
+    rate, rate_low, rate_high : float
+        Slope of the line per unit of t, and its 95 % interval.
+    max_drift : float
+        max |drift| over the whole series in this interval.
+    exponent : float
+        Of t; NaN where none can be stated.
+    size : str
+        ``'exact'``, ``'rounding'`` or ``'larger'``.
+    trend : str
+        ``'none'``, ``'linear'``, ``'random walk'``, ...
+    confidence : float
+        Of the trend, 0 to 1.
+    conservation : str
+        Unless ``'conserved'``, size and trend state nothing.
+    """
+
+    count: int
+    first: float
+    last: float
+    max_abs: float
+    deviation: float
+    amplitude: float
+    rate: float
+    rate_low: float
+    rate_high: float
+    max_drift: float
+    exponent: float
+    size: str
+    trend: str
+    confidence: float
+    conservation: str
+
+
+WORDS = {'size': lib.dal_size_text, 'trend': lib.dal_trend_text, 'conservation': lib.dal_conservation_text}
+
+
+def make_trend(t: Any) -> Trend:
+    """A dal_trend as a Trend: the members have the same names."""
+    values = {name: getattr(t, name) for name in Trend.__dataclass_fields__}
+    return Trend(**{**values, **{name: text_of(word(values[name])) for name, word in WORDS.items()}})
+
+
+def trend(system: SystemLike, integrator: str | None = None, time: float | None = None, *, every: int = 1,
+          **settings: Any) -> dict[str, Trend]:
+    """Runs to a time and classifies how each observable drifts.
+
+    Parameters
+    ----------
+    system, integrator, **settings
+        As of a `Run`.
+    time : float, optional
+        The default is that of the system file.
+    every : int
+        Steps between two values.
+
+    Returns
+    -------
+    dict of str to Trend
+        By the names of the observables: ``'D1'``, ``'E'``, ``'H'``, invariants, ``'error'``.
+
+    Raises
+    ------
+    StepError
+        Its ``partial`` has the trends up to the failure.
+    """
+    spec = Spec(system, integrator, **settings)
+    run, _, names = spec.create_run()
+    if every < 1:
+        raise InputError('DAL_ARGUMENT', f'values every {every} steps cannot be taken')
+    statistics, trends = ffi.new('dal_statistics[]', len(names)), ffi.new('dal_trend[]', len(names))
+    record = ffi.new('dal_error *')
+    status = lib.python_follow(run, spec.time(time), every, statistics, record)
+    lib.dal_run_classify(run, statistics, status != lib.DAL_OK, trends)
+    found = {name: make_trend(trends[i]) for i, name in enumerate(names)}
+    try:
+        check(status, record, stepping=True)
+    except Error as error:
+        error.partial = found
+        raise
+    return found
+
+
+# ---- order -------------------------------------------------------------------------------------
+
+@dataclass(frozen=True)
+class Order:
+    """Errors for decreasing steps, and the slopes between them.
+
+    Attributes
+    ----------
+    step, error : ndarray
+        Step sizes, decreasing; max norm of the error, relative to max(1, |x|).
+    evaluations : ndarray of int
+        Of the field.
+    slope : ndarray
+        ``slope[i]`` between ``step[i - 1]`` and ``step[i]``; the first is NaN.
+    order : float
+        NaN where none can be stated.
+    """
+
+    step: Array
+    error: Array
+    evaluations: npt.NDArray[np.int64]
+    slope: Array
+    order: float
+
+
+def order(system: SystemLike, integrator: str | None = None, time: float | None = None, *, levels: int = 4,
+          reference: str | npt.ArrayLike | None = None, **settings: Any) -> Order:
+    """Measures the order of a method: errors at a time for step, step/2, step/4, ...
+
+    Parameters
+    ----------
+    system, integrator, **settings
+        As of a `Run`; ``step`` is the largest.
+    time : float, optional
+        A whole number of the steps.
+    levels : int
+        Step sizes, from 2 to 8.
+    reference : str or array_like, optional
+        The method of the reference, by default gauss12, with half the smallest step; or the exact
+        state at that time.
+    """
+    spec = Spec(system, integrator, **settings)
+    method, exact, found = ffi.NULL, ffi.NULL, ffi.new('dal_order *')
+    if isinstance(reference, str):
+        method = ffi.new('dal_method *')
+        call(lib.dal_method_parse, method, reference.encode())
+    elif reference is not None:
+        values = np.ascontiguousarray(reference, dtype=np.float64)
+        dimension = len(spec.create_run()[1])
+        if values.shape != (dimension,):
+            raise InputError('DAL_ARGUMENT', f'a state has shape ({dimension},), not {values.shape}')
+        exact = doubles(values)
+    call_steps(lib.dal_measure_order, spec.c, spec.time(time), levels, method, exact, found)
+    columns = (np.array(list(getattr(found, name)[0:levels]))
+               for name in ('step', 'error', 'evaluations', 'slope'))
+    return Order(*columns, found.order)
+
+
+# ---- Lyapunov exponents ------------------------------------------------------------------------
+
+@dataclass(frozen=True)
+class Average:
+    """A mean and its 95 % confidence interval."""
+
+    mean: float
+    low: float
+    high: float
+
+
+@dataclass(frozen=True)
+class Lyapunov:
+    """Lyapunov exponents of the motion of a method.
+
+    Attributes
+    ----------
+    exponents : tuple of Average
+        Decreasing after a transient.
+    sum, divergence : Average
+        Of the exponents; of the field along the motion, NaN where it is not known.
+    is_exact : bool
+        The derivative of a step is by the tangent system, not by differences.
+    holds : bool or None
+        Whether the sum agrees with the divergence to within the error of the method; None where they
+        cannot be compared.
+    """
+
+    exponents: tuple[Average, ...]
+    sum: Average
+    divergence: Average
+    is_exact: bool
+    holds: bool | None
+
+
+def average(function: Any, *arguments: Any) -> Average:
+    a = ffi.new('dal_average *')
+    function(*arguments, a)
+    return Average(a.mean, a.low, a.high)
+
+
+def lyapunov(system: SystemLike, integrator: str | None = None, time: float | None = None, *,
+             transient: float = 0.0, count: int = 0, **settings: Any) -> Lyapunov:
+    """Computes the Lyapunov exponents of a motion.
+
+    Parameters
+    ----------
+    system, integrator, **settings
+        As of a `Run`, on the physical space.
+    time, transient : float
+        What the means cover, and what goes before; whole numbers of steps.
+    count : int
+        Exponents; 0: all.
+    """
+    spec = Spec(system, integrator, **settings)
+    made = ffi.new('dal_lyapunov **')
+    call(lib.dal_lyapunov_create, made, spec.c, spec.system._tangent(), count)
+    study = ffi.gc(made[0], lib.dal_lyapunov_free)
+    before = spec.steps(transient) if transient else 0
+    for steps in chunks(before, TANGENT_CHUNK):
+        call_steps(lib.dal_lyapunov_advance, study, steps)
+    lib.dal_lyapunov_discard_transient(study)
+    for steps in chunks(spec.steps(spec.time(time)), TANGENT_CHUNK):
+        call_steps(lib.dal_lyapunov_advance, study, steps)
+    balance, record = ffi.new('dal_balance *'), ffi.new('dal_error *')
+    status = lib.dal_lyapunov_balance(study, balance, record)
+    if status not in (lib.DAL_OK, lib.DAL_UNSUPPORTED):
+        check(status, record, stepping=True)
+    return Lyapunov(
+        tuple(average(lib.dal_lyapunov_exponent, study, i) for i in range(lib.dal_lyapunov_count(study))),
+        average(lib.dal_lyapunov_sum, study), average(lib.dal_lyapunov_divergence, study),
+        bool(lib.dal_lyapunov_is_exact(study)), bool(balance.holds) if status == lib.DAL_OK else None)
+
+
+# ---- sections ----------------------------------------------------------------------------------
+
+@dataclass(frozen=True)
+class Section:
+    """Crossings of a surface.
+
+    Attributes
+    ----------
+    rows : structured ndarray
+        A row for each crossing: ``crossing``, ``t``, ``direction`` and the state.
+    up, down : int
+        Crossings by direction, in ``rows`` or not.
+    touches : int
+        Minima of the distance that are no crossings.
+    """
+
+    rows: npt.NDArray[np.void]
+    up: int
+    down: int
+    touches: int
+
+
+@ffi.def_extern(error=lib.DAL_INTERRUPTED, onerror=keep_exception)
+def python_cross(user: Any, run: Any, crossing: Any) -> int:
+    """Adds a row to the list behind user."""
+    rows, dimension = ffi.from_handle(user)
+    rows.append((len(rows) + 1, crossing.t, crossing.direction,
+                 *ffi.unpack(lib.dal_run_state(run), dimension)))
+    return lib.DAL_OK
+
+
+def section(system: SystemLike, on: str, integrator: str | None = None, time: float | None = None, *,
+            direction: int = 0, **settings: Any) -> Section:
+    """Finds where a motion crosses a surface.
+
+    Parameters
+    ----------
+    system, integrator, **settings
+        As of a `Run`.
+    on : str
+        A formula that is 0 on the surface, ``'phi'``, or an equation, ``'y = 2*x'``.
+    time : float, optional
+        A whole number of steps.
+    direction : int
+        1: upwards, -1: downwards, 0: both.
+    """
+    spec = Spec(system, integrator, **settings)
+    changed = spec.system._with_invariant(on)
+    spec.c.system = changed._system
+    run, names, _ = spec.create_run()
+    count = changed._system.invariants
+    rows: list[tuple[float, ...]] = []
+    handle = ffi.new_handle((rows, len(names)))
+    surface = ffi.new('dal_poincare *', {
+        'callback': changed._system.invariant_values, 'count': count, 'index': count - 1,
+        'direction': direction, 'user': handle, 'cross': lib.python_cross, 'poll': lib.python_poll})
+    found = ffi.new('dal_crossings *')
+    call_steps(lib.dal_run_crossings, run, spec.time(time), surface, found)
+    columns = [('crossing', 'i8'), ('t', 'f8'), ('direction', 'i8'), *((name, 'f8') for name in names)]
+    return Section(np.array(rows, dtype=columns), found.up, found.down, found.touches)
+
+
+# ---- error sources -----------------------------------------------------------------------------
+
+@dataclass(frozen=True)
+class Shares:
+    """What the drift of an observable comes from.
+
+    Attributes
+    ----------
+    trend : Trend
+        Along the whole run.
+    share : dict of str to float
+        By source: ``'truncation'``, ``'coefficients'``, ``'solver'``, ``'rounding'``,
+        ``'projection'``; NaN: not known.
+    margin : dict of str to float
+        Half the 95 % interval of a share.
+    how : dict of str to str
+        How a share was found, in words.
+    is_motion : bool
+        The motion itself moves the observable.
+    """
+
+    trend: Trend
+    share: dict[str, float]
+    margin: dict[str, float]
+    how: dict[str, str]
+    is_motion: bool
+
+
+def describe(budget: Any, observable: int, source: int) -> str:
+    buffer = ffi.new('char[]', 1024)
+    return text_of(lib.dal_error_budget_describe(budget, observable, source, buffer, len(buffer)))
+
+
+def explain(system: SystemLike, integrator: str | None = None, time: float | None = None, *,
+            quad_steps: int = 10000, **settings: Any) -> dict[str, Shares]:
+    """Finds how much of the drift of every observable is truncation, solver, rounding, projection.
+
+    Parameters
+    ----------
+    system, integrator, **settings
+        As of a `Run`.
+    time : float, optional
+        A whole number of steps.
+    quad_steps : int
+        The first steps are taken in quad precision as well; 0: none.
+
+    Returns
+    -------
+    dict of str to Shares
+        By the names of the observables.
+    """
+    spec = Spec(system, integrator, **settings)
+    made = ffi.new('dal_error_budget **')
+    observer = ffi.new('dal_error_budget_observer *', {'step': lib.python_progress})
+    call_steps(lib.dal_error_budget_create, spec.c, spec.steps(spec.time(time)), quad_steps, observer, made)
+    budget = ffi.gc(made[0], lib.dal_error_budget_free)
+    sources = {i: text_of(lib.dal_error_source_name(i)) for i in range(lib.DAL_ERROR_SOURCES)}
+    found = {}
+    for i in range(budget.observables):
+        shares = budget.shares[i]
+        found[text_of(shares.name)] = Shares(
+            make_trend(shares.whole), {name: shares.share[k] for k, name in sources.items()},
+            {name: shares.margin[k] for k, name in sources.items()},
+            {name: describe(budget, i, k) for k, name in sources.items()}, bool(shares.is_motion))
+    return found
+
+
+# ---- generated C -------------------------------------------------------------------------------
+
+def generate(system: SystemLike, integrator: str | None = None, *, lanes: int = 1,
+             prefix: str | None = None, **settings: Any) -> str:
+    """Writes one C file that steps a system by a method, with the bits of a `Run`.
+
+    Parameters
+    ----------
+    system, integrator, **settings
+        As of a `Run`; its parameters and start are the defaults of the file.
+    lanes : int
+        Systems at a time: 1, 2, 4, 8 or 16.
+    prefix : str, optional
+        Begins every public name.
+
+    Returns
+    -------
+    str
+        The file; its first comment explains its use.
+    """
+    spec = Spec(system, integrator, **settings)
+    text = ffi.new('char **')
+    call(lib.dal_generate, spec.c, lanes, ffi.NULL if prefix is None else prefix.encode(), text)
+    try:
+        return text_of(text[0])
+    finally:
+        lib.free(text[0])

@@ -1,0 +1,318 @@
+"""Runs and batches."""
+from __future__ import annotations
+
+import os
+from typing import Any, Mapping, Union
+
+import numpy as np
+import numpy.typing as npt
+
+from ._library import ffi, lib
+from .errors import Error, InputError, call, call_steps, check, make_error
+from .spec import Settings, Spec, SystemLike, chunks, make_settings
+
+Array = npt.NDArray[np.float64]
+
+# Steps between two moments in which Python handles signals: less than a second.
+CHUNK = 10000
+
+
+def doubles(array: Array) -> Any:
+    """The memory of an array for the library, which may write there."""
+    return ffi.from_buffer('double[]', array, require_writable=array.flags.writeable)
+
+
+def native_options(cache: str | os.PathLike[str] | None, compiler: str) -> tuple[Any, Any]:
+    """dal_native_options, and the texts that must live as long."""
+    if cache is None:
+        above = os.environ.get('XDG_CACHE_HOME') or os.path.join(os.path.expanduser('~'), '.cache')
+        os.makedirs(above, mode=0o700, exist_ok=True)
+        cache = os.path.join(above, 'dalembert')
+    texts = ffi.new('char[]', os.fsencode(cache)), ffi.new('char[]', compiler.encode())
+    return ffi.new('dal_native_options *', {'cache': texts[0], 'compiler': texts[1],
+                                            'stop': lib.python_stop}), texts
+
+
+class Run:
+    """One motion of a system by a method.
+
+    Parameters
+    ----------
+    system : System or str
+        A system, or the name of a built-in one.
+    integrator : str, optional
+        ``'rk4'``, ``'gauss8+project'``; the default is that of the system file.
+    step : float, optional
+        Step size h; the default is that of the system file, or 0.01.
+    parameters : mapping of str to float, optional
+        Those that differ from their default.
+    start : mapping of str to float, optional
+        Components of the state, ``{"x'": 0.5}``; the system gives the rest.
+    **options
+        Those of the command line with underscores: ``space='physical'``,
+        ``solver_tolerance=1e-12``, ``precision='quad'``.
+
+    Attributes
+    ----------
+    system : System
+    integrator : str
+    names, observable_names : tuple of str
+        Of the components of the state, and of the observables.
+    dimension : int
+        Numbers in a state.
+
+    Notes
+    -----
+    While steps are taken other threads of Python run.  A run itself belongs to one thread at a time.
+    """
+
+    def __init__(self, system: SystemLike, integrator: str | None = None, *, step: float | None = None,
+                 parameters: Settings | None = None, start: Settings | None = None, **options: Any):
+        spec = Spec(system, integrator, step, parameters, start, **options)
+        self.system, self.integrator = spec.system, spec.integrator
+        self._run, self.names, self.observable_names = spec.create_run()
+        self.dimension = len(self.names)
+
+    @property
+    def time(self) -> float:
+        """The present time."""
+        return lib.dal_run_time(self._run)
+
+    @property
+    def step(self) -> float:
+        """The step size h."""
+        return lib.dal_run_step_size(self._run)
+
+    @property
+    def steps(self) -> int:
+        """Steps since t = 0."""
+        return lib.dal_run_steps(self._run)
+
+    @property
+    def evaluations(self) -> int:
+        """Evaluations of the field since t = 0."""
+        return lib.dal_run_evaluations(self._run)
+
+    @property
+    def state(self) -> Array:
+        """A copy of the present state, [dimension], ordered as `names`."""
+        state = ffi.buffer(lib.dal_run_state(self._run), 8 * self.dimension)
+        return np.frombuffer(state, dtype=np.float64).copy()
+
+    def set_state(self, state: npt.ArrayLike, time: float | None = None) -> None:
+        """Replaces the state and, where it is given, the time; clears all other memory of steps."""
+        values = np.ascontiguousarray(state, dtype=np.float64)
+        if values.shape != (self.dimension,):
+            raise InputError('DAL_ARGUMENT', f'a state has shape ({self.dimension},), not {values.shape}')
+        call(lib.dal_run_set_state, self._run, self.time if time is None else float(time), doubles(values))
+
+    @property
+    def observables(self) -> Array:
+        """D1, .., E, H, norms, invariants and the error, ordered as `observable_names`."""
+        values = np.empty(len(self.observable_names))
+        check(lib.dal_run_observe(self._run, doubles(values)), ffi.new('dal_error *'), stepping=True)
+        return values
+
+    @property
+    def parameters(self) -> dict[str, float]:
+        """The parameter values."""
+        values = lib.dal_run_parameters(self._run)
+        return {name: values[i] for i, name in enumerate(self.system.parameters)}
+
+    def advance(self, steps: int = 1) -> None:
+        """Takes a number of steps, or those before the first that fails.
+
+        Raises
+        ------
+        StepError
+            Names the constraint and the time; the run is as it was before that step.
+        """
+        if steps < 0:
+            raise InputError('DAL_ARGUMENT', f'{steps} steps cannot be taken')
+        for count in chunks(steps, CHUNK):
+            call_steps(lib.dal_run_advance, self._run, count)
+
+    def trajectory(self, times: npt.ArrayLike) -> npt.NDArray[np.void]:
+        """Advances the run and gives a row at each time.
+
+        The run takes steps h only, and stands at the last step before the last time.  A shorter
+        step of the same method gives a row between two steps.
+
+        Parameters
+        ----------
+        times : array_like
+            Increasing, from the present time on.
+
+        Returns
+        -------
+        numpy structured array
+            With the columns of ``dalembert run``: ``rows['t']``, ``rows["x'"]``, ``rows['D1']``.
+
+        Raises
+        ------
+        StepError
+            Its ``partial`` has the rows before the failure.
+        """
+        when = np.ascontiguousarray(times, dtype=np.float64)
+        if when.ndim != 1 or len(when) == 0 or not np.all(np.diff(when) > 0):
+            raise InputError('DAL_ARGUMENT', 'times must be increasing numbers, one at least')
+        if not when[0] >= self.time - 1e-9 * self.step:
+            raise InputError('DAL_ARGUMENT', f'time {when[0]:g} lies before the present t = {self.time:g}')
+        names = ('t',) + self.names + self.observable_names
+        table = np.empty((len(when), len(names)))
+        made = ffi.new('long long *')
+        kept = [i for i, name in enumerate(names) if not name.startswith('|')]
+        columns = np.dtype({'names': [names[i] for i in kept], 'formats': ['f8'] * len(kept),
+                            'offsets': [8 * i for i in kept], 'itemsize': 8 * len(names)})
+        rows = table.view(columns)[:, 0]
+        try:
+            call_steps(lib.python_rows, self._run, len(when), doubles(when), doubles(table), made)
+        except Error as error:
+            error.partial = rows[:made[0]]
+            raise
+        return rows
+
+    def save(self) -> bytes:
+        """All that passes from one step to the next."""
+        count = ffi.new('size_t *')
+        numbers = lib.dal_run_save(self._run, count)
+        return bytes(ffi.buffer(numbers, 8 * count[0]))
+
+    def restore(self, saved: bytes) -> None:
+        """Continues where a run of the same system, method and options was saved, with the same bits."""
+        if len(saved) % 8:
+            raise InputError('DAL_ARGUMENT', f'{len(saved)} bytes are not a saved run')
+        numbers = np.frombuffer(saved, dtype=np.float64)
+        call(lib.dal_run_restore, self._run, doubles(numbers), len(numbers))
+
+    def compile(self, cache: str | os.PathLike[str] | None = None, compiler: str = 'cc') -> None:
+        """Compiles the steps, with the same bits; for runs of a second and more.
+
+        Parameters
+        ----------
+        cache : path, optional
+            A directory of this user alone; the default is that of the program.
+        compiler : str, optional
+            A C compiler.
+        """
+        options, _texts = native_options(cache, compiler)
+        call(lib.dal_run_native, self._run, options)
+
+    @property
+    def is_compiled(self) -> bool:
+        """Whether the steps are compiled."""
+        return bool(lib.dal_run_is_native(self._run))
+
+    def __repr__(self) -> str:
+        return f'<Run of {self.system.name} by {self.integrator}, h = {self.step:g}, t = {self.time:g}>'
+
+
+LaneValues = Mapping[str, Union[float, npt.ArrayLike]]
+
+
+def count_lanes(count: int | None, *values: LaneValues | None) -> int:
+    """The length of the arrays among the values, which must be one."""
+    lengths = {len(np.atleast_1d(value)) for group in values for value in (group or {}).values()
+               if np.ndim(value) > 0}
+    lengths |= set() if count is None else {count}
+    if len(lengths) > 1:
+        raise InputError('DAL_ARGUMENT', f'values have different numbers of lanes: {sorted(lengths)}')
+    lanes = lengths.pop() if lengths else 1
+    if lanes < 1:
+        raise InputError('DAL_ARGUMENT', 'a batch has one lane at least')
+    return lanes
+
+
+def lane(values: LaneValues | None, i: int) -> dict[str, float]:
+    """The values of one lane."""
+    return {name: float(np.asarray(value)[i] if np.ndim(value) else value)  # type: ignore[arg-type]
+            for name, value in (values or {}).items()}
+
+
+class Batch:
+    """Many runs of one system and method, called lanes, that differ in parameters and start.
+
+    Each lane has the bits of a single run.
+
+    Parameters
+    ----------
+    system, integrator, step, **options
+        As of a `Run`.
+    count : int, optional
+        The number of lanes; by default that of the values given as arrays.
+    parameters, start : mapping of str to float or array_like, optional
+        A number for all lanes, or an array with one for each.
+
+    Attributes
+    ----------
+    names : tuple of str
+        Of the components of a state.
+    """
+
+    def __init__(self, system: SystemLike, integrator: str | None = None, count: int | None = None, *,
+                 step: float | None = None, parameters: LaneValues | None = None,
+                 start: LaneValues | None = None, width: int = 0, **options: Any):
+        self.count = count_lanes(count, parameters, start)
+        spec = Spec(system, integrator, step, lane(parameters, 0), lane(start, 0), **options)
+        self.system, self.integrator, self.step = spec.system, spec.integrator, spec.step
+        self.names = spec.create_run()[1]
+        self.dimension = len(self.names)
+        batch = ffi.new('dal_batch **')
+        call(lib.dal_batch_create, batch, spec.c, self.count, width)
+        self._batch = ffi.gc(batch[0], lib.dal_batch_free)
+        for i in range(1, self.count):
+            self._start(i, lane(parameters, i), lane(start, i))
+
+    def _start(self, i: int, parameters: Settings, start: Settings) -> None:
+        p, s = make_settings(parameters), make_settings(start)
+        call(lib.dal_batch_start, self._batch, i, p[0], p[1], s[0], s[1])
+
+    def advance(self, steps: int = 1) -> None:
+        """Takes steps in every lane that has not failed; `errors` names those that have.
+
+        Raises
+        ------
+        StepError
+            When no lane is left.
+        """
+        if steps < 0:
+            raise InputError('DAL_ARGUMENT', f'{steps} steps cannot be taken')
+        for count in chunks(steps, max(100, CHUNK // self.count)):
+            if lib.dal_batch_advance(self._batch, count) != lib.DAL_OK:
+                raise next(error for error in self.errors if error is not None)
+
+    def state(self) -> Array:
+        """The states of all lanes, [lanes, dimension]; of one that failed, that before the failure."""
+        states = np.empty((self.count, self.dimension))
+        lib.dal_batch_states(self._batch, doubles(states))
+        return states
+
+    @property
+    def time(self) -> Array:
+        """The present time of each lane, [lanes]."""
+        return np.array([lib.dal_batch_time(self._batch, i) for i in range(self.count)])
+
+    @property
+    def errors(self) -> list[Exception | None]:
+        """For each lane why its step failed, or None."""
+        record, found = ffi.new('dal_error *'), []
+        for i in range(self.count):
+            failed = lib.dal_batch_status(self._batch, i, record) != lib.DAL_OK
+            found.append(make_error(record, stepping=True) if failed else None)
+        return found
+
+    def compile(self, cache: str | os.PathLike[str] | None = None, compiler: str = 'cc') -> None:
+        """Compiles the steps, with the same bits; see `Run.compile`."""
+        options, _texts = native_options(cache, compiler)
+        call(lib.dal_batch_native, self._batch, options)
+
+    @property
+    def is_compiled(self) -> bool:
+        """Whether the steps are compiled."""
+        return bool(lib.dal_batch_is_native(self._batch))
+
+    def __len__(self) -> int:
+        return self.count
+
+    def __repr__(self) -> str:
+        return f'<Batch of {self.count} lanes of {self.system.name} by {self.integrator}, h = {self.step:g}>'

@@ -1,0 +1,107 @@
+"""What a run is made from: system, method, options, parameters, start."""
+from __future__ import annotations
+
+from typing import Any, Iterator, Mapping, Union
+
+from ._library import ffi, lib
+from .errors import InputError, call
+from .system import System, text_of
+
+SystemLike = Union[System, str]
+Settings = Mapping[str, float]
+
+
+def integrators() -> list[str]:
+    """Names of the integrators of the library; modifiers are ``'+project'`` and the like."""
+    found, i = [], 0
+    while (integrator := lib.dal_integrator_at(i)) != ffi.NULL:
+        modifier = integrator.properties & lib.DAL_MODIFIER
+        found.append(('+' if modifier else '') + text_of(integrator.name))
+        i += 1
+    return found
+
+
+def make_settings(values: Settings | None) -> tuple[Any, int, list[Any]]:
+    """An array of dal_setting, its length, and the texts that must live as long."""
+    items = list((values or {}).items())
+    array = ffi.new('dal_setting[]', max(1, len(items)))
+    texts = [ffi.new('char[]', name.encode()) for name, _ in items]
+    for i, (_, value) in enumerate(items):
+        array[i].name, array[i].value = texts[i], float(value)
+    return array, len(items), texts
+
+
+def option_text(value: Any) -> str:
+    if isinstance(value, bool):
+        return 'on' if value else 'off'
+    return repr(float(value)) if isinstance(value, float) else str(value)
+
+
+def names_of(name_at: Any, run: Any, count: int) -> tuple[str, ...]:
+    buffer = ffi.new('char[]', 256)
+    return tuple(text_of(name_at(run, i, buffer, len(buffer))) for i in range(count))
+
+
+class Spec:
+    """A dal_run_spec with all that it points to."""
+
+    def __init__(self, system: SystemLike, integrator: str | None, step: float | None = None,
+                 parameters: Settings | None = None, start: Settings | None = None, **options: Any):
+        self.system = system if isinstance(system, System) else System.builtin(system)
+        defaults = self.system.defaults
+        integrator = integrator or defaults.get('integrator')
+        if integrator is None:
+            raise InputError('DAL_ARGUMENT', f'{self.system.name} has no default integrator: give one')
+        self.c = ffi.new('dal_run_spec *')
+        self.c.system = self.system._system
+        self.c.options = lib.dal_options_default()
+        call(lib.dal_method_parse, ffi.addressof(self.c, 'method'), integrator.encode())
+        if step is None and 'step' in defaults:
+            step = float(defaults['step'])
+        for name, value in {**({} if step is None else {'step': float(step)}), **options}.items():
+            call(lib.dal_options_set, ffi.addressof(self.c, 'options'), name.replace('_', '-').encode(),
+                 option_text(value).encode())
+        # Both must live as long as the spec.
+        self._parameters = make_settings(parameters)
+        self._start = make_settings(start)
+        self.c.parameters, self.c.parameter_count = self._parameters[:2]
+        self.c.start, self.c.start_count = self._start[:2]
+
+    def create_run(self) -> tuple[Any, tuple[str, ...], tuple[str, ...]]:
+        """A dal_run, the names of its state and of its observables."""
+        made = ffi.new('dal_run **')
+        call(lib.dal_run_create, made, self.c)
+        run = ffi.gc(made[0], lib.dal_run_free)
+        return (run, names_of(lib.dal_run_name, run, lib.dal_run_dimension(run)),
+                names_of(lib.dal_run_observable_name, run, lib.dal_run_observables(run)))
+
+    @property
+    def step(self) -> float:
+        return self.c.options.step
+
+    @property
+    def integrator(self) -> str:
+        buffer = ffi.new('char[]', 256)
+        return text_of(lib.dal_method_name(ffi.addressof(self.c, 'method'), buffer, len(buffer)))
+
+    def time(self, time: float | None) -> float:
+        """A time, or the default one of the system."""
+        if time is None:
+            if 'time' not in self.system.defaults:
+                raise InputError('DAL_ARGUMENT', f'{self.system.name} has no default time: give one')
+            time = float(self.system.defaults['time'])
+        return float(time)
+
+    def steps(self, time: float) -> int:
+        """The number of steps to a time, which it must be a whole number of."""
+        steps = lib.dal_whole_steps(0.0, time, self.step)
+        if steps == 0:
+            raise InputError('DAL_ARGUMENT', f'time {time:g} is not a whole number of steps of {self.step:g}')
+        return steps
+
+
+def chunks(count: int, size: int) -> Iterator[int]:
+    """count in parts, between which Python handles signals."""
+    while count > 0:
+        yield min(count, size)
+        count -= size

@@ -1,0 +1,141 @@
+"""Systems from text, from files and built-in."""
+from __future__ import annotations
+
+import os
+from typing import Any, Iterator
+
+from ._library import ffi, lib
+from .errors import Error, InputError, call
+
+PROPERTIES = tuple(name for name in dir(lib) if name.startswith(('DAL_D_', 'DAL_E_'))
+                   ) + ('DAL_AUTONOMOUS', 'DAL_MASS_CONSTANT', 'DAL_VAKONOMIC', 'DAL_SERVO')
+
+
+def text_of(chars: Any) -> str:
+    """A text of the library, '' for NULL."""
+    return ffi.string(chars).decode() if chars else ''
+
+
+def builtin_systems() -> list[str]:
+    """Names of the systems of the library."""
+    return list(_names(lib.dal_builtin_name))
+
+
+def _names(name_at: Any) -> Iterator[str]:
+    i = 0
+    while (name := name_at(i)) != ffi.NULL:
+        yield text_of(name)
+        i += 1
+
+
+class System:
+    """A mechanical system: coordinates, Lagrangian, forces and constraints.
+
+    Parameters
+    ----------
+    text : str
+        YAML, as in a system file.
+    name : str, optional
+        For messages.
+
+    Raises
+    ------
+    InputError
+        With the line and the column of what cannot be used.
+
+    Attributes
+    ----------
+    name, title, reference, text : str
+    n, m : int
+        Coordinates; constraints.
+    coordinates, invariants, tags : tuple of str
+    parameters : dict of str to float
+        Default values.
+    properties : frozenset of str
+        What is known of the constraints and of the energy, as ``'D_LINEAR'``.
+    defaults : dict of str to str
+        Method, step and time of a run that shows the motion, where the file gives them.
+    """
+
+    def __init__(self, text: str, name: str = 'system'):
+        self.name, self.text = name, text
+        self._model = self._read()
+        self._system = self._derive(self._model)
+        s = self._system
+        self.title, self.reference = text_of(s.title), text_of(s.reference)
+        self.n, self.m = s.n, s.m
+        self.coordinates = tuple(text_of(s.coordinate[i]) for i in range(s.n))
+        self.invariants = tuple(text_of(s.invariant[i]) for i in range(s.invariants))
+        self.tags = tuple(text_of(s.tag[i]) for i in range(s.tags))
+        self.parameters = {text_of(s.parameter[i]): s.value[i] for i in range(s.parameters)}
+        self.properties = frozenset(name[4:] for name in PROPERTIES if s.properties & getattr(lib, name))
+        self.defaults = self._read_defaults()
+
+    @classmethod
+    def builtin(cls, name: str) -> System:
+        """A system of the library, ``'chaplygin-sleigh'``; see `builtin_systems`."""
+        text = lib.dal_builtin_text(name.encode())
+        if not text:  # the message has the nearest name
+            model = ffi.new('dal_model **')
+            call(lib.dal_model_builtin, model, name.encode())
+        return cls(text_of(text), name)
+
+    @classmethod
+    def from_file(cls, path: str | os.PathLike[str]) -> System:
+        """The system of a file."""
+        with open(path, encoding='utf-8') as file:
+            return cls(file.read(), os.fspath(path))
+
+    def _read(self) -> Any:
+        model, text = ffi.new('dal_model **'), self.text.encode()
+        call(lib.dal_model_read, model, self.name.encode(), text, len(text))
+        return ffi.gc(model[0], lib.dal_model_free)
+
+    @staticmethod
+    def _derive(model: Any) -> Any:
+        system = ffi.new('dal_system **')
+        call(lib.dal_model_system, model, system)
+        return system[0]
+
+    def _read_defaults(self) -> dict[str, str]:
+        found, name = {}, ffi.new('char **')
+        i = 0
+        while text := text_of(lib.dal_model_text(self._model, lib.DAL_SECTION_DEFAULTS, i, name,
+                                                 ffi.NULL, ffi.NULL)):
+            found[text_of(name[0])] = text
+            i += 1
+        return found
+
+    def _tangent(self) -> Any:
+        """The tangent system; NULL for a vakonomic one."""
+        system = ffi.new('dal_system **')
+        try:
+            call(lib.dal_model_tangent, self._model, system)
+        except InputError as error:
+            if error.status != 'DAL_UNSUPPORTED':
+                raise
+        return system[0]
+
+    def _with_invariant(self, formula: str) -> System:
+        """The same system with one more invariant, the last; errors have columns of the formula."""
+        used, number = {*self.coordinates, *self.invariants, *self.parameters}, 1
+        while (name := f'section_{number}') in used:
+            number += 1
+        left, equals, right = formula.partition('=')
+        text = f'({left})-({right})' if equals else f'({formula})'
+        other = object.__new__(System)
+        other.name, other.text = self.name, self.text
+        other._model = other._read()
+        try:
+            call(lib.dal_model_add, other._model, lib.DAL_SECTION_INVARIANTS, name.encode(),
+                 text.encode(), 1, 1)
+            other._system = self._derive(other._model)
+        except Error as error:
+            # Before what is behind '=' stand three more characters: '(' and ')-(' for '='.
+            column = (error.column or 0) - (1 if (error.column or 0) <= len(left) + 1 else 3)
+            message = error.message.replace(f'invariant {name}: ', '', 1)
+            raise type(error)(error.status, message, 1, max(1, column)) from None
+        return other
+
+    def __repr__(self) -> str:
+        return f'<System {self.name}: {self.n} coordinates, {self.m} constraints>'

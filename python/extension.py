@@ -1,0 +1,102 @@
+"""Finds the library and describes the extension module dalembert._library to cffi.
+
+The declarations are those of the public headers, as the compiler's preprocessor writes them out;
+the compiler then compares them with the headers.
+
+    DALEMBERT_BUILD    a directory that `make` made, the library of which is linked statically
+    DALEMBERT_PREFIX   where `make install` put the library
+
+Without them ../build is taken where it has a library, else what pkg-config knows.
+"""
+import os
+import re
+import shlex
+import subprocess
+import sys
+
+import cffi
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+HEADERS = ('dalembert.h', 'dalembert_analysis.h', 'dalembert_codegen.h')
+STATIC = 'libdalembert.a'
+
+# What observers.c adds, and free for texts that the library allocates.
+ADDED = '''
+extern "Python" dal_status python_poll(void *user, dal_run *run);
+extern "Python" dal_status python_cross(void *user, dal_run *run, const dal_crossing *crossing);
+extern "Python" dal_status python_progress(void *user, double done);
+extern "Python" int python_stop(void *user);
+dal_status python_rows(dal_run *run, long long count, const double *times, double *rows,
+                       long long *made, dal_error *error);
+dal_status python_follow(dal_run *run, double T, long long every, dal_statistics *statistics,
+                         dal_error *error);
+void free(void *text);
+#define DAL_VERSION_MAJOR ...
+#define DAL_VERSION_MINOR ...
+#define DAL_VERSION_PATCH ...
+'''
+
+
+def run(*command, **options):
+    return subprocess.run(command, check=True, text=True, stdout=subprocess.PIPE, **options).stdout
+
+
+def in_tree(build):
+    """How to compile and link with a build of the source tree."""
+    include = os.path.join(os.path.dirname(HERE), 'include')
+    return {'include_dirs': [include], 'extra_objects': [os.path.join(build, STATIC)],
+            'libraries': ['yaml', 'm'], 'extra_link_args': ['-pthread', '-Wl,--exclude-libs,ALL']}
+
+
+def installed(prefix=None):
+    """How to compile and link with an installed library, by pkg-config."""
+    environment = dict(os.environ)
+    if prefix:
+        found = [directory for directory, _, names in os.walk(prefix) if 'dalembert.pc' in names]
+        environment['PKG_CONFIG_PATH'] = os.pathsep.join(found)
+    try:
+        flags = shlex.split(run('pkg-config', '--cflags', '--libs', 'dalembert', env=environment))
+        include, libraries = (run('pkg-config', '--variable=' + name, 'dalembert', env=environment).strip()
+                              for name in ('includedir', 'libdir'))
+    except (OSError, subprocess.CalledProcessError):
+        sys.exit('dalembert: no library: run make, or set DALEMBERT_BUILD or DALEMBERT_PREFIX')
+    return {'include_dirs': [include], 'extra_link_args': flags,
+            'runtime_library_dirs': [libraries]}
+
+
+def find_library():
+    build, prefix = os.environ.get('DALEMBERT_BUILD'), os.environ.get('DALEMBERT_PREFIX')
+    beside = os.path.join(os.path.dirname(HERE), 'build')
+    if build or not prefix and os.path.exists(os.path.join(beside, STATIC)):
+        return in_tree(build or beside)
+    return installed(prefix)
+
+
+def read_headers(directory):
+    texts = []
+    for name in HEADERS:
+        with open(os.path.join(directory, name), encoding='utf-8') as file:
+            texts.append(file.read())
+    return '\n'.join(texts)
+
+
+def version():
+    """The version that the headers state."""
+    text = read_headers(LIBRARY['include_dirs'][0])
+    return '.'.join(re.findall(r'#define DAL_VERSION_(?:MAJOR|MINOR|PATCH) (\d+)', text))
+
+
+def make_ffi():
+    compiler = shlex.split(os.environ.get('CC', 'cc'))
+    text = re.sub(r'^#include.*$', '', read_headers(LIBRARY['include_dirs'][0]), flags=re.M)
+    declarations = run(*compiler, '-E', '-P', '-x', 'c', '-', input=text)
+    with open(os.path.join(HERE, 'observers.c'), encoding='utf-8') as file:
+        source = file.read()
+    made = cffi.FFI()
+    made.cdef(declarations + ADDED)
+    made.set_source('dalembert._library', source, **LIBRARY)
+    return made
+
+
+LIBRARY = find_library()
+ffi = make_ffi()

@@ -1,0 +1,122 @@
+"""Measurements against closed forms and theory."""
+import numpy as np
+import pytest
+
+import dalembert
+
+SKATE = """
+coordinates: [x, y, phi]
+parameters: {m: 1, J: 1, k: 1}
+lagrangian: m/2*(x'^2 + y'^2) + J/2*phi'^2 - k/2*(x^2 + y^2)
+constraints: [x'*sin(phi) - y'*cos(phi)]
+start: {x: 1, x': 0.5, phi': 0.7}
+"""
+SADDLE = """
+coordinates: [x]
+accelerations: {x: x}
+"""
+
+
+def test_trend(oscillator):
+    """rk4 takes E of an oscillator away as -h^5/72 E in unit time; a symmetric method does not."""
+    e = dalembert.trend(oscillator, 'rk4', 100, step=0.1, space='physical')['E']
+    assert (e.size, e.trend, e.conservation) == ('larger', 'linear', 'conserved')
+    assert e.rate == pytest.approx(-0.5 * 0.1 ** 5 / 72, rel=0.02)
+    assert e.rate_low <= e.rate <= e.rate_high and e.count == 1001
+    gauss = dalembert.trend(oscillator, 'gauss4', 100, step=0.1, every=10)['E']
+    assert gauss.size in ('rounding', 'exact') and gauss.count == 101
+
+
+def test_trend_of_a_constraint():
+    skate = dalembert.System(SKATE)
+    drifts = dalembert.trend(skate, 'rk4', 200, step=0.05)
+    kept = dalembert.trend(skate, 'gauss4+project', 200, step=0.05)
+    assert drifts['D1'].size == 'larger' and kept['D1'].size == 'rounding'
+    assert drifts['D1'].deviation > 1e3 * kept['D1'].deviation
+
+
+def test_trend_of_a_failure():
+    from test_run import FALL
+    with pytest.raises(dalembert.StepError) as caught:
+        dalembert.trend(dalembert.System(FALL), 'gauss4', 2, step=0.01)
+    assert caught.value.partial['H'].trend == 'aborted'
+
+
+@pytest.mark.parametrize('method, stated', [('rk4', 4), ('implicit-midpoint', 2), ('gauss6', 6)])
+def test_order(oscillator, method, stated):
+    exact = [np.cos(2), -np.sin(2)]
+    found = dalembert.order(oscillator, method, 2, step=0.5, levels=5, reference=exact, space='physical')
+    assert found.order == pytest.approx(stated, abs=0.1)
+    assert np.array_equal(found.step, 0.5 / 2.0 ** np.arange(5))
+    assert np.all(np.diff(found.error) < 0) and np.isnan(found.slope[0])
+    other = dalembert.order(oscillator, method, 2, step=0.5, levels=5, space='physical')
+    assert other.error == pytest.approx(found.error, abs=1e-13)
+    wrong = dalembert.order(oscillator, method, 2, step=0.5, reference=[0, 0], space='physical')
+    assert wrong.error[-1] == pytest.approx(np.sin(2), abs=0.01)
+    rough = dalembert.order(oscillator, method, 2, step=0.5, levels=2, reference='symplectic-euler')
+    assert 1e-2 < rough.error[1] < 1
+    assert dalembert.order(oscillator, method, 2, step=0.5, reference='gauss8').order == pytest.approx(stated, abs=0.1)
+
+
+def test_bad_order(oscillator):
+    for arguments in ({'levels': 1}, {'reference': [1, 2, 3]}, {'reference': 'none'}, {'time': 2.01}):
+        with pytest.raises(dalembert.InputError):
+            dalembert.order(oscillator, 'rk4', **{'time': 2, 'step': 0.5, **arguments})
+
+
+def test_lyapunov():
+    """x'' = x has the exponents 1 and -1, x'' = x - x'/2 (-1 +- sqrt(17))/4."""
+    found = dalembert.lyapunov(dalembert.System(SADDLE), 'gauss8', 20, step=0.1, transient=20)
+    assert [e.mean for e in found.exponents] == pytest.approx([1, -1], abs=1e-8)
+    assert found.is_exact and found.holds and found.sum.mean == pytest.approx(0, abs=1e-10)
+    damped = dalembert.System('coordinates: [x]\naccelerations: {x: "x - x\'/2"}\n')
+    first = dalembert.lyapunov(damped, 'gauss8', 40, step=0.1, transient=20, count=1)
+    assert first.exponents[0].mean == pytest.approx((17 ** 0.5 - 1) / 4, abs=1e-8)
+    assert len(first.exponents) == 1 and first.holds is None
+    assert first.divergence.mean == pytest.approx(-0.5)
+
+
+def test_section(oscillator):
+    """cos t = 0 at pi/2 + k pi, downwards first."""
+    found = dalembert.section(oscillator, 'x', 'gauss12', 20, step=0.1)
+    rows = found.rows
+    assert (found.up, found.down, found.touches) == (3, 3, 0)
+    assert rows['t'] == pytest.approx(np.pi * (np.arange(6) + 0.5), abs=1e-11)
+    assert list(rows['direction']) == [-1, 1] * 3 and np.abs(rows['x']).max() < 1e-13
+    up = dalembert.section(oscillator, 'x = 0', 'gauss12', 20, step=0.1, direction=1)
+    assert np.array_equal(up.rows['t'], rows['t'][1::2]) and up.down == 3
+    half = dalembert.section(oscillator, 'x = k/2', 'gauss12', 6, step=0.1)
+    assert half.rows['t'] == pytest.approx([np.pi / 3, 5 * np.pi / 3], abs=1e-11)
+    assert len(dalembert.section(oscillator, 'x - 2', 'gauss12', 20, step=0.1).rows) == 0
+
+
+@pytest.mark.parametrize('formula, column', [('z', 1), ('x + z', 5), ('x = z', 5), ('x + z = 1', 5),
+                                             ('x*x = 1 + z', 11)])
+def test_place_in_a_section(oscillator, formula, column):
+    with pytest.raises(dalembert.InputError, match="'z'") as caught:
+        dalembert.section(oscillator, formula, 'rk4', 20)
+    assert (caught.value.line, caught.value.column) == (1, column)
+
+
+def test_explain(oscillator):
+    """The drift of rk4 at a large step is truncation."""
+    shares = dalembert.explain(oscillator, 'rk4', 100, step=0.1, quad_steps=200)['E']
+    assert shares.share['truncation'] == pytest.approx(1, abs=1e-6)
+    assert abs(shares.share['rounding']) < 1e-6 and shares.trend.trend == 'linear'
+    assert shares.how['truncation'] and not shares.is_motion
+    assert sum(shares.share[name] for name in ('truncation', 'coefficients', 'solver', 'rounding')
+               ) == pytest.approx(1)
+
+
+def test_generate(program):
+    text = dalembert.generate('chaplygin-sleigh', 'gauss4+project', prefix='sleigh')
+    assert text == program('generate', 'chaplygin-sleigh', '--integrator', 'gauss4+project', '--prefix', 'sleigh')
+    assert 'rk4_advance' in dalembert.generate('falling-disk', 'rk4', lanes=4, prefix='rk4')
+    for arguments in ({'prefix': '1'}, {'lanes': 3}):
+        with pytest.raises(dalembert.InputError):
+            dalembert.generate('chaplygin-sleigh', 'rk4', **arguments)
+
+
+def test_names():
+    names = dalembert.integrators()
+    assert {'rk4', 'gauss8', '+project'} <= set(names) and len(names) == len(set(names))

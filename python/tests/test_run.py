@@ -1,0 +1,194 @@
+"""Runs: closed forms, the rows of the program, failures, interruption."""
+import io
+import signal
+import subprocess
+import sys
+import textwrap
+
+import numpy as np
+import pytest
+
+import dalembert
+
+SLEIGH = 'chaplygin-sleigh'
+
+
+def test_closed_form():
+    """The sleigh moves in a circle, y1 = sin t, y2 = 1 - cos t, phi = t; gauss8 errs by 1e-17 h^8 t."""
+    run = dalembert.Run(SLEIGH, 'gauss8', step=0.01)
+    run.advance(1000)
+    state = dict(zip(run.names, run.state))
+    assert run.steps == 1000 and run.time == pytest.approx(10)
+    assert state['y1'] == pytest.approx(np.sin(10), abs=1e-12)
+    assert state['y2'] == pytest.approx(1 - np.cos(10), abs=1e-12)
+    assert state['phi'] == pytest.approx(10)
+    values = dict(zip(run.observable_names, run.observables))
+    assert values['error'] < 1e-12 and abs(values['D1']) < 1e-13
+    assert values['E'] == pytest.approx(1) and values['H'] == 0
+
+
+def test_rows_of_the_program(program):
+    """The bits are those of `dalembert run`, between steps, too."""
+    text = program('run', SLEIGH, '--integrator', 'gauss4+project', '--step', '0.03', '--time', '3',
+                   '--samples', '7')
+    expected = np.genfromtxt(io.StringIO(text), delimiter=',', names=True, deletechars='', dtype=float)
+    run = dalembert.Run(SLEIGH, 'gauss4+project', step=0.03)
+    rows = run.trajectory(expected['t'])
+    assert rows.dtype.names == tuple(text.split('\n')[0].split(','))
+    for name, other in zip(rows.dtype.names, expected.dtype.names):
+        assert np.array_equal(rows[name], expected[other]), name
+
+
+def test_trajectory_continues(oscillator):
+    whole = dalembert.Run(oscillator, 'gauss4', step=0.1).trajectory(np.linspace(0, 10, 41))
+    run = dalembert.Run(oscillator, 'gauss4', step=0.1)
+    parts = [run.trajectory(np.linspace(0, 4, 17)), run.trajectory(np.linspace(4.25, 10, 24))]
+    assert np.array_equal(whole, np.concatenate(parts))
+    assert np.abs(whole['x'] - np.cos(whole['t'])).max() < 1e-5
+    assert run.trajectory(10.05)['t'] == [10.05]
+
+
+@pytest.mark.parametrize('times', [[], [1, 1], [2, 1], [0.5, float('nan')], [-1, 2], [float('nan')]])
+def test_bad_times(oscillator, times):
+    run = dalembert.Run(oscillator, 'rk4', step=0.1)
+    with pytest.raises(dalembert.InputError):
+        run.trajectory(times)
+    run.advance(20)
+    with pytest.raises(dalembert.InputError, match='before the present'):
+        run.trajectory([1.95])  # less than a step before
+
+
+def test_save_and_restore(oscillator):
+    """gauss4 extrapolates its stages from the last step: the state alone would not do."""
+    first, second = (dalembert.Run(oscillator, 'gauss4', step=0.1) for _ in range(2))
+    first.advance(50)
+    saved = first.save()
+    first.advance(50)
+    second.restore(saved)
+    second.advance(50)
+    assert np.array_equal(first.state, second.state) and first.time == second.time
+    assert second.steps == 100 and second.evaluations == first.evaluations
+    for bad in (saved[:-8], saved[:-1], b''):
+        with pytest.raises(dalembert.InputError):
+            second.restore(bad)
+
+
+def test_set_state(oscillator):
+    run = dalembert.Run(oscillator, 'gauss8', step=0.1, space='physical')
+    run.set_state([0, 1], time=0)
+    run.advance(10)
+    assert run.state == pytest.approx([np.sin(1), np.cos(1)], abs=1e-10)
+    state = run.state
+    state[0] = 7
+    assert run.state[0] != 7
+    with pytest.raises(dalembert.InputError, match='shape'):
+        run.set_state([1, 2, 3])
+    with pytest.raises(dalembert.InputError) as caught:
+        run.set_state([np.nan, 1])
+    assert caught.value.status == 'DAL_NOT_FINITE'
+
+
+def test_settings(oscillator):
+    run = dalembert.Run(oscillator, 'gauss8', step=0.1, parameters={'k': 4}, start={'x': 0, "x'": 2})
+    assert run.parameters == {'k': 4.0} and run.dimension == 6
+    run.advance(10)
+    assert run.state[0] == pytest.approx(np.sin(2), abs=1e-10)
+    quad = dalembert.Run(oscillator, 'gauss8', precision='quad', solver_tolerance=1e-20)
+    quad.advance()
+    assert quad.step == 0.01
+
+
+@pytest.mark.parametrize('settings, status', [
+    ({'integrator': 'rk5'}, 'DAL_NAME'),
+    ({'integrator': 'rk4', 'parameters': {'l': 1}}, 'DAL_NAME'),
+    ({'integrator': 'rk4', 'start': {'y': 1}}, 'DAL_NAME'),
+    ({'integrator': 'rk4', 'spaces': 'physical'}, 'DAL_NAME'),
+    ({'integrator': 'rk4', 'step': -1}, 'DAL_ARGUMENT'),
+    ({'integrator': 'rk4', 'space': 'curved'}, 'DAL_ARGUMENT'),
+    ({'integrator': 'rk4', 'start': {'x': float('nan')}}, 'DAL_ARGUMENT'),
+    ({}, 'DAL_ARGUMENT'),
+])
+def test_bad_settings(oscillator, settings, status):
+    with pytest.raises(dalembert.InputError) as caught:
+        dalembert.Run(oscillator, **settings)
+    assert caught.value.status == status
+
+
+FALL = """
+coordinates: [x]
+accelerations: {x: -1/x^2}
+start: {x: 1}
+"""
+
+
+def test_failure():
+    """A free fall into the centre takes pi/sqrt(8) = 1.11."""
+    run = dalembert.Run(dalembert.System(FALL), 'gauss4', step=0.01, space='physical')
+    with pytest.raises(dalembert.StepError) as caught:
+        run.trajectory(np.linspace(0, 2, 201))
+    rows = caught.value.partial
+    assert isinstance(caught.value, ArithmeticError)
+    assert 100 < len(rows) < 120 and np.array_equal(rows['t'], np.linspace(0, 2, 201)[:len(rows)])
+    before = run.state, run.time
+    assert rows['t'][-1] == pytest.approx(run.time, abs=1e-12)
+    with pytest.raises(dalembert.StepError):
+        run.advance()
+    assert np.array_equal(run.state, before[0]) and run.time == before[1]
+
+
+def test_compiled_steps(oscillator, tmp_path):
+    runs = [dalembert.Run(oscillator, 'gauss4', step=0.1) for _ in range(2)]
+    runs[0].compile(tmp_path / 'cache')
+    assert runs[0].is_compiled and not runs[1].is_compiled
+    for run in runs:
+        run.advance(100)
+    assert np.array_equal(runs[0].state, runs[1].state)
+    with pytest.raises(dalembert.InputError) as caught:
+        runs[1].compile(tmp_path / 'cache', compiler=str(tmp_path / 'none'))
+    assert caught.value.status == 'DAL_UNSUPPORTED'
+
+
+class Alarm(Exception):
+    pass
+
+
+@pytest.mark.parametrize('endless', [
+    lambda run: run.advance(2 ** 50),
+    lambda run: run.trajectory([0, 1e12]),
+    lambda run: dalembert.trend(run.system, 'rk4', 1e12),
+    lambda run: dalembert.section(run.system, 'x', 'rk4', 1e12),
+    lambda run: dalembert.lyapunov(run.system, 'rk4', 1e12),
+    lambda run: dalembert.Batch(run.system, 'rk4', 3).advance(2 ** 50),
+])
+def test_signals(oscillator, endless):
+    """The handler of a signal is called, and its exception ends what would never end."""
+    def handler(number, frame):
+        raise Alarm
+    run = dalembert.Run(oscillator, 'rk4')
+    before = signal.signal(signal.SIGALRM, handler)
+    try:
+        signal.setitimer(signal.ITIMER_REAL, 0.05)
+        with pytest.raises(Alarm):
+            endless(run)
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, before)
+
+
+def test_other_threads_run():
+    """A call that never ends does not keep the others out, who would not interrupt it."""
+    script = textwrap.dedent("""
+        import os, sys, threading
+        import dalembert
+        from dalembert._library import ffi, lib
+        run = dalembert.Run('chaplygin-sleigh', 'rk4')
+        sys.setswitchinterval(1e6)
+        begun = threading.Event()
+        def endless():
+            begun.set()
+            lib.dal_run_advance(run._run, 2 ** 52, ffi.NULL)
+        threading.Thread(target=endless, daemon=True).start()
+        begun.wait()
+        os._exit(0)
+    """)
+    assert subprocess.run([sys.executable, '-c', script], timeout=60).returncode == 0

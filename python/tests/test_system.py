@@ -1,0 +1,69 @@
+"""Systems, and the places of errors in their texts."""
+import pickle
+
+import pytest
+
+import dalembert
+from conftest import OSCILLATOR
+
+
+def test_members():
+    skate = dalembert.System("""
+title: A skate on a spring
+coordinates: [x, y, phi]
+parameters: {m: 2, k: 1}
+lagrangian: m/2*(x'^2 + y'^2) + phi'^2/2 - k/2*(x^2 + y^2)
+constraints: [x'*sin(phi) - y'*cos(phi)]
+invariants: {spin: phi'}
+tags: [spring]
+defaults: {integrator: gauss4, step: 0.1, time: 5}
+""")
+    assert (skate.title, skate.n, skate.m) == ('A skate on a spring', 3, 1)
+    assert skate.coordinates == ('x', 'y', 'phi')
+    assert skate.parameters == {'m': 2.0, 'k': 1.0}
+    assert skate.invariants == ('spin',) and skate.tags == ('spring',)
+    assert skate.defaults == {'integrator': 'gauss4', 'step': '0.1', 'time': '5'}
+    assert {'D_LINEAR', 'AUTONOMOUS', 'MASS_CONSTANT', 'E_ON_D'} <= skate.properties
+    assert not {'D_CONSTANT', 'VAKONOMIC'} & skate.properties
+    run = dalembert.Run(skate)
+    assert (run.integrator, run.step) == ('gauss4', 0.1)
+
+
+def test_builtin_and_file(tmp_path):
+    names = dalembert.builtin_systems()
+    assert 'chaplygin-sleigh' in names and len(names) == len(set(names)) >= 34
+    sleigh = dalembert.System.builtin('chaplygin-sleigh')
+    path = tmp_path / 'sleigh.yaml'
+    path.write_text(sleigh.text)
+    assert dalembert.System.from_file(path).coordinates == sleigh.coordinates == ('y1', 'y2', 'phi')
+    with pytest.raises(FileNotFoundError):
+        dalembert.System.from_file(tmp_path / 'none.yaml')
+
+
+def test_unknown_builtin():
+    with pytest.raises(dalembert.InputError, match="did you mean 'chaplygin-sleigh'") as caught:
+        dalembert.System.builtin('chaplygin-slegh')
+    assert caught.value.status == 'DAL_NAME' and caught.value.line is None
+
+
+@pytest.mark.parametrize('text, status, line, column', [
+    # the places of the characters that are wrong
+    ('coordinates: [x]\nlagrangian: (x\'^2 - ^2)/2\n', 'DAL_SYNTAX', 2, 21),
+    ('coordinates: [x]\nlagrangian: x\'^2/2 - length*x\n', 'DAL_NAME', 2, 22),
+    ('coordinates: [x]\nsubject: x\n', 'DAL_NAME', 2, 1),
+])
+def test_place_of_an_error(text, status, line, column):
+    with pytest.raises(dalembert.InputError) as caught:
+        dalembert.System(text)
+    error = caught.value
+    assert (error.status, error.line, error.column) == (status, line, column)
+    assert str(error) == f'line {line}, column {column}: {error.message}'
+    assert isinstance(error, ValueError)
+    copy = pickle.loads(pickle.dumps(error))
+    assert (copy.status, copy.line, copy.message) == (error.status, error.line, error.message)
+
+
+def test_lives_as_long_as_its_runs():
+    run = dalembert.Run(dalembert.System(OSCILLATOR), 'rk4')
+    run.advance(10)
+    assert run.time == pytest.approx(0.1)

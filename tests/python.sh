@@ -1,0 +1,53 @@
+#!/bin/sh
+# python.sh MAKE BUILD - installs the package of python/ into an environment of its own, once with the
+# library of BUILD and once with an installed one, runs its tests and what docs/python.md shows, and
+# executes the notebook.  CC and CFLAGS are those of the build.
+make=$1 build=$(realpath "$2") || exit 1
+fail() { echo "python: $*" >&2; exit 1; }
+skip() { echo "python: skipped, $*"; exit 0; }
+
+case $CFLAGS in *-fsanitize*) skip "Python itself has no sanitizers" ;; esac
+usable='import os, sysconfig, cffi, ensurepip, numpy, pytest, setuptools, venv
+assert os.path.exists(sysconfig.get_path("include") + "/Python.h")'
+for python in ${PYTHON:-python3 /usr/bin/python3} none; do
+    $python -c "$usable" 2>/dev/null && break
+done
+[ "$python" != none ] || skip "no python3 with cffi, numpy, pytest, setuptools, venv and Python.h"
+
+root=$(mktemp -d) || exit 1
+trap 'rm -rf "$root"' EXIT
+logged() { "$@" >"$root/log" 2>&1 || { cat "$root/log" >&2; fail "$* failed"; }; }
+HOME=$root PYTHONDONTWRITEBYTECODE=1 PIP_DISABLE_PIP_VERSION_CHECK=1
+DALEMBERT_PROGRAM=$build/dalembert
+export HOME PYTHONDONTWRITEBYTECODE PIP_DISABLE_PIP_VERSION_CHECK DALEMBERT_PROGRAM
+unset PYTHONPATH DALEMBERT_BUILD DALEMBERT_PREFIX
+
+logged $python -m venv --system-site-packages "$root/V"
+package=$("$root/V/bin/python" -c 'import sysconfig; print(sysconfig.get_path("platlib"))')
+logged env DALEMBERT_BUILD="$build" "$root/V/bin/pip" install --no-build-isolation --no-deps ./python
+(cd python/tests && "$root/V/bin/python" -m pytest -q -p no:cacheprovider . ../../docs/python.md \
+    --doctest-glob='*.md' --doctest-modules --pyargs dalembert) >"$root/tests" 2>&1 ||
+    { cat "$root/tests" >&2; fail "tests failed"; }
+
+# The installed library, a shared one, wherever it is.
+logged $make --no-print-directory BUILD="$build" PREFIX="$root/usr" DESTDIR= install
+logged env DALEMBERT_PREFIX="$root/usr" "$root/V/bin/pip" install --no-build-isolation --no-deps \
+    --target "$root/installed" ./python
+ldd "$root"/installed/dalembert/_library.*.so | grep -q "=> $root/usr/lib" ||
+    fail "the installed library is not used"
+[ "$(PYTHONPATH=$root/installed "$root/V/bin/python" -c 'import dalembert; print(dalembert.__version__)')" = \
+    "$("$build/dalembert" --version | sed 's/.* //')" ] || fail "the package has another version"
+
+# The kernel of the notebook may be any python3.
+if "$root/V/bin/python" -c 'import nbconvert, ipykernel, matplotlib' 2>/dev/null; then
+    logged env PYTHONPATH="$package" "$root/V/bin/python" -m nbconvert --to notebook --execute \
+        --output-dir "$root" --output executed python/examples/drift.ipynb
+    pictures=$(grep -c '"image/png"' "$root/executed.ipynb")
+    [ "$pictures" -eq 4 ] || fail "the notebook draws $pictures pictures, not 4"
+else
+    echo "python: the notebook is skipped: no nbconvert, ipykernel and matplotlib"
+fi
+left=$(git ls-files --others --exclude-standard python 2>/dev/null)
+[ -z "$left" ] || fail "files are left in the sources: $left"
+tail -n 1 "$root/tests" | sed 's/^/python: /'
+echo "python: ok"
