@@ -24,7 +24,7 @@ export PKG_CONFIG_PATH
     fail "dalembert.pc and dalembert --version do not agree"
 
 # Each example against the shared and against the static library.
-for name in embed by_hand own_integrator contact_chain isokinetic_fluid; do
+for name in embed by_hand own_integrator path_following contact_chain isokinetic_fluid; do
     flags="-std=c11 -Wall -Wextra -Werror -Wno-psabi -ffp-contract=off $CFLAGS examples/$name.c"
     logged $cc $flags $(pkg-config --cflags --libs dalembert) -lm -o "$root/$name"
     logged $cc $flags $(pkg-config --static --cflags --libs dalembert | sed 's/-ldalembert/-l:libdalembert.a/') \
@@ -125,6 +125,33 @@ awk "$near"' { x = 0.2 + 0.8 * cos(10) + 2 * sin(10); near($1, 10, 1e-12); near(
 awk "$near"' { near($2, sin(1), 1e-4); near($3, 1 - cos(1), 1e-4); near($4, 1, 1e-12)
     d = $2 - sin(1); if (d < 0) d = -d; if (d < 1e-7) bad = 1 }' rows=1 "$root/own_integrator.txt" ||
     fail "own_integrator is wrong"
+# The robot by its two equations without a constraint, v' = F/m and w' = M/I, in steps of 1 ms.
+awk "$near"'
+    function rates(s) { k[1] = s[4] * cos(s[3]); k[2] = s[4] * sin(s[3]); k[3] = s[5]; k[4] = dv; k[5] = dw }
+    function part(h, i) { for (i = 1; i <= 5; i++) { sum[i] += h * k[i] } }
+    function move(h, i) { for (i = 1; i <= 5; i++) state[i] = start[i] + h * k[i] }
+    function advance(h, i) {
+        for (i = 1; i <= 5; i++) { start[i] = state[i]; sum[i] = 0 }
+        rates(state); part(h / 6); move(h / 2); rates(state); part(h / 3); move(h / 2)
+        rates(state); part(h / 3); move(h); rates(state); part(h / 6)
+        for (i = 1; i <= 5; i++) state[i] = start[i] + sum[i]
+    }
+    function control(t, c, s, v, w, x, y) {
+        c = cos(state[3]); s = sin(state[3]); v = state[4]; w = state[5]; t *= 0.3
+        ex = 2 * sin(t) - state[1] - c / 2; ey = sin(2 * t) - state[2] - s / 2
+        x = -0.18 * sin(t) + 10 * (0.6 * cos(t) - v * c + w * s / 2) + 25 * ex
+        y = -0.36 * sin(2 * t) + 10 * (0.6 * cos(2 * t) - v * s - w * c / 2) + 25 * ey
+        dv = x * c + y * s + w * w / 2; dw = 2 * (y * c - x * s - v * w); e = sqrt(ex * ex + ey * ey)
+    }
+    BEGIN { state[1] = state[2] = -sqrt(1 / 8); state[3] = atan2(1, 1); state[4] = 0.6 * sqrt(2); state[5] = 0 }
+    $1 == "max" { near($2, largest, 1e-11); if (!($2 <= $4 && $4 < 1e-3)) bad = 1; next }
+    { for (i = FNR > 1 ? 0 : 999; i < 1000; i++) {
+          if (FNR > 1) advance(0.001)
+          control(FNR > 1 ? FNR - 2 + (i + 1) / 1000 : 0)
+          if (e > largest) largest = e
+      }
+      near($1, FNR - 1, 1e-9); near($2, state[1], 1e-9); near($3, state[2], 1e-9); near($4, e, 1e-10)
+      near($5, 0, 1e-15) }' rows=23 "$root/path_following.txt" || fail "path_following is wrong"
 
 # The program finds its built-in systems wherever it stands, and reads the installed files.
 "$prefix/bin/dalembert" check "$prefix/share/dalembert/systems/chaplygin-sleigh.yaml" \

@@ -391,6 +391,19 @@ static void set_all(dal_run *run)
     }
 }
 
+/* D drifts along a run of rk4: that is no violation by a parameter, on which D does not depend. */
+static void test_drift(void)
+{
+    const dal_run_spec spec =
+        fixture_spec(fixture_system("chaplygin-sleigh"), "rk4", DAL_PHYSICAL, 0.2);
+    dal_run *run = fixture_stepped(&spec, 100);
+    double seen[8];
+    CU_ASSERT_EQUAL(dal_run_observe(run, seen), DAL_OK);
+    CU_ASSERT(fabs(seen[0]) > 1e-7);
+    CU_ASSERT_EQUAL(dal_run_set_parameter(run, "I", 2.0, NULL), DAL_OK);
+    dal_run_free(run);
+}
+
 /* Every parameter of every system can be set to what it is, wherever the run stands. */
 static void test_built_in(void)
 {
@@ -455,6 +468,7 @@ void suite_parameters(void)
     CU_add_test(suite, "dependent constraints", test_rank);
     CU_add_test(suite, "a system by hand", test_by_hand);
     CU_add_test(suite, "a violated constraint", test_violated);
+    CU_add_test(suite, "a drift of D", test_drift);
     CU_add_test(suite, "all systems", test_built_in);
     CU_add_test(suite, "lanes", test_lanes);
 }
