@@ -29,6 +29,7 @@ typedef struct dal_native_options {
     const char *cache;    /* a directory of this user alone (mode 0700); made if missing */
     const char *compiler; /* found along PATH, or a path; NULL: cc */
     int patience;         /* seconds after which a compiler is killed; 0: 60 */
+    int nice;             /* by how much its priority is lower, 0..19 */
     int (*stop)(void *);  /* called often while a compiler runs: not 0 kills it; NULL: never */
     void *user;           /* the argument of stop */
 } dal_native_options;
@@ -55,6 +56,56 @@ dal_status dal_run_native_observables(dal_run *run, const dal_native_options *op
 dal_status dal_batch_native(dal_batch *batch, const dal_native_options *options, dal_error *error);
 /* Whether the steps of a batch are compiled. */
 int dal_batch_is_native(const dal_batch *batch);
+
+/* ---- compiled while a run is interpreted ---------------------------------------------------- */
+
+/* Compiled code, while a compiler makes it and when it is there.  A run that changes over to it
+ * between two steps, wherever that is, keeps its bits, checkpoints and errors:
+ *
+ *     dal_native *native = NULL;
+ *     dal_native_begin(&native, run, &options, &error);
+ *     while (dal_run_time(run) < T && dal_run_advance(run, 1000, &error) == DAL_OK)
+ *         if (native && dal_native_poll(native, &error) == DAL_NATIVE_READY)
+ *             dal_run_use_native(run, native, &error);
+ *     dal_run_free(run);
+ *     dal_native_free(native);
+ *
+ * Several runs may use one, which must outlive them; the system must outlive it.  It is used by one
+ * thread at a time, but for the steps of the runs. */
+typedef struct dal_native dal_native;
+
+/* How far it is. */
+typedef enum dal_native_state {
+    DAL_NATIVE_PENDING, /* a compiler runs */
+    DAL_NATIVE_READY,
+    DAL_NATIVE_FAILED
+} dal_native_state;
+
+/* Begins to compile the steps of a run, and returns without waiting; stop is not called.  They fit
+ * all runs of the same system, method and options, the step size excepted.  [alloc]  Errors: as
+ * dal_run_native, but for what the compiler does. */
+dal_status dal_native_begin(dal_native **native, const dal_run *run,
+                            const dal_native_options *options, dal_error *error);
+/* The same for dal_run_native_observables.  They fit all runs of the same system on that space. */
+dal_status dal_native_begin_observables(dal_native **native, const dal_run *run,
+                                        const dal_native_options *options, dal_error *error);
+/* The same for dal_batch_native. */
+dal_status dal_native_begin_batch(dal_native **native, const dal_batch *batch,
+                                  const dal_native_options *options, dal_error *error);
+/* How far it is, without waiting; loads it when the compiler has ended.  *error is set where it has
+ * failed: DAL_UNSUPPORTED (the compiler failed or timed out), DAL_IO (cache). */
+dal_native_state dal_native_poll(dal_native *native, dal_error *error);
+/* Whether a run could use it, when it is ready. */
+int dal_native_fits(const dal_native *native, const dal_run *run);
+/* Takes the steps, or evaluates the observables, by compiled code from now on.  May be called by
+ * what observes the run.  [alloc]  Errors: DAL_ARGUMENT (it is not ready, or does not fit),
+ * DAL_MEMORY (of observables). */
+dal_status dal_run_use_native(dal_run *run, const dal_native *native, dal_error *error);
+/* The same for a batch, between two calls of dal_batch_advance.  [alloc]  Errors: DAL_ARGUMENT,
+ * DAL_MEMORY. */
+dal_status dal_batch_use_native(dal_batch *batch, const dal_native *native, dal_error *error);
+/* Ends the compiler, or unloads the code. */
+void dal_native_free(dal_native *native);
 
 #ifdef __cplusplus
 }

@@ -10,11 +10,11 @@
 #include <fcntl.h>
 #include <signal.h>
 #include <spawn.h>
-#include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/resource.h>
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <time.h>
@@ -23,22 +23,20 @@
 extern char **environ;
 
 /* Compiler options; the bits do not depend on them.  Those of the machine are a part of the name of
- * the object, since machines may share a directory. */
+ * the object, since machines may share a directory.  Without -s it holds the name of its source. */
 static const char *const usual[] = {"-x",      "c",     "-std=gnu11",        "-O2", "-w",
-                                    "-shared", "-fPIC", "-ffp-contract=off", NULL};
+                                    "-shared", "-fPIC", "-ffp-contract=off", "-s",  NULL};
 static const char *const machine[][8] = {
 #define SET(set, ...) {__VA_ARGS__},
     DAL__INSTRUCTIONS_LIST(SET)
 #undef SET
 };
-enum { PATH_SIZE = 1024, PATIENCE = 60 /* seconds */ };
+enum { PATIENCE = 60 /* seconds */ };
 
 /* A command. */
 typedef struct command {
     char *word[32]; /* not const for posix_spawn, which does not change it */
-    int words, patience;
-    int (*stop)(void *user);
-    void *user;
+    int words;
 } command;
 
 static void add_word(command *c, const char *word) { c->word[c->words++] = (char *)word; }
@@ -49,12 +47,10 @@ static void add_words(command *c, const char *const *words)
 }
 
 /* The command without its files. */
-static command begin_command(const dal_native_options *options)
+static command begin_command(const char *compiler)
 {
-    command c = {.patience = options->patience > 0 ? options->patience : PATIENCE,
-                 .stop = options->stop,
-                 .user = options->user};
-    add_word(&c, options->compiler ? options->compiler : "cc");
+    command c = {.words = 0};
+    add_word(&c, compiler);
     add_words(&c, usual);
     add_words(&c, machine[dal__machine_best()]);
     return c;
@@ -122,12 +118,6 @@ static dal_status write_bytes(const char *path, int flags, const char *what, con
 
 /* ---- the compiler ---- */
 
-/* The end of a process. */
-typedef struct outcome {
-    int status; /* exit status, or -1 */
-    bool hung, stopped;
-} outcome;
-
 /* Seconds since some time. */
 static double now(void)
 {
@@ -136,29 +126,9 @@ static double now(void)
     return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
 }
 
-/* Waits for a process; past its time, or where the caller stops, it is ended with all that it
- * started. */
-static outcome wait_for(const command *c, pid_t process)
-{
-    const struct timespec pause = {0, 1000000};
-    const double last = now() + c->patience;
-    outcome out = {.status = -1};
-    for (;;) {
-        int status;
-        const pid_t ended = waitpid(process, &status, out.hung || out.stopped ? 0 : WNOHANG);
-        if (ended == process && WIFEXITED(status)) out.status = WEXITSTATUS(status);
-        if (ended == process || (ended < 0 && errno != EINTR)) return out;
-        if (c->stop && c->stop(c->user))
-            out.stopped = kill(-process, SIGKILL) == 0;
-        else if (now() >= last)
-            out.hung = kill(-process, SIGKILL) == 0;
-        nanosleep(&pause, NULL);
-    }
-}
-
 /* Starts a command without input and output, as leader of a process group; returns 0 or an
  * errno. */
-static int start(const command *c, pid_t *process)
+static int start_process(const command *c, pid_t *process)
 {
     posix_spawn_file_actions_t actions;
     posix_spawnattr_t attributes;
@@ -175,25 +145,40 @@ static int start(const command *c, pid_t *process)
     return refused;
 }
 
-static dal_status compile(command c, const char *source, const char *object, dal_error *error)
+static dal_status start_compiler(dal__compilation *c, dal_error *error)
 {
-    const char *const name = c.word[0], *const files[] = {source, "-o", object, "-lm", NULL};
-    pid_t process;
-    add_words(&c, files);
-    const int refused = start(&c, &process);
+    const char *const files[] = {c->source, "-o", c->object, "-lm", NULL};
+    command full = begin_command(c->compiler);
+    pid_t process = 0;
+    add_words(&full, files);
+    const int refused = start_process(&full, &process);
     if (refused)
-        return dal__fail(error, DAL_UNSUPPORTED, "no compiler '%.200s': %s", name,
+        return dal__fail(error, DAL_UNSUPPORTED, "no compiler '%.200s': %s", c->compiler,
                          strerror(refused));
-    const outcome out = wait_for(&c, process);
-    if (out.stopped)
-        return dal__fail(error, DAL_INTERRUPTED, "the compiler '%.200s' was stopped", name);
-    if (out.status == 0) return DAL_OK;
-    if (out.hung)
-        return dal__fail(error, DAL_UNSUPPORTED, "the compiler '%.200s' was ended after %d seconds",
-                         name, c.patience);
-    return dal__fail(error, DAL_UNSUPPORTED,
-                     out.status == 127 ? "no compiler '%.200s'" : "the compiler '%.200s' failed",
-                     name);
+    if (c->nice > 0) setpriority(PRIO_PGRP, (id_t)process, getpriority(PRIO_PROCESS, 0) + c->nice);
+    c->process = process;
+    c->last = now() + c->patience;
+    return DAL_OK;
+}
+
+/* Kills the process with all that it started, and waits for its end. */
+static void kill_compiler(dal__compilation *c)
+{
+    int status;
+    kill(-(pid_t)c->process, SIGKILL);
+    while (waitpid((pid_t)c->process, &status, 0) < 0 && errno == EINTR) continue;
+    c->process = 0;
+}
+
+/* Whether the compiler runs no more; *exit_status is -1 where a signal ended it. */
+static bool has_ended(dal__compilation *c, int *exit_status)
+{
+    int status;
+    const pid_t ended = waitpid((pid_t)c->process, &status, WNOHANG);
+    if (ended == 0 || (ended < 0 && errno == EINTR)) return false;
+    *exit_status = ended > 0 && WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    c->process = 0;
+    return true;
 }
 
 /* ---- objects ---- */
@@ -222,23 +207,6 @@ static dal_status seal(const char *path, dal_error *error)
     return write_bytes(path, O_APPEND, "seal", &sum, sizeof sum, error);
 }
 
-static dal_status make_object(const command *c, const char *text, const char *path,
-                              dal_error *error)
-{
-    char source[PATH_SIZE + 40], object[PATH_SIZE + 40];
-    const void *mine = source; /* differs between threads of a process */
-    snprintf(source, sizeof source, "%s.%ld.%p.c", path, (long)getpid(), mine);
-    snprintf(object, sizeof object, "%s.%ld.%p.so", path, (long)getpid(), mine);
-    unlink(object);
-    dal_status status = write_bytes(source, O_CREAT | O_EXCL, "write", text, strlen(text), error);
-    if (status == DAL_OK) status = compile(*c, source, object, error);
-    if (status == DAL_OK) status = seal(object, error);
-    if (status == DAL_OK && rename(object, path) != 0) status = failed(error, "write", path);
-    unlink(source);
-    if (status != DAL_OK) unlink(object);
-    return status;
-}
-
 /* A path that no compiler takes for an option, and no loader for a name to record for. */
 static dal_status name_object(const command *c, const char *directory, const char *text, char *path,
                               size_t size, dal_error *error)
@@ -253,19 +221,98 @@ static dal_status name_object(const command *c, const char *directory, const cha
     return dal__fail(error, DAL_ARGUMENT, "the path '%.80s...' is too long", directory);
 }
 
-dal_status dal__cache_object(const dal_native_options *options, const char *text, char *path,
-                             size_t size, dal_error *error)
+/* ---- compilations ---- */
+
+/* Removes the temporary files. */
+static void clean_up(const dal__compilation *c)
+{
+    unlink(c->source);
+    unlink(c->object);
+}
+
+static dal_status name_files(dal__compilation *c, const char *directory, const char *text,
+                             dal_error *error)
+{
+    const command words = begin_command(c->compiler);
+    const void *mine = c; /* differs between compilations of a process */
+    DAL_TRY(name_object(&words, directory, text, c->path, DAL__OBJECT_PATH, error));
+    snprintf(c->source, sizeof c->source, "%s.%ld.%p.c", c->path, (long)getpid(), mine);
+    snprintf(c->object, sizeof c->object, "%s.%ld.%p.so", c->path, (long)getpid(), mine);
+    return DAL_OK;
+}
+
+static dal_status start(dal__compilation *c, const char *text, dal_error *error)
+{
+    struct stat s;
+    if (lstat(c->path, &s) == 0 && S_ISDIR(s.st_mode)) /* a rename replaces all else */
+        return dal__fail(error, DAL_IO, "'%.200s' is in the way: it is a directory", c->path);
+    unlink(c->object);
+    dal_status status =
+        write_bytes(c->source, O_CREAT | O_EXCL, "write", text, strlen(text), error);
+    if (status == DAL_OK) status = start_compiler(c, error);
+    if (status != DAL_OK) clean_up(c);
+    return status;
+}
+
+dal_status dal__compilation_begin(dal__compilation *c, const dal_native_options *options,
+                                  const char *text, dal_error *error)
 {
     if (!options || !options->cache || !options->cache[0])
         return dal__fail(error, DAL_ARGUMENT, "no directory for compiled steps");
-    const command c = begin_command(options);
-    struct stat s;
-    DAL_TRY(
-        name_object(&c, options->cache, text, path, size < PATH_SIZE ? size : PATH_SIZE, error));
+    const char *const compiler = options->compiler ? options->compiler : "cc";
+    *c = (dal__compilation){.patience = options->patience > 0 ? options->patience : PATIENCE,
+                            .nice = options->nice};
+    if (strlen(compiler) >= sizeof c->compiler)
+        return dal__fail(error, DAL_ARGUMENT, "the path '%.80s...' is too long", compiler);
+    snprintf(c->compiler, sizeof c->compiler, "%s", compiler);
+    DAL_TRY(name_files(c, options->cache, text, error));
     DAL_TRY(make_private(options->cache, error));
-    if (lstat(path, &s) == 0 && S_ISDIR(s.st_mode)) /* a rename replaces all else */
-        return dal__fail(error, DAL_IO, "'%.200s' is in the way: it is a directory", path);
-    return is_whole(path) ? DAL_OK : make_object(&c, text, path, error);
+    return is_whole(c->path) ? DAL_OK : start(c, text, error);
 }
 
-void dal__cache_forget(const char *path) { unlink(path); }
+void dal__compilation_forget(const dal__compilation *c) { unlink(c->path); }
+
+dal_status dal__compilation_repeat(dal__compilation *c, const char *text, dal_error *error)
+{
+    dal__compilation_forget(c);
+    return start(c, text, error);
+}
+
+static dal_status keep_object(const dal__compilation *c, int exit_status, dal_error *error)
+{
+    if (exit_status != 0)
+        return dal__fail(error, DAL_UNSUPPORTED,
+                         exit_status == 127 ? "no compiler '%.200s'"
+                                            : "the compiler '%.200s' failed",
+                         c->compiler);
+    DAL_TRY(seal(c->object, error));
+    return rename(c->object, c->path) == 0 ? DAL_OK : failed(error, "write", c->path);
+}
+
+dal_status dal__compilation_poll(dal__compilation *c, dal_error *error)
+{
+    int exit_status;
+    if (!c->process) return DAL_OK;
+    if (has_ended(c, &exit_status)) {
+        const dal_status status = keep_object(c, exit_status, error);
+        clean_up(c);
+        return status;
+    }
+    if (now() < c->last) return DAL_OK;
+    dal__compilation_end(c);
+    return dal__fail(error, DAL_UNSUPPORTED, "the compiler '%.200s' was ended after %d seconds",
+                     c->compiler, c->patience);
+}
+
+void dal__compilation_end(dal__compilation *c)
+{
+    if (!c->process) return;
+    kill_compiler(c);
+    clean_up(c);
+}
+
+void dal__compilation_pause(void)
+{
+    const struct timespec pause = {0, 1000000};
+    nanosleep(&pause, NULL);
+}

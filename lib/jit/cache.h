@@ -5,12 +5,31 @@
 #include "core/error.h"
 #include "dalembert_codegen.h"
 
-/* The path of a shared object compiled from the text for this machine, in path[size]: one that the
- * cache already holds, or made now.  Errors: DAL_ARGUMENT, DAL_IO (cache), DAL_UNSUPPORTED (no
- * compiler, it failed or hung), DAL_MEMORY. */
-dal_status dal__cache_object(const dal_native_options *options, const char *text, char *path,
-                             size_t size, dal_error *error);
-/* Removes an object that could not be loaded. */
-void dal__cache_forget(const char *path);
+enum { DAL__OBJECT_PATH = 1024 };
+
+/* The way from a text to a shared object compiled for this machine. */
+typedef struct dal__compilation {
+    char path[DAL__OBJECT_PATH]; /* of the object, once no compiler runs */
+    char source[DAL__OBJECT_PATH + 40], object[DAL__OBJECT_PATH + 40]; /* while one runs */
+    char compiler[DAL__OBJECT_PATH];
+    int patience, nice;
+    double last;  /* when the compiler is ended, by the clock */
+    long process; /* the compiler; 0: none runs */
+} dal__compilation;
+
+/* Finds the object in the cache, or else starts a compiler.  Errors: DAL_ARGUMENT, DAL_IO (cache),
+ * DAL_UNSUPPORTED (no compiler). */
+dal_status dal__compilation_begin(dal__compilation *c, const dal_native_options *options,
+                                  const char *text, dal_error *error);
+/* Removes an object that could not be loaded; repeat then starts a compiler again. */
+void dal__compilation_forget(const dal__compilation *c);
+dal_status dal__compilation_repeat(dal__compilation *c, const char *text, dal_error *error);
+/* DAL_OK with c->process == 0: the object is there; with another: the compiler runs.  Errors:
+ * DAL_UNSUPPORTED (the compiler failed or hung), DAL_IO (cache). */
+dal_status dal__compilation_poll(dal__compilation *c, dal_error *error);
+/* Ends a compiler that runs, with all that it started, and removes its files. */
+void dal__compilation_end(dal__compilation *c);
+/* Waits for a millisecond. */
+void dal__compilation_pause(void);
 
 #endif

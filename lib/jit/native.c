@@ -18,8 +18,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { PATH_SIZE = 1024 };
-
 #define PREFIX "dal_native"
 
 /* ---- texts ---- */
@@ -67,69 +65,116 @@ static void write_sizes(dal__generation *g)
 
 /* ---- objects ---- */
 
+struct dal_native {
+    dal__product product;
+    dal__layout layout; /* of the runs it is for */
+    int lanes;
+    bool exact; /* whether the observables have the error */
+    char *text; /* until the object is loaded */
+    dal__compilation compilation;
+    bool again; /* the object could not be loaded once */
+    dal_native_state state;
+    dal_error error; /* why it failed */
+    dal__native_code code;
+};
+
 static void release(void *handle) { dlclose(handle); }
 
 /* Of the functions in dal__native_code an object has one, named after the product.  ISO C has no
  * conversion from what dlsym finds. */
-static dal_status load(const char *path, dal__product product, dal__native_code *native,
-                       dal_error *error)
+static bool load(dal_native *native)
 {
     static const char *const symbols[] = {[DAL__LANES] = PREFIX "_lanes",
                                           [DAL__TRACE] = PREFIX "_traced",
                                           [DAL__OBSERVE] = PREFIX "_observables"};
-    void *handle = dlopen(path, RTLD_NOW | RTLD_LOCAL);
-    void *found = handle ? dlsym(handle, symbols[product]) : NULL;
+    dal__native_code *code = &native->code;
+    void *handle = dlopen(native->compilation.path, RTLD_NOW | RTLD_LOCAL);
+    void *found = handle ? dlsym(handle, symbols[native->product]) : NULL;
     if (!found) {
         if (handle) dlclose(handle);
-        dal__cache_forget(path);
-        return dal__fail(error, DAL_IO, "'%.200s' cannot be loaded", path);
+        return false;
     }
-    if (product == DAL__LANES) memcpy(&native->steps, &found, sizeof found);
-    if (product == DAL__TRACE) memcpy(&native->traced, &found, sizeof found);
-    if (product == DAL__OBSERVE) memcpy(&native->observables, &found, sizeof found);
-    native->handle = handle;
-    native->release = release;
-    return DAL_OK;
+    if (native->product == DAL__LANES) memcpy(&code->steps, &found, sizeof found);
+    if (native->product == DAL__TRACE) memcpy(&code->traced, &found, sizeof found);
+    if (native->product == DAL__OBSERVE) memcpy(&code->observables, &found, sizeof found);
+    code->handle = handle;
+    code->release = release;
+    return true;
 }
 
-/* Compiles and loads a text; an object that cannot be loaded is compiled again. */
-static dal_status compile(dal__generation *g, const dal_native_options *options,
-                          dal__native_code *native, dal_error *error)
+/* Loads the object once it is there; one that cannot be loaded is compiled again. */
+static dal_status advance(dal_native *native, dal_error *error)
 {
-    char path[PATH_SIZE], *text;
-    dal_status status = DAL_IO;
-    DAL_TRY(dal__generation_finish(g, &text, error));
-    for (int attempt = 0; attempt < 2 && status != DAL_OK; attempt++) {
-        status = dal__cache_object(options, text, path, sizeof path, error);
-        if (status != DAL_OK) break;
-        status = load(path, g->product, native, error);
+    dal__compilation *c = &native->compilation;
+    DAL_TRY(dal__compilation_poll(c, error));
+    if (c->process) return DAL_OK;
+    if (load(native)) {
+        native->state = DAL_NATIVE_READY;
+        return DAL_OK;
     }
-    free(text);
-    return status;
+    if (native->again) {
+        dal__compilation_forget(c);
+        return dal__fail(error, DAL_IO, "'%.200s' cannot be loaded", c->path);
+    }
+    native->again = true;
+    return dal__compilation_repeat(c, native->text, error);
 }
+
+dal_native_state dal_native_poll(dal_native *native, dal_error *error)
+{
+    if (!native) return dal__missing(error, __func__, "native"), DAL_NATIVE_FAILED;
+    if (native->state == DAL_NATIVE_PENDING && advance(native, &native->error) != DAL_OK)
+        native->state = DAL_NATIVE_FAILED;
+    if (native->state != DAL_NATIVE_PENDING) {
+        free(native->text);
+        native->text = NULL;
+    }
+    if (native->state == DAL_NATIVE_FAILED && error) *error = native->error;
+    return native->state;
+}
+
+void dal_native_free(dal_native *native)
+{
+    if (!native) return;
+    dal__compilation_end(&native->compilation);
+    dal__native_free(&native->code);
+    free(native->text);
+    free(native);
+}
+
+/* What is waited for, until its end or until the caller stops it. */
+static dal_status wait_for(dal_native *native, const dal_native_options *options, dal_error *error)
+{
+    while (dal_native_poll(native, error) == DAL_NATIVE_PENDING) {
+        if (options->stop && options->stop(options->user))
+            return dal__fail(error, DAL_INTERRUPTED, "the compiler '%.200s' was stopped",
+                             native->compilation.compiler);
+        dal__compilation_pause();
+    }
+    return native->state == DAL_NATIVE_READY ? DAL_OK : native->error.status;
+}
+
+/* ---- texts of objects ---- */
 
 /* The steps alone, DAL__LANES or DAL__TRACE: the function PREFIX_lanes or PREFIX_traced. */
-static dal_status compile_steps(const dal__layout *layout, dal__product product, int lanes,
-                                const dal_native_options *options, dal__native_code *native,
-                                dal_error *error)
+static dal_status write_steps(dal_native *native, dal_error *error)
 {
-    const dal_run_spec spec = {
-        .system = layout->system, .method = layout->method, .options = layout->options};
-    dal__generation g = {.spec = &spec, .lanes = lanes, .product = product};
+    const dal__layout *k = &native->layout;
+    const dal_run_spec spec = {.system = k->system, .method = k->method, .options = k->options};
+    dal__generation g = {.spec = &spec, .lanes = native->lanes, .product = native->product};
     DAL_TRY(dal__generation_check(&g, PREFIX, error));
     write_declarations(&g);
-    dal__write_template(&g, product == DAL__TRACE
+    dal__write_template(&g, g.product == DAL__TRACE
                                 ? "long long PREFIX_traced(double *, const double *, double, long "
                                   "long, unsigned *, int *, double *, long long);\n"
                                 : "long long PREFIX_lanes(double *, const double *, double, long "
                                   "long, unsigned, unsigned *, int *);\n");
     dal__write_steps(&g);
-    return compile(&g, options, native, error);
+    return dal__generation_finish(&g, &native->text, error);
 }
 
 /* The observables of a run, wherever it stands: the function PREFIX_observables. */
-static dal_status compile_observables(const dal_run *run, const dal_native_options *options,
-                                      dal__native_code *native, dal_error *error)
+static dal_status write_observables(dal_native *native, const dal_run *run, dal_error *error)
 {
     dal__generation g = {.run = run, .layout = run->layout, .lanes = 8, .product = DAL__OBSERVE};
     if (g.layout.options.precision != DAL_DOUBLE)
@@ -149,17 +194,96 @@ static dal_status compile_observables(const dal_run *run, const dal_native_optio
     dal__write_source(&g, "observables.h");
     dal__write_observe(&g);
     dal__write_source(&g, "observables.inc");
-    return compile(&g, options, native, error);
+    return dal__generation_finish(&g, &native->text, error);
+}
+
+/* Writes the text of a product for a layout, of observables for a run, and begins to compile it. */
+static dal_status begin(dal_native **native, dal__product product, int lanes,
+                        const dal__layout *layout, const dal_run *run,
+                        const dal_native_options *options, dal_error *error)
+{
+    dal_native *made = calloc(1, sizeof *made);
+    *native = NULL;
+    if (!made) return dal__fail(error, DAL_MEMORY, "no memory for compiled steps");
+    made->product = product;
+    made->layout = *layout;
+    made->lanes = lanes;
+    made->exact = run && run->exact;
+    dal_status status =
+        product == DAL__OBSERVE ? write_observables(made, run, error) : write_steps(made, error);
+    if (status == DAL_OK)
+        status = dal__compilation_begin(&made->compilation, options, made->text, error);
+    if (status == DAL_OK)
+        *native = made;
+    else
+        dal_native_free(made);
+    return status;
+}
+
+dal_status dal_native_begin(dal_native **native, const dal_run *run,
+                            const dal_native_options *options, dal_error *error)
+{
+    DAL_REQUIRE(native, error);
+    *native = NULL;
+    DAL_REQUIRE(run, error);
+    return begin(native, DAL__TRACE, 1, &run->layout, NULL, options, error);
+}
+
+dal_status dal_native_begin_observables(dal_native **native, const dal_run *run,
+                                        const dal_native_options *options, dal_error *error)
+{
+    DAL_REQUIRE(native, error);
+    *native = NULL;
+    DAL_REQUIRE(run, error);
+    return begin(native, DAL__OBSERVE, 8, &run->layout, run, options, error);
+}
+
+dal_status dal_native_begin_batch(dal_native **native, const dal_batch *batch,
+                                  const dal_native_options *options, dal_error *error)
+{
+    DAL_REQUIRE(native, error);
+    *native = NULL;
+    DAL_REQUIRE(batch, error);
+    return begin(native, DAL__LANES, dal__batch_native_lanes(batch), dal__batch_layout(batch), NULL,
+                 options, error);
+}
+
+/* ---- which runs it is for ---- */
+
+/* Whether steps of the same text are taken, of whatever size. */
+static bool has_same_steps(const dal__layout *a, const dal__layout *b)
+{
+    const dal_options *x = &a->options, *y = &b->options;
+    bool same = a->system == b->system && a->depth == b->depth;
+    for (int i = 0; same && i < a->depth; i++) same = a->method.layer[i] == b->method.layer[i];
+#define OPTION(type, name, word, ...) same &= x->name == y->name || strcmp(word, "step") == 0;
+    DAL_OPTION_LIST(OPTION)
+#undef OPTION
+    return same;
+}
+
+static bool has_same_observables(const dal_native *native, const dal_run *run)
+{
+    return native->layout.system == run->layout.system &&
+           native->layout.lifted == run->layout.lifted && native->exact == run->exact;
+}
+
+int dal_native_fits(const dal_native *native, const dal_run *run)
+{
+    if (!native || !run || native->product == DAL__LANES) return 0;
+    return native->product == DAL__OBSERVE ? has_same_observables(native, run)
+                                           : has_same_steps(&native->layout, &run->layout);
+}
+
+static dal_status check_use(const dal_native *native, bool fits, dal_error *error)
+{
+    if (native->state != DAL_NATIVE_READY)
+        return dal__fail(error, DAL_ARGUMENT, "the compiled code is not ready");
+    if (!fits) return dal__fail(error, DAL_ARGUMENT, "the compiled code is that of other steps");
+    return DAL_OK;
 }
 
 /* ---- runs ---- */
-
-dal_status dal_run_native(dal_run *run, const dal_native_options *options, dal_error *error)
-{
-    DAL_REQUIRE(run, error);
-    if (dal_run_is_native(run)) return DAL_OK;
-    return compile_steps(&run->layout, DAL__TRACE, 1, options, &run->native, error);
-}
 
 int dal_run_is_native(const dal_run *run) { return run && run->native.traced != NULL; }
 
@@ -186,32 +310,93 @@ static dal_status allocate_observations(dal__observations *observations, int dim
     return DAL_OK;
 }
 
-dal_status dal_run_native_observables(dal_run *run, const dal_native_options *options,
-                                      dal_error *error)
+/* The code without its handle, which stays with its owner. */
+static dal__native_code borrow(const dal_native *native)
+{
+    dal__native_code code = native->code;
+    code.release = NULL;
+    return code;
+}
+
+static dal_status use_in_run(dal_run *run, const dal_native *native, dal__native_code code,
+                             dal_error *error)
+{
+    const int observables = dal_run_observables(run);
+    DAL_TRY(check_use(native, dal_native_fits(native, run), error));
+    if (native->product == DAL__TRACE) {
+        if (!dal_run_is_native(run)) run->native = code;
+    } else if (!run->observations.states && observables > 0) {
+        DAL_TRY(allocate_observations(&run->observations, run->layout.dim, observables, error));
+        run->observations.code = code;
+    }
+    return DAL_OK;
+}
+
+dal_status dal_run_use_native(dal_run *run, const dal_native *native, dal_error *error)
 {
     DAL_REQUIRE(run, error);
-    dal__native_code code = {0};
-    if (run->observations.states || dal_run_observables(run) == 0) return DAL_OK;
-    DAL_TRY(compile_observables(run, options, &code, error));
-    const dal_status status =
-        allocate_observations(&run->observations, run->layout.dim, dal_run_observables(run), error);
-    if (status == DAL_OK)
-        run->observations.code = code;
-    else
-        dal__native_free(&code);
-    return status;
+    DAL_REQUIRE(native, error);
+    return use_in_run(run, native, borrow(native), error);
 }
 
 /* ---- batches ---- */
 
-dal_status dal_batch_native(dal_batch *batch, const dal_native_options *options, dal_error *error)
+static dal_status use_in_batch(dal_batch *batch, const dal_native *native, dal__native_code code,
+                               dal_error *error)
+{
+    const int lanes = dal__batch_native_lanes(batch);
+    const bool fits = native->product == DAL__LANES && native->lanes == lanes &&
+                      has_same_steps(&native->layout, dal__batch_layout(batch));
+    DAL_TRY(check_use(native, fits, error));
+    return dal_batch_is_native(batch) ? DAL_OK : dal__batch_install(batch, lanes, &code, error);
+}
+
+dal_status dal_batch_use_native(dal_batch *batch, const dal_native *native, dal_error *error)
 {
     DAL_REQUIRE(batch, error);
-    const int lanes = dal__batch_native_lanes(batch);
-    dal__native_code native = {0};
-    if (dal_batch_is_native(batch)) return DAL_OK;
-    DAL_TRY(compile_steps(dal__batch_layout(batch), DAL__LANES, lanes, options, &native, error));
-    const dal_status status = dal__batch_install(batch, lanes, &native, error);
-    if (status != DAL_OK) dal__native_free(&native);
+    DAL_REQUIRE(native, error);
+    return use_in_batch(batch, native, borrow(native), error);
+}
+
+/* ---- at once ---- */
+
+/* Waits for code that was begun, and gives it to a run or to a batch, which own it then. */
+static dal_status wait_and_give(dal_native *native, const dal_native_options *options, dal_run *run,
+                                dal_batch *batch, dal_error *error)
+{
+    dal_status status = wait_for(native, options, error);
+    if (status == DAL_OK)
+        status = run ? use_in_run(run, native, native->code, error)
+                     : use_in_batch(batch, native, native->code, error);
+    if (status == DAL_OK) native->code.release = NULL;
+    dal_native_free(native);
     return status;
+}
+
+dal_status dal_run_native(dal_run *run, const dal_native_options *options, dal_error *error)
+{
+    dal_native *native;
+    DAL_REQUIRE(run, error);
+    if (dal_run_is_native(run)) return DAL_OK;
+    DAL_TRY(dal_native_begin(&native, run, options, error));
+    return wait_and_give(native, options, run, NULL, error);
+}
+
+dal_status dal_run_native_observables(dal_run *run, const dal_native_options *options,
+                                      dal_error *error)
+{
+    dal_native *native;
+    DAL_REQUIRE(run, error);
+    if (run->observations.states || dal_run_observables(run) == 0) return DAL_OK;
+    DAL_TRY(dal_native_begin_observables(&native, run, options, error));
+    return wait_and_give(native, options, run, NULL, error);
+}
+
+dal_status dal_batch_native(dal_batch *batch, const dal_native_options *options, dal_error *error)
+{
+    dal_native *native;
+    DAL_REQUIRE(batch, error);
+    if (dal_batch_is_native(batch)) return DAL_OK;
+    DAL_TRY(dal_native_begin_batch(&native, batch, options, error));
+    return wait_and_give(native, options, NULL, batch, error);
 }

@@ -13,8 +13,8 @@ dal_status dal__batch_of_variant(dal_batch **batch, const dal_run_spec *spec, in
 const dal__layout *dal__batch_layout(const dal_batch *batch);
 int dal__batch_native_lanes(const dal_batch *batch);
 
-/* Steps that number of lanes together by compiled code from now on; the batch then owns the code.
- * Errors: DAL_MEMORY; the batch is unchanged, and the caller still owns the code. */
+/* Steps that number of lanes together by compiled code from now on.  The batch then owns the code
+ * where that has a release.  Errors: DAL_MEMORY; the batch is unchanged. */
 dal_status dal__batch_install(dal_batch *batch, int lanes, const dal__native_code *native,
                               dal_error *error);
 
