@@ -442,7 +442,8 @@ typedef struct dal_error_budget_observer {
     /* Called now and then with the share of the work that is done, 0..1; any status but DAL_OK ends
      * it. */
     dal_status (*step)(void *user, double done);
-    /* Called with every new run in doubles; may replace its steps by compiled code. */
+    /* Called with every new run in doubles; may replace its steps by compiled code.  The last such
+     * run exists whenever step is called. */
     void (*begin)(void *user, dal_run *run, long long steps);
 } dal_error_budget_observer;
 

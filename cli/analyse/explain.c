@@ -17,17 +17,24 @@
 
 /* ---- while it runs ---- */
 
+typedef struct explanation {
+    const explain_settings *settings;
+    native_run native; /* the last run that was begun */
+} explanation;
+
 static dal_status show_progress(void *user, double done)
 {
-    (void)user;
+    explanation *e = user;
+    native_poll(&e->native);
     cli_progress("%.0f %%", 100.0 * done);
     return cli_interrupted() ? DAL_INTERRUPTED : DAL_OK;
 }
 
 static void compile_run(void *user, dal_run *run, long long steps)
 {
-    const explain_settings *s = user;
-    native_compile_steps(run, &s->request.method, (double)steps, s->native);
+    explanation *e = user;
+    const double end = (double)steps * dal_run_step_size(run);
+    e->native = native_begin(run, end, 0.0, 1.0, e->settings->native);
 }
 
 /* ---- in words ---- */
@@ -262,7 +269,8 @@ int explain_run(explain_settings *s)
     if (!(steps <= EXPLAIN_MAX_STEPS))
         return cli_fail(CLI_USAGE, "%.3g steps: explain takes at most %d", steps,
                         EXPLAIN_MAX_STEPS);
-    const dal_error_budget_observer observer = {s, show_progress, compile_run};
+    explanation explained = {.settings = s};
+    const dal_error_budget_observer observer = {&explained, show_progress, compile_run};
     cli_catch_signals();
     const dal_status done =
         dal_error_budget_create(&spec, (long long)steps, s->quad_steps, &observer, &e, &error);

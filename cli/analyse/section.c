@@ -36,6 +36,7 @@ typedef struct section {
     double *kept; /* [rows * columns] for JSON; NULL: none are kept */
     dal_crossings found;
     int write_status; /* of the last row */
+    native_run native;
 } section;
 
 /* ---- the model with the section among its invariants --------------------------------------- */
@@ -144,7 +145,8 @@ static dal_status write_crossing(void *user, dal_run *run, const dal_crossing *c
 
 static dal_status poll_signals(void *user, dal_run *run)
 {
-    const section *s = user;
+    section *s = user;
+    native_poll(&s->native);
     cli_progress("t = %.6g of %.6g, %lld crossings", dal_run_time(run), s->request->time, s->rows);
     return cli_interrupted() ? DAL_INTERRUPTED : DAL_OK;
 }
@@ -165,7 +167,7 @@ static int run_section(section *s, const char *path)
     int status = has_table ? writer_create(&s->table, path, s->names, s->columns) : CLI_DONE;
     if (status == CLI_DONE) {
         cli_catch_signals();
-        native_compile_steps(r->run, &r->method, r->time / r->options.step, s->set->native);
+        s->native = native_begin(r->run, r->time, 0.0, 1.0, s->set->native);
         const dal_status done = dal_run_crossings(r->run, r->time, &poincare, &s->found, &error);
         cli_progress_end();
         if (s->write_status != CLI_DONE)

@@ -1,5 +1,10 @@
-/* native.c - compiled steps for a run: when they pay, and where they are cached. */
+/* native.c - compiled steps for a run: when they pay, and where they are cached.
+ *
+ * The code of all runs of the program is in one list, so that runs of the same system and method
+ * share it.  A compiler is started when a run has shown, by its clock, that it takes longer than
+ * starting one, and one at a time: whatever it costs, the steps go on beside it. */
 #include "native.h"
+#include "ui/clock.h"
 #include "ui/memory.h"
 #include "ui/message.h"
 #include "ui/signals.h"
@@ -7,23 +12,39 @@
 #include "dalembert_codegen.h"
 #include "io/file.h"
 
+#include <pthread.h>
 #include <stdatomic.h>
 #include <stdbool.h>
 #include <stdlib.h>
 #include <sys/stat.h>
+#include <time.h>
 
-/* A compiler takes some 1e8 ns for a small system.  Interpreted, a step or a sample takes about
- * this time per coordinate, compiled a third of it; compiling must save three times its cost. */
-#define NS_EXPLICIT 100.0
-#define NS_IMPLICIT 1000.0
-#define NS_SAMPLE   50.0
-#define NS_WORTH    5e8
+/* Seconds of the processor: a run is measured for the first; a compiler is started where more than
+ * the second are left, or, of the cells of a study, which keep all processors busy, than the
+ * third. */
+static const double measured = 0.02, left_alone = 0.1, left_together = 10.0;
 
-static bool is_wanted(const dal_run *run, native_mode mode, double cost, double count)
-{
-    return mode == NATIVE_ON ||
-           (mode == NATIVE_AUTO && count * cost * dal_run_system(run)->n > NS_WORTH);
-}
+/* A compiler beside a run has a lower priority, and more time than one that is waited for. */
+enum { NICE = 10, PATIENCE = 600 /* seconds */ };
+
+/* Interpreted, the observables of a sample take about this time per coordinate; so much must be
+ * spent on them to compile them. */
+#define NS_SAMPLE 50.0
+#define NS_WORTH  1e8
+
+/* ---- the code of all runs ---- */
+
+typedef struct native_code {
+    native_part part;
+    dal_native *native; /* NULL: its compiler was ended with the program, or with a study */
+    struct native_code *next;
+} native_code;
+
+/* The mutex guards all of it.  The program does not end for want of memory while a thread holds it,
+ * since its end needs it. */
+static native_code *codes;
+static bool has_ended; /* no more compilers are started */
+static pthread_mutex_t mutex = PTHREAD_MUTEX_INITIALIZER;
 
 /* $XDG_CACHE_HOME/dalembert or ~/.cache/dalembert, allocated; the library creates the last part. */
 static char *cache_directory(void)
@@ -40,43 +61,158 @@ static char *cache_directory(void)
     return directory;
 }
 
-/* The compiler ends with the program, whatever ends that. */
-static int must_stop(void *user)
+static bool is_pending(const native_code *c)
 {
-    (void)user;
-    return cli_interrupted() || cli_is_ending();
+    return c->native && dal_native_poll(c->native, NULL) == DAL_NATIVE_PENDING;
 }
 
-typedef dal_status compilation(dal_run *run, const dal_native_options *options, dal_error *error);
-
-/* The message is printed once, however many runs and threads there are. */
-static void compile(dal_run *run, compilation *compile_run, atomic_flag *printed, const char *what)
+void native_end(void)
 {
-    dal_error error = {.message = "no directory to keep compiled ones in"};
-    char *directory = cache_directory();
-    dal_status status = DAL_IO;
-    if (directory) {
-        cli_hold_exit();
-        status =
-            compile_run(run, &(dal_native_options){.cache = directory, .stop = must_stop}, &error);
-        cli_release_exit();
+    pthread_mutex_lock(&mutex);
+    for (native_code *c = codes; c; c = c->next) {
+        if (!is_pending(c)) continue;
+        dal_native_free(c->native);
+        c->native = NULL;
     }
+    pthread_mutex_unlock(&mutex);
+}
+
+static void end_program(void)
+{
+    pthread_mutex_lock(&mutex);
+    has_ended = true;
+    pthread_mutex_unlock(&mutex);
+    native_end();
+}
+
+static void at_exit(void) { atexit(end_program); }
+
+static void print_failure(native_part part, const dal_error *error)
+{
+    static atomic_flag printed[NATIVE_PARTS] = {ATOMIC_FLAG_INIT, ATOMIC_FLAG_INIT};
+    if (error->status == DAL_MEMORY) cli_out_of_memory();
+    if (!atomic_flag_test_and_set(&printed[part]))
+        cli_note("%s are interpreted: %s", part == NATIVE_STEPS ? "steps" : "observables",
+                 error->message);
+}
+
+static native_code *find_code(const native_run *n)
+{
+    native_code *c = codes;
+    while (c && !(c->part == n->part && dal_native_fits(c->native, n->run))) c = c->next;
+    return c;
+}
+
+static bool compiles(void)
+{
+    native_code *c = codes;
+    while (c && !is_pending(c)) c = c->next;
+    return c;
+}
+
+/* Puts the code of the next part into the list; NULL where it cannot be begun. */
+static native_code *begin_code(const native_run *n, const dal_native_options *options,
+                               native_code *memory, dal_error *error)
+{
+    *memory = (native_code){.part = n->part, .next = codes};
+    if (has_ended) return codes = memory;
+    if (n->part == NATIVE_STEPS)
+        dal_native_begin(&memory->native, n->run, options, error);
+    else
+        dal_native_begin_observables(&memory->native, n->run, options, error);
+    return memory->native ? (codes = memory) : NULL;
+}
+
+/* Begins to compile the next part of a run, unless that is done already. */
+static native_code *start_compiler(const native_run *n, bool is_awaited)
+{
+    static pthread_once_t once = PTHREAD_ONCE_INIT;
+    dal_error error = {.message = "no directory to keep compiled ones in"};
+    native_code *const memory = cli_calloc(1, sizeof *memory);
+    char *directory = cache_directory();
+    const dal_native_options options = {.cache = directory,
+                                        .patience = is_awaited ? 0 : PATIENCE,
+                                        .nice = is_awaited || n->alike > 1.0 ? 0 : NICE};
+    pthread_once(&once, at_exit);
+    pthread_mutex_lock(&mutex);
+    native_code *c = find_code(n);
+    if (!c && directory) c = begin_code(n, &options, memory, &error);
+    pthread_mutex_unlock(&mutex);
+    if (c != memory) free(memory);
     free(directory);
-    if (!cli_is_ok(status) && status != DAL_INTERRUPTED && !atomic_flag_test_and_set(printed))
-        cli_note("%s are interpreted: %s", what, error.message);
+    if (c) return c;
+    print_failure(n->part, &error);
+    return NULL;
 }
 
-void native_compile_steps(dal_run *run, const dal_method *method, double steps, native_mode mode)
+/* ---- runs ---- */
+
+static void begin_part(native_run *n, native_part part)
 {
-    static atomic_flag printed = ATOMIC_FLAG_INIT;
-    const int is_explicit = (dal_method_properties(method) & DAL_EXPLICIT) != 0;
-    if (is_wanted(run, mode, is_explicit ? NS_EXPLICIT : NS_IMPLICIT, steps))
-        compile(run, dal_run_native, &printed, "steps");
+    n->part = part;
+    n->code = NULL;
+    n->clock = cli_thread_seconds();
+    n->time = dal_run_time(n->run);
 }
 
-void native_compile_observables(dal_run *run, double samples, native_mode mode)
+/* Whether the part is there or failed: then the run uses it, or does without, and begins the
+ * next. */
+static bool use_code(native_run *n)
 {
-    static atomic_flag printed = ATOMIC_FLAG_INIT;
-    if (is_wanted(run, mode, NS_SAMPLE, samples))
-        compile(run, dal_run_native_observables, &printed, "observables");
+    dal_error error = {0};
+    pthread_mutex_lock(&mutex);
+    dal_native *const native = n->code->native;
+    const dal_native_state state = native ? dal_native_poll(native, &error) : DAL_NATIVE_FAILED;
+    if (state == DAL_NATIVE_READY) dal_run_use_native(n->run, native, &error);
+    pthread_mutex_unlock(&mutex);
+    if (state == DAL_NATIVE_PENDING) return false;
+    if (error.status != DAL_OK) print_failure(n->part, &error);
+    begin_part(n, n->part + 1);
+    return true;
+}
+
+/* Whether a compiler is worth starting beside the run: so much of it is left, as fast as it was. */
+static bool is_worth_it(const native_run *n)
+{
+    const double seconds = cli_thread_seconds() - n->clock, t = dal_run_time(n->run);
+    const double left = n->alike * seconds * (n->end - t) / (t - n->time);
+    return seconds >= measured && left >= (n->alike > 1.0 ? left_together : left_alone);
+}
+
+void native_poll(native_run *n)
+{
+    if (n->part >= n->parts) return;
+    bool is_free = false;
+    if (!n->code) {
+        pthread_mutex_lock(&mutex);
+        n->code = find_code(n);
+        is_free = !compiles();
+        pthread_mutex_unlock(&mutex);
+    }
+    if (!n->code && is_free && is_worth_it(n) && !(n->code = start_compiler(n, false)))
+        begin_part(n, n->part + 1);
+    if (n->code) use_code(n);
+}
+
+/* Compiles all parts; an interruption ends the wait. */
+static void compile_now(native_run *n)
+{
+    const struct timespec pause = {0, 1000000};
+    while (n->part < n->parts && !cli_interrupted()) {
+        if (!n->code && !(n->code = start_compiler(n, true)))
+            begin_part(n, n->part + 1);
+        else if (!use_code(n))
+            nanosleep(&pause, NULL);
+    }
+}
+
+native_run native_begin(dal_run *run, double end, double samples, double alike, native_mode mode)
+{
+    native_run n = {.run = run, .end = end, .alike = alike};
+    const double cost = samples * NS_SAMPLE * dal_run_system(run)->n;
+    const bool observes = samples > 0.0 && (mode == NATIVE_ON || cost > NS_WORTH);
+    n.parts = mode == NATIVE_OFF ? NATIVE_STEPS : observes ? NATIVE_PARTS : NATIVE_OBSERVABLES;
+    begin_part(&n, NATIVE_STEPS);
+    if (mode == NATIVE_ON) compile_now(&n);
+    return n;
 }

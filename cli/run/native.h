@@ -1,4 +1,7 @@
-/* native.h - compiled steps for a run: when they pay, and where they are cached. */
+/* native.h - compiled steps for a run: when they pay, and where they are cached.
+ *
+ * Where --native is auto a run is interpreted at once, and changes over to compiled steps between
+ * two steps when a compiler beside it has made them.  No bit depends on where that is. */
 #ifndef DAL_CLI_NATIVE_H
 #define DAL_CLI_NATIVE_H
 
@@ -12,14 +15,31 @@ typedef enum native_mode { NATIVE_AUTO, NATIVE_ON, NATIVE_OFF } native_mode;
 #define NATIVE_OPTION(settings)                                                                    \
     {                                                                                              \
         "native", "auto|on|off", "auto",                                                           \
-            "compiles the steps, which changes no bit; auto: where it pays",                       \
+            "compiles the steps, which changes no bit; auto: while they are interpreted",          \
             .parse = cli_parse_word, .offset = offsetof(settings, native)                          \
     }
 
-/* Compile the steps of a run, or its observables, where the mode is on, or is auto and that many
- * steps or samples make it worth the time.  A failure is printed once and leaves the run as it
- * is. */
-void native_compile_steps(dal_run *run, const dal_method *method, double steps, native_mode mode);
-void native_compile_observables(dal_run *run, double samples, native_mode mode);
+/* What of a run is compiled. */
+typedef enum native_part { NATIVE_STEPS, NATIVE_OBSERVABLES, NATIVE_PARTS } native_part;
+
+/* A run on its way to compiled code. */
+typedef struct native_run {
+    dal_run *run;
+    double end;               /* of its time */
+    double alike;             /* how many runs of a study take such steps, this one included */
+    native_part part;         /* the next, NATIVE_PARTS: there is none */
+    native_part parts;        /* where it ends */
+    double clock, time;       /* when the last part was there: of the thread, and of the run */
+    struct native_code *code; /* of the part, or NULL */
+} native_run;
+
+/* Begins for a run to some time, whose observables are evaluated that often (0: by other means).
+ * `on` compiles now, off never. */
+native_run native_begin(dal_run *run, double end, double samples, double alike, native_mode mode);
+/* Called between steps, ten times a second or more: compiles what is worth it, and uses what is
+ * there.  A failure is printed once and leaves the run as it is. */
+void native_poll(native_run *n);
+/* Ends the compilers that run.  The end of the program does the same. */
+void native_end(void);
 
 #endif

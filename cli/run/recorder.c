@@ -284,6 +284,7 @@ static dal_status poll(void *user, dal_run *run)
     else if (r->dir && stop)
         status = library_status(r, save(r));
     show_progress(r, dal_run_time(run), 0);
+    native_poll(&r->native);
     r->clock = cli_seconds();
     return status == DAL_OK && stop ? DAL_INTERRUPTED : status;
 }

@@ -5,6 +5,7 @@
 #include "columns.h"
 #include "dalembert.h"
 #include "io/trajectory.h"
+#include "native.h"
 #include "request.h"
 #include "run_directory.h"
 
@@ -25,6 +26,7 @@ typedef struct run_recorder {
     dal_trend *trend;           /* [observables] when the run is finished or has failed */
     run_position position;
     dal_observer observer;
+    native_run native;    /* set by who opens it; all 0: interpreted */
     double interval;      /* seconds between checkpoints */
     double clock;         /* when the clock of steps and rows was started; */
     double saved;         /* when the last checkpoint was */

@@ -62,8 +62,8 @@ int run_integrate(const run_request *request, run_directory *dir, const run_sett
         if (row > 0)
             cli_note("'%s' resumes at t = %g with row %lld", dir->path, dal_run_time(run), row);
         const double steps = (request->time - dal_run_time(run)) / request->options.step;
-        native_compile_steps(run, &request->method, steps, settings->native);
-        native_compile_observables(run, steps / (double)request->statistics, settings->native);
+        recorder.native = native_begin(run, request->time, steps / (double)request->statistics, 1.0,
+                                       settings->native);
         status = recorder_run(&recorder, &error);
         print_end(&recorder, status, &error);
         if (settings->summary || isatty(STDERR_FILENO)) summary_print(stderr, &recorder);

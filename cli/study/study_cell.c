@@ -304,21 +304,34 @@ static int open_recorder(cell_run *r)
     return status == CLI_DONE ? recorder_open(&r->recorder, &r->request, dir, dir->path) : status;
 }
 
+/* The cells of a study that take the steps of this one, in units of its own steps. */
+static double cells_alike(const study_plan *plan, const study_cell *cell)
+{
+    const double own = cell->of_case->time / cell->step;
+    double steps = 0.0;
+    for (int i = 0; i < plan->cell_count; i++) {
+        const study_cell *c = &plan->cells[i];
+        if (c->method == cell->method && !c->other_shard &&
+            (c->start == STUDY_PHYSICAL) == (cell->start == STUDY_PHYSICAL))
+            steps += c->of_case->time / c->step;
+    }
+    return steps / own;
+}
+
 static int run_in_directory(cell_run *r, const study_stop_check *check)
 {
     run_recorder *recorder = &r->recorder;
     dal_error error = {0};
     int ended = open_recorder(r);
     if (ended == CLI_DONE && !recorder_is_finished(recorder)) {
-        const double left = r->request.time - dal_run_time(r->request.run);
         if (check) {
             recorder->stop = check->stop;
             recorder->stop_user = check->user;
         }
         recorder->interval = r->plan->interval;
         recorder->progress = PROGRESS_OFF;
-        native_compile_steps(r->request.run, r->cell->method, left / r->cell->step,
-                             r->plan->native);
+        recorder->native = native_begin(r->request.run, r->request.time, 0.0,
+                                        cells_alike(r->plan, r->cell), r->plan->native);
         ended = recorder_run(recorder, &error);
     }
     return ended == CLI_DONE || ended == CLI_FAILED ? take_results(r, &error, ended) : ended;

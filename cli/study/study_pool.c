@@ -106,6 +106,7 @@ int study_pool_run(study_plan *plan, int threads)
     pool_state p = {.plan = plan, .order = study_sort_cells(plan), .start = cli_seconds()};
     for (int i = 0; i < plan->cell_count; i++) p.count += !plan->cells[i].other_shard;
     pool_run(plan->cell_count, threads, run_cell, &p);
+    native_end();
     plan->seconds = cli_seconds() - p.start;
     cli_progress_end();
     free(p.order);

@@ -10,7 +10,6 @@
 #include <errno.h>
 #include <pthread.h>
 #include <stdarg.h>
-#include <stdatomic.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -31,14 +30,9 @@ void cli_release_exit(void)
     pthread_rwlock_unlock(&exits);
 }
 
-static atomic_bool ending;
-
-bool cli_is_ending(void) { return ending; }
-
 /* Another thread that runs out of memory waits here while the first one ends the program. */
 void cli_out_of_memory(void)
 {
-    ending = true;
     if (holds_exit) cli_release_exit();
     pthread_rwlock_wrlock(&exits);
     exit(cli_fail(CLI_IO, "out of memory"));

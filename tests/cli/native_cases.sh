@@ -83,6 +83,61 @@ if there cc; then
         holds "$file has other bytes" cmp -s native-study/$file tape-study/$file
     done
 
+    case_is "native: the cells of a study share objects"
+    # Each call of this compiler adds a line, and waits where it must for a file.
+    mkdir -p gate
+    printf '#!/bin/sh\necho $$ >>"%s/gate/begun"\n%s\nexec %s "$@"\n' "$work" \
+        "while [ -e '$work/gate/closed' ]; do sleep 0.02; done" "$(command -v cc)" >gate/cc
+    chmod +x gate/cc
+    rm -rf cache native-study
+    PATH=$PWD/gate:$PATH try 0 study native.yaml --output native-study --native on --threads 4
+    silent
+    holds "not the steps of two methods on two spaces" test "$(wc -l <gate/begun)" -eq 4
+    cmp -s native-study/quantities.csv tape-study/quantities.csv || fail "other bytes"
+
+    case_is "native: changed over to while the run goes on"
+    # until_it WORDS: waits, at most two minutes, until a shell finds it true.
+    until_it() {
+        tries=0
+        until sh -c "$1" 2>/dev/null; do
+            tries=$((tries + 1))
+            [ $tries -lt 2400 ] || { fail "waited for: $1" && break; }
+            sleep 0.05
+        done
+    }
+    size() { wc -c <"$1"; }
+    # first FILE COUNT: the first numbers of a trajectory, behind its header.
+    first() { tail -c +$((11 + $(od -An -tu2 -j8 -N2 "$1"))) "$1" | head -c "$2"; }
+    endless="chaplygin-sleigh --integrator gauss4 --step 0.01 --time 1e9 --samples 500000000"
+    rm -rf cache gate/begun
+    : >gate/closed
+    PATH=$PWD/gate:$PATH "$program" run $endless --output changed 2>err &
+    until_it "test -s gate/begun"
+    kill -TERM $!
+    wait $!
+    holds "native: no compiler was done" grep -q '"native": false' changed/manifest.json
+    holds "the compiler goes on" sh -c "! kill -0 $(cat gate/begun)"
+    holds "something is left in the cache" test -z "$(ls cache/dalembert)"
+    rm gate/begun
+    PATH=$PWD/gate:$PATH "$program" resume changed 2>err &
+    until_it "test -s gate/begun"
+    rm gate/closed
+    # The source is there while its compiler runs; the run takes note of both before a signal.
+    until_it "ls cache/dalembert | grep -q 'so$' && ! ls cache/dalembert | grep -q 'c$'"
+    kill -TERM $!
+    wait $!
+    holds "not native" grep -q '"native": true' changed/manifest.json
+    "$program" run $endless --native off --output unchanged 2>err &
+    length=$(size changed/trajectory.npy)
+    until_it "test \$(wc -c <unchanged/trajectory.npy) -ge $length"
+    kill -TERM $!
+    wait $!
+    first changed/trajectory.npy $((length - 1000)) >changed.rows
+    first unchanged/trajectory.npy $((length - 1000)) >unchanged.rows
+    holds "no rows" test -s changed.rows
+    holds "other rows" cmp changed.rows unchanged.rows
+    rm -rf changed unchanged
+
     case_is "native: a compiler that fails"
     mkdir -p broken
     printf '#!/bin/sh\necho spoken\necho spoken >&2\nexit 1\n' >broken/cc
