@@ -1,0 +1,120 @@
+/* report_pose.c - where the body of a run is at each of its rows. */
+#include "report_pose.h"
+#include "ui/memory.h"
+#include "ui/message.h"
+
+#include "run/columns.h"
+#include "run/manifest.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+/* Of the mean time between rows: what a difference of poses is taken over. */
+static const double small_part = 1e-4;
+
+/* Number of a coordinate, or -1. */
+static int find_coordinate(const dal_system *system, const char *name)
+{
+    int i = system->n - 1;
+    while (i >= 0 && strcmp(system->coordinate[i], name) != 0) i--;
+    return i;
+}
+
+/* The first pair of which a system has both, or false. */
+static bool find_pair(const dal_system *system, const char *axis[2], int pair[2])
+{
+    static const char *const pairs[][2] = {{"x", "y"}, {"x1", "x2"}, {"y1", "y2"}};
+    for (size_t k = 0; k < sizeof pairs / sizeof pairs[0]; k++) {
+        for (int side = 0; side < 2; side++) {
+            axis[side] = pairs[k][side];
+            pair[side] = find_coordinate(system, axis[side]);
+        }
+        if (pair[0] >= 0 && pair[1] >= 0) return true;
+    }
+    return false;
+}
+
+/* Poses need all of q and v, which a run with --columns may not have. */
+static bool has_state(const pose_reader *p)
+{
+    const dal_system *system = p->request.system;
+    const int n = system->n;
+    if (p->rows.columns <= 2 * n) return false;
+    for (int i = 0; i < n; i++) {
+        const char *coordinate = system->coordinate[i], *velocity = p->rows.name[1 + n + i];
+        if (strcmp(p->rows.name[1 + i], coordinate) != 0 ||
+            !columns_is_velocity(&p->request, velocity, coordinate))
+            return false;
+    }
+    return true;
+}
+
+/* The directory of a run may be gone: a study does not need it. */
+int pose_open(pose_reader *p, const char *run)
+{
+    dal_run_spec spec;
+    dal_error error;
+    *p = (pose_reader){.request = request_default(), .dir = {.descriptor = -1}};
+    run_directory_open(&p->dir, run);
+    if (access(p->dir.manifest, F_OK) != 0) return CLI_DONE;
+    int status = manifest_read(&p->dir, &p->request);
+    if (status == CLI_DONE) status = request_make_spec(&p->request, &spec);
+    if (status != CLI_DONE) return status;
+    const dal_system *system = p->request.system;
+    if (system->picture) {
+        p->body = system->picture->body;
+        p->axis[0] = "x";
+        p->axis[1] = "y";
+    } else if (!find_pair(system, p->axis, p->pair)) {
+        return CLI_DONE;
+    }
+    if (dal_evaluator_create(&p->evaluator, system, p->request.set.item, p->request.set.count,
+                             &error))
+        return cli_error(CLI_USAGE, run, &error);
+    status = reader_open(&p->rows, run);
+    if (status != CLI_DONE) return status;
+    p->is_open = true;
+    p->q = cli_calloc((size_t)system->n, sizeof *p->q);
+    p->has_poses = p->rows.count > 0 && has_state(p);
+    p->small_time = small_part * p->request.time / (double)(p->rows.count + 1);
+    return CLI_DONE;
+}
+
+/* The pose a while after the present row, while q changes by v alone. */
+static void find_pose(pose_reader *p, double after, double *pose)
+{
+    const dal_system *system = p->request.system;
+    const double *q = p->rows.row + 1, *v = q + system->n;
+    for (int i = 0; i < system->n; i++) p->q[i] = q[i] + after * v[i];
+    for (int i = 0; i < DAL_PICTURE_COUNT; i++) pose[i] = 0.0;
+    if (!system->picture)
+        for (int k = 0; k < 2; k++) pose[k] = p->q[p->pair[k]];
+    else if (dal_evaluator_call(p->evaluator, system->picture->evaluate, p->t + after, p->q, v,
+                                NULL, pose))
+        pose[DAL_PICTURE_X] = NAN;
+}
+
+int pose_next(pose_reader *p)
+{
+    double before[DAL_PICTURE_COUNT], after[DAL_PICTURE_COUNT];
+    const int more = reader_next(&p->rows);
+    if (more <= 0) return more;
+    p->t = p->rows.row[0];
+    find_pose(p, 0.0, p->pose);
+    find_pose(p, -p->small_time, before);
+    find_pose(p, p->small_time, after);
+    for (int i = 0; i < DAL_PICTURE_COUNT; i++)
+        p->rate[i] = (after[i] - before[i]) / (2.0 * p->small_time);
+    return 1;
+}
+
+void pose_close(pose_reader *p)
+{
+    if (p->is_open) reader_close(&p->rows);
+    dal_evaluator_free(p->evaluator);
+    free(p->q);
+    request_free(&p->request);
+    run_directory_close(&p->dir);
+}

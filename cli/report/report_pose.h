@@ -1,0 +1,38 @@
+/* report_pose.h - where the body of a run is at each of its rows.
+ *
+ * A system file says so under `picture`.  Of a system without one a point is shown: the first of
+ * the pairs (x, y), (x1, x2), (y1, y2) of which both are coordinates. */
+#ifndef DAL_CLI_REPORT_POSE_H
+#define DAL_CLI_REPORT_POSE_H
+
+#include "dalembert.h"
+#include "io/trajectory.h"
+#include "run/request.h"
+#include "run/run_directory.h"
+
+#include <stdbool.h>
+
+typedef struct pose_reader {
+    run_directory dir;
+    run_request request;
+    trajectory_reader rows;
+    dal_evaluator *evaluator;
+    double *q;           /* [n] */
+    bool is_open;        /* rows */
+    bool has_poses;      /* there are rows, and they have q and v */
+    dal_body body;       /* what is shown, */
+    const char *axis[2]; /* over what, */
+    int pair[2];         /* and the two coordinates that a system without a picture has for it */
+    double small_time;   /* for differences */
+    double t, pose[DAL_PICTURE_COUNT], rate[DAL_PICTURE_COUNT]; /* rate: the change of the pose */
+} pose_reader;
+
+/* Opens the run in a directory.  Without has_poses there is nothing to show, which is no error.
+ * Returns CLI_DONE, or prints and returns an exit status; close it in any case. */
+int pose_open(pose_reader *p, const char *run);
+/* Reads a row: 1, or 0 behind the last one, or -1 after a failure and its message.  What a picture
+ * does not define there is NaN. */
+int pose_next(pose_reader *p);
+void pose_close(pose_reader *p);
+
+#endif
