@@ -16,7 +16,7 @@
 #endif
 #include <unistd.h>
 
-enum { NOT_FOUND = 127 };
+enum { NOT_FOUND = 127, AXES_SIZE = 256 };
 
 void gnuplot_quote(FILE *script, const char *text)
 {
@@ -69,7 +69,7 @@ FILE *gnuplot_open(const char *directory, const char *name, const char *format, 
     snprintf(file, sizeof file, "%s.%s", name, format);
     gnuplot_set(script, "output", file);
     fputs("set datafile separator comma\nset datafile missing ''\nset tics nomirror font ',11.5'\n"
-          "set border 3\nset grid back lt 1 lw 1 lc rgb '#c0808080'\n",
+          "set border 3\nset grid back lt 1 lw 1 lc rgb '#c0808080'\nlog_x = 0\nlog_y = 0\n",
           script);
     return script;
 }
@@ -88,15 +88,31 @@ bool gnuplot_is_there(void)
     return found;
 }
 
-static int run(const char *directory, const char *path, bool *missing)
+/* The axes of the last plot: for x and y the pixels of both ends, the values there, and whether it
+ * is logarithmic.  Pixels of SVG begin at the top. */
+static const char print_axes[] =
+    "scale = 1.0*GPVAL_TERM_SCALE\n"
+    "height = GPVAL_TERM_YSIZE/scale\n"
+    "set print '-'\n"
+    "print sprintf('%.7g %.7g %.15g %.15g %d', GPVAL_TERM_XMIN, GPVAL_TERM_XMAX, GPVAL_X_MIN, "
+    "GPVAL_X_MAX, log_x), \\\n"
+    "  sprintf(' %.7g %.7g %.15g %.15g %d', height - GPVAL_TERM_YMIN, height - GPVAL_TERM_YMAX, "
+    "GPVAL_Y_MIN, GPVAL_Y_MAX, log_y)\n";
+
+/* Runs gnuplot and reads the axes that it prints. */
+static int run(const char *directory, const char *path, char axes[AXES_SIZE], bool *missing)
 {
     const char *slash = strrchr(path, '/'), *script = slash ? slash + 1 : path;
-    int state;
+    int state, ends[2];
     fflush(NULL);
     const pid_t parent = getpid();
+    if (pipe(ends) != 0) return cli_io("run", "gnuplot");
     pid_t child = fork();
     if (child < 0) return cli_io("run", "gnuplot");
     if (child == 0) {
+        dup2(ends[1], STDOUT_FILENO);
+        close(ends[0]);
+        close(ends[1]);
         /* The child ends with its parent. */
 #ifdef __linux__
         prctl(PR_SET_PDEATHSIG, SIGTERM);
@@ -105,6 +121,13 @@ static int run(const char *directory, const char *path, bool *missing)
         if (chdir(directory) == 0) execlp("gnuplot", "gnuplot", script, (char *)NULL);
         _exit(errno == ENOENT ? NOT_FOUND : 1);
     }
+    close(ends[1]);
+    FILE *printed = fdopen(ends[0], "r");
+    if (!printed || !fgets(axes, AXES_SIZE, printed)) axes[0] = '\0';
+    if (printed)
+        fclose(printed);
+    else
+        close(ends[0]);
     while (waitpid(child, &state, 0) < 0)
         if (errno != EINTR) return cli_io("wait for", "gnuplot");
     if (WIFEXITED(state) && WEXITSTATUS(state) == 0) return CLI_DONE;
@@ -118,13 +141,15 @@ static int run(const char *directory, const char *path, bool *missing)
 
 int gnuplot_draw(const char *directory, FILE *script, const char *path, bool *missing)
 {
+    char axes[AXES_SIZE] = "";
+    fputs(print_axes, script);
     int status = cli_close(script, path);
     if (missing) *missing = false;
-    if (status == CLI_DONE) status = run(directory, path, missing);
+    if (status == CLI_DONE) status = run(directory, path, axes, missing);
     if (status != CLI_DONE) return status;
     /* NAME.gp has drawn NAME.svg or NAME.png. */
     char *figure = cli_format("%.*ssvg", (int)strlen(path) - 2, path);
-    if (access(figure, F_OK) == 0) status = svg_tidy(figure);
+    if (access(figure, F_OK) == 0) status = svg_tidy(figure, axes);
     free(figure);
     return status;
 }

@@ -76,13 +76,14 @@ static const char *behind(const char *line, const char *text)
     return found ? next_line(found) : line;
 }
 
-static void write_tidy(FILE *out, const char *svg)
+static void write_tidy(FILE *out, const char *svg, const char *axes)
 {
     const char *line = svg;
     while (*line) {
         const char *next = next_line(line);
         if (begins(line, "<title>Gnuplot")) {
             fputs(style, out);
+            fprintf(out, "<metadata>%.*s</metadata>\n", (int)strcspn(axes, "\n"), axes);
             next = behind(line, "</desc>");
         } else if (begins(line, "<defs>") && !strstr(behind(line, "</defs>"), "<use ")) {
             next = behind(line, "</defs>");
@@ -95,13 +96,13 @@ static void write_tidy(FILE *out, const char *svg)
     }
 }
 
-int svg_tidy(const char *path)
+int svg_tidy(const char *path, const char *axes)
 {
     size_t length;
     char *svg = file_read(path, &length), *text;
     if (!svg) return CLI_IO;
     FILE *out = cli_memstream_open(&text, &length);
-    write_tidy(out, svg);
+    write_tidy(out, svg, axes);
     cli_memstream_close(out);
     const int status = file_write(path, text, length, 0);
     free(text);

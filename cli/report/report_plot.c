@@ -121,7 +121,7 @@ static void write_axis(FILE *s, const char *axis, const report_plot *plot, int k
     /* Labels stand at powers of ten: a range that does not hold two of them becomes one of whole
      * decades. */
     const double below = floor(log10(min)), above = fmax(ceil(log10(max)), below + 1.0);
-    fprintf(s, "set logscale %s\nset %srange ", axis, axis);
+    fprintf(s, "set logscale %s\nlog_%s = 1\nset %srange ", axis, axis, axis);
     if (k == 0 && max >= 100.0 * min)
         fprintf(s, "[%.17g:%.17g]\nset format %s '%%g'\n", min, max, axis);
     else
