@@ -74,7 +74,7 @@ LIB_OBJ    = $(LIB_SRC:%.c=$(BUILD)/%.o) $(BUILD)/generated/systems.o \
              $(BUILD)/generated/sources.o $(BUILD)/generated/trend_tables.o \
              $(call WIDE,$(VARIANTS),$(WIDE_SRC) $(METHOD_SRC))
 CLI_SRC    = $(filter-out cli/mpi/%,$(wildcard cli/*/*.c))
-EMBEDDED   = study report_style template
+EMBEDDED   = study report_style report_script template
 CLI_OBJ    = $(CLI_SRC:%.c=$(BUILD)/%.o) $(EMBEDDED:%=$(BUILD)/generated/%.o)
 WIDE       = $(foreach variant,$1,$(2:%.c=$(BUILD)/%_$(variant).o))
 
@@ -167,7 +167,7 @@ $(BUILD)/generated/trend_tables.c: tools/trend-tables.c lib/analysis/trend_table
 	@mkdir -p $(@D)
 	$(call SAY,cc)$(HOST_CC) -std=c11 -O2 -Ilib $< -lm -o $(@D)/trend-tables
 	$(@D)/trend-tables >$@.tmp && mv $@.tmp $@
-# Texts that are parts of the program: the built-in study, the style sheet of reports, a new system.
+# Texts that are parts of the program: the built-in study, style sheet and script of reports, a new system.
 define EMBED
 $(BUILD)/generated/$1.c: tools/embed-text.sh $3
 	@mkdir -p $$(@D)
@@ -175,6 +175,7 @@ $(BUILD)/generated/$1.c: tools/embed-text.sh $3
 endef
 $(eval $(call EMBED,study,study_builtin_text,bench/studies/canonical-drift.yaml))
 $(eval $(call EMBED,report_style,report_style,cli/report/report.css))
+$(eval $(call EMBED,report_script,report_script,cli/report/report.js))
 $(eval $(call EMBED,template,system_template,cli/commands/template.yaml))
 $(BUILD)/generated/%.o: $(BUILD)/generated/%.c ; $(COMPILE)
 

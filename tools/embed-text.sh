@@ -3,5 +3,5 @@
 # literal is limited.
 set -e
 printf 'extern const char %s[];\nconst char %s[] = {\n' "$1" "$1"
-od -An -v -tx1 "$2" | sed 's/ \(..\)/0x\1,/g'
+od -An -v -td1 "$2" | sed 's/ *\(-*[0-9][0-9]*\)/\1,/g'
 echo '0};'

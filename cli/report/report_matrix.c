@@ -1,6 +1,9 @@
 /* report_matrix.c - the tables of sizes and trends of a study: methods against systems. */
 #include "report_matrix.h"
+#include "dalembert.h"
 #include "ui/memory.h"
+
+#include "report_family.h"
 
 #include <stdio.h>
 #include <stdlib.h>
@@ -52,6 +55,17 @@ static void write_trend_cell(const study_page *s, int row, const quantity *t)
         report_trend(page, get_cell(s, row, t->size), get_cell(s, row, t->trend), number);
 }
 
+/* Begins a row, with what it may be sorted by. */
+static void write_method(FILE *page, const char *name)
+{
+    dal_method method;
+    dal_error error;
+    const int order = dal_method_parse(&method, name, &error) ? 0 : dal_method_order(&method);
+    fprintf(page, "<tr data-family=\"%s\" data-order=\"%d\">",
+            method_family_name[method_family_of(name)], order);
+    report_element(page, "th scope=\"row\"", name);
+}
+
 /* Labels without a value and methods that apply to none of the others are left out. */
 static void write_matrix(const study_page *s, const table_columns *all, const quantity *t)
 {
@@ -61,9 +75,14 @@ static void write_matrix(const study_page *s, const table_columns *all, const qu
     for (int i = 0; i < all->count; i++)
         if (has_value(s, &all->at[i], t)) shown.at[shown.count++] = all->at[i];
     if (shown.count == 0) return;
-    fprintf(page, "<h3>%s</h3>\n" REPORT_TABLE "<td></td>", t->heading);
+    fprintf(page,
+            "<h3>%s</h3>\n<div class=\"wide\" tabindex=\"0\" role=\"region\" aria-label=\"%s\">"
+            "<table class=\"matrix\" data-quantity=\"%s\"><thead><tr><td></td>",
+            t->heading, t->title, t->name);
     for (int i = 0; i < shown.count; i++) {
-        fputs("<th scope=\"col\">", page);
+        fputs("<th scope=\"col\" data-label=\"", page);
+        report_text(page, shown.at[i].label);
+        fprintf(page, "\" data-step=\"%.9g\">", strtod(shown.at[i].step, NULL));
         report_text(page, shown.at[i].label);
         if (!shown.at[i].is_alone)
             fprintf(page, "<br><small>h = %g</small>", strtod(shown.at[i].step, NULL));
@@ -79,7 +98,7 @@ static void write_matrix(const study_page *s, const table_columns *all, const qu
             is_found |= rows[i] > 0;
         }
         if (!is_found) continue;
-        report_row(page, s->methods.word[m]);
+        write_method(page, s->methods.word[m]);
         for (int i = 0; i < shown.count; i++) write_trend_cell(s, rows[i], t);
         fputs("</tr>\n", page);
     }

@@ -1,5 +1,6 @@
-/* report_page.c - the page of a report: HTML that needs no other file, no network and no script,
- * light or dark as its reader prefers, on wide screens and on narrow ones. */
+/* report_page.c - the page of a report: HTML that needs no other file and no network,
+ * light or dark as its reader prefers, on wide screens and on narrow ones.  It is complete without
+ * the script at its end, which adds what can be pressed. */
 #include "report_page.h"
 
 #include "dalembert.h"
@@ -88,7 +89,7 @@ void report_file(report *r, const char *name, const char *summary)
 /* ---- figures ------------------------------------------------------------------------------- */
 
 /* Three bytes are four letters (RFC 4648). */
-static void write_base64(FILE *page, const char *bytes, size_t length)
+void report_base64(FILE *page, const char *bytes, size_t length)
 {
     static const char letters[] =
         "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -116,7 +117,7 @@ int report_embed(report *r, const char *name, const char *alt, const char *capti
         svg_write_url(r->page, bytes);
     } else {
         fprintf(r->page, "data:image/%s;base64,", r->format);
-        write_base64(r->page, bytes, length);
+        report_base64(r->page, bytes, length);
     }
     fputs("'>", r->page);
     if (caption[0]) fprintf(r->page, "<figcaption>%s</figcaption>", caption);
@@ -161,7 +162,8 @@ int report_close(report *r)
                 " Every figure stands beside this page, as NAME.%s and as the gnuplot script "
                 "NAME.gp with its data.",
                 r->format);
-    fputs("</p>\n</body></html>\n", r->page);
+    fprintf(r->page, "</p>\n<script type=\"module\">\n%s</script>\n</body></html>\n",
+            report_script);
     return cli_close(r->page, r->page_path);
 }
 

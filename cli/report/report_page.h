@@ -9,7 +9,7 @@
 #include <stdbool.h>
 #include <stdio.h>
 
-extern const char report_style[]; /* report.css, embedded when the program is built */
+extern const char report_style[], report_script[]; /* report.css and report.js, embedded */
 
 typedef struct report {
     const char *directory; /* of the study or run */
@@ -31,6 +31,8 @@ void report_title(report *r, const char *title);
 /* A text with &, <, > and quotes escaped; the same in an element. */
 void report_text(FILE *page, const char *text);
 void report_element(FILE *page, const char *element, const char *text);
+/* Bytes as base64. */
+void report_base64(FILE *page, const char *bytes, size_t length);
 /* A table has its heads between REPORT_TABLE and REPORT_ROWS, then rows that begin with a name. */
 #define REPORT_TABLE     "<div class=\"wide\" tabindex=\"0\"><table><thead><tr>"
 #define REPORT_ROWS      "</tr></thead>\n<tbody>"

@@ -9,6 +9,7 @@
 #include "io/file.h"
 #include "io/trajectory.h"
 #include "report_csv.h"
+#include "report_data.h"
 #include "report_path.h"
 #include "report_plot.h"
 #include "report_rows.h"
@@ -354,8 +355,10 @@ int report_run(report *r)
         report_title(r, report_model_title(request.model, "A run"));
         if (request.model) write_head(run, dir.manifest);
         write_summary(run, request.time);
+        if (request.system_name) status = data_write_run(r);
         fputs("<h2>Figures</h2>\n<div class=\"figures\">\n", r->page);
-        if (request.system_name) status = report_path(r, r->directory, "path", "");
+        if (request.system_name && status == CLI_DONE)
+            status = report_path(r, r->directory, "path", "");
         if (status == CLI_DONE) status = draw_figures(run);
         fputs("</div>\n", r->page);
         if (request.system_name) write_command(r->page, &request);

@@ -14,8 +14,10 @@
 #include "io/gnuplot.h"
 #include "report_cells.h"
 #include "report_csv.h"
+#include "report_data.h"
 #include "report_family.h"
 #include "report_matrix.h"
+#include "report_motion.h"
 #include "report_path.h"
 #include "report_plot.h"
 
@@ -203,21 +205,32 @@ static int draw_errors(const label_figures *f, bool over_work)
     return report_draw(f->s->r, &plot);
 }
 
-/* The path of the most accurate run among those whose rows were kept. */
+/* The run of a row of the label that is done, was kept and does not start off p = pi = 0. */
+static bool is_kept(const label_figures *f, int row)
+{
+    return is_of_label(f, row) && !is_cell(f->s, row, "run", "") &&
+           is_cell(f->s, row, "state", "done") && !is_cell(f->s, row, "start", "displaced");
+}
+
+static double error_of(const label_figures *f, int row)
+{
+    return f->accuracy ? report_csv_number(&f->s->cells, row, f->accuracy) : 0.0;
+}
+
+/* The row of the most accurate run among those that were kept, or 0. */
+static int find_best(const label_figures *f)
+{
+    int best = 0;
+    for (int row = 1; row < f->s->cells.rows; row++)
+        if (is_kept(f, row) && (best == 0 || error_of(f, row) < error_of(f, best))) best = row;
+    return best;
+}
+
+/* Its path. */
 static int draw_best_path(const label_figures *f)
 {
     const study_page *s = f->s;
-    int best = 0;
-    double min = INFINITY;
-    for (int row = 1; row < s->cells.rows; row++) {
-        if (!is_of_label(f, row) || is_cell(s, row, "run", "") ||
-            !is_cell(s, row, "state", "done") || is_cell(s, row, "start", "displaced"))
-            continue;
-        const double error = f->accuracy ? report_csv_number(&s->cells, row, f->accuracy) : 0.0;
-        if (best > 0 && !(error < min)) continue;
-        best = row;
-        min = error;
-    }
+    const int best = find_best(f);
     if (best == 0) return CLI_DONE;
     char name[PLOT_NAME], caption[2 * PLOT_NAME];
     snprintf(name, sizeof name, "%.120s-path", f->label);
@@ -226,6 +239,62 @@ static int draw_best_path(const label_figures *f)
     char *run = cli_join(s->r->directory, get_cell(s, best, "run"));
     const int status = report_path(s->r, run, name, caption);
     free(run);
+    return status;
+}
+
+/* ---- the motions of a label ---------------------------------------------------------------- */
+
+/* A run whose motion parts from the best one is no longer seen beside it where its path is more
+ * than this many times as large; runs that are tried for one. */
+static const double max_extent = 2.0;
+enum { MAX_TRIES = 12 };
+
+static int read_motion(const label_figures *f, int row, motion *m)
+{
+    char *run = cli_join(f->s->r->directory, get_cell(f->s, row, "run"));
+    const int status = motion_read(m, run, MOTION_STUDY_FRAMES);
+    free(run);
+    return status;
+}
+
+/* The row of the largest error below a bound, with the step of another row; 0: there is none. */
+static int find_worst(const label_figures *f, double bound, const char *step)
+{
+    int worst = 0;
+    for (int row = 1; row < f->s->cells.rows; row++)
+        if (is_kept(f, row) && is_cell(f->s, row, "step", step) && error_of(f, row) < bound &&
+            (worst == 0 || error_of(f, row) > error_of(f, worst)))
+            worst = row;
+    return worst;
+}
+
+/* The motion of the most accurate run, and the least accurate that stays in sight of it. */
+static int write_motions(const label_figures *f)
+{
+    motion pair[2] = {{.frames = 0}, {.frames = 0}};
+    const int best = find_best(f);
+    int status = best > 0 ? read_motion(f, best, &pair[0]) : CLI_DONE, row = best;
+    double bound = INFINITY;
+    for (int tries = 0; pair[0].frames > 0 && tries < MAX_TRIES && status == CLI_DONE; tries++) {
+        row = find_worst(f, bound, get_cell(f->s, best, "step"));
+        if (row == 0 || row == best) break;
+        status = read_motion(f, row, &pair[1]);
+        if (motion_extent(&pair[1]) <= max_extent * motion_extent(&pair[0])) break;
+        motion_free(&pair[1]);
+        bound = error_of(f, row);
+    }
+    data_write_motions(f->s->r->page, pair, 2);
+    motion_free(&pair[0]);
+    motion_free(&pair[1]);
+    return status;
+}
+
+static int write_data(const label_figures *f)
+{
+    data_begin(f->s->r->page);
+    data_write_envelopes(f->s, f->label, &f->steps, &f->series);
+    const int status = write_motions(f);
+    data_end(f->s->r->page);
     return status;
 }
 
@@ -275,6 +344,7 @@ static int report_label(const study_page *s, const char *label)
     } else {
         char *name = cli_format("series/%s.csv", label), *path = cli_join(s->r->directory, name);
         status = report_csv_read(&f->series, path);
+        if (status == CLI_DONE) status = write_data(f);
         if (status == CLI_DONE) status = draw_label(f);
         free(name);
         free(path);

@@ -32,6 +32,48 @@ try 0 run chaplygin-sleigh --integrator gauss4 --step 0.1 --time 6.2831853071795
     --set v0=0.1 --output ran
 page=drawn/report/index.html
 
+if there python3; then
+    case_is "the envelopes of a page are the maxima of series/"
+    # Of three methods with two steps: D, E, I, H and the error of the sleigh, D, E and I of the
+    # vakonomic one, all but D of the line.
+    try 0 report drawn
+    python3 "$here/page_data.py" envelopes $page drawn >compared 2>&1
+    holds "$(cat compared)" test "$(cat compared)" = "72 envelopes"
+
+    # The sleigh goes round a circle of radius 0.1 about (0, 0.1) with angular velocity 1; between two
+    # of 81 rows the cubic is off by (pi/40)^4/384 of the radius, and x, y are rounded to 1/65535 of
+    # their ranges, 0.2.
+    case_is "the motion on the page of a run"
+    try 0 report ran
+    python3 "$here/page_data.py" motions ran/report/index.html >motion
+    holds "it is no motion round the circle" awk 'function off(x, y) { return (x > y ? x - y : y - x) > 2e-6 }
+        { n++; wrong += $1 != "gauss4" || off($3, 0.1*sin($2)) || off($4, 0.1 - 0.1*cos($2)) ||
+              ($5 - $2)^2 > 1e-8 || $6 != 0 }
+        END { exit n != 641 || wrong }' motion
+
+    case_is "rows that are far apart are the frames"
+    try 0 run chaplygin-sleigh --integrator gauss4 --step 0.1 --time 300 --samples 50 --output far
+    try 0 report far
+    python3 "$here/page_data.py" motions far/report/index.html >motion
+    holds "$(wc -l <motion) frames" test "$(wc -l <motion)" -eq 51
+    holds "no word of it" grep -q '"smooth":false' far/report/index.html
+
+    case_is "a system without a picture: its first pair of coordinates"
+    printf 'coordinates: [x, x2, x1]\naccelerations: {x: 0, x2: 0, x1: 0}
+start: {x2: 3, x1'"'"': 1}\n' >pair.yaml
+    rm -rf pair
+    try 0 run ./pair.yaml --integrator rk4 --step 0.1 --time 2 --output pair
+    try 0 report pair
+    python3 "$here/page_data.py" motions pair/report/index.html >motion
+    holds "not x1 over x2" awk '($3 - $2)^2 > 1e-8 || $4 != 3 { wrong = 1 } END { exit wrong || NR < 20 }' motion
+    holds "the axes have other names" grep -q '"axes":\["x1","x2"\],"body":"point"' pair/report/index.html
+    sed -i 's/x2/z/g' pair.yaml
+    rm -rf pair
+    try 0 run ./pair.yaml --integrator rk4 --step 0.1 --time 2 --output pair
+    try 0 report pair
+    holds "a motion without a pair" sh -c "! grep -q '\"motions\"' pair/report/index.html"
+fi
+
 if command -v gnuplot >/dev/null 2>&1; then
     case_is "the report of a study"
     try 0 report drawn
@@ -51,13 +93,17 @@ if command -v gnuplot >/dev/null 2>&1; then
     holds "no count of expectations" grep -q '<p>12 of 18 are met.</p>' $page
     holds "no failed expectation" grep -q '<td>E</td><td>.*1e-30</td><td>.*<td class="drift">not met' $page
     holds "no path of the best run" grep -q '<svg' "drawn/report/a <b> \"c\" 'd'-path.svg"
-    holds "no column for each step" grep -q '<th scope="col">line.yaml<br><small>h = 0.05' $page
+    holds "no column for each step" grep -q '<th scope="col" data-label="line.yaml" data-step="0.05">line.yaml<br><small>h = 0.05' $page
     holds "no study file" grep -q 'integrators: \[rk4, gauss4, gauss4+project\]' $page
     holds "no tables" grep -q 'What this shows' $page
 
     case_is "the page is one file"
     holds "it refers to others" sh -c "! grep -Eo '(src|href)=[\"'\''][^\"'\'']{0,20}' $page | grep -Ev 'data:|#|%23'"
-    holds "it has a script" sh -c "! grep -qi '<script' $page"
+    # The data of each of three systems with numbers, and one script, which refers to nothing.
+    holds "other scripts" test "$(grep -c '<script type="application/json"' $page)" -eq 3 -a \
+        "$(grep -c '<script' $page)" -eq 4
+    holds "its script is another" sh -c "grep -qxF \"systems.forEach(addChooser);\" $page"
+    holds "its script refers to others" sh -c "! grep -E '(fetch|import|XMLHttpRequest|WebSocket|url)\(' $page"
     holds "a figure without words" sh -c "! grep -q '<img alt=\"\"' $page"
     holds "no words of a figure" grep -q '<img alt="Energy, h = 0.1: max |E - E(0)| over t' $page
     grep 'alt="Constraints, h = 0.1' $page | tail -1 | grep -o "src='data:image/svg+xml,[^']*" |

@@ -1,0 +1,36 @@
+/* report_motion.h - the motion of a run: where its body is at equal intervals of time.
+ *
+ * The page has it as JSON, with each number of the pose as 16-bit integers between its least and
+ * its largest value, little-endian, in base64; report.js plays it.  See docs/formats.md. */
+#ifndef DAL_CLI_REPORT_MOTION_H
+#define DAL_CLI_REPORT_MOTION_H
+
+#include "dalembert.h"
+
+#include <stdbool.h>
+#include <stdio.h>
+
+/* Frames of a motion on the page of a study, of which there may be many, and on that of a run; two
+ * of five numbers a frame are at most 40 and 300 kB. */
+enum { MOTION_STUDY_FRAMES = 1500, MOTION_RUN_FRAMES = 6000 };
+
+typedef struct motion {
+    dal_body body;
+    const char *axis[2];
+    char method[128];
+    double step, start, end; /* the times of the first and the last frame */
+    bool is_smooth;          /* the path may be drawn through the frames; otherwise they are rows */
+    int frames;              /* 0: there is nothing to show */
+    double (*pose)[DAL_PICTURE_COUNT];
+} motion;
+
+/* Reads the run in a directory.  Returns CLI_DONE, or prints and returns an exit status; free it in
+ * any case. */
+int motion_read(motion *m, const char *run, int max_frames);
+void motion_free(motion *m);
+/* The larger side of the path. */
+double motion_extent(const motion *m);
+/* Writes it as a JSON object. */
+void motion_write(FILE *page, const motion *m);
+
+#endif
