@@ -135,8 +135,7 @@ int report_open(report *r)
     const int status = cli_directory(r->place);
     if (status != CLI_DONE) return status;
     r->page_path = cli_join(r->place, "index.html");
-    r->page = fopen(r->page_path, "w");
-    if (!r->page) return cli_io("write", r->page_path);
+    r->page = cli_memstream_open(&r->text, &r->length);
     fprintf(r->page,
             "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
             "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
@@ -164,7 +163,10 @@ int report_close(report *r)
                 r->format);
     fprintf(r->page, "</p>\n<script type=\"module\">\n%s</script>\n</body></html>\n",
             report_script);
-    return cli_close(r->page, r->page_path);
+    cli_memstream_close(r->page);
+    const int status = file_write(r->page_path, r->text, r->length, 0);
+    free(r->text);
+    return status;
 }
 
 int report_make(report *r, int (*write)(report *r))

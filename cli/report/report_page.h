@@ -15,7 +15,9 @@ typedef struct report {
     const char *directory; /* of the study or run */
     char *place;           /* DIR/report */
     const char *format;    /* "svg" or "png" */
-    FILE *page;
+    FILE *page;            /* in memory until it is closed */
+    char *text;            /* what is on it, and how much, when it is closed */
+    size_t length;
     char *page_path;
     bool lacks_gnuplot; /* scripts are written, figures are not */
     int figures;        /* on the page so far */
