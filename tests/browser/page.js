@@ -66,13 +66,12 @@ addEventListener('load', () => {
                     fault(`${what} covers "${texts[j].textContent.trim()}"`);
             }
         });
-        // The key stands beside the curves: no name of a curve covers what is drawn of one.
-        const drawn = [...holder.querySelectorAll('g[id^=gnuplot_plot] :is(path, polygon, use)')]
-            .map(e => e.getBoundingClientRect());
+        // The key stands beside the curves: no name of a curve lies between the axes.
+        const [x0, x1, , , , y0, y1] = holder.querySelector('metadata').textContent.split(' ').filter(Boolean)
+            .map(x => scale * x);
         for (const t of holder.querySelectorAll('g[id^=gnuplot_plot] text')) {
             const b = t.getBoundingClientRect();
-            if (drawn.some(d => Math.min(b.right, d.right) - Math.max(b.left, d.left) > 1 &&
-                                Math.min(b.bottom, d.bottom) - Math.max(b.top, d.top) > 1))
+            if (Math.min(b.right, x1) - Math.max(b.left, x0) > 1 && Math.min(b.bottom, y0) - Math.max(b.top, y1) > 1)
                 fault(`${name}: "${t.textContent}" in the key covers a curve`);
         }
         for (const line of holder.querySelectorAll('g[id^=gnuplot_plot] path[stroke]')) {
