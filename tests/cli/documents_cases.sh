@@ -3,7 +3,6 @@
 # stands behind two blanks.  Without what follows it, `study` runs the built-in study, which takes
 # too long here.  Each indented line between the marks of `printed` is a line that they print.
 
-limit=180 # seconds, for the study of choosing.md in a build with sanitizers
 for document in "$here/../../README.md" "$here"/../../docs/*.md; do
     case_is "the commands of $(basename "$document")"
     directory=$(basename "$document" .md)
@@ -51,4 +50,3 @@ sed -n '/^<!-- choosing -->$/,/^<!-- end of choosing -->$/{/^<!--/d;p;}' \
     "$here/../../docs/choosing.md" | sed '1d;$d' >stated
 awk -f "$here/../../tools/choosing.awk" choosing/choice/cells.csv >measured
 holds "make references CHOOSING=1 writes other tables: $(diff stated measured | head -3)" cmp stated measured
-limit=

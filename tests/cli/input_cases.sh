@@ -68,11 +68,10 @@ refuse 'bad\.yaml:[0-9]+:[0-9]+: ' bad.yaml $run
 : >bad.yaml
 refuse 'bad\.yaml' bad.yaml $run
 
-case_is "nesting without end"
+case_is "nesting without end" # at a cost beyond a linear one the program would be ended
 for open in '[' '{a: ' '- ' '[\n'; do
-    awk -v open="$open" 'BEGIN { for (i = 0; i < 100000; i++) printf open }' \
+    awk -v open="$open" 'BEGIN { for (i = 0; i < 1000000; i++) printf open }' \
         >bad.yaml
-    begun=$(date +%s)
     refuse 'bad\.yaml:[0-9]+:[0-9]+: ' bad.yaml $run
     try 2 study bad.yaml --output there
     says '^dalembert: bad\.yaml:[0-9]+:[0-9]+: deeper than 32 levels$'
@@ -82,8 +81,6 @@ for open in '[' '{a: ' '- ' '[\n'; do
     says '^dalembert: deep/manifest\.json:[0-9]+:[0-9]+: (deeper than 32 levels|no JSON: .*)$'
     cp bad.yaml deep/study.yaml
     try 2 resume deep
-    took=$(($(date +%s) - begun))
-    holds "$took seconds" [ $took -le 8 ]
     rm -r deep
 done
 

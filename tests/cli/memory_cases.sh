@@ -3,12 +3,12 @@
 # allocation fail, or all from the k-th on; ALLOCATIONS says how many k are tried for a command.
 
 ALLOCATIONS=${ALLOCATIONS:-16}
-shim=$work/fail_allocation.so
+shim=$top/fail_allocation.so
 # without_memory K COUNT ARGUMENT...: allocation K and COUNT - 1 after it fail; K = 0: none.
 without_memory() {
     k=$1 count=$2
     shift 2
-    timeout 60 env LD_PRELOAD="$shim" FAIL_AT=$k FAIL_COUNT=$count FAIL_LOG="$work/allocations" \
+    timeout $patience env LD_PRELOAD="$shim" FAIL_AT=$k FAIL_COUNT=$count FAIL_LOG="$work/allocations" \
         "$program" "$@" >out 2>err
 }
 # numbers TOTAL: which of TOTAL allocations fail: the first and last few and some between.
@@ -43,8 +43,7 @@ fails_cleanly() {
     holds "status $well, $total allocations, at$fault: $*" [ -z "$fault" -a "$total" -gt 0 ]
 }
 
-if there cc && cc -shared -fPIC -O1 "$here/fail_allocation.c" -o "$shim" 2>/dev/null &&
-    without_memory 0 1 --version && [ ! -s err ]; then
+if shared_object fail_allocation && without_memory 0 1 --version && [ ! -s err ]; then
     printf '%s\n' 'title: t' 'integrators: [rk4, gauss4]' 'step: 0.1' 'time: 1' 'systems:' \
         '  - {system: line.yaml, set: {k: [1, 2]}}' >scarce.yaml
     motion="line.yaml --integrator rk4 --step 0.1 --time 1"

@@ -156,7 +156,7 @@ mkdir -p none
 path=$PATH
 timeout=$(command -v timeout)
 PATH=$PWD/none
-"$timeout" 60 "$program" run $motion --native on --output native.csv >out 2>err
+"$timeout" $patience "$program" run $motion --native on --output native.csv >out 2>err
 status=$?
 PATH=$path
 holds "exit $status" test $status -eq 0

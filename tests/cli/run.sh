@@ -19,6 +19,8 @@ LC_ALL=C
 export LC_ALL
 unset COLUMNS
 
+# No case expects a speed: after these seconds what hangs is ended, and what does not come is given up.
+patience=${PATIENCE:-600}
 passed=0
 failed=0
 label=
@@ -39,9 +41,14 @@ holds() {
 try() {
     expected=$1
     shift
-    timeout "${limit:-60}" "$program" "$@" >out 2>err
-    status=$?
-    if [ $status -eq "$expected" ]; then pass; else fail "exit $status, not $expected: $*"; fi
+    timeout $patience "$program" "$@" >out 2>err
+    ended $? "$@"
+}
+# ended STATUS ARGUMENT...: the program must have ended with the status $expected.
+ended() {
+    status=$1
+    shift
+    if [ "$status" -eq "$expected" ]; then pass; else fail "exit $status, not $expected: $*"; fi
 }
 says() { if grep -Eq -- "$1" err; then pass; else fail "stderr lacks /$1/"; fi; }
 prints() { if grep -Eq -- "$1" out; then pass; else fail "stdout lacks /$1/"; fi; }
@@ -59,16 +66,58 @@ columns_of() { head -c 8192 "$1" | grep -ao "'<f8'" | wc -l; }
 # json FILE EXPRESSION: what is true of a JSON document d, read by Python.
 json() { python3 "$here/holds_json.py" "$@"; }
 
-# appears FILE: waits for it, at most ten seconds.
-appears() {
-    for i in 1 2 3 4 5 6 7 8 9 10; do
-        for j in 1 2 3 4 5 6 7 8 9 10; do
-            [ -e "$1" ] && return 0
-            sleep 0.1
-        done
+# awaits COMMAND...: repeats it until it succeeds.
+awaits() {
+    waits=0
+    until "$@" >/dev/null 2>&1; do
+        waits=$((waits + 1))
+        [ $waits -lt $((10 * patience)) ] || return 1
+        sleep 0.1
     done
-    return 1
 }
+has_lines() { [ "$(wc -l <"$1")" -ge "$2" ]; }
+# gone PID: the process has ended, if only as a zombie.
+gone() { ! kill -0 "$1" || grep -q '^State:.Z' "/proc/$1/status"; }
+# reaches PID COMMAND...: waits until the command succeeds, while the process lives.
+reaches() {
+    pid=$1 reached=
+    shift
+    awaits reached_or_gone "$@"
+    [ -n "$reached" ]
+}
+reached_or_gone() { if "$@"; then reached=yes; else gone $pid; fi; }
+# catches PID: the program has begun to catch SIGTERM, number 15, and SIGINT.
+catches() { grep -q '^SigCgt:.*[4-7c-f]...$' "/proc/$1/status"; }
+# ready PID: can be given signals.
+ready() { if [ -e /proc/self/status ]; then reaches "$1" catches "$1"; else sleep 5; fi; }
+# ends_by SIGNAL STATUS PID: the signal ends the process, with that status.
+ends_by() {
+    kill -"$1" "$3"
+    holds "it goes on after SIG$1" awaits gone "$3"
+    kill -9 "$3" 2>/dev/null
+    wait "$3" 2>/dev/null
+    status=$?
+    holds "exit $status after SIG$1, not $2" test $status -eq "$2"
+}
+
+# shared_object NAME: makes NAME.so, for LD_PRELOAD.
+shared_object() { there "${CC:-cc}" && ${CC:-cc} -shared -fPIC -O1 "$here/$1.c" -o "$top/$1.so" 2>/dev/null; }
+# signalled NUMBER CALL ARGUMENT...: the program raises signal NUMBER in its call CALL of rename, by which it
+# writes checkpoints and manifests: at the same place on every machine.
+signalled() {
+    number=$1 call=$2
+    shift 2
+    timeout $patience env ASAN_OPTIONS="${ASAN_OPTIONS:+$ASAN_OPTIONS:}verify_asan_link_order=0" \
+        LD_PRELOAD="$top/raise_signal.so" RAISE="$number" RAISE_AT="$call" "$program" "$@"
+} >out 2>err
+# cut_off STATUS NUMBER CALL ARGUMENT...: like try, with that signal.
+cut_off() {
+    expected=$1
+    shift
+    signalled "$@"
+    ended $? "$@"
+}
+
 # The cells of a column by its head.
 column() { awk -F, -v head="$1" 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == head) k = i; next }
                                  { print $k }' "$2"; }
@@ -99,6 +148,11 @@ lagrangian: (x'^2 + y'^2)/2
 constraints: [x' - y']
 start: {x': 1, y': 1}
 END
+
+# Signals at given places, where the program can be given them.
+shared_object raise_signal && signalled 9 1 run line.yaml --integrator rk4 --step 1 --time 1 --output signalled
+signalling=$?
+raises() { [ $signalling -eq 137 ] || { echo "cli: $name: skipped: no signals at given places" && false; }; }
 
 # Each part has a directory of its own, so that none meets what another left.
 for part in "$here"/[a-z]*_cases.sh; do

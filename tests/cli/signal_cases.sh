@@ -1,54 +1,58 @@
 # Signals: the first ends a command where its work can be ended, the second ends the program.
 
-# One step that takes long: dop853 divides it into 1e5 substeps, in quad precision.
 cat >swing.yaml <<'END'
 coordinates: [x]
 lagrangian: (x'^2 - x^2)/2
 start: {x: 1}
 END
-slow="./swing.yaml --integrator dop853 --tolerance 1e-28 --precision quad --step 1e5 --time 1e5"
-# alive PID: it is neither gone nor a zombie.
-alive() { kill -0 "$1" 2>/dev/null && ! grep -q '^State:.Z' "/proc/$1/status"; }
-# ends PID: within three seconds.
-ends() {
-    for i in 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15; do
-        alive "$1" || return 0
-        sleep 0.2
+# One step that takes hours: up to 1e5 substeps of dop853, in quad precision, with 5000 sines in the force.
+awk 'BEGIN { print "coordinates: [x]\nstart: {x: 1}"; printf "accelerations: {x: -x + 1e-6*(0"
+    for (i = 1; i <= 5000; i++) printf " + sin(x + %d)", i; print ")}" }' >sines.yaml
+slow="./sines.yaml --integrator dop853 --tolerance 1e-28 --precision quad --step 1e5 --time 1e5"
+# request_in_step: two signals at once in the midst of a step, which are one request: a launcher signals a
+# program and then its group.  Where they came before the step, which ends the program, it begins again.
+request_in_step() {
+    for delay in 1 3 10 30 100; do
+        "$program" run $slow --output slow.csv --force 2>err &
+        pid=$!
+        ready $pid && sleep $delay
+        kill -STOP $pid
+        kill -INT $pid
+        kill -TERM $pid
+        kill -CONT $pid
+        sleep 1
+        gone $pid 2>/dev/null || return 0
     done
     return 1
 }
-# ends_by SIGNAL STATUS: the signal ends the process $pid, with that status.
-ends_by() {
-    kill -"$1" $pid
-    holds "it goes on" ends $pid
-    kill -9 $pid 2>/dev/null
-    wait $pid
-    status=$?
-    holds "exit $status after SIG$1, not $2" test $status -eq "$2"
+# ends_at_last SIGNAL: repeated, since a signal less than half a second after the first is the same request.
+ends_at_last() {
+    for i in $(seq $patience); do
+        kill -"$1" $pid
+        sleep 1
+        gone $pid && return
+    done
+    return 1
 }
 for signal in INT TERM; do
     [ $signal = INT ] && number=2 || number=15
     case_is "a second SIG$signal ends what the first did not"
-    "$program" run $slow --output slow.csv 2>err &
-    pid=$!
-    sleep 0.5
-    kill -$signal $pid
-    sleep 0.1
-    kill -$signal $pid # a launcher signals a program and then its group: that is one request
-    sleep 0.7
-    holds "ended by a request in the midst of a step" alive $pid
-    ends_by $signal $((128 + number))
+    if request_in_step; then pass; else fail "ended by a request in the midst of a step"; fi
+    holds "it goes on" ends_at_last $signal
+    kill -9 $pid 2>/dev/null
+    wait $pid 2>/dev/null
+    status=$?
+    holds "exit $status after SIG$signal, not $((128 + number))" test $status -eq $((128 + number))
 done
 
 case_is "a section is interrupted: its rows are kept"
 cut="section ./swing.yaml --on x --integrator rk4 --step 0.001 --native off"
 try 0 $cut --time 300
 mv out whole.csv
-"$program" $cut --time 1e7 --output cut 2>err >counted &
+"$program" $cut --time 1e12 --output cut 2>err >counted &
 pid=$!
-appears cut/section.csv
-sleep 1
-ends_by INT 130
+holds "no rows" reaches $pid has_lines cut/section.csv 4
+ends_by INT 130 $pid
 says '^dalembert: interrupted; [0-9]+ rows are kept$'
 holds "whole lines" awk -F, 'NR == 1 { n = NF } NF != n { exit 1 }' cut/section.csv
 rows=$(($(wc -l <cut/section.csv) - 1))
@@ -63,9 +67,9 @@ head -n $((least + 1)) whole.csv >wanted.csv
 holds "not the rows of a section never interrupted" cmp short.csv wanted.csv
 
 case_is "order is interrupted"
-"$program" order ./swing.yaml --integrators rk4 --time 1e7 --step 0.01 >out 2>err &
+"$program" order ./swing.yaml --integrators rk4 --time 1e12 --step 0.01 >out 2>err &
 pid=$!
-sleep 0.5
-ends_by INT 130
+holds "no handlers" ready $pid
+ends_by INT 130 $pid
 says '^dalembert: interrupted$'
 empty
