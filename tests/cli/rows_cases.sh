@@ -146,11 +146,12 @@ says "unknown option '--names'"
 case_is "names that are words: resumed, and reported"
 words="chaplygin-sleigh --integrator gauss8 --step 0.001 --time 200 --samples 20001"
 try 0 run $words --names plain --output plain.npy
-"$program" run $words --names plain --output plain --checkpoint 0 2>err &
-appears plain/checkpoint
-kill -9 $!
-wait $! 2>/dev/null
-try 0 resume plain
+if raises; then
+    cut_off 137 9 6 run $words --names plain --output plain --checkpoint 0
+    try 0 resume plain
+else
+    try 0 run $words --names plain --output plain
+fi
 holds "the names are not kept" cmp plain.npy plain/trajectory.npy
 try 0 run $words --output primed
 for directory in plain primed; do

@@ -75,6 +75,7 @@ awaits() {
         sleep 0.1
     done
 }
+has_bytes() { [ "$(wc -c <"$1")" -ge "$2" ]; }
 has_lines() { [ "$(wc -l <"$1")" -ge "$2" ]; }
 # gone PID: the process has ended, if only as a zombie.
 gone() { ! kill -0 "$1" || grep -q '^State:.Z' "/proc/$1/status"; }
