@@ -437,13 +437,17 @@ static void put_found(FILE *out, const study_expectation *x, const study_cell *c
                 has_trend ? dal_trend_text(trend->trend) : "");
 }
 
-static void print_unmet(FILE *out, const study_expectation *x, const study_cell *c, int met)
+void study_print_comparison(FILE *out, const study_comparison *comparison, bool in_columns)
 {
     char name[STUDY_NAME];
-    if (met) return;
-    fprintf(out, "  %-24s %-24s ", c ? c->of_case->label : x->label,
+    const int width = in_columns ? 24 : 0;
+    const study_expectation *x = comparison->expectation;
+    const study_cell *c = comparison->cell;
+    fprintf(out, "  %-*s %-*s ", width, c ? c->of_case->label : x->label, width,
             c ? dal_method_name(c->method, name, sizeof name) : x->method);
-    if (c) fprintf(out, "%-9s h = %-8g ", study_start_words[c->start], c->step);
+    if (c)
+        fprintf(out, "%-*s h = %-*g ", in_columns ? 9 : 0, study_start_words[c->start],
+                in_columns ? 8 : 0, c->step);
     fprintf(out, "%s: expected ", x->quantity);
     put_expected(out, x);
     fputs(", found ", out);
@@ -451,9 +455,11 @@ static void print_unmet(FILE *out, const study_expectation *x, const study_cell 
     fprintf(out, " (line %zu)\n", x->line);
 }
 
-static void write_row(FILE *out, const study_expectation *x, const study_cell *c, int met)
+static void write_row(FILE *out, const study_comparison *comparison)
 {
     char name[STUDY_NAME];
+    const study_expectation *x = comparison->expectation;
+    const study_cell *c = comparison->cell;
     cli_put_text(out, c ? c->of_case->label : x->label);
     fputc(',', out);
     cli_put_text(out, c ? dal_method_name(c->method, name, sizeof name) : x->method);
@@ -465,45 +471,41 @@ static void write_row(FILE *out, const study_expectation *x, const study_cell *c
     put_expected(out, x);
     fputs("\",\"", out);
     put_found(out, x, c);
-    fprintf(out, "\",%s\n", met ? "yes" : "no");
+    fprintf(out, "\",%s\n", comparison->is_met ? "yes" : "no");
 }
 
 /* ---- all of them ---- */
 
-typedef void comparison_writer(FILE *out, const study_expectation *x, const study_cell *cell,
-                               int met);
-
-/* Writes each comparison, unless write is NULL, with the cell NULL where no run has the quantity.
- * Returns how many are not met, and in *count how many there are. */
-static int compare(const study_plan *plan, FILE *out, comparison_writer *write, int *count)
+static void add_comparison(study_comparisons *all, const study_expectation *x, const study_cell *c)
 {
-    int unmet = 0;
-    *count = 0;
+    const bool met = c && is_met(x, c);
+    all->item = cli_realloc(all->item, ((size_t)all->count + 1) * sizeof *all->item);
+    all->item[all->count++] = (study_comparison){x, c, met};
+    all->unmet += !met;
+}
+
+study_comparisons study_compare(const study_plan *plan)
+{
+    study_comparisons all = {.count = 0};
     for (int i = 0; i < plan->expectation_count; i++) {
         const study_expectation *x = &plan->expectations[i];
-        int compared = 0, waiting = 0;
+        const int before = all.count;
+        bool is_waiting = false;
         for (int k = 0; k < plan->cell_count; k++) {
             const study_cell *c = &plan->cells[k];
-            waiting |= covers(x, c) && c->state == STUDY_WAITING;
-            if (!is_compared(x, c)) continue;
-            const int met = is_met(x, c);
-            compared++;
-            unmet += !met;
-            if (write) write(out, x, c, met);
+            is_waiting |= covers(x, c) && c->state == STUDY_WAITING;
+            if (is_compared(x, c)) add_comparison(&all, x, c);
         }
-        if (compared == 0 && !waiting) {
-            if (write) write(out, x, NULL, 0);
-            unmet += ++compared;
-        }
-        *count += compared;
+        if (all.count == before && !is_waiting) add_comparison(&all, x, NULL);
     }
-    return unmet;
+    return all;
 }
 
 int study_count_unmet(const study_plan *plan)
 {
-    int count;
-    return compare(plan, NULL, NULL, &count);
+    const study_comparisons all = study_compare(plan);
+    free(all.item);
+    return all.unmet;
 }
 
 bool study_failure_is_expected(const study_plan *plan, const study_cell *cell)
@@ -519,24 +521,26 @@ bool study_failure_is_expected(const study_plan *plan, const study_cell *cell)
 
 void study_print_expectations(FILE *out, const study_plan *plan)
 {
-    int count;
-    if (plan->expectation_count == 0) return;
-    const int unmet = compare(plan, NULL, NULL, &count);
-    fprintf(out, "\nExpectations: %d of %d are met.\n", count - unmet, count);
-    compare(plan, out, print_unmet, &count);
+    const study_comparisons all = study_compare(plan);
+    if (plan->expectation_count > 0)
+        fprintf(out, "\nExpectations: %d of %d are met.\n", all.count - all.unmet, all.count);
+    for (int i = 0; i < all.count; i++)
+        if (!all.item[i].is_met) study_print_comparison(out, &all.item[i], true);
+    free(all.item);
 }
 
 int study_write_expectations(const study_plan *plan, const char *path)
 {
-    int count;
     size_t length;
     char *text;
     if (plan->expectation_count == 0) return file_remove(path);
+    const study_comparisons all = study_compare(plan);
     FILE *out = cli_memstream_open(&text, &length);
     fputs("label,integrator,start,step,quantity,expected,found,met\n", out);
-    compare(plan, out, write_row, &count);
+    for (int i = 0; i < all.count; i++) write_row(out, &all.item[i]);
     cli_memstream_close(out);
     const int status = file_replace(path, text, length, 1);
     free(text);
+    free(all.item);
     return status;
 }

@@ -403,25 +403,23 @@ static void print_sentences(FILE *out, const screen *s)
 /* The number of expectations that are met, and the first that are not. */
 static void print_expectations(FILE *out, const study_plan *plan)
 {
-    char *text;
-    size_t length;
-    FILE *all = cli_memstream_open(&text, &length);
-    study_print_expectations(all, plan);
-    cli_memstream_close(all);
-    char *line = text + strspn(text, "\n");
-    for (int i = 0; i <= UNMET && *line; i++) {
-        const size_t end = strcspn(line, "\n");
-        char *next = line + end + (line[end] != '\0'), *to = line;
-        line[end] = '\0';
-        /* The columns of the table are not those of others here. */
-        for (const char *from = line; *from; from++)
-            if (*from != ' ' || from < line + 2 || from[-1] != ' ') *to++ = *from;
-        *to = '\0';
+    const study_comparisons all = study_compare(plan);
+    if (plan->expectation_count > 0)
+        fprintf(out, "Expectations: %d of %d are met.\n", all.count - all.unmet, all.count);
+    for (int i = 0, shown = 0; i < all.count && shown < UNMET; i++) {
+        char *line;
+        size_t length;
+        if (all.item[i].is_met) continue;
+        FILE *text = cli_memstream_open(&line, &length);
+        study_print_comparison(text, &all.item[i], false);
+        cli_memstream_close(text);
+        line[strcspn(line, "\n")] = '\0';
         put_cut(out, line, WIDTH, false);
         fputc('\n', out);
-        line = next;
+        free(line);
+        shown++;
     }
-    free(text);
+    free(all.item);
 }
 
 static void print_runs(FILE *out, const study_plan *plan)
