@@ -27,8 +27,8 @@ typedef struct study_comparisons {
 } study_comparisons;
 /* All comparisons, in the order of the file. */
 study_comparisons study_compare(const study_plan *plan);
-/* A line about one: "LABEL METHOD START h = STEP QUANTITY: expected X, found Y (line N)", in columns
- * of a table or with single blanks. */
+/* A line about one, in columns of a table or with single blanks:
+ *     LABEL METHOD START h = STEP QUANTITY: expected X, found Y (line N) */
 void study_print_comparison(FILE *out, const study_comparison *comparison, bool in_columns);
 /* The number of those that are met, and lines about the others; nothing where nothing is expected.
  */

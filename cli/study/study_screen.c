@@ -43,9 +43,11 @@ typedef struct screen {
     const study_plan *plan;
     screen_method *methods; /* all of the study */
     int method_count;
+    screen_method **of_cell; /* [cells of the plan] */
     const screen_method *row[STUDY_REPRESENTATIVES];
     const study_case *column[SYSTEMS];
     int rows, columns;
+    const study_cell *cell[STUDY_REPRESENTATIVES][SYSTEMS]; /* NULL: the study has none */
     bool in_colour;
 } screen;
 
@@ -111,6 +113,14 @@ static void list_methods(screen *s)
     }
 }
 
+/* The integrator of each cell, found once. */
+static void index_cells(screen *s)
+{
+    s->of_cell = cli_calloc((size_t)s->plan->cell_count + 1, sizeof *s->of_cell);
+    for (int i = 0; i < s->plan->cell_count; i++)
+        s->of_cell[i] = find_method(s, s->plan->cells[i].method);
+}
+
 /* Names of a family differ in numbers alone: gauss4 and gauss6, symplectic-euler-00 and -01. */
 static bool is_same_family(const char *a, const char *b)
 {
@@ -160,7 +170,7 @@ static void count_runs(const screen *s)
     for (int i = 0; i < s->plan->cell_count; i++) {
         const study_cell *c = &s->plan->cells[i];
         if (c->start == STUDY_DISPLACED || c->start != first_start(c->of_case)) continue;
-        screen_method *method = find_method(s, c->method);
+        screen_method *method = s->of_cell[i];
         for (int k = 0; k < QUANTITIES; k++) {
             const dal_trend *trend = get_trend(c, k);
             int *count = method->count[k];
@@ -173,14 +183,25 @@ static void count_runs(const screen *s)
     }
 }
 
-static const study_cell *find_cell(const screen *s, const study_case *e, const screen_method *m)
+static int find_row(const screen *s, const screen_method *method)
 {
-    for (int i = e->first_cell; i < e->first_cell + e->cells; i++) {
-        const study_cell *c = &s->plan->cells[i];
-        if (c->start == first_start(e) && c->step == e->step[0] && find_method(s, c->method) == m)
-            return c;
+    int row = s->rows - 1;
+    while (row >= 0 && s->row[row] != method) row--;
+    return row;
+}
+
+/* The cells of the matrix: of each system those from its first start with its first step. */
+static void choose_cells(screen *s)
+{
+    for (int k = 0; k < s->columns; k++) {
+        const study_case *e = s->column[k];
+        for (int i = e->first_cell; i < e->first_cell + e->cells; i++) {
+            const study_cell *c = &s->plan->cells[i];
+            const int row = find_row(s, s->of_cell[i]);
+            if (row >= 0 && c->start == first_start(e) && c->step == e->step[0])
+                s->cell[row][k] = c;
+        }
     }
-    return NULL;
 }
 
 /* ---- the matrix ---------------------------------------------------------------------------- */
@@ -229,11 +250,11 @@ static void put_cell(FILE *out, const screen *s, const study_cell *c, int quanti
 }
 
 /* A system has a column where something can be stated of it. */
-static bool has_column(const screen *s, const study_case *e, int quantity)
+static bool has_column(const screen *s, int column, int quantity)
 {
-    bool has = quantity == CONSTRAINT && e->system->m > 0;
+    bool has = quantity == CONSTRAINT && s->column[column]->system->m > 0;
     for (int i = 0; i < s->rows && !has; i++) {
-        const study_cell *c = find_cell(s, e, s->row[i]);
+        const study_cell *c = s->cell[i][column];
         has = c && get_trend(c, quantity);
     }
     return has;
@@ -243,8 +264,7 @@ static void print_matrix(FILE *out, const screen *s, int quantity)
 {
     bool is_shown[SYSTEMS];
     int shown = 0, width = (int)strlen(quantities[quantity].heading);
-    for (int k = 0; k < s->columns; k++)
-        shown += is_shown[k] = has_column(s, s->column[k], quantity);
+    for (int k = 0; k < s->columns; k++) shown += is_shown[k] = has_column(s, k, quantity);
     if (shown == 0) return;
     for (int i = 0; i < s->rows; i++) {
         const int length = (int)strlen(s->row[i]->name);
@@ -258,7 +278,7 @@ static void print_matrix(FILE *out, const screen *s, int quantity)
             if (i < 0)
                 fprintf(out, " %*d", CELL - 1, k + 1);
             else
-                put_cell(out, s, find_cell(s, s->column[k], s->row[i]), quantity);
+                put_cell(out, s, s->cell[i][k], quantity);
         }
         fputc('\n', out);
     }
@@ -491,8 +511,10 @@ void study_print_screen(FILE *out, const study_plan *plan, const char *tables, b
     size_t length;
     int lines = 0;
     list_methods(&s);
+    index_cells(&s);
     choose_rows(&s);
     choose_columns(&s);
+    choose_cells(&s);
     count_runs(&s);
     for (int i = 0; i < PARTS; i++) {
         FILE *part = cli_memstream_open(&text[i], &length);
@@ -512,5 +534,6 @@ void study_print_screen(FILE *out, const study_plan *plan, const char *tables, b
         fputs(text[i], out);
         free(text[i]);
     }
+    free(s.of_cell);
     free(s.methods);
 }
