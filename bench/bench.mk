@@ -15,7 +15,10 @@ BENCH_RK4    = boost/numeric/odeint/stepper/runge_kutta4.hpp
 BENCH_CXX   ?= g++
 BENCH_PEERS  = $(call BENCH_HAVE,gsl/gsl_odeiv2.h,$(CC) -x c,gsl) \
                $(call BENCH_HAVE,arkode/arkode_erkstep.h,$(CC) -x c,sundials) \
-               $(call BENCH_HAVE,$(BENCH_RK4),$(BENCH_CXX) -x c++,odeint)
+               $(call BENCH_HAVE,$(BENCH_RK4),$(BENCH_CXX) -x c++,odeint) \
+               $(if $(BENCH_PYTHON),python)
+BENCH_PYTHON = $(shell for python in python3 /usr/bin/python3; do \
+    $$python -c 'import cffi, ensurepip, numpy, setuptools' 2>/dev/null && echo $$python && break; done)
 BENCH_HEADERS = $(wildcard bench/*.h bench/*.inc examples/*.h lib/kernel/*.h) include/dalembert.h
 
 $(BENCH)/lib/libdalembert.a: FORCE
@@ -43,6 +46,12 @@ $(BENCH)/odeint: bench/odeint.cpp $(BENCH_HEADERS)
 	@mkdir -p $(@D)
 	$(call SAY,c++)$(BENCH_CXX) -std=gnu++17 -Wall -Wextra -Wno-psabi -Wno-ignored-attributes $(BENCH_FAST) \
 	    -Iinclude -Ilib $< -o $@
+# The package of python/ with this library, in an environment of its own.
+$(BENCH)/python: bench/steps.py $(BENCH)/lib/libdalembert.a $(wildcard python/*.* python/dalembert/*)
+	@$(BENCH_PYTHON) -m venv --system-site-packages $(BENCH)/V
+	@DALEMBERT_BUILD=$(realpath $(BENCH)/lib) $(BENCH)/V/bin/pip install -q --force-reinstall \
+	    --no-build-isolation --no-deps ./python
+	@printf '#!/bin/sh\nexec $(BENCH)/V/bin/python $< "$$@"\n' >$@ && chmod +x $@
 
 $(BENCH)/peak: bench/peak.c $(BENCH_HEADERS)
 	@mkdir -p $(@D)
