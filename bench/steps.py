@@ -13,7 +13,8 @@ import dalembert
 STEPS = 1000
 CALLS = 1 if os.environ.get('BENCH_MS') == '0' else 1000
 method, space, system = sys.argv[1:]
-run = dalembert.Run(dalembert.System.from_file(f'bench/systems/{system}.yaml'), method, step=0.01, space=space)
+file = dalembert.System.from_file(f'bench/systems/{system}.yaml')
+run = dalembert.Run(file, method, step=0.01, space=space)
 start = run.state
 best = float('inf')
 for _ in range(5):

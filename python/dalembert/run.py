@@ -33,6 +33,13 @@ def native_options(cache: str | os.PathLike[str] | None, compiler: str) -> tuple
                                             'stop': lib.python_stop}), texts
 
 
+def is_consistent(status: int, record: Any) -> bool:
+    """What the status of a parameter that was set says; others are raised."""
+    if status != lib.DAL_INCONSISTENT:
+        check(status, record)
+    return status != lib.DAL_INCONSISTENT
+
+
 class Run:
     """One motion of a system by a method.
 
@@ -118,6 +125,29 @@ class Run:
         """The parameter values."""
         values = lib.dal_run_parameters(self._run)
         return {name: values[i] for i, name in enumerate(self.system.parameters)}
+
+    def index(self, name: str) -> int:
+        """The place in `state` of a component, ``"phi'"``."""
+        place = lib.dal_run_index(self._run, name.encode())
+        if place < 0:
+            raise InputError('DAL_NAME', f"no component of the state is named '{name}'")
+        return place
+
+    def set_parameter(self, name: str, value: float) -> bool:
+        """Sets a parameter between two steps.
+
+        Returns
+        -------
+        bool
+            Whether the constraints hold at the present state with this value.
+
+        Raises
+        ------
+        InputError
+            The value cannot be used; nothing is changed.
+        """
+        record = ffi.new('dal_error *')
+        return is_consistent(lib.dal_run_set_parameter(self._run, name.encode(), value, record), record)
 
     def advance(self, steps: int = 1) -> None:
         """Takes a number of steps, or those before the first that fails.
@@ -266,6 +296,20 @@ class Batch:
     def _start(self, i: int, parameters: Settings, start: Settings) -> None:
         p, s = make_settings(parameters), make_settings(start)
         call(lib.dal_batch_start, self._batch, i, p[0], p[1], s[0], s[1])
+
+    def set_parameter(self, name: str, values: float | npt.ArrayLike) -> npt.NDArray[np.bool_]:
+        """Sets a parameter of all lanes, to a number or to one for each; see `Run.set_parameter`.
+
+        Returns
+        -------
+        ndarray of bool, [lanes]
+            Whether the constraints of a lane hold at its present state.
+        """
+        record = ffi.new('dal_error *')
+        numbers = np.broadcast_to(np.asarray(values, dtype=np.float64), self.count)
+        statuses = (lib.dal_batch_set_parameter(self._batch, i, name.encode(), number, record)
+                    for i, number in enumerate(numbers))
+        return np.array([is_consistent(status, record) for status in statuses])
 
     def advance(self, steps: int = 1) -> None:
         """Takes steps in every lane that has not failed; `errors` names those that have.

@@ -3,7 +3,7 @@ import numpy as np
 import pytest
 
 import dalembert
-from test_run import FALL
+from test_run import FALL, GUIDED
 
 
 def test_lanes_are_runs(oscillator):
@@ -29,9 +29,28 @@ def test_compiled_batch(oscillator, tmp_path):
     assert np.array_equal(batches[0].state(), batches[1].state())
 
 
+def test_parameter_between_steps(oscillator):
+    k = np.array([1, 2, 3])
+    batch = dalembert.Batch(oscillator, 'gauss4', 3)
+    runs = [dalembert.Run(oscillator, 'gauss4') for _ in k]
+    for values in (k, np.full(3, 5.0)):
+        assert list(batch.set_parameter('k', values if values is k else 5)) == [True] * 3
+        batch.advance(10)
+        for run, value in zip(runs, values):
+            run.set_parameter('k', value)
+            run.advance(10)
+        assert np.array_equal(batch.state(), [run.state for run in runs])
+    guided = dalembert.Batch(dalembert.System(GUIDED), 'rk4', 2)
+    assert list(guided.set_parameter('c', [1, 2])) == [True, False]
+    for bad in (np.nan, [1, 2, 3, 4]):
+        with pytest.raises(ValueError):
+            batch.set_parameter('k', bad)
+
+
 def test_failing_lanes():
     """A fall from x takes pi sqrt(x^3/8): 1.11 from 1, 8.89 from 4."""
-    batch = dalembert.Batch(dalembert.System(FALL), 'gauss4', step=0.01, start={'x': [1, 4]}, space='physical')
+    batch = dalembert.Batch(dalembert.System(FALL), 'gauss4', step=0.01, start={'x': [1, 4]},
+                            space='physical')
     batch.advance(200)
     first, second = batch.errors
     assert isinstance(first, dalembert.StepError) and second is None
@@ -41,7 +60,8 @@ def test_failing_lanes():
 
 
 def test_bad_lanes(oscillator):
-    for arguments in ({'start': {'x': [1, 2]}, 'parameters': {'k': [1, 2, 3]}}, {'start': {'x': [1, 2]}, 'count': 3},
+    for arguments in ({'start': {'x': [1, 2]}, 'parameters': {'k': [1, 2, 3]}},
+                      {'start': {'x': [1, 2]}, 'count': 3},
                       {'count': 0}, {'start': {'x': []}}, {'start': {'x': [1, np.nan]}}, {'width': 3}):
         with pytest.raises(dalembert.InputError):
             dalembert.Batch(oscillator, 'rk4', **arguments)

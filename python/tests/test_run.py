@@ -98,6 +98,40 @@ def test_settings(oscillator):
     assert quad.step == 0.01
 
 
+def test_parameter_between_steps(oscillator):
+    """x = cos t up to pi/2, where x = 0 and x' = -1, then -sin(2 s)/2."""
+    run = dalembert.Run(oscillator, 'gauss8', step=np.pi / 20)
+    run.advance(10)
+    assert run.set_parameter('k', 4) and run.parameters == {'k': 4.0}
+    other = dalembert.Run(oscillator, 'gauss8', step=np.pi / 20)
+    other.restore(run.save())
+    for each in run, other:
+        each.advance(5)
+        assert each.state[each.index('x')] == pytest.approx(-0.5, abs=1e-8)
+        assert each.state[each.index("x'")] == pytest.approx(0, abs=1e-8)
+    for name, value in (('l', 1), ('k', float('nan'))):
+        with pytest.raises(dalembert.InputError):
+            run.set_parameter(name, value)
+    with pytest.raises(dalembert.InputError, match="'y'"):
+        run.index('y')
+    assert run.parameters == {'k': 4.0}
+
+
+GUIDED = """
+coordinates: [x, y]
+parameters: {c: 1}
+lagrangian: (x'^2 + y'^2)/2
+constraints: [y' - c*x']
+start: {x': 1, y': 1}
+"""
+
+
+def test_parameter_of_a_constraint():
+    run = dalembert.Run(dalembert.System(GUIDED), 'rk4')
+    assert run.set_parameter('c', 1) and not run.set_parameter('c', 2)
+    assert run.observables[0] == -1 and run.parameters == {'c': 2.0}
+
+
 @pytest.mark.parametrize('settings, status', [
     ({'integrator': 'rk5'}, 'DAL_NAME'),
     ({'integrator': 'rk4', 'parameters': {'l': 1}}, 'DAL_NAME'),
