@@ -82,6 +82,18 @@ if there bash; then
     holds "new" test "$(completes new --)" = "--help"
     holds "what is preserved" test "$(completes list --preserves e)" = "every energy"
     holds "integrators" test "$(completes run knife-edge --integrator gauss1)" = "gauss10 gauss12"
+    holds "a list of them" test "$(completes order knife-edge --integrators rk4,gauss1)" = \
+        "rk4,gauss10 rk4,gauss12"
+    holds "tags" test "$(completes list --tag ch)" = "chaotic"
+    holds "tables" test "$(completes list s)" = "systems"
+    holds "commands to describe" test "$(completes help re)" = "resume report"
+    holds "a value behind =" test "$(completes run --native = o)" = "on off"
+    holds "all values behind =" test "$(completes run --native =)" = "auto on off"
+    # Where nothing is offered bash completes names of files.
+    for option in -o --output --step --on; do
+        holds "a system after $option" test -z "$(completes section knife-edge $option kn)"
+    done
+    holds "-o" sh -c 'for c in run order volume; do grep -q "^        $c) .* --output -o " completion || exit 1; done'
 fi
 
 case_is "no help is wider than 80 columns"
