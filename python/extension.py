@@ -41,8 +41,14 @@ def run(*command, **options):
     return subprocess.run(command, check=True, text=True, stdout=subprocess.PIPE, **options).stdout
 
 
+def fail(reason):
+    sys.exit(f'dalembert: {reason}: run make, or set DALEMBERT_BUILD or DALEMBERT_PREFIX')
+
+
 def in_tree(build):
     """How to compile and link with a build of the source tree."""
+    if not os.path.exists(os.path.join(build, STATIC)):
+        fail(f'no {STATIC} in {build}')
     include = os.path.join(os.path.dirname(HERE), 'include')
     return {'include_dirs': [include], 'extra_objects': [os.path.join(build, STATIC)],
             'libraries': ['yaml', 'm'], 'extra_link_args': ['-pthread', '-Wl,--exclude-libs,ALL']}
@@ -53,13 +59,15 @@ def installed(prefix=None):
     environment = dict(os.environ)
     if prefix:
         found = [directory for directory, _, names in os.walk(prefix) if 'dalembert.pc' in names]
+        if not found:
+            fail(f'no dalembert.pc below {prefix}')
         environment['PKG_CONFIG_PATH'] = os.pathsep.join(found)
     try:
         flags = shlex.split(run('pkg-config', '--cflags', '--libs', 'dalembert', env=environment))
         include, libraries = (run('pkg-config', '--variable=' + name, 'dalembert', env=environment).strip()
                               for name in ('includedir', 'libdir'))
     except (OSError, subprocess.CalledProcessError):
-        sys.exit('dalembert: no library: run make, or set DALEMBERT_BUILD or DALEMBERT_PREFIX')
+        fail('no library')
     return {'include_dirs': [include], 'extra_link_args': flags,
             'runtime_library_dirs': [libraries]}
 

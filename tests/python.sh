@@ -25,7 +25,8 @@ unset PYTHONPATH DALEMBERT_BUILD DALEMBERT_PREFIX
 logged $python -m venv --system-site-packages "$root/V"
 package=$("$root/V/bin/python" -c 'import sysconfig; print(sysconfig.get_path("platlib"))')
 logged env DALEMBERT_BUILD="$build" "$root/V/bin/pip" install --no-build-isolation --no-deps ./python
-(cd python/tests && "$root/V/bin/python" -m pytest -q -p no:cacheprovider . ../../docs/python.md \
+# A call that is not interrupted where it must be would never end.
+(cd python/tests && timeout 1200 "$root/V/bin/python" -m pytest -q -p no:cacheprovider . ../../docs/python.md \
     --doctest-glob='*.md' --doctest-modules --pyargs dalembert) >"$root/tests" 2>&1 ||
     { cat "$root/tests" >&2; fail "tests failed"; }
 
@@ -37,6 +38,11 @@ ldd "$root"/installed/dalembert/_library.*.so | grep -q "=> $root/usr/lib" ||
     fail "the installed library is not used"
 [ "$(PYTHONPATH=$root/installed "$root/V/bin/python" -c 'import dalembert; print(dalembert.__version__)')" = \
     "$("$build/dalembert" --version | sed 's/.* //')" ] || fail "the package has another version"
+for variable in DALEMBERT_BUILD DALEMBERT_PREFIX; do
+    env $variable="$root/none" "$root/V/bin/pip" install --no-build-isolation --no-deps ./python \
+        >"$root/log" 2>&1 && fail "$variable=none is accepted"
+    grep -q "dalembert: no [a-z.]* [a-z]* $root/none: run make" "$root/log" || fail "$variable=none: no reason"
+done
 
 # The kernel of the notebook may be any python3.
 if "$root/V/bin/python" -c 'import nbconvert, ipykernel, matplotlib' 2>/dev/null; then

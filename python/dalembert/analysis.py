@@ -171,9 +171,9 @@ def order(system: SystemLike, integrator: str | None = None, time: float | None 
             raise InputError('DAL_ARGUMENT', f'a state has shape ({dimension},), not {values.shape}')
         exact = doubles(values)
     call_steps(lib.dal_measure_order, spec.c, spec.time(time), levels, method, exact, found)
-    columns = (np.array(list(getattr(found, name)[0:levels]))
-               for name in ('step', 'error', 'evaluations', 'slope'))
-    return Order(*columns, found.order)
+    columns = {name: np.array(list(getattr(found, name)[0:levels]))
+               for name in ('step', 'error', 'evaluations', 'slope')}
+    return Order(**columns, order=found.order)
 
 
 # ---- Lyapunov exponents ------------------------------------------------------------------------
