@@ -1,6 +1,7 @@
 /* analysis.c - outputs and distances of the commands that examine a system or a motion. */
 #include "analysis.h"
 #include "io/file.h"
+#include "run/system.h"
 #include "ui/memory.h"
 #include "ui/message.h"
 
@@ -20,6 +21,26 @@ int analysis_open(analysis_output *output, const char *path, const char *name)
     output->table = cli_join(path, file);
     free(file);
     return cli_output_directory(path);
+}
+
+int analysis_describe(const analysis_output *output, const char *name, const run_request *request,
+                      void (*put)(json_writer *writer, const void *results), const void *results)
+{
+    char *text, *json = cli_format("%s/%s.json", output->directory, name);
+    char *copy = cli_format("%s/%s.yaml", output->directory, name);
+    size_t length;
+    json_writer w = json_begin_results_in(cli_memstream_open(&text, &length), name);
+    put(&w, results);
+    json_end_results(&w);
+    cli_memstream_close(w.out);
+    int status = file_replace(json, text, length, 0);
+    if (status == CLI_DONE)
+        status = cli_is_path(request->system_name) ? file_copy(request->system_name, copy, 0)
+                                                   : file_remove(copy);
+    free(text);
+    free(json);
+    free(copy);
+    return status;
 }
 
 int analysis_check_output(const char *output, bool json)

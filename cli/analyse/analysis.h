@@ -3,6 +3,9 @@
 #ifndef DAL_CLI_ANALYSIS_H
 #define DAL_CLI_ANALYSIS_H
 
+#include "io/json.h"
+#include "run/request.h"
+
 #include <stdbool.h>
 #include <stdio.h>
 
@@ -14,6 +17,12 @@ typedef struct analysis_output {
 
 /* Makes the directory.  Returns CLI_DONE or prints and returns an exit status; free the table. */
 int analysis_open(analysis_output *output, const char *path, const char *name);
+
+/* Writes what the table in a directory was made with, for `report`: NAME.json with the members that
+ * put writes, and NAME.yaml, the copy of a system that is no built-in one.  Returns CLI_DONE or
+ * prints and returns CLI_IO. */
+int analysis_describe(const analysis_output *output, const char *name, const run_request *request,
+                      void (*put)(json_writer *writer, const void *results), const void *results);
 
 /* Whether stdout is free for JSON: --output, NULL where there is none, must not go there.  Returns
  * CLI_DONE, or prints and returns CLI_USAGE. */

@@ -6,7 +6,6 @@
 #include "analysis.h"
 #include "dalembert_analysis.h"
 #include "io/file.h"
-#include "io/gnuplot.h"
 #include "run/pool.h"
 #include "run/request_json.h"
 #include "ui/clock.h"
@@ -52,7 +51,7 @@ typedef struct order_method {
 } order_method;
 
 typedef struct order_study {
-    const order_settings *set;
+    order_settings *set;
     run_request *request;
     dal_run_spec spec; /* but for method and step */
     double step[DAL_ORDER_LEVELS];
@@ -350,16 +349,23 @@ static void put_method(json_writer *w, const order_study *s, const order_method 
     json_close(w);
 }
 
+/* The request, and what errors are measured by. */
+static void put_reference(json_writer *w, const void *results)
+{
+    const order_study *s = results;
+    request_open_json(w, s->request, ORDER_WITHOUT | REQUEST_OPTION(step));
+    json_close(w);
+    json_open(w, "reference", JSON_ON_ONE_LINE);
+    json_put_text(w, "integrator", s->reference_method);
+    json_put_number(w, "step", s->reference_method ? s->reference_step : NAN);
+    json_put_number(w, "error", s->reference_method ? s->noise : NAN);
+    json_close(w);
+}
+
 static void put_orders(const order_study *s)
 {
     json_writer w = json_begin_results("order");
-    request_open_json(&w, s->request, ORDER_WITHOUT | REQUEST_OPTION(step));
-    json_close(&w);
-    json_open(&w, "reference", JSON_ON_ONE_LINE);
-    json_put_text(&w, "integrator", s->reference_method);
-    json_put_number(&w, "step", s->reference_method ? s->reference_step : NAN);
-    json_put_number(&w, "error", s->reference_method ? s->noise : NAN);
-    json_close(&w);
+    put_reference(&w, s);
     json_open_list(&w, "methods", JSON_LINES);
     for (int i = 0; i < s->method_count; i++) put_method(&w, s, &s->methods[i]);
     json_close(&w);
@@ -404,79 +410,6 @@ static int write_orders(const order_study *s, const char *path)
     return cli_close(out, path);
 }
 
-/* ---- diagrams ------------------------------------------------------------------------------ */
-
-static bool has_point(const order_study *s, const order_method *m)
-{
-    for (int i = 0; i < s->levels; i++)
-        if (m->order.error[i] > 0.0 && isfinite(m->order.error[i])) return true;
-    return false;
-}
-
-/* A panel of a figure: what is along x, and where it begins and ends, as parts of the width. */
-typedef struct panel {
-    const char *label, *column, *format;
-    double left, right;
-} panel;
-
-/* One curve for each method; with more of them than colours, dashes. */
-static void put_panel(FILE *script, const order_study *s, const panel *p)
-{
-    int drawn = 0;
-    fprintf(script,
-            "set xlabel '%s'\nset format x '%s'\nset lmargin at screen %.3f\n"
-            "set rmargin at screen %.3f\nplot \\\n",
-            p->label, p->format, p->left, p->right);
-    for (const order_method *m = s->methods; m < s->methods + s->method_count; m++) {
-        if (!has_point(s, m)) continue;
-        const int dash = drawn / GNUPLOT_COLOURS;
-        fputs(drawn ? ", \\\n  'order.csv' using (is(" : "  'order.csv' using (is(", script);
-        gnuplot_quote(script, m->name);
-        fprintf(script,
-                ") ? column('%s') : NaN):'error' with linespoints lw 1.4 ps 0.6 dt %d pt %d "
-                "lc rgb '%s' title ",
-                p->column, 1 + dash, 7 - 2 * (dash % 3), gnuplot_colour(drawn));
-        gnuplot_quote(script, m->name);
-        drawn++;
-    }
-    fputs("\nunset key\nunset ylabel\n", script);
-}
-
-static int draw_panels(const order_study *s, const char *directory, const char *name,
-                       const panel *panels, int count)
-{
-    char *path, title[2 * MAX_NAME];
-    FILE *script = gnuplot_open(directory, name, "svg", 1100, 600, &path);
-    if (!script) return CLI_IO;
-    snprintf(title, sizeof title, "%.80s: error of (q,v) at t = %g", s->request->system_name,
-             s->request->time);
-    fputs("is(name) = strcol('integrator') eq name && strcol('state') eq 'done'\n"
-          "set logscale xy\nset format y '%.0e'\nset ylabel 'error'\n"
-          "set xrange [*:*] noextend\nset offsets graph 0.05, graph 0.05\n"
-          "set tmargin at screen 0.92\nset bmargin at screen 0.12\n"
-          "set key at screen 0.79, screen 0.94 left top Left reverse samplen 2 maxrows 34 "
-          "spacing 0.95 font ',9'\n",
-          script);
-    gnuplot_set(script, "multiplot title", title);
-    for (int i = 0; i < count; i++) put_panel(script, s, &panels[i]);
-    fputs("unset multiplot\n", script);
-    const int status = gnuplot_draw(directory, script, path, NULL);
-    free(path);
-    return status;
-}
-
-static int draw_orders(const order_study *s, const char *directory)
-{
-    static const panel order = {"step h", "step", "%g", 0.09, 0.76};
-    static const panel work[] = {{"evaluations of F", "evaluations", "%g", 0.09, 0.41},
-                                 {"processor time in seconds", "seconds", "%.0e", 0.47, 0.76}};
-    bool any = false;
-    for (int i = 0; i < s->method_count; i++) any |= has_point(s, &s->methods[i]);
-    int status = any ? draw_panels(s, directory, "order", &order, 1) : CLI_DONE;
-    if (any && status == CLI_DONE) status = draw_panels(s, directory, "work", work, 2);
-    return status;
-}
-
 /* ---- all ----------------------------------------------------------------------------------- */
 
 static int measure(order_study *s)
@@ -498,7 +431,9 @@ static int measure(order_study *s)
         analysis_output output;
         status = analysis_open(&output, s->set->output, "order");
         if (status == CLI_DONE) status = write_orders(s, output.table);
-        if (status == CLI_DONE && output.directory) status = draw_orders(s, output.directory);
+        s->set->is_written = status == CLI_DONE;
+        if (status == CLI_DONE && output.directory)
+            status = analysis_describe(&output, "order", s->request, put_reference, s);
         free(output.table);
     }
     for (int i = 0; status == CLI_DONE && i < s->method_count; i++)

@@ -14,10 +14,11 @@ typedef struct order_settings {
     const char *integrators, *steps; /* lists between commas; steps NULL: step and level_count */
     const char *output;
     long long level_count, threads;
-    bool json; /* to stdout, instead of a table */
+    bool json;       /* to stdout, instead of a table */
+    bool is_written; /* set when output has the table */
 } order_settings;
 
-/* Prints a table or JSON, writes CSV and diagrams.  Returns CLI_DONE or prints and returns an exit
+/* Prints a table or JSON, writes CSV.  Returns CLI_DONE or prints and returns an exit
  * status. */
 int order_measure(order_settings *settings);
 

@@ -5,7 +5,6 @@
 #include "section.h"
 #include "analysis.h"
 #include "dalembert_analysis.h"
-#include "io/gnuplot.h"
 #include "io/trajectory.h"
 #include "run/columns.h"
 #include "run/request_json.h"
@@ -35,8 +34,10 @@ typedef struct section {
     long long rows, capacity;
     double *kept; /* [rows * columns] for JSON; NULL: none are kept */
     dal_crossings found;
-    int write_status; /* of the last row */
+    int write_status; /* of the last row, */
+    int status;       /* and of the run */
     native_run native;
+    int axis[2]; /* columns of the figure; -1: not given */
 } section;
 
 /* ---- the model with the section among its invariants --------------------------------------- */
@@ -188,20 +189,25 @@ static int run_section(section *s, const char *path)
 
 /* ---- JSON ---------------------------------------------------------------------------------- */
 
-static int put_section(const section *s, int status)
+static void put_run(json_writer *w, const section *s)
 {
     static const char *const directions[] = {"down", "both", "up"};
+    request_open_json(w, s->request, SECTION_WITHOUT);
+    json_put_text(w, "on", s->set->on);
+    json_put_text(w, "direction", directions[s->set->direction + 1]);
+    json_put_number(w, "transient", s->set->transient);
+    json_close(w);
+    json_put_text(w, "state", analysis_state(s->status));
+    json_put_number(w, "to", dal_run_time(s->request->run));
+    json_put_integer(w, "up", s->found.up);
+    json_put_integer(w, "down", s->found.down);
+    json_put_integer(w, "touches", s->found.touches);
+}
+
+static int put_section(const section *s)
+{
     json_writer w = json_begin_results("section");
-    request_open_json(&w, s->request, SECTION_WITHOUT);
-    json_put_text(&w, "on", s->set->on);
-    json_put_text(&w, "direction", directions[s->set->direction + 1]);
-    json_put_number(&w, "transient", s->set->transient);
-    json_close(&w);
-    json_put_text(&w, "state", analysis_state(status));
-    json_put_number(&w, "to", dal_run_time(s->request->run));
-    json_put_integer(&w, "up", s->found.up);
-    json_put_integer(&w, "down", s->found.down);
-    json_put_integer(&w, "touches", s->found.touches);
+    put_run(&w, s);
     json_open_list(&w, "columns", JSON_ON_ONE_LINE);
     for (int i = 0; i < s->columns; i++) json_put_text(&w, NULL, s->names[i]);
     json_close(&w);
@@ -227,8 +233,9 @@ static int find_column(const section *s, const char *name)
 }
 
 /* The columns given by --axes, or -1 and -1. */
-static int find_axes(const section *s, int axis[2])
+static int find_axes(section *s)
 {
+    int *axis = s->axis;
     axis[0] = axis[1] = -1;
     const char *comma = s->set->axes ? strchr(s->set->axes, ',') : NULL;
     if (s->set->axes && !comma)
@@ -257,9 +264,10 @@ static bool varies(const section *s, int column)
 
 /* The last coordinate that varies together with its velocity; else the last two of q and v that
  * vary; else t and the one that does. */
-static void choose_axes(const section *s, int axis[2])
+static void choose_axes(section *s)
 {
     const int n = s->request->system->n, q = FIRST_STATE_COLUMN;
+    int *axis = s->axis;
     for (int i = q + n - 1; i >= q; i--) {
         if (!varies(s, i) || !varies(s, i + n)) continue;
         axis[0] = i;
@@ -273,31 +281,14 @@ static void choose_axes(const section *s, int axis[2])
     if (axis[0] < q) axis[0] = COLUMN_T;
 }
 
-static int draw_section(const section *s, const char *directory, const int axis[2])
+/* The run, and the columns of the figure. */
+static void put_figure(json_writer *w, const void *results)
 {
-    char *path, title[256];
-    FILE *script = gnuplot_open(directory, "section", "svg", 800, 600, &path);
-    if (!script) return CLI_IO;
-    snprintf(title, sizeof title, "%.80s: %.80s, h = %g, t to %g", s->request->system_name,
-             s->set->on, s->request->options.step, dal_run_time(s->request->run));
-    gnuplot_set(script, "title", title);
-    gnuplot_set(script, "xlabel", s->names[axis[0]]);
-    gnuplot_set(script, "ylabel", s->names[axis[1]]);
-    fputs("set key outside top right reverse Left\nset offsets graph 0.02, graph 0.02, "
-          "graph 0.02, graph 0.02\nside(d, x) = column('direction') == d ? x : NaN\nplot \\\n",
-          script);
-    for (int side = 1; side >= -1; side -= 2) {
-        if (s->set->direction == -side) continue;
-        fprintf(script,
-                "  'section.csv' using (side(%d, column(%d))):%d with points pt 7 ps 0.3 "
-                "lc rgb '%s' title '%s'%s\n",
-                side, axis[0] + 1, axis[1] + 1, gnuplot_colour(side > 0 ? 11 : 1),
-                side > 0 ? "upwards" : "downwards",
-                side > 0 && s->set->direction == 0 ? ", \\" : "");
-    }
-    const int status = gnuplot_draw(directory, script, path, NULL);
-    free(path);
-    return status;
+    const section *s = results;
+    put_run(w, s);
+    json_open_list(w, "axes", JSON_ON_ONE_LINE);
+    for (int i = 0; i < 2; i++) json_put_text(w, NULL, s->names[s->axis[i]]);
+    json_close(w);
 }
 
 /* ---- all ----------------------------------------------------------------------------------- */
@@ -306,22 +297,21 @@ int section_find(section_settings *settings)
 {
     section s = {.set = settings, .request = &settings->request};
     analysis_output output = {0};
-    int axis[2];
     int status = load_section(&s);
     if (status == CLI_DONE) status = request_create_run(s.request);
     if (status != CLI_DONE) return status;
     name_row(&s);
-    status = find_axes(&s, axis);
+    status = find_axes(&s);
     if (status == CLI_DONE) status = analysis_open(&output, settings->output, "section");
-    if (status == CLI_DONE) status = run_section(&s, output.table);
+    if (status == CLI_DONE) s.status = status = run_section(&s, output.table);
     if (settings->json && status != CLI_USAGE && status != CLI_IO) {
-        const int written = put_section(&s, status);
+        const int written = put_section(&s);
         if (status == CLI_DONE) status = written;
     }
-    if ((status == CLI_DONE || status == CLI_SIGNAL) && output.directory && s.rows > 0) {
-        if (axis[0] < 0) choose_axes(&s, axis);
-        const int drawn = draw_section(&s, output.directory, axis);
-        if (status == CLI_DONE) status = drawn;
+    if ((status == CLI_DONE || status == CLI_SIGNAL) && output.directory) {
+        if (s.axis[0] < 0) choose_axes(&s);
+        const int written = analysis_describe(&output, "section", s.request, put_figure, &s);
+        if (status == CLI_DONE) status = written;
     }
     free(output.table);
     free(s.names);

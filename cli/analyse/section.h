@@ -19,8 +19,8 @@ typedef struct section_settings {
 /* The options of a run that it does not take. */
 #define SECTION_WITHOUT (REQUEST_ROW_OPTIONS & ~REQUEST_OPTION(names))
 
-/* Writes a row for each crossing, or all as JSON, and a figure.  Returns CLI_DONE or prints and
- * returns an exit status. */
+/* Writes a row for each crossing, or all as JSON, and what `report` draws it by.  Returns CLI_DONE,
+ * or prints and returns an exit status. */
 int section_find(section_settings *settings);
 
 #endif

@@ -3,6 +3,7 @@
 #include "dalembert_analysis.h"
 #include "io/file.h"
 #include "io/json.h"
+#include "report/report_order.h"
 #include "run/pool.h"
 #include "ui/commands.h"
 #include "ui/options.h"
@@ -25,7 +26,7 @@ static const cli_option options[] = {
     {"levels", "K", "4", "number of step sizes, each half the one before it",
      CLI_INTEGER(order_settings, level_count, 2, DAL_ORDER_LEVELS)},
     POOL_THREADS_OPTION(order_settings, "runs at a time; results do not depend on it"),
-    {"output", "DIR|FILE.csv", NULL, "writes the table as CSV; a directory gets diagrams, too",
+    {"output", "DIR|FILE.csv", NULL, "writes the table as CSV; a directory gets a page, too",
      CLI_ROW(cli_parse_output, order_settings, output)},
     JSON_OPTION(order_settings),
 };
@@ -43,6 +44,8 @@ static int order(int argc, char **argv)
                                 request_group(&s.request, of_request, ORDER_WITHOUT)};
     int status = cli_read_arguments(&command_order, argc, argv, groups, 2);
     if (status == CLI_GO_ON) status = order_measure(&s);
+    if (s.is_written && status != CLI_IO && cli_is_directory(s.output))
+        status = report_after(s.output, status, report_order);
     request_free(&s.request);
     return status;
 }
@@ -66,8 +69,8 @@ const cli_command command_order = {
         "found.  Methods that do not apply to the system are listed with the reason.  The exit "
         "status is 3 when a run failed.\n"
         "\n"
-        "DIR gets order.csv, and by gnuplot order.svg (error against step) and work.svg (error "
-        "against evaluations of F, and against processor time), with their scripts.  Only the "
+        "DIR gets order.csv, order.json (the request and the reference) and, by gnuplot, the page "
+        "of 'dalembert report': error against step, evaluations of F and processor time.  Only the "
         "times differ between two runs of the command.\n",
     .run = order,
 };

@@ -2,6 +2,7 @@
 #include "io/file.h"
 #include "report/report_order.h"
 #include "report/report_run.h"
+#include "report/report_section.h"
 #include "report/report_study.h"
 #include "ui/commands.h"
 #include "ui/message.h"
@@ -16,8 +17,10 @@
 static const struct {
     const char *file;
     int (*write)(report *r);
-} kinds[] = {
-    {"cells.csv", report_study}, {"trajectory.npy", report_run}, {"order.csv", report_order}};
+} kinds[] = {{"cells.csv", report_study},
+             {"trajectory.npy", report_run},
+             {"order.csv", report_order},
+             {"section.csv", report_section}};
 
 enum { KINDS = sizeof kinds / sizeof kinds[0] };
 
@@ -39,7 +42,7 @@ static int parse_format(void *user, const cli_option *option, const char *text)
 static const cli_option options[] = {
     {"format", "svg|png", "svg", "format of the figures", .parse = parse_format,
      .offset = offsetof(report, format)},
-    {NULL, "DIR", CLI_REQUIRED, "what 'study', 'run' or 'order' wrote with --output DIR",
+    {NULL, "DIR", CLI_REQUIRED, "what 'study', 'run', 'order' or 'section' wrote with --output DIR",
      CLI_TEXT(report, directory)},
 };
 
@@ -55,7 +58,7 @@ static int write_report(report *r)
     if (kind == KINDS)
         return cli_fail(CLI_USAGE,
                         "'%s' holds neither a study (cells.csv) nor a run (trajectory.npy) nor "
-                        "orders (order.csv)",
+                        "orders (order.csv) nor a section (section.csv)",
                         r->directory);
     const int status = report_make(r, kinds[kind].write);
     if (status == CLI_DONE) printf("%s\n", r->page_path);
@@ -75,7 +78,7 @@ static int run_report(int argc, char **argv)
 const cli_command command_report = {
     .name = "report",
     .synopsis = "dalembert report DIR [OPTION]...",
-    .about = "makes a page with figures of a run, a study or orders",
+    .about = "makes a page with figures of a run, a study, orders or a section",
     .notes = "The command writes DIR/report/index.html, one page with everything in it; the "
              "figures, and the gnuplot scripts that draw them, stand beside it.  Without gnuplot "
              "the page "

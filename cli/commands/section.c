@@ -2,6 +2,7 @@
 #include "analyse/section.h"
 #include "io/file.h"
 #include "io/json.h"
+#include "report/report_section.h"
 #include "ui/commands.h"
 #include "ui/options.h"
 
@@ -18,7 +19,7 @@ static const cli_option options[] = {
      "columns of the figure (the last coordinate that varies, with its velocity)",
      CLI_TEXT(section_settings, axes)},
     NATIVE_OPTION(section_settings),
-    {"output", "DIR|FILE|-", "-", "where rows go: .csv, .npy, a directory with a figure, or stdout",
+    {"output", "DIR|FILE|-", "-", "where rows go: .csv, .npy, a directory with a page, or stdout",
      CLI_ROW(cli_parse_output, section_settings, output)},
     JSON_OPTION(section_settings),
 };
@@ -31,6 +32,8 @@ static int section(int argc, char **argv)
     int status = cli_read_arguments(&command_section, argc, argv, groups, 2);
     s.direction--; /* -1, 0 or 1 */
     if (status == CLI_GO_ON) status = section_find(&s);
+    if ((status == CLI_DONE || status == CLI_SIGNAL) && cli_is_directory(s.output))
+        status = report_after(s.output, status, report_section);
     request_free(&s.request);
     return status;
 }
@@ -54,7 +57,7 @@ const cli_command command_section = {
              "\n"
              "Rows are CSV with 17 digits: crossing (from 1), t, direction (1 or -1), then the "
              "state as in "
-             "'dalembert run'.  A directory gets section.csv and, by gnuplot, section.svg with its "
-             "script.\n",
+             "'dalembert run'.  A directory gets section.csv, section.json (the request) and, by "
+             "gnuplot, the page of 'dalembert report'.\n",
     .run = section,
 };

@@ -187,15 +187,20 @@ void json_put_given(json_writer *w, const char *name, const char *number)
         json_put_text(w, name, number);
 }
 
-json_writer json_begin_results(const char *command)
+json_writer json_begin_results_in(FILE *out, const char *command)
 {
-    json_writer w = {.out = stdout};
+    json_writer w = {.out = out};
     char *schema = cli_format("dalembert/%s/1", command);
     json_open(&w, NULL, JSON_LINES);
     json_put_text(&w, "schema", schema);
     json_put_text(&w, "dalembert", DAL_VERSION);
     free(schema);
     return w;
+}
+
+json_writer json_begin_results(const char *command)
+{
+    return json_begin_results_in(stdout, command);
 }
 
 void json_end_results(json_writer *w)

@@ -47,6 +47,8 @@ void json_put_source(json_writer *writer, const char *name, const char *source);
         "json", NULL, NULL, "prints the results as JSON", CLI_FLAG(settings, json)                 \
     }
 json_writer json_begin_results(const char *command);
+/* The same in another file. */
+json_writer json_begin_results_in(FILE *out, const char *command);
 void json_end_results(json_writer *writer);
 
 /* ---- reading ------------------------------------------------------------------------------- */

@@ -1,11 +1,13 @@
-/* report_order.c - the page of `dalembert order --output DIR`: the order and the errors of every
- * method, and the error over step and work. */
+/* report_order.c - the page of `dalembert order --output DIR`: what is compared with what, order,
+ * errors and cost of every method, and the error over step and work. */
 #include "report_order.h"
 
 #include "io/file.h"
 #include "report_csv.h"
 #include "report_family.h"
 #include "report_plot.h"
+#include "report_results.h"
+#include "report_system.h"
 #include "ui/memory.h"
 #include "ui/message.h"
 
@@ -16,6 +18,7 @@
 typedef struct order_page {
     report *r;
     report_csv csv;
+    report_results results;
     report_words methods, steps; /* methods that have errors */
 } order_page;
 
@@ -29,7 +32,33 @@ static int find_row(const order_page *o, const char *method, const char *step)
     return 0;
 }
 
-/* The orders and errors, then the methods that do not apply to the system, or failed, and why. */
+/* T, the space and the reference stand in order.json. */
+static void write_head(const order_page *o)
+{
+    FILE *page = o->r->page;
+    const char *method = results_text(&o->results, "reference", "integrator");
+    const char *time = results_text(&o->results, "request", "time");
+    results_begin_facts(page, &o->results);
+    if (!o->results.root) {
+        const double steps = report_csv_number(&o->csv, 1, "steps");
+        fprintf(page, "<dt>time T</dt><dd>%.9g</dd>\n",
+                steps * report_csv_number(&o->csv, 1, "step"));
+    } else {
+        fputs("<dt>error</dt><dd>largest difference in q and v at t = ", page);
+        report_text(page, time);
+        fputs(method[0] ? " from " : " from the exact solution", page);
+        report_text(page, method);
+        if (method[0])
+            fprintf(page, " with h = %.6g, itself within %.0e",
+                    strtod(results_text(&o->results, "reference", "step"), NULL),
+                    strtod(results_text(&o->results, "reference", "error"), NULL));
+        fputs("</dd>\n", page);
+    }
+    fputs(REPORT_FACTS_END, page);
+}
+
+/* The orders, errors and the cost of a step; then the methods that do not apply to the system, or
+ * failed, and why. */
 static void write_orders_table(const order_page *o)
 {
     FILE *page = o->r->page;
@@ -37,7 +66,7 @@ static void write_orders_table(const order_page *o)
     fputs(REPORT_TABLE "<td></td><th>order, stated</th><th>order, found</th>", page);
     for (int h = 0; h < o->steps.count; h++)
         fprintf(page, "<th>h = %g</th>", strtod(o->steps.word[h], NULL));
-    fputs(REPORT_ROWS, page);
+    fputs("<th>evalu&shy;ations of F a step</th><th>µs a step</th>" REPORT_ROWS, page);
     for (int m = 0; m < o->methods.count; m++) {
         const int first = find_row(o, o->methods.word[m], NULL);
         report_row(page, o->methods.word[m]);
@@ -47,6 +76,11 @@ static void write_orders_table(const order_page *o)
             const int row = find_row(o, o->methods.word[m], o->steps.word[h]);
             report_number(page, "%.1e", row > 0 ? report_csv_number(&o->csv, row, "error") : NAN);
         }
+        /* At the smallest step, as the command prints it. */
+        const int last = find_row(o, o->methods.word[m], o->steps.word[o->steps.count - 1]);
+        const double steps = last > 0 ? report_csv_number(&o->csv, last, "steps") : NAN;
+        report_number(page, "%.1f", report_csv_number(&o->csv, last, "evaluations") / steps);
+        report_number(page, "%.2f", 1e6 * report_csv_number(&o->csv, last, "seconds") / steps);
         fputs("</tr>\n", page);
     }
     fputs(REPORT_TABLE_END
@@ -147,9 +181,10 @@ static int draw_figures(const order_page *o)
 int report_order(report *r)
 {
     order_page *o = cli_calloc(1, sizeof *o);
-    char *path = cli_join(r->directory, "order.csv"), title[PLOT_NAME];
+    char *path = cli_join(r->directory, "order.csv");
     o->r = r;
-    int status = report_csv_read(&o->csv, path);
+    int status = results_read(&o->results, r->directory, "order");
+    if (status == CLI_DONE) status = report_csv_read(&o->csv, path);
     if (status == CLI_DONE && o->csv.rows < 2)
         status = cli_fail(CLI_USAGE, "'%s' has no rows", path);
     for (int row = 1; status == CLI_DONE && row < o->csv.rows; row++) {
@@ -158,13 +193,17 @@ int report_order(report *r)
         report_add_word(&o->steps, report_csv_get(&o->csv, row, "step"));
     }
     if (status == CLI_DONE) {
-        snprintf(title, sizeof title, "%.120s: order, work and precision",
-                 report_csv_get(&o->csv, 1, "label"));
+        char *title = cli_format("%s: order, work and precision",
+                                 results_title(&o->results, report_csv_get(&o->csv, 1, "label")));
         report_title(r, title);
+        free(title);
+        write_head(o);
         write_orders_table(o);
         status = draw_figures(o);
+        report_file(r, "order.json", "what it was made with: order.json");
     }
     report_csv_free(&o->csv);
+    results_free(&o->results);
     free(o);
     free(path);
     return status;

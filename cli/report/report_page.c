@@ -5,6 +5,7 @@
 
 #include "dalembert.h"
 #include "io/file.h"
+#include "io/gnuplot.h"
 #include "io/svg.h"
 #include "ui/memory.h"
 #include "ui/message.h"
@@ -176,4 +177,14 @@ int report_make(report *r, int (*write)(report *r))
     const int closed = report_close(r);
     cli_progress_end();
     return status == CLI_DONE ? closed : status;
+}
+
+int report_after(const char *directory, int status, int (*write)(report *r))
+{
+    report r = {.directory = directory, .format = "svg"};
+    if (!gnuplot_is_there()) return status;
+    const int made = report_make(&r, write);
+    free(r.place);
+    free(r.page_path);
+    return status == CLI_DONE ? made : status;
 }

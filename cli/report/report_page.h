@@ -28,6 +28,9 @@ int report_open(report *r);
 int report_close(report *r);
 /* Makes the page of r->directory, opened and closed; the caller frees r->place and r->page_path. */
 int report_make(report *r, int (*write)(report *r));
+/* The page of a directory behind a command that wrote it and ended with this exit status; without
+ * gnuplot there is none.  Returns that status, or that of the page where this one failed. */
+int report_after(const char *directory, int status, int (*write)(report *r));
 /* Ends the head and begins the body with the title as its heading. */
 void report_title(report *r, const char *title);
 /* A text with &, <, > and quotes escaped; the same in an element. */

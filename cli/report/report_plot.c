@@ -50,7 +50,7 @@ void report_point(const report_plot *plot, plot_curve *curve, double x, double y
     if (!isfinite(x) || !isfinite(y) || (plot->log_x && x <= 0.0) || (plot->log_y && y <= 0.0))
         return;
     append_point(curve, x, y, y);
-    if (plot->has_marks || curve->count < 3) return;
+    if (plot->has_marks || curve->has_dots || curve->count < 3) return;
     /* A point on the level line between its neighbours is redundant. */
     double(*at)[3] = curve->at + curve->count - 3;
     if (at[0][1] != at[1][1] || at[1][1] != at[2][1]) return;
@@ -148,6 +148,13 @@ static int key_rows(const report_plot *plot)
     return (titles + columns - 1) / columns;
 }
 
+static bool has_dots(const report_plot *plot)
+{
+    bool found = false;
+    for (int i = 0; i < plot->count; i++) found |= plot->curve[i].has_dots;
+    return found;
+}
+
 /* One scale on both axes makes a figure as high as its path. */
 static int figure_height(const report_plot *plot)
 {
@@ -166,6 +173,8 @@ static void write_axes(FILE *s, const report_plot *plot)
     gnuplot_set(s, "xlabel offset 0,0.4", plot->xlabel);
     write_axis(s, "x", plot, 0, plot->log_x);
     write_axis(s, "y", plot, 1, plot->log_y);
+    /* Dots on the frame would not be seen. */
+    if (has_dots(plot)) fputs("set offsets 0, 0, graph 0.04, graph 0.04\n", s);
     if (plot->is_to_scale) {
         /* Tics equally far apart on both axes: 1, 2 or 5 times a power of ten. */
         double low, high, extent = 0.0;
@@ -237,7 +246,7 @@ static void write_curve(FILE *s, const report_plot *plot, int i)
     const char *line = plot->has_marks ? "linespoints" : "lines";
     if (curve->count)
         fprintf(s, "  $curve%d using 1:2 with %s ", i + 1,
-                curve->has_dots ? "points pt 7 ps 0.25" : line);
+                curve->has_dots ? "points pt 7 ps 0.3" : line);
     else
         fprintf(s, "  keyentry with %s ", line);
     if (curve->is_black)

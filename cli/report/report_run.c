@@ -318,7 +318,10 @@ static void write_head(const run_page *run, const char *manifest)
     report_method(page, request);
     fputs(REPORT_FACTS_END, page);
     if (state && strcmp(state, "done") != 0) {
-        fprintf(page, "<p><strong>This run is %s", state);
+        fprintf(page, "<p><strong>The run %s",
+                strcmp(state, "failed") == 0        ? "failed"
+                : strcmp(state, "interrupted") == 0 ? "was interrupted"
+                                                    : "is not finished");
         fputs(message ? ": " : "", page);
         report_text(page, message ? message : "");
         fputs(".</strong></p>\n", page);
@@ -357,9 +360,11 @@ int report_run(report *r)
         write_summary(run, request.time);
         if (request.system_name) status = data_write_run(r);
         fputs("<h2>Figures</h2>\n<div class=\"figures\">\n", r->page);
-        if (request.system_name && status == CLI_DONE)
+        if (run->reader.count < 2)
+            fputs("<p>The run has one row, too few for figures.</p>\n", r->page);
+        else if (request.system_name && status == CLI_DONE)
             status = report_path(r, r->directory, "path", "");
-        if (status == CLI_DONE) status = draw_figures(run);
+        if (status == CLI_DONE && run->reader.count > 1) status = draw_figures(run);
         fputs("</div>\n", r->page);
         if (request.system_name) write_command(r->page, &request);
         report_file(r, "manifest.json", "what it was made with: manifest.json");

@@ -43,7 +43,13 @@ static const dal_setting *find_setting(const request_settings *settings, const c
     return NULL;
 }
 
-/* "m = 1, v0 = 0.1 (instead of 1)", then what the request alone has. */
+static bool is_number(const char *text, double x)
+{
+    double value;
+    return dal_parse_number(text, strlen(text), &value) == DAL_OK && value == x;
+}
+
+/* "m = 1, v0 = 0.1 instead of 1", then what the request alone has. */
 static void write_settings(FILE *page, const dal_model *model, dal_section section,
                            const char *heading, const request_settings *settings)
 {
@@ -51,6 +57,7 @@ static void write_settings(FILE *page, const dal_model *model, dal_section secti
     int count = 0;
     for (int i = 0; (text = dal_model_text(model, section, i, &name, NULL, NULL)) != NULL; i++) {
         const dal_setting *given = find_setting(settings, name);
+        if (given && is_number(text, given->value)) given = NULL;
         if (count++ == 0) report_element(page, "dt", heading);
         fputs(count > 1 ? ", <code>" : "<dd><code>", page);
         report_text(page, name);

@@ -31,22 +31,27 @@ END_OF_STUDY
     "$program" run snakeboard --integrator gauss4 --step 0.05 --time 5 --output run
     "$program" report run
     "$program" order chaplygin-sleigh --levels 3 --time 2 --output orders
-    "$program" report orders
+    "$program" section pendulum-cvt --on "sin(xi)" --integrator gni --step 0.1 --time 200 --output cut
+    "$program" run pursuit --integrator rk4 --step 0.01 --time 10 --output failed || [ $? -eq 3 ]
+    "$program" report failed
+    "$program" run pendulum-cvt --integrator gni --step 0.1 --time 2000 --samples 5000 --output bands
+    "$program" report bands
 } >log 2>&1 || { cat log; exit 1; }
 
+pages='study run orders cut failed bands'
 # Each page with the script in it, in a frame of each width; the frames send home what they find.
-for page in study run orders; do
+for page in $pages; do
     { cat $page/report/index.html; echo '<script>'; cat "$here/page.js"; echo '</script>'; } >$page.html
 done
-cat >frames.html <<'END_OF_PAGE'
+cat >frames.html <<END_OF_PAGE
 <body><pre id="found">found:
 </pre><script>
 addEventListener('message', e => found.textContent += e.data + '\n');
-for (const page of ['study', 'run', 'orders'])
+for (const page of '$pages'.split(' '))
     for (const width of [1280, 400]) {
         const frame = document.createElement('iframe');
-        frame.src = `${page}.html#${page},${width}`;
-        frame.style = `width: ${width}px; height: 900px; border: 0`;
+        frame.src = page + '.html#' + page + ',' + width;
+        frame.style = 'width: ' + width + 'px; height: 900px; border: 0';
         document.body.append(frame);
     }
 </script></body>
@@ -59,11 +64,11 @@ for scheme in light dark; do
         --user-data-dir="$work/profile" --blink-settings=preferredColorScheme=$dark \
         --window-size=1400,1000 --virtual-time-budget=60000 --dump-dom "file://$work/frames.html" \
         >dom 2>messages
-    pages=$(grep -c "^examined: $scheme," dom)
+    examined=$(grep -c "^examined: $scheme," dom)
     faults=$(grep -c '^fault:' dom)
     grep '^fault:' dom | head -20
-    [ "$pages" -eq 6 ] || { echo "browser: $pages of 6 pages were examined"; head -5 messages; }
-    [ "$pages" -eq 6 ] && [ "$faults" -eq 0 ] || failed=1
+    [ "$examined" -eq 12 ] || { echo "browser: $examined of 12 pages were examined"; head -5 messages; }
+    [ "$examined" -eq 12 ] && [ "$faults" -eq 0 ] || failed=1
     sed -n "s/^examined: /browser: /p" dom
 done
 [ $failed -eq 0 ] && echo "browser: ok"

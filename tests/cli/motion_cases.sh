@@ -35,20 +35,20 @@ if command -v gnuplot >/dev/null 2>&1; then
     try 0 section osc.yaml --on x $fine --output crossed --axes "t,x'"
     prints '^t = 20: 3 upwards, 3 downwards, 0 touches; 6 rows$'
     holds "other rows" cmp both.csv crossed/section.csv
-    holds "no picture" grep -q '<svg' crossed/section.svg
+    holds "no picture" grep -q '<svg' crossed/report/section.svg
 fi
 
 # The columns of the picture vary on the section, and not by rounding.
 varied() { # DIR
-    sed -n 's/.*using (side(\([0-9]*\), column(\([0-9]*\)))):\([0-9]*\) .*/\1 \2 \3/p' \
-        "$1/section.gp" | head -1 >axes
-    read -r side x y <axes && [ "$side" != 0 ] || return 1
-    awk -F, -v x="$x" -v y="$y" '
-        NR > 1 { for (i = 1; i <= NF; i++) {
-            if (NR == 2 || $i < low[i]) low[i] = $i
-            if (NR == 2 || $i > high[i]) high[i] = $i } }
-        END { exit !(NR > 3 && x != y && high[x] - low[x] > 1e-3 && high[y] - low[y] > 1e-3) }' \
-        "$1/section.csv"
+    sed -n 's/.*"axes": \["\(.*\)", "\(.*\)"\].*/\1,\2/p' "$1/section.json" >axes
+    awk -F, '
+        NR == FNR { name[1] = $1; name[2] = $2; next }
+        FNR == 1 { for (i = 1; i <= NF; i++) { if ($i == name[1]) x = i; if ($i == name[2]) y = i }; next }
+        { for (i = 1; i <= NF; i++) {
+            if (FNR == 2 || $i < low[i]) low[i] = $i
+            if (FNR == 2 || $i > high[i]) high[i] = $i } }
+        END { exit !(FNR > 3 && x && y && x != y && high[x] - low[x] > 1e-3 && high[y] - low[y] > 1e-3) }' \
+        axes "$1/section.csv"
 }
 if command -v gnuplot >/dev/null 2>&1; then
     case_is "the picture of a section"

@@ -65,10 +65,11 @@ prints '^no order found'
 case_is "diagrams"
 if command -v gnuplot >/dev/null 2>&1; then
     try 0 order line.yaml --integrators rk4,gauss4 --time 1 --output orders
-    for name in order work; do
-        holds "no $name.svg" grep -q '<svg' orders/$name.svg
-        holds "rk4 is not in $name.svg" grep -q 'rk4' orders/$name.svg
+    for name in order work time; do
+        holds "no $name.svg" grep -q '<svg' orders/report/$name.svg
+        holds "rk4 is not in $name.svg" grep -q 'rk4' orders/report/$name.svg
     done
+    holds "diagrams that are drawn twice" test -z "$(find orders -maxdepth 1 -name '*.svg')"
 fi
 
 case_is "orders: bad input"

@@ -5,7 +5,7 @@ try 2 report
 says 'the DIR is missing'
 mkdir -p hollow
 try 2 report hollow
-says "'hollow' holds neither a study \(cells.csv\) nor a run \(trajectory.npy\) nor orders \(order.csv\)"
+says "'hollow' holds neither a study \(cells.csv\) nor a run \(trajectory.npy\) nor orders \(order.csv\) nor a section \(section.csv\)"
 try 2 report nowhere
 says "'nowhere' holds neither"
 mkdir -p begun && touch begun/study.yaml
@@ -161,6 +161,16 @@ END_OF_SYSTEM
         holds "it lacks $fact" grep -q "$fact" pulled/report/index.html
     done
 
+    case_is "the page of a run that failed"
+    try 3 run pursuit --integrator rk4 --step 0.01 --time 10 --output aborted
+    try 0 report aborted
+    holds "no reason" grep -q '<strong>The run failed: constraint [12] becomes singular between t = 3\.' \
+        aborted/report/index.html
+    try 3 run pursuit --integrator rk4 --step 0.01 --time 1000 --output alone
+    try 0 report alone
+    holds "figures of one row" sh -c "grep -q 'has one row' alone/report/index.html &&
+        ! grep -q '<img' alone/report/index.html"
+
     case_is "angles and positions have axes of their own"
     holds "other curves among the angles" test "$(sed -n 's/.*title "\([a-z]*\)".*/\1/p' pulled/report/angles.gp)" = phi
     holds "other curves among the positions" test \
@@ -210,11 +220,49 @@ END_OF_STUDY
     try 0 report orders
     silent
     holds "no row of a method" sh -c "grep '<th scope=\"row\">rk4</th><td>4</td>' \
-        orders/report/index.html | grep -Eq '<td>(3.9|4.0)[0-9]</td>(<td>[0-9.]+e-[0-9]+</td>){3}</tr>'"
+        orders/report/index.html | grep -Eq '<td>(3.9|4.0)[0-9]</td>(<td>[0-9.]+e-[0-9]+</td>){3}<td>4\.0</td><td>[0-9.]+</td></tr>'"
     holds "no reason" grep -q '<li>isokinetic-splitting: ' orders/report/index.html
     for figure in order work time; do
         holds "no figure $figure" grep -q '<svg' orders/report/$figure.svg
     done
+
+    # The directory is enough, wherever the system file has gone.
+    case_is "what orders were found with"
+    cp line.yaml moved.yaml
+    try 0 order moved.yaml --integrators rk4,gauss4 --levels 3 --step 0.2 --time 2 --set k=0.5 \
+        --start "x'=3" --space lifted --output found
+    prints '^against gauss12 with h = 0\.025, itself within'
+    rm -r moved.yaml found/report
+    try 0 report found
+    for fact in "<h1>friction on a line: order, work and precision</h1>" "<code>Q_x = -k\*x'</code>" \
+        "<code>k = 0.5</code> instead of <code>1</code>" "<code>x' = 3</code> instead of" \
+        "<dt>time T</dt><dd>2</dd>" "<dt>space</dt><dd>lifted</dd>" \
+        "at t = 2 from gauss12 with h = 0.025, itself within [0-9]e-1[0-9]</dd>"; do
+        holds "it lacks $fact" grep -q "$fact" found/report/index.html
+    done
+    holds "defaults of the solver" sh -c "! grep -q '<dt>solver' found/report/index.html"
+    rm found/order.json found/order.yaml
+    try 0 report found
+    holds "no T from the table" grep -q '<dt>time T</dt><dd>2</dd>' found/report/index.html
+
+    # x = cos t crosses 0 at t = pi/2 downwards, at 3 pi/2 upwards, with x' = -1 and 1.
+    case_is "the report of a section"
+    try 0 section round.yaml --on x --integrator gauss8 --step 0.1 --time 20 --transient 3 \
+        --axes "y,x'" --output cut
+    holds "no page behind the command" grep -q '<img' cut/report/index.html
+    rm -r cut/report
+    try 0 report cut
+    silent
+    prints '^cut/report/index.html$'
+    for fact in '<dt>section</dt><dd>x</dd>' '<dd>gauss8, order 8' '<dt>step h</dt><dd>0.1</dd>' \
+        '<p>5 crossings: 3 upwards, 2 downwards, from t = 4.71239 to t = 17.2788.</p>'; do
+        holds "it lacks $fact" grep -q "$fact" cut/report/index.html
+    done
+    holds "other crossings" sh -c "sed -n '/curve1 <</,/^END/p' cut/report/section.gp |
+        awk -F, 'NF == 2 { n++; if ((\$1 + 1)^2 + (\$2 - 1)^2 > 1e-12) bad++ } END { exit bad || n != 3 }'"
+    rm cut/section.json
+    try 0 report cut
+    holds "no figure of a table alone" grep -q '<img' cut/report/index.html
 
     case_is "the runs of a study are gone"
     rm -rf drawn/runs

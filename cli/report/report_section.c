@@ -1,0 +1,100 @@
+/* report_section.c - the page of `dalembert section --output DIR`: what was cut and how often, and
+ * the crossings in the plane of two columns. */
+#include "report_section.h"
+
+#include "io/file.h"
+#include "report_csv.h"
+#include "report_plot.h"
+#include "report_results.h"
+#include "report_system.h"
+#include "ui/memory.h"
+#include "ui/message.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Of more crossings every k-th is drawn. */
+enum { MAX_POINTS = 3000 };
+
+/* The columns of the figure: those that the command chose, or the last two. */
+static void find_axes(const report_csv *csv, const report_results *results, const char *axis[2])
+{
+    yaml_node_t *axes = results->root ? document_value(&results->doc, results->root, "axes") : NULL;
+    for (int i = 0; i < 2; i++) {
+        axis[i] = csv->cell[csv->columns - 2 + i];
+        if (!axes || document_count(axes) != 2) continue;
+        const char *name =
+            document_scalar(&results->doc, document_item(&results->doc, axes, i), "axes");
+        if (name && report_csv_is(csv, 0, name, name)) axis[i] = name;
+    }
+}
+
+static int draw_crossings(report *r, const report_csv *csv, const report_results *results)
+{
+    static const struct {
+        const char *title, *direction;
+    } sides[] = {{"upwards", "1"}, {"downwards", "-1"}};
+    const int crossings = csv->rows - 1, stride = 1 + crossings / MAX_POINTS;
+    const char *axis[2];
+    char caption[64] = "";
+    find_axes(csv, results, axis);
+    report_plot plot = {.name = "section",
+                        .title = "Section",
+                        .xlabel = axis[0],
+                        .ylabel = axis[1],
+                        .caption = caption};
+    if (stride > 1) snprintf(caption, sizeof caption, "Each %d-th of the crossings.", stride);
+    for (int side = 0; side < 2; side++) {
+        plot_curve *curve = NULL;
+        for (int row = 1; row < csv->rows; row += stride) {
+            if (!report_csv_is(csv, row, "direction", sides[side].direction)) continue;
+            if (!curve) curve = report_curve(&plot, sides[side].title);
+            curve->has_dots = true;
+            report_point(&plot, curve, report_csv_number(csv, row, axis[0]),
+                         report_csv_number(csv, row, axis[1]));
+        }
+    }
+    fputs("<h2>Figure</h2>\n<div class=\"figures\">\n", r->page);
+    const int status = report_draw(r, &plot);
+    fputs("</div>\n", r->page);
+    return status;
+}
+
+static void write_counts(report *r, const report_csv *csv)
+{
+    int up = 0;
+    for (int row = 1; row < csv->rows; row++) up += report_csv_is(csv, row, "direction", "1");
+    fprintf(r->page, "<p>%d crossings: %d upwards, %d downwards", csv->rows - 1, up,
+            csv->rows - 1 - up);
+    if (csv->rows > 1)
+        fprintf(r->page, ", from t = %.6g to t = %.6g", report_csv_number(csv, 1, "t"),
+                report_csv_number(csv, csv->rows - 1, "t"));
+    fputs(".</p>\n", r->page);
+}
+
+int report_section(report *r)
+{
+    report_csv csv = {.text = NULL};
+    report_results results;
+    char *path = cli_join(r->directory, "section.csv");
+    int status = results_read(&results, r->directory, "section");
+    if (status == CLI_DONE) status = report_csv_read(&csv, path);
+    if (status == CLI_DONE) status = report_csv_require(&csv, path, "direction");
+    if (status == CLI_DONE) {
+        const char *on = results_text(&results, "request", "on");
+        char *title = cli_format("%s: section", results_title(&results, "A motion"));
+        report_title(r, title);
+        free(title);
+        results_begin_facts(r->page, &results);
+        if (on[0]) report_fact(r->page, "section", on);
+        fputs(REPORT_FACTS_END, r->page);
+        write_counts(r, &csv);
+        if (csv.rows > 1) status = draw_crossings(r, &csv, &results);
+        report_file(r, "section.json", "what it was made with: section.json");
+    }
+    report_csv_free(&csv);
+    results_free(&results);
+    free(path);
+    return status;
+}
