@@ -60,6 +60,14 @@ explain $friction --integrator rk4 --time 2
 section $friction --integrator rk4 --time 2 --on x-0.5
 END
 
+if [ -c /dev/full ]; then
+    case_is "JSON that cannot be written"
+    "$program" check ./line.yaml --json 2>err >/dev/full
+    status=$?
+    holds "exit $status, not 4" test $status -eq 4
+    says "cannot write 'standard output'"
+fi
+
 there python3 || return 0
 
 case_is "list as JSON"
@@ -215,6 +223,14 @@ holds "upwards" json out "len(d['rows']) == d['up'] > 10
     and [r[0] for r in d['rows']] == list(range(1, d['up'] + 1))"
 results 3 section ends.yaml --on t-0.3 --integrator rk4 --step 0.1 --time 1
 holds "a run that fails" json out "d['state'] == 'failed' and d['up'] == 1"
+"$program" section $friction --integrator rk4 --on "sin(t)" --time 1e12 --output cut --json 2>err >out &
+pid=$!
+holds "no rows" reaches $pid has_lines cut/section.csv 4
+ends_by INT 130 $pid
+says '^dalembert: interrupted; [0-9]+ rows are kept$'
+holds "a run that is interrupted" json out "d['state'] == 'interrupted' and d['to'] < 1e12
+    and [r[0] for r in d['rows']] == [float(r['crossing']) for r in rows('cut/section.csv')]
+    and all(near(r[1], math.pi * r[0], 1e-9) for r in d['rows'])"
 
 case_is "every name is described"
 # Those of parameters and of options are the system's and the request's.
