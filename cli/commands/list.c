@@ -8,23 +8,20 @@
 #include "ui/memory.h"
 #include "ui/message.h"
 #include "ui/options.h"
-#include "ui/wrap.h"
+#include "ui/table.h"
 
 #include <math.h>
-#include <stdarg.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-enum { MAX_COLUMNS = 8, LEAST_TEXT = 40 /* columns */ };
 
 typedef struct settings {
     const char *table, *tag;
     long long order;
     int preserves; /* a row of invariants; -1: any */
     bool markdown, is_long, json;
-    int width; /* what the tables fit into; 0: they have what they have */
+    int width; /* what the tables fit into; 0: any */
 } settings;
 
 enum { SYSTEMS, INTEGRATORS, TABLES };
@@ -38,134 +35,6 @@ typedef struct selection {
     const dal_system *system[CLI_MAX_BUILTINS];
     const dal_integrator *integrator[CLI_MAX_BUILTINS]; /* [integrators] */
 } selection;
-
-/* A table of texts; the first row has the headings. */
-typedef struct text_table {
-    int text; /* the column of free text, which a short table wraps */
-    int columns, cells, capacity;
-    char **cell;
-} text_table;
-
-static void append_row(text_table *t, const char *format, ...) CLI_PRINTF(2, 3);
-
-/* Of cells between tabs. */
-static void append_row(text_table *t, const char *format, ...)
-{
-    va_list list;
-    va_start(list, format);
-    char *row = cli_format_list(format, list), *cell = row;
-    va_end(list);
-    for (t->columns = 0; cell; t->columns++) {
-        char *end = strchr(cell, '\t');
-        if (end) *end++ = '\0';
-        if (t->cells == t->capacity) {
-            t->capacity = t->capacity ? 2 * t->capacity : 64;
-            t->cell = cli_realloc(t->cell, (size_t)t->capacity * sizeof *t->cell);
-        }
-        t->cell[t->cells++] = cli_strdup(cell);
-        cell = end;
-    }
-    free(row);
-}
-
-/* Characters, not bytes, of a UTF-8 text. */
-static int count_characters(const char *text)
-{
-    int n = 0;
-    for (; *text; text++) n += ((unsigned char)*text & 0xC0) != 0x80;
-    return n;
-}
-
-static void print_rule(int length)
-{
-    while (length-- > 0) putchar('-');
-}
-
-static void print_markdown(const text_table *t, const int *widths)
-{
-    for (int k = 0; k < t->cells; k++) {
-        const int i = k % t->columns;
-        printf("| %s%*s %s", t->cell[k], widths[i] - count_characters(t->cell[k]), "",
-               i == t->columns - 1 ? "|\n" : "");
-        if (k != t->columns - 1) continue;
-        for (int j = 0; j < t->columns; j++) {
-            putchar('|');
-            print_rule(widths[j] + 2);
-        }
-        puts("|");
-    }
-}
-
-/* The first columns side by side; the others in lines of their own, below. */
-static void print_row(const text_table *t, char **cell, const int *widths, int side_by_side)
-{
-    char rest[1024] = "";
-    size_t n = 0;
-    const int last = side_by_side - 1;
-    for (int i = 0; i < last; i++)
-        printf("%s%*s", cell[i], widths[i] - count_characters(cell[i]) + 2, "");
-    puts(cell[last]);
-    for (int i = last + 1; i < t->columns && n < sizeof rest; i++)
-        n += (size_t)snprintf(rest + n, sizeof rest - n, "%s%s", n > 0 ? "; " : "    ", cell[i]);
-    if (n > 0) cli_wrap(stdout, rest, 0, 4);
-}
-
-static void print_rules(const int *widths, int columns)
-{
-    for (int i = 0; i < columns; i++) {
-        print_rule(widths[i]);
-        fputs(i == columns - 1 ? "\n" : "  ", stdout);
-    }
-}
-
-/* All columns, or side by side those that fit. */
-static void print_long(const text_table *t, const int *widths, int width)
-{
-    int side_by_side = 1, used = widths[0] + 2;
-    while (side_by_side < t->columns && (width == 0 || used + widths[side_by_side] <= width))
-        used += widths[side_by_side++] + 2;
-    print_row(t, t->cell, widths, side_by_side);
-    print_rules(widths, side_by_side);
-    for (int k = t->columns; k < t->cells; k += t->columns)
-        print_row(t, t->cell + k, widths, side_by_side);
-}
-
-/* Of the columns before the text those that leave it room. */
-static void print_short(const text_table *t, const int *widths, int width)
-{
-    int shown[MAX_COLUMNS], rules[MAX_COLUMNS], count = 0, used = 0;
-    for (int i = 0; i < t->text; i++) {
-        if (i > 0 && used + widths[i] + 2 + LEAST_TEXT > width) continue;
-        used += widths[i] + 2;
-        rules[count] = widths[i];
-        shown[count++] = i;
-    }
-    const int room = width > used ? width - used : 1;
-    rules[count] = room < widths[t->text] ? room : widths[t->text];
-    for (int k = 0; k < t->cells; k += t->columns) {
-        if (k == t->columns) print_rules(rules, count + 1);
-        for (int i = 0; i < count; i++) {
-            const char *cell = t->cell[k + shown[i]];
-            printf("%s%*s", cell, rules[i] - count_characters(cell) + 2, "");
-        }
-        cli_wrap_to(stdout, t->cell[k + t->text], used, used, width);
-    }
-}
-
-static void end_table(text_table *t, const settings *s)
-{
-    int widths[MAX_COLUMNS] = {0};
-    for (int k = 0; k < t->cells; k++) {
-        const int width = count_characters(t->cell[k]), i = k % t->columns;
-        if (width > widths[i]) widths[i] = width;
-    }
-    if (s->markdown)
-        print_markdown(t, widths);
-    else
-        (s->width > 0 && !s->is_long ? print_short : print_long)(t, widths, s->width);
-    for (int k = 0; k < t->cells; k++) free(t->cell[k]);
-    free(t->cell);
-}
 
 /* ---- systems ------------------------------------------------------------------------------- */
 
@@ -217,9 +86,20 @@ static int select_systems(selection *list, const settings *s)
     return CLI_DONE;
 }
 
+static void end_table(cli_table *table, const settings *s)
+{
+    if (s->markdown)
+        cli_table_print_markdown(table);
+    else if (s->width > 0 && !s->is_long)
+        cli_table_print_short(table, s->width);
+    else
+        cli_table_print_long(table, s->width);
+    cli_table_free(table);
+}
+
 static const char *or_none(const char *text) { return text ? text : "-"; }
 
-static void add_system(text_table *t, const char *name, const dal_system *system, const settings *s)
+static void add_system(cli_table *t, const char *name, const dal_system *system, const settings *s)
 {
     const char *tick = s->markdown ? "`" : "", *title = system->title ? system->title : "";
     char *tags = cli_strdup("");
@@ -228,16 +108,16 @@ static void add_system(text_table *t, const char *name, const dal_system *system
         free(tags);
         tags = longer;
     }
-    append_row(t, "%s%s%s\t%d\t%d\t%s\t%s\t%s\t%s%s", tick, name, tick, system->n, system->m,
-               or_none(kind(system)), or_none(energy(system)), system->exact ? "yes" : "-", title,
-               s->is_long && !*tags ? "\t-" : tags);
+    cli_table_append(t, "%s%s%s\t%d\t%d\t%s\t%s\t%s\t%s%s", tick, name, tick, system->n, system->m,
+                     or_none(kind(system)), or_none(energy(system)), system->exact ? "yes" : "-",
+                     title, s->is_long && !*tags ? "\t-" : tags);
     free(tags);
 }
 
 static void print_systems(const selection *list, const settings *s)
 {
-    text_table table = {.text = 6};
-    append_row(&table, "system\tn\tm\tD\tenergy\texact\ttitle%s", s->is_long ? "\ttags" : "");
+    cli_table table = {.text = 6};
+    cli_table_append(&table, "system\tn\tm\tD\tenergy\texact\ttitle%s", s->is_long ? "\ttags" : "");
     for (int i = 0; i < list->systems; i++) add_system(&table, list->name[i], list->system[i], s);
     end_table(&table, s);
 }
@@ -321,7 +201,7 @@ static bool is_selected(const dal_integrator *k, const settings *s)
     return (k->properties & (p->code | p->implied_by)) != 0;
 }
 
-static void add_integrator(text_table *t, const dal_integrator *k, const settings *s)
+static void add_integrator(cli_table *t, const dal_integrator *k, const settings *s)
 {
     const bool is_short = s->width > 0 && !s->is_long && !s->markdown;
     const char *tick = s->markdown ? "`" : "", *plus = k->properties & DAL_MODIFIER ? "+" : "";
@@ -329,9 +209,9 @@ static void add_integrator(text_table *t, const dal_integrator *k, const setting
     if (k->alias && !is_short)
         snprintf(alias, sizeof alias, ", %s%s%s%s", tick, plus, k->alias, tick);
     if (k->order) snprintf(order, sizeof order, "%d", k->order);
-    append_row(t, "%s%s%s%s%s\t%s\t%s\t%s\t%s\t%s", tick, plus, k->name, tick, alias, order,
-               list_properties(is, k, qualities), list_properties(preserves, k, invariants),
-               k->summary, k->reference);
+    cli_table_append(t, "%s%s%s%s%s\t%s\t%s\t%s\t%s\t%s", tick, plus, k->name, tick, alias, order,
+                     list_properties(is, k, qualities), list_properties(preserves, k, invariants),
+                     k->summary, k->reference);
 }
 
 static int select_integrators(selection *list, const settings *s)
@@ -346,8 +226,8 @@ static int select_integrators(selection *list, const settings *s)
 
 static void print_integrators(const selection *list, const settings *s)
 {
-    text_table table = {.text = 4};
-    append_row(&table, "integrator\torder\tproperties\tpreserves\twhat it is\treference");
+    cli_table table = {.text = 4};
+    cli_table_append(&table, "integrator\torder\tproperties\tpreserves\twhat it is\treference");
     for (int i = 0; i < list->integrators; i++) add_integrator(&table, list->integrator[i], s);
     end_table(&table, s);
 }
