@@ -11,6 +11,7 @@ typedef struct study_page {
     report *r;
     report_csv cells; /* cells.csv */
     report_words labels, methods, representatives;
+    char *title[REPORT_WORDS]; /* of the system of each label, or the label */
 } study_page;
 
 /* The text of a cell under a head of cells.csv; whether it is another one. */

@@ -66,6 +66,13 @@ static void write_method(FILE *page, const char *name)
     report_element(page, "th scope=\"row\"", name);
 }
 
+static const char *get_title(const study_page *s, const char *label)
+{
+    int i = 0;
+    while (strcmp(s->labels.word[i], label) != 0) i++;
+    return s->title[i];
+}
+
 /* Labels without a value and methods that apply to none of the others are left out. */
 static void write_matrix(const study_page *s, const table_columns *all, const quantity *t)
 {
@@ -82,7 +89,9 @@ static void write_matrix(const study_page *s, const table_columns *all, const qu
     for (int i = 0; i < shown.count; i++) {
         fputs("<th scope=\"col\" data-label=\"", page);
         report_text(page, shown.at[i].label);
-        fprintf(page, "\" data-step=\"%.9g\">", strtod(shown.at[i].step, NULL));
+        fprintf(page, "\" data-step=\"%.9g\" title=\"", strtod(shown.at[i].step, NULL));
+        report_text(page, get_title(s, shown.at[i].label));
+        fputs("\">", page);
         report_text(page, shown.at[i].label);
         if (!shown.at[i].is_alone)
             fprintf(page, "<br><small>h = %g</small>", strtod(shown.at[i].step, NULL));

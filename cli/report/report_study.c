@@ -20,6 +20,8 @@
 #include "report_motion.h"
 #include "report_path.h"
 #include "report_plot.h"
+#include "report_system.h"
+#include "run/system.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -413,20 +415,61 @@ static int begin_study(study_page *s)
     return status;
 }
 
+/* The system of a label: the copy of its file, which stands under the first label that has it, or a
+ * built-in one; *model is NULL where there is neither. */
+static int read_model(const study_page *s, const char *label, dal_model **model)
+{
+    int row = 1;
+    *model = NULL;
+    while (!is_cell(s, row, "label", label)) row++;
+    const char *system = get_cell(s, row, "system");
+    for (int i = 1; i < s->cells.rows; i++) {
+        if (!is_cell(s, i, "system", system)) continue;
+        char *copy = cli_format("%s/systems/%s.yaml", s->r->directory, get_cell(s, i, "label"));
+        const bool is_found = file_exists(copy);
+        const int status = is_found ? cli_read(copy, model) : CLI_DONE;
+        free(copy);
+        if (is_found) return status;
+    }
+    return dal_builtin_text(system) ? cli_read(system, model) : CLI_DONE;
+}
+
+static int read_titles(study_page *s)
+{
+    int status = CLI_DONE;
+    for (int i = 0; i < s->labels.count && status == CLI_DONE; i++) {
+        dal_model *model;
+        status = read_model(s, s->labels.word[i], &model);
+        s->title[i] = cli_strdup(report_model_title(model, s->labels.word[i]));
+        dal_model_free(model);
+    }
+    return status;
+}
+
+/* "Nonholonomic particle nonholonomic-particle-long" */
+static void write_name(const study_page *s, int i)
+{
+    FILE *page = s->r->page;
+    report_text(page, s->title[i]);
+    if (strcmp(s->title[i], s->labels.word[i]) == 0) return;
+    fputc(' ', page);
+    report_element(page, "small", s->labels.word[i]);
+}
+
 static int write_study(study_page *s)
 {
     report *r = s->r;
     int status = begin_study(s);
     if (status != CLI_DONE) return status;
     bool is_lifted = false;
-    fprintf(r->page, "<p>%d runs: %d systems, %d methods.</p>\n<p>Figures:", s->cells.rows - 1,
+    fprintf(r->page, "<p>%d runs: %d systems, %d methods.</p>\n<ol>\n", s->cells.rows - 1,
             s->labels.count, s->methods.count);
     for (int i = 0; i < s->labels.count; i++) {
-        fprintf(r->page, "%s <a href=\"#s%d\">", i ? "," : "", i + 1);
-        report_text(r->page, s->labels.word[i]);
-        fputs("</a>", r->page);
+        fprintf(r->page, "<li><a href=\"#s%d\">", i + 1);
+        write_name(s, i);
+        fputs("</a></li>\n", r->page);
     }
-    fprintf(r->page, ".</p>\n%s", introduction);
+    fprintf(r->page, "</ol>\n%s", introduction);
     for (int row = 1; row < s->cells.rows; row++)
         is_lifted |= !is_cell(s, row, "start", "physical");
     if (is_lifted) fputs(about_lift, r->page);
@@ -438,7 +481,7 @@ static int write_study(study_page *s)
                             r->directory);
         cli_progress("report: %s", s->labels.word[i]);
         fprintf(r->page, "<h2 id=\"s%d\">", i + 1);
-        report_text(r->page, s->labels.word[i]);
+        write_name(s, i);
         fputs("</h2>\n", r->page);
         const int drawn = report_label(s, s->labels.word[i]);
         if (status == CLI_DONE) status = drawn;
@@ -466,7 +509,9 @@ int report_study(report *r)
         status = cli_fail(CLI_USAGE, "'%s' has no rows", path);
     for (int k = 0; status == CLI_DONE && k < QUANTITIES; k++)
         if (quantities[k].trend) status = report_csv_require(&s->cells, path, quantities[k].trend);
+    if (status == CLI_DONE) status = read_titles(s);
     if (status == CLI_DONE) status = write_study(s);
+    for (int i = 0; i < s->labels.count; i++) free(s->title[i]);
     report_csv_free(&s->cells);
     free(s);
     free(path);

@@ -86,14 +86,16 @@ if command -v gnuplot >/dev/null 2>&1; then
     holds "no figure of the line" grep -q '<svg' drawn/report/line.yaml-E.svg
     holds "no order diagram" grep -q '<svg' drawn/report/line.yaml-order.svg
     holds "no work-precision diagram" grep -q '<svg' drawn/report/line.yaml-work.svg
-    holds "the label is not text" grep -q '<h2 id="s1">a &lt;b&gt; &quot;c&quot;' $page
+    holds "the label is not text" grep -q "<small>a &lt;b&gt; &quot;c&quot; 'd'</small></h2>" $page
+    holds "no title of a built-in system" grep -q "<h2 id=\"s1\">Chaplygin's symmetric sleigh, linear constraint " $page
+    holds "no title of a system file" grep -q '<h2 id="s2">friction on a line <small>line.yaml</small></h2>' $page
     holds "no sizes and trends in words and colour" grep -q '<td class="trend [a-z]*">rounding<br>[a-z ]*<br>' $page
     holds "no title" grep -q '<h1>Three &amp; more</h1>' $page
     # With both steps, from three starts: both methods go to the end, E of rk4 is not that small.
     holds "no count of expectations" grep -q '<p>12 of 18 are met.</p>' $page
     holds "no failed expectation" grep -q '<td>E</td><td>.*1e-30</td><td>.*<td class="drift">not met' $page
     holds "no path of the best run" grep -q '<svg' "drawn/report/a <b> \"c\" 'd'-path.svg"
-    holds "no column for each step" grep -q '<th scope="col" data-label="line.yaml" data-step="0.05">line.yaml<br><small>h = 0.05' $page
+    holds "no column for each step" grep -q '<th scope="col" data-label="line.yaml" data-step="0.05" title="friction on a line">line.yaml<br><small>h = 0.05' $page
     holds "no study file" grep -q 'integrators: \[rk4, gauss4, gauss4+project\]' $page
     holds "no tables" grep -q 'What this shows' $page
 
