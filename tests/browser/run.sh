@@ -60,7 +60,7 @@ END_OF_PAGE
 failed=0
 for scheme in light dark; do
     dark=$([ $scheme = dark ] && echo 0 || echo 1)
-    timeout 120 $browser --headless --no-sandbox --disable-gpu --disable-background-networking \
+    timeout ${PATIENCE:-600} $browser --headless --no-sandbox --disable-gpu --disable-background-networking \
         --user-data-dir="$work/profile" --blink-settings=preferredColorScheme=$dark \
         --window-size=1400,1000 --virtual-time-budget=60000 --dump-dom "file://$work/frames.html" \
         >dom 2>messages
