@@ -1,6 +1,7 @@
 #!/bin/sh
 # run.sh PROGRAM - the pages of `dalembert report` in headless Chromium: in light and dark, 1280 and
 # 400 pixels wide, nothing is cut off, covered or too faint; page.js examines each page from inside.
+# script.py then uses them: keys, clicks and the pointer.
 case $1 in /*) program=$1 ;; *) program=$PWD/$1 ;; esac
 here=$(cd "$(dirname "$0")" && pwd)
 for browser in chromium chromium-browser google-chrome; do
@@ -71,5 +72,10 @@ for scheme in light dark; do
     [ "$examined" -eq 12 ] && [ "$faults" -eq 0 ] || failed=1
     sed -n "s/^examined: /browser: /p" dom
 done
+if command -v python3 >/dev/null 2>&1; then
+    timeout 300 python3 "$here/script.py" $browser "$work" || failed=1
+else
+    echo "browser: the script is not used, python3 is not installed"
+fi
 [ $failed -eq 0 ] && echo "browser: ok"
 exit $failed
