@@ -7,15 +7,16 @@
 #include "report_body.h"
 #include "report_plot.h"
 #include "report_pose.h"
+#include "report_rows.h"
 
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* Of more rows than MAX_POINTS every k-th is drawn; instants of the body; its half length as a part
- * of the extent of the path; points of a circle. */
-enum { MAX_POINTS = 2000, INSTANTS = 9, ROUND = 32 };
+/* Of more rows than MAX_POINTS every k-th is drawn, and of more dots than MAX_DOTS every k-th;
+ * instants of the body; its half length as a part of the extent of the path; points of a circle. */
+enum { MAX_POINTS = 2000, MAX_DOTS = 500, INSTANTS = 9, ROUND = 32 };
 static const double half_length = 0.055;
 static const double pi = 3.14159265358979323846;
 
@@ -24,6 +25,7 @@ typedef struct body_path {
     double pose[INSTANTS][DAL_PICTURE_COUNT];
     int instants;
     double low[2], high[2];
+    row_distance distance[2];
 } body_path;
 
 /* ---- outlines ------------------------------------------------------------------------------ */
@@ -76,6 +78,8 @@ static void add_row(body_path *p, const report_plot *plot, plot_curve *curve, lo
     const long long stride = 1 + p->poses.rows.count / MAX_POINTS, last = p->poses.rows.count - 1;
     const bool is_instant = p->instants < INSTANTS && k >= last * p->instants / (INSTANTS - 1);
     const double *at = p->poses.pose;
+    for (int i = 0; i < 2; i++)
+        row_distance_add(&p->distance[i], p->poses.t, at[i], p->poses.rate[i]);
     if ((!is_instant && k % stride && k != last) || isnan(at[DAL_PICTURE_X])) return;
     report_point(plot, curve, at[DAL_PICTURE_X], at[DAL_PICTURE_Y]);
     for (int i = 0; i < 2; i++) {
@@ -83,6 +87,23 @@ static void add_row(body_path *p, const report_plot *plot, plot_curve *curve, lo
         p->high[i] = fmax(p->high[i], at[i]);
     }
     if (is_instant) memcpy(p->pose[p->instants++], at, sizeof p->poses.pose);
+}
+
+/* Makes dots of a path where rows are so far apart that the lines between them are not the path. */
+static void break_path(const body_path *p, plot_curve *curve)
+{
+    const double far = 0.2 * fmax(p->high[0] - p->low[0], p->high[1] - p->low[1]);
+    const int stride = 1 + curve->count / MAX_DOTS;
+    int gaps = 0, kept = 0;
+    for (int i = 1; i < curve->count; i++)
+        gaps += hypot(curve->at[i][0] - curve->at[i - 1][0],
+                      curve->at[i][1] - curve->at[i - 1][1]) > far;
+    curve->has_dots = 10 * gaps > curve->count || row_distance_is_sparse(&p->distance[0]) ||
+                      row_distance_is_sparse(&p->distance[1]);
+    if (!curve->has_dots) return;
+    for (int i = 0; i < curve->count; i += stride)
+        memmove(curve->at[kept++], curve->at[i], sizeof curve->at[i]);
+    curve->count = kept;
 }
 
 static int draw_path(body_path *p, report *r, const char *name, const char *caption)
@@ -100,13 +121,7 @@ static int draw_path(body_path *p, report *r, const char *name, const char *capt
     plot_curve *curve = report_curve(&plot, "");
     for (long long k = 0; (more = pose_next(&p->poses)) > 0; k++) add_row(p, &plot, curve, k);
     if (more < 0) status = CLI_IO;
-    /* Where rows are far apart the lines between them are not the path. */
-    const double far = 0.2 * fmax(p->high[0] - p->low[0], p->high[1] - p->low[1]);
-    int gaps = 0;
-    for (int i = 1; i < curve->count; i++)
-        gaps += hypot(curve->at[i][0] - curve->at[i - 1][0],
-                      curve->at[i][1] - curve->at[i - 1][1]) > far;
-    curve->has_dots = 10 * gaps > curve->count;
+    break_path(p, curve);
     draw_bodies(p, &plot);
     if (p->instants > 0 && body != DAL_BODY_POINT)
         snprintf(text, sizeof text, "The %s, not to scale, at %d of the rows.", body_name[body],

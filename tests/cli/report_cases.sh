@@ -200,6 +200,9 @@ END_OF_SYSTEM
     holds "no line through rows close together" grep -q 'curve2 using 1:2 with lines' \
         enough/report/coordinates.gp
 
+    holds "a path through rows far apart" grep -q 'curve1 using 1:2 with points' few/report/path.gp
+    holds "no path through rows close together" grep -q 'curve1 using 1:2 with lines' enough/report/path.gp
+
     case_is "of many methods one of each family"
     cat >families.yaml <<'END_OF_STUDY'
 integrators: [symplectic-euler-10, stormer-verlet, dop853, rk4, gauss6, gauss4, spark2, dla, gni,
