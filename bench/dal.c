@@ -2,11 +2,12 @@
  *
  *     dal ENGINE METHOD SPACE SYSTEM
  *
- *     ENGINE   tape: formulas, interpreted; callback: the field as a C callback, written by hand;
- *              batchN: formulas, N trajectories at once
+ *     ENGINE   tape: formulas, interpreted; unchecked: without the rank check; callback: the field
+ *              as a C callback, written by hand; batchN: formulas, N trajectories at once
  *     METHOD   as dal_method_parse reads it          SPACE   physical, lifted
  *     SYSTEM   A, B3 (bench/systems), B101, C (examples); C0: the fluid without pair forces, all
- *              that is left of C being the integrator and the thermostat */
+ *              that is left of C being the integrator and the thermostat; RN: N coordinates, N/4
+ *              constraints whose Jacobian varies */
 #define _POSIX_C_SOURCE 200809L
 #include "../examples/contact_chain.h"
 #include "../examples/isokinetic_fluid.h"
@@ -74,10 +75,29 @@ static const dal_system sleigh_by_hand = {.name = "sleigh",
                                           .start = sleigh_start,
                                           .constraints = sleigh_constraints};
 
+/* A chain of n springs, four velocities of which each constraint couples. */
+static dal_status make_chain(dal_model **model, int n, dal_error *error)
+{
+    static char text[1 << 16];
+    char *end = text;
+    end += sprintf(end, "coordinates: [x0");
+    for (int i = 1; i < n; i++) end += sprintf(end, ", x%d", i);
+    end += sprintf(end, "]\nlagrangian: (x0'^2");
+    for (int i = 1; i < n; i++) end += sprintf(end, " + x%d'^2 - (x%d - x%d)^2", i, i, i - 1);
+    end += sprintf(end, ")/2\nconstraints:\n");
+    for (int i = 0; i < n; i += 4)
+        end += sprintf(end, "  - x%d'*cos(x%d) + x%d'*sin(x%d) - x%d'*x%d\n", i, i + 2, i + 1,
+                       i + 2, (i + 4) % n, i + 3);
+    end += sprintf(end, "start: {x0: 0.1");
+    for (int i = 1; i < n; i++) end += sprintf(end, ", x%d: %g", i, 0.1 * cos(i));
+    end += sprintf(end, "}\n");
+    return dal_model_read(model, "chain", text, (size_t)(end - text), error);
+}
+
 /* The system of a name; formulas stand in bench/systems. */
 static const dal_system *find_system(const char *engine, const char *name, dal_error *error)
 {
-    static dal_system fluid;
+    static dal_system fluid, unchecked;
     const dal_system *system = NULL;
     dal_model *model;
     fluid = fluid_system;
@@ -87,8 +107,13 @@ static const dal_system *find_system(const char *engine, const char *name, dal_e
     if (strcmp(engine, "callback") == 0) return strcmp(name, "A") == 0 ? &sleigh_by_hand : NULL;
     char path[64];
     snprintf(path, sizeof path, "bench/systems/%.20s.yaml", name);
-    if (dal_model_read_file(&model, path, error) == DAL_OK) dal_model_system(model, &system, error);
-    return system;
+    const dal_status status = name[0] == 'R' ? make_chain(&model, atoi(name + 1), error)
+                                             : dal_model_read_file(&model, path, error);
+    if (status == DAL_OK) dal_model_system(model, &system, error);
+    if (!system || strcmp(engine, "unchecked") != 0) return system;
+    unchecked = *system;
+    unchecked.properties &= ~(unsigned)DAL_D_RANK_CHECKED;
+    return &unchecked;
 }
 
 /* From the start again, unless this is the first time. */

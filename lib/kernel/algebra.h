@@ -14,20 +14,40 @@ DAL_INLINE void dal_multiply(const num *m, int rows, int columns, const num *x, 
     }
 }
 
+/* From this size on zeros are skipped, which most entries of large systems are: the sums keep their
+ * bits. */
+enum { DAL__SPARSE = 16 };
+
+/* Whether x is 0 in all lanes. */
+DAL_INLINE int dal__is_zero(num x) { return !dal_any(~dal_equal(x, dal_num(0.0))); }
+
 /* g[m*m] = A B, the matrix G of m constraints: A[m*n], B[n*m]. */
-DAL_INLINE void dal_gram(const num *a, const num *b, int m, int n, num *g)
+DAL_INLINE void dal_gram(const num *a, const num *b, int m, int n, num *DAL_RESTRICT g)
 {
-    DAL_EACH(i, m * m) {
-        g[i] = dal_num(0.0);
-        DAL_EACH(j, n) g[i] = dal_fma(a[i / m * n + j], b[j * m + i % m], g[i]);
+    DAL_EACH(i, m * m) g[i] = dal_num(0.0);
+    DAL_EACH(i, m) {
+        DAL_EACH(j, n) {
+            const num x = a[i * n + j];
+            if (n >= DAL__SPARSE && dal__is_zero(x)) continue;
+            DAL_EACH(k, m) g[i * m + k] = dal_fma(x, b[j * m + k], g[i * m + k]);
+        }
     }
+}
+
+/* Whether in all lanes a pivot is not 0, and count numbers from it on are finite. */
+DAL_INLINE int dal__divides(const num *pivot, int count)
+{
+    const dal_mask good = dal_less(dal_num(0.0), dal_abs(*pivot));
+    return !dal_any(~(good & dal_equal(dal_nonfinite(pivot, count), dal_num(0.0))));
 }
 
 /* Eliminates column k below the diagonal, without pivoting, and returns g_kk: the ratio of the
  * leading minors k + 1 and k. */
 DAL_INLINE num dal_eliminate(num *g, int m, int k)
 {
+    const int sparse = m >= DAL__SPARSE && dal__divides(g + k * m + k, m - k);
     for (int i = k + 1; i < m; i++) {
+        if (sparse && dal__is_zero(g[i * m + k])) continue;
         const num factor = g[i * m + k] / g[k * m + k];
         for (int j = k; j < m; j++) g[i * m + j] -= factor * g[k * m + j];
     }

@@ -1,0 +1,90 @@
+/* test_algebra.c - products and eliminations that skip zeros: the bits of those that do not. */
+#include "kernel/algebra.h"
+#include <CUnit/CUnit.h>
+#include <math.h>
+#include <stdint.h>
+#include <string.h>
+
+enum { M = 20, N = 40 };
+
+static uint64_t state;
+
+static double uniform(void)
+{
+    state ^= state << 13, state ^= state >> 7, state ^= state << 17;
+    return (double)(state >> 11) * 0x1p-52 - 1.0;
+}
+
+/* Of the entries, one in `part` is not 0. */
+static void fill(double *x, int count, int part)
+{
+    for (int i = 0; i < count; i++)
+        x[i] = (int)(state % 97) % part == 0 ? uniform() : (uniform(), 0.0);
+}
+
+static void plain_gram(const double *a, const double *b, int m, int n, double *g)
+{
+    for (int i = 0; i < m * m; i++) {
+        g[i] = 0.0;
+        for (int j = 0; j < n; j++) g[i] = fma(a[i / m * n + j], b[j * m + i % m], g[i]);
+    }
+}
+
+static double plain_eliminate(double *g, int m, int k)
+{
+    for (int i = k + 1; i < m; i++) {
+        const double factor = g[i * m + k] / g[k * m + k];
+        for (int j = k; j < m; j++) g[i * m + j] -= factor * g[k * m + j];
+    }
+    return g[k * m + k];
+}
+
+/* The same bits, or NaN in both. */
+static int same(const double *a, const double *b, int count)
+{
+    for (int i = 0; i < count; i++)
+        if (memcmp(&a[i], &b[i], sizeof *a) != 0 && !(isnan(a[i]) && isnan(b[i]))) return 0;
+    return 1;
+}
+
+static void test_gram(void)
+{
+    static const int parts[] = {1, 3, 30, 1000};
+    double a[M * N], b[N * M], g[M * M], plain[M * M];
+    state = 1;
+    for (int i = 0; i < 4; i++)
+        for (int n = 1; n <= N; n += 13) {
+            fill(a, M * n, parts[i]);
+            fill(b, n * M, parts[i]);
+            dal_gram(a, b, M, n, g);
+            plain_gram(a, b, M, n, plain);
+            CU_ASSERT(same(g, plain, M * M));
+        }
+}
+
+/* A pivot that is 0 or not finite leaves what it does to the rows below it. */
+static void test_eliminate(void)
+{
+    static const double pivots[] = {0.5, 0.0, INFINITY, NAN};
+    double g[M * M], plain[M * M];
+    state = 1;
+    for (int i = 0; i < 20; i++) {
+        fill(g, M * M, i % 5 + 1);
+        g[7 * (M + 1)] = pivots[i % 4];
+        for (int j = 0; i % 2 && j < 7; j++) g[7 * M + j] = 0.0;
+        memcpy(plain, g, sizeof g);
+        for (int k = 0; k < M; k++) {
+            const double x = dal_eliminate(g, M, k), y = plain_eliminate(plain, M, k);
+            CU_ASSERT(same(&x, &y, 1));
+            CU_ASSERT(same(g, plain, M * M));
+        }
+    }
+}
+
+void suite_algebra(void);
+void suite_algebra(void)
+{
+    CU_pSuite suite = CU_add_suite("algebra", NULL, NULL);
+    CU_add_test(suite, "A B with zeros", test_gram);
+    CU_add_test(suite, "eliminations with zeros", test_eliminate);
+}
