@@ -1,7 +1,8 @@
 #!/bin/sh
 # gallery.sh PROGRAM DIR - the pictures of the README and of docs/, as SVG in DIR: figures of the
-# reports of a study, bench/studies/gallery.yaml, of two runs, a section, and of the study and the run of the
-# tutorial.  The same machine draws the same bytes.
+# reports of a study, bench/studies/gallery.yaml, of three runs, a section, and of the study and the run of the
+# tutorial.  NAME_motion.svg moves (python3).
+# The same machine draws the same bytes.
 set -e
 case $1 in /*) program=$1 ;; *) program=$PWD/$1 ;; esac
 command -v gnuplot >/dev/null 2>&1 || { echo "gallery: gnuplot is not installed"; exit 1; }
@@ -12,6 +13,8 @@ mkdir -p "$2"
 "$program" study bench/studies/gallery.yaml --no-page --output "$work/study" >/dev/null
 "$program" run falling-disk --integrator gauss8 --step 0.01 --time 20 --samples 400 --output "$work/disk"
 "$program" run snakeboard --integrator gauss8 --step 0.01 --time 12 --samples 240 --output "$work/board"
+"$program" run chaplygin-sleigh-incline --integrator gauss8 --step 0.01 --time 13 --samples 400 \
+    --output "$work/sleigh"
 "$program" section pendulum-cvt --on "sin(xi)" --direction up --integrator gni --step 0.1 \
     --time 1000 --axes "x,x'" --output "$work/section" 2>/dev/null
 top=$PWD
@@ -20,7 +23,7 @@ awk -f "$top/tools/yaml_blocks.awk" "$top/docs/tutorial.md"
 "$program" study mine.yaml --no-page --output skate-study >/dev/null
 "$program" run skate.yaml --integrator spark4 --step 0.05 --time 60 --samples 1200 --output skate
 cd "$top"
-for directory in study disk board skate skate-study; do
+for directory in study disk board sleigh skate skate-study; do
     "$program" report "$work/$directory" >/dev/null
 done
 cp "$work/study/report/transmission-E.svg" "$2/drift.svg"
@@ -31,4 +34,8 @@ cp "$work/section/report/section.svg" "$2/section.svg"
 cp "$work/skate/report/path.svg" "$2/skate_path.svg"
 cp "$work/skate-study/report/skate-D.svg" "$2/skate_constraint.svg"
 cp "$work/skate-study/report/skate-E.svg" "$2/skate_energy.svg"
+moves() { python3 tools/motion-svg.py "$work/$1/report/index.html" "$2" >"$3"; }
+moves disk "A disk rolls along a ring and leans to and fro" "$2/disk_motion.svg"
+moves board "A snakeboard glides and turns its axles" "$2/board_motion.svg"
+moves sleigh "A sleigh slides down a slope, turns in a cusp and goes on" "$2/sleigh_motion.svg"
 ls -l "$2"/*.svg | awk '{ print "gallery: " $9 ", " $5 " bytes" }'

@@ -80,12 +80,14 @@ class Chromium:
                     return self.events.pop(i)["params"]
             self.events.append(self._read())
 
-    def open(self, address, width, dark=False, script=True):
-        """Opens a page of some width in CSS pixels, light or dark, with or without its script."""
+    def open(self, address, width, dark=False, script=True, still=False):
+        """Opens a page of some width in CSS pixels, light or dark, with or without its script, for a
+        reader who prefers reduced motion or does not."""
         self.call("Emulation.setDeviceMetricsOverride", width=width, height=900,
                   deviceScaleFactor=1, mobile=False)
         self.call("Emulation.setEmulatedMedia", features=[
-            {"name": "prefers-color-scheme", "value": "dark" if dark else "light"}])
+            {"name": "prefers-color-scheme", "value": "dark" if dark else "light"},
+            {"name": "prefers-reduced-motion", "value": "reduce" if still else "no-preference"}])
         self.call("Emulation.setScriptExecutionDisabled", value=not script)
         self.events.clear()
         self.call("Page.navigate", url=address)

@@ -1,8 +1,10 @@
-"""script.py BROWSER DIRECTORY - the pages of reports as they are used, in headless Chromium.
+"""script.py BROWSER DIRECTORY GALLERY - the pages of reports as they are used, in headless Chromium.
 
-DIRECTORY has the reports study, run and orders.  Keys, clicks and the pointer are the browser's own
+DIRECTORY has the reports study, run and orders, GALLERY moving pictures.  Keys, clicks and the pointer are the browser's own
 input.  Every fault is a line "fault: ..."; nothing depends on how fast the machine is.
 """
+import glob
+import os
 import sys
 
 from chromium import Chromium
@@ -224,7 +226,17 @@ def check_without(browser, address, width):
     check_layout(browser, f"{address} without script")
 
 
-def main(program, directory):
+def check_gallery(browser, gallery):
+    """The moving pictures of the documents move, but not for who prefers reduced motion."""
+    for picture in sorted(glob.glob(f"{gallery}/*_motion.svg")):
+        expect(os.path.getsize(picture) <= 200000, f"{picture} has more than 200 kB")
+        for still in False, True:
+            browser.open(f"file://{picture}", 800, still=still)
+            moving = browser.run("document.getAnimations().filter(a => a.playState === 'running').length")
+            expect((moving == 0) == still, f"{picture}: {moving} parts move, reduced motion: {still}")
+
+
+def main(program, directory, gallery):
     """All checks, in a wide and a narrow window, light and dark."""
     browser = Chromium(program, f"{directory}/profile-script")
     page = {name: f"file://{directory}/{name}/report/index.html" for name in ("study", "run", "orders")}
@@ -250,6 +262,7 @@ def main(program, directory):
             check_without(browser, address, width)
         expect(not browser.exceptions, f"the script fails: {browser.exceptions[:1]}")
         print(f"browser: {'dark' if dark else 'light'}, {width} pixels: used, {controls} controls and pictures")
+    check_gallery(browser, os.path.abspath(gallery))
     browser.open(page["study"], 1280)
     load = browser.run("performance.getEntriesByType('navigation')[0].loadEventEnd")
     print(f"browser: the page of the study is there after {load:.0f} ms")
