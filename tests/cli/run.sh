@@ -15,9 +15,10 @@ top=$(mktemp -d) || exit 1
 memory=
 trap 'rm -rf "$top" ${memory:+"$memory"}' EXIT
 cd "$top" || exit 1
+mkdir home
 LC_ALL=C
-export LC_ALL
-unset COLUMNS
+export LC_ALL HOME
+unset COLUMNS NO_COLOR OMP_NUM_THREADS
 
 # No case expects a speed: after these seconds what hangs is ended, and what does not come is given up.
 patience=${PATIENCE:-600}
@@ -161,6 +162,8 @@ for part in "$here"/[a-z]*_cases.sh; do
     case " ${parts:-$name} " in *" $name "*) ;; *) continue ;; esac
     work=$top/$name
     mkdir "$work" && cp "$top/line.yaml" "$top/plane.yaml" "$work" && cd "$work" || exit 1
+    HOME=$top/home
+    unset XDG_CACHE_HOME
     . "$part"
 done
 
