@@ -8,6 +8,11 @@ trap 'rm -rf "$root"' EXIT
 fail() { echo "dist: $*" >&2; exit 1; }
 logged() { "$@" >"$root/log" 2>&1 || { cat "$root/log" >&2; fail "$* failed"; }; }
 
+# A repository of another user is one that git refuses to read.
+printf '[safe]\n\tdirectory = *\n' >"$root/gitconfig"
+GIT_CONFIG_GLOBAL=$root/gitconfig
+export GIT_CONFIG_GLOBAL
+git rev-parse -q --verify HEAD >"$root/log" 2>&1 || { echo "dist: skipped, no repository of git"; exit 0; }
 logged $make BUILD="$build" dist
 logged git clone -q . "$root/clone"
 (umask 077 && cd "$root/clone" && TZ=Asia/Tokyo logged $make BUILD=elsewhere dist) || exit 1
