@@ -120,7 +120,7 @@ int report_embed(report *r, const char *name, const char *alt, const char *capti
         fprintf(r->page, "data:image/%s;base64,", r->format);
         report_base64(r->page, bytes, length);
     }
-    fputs("'>", r->page);
+    fputs("' loading=\"lazy\">", r->page);
     if (caption[0]) fprintf(r->page, "<figcaption>%s</figcaption>", caption);
     fputs("</figure>\n", r->page);
     r->figures++;

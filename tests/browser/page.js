@@ -1,5 +1,5 @@
 // page.js - runs inside a page of the report and reports to its parent what is wrong with it.
-addEventListener('load', () => {
+addEventListener('load', async () => {
     const [page, width] = location.hash.slice(1).split(',');
     const scheme = matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light';
     const say = text => parent.postMessage(text, '*');
@@ -80,6 +80,9 @@ addEventListener('load', () => {
         }
         holder.remove();
     };
+    // Those far below are drawn when they come into view.
+    for (const image of document.images) image.loading = 'eager';
+    await Promise.all([...document.images].map(image => image.decode().catch(() => fault('an image is broken'))));
     for (const image of document.images) {
         const name = image.alt.slice(0, 60);
         count.figures++;
