@@ -91,7 +91,7 @@ reached_or_gone() { if "$@"; then reached=yes; else gone $pid; fi; }
 # catches PID: the program has begun to catch SIGTERM, number 15, and SIGINT.
 catches() { grep -q '^SigCgt:.*[4-7c-f]...$' "/proc/$1/status"; }
 # ready PID: can be given signals.
-ready() { if [ -e /proc/self/status ]; then reaches "$1" catches "$1"; else sleep 5; fi; }
+ready() { if grep -q '^SigCgt' /proc/self/status; then reaches "$1" catches "$1"; else sleep 5; fi; }
 # ends_by SIGNAL STATUS PID: the signal ends the process, with that status.
 ends_by() {
     kill -"$1" "$3"
