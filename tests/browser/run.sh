@@ -73,7 +73,7 @@ for scheme in light dark; do
     sed -n "s/^examined: /browser: /p" dom
 done
 if command -v python3 >/dev/null 2>&1; then
-    timeout 300 python3 "$here/script.py" $browser "$work" "$here/../../docs/gallery" || failed=1
+    timeout ${PATIENCE:-600} python3 "$here/script.py" $browser "$work" "$here/../../docs/gallery" || failed=1
 else
     echo "browser: the script is not used, python3 is not installed"
 fi

@@ -199,6 +199,10 @@ def check_play(browser, where, motions):
     time = f"parseFloat({motion}.querySelector('.readout').textContent.split('=')[1])"
     expect(browser.run(f"{motion}.querySelectorAll('svg').length") == motions, f"{where}: not {motions} motions")
     still = browser.run(bodies)
+    # The slowest speed: the end is minutes away, however slow the machine is.
+    focus(browser, f"[...{motion}.querySelectorAll('label')].find(l => l.textContent.startsWith('Speed')).control")
+    browser.press("Home")
+    expect(browser.run("document.activeElement.value") == "0.1", f"{where}: the slowest speed is not chosen")
     focus(browser, f"{motion}.querySelector('button')")
     browser.press("Enter")
     wait_until(browser, f"{time} > 0")

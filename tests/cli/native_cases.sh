@@ -96,15 +96,6 @@ if there cc; then
     cmp -s native-study/quantities.csv tape-study/quantities.csv || fail "other bytes"
 
     case_is "native: changed over to while the run goes on"
-    # until_it WORDS: waits, at most two minutes, until a shell finds it true.
-    until_it() {
-        tries=0
-        until sh -c "$1" 2>/dev/null; do
-            tries=$((tries + 1))
-            [ $tries -lt 2400 ] || { fail "waited for: $1" && break; }
-            sleep 0.05
-        done
-    }
     size() { wc -c <"$1"; }
     # first FILE COUNT: the first numbers of a trajectory, behind its header.
     first() { tail -c +$((11 + $(od -An -tu2 -j8 -N2 "$1"))) "$1" | head -c "$2"; }
@@ -112,26 +103,24 @@ if there cc; then
     rm -rf cache gate/begun
     : >gate/closed
     PATH=$PWD/gate:$PATH "$program" run $endless --output changed 2>err &
-    until_it "test -s gate/begun"
-    kill -TERM $!
-    wait $!
+    reaches $! test -s gate/begun
+    ends_by TERM 130 $!
     holds "native: no compiler was done" grep -q '"native": false' changed/manifest.json
     holds "the compiler goes on" sh -c "! kill -0 $(cat gate/begun)"
     holds "something is left in the cache" test -z "$(ls cache/dalembert)"
     rm gate/begun
     PATH=$PWD/gate:$PATH "$program" resume changed 2>err &
-    until_it "test -s gate/begun"
+    reaches $! test -s gate/begun
     rm gate/closed
     # The source is there while its compiler runs; the run takes note of both before a signal.
-    until_it "ls cache/dalembert | grep -q 'so$' && ! ls cache/dalembert | grep -q 'c$'"
-    kill -TERM $!
-    wait $!
+    compiled() { ls cache/dalembert/*.so && ! ls cache/dalembert/*.c; }
+    reaches $! compiled
+    ends_by TERM 130 $!
     holds "not native" grep -q '"native": true' changed/manifest.json
     "$program" run $endless --native off --output unchanged 2>err &
     length=$(size changed/trajectory.npy)
-    until_it "test \$(wc -c <unchanged/trajectory.npy) -ge $length"
-    kill -TERM $!
-    wait $!
+    reaches $! has_bytes unchanged/trajectory.npy $length
+    ends_by TERM 130 $!
     first changed/trajectory.npy $((length - 1000)) >changed.rows
     first unchanged/trajectory.npy $((length - 1000)) >unchanged.rows
     holds "no rows" test -s changed.rows
