@@ -1,6 +1,7 @@
 /* test_graph.c - nodes: one for equal expressions, simplified without a change of value. */
 #include "expr/graph.h"
 #include "formula.h"
+#include "quick.h"
 
 #include <CUnit/Basic.h>
 #include <math.h>
@@ -263,11 +264,11 @@ static sample random_formula(void)
 
 static void test_values_kept(void)
 {
-    enum { FORMULAS = 20000 };
+    const int formulas = (int)long_run(20000);
     static const long double slack = 16; /* other orders of the same operations */
     int tried = 0;
     dal__graph *graph = formula_graph();
-    for (int i = 0; i < FORMULAS; i++) {
+    for (int i = 0; i < formulas; i++) {
         sample s = random_formula();
         dal__node node;
         bool usable = isfinite(s.value) && isfinite(s.bound) && s.bound < 1e-9L;
@@ -280,7 +281,7 @@ static void test_values_kept(void)
         }
         CU_ASSERT(right);
     }
-    CU_ASSERT(tried > FORMULAS / 2);
+    CU_ASSERT(tried > formulas / 2);
     dal__graph_free(graph);
 }
 

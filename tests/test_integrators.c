@@ -153,7 +153,7 @@ static void surface_end(const dal_system *system, const char *name, dal_space sp
     char label[32];
     spec.start = &start;
     spec.start_count = space == DAL_LIFTED;
-    dal_run *run = fixture_stepped(&spec, 200);
+    dal_run *run = fixture_stepped(&spec, 10 * (int)long_run(20));
     memcpy(qv, dal_run_state(run), 2 * (size_t)system->n * sizeof *qv);
     CU_ASSERT_EQUAL(dal_run_observe(run, seen), DAL_OK);
     for (int i = 0; i < dal_run_observables(run); i++) {
