@@ -28,6 +28,7 @@ systems:
 END_OF_STUDY
 {
     "$program" study page.yaml --output study || [ $? -eq 1 ]
+    "$program" report study/runs/chaplygin-sleigh_rk4+project_physical_0.1
     "$program" report study
     "$program" run snakeboard --integrator gauss4 --step 0.05 --time 5 --output run
     "$program" report run

@@ -141,6 +141,16 @@ def check_unfold(browser):
     expect(browser.run("!document.querySelector('.unfolded')"), "unfold: it does not fold")
 
 
+def check_link(browser):
+    """A cell leads to the page of its run where there is one."""
+    browser.click(f"{ROWS}.find(row => row.cells[0].textContent.trim() === 'rk4+project').querySelector('td button')")
+    browser.events.clear()
+    browser.click("document.querySelector('.unfolded a')")
+    browser.wait("Page.loadEventFired")
+    facts = browser.run("document.querySelector('.facts').textContent")
+    expect("rk4+project" in facts, f"link: not the page of the run by rk4+project: {facts}")
+
+
 def check_readout(browser, where, readout):
     """A readout shows a name and two numbers."""
     text = browser.run(f"{readout}.textContent")
@@ -254,6 +264,7 @@ def main(program, directory, gallery):
         check_compare(browser)
         check_enlarge(browser, "study", "Energy")
         check_play(browser, "study", 2)
+        check_link(browser)
         browser.open(page["run"], width, dark)
         controls += check_names(browser, "run")
         check_layout(browser, "run")

@@ -317,6 +317,7 @@ for system in damped-oscillator chaplygin-sleigh-friction chaplygin-sleigh \
 done
 if there gnuplot; then
     holds "its figures have more than 1.2 MB" test "$(cat builtin/report/*.svg | wc -c)" -le 1200000
+    holds "its page has more than 3 MB" test "$(wc -c <builtin/report/index.html)" -le 3000000
 fi
 is_screen
 prints '^ 1 chaplygin-sleigh '
