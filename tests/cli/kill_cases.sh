@@ -11,7 +11,9 @@ export XDG_CACHE_HOME
 seed=${SEED:-$(date +%s)}
 kills_left=${KILLS:-52}
 killed=0
+rounds=0
 
+product() { awk "BEGIN { print $1 * $2 }"; }
 milliseconds() { echo $(($(date +%s%N) / 1000000)); }
 
 # whole_rows FILE: the file ends behind the rows that its header counts, or later.
@@ -32,17 +34,21 @@ one_life() {
     [ $? -eq 137 ]
 }
 
-# survive DIR SPAN RUN...: killed at up to four moments within SPAN seconds each, then left alone.
+# survive DIR RUN...: killed at up to four moments within $span seconds each, then left alone.  The
+# span shrinks where a run ends before its moment: it was measured on a machine that was busier.
 survive() {
     folder=$1
-    span=$2
-    shift 2
+    shift
     rm -rf "$folder"
-    for moment in $(awk -v seed=$((seed + kills_left)) -v span="$span" \
-        'BEGIN { srand(seed); for (i = 0; i < 4; i++) printf "%.4f\n", span * rand() }'); do
+    rounds=$((rounds + 1))
+    for moment in $(awk -v seed=$((seed + rounds)) \
+        'BEGIN { srand(seed); for (i = 0; i < 4; i++) printf "%.4f\n", rand() }'); do
         if [ -e "$folder/manifest.json" ]; then set -- resume "$folder" --native $native; fi
         if [ -e "$folder" ] && [ "$1" = run ]; then set -- "$@" --force; fi
-        one_life "$moment" "$@" --checkpoint 0 || continue
+        if ! one_life "$(product "$span" "$moment")" "$@" --checkpoint 0; then
+            span=$(product "$span" 0.8)
+            continue
+        fi
         killed=$((killed + 1))
         kills_left=$((kills_left - 1))
         holds "rows that cannot be read" whole_rows "$folder/trajectory.npy"
@@ -68,7 +74,7 @@ for native in $natives; do
     until_left=$((kills_left - share))
     [ $native = "${natives##* }" ] && until_left=0
     while [ $kills_left -gt $until_left ]; do
-        survive killed_often "$span" run $motion --time 200 --output killed_often --native $native
+        survive killed_often run $motion --time 200 --output killed_often --native $native
         holds "other rows" cmp unkilled/trajectory.npy killed_often/trajectory.npy
         holds "another summary" cmp unkilled/summary.csv killed_often/summary.csv
         [ $failed -gt 0 ] && break
