@@ -1,6 +1,7 @@
 /* test_generate_native.c - native mode: runs and batches stepped by compiled code have the bits of
  * their tapes, and whatever goes wrong with compiler or cache leaves them stepping by the tape. */
 #include "allocation.h"
+#include "compiler.h"
 #include "dalembert_codegen.h"
 #include "fixtures.h"
 #include "folder.h"
@@ -24,8 +25,7 @@ static const dal_native_options options = {.cache = "cache"};
 static int set_up(void)
 {
     before = open(".", O_RDONLY | O_DIRECTORY);
-    compiles = system("cc --version >/dev/null 2>&1") == 0;
-    if (!compiles) puts("(no compiler here)");
+    compiles = compiler_there();
     return before < 0 || !mkdtemp(place) || chdir(place) != 0;
 }
 
@@ -285,30 +285,19 @@ static void test_cache_names(void)
     CU_ASSERT_NOT_EQUAL(access("evil", F_OK), 0);
 }
 
-/* A compiler by the name of ./fake. */
-static void fake_compiler(const char *script)
-{
-    FILE *file = fopen("fake.new", "w");
-    CU_ASSERT_PTR_NOT_NULL_FATAL(file);
-    fprintf(file, "#!/bin/sh\n%s\n", script);
-    fclose(file);
-    chmod("fake.new", 0700);
-    rename("fake.new", "fake");
-}
-
 static void test_compilers_refused(void)
 {
     const dal_native_options fake = {.cache = "cache", .compiler = "./fake", .patience = 600};
     const int kept = (mkdir("cache", 0700), folder_files("cache"));
     refused(&(dal_native_options){.cache = "cache", .compiler = "./none"}, DAL_UNSUPPORTED,
             "no compiler './none'");
-    fake_compiler("exit 1");
+    compiler_fake("exit 1");
     refused(&fake, DAL_UNSUPPORTED, "the compiler './fake' failed");
-    fake_compiler("kill -SEGV $$");
+    compiler_fake("kill -SEGV $$");
     refused(&fake, DAL_UNSUPPORTED, "the compiler './fake' failed");
-    fake_compiler("exit 0"); /* and makes nothing */
+    compiler_fake("exit 0"); /* and makes nothing */
     refused(&fake, DAL_IO, "cannot seal");
-    fake_compiler("while [ $# -gt 2 ]; do shift; done; echo 'no object' >\"$1\"");
+    compiler_fake("while [ $# -gt 2 ]; do shift; done; echo 'no object' >\"$1\"");
     refused(&fake, DAL_IO, "cannot be loaded");
     CU_ASSERT_EQUAL(folder_files("cache"), kept);
     unlink("fake");
@@ -319,7 +308,7 @@ static void test_compilers_refused(void)
 static int hanging_compiler(void)
 {
     CU_ASSERT_EQUAL_FATAL(mkfifo("held", 0600), 0);
-    fake_compiler("exec 9>held\nsleep 600 &\nsleep 600");
+    compiler_fake("exec 9>held\nsleep 600 &\nsleep 600");
     return open("held", O_RDONLY | O_NONBLOCK);
 }
 
@@ -371,7 +360,7 @@ static void test_foreign_object(void)
 {
     const dal_native_options fake = {.cache = "cache", .compiler = "./fake"};
     dal_run *run = new_run(falling);
-    fake_compiler("if [ -e seen ]; then exec cc \"$@\"; fi; : >seen\n"
+    compiler_fake("if [ -e seen ]; then exec cc \"$@\"; fi; : >seen\n"
                   "echo 'int other;' >other.c; while [ $# -gt 2 ]; do shift; done\n"
                   "exec cc -shared -fPIC other.c -o \"$1\"");
     if (compiles) {
@@ -442,7 +431,7 @@ static void test_changed_object(void)
     const char *const model = falling;
     char path[512];
     long length, again;
-    fake_compiler("printf x >>called; exec cc \"$@\"");
+    compiler_fake("printf x >>called; exec cc \"$@\"");
     use_cache(model);
     use_cache(model);
     CU_ASSERT_EQUAL(compilations(), 1);
@@ -474,7 +463,7 @@ static void test_changed_object(void)
 static void test_objects_apart(void)
 {
     const char *const compilers[] = {"./fake", "./same"};
-    fake_compiler("exec cc \"$@\"");
+    compiler_fake("exec cc \"$@\"");
     CU_ASSERT_EQUAL(symlink("fake", "same"), 0);
     for (int i = 0; i < 4; i++) {
         const dal_native_options with = {.cache = kept, .compiler = compilers[i % 2]};

@@ -2,6 +2,7 @@
  * compiles with these alone, so none is missing, and without one of them it does not, so none is
  * superfluous. */
 #include "codegen/parts.h"
+#include "compiler.h"
 #include "fixtures.h"
 #include <CUnit/CUnit.h>
 #include <stdio.h>
@@ -12,8 +13,7 @@ static bool compiles;
 
 static int set_up(void)
 {
-    compiles = system("cc --version >/dev/null 2>&1") == 0;
-    if (!compiles) puts("(no compiler here)");
+    compiles = compiler_there();
     return 0;
 }
 

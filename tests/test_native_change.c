@@ -1,6 +1,7 @@
 /* test_native_change.c - compiled code that is made while runs and batches are interpreted: they
  * change over to it between any two steps without a trace in their bits. */
 #include "allocation.h"
+#include "compiler.h"
 #include "dalembert_codegen.h"
 #include "fixtures.h"
 #include "folder.h"
@@ -42,22 +43,11 @@ static void pause_shortly(void)
     nanosleep(&shortly, NULL);
 }
 
-/* A compiler by the name of ./fake. */
-static void fake_compiler(const char *script)
-{
-    FILE *file = fopen("fake.new", "w");
-    CU_ASSERT_PTR_NOT_NULL_FATAL(file);
-    fprintf(file, "#!/bin/sh\n%s\n", script);
-    fclose(file);
-    chmod("fake.new", 0700);
-    rename("fake.new", "fake");
-}
-
 /* One that waits until a file "open" is there. */
 static void gated_compiler(void)
 {
     unlink("open");
-    fake_compiler("until [ -e open ]; do sleep 0.01; done; exec cc \"$@\"");
+    compiler_fake("until [ -e open ]; do sleep 0.01; done; exec cc \"$@\"");
 }
 
 static void open_gate(void) { close(open("open", O_WRONLY | O_CREAT, 0600)); }
@@ -317,7 +307,7 @@ static void fails(const char *script, dal_status status, const char *message)
     dal_run *run = falling_run("rk4", 0.01);
     dal_native *native = NULL;
     dal_error error = {0};
-    fake_compiler(script);
+    compiler_fake(script);
     const dal_native_options fake = {.cache = "gated", .compiler = "./fake", .patience = 1};
     const int kept = (mkdir("gated", 0700), folder_files("gated"));
     CU_ASSERT_EQUAL_FATAL(dal_native_begin(&native, run, &fake, &error), DAL_OK);
@@ -362,7 +352,7 @@ static void test_ended(void)
     char byte;
     const int kept = (mkdir("gated", 0700), folder_files("gated"));
     CU_ASSERT_EQUAL(mkfifo("held", 0600), 0);
-    fake_compiler("sleep 60 >held & wait");
+    compiler_fake("sleep 60 >held & wait");
     CU_ASSERT_EQUAL_FATAL(dal_native_begin(&native, run, &gated, NULL), DAL_OK);
     const int held = open("held", O_RDONLY);
     CU_ASSERT_EQUAL(folder_files("gated"), kept + 1);
@@ -388,7 +378,7 @@ static void test_priority(void)
              "for i in 1 2 3 4 5 6 7 8 9; do [ $(nice) = %d ] && exec cc \"$@\"; sleep 0.5; done; "
              "exit 1",
              lower < 19 ? lower : 19);
-    fake_compiler(script);
+    compiler_fake(script);
     dal_native *native = NULL;
     CU_ASSERT_EQUAL_FATAL(dal_native_begin(&native, run, &fake, NULL), DAL_OK);
     CU_ASSERT_EQUAL(wait_for(native, NULL), DAL_NATIVE_READY);

@@ -1,5 +1,6 @@
 /* test_observables.c - observables of many steps at a time: the bits of dal_run_observe after each
  * step, whether steps and observables are compiled or not, and however a run is divided. */
+#include "compiler.h"
 #include "dalembert_codegen.h"
 #include "fixtures.h"
 #include "folder.h"
@@ -10,12 +11,11 @@
 enum { MAX_SAMPLES = 1200, MAX_OBSERVABLES = 16, STEPS = 701 };
 
 static char place[] = "/tmp/dal-follow-XXXXXX";
-static int compiles;
+static bool compiles;
 
 static int set_up(void)
 {
-    compiles = system("cc --version >/dev/null 2>&1") == 0;
-    if (!compiles) puts("(no compiler here)");
+    compiles = compiler_there();
     return !mkdtemp(place);
 }
 

@@ -1,5 +1,6 @@
 /* test_parameter_bits.c - parameters changed between steps: the same bits interpreted, compiled,
  * generated and in lanes. */
+#include "compiler.h"
 #include "dalembert_codegen.h"
 #include "fixtures.h"
 #include "folder.h"
@@ -19,7 +20,7 @@ static const dal_native_options options = {.cache = place};
 
 static int set_up(void)
 {
-    compiles = system("cc --version >/dev/null 2>&1") == 0;
+    compiles = compiler_there();
     return !mkdtemp(place);
 }
 

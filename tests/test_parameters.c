@@ -1,5 +1,6 @@
 /* test_parameters.c - components of the state by name; parameters changed between steps: what a
  * change begins again, what it may not be, what a checkpoint has of it. */
+#include "compiler.h"
 #include "dalembert_codegen.h"
 #include "fixtures.h"
 #include "folder.h"
@@ -17,7 +18,7 @@ static const dal_native_options options = {.cache = place};
 
 static int set_up(void)
 {
-    compiles = system("cc --version >/dev/null 2>&1") == 0;
+    compiles = compiler_there();
     return !mkdtemp(place);
 }
 
