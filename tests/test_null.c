@@ -5,7 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-FUNCTIONS_dalembert(DECLARE_NULL_TEST) FUNCTIONS_dalembert_codegen(DECLARE_NULL_TEST)
+FUNCTIONS_dalembert(DECLARE_NULL_TEST) FUNCTIONS_dalembert_system(DECLARE_NULL_TEST)
+    FUNCTIONS_dalembert_codegen(DECLARE_NULL_TEST)
 
     /* ---- what the functions are given where they are given anything ---- */
 
@@ -474,5 +475,6 @@ static void null_dal_native_free(void) { dal_native_free(NULL); }
 void suite_null(void)
 {
     CU_pSuite suite = CU_add_suite("NULL and negative counts", open_objects, close_objects);
-    FUNCTIONS_dalembert(ADD_NULL_TEST) FUNCTIONS_dalembert_codegen(ADD_NULL_TEST)
+    FUNCTIONS_dalembert(ADD_NULL_TEST) FUNCTIONS_dalembert_system(ADD_NULL_TEST)
+        FUNCTIONS_dalembert_codegen(ADD_NULL_TEST)
 }

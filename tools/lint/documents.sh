@@ -27,7 +27,7 @@ listed() {
 }
 names=$program.names
 listed functions formulas 'OP([A-Z0-9]*, [12], "\([a-z0-9]*\)")' lib/expr/graph.h
-listed 'system keys' formats ' SECTION([A-Z]*, "\([a-z]*\)")' include/dalembert.h
+listed 'system keys' formats ' SECTION([A-Z]*, "\([a-z]*\)")' include/dalembert_system.h
 
 # The names of the headings of a document, as links have them.
 headings() {

@@ -1,0 +1,269 @@
+/* dalembert_system.h - statuses, systems, their pictures, and models: systems from formulas.
+ *
+ * A part of dalembert.h, which includes it and has the conventions. */
+#ifndef DALEMBERT_SYSTEM_H
+#define DALEMBERT_SYSTEM_H
+
+#include <stddef.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- statuses ------------------------------------------------------------------------------ */
+
+/* All statuses: STATUS(code, text). */
+#define DAL_STATUS_LIST(STATUS)                                                                    \
+    STATUS(OK, "done")                                                                             \
+    STATUS(MEMORY, "out of memory")                                                                \
+    STATUS(ARGUMENT, "argument out of range")                                                      \
+    STATUS(SYNTAX, "syntax error")                                                                 \
+    STATUS(NAME, "unknown name")                                                                   \
+    STATUS(MODEL, "the model cannot be used")                                                      \
+    STATUS(TOO_LARGE, "too large")                                                                 \
+    STATUS(INCONSISTENT, "a constraint is violated")                                               \
+    STATUS(RANK, "the constraints are rank-deficient")                                             \
+    STATUS(UNSUPPORTED, "the integrator needs what the system lacks")                              \
+    STATUS(SINGULAR, "a constraint became singular")                                               \
+    STATUS(SINGULAR_MASS, "the mass matrix became singular")                                       \
+    STATUS(NOT_FINITE, "a value is not finite")                                                    \
+    STATUS(NOT_CONVERGED, "the implicit equations did not converge")                               \
+    STATUS(GAUGE, "the gauge variable e reached zero")                                             \
+    STATUS(IO, "input or output failed")                                                           \
+    STATUS(INTERRUPTED, "interrupted")
+
+/* The result of a function: DAL_OK, which is 0, or the kind of failure. */
+typedef enum dal_status {
+#define CODE(code, text) DAL_##code,
+    DAL_STATUS_LIST(CODE)
+#undef CODE
+        DAL_STATUS_COUNT
+} dal_status;
+
+/* The identifier of a status, "DAL_SINGULAR"; "DAL_?" for other numbers. */
+const char *dal_status_name(dal_status status);
+/* The text of a status, "a constraint became singular". */
+const char *dal_status_text(dal_status status);
+
+enum { DAL_MESSAGE_SIZE = 320 /* bytes of a message, with its NUL */ };
+/* The caller's own record of a failure. */
+typedef struct dal_error {
+    dal_status status;              /* what the function returned */
+    int line, column;               /* place in the text that was read, from 1; 0: none */
+    char message[DAL_MESSAGE_SIZE]; /* names the object and the value; no newline */
+} dal_error;
+
+/* Returns the element of names[count] with the fewest edits from name, for "did you mean" (distance
+ * of Damerau and Levenshtein); NULL when none has a letter in common with it and is within a third
+ * of its length, or within two edits.  Elements of names may be NULL. */
+const char *dal_nearest(const char *name, const char *const *names, int count);
+/* Reads a decimal number from text[length]: sign, digits, one point, exponent, and nothing else;
+ * correctly rounded, in every locale the same.  Errors: DAL_SYNTAX, DAL_TOO_LARGE (overflow). */
+dal_status dal_parse_number(const char *text, size_t length, double *value);
+
+/* ---- systems ------------------------------------------------------------------------------- */
+
+typedef struct dal_system dal_system;
+
+/* Where a system is evaluated.  work begins with the parameter values, [system->parameters]; the
+ * rest of its system->workspace doubles are the system's own (filled by prepare) and scratch.
+ * Functions with a memory of their own, as those of a dal_evaluator, read t, q and v alone. */
+typedef struct dal_point {
+    double t;         /* time */
+    const double *q;  /* [n] coordinates */
+    const double *v;  /* [n] velocities, then [multipliers] vakonomic multipliers g */
+    const double *pi; /* [n] momenta of the velocities; adjoint only */
+    double *work;     /* [workspace] */
+} dal_point;
+
+/* A formula of a system: a pure function of *at (work beyond the parameters is scratch) that writes
+ * out; the member that points to it says what.  In the wide sets each array is interleaved,
+ * x[component*lanes + lane], and aligned to its lanes; t is common.  A callback that fails returns
+ * a status, or leaves NaN in the lanes that failed. */
+typedef dal_status dal_callback(const dal_system *system, const dal_point *at, double *out);
+
+/* The callbacks of a step: code, member, what each reads of its point, the numbers of its output,
+ * with nw = n + multipliers, and what they are.  All but field may be NULL, which excludes what is
+ * in parentheses.  guards keep their signs; blocks is of F = a + R h, B = A by Chetaev's rule;
+ * potential is of L = v.Wv/2 + g.v - U, W constant, for each coordinate those that U and W couple
+ * it with, and the first two are 0 where that U is quadratic. */
+/* clang-format off */
+#define DAL_CALLBACK_LIST(CALLBACK) \
+    CALLBACK(FIELD, field, tqv, nw) /* F, then dg/dt */ \
+    CALLBACK(ADJOINT, adjoint, tqvpi, 3 * n) /* F, F_q^T pi, F_v^T pi (lifted space) */ \
+    CALLBACK(JACOBIAN, jacobian, tqv, nw * (n + nw)) /* F_q, F_(v,g) (Newton) */ \
+    CALLBACK(CONSTRAINT, constraint, tqv, m + 2 * m * n) /* D, A, W^-1 A^T (+project) */ \
+    CALLBACK(ENERGY_NORMAL, energy_normal, tqv, 1 + 3 * n) /* E, E_q, E_v, W^-1 E_q */ \
+    CALLBACK(GAUGE, gauge, t, 1) /* mu_e(t); NULL: 0 */ \
+    CALLBACK(GUARDS, guards, tqv, guards) /* denominators; NULL: none */ \
+    CALLBACK(BLOCKS, blocks, tqv, 2 * (m + m * n) + n) /* D, A, R = W^-1 B^T, a = W^-1 b, */ \
+        /* c = D_q v + D_t (methods that enforce D) */ \
+    CALLBACK(POTENTIAL, potential, tqv, 3 * n) /* U, U_q.v, v.Wv (discrete-gradient) */
+/* clang-format on */
+typedef struct dal_callbacks {
+#define MEMBER(code, member, ...) dal_callback *member;
+    DAL_CALLBACK_LIST(MEMBER)
+#undef MEMBER
+} dal_callbacks;
+
+/* What is known of the constraints and of the energy; set by a model, or by hand. */
+enum {
+    DAL_D_LINEAR = 1 << 0,       /* every D linear or affine in v */
+    DAL_D_CONSTANT = 1 << 1,     /* every D linear in (q,v) with constant coefficients */
+    DAL_D_BILINEAR = 1 << 2,     /* every D bilinear: c.v + q^T B v + d.q */
+    DAL_D_QUADRATIC = 1 << 3,    /* every D a polynomial of degree <= 2 in (q,v) */
+    DAL_D_RANK_CHECKED = 1 << 4, /* det A W^-1 A^T can vanish along a run: it is checked in steps */
+    DAL_E_EXACT = 1 << 5,        /* dE/dt = 0 for every level of D */
+    DAL_E_ON_D = 1 << 6,         /* dE/dt = 0 on D = 0 only */
+    DAL_AUTONOMOUS = 1 << 7,     /* F does not depend on t */
+    DAL_MASS_CONSTANT = 1 << 8,  /* W depends on parameters alone */
+    DAL_VAKONOMIC = 1 << 9,      /* vakonomic equations, with multipliers g */
+    DAL_SERVO = 1 << 10,         /* reactions along directions B of their own, not along A^T */
+    DAL_BLOCKS_POSITIONAL = 1 << 11, /* every D linear, W^-1 b and A without v */
+    DAL_D_ISOKINETIC = 1 << 12       /* one D = k (v.Wv/2 - K), W constant, W^-1 b without v */
+};
+
+/* A second-order system with constraints, as a plain struct: filled by a model or by hand with
+ * designated initialisers; what is not named may stay zero. */
+struct dal_system {
+    const char *name;              /* for messages and files; may be NULL, as the next two */
+    const char *title, *reference; /* a line for people; where the system is from */
+    int n;                         /* coordinates, >= 1 */
+    int m;                         /* constraints */
+    int multipliers;               /* first-order variables beside v (vakonomic g); 0 or m */
+    int parameters, invariants, guards, tags; /* how many there are */
+    unsigned properties;                      /* DAL_D_LINEAR | ...: what is known of D and E */
+    const char *const *coordinate;            /* [n] names; NULL: q1, q2, ... */
+    const char *const *parameter;             /* [parameters] names */
+    const double *value;                      /* [parameters] default values */
+    const char *const *invariant;             /* [invariants] names */
+    const char *const *guard;                 /* [guards] "constraint 1: y1'" for messages */
+    int mass_guard;                           /* which guard, from 1, is det W; 0: none */
+    const char *const *tag;                   /* [tags] words that classify the system */
+    size_t workspace;                         /* doubles in dal_point.work; 0 means parameters */
+    dal_callbacks call;                       /* one lane */
+    const dal_callbacks *wide4, *wide8;       /* of 4 and of 8 lanes, interleaved; may be NULL */
+    dal_callback *prepare; /* completes work after a change of parameters; out unused */
+    dal_callback *start;   /* out[2n + multipliers + 1]: q, v, g, e at t = 0; NULL: 0 and e = 1 */
+    dal_callback *constraints;      /* out[m]: D alone; NULL: D is not observed */
+    dal_callback *energy;           /* out[1]: E = L_v.v - L; NULL: unknown */
+    dal_callback *invariant_values; /* out[invariants]; NULL: no invariants */
+    dal_callback *exact;    /* out[2n]: q, v of the exact solution at at->t; NULL: unknown */
+    dal_callback *diagnose; /* out[1]: why field is not finite here: returns DAL_SINGULAR with the
+                               number of the constraint (from 1), DAL_SINGULAR_MASS, or DAL_OK */
+    const dal_system *extended; /* F continued off D = 0 so that E is exact, for extend-energy */
+    const dal_system *quad;     /* work in quad precision, for precision; these two may be NULL */
+    const struct dal_picture *picture; /* how it is drawn; NULL: not at all */
+    void *data;                        /* of the owner, for callbacks */
+};
+
+/* ---- pictures ------------------------------------------------------------------------------ */
+
+/* The numbers of a picture, NUMBER(code, name); 0 where a system gives none. */
+#define DAL_PICTURE_LIST(NUMBER)                                                                   \
+    NUMBER(X, "x")         /* place on the abscissa */                                             \
+    NUMBER(Y, "y")         /* place on the ordinate */                                             \
+    NUMBER(ANGLE, "angle") /* heading, from x to y */                                              \
+    NUMBER(STEER, "steer") /* angle of a board's front axle (minus that of the other), or arm */   \
+    NUMBER(WIDTH, "width") /* of a disk: breadth over length as seen */
+/* The bodies that are drawn, BODY(code, name). */
+#define DAL_BODY_LIST(BODY)                                                                        \
+    BODY(POINT, "point")                                                                           \
+    BODY(SLEIGH, "sleigh")                                                                         \
+    BODY(BLADE, "blade")                                                                           \
+    BODY(DISK, "disk")                                                                             \
+    BODY(BALL, "ball") BODY(ROBOT, "robot") BODY(BOARD, "board") BODY(RACER, "racer")
+/* Places of the numbers of a picture. */
+enum {
+#define CODE(code, name) DAL_PICTURE_##code,
+    DAL_PICTURE_LIST(CODE) DAL_PICTURE_COUNT
+#undef CODE
+};
+/* The body that is drawn at the place of a system. */
+typedef enum dal_body {
+#define CODE(code, name) DAL_BODY_##code,
+    DAL_BODY_LIST(CODE) DAL_BODY_COUNT
+#undef CODE
+} dal_body;
+
+/* How a system is drawn in the plane; without effect on its motion. */
+typedef struct dal_picture {
+    dal_callback *evaluate; /* out[DAL_PICTURE_COUNT]: the numbers of the picture */
+    dal_body body;          /* what is drawn there */
+} dal_picture;
+
+/* ---- models: systems from formulas --------------------------------------------------------- */
+
+/* A system as formulas, from a file or added one by one. */
+typedef struct dal_model dal_model;
+/* The sections of a system file, SECTION(code, name).  A comment says what the names and texts of
+ * dal_model_add are; lists and single values have no names. */
+#define DAL_SECTION_LIST(SECTION)                                                                  \
+    SECTION(TITLE, "title")                                                                        \
+    SECTION(REFERENCE, "reference")                                                                \
+    SECTION(COORDINATES, "coordinates")     /* text: a name */                                     \
+    SECTION(PARAMETERS, "parameters")       /* name, text: a number */                             \
+    SECTION(LET, "let")                     /* name, formula */                                    \
+    SECTION(LAGRANGIAN, "lagrangian")       /* formula */                                          \
+    SECTION(ACCELERATIONS, "accelerations") /* coordinate, formula; instead of a Lagrangian */     \
+    SECTION(FORCES, "forces")               /* coordinate, formula */                              \
+    SECTION(CONSTRAINTS, "constraints")     /* formula */                                          \
+    SECTION(REACTIONS, "reactions")   /* constraint.coordinate, as 2.x: formula; see below */      \
+    SECTION(MECHANICS, "mechanics")   /* lagrange-d'alembert (default) or vakonomic */             \
+    SECTION(GAUGE, "gauge")           /* e or mu_e, formula in t and parameters */                 \
+    SECTION(START, "start")           /* name, formula in parameters */                            \
+    SECTION(INVARIANTS, "invariants") /* name, formula */                                          \
+    SECTION(EXACT, "exact")           /* coordinate, formula in t and parameters */                \
+    SECTION(TAGS, "tags")             /* a word */                                                 \
+    SECTION(PICTURE, "picture")       /* x, y, angle, ..: formula; body: a word */                 \
+    SECTION(DEFAULTS, "defaults")     /* integrator: a method; step, time: a number */
+
+/* A section of a system file.  Reactions are along B_a = dD_a/dv (Chetaev's rule), unless the file
+ * gives B_a(q,v,t), as for an actuator that enforces a servo constraint:
+ *     W dv/dt = b + B^T h,   (A W^-1 B^T) h = -(c + A W^-1 b)
+ * A component of B_a that is not named is 0. */
+typedef enum dal_section {
+#define CODE(code, text) DAL_SECTION_##code,
+    DAL_SECTION_LIST(CODE)
+#undef CODE
+        DAL_SECTION_COUNT
+} dal_section;
+
+/* Makes an empty model; NULL when out of memory.  A NULL name is "". [alloc] */
+dal_model *dal_model_create(const char *name);
+/* Frees a model and its systems. */
+void dal_model_free(dal_model *model);
+/* Adds an entry to a section, in any order.  Its text is copied, and parsed by dal_model_system;
+ * line and column (from 1 or 0) are its place. [alloc]  Errors: DAL_NAME, DAL_SYNTAX, DAL_MODEL. */
+dal_status dal_model_add(dal_model *model, dal_section section, const char *name, const char *text,
+                         int line, int column, dal_error *error);
+/* Text number i of a section, from 0, and where not NULL its name and place; NULL past the last. */
+const char *dal_model_text(const dal_model *model, dal_section section, int i, const char **name,
+                           int *line, int *column);
+/* Makes *model from the YAML text of a system file, text[length].  name is for messages and may be
+ * NULL. [alloc]  Errors: DAL_SYNTAX, DAL_NAME and DAL_MODEL, with place. */
+dal_status dal_model_read(dal_model **model, const char *name, const char *text, size_t length,
+                          dal_error *error);
+/* Makes *model from the file at path. [alloc]  Errors: DAL_IO, those of dal_model_read. */
+dal_status dal_model_read_file(dal_model **model, const char *path, dal_error *error);
+/* Makes *model from a system of the library, "chaplygin-sleigh". [alloc]  Errors: DAL_NAME with
+ * the nearest name. */
+dal_status dal_model_builtin(dal_model **model, const char *name, dal_error *error);
+/* Name of system number i of the library, from 0; NULL past the last. */
+const char *dal_builtin_name(int i);
+/* The YAML text of a system of the library; NULL where there is none of this name. */
+const char *dal_builtin_text(const char *name);
+
+/* Gives the system of a complete model, made at the first call and owned by the model: the formulas
+ * are parsed and F is derived, with exact derivatives. [alloc]  Errors: DAL_SYNTAX and DAL_NAME
+ * with place, DAL_MODEL, DAL_TOO_LARGE. */
+dal_status dal_model_system(dal_model *model, const dal_system **system, dal_error *error);
+/* Gives the tangent system, owned by the model: 2n coordinates (q, dq), accelerations F and
+ * F_q dq + F_v dv, no constraints.  A Runge-Kutta or partitioned method applied to it is that
+ * method's exact tangent map. [alloc]  Errors: those of dal_model_system. */
+dal_status dal_model_tangent(dal_model *model, const dal_system **system, dal_error *error);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
