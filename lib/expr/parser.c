@@ -1,125 +1,21 @@
-/* parser.c - formulas to tokens, and these to nodes by binding powers (V. R. Pratt, Top down
- * operator precedence, 1973).
- *
- *     number   digits [. digits] [e [+-] digits], or . digits ...
- *     name     [A-Za-z_][A-Za-z0-9_]*, with ' right behind it for a velocity
- *     other    + - * / ^ ( ) ,
- *
- * Blanks, tabs and line ends separate.  Columns count bytes from 1.
+/* parser.c - formulas to nodes by binding powers (V. R. Pratt, Top down operator precedence, 1973).
  *
  *     + -  1      * /  2      unary -  3      ^  4, from the right
  *
  * so that -x^2 = -(x^2), 2^-3 = 1/8 and a/b/c = (a/b)/c.  What still needs its right operand lies
  * on an explicit stack, so memory alone limits how deep a formula is nested. */
 #include "expr/parser.h"
-#include "core/decimal.h"
 #include "core/error.h"
+#include "expr/lexer.h"
 #include "expr/simplify.h"
 #include <limits.h>
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-/* ---- tokens ---- */
-
-typedef struct token {
-    char kind; /* a character of + - * / ^ ( ) , or one of TOKEN_* */
-    bool prime;
-    int line, column;
-    const char *text; /* in the formula */
-    size_t length;    /* without the prime */
-    double value;     /* of a number */
-} token;
-
-enum { TOKEN_END = 0, TOKEN_NUMBER = '0', TOKEN_NAME = 'a' };
-
-typedef struct lexer {
-    const char *at, *end;
-    int line;
-    const char *line_start;
-    dal_error *error;
-} lexer;
-
-static bool is_letter(char c)
-{
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
-}
-static bool is_digit(char c) { return c >= '0' && c <= '9'; }
-
-size_t dal__name_length(const char *text, size_t length)
-{
-    size_t i = 0;
-    while (i < length && (is_letter(text[i]) || (i > 0 && is_digit(text[i])))) i++;
-    return i;
-}
-
 /* An error at the place of a token or frame. */
 #define SYNTAX_ERROR(p, at, ...)                                                                   \
     dal__fail_at((p)->error, DAL_SYNTAX, (at)->line, (at)->column, __VA_ARGS__)
-
-/* How many characters of a token messages show, with its prime. */
-static int shown(const token *t)
-{
-    size_t length = t->length + t->prime;
-    return length < 60 ? (int)length : 60;
-}
-
-static dal_status read_number(lexer *l, token *t)
-{
-    t->kind = TOKEN_NUMBER;
-    t->length = dal__read_decimal(t->text, (size_t)(l->end - t->text), &t->value);
-    l->at += t->length;
-    if (t->length == 0) return SYNTAX_ERROR(l, t, "unexpected '.'");
-    if (!isfinite(t->value))
-        return SYNTAX_ERROR(l, t, "the number %.*s is too large", shown(t), t->text);
-    return DAL_OK;
-}
-
-static dal_status read_name(lexer *l, token *t)
-{
-    t->kind = TOKEN_NAME;
-    t->length = dal__name_length(t->text, (size_t)(l->end - t->text));
-    const char *c = t->text + t->length;
-    t->prime = c < l->end && *c == '\'';
-    l->at = c + t->prime;
-    if (!t->prime || l->at == l->end || *l->at != '\'') return DAL_OK;
-    const int column = (int)(l->at - l->line_start) + 1;
-    t->prime = false; /* that of the message */
-    return dal__fail_at(l->error, DAL_SYNTAX, l->line, column,
-                        "%.*s'' is a second derivative; a formula knows only %.*s and %.*s'",
-                        shown(t), t->text, shown(t), t->text, shown(t), t->text);
-}
-
-static dal_status read_other(lexer *l, token *t)
-{
-    unsigned char c = (unsigned char)*t->text;
-    t->kind = (char)c;
-    t->length = 1;
-    l->at++;
-    if (c && strchr("+-*/^(),", c)) return DAL_OK;
-    if (c == '\'') {
-        return SYNTAX_ERROR(l, t, "unexpected '; a prime stands right behind a name, as in x'");
-    }
-    if (c < 0x20 || c > 0x7e)
-        return SYNTAX_ERROR(l, t, "unexpected byte 0x%02x; a formula is plain ASCII", c);
-    return SYNTAX_ERROR(l, t, "unexpected '%c'", c);
-}
-
-/* The next token.  Errors: DAL_SYNTAX. */
-static dal_status next_token(lexer *l, token *t)
-{
-    for (; l->at < l->end && strchr(" \t\r\n", *l->at) && *l->at; l->at++)
-        if (*l->at == '\n') l->line++, l->line_start = l->at + 1;
-    *t = (token){.kind = TOKEN_END,
-                 .line = l->line,
-                 .column = (int)(l->at - l->line_start) + 1,
-                 .text = l->at};
-    if (l->at == l->end) return DAL_OK;
-    char c = *l->at;
-    if (is_digit(c) || c == '.') return read_number(l, t);
-    return is_letter(c) ? read_name(l, t) : read_other(l, t);
-}
 
 /* ---- what the parser holds ---- */
 
@@ -135,8 +31,8 @@ typedef struct frame {
 
 typedef struct parser {
     dal__graph *graph;
-    lexer lexer;
-    token token;
+    dal__lexer lexer;
+    dal__token token;
     dal__resolve *resolve;
     void *user;
     dal_error *error;
@@ -190,14 +86,15 @@ static dal_status graph_fault(const parser *p)
 }
 
 /* previous: the token before the present one. */
-static dal_status operator_missing(const parser *p, const token *previous)
+static dal_status operator_missing(const parser *p, const dal__token *previous)
 {
-    const token *t = &p->token;
-    if (previous->kind == TOKEN_NUMBER && t->kind != TOKEN_NUMBER) {
-        return SYNTAX_ERROR(p, t, "an operator is missing: write %.*s*%.*s", shown(previous),
-                            previous->text, shown(t), t->text);
+    const dal__token *t = &p->token;
+    if (previous->kind == DAL__TOKEN_NUMBER && t->kind != DAL__TOKEN_NUMBER) {
+        return SYNTAX_ERROR(p, t, "an operator is missing: write %.*s*%.*s",
+                            dal__token_shown(previous), previous->text, dal__token_shown(t),
+                            t->text);
     }
-    return SYNTAX_ERROR(p, t, "an operator is missing before '%.*s'", shown(t), t->text);
+    return SYNTAX_ERROR(p, t, "an operator is missing before '%.*s'", dal__token_shown(t), t->text);
 }
 
 static dal_status wrong_arguments(const parser *p, const frame *f, int given)
@@ -210,16 +107,16 @@ static dal_status wrong_arguments(const parser *p, const frame *f, int given)
 /* A name that is no function stands before a bracket. */
 static dal_status unknown_function(const parser *p)
 {
-    const token *t = &p->token;
+    const dal__token *t = &p->token;
     const char *names[DAL__OP_COUNT];
     char name[64];
     dal_error ignored = {.status = DAL_OK};
     if (p->resolve(p->user, t->text, t->length, t->prime, &ignored)) {
         return SYNTAX_ERROR(p, t, "%.*s is not a function: write %.*s*(...) for a product",
-                            shown(t), t->text, shown(t), t->text);
+                            dal__token_shown(t), t->text, dal__token_shown(t), t->text);
     }
     for (int op = 0; op < DAL__OP_COUNT; op++) names[op] = functions[op].name;
-    snprintf(name, sizeof name, "%.*s", shown(t), t->text);
+    snprintf(name, sizeof name, "%.*s", dal__token_shown(t), t->text);
     return dal__unknown_at(p->error, t->line, t->column, "function", name, names, DAL__OP_COUNT);
 }
 
@@ -239,7 +136,7 @@ static dal_status push(parser *p, char kind, dal__node left)
     return DAL_OK;
 }
 
-static dal_status next(parser *p) { return next_token(&p->lexer, &p->token); }
+static dal_status next(parser *p) { return dal__next_token(&p->lexer, &p->token); }
 
 /* Whether a op b divides by a literal zero. */
 static bool divides_by_zero(const dal__graph *graph, const frame *f, dal__node right)
@@ -269,14 +166,14 @@ static dal_status reduce(parser *p, int power, dal__node *value)
 
 static dal_status symbol(parser *p, dal__node *value)
 {
-    const token *t = &p->token;
+    const dal__token *t = &p->token;
     if (t->length == 2 && memcmp(t->text, "pi", 2) == 0 && !t->prime) {
         *value = dal__number(p->graph, 3.14159265358979323846);
         return *value ? DAL_OK : graph_fault(p);
     }
     if (!t->prime && dal__is_function(t->text, t->length)) {
-        return SYNTAX_ERROR(p, t, "%.*s is a function: write %.*s(...)", shown(t), t->text,
-                            shown(t), t->text);
+        return SYNTAX_ERROR(p, t, "%.*s is a function: write %.*s(...)", dal__token_shown(t),
+                            t->text, dal__token_shown(t), t->text);
     }
     dal_error fault = {.status = DAL_OK};
     *value = p->resolve(p->user, t->text, t->length, t->prime, &fault);
@@ -288,10 +185,10 @@ static dal_status symbol(parser *p, dal__node *value)
 /* A name: a function with its bracket, which opens a frame, or a value. */
 static dal_status name(parser *p, dal__node *value)
 {
-    lexer ahead = p->lexer;
-    token bracket;
+    dal__lexer ahead = p->lexer;
+    dal__token bracket;
     ahead.error = NULL;
-    bool call = next_token(&ahead, &bracket) == DAL_OK && bracket.kind == '(';
+    bool call = dal__next_token(&ahead, &bracket) == DAL_OK && bracket.kind == '(';
     if (!call) return symbol(p, value);
     dal__op function = function_named(p->token.text, p->token.length);
     if (!function || p->token.prime) return unknown_function(p);
@@ -316,17 +213,17 @@ static dal_status read_operand(parser *p, dal__node *value)
         case '(':
             DAL_TRY(push(p, '(', 0));
             break;
-        case TOKEN_NAME:
+        case DAL__TOKEN_NAME:
             DAL_TRY(name(p, value));
             break;
-        case TOKEN_NUMBER:
+        case DAL__TOKEN_NUMBER:
             *value = dal__number(p->graph, p->token.value);
             if (!*value) return graph_fault(p);
             break;
         default:
             if (p->token.kind == ')' && top->kind == 'f' && top->arguments == 0)
                 return wrong_arguments(p, top, 0);
-            if (p->token.kind == TOKEN_END)
+            if (p->token.kind == DAL__TOKEN_END)
                 return SYNTAX_ERROR(p, &p->token, "a value is missing at the end of the formula");
             return SYNTAX_ERROR(p, &p->token, "a value is missing before '%c'", p->token.kind);
         }
@@ -354,7 +251,7 @@ static dal_status close(parser *p, dal__node *value)
 static dal_status read_operators(parser *p, dal__node *value, bool *more)
 {
     for (*more = true;;) {
-        const token previous = p->token;
+        const dal__token previous = p->token;
         DAL_TRY(next(p));
         const char kind = p->token.kind;
         const struct binding *infix = find_operator(kind);
@@ -372,7 +269,7 @@ static dal_status read_operators(parser *p, dal__node *value, bool *more)
             f->left = *value;
             return next(p);
         }
-        if (kind == TOKEN_END) {
+        if (kind == DAL__TOKEN_END) {
             *more = false;
             DAL_TRY(reduce(p, 1, value));
             const frame *f = &p->stack[p->depth - 1];
@@ -387,7 +284,7 @@ static dal_status parse(parser *p, dal__node *value)
 {
     DAL_TRY(push(p, 0, 0));
     DAL_TRY(next(p));
-    if (p->token.kind == TOKEN_END)
+    if (p->token.kind == DAL__TOKEN_END)
         return dal__fail_at(p->error, DAL_SYNTAX, 1, 1, "the formula is empty");
     for (bool more = true; more;) {
         DAL_TRY(read_operand(p, value));

@@ -14,9 +14,6 @@ typedef dal__node dal__resolve(void *user, const char *name, size_t length, bool
 dal_status dal__parse(dal__graph *graph, const char *text, size_t length, dal__resolve *resolve,
                       void *user, dal__node *node, dal_error *error);
 
-/* The length of the name that text begins with: a letter, then letters, digits, _; 0: none. */
-size_t dal__name_length(const char *text, size_t length);
-
 /* Whether a name is that of a function, so that nothing else may have it. */
 bool dal__is_function(const char *name, size_t length);
 

@@ -1,7 +1,7 @@
 /* model.c - a model: named texts, kept until its system is made. */
 #include "model/model.h"
 #include "core/words.h"
-#include "expr/parser.h"
+#include "expr/lexer.h"
 #include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
