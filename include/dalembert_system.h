@@ -240,6 +240,8 @@ dal_status dal_model_add(dal_model *model, dal_section section, const char *name
 /* Text number i of a section, from 0, and where not NULL its name and place; NULL past the last. */
 const char *dal_model_text(const dal_model *model, dal_section section, int i, const char **name,
                            int *line, int *column);
+/* Warning number i about a model that has its system, and where not NULL its place; NULL: none. */
+const char *dal_model_warning(const dal_model *model, int i, int *line, int *column);
 /* Makes *model from the YAML text of a system file, text[length].  name is for messages and may be
  * NULL. [alloc]  Errors: DAL_SYNTAX, DAL_NAME and DAL_MODEL, with place. */
 dal_status dal_model_read(dal_model **model, const char *name, const char *text, size_t length,

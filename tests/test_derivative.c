@@ -65,6 +65,16 @@ static const char *const closed_forms[][3] = {
     {"exp(sin(x*y))", "y*cos(x*y)*exp(sin(x*y))", "y^2*exp(sin(x*y))*(cos(x*y)^2 - sin(x*y))"},
     {"(x + y)*(x - y)/(x*y)", "1/y + y/x^2", "-2*y/x^3"},
     {"y + a*z", "0", "0"},
+    {"hypot(x, y)", "x/sqrt(x^2 + y^2)", "y^2/sqrt(x^2 + y^2)^3"},
+    {"hypot(y, x)", "x/sqrt(x^2 + y^2)", "y^2/sqrt(x^2 + y^2)^3"},
+    {"min(x^2, y - 10)", "0", "0"},
+    {"max(x^3, y - 10)", "3*x^2", "6*x"},
+    {"min(10, x^3)", "3*x^2", "6*x"},
+    {"max(x^3, x^2 + 10, y)", "2*x", "2"},
+    {"if(x < 2, x^3, x)*y", "3*x^2*y", "6*x*y"},
+    {"if(x > 2, x^3, exp(y*x))", "y*exp(y*x)", "y^2*exp(y*x)"},
+    {"floor(x)*x^2 + sign(x)*x", "1", "0"},
+    {"if(x < 2, if(y < 9, x^2, x), x^5)^2", "4*x^3", "12*x^2"},
 };
 
 static void test_closed_forms(void)
@@ -110,7 +120,42 @@ static void test_abs_at_zero(void)
     dal__graph_free(graph);
 }
 
+/* Only the branch that is taken counts: the other one has no number here, nor have its derivatives,
+ * and what a sum of two such branches gives is one. */
+static void test_other_branch(void)
+{
+    static const struct {
+        const char *text;
+        double value, first, second;
+    } cases[] = {
+        {"if(x > 0, sqrt(x), 3*x^2)", 12.0, -12.0, 6.0},
+        {"if(x > 0, sqrt(x), 0) + if(x > 1, sqrt(x), x)", -2.0, 1.0, 0.0},
+        {"x*if(x < 0, x, log(x))", 4.0, -4.0, 2.0},
+        {"if(x > 0, if(x > 1, x^0.5, log(x)), x^3)", -8.0, 12.0, -12.0},
+        {"if(x > -1, 1/(x + 2), x)", -2.0, 1.0, 0.0},
+        {"min(x, 5/(x - 1)^2)", -2.0, 1.0, 0.0},
+        {"hypot(x + 2, 0*y)", 0.0, 0.0, 0.0},
+        {"sign(x + 2)*x", 0.0, 0.0, 0.0},
+    };
+    const double at[SYMBOLS] = {1.0, 1.0, -2.0, 3.0};
+    const int symbol = X;
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        dal__graph *graph = formula_graph();
+        const dal__node one = dal__number(graph, 1.0);
+        dal__node f = formula_node(graph, cases[i].text), first, second;
+        dal__gradient(graph, f, &symbol, 1, &first);
+        dal__gradient(graph, first, &symbol, 1, &second);
+        CU_ASSERT_DOUBLE_EQUAL(dal__evaluate(graph, f, at), cases[i].value, 1e-14);
+        CU_ASSERT_DOUBLE_EQUAL(dal__evaluate(graph, first, at), cases[i].first, 1e-14);
+        CU_ASSERT_DOUBLE_EQUAL(dal__evaluate(graph, second, at), cases[i].second, 1e-14);
+        dal__node along = dal__tangent(graph, f, &symbol, 1, &one);
+        CU_ASSERT_DOUBLE_EQUAL(dal__evaluate(graph, along, at), cases[i].first, 1e-14);
+        dal__graph_free(graph);
+    }
+}
+
 static const char *const mixtures[] = {
+    "max(x*y, z)*if(x' > y', sin(x), min(x*y', exp(z), y))*hypot(x - 5, y*z)",
     "sin(x*y)*exp(z) + x'*y'/(1 + z^2) - a*atan2(x, y + 2)",
     "sqrt(1 + x^2 + y^2)*tanh(z*x') + b*log(3 + cos(x - y))",
     "(x' - y*z)^2/(2*a) + asinh(x)*acos(z/3)^1.5 - sinh(y)*cosh(x*x')",
@@ -236,6 +281,7 @@ void suite_derivative(void)
     CU_add_test(suite, "first and second against closed forms", test_closed_forms);
     CU_add_test(suite, "powers of a negative base", test_negative_base);
     CU_add_test(suite, "abs around 0", test_abs_at_zero);
+    CU_add_test(suite, "the branch that is not taken", test_other_branch);
     CU_add_test(suite, "gradients against differences", test_differences);
     CU_add_test(suite, "second derivatives", test_second_derivatives);
     CU_add_test(suite, "tangents against gradients", test_tangent);

@@ -68,6 +68,59 @@ static void test_functions(void)
     CU_ASSERT_DOUBLE_EQUAL(value_of("y^1.5"), pow(2.5, 1.5), 0.0);
 }
 
+/* Values from the definitions, at numbers and at the point. */
+static void test_branches(void)
+{
+    static const struct {
+        const char *text;
+        double value;
+    } cases[] = {
+        {"min(3, -2)", -2},
+        {"max(3, -2, 7)", 7},
+        {"min(x, y, z) + 0", -1.25},
+        {"max(z, x)", 0.3},
+        {"sign(-3)", -1},
+        {"sign(0)", 0},
+        {"sign(y)", 1},
+        {"sign(-y)", -1},
+        {"floor(-1.5)", -2},
+        {"floor(y)", 2},
+        {"floor(-y)", -3},
+        {"hypot(-3, 4)", 5},
+        {"hypot(0, 0)", 0},
+        {"hypot(3e200*y, 4e200*y)", 5e200 * 2.5},
+        {"1 < 2", 1},
+        {"2 < 1", 0},
+        {"1 < 1", 0},
+        {"1 <= 1", 1},
+        {"x < y", 1},
+        {"x > y", 0},
+        {"y >= y", 1},
+        {"x == 0.3", 1},
+        {"x != 0.3", 0},
+        {"x != y", 1},
+        {"x + 1 < y*2", 1},
+        {"(x < y)*(y < z)", 0},
+        {"if(x < y, 5, 6)", 5},
+        {"if(x > y, 5, 6)", 6},
+        {"if(0.5, y, z)", 2.5},
+        {"if(y > 3, 1, if(y > 2, 2, 3))", 2},
+        {"if(z > 0, sqrt(z), y)", 2.5},
+        {"2 + if(x < y, 1, 0)*3", 5},
+        {"-(x < y)", -1},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        const double value = value_of(cases[i].text);
+        CU_ASSERT_DOUBLE_EQUAL(value, cases[i].value, 4e-16 * fabs(cases[i].value));
+        if (fabs(value - cases[i].value) > 4e-16 * fabs(cases[i].value))
+            fprintf(stderr, "%s: %g\n", cases[i].text, value);
+    }
+    /* What is no number stays none. */
+    CU_ASSERT(isnan(value_of("max(sqrt(z), y)")) && isnan(value_of("max(y, sqrt(z))")));
+    CU_ASSERT(isnan(value_of("min(sqrt(z), y)")) && isnan(value_of("min(y, sqrt(z))")));
+    CU_ASSERT(isnan(value_of("hypot(sqrt(z), y)")) && isnan(value_of("hypot(y, sqrt(z))")));
+}
+
 /* Hexadecimal constants are the nearest doubles, from the C standard's own conversion rules. */
 static void test_numbers(void)
 {
@@ -183,7 +236,15 @@ static const struct {
     {"1e999", DAL_SYNTAX, 1, 1, "the number 1e999 is too large"},
     {"x + .", DAL_SYNTAX, 1, 5, "unexpected '.'"},
     {"x $ y", DAL_SYNTAX, 1, 3, "unexpected '$'"},
-    {"x = y", DAL_SYNTAX, 1, 3, "unexpected '='"},
+    {"x = y", DAL_SYNTAX, 1, 3, "unexpected '='; a comparison is written =="},
+    {"x <", DAL_SYNTAX, 1, 4, "a value is missing at the end"},
+    {"x < <= y", DAL_SYNTAX, 1, 5, "a value is missing before '<='"},
+    {"x < y < z", DAL_SYNTAX, 1, 7, "comparisons make no chain"},
+    {"x ! y", DAL_SYNTAX, 1, 3, "unexpected '!'"},
+    {"if(x < 1, 2)", DAL_SYNTAX, 1, 1, "if takes 3 arguments, not 2"},
+    {"min(x)", DAL_SYNTAX, 1, 1, "min takes 2 or more arguments, not 1"},
+    {"x + max", DAL_SYNTAX, 1, 5, "max is a function"},
+    {"maxi(x, y)", DAL_NAME, 1, 1, "unknown function 'maxi'; did you mean 'max'?"},
     {"x \xc2\xb7 y", DAL_SYNTAX, 1, 3, "unexpected byte 0xc2"},
     {"x +\n\ty +\n \x01", DAL_SYNTAX, 3, 2, "unexpected byte 0x01"},
     {"x**2", DAL_SYNTAX, 1, 3, "a value is missing before '*'"},
@@ -231,7 +292,9 @@ static void test_function_names(void)
     CU_ASSERT(dal__is_function("atan2", 5));
     CU_ASSERT_FALSE(dal__is_function("atan2", 4) && !dal__is_function("atan", 4));
     CU_ASSERT_FALSE(dal__is_function("si", 2));
-    CU_ASSERT_FALSE(dal__is_function("sign", 4));
+    CU_ASSERT_FALSE(dal__is_function("sign", 4)); /* a system may use it */
+    CU_ASSERT(dal__hides_function("sign") && dal__hides_function("if"));
+    CU_ASSERT_FALSE(dal__hides_function("sin") || dal__hides_function("x"));
 }
 
 /* ---- size ---- */
@@ -266,6 +329,7 @@ static void test_deep_nesting(void)
     check_repeated("", "cos(", "x", ")", 20000, 0.7390851332151607); /* cos x = x */
     check_repeated("", "1^", "x", "", 50000, 1.0);
     check_repeated("", "atan2(0*x,", "y", ")", 10000, 0.0);
+    check_repeated("", "if(x<1,", "y", ",x)", 10000, 2.5);
 }
 
 static void test_long_formulas(void)
@@ -322,6 +386,7 @@ void suite_formula(void)
     CU_pSuite suite = CU_add_suite("formula", NULL, NULL);
     CU_add_test(suite, "precedence and association", test_precedence);
     CU_add_test(suite, "functions against libm", test_functions);
+    CU_add_test(suite, "branches and comparisons", test_branches);
     CU_add_test(suite, "numbers to the nearest double", test_numbers);
     CU_add_test(suite, "numbers of a thousand digits", test_long_number);
     CU_add_test(suite, "a decimal comma in the locale", test_locale);

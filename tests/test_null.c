@@ -339,6 +339,26 @@ static void null_dal_model_text(void)
     dal_model_free(made);
 }
 
+static void null_dal_model_warning(void)
+{
+    static const char text[] = "coordinates: [x, max]\nparameters: {if: 2}\n"
+                               "lagrangian: (x'^2 + max'^2)/2 - if*max\n";
+    dal_model *made = NULL;
+    const dal_system *made_system = NULL;
+    int line = 0, column = 0;
+    CU_ASSERT_EQUAL(dal_model_read(&made, "made", text, strlen(text), NULL), DAL_OK);
+    CU_ASSERT_PTR_NULL(dal_model_warning(made, 0, &line, &column)); /* there is no system yet */
+    CU_ASSERT_EQUAL(dal_model_system(made, &made_system, NULL), DAL_OK);
+    CU_ASSERT_STRING_EQUAL(dal_model_warning(made, 0, NULL, NULL),
+                           "coordinate 'max' hides the function of this name");
+    CU_ASSERT_PTR_NOT_NULL(dal_model_warning(made, 1, &line, &column));
+    CU_ASSERT(line == 2 && column == 14);
+    CU_ASSERT_PTR_NULL(dal_model_warning(made, 2, &line, &column));
+    CU_ASSERT_PTR_NULL(dal_model_warning(made, -1, &line, &column));
+    CU_ASSERT_PTR_NULL(dal_model_warning(NULL, 0, &line, &column));
+    dal_model_free(made);
+}
+
 static void null_dal_model_read(void)
 {
     dal_model *made = model;

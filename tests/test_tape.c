@@ -69,6 +69,18 @@ static const char *const formulas[] = {
     "cos(z')*sin(z')",
     "exp(a)*x + log(3*a)*y",
     "(x + y)*(x - y)/(z + 2)",
+    "sign(x)",
+    "floor(x*y)",
+    "min(x, y, z)",
+    "max(x, y, z)",
+    "hypot(x, y)",
+    "x < y",
+    "x >= y",
+    "x == y",
+    "x != y",
+    "if(x < y, z, x')",
+    "if(x, log(y), sqrt(z))*x' + if(a < b, x, y)",
+    "x*if(y > 0, sqrt(y), z*x) + y",
 };
 enum { FORMULAS = sizeof formulas / sizeof formulas[0] };
 
@@ -179,8 +191,9 @@ static int below(unsigned *state, int n)
 static void test_random_programs(void)
 {
     enum { GRAPHS = 150, NODES = 60, OUTPUTS = 6 };
-    static const dal__op ops[] = {DAL__ADD, DAL__SUB, DAL__MUL, DAL__MUL, DAL__SIN,
-                                  DAL__COS, DAL__SIN, DAL__COS, DAL__DIV, DAL__TANH};
+    static const dal__op ops[] = {DAL__ADD, DAL__SUB,  DAL__MUL, DAL__MUL, DAL__SIN,
+                                  DAL__COS, DAL__SIN,  DAL__COS, DAL__DIV, DAL__TANH,
+                                  DAL__MAX, DAL__LESS, DAL__IF};
     unsigned state = 1;
     for (int g = 0; g < GRAPHS; g++) {
         dal__graph *graph = formula_graph();
@@ -188,8 +201,11 @@ static void test_random_programs(void)
         for (int i = 0; i < NODES; i++) {
             dal__op op = ops[below(&state, sizeof ops / sizeof ops[0])];
             int any = below(&state, i + 1), near = i - below(&state, 8);
-            node[i] = i < SYMBOLS ? dal__symbol(graph, i)
-                                  : dal__apply(graph, op, node[any - (any == i)], node[near - 1]);
+            node[i] = i < SYMBOLS ? dal__symbol(graph, i) : 0;
+            if (node[i]) continue;
+            const dal__node left = node[any - (any == i)], right = node[near - 1];
+            node[i] = op == DAL__IF ? dal__node_if(graph, left, right, node[i / 2])
+                                    : dal__apply(graph, op, left, right);
         }
         dal__tapes *tapes = dal__tapes_create(graph, PARAMETERS, INPUTS);
         dal__tapes_add(tapes, &node[NODES - OUTPUTS], OUTPUTS);

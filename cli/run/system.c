@@ -60,6 +60,14 @@ const char *cli_default(const dal_model *model, const char *name, int *line, int
     return NULL;
 }
 
+static void print_warnings(const char *place, const dal_model *model)
+{
+    const char *text;
+    int line, column;
+    for (int i = 0; (text = dal_model_warning(model, i, &line, &column)) != NULL; i++)
+        cli_note("%s:%d:%d: warning: %s", place, line, column, text);
+}
+
 int cli_make(const char *place, dal_model **model, const dal_system **made)
 {
     dal_error error = {0};
@@ -72,7 +80,7 @@ int cli_make(const char *place, dal_model **model, const dal_system **made)
         error.line = line;
         error.column = column;
     }
-    if (make == DAL_OK) return CLI_DONE;
+    if (make == DAL_OK) return print_warnings(place, *model), CLI_DONE;
     dal_model_free(*model);
     *model = NULL;
     return cli_error(cli_input_exit(make), place, &error);

@@ -194,7 +194,7 @@ void dal__decide_conditions(dal__generation *g)
         {"DAL_SCALAR", g->lanes == 1},
         {"DAL_WITH_SINCOS", calls & (DAL__CALLS_SIN | DAL__CALLS_SINCOS)},
         {"DAL_WITH_SIN", calls & DAL__CALLS_SIN},
-        {"DAL_WITH_SIGN", calls & DAL__CALLS_SIGN},
+        {"DAL_WITH_BRANCHES", calls & DAL__CALLS_BRANCHES},
         {"DAL_WITH_LIBM", calls & DAL__CALLS_LIBM},
         {"DAL_WITH_LIFT", has_lift(g)},
         {"DAL_WITH_TANGENT", kernel & DAL_KERNEL_TANGENT},

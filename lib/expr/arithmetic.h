@@ -1,7 +1,7 @@
 /* arithmetic.h - what each operation computes from a (and b), over num.
  *
  * The one list behind constant folding, dal__evaluate and the tapes, so that they agree in every
- * bit.  The library is compiled without contraction: fused operations are those of DAL__FUSED_LIST,
+ * bit.  The library is compiled without contraction: fused operations are the last three,
  * and dal__lower chooses the sums that use them. */
 #ifndef DAL_EXPR_ARITHMETIC_H
 #define DAL_EXPR_ARITHMETIC_H
@@ -24,7 +24,8 @@
     OP(TANH, dal_tanh(a))                                                                          \
     OP(ASINH, dal_asinh(a))                                                                        \
     OP(ABS, dal_abs(a))                                                                            \
-    OP(SIGN, dal_sign(a))
+    OP(SIGN, dal_sign(a))                                                                          \
+    OP(FLOOR, dal_floor(a))
 
 #define DAL__BINARY_LIST(OP)                                                                       \
     OP(ADD, a + b)                                                                                 \
@@ -32,10 +33,17 @@
     OP(MUL, a *b)                                                                                  \
     OP(DIV, a / b)                                                                                 \
     OP(POW, dal_pow(a, b))                                                                         \
-    OP(ATAN2, dal_atan2(a, b))
+    OP(ATAN2, dal_atan2(a, b))                                                                     \
+    OP(MIN, dal_minimum(a, b))                                                                     \
+    OP(MAX, dal_maximum(a, b))                                                                     \
+    OP(HYPOT, dal_hypot(a, b))                                                                     \
+    OP(LESS, dal_truth(dal_less(a, b)))                                                            \
+    OP(LESS_EQUAL, dal_truth(dal_less_equal(a, b)))                                                \
+    OP(EQUAL, dal_truth(dal_equal(a, b)))
 
-/* A sum and a product, with one rounding. */
-#define DAL__FUSED_LIST(OP)                                                                        \
+/* A choice; and a sum and a product, with one rounding. */
+#define DAL__TERNARY_LIST(OP)                                                                      \
+    OP(IF, dal_if(a, b, c))                                                                        \
     OP(MUL_ADD, dal_fma(a, b, c))                                                                  \
     OP(MUL_SUB, dal_fma(a, b, -c))                                                                 \
     OP(SUB_MUL, dal_fma(-a, b, c))

@@ -18,7 +18,7 @@ typedef struct writer {
 
 static const char *const expressions[] = {
 #define EXPRESSION(code, expression) [DAL__##code] = #expression,
-    DAL__UNARY_LIST(EXPRESSION) DAL__BINARY_LIST(EXPRESSION) DAL__FUSED_LIST(EXPRESSION)
+    DAL__UNARY_LIST(EXPRESSION) DAL__BINARY_LIST(EXPRESSION) DAL__TERNARY_LIST(EXPRESSION)
 #undef EXPRESSION
 };
 
@@ -115,8 +115,8 @@ unsigned dal__tape_calls(const dal__tape *tape)
             calls |= DAL__CALLS_SIN;
         else if (op == DAL__SINCOS)
             calls |= DAL__CALLS_SINCOS;
-        else if (op == DAL__SIGN)
-            calls |= DAL__CALLS_SIGN;
+        else if (op >= DAL__SIGN && op <= DAL__IF)
+            calls |= DAL__CALLS_BRANCHES;
         else if (op >= DAL__POW && op != DAL__SQRT && op <= DAL__ASINH)
             calls |= DAL__CALLS_LIBM;
     }

@@ -21,7 +21,7 @@ void dal__tapes_write_hoisted(const dal__tapes *tapes, dal__buffer *text);
 enum {
     DAL__CALLS_SIN = 1 << 0, /* or cos, alone */
     DAL__CALLS_SINCOS = 1 << 1,
-    DAL__CALLS_SIGN = 1 << 2,
+    DAL__CALLS_BRANCHES = 1 << 2, /* what does not act smoothly */
     DAL__CALLS_LIBM = 1 << 3
 };
 unsigned dal__tape_calls(const dal__tape *tape);

@@ -43,10 +43,10 @@ static dal__node *place(const dal__graph *graph, const dal__record *r)
     memcpy(&bits, &r->value, sizeof bits);
     h = mix(h, bits);
     h = mix(h, (uint64_t)(uint32_t)r->a << 32 | (uint32_t)r->b);
-    h = mix(h, (uint32_t)r->symbol);
+    h = mix(h, (uint64_t)(uint32_t)r->c << 32 | (uint32_t)r->symbol);
     for (size_t i = (size_t)(h >> (64 - graph->table_bits));; i = (i + 1) & mask) {
         const dal__record *s = &graph->node[graph->table[i]];
-        const bool equal = r->op == s->op && r->a == s->a && r->b == s->b &&
+        const bool equal = r->op == s->op && r->a == s->a && r->b == s->b && r->c == s->c &&
                            r->symbol == s->symbol &&
                            memcmp(&r->value, &s->value, sizeof r->value) == 0;
         if (!graph->table[i] || equal) return &graph->table[i];
@@ -108,6 +108,13 @@ dal__node dal__intern(dal__graph *graph, dal__op op, dal__node a, dal__node b)
     const dal__record *node = graph->node;
     bool fixed = node[a].fixed && (!b || node[b].fixed);
     return keep(graph, (dal__record){.op = (uint8_t)op, .a = a, .b = b, .fixed = fixed});
+}
+
+dal__node dal__intern_if(dal__graph *graph, dal__node a, dal__node b, dal__node c)
+{
+    const dal__record *node = graph->node;
+    bool fixed = node[a].fixed && node[b].fixed && node[c].fixed;
+    return keep(graph, (dal__record){.op = DAL__IF, .a = a, .b = b, .c = c, .fixed = fixed});
 }
 
 dal__node dal__find(const dal__graph *graph, dal__op op, dal__node a, dal__node b)

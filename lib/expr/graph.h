@@ -23,7 +23,8 @@
 
 typedef int32_t dal__node; /* 0: no node */
 
-/* Operations: code, arity, name in a formula (NULL: not callable by name). */
+/* Operations: code, arity, name in a formula (NULL: not callable by name).  A name of a system wins
+ * over those of functions from SIGN on, which are younger than systems that may use the name. */
 #define DAL__OP_LIST(OP)                                                                           \
     OP(NUMBER, 0, NULL)                                                                            \
     OP(SYMBOL, 0, NULL)                                                                            \
@@ -48,7 +49,15 @@ typedef int32_t dal__node; /* 0: no node */
     OP(TANH, 1, "tanh")                                                                            \
     OP(ASINH, 1, "asinh")                                                                          \
     OP(ABS, 1, "abs")                                                                              \
-    OP(SIGN, 1, NULL) /* derivative of abs */
+    OP(SIGN, 1, "sign") /* derivative of abs */                                                    \
+    OP(FLOOR, 1, "floor")                                                                          \
+    OP(MIN, 2, "min")                                                                              \
+    OP(MAX, 2, "max")                                                                              \
+    OP(HYPOT, 2, "hypot")                                                                          \
+    OP(LESS, 2, NULL) /* comparisons: 0 or 1 */                                                    \
+    OP(LESS_EQUAL, 2, NULL)                                                                        \
+    OP(EQUAL, 2, NULL)                                                                             \
+    OP(IF, 3, "if") /* b where a is not 0, else c */
 
 typedef enum dal__op {
 #define CODE(code, arity, name) DAL__##code,
@@ -58,9 +67,9 @@ typedef enum dal__op {
 } dal__op;
 
 typedef struct dal__record {
-    double value; /* NUMBER */
-    dal__node a, b;
-    int symbol; /* SYMBOL */
+    double value;      /* NUMBER */
+    dal__node a, b, c; /* operands; 0 where there is none */
+    int symbol;        /* SYMBOL */
     uint8_t op;
     bool fixed;
 } dal__record;
@@ -86,6 +95,7 @@ dal__node dal__number(dal__graph *graph, double value);
 dal__node dal__symbol(dal__graph *graph, int symbol); /* symbol >= 0, numbered by the caller */
 /* The node with exactly this operation and operands, made if missing; no simplification. */
 dal__node dal__intern(dal__graph *graph, dal__op op, dal__node a, dal__node b);
+dal__node dal__intern_if(dal__graph *graph, dal__node a, dal__node b, dal__node c);
 /* The same, or 0 if missing; the node of a symbol, likewise. */
 dal__node dal__find(const dal__graph *graph, dal__op op, dal__node a, dal__node b);
 dal__node dal__find_symbol(const dal__graph *graph, int symbol);

@@ -55,13 +55,29 @@ static dal_status read_name(dal__lexer *l, dal__token *t)
                         dal__token_shown(t), t->text);
 }
 
+/* <=, >=, ==, !=; false for another one. */
+static bool read_comparison(dal__lexer *l, dal__token *t)
+{
+    static const char first[] = "<>=!";
+    static const char kinds[] = {DAL__TOKEN_LESS_EQUAL, DAL__TOKEN_GREATER_EQUAL, DAL__TOKEN_EQUAL,
+                                 DAL__TOKEN_UNEQUAL};
+    const char *c = *t->text ? strchr(first, *t->text) : NULL;
+    if (!c || l->at + 1 >= l->end || l->at[1] != '=') return false;
+    t->kind = kinds[c - first];
+    t->length = 2;
+    l->at += 2;
+    return true;
+}
+
 static dal_status read_other(dal__lexer *l, dal__token *t)
 {
     unsigned char c = (unsigned char)*t->text;
+    if (read_comparison(l, t)) return DAL_OK;
     t->kind = (char)c;
     t->length = 1;
     l->at++;
-    if (c && strchr("+-*/^(),", c)) return DAL_OK;
+    if (c && strchr("+-*/^(),<>", c)) return DAL_OK;
+    if (c == '=') return SYNTAX_ERROR(l, t, "unexpected '='; a comparison is written ==");
     if (c == '\'') {
         return SYNTAX_ERROR(l, t, "unexpected '; a prime stands right behind a name, as in x'");
     }

@@ -2,7 +2,7 @@
  *
  *     number   digits [. digits] [e [+-] digits], or . digits ...
  *     name     [A-Za-z_][A-Za-z0-9_]*, with ' right behind it for a velocity
- *     other    + - * / ^ ( ) ,
+ *     other    + - * / ^ ( ) , < > <= >= == !=
  *
  * Blanks, tabs and line ends separate.  Columns count bytes from 1. */
 #ifndef DAL_EXPR_LEXER_H
@@ -12,7 +12,7 @@
 #include <stdbool.h>
 
 typedef struct dal__token {
-    char kind; /* a character of + - * / ^ ( ) , or one of DAL__TOKEN_* */
+    char kind; /* a character of + - * / ^ ( ) , < > or one of DAL__TOKEN_* */
     bool prime;
     int line, column;
     const char *text; /* in the formula */
@@ -20,7 +20,15 @@ typedef struct dal__token {
     double value;     /* of a number */
 } dal__token;
 
-enum { DAL__TOKEN_END = 0, DAL__TOKEN_NUMBER = '0', DAL__TOKEN_NAME = 'a' };
+enum {
+    DAL__TOKEN_END = 0,
+    DAL__TOKEN_NUMBER = '0',
+    DAL__TOKEN_NAME = 'a',
+    DAL__TOKEN_LESS_EQUAL = 'l',
+    DAL__TOKEN_GREATER_EQUAL = 'g',
+    DAL__TOKEN_EQUAL = '=',
+    DAL__TOKEN_UNEQUAL = '!'
+};
 
 typedef struct dal__lexer {
     const char *at, *end;

@@ -1,6 +1,6 @@
 /* parser.c - formulas to nodes by binding powers (V. R. Pratt, Top down operator precedence, 1973).
  *
- *     + -  1      * /  2      unary -  3      ^  4, from the right
+ *     < > <= >= == !=  1      + -  2      * /  3      unary -  4      ^  5, from the right
  *
  * so that -x^2 = -(x^2), 2^-3 = 1/8 and a/b/c = (a/b)/c.  What still needs its right operand lies
  * on an explicit stack, so memory alone limits how deep a formula is nested. */
@@ -19,12 +19,12 @@
 
 /* ---- what the parser holds ---- */
 
-/* Something that needs the value right of it; kind: + - * / ^, '~' unary minus, '(' a bracket,
- * 'f' the arguments of a function, 0 the formula itself. */
+/* Something that needs the value right of it; kind: that of an operator, '~' unary minus, '(' a
+ * bracket, 'f' the arguments of a function, 0 the formula itself. */
 typedef struct frame {
     char kind;
     dal__op function;
-    int arguments; /* so far */
+    size_t first; /* of the arguments so far */
     dal__node left;
     int line, column;
 } frame;
@@ -38,6 +38,8 @@ typedef struct parser {
     dal_error *error;
     frame *stack;
     size_t depth, capacity;
+    dal__node *argument; /* of all functions that are open */
+    size_t arguments, argument_capacity;
 } parser;
 
 static const struct function {
@@ -60,14 +62,34 @@ static dal__op function_named(const char *name, size_t length)
     return (dal__op)0;
 }
 
-bool dal__is_function(const char *name, size_t length) { return function_named(name, length) != 0; }
+/* Whether the name of a function may be that of something else, too, which then wins. */
+static bool is_young(dal__op function) { return function >= DAL__SIGN; }
 
+bool dal__is_function(const char *name, size_t length)
+{
+    const dal__op function = function_named(name, length);
+    return function && !is_young(function);
+}
+
+bool dal__hides_function(const char *name) { return is_young(function_named(name, strlen(name))); }
+
+enum { COMPARISON = 1 };
 static const struct binding {
     char kind;
     int power;
     dal__op op;
-} operators[] = {{'+', 1, DAL__ADD}, {'-', 1, DAL__SUB}, {'*', 2, DAL__MUL},
-                 {'/', 2, DAL__DIV}, {'~', 3, DAL__NEG}, {'^', 4, DAL__POW}};
+} operators[] = {{'<', COMPARISON, DAL__LESS},
+                 {'>', COMPARISON, DAL__LESS},
+                 {DAL__TOKEN_LESS_EQUAL, COMPARISON, DAL__LESS_EQUAL},
+                 {DAL__TOKEN_GREATER_EQUAL, COMPARISON, DAL__LESS_EQUAL},
+                 {DAL__TOKEN_EQUAL, COMPARISON, DAL__EQUAL},
+                 {DAL__TOKEN_UNEQUAL, COMPARISON, DAL__EQUAL},
+                 {'+', 2, DAL__ADD},
+                 {'-', 2, DAL__SUB},
+                 {'*', 3, DAL__MUL},
+                 {'/', 3, DAL__DIV},
+                 {'~', 4, DAL__NEG},
+                 {'^', 5, DAL__POW}};
 
 static const struct binding *find_operator(char kind)
 {
@@ -97,11 +119,15 @@ static dal_status operator_missing(const parser *p, const dal__token *previous)
     return SYNTAX_ERROR(p, t, "an operator is missing before '%.*s'", dal__token_shown(t), t->text);
 }
 
+/* Whether f(a, b, c) is f(f(a, b), c). */
+static bool is_chained(dal__op function) { return function == DAL__MIN || function == DAL__MAX; }
+
 static dal_status wrong_arguments(const parser *p, const frame *f, int given)
 {
     const struct function *called = &functions[f->function];
-    return SYNTAX_ERROR(p, f, "%s takes %d argument%s, not %d", called->name, called->arity,
-                        called->arity == 1 ? "" : "s", given);
+    return SYNTAX_ERROR(p, f, "%s takes %d%s argument%s, not %d", called->name, called->arity,
+                        is_chained(f->function) ? " or more" : "", called->arity == 1 ? "" : "s",
+                        given);
 }
 
 /* A name that is no function stands before a bracket. */
@@ -131,8 +157,24 @@ static dal_status push(parser *p, char kind, dal__node left)
         p->stack = stack;
         p->capacity = capacity;
     }
-    p->stack[p->depth++] =
-        (frame){.kind = kind, .left = left, .line = p->token.line, .column = p->token.column};
+    p->stack[p->depth++] = (frame){.kind = kind,
+                                   .first = p->arguments,
+                                   .left = left,
+                                   .line = p->token.line,
+                                   .column = p->token.column};
+    return DAL_OK;
+}
+
+static dal_status push_argument(parser *p, dal__node value)
+{
+    if (p->arguments == p->argument_capacity) {
+        size_t capacity = p->argument_capacity ? 2 * p->argument_capacity : 16;
+        dal__node *argument = realloc(p->argument, capacity * sizeof *argument);
+        if (!argument) return dal__fail(p->error, DAL_MEMORY, "out of memory");
+        p->argument = argument;
+        p->argument_capacity = capacity;
+    }
+    p->argument[p->arguments++] = value;
     return DAL_OK;
 }
 
@@ -147,6 +189,22 @@ static bool divides_by_zero(const dal__graph *graph, const frame *f, dal__node r
            r.value < 0.0;
 }
 
+static dal__node operate(dal__graph *graph, const struct binding *b, dal__node left,
+                         dal__node right)
+{
+    switch (b->kind) {
+    case '~':
+        return dal__node_neg(graph, right);
+    case '>':
+    case DAL__TOKEN_GREATER_EQUAL:
+        return dal__apply(graph, b->op, right, left);
+    case DAL__TOKEN_UNEQUAL:
+        return dal__node_sub(graph, dal__number(graph, 1.0), dal__apply(graph, b->op, left, right));
+    default:
+        return dal__apply(graph, b->op, left, right);
+    }
+}
+
 /* Applies all operators on top of the stack that bind their right operand stronger than power. */
 static dal_status reduce(parser *p, int power, dal__node *value)
 {
@@ -156,8 +214,7 @@ static dal_status reduce(parser *p, int power, dal__node *value)
         if (!top || top->power < power) return DAL_OK;
         p->depth--;
         if (divides_by_zero(p->graph, f, *value)) return SYNTAX_ERROR(p, f, "division by zero");
-        *value = top->op == DAL__NEG ? dal__node_neg(p->graph, *value)
-                                     : dal__apply(p->graph, top->op, f->left, *value);
+        *value = operate(p->graph, top, f->left, *value);
         if (!*value) return graph_fault(p);
     }
 }
@@ -171,15 +228,26 @@ static dal_status symbol(parser *p, dal__node *value)
         *value = dal__number(p->graph, 3.14159265358979323846);
         return *value ? DAL_OK : graph_fault(p);
     }
-    if (!t->prime && dal__is_function(t->text, t->length)) {
+    const dal__op function = t->prime ? (dal__op)0 : function_named(t->text, t->length);
+    dal_error fault = {.status = DAL_OK};
+    if (is_young(function)) *value = p->resolve(p->user, t->text, t->length, false, &fault);
+    if (is_young(function) && *value) return DAL_OK;
+    if (function) {
         return SYNTAX_ERROR(p, t, "%.*s is a function: write %.*s(...)", dal__token_shown(t),
                             t->text, dal__token_shown(t), t->text);
     }
-    dal_error fault = {.status = DAL_OK};
     *value = p->resolve(p->user, t->text, t->length, t->prime, &fault);
     if (*value) return DAL_OK;
     if (fault.status == DAL_OK) return graph_fault(p);
     return dal__fail_at(p->error, fault.status, t->line, t->column, "%s", fault.message);
+}
+
+/* Whether the present name, that of a function, has another meaning. */
+static bool is_hidden(const parser *p, dal__op function)
+{
+    dal_error ignored;
+    return is_young(function) &&
+           p->resolve(p->user, p->token.text, p->token.length, false, &ignored);
 }
 
 /* A name: a function with its bracket, which opens a frame, or a value. */
@@ -191,7 +259,7 @@ static dal_status name(parser *p, dal__node *value)
     bool call = dal__next_token(&ahead, &bracket) == DAL_OK && bracket.kind == '(';
     if (!call) return symbol(p, value);
     dal__op function = function_named(p->token.text, p->token.length);
-    if (!function || p->token.prime) return unknown_function(p);
+    if (!function || p->token.prime || is_hidden(p, function)) return unknown_function(p);
     DAL_TRY(push(p, 'f', 0));
     p->stack[p->depth - 1].function = function;
     ahead.error = p->error;
@@ -221,15 +289,26 @@ static dal_status read_operand(parser *p, dal__node *value)
             if (!*value) return graph_fault(p);
             break;
         default:
-            if (p->token.kind == ')' && top->kind == 'f' && top->arguments == 0)
+            if (p->token.kind == ')' && top->kind == 'f' && p->arguments == top->first)
                 return wrong_arguments(p, top, 0);
             if (p->token.kind == DAL__TOKEN_END)
                 return SYNTAX_ERROR(p, &p->token, "a value is missing at the end of the formula");
-            return SYNTAX_ERROR(p, &p->token, "a value is missing before '%c'", p->token.kind);
+            return SYNTAX_ERROR(p, &p->token, "a value is missing before '%.*s'",
+                                dal__token_shown(&p->token), p->token.text);
         }
         DAL_TRY(*value ? DAL_OK : next(p));
     }
     return DAL_OK;
+}
+
+/* The value of a function with its arguments. */
+static dal__node call(const parser *p, dal__op function, const dal__node *argument, int count)
+{
+    dal__node value = argument[0];
+    if (function == DAL__IF) return dal__node_if(p->graph, value, argument[1], argument[2]);
+    if (count == 1) return dal__apply(p->graph, function, value, 0);
+    for (int i = 1; i < count; i++) value = dal__apply(p->graph, function, value, argument[i]);
+    return value;
 }
 
 /* The closing bracket: of a bracket or of a function's arguments. */
@@ -240,10 +319,12 @@ static dal_status close(parser *p, dal__node *value)
     if (f->kind == 0) return SYNTAX_ERROR(p, &p->token, "')' closes no '('");
     p->depth--;
     if (f->kind == '(') return DAL_OK;
-    int given = f->arguments + 1, wanted = functions[f->function].arity;
-    if (given != wanted) return wrong_arguments(p, f, given);
-    *value = wanted == 2 ? dal__apply(p->graph, f->function, f->left, *value)
-                         : dal__apply(p->graph, f->function, *value, 0);
+    DAL_TRY(push_argument(p, *value));
+    const int given = (int)(p->arguments - f->first), arity = functions[f->function].arity;
+    if (given < arity || (given > arity && !is_chained(f->function)))
+        return wrong_arguments(p, f, given);
+    *value = call(p, f->function, p->argument + f->first, given);
+    p->arguments = f->first;
     return *value ? DAL_OK : graph_fault(p);
 }
 
@@ -256,17 +337,21 @@ static dal_status read_operators(parser *p, dal__node *value, bool *more)
         const char kind = p->token.kind;
         const struct binding *infix = find_operator(kind);
         if (infix) {
-            DAL_TRY(reduce(p, infix->power + (kind == '^'), value));
+            const int above = kind == '^' || infix->power == COMPARISON;
+            DAL_TRY(reduce(p, infix->power + above, value));
+            const struct binding *left = find_operator(p->stack[p->depth - 1].kind);
+            if (infix->power == COMPARISON && left)
+                return SYNTAX_ERROR(p, &p->token,
+                                    "comparisons make no chain: write (a < b)*(b < c)");
             DAL_TRY(push(p, kind, *value));
             return next(p);
         }
         if (kind == ',') {
             DAL_TRY(reduce(p, 1, value));
-            frame *f = &p->stack[p->depth - 1];
+            const frame *f = &p->stack[p->depth - 1];
             if (f->kind != 'f')
                 return SYNTAX_ERROR(p, &p->token, "',' stands outside the arguments of a function");
-            f->arguments++;
-            f->left = *value;
+            DAL_TRY(push_argument(p, *value));
             return next(p);
         }
         if (kind == DAL__TOKEN_END) {
@@ -305,6 +390,7 @@ dal_status dal__parse(dal__graph *graph, const char *text, size_t length, dal__r
         return dal__fail_at(error, DAL_TOO_LARGE, 1, 1, "the formula is too long");
     dal_status status = parse(&p, node);
     free(p.stack);
+    free(p.argument);
     if (status != DAL_OK) *node = 0;
     return status;
 }

@@ -478,10 +478,29 @@ static dal__node power(dal__graph *graph, dal__node a, dal__node b)
     return dal__intern(graph, DAL__POW, a, b);
 }
 
+/* A function of two operands that is folded where both are numbers and the value is one. */
+static dal__node function2(dal__graph *graph, dal__op op, dal__node a, dal__node b)
+{
+    dal__record r = graph->node[a], s = graph->node[b];
+    const bool numbers = r.op == DAL__NUMBER && s.op == DAL__NUMBER;
+    const double value = numbers ? dal__operate(op, r.value, s.value, 0.0) : INFINITY;
+    if (isfinite(value)) return dal__number(graph, value);
+    if (a == b && (op == DAL__MIN || op == DAL__MAX)) return a;
+    if (a == b && (op == DAL__LESS_EQUAL || op == DAL__EQUAL)) return one(graph);
+    if (a == b && op == DAL__LESS) return dal__number(graph, 0.0);
+    return dal__intern(graph, op, a, b);
+}
+
+dal__node dal__node_if(dal__graph *graph, dal__node a, dal__node b, dal__node c)
+{
+    if (!a || !b || !c) return 0;
+    if (op_of(graph, a) == DAL__NUMBER) return is_zero(graph, a) ? c : b;
+    return b == c ? b : dal__intern_if(graph, a, b, c);
+}
+
 dal__node dal__apply(dal__graph *graph, dal__op op, dal__node a, dal__node b)
 {
     if (!a) return 0;
-    dal__record r = graph->node[a], s = graph->node[b];
     switch (op) {
     case DAL__ADD:
         return dal__node_add(graph, a, b);
@@ -496,9 +515,13 @@ dal__node dal__apply(dal__graph *graph, dal__op op, dal__node a, dal__node b)
     case DAL__POW:
         return b ? power(graph, a, b) : 0;
     case DAL__ATAN2:
-        if (r.op != DAL__NUMBER || s.op != DAL__NUMBER)
-            return b ? dal__intern(graph, DAL__ATAN2, a, b) : 0;
-        return b ? dal__number(graph, dal__operate(DAL__ATAN2, r.value, s.value, 0.0)) : 0;
+    case DAL__MIN:
+    case DAL__MAX:
+    case DAL__HYPOT:
+    case DAL__LESS:
+    case DAL__LESS_EQUAL:
+    case DAL__EQUAL:
+        return b ? function2(graph, op, a, b) : 0;
     default:
         return function(graph, op, a);
     }

@@ -83,7 +83,8 @@ static dal_status begin_schedule(schedule *s, const dal__tapes *tapes)
     if (!use) return DAL_MEMORY;
     for (dal__node i = 1; i <= s->last_node; i++) {
         const dal__record r = dal__inspect(s->graph, i);
-        const bool operands = use[r.a].constant && (!r.b || use[r.b].constant);
+        const bool operands =
+            use[r.a].constant && (!r.b || use[r.b].constant) && (!r.c || use[r.c].constant);
         use[i].constant = r.op == DAL__NUMBER   ? true
                           : r.op == DAL__SYMBOL ? r.symbol < tapes->parameters
                                                 : operands;
@@ -96,7 +97,7 @@ static dal_status begin_schedule(schedule *s, const dal__tapes *tapes)
     if (use[0].reached) return DAL_ARGUMENT;
     for (dal__node i = s->last_node; i > 0; i--) {
         const dal__record r = dal__inspect(s->graph, i);
-        if (use[i].reached) use[r.a].reached = use[r.b].reached = true;
+        if (use[i].reached) use[r.a].reached = use[r.b].reached = use[r.c].reached = true;
     }
     return DAL_OK;
 }

@@ -15,7 +15,8 @@ uint8_t *dal__reach(dal__graph *graph, dal__node node)
     mark[node] = 1;
     for (dal__node i = node; i > 0; i--) {
         if (!mark[i]) continue;
-        mark[graph->node[i].a] = mark[graph->node[i].b] = 1;
+        const dal__record *r = &graph->node[i];
+        mark[r->a] = mark[r->b] = mark[r->c] = 1;
     }
     mark[0] = 0;
     return mark;
@@ -35,6 +36,16 @@ bool dal__depends(dal__graph *graph, dal__node node, int first, int end)
     return found;
 }
 
+bool dal__reaches(dal__graph *graph, dal__node node, uint64_t operations)
+{
+    uint8_t *mark = dal__reach(graph, node);
+    bool found = !mark;
+    for (dal__node i = node; i > 0 && !found; i--)
+        found = mark[i] && !graph->node[i].fixed && operations >> graph->node[i].op & 1;
+    free(mark);
+    return found;
+}
+
 static bool is_product(const dal__graph *graph, dal__node node)
 {
     return graph->node[node].op == DAL__MUL && !graph->node[node].fixed;
@@ -45,7 +56,7 @@ dal__lowered dal__lower(const dal__graph *graph, dal__node node)
     const dal__record *r = &graph->node[node];
     const bool sum = r->op == DAL__ADD || r->op == DAL__SUB;
     const bool first = sum && is_product(graph, r->a), second = sum && is_product(graph, r->b);
-    if (r->fixed || (!first && !second)) return (dal__lowered){r->op, r->a, r->b, 0};
+    if (r->fixed || (!first && !second)) return (dal__lowered){r->op, r->a, r->b, r->c};
     const bool later = second && (!first || r->b > r->a);
     const dal__record *product = &graph->node[later ? r->b : r->a];
     const int op = r->op == DAL__ADD ? DAL__MUL_ADD : later ? DAL__SUB_MUL : DAL__MUL_SUB;
@@ -60,7 +71,7 @@ double dal__operate(int op, double a, double b, double c)
         return expression;
         DAL__UNARY_LIST(CASE)
         DAL__BINARY_LIST(CASE)
-        DAL__FUSED_LIST(CASE)
+        DAL__TERNARY_LIST(CASE)
 #undef CASE
     default:
         return NAN;
@@ -88,18 +99,22 @@ double dal__evaluate(dal__graph *graph, dal__node node, const double *values)
     return value;
 }
 
+dal__node dal__rebuild(dal__graph *graph, dal__node i, const dal__node *image)
+{
+    dal__record r = graph->node[i];
+    if (r.op == DAL__NUMBER || r.op == DAL__SYMBOL) return i;
+    if (image[r.a] == r.a && image[r.b] == r.b && image[r.c] == r.c) return i;
+    if (r.op == DAL__IF) return dal__node_if(graph, image[r.a], image[r.b], image[r.c]);
+    return dal__apply(graph, (dal__op)r.op, image[r.a], image[r.b]);
+}
+
 static dal__node replaced(dal__graph *graph, dal__node i, const dal__node *image,
                           const int *symbols, int count, const dal__node *by)
 {
-    dal__record r = graph->node[i];
-    if (r.op == DAL__NUMBER) return i;
-    if (r.op == DAL__SYMBOL) {
-        for (int k = 0; k < count; k++)
-            if (symbols[k] == r.symbol) return by[k];
-        return i;
-    }
-    if (image[r.a] == r.a && image[r.b] == r.b) return i;
-    return dal__apply(graph, (dal__op)r.op, image[r.a], image[r.b]);
+    const dal__record r = graph->node[i];
+    for (int k = 0; r.op == DAL__SYMBOL && k < count; k++)
+        if (symbols[k] == r.symbol) return by[k];
+    return dal__rebuild(graph, i, image);
 }
 
 dal__node dal__substitute(dal__graph *graph, dal__node f, const int *symbols, int count,

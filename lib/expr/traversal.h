@@ -11,6 +11,17 @@ uint8_t *dal__reach(dal__graph *graph, dal__node node);
  * above. */
 bool dal__depends(dal__graph *graph, dal__node node, int first, int end);
 
+/* Whether node reaches an operation of a set, a bit (1 << op) each, that is not fixed; true when
+ * memory is out, as above. */
+bool dal__reaches(dal__graph *graph, dal__node node, uint64_t operations);
+/* Operations whose values jump, and those that have a kink. */
+#define DAL__OP_BIT(op) (UINT64_C(1) << DAL__##op)
+#define DAL__JUMPING                                                                               \
+    (DAL__OP_BIT(SIGN) | DAL__OP_BIT(FLOOR) | DAL__OP_BIT(LESS) | DAL__OP_BIT(LESS_EQUAL) |        \
+     DAL__OP_BIT(EQUAL) | DAL__OP_BIT(IF))
+#define DAL__KINKED (DAL__OP_BIT(ABS) | DAL__OP_BIT(MIN) | DAL__OP_BIT(MAX) | DAL__OP_BIT(HYPOT))
+#define DAL__ROUGH  (DAL__JUMPING | DAL__KINKED)
+
 /* Operations that are computed as one: both functions of one argument; and a sum or difference one
  * of whose operands is a product. */
 enum {
@@ -35,6 +46,8 @@ double dal__operate(int op, double a, double b, double c);
  * is out, as above. [alloc] */
 double dal__evaluate(dal__graph *graph, dal__node node, const double *values);
 
+/* Node i again, with each operand x replaced by image[x]. */
+dal__node dal__rebuild(dal__graph *graph, dal__node i, const dal__node *image);
 /* f with each symbols[i] replaced by the node by[i]. */
 dal__node dal__substitute(dal__graph *graph, dal__node f, const int *symbols, int count,
                           const dal__node *by);

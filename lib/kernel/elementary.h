@@ -161,7 +161,7 @@ DAL_INLINE num dal_cos(num x)
 }
 #endif
 
-#if DAL_WITH_SIGN
+#if DAL_WITH_BRANCHES
 /* -1, 0 or 1; zeros and NaN stay what they are. */
 DAL_INLINE num dal_sign(num x)
 {
@@ -169,6 +169,40 @@ DAL_INLINE num dal_sign(num x)
     num negative = dal_select(dal_less(x, zero), dal_num(-1.0), x);
     return dal_select(dal_less(zero, x), dal_num(1.0), negative);
 }
+
+/* 1 where m is set, else 0; a where the condition is not 0, else b. */
+DAL_INLINE num dal_truth(dal_mask m) { return dal_select(m, dal_num(1.0), dal_num(0.0)); }
+DAL_INLINE num dal_if(num condition, num a, num b)
+{
+    return dal_select(dal_equal(condition, dal_num(0.0)), b, a);
+}
+
+/* The smaller and the larger number, the first of equal ones; NaN where one of them is. */
+DAL_INLINE num dal_minimum(num a, num b) { return dal_select(dal_equal(b, b), dal_min(a, b), b); }
+DAL_INLINE num dal_maximum(num a, num b) { return dal_select(dal_equal(b, b), dal_max(a, b), b); }
+
+/* sqrt(a^2 + b^2), where the squares may over- or underflow. */
+DAL_INLINE num dal_hypot(num a, num b)
+{
+    const num larger = dal_maximum(dal_abs(a), dal_abs(b)), one = dal_num(1.0);
+    const num ratio = dal_min(dal_abs(a), dal_abs(b)) / larger;
+    const num length = larger * dal_sqrt(dal_fma(ratio, ratio, one));
+    return dal_select(dal_equal(larger, dal_num(0.0)), larger, length);
+}
+
+/* The largest whole number that is not above x. */
+#ifdef DAL_NUM_QUAD
+DAL_DECLARE_QUAD(floor)
+DAL_INLINE num dal_floor(num x) { return DAL_QUAD_FUNCTION(floor)(x); }
+#else
+DAL_INLINE num dal_floor(num x)
+{
+    num y = x;
+    for (int lane = 0; lane < DAL_LANES; lane++)
+        y = dal_with_lane(y, lane, floor(dal_lane(x, lane)));
+    return y;
+}
+#endif
 #endif
 
 #if DAL_WITH_LIBM

@@ -103,6 +103,8 @@ static bool reach_surface(identity *id, double *scratch)
 static bool vanishes_at_points(identity *id, double *scratch)
 {
     int defined = 0;
+    for (int i = 0; i < id->terms; i++) /* the points may all lie in one branch */
+        if (dal__reaches(id->e->graph, id->term[i], DAL__ROUGH)) return false;
     for (int number = 0; number < POINTS; number++) {
         double sum, size;
         move(id, number);
@@ -294,6 +296,7 @@ static bool is_quadratic(const blocks *b, int block)
     const dal__equations *e = &b->model->equations;
     for (int i = 0; i < e->n; i++) {
         if (b->block[i] != block) continue;
+        if (dal__reaches(e->graph, b->U_q[i], DAL__ROUGH)) return false;
         dal__gradient(e->graph, b->U_q[i], e->symbol + e->q, e->n, b->row);
         for (int j = 0; j < e->n; j++)
             if (dal__depends(e->graph, b->row[j], e->q, e->q + e->n)) return false;

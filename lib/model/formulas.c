@@ -16,24 +16,32 @@
 
 /* ---- one formula ---- */
 
-/* Adds the name of the entry to the message, and its place in the file to that of the error. */
-static dal_status locate(const dal_model *model, const dal__entry *entry, dal_error *error,
-                         const dal_error *inner)
+void dal__entry_title(const dal_model *model, const dal__entry *entry, char *title, size_t size)
 {
-    char name[96] = "";
+    const char *label = dal__sections[entry->section].label;
     int number = 1;
     for (const dal__entry *other = model->entries; other < entry; other++)
         number += other->section == entry->section;
     if (entry->item)
-        snprintf(name, sizeof name, " %d on %.80s", entry->item, entry->name);
+        snprintf(title, size, "%s %d on %.80s", label, entry->item, entry->name);
     else if (entry->name)
-        snprintf(name, sizeof name, " %.80s", entry->name);
+        snprintf(title, size, "%s %.80s", label, entry->name);
     else if (dal__sections[entry->section].form == DAL__LIST)
-        snprintf(name, sizeof name, " %d", number);
+        snprintf(title, size, "%s %d", label, number);
+    else
+        snprintf(title, size, "%s", label);
+}
+
+/* Adds the title of the entry to the message, and its place in the file to that of the error. */
+static dal_status locate(const dal_model *model, const dal__entry *entry, dal_error *error,
+                         const dal_error *inner)
+{
+    char title[128];
+    dal__entry_title(model, entry, title, sizeof title);
     int line = entry->line ? entry->line : 1, column = entry->line ? entry->column : 1;
     return dal__fail_at(error, inner->status, line + inner->line - 1,
-                        inner->line == 1 ? column + inner->column - 1 : inner->column, "%s%s: %s",
-                        dal__sections[entry->section].label, name, inner->message);
+                        inner->line == 1 ? column + inner->column - 1 : inner->column, "%s: %s",
+                        title, inner->message);
 }
 
 /* Parses the text of an entry; the message of an error gets the entry's name and place. */
@@ -356,6 +364,7 @@ dal_status dal__parse_model(dal_model *model, dal_error *error)
     dal__equations *e = &model->equations;
     static const char *const words[] = {"lagrange-d'alembert", "vakonomic"};
     int vakonomic = 0;
+    model->warning = NULL;
     *e = (dal__equations){.graph = e->graph};
     const dal__entry *mechanics = dal__model_entry(model, DAL_SECTION_MECHANICS, 0);
     if (mechanics)

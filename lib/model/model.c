@@ -77,6 +77,25 @@ char *dal__model_print(dal_model *model, const char *format, ...)
     return text;
 }
 
+void dal__model_warn(dal_model *model, const dal__entry *entry, const char *text)
+{
+    dal__warning *warning = dal__model_allocate(model, 1, sizeof *warning), **end = &model->warning;
+    if (!warning) return;
+    *warning = (dal__warning){.text = text, .line = entry->name_line, .column = entry->name_column};
+    while (*end) end = &(*end)->next;
+    *end = warning;
+}
+
+const char *dal_model_warning(const dal_model *model, int i, int *line, int *column)
+{
+    const dal__warning *warning = model && i >= 0 ? model->warning : NULL;
+    while (warning && i-- > 0) warning = warning->next;
+    if (!warning) return NULL;
+    if (line) *line = warning->line;
+    if (column) *column = warning->column;
+    return warning->text;
+}
+
 dal_status dal__memory_error(dal_error *error)
 {
     return dal__fail(error, DAL_MEMORY, "out of memory while the model was made");

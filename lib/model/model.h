@@ -39,12 +39,20 @@ typedef struct dal__entry {
 #define DAL__AT_NAME(entry) (entry)->name_line, (entry)->name_column
 #define DAL__AT_TEXT(entry) (entry)->line, (entry)->column
 
+/* A warning and its place. */
+typedef struct dal__warning {
+    const char *text;
+    int line, column;
+    struct dal__warning *next;
+} dal__warning;
+
 struct dal_model {
     char *name;
     struct dal__allocation *blocks; /* all memory */
     bool out_of_memory;             /* an allocation failed */
     dal__entry *entries;
     int count, capacity;
+    dal__warning *warning; /* of the last attempt to make the system */
     dal__equations equations;
     bool made, tangent_made;
     dal__programs programs, tangent_programs, extended_programs;
@@ -56,6 +64,8 @@ struct dal_model {
 void *dal__model_allocate(dal_model *model, size_t count, size_t size);
 dal__node *dal__model_nodes(dal_model *model, int count, dal__node initial);
 char *dal__model_print(dal_model *model, const char *format, ...) DAL__PRINTF(2, 3);
+/* Adds a warning at the name of an entry; text lives as long as the model. */
+void dal__model_warn(dal_model *model, const dal__entry *entry, const char *text);
 /* The errors DAL_MEMORY, and DAL_MEMORY or DAL_TOO_LARGE of a graph. */
 dal_status dal__memory_error(dal_error *error);
 dal_status dal__size_error(dal_status status, dal_error *error);

@@ -7,6 +7,7 @@
 #include "expr/traversal.h"
 #include "model/energy.h"
 #include "model/model.h"
+#include <stdlib.h>
 
 /* ---- constraints ---- */
 
@@ -22,6 +23,21 @@ static bool varies(const dal__equations *e, dal__node f)
     return dal__depends(e->graph, f, e->parameters, e->symbols);
 }
 
+/* Whether a velocity decides which branch of f is taken. */
+static bool branches_by_v(const dal__equations *e, dal__node f)
+{
+    const int v = e->v, end = e->v + e->n;
+    uint8_t *mark = dal__reach(e->graph, f);
+    bool found = !mark;
+    for (dal__node i = f; i > 0 && !found; i--) {
+        const dal__record r = dal__inspect(e->graph, i);
+        if (!mark[i] || !(DAL__ROUGH >> r.op & 1)) continue;
+        found = dal__depends(e->graph, r.op == DAL__IF ? r.a : i, v, end);
+    }
+    free(mark);
+    return found;
+}
+
 /* What the second derivatives of a constraint allow; first and second: [2n] each, scratch. */
 static unsigned constraint_class(const dal__equations *e, dal__node D, dal__node *first,
                                  dal__node *second)
@@ -30,6 +46,7 @@ static unsigned constraint_class(const dal__equations *e, dal__node D, dal__node
     unsigned all = DAL_D_LINEAR | DAL_D_CONSTANT | DAL_D_BILINEAR | DAL_D_QUADRATIC;
     state_gradient(e, D, first);
     if (dal__depends(e->graph, D, e->t, e->t + 1)) all = DAL_D_LINEAR;
+    if (dal__reaches(e->graph, D, DAL__ROUGH)) all = branches_by_v(e, D) ? 0 : DAL_D_LINEAR;
     for (int i = 0; i < 2 * n; i++) {
         state_gradient(e, first[i], second);
         if (varies(e, first[i])) all &= ~(unsigned)DAL_D_CONSTANT;
@@ -128,11 +145,12 @@ typedef struct search {
     bool full;
 } search;
 
-/* False where the node is no guard, since it is constant along a run, or there are too many. */
+/* False where the node is no guard, since it is constant along a run or may jump from one sign to
+ * the other, or there are too many. */
 static bool append_guard(search *s, dal__node node, const char *name)
 {
     dal__equations *e = &s->model->equations;
-    if (!varies(e, node)) return false;
+    if (!varies(e, node) || dal__reaches(e->graph, node, DAL__JUMPING)) return false;
     s->full = s->full || e->guards == MAX_GUARDS;
     if (s->full) return false;
     e->guard[e->guards] = node;
@@ -194,7 +212,7 @@ static void visit(search *s, dal__node node)
     }
     if (s->flag[node] & FACTOR) split_factor(s, node, r);
     if (r.a) s->flag[r.a] |= REACHED;
-    if (r.b) s->flag[r.b] |= REACHED;
+    if (r.b && r.op != DAL__IF) s->flag[r.b] |= REACHED; /* a branch need not be taken */
     if (r.op == DAL__DIV) s->flag[r.b] |= FACTOR;
     if (r.op == DAL__TAN) add_guard(s, dal__apply(graph, DAL__COS, r.a, 0), "a denominator");
     if (r.op != DAL__POW) return;

@@ -1,6 +1,7 @@
 /* symbols.c - the names of a model, and what a name means in a formula.  Names are distinct, and
  * none is that of a function or of another column of the output. */
 #include "model/symbols.h"
+#include "expr/parser.h"
 #include "expr/traversal.h"
 #include "model/model.h"
 #include <stdio.h>
@@ -59,11 +60,15 @@ static const char *entry_name(const dal__entry *entry)
     return entry->name ? entry->name : entry->text;
 }
 
-static dal_status check_clash(const dal_model *model, int k, const dal__entry *entry,
-                              dal_error *error)
+static dal_status check_clash(dal_model *model, int k, const dal__entry *entry, dal_error *error)
 {
     const char *name = entry_name(entry);
-    for (int i = 0; i < FORMULA_WORDS; i++)
+    const bool hides = dal__hides_function(name) && kinds[k].section != DAL_SECTION_INVARIANTS;
+    if (hides)
+        dal__model_warn(model, entry,
+                        dal__model_print(model, "%s '%s' hides the function of this name",
+                                         kinds[k].what, name));
+    for (int i = 0; i < FORMULA_WORDS && !dal__hides_function(name); i++)
         if (formula_words[i] && strcmp(formula_words[i], name) == 0)
             return dal__fail_at(error, DAL_NAME, DAL__AT_NAME(entry),
                                 "%s '%.80s': this name is reserved in formulas", kinds[k].what,

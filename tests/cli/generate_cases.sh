@@ -67,6 +67,20 @@ same chaplygin-sleigh lobatto-nonholonomic6 physical 2 clang -std=c11 -O1
 same contact-oscillator gauss-spark4 physical 1 g++ -x c++ -std=c++17 -O1
 same damped-oscillator spark2 physical 1 gcc -std=c11 -O1
 
+# Every function with branches, and a start where each takes both of its branches along the motion.
+cat >branches.yaml <<'END'
+coordinates: [x, y]
+parameters: {k: 3}
+lagrangian: (x'^2 + y'^2)/2 - k/2*max(x, 0)^2 - min(x, 0)^2 - y^2
+forces:
+  x: "-sign(x')*0.1 + floor(2*y)/8 + if(y > 0, sqrt(y), -1)*x'"
+  y: hypot(x, y)/4 - 0.1*(x <= y) + (x == y) - 0.05*abs(y')
+start: {x: 1, y': 1}
+END
+same branches.yaml rk4 physical 1 gcc -std=c11 -O2 -march=native
+same branches.yaml gauss4 lifted 8 gcc -std=c11 -O2
+same branches.yaml stormer-verlet lifted 4 clang -std=c11 -O1 -march=native
+
 # What a microcontroller must supply.
 if there gcc; then
     case_is "only libm and memcpy, memset are needed"

@@ -26,7 +26,7 @@ listed() {
     rm -f "$names.source" "$names.diff"
 }
 names=$program.names
-listed functions formulas 'OP([A-Z0-9]*, [12], "\([a-z0-9]*\)")' lib/expr/graph.h
+listed functions formulas 'OP([A-Z0-9]*, [123], "\([a-z0-9]*\)")' lib/expr/graph.h
 listed 'system keys' formats ' SECTION([A-Z]*, "\([a-z]*\)")' include/dalembert_system.h
 
 # The names of the headings of a document, as links have them.
