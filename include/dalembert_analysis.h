@@ -241,6 +241,25 @@ typedef struct dal_constraint_class {
 dal_status dal_classify_constraints(dal_evaluator *evaluator, const dal_point *at,
                                     dal_constraint_class *out, double *degree);
 
+/* What jumps where a formula changes its branch: the derivative of F of this number along the
+ * motion (0: F itself), or one of these. */
+enum {
+    DAL_JUMP_IMPULSE = -1, /* L, L_v or a constraint: an impulse that is not in F */
+    DAL_JUMP_NONE = 4,     /* no derivative below this one */
+    DAL_JUMP_UNKNOWN       /* no point was found where the branch changes */
+};
+/* A formula with branches, and the first of their jumps. */
+typedef struct dal_branch {
+    char formula[128]; /* "force on x" */
+    int line, column;  /* its place */
+    int jump;
+} dal_branch;
+/* Finds the formulas of the motion with branches (if, abs, min, ...) of a model whose system is
+ * made: how many there are, and what up to capacity of them do near the start, with the default
+ * parameters.  A step across a jump of derivative k has at most order k + 1. [alloc]  Errors:
+ * DAL_ARGUMENT, DAL_MEMORY, DAL_TOO_LARGE. */
+dal_status dal_model_branches(dal_model *model, dal_branch *branch, int capacity, int *count);
+
 /* ---- order and structure of a method ------------------------------------------------------- */
 
 enum { DAL_ORDER_LEVELS = 8 /* max step sizes of dal_order */ };

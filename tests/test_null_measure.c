@@ -65,6 +65,18 @@ static int close_objects(void)
 
 /* ---- evaluators ---- */
 
+static void null_dal_model_branches(void)
+{
+    dal_model *made = dal_model_create("made");
+    dal_branch branch;
+    int count;
+    REFUSED_STATUS(dal_model_branches(NULL, &branch, 1, &count));
+    REFUSED_STATUS(dal_model_branches(made, &branch, 1, &count)); /* it has no system yet */
+    REFUSED_STATUS(dal_model_branches(model, NULL, 1, &count));
+    REFUSED_STATUS(dal_model_branches(model, &branch, 1, NULL));
+    dal_model_free(made);
+}
+
 static void null_dal_evaluator_create(void)
 {
     dal_evaluator *made = evaluator;

@@ -67,6 +67,16 @@ try 1 check chaplygin-sleigh --start "y2'=0.5"
 prints '^  D is preserved by +info +no method: the start violates'
 
 case_is "energy and reversal"
+try 0 check unequal-springs
+prints '^  branches, lagrangian +info +F.? jumps: order 2 across it$'
+cat >hidden.yaml <<'END'
+coordinates: [x, max]
+lagrangian: (x'^2 + max'^2)/2 - max^2
+forces: {x: -sign(x')*max}
+END
+try 0 check hidden.yaml
+prints '^  branches, force on x +info +F jumps: order 1 across it$'
+says "^dalembert: hidden.yaml:1:18: warning: coordinate 'max' hides the function of this name\$"
 try 0 check isokinetic
 prints '^  energy E +ok +not conserved'
 try 0 check line.yaml

@@ -1,0 +1,245 @@
+/* branches.c - where the motion changes from one formula to another, and what jumps there.
+ *
+ * A comparison, abs, sign, floor, min or max changes its branch where a function s of the state
+ * passes through zero: s = a - b of a < b, s = a of abs(a).  With the branch of s > 0 taken
+ * everywhere F is a smooth F+, with the other one F-.  Along the normal of s,
+ *
+ *     the k-th derivative of F+ - F- at s = 0 is the jump of that of F,
+ *
+ * found at points of s = 0 near the start.  A step across s = 0 of any method of fixed formulas
+ * leaves an error O(h^(k+1)) where derivative k is the first that jumps: its order is k + 1.
+ *
+ * Derivatives are taken branch by branch, so a jump of D or of the momentum L_v, which needs an
+ * impulse, is not in F. */
+#include "dalembert_analysis.h"
+#include "expr/derivative.h"
+#include "expr/simplify.h"
+#include "expr/traversal.h"
+#include "model/formulas.h"
+#include "model/model.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { POINTS = 6, MAX_ITERATIONS = 30, MAX_SURFACES = 64 };
+/* Values of F+ and F- that differ by less are equal to rounding. */
+#define ROUNDING 1e-9
+
+typedef struct surface {
+    dal_model *model;
+    dal__node s;       /* not fixed */
+    dal__node *normal; /* [1 + 4n] derivatives of s by t, q, v */
+    double *point;     /* [POINTS*symbols] of s = 0 */
+    int points;
+} surface;
+
+/* ---- what a node switches on ---- */
+
+/* The s of a node, with its sign in *sign; 0 where it does not switch. */
+static dal__node switch_of(dal__graph *graph, dal__node i, int *sign)
+{
+    const dal__record r = dal__inspect(graph, i);
+    dal__node s = 0;
+    if (r.fixed) return 0;
+    if (r.op == DAL__ABS || r.op == DAL__SIGN) s = r.a;
+    if (r.op == DAL__FLOOR) s = dal__node_sub(graph, r.a, dal__number(graph, 1.0));
+    if (r.op == DAL__LESS || r.op == DAL__LESS_EQUAL || r.op == DAL__MIN || r.op == DAL__MAX)
+        s = dal__node_sub(graph, r.a, r.b);
+    const dal__node opposite = dal__node_neg(graph, s);
+    *sign = opposite < s ? -1 : 1;
+    return *sign > 0 ? s : opposite;
+}
+
+/* Node i, its operands replaced by their images, where its s has the sign given. */
+static dal__node one_side(dal__graph *graph, dal__node i, const dal__node *image, int sign)
+{
+    const dal__record r = dal__inspect(graph, i);
+    const dal__node a = image[r.a], b = image[r.b];
+    switch ((dal__op)r.op) {
+    case DAL__ABS:
+        return sign > 0 ? a : dal__node_neg(graph, a);
+    case DAL__SIGN:
+        return dal__number(graph, sign);
+    case DAL__FLOOR:
+        return dal__number(graph, sign > 0 ? 1.0 : 0.0);
+    case DAL__MIN:
+        return sign > 0 ? b : a;
+    case DAL__MAX:
+        return sign > 0 ? a : b;
+    default:
+        return dal__number(graph, sign > 0 ? 0.0 : 1.0);
+    }
+}
+
+/* f with the branches of s > 0 (side 1) or of s < 0 (side -1). */
+static dal__node smooth_side(dal__graph *graph, dal__node f, dal__node s, int side)
+{
+    uint8_t *mark = dal__reach(graph, f);
+    dal__node *image = dal__per_node(graph, f, sizeof *image), result = 0;
+    for (dal__node i = 1; mark && image && i <= f; i++) {
+        int sign = 1;
+        if (!mark[i]) continue;
+        if (switch_of(graph, i, &sign) == s)
+            image[i] = one_side(graph, i, image, side * sign);
+        else
+            image[i] = dal__rebuild(graph, i, image);
+    }
+    if (mark && image) result = image[f];
+    free(mark);
+    free(image);
+    return result;
+}
+
+/* ---- points ---- */
+
+/* Newton's method along the normal, from the start moved by multiples of the golden ratio. */
+static bool find_point(const surface *f, int number, double *x)
+{
+    const double golden = 0.6180339887498949;
+    const dal__equations *e = &f->model->equations;
+    const int symbols = e->pi - e->t;
+    for (int i = 0; i < e->symbols; i++) {
+        x[i] = e->value[i];
+        if (i >= e->parameters) x[i] += fmod((number * e->symbols + i + 1) * golden, 1.0) - 0.5;
+    }
+    for (int k = 0; k < MAX_ITERATIONS; k++) {
+        double square = 0.0, s = dal__evaluate(e->graph, f->s, x), size = 0.0;
+        for (int i = 0; i < symbols; i++) {
+            const double slope = dal__evaluate(e->graph, f->normal[i], x);
+            square += slope * slope;
+            size = fmax(size, fabs(slope * x[e->t + i]));
+        }
+        if (!isfinite(s / square)) return false;
+        if (fabs(s) <= 1e-14 * (1.0 + size)) return true;
+        for (int i = 0; i < symbols; i++)
+            x[e->t + i] -= s / square * dal__evaluate(e->graph, f->normal[i], x);
+    }
+    return false;
+}
+
+static void find_points(surface *f)
+{
+    const dal__equations *e = &f->model->equations;
+    f->points = 0;
+    dal__gradient(e->graph, f->s, e->symbol + e->t, e->pi - e->t, f->normal);
+    for (int k = 0; k < POINTS; k++)
+        f->points += find_point(f, k, f->point + f->points * e->symbols);
+}
+
+/* ---- jumps ---- */
+
+static bool differ(const surface *f, dal__node above, dal__node below)
+{
+    const dal__equations *e = &f->model->equations;
+    for (int k = 0; k < f->points; k++) {
+        const double *x = f->point + k * e->symbols;
+        const double a = dal__evaluate(e->graph, above, x), b = dal__evaluate(e->graph, below, x);
+        if (fabs(a - b) > ROUNDING * (1.0 + fabs(a) + fabs(b))) return true;
+    }
+    return false;
+}
+
+/* The first derivative of g, of those below max, that jumps on the surface; max: none of them. */
+static int first_jump(const surface *f, dal__node g, int max)
+{
+    const dal__equations *e = &f->model->equations;
+    dal__node above = smooth_side(e->graph, g, f->s, 1);
+    dal__node below = smooth_side(e->graph, g, f->s, -1);
+    for (int k = 0; k < max; k++) {
+        if (above == below) return max;
+        if (differ(f, above, below)) return k;
+        const int *symbols = e->symbol + e->t, count = e->pi - e->t;
+        above = dal__tangent(e->graph, above, symbols, count, f->normal);
+        below = dal__tangent(e->graph, below, symbols, count, f->normal);
+    }
+    return max;
+}
+
+/* Whether L, L_v or a D jumps. */
+static bool needs_impulse(const surface *f)
+{
+    const dal__equations *e = &f->model->equations;
+    if (!e->accelerations && first_jump(f, e->lagrangian, 1) == 0) return true;
+    for (int i = 0; i < e->n && !e->accelerations; i++)
+        if (first_jump(f, e->momentum[i], 1) == 0) return true;
+    for (int a = 0; a < e->m; a++)
+        if (first_jump(f, e->constraint[a], 1) == 0) return true;
+    return false;
+}
+
+/* What jumps on one surface. */
+static int jump_at(surface *f)
+{
+    const dal__equations *e = &f->model->equations;
+    int jump = DAL_JUMP_NONE;
+    find_points(f);
+    if (f->points == 0) return DAL_JUMP_UNKNOWN;
+    if (needs_impulse(f)) return DAL_JUMP_IMPULSE;
+    for (int i = 0; i < e->n + e->multipliers && jump > 0; i++) {
+        const int found = first_jump(f, e->F[i], jump);
+        if (found < jump) jump = found;
+    }
+    return jump;
+}
+
+/* ---- formulas ---- */
+
+/* The first jump of those on the surfaces of a formula; false: it has none. */
+static bool examine(surface *f, dal__node formula, int *jump)
+{
+    dal__graph *graph = f->model->equations.graph;
+    dal__node seen[MAX_SURFACES];
+    uint8_t *mark = dal__reach(graph, formula);
+    int count = 0;
+    *jump = DAL_JUMP_UNKNOWN;
+    for (dal__node i = 1; mark && i <= formula && count < MAX_SURFACES; i++) {
+        int sign, k = 0;
+        f->s = mark[i] ? switch_of(graph, i, &sign) : 0;
+        while (k < count && seen[k] != f->s) k++;
+        if (!f->s || k < count) continue;
+        seen[count++] = f->s;
+        const int found = jump_at(f);
+        if (found < *jump) *jump = found;
+    }
+    free(mark);
+    return count > 0;
+}
+
+/* The formula of an entry: of a section whose entries have nodes of their own, in their order. */
+static dal__node formula_of(const dal_model *model, const dal__entry *entry)
+{
+    const dal__equations *e = &model->equations;
+    int number = 0;
+    for (const dal__entry *other = model->entries; other < entry; other++)
+        number += other->section == entry->section;
+    if (entry->section == DAL_SECTION_LAGRANGIAN) return e->lagrangian;
+    if (entry->section == DAL_SECTION_CONSTRAINTS) return e->constraint[number];
+    if (entry->section == DAL_SECTION_FORCES || entry->section == DAL_SECTION_ACCELERATIONS)
+        for (int i = 0; i < e->n; i++)
+            if (strcmp(e->coordinate[i], entry->name) == 0) return e->force[i];
+    return 0;
+}
+
+dal_status dal_model_branches(dal_model *model, dal_branch *branch, int capacity, int *count)
+{
+    DAL_REQUIRE(model && model->made && count && (branch || capacity <= 0), NULL);
+    const dal__equations *e = &model->equations;
+    surface f = {.model = model};
+    f.normal = calloc((size_t)e->symbols, sizeof *f.normal);
+    f.point = calloc((size_t)(POINTS * e->symbols), sizeof *f.point);
+    *count = 0;
+    for (int k = 0; k < model->count && f.normal && f.point; k++) {
+        const dal__entry *entry = &model->entries[k];
+        const dal__node formula = formula_of(model, entry);
+        int jump = DAL_JUMP_UNKNOWN;
+        if (!formula || !dal__reaches(e->graph, formula, DAL__ROUGH)) continue;
+        if (!examine(&f, formula, &jump) || (*count)++ >= capacity) continue;
+        dal_branch *to = &branch[*count - 1];
+        *to = (dal_branch){.jump = jump, .line = entry->line, .column = entry->column};
+        dal__entry_title(model, entry, to->formula, sizeof to->formula);
+    }
+    const dal_status status = f.normal && f.point ? e->graph->status : DAL_MEMORY;
+    free(f.normal);
+    free(f.point);
+    return status;
+}

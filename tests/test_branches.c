@@ -1,0 +1,153 @@
+/* test_branches.c - systems whose formulas have branches: what is known of them, where they lose
+ * smoothness, and motions against closed forms. */
+#include "motion.h"
+#include "reference.h"
+#include <dalembert_analysis.h>
+
+#include <CUnit/Basic.h>
+#include <math.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <string.h>
+
+#define PI   3.14159265358979323846
+#define FREE "coordinates: [x, y]\nstart: {x: 1, x': 1, y: 0.5, y': 0.25}\nparameters: {k: 2}\n"
+
+/* ---- what jumps ---- */
+
+enum { NO_BRANCH = -99 };
+
+/* From the definitions: a jump of f itself, a kink, max(0, s)^n with n - 1 continuous derivatives;
+ * a jump of U, of L_v or of D is an impulse. */
+static const struct {
+    const char *formula, *text;
+    int jump;
+} jumps[] = {
+    {"force on x", "forces: {x: -sign(x')}", 0},
+    {"force on x", "forces: {x: \"if(x > 2, 1, 0)*y\"}", 0},
+    {"force on y", "forces: {y: floor(x + y/2)}", 0},
+    {"force on y", "forces: {y: abs(x)}", 1},
+    {"force on y", "forces: {y: \"min(x, k*y)\"}", 1},
+    {"force on y", "forces: {y: \"if(t < 1, t - 1, 0)\"}", 1},
+    {"force on y", "forces: {y: x'*abs(x')}", 2},
+    {"force on y", "forces: {y: \"max(0, x - 3)^3\"}", 3},
+    {"force on y", "forces: {y: \"max(0, x - 3)^4\"}", DAL_JUMP_NONE},
+    {"force on y", "forces: {y: \"if(x < y, x - y, y - x)^2\"}", DAL_JUMP_NONE},
+    {"", "forces: {y: x^2 + floor(x) - floor(x)}", NO_BRANCH},
+    {"", "forces: {y: \"if(k > 1, x, y)\"}", NO_BRANCH},
+    {"force on y", "forces: {y: abs(x^2 + 1)}", DAL_JUMP_UNKNOWN},
+    {"lagrangian", "lagrangian: (x'^2 + y'^2)/2 - k*abs(x)", 0},
+    {"lagrangian", "lagrangian: (x'^2 + y'^2)/2 - k*max(x, 0)^2", 1},
+    {"lagrangian", "lagrangian: (x'^2 + y'^2)/2 - if(x > 0, k, 0)", DAL_JUMP_IMPULSE},
+    {"lagrangian", "lagrangian: if(x > 0, 1, 2)*x'^2 + y'^2/2", DAL_JUMP_IMPULSE},
+    {"constraint 1", "constraints: [\"y' - if(x > 0, x', 0)\"]", DAL_JUMP_IMPULSE},
+    {"constraint 1", "constraints: [\"y' - max(x, 0)*x'\"]", 0},
+};
+
+static void check_jump(const char *formula, const char *text, int jump)
+{
+    char yaml[512];
+    dal_branch branch[2];
+    int count = -1;
+    const bool free = strncmp(text, "lagrangian", 10) != 0;
+    snprintf(yaml, sizeof yaml, FREE "%s%s\n", free ? "lagrangian: (x'^2 + y'^2)/2\n" : "", text);
+    reference b = reference_of_text(yaml);
+    CU_ASSERT_EQUAL(dal_model_branches(b.model, branch, 2, &count), DAL_OK);
+    CU_ASSERT_EQUAL(count, jump == NO_BRANCH ? 0 : 1);
+    if (count == 1) CU_ASSERT_STRING_EQUAL(branch[0].formula, formula);
+    if (count == 1) CU_ASSERT_EQUAL(branch[0].jump, jump);
+    if (count == 1 && branch[0].jump != jump) printf("\n  %s: %d", text, branch[0].jump);
+    if (count == 1) CU_ASSERT(branch[0].line == (free ? 5 : 4) && branch[0].column > 1);
+    CU_ASSERT_EQUAL(dal_model_branches(b.model, NULL, 0, &count), DAL_OK);
+    reference_free(&b);
+}
+
+static void test_jumps(void)
+{
+    for (size_t i = 0; i < sizeof jumps / sizeof jumps[0]; i++)
+        check_jump(jumps[i].formula, jumps[i].text, jumps[i].jump);
+}
+
+/* ---- what is known of a system ---- */
+
+/* That a law holds in one branch alone is no property. */
+static void test_properties(void)
+{
+    static const struct {
+        const char *text;
+        unsigned has, lacks;
+    } cases[] = {
+        {"forces: {x: \"if(x > 100, -x', 0)\"}\n", 0, DAL_E_EXACT | DAL_E_ON_D},
+        {"constraints: [y' - k*x']\n", DAL_D_CONSTANT | DAL_D_LINEAR, 0},
+        {"constraints: [\"y' - if(x > 9, 2, 1)*x'\"]\n", DAL_D_LINEAR,
+         DAL_D_CONSTANT | DAL_D_BILINEAR | DAL_D_QUADRATIC},
+        {"constraints: [\"y' - max(x', 2*x')\"]\n", 0, DAL_D_LINEAR | DAL_D_CONSTANT},
+        {"constraints: [\"y' - abs(x')\"]\n", 0, DAL_D_LINEAR | DAL_D_BILINEAR},
+        {"constraints: [\"y' - if(k > 1, 2, 1)*x'\"]\n", DAL_D_LINEAR | DAL_D_CONSTANT, 0},
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        char yaml[512];
+        snprintf(yaml, sizeof yaml, FREE "lagrangian: (x'^2 + y'^2)/2\n%s", cases[i].text);
+        reference b = reference_of_text(yaml);
+        CU_ASSERT_EQUAL(b.system->properties & cases[i].has, cases[i].has);
+        CU_ASSERT_EQUAL(b.system->properties & cases[i].lacks, 0);
+        reference_free(&b);
+    }
+}
+
+/* A denominator of a branch that is not taken may pass through zero; one of a branch that is
+ * always needed may not. */
+static void test_guards(void)
+{
+    static const char yaml[] = FREE "lagrangian: (x'^2 + y'^2)/2\nconstraints: [\"%s\"]\n";
+    static const struct {
+        const char *D;
+        int guards;
+    } cases[] = {{"y' - x'/(x - 2)", 1},
+                 {"y' - if(x > 5, x'/(x - 2), x')", 0},
+                 {"y' - x'/(x - 2 + if(x > 1, 2, 0))", 0},
+                 {"y' - max(x', x'/(x - 2))", 1}};
+    for (size_t i = 0; i < sizeof cases / sizeof cases[0]; i++) {
+        char text[512];
+        snprintf(text, sizeof text, yaml, cases[i].D);
+        reference b = reference_of_text(text);
+        CU_ASSERT_EQUAL(b.system->guards, cases[i].guards);
+        reference_free(&b);
+    }
+}
+
+/* ---- motions ---- */
+
+/* y swings for a time of pi on the spring of stiffness 1, of pi/2 on that of stiffness 4.  Steps
+ * that end where the spring changes lose no order; steps across are of order 2. */
+static void test_unequal_springs(void)
+{
+    static const double period = 1.5 * PI;
+    const motion_settings none = {0},
+                          start = {4, {{"y", 0.0}, {"y'", 1.0}, {"z'", 0.0}, {"x'", 1.0}}};
+    motion z = motion_open("unequal-springs", DAL_PHYSICAL, period / 384, none, start);
+    motion_advance(&z, period);
+    CU_ASSERT_DOUBLE_EQUAL(z.x[1], 0.0, 1e-13);
+    CU_ASSERT_DOUBLE_EQUAL(z.x[4], 1.0, 1e-13);
+    CU_ASSERT_DOUBLE_EQUAL(motion_invariant(&z, 1), 1.0, 1e-13);
+    motion_close(&z);
+    double error[2];
+    for (int k = 0; k < 2; k++) {
+        const double step = period / (385 << k);
+        z = motion_open("unequal-springs", DAL_PHYSICAL, step, none, start);
+        motion_advance(&z, period);
+        error[k] = hypot(z.x[1], z.x[4] - 1.0);
+        CU_ASSERT_DOUBLE_EQUAL(motion_invariant(&z, 0), 0.5, step * step);
+        motion_close(&z);
+    }
+    CU_ASSERT(error[0] > 1e-8 && error[0] < 1e-4 && error[1] < error[0]);
+}
+
+void suite_branches(void)
+{
+    CU_pSuite suite = CU_add_suite("branches", NULL, NULL);
+    CU_add_test(suite, "what jumps", test_jumps);
+    CU_add_test(suite, "properties", test_properties);
+    CU_add_test(suite, "guards", test_guards);
+    CU_add_test(suite, "unequal springs", test_unequal_springs);
+}
