@@ -203,6 +203,7 @@ typedef struct dal_model dal_model;
     SECTION(REFERENCE, "reference")                                                                \
     SECTION(COORDINATES, "coordinates")     /* text: a name */                                     \
     SECTION(PARAMETERS, "parameters")       /* name, text: a number */                             \
+    SECTION(FUNCTIONS, "functions")         /* name with arguments, as V(r); formula */            \
     SECTION(LET, "let")                     /* name, formula */                                    \
     SECTION(LAGRANGIAN, "lagrangian")       /* formula */                                          \
     SECTION(ACCELERATIONS, "accelerations") /* coordinate, formula; instead of a Lagrangian */     \

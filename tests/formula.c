@@ -27,7 +27,8 @@ dal__graph *formula_graph(void)
 
 dal_status formula_parse(dal__graph *graph, const char *text, dal__node *node, dal_error *error)
 {
-    return dal__parse(graph, text, strlen(text), formula_resolve, graph, node, error);
+    const dal__names meaning = {.resolve = formula_resolve, .user = graph};
+    return dal__parse(graph, text, strlen(text), &meaning, node, error);
 }
 
 dal__node formula_node(dal__graph *graph, const char *text)

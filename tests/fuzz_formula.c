@@ -61,7 +61,8 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     dal_error error = {.status = DAL_OK};
     if (size > MAX_BYTES) size = MAX_BYTES;
     const char *text = (const char *)data;
-    dal_status status = dal__parse(graph, text, size, resolve, graph, &nodes[0], &error);
+    const dal__names names = {.resolve = resolve, .user = graph};
+    dal_status status = dal__parse(graph, text, size, &names, &nodes[0], &error);
     if (status == DAL_OK) {
         dal__gradient(graph, nodes[0], &symbol, 1, &nodes[1]);
         nodes[2] = dal__tangent(graph, nodes[1], &symbol, 1, &nodes[0]);

@@ -116,6 +116,22 @@ static void test_guards(void)
     }
 }
 
+/* A kink is no part of a quadratic potential, whose gradient at the midpoint is a discrete one. */
+static void test_potential(void)
+{
+    static const char *const kinked[] = {"abs(x)", "max(x, 0)", "if(x > 0, x, 2*x)"};
+    const double q[] = {0.5, 0.25}, v[] = {1.0, 1.0};
+    double out[6];
+    for (int i = 0; i < 3; i++) {
+        char text[256];
+        snprintf(text, sizeof text, FREE "lagrangian: (x'^2 + y'^2)/2 - %s - y^2\n", kinked[i]);
+        reference b = reference_of_text(text);
+        CU_ASSERT_EQUAL(reference_call(&b, b.system->call.potential, 0.0, q, v, out), DAL_OK);
+        CU_ASSERT(out[0] != 0.0 && out[1] == 0.0);
+        reference_free(&b);
+    }
+}
+
 /* ---- motions ---- */
 
 /* y swings for a time of pi on the spring of stiffness 1, of pi/2 on that of stiffness 4.  Steps
@@ -149,5 +165,6 @@ void suite_branches(void)
     CU_add_test(suite, "what jumps", test_jumps);
     CU_add_test(suite, "properties", test_properties);
     CU_add_test(suite, "guards", test_guards);
+    CU_add_test(suite, "potentials with a kink", test_potential);
     CU_add_test(suite, "unequal springs", test_unequal_springs);
 }

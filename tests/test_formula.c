@@ -275,12 +275,13 @@ static void test_zero_byte(void)
     dal__graph *graph = formula_graph();
     dal__node node;
     dal_error error;
-    dal_status status = dal__parse(graph, "x + \0y", 6, formula_resolve, graph, &node, &error);
+    const dal__names names = {.resolve = formula_resolve, .user = graph};
+    dal_status status = dal__parse(graph, "x + \0y", 6, &names, &node, &error);
     CU_ASSERT_EQUAL(status, DAL_SYNTAX);
     CU_ASSERT_EQUAL(error.column, 5);
     CU_ASSERT_PTR_NOT_NULL(strstr(error.message, "unexpected byte 0x00"));
     /* What lies behind the end is not read. */
-    CU_ASSERT_EQUAL(dal__parse(graph, "x + y'", 5, formula_resolve, graph, &node, &error), DAL_OK);
+    CU_ASSERT_EQUAL(dal__parse(graph, "x + y'", 5, &names, &node, &error), DAL_OK);
     CU_ASSERT_EQUAL(dal__inspect(graph, node).op, DAL__ADD);
     CU_ASSERT_EQUAL(dal__symbol(graph, Y), dal__inspect(graph, node).b);
     dal__graph_free(graph);

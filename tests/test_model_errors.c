@@ -168,6 +168,37 @@ static const bad_file formulas[] = {
      XY L "exact: {x: @y, y: 1}\n"},
 };
 
+/* ---- functions ---- */
+
+static const bad_file functions[] = {
+    {DAL_NAME, "'V' in functions is not a function with its arguments, as V(r)",
+     XY L "functions: {@V: x}\n"},
+    {DAL_NAME, "'V()' in functions is not a function with its arguments, as V(r)",
+     XY L "functions: {@V(): x}\n"},
+    {DAL_NAME, "'V(r' in functions is not a function with its arguments, as V(r)",
+     XY L "functions: {@V(r: x}\n"},
+    {DAL_NAME, "'V(r s)' in functions is not a function with its arguments, as V(r)",
+     XY L "functions: {@V(r s): x}\n"},
+    {DAL_NAME, "'2(r)' in functions is not a name: a letter, then letters, digits and _",
+     XY L "functions: {@2(r): x}\n"},
+    {DAL_NAME, "function V has two arguments 'r'", XY L "functions: {@\"V(r, r)\": r}\n"},
+    {DAL_NAME, "function 'sin': this name is reserved in formulas",
+     XY L "functions: {@sin(r): r}\n"},
+    {DAL_MODEL, "function 'x': a coordinate already has this name", XY L "functions: {@x(r): r}\n"},
+    {DAL_MODEL, "function 'V': a function already has this name",
+     XY L "functions: {V(r): r, @V(s): s}\n"},
+    {DAL_NAME, "function V(r): coordinate 'x' may not stand here: only arguments and parameters",
+     XY L "functions: {V(r): r*@x}\n"},
+    {DAL_NAME, "function V(r): unknown function 'W'",
+     XY L "functions: {U(r): r, V(r): @W(r), W(r): r}\n"},
+    {DAL_NAME, "lagrangian: unknown function 'torqe'; did you mean 'torque'?",
+     XY "functions: {torque(r): r}\nlagrangian: x'^2 + @torqe(x)\n"},
+    {DAL_SYNTAX, "lagrangian: V is a function: write V(...)",
+     XY "functions: {V(r): r}\nlagrangian: x'^2 + @V\n"},
+    {DAL_SYNTAX, "lagrangian: f takes 2 arguments, not 1",
+     XY "functions: {\"f(r, s)\": r}\nlagrangian: x'^2 + @f(x)\n"},
+};
+
 /* ---- mechanics ---- */
 
 static const bad_file mechanics[] = {
@@ -249,6 +280,7 @@ static void check(const bad_file *bad)
 static void test_yaml(void) { CHECK_ALL(yaml); }
 static void test_names(void) { CHECK_ALL(names); }
 static void test_formulas(void) { CHECK_ALL(formulas); }
+static void test_functions(void) { CHECK_ALL(functions); }
 static void test_mechanics(void) { CHECK_ALL(mechanics); }
 
 /* Escapes and doubled quotes are those of YAML. */
@@ -370,6 +402,7 @@ void suite_model_errors(void)
     CU_add_test(suite, "YAML", test_yaml);
     CU_add_test(suite, "names", test_names);
     CU_add_test(suite, "formulas", test_formulas);
+    CU_add_test(suite, "functions", test_functions);
     CU_add_test(suite, "mechanics", test_mechanics);
     CU_add_test(suite, "quotes", test_quotes);
     CU_add_test(suite, "bytes", test_bytes);

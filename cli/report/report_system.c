@@ -91,6 +91,7 @@ void report_system(FILE *page, const dal_model *model, const run_request *reques
         {DAL_SECTION_FORCES, "forces", "Q_", ""},
         {DAL_SECTION_REACTIONS, "reactions", "B", ""},
         {DAL_SECTION_LET, "where", "", ""},
+        {DAL_SECTION_FUNCTIONS, "functions", "", ""},
         {DAL_SECTION_MECHANICS, "mechanics", "", ""},
         {DAL_SECTION_GAUGE, "gauge", "", ""},
     };

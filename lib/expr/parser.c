@@ -23,8 +23,9 @@
  * bracket, 'f' the arguments of a function, 0 the formula itself. */
 typedef struct frame {
     char kind;
-    dal__op function;
-    size_t first; /* of the arguments so far */
+    dal__op function; /* or 0: */
+    int own;          /* the number of one of the user */
+    size_t first;     /* of the arguments so far */
     dal__node left;
     int line, column;
 } frame;
@@ -33,8 +34,7 @@ typedef struct parser {
     dal__graph *graph;
     dal__lexer lexer;
     dal__token token;
-    dal__resolve *resolve;
-    void *user;
+    const dal__names *names;
     dal_error *error;
     frame *stack;
     size_t depth, capacity;
@@ -98,6 +98,23 @@ static const struct binding *find_operator(char kind)
     return NULL;
 }
 
+static dal__node resolve(const parser *p, const dal__token *name, dal_error *error)
+{
+    return p->names->resolve(p->names->user, name->text, name->length, name->prime, error);
+}
+
+/* The number of the user's function of the present name; -1: there is none. */
+static int own_function(const parser *p)
+{
+    const char *known;
+    const dal__token *t = &p->token;
+    for (int i = 0, arity; p->names->function && !t->prime; i++) {
+        if (!(known = p->names->function(p->names->user, i, &arity))) break;
+        if (strlen(known) == t->length && memcmp(known, t->text, t->length) == 0) return i;
+    }
+    return -1;
+}
+
 /* ---- messages ---- */
 
 static dal_status graph_fault(const parser *p)
@@ -124,9 +141,10 @@ static bool is_chained(dal__op function) { return function == DAL__MIN || functi
 
 static dal_status wrong_arguments(const parser *p, const frame *f, int given)
 {
-    const struct function *called = &functions[f->function];
-    return SYNTAX_ERROR(p, f, "%s takes %d%s argument%s, not %d", called->name, called->arity,
-                        is_chained(f->function) ? " or more" : "", called->arity == 1 ? "" : "s",
+    struct function called = functions[f->function];
+    if (!f->function) called.name = p->names->function(p->names->user, f->own, &called.arity);
+    return SYNTAX_ERROR(p, f, "%s takes %d%s argument%s, not %d", called.name, called.arity,
+                        is_chained(f->function) ? " or more" : "", called.arity == 1 ? "" : "s",
                         given);
 }
 
@@ -134,16 +152,22 @@ static dal_status wrong_arguments(const parser *p, const frame *f, int given)
 static dal_status unknown_function(const parser *p)
 {
     const dal__token *t = &p->token;
-    const char *names[DAL__OP_COUNT];
+    enum { OWN = 64 }; /* of the user's functions, as many as may be meant */
+    const char *names[DAL__OP_COUNT + OWN];
     char name[64];
+    int count = DAL__OP_COUNT;
     dal_error ignored = {.status = DAL_OK};
-    if (p->resolve(p->user, t->text, t->length, t->prime, &ignored)) {
+    if (resolve(p, t, &ignored)) {
         return SYNTAX_ERROR(p, t, "%.*s is not a function: write %.*s*(...) for a product",
                             dal__token_shown(t), t->text, dal__token_shown(t), t->text);
     }
     for (int op = 0; op < DAL__OP_COUNT; op++) names[op] = functions[op].name;
     snprintf(name, sizeof name, "%.*s", dal__token_shown(t), t->text);
-    return dal__unknown_at(p->error, t->line, t->column, "function", name, names, DAL__OP_COUNT);
+    for (int i = 0, arity; p->names->function && i < OWN; i++) {
+        if (!(names[count] = p->names->function(p->names->user, i, &arity))) break;
+        count++;
+    }
+    return dal__unknown_at(p->error, t->line, t->column, "function", name, names, count);
 }
 
 /* ---- the stack ---- */
@@ -230,13 +254,13 @@ static dal_status symbol(parser *p, dal__node *value)
     }
     const dal__op function = t->prime ? (dal__op)0 : function_named(t->text, t->length);
     dal_error fault = {.status = DAL_OK};
-    if (is_young(function)) *value = p->resolve(p->user, t->text, t->length, false, &fault);
+    if (is_young(function)) *value = resolve(p, t, &fault);
     if (is_young(function) && *value) return DAL_OK;
-    if (function) {
+    if (function || own_function(p) >= 0) {
         return SYNTAX_ERROR(p, t, "%.*s is a function: write %.*s(...)", dal__token_shown(t),
                             t->text, dal__token_shown(t), t->text);
     }
-    *value = p->resolve(p->user, t->text, t->length, t->prime, &fault);
+    *value = resolve(p, t, &fault);
     if (*value) return DAL_OK;
     if (fault.status == DAL_OK) return graph_fault(p);
     return dal__fail_at(p->error, fault.status, t->line, t->column, "%s", fault.message);
@@ -246,8 +270,7 @@ static dal_status symbol(parser *p, dal__node *value)
 static bool is_hidden(const parser *p, dal__op function)
 {
     dal_error ignored;
-    return is_young(function) &&
-           p->resolve(p->user, p->token.text, p->token.length, false, &ignored);
+    return is_young(function) && resolve(p, &p->token, &ignored);
 }
 
 /* A name: a function with its bracket, which opens a frame, or a value. */
@@ -258,10 +281,13 @@ static dal_status name(parser *p, dal__node *value)
     ahead.error = NULL;
     bool call = dal__next_token(&ahead, &bracket) == DAL_OK && bracket.kind == '(';
     if (!call) return symbol(p, value);
-    dal__op function = function_named(p->token.text, p->token.length);
-    if (!function || p->token.prime || is_hidden(p, function)) return unknown_function(p);
+    const int own = own_function(p);
+    dal__op function = own < 0 ? function_named(p->token.text, p->token.length) : (dal__op)0;
+    if (own < 0 && (!function || p->token.prime || is_hidden(p, function)))
+        return unknown_function(p);
     DAL_TRY(push(p, 'f', 0));
     p->stack[p->depth - 1].function = function;
+    p->stack[p->depth - 1].own = own;
     ahead.error = p->error;
     p->lexer = ahead;
     return DAL_OK;
@@ -301,8 +327,8 @@ static dal_status read_operand(parser *p, dal__node *value)
     return DAL_OK;
 }
 
-/* The value of a function with its arguments. */
-static dal__node call(const parser *p, dal__op function, const dal__node *argument, int count)
+/* The value of a function of the language with its arguments. */
+static dal__node apply(const parser *p, dal__op function, const dal__node *argument, int count)
 {
     dal__node value = argument[0];
     if (function == DAL__IF) return dal__node_if(p->graph, value, argument[1], argument[2]);
@@ -311,21 +337,35 @@ static dal__node call(const parser *p, dal__op function, const dal__node *argume
     return value;
 }
 
+/* The value of the function of a frame, whose arguments are complete. */
+static dal_status call(parser *p, const frame *f, dal__node *value)
+{
+    const dal__names *names = p->names;
+    const dal__node *argument = p->argument + f->first;
+    const int given = (int)(p->arguments - f->first);
+    int arity = functions[f->function].arity;
+    if (!f->function) names->function(names->user, f->own, &arity);
+    if (given < arity || (given > arity && !is_chained(f->function)))
+        return wrong_arguments(p, f, given);
+    dal_error fault = {.status = DAL_OK};
+    *value = f->function ? apply(p, f->function, argument, given)
+                         : names->call(names->user, f->own, argument, &fault);
+    p->arguments = f->first;
+    if (*value) return DAL_OK;
+    if (fault.status == DAL_OK) return graph_fault(p);
+    return dal__fail_at(p->error, fault.status, f->line, f->column, "%s", fault.message);
+}
+
 /* The closing bracket: of a bracket or of a function's arguments. */
 static dal_status close(parser *p, dal__node *value)
 {
     DAL_TRY(reduce(p, 1, value));
-    const frame *f = &p->stack[p->depth - 1];
-    if (f->kind == 0) return SYNTAX_ERROR(p, &p->token, "')' closes no '('");
+    const frame f = p->stack[p->depth - 1];
+    if (f.kind == 0) return SYNTAX_ERROR(p, &p->token, "')' closes no '('");
     p->depth--;
-    if (f->kind == '(') return DAL_OK;
+    if (f.kind == '(') return DAL_OK;
     DAL_TRY(push_argument(p, *value));
-    const int given = (int)(p->arguments - f->first), arity = functions[f->function].arity;
-    if (given < arity || (given > arity && !is_chained(f->function)))
-        return wrong_arguments(p, f, given);
-    *value = call(p, f->function, p->argument + f->first, given);
-    p->arguments = f->first;
-    return *value ? DAL_OK : graph_fault(p);
+    return call(p, &f, value);
 }
 
 /* What follows a value, up to where another one is expected (*more) or the formula ends. */
@@ -378,13 +418,12 @@ static dal_status parse(parser *p, dal__node *value)
     return DAL_OK;
 }
 
-dal_status dal__parse(dal__graph *graph, const char *text, size_t length, dal__resolve *resolve,
-                      void *user, dal__node *node, dal_error *error)
+dal_status dal__parse(dal__graph *graph, const char *text, size_t length, const dal__names *names,
+                      dal__node *node, dal_error *error)
 {
     parser p = {.graph = graph,
                 .lexer = {text, text + length, 1, text, error},
-                .resolve = resolve,
-                .user = user,
+                .names = names,
                 .error = error};
     if (length >= INT_MAX)
         return dal__fail_at(error, DAL_TOO_LARGE, 1, 1, "the formula is too long");

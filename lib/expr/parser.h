@@ -9,10 +9,20 @@
 typedef dal__node dal__resolve(void *user, const char *name, size_t length, bool prime,
                                dal_error *error);
 
+/* What the names in a formula mean.  function: the name of function number i of the user, from 0,
+ * and how many arguments it takes, NULL past the last; call: its value, 0 as in resolve.  Both are
+ * NULL where there are none. */
+typedef struct dal__names {
+    dal__resolve *resolve;
+    const char *(*function)(void *user, int i, int *arity);
+    dal__node (*call)(void *user, int i, const dal__node *argument, dal_error *error);
+    void *user;
+} dal__names;
+
 /* Parses one formula.  error->line and column are relative to text, from 1.  Errors: DAL_SYNTAX,
  * DAL_NAME (also what resolve returns), DAL_TOO_LARGE, DAL_MEMORY. */
-dal_status dal__parse(dal__graph *graph, const char *text, size_t length, dal__resolve *resolve,
-                      void *user, dal__node *node, dal_error *error);
+dal_status dal__parse(dal__graph *graph, const char *text, size_t length, const dal__names *names,
+                      dal__node *node, dal_error *error);
 
 /* Whether a name is that of a function, and nothing else may have it; and whether another thing of
  * this name hides a function (graph.h). */

@@ -16,13 +16,14 @@ typedef struct dal__pivot {
  * exact (no solution given), otherwise the number 0. */
 typedef struct dal__equations {
     dal__graph *graph;
-    int parameters, n, m, multipliers, invariants, lets, guards, pivots;
+    int parameters, n, m, multipliers, invariants, lets, functions, guards, pivots;
     bool vakonomic, accelerations, servo, pictured;
     unsigned properties;
     /* First symbols of the inputs.  Twice the numbers of q, v and pi: the tangent system has 2n. */
     int t, q, v, pi, g, symbols;
     /* Formulas as given. */
-    dal__node *let; /* [lets] */
+    dal__node *let;                 /* [lets] */
+    struct dal__function *function; /* [functions] */
     dal__node lagrangian;
     dal__node *force;      /* [n]: Q, or the accelerations */
     dal__node *constraint; /* [m]: D */

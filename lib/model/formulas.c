@@ -8,6 +8,7 @@
 #include "expr/parser.h"
 #include "expr/simplify.h"
 #include "expr/traversal.h"
+#include "model/functions.h"
 #include "model/model.h"
 #include "model/symbols.h"
 #include <math.h>
@@ -50,8 +51,9 @@ static dal_status parse_entry(dal_model *model, const dal__entry *entry, dal__sc
 {
     dal_error inner = {.line = 1, .column = 1};
     scope.model = model;
-    dal_status status = dal__parse(model->equations.graph, entry->text, strlen(entry->text),
-                                   dal__resolve_name, &scope, node, &inner);
+    const dal__names names = {dal__resolve_name, dal__scope_function, dal__scope_call, &scope};
+    dal_status status =
+        dal__parse(model->equations.graph, entry->text, strlen(entry->text), &names, node, &inner);
     return status == DAL_OK ? DAL_OK : locate(model, entry, error, &inner);
 }
 
@@ -66,7 +68,8 @@ enum { MAY_ALL = DAL__MAY_T | DAL__MAY_STATE };
 
 static dal__scope scope_of(const dal__equations *e, unsigned may)
 {
-    return (dal__scope){.may = may, .parameters = e->parameters, .lets = e->lets};
+    return (dal__scope){
+        .may = may, .parameters = e->parameters, .lets = e->lets, .functions = e->functions};
 }
 
 /* ---- sections of coordinates ---- */
@@ -113,6 +116,23 @@ static dal_status parse_parameters(dal_model *model, dal_error *error)
         DAL_TRY(parse_entry(model, entry, (dal__scope){.parameters = i}, &node, error));
         e->value[i] = dal__evaluate(e->graph, node, e->value);
         if (!isfinite(e->value[i])) return not_finite(model, entry, error);
+    }
+    return DAL_OK;
+}
+
+/* A function knows parameters, the functions before it and its arguments, whose symbols are behind
+ * all others. */
+static dal_status parse_functions(dal_model *model, dal_error *error)
+{
+    dal__equations *e = &model->equations;
+    int symbol = e->symbols;
+    for (int i = 0; i < e->functions; i++) {
+        const dal__entry *entry = dal__model_entry(model, DAL_SECTION_FUNCTIONS, i);
+        dal__function *f = &e->function[i];
+        DAL_TRY(dal__read_signature(model, entry, f, error));
+        for (int k = 0; k < f->arity; k++) f->symbol[k] = symbol++;
+        const dal__scope scope = {.parameters = e->parameters, .functions = i, .inside = f};
+        DAL_TRY(parse_entry(model, entry, scope, &f->body, error));
     }
     return DAL_OK;
 }
@@ -332,6 +352,7 @@ static dal_status begin_equations(dal_model *model, dal_error *error)
     e->lagrangian = zero;
     e->mu = e->energy = 0;
     e->let = dal__model_nodes(model, e->lets, zero);
+    e->function = dal__model_allocate(model, (size_t)e->functions + 1, sizeof *e->function);
     e->force = dal__model_nodes(model, n, zero);
     e->constraint = dal__model_nodes(model, m, zero);
     e->start = dal__model_nodes(model, 2 * n + m + 1, zero);
@@ -372,6 +393,7 @@ dal_status dal__parse_model(dal_model *model, dal_error *error)
                           &vakonomic, error));
     e->vakonomic = vakonomic;
     DAL_TRY(dal__collect_names(model, error));
+    e->functions = dal__model_count(model, DAL_SECTION_FUNCTIONS);
     e->m = dal__model_count(model, DAL_SECTION_CONSTRAINTS);
     e->multipliers = e->vakonomic ? e->m : 0;
     e->pictured = dal__model_count(model, DAL_SECTION_PICTURE) > 0;
@@ -380,6 +402,7 @@ dal_status dal__parse_model(dal_model *model, dal_error *error)
     DAL_TRY(begin_equations(model, error));
     e->start[2 * e->n + e->multipliers] = dal__number(e->graph, 1.0);
     DAL_TRY(parse_parameters(model, error));
+    DAL_TRY(parse_functions(model, error));
     DAL_TRY(parse_dynamics(model, error));
     DAL_TRY(parse_gauge(model, error));
     DAL_TRY(parse_start(model, error));

@@ -22,6 +22,7 @@ const dal__model_section dal__sections[DAL_SECTION_COUNT] = {
     [DAL_SECTION_REFERENCE] = {DAL__SCALAR, NULL},
     [DAL_SECTION_COORDINATES] = {DAL__LIST, NULL},
     [DAL_SECTION_PARAMETERS] = {DAL__MAPPING, "parameter"},
+    [DAL_SECTION_FUNCTIONS] = {DAL__MAPPING, "function"},
     [DAL_SECTION_LET] = {DAL__MAPPING, "let"},
     [DAL_SECTION_LAGRANGIAN] = {DAL__SCALAR, "lagrangian"},
     [DAL_SECTION_ACCELERATIONS] = {DAL__MAPPING, "acceleration of"},
@@ -166,6 +167,7 @@ static dal_status check_name(const dal__entry *entry, dal_error *error)
     const char *name = entry->section == DAL_SECTION_COORDINATES ? entry->text : entry->name;
     if (!name) return DAL_OK;
     size_t length = strlen(name);
+    if (entry->section == DAL_SECTION_FUNCTIONS) length = dal__name_length(name, length);
     if (entry->section == DAL_SECTION_START && length && name[length - 1] == '\'') length--;
     if (length > DAL__MAX_LETTERS && entry->section != DAL_SECTION_START)
         return dal__fail_at(error, DAL_TOO_LARGE, DAL__AT_NAME(entry),

@@ -1,8 +1,10 @@
 /* symbols.c - the names of a model, and what a name means in a formula.  Names are distinct, and
  * none is that of a function or of another column of the output. */
 #include "model/symbols.h"
+#include "expr/lexer.h"
 #include "expr/parser.h"
 #include "expr/traversal.h"
+#include "model/functions.h"
 #include "model/model.h"
 #include <stdio.h>
 #include <string.h>
@@ -51,6 +53,7 @@ static const kind kinds[] = {
     {DAL_SECTION_COORDINATES, "coordinate", true},
     {DAL_SECTION_PARAMETERS, "parameter", false},
     {DAL_SECTION_LET, "let", false},
+    {DAL_SECTION_FUNCTIONS, "function", false},
     {DAL_SECTION_INVARIANTS, "invariant", true},
 };
 enum { KINDS = sizeof kinds / sizeof *kinds };
@@ -60,9 +63,20 @@ static const char *entry_name(const dal__entry *entry)
     return entry->name ? entry->name : entry->text;
 }
 
+/* Whether two entries define one name; that of a function ends at its bracket. */
+static bool same_name(const dal__entry *a, const dal__entry *b)
+{
+    const char *x = entry_name(a), *y = entry_name(b);
+    if (*x != *y) return false;
+    const size_t length = dal__name_length(x, strlen(x));
+    return dal__name_length(y, strlen(y)) == length && memcmp(x, y, length) == 0;
+}
+
 static dal_status check_clash(dal_model *model, int k, const dal__entry *entry, dal_error *error)
 {
-    const char *name = entry_name(entry);
+    char name[128];
+    const char *whole = entry_name(entry);
+    snprintf(name, sizeof name, "%.*s", (int)dal__name_length(whole, strlen(whole)), whole);
     const bool hides = dal__hides_function(name) && kinds[k].section != DAL_SECTION_INVARIANTS;
     if (hides)
         dal__model_warn(model, entry,
@@ -77,12 +91,14 @@ static dal_status check_clash(dal_model *model, int k, const dal__entry *entry, 
         return dal__fail_at(error, DAL_NAME, DAL__AT_NAME(entry),
                             "%s '%.80s': this name is reserved for a column of the output",
                             kinds[k].what, name);
-    for (int j = 0; j < k; j++) {
+    const bool by_bracket = kinds[k].section == DAL_SECTION_FUNCTIONS; /* V(r) and V(x) clash */
+    for (int j = 0; j < k + by_bracket; j++) {
         /* An invariant may have the name of a parameter or a let: only columns must differ. */
         if (kinds[k].section == DAL_SECTION_INVARIANTS && !kinds[j].column) continue;
         for (int i = 0; i < model->count; i++) {
             const dal__entry *other = &model->entries[i];
-            if (other->section == kinds[j].section && strcmp(entry_name(other), name) == 0)
+            if (other == entry) break;
+            if (other->section == kinds[j].section && same_name(other, entry))
                 return dal__fail_at(error, DAL_MODEL, DAL__AT_NAME(entry),
                                     "%s '%.80s': a %s already has this name", kinds[k].what, name,
                                     kinds[j].what);
@@ -121,10 +137,11 @@ dal_status dal__collect_names(dal_model *model, dal_error *error)
 
 /* ---- meaning ---- */
 
-static dal__node misplaced(dal_error *error, const char *what, const char *name, unsigned may)
+static dal__node misplaced(const dal__scope *scope, const char *what, const char *name,
+                           dal_error *error)
 {
-    dal__fail(error, DAL_NAME, "%s '%.80s' may not stand here: only parameters%s", what, name,
-              may & DAL__MAY_T ? " and t" : "");
+    dal__fail(error, DAL_NAME, "%s '%.80s' may not stand here: only %sparameters%s", what, name,
+              scope->inside ? "arguments and " : "", scope->may & DAL__MAY_T ? " and t" : "");
     return 0;
 }
 
@@ -158,15 +175,14 @@ static dal__node plain(const dal__scope *scope, const char *name, size_t length,
     if (strcmp(name, "pi") == 0) return dal__number(e->graph, PI);
     if (strcmp(name, "t") == 0)
         return scope->may & DAL__MAY_T ? dal__symbol(e->graph, e->t)
-                                       : misplaced(error, "the time", name, scope->may);
+                                       : misplaced(scope, "the time", name, error);
     if ((i = dal__index_of(name, length, e->coordinate, e->n)) >= 0)
         return scope->may & DAL__MAY_STATE ? dal__symbol(e->graph, e->q + i)
-                                           : misplaced(error, "coordinate", name, scope->may);
+                                           : misplaced(scope, "coordinate", name, error);
     if ((i = dal__index_of(name, length, e->parameter, scope->parameters)) >= 0)
         return dal__symbol(e->graph, i);
     if ((i = dal__index_of(name, length, e->let_name, scope->lets)) >= 0)
-        return let_allowed(scope, e->let[i]) ? e->let[i]
-                                             : misplaced(error, "let", name, scope->may);
+        return let_allowed(scope, e->let[i]) ? e->let[i] : misplaced(scope, "let", name, error);
     if (strcmp(name, "e") == 0) {
         dal__fail(error, DAL_NAME, "e is the gauge variable; exp(1) is Euler's number");
         return 0;
@@ -191,12 +207,33 @@ dal__node dal__resolve_name(void *user, const char *text, size_t length, bool pr
     }
     memcpy(name, text, length);
     name[length] = 0;
+    for (int i = 0; scope->inside && !prime && i < scope->inside->arity; i++)
+        if (strcmp(scope->inside->argument[i], name) == 0)
+            return dal__symbol(e->graph, scope->inside->symbol[i]);
     if (!prime) return plain(scope, name, length, error);
     const int i = dal__index_of(name, length, e->coordinate, e->n);
     if (i >= 0 && scope->may & DAL__MAY_STATE) return dal__symbol(e->graph, e->v + i);
-    if (i >= 0) return misplaced(error, "the velocity of", name, scope->may);
+    if (i >= 0) return misplaced(scope, "the velocity of", name, error);
     if (dal__index_of(name, length, e->parameter, e->parameters) < 0)
         return unknown(scope, name, error);
     dal__fail(error, DAL_NAME, "parameter '%.80s' has no velocity", name);
     return 0;
+}
+
+/* ---- functions ---- */
+
+const char *dal__scope_function(void *user, int i, int *arity)
+{
+    const dal__scope *scope = user;
+    if (i >= scope->functions) return NULL;
+    *arity = scope->model->equations.function[i].arity;
+    return scope->model->equations.function[i].name;
+}
+
+dal__node dal__scope_call(void *user, int i, const dal__node *argument, dal_error *error)
+{
+    const dal__scope *scope = user;
+    const dal__equations *e = &scope->model->equations;
+    (void)error;
+    return dal__call_function(e->graph, &e->function[i], argument);
 }

@@ -14,8 +14,12 @@ enum { DAL__MAY_T = 1, DAL__MAY_STATE = 2, DAL__MAY_MULTIPLIERS = 4 };
 typedef struct dal__scope {
     const dal_model *model;
     unsigned may;
-    int parameters, lets; /* those already known */
+    int parameters, lets, functions;    /* those already known */
+    const struct dal__function *inside; /* whose body the formula is; NULL: none */
 } dal__scope;
+/* The functions that a scope knows, as the parser wants them. */
+const char *dal__scope_function(void *scope, int i, int *arity);
+dal__node dal__scope_call(void *scope, int i, const dal__node *argument, dal_error *error);
 dal__node dal__resolve_name(void *scope, const char *name, size_t length, bool prime,
                             dal_error *error);
 
