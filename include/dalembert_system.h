@@ -202,6 +202,7 @@ typedef struct dal_model dal_model;
     SECTION(TITLE, "title")                                                                        \
     SECTION(REFERENCE, "reference")                                                                \
     SECTION(COORDINATES, "coordinates")     /* text: a name */                                     \
+    SECTION(SIZES, "sizes")                 /* name, text: a whole number */                       \
     SECTION(PARAMETERS, "parameters")       /* name, text: a number */                             \
     SECTION(FUNCTIONS, "functions")         /* name with arguments, as V(r); formula */            \
     SECTION(LET, "let")                     /* name, formula */                                    \

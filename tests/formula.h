@@ -3,6 +3,7 @@
 #define FORMULA_H
 
 #include "expr/derivative.h"
+#include "expr/operations.h"
 #include "expr/parser.h"
 #include "expr/simplify.h"
 #include "expr/tape.h"

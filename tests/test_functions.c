@@ -1,7 +1,8 @@
-/* test_functions.c - what a system file defines for its own formulas: functions. */
+/* test_functions.c - what a system file defines for its own formulas: functions, sizes, indices. */
 #include "reference.h"
 
 #include <CUnit/Basic.h>
+#include <dalembert_analysis.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -71,9 +72,148 @@ static void test_nesting(void)
     reference_free(&b);
 }
 
+/* ---- sizes, indices, sums ---- */
+
+/* What stands for many against the formulas written out. */
+static void test_indices(void)
+{
+    static const char many[] =
+        "sizes: {N: 2, M: N + 1}\ncoordinates: [\"u[1..N]\"]\n"
+        "parameters: {\"k[i]\": {for: i = 1..M, is: i/2}, a: 3}\n"
+        "let:\n  \"d[i]\": {for: i = 1..N, is: \"k[i]*u[i] + i\"}\n"
+        "  s: sum(i, 1, N, sum(j, i, N, i*j*u[j]))\n"
+        "lagrangian: sum(i, 1, N, u[i]'^2)/2 - sum(i, 2, 1, u[i]/0)\n"
+        "forces:\n  \"u[i]\": \"for i = 1..N: -d[i]*u[M - i]' + (i == N)*(s + t)\"\n"
+        "start: {\"u[N]\": a, \"u[1..N]'\": 0.5}\n";
+    static const char written[] =
+        "coordinates: [u1, u2]\nparameters: {k1: 0.5, k2: 1, k3: 1.5, a: 3}\n"
+        "lagrangian: (u1'^2 + u2'^2)/2\n"
+        "forces: {u1: -(k1*u1 + 1)*u2', u2: -(k2*u2 + 2)*u1' + t + u1 + 2*u2 + 4*u2}\n";
+    CU_ASSERT(field_difference(many, written) < 1e-15);
+    reference b = reference_of_text(many);
+    CU_ASSERT(b.system->n == 2 && b.system->parameters == 4);
+    CU_ASSERT_STRING_EQUAL(b.system->coordinate[1], "u2");
+    CU_ASSERT_STRING_EQUAL(b.system->parameter[2], "k3");
+    double start[5];
+    CU_ASSERT_EQUAL(reference_call(&b, b.system->start, 0.0, NULL, NULL, start), DAL_OK);
+    CU_ASSERT(start[0] == 0.0 && start[1] == 3.0 && start[2] == 0.5 && start[3] == 0.5);
+    reference_free(&b);
+}
+
+/* A system of a file of the examples, evaluated at its start moved by a pattern. */
+typedef struct large {
+    dal_model *model;
+    const dal_system *system;
+    dal_evaluator *evaluator;
+    double start[2 * 303 + 1], F[303];
+} large;
+
+static large open_large(const char *path)
+{
+    large z = {.model = NULL};
+    CU_ASSERT_FATAL(dal_model_read_file(&z.model, path, NULL) == DAL_OK);
+    CU_ASSERT_FATAL(dal_model_system(z.model, &z.system, NULL) == DAL_OK);
+    CU_ASSERT_FATAL(dal_evaluator_create(&z.evaluator, z.system, NULL, 0, NULL) == DAL_OK);
+    CU_ASSERT_FATAL(dal_evaluator_start(z.evaluator, NULL, 0, z.start, NULL) == DAL_OK);
+    return z;
+}
+
+static void evaluate_large(large *z)
+{
+    CU_ASSERT_EQUAL(dal_evaluator_call(z->evaluator, z->system->call.field, 0.0, z->start,
+                                       z->start + z->system->n, NULL, z->F),
+                    DAL_OK);
+}
+
+static void close_large(large *z)
+{
+    dal_evaluator_free(z->evaluator);
+    dal_model_free(z->model);
+}
+
+/* D_i = x' + y z' alone acts on link i: h = -(y' z' + b_x + y b_z)/(1 + y^2), b = -U_q. */
+static void test_chain(void)
+{
+    enum { N = 101 };
+    static const double eps = 0.1, kappa = 0.05;
+    large z = open_large("examples/chain-of-101.yaml");
+    CU_ASSERT(z.system->n == 3 * N && z.system->m == N);
+    for (int i = 0; i < 6 * N; i++) z.start[i] += 0.3 * sin(1.0 + 2.0 * i);
+    evaluate_large(&z);
+    const double *x = z.start, *y = x + N, *q = y + N, *v = q + N;
+    for (int i = 0; i < N; i++) {
+        const double left = i > 0 ? x[i] - x[i - 1] : 0.0;
+        const double right = i < N - 1 ? x[i + 1] - x[i] : 0.0;
+        const double bx = -x[i] * (1 + eps * q[i] * q[i]) - kappa * (left - right);
+        const double bz = -q[i] * (1 + eps * x[i] * x[i]);
+        const double h = -(v[N + i] * v[2 * N + i] + bx + y[i] * bz) / (1 + y[i] * y[i]);
+        CU_ASSERT_DOUBLE_EQUAL(z.F[i], bx + h, 1e-14);
+        CU_ASSERT_DOUBLE_EQUAL(z.F[N + i], -y[i], 1e-15);
+        CU_ASSERT_DOUBLE_EQUAL(z.F[2 * N + i], bz + y[i] * h, 1e-14);
+    }
+    close_large(&z);
+}
+
+static double pair_force(double r) { return 24 * (2 * pow(r, -13) - pow(r, -7)); }
+
+/* Every corner of an icosahedron of radius r has five neighbours at the edge a, five at the golden
+ * ratio times a, and one at 2r; the force on it is along r. */
+static void test_cluster(void)
+{
+    enum { N = 12 };
+    large z = open_large("examples/lennard-jones-12.yaml");
+    CU_ASSERT(z.system->n == 3 * N && z.system->m == 0);
+    evaluate_large(&z);
+    const double r = 1.1, golden = (1 + sqrt(5.0)) / 2, a = r / sin(2 * acos(-1.0) / 5);
+    const double outwards = 5 * pair_force(a) * a / (2 * r) +
+                            5 * pair_force(golden * a) * golden * a / (2 * r) + pair_force(2 * r);
+    for (int i = 0; i < N; i++) {
+        const double *q = z.start + i, *F = z.F + i;
+        CU_ASSERT_DOUBLE_EQUAL(hypot(hypot(q[0], q[N]), q[2 * N]), r, 1e-14);
+        for (int k = 0; k < 3; k++)
+            CU_ASSERT_DOUBLE_EQUAL(F[k * N], outwards * q[k * N] / r, 1e-12 * fabs(outwards));
+    }
+    close_large(&z);
+}
+
+/* The equations of 1,023 coordinates that few springs couple, in a fraction of a minute; a mass
+ * matrix that couples all of them is refused. */
+static void test_limits(void)
+{
+    static const char text[] =
+        "sizes: {N: 1023}\ncoordinates: [\"x[1..N]\"]\n"
+        "lagrangian: sum(i, 1, N, x[i]'^2)/2 - sum(i, 2, N, (x[i] - x[i-1])^4)\n"
+        "start: {\"x[i]\": {for: i = 1..N, is: i^2/N}}\n";
+    static const char dense[] =
+        "sizes: {N: 300}\ncoordinates: [\"x[1..N]\"]\n"
+        "lagrangian: sum(i, 1, N, x[i]'^2)/2 + sum(i, 1, N, x[i]*x[i]')^2\n";
+    double F[1023], q[1023], v[1023] = {0.0};
+    reference b = reference_of_text(text);
+    for (int i = 0; i < 1023; i++) q[i] = 0.1 * i * i;
+    CU_ASSERT_EQUAL(reference_call(&b, b.system->call.field, 0.0, q, v, F), DAL_OK);
+    for (int i = 1; i < 1022; i++) {
+        const double left = q[i] - q[i - 1], right = q[i + 1] - q[i];
+        const double expected = 4 * (right * right * right - left * left * left);
+        CU_ASSERT_DOUBLE_EQUAL(F[i], expected, 1e-12 * fabs(expected));
+    }
+    reference_free(&b);
+    dal_model *model = NULL;
+    const dal_system *system;
+    CU_ASSERT_EQUAL(dal_model_read(&model, "dense", dense, strlen(dense), NULL), DAL_OK);
+    dal_error error;
+    CU_ASSERT_EQUAL(dal_model_system(model, &system, &error), DAL_TOO_LARGE);
+    CU_ASSERT_STRING_EQUAL(error.message,
+                           "the mass matrix of 300 coordinates couples too many of them");
+    dal_model_free(model);
+}
+
 void suite_functions(void)
 {
     CU_pSuite suite = CU_add_suite("functions", NULL, NULL);
     CU_add_test(suite, "calls", test_calls);
     CU_add_test(suite, "calls of calls", test_nesting);
+    CU_add_test(suite, "indices against formulas written out", test_indices);
+    CU_add_test(suite, "a chain of 101 links", test_chain);
+    CU_add_test(suite, "a cluster of 12 particles", test_cluster);
+    CU_add_test(suite, "a thousand coordinates", test_limits);
 }

@@ -44,7 +44,8 @@ static const bad_file yaml[] = {
     {DAL_SYNTAX, "parameters must be a mapping of names", "parameters: @[m]\n"},
     {DAL_SYNTAX, "forces must be a mapping of names", "forces:@\n"},
     {DAL_SYNTAX, "a text is expected in coordinates", "coordinates: [@[x]]\n"},
-    {DAL_SYNTAX, "a text is expected in start", "start: {x: @{y: 1}}\n"},
+    {DAL_SYNTAX, "a text is expected in start, or {for: i = 1..N, is: \"formula in i\"}",
+     "start: {x: @{y: 1}}\n"},
     {DAL_SYNTAX, "a name is expected here", "start: {@[x]: 1}\n"},
     {DAL_SYNTAX, "reactions must be a list of mappings", "reactions: @{x: 1}\n"},
     {DAL_SYNTAX, "reactions must be a list of mappings", "reactions: [{x: 1}, @y]\n"},
@@ -199,6 +200,46 @@ static const bad_file functions[] = {
      XY "functions: {\"f(r, s)\": r}\nlagrangian: x'^2 + @f(x)\n"},
 };
 
+/* ---- sizes and indices ---- */
+
+#define MANY "sizes: {N: 3}\ncoordinates: [\"x[1..N]\"]\n"
+
+static const bad_file indices[] = {
+    {DAL_NAME, "M + 1: 'M' is no size", "sizes: {@N: M + 1, M: 2}\n" XY L},
+    {DAL_MODEL, "'5/2' is not a whole number from 0 to 1000000", "sizes: {@N: 5/2}\n" XY L},
+    {DAL_MODEL, "'0 - 1' is not a whole number from 0 to 1000000", "sizes: {@N: 0 - 1}\n" XY L},
+    {DAL_MODEL, "parameter 'N': a size already has this name",
+     "sizes: {N: 2}\n" XY L "parameters: {@N: 1}\n"},
+    {DAL_NAME, "K: 'K' is no size", "coordinates: [\"@x[1..K]\"]\n"},
+    {DAL_NAME, "'x[1..2' in coordinates is not a name: a letter, then letters, digits and _",
+     "coordinates: [\"@x[1..2\"]\n"},
+    {DAL_MODEL, "duplicate 'x2' in coordinates", "coordinates: [\"x[1..3]\", @x2]\n"},
+    {DAL_NAME, "lagrangian: unknown name 'x4'; did you mean 'x1'?",
+     MANY "lagrangian: @x[N+1]'^2\n"},
+    {DAL_SYNTAX, "lagrangian: an index is a whole number, of numbers, sizes and indices",
+     MANY "lagrangian: @x[N/2]\n"},
+    {DAL_SYNTAX, "lagrangian: an index is a whole number, of numbers, sizes and indices",
+     MANY "lagrangian: @x[x1]\n"},
+    {DAL_SYNTAX, "lagrangian: a '[' is never closed", MANY "lagrangian: @x[1\n"},
+    {DAL_SYNTAX, "lagrangian: ']' closes no '['", MANY "lagrangian: (x1@]\n"},
+    {DAL_SYNTAX, "lagrangian: a sum is written sum(i, 1, N, formula in i)",
+     MANY "lagrangian: @sum(1, N, x1)\n"},
+    {DAL_SYNTAX, "lagrangian: a sum is written sum(i, 1, N, formula in i)",
+     MANY "lagrangian: @sum(i, 1, N)\n"},
+    {DAL_SYNTAX, "lagrangian: a '(' is never closed", MANY "lagrangian: @sum(i, 1, N, x[i]\n"},
+    {DAL_NAME, "lagrangian: unknown name 'i'; did you mean 'pi'?",
+     MANY "lagrangian: sum(i, 1, N, x[i]) + @i\n"},
+    {DAL_TOO_LARGE, "lagrangian: sums of too many terms",
+     MANY "lagrangian: sum(i, 1, 10000, @sum(j, 1, 10000, 1))\n"},
+    {DAL_NAME, "force on x2: unknown name 'x4'; did you mean 'x1'?",
+     MANY "lagrangian: sum(i, 1, N, x[i]'^2)\n"
+          "forces: {\"x[i]\": {for: i = 1..N, is: \"x[2] + @x[i+2]\"}}\n"},
+    {DAL_SYNTAX, "a range is written for i = 1..N",
+     MANY "lagrangian: x1\nforces: {\"x[i]\": {for: i in 1..N, is: @x1}}\n"},
+    {DAL_SYNTAX, "' 1' is not a range, as 1..N",
+     MANY "lagrangian: x1\nforces: {@\"x[i]\": {for: i = 1, is: x1}}\n"},
+};
+
 /* ---- mechanics ---- */
 
 static const bad_file mechanics[] = {
@@ -281,6 +322,7 @@ static void test_yaml(void) { CHECK_ALL(yaml); }
 static void test_names(void) { CHECK_ALL(names); }
 static void test_formulas(void) { CHECK_ALL(formulas); }
 static void test_functions(void) { CHECK_ALL(functions); }
+static void test_indices(void) { CHECK_ALL(indices); }
 static void test_mechanics(void) { CHECK_ALL(mechanics); }
 
 /* Escapes and doubled quotes are those of YAML. */
@@ -347,14 +389,14 @@ static void test_many(void)
     dal_error error;
     char name[16];
     dal_status status = DAL_OK;
-    for (int i = 0; status == DAL_OK && i < 300; i++) {
+    for (int i = 0; status == DAL_OK && i < 1100; i++) {
         snprintf(name, sizeof name, "q%d", i);
         status = dal_model_add(model, DAL_SECTION_COORDINATES, NULL, name, 0, 0, &error);
     }
     const dal_system *system;
     CU_ASSERT(dal_model_system(model, &system, &error) == DAL_TOO_LARGE && system == NULL);
-    CU_ASSERT_STRING_EQUAL(error.message, "300 coordinates; at most 256 are possible");
-    for (int i = 300; status == DAL_OK && i < 5000; i++) {
+    CU_ASSERT_STRING_EQUAL(error.message, "1100 coordinates; at most 1024 are possible");
+    for (int i = 1100; status == DAL_OK && i < 5000; i++) {
         snprintf(name, sizeof name, "q%d", i);
         status = dal_model_add(model, DAL_SECTION_COORDINATES, NULL, name, 0, 0, &error);
     }
@@ -403,6 +445,7 @@ void suite_model_errors(void)
     CU_add_test(suite, "names", test_names);
     CU_add_test(suite, "formulas", test_formulas);
     CU_add_test(suite, "functions", test_functions);
+    CU_add_test(suite, "sizes and indices", test_indices);
     CU_add_test(suite, "mechanics", test_mechanics);
     CU_add_test(suite, "quotes", test_quotes);
     CU_add_test(suite, "bytes", test_bytes);

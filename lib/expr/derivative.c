@@ -110,9 +110,12 @@ static dal__node branch_derivative(dal__graph *g, dal__node y, const dal__node d
 
 /* ---- all of a graph ---- */
 
+/* The symbols are most often in a row. */
 static int position(const int *symbols, int count, int symbol)
 {
-    int k = 0;
+    int k = count ? symbol - symbols[0] : 0;
+    if (k >= 0 && k < count && symbols[k] == symbol) return k;
+    k = 0;
     while (k < count && symbols[k] != symbol) k++;
     return k;
 }
@@ -223,8 +226,9 @@ void dal__gradient(dal__graph *graph, dal__node f, const int *symbols, int count
     }
     for (int k = 0; k < count; k++) out[k] = 0;
     if (active && graph->status == DAL_OK) gradient_of(graph, &s, f, out);
+    const dal__node zero = number(graph, 0.0);
     for (int k = 0; k < count; k++)
-        if (!out[k]) out[k] = number(graph, 0.0);
+        if (!out[k]) out[k] = zero;
     free(active);
     free(memory);
 }

@@ -76,7 +76,7 @@ static dal_status read_other(dal__lexer *l, dal__token *t)
     t->kind = (char)c;
     t->length = 1;
     l->at++;
-    if (c && strchr("+-*/^(),<>", c)) return DAL_OK;
+    if (c && strchr("+-*/^(),<>[]", c)) return DAL_OK;
     if (c == '=') return SYNTAX_ERROR(l, t, "unexpected '='; a comparison is written ==");
     if (c == '\'') {
         return SYNTAX_ERROR(l, t, "unexpected '; a prime stands right behind a name, as in x'");

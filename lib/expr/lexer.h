@@ -2,7 +2,7 @@
  *
  *     number   digits [. digits] [e [+-] digits], or . digits ...
  *     name     [A-Za-z_][A-Za-z0-9_]*, with ' right behind it for a velocity
- *     other    + - * / ^ ( ) , < > <= >= == !=
+ *     other    + - * / ^ ( ) [ ] , < > <= >= == !=
  *
  * Blanks, tabs and line ends separate.  Columns count bytes from 1. */
 #ifndef DAL_EXPR_LEXER_H
@@ -12,7 +12,7 @@
 #include <stdbool.h>
 
 typedef struct dal__token {
-    char kind; /* a character of + - * / ^ ( ) , < > or one of DAL__TOKEN_* */
+    char kind; /* a character of + - * / ^ ( ) [ ] , < > or one of DAL__TOKEN_* */
     bool prime;
     int line, column;
     const char *text; /* in the formula */

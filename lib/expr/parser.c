@@ -7,8 +7,10 @@
 #include "expr/parser.h"
 #include "core/error.h"
 #include "expr/lexer.h"
+#include "expr/operations.h"
 #include "expr/simplify.h"
 #include <limits.h>
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -20,7 +22,7 @@
 /* ---- what the parser holds ---- */
 
 /* Something that needs the value right of it; kind: that of an operator, '~' unary minus, '(' a
- * bracket, 'f' the arguments of a function, 0 the formula itself. */
+ * bracket, 'f' the arguments of a function, 's' those of sum, '[' an index, 0 the whole formula. */
 typedef struct frame {
     char kind;
     dal__op function; /* or 0: */
@@ -28,7 +30,20 @@ typedef struct frame {
     size_t first;     /* of the arguments so far */
     dal__node left;
     int line, column;
+    const char *name; /* before an index */
+    size_t length;
 } frame;
+
+enum { MAX_LOOPS = 16, MAX_INDEX = 1000000, MAX_TERMS = 4000000 };
+
+/* A sum whose terms are being read, one by one from the same text. */
+typedef struct loop {
+    const char *name; /* of the index */
+    size_t length;
+    int at, end;
+    dal__node total; /* of the terms before; 0: none */
+    dal__lexer body; /* where a term begins */
+} loop;
 
 typedef struct parser {
     dal__graph *graph;
@@ -40,38 +55,9 @@ typedef struct parser {
     size_t depth, capacity;
     dal__node *argument; /* of all functions that are open */
     size_t arguments, argument_capacity;
+    loop loop[MAX_LOOPS];
+    int loops, terms; /* sums that are open; terms of all sums */
 } parser;
-
-static const struct function {
-    const char *name;
-    int arity;
-} functions[] = {
-#define FUNCTION(code, arity, name) {name, arity},
-    DAL__OP_LIST(FUNCTION)
-#undef FUNCTION
-};
-
-/* The operation a name calls, or 0. */
-static dal__op function_named(const char *name, size_t length)
-{
-    for (int op = 0; op < DAL__OP_COUNT; op++) {
-        const char *known = functions[op].name;
-        if (known && strlen(known) == length && memcmp(known, name, length) == 0)
-            return (dal__op)op;
-    }
-    return (dal__op)0;
-}
-
-/* Whether the name of a function may be that of something else, too, which then wins. */
-static bool is_young(dal__op function) { return function >= DAL__SIGN; }
-
-bool dal__is_function(const char *name, size_t length)
-{
-    const dal__op function = function_named(name, length);
-    return function && !is_young(function);
-}
-
-bool dal__hides_function(const char *name) { return is_young(function_named(name, strlen(name))); }
 
 enum { COMPARISON = 1 };
 static const struct binding {
@@ -141,11 +127,11 @@ static bool is_chained(dal__op function) { return function == DAL__MIN || functi
 
 static dal_status wrong_arguments(const parser *p, const frame *f, int given)
 {
-    struct function called = functions[f->function];
-    if (!f->function) called.name = p->names->function(p->names->user, f->own, &called.arity);
-    return SYNTAX_ERROR(p, f, "%s takes %d%s argument%s, not %d", called.name, called.arity,
-                        is_chained(f->function) ? " or more" : "", called.arity == 1 ? "" : "s",
-                        given);
+    int arity = 0;
+    const char *name = f->function ? dal__function_name(f->function, &arity)
+                                   : p->names->function(p->names->user, f->own, &arity);
+    return SYNTAX_ERROR(p, f, "%s takes %d%s argument%s, not %d", name, arity,
+                        is_chained(f->function) ? " or more" : "", arity == 1 ? "" : "s", given);
 }
 
 /* A name that is no function stands before a bracket. */
@@ -161,7 +147,8 @@ static dal_status unknown_function(const parser *p)
         return SYNTAX_ERROR(p, t, "%.*s is not a function: write %.*s*(...) for a product",
                             dal__token_shown(t), t->text, dal__token_shown(t), t->text);
     }
-    for (int op = 0; op < DAL__OP_COUNT; op++) names[op] = functions[op].name;
+    for (int op = 0, arity; op < DAL__OP_COUNT; op++)
+        names[op] = dal__function_name((dal__op)op, &arity);
     snprintf(name, sizeof name, "%.*s", dal__token_shown(t), t->text);
     for (int i = 0, arity; p->names->function && i < OWN; i++) {
         if (!(names[count] = p->names->function(p->names->user, i, &arity))) break;
@@ -243,19 +230,143 @@ static dal_status reduce(parser *p, int power, dal__node *value)
     }
 }
 
+/* ---- indices and sums ---- */
+
+/* at: the frame that messages point to. */
+static dal_status whole_number(const parser *p, const frame *at, dal__node node, int *n)
+{
+    const dal__record r = dal__inspect(p->graph, node);
+    const bool whole = r.op == DAL__NUMBER && r.value == floor(r.value);
+    if (!whole)
+        return SYNTAX_ERROR(p, at, "an index is a whole number, of numbers, sizes and indices");
+    if (fabs(r.value) > MAX_INDEX) return SYNTAX_ERROR(p, at, "an index is beyond %d", MAX_INDEX);
+    *n = (int)r.value;
+    return DAL_OK;
+}
+
+/* The loop whose index has the present name, or NULL. */
+static const loop *loop_of(const parser *p)
+{
+    const dal__token *t = &p->token;
+    for (const loop *l = p->loop + p->loops; l-- > p->loop && !t->prime;)
+        if (l->length == t->length && memcmp(l->name, t->text, l->length) == 0) return l;
+    return NULL;
+}
+
+/* Behind the bracket of an index: x[2] is the name x2. */
+static dal_status close_index(parser *p, dal__node *value)
+{
+    DAL_TRY(reduce(p, 1, value));
+    const frame f = p->stack[p->depth - 1];
+    char text[128];
+    int index;
+    if (f.kind != '[') return SYNTAX_ERROR(p, &p->token, "']' closes no '['");
+    p->depth--;
+    DAL_TRY(whole_number(p, &f, *value, &index));
+    const int length = snprintf(text, sizeof text, "%.*s%d", (int)f.length, f.name, index);
+    dal__token name = {.line = f.line, .column = f.column, .text = text, .length = (size_t)length};
+    name.prime = p->lexer.at < p->lexer.end && *p->lexer.at == '\'';
+    p->lexer.at += name.prime;
+    if (length >= (int)sizeof text) return SYNTAX_ERROR(p, &f, "a name is too long");
+    dal_error fault = {.status = DAL_OK};
+    *value = resolve(p, &name, &fault);
+    if (*value) return DAL_OK;
+    if (fault.status == DAL_OK) return graph_fault(p);
+    return dal__fail_at(p->error, fault.status, f.line, f.column, "%s", fault.message);
+}
+
+/* Behind `sum`, with the lexer behind its bracket: the index and a comma. */
+static dal_status open_sum(parser *p, dal__lexer lexer)
+{
+    dal__token index, comma = {.kind = 0};
+    DAL_TRY(push(p, 's', 0));
+    lexer.error = p->error;
+    DAL_TRY(dal__next_token(&lexer, &index));
+    if (index.kind == DAL__TOKEN_NAME) DAL_TRY(dal__next_token(&lexer, &comma));
+    frame *f = &p->stack[p->depth - 1];
+    if (comma.kind != ',' || index.prime)
+        return SYNTAX_ERROR(p, f, "a sum is written sum(i, 1, N, formula in i)");
+    f->name = index.text;
+    f->length = index.length;
+    p->lexer = lexer;
+    return DAL_OK;
+}
+
+/* Skips to the bracket that closes a sum without terms. */
+static dal_status skip_body(parser *p)
+{
+    const frame f = p->stack[p->depth - 1];
+    for (int open = 1; open > 0;) {
+        DAL_TRY(next(p));
+        open += (p->token.kind == '(') - (p->token.kind == ')');
+        if (p->token.kind == DAL__TOKEN_END) return SYNTAX_ERROR(p, &f, "a '(' is never closed");
+    }
+    return DAL_OK;
+}
+
+/* Behind the comma after the range of a sum: begins its first term.  empty: there is none, and
+ * *value is the sum. */
+static dal_status begin_terms(parser *p, dal__node *value, bool *empty)
+{
+    const frame f = p->stack[p->depth - 1];
+    loop l = {.name = f.name, .length = f.length, .body = p->lexer};
+    DAL_TRY(whole_number(p, &f, p->argument[f.first], &l.at));
+    DAL_TRY(whole_number(p, &f, p->argument[f.first + 1], &l.end));
+    *empty = l.at > l.end;
+    if (*empty) {
+        DAL_TRY(skip_body(p));
+        p->depth--;
+        p->arguments = f.first;
+        *value = dal__number(p->graph, 0.0);
+        return *value ? DAL_OK : graph_fault(p);
+    }
+    if (p->loops == MAX_LOOPS)
+        return SYNTAX_ERROR(p, &f, "sums nest deeper than %d", (int)MAX_LOOPS);
+    p->loop[p->loops++] = l;
+    return next(p);
+}
+
+/* Behind a term of a sum: goes back for the next one, or closes the sum. */
+static dal_status end_term(parser *p, dal__node *value, bool *more)
+{
+    const frame f = p->stack[p->depth - 1];
+    if (p->arguments - f.first < 2)
+        return SYNTAX_ERROR(p, &f, "a sum is written sum(i, 1, N, formula in i)");
+    loop *l = &p->loop[p->loops - 1];
+    l->total = l->total ? dal__node_add(p->graph, l->total, *value) : *value;
+    if (!l->total) return graph_fault(p);
+    if (++p->terms > MAX_TERMS)
+        return dal__fail_at(p->error, DAL_TOO_LARGE, f.line, f.column, "sums of too many terms");
+    *more = l->at++ < l->end;
+    if (*more) {
+        p->lexer = l->body;
+        return next(p);
+    }
+    *value = l->total;
+    p->loops--;
+    p->depth--;
+    p->arguments = f.first;
+    return DAL_OK;
+}
+
 /* ---- the grammar ---- */
 
 static dal_status symbol(parser *p, dal__node *value)
 {
     const dal__token *t = &p->token;
+    const loop *l = loop_of(p);
+    if (l) {
+        *value = dal__number(p->graph, l->at);
+        return *value ? DAL_OK : graph_fault(p);
+    }
     if (t->length == 2 && memcmp(t->text, "pi", 2) == 0 && !t->prime) {
         *value = dal__number(p->graph, 3.14159265358979323846);
         return *value ? DAL_OK : graph_fault(p);
     }
-    const dal__op function = t->prime ? (dal__op)0 : function_named(t->text, t->length);
+    const dal__op function = t->prime ? (dal__op)0 : dal__function_named(t->text, t->length);
     dal_error fault = {.status = DAL_OK};
-    if (is_young(function)) *value = resolve(p, t, &fault);
-    if (is_young(function) && *value) return DAL_OK;
+    if (dal__is_young(function)) *value = resolve(p, t, &fault);
+    if (dal__is_young(function) && *value) return DAL_OK;
     if (function || own_function(p) >= 0) {
         return SYNTAX_ERROR(p, t, "%.*s is a function: write %.*s(...)", dal__token_shown(t),
                             t->text, dal__token_shown(t), t->text);
@@ -270,7 +381,16 @@ static dal_status symbol(parser *p, dal__node *value)
 static bool is_hidden(const parser *p, dal__op function)
 {
     dal_error ignored;
-    return is_young(function) && resolve(p, &p->token, &ignored);
+    return dal__is_young(function) && resolve(p, &p->token, &ignored);
+}
+
+/* Whether the present name is `sum`, and no name of the system. */
+static bool is_sum(const parser *p)
+{
+    const dal__token *t = &p->token;
+    dal_error ignored;
+    return t->length == 3 && memcmp(t->text, "sum", 3) == 0 && !t->prime &&
+           !resolve(p, t, &ignored);
 }
 
 /* A name: a function with its bracket, which opens a frame, or a value. */
@@ -279,10 +399,19 @@ static dal_status name(parser *p, dal__node *value)
     dal__lexer ahead = p->lexer;
     dal__token bracket;
     ahead.error = NULL;
-    bool call = dal__next_token(&ahead, &bracket) == DAL_OK && bracket.kind == '(';
-    if (!call) return symbol(p, value);
+    const bool read = dal__next_token(&ahead, &bracket) == DAL_OK;
+    if (read && bracket.kind == '[' && !p->token.prime) {
+        DAL_TRY(push(p, '[', 0));
+        p->stack[p->depth - 1].name = p->token.text;
+        p->stack[p->depth - 1].length = p->token.length;
+        ahead.error = p->error;
+        p->lexer = ahead;
+        return DAL_OK;
+    }
+    if (!read || bracket.kind != '(') return symbol(p, value);
     const int own = own_function(p);
-    dal__op function = own < 0 ? function_named(p->token.text, p->token.length) : (dal__op)0;
+    if (own < 0 && is_sum(p)) return open_sum(p, ahead);
+    dal__op function = own < 0 ? dal__function_named(p->token.text, p->token.length) : (dal__op)0;
     if (own < 0 && (!function || p->token.prime || is_hidden(p, function)))
         return unknown_function(p);
     DAL_TRY(push(p, 'f', 0));
@@ -343,8 +472,11 @@ static dal_status call(parser *p, const frame *f, dal__node *value)
     const dal__names *names = p->names;
     const dal__node *argument = p->argument + f->first;
     const int given = (int)(p->arguments - f->first);
-    int arity = functions[f->function].arity;
-    if (!f->function) names->function(names->user, f->own, &arity);
+    int arity;
+    if (f->function)
+        dal__function_name(f->function, &arity);
+    else
+        names->function(names->user, f->own, &arity);
     if (given < arity || (given > arity && !is_chained(f->function)))
         return wrong_arguments(p, f, given);
     dal_error fault = {.status = DAL_OK};
@@ -356,11 +488,15 @@ static dal_status call(parser *p, const frame *f, dal__node *value)
     return dal__fail_at(p->error, fault.status, f->line, f->column, "%s", fault.message);
 }
 
-/* The closing bracket: of a bracket or of a function's arguments. */
-static dal_status close(parser *p, dal__node *value)
+/* The closing bracket: of a bracket, of a function's arguments or of a term of a sum, whose next
+ * term (*more) begins. */
+static dal_status close(parser *p, dal__node *value, bool *more)
 {
     DAL_TRY(reduce(p, 1, value));
     const frame f = p->stack[p->depth - 1];
+    *more = false;
+    if (f.kind == 's') return end_term(p, value, more);
+    if (f.kind == '[') return SYNTAX_ERROR(p, &f, "a '[' is never closed");
     if (f.kind == 0) return SYNTAX_ERROR(p, &p->token, "')' closes no '('");
     p->depth--;
     if (f.kind == '(') return DAL_OK;
@@ -371,7 +507,9 @@ static dal_status close(parser *p, dal__node *value)
 /* What follows a value, up to where another one is expected (*more) or the formula ends. */
 static dal_status read_operators(parser *p, dal__node *value, bool *more)
 {
-    for (*more = true;;) {
+    bool empty;
+    for (;;) {
+        *more = true;
         const dal__token previous = p->token;
         DAL_TRY(next(p));
         const char kind = p->token.kind;
@@ -389,19 +527,27 @@ static dal_status read_operators(parser *p, dal__node *value, bool *more)
         if (kind == ',') {
             DAL_TRY(reduce(p, 1, value));
             const frame *f = &p->stack[p->depth - 1];
-            if (f->kind != 'f')
+            if (f->kind != 'f' && f->kind != 's')
                 return SYNTAX_ERROR(p, &p->token, "',' stands outside the arguments of a function");
             DAL_TRY(push_argument(p, *value));
-            return next(p);
+            const size_t given = p->arguments - p->stack[p->depth - 1].first;
+            if (f->kind == 'f' || given == 1) return next(p);
+            if (given > 2) return SYNTAX_ERROR(p, f, "a sum is written sum(i, 1, N, formula in i)");
+            DAL_TRY(begin_terms(p, value, &empty));
+            if (!empty) return DAL_OK;
+            continue;
         }
         if (kind == DAL__TOKEN_END) {
             *more = false;
             DAL_TRY(reduce(p, 1, value));
             const frame *f = &p->stack[p->depth - 1];
-            return f->kind ? SYNTAX_ERROR(p, f, "a '(' is never closed") : DAL_OK;
+            return f->kind
+                       ? SYNTAX_ERROR(p, f, "a '%c' is never closed", f->kind == '[' ? '[' : '(')
+                       : DAL_OK;
         }
-        if (kind != ')') return operator_missing(p, &previous);
-        DAL_TRY(close(p, value));
+        if (kind != ')' && kind != ']') return operator_missing(p, &previous);
+        DAL_TRY(kind == ')' ? close(p, value, more) : close_index(p, value));
+        if (kind == ')' && *more) return DAL_OK;
     }
 }
 

@@ -24,9 +24,4 @@ typedef struct dal__names {
 dal_status dal__parse(dal__graph *graph, const char *text, size_t length, const dal__names *names,
                       dal__node *node, dal_error *error);
 
-/* Whether a name is that of a function, and nothing else may have it; and whether another thing of
- * this name hides a function (graph.h). */
-bool dal__is_function(const char *name, size_t length);
-bool dal__hides_function(const char *name);
-
 #endif

@@ -132,7 +132,8 @@ static dal__node coefficients(dal__graph *graph, dal__node c, dal__node d)
 dal__node dal__node_mul(dal__graph *graph, dal__node a, dal__node b)
 {
     if (!a || !b) return 0;
-    if (is_zero(graph, a) || is_zero(graph, b)) return dal__number(graph, 0.0);
+    if (is_zero(graph, a)) return a;
+    if (is_zero(graph, b)) return b;
     if (a == b && op_of(graph, a) == DAL__SQRT) return graph->node[a].a;
     term x = split(graph, a), y = split(graph, b);
     if (graph->status) return 0;

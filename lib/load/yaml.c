@@ -152,9 +152,43 @@ static dal_status wrong_form(reader *r, dal_section section)
                 forms[dal__sections[section].form]);
 }
 
-/* The present event must be a scalar; it becomes the text of the entry. */
+/* A mapping {for: i = 1..N, is: formula}, which becomes the text "for i = 1..N: formula". */
+static dal_status read_range(reader *r, dal__entry entry)
+{
+    const int line = line_of(r->event.start_mark), column = column_of(r->event.start_mark);
+    dal__entry range = {.section = entry.section};
+    for (;;) {
+        dal__entry key = {.section = entry.section};
+        DAL_TRY(next(r));
+        if (r->event.type == YAML_MAPPING_END_EVENT) break;
+        DAL_TRY(read_key(r, &key));
+        const bool is_formula = strcmp(key.name, "is") == 0;
+        if (!is_formula && strcmp(key.name, "for") != 0) break;
+        DAL_TRY(next(r));
+        if (r->event.type != YAML_SCALAR_EVENT) break;
+        DAL_TRY(read_scalar(r, is_formula ? &entry : &range));
+    }
+    if (r->event.type != YAML_MAPPING_END_EVENT || !entry.text || !range.text)
+        return dal__fail_at(r->error, DAL_SYNTAX, line, column,
+                            "a text is expected in %s, or {for: i = 1..N, is: \"formula in i\"}",
+                            dal__section_name(entry.section));
+    entry.text = dal__model_print(r->model, "for %s: %s", range.text, entry.text);
+    if (!entry.text) return dal__memory_error(r->error);
+    entry.apart = true;
+    if (!entry.name) {
+        entry.name_line = range.line;
+        entry.name_column = range.column;
+    }
+    return dal__model_insert(r->model, entry, r->error);
+}
+
+/* The present event must be a scalar, or a formula with a range: the text of the entry. */
 static dal_status read_entry(reader *r, dal__entry entry)
 {
+    const dal__model_section *section = &dal__sections[entry.section];
+    const bool may_range =
+        section->label && (section->form == DAL__LIST || section->form == DAL__MAPPING);
+    if (r->event.type == YAML_MAPPING_START_EVENT && may_range) return read_range(r, entry);
     if (r->event.type != YAML_SCALAR_EVENT)
         return HERE(r, DAL_SYNTAX, "a text is expected in %s", dal__section_name(entry.section));
     DAL_TRY(read_scalar(r, &entry));

@@ -19,17 +19,20 @@ enum { VARYING = 1, TOUCHED = 2, PRESENT = 4 };
 /* The elimination in numbers. */
 typedef struct plan {
     int n;
-    double *value;       /* [n*n] */
-    unsigned char *flag; /* [n*n] */
-    double *row_size, *column_size;
-    int *row, *column; /* [n]: the order of pivots; unused ones behind */
+    double *value;                  /* [n*n] */
+    unsigned char *flag;            /* [n*n] */
+    double *row_root, *column_root; /* [n] of the largest entry of each */
+    int *row, *column;              /* [n]: the order of pivots; unused ones behind */
+    int *place;                     /* [n] of a column in column */
+    int *entry; /* [n*n] the columns of the entries of each row, entries[n] of them */
+    int *entries;
 } plan;
 
 /* ---- the order ---- */
 
 static double score(const plan *p, int i, int j)
 {
-    double size = sqrt(p->row_size[i]) * sqrt(p->column_size[j]);
+    double size = p->row_root[i] * p->column_root[j];
     double s = fabs(p->value[i * p->n + j]) / size;
     return size > 0.0 && isfinite(s) ? s : 0.0;
 }
@@ -41,27 +44,44 @@ static void swap(int *a, int *b)
     *b = c;
 }
 
-/* Brings the best pivot to place k; false when none is left. */
+/* The best score of all entries that are left. */
+static double max_score(const plan *p, int k)
+{
+    double max = 0.0;
+    for (int i = k; i < p->n; i++) {
+        const int row = p->row[i];
+        for (int l = 0; l < p->entries[row]; l++)
+            if (p->place[p->entry[row * p->n + l]] >= k)
+                max = fmax(max, score(p, row, p->entry[row * p->n + l]));
+    }
+    return max;
+}
+
+/* Brings the best pivot to place k, of equal ones the first; false when none is left. */
 static bool choose(plan *p, int k)
 {
-    double max_score = 0.0, best_score = 0.0;
+    const double max = max_score(p, k);
+    double best_score = 0.0;
     int best = -1, best_i = k, best_j = k;
-    for (int i = k; i < p->n; i++)
-        for (int j = k; j < p->n; j++)
-            max_score = fmax(max_score, score(p, p->row[i], p->column[j]));
-    if (max_score <= DAL__PIVOT_LEAST) return false;
-    for (int i = k; i < p->n; i++)
-        for (int j = k; j < p->n; j++) {
-            double s = score(p, p->row[i], p->column[j]);
-            unsigned char flag = p->flag[p->row[i] * p->n + p->column[j]];
-            int preferred =
-                (flag & VARYING ? 0 : 4) + (flag & TOUCHED ? 0 : 2) + (p->row[i] == p->column[j]);
-            if (s < 0.1 * max_score) preferred = -1;
-            if (preferred < best || (preferred == best && s <= best_score)) continue;
+    if (max <= DAL__PIVOT_LEAST) return false;
+    for (int i = k; i < p->n; i++) {
+        const int row = p->row[i];
+        for (int l = 0; l < p->entries[row]; l++) {
+            const int column = p->entry[row * p->n + l], j = p->place[column];
+            const double s = score(p, row, column);
+            if (j < k || s < 0.1 * max) continue;
+            const unsigned char flag = p->flag[row * p->n + column];
+            const int preferred =
+                (flag & VARYING ? 0 : 4) + (flag & TOUCHED ? 0 : 2) + (row == column);
+            const bool first = s == best_score && i == best_i && j < best_j;
+            if (preferred < best || (preferred == best && s <= best_score && !first)) continue;
             best = preferred, best_score = s, best_i = i, best_j = j;
         }
+    }
     swap(&p->row[k], &p->row[best_i]);
     swap(&p->column[k], &p->column[best_j]);
+    p->place[p->column[k]] = k;
+    p->place[p->column[best_j]] = best_j;
     return true;
 }
 
@@ -76,6 +96,7 @@ static void eliminate_numbers(plan *p, int k)
             int d = p->column[j];
             if (!(p->flag[row + d] & PRESENT)) continue;
             unsigned from = p->flag[other + c] | p->flag[row + d] | p->flag[row + c];
+            if (!(p->flag[other + d] & PRESENT)) p->entry[other + p->entries[p->row[i]]++] = d;
             p->value[other + d] -= factor * p->value[row + d];
             p->flag[other + d] |= (unsigned char)((from & VARYING) | TOUCHED | PRESENT);
         }
@@ -86,17 +107,23 @@ static void eliminate_numbers(plan *p, int k)
 static void evaluate(plan *p, const dal__equations *e, const dal__node *matrix, const double *at)
 {
     for (int i = 0; i < p->n; i++) {
-        p->row_size[i] = p->column_size[i] = 0.0;
-        p->row[i] = p->column[i] = i;
+        p->row_root[i] = p->column_root[i] = 0.0;
+        p->row[i] = p->column[i] = p->place[i] = i;
+        p->entries[i] = 0;
     }
     for (int i = 0; i < p->n * p->n; i++) {
-        double *row_size = &p->row_size[i / p->n], *column_size = &p->column_size[i % p->n];
+        double *row_size = &p->row_root[i / p->n], *column_size = &p->column_root[i % p->n];
         bool present = !dal__is_number(e->graph, matrix[i], 0.0);
         bool varying = dal__depends(e->graph, matrix[i], e->parameters, e->symbols);
         p->value[i] = present ? dal__evaluate(e->graph, matrix[i], at) : 0.0;
         p->flag[i] = (unsigned char)((present ? PRESENT : 0) | (varying ? VARYING : 0));
+        if (present) p->entry[i / p->n * p->n + p->entries[i / p->n]++] = i % p->n;
         *row_size = fmax(*row_size, fabs(p->value[i]));
         *column_size = fmax(*column_size, fabs(p->value[i]));
+    }
+    for (int i = 0; i < p->n; i++) {
+        p->row_root[i] = sqrt(p->row_root[i]);
+        p->column_root[i] = sqrt(p->column_root[i]);
     }
 }
 
@@ -121,8 +148,11 @@ static dal_status make_plan(dal_model *model, dal__linear *s, plan *p)
     *p = (plan){.n = s->n,
                 .value = dal__model_allocate(model, n * n, sizeof *p->value),
                 .flag = dal__model_allocate(model, n * n, sizeof *p->flag),
-                .row_size = dal__model_allocate(model, n, sizeof *p->row_size),
-                .column_size = dal__model_allocate(model, n, sizeof *p->column_size),
+                .row_root = dal__model_allocate(model, n, sizeof *p->row_root),
+                .column_root = dal__model_allocate(model, n, sizeof *p->column_root),
+                .place = dal__model_allocate(model, n, sizeof *p->place),
+                .entry = dal__model_allocate(model, n * n, sizeof *p->entry),
+                .entries = dal__model_allocate(model, n, sizeof *p->entries),
                 .row = dal__model_allocate(model, n, sizeof *p->row),
                 .column = dal__model_allocate(model, n, sizeof *p->column)};
     if (model->out_of_memory) return DAL_MEMORY;
@@ -204,10 +234,22 @@ static void record_pivot(dal__equations *e, const elimination *w, int k)
                      .checked = varying && w->p->flag[place] & TOUCHED};
 }
 
+/* Eliminating n coordinates makes n^3/3 nodes of a full matrix, and few of one that couples each
+ * with a few others. */
+static bool is_too_dense(const dal__graph *graph, const dal__linear *s)
+{
+    enum { MAX_FULL = 256, MAX_COUPLED = 64 };
+    long entries = 0;
+    for (int i = 0; i < s->n * s->n && s->n > MAX_FULL; i++)
+        entries += !dal__is_number(graph, s->matrix[i], 0.0);
+    return entries > (long)MAX_COUPLED * s->n;
+}
+
 dal_status dal__linear_solve(dal_model *model, dal__linear *s)
 {
     dal__equations *e = &model->equations;
     plan p;
+    if (is_too_dense(e->graph, s)) return DAL_TOO_LARGE;
     elimination w = {.graph = e->graph, .s = s, .p = &p};
     DAL_TRY(make_plan(model, s, &p));
     w.size = dal__model_nodes(model, s->n * s->n, 0);

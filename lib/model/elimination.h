@@ -15,7 +15,8 @@ typedef struct dal__linear {
 } dal__linear;
 
 /* Solves by elimination and appends the pivots to the equations.
- * Errors: DAL_MEMORY, DAL_SINGULAR. */
+ * Errors: DAL_MEMORY, DAL_SINGULAR, DAL_TOO_LARGE (more than 256 unknowns, too many of
+ * them coupled). */
 dal_status dal__linear_solve(dal_model *model, dal__linear *linear);
 
 #endif

@@ -27,10 +27,11 @@
 #include "model/model.h"
 #include <float.h>
 #include <math.h>
+#include <stdlib.h>
 
 /* ---- identities ---- */
 
-enum { POINTS = 8 };
+enum { POINTS = 8, MAX_EXTENDED = 256 };
 /* Each term is the outcome of some ten to hundred operations of relative error 1e-16. */
 #define ROUNDING 1e-12
 /* Added to the divisor of alpha, which vanishes at rest, where alpha is to be 0: far below v.W v of
@@ -270,7 +271,8 @@ dal_status dal__conserved_energy(dal_model *model)
     dal__gradient(e->graph, e->energy, e->symbol + e->v, n, normal + 1 + n);
     e->normal = normal;
     DAL_TRY(dal__solve_vector(model, n, e->W, normal + 1, normal + 1 + 2 * n));
-    return e->properties & DAL_E_ON_D ? extend(model) : DAL_OK;
+    /* F~ couples all coordinates, so its derivatives have the square of their number. */
+    return e->properties & DAL_E_ON_D && n <= MAX_EXTENDED ? extend(model) : DAL_OK;
 }
 
 /* ---- the potential, block by block ---- */
@@ -333,6 +335,22 @@ static void fill_block(const blocks *b, int block, dal__node *out)
     }
 }
 
+/* Joins the blocks of all coordinates that U_q of coordinate i or its row of W contains. */
+static void couple(const blocks *b, int i)
+{
+    const dal__equations *e = &b->model->equations;
+    uint8_t *mark = dal__reach(e->graph, b->U_q[i]);
+    for (int j = 0; j < e->n; j++) {
+        const dal__node q = dal__find_symbol(e->graph, e->q + j);
+        const bool contains = !mark || (q && q <= b->U_q[i] && mark[q]);
+        const int from = b->block[j], to = b->block[i];
+        if (from == to || (!contains && dal__is_number(e->graph, e->W[i * e->n + j], 0.0)))
+            continue;
+        for (int k = 0; k < e->n; k++) b->block[k] = b->block[k] == from ? to : b->block[k];
+    }
+    free(mark);
+}
+
 dal_status dal__potential(dal_model *model)
 {
     dal__equations *e = &model->equations;
@@ -350,13 +368,7 @@ dal_status dal__potential(dal_model *model)
                         dal__substitute(e->graph, e->lagrangian, e->symbol + e->v, e->n, b.row));
     dal__gradient(e->graph, b.U, e->symbol + e->q, e->n, b.U_q);
     for (int i = 0; i < e->n; i++) b.block[i] = i;
-    for (int i = 0; i < e->n * e->n; i++) {
-        const int q = e->q + i % e->n;
-        const bool couples = dal__depends(e->graph, b.U_q[i / e->n], q, q + 1) ||
-                             !dal__is_number(e->graph, e->W[i], 0.0);
-        const int from = b.block[i % e->n], to = couples ? b.block[i / e->n] : from;
-        for (int k = 0; k < e->n; k++) b.block[k] = b.block[k] == from ? to : b.block[k];
-    }
+    for (int i = 0; i < e->n; i++) couple(&b, i);
     for (int i = 0; i < e->n; i++)
         if (b.block[i] == i) fill_block(&b, i, out);
     e->potential = out;

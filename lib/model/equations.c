@@ -19,13 +19,25 @@ dal__node dal__dot(dal__graph *graph, int count, const dal__node *a, const dal__
 {
     dal__node sum = dal__number(graph, 0.0);
     for (int i = 0; i < count; i++)
-        sum = dal__node_add(graph, sum, dal__node_mul(graph, a[i], b[i]));
+        if (!dal__is_number(graph, a[i], 0.0))
+            sum = dal__node_add(graph, sum, dal__node_mul(graph, a[i], b[i]));
     return sum;
 }
 
 dal__node dal__time_derivative(const dal__equations *e, dal__node f)
 {
     return dal__tangent(e->graph, f, e->symbol + e->t, 1 + e->n, e->flow);
+}
+
+/* status: of dal__linear_solve. */
+static dal_status unsolved(const dal_model *model, dal_status status, const char *matrix,
+                           dal_error *error)
+{
+    const dal__equations *e = &model->equations;
+    if (status == DAL_TOO_LARGE && e->graph->status == DAL_OK)
+        return dal__fail(error, status, "%s of %d coordinates couples too many of them", matrix,
+                         e->n);
+    return dal__size_error(e->graph->status, error);
 }
 
 static dal_status exhausted(const dal_model *model, dal_error *error)
@@ -125,6 +137,7 @@ static dal__node project(const dal__equations *e, int a, const dal__linear *mass
 {
     dal__node sum = dal__number(e->graph, 0.0);
     for (int i = 0; i < e->n; i++) {
+        if (dal__is_number(e->graph, e->A[a * e->n + i], 0.0)) continue;
         dal__node term =
             dal__node_mul(e->graph, e->A[a * e->n + i], mass->x[i * mass->columns + k]);
         sum = dal__node_add(e->graph, sum, term);
@@ -159,7 +172,7 @@ static dal_status solve_motion(dal_model *model, dal_error *error)
     dal__linear mass, force;
     dal_status status = solve_mass(model, &mass);
     if (status == DAL_SINGULAR) return singular_mass(model, mass.singular, error);
-    if (status != DAL_OK) return exhausted(model, error);
+    if (status != DAL_OK) return unsolved(model, status, "the mass matrix", error);
     if (!allocate_linear(model, &force, e->m, 1, 0)) return exhausted(model, error);
     for (int a = 0; a < e->m; a++) { /* G h = -(c + A W^-1 b) */
         dal__node pull = dal__node_add(e->graph, e->c[a], project(e, a, &mass, 0));
@@ -171,7 +184,7 @@ static dal_status solve_motion(dal_model *model, dal_error *error)
     }
     status = dal__linear_solve(model, &force);
     if (status == DAL_SINGULAR) return dependent_constraints(model, force.singular, error);
-    if (status != DAL_OK) return exhausted(model, error);
+    if (status != DAL_OK) return unsolved(model, status, "A W^-1 A^T", error);
     for (int a = 0; a < e->m; a++) e->h[a] = force.x[a];
     for (int i = 0; i < e->n; i++) {
         dal__node pushed = dal__dot(e->graph, e->m, e->R + i * e->m, force.x);

@@ -22,6 +22,9 @@ typedef struct dal__equations {
     /* First symbols of the inputs.  Twice the numbers of q, v and pi: the tangent system has 2n. */
     int t, q, v, pi, g, symbols;
     /* Formulas as given. */
+    int sizes;
+    const char **size_name; /* [sizes] */
+    int *size;
     dal__node *let;                 /* [lets] */
     struct dal__function *function; /* [functions] */
     dal__node lagrangian;

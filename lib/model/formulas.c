@@ -8,6 +8,7 @@
 #include "expr/parser.h"
 #include "expr/simplify.h"
 #include "expr/traversal.h"
+#include "model/expand.h"
 #include "model/functions.h"
 #include "model/model.h"
 #include "model/symbols.h"
@@ -51,6 +52,8 @@ static dal_status parse_entry(dal_model *model, const dal__entry *entry, dal__sc
 {
     dal_error inner = {.line = 1, .column = 1};
     scope.model = model;
+    scope.index = entry->index;
+    scope.at = entry->at;
     const dal__names names = {dal__resolve_name, dal__scope_function, dal__scope_call, &scope};
     dal_status status =
         dal__parse(model->equations.graph, entry->text, strlen(entry->text), &names, node, &inner);
@@ -387,6 +390,7 @@ dal_status dal__parse_model(dal_model *model, dal_error *error)
     int vakonomic = 0;
     model->warning = NULL;
     *e = (dal__equations){.graph = e->graph};
+    DAL_TRY(dal__expand(model, error));
     const dal__entry *mechanics = dal__model_entry(model, DAL_SECTION_MECHANICS, 0);
     if (mechanics)
         DAL_TRY(find_word(mechanics->text, DAL__AT_TEXT(mechanics), "mechanics", words, 2,

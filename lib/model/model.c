@@ -21,6 +21,7 @@ const dal__model_section dal__sections[DAL_SECTION_COUNT] = {
     [DAL_SECTION_TITLE] = {DAL__SCALAR, NULL},
     [DAL_SECTION_REFERENCE] = {DAL__SCALAR, NULL},
     [DAL_SECTION_COORDINATES] = {DAL__LIST, NULL},
+    [DAL_SECTION_SIZES] = {DAL__MAPPING, "size"},
     [DAL_SECTION_PARAMETERS] = {DAL__MAPPING, "parameter"},
     [DAL_SECTION_FUNCTIONS] = {DAL__MAPPING, "function"},
     [DAL_SECTION_LET] = {DAL__MAPPING, "let"},
@@ -129,7 +130,7 @@ void dal_model_free(dal_model *model)
         next = block->next;
         free(block);
     }
-    free(model->entries);
+    free(model->given);
     free(model);
 }
 
@@ -152,7 +153,9 @@ int dal__model_count(const dal_model *model, dal_section section)
 const char *dal_model_text(const dal_model *model, dal_section section, int i, const char **name,
                            int *line, int *column)
 {
-    const dal__entry *entry = model && i >= 0 ? dal__model_entry(model, section, i) : NULL;
+    const dal__entry *entry = NULL;
+    for (int k = 0; model && i >= 0 && k < model->given_count && !entry; k++)
+        if (model->given[k].section == section && i-- == 0) entry = &model->given[k];
     if (!entry) return NULL;
     if (name) *name = entry->name;
     if (line) *line = entry->line;
@@ -173,7 +176,12 @@ static dal_status check_name(const dal__entry *entry, dal_error *error)
         return dal__fail_at(error, DAL_TOO_LARGE, DAL__AT_NAME(entry),
                             "'%.40s...' in %s has more than %d characters", name,
                             dal__section_name(entry->section), (int)DAL__MAX_LETTERS);
-    if (length > 0 && dal__name_length(name, length) == length) return DAL_OK;
+    size_t letters = dal__name_length(name, length);
+    const bool may_index = !entry->name || dal__sections[entry->section].label;
+    if (letters > 0 && may_index && name[letters] == '[' && length > letters &&
+        strcspn(name, "]") == length - 1)
+        letters = length;
+    if (length > 0 && letters == length) return DAL_OK;
     return dal__fail_at(error, DAL_NAME, DAL__AT_NAME(entry),
                         "'%.80s' in %s is not a name: a letter, then letters, digits and _", name,
                         dal__section_name(entry->section));
@@ -185,8 +193,8 @@ static dal_status check_duplicate(const dal_model *model, const dal__entry *entr
     const char *name = named ? entry->name : entry->text;
     const char *section = dal__section_name(entry->section);
     if (entry->section == DAL_SECTION_CONSTRAINTS) return DAL_OK;
-    for (int k = 0; k < model->count; k++) {
-        const dal__entry *other = &model->entries[k];
+    for (int k = 0; k < model->given_count; k++) {
+        const dal__entry *other = &model->given[k];
         if (other->section != entry->section || other->item != entry->item) continue;
         if (dal__sections[entry->section].form == DAL__SCALAR)
             return dal__fail_at(error, DAL_MODEL, DAL__AT_NAME(entry), "duplicate %s", section);
@@ -206,7 +214,7 @@ dal_status dal__model_insert(dal_model *model, dal__entry entry, dal_error *erro
     if (model->made)
         return dal__fail_at(error, DAL_ARGUMENT, line, column,
                             "'%.80s' already has its system: nothing can be added", model->name);
-    if (model->count == DAL__MAX_ENTRIES)
+    if (model->given_count == DAL__MAX_ENTRIES)
         return dal__fail_at(error, DAL_TOO_LARGE, line, column, "more than %d entries",
                             (int)DAL__MAX_ENTRIES);
     const bool named = dal__section_named(entry.section);
@@ -218,15 +226,17 @@ dal_status dal__model_insert(dal_model *model, dal__entry entry, dal_error *erro
     DAL_TRY(check_duplicate(model, &entry, error));
     entry.text = dal__model_print(model, "%s", entry.text);
     if (named) entry.name = dal__model_print(model, "%s", entry.name);
-    if (model->count == model->capacity) {
-        const int capacity = model->capacity ? 2 * model->capacity : 32;
-        dal__entry *entries = realloc(model->entries, (size_t)capacity * sizeof *entries);
-        if (!entries) return dal__memory_error(error);
-        model->entries = entries;
-        model->capacity = capacity;
+    if (model->given_count == model->given_capacity) {
+        const int capacity = model->given_capacity ? 2 * model->given_capacity : 32;
+        dal__entry *given = realloc(model->given, (size_t)capacity * sizeof *given);
+        if (!given) return dal__memory_error(error);
+        model->given = given;
+        model->given_capacity = capacity;
     }
     if (!entry.text || (named && !entry.name)) return dal__memory_error(error);
-    model->entries[model->count++] = entry;
+    model->given[model->given_count++] = entry;
+    model->entries = model->given;
+    model->count = model->given_count;
     return DAL_OK;
 }
 
@@ -234,7 +244,7 @@ dal_status dal_model_add(dal_model *model, dal_section section, const char *name
                          int line, int column, dal_error *error)
 {
     DAL_REQUIRE(model, error);
-    dal__entry entry = {section, name, text, line, column, line, column, 0};
+    dal__entry entry = {section, name, text, line, column, line, column, .item = 0};
     if (section == DAL_SECTION_REACTIONS && name) { /* "2.x" is x of item 2 */
         const char *c = name;
         while (*c >= '0' && *c <= '9' && entry.item <= DAL__MAX_COORDINATES)

@@ -11,10 +11,10 @@
 #include "model/programs.h"
 
 enum {
-    DAL__MAX_ENTRIES = 4096,    /* of a model, all sections together */
-    DAL__MAX_COORDINATES = 256, /* W alone has the square of them */
-    DAL__MAX_BYTES = 1 << 22,   /* of a system file */
-    DAL__MAX_LETTERS = 100      /* of a name; pi_NAME fits into every buffer of 128 */
+    DAL__MAX_ENTRIES = 4096,     /* of a model, all sections together, as they are given */
+    DAL__MAX_COORDINATES = 1024, /* W alone has the square of them */
+    DAL__MAX_BYTES = 1 << 22,    /* of a system file */
+    DAL__MAX_LETTERS = 100       /* of a name; pi_NAME fits into every buffer of 128 */
 };
 
 /* How the entries of a section stand in a file; in mappings each has a name and a text. */
@@ -34,7 +34,10 @@ typedef struct dal__entry {
     const char *name; /* NULL in lists and scalars */
     const char *text;
     int line, column, name_line, name_column;
-    int item; /* in a list of mappings: which, from 1; otherwise 0 */
+    int item;          /* in a list of mappings: which, from 1; otherwise 0 */
+    bool apart;        /* of "for i = 1..N: formula": the place is that of the formula */
+    const char *index; /* a name that is the number at in the formula; NULL: none */
+    int at;
 } dal__entry;
 #define DAL__AT_NAME(entry) (entry)->name_line, (entry)->name_column
 #define DAL__AT_TEXT(entry) (entry)->line, (entry)->column
@@ -50,8 +53,12 @@ struct dal_model {
     char *name;
     struct dal__allocation *blocks; /* all memory */
     bool out_of_memory;             /* an allocation failed */
-    dal__entry *entries;
-    int count, capacity;
+    dal__entry *given;              /* [given_count] */
+    int given_count, given_capacity;
+    dal__entry *expanded; /* [expanded_count]: those with indices and ranges written out */
+    int expanded_count, expanded_capacity;
+    const dal__entry *entries; /* [count]: one of the two */
+    int count;
     dal__warning *warning; /* of the last attempt to make the system */
     dal__equations equations;
     bool made, tangent_made;

@@ -48,8 +48,9 @@ static unsigned constraint_class(const dal__equations *e, dal__node D, dal__node
     if (dal__depends(e->graph, D, e->t, e->t + 1)) all = DAL_D_LINEAR;
     if (dal__reaches(e->graph, D, DAL__ROUGH)) all = branches_by_v(e, D) ? 0 : DAL_D_LINEAR;
     for (int i = 0; i < 2 * n; i++) {
+        if (!varies(e, first[i])) continue;
         state_gradient(e, first[i], second);
-        if (varies(e, first[i])) all &= ~(unsigned)DAL_D_CONSTANT;
+        all &= ~(unsigned)DAL_D_CONSTANT;
         for (int j = 0; j < 2 * n; j++) {
             if (dal__is_number(e->graph, second[j], 0.0)) continue;
             if (i >= n && j >= n) all &= ~(unsigned)(DAL_D_LINEAR | DAL_D_BILINEAR);

@@ -2,7 +2,7 @@
  * none is that of a function or of another column of the output. */
 #include "model/symbols.h"
 #include "expr/lexer.h"
-#include "expr/parser.h"
+#include "expr/operations.h"
 #include "expr/traversal.h"
 #include "model/functions.h"
 #include "model/model.h"
@@ -50,11 +50,9 @@ typedef struct kind {
 } kind;
 
 static const kind kinds[] = {
-    {DAL_SECTION_COORDINATES, "coordinate", true},
-    {DAL_SECTION_PARAMETERS, "parameter", false},
-    {DAL_SECTION_LET, "let", false},
-    {DAL_SECTION_FUNCTIONS, "function", false},
-    {DAL_SECTION_INVARIANTS, "invariant", true},
+    {DAL_SECTION_SIZES, "size", false},           {DAL_SECTION_COORDINATES, "coordinate", true},
+    {DAL_SECTION_PARAMETERS, "parameter", false}, {DAL_SECTION_LET, "let", false},
+    {DAL_SECTION_FUNCTIONS, "function", false},   {DAL_SECTION_INVARIANTS, "invariant", true},
 };
 enum { KINDS = sizeof kinds / sizeof *kinds };
 
@@ -154,6 +152,7 @@ static dal__node unknown(const dal__scope *scope, const char *name, dal_error *e
     for (int i = 0; i < e->n && scope->may & DAL__MAY_STATE; i++) names[count++] = e->coordinate[i];
     for (int i = 0; i < scope->parameters; i++) names[count++] = e->parameter[i];
     for (int i = 0; i < scope->lets; i++) names[count++] = e->let_name[i];
+    for (int i = 0; i < e->sizes; i++) names[count++] = e->size_name[i];
     names[count++] = scope->may & DAL__MAY_T ? "t" : NULL;
     for (int i = WORD_E + 1; i < FORMULA_WORDS; i++) names[count++] = formula_words[i];
     dal__unknown(error, "name", name, names, count);
@@ -172,6 +171,9 @@ static dal__node plain(const dal__scope *scope, const char *name, size_t length,
 {
     const dal__equations *e = &scope->model->equations;
     int i;
+    if (scope->index && strcmp(name, scope->index) == 0) return dal__number(e->graph, scope->at);
+    if ((i = dal__index_of(name, length, e->size_name, e->sizes)) >= 0)
+        return dal__number(e->graph, e->size[i]);
     if (strcmp(name, "pi") == 0) return dal__number(e->graph, PI);
     if (strcmp(name, "t") == 0)
         return scope->may & DAL__MAY_T ? dal__symbol(e->graph, e->t)

@@ -14,7 +14,9 @@ enum { DAL__MAY_T = 1, DAL__MAY_STATE = 2, DAL__MAY_MULTIPLIERS = 4 };
 typedef struct dal__scope {
     const dal_model *model;
     unsigned may;
-    int parameters, lets, functions;    /* those already known */
+    int parameters, lets, functions; /* those already known */
+    const char *index;               /* a name that is the number at; NULL: none */
+    int at;
     const struct dal__function *inside; /* whose body the formula is; NULL: none */
 } dal__scope;
 /* The functions that a scope knows, as the parser wants them. */

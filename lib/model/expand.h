@@ -1,0 +1,19 @@
+/* expand.h - entries that stand for many: sizes, indices, ranges. */
+#ifndef DAL_MODEL_EXPAND_H
+#define DAL_MODEL_EXPAND_H
+
+#include "model/model.h"
+
+/* Evaluates the sizes, and makes of every given entry with an index or a range the entries that it
+ * stands for:
+ *
+ *     x[1..N]                          x1, x2, ...
+ *     x[i] with "for i = 1..N: ..."    an entry for each i, i being known in its formula
+ *     x[N]                             one name
+ *
+ * Errors: DAL_SYNTAX and DAL_NAME with place, DAL_MODEL, DAL_TOO_LARGE, DAL_MEMORY. */
+dal_status dal__expand(dal_model *model, dal_error *error);
+/* The length of "for i = 1..N:" and the blanks behind it, with which a text begins; or 0. */
+size_t dal__range_length(const char *text);
+
+#endif
