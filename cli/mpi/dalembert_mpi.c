@@ -4,7 +4,7 @@
  *
  * All processes must see DIR.  Rank 0 begins the study there and hands out the cells, the costliest
  * first, while it runs cells itself: it serves requests between steps.  Processes exchange only
- * numbers of cells; all else is in the directories of the runs, so that the study can be resumed
+ * numbers of cells; all else is in the directory of the study, so that the study can be resumed
  * after an interruption, by this program or by `dalembert resume`, to the same bytes.  At the end
  * rank 0 reads them and makes the tables. */
 #include "io/file.h"
@@ -13,6 +13,7 @@
 #include "study/study_cell.h"
 #include "study/study_directory.h"
 #include "study/study_pool.h"
+#include "study/study_results.h"
 #include "ui/message.h"
 #include "ui/options.h"
 #include "ui/signals.h"
@@ -156,7 +157,9 @@ static int run_cells(cell_queue *q)
     if (q->rank > 0 && status != CLI_DONE)
         while (request_cell() >= 0) continue;
     while (q->rank == 0 && q->waiting > 0) serve_request(q);
-    return status;
+    if (!q->plan->results || status == CLI_IO) return status;
+    const int saved = study_results_save(q->plan->results);
+    return status == CLI_DONE ? saved : status;
 }
 
 /* ---- all ---- */
@@ -173,6 +176,9 @@ static int finish(study_plan *plan, const study_directory *dir, int status)
     if (status == CLI_SIGNAL)
         return cli_fail(status, "interrupted; resume with: dalembert resume %s", dir->path);
     if (status != CLI_DONE) return status;
+    /* The results of the other ranks are in their files now. */
+    status = study_directory_open_results(dir, plan, dir->text, dir->length, &plan->results);
+    if (status != CLI_DONE) return status;
     return study_directory_finish(dir, plan, study_pool_run(plan, pool_threads()));
 }
 
@@ -182,6 +188,7 @@ static int run_study(const mpi_settings *s, int rank, int size)
     study_directory dir;
     cell_queue q = {.plan = &plan, .rank = rank, .waiting = size - 1};
     study_directory_open(&dir, s->output);
+    dir.writer = rank + 1;
     int status = study_directory_read(&dir, &plan);
     q.order = study_sort_cells(&plan);
     plan.interval = s->run.interval;

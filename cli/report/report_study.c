@@ -340,17 +340,18 @@ static int report_label(const study_page *s, const char *label)
     for (int row = 1; row < s->cells.rows; row++)
         if (is_of_label(f, row)) report_add_word(&f->steps, get_cell(s, row, "step"));
     choose_methods(f);
+    char *path = cli_format("%s/series/%s.csv", s->r->directory, label);
     int status = CLI_DONE;
     if (f->methods.count == 0) {
         fputs("<p>No run has numbers to show.</p>\n", s->r->page);
+    } else if (access(path, F_OK) != 0) {
+        fputs("<p>The runs keep no rows, so there is nothing to draw over time.</p>\n", s->r->page);
     } else {
-        char *name = cli_format("series/%s.csv", label), *path = cli_join(s->r->directory, name);
         status = report_csv_read(&f->series, path);
         if (status == CLI_DONE) status = write_data(f);
         if (status == CLI_DONE) status = draw_label(f);
-        free(name);
-        free(path);
     }
+    free(path);
     report_csv_free(&f->series);
     free(f);
     return status;

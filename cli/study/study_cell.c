@@ -2,7 +2,9 @@
  *
  * The results are read from that directory, whether the run was made now, resumed, or finished
  * before: trends from the statistics in its checkpoint, tracks from its rows.  Rows are taken after
- * whole numbers of steps, so that the trajectory is that of the steps alone. */
+ * whole numbers of steps, so that the trajectory is that of the steps alone.  A cell that keeps no
+ * rows has no directory: its results go to those of the study, and its bits are those of both
+ * ends. */
 #include "study_cell.h"
 
 #include "io/file.h"
@@ -10,8 +12,11 @@
 #include "run/manifest.h"
 #include "run/recorder.h"
 #include "study_plan.h"
+#include "study_results.h"
+#include "ui/clock.h"
 #include "ui/memory.h"
 #include "ui/message.h"
+#include "ui/signals.h"
 
 #include <math.h>
 #include <stdbool.h>
@@ -145,7 +150,7 @@ static void make_request(cell_run *r)
     request->options.step = c->step;
     request->options.space = space[c->start];
     request->time = e->time;
-    request->samples = e->samples;
+    request->samples = e->rows == STUDY_ROWS_NONE ? 1 : e->samples;
     request->sampling = REQUEST_SAMPLING_STEPS;
     request->statistics = e->statistics;
     request->typed = REQUEST_OPTION(integrator) | REQUEST_OPTION(step) | REQUEST_OPTION(space) |
@@ -181,18 +186,22 @@ static int create_run(cell_run *r)
 
 /* ---- results ---- */
 
+static void take_names(study_cell *c, const dal_run *run)
+{
+    c->observables = dal_run_observables(run);
+    c->names = cli_calloc((size_t)c->observables, sizeof *c->names);
+    for (int i = 0; i < c->observables; i++)
+        dal_run_observable_name(run, i, c->names[i], sizeof c->names[i]);
+}
+
 static void take_trends(study_cell *c, const run_recorder *recorder)
 {
-    const size_t count = (size_t)recorder->observables;
-    c->trend = cli_calloc(count, sizeof *c->trend);
-    c->names = cli_calloc(count, sizeof *c->names);
+    take_names(c, recorder->request->run);
+    c->trend = cli_calloc((size_t)c->observables, sizeof *c->trend);
+    memcpy(c->trend, recorder->trend, (size_t)c->observables * sizeof *c->trend);
     c->windows = cli_calloc(STUDY_WINDOWS, sizeof *c->windows);
     for (int i = 0; i < STUDY_WINDOWS * STUDY_TRACKS; i++)
         c->windows[i / STUDY_TRACKS][i % STUDY_TRACKS] = NAN;
-    c->observables = recorder->observables;
-    memcpy(c->trend, recorder->trend, count * sizeof *c->trend);
-    for (int i = 0; i < c->observables; i++)
-        snprintf(c->names[i], sizeof c->names[i], "%s", recorder_observable_name(recorder, i));
 }
 
 /* What of a column is on a track: its size, or its change since the start, absolute or relative to
@@ -264,20 +273,25 @@ static int read_rows(const cell_run *r)
     return more < 0 ? CLI_IO : CLI_DONE;
 }
 
-static int take_results(cell_run *r, const dal_error *error, int ended)
+static void take_end(cell_run *r, const dal_error *error, bool has_failed)
 {
     study_cell *c = r->cell;
     const dal_run *run = r->request.run;
-    take_trends(c, &r->recorder);
-    const int status = read_rows(r);
-    if (status != CLI_DONE) return status;
     c->time = dal_run_time(run);
     c->steps = dal_run_steps(run);
     c->evaluations = dal_run_evaluations(run);
-    c->seconds = r->recorder.position.seconds;
     c->state = STUDY_FINISHED;
     c->error = *error;
-    if (ended == CLI_FAILED) set_failure(c, STUDY_FAILED, error->status);
+    if (has_failed) set_failure(c, STUDY_FAILED, error->status);
+}
+
+static int take_results(cell_run *r, const dal_error *error, int ended)
+{
+    take_trends(r->cell, &r->recorder);
+    const int status = read_rows(r);
+    if (status != CLI_DONE) return status;
+    r->cell->seconds = r->recorder.position.seconds;
+    take_end(r, error, ended == CLI_FAILED);
     return CLI_DONE;
 }
 
@@ -337,11 +351,103 @@ static int run_in_directory(cell_run *r, const study_stop_check *check)
     return ended == CLI_DONE || ended == CLI_FAILED ? take_results(r, &error, ended) : ended;
 }
 
+/* ---- the run of a cell that keeps no rows ---- */
+
+enum { POLLING = 124 /* steps */ };
+
+typedef struct short_run {
+    cell_run *of_cell;
+    const study_stop_check *check;
+    int observables;
+    dal_statistics *statistics; /* [observables] */
+    native_run native;
+} short_run;
+
+static double end_time(void *user, long long row)
+{
+    return ((short_run *)user)->of_cell->request.row_time[row];
+}
+
+/* Minus zero counts as zero, as in rows. */
+static dal_status add_end(void *user, dal_run *run, long long row, double t)
+{
+    study_cell *c = ((short_run *)user)->of_cell->cell;
+    (void)row;
+    (void)t;
+    for (int i = 0; i < 2 * c->of_case->system->n; i++) {
+        const double x = dal_run_state(run)[i] + 0.0;
+        c->bits = file_hash(c->bits, &x, sizeof x);
+    }
+    return DAL_OK;
+}
+
+static dal_status add_values(void *user, dal_run *run, int count, const double *t,
+                             const double *values, size_t stride)
+{
+    const short_run *s = user;
+    (void)run;
+    dal_statistics_add_many(s->statistics, s->observables, count, t, values, stride);
+    return DAL_OK;
+}
+
+static dal_status poll_short_run(void *user, dal_run *run)
+{
+    short_run *s = user;
+    (void)run;
+    native_poll(&s->native);
+    return (s->check && s->check->stop(s->check->user)) || cli_interrupted() ? DAL_INTERRUPTED
+                                                                             : DAL_OK;
+}
+
+/* Runs the cell from its start to its end, however often it was begun. */
+static dal_status integrate(cell_run *r, short_run *s, dal_error *error)
+{
+    const run_request *request = &r->request;
+    study_cell *c = r->cell;
+    const dal_observer observer = {.user = s,
+                                   .sample = add_end,
+                                   .poll = poll_short_run,
+                                   .values = add_values,
+                                   .every = request->statistics,
+                                   .row_time = request->row_time ? end_time : NULL,
+                                   .polling = POLLING};
+    const double alike = cells_alike(r->plan, c), steps = request->time / c->step,
+                 start = cli_thread_seconds();
+    s->native = native_begin(request->run, request->time,
+                             alike * steps / (double)request->statistics, alike, r->plan->native);
+    c->bits = FILE_HASH_START;
+    const dal_status status = dal_run_sample(request->run, request->time, 1, 0, &observer, error);
+    dal_run_classify(request->run, s->statistics, status != DAL_OK, c->trend);
+    c->seconds = cli_thread_seconds() - start;
+    return status;
+}
+
+static int run_without_rows(cell_run *r, const study_stop_check *check)
+{
+    study_cell *c = r->cell;
+    const int number = (int)(c - r->plan->cells);
+    dal_error error = {0};
+    take_names(c, r->request.run);
+    const size_t count = (size_t)c->observables;
+    c->trend = cli_calloc(count, sizeof *c->trend);
+    if (study_results_get(r->plan->results, number, c)) return CLI_DONE;
+    short_run s = {.of_cell = r, .check = check, .observables = c->observables};
+    s.statistics = cli_calloc(count, sizeof *s.statistics);
+    dal_statistics_start(s.statistics, c->observables);
+    const dal_status status = integrate(r, &s, &error);
+    free(s.statistics);
+    if (status == DAL_INTERRUPTED) return CLI_SIGNAL;
+    take_end(r, &error, status != DAL_OK);
+    return study_results_add(r->plan->results, number, c, r->plan->interval);
+}
+
 int study_cell_run(const study_plan *plan, study_cell *cell, const study_stop_check *check)
 {
     cell_run r = {.plan = plan, .cell = cell, .request = request_default()};
     int status = create_run(&r);
-    if (status == CLI_DONE && r.request.run) {
+    if (status == CLI_DONE && r.request.run && cell->of_case->rows == STUDY_ROWS_NONE) {
+        status = run_without_rows(&r, check);
+    } else if (status == CLI_DONE && r.request.run) {
         char *directory = cli_join(plan->runs, cell->name);
         run_directory_open(&r.dir, directory);
         status = run_in_directory(&r, check);

@@ -7,6 +7,7 @@
 #include "run/system.h"
 #include "study_expect.h"
 #include "study_pool.h"
+#include "study_results.h"
 #include "study_screen.h"
 #include "study_table.h"
 #include "ui/memory.h"
@@ -131,6 +132,43 @@ static int write_manifest(const study_directory *dir, const study_plan *plan, co
     return status;
 }
 
+/* ---- the results of cells without rows ---------------------------------------------------- */
+
+/* A hash of the study and of the systems in it. */
+static int hash_study(const study_plan *plan, const char *text, size_t length, uint64_t *hash)
+{
+    *hash = file_hash(FILE_HASH_START, text, length);
+    for (int i = 0; i < plan->case_count; i++) {
+        const study_case *e = &plan->cases[i];
+        if (!e->is_first) continue;
+        char *copy = e->copy ? file_read(e->copy, &length) : NULL;
+        if (e->copy && !copy) return CLI_IO;
+        const char *system = copy ? copy : dal_builtin_text(e->name);
+        *hash = file_hash(*hash, system, copy ? length : strlen(system));
+        free(copy);
+    }
+    return CLI_DONE;
+}
+
+int study_directory_open_results(const study_directory *dir, const study_plan *plan,
+                                 const char *text, size_t length, study_results **results)
+{
+    uint64_t hash;
+    bool has_any = false;
+    for (int i = 0; i < plan->case_count; i++) has_any |= plan->cases[i].rows == STUDY_ROWS_NONE;
+    study_results_free(*results);
+    *results = NULL;
+    if (!has_any) return CLI_DONE;
+    char *writer = dir->shard.count > 0
+                       ? cli_format("%lld-of-%lld", dir->shard.number, dir->shard.count)
+                   : dir->writer > 0 ? cli_format("writer-%d", dir->writer)
+                                     : cli_strdup("all");
+    int status = hash_study(plan, text, length, &hash);
+    if (status == CLI_DONE) status = study_results_open(results, dir->results, writer, plan, hash);
+    free(writer);
+    return status;
+}
+
 /* ---- beginning ----------------------------------------------------------------------------- */
 
 /* Removes a directory and what is in it, down to a depth that no study exceeds; or a file. */
@@ -251,6 +289,8 @@ int study_directory_begin(study_directory *dir, study_plan *plan, const char *te
     if (status == CLI_DONE) status = copy_systems(dir, plan);
     if (status == CLI_DONE) status = write_manifest(dir, plan, "running");
     if (status == CLI_DONE) status = file_replace(dir->study, text, length, 1);
+    if (status == CLI_DONE)
+        status = study_directory_open_results(dir, plan, text, length, &plan->results);
     if (locked >= 0) close(locked);
     return status;
 }
@@ -265,6 +305,8 @@ int study_directory_read(study_directory *dir, study_plan *plan)
     if (!dir->text) return CLI_IO;
     int status = study_plan_read(plan, dir->study, dir->text, dir->length, dir->systems);
     plan->runs = dir->runs;
+    if (status == CLI_DONE)
+        status = study_directory_open_results(dir, plan, dir->text, dir->length, &plan->results);
     if (status != CLI_DONE || file_exists(dir->manifest)) return status;
     study_shard *shards;
     int count;
@@ -354,6 +396,10 @@ static int result_status(const study_plan *plan)
 
 int study_directory_finish(const study_directory *dir, const study_plan *plan, int status)
 {
+    if (plan->results) {
+        const int saved = study_results_save(plan->results);
+        if (status == CLI_DONE) status = saved;
+    }
     const int result = status == CLI_DONE ? result_status(plan) : status;
     const int is_whole = dir->shard.count == 0;
     const char *word = result == CLI_DONE || result == CLI_FAILED ? "done"

@@ -3,6 +3,7 @@
  *     DIR/study.yaml         the study itself; written last, when all else is there
  *     DIR/systems/LABEL.yaml copies of system files
  *     DIR/runs/NAME/         a run each, as 'dalembert run --output' makes them
+ *     DIR/results/           the results of cells that keep no rows, see study_results.c
  *     DIR/manifest.json      what ran the study and how far it is; or, of shards,
  *     DIR/shard-K-of-N.json  the same of each of them
  *     DIR/tables.txt, cells.csv, quantities.csv, expectations.csv, series/LABEL.csv
@@ -21,6 +22,7 @@
     PATH(study, "study.yaml")                                                                      \
     PATH(systems, "systems")                                                                       \
     PATH(runs, "runs")                                                                             \
+    PATH(results, "results")                                                                       \
     PATH(report, "report")                                                                         \
     PATH(series, "series")                                                                         \
     PATH(manifest, "manifest.json")                                                                \
@@ -45,6 +47,7 @@ typedef struct study_directory {
     char *text; /* of study.yaml, as it was read */
     size_t length;
     study_shard shard; /* what of the study is run */
+    int writer;        /* which of several processes this is that run it, from 1; 0: the only one */
 } study_directory;
 
 /* How the cells of a study are run. */
@@ -71,6 +74,10 @@ int study_directory_begin(study_directory *dir, study_plan *plan, const char *te
                           study_shard shard, int force);
 /* Reads the plan of the study, or of those of its shards that are there. */
 int study_directory_read(study_directory *dir, study_plan *plan);
+/* Reads the results of cells without rows in place of those before, *results being NULL where all
+ * cells keep some; text is that of the study. */
+int study_directory_open_results(const study_directory *dir, const study_plan *plan,
+                                 const char *text, size_t length, struct study_results **results);
 /* Runs the cells, then finishes; and reads the study before. */
 int study_directory_run(const study_directory *dir, study_plan *plan,
                         const study_run_options *options);

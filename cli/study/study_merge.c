@@ -9,6 +9,7 @@
 #include "run/manifest.h"
 #include "study_cell.h"
 #include "study_pool.h"
+#include "study_results.h"
 #include "ui/memory.h"
 #include "ui/message.h"
 #include "ui/signals.h"
@@ -24,7 +25,8 @@ typedef struct merge {
     int sources;
     study_directory target;
     study_plan plan;
-    int *from; /* [cells] which source has the run, -1: none */
+    int *from;               /* [cells] which source has the run, -1: none */
+    study_results **results; /* [sources] of cells that keep no rows; NULL: all keep some */
 } merge;
 
 /* ---- the sources ---- */
@@ -64,19 +66,26 @@ static int check_source(const merge *m, int i)
 
 /* ---- the runs ---- */
 
-/* Notes that a source has a run, which must be finished and in no other source. */
+/* Notes that a source has a run, which must be in no other source. */
+static int note_source(merge *m, int cell, int source, const char *name)
+{
+    const int before = m->from[cell];
+    m->from[cell] = source;
+    if (before < 0) return CLI_DONE;
+    return cli_fail(CLI_USAGE, "'%s' is in '%s' and in '%s'", name, m->source[before].path,
+                    m->source[source].path);
+}
+
+/* A run that a source has must be finished. */
 static int find_in_source(merge *m, int cell, int source, const char *name)
 {
     const study_directory *s = &m->source[source];
     char *run = cli_join(s->runs, name), *manifest = cli_join(run, "manifest.json");
     int status = CLI_DONE;
     if (file_exists(manifest)) {
-        if (m->from[cell] >= 0)
-            status = cli_fail(CLI_USAGE, "'%s' is in '%s' and in '%s'", name,
-                              m->source[m->from[cell]].path, s->path);
-        else if (!manifest_has_ended(manifest))
+        status = note_source(m, cell, source, name);
+        if (status == CLI_DONE && !manifest_has_ended(manifest))
             status = cli_fail(CLI_USAGE, "'%s' is not finished: dalembert resume %s", run, s->path);
-        m->from[cell] = source;
     }
     free(manifest);
     free(run);
@@ -85,14 +94,17 @@ static int find_in_source(merge *m, int cell, int source, const char *name)
 
 static int find_run(merge *m, int cell)
 {
-    const char *name = m->plan.cells[cell].name;
+    study_cell *c = &m->plan.cells[cell];
     int status = CLI_DONE;
     m->from[cell] = -1;
     for (int i = 0; i < m->sources && status == CLI_DONE; i++)
-        status = find_in_source(m, cell, i, name);
-    if (status == CLI_DONE && m->from[cell] < 0 && study_cell_is_runnable(&m->plan.cells[cell]))
+        if (c->of_case->rows == STUDY_ROWS_KEPT)
+            status = find_in_source(m, cell, i, c->name);
+        else if (study_results_has(m->results[i], cell))
+            status = note_source(m, cell, i, c->name);
+    if (status == CLI_DONE && m->from[cell] < 0 && study_cell_is_runnable(c))
         status =
-            cli_fail(CLI_USAGE, "'%s' is in none of the directories: a shard is missing", name);
+            cli_fail(CLI_USAGE, "'%s' is in none of the directories: a shard is missing", c->name);
     return status;
 }
 
@@ -132,20 +144,35 @@ static int copy_run(const char *source, const char *target)
     return status;
 }
 
+static int copy_directory(const merge *m, int from, const char *name)
+{
+    char *source = cli_join(m->source[from].runs, name);
+    char *target = cli_join(m->target.runs, name);
+    const int status = copy_run(source, target);
+    free(source);
+    free(target);
+    return status;
+}
+
 static int copy_runs(const merge *m)
 {
     int status = CLI_DONE;
     for (int i = 0; i < m->plan.cell_count && status == CLI_DONE; i++) {
+        const study_cell *c = &m->plan.cells[i];
         const int from = m->from[i];
         if (from < 0 || is_same_place(m->source[from].path, m->target.path)) continue;
-        const char *name = m->plan.cells[i].name;
-        char *source = cli_join(m->source[from].runs, name);
-        char *target = cli_join(m->target.runs, name);
-        status = copy_run(source, target);
-        free(source);
-        free(target);
+        status = c->of_case->rows == STUDY_ROWS_KEPT
+                     ? copy_directory(m, from, c->name)
+                     : study_results_copy(m->plan.results, m->results[from], i);
     }
     return status;
+}
+
+/* Reads the results that are in all directories of the plan now. */
+static int read_results(merge *m, const study_directory *dir, study_results **results)
+{
+    return study_directory_open_results(dir, &m->plan, m->source[0].text, m->source[0].length,
+                                        results);
 }
 
 /* ---- all ---- */
@@ -157,7 +184,7 @@ static int begin_target(merge *m, int force)
     for (int i = 0; i < m->sources; i++) {
         if (!is_same_place(m->source[i].path, m->target.path)) continue;
         m->plan.runs = m->target.runs;
-        return CLI_DONE;
+        return read_results(m, &m->target, &m->plan.results);
     }
     return study_directory_begin(&m->target, &m->plan, m->source[0].text, m->source[0].length,
                                  whole, force);
@@ -171,16 +198,23 @@ int study_merge(study_directory *sources, int count, const char *output, int thr
     int status = study_directory_read(&sources[0], &m.plan);
     for (int i = 1; i < count && status == CLI_DONE; i++) status = check_source(&m, i);
     m.from = cli_calloc((size_t)m.plan.cell_count + 1, sizeof *m.from);
+    m.results = cli_calloc((size_t)count, sizeof *m.results);
+    for (int i = 0; i < count && status == CLI_DONE; i++)
+        status = read_results(&m, &sources[i], &m.results[i]);
     for (int i = 0; i < m.plan.cell_count; i++) m.plan.cells[i].other_shard = 0;
     for (int i = 0; i < m.plan.cell_count && status == CLI_DONE; i++) status = find_run(&m, i);
     if (status == CLI_DONE) status = begin_target(&m, force);
     if (status == CLI_DONE) status = copy_runs(&m);
+    if (status == CLI_DONE && m.plan.results) status = study_results_save(m.plan.results);
+    if (status == CLI_DONE) status = read_results(&m, &m.target, &m.plan.results);
     if (status == CLI_DONE) {
         cli_catch_signals();
         status = study_directory_finish(&m.target, &m.plan, study_pool_run(&m.plan, threads));
     }
     study_directory_close(&m.target);
     study_plan_free(&m.plan);
+    for (int i = 0; i < count; i++) study_results_free(m.results[i]);
+    free(m.results);
     free(m.from);
     return status;
 }

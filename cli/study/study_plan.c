@@ -8,6 +8,7 @@
 #include "run/row_times.h"
 #include "run/system.h"
 #include "study_expect.h"
+#include "study_results.h"
 #include "study_values.h"
 #include "ui/memory.h"
 #include "ui/message.h"
@@ -98,6 +99,14 @@ static int read_starts(void *user, const document *doc, yaml_node_t *value, cons
         e->starts |= 1 << start;
     }
     return e->starts ? CLI_DONE : document_fail(doc, value, "starts: the list is empty");
+}
+
+static int read_rows(void *user, const document *doc, yaml_node_t *value, const document_key *key)
+{
+    static const char *const words[] = {"kept", "none"};
+    const int rows = document_word(doc, value, key->name, words, 2);
+    ((parsed_study *)user)->item.rows = rows;
+    return rows < 0 ? CLI_USAGE : CLI_DONE;
 }
 
 #define KEY(name, scope, read, member, help) {#name, read, offsetof(parsed_study, member)},
@@ -428,6 +437,7 @@ void study_plan_free(study_plan *plan)
         request_free_settings(&e->start);
         request_free_settings(&e->displace);
     }
+    study_results_free(plan->results);
     if (plan->doc) yaml_document_delete(&plan->doc->yaml);
     free(plan->doc);
     free(plan->cases);

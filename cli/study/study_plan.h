@@ -11,6 +11,10 @@
 
 enum { STUDY_STEPS = 16, STUDY_REPRESENTATIVES = 16 };
 
+/* What is kept of runs: a directory with rows for each, or the results alone, for many short runs.
+ */
+typedef enum study_rows { STUDY_ROWS_KEPT, STUDY_ROWS_NONE } study_rows;
+
 /* One system of a study, with one value for each of its settings.  Cases that differ in these
  * values alone are of one group: they stand together and share the model, the copy and the methods,
  * which belong to the first of them. */
@@ -23,6 +27,7 @@ typedef struct study_case {
     const dal_system *system;
     char *copy; /* of the system file, in the directory of the study; NULL: a built-in system */
     double step[STUDY_STEPS], time, displacement;
+    int rows;          /* a study_rows */
     int steps, starts; /* starts: bit STUDY_x set */
     long long samples, statistics;
     dal_options options;                   /* but step and space, and as they were given: */
@@ -34,9 +39,10 @@ typedef struct study_case {
 } study_case;
 
 typedef struct study_plan {
-    const char *copies; /* directory with copies of system files, or NULL */
-    const char *runs;   /* where the directories of the runs are */
-    double interval;    /* seconds between checkpoints of a run */
+    const char *copies;            /* directory with copies of system files, or NULL */
+    const char *runs;              /* where the directories of the runs are */
+    struct study_results *results; /* of the cells that keep no rows; NULL where all do */
+    double interval;               /* seconds between checkpoints of a run */
     native_mode native;
     const char *title;
     document *doc; /* the parsed text, to which all names point */
@@ -78,6 +84,8 @@ char *study_plan_copy_path(const char *directory, const study_case *item);
     KEY(time, "both", document_read_positive, item.time,                                           \
         "integrate from 0 to this, in whole steps")                                                \
     KEY(samples, "both", document_read_count, item.samples, "rows kept of each run (400)")         \
+    KEY(rows, "both", read_rows, item.rows,                                                        \
+        "kept (default), or none: many short runs leave their results, and no files each")         \
     KEY(statistics, "both", document_read_count, item.statistics,                                  \
         "observe the quantities after every K-th step (1)")                                        \
     KEY(seeds, "both", document_read_node, seeds,                                                  \

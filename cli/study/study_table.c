@@ -215,10 +215,10 @@ static void put_same(FILE *out, const csv_row *r)
         fputs(r->cell->bits == physical->bits ? "yes" : "no", out);
 }
 
-/* The directory of the run; a cell whose run could not be created has none. */
+/* The directory of the run; a cell without rows, or whose run could not be created, has none. */
 static void put_run(FILE *out, const csv_row *r)
 {
-    if (r->cell->observables == 0) return;
+    if (r->cell->observables == 0 || r->of_case->rows == STUDY_ROWS_NONE) return;
     char *run = cli_join("runs", r->cell->name);
     cli_put_text(out, run);
     free(run);
@@ -325,7 +325,7 @@ static void put_series(FILE *out, const csv_row *r)
 typedef void row_writer(FILE *out, const csv_row *r);
 
 /* Writes DIRECTORY/NAME: heads, then rows of the cells that have results, of one case or of all.  A
- * case without results has no file. */
+ * case without any has no file. */
 static int write_file(const study_plan *plan, const study_case *of_case, const char *directory,
                       const char *name, const char *heads, row_writer *put)
 {
@@ -366,6 +366,7 @@ int study_write_csv(const study_plan *plan, const char *directory)
     if (status == CLI_DONE)
         status = write_file(plan, NULL, directory, "quantities.csv", heads, put_quantities);
     for (int i = 0; i < plan->case_count && status == CLI_DONE; i++) {
+        if (plan->cases[i].rows == STUDY_ROWS_NONE) continue;
         char *name = cli_format("%s.csv", plan->cases[i].label);
         status = write_file(plan, &plan->cases[i], series, name, series_heads, put_series);
         free(name);

@@ -1,0 +1,136 @@
+# `rows: none` of a study: many short runs, whose results are in one file.
+
+cat >short.yaml <<'END2'
+title: many short runs
+integrators: [rk4, gauss4+project]
+step: [0.1, 0.05]
+time: 2
+systems:
+  - system: chaplygin-sleigh
+    start: {phi': {from: 0.5, to: 1.5, count: 4}}
+  - {system: plane.yaml, label: plane, starts: [surface, physical]}
+  - {system: chaplygin-sleigh-vakonomic, integrators: rk4}
+  - {system: appell-hamel, starts: physical, time: 30, set: {w0: -1}, integrators: gauss4}
+expect:
+  appell-hamel: {all: {state: failed}}
+END2
+sed 's/^time/rows: none\ntime/' short.yaml >bare.yaml
+
+# All columns of cells.csv that do not speak of rows, directories and times.
+results() {
+    sed ':a; s/\("[^",]*\),\([^"]*"\)/\1;\2/; ta' "$1/cells.csv" | awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) drop[i] = $i ~ /^(bits|run|seconds)$/ }
+        { line = ""; for (i = 1; i <= NF; i++) if (!drop[i]) line = line "," $i; print line }'
+    cat "$1/quantities.csv"
+}
+same_results() {
+    results "$1" >one.results
+    results "$2" >other.results
+    cmp one.results other.results
+}
+untimed_cells() { sed 's/,[^,]*$//' "$1/cells.csv"; }
+
+case_is "short runs: the results are those of runs with rows"
+try 0 study short.yaml --output kept --threads 1
+try 0 study bare.yaml --output bare --threads 1
+silent
+holds "other results" same_results kept bare
+holds "not all kinds of cells" test "$(column state bare/cells.csv | sort | uniq -c |
+    tr -d ' \n')" = "$(column state kept/cells.csv | sort | uniq -c | tr -d ' \n')"
+holds "a failure is missing" grep -q ',failed,' bare/cells.csv
+holds "a refusal is missing" grep -q ',refused,' bare/cells.csv
+holds "runs have directories" test "$(ls bare/runs bare/series | grep -c _)" -eq 0
+holds "cells name them" test -z "$(column run bare/cells.csv | tr -d '\n')"
+holds "the lift differs" test "$(column same_as_physical bare/cells.csv | grep -c no)" -eq 0
+holds "nothing is compared" test "$(column same_as_physical bare/cells.csv | grep -c yes)" -gt 10
+try 0 study bare.yaml --output bare-two --threads 2
+untimed_cells bare >one.cells
+untimed_cells bare-two >two.cells
+holds "threads change bytes" cmp one.cells two.cells
+
+case_is "short runs: cut off at any byte"
+size=$(wc -c <bare/results/all)
+for length in 0 5 8 16 17 100 $((size / 3)) $((size / 2)) $((size - 1)); do
+    rm -rf cut
+    cp -r bare cut
+    head -c "$length" bare/results/all >cut/results/all
+    rm cut/cells.csv cut/quantities.csv
+    try 0 resume cut
+    untimed_cells cut >two.cells
+    holds "other bytes after $length" cmp one.cells two.cells
+    holds "$length: not all results" test "$(wc -c <cut/results/all)" -eq "$size"
+done
+before=$(ls -l --time-style=full-iso cut/results/all)
+try 0 resume cut
+holds "finished cells are run again" test "$(ls -l --time-style=full-iso cut/results/all)" = "$before"
+# A byte that changed, of the time that the first run reached, ends what is believed.
+printf 'x' | dd of=cut/results/all bs=1 seek=54 conv=notrunc 2>/dev/null
+try 0 resume cut
+untimed_cells cut >two.cells
+holds "other bytes after a changed one" cmp one.cells two.cells
+
+case_is "short runs: the results of something else"
+cp -r bare other
+sed 's/many/some/' bare/study.yaml >other/study.yaml
+try 2 resume other
+says "other/results/all: belongs to another study: study.yaml or a system was changed"
+cp bare/study.yaml other/study.yaml
+echo '# changed' >>other/systems/plane.yaml
+try 2 resume other
+says "other/results/all: belongs to another study"
+cp bare/systems/plane.yaml other/systems/plane.yaml
+printf 'no such file of results' >other/results/all
+try 2 resume other
+says "other/results/all: it does not begin as a file of results"
+rm other/results/all
+mkdir other/results/all
+try 4 resume other
+says "cannot read 'other/results/all'"
+
+case_is "short runs: shards"
+try 0 study bare.yaml --output third-1 --shard 1/3
+try 0 study bare.yaml --output third-2 --shard 2/3
+try 2 merge third-1 third-2 --output thirds
+says 'is in none of the directories: a shard is missing'
+try 0 study bare.yaml --output third-3 --shard 3/3
+try 0 merge third-3 third-1 third-2 --output thirds
+untimed_cells thirds >two.cells
+holds "other bytes, merged" cmp one.cells two.cells
+try 2 merge third-1 third-2 third-3 bare --output twice
+says "' is in 'third-.' and in 'bare'"
+for k in 1 2; do "$program" study bare.yaml --output half --shard $k/2 >out.$k 2>err.$k & done
+wait
+try 0 merge half --output half
+untimed_cells half >two.cells
+holds "other bytes, merged in place" cmp one.cells two.cells
+
+case_is "short runs: interrupted beside a long one"
+cat >long.yaml <<'END2'
+integrators: [rk4]
+step: 0.01
+rows: none
+systems:
+  - {system: plane.yaml, label: plane, starts: physical, time: 1e12}
+  - {system: chaplygin-sleigh, starts: physical, time: 1, start: {phi': {from: 1, to: 2, count: 5}}}
+END2
+"$program" study long.yaml --output long --threads 2 --checkpoint 0 >out 2>err &
+holds "no results" reaches $! has_bytes long/results/all $((5 * 800))
+ends_by INT 130 $!
+says 'interrupted; resume with: dalembert resume long'
+holds "results are lost" test "$(grep -c ',done,' long/cells.csv)" -eq 5
+holds "the manifest" json long/manifest.json 'd["status"] == "interrupted" and d["cells"]["done"] == 5'
+
+case_is "short runs: bad values"
+bad 'integrators: [rk4]\nstep: 1\ntime: 1\nrows: some\nsystems: [plane.yaml]\n' \
+    "bad.yaml:4:7: unknown rows 'some'; did you mean 'none'"
+
+if [ -x "$(dirname "$program")/dalembert-mpi" ] && command -v mpirun >/dev/null; then
+    case_is "short runs by MPI"
+    ASAN_OPTIONS=detect_leaks=0 timeout $patience mpirun --allow-run-as-root --oversubscribe \
+        --mca mpi_yield_when_idle 1 -n 3 "$(dirname "$program")/dalembert-mpi" bare.yaml \
+        --output bare-mpi >out 2>err
+    status=$?
+    expected=0
+    ended $status "by MPI"
+    untimed_cells bare-mpi >two.cells
+    holds "other bytes" cmp one.cells two.cells
+fi
