@@ -12,6 +12,7 @@
 #include "model/equations.h"
 #include "expr/derivative.h"
 #include "expr/simplify.h"
+#include "expr/traversal.h"
 #include "model/elimination.h"
 #include "model/model.h"
 
@@ -230,6 +231,32 @@ static dal_status solve_vakonomic(dal_model *model, dal_error *error)
     return DAL_OK;
 }
 
+/* ---- the reactions in invariants ---- */
+
+/* Replaces h and R = B^T h by their formulas.  Their nodes are made where they are used alone. */
+static dal_status insert_reactions(dal_model *model)
+{
+    dal__equations *e = &model->equations;
+    const int n = e->n, m = e->m, count = m + n;
+    bool used = false;
+    for (int k = 0; k < e->invariants; k++)
+        used |= dal__depends(e->graph, e->invariant[k], e->reaction, e->reaction + count);
+    if (!used) return e->graph->status;
+    dal__node *by = dal__model_nodes(model, count, dal__number(e->graph, 0.0));
+    int *symbol = dal__model_allocate(model, (size_t)count, sizeof *symbol);
+    if (model->out_of_memory) return DAL_MEMORY;
+    for (int i = 0; i < count; i++) symbol[i] = e->reaction + i;
+    for (int a = 0; a < m; a++) {
+        by[a] = e->h[a];
+        for (int i = 0; i < n; i++)
+            by[m + i] = dal__node_add(e->graph, by[m + i],
+                                      dal__node_mul(e->graph, e->B[a * n + i], e->h[a]));
+    }
+    for (int k = 0; k < e->invariants; k++)
+        e->invariant[k] = dal__substitute(e->graph, e->invariant[k], symbol, count, by);
+    return e->graph->status;
+}
+
 dal_status dal__equations_derive(dal_model *model, dal_error *error)
 {
     dal__equations *e = &model->equations;
@@ -244,5 +271,5 @@ dal_status dal__equations_derive(dal_model *model, dal_error *error)
         }
         DAL_TRY(solve_motion(model, error));
     }
-    return e->graph->status == DAL_OK ? DAL_OK : exhausted(model, error);
+    return insert_reactions(model) == DAL_OK ? DAL_OK : exhausted(model, error);
 }

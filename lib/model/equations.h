@@ -21,6 +21,7 @@ typedef struct dal__equations {
     unsigned properties;
     /* First symbols of the inputs.  Twice the numbers of q, v and pi: the tangent system has 2n. */
     int t, q, v, pi, g, symbols;
+    int reaction; /* first symbol of h, R_x in invariants, which stand for their formulas */
     /* Formulas as given. */
     int sizes;
     const char **size_name; /* [sizes] */

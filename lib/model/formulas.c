@@ -1,8 +1,9 @@
 /* formulas.c - from the texts of a model to nodes of one graph.
  *
  * Symbols are numbered
- *     parameters | t | q, dq | v, dv | pi, dpi | g
- * where dq, dv, dpi have a meaning in the tangent system only. */
+ *     parameters | t | q, dq | v, dv | pi, dpi | g | h, R
+ * where dq, dv, dpi have a meaning in the tangent system only, and h, R, the reactions, until their
+ * formulas are known (equations.c). */
 #include "model/formulas.h"
 #include "expr/derivative.h"
 #include "expr/parser.h"
@@ -347,7 +348,7 @@ static dal_status begin_equations(dal_model *model, dal_error *error)
     e->v = e->q + 2 * n;
     e->pi = e->v + 2 * n;
     e->g = e->pi + 2 * n;
-    e->symbols = e->g + m;
+    e->symbols = e->reaction = e->g + m;
     dal__graph_free(e->graph);
     e->graph = dal__graph_create(e->parameters);
     if (!e->graph) return dal__memory_error(error);

@@ -167,6 +167,32 @@ static bool let_allowed(const dal__scope *scope, dal__node let)
     return scope->may & DAL__MAY_T || !dal__depends(e->graph, let, e->t, e->t + 1);
 }
 
+/* h1, .., hm, R_x, ..: the number of a reaction, -1: none */
+static int reaction_index(const dal__equations *e, const char *name)
+{
+    char h[16];
+    for (int a = 0; a < e->m && is_numbered(name, 'h'); a++) {
+        snprintf(h, sizeof h, "h%d", a + 1);
+        if (strcmp(h, name) == 0) return a;
+    }
+    if (e->m == 0 || strncmp(name, "R_", 2) != 0) return -1;
+    const int i = dal__index_of(name + 2, strlen(name + 2), e->coordinate, e->n);
+    return i < 0 ? -1 : e->m + i;
+}
+
+static dal__node reaction(const dal__scope *scope, const char *name, int i, dal_error *error)
+{
+    const dal__equations *e = &scope->model->equations;
+    if (e->vakonomic)
+        dal__fail(error, DAL_NAME,
+                  "vakonomic motion has no reaction '%.80s'; its multipliers are g1, g2, ..", name);
+    else if (!(scope->may & DAL__MAY_MULTIPLIERS))
+        dal__fail(error, DAL_NAME, "the reaction '%.80s' may stand in invariants only", name);
+    else
+        return dal__symbol(e->graph, e->reaction + i);
+    return 0;
+}
+
 static dal__node plain(const dal__scope *scope, const char *name, size_t length, dal_error *error)
 {
     const dal__equations *e = &scope->model->equations;
@@ -194,6 +220,7 @@ static dal__node plain(const dal__scope *scope, const char *name, size_t length,
         snprintf(g, sizeof g, "g%d", a + 1);
         if (strcmp(g, name) == 0) return dal__symbol(e->graph, e->g + a);
     }
+    if ((i = reaction_index(e, name)) >= 0) return reaction(scope, name, i, error);
     return unknown(scope, name, error);
 }
 
