@@ -159,6 +159,8 @@ typedef int dal_choice;
            "maximum number of iterations of an implicit equation")                                 \
     OPTION(dal_choice, extend_energy, "extend-energy", 0, 0, 1, "off|on",                          \
            "continues F off D = 0 so that E is conserved there too")                               \
+    OPTION(dal_choice, reactions, "reactions", 0, 0, 1, "off|on",                                  \
+           "observes multipliers h1.., reactions R_x.. of F, and a method's own lambda1..")        \
     OPTION(double, tolerance, "tolerance", 0, 0.0, 1.0, "TOLERANCE",                               \
            "estimated error, absolute and relative, of the substeps of dop853; 0: no substeps")    \
     OPTION(double, solver_tolerance, "solver-tolerance", 0, 0.0, 1.0, "CHANGE",                    \
@@ -266,7 +268,8 @@ const double *dal_run_save(const dal_run *run, size_t *count);
 dal_status dal_run_restore(dal_run *run, const double *saved, size_t count, dal_error *error);
 
 /* The number of observables, in this order: D1..Dm, E (with an energy), H, |p|, |pi|, |pi_e|
- * (lifted; max norms), invariants, error (max over q; with an exact solution from the start). */
+ * (lifted; max norms), invariants, with the option reactions h1.., R_x.. and lambda1.. (that of the
+ * last step; h before), error (max over q; with an exact solution from the start). */
 int dal_run_observables(const dal_run *run);
 /* Writes the name of observable i into buffer[size]; returns buffer, NULL past the last. */
 char *dal_run_observable_name(const dal_run *run, int i, char *buffer, size_t size);

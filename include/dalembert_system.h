@@ -148,6 +148,7 @@ struct dal_system {
     dal_callback *constraints;      /* out[m]: D alone; NULL: D is not observed */
     dal_callback *energy;           /* out[1]: E = L_v.v - L; NULL: unknown */
     dal_callback *invariant_values; /* out[invariants]; NULL: no invariants */
+    dal_callback *reactions;        /* out[m + m*n]: h, B of the force B^T h in F; NULL: unknown */
     dal_callback *exact;    /* out[2n]: q, v of the exact solution at at->t; NULL: unknown */
     dal_callback *diagnose; /* out[1]: why field is not finite here: returns DAL_SINGULAR with the
                                number of the constraint (from 1), DAL_SINGULAR_MASS, or DAL_OK */

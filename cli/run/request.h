@@ -77,7 +77,8 @@ void request_free(run_request *request);
 #define REQUEST_OPTION(name) (UINT64_C(1) << REQUEST_##name)
 #define REQUEST_ROW_OPTIONS                                                                        \
     (REQUEST_OPTION(samples) | REQUEST_OPTION(sampling) | REQUEST_OPTION(times) |                  \
-     REQUEST_OPTION(statistics) | REQUEST_OPTION(columns) | REQUEST_OPTION(names))
+     REQUEST_OPTION(statistics) | REQUEST_OPTION(columns) | REQUEST_OPTION(names) |                \
+     REQUEST_OPTION(reactions))
 /* All options; and as a group for a command, which may change their defaults and help in options,
  * and does not take some.  A command that has read its arguments has loaded the system. */
 extern const cli_option request_options[REQUEST_OPTIONS];

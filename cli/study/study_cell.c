@@ -221,6 +221,8 @@ static void choose_tracks(const study_cell *c, int columns, tracked_column *colu
     const dal_system *s = c->of_case->system;
     const int error = c->observables - (study_cell_trend(c, "error") != NULL);
     const bool is_lifted = study_cell_trend(c, "|p|") != NULL;
+    int reactions = error; /* the first of them */
+    while (c->of_case->options.reactions && strcmp(c->names[reactions], "h1") != 0) reactions--;
     for (int i = 0; is_lifted && i < 2 * s->n; i++)
         column[2 + 2 * s->n + i] =
             (tracked_column){MAX_ABS, i < s->n ? STUDY_TRACK_P : STUDY_TRACK_PI, 0.0};
@@ -228,9 +230,13 @@ static void choose_tracks(const study_cell *c, int columns, tracked_column *colu
     for (int i = 0; i < c->observables; i++) {
         const char *name = c->names[i];
         if (name[0] == '|') continue;
+        if (i >= reactions && i < error) {
+            *next++ = (tracked_column){NOT_TRACKED, 0, 0.0};
+            continue;
+        }
         *next++ = i < s->m     ? (tracked_column){MAX_ABS, STUDY_TRACK_D, 0.0}
                   : i == error ? (tracked_column){MAX_ABS, STUDY_TRACK_ERROR, 0.0}
-                  : i >= error - s->invariants
+                  : i >= reactions - s->invariants
                       ? (tracked_column){RELATIVE_CHANGE, STUDY_TRACK_INVARIANTS, 0.0}
                   : strcmp(name, "E") == 0 ? (tracked_column){CHANGE, STUDY_TRACK_E, 0.0}
                                            : (tracked_column){CHANGE, STUDY_TRACK_H, 0.0};

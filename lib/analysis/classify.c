@@ -2,12 +2,13 @@
  *
  * E = L_v.v - L changes at the rate v.Q + sum_a h_a v.A_a, which may vanish on every level of D, on
  * D = 0 alone, or not at all; off p = pi = 0 the lift adds the force pi/e, which does work.  H
- * changes at the rate pi.F_t.  A quantity that the motion need not conserve has no drift
- * that is due to the method. */
+ * changes at the rate pi.F_t, and nothing conserves reactions.  A quantity that the motion need not
+ * conserve has no drift that is due to the method. */
 #include "core/words.h"
 #include "dalembert_analysis.h"
 #include <float.h>
 #include <math.h>
+#include <string.h>
 
 /* Roundings of a start that was projected to D = 0. */
 static const double start_roundings = 4096 * DBL_EPSILON;
@@ -41,6 +42,19 @@ const char *dal_conservation_text(dal_conservation conservation)
     DAL__RETURN_WORD(DAL_CONSERVATION_LIST, DAL__SECOND, conservation, "?");
 }
 
+enum { LIFT_OBSERVABLES = 4 };
+
+/* Reactions are the observables between the invariants and the error. */
+static void mark_reactions(const dal_run *run, int invariants, dal_trend *trend)
+{
+    const dal_system *s = dal_run_system(run);
+    char name[16];
+    int i = invariants + (s->invariant_values ? s->invariants : 0);
+    for (; i < dal_run_observables(run); i++)
+        if (strcmp(dal_run_observable_name(run, i, name, sizeof name), "error") != 0)
+            trend[i].conservation = DAL_NOT_CONSERVED;
+}
+
 void dal_run_classify(const dal_run *run, const dal_statistics *statistics, int aborted,
                       dal_trend *trend)
 {
@@ -57,6 +71,7 @@ void dal_run_classify(const dal_run *run, const dal_statistics *statistics, int 
         const double scale = i == at.hamiltonian ? own : fmax(1.0, own);
         dal_statistics_classify(&statistics[i], scale, aborted, &trend[i]);
     }
+    mark_reactions(run, m + has_energy + (is_lifted ? LIFT_OBSERVABLES : 0), trend);
     if (at.energy >= 0) trend[at.energy].conservation = conservation_of_energy(run, &at, trend);
     if (max_pi(&at, trend) > 0.0 && !(s->properties & DAL_AUTONOMOUS))
         trend[at.hamiltonian].conservation = DAL_NOT_CONSERVED;

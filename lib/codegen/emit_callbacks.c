@@ -167,6 +167,7 @@ void dal__emit_callbacks(dal__generation *g)
         write_program(g, DAL__PROGRAM_CONSTRAINTS, "constraints");
         write_program(g, DAL__PROGRAM_ENERGY, "energy");
         write_program(g, DAL__PROGRAM_INVARIANTS, "invariant_values");
+        write_program(g, DAL__PROGRAM_REACTIONS, "reactions");
         write_program(g, DAL__PROGRAM_EXACT, "exact");
     }
     free(g->input);
@@ -184,6 +185,10 @@ static const char *const observed[DAL__OBSERVABLE_GROUPS] = {
                           "    dal__eval_program(w, DAL_EVAL_GAUGE, t, q, v, NULL, &mu);\n"
                           "    dal_lift_observables(y, DAL_FIXED_N, f, mu, out + %d);\n",
     [DAL__OBSERVE_INVARIANTS] = "    dal__invariant_values(w, t, q, v, NULL, out + %d);\n",
+    [DAL__OBSERVE_REACTIONS] =
+        "    num reactions[DAL_FIXED_M + DAL_FIXED_M * DAL_FIXED_N];\n"
+        "    dal__reactions(w, t, q, v, NULL, reactions);\n"
+        "    dal_reaction_observables(reactions, DAL_FIXED_M, DAL_FIXED_N, out + %d);\n",
     [DAL__OBSERVE_ERROR] = "    num exact[2 * DAL_FIXED_N];\n"
                            "    dal__exact(w, t, q, v, NULL, exact);\n"
                            "    out[%d] = dal_max_distance(exact, q, DAL_FIXED_N);\n",
@@ -199,7 +204,7 @@ void dal__write_observe(dal__generation *g)
         "    (void)q, (void)v, (void)w, (void)t, (void)out;\n");
     for (int group = 0; group < DAL__OBSERVABLE_GROUPS; group++) {
         const int count = dal__observable_count(&g->layout, group, g->run->exact);
-        if (count > 0) dal__buffer_print(&g->text, observed[group], next);
+        if (count > 0 && observed[group]) dal__buffer_print(&g->text, observed[group], next);
         next += count;
     }
     dal__buffer_append(&g->text, "}\n");

@@ -42,7 +42,8 @@ static bool observes(const dal__generation *g, dal__program_code code)
 {
     if (code == DAL__PROGRAM_FIELD || code == DAL__PROGRAM_GAUGE) return g->layout.lifted;
     return code == DAL__PROGRAM_CONSTRAINTS || code == DAL__PROGRAM_ENERGY ||
-           code == DAL__PROGRAM_INVARIANTS || code == DAL__PROGRAM_EXACT;
+           code == DAL__PROGRAM_INVARIANTS || code == DAL__PROGRAM_EXACT ||
+           (code == DAL__PROGRAM_REACTIONS && g->layout.options.reactions);
 }
 
 /* Whether the file has the code of the canonical variables, of which some methods have calls on
@@ -74,6 +75,8 @@ bool dal__evaluates(const dal__generation *g, dal__program_code code)
         return kernel & DAL_KERNEL_ENERGY_NORMAL;
     case DAL__PROGRAM_GUARDS:
         return g->layout.system->guards > 0;
+    case DAL__PROGRAM_REACTIONS:
+        return g->layout.options.reactions;
     case DAL__PROGRAM_DIAGNOSE:
     case DAL__PROGRAM_PICTURE:
         return false;
@@ -141,6 +144,18 @@ static dal_status check_steps(dal__generation *g, dal_error *error)
     return check_method(g, error);
 }
 
+/* Compiled observables read the state (q, v, ..) alone. */
+static dal_status check_multipliers(const dal__generation *g, dal_error *error)
+{
+    const bool observes = g->product == DAL__FILE || g->product == DAL__OBSERVE;
+    char name[128];
+    if (!observes || dal__observable_count(&g->layout, DAL__OBSERVE_MULTIPLIERS, false) == 0)
+        return DAL_OK;
+    return dal__fail(error, DAL_UNSUPPORTED,
+                     "the multipliers lambda1.. of %s are not observed in generated code",
+                     dal_method_name(&g->layout.method, name, sizeof name));
+}
+
 dal_status dal__generation_check(dal__generation *g, const char *prefix, dal_error *error)
 {
     if (g->lanes < 1 || g->lanes > 16 || (g->lanes & (g->lanes - 1)))
@@ -152,6 +167,7 @@ dal_status dal__generation_check(dal__generation *g, const char *prefix, dal_err
                          "'%.80s' is not made from a model: its formulas are not known",
                          g->layout.system->name ? g->layout.system->name : "this system");
     if (g->product != DAL__OBSERVE) DAL_TRY(check_steps(g, error));
+    DAL_TRY(check_multipliers(g, error));
     DAL_TRY(check_size(g, error));
     return dal__choose_prefix(g, prefix, error);
 }
@@ -206,6 +222,7 @@ void dal__decide_conditions(dal__generation *g)
         {"DAL_WITH_RANK", rank},
         {"DAL_WITH_REGULAR", guards || rank},
         {"DAL_WITH_EXACT", g->run && g->run->exact},
+        {"DAL_WITH_REACTIONS", g->layout.options.reactions},
         {"DAL_WITH_EVAL_GROUP", guards || rank || kernel & DAL_KERNEL_SOLVE},
         {"DAL_WITH_GROUPS", steps_together(g)},
         {"DAL_WITH_TRACE", g->product == DAL__TRACE},

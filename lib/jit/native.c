@@ -58,9 +58,9 @@ static void write_sizes(dal__generation *g)
     dal__buffer_append(&g->text, small ? "#define DAL_UNROLL _Pragma(\"GCC unroll 64\")\n"
                                        : "#define DAL_UNROLL\n");
     dal__buffer_print(&g->text,
-                      "enum { DAL_FIXED_N = %d, DAL_FIXED_NW = %d, DAL_FIXED_DIM = %d, "
-                      "DAL_FIXED_LIFTED = %d, DAL__OBSERVABLES = %d };\n",
-                      k->n, k->nw, k->dim, k->lifted, dal_run_observables(g->run));
+                      "enum { DAL_FIXED_N = %d, DAL_FIXED_NW = %d, DAL_FIXED_M = %d, "
+                      "DAL_FIXED_DIM = %d, DAL_FIXED_LIFTED = %d, DAL__OBSERVABLES = %d };\n",
+                      k->n, k->nw, k->m, k->dim, k->lifted, dal_run_observables(g->run));
 }
 
 /* ---- objects ---- */
@@ -265,7 +265,8 @@ static bool has_same_steps(const dal__layout *a, const dal__layout *b)
 static bool has_same_observables(const dal_native *native, const dal_run *run)
 {
     return native->layout.system == run->layout.system &&
-           native->layout.lifted == run->layout.lifted && native->exact == run->exact;
+           native->layout.lifted == run->layout.lifted && native->exact == run->exact &&
+           native->layout.options.reactions == run->layout.options.reactions;
 }
 
 int dal_native_fits(const dal_native *native, const dal_run *run)

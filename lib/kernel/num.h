@@ -37,6 +37,7 @@
 #define DAL_WITH_RANK         1 /* the rank check */
 #define DAL_WITH_REGULAR      1 /* one of these */
 #define DAL_WITH_EXACT        1 /* an exact solution */
+#define DAL_WITH_REACTIONS    1 /* observed reactions */
 #define DAL_WITH_GROUPS       0 /* of lanes, stepped as one larger system */
 #define DAL_WITH_EVAL_GROUP   1
 #ifdef DAL_NUM_QUAD

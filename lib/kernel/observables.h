@@ -23,6 +23,20 @@ DAL_INLINE void dal_lift_observables(const num *y, int n, const num *f, num mu, 
 }
 #endif
 
+#if DAL_WITH_REACTIONS
+/* out[m + n]: h and R = B^T h, from h[m] and, behind it, B[m*n]. */
+DAL_INLINE void dal_reaction_observables(const num *h, int m, int n, num *out)
+{
+    const num *B = h + m;
+    DAL_EACH(a, m) out[a] = h[a];
+    DAL_EACH(i, n) {
+        num sum = dal_num(0.0);
+        DAL_EACH(a, m) sum += B[a * n + i] * h[a];
+        out[m + i] = sum;
+    }
+}
+#endif
+
 #if DAL_WITH_EXACT
 /* max |a_i - b_i| */
 DAL_INLINE num dal_max_distance(const num *a, const num *b, int count)

@@ -13,6 +13,7 @@ enum { DAL__READS_none, DAL__READS_t, DAL__READS_tqv, DAL__READS_tqvpi };
     PROGRAM(CONSTRAINTS, constraints, tqv)                                                         \
     PROGRAM(ENERGY, energy, tqv)                                                                   \
     PROGRAM(INVARIANTS, invariant_values, tqv)                                                     \
+    PROGRAM(REACTIONS, reactions, tqv)                                                             \
     PROGRAM(EXACT, exact, t)
 
 typedef enum dal__program_code {

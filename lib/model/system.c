@@ -20,6 +20,15 @@ static dal_status add_constraint(dal_model *model, dal__programs *programs)
     return dal__programs_add_lists(model, programs, DAL__PROGRAM_CONSTRAINT, lists, 3);
 }
 
+/* h, B; nothing for vakonomic systems. */
+static dal_status add_reactions(dal_model *model, dal__programs *programs)
+{
+    const dal__equations *e = &model->equations;
+    const dal__nodes lists[] = {{e->h, e->m}, {e->B, e->m * e->n}};
+    if (e->m == 0 || e->vakonomic) return DAL_OK;
+    return dal__programs_add_lists(model, programs, DAL__PROGRAM_REACTIONS, lists, 2);
+}
+
 /* D, A, R = W^-1 B^T, W^-1 b, c; nothing for vakonomic systems. */
 static dal_status add_blocks(dal_model *model, dal__programs *programs)
 {
@@ -136,6 +145,7 @@ dal_status dal_model_system(dal_model *model, const dal_system **system, dal_err
     if (status == DAL_OK) status = dal__potential(model);
     if (status == DAL_OK) describe(model);
     if (status == DAL_OK) status = add_programs(model, &model->programs, model->equations.F);
+    if (status == DAL_OK) status = add_reactions(model, &model->programs);
     if (status == DAL_OK) status = model->equations.graph->status;
     if (status == DAL_OK) status = dal__programs_finish(model, &model->programs, &model->system);
     if (status == DAL_OK) status = make_extended(model);

@@ -200,28 +200,45 @@ static void observe_lift(engine *e, double t, num *out)
     dal_lift_observables(y, n, f, mu, out);
 }
 
+/* The multipliers of the method's last step; before the first those of F, which `values` begins
+ * with. */
+static void observe_multipliers(const engine *e, num *values)
+{
+    const dal_mask known = dal_less(dal_num(0.5), *e->step.has_multiplier);
+    DAL_EACH(a, e->layout.multiplier)
+        values[a] = dal_select(known, e->step.multiplier[a], values[a]);
+}
+
 static dal_status observe_engine(void *engine_, bool exact_known, double *out)
 {
     engine *e = engine_;
     const dal_system *system = e->layout.system;
     const num *q = e->persistent;
     const bool changed = e->persistent[dal__at_changed(&e->layout)] != 0.0;
-    num *values = e->step.scratch;
+    num *const scratch = e->step.scratch;
     const dal_point at = {(double)*persistent_at(e, DAL__TIME), (const double *)q,
                           (const double *)(q + e->layout.n), NULL, (double *)e->work};
     dal_callback *const formulas[] = {[DAL__OBSERVE_D] = system->constraints,
                                       [DAL__OBSERVE_E] = system->energy,
                                       [DAL__OBSERVE_INVARIANTS] = system->invariant_values,
+                                      [DAL__OBSERVE_REACTIONS] = system->reactions,
+                                      [DAL__OBSERVE_MULTIPLIERS] = system->reactions,
                                       [DAL__OBSERVE_ERROR] = system->exact};
     for (int group = 0; group < DAL__OBSERVABLE_GROUPS; group++) {
         const int count = dal__observable_count(&e->layout, group, exact_known);
         if (count == 0) continue;
+        num *values = scratch;
         dal_status status = DAL_OK;
         if (group == DAL__OBSERVE_LIFT)
             observe_lift(e, at.t, values);
         else
             status = formulas[group](system, &at, (double *)values);
         if (status != DAL_OK) return status;
+        if (group == DAL__OBSERVE_REACTIONS) {
+            values += e->layout.m * (1 + e->layout.n);
+            dal_reaction_observables(scratch, e->layout.m, e->layout.n, values);
+        }
+        if (group == DAL__OBSERVE_MULTIPLIERS) observe_multipliers(e, values);
         if (group == DAL__OBSERVE_ERROR)
             values[0] = changed ? dal_num(NAN) : dal_max_distance(values, q, e->layout.n);
         for (int i = 0; i < count; i++) *out++ = (double)values[i] + 0.0; /* no -0 */

@@ -3,6 +3,8 @@
 #include <dalembert_kernel.h>
 #include <math.h>
 #include <stdint.h>
+#include <stdio.h>
+#include <string.h>
 
 /* Of scratch or of a workspace, so that sizes in bytes do not overflow. */
 enum { MAX_NUMBERS = 1000000000 };
@@ -188,11 +190,67 @@ int dal__observable_count(const dal__layout *k, int group, bool exact_known)
         return k->lifted ? 4 : 0;
     case DAL__OBSERVE_INVARIANTS:
         return system->invariant_values ? system->invariants : 0;
+    case DAL__OBSERVE_REACTIONS:
+        return k->options.reactions ? k->m + k->n : 0;
+    case DAL__OBSERVE_MULTIPLIERS:
+        return k->options.reactions ? k->multiplier : 0;
     case DAL__OBSERVE_ERROR:
         return exact_known;
     default:
         return 0;
     }
+}
+
+/* h1, .., hm, R_x, ..; lambda1, .. */
+void dal__reaction_name(const dal_system *system, int group, int i, char *buffer, size_t size)
+{
+    const bool is_of_F = group == DAL__OBSERVE_REACTIONS;
+    const int k = i - system->m;
+    if (!is_of_F || k < 0)
+        snprintf(buffer, size, "%s%d", is_of_F ? "h" : "lambda", i + 1);
+    else if (system->coordinate)
+        snprintf(buffer, size, "R_%s", system->coordinate[k]);
+    else
+        snprintf(buffer, size, "R_q%d", k + 1);
+}
+
+static bool is_reaction(const dal_system *system, const char *name)
+{
+    char other[128];
+    for (int group = DAL__OBSERVE_REACTIONS; group <= DAL__OBSERVE_MULTIPLIERS; group++)
+        for (int i = 0; i < system->m + system->n; i++) {
+            dal__reaction_name(system, group, i, other, sizeof other);
+            if (strcmp(other, name) == 0) return true;
+        }
+    return false;
+}
+
+/* A column has one meaning: names of the system are not those of reactions. */
+static dal_status check_reactions(const dal__layout *k, dal_error *error)
+{
+    const dal_system *s = k->system;
+    const char *const system = s->name ? s->name : "this system";
+    const char *const *const names[] = {s->coordinate, s->invariant};
+    const int count[] = {k->n, s->invariants};
+    const char *const fault = s->m == 0 ? "the system has no constraints"
+                              : s->properties & DAL_VAKONOMIC
+                                  ? "vakonomic motion has none; its multipliers are g1, g2, .."
+                              : s->reactions ? NULL
+                              : k->options.extend_energy
+                                  ? "F continued off D = 0 is not made of them"
+                                  : "the system has no callback for them";
+    if (!k->options.reactions) return DAL_OK;
+    if (fault)
+        return dal__fail(error, DAL_UNSUPPORTED, "the reactions of %s cannot be observed: %s",
+                         system, fault);
+    for (int j = 0; j < 2; j++)
+        for (int i = 0; names[j] && i < count[j]; i++)
+            if (is_reaction(s, names[j][i]))
+                return dal__fail(error, DAL_NAME,
+                                 "the reactions of %s cannot be observed: '%.80s' is also the name "
+                                 "of %s",
+                                 system, names[j][i], j == 0 ? "a coordinate" : "an invariant");
+    return DAL_OK;
 }
 
 /* Sizes, in floating point first so that nothing overflows. */
@@ -241,6 +299,7 @@ dal_status dal__layout_init(dal__layout *k, const dal_run_spec *spec, dal_error 
     DAL_TRY(check_layers(k, error));
     DAL_TRY(check_control(k, error));
     DAL_TRY(check_needs(k, error));
+    DAL_TRY(check_reactions(k, error));
     if (k->options.precision == DAL_QUAD) DAL_TRY(dal__quad_check(k, error));
     return measure(k, error);
 }

@@ -46,15 +46,21 @@ static inline bool dal__is_possible(const dal__layout *k, size_t i, double x)
 dal_status dal__layout_init(dal__layout *layout, const dal_run_spec *spec, dal_error *error);
 
 /* The groups of observables in their order; LIFT: H, |p|, |pi|, |pi_e|; ERROR: where the exact
- * solution is known to be that of the run. */
+ * solution is known to be that of the run; REACTIONS, of F, and MULTIPLIERS, of the method, where
+ * they are observed. */
 typedef enum dal__observable_group {
     DAL__OBSERVE_D,
     DAL__OBSERVE_E,
     DAL__OBSERVE_LIFT,
     DAL__OBSERVE_INVARIANTS,
+    DAL__OBSERVE_REACTIONS,
+    DAL__OBSERVE_MULTIPLIERS,
     DAL__OBSERVE_ERROR,
     DAL__OBSERVABLE_GROUPS
 } dal__observable_group;
+
+/* Writes the name of an observable of REACTIONS or MULTIPLIERS. */
+void dal__reaction_name(const dal_system *system, int group, int i, char *buffer, size_t size);
 
 /* Observables in a group. */
 int dal__observable_count(const dal__layout *layout, int group, bool exact_known);

@@ -81,6 +81,8 @@ char *dal_run_observable_name(const dal_run *run, int i, char *buffer, size_t si
         snprintf(buffer, size, "%s", lift[i]);
     else if (group == DAL__OBSERVE_INVARIANTS)
         snprintf(buffer, size, "%s", system->invariant ? system->invariant[i] : "invariant");
+    else if (group == DAL__OBSERVE_REACTIONS || group == DAL__OBSERVE_MULTIPLIERS)
+        dal__reaction_name(system, group, i, buffer, size);
     else
         snprintf(buffer, size, "%s", group == DAL__OBSERVE_E ? "E" : "error");
     return buffer;

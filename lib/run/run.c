@@ -17,7 +17,8 @@ static size_t stored_count(const dal__layout *k)
 static size_t own_numbers(const dal__layout *k)
 {
     const size_t time_and_observables = 1 + (size_t)k->m + 6 + (size_t)k->system->invariants;
-    return stored_count(k) + (size_t)(k->n + k->nw) + time_and_observables;
+    const size_t reactions = k->options.reactions ? (size_t)(k->n + 2 * k->m) : 0;
+    return stored_count(k) + (size_t)(k->n + k->nw) + time_and_observables + reactions;
 }
 
 static size_t quad_bytes(const dal__layout *k)
