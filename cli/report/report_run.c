@@ -36,6 +36,7 @@ static const double envelope_factor = 1.05;
     GROUP(E, "E", "Energy", "E - E(0)", "E is the same at all rows.")                              \
     GROUP(H, "H", "H of the lift", "H - H(0)", "H is the same at all rows.")                       \
     GROUP(INVARIANTS, "I", "Invariants", "I - I(0)", "The invariants are the same at all rows.")   \
+    GROUP(REACTIONS, "R", "Reactions", "h, R", "The reactions are 0 at all rows.")                 \
     GROUP(ERROR, "error", "Error", "max |q - exact|", "The error is 0 at all rows.")
 
 enum {
@@ -75,8 +76,9 @@ static bool is_angle(const run_page *run, const char *name)
     return run->request->model && report_is_angle(run->request->model, name);
 }
 
-static int observable_group(const char *name)
+static int observable_group(const run_page *run, const char *name)
 {
+    if (run->system && columns_need_reactions(run->system, name)) return GROUP_REACTIONS;
     if (name[0] == 'D' && name[1] && name[1 + strspn(name + 1, "0123456789")] == '\0')
         return GROUP_D;
     return strcmp(name, "E") == 0       ? GROUP_E
@@ -124,7 +126,7 @@ static void place_columns(run_page *run)
     while (1 + n < t->columns && !columns_is_velocity(run->request, t->name[1 + n], t->name[1]))
         n++;
     int observables = 1 + 2 * n;
-    while (observables < t->columns && observable_group(t->name[observables]) > GROUP_H)
+    while (observables < t->columns && observable_group(run, t->name[observables]) > GROUP_H)
         observables++;
     if (run->system) {
         for (n = 0; 1 + n < t->columns && is_coordinate(run->system, t->name[1 + n]);) n++;
@@ -136,7 +138,7 @@ static void place_columns(run_page *run)
     for (int i = 1; i < t->columns; i++) {
         run_column *c = &run->column[i];
         const char *name = t->name[i];
-        c->group = i >= observables      ? observable_group(name)
+        c->group = i >= observables      ? observable_group(run, name)
                    : i > n               ? NO_GROUP
                    : is_angle(run, name) ? GROUP_ANGLES
                                          : GROUP_COORDINATES;
@@ -146,7 +148,7 @@ static void place_columns(run_page *run)
         for (int row = 1; row < run->summary.rows; row++)
             has_trend |= report_csv_is(&run->summary, row, "observable", name) &&
                          !report_csv_is(&run->summary, row, "trend", "");
-        c->is_conserved = i >= observables && has_trend;
+        c->is_conserved = i >= observables && has_trend && c->group != GROUP_REACTIONS;
         if (c->group != NO_GROUP) c->curve = add_curve(&run->plot[c->group], name);
         if (c->curve) c->series = cli_calloc(1, sizeof *c->series);
         if (c->is_conserved) c->envelope = add_curve(&run->drift, name);

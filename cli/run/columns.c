@@ -9,9 +9,18 @@
 #include <string.h>
 
 /* The groups of --columns; what belongs to none has a name only. */
-#define COLUMN_GROUP_LIST(GROUP)                                                                   \
-    GROUP(Q, "q")                                                                                  \
-    GROUP(V, "v") GROUP(LIFT, "lift") GROUP(D, "D") GROUP(E, "E") GROUP(INVARIANTS, "invariants")
+/* clang-format off */
+#define COLUMN_GROUP_LIST(GROUP) \
+    GROUP(Q, "q") \
+    GROUP(V, "v") \
+    GROUP(LIFT, "lift") \
+    GROUP(D, "D") \
+    GROUP(E, "E") \
+    GROUP(INVARIANTS, "invariants") \
+    GROUP(H, "h") \
+    GROUP(R, "R") \
+    GROUP(LAMBDA, "lambda")
+/* clang-format on */
 
 typedef enum column_group {
 #define GROUP_CODE(code, word) COLUMNS_##code,
@@ -26,26 +35,33 @@ static const char *const group_words[COLUMN_GROUPS] = {
 #undef GROUP_WORD
 };
 
-enum { NAME_SIZE = 256 };
+enum { NAME_SIZE = 256, LIFT_OBSERVABLES = 4 };
 
 static bool is_hidden(const char *name) { return name[0] == '|'; }
 
-/* Value i is t, q, v, g or the lift, then D1.., E, H and the norms, the invariants, error. */
+/* Value i is t, q, v, g or the lift, then D1.., E, H and the norms, the invariants, h1.., R_x..,
+ * lambda1.., error.  An invariant may be called E or H. */
 static column_group group_of(const run_columns *c, const run_request *request, int i)
 {
     const dal_system *system = request->system;
     const int n = system->n, observable = i - 1 - dal_run_dimension(request->run);
-    const char *name = c->name[i];
+    const bool is_lifted = request->options.space == DAL_LIFTED;
     if (i == 0) return COLUMN_GROUPS;
     if (i <= 2 * n) return i <= n ? COLUMNS_Q : COLUMNS_V;
-    if (observable < 0) return request->options.space == DAL_LIFTED ? COLUMNS_LIFT : COLUMN_GROUPS;
-    if (system->constraints && observable < system->m) return COLUMNS_D;
-    /* From behind: an invariant may be called E or H. */
-    const bool has_error = system->exact && strcmp(c->name[c->values - 1], "error") == 0;
-    const int invariants = system->invariant_values ? system->invariants : 0;
-    if (i == c->values - 1 && has_error) return COLUMN_GROUPS;
-    if (i >= c->values - has_error - invariants) return COLUMNS_INVARIANTS;
-    return strcmp(name, "E") == 0 ? COLUMNS_E : COLUMNS_LIFT;
+    if (observable < 0) return is_lifted ? COLUMNS_LIFT : COLUMN_GROUPS;
+    const struct {
+        column_group group;
+        int count;
+    } groups[] = {{COLUMNS_D, system->constraints ? system->m : 0},
+                  {COLUMNS_E, system->energy != NULL},
+                  {COLUMNS_LIFT, is_lifted ? LIFT_OBSERVABLES : 0},
+                  {COLUMNS_INVARIANTS, system->invariant_values ? system->invariants : 0},
+                  {COLUMNS_H, request->options.reactions ? system->m : 0},
+                  {COLUMNS_R, request->options.reactions ? system->n : 0}};
+    int end = 0;
+    for (size_t k = 0; k < sizeof groups / sizeof *groups; k++)
+        if (observable < (end += groups[k].count)) return groups[k].group;
+    return strcmp(c->name[i], "error") == 0 ? COLUMN_GROUPS : COLUMNS_LAMBDA;
 }
 
 static void name_values(run_columns *c, const dal_run *run)
@@ -76,8 +92,20 @@ static bool is_match(const run_columns *c, const run_request *request, int i, co
     return group < COLUMN_GROUPS && strcmp(item, group_words[group]) == 0;
 }
 
-static int unknown_item(const run_columns *c, const char *item)
+/* lambda, lambda1, .. of a method that has none. */
+static int without_multipliers(const run_request *request, const char *item)
 {
+    char method[NAME_SIZE];
+    return cli_fail(CLI_USAGE,
+                    "--columns: no column '%s': %s has no multipliers of its own, which are "
+                    "lambda1..; those of F are h1..",
+                    item, dal_method_name(&request->method, method, sizeof method));
+}
+
+static int unknown_item(const run_columns *c, const run_request *request, const char *item)
+{
+    if (request->options.reactions && strncmp(item, "lambda", 6) == 0)
+        return without_multipliers(request, item);
     const char **names = cli_calloc((size_t)c->values + COLUMN_GROUPS, sizeof *names);
     int count = 0;
     for (int i = 0; i < c->values; i++)
@@ -102,7 +130,40 @@ static int select_item(const run_columns *c, const run_request *request, const c
         }
         if (any) return CLI_DONE;
     }
-    return unknown_item(c, item);
+    return unknown_item(c, request, item);
+}
+
+/* Whether an item is about reactions, which are observed on request only. */
+static bool is_of_reactions(const dal_system *system, const char *item)
+{
+    char name[NAME_SIZE];
+    for (int k = COLUMNS_H; k <= COLUMNS_LAMBDA; k++) {
+        if (strcmp(item, group_words[k]) == 0) return true;
+        const char *begin = k == COLUMNS_R ? "R_" : group_words[k];
+        if (strncmp(item, begin, strlen(begin)) != 0) continue;
+        for (int i = 0; i < (k == COLUMNS_R ? system->n : system->m); i++) {
+            snprintf(name, sizeof name, k == COLUMNS_R ? "R_%s" : "%s%d",
+                     k == COLUMNS_R ? system->coordinate[i] : begin, i + 1);
+            if (fnmatch(item, name, 0) == 0) return true;
+        }
+    }
+    return false;
+}
+
+bool columns_need_reactions(const dal_system *system, const char *list)
+{
+    bool found = false;
+    for (const char *item = list, *end; item && !found; item = *end ? end + 1 : NULL) {
+        end = item + strcspn(item, ",");
+        char *text = cli_strndup(item, (size_t)(end - item));
+        found = system->reactions && is_of_reactions(system, text);
+        for (int i = 0; i < system->n && found; i++)
+            found = strcmp(text, system->coordinate[i]) != 0;
+        for (int i = 0; i < system->invariants && found; i++)
+            found = strcmp(text, system->invariant[i]) != 0;
+        free(text);
+    }
+    return found;
 }
 
 /* All that is wrong in the list is named. */

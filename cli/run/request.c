@@ -83,7 +83,7 @@ const cli_option request_options[REQUEST_OPTIONS] = {
     {"statistics", "K", "1", "the summary observes every K-th step", .parse = cli_parse_integer,
      .offset = FIELD(statistics), .min = 1, .max = MAX_COUNT},
     {"columns", "LIST", NULL,
-     "columns beside t: names, q, v, lift, D, E, invariants, patterns: x,x',D,p_*",
+     "columns beside t: names, q, v, lift, D, E, invariants, h, R, lambda, patterns: x,x',D,p_*",
      .parse = cli_parse_text, .offset = FIELD(columns)},
     {"names", "system|plain", "system", "names of columns; plain: vx for x', for pandas and Julia",
      .parse = cli_parse_word, .offset = FIELD(names)},
@@ -227,6 +227,7 @@ int request_make_spec(run_request *request, dal_run_spec *spec)
     const int has_lift =
         request->system->call.adjoint && !(dal_method_needs(&request->method) & DAL_NEEDS_BLOCKS);
     if (!request_has(request, REQUEST_space) && !has_lift) request->options.space = DAL_PHYSICAL;
+    if (columns_need_reactions(request->system, request->columns)) request->options.reactions = 1;
     *spec = (dal_run_spec){.system = request->system,
                            .method = request->method,
                            .options = request->options,

@@ -17,6 +17,7 @@
 #include "study_expect.h"
 
 #include "io/file.h"
+#include "run/columns.h"
 #include "ui/memory.h"
 #include "ui/message.h"
 
@@ -263,7 +264,7 @@ static bool has_quantity(const study_case *e, const char *name)
         if (strcmp(lifted_names[i], name) == 0) return 1;
     for (int i = 0; i < s->invariants; i++)
         if (strcmp(s->invariant[i], name) == 0) return 1;
-    return 0;
+    return e->options.reactions && columns_need_reactions(s, name);
 }
 
 /* Whether a system of the label is run with a method, or has a quantity; NULL: any. */
