@@ -126,9 +126,13 @@ void dal__write_start(dal__generation *g)
 {
     const dal__layout *k = &g->layout;
     const int first = k->n + k->nw;
+    bool is_written[DAL__PROGRAM_COUNT] = {0}; /* tapes */
+    for (int code = 0; code < DAL__PROGRAM_COUNT; code++)
+        if (dal__wants(g, (dal__program_code)code))
+            is_written[g->programs->program[code].tape] = true;
     dal__buffer_append(&g->text, "/* What is made of the parameters alone. */\n"
                                  "static void dal__hoist(dal_stored *w)\n{\n    (void)w;\n");
-    dal__tapes_write_hoisted(g->programs->tapes, &g->text);
+    dal__tapes_write_hoisted(g->programs->tapes, is_written, &g->text);
     dal__buffer_print(&g->text,
                       "}\n/* The state at t = 0. */\n"
                       "static void dal__start(const dal_stored *work, num *y)\n{\n"

@@ -96,14 +96,34 @@ void dal__tape_write(const dal__tapes *tapes, int program, const dal__input_name
     free(w.result);
 }
 
-void dal__tapes_write_hoisted(const dal__tapes *tapes, dal__buffer *text)
+/* Marks the places that an instruction reads. */
+static void mark_operands(const dal__instruction *i, bool *is_read)
+{
+    is_read[i->a] = is_read[i->b] = is_read[i->c] = true;
+}
+
+void dal__tapes_write_hoisted(const dal__tapes *tapes, const bool *is_written, dal__buffer *text)
 {
     const writer w = {.tapes = tapes, .text = text};
-    for (int i = 0; i < tapes->hoisted.length; i++) {
-        dal__buffer_print(text, "    DAL_WORK(%u) = ", tapes->hoisted.code[i].d);
-        write_expression(&w, &tapes->hoisted.code[i]);
+    const dal__tape *hoisted = &tapes->hoisted;
+    bool *is_read = calloc(tapes->workspace + 1, sizeof *is_read);
+    text->out_of_memory |= !is_read;
+    if (!is_read) return;
+    for (int p = 0; p < tapes->count; p++) {
+        const dal__tape *tape = &tapes->tape[p];
+        for (int i = 0; is_written[p] && i < tape->length; i++)
+            mark_operands(&tape->code[i], is_read);
+        for (int k = 0; is_written[p] && k < tape->outputs; k++) is_read[tape->place[k]] = true;
+    }
+    for (int i = hoisted->length - 1; i >= 0; i--)
+        if (is_read[hoisted->code[i].d]) mark_operands(&hoisted->code[i], is_read);
+    for (int i = 0; i < hoisted->length; i++) {
+        if (!is_read[hoisted->code[i].d]) continue;
+        dal__buffer_print(text, "    DAL_WORK(%u) = ", hoisted->code[i].d);
+        write_expression(&w, &hoisted->code[i]);
         dal__buffer_append(text, ";\n");
     }
+    free(is_read);
 }
 
 unsigned dal__tape_calls(const dal__tape *tape)

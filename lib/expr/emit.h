@@ -4,6 +4,7 @@
 
 #include "core/buffer.h"
 #include "expr/tape.h"
+#include <stdbool.h>
 
 typedef struct dal__input_name {
     char text[16];
@@ -11,11 +12,11 @@ typedef struct dal__input_name {
 
 /* Writes a program as C statements over num that set out[0], out[1], ...: its instructions one by
  * one, so that it computes the same bits.  Input number i is called input[i].text; parameters and
- * hoisted nodes are DAL_WORK(place), with their places in work.  The second writes what
- * dal__tapes_prepare_x1 computes. */
+ * hoisted nodes are DAL_WORK(place), with their places in work.  The second writes, of
+ * what dal__tapes_prepare_x1 computes, what the programs with is_written[count] read. */
 void dal__tape_write(const dal__tapes *tapes, int program, const dal__input_name *input,
                      dal__buffer *text);
-void dal__tapes_write_hoisted(const dal__tapes *tapes, dal__buffer *text);
+void dal__tapes_write_hoisted(const dal__tapes *tapes, const bool *is_written, dal__buffer *text);
 
 /* The kinds of elementary functions that a tape calls. */
 enum {
