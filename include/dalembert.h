@@ -150,7 +150,7 @@ typedef int dal_choice;
 /* All options: OPTION(type, member, name in texts, default, min, max, the words of a choice or a
  * placeholder for the number, help). */
 #define DAL_OPTION_LIST(OPTION)                                                                    \
-    OPTION(double, step, "step", 0.01, 0.0, 1e300, "H", "step size h in units of t")               \
+    OPTION(double, step, "step", 0.01, -1e300, 1e300, "H", "step size h; negative: backwards")     \
     OPTION(dal_choice, space, "space", DAL_LIFTED, 0, 1, "lifted|physical",                        \
            "variables: the 4n+2 of the lift, or (q,v); vakonomic systems have (q,v) alone")        \
     OPTION(dal_choice, solver, "solver", DAL_SOLVER_AUTO, 0, 2, "auto|fixed-point|newton",         \
@@ -208,6 +208,7 @@ typedef struct dal_run_spec {
     const dal_setting *start;         /* [start_count] of x, x', e, p_x, pi_x, pi_e, g1; the system
                                       gives the rest; e = INFINITY: 1/e = 0, the adjoint system */
     int parameter_count, start_count; /* how many there are */
+    double start_time;                /* t of the start; 0 where it is not named */
 } dal_run_spec;
 
 /* Bytes that a run needs; 0 when the spec cannot be used. */
@@ -231,13 +232,13 @@ dal_status dal_run_advance(dal_run *run, long long count, dal_error *error);
 
 /* The system of the spec, or the one that the option extend-energy selects. */
 const dal_system *dal_run_system(const dal_run *run);
-/* The present time, from 0. */
+/* The present time, from start_time. */
 double dal_run_time(const dal_run *run);
-/* The step size h, in units of t. */
+/* The step size h, in units of t; negative: backwards. */
 double dal_run_step_size(const dal_run *run);
-/* Steps since t = 0, those before a restore included. */
+/* Steps since the start, those before a restore included. */
 long long dal_run_steps(const dal_run *run);
-/* Evaluations of the field, or of the lifted field, since t = 0. */
+/* Evaluations of the field, or of the lifted field, since the start. */
 long long dal_run_evaluations(const dal_run *run);
 /* Numbers in a state: 4n + 2 on the lifted space, 2n + multipliers on the physical one. */
 int dal_run_dimension(const dal_run *run);
@@ -290,16 +291,17 @@ typedef struct dal_observer {
     dal_status (*values)(void *user, dal_run *run, int count, const double *t, const double *values,
                          size_t stride);
     long long every; /* steps between two calls of step or values; 0: no calls */
-    /* t of each row, increasing, T for the last; NULL: row*T/samples */
+    /* t of each row in the direction of the run, T for the last; NULL: at equal distances */
     double (*row_time)(void *user, long long row);
     /* Max steps and rows between two polls, rounded down to 992, 496, 248, 124, ... 1; 0: 992.
      * poll may change it where steps are slow. */
     long long polling;
 } dal_observer;
 
-/* Advances the run to time T and samples rows first_row..samples at t = row*T/samples, the last at
- * T exactly.  The trajectory consists of steps h; a row between two is an intermediate step.  After
- * an interruption between rows pass the first row not sampled.  observer may be NULL.
+/* Advances the run to time T and samples rows first_row..samples, T0 = start_time, at t = T0 +
+ * row*(T - T0)/samples, the last at T exactly.  The trajectory consists of steps h, which must lead
+ * to T; a row between two is an intermediate step.  After an interruption between rows pass the
+ * first row not sampled.  observer may be NULL.
  * Errors: those of a step; DAL_ARGUMENT; what a callback returns. */
 dal_status dal_run_sample(dal_run *run, double T, long long samples, long long first_row,
                           const dal_observer *observer, dal_error *error);
@@ -322,7 +324,7 @@ dal_status dal_batch_create(dal_batch **batch, const dal_run_spec *spec, int cou
 /* Frees a batch. */
 void dal_batch_free(dal_batch *batch);
 /* Sets parameters[parameter_count] and start[start_count] of one lane, which replace those of the
- * spec, at t = 0.  Errors: those of dal_run_init; DAL_ARGUMENT (lane, or after a step). */
+ * spec, at its start.  Errors: those of dal_run_init; DAL_ARGUMENT (lane, or after a step). */
 dal_status dal_batch_start(dal_batch *batch, int lane, const dal_setting *parameters,
                            int parameter_count, const dal_setting *start, int start_count,
                            dal_error *error);

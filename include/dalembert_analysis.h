@@ -143,7 +143,7 @@ typedef struct dal_trend {
     double first, last;         /* x at the first and at the last */
     double max_abs, deviation;  /* max |x|, max |x - first| */
     double amplitude;           /* half the range of x about the fitted line */
-    double rate;                /* slope of the line, per unit of t */
+    double rate;                /* slope of the line, per unit of time passed, |t - first t| */
     double rate_low, rate_high; /* its 95 % interval */
     double max_drift;           /* max |drift| over the whole series in this interval */
     double exponent; /* of t: 1 linear, 1/2 random walk, 0 none and settles, fitted for a power law;

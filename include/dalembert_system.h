@@ -144,7 +144,7 @@ struct dal_system {
     dal_callbacks call;                       /* one lane */
     const dal_callbacks *wide4, *wide8;       /* of 4 and of 8 lanes, interleaved; may be NULL */
     dal_callback *prepare; /* completes work after a change of parameters; out unused */
-    dal_callback *start;   /* out[2n + multipliers + 1]: q, v, g, e at t = 0; NULL: 0 and e = 1 */
+    dal_callback *start;   /* out[2n + multipliers + 1]: q, v, g, e at the start; NULL: 0, e = 1 */
     dal_callback *constraints;      /* out[m]: D alone; NULL: D is not observed */
     dal_callback *energy;           /* out[1]: E = L_v.v - L; NULL: unknown */
     dal_callback *invariant_values; /* out[invariants]; NULL: no invariants */

@@ -33,7 +33,7 @@ typedef struct lyapunov_settings {
 } lyapunov_settings;
 
 /* The options of a run that the commands do not take. */
-#define LYAPUNOV_WITHOUT (REQUEST_ROW_OPTIONS | REQUEST_OPTION(space))
+#define LYAPUNOV_WITHOUT (REQUEST_ROW_OPTIONS | REQUEST_TIME_OPTIONS | REQUEST_OPTION(space))
 
 /* Steps between two polls of the signals. */
 enum { CHUNK = 200, MAX_ROWS = 100000000, MAX_COLUMN_NAME = 24 };

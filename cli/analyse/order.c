@@ -130,10 +130,15 @@ static int list_steps(order_study *s)
     if (!(s->step[0] > 0.0)) return cli_fail(CLI_USAGE, "--step: it must be positive");
     if (s->levels < 2) return cli_fail(CLI_USAGE, "--steps: a slope needs two steps at least");
     for (int i = 0; i < s->levels; i++)
-        if (dal_whole_steps(0.0, T, s->step[i]) == 0)
+        if (dal_whole_steps(s->request->from, T, s->step[i]) == 0)
             return cli_fail(CLI_USAGE, "the time %g is not a whole number of steps of %.9g", T,
                             s->step[i]);
     return CLI_DONE;
+}
+
+static long long count_steps(const order_study *s, double h)
+{
+    return dal_whole_steps(s->request->from, s->request->time, h);
 }
 
 /* ---- runs ---------------------------------------------------------------------------------- */
@@ -151,8 +156,8 @@ static dal_status run_to_end(const order_study *s, const dal_run_spec *spec, dou
     dal_status status = dal_run_create(&run, spec, error);
     if (status != DAL_OK) return status;
     const double begin = cli_thread_seconds();
-    for (long long left = llround(s->request->time / spec->options.step);
-         left > 0 && status == DAL_OK; left -= CHUNK)
+    for (long long left = count_steps(s, spec->options.step); left > 0 && status == DAL_OK;
+         left -= CHUNK)
         status = cli_interrupted() ? DAL_INTERRUPTED
                                    : dal_run_advance(run, left < CHUNK ? left : CHUNK, error);
     *cost = (run_cost){dal_run_evaluations(run), cli_thread_seconds() - begin};
@@ -174,8 +179,8 @@ static bool use_exact_solution(order_study *s)
         return false;
     const bool found = dal_evaluator_start(evaluator, request->start.item, request->start.count,
                                            start, NULL) == DAL_OK &&
-                       dal_evaluator_call(evaluator, system->exact, 0.0, start, start, NULL,
-                                          s->reference) == DAL_OK &&
+                       dal_evaluator_call(evaluator, system->exact, request->from, start, start,
+                                          NULL, s->reference) == DAL_OK &&
                        analysis_distance(start, s->reference, s->numbers) <= 1e-10 &&
                        dal_evaluator_call(evaluator, system->exact, request->time, start, start,
                                           NULL, s->reference) == DAL_OK &&
@@ -284,7 +289,7 @@ static const char *failure_message(const order_study *s, const order_method *m)
 static void print_orders(const order_study *s)
 {
     const int last = s->levels - 1;
-    const double steps = round(s->request->time / s->step[last]);
+    const double steps = (double)count_steps(s, s->step[last]);
     bool any_without_order = false;
     printf("%s, error of (q,v) at t = %g, %s\nagainst ", s->request->system_name, s->request->time,
            s->spec.options.space == DAL_LIFTED ? "lifted" : "physical");
@@ -326,7 +331,7 @@ static void put_level(json_writer *w, const order_study *s, const order_method *
     const bool succeeded = m->failure[level].status == DAL_OK;
     json_open(w, NULL, JSON_ON_ONE_LINE);
     json_put_number(w, "step", s->step[level]);
-    json_put_integer(w, "steps", dal_whole_steps(0.0, s->request->time, s->step[level]));
+    json_put_integer(w, "steps", count_steps(s, s->step[level]));
     json_put_number(w, "error", m->order.error[level]);
     json_put_number(w, "slope", m->order.slope[level]);
     json_put_number(w, "evaluations", succeeded ? (double)m->order.evaluations[level] : NAN);
@@ -381,7 +386,7 @@ static void write_level(FILE *out, const order_study *s, const order_method *m, 
     const double h = has_run ? s->step[level] : NAN;
     const double cells[] = {m->order.order,
                             h,
-                            round(s->request->time / h),
+                            has_run ? (double)count_steps(s, h) : NAN,
                             has_run ? m->order.error[level] : NAN,
                             has_run ? m->order.slope[level] : NAN,
                             succeeded ? (double)m->order.evaluations[level] : NAN,

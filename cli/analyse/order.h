@@ -7,7 +7,7 @@
 #include <stdbool.h>
 
 /* The options of a run that it does not take. */
-#define ORDER_WITHOUT (REQUEST_ROW_OPTIONS | REQUEST_OPTION(integrator))
+#define ORDER_WITHOUT (REQUEST_ROW_OPTIONS | REQUEST_OPTION(steps) | REQUEST_OPTION(integrator))
 
 typedef struct order_settings {
     run_request request;

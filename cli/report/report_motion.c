@@ -50,6 +50,17 @@ static int read_rows(pose_reader *p, pose_row *row)
     return more < 0 ? -1 : count;
 }
 
+/* Frames follow each other in t, whatever the direction of the run. */
+static void order_in_time(pose_row *row, int count)
+{
+    if (row[0].t < row[count - 1].t) return;
+    for (int i = 0, k = count - 1; i < k; i++, k--) {
+        const pose_row swapped = row[i];
+        row[i] = row[k];
+        row[k] = swapped;
+    }
+}
+
 static double find_extent(const double *first, size_t stride, int count)
 {
     double extent = 0.0;
@@ -119,6 +130,7 @@ int motion_read(motion *m, const char *run, int max_frames)
         memcpy(m->axis, p.axis, sizeof m->axis);
         snprintf(m->method, sizeof m->method, "%s", p.request.text[REQUEST_integrator]);
         m->step = p.request.options.step;
+        if (count > 1) order_in_time(row, count);
         if (count > 1) make_frames(m, row, count, max_frames);
         free(row);
     }

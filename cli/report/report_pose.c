@@ -78,7 +78,7 @@ int pose_open(pose_reader *p, const char *run)
     p->is_open = true;
     p->q = cli_calloc((size_t)system->n, sizeof *p->q);
     p->has_poses = p->rows.count > 0 && has_state(p);
-    p->small_time = small_part * p->request.time / (double)(p->rows.count + 1);
+    p->small_time = small_part * (p->request.time - p->request.from) / (double)(p->rows.count + 1);
     return CLI_DONE;
 }
 

@@ -65,7 +65,7 @@ typedef struct run_page {
     report_csv summary;       /* no rows unless the run is over */
     const dal_system *system; /* where the run has not all columns; otherwise NULL */
     run_column *column;       /* [columns of the reader] */
-    double envelope_time;     /* t of the last point of the envelopes */
+    double envelope_time;     /* since the start, of the last point of the envelopes */
     report_plot plot[GROUPS], drift;
 } run_page;
 
@@ -159,13 +159,14 @@ static void place_columns(run_page *run)
 
 static void name_plots(run_page *run)
 {
+    const bool from_0 = run->request->from == 0.0 && run->request->time >= 0.0;
 #define NAME_PLOT(code, file, text, label, zero)                                                   \
     run->plot[GROUP_##code] = (report_plot){file, text, "t", label, "", .zero_text = zero};
     GROUP_LIST(NAME_PLOT)
 #undef NAME_PLOT
     run->drift = (report_plot){.name = "drift",
                                .title = "Drift of what should not change",
-                               .xlabel = "t",
+                               .xlabel = from_0 ? "t" : "|t - t(0)|",
                                .ylabel = "max |x - x(0)|",
                                .log_x = true,
                                .log_y = true,
@@ -179,7 +180,8 @@ static void add_row(run_page *run, long long k)
     const trajectory_reader *reader = &run->reader;
     const double t = reader->row[0];
     const bool is_last = k == reader->count - 1;
-    const bool has_envelope = t >= envelope_factor * run->envelope_time || is_last;
+    const double passed = fabs(t - run->request->from);
+    const bool has_envelope = passed >= envelope_factor * run->envelope_time || is_last;
     for (int i = 1; i < reader->columns; i++) {
         run_column *c = &run->column[i];
         double x = reader->row[i];
@@ -190,9 +192,9 @@ static void add_row(run_page *run, long long k)
         if (c->series) row_series_add(c->series, t, x);
         if (c->velocity > 0) row_distance_add(&c->distance, t, x, reader->row[c->velocity]);
         if (!(fabs(x) <= c->max_abs)) c->max_abs = fabs(x);
-        if (has_envelope && c->envelope) report_point(&run->drift, c->envelope, t, c->max_abs);
+        if (has_envelope && c->envelope) report_point(&run->drift, c->envelope, passed, c->max_abs);
     }
-    if (has_envelope) run->envelope_time = t;
+    if (has_envelope) run->envelope_time = passed;
 }
 
 static int draw_figures(run_page *run)
@@ -359,7 +361,7 @@ int report_run(report *r)
     if (status == CLI_DONE) {
         report_title(r, report_model_title(request.model, "A run"));
         if (request.model) write_head(run, dir.manifest);
-        write_summary(run, request.time);
+        write_summary(run, fabs(request.time - request.from));
         if (request.system_name) status = data_write_run(r);
         fputs("<h2>Figures</h2>\n<div class=\"figures\">\n", r->page);
         if (run->reader.count < 2)

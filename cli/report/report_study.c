@@ -155,7 +155,7 @@ static int draw_quantity(const label_figures *f, const quantity *t, int step)
     char name[PLOT_NAME], heading[PLOT_NAME], text[PLOT_METHODS * PLOT_TITLE];
     report_plot plot = {.name = name_plot(name, f, t->name, step),
                         .title = heading,
-                        .xlabel = "t",
+                        .xlabel = "time since the start",
                         .ylabel = t->ylabel,
                         .caption = report_envelope_caption,
                         .log_x = true,
@@ -198,9 +198,10 @@ static int draw_errors(const label_figures *f, bool over_work)
             const char *step = f->steps.word[h];
             const int row = find_cell(f->s, f->label, method, step, false);
             if (row == 0 || !is_cell(f->s, row, "state", "done")) continue;
+            const double size = fabs(strtod(step, NULL));
             const double work = report_csv_number(cells, row, "evaluations") /
-                                report_csv_number(cells, row, "time");
-            report_point(&plot, curve, over_work ? work : strtod(step, NULL),
+                                (report_csv_number(cells, row, "steps") * size);
+            report_point(&plot, curve, over_work ? work : size,
                          report_csv_number(cells, row, f->accuracy));
         }
     }

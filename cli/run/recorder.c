@@ -132,7 +132,7 @@ static CLI_PRINTF(2, 3) int append_piece(progress_line *line, const char *format
 static double remaining(const run_recorder *r, double t)
 {
     const double done = t - r->start_time;
-    return done > 0.0 ? r->seconds * (r->request->time - t) / done : INFINITY;
+    return done != 0.0 ? r->seconds * (r->request->time - t) / done : INFINITY;
 }
 
 static void append_remaining(progress_line *line, double seconds)
@@ -152,7 +152,8 @@ static void show_line(const run_recorder *r, double t)
     const int width = cli_width() - 1;
     progress_line line = {.capacity = width < LINE ? width : LINE - 1};
     const long long steps = dal_run_steps(r->request->run) - r->start_step;
-    append_piece(&line, "t = %.6g (%.0f %%)", t, floor(100.0 * t / r->request->time));
+    const double part = (t - r->request->from) / (r->request->time - r->request->from);
+    append_piece(&line, "t = %.6g (%.0f %%)", t, floor(100.0 * part));
     append_remaining(&line, remaining(r, t));
     if (r->seconds > 0.0) append_piece(&line, ", %.2e steps/s", (double)steps / r->seconds);
     const char *before = ", moved: ";
@@ -176,7 +177,7 @@ static void show_json(const run_recorder *r, double t)
     json_put_integer(&w, "steps", dal_run_steps(r->request->run));
     json_put_integer(&w, "rows", r->position.row);
     json_put_number(&w, "seconds", r->position.seconds);
-    json_put_number(&w, "remaining", t >= r->request->time ? 0.0 : remaining(r, t));
+    json_put_number(&w, "remaining", fmax(0.0, remaining(r, t)));
     json_open(&w, "deviation", JSON_ON_ONE_LINE);
     for (int i = 0; i < r->observables; i++)
         json_put_number(&w, recorder_observable_name(r, i),

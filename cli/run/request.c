@@ -8,12 +8,13 @@
 #include "row_times.h"
 #include "ui/options.h"
 
+#include <float.h>
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 
-enum { MAX_COUNT = 1000000000 };
+static const double max_count = 1e9, max_steps = 0x1p53;
 
 /* ---- the options --------------------------------------------------------------------------- */
 
@@ -30,9 +31,7 @@ static int parse_time(void *user, const cli_option *option, const char *text)
 {
     run_request *request = user;
     (void)option;
-    if (cli_number("--time", text, &request->time) != CLI_DONE) return CLI_USAGE;
-    if (request->time > 0.0) return CLI_DONE;
-    return cli_fail(CLI_USAGE, "--time: %s is not positive", text);
+    return cli_number("--time", text, &request->time);
 }
 
 static int parse_run_option(void *user, const cli_option *option, const char *text)
@@ -72,16 +71,20 @@ const cli_option request_options[REQUEST_OPTIONS] = {
     {"integrator", "NAME", NULL,
      "the method: rk4, gauss8+project, ...; see 'dalembert list integrators'",
      .parse = parse_method},
-    {"time", "T", NULL, "integrates from t = 0 to t = T", .parse = parse_time},
+    {"time", "T", NULL, "integrates from t = T0 to t = T", .parse = parse_time},
+    {"from", "T0", "0", "the time of the start", .parse = cli_parse_number, .offset = FIELD(from),
+     .min = -DBL_MAX, .max = DBL_MAX},
+    {"steps", "N", NULL, "ends after N steps, at T = T0 + N h; excludes --time",
+     .parse = cli_parse_integer, .offset = FIELD(steps), .min = 1, .max = max_steps},
     {"samples", "N", "100", "rows after the first, at equal distances in t",
-     .parse = cli_parse_integer, .offset = FIELD(samples), .min = 1, .max = MAX_COUNT},
+     .parse = cli_parse_integer, .offset = FIELD(samples), .min = 1, .max = max_count},
     {"sampling", "linear|log|steps", "linear",
      "rows at equal distances in t, in log t, or in t; the last two after whole steps",
      .parse = cli_parse_word, .offset = FIELD(sampling)},
     {"times", "LIST|FILE", NULL, "rows at these times only; T is the last of them by default",
      .parse = row_times_parse},
     {"statistics", "K", "1", "the summary observes every K-th step", .parse = cli_parse_integer,
-     .offset = FIELD(statistics), .min = 1, .max = MAX_COUNT},
+     .offset = FIELD(statistics), .min = 1, .max = max_count},
     {"columns", "LIST", NULL,
      "columns beside t: names, q, v, lift, D, E, invariants, h, R, lambda, patterns: x,x',D,p_*",
      .parse = cli_parse_text, .offset = FIELD(columns)},
@@ -105,6 +108,24 @@ const cli_option request_options[REQUEST_OPTIONS] = {
 static const int default_options[REQUEST_DEFAULTS] = {REQUEST_integrator, REQUEST_step,
                                                       REQUEST_time};
 
+/* Whether the run ends at a time that follows from other options. */
+static bool gives_end(const run_request *request)
+{
+    return request_has(request, REQUEST_times) || request_has(request, REQUEST_steps);
+}
+
+/* A command that does not take --from goes from t = 0 forwards. */
+static int check_forward(const cli_group *group)
+{
+    const run_request *request = group->settings;
+    if (!(group->without & REQUEST_OPTION(from))) return CLI_DONE;
+    if (request_has(request, REQUEST_step) && !(request->options.step > 0.0))
+        return cli_fail(CLI_USAGE, "--step: %g is not positive", request->options.step);
+    if (request_has(request, REQUEST_time) && !(request->time > 0.0))
+        return cli_fail(CLI_USAGE, "--time: %g is not positive", request->time);
+    return CLI_DONE;
+}
+
 /* Takes those that the command needs and does not have; a line says which. */
 static int take_defaults(const cli_group *group, int status)
 {
@@ -119,7 +140,7 @@ static int take_defaults(const cli_group *group, int status)
         const char *text = cli_default(request->model, option->name, NULL, NULL);
         const size_t length = strlen(taken);
         if (group->without >> k & 1 || request_has(request, k)) continue;
-        if (k == REQUEST_time && request_has(request, REQUEST_times)) continue;
+        if (k == REQUEST_time && gives_end(request)) continue;
         if (!text && !option->initial)
             found = cli_fail(CLI_USAGE, "--%s is missing, and %s has no default for it",
                              option->name, request->system_name);
@@ -131,7 +152,8 @@ static int take_defaults(const cli_group *group, int status)
     }
     if (taken[0] && found == CLI_DONE && status == CLI_DONE)
         cli_note("%s gives%s", request->system_name, taken);
-    return found;
+    const int forward = check_forward(group);
+    return found == CLI_DONE ? forward : found;
 }
 
 cli_group request_group(run_request *request, const cli_option *options, uint64_t without)
@@ -155,7 +177,7 @@ bool request_option_is_number(int option)
 {
     const cli_option *o = &request_options[option];
     return o->parse == parse_time || o->parse == cli_parse_integer ||
-           (o->parse == parse_run_option && !strchr(o->value, '|'));
+           o->parse == cli_parse_number || (o->parse == parse_run_option && !strchr(o->value, '|'));
 }
 
 int request_find_option(const char *name)
@@ -234,7 +256,8 @@ int request_make_spec(run_request *request, dal_run_spec *spec)
                            .parameters = request->set.item,
                            .parameter_count = request->set.count,
                            .start = request->start.item,
-                           .start_count = request->start.count};
+                           .start_count = request->start.count,
+                           .start_time = request->from};
     return CLI_DONE;
 }
 
@@ -244,10 +267,9 @@ int request_complete(run_request *request, dal_run_spec *spec)
     if (!request_has(request, REQUEST_integrator))
         return cli_fail(CLI_USAGE, "--integrator is missing");
     if (!request_has(request, REQUEST_step)) return cli_fail(CLI_USAGE, "--step is missing");
-    if (!request_has(request, REQUEST_time) && request->times == 0)
+    if (!request_has(request, REQUEST_time) && !gives_end(request))
         return cli_fail(CLI_USAGE, "--time is missing");
-    if (!(request->options.step > 0.0))
-        return cli_fail(CLI_USAGE, "--step: %g is not positive", request->options.step);
+    if (request->options.step == 0.0) return cli_fail(CLI_USAGE, "--step: it must not be 0");
     const int status = row_times_fill(request);
     return status == CLI_DONE ? request_make_spec(request, spec) : status;
 }

@@ -11,6 +11,8 @@
 #define REQUEST_OPTION_LIST(OPTION)                                                                \
     OPTION(integrator)                                                                             \
     OPTION(time)                                                                                   \
+    OPTION(from)                                                                                   \
+    OPTION(steps)                                                                                  \
     OPTION(samples)                                                                                \
     OPTION(sampling)                                                                               \
     OPTION(times)                                                                                  \
@@ -52,8 +54,8 @@ typedef struct run_request {
     const char *columns;     /* --columns; NULL: all */
     const char *text[REQUEST_OPTIONS]; /* as given, the last one; NULL: not given as a text */
     uint64_t typed; /* set of options whose values below were given without a text */
-    double time;
-    long long samples, statistics;
+    double from, time;
+    long long steps, samples, statistics; /* steps: 0: not given */
     request_sampling sampling;
     request_names names;
     double given_time; /* these two before they are made those of whole steps */
@@ -73,12 +75,14 @@ typedef struct run_request {
 /* An empty request; release it with request_free. */
 run_request request_default(void);
 void request_free(run_request *request);
-/* A set of options; those that concern rows only. */
+/* A set of options; those that concern rows only; those without which time begins at 0, is given
+ * as such and increases. */
 #define REQUEST_OPTION(name) (UINT64_C(1) << REQUEST_##name)
 #define REQUEST_ROW_OPTIONS                                                                        \
     (REQUEST_OPTION(samples) | REQUEST_OPTION(sampling) | REQUEST_OPTION(times) |                  \
      REQUEST_OPTION(statistics) | REQUEST_OPTION(columns) | REQUEST_OPTION(names) |                \
      REQUEST_OPTION(reactions))
+#define REQUEST_TIME_OPTIONS (REQUEST_OPTION(from) | REQUEST_OPTION(steps))
 /* All options; and as a group for a command, which may change their defaults and help in options,
  * and does not take some.  A command that has read its arguments has loaded the system. */
 extern const cli_option request_options[REQUEST_OPTIONS];

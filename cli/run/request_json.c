@@ -29,6 +29,12 @@ void request_put_value(json_writer *w, const run_request *request, int option)
     case REQUEST_time:
         json_put_number(w, name, request->given_time);
         break;
+    case REQUEST_from:
+        json_put_number(w, name, request->from);
+        break;
+    case REQUEST_steps:
+        json_put_integer(w, name, request->steps);
+        break;
     case REQUEST_samples:
         json_put_integer(w, name, request->given_samples);
         break;

@@ -1,5 +1,7 @@
 /* row_times.c - when the rows of a run are taken.
  *
+ * From t = 0; with --from T0 all is shifted by that, and h < 0 where the run goes backwards.
+ *
  *     linear   t_k = k T/N                                     k = 0..N (needs no list)
  *     log      t_0 = 0, t_k = h round((T/h)^((k-1)/(N-1)))     equal times are one row
  *     steps    t_k = h round(k N/S)                            k = 0..S, N = round(T/h), T = h N
@@ -12,6 +14,7 @@
 #include "ui/options.h"
 
 #include <math.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -28,34 +31,36 @@ static int allocate_times(run_request *request, const char *sampling)
 
 static int fill_log(run_request *request)
 {
-    const double h = request->options.step, T = request->time, steps = floor(T / h * (1.0 + 1e-12));
+    const double h = request->options.step, whole = request->time - request->from;
+    const double steps = floor(whole / h * (1.0 + 1e-12));
     const long long rows = request->samples;
     double before = 0.0;
     if (allocate_times(request, "log") != CLI_DONE) return CLI_USAGE;
     request->samples = 0;
-    request->row_time[0] = 0.0;
+    request->row_time[0] = request->from;
     for (long long k = 1; k <= rows; k++) {
         const double part = rows > 1 ? (double)(k - 1) / (double)(rows - 1) : 1.0;
         const double step = fmin(floor(exp(part * log(steps)) + 0.5), steps);
-        if (step > before && step * h < T) request->row_time[++request->samples] = step * h;
+        if (step > before && step < whole / h)
+            request->row_time[++request->samples] = request->from + step * h;
         before = fmax(before, step);
     }
     double *last = &request->row_time[request->samples];
-    if (*last < T * (1.0 - 1e-9) || request->samples == 0)
+    if (fabs(*last - request->from) < fabs(whole) * (1.0 - 1e-9) || request->samples == 0)
         last = &request->row_time[++request->samples];
-    *last = T;
+    *last = request->time;
     return CLI_DONE;
 }
 
 static int fill_steps(run_request *request)
 {
     const double h = request->options.step;
-    const long long steps = llround(request->time / h);
+    const long long steps = llround((request->time - request->from) / h);
     if (request->samples > steps) request->samples = steps;
     if (allocate_times(request, "steps") != CLI_DONE) return CLI_USAGE;
     for (long long k = 0; k <= request->samples; k++) {
         const double part = (double)k / (double)request->samples;
-        request->row_time[k] = (double)llround(part * (double)steps) * h;
+        request->row_time[k] = request->from + (double)llround(part * (double)steps) * h;
     }
     request->time = request->row_time[request->samples];
     return CLI_DONE;
@@ -68,8 +73,9 @@ static int add_time(run_request *request, const char *text)
     double t;
     if (cli_number("--times", text, &t) != CLI_DONE) return CLI_USAGE;
     const long long count = request->times;
-    if (t < 0.0) return cli_fail(CLI_USAGE, "--times: %s is negative", text);
-    if (count > 0 && !(t > request->row_time[count - 1]))
+    const double *before = request->row_time;
+    const bool repeats = count > 0 && t == before[count - 1];
+    if (repeats || (count > 1 && (t > before[count - 1]) != (before[1] > before[0])))
         return cli_fail(CLI_USAGE, "--times: %s does not come after the time before", text);
     if (count == ROW_TIMES_MAX) return cli_fail(CLI_USAGE, "--times: too many");
     request->row_time =
@@ -122,18 +128,25 @@ int row_times_parse(void *user, const cli_option *option, const char *given)
 
 static int finish_list(run_request *request)
 {
-    const double last = request->row_time[request->times - 1];
+    const double last = request->row_time[request->times - 1], from = request->from;
+    const double direction = copysign(1.0, request->options.step);
     if (request_has(request, REQUEST_samples) || request_has(request, REQUEST_sampling))
         return cli_fail(CLI_USAGE, "--times excludes --samples and --sampling");
-    if (!request_has(request, REQUEST_time)) request->time = last;
-    if (!(request->time > 0.0) || request->time < last)
+    if (!request_has(request, REQUEST_time) && request->steps == 0) request->time = last;
+    if (direction * (request->row_time[0] - from) < 0.0)
+        return cli_fail(CLI_USAGE, "--times: %.17g lies before the start at t = %g",
+                        request->row_time[0], from);
+    if (direction * (last - request->row_time[0]) < 0.0)
+        return cli_fail(CLI_USAGE, "--times: a step of %g does not lead from %.17g to %.17g",
+                        request->options.step, request->row_time[0], last);
+    if (direction * (request->time - last) < 0.0)
         return cli_fail(CLI_USAGE, "--times: %.17g is later than T = %g", last, request->time);
     request->samples = request->times - 1;
-    if (request->time > last) request->row_time[++request->samples] = request->time;
+    if (request->time != last) request->row_time[++request->samples] = request->time;
     if (request->samples > 0) return CLI_DONE;
     /* A run has two rows at least: the start is the other. */
     request->row_time[1] = request->row_time[0];
-    request->row_time[0] = 0.0;
+    request->row_time[0] = from;
     request->samples = 1;
     return CLI_DONE;
 }
@@ -142,7 +155,7 @@ static int finish_list(run_request *request)
 
 const char *step_error(double step, double time, char text[STEP_ERROR_SIZE])
 {
-    if (step > time)
+    if (fabs(step) > fabs(time))
         snprintf(text, STEP_ERROR_SIZE, "%.15g is larger than the time %g", step, time);
     else if (time / step > 0x1p53)
         snprintf(text, STEP_ERROR_SIZE,
@@ -160,12 +173,32 @@ int row_times_check_step(const run_request *request, double time)
     return error ? cli_fail(CLI_USAGE, "--step: %s", error) : CLI_DONE;
 }
 
+/* --steps determines the end; the sign of the step must lead there. */
+static int find_end(run_request *request)
+{
+    const double h = request->options.step, from = request->from;
+    if (request->steps > 0 && request_has(request, REQUEST_time))
+        return cli_fail(CLI_USAGE, "--steps excludes --time");
+    if (request->steps > 0) request->time = from + (double)request->steps * h;
+    return CLI_DONE;
+}
+
+static int check_end(const run_request *request)
+{
+    const double h = request->options.step, whole = request->time - request->from;
+    if (copysign(1.0, h) * whole > 0.0 && isfinite(whole))
+        return row_times_check_step(request, whole);
+    return cli_fail(CLI_USAGE, "--time: a step of %g does not lead from t = %g to t = %g", h,
+                    request->from, request->time);
+}
+
 int row_times_fill(run_request *request)
 {
+    int status = find_end(request);
     request->given_time = request->time;
     request->given_samples = request->samples;
-    int status = request->times > 0 ? finish_list(request) : CLI_DONE;
-    if (status == CLI_DONE) status = row_times_check_step(request, request->time);
+    if (status == CLI_DONE && request->times > 0) status = finish_list(request);
+    if (status == CLI_DONE) status = check_end(request);
     if (status != CLI_DONE || request->times > 0) return status;
     if (request->sampling == REQUEST_SAMPLING_LOG) return fill_log(request);
     return request->sampling == REQUEST_SAMPLING_STEPS ? fill_steps(request) : CLI_DONE;

@@ -101,6 +101,11 @@ const study_cell *study_cell_physical(const study_plan *plan, const study_cell *
     return NULL;
 }
 
+double study_cell_length(const study_cell *c)
+{
+    return (study_case_end(c->of_case, c->step) - c->of_case->from) / c->step;
+}
+
 typedef struct cell_run {
     const study_plan *plan;
     study_cell *cell;
@@ -149,13 +154,17 @@ static void make_request(cell_run *r)
     request->options = e->options;
     request->options.step = c->step;
     request->options.space = space[c->start];
+    request->from = e->from;
     request->time = e->time;
     request->samples = e->rows == STUDY_ROWS_NONE ? 1 : e->samples;
+    request->steps = e->run_steps;
     request->sampling = REQUEST_SAMPLING_STEPS;
     request->statistics = e->statistics;
     request->typed = REQUEST_OPTION(integrator) | REQUEST_OPTION(step) | REQUEST_OPTION(space) |
-                     REQUEST_OPTION(time) | REQUEST_OPTION(samples) | REQUEST_OPTION(sampling) |
-                     REQUEST_OPTION(statistics);
+                     REQUEST_OPTION(samples) | REQUEST_OPTION(sampling) |
+                     REQUEST_OPTION(statistics) |
+                     (e->run_steps > 0 ? REQUEST_OPTION(steps) : REQUEST_OPTION(time)) |
+                     (e->from != 0.0 ? REQUEST_OPTION(from) : 0);
     memcpy(request->text, e->option, sizeof request->text);
     add_settings(&request->set, &e->set, 1.0);
     add_settings(&request->start, &e->start, 1.0);
@@ -327,15 +336,14 @@ static int open_recorder(cell_run *r)
 /* The cells of a study that take the steps of this one, in units of its own steps. */
 static double cells_alike(const study_plan *plan, const study_cell *cell)
 {
-    const double own = cell->of_case->time / cell->step;
     double steps = 0.0;
     for (int i = 0; i < plan->cell_count; i++) {
         const study_cell *c = &plan->cells[i];
         if (c->method == cell->method && !c->other_shard &&
             (c->start == STUDY_PHYSICAL) == (cell->start == STUDY_PHYSICAL))
-            steps += c->of_case->time / c->step;
+            steps += study_cell_length(c);
     }
-    return steps / own;
+    return steps / study_cell_length(cell);
 }
 
 static int run_in_directory(cell_run *r, const study_stop_check *check)

@@ -92,6 +92,8 @@ typedef struct study_quantities {
     const char *invariant_name;
 } study_quantities;
 study_quantities study_cell_quantities(const study_cell *cell);
+/* The time of its run in steps. */
+double study_cell_length(const study_cell *cell);
 /* The finished cell in (q,v) with the same method and step as one on the surface, or NULL. */
 const study_cell *study_cell_physical(const struct study_plan *plan, const study_cell *cell);
 

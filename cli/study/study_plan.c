@@ -14,6 +14,7 @@
 #include "ui/message.h"
 #include "ui/options.h"
 
+#include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
@@ -39,8 +40,7 @@ static int set_steps(study_case *e, const document *doc, const yaml_node_t *node
     e->steps = values->count;
     for (int i = 0; i < e->steps; i++) {
         e->step[i] = values->value[i];
-        if (!(e->step[i] > 0.0))
-            return document_fail(doc, node, "step: %g is not positive", e->step[i]);
+        if (e->step[i] == 0.0) return document_fail(doc, node, "step: it must not be 0");
         for (int k = 0; k < i; k++)
             if (e->step[k] == e->step[i])
                 return document_fail(doc, node, "step: %g comes twice", e->step[i]);
@@ -48,13 +48,24 @@ static int set_steps(study_case *e, const document *doc, const yaml_node_t *node
     return CLI_DONE;
 }
 
-static int read_steps(void *user, const document *doc, yaml_node_t *value, const document_key *key)
+static int read_step(void *user, const document *doc, yaml_node_t *value, const document_key *key)
 {
     study_values values;
     int status = study_values_read(&values, doc, value, key->name);
     if (status == CLI_DONE) status = set_steps(&((parsed_study *)user)->item, doc, value, &values);
     study_values_free(&values);
     return status;
+}
+
+/* The key `time` or `steps`, which replaces the other one of the whole study. */
+static int read_end(void *user, const document *doc, yaml_node_t *value, const document_key *key)
+{
+    study_case *e = &((parsed_study *)user)->item;
+    const bool is_time = key->offset == offsetof(parsed_study, item.time);
+    e->time = NAN;
+    e->run_steps = 0;
+    return is_time ? document_read_number(user, doc, value, key)
+                   : document_read_count(user, doc, value, key);
 }
 
 static int read_option(study_case *e, const document *doc, const document_pair *pair)
@@ -121,8 +132,15 @@ enum {
         KEYS
 };
 
+static bool gives_two_ends(const document *doc, const yaml_node_t *node)
+{
+    return document_value(doc, node, "time") && document_value(doc, node, "steps");
+}
+
 static int read_study(parsed_study *parsed, const document *doc, yaml_node_t *node)
 {
+    if (node->type == YAML_MAPPING_NODE && gives_two_ends(doc, node))
+        return document_fail(doc, node, "steps exclude time");
     return document_read_mapping(doc, node, "a study", keys, KEY_system, parsed);
 }
 
@@ -130,6 +148,7 @@ static int read_system(parsed_study *parsed, const document *doc, yaml_node_t *n
 {
     if (node->type != YAML_MAPPING_NODE)
         return document_read_text(parsed, doc, node, &keys[KEY_system]);
+    if (gives_two_ends(doc, node)) return document_fail(doc, node, "steps exclude time");
     return document_read_mapping(doc, node, "a system", keys + KEY_integrators,
                                  KEYS - KEY_integrators, parsed);
 }
@@ -266,6 +285,11 @@ static int read_first_case(const group_reader *g, study_case *e)
 
 /* ---- cases ---- */
 
+double study_case_end(const study_case *e, double step)
+{
+    return e->run_steps > 0 ? e->from + (double)e->run_steps * step : e->time;
+}
+
 static int check_case(const group_reader *g)
 {
     const document *doc = g->doc;
@@ -275,10 +299,15 @@ static int check_case(const group_reader *g)
     if (!g->parsed.integrators)
         return document_fail(doc, node, "%s: the integrators are missing", e->name);
     if (e->steps == 0) return document_fail(doc, node, "%s: the step is missing", e->name);
-    if (!(e->time > 0.0)) return document_fail(doc, node, "%s: the time is missing", e->name);
+    if (isnan(e->time) && e->run_steps == 0)
+        return document_fail(doc, node, "%s: the time is missing", e->name);
     for (int i = 0; i < e->steps; i++) {
         char text[STEP_ERROR_SIZE];
-        const char *error = step_error(e->step[i], e->time, text);
+        const double end = study_case_end(e, e->step[i]);
+        if (!(copysign(1.0, e->step[i]) * (end - e->from) > 0.0))
+            return document_fail(doc, node, "%s: a step of %g does not lead from t = %g to t = %g",
+                                 e->name, e->step[i], e->from, end);
+        const char *error = step_error(e->step[i], end - e->from, text);
         if (error) return document_fail(doc, node, "%s: step %s", e->name, error);
     }
     return CLI_DONE;
@@ -401,7 +430,8 @@ int study_plan_read(study_plan *plan, const char *place, const char *bytes, size
                     const char *copies)
 {
     document *doc = cli_calloc(1, sizeof *doc);
-    parsed_study base = {.item = {.samples = 400,
+    parsed_study base = {.item = {.time = NAN,
+                                  .samples = 400,
                                   .statistics = 1,
                                   .options = dal_options_default(),
                                   .displacement = 1e-8,

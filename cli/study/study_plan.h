@@ -26,9 +26,10 @@ typedef struct study_case {
     dal_model *model;
     const dal_system *system;
     char *copy; /* of the system file, in the directory of the study; NULL: a built-in system */
-    double step[STUDY_STEPS], time, displacement;
-    int rows;          /* a study_rows */
-    int steps, starts; /* starts: bit STUDY_x set */
+    double step[STUDY_STEPS], from, time, displacement; /* time: NaN: not given, but: */
+    long long run_steps; /* steps of each run; 0: not given, but time */
+    int rows;            /* a study_rows */
+    int steps, starts;   /* starts: bit STUDY_x set */
     long long samples, statistics;
     dal_options options;                   /* but step and space, and as they were given: */
     const char *option[REQUEST_OPTIONS];   /* NULL: not given */
@@ -64,6 +65,8 @@ typedef struct study_plan {
 int study_plan_read(study_plan *plan, const char *place, const char *text, size_t length,
                     const char *copies);
 void study_plan_free(study_plan *plan);
+/* Where the runs of a step end, in t. */
+double study_case_end(const study_case *item, double step);
 /* DIRECTORY/LABEL.yaml, the copy of a system file; allocated. */
 char *study_plan_copy_path(const char *directory, const study_case *item);
 
@@ -80,9 +83,10 @@ char *study_plan_copy_path(const char *directory, const study_case *item);
         "at most 16 of the integrators, for the screen (the first of each family)")                \
     KEY(integrators, "both", document_read_node, integrators,                                      \
         "list of names, with modifiers or not; all or all+project: every integrator")              \
-    KEY(step, "both", read_steps, item, "one step, or at most 16")                                 \
-    KEY(time, "both", document_read_positive, item.time,                                           \
-        "integrate from 0 to this, in whole steps")                                                \
+    KEY(step, "both", read_step, item, "one step, or at most 16; negative: backwards")             \
+    KEY(time, "both", read_end, item.time, "integrate to this, in whole steps")                    \
+    KEY(steps, "both", read_end, item.run_steps, "or take this number of steps; excludes time")    \
+    KEY(from, "both", document_read_number, item.from, "the time of the start (0)")                \
     KEY(samples, "both", document_read_count, item.samples, "rows kept of each run (400)")         \
     KEY(rows, "both", read_rows, item.rows,                                                        \
         "kept (default), or none: many short runs leave their results, and no files each")         \

@@ -29,7 +29,7 @@ static double estimate_cost(const study_cell *c)
     const double stages = inner->stages > 0 ? inner->stages : 1;
     const double implicit = inner->properties & DAL_EXPLICIT ? 1.0 : 8.0;
     const double lifted = c->start == STUDY_PHYSICAL ? 1.0 : 3.0;
-    return c->of_case->time / c->step * stages * implicit * lifted;
+    return study_cell_length(c) * stages * implicit * lifted;
 }
 
 static int compare_costs(const void *a, const void *b)

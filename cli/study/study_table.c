@@ -127,7 +127,7 @@ static void print_table(FILE *out, const study_plan *plan, const study_case *e, 
     void (*const put_line)(FILE *, int, const table_row *) =
         start == STUDY_DISPLACED ? put_lift : put_motion;
     fprintf(out, "\n %s%s, h = %g, T = %g\n", start == STUDY_PHYSICAL ? "in " : "", titles[start],
-            step, e->time);
+            step, study_case_end(e, step));
     for (int line = 0; line < 2; line++) {
         fprintf(out, "  %-*s", METHOD, line == 0 ? "integrator" : "");
         put_line(out, line, NULL);
@@ -238,7 +238,7 @@ static void put_run(FILE *out, const csv_row *r)
     COLUMN(integrator, cli_put_text(out, r->method))                                               \
     COLUMN(start, fputs(study_start_words[r->cell->start], out))                                   \
     COLUMN(step, cli_put(out, r->cell->step))                                                      \
-    COLUMN(time, cli_put(out, r->of_case->time))                                                   \
+    COLUMN(time, cli_put(out, study_case_end(r->of_case, r->cell->step)))                          \
     COLUMN(state, fputs(study_state_words[r->cell->state], out))                                   \
     COLUMN(status, fputs(dal_status_name(r->cell->error.status), out))                             \
     COLUMN(reached, RUN(cli_put(out, r->cell->time)))                                              \
@@ -309,9 +309,10 @@ static void put_quantities(FILE *out, const csv_row *r)
 
 static void put_series(FILE *out, const csv_row *r)
 {
+    const double end = study_case_end(r->of_case, r->cell->step) - r->of_case->from;
     for (int k = 0; k < r->cell->window_count; k++) {
         put_key(out, r);
-        cli_put(out, r->of_case->time * (k + 1) / STUDY_WINDOWS);
+        cli_put(out, fabs(end) * (k + 1) / STUDY_WINDOWS);
         for (int track = 0; track < STUDY_TRACKS; track++) {
             fputc(',', out);
             cli_put_known(out, r->cell->windows[k][track]);

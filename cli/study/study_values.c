@@ -298,7 +298,7 @@ static dal_status find_velocities(const study_case *e, double *x, dal_error *err
     dal_status status =
         dal_evaluator_create(&evaluator, e->system, e->set.item, e->set.count, error);
     if (status == DAL_OK) status = dal_evaluator_start(evaluator, start, count, x, error);
-    if (status == DAL_OK) status = dal_project_velocity(evaluator, 0.0, x, x + e->system->n);
+    if (status == DAL_OK) status = dal_project_velocity(evaluator, e->from, x, x + e->system->n);
     dal_evaluator_free(evaluator);
     free(start);
     return status;

@@ -35,7 +35,7 @@ long long dal_whole_steps(double from, double to, double step)
 {
     const double steps = nearbyint((to - from) / step);
     return steps >= 1.0 && steps < 0x1p53 &&
-                   fabs(steps * step - (to - from)) <= whole_tolerance * fabs(to)
+                   fabs(steps * step - (to - from)) <= whole_tolerance * fmax(fabs(from), fabs(to))
                ? (long long)steps
                : 0;
 }
@@ -45,7 +45,7 @@ static dal_status state_at(const dal_run_spec *spec, double T, double *out, long
                            dal_error *error)
 {
     dal_run *run;
-    const long long steps = dal_whole_steps(0.0, T, spec->options.step);
+    const long long steps = dal_whole_steps(spec->start_time, T, spec->options.step);
     if (steps == 0)
         return dal__fail(error, DAL_ARGUMENT, "time %g is not a whole number of steps of %g", T,
                          spec->options.step);

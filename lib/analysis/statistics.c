@@ -234,7 +234,7 @@ int dal__statistics_blocks(const dal_statistics *s, dal_statistics_block *block)
     const int n = (int)s->blocks;
     memcpy(block, s->block, (size_t)n * sizeof *block);
     for (int i = 0; i < n; i++) {
-        block[i].t -= s->from;
+        block[i].t = fabs(block[i].t - s->from); /* a run may go backwards in t */
         block[i].x /= s->factor;
         block[i].min -= s->first;
         block[i].max -= s->first;

@@ -348,7 +348,7 @@ static dal_size_class size_of(const dal_statistics *s, double scale, const dal_t
     const double roughness = dal__roughness(s) / s->factor;
     const double by_steps = per_root_step * eps * sqrt(steps);
     const double max = fmin(by_steps, smoothness * roughness);
-    const double per_step = fabs(trend->rate) * (s->to - s->from) / steps;
+    const double per_step = fabs(trend->rate) * fabs(s->to - s->from) / steps;
     const double about_line = trend->trend == DAL_TREND_LINEAR ? by_steps : max;
     const bool is_near =
         trend->deviation <= max || (trend->amplitude <= about_line && per_step <= eps);
@@ -361,7 +361,7 @@ static dal_size_class size_of(const dal_statistics *s, double scale, const dal_t
 /* A drift over the whole series as a rate. */
 static double rate_of(const description *p, const dal_statistics *s, double drift)
 {
-    const double between = s->block[s->blocks - 1].t - s->block[0].t;
+    const double between = fabs(s->block[s->blocks - 1].t - s->block[0].t);
     const double whole = between * (double)s->blocks / ((double)s->blocks - 1.0);
     return drift * p->series.unit / whole / s->factor;
 }
@@ -393,7 +393,7 @@ void dal_statistics_classify(const dal_statistics *s, double scale, int aborted,
                          .deviation = dal_statistics_deviation(s)};
     decision d = classify(s, trend);
     if (aborted || s->lost || s->count == 0) d = (decision){DAL_TREND_ABORTED, 1.0, NAN};
-    trend->max_drift = fmax(fabs(trend->rate_low), fabs(trend->rate_high)) * (s->to - s->from);
+    trend->max_drift = fmax(fabs(trend->rate_low), fabs(trend->rate_high)) * fabs(s->to - s->from);
     trend->amplitude = dal__trend_amplitude(s, trend->rate);
     trend->trend = d.trend;
     trend->confidence = d.confidence;

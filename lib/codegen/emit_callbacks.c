@@ -133,11 +133,13 @@ void dal__write_start(dal__generation *g)
     dal__buffer_append(&g->text, "/* What is made of the parameters alone. */\n"
                                  "static void dal__hoist(dal_stored *w)\n{\n    (void)w;\n");
     dal__tapes_write_hoisted(g->programs->tapes, is_written, &g->text);
+    dal__buffer_append(&g->text, "}\nstatic const double dal__start_time = ");
+    dal__buffer_number(&g->text, k->start_time);
     dal__buffer_print(&g->text,
-                      "}\n/* The state at t = 0. */\n"
+                      ";\n"
                       "static void dal__start(const dal_stored *work, num *y)\n{\n"
                       "    num out[%d];\n"
-                      "    dal__start_values(work, 0.0, NULL, NULL, NULL, out);\n"
+                      "    dal__start_values(work, dal__start_time, NULL, NULL, NULL, out);\n"
                       "    for (int i = 0; i < DAL_FIXED_DIM; i++) y[i] = i < %d ? out[i] : "
                       "dal_num(0.0);\n",
                       first + 1, first + (k->lifted ? 1 : 0));

@@ -70,7 +70,7 @@ static const char usage[] =
     " *\n"
     " *     PREFIX_state state;                    a plain struct, no pointers in it\n"
     " *     PREFIX_parameters p = PREFIX_defaults();\n"
-    " *     PREFIX_start(&state, &p);              at t = 0; NULL: the defaults\n"
+    " *     PREFIX_start(&state, &p);              at its time; NULL: the defaults\n"
     " *     if (PREFIX_advance(&state, h, 1000))   1000 steps of size h\n"
     " *         puts(PREFIX_text(state.status[0]));\n"
     " *     double out[PREFIX_OBSERVABLES * PREFIX_LANES];\n"

@@ -305,6 +305,9 @@ static dal_status open_runs(dal_lyapunov *s, const dal_run_spec *given, const da
 {
     dal_run_spec spec = *given;
     spec.options.space = DAL_PHYSICAL;
+    if (spec.options.step < 0.0)
+        return dal__fail(error, DAL_ARGUMENT, "exponents need a positive step; it is %g",
+                         spec.options.step);
     DAL_TRY(dal_run_create(&s->run, &spec, error));
     const dal_system *system = dal_run_system(s->run);
     /* A step that is made of values of F alone moves a tangent vector by its own derivative. */

@@ -291,6 +291,8 @@ dal_status dal_run_crossings(dal_run *run, double T, const dal_poincare *section
     if (section->callback == NULL || section->index < 0 || section->index >= section->count)
         return dal__fail(error, DAL_ARGUMENT, "the section is value %d of %d", section->index + 1,
                          section->callback == NULL ? 0 : section->count);
+    if (h < 0.0)
+        return dal__fail(error, DAL_ARGUMENT, "a section needs a positive step; it is %g", h);
     const long long steps = dal_whole_steps(dal_run_time(run), T, h);
     if (steps == 0)
         return dal__fail(error, DAL_ARGUMENT, "time %g is not a whole number of steps of %g", T, h);

@@ -180,7 +180,8 @@ dal_status dal__failure_reason(dal_run *run, double h, dal_status status, dal_er
     }
     if (status == DAL_NOT_CONVERGED && vanishes(run, t, h, &failure))
         return turned(run, &failure, t, h, error);
-    if (status == DAL_NOT_CONVERGED && k->options.tolerance > 0.0 && failure.reached < t + h)
+    if (status == DAL_NOT_CONVERGED && k->options.tolerance > 0.0 &&
+        fabs(failure.reached - t) < fabs(h))
         return undivided(run, &failure, t, h, error);
     if (status == DAL_NOT_CONVERGED) return unsolved(run, t, h, error);
     if (status == DAL_NOT_FINITE)

@@ -92,8 +92,8 @@ static dal_status check_system(const dal_system *system, dal_error *error)
 
 static dal_status check_options(const dal_options *o, dal_error *error)
 {
-    if (!(o->step > 0.0) || !isfinite(o->step))
-        return dal__fail(error, DAL_ARGUMENT, "the step must be positive and finite; it is %g",
+    if (o->step == 0.0 || !isfinite(o->step))
+        return dal__fail(error, DAL_ARGUMENT, "the step must be finite and not 0; it is %g",
                          o->step);
 #define OPTION(type, name, word, initial, min, max, value, help)                                   \
     if (!(o->name >= min && o->name <= max))                                                       \
@@ -287,7 +287,13 @@ dal_status dal__layout_init(dal__layout *k, const dal_run_spec *spec, dal_error 
     DAL_TRY(dal__check_spec(spec, error));
     DAL_TRY(check_system(spec->system, error));
     DAL_TRY(check_options(&spec->options, error));
-    *k = (dal__layout){.system = spec->system, .method = spec->method, .options = spec->options};
+    if (!isfinite(spec->start_time))
+        return dal__fail(error, DAL_ARGUMENT, "the time of the start must be finite; it is %g",
+                         spec->start_time);
+    *k = (dal__layout){.system = spec->system,
+                       .method = spec->method,
+                       .options = spec->options,
+                       .start_time = spec->start_time + 0.0};
     DAL_TRY(choose_system(k, error));
     k->n = spec->system->n;
     k->m = spec->system->m;

@@ -11,6 +11,7 @@ typedef struct dal__layout {
     const dal_system *system;
     dal_method method;
     dal_options options;
+    double start_time;
     int n, nw, m, dim, lifted, depth, stages, derivatives, multiplier;
     size_t workspace, persistent, scratch; /* numbers */
 } dal__layout;

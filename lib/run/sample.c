@@ -1,13 +1,14 @@
-/* sample.c - a run observed: rows at t = row*T/samples, and observations every so often.
+/* sample.c - a run observed: rows at equal distances in t, and observations every so often.
  *
  * The trajectory consists of steps h.  A row counts as reached when its time is nearer than ALIGNED
  * steps, or than the rounding of the clock, to that of a step; otherwise an intermediate step gives
- * the row.
+ * the row.  Times are compared in the direction of the run, the sign of h.
  *
  * dal_observer.values receives observations in batches.  With compiled observables the states are
  * collected and evaluated together, as many at a time as a register has lanes; else each is
- * evaluated at once.  A batch ends where the number of observations since t = 0 is a multiple of
- * the capacity, wherever a run was begun or interrupted, so that sums in parts find whole parts. */
+ * evaluated at once.  A batch ends where the number of observations since the start is a multiple
+ * of the capacity, wherever a run was begun or interrupted, so that sums in parts find whole parts.
+ */
 #include "core/error.h"
 #include "run/failure.h"
 #include "run/run.h"
@@ -195,14 +196,14 @@ static long long steps_towards(const sampling *k, double left, double h)
 
 static dal_status advance_to_row(sampling *k, long long row, double t)
 {
-    const double h = k->run->layout.options.step;
+    const double step = k->run->layout.options.step, h = fabs(step);
     const double near = fmax(ALIGNED * h, 4.0 * DBL_EPSILON * fabs(t));
     sampled_row r = {k, row, t};
     for (;;) {
-        const double left = t - dal_run_time(k->run);
+        const double left = copysign(1.0, step) * (t - dal_run_time(k->run));
         if (left <= near) return sample_row(&r, k->run);
         if (left < h - near) {
-            DAL_TRY(dal_run_intermediate(k->run, left, sample_row, &r, k->error));
+            DAL_TRY(dal_run_intermediate(k->run, copysign(left, step), sample_row, &r, k->error));
             return poll(k);
         }
         const long long steps = steps_towards(k, left, h);
@@ -213,29 +214,35 @@ static dal_status advance_to_row(sampling *k, long long row, double t)
     }
 }
 
-static double row_time(const dal_observer *o, double T, long long row, long long samples)
+static double row_time(const dal_run *run, const dal_observer *o, double T, long long row,
+                       long long samples)
 {
+    const double from = run->layout.start_time;
     if (o->row_time && row < samples) return o->row_time(o->user, row);
-    return row == samples ? T : T * ((double)row / (double)samples);
+    return row == samples ? T : from + (T - from) * ((double)row / (double)samples);
 }
 
 static dal_status check_arguments(const dal_run *run, const dal_observer *observer, double T,
                                   long long samples, long long first_row, dal_error *error)
 {
-    const double h = run->layout.options.step;
-    if (!(T > 0.0) || !isfinite(T))
-        return dal__fail(error, DAL_ARGUMENT, "the time must be positive; it is %g", T);
-    if (h > T)
-        return dal__fail(error, DAL_ARGUMENT, "the step %g is larger than the time %g", h, T);
-    if (T / h > MAX_STEPS)
+    const double h = run->layout.options.step, from = run->layout.start_time, whole = T - from;
+    if (!isfinite(T) || !isfinite(whole))
+        return dal__fail(error, DAL_ARGUMENT, "the time must be finite; it is %g", T);
+    if (!(whole * copysign(1.0, h) > 0.0))
+        return dal__fail(error, DAL_ARGUMENT, "a step of %g does not lead from t = %g to %g", h,
+                         from, T);
+    if (fabs(h) > fabs(whole))
+        return dal__fail(error, DAL_ARGUMENT, "the step %g is larger than the time %g", h, whole);
+    if (whole / h > MAX_STEPS)
         return dal__fail(error, DAL_ARGUMENT, "%g steps of %g are more than can be counted (2^53)",
-                         T / h, h);
+                         whole / h, h);
     if (samples < 1 || (double)samples > MAX_STEPS)
         return dal__fail(error, DAL_ARGUMENT, "samples must be at least 1; it is %lld", samples);
     if (first_row < 0 || first_row > samples)
         return dal__fail(error, DAL_ARGUMENT, "there is no row %lld among 0..%lld", first_row,
                          samples);
-    if (row_time(observer, T, first_row, samples) < dal_run_time(run) - h)
+    const double first = row_time(run, observer, T, first_row, samples);
+    if (copysign(1.0, h) * (first - dal_run_time(run)) < -fabs(h))
         return dal__fail(error, DAL_ARGUMENT, "row %lld lies before the present t = %g", first_row,
                          dal_run_time(run));
     return DAL_OK;
@@ -251,6 +258,6 @@ dal_status dal_run_sample(dal_run *run, double T, long long samples, long long f
     sampling k = {run, observer, error, 0};
     if (first_row == 0 && dal_run_steps(run) == 0) DAL_TRY(observe_start(&k));
     for (long long row = first_row; row <= samples; row++)
-        DAL_TRY(advance_to_row(&k, row, row_time(observer, T, row, samples)));
+        DAL_TRY(advance_to_row(&k, row, row_time(run, observer, T, row, samples)));
     return DAL_OK;
 }

@@ -70,9 +70,10 @@ static dal_status default_start(dal_run *run, dal_error *error)
     const dal__layout *k = &run->layout;
     const int first = k->n + k->nw;
     memset(run->persistent, 0, k->persistent * sizeof *run->persistent);
+    run->persistent[dal__at(k, DAL__TIME)] = k->start_time;
     double *out = run->scratch;
     for (int i = 0; i <= first; i++) out[i] = i == first;
-    const dal_point at = {0.0, run->persistent, run->persistent + k->n, NULL, run->work};
+    const dal_point at = dal__here(run);
     if (k->system->start && k->system->start(k->system, &at, out) != DAL_OK)
         return dal__fail(error, DAL_NOT_FINITE, "%s has no start with these parameters",
                          k->system->name ? k->system->name : "the system");

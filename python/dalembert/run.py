@@ -50,11 +50,13 @@ class Run:
     integrator : str, optional
         ``'rk4'``, ``'gauss8+project'``; the default is that of the system file.
     step : float, optional
-        Step size h; the default is that of the system file, or 0.01.
+        Step size h, negative: backwards in t; the default is that of the system file, or 0.01.
     parameters : mapping of str to float, optional
         Those that differ from their default.
     start : mapping of str to float, optional
         Components of the state, ``{"x'": 0.5}``; the system gives the rest.
+    start_time : float
+        t of the start.
     **options
         Those of the command line with underscores: ``space='physical'``,
         ``solver_tolerance=1e-12``, ``precision='quad'``.
@@ -74,8 +76,9 @@ class Run:
     """
 
     def __init__(self, system: SystemLike, integrator: str | None = None, *, step: float | None = None,
-                 parameters: Settings | None = None, start: Settings | None = None, **options: Any):
-        spec = Spec(system, integrator, step, parameters, start, **options)
+                 parameters: Settings | None = None, start: Settings | None = None,
+                 start_time: float = 0.0, **options: Any):
+        spec = Spec(system, integrator, step, parameters, start, start_time, **options)
         self.system, self.integrator = spec.system, spec.integrator
         self._run, self.names, self.observable_names = spec.create_run()
         self.dimension = len(self.names)
@@ -92,12 +95,12 @@ class Run:
 
     @property
     def steps(self) -> int:
-        """Steps since t = 0."""
+        """Steps since the start."""
         return lib.dal_run_steps(self._run)
 
     @property
     def evaluations(self) -> int:
-        """Evaluations of the field since t = 0."""
+        """Evaluations of the field since the start."""
         return lib.dal_run_evaluations(self._run)
 
     @property
@@ -171,7 +174,7 @@ class Run:
         Parameters
         ----------
         times : array_like
-            Increasing, from the present time on.
+            From the present time on, in the direction of the step.
 
         Returns
         -------
@@ -184,9 +187,11 @@ class Run:
             Its ``partial`` has the rows before the failure.
         """
         when = np.ascontiguousarray(times, dtype=np.float64)
-        if when.ndim != 1 or len(when) == 0 or not np.all(np.diff(when) > 0):
-            raise InputError('DAL_ARGUMENT', 'times must be increasing numbers, one at least')
-        if not when[0] >= self.time - 1e-9 * self.step:
+        direction = np.sign(self.step)
+        if when.ndim != 1 or len(when) == 0 or not np.all(direction * np.diff(when) > 0):
+            order = 'increasing' if direction > 0 else 'decreasing'
+            raise InputError('DAL_ARGUMENT', f'times must be {order} numbers, one at least')
+        if not direction * (when[0] - self.time) >= -1e-9 * abs(self.step):
             raise InputError('DAL_ARGUMENT', f'time {when[0]:g} lies before the present t = {self.time:g}')
         names = ('t',) + self.names + self.observable_names
         table = np.empty((len(when), len(names)))

@@ -46,7 +46,8 @@ class Spec:
     """A dal_run_spec with all that it points to."""
 
     def __init__(self, system: SystemLike, integrator: str | None, step: float | None = None,
-                 parameters: Settings | None = None, start: Settings | None = None, **options: Any):
+                 parameters: Settings | None = None, start: Settings | None = None,
+                 start_time: float = 0.0, **options: Any):
         self.system = system if isinstance(system, System) else System.builtin(system)
         defaults = self.system.defaults
         integrator = integrator or defaults.get('integrator')
@@ -61,6 +62,7 @@ class Spec:
         for name, value in {**({} if step is None else {'step': float(step)}), **options}.items():
             call(lib.dal_options_set, ffi.addressof(self.c, 'options'), name.replace('_', '-').encode(),
                  option_text(value).encode())
+        self.c.start_time = float(start_time)
         # Both must live as long as the spec.
         self._parameters = make_settings(parameters)
         self._start = make_settings(start)
@@ -94,7 +96,7 @@ class Spec:
 
     def steps(self, time: float) -> int:
         """The number of steps to a time, which it must be a whole number of."""
-        steps = lib.dal_whole_steps(0.0, time, self.step)
+        steps = lib.dal_whole_steps(self.c.start_time, time, self.step)
         if steps == 0:
             raise InputError('DAL_ARGUMENT', f'time {time:g} is not a whole number of steps of {self.step:g}')
         return steps

@@ -13,7 +13,7 @@ system() { printf '%s\n' "$@" >bad.yaml; }
 run="--integrator rk4 --step 0.1 --time 1"
 
 case_is "steps"
-refuse '--step: 0 is not positive' chaplygin-sleigh --integrator rk4 --step 0 --time 1
+refuse '--step: it must not be 0' chaplygin-sleigh --integrator rk4 --step 0 --time 1
 refuse 'step.* -0\.1 ' chaplygin-sleigh --integrator rk4 --step -0.1 --time 1
 refuse "step.*'?nan'? is not a number" chaplygin-sleigh --integrator rk4 --step nan --time 1
 refuse "step.*'?inf'? is not a number" chaplygin-sleigh --integrator rk4 --step inf --time 1
@@ -25,8 +25,8 @@ refuse 'more than can be counted' chaplygin-sleigh --integrator rk4 --step 1e-30
 refuse 'more than can be counted' chaplygin-sleigh --integrator rk4 --step 1e-300 --time 1 --sampling log
 
 case_is "times and samples"
-refuse '--time: 0 is not positive' chaplygin-sleigh --integrator rk4 --step 0.1 --time 0
-refuse '--time: -1 is not positive' chaplygin-sleigh --integrator rk4 --step 0.1 --time -1
+refuse '--time: a step of 0.1 does not lead from t = 0 to t = 0' chaplygin-sleigh --integrator rk4 --step 0.1 --time 0
+refuse '--time: a step of 0.1 does not lead from t = 0 to t = -1' chaplygin-sleigh --integrator rk4 --step 0.1 --time -1
 refuse "--time: 'nan' is not a number" chaplygin-sleigh --integrator rk4 --step 0.1 --time nan
 refuse "--time: '1e999' is too large" chaplygin-sleigh --integrator rk4 --step 0.1 --time 1e999
 refuse '--samples: 0 is not in 1\.\.' chaplygin-sleigh $run --samples 0

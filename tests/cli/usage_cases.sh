@@ -195,7 +195,7 @@ prints '^  --tolerance TOLERANCE( |$)'
 prints '^  --solver-tolerance CHANGE( |$)'
 try 0 order --help
 holds "order: other defaults" sh -c 'tr -s " \n" " " <out | grep -q -- \
-    "--time T integrates from t = 0 to t = T (10) .* (physical) --solver"'
+    "--time T integrates from t = T0 to t = T (10) .* (physical) --solver"'
 
 case_is "unknown command"
 try 2 rnu
