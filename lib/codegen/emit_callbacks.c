@@ -5,8 +5,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A longer program is a function that is not inlined. */
-enum { MAX_INLINED = 600 };
+/* A longer program is a function that is not inlined; implicit methods evaluate one at many
+ * places. */
+enum { MAX_INLINED = 600, MAX_INLINED_IMPLICIT = 120 };
 
 /* ---- inputs ---- */
 
@@ -33,14 +34,26 @@ static void name_inputs(dal__generation *g)
 static bool is_inlined(const dal__generation *g, dal__program_code code)
 {
     const int length = g->programs->tapes->tape[g->programs->program[code].tape].length;
-    return code != DAL__PROGRAM_JACOBIAN && length <= MAX_INLINED;
+    const int max = g->kernel & DAL_KERNEL_SOLVE ? MAX_INLINED_IMPLICIT : MAX_INLINED;
+    return code != DAL__PROGRAM_JACOBIAN && length <= max;
 }
+
+/* Ordering the operations of a long straight line takes a compiler too much time. */
+static const char unordered[] = "#ifndef __clang__\n"
+                                "__attribute__((optimize(\"no-schedule-insns\")))\n"
+                                "#endif\n";
 
 static void write_program(dal__generation *g, dal__program_code code, const char *name)
 {
     if (!dal__wants(g, code)) return;
+    const bool is_cold = code == DAL__PROGRAM_JACOBIAN;
+    const int length = g->programs->tapes->tape[g->programs->program[code].tape].length;
+    if (is_cold && length > MAX_INLINED) dal__buffer_append(&g->text, unordered);
     dal__buffer_print(&g->text, "%s void dal__%s(DAL__ARGUMENTS)\n{\n",
-                      is_inlined(g, code) ? "DAL_INLINE" : "DAL_COLD", name);
+                      is_inlined(g, code) ? "DAL_INLINE"
+                      : is_cold           ? "DAL_COLD"
+                                          : "static DAL_UNUSED __attribute__((noinline))",
+                      name);
     dal__tape_write(g->programs->tapes, g->programs->program[code].tape, g->input, &g->text);
     dal__buffer_append(&g->text, "}\n");
 }
