@@ -209,7 +209,7 @@ DAL_INLINE void dal__save_predictor_errors(dal_block *b, const dal_mask *lanes,
 }
 
 /* Solves the stages in the lanes tried; leaves those that were solved. */
-DAL_INLINE dal_status dal__try_guess(dal_step *s, dal_equation *eq, dal_mask *tried)
+DAL_COLD dal_status dal__try_guess(dal_step *s, dal_equation *eq, dal_mask *tried)
 {
     dal_status status = DAL_OK;
     DAL_EACH(j, DAL_STEP_GROUPS) s->unconverged[j] &= ~tried[j];

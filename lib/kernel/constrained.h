@@ -163,7 +163,8 @@ DAL_SHARED void dal_constrained_matrix(dal_step *s, dal_equation *eq)
 
 /* Solves an equation for a velocity w, as dal_velocity_equation makes it.  direct: the map depends
  * on w through D only, and linearly, so that one iteration solves. */
-DAL_INLINE dal_status dal_enforce(dal_step *s, dal_equation *eq, dal_iteration_map *map, int direct)
+DAL_INLINE_EARLY dal_status dal_enforce(dal_step *s, dal_equation *eq, dal_iteration_map *map,
+                                        int direct)
 {
     if (!direct) return dal_solve(s, eq, map, dal_constrained_matrix);
     eq->active[0] = s->alive[0];

@@ -67,17 +67,21 @@
 #define DAL_RARELY(condition) __builtin_expect(!!(condition), 0)
 
 /* A generated file defines DAL_SPECIALISED: there all sizes are constants and a whole step becomes
- * one function, its loops over components unrolled where DAL_UNROLL says so. */
+ * one function, its loops over components unrolled where DAL_UNROLL says so.  The head of the file
+ * has DAL_INLINE, by the compiler.  Functions that are passed an iteration map are inlined early,
+ * since the map itself can be inlined only where its call names it. */
 #ifdef DAL_SPECIALISED
-#define DAL_INLINE static inline DAL_UNUSED __attribute__((always_inline))
-#define DAL_COLD   static DAL_UNUSED __attribute__((noinline, cold))
+#define DAL_COLD static DAL_UNUSED __attribute__((noinline, cold))
 #if DAL_WITH_SOLVE
-#define DAL_SHARED DAL_INLINE
+#define DAL_INLINE_EARLY static inline DAL_UNUSED __attribute__((always_inline))
+#define DAL_SHARED       DAL_INLINE
+#define DAL_SHARED_EARLY DAL_INLINE_EARLY
 #endif
 #else
 #define DAL_UNROLL
-#define DAL_INLINE static inline DAL_UNUSED
-#define DAL_COLD   static inline DAL_UNUSED
+#define DAL_INLINE       static inline DAL_UNUSED
+#define DAL_INLINE_EARLY DAL_INLINE
+#define DAL_COLD         static inline DAL_UNUSED
 /* Large functions that several integrators share are compiled once per variant in the library, by
  * lib/run/kernel_wide.c (DAL_LINKS); its other sources (DAL_LINKED) see their declarations.  In all
  * other files they are a part of the file like the rest of the kernel. */
@@ -86,6 +90,7 @@
 #else
 #define DAL_SHARED DAL_INLINE
 #endif
+#define DAL_SHARED_EARLY DAL_SHARED
 #endif
 
 /* A loop over i from 0 to count - 1. */

@@ -124,8 +124,8 @@ DAL_INLINE num dal_momentum_scale(const dal_step *s, double h, int group)
 }
 
 #define dal_solve DAL_WIDE(dal_solve)
-DAL_SHARED dal_status dal_solve(dal_step *s, dal_equation *eq, dal_iteration_map *map,
-                                dal_matrix *matrix);
+DAL_SHARED_EARLY dal_status dal_solve(dal_step *s, dal_equation *eq, dal_iteration_map *map,
+                                      dal_matrix *matrix);
 
 #ifndef DAL_LINKED
 #if DAL_PACKS
@@ -232,7 +232,8 @@ DAL_INLINE void dal__begin_block(dal_block *b)
 }
 
 /* One iteration of all blocks in the active lanes. */
-DAL_INLINE void dal__iterate_once(dal_step *s, dal_equation *eq, dal_iteration_map *map, int newton)
+DAL_INLINE_EARLY void dal__iterate_once(dal_step *s, dal_equation *eq, dal_iteration_map *map,
+                                        int newton)
 {
     map(s, eq);
     dal__advance(&eq->block[0], eq->active, newton);
@@ -261,8 +262,8 @@ DAL_INLINE void dal__update_active(dal_step *s, dal_equation *eq, int j, int may
 
 /* Iterates in the given lanes and leaves those that converged in `lanes`.  may_give_up: lanes that
  * contract slowly are given up after the third iteration. */
-DAL_INLINE void dal__iterate(dal_step *s, dal_equation *eq, dal_iteration_map *map, dal_mask *lanes,
-                             int newton, int may_give_up)
+DAL_INLINE_EARLY void dal__iterate(dal_step *s, dal_equation *eq, dal_iteration_map *map,
+                                   dal_mask *lanes, int newton, int may_give_up)
 {
     dal_mask slow[DAL_STEP_GROUPS];
     dal__begin_block(&eq->block[0]);
@@ -295,8 +296,8 @@ DAL_INLINE void dal__restore_block(dal_block *b, const dal_mask *lanes)
 
 /* Newton's method from the first guess in the lanes left; leaves those that converged, which use
  * Newton's method from now on. */
-DAL_INLINE void dal__solve_by_newton(dal_step *s, dal_equation *eq, dal_iteration_map *map,
-                                     dal_matrix *matrix, dal_mask *left)
+DAL_INLINE_EARLY void dal__solve_by_newton(dal_step *s, dal_equation *eq, dal_iteration_map *map,
+                                           dal_matrix *matrix, dal_mask *left)
 {
     dal__restore_block(&eq->block[0], left);
     if (eq->blocks > 1) dal__restore_block(&eq->block[1], left);
@@ -308,8 +309,8 @@ DAL_INLINE void dal__solve_by_newton(dal_step *s, dal_equation *eq, dal_iteratio
 
 /* Solves the equation from the guess in u; lanes that fail are marked unconverged and no longer
  * alive.  matrix NULL: the fixed point only. */
-DAL_SHARED dal_status dal_solve(dal_step *s, dal_equation *eq, dal_iteration_map *map,
-                                dal_matrix *matrix)
+DAL_SHARED_EARLY dal_status dal_solve(dal_step *s, dal_equation *eq, dal_iteration_map *map,
+                                      dal_matrix *matrix)
 {
     const int may_newton = matrix && DAL_MAY_NEWTON(s);
     dal_mask solved[DAL_STEP_GROUPS], left[DAL_STEP_GROUPS];
