@@ -161,6 +161,8 @@ typedef int dal_choice;
            "continues F off D = 0 so that E is conserved there too")                               \
     OPTION(dal_choice, reactions, "reactions", 0, 0, 1, "off|on",                                  \
            "observes multipliers h1.., reactions R_x.. of F, and a method's own lambda1..")        \
+    OPTION(dal_choice, consistent, "consistent", 0, 0, 1, "off|on",                                \
+           "moves the velocities of the start to D = 0, by the least change in the mass metric")   \
     OPTION(double, tolerance, "tolerance", 0, 0.0, 1.0, "TOLERANCE",                               \
            "estimated error, absolute and relative, of the substeps of dop853; 0: no substeps")    \
     OPTION(double, solver_tolerance, "solver-tolerance", 0, 0.0, 1.0, "CHANGE",                    \

@@ -2,7 +2,9 @@
  * constraints may be, how far from an exact solution it may begin.  Each from both sides. */
 #include "fixtures.h"
 #include <CUnit/CUnit.h>
+#include <stdbool.h>
 #include <stdio.h>
+#include <string.h>
 
 /* The status of a run of a text with its start overridden. */
 static dal_status status_of(const char *text, const dal_setting *start, int count)
@@ -98,11 +100,95 @@ static void test_not_finite(void)
     fixture_refused(&spec, DAL_NOT_FINITE, "start x is not finite: inf");
 }
 
+/* ---- consistent starts ---- */
+
+/* q and v of a run of the text whose start was made consistent; false: it was refused so. */
+static bool make_consistent(const char *text, dal_status status, const char *fragment,
+                            double *state)
+{
+    dal_run_spec spec = fixture_spec(fixture_system(text), "rk4", DAL_PHYSICAL, 0.1);
+    dal_run *run = NULL;
+    dal_error error = {0};
+    spec.options.consistent = 1;
+    CU_ASSERT_EQUAL(dal_run_create(&run, &spec, &error), status);
+    if (!strstr(error.message, fragment)) printf("\n  '%s'\n", error.message);
+    CU_ASSERT_PTR_NOT_NULL(strstr(error.message, fragment));
+    if (run) memcpy(state, dal_run_state(run), 2 * (size_t)spec.system->n * sizeof *state);
+    dal_run_free(run);
+    return run != NULL;
+}
+
+/* W = diag(2, 1), A = (1, 1): v - v0 = -(1/2, 1) (x' + y' - 1)/(3/2). */
+static void test_linear(void)
+{
+    double z[4];
+    const bool made = make_consistent("coordinates: [x, y]\nlagrangian: x'^2 + y'^2/2\n"
+                                      "constraints: [x' + y' - 1]\nstart: {x: 5, x': 2, y': 0.5}\n",
+                                      DAL_OK, "", z);
+    CU_ASSERT_FATAL(made);
+    CU_ASSERT_EQUAL(z[0], 5.0);
+    CU_ASSERT_DOUBLE_EQUAL(z[2], 1.5, 1e-15);
+    CU_ASSERT_DOUBLE_EQUAL(z[3], -0.5, 1e-15);
+}
+
+/* The nearest point of an ellipse: v - v0 is along its normal at v, which one Newton projection
+ * along the normal at v0 would not reach. */
+static void test_nonlinear(void)
+{
+    double z[4];
+    const bool made =
+        make_consistent("coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\n"
+                        "constraints: [(x'^2 + 4*y'^2 - 1)/2]\nstart: {x': 0.7, y': 0.5}\n",
+                        DAL_OK, "", z);
+    CU_ASSERT_FATAL(made);
+    CU_ASSERT_DOUBLE_EQUAL(z[2] * z[2] + 4.0 * z[3] * z[3], 1.0, 1e-14);
+    CU_ASSERT_DOUBLE_EQUAL((z[2] - 0.7) * 4.0 * z[3] - (z[3] - 0.5) * z[2], 0.0, 1e-14);
+}
+
+/* A lane has the start of the run; without the option the message names it. */
+static void test_lanes(void)
+{
+    static const char text[] = "coordinates: [x, y]\nlagrangian: x'^2 + y'^2/2\n"
+                               "constraints: [x' + x*y' - 1]\nstart: {x: 5, x': 2, y': 0.5}\n";
+    const dal_setting place = {"x", -0.5};
+    dal_run_spec spec = fixture_spec(fixture_system(text), "gauss4", DAL_LIFTED, 0.1);
+    fixture_refused(&spec, DAL_INCONSISTENT, "the option consistent moves its velocities to D = 0");
+    spec.options.consistent = 1;
+    dal_batch *batch = NULL;
+    double state[10];
+    CU_ASSERT_EQUAL_FATAL(dal_batch_create(&batch, &spec, 5, 0, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_batch_start(batch, 4, NULL, 0, &place, 1, NULL), DAL_OK);
+    CU_ASSERT_EQUAL(dal_batch_advance(batch, 10), DAL_OK);
+    spec.start = &place;
+    spec.start_count = 1;
+    dal_run *run = fixture_run(&spec);
+    CU_ASSERT_EQUAL(dal_run_advance(run, 10, NULL), DAL_OK);
+    dal_batch_state(batch, 4, state);
+    CU_ASSERT_EQUAL(memcmp(state, dal_run_state(run), sizeof state), 0);
+    dal_run_free(run);
+    dal_batch_free(batch);
+}
+
+static void test_unsolvable(void)
+{
+    double z[4];
+    make_consistent("coordinates: [x, y]\nlagrangian: (x'^2 + y'^2)/2\n"
+                    "constraints: [x'^2 + y'^2 + 1]\nstart: {x': 1, y': 0.3}\n",
+                    DAL_INCONSISTENT, "satisfy constraint 1: D1 = ", z);
+    make_consistent("coordinates: [x, y, z]\nlagrangian: (x'^2 + y'^2 + z'^2)/2\n"
+                    "constraints: [x' - y', (z'^2 - 1)/2]\nstart: {x': 1}\n",
+                    DAL_RANK, "constraint 2 restricts no velocity", z);
+}
+
 void suite_start(void)
 {
     CU_pSuite suite = CU_add_suite("start", NULL, NULL);
     CU_add_test(suite, "constraints are violated by 1e-10 at most", test_consistent);
     CU_add_test(suite, "an infinite start", test_not_finite);
+    CU_add_test(suite, "made consistent, linear D", test_linear);
+    CU_add_test(suite, "made consistent, nonlinear D", test_nonlinear);
+    CU_add_test(suite, "made consistent, lanes", test_lanes);
+    CU_add_test(suite, "what cannot be made consistent", test_unsolvable);
     CU_add_test(suite, "pivots are 1e-12 at least", test_rank);
     CU_add_test(suite, "an exact solution begins there within 1e-10", test_exact);
 }

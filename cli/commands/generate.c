@@ -28,8 +28,8 @@ static const cli_option options[] = {
 static const uint64_t taken = REQUEST_OPTION(integrator) | REQUEST_OPTION(from) |
                               REQUEST_OPTION(space) | REQUEST_OPTION(solver) |
                               REQUEST_OPTION(iterations) | REQUEST_OPTION(extend_energy) |
-                              REQUEST_OPTION(reactions) | REQUEST_OPTION(set) |
-                              REQUEST_OPTION(start) | REQUEST_OPTION(system);
+                              REQUEST_OPTION(reactions) | REQUEST_OPTION(consistent) |
+                              REQUEST_OPTION(set) | REQUEST_OPTION(start) | REQUEST_OPTION(system);
 
 static int generate_text(settings *s)
 {
@@ -69,6 +69,7 @@ const cli_command command_generate = {
     .about = "writes one C file that steps a system and needs nothing else",
     .notes = "The file is C11 and C++17, needs libm alone, and computes the same bits as "
              "'dalembert run'; its first comment says how to call it.  --set, --start and --from "
-             "become its defaults; the step is given to each call.\n",
+             "become its defaults, velocities that --consistent has moved, too; the step is given "
+             "to each call.\n",
     .run = generate,
 };

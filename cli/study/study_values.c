@@ -13,7 +13,7 @@
  * .._seed=7.  What has one value alone is not in the label. */
 #include "study_values.h"
 
-#include "dalembert_analysis.h"
+#include "dalembert.h"
 #include "io/file.h"
 #include "ui/memory.h"
 #include "ui/message.h"
@@ -284,22 +284,29 @@ void study_variants_apply(const study_variants *v, int i, study_case *e)
 
 /* ---- projection to D = 0 ------------------------------------------------------------------- */
 
-/* x[2n + ..] becomes the start with its velocities projected to D = 0. */
-static dal_status find_velocities(const study_case *e, double *x, dal_error *error)
+/* v[n] becomes the velocities of the start moved to D = 0. */
+static dal_status find_velocities(const study_case *e, double *v, dal_error *error)
 {
-    dal_evaluator *evaluator = NULL;
+    dal_run *run = NULL;
     dal_setting *start = cli_calloc((size_t)e->start.count, sizeof *start);
-    int count = 0;
+    dal_run_spec spec = {.system = e->system,
+                         .options = dal_options_default(),
+                         .parameters = e->set.item,
+                         .parameter_count = e->set.count,
+                         .start = start,
+                         .start_time = e->from};
+    spec.options.space = DAL_PHYSICAL;
+    spec.options.consistent = 1;
     for (int i = 0; i < e->start.count; i++) {
         const char *name = e->start.item[i].name;
-        if (strncmp(name, "p_", 2) != 0 && strncmp(name, "pi_", 3) != 0)
-            start[count++] = e->start.item[i];
+        if (strncmp(name, "p_", 2) != 0 && strncmp(name, "pi_", 3) != 0 && strcmp(name, "e") != 0)
+            start[spec.start_count++] = e->start.item[i];
     }
-    dal_status status =
-        dal_evaluator_create(&evaluator, e->system, e->set.item, e->set.count, error);
-    if (status == DAL_OK) status = dal_evaluator_start(evaluator, start, count, x, error);
-    if (status == DAL_OK) status = dal_project_velocity(evaluator, e->from, x, x + e->system->n);
-    dal_evaluator_free(evaluator);
+    dal_status status = dal_method_parse(&spec.method, "rk4", error);
+    if (status == DAL_OK) status = dal_run_create(&run, &spec, error);
+    const size_t n = (size_t)e->system->n;
+    if (status == DAL_OK) memcpy(v, dal_run_state(run) + n, n * sizeof *v);
+    dal_run_free(run);
     free(start);
     return status;
 }
@@ -309,17 +316,17 @@ int study_variants_project_start(const study_variants *v, study_case *e)
     dal_error error = {0};
     if (v->start_drawn == 0 || e->system->m == 0) return CLI_DONE;
     const int n = e->system->n;
-    double *x = cli_calloc(2 * (size_t)n + (size_t)e->system->m, sizeof *x);
-    const dal_status found = find_velocities(e, x, &error);
+    double *moved = cli_calloc((size_t)n, sizeof *moved);
+    const dal_status found = find_velocities(e, moved, &error);
     int status = CLI_DONE;
     for (int i = 0; cli_is_ok(found) && i < n; i++) {
         char *name = cli_format("%s'", e->system->coordinate[i]);
-        request_add_setting(&e->start, name, x[n + i]);
+        request_add_setting(&e->start, name, moved[i]);
         free(name);
     }
     if (found != DAL_OK)
         status = document_fail(v->doc, v->start_node, "%s: no start on D = 0 was found: %s",
                                e->label, error.message[0] ? error.message : dal_status_text(found));
-    free(x);
+    free(moved);
     return status;
 }

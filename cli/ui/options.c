@@ -217,6 +217,10 @@ static int read_option(reader *r, const char *argument)
     if (!option->value || equals) return parse(r, group, k, equals ? equals + 1 : NULL);
     const char *text = r->next < r->argc ? r->argv[r->next++] : NULL;
     if (text && strncmp(text, "--", 2) != 0) return parse(r, group, k, text);
+    if (strcmp(option->value, "off|on") == 0) { /* --consistent is --consistent on */
+        if (text) r->next--;
+        return parse(r, group, k, "on");
+    }
     return cli_fail(CLI_USAGE, "--%s needs a value: --%s %s", option->name, option->name,
                     option->value);
 }

@@ -162,6 +162,11 @@ void dal__write_start(dal__generation *g)
         dal__buffer_number(&g->text, g->spec->start[i].value);
         dal__buffer_append(&g->text, ");\n");
     }
+    for (int i = k->n; k->options.consistent && i < 2 * k->n; i++) {
+        dal__buffer_print(&g->text, "    y[%d] = dal_num(", i);
+        dal__buffer_number(&g->text, dal_run_state(g->run)[i]);
+        dal__buffer_append(&g->text, ");\n");
+    }
     dal__buffer_append(&g->text, "}\n");
 }
 

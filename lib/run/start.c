@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "run/quad.h"
 #include <dalembert_kernel.h>
+#include <float.h>
 
 #define CONSISTENT  1e-10
 #define INDEPENDENT 1e-12
@@ -28,14 +29,6 @@ static dal_status prepare(dal_run *run, dal_error *error)
     if (status == DAL_OK) return DAL_OK;
     return dal__fail(error, status, "%s cannot be prepared with these parameters",
                      name ? name : "the system");
-}
-
-static dal_status set_parameters(dal_run *run, const dal_setting *settings, int count,
-                                 dal_error *error)
-{
-    DAL_TRY(
-        dal__set_parameters(run->layout.system, settings, count, DAL_ARGUMENT, run->work, error));
-    return prepare(run, error);
 }
 
 /* Suggests the name nearest to an unknown start name. */
@@ -103,7 +96,7 @@ static dal_status check_finite(dal_run *run, dal_error *error)
 typedef struct constraint_values {
     const double *D, *A, *B, *before;
     double *G;
-    const char *place;
+    const char *place, *hint; /* hint: what may help, or NULL */
 } constraint_values;
 
 static dal_status eval_constraints(dal_run *run, constraint_values *c, dal_error *error)
@@ -131,40 +124,98 @@ static dal_status check_consistent(const dal_run *run, const constraint_values *
         if (fabs(c->D[i]) <= small) continue;
         if (c->before && fabs(c->D[i] - c->before[i]) <= small) continue; /* the drift of a run */
         return dal__fail(error, isfinite(c->D[i]) ? DAL_INCONSISTENT : DAL_NOT_FINITE,
-                         "%s violates constraint %d: D%d = %.6g", c->place, i + 1, i + 1, c->D[i]);
+                         "%s violates constraint %d: D%d = %.6g%s", c->place, i + 1, i + 1, c->D[i],
+                         c->hint ? c->hint : "");
     }
     return DAL_OK;
-}
-
-/* Constraint k has no pivot in G; W itself may be singular. */
-static dal_status refuse_pivot(dal_run *run, int k, double pivot, const char *place,
-                               dal_error *error)
-{
-    const dal_system *system = run->layout.system;
-    const dal_point at = dal__here(run);
-    double number = 0.0;
-    if (system->diagnose && system->diagnose(system, &at, &number) == DAL_SINGULAR_MASS)
-        return dal__fail(error, DAL_SINGULAR_MASS, "the mass matrix is singular at %s", place);
-    return dal__fail(error, DAL_RANK,
-                     "constraint %d restricts no velocity at %s, or none that those before it "
-                     "leave free (pivot %g of G)",
-                     k + 1, place, pivot);
 }
 
 /* Pivots of G = A B, each against its diagonal entry before elimination, constraint by constraint.
- */
+ * Without a pivot W itself may be singular. */
 static dal_status check_rank(dal_run *run, const constraint_values *c, dal_error *error)
 {
+    const dal_system *system = run->layout.system;
     const int m = run->layout.m, n = run->layout.n;
-    double *diagonal = c->G + m * m;
+    double *diagonal = c->G + m * m, rest = 0.0, number = 0.0;
+    int k = 0;
     dal_gram(c->A, c->B, m, n, c->G);
     for (int i = 0; i < m; i++) diagonal[i] = fabs(c->G[i * m + i]);
-    for (int k = 0; k < m; k++) {
-        const double rest = dal_eliminate(c->G, m, k);
-        if (fabs(rest) > INDEPENDENT * diagonal[k] && isfinite(rest)) continue;
-        return refuse_pivot(run, k, rest, c->place, error);
+    for (; k < m; k++) {
+        rest = dal_eliminate(c->G, m, k);
+        if (!(fabs(rest) > INDEPENDENT * diagonal[k] && isfinite(rest))) break;
     }
-    return DAL_OK;
+    if (k == m) return DAL_OK;
+    const dal_point at = dal__here(run);
+    if (system->diagnose && system->diagnose(system, &at, &number) == DAL_SINGULAR_MASS)
+        return dal__fail(error, DAL_SINGULAR_MASS, "the mass matrix is singular at %s", c->place);
+    return dal__fail(error, DAL_RANK,
+                     "constraint %d restricts no velocity at %s, or none that those before it "
+                     "leave free (pivot %g of G)",
+                     k + 1, c->place, rest);
+}
+
+/* ---- a consistent start ---- */
+
+/* Replaces v by the point nearest to given[n] of D + A (v' - v) = 0, the linearisation at v:
+ *
+ *     v' = given + W^-1 A^T x,    A W^-1 A^T x = -(D + A (given - v))
+ *
+ * without pivoting: check_rank has found the pivots.  Returns max |v' - v|. */
+static double move_to_linear(dal_run *run, const constraint_values *c, const double *given)
+{
+    const int m = run->layout.m, n = run->layout.n;
+    double *v = run->persistent + n, *G = c->G, *x = G + m * m, change = 0.0;
+    dal_gram(c->A, c->B, m, n, G);
+    for (int a = 0; a < m; a++) {
+        x[a] = -c->D[a];
+        for (int i = 0; i < n; i++) x[a] -= c->A[a * n + i] * (given[i] - v[i]);
+        for (int k = 0; k < a; k++) {
+            const double factor = G[a * m + k] / G[k * m + k];
+            for (int j = k; j < m; j++) G[a * m + j] -= factor * G[k * m + j];
+            x[a] -= factor * x[k];
+        }
+    }
+    for (int k = m - 1; k >= 0; k--) {
+        for (int j = k + 1; j < m; j++) x[k] -= G[k * m + j] * x[j];
+        x[k] /= G[k * m + k];
+    }
+    for (int i = 0; i < n; i++) {
+        double moved = given[i];
+        for (int a = 0; a < m; a++) moved += c->B[i * m + a] * x[a];
+        change = fmax(change, fabs(moved - v[i]));
+        v[i] = moved + 0.0; /* no -0: see lib/kernel/step.h */
+    }
+    return change;
+}
+
+enum { MAX_MOVES = 1000 };
+
+/* Least change of the velocities: (v - given).W (v - given) is stationary on D = 0, with A at the
+ * solution, which is the fixed point of move_to_linear; linear D need one move. */
+static dal_status make_consistent(dal_run *run, dal_error *error)
+{
+    const int n = run->layout.n;
+    const double *v = run->persistent + n;
+    double *given = run->point, change = INFINITY, before;
+    constraint_values c = {.place = "the start"};
+    memcpy(given, v, (size_t)n * sizeof *given);
+    for (int k = 0; k < MAX_MOVES; k++) {
+        DAL_TRY(eval_constraints(run, &c, error));
+        DAL_TRY(check_rank(run, &c, error));
+        before = change;
+        change = move_to_linear(run, &c, given);
+        const double resolution = DBL_EPSILON * dal_max_norm(v, n);
+        if (change <= resolution || (change >= before && change <= 64.0 * resolution))
+            return DAL_OK;
+    }
+    DAL_TRY(eval_constraints(run, &c, error));
+    int k = 0; /* violated most */
+    for (int a = 1; a < run->layout.m; a++)
+        if (!(fabs(c.D[a]) <= fabs(c.D[k]))) k = a;
+    return dal__fail(error, DAL_INCONSISTENT,
+                     "no velocities near those of the start were found that satisfy constraint %d: "
+                     "D%d = %.6g; give others",
+                     k + 1, k + 1, c.D[k]);
 }
 
 static bool has_constraints(const dal_run *run)
@@ -174,7 +225,8 @@ static bool has_constraints(const dal_run *run)
 
 static dal_status check_constraints(dal_run *run, dal_error *error)
 {
-    constraint_values c = {.place = "the start"};
+    constraint_values c = {.place = "the start",
+                           .hint = "; the option consistent moves its velocities to D = 0"};
     if (!has_constraints(run)) return DAL_OK;
     DAL_TRY(eval_constraints(run, &c, error));
     DAL_TRY(check_consistent(run, &c, error));
@@ -196,10 +248,14 @@ static bool exact_agrees(dal_run *run)
 dal_status dal__run_start(dal_run *run, const dal_setting *parameters, int parameter_count,
                           const dal_setting *start, int start_count, dal_error *error)
 {
-    DAL_TRY(set_parameters(run, parameters, parameter_count, error));
+    DAL_TRY(dal__set_parameters(run->layout.system, parameters, parameter_count, DAL_ARGUMENT,
+                                run->work, error));
+    DAL_TRY(prepare(run, error));
     DAL_TRY(default_start(run, error));
     DAL_TRY(override(run, start, start_count, error));
     DAL_TRY(check_finite(run, error));
+    if (run->layout.options.consistent && has_constraints(run))
+        DAL_TRY(make_consistent(run, error));
     DAL_TRY(check_constraints(run, error));
     run->exact = exact_agrees(run);
     return DAL_OK;
