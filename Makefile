@@ -18,7 +18,7 @@
 #     make lint             the rules of the source, and the tools that check C and shell
 #     make fuzz             each fuzz target for FUZZ_SECONDS
 #     make mutants          whether the tests notice COUNT faults, drawn by SEED, planted in MODULE
-#     make bench            the timed comparisons of bench/cases.txt; bench-smoke, bench-long
+#     make bench            the timed comparisons of bench/cases.txt; bench-smoke, -long, -native
 #     make gallery          the pictures of the README and of docs/
 #     make references       the parts of docs/ that the program prints; CHOOSING=1: and its study's tables
 #     make docs             build/site: docs/ and the reference of the public headers as web pages

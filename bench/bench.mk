@@ -3,6 +3,7 @@
 #     make bench            all cases of bench/cases.txt, RUNS=7 processes each; build/bench.jsonl
 #     make bench-smoke      the same with next to no work: does it all build, run and agree?
 #     make bench-long       1e9 steps of the sleigh with statistics at every step: some 40 s
+#     make bench-native     --native auto against off and on, 40 cases: half an hour of two processors
 #
 # Every program is built with the flags that made it fastest here: full optimisation for this
 # machine without packing scalars into vectors, and for the others, which promise no bits, with
@@ -85,3 +86,7 @@ bench-long: $(PROGRAM)
 	    chaplygin-sleigh --integrator rk4 --space physical --step 0.01 --time 1e7 --native on \
 	    --output $(BENCH)/long --force --summary
 .PHONY: bench-long
+
+bench-native: $(PROGRAM)
+	@python3 bench/native_auto.py $(PROGRAM)
+.PHONY: bench-native

@@ -1,0 +1,75 @@
+"""native_auto.py - whether `--native auto` ever loses: 40 (system, method, length), the cache cold.
+
+    native_auto.py PROGRAM [REPEAT]     REPEAT processes of each, 3
+
+Seconds by the clock on the wall, the least of each kind: interpreted (off), compiled beforehand
+(on) with an empty cache and with a full one (warm), and by auto with an empty one.  Missed: auto
+takes more than 1.05 times the better of off and on; or, where off takes more than ten times as long
+as the compiler, more than 1.15 times warm.  A compiler beside a run has a processor of its own here:
+measure with two that have nothing else to do.
+"""
+import itertools
+import os
+import subprocess
+import sys
+import tempfile
+import time
+
+CASES = [  # system, method, step
+    ('chaplygin-sleigh', 'rk4', 0.01),
+    ('chaplygin-sleigh', 'gauss4', 0.01),
+    ('chaplygin-sleigh', 'gauss12', 0.05),
+    ('bench/systems/P4.yaml', 'gauss4', 0.001),
+    ('falling-disk', 'gauss4', 0.001),
+    ('nonholonomic-particle', 'stormer-verlet', 0.01),
+    ('contact-oscillator', 'gauss4+project', 0.01),
+    ('chaotic-oscillators', 'implicit-midpoint', 0.01),
+]
+LENGTHS = [0.05, 0.3, 1.0, 4.0, 15.0]  # seconds interpreted
+MEASURED_STEPS, FEW_STEPS = 20000, 10
+
+program = os.path.abspath(sys.argv[1])
+repeat = int(sys.argv[2]) if len(sys.argv) > 2 else 3
+
+
+def run(case, steps, mode, cache):
+    """Seconds that a run takes."""
+    system, method, step = case
+    command = [program, 'run', system, '--integrator', method, '--step', str(step), '--time',
+               repr(steps * step), '--samples', '100', '--native', mode, '--output', '/dev/stdout']
+    begin = time.monotonic()
+    subprocess.run(command, env=dict(os.environ, XDG_CACHE_HOME=cache), check=True,
+                   stdout=subprocess.DEVNULL)
+    return time.monotonic() - begin
+
+
+def least(case, steps, mode, warm=False):
+    """The least of several runs, each with a cache of its own."""
+    times = []
+    for _ in range(repeat):
+        with tempfile.TemporaryDirectory() as cache:
+            if warm:
+                run(case, FEW_STEPS, mode, cache)
+            times.append(run(case, steps, mode, cache))
+    return min(times)
+
+
+def measure(case, length):
+    """Prints the row of a case that takes about this long interpreted; whether it missed."""
+    short = least(case, FEW_STEPS, 'off')
+    compiling = least(case, FEW_STEPS, 'on') - short
+    per_step = max(least(case, MEASURED_STEPS, 'off') - short, 1e-4) / MEASURED_STEPS
+    steps = int(length / per_step)
+    off, on, auto = (least(case, steps, mode) for mode in ('off', 'on', 'auto'))
+    warm = least(case, steps, 'on', warm=True)
+    is_long = off > 10 * compiling
+    missed = auto > 1.05 * min(off, on) or (is_long and auto > 1.15 * warm)
+    print(f'{case[0]:22} {case[1]:17} {compiling:8.2f} {off:7.2f} {on:7.2f} {warm:7.2f} {auto:7.2f}'
+          f' {auto / min(off, on):7.2f} {auto / warm if is_long else float("nan"):7.2f}'
+          f'{"  missed" if missed else ""}', flush=True)
+    return missed
+
+
+print(f'{"system":22} {"method":17} compiler     off      on    warm    auto /better   /warm')
+missed = sum(measure(*row) for row in itertools.product(CASES, LENGTHS))
+print(f'{missed} of {len(CASES) * len(LENGTHS)} missed')
