@@ -29,6 +29,7 @@ static dal_run *create_run(const dal_system *system, int i, double step)
     CU_ASSERT_EQUAL(dal_method_parse(&spec.method, integrator->name, NULL), DAL_OK);
     spec.options.space = DAL_PHYSICAL;
     spec.options.step = step;
+    spec.options.consistent = 1; /* the car with trailers begins off D = 0 */
     const dal_status status = dal_run_create(&run, &spec, NULL);
     CU_ASSERT(status == DAL_OK || status == DAL_UNSUPPORTED);
     return status == DAL_OK ? run : NULL;
@@ -160,10 +161,67 @@ static void test_thermostat(void)
     compare_ends("thermostat.yaml", 0.02, T, y);
 }
 
+/* The speed of the rear axle, u = 1, gives the car and its trailers these velocities along their
+ * headings and rates of turning.  Twice the kinetic energy is M u^2. */
+typedef struct car_rates {
+    double along[3], turn[3], M;
+} car_rates;
+
+static const double car_mass[3] = {3, 2, 1}, car_inertia[3] = {0.4, 0.2, 0.1};
+static const double wheelbase = 1.2, hitch[3] = {0, 0.9, 1.1}, steering_rate = -0.25;
+
+/* heading[3]: of the car and of the trailers. */
+static car_rates find_rates(const double *heading, double steering)
+{
+    car_rates r = {.along = {1.0}, .turn = {tan(steering) / wheelbase}};
+    for (int i = 1; i < 3; i++) {
+        r.along[i] = r.along[i - 1] * cos(heading[i - 1] - heading[i]);
+        r.turn[i] = r.along[i - 1] * sin(heading[i - 1] - heading[i]) / hitch[i];
+    }
+    for (int i = 0; i < 3; i++)
+        r.M += car_mass[i] * r.along[i] * r.along[i] + car_inertia[i] * r.turn[i] * r.turn[i];
+    return r;
+}
+
+/* y: x, y, headings; the energy M u^2/2 is constant. */
+static void evaluate_car(const double *y, double steering, double energy, double *dy)
+{
+    const car_rates r = find_rates(y + 2, steering);
+    const double u = sqrt(2.0 * energy / r.M);
+    dy[0] = u * cos(y[2]);
+    dy[1] = u * sin(y[2]);
+    for (int i = 0; i < 3; i++) dy[2 + i] = u * r.turn[i];
+}
+
+/* The start has x' = 1 alone, so that v - v0 is orthogonal, in the mass metric, to the motion of
+ * speed u if  u M = sum m_i along_i cos heading_i.  No force acts on the steering angle. */
+static void test_car(void)
+{
+    enum { STEPS = 1000 };
+    static const double node[4] = {0.0, 0.5, 0.5, 1.0}, weight[4] = {1.0, 2.0, 2.0, 1.0};
+    const double T = 2.0, h = T / STEPS;
+    double y[5] = {0.0, 0.0, 0.3, -0.2, 0.5}, u = 0.0;
+    const car_rates r = find_rates(y + 2, 0.4);
+    for (int i = 0; i < 3; i++) u += car_mass[i] * r.along[i] * cos(y[2 + i]) / r.M;
+    for (int k = 0; k < STEPS; k++) {
+        double at[5], slope[5] = {0.0}, sum[5] = {0.0};
+        for (int stage = 0; stage < 4; stage++) {
+            const double steering = 0.4 + steering_rate * h * (k + node[stage]);
+            for (int i = 0; i < 5; i++) at[i] = y[i] + h * node[stage] * slope[i];
+            evaluate_car(at, steering, 0.5 * r.M * u * u, slope);
+            for (int i = 0; i < 5; i++) sum[i] += weight[stage] * slope[i];
+        }
+        for (int i = 0; i < 5; i++) y[i] += h / 6.0 * sum[i];
+    }
+    const double end[6] = {y[0], y[1], y[2], 0.4 + steering_rate * T, y[3], y[4]};
+    compare_ends("two-trailer-car.yaml", 0.01, T, end);
+}
+
 void suite_example_systems(void)
 {
     CU_pSuite suite = CU_add_suite("System files of the examples", NULL, NULL);
     CU_add_test(suite, "every method takes steps", test_every_file);
     CU_add_test(suite, "a ball in a rotating bowl", test_rotating_bowl);
     CU_add_test(suite, "a chain with a thermostat", test_thermostat);
+    CU_add_test(suite, "a car with two trailers", test_car);
 }
