@@ -111,13 +111,17 @@ static void take_gradients(algebra *w)
                          w->gradient + w->count * 2 * w->pairs);
 }
 
-/* {phi_a, phi_b}, a < rows, b < columns. */
+/* {phi_a, phi_b}, a < rows, b < columns.  Most pairs have no derivative of phi_a. */
 static void take_brackets(algebra *w, int rows, int columns)
 {
+    memset(w->matrix, 0, (size_t)rows * (size_t)columns * sizeof *w->matrix);
     for (int a = 0; a < rows; a++)
-        for (int b = 0; b < columns; b++)
-            w->matrix[a * columns + b] =
-                dal_poisson(gradient_of(w, a), gradient_of(w, b), w->pairs);
+        for (int i = 0; i < w->pairs; i++) {
+            const double x = gradient_of(w, a)[i], p = gradient_of(w, a)[w->pairs + i];
+            for (int b = 0; b < columns && (x != 0.0 || p != 0.0); b++)
+                w->matrix[a * columns + b] +=
+                    x * gradient_of(w, b)[w->pairs + i] - p * gradient_of(w, b)[i];
+        }
 }
 
 /* Least |{phi_a, H_c}| over mu, a < rows; mu stays in w->mu.  Returns the rank. */

@@ -64,13 +64,6 @@ typedef struct matrix {
     double *norm;  /* [columns] */
 } matrix;
 
-static double column_dot(const matrix *m, int i, const double *x, int step)
-{
-    double sum = 0.0;
-    for (int k = 0; k < m->rows; k++) sum += m->a[k * m->columns + i] * x[k * step];
-    return sum;
-}
-
 static void swap(double *a, double *b)
 {
     double c = *a;
@@ -82,8 +75,13 @@ static void swap(double *a, double *b)
 static double pivot_column(matrix *m, int i)
 {
     int longest = i;
+    for (int j = i; j < m->columns; j++) m->norm[j] = 0.0;
+    for (int k = 0; k < m->rows; k++) {
+        const double *const row = m->a + k * m->columns;
+        for (int j = i; j < m->columns; j++) m->norm[j] += row[j] * row[j];
+    }
     for (int j = i; j < m->columns; j++) {
-        m->norm[j] = sqrt(column_dot(m, j, m->a + j, m->columns));
+        m->norm[j] = sqrt(m->norm[j]);
         if (m->norm[j] > m->norm[longest]) longest = j;
     }
     for (int k = 0; k < m->rows; k++)
@@ -93,16 +91,21 @@ static double pivot_column(matrix *m, int i)
     return m->norm[longest];
 }
 
-/* Column i becomes a unit vector, the later ones lose their part along it. */
+/* Column i becomes a unit vector, the later ones lose their part along it: row by row, as the
+ * matrix lies in memory. */
 static void orthogonalise(matrix *m, int i, double norm)
 {
-    m->r[i * m->columns + i] = norm;
-    for (int k = 0; k < m->rows; k++) m->a[k * m->columns + i] /= norm;
-    for (int j = i + 1; j < m->columns; j++) {
-        double part = column_dot(m, i, m->a + j, m->columns);
-        m->r[i * m->columns + j] = part;
-        for (int k = 0; k < m->rows; k++)
-            m->a[k * m->columns + j] -= part * m->a[k * m->columns + i];
+    double *const part = m->r + i * m->columns;
+    part[i] = norm;
+    for (int j = i + 1; j < m->columns; j++) part[j] = 0.0;
+    for (int k = 0; k < m->rows; k++) {
+        double *const row = m->a + k * m->columns;
+        row[i] /= norm;
+        for (int j = i + 1; j < m->columns; j++) part[j] += row[i] * row[j];
+    }
+    for (int k = 0; k < m->rows; k++) {
+        double *const row = m->a + k * m->columns;
+        for (int j = i + 1; j < m->columns; j++) row[j] -= part[j] * row[i];
     }
 }
 
@@ -110,7 +113,7 @@ static void solve(matrix *m, int rank, double *right, double *x)
 {
     for (int i = 0; i < m->columns; i++) m->norm[i] = x[i] = 0.0;
     for (int i = 0; i < rank; i++) {
-        m->norm[i] = column_dot(m, i, right, 1);
+        for (int k = 0; k < m->rows; k++) m->norm[i] += m->a[k * m->columns + i] * right[k];
         for (int k = 0; k < m->rows; k++) right[k] -= m->norm[i] * m->a[k * m->columns + i];
     }
     for (int i = rank - 1; i >= 0; i--) {
