@@ -108,14 +108,6 @@ static void share_by_halving(const dal_error_budget *e, dal_shares *a)
             (whole - size_of(half, a->whole_by_rate)) / whole * divisor / (divisor - 1.0);
 }
 
-static void share_projection(const dal_error_budget *e, dal_shares *a)
-{
-    const double whole = size_of(&a->whole, a->whole_by_rate);
-    if (!e->ran[DAL_COMPARISON_PROJECTION] || !(whole > 0.0)) return;
-    const double other = size_of(&a->comparison[DAL_COMPARISON_PROJECTION], a->whole_by_rate);
-    a->share[DAL_SOURCE_PROJECTION] = fmax(1.0 - other / whole, 0.0);
-}
-
 void dal__find_shares(const dal_error_budget *e, dal_shares *a)
 {
     for (int k = 0; k < DAL_ERROR_SOURCES; k++) a->share[k] = a->margin[k] = NAN;
@@ -126,7 +118,10 @@ void dal__find_shares(const dal_error_budget *e, dal_shares *a)
         share_beginning(e, a);
     else
         share_by_halving(e, a);
-    share_projection(e, a);
+    const double whole = size_of(&a->whole, a->whole_by_rate);
+    if (!e->ran[DAL_COMPARISON_PROJECTION] || !(whole > 0.0)) return;
+    const double other = size_of(&a->comparison[DAL_COMPARISON_PROJECTION], a->whole_by_rate);
+    a->share[DAL_SOURCE_PROJECTION] = fmax(1.0 - other / whole, 0.0);
 }
 
 /* ---- in words ---- */

@@ -273,12 +273,6 @@ static bool is_tiny(const description *p, dal__meaning likeliest, double weight)
            p->growth == STEADY && has_no_drift(p) && max_abs(&p->drift) < tiny_drift * p->spread;
 }
 
-static bool is_growing(const description *p, dal__meaning likeliest, double weight)
-{
-    const bool drifts = likeliest == DAL__MEANS_LINEAR && weight > certain_line && !has_no_drift(p);
-    return p->growth >= GROWS && !drifts && p->wandering < 0.5 * p->bins.half_range;
-}
-
 static decision decide(const description *p)
 {
     const double *const weight = p->evidence.meaning;
@@ -290,7 +284,9 @@ static decision decide(const description *p)
     const decision undecided = {DAL_TREND_UNDECIDED, w, NAN};
     if (p->growth == EXPLODES && best == DAL__MEANS_OTHER)
         return (decision){DAL_TREND_EXPONENTIAL, not_sure, NAN};
-    if (is_growing(p, best, w)) return (decision){DAL_TREND_GROWING, not_sure, NAN};
+    const bool drifts = best == DAL__MEANS_LINEAR && w > certain_line && !has_no_drift(p);
+    if (p->growth >= GROWS && !drifts && p->wandering < 0.5 * p->bins.half_range)
+        return (decision){DAL_TREND_GROWING, not_sure, NAN};
     if (best == DAL__MEANS_SETTLES && p->bins.range < settled_change * p->spread)
         best = DAL__MEANS_NONE;
     if (is_tiny(p, best, w))

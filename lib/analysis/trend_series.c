@@ -239,15 +239,8 @@ void dal__trend_remove_tones(series *s)
 
 /* ---- bins ---- */
 
-/* The integral over [0, u] of block i, 0 <= u <= 1, of the line with the mean of the block and the
- * slope between its neighbours: blocks are not constant inside. */
-static double part_of_block(const series *s, int i, double u)
-{
-    const int before = i > 0 ? i - 1 : i, after = i + 1 < s->count ? i + 1 : i;
-    const double slope = (s->mean[after] - s->mean[before]) / (after - before);
-    return u * s->mean[i] + 0.5 * slope * u * (u - 1.0);
-}
-
+/* Blocks are not constant inside: of the part of one that belongs to a bin, the integral is that of
+ * the line with the mean of the block and the slope between its neighbours. */
 static void fill_bins(const series *s, double *bin)
 {
     const double width = (double)s->count / DAL__BINS;
@@ -255,7 +248,12 @@ static void fill_bins(const series *s, double *bin)
     for (int m = 0, i = 0; m < DAL__BINS; m++) {
         const double to = (m + 1) * width;
         while (i + 1 <= to) whole += s->mean[i++];
-        const double now = whole + (i < s->count ? part_of_block(s, i, to - i) : 0.0);
+        double now = whole;
+        if (i < s->count) {
+            const int left = i > 0 ? i - 1 : i, right = i + 1 < s->count ? i + 1 : i;
+            const double slope = (s->mean[right] - s->mean[left]) / (right - left), u = to - i;
+            now += u * s->mean[i] + 0.5 * slope * u * (u - 1.0);
+        }
         bin[m] = (now - before) / width;
         before = now;
     }

@@ -161,15 +161,6 @@ static dal_status start_compiler(dal__compilation *c, dal_error *error)
     return DAL_OK;
 }
 
-/* Kills the process with all that it started, and waits for its end. */
-static void kill_compiler(dal__compilation *c)
-{
-    int status;
-    kill(-(pid_t)c->process, SIGKILL);
-    while (waitpid((pid_t)c->process, &status, 0) < 0 && errno == EINTR) continue;
-    c->process = 0;
-}
-
 /* Whether the compiler runs no more; *exit_status is -1 where a signal ended it. */
 static bool has_ended(dal__compilation *c, int *exit_status)
 {
@@ -306,8 +297,11 @@ dal_status dal__compilation_poll(dal__compilation *c, dal_error *error)
 
 void dal__compilation_end(dal__compilation *c)
 {
+    int status;
     if (!c->process) return;
-    kill_compiler(c);
+    kill(-(pid_t)c->process, SIGKILL); /* with all that it started */
+    while (waitpid((pid_t)c->process, &status, 0) < 0 && errno == EINTR) continue;
+    c->process = 0;
     clean_up(c);
 }
 
