@@ -194,12 +194,6 @@ dal_status dal_options_set(dal_options *options, const char *name, const char *t
 /* One motion of a system by a method.  Its steps do not allocate. */
 typedef struct dal_run dal_run;
 
-/* A value for a name. */
-typedef struct dal_setting {
-    const char *name; /* of a parameter or of a component of the state */
-    double value;     /* finite, but for e = INFINITY */
-} dal_setting;
-
 /* What a run is made from.  It may be freed or changed when the run is made; the system and the
  * integrators' descriptors must outlive the run. */
 typedef struct dal_run_spec {

@@ -268,6 +268,28 @@ dal_status dal_model_system(dal_model *model, const dal_system **system, dal_err
  * method's exact tangent map. [alloc]  Errors: those of dal_model_system. */
 dal_status dal_model_tangent(dal_model *model, const dal_system **system, dal_error *error);
 
+/* A value for a name. */
+typedef struct dal_setting {
+    const char *name; /* of a parameter or of a component of the state */
+    double value;     /* finite, but for e = INFINITY */
+} dal_setting;
+
+enum { DAL_GROWTH_LEVELS = 64 /* max ranks of dal_growth */ };
+/* The growth vector of the velocities that D = 0 allows, a distribution V_1 on the space of q:
+ * rank[k] is that of V_(k+1) = V_k + [V_1, V_k] at generic points.  V_1 alone: D is integrable,
+ * that is holonomic; a last rank below the dimension: a part of it is. */
+typedef struct dal_growth {
+    int dimension;   /* n; where D has terms without v, or t: n + 1, of (t, q) */
+    int levels;      /* ranks */
+    int is_complete; /* 0: further brackets are too large */
+    int rank[DAL_GROWTH_LEVELS];
+} dal_growth;
+/* Finds the growth vector of a model whose system is made, by exact brackets at points near the
+ * start, with parameters[parameter_count].  [alloc]  Errors: DAL_UNSUPPORTED (no constraints, or
+ * one that is not linear in v), DAL_NAME, DAL_SINGULAR, DAL_NOT_FINITE, DAL_TOO_LARGE. */
+dal_status dal_model_growth(dal_model *model, const dal_setting *parameters, int parameter_count,
+                            dal_growth *out, dal_error *error);
+
 #ifdef __cplusplus
 }
 #endif

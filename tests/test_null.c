@@ -404,6 +404,16 @@ static void null_dal_model_tangent(void)
     CU_ASSERT_PTR_NULL(system);
 }
 
+static void null_dal_model_growth(void)
+{
+    dal_growth growth;
+    REFUSED(dal_model_growth(NULL, NULL, 0, &growth, error));
+    REFUSED(dal_model_growth(model, NULL, 0, NULL, error));
+    REFUSED(dal_model_growth(model, NULL, 1, &growth, error));
+    REFUSED(dal_model_growth(model, NULL, -1, &growth, error));
+    REFUSED(dal_model_growth(model, &(dal_setting){NULL, 1.0}, 1, &growth, error));
+}
+
 /* ---- compiled steps ---- */
 
 static void null_dal_generate(void)

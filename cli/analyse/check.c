@@ -203,6 +203,12 @@ static void put_check(const check *c)
     if (c->preservers >= 0) json_open_list(&w, "preserving", JSON_ON_ONE_LINE);
     for (int i = 0; i < c->preservers; i++) json_put_text(&w, NULL, c->preserving[i]);
     if (c->preservers >= 0) json_close(&w);
+    if (c->growth.levels == 0) json_put_text(&w, "growth", NULL);
+    if (c->growth.levels > 0) json_open_list(&w, "growth", JSON_ON_ONE_LINE);
+    for (int k = 0; k < c->growth.levels; k++) json_put_integer(&w, NULL, c->growth.rank[k]);
+    if (c->growth.levels > 0) json_close(&w);
+    json_put_integer(&w, "growth_dimension", c->growth.dimension);
+    json_put_flag(&w, "growth_complete", c->growth.is_complete);
     json_put_integer(&w, "failed", c->failed);
     json_put_integer(&w, "not_measured", c->unmeasured);
     json_end_results(&w);

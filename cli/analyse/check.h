@@ -51,6 +51,7 @@ typedef struct check {
     int items, failed, unmeasured;
     char **preserving; /* [preservers] names of integrators that preserve D; */
     int preservers;    /* -1: it is not known which, or there is no D, or all do */
+    dal_growth growth; /* of D; no levels where it has none */
 } check;
 
 /* Adds an item: what is examined, the result, and a text.  CHECK_UNMEASURED is as bad as a

@@ -209,6 +209,40 @@ static void check_classes(check *c, const dal_constraint_class *d)
     }
 }
 
+/* What the velocities with D = 0 generate by their brackets: whether D is holonomic. */
+static void check_growth(check *c)
+{
+    static const char what[] = "growth vector of D = 0";
+    const request_settings *set = &c->request->set;
+    dal_error error;
+    char text[256] = "";
+    size_t length = 0;
+    dal_growth *g = &c->growth;
+    const dal_status status = dal_model_growth(c->request->model, set->item, set->count, g, &error);
+    if (!cli_is_ok(status)) {
+        check_item(c, CHECK_INFO, what, "none: %s", error.message);
+        return;
+    }
+    for (int k = 0; k < g->levels && length < sizeof text - 16; k++)
+        length += (size_t)snprintf(text + length, sizeof text - length, "%s%d", k > 0 ? ", " : "",
+                                   g->rank[k]);
+    const int integrable = g->dimension - g->rank[g->levels - 1];
+    const char *const space = g->dimension > c->n ? "(t, q)" : "q";
+    if (!g->is_complete)
+        check_item(c, CHECK_INFO, what, "(%s, ..) on %s: further brackets are too large", text,
+                   space);
+    else if (g->levels == 1)
+        check_item(c, CHECK_INFO, what, "(%s) on %s: integrable, D is holonomic", text, space);
+    else if (integrable > 0)
+        check_item(c, CHECK_INFO, what,
+                   "(%s) on %s: nonholonomic, but %d of %d combinations of D "
+                   "are integrable",
+                   text, space, integrable, c->m);
+    else
+        check_item(c, CHECK_INFO, what, "(%s) on %s: nonholonomic, every q is reached", text,
+                   space);
+}
+
 static void check_constraints(check *c)
 {
     dal_constraint_class d;
@@ -218,6 +252,7 @@ static void check_constraints(check *c)
     const motion_rate off = measure_rate(c, D, c->m, -1, c->near, c->near_count);
     check_motion_rate(c, "dD/dt along F, on D = 0", &on, zero);
     check_motion_rate(c, "dD/dt along F, off D = 0", &off, zero);
+    check_growth(c);
     double *degree = cli_calloc((size_t)c->m + 1, sizeof *degree);
     const dal_status status = dal_classify_constraints(c->evaluator, &c->origin, &d, degree);
     if (cli_is_ok(status)) {

@@ -33,7 +33,11 @@ prints '^  D is preserved by .*gauss4'
 try 0 check vertical-disk
 prints '^  rank of G at the start +ok +2 of 2'
 prints '^  second-class constraints +ok +rank 8 of 17 x 17 brackets'
+prints '^  growth vector of D = 0 +info +\(2, 3, 4\) on q: nonholonomic, every'
+try 0 check appell-hamel
+prints '^  growth vector of D = 0 +info +none: constraint 1 is not linear in'
 try 0 check plane.yaml
+prints '^  growth vector of D = 0 +info +\([0-9]\) on q: integrable, D is holonomic$'
 prints '^  D is preserved by +info +every method that applies$'
 
 # The names after "D is preserved by", a modifier around gauss4, symmetric and not of order 2.

@@ -99,7 +99,8 @@ holds "no items" json out "
      if i['item'] in ('|D| at the start', 'rank of G at the start', 'first-class constraints')]
         == [('ok', 0, None, 1e-10), ('ok', 1, 1, 1), ('ok', 5, 5, 5)]"
 holds "counts" json out "d['failed'] == d['not_measured'] == 0
-    and (d['coordinates'], d['constraints']) == (2, 1) and d['preserving'] is None"
+    and (d['coordinates'], d['constraints']) == (2, 1) and d['preserving'] is None
+    and (d['growth'], d['growth_dimension']) == ([1], 2)"
 mv out plane.json
 try 0 check ./plane.yaml
 holds "other items than those of the text" json plane.json "
@@ -116,7 +117,7 @@ holds "the failure" json out "
     and d['failed'] == 1 and d['title'] == '\u03b8 \"twice\"\ta'"
 results 0 check heisenberg
 holds "integrators" json out "{'gauss4', '+project'} <= set(d['preserving'])
-    and 'rk4' not in d['preserving']"
+    and 'rk4' not in d['preserving'] and d['growth_complete']"
 
 case_is "order as JSON"
 results 0 order $friction --time 2 --integrators rk4,isokinetic-splitting --output order.csv

@@ -1,0 +1,142 @@
+/* test_growth.c - growth vectors of linear constraints against those known from theory.
+ *
+ * Contact, Engel and Martinet distributions and rolling balls: R. Montgomery, A Tour of
+ * Subriemannian Geometries, AMS 2002.  A car with trailers: F. Jean, ESAIM: COCV 1 (1996) 241,
+ * DOI 10.1051/cocv:1996108: (2, 3, 4, .., n) at generic points. */
+#include "reference.h"
+
+#include <CUnit/Basic.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { MAX_RANKS = 8 };
+
+/* Compares the growth vector of a model, ranks that end with 0. */
+static void check_growth(const char *name, dal_model *model, int dimension, const int *rank)
+{
+    dal_growth found;
+    bool same = dal_model_growth(model, NULL, 0, &found, NULL) == DAL_OK && found.is_complete &&
+                found.dimension == dimension;
+    int levels = 0;
+    while (rank[levels]) levels++;
+    same = same && found.levels == levels;
+    for (int k = 0; k < levels && same; k++) same = found.rank[k] == rank[k];
+    CU_ASSERT(same);
+    if (same) return;
+    printf("\n  %s: dimension %d:", name, found.dimension);
+    for (int k = 0; k < found.levels; k++) printf(" %d", found.rank[k]);
+}
+
+#define PLANE "coordinates: [x, y, z]\nlagrangian: (x'^2 + y'^2 + z'^2)/2\n"
+#define SPACE "coordinates: [x, y, z, w]\nlagrangian: (x'^2 + y'^2 + z'^2 + w'^2)/2\n"
+#define BALL  "coordinates: [x, y, a, b, c]\nlagrangian: (x'^2 + y'^2 + a'^2 + b'^2 + c'^2)/2\n"
+#define ROLLS                                                                                      \
+    "start: {b: 1}\nlet: {wx: b'*cos(a) + c'*sin(b)*sin(a), wy: b'*sin(a) - c'*sin(b)*cos(a)}\n"   \
+    "constraints: [x' - wy, y' + wx"
+
+static const struct {
+    const char *what, *text;
+    int dimension, rank[MAX_RANKS];
+} cases[] = {
+    {"contact", PLANE "constraints: [z' - y*x']\n", 3, {2, 3}},
+    {"Martinet, from its singular plane", PLANE "constraints: [z' - y^2*x']\n", 3, {2, 3}},
+    {"a sphere", PLANE "constraints: [x*x' + y*y' + z*z']\nstart: {x: 1}\n", 3, {2}},
+    {"with a factor", PLANE "constraints: [exp(x*z)*(y*x' + x*y' - z'*cos(z))]\n", 3, {2}},
+    {"Engel", SPACE "constraints: [y' - z*x', z' - w*x']\n", 4, {2, 3, 4}},
+    {"one of two integrable", SPACE "constraints: [z' - y*x', w' - x']\n", 4, {2, 3}},
+    {"ball that does not spin", BALL ROLLS ", a' + c'*cos(b)]\n", 5, {2, 3, 5}},
+    {"ball that spins", BALL ROLLS "]\n", 5, {3, 5}},
+    {"d(y - t x)/dt", PLANE "constraints: [y' - t*x' - x]\n", 4, {3}},
+    {"y' - t x'", PLANE "constraints: [y' - t*x']\n", 4, {3, 4}},
+    {"a drift", PLANE "constraints: [z' - y]\n", 4, {3, 4}},
+    {"a drift of constant speed", PLANE "constraints: [z' - 2]\n", 4, {3}},
+};
+
+static void test_texts(void)
+{
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        reference b = reference_of_text(cases[k].text);
+        check_growth(cases[k].what, b.model, cases[k].dimension, cases[k].rank);
+        reference_free(&b);
+    }
+}
+
+static void test_builtins(void)
+{
+    static const struct {
+        const char *name;
+        int dimension, rank[MAX_RANKS];
+    } systems[] = {{"chaplygin-sleigh", 3, {2, 3}},
+                   {"heisenberg", 3, {2, 3}},
+                   {"vertical-disk", 4, {2, 3, 4}},
+                   {"falling-disk", 5, {3, 4, 5}}};
+    for (size_t k = 0; k < sizeof systems / sizeof *systems; k++) {
+        reference b = reference_builtin(systems[k].name);
+        check_growth(systems[k].name, b.model, systems[k].dimension, systems[k].rank);
+        reference_free(&b);
+    }
+}
+
+/* Axle i is at the angle ai and follows axle i - 1 at the distance 1: it does not slip where
+ * x' sin ai - y' cos ai + sum over k = 1..i of ak' cos(ai - ak) = 0. */
+static void test_trailers(void)
+{
+    for (int trailers = 0; trailers <= 4; trailers++) {
+        char text[4096] = "coordinates: [x, y, a0";
+        char *end = text + strlen(text), *const stop = text + sizeof text;
+        int rank[MAX_RANKS] = {0};
+#define WRITE(...) end += snprintf(end, (size_t)(stop - end), __VA_ARGS__)
+        for (int i = 1; i <= trailers; i++) WRITE(", a%d", i);
+        WRITE("]\nlagrangian: (x'^2 + y'^2 + a0'^2");
+        for (int i = 1; i <= trailers; i++) WRITE(" + a%d'^2", i);
+        WRITE(")/2\nconstraints:\n");
+        for (int i = 0; i <= trailers; i++) {
+            WRITE("  - x'*sin(a%d) - y'*cos(a%d)", i, i);
+            for (int k = 1; k <= i; k++) WRITE(" + a%d'*cos(a%d - a%d)", k, i, k);
+            WRITE("\n");
+        }
+#undef WRITE
+        for (int k = 0; k <= trailers + 1; k++) rank[k] = k + 2;
+        reference b = reference_of_text(text);
+        check_growth("trailers", b.model, trailers + 3, rank);
+        reference_free(&b);
+    }
+}
+
+/* z' - k y x' is integrable for k = 0 alone. */
+static void test_parameters(void)
+{
+    reference b = reference_of_text(PLANE "parameters: {k: 1}\nconstraints: [z' - k*y*x']\n");
+    dal_growth found;
+    for (int k = 0; k < 2; k++) {
+        const dal_setting set = {"k", k};
+        CU_ASSERT_EQUAL(dal_model_growth(b.model, &set, 1, &found, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(found.levels, k + 1);
+    }
+    CU_ASSERT_EQUAL(dal_model_growth(b.model, &(dal_setting){"l", 1.0}, 1, &found, NULL), DAL_NAME);
+    reference_free(&b);
+}
+
+static void test_refused(void)
+{
+    dal_growth found;
+    reference b =
+        reference_of_text(PLANE "constraints: [x'^2 + y'^2 - z'^2]\nstart: {x': 1, z': 1}");
+    CU_ASSERT_EQUAL(dal_model_growth(b.model, NULL, 0, &found, NULL), DAL_UNSUPPORTED);
+    reference_free(&b);
+    b = reference_of_text(PLANE);
+    CU_ASSERT_EQUAL(dal_model_growth(b.model, NULL, 0, &found, NULL), DAL_UNSUPPORTED);
+    CU_ASSERT_EQUAL(dal_model_growth(NULL, NULL, 0, &found, NULL), DAL_ARGUMENT);
+    reference_free(&b);
+}
+
+void suite_growth(void)
+{
+    CU_pSuite suite = CU_add_suite("growth vectors", NULL, NULL);
+    CU_add_test(suite, "distributions of theory", test_texts);
+    CU_add_test(suite, "built-in systems", test_builtins);
+    CU_add_test(suite, "a car with trailers", test_trailers);
+    CU_add_test(suite, "parameters", test_parameters);
+    CU_add_test(suite, "refusals", test_refused);
+}
