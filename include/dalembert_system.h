@@ -141,8 +141,10 @@ struct dal_system {
     int mass_guard;                           /* which guard, from 1, is det W; 0: none */
     const char *const *tag;                   /* [tags] words that classify the system */
     size_t workspace;                         /* doubles in dal_point.work; 0 means parameters */
-    dal_callbacks call;                       /* one lane */
-    const dal_callbacks *wide4, *wide8;       /* of 4 and of 8 lanes, interleaved; may be NULL */
+    int pivots; /* numbers that field and adjoint leave at the end of work: pivots of the equations
+                   they solve; the rank check is spared where these are steady; 0: none */
+    dal_callbacks call;                 /* one lane */
+    const dal_callbacks *wide4, *wide8; /* of 4 and of 8 lanes, interleaved; may be NULL */
     dal_callback *prepare; /* completes work after a change of parameters; out unused */
     dal_callback *start;   /* out[2n + multipliers + 1]: q, v, g, e at the start; NULL: 0, e = 1 */
     dal_callback *constraints;      /* out[m]: D alone; NULL: D is not observed */

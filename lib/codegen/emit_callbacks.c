@@ -58,10 +58,11 @@ static void write_program(dal__generation *g, dal__program_code code, const char
     dal__buffer_append(&g->text, "}\n");
 }
 
-/* Whether a program writes its outputs where they belong: none of them depends on a pivot. */
+/* Whether a program writes its outputs where they belong: no pivots stand behind them. */
 static bool is_direct(const dal__generation *g, dal__program_code code)
 {
-    return is_inlined(g, code) && g->programs->program[code].checked == 0;
+    const dal__program *p = &g->programs->program[code];
+    return is_inlined(g, code) && p->checked + p->left == 0;
 }
 
 /* The case of one callback.  A function that is not inlined gets copies, so that the state itself
@@ -70,7 +71,7 @@ static void write_case(dal__generation *g, dal__program_code code, const char *c
                        const char *name)
 {
     const dal__program *p = &g->programs->program[code];
-    const int outputs = p->outputs, all = outputs + 2 * p->checked;
+    const int outputs = p->outputs, left = outputs + 2 * p->checked, all = left + p->left;
     if (!dal__wants(g, code)) return;
     if (is_direct(g, code)) {
         dal__buffer_print(&g->text, "    case DAL_EVAL_%s: dal__%s(w, t, q, v, pi, out); break;\n",
@@ -91,9 +92,14 @@ static void write_case(dal__generation *g, dal__program_code code, const char *c
                           momenta ? "pi[i]" : "dal_num(0.0)");
         dal__buffer_print(&g->text, "        dal__%s(w, t, q_, v_, pi_, all);\n", name);
     }
-    dal__buffer_print(&g->text,
-                      "        dal__mask_singular(all, %d, %d, out);\n        break;\n    }\n",
-                      outputs, p->checked);
+    dal__buffer_print(&g->text, "        dal__mask_singular(all, %d, %d, out);\n", outputs,
+                      p->checked);
+    if (p->left > 0 && g->layout.pivots > 0)
+        dal__buffer_print(&g->text,
+                          "        if (pivots)\n            DAL_EACH(i, %d) "
+                          "pivots[i * DAL_STEP_GROUPS] = all[%d + i];\n",
+                          p->left, left);
+    dal__buffer_append(&g->text, "        break;\n    }\n");
 }
 
 static void write_mask(dal__generation *g)
@@ -120,11 +126,11 @@ static void write_dispatch(dal__generation *g)
     DAL_CALLBACK_LIST(PROGRAM)
 #undef PROGRAM
     if (!direct) write_mask(g);
-    dal__buffer_append(&g->text,
-                       "/* Evaluates a callback for one group of lanes. */\n"
-                       "DAL_INLINE void dal__eval_program(const dal_stored *w, dal_callback_code "
-                       "code, dal_time t, const num *q,\n    const num *v, const num *pi, num *out)"
-                       "\n{\n    switch (code) {\n");
+    dal__buffer_append(
+        &g->text, "/* Evaluates a callback for one group of lanes; leaves the pivots of F. */\n"
+                  "DAL_INLINE void dal__eval_program(const dal_stored *w, dal_callback_code "
+                  "code, dal_time t, const num *q,\n    const num *v, const num *pi, num *out, "
+                  "num *pivots)\n{\n    switch (code) {\n");
 #define PROGRAM(code, name, ...) write_case(g, DAL__PROGRAM_##code, #code, #name);
     DAL_CALLBACK_LIST(PROGRAM)
 #undef PROGRAM
@@ -205,8 +211,8 @@ static const char *const observed[DAL__OBSERVABLE_GROUPS] = {
     [DAL__OBSERVE_D] = "    dal__constraints(w, t, q, v, NULL, out + %d);\n",
     [DAL__OBSERVE_E] = "    dal__energy(w, t, q, v, NULL, out + %d);\n",
     [DAL__OBSERVE_LIFT] = "    num f[DAL_FIXED_NW], mu;\n"
-                          "    dal__eval_program(w, DAL_EVAL_FIELD, t, q, v, NULL, f);\n"
-                          "    dal__eval_program(w, DAL_EVAL_GAUGE, t, q, v, NULL, &mu);\n"
+                          "    dal__eval_program(w, DAL_EVAL_FIELD, t, q, v, NULL, f, NULL);\n"
+                          "    dal__eval_program(w, DAL_EVAL_GAUGE, t, q, v, NULL, &mu, NULL);\n"
                           "    dal_lift_observables(y, DAL_FIXED_N, f, mu, out + %d);\n",
     [DAL__OBSERVE_INVARIANTS] = "    dal__invariant_values(w, t, q, v, NULL, out + %d);\n",
     [DAL__OBSERVE_REACTIONS] =

@@ -30,13 +30,6 @@ bool dal__follows_tangents(const dal__generation *g)
     return g->layout.lifted && g->kernel & DAL_KERNEL_TANGENT;
 }
 
-/* Whether the rank of the constraints is checked in each step. */
-static bool checks_rank(const dal__generation *g)
-{
-    return g->layout.m > 0 && g->layout.system->properties & DAL_D_RANK_CHECKED &&
-           g->programs->program[DAL__PROGRAM_CONSTRAINT].present;
-}
-
 /* Whether the observables need a program. */
 static bool observes(const dal__generation *g, dal__program_code code)
 {
@@ -66,7 +59,7 @@ bool dal__evaluates(const dal__generation *g, dal__program_code code)
     case DAL__PROGRAM_JACOBIAN:
         return kernel & (DAL_KERNEL_SOLVE | DAL_KERNEL_TANGENT);
     case DAL__PROGRAM_CONSTRAINT:
-        return kernel & DAL_KERNEL_CONSTRAINT || checks_rank(g);
+        return kernel & DAL_KERNEL_CONSTRAINT || dal__checks_rank(g->layout.system);
     case DAL__PROGRAM_BLOCKS:
         return kernel & DAL_KERNEL_BLOCKS;
     case DAL__PROGRAM_POTENTIAL:
@@ -197,7 +190,7 @@ static unsigned calls_of_programs(const dal__generation *g)
 void dal__decide_conditions(dal__generation *g)
 {
     const unsigned calls = calls_of_programs(g);
-    const bool rank = checks_rank(g), guards = g->layout.system->guards > 0;
+    const bool rank = dal__checks_rank(g->layout.system), guards = g->layout.system->guards > 0;
     if (calls) g->kernel |= DAL_KERNEL_FUNCTIONS;
     if (rank) g->kernel |= DAL_KERNEL_ALGEBRA;
     const unsigned kernel = g->kernel;
@@ -220,6 +213,7 @@ void dal__decide_conditions(dal__generation *g)
         {"DAL_WITH_GAUGE", g->layout.lifted && dal__wants(g, DAL__PROGRAM_GAUGE)},
         {"DAL_WITH_GUARDS", guards},
         {"DAL_WITH_RANK", rank},
+        {"DAL_WITH_PIVOTS", g->layout.pivots > 0},
         {"DAL_WITH_REGULAR", guards || rank},
         {"DAL_WITH_EXACT", g->run && g->run->exact},
         {"DAL_WITH_REACTIONS", g->layout.options.reactions},
@@ -284,7 +278,7 @@ static void write_constants(dal__generation *g)
         {"TANGENT", dal__follows_tangents(g), false},
         {"EXPLICIT", is_explicit && k->depth == 1 && !(solves && k->lifted), false},
         {"GUARDS", k->system->guards, false},
-        {"RANK_CHECKED", checks_rank(g), false},
+        {"RANK_CHECKED", dal__checks_rank(g->layout.system), false},
         {"STAGES", g->spec->method.layer[0]->stages, true},
         {"STAGE_DERIVATIVES", k->derivatives, true},
         {"SOLVER", k->options.solver, true},
@@ -301,6 +295,9 @@ static void write_constants(dal__generation *g)
         snprintf(item, sizeof item, "DAL_FIXED_%s = %d,", list[i].name, list[i].value);
         if (!list[i].solver) dal__write_item(g, item);
     }
+    char pivots[48];
+    snprintf(pivots, sizeof pivots, "DAL__COUNT_PIVOTS = %d,", DAL__COUNT_PIVOTS(k));
+    dal__write_item(g, pivots);
     dal__buffer_append(&g->text, "\n};\n");
     for (int i = 0; i < COUNT; i++)
         if (list[i].solver && g->kernel & DAL_KERNEL_SOLVE)

@@ -3,6 +3,7 @@
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 double *dal__numbers(size_t rows, size_t columns)
 {
@@ -140,4 +141,17 @@ int dal__least_squares(int rows, int columns, double *a, double *right, double *
     if (pivot != NULL) *pivot = rank == columns && columns > 0 ? norm / largest : 0.0;
     if (right != NULL) solve(&m, rank, right, x);
     return rank;
+}
+
+bool dal__is_positive_definite(int n, const double *a, double tolerance, double *w)
+{
+    memcpy(w, a, (size_t)n * (size_t)n * sizeof *w);
+    for (int k = 0; k < n; k++) {
+        if (!(w[k * n + k] > tolerance * a[k * n + k])) return false;
+        for (int i = k + 1; i < n; i++) {
+            const double factor = w[i * n + k] / w[k * n + k];
+            for (int j = k; j < n && factor != 0.0; j++) w[i * n + j] -= factor * w[k * n + j];
+        }
+    }
+    return true;
 }

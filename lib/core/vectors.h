@@ -2,6 +2,7 @@
 #ifndef DAL_VECTORS_H
 #define DAL_VECTORS_H
 
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -42,5 +43,9 @@ typedef struct dal__random {
     uint64_t state;
 } dal__random;
 double dal__uniform(dal__random *random);
+
+/* Whether a symmetric matrix, a[n*n], is positive definite: each pivot exceeds tolerance times the
+ * entry it came from.  w is scratch, [n*n]. */
+bool dal__is_positive_definite(int n, const double *a, double tolerance, double *w);
 
 #endif

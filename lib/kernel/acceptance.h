@@ -5,6 +5,15 @@
  * B = W^-1 A^T.  If a gradient of a constraint turns by a right angle within one step, then
  * G = A B was singular in between (or the step is far too large).
  *
+ * Two evaluations and a product of matrices cost more than many a step.  They are spared where the
+ * pivots of the equations that F solves give no warning: those at the first evaluation of F in each
+ * step, which the system leaves behind.  One of them is the square of the distance s of a gradient
+ * from the span of others (or s itself, with given reactions), and vanishes with G.  Where s passes
+ * through zero at an even pace, it is half of what it was, or less, in that step or in the step
+ * before: s^2 has fallen to a quarter.  The warning is a change of sign or by more than
+ * DAL__PIVOT_CHANGE, of s by 1/8, in this step or in the last; it fails only where s moves at least
+ * 8 times as far in a step as in the one before.
+ *
  * The engine (lib/run) and generated files (lib/codegen) drive these checks, each by a loop of its
  * own.  y0 is the state before the step.  Its number i of a group of lanes is
  * y0[i*DAL_STEP_GROUPS + group], as in the state of the step. */
@@ -93,10 +102,39 @@ DAL_INLINE dal_mask dal_check_guards(dal_step *s, int group, const num *y0, int 
 }
 #endif
 
+#if DAL_WITH_PIVOTS
+#define DAL__PIVOT_CHANGE 1.25
+
+/* Lanes where a pivot differs in sign or size from that of the step before, in this step or in the
+ * last, or where one of them is not known.  Saves those of this step. */
+DAL_INLINE dal_mask dal_pivots_warn(dal_step *s, int group)
+{
+    const int known = s->pivots_known[group];
+    const dal_mask alive = s->alive[group];
+    num *const unsteady = s->last_pivots + group;
+    dal_mask steady = dal_all();
+    DAL_EACH(i, DAL_PIVOTS(s)) {
+        num *const last = unsteady + (1 + i) * DAL_STEP_GROUPS, before = *last;
+        const num now = known ? s->pivots[i * DAL_STEP_GROUPS + group] : dal_num(0.0);
+        const num bound = DAL__PIVOT_CHANGE * (now * before);
+        steady &= dal_less(now * now, bound) & dal_less(before * before, bound);
+        *last = dal_select(alive & dal_finite(now), now, before);
+    }
+    const dal_mask warned = ~steady | dal_less(dal_num(0.5), *unsteady);
+    *unsteady = dal_select(alive, dal_select(steady, dal_num(0.0), dal_num(1.0)), *unsteady);
+    return warned;
+}
+#endif
+
 #if DAL_WITH_RANK
 /* Lanes where the rank check holds. */
 DAL_INLINE dal_mask dal_check_rank(dal_step *s, int group, const num *y0, int *first)
 {
+    dal_mask warned = dal_all();
+#if DAL_WITH_PIVOTS
+    if (DAL_PIVOTS(s) > 0) warned = dal_pivots_warn(s, group);
+    if (!DAL_RARELY(dal_any(warned))) return dal_all();
+#endif
     const int m = DAL_M(s), n = DAL_N(s) / DAL_STEP_GROUPS;
     DAL_VECTOR(s, c0, DAL_CONSTRAINT_SIZE(s));
     DAL_VECTOR(s, c1, DAL_CONSTRAINT_SIZE(s));
@@ -108,7 +146,7 @@ DAL_INLINE dal_mask dal_check_rank(dal_step *s, int group, const num *y0, int *f
     dal_gram(c1 + m, c0 + m + m * n, m, n, g1);
     DAL_EACH(k, m)
         dal_keep_positive(dal_eliminate(g0, m, k) / dal_eliminate(g1, m, k), k + 1, &good, first);
-    return good;
+    return good | ~warned;
 }
 #endif
 

@@ -35,6 +35,7 @@
 #define DAL_WITH_CONSTRAINT   1 /* the callback */
 #define DAL_WITH_GUARDS       1
 #define DAL_WITH_RANK         1 /* the rank check */
+#define DAL_WITH_PIVOTS       1 /* which compares pivots first */
 #define DAL_WITH_REGULAR      1 /* one of these */
 #define DAL_WITH_EXACT        1 /* an exact solution */
 #define DAL_WITH_REACTIONS    1 /* observed reactions */

@@ -20,6 +20,7 @@
  *   multiplier      [m] the multipliers of the last step, with DAL_PERSISTENT_MULTIPLIER
  *   substep         the size planned for the next substep, 0: none
  *   level           the energy of the start, and 1 when it is known
+ *   last_pivots     0 where the pivots of the last step are steady, and these; see acceptance.h
  *   derivatives     stage derivatives of the last step, and differences of predictor errors */
 #define DAL__METHOD_STATE_LIST(MEMBER)                                                             \
     MEMBER(uses_newton, ONE)                                                                       \
@@ -27,8 +28,7 @@
     MEMBER(has_multiplier, ONE)                                                                    \
     MEMBER(multiplier, MULTIPLIER)                                                                 \
     MEMBER(substep, ONE)                                                                           \
-    MEMBER(level, TWO)                                                                             \
-    MEMBER(derivatives, DERIVATIVES)
+    MEMBER(level, TWO) MEMBER(last_pivots, PIVOTS) MEMBER(derivatives, DERIVATIVES)
 
 /* Differences stored beside the derivatives. */
 enum { DAL__DIFFERENCES = 4 };

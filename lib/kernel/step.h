@@ -54,6 +54,9 @@ typedef enum dal_callback_code {
 #define DAL_GUARDS(s)       DAL_FIXED_GUARDS
 #define DAL_RANK_CHECKED(s) DAL_FIXED_RANK_CHECKED
 #endif
+#if DAL_WITH_PIVOTS
+#define DAL_PIVOTS(s) (DAL__COUNT_PIVOTS - 1)
+#endif
 #define DAL_PLAIN(s)             DAL_FIXED_PLAIN
 #define DAL_TANGENT(s)           DAL_FIXED_TANGENT
 #define DAL__AT_LEAST_ONE(count) ((count) > 0 ? (count) : 1)
@@ -72,6 +75,10 @@ struct dal_step {
     DAL__METHOD_STATE_LIST(MEMBER)
 #undef MEMBER
     dal_mask alive[DAL_STEP_GROUPS], unconverged[DAL_STEP_GROUPS];
+#if DAL_WITH_PIVOTS
+    num pivots[(DAL__COUNT_PIVOTS - 1) * DAL_STEP_GROUPS];
+    int pivots_known[DAL_STEP_GROUPS];
+#endif
     const dal_stored *work; /* parameters, and values that depend on them alone */
     long long evaluations;
 };
@@ -131,6 +138,7 @@ enum { DAL_STEP_GROUPS = 1 };
 #define DAL_PROPERTIES(s)             ((s)->properties)
 #define DAL_GUARDS(s)                 ((s)->guards)
 #define DAL_RANK_CHECKED(s)           ((s)->rank_checked)
+#define DAL_PIVOTS(s)                 ((s)->pivot_count)
 #define DAL_PERSISTENT_MULTIPLIERS(s) ((s)->m)
 #define DAL_STAGE_DERIVATIVES(s)      ((s)->derivatives_kept)
 #define DAL_STAGES(t)                 ((t)->stages) /* of a tableau */
@@ -162,6 +170,10 @@ struct dal_step {
     int guards;          /* of the system */
     int rank_checked;    /* 1: steps are subject to the rank check */
     double tolerance;    /* of substeps, 0: no substeps */
+
+    int pivot_count; /* that the rank check compares, see acceptance.h */
+    num *pivots;     /* [pivot_count] those of the first evaluation of F in the step */
+    int pivots_known[DAL_STEP_GROUPS]; /* 1: there was one, or they are not compared */
 
     num *scratch; /* bump allocator, see dal_scratch */
     size_t used, capacity;
@@ -224,6 +236,17 @@ DAL_INLINE void dal_eval_group(dal_step *s, int group, dal_callback_code code, d
     dal_eval(s, code, t, q, v, NULL, out);
 }
 
+#endif
+
+#if DAL_WITH_PIVOTS
+/* Whether a callback evaluates F, and leaves its pivots. */
+DAL_INLINE int dal_leaves_pivots(dal_callback_code code)
+{
+#if DAL_WITH_LIFT
+    if (code == DAL_EVAL_ADJOINT) return 1;
+#endif
+    return code == DAL_EVAL_FIELD;
+}
 #endif
 
 /* Whether a step, or a part of it, has failed in all lanes.  Without the hint a compiler takes the

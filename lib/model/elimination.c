@@ -9,6 +9,7 @@
  *
  * Every other pivot is checked along a run against the sum of the absolute values it came from. */
 #include "model/elimination.h"
+#include "core/vectors.h"
 #include "expr/simplify.h"
 #include "expr/traversal.h"
 #include "model/model.h"
@@ -145,6 +146,7 @@ static dal_status make_plan(dal_model *model, dal__linear *s, plan *p)
     const dal__equations *e = &model->equations;
     const size_t n = (size_t)s->n;
     double *point = dal__model_allocate(model, (size_t)e->symbols, sizeof *point);
+    double *scratch = dal__model_allocate(model, n * n, sizeof *scratch);
     *p = (plan){.n = s->n,
                 .value = dal__model_allocate(model, n * n, sizeof *p->value),
                 .flag = dal__model_allocate(model, n * n, sizeof *p->flag),
@@ -157,6 +159,7 @@ static dal_status make_plan(dal_model *model, dal__linear *s, plan *p)
                 .column = dal__model_allocate(model, n, sizeof *p->column)};
     if (model->out_of_memory) return DAL_MEMORY;
     evaluate(p, e, s->matrix, e->value);
+    s->positive = dal__is_positive_definite(s->n, p->value, DAL__PIVOT_LEAST, scratch);
     s->singular = order(p);
     if (s->singular < 0) return DAL_OK;
     const double golden = 0.6180339887498949;

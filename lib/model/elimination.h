@@ -12,6 +12,7 @@ typedef struct dal__linear {
     dal__node *rhs;    /* [n*columns], destroyed */
     dal__node *x;      /* [n*columns], the solution */
     int singular;      /* on DAL_SINGULAR: the row without a pivot */
+    bool positive;     /* the matrix, being symmetric, is positive definite at the default start */
 } dal__linear;
 
 /* Solves by elimination and appends the pivots to the equations.

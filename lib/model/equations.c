@@ -112,7 +112,7 @@ static int force_column(const dal__equations *e, int a) { return 1 + a + (e->ser
 /* x = W^-1 (b, A^T, B^T), the last only where it differs from A^T. */
 static dal_status solve_mass(dal_model *model, dal__linear *s)
 {
-    const dal__equations *e = &model->equations;
+    dal__equations *e = &model->equations;
     int columns = force_column(e, e->m);
     if (!allocate_linear(model, s, e->n, columns, e->n)) return DAL_MEMORY;
     for (int i = 0; i < e->n * e->n; i++) s->matrix[i] = e->W[i];
@@ -124,6 +124,7 @@ static dal_status solve_mass(dal_model *model, dal__linear *s)
         }
     }
     DAL_TRY(dal__linear_solve(model, s));
+    e->mass_positive = s->positive;
     for (int i = 0; i < e->n; i++) e->a[i] = s->x[i * columns];
     for (int i = 0; i < e->n; i++)
         for (int a = 0; a < e->m; a++) {

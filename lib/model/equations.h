@@ -18,6 +18,7 @@ typedef struct dal__equations {
     dal__graph *graph;
     int parameters, n, m, multipliers, invariants, lets, functions, guards, pivots;
     bool vakonomic, accelerations, servo, pictured;
+    bool mass_positive; /* W is positive definite at the default start */
     unsigned properties;
     /* First symbols of the inputs.  Twice the numbers of q, v and pi: the tangent system has 2n. */
     int t, q, v, pi, g, symbols;

@@ -1,10 +1,12 @@
 /* programs.c - the programs of a system: which nodes each computes, which pivots it checks.
  *
  * A program's outputs are followed by the pivots it divides by, each with its size; the callbacks
- * check them lane by lane and leave NaN where one has vanished. */
+ * check them lane by lane and leave NaN where one has vanished.  Field and adjoint leave the pivots
+ * of A W^-1 B^T at the end of work, for the rank check. */
 #include "model/programs.h"
 #include "expr/derivative.h"
 #include "expr/simplify.h"
+#include "expr/traversal.h"
 #include "kernel/quad.h"
 #include "model/model.h"
 #include <math.h>
@@ -18,12 +20,26 @@ dal_status dal__programs_begin(const dal__equations *e, dal__programs *programs,
     return programs->tapes ? DAL_OK : DAL_MEMORY;
 }
 
+/* Whether a pivot of A W^-1 B^T varies along a run. */
+static bool is_left(const dal__equations *e, const dal__pivot *p)
+{
+    return p->constraint > 0 && dal__depends(e->graph, p->pivot, e->parameters, e->symbols);
+}
+
+/* Distances in the metric W^-1 say something of the constraints where W is positive definite, which
+ * it remains as long as det W, a guard, keeps its sign. */
+void dal__programs_leave_pivots(const dal__equations *e, dal__programs *programs)
+{
+    if (!(e->properties & DAL_D_RANK_CHECKED) || e->vakonomic || !e->mass_positive) return;
+    for (int k = 0; k < e->pivots; k++) programs->pivots += is_left(e, &e->pivot[k]);
+}
+
 dal_status dal__programs_add_lists(dal_model *model, dal__programs *programs,
                                    dal__program_code code, const dal__nodes *lists, int count)
 {
     const dal__equations *e = &model->equations;
     dal__program *program = &programs->program[code];
-    int total = 2 * e->pivots;
+    int total = 3 * e->pivots;
     for (int k = 0; k < count; k++) total += lists[k].count;
     dal__node *all = dal__model_nodes(model, total, 0);
     if (!all) return DAL_MEMORY;
@@ -42,6 +58,12 @@ dal_status dal__programs_add_lists(dal_model *model, dal__programs *programs,
         all[total++] = p->pivot;
         all[total++] = p->size;
         program->checked++;
+    }
+    const bool leaves = code == DAL__PROGRAM_FIELD || code == DAL__PROGRAM_ADJOINT;
+    for (int k = 0; k < e->pivots && leaves && programs->pivots > 0; k++) {
+        if (!is_left(e, &e->pivot[k])) continue;
+        all[total++] = e->pivot[k].pivot;
+        program->left++;
     }
     program->tape = dal__tapes_add(programs->tapes, all, total);
     program->present = program->tape >= 0;
@@ -145,8 +167,9 @@ static size_t scratch_size(const dal__programs *programs)
     size_t max = 0;
     for (int code = 0; code < DAL__PROGRAM_COUNT; code++) {
         const dal__program *program = &programs->program[code];
-        const size_t size = (size_t)program->outputs + 2 * (size_t)program->checked;
-        const bool direct = program->checked == 0 && code != DAL__PROGRAM_DIAGNOSE;
+        const size_t pivots = 2 * (size_t)program->checked + (size_t)program->left;
+        const size_t size = (size_t)program->outputs + pivots;
+        const bool direct = pivots == 0 && code != DAL__PROGRAM_DIAGNOSE;
         if (!direct && size > max) max = size;
     }
     return max;
@@ -208,7 +231,9 @@ dal_status dal__programs_finish(dal_model *model, dal__programs *programs, dal_s
     programs->g = inputs + e->g;
     programs->scratch = programs->tapes->workspace;
     system->data = programs;
-    system->workspace = programs->scratch + scratch_size(programs);
+    programs->pivots_left = programs->scratch + scratch_size(programs);
+    system->pivots = programs->pivots;
+    system->workspace = programs->pivots_left + (size_t)programs->pivots;
     system->prepare = prepare;
     programs->run = dal__fill_callbacks_x1(programs, &programs->wide1);
 #define CALLBACKS(name, variant, lanes, set)                                                       \

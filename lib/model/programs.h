@@ -30,6 +30,7 @@ typedef struct dal__program {
     int tape;    /* number in the tapes */
     int outputs; /* for the caller */
     int checked; /* pivots, each with its size, that follow the outputs */
+    int left;    /* pivots for the rank check, behind these */
 } dal__program;
 
 /* Evaluates a program on what it reads of *at. */
@@ -42,7 +43,9 @@ typedef struct dal__programs {
     const dal__equations *equations;
     int n, multipliers; /* of this system: 2n, 0 for the tangent one */
     int t, q, v, pi, g; /* places of the inputs in work */
-    size_t scratch;     /* place in work for outputs and checked pivots together */
+    size_t scratch;     /* place in work for outputs and pivots together */
+    size_t pivots_left; /* place in work where field and adjoint leave those of the rank check */
+    int pivots;         /* how many these are */
     dal__program program[DAL__PROGRAM_COUNT];
     dal_callbacks wide1, wide4, wide8;
     dal_picture picture;
@@ -59,9 +62,11 @@ typedef struct dal__quad_system {
  * of the subtraction, so that three digits of it are true. */
 #define DAL__PIVOT_LEAST 1e-13
 
-/* Begins the programs of a system whose coordinates and velocities have n symbols each. */
+/* Begins the programs of a system whose coordinates and velocities have n symbols each; pivots are
+ * left for the rank check once dal__programs_leave_pivots was called. */
 dal_status dal__programs_begin(const dal__equations *e, dal__programs *programs, int n,
                                int multipliers);
+void dal__programs_leave_pivots(const dal__equations *e, dal__programs *programs);
 /* Adds a program: the nodes of some lists, followed by the pivots it checks; or of one list. */
 typedef struct dal__nodes {
     const dal__node *list;

@@ -24,7 +24,7 @@ static dal_mask pivots_hold(const num *checked, int pivots)
     return ok;
 }
 
-/* Leaves NaN in the lanes where a pivot has vanished. */
+/* Leaves NaN in the lanes where a pivot has vanished, and pivots for the rank check. */
 static dal_status run_program(const dal_system *system, const dal_point *at, double *out,
                               dal__program_code code, int reads)
 {
@@ -38,7 +38,7 @@ static dal_status run_program(const dal_system *system, const dal_point *at, dou
         load_lanes(at->work, p->g, at->v + p->n * WIDTH, p->multipliers);
     }
     if (reads >= DAL__READS_tqvpi) load_lanes(at->work, p->pi, at->pi, p->n);
-    if (program->checked == 0) {
+    if (program->checked + program->left == 0) {
         DAL_WIDE(dal__tape_run)(p->tapes, program->tape, at->work, out);
         return DAL_OK;
     }
@@ -48,6 +48,9 @@ static dal_status run_program(const dal_system *system, const dal_point *at, dou
     num *to = (num *)out;
     const dal_mask ok = pivots_hold(all + program->outputs, program->checked);
     for (int i = 0; i < program->outputs; i++) to[i] = dal_select(ok, all[i], dal_num(NAN));
+    const num *left = all + program->outputs + 2 * program->checked;
+    num *pivots = (num *)(at->work + p->pivots_left * WIDTH);
+    for (int i = 0; i < program->left; i++) pivots[i] = left[i];
     return DAL_OK;
 }
 

@@ -34,17 +34,18 @@ typedef struct engine {
     const dal_integrator *layer[DAL_LAYERS];
     dal_callback *call[DAL_EVAL_COUNT];
     num *persistent, *backup, *work;
+    const num *left_pivots; /* in work, by the last evaluation of F */
     dal__failure *failure;
 } engine;
 
 static size_t bytes_of(size_t numbers) { return dal__align(numbers * sizeof(num)); }
 
-/* Nums of the persistent state that an integrator may change; one that neither solves nor divides
- * changes y and r only. */
+/* Nums of the persistent state that a step may change; one that neither solves nor divides nor
+ * compares pivots changes y and r only. */
 static size_t changing(const engine *e)
 {
-    const bool alone =
-        !e->layout.lifted && e->layout.depth == 1 && e->layout.options.tolerance == 0.0;
+    const bool alone = !e->layout.lifted && e->layout.depth == 1 &&
+                       e->layout.options.tolerance == 0.0 && e->layout.pivots == 0;
     const bool plain = alone && (e->layer[0]->properties & DAL_COMPONENTWISE);
     return plain ? dal__at(&e->layout, 0) : e->layout.persistent;
 }
@@ -85,12 +86,16 @@ static void eval_callback(dal_step *s, dal_callback_code code, double t, const n
     const dal_status status = call(e->layout.system, &at, (double *)out);
     if (status != DAL_OK) fill(e, code, NAN, out);
     if (DAL_LANES == 1 && e->failure) trace(e, code, &at, status, (const double *)out);
+    if (DAL_RARELY(!s->pivots_known[0]) && dal_leaves_pivots(code)) {
+        memcpy(s->pivots, e->left_pivots, (size_t)s->pivot_count * sizeof(num));
+        s->pivots_known[0] = 1;
+    }
 }
 
 static size_t engine_bytes(const dal__layout *k)
 {
     return dal__align(sizeof(engine)) + bytes_of(k->persistent + k->workspace) +
-           bytes_of(k->persistent) + bytes_of(k->scratch);
+           bytes_of(k->persistent) + bytes_of((size_t)k->pivots) + bytes_of(k->scratch);
 }
 
 static num *allocate(char **at, size_t count)
@@ -135,7 +140,8 @@ static void prepare_step(engine *e)
     s->has_jacobian = k->system->call.jacobian != NULL;
     s->properties = k->system->properties;
     s->guards = k->system->guards;
-    s->rank_checked = s->properties & DAL_D_RANK_CHECKED && k->system->call.constraint;
+    s->rank_checked = dal__checks_rank(k->system);
+    s->pivot_count = k->pivots;
     s->tolerance = k->options.tolerance;
     s->capacity = k->scratch;
     place_method_state(e);
@@ -163,8 +169,10 @@ static void *place_engine(const dal__layout *k, void *memory, double **persisten
 #undef CALLBACK
     e->persistent = allocate(&at, k->persistent + k->workspace);
     e->work = e->persistent + k->persistent;
+    e->left_pivots = e->work + k->workspace - k->pivots;
     e->backup = allocate(&at, k->persistent);
     prepare_step(e);
+    e->step.pivots = allocate(&at, (size_t)k->pivots);
     e->step.scratch = allocate(&at, k->scratch);
     *persistent = (double *)e->persistent;
     *work = (double *)e->work;
@@ -299,6 +307,7 @@ static void begin_step(engine *e, double h, dal__lanes alive, dal_mask lanes)
     s->exhausted = 0;
     s->evaluations = 0;
     s->depth = e->layout.depth - 1;
+    s->pivots_known[0] = s->pivot_count == 0;
 }
 
 static dal__lanes step_engine(void *engine_, double h, dal__lanes alive, dal_status *reason)

@@ -79,7 +79,8 @@ static dal_status check_system(const dal_system *system, dal_error *error)
 {
     if (system->n < 1)
         return dal__fail(error, DAL_ARGUMENT, "a system needs coordinates; n is %d", system->n);
-    if (system->m < 0 || system->parameters < 0 || system->guards < 0 || system->invariants < 0)
+    if (system->m < 0 || system->parameters < 0 || system->guards < 0 || system->invariants < 0 ||
+        system->pivots < 0)
         return dal__fail(error, DAL_ARGUMENT, "a dimension of the system is negative");
     if (system->multipliers != 0 && system->multipliers != system->m)
         return dal__fail(error, DAL_ARGUMENT, "%d multipliers for %d constraints",
@@ -87,6 +88,9 @@ static dal_status check_system(const dal_system *system, dal_error *error)
     if (system->workspace && system->workspace < (size_t)system->parameters)
         return dal__fail(error, DAL_ARGUMENT, "%d parameters in a workspace of %zu numbers",
                          system->parameters, system->workspace);
+    if (system->workspace < (size_t)system->pivots)
+        return dal__fail(error, DAL_ARGUMENT, "%d pivots in a workspace of %zu numbers",
+                         system->pivots, system->workspace);
     return DAL_OK;
 }
 
@@ -275,6 +279,7 @@ static dal_status measure(dal__layout *k, dal_error *error)
     const bool remembers = k->method.layer[0]->properties & DAL_EXTRAPOLATES_STAGES;
     k->derivatives = remembers ? (1 + DAL__DIFFERENCES) * k->stages * (k->nw + k->n) : 0;
     k->multiplier = dal_method_properties(&k->method) & DAL_PERSISTENT_MULTIPLIER ? k->m : 0;
+    k->pivots = dal__checks_rank(k->system) ? k->system->pivots : 0;
     k->persistent = dal__at(k, DAL__CLOCK_SIZE) + 1; /* changed */
 #define MEMBER(member, count) k->persistent += (size_t)DAL__COUNT_##count(k);
     DAL__METHOD_STATE_LIST(MEMBER)

@@ -6,13 +6,14 @@
 #include "kernel/persistent.h"
 #include <math.h>
 
-/* A run without its values.  derivatives and multiplier count numbers of the method's state. */
+/* A run without its values.  derivatives and multiplier count numbers of the method's state; pivots
+ * those that the rank check compares. */
 typedef struct dal__layout {
     const dal_system *system;
     dal_method method;
     dal_options options;
     double start_time;
-    int n, nw, m, dim, lifted, depth, stages, derivatives, multiplier;
+    int n, nw, m, dim, lifted, depth, stages, derivatives, multiplier, pivots;
     size_t workspace, persistent, scratch; /* numbers */
 } dal__layout;
 
@@ -21,6 +22,7 @@ typedef struct dal__layout {
 #define DAL__COUNT_TWO(layout)         2
 #define DAL__COUNT_DERIVATIVES(layout) ((layout)->derivatives)
 #define DAL__COUNT_MULTIPLIER(layout)  ((layout)->multiplier)
+#define DAL__COUNT_PIVOTS(layout)      ((layout)->pivots > 0 ? 1 + (layout)->pivots : 0)
 
 /* The place of an item of the clock, or of the method's state, in the persistent state. */
 static inline size_t dal__at(const dal__layout *layout, int place)
@@ -30,6 +32,12 @@ static inline size_t dal__at(const dal__layout *layout, int place)
 
 /* The place of the number that says whether a parameter was changed between steps. */
 static inline size_t dal__at_changed(const dal__layout *layout) { return layout->persistent - 1; }
+
+/* Whether steps are subject to the rank check. */
+static inline bool dal__checks_rank(const dal_system *system)
+{
+    return system->m > 0 && system->properties & DAL_D_RANK_CHECKED && system->call.constraint;
+}
 
 /* Numbers that a checkpoint holds: the persistent state and the parameters. */
 static inline size_t dal__saved_count(const dal__layout *layout)
