@@ -216,7 +216,7 @@ typedef struct dal_model dal_model;
     SECTION(REACTIONS, "reactions")   /* constraint.coordinate, as 2.x: formula; see below */      \
     SECTION(MECHANICS, "mechanics")   /* lagrange-d'alembert (default) or vakonomic */             \
     SECTION(GAUGE, "gauge")           /* e or mu_e, formula in t and parameters */                 \
-    SECTION(START, "start")           /* name, formula in parameters */                            \
+    SECTION(START, "start")           /* name, formula */                                          \
     SECTION(INVARIANTS, "invariants") /* name, formula */                                          \
     SECTION(EXACT, "exact")           /* coordinate, formula in t and parameters */                \
     SECTION(TAGS, "tags")             /* a word */                                                 \

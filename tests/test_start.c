@@ -100,6 +100,41 @@ static void test_not_finite(void)
     fixture_refused(&spec, DAL_NOT_FINITE, "start x is not finite: inf");
 }
 
+/* Formulas of a start know what it has given before, through let, too. */
+static void test_formulas(void)
+{
+    static const char begin[] = "coordinates: [x, y]\nparameters: {k: 2}\n"
+                                "let: {r: \"sqrt(x^2 + y^2)\", turn: x*y' - y*x'}\n"
+                                "lagrangian: (x'^2 + y'^2)/2\nstart: ";
+    static const struct {
+        const char *start, *message;
+    } bad[] = {
+        {"{x': y, y: 1}", "'y' may not stand here: only parameters and what start gives before"},
+        {"{x: 1, y: r}", "let 'r' may not stand here"},
+        {"{x: 1, y: 1, x': 2, y': turn}", "let 'turn' may not stand here"},
+        {"{x: x}", "coordinate 'x' may not stand here"},
+    };
+    char text[512];
+    dal_model *model = NULL;
+    const dal_system *system;
+    snprintf(text, sizeof text, "%s{x: 3*k, y: 4*k, x': r/5, y': x' - y}\n", begin);
+    const dal_run_spec spec = fixture_spec(fixture_system(text), "rk4", DAL_PHYSICAL, 0.1);
+    dal_run *run = fixture_run(&spec);
+    static const double expected[4] = {6.0, 8.0, 2.0, -6.0};
+    for (int i = 0; i < 4; i++) CU_ASSERT_EQUAL(dal_run_state(run)[i], expected[i]);
+    dal_run_free(run);
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        dal_error error = {0};
+        snprintf(text, sizeof text, "%s%s\n", begin, bad[i].start);
+        CU_ASSERT_EQUAL_FATAL(dal_model_read(&model, NULL, text, strlen(text), NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_model_system(model, &system, &error), DAL_NAME);
+        CU_ASSERT_PTR_NOT_NULL(strstr(error.message, bad[i].message));
+        if (!strstr(error.message, bad[i].message)) printf("\n  '%s'\n", error.message);
+        CU_ASSERT_EQUAL(error.line, 5);
+        dal_model_free(model);
+    }
+}
+
 /* ---- consistent starts ---- */
 
 /* q and v of a run of the text whose start was made consistent; false: it was refused so. */
@@ -185,6 +220,7 @@ void suite_start(void)
     CU_pSuite suite = CU_add_suite("start", NULL, NULL);
     CU_add_test(suite, "constraints are violated by 1e-10 at most", test_consistent);
     CU_add_test(suite, "an infinite start", test_not_finite);
+    CU_add_test(suite, "formulas in what is given before", test_formulas);
     CU_add_test(suite, "made consistent, linear D", test_linear);
     CU_add_test(suite, "made consistent, nonlinear D", test_nonlinear);
     CU_add_test(suite, "made consistent, lanes", test_lanes);

@@ -188,8 +188,11 @@ static dal_status parse_start(dal_model *model, dal_error *error)
     dal__equations *e = &model->equations;
     const int count = 2 * e->n + e->multipliers;
     const char **names = dal__model_allocate(model, (size_t)count, sizeof *names);
+    dal__node *given = dal__model_nodes(model, count, 0);
+    dal__scope scope = scope_of(e, 0);
     const dal__entry *entry;
-    if (!names) return dal__memory_error(error);
+    scope.given = given;
+    if (!names || !given) return dal__memory_error(error);
     for (int i = 0; i < e->n; i++) {
         names[i] = e->coordinate[i];
         names[e->n + i] = dal__model_print(model, "%s'", e->coordinate[i]);
@@ -203,7 +206,8 @@ static dal_status parse_start(dal_model *model, dal_error *error)
                                 "the start of e belongs under gauge, as 'gauge: {e: 1}'");
         DAL_TRY(
             find_word(entry->name, DAL__AT_NAME(entry), "name in start", names, count, &i, error));
-        DAL_TRY(parse_entry(model, entry, scope_of(e, 0), &e->start[i], error));
+        DAL_TRY(parse_entry(model, entry, scope, &e->start[i], error));
+        given[i] = e->start[i];
         if (!isfinite(dal__evaluate(e->graph, e->start[i], e->value)))
             return not_finite(model, entry, error);
     }

@@ -139,8 +139,21 @@ static dal__node misplaced(const dal__scope *scope, const char *what, const char
                            dal_error *error)
 {
     dal__fail(error, DAL_NAME, "%s '%.80s' may not stand here: only %sparameters%s", what, name,
-              scope->inside ? "arguments and " : "", scope->may & DAL__MAY_T ? " and t" : "");
+              scope->inside ? "arguments and " : "",
+              scope->given              ? " and what start gives before"
+              : scope->may & DAL__MAY_T ? " and t"
+                                        : "");
     return 0;
+}
+
+/* Coordinate i, or velocity i - n. */
+static dal__node state(const dal__scope *scope, int i, const char *what, const char *name,
+                       dal_error *error)
+{
+    const dal__equations *e = &scope->model->equations;
+    if (scope->given && scope->given[i]) return scope->given[i];
+    if (!(scope->may & DAL__MAY_STATE)) return misplaced(scope, what, name, error);
+    return dal__symbol(e->graph, i < e->n ? e->q + i : e->v + i - e->n);
 }
 
 static dal__node unknown(const dal__scope *scope, const char *name, dal_error *error)
@@ -157,6 +170,20 @@ static dal__node unknown(const dal__scope *scope, const char *name, dal_error *e
     for (int i = WORD_E + 1; i < FORMULA_WORDS; i++) names[count++] = formula_words[i];
     dal__unknown(error, "name", name, names, count);
     return 0;
+}
+
+/* A let of what a start gives before it. */
+static dal__node let_at_start(const dal__scope *scope, dal__node let)
+{
+    const dal__equations *e = &scope->model->equations;
+    int symbols[2 * DAL__MAX_COORDINATES], count = 0;
+    dal__node by[2 * DAL__MAX_COORDINATES];
+    for (int i = 0; i < 2 * e->n; i++) {
+        if (!scope->given[i]) continue;
+        symbols[count] = i < e->n ? e->q + i : e->v + i - e->n;
+        by[count++] = scope->given[i];
+    }
+    return dal__substitute(e->graph, let, symbols, count, by);
 }
 
 static bool let_allowed(const dal__scope *scope, dal__node let)
@@ -205,12 +232,13 @@ static dal__node plain(const dal__scope *scope, const char *name, size_t length,
         return scope->may & DAL__MAY_T ? dal__symbol(e->graph, e->t)
                                        : misplaced(scope, "the time", name, error);
     if ((i = dal__index_of(name, length, e->coordinate, e->n)) >= 0)
-        return scope->may & DAL__MAY_STATE ? dal__symbol(e->graph, e->q + i)
-                                           : misplaced(scope, "coordinate", name, error);
+        return state(scope, i, "coordinate", name, error);
     if ((i = dal__index_of(name, length, e->parameter, scope->parameters)) >= 0)
         return dal__symbol(e->graph, i);
-    if ((i = dal__index_of(name, length, e->let_name, scope->lets)) >= 0)
-        return let_allowed(scope, e->let[i]) ? e->let[i] : misplaced(scope, "let", name, error);
+    if ((i = dal__index_of(name, length, e->let_name, scope->lets)) >= 0) {
+        const dal__node let = scope->given ? let_at_start(scope, e->let[i]) : e->let[i];
+        return let_allowed(scope, let) ? let : misplaced(scope, "let", name, error);
+    }
     if (strcmp(name, "e") == 0) {
         dal__fail(error, DAL_NAME, "e is the gauge variable; exp(1) is Euler's number");
         return 0;
@@ -241,8 +269,7 @@ dal__node dal__resolve_name(void *user, const char *text, size_t length, bool pr
             return dal__symbol(e->graph, scope->inside->symbol[i]);
     if (!prime) return plain(scope, name, length, error);
     const int i = dal__index_of(name, length, e->coordinate, e->n);
-    if (i >= 0 && scope->may & DAL__MAY_STATE) return dal__symbol(e->graph, e->v + i);
-    if (i >= 0) return misplaced(scope, "the velocity of", name, error);
+    if (i >= 0) return state(scope, e->n + i, "the velocity of", name, error);
     if (dal__index_of(name, length, e->parameter, e->parameters) < 0)
         return unknown(scope, name, error);
     dal__fail(error, DAL_NAME, "parameter '%.80s' has no velocity", name);

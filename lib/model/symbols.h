@@ -14,6 +14,7 @@ enum { DAL__MAY_T = 1, DAL__MAY_STATE = 2, DAL__MAY_MULTIPLIERS = 4 };
 typedef struct dal__scope {
     const dal_model *model;
     unsigned may;
+    const dal__node *given;          /* [2n] q, v of a start, 0: not given yet; NULL: no start */
     int parameters, lets, functions; /* those already known */
     const char *index;               /* a name that is the number at; NULL: none */
     int at;
