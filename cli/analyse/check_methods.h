@@ -1,0 +1,11 @@
+/* check_methods.h - which integrators `run` accepts for a system, and what they preserve of it. */
+#ifndef DAL_CLI_CHECK_METHODS_H
+#define DAL_CLI_CHECK_METHODS_H
+
+#include "check.h"
+
+/* Adds the item of the integrators that have one of these properties and that `run` accepts; with
+ * constant coefficients D is preserved by all of them. */
+void check_preserving(check *c, bool is_constant, unsigned properties);
+
+#endif
