@@ -184,6 +184,24 @@ static void put_item(json_writer *w, const check_entry *e)
     json_close(w);
 }
 
+static void put_method(json_writer *w, const check_method *k)
+{
+    static const char *const words[] = {
+#define PRESERVED_WORD(code, word) word,
+        CHECK_PRESERVED_LIST(PRESERVED_WORD)
+#undef PRESERVED_WORD
+    };
+    json_open(w, NULL, JSON_ON_ONE_LINE);
+    json_put_text(w, "integrator", k->name);
+    json_put_flag(w, "accepted", !k->reason);
+    json_put_text(w, "reason", k->reason);
+    json_open_list(w, "preserves", JSON_ON_ONE_LINE);
+    for (int i = 0; i < CHECK_PRESERVED; i++)
+        if (k->preserved >> i & 1) json_put_text(w, NULL, words[i]);
+    json_close(w);
+    json_close(w);
+}
+
 static void put_check(const check *c)
 {
     const dal_system *s = c->system;
@@ -209,6 +227,9 @@ static void put_check(const check *c)
     if (c->growth.levels > 0) json_close(&w);
     json_put_integer(&w, "growth_dimension", c->growth.dimension);
     json_put_flag(&w, "growth_complete", c->growth.is_complete);
+    json_open_list(&w, "methods", JSON_LINES);
+    for (int i = 0; i < c->methods; i++) put_method(&w, &c->method[i]);
+    json_close(&w);
     json_put_integer(&w, "failed", c->failed);
     json_put_integer(&w, "not_measured", c->unmeasured);
     json_end_results(&w);
@@ -223,6 +244,11 @@ static void free_check(check *c)
         free(c->entry[i].text);
     }
     for (int i = 0; i < c->preservers; i++) free(c->preserving[i]);
+    for (int i = 0; i < c->methods; i++) {
+        free(c->method[i].name);
+        free(c->method[i].reason);
+    }
+    free(c->method);
     free(c->preserving);
     free(c->entry);
     free(c->start);

@@ -34,6 +34,27 @@ typedef struct check_entry {
 
 enum { CHECK_POINTS = 8 };
 
+/* What an integrator may preserve of a system.  code, word */
+#define CHECK_PRESERVED_LIST(PRESERVED)                                                            \
+    PRESERVED(D, "D")                                                                              \
+    PRESERVED(E, "E")                                                                              \
+    PRESERVED(FORM, "symplectic form")                                                             \
+    PRESERVED(REVERSAL, "reversal")
+
+enum {
+#define PRESERVED_CODE(code, word) CHECK_PRESERVES_##code,
+    CHECK_PRESERVED_LIST(PRESERVED_CODE)
+#undef PRESERVED_CODE
+        CHECK_PRESERVED
+};
+
+/* An integrator of the library, and the system. */
+typedef struct check_method {
+    char *name;
+    char *reason;       /* why it is refused; NULL: it is accepted */
+    unsigned preserved; /* bits 1 << CHECK_PRESERVES_x */
+} check_method;
+
 typedef struct check {
     const dal_system *system;
     run_request *request; /* the arguments, its system made */
@@ -49,9 +70,13 @@ typedef struct check {
     const char *section; /* the present one */
     check_entry *entry;  /* [items] the report */
     int items, failed, unmeasured;
-    char **preserving; /* [preservers] names of integrators that preserve D; */
-    int preservers;    /* -1: it is not known which, or there is no D, or all do */
-    dal_growth growth; /* of D; no levels where it has none */
+    char **preserving;     /* [preservers] names of integrators that preserve D; */
+    int preservers;        /* -1: it is not known which, or there is no D, or all do */
+    dal_growth growth;     /* of D; no levels where it has none */
+    unsigned preserving_D; /* properties of integrators, one of which suffices */
+    bool is_D_constant;    /* all preserve D */
+    check_method *method;  /* [methods] */
+    int methods;
 } check;
 
 /* Adds an item: what is examined, the result, and a text.  CHECK_UNMEASURED is as bad as a

@@ -4,6 +4,8 @@
 #include "ui/message.h"
 
 #include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
 
 /* Whether `run` accepts a method: the run is created. */
 static bool is_accepted(check *c, const char *method, dal_error *error)
@@ -21,16 +23,15 @@ static bool is_accepted(check *c, const char *method, dal_error *error)
 }
 
 /* A modifier is accepted when it is so around some method. */
-static bool is_integrator_accepted(check *c, const dal_integrator *integrator)
+static bool is_integrator_accepted(check *c, const dal_integrator *integrator, dal_error *error)
 {
-    dal_error error;
     const dal_integrator *base;
-    if (!(integrator->properties & DAL_MODIFIER)) return is_accepted(c, integrator->name, &error);
+    if (!(integrator->properties & DAL_MODIFIER)) return is_accepted(c, integrator->name, error);
     for (int i = 0; (base = dal_integrator_at(i)); i++) {
         char name[128];
         if (base->properties & DAL_MODIFIER) continue;
         snprintf(name, sizeof name, "%.60s+%.60s", base->name, integrator->name);
-        if (is_accepted(c, name, &error)) return true;
+        if (is_accepted(c, name, error)) return true;
     }
     return false;
 }
@@ -50,9 +51,11 @@ void check_preserving(check *c, bool is_constant, unsigned properties)
     size_t length = 0;
     dal_error error = {.message = ""};
     const dal_integrator *k;
+    c->preserving_D = properties;
+    c->is_D_constant = is_constant;
     if (!is_constant) c->preservers = 0;
     for (int i = 0; !is_constant && (k = dal_integrator_at(i)); i++) {
-        if (!(k->properties & properties) || !is_integrator_accepted(c, k)) continue;
+        if (!(k->properties & properties) || !is_integrator_accepted(c, k, &error)) continue;
         char *name = add_preserving(c, k);
         length += (size_t)snprintf(text + length, sizeof text - length, "%s%.40s",
                                    length > 0 ? " " : "", name);
@@ -63,4 +66,73 @@ void check_preserving(check *c, bool is_constant, unsigned properties)
     else
         check_item(c, CHECK_INFO, what, "%s%s%s", length > 0 ? text : "no method",
                    is_any ? "" : ": ", is_any ? "" : error.message);
+}
+
+/* ---- every integrator ---- */
+
+/* What an integrator that is accepted preserves, by its properties and those of the system. */
+static unsigned what_is_preserved(const check *c, const dal_integrator *k, bool is_reversible)
+{
+    const unsigned p = k->properties, system = c->system->properties;
+    const bool is_reversal = p & DAL_SYMMETRIC && !(p & DAL_PERSISTENT_MULTIPLIER);
+    const bool has_lift = c->system->call.adjoint && !(k->needs & DAL_NEEDS_BLOCKS);
+    const bool is[CHECK_PRESERVED] = {
+        [CHECK_PRESERVES_D] = c->m > 0 && (c->is_D_constant || p & c->preserving_D),
+        [CHECK_PRESERVES_E] = p & DAL_PRESERVES_ENERGY && system & (DAL_E_EXACT | DAL_E_ON_D),
+        [CHECK_PRESERVES_FORM] = p & DAL_SYMPLECTIC && has_lift,
+        [CHECK_PRESERVES_REVERSAL] = is_reversible && is_reversal,
+    };
+    unsigned bits = 0;
+    for (int i = 0; i < CHECK_PRESERVED; i++) bits |= (unsigned)is[i] << i;
+    return bits;
+}
+
+static void examine_methods(check *c)
+{
+    dal_constraint_class d;
+    const dal_integrator *k;
+    const bool is_reversible =
+        dal_classify_constraints(c->evaluator, &c->origin, &d, NULL) == DAL_OK && d.reversible;
+    while ((k = dal_integrator_at(c->methods))) {
+        dal_error error = {.message = ""};
+        const bool is_accepted_here = is_integrator_accepted(c, k, &error);
+        const char *reason = strstr(error.message, ": ");
+        c->method = cli_realloc(c->method, (size_t)(c->methods + 1) * sizeof *c->method);
+        c->method[c->methods++] = (check_method){
+            .name = cli_format("%s%s", k->properties & DAL_MODIFIER ? "+" : "", k->name),
+            .reason = is_accepted_here ? NULL : cli_strdup(reason ? reason + 2 : error.message),
+            .preserved = is_accepted_here ? what_is_preserved(c, k, is_reversible) : 0};
+    }
+}
+
+/* The names of the methods with a reason (NULL: accepted) that preserve something (0: any). */
+static void list_methods(check *c, const char *what, const char *reason, unsigned preserved)
+{
+    char text[4096] = "";
+    size_t length = 0;
+    for (const check_method *k = c->method; k < c->method + c->methods; k++) {
+        const bool is_same =
+            reason && k->reason ? strcmp(reason, k->reason) == 0 : reason == k->reason;
+        if (!is_same || (k->preserved & preserved) != preserved) continue;
+        length += (size_t)snprintf(text + length, sizeof text - length, "%s%.40s",
+                                   length > 0 ? " " : "", k->name);
+    }
+    check_item(c, CHECK_INFO, what, "%s%s%s", length > 0 ? text : "no method", reason ? ": " : "",
+               reason ? reason : "");
+}
+
+void check_methods(check *c)
+{
+    examine_methods(c);
+    list_methods(c, "accepted", NULL, 0);
+    for (int i = 0; i < c->methods; i++) {
+        const char *reason = c->method[i].reason;
+        int first = 0;
+        while (reason && (!c->method[first].reason || strcmp(c->method[first].reason, reason) != 0))
+            first++;
+        if (reason && first == i) list_methods(c, "refused", reason, 0);
+    }
+    list_methods(c, "E is preserved by", NULL, 1u << CHECK_PRESERVES_E);
+    list_methods(c, "the lift's form is preserved by", NULL, 1u << CHECK_PRESERVES_FORM);
+    list_methods(c, "reversal is preserved by", NULL, 1u << CHECK_PRESERVES_REVERSAL);
 }

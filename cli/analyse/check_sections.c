@@ -529,4 +529,5 @@ const struct check_section check_sections[CHECK_SECTIONS] = {
     {"exact solution", check_exact},
     {"Dirac's algebra in 6n+2", check_algebra},
     {"actions", check_action},
+    {"methods", check_methods},
 };

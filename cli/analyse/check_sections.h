@@ -5,7 +5,7 @@
 #include "check.h"
 
 /* In their order.  Each prints items, or none where it does not apply to the system. */
-enum { CHECK_SECTIONS = 8 };
+enum { CHECK_SECTIONS = 9 };
 extern const struct check_section {
     const char *title;
     void (*examine)(check *c);

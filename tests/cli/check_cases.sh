@@ -34,6 +34,8 @@ try 0 check vertical-disk
 prints '^  rank of G at the start +ok +2 of 2'
 prints '^  second-class constraints +ok +rank 8 of 17 x 17 brackets'
 prints '^  growth vector of D = 0 +info +\(2, 3, 4\) on q: nonholonomic, every'
+prints '^  refused +info +isokinetic-splitting: the system has'
+prints '^  E is preserved by +info +.*discrete-gradient'
 try 0 check appell-hamel
 prints '^  growth vector of D = 0 +info +none: constraint 1 is not linear in'
 try 0 check plane.yaml

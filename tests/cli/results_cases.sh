@@ -117,7 +117,11 @@ holds "the failure" json out "
     and d['failed'] == 1 and d['title'] == '\u03b8 \"twice\"\ta'"
 results 0 check heisenberg
 holds "integrators" json out "{'gauss4', '+project'} <= set(d['preserving'])
-    and 'rk4' not in d['preserving'] and d['growth_complete']"
+    and 'rk4' not in d['preserving'] and d['growth_complete']
+    and {k['integrator'] for k in d['methods'] if 'D' in k['preserves']} == set(d['preserving'])
+    and [k['preserves'] for k in d['methods'] if k['integrator'] == 'rk4'] == [[]]
+    and [(k['accepted'], k['preserves']) for k in d['methods'] if k['integrator'] == 'isokinetic-splitting']
+        == [(False, [])]"
 
 case_is "order as JSON"
 results 0 order $friction --time 2 --integrators rk4,isokinetic-splitting --output order.csv
