@@ -8,12 +8,14 @@
 #include <math.h>
 #include <stdlib.h>
 
-uint8_t *dal__reach(dal__graph *graph, dal__node node)
+uint8_t *dal__reach_all(dal__graph *graph, const dal__node *nodes, int count)
 {
-    uint8_t *mark = dal__per_node(graph, node, 1);
+    dal__node last = 0;
+    for (int k = 0; k < count; k++) last = nodes[k] > last ? nodes[k] : last;
+    uint8_t *mark = dal__per_node(graph, last, 1);
     if (!mark) return NULL;
-    mark[node] = 1;
-    for (dal__node i = node; i > 0; i--) {
+    for (int k = 0; k < count; k++) mark[nodes[k]] = 1;
+    for (dal__node i = last; i > 0; i--) {
         if (!mark[i]) continue;
         const dal__record *r = &graph->node[i];
         mark[r->a] = mark[r->b] = mark[r->c] = 1;
@@ -21,6 +23,8 @@ uint8_t *dal__reach(dal__graph *graph, dal__node node)
     mark[0] = 0;
     return mark;
 }
+
+uint8_t *dal__reach(dal__graph *graph, dal__node node) { return dal__reach_all(graph, &node, 1); }
 
 bool dal__depends(dal__graph *graph, dal__node node, int first, int end)
 {
@@ -117,17 +121,23 @@ static dal__node replaced(dal__graph *graph, dal__node i, const dal__node *image
     return dal__rebuild(graph, i, image);
 }
 
+void dal__substitute_all(dal__graph *graph, int nodes, dal__node *node, const int *symbols,
+                         int count, const dal__node *by)
+{
+    dal__node last = 0;
+    for (int k = 0; k < nodes; k++) last = node[k] > last ? node[k] : last;
+    uint8_t *mark = dal__reach_all(graph, node, nodes);
+    dal__node *image = dal__per_node(graph, last, sizeof *image);
+    for (dal__node i = 1; mark && image && i <= last; i++)
+        if (mark[i]) image[i] = replaced(graph, i, image, symbols, count, by);
+    for (int k = 0; k < nodes; k++) node[k] = mark && image ? image[node[k]] : 0;
+    free(mark);
+    free(image);
+}
+
 dal__node dal__substitute(dal__graph *graph, dal__node f, const int *symbols, int count,
                           const dal__node *by)
 {
-    uint8_t *mark = dal__reach(graph, f);
-    dal__node *image = dal__per_node(graph, f, sizeof *image), result = 0;
-    if (mark && image) {
-        for (dal__node i = 1; i <= f; i++)
-            if (mark[i]) image[i] = replaced(graph, i, image, symbols, count, by);
-        result = image[f];
-    }
-    free(mark);
-    free(image);
-    return result;
+    dal__substitute_all(graph, 1, &f, symbols, count, by);
+    return f;
 }

@@ -7,6 +7,8 @@
 /* Marks node and all nodes it depends on, [node + 1]; NULL, and the status of the graph is
  * DAL_MEMORY, when memory is out. [alloc] */
 uint8_t *dal__reach(dal__graph *graph, dal__node node);
+/* The same of several nodes, up to the last of them. [alloc] */
+uint8_t *dal__reach_all(dal__graph *graph, const dal__node *nodes, int count);
 /* Whether node depends on a symbol with first <= symbol < end; true when memory is out, as
  * above. */
 bool dal__depends(dal__graph *graph, dal__node node, int first, int end);
@@ -48,7 +50,9 @@ double dal__evaluate(dal__graph *graph, dal__node node, const double *values);
 
 /* Node i again, with each operand x replaced by image[x]. */
 dal__node dal__rebuild(dal__graph *graph, dal__node i, const dal__node *image);
-/* f with each symbols[i] replaced by the node by[i]. */
+/* Replaces in these nodes, or in f, each symbols[i] by the node by[i]. */
+void dal__substitute_all(dal__graph *graph, int nodes, dal__node *node, const int *symbols,
+                         int count, const dal__node *by);
 dal__node dal__substitute(dal__graph *graph, dal__node f, const int *symbols, int count,
                           const dal__node *by);
 
