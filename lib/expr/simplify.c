@@ -112,6 +112,44 @@ static double take_number(dal__graph *graph, dal__node *c)
     return graph->node[r.a].value;
 }
 
+/* The factors of a product in ascending order; 0 when they are more than MAX_FACTORS. */
+static int factors(const dal__graph *graph, dal__node node, dal__node *out)
+{
+    dal__node open[MAX_FACTORS] = {node};
+    int opened = 1, count = 0;
+    while (opened > 0) {
+        dal__record r = graph->node[open[--opened]];
+        dal__node f = open[opened];
+        if (r.op == DAL__MUL) {
+            if (opened + 2 > MAX_FACTORS) return 0;
+            open[opened++] = r.a;
+            open[opened++] = r.b;
+            continue;
+        }
+        if (count == MAX_FACTORS) return 0;
+        int i = count++;
+        for (; i > 0 && out[i - 1] > f; i--) out[i] = out[i - 1];
+        out[i] = f;
+    }
+    return count;
+}
+
+/* The product of two fixed nodes without numeric factors: their factors in ascending order, so that
+ * equal products are one node. */
+static dal__node fixed_product(dal__graph *graph, dal__node c, dal__node d)
+{
+    dal__node x[MAX_FACTORS], y[MAX_FACTORS];
+    if (is_one(graph, c) || is_one(graph, d)) return is_one(graph, c) ? d : c;
+    const int nx = factors(graph, c, x), ny = factors(graph, d, y);
+    if (nx == 0 || ny == 0) return commute(graph, DAL__MUL, c, d);
+    dal__node product = 0;
+    for (int i = 0, j = 0; i < nx || j < ny;) {
+        const dal__node next = j == ny || (i < nx && x[i] <= y[j]) ? x[i++] : y[j++];
+        product = product ? dal__intern(graph, DAL__MUL, next, product) : next;
+    }
+    return product;
+}
+
 /* The product of two fixed nodes without signs; 0 where a numeric factor would over- or underflow.
  */
 static dal__node coefficients(dal__graph *graph, dal__node c, dal__node d)
@@ -123,8 +161,7 @@ static dal__node coefficients(dal__graph *graph, dal__node c, dal__node d)
     if (s.op == DAL__DIV && s.b == c) return s.a;
     double value = take_number(graph, &c) * take_number(graph, &d);
     if (!isnormal(value)) return 0;
-    dal__node number = dal__number(graph, value);
-    dal__node rest = is_one(graph, c) ? d : is_one(graph, d) ? c : commute(graph, DAL__MUL, c, d);
+    dal__node number = dal__number(graph, value), rest = fixed_product(graph, c, d);
     if (is_one(graph, number)) return rest;
     return is_one(graph, rest) ? number : dal__intern(graph, DAL__MUL, number, rest);
 }
@@ -172,11 +209,9 @@ static dal__node ratio(dal__graph *graph, dal__node c, dal__node d)
     dal__record r = graph->node[c], s = graph->node[d];
     if (r.op == DAL__NUMBER && s.op == DAL__NUMBER && isfinite(r.value / s.value))
         return dal__number(graph, r.value / s.value);
-    if (s.op == DAL__DIV) {
-        dal__node product = coefficients(graph, c, reciprocal(graph, d));
-        if (product) return product;
-    }
-    return dal__intern(graph, DAL__DIV, c, d);
+    dal__node inverse = s.op == DAL__DIV || s.op == DAL__NUMBER ? reciprocal(graph, d) : 0;
+    dal__node product = inverse ? coefficients(graph, c, inverse) : 0;
+    return product ? product : dal__intern(graph, DAL__DIV, c, d);
 }
 
 /* u/w with w not fixed and u, w without coefficients of their own. */
@@ -242,28 +277,6 @@ dal__node dal__node_div(dal__graph *graph, dal__node a, dal__node b)
 static dal__node signed_sum(dal__graph *graph, term x, term y);
 
 /* ---- sums: f sin(u)^2 + f cos(u)^2 ---- */
-
-/* The factors of a product in ascending order; 0 when they are more than MAX_FACTORS. */
-static int factors(const dal__graph *graph, dal__node node, dal__node *out)
-{
-    dal__node open[MAX_FACTORS] = {node};
-    int opened = 1, count = 0;
-    while (opened > 0) {
-        dal__record r = graph->node[open[--opened]];
-        dal__node f = open[opened];
-        if (r.op == DAL__MUL) {
-            if (opened + 2 > MAX_FACTORS) return 0;
-            open[opened++] = r.a;
-            open[opened++] = r.b;
-            continue;
-        }
-        if (count == MAX_FACTORS) return 0;
-        int i = count++;
-        for (; i > 0 && out[i - 1] > f; i--) out[i] = out[i - 1];
-        out[i] = f;
-    }
-    return count;
-}
 
 typedef struct comparison {
     dal__node common[MAX_FACTORS], left[MAX_FACTORS], right[MAX_FACTORS];

@@ -1,5 +1,9 @@
 /* elimination.c - symbolic elimination with pivots chosen numerically.
  *
+ *     P M Q = L U:   u_kj = m_kj - sum_l l_kl u_lj,   l_ik = (m_ik - sum_l l_il u_lk) / u_kk
+ *
+ * Of a symmetric matrix with pivots on the diagonal only one half is computed, for U = D L^T.
+ *
  * The pivots are chosen before any node is made, by eliminating the numbers at the default start
  * (or near it, when the matrix is singular there).  Among the entries of at
  * least a tenth of the largest, each relative to the size of its row and column, the first choice
@@ -7,9 +11,10 @@
  * (no cancellation), then those of the diagonal (they preserve the symmetry).  W may thus be
  * indefinite and have zeros on its diagonal.
  *
- * Every other pivot is checked along a run against the sum of the absolute values it came from. */
+ * Pivots that come from a subtraction are checked along a run against what it subtracted from. */
 #include "model/elimination.h"
 #include "core/vectors.h"
+#include "expr/collect.h"
 #include "expr/simplify.h"
 #include "expr/traversal.h"
 #include "model/model.h"
@@ -141,13 +146,13 @@ static int order(plan *p)
 /* Chooses the pivots at the start or, where the matrix is singular there, at a point moved off it
  * by irregular amounts between 1/8 and 5/8, multiples of the golden ratio modulo 1/2: what is
  * singular there too is singular everywhere. */
-static dal_status make_plan(dal_model *model, dal__linear *s, plan *p)
+static dal_status make_plan(dal_model *model, dal__factors *f, plan *p)
 {
     const dal__equations *e = &model->equations;
-    const size_t n = (size_t)s->n;
+    const size_t n = (size_t)f->n;
     double *point = dal__model_allocate(model, (size_t)e->symbols, sizeof *point);
     double *scratch = dal__model_allocate(model, n * n, sizeof *scratch);
-    *p = (plan){.n = s->n,
+    *p = (plan){.n = f->n,
                 .value = dal__model_allocate(model, n * n, sizeof *p->value),
                 .flag = dal__model_allocate(model, n * n, sizeof *p->flag),
                 .row_root = dal__model_allocate(model, n, sizeof *p->row_root),
@@ -155,124 +160,202 @@ static dal_status make_plan(dal_model *model, dal__linear *s, plan *p)
                 .place = dal__model_allocate(model, n, sizeof *p->place),
                 .entry = dal__model_allocate(model, n * n, sizeof *p->entry),
                 .entries = dal__model_allocate(model, n, sizeof *p->entries),
-                .row = dal__model_allocate(model, n, sizeof *p->row),
-                .column = dal__model_allocate(model, n, sizeof *p->column)};
+                .row = f->row,
+                .column = f->column};
     if (model->out_of_memory) return DAL_MEMORY;
-    evaluate(p, e, s->matrix, e->value);
-    s->positive = dal__is_positive_definite(s->n, p->value, DAL__PIVOT_LEAST, scratch);
-    s->singular = order(p);
-    if (s->singular < 0) return DAL_OK;
+    evaluate(p, e, f->matrix, e->value);
+    f->positive = dal__is_positive_definite(f->n, p->value, DAL__PIVOT_LEAST, scratch);
+    f->singular = order(p);
+    if (f->singular < 0) return DAL_OK;
     const double golden = 0.6180339887498949;
     for (int i = 0; i < e->symbols; i++) {
         point[i] = e->value[i];
         if (i >= e->parameters) point[i] += 0.125 + 0.5 * fmod((i + 1) * golden, 1.0);
     }
-    evaluate(p, e, s->matrix, point);
-    s->singular = order(p);
+    evaluate(p, e, f->matrix, point);
+    f->singular = order(p);
     DAL_TRY(e->graph->status);
-    return s->singular < 0 ? DAL_OK : DAL_SINGULAR;
+    return f->singular < 0 ? DAL_OK : DAL_SINGULAR;
 }
 
 /* ---- the elimination ---- */
 
-/* The same in nodes; size[] holds the sums of absolute values. */
-typedef struct elimination {
-    dal__graph *graph;
-    dal__linear *s;
-    const plan *p;
-    dal__node *size;
-    dal__node *reciprocal; /* [n] of the pivots */
-} elimination;
-
-/* x over pivot k.  A single right-hand side is divided, with one rounding: that of a multiplied
- * reciprocal would be the same in every step where the pivot is constant, and make D drift. */
-static dal__node over_pivot(elimination *w, dal__node x, int k)
+static bool is_zero(const dal__graph *graph, dal__node node)
 {
-    const plan *p = w->p;
-    dal__node pivot = w->s->matrix[p->row[k] * w->s->n + p->column[k]];
-    if (w->s->columns == 1) return dal__node_div(w->graph, x, pivot);
-    return dal__node_mul(w->graph, x, w->reciprocal[k]);
+    return dal__is_number(graph, node, 0.0);
 }
 
-static bool is_zero(const elimination *w, dal__node node)
+/* Entry of the row and the column of pivots i and j. */
+static dal__node *at(const dal__factors *f, int i, int j)
 {
-    return dal__is_number(w->graph, node, 0.0);
+    return &f->matrix[f->row[i] * f->n + f->column[j]];
 }
 
-static void subtract(elimination *w, dal__node *from, dal__node a, dal__node b)
+/* Subtracts multiples of row k from those below, which keep the factors in column k. */
+static void eliminate(dal__graph *graph, dal__factors *f, int k, bool symmetric, int *below)
 {
-    if (!is_zero(w, a) && !is_zero(w, b))
-        *from = dal__node_sub(w->graph, *from, dal__node_mul(w->graph, a, b));
-}
-
-static void eliminate_row(elimination *w, int k, int other)
-{
-    int n = w->s->n, columns = w->s->columns, row = w->p->row[k];
-    dal__node *below = w->s->matrix + other * n, *pivots = w->s->matrix + row * n;
-    dal__node first = below[w->p->column[k]];
-    if (is_zero(w, first)) return;
-    dal__node factor = over_pivot(w, first, k);
-    for (int j = k + 1; j < n; j++) {
-        int c = w->p->column[j];
-        if (is_zero(w, pivots[c])) continue;
-        dal__node product = dal__node_mul(w->graph, factor, pivots[c]);
-        dal__node size = dal__apply(w->graph, DAL__ABS, product, 0);
-        below[c] = dal__node_sub(w->graph, below[c], product);
-        w->size[other * n + c] = dal__node_add(w->graph, w->size[other * n + c], size);
+    const int n = f->n;
+    int rows = 0;
+    for (int i = k + 1; i < n; i++)
+        if (!is_zero(graph, *at(f, i, k))) below[rows++] = i;
+    const dal__node pivot = *at(f, k, k);
+    const dal__node inverse = dal__node_div(graph, dal__number(graph, 1.0), pivot);
+    for (int r = rows; r-- > 0;) {
+        const int i = below[r];
+        const dal__node first = *at(f, i, k);
+        const dal__node factor =
+            rows > 1 ? dal__node_mul(graph, first, inverse) : dal__node_div(graph, first, pivot);
+        for (int j = symmetric ? i : k + 1; j < n; j++) {
+            const dal__node beside = *at(f, k, j);
+            if (is_zero(graph, beside)) continue;
+            *at(f, i, j) = dal__node_sub(graph, *at(f, i, j), dal__node_mul(graph, factor, beside));
+        }
+        *at(f, i, k) = factor;
     }
-    for (int j = 0; j < columns; j++)
-        subtract(w, &w->s->rhs[other * columns + j], factor, w->s->rhs[row * columns + j]);
+    for (int r = 0; symmetric && r < rows; r++)
+        for (int s = 0; s < r; s++) *at(f, below[r], below[s]) = *at(f, below[s], below[r]);
 }
 
-static void record_pivot(dal__equations *e, const elimination *w, int k)
+/* ---- the pivots ---- */
+
+/* Whether a node is a product of symbols, functions and what is constant along a run: computed
+ * without a subtraction.  Products deeper than DEPTH count as sums. */
+static bool is_product(const dal__graph *graph, dal__node node, int depth)
 {
-    int row = w->p->row[k], place = row * w->s->n + w->p->column[k];
-    int last = w->p->column[k] > row ? w->p->column[k] : row;
-    bool varying = dal__depends(e->graph, w->s->matrix[place], e->parameters, e->symbols);
-    if (dal__inspect(e->graph, w->s->matrix[place]).op == DAL__NUMBER) return;
-    e->pivot[e->pivots++] =
-        (dal__pivot){.pivot = w->s->matrix[place],
-                     .size = w->size[place],
-                     .constraint = last >= w->s->border ? last - w->s->border + 1 : 0,
-                     .checked = varying && w->p->flag[place] & TOUCHED};
+    const dal__record r = dal__inspect(graph, node);
+    if (r.fixed || r.op == DAL__SYMBOL) return true;
+    if (depth == 0 || r.op == DAL__ADD || r.op == DAL__SUB) return false;
+    if (r.op == DAL__MUL || r.op == DAL__DIV)
+        return is_product(graph, r.a, depth - 1) && is_product(graph, r.b, depth - 1);
+    return r.op != DAL__NEG || is_product(graph, r.a, depth - 1);
+}
+
+/* What pivot k came from: the sum of the absolute values of the entry and of all that was
+ * subtracted but the last, which cannot be the only large one when the pivot is small. */
+static dal__node pivot_size(dal__graph *graph, const dal__factors *f, dal__node entry, int k)
+{
+    dal__node size = dal__apply(graph, DAL__ABS, entry, 0), last = 0;
+    for (int l = 0; l < k; l++) {
+        const dal__node left = *at(f, k, l), right = *at(f, l, k);
+        if (is_zero(graph, left) || is_zero(graph, right)) continue;
+        if (last) size = dal__node_add(graph, size, dal__apply(graph, DAL__ABS, last, 0));
+        last = dal__node_mul(graph, left, right);
+    }
+    return size;
+}
+
+void dal__record_pivots(dal__equations *e, const dal__factors *f, bool of_mass, bool of_motion)
+{
+    enum { DEPTH = 8 };
+    for (int k = 0; k < f->n; k++) {
+        const dal__node pivot = *at(f, k, k), entry = f->given[f->row[k] * f->n + f->column[k]];
+        const int by_row = f->constraint[f->row[k]], by_column = f->constraint[f->column[k]];
+        if (dal__inspect(e->graph, pivot).op == DAL__NUMBER) continue;
+        e->pivot[e->pivots++] =
+            (dal__pivot){.pivot = pivot,
+                         .size = pivot_size(e->graph, f, entry, k),
+                         .constraint = by_row > by_column ? by_row : by_column,
+                         .checked = pivot != entry && !is_product(e->graph, pivot, DEPTH),
+                         .of_mass = of_mass,
+                         .of_motion = of_motion};
+    }
+}
+
+/* ---- the whole ---- */
+
+bool dal__factors_allocate(dal_model *model, dal__factors *f, int n, const int *constraints)
+{
+    int *constraint = dal__model_allocate(model, (size_t)n, sizeof *constraint);
+    *f = (dal__factors){.n = n, .constraint = constraint};
+    f->matrix = dal__model_nodes(model, n * n, 0);
+    for (int i = 0; constraint && constraints && i < n; i++) constraint[i] = constraints[i] + 1;
+    return !model->out_of_memory;
+}
+
+/* Lists the entries of both triangles row by row, for sparse solutions. */
+static bool list_entries(dal_model *model, dal__factors *f)
+{
+    const dal__graph *graph = model->equations.graph;
+    const int n = f->n;
+    int count = 0;
+    f->first = dal__model_allocate(model, 2 * (size_t)n + 1, sizeof *f->first);
+    for (int i = 0; i < n * n; i++) count += !is_zero(graph, f->matrix[i]);
+    f->other = dal__model_allocate(model, (size_t)count, sizeof *f->other);
+    if (model->out_of_memory) return false;
+    count = 0;
+    for (int i = 0; i < n; i++) {
+        f->first[2 * i] = count;
+        for (int j = 0; j < i; j++)
+            if (!is_zero(graph, *at(f, i, j))) f->other[count++] = j;
+        f->first[2 * i + 1] = count;
+        for (int j = i + 1; j < n; j++)
+            if (!is_zero(graph, *at(f, i, j))) f->other[count++] = j;
+    }
+    f->first[2 * n] = count;
+    return true;
 }
 
 /* Eliminating n coordinates makes n^3/3 nodes of a full matrix, and few of one that couples each
  * with a few others. */
-static bool is_too_dense(const dal__graph *graph, const dal__linear *s)
+dal_status dal__factor(dal_model *model, dal__factors *f)
 {
     enum { MAX_FULL = 256, MAX_COUPLED = 64 };
+    dal__equations *e = &model->equations;
+    const size_t n = (size_t)f->n;
+    const long coupled = (long)MAX_COUPLED * f->n;
     long entries = 0;
-    for (int i = 0; i < s->n * s->n && s->n > MAX_FULL; i++)
-        entries += !dal__is_number(graph, s->matrix[i], 0.0);
-    return entries > (long)MAX_COUPLED * s->n;
+    bool symmetric = true;
+    plan p;
+    for (size_t i = 0; i < n * n; i++) entries += !is_zero(e->graph, f->matrix[i]);
+    if (f->n > MAX_FULL && entries > coupled) return DAL_TOO_LARGE;
+    f->given = dal__model_nodes(model, f->n * f->n, 0);
+    int *below = dal__model_allocate(model, n, sizeof *below);
+    f->row = dal__model_allocate(model, n, sizeof *f->row);
+    f->column = dal__model_allocate(model, n, sizeof *f->column);
+    if (model->out_of_memory) return DAL_MEMORY;
+    for (size_t i = 0; i < n * n; i++) f->given[i] = f->matrix[i];
+    DAL_TRY(make_plan(model, f, &p));
+    for (int i = 0; i < f->n; i++) {
+        symmetric = symmetric && f->row[i] == f->column[i];
+        for (int j = 0; j < i && symmetric; j++)
+            symmetric = f->matrix[i * f->n + j] == f->matrix[j * f->n + i];
+    }
+    for (int k = 0; k < f->n; k++) eliminate(e->graph, f, k, symmetric, below);
+    if (!list_entries(model, f)) return DAL_MEMORY;
+    return e->graph->status;
 }
 
-dal_status dal__linear_solve(dal_model *model, dal__linear *s)
+/* One right-hand side; y[n] is scratch.  The last division has one rounding: that of a multiplied
+ * reciprocal would be the same in every step where the pivot is constant, and make D drift. */
+static void solve_one(dal__graph *graph, const dal__factors *f, bool collect, const dal__node *rhs,
+                      dal__node *x, dal__node *y)
 {
-    dal__equations *e = &model->equations;
-    plan p;
-    if (is_too_dense(e->graph, s)) return DAL_TOO_LARGE;
-    elimination w = {.graph = e->graph, .s = s, .p = &p};
-    DAL_TRY(make_plan(model, s, &p));
-    w.size = dal__model_nodes(model, s->n * s->n, 0);
-    w.reciprocal = dal__model_nodes(model, s->n, 0);
-    if (model->out_of_memory) return DAL_MEMORY;
-    dal__node one = dal__number(e->graph, 1.0);
-    for (int i = 0; i < s->n * s->n; i++)
-        w.size[i] = dal__apply(e->graph, DAL__ABS, s->matrix[i], 0);
-    for (int k = 0; k < s->n; k++) {
-        record_pivot(e, &w, k);
-        w.reciprocal[k] = dal__node_div(e->graph, one, s->matrix[p.row[k] * s->n + p.column[k]]);
-        for (int i = k + 1; i < s->n; i++) eliminate_row(&w, k, p.row[i]);
-    }
-    for (int k = s->n; k-- > 0;)
-        for (int j = 0; j < s->columns; j++) { /* those of the later pivots are known */
-            dal__node x = s->rhs[p.row[k] * s->columns + j];
-            for (int l = k + 1; l < s->n; l++)
-                subtract(&w, &x, s->matrix[p.row[k] * s->n + p.column[l]],
-                         s->x[p.column[l] * s->columns + j]);
-            s->x[p.column[k] * s->columns + j] = over_pivot(&w, x, k);
+    for (int k = 0; k < f->n; k++) {
+        y[k] = rhs[f->row[k]];
+        for (int l = f->first[2 * k]; l < f->first[2 * k + 1]; l++) {
+            const int j = f->other[l];
+            if (!is_zero(graph, y[j]))
+                y[k] = dal__node_sub(graph, y[k], dal__node_mul(graph, *at(f, k, j), y[j]));
         }
-    return e->graph->status;
+        if (collect && f->first[2 * k] < f->first[2 * k + 1]) y[k] = dal__collect(graph, y[k]);
+    }
+    for (int k = f->n; k-- > 0;) {
+        for (int l = f->first[2 * k + 1]; l < f->first[2 * k + 2]; l++) {
+            const int j = f->other[l];
+            const dal__node known = x[f->column[j]];
+            if (!is_zero(graph, known))
+                y[k] = dal__node_sub(graph, y[k], dal__node_mul(graph, *at(f, k, j), known));
+        }
+        x[f->column[k]] = dal__node_div(graph, y[k], *at(f, k, k));
+    }
+}
+
+dal_status dal__solve(dal_model *model, const dal__factors *f, bool collect, int columns,
+                      const dal__node *rhs, dal__node *x)
+{
+    dal__graph *graph = model->equations.graph;
+    dal__node *y = dal__model_nodes(model, f->n, 0);
+    if (!y) return DAL_MEMORY;
+    for (int c = 0; c < columns; c++) solve_one(graph, f, collect, rhs + c * f->n, x + c * f->n, y);
+    return graph->status;
 }

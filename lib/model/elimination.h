@@ -2,22 +2,33 @@
 #ifndef DAL_MODEL_ELIMINATION_H
 #define DAL_MODEL_ELIMINATION_H
 
-#include "expr/graph.h"
+#include "model/equations.h"
 
-/* A linear system of nodes, matrix x = rhs.  Rows and columns from border on belong to
- * constraints (from 1), those before to the mass matrix. */
-typedef struct dal__linear {
-    int n, columns, border;
-    dal__node *matrix; /* [n*n], destroyed */
-    dal__node *rhs;    /* [n*columns], destroyed */
-    dal__node *x;      /* [n*columns], the solution */
-    int singular;      /* on DAL_SINGULAR: the row without a pivot */
-    bool positive;     /* the matrix, being symmetric, is positive definite at the default start */
-} dal__linear;
+/* A matrix of nodes and, after dal__factor, its triangular factors.  All lies in the model's
+ * memory. */
+typedef struct dal__factors {
+    int n;
+    dal__node *matrix;     /* [n*n]; factored in place */
+    const int *constraint; /* [n]: whose row and column it is, from 1; 0: of the mass matrix */
+    int singular;          /* on DAL_SINGULAR: the row without a pivot */
+    bool positive;         /* the matrix, being symmetric, is positive definite at the start */
+    dal__node *given;      /* [n*n] the matrix as it was */
+    int *row, *column;     /* [n] of the pivots, in their order */
+    int *first, *other;    /* the entries left and right of each pivot, see list_entries */
+} dal__factors;
 
-/* Solves by elimination and appends the pivots to the equations.
- * Errors: DAL_MEMORY, DAL_SINGULAR, DAL_TOO_LARGE (more than 256 unknowns, too many of
- * them coupled). */
-dal_status dal__linear_solve(dal_model *model, dal__linear *linear);
+/* Sets up to be factored a matrix of n rows that belong to the mass matrix (NULL) or to these
+ * constraints; its nodes are 0.  False: out of memory. */
+bool dal__factors_allocate(dal_model *model, dal__factors *factors, int n, const int *constraints);
+/* Factors the matrix.  Errors: DAL_MEMORY, DAL_SINGULAR, DAL_TOO_LARGE (more than 256 unknowns, too
+ * many of them coupled). */
+dal_status dal__factor(dal_model *model, dal__factors *factors);
+/* Appends the pivots to those of the equations. */
+void dal__record_pivots(dal__equations *equations, const dal__factors *factors, bool of_mass,
+                        bool of_motion);
+/* Solves for right-hand sides [columns*n], one after the other, into x[columns*n]; collect: with
+ * sums in few operations (collect.h).  Errors: DAL_MEMORY, DAL_TOO_LARGE. */
+dal_status dal__solve(dal_model *model, const dal__factors *factors, bool collect, int columns,
+                      const dal__node *rhs, dal__node *x);
 
 #endif

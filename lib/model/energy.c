@@ -25,6 +25,7 @@
 #include "expr/simplify.h"
 #include "expr/traversal.h"
 #include "model/model.h"
+#include "model/motion.h"
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>

@@ -10,11 +10,13 @@
  *     ( L'_vv  -A^T ) (dv/dt)   ( L'_q - L'_vq v - L'_vt + Q )
  *     (   A      0  ) (dg/dt) = (       - D_q v - D_t        )  */
 #include "model/equations.h"
+#include "expr/angles.h"
 #include "expr/derivative.h"
 #include "expr/simplify.h"
 #include "expr/traversal.h"
 #include "model/elimination.h"
 #include "model/model.h"
+#include "model/motion.h"
 
 dal__node dal__dot(dal__graph *graph, int count, const dal__node *a, const dal__node *b)
 {
@@ -28,17 +30,6 @@ dal__node dal__dot(dal__graph *graph, int count, const dal__node *a, const dal__
 dal__node dal__time_derivative(const dal__equations *e, dal__node f)
 {
     return dal__tangent(e->graph, f, e->symbol + e->t, 1 + e->n, e->flow);
-}
-
-/* status: of dal__linear_solve. */
-static dal_status unsolved(const dal_model *model, dal_status status, const char *matrix,
-                           dal_error *error)
-{
-    const dal__equations *e = &model->equations;
-    if (status == DAL_TOO_LARGE && e->graph->status == DAL_OK)
-        return dal__fail(error, status, "%s of %d coordinates couples too many of them", matrix,
-                         e->n);
-    return dal__size_error(e->graph->status, error);
 }
 
 static dal_status exhausted(const dal_model *model, dal_error *error)
@@ -80,156 +71,47 @@ static dal_status derive_constraints(dal_model *model, dal_error *error)
     return DAL_OK;
 }
 
-/* ---- Lagrange-d'Alembert ---- */
-
-static bool allocate_linear(dal_model *model, dal__linear *s, int n, int columns, int border)
-{
-    *s = (dal__linear){.n = n, .columns = columns, .border = border};
-    s->matrix = dal__model_nodes(model, n * n, 0);
-    s->rhs = dal__model_nodes(model, n * columns, 0);
-    s->x = dal__model_nodes(model, n * columns, 0);
-    return !model->out_of_memory;
-}
-
-dal_status dal__solve_vector(dal_model *model, int n, const dal__node *matrix, const dal__node *rhs,
-                             dal__node *x)
-{
-    dal__equations *e = &model->equations;
-    const int pivots = e->pivots;
-    dal__linear s;
-    if (!allocate_linear(model, &s, n, 1, n)) return DAL_MEMORY;
-    for (int i = 0; i < n * n; i++) s.matrix[i] = matrix[i];
-    for (int i = 0; i < n; i++) s.rhs[i] = rhs[i];
-    dal_status status = dal__linear_solve(model, &s);
-    e->pivots = pivots;
-    for (int i = 0; i < n; i++) x[i] = s.x[i];
-    return status;
-}
-
-/* The column of W^-1 B_a; that of W^-1 A_a is 1 + a. */
-static int force_column(const dal__equations *e, int a) { return 1 + a + (e->servo ? e->m : 0); }
-
-/* x = W^-1 (b, A^T, B^T), the last only where it differs from A^T. */
-static dal_status solve_mass(dal_model *model, dal__linear *s)
-{
-    dal__equations *e = &model->equations;
-    int columns = force_column(e, e->m);
-    if (!allocate_linear(model, s, e->n, columns, e->n)) return DAL_MEMORY;
-    for (int i = 0; i < e->n * e->n; i++) s->matrix[i] = e->W[i];
-    for (int i = 0; i < e->n; i++) {
-        s->rhs[i * columns] = e->b[i];
-        for (int a = 0; a < e->m; a++) {
-            s->rhs[i * columns + 1 + a] = e->A[a * e->n + i];
-            s->rhs[i * columns + force_column(e, a)] = e->B[a * e->n + i];
-        }
-    }
-    DAL_TRY(dal__linear_solve(model, s));
-    e->mass_positive = s->positive;
-    for (int i = 0; i < e->n; i++) e->a[i] = s->x[i * columns];
-    for (int i = 0; i < e->n; i++)
-        for (int a = 0; a < e->m; a++) {
-            e->U[i * e->m + a] = s->x[i * columns + 1 + a];
-            e->R[i * e->m + a] = s->x[i * columns + force_column(e, a)];
-        }
-    return DAL_OK;
-}
-
-/* A W^-1 x for column k of W^-1 (b, A^T, B^T). */
-static dal__node project(const dal__equations *e, int a, const dal__linear *mass, int k)
-{
-    dal__node sum = dal__number(e->graph, 0.0);
-    for (int i = 0; i < e->n; i++) {
-        if (dal__is_number(e->graph, e->A[a * e->n + i], 0.0)) continue;
-        dal__node term =
-            dal__node_mul(e->graph, e->A[a * e->n + i], mass->x[i * mass->columns + k]);
-        sum = dal__node_add(e->graph, sum, term);
-    }
-    return sum;
-}
-
-static dal_status singular_mass(const dal_model *model, int row, dal_error *error)
-{
-    const dal__equations *e = &model->equations;
-    const dal__entry *L = dal__model_entry(model, DAL_SECTION_LAGRANGIAN, 0);
-    return dal__fail_at(
-        error, DAL_SINGULAR_MASS, L ? L->line : 0, L ? L->column : 0,
-        "the mass matrix is singular: it does not determine the acceleration of '%s'",
-        e->coordinate[row]);
-}
-
-static dal_status dependent_constraints(const dal_model *model, int row, dal_error *error)
-{
-    const dal__entry *entry = dal__model_entry(model, DAL_SECTION_CONSTRAINTS, row);
-    return dal__fail_at(
-        error, DAL_RANK, DAL__AT_TEXT(entry),
-        model->equations.servo
-            ? "constraint %d is not held by the reactions: A W^-1 B^T is singular"
-            : "constraint %d is not independent of the others: A W^-1 A^T is singular",
-        row + 1);
-}
-
-static dal_status solve_motion(dal_model *model, dal_error *error)
-{
-    dal__equations *e = &model->equations;
-    dal__linear mass, force;
-    dal_status status = solve_mass(model, &mass);
-    if (status == DAL_SINGULAR) return singular_mass(model, mass.singular, error);
-    if (status != DAL_OK) return unsolved(model, status, "the mass matrix", error);
-    if (!allocate_linear(model, &force, e->m, 1, 0)) return exhausted(model, error);
-    for (int a = 0; a < e->m; a++) { /* G h = -(c + A W^-1 b) */
-        dal__node pull = dal__node_add(e->graph, e->c[a], project(e, a, &mass, 0));
-        force.rhs[a] = dal__node_neg(e->graph, pull);
-        for (int b = 0; b < e->m; b++)
-            force.matrix[a * e->m + b] = b < a && !e->servo
-                                             ? force.matrix[b * e->m + a]
-                                             : project(e, a, &mass, force_column(e, b));
-    }
-    status = dal__linear_solve(model, &force);
-    if (status == DAL_SINGULAR) return dependent_constraints(model, force.singular, error);
-    if (status != DAL_OK) return unsolved(model, status, "A W^-1 A^T", error);
-    for (int a = 0; a < e->m; a++) e->h[a] = force.x[a];
-    for (int i = 0; i < e->n; i++) {
-        dal__node pushed = dal__dot(e->graph, e->m, e->R + i * e->m, force.x);
-        e->F[i] = dal__node_add(e->graph, mass.x[i * mass.columns], pushed);
-    }
-    return DAL_OK;
-}
-
 /* ---- vakonomic ---- */
 
 static dal_status solve_vakonomic(dal_model *model, dal_error *error)
 {
     dal__equations *e = &model->equations;
-    dal__linear mass, s;
+    dal__factors f;
     derive_lagrangian(e, e->lagrangian);
     /* W^-1 A^T of L alone, for projections.  A singular W means that there are none: U stays 0. */
-    dal_status status = solve_mass(model, &mass);
+    dal_status status = dal__solve_mass(model, &f);
     if (status != DAL_OK && status != DAL_SINGULAR) return exhausted(model, error);
-    e->pivots = 0;
     dal__node L = e->lagrangian;
     for (int a = 0; a < e->m; a++) {
         dal__node g = dal__symbol(e->graph, e->g + a);
         L = dal__node_sub(e->graph, L, dal__node_mul(e->graph, g, e->constraint[a]));
     }
     derive_lagrangian(e, L);
-    if (!allocate_linear(model, &s, e->n + e->m, 1, e->n)) return exhausted(model, error);
-    const int n = e->n, size = s.n;
-    for (int i = 0; i < size * size; i++) s.matrix[i] = dal__number(e->graph, 0.0);
+    const int size = e->n + e->m;
+    int *constraint = dal__model_allocate(model, (size_t)size, sizeof *constraint);
+    f = (dal__factors){.n = size, .constraint = constraint};
+    f.matrix = dal__model_nodes(model, size * size, dal__number(e->graph, 0.0));
+    dal__node *rhs = dal__model_nodes(model, size, 0);
+    if (model->out_of_memory) return exhausted(model, error);
+    for (int a = 0; a < e->m; a++) constraint[e->n + a] = a + 1;
+    const int n = e->n;
     for (int i = 0; i < n; i++) {
-        s.rhs[i] = e->b[i];
-        for (int j = 0; j < n; j++) s.matrix[i * size + j] = e->W[i * n + j];
+        rhs[i] = e->b[i];
+        for (int j = 0; j < n; j++) f.matrix[i * size + j] = e->W[i * n + j];
         for (int a = 0; a < e->m; a++) {
-            s.matrix[(n + a) * size + i] = e->A[a * n + i];
-            s.matrix[i * size + n + a] = dal__node_neg(e->graph, e->A[a * n + i]);
+            f.matrix[(n + a) * size + i] = e->A[a * n + i];
+            f.matrix[i * size + n + a] = dal__node_neg(e->graph, e->A[a * n + i]);
         }
     }
-    for (int a = 0; a < e->m; a++) s.rhs[n + a] = dal__node_neg(e->graph, e->c[a]);
-    status = dal__linear_solve(model, &s);
-    if (status == DAL_SINGULAR && s.singular < e->n) return singular_mass(model, s.singular, error);
-    if (status == DAL_SINGULAR) return dependent_constraints(model, s.singular - e->n, error);
+    for (int a = 0; a < e->m; a++) rhs[n + a] = dal__node_neg(e->graph, e->c[a]);
+    status = dal__factor(model, &f);
+    if (status == DAL_SINGULAR)
+        return f.singular < e->n ? dal__singular_mass(model, f.singular, error)
+                                 : dal__dependent_constraints(model, f.singular - e->n, error);
     if (status != DAL_OK) return exhausted(model, error);
-    for (int i = 0; i < s.n; i++) e->F[i] = s.x[i];
-    return DAL_OK;
+    dal__record_pivots(e, &f, false, true);
+    status = dal__solve(model, &f, false, 1, rhs, e->F);
+    return status == DAL_OK ? DAL_OK : exhausted(model, error);
 }
 
 /* ---- the reactions in invariants ---- */
@@ -258,6 +140,38 @@ static dal_status insert_reactions(dal_model *model)
     return e->graph->status;
 }
 
+/* ---- the whole ---- */
+
+/* Writes what F is derived from, D and E with few sines and cosines: after the derivatives, which
+ * are shorter of a sine of a sum. */
+static dal_status expand_angles(dal_model *model)
+{
+    dal__equations *e = &model->equations;
+    const int n = e->n, m = e->m;
+    const struct {
+        dal__node *list;
+        int count;
+    } parts[] = {{e->W, n * n},
+                 {e->b, n},
+                 {e->A, m * n},
+                 {e->c, m},
+                 {&e->energy, e->energy != 0},
+                 {e->constraint, m},
+                 {e->B, e->servo ? m * n : 0}};
+    enum { PARTS = sizeof parts / sizeof *parts };
+    int total = 0, at = 0;
+    for (int k = 0; k < PARTS; k++) total += parts[k].count;
+    dal__node *all = dal__model_nodes(model, total, 0);
+    if (!all) return DAL_MEMORY;
+    for (int k = 0; k < PARTS; k++)
+        for (int i = 0; i < parts[k].count; i++) all[at++] = parts[k].list[i];
+    dal__expand_angles(e->graph, all, total);
+    at = 0;
+    for (int k = 0; k < PARTS; k++)
+        for (int i = 0; i < parts[k].count; i++) parts[k].list[i] = all[at++];
+    return e->graph->status;
+}
+
 dal_status dal__equations_derive(dal_model *model, dal_error *error)
 {
     dal__equations *e = &model->equations;
@@ -270,7 +184,8 @@ dal_status dal__equations_derive(dal_model *model, dal_error *error)
             e->W[i * e->n + i] = dal__number(e->graph, 1.0);
             e->b[i] = e->force[i];
         }
-        DAL_TRY(solve_motion(model, error));
+        if (expand_angles(model) != DAL_OK) return exhausted(model, error);
+        DAL_TRY(dal__motion_derive(model, error));
     }
     return insert_reactions(model) == DAL_OK ? DAL_OK : exhausted(model, error);
 }

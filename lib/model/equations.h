@@ -9,7 +9,9 @@
 typedef struct dal__pivot {
     dal__node pivot, size;
     int constraint; /* whose, from 1; 0: of the mass matrix */
-    bool checked;   /* by every program; the others only by the diagnosis */
+    bool checked;   /* by the programs that divide by it; the others only by the diagnosis */
+    bool of_mass;   /* W^-1 divides by it */
+    bool of_motion; /* F divides by it */
 } dal__pivot;
 
 /* The equations of one model.  Every array lies in the model's memory; a missing node is 0 only in
@@ -52,14 +54,15 @@ typedef struct dal__equations {
     dal__node *F;      /* [n + multipliers] */
     dal__node energy;  /* or 0 */
     dal__node *normal; /* [1 + 3n]: E, E_q, E_v, W^-1 E_q; or NULL */
-    dal__node *potential; /* [3n], see energy.c; or NULL */
-    dal__node *extended;  /* [n]: F continued off D = 0 with E exact; or NULL */
-    dal__node *guard;     /* [guards] */
-    int mass_guard;       /* which of them is det W, from 1; 0: none */
-    dal__pivot *pivot;    /* [pivots], of at most 2 (n + m) */
-    double *value;        /* [symbols]: default parameters, default start */
-    int *symbol;          /* [symbols]: 0, 1, 2, ...; symbol + q are the symbols of q */
-    dal__node *flow;      /* [1 + n]: d/dt of (t, q), that is 1 and v */
+    dal__node *potential;           /* [3n], see energy.c; or NULL */
+    dal__node *extended;            /* [n]: F continued off D = 0 with E exact; or NULL */
+    dal__node *guard;               /* [guards] */
+    int mass_guard;                 /* which of them is det W, from 1; 0: none */
+    dal__pivot *pivot;              /* [pivots], of at most 2 (n + m) */
+    struct dal__bordered *bordered; /* solves for F and h; NULL for vakonomic motion */
+    double *value;                  /* [symbols]: default parameters, default start */
+    int *symbol;                    /* [symbols]: 0, 1, 2, ...; symbol + q are the symbols of q */
+    dal__node *flow;                /* [1 + n]: d/dt of (t, q), that is 1 and v */
     /* Names. */
     const char **parameter, **coordinate, **let_name, **invariant_name, **guard_name, **tag;
     int tags;
@@ -68,9 +71,6 @@ typedef struct dal__equations {
 /* Derives everything but the given formulas.  Errors: DAL_RANK, DAL_SINGULAR_MASS, DAL_MEMORY,
  * DAL_TOO_LARGE. */
 dal_status dal__equations_derive(dal_model *model, dal_error *error);
-/* matrix x = rhs for one right-hand side; adds no pivots, for a matrix solved before. */
-dal_status dal__solve_vector(dal_model *model, int n, const dal__node *matrix, const dal__node *rhs,
-                             dal__node *x);
 /* sum_i a[i] b[i] of count nodes. */
 dal__node dal__dot(dal__graph *graph, int count, const dal__node *a, const dal__node *b);
 /* d/dt along v without accelerations: f_q v + f_t. */

@@ -16,6 +16,7 @@
 #include "expr/simplify.h"
 #include "expr/traversal.h"
 #include "model/model.h"
+#include "model/motion.h"
 #include <math.h>
 #include <string.h>
 

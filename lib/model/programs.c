@@ -4,11 +4,13 @@
  * check them lane by lane and leave NaN where one has vanished.  Field and adjoint leave the pivots
  * of A W^-1 B^T at the end of work, for the rank check. */
 #include "model/programs.h"
+#include "expr/collect.h"
 #include "expr/derivative.h"
 #include "expr/simplify.h"
 #include "expr/traversal.h"
 #include "kernel/quad.h"
 #include "model/model.h"
+#include "model/motion.h"
 #include <math.h>
 
 dal_status dal__programs_begin(const dal__equations *e, dal__programs *programs, int n,
@@ -53,7 +55,7 @@ dal_status dal__programs_add_lists(dal_model *model, dal__programs *programs,
                               code == DAL__PROGRAM_ENERGY_NORMAL;
     for (int k = 0; k < e->pivots; k++) {
         const dal__pivot *p = &e->pivot[k];
-        const bool divides = motion || (inverts_mass && p->constraint == 0 && !e->vakonomic);
+        const bool divides = (motion && p->of_motion) || (inverts_mass && p->of_mass);
         if (!p->checked || !divides) continue;
         all[total++] = p->pivot;
         all[total++] = p->size;
@@ -78,36 +80,69 @@ dal_status dal__programs_add(dal_model *model, dal__programs *programs, dal__pro
 
 /* ---- derivatives of the motion ---- */
 
+/* Derivatives of e->F follow from its equations; those of another F, by sweeps over F.  Where F is
+ * small both are made and the cheaper ones taken. */
+enum { MAX_SWEPT = 1000 };
+
+static bool has_equations(const dal__equations *e, const dal__node *F)
+{
+    return F == e->F && dal__motion_is_symmetric(e);
+}
+
+static bool is_swept(const dal__equations *e, const dal__node *F, int count)
+{
+    return !has_equations(e, F) || dal__cost(e->graph, F, count) <= MAX_SWEPT;
+}
+
+/* The cheaper of two lists where both have been made. */
+static const dal__node *cheaper(const dal__equations *e, int count, const dal__node *x,
+                                const dal__node *y)
+{
+    if (!x || !y) return x ? x : y;
+    return dal__cost(e->graph, x, count) <= dal__cost(e->graph, y, count) ? x : y;
+}
+
+/* F, F_q^T pi and F_v^T pi; by sweeps they are the gradient of pi.F. */
 static dal_status add_adjoint(dal_model *model, dal__programs *programs, const dal__node *F)
 {
     const dal__equations *e = &model->equations;
-    int n = programs->n;
-    dal__node *out = dal__model_nodes(model, 3 * n, 0);
-    if (!out) return DAL_MEMORY;
+    const int n = programs->n;
+    dal__node *swept = is_swept(e, F, n) ? dal__model_nodes(model, 3 * n, 0) : NULL;
+    dal__node *solved = has_equations(e, F) ? dal__model_nodes(model, 3 * n, 0) : NULL;
+    if (model->out_of_memory) return DAL_MEMORY;
     dal__node product = dal__number(e->graph, 0.0);
     for (int i = 0; i < n; i++) {
         dal__node pi = dal__symbol(e->graph, e->pi + i);
         product = dal__node_add(e->graph, product, dal__node_mul(e->graph, pi, F[i]));
-        out[i] = F[i];
+        if (swept) swept[i] = F[i];
+        if (solved) solved[i] = F[i];
     }
-    dal__gradient(e->graph, product, e->symbol + e->q, n, out + n);
-    dal__gradient(e->graph, product, e->symbol + e->v, n, out + 2 * n);
+    if (swept) {
+        dal__gradient(e->graph, product, e->symbol + e->q, n, swept + n);
+        dal__gradient(e->graph, product, e->symbol + e->v, n, swept + 2 * n);
+    }
+    if (solved) DAL_TRY(dal__motion_adjoint(model, solved + n, solved + 2 * n));
+    const dal__node *out = cheaper(e, 3 * n, swept, solved);
     return dal__programs_add(model, programs, DAL__PROGRAM_ADJOINT, out, 3 * n);
 }
 
+/* The derivatives by q of all, then those by v and the multipliers of all, row by row. */
 static dal_status add_jacobian(dal_model *model, dal__programs *programs, const dal__node *F)
 {
     const dal__equations *e = &model->equations;
-    int n = programs->n, g = programs->multipliers, nw = n + g;
-    dal__node *out = dal__model_nodes(model, nw * (n + nw), 0);
-    if (!out) return DAL_MEMORY;
-    for (int i = 0; i < nw; i++) {
-        dal__node *by_q = out + i * n, *by_v = out + nw * n + i * nw;
+    const int n = programs->n, nw = n + programs->multipliers, count = nw * (n + nw);
+    dal__node *swept = is_swept(e, F, nw) ? dal__model_nodes(model, count, 0) : NULL;
+    dal__node *solved = has_equations(e, F) ? dal__model_nodes(model, count, 0) : NULL;
+    if (model->out_of_memory) return DAL_MEMORY;
+    for (int i = 0; swept && i < nw; i++) {
+        dal__node *by_q = swept + i * n, *by_v = swept + nw * n + i * nw;
         dal__gradient(e->graph, F[i], e->symbol + e->q, n, by_q);
         dal__gradient(e->graph, F[i], e->symbol + e->v, n, by_v);
-        dal__gradient(e->graph, F[i], e->symbol + e->g, g, by_v + n);
+        dal__gradient(e->graph, F[i], e->symbol + e->g, nw - n, by_v + n);
     }
-    return dal__programs_add(model, programs, DAL__PROGRAM_JACOBIAN, out, nw * (n + nw));
+    if (solved) DAL_TRY(dal__motion_jacobian(model, solved, solved + n * n));
+    const dal__node *out = cheaper(e, count, swept, solved);
+    return dal__programs_add(model, programs, DAL__PROGRAM_JACOBIAN, out, count);
 }
 
 dal_status dal__programs_add_motion(dal_model *model, dal__programs *programs, const dal__node *F)

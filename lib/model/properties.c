@@ -228,7 +228,7 @@ static bool guard_determinant(search *s, bool mass, const char *name)
     dal__equations *e = &s->model->equations;
     dal__node det = dal__number(e->graph, 1.0);
     for (int k = 0; k < e->pivots; k++)
-        if (mass == (e->pivot[k].constraint == 0))
+        if (mass ? e->pivot[k].of_mass : e->pivot[k].constraint > 0)
             det = dal__node_mul(e->graph, det, e->pivot[k].pivot);
     return !e->vakonomic && append_guard(s, det, name);
 }

@@ -1,0 +1,420 @@
+/* bordered.c - the linear system of accelerations and multipliers, as nodes.
+ *
+ *     ( W  -B^T ) (F)   ( b )
+ *     ( A    0  ) (h) = (-c )         B = A by Chetaev's rule, or as given under reactions
+ *
+ * A constraint that holds a coordinate d which no other constraint contains, with a number alpha as
+ * its coefficient, may be solved for it first (the coordinates left are f):
+ *
+ *     F_d = s + S F_f,   S = -A_f / alpha,   s = -c / alpha
+ *     W' = W_ff + W_fd S + S^T W_df + S^T W_dd S,   b' = b_f - W_fd s + S^T (b_d - W_dd s)
+ *
+ * W' is positive definite where W is, so this brings no singularity of its own; where S is bounded
+ * it does not spoil the conditioning either.  The constraints left have no entry at d, and
+ *
+ *     G = A W'^-1 B^T,   G h = -(c + A W'^-1 b'),   F_f = W'^-1 (b' + B^T h)        (nh3)-(nh5)
+ *
+ * Two constraints may be replaced by half their sum and half their difference (those of a board on
+ * two axles), which changes neither singularities nor conditioning. */
+#include "model/bordered.h"
+#include "expr/collect.h"
+#include "expr/simplify.h"
+#include "expr/traversal.h"
+#include "model/model.h"
+
+/* Rows of a matrix with few entries. */
+typedef struct sparse {
+    int *first, *column; /* entries first[i] .. first[i + 1] - 1 of row i */
+    dal__node *value;
+} sparse;
+
+/* Vectors of one right-hand side. */
+typedef struct vectors {
+    dal__node *s, *u; /* [m] F_d of F_f = 0; b_d - W_dd s */
+    dal__node *t, *y; /* [n] b'; W'^-1 b', then F_f */
+    dal__node *pull;  /* [m] */
+    dal__node *force; /* [m] */
+} vectors;
+
+/* Coordinates and constraints are numbered as they are left; their numbers in the model are in free
+ * and left. */
+struct dal__bordered {
+    int way;
+    vectors scratch;
+    int solved, frees, lefts;
+    int *dependent, *by;       /* [solved] the coordinate and its constraint */
+    dal__node *alpha;          /* [solved] */
+    int *free, *left;          /* [frees], [lefts] */
+    int *partner;              /* [lefts] with which a constraint is paired; itself: with none */
+    sparse S, A, R;            /* [solved] by frees; [lefts] by frees; R = W'^-1 B^T */
+    dal__factors mass, forces; /* W', G */
+};
+
+static bool is_zero(const dal__equations *e, dal__node node)
+{
+    return dal__is_number(e->graph, node, 0.0);
+}
+
+static dal__node collect(const dal__equations *e, const dal__bordered *s, dal__node node)
+{
+    return s->way & DAL__COLLECTED ? dal__collect(e->graph, node) : node;
+}
+
+static void add_product(const dal__equations *e, dal__node *sum, dal__node a, dal__node b)
+{
+    if (!is_zero(e, a) && !is_zero(e, b))
+        *sum = dal__node_add(e->graph, *sum, dal__node_mul(e->graph, a, b));
+}
+
+static void subtract_product(const dal__equations *e, dal__node *sum, dal__node a, dal__node b)
+{
+    if (!is_zero(e, a) && !is_zero(e, b))
+        *sum = dal__node_sub(e->graph, *sum, dal__node_mul(e->graph, a, b));
+}
+
+/* Row i of a matrix times x. */
+static dal__node row_product(const dal__equations *e, const sparse *s, int i, const dal__node *x)
+{
+    dal__node sum = dal__number(e->graph, 0.0);
+    for (int k = s->first[i]; k < s->first[i + 1]; k++)
+        add_product(e, &sum, s->value[k], x[s->column[k]]);
+    return sum;
+}
+
+static bool compress(dal_model *model, sparse *s, int rows, int columns, const dal__node *matrix)
+{
+    const dal__equations *e = &model->equations;
+    int count = 0;
+    for (int i = 0; i < rows * columns; i++) count += !is_zero(e, matrix[i]);
+    s->first = dal__model_allocate(model, (size_t)rows + 1, sizeof *s->first);
+    s->column = dal__model_allocate(model, (size_t)count, sizeof *s->column);
+    s->value = dal__model_nodes(model, count, 0);
+    if (model->out_of_memory) return false;
+    count = 0;
+    for (int i = 0; i < rows; i++) {
+        for (int j = 0; j < columns; j++) {
+            if (is_zero(e, matrix[i * columns + j])) continue;
+            s->column[count] = j;
+            s->value[count++] = matrix[i * columns + j];
+        }
+        s->first[i + 1] = count;
+    }
+    return true;
+}
+
+/* ---- constraints that are solved for a coordinate ---- */
+
+/* Whether a coefficient stays below a bound that parameters alone decide. */
+static bool is_bounded(const dal__graph *graph, dal__node node, int depth)
+{
+    const dal__record r = dal__inspect(graph, node);
+    if (r.fixed || r.op == DAL__SIN || r.op == DAL__COS) return true;
+    if (depth == 0) return false;
+    if (r.op == DAL__NEG) return is_bounded(graph, r.a, depth - 1);
+    if (r.op != DAL__MUL && r.op != DAL__ADD && r.op != DAL__SUB) return false;
+    return is_bounded(graph, r.a, depth - 1) && is_bounded(graph, r.b, depth - 1);
+}
+
+/* The coordinate that constraint a is solved for: the one that W couples least; -1: none. */
+static int find_dependent(const dal__equations *e, int a)
+{
+    enum { DEPTH = 12 };
+    int best = -1, least = e->n + 1;
+    for (int i = 0; i < e->n; i++)
+        if (!is_bounded(e->graph, e->A[a * e->n + i], DEPTH)) return -1;
+    for (int d = 0; d < e->n; d++) {
+        const dal__node alpha = e->A[a * e->n + d];
+        int coupled = 0, others = 0;
+        if (is_zero(e, alpha) || dal__inspect(e->graph, alpha).op != DAL__NUMBER) continue;
+        for (int b = 0; b < e->m; b++) others += b != a && !is_zero(e, e->A[b * e->n + d]);
+        if (others > 0) continue;
+        for (int i = 0; i < e->n; i++) coupled += !is_zero(e, e->W[d * e->n + i]);
+        if (coupled < least) least = coupled, best = d;
+    }
+    return best;
+}
+
+/* Decides which constraints are solved for which coordinates, none or all that can be; makes S. */
+static bool choose_dependent(dal_model *model, dal__bordered *s)
+{
+    const dal__equations *e = &model->equations;
+    const size_t n = (size_t)e->n, m = (size_t)e->m;
+    bool *dependent = dal__model_allocate(model, n, sizeof *dependent);
+    s->dependent = dal__model_allocate(model, m, sizeof *s->dependent);
+    s->by = dal__model_allocate(model, m, sizeof *s->by);
+    s->alpha = dal__model_nodes(model, e->m, 0);
+    s->free = dal__model_allocate(model, n, sizeof *s->free);
+    s->left = dal__model_allocate(model, m, sizeof *s->left);
+    s->partner = dal__model_allocate(model, m, sizeof *s->partner);
+    if (model->out_of_memory) return false;
+    for (int a = 0; a < e->m; a++) {
+        const int d = s->way & DAL__SOLVED && !e->servo ? find_dependent(e, a) : -1;
+        if (d < 0) {
+            s->left[s->lefts++] = a;
+            continue;
+        }
+        dependent[d] = true;
+        s->dependent[s->solved] = d;
+        s->by[s->solved] = a;
+        s->alpha[s->solved++] = e->A[a * e->n + d];
+    }
+    for (int i = 0; i < e->n; i++)
+        if (!dependent[i]) s->free[s->frees++] = i;
+    dal__node *S = dal__model_nodes(model, s->solved * s->frees, 0);
+    for (int k = 0; S && k < s->solved; k++)
+        for (int i = 0; i < s->frees; i++) {
+            dal__node ratio =
+                dal__node_div(e->graph, e->A[s->by[k] * e->n + s->free[i]], s->alpha[k]);
+            S[k * s->frees + i] = dal__node_neg(e->graph, ratio);
+        }
+    return S && compress(model, &s->S, s->solved, s->frees, S);
+}
+
+/* Adds weight S_k to row and column j of a matrix of the free coordinates, of which the upper half
+ * is kept. */
+static void add_scaled_row(const dal__equations *e, const dal__bordered *s, int k, dal__node weight,
+                           int j, dal__node *out)
+{
+    for (int x = s->S.first[k]; x < s->S.first[k + 1]; x++) {
+        const int i = s->S.column[x], high = i < j ? i * s->frees + j : j * s->frees + i;
+        add_product(e, &out[high], s->S.value[x], weight);
+        if (i == j) add_product(e, &out[high], s->S.value[x], weight);
+    }
+}
+
+/* Adds S_k^T weight S_l to its upper half. */
+static void add_outer(const dal__equations *e, const dal__bordered *s, int k, int l,
+                      dal__node weight, dal__node *out)
+{
+    const sparse *S = &s->S;
+    for (int x = S->first[k]; x < S->first[k + 1]; x++) {
+        const dal__node left = dal__node_mul(e->graph, S->value[x], weight);
+        for (int y = S->first[l]; y < S->first[l + 1]; y++)
+            if (S->column[x] <= S->column[y])
+                add_product(e, &out[S->column[x] * s->frees + S->column[y]], left, S->value[y]);
+    }
+}
+
+/* W' = W_ff + W_fd S + S^T W_df + S^T W_dd S: its upper half, then the lower. */
+static void reduce_mass(const dal__equations *e, const dal__bordered *s, dal__node *out)
+{
+    const int n = e->n, f = s->frees;
+    for (int i = 0; i < f * f; i++) out[i] = e->W[s->free[i / f] * n + s->free[i % f]];
+    for (int k = 0; k < s->solved; k++) {
+        const dal__node *row = e->W + s->dependent[k] * n;
+        for (int j = 0; j < f; j++)
+            if (!is_zero(e, row[s->free[j]])) add_scaled_row(e, s, k, row[s->free[j]], j, out);
+        for (int l = 0; l < s->solved; l++)
+            if (!is_zero(e, row[s->dependent[l]])) add_outer(e, s, k, l, row[s->dependent[l]], out);
+    }
+    for (int i = 0; i < f; i++)
+        for (int j = i; j < f; j++) out[i * f + j] = out[j * f + i] = collect(e, s, out[i * f + j]);
+}
+
+/* ---- factors ---- */
+
+void dal__bordered_record_pivots(dal__equations *e, const dal__bordered *s,
+                                 const dal__factors *mass)
+{
+    e->pivots = 0;
+    dal__record_pivots(e, mass, true, s->solved == 0);
+    if (s->solved > 0) dal__record_pivots(e, &s->mass, false, true);
+    dal__record_pivots(e, &s->forces, false, true);
+}
+
+/* Half the sum and half the difference of two nodes. */
+static void combine(const dal__equations *e, dal__node *a, dal__node *b)
+{
+    const dal__node half = dal__number(e->graph, 0.5), x = *a, y = *b;
+    *a = dal__node_mul(e->graph, half, dal__node_add(e->graph, x, y));
+    *b = dal__node_mul(e->graph, half, dal__node_sub(e->graph, x, y));
+}
+
+/* The same of all pairs of a vector of the constraints left. */
+static void combine_pairs(const dal__equations *e, const dal__bordered *s, dal__node *x)
+{
+    for (int a = 0; a < s->lefts; a++)
+        if (s->partner[a] > a) combine(e, &x[a], &x[s->partner[a]]);
+}
+
+/* Pairs two constraints, and combines their rows of A, where these become cheaper. */
+static bool pair_constraints(dal_model *model, dal__bordered *s, dal__node *A)
+{
+    const dal__equations *e = &model->equations;
+    const int f = s->frees;
+    dal__node *row = dal__model_nodes(model, 2 * f, 0), *both = dal__model_nodes(model, 2 * f, 0);
+    for (int a = 0; both && a < s->lefts; a++)
+        for (int b = a + 1; b < s->lefts && s->partner[a] == a; b++) {
+            if (s->partner[b] != b) continue;
+            for (int i = 0; i < f; i++) {
+                row[i] = both[i] = A[a * f + i];
+                row[f + i] = both[f + i] = A[b * f + i];
+                combine(e, &both[i], &both[f + i]);
+            }
+            for (int i = 0; i < 2 * f; i++) both[i] = dal__collect(e->graph, both[i]);
+            if (dal__cost(e->graph, both, 2 * f) >= dal__cost(e->graph, row, 2 * f)) continue;
+            s->partner[a] = b;
+            s->partner[b] = a;
+            for (int i = 0; i < f; i++) {
+                A[a * f + i] = both[i];
+                A[b * f + i] = both[f + i];
+            }
+        }
+    return !model->out_of_memory;
+}
+
+/* R = W'^-1 B^T, and G = A R. */
+static dal_status factor_forces(dal_model *model, dal__bordered *s)
+{
+    dal__equations *e = &model->equations;
+    const int f = s->frees, m = s->lefts;
+    dal__node *A = dal__model_nodes(model, m * f, 0), *B = dal__model_nodes(model, m * f, 0);
+    dal__node *R = dal__model_nodes(model, m * f, 0);
+    int *whose = dal__model_allocate(model, (size_t)m, sizeof *whose); /* a pair's: the later */
+    if (model->out_of_memory) return DAL_MEMORY;
+    for (int a = 0; a < m; a++) {
+        s->partner[a] = a;
+        for (int i = 0; i < f; i++) {
+            A[a * f + i] = e->A[s->left[a] * e->n + s->free[i]];
+            B[a * f + i] = e->B[s->left[a] * e->n + s->free[i]];
+        }
+    }
+    if (s->way & DAL__PAIRED && !e->servo && !pair_constraints(model, s, A)) return DAL_MEMORY;
+    for (int a = 0; a < m; a++) whose[a] = s->left[s->partner[a] > a ? s->partner[a] : a];
+    if (!dal__factors_allocate(model, &s->forces, m, whose)) return DAL_MEMORY;
+    DAL_TRY(dal__solve(model, &s->mass, false, m, e->servo ? B : A, R));
+    if (!compress(model, &s->A, m, f, A) || !compress(model, &s->R, m, f, R)) return DAL_MEMORY;
+    for (int a = 0; a < m; a++)
+        for (int b = 0; b < m; b++) {
+            const bool known = b < a && !e->servo;
+            s->forces.matrix[a * m + b] = known
+                                              ? s->forces.matrix[b * m + a]
+                                              : collect(e, s, row_product(e, &s->A, a, R + b * f));
+        }
+    return dal__factor(model, &s->forces);
+}
+
+/* ---- a right-hand side ---- */
+
+/* s, u and t = b' of a right-hand side (top, bottom). */
+static void reduce_rhs(const dal__equations *e, const dal__bordered *s, const dal__node *top,
+                       const dal__node *bottom, vectors *w)
+{
+    const int n = e->n;
+    for (int k = 0; k < s->solved; k++)
+        w->s[k] = dal__node_div(e->graph, bottom[s->by[k]], s->alpha[k]);
+    for (int i = 0; i < s->frees; i++) w->t[i] = top[s->free[i]];
+    for (int k = 0; k < s->solved; k++) w->u[k] = top[s->dependent[k]];
+    for (int l = 0; l < s->solved; l++) {
+        const dal__node *row = e->W + s->dependent[l] * n;
+        if (is_zero(e, w->s[l])) continue;
+        for (int k = 0; k < s->solved; k++)
+            subtract_product(e, &w->u[k], row[s->dependent[k]], w->s[l]);
+        for (int i = 0; i < s->frees; i++) subtract_product(e, &w->t[i], row[s->free[i]], w->s[l]);
+    }
+    for (int k = 0; k < s->solved; k++)
+        for (int x = s->S.first[k]; x < s->S.first[k + 1]; x++)
+            add_product(e, &w->t[s->S.column[x]], s->S.value[x], w->u[k]);
+}
+
+/* The free coordinates and the forces left, from b' in t. */
+static dal_status solve_free(dal_model *model, const dal__bordered *s, bool forward,
+                             const dal__node *bottom, vectors *w)
+{
+    const dal__equations *e = &model->equations;
+    DAL_TRY(dal__solve(model, &s->mass, forward, 1, w->t, w->y));
+    for (int a = 0; a < s->lefts; a++) w->pull[a] = bottom[s->left[a]];
+    combine_pairs(e, s, w->pull);
+    for (int a = 0; a < s->lefts; a++) {
+        if (s->partner[a] != a) w->pull[a] = collect(e, s, w->pull[a]);
+        w->pull[a] = dal__node_sub(e->graph, w->pull[a], row_product(e, &s->A, a, w->y));
+    }
+    DAL_TRY(dal__solve(model, &s->forces, forward, 1, w->pull, w->force));
+    for (int a = 0; a < s->lefts; a++)
+        for (int x = s->R.first[a]; x < s->R.first[a + 1]; x++)
+            add_product(e, &w->y[s->R.column[x]], s->R.value[x], w->force[a]);
+    return DAL_OK;
+}
+
+/* All multipliers: those of the constraints left and, of row d of W x - A^T h, those that were
+ * solved for a coordinate. */
+static void find_forces(const dal__equations *e, const dal__bordered *s, const vectors *w,
+                        const dal__node *top, const dal__node *x, dal__node *h)
+{
+    combine_pairs(e, s, w->force);
+    for (int a = 0; a < s->lefts; a++) h[s->left[a]] = w->force[a];
+    for (int k = 0; k < s->solved; k++) {
+        const int d = s->dependent[k];
+        dal__node sum = dal__node_neg(e->graph, top[d]);
+        for (int i = 0; i < e->n; i++) add_product(e, &sum, e->W[d * e->n + i], x[i]);
+        h[s->by[k]] = dal__node_div(e->graph, sum, s->alpha[k]);
+    }
+}
+
+/* The dependent coordinates, collected while the free ones are symbols. */
+static dal_status collect_dependent(dal_model *model, const dal__bordered *s, const vectors *w,
+                                    dal__node *x)
+{
+    const dal__equations *e = &model->equations;
+    int *symbol = dal__model_allocate(model, (size_t)s->frees, sizeof *symbol);
+    dal__node *out = dal__model_nodes(model, s->solved, 0);
+    dal__node *y = dal__model_nodes(model, s->frees, 0);
+    if (model->out_of_memory) return DAL_MEMORY;
+    for (int i = 0; i < s->frees; i++) {
+        symbol[i] = e->symbols + i;
+        y[i] = dal__symbol(e->graph, symbol[i]);
+    }
+    for (int k = 0; k < s->solved; k++)
+        out[k] = collect(e, s, dal__node_add(e->graph, w->s[k], row_product(e, &s->S, k, y)));
+    dal__substitute_all(e->graph, s->solved, out, symbol, s->frees, w->y);
+    for (int k = 0; k < s->solved; k++) x[s->dependent[k]] = out[k];
+    return e->graph->status;
+}
+
+dal_status dal__bordered_solve(dal_model *model, dal__bordered *s, bool collected,
+                               const dal__node *top, const dal__node *bottom, dal__node *x,
+                               dal__node *h)
+{
+    const dal__equations *e = &model->equations;
+    vectors *w = &s->scratch;
+    reduce_rhs(e, s, top, bottom, w);
+    for (int i = 0; collected && i < s->frees; i++) w->t[i] = collect(e, s, w->t[i]);
+    DAL_TRY(solve_free(model, s, collected && s->way & DAL__FORWARD, bottom, w));
+    for (int i = 0; i < s->frees; i++) x[s->free[i]] = w->y[i];
+    for (int k = 0; k < s->solved; k++)
+        x[s->dependent[k]] = dal__node_add(e->graph, w->s[k], row_product(e, &s->S, k, w->y));
+    if (collected) DAL_TRY(collect_dependent(model, s, w, x));
+    if (h) find_forces(e, s, w, top, x, h);
+    return e->graph->status;
+}
+
+/* ---- the whole ---- */
+
+bool dal__bordered_is_reduced(const dal__bordered *s) { return s->solved > 0; }
+
+dal_status dal__bordered_factor(dal_model *model, const dal__factors *mass, int way,
+                                dal__bordered **bordered, int *singular)
+{
+    const int n = model->equations.n, m = model->equations.m;
+    dal__bordered *s = *bordered = dal__model_allocate(model, 1, sizeof *s);
+    *singular = -1;
+    if (!s) return DAL_MEMORY;
+    s->way = way;
+    s->scratch = (vectors){.s = dal__model_nodes(model, m, 0),
+                           .u = dal__model_nodes(model, m, 0),
+                           .t = dal__model_nodes(model, n, 0),
+                           .y = dal__model_nodes(model, n, 0),
+                           .pull = dal__model_nodes(model, m, 0),
+                           .force = dal__model_nodes(model, m, 0)};
+    if (model->out_of_memory || !choose_dependent(model, s)) return DAL_MEMORY;
+    if (s->solved == 0) {
+        s->mass = *mass;
+    } else {
+        if (!dal__factors_allocate(model, &s->mass, s->frees, NULL)) return DAL_MEMORY;
+        reduce_mass(&model->equations, s, s->mass.matrix);
+        DAL_TRY(dal__factor(model, &s->mass));
+    }
+    const dal_status status = factor_forces(model, s);
+    if (status == DAL_SINGULAR) *singular = s->forces.constraint[s->forces.singular] - 1;
+    return status;
+}

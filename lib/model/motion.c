@@ -1,0 +1,259 @@
+/* motion.c - accelerations and multipliers of the Lagrange-d'Alembert equations, as nodes: in the
+ * cheapest of a few ways, and their derivatives.
+ *
+ * Derivatives do not go through the elimination (bordered.c).  With its matrix K as that of
+ * K (F, -h) = r, which is symmetric,
+ *
+ *     K (F, -h)_x = r_x - K_x (F, -h),        pi.F_x = w.(r_x - K_x (F, -h)),  K w = (pi, 0)
+ *
+ * so each costs a solution by the same factors. */
+#include "model/motion.h"
+#include "core/error.h"
+#include "expr/collect.h"
+#include "expr/derivative.h"
+#include "expr/simplify.h"
+#include "expr/traversal.h"
+#include "model/bordered.h"
+#include "model/model.h"
+#include <limits.h>
+
+/* ---- errors ---- */
+
+dal_status dal__singular_mass(const dal_model *model, int row, dal_error *error)
+{
+    const dal__equations *e = &model->equations;
+    const dal__entry *L = dal__model_entry(model, DAL_SECTION_LAGRANGIAN, 0);
+    return dal__fail_at(
+        error, DAL_SINGULAR_MASS, L ? L->line : 0, L ? L->column : 0,
+        "the mass matrix is singular: it does not determine the acceleration of '%s'",
+        e->coordinate[row]);
+}
+
+dal_status dal__dependent_constraints(const dal_model *model, int row, dal_error *error)
+{
+    const dal__entry *entry = dal__model_entry(model, DAL_SECTION_CONSTRAINTS, row);
+    return dal__fail_at(
+        error, DAL_RANK, DAL__AT_TEXT(entry),
+        model->equations.servo
+            ? "constraint %d is not held by the reactions: A W^-1 B^T is singular"
+            : "constraint %d is not independent of the others: A W^-1 A^T is singular",
+        row + 1);
+}
+
+/* status: of dal__factor. */
+static dal_status unsolved(const dal_model *model, dal_status status, const char *matrix,
+                           dal_error *error)
+{
+    const dal__equations *e = &model->equations;
+    if (status == DAL_TOO_LARGE && e->graph->status == DAL_OK)
+        return dal__fail(error, status, "%s of %d coordinates couples too many of them", matrix,
+                         e->n);
+    return dal__size_error(e->graph->status, error);
+}
+
+/* ---- W alone ---- */
+
+dal_status dal__solve_vector(dal_model *model, int n, const dal__node *matrix, const dal__node *rhs,
+                             dal__node *x)
+{
+    dal__factors f;
+    if (!dal__factors_allocate(model, &f, n, NULL)) return DAL_MEMORY;
+    for (int i = 0; i < n * n; i++) f.matrix[i] = matrix[i];
+    DAL_TRY(dal__factor(model, &f));
+    return dal__solve(model, &f, false, 1, rhs, x);
+}
+
+dal_status dal__solve_mass(dal_model *model, dal__factors *mass)
+{
+    dal__equations *e = &model->equations;
+    const int n = e->n, m = e->m, columns = 1 + m + (e->servo ? m : 0);
+    dal__node *rhs = dal__model_nodes(model, columns * n, 0);
+    dal__node *x = dal__model_nodes(model, columns * n, 0);
+    if (!dal__factors_allocate(model, mass, n, NULL)) return DAL_MEMORY;
+    for (int i = 0; i < n * n; i++) mass->matrix[i] = e->W[i];
+    for (int i = 0; i < n; i++) rhs[i] = e->b[i];
+    for (int i = 0; i < m * n; i++) rhs[n + i] = e->A[i];
+    for (int i = 0; i < m * n && e->servo; i++) rhs[n + m * n + i] = e->B[i];
+    DAL_TRY(dal__factor(model, mass));
+    e->mass_positive = mass->positive;
+    DAL_TRY(dal__solve(model, mass, false, columns, rhs, x));
+    for (int i = 0; i < n; i++) {
+        e->a[i] = x[i];
+        for (int a = 0; a < m; a++) {
+            e->U[i * m + a] = x[(1 + a) * n + i];
+            e->R[i * m + a] = x[(columns - m + a) * n + i];
+        }
+    }
+    return DAL_OK;
+}
+
+/* ---- F and h ---- */
+
+/* What F costs, with the pivots that are checked. */
+static int cost_of_F(dal_model *model)
+{
+    const dal__equations *e = &model->equations;
+    dal__node *all = dal__model_nodes(model, e->n + 2 * e->pivots, 0);
+    int count = e->n;
+    for (int i = 0; all && i < e->n; i++) all[i] = e->F[i];
+    for (int k = 0; all && k < e->pivots; k++) {
+        if (!e->pivot[k].checked || !e->pivot[k].of_motion) continue;
+        all[count++] = e->pivot[k].pivot;
+        all[count++] = e->pivot[k].size;
+    }
+    return all ? dal__cost(e->graph, all, count) : INT_MAX;
+}
+
+static dal_status derive_by(dal_model *model, const dal__factors *mass, int way, int *singular)
+{
+    dal__equations *e = &model->equations;
+    dal__node *bottom = dal__model_nodes(model, e->m, 0);
+    if (!bottom) return DAL_MEMORY;
+    DAL_TRY(dal__bordered_factor(model, mass, way, &e->bordered, singular));
+    dal__bordered_record_pivots(e, e->bordered, mass);
+    for (int a = 0; a < e->m; a++) bottom[a] = dal__node_neg(e->graph, e->c[a]);
+    return dal__bordered_solve(model, e->bordered, true, e->b, bottom, e->F, e->h);
+}
+
+/* The cheapest way; of many coordinates, SOLVED without a comparison. */
+static dal_status derive_cheapest(dal_model *model, const dal__factors *mass, int *singular)
+{
+    enum { MAX_COMPARED = 16, REDUCED = DAL__SOLVED | DAL__COLLECTED };
+    static const int ways[] = {0,           DAL__COLLECTED, DAL__COLLECTED | DAL__PAIRED,
+                               DAL__SOLVED, REDUCED,        REDUCED | DAL__FORWARD};
+    const dal__equations *e = &model->equations;
+    int least = INT_MAX, best = 0, last = 0;
+    if (e->n > MAX_COMPARED) {
+        const dal_status status = derive_by(model, mass, DAL__SOLVED, singular);
+        return status == DAL_SINGULAR ? derive_by(model, mass, 0, singular) : status;
+    }
+    for (size_t k = 0; k < sizeof ways / sizeof *ways; k++) {
+        const dal_status status = derive_by(model, mass, last = ways[k], singular);
+        if (status != DAL_OK && (status != DAL_SINGULAR || k == 0)) return status;
+        if (last & DAL__SOLVED && !dal__bordered_is_reduced(e->bordered)) break;
+        const int cost = status == DAL_OK ? cost_of_F(model) : INT_MAX;
+        if (cost >= least) continue;
+        least = cost;
+        best = last;
+    }
+    return best == last ? e->graph->status : derive_by(model, mass, best, singular);
+}
+
+dal_status dal__motion_derive(dal_model *model, dal_error *error)
+{
+    dal__factors mass;
+    int singular;
+    dal_status status = dal__solve_mass(model, &mass);
+    if (status == DAL_SINGULAR) return dal__singular_mass(model, mass.singular, error);
+    if (status != DAL_OK) return unsolved(model, status, "the mass matrix", error);
+    status = derive_cheapest(model, &mass, &singular);
+    if (status == DAL_SINGULAR) return dal__dependent_constraints(model, singular, error);
+    return status == DAL_OK ? DAL_OK : unsolved(model, status, "A W^-1 A^T", error);
+}
+
+/* ---- derivatives ---- */
+
+/* While something is differentiated, symbols from e->symbols on stand for F, h and w. */
+enum { NAMED = 2 }; /* F and h, and w of the same size: 2 (n + m) symbols */
+
+/* Symbols number 0 .. count - 1 from first on, as nodes. */
+static dal__node *name(dal_model *model, int first, int count)
+{
+    dal__node *out = dal__model_nodes(model, count, 0);
+    for (int i = 0; out && i < count; i++) out[i] = dal__symbol(model->equations.graph, first + i);
+    return out;
+}
+
+bool dal__motion_is_symmetric(const dal__equations *e) { return e->bordered && !e->servo; }
+
+/* What is differentiated: b - W F + A^T h [n] and -c - A F [m], F and h being symbols. */
+static dal__node *residuals(dal_model *model)
+{
+    const dal__equations *e = &model->equations;
+    const int n = e->n, m = e->m;
+    dal__node *out = dal__model_nodes(model, n + m, 0);
+    const dal__node *F = name(model, e->symbols, n), *h = name(model, e->symbols + n, m);
+    if (model->out_of_memory) return NULL;
+    for (int i = 0; i < n; i++) {
+        out[i] = dal__node_sub(e->graph, e->b[i], dal__dot(e->graph, n, e->W + i * n, F));
+        for (int a = 0; a < m; a++)
+            out[i] =
+                dal__node_add(e->graph, out[i], dal__node_mul(e->graph, e->A[a * n + i], h[a]));
+    }
+    for (int a = 0; a < m; a++) {
+        dal__node sum = dal__node_add(e->graph, e->c[a], dal__dot(e->graph, n, e->A + a * n, F));
+        out[n + a] = dal__node_neg(e->graph, sum);
+    }
+    return out;
+}
+
+/* Replaces the symbols of F, h and w [n + m; or NULL] by their nodes. */
+static dal_status insert(dal_model *model, int count, dal__node *nodes, const dal__node *w)
+{
+    const dal__equations *e = &model->equations;
+    const int size = e->n + e->m, symbols = w ? NAMED * size : size;
+    int *symbol = dal__model_allocate(model, (size_t)symbols, sizeof *symbol);
+    dal__node *by = dal__model_nodes(model, symbols, 0);
+    if (model->out_of_memory) return DAL_MEMORY;
+    for (int i = 0; i < symbols; i++) {
+        symbol[i] = e->symbols + i;
+        by[i] = i < e->n ? e->F[i] : i < size ? e->h[i - e->n] : w[i - size];
+    }
+    dal__substitute_all(e->graph, count, nodes, symbol, symbols, by);
+    return e->graph->status;
+}
+
+/* q, then v. */
+static int *state_symbols(dal_model *model)
+{
+    const dal__equations *e = &model->equations;
+    int *symbol = dal__model_allocate(model, 2 * (size_t)e->n, sizeof *symbol);
+    for (int i = 0; symbol && i < e->n; i++) {
+        symbol[i] = e->q + i;
+        symbol[e->n + i] = e->v + i;
+    }
+    return symbol;
+}
+
+dal_status dal__motion_jacobian(dal_model *model, dal__node *by_q, dal__node *by_v)
+{
+    const dal__equations *e = &model->equations;
+    const int n = e->n, size = e->n + e->m, columns = 2 * n;
+    const int *symbol = state_symbols(model);
+    const dal__node *residual = residuals(model);
+    dal__node *row = dal__model_nodes(model, columns, 0), *x = dal__model_nodes(model, n, 0);
+    dal__node *rhs = dal__model_nodes(model, columns * size, 0); /* column by column */
+    if (model->out_of_memory) return DAL_MEMORY;
+    for (int i = 0; i < size; i++) {
+        dal__gradient(e->graph, residual[i], symbol, columns, row);
+        for (int c = 0; c < columns; c++) rhs[c * size + i] = row[c];
+    }
+    DAL_TRY(insert(model, columns * size, rhs, NULL));
+    for (int c = 0; c < columns; c++) {
+        const dal__node *top = rhs + c * size;
+        DAL_TRY(dal__bordered_solve(model, e->bordered, false, top, top + n, x, NULL));
+        for (int i = 0; i < n; i++) *(c < n ? &by_q[i * n + c] : &by_v[i * n + c - n]) = x[i];
+    }
+    return e->graph->status;
+}
+
+dal_status dal__motion_adjoint(dal_model *model, dal__node *by_q, dal__node *by_v)
+{
+    const dal__equations *e = &model->equations;
+    const int n = e->n, m = e->m, size = n + m;
+    const int *symbol = state_symbols(model);
+    const dal__node *residual = residuals(model), *w = name(model, e->symbols + size, size);
+    const dal__node *pi = name(model, e->pi, n);
+    dal__node *weight = dal__model_nodes(model, size, 0), *out = dal__model_nodes(model, 2 * n, 0);
+    dal__node *zero = dal__model_nodes(model, m, dal__number(e->graph, 0.0));
+    if (model->out_of_memory) return DAL_MEMORY;
+    DAL_TRY(dal__bordered_solve(model, e->bordered, false, pi, zero, weight, weight + n));
+    for (int a = 0; a < m; a++) weight[n + a] = dal__node_neg(e->graph, weight[n + a]);
+    dal__gradient(e->graph, dal__dot(e->graph, size, w, residual), symbol, 2 * n, out);
+    DAL_TRY(insert(model, 2 * n, out, weight));
+    for (int i = 0; i < n; i++) {
+        by_q[i] = out[i];
+        by_v[i] = out[n + i];
+    }
+    return e->graph->status;
+}

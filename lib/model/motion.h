@@ -1,0 +1,31 @@
+/* motion.h - accelerations and multipliers of the Lagrange-d'Alembert equations, as nodes. */
+#ifndef DAL_MODEL_MOTION_H
+#define DAL_MODEL_MOTION_H
+
+#include "model/elimination.h"
+#include "model/equations.h"
+
+/* Derives U, R, a, h and F from W, b, A, B and c.  Errors: DAL_RANK, DAL_SINGULAR_MASS, DAL_MEMORY,
+ * DAL_TOO_LARGE. */
+dal_status dal__motion_derive(dal_model *model, dal_error *error);
+
+/* The first part of it: the factors of W, a = W^-1 b, U = W^-1 A^T, R = W^-1 B^T.  Errors:
+ * DAL_SINGULAR, DAL_MEMORY, DAL_TOO_LARGE. */
+dal_status dal__solve_mass(dal_model *model, dal__factors *mass);
+
+/* matrix x = rhs for one right-hand side, without a record of the pivots.  Errors: those above. */
+dal_status dal__solve_vector(dal_model *model, int n, const dal__node *matrix, const dal__node *rhs,
+                             dal__node *x);
+
+/* Whether the two below apply: to what dal__motion_derive has derived by Chetaev's rule. */
+bool dal__motion_is_symmetric(const dal__equations *e);
+/* F_q [n*n] and F_v [n*n], row by row.  Errors: DAL_MEMORY, DAL_TOO_LARGE. */
+dal_status dal__motion_jacobian(dal_model *model, dal__node *by_q, dal__node *by_v);
+/* F_q^T pi [n] and F_v^T pi [n].  Errors: DAL_MEMORY, DAL_TOO_LARGE. */
+dal_status dal__motion_adjoint(dal_model *model, dal__node *by_q, dal__node *by_v);
+
+/* The error of a mass matrix, or of constraints, without a pivot in this row (from 0). */
+dal_status dal__singular_mass(const dal_model *model, int row, dal_error *error);
+dal_status dal__dependent_constraints(const dal_model *model, int row, dal_error *error);
+
+#endif
