@@ -5,18 +5,16 @@
  *     g(s) = g(step(z, s), t + s),   0 <= s <= h,
  *
  * smooth, and meeting the values of g at both ends: its root is the crossing, without interpolation
- * (Henon 1982, DOI 10.1016/0167-2789(82)90034-3, turns the equations round to the same end).  Roots
- * by Chandrupatla's method (1997, DOI 10.1016/S0965-9978(96)00051-8): inverse quadratic
- * interpolation where the three points at hand allow it, else bisection.
+ * (Henon 1982, DOI 10.1016/0167-2789(82)90034-3, turns the equations round to the same end).
  *
  * A pair of crossings within a step has an extremum of g between them.  Where |g| at a step is not
  * above its neighbours', the rate of g at the ends of the two steps there shows which holds the
  * extremum, and its place is the root of that rate.  The first and the last step lack a neighbour;
  * there the rates at both ends decide alone. */
 #include "core/error.h"
+#include "core/root.h"
 #include "core/vectors.h"
 #include "dalembert_analysis.h"
-#include <float.h>
 #include <math.h>
 #include <stdbool.h>
 #include <stdlib.h>
@@ -25,7 +23,7 @@
 /* A minimum of |g| below this part of max |g| is a touch; rounding errors are far smaller. */
 static const double touching = 1e-12;
 
-enum { POLL = 1000, ROUNDS = 200 };
+enum { POLL = 1000 };
 
 typedef struct mark {
     double *memory; /* all of the run's persistent state */
@@ -82,48 +80,12 @@ static dal_status return_to(search *w, const mark *place)
 }
 
 /* g, or its rate, a step of size s from where the searched step began. */
-static dal_status value_at(search *w, double s, double *value)
+static dal_status value_at(void *user, double s, double *value)
 {
+    search *w = user;
     DAL_TRY(s > 0.0 ? dal_run_intermediate(w->run, s, evaluate_there, w, w->error)
                     : evaluate(w, &w->value));
     *value = w->value;
-    return DAL_OK;
-}
-
-/* ---- roots ---- */
-
-typedef struct node {
-    double s, f;
-} node;
-
-/* The next point between a and b, as a part of the way from a; c is the end dropped last. */
-static double next_part(const node *a, const node *b, const node *c, double min)
-{
-    const double xi = (a->s - b->s) / (c->s - b->s), phi = (a->f - b->f) / (c->f - b->f);
-    double part = 0.5;
-    if (phi * phi < xi && (1.0 - phi) * (1.0 - phi) < 1.0 - xi)
-        part = a->f / (b->f - a->f) * c->f / (b->f - c->f) +
-               (c->s - a->s) / (b->s - a->s) * a->f / (c->f - a->f) * b->f / (c->f - b->f);
-    return fmin(fmax(part, min), 1.0 - min);
-}
-
-/* The root between a and b, at which the values have different signs. */
-static dal_status find_root(search *w, node a, node b, double *root)
-{
-    double part = 0.5;
-    for (int round = 0; round < ROUNDS; round++) {
-        const node best = fabs(a.f) < fabs(b.f) ? a : b;
-        const double width = fabs(b.s - a.s), resolution = DBL_EPSILON * fmax(a.s, b.s);
-        *root = best.s;
-        if (best.f == 0.0 || width <= 2.0 * resolution) return DAL_OK;
-        node x = {.s = a.s + part * (b.s - a.s)};
-        DAL_TRY(value_at(w, x.s, &x.f));
-        const int same = sign(x.f) == sign(a.f);
-        const node dropped = same ? a : b;
-        if (!same) b = a;
-        a = x;
-        part = next_part(&a, &b, &dropped, resolution / fmax(fabs(b.s - a.s), resolution));
-    }
     return DAL_OK;
 }
 
@@ -137,10 +99,10 @@ static dal_status report_crossing(void *user, dal_run *run)
 }
 
 /* The crossing between two sizes of the searched step, away from the present side. */
-static dal_status cross(search *w, node a, node b)
+static dal_status cross(search *w, dal__value_at a, dal__value_at b)
 {
     double s;
-    DAL_TRY(find_root(w, a, b, &s));
+    DAL_TRY(dal__find_root(value_at, w, a, b, &s));
     w->crossing.direction = w->side = -w->side;
     const int wanted = w->section->direction;
     *(w->side > 0 ? &w->found->up : &w->found->down) += 1;
@@ -167,7 +129,8 @@ static dal_status search_extremum(search *w, const mark *from, double rate, cons
     double s, g;
     DAL_TRY(return_to(w, from));
     w->rate = 1;
-    const dal_status status = find_root(w, (node){0.0, rate}, (node){w->h, rate_to}, &s);
+    const dal_status status =
+        dal__find_root(value_at, w, (dal__value_at){0.0, rate}, (dal__value_at){w->h, rate_to}, &s);
     w->rate = 0;
     DAL_TRY(status);
     DAL_TRY(value_at(w, s, &g));
@@ -176,8 +139,8 @@ static dal_status search_extremum(search *w, const mark *from, double rate, cons
         if (w->is_leaving)
             w->side = -w->side;
         else
-            DAL_TRY(cross(w, (node){0.0, from->g}, (node){s, g}));
-        return cross(w, (node){s, g}, (node){w->h, to->g});
+            DAL_TRY(cross(w, (dal__value_at){0.0, from->g}, (dal__value_at){s, g}));
+        return cross(w, (dal__value_at){s, g}, (dal__value_at){w->h, to->g});
     }
     if (!w->is_leaving && fabs(g) <= touching * w->max_g) w->found->touches++;
     return DAL_OK;
@@ -244,7 +207,7 @@ static dal_status search_step(search *w, long long step, bool is_end)
         w->is_leaving = false;
     } else if (side == -w->side) {
         DAL_TRY(return_to(w, &w->last));
-        DAL_TRY(cross(w, (node){0.0, w->last.g}, (node){w->h, w->now.g}));
+        DAL_TRY(cross(w, (dal__value_at){0.0, w->last.g}, (dal__value_at){w->h, w->now.g}));
     } else {
         if (step > 1 && g0 >= g1 && g1 >= 0.0 && g2 >= g1) DAL_TRY(search_minimum(w, step));
         if (is_end) DAL_TRY(search_end(w, step));
