@@ -220,8 +220,10 @@ dal_status dal_run_create(dal_run **run, const dal_run_spec *spec, dal_error *er
 /* Frees what the run owns: its memory after dal_run_create, compiled code always. */
 void dal_run_free(dal_run *run);
 
-/* Takes one step, or leaves the run unchanged to the bit.  Errors: DAL_SINGULAR, DAL_SINGULAR_MASS,
- * DAL_NOT_FINITE, DAL_NOT_CONVERGED, DAL_GAUGE; the message names the constraint and the time. */
+/* Takes one step, or the part of it before an event of the system, which then acts (see
+ * dal_run_events); or leaves the run unchanged to the bit.  Errors: DAL_SINGULAR,
+ * DAL_SINGULAR_MASS, DAL_NOT_FINITE, DAL_NOT_CONVERGED, DAL_GAUGE; the message names the constraint
+ * and the time. */
 dal_status dal_run_step(dal_run *run, dal_error *error);
 /* Takes count steps, or those before the first that fails.  Errors: those of a step. */
 dal_status dal_run_advance(dal_run *run, long long count, dal_error *error);
@@ -273,6 +275,15 @@ char *dal_run_observable_name(const dal_run *run, int i, char *buffer, size_t si
 /* Writes the observables of the present state to out.  Errors: those of the callbacks. */
 dal_status dal_run_observe(dal_run *run, double *out);
 
+/* An event as it has just happened. */
+typedef struct dal_occurrence {
+    int event;            /* its number in the system, from 0 */
+    long long number;     /* how often it has happened so far, this time included */
+    int direction;        /* 1: its formula increased along the run, -1: it decreased */
+    double t;             /* the time */
+    const double *before; /* [dimension] the state before it acted; the run has that after it */
+} dal_occurrence;
+
 /* Callbacks of dal_run_sample; any may be NULL.  Any status but DAL_OK ends the run with it. */
 typedef struct dal_observer {
     void *user; /* the first argument of every callback */
@@ -286,6 +297,8 @@ typedef struct dal_observer {
      * i at t[k], k < count, in values[i * stride + k].  The run is not yet at the next of them. */
     dal_status (*values)(void *user, dal_run *run, int count, const double *t, const double *values,
                          size_t stride);
+    /* Called after each event of a system that has events. */
+    dal_status (*event)(void *user, dal_run *run, const dal_occurrence *event);
     long long every; /* steps between two calls of step or values; 0: no calls */
     /* t of each row in the direction of the run, T for the last; NULL: at equal distances */
     double (*row_time)(void *user, long long row);
@@ -307,6 +320,23 @@ dal_status dal_run_sample(dal_run *run, double T, long long samples, long long f
 dal_status dal_run_intermediate(dal_run *run, double h,
                                 dal_status (*observe)(void *user, dal_run *run), void *user,
                                 dal_error *error);
+
+/* Advances the run to time T with its events, which all functions that take steps do, and calls
+ * happened, which may be NULL, after each.  A step that would pass an event ends at it, to
+ * rounding; the next one has size h again.  Errors: those of dal_run_sample; DAL_STOPPED where an
+ * event ends the run; DAL_EVENT where one cannot be passed: it happens infinitely often, as when a
+ * ball comes to rest, or leaves velocities that lead out of the allowed side; DAL_UNSUPPORTED on
+ * the lifted space off p = pi = 0; what happened returns. */
+dal_status dal_run_events(dal_run *run, double T,
+                          dal_status (*happened)(void *user, dal_run *run,
+                                                 const dal_occurrence *event),
+                          void *user, dal_error *error);
+/* How often an event of the system, from 0, has happened; -1 without the event. */
+long long dal_run_event_count(const dal_run *run, int event);
+/* The number of the event that stopped the run, from 1; 0: none did. */
+int dal_run_stopped(const dal_run *run);
+/* What events have added to an observable that is E or an invariant, all together; 0 for others. */
+double dal_run_jump(const dal_run *run, int observable);
 
 /* ---- batches ------------------------------------------------------------------------------- */
 

@@ -30,7 +30,9 @@ extern "C" {
     STATUS(NOT_CONVERGED, "the implicit equations did not converge")                               \
     STATUS(GAUGE, "the gauge variable e reached zero")                                             \
     STATUS(IO, "input or output failed")                                                           \
-    STATUS(INTERRUPTED, "interrupted")
+    STATUS(INTERRUPTED, "interrupted")                                                             \
+    STATUS(EVENT, "an event cannot be passed")                                                     \
+    STATUS(STOPPED, "stopped by an event")
 
 /* The result of a function: DAL_OK, which is 0, or the kind of failure. */
 typedef enum dal_status {
@@ -123,6 +125,22 @@ enum {
     DAL_D_ISOKINETIC = 1 << 12       /* one D = k (v.Wv/2 - K), W constant, W^-1 b without v */
 };
 
+/* ---- events -------------------------------------------------------------------------------- */
+
+/* What an event does; without any of these it is counted and reported only. */
+enum {
+    DAL_EVENT_SETS = 1 << 0,   /* sets q and v; v is then moved to D = 0 */
+    DAL_EVENT_TURNS = 1 << 1,  /* sets a velocity: d(when)/dt must lead back to the allowed side */
+    DAL_EVENT_IMPACT = 1 << 2, /* restitution */
+    DAL_EVENT_STOPS = 1 << 3   /* ends the run */
+};
+/* An event happens where its formula `when` passes through 0 along a run. */
+typedef struct dal_event {
+    const char *name; /* "event 1 (y - r)", for messages */
+    int direction;    /* 1: when increases along the run, -1: decreases, 0: both */
+    unsigned actions; /* DAL_EVENT_SETS | ... */
+} dal_event;
+
 /* A second-order system with constraints, as a plain struct: filled by a model or by hand with
  * designated initialisers; what is not named may stay zero. */
 struct dal_system {
@@ -151,7 +169,13 @@ struct dal_system {
     dal_callback *energy;           /* out[1]: E = L_v.v - L; NULL: unknown */
     dal_callback *invariant_values; /* out[invariants]; NULL: no invariants */
     dal_callback *reactions;        /* out[m + m*n]: h, B of the force B^T h in F; NULL: unknown */
-    dal_callback *exact;    /* out[2n]: q, v of the exact solution at at->t; NULL: unknown */
+    dal_callback *exact;         /* out[2n]: q, v of the exact solution at at->t; NULL: unknown */
+    int events;                  /* how many there are, in the order in which they act */
+    const dal_event *event;      /* [events] */
+    dal_callback *event_values;  /* out[events]: when; this and the next three need events */
+    dal_callback *event_rates;   /* out[events]: d(when)/dt along the motion */
+    dal_callback *event_states;  /* out[2n*events]: q, v as each sets them; NULL: none does */
+    dal_callback *event_normals; /* out[(1 + 2n)*events]: restitution, when_q, W^-1 when_q */
     dal_callback *diagnose; /* out[1]: why field is not finite here: returns DAL_SINGULAR with the
                                number of the constraint (from 1), DAL_SINGULAR_MASS, or DAL_OK */
     const dal_system *extended; /* F continued off D = 0 so that E is exact, for extend-energy */
@@ -218,6 +242,7 @@ typedef struct dal_model dal_model;
     SECTION(GAUGE, "gauge")           /* e or mu_e, formula in t and parameters */                 \
     SECTION(START, "start")           /* name, formula */                                          \
     SECTION(INVARIANTS, "invariants") /* name, formula */                                          \
+    SECTION(EVENTS, "events")         /* event.key, as 1.when, 1.set.x': formula or word */        \
     SECTION(EXACT, "exact")           /* coordinate, formula in t and parameters */                \
     SECTION(TAGS, "tags")             /* a word */                                                 \
     SECTION(PICTURE, "picture")       /* x, y, angle, ..: formula; body: a word */                 \

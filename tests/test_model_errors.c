@@ -54,6 +54,43 @@ static const bad_file yaml[] = {
     {DAL_SYNTAX, "this mapping is empty", "reactions: [{x: 1}, {@}]\n"},
 };
 
+/* ---- events ---- */
+
+static const bad_file events[] = {
+    {DAL_SYNTAX, "events must be a list of mappings", XY L "events: @{when: x}\n"},
+    {DAL_SYNTAX, "set must be a mapping of names, as {x': -x'}",
+     XY L "events: [{when: x, set: @1}]\n"},
+    {DAL_SYNTAX, "this mapping is empty", XY L "events: [{when: x, set: {@}}]\n"},
+    {DAL_NAME, "unknown key of an event 'wen'; did you mean 'when'?", XY L "events: [{@wen: x}]\n"},
+    {DAL_MODEL, "event 1 has no 'when'", XY L "events: [{@stop: true}]\n"},
+    {DAL_MODEL, "duplicate 'when' in events", XY L "events: [{when: x, @when: y}]\n"},
+    {DAL_NAME, "event 2, when: unknown name 'z'", XY L "events: [{when: x}, {when: x - @z}]\n"},
+    {DAL_NAME, "event 1, set.y': unknown name 'z'",
+     XY L "events: [{when: x, set: {y': -y' + @z}}]\n"},
+    {DAL_NAME, "unknown coordinate in set 'z'", XY L "events: [{when: x, set: {@z: 1}}]\n"},
+    {DAL_MODEL, "duplicate 'set.x' in events", XY L "events: [{when: x, set: {x: 1, @x: 2}}]\n"},
+    {DAL_NAME, "unknown direction 'dwn'; did you mean 'down'?",
+     XY L "events: [{when: x, direction: @dwn}]\n"},
+    {DAL_NAME, "unknown value of stop 'yes'", XY L "events: [{when: x, stop: @yes}]\n"},
+    {DAL_MODEL, "event 1, when: it does not change along a run", XY L "events: [{when: @1}]\n"},
+    {DAL_MODEL, "event 1 has both 'set' and 'restitution'",
+     XY L "events: [{@when: x, set: {x: 1}, restitution: 1}]\n"},
+    {DAL_MODEL, "event 1: the restitution -0.5 is negative",
+     XY L "events: [{when: x, restitution: @-0.5}]\n"},
+    {DAL_UNSUPPORTED, "event 1 cannot have a restitution: its 'when' contains velocities",
+     XY L "events: [{when: x + x', @restitution: 1}]\n"},
+    {DAL_UNSUPPORTED, "event 1 cannot have a restitution: its 'when' contains no coordinates",
+     XY L "events: [{when: t - 1, @restitution: 1}]\n"},
+    {DAL_UNSUPPORTED, "event 1 cannot have a restitution: the mass matrix contains velocities",
+     XY "lagrangian: -sqrt(1 - x'^2) + y'^2/2\nevents: [{when: x - 1, @restitution: 1}]\n"},
+    {DAL_UNSUPPORTED, "event 1 cannot have a restitution: vakonomic motion has no impacts",
+     XY L "constraints: [x' - y*y']\nmechanics: vakonomic\n"
+          "events: [{when: x - 1, @restitution: 1}]\n"},
+    {DAL_UNSUPPORTED, "event 1 cannot have a restitution: an actuator (reactions) has no impulses",
+     XY L "constraints: [x' - y*y']\nreactions: [{x: 1}]\n"
+          "events: [{when: x - 1, @restitution: 1}]\n"},
+};
+
 /* ---- names ---- */
 
 static const bad_file names[] = {
@@ -328,6 +365,7 @@ static void check(const bad_file *bad)
 
 static void test_yaml(void) { CHECK_ALL(yaml); }
 static void test_names(void) { CHECK_ALL(names); }
+static void test_events(void) { CHECK_ALL(events); }
 static void test_formulas(void) { CHECK_ALL(formulas); }
 static void test_functions(void) { CHECK_ALL(functions); }
 static void test_indices(void) { CHECK_ALL(indices); }
@@ -451,6 +489,7 @@ void suite_model_errors(void)
     CU_pSuite suite = CU_add_suite("model errors", NULL, NULL);
     CU_add_test(suite, "YAML", test_yaml);
     CU_add_test(suite, "names", test_names);
+    CU_add_test(suite, "events", test_events);
     CU_add_test(suite, "formulas", test_formulas);
     CU_add_test(suite, "functions", test_functions);
     CU_add_test(suite, "sizes and indices", test_indices);

@@ -431,11 +431,13 @@ typedef struct sampled_path {
 
 static bool sample_path(check *c, const sampled_path *path, const double *start)
 {
-    dal_run_spec spec = {.system = c->system,
+    dal_system smooth = *c->system;
+    dal_run_spec spec = {.system = &smooth,
                          .options = dal_options_default(),
                          .parameters = c->request->set.item,
                          .parameter_count = c->request->set.count};
     dal_run *run = NULL;
+    smooth.events = 0;
     const size_t width = (size_t)path->width;
     spec.options.step = path->h;
     spec.options.space = path->space;

@@ -424,6 +424,9 @@ static int measure(order_study *s)
     if (status == CLI_DONE)
         status = add_items(s, s->set->integrators, "--integrators", add_methods);
     if (status == CLI_DONE) status = request_make_spec(s->request, &s->spec);
+    if (status == CLI_DONE && s->spec.system->events > 0)
+        status = cli_fail(CLI_USAGE, "%s has events: the order is that of a motion without them",
+                          s->request->system_name);
     if (status != CLI_DONE) return status;
     cli_catch_signals();
     status = make_reference(s);

@@ -60,7 +60,8 @@ static int parse_arguments(mpi_settings *s, int argc, char **argv)
 {
     const cli_group groups[] = {
         CLI_GROUP(options, s),
-        run_group(&s->run, RUN_OPTION(output) | RUN_OPTION(summary) | RUN_OPTION(progress)),
+        run_group(&s->run, RUN_OPTION(output) | RUN_OPTION(events) | RUN_OPTION(summary) |
+                               RUN_OPTION(progress)),
     };
     const int status = cli_read_arguments(&command, argc, argv, groups, 2);
     if (status != CLI_GO_ON) return status;

@@ -31,6 +31,7 @@ static int allocate_values(run_recorder *r)
     r->row = cli_calloc(count, sizeof *r->row);
     r->statistics = cli_calloc((size_t)r->observables + 1, sizeof *r->statistics);
     r->trend = cli_calloc((size_t)r->observables + 1, sizeof *r->trend);
+    r->shifted = cli_calloc((size_t)r->observables + 1, sizeof *r->shifted);
     dal_statistics_start(r->statistics, r->observables);
     return status;
 }
@@ -74,6 +75,8 @@ int recorder_open(run_recorder *r, const run_request *request, run_directory *di
     r->shows_rows = !dir && strcmp(output, "-") == 0 && isatty(STDOUT_FILENO);
     int status = allocate_values(r);
     if (status == CLI_DONE) status = open_writer(r, output);
+    if (status == CLI_DONE && dir && request->system->events > 0)
+        status = event_log_open(&r->events, request, dir->events);
     if (status != CLI_DONE || !recorder_is_finished(r)) return status;
     dal_run_classify(request->run, r->statistics, 0, r->trend);
     /* The run may have been killed between its last checkpoint and the manifest. */
@@ -88,9 +91,14 @@ void recorder_close(run_recorder *r)
     columns_free(&r->columns);
     free(r->statistics);
     free(r->trend);
+    free(r->shifted);
+    event_log_close(&r->events);
 }
 
-bool recorder_is_finished(const run_recorder *r) { return r->position.row > r->request->samples; }
+bool recorder_is_finished(const run_recorder *r)
+{
+    return r->position.row > r->request->samples || dal_run_stopped(r->request->run) > 0;
+}
 
 const char *recorder_observable_name(const run_recorder *r, int i)
 {
@@ -218,11 +226,28 @@ static dal_status library_status(run_recorder *r, int exit_status)
     return exit_status == CLI_DONE ? DAL_OK : DAL_IO;
 }
 
+/* E and the invariants without what events have added to them: what is left over shows whether the
+ * motion between events conserves them.  With events observations come one by one. */
+static dal_status add_shifted(run_recorder *r, double t, const double *values, size_t stride)
+{
+    for (int i = 0; i < r->observables; i++)
+        r->shifted[i] = values[(size_t)i * stride] - dal_run_jump(r->request->run, i);
+    dal_statistics_add(r->statistics, r->observables, t, r->shifted);
+    return DAL_OK;
+}
+
+static dal_status add_event(void *user, dal_run *run, const dal_occurrence *event)
+{
+    run_recorder *r = user;
+    (void)run;
+    return library_status(r, event_log_add(&r->events, event));
+}
+
 static dal_status add_values(void *user, dal_run *run, int count, const double *t,
                              const double *values, size_t stride)
 {
     run_recorder *r = user;
-    (void)run;
+    if (dal_run_system(run)->events > 0) return add_shifted(r, t[0], values, stride);
     dal_statistics_add_many(r->statistics, r->observables, count, t, values, stride);
     return DAL_OK;
 }
@@ -248,6 +273,7 @@ static dal_status add_row(void *user, dal_run *run, long long row, double t)
 static int save(run_recorder *r)
 {
     int status = writer_sync(&r->writer, r->dir->sync);
+    if (status == CLI_DONE) status = event_log_flush(&r->events, r->dir->sync);
     r->position.sum = r->writer.sum;
     if (status == CLI_DONE)
         status =
@@ -295,7 +321,7 @@ static dal_status poll(void *user, dal_run *run)
 /* The exit status of an end; *error has a message only where none was printed yet. */
 static int end_status(const run_recorder *r, dal_status status, dal_error *error)
 {
-    if (status == DAL_OK) return CLI_DONE;
+    if (status == DAL_OK || status == DAL_STOPPED) return CLI_DONE;
     if (r->failure != CLI_DONE || status == DAL_INTERRUPTED) error->message[0] = '\0';
     if (r->failure != CLI_DONE) return r->failure;
     if (status != DAL_INTERRUPTED && error->message[0] == '\0')
@@ -320,8 +346,9 @@ static int write_end(run_recorder *r, int status, const char *message)
                               : status == CLI_SIGNAL ? "interrupted"
                                                      : "failed",
                               message);
-    const int closed = writer_close(&r->writer);
+    const int closed = writer_close(&r->writer), logged = event_log_close(&r->events);
     if (status != CLI_DONE) return status;
+    if (logged != CLI_DONE) return logged;
     return written != CLI_DONE ? written : closed;
 }
 
@@ -339,6 +366,7 @@ int recorder_run(run_recorder *r, dal_error *error)
                                  .sample = add_row,
                                  .poll = poll,
                                  .values = add_values,
+                                 .event = add_event,
                                  .every = request->statistics,
                                  .row_time = request->row_time ? row_time : NULL,
                                  .polling = 1};
@@ -353,6 +381,6 @@ int recorder_run(run_recorder *r, dal_error *error)
     stop_clock(r);
     if (r->progress != PROGRESS_OFF) cli_progress_end();
     show_progress(r, dal_run_time(run), 1);
-    dal_run_classify(run, r->statistics, status != DAL_OK, r->trend);
+    dal_run_classify(run, r->statistics, status != DAL_OK && status != DAL_STOPPED, r->trend);
     return write_end(r, end_status(r, status, error), error->message);
 }

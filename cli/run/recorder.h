@@ -4,6 +4,7 @@
 
 #include "columns.h"
 #include "dalembert.h"
+#include "event_log.h"
 #include "io/trajectory.h"
 #include "native.h"
 #include "request.h"
@@ -24,6 +25,8 @@ typedef struct run_recorder {
     double *row;                /* those of them that are columns */
     dal_statistics *statistics; /* [observables] */
     dal_trend *trend;           /* [observables] when the run is finished or has failed */
+    double *shifted;            /* [observables] a value without what events have added */
+    event_log events;
     run_position position;
     dal_observer observer;
     native_run native;    /* set by who opens it; all 0: interpreted */

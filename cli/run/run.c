@@ -16,6 +16,9 @@ static const cli_option options[RUN_OPTIONS] = {
     [RUN_output] = {"output", "FILE|DIR|-", "-",
                     "writes the rows there: .csv, .npy, a directory, or standard output",
                     .parse = cli_parse_output, .offset = offsetof(run_settings, output)},
+    [RUN_events] = {"events", "FILE.csv", NULL,
+                    "writes t, the number and the state after it of each event of the system",
+                    .parse = cli_parse_text, .offset = offsetof(run_settings, events)},
     [RUN_checkpoint] = {"checkpoint", "SECONDS", "5",
                         "writes a checkpoint to a directory every SECONDS",
                         .parse = cli_parse_number, .offset = offsetof(run_settings, interval),
@@ -44,6 +47,23 @@ static void print_end(const run_recorder *r, int status, const dal_error *error)
         cli_fail(status, "interrupted; %lld rows are kept", r->position.row);
     else if (status != CLI_DONE && error->message[0])
         cli_error(status, r->request->system_name, error);
+    else if (error->message[0])
+        cli_note("%s: %s", r->request->system_name, error->message);
+}
+
+/* Where --events is to be: the file itself, unless a directory has its own, which is copied. */
+static int open_events(run_recorder *recorder, const run_request *request, const run_directory *dir,
+                       const run_settings *settings)
+{
+    if (!settings->events) return CLI_DONE;
+    if (request->system->events == 0)
+        return cli_fail(CLI_USAGE, "--events: %s has no events", request->system_name);
+    return dir ? CLI_DONE : event_log_open(&recorder->events, request, settings->events);
+}
+
+static int copy_events(const run_directory *dir, const run_settings *settings)
+{
+    return dir && settings->events ? file_copy(dir->events, settings->events, 0) : CLI_DONE;
 }
 
 int run_integrate(const run_request *request, run_directory *dir, const run_settings *settings)
@@ -52,6 +72,7 @@ int run_integrate(const run_request *request, run_directory *dir, const run_sett
     dal_error error;
     dal_run *run = request->run;
     int status = recorder_open(&recorder, request, dir, settings->output);
+    if (status == CLI_DONE) status = open_events(&recorder, request, dir, settings);
     recorder.interval = settings->interval;
     recorder.progress = settings->progress;
     const long long row = recorder.position.row;
@@ -69,5 +90,6 @@ int run_integrate(const run_request *request, run_directory *dir, const run_sett
         if (settings->summary || isatty(STDERR_FILENO)) summary_print(stderr, &recorder);
     }
     recorder_close(&recorder);
-    return status;
+    const int copied = copy_events(dir, settings);
+    return status == CLI_DONE ? copied : status;
 }

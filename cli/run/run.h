@@ -10,7 +10,8 @@
 
 /* The options of a run that do not concern the trajectory. */
 #define RUN_OPTION_LIST(OPTION)                                                                    \
-    OPTION(output) OPTION(checkpoint) OPTION(summary) OPTION(progress) OPTION(native) OPTION(force)
+    OPTION(output)                                                                                 \
+    OPTION(events) OPTION(checkpoint) OPTION(summary) OPTION(progress) OPTION(native) OPTION(force)
 
 enum {
 #define NUMBER(name) RUN_##name,
@@ -20,8 +21,8 @@ enum {
 };
 
 typedef struct run_settings {
-    const char *output;
-    double interval; /* between checkpoints, in seconds */
+    const char *output, *events; /* events: a file, or NULL */
+    double interval;             /* between checkpoints, in seconds */
     bool summary, force;
     native_mode native;
     progress_mode progress;

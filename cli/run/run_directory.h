@@ -3,6 +3,7 @@
  *     DIR/manifest.json      the request, the machine, and how far the run is: see manifest.c
  *     DIR/system.yaml        copy of the system file; absent for a built-in system
  *     DIR/trajectory.npy     the rows: see trajectory.c
+ *     DIR/events.csv         the events, of a system that has any: see event_log.h
  *     DIR/checkpoint         the state of the run: see checkpoint.c
  *     DIR/checkpoint.before  the checkpoint before that one
  *     DIR/summary.csv        at the end: one row per observable
@@ -23,6 +24,7 @@
     PATH(manifest, "manifest.json")                                                                \
     PATH(system, "system.yaml")                                                                    \
     PATH(rows, "trajectory.npy")                                                                   \
+    PATH(events, "events.csv")                                                                     \
     PATH(checkpoint, "checkpoint")                                                                 \
     PATH(before, "checkpoint.before")                                                              \
     PATH(fresh, "checkpoint.new")                                                                  \

@@ -18,6 +18,7 @@ int cli_exit(dal_status status)
 {
     switch (status) {
     case DAL_OK:
+    case DAL_STOPPED:
         return CLI_DONE;
     case DAL_MEMORY:
     case DAL_IO:

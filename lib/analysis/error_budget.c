@@ -329,6 +329,7 @@ dal_status dal_error_budget_create(const dal_run_spec *spec, long long steps, lo
     DAL_REQUIRE(budget, error);
     *budget = NULL;
     DAL_TRY(dal__check_spec(spec, error));
+    DAL_TRY(dal__refuse_events(spec->system, "error budgets", error));
     if (steps < 1 || quad_steps < 0)
         return dal__fail(error, DAL_ARGUMENT, "%lld steps, %lld of them in quad precision", steps,
                          quad_steps);

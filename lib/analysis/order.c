@@ -49,6 +49,7 @@ static dal_status state_at(const dal_run_spec *spec, double T, double *out, long
     if (steps == 0)
         return dal__fail(error, DAL_ARGUMENT, "time %g is not a whole number of steps of %g", T,
                          spec->options.step);
+    DAL_TRY(dal__refuse_events(spec->system, "tables of the order", error));
     DAL_TRY(dal_run_create(&run, spec, error));
     dal_status status = dal_run_advance(run, steps, error);
     size_t count = (size_t)dal_run_dimension(run);

@@ -40,6 +40,7 @@ static dal_status open_map(stepmap *m, const dal_run_spec *spec, double t, const
                            size_t rows, dal_error *error)
 {
     *m = (stepmap){.error = error};
+    DAL_TRY(dal__refuse_events(spec->system, "maps of a step", error));
     DAL_TRY(dal_run_create(&m->run, spec, error));
     m->dimension = dal_run_dimension(m->run);
     m->t = state != NULL ? t : dal_run_time(m->run);
@@ -243,6 +244,7 @@ dal_status dal_adjoint_pairing(const dal_run_spec *spec, const dal_system *tange
     DAL_REQUIRE(statistics, error);
     DAL_REQUIRE_COUNT(steps, error);
     DAL_TRY(dal__check_spec(spec, error));
+    DAL_TRY(dal__refuse_events(spec->system, "adjoint pairings", error));
     if (tangent->n != 2 * spec->system->n)
         return dal__fail(error, DAL_ARGUMENT,
                          "a tangent system of %d coordinates for a system of %d", tangent->n,

@@ -72,6 +72,10 @@ bool dal__evaluates(const dal__generation *g, dal__program_code code)
         return g->layout.options.reactions;
     case DAL__PROGRAM_DIAGNOSE:
     case DAL__PROGRAM_PICTURE:
+    case DAL__PROGRAM_EVENT_VALUES:
+    case DAL__PROGRAM_EVENT_RATES:
+    case DAL__PROGRAM_EVENT_STATES:
+    case DAL__PROGRAM_EVENT_NORMALS:
         return false;
     default:
         return true;
@@ -449,6 +453,7 @@ dal_status dal_generate(const dal_run_spec *spec, int lanes, const char *prefix,
     dal__generation g = {.spec = spec, .lanes = lanes};
     *text = NULL;
     DAL_TRY(dal__check_spec(spec, error));
+    DAL_TRY(dal__refuse_events(spec->system, "generated steps", error));
     DAL_TRY(dal__generation_check(&g, prefix, error));
     dal_run *run;
     DAL_TRY(dal_run_create(&run, spec, error));

@@ -155,3 +155,10 @@ dal_status dal__check_spec(const dal_run_spec *spec, dal_error *error)
     DAL_TRY(dal__check_settings(spec->parameters, spec->parameter_count, "parameters", error));
     return dal__check_settings(spec->start, spec->start_count, "start values", error);
 }
+
+dal_status dal__refuse_events(const dal_system *system, const char *what, dal_error *error)
+{
+    if (system->events == 0) return DAL_OK;
+    return dal__fail(error, DAL_UNSUPPORTED, "%.80s has events: %s would pass over them",
+                     system->name ? system->name : "the system", what);
+}

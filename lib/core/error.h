@@ -65,5 +65,8 @@ dal_status dal__set_parameters(const dal_system *system, const dal_setting *sett
                                dal_status not_finite, double *value, dal_error *error);
 /* Checks that a spec has a system and its settings; ignores the rest of it. */
 dal_status dal__check_spec(const dal_run_spec *spec, dal_error *error);
+/* Refuses a system with events, DAL_UNSUPPORTED; what: that which does not know them, in the
+ * plural. */
+dal_status dal__refuse_events(const dal_system *system, const char *what, dal_error *error);
 
 #endif

@@ -308,6 +308,7 @@ static dal_status open_runs(dal_lyapunov *s, const dal_run_spec *given, const da
     if (spec.options.step < 0.0)
         return dal__fail(error, DAL_ARGUMENT, "exponents need a positive step; it is %g",
                          spec.options.step);
+    DAL_TRY(dal__refuse_events(spec.system, "tangent vectors", error));
     DAL_TRY(dal_run_create(&s->run, &spec, error));
     const dal_system *system = dal_run_system(s->run);
     /* A step that is made of values of F alone moves a tangent vector by its own derivative. */

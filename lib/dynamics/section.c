@@ -256,6 +256,7 @@ dal_status dal_run_crossings(dal_run *run, double T, const dal_poincare *section
                          section->callback == NULL ? 0 : section->count);
     if (h < 0.0)
         return dal__fail(error, DAL_ARGUMENT, "a section needs a positive step; it is %g", h);
+    DAL_TRY(dal__refuse_events(dal_run_system(run), "sections", error));
     const long long steps = dal_whole_steps(dal_run_time(run), T, h);
     if (steps == 0)
         return dal__fail(error, DAL_ARGUMENT, "time %g is not a whole number of steps of %g", T, h);

@@ -1,11 +1,11 @@
 /* persistent.h - the persistent state of a step: all that passes from one step to the next.
  *
- *     y[dim] | r[dim] | clock | state of the method | changed
+ *     y[dim] | r[dim] | clock | state of the method | changed | events
  *
  * One list serves the engine and generated files.  All else is scratch.  Stage derivatives are
  * stored for methods with DAL_EXTRAPOLATES_STAGES, [1 + DAL__DIFFERENCES][stages*(nw + n)]; see
  * collocation.h.  changed is 1 where a parameter was changed between steps: the state of the method
- * was 0 then, as before a first step. */
+ * was 0 then, as before a first step.  What events need, lib/run/events.h, no step changes. */
 #ifndef DAL_KERNEL_PERSISTENT_H
 #define DAL_KERNEL_PERSISTENT_H
 

@@ -209,8 +209,11 @@ static dal_status read_list(reader *r, dal_section section)
     }
 }
 
-static dal_status read_mapping(reader *r, dal_section section, int item)
+/* What an event sets is a mapping within its mapping, the names of which get a prefix. */
+static dal_status read_mapping(reader *r, dal_section section, int item, const char *prefix)
 {
+    if (r->event.type != YAML_MAPPING_START_EVENT && *prefix)
+        return HERE(r, DAL_SYNTAX, "set must be a mapping of names, as {x': -x'}");
     if (r->event.type != YAML_MAPPING_START_EVENT) return wrong_form(r, section);
     for (int count = 0;; count++) {
         dal__entry entry = {.section = section, .item = item};
@@ -219,8 +222,11 @@ static dal_status read_mapping(reader *r, dal_section section, int item)
             return HERE(r, DAL_SYNTAX, "this mapping is empty");
         if (r->event.type == YAML_MAPPING_END_EVENT) return DAL_OK;
         DAL_TRY(read_key(r, &entry));
+        const bool is_set = section == DAL_SECTION_EVENTS && strcmp(entry.name, "set") == 0;
+        if (*prefix) entry.name = dal__model_print(r->model, "%s%s", prefix, entry.name);
+        if (!entry.name) return dal__memory_error(r->error);
         DAL_TRY(next(r));
-        DAL_TRY(read_entry(r, entry));
+        DAL_TRY(is_set && !*prefix ? read_mapping(r, section, item, "set.") : read_entry(r, entry));
     }
 }
 
@@ -232,7 +238,7 @@ static dal_status read_mappings(reader *r, dal_section section)
         if (r->event.type == YAML_SEQUENCE_END_EVENT && item == 1)
             return HERE(r, DAL_SYNTAX, "this list is empty");
         if (r->event.type == YAML_SEQUENCE_END_EVENT) return DAL_OK;
-        DAL_TRY(read_mapping(r, section, item));
+        DAL_TRY(read_mapping(r, section, item, ""));
     }
 }
 
@@ -242,7 +248,7 @@ static dal_status read_section(reader *r, dal_section section)
     case DAL__LIST:
         return read_list(r, section);
     case DAL__MAPPING:
-        return read_mapping(r, section, 0);
+        return read_mapping(r, section, 0, "");
     case DAL__MAPPINGS:
         return read_mappings(r, section);
     default:

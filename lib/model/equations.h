@@ -40,6 +40,12 @@ typedef struct dal__equations {
     dal__node mu;          /* mu_e, or 0 */
     dal__node *picture;    /* [DAL_PICTURE_COUNT], or NULL */
     dal_body body;
+    int events;
+    dal_event *event;        /* [events] */
+    dal__node *event_value;  /* [events] */
+    dal__node *event_rate;   /* [events] */
+    dal__node *event_state;  /* [2n*events] */
+    dal__node *event_normal; /* [(1 + 2n)*events]: restitution, when_q, W^-1 when_q */
     /* Derived. */
     dal__node *W;        /* [n*n] */
     dal__node *b;        /* [n] */

@@ -9,6 +9,7 @@
 #include "expr/parser.h"
 #include "expr/simplify.h"
 #include "expr/traversal.h"
+#include "model/events.h"
 #include "model/expand.h"
 #include "model/functions.h"
 #include "model/model.h"
@@ -26,7 +27,9 @@ void dal__entry_title(const dal_model *model, const dal__entry *entry, char *tit
     for (const dal__entry *other = model->entries; other < entry; other++)
         number += other->section == entry->section;
     if (entry->item)
-        snprintf(title, size, "%s %d on %.80s", label, entry->item, entry->name);
+        snprintf(title, size,
+                 entry->section == DAL_SECTION_EVENTS ? "%s %d, %.80s" : "%s %d on %.80s", label,
+                 entry->item, entry->name);
     else if (entry->name)
         snprintf(title, size, "%s %.80s", label, entry->name);
     else if (dal__sections[entry->section].form == DAL__LIST)
@@ -47,9 +50,8 @@ static dal_status locate(const dal_model *model, const dal__entry *entry, dal_er
                         title, inner->message);
 }
 
-/* Parses the text of an entry; the message of an error gets the entry's name and place. */
-static dal_status parse_entry(dal_model *model, const dal__entry *entry, dal__scope scope,
-                              dal__node *node, dal_error *error)
+dal_status dal__parse_entry(dal_model *model, const dal__entry *entry, dal__scope scope,
+                            dal__node *node, dal_error *error)
 {
     dal_error inner = {.line = 1, .column = 1};
     scope.model = model;
@@ -61,7 +63,7 @@ static dal_status parse_entry(dal_model *model, const dal__entry *entry, dal__sc
     return status == DAL_OK ? DAL_OK : locate(model, entry, error, &inner);
 }
 
-static dal_status not_finite(const dal_model *model, const dal__entry *entry, dal_error *error)
+dal_status dal__not_finite(const dal_model *model, const dal__entry *entry, dal_error *error)
 {
     const dal_error inner = {DAL_MODEL, 1, 1, "the value is not finite"};
     const dal_status status = model->equations.graph->status;
@@ -70,7 +72,7 @@ static dal_status not_finite(const dal_model *model, const dal__entry *entry, da
 
 enum { MAY_ALL = DAL__MAY_T | DAL__MAY_STATE };
 
-static dal__scope scope_of(const dal__equations *e, unsigned may)
+dal__scope dal__scope_of(const dal__equations *e, unsigned may)
 {
     return (dal__scope){
         .may = may, .parameters = e->parameters, .lets = e->lets, .functions = e->functions};
@@ -78,9 +80,8 @@ static dal__scope scope_of(const dal__equations *e, unsigned may)
 
 /* ---- sections of coordinates ---- */
 
-/* Finds the index of a word in a list; what: how a message calls it. */
-static dal_status find_word(const char *word, int line, int column, const char *what,
-                            const char *const *words, int count, int *i, dal_error *error)
+dal_status dal__find_word(const char *word, int line, int column, const char *what,
+                          const char *const *words, int count, int *i, dal_error *error)
 {
     *i = dal__index_of(word, strlen(word), words, count);
     return *i >= 0 ? DAL_OK : dal__unknown_at(error, line, column, what, word, words, count);
@@ -99,8 +100,9 @@ static dal_status by_coordinate(dal_model *model, dal_section section, dal__scop
         int i;
         if (entry->section != section) continue;
         snprintf(what, sizeof what, "coordinate in %s", dal__section_name(section));
-        DAL_TRY(find_word(entry->name, DAL__AT_NAME(entry), what, e->coordinate, e->n, &i, error));
-        DAL_TRY(parse_entry(model, entry, scope, &node, error));
+        DAL_TRY(
+            dal__find_word(entry->name, DAL__AT_NAME(entry), what, e->coordinate, e->n, &i, error));
+        DAL_TRY(dal__parse_entry(model, entry, scope, &node, error));
         if (entry->item) i += (entry->item - 1) * e->n;
         out[i] = dal__node_add(e->graph, out[i], node);
     }
@@ -117,9 +119,9 @@ static dal_status parse_parameters(dal_model *model, dal_error *error)
     for (int i = 0; i < e->parameters; i++) {
         const dal__entry *entry = dal__model_entry(model, DAL_SECTION_PARAMETERS, i);
         dal__node node;
-        DAL_TRY(parse_entry(model, entry, (dal__scope){.parameters = i}, &node, error));
+        DAL_TRY(dal__parse_entry(model, entry, (dal__scope){.parameters = i}, &node, error));
         e->value[i] = dal__evaluate(e->graph, node, e->value);
-        if (!isfinite(e->value[i])) return not_finite(model, entry, error);
+        if (!isfinite(e->value[i])) return dal__not_finite(model, entry, error);
     }
     return DAL_OK;
 }
@@ -136,7 +138,7 @@ static dal_status parse_functions(dal_model *model, dal_error *error)
         DAL_TRY(dal__read_signature(model, entry, f, error));
         for (int k = 0; k < f->arity; k++) f->symbol[k] = symbol++;
         const dal__scope scope = {.parameters = e->parameters, .functions = i, .inside = f};
-        DAL_TRY(parse_entry(model, entry, scope, &f->body, error));
+        DAL_TRY(dal__parse_entry(model, entry, scope, &f->body, error));
     }
     return DAL_OK;
 }
@@ -145,17 +147,18 @@ static dal_status parse_each(dal_model *model, dal_section section, dal__scope s
                              dal__node *out, dal_error *error)
 {
     for (int i = 0; i < count; i++)
-        DAL_TRY(parse_entry(model, dal__model_entry(model, section, i), scope, &out[i], error));
+        DAL_TRY(
+            dal__parse_entry(model, dal__model_entry(model, section, i), scope, &out[i], error));
     return DAL_OK;
 }
 
 static dal_status parse_dynamics(dal_model *model, dal_error *error)
 {
     dal__equations *e = &model->equations;
-    dal__scope all = scope_of(e, MAY_ALL);
+    dal__scope all = dal__scope_of(e, MAY_ALL);
     for (all.lets = 0; all.lets < e->lets; all.lets++) { /* a let may contain those before it */
         const dal__entry *entry = dal__model_entry(model, DAL_SECTION_LET, all.lets);
-        DAL_TRY(parse_entry(model, entry, all, &e->let[all.lets], error));
+        DAL_TRY(dal__parse_entry(model, entry, all, &e->let[all.lets], error));
     }
     DAL_TRY(
         parse_each(model, DAL_SECTION_LAGRANGIAN, all, !e->accelerations, &e->lagrangian, error));
@@ -177,8 +180,10 @@ static dal_status parse_gauge(dal_model *model, dal_error *error)
     for (int i = 0; i < dal__model_count(model, DAL_SECTION_GAUGE); i++) {
         const dal__entry *entry = dal__model_entry(model, DAL_SECTION_GAUGE, i);
         int k;
-        DAL_TRY(find_word(entry->name, DAL__AT_NAME(entry), "entry of gauge", names, 2, &k, error));
-        DAL_TRY(parse_entry(model, entry, scope_of(e, k ? DAL__MAY_T : 0), out[k], error));
+        DAL_TRY(dal__find_word(entry->name, DAL__AT_NAME(entry), "entry of gauge", names, 2, &k,
+                               error));
+        DAL_TRY(
+            dal__parse_entry(model, entry, dal__scope_of(e, k ? DAL__MAY_T : 0), out[k], error));
     }
     return DAL_OK;
 }
@@ -189,7 +194,7 @@ static dal_status parse_start(dal_model *model, dal_error *error)
     const int count = 2 * e->n + e->multipliers;
     const char **names = dal__model_allocate(model, (size_t)count, sizeof *names);
     dal__node *given = dal__model_nodes(model, count, 0);
-    dal__scope scope = scope_of(e, 0);
+    dal__scope scope = dal__scope_of(e, 0);
     const dal__entry *entry;
     scope.given = given;
     if (!names || !given) return dal__memory_error(error);
@@ -204,12 +209,12 @@ static dal_status parse_start(dal_model *model, dal_error *error)
         if (strcmp(entry->name, "e") == 0)
             return dal__fail_at(error, DAL_NAME, DAL__AT_NAME(entry),
                                 "the start of e belongs under gauge, as 'gauge: {e: 1}'");
-        DAL_TRY(
-            find_word(entry->name, DAL__AT_NAME(entry), "name in start", names, count, &i, error));
-        DAL_TRY(parse_entry(model, entry, scope, &e->start[i], error));
+        DAL_TRY(dal__find_word(entry->name, DAL__AT_NAME(entry), "name in start", names, count, &i,
+                               error));
+        DAL_TRY(dal__parse_entry(model, entry, scope, &e->start[i], error));
         given[i] = e->start[i];
         if (!isfinite(dal__evaluate(e->graph, e->start[i], e->value)))
-            return not_finite(model, entry, error);
+            return dal__not_finite(model, entry, error);
     }
     return DAL_OK;
 }
@@ -221,7 +226,7 @@ static dal_status parse_exact(dal_model *model, dal_error *error)
     int given = dal__model_count(model, DAL_SECTION_EXACT);
     if (given == 0) return DAL_OK;
     for (int i = 0; i < e->n; i++) e->exact[i] = dal__number(e->graph, 0.0);
-    DAL_TRY(by_coordinate(model, DAL_SECTION_EXACT, scope_of(e, DAL__MAY_T), e->exact, error));
+    DAL_TRY(by_coordinate(model, DAL_SECTION_EXACT, dal__scope_of(e, DAL__MAY_T), e->exact, error));
     if (given < e->n) {
         const dal__entry *entry = dal__model_entry(model, DAL_SECTION_EXACT, 0);
         return dal__fail_at(error, DAL_MODEL, DAL__AT_NAME(entry),
@@ -247,15 +252,16 @@ static dal_status parse_picture(dal_model *model, dal_error *error)
     const dal__entry *first = dal__model_entry(model, DAL_SECTION_PICTURE, 0), *entry;
     unsigned seen = 0;
     for (int k = 0, i; (entry = dal__model_entry(model, DAL_SECTION_PICTURE, k)) != NULL; k++) {
-        DAL_TRY(find_word(entry->name, DAL__AT_NAME(entry), "entry of picture", names, NAMES, &i,
-                          error));
+        DAL_TRY(dal__find_word(entry->name, DAL__AT_NAME(entry), "entry of picture", names, NAMES,
+                               &i, error));
         seen |= 1u << i;
         if (i != BODY) {
-            DAL_TRY(parse_entry(model, entry, scope_of(e, MAY_ALL), &e->picture[i], error));
+            DAL_TRY(
+                dal__parse_entry(model, entry, dal__scope_of(e, MAY_ALL), &e->picture[i], error));
             continue;
         }
-        DAL_TRY(
-            find_word(entry->text, DAL__AT_TEXT(entry), "body", bodies, DAL_BODY_COUNT, &i, error));
+        DAL_TRY(dal__find_word(entry->text, DAL__AT_TEXT(entry), "body", bodies, DAL_BODY_COUNT, &i,
+                               error));
         e->body = (dal_body)i;
     }
     for (int i = DAL_PICTURE_X; first && i <= DAL_PICTURE_Y; i++)
@@ -274,8 +280,8 @@ static dal_status check_defaults(const dal_model *model, dal_error *error)
     const dal__entry *entry;
     for (int k = 0, i; (entry = dal__model_entry(model, DAL_SECTION_DEFAULTS, k)) != NULL; k++) {
         double value = 0.0;
-        DAL_TRY(
-            find_word(entry->name, DAL__AT_NAME(entry), "entry of defaults", names, 3, &i, error));
+        DAL_TRY(dal__find_word(entry->name, DAL__AT_NAME(entry), "entry of defaults", names, 3, &i,
+                               error));
         if (i > 0 && (dal_parse_number(entry->text, strlen(entry->text), &value) != DAL_OK ||
                       !(value > 0.0)))
             return dal__fail_at(error, DAL_SYNTAX, DAL__AT_TEXT(entry),
@@ -398,8 +404,8 @@ dal_status dal__parse_model(dal_model *model, dal_error *error)
     DAL_TRY(dal__expand(model, error));
     const dal__entry *mechanics = dal__model_entry(model, DAL_SECTION_MECHANICS, 0);
     if (mechanics)
-        DAL_TRY(find_word(mechanics->text, DAL__AT_TEXT(mechanics), "mechanics", words, 2,
-                          &vakonomic, error));
+        DAL_TRY(dal__find_word(mechanics->text, DAL__AT_TEXT(mechanics), "mechanics", words, 2,
+                               &vakonomic, error));
     e->vakonomic = vakonomic;
     DAL_TRY(dal__collect_names(model, error));
     e->functions = dal__model_count(model, DAL_SECTION_FUNCTIONS);
@@ -417,6 +423,7 @@ dal_status dal__parse_model(dal_model *model, dal_error *error)
     DAL_TRY(parse_start(model, error));
     DAL_TRY(parse_exact(model, error));
     DAL_TRY(parse_picture(model, error));
+    DAL_TRY(dal__parse_events(model, error));
     DAL_TRY(check_defaults(model, error));
     /* The default start, at which pivots are chosen and identities evaluated. */
     for (int i = 0; i < 2 * e->n; i++)

@@ -34,11 +34,22 @@ const dal__model_section dal__sections[DAL_SECTION_COUNT] = {
     [DAL_SECTION_GAUGE] = {DAL__MAPPING, "gauge"},
     [DAL_SECTION_START] = {DAL__MAPPING, "start of"},
     [DAL_SECTION_INVARIANTS] = {DAL__MAPPING, "invariant"},
+    [DAL_SECTION_EVENTS] = {DAL__MAPPINGS, "event"},
     [DAL_SECTION_EXACT] = {DAL__MAPPING, "exact solution for"},
     [DAL_SECTION_TAGS] = {DAL__LIST, NULL},
     [DAL_SECTION_PICTURE] = {DAL__MAPPING, "picture"},
     [DAL_SECTION_DEFAULTS] = {DAL__MAPPING, NULL},
 };
+
+static const char set_prefix[] = "set.";
+
+bool dal__is_set(const dal__entry *entry)
+{
+    return entry->section == DAL_SECTION_EVENTS && entry->name &&
+           strncmp(entry->name, set_prefix, sizeof set_prefix - 1) == 0;
+}
+
+const char *dal__set_name(const dal__entry *entry) { return entry->name + sizeof set_prefix - 1; }
 
 bool dal__section_named(dal_section section) { return dal__sections[section].form >= DAL__MAPPING; }
 
@@ -163,15 +174,18 @@ const char *dal_model_text(const dal_model *model, dal_section section, int i, c
     return entry->text;
 }
 
-/* Checks the name of an entry, or the text of a coordinate.  A start may be that of a velocity, x'.
- */
+/* Checks the name of an entry, or the text of a coordinate.  A start, or what an event sets, may be
+ * that of a velocity, x'. */
 static dal_status check_name(const dal__entry *entry, dal_error *error)
 {
     const char *name = entry->section == DAL_SECTION_COORDINATES ? entry->text : entry->name;
     if (!name) return DAL_OK;
+    const bool is_set = dal__is_set(entry);
+    if (is_set) name = dal__set_name(entry);
     size_t length = strlen(name);
     if (entry->section == DAL_SECTION_FUNCTIONS) length = dal__name_length(name, length);
-    if (entry->section == DAL_SECTION_START && length && name[length - 1] == '\'') length--;
+    const bool velocity = entry->section == DAL_SECTION_START || is_set;
+    if (velocity && length && name[length - 1] == '\'') length--;
     if (length > DAL__MAX_LETTERS && entry->section != DAL_SECTION_START)
         return dal__fail_at(error, DAL_TOO_LARGE, DAL__AT_NAME(entry),
                             "'%.40s...' in %s has more than %d characters", name,
@@ -245,14 +259,17 @@ dal_status dal_model_add(dal_model *model, dal_section section, const char *name
 {
     DAL_REQUIRE(model, error);
     dal__entry entry = {section, name, text, line, column, line, column, .item = 0};
-    if (section == DAL_SECTION_REACTIONS && name) { /* "2.x" is x of item 2 */
+    if (section >= DAL_SECTION_COUNT) return dal__model_insert(model, entry, error);
+    if (dal__sections[section].form == DAL__MAPPINGS && name) { /* "2.x" is x of item 2 */
         const char *c = name;
         while (*c >= '0' && *c <= '9' && entry.item <= DAL__MAX_COORDINATES)
             entry.item = 10 * entry.item + (*c++ - '0');
         if (*c != '.' || entry.item < 1)
-            return dal__fail_at(error, DAL_NAME, line, column,
-                                "'%.80s' in %s is not a constraint and a coordinate, as 1.x", name,
-                                dal__section_name(section));
+            return dal__fail_at(error, DAL_NAME, line, column, "'%.80s' in %s is not %s", name,
+                                dal__section_name(section),
+                                section == DAL_SECTION_EVENTS
+                                    ? "an event and a key, as 1.when"
+                                    : "a constraint and a coordinate, as 1.x");
         entry.name = c + 1;
     }
     return dal__model_insert(model, entry, error);

@@ -13,8 +13,9 @@
 enum {
     DAL__MAX_ENTRIES = 4096,     /* of a model, all sections together, as they are given */
     DAL__MAX_COORDINATES = 1024, /* W alone has the square of them */
-    DAL__MAX_BYTES = 1 << 22,    /* of a system file */
-    DAL__MAX_LETTERS = 100       /* of a name; pi_NAME fits into every buffer of 128 */
+    DAL__MAX_EVENTS = 256,
+    DAL__MAX_BYTES = 1 << 22, /* of a system file */
+    DAL__MAX_LETTERS = 100    /* of a name; pi_NAME fits into every buffer of 128 */
 };
 
 /* How the entries of a section stand in a file; in mappings each has a name and a text. */
@@ -41,6 +42,10 @@ typedef struct dal__entry {
 } dal__entry;
 #define DAL__AT_NAME(entry) (entry)->name_line, (entry)->name_column
 #define DAL__AT_TEXT(entry) (entry)->line, (entry)->column
+
+/* Whether an entry says what an event sets, its name being "set.x'"; and that name, "x'". */
+bool dal__is_set(const dal__entry *entry);
+const char *dal__set_name(const dal__entry *entry);
 
 /* A warning and its place. */
 typedef struct dal__warning {

@@ -14,7 +14,11 @@ enum { DAL__READS_none, DAL__READS_t, DAL__READS_tqv, DAL__READS_tqvpi };
     PROGRAM(ENERGY, energy, tqv)                                                                   \
     PROGRAM(INVARIANTS, invariant_values, tqv)                                                     \
     PROGRAM(REACTIONS, reactions, tqv)                                                             \
-    PROGRAM(EXACT, exact, t)
+    PROGRAM(EXACT, exact, t)                                                                       \
+    PROGRAM(EVENT_VALUES, event_values, tqv)                                                       \
+    PROGRAM(EVENT_RATES, event_rates, tqv)                                                         \
+    PROGRAM(EVENT_STATES, event_states, tqv)                                                       \
+    PROGRAM(EVENT_NORMALS, event_normals, tqv)
 
 typedef enum dal__program_code {
 #define CODE(code, ...) DAL__PROGRAM_##code,

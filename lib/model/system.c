@@ -2,6 +2,7 @@
 #include "expr/derivative.h"
 #include "expr/simplify.h"
 #include "model/energy.h"
+#include "model/events.h"
 #include "model/formulas.h"
 #include "model/model.h"
 #include "model/properties.h"
@@ -81,6 +82,14 @@ static dal_status add_programs(dal_model *model, dal__programs *p, const dal__no
     DAL_TRY(add_if(model, p, e->energy, DAL__PROGRAM_ENERGY, &e->energy, 1));
     DAL_TRY(add_if(model, p, e->invariants, DAL__PROGRAM_INVARIANTS, e->invariant, e->invariants));
     DAL_TRY(add_if(model, p, e->picture, DAL__PROGRAM_PICTURE, e->picture, DAL_PICTURE_COUNT));
+    const int events = e->events;
+    bool sets = false;
+    for (int k = 0; k < events; k++) sets = sets || e->event[k].actions & DAL_EVENT_SETS;
+    DAL_TRY(add_if(model, p, events, DAL__PROGRAM_EVENT_VALUES, e->event_value, events));
+    DAL_TRY(add_if(model, p, events, DAL__PROGRAM_EVENT_RATES, e->event_rate, events));
+    DAL_TRY(add_if(model, p, sets, DAL__PROGRAM_EVENT_STATES, e->event_state, 2 * e->n * events));
+    DAL_TRY(add_if(model, p, events, DAL__PROGRAM_EVENT_NORMALS, e->event_normal,
+                   (1 + 2 * e->n) * events));
     return add_if(model, p, e->exact[0], DAL__PROGRAM_EXACT, e->exact, 2 * e->n);
 }
 
@@ -114,6 +123,8 @@ static void describe(dal_model *model)
         .invariant = e->invariant_name,
         .guard = e->guard_name,
         .tag = e->tag,
+        .events = e->events,
+        .event = e->event,
     };
 }
 
@@ -140,6 +151,7 @@ dal_status dal_model_system(dal_model *model, const dal_system **system, dal_err
     model->out_of_memory = false;
     DAL_TRY(dal__parse_model(model, error));
     DAL_TRY(dal__equations_derive(model, error));
+    DAL_TRY(dal__derive_events(model, error));
     dal_status status = dal__guards(model);
     if (status == DAL_OK) status = dal__properties(model);
     if (status == DAL_OK) status = dal__conserved_energy(model);

@@ -176,6 +176,7 @@ dal_status dal_batch_create(dal_batch **batch, const dal_run_spec *spec, int cou
     if (!known) return dal__fail(error, DAL_ARGUMENT, "width %d is not 0, 1, 4 or 8", width);
     if (spec->options.precision != DAL_DOUBLE)
         return dal__fail(error, DAL_UNSUPPORTED, "a batch has no lanes in quad precision");
+    DAL_TRY(dal__refuse_events(spec->system, "batches", error));
     return dal__batch_of_variant(batch, spec, count, width, DAL__VARIANTS, error);
 }
 

@@ -1,4 +1,5 @@
 /* layout.c - the dimensions and sizes of a run, and whether system, method and options fit. */
+#include "run/event_search.h"
 #include "run/quad.h"
 #include <dalembert_kernel.h>
 #include <math.h>
@@ -257,6 +258,14 @@ static dal_status check_reactions(const dal__layout *k, dal_error *error)
     return DAL_OK;
 }
 
+int dal__max_observables(const dal__layout *k)
+{
+    int count = 0;
+    for (int group = 0; group < DAL__OBSERVABLE_GROUPS; group++)
+        count += dal__observable_count(k, group, true);
+    return count;
+}
+
 /* Sizes, in floating point first so that nothing overflows. */
 static dal_status measure(dal__layout *k, dal_error *error)
 {
@@ -284,6 +293,8 @@ static dal_status measure(dal__layout *k, dal_error *error)
 #define MEMBER(member, count) k->persistent += (size_t)DAL__COUNT_##count(k);
     DAL__METHOD_STATE_LIST(MEMBER)
 #undef MEMBER
+    k->event_memory = dal__event_memory(k);
+    k->persistent += k->event_memory;
     return DAL_OK;
 }
 

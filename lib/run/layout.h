@@ -15,6 +15,7 @@ typedef struct dal__layout {
     double start_time;
     int n, nw, m, dim, lifted, depth, stages, derivatives, multiplier, pivots;
     size_t workspace, persistent, scratch; /* numbers */
+    size_t event_memory; /* numbers of the persistent state that events need, see events.h */
 } dal__layout;
 
 /* Sizes for DAL__METHOD_STATE_LIST. */
@@ -30,8 +31,16 @@ static inline size_t dal__at(const dal__layout *layout, int place)
     return 2 * (size_t)layout->dim + (size_t)place;
 }
 
-/* The place of the number that says whether a parameter was changed between steps. */
-static inline size_t dal__at_changed(const dal__layout *layout) { return layout->persistent - 1; }
+/* The place of the memory of events; and, before it, of the number that says whether a parameter
+ * was changed between steps. */
+static inline size_t dal__at_events(const dal__layout *layout)
+{
+    return layout->persistent - layout->event_memory;
+}
+static inline size_t dal__at_changed(const dal__layout *layout)
+{
+    return dal__at_events(layout) - 1;
+}
 
 /* Whether steps are subject to the rank check. */
 static inline bool dal__checks_rank(const dal_system *system)
@@ -73,6 +82,9 @@ void dal__reaction_name(const dal_system *system, int group, int i, char *buffer
 
 /* Observables in a group. */
 int dal__observable_count(const dal__layout *layout, int group, bool exact_known);
+
+/* The most observables that a run can have. */
+int dal__max_observables(const dal__layout *layout);
 
 /* Numbers in the output of a callback, a dal_callback_code. */
 int dal__eval_size(const dal__layout *layout, int code);

@@ -70,6 +70,11 @@ void dal__quad_push(dal_run *run, size_t first)
     for (size_t i = first; i < dal__saved_count(&run->layout); i++) to[i] = run->persistent[i];
 }
 
+void dal__quad_set(dal_run *run, size_t i)
+{
+    ((num *)(void *)run->quad.persistent)[i] = run->persistent[i];
+}
+
 void dal__quad_pull(dal_run *run)
 {
     for (size_t i = 0; i < dal__saved_count(&run->layout); i++)

@@ -11,6 +11,8 @@ dal_status dal__quad_check(const dal__layout *layout, dal_error *error);
 size_t dal__quad_bytes(const dal__layout *layout);
 size_t dal__quad_width(void);
 void dal__quad_place(dal_run *run, char *memory);
+/* Copies number i of the persistent state from the run in double. */
+void dal__quad_set(dal_run *run, size_t i);
 /* Copies persistent state and parameters from the run in double, those before number `first`
  * excepted (push), or to it, rounded (pull). */
 void dal__quad_push(dal_run *run, size_t first);

@@ -1,5 +1,7 @@
 /* run.c - a run: one system, one method, one block of memory. */
 #include "run/run.h"
+#include "run/event_search.h"
+#include "run/events.h"
 #include "run/failure.h"
 #include "run/quad.h"
 #include "run/start.h"
@@ -18,7 +20,8 @@ static size_t own_numbers(const dal__layout *k)
 {
     const size_t time_and_observables = 1 + (size_t)k->m + 6 + (size_t)k->system->invariants;
     const size_t reactions = k->options.reactions ? (size_t)(k->n + 2 * k->m) : 0;
-    return stored_count(k) + (size_t)(k->n + k->nw) + time_and_observables + reactions;
+    return stored_count(k) + (size_t)(k->n + k->nw) + dal__event_scratch(k) + time_and_observables +
+           reactions;
 }
 
 static size_t quad_bytes(const dal__layout *k)
@@ -46,7 +49,8 @@ static dal_run *place(const dal__layout *layout, void *memory)
     at += dal__align(sizeof *run);
     run->shadow = (double *)(void *)at;
     run->point = run->shadow + stored_count(layout);
-    run->observations.times = run->point + layout->n + layout->nw;
+    run->event_scratch = run->point + layout->n + layout->nw;
+    run->observations.times = run->event_scratch + dal__event_scratch(layout);
     run->observations.values = run->observations.times + 1;
     run->observations.capacity = 1;
     at += dal__align(own_numbers(layout) * sizeof(double));
@@ -129,6 +133,7 @@ dal_status dal_run_advance(dal_run *run, long long count, dal_error *error)
     DAL_REQUIRE(run, error);
     const double h = run->layout.options.step;
     if (count < 0) return dal__fail(error, DAL_ARGUMENT, "%lld steps: a run goes forward", count);
+    if (run->layout.system->events > 0) return dal__advance_events(run, count, NULL, error);
     const dal_status status = dal__step_run(run, h, count);
     return status == DAL_OK ? DAL_OK : dal__failure_reason(run, h, status, error);
 }
@@ -168,6 +173,7 @@ dal_status dal_run_set_state(dal_run *run, double t, const double *state, dal_er
                              state[i]);
     if (!isfinite(t)) return dal__fail(error, DAL_NOT_FINITE, "time %g is not finite", t);
     memset(run->persistent, 0, dal__at_changed(k) * sizeof *run->persistent);
+    memset(run->persistent + dal__at_events(k), 0, k->event_memory * sizeof *run->persistent);
     for (int i = 0; i < k->dim; i++) run->persistent[i] = state[i] + 0.0;
     run->persistent[dal__at(k, DAL__TIME)] = t;
     if (run->quad.engine) dal__quad_push(run, 0);

@@ -50,12 +50,13 @@ struct dal_run {
     double *storage;    /* [stored] persistent and, behind it, parameters; or those of quad */
     size_t stored;
     dal__quad_run quad;
-    double *work;    /* [layout.workspace] parameters, and numbers of the system */
-    double *shadow;  /* [stored] the state before an intermediate step */
-    double *scratch; /* of the engine, for outputs of callbacks */
-    double *point;   /* [n + nw] where a step failed; D before a change of parameters */
-    bool exact;      /* the exact solution agrees with the start */
-    void *owned;     /* memory to free, or NULL */
+    double *work;          /* [layout.workspace] parameters, and numbers of the system */
+    double *shadow;        /* [stored] the state before an intermediate step */
+    double *scratch;       /* of the engine, for outputs of callbacks */
+    double *point;         /* [n + nw] where a step failed; D before a change of parameters */
+    double *event_scratch; /* see events.c */
+    bool exact;            /* the exact solution agrees with the start */
+    void *owned;           /* memory to free, or NULL */
     dal__native_code native;
     dal__observations observations;
 };

@@ -10,6 +10,7 @@
  * of the capacity, wherever a run was begun or interrupted, so that sums in parts find whole parts.
  */
 #include "core/error.h"
+#include "run/events.h"
 #include "run/failure.h"
 #include "run/run.h"
 #include <float.h>
@@ -122,10 +123,33 @@ static dal_status observe_start(const sampling *k)
     return deliver(k, 1);
 }
 
+/* An event of the run, for the observer. */
+static dal_status report_event(void *user, dal_run *run, const dal_occurrence *event)
+{
+    const sampling *k = user;
+    (void)run;
+    return observed(k, k->observer->event(k->observer->user, k->run, event));
+}
+
 /* Takes up to count steps and observes those that are due. */
 static dal_status advance(const sampling *k, long long count)
 {
     const dal_observer *o = k->observer;
+    const dal__event_listener listener = {o->event ? report_event : NULL, (void *)k};
+    for (; count > 0 && k->run->layout.system->events > 0; count--) {
+        const long long made = dal_run_steps(k->run);
+        const dal_status status = dal__advance_events(k->run, 1, &listener, k->error);
+        if (status != DAL_OK && status != DAL_STOPPED) return status;
+        const bool is_due =
+            o->every > 0 && dal_run_steps(k->run) > made && dal_run_steps(k->run) % o->every == 0;
+        if (is_due && o->values) {
+            DAL_TRY(observed(k, store_observation(k->run, 0)));
+            DAL_TRY(deliver(k, 1));
+        } else if (is_due && o->step) {
+            DAL_TRY(observed(k, o->step(o->user, k->run)));
+        }
+        DAL_TRY(status);
+    }
     if (o->values && o->every > 0) return observe_steps(k, count);
     if (!o->step || o->every < 1) return dal_run_advance(k->run, count, k->error);
     while (count > 0) {
@@ -198,11 +222,12 @@ static dal_status advance_to_row(sampling *k, long long row, double t)
 {
     const double step = k->run->layout.options.step, h = fabs(step);
     const double near = fmax(ALIGNED * h, 4.0 * DBL_EPSILON * fabs(t));
+    const bool has_events = k->run->layout.system->events > 0;
     sampled_row r = {k, row, t};
     for (;;) {
         const double left = copysign(1.0, step) * (t - dal_run_time(k->run));
         if (left <= near) return sample_row(&r, k->run);
-        if (left < h - near) {
+        if (left < h - near && !(has_events && dal__next_event(k->run) <= left)) {
             DAL_TRY(dal_run_intermediate(k->run, copysign(left, step), sample_row, &r, k->error));
             return poll(k);
         }
@@ -255,9 +280,24 @@ dal_status dal_run_sample(dal_run *run, double T, long long samples, long long f
     DAL_REQUIRE(run, error);
     if (!observer) observer = &nobody;
     DAL_TRY(check_arguments(run, observer, T, samples, first_row, error));
+    DAL_TRY(dal__check_events(run, error));
     sampling k = {run, observer, error, 0};
     if (first_row == 0 && dal_run_steps(run) == 0) DAL_TRY(observe_start(&k));
-    for (long long row = first_row; row <= samples; row++)
-        DAL_TRY(advance_to_row(&k, row, row_time(run, observer, T, row, samples)));
+    for (long long row = first_row; row <= samples; row++) {
+        const dal_status status = advance_to_row(&k, row, row_time(run, observer, T, row, samples));
+        if (status == DAL_STOPPED && observer->sample) /* the last row is that of the event */
+            DAL_TRY(observed(&k, observer->sample(observer->user, run, row, dal_run_time(run))));
+        if (status == DAL_STOPPED) return dal__check_events(run, error);
+        DAL_TRY(status);
+    }
     return DAL_OK;
+}
+
+dal_status dal_run_events(dal_run *run, double T,
+                          dal_status (*happened)(void *user, dal_run *run,
+                                                 const dal_occurrence *event),
+                          void *user, dal_error *error)
+{
+    const dal_observer observer = {.user = user, .event = happened};
+    return dal_run_sample(run, T, 1, 1, &observer, error);
 }

@@ -304,14 +304,19 @@ static dal_status check_parameters(dal_run *run, const double *before, dal_error
     return check_consistent(run, &c, error);
 }
 
-/* The next step is the method's first, and the solution no longer the exact one. */
-static void begin_again(dal_run *run)
+void dal__restart_method(dal_run *run)
 {
     const dal__layout *k = &run->layout;
     const size_t first = dal__at(k, DAL__CLOCK_SIZE), changed = dal__at_changed(k);
     memset(run->persistent + first, 0, (changed - first) * sizeof *run->persistent);
-    run->persistent[changed] = 1.0;
     if (run->quad.engine) dal__quad_push(run, first);
+}
+
+/* The next step is the method's first, and the solution no longer the exact one. */
+static void begin_again(dal_run *run)
+{
+    run->persistent[dal__at_changed(&run->layout)] = 1.0;
+    dal__restart_method(run);
 }
 
 dal_status dal_run_set_parameter(dal_run *run, const char *name, double value, dal_error *error)

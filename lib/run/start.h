@@ -6,6 +6,8 @@
 
 /* Completes work from the parameters. */
 dal_status dal__run_prepare(dal_run *run);
+/* Lets the next step be the method's first. */
+void dal__restart_method(dal_run *run);
 /* Sets parameters and the start at its time and checks them. */
 dal_status dal__run_start(dal_run *run, const dal_setting *parameters, int parameter_count,
                           const dal_setting *start, int start_count, dal_error *error);

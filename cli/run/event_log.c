@@ -1,0 +1,106 @@
+/* event_log.c - the events of a run as CSV. */
+#include "event_log.h"
+#include "columns.h"
+#include "ui/message.h"
+
+#include "io/file.h"
+
+#include <stdbool.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+enum { NAME_SIZE = 256 };
+
+static long long events_so_far(const dal_run *run)
+{
+    const dal_system *system = dal_run_system(run);
+    long long count = 0;
+    for (int k = 0; k < system->events; k++) count += dal_run_event_count(run, k);
+    return count;
+}
+
+static void write_event_head(const event_log *log)
+{
+    const dal_run *run = log->request->run;
+    char name[NAME_SIZE];
+    fputs("t,event", log->file);
+    for (int i = 0; i < dal_run_dimension(run); i++) {
+        dal_run_name(run, i, name, sizeof name);
+        columns_rename(log->request, name);
+        fputc(',', log->file);
+        cli_put_text(log->file, name);
+    }
+    fputc('\n', log->file);
+}
+
+/* The bytes of a head and count lines of a file; -1 where it has fewer lines. */
+static long long bytes_of(const char *text, size_t length, long long count)
+{
+    const char *at = text;
+    for (long long line = 0; line <= count; line++) {
+        at = memchr(at, '\n', length - (size_t)(at - text));
+        if (!at) return -1;
+        at++;
+    }
+    return at - text;
+}
+
+/* Cuts off what is behind the events that the run has had. */
+static int keep_events(event_log *log, long long count)
+{
+    size_t length;
+    char *text = file_read(log->path, &length);
+    if (!text) return CLI_IO;
+    const long long bytes = bytes_of(text, length, count);
+    free(text);
+    if (bytes < 0)
+        return cli_fail(CLI_USAGE, "'%s' has fewer than the %lld events of the run", log->path,
+                        count);
+    if (truncate(log->path, bytes) != 0) return cli_io("write", log->path);
+    log->file = fopen(log->path, "ab");
+    return log->file ? CLI_DONE : cli_io("write", log->path);
+}
+
+int event_log_open(event_log *log, const run_request *request, const char *path)
+{
+    *log = (event_log){.path = path, .request = request};
+    const long long count = events_so_far(request->run);
+    if (count > 0) return keep_events(log, count);
+    log->file = fopen(path, "wb");
+    if (!log->file) return cli_io("write", path);
+    write_event_head(log);
+    return CLI_DONE;
+}
+
+int event_log_add(event_log *log, const dal_occurrence *event)
+{
+    if (!log->file) return CLI_DONE;
+    const dal_run *run = log->request->run;
+    const double *state = dal_run_state(run);
+    cli_put(log->file, event->t);
+    fprintf(log->file, ",%d", event->event + 1);
+    for (int i = 0; i < dal_run_dimension(run); i++) {
+        fputc(',', log->file);
+        cli_put(log->file, state[i]);
+    }
+    fputc('\n', log->file);
+    return ferror(log->file) ? cli_io("write", log->path) : CLI_DONE;
+}
+
+int event_log_flush(event_log *log, int sync)
+{
+    if (!log->file) return CLI_DONE;
+    if (fflush(log->file) != 0 || (sync && fsync(fileno(log->file)) != 0))
+        return cli_io("write", log->path);
+    return CLI_DONE;
+}
+
+int event_log_close(event_log *log)
+{
+    if (!log->file) return CLI_DONE;
+    const bool failed = ferror(log->file) != 0;
+    const bool closed = fclose(log->file) == 0;
+    log->file = NULL;
+    return failed || !closed ? cli_io("write", log->path) : CLI_DONE;
+}

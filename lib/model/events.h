@@ -1,0 +1,13 @@
+/* events.h - the events of a model: when they happen and what they do. */
+#ifndef DAL_MODEL_EVENTS_H
+#define DAL_MODEL_EVENTS_H
+
+#include "dalembert.h"
+
+/* Parses the section events, after all other formulas.  Errors: DAL_SYNTAX, DAL_NAME, DAL_MODEL,
+ * DAL_TOO_LARGE, DAL_MEMORY. */
+dal_status dal__parse_events(dal_model *model, dal_error *error);
+/* After the equations: the rates and the normals of events.  Errors: DAL_MODEL, DAL_MEMORY. */
+dal_status dal__derive_events(dal_model *model, dal_error *error);
+
+#endif

@@ -1,0 +1,128 @@
+/* event_actions.c - what the events of a run do.
+ *
+ * An impact with restitution c changes v by
+ *
+ *     W (v+ - v-) = f_q L + A^T x,   D(q, v+, t) = 0,   df/dt+ = -c df/dt-,
+ *
+ * the least change in the mass metric with these values (run/consistent.h): c = 1 conserves
+ * v.Wv/2 where D is linear and homogeneous, and f and D do not depend on t. */
+#include "run/event_actions.h"
+#include "run/consistent.h"
+#include "run/quad.h"
+#include <math.h>
+#include <string.h>
+
+enum { MAX_ROUNDS = 100 };
+
+void dal__commit_events(const dal__event_search *w)
+{
+    if (w->run->quad.engine) dal__quad_push(w->run, dal__at_events(&w->run->layout));
+}
+
+/* Changes q and v as event k says, first what it sets, then the rate of its formula, which becomes
+ * -c times what it was. */
+static dal_status change(const dal__event_search *w, int k)
+{
+    dal_run *run = w->run;
+    const dal_point at = dal__here(run);
+    const unsigned actions = w->system->event[k].actions;
+    const size_t n = (size_t)w->system->n, dim = (size_t)run->layout.dim;
+    const double *set = w->m.states + (size_t)k * 2 * n, *normal = dal__event_normal(w, k);
+    const double c = normal[0];
+    const bool is_impact = actions & DAL_EVENT_IMPACT;
+    dal__condition condition = {normal + 1, normal + 1 + n, -(1.0 + c) * w->m.r1[k]};
+    if (is_impact && (!(c >= 0.0) || !isfinite(c)))
+        return dal__fail(w->error, DAL_EVENT, "%s has the restitution %g at t = %.17g",
+                         dal__event_name(w, k), c, at.t);
+    for (size_t i = 0; is_impact && i < n; i++) condition.value += normal[1 + i] * at.v[i];
+    if (actions & DAL_EVENT_SETS) {
+        const dal_status status = w->system->event_states(w->system, &at, w->m.states);
+        for (size_t i = 0; i < 2 * n; i++)
+            if (status != DAL_OK || !isfinite(set[i]))
+                return dal__fail(w->error, status == DAL_OK ? DAL_NOT_FINITE : status,
+                                 "%s sets a value that is not finite at t = %.17g",
+                                 dal__event_name(w, k), at.t);
+        memcpy(run->persistent, set, 2 * n * sizeof *set);
+    }
+    if (actions & (DAL_EVENT_SETS | DAL_EVENT_IMPACT))
+        DAL_TRY(dal__make_consistent(run, is_impact ? &condition : NULL, dal__event_name(w, k),
+                                     w->error));
+    for (size_t i = 0; i < 2 * n; i++) {
+        run->persistent[i] += 0.0; /* no -0: see lib/kernel/step.h */
+        if (run->persistent[i] == w->m.before[i]) continue;
+        run->persistent[dim + i] = 0.0;
+        if (!run->quad.engine) continue;
+        dal__quad_set(run, i);
+        dal__quad_set(run, dim + i);
+    }
+    return DAL_OK;
+}
+
+dal_status dal__act_events(const dal__event_search *w, double last,
+                           const dal__event_listener *listener)
+{
+    const int events = w->system->events;
+    bool any = true;
+    for (int round = 0; any && round < MAX_ROUNDS; round++) {
+        any = false;
+        for (int k = 0; k < events; k++) {
+            const bool is_impact = w->system->event[k].actions & DAL_EVENT_IMPACT;
+            if (w->m.s[k] > last || (round > 0 && !is_impact)) continue;
+            DAL_TRY(dal__evaluate_events(w, w->system->event_rates, w->m.r1));
+            DAL_TRY(dal__evaluate_event_normals(w));
+            const double rate = dal__sign(w->m.now[k]) * w->toward * w->m.r1[k];
+            if (is_impact && rate >= -dal__event_rate_rounding(w, k)) continue; /* leads back */
+            any = any || is_impact;
+            memcpy(w->m.before, w->run->persistent, (size_t)w->run->layout.dim * sizeof(double));
+            DAL_TRY(change(w, k));
+            w->m.count[k]++;
+            if (w->system->event[k].actions & DAL_EVENT_STOPS && *w->m.stopped == 0.0)
+                *w->m.stopped = k + 1;
+            dal__commit_events(w);
+            if (!listener || !listener->happened) continue;
+            const dal_occurrence event = {.event = k,
+                                          .number = (long long)w->m.count[k],
+                                          .direction = -(int)dal__sign(w->m.now[k]),
+                                          .t = dal_run_time(w->run),
+                                          .before = w->m.before};
+            DAL_TRY(listener->happened(listener->user, w->run, &event));
+        }
+    }
+    for (int k = 0; any && k < events; k++)
+        if (w->m.s[k] <= last && w->system->event[k].actions & DAL_EVENT_IMPACT)
+            return dal__events_endless(w, k);
+    return DAL_OK;
+}
+
+dal_status dal__leave_event(const dal__event_search *w, int k)
+{
+    const dal_event *event = &w->system->event[k];
+    const double from = dal__sign(w->m.now[k]), rate = w->toward * w->m.r1[k];
+    const bool is_wall = event->actions & (DAL_EVENT_IMPACT | DAL_EVENT_TURNS) &&
+                         (event->direction != 0 || event->actions & DAL_EVENT_IMPACT);
+    const bool is_off = fabs(w->m.f1[k]) > dal__event_rounding(w, k) &&
+                        event->actions & DAL_EVENT_SETS && w->m.f1[k] != w->m.there[k];
+    double to = is_off                                        ? dal__sign(w->m.f1[k])
+                : fabs(rate) > dal__event_rate_rounding(w, k) ? 2.0 * dal__sign(rate)
+                                                              : 0.0;
+    if (to == 0.0) to = is_wall ? 2.0 * from : -2.0 * from;
+    w->m.side[k] = to;
+    if (!is_wall || dal__sign(to) == from || event->actions & DAL_EVENT_STOPS) return DAL_OK;
+    return dal__fail(w->error, DAL_EVENT,
+                     "%s at t = %.17g: the velocities after it still lead out, d(when)/dt = %.6g",
+                     dal__event_name(w, k), dal_run_time(w->run), w->m.r1[k]);
+}
+
+void dal__pass_event(const dal__event_search *w, int k, const double *before)
+{
+    const double side = w->m.now[k], f = w->m.f1[k], end = dal__sign(f);
+    const bool is_small = fabs(f) <= 1e-9 * fabs(w->h * w->m.r0[k]);
+    const bool is_set = before && f != before[k] && fabs(f) > dal__event_rounding(w, k);
+    const bool is_same = end == 0.0 || end == dal__sign(side);
+    if (is_set)
+        w->m.side[k] = end;
+    else if (!is_same && fabs(side) == 2.0 && (is_small || dal__is_event_from(w, k, side)))
+        w->m.side[k] = side;
+    else
+        w->m.side[k] = is_same || dal__is_event_from(w, k, side) ? dal__sign(side) : end;
+}

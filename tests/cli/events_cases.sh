@@ -1,0 +1,122 @@
+# Events: impacts, stops, logs, and runs with them that are interrupted.
+
+raises || return 0
+examples=$here/../../examples
+# A ball above a floor; the times of its bounces are t1 (1 + 2 c (1 - c^k)/(1 - c)), t1 = sqrt(2/g).
+cat >ball.yaml <<'END'
+coordinates: [y]
+parameters: {g: 9.81, c: 0.8, r: 0.1}
+lagrangian: y'^2/2 - g*y
+start: {y: 1.1}
+events:
+  - {when: y - r, direction: down, restitution: c}
+END
+ball="ball.yaml --integrator gauss4 --step 0.01"
+# bounces FILE COUNT: the times and the states of a log are those of the closed form.
+bounces() {
+    awk -F, -v bounces="$2" 'NR == 1 { next }
+        { g = 9.81; c = 0.8; k = NR - 2; t = sqrt(2/g)*(1 + 2*c*(1 - c^k)/(1 - c))
+          if (($1 - t)^2 > 1e-24 || $2 != 1 || ($3 - 0.1)^2 > 1e-28) exit 1
+          if (($4 - c^(k + 1)*sqrt(2*g))^2 > 1e-24) exit 1 }
+        END { exit NR != bounces + 1 }' "$1"
+}
+
+case_is "a log of events"
+try 0 run $ball --time 3 --events log.csv
+silent
+holds "its head" grep -qx "t,event,y,y',e,p_y,pi_y,pi_e" log.csv
+holds "not the closed form" bounces log.csv 6
+try 0 run $ball --time 3 --space physical --events log.csv --names plain
+holds "its head" grep -qx "t,event,y,vy" log.csv
+holds "not the closed form" bounces log.csv 6
+try 2 run line.yaml --integrator rk4 --step 0.1 --time 1 --events none.csv
+says '^dalembert: --events: line.yaml has no events$'
+try 4 run $ball --time 3 --events none/log.csv
+says 'none/log.csv'
+
+case_is "E without its jumps"
+try 0 run $ball --time 3 --summary
+holds "E is not kept to rounding" grep -Eq '^E .* rounding ' err
+
+case_is "an event stops a run"
+sed 's/restitution: c/stop: true/' ball.yaml >stop.yaml
+try 0 run stop.yaml --integrator gauss4 --step 0.01 --time 3 --samples 30 --output stopped
+says '^dalembert: stop.yaml: event 1 \(y - r\) stopped the run at t = 0.45152'
+holds "not 6 rows" has_rows stopped/trajectory.npy 6
+holds "no reason in the manifest" grep -q '"message": "event 1 (y - r) stopped the run' stopped/manifest.json
+holds "not done" grep -q '"status": "done"' stopped/manifest.json
+try 0 resume stopped
+says "'stopped' is finished: 6 rows"
+
+case_is "infinitely many events"
+try 3 run $ball --set c=0.5 --time 3 --samples 3 --output endless
+says 'event 1 \(y - r\) happens infinitely often: number [0-9]* is at t = 1.35457'
+holds "the rows are not kept" has_rows endless/trajectory.npy 2
+holds "not failed" grep -q '"status": "failed"' endless/manifest.json
+try 3 resume endless
+says 'happens infinitely often'
+
+case_is "velocities that lead out"
+sed "s|restitution: c|set: {y': y'/2}|" ball.yaml >out.yaml
+try 3 run out.yaml --integrator gauss4 --step 0.01 --time 3
+says 'event 1 \(y - r\) at t = 0.45152.*still lead out'
+
+case_is "killed between events"
+long="ball.yaml --integrator gauss8 --step 0.001 --time 4 --samples 4001 --set c=0.9"
+try 0 run $long --output whole --events whole.csv
+holds "not its own log" cmp whole.csv whole/events.csv
+cut_off 137 9 6 run $long --checkpoint 0 --output killed
+for call in 3 8 15; do cut_off 137 9 $call resume killed --checkpoint 0; done
+printf '3.5,1,0' >>killed/events.csv
+try 0 resume killed --events killed.csv
+holds "not the rows of a run never interrupted" cmp killed/trajectory.npy whole/trajectory.npy
+holds "not the summary of a run never interrupted" cmp killed/summary.csv whole/summary.csv
+holds "not the events of a run never interrupted" cmp killed/events.csv whole/events.csv
+holds "not a copy" cmp killed.csv whole/events.csv
+cp -r endless lost
+head -1 endless/events.csv >lost/events.csv
+try 2 resume lost
+says "'lost/events.csv' has fewer than the [0-9]* events of the run"
+
+case_is "compiled steps have the same bits"
+try 0 run $ball --time 3 --samples 7 --native off --output interpreted.csv
+if there "${CC:-cc}"; then
+    try 0 run $ball --time 3 --samples 7 --native on --output compiled.csv
+    holds "other bits" cmp compiled.csv interpreted.csv
+fi
+
+case_is "commands that would pass over events"
+for command in "lyapunov $ball --time 1" "section $ball --time 1 --on y" "explain $ball --time 1" \
+    "generate ball.yaml --integrator gauss4" "volume $ball --time 1"; do
+    try 2 $command
+    says 'ball has events: .* would pass over them'
+done
+try 2 order ball.yaml --integrators gauss4 --step 0.1 --time 1
+says 'ball.yaml has events'
+try 0 check ball.yaml
+prints ' 0 failed'
+
+# E falls by m ((c v)^2 - v^2)/2 with the velocity v across the slope; the part along it is untouched.
+case_is "a ball on a slope"
+try 0 run "$examples/ball-on-incline.yaml" --samples 20 --columns q,v,E,along --output slope.csv --events slope-events.csv
+holds "not the closed form" awk -F, 'NR == 1 { next }
+    { a = 0.3; g = 9.81*cos(a); c = 0.8; k = NR - 2; t = sqrt(1/g)*(1 + 2*c*(1 - c^k)/(1 - c))
+      v = $5*sin(a) + $6*cos(a)
+      if (($1 - t)^2 > 1e-24 || (v - c^(k + 1)*sqrt(g))^2 > 1e-24) exit 1 }
+    END { exit NR < 5 }' slope-events.csv
+holds "the motion along the slope changed" awk -F, 'NR > 1 && $7^2 > 1e-24 { exit 1 }' slope.csv
+
+case_is "a pendulum with a stop"
+try 0 run "$examples/pendulum-with-stop.yaml" --samples 20 --columns E --output stop.csv --events stop-events.csv
+holds "E is not conserved" awk -F, 'NR > 1 && ($2 + 0.36235775447667357)^2 > 1e-24 { exit 1 }' stop.csv
+# theta'^2/2 = cos 0.5 - cos 1.2, at times (2k + 1) t_1
+holds "other impacts" awk -F, 'NR == 1 { next } NR == 2 { first = $1 }
+    { v = -sqrt(2*(cos(0.5) - cos(1.2)))
+      if (($4 - v)^2 > 1e-24 || ($1 - (2*NR - 3)*first)^2 > 1e-22) exit 1 } END { exit NR < 5 }' stop-events.csv
+
+case_is "a robot at a wall"
+for method in gauss8+project rk4 dop853 gni dla lobatto-nonholonomic4; do
+    try 0 run "$examples/robot-at-wall.yaml" --integrator $method --step 0.01 --space physical --events robot.csv
+    holds "$method: D after an impact" awk -F, 'NR > 1 && ($6*sin($5) - $7*cos($5))^2 > 1e-30 { exit 1 }
+        END { exit NR != 3 }' robot.csv
+done
