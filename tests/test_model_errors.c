@@ -314,8 +314,11 @@ static const bad_file mechanics[] = {
     {DAL_RANK, "constraint 1 is not held by the reactions: A W^-1 B^T is singular",
      XY L "constraints: [@x']\nreactions: [{y: 1}]\n"},
     {DAL_RANK, "3 constraints on 2 coordinates", XY L "constraints: [x', y', @x' + y']\n"},
-    {DAL_RANK, "constraint 2 is not independent of the others: A W^-1 A^T is singular",
+    {DAL_RANK, "constraint 2 is redundant, it depends on 1: A W^-1 A^T is singular",
      XY L "constraints: [x' + y', @x*(x' + y')]\nstart: {x: 1}\n"},
+    {DAL_RANK, "constraint 1 is redundant, it depends on 3, 4: A W^-1 A^T is singular",
+     "coordinates: [x, y, z, w]\nlagrangian: x'^2 + y'^2 + z'^2 + w'^2\n"
+     "constraints: [@x' - y*w', 5*y' + w', 7*z', 2*x' - 2*y*w' + y*z']\n"},
 };
 
 /* ---- the check ---- */

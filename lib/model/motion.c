@@ -16,6 +16,8 @@
 #include "model/bordered.h"
 #include "model/model.h"
 #include <limits.h>
+#include <math.h>
+#include <stdio.h>
 
 /* ---- errors ---- */
 
@@ -29,15 +31,49 @@ dal_status dal__singular_mass(const dal_model *model, int row, dal_error *error)
         e->coordinate[row]);
 }
 
-dal_status dal__dependent_constraints(const dal_model *model, int row, dal_error *error)
+/* Lists the constraints whose rows of A combine to that of one, ", 1, 2", at an irregular point:
+ * rows[m*(n+m)] are A and, behind it, what each is made of. */
+static void list_dependence(const dal__equations *e, int row, double *rows, char *list, size_t size)
 {
+    const double golden = 0.6180339887498949, rounding = 1e-9;
+    const int n = e->n, m = e->m, width = n + m;
+    double *point = rows + m * width;
+    for (int i = 0; i < e->symbols; i++)
+        point[i] = e->value[i] + (i < e->parameters ? 0.0 : fmod((i + 1) * golden, 1.0) - 0.5);
+    for (int a = 0; a < m; a++) {
+        double *w = rows + a * width; /* row comes last */
+        const int number = a == m - 1 ? row : a + (a >= row);
+        for (int i = 0; i < n; i++) w[i] = dal__evaluate(e->graph, e->A[number * n + i], point);
+        w[n + number] = 1.0;
+        for (int b = 0; b < a; b++) {
+            const double *other = rows + b * width;
+            int best = 0;
+            for (int i = 1; i < n; i++) best = fabs(other[i]) > fabs(other[best]) ? i : best;
+            const double factor = fabs(other[best]) > rounding ? w[best] / other[best] : 0.0;
+            for (int i = 0; i < width; i++) w[i] -= factor * other[i];
+        }
+    }
+    const double *made = rows + (m - 1) * width + n;
+    for (int a = 0, length = 0; a < m && length < (int)size; a++)
+        if (a != row && fabs(made[a]) > rounding)
+            length += snprintf(list + length, size - (size_t)length, ", %d", a + 1);
+}
+
+dal_status dal__dependent_constraints(dal_model *model, int row, dal_error *error)
+{
+    const dal__equations *e = &model->equations;
     const dal__entry *entry = dal__model_entry(model, DAL_SECTION_CONSTRAINTS, row);
-    return dal__fail_at(
-        error, DAL_RANK, DAL__AT_TEXT(entry),
-        model->equations.servo
-            ? "constraint %d is not held by the reactions: A W^-1 B^T is singular"
-            : "constraint %d is not independent of the others: A W^-1 A^T is singular",
-        row + 1);
+    const size_t count = (size_t)(e->m * (e->n + e->m) + e->symbols);
+    double *rows = dal__model_allocate(model, count, sizeof *rows);
+    char list[128] = ", others";
+    if (e->servo)
+        return dal__fail_at(error, DAL_RANK, DAL__AT_TEXT(entry),
+                            "constraint %d is not held by the reactions: A W^-1 B^T is singular",
+                            row + 1);
+    if (rows) list_dependence(e, row, rows, list, sizeof list);
+    return dal__fail_at(error, DAL_RANK, DAL__AT_TEXT(entry),
+                        "constraint %d is redundant, it depends on %s: A W^-1 A^T is singular",
+                        row + 1, list + 2);
 }
 
 /* status: of dal__factor. */

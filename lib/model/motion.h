@@ -26,6 +26,6 @@ dal_status dal__motion_adjoint(dal_model *model, dal__node *by_q, dal__node *by_
 
 /* The error of a mass matrix, or of constraints, without a pivot in this row (from 0). */
 dal_status dal__singular_mass(const dal_model *model, int row, dal_error *error);
-dal_status dal__dependent_constraints(const dal_model *model, int row, dal_error *error);
+dal_status dal__dependent_constraints(dal_model *model, int row, dal_error *error);
 
 #endif
