@@ -86,6 +86,19 @@ static void test_ball(void)
         }
 }
 
+/* Backwards in time a ball bounces at -t_1, -t_2, ..; down and up are meant along the run. */
+static void test_backwards(void)
+{
+    const double g = 9.81, c = 0.8, first = sqrt(2.0 / g);
+    const record r =
+        events_of(BALL("restitution: c"), "gauss4", DAL_LIFTED, -0.01, -1.5, DAL_OK, NULL);
+    CU_ASSERT_EQUAL_FATAL(r.count, 2);
+    CU_ASSERT_DOUBLE_EQUAL(r.t[0], -first, 1e-12);
+    CU_ASSERT_DOUBLE_EQUAL(r.t[1], -first * (1.0 + 2.0 * c), 1e-12);
+    CU_ASSERT_DOUBLE_EQUAL(r.after[0][1], -c * g * first, 1e-12);
+    CU_ASSERT_EQUAL(r.direction[0], -1);
+}
+
 /* On a plane of slope a the distance from it is a ball's height under g cos a, and the place along
  * it has the acceleration g sin a. */
 static void test_tilted(void)
@@ -462,6 +475,7 @@ void suite_events(void)
 {
     CU_pSuite suite = CU_add_suite("events", NULL, NULL);
     CU_add_test(suite, "a bouncing ball", test_ball);
+    CU_add_test(suite, "backwards", test_backwards);
     CU_add_test(suite, "on an incline", test_tilted);
     CU_add_test(suite, "a pendulum against a stop", test_pendulum);
     CU_add_test(suite, "a sliding block", test_block);
