@@ -37,6 +37,9 @@ $(BENCH)/statistics: bench/statistics.c $(BENCH)/lib/libdalembert.a $(BENCH_HEAD
 $(BENCH)/hand: bench/hand.c $(BENCH_HEADERS)
 	@mkdir -p $(@D)
 	$(call SAY,cc)$(CC) $(BENCH_PEER) $< -lm -o $@
+$(BENCH)/hand-own: bench/hand.c $(BENCH_HEADERS)
+	@mkdir -p $(@D)
+	$(call SAY,cc)$(CC) $(BENCH_PEER) -DHAND_OWN_SINCOS $< -lm -o $@
 $(BENCH)/gsl: bench/gsl.c $(BENCH_HEADERS)
 	@mkdir -p $(@D)
 	$(call SAY,cc)$(CC) $(BENCH_PEER) $< -lgsl -lgslcblas -lm -o $@
@@ -70,7 +73,7 @@ $(BENCH)/gen.%: $(BENCH)/gen.%.c bench/gen.c bench/bench.h
 	$(call SAY,cc)$(CC) -std=c11 -D_POSIX_C_SOURCE=200809L $(BENCH_FAST) $(EXACT) -Wno-psabi \
 	    -include $< bench/gen.c -lm -o $@
 
-bench-programs: $(BENCH)/dal $(BENCH)/rows $(BENCH)/native $(BENCH)/statistics $(BENCH)/hand $(BENCH)/peak
+bench-programs: $(BENCH)/dal $(BENCH)/rows $(BENCH)/native $(BENCH)/statistics $(BENCH)/hand $(BENCH)/hand-own $(BENCH)/peak
 	@for gen in $(BENCH_GEN); do $(MAKE) -s --no-print-directory $(BENCH)/$$gen || exit 1; done
 	@for peer in $(BENCH_PEERS); do $(MAKE) -s --no-print-directory $(BENCH)/$$peer || exit 1; done
 bench: bench-programs

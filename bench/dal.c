@@ -137,13 +137,15 @@ static int work_batch(void *self, double *end)
     return 0;
 }
 
-/* Lanes differ a little in the first coordinate, which no constraint at the start sees. */
+/* Lanes have states of their own, as in gen.c. */
 static int make_batch(contender *j, int lanes, dal_error *error)
 {
-    const char *name = j->spec.system->coordinate[0];
+    const int last = j->spec.system->n - 1;
+    char name[32];
+    snprintf(name, sizeof name, "%.30s'", j->spec.system->coordinate[last]);
     if (dal_batch_create(&j->batch, &j->spec, lanes, 0, error)) return 1;
     for (int i = 0; i < lanes; i++) {
-        const dal_setting start = {name, j->start[0] + 1e-3 * i};
+        const dal_setting start = {name, j->start[j->shown - 1] + 1e-2 * i};
         if (dal_batch_start(j->batch, i, NULL, 0, &start, 1, error)) return 1;
     }
     return 0;

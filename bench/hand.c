@@ -2,17 +2,23 @@
  * against.
  *
  *     hand rk4 A|B3|B101       classical Runge-Kutta, libm's sin and cos, plain sums
+ *     hand-own rk4 A           the same with this project's sine and cosine (HAND_OWN_SINCOS)
  *     hand midpoint A          implicit midpoint, k <- f(y + h/2 k) until k stagnates */
 #define _POSIX_C_SOURCE 200809L
 #include "../examples/contact_chain.h"
 #include "bench.h"
 
 typedef double real;
+#ifdef HAND_OWN_SINCOS
+#include "kernel/elementary.h"
+static inline void real_sincos(real x, real *s, real *c) { dal_sincos(x, s, c); }
+#else
 static inline void real_sincos(real x, real *s, real *c)
 {
     *s = sin(x);
     *c = cos(x);
 }
+#endif
 #include "fields.inc"
 
 enum { SMALL_STEPS = 1000, LARGE_STEPS = 200, LARGE_DIM = 2 * CHAIN_N };

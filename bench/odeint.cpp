@@ -2,7 +2,8 @@
  *
  *     odeint rk4 A|B3       state of doubles
  *     odeint rk4x8 A|B3     state of 8-lane vectors, eight trajectories at once; the sine and
- * cosine over lanes are those of this project, odeint having none */
+ *                           cosine over lanes are those of this project, odeint having none
+ *     odeint rk4x16 A|B3    of 16-lane vectors, which the compiler splits into two of 8 */
 #define _POSIX_C_SOURCE 200809L
 #define DAL_LANES       8
 #include "bench.h"
@@ -31,6 +32,20 @@ static inline void real_sincos(real x, real *s, real *c) { dal_sincos(x, s, c); 
 #include "fields.inc"
 } // namespace wide
 
+namespace wider
+{
+typedef double real __attribute__((vector_size(16 * sizeof(double))));
+static inline void real_sincos(real x, real *s, real *c)
+{
+    num half[2], sine[2], cosine[2];
+    memcpy(half, &x, sizeof x);
+    for (int i = 0; i < 2; i++) dal_sincos(half[i], &sine[i], &cosine[i]);
+    memcpy(s, sine, sizeof x);
+    memcpy(c, cosine, sizeof x);
+}
+#include "fields.inc"
+} // namespace wider
+
 constexpr int DIM = scalar::SMALL_DIM, STEPS = 1000;
 
 template <class Real, void (*field)(const Real *, Real *)> int work(void *self, double *end)
@@ -39,10 +54,10 @@ template <class Real, void (*field)(const Real *, Real *)> int work(void *self, 
     odeint::runge_kutta4<state, double, state, double, odeint::array_algebra> stepper;
     const double *start = static_cast<const double *>(self), h = BENCH_H_STEP;
     state y;
-    /* Lanes differ a little in the first coordinate, as in dal.c. */
+    /* Lanes have states of their own, as in gen.c. */
     for (int i = 0; i < DIM; i++) y[i] = start[i] - Real{};
     for (size_t lane = 1; lane < sizeof(Real) / sizeof(double); lane++)
-        reinterpret_cast<double *>(&y[0])[lane] += 1e-3 * static_cast<double>(lane);
+        reinterpret_cast<double *>(&y[DIM - 1])[lane] += 1e-2 * static_cast<double>(lane);
     const auto system = [](const state &x, state &dx, double) { field(x.data(), dx.data()); };
     for (int i = 0; i < STEPS; i++) stepper.do_step(system, y, i * h, h);
     for (int i = 0; i < DIM; i++) end[i] = reinterpret_cast<double *>(&y[i])[0];
@@ -60,6 +75,8 @@ int main(int argc, char **argv)
         {"rk4 B3", {STEPS, DIM, work<double, scalar::chain3_field>, B3}},
         {"rk4x8 A", {8.0 * STEPS, DIM, work<num, wide::sleigh_field>, A}},
         {"rk4x8 B3", {8.0 * STEPS, DIM, work<num, wide::chain3_field>, B3}},
+        {"rk4x16 A", {16.0 * STEPS, DIM, work<wider::real, wider::sleigh_field>, A}},
+        {"rk4x16 B3", {16.0 * STEPS, DIM, work<wider::real, wider::chain3_field>, B3}},
     };
     for (const auto &c : contender)
         if (bench_is(argc, argv, c.name)) return bench_measure(&c.timed);

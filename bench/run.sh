@@ -3,6 +3,9 @@
 # after the other, RUNS times (7); verifies that both sides of a case reach the same end state;
 # prints the median of each ratio with its spread as a table, and as JSON lines to OUTPUT.
 #
+# Each process gets a copy of its program, made for it: where the pages of a file happen to lie can cost
+# a few percent, and stays so as long as the file does.
+#
 # A goal that is not met is reported, not punished: the exit status is 1 only when a contender fails
 # or two end states differ.  A contender whose program was not built is skipped by name.
 set -u
@@ -10,7 +13,7 @@ cases=$1 programs=$2 output=$3
 runs=${RUNS:-7}
 here=$(dirname "$0")
 log=$(mktemp) || exit 1
-trap 'rm -f "$log"' EXIT
+trap 'rm -f "$log" "$programs"/copy.*' EXIT
 
 contenders() {
     awk -F '|' '/^ *(#|$)/ { next } { for (i = 3; i <= 4; i++) {
@@ -21,8 +24,11 @@ round=1
 while [ "$round" -le "$runs" ]; do
     contenders | while read -r name; do
         [ -x "$programs/${name%% *}" ] || { printf '%s\tskip\n' "$name"; continue; }
+        copy=$programs/copy.${name%% *}
+        rm -f "$copy" && cp "$programs/${name%% *}" "$copy" || exit 1
         # shellcheck disable=SC2086 # the words of a contender are arguments
-        line=$("$programs"/$name </dev/null) || line=fail
+        line=$("$programs"/copy.$name </dev/null) || line=fail
+        rm -f "$copy"
         printf '%s\t%s\n' "$name" "$line"
     done >>"$log"
     round=$((round + 1))
