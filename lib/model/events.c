@@ -8,6 +8,7 @@
 #include "expr/simplify.h"
 #include "expr/traversal.h"
 #include "model/formulas.h"
+#include "model/motion.h"
 #include <math.h>
 #include <string.h>
 
