@@ -298,15 +298,16 @@ static void test_order_in_the_file(void)
     CU_ASSERT_DOUBLE_EQUAL(r.after[1][3], -0.5, 1e-15);
 }
 
-/* A step that would fail beyond the wall: U = -log(y) has no value there. */
+/* A step that fails beyond the wall, where sqrt(y) has no value. */
 static void test_wall_before_a_pole(void)
 {
-    const char *text = "coordinates: [y]\nlagrangian: y'^2/2 + log(y)\nstart: {y: 1, y': -3}\n"
+    const char *text = "coordinates: [y]\naccelerations: {y: 1e-9*sqrt(y)}\n"
+                       "start: {y: 1, y': -3}\n"
                        "events: [{when: y - 0.05, direction: down, restitution: 1}]\n";
-    const record r = events_of(text, "gauss8", DAL_PHYSICAL, 0.2, 0.5, DAL_OK, NULL);
-    CU_ASSERT_FATAL(r.count >= 1);
-    CU_ASSERT_DOUBLE_EQUAL(r.before[0][0], 0.05, 1e-14);
-    CU_ASSERT(r.after[0][1] > 0.0);
+    const record r = events_of(text, "rk4", DAL_PHYSICAL, 0.2, 0.6, DAL_OK, NULL);
+    CU_ASSERT_EQUAL_FATAL(r.count, 1);
+    CU_ASSERT_DOUBLE_EQUAL(r.t[0], 0.95 / 3.0, 1e-8);
+    CU_ASSERT_DOUBLE_EQUAL(r.after[0][1], 3.0, 1e-8);
 }
 
 /* ---- what cannot be passed ---- */
@@ -367,6 +368,19 @@ static dal_status add_row(void *user, dal_run *run, long long row, double t)
     return DAL_OK;
 }
 
+/* The height of the ball at t. */
+static double height(double t)
+{
+    const double g = 9.81, c = 0.8;
+    double begin = -sqrt(2.0 / g), speed = g * -begin, end = -begin;
+    while (end < t) {
+        speed *= c;
+        begin = end;
+        end += 2.0 * speed / g;
+    }
+    return 0.1 + speed * (t - begin) - 0.5 * g * (t - begin) * (t - begin);
+}
+
 /* Rows and interruptions do not change the motion; the last row of a stopped run is the event. */
 static void test_rows(void)
 {
@@ -379,6 +393,8 @@ static void test_rows(void)
     few = *r;
     *r = (rows){0};
     CU_ASSERT_EQUAL(dal_run_sample(other, 3.0, 50, 0, &observer, NULL), DAL_OK);
+    for (int k = 0; k <= 50; k++)
+        CU_ASSERT_DOUBLE_EQUAL(r->values[k][1], height(r->values[k][0]), 1e-12);
     for (int k = 0; k <= 5; k++)
         CU_ASSERT_EQUAL(memcmp(few.values[k], r->values[10 * k], sizeof few.values[k]), 0);
     size_t count;

@@ -245,7 +245,7 @@ static dal_status search_within(dal__event_search *w, double *distance)
     return isfinite(*distance) ? DAL_OK : dal__step_run(w->run, w->h, 1); /* as before */
 }
 
-/* The same of the next step.  Where it fails, as beyond a wall, its halves may have an event. */
+/* The same of the next step.  Where it fails, as beyond a wall, a shorter one may have an event. */
 dal_status dal__search_events(dal__event_search *w, double *distance)
 {
     const double h = w->h;
@@ -265,12 +265,13 @@ dal_status dal__search_events(dal__event_search *w, double *distance)
     const dal_status status = search_within(w, distance);
     if (status == DAL_OK || status == DAL_EVENT) return status;
     w->error = &reason;
+    double low = 0.0, high = h;
     for (int i = 0; i < MAX_HALVES; i++) {
-        w->h *= 0.5;
-        if (search_within(w, distance) != DAL_OK) continue;
-        if (isfinite(*distance)) return DAL_OK;
-        dal__run_revert(w->run);
-        break;
+        w->h = 0.5 * (low + high);
+        const dal_status shorter = search_within(w, distance);
+        if (shorter == DAL_OK && isfinite(*distance)) return DAL_OK;
+        if (shorter == DAL_OK) dal__run_revert(w->run);
+        *(shorter == DAL_OK ? &low : &high) = w->h;
     }
     w->error = error;
     const bool is_explained = error && error->status == status;
