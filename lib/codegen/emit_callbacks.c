@@ -94,7 +94,7 @@ static void write_case(dal__generation *g, dal__program_code code, const char *c
     }
     dal__buffer_print(&g->text, "        dal__mask_singular(all, %d, %d, out);\n", outputs,
                       p->checked);
-    if (p->left > 0 && g->layout.pivots > 0)
+    if (p->left > 0 && g->layout.pivots > 0 && g->product != DAL__OBSERVE)
         dal__buffer_print(&g->text,
                           "        if (pivots)\n            DAL_EACH(i, %d) "
                           "pivots[i * DAL_STEP_GROUPS] = all[%d + i];\n",
