@@ -149,16 +149,17 @@ struct dal_system {
     int n;                         /* coordinates, >= 1 */
     int m;                         /* constraints */
     int multipliers;               /* first-order variables beside v (vakonomic g); 0 or m */
-    int parameters, invariants, guards, tags; /* how many there are */
-    unsigned properties;                      /* DAL_D_LINEAR | ...: what is known of D and E */
-    const char *const *coordinate;            /* [n] names; NULL: q1, q2, ... */
-    const char *const *parameter;             /* [parameters] names */
-    const double *value;                      /* [parameters] default values */
-    const char *const *invariant;             /* [invariants] names */
-    const char *const *guard;                 /* [guards] "constraint 1: y1'" for messages */
-    int mass_guard;                           /* which guard, from 1, is det W; 0: none */
-    const char *const *tag;                   /* [tags] words that classify the system */
-    size_t workspace;                         /* doubles in dal_point.work; 0 means parameters */
+    int parameters, invariants, guards, tags, tables; /* how many there are */
+    unsigned properties;           /* DAL_D_LINEAR | ...: what is known of D and E */
+    const char *const *coordinate; /* [n] names; NULL: q1, q2, ... */
+    const char *const *parameter;  /* [parameters] names */
+    const double *value;           /* [parameters] default values */
+    const char *const *invariant;  /* [invariants] names */
+    const char *const *guard;      /* [guards] "constraint 1: y1'" for messages */
+    int mass_guard;                /* which guard, from 1, is det W; 0: none */
+    const char *const *tag;        /* [tags] words that classify the system */
+    const char *const *table;      /* [tables] names, for messages */
+    size_t workspace;              /* doubles in dal_point.work; 0 means parameters */
     int pivots; /* numbers that field and adjoint leave at the end of work: pivots of the equations
                    they solve; the rank check is spared where these are steady; 0: none */
     dal_callbacks call;                 /* one lane */
@@ -177,7 +178,8 @@ struct dal_system {
     dal_callback *event_states;  /* out[2n*events]: q, v as each sets them; NULL: none does */
     dal_callback *event_normals; /* out[(1 + 2n)*events]: restitution, when_q, W^-1 when_q */
     dal_callback *diagnose; /* out[1]: why field is not finite here: returns DAL_SINGULAR with the
-                               number of the constraint (from 1), DAL_SINGULAR_MASS, or DAL_OK */
+                               number of the constraint (from 1), DAL_SINGULAR_MASS, DAL_NOT_FINITE
+                               with that of a table read outside its points, or DAL_OK */
     const dal_system *extended; /* F continued off D = 0 so that E is exact, for extend-energy */
     const dal_system *quad;     /* work in quad precision, for precision; these two may be NULL */
     const struct dal_picture *picture; /* how it is drawn; NULL: not at all */
@@ -231,6 +233,8 @@ typedef struct dal_model dal_model;
     SECTION(COORDINATES, "coordinates")     /* text: a name */                                     \
     SECTION(SIZES, "sizes")                 /* name, text: a whole number */                       \
     SECTION(PARAMETERS, "parameters")       /* name, text: a number */                             \
+    SECTION(FILES, "files")                 /* name of a file, its text; see tables */             \
+    SECTION(TABLES, "tables")               /* by dal_model_add_table */                           \
     SECTION(FUNCTIONS, "functions")         /* name with arguments, as V(r); formula */            \
     SECTION(LET, "let")                     /* name, formula */                                    \
     SECTION(LAGRANGIAN, "lagrangian")       /* formula */                                          \
@@ -267,17 +271,40 @@ void dal_model_free(dal_model *model);
  * line and column (from 1 or 0) are its place. [alloc]  Errors: DAL_NAME, DAL_SYNTAX, DAL_MODEL. */
 dal_status dal_model_add(dal_model *model, dal_section section, const char *name, const char *text,
                          int line, int column, dal_error *error);
+/* Between two points a table is a straight line, or the natural cubic spline: smooth up to its
+ * second derivative, which is 0 at both ends. */
+typedef enum dal_interpolation { DAL_LINEAR, DAL_CUBIC } dal_interpolation;
+/* Outside its points a table is no number, the value at the end, or the line that continues it. */
+typedef enum dal_extend { DAL_EXTEND_NONE, DAL_EXTEND_CONSTANT, DAL_EXTEND_LINEAR } dal_extend;
+/* A function of one argument, given by points. */
+typedef struct dal_table {
+    const double *at, *value; /* [points]; at ascends */
+    int points;               /* >= 2 */
+    dal_interpolation interpolation;
+    dal_extend extend;
+} dal_table;
+/* Adds a table, whose points are copied; formulas call it by its name, as torque(t). [alloc]
+ * Errors: DAL_NAME, DAL_MODEL (points that do not ascend or are not finite), DAL_TOO_LARGE (more
+ * than 100,000 points). */
+dal_status dal_model_add_table(dal_model *model, const char *name, const dal_table *table, int line,
+                               int column, dal_error *error);
 /* Text number i of a section, from 0, and where not NULL its name and place; NULL past the last. */
 const char *dal_model_text(const dal_model *model, dal_section section, int i, const char **name,
                            int *line, int *column);
 /* Warning number i about a model that has its system, and where not NULL its place; NULL: none. */
 const char *dal_model_warning(const dal_model *model, int i, int *line, int *column);
 /* Makes *model from the YAML text of a system file, text[length].  name is for messages and may be
- * NULL. [alloc]  Errors: DAL_SYNTAX, DAL_NAME and DAL_MODEL, with place. */
+ * NULL.  Files of its tables stand in the text, under "files". [alloc]  Errors: DAL_SYNTAX,
+ * DAL_NAME and DAL_MODEL, with place. */
 dal_status dal_model_read(dal_model **model, const char *name, const char *text, size_t length,
                           dal_error *error);
-/* Makes *model from the file at path. [alloc]  Errors: DAL_IO, those of dal_model_read. */
+/* Makes *model from the file at path, which tables name their files from. [alloc]  Errors: DAL_IO,
+ * those of dal_model_read. */
 dal_status dal_model_read_file(dal_model **model, const char *path, dal_error *error);
+/* The YAML text that a model was read from, with the files of its tables in it, so that
+ * dal_model_read makes the same model anywhere; NULL where it was not read.  *length without the
+ * NUL behind it. */
+const char *dal_model_source(const dal_model *model, size_t *length);
 /* Makes *model from a system of the library, "chaplygin-sleigh". [alloc]  Errors: DAL_NAME with
  * the nearest name. */
 dal_status dal_model_builtin(dal_model **model, const char *name, dal_error *error);

@@ -15,6 +15,11 @@
 
 /* ---- what jumps ---- */
 
+/* A table f; its derivatives jump at the points, those of a natural spline from the third on. */
+#define TABLE(form)                                                                                \
+    "files: {f.csv: \"u,f\\n-9,0\\n0.5,1\\n2,0\\n9,3\"}\n"                                         \
+    "tables: {f: {file: f.csv, at: u, value: f, interpolation: " form "}}\n"
+
 enum { NO_BRANCH = -99 };
 
 /* From the definitions: a jump of f itself, a kink, max(0, s)^n with n - 1 continuous derivatives;
@@ -36,6 +41,10 @@ static const struct {
     {"", "forces: {y: x^2 + floor(x) - floor(x)}", NO_BRANCH},
     {"", "forces: {y: \"if(k > 1, x, y)\"}", NO_BRANCH},
     {"force on y", "forces: {y: abs(x^2 + 1)}", DAL_JUMP_UNKNOWN},
+    {"force on y", "forces: {y: f(x)}\n" TABLE("linear"), 1},
+    {"force on y", "forces: {y: x'*f(t)}\n" TABLE("linear"), 1},
+    {"force on y", "forces: {y: f(x)}\n" TABLE("cubic"), 3},
+    {"lagrangian", "lagrangian: (x'^2 + y'^2)/2 - f(x)\n" TABLE("cubic"), 2},
     {"lagrangian", "lagrangian: (x'^2 + y'^2)/2 - k*abs(x)", 0},
     {"lagrangian", "lagrangian: (x'^2 + y'^2)/2 - k*max(x, 0)^2", 1},
     {"lagrangian", "lagrangian: (x'^2 + y'^2)/2 - if(x > 0, k, 0)", DAL_JUMP_IMPULSE},

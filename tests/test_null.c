@@ -344,6 +344,38 @@ static void null_dal_model_add(void)
     dal_model_free(made);
 }
 
+static void null_dal_model_add_table(void)
+{
+    static const double at[] = {0.0, 1.0}, value[] = {2.0, 3.0};
+    dal_table table = {.at = at, .value = value, .points = 2};
+    dal_model *made = dal_model_create("made");
+    REFUSED(dal_model_add_table(NULL, "f", &table, 0, 0, error));
+    REFUSED(dal_model_add_table(made, NULL, &table, 0, 0, error));
+    REFUSED(dal_model_add_table(made, "f", NULL, 0, 0, error));
+    REFUSED(dal_model_add(made, DAL_SECTION_TABLES, "f", "1", 0, 0, error));
+    CU_ASSERT_EQUAL(dal_model_add_table(made, "f", &table, 0, 0, NULL), DAL_OK);
+    table.at = NULL;
+    REFUSED(dal_model_add_table(made, "g", &table, 0, 0, error));
+    table.points = 0;
+    CU_ASSERT_EQUAL(dal_model_add_table(made, "g", &table, 0, 0, NULL), DAL_MODEL);
+    dal_model_free(made);
+}
+
+static void null_dal_model_source(void)
+{
+    static const char text[] = "coordinates: [x]\n";
+    size_t length = 0;
+    dal_model *made = dal_model_create("made");
+    CU_ASSERT_PTR_NULL(dal_model_source(NULL, &length));
+    CU_ASSERT_PTR_NULL(dal_model_source(made, &length));
+    dal_model_free(made);
+    CU_ASSERT_EQUAL(dal_model_read(&made, "made", text, strlen(text), NULL), DAL_OK);
+    CU_ASSERT_STRING_EQUAL(dal_model_source(made, &length), text);
+    CU_ASSERT_EQUAL(length, strlen(text));
+    CU_ASSERT_STRING_EQUAL(dal_model_source(made, NULL), text);
+    dal_model_free(made);
+}
+
 static void null_dal_model_text(void)
 {
     dal_model *made = dal_model_create("made");

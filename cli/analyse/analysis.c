@@ -35,8 +35,9 @@ int analysis_describe(const analysis_output *output, const char *name, const run
     cli_memstream_close(w.out);
     int status = file_replace(json, text, length, 0);
     if (status == CLI_DONE)
-        status = cli_is_path(request->system_name) ? file_copy(request->system_name, copy, 0)
-                                                   : file_remove(copy);
+        status = cli_is_path(request->system_name)
+                     ? cli_copy_system(request->system_name, request->model, copy, 0)
+                     : file_remove(copy);
     free(text);
     free(json);
     free(copy);

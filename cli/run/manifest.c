@@ -150,8 +150,9 @@ int manifest_begin(run_directory *dir, const run_request *request)
     RUN_FILE_LIST(REMOVE)
 #undef REMOVE
     if (status == CLI_DONE)
-        status = is_path ? file_copy(request->system_name, dir->system, dir->sync)
-                         : file_remove(dir->system);
+        status = is_path
+                     ? cli_copy_system(request->system_name, request->model, dir->system, dir->sync)
+                     : file_remove(dir->system);
     if (status != CLI_DONE) return status;
     dir->input = request_text(request);
     status = find_fingerprint(dir, is_path ? NULL : dal_builtin_text(request->system_name));

@@ -51,6 +51,13 @@ int cli_read(const char *system, dal_model **model)
     return cli_is_path(system) ? read_path(system, model) : read_builtin(system, model);
 }
 
+int cli_copy_system(const char *system, const dal_model *model, const char *to, int sync)
+{
+    size_t length;
+    const char *source = dal_model_source(model, &length);
+    return source ? file_replace(to, source, length, sync) : file_copy(system, to, sync);
+}
+
 const char *cli_default(const dal_model *model, const char *name, int *line, int *column)
 {
     const char *text, *key;

@@ -16,6 +16,9 @@ int cli_load(const char *system, dal_model **model, const dal_system **made);
  * failure; place is what the message names. */
 int cli_read(const char *system, dal_model **model);
 int cli_make(const char *place, dal_model **model, const dal_system **made);
+/* Writes a copy of a system file, with the files of its tables in it; where model is not NULL, as
+ * it was read.  Returns CLI_DONE, or prints and returns CLI_IO. */
+int cli_copy_system(const char *system, const dal_model *model, const char *to, int sync);
 /* The default for a run that a system file gives under a name, and where; NULL: none. */
 const char *cli_default(const dal_model *model, const char *name, int *line, int *column);
 /* The names of the built-in systems; returns how many. */

@@ -213,13 +213,14 @@ static int clear(const study_directory *dir)
 /* A copy that is there already, of a study that the shard joins, must be the same. */
 static int copy_system(const study_directory *dir, study_case *e)
 {
-    const char *from = e->copy ? e->copy : e->name;
-    if (!e->copy && !cli_is_path(from)) return CLI_DONE;
+    size_t length;
+    const char *source = dal_model_source(e->model, &length);
+    if (!e->copy && !cli_is_path(e->name)) return CLI_DONE;
     char *path = study_plan_copy_path(dir->systems, e);
     int status = CLI_DONE;
     if (!file_exists(path))
-        status = file_copy(from, path, 1);
-    else if (!file_is_copy(path, from))
+        status = cli_copy_system(e->name, e->model, path, 1);
+    else if (!file_equals(path, source, length))
         status = cli_fail(CLI_USAGE, "'%s' is of another study: '%s' differs", dir->path, path);
     free(e->copy);
     e->copy = path;

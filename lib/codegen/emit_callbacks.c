@@ -189,6 +189,7 @@ void dal__emit_callbacks(dal__generation *g)
     dal__buffer_append(&g->text, "/* ---- the system ---- */\n"
                                  "#define DAL__ARGUMENTS const dal_stored *w, dal_time t, const "
                                  "num *q, const num *v, \\\n    const num *pi, num *out\n");
+    dal__tapes_write_tables(g->programs->tapes, &g->text);
 #define PROGRAM(code, name, ...) write_program(g, DAL__PROGRAM_##code, #name);
     DAL_CALLBACK_LIST(PROGRAM)
 #undef PROGRAM

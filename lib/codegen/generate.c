@@ -209,6 +209,7 @@ void dal__decide_conditions(dal__generation *g)
         {"DAL_WITH_SIN", calls & DAL__CALLS_SIN},
         {"DAL_WITH_BRANCHES", calls & DAL__CALLS_BRANCHES},
         {"DAL_WITH_LIBM", calls & DAL__CALLS_LIBM},
+        {"DAL_WITH_TABLES", calls & DAL__CALLS_TABLES},
         {"DAL_WITH_LIFT", has_lift(g)},
         {"DAL_WITH_TANGENT", kernel & DAL_KERNEL_TANGENT},
         {"DAL_WITH_SOLVE", kernel & DAL_KERNEL_SOLVE},

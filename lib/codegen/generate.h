@@ -29,7 +29,7 @@ typedef struct dal__condition {
     const char *name;
     bool value;
 } dal__condition;
-enum { DAL__MAX_CONDITIONS = 25 };
+enum { DAL__MAX_CONDITIONS = 32 };
 
 typedef struct dal__generation {
     const dal_run_spec *spec;

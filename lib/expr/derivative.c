@@ -39,6 +39,7 @@ static dal__node number(dal__graph *graph, double value) { return dal__number(gr
     OF_BOTH(ATAN2, RATIO(PRODUCT(k, b), SUM(SQUARE(a), SQUARE(b))),                                \
             MINUS(RATIO(PRODUCT(k, a), SUM(SQUARE(a), SQUARE(b)))))                                \
     OF_BOTH(HYPOT, PRODUCT(k, direction(g, a, y)), PRODUCT(k, direction(g, b, y)))                 \
+    OF_ONE(TABLE, PRODUCT(k, dal__node_table(g, g->node[y].symbol + 1, a)))                        \
     OF_ONE(NEG, MINUS(k))                                                                          \
     OF_ONE(SQRT, RATIO(k, PRODUCT(number(g, 2.0), y)))                                             \
     OF_ONE(EXP, PRODUCT(k, y))                                                                     \

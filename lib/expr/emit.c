@@ -4,6 +4,7 @@
  * DAL_WORK(place), with their places in work. */
 #include "expr/emit.h"
 #include "expr/arithmetic.h"
+#include "expr/table.h"
 #include "expr/traversal.h"
 #include <stdlib.h>
 #include <string.h>
@@ -50,6 +51,14 @@ static bool is_letter(char c) { return (c >= 'a' && c <= 'z') || c == '_'; }
 /* The expression of an operation with its operands in the places of the lone letters a, b, c. */
 static void write_expression(const writer *w, const dal__instruction *i)
 {
+    if (i->op == DAL__TABLE) {
+        const uint32_t table = i->b / DAL__TABLE_ORDERS, order = i->b % DAL__TABLE_ORDERS;
+        dal__buffer_append(w->text, "dal_piecewise(");
+        write_operand(w, i->a, false);
+        dal__buffer_print(w->text, ", dal__table%u, %d, %u)", table, w->tapes->tables[table].knots,
+                          order);
+        return;
+    }
     /* Operators take a double beside a num; functions, and two doubles, need a num. */
     const bool numbers = is_number(w->tapes, i->a) && is_number(w->tapes, i->b);
     const bool bare = !numbers && !strstr(expressions[i->op], "dal_") && i->op != DAL__NEG;
@@ -99,7 +108,8 @@ void dal__tape_write(const dal__tapes *tapes, int program, const dal__input_name
 /* Marks the places that an instruction reads. */
 static void mark_operands(const dal__instruction *i, bool *is_read)
 {
-    is_read[i->a] = is_read[i->b] = is_read[i->c] = true;
+    is_read[i->a] = is_read[i->c] = true;
+    if (i->op != DAL__TABLE) is_read[i->b] = true;
 }
 
 void dal__tapes_write_hoisted(const dal__tapes *tapes, const bool *is_written, dal__buffer *text)
@@ -126,6 +136,34 @@ void dal__tapes_write_hoisted(const dal__tapes *tapes, const bool *is_written, d
     free(is_read);
 }
 
+/* Marks the tables that an instruction of the tape reads. */
+static void note_tables(const dal__tape *tape, bool *used)
+{
+    for (int i = 0; i < tape->length; i++)
+        if (tape->code[i].op == DAL__TABLE) used[tape->code[i].b / DAL__TABLE_ORDERS] = true;
+}
+
+void dal__tapes_write_tables(const dal__tapes *tapes, dal__buffer *text)
+{
+    bool *used = calloc((size_t)tapes->table_count + 1, sizeof *used);
+    text->out_of_memory |= !used;
+    if (!used) return;
+    note_tables(&tapes->hoisted, used);
+    for (int i = 0; i < tapes->count; i++) note_tables(&tapes->tape[i], used);
+    for (int k = 0; k < tapes->table_count; k++) {
+        const dal__table *table = &tapes->tables[k];
+        const size_t size = dal__table_size(table->knots);
+        if (!used[k]) continue;
+        dal__buffer_print(text, "static const double dal__table%d[] DAL_UNUSED = {", k);
+        for (size_t i = 0; i < size; i++) {
+            dal__buffer_append(text, i % 8 ? ", " : i ? ",\n    " : "\n    ");
+            dal__buffer_number(text, table->data[i]);
+        }
+        dal__buffer_append(text, "};\n");
+    }
+    free(used);
+}
+
 unsigned dal__tape_calls(const dal__tape *tape)
 {
     unsigned calls = 0;
@@ -137,6 +175,8 @@ unsigned dal__tape_calls(const dal__tape *tape)
             calls |= DAL__CALLS_SINCOS;
         else if (op >= DAL__SIGN && op <= DAL__IF)
             calls |= DAL__CALLS_BRANCHES;
+        else if (op == DAL__TABLE)
+            calls |= DAL__CALLS_TABLES;
         else if (op >= DAL__POW && op != DAL__SQRT && op <= DAL__ASINH)
             calls |= DAL__CALLS_LIBM;
     }

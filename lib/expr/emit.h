@@ -17,13 +17,16 @@ typedef struct dal__input_name {
 void dal__tape_write(const dal__tapes *tapes, int program, const dal__input_name *input,
                      dal__buffer *text);
 void dal__tapes_write_hoisted(const dal__tapes *tapes, const bool *is_written, dal__buffer *text);
+/* Writes the data of the tables, as arrays that the statements name. */
+void dal__tapes_write_tables(const dal__tapes *tapes, dal__buffer *text);
 
 /* The kinds of elementary functions that a tape calls. */
 enum {
     DAL__CALLS_SIN = 1 << 0, /* or cos, alone */
     DAL__CALLS_SINCOS = 1 << 1,
     DAL__CALLS_BRANCHES = 1 << 2, /* what does not act smoothly */
-    DAL__CALLS_LIBM = 1 << 3
+    DAL__CALLS_LIBM = 1 << 3,
+    DAL__CALLS_TABLES = 1 << 4
 };
 unsigned dal__tape_calls(const dal__tape *tape);
 

@@ -117,6 +117,12 @@ dal__node dal__intern_if(dal__graph *graph, dal__node a, dal__node b, dal__node 
     return keep(graph, (dal__record){.op = DAL__IF, .a = a, .b = b, .c = c, .fixed = fixed});
 }
 
+dal__node dal__intern_table(dal__graph *graph, int symbol, dal__node a)
+{
+    const bool fixed = graph->node[a].fixed;
+    return keep(graph, (dal__record){.op = DAL__TABLE, .a = a, .symbol = symbol, .fixed = fixed});
+}
+
 dal__node dal__find(const dal__graph *graph, dal__op op, dal__node a, dal__node b)
 {
     return *place(graph, &(dal__record){.op = (uint8_t)op, .a = a, .b = b});

@@ -57,7 +57,8 @@ typedef int32_t dal__node; /* 0: no node */
     OP(LESS, 2, NULL) /* comparisons: 0 or 1 */                                                    \
     OP(LESS_EQUAL, 2, NULL)                                                                        \
     OP(EQUAL, 2, NULL)                                                                             \
-    OP(IF, 3, "if") /* b where a is not 0, else c */
+    OP(IF, 3, "if")    /* b where a is not 0, else c */                                            \
+    OP(TABLE, 1, NULL) /* a derivative of a table; its symbol: DAL__TABLE_ORDERS*table + order */
 
 typedef enum dal__op {
 #define CODE(code, arity, name) DAL__##code,
@@ -69,7 +70,7 @@ typedef enum dal__op {
 typedef struct dal__record {
     double value;      /* NUMBER */
     dal__node a, b, c; /* operands; 0 where there is none */
-    int symbol;        /* SYMBOL */
+    int symbol;        /* SYMBOL, TABLE */
     uint8_t op;
     bool fixed;
 } dal__record;
@@ -80,7 +81,9 @@ typedef struct dal__graph {
     int count, capacity, table_bits; /* count: of nodes, the last index */
     int limit;                       /* of count */
     int parameters;
-    int depth;         /* of simplifications under way */
+    int depth;                       /* of simplifications under way */
+    const struct dal__table *tables; /* [table_count] of points, the caller's */
+    int table_count;
     dal_status status; /* DAL_OK, DAL_MEMORY or DAL_TOO_LARGE */
 } dal__graph;
 
@@ -96,6 +99,7 @@ dal__node dal__symbol(dal__graph *graph, int symbol); /* symbol >= 0, numbered b
 /* The node with exactly this operation and operands, made if missing; no simplification. */
 dal__node dal__intern(dal__graph *graph, dal__op op, dal__node a, dal__node b);
 dal__node dal__intern_if(dal__graph *graph, dal__node a, dal__node b, dal__node c);
+dal__node dal__intern_table(dal__graph *graph, int symbol, dal__node a);
 /* The same, or 0 if missing; the node of a symbol, likewise. */
 dal__node dal__find(const dal__graph *graph, dal__op op, dal__node a, dal__node b);
 dal__node dal__find_symbol(const dal__graph *graph, int symbol);

@@ -11,6 +11,7 @@
  * A function of a number becomes its value, with the bits a tape would give, unless that is not
  * finite: then the node stays, and its evaluation gives the infinity or NaN. */
 #include "expr/simplify.h"
+#include "expr/table.h"
 #include "expr/traversal.h"
 #include <math.h>
 
@@ -510,6 +511,17 @@ dal__node dal__node_if(dal__graph *graph, dal__node a, dal__node b, dal__node c)
     if (!a || !b || !c) return 0;
     if (op_of(graph, a) == DAL__NUMBER) return is_zero(graph, a) ? c : b;
     return b == c ? b : dal__intern_if(graph, a, b, c);
+}
+
+dal__node dal__node_table(dal__graph *graph, int symbol, dal__node a)
+{
+    if (!a) return 0;
+    const dal__table *table = &graph->tables[symbol / DAL__TABLE_ORDERS];
+    const dal__record r = graph->node[a];
+    if (symbol % DAL__TABLE_ORDERS > table->degree) return dal__number(graph, 0.0);
+    const double value =
+        r.op == DAL__NUMBER ? dal__table_value(graph->tables, symbol, r.value) : NAN;
+    return isfinite(value) ? dal__number(graph, value) : dal__intern_table(graph, symbol, a);
 }
 
 dal__node dal__apply(dal__graph *graph, dal__op op, dal__node a, dal__node b)

@@ -15,6 +15,8 @@ dal__node dal__node_mul(dal__graph *graph, dal__node a, dal__node b);
 dal__node dal__node_div(dal__graph *graph, dal__node a, dal__node b);
 /* b where a is not 0, else c. */
 dal__node dal__node_if(dal__graph *graph, dal__node a, dal__node b, dal__node c);
+/* A derivative of a table, by the number that is its symbol. */
+dal__node dal__node_table(dal__graph *graph, int symbol, dal__node a);
 dal__node dal__node_neg(dal__graph *graph, dal__node a);
 
 #endif

@@ -14,6 +14,8 @@ dal__tapes *dal__tapes_create(const dal__graph *graph, int parameters, int input
     dal__tapes *tapes = calloc(1, sizeof *tapes);
     if (!tapes) return NULL;
     tapes->graph = graph;
+    tapes->tables = graph->tables;
+    tapes->table_count = graph->table_count;
     tapes->parameters = parameters;
     tapes->inputs = inputs;
     return tapes;
@@ -106,7 +108,9 @@ static dal_status begin_schedule(schedule *s, const dal__tapes *tapes)
 
 static dal__instruction instruction(const schedule *s, dal__node i, dal__lowered l)
 {
-    return (dal__instruction){(uint32_t)l.op, s->use[i].place, s->use[l.a].place, s->use[l.b].place,
+    const dal__record r = dal__inspect(s->graph, i);
+    const uint32_t b = r.op == DAL__TABLE ? (uint32_t)r.symbol : s->use[l.b].place;
+    return (dal__instruction){(uint32_t)l.op, s->use[i].place, s->use[l.a].place, b,
                               s->use[l.c].place};
 }
 

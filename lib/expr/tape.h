@@ -14,7 +14,7 @@
 #include "expr/graph.h"
 
 typedef struct dal__instruction {
-    uint32_t op, d, a, b, c;
+    uint32_t op, d, a, b, c; /* b of a TABLE: its symbol */
 } dal__instruction;
 
 /* One program. */
@@ -28,6 +28,8 @@ typedef struct dal__tape {
 
 typedef struct dal__tapes {
     const dal__graph *graph;
+    const struct dal__table *tables; /* [table_count] those of the graph */
+    int table_count;
     int parameters, inputs;
     dal__tape *tape; /* [count] */
     int count, capacity;

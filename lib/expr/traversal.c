@@ -5,6 +5,7 @@
 #include "expr/traversal.h"
 #include "expr/arithmetic.h"
 #include "expr/simplify.h"
+#include "expr/table.h"
 #include <math.h>
 #include <stdlib.h>
 
@@ -94,6 +95,7 @@ double dal__evaluate(dal__graph *graph, dal__node node, const double *values)
             if (!mark[i]) continue;
             x[i] = r->op == DAL__NUMBER   ? r->value
                    : r->op == DAL__SYMBOL ? values[r->symbol]
+                   : r->op == DAL__TABLE  ? dal__table_value(graph->tables, r->symbol, x[r->a])
                                           : dal__operate(l.op, x[l.a], x[l.b], x[l.c]);
         }
         value = x[node];
@@ -109,6 +111,7 @@ dal__node dal__rebuild(dal__graph *graph, dal__node i, const dal__node *image)
     if (r.op == DAL__NUMBER || r.op == DAL__SYMBOL) return i;
     if (image[r.a] == r.a && image[r.b] == r.b && image[r.c] == r.c) return i;
     if (r.op == DAL__IF) return dal__node_if(graph, image[r.a], image[r.b], image[r.c]);
+    if (r.op == DAL__TABLE) return dal__node_table(graph, r.symbol, image[r.a]);
     return dal__apply(graph, (dal__op)r.op, image[r.a], image[r.b]);
 }
 

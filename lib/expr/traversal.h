@@ -21,8 +21,10 @@ bool dal__reaches(dal__graph *graph, dal__node node, uint64_t operations);
 #define DAL__JUMPING                                                                               \
     (DAL__OP_BIT(SIGN) | DAL__OP_BIT(FLOOR) | DAL__OP_BIT(LESS) | DAL__OP_BIT(LESS_EQUAL) |        \
      DAL__OP_BIT(EQUAL) | DAL__OP_BIT(IF))
-#define DAL__KINKED (DAL__OP_BIT(ABS) | DAL__OP_BIT(MIN) | DAL__OP_BIT(MAX) | DAL__OP_BIT(HYPOT))
-#define DAL__ROUGH  (DAL__JUMPING | DAL__KINKED)
+#define DAL__KINKED                                                                                \
+    (DAL__OP_BIT(ABS) | DAL__OP_BIT(MIN) | DAL__OP_BIT(MAX) | DAL__OP_BIT(HYPOT) |                 \
+     DAL__OP_BIT(TABLE))
+#define DAL__ROUGH (DAL__JUMPING | DAL__KINKED)
 
 /* Operations that are computed as one: both functions of one argument; and a sum or difference one
  * of whose operands is a product. */

@@ -205,6 +205,47 @@ DAL_INLINE num dal_floor(num x)
 #endif
 #endif
 
+#if DAL_WITH_TABLES
+/* A derivative, of order 0 to 3, of a piecewise polynomial; NaN outside its limits:
+ *
+ *     f(x) = c[0] + c[1] d + c[2] d^2 + c[3] d^3,   d = x - origin
+ *
+ *     data:  lower limit, upper limit | knot[knots], ascending | origin, c[4] of knots + 1 pieces
+ *
+ * Piece k holds from knot k - 1 up to knot k, which belongs to the next one. */
+DAL_INLINE num dal_piecewise(num x, const double *data, int knots, int order)
+{
+    const double *knot = data + 2;
+    num d = x, c0 = x, c1 = x, c2 = x, c3 = x;
+    for (int lane = 0; lane < DAL_LANES; lane++) {
+        const double at = dal_lane(x, lane);
+        int k = 0;
+        for (int rest = knots; rest > 0;) {
+            const int half = rest / 2, right = knot[k + half] <= at;
+            k += right ? half + 1 : 0;
+            rest = right ? rest - half - 1 : half;
+        }
+        const double *piece = knot + knots + 5 * k;
+        d = dal_with_lane(d, lane, at >= data[0] && at <= data[1] ? piece[0] : NAN);
+        c0 = dal_with_lane(c0, lane, piece[1]);
+        c1 = dal_with_lane(c1, lane, piece[2]);
+        c2 = dal_with_lane(c2, lane, piece[3]);
+        c3 = dal_with_lane(c3, lane, piece[4]);
+    }
+    d = x - d;
+    switch (order) {
+    case 0:
+        return dal_fma(dal_fma(dal_fma(c3, d, c2), d, c1), d, c0);
+    case 1:
+        return dal_fma(dal_fma(dal_num(3.0) * c3, d, dal_num(2.0) * c2), d, c1);
+    case 2:
+        return dal_fma(dal_num(6.0) * c3, d, dal_num(2.0) * c2);
+    default:
+        return dal_fma(dal_num(0.0), d, dal_num(6.0) * c3);
+    }
+}
+#endif
+
 #if DAL_WITH_LIBM
 #define DAL__LIBM_UNARY(FUNCTION)                                                                  \
     FUNCTION(tan)                                                                                  \

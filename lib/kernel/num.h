@@ -27,6 +27,7 @@
 #define DAL_WITH_SIN          1 /* one of them */
 #define DAL_WITH_LIBM         1 /* the functions of libm */
 #define DAL_WITH_BRANCHES     1 /* sign, floor, comparisons and the like */
+#define DAL_WITH_TABLES       1 /* functions given by points */
 #define DAL_WITH_LIFT         1 /* the canonical variables */
 #define DAL_WITH_TANGENT      1 /* tangent vectors in their place */
 #define DAL_WITH_SOLVE        1 /* implicit equations */

@@ -5,6 +5,8 @@
  * the formula are those of the file.  In single quotes '' becomes "' ", which means the same to a
  * formula and is as long.  Only double quotes with escapes and texts that are no formulas are used
  * as libyaml unfolds them. */
+#include "load/yaml.h"
+#include "load/tables.h"
 #include "model/model.h"
 #include "model/symbols.h"
 #include <stdlib.h>
@@ -17,6 +19,8 @@ typedef struct reader {
     bool holding;       /* event is to be deleted */
     const char *text;
     size_t length;
+    size_t first; /* where the mapping begins */
+    dal__table_request *tables, **last_table;
     dal_model *model;
     size_t byte, character; /* the same place, counted both ways */
     unsigned seen;          /* sections, a bit each */
@@ -182,6 +186,39 @@ static dal_status read_range(reader *r, dal__entry entry)
     return dal__model_insert(r->model, entry, r->error);
 }
 
+/* A mapping {file: data.csv, at: t, value: M}. */
+static dal_status read_table(reader *r, dal__entry entry)
+{
+#define NAME(code, name) name,
+    static const char *const keys[] = {DAL__TABLE_KEY_LIST(NAME)};
+#undef NAME
+    dal__table_request *table = dal__model_allocate(r->model, 1, sizeof *table);
+    if (!table) return dal__memory_error(r->error);
+    entry.line = line_of(r->event.start_mark);
+    entry.column = column_of(r->event.start_mark);
+    table->entry = entry;
+    *r->last_table = table;
+    r->last_table = &table->next;
+    for (;;) {
+        dal__entry key = {.section = entry.section};
+        DAL_TRY(next(r));
+        if (r->event.type == YAML_MAPPING_END_EVENT) return DAL_OK;
+        DAL_TRY(read_key(r, &key));
+        const int i = dal__index_of(key.name, strlen(key.name), keys, DAL__TABLE_KEYS);
+        if (i < 0)
+            return dal__unknown_at(r->error, DAL__AT_NAME(&key), "key of a table", key.name, keys,
+                                   DAL__TABLE_KEYS);
+        if (table->key[i].text)
+            return dal__fail_at(r->error, DAL_MODEL, DAL__AT_NAME(&key), "duplicate key '%s'",
+                                key.name);
+        DAL_TRY(next(r));
+        if (r->event.type != YAML_SCALAR_EVENT)
+            return HERE(r, DAL_SYNTAX, "a text is expected for '%s' of a table", keys[i]);
+        DAL_TRY(read_scalar(r, &key));
+        table->key[i] = key;
+    }
+}
+
 /* The present event must be a scalar, or a formula with a range: the text of the entry. */
 static dal_status read_entry(reader *r, dal__entry entry)
 {
@@ -189,6 +226,10 @@ static dal_status read_entry(reader *r, dal__entry entry)
     const bool may_range =
         section->label && (section->form == DAL__LIST || section->form == DAL__MAPPING);
     if (r->event.type == YAML_MAPPING_START_EVENT && may_range) return read_range(r, entry);
+    const bool is_table = entry.section == DAL_SECTION_TABLES;
+    if (is_table && r->event.type == YAML_MAPPING_START_EVENT) return read_table(r, entry);
+    if (is_table)
+        return HERE(r, DAL_SYNTAX, "a table is {file: data.csv, at: column, value: column}");
     if (r->event.type != YAML_SCALAR_EVENT)
         return HERE(r, DAL_SYNTAX, "a text is expected in %s", dal__section_name(entry.section));
     DAL_TRY(read_scalar(r, &entry));
@@ -297,6 +338,8 @@ static dal_status read_document(reader *r)
     DAL_TRY(next(r));
     if (r->event.type != YAML_MAPPING_START_EVENT)
         return HERE(r, DAL_SYNTAX, "a system file is a mapping, as 'coordinates: [x, y]'");
+    const bool is_flow = r->event.data.mapping_start.style == YAML_FLOW_MAPPING_STYLE;
+    r->first = offset_of(r, r->event.start_mark) + is_flow;
     DAL_TRY(read_sections(r));
     DAL_TRY(next(r)); /* the end of the document */
     DAL_TRY(next(r));
@@ -316,15 +359,36 @@ static dal_status check_text(const char *text, size_t length, dal_error *error)
     return dal__fail_at(error, DAL_SYNTAX, line, column, "the file holds a NUL byte");
 }
 
-static dal_status read_text(dal_model *model, const char *text, size_t length, dal_error *error)
+static dal_status read_text(dal_model *model, const dal__system_text *system, size_t mark,
+                            dal_error *error)
 {
-    reader r = {.model = model, .text = text, .length = length, .error = error};
+    reader r = {.model = model,
+                .text = system->text + mark,
+                .length = system->length - mark,
+                .error = error};
+    r.last_table = &r.tables;
     if (!yaml_parser_initialize(&r.parser)) return dal__memory_error(error);
     yaml_parser_set_encoding(&r.parser, YAML_UTF8_ENCODING);
-    yaml_parser_set_input_string(&r.parser, (const unsigned char *)text, length);
+    yaml_parser_set_input_string(&r.parser, (const unsigned char *)r.text, r.length);
     dal_status status = read_document(&r);
     if (r.holding) yaml_event_delete(&r.event);
     yaml_parser_delete(&r.parser);
+    if (status != DAL_OK) return status;
+    return dal__load_tables(model, r.tables, system, mark + r.first, error);
+}
+
+dal_status dal__read_system(dal_model **model, const dal__system_text *system, dal_error *error)
+{
+    static const char mark[] = "\xEF\xBB\xBF"; /* a byte order mark is no text */
+    const size_t skip = system->length >= 3 && memcmp(system->text, mark, 3) == 0 ? 3 : 0;
+    DAL_TRY(check_text(system->text + skip, system->length - skip, error));
+    dal_model *made = dal_model_create(system->name);
+    if (!made) return dal__memory_error(error);
+    dal_status status = read_text(made, system, skip, error);
+    if (status == DAL_OK)
+        *model = made;
+    else
+        dal_model_free(made);
     return status;
 }
 
@@ -332,17 +396,7 @@ dal_status dal_model_read(dal_model **model, const char *name, const char *text,
                           dal_error *error)
 {
     DAL_REQUIRE(model, error);
-    static const char mark[] = "\xEF\xBB\xBF"; /* a byte order mark is no text */
     *model = NULL;
     if (!text) return dal__fail(error, DAL_ARGUMENT, "there is no text to read");
-    if (length >= 3 && memcmp(text, mark, 3) == 0) text += 3, length -= 3;
-    DAL_TRY(check_text(text, length, error));
-    dal_model *made = dal_model_create(name);
-    if (!made) return dal__memory_error(error);
-    dal_status status = read_text(made, text, length, error);
-    if (status == DAL_OK)
-        *model = made;
-    else
-        dal_model_free(made);
-    return status;
+    return dal__read_system(model, &(dal__system_text){name, NULL, text, length}, error);
 }

@@ -1,7 +1,8 @@
 /* branches.c - where the motion changes from one formula to another, and what jumps there.
  *
- * A comparison, abs, sign, floor, min or max changes its branch where a function s of the state
- * passes through zero: s = a - b of a < b, s = a of abs(a).  With the branch of s > 0 taken
+ * A comparison, abs, sign, floor, min, max or a table changes its branch where a function s of the
+ * state passes through zero: s = a - b of a < b, s = a of abs(a), s = a - x_i of a table, for that
+ * point x_i where its derivative jumps most.  With the branch of s > 0 taken
  * everywhere F is a smooth F+, with the other one F-.  Along the normal of s,
  *
  *     the k-th derivative of F+ - F- at s = 0 is the jump of that of F,
@@ -35,6 +36,36 @@ typedef struct surface {
 
 /* ---- what a node switches on ---- */
 
+/* The knot of a table where its highest derivative jumps most; -1: nowhere. */
+static int find_corner(const dal__table *table)
+{
+    const bool bounded = isnan(dal__table_value(table, 0, INFINITY));
+    double max = 0.0;
+    int corner = -1;
+    for (int k = bounded; k < table->knots - bounded; k++) {
+        const double *below = dal__table_piece(table, k), *above = dal__table_piece(table, k + 1);
+        const double jump = fabs(above[1 + table->degree] - below[1 + table->degree]);
+        if (jump > max) max = jump, corner = k;
+    }
+    return corner;
+}
+
+/* A derivative of a table at a, continued from one side of the corner. */
+static dal__node table_side(dal__graph *graph, int symbol, dal__node a, int sign)
+{
+    const dal__table *table = &graph->tables[symbol / DAL__TABLE_ORDERS];
+    const double *piece = dal__table_piece(table, find_corner(table) + (sign > 0));
+    const dal__node d = dal__node_sub(graph, a, dal__number(graph, piece[0]));
+    const int order = symbol % DAL__TABLE_ORDERS;
+    dal__node sum = dal__number(graph, 0.0);
+    for (int k = table->degree; k >= order; k--) {
+        double c = piece[1 + k];
+        for (int i = 0; i < order; i++) c *= k - i;
+        sum = dal__node_add(graph, dal__node_mul(graph, sum, d), dal__number(graph, c));
+    }
+    return sum;
+}
+
 /* The s of a node, with its sign in *sign; 0 where it does not switch. */
 static dal__node switch_of(dal__graph *graph, dal__node i, int *sign)
 {
@@ -45,6 +76,12 @@ static dal__node switch_of(dal__graph *graph, dal__node i, int *sign)
     if (r.op == DAL__FLOOR) s = dal__node_sub(graph, r.a, dal__number(graph, 1.0));
     if (r.op == DAL__LESS || r.op == DAL__LESS_EQUAL || r.op == DAL__MIN || r.op == DAL__MAX)
         s = dal__node_sub(graph, r.a, r.b);
+    if (r.op == DAL__TABLE) {
+        const dal__table *table = &graph->tables[r.symbol / DAL__TABLE_ORDERS];
+        const int corner = find_corner(table);
+        if (corner < 0) return 0;
+        s = dal__node_sub(graph, r.a, dal__number(graph, dal__table_piece(table, corner + 1)[0]));
+    }
     const dal__node opposite = dal__node_neg(graph, s);
     *sign = opposite < s ? -1 : 1;
     return *sign > 0 ? s : opposite;
@@ -66,6 +103,8 @@ static dal__node one_side(dal__graph *graph, dal__node i, const dal__node *image
         return sign > 0 ? b : a;
     case DAL__MAX:
         return sign > 0 ? a : b;
+    case DAL__TABLE:
+        return table_side(graph, r.symbol, a, sign);
     default:
         return dal__number(graph, sign > 0 ? 0.0 : 1.0);
     }

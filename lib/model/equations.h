@@ -63,6 +63,7 @@ typedef struct dal__equations {
     dal__node *potential;           /* [3n], see energy.c; or NULL */
     dal__node *extended;            /* [n]: F continued off D = 0 with E exact; or NULL */
     dal__node *guard;               /* [guards] */
+    int lookups, *lookup;           /* [lookups] the tables that are read in the diagnosis */
     int mass_guard;                 /* which of them is det W, from 1; 0: none */
     dal__pivot *pivot;              /* [pivots], of at most 2 (n + m) */
     struct dal__bordered *bordered; /* solves for F and h; NULL for vakonomic motion */
@@ -71,6 +72,7 @@ typedef struct dal__equations {
     dal__node *flow;                /* [1 + n]: d/dt of (t, q), that is 1 and v */
     /* Names. */
     const char **parameter, **coordinate, **let_name, **invariant_name, **guard_name, **tag;
+    const char **table_name;
     int tags;
 } dal__equations;
 

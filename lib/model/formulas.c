@@ -126,14 +126,19 @@ static dal_status parse_parameters(dal_model *model, dal_error *error)
     return DAL_OK;
 }
 
-/* A function knows parameters, the functions before it and its arguments, whose symbols are behind
- * all others. */
+/* Tables come first.  A function knows parameters, tables, the functions before it and its
+ * arguments, whose symbols are behind all others. */
 static dal_status parse_functions(dal_model *model, dal_error *error)
 {
     dal__equations *e = &model->equations;
     int symbol = e->symbols;
-    for (int i = 0; i < e->functions; i++) {
-        const dal__entry *entry = dal__model_entry(model, DAL_SECTION_FUNCTIONS, i);
+    const int tables = model->tables;
+    for (int i = 0; i < tables; i++) {
+        e->table_name[i] = dal__model_entry(model, DAL_SECTION_TABLES, i)->name;
+        e->function[i] = (dal__function){.name = e->table_name[i], .arity = 1, .table = i + 1};
+    }
+    for (int i = tables; i < e->functions; i++) {
+        const dal__entry *entry = dal__model_entry(model, DAL_SECTION_FUNCTIONS, i - tables);
         dal__function *f = &e->function[i];
         DAL_TRY(dal__read_signature(model, entry, f, error));
         for (int k = 0; k < f->arity; k++) f->symbol[k] = symbol++;
@@ -362,11 +367,14 @@ static dal_status begin_equations(dal_model *model, dal_error *error)
     dal__graph_free(e->graph);
     e->graph = dal__graph_create(e->parameters);
     if (!e->graph) return dal__memory_error(error);
+    e->graph->tables = model->table;
+    e->graph->table_count = model->tables;
     dal__node zero = dal__number(e->graph, 0.0);
     e->lagrangian = zero;
     e->mu = e->energy = 0;
     e->let = dal__model_nodes(model, e->lets, zero);
     e->function = dal__model_allocate(model, (size_t)e->functions + 1, sizeof *e->function);
+    e->table_name = dal__model_allocate(model, (size_t)model->tables, sizeof *e->table_name);
     e->force = dal__model_nodes(model, n, zero);
     e->constraint = dal__model_nodes(model, m, zero);
     e->start = dal__model_nodes(model, 2 * n + m + 1, zero);
@@ -408,7 +416,7 @@ dal_status dal__parse_model(dal_model *model, dal_error *error)
                                &vakonomic, error));
     e->vakonomic = vakonomic;
     DAL_TRY(dal__collect_names(model, error));
-    e->functions = dal__model_count(model, DAL_SECTION_FUNCTIONS);
+    e->functions = model->tables + dal__model_count(model, DAL_SECTION_FUNCTIONS);
     e->m = dal__model_count(model, DAL_SECTION_CONSTRAINTS);
     e->multipliers = e->vakonomic ? e->m : 0;
     e->pictured = dal__model_count(model, DAL_SECTION_PICTURE) > 0;

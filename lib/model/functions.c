@@ -1,6 +1,8 @@
 /* functions.c - the functions that a model defines: their names and arguments, and calls. */
 #include "model/functions.h"
 #include "expr/lexer.h"
+#include "expr/simplify.h"
+#include "expr/table.h"
 #include "expr/traversal.h"
 #include "model/model.h"
 #include <string.h>
@@ -47,5 +49,7 @@ dal_status dal__read_signature(dal_model *model, const dal__entry *entry, dal__f
 dal__node dal__call_function(dal__graph *graph, const dal__function *function,
                              const dal__node *argument)
 {
+    if (function->table)
+        return dal__node_table(graph, DAL__TABLE_ORDERS * (function->table - 1), argument[0]);
     return dal__substitute(graph, function->body, function->symbol, function->arity, argument);
 }

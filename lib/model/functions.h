@@ -14,6 +14,7 @@ typedef struct dal__function {
     const char *argument[DAL__MAX_ARGUMENTS]; /* [arity] names */
     int symbol[DAL__MAX_ARGUMENTS];           /* [arity] of the arguments */
     dal__node body;
+    int table; /* of the model, from 1; 0: it has a body */
 } dal__function;
 
 /* Reads the name of an entry, "V(r)" or "f(x, y)".  Errors: DAL_NAME, DAL_TOO_LARGE, DAL_MEMORY. */

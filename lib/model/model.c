@@ -23,6 +23,8 @@ const dal__model_section dal__sections[DAL_SECTION_COUNT] = {
     [DAL_SECTION_COORDINATES] = {DAL__LIST, NULL},
     [DAL_SECTION_SIZES] = {DAL__MAPPING, "size"},
     [DAL_SECTION_PARAMETERS] = {DAL__MAPPING, "parameter"},
+    [DAL_SECTION_FILES] = {DAL__MAPPING, NULL},
+    [DAL_SECTION_TABLES] = {DAL__MAPPING, NULL},
     [DAL_SECTION_FUNCTIONS] = {DAL__MAPPING, "function"},
     [DAL_SECTION_LET] = {DAL__MAPPING, "let"},
     [DAL_SECTION_LAGRANGIAN] = {DAL__SCALAR, "lagrangian"},
@@ -179,7 +181,7 @@ const char *dal_model_text(const dal_model *model, dal_section section, int i, c
 static dal_status check_name(const dal__entry *entry, dal_error *error)
 {
     const char *name = entry->section == DAL_SECTION_COORDINATES ? entry->text : entry->name;
-    if (!name) return DAL_OK;
+    if (!name || entry->section == DAL_SECTION_FILES) return DAL_OK;
     const bool is_set = dal__is_set(entry);
     if (is_set) name = dal__set_name(entry);
     size_t length = strlen(name);
@@ -260,6 +262,9 @@ dal_status dal_model_add(dal_model *model, dal_section section, const char *name
     DAL_REQUIRE(model, error);
     dal__entry entry = {section, name, text, line, column, line, column, .item = 0};
     if (section >= DAL_SECTION_COUNT) return dal__model_insert(model, entry, error);
+    if (section == DAL_SECTION_TABLES)
+        return dal__fail_at(error, DAL_ARGUMENT, line, column,
+                            "tables are added by dal_model_add_table");
     if (dal__sections[section].form == DAL__MAPPINGS && name) { /* "2.x" is x of item 2 */
         const char *c = name;
         while (*c >= '0' && *c <= '9' && entry.item <= DAL__MAX_COORDINATES)

@@ -7,6 +7,7 @@
 #define DAL_MODEL_MODEL_H
 
 #include "core/error.h"
+#include "expr/table.h"
 #include "model/equations.h"
 #include "model/programs.h"
 
@@ -14,7 +15,8 @@ enum {
     DAL__MAX_ENTRIES = 4096,     /* of a model, all sections together, as they are given */
     DAL__MAX_COORDINATES = 1024, /* W alone has the square of them */
     DAL__MAX_EVENTS = 256,
-    DAL__MAX_BYTES = 1 << 22, /* of a system file */
+    DAL__MAX_BYTES = 1 << 22, /* of a system file with its tables */
+    DAL__MAX_POINTS = 100000, /* of a table */
     DAL__MAX_LETTERS = 100    /* of a name; pi_NAME fits into every buffer of 128 */
 };
 
@@ -64,6 +66,10 @@ struct dal_model {
     int expanded_count, expanded_capacity;
     const dal__entry *entries; /* [count]: one of the two */
     int count;
+    dal__table *table; /* [tables], in the order of their entries */
+    int tables, table_capacity;
+    const char *source; /* [source_length] the text of a file; NULL: none */
+    size_t source_length;
     dal__warning *warning; /* of the last attempt to make the system */
     dal__equations equations;
     bool made, tangent_made;

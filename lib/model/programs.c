@@ -171,7 +171,8 @@ static bool vanished(const double *pivot)
 }
 
 /* The program's outputs are all pivots with their sizes, then one number for each constraint that
- * is finite if its derivatives are.  They are checked in the order in which they are computed:
+ * is finite if its derivatives are, then the argument and the value of each table.  They are
+ * checked in the order in which they are computed:
  * mass, constraints, elimination of the constraints. */
 static dal_status diagnose(const dal_system *system, const dal_point *at, double *out)
 {
@@ -189,6 +190,11 @@ static dal_status diagnose(const dal_system *system, const dal_point *at, double
     for (int k = 0; k < e->pivots; k++) {
         out[0] = e->pivot[k].constraint;
         if (e->pivot[k].constraint && vanished(value + 2 * k)) return DAL_SINGULAR;
+    }
+    const double *lookup = value + 2 * e->pivots + e->m; /* argument, value */
+    for (int k = 0; k < e->lookups; k++) {
+        out[0] = e->lookup[k] + 1;
+        if (isfinite(lookup[2 * k]) && !isfinite(lookup[2 * k + 1])) return DAL_NOT_FINITE;
     }
     out[0] = 0.0;
     return DAL_OK;

@@ -52,7 +52,8 @@ typedef struct kind {
 static const kind kinds[] = {
     {DAL_SECTION_SIZES, "size", false},           {DAL_SECTION_COORDINATES, "coordinate", true},
     {DAL_SECTION_PARAMETERS, "parameter", false}, {DAL_SECTION_LET, "let", false},
-    {DAL_SECTION_FUNCTIONS, "function", false},   {DAL_SECTION_INVARIANTS, "invariant", true},
+    {DAL_SECTION_TABLES, "table", false},         {DAL_SECTION_FUNCTIONS, "function", false},
+    {DAL_SECTION_INVARIANTS, "invariant", true},
 };
 enum { KINDS = sizeof kinds / sizeof *kinds };
 

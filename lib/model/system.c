@@ -40,11 +40,32 @@ static dal_status add_blocks(dal_model *model, dal__programs *programs)
     return dal__programs_add_lists(model, programs, DAL__PROGRAM_BLOCKS, lists, 5);
 }
 
+/* The nodes that read tables, each behind its argument, into out[2*lookups] where not NULL. */
+static int list_lookups(dal__equations *e, dal__node *out)
+{
+    int count = 0;
+    for (dal__node i = 1; i <= e->graph->count; i++) {
+        const dal__record r = dal__inspect(e->graph, i);
+        if (r.op != DAL__TABLE || r.symbol % DAL__TABLE_ORDERS) continue;
+        if (out) {
+            out[2 * count] = r.a;
+            out[2 * count + 1] = i;
+            e->lookup[count] = r.symbol / DAL__TABLE_ORDERS;
+        }
+        count++;
+    }
+    return count;
+}
+
 static dal_status add_diagnosis(dal_model *model, dal__programs *programs)
 {
-    const dal__equations *e = &model->equations;
-    dal__node *out = dal__model_nodes(model, 2 * e->pivots + e->m, 0);
-    if (!out) return DAL_MEMORY;
+    dal__equations *e = &model->equations;
+    const int lookups = list_lookups(e, NULL), first = 2 * e->pivots + e->m;
+    dal__node *out = dal__model_nodes(model, first + 2 * lookups, 0);
+    e->lookup = dal__model_allocate(model, (size_t)lookups + 1, sizeof *e->lookup);
+    e->lookups = lookups;
+    if (!out || !e->lookup) return DAL_MEMORY;
+    list_lookups(e, out + first);
     for (int k = 0; k < e->pivots; k++) {
         out[2 * k] = e->pivot[k].pivot;
         out[2 * k + 1] = e->pivot[k].size;
@@ -54,7 +75,7 @@ static dal_status add_diagnosis(dal_model *model, dal__programs *programs)
         for (int i = 0; i < e->n; i++) sum = dal__node_add(e->graph, sum, e->A[a * e->n + i]);
         out[2 * e->pivots + a] = sum;
     }
-    return dal__programs_add(model, programs, DAL__PROGRAM_DIAGNOSE, out, 2 * e->pivots + e->m);
+    return dal__programs_add(model, programs, DAL__PROGRAM_DIAGNOSE, out, first + 2 * lookups);
 }
 
 static dal_status add_if(dal_model *model, dal__programs *programs, bool present,
@@ -116,6 +137,7 @@ static void describe(dal_model *model)
         .guards = e->guards,
         .mass_guard = e->mass_guard,
         .tags = e->tags,
+        .tables = model->tables,
         .properties = e->properties,
         .coordinate = e->coordinate,
         .parameter = e->parameter,
@@ -125,6 +147,7 @@ static void describe(dal_model *model)
         .tag = e->tag,
         .events = e->events,
         .event = e->event,
+        .table = e->table_name,
     };
 }
 

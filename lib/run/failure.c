@@ -28,6 +28,9 @@ static dal_status diagnose(dal_run *run, const dal__failure *failure, dal_error 
     if (status == DAL_SINGULAR_MASS)
         return dal__fail(error, status, "the mass matrix became singular near t = %.17g",
                          failure->t);
+    if (status == DAL_NOT_FINITE)
+        return dal__fail(error, status, "table %.80s is read outside its points near t = %.17g",
+                         system->table[(int)number - 1], failure->t);
     return DAL_OK;
 }
 

@@ -275,6 +275,10 @@ static dal_status check_field(dal_run *run, dal_error *error)
     if (fault == DAL_SINGULAR)
         return dal__fail(error, fault, "constraint %d is singular at the present state",
                          (int)number);
+    if (fault == DAL_NOT_FINITE)
+        return dal__fail(error, fault,
+                         "table %.80s is read outside its points at the present state",
+                         system->table[(int)number - 1]);
     const dal_status status = system->call.field(system, &at, f);
     if (status != DAL_OK) return dal__fail(error, status, "the system fails at the present state");
     for (int i = 0; i < run->layout.nw; i++)

@@ -81,6 +81,22 @@ same branches.yaml rk4 physical 1 gcc -std=c11 -O2 -march=native
 same branches.yaml gauss4 lifted 8 gcc -std=c11 -O2
 same branches.yaml stormer-verlet lifted 4 clang -std=c11 -O1 -march=native
 
+# Tables of the time and of the state, with their derivatives, over many of their pieces.
+cat >tables.yaml <<'END'
+coordinates: [x, y]
+files: {"f.csv": "u,f,g\n-4,1,0\n-1,0.5,1\n-0.25,0,2\n0.5,0.25,1\n1.5,1,0\n4,2,3\n7,1,1\n"}
+tables:
+  f: {file: f.csv, at: u, value: f, interpolation: cubic, extend: linear}
+  g: {file: f.csv, at: u, value: g, extend: constant}
+lagrangian: (x'^2 + y'^2)/2 - f(x)*(1 + y^2) - y^2
+forces: {x: g(t)/4 - 0.1*x', y: -g(y)*y'/8}
+start: {x: 1, y': 1}
+END
+same tables.yaml rk4 physical 1 gcc -std=c11 -O2 -march=native
+same tables.yaml gauss4 lifted 4 gcc -std=c11 -O1 -march=native
+same tables.yaml rk4 physical 8 clang -std=c11 -O1
+
+
 # What a microcontroller must supply.
 if there gcc; then
     case_is "only libm and memcpy, memset are needed"

@@ -1,0 +1,11 @@
+/* file.h - files on disk. */
+#ifndef DAL_LOAD_FILE_H
+#define DAL_LOAD_FILE_H
+
+#include "dalembert.h"
+
+/* The bytes of a file, up to one more than DAL__MAX_BYTES; NULL after an error, DAL_IO or
+ * DAL_MEMORY. [alloc] */
+char *dal__read_file(const char *path, size_t *length, dal_error *error);
+
+#endif

@@ -1,0 +1,35 @@
+/* tables.h - the tables of a system file, and their own files. */
+#ifndef DAL_LOAD_TABLES_H
+#define DAL_LOAD_TABLES_H
+
+#include "load/yaml.h"
+#include "model/model.h"
+
+/* The keys of a table, KEY(code, name). */
+#define DAL__TABLE_KEY_LIST(KEY)                                                                   \
+    KEY(FILE, "file")                                                                              \
+    KEY(AT, "at")                                                                                  \
+    KEY(VALUE, "value")                                                                            \
+    KEY(INTERPOLATION, "interpolation")                                                            \
+    KEY(EXTEND, "extend")
+enum {
+#define CODE(code, name) DAL__TABLE_##code,
+    DAL__TABLE_KEY_LIST(CODE)
+#undef CODE
+        DAL__TABLE_KEYS
+};
+
+/* A table as its file gives it: the place of the whole, and the texts of its keys, with places. */
+typedef struct dal__table_request {
+    dal__entry entry;
+    dal__entry key[DAL__TABLE_KEYS]; /* text NULL: not given */
+    struct dal__table_request *next;
+} dal__table_request;
+
+/* Adds the tables to a model, and sets its source: the text with the files put into it at the
+ * offset where its mapping begins (in a flow mapping, behind the bracket).  Errors: DAL_SYNTAX,
+ * DAL_NAME, DAL_MODEL, DAL_TOO_LARGE, DAL_MEMORY. */
+dal_status dal__load_tables(dal_model *model, const dal__table_request *first,
+                            const dal__system_text *system, size_t offset, dal_error *error);
+
+#endif
