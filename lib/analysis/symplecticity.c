@@ -40,6 +40,7 @@ static dal_status open_map(stepmap *m, const dal_run_spec *spec, double t, const
                            size_t rows, dal_error *error)
 {
     *m = (stepmap){.error = error};
+    DAL_TRY(dal__check_spec(spec, error));
     DAL_TRY(dal__refuse_events(spec->system, "maps of a step", error));
     DAL_TRY(dal_run_create(&m->run, spec, error));
     m->dimension = dal_run_dimension(m->run);
