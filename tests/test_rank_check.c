@@ -135,7 +135,7 @@ static int evaluated(dal_run *run, long long steps)
  * persistent state.  Without pivots it is every step. */
 static void test_spared(void)
 {
-    dal_system counting = *fixture_system("falling-disk");
+    dal_system counting = *fixture_system("roller-racer");
     dal_run_spec spec = fixture_spec(&counting, "rk4", DAL_PHYSICAL, 0.001);
     constraint = counting.call.constraint;
     counting.call.constraint = count;

@@ -83,4 +83,4 @@ files 644 "$DATADIR/dalembert/studies" bench/studies/*.yaml
 files 644 "$DOCDIR" README.md CHANGELOG.md CONTRIBUTING.md CITATION.cff LICENSE
 files 644 "$DOCDIR/docs" docs/*.md
 files 644 "$DOCDIR/docs/gallery" docs/gallery/*
-files 644 "$DOCDIR/examples" examples/*.[ch] examples/*.cpp examples/*.yaml examples/CMakeLists.txt
+files 644 "$DOCDIR/examples" examples/*.[ch] examples/*.cpp examples/*.yaml examples/*.csv examples/CMakeLists.txt
