@@ -137,7 +137,8 @@ static void test_lengths(void)
 #endif
     int quantities = 0, refuted = 0;
     for (int i = 0; dal_builtin_name(i); i++) {
-        if (i % every != 0) continue;
+        /* knife-edge-reaction has the motion of knife-edge, which counts once. */
+        if (i % every != 0 || strcmp(dal_builtin_name(i), "knife-edge-reaction") == 0) continue;
         for (size_t k = 0; k < sizeof methods / sizeof methods[0]; k++)
             compare_lengths(dal_builtin_name(i), methods[k], &quantities, &refuted);
     }
