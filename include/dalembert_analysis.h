@@ -252,7 +252,7 @@ enum {
 typedef struct dal_branch {
     char formula[128]; /* "force on x" */
     int line, column;  /* its place */
-    int jump;
+    int jump;          /* the lowest derivative that jumps, or one of the above */
 } dal_branch;
 /* Finds the formulas of the motion with branches (if, abs, min, ...) of a model whose system is
  * made: how many there are, and what up to capacity of them do near the start, with the default

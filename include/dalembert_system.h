@@ -278,10 +278,10 @@ typedef enum dal_interpolation { DAL_LINEAR, DAL_CUBIC } dal_interpolation;
 typedef enum dal_extend { DAL_EXTEND_NONE, DAL_EXTEND_CONSTANT, DAL_EXTEND_LINEAR } dal_extend;
 /* A function of one argument, given by points. */
 typedef struct dal_table {
-    const double *at, *value; /* [points]; at ascends */
-    int points;               /* >= 2 */
-    dal_interpolation interpolation;
-    dal_extend extend;
+    const double *at, *value;        /* [points]; at ascends */
+    int points;                      /* >= 2 */
+    dal_interpolation interpolation; /* between the points */
+    dal_extend extend;               /* outside of them */
 } dal_table;
 /* Adds a table, whose points are copied; formulas call it by its name, as torque(t). [alloc]
  * Errors: DAL_NAME, DAL_MODEL (points that do not ascend or are not finite), DAL_TOO_LARGE (more
@@ -333,10 +333,10 @@ enum { DAL_GROWTH_LEVELS = 64 /* max ranks of dal_growth */ };
  * rank[k] is that of V_(k+1) = V_k + [V_1, V_k] at generic points.  V_1 alone: D is integrable,
  * that is holonomic; a last rank below the dimension: a part of it is. */
 typedef struct dal_growth {
-    int dimension;   /* n; where D has terms without v, or t: n + 1, of (t, q) */
-    int levels;      /* ranks */
-    int is_complete; /* 0: further brackets are too large */
-    int rank[DAL_GROWTH_LEVELS];
+    int dimension;               /* n; where D has terms without v, or t: n + 1, of (t, q) */
+    int levels;                  /* ranks */
+    int is_complete;             /* 0: further brackets are too large */
+    int rank[DAL_GROWTH_LEVELS]; /* [levels] */
 } dal_growth;
 /* Finds the growth vector of a model whose system is made, by exact brackets at points near the
  * start, with parameters[parameter_count].  [alloc]  Errors: DAL_UNSUPPORTED (no constraints, or
