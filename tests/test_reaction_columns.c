@@ -182,7 +182,8 @@ static void test_differences(void)
 {
     static const reference_formulas full = {3,   2, full_lagrangian, full_force, full_constraint,
                                             NULL};
-    static const double q[] = {0.3, -0.4, 0.7}, v[] = {0.5, 0.9, -0.3}, t = 0.35;
+    static const double q[REFERENCE_MAX] = {0.3, -0.4, 0.7}, v[REFERENCE_MAX] = {0.5, 0.9, -0.3};
+    static const double t = 0.35;
     reference b = reference_of_text(full_text);
     double F[3], R[3], out[2 + 6], sum[3], invariant[3];
     reference_motion(&full, q, v, t, F);
