@@ -130,7 +130,7 @@ static int work_run(void *self, double *end)
 static int work_batch(void *self, double *end)
 {
     contender *j = self;
-    double state[64];
+    double state[BENCH_MAX_SIZE];
     if (dal_batch_advance(j->batch, j->steps)) return 1;
     dal_batch_state(j->batch, 0, state);
     memcpy(end, state, (size_t)j->shown * sizeof *end);
