@@ -176,17 +176,13 @@ static void test_cluster(void)
     close_large(&z);
 }
 
-/* The equations of 1,023 coordinates that few springs couple, in a fraction of a minute; a mass
- * matrix that couples all of them is refused. */
-static void test_limits(void)
+/* The equations of 1,023 coordinates that few springs couple, in a fraction of a minute. */
+static void test_thousand(void)
 {
     static const char text[] =
         "sizes: {N: 1023}\ncoordinates: [\"x[1..N]\"]\n"
         "lagrangian: sum(i, 1, N, x[i]'^2)/2 - sum(i, 2, N, (x[i] - x[i-1])^4)\n"
         "start: {\"x[i]\": {for: i = 1..N, is: i^2/N}}\n";
-    static const char dense[] =
-        "sizes: {N: 300}\ncoordinates: [\"x[1..N]\"]\n"
-        "lagrangian: sum(i, 1, N, x[i]'^2)/2 + sum(i, 1, N, x[i]*x[i]')^2\n";
     double F[1023], q[1023], v[1023] = {0.0};
     reference b = reference_of_text(text);
     for (int i = 0; i < 1023; i++) q[i] = 0.1 * i * i;
@@ -197,14 +193,57 @@ static void test_limits(void)
         CU_ASSERT_DOUBLE_EQUAL(F[i], expected, 1e-12 * fabs(expected));
     }
     reference_free(&b);
-    dal_model *model = NULL;
-    const dal_system *system;
-    CU_ASSERT_EQUAL(dal_model_read(&model, "dense", dense, strlen(dense), NULL), DAL_OK);
-    dal_error error;
-    CU_ASSERT_EQUAL(dal_model_system(model, &system, &error), DAL_TOO_LARGE);
-    CU_ASSERT_STRING_EQUAL(error.message,
-                           "the mass matrix of 300 coordinates couples too many of them");
-    dal_model_free(model);
+}
+
+/* W of 512 pairs, 2 on the diagonal and cos(x)/4, of the first x, beside it: W F must be b, which
+ * at rest is -U_q = -x. */
+static void test_sparse(void)
+{
+    enum { N = 1024 };
+    static const char text[] = "sizes: {N: 1024}\ncoordinates: [\"x[1..N]\"]\n"
+                               "lagrangian: sum(i, 1, N, x[i]'^2 - x[i]^2/2) + sum(i, 1, N/2, "
+                               "cos(x[2*i-1])*x[2*i-1]'*x[2*i]')/4\n"
+                               "start: {\"x[i]\": {for: i = 1..N, is: i/N}}\n";
+    double F[N], q[N], v[N] = {0.0};
+    reference b = reference_of_text(text);
+    for (int i = 0; i < N; i++) q[i] = sin(1.0 + i);
+    CU_ASSERT_EQUAL(reference_call(&b, b.system->call.field, 0.0, q, v, F), DAL_OK);
+    for (int i = 0; i < N; i++) {
+        const int first = i / 2 * 2, other = 2 * first + 1 - i;
+        CU_ASSERT_DOUBLE_EQUAL(2 * F[i] + cos(q[first]) / 4 * F[other], -q[i], 1e-14);
+    }
+    reference_free(&b);
+}
+
+/* Mass matrices whose elimination would take all memory are refused before: a full one, and one of
+ * a cube of 9^3 particles that neighbours couple, which the elimination fills. */
+static void test_dense(void)
+{
+    static const struct {
+        const char *text;
+        int n;
+    } cases[] = {
+        {"sizes: {N: 300}\ncoordinates: [\"x[1..N]\"]\n"
+         "lagrangian: sum(i, 1, N, x[i]'^2)/2 + sum(i, 1, N, x[i]*x[i]')^2\n",
+         300},
+        {"sizes: {N: 9, M: N^3}\ncoordinates: [\"x[1..M]\"]\n"
+         "lagrangian: >\n  sum(i, 1, M, 3*x[i]'^2) + sum(i, 1, M-1, cos(x[i])*x[i]'*x[i+1]')\n"
+         "  + sum(i, 1, M-N, cos(x[i])*x[i]'*x[i+N]')\n"
+         "  + sum(i, 1, M-N^2, cos(x[i])*x[i]'*x[i+N^2]')\n",
+         729}};
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char message[128];
+        dal_error error;
+        dal_model *model = NULL;
+        const dal_system *system;
+        const size_t length = strlen(cases[i].text);
+        CU_ASSERT_EQUAL_FATAL(dal_model_read(&model, "dense", cases[i].text, length, NULL), DAL_OK);
+        CU_ASSERT_EQUAL(dal_model_system(model, &system, &error), DAL_TOO_LARGE);
+        snprintf(message, sizeof message,
+                 "the mass matrix of %d coordinates couples too many of them", cases[i].n);
+        CU_ASSERT_STRING_EQUAL(error.message, message);
+        dal_model_free(model);
+    }
 }
 
 void suite_functions(void)
@@ -215,5 +254,7 @@ void suite_functions(void)
     CU_add_test(suite, "indices against formulas written out", test_indices);
     CU_add_test(suite, "a chain of 101 links", test_chain);
     CU_add_test(suite, "a cluster of 12 particles", test_cluster);
-    CU_add_test(suite, "a thousand coordinates", test_limits);
+    CU_add_test(suite, "a thousand coordinates", test_thousand);
+    CU_add_test(suite, "a sparse mass matrix", test_sparse);
+    CU_add_test(suite, "mass matrices that are too dense", test_dense);
 }

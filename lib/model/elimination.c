@@ -32,6 +32,7 @@ typedef struct plan {
     int *place;                     /* [n] of a column in column */
     int *entry; /* [n*n] the columns of the entries of each row, entries[n] of them */
     int *entries;
+    long updates; /* of entries that vary along a run */
 } plan;
 
 /* ---- the order ---- */
@@ -103,6 +104,7 @@ static void eliminate_numbers(plan *p, int k)
             if (!(p->flag[row + d] & PRESENT)) continue;
             unsigned from = p->flag[other + c] | p->flag[row + d] | p->flag[row + c];
             if (!(p->flag[other + d] & PRESENT)) p->entry[other + p->entries[p->row[i]]++] = d;
+            p->updates += (from & VARYING) != 0;
             p->value[other + d] -= factor * p->value[row + d];
             p->flag[other + d] |= (unsigned char)((from & VARYING) | TOUCHED | PRESENT);
         }
@@ -133,10 +135,12 @@ static void evaluate(plan *p, const dal__equations *e, const dal__node *matrix, 
     }
 }
 
-/* -1, or the row that is left without a pivot. */
-static int order(plan *p)
+/* -1, or the row that is left without a pivot.  Ends early where the elimination, whose every
+ * update makes a node or more, would exceed the limit of a graph. */
+static int order(plan *p, int limit)
 {
-    for (int k = 0; k < p->n; k++) {
+    p->updates = 0;
+    for (int k = 0; k < p->n && p->updates <= limit; k++) {
         if (!choose(p, k)) return p->row[k];
         eliminate_numbers(p, k);
     }
@@ -165,7 +169,8 @@ static dal_status make_plan(dal_model *model, dal__factors *f, plan *p)
     if (model->out_of_memory) return DAL_MEMORY;
     evaluate(p, e, f->matrix, e->value);
     f->positive = dal__is_positive_definite(f->n, p->value, DAL__PIVOT_LEAST, scratch);
-    f->singular = order(p);
+    f->singular = order(p, e->graph->limit);
+    if (p->updates > e->graph->limit) return DAL_TOO_LARGE;
     if (f->singular < 0) return DAL_OK;
     const double golden = 0.6180339887498949;
     for (int i = 0; i < e->symbols; i++) {
@@ -173,8 +178,9 @@ static dal_status make_plan(dal_model *model, dal__factors *f, plan *p)
         if (i >= e->parameters) point[i] += 0.125 + 0.5 * fmod((i + 1) * golden, 1.0);
     }
     evaluate(p, e, f->matrix, point);
-    f->singular = order(p);
+    f->singular = order(p, e->graph->limit);
     DAL_TRY(e->graph->status);
+    if (p->updates > e->graph->limit) return DAL_TOO_LARGE;
     return f->singular < 0 ? DAL_OK : DAL_SINGULAR;
 }
 
@@ -296,7 +302,8 @@ static bool list_entries(dal_model *model, dal__factors *f)
 }
 
 /* Eliminating n coordinates makes n^3/3 nodes of a full matrix, and few of one that couples each
- * with a few others. */
+ * with a few others.  A full one is refused before its n^2 entries are evaluated; what fills later
+ * is counted with the pivots. */
 dal_status dal__factor(dal_model *model, dal__factors *f)
 {
     enum { MAX_FULL = 256, MAX_COUPLED = 64 };

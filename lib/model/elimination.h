@@ -20,8 +20,8 @@ typedef struct dal__factors {
 /* Sets up to be factored a matrix of n rows that belong to the mass matrix (NULL) or to these
  * constraints; its nodes are 0.  False: out of memory. */
 bool dal__factors_allocate(dal_model *model, dal__factors *factors, int n, const int *constraints);
-/* Factors the matrix.  Errors: DAL_MEMORY, DAL_SINGULAR, DAL_TOO_LARGE (more than 256 unknowns, too
- * many of them coupled). */
+/* Factors the matrix.  Errors: DAL_MEMORY, DAL_SINGULAR, DAL_TOO_LARGE (too many
+ * unknowns are coupled, directly or by the elimination). */
 dal_status dal__factor(dal_model *model, dal__factors *factors);
 /* Appends the pivots to those of the equations. */
 void dal__record_pivots(dal__equations *equations, const dal__factors *factors, bool of_mass,
