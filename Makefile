@@ -119,7 +119,7 @@ $(BUILD)/%_$1.o: %.c ; $$(COMPILE)
 endef
 $(foreach variant,$(VARIANTS),$(eval $(call COMPILE_VARIANT,$(variant))))
 $(BUILD)/%.o: %.c ; $(COMPILE)
-$(LIB_OBJ) $(TEST_OBJ): | $(BUILD)/generated/variants.h
+$(LIB_OBJ) $(TEST_OBJ) $(FUZZERS:%=$(BUILD)/tests/%.o): | $(BUILD)/generated/variants.h
 $(LIB_OBJ) $(CLI_OBJ) $(TEST_OBJ): | $(START)
 
 $(STATIC): $(LIB_OBJ)
