@@ -245,3 +245,18 @@ double reference_distance(int count, const double *a, const double *b)
     }
     return distance / scale;
 }
+
+/* ---- a system ---- */
+
+double reference_full_lagrangian(int i, const double *q, const double *v, double t)
+{
+    (void)i;
+    return (1 + q[0] * q[0]) * v[0] * v[0] / 2 + v[0] * v[1] * cos(q[2]) / 3 + v[1] * v[1] +
+           v[2] * v[2] / 2 + q[0] * v[2] * t - q[0] * q[1] * q[2];
+}
+
+double reference_full_force(int i, const double *q, const double *v, double t)
+{
+    (void)q;
+    return i == 1 ? -v[0] / 4 : i == 2 ? sin(t) : 0.0;
+}

@@ -69,4 +69,12 @@ void reference_motion(const reference_formulas *f, const double *q, const double
 /* max |a - b| over max(1, max |b|). */
 double reference_distance(int count, const double *a, const double *b);
 
+/* Three coordinates with a full mass matrix, forces and time: the keys of its file, and the same by
+ * hand. */
+#define REFERENCE_FULL                                                                             \
+    "coordinates: [x, y, z]\n"                                                                     \
+    "lagrangian: (1 + x^2)*x'^2/2 + x'*y'*cos(z)/3 + y'^2 + z'^2/2 + x*z'*t - x*y*z\n"             \
+    "forces: {y: -x'/4, z: sin(t)}\n"
+reference_function reference_full_lagrangian, reference_full_force;
+
 #endif

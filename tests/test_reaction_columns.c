@@ -154,24 +154,8 @@ static void test_servo(void)
 /* ---- by differences: R = W F - b, where b has the forces, so that R has none ---- */
 
 static const char *const full_text =
-    "coordinates: [x, y, z]\n"
-    "lagrangian: (1 + x^2)*x'^2/2 + x'*y'*cos(z)/3 + y'^2 + z'^2/2 + x*z'*t - x*y*z\n"
-    "forces: {y: -x'/4, z: sin(t)}\n"
-    "constraints: [3*(x' + y*z' - t), x'*y' + z'^2/2 - x]\n"
-    "invariants: {first: h1, push: R_x + 2*R_z, product: h2*R_y}\n";
-
-static double full_lagrangian(int i, const double *q, const double *v, double t)
-{
-    (void)i;
-    return (1 + q[0] * q[0]) * v[0] * v[0] / 2 + v[0] * v[1] * cos(q[2]) / 3 + v[1] * v[1] +
-           v[2] * v[2] / 2 + q[0] * v[2] * t - q[0] * q[1] * q[2];
-}
-
-static double full_force(int i, const double *q, const double *v, double t)
-{
-    (void)q;
-    return i == 1 ? -v[0] / 4 : i == 2 ? sin(t) : 0.0;
-}
+    REFERENCE_FULL "constraints: [3*(x' + y*z' - t), x'*y' + z'^2/2 - x]\n"
+                   "invariants: {first: h1, push: R_x + 2*R_z, product: h2*R_y}\n";
 
 static double full_constraint(int a, const double *q, const double *v, double t)
 {
@@ -180,8 +164,8 @@ static double full_constraint(int a, const double *q, const double *v, double t)
 
 static void test_differences(void)
 {
-    static const reference_formulas full = {3,   2, full_lagrangian, full_force, full_constraint,
-                                            NULL};
+    static const reference_formulas full = {
+        3, 2, reference_full_lagrangian, reference_full_force, full_constraint, NULL};
     static const double q[REFERENCE_MAX] = {0.3, -0.4, 0.7}, v[REFERENCE_MAX] = {0.5, 0.9, -0.3};
     static const double t = 0.35;
     reference b = reference_of_text(full_text);

@@ -13,24 +13,8 @@ static const double t0 = 0.35;
 /* ---- two reactions, a full mass matrix, forces and time ---- */
 
 static const char *const full_text =
-    "coordinates: [x, y, z]\n"
-    "lagrangian: (1 + x^2)*x'^2/2 + x'*y'*cos(z)/3 + y'^2 + z'^2/2 + x*z'*t - x*y*z\n"
-    "forces: {y: -x'/4, z: sin(t)}\n"
-    "constraints: [x' + y*z' - t, x'*y' + z'^2/2 - x]\n"
-    "reactions: [{x: 1 + z^2, y: x'}, {y: cos(t), z: 1 + x*y, x: 1/5}]\n";
-
-static double full_lagrangian(int i, const double *q, const double *v, double t)
-{
-    (void)i;
-    return (1 + q[0] * q[0]) * v[0] * v[0] / 2 + v[0] * v[1] * cos(q[2]) / 3 + v[1] * v[1] +
-           v[2] * v[2] / 2 + q[0] * v[2] * t - q[0] * q[1] * q[2];
-}
-
-static double full_force(int i, const double *q, const double *v, double t)
-{
-    (void)q;
-    return i == 1 ? -v[0] / 4 : i == 2 ? sin(t) : 0.0;
-}
+    REFERENCE_FULL "constraints: [x' + y*z' - t, x'*y' + z'^2/2 - x]\n"
+                   "reactions: [{x: 1 + z^2, y: x'}, {y: cos(t), z: 1 + x*y, x: 1/5}]\n";
 
 static double full_constraint(int a, const double *q, const double *v, double t)
 {
@@ -44,7 +28,7 @@ static double full_reaction(int i, const double *q, const double *v, double t)
 }
 
 static const reference_formulas full = {
-    3, 2, full_lagrangian, full_force, full_constraint, full_reaction};
+    3, 2, reference_full_lagrangian, reference_full_force, full_constraint, full_reaction};
 
 static void test_field(void)
 {
